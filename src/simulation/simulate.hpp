@@ -1,0 +1,22 @@
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <functional>
+
+#include "scene/scene.hpp"
+#include "simulation/run.hpp"
+
+namespace vibrosow {
+
+struct SimulationOptions {
+  std::uint64_t random_seed = 1;
+  const std::atomic<bool>* interrupt = nullptr;     // looked at now and then; true ends the run as interrupted
+  std::function<void(double share_done)> progress;  // called now and then with 0..1, in the simulating thread
+};
+
+/// Runs a scene to its end. Same scene and random seed: the same Run to the last bit, but for wall_time. Throws InputError
+/// when the fill does not fit its vessel, grains overlap at the start, or the step is too long and not insisted on.
+Run simulate(const Scene& scene, const SimulationOptions& options = {});
+
+}  // namespace vibrosow
