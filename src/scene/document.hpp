@@ -57,9 +57,10 @@ class Table {
   std::optional<double> quantity(const std::string& key, Dimension dimension, double least, double most);
   double required_quantity(const std::string& key, Dimension dimension, double least, double most);
   std::vector<double> quantities(const std::string& key, Dimension dimension, double least, double most);  // one or a list
-  /// The text of a value, or of each element of a list of texts; absent: empty.
-  std::vector<std::string> texts(const std::string& key);
+  /// The text of a value, or of each element of a list of texts; absent: empty. `what` is expected, for messages.
+  std::vector<std::string> texts(const std::string& key, std::string_view what = "a text");
   bool is_list(const std::string& key) const;
+  void skip(const std::string& key);                      // known, with all below it, without being read
   /// One of `choices` by name, as its index; anything else: InputError with the list and the nearest.
   std::optional<std::size_t> choice(const std::string& key, const std::vector<std::string>& choices);
 
