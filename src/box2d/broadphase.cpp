@@ -1,0 +1,161 @@
+#include "box2d/broadphase.hpp"
+
+#include <box2d/box2d.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+
+#include "scene/vessel_walls.hpp"
+
+namespace vibrosow {
+
+struct Broadphase::World {
+  b2World world{b2Vec2(0, 0)};
+  std::vector<b2Body*> bodies;       // by vessel
+  std::vector<b2Vec2> rest;          // by vessel, where its body stands at rest
+  std::vector<b2Fixture*> fixtures;  // by wall
+  b2DynamicTree tree;                // of the grains
+  std::vector<int> proxies;          // by grain
+  std::vector<std::int64_t> numbers; // by grain, ascending: which grain a proxy stands for
+  std::vector<int> grain_of_proxy;   // by proxy
+  std::vector<int> found;
+  double units_per_metre;
+
+  explicit World(double unit) : units_per_metre(1 / unit) {}
+
+  b2Vec2 units(const Eigen::Vector2d& metres) const {
+    return {static_cast<float>(metres.x() * units_per_metre), static_cast<float>(metres.y() * units_per_metre)};
+  }
+
+  b2AABB box(double x, double y, double half) const {
+    const double cx = x * units_per_metre, cy = y * units_per_metre;
+    // Rounding to float must never shrink a box.
+    const double h = half * units_per_metre + 1e-6 * (1 + std::abs(cx) + std::abs(cy));
+    b2AABB box;
+    box.lowerBound.Set(static_cast<float>(cx - h), static_cast<float>(cy - h));
+    box.upperBound.Set(static_cast<float>(cx + h), static_cast<float>(cy + h));
+    return box;
+  }
+
+  /// The first vessel's frame is Box2D's; the others move past it.
+  void place_vessels(const std::vector<Eigen::Vector2d>& displacement) {
+    for (std::size_t v = 1; v < bodies.size(); ++v)
+      bodies[v]->SetTransform(rest[v] + units(displacement[v] - displacement.front()), bodies[v]->GetAngle());
+  }
+
+  /// Brings the tree up to date with the grains: grains gone, moved out of their boxes, or new.
+  void update_boxes(const Grains& grains, const Eigen::Vector2d& shift) {
+    std::size_t kept = 0;
+    for (std::size_t old = 0; old < proxies.size(); ++old) {
+      if (kept < grains.size() && grains.number[kept] == numbers[old])
+        proxies[kept++] = proxies[old];
+      else
+        tree.DestroyProxy(proxies[old]);
+    }
+    proxies.resize(grains.size());
+    numbers.assign(grains.number.begin(), grains.number.end());
+    for (std::size_t i = 0; i < grains.size(); ++i) {
+      const b2AABB tight = box(grains.x[i] - shift.x(), grains.y[i] - shift.y(), grains.kind(i).radius);
+      if (i < kept)
+        tree.MoveProxy(proxies[i], tight, b2Vec2(0, 0));
+      else
+        proxies[i] = tree.CreateProxy(tight, nullptr);
+      const std::size_t proxy = static_cast<std::size_t>(proxies[i]);
+      if (grain_of_proxy.size() <= proxy) grain_of_proxy.resize(proxy + 1);
+      grain_of_proxy[proxy] = static_cast<int>(i);
+    }
+  }
+};
+
+namespace {
+
+/// Collects the grains after `i` that are near enough; Box2D's tree calls it for every box met.
+struct PairQuery {
+  const std::vector<int>& grain_of_proxy;
+  const Grains& grains;
+  std::size_t i;
+  double reach;  // m, r_i + margin
+  std::vector<int>& found;
+
+  bool QueryCallback(int32 proxy) {
+    const std::size_t j = static_cast<std::size_t>(grain_of_proxy[static_cast<std::size_t>(proxy)]);
+    if (j <= i) return true;
+    const double dx = grains.x[j] - grains.x[i], dy = grains.y[j] - grains.y[i];
+    const double limit = reach + grains.kind(j).radius;
+    if (dx * dx + dy * dy < limit * limit) found.push_back(static_cast<int>(j));
+    return true;
+  }
+};
+
+struct WallQuery : b2QueryCallback {
+  explicit WallQuery(std::vector<int>& walls) : found(walls) {}
+  bool ReportFixture(b2Fixture* fixture) override {
+    found.push_back(static_cast<int>(fixture->GetUserData().pointer));
+    return true;
+  }
+  std::vector<int>& found;
+};
+
+}  // namespace
+
+Broadphase::Broadphase(const std::vector<Vessel>& vessels, double unit) : world_(std::make_unique<World>(unit)) {
+  World& w = *world_;
+  for (const Vessel& vessel : vessels) {
+    b2BodyDef definition;
+    definition.type = w.bodies.empty() ? b2_kinematicBody : b2_staticBody;
+    definition.position = w.units(vessel.origin);
+    definition.angle = static_cast<float>(vessel.tilt);
+    b2Body* body = w.world.CreateBody(&definition);
+    w.bodies.push_back(body);
+    w.rest.push_back(definition.position);
+    for (const WallSegment& wall : vessel_walls(vessel)) {
+      b2EdgeShape edge;  // a chain would be one-sided
+      edge.SetTwoSided(w.units(wall.a), w.units(wall.b));
+      b2FixtureDef fixture;
+      fixture.shape = &edge;
+      fixture.userData.pointer = w.fixtures.size();
+      w.fixtures.push_back(body->CreateFixture(&fixture));
+    }
+  }
+}
+
+Broadphase::~Broadphase() = default;
+
+std::size_t Broadphase::wall_count() const { return world_->fixtures.size(); }
+
+void Broadphase::remove_wall(int wall) {
+  b2Fixture*& fixture = world_->fixtures[static_cast<std::size_t>(wall)];
+  if (fixture) fixture->GetBody()->DestroyFixture(fixture);
+  fixture = nullptr;
+}
+
+void Broadphase::find(const Grains& grains, const std::vector<Eigen::Vector2d>& displacement, double margin,
+                      PairList& pairs, std::vector<WallCandidate>& near_walls) {
+  World& w = *world_;
+  const Eigen::Vector2d shift = displacement.front();
+  w.place_vessels(displacement);
+  w.update_boxes(grains, shift);
+
+  pairs.first.assign(1, 0);
+  pairs.partner.clear();
+  near_walls.clear();
+  WallQuery walls(w.found);
+  for (std::size_t i = 0; i < grains.size(); ++i) {
+    const double reach = grains.kind(i).radius + margin;
+    const b2AABB box = w.box(grains.x[i] - shift.x(), grains.y[i] - shift.y(), reach);
+    w.found.clear();
+    PairQuery query{w.grain_of_proxy, grains, i, reach, w.found};
+    w.tree.Query(&query, box);
+    std::sort(w.found.begin(), w.found.end());
+    pairs.partner.insert(pairs.partner.end(), w.found.begin(), w.found.end());
+    pairs.first.push_back(static_cast<int>(pairs.partner.size()));
+
+    w.found.clear();
+    w.world.QueryAABB(&walls, box);
+    std::sort(w.found.begin(), w.found.end());
+    for (int wall : w.found) near_walls.push_back({static_cast<int>(i), wall, 0.0});
+  }
+}
+
+}  // namespace vibrosow

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+namespace vibrosow {
+
+/// Candidate pairs (i, j), i < j, sorted: the partners of i are partner[first[i]] .. partner[first[i + 1] - 1]. The order of
+/// summation follows from it, whatever found the pairs.
+struct PairList {
+  std::vector<int> first{0};
+  std::vector<int> partner;
+
+  std::size_t grains() const { return first.size() - 1; }
+  std::size_t size() const { return partner.size(); }
+};
+
+/// A grain near a wall segment.
+struct WallCandidate {
+  int grain;
+  int wall;     // index of the scene's wall segment
+  double side;  // sign of the side of the wall's line that the grain's centre was on
+};
+
+/// A wall segment where it stands now, in the lab frame.
+struct PlacedWall {
+  double ax, ay, bx, by;     // m
+  int vertex_a, vertex_b;    // numbers unique over all vessels
+  double vx, vy;             // m/s
+};
+
+}  // namespace vibrosow

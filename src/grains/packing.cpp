@@ -1,0 +1,238 @@
+#include "grains/packing.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "scene/input_error.hpp"
+#include "scene/vessel_walls.hpp"
+
+namespace vibrosow {
+namespace {
+
+double largest_diameter(const std::vector<SeedLot>& lots) {
+  double largest = 0;
+  for (const SeedLot& lot : lots) largest = std::max(largest, lot.diameter);
+  return largest;
+}
+
+std::vector<int> shuffled_lots(const std::vector<SeedLot>& lots, int count, Random& random) {
+  const std::vector<int> counts = lot_counts(lots, count);
+  std::vector<int> order;
+  for (std::size_t lot = 0; lot < counts.size(); ++lot)
+    order.insert(order.end(), static_cast<std::size_t>(counts[lot]), static_cast<int>(lot));
+  if (lots.size() > 1)
+    for (std::size_t k = order.size(); k > 1; --k) std::swap(order[k - 1], order[random.below(k)]);
+  return order;
+}
+
+[[noreturn]] void does_not_fit(const Vessel& vessel) {
+  throw InputError(fmt::format("{0}.fill.count = {1}: the packing rises above the end walls ({0}.height = {2:.6g} mm); "
+                               "take fewer grains or a higher {0}",
+                               vessel.name, vessel.fill->count, vessel.height * 1e3));
+}
+
+std::vector<PackedGrain> pack_rows(const Vessel& vessel, const std::vector<SeedLot>& lots, Random& random) {
+  const Fill& fill = *vessel.fill;
+  const bool hexagonal = fill.packing == Packing::hexagonal;
+  const double diameter = largest_diameter(lots);
+  const double clear = diameter * (1 + 2 * fill.jitter);  // so that jitter never makes an overlap
+  const double shift = diameter * fill.jitter / std::numbers::sqrt2;
+  const int per_row = static_cast<int>(std::floor(vessel.length / clear));
+  if (per_row < 2) does_not_fit(vessel);
+  const double spacing = vessel.length / per_row;
+  const double rise = hexagonal ? std::sqrt(std::max(clear * clear - 0.25 * spacing * spacing, 0.25 * clear * clear)) : clear;
+
+  std::vector<PackedGrain> packed;
+  const std::vector<int> order = shuffled_lots(lots, fill.count, random);
+  double y = highest_floor(vessel) + 0.5 * clear;
+  for (int row = 0; packed.size() < order.size(); ++row, y += rise) {
+    const bool offset = hexagonal && row % 2 == 1;
+    for (int k = 0; k < per_row - (offset ? 1 : 0) && packed.size() < order.size(); ++k) {
+      const double centre = (k + (offset ? 1.0 : 0.5)) * spacing;
+      const double dx = shift * random.uniform(-1, 1), dy = shift * random.uniform(-1, 1);
+      packed.push_back({centre + dx, y + dy, order[packed.size()]});
+    }
+    if (y + 0.5 * clear > vessel.height) does_not_fit(vessel);
+  }
+  return packed;
+}
+
+/// Grains and fixed points that a dropped grain can touch, found through square cells of one diameter.
+class Heap {
+ public:
+  struct Disc {
+    double x, y, radius;
+  };
+
+  Heap(double length, double cell) : cell_(cell), columns_(static_cast<std::size_t>(length / cell) + 1) {}
+
+  void add(const Disc& disc) {
+    std::vector<std::vector<int>>& column = columns_[column_of(disc.x)];
+    const std::size_t row = row_of(disc.y);
+    if (column.size() <= row) column.resize(row + 1);
+    column[row].push_back(static_cast<int>(discs_.size()));
+    discs_.push_back(disc);
+  }
+
+  const Disc& operator[](int k) const { return discs_[static_cast<std::size_t>(k)]; }
+
+  /// The first disc that a grain falling along `x` from `from` touches, with the height of its centre then.
+  int first_below(double x, double from, double radius, double& height) const {
+    int first = -1;
+    const std::size_t centre = column_of(x);
+    for (std::size_t c = centre == 0 ? 0 : centre - 1; c <= std::min(centre + 1, columns_.size() - 1); ++c) {
+      for (std::size_t row = columns_[c].size(); row-- > 0;) {
+        if (first >= 0 && static_cast<double>(row + 1) * cell_ + 2 * cell_ < height) break;
+        for (int k : columns_[c][row]) {
+          const Disc& disc = (*this)[k];
+          const double reach = radius + disc.radius, dx = x - disc.x;
+          if (std::abs(dx) >= reach) continue;
+          const double touch = disc.y + std::sqrt(reach * reach - dx * dx);
+          if (touch <= from + 1e-9 * cell_ && (first < 0 || touch > height)) first = k, height = touch;
+        }
+      }
+    }
+    return first;
+  }
+
+  /// Calls `visit(k)` for every disc within two cells of (x, y).
+  template <class Visit>
+  void near(double x, double y, Visit visit) const {
+    const std::size_t column = column_of(x), row = row_of(y);
+    for (std::size_t c = column < 2 ? 0 : column - 2; c <= std::min(column + 2, columns_.size() - 1); ++c)
+      for (std::size_t r = row < 2 ? 0 : row - 2; r <= row + 2 && r < columns_[c].size(); ++r)
+        for (int k : columns_[c][r]) visit(k);
+  }
+
+ private:
+  std::size_t column_of(double x) const {
+    return std::min(static_cast<std::size_t>(std::max(x, 0.0) / cell_), columns_.size() - 1);
+  }
+  std::size_t row_of(double y) const { return static_cast<std::size_t>(std::max(y, 0.0) / cell_); }
+
+  double cell_;
+  std::vector<std::vector<std::vector<int>>> columns_;  // [column][row] -> discs
+  std::vector<Disc> discs_;
+};
+
+struct Rolled {
+  Eigen::Vector2d centre;
+  int met;     // the disc that stopped the roll; -1: a wall, the floor, or nothing
+  bool rests;  // held from both sides; otherwise it rolls on over `met`, or falls
+};
+
+/// Rolls a grain of `radius` that touches disc `support` at height `y` down on its side, to the first thing it meets.
+Rolled roll_down(const Heap& heap, int support, double length, double side, double y, double radius) {
+  const Heap::Disc& on = heap[support];
+  const double reach = radius + on.radius;
+  Rolled first{{on.x + side * reach, on.y}, -1, false};  // nothing met: it comes off at the disc's equator
+  const auto meet = [&](const Eigen::Vector2d& at, int disc, bool rests) {
+    const bool on_the_way = at.y() <= y + 1e-12 * reach && side * (at.x() - on.x) >= 0;
+    if (on_the_way && at.y() > first.centre.y()) first = {at, disc, rests};
+  };
+  heap.near(on.x, on.y, [&](int k) {
+    if (k == support) return;
+    const Heap::Disc& other = heap[k];
+    const double reach_other = radius + other.radius;
+    const Eigen::Vector2d to_other(other.x - on.x, other.y - on.y);
+    const double gap = to_other.norm();
+    const double along = (gap * gap + reach * reach - reach_other * reach_other) / (2 * gap);
+    if (gap >= reach + reach_other || along * along >= reach * reach) return;
+    const double across = std::sqrt(reach * reach - along * along);
+    const Eigen::Vector2d u = to_other / gap, left(-u.y(), u.x());
+    for (const double sign : {1.0, -1.0}) {
+      const Eigen::Vector2d arm = along * u + sign * across * left;
+      const Eigen::Vector2d at = Eigen::Vector2d(on.x, on.y) + arm;
+      const Eigen::Vector2d downhill(side * arm.y(), -side * arm.x());
+      const Eigen::Vector2d towards(other.x - at.x(), other.y - at.y());
+      if (downhill.dot(towards) > 0) meet(at, k, side * towards.x() > 0);
+    }
+  });
+  const double wall_x = side > 0 ? length - radius : radius;
+  const double to_wall = wall_x - on.x;
+  if (std::abs(to_wall) < reach) meet({wall_x, on.y + std::sqrt(reach * reach - to_wall * to_wall)}, -1, true);
+  const double to_floor = radius - on.y;
+  if (to_floor >= 0 && to_floor < reach)
+    meet({on.x + side * std::sqrt(reach * reach - to_floor * to_floor), radius}, -1, true);
+  return first;
+}
+
+/// Where a grain of `radius` dropped at `x` comes to rest.
+Eigen::Vector2d drop_and_roll(const Heap& heap, double length, double x, double radius) {
+  constexpr int most_moves = 100000;  // never reached: each move goes down
+  double y = 0;
+  int support = heap.first_below(x, std::numeric_limits<double>::max(), radius, y);
+  for (int move = 0; move < most_moves && support >= 0 && y > radius; ++move) {
+    const double side = x >= heap[support].x ? 1 : -1;
+    const Rolled rolled = roll_down(heap, support, length, side, y, radius);
+    x = std::clamp(rolled.centre.x(), radius, length - radius);
+    y = rolled.centre.y();
+    if (rolled.rests) return {x, y};
+    support = rolled.met >= 0 ? rolled.met : heap.first_below(x + side * 1e-9 * radius, y, radius, y);
+  }
+  return {x, radius};
+}
+
+/// Fixed points along the sloping walls, so close that a grain between two of them stays within 1/800 of its radius of the
+/// wall, and never overlaps it.
+void add_slopes(Heap& heap, const Vessel& vessel, double smallest_radius) {
+  const double pitch = 0.1 * smallest_radius;
+  const double inflation = pitch * pitch / (8 * smallest_radius);
+  for (const WallSegment& wall : vessel_walls(vessel)) {
+    const Eigen::Vector2d along = wall.b - wall.a;
+    if (along.x() == 0 || along.y() == 0) continue;
+    const int points = static_cast<int>(std::ceil(along.norm() / pitch));
+    for (int k = 0; k <= points; ++k) {
+      const Eigen::Vector2d p = wall.a + along * (static_cast<double>(k) / points);
+      heap.add({p.x(), p.y(), inflation});
+    }
+  }
+}
+
+std::vector<PackedGrain> pour(const Vessel& vessel, const std::vector<SeedLot>& lots, Random& random) {
+  double smallest = lots.front().diameter;
+  for (const SeedLot& lot : lots) smallest = std::min(smallest, lot.diameter);
+  Heap heap(vessel.length, largest_diameter(lots));
+  add_slopes(heap, vessel, 0.5 * smallest);
+  std::vector<PackedGrain> packed;
+  for (int lot : shuffled_lots(lots, vessel.fill->count, random)) {
+    const double radius = 0.5 * lots[static_cast<std::size_t>(lot)].diameter;
+    const double x = random.uniform(radius, vessel.length - radius);
+    const Eigen::Vector2d at = drop_and_roll(heap, vessel.length, x, radius);
+    if (at.y() + radius > vessel.height) does_not_fit(vessel);
+    heap.add({at.x(), at.y(), radius});
+    packed.push_back({at.x(), at.y(), lot});
+  }
+  return packed;
+}
+
+}  // namespace
+
+std::vector<int> lot_counts(const std::vector<SeedLot>& lots, int count) {
+  std::vector<int> counts;
+  std::vector<std::pair<double, std::size_t>> remainders;
+  int placed = 0;
+  for (std::size_t lot = 0; lot < lots.size(); ++lot) {
+    const double wanted = lots[lot].number_share * count;
+    counts.push_back(static_cast<int>(std::floor(wanted)));
+    placed += counts.back();
+    remainders.emplace_back(std::floor(wanted) - wanted, lot);
+  }
+  std::sort(remainders.begin(), remainders.end());
+  for (std::size_t k = 0; placed < count; ++k, ++placed) ++counts[remainders[k % remainders.size()].second];
+  return counts;
+}
+
+std::vector<PackedGrain> pack(const Vessel& vessel, const std::vector<SeedLot>& lots, Random& random) {
+  if (!vessel.fill) return {};
+  if (largest_diameter(lots) > vessel.length)
+    throw InputError(fmt::format("{}.length: a grain of {:.6g} mm does not fit in", vessel.name,
+                                 largest_diameter(lots) * 1e3));
+  return vessel.fill->packing == Packing::poured ? pour(vessel, lots, random) : pack_rows(vessel, lots, random);
+}
+
+}  // namespace vibrosow

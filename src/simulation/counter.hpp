@@ -1,0 +1,42 @@
+#pragma once
+
+#include <vector>
+
+#include "grains/grains.hpp"
+#include "simulation/run.hpp"
+#include "simulation/walls.hpp"
+
+namespace vibrosow {
+
+/// Watches grains leave. A grain belongs to the hole whose opening its centre passes in the tray's frame; it is counted when
+/// its centre crosses the counting line, `count_below` under the tray's floor and as wide as the world. One that passes no
+/// hole is spilled.
+class Counter {
+ public:
+  Counter(const Scene& scene, std::size_t grains);
+
+  /// Looks at every grain after a step that ended at `time`; new events are appended.
+  void watch(const Grains& grains, const Walls& walls, double time, std::vector<OutflowEvent>& events);
+
+  void add_grain() { state_.push_back({}); }
+  void remove_flagged(const std::vector<char>& removed);
+  bool is_counted(std::size_t i) const { return state_[i].counted; }
+
+ private:
+  struct State {
+    bool below = false;    // under the floor
+    bool counted = false;
+    int hole = 0;          // passed; 0: none
+    double x = 0;          // m, where
+  };
+  int hole_at(double x) const;
+
+  Vessel tray_;
+  double count_below_;
+  std::vector<State> state_;
+};
+
+/// Whether a point of the lab lies inside a vessel, between its end walls, above its floor line and below their tops.
+bool is_inside(const Vessel& vessel, const Eigen::Vector2d& displacement, double x, double y);
+
+}  // namespace vibrosow

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <vector>
+
+#include "contact/kernels.hpp"
+#include "grains/grains.hpp"
+#include "simulation/neighbours.hpp"
+#include "simulation/walls.hpp"
+
+namespace vibrosow {
+
+/// Contact forces on all grains at a time: walls are placed, neighbours brought up to date, the chosen kernels run.
+class ForceField {
+ public:
+  ForceField(const Scene& scene, const KernelSet& kernels, NeighbourMargins margins);
+
+  /// Forces on the grains where they are now, with the vessels where they are at `time`. Census figures are added up, but for
+  /// the walls' power, which is this evaluation's.
+  void evaluate(const Grains& grains, double time, ContactCensus& census);
+
+  double elastic_energy(const Grains& grains) const;
+
+  const Forces& forces() const { return forces_; }
+  const Walls& walls() const { return walls_; }
+  Neighbours& neighbours() { return neighbours_; }
+  const Neighbours& neighbours() const { return neighbours_; }
+
+ private:
+  Walls walls_;
+  Neighbours neighbours_;
+  ContactParameters parameters_;
+  const KernelSet& kernels_;
+  Forces forces_;
+};
+
+}  // namespace vibrosow

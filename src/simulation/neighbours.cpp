@@ -1,0 +1,129 @@
+#include "simulation/neighbours.hpp"
+
+#include "contact/wall_kernel.hpp"
+
+namespace vibrosow {
+namespace {
+
+void keep_unflagged(std::vector<double>& array, const std::vector<char>& removed) {
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < array.size(); ++i)
+    if (!removed[i]) array[kept++] = array[i];
+  array.resize(kept);
+}
+
+void renumber(PairList& list, const std::vector<char>& removed, const std::vector<int>& new_index) {
+  PairList kept;
+  kept.partner.reserve(list.size());
+  kept.first.reserve(list.first.size());
+  for (std::size_t i = 0; i < list.grains(); ++i) {
+    if (removed[i]) continue;
+    for (int k = list.first[i]; k < list.first[i + 1]; ++k) {
+      const std::size_t j = static_cast<std::size_t>(list.partner[static_cast<std::size_t>(k)]);
+      if (!removed[j]) kept.partner.push_back(new_index[j]);
+    }
+    kept.first.push_back(static_cast<int>(kept.partner.size()));
+  }
+  list = std::move(kept);
+}
+
+void renumber(std::vector<WallCandidate>& list, const std::vector<char>& removed, const std::vector<int>& new_index) {
+  std::size_t kept = 0;
+  for (const WallCandidate& candidate : list) {
+    const std::size_t i = static_cast<std::size_t>(candidate.grain);
+    if (!removed[i]) list[kept++] = {new_index[i], candidate.wall, candidate.side};
+  }
+  list.resize(kept);
+}
+
+}  // namespace
+
+Neighbours::Neighbours(const std::vector<Vessel>& vessels, double largest_diameter, NeighbourMargins margins)
+    : broadphase_(vessels, largest_diameter),
+      wide_margin_(margins.wide * largest_diameter),
+      narrow_margin_(margins.narrow * largest_diameter) {}
+
+Neighbours::Reference Neighbours::reference(const Grains& grains, const Walls& walls) {
+  const Eigen::Vector2d shift = walls.displacement().front();
+  Reference now{grains.x, grains.y, walls.displacement()};
+  for (double& x : now.x) x -= shift.x();
+  for (double& y : now.y) y -= shift.y();
+  return now;
+}
+
+bool Neighbours::moved(const Reference& from, const Grains& grains, const Walls& walls, double limit) {
+  const Eigen::Vector2d shift = walls.displacement().front();
+  const double limit2 = limit * limit, shift_x = shift.x(), shift_y = shift.y();
+  const double *x = grains.x.data(), *y = grains.y.data(), *fx = from.x.data(), *fy = from.y.data();
+  int far = 0;  // a flag without a branch: the loop becomes vector instructions
+  for (std::size_t i = 0; i < from.x.size(); ++i) {
+    const double dx = x[i] - shift_x - fx[i], dy = y[i] - shift_y - fy[i];
+    far |= dx * dx + dy * dy > limit2 ? 1 : 0;
+  }
+  for (std::size_t v = 1; v < from.displacement.size(); ++v) {
+    const Eigen::Vector2d relative_now = walls.displacement()[v] - shift;
+    const Eigen::Vector2d relative_then = from.displacement[v] - from.displacement.front();
+    far |= (relative_now - relative_then).squaredNorm() > limit2 ? 1 : 0;
+  }
+  return far != 0;
+}
+
+void Neighbours::update(const Grains& grains, const Walls& walls) {
+  // Two that were further apart than their reach plus a margin have touched only if they moved half the margin each.
+  if (wide_is_valid_ && !moved(narrow_reference_, grains, walls, 0.5 * narrow_margin_)) return;
+  if (!wide_is_valid_ || moved(wide_reference_, grains, walls, 0.5 * (wide_margin_ - narrow_margin_))) search(grains, walls);
+  prune(grains, walls);
+}
+
+void Neighbours::search(const Grains& grains, const Walls& walls) {
+  broadphase_.find(grains, walls.displacement(), wide_margin_, wide_, wide_walls_);
+  wide_reference_ = reference(grains, walls);
+  wide_is_valid_ = true;
+  ++searches_;
+}
+
+void Neighbours::prune(const Grains& grains, const Walls& walls) {
+  narrow_.first.assign(1, 0);
+  narrow_.partner.clear();
+  for (std::size_t i = 0; i < wide_.grains(); ++i) {
+    const double reach = grains.kind(i).radius + narrow_margin_;
+    for (int k = wide_.first[i]; k < wide_.first[i + 1]; ++k) {
+      const int partner = wide_.partner[static_cast<std::size_t>(k)];
+      const std::size_t j = static_cast<std::size_t>(partner);
+      const double dx = grains.x[j] - grains.x[i], dy = grains.y[j] - grains.y[i];
+      const double limit = reach + grains.kind(j).radius;
+      if (dx * dx + dy * dy < limit * limit) narrow_.partner.push_back(partner);
+    }
+    narrow_.first.push_back(static_cast<int>(narrow_.partner.size()));
+  }
+  narrow_walls_.clear();
+  for (const WallCandidate& candidate : wide_walls_) {
+    const std::size_t i = static_cast<std::size_t>(candidate.grain);
+    const NearestPoint nearest =
+        nearest_point(walls.placed()[static_cast<std::size_t>(candidate.wall)], grains.x[i], grains.y[i]);
+    const double reach = grains.kind(i).radius + narrow_margin_;
+    if (nearest.distance2 < reach * reach) narrow_walls_.push_back({candidate.grain, candidate.wall, nearest.side});
+  }
+  narrow_reference_ = reference(grains, walls);
+  ++prunes_;
+}
+
+void Neighbours::remove_flagged(Reference& reference, const std::vector<char>& removed) {
+  keep_unflagged(reference.x, removed);
+  keep_unflagged(reference.y, removed);
+}
+
+void Neighbours::remove_flagged(const std::vector<char>& removed) {
+  if (!wide_is_valid_) return;
+  std::vector<int> new_index(removed.size());
+  int next = 0;
+  for (std::size_t i = 0; i < removed.size(); ++i) new_index[i] = removed[i] ? -1 : next++;
+  renumber(wide_, removed, new_index);
+  renumber(narrow_, removed, new_index);
+  renumber(wide_walls_, removed, new_index);
+  renumber(narrow_walls_, removed, new_index);
+  remove_flagged(wide_reference_, removed);
+  remove_flagged(narrow_reference_, removed);
+}
+
+}  // namespace vibrosow

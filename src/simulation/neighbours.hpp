@@ -1,0 +1,63 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <vector>
+
+#include "box2d/broadphase.hpp"
+#include "contact/contact_list.hpp"
+#include "grains/grains.hpp"
+#include "simulation/walls.hpp"
+
+namespace vibrosow {
+
+/// Margins of the two lists, in diameters of the largest grain. They change the time of a run and never its result.
+struct NeighbourMargins {
+  double wide = 1.0;
+  double narrow = 0.12;
+};
+
+/// Who may touch whom. A wide list comes from Box2D, seldom; a narrow one is pruned from it, often; both are renewed just
+/// when a grain has moved so far that a contact could be missed (a dual pair list).
+class Neighbours {
+ public:
+  Neighbours(const std::vector<Vessel>& vessels, double largest_diameter, NeighbourMargins margins);
+
+  /// Renews the lists if the grains or walls have moved too far for them.
+  void update(const Grains& grains, const Walls& walls);
+
+  /// The grains have changed in number: the next update starts afresh.
+  void forget() { wide_is_valid_ = false; }
+
+  /// Takes removed grains out of the lists without a search.
+  void remove_flagged(const std::vector<char>& removed);
+
+  const PairList& pairs() const { return narrow_; }
+  const std::vector<WallCandidate>& near_walls() const { return narrow_walls_; }
+  std::int64_t searches() const { return searches_; }
+  std::int64_t prunes() const { return prunes_; }
+  Broadphase& broadphase() { return broadphase_; }
+
+ private:
+  /// Where the grains (relative to the first vessel) and the other vessels were when a list was made.
+  struct Reference {
+    std::vector<double> x, y;
+    std::vector<Eigen::Vector2d> displacement;
+  };
+  static Reference reference(const Grains& grains, const Walls& walls);
+  static bool moved(const Reference& from, const Grains& grains, const Walls& walls, double limit);
+  static void remove_flagged(Reference& reference, const std::vector<char>& removed);
+
+  void search(const Grains& grains, const Walls& walls);
+  void prune(const Grains& grains, const Walls& walls);
+
+  Broadphase broadphase_;
+  double wide_margin_, narrow_margin_;  // m
+  PairList wide_, narrow_;
+  std::vector<WallCandidate> wide_walls_, narrow_walls_;
+  Reference wide_reference_, narrow_reference_;
+  bool wide_is_valid_ = false;
+  std::int64_t searches_ = 0, prunes_ = 0;
+};
+
+}  // namespace vibrosow

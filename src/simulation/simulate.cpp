@@ -1,0 +1,43 @@
+#include "simulation/simulate.hpp"
+
+#include <fmt/format.h>
+
+#include <chrono>
+
+#include "scene/input_error.hpp"
+#include "simulation/simulation.hpp"
+#include "simulation/step_plan.hpp"
+
+namespace vibrosow {
+namespace {
+
+constexpr std::int64_t steps_between_looks = 256;
+
+}  // namespace
+
+Run simulate(const Scene& scene, const SimulationOptions& options) {
+  const auto started = std::chrono::steady_clock::now();
+  const StepPlan plan = plan_step(scene);
+  if (plan.too_long && !scene.numerics.allow_long_step)
+    throw InputError(fmt::format("numerics.dt = {:.4g} s is too long: {} allows {:.4g} s at most "
+                                 "(numerics.allow_long_step = true runs it all the same, and marks the result)",
+                                 plan.dt, plan.bound_by, plan.longest_safe));
+  const EffectSet effects = effects_of(scene);
+  Grains grains = starting_grains(scene, options.random_seed, effects);
+  refuse_overlapping_start(scene, grains);
+  Simulation simulation(scene, std::move(grains),
+                        {.dt = plan.dt, .random_seed = options.random_seed, .effects = effects, .margins = {},
+                         .insisted_on_step = plan.too_long});
+  bool interrupted = false;
+  for (std::int64_t done = 0; done < plan.steps && !interrupted && simulation.step();) {
+    if (++done % steps_between_looks != 0) continue;
+    interrupted = options.interrupt && options.interrupt->load();
+    if (options.progress) options.progress(static_cast<double>(done) / static_cast<double>(plan.steps));
+  }
+  Run run = simulation.result();
+  if (interrupted) run.status = RunStatus::interrupted;
+  run.wall_time = std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
+  return run;
+}
+
+}  // namespace vibrosow

@@ -1,0 +1,176 @@
+#include "simulation/simulation.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "grains/packing.hpp"
+#include "scene/input_error.hpp"
+#include "simulation/vessel_motion.hpp"
+
+namespace vibrosow {
+namespace {
+
+constexpr double removal_interval = 1e-3;  // s
+constexpr double feeding_interval = 5e-3;  // s
+constexpr std::int64_t steps_per_energy_account = 100;
+
+/// Housekeeping goes by simulated time alone, so that nothing about lists or clocks can change a result.
+std::int64_t steps_in(double interval, double dt) { return std::max<std::int64_t>(1, std::llround(interval / dt)); }
+
+}  // namespace
+
+Simulation::Simulation(const Scene& scene, Grains grains, const SimulationSetup& setup)
+    : scene_(scene),
+      setup_(setup),
+      grains_(std::move(grains)),
+      field_(scene_, kernels_for(scene_.contact.law, setup.effects), setup.margins),
+      s_{.grains = grains_, .field = field_, .dt = setup.dt, .gravity = setup.gravity, .drag = scene_.contact.drag,
+         .census = {}, .ax = {}, .ay = {}, .alpha = {}, .x = {}, .y = {}, .vx = {}, .vy = {}, .omega = {}},
+      advance_(step_function(scene_.numerics.integrator, setup.effects.rotation, setup.effects.drag, setup.effects.unequal)),
+      counter_(scene_, grains_.size()),
+      feeder_(scene_, setup.random_seed),
+      guard_(scene_, setup.insisted_on_step),
+      steps_per_removal_(steps_in(removal_interval, setup.dt)),
+      steps_per_feed_(steps_in(feeding_interval, setup.dt)) {
+  run_.random_seed = setup.random_seed;
+  run_.dt = setup.dt;
+  run_.balance.put_in = static_cast<std::int64_t>(grains_.size());
+  start_integration(s_);
+  guard_.watch_step(s_);
+  guard_.watch_energy(s_, run_.energy);
+}
+
+bool Simulation::step() {
+  if (guard_.stop_reason()) return false;
+  run_.grain_steps += static_cast<std::int64_t>(grains_.size());
+  advance_(s_);
+  ++s_.step;
+  s_.time = static_cast<double>(s_.step) * s_.dt;
+  guard_.watch_step(s_);
+  if (guard_.stop_reason()) return false;
+  if (!s_.census.crossed.empty()) take_out();
+  count();
+  if (s_.step % steps_per_removal_ == 0) take_out(), note_whether_dry();
+  if (feeder_.feeds() && s_.step % steps_per_feed_ == 0) feed();
+  if (s_.step % steps_per_energy_account == 0) guard_.watch_energy(s_, run_.energy);
+  return !guard_.stop_reason();
+}
+
+void Simulation::steps(std::int64_t count) {
+  for (std::int64_t k = 0; k < count && step(); ++k) {
+  }
+}
+
+void Simulation::count() {
+  const std::size_t before = run_.events.size();
+  counter_.watch(grains_, field_.walls(), s_.time, run_.events);
+  for (std::size_t k = before; k < run_.events.size(); ++k) ++(run_.events[k].hole > 0 ? run_.balance.counted : run_.balance.spilled);
+}
+
+/// Takes out grains that went through a wall, and counted ones that touch nothing.
+void Simulation::take_out() {
+  std::vector<char> removed(grains_.size(), 0);
+  bool any = false;
+  for (std::size_t i = 0; i < grains_.size(); ++i) any |= (removed[i] = counter_.is_counted(i) ? 1 : 0) != 0;
+  if (any) {
+    const PairList& pairs = field_.neighbours().pairs();
+    for (std::size_t i = 0; i < grains_.size(); ++i)
+      for (int k = pairs.first[i]; k < pairs.first[i + 1]; ++k) {
+        const std::size_t j = static_cast<std::size_t>(pairs.partner[static_cast<std::size_t>(k)]);
+        const double reach = grains_.kind(i).radius + grains_.kind(j).radius;
+        if (std::hypot(grains_.x[j] - grains_.x[i], grains_.y[j] - grains_.y[i]) < reach) removed[i] = removed[j] = 0;
+      }
+  }
+  std::int64_t lost = 0;
+  for (int i : s_.census.crossed) {
+    const std::size_t k = static_cast<std::size_t>(i);
+    if (!removed[k] && !counter_.is_counted(k)) removed[k] = 1, ++lost;
+  }
+  s_.census.crossed.clear();
+  if (lost > 0) guard_.wall_crossed(static_cast<std::size_t>(lost), s_.time);
+  run_.balance.lost += lost;
+  if (std::find(removed.begin(), removed.end(), 1) != removed.end()) take_out_flagged(removed);
+}
+
+void Simulation::take_out_flagged(const std::vector<char>& removed) {
+  const double elastic = field_.elastic_energy(grains_);
+  for (std::size_t i = 0; i < grains_.size(); ++i)
+    if (removed[i]) run_.energy.removed += mechanical_energy(grains_, i, s_.gravity);
+  grains_.remove_flagged(removed);
+  counter_.remove_flagged(removed);
+  field_.neighbours().remove_flagged(removed);
+  start_integration(s_);
+  run_.energy.removed += elastic - field_.elastic_energy(grains_);
+}
+
+void Simulation::feed() {
+  const int added = feeder_.top_up(grains_, field_.walls(), s_.time);
+  if (added == 0) return;
+  run_.balance.put_in += added;
+  for (std::size_t i = grains_.size() - static_cast<std::size_t>(added); i < grains_.size(); ++i) {
+    run_.energy.inserted += mechanical_energy(grains_, i, s_.gravity);
+    counter_.add_grain();
+  }
+  field_.neighbours().forget();
+  start_integration(s_);
+}
+
+void Simulation::note_whether_dry() {
+  const Eigen::Vector2d displacement = field_.walls().displacement().front();
+  for (std::size_t i = 0; i < grains_.size(); ++i)
+    if (!counter_.is_counted(i) && is_inside(scene_.tray, displacement, grains_.x[i], grains_.y[i])) {
+      run_.tray_empty_since = -1;
+      return;
+    }
+  if (run_.tray_empty_since < 0) run_.tray_empty_since = s_.time;
+}
+
+Run Simulation::result() const {
+  Run run = run_;
+  if (guard_.stop_reason()) {
+    run.status = RunStatus::stopped_by_guard;
+    run.stop_reason = *guard_.stop_reason();
+  }
+  run.warnings = guard_.warnings();
+  run.outside_the_model = guard_.outside_the_model();
+  run.steps = s_.step;
+  run.end_time = s_.time;
+  run.force_evaluations = s_.census.contacts;
+  run.max_compression = guard_.max_compression();
+  run.balance.inside = 0;
+  for (std::size_t i = 0; i < grains_.size(); ++i)
+    if (!counter_.is_counted(i)) ++run.balance.inside;
+  return run;
+}
+
+Grains starting_grains(const Scene& scene, std::uint64_t random_seed, const EffectSet& effects) {
+  Random random(random_seed);
+  Grains grains(grain_kinds(scene, effects.rotation), effects.unequal, effects.rotation);
+  for (const Vessel& vessel : vessels_of(scene)) {
+    const bool moves_along = scene.run.start == Start::with_tray;
+    const Eigen::Vector2d velocity = moves_along ? vessel_velocity(vessel, 0) : Eigen::Vector2d::Zero();
+    const Eigen::Vector2d displacement = vessel_displacement(vessel, 0);
+    for (const PackedGrain& packed : pack(vessel, scene.lots, random)) {
+      const Eigen::Vector2d at = in_lab_frame(vessel, displacement, {packed.x, packed.y});
+      grains.add(at.x(), at.y(), velocity.x(), velocity.y(), packed.lot);
+    }
+  }
+  return grains;
+}
+
+void refuse_overlapping_start(const Scene& scene, const Grains& grains) {
+  EffectSet effects;
+  effects.unequal = grains.unequal;
+  ForceField field(scene, kernels_for(scene.contact.law, effects), {});
+  ContactCensus census;
+  field.evaluate(grains, 0, census);
+  // Grains at rest may carry their bed's weight, no more.
+  if (census.max_compression > scene.guard.warn_compression)
+    throw InputError(fmt::format("grains overlap at the start, their shells compressed by {:.3g} of the radius; do the {} and "
+                                 "the bed in the tray stand in each other's way? (hopper.above, fill.count)",
+                                 census.max_compression, scene.hopper ? "hopper" : "walls"));
+}
+
+}  // namespace vibrosow

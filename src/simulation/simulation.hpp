@@ -1,0 +1,70 @@
+#pragma once
+
+#include <memory>
+
+#include "simulation/counter.hpp"
+#include "simulation/feeder.hpp"
+#include "simulation/guard.hpp"
+#include "simulation/integrator.hpp"
+#include "simulation/run.hpp"
+
+namespace vibrosow {
+
+/// How a simulation is set up beside its scene.
+struct SimulationSetup {
+  double dt;                                              // s
+  std::uint64_t random_seed = 1;
+  Eigen::Vector2d gravity{0, -standard_gravity};          // m/s2
+  EffectSet effects;                                      // the kernels to run with; at least those the scene calls for
+  NeighbourMargins margins;
+  bool insisted_on_step = false;
+};
+
+/// The grains of a scene in motion, step by step.
+class Simulation {
+ public:
+  Simulation(const Scene& scene, Grains grains, const SimulationSetup& setup);
+  Simulation(const Simulation&) = delete;
+  Simulation& operator=(const Simulation&) = delete;
+
+  /// One step; false once the guard has stopped the run.
+  bool step();
+  void steps(std::int64_t count);
+
+  double time() const { return s_.time; }
+  Grains& grains() { return grains_; }
+  const Grains& grains() const { return grains_; }
+  ForceField& field() { return field_; }
+  const Guard& guard() const { return guard_; }
+  const ContactCensus& census() const { return s_.census; }
+
+  /// What has come of it so far.
+  Run result() const;
+
+ private:
+  void count();
+  void take_out();
+  void feed();
+  void note_whether_dry();
+  void take_out_flagged(const std::vector<char>& removed);
+
+  Scene scene_;
+  SimulationSetup setup_;
+  Grains grains_;
+  ForceField field_;
+  Integration s_;
+  StepFunction advance_;
+  Counter counter_;
+  Feeder feeder_;
+  Guard guard_;
+  Run run_;
+  std::int64_t steps_per_removal_, steps_per_feed_;
+};
+
+/// The grains of a scene where they start, at rest in the lab or with the tray.
+Grains starting_grains(const Scene& scene, std::uint64_t random_seed, const EffectSet& effects);
+
+/// Throws InputError when two grains, or a grain and a wall, overlap by more than the guard's warning allows.
+void refuse_overlapping_start(const Scene& scene, const Grains& grains);
+
+}  // namespace vibrosow

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "contact/contact_list.hpp"
+#include "scene/scene.hpp"
+
+namespace vibrosow {
+
+/// The vessels of a scene, the tray first.
+std::vector<Vessel> vessels_of(const Scene& scene);
+
+/// All vessels' walls where they stand at one time, numbered like Box2D's shapes: vessel after vessel, in the order of
+/// `vessel_walls`.
+class Walls {
+ public:
+  explicit Walls(std::vector<Vessel> vessels);
+
+  /// Moves every wall to where it is at `time` (s).
+  void place(double time);
+
+  const std::vector<PlacedWall>& placed() const { return placed_; }
+  const std::vector<Eigen::Vector2d>& displacement() const { return displacement_; }  // m, by vessel
+  const std::vector<Vessel>& vessels() const { return vessels_; }
+
+ private:
+  struct AtRest {
+    Eigen::Vector2d a, b;  // m, lab
+    std::size_t vessel;
+  };
+
+  std::vector<Vessel> vessels_;
+  std::vector<AtRest> at_rest_;
+  std::vector<PlacedWall> placed_;
+  std::vector<Eigen::Vector2d> displacement_;
+};
+
+/// Turns a point of the lab into a vessel's own frame, when the vessel is displaced by `displacement`.
+Eigen::Vector2d in_vessel_frame(const Vessel& vessel, const Eigen::Vector2d& displacement, const Eigen::Vector2d& lab);
+
+/// The inverse: a point of the vessel's own frame in the lab.
+Eigen::Vector2d in_lab_frame(const Vessel& vessel, const Eigen::Vector2d& displacement, const Eigen::Vector2d& own);
+
+}  // namespace vibrosow
