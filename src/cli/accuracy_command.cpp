@@ -1,0 +1,103 @@
+#include <fmt/format.h>
+
+#include <memory>
+
+#include "cli/commands.hpp"
+#include "cli/common_options.hpp"
+#include "cli/interrupt.hpp"
+#include "cli/progress.hpp"
+#include "design/accuracy.hpp"
+#include "report/accuracy_report.hpp"
+#include "scene/input_error.hpp"
+#include "scene/read_scene.hpp"
+#include "simulation/simulate.hpp"
+#include "units/quantity.hpp"
+
+namespace vibrosow {
+namespace {
+
+struct AccuracyOptions {
+  CommonOptions common;
+  std::vector<std::string> integrators;
+  std::vector<double> steps_per_contact, shell_compressions;
+  std::vector<std::string> slip_speeds;
+  int replicates = 5;
+};
+
+double slip_speed_of(const std::string& text) {
+  try {
+    const double speed = parse_quantity(text, Dimension::speed);
+    if (speed > 0) return speed;
+  } catch (const UnitError& error) {
+    throw InputError(fmt::format("--slip-speed: {}", error.what()));
+  }
+  throw InputError(fmt::format("--slip-speed: \"{}\" must be over zero", text));
+}
+
+AccuracyGrid grid_of(const AccuracyOptions& options, const Scene& scene) {
+  AccuracyGrid grid = default_accuracy_grid(scene);
+  if (!options.steps_per_contact.empty()) grid.steps_per_contact = options.steps_per_contact;
+  if (!options.shell_compressions.empty()) grid.shell_compressions = options.shell_compressions;
+  if (!options.slip_speeds.empty()) {
+    grid.slip_speeds.clear();
+    for (const std::string& text : options.slip_speeds) grid.slip_speeds.push_back(slip_speed_of(text));
+  }
+  if (!options.integrators.empty()) {
+    grid.integrators.clear();
+    for (const std::string& name : options.integrators)
+      grid.integrators.push_back(name == "velocity-verlet" ? Integrator::velocity_verlet : Integrator::rk2_midpoint);
+  }
+  return grid;
+}
+
+int run_accuracy(const AccuracyOptions& options) {
+  const Scene scene = read_scene(options.common.file, options.common.overrides());
+  const AccuracyGrid grid = grid_of(options, scene);
+  const auto directory = options.common.out_directory();
+  make_out_directory(directory);
+  const std::atomic<bool>& interrupt = watch_for_interrupt();
+  const double settings = static_cast<double>(grid.integrators.size() * grid.steps_per_contact.size() *
+                                              grid.shell_compressions.size() * grid.slip_speeds.size());
+  AccuracyResult result;
+  double wall_time = 0;
+  {
+    Progress progress(options.common.quiet, settings * options.replicates, "runs");
+    SweepOptions sweep_options;
+    sweep_options.first_random_seed = options.common.random_seed;
+    sweep_options.runs.jobs = options.common.jobs;
+    sweep_options.runs.interrupt = &interrupt;
+    sweep_options.runs.progress = [&](const ManyRunsProgress& done) { progress.update(done.share_done); };
+    result = measure_accuracy(scene, grid, options.replicates, simulate, sweep_options);
+    wall_time = progress.seconds();
+  }
+  write_accuracy_report(directory, result, wall_time, options.common.jobs);
+  if (!options.common.quiet)
+    fmt::print("{}\n\n{}\n{}\nreports: {}\n", scene.title, accuracy_table(result), accuracy_sentence(result),
+               directory.string());
+  return interrupt ? exit_interrupted : exit_done;
+}
+
+}  // namespace
+
+void add_accuracy_command(CLI::App& app, int& exit_code) {
+  auto options = std::make_shared<AccuracyOptions>();
+  CLI::App* command = app.add_subcommand("accuracy", "what accuracy costs in time, on a seeder of yours");
+  add_common_options(*command, options->common, "seeder file (.toml)");
+  command->add_option("--integrator", options->integrators, "velocity-verlet, rk2-midpoint; default both")
+      ->delimiter(',')
+      ->check(CLI::IsMember({"velocity-verlet", "rk2-midpoint"}));
+  command->add_option("--steps-per-contact", options->steps_per_contact, "default 10,20,40")
+      ->delimiter(',')
+      ->check(CLI::Range(1.0, 1e4));
+  command->add_option("--shell-compression", options->shell_compressions, "default: the seeder's, times 1, 10 and 100")
+      ->delimiter(',')
+      ->check(CLI::Range(1e-9, 0.5));
+  command->add_option("--slip-speed", options->slip_speeds, "with units: \"20 mm/s\"; default: the seeder's, times 1 and 5")
+      ->delimiter(',');
+  command->add_option("--replicates", options->replicates, "runs of each setting")
+      ->check(CLI::Range(1, 1000))
+      ->capture_default_str();
+  command->callback([options, &exit_code] { exit_code = run_accuracy(*options); });
+}
+
+}  // namespace vibrosow

@@ -1,0 +1,114 @@
+#include <fmt/format.h>
+
+#include <memory>
+
+#include "cli/commands.hpp"
+#include "cli/common_options.hpp"
+#include "contact/effects.hpp"
+#include "design/study.hpp"
+#include "outflow/measured.hpp"
+#include "scene/key_units.hpp"
+#include "scene/read_scene.hpp"
+#include "simulation/price.hpp"
+#include "simulation/step_plan.hpp"
+
+namespace vibrosow {
+namespace {
+
+double grains_in(const std::optional<Fill>& fill) { return fill ? fill->count : 0; }
+
+/// Grains at the start times steps; outflow lessens it, topping up adds to it.
+double foretold_grain_steps(const Scene& scene, const StepPlan& plan) {
+  const double grains = grains_in(scene.tray.fill) + (scene.hopper ? grains_in(scene.hopper->fill) : 0);
+  return grains * static_cast<double>(plan.steps);
+}
+
+void print_effects(const Scene& scene) {
+  fmt::print("effects\n");
+  for (const EffectReason& effect : explain_effects(scene))
+    fmt::print("  {:<3} {:<10} {}\n", effect.present ? "yes" : "no", effect.effect, effect.reason);
+  fmt::print("price on this machine, now\n");
+  for (const EffectPrice& price : price_list(effects_of(scene)))
+    fmt::print("  {:<22} {:8.1f} ns per grain-step\n", price.effect, price.ns_per_grain_step);
+}
+
+void print_step(const Scene& scene, const StepPlan& plan) {
+  fmt::print("step\n  dt {:.4g} s, shortest contact {:.4g} s: {:.3g} steps a contact\n", plan.dt, plan.contact_duration,
+             plan.contact_duration / plan.dt);
+  for (const StepLimit& limit : plan.limits) fmt::print("  at most {:.4g} s: {}\n", limit.dt, limit.reason);
+  fmt::print("  longest safe step {:.4g} s ({})\n", plan.longest_safe, plan.bound_by);
+  fmt::print("  {} steps, about {:.3g} grain-steps\n", plan.steps, foretold_grain_steps(scene, plan));
+}
+
+void print_compression(const Scene& scene) {
+  const ForetoldCompression foretold = foretell_compression(scene);
+  fmt::print("compression foretold, d/r\n  at rest {:.3g} under {:.3g} layers (overlap of the lowest pair {:.3g} r)\n",
+             foretold.static_compression, foretold.layers, foretold.static_overlap);
+  fmt::print("  at impact {:.3g} at {:.3g} m/s\n", foretold.impact_compression, foretold.impact_speed);
+  const double warn = scene.guard.warn_compression;
+  if (foretold.static_compression > warn || foretold.impact_compression > warn)
+    fmt::print("  warning: beyond guard.warn_compression = {:g}; a shell is thin, results will be outside the model\n", warn);
+}
+
+void print_vessel(const Vessel& vessel) {
+  fmt::print("{}\n  floor from ({:.1f}, {:.1f}) mm, {:.1f} mm long, end walls {:.1f} mm, {} seeds\n", vessel.name,
+             vessel.origin.x() * 1e3, vessel.origin.y() * 1e3, vessel.length * 1e3, vessel.height * 1e3,
+             vessel.fill ? vessel.fill->count : 0);
+  for (std::size_t i = 0; i < vessel.holes.size(); ++i)
+    fmt::print("  hole {} at {:.2f} mm, {:.2f} mm wide\n", i + 1, vessel.holes[i].centre * 1e3,
+               vessel.holes[i].width * 1e3);
+}
+
+int check_seeder(const CommonOptions& options) {
+  const Scene scene = read_scene(options.file, options.overrides());
+  const StepPlan plan = plan_step(scene);
+  fmt::print("{}\n", scene.title);
+  print_vessel(scene.tray);
+  if (scene.hopper) print_vessel(*scene.hopper);
+  print_effects(scene);
+  print_step(scene, plan);
+  print_compression(scene);
+  if (!plan.too_long) return exit_done;
+  if (scene.numerics.allow_long_step) {
+    fmt::print("the step is too long and insisted on: every result will be marked \"outside the model\"\n");
+    return exit_done;
+  }
+  std::fflush(stdout);
+  fmt::print(stderr, "vibrosow: {}: numerics.dt = {:.4g} s is too long ({}); the longest safe step is {:.4g} s\n",
+             options.file, plan.dt, plan.bound_by, plan.longest_safe);
+  return exit_wrong_input;
+}
+
+/// The header of a table of measured outflow for this study, ready to fill in.
+std::string measured_header(const Study& study) {
+  std::string header;
+  for (const std::string& key : study.keys) header += condition_column(key) + ",";
+  return header + "hole,lot,repeat,caught_g,duration_s,note";
+}
+
+int check_study(const CommonOptions& options) {
+  const Study study = read_study(options.file, options.overrides());
+  double grain_steps = 0;
+  for (const Scene& scene : study.scenes) grain_steps += foretold_grain_steps(scene, plan_step(scene));
+  fmt::print("{}\n{} layouts, {} different scenes, {} runs of each, about {:.3g} grain-steps in all\n", study.title,
+             study.layouts.size(), study.scenes.size(), study.replicates, grain_steps * study.replicates);
+  for (const Layout& layout : study.layouts)
+    if (!layout.scene) fmt::print("layout {} {}: invalid: {}\n", layout.number, layout.name, layout.invalid);
+  if (study.measured)
+    fmt::print("measured: {}, {} series, {} matched to layouts\n", study.measured->file.string(),
+               study.measured->table.series.size(), study.measured->matches.size());
+  fmt::print("header of a table of measured outflow:\n{}\n", measured_header(study));
+  return exit_done;
+}
+
+}  // namespace
+
+void add_check_command(CLI::App& app, int& exit_code) {
+  auto options = std::make_shared<CommonOptions>();
+  CLI::App* command = app.add_subcommand("check", "validate a seeder or a study; effects, step, predicted overlap and cost");
+  add_input_options(*command, *options, "seeder or study file (.toml)");
+  command->callback(
+      [options, &exit_code] { exit_code = is_study(options->file) ? check_study(*options) : check_seeder(*options); });
+}
+
+}  // namespace vibrosow

@@ -1,0 +1,17 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+
+namespace vibrosow {
+
+/// What the program ends with (the README's list).
+enum ExitCode { exit_done = 0, exit_wrong_input = 2, exit_stopped_by_guard = 3, exit_interrupted = 130 };
+
+// Each adds its subcommand, whose callback does the work and sets `exit_code`.
+void add_run_command(CLI::App& app, int& exit_code);
+void add_sweep_command(CLI::App& app, int& exit_code);
+void add_accuracy_command(CLI::App& app, int& exit_code);
+void add_check_command(CLI::App& app, int& exit_code);
+void add_presets_command(CLI::App& app, int& exit_code);
+
+}  // namespace vibrosow

@@ -1,0 +1,51 @@
+#include "cli/common_options.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <system_error>
+#include <thread>
+
+#include "scene/input_error.hpp"
+
+namespace vibrosow {
+
+std::vector<Override> CommonOptions::overrides() const {
+  std::vector<Override> result;
+  for (const std::string& set : sets) result.push_back(parse_override(set));
+  return result;
+}
+
+std::filesystem::path CommonOptions::out_directory() const {
+  return out.empty() ? "out" / std::filesystem::path(file).stem() : std::filesystem::path(out);
+}
+
+void add_input_options(CLI::App& command, CommonOptions& options, const std::string& file_help) {
+  command.add_option("FILE", options.file, file_help)->required();
+  command.add_option("--set", options.sets, "change a key of the file: --set \"tray.motion.frequency=12 Hz\"; repeatable")
+      ->type_name("KEY=VALUE")
+      ->expected(1)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+}
+
+void add_common_options(CLI::App& command, CommonOptions& options, const std::string& file_help) {
+  add_input_options(command, options, file_help);
+  options.jobs = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+  command.add_option("--out", options.out, "directory for the reports; default out/ and the file's name")->type_name("DIR");
+  command.add_option("--random-seed", options.random_seed, "random seed, of replicates the first")
+      ->type_name("N")
+      ->capture_default_str();
+  command.add_option("--jobs", options.jobs, "runs side by side; a single run takes one core")
+      ->type_name("N")
+      ->check(CLI::Range(1, 4096))
+      ->capture_default_str();
+  command.add_flag("--quiet", options.quiet, "no progress and no table");
+}
+
+void make_out_directory(const std::filesystem::path& directory) {
+  std::error_code error;
+  std::filesystem::create_directories(directory, error);
+  if (error) throw InputError(fmt::format("{}: cannot be made: {}", directory.string(), error.message()));
+}
+
+}  // namespace vibrosow

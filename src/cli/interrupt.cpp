@@ -1,0 +1,23 @@
+#include "cli/interrupt.hpp"
+
+#include <csignal>
+
+namespace vibrosow {
+namespace {
+
+std::atomic<bool> interrupted{false};
+static_assert(std::atomic<bool>::is_always_lock_free);  // what a signal handler may touch
+
+extern "C" void note_interrupt(int) { interrupted = true; }
+
+}  // namespace
+
+const std::atomic<bool>& watch_for_interrupt() {
+  struct sigaction action = {};
+  action.sa_handler = note_interrupt;
+  action.sa_flags = static_cast<int>(SA_RESETHAND | SA_RESTART);  // the second Ctrl-C finds the default: death
+  sigaction(SIGINT, &action, nullptr);
+  return interrupted;
+}
+
+}  // namespace vibrosow

@@ -1,0 +1,55 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <memory>
+
+#include "cli/commands.hpp"
+#include "scene/document.hpp"
+#include "scene/read_scene.hpp"
+
+namespace vibrosow {
+namespace {
+
+std::vector<std::filesystem::path> toml_files(const std::filesystem::path& directory) {
+  std::vector<std::filesystem::path> files;
+  for (const auto& entry : std::filesystem::directory_iterator(directory))
+    if (entry.path().extension() == ".toml") files.push_back(entry.path());
+  std::ranges::sort(files);
+  return files;
+}
+
+void print_crops(const std::filesystem::path& data) {
+  fmt::print("crops (seeds.NAME.crop = \"...\"), in {}\n", (data / "models/crops").string());
+  for (const auto& file : toml_files(data / "models/crops")) {
+    Table crop(Document::read(file));
+    fmt::print("  {:<24}", file.stem().string());
+    for (const std::string key : {"diameter", "mass"})
+      if (const auto value = crop.toml_text(key)) fmt::print(" {} {}", key, *value);
+    fmt::print("\n");
+  }
+}
+
+void print_seeders(const std::filesystem::path& data) {
+  for (const std::string directory : {"seeders", "seeders/studies"}) {
+    fmt::print("{}, in {}\n", directory == "seeders" ? "seeders" : "studies", (data / directory).string());
+    for (const auto& file : toml_files(data / directory))
+      fmt::print("  {:<24} {}\n", file.stem().string(), Table(Document::read(file)).text("title").value_or(""));
+  }
+}
+
+}  // namespace
+
+void add_presets_command(CLI::App& app, int& exit_code) {
+  auto kind = std::make_shared<std::string>();
+  CLI::App* command = app.add_subcommand("presets", "what is shipped");
+  command->add_option("KIND", *kind, "crops or seeders; default both")->check(CLI::IsMember({"crops", "seeders"}));
+  command->callback([kind, &exit_code] {
+    const std::filesystem::path data = data_directory();
+    if (*kind != "seeders") print_crops(data);
+    if (*kind != "crops") print_seeders(data);
+    exit_code = exit_done;
+  });
+}
+
+}  // namespace vibrosow

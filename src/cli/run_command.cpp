@@ -1,0 +1,68 @@
+#include <fmt/format.h>
+
+#include <memory>
+
+#include "cli/commands.hpp"
+#include "cli/common_options.hpp"
+#include "cli/interrupt.hpp"
+#include "cli/progress.hpp"
+#include "contact/effects.hpp"
+#include "outflow/outflow.hpp"
+#include "report/run_report.hpp"
+#include "scene/read_scene.hpp"
+#include "simulation/simulate.hpp"
+#include "simulation/step_plan.hpp"
+
+namespace vibrosow {
+namespace {
+
+void print_summary(const Scene& scene, const Run& run, const Outflow& outflow) {
+  fmt::print("{}\n\n{:>6} {:<12} {:>11} {:>8} {:>12} {:>10} {:>10}\n", scene.title, "hole", "lot", "position mm",
+             "seeds", "seeds per s", "g per s", "pause s");
+  for (const HoleOutflow& row : outflow.holes)
+    fmt::print("{:>6} {:<12} {:>11} {:>8} {:>12.4g} {:>10.4g} {:>10.3g}\n", row.hole, row.lot,
+               row.centre ? fmt::format("{:.1f}", *row.centre * 1e3) : "", row.grains, row.seeds_per_s,
+               row.mass_rate * 1e3, row.longest_pause);
+  const Balance& balance = run.balance;
+  fmt::print("\nwindow {:g} to {:g} s; put in {} = inside {} + counted {} + spilled {} + lost {}\n", outflow.window_from,
+             outflow.window_to, balance.put_in, balance.inside, balance.counted, balance.spilled, balance.lost);
+  if (!outflow.note.empty()) fmt::print("note: {}\n", outflow.note);
+}
+
+int run_scene(const CommonOptions& options) {
+  const Scene scene = read_scene(options.file, options.overrides());
+  const auto directory = options.out_directory();
+  make_out_directory(directory);
+  SimulationOptions simulation;
+  simulation.random_seed = options.random_seed;
+  simulation.interrupt = &watch_for_interrupt();
+  Run run;
+  {
+    Progress progress(options.quiet, static_cast<double>(plan_step(scene).steps), "steps");
+    simulation.progress = [&](double share) { progress.update(share); };
+    run = simulate(scene, simulation);
+  }
+  const Outflow outflow = measure_outflow(scene, run);
+  write_run_report(directory, scene, run, outflow, effect_names(effects_of(scene)));
+  if (!options.quiet) {
+    print_summary(scene, run, outflow);
+    fmt::print("reports: {}\n", directory.string());
+  }
+  for (const std::string& warning : run.warnings) fmt::print(stderr, "vibrosow: warning: {}\n", warning);
+  if (run.status == RunStatus::stopped_by_guard) {
+    fmt::print(stderr, "vibrosow: the guard stopped the run: {}\n", run.stop_reason);
+    return exit_stopped_by_guard;
+  }
+  return run.status == RunStatus::interrupted ? exit_interrupted : exit_done;
+}
+
+}  // namespace
+
+void add_run_command(CLI::App& app, int& exit_code) {
+  auto options = std::make_shared<CommonOptions>();
+  CLI::App* command = app.add_subcommand("run", "simulate a seeder once; outflow per hole");
+  add_common_options(*command, *options, "seeder file (.toml)");
+  command->callback([options, &exit_code] { exit_code = run_scene(*options); });
+}
+
+}  // namespace vibrosow

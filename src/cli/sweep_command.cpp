@@ -1,0 +1,98 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <memory>
+
+#include "cli/commands.hpp"
+#include "cli/common_options.hpp"
+#include "cli/interrupt.hpp"
+#include "cli/progress.hpp"
+#include "design/sweep.hpp"
+#include "report/sweep_report.hpp"
+#include "simulation/simulate.hpp"
+
+namespace vibrosow {
+namespace {
+
+std::string with_interval(const std::optional<MeanWithInterval>& value, double factor) {
+  if (!value) return "";
+  if (!value->half_width_95) return fmt::format("{:.3g}", value->mean * factor);
+  return fmt::format("{:.3g} +- {:.2g}", value->mean * factor, *value->half_width_95 * factor);
+}
+
+std::string described(const Study& study, const Layout& layout) {
+  std::string text = layout.name;
+  for (const std::string& key : study.keys) {
+    const auto value = layout.values.find(key);
+    if (value == layout.values.end() || !layout.name.empty()) continue;
+    text += (text.empty() ? "" : ", ") + key.substr(key.rfind('.') + 1) + " " + value->second;
+  }
+  return text;
+}
+
+void print_table(const StudyResult& result) {
+  fmt::print("{}\n\n{:>6} {:<36} {:>18} {:>18} {:>18} {:>14}\n", result.study.title, "layout", "", "g per s",
+             "seeds per s", "evenness CV %", "misfit %");
+  for (std::size_t i = 0; i < result.layouts.size(); ++i) {
+    const LayoutResult& of = result.layouts[i];
+    const Figures& figures = of.figures;
+    fmt::print("{:>6} {:<36} {:>18} {:>18} {:>18} {:>14} {}\n", i + 1, described(result.study, result.study.layouts[i]),
+               with_interval(figures.mass_rate, 1e3), with_interval(figures.seeds_per_s, 1),
+               with_interval(figures.evenness_cv, 100), with_interval(figures.misfit_percent, 1), of.reason);
+  }
+  if (!result.comparison) return;
+  if (result.study.measured->scale == MeasuredScale::free && result.comparison->scale)
+    fmt::print("\nscale fitted to the measured outflow: {:.4g}\n", *result.comparison->scale);
+  if (result.comparison->misfit_percent) fmt::print("misfit over all rows: {:.3g} %\n", *result.comparison->misfit_percent);
+}
+
+int exit_code_of(const StudyResult& result, bool interrupted) {
+  if (interrupted) return exit_interrupted;
+  const auto stopped = std::ranges::find(result.layouts, LayoutStatus::stopped, &LayoutResult::status);
+  if (stopped != result.layouts.end()) {
+    fmt::print(stderr, "vibrosow: the guard stopped layout {}: {}\n", stopped - result.layouts.begin() + 1,
+               stopped->reason);
+    return exit_stopped_by_guard;
+  }
+  const bool all_invalid = std::ranges::all_of(
+      result.layouts, [](const LayoutResult& one) { return one.status == LayoutStatus::invalid; });
+  if (!all_invalid) return exit_done;
+  fmt::print(stderr, "vibrosow: no layout could be simulated: {}\n", result.layouts.front().reason);
+  return exit_wrong_input;
+}
+
+int run_sweep(const CommonOptions& options) {
+  const Study study = read_study(options.file, options.overrides());
+  const auto directory = options.out_directory();
+  make_out_directory(directory);
+  const std::atomic<bool>& interrupt = watch_for_interrupt();
+  StudyResult result;
+  double wall_time = 0;
+  {
+    Progress progress(options.quiet, static_cast<double>(study.scenes.size()) * study.replicates, "runs");
+    SweepOptions sweep_options;
+    sweep_options.first_random_seed = options.random_seed;
+    sweep_options.runs.jobs = options.jobs;
+    sweep_options.runs.interrupt = &interrupt;
+    sweep_options.runs.progress = [&](const ManyRunsProgress& done) { progress.update(done.share_done); };
+    result = sweep(study, simulate, sweep_options);
+    wall_time = progress.seconds();
+  }
+  write_sweep_report(directory, result, wall_time, options.jobs);
+  if (!options.quiet) {
+    print_table(result);
+    fmt::print("reports: {}\n", directory.string());
+  }
+  return exit_code_of(result, interrupt);
+}
+
+}  // namespace
+
+void add_sweep_command(CLI::App& app, int& exit_code) {
+  auto options = std::make_shared<CommonOptions>();
+  CLI::App* command = app.add_subcommand("sweep", "simulate every layout of a study, against measured outflow where it names some");
+  add_common_options(*command, *options, "study file (.toml)");
+  command->callback([options, &exit_code] { exit_code = run_sweep(*options); });
+}
+
+}  // namespace vibrosow

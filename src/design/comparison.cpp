@@ -1,0 +1,192 @@
+#include "design/comparison.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "outflow/discharge.hpp"
+#include "outflow/misfit.hpp"
+
+namespace vibrosow {
+namespace {
+
+Discharge discharge_of(MeasuredQuantity quantity) {
+  switch (quantity) {
+    case MeasuredQuantity::mass_curve: return Discharge::mass;
+    case MeasuredQuantity::seed_curve: return Discharge::seeds;
+    default: return Discharge::share;
+  }
+}
+
+/// One measured series with what every finished replicate of a layout gave, before scaling.
+struct Pairing {
+  const MeasuredMatch* match;
+  const MeasuredSeries* series;
+  std::vector<double> times;                    // s, within the run; empty for a rate
+  std::vector<double> measured;                 // one for each time; a single one for a rate
+  std::vector<std::vector<double>> simulated;   // of each replicate, as `measured`
+  double depth_factor = 1;
+  std::vector<double> means() const {
+    std::vector<double> result(measured.size(), 0.0);
+    for (const auto& one : simulated)
+      for (std::size_t i = 0; i < one.size(); ++i) result[i] += one[i] / static_cast<double>(simulated.size());
+    return result;
+  }
+};
+
+std::vector<double> simulated_values(const Scene& scene, const Replicate& replicate, MeasuredQuantity quantity,
+                                     const MeasuredSeries& series, const std::vector<double>& times) {
+  if (is_curve(quantity))
+    return discharge_curve(scene, *replicate.run, times, discharge_of(quantity), series.hole, series.lot);
+  const HoleOutflow* row = find_row(replicate.outflow, series.hole, series.lot);
+  if (!row) throw std::logic_error("a measured hole that the layout has not");
+  return {quantity == MeasuredQuantity::mass_rate ? row->mass_rate : row->seeds_per_s};
+}
+
+Pairing pair_up(const StudyResult& result, const MeasuredMatch& match) {
+  const MeasuredPart& part = *result.study.measured;
+  const std::size_t scene_index = *result.study.layouts[match.layout].scene;
+  const Scene& scene = result.study.scenes[scene_index];
+  Pairing pairing;
+  pairing.match = &match;
+  pairing.series = &part.table.series[match.series];
+  for (std::size_t i = 0; i < pairing.series->values.size(); ++i) {
+    if (is_curve(part.table.quantity)) {
+      if (pairing.series->times[i] > scene.run.duration) continue;
+      pairing.times.push_back(pairing.series->times[i]);
+    }
+    pairing.measured.push_back(pairing.series->values[i].mean);
+  }
+  for (const Replicate& replicate : result.runs[scene_index]) {
+    if (!replicate.finished()) continue;
+    pairing.simulated.push_back(
+        simulated_values(scene, replicate, part.table.quantity, *pairing.series, pairing.times));
+    if (part.scale == MeasuredScale::depth) pairing.depth_factor = replicate.outflow.depth_factor.value();
+  }
+  return pairing;
+}
+
+void append(std::vector<double>& all, const std::vector<double>& more) { all.insert(all.end(), more.begin(), more.end()); }
+
+/// One factor over every row of every layout.
+std::optional<double> fitted_scale(const std::vector<Pairing>& pairings, bool curve) {
+  std::vector<double> simulated, measured;
+  for (const Pairing& pairing : pairings) {
+    append(simulated, pairing.means());
+    append(measured, pairing.measured);
+  }
+  return curve ? best_curve_scale(simulated, measured) : best_rate_scale(simulated, measured);
+}
+
+std::vector<double> scaled(std::vector<double> values, double scale) {
+  for (double& value : values) value *= scale;
+  return values;
+}
+
+/// Of one choice of simulated values for each pairing. Rates: over all rows; curves: each against its own largest value,
+/// then root mean square over the curves, each weighed with its number of times.
+template <typename Simulated>
+std::optional<double> misfit(const std::vector<const Pairing*>& pairings, bool curve, Simulated simulated_of) {
+  std::vector<double> simulated, measured;
+  double squares = 0, count = 0;
+  for (const Pairing* pairing : pairings) {
+    append(simulated, simulated_of(*pairing));
+    append(measured, pairing->measured);
+    if (!curve) continue;
+    const auto of_curve = curve_misfit_percent(simulated, measured);
+    if (!of_curve) return std::nullopt;
+    squares += *of_curve * *of_curve * static_cast<double>(measured.size());
+    count += static_cast<double>(measured.size());
+    simulated.clear();
+    measured.clear();
+  }
+  if (!curve) return rate_misfit_percent(simulated, measured);
+  return count > 0 ? std::optional(std::sqrt(squares / count)) : std::nullopt;
+}
+
+/// Misfit of the mean outflow; its interval from the misfits of the single replicates.
+std::optional<MeanWithInterval> layout_misfit(const std::vector<const Pairing*>& pairings, bool curve, double scale) {
+  const auto of_mean = misfit(pairings, curve, [&](const Pairing& pairing) {
+    return scaled(pairing.means(), scale * pairing.depth_factor);
+  });
+  if (!of_mean) return std::nullopt;
+  std::vector<double> single;
+  for (std::size_t i = 0; i < pairings.front()->simulated.size(); ++i) {
+    const auto one = misfit(pairings, curve, [&](const Pairing& pairing) {
+      return scaled(pairing.simulated[i], scale * pairing.depth_factor);
+    });
+    if (one) single.push_back(*one);
+  }
+  return MeanWithInterval{*of_mean, mean_with_interval(single).half_width_95};
+}
+
+void add_rows(Comparison& comparison, const Pairing& pairing, double scale) {
+  for (std::size_t i = 0; i < pairing.measured.size(); ++i) {
+    std::vector<double> values;
+    for (const auto& one : pairing.simulated) values.push_back(one[i] * scale);
+    comparison.rows.push_back({pairing.match->layout, pairing.series->hole,
+                               pairing.times.empty() ? std::nullopt : std::optional(pairing.times[i]),
+                               pairing.measured[i], mean_with_interval(values)});
+  }
+}
+
+/// The measured rate beside the hole it was measured at.
+void set_measured_rate(LayoutResult& layout, const Pairing& pairing, double scale, const Outflow& rows) {
+  const HoleOutflow* row = find_row(rows, pairing.series->hole, pairing.series->lot);
+  for (HoleFigures& figures : layout.holes) {
+    if (!row || figures.hole != row->hole || figures.lot != row->lot) continue;
+    figures.measured = pairing.series->values.front();
+    figures.difference_percent = 100 * (pairing.means().front() * scale / pairing.measured.front() - 1);
+  }
+}
+
+const Outflow& a_finished_outflow(const std::vector<Replicate>& replicates) {
+  return std::ranges::find_if(replicates, &Replicate::finished)->outflow;
+}
+
+void add_remark(LayoutResult& layout, const std::string& remark) {
+  if (layout.reason.find(remark) == std::string::npos) layout.reason += (layout.reason.empty() ? "" : "; ") + remark;
+}
+
+}  // namespace
+
+void compare_with_measured(StudyResult& result) {
+  const MeasuredPart& part = *result.study.measured;
+  const bool curve = is_curve(part.table.quantity);
+  std::vector<Pairing> pairings;
+  for (const MeasuredMatch& match : part.matches) {
+    Pairing pairing = pair_up(result, match);
+    if (pairing.times.size() < pairing.series->times.size())
+      add_remark(result.layouts[match.layout], "measured times after the end of the run are left out");
+    if (!pairing.simulated.empty() && !pairing.measured.empty()) pairings.push_back(std::move(pairing));
+  }
+
+  Comparison comparison;
+  if (part.scale == MeasuredScale::none) comparison.scale = 1;
+  if (part.scale == MeasuredScale::free) comparison.scale = fitted_scale(pairings, curve);
+  const double scale = comparison.scale.value_or(1);
+
+  std::vector<const Pairing*> all;
+  std::vector<std::vector<const Pairing*>> of_layout(result.layouts.size());
+  for (const Pairing& pairing : pairings) {
+    const double factor = scale * pairing.depth_factor;
+    const std::size_t layout = pairing.match->layout;
+    all.push_back(&pairing);
+    of_layout[layout].push_back(&pairing);
+    add_rows(comparison, pairing, factor);
+    if (!curve)
+      set_measured_rate(result.layouts[layout], pairing, factor,
+                        a_finished_outflow(result.runs[*result.study.layouts[layout].scene]));
+  }
+  for (std::size_t layout = 0; layout < result.layouts.size(); ++layout)
+    if (!of_layout[layout].empty())
+      result.layouts[layout].figures.misfit_percent = layout_misfit(of_layout[layout], curve, scale);
+  if (!all.empty())
+    comparison.misfit_percent = misfit(
+        all, curve, [&](const Pairing& pairing) { return scaled(pairing.means(), scale * pairing.depth_factor); });
+  result.comparison = std::move(comparison);
+}
+
+}  // namespace vibrosow

@@ -1,0 +1,69 @@
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "outflow/measured.hpp"
+#include "scene/override.hpp"
+#include "scene/scene.hpp"
+
+namespace vibrosow {
+
+/// One combination of a study: a named design at one point of the grid.
+struct Layout {
+  int number = 0;                             // 1.., in the order of the study
+  std::string name;                           // of its [[layout]]; empty without
+  std::map<std::string, std::string> values;  // of Study::keys, in the unit of the key's column, as printed
+  std::vector<Override> overrides;            // what makes it out of the base
+  std::optional<std::size_t> scene;           // index in Study::scenes; none: it cannot be built
+  std::string invalid;                        // why it cannot
+};
+
+/// How simulated outflow is made comparable with measured.
+enum class MeasuredScale {
+  none,   // as it is
+  depth,  // times tray.depth over the diameter of the plane slice
+  free,   // one factor for the whole table, fitted
+};
+
+/// A measured series that was taken under the conditions of a layout.
+struct MeasuredMatch {
+  std::size_t layout;  // index in Study::layouts
+  std::size_t series;  // index in MeasuredTable::series
+};
+
+struct MeasuredPart {
+  std::filesystem::path file;
+  MeasuredScale scale = MeasuredScale::none;
+  MeasuredTable table;
+  std::vector<MeasuredMatch> matches;  // by layout, then series
+};
+
+struct Study {
+  std::string title;
+  std::filesystem::path base;      // of the seeder file
+  int replicates = 5;
+  std::vector<std::string> keys;   // that tell the layouts apart, in the order of the study
+  std::vector<Layout> layouts;
+  std::vector<Scene> scenes;       // each different scene once, in the order of the layouts
+  std::optional<MeasuredPart> measured;
+};
+
+/// Reads a study and every scene in it. `overrides` whose first word is a key of a study (vary.tray.holes.count) change the
+/// study; any other changes each of its seeders. A combination that `read_scene` refuses, or whose step is too long, is a layout
+/// with the reason in `invalid`. Throws InputError for anything wrong in the study itself, when no layout is valid, when a
+/// key is both varied and set, or when no measured row fits a layout.
+Study read_study(const std::filesystem::path& file, const std::vector<Override>& overrides = {});
+
+/// Whether a file is a study rather than a seeder: it has a `base`. Throws InputError when it cannot be read.
+bool is_study(const std::filesystem::path& file);
+
+/// Values of {from, to, step} as TOML text, both ends included, in the unit of `from`. Throws std::invalid_argument with what is
+/// wrong: a step of zero or the wrong sign, one that does not hit `to`, a unit that does not fit the key.
+std::vector<std::string> range_values(const std::string& key, const std::string& from, const std::string& to,
+                                      const std::string& step);
+
+}  // namespace vibrosow

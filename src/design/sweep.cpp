@@ -1,0 +1,147 @@
+#include "design/sweep.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "design/comparison.hpp"
+
+namespace vibrosow {
+namespace {
+
+std::vector<std::vector<Replicate>> run_scenes(const Study& study, const Simulator& simulator,
+                                               const SweepOptions& options) {
+  std::vector<Job> jobs;
+  for (const Scene& scene : study.scenes)
+    for (int i = 0; i < study.replicates; ++i)
+      jobs.push_back({&scene, options.first_random_seed + static_cast<std::uint64_t>(i)});
+  std::vector<JobResult> results = run_jobs(jobs, simulator, options.runs);
+
+  std::vector<std::vector<Replicate>> runs(study.scenes.size());
+  for (std::size_t job = 0; job < jobs.size(); ++job) {
+    Replicate replicate;
+    replicate.random_seed = jobs[job].random_seed;
+    replicate.refused = std::move(results[job].refused);
+    replicate.run = std::move(results[job].run);
+    if (replicate.run) replicate.outflow = measure_outflow(*jobs[job].scene, *replicate.run);
+    runs[job / static_cast<std::size_t>(study.replicates)].push_back(std::move(replicate));
+  }
+  return runs;
+}
+
+/// Mean of a figure over the finished replicates that have it.
+template <typename Figure>
+std::optional<MeanWithInterval> mean_over(const std::vector<Replicate>& replicates, Figure figure) {
+  std::vector<double> values;
+  for (const Replicate& replicate : replicates) {
+    if (!replicate.finished()) continue;
+    const std::optional<double> value = figure(replicate.outflow);
+    if (value && std::isfinite(*value)) values.push_back(*value);
+  }
+  if (values.empty()) return std::nullopt;
+  return mean_with_interval(values);
+}
+
+template <typename Member>
+std::optional<MeanWithInterval> mean_of_row(const std::vector<Replicate>& replicates, const std::string& hole,
+                                            const std::string& lot, Member member) {
+  return mean_over(replicates, [&](const Outflow& outflow) -> std::optional<double> {
+    const HoleOutflow* row = find_row(outflow, hole, lot);
+    return row ? std::optional(row->*member) : std::nullopt;
+  });
+}
+
+Figures figures_of(const std::vector<Replicate>& replicates) {
+  Figures figures;
+  figures.mass_rate = mean_of_row(replicates, "all", "all", &HoleOutflow::mass_rate);
+  figures.seeds_per_s = mean_of_row(replicates, "all", "all", &HoleOutflow::seeds_per_s);
+  figures.longest_pause = mean_of_row(replicates, "all", "all", &HoleOutflow::longest_pause);
+  figures.evenness_cv = mean_over(replicates, [](const Outflow& one) { return one.evenness_cv; });
+  figures.instability_cv = mean_over(replicates, [](const Outflow& one) { return one.instability_cv; });
+  figures.spilled_share = mean_over(replicates, [](const Outflow& one) { return std::optional(one.spilled_share); });
+  return figures;
+}
+
+std::vector<HoleFigures> hole_figures(const std::vector<Replicate>& replicates) {
+  const auto finished = std::ranges::find_if(replicates, &Replicate::finished);
+  if (finished == replicates.end()) return {};
+  std::vector<HoleFigures> holes;
+  for (const HoleOutflow& row : finished->outflow.holes) {
+    HoleFigures figures;
+    figures.hole = row.hole;
+    figures.lot = row.lot;
+    figures.centre = row.centre;
+    figures.width = row.width;
+    figures.seeds_per_s = mean_of_row(replicates, row.hole, row.lot, &HoleOutflow::seeds_per_s);
+    figures.mass_rate = mean_of_row(replicates, row.hole, row.lot, &HoleOutflow::mass_rate);
+    figures.longest_pause = mean_of_row(replicates, row.hole, row.lot, &HoleOutflow::longest_pause);
+    holes.push_back(std::move(figures));
+  }
+  return holes;
+}
+
+/// What to know about the finished runs of a layout.
+std::string remarks_on(const std::vector<Replicate>& replicates) {
+  std::size_t finished = 0, dry = 0, outside = 0, lost = 0;
+  for (const Replicate& replicate : replicates) {
+    if (!replicate.finished()) continue;
+    ++finished;
+    const Run& run = *replicate.run;
+    if (run.tray_empty_since >= 0 && run.tray_empty_since < replicate.outflow.window_to) ++dry;
+    if (run.outside_the_model) ++outside;
+    if (run.balance.lost > 0) ++lost;
+  }
+  std::vector<std::string> remarks;
+  if (outside > 0) remarks.push_back("outside the model");
+  if (dry > 0) remarks.push_back(fmt::format("ran dry in {} of {} runs", dry, finished));
+  if (lost > 0) remarks.push_back(fmt::format("seeds lost through walls in {} of {} runs", lost, finished));
+  return fmt::format("{}", fmt::join(remarks, "; "));
+}
+
+void set_status(LayoutResult& result, const std::vector<Replicate>& replicates) {
+  result.replicates = static_cast<int>(std::ranges::count_if(replicates, &Replicate::finished));
+  const auto refused = std::ranges::find_if(replicates, [](const Replicate& one) { return !one.refused.empty(); });
+  const auto stopped = std::ranges::find_if(
+      replicates, [](const Replicate& one) { return one.run && one.run->status == RunStatus::stopped_by_guard; });
+  if (refused != replicates.end()) {
+    result.status = LayoutStatus::invalid;
+    result.reason = refused->refused;
+  } else if (stopped != replicates.end()) {
+    result.status = LayoutStatus::stopped;
+    result.reason = fmt::format("random seed {}: {}", stopped->random_seed, stopped->run->stop_reason);
+  } else if (result.replicates < static_cast<int>(replicates.size())) {
+    result.status = LayoutStatus::interrupted;
+    result.reason = fmt::format("{} of {} runs finished", result.replicates, replicates.size());
+  } else {
+    result.reason = remarks_on(replicates);
+  }
+}
+
+LayoutResult result_of(const Layout& layout, const std::vector<std::vector<Replicate>>& runs) {
+  LayoutResult result;
+  if (!layout.scene) {
+    result.status = LayoutStatus::invalid;
+    result.reason = layout.invalid;
+    return result;
+  }
+  const std::vector<Replicate>& replicates = runs[*layout.scene];
+  set_status(result, replicates);
+  result.figures = figures_of(replicates);
+  result.holes = hole_figures(replicates);
+  return result;
+}
+
+}  // namespace
+
+StudyResult sweep(const Study& study, const Simulator& simulator, const SweepOptions& options) {
+  StudyResult result;
+  result.study = study;
+  result.runs = run_scenes(study, simulator, options);
+  for (const Layout& layout : study.layouts) result.layouts.push_back(result_of(layout, result.runs));
+  if (study.measured) compare_with_measured(result);
+  return result;
+}
+
+}  // namespace vibrosow

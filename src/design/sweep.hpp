@@ -1,0 +1,88 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "design/many_runs.hpp"
+#include "design/study.hpp"
+#include "outflow/outflow.hpp"
+#include "outflow/statistics.hpp"
+#include "simulation/run.hpp"
+
+namespace vibrosow {
+
+struct SweepOptions {
+  std::uint64_t first_random_seed = 1;  // replicates use this one and those that follow
+  ManyRunsOptions runs;
+};
+
+/// One run of a scene and what its holes gave. Not begun: no run.
+struct Replicate {
+  std::uint64_t random_seed = 1;
+  std::optional<Run> run;
+  Outflow outflow;      // when there is a run
+  std::string refused;  // why the simulator did not take the scene
+  bool finished() const { return run && run->status == RunStatus::finished; }
+};
+
+enum class LayoutStatus { ok, invalid, stopped, interrupted };
+
+/// Means over the finished replicates; none where no replicate has a value.
+struct Figures {
+  std::optional<MeanWithInterval> mass_rate;       // kg/s, all holes and lots, of the plane slice
+  std::optional<MeanWithInterval> seeds_per_s;     // all holes and lots
+  std::optional<MeanWithInterval> evenness_cv;     // fraction
+  std::optional<MeanWithInterval> instability_cv;  // fraction
+  std::optional<MeanWithInterval> longest_pause;   // s, between any two seeds of the whole outflow
+  std::optional<MeanWithInterval> spilled_share;   // fraction
+  std::optional<MeanWithInterval> misfit_percent;  // of the mean outflow; interval from the misfits of the replicates
+};
+
+/// One hole and lot, over the finished replicates.
+struct HoleFigures {
+  std::string hole, lot;
+  std::optional<double> centre, width;  // m
+  std::optional<MeanWithInterval> seeds_per_s;
+  std::optional<MeanWithInterval> mass_rate;      // kg/s
+  std::optional<MeanWithInterval> longest_pause;  // s
+  std::optional<MeanWithInterval> measured;       // SI; of a table of rates
+  std::optional<double> difference_percent;       // (simulated scale - measured) / measured
+};
+
+struct LayoutResult {
+  LayoutStatus status = LayoutStatus::ok;
+  std::string reason;  // of a status other than ok; of ok, what to know: "outside the model", "ran dry in 2 of 5 runs"
+  int replicates = 0;  // finished
+  Figures figures;
+  std::vector<HoleFigures> holes;
+};
+
+/// A measured value beside the simulated one, scaled; SI.
+struct ComparisonRow {
+  std::size_t layout;          // index in Study::layouts
+  std::string hole;
+  std::optional<double> time;  // s, of a curve
+  double measured;
+  MeanWithInterval simulated;
+};
+
+struct Comparison {
+  std::optional<double> scale;           // none: nothing to fit it to, or each layout has its own (depth)
+  std::optional<double> misfit_percent;  // over all rows
+  std::vector<ComparisonRow> rows;
+};
+
+struct StudyResult {
+  Study study;
+  std::vector<std::vector<Replicate>> runs;  // of each of Study::scenes
+  std::vector<LayoutResult> layouts;         // of each of Study::layouts
+  std::optional<Comparison> comparison;
+};
+
+/// Runs every scene of a study with every random seed. The result depends on the study and the first random seed alone, not
+/// on the number of threads. An interrupted sweep keeps what was finished.
+StudyResult sweep(const Study& study, const Simulator& simulator, const SweepOptions& options);
+
+}  // namespace vibrosow

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "design/accuracy.hpp"
+
+namespace vibrosow {
+
+/// One row per setting; a setting that gave no rate has its cells empty.
+std::string accuracy_csv(const AccuracyResult& result);
+
+/// Wall times of this machine, mean of a setting's runs.
+std::string accuracy_timing_csv(const AccuracyResult& result);
+
+/// The same rows for a terminal, with the reason where a setting gave no rate.
+std::string accuracy_table(const AccuracyResult& result);
+
+/// What 1 % of outflow costs: the cheapest setting whose |error| is at most 1 %, with its error and its cost against the reference.
+std::string accuracy_sentence(const AccuracyResult& result);
+
+/// Writes accuracy.csv, accuracy_timing.csv and timing.json into `directory`, all or none. Throws InputError where that fails.
+void write_accuracy_report(const std::filesystem::path& directory, const AccuracyResult& result, double wall_time,
+                           int jobs);
+
+}  // namespace vibrosow

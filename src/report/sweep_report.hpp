@@ -1,0 +1,29 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "design/sweep.hpp"
+
+namespace vibrosow {
+
+/// One row per layout: what tells it apart, and each figure with its 95 % half width. Percent are percent.
+std::string sweep_csv(const StudyResult& result);
+
+/// One row per layout, hole and lot. `measured` is in the unit of the measured table's quantity.
+std::string sweep_holes_csv(const StudyResult& result);
+
+/// One row per layout and random seed; a scene shared by several layouts is listed under each and says so.
+std::string sweep_runs_csv(const StudyResult& result);
+
+/// One row per layout and measured value. Simulated values are scaled, in the unit of the measured column.
+std::string comparison_csv(const StudyResult& result);
+
+/// What the sweep took on this machine. `wall_time`: s, from beginning to end.
+std::string sweep_timing_json(const StudyResult& result, double wall_time, int jobs);
+
+/// Writes sweep.csv, sweep_holes.csv, sweep_runs.csv, timing.json and, with measured outflow, comparison.csv into
+/// `directory`, all or none. Throws InputError where that fails.
+void write_sweep_report(const std::filesystem::path& directory, const StudyResult& result, double wall_time, int jobs);
+
+}  // namespace vibrosow
