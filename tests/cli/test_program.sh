@@ -1,0 +1,113 @@
+#!/usr/bin/env bash
+# The program as a user runs it. Usage: test_program.sh PROGRAM; ends with 0 when every check holds.
+set -u
+program=$(realpath "$1")
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+cd "$work" || exit 1
+failures=0
+
+fail() { echo "FAILED: $*"; failures=$((failures + 1)); }
+# expect CODE PATTERN ARGUMENTS...: exit code and a pattern in what was printed.
+expect() {
+  local code=$1 pattern=$2; shift 2
+  local printed; printed=$("$program" "$@" 2>&1); local got=$?
+  [ $got -eq "$code" ] || fail "vibrosow $*: exit code $got, not $code: $printed"
+  grep -qE -- "$pattern" <<<"$printed" || fail "vibrosow $*: nothing like \"$pattern\" in: $printed"
+}
+have() { local file; for file in "$@"; do [ -s "$file" ] || fail "$file is missing or empty"; done; }
+
+cat >seeder.toml <<'END'
+title = "Small tray"
+[seeds.wheat]
+diameter = "4 mm"
+mass = "40 mg"
+[contact]
+shell_compression = 1e-3
+friction = 0.3
+restitution = 0.5
+[tray]
+length = "12 cm"
+height = "6 cm"
+fill = { count = 40, packing = "layers" }
+[tray.holes]
+count = 2
+width = "16 mm"
+[run]
+duration = "0.1 s"
+measure_from = "0.02 s"
+END
+cat >study.toml <<'END'
+base = "seeder.toml"
+replicates = 2
+[vary]
+tray.holes.count = [1, 2]
+END
+
+expect 0 "sweep .*layout" --help
+expect 0 "^vibrosow [0-9]" --version
+expect 2 "." nonsense
+expect 2 "." run
+expect 2 "." run seeder.toml --jobs 0
+expect 2 "nowhere.toml" run nowhere.toml
+expect 0 "wheat" presets crops
+expect 0 "wheat-tray" presets seeders
+
+sed 's/width = "16 mm"/widht = "16 mm"/' seeder.toml >misspelled.toml
+expect 2 "misspelled.toml:15.*widht.*width" check misspelled.toml
+sed 's/width = "16 mm"/width = "16"/' seeder.toml >unitless.toml
+expect 2 "unitless.toml:15" run unitless.toml
+expect 2 "too long.*longest safe step" check seeder.toml --set "numerics.dt=1 ms"
+expect 2 "too long" run seeder.toml --set "numerics.dt=1 ms"
+expect 0 "friction" check seeder.toml
+expect 0 "^tray.holes.count,hole" check study.toml
+
+expect 0 "reports: one" run seeder.toml --out one
+have one/outflow.csv one/summary.csv one/run.json one/timing.json
+expect 0 "" run seeder.toml --quiet
+have out/seeder/outflow.csv
+[ -z "$("$program" run seeder.toml --quiet --out quiet 2>&1)" ] || fail "--quiet prints"
+cmp -s one/outflow.csv out/seeder/outflow.csv || fail "the same random seed gives other bytes"
+expect 0 "" run seeder.toml --random-seed 2 --out other
+cmp -s one/outflow.csv other/outflow.csv && fail "another random seed gives the same bytes"
+
+expect 0 "reports: one-job" sweep study.toml --out one-job --jobs 1
+expect 0 "reports: two-jobs" sweep study.toml --out two-jobs --jobs 2
+for file in sweep.csv sweep_holes.csv sweep_runs.csv; do
+  have one-job/$file
+  cmp -s one-job/$file two-jobs/$file || fail "$file depends on --jobs"
+done
+
+expect 0 "cost" accuracy seeder.toml --out accuracy --integrator velocity-verlet --steps-per-contact 10,20 \
+  --shell-compression 1e-3 --slip-speed "20 mm/s" --replicates 2
+have accuracy/accuracy.csv accuracy/accuracy_timing.csv accuracy/timing.json
+[ "$(wc -l <accuracy/accuracy.csv)" -eq 3 ] || fail "accuracy.csv has not two rows"
+
+# A file may grow to 512 bytes only: as on a full disk.
+printed=$(bash -c 'trap "" XFSZ; ulimit -f 1; exec "$0" run seeder.toml --out full --quiet --set "run.duration=0.3 s"' "$program" 2>&1)
+[ $? -eq 2 ] || fail "a full disk does not end with 2: $printed"
+grep -q "cannot be written" <<<"$printed" || fail "a full disk is not named: $printed"
+[ -z "$(find full -type f 2>/dev/null)" ] || fail "a full disk leaves $(find full -type f)"
+
+# Ctrl-C: the first layouts are done in a moment, the last would take hours. Job control, because a background job of a
+# plain script ignores SIGINT.
+cat >long.toml <<'END'
+base = "seeder.toml"
+replicates = 1
+[vary]
+run.duration = ["0.1 s", "9000 s"]
+END
+set -m
+"$program" sweep long.toml --out long --jobs 1 --quiet &
+pid=$!
+sleep 2
+kill -INT $pid
+wait $pid
+[ $? -eq 130 ] || fail "Ctrl-C does not end with 130"
+set +m
+have long/sweep.csv
+grep -q '^1,,ok,' long/sweep.csv || fail "Ctrl-C lost what was finished: $(cat long/sweep.csv)"
+grep -q '^2,,interrupted,' long/sweep.csv || fail "the interrupted layout is not marked: $(cat long/sweep.csv)"
+
+[ $failures -eq 0 ] && echo "all checks hold"
+exit $((failures > 0))

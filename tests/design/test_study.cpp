@@ -1,0 +1,143 @@
+#include "design/study.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "scene/input_error.hpp"
+#include "study_files.hpp"
+
+namespace vibrosow {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::ThrowsMessage;
+
+TEST(Range, HasBothEndsInTheUnitOfItsStart) {
+  EXPECT_THAT(range_values("tray.motion.frequency", "7 Hz", "13 Hz", "2 Hz"),
+              ElementsAre("\"7 Hz\"", "\"9 Hz\"", "\"11 Hz\"", "\"13 Hz\""));
+  EXPECT_THAT(range_values("tray.holes.span", "30 cm", "0.36 m", "30 mm"),
+              ElementsAre("\"30 cm\"", "\"33 cm\"", "\"36 cm\""));
+  EXPECT_THAT(range_values("contact.friction", "0.1", "0.3", "0.1"), ElementsAre("0.1", "0.2", "0.3"));
+  EXPECT_THAT(range_values("tray.holes.count", "5", "1", "-2"), ElementsAre("5", "3", "1"));
+}
+
+TEST(Range, ThatMissesItsEndOrNeverStepsIsRefused) {
+  EXPECT_THROW(range_values("tray.motion.frequency", "7 Hz", "12 Hz", "2 Hz"), std::invalid_argument);
+  EXPECT_THROW(range_values("tray.holes.count", "1", "5", "0"), std::invalid_argument);
+  EXPECT_THROW(range_values("tray.holes.count", "1", "5", "-1"), std::invalid_argument);
+  EXPECT_THROW(range_values("tray.holes.count", "1 mm", "5 mm", "1 mm"), std::invalid_argument);
+}
+
+TEST(Study, ExpandsTheGridFirstKeySlowestInFileOrder) {
+  const StudyFiles files;
+  const Study study = read_study(files.study(R"([vary]
+tray.holes.span = ["30 cm", "36 cm"]
+tray.holes.count = [3, 5]
+)"));
+  EXPECT_THAT(study.keys, ElementsAre("tray.holes.span", "tray.holes.count"));
+  ASSERT_EQ(study.layouts.size(), 4u);
+  EXPECT_EQ(study.replicates, 5);
+  std::vector<std::string> seen;
+  for (Layout layout : study.layouts)
+    seen.push_back(layout.values["tray.holes.span"] + "/" + layout.values["tray.holes.count"]);
+  EXPECT_THAT(seen, ElementsAre("300/3", "300/5", "360/3", "360/5"));
+  EXPECT_EQ(study.scenes[1].tray.holes.size(), 5u);
+  EXPECT_DOUBLE_EQ(study.scenes[1].tray.holes.back().centre - study.scenes[1].tray.holes.front().centre, 0.30);
+}
+
+TEST(Study, SameHolesFromDifferentKeysAreOneScene) {
+  const StudyFiles files;
+  const Study study = read_study(files.study(R"([vary]
+tray.holes.count = [1, 3]
+tray.holes.span = ["30 cm", "36 cm"]
+)"));
+  ASSERT_EQ(study.layouts.size(), 4u);
+  EXPECT_EQ(study.scenes.size(), 3u);
+  EXPECT_EQ(study.layouts[0].scene, study.layouts[1].scene);
+}
+
+TEST(Study, ImpossibleLayoutIsListedWithItsReason) {
+  const StudyFiles files;
+  const Study study = read_study(files.study("[vary]\ntray.holes.span = [\"36 cm\", \"90 cm\"]\n"));
+  EXPECT_TRUE(study.layouts[0].scene);
+  EXPECT_FALSE(study.layouts[1].scene);
+  EXPECT_THAT(study.layouts[1].invalid, HasSubstr("study.toml:3"));
+}
+
+TEST(Study, StepTooLongMakesALayoutInvalid) {
+  const StudyFiles files;
+  const Study study = read_study(files.study("[vary]\nnumerics.dt = [\"1e-6 s\", \"1 ms\"]\n"));
+  EXPECT_TRUE(study.layouts[0].scene);
+  EXPECT_THAT(study.layouts[1].invalid, HasSubstr("longest safe step"));
+}
+
+TEST(Study, WhereNothingIsValidStopsWithTheReason) {
+  const StudyFiles files;
+  const auto path = files.study("[set]\ntray.hole.count = 3\n[vary]\ncontact.friction = [0.1, 0.2]\n");
+  EXPECT_THAT([&] { read_study(path); }, ThrowsMessage<InputError>(HasSubstr("study.toml:3")));
+}
+
+TEST(Study, NamedDesignsRunOverTheGrid) {
+  const StudyFiles files;
+  const Study study = read_study(files.study(R"(replicates = 2
+[vary]
+contact.friction = [0.1, 0.2]
+[[layout]]
+name = "wide"
+tray.holes.width = "20 mm"
+[[layout]]
+name = "narrow"
+[layout.tray.holes]
+width = "12 mm"
+)"));
+  ASSERT_EQ(study.layouts.size(), 4u);
+  EXPECT_EQ(study.layouts[1].name, "wide");
+  EXPECT_EQ(study.layouts[2].name, "narrow");
+  EXPECT_DOUBLE_EQ(study.scenes[2].tray.holes[0].width, 0.012);
+  EXPECT_EQ(study.layouts[3].values.at("contact.friction"), "0.2");
+}
+
+TEST(Study, KeyBothSetAndVariedIsRefused) {
+  const StudyFiles files;
+  const auto path = files.study("[set]\ncontact.friction = 0.1\n[vary]\ncontact.friction = [0.1, 0.2]\n");
+  EXPECT_THAT([&] { read_study(path); }, ThrowsMessage<InputError>(HasSubstr("varied here, and set at")));
+}
+
+TEST(Study, OverridesReachTheStudyOrItsSeeders) {
+  const StudyFiles files;
+  const auto path = files.study("[vary]\ncontact.friction = [0.1, 0.2]\n");
+  const Study study = read_study(path, {{"replicates", "7", "--set"}, {"tray.holes.count", "5", "--set"}});
+  EXPECT_EQ(study.replicates, 7);
+  EXPECT_EQ(study.scenes[0].tray.holes.size(), 5u);
+}
+
+TEST(Study, MistakesOfItsOwnAreNamed) {
+  const StudyFiles files;
+  EXPECT_THAT([&] { read_study(files.study("replicate = 3\n")); }, ThrowsMessage<InputError>(HasSubstr("replicates")));
+  EXPECT_THROW(read_study(files.study("replicates = 0\n")), InputError);
+  EXPECT_THROW(read_study(files.study("[vary]\ntray.holes.count = []\n")), InputError);
+  EXPECT_THROW(read_study(files.study("[vary]\ntray.holes.count = {from = 1, to = 5}\n")), InputError);
+}
+
+TEST(Study, WithoutVaryItsLayoutsAreTheMeasuredConditions) {
+  const StudyFiles files;
+  files.write("bench.csv", "tray.holes.count,hole,rate_g_per_s\n3,1,0.5\n3,2,0.6\n5,all,2\n");
+  const Study study = read_study(files.study("[measured]\nfile = \"bench.csv\"\nscale = \"free\"\n"));
+  ASSERT_EQ(study.layouts.size(), 2u);
+  ASSERT_EQ(study.measured->matches.size(), 3u);
+  EXPECT_EQ(study.measured->matches[2].layout, 1u);
+}
+
+TEST(Study, MeasuredConditionLeftOutMeansTheBase) {
+  const StudyFiles files;
+  files.write("bench.csv", "tray.holes.count,rate_g_per_s\n3,0.5\n5,2\n");
+  const Study study = read_study(
+      files.study("[vary]\ncontact.friction = [0.1, 0.2]\n[measured]\nfile = \"bench.csv\"\n"));
+  ASSERT_EQ(study.measured->matches.size(), 2u);  // the base has three holes: the row of five fits no layout
+  EXPECT_EQ(study.measured->matches[0].series, 0u);
+  EXPECT_EQ(study.measured->matches[1].series, 0u);
+}
+
+}  // namespace
+}  // namespace vibrosow

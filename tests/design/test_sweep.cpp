@@ -1,0 +1,150 @@
+#include "design/sweep.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <atomic>
+
+#include "report/sweep_report.hpp"
+#include "scene/input_error.hpp"
+#include "study_files.hpp"
+
+namespace vibrosow {
+namespace {
+
+using testing::HasSubstr;
+
+SweepOptions with_jobs(int jobs) {
+  SweepOptions options;
+  options.runs.jobs = jobs;
+  return options;
+}
+
+Study three_layouts(const StudyFiles& files) {
+  return read_study(files.study("replicates = 3\n[vary]\ntray.holes.count = [1, 3, 5]\n"));
+}
+
+TEST(Sweep, MeansAndIntervalsAreOfTheReplicates) {
+  const StudyFiles files;
+  const StudyResult result = sweep(three_layouts(files), quick_run, with_jobs(1));
+  // One hole: 11, 12, 13 seeds in 2 s; t(0.975, 2) = 4.3027, sd 0.5.
+  const auto& rate = *result.layouts[0].figures.seeds_per_s;
+  EXPECT_DOUBLE_EQ(rate.mean, 6.0);
+  EXPECT_NEAR(*rate.half_width_95, 4.3027 * 0.5 / std::sqrt(3.0), 1e-4);
+  EXPECT_FALSE(result.layouts[0].figures.evenness_cv);
+  EXPECT_TRUE(result.layouts[1].figures.evenness_cv);
+  EXPECT_EQ(result.layouts[2].replicates, 3);
+}
+
+TEST(Sweep, NumberOfJobsDoesNotShow) {
+  const StudyFiles files;
+  const Study study = three_layouts(files);
+  const StudyResult one = sweep(study, quick_run, with_jobs(1));
+  const StudyResult two = sweep(study, quick_run, with_jobs(2));
+  EXPECT_EQ(sweep_csv(one), sweep_csv(two));
+  EXPECT_EQ(sweep_holes_csv(one), sweep_holes_csv(two));
+  EXPECT_EQ(sweep_runs_csv(one), sweep_runs_csv(two));
+}
+
+TEST(Sweep, FirstRandomSeedActs) {
+  const StudyFiles files;
+  SweepOptions options = with_jobs(1);
+  options.first_random_seed = 11;
+  const StudyResult result = sweep(three_layouts(files), quick_run, options);
+  EXPECT_EQ(result.runs[0][2].random_seed, 13u);
+  EXPECT_DOUBLE_EQ(result.layouts[0].figures.seeds_per_s->mean, 11.0);
+}
+
+TEST(Sweep, InterruptKeepsWhatIsFinished) {
+  const StudyFiles files;
+  std::atomic<bool> interrupt{false};
+  std::atomic<int> begun{0};
+  const Simulator fifth_is_interrupted = [&](const Scene& scene, const SimulationOptions& options) {
+    vibrosow::Run run = quick_run(scene, options);
+    if (++begun == 5) {
+      interrupt = true;
+      run.status = RunStatus::interrupted;
+    }
+    return run;
+  };
+  SweepOptions options = with_jobs(1);
+  options.runs.interrupt = &interrupt;
+  const StudyResult result = sweep(three_layouts(files), fifth_is_interrupted, options);
+  EXPECT_EQ(begun, 5);
+  EXPECT_EQ(result.layouts[0].status, LayoutStatus::ok);
+  EXPECT_EQ(result.layouts[1].status, LayoutStatus::interrupted);
+  EXPECT_EQ(result.layouts[1].replicates, 1);
+  EXPECT_EQ(result.layouts[2].replicates, 0);
+  EXPECT_FALSE(result.layouts[2].figures.mass_rate);
+  EXPECT_THAT(sweep_csv(result), HasSubstr("\n3,,interrupted,0 of 3 runs finished,5,0,,"));
+}
+
+TEST(Sweep, GuardAndRefusalGiveAStatusAndAReason) {
+  const StudyFiles files;
+  const Simulator troubled = [](const Scene& scene, const SimulationOptions& options) {
+    if (scene.tray.holes.size() == 3) throw InputError("the fill does not fit");
+    vibrosow::Run run = quick_run(scene, options);
+    if (scene.tray.holes.size() == 5 && options.random_seed == 2) {
+      run.status = RunStatus::stopped_by_guard;
+      run.stop_reason = "compression 0.6";
+    }
+    return run;
+  };
+  const StudyResult result = sweep(three_layouts(files), troubled, with_jobs(1));
+  EXPECT_EQ(result.layouts[1].status, LayoutStatus::invalid);
+  EXPECT_EQ(result.layouts[1].reason, "the fill does not fit");
+  EXPECT_EQ(result.layouts[2].status, LayoutStatus::stopped);
+  EXPECT_EQ(result.layouts[2].reason, "random seed 2: compression 0.6");
+  EXPECT_EQ(result.layouts[2].replicates, 2);
+}
+
+TEST(Sweep, SharedSceneIsRunOnceAndListedUnderEach) {
+  const StudyFiles files;
+  const Study study = read_study(files.study(
+      "replicates = 2\n[vary]\ntray.holes.count = [1]\ntray.holes.span = [\"30 cm\", \"36 cm\"]\n"));
+  std::atomic<int> runs{0};
+  const StudyResult result = sweep(
+      study, [&](const Scene& scene, const SimulationOptions& options) { return ++runs, quick_run(scene, options); },
+      with_jobs(1));
+  EXPECT_EQ(runs, 2);
+  EXPECT_EQ(result.layouts[0].figures.mass_rate->mean, result.layouts[1].figures.mass_rate->mean);
+  EXPECT_THAT(sweep_runs_csv(result), HasSubstr("same run as of layout 1"));
+}
+
+TEST(Sweep, FreeScaleIsFittedAndRatesAreCompared) {
+  const StudyFiles files;
+  // Means over seeds 1..3 in 2 s: holes 1, 2, 3 give 6, 11, 16 seeds/s; the bench caught twice that.
+  files.write("bench.csv", "hole,seeds_per_s\n1,12\n2,22\n3,32\n");
+  const Study study = read_study(files.study("replicates = 3\n[measured]\nfile = \"bench.csv\"\nscale = \"free\"\n"));
+  const StudyResult result = sweep(study, quick_run, with_jobs(1));
+  EXPECT_NEAR(*result.comparison->scale, 2.0, 1e-12);
+  EXPECT_NEAR(*result.comparison->misfit_percent, 0.0, 1e-9);
+  EXPECT_THAT(comparison_csv(result), HasSubstr("\n1,2,,22,22,"));
+  EXPECT_NEAR(*result.layouts[0].holes[2].difference_percent, 0.0, 1e-9);
+}
+
+TEST(Sweep, CurveIsComparedAtItsTimesWithinTheRun) {
+  const StudyFiles files;
+  files.write("curve.csv", "time_s,seeds\n2,0\n4,12\n9,40\n");
+  const Study study = read_study(
+      files.study("replicates = 3\n[set]\ntray.holes.count = 1\n[measured]\nfile = \"curve.csv\"\nscale = \"none\"\n"));
+  const StudyResult result = sweep(study, quick_run, with_jobs(1));
+  ASSERT_EQ(result.comparison->rows.size(), 2u);
+  EXPECT_DOUBLE_EQ(result.comparison->rows[1].simulated.mean, 12.0);
+  EXPECT_NEAR(result.layouts[0].figures.misfit_percent->mean, 0.0, 1e-9);
+  EXPECT_THAT(result.layouts[0].reason, HasSubstr("left out"));
+}
+
+TEST(SweepReport, ColumnsAreTheDocumentedOnes) {
+  const StudyFiles files;
+  const Study study = read_study(files.study("[vary]\ntray.holes.span = [\"30 cm\"]\n"));
+  const std::string csv = sweep_csv(sweep(study, quick_run, with_jobs(1)));
+  EXPECT_EQ(csv.substr(0, csv.find('\n')),
+            "layout,name,status,reason,tray.holes.span_mm,replicates,rate_g_per_s,rate_g_per_s_ci95,seeds_per_s,"
+            "seeds_per_s_ci95,evenness_cv_percent,evenness_cv_percent_ci95,instability_cv_percent,"
+            "instability_cv_percent_ci95,longest_pause_s,longest_pause_s_ci95,spilled_percent,spilled_percent_ci95,"
+            "misfit_percent,misfit_percent_ci95");
+}
+
+}  // namespace
+}  // namespace vibrosow
