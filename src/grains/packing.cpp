@@ -92,7 +92,7 @@ class Heap {
           const double reach = radius + disc.radius, dx = x - disc.x;
           if (std::abs(dx) >= reach) continue;
           const double touch = disc.y + std::sqrt(reach * reach - dx * dx);
-          if (touch <= from + 1e-9 * cell_ && (first < 0 || touch > height)) first = k, height = touch;
+          if (touch <= from + 1e-6 * cell_ && (first < 0 || touch > height)) first = k, height = touch;
         }
       }
     }
@@ -129,10 +129,13 @@ struct Rolled {
 Rolled roll_down(const Heap& heap, int support, double length, double side, double y, double radius) {
   const Heap::Disc& on = heap[support];
   const double reach = radius + on.radius;
+  // In a perfect lattice a grain touches several others at once: places closer than this are the same.
+  const double tolerance = 1e-6 * reach;
   Rolled first{{on.x + side * reach, on.y}, -1, false};  // nothing met: it comes off at the disc's equator
   const auto meet = [&](const Eigen::Vector2d& at, int disc, bool rests) {
-    const bool on_the_way = at.y() <= y + 1e-12 * reach && side * (at.x() - on.x) >= 0;
-    if (on_the_way && at.y() > first.centre.y()) first = {at, disc, rests};
+    const bool on_the_way = at.y() <= y + tolerance && side * (at.x() - on.x) >= -tolerance;
+    if (on_the_way && at.y() >= first.centre.y() - (first.met < 0 && !first.rests ? tolerance : 0))
+      first = {at, disc, rests};
   };
   heap.near(on.x, on.y, [&](int k) {
     if (k == support) return;

@@ -1,0 +1,111 @@
+// Walls: the pair's law, found through Box2D alone, each touched once.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+#include "scene/vessel_walls.hpp"
+#include "support/bench.hpp"
+
+namespace vibrosow {
+namespace {
+
+// A wall is a grain of infinite radius and mass with a rigid shell.
+TEST(Wall, IsAGrainOfInfiniteRadiusAndMass) {
+  Bench bench;
+  bench.scene.contact.seed = bench.scene.contact.wall = {0.3, 0.5};
+  EffectSet effects = effects_of(bench.scene);
+  effects.unequal = true;
+  const double overlap = 1e-5, giant = 1e3;
+  const auto forces = [&](bool as_wall) {
+    std::vector<GrainKind> kinds = grain_kinds(bench.scene, true);
+    kinds.push_back({giant, 1e300, 0, 0, 0});
+    Grains grains(kinds, true, true);
+    grains.add(0.5, Bench::radius - overlap, 0.07, -0.02, 0);
+    grains.omega[0] = 5;
+    if (!as_wall) grains.add(0.5, -giant, 0.01, 0.03, 1);
+    const PairList pairs = as_wall ? PairList{{0, 0}, {}} : PairList{{0, 1, 1}, {1}};
+    const std::vector<PlacedWall> walls{{0, 0, 1, 0, 0, 1, 0.01, 0.03}};
+    std::vector<WallCandidate> near;
+    if (as_wall) near.push_back({0, 0, 1});
+    Forces f{{0, 0}, {0, 0}, {0, 0}};
+    ContactCensus census;
+    const Motion at{grains.x.data(), grains.y.data(), grains.vx.data(), grains.vy.data(), grains.omega.data()};
+    const KernelSet& kernels = kernels_for(Law::elastic_shell, effects);
+    const ContactParameters parameters = contact_parameters(bench.scene.contact);
+    kernels.pair(grains, at, pairs, parameters, f, census);
+    kernels.wall(grains, at, near, walls, parameters, f, census);
+    EXPECT_EQ(census.contacts, 1);
+    EXPECT_NEAR(census.max_compression, overlap / Bench::radius, 1e-7);
+    return f;
+  };
+  const Forces wall = forces(true), pair = forces(false);
+  // The giant's centre is 1 km away: its surface is placed to 1e-13 m, 1e-8 of the overlap.
+  EXPECT_NEAR(wall.fx[0], pair.fx[0], 1e-6 * std::abs(pair.fx[0]));
+  EXPECT_NEAR(wall.fy[0], pair.fy[0], 1e-6 * std::abs(pair.fy[0]));
+  EXPECT_NEAR(wall.torque[0], pair.torque[0], 1e-6 * std::abs(pair.torque[0]));
+  EXPECT_GT(pair.fy[0], 0);
+}
+
+TEST(Wall, AJointOfTwoPiecesPushesOnce) {
+  // A funnel's ridge between two holes: two slopes share a vertex; a grain resting on it touches that vertex alone, and the
+  // force is one shell's.
+  Bench bench;
+  bench.scene.tray.holes = {{0.2, 0.1}, {0.8, 0.1}};
+  bench.scene.tray.funnel = 0.5;
+  const double ridge = std::tan(0.5) * 0.25, overlap = 1e-6;
+  bench.place(0.5, ridge + Bench::radius - overlap);
+  Simulation& run = bench.start(1e-9);
+  const double stiffness = Bench::mass * standard_gravity / (1e-4 * Bench::radius);
+  EXPECT_NEAR(run.field().forces().fy[0], stiffness * overlap, 1e-6 * stiffness * overlap);
+}
+
+TEST(Wall, AVertexIsDroppedWhereAnAdjacentFaceIsTouched) {
+  Bench bench;
+  bench.scene.tray.holes = {{0.5, 0.1}};
+  const double overlap = 1e-4, inside = 1e-5;  // just beside the hole's left edge at 0.45
+  bench.place(0.45 - inside, Bench::radius - overlap);
+  Simulation& run = bench.start(1e-9);
+  const double stiffness = Bench::mass * standard_gravity / (1e-4 * Bench::radius);
+  EXPECT_NEAR(run.field().forces().fy[0], stiffness * overlap, 1e-9 * stiffness * overlap);
+  EXPECT_EQ(run.field().forces().fx[0], 0);
+}
+
+TEST(Wall, IsKnownToTheContactsThroughBox2DAlone) {
+  for (const bool without : {false, true}) {
+    Bench bench;
+    bench.gravity = {0, -standard_gravity};
+    bench.scene.guard.stop_compression = 100;
+    bench.place(0.5, 2 * Bench::radius);
+    Simulation& run = bench.start(1e-5);
+    const std::vector<WallSegment> walls = vessel_walls(bench.scene.tray);
+    if (without)
+      for (std::size_t w = 0; w < walls.size(); ++w)
+        if (walls[w].name.find("floor") != std::string::npos)
+          run.field().neighbours().broadphase().remove_wall(static_cast<int>(w));
+    run.field().neighbours().forget();
+    run.steps(8000);
+    if (without)
+      EXPECT_LT(run.grains().size() == 0 ? -1.0 : run.grains().y[0], -0.01) << "nothing else may hold the grain";
+    else
+      EXPECT_GT(run.grains().y[0], 0.9 * Bench::radius);
+  }
+}
+
+TEST(Wall, WorkOfAMovingFloorIsAccountedFor) {
+  // Elastic grains on a vibrating floor: energy gained is the walls' work, to the schemes' accuracy.
+  Bench bench;
+  bench.gravity = {0, -standard_gravity};
+  bench.scene.tray.motion = HarmonicMotion{1.5707963267948966, 1e-3, 20, 0.05};
+  for (int k = 0; k < 10; ++k) bench.place(0.1 + 0.05 * k, (1.5 + 0.3 * k) * Bench::radius);
+  Simulation& run = bench.start(bench.contact_time() / 200);
+  const double before = kinetic_energy(run.grains()) + potential_energy(run.grains(), bench.gravity);
+  run.steps(100000);
+  const vibrosow::Run result = run.result();
+  ASSERT_GT(std::abs(result.energy.wall_work), 1e-5);
+  const double account = result.energy.kinetic + result.energy.potential + result.energy.elastic - before;
+  EXPECT_NEAR(account, result.energy.wall_work, 0.01 * std::abs(result.energy.wall_work));
+}
+
+}  // namespace
+}  // namespace vibrosow
