@@ -35,6 +35,7 @@ class Simulation {
   Grains& grains() { return grains_; }
   const Grains& grains() const { return grains_; }
   ForceField& field() { return field_; }
+  const ForceField& field() const { return field_; }
   const Guard& guard() const { return guard_; }
   const ContactCensus& census() const { return s_.census; }
 

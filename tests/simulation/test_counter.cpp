@@ -1,0 +1,127 @@
+// Counting grains at holes, and the balance put in = inside + counted + spilled + lost.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "simulation/simulate.hpp"
+#include "simulation/vessel_motion.hpp"
+#include "support/bench.hpp"
+
+namespace vibrosow {
+namespace {
+
+void expect_balanced(const Balance& b) { EXPECT_EQ(b.put_in, b.inside + b.counted + b.spilled + b.lost); }
+
+TEST(Counter, AGrainBelongsToTheHoleItsCentrePasses) {
+  Bench bench;
+  bench.gravity = {0, -standard_gravity};
+  bench.scene.tray.holes = {{0.3, 0.04}, {0.7, 0.05}};
+  bench.place(0.7, 0.1).place(0.3, 0.2);
+  Simulation& run = bench.start(1e-4);
+  run.steps(4000);
+  const vibrosow::Run result = run.result();
+  ASSERT_EQ(result.events.size(), 2u);
+  EXPECT_EQ(result.events[0].hole, 2);
+  EXPECT_EQ(result.events[1].hole, 1);
+  EXPECT_EQ(result.events[0].grain, 0);
+  EXPECT_NEAR(result.events[0].x, 0.7, 1e-12);
+  // Free fall of 0.1 m to the floor and 20 mm on to the line, interpolated well below the step.
+  const double fall = 0.12;
+  const double speed = std::sqrt(2 * fall * standard_gravity), step = 1e-4;
+  EXPECT_NEAR(result.events[0].time, speed / standard_gravity, standard_gravity * step * step / (2 * speed));
+  EXPECT_NEAR(result.events[0].speed, speed, standard_gravity * step * 1.001);
+  EXPECT_EQ(result.balance.counted, 2);
+  EXPECT_EQ(run.grains().size(), 0u) << "counted grains are taken out";
+  EXPECT_NEAR(result.tray_empty_since, std::sqrt(2 * 0.2 / standard_gravity), 2e-3);
+  expect_balanced(result.balance);
+}
+
+TEST(Counter, PassesInTheTraysFrame) {
+  // The tray swings to the left under a grain that falls straight down: it passes the hole that lies there then.
+  Bench bench;
+  bench.gravity = {0, -standard_gravity};
+  bench.scene.tray.holes = {{0.5, 0.03}};
+  bench.scene.tray.motion = HarmonicMotion{0, 0.05, 1.25, 0};
+  const double fall_time = std::sqrt(2 * 0.1 / standard_gravity);
+  const double shift = vessel_displacement(bench.scene.tray, fall_time).x();
+  ASSERT_GT(std::abs(shift), 0.03) << "the hole must have left its place at rest";
+  bench.place(0.5 + shift, 0.1);
+  Simulation& run = bench.start(1e-4);
+  run.steps(3000);
+  ASSERT_EQ(run.result().events.size(), 1u);
+  EXPECT_EQ(run.result().events[0].hole, 1);
+  EXPECT_NEAR(run.result().events[0].x, 0.5, 1e-4);
+}
+
+TEST(Counter, BesideTheTrayIsSpilled) {
+  Bench bench;
+  bench.gravity = {0, -standard_gravity};
+  bench.place(-0.1, 0.05).place(1.2, 0.05);
+  Simulation& run = bench.start(1e-4);
+  run.steps(3000);
+  EXPECT_EQ(run.result().balance.spilled, 2);
+  EXPECT_EQ(run.result().balance.counted, 0);
+  expect_balanced(run.result().balance);
+}
+
+TEST(Counter, ThrownBackUpIsNotCounted) {
+  Bench bench;
+  bench.scene.tray.holes = {{0.5, 0.1}};
+  bench.gravity = {0, 0.2};  // falls through the hole and comes back up before the line
+  bench.place(0.5, 0.005, 0, -0.08);
+  Simulation& run = bench.start(1e-4);
+  run.steps(20000);
+  EXPECT_EQ(run.result().balance.counted, 0);
+  EXPECT_EQ(run.result().balance.inside, 1);
+}
+
+TEST(Counter, AGrainThroughAWallIsLostNotCounted) {
+  Bench bench;
+  bench.gravity = {0, 0};
+  bench.scene.guard.stop_compression = 100;  // otherwise the guard stops first, see stability
+  bench.scene.contact.shell_compression = 0.1;
+  bench.place(0.5, 0.02, 0, -3);
+  Simulation& run = bench.start(1e-5);
+  run.steps(2000);
+  EXPECT_EQ(run.result().balance.lost, 1);
+  EXPECT_EQ(run.result().balance.counted, 0);
+  expect_balanced(run.result().balance);
+}
+
+TEST(Counter, FeedingKeepsTheBalance) {
+  Scene scene;
+  scene.lots = {{"grain", 6e-3, 2e-4, Shape::ball, 1.0}};
+  scene.contact.shell_compression = 1e-3;
+  scene.contact.seed = scene.contact.wall = {0.3, 0.5};
+  scene.contact.slip_speed = 0.1;
+  scene.tray.name = "tray";
+  scene.tray.length = 0.1;
+  scene.tray.height = 0.15;
+  scene.tray.holes = {{0.05, 0.035}};
+  scene.tray.fill = Fill{150, Packing::poured, 1e-3, true};
+  scene.run.duration = 1.0;
+  const vibrosow::Run run = simulate(scene);
+  EXPECT_EQ(run.status, RunStatus::finished) << run.stop_reason;
+  EXPECT_GT(run.balance.counted, 50);
+  EXPECT_GT(run.balance.put_in, 150);
+  EXPECT_EQ(run.balance.lost, 0);
+  // Never more than 5 ms of outflow short.
+  EXPECT_NEAR(static_cast<double>(run.balance.inside), 150, 12);
+  expect_balanced(run.balance);
+}
+
+TEST(Motion, VelocityIsTheDerivativeOfDisplacement) {
+  Vessel vessel;
+  vessel.motion = HarmonicMotion{0.7, 0.01, 9, 0.2};
+  for (double t : {0.0, 0.03, 0.1, 0.19, 0.2, 0.35}) {
+    const double h = 1e-6;
+    const Eigen::Vector2d slope = (vessel_displacement(vessel, t + h) - vessel_displacement(vessel, t - h)) / (2 * h);
+    EXPECT_NEAR((slope - vessel_velocity(vessel, t)).norm(), 0, 1e-5) << t;
+  }
+  EXPECT_EQ(vessel_velocity(vessel, 0).norm(), 0) << "a ramp starts from rest";
+  vessel.motion->ramp = 0;
+  EXPECT_NEAR(vessel_velocity(vessel, 0).norm(), 0.565, 1e-3) << "paper A's case jumps";
+}
+
+}  // namespace
+}  // namespace vibrosow

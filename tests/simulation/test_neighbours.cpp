@@ -1,0 +1,123 @@
+// Contacts found through Box2D against brute force, over whole runs.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <set>
+
+#include "contact/wall_kernel.hpp"
+#include "simulation/simulate.hpp"
+#include "support/bench.hpp"
+
+namespace vibrosow {
+namespace {
+
+/// A small tray that is shaken hard under a hopper that stands still and is kept topped up; two sizes of grain.
+Scene busy_scene() {
+  Scene scene;
+  scene.lots = {{"big", 8e-3, 6e-4, Shape::ball, 0.6}, {"small", 5e-3, 1.5e-4, Shape::ball, 0.4}};
+  scene.contact.shell_compression = 1e-3;
+  scene.contact.seed = scene.contact.wall = {0.3, 0.5};
+  scene.contact.slip_speed = 0.1;
+  scene.tray.name = "tray";
+  scene.tray.length = 0.2;
+  scene.tray.height = 0.08;
+  scene.tray.tilt = 0.05;
+  scene.tray.holes = {{0.06, 0.02}, {0.14, 0.03}};
+  scene.tray.fill = Fill{100, Packing::poured, 1e-3, false};
+  scene.tray.motion = HarmonicMotion{0.4, 5e-3, 12, 0};
+  Vessel hopper;
+  hopper.name = "hopper";
+  hopper.origin = {0.05, 0.11};
+  hopper.length = 0.1;
+  hopper.height = 0.1;
+  hopper.funnel = 0.7;
+  hopper.holes = {{0.05, 0.03}};
+  hopper.fill = Fill{60, Packing::poured, 1e-3, true};
+  scene.hopper = hopper;
+  scene.run.duration = 1;
+  return scene;
+}
+
+std::unique_ptr<Simulation> start(const Scene& scene, NeighbourMargins margins = {}) {
+  const EffectSet effects = effects_of(scene);
+  return std::make_unique<Simulation>(scene, starting_grains(scene, 7, effects),
+                                      SimulationSetup{.dt = 5e-5, .random_seed = 7, .effects = effects, .margins = margins});
+}
+
+using Contacts = std::set<std::pair<int, int>>;
+
+Contacts touching(const Grains& grains, const PairList& pairs) {
+  Contacts contacts;
+  for (std::size_t i = 0; i < pairs.grains(); ++i)
+    for (int k = pairs.first[i]; k < pairs.first[i + 1]; ++k) {
+      const std::size_t j = static_cast<std::size_t>(pairs.partner[static_cast<std::size_t>(k)]);
+      if (std::hypot(grains.x[i] - grains.x[j], grains.y[i] - grains.y[j]) < grains.kind(i).radius + grains.kind(j).radius)
+        contacts.emplace(static_cast<int>(i), static_cast<int>(j));
+    }
+  return contacts;
+}
+
+PairList every_pair(std::size_t grains) {
+  PairList all;
+  for (std::size_t i = 0; i < grains; ++i) {
+    for (std::size_t j = i + 1; j < grains; ++j) all.partner.push_back(static_cast<int>(j));
+    all.first.push_back(static_cast<int>(all.partner.size()));
+  }
+  return all;
+}
+
+Contacts touching_walls(const Grains& grains, const std::vector<PlacedWall>& walls,
+                        const std::vector<WallCandidate>* candidates) {
+  Contacts contacts;
+  const auto look = [&](int i, int w) {
+    const std::size_t k = static_cast<std::size_t>(i);
+    const NearestPoint nearest = nearest_point(walls[static_cast<std::size_t>(w)], grains.x[k], grains.y[k]);
+    if (nearest.distance2 < grains.kind(k).radius * grains.kind(k).radius) contacts.emplace(i, w);
+  };
+  if (candidates) {
+    for (const WallCandidate& c : *candidates) look(c.grain, c.wall);
+  } else {
+    for (int i = 0; i < static_cast<int>(grains.size()); ++i)
+      for (int w = 0; w < static_cast<int>(walls.size()); ++w) look(i, w);
+  }
+  return contacts;
+}
+
+TEST(Neighbours, MissNoContactOfAWholeRun) {
+  const auto run = start(busy_scene());
+  std::size_t pairs = 0, walls = 0;
+  for (int step = 0; step < 20000; ++step) {
+    ASSERT_TRUE(run->step()) << *run->guard().stop_reason();
+    if (step % 7 != 0) continue;
+    // Lists are those of the last force evaluation, which a velocity Verlet step makes at its end.
+    const Grains& grains = run->grains();
+    const Neighbours& neighbours = run->field().neighbours();
+    ASSERT_EQ(neighbours.pairs().grains(), grains.size());
+    const Contacts found = touching(grains, neighbours.pairs()), all = touching(grains, every_pair(grains.size()));
+    ASSERT_EQ(found, all) << "step " << step;
+    const std::vector<PlacedWall>& placed = run->field().walls().placed();
+    const Contacts found_walls = touching_walls(grains, placed, &neighbours.near_walls());
+    ASSERT_EQ(found_walls, touching_walls(grains, placed, nullptr)) << "step " << step;
+    pairs += all.size(), walls += found_walls.size();
+  }
+  EXPECT_GT(pairs, 100000u);
+  EXPECT_GT(walls, 20000u);
+  EXPECT_GT(run->result().balance.counted, 20);
+  EXPECT_GT(run->result().balance.put_in, 160) << "the hopper must have been topped up";
+  EXPECT_LT(run->field().neighbours().searches(), 5000) << "lists must last";
+}
+
+TEST(Neighbours, MarginsChangeNoBit) {
+  const auto narrow = start(busy_scene(), {.wide = 0.4, .narrow = 0.02});
+  const auto wide = start(busy_scene(), {.wide = 2.0, .narrow = 0.5});
+  narrow->steps(20000);
+  wide->steps(20000);
+  EXPECT_NE(narrow->field().neighbours().prunes(), wide->field().neighbours().prunes());
+  ASSERT_EQ(narrow->grains().number, wide->grains().number);
+  EXPECT_EQ(narrow->grains().x, wide->grains().x);
+  EXPECT_EQ(narrow->grains().y, wide->grains().y);
+  EXPECT_EQ(narrow->grains().omega, wide->grains().omega);
+}
+
+}  // namespace
+}  // namespace vibrosow

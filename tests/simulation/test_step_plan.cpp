@@ -1,0 +1,101 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "scene/input_error.hpp"
+#include "simulation/simulate.hpp"
+#include "simulation/step_plan.hpp"
+#include "support/bench.hpp"
+
+namespace vibrosow {
+namespace {
+
+/// Paper A's fig. 3 without its hopper: 39 layers of 8 mm grains, eps = 0.01 r, 9 Hz, 1 cm.
+Scene published() {
+  Scene scene = Bench().scene;
+  scene.contact.shell_compression = 0.01;
+  scene.contact.seed.friction = scene.contact.wall.friction = 0.3;
+  scene.tray.length = 0.5;
+  scene.tray.fill = Fill{2400, Packing::layers, 1e-3, false};
+  scene.tray.motion = HarmonicMotion{0, 0.01, 9, 0};
+  scene.numerics.integrator = Integrator::rk2_midpoint;
+  scene.run.duration = 2;
+  return scene;
+}
+
+const StepLimit& limit(const StepPlan& plan, const char* part_of_reason) {
+  for (const StepLimit& l : plan.limits)
+    if (l.reason.find(part_of_reason) != std::string::npos) return l;
+  throw std::runtime_error("no such limit");
+}
+
+TEST(StepPlan, ContactLastsHalfAPeriodOfTheShell) {
+  EXPECT_NEAR(plan_step(published()).contact_duration, 6.34e-3, 0.01e-3);
+}
+
+TEST(StepPlan, LimitsAreThoseOfTheEquations) {
+  Scene scene = published();
+  // RK2: omega_max = 858 1/s, growth ln(1.01) / 2 s without drag: 4.2e-5 s.
+  EXPECT_NEAR(limit(plan_step(scene), "RK2").dt, 4.2e-5, 0.05e-5);
+  scene.numerics.integrator = Integrator::velocity_verlet;
+  EXPECT_NEAR(limit(plan_step(scene), "Verlet").dt, 1 / 858.0, 0.01 / 858);
+  // Friction in the bed: lambda = nu F_n 6 / (m v_s), 38 layers on the lowest pair.
+  const double rate = 0.3 * 38 * standard_gravity * 6 / 0.02;
+  EXPECT_NEAR(limit(plan_step(scene), "friction").dt, 1 / rate, 1e-9);
+}
+
+TEST(StepPlan, SofterShellsAllowLongerSteps) {
+  Scene scene = published();
+  scene.contact.seed.friction = scene.contact.wall.friction = 0;
+  for (const auto& [integrator, factor] :
+       {std::pair{Integrator::velocity_verlet, std::sqrt(2.0)}, std::pair{Integrator::rk2_midpoint, std::cbrt(4.0)}}) {
+    scene.numerics.integrator = integrator;
+    scene.contact.shell_compression = 0.001;
+    const double stiff = plan_step(scene).limits.front().dt;
+    scene.contact.shell_compression = 0.002;
+    EXPECT_NEAR(plan_step(scene).limits.front().dt / stiff, factor, 1e-9);
+  }
+}
+
+TEST(StepPlan, ChosenStepIsSafe) {
+  Scene scene = published();
+  for (const double compression : {1e-5, 1e-4, 1e-2})
+    for (const double restitution : {0.05, 0.5, 1.0})
+      for (const Integrator integrator : {Integrator::velocity_verlet, Integrator::rk2_midpoint}) {
+        scene.contact.shell_compression = compression;
+        scene.contact.seed.restitution = scene.contact.wall.restitution = restitution;
+        scene.numerics.integrator = integrator;
+        EXPECT_FALSE(plan_step(scene).too_long);
+      }
+}
+
+TEST(StepPlan, PublishedStepIsTooLongAndSaysWhyAndWhatIsSafe) {
+  Scene scene = published();
+  scene.numerics.dt = 0.002;
+  const StepPlan plan = plan_step(scene);
+  EXPECT_TRUE(plan.too_long);
+  try {
+    simulate(scene);
+    FAIL() << "must be refused";
+  } catch (const InputError& error) {
+    const std::string message = error.what();
+    EXPECT_NE(message.find("0.002"), std::string::npos) << message;
+    EXPECT_NE(message.find(plan.bound_by), std::string::npos) << message;
+    EXPECT_NE(message.find("4.1"), std::string::npos) << message;  // the longest safe step, 4.19e-5 s
+  }
+}
+
+TEST(StepPlan, ForetellsOverlapAtRestAndAtImpact) {
+  const ForetoldCompression foretold = foretell_compression(published());
+  EXPECT_EQ(foretold.layers, 39);
+  EXPECT_NEAR(foretold.static_overlap, 0.78, 1e-9);
+  EXPECT_NEAR(foretold.impact_speed, 2 * 0.565, 2e-3);
+  // At V = 2 A omega, 5 % needs eps/r = 0.0025 g r / V^2 = 7.7e-5.
+  Scene scene = published();
+  scene.contact.shell_compression = 7.7e-5;
+  EXPECT_NEAR(foretell_compression(scene).impact_compression, 0.05, 0.0005);
+}
+
+}  // namespace
+}  // namespace vibrosow
