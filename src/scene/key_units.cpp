@@ -79,7 +79,9 @@ constexpr std::array key_words = {
     KeyWord{"start", {}},
 };
 
-std::string_view last_word(std::string_view key) { return key.substr(key.rfind('.') + 1); }
+std::string_view last_word(std::string_view key) {
+  return key.substr(key.rfind('.') + 1);
+}
 
 const KeyWord* find_word(std::string_view key) {
   const auto found = std::ranges::find(key_words, last_word(key), &KeyWord::word);

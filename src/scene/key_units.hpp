@@ -16,24 +16,26 @@ struct ColumnUnit {
   std::string_view unit;    // as a quantity is written: "mm/s"
 };
 
-/// The unit of a full key such as "tray.motion.frequency", decided by its last word. None for counts, plain numbers, names
-/// and words that no seeder file knows.
+/// The unit of a full key such as "tray.motion.frequency", decided by its last word. None for counts, plain
+/// numbers, names and words that no seeder file knows.
 std::optional<ColumnUnit> column_unit(std::string_view key);
 
 /// The column that carries a key: "tray.motion.frequency_Hz", "tray.holes.count".
 std::string condition_column(const std::string& key);
 
-/// The key that a column carries, or none when its last word or its unit is not the one `condition_column` gives.
+/// The key that a column carries, or none when its last word or its unit is not the one `condition_column`
+/// gives.
 std::optional<std::string> key_of_column(const std::string& column);
 
-/// Every column that a key of the same table could have: for "tray.holes.x", "tray.holes.count", "tray.holes.width_mm", ...
+/// Every column that a key of the same table could have: for "tray.holes.x", "tray.holes.count",
+/// "tray.holes.width_mm", ...
 std::vector<std::string> columns_beside(const std::string& column);
 
 /// An SI value in the unit of the key's column; unchanged where the column has no unit.
 double to_column_unit(std::string_view key, double si_value);
 
-/// A value in the column's unit as TOML text for an Override: "\"9 Hz\"", "5", "true", "\"layers\"". `text` has a decimal
-/// point and no unit.
+/// A value in the column's unit as TOML text for an Override: "\"9 Hz\"", "5", "true", "\"layers\"". `text`
+/// has a decimal point and no unit.
 std::string toml_value_of_column(std::string_view key, std::string_view text);
 
 }  // namespace vibrosow

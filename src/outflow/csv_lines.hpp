@@ -1,0 +1,25 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace vibrosow {
+
+/// A CSV file as read: fields are text, trimmed.
+struct CsvLines {
+  struct Row {
+    int line = 0;  // of the file, where the row begins
+    std::vector<std::string> fields;
+  };
+  bool decimal_comma = false;  // semicolons between the fields
+  Row header;
+  std::vector<Row> rows;  // each as long as the header
+};
+
+/// Reads comma- or semicolon-separated text (RFC 4180 quotes; any line ends; UTF-8 with or without its mark).
+/// Lines that begin with # and rows without any value are skipped. Throws InputError when the file cannot be
+/// read, is empty, has no rows, a quote that does not end or a row of another length than the header.
+CsvLines read_csv_lines(const std::filesystem::path& file);
+
+}  // namespace vibrosow

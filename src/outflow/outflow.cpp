@@ -1,0 +1,170 @@
+#include "outflow/outflow.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+namespace vibrosow {
+namespace {
+
+struct Window {
+  double from, to;
+  double length() const { return to - from; }
+  bool empty() const { return to <= from; }
+};
+
+/// Where a row takes its grains from; 0 and -1 stand for all holes and all lots.
+struct Selection {
+  int hole = 0;
+  int lot = -1;
+  bool takes(const OutflowEvent& event) const {
+    return event.hole > 0 && (hole == 0 || event.hole == hole) && (lot < 0 || event.lot == lot);
+  }
+};
+
+Window measuring_window(const Scene& scene, const Run& run) {
+  // The last step of a finished run may end a rounding error short of the duration.
+  const bool whole = run.status == RunStatus::finished;
+  return {scene.run.measure_from, whole ? scene.run.duration : std::min(run.end_time, scene.run.duration)};
+}
+
+std::vector<OutflowEvent> counted_inside(const std::vector<OutflowEvent>& events, const Window& window) {
+  std::vector<OutflowEvent> inside;
+  std::ranges::copy_if(events, std::back_inserter(inside), [&](const OutflowEvent& event) {
+    return event.hole > 0 && event.time >= window.from && event.time <= window.to;
+  });
+  return inside;
+}
+
+HoleOutflow measure_row(const Scene& scene, const std::vector<OutflowEvent>& events, const Window& window,
+                        Selection selection) {
+  HoleOutflow row;
+  row.hole = selection.hole > 0 ? fmt::format("{}", selection.hole) : "all";
+  row.lot = selection.lot >= 0 ? scene.lots[static_cast<std::size_t>(selection.lot)].name : "all";
+  if (selection.hole > 0) {
+    const Hole& hole = scene.tray.holes[static_cast<std::size_t>(selection.hole - 1)];
+    row.centre = hole.centre;
+    row.width = hole.width;
+  }
+  if (window.empty()) {
+    row.seeds_per_s = row.mass_rate = row.longest_pause = std::numeric_limits<double>::quiet_NaN();
+    return row;
+  }
+  double last = window.from;
+  for (const OutflowEvent& event : events) {
+    if (!selection.takes(event)) continue;
+    ++row.grains;
+    row.mass += event.mass;
+    row.longest_pause = std::max(row.longest_pause, event.time - last);
+    last = event.time;
+  }
+  row.longest_pause = std::max(row.longest_pause, window.to - last);
+  row.seeds_per_s = static_cast<double>(row.grains) / window.length();
+  row.mass_rate = row.mass / window.length();
+  return row;
+}
+
+std::vector<HoleOutflow> measure_rows(const Scene& scene, const std::vector<OutflowEvent>& events,
+                                      const Window& window) {
+  const int holes = static_cast<int>(scene.tray.holes.size());
+  const int lots = static_cast<int>(scene.lots.size());
+  std::vector<HoleOutflow> rows;
+  const auto add = [&](int hole, int lot) {
+    rows.push_back(measure_row(scene, events, window, {hole, lot}));
+  };
+  for (int hole = 1; hole <= holes; ++hole) {
+    for (int lot = 0; lot < lots; ++lot) add(hole, lot);
+    if (lots > 1) add(hole, -1);
+  }
+  if (lots > 1)
+    for (int lot = 0; lot < lots; ++lot) add(0, lot);
+  add(0, -1);
+  return rows;
+}
+
+std::vector<std::int64_t> grains_of_holes(const Scene& scene, const std::vector<OutflowEvent>& events) {
+  std::vector<std::int64_t> grains(scene.tray.holes.size(), 0);
+  for (const OutflowEvent& event : events) ++grains.at(static_cast<std::size_t>(event.hole - 1));
+  return grains;
+}
+
+std::optional<double> instability(const std::vector<OutflowEvent>& events, const Window& window) {
+  if (window.empty() || events.size() < 2) return std::nullopt;
+  std::vector<double> grains(instability_windows, 0.0);
+  for (const OutflowEvent& event : events) {
+    const double part = (event.time - window.from) / window.length() * instability_windows;
+    grains[static_cast<std::size_t>(std::clamp(static_cast<int>(part), 0, instability_windows - 1))] += 1;
+  }
+  return coefficient_of_variation(grains);
+}
+
+std::optional<double> depth_factor(const Scene& scene) {
+  if (!scene.tray.depth) return std::nullopt;
+  double diameter = 0;
+  for (const SeedLot& lot : scene.lots) diameter += lot.number_share * lot.diameter;
+  return *scene.tray.depth / diameter;
+}
+
+std::string note_of(const Run& run, const Window& window) {
+  std::vector<std::string> parts;
+  if (run.outside_the_model) parts.push_back("outside the model");
+  if (run.tray_empty_since >= 0 && run.tray_empty_since < window.to)
+    parts.push_back(fmt::format("ran dry at {:.3g} s", run.tray_empty_since));
+  if (run.status == RunStatus::stopped_by_guard) parts.push_back("stopped: " + run.stop_reason);
+  if (run.status == RunStatus::interrupted) parts.push_back("interrupted");
+  if (window.empty()) parts.push_back("ended before the measuring window");
+  return fmt::format("{}", fmt::join(parts, "; "));
+}
+
+}  // namespace
+
+std::optional<Evenness> evenness(const std::vector<std::int64_t>& grains_of_hole) {
+  const std::vector<double> counts(grains_of_hole.begin(), grains_of_hole.end());
+  const auto seen = coefficient_of_variation(counts);
+  if (!seen) return std::nullopt;
+  const double mean = std::accumulate(counts.begin(), counts.end(), 0.0) / static_cast<double>(counts.size());
+  return Evenness{std::sqrt(std::max(0.0, *seen * *seen - 1 / mean)), 1 / std::sqrt(mean)};
+}
+
+Outflow measure_outflow(const Scene& scene, const Run& run) {
+  const Window window = measuring_window(scene, run);
+  const std::vector<OutflowEvent> events = counted_inside(run.events, window);
+
+  Outflow outflow;
+  outflow.window_from = window.from;
+  outflow.window_to = window.to;
+  outflow.holes = measure_rows(scene, events, window);
+  if (const auto even = evenness(grains_of_holes(scene, events))) {
+    outflow.evenness_cv = even->cv;
+    outflow.counting_cv = even->counting_cv;
+  }
+  outflow.instability_cv = instability(events, window);
+  const std::int64_t left = run.balance.counted + run.balance.spilled;
+  if (left > 0) outflow.spilled_share = static_cast<double>(run.balance.spilled) / static_cast<double>(left);
+  outflow.depth_factor = depth_factor(scene);
+  outflow.note = note_of(run, window);
+  return outflow;
+}
+
+const HoleOutflow* find_row(const Outflow& outflow, const std::string& hole, const std::string& lot) {
+  const auto find = [&](const std::string& wanted_lot) -> const HoleOutflow* {
+    const auto row = std::ranges::find_if(
+        outflow.holes, [&](const HoleOutflow& one) { return one.hole == hole && one.lot == wanted_lot; });
+    return row == outflow.holes.end() ? nullptr : &*row;
+  };
+  if (const HoleOutflow* row = find(lot)) return row;
+  // A single lot has rows under its name for each hole, and under "all" for all holes.
+  if (lot == "all") {
+    const auto row = std::ranges::find(outflow.holes, hole, &HoleOutflow::hole);
+    return row == outflow.holes.end() ? nullptr : &*row;
+  }
+  const bool named =
+      std::ranges::any_of(outflow.holes, [&](const HoleOutflow& one) { return one.lot == lot; });
+  return named && hole == "all" ? find("all") : nullptr;
+}
+
+}  // namespace vibrosow

@@ -1,0 +1,61 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "outflow/statistics.hpp"
+#include "scene/scene.hpp"
+#include "simulation/run.hpp"
+
+namespace vibrosow {
+
+/// Outflow of one hole (or all) and one lot (or all) in the measuring window. Spilled grains are in no row.
+/// The rates and the pause are not a number when the run ended before the window began.
+struct HoleOutflow {
+  std::string hole;              // "1".. from the left, "all"
+  std::string lot;               // name, or "all"
+  std::optional<double> centre;  // m; none for "all"
+  std::optional<double> width;   // m; none for "all"
+  std::int64_t grains = 0;       // in the window
+  double mass = 0;               // kg, in the window
+  double seeds_per_s = 0;
+  double mass_rate = 0;      // kg/s, of the plane slice
+  double longest_pause = 0;  // s, inside the window, its ends counting as events
+};
+
+struct Outflow {
+  double window_from = 0, window_to = 0;  // s; window_to is the run's end when it ended early
+  std::vector<HoleOutflow> holes;  // per hole and lot, per hole all lots when there are several, then "all"
+  std::optional<double> evenness_cv;     // fraction; CV of the holes' mean rates, counting share removed
+  std::optional<double> counting_cv;     // fraction; the CV that independent counting alone would give
+  std::optional<double> instability_cv;  // fraction; CV of the whole outflow over equal time windows
+  double spilled_share = 0;              // spilled / (counted + spilled), whole run
+  std::optional<double> depth_factor;    // tray.depth / diameter of the plane slice
+  std::string note;  // "ran dry at 3.2 s", "outside the model", ...; empty when all is well
+};
+
+/// Into how many equal parts the measuring window is cut for the instability.
+inline constexpr int instability_windows = 10;
+
+/// What the events of a run say about its holes. Mean diameter of the slice: by number, over all lots.
+Outflow measure_outflow(const Scene& scene, const Run& run);
+
+/// The row of a hole ("1".., "all") and lot (name, "all"). With a single lot, its name and "all" mean the
+/// same. Null when there is no such hole or lot.
+const HoleOutflow* find_row(const Outflow& outflow, const std::string& hole, const std::string& lot);
+
+/// How far the holes differ, beyond chance.
+struct Evenness {
+  double cv = 0;  // sqrt(max(0, cv_seen^2 - cv_counting^2))
+  double counting_cv =
+      0;  // 1 / sqrt(mean count of a hole): independent grains have a variance equal to their mean
+};
+
+/// From the number of grains of each hole over the same time. Of the raw rates: holes made of unequal widths
+/// are uneven by intent and count as uneven. Counts of replicates may be summed hole by hole before. None for
+/// fewer than two holes or no grains.
+std::optional<Evenness> evenness(const std::vector<std::int64_t>& grains_of_hole);
+
+}  // namespace vibrosow

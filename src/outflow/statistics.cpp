@@ -1,0 +1,40 @@
+#include "outflow/statistics.hpp"
+
+#include <boost/math/distributions/students_t.hpp>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+namespace vibrosow {
+namespace {
+
+double mean_of(const std::vector<double>& values) {
+  return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
+}
+
+/// Two passes: values far from zero and close together keep their digits.
+double sample_deviation(const std::vector<double>& values, double mean) {
+  double squares = 0;
+  for (const double value : values) squares += (value - mean) * (value - mean);
+  return std::sqrt(squares / static_cast<double>(values.size() - 1));
+}
+
+}  // namespace
+
+MeanWithInterval mean_with_interval(const std::vector<double>& values) {
+  if (values.empty()) return {std::numeric_limits<double>::quiet_NaN(), std::nullopt};
+  const double mean = mean_of(values);
+  if (values.size() < 2) return {mean, std::nullopt};
+  const auto count = static_cast<double>(values.size());
+  const double t = boost::math::quantile(boost::math::students_t(count - 1), 0.975);
+  return {mean, t * sample_deviation(values, mean) / std::sqrt(count)};
+}
+
+std::optional<double> coefficient_of_variation(const std::vector<double>& values) {
+  if (values.size() < 2) return std::nullopt;
+  const double mean = mean_of(values);
+  if (mean == 0) return std::nullopt;
+  return sample_deviation(values, mean) / mean;
+}
+
+}  // namespace vibrosow

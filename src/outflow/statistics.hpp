@@ -1,0 +1,20 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+namespace vibrosow {
+
+/// Student's t interval of a mean: half width at 95 %, none for fewer than two values.
+struct MeanWithInterval {
+  double mean = 0;
+  std::optional<double> half_width_95;
+};
+
+/// Mean and t(0.975, n - 1) s / sqrt(n). Not a number for no values.
+MeanWithInterval mean_with_interval(const std::vector<double>& values);
+
+/// Sample standard deviation (n - 1) over mean; none for fewer than two values or a mean of zero.
+std::optional<double> coefficient_of_variation(const std::vector<double>& values);
+
+}  // namespace vibrosow

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "outflow/outflow.hpp"
+#include "scene/scene.hpp"
+#include "simulation/run.hpp"
+
+namespace vibrosow {
+
+/// One row per grain leaving; `hole` is "spilled" for a grain that passed no hole.
+std::string outflow_csv(const Scene& scene, const Run& run);
+
+/// One row per hole and lot. The tray's rate is the plane's times the depth factor; both are empty without
+/// `tray.depth`.
+std::string summary_csv(const Outflow& outflow);
+
+/// What the run was and how it went, with the whole scene. Holds nothing that depends on a clock. `effects`:
+/// names of those present.
+std::string run_json(const Scene& scene, const Run& run, const Outflow& outflow,
+                     const std::vector<std::string>& effects);
+
+/// What the run took on this machine.
+std::string timing_json(const Run& run);
+
+/// Writes outflow.csv, summary.csv, run.json and timing.json into `directory`, all or none. Throws InputError
+/// where that fails.
+void write_run_report(const std::filesystem::path& directory, const Scene& scene, const Run& run,
+                      const Outflow& outflow, const std::vector<std::string>& effects);
+
+}  // namespace vibrosow

@@ -1,0 +1,194 @@
+#include "outflow/outflow.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+#include "made_up_run.hpp"
+
+namespace vibrosow {
+namespace {
+
+TEST(Rows, CountOnlyTheWindowAndNoSpilledGrain) {
+  const Scene scene = made_up_scene(2);
+  vibrosow::Run run = made_up_run(scene);
+  add_grain(run, 1.999, 1);  // before the window
+  add_grain(run, 2, 1);      // its ends belong to it
+  add_grain(run, 5, 1);
+  add_grain(run, 6, 0);  // spilled
+  add_grain(run, 7, 2);
+  add_grain(run, 10, 1);
+  add_grain(run, 10.001, 2);
+
+  const Outflow outflow = measure_outflow(scene, run);
+  ASSERT_EQ(outflow.holes.size(), 3U);
+  const HoleOutflow& first = outflow.holes[0];
+  EXPECT_EQ(first.hole, "1");
+  EXPECT_EQ(first.lot, "wheat");
+  EXPECT_DOUBLE_EQ(*first.centre, 0.1);
+  EXPECT_DOUBLE_EQ(*first.width, 0.016);
+  EXPECT_EQ(first.grains, 3);
+  EXPECT_DOUBLE_EQ(first.seeds_per_s, 3.0 / 8);
+  EXPECT_DOUBLE_EQ(first.mass_rate, 3 * 40e-6 / 8);
+  EXPECT_EQ(outflow.holes[1].grains, 1);
+  const HoleOutflow& all = outflow.holes[2];
+  EXPECT_EQ(all.hole, "all");
+  EXPECT_EQ(all.lot, "all");
+  EXPECT_FALSE(all.centre);
+  EXPECT_EQ(all.grains, 4);
+  EXPECT_DOUBLE_EQ(outflow.spilled_share, 1.0 / 7);
+  EXPECT_EQ(outflow.note, "");
+}
+
+TEST(Rows, OfSeveralLotsComePerLotAndTogether) {
+  Scene scene = made_up_scene(1);
+  scene.lots[0].number_share = 0.75;
+  scene.lots.push_back({.name = "pea", .diameter = 8e-3, .mass = 250e-6, .number_share = 0.25});
+  scene.tray.depth = 0.06;
+  vibrosow::Run run = made_up_run(scene);
+  add_grain(run, 3, 1, 0);
+  add_grain(run, 4, 1, 1, 250e-6);
+
+  const Outflow outflow = measure_outflow(scene, run);
+  std::vector<std::pair<std::string, std::string>> names;
+  for (const HoleOutflow& row : outflow.holes) names.emplace_back(row.hole, row.lot);
+  EXPECT_EQ(
+      names,
+      (std::vector<std::pair<std::string, std::string>>{
+          {"1", "wheat"}, {"1", "pea"}, {"1", "all"}, {"all", "wheat"}, {"all", "pea"}, {"all", "all"}}));
+  EXPECT_DOUBLE_EQ(find_row(outflow, "1", "pea")->mass, 250e-6);
+  EXPECT_DOUBLE_EQ(find_row(outflow, "all", "all")->mass, 290e-6);
+  EXPECT_DOUBLE_EQ(*outflow.depth_factor, 0.06 / 5e-3);
+}
+
+TEST(Rows, AreFoundByNameOrAll) {
+  const Scene scene = made_up_scene(2);
+  const Outflow outflow = measure_outflow(scene, made_up_run(scene));
+  EXPECT_EQ(find_row(outflow, "2", "all"), &outflow.holes[1]);
+  EXPECT_EQ(find_row(outflow, "all", "wheat"), &outflow.holes[2]);
+  EXPECT_EQ(find_row(outflow, "3", "all"), nullptr);
+  EXPECT_EQ(find_row(outflow, "all", "barley"), nullptr);
+  EXPECT_FALSE(outflow.depth_factor);
+}
+
+TEST(LongestPause, CountsTheWindowsEnds) {
+  const Scene scene = made_up_scene(2);
+  vibrosow::Run run = made_up_run(scene);
+  add_grain(run, 1, 1);
+  for (const double time : {4.0, 5.0, 9.0}) add_grain(run, time, 1);
+  add_grain(run, 9.5, 2);
+  const Outflow outflow = measure_outflow(scene, run);
+  EXPECT_DOUBLE_EQ(outflow.holes[0].longest_pause, 4);    // 5 to 9
+  EXPECT_DOUBLE_EQ(outflow.holes[1].longest_pause, 7.5);  // 2 to 9.5
+  EXPECT_DOUBLE_EQ(find_row(measure_outflow(scene, made_up_run(scene)), "1", "all")->longest_pause, 8);
+}
+
+TEST(Window, EndsWithARunThatEndsEarly) {
+  const Scene scene = made_up_scene(1);
+  vibrosow::Run run = made_up_run(scene);
+  run.status = RunStatus::stopped_by_guard;
+  run.stop_reason = "shell compression 0.6";
+  run.end_time = 6;
+  add_grain(run, 3, 1);
+  const Outflow outflow = measure_outflow(scene, run);
+  EXPECT_DOUBLE_EQ(outflow.window_to, 6);
+  EXPECT_DOUBLE_EQ(outflow.holes[0].seeds_per_s, 0.25);
+  EXPECT_EQ(outflow.note, "stopped: shell compression 0.6");
+}
+
+TEST(Window, NeverReachedGivesNoRate) {
+  const Scene scene = made_up_scene(2);
+  vibrosow::Run run = made_up_run(scene);
+  run.status = RunStatus::interrupted;
+  run.end_time = 1.5;
+  add_grain(run, 1, 1);
+  const Outflow outflow = measure_outflow(scene, run);
+  EXPECT_TRUE(std::isnan(outflow.holes[0].mass_rate));
+  EXPECT_TRUE(std::isnan(outflow.holes[0].longest_pause));
+  EXPECT_FALSE(outflow.evenness_cv);
+  EXPECT_FALSE(outflow.instability_cv);
+  EXPECT_EQ(outflow.note, "interrupted; ended before the measuring window");
+}
+
+TEST(Note, SaysWhatIsWrong) {
+  const Scene scene = made_up_scene(1);
+  vibrosow::Run run = made_up_run(scene);
+  run.outside_the_model = true;
+  run.tray_empty_since = 3.25;
+  EXPECT_EQ(measure_outflow(scene, run).note, "outside the model; ran dry at 3.25 s");
+  run.outside_the_model = false;
+  run.tray_empty_since = scene.run.duration;
+  EXPECT_EQ(measure_outflow(scene, run).note, "");
+}
+
+TEST(Evenness, OfUnequalHolesIsTheirCvWithoutTheCountingShare) {
+  // counts 80, 100, 120: cv 0.2, counting 1 / sqrt(100) = 0.1
+  const auto unequal = evenness({80, 100, 120});
+  ASSERT_TRUE(unequal);
+  EXPECT_DOUBLE_EQ(unequal->counting_cv, 0.1);
+  EXPECT_NEAR(unequal->cv, std::sqrt(0.04 - 0.01), 1e-12);
+}
+
+TEST(Evenness, OfIndependentGrainsIsNearZeroAndCountingSevenPercentAt200) {
+  std::mt19937 generator(1);
+  std::poisson_distribution<std::int64_t> grains(200);
+  std::vector<std::int64_t> counts(2000);
+  for (auto& count : counts) count = grains(generator);
+  const auto chance = evenness(counts);
+  ASSERT_TRUE(chance);
+  EXPECT_NEAR(chance->counting_cv, 0.0707, 0.001);
+  EXPECT_LT(chance->cv, 0.02);  // seen alone it would be 0.07
+}
+
+TEST(Evenness, OfCountsMoreEqualThanChanceIsZero) {
+  EXPECT_DOUBLE_EQ(evenness({200, 200, 201})->cv, 0);
+}
+
+TEST(Evenness, NeedsTwoHolesAndAGrain) {
+  EXPECT_FALSE(evenness({200}));
+  EXPECT_FALSE(evenness({0, 0, 0}));
+  const Scene scene = made_up_scene(1);
+  vibrosow::Run run = made_up_run(scene);
+  add_grain(run, 3, 1);
+  EXPECT_FALSE(measure_outflow(scene, run).evenness_cv);
+  EXPECT_FALSE(measure_outflow(scene, run).counting_cv);
+}
+
+TEST(Evenness, OfARunUsesItsWindowAndHoles) {
+  const Scene scene = made_up_scene(2);
+  vibrosow::Run run = made_up_run(scene);
+  for (int i = 0; i < 500; ++i) add_grain(run, 1, 2);  // before the window
+  for (int i = 0; i < 100; ++i) add_grain(run, 3, 1);
+  for (int i = 0; i < 300; ++i) add_grain(run, 3, 2);
+  const Outflow outflow = measure_outflow(scene, run);
+  // sample variance 2 * 100^2, mean 200
+  EXPECT_NEAR(*outflow.evenness_cv, std::sqrt(20000.0 / 40000 - 1.0 / 200), 1e-12);
+  EXPECT_NEAR(*outflow.counting_cv, std::sqrt(1.0 / 200), 1e-12);
+}
+
+TEST(Instability, IsTheCvOverTenEqualWindows) {
+  const Scene scene = made_up_scene(1);
+  vibrosow::Run steady = made_up_run(scene);
+  vibrosow::Run halting = made_up_run(scene);
+  for (int i = 0; i < instability_windows; ++i) {
+    add_grain(steady, 2.4 + 0.8 * i, 1);
+    if (i % 2 == 0)
+      for (int k = 0; k < 2; ++k) add_grain(halting, 2.4 + 0.8 * i, 1);
+  }
+  EXPECT_NEAR(*measure_outflow(scene, steady).instability_cv, 0, 1e-12);
+  // five windows with 2 and five with 0: s^2 = 10 / 9
+  EXPECT_NEAR(*measure_outflow(scene, halting).instability_cv, std::sqrt(10.0 / 9), 1e-12);
+}
+
+TEST(Instability, NeedsTwoGrains) {
+  const Scene scene = made_up_scene(1);
+  vibrosow::Run run = made_up_run(scene);
+  add_grain(run, 10, 1);
+  EXPECT_FALSE(measure_outflow(scene, run).instability_cv);
+  add_grain(run, 10, 1);
+  EXPECT_TRUE(measure_outflow(scene, run).instability_cv);
+}
+
+}  // namespace
+}  // namespace vibrosow

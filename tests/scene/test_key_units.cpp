@@ -1,0 +1,51 @@
+#include "scene/key_units.hpp"
+
+#include <gtest/gtest.h>
+
+#include <numbers>
+
+namespace vibrosow {
+namespace {
+
+TEST(KeyUnits, ColumnsCarryOneUnitForEachKey) {
+  EXPECT_EQ(condition_column("tray.motion.frequency"), "tray.motion.frequency_Hz");
+  EXPECT_EQ(condition_column("tray.holes.span"), "tray.holes.span_mm");
+  EXPECT_EQ(condition_column("contact.slip_speed"), "contact.slip_speed_mm_per_s");
+  EXPECT_EQ(condition_column("contact.drag"), "contact.drag_g_per_s");
+  EXPECT_EQ(condition_column("seeds.wheat.density"), "seeds.wheat.density_kg_per_m3");
+  EXPECT_EQ(condition_column("seeds.wheat.mass_share"), "seeds.wheat.mass_share_percent");
+  EXPECT_EQ(condition_column("tray.tilt"), "tray.tilt_degree");
+  EXPECT_EQ(condition_column("run.duration"), "run.duration_s");
+  EXPECT_EQ(condition_column("tray.holes.count"), "tray.holes.count");
+  EXPECT_EQ(condition_column("contact.shell_compression"), "contact.shell_compression");
+}
+
+TEST(KeyUnits, AColumnLeadsBackToItsKey) {
+  for (const std::string key :
+       {"tray.motion.frequency", "run.count_below", "tray.holes.count", "seeds.pea.mass"})
+    EXPECT_EQ(key_of_column(condition_column(key)), key);
+  EXPECT_FALSE(key_of_column("tray.motion.frequency"));
+  EXPECT_FALSE(key_of_column("tray.motion.frequency_rpm"));
+  EXPECT_FALSE(key_of_column("frequency_Hz"));
+  EXPECT_FALSE(key_of_column("tray.holes.colour"));
+}
+
+TEST(KeyUnits, ValuesAreConvertedToTheColumn) {
+  EXPECT_DOUBLE_EQ(to_column_unit("tray.holes.width", 0.016), 16);
+  EXPECT_DOUBLE_EQ(to_column_unit("tray.tilt", std::numbers::pi / 2), 90);
+  EXPECT_DOUBLE_EQ(to_column_unit("contact.drag", 3e-3), 3);
+  EXPECT_DOUBLE_EQ(to_column_unit("seeds.wheat.mass_share", 0.7), 70);
+  EXPECT_DOUBLE_EQ(to_column_unit("tray.holes.count", 5), 5);
+}
+
+TEST(KeyUnits, ValuesOfColumnsBecomeToml) {
+  EXPECT_EQ(toml_value_of_column("tray.motion.frequency", "9"), "\"9 Hz\"");
+  EXPECT_EQ(toml_value_of_column("seeds.wheat.mass_share", "70"), "\"70 %\"");
+  EXPECT_EQ(toml_value_of_column("contact.friction", "0.3"), "0.3");
+  EXPECT_EQ(toml_value_of_column("contact.rotation", "false"), "false");
+  EXPECT_EQ(toml_value_of_column("tray.fill.packing", "layers"), "\"layers\"");
+  EXPECT_EQ(toml_value_of_column("tray.fill.packing", "a\"b"), "\"a\\\"b\"");
+}
+
+}  // namespace
+}  // namespace vibrosow
