@@ -5,7 +5,9 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-Json optional_number(const std::optional<double>& value) { return value ? Json(*value) : Json(nullptr); }
+Json optional_number(const std::optional<double>& value) {
+  return value ? Json(*value) : Json(nullptr);
+}
 
 Json describe(const SeedLot& lot) {
   return {{"name", lot.name},
@@ -62,7 +64,8 @@ Json describe(const Vessel& vessel) {
 }
 
 Json describe(const Numerics& numerics) {
-  Json json = {{"integrator", numerics.integrator == Integrator::rk2_midpoint ? "rk2-midpoint" : "velocity-verlet"}};
+  Json json = {
+      {"integrator", numerics.integrator == Integrator::rk2_midpoint ? "rk2-midpoint" : "velocity-verlet"}};
   if (numerics.dt) {
     json["dt_s"] = *numerics.dt;
   } else {

@@ -6,8 +6,8 @@
 
 namespace vibrosow {
 
-/// Everything of a scene that influences a run, in SI, and nothing else (no title): two scenes with the same dump() run
-/// alike. Numbers are dumped with the fewest digits that read back to the same double.
+/// Everything of a scene that influences a run, in SI, and nothing else (no title): two scenes with the same
+/// dump() run alike. Numbers are dumped with the fewest digits that read back to the same double.
 nlohmann::ordered_json describe_scene(const Scene& scene);
 
 }  // namespace vibrosow

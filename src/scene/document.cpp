@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fstream>
+#include <iterator>
 #include <map>
 #include <numbers>
 #include <set>
@@ -41,11 +42,8 @@ std::vector<std::string> split(const std::string& dotted) {
 std::string read_file(const std::filesystem::path& file) {
   if (!std::filesystem::exists(file)) throw InputError(file.string() + ": there is no such file");
   std::ifstream in(file, std::ios::binary);
-  std::ostringstream text;
-  if (!std::filesystem::is_regular_file(file) || !in || !(text << in.rdbuf())) {
-    throw InputError(file.string() + ": cannot be read, or is empty");
-  }
-  return text.str();
+  if (!std::filesystem::is_regular_file(file) || !in) throw InputError(file.string() + ": cannot be read");
+  return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
 }
 
 toml::table parse_file(const std::filesystem::path& file) {
@@ -58,11 +56,14 @@ toml::table parse_file(const std::filesystem::path& file) {
   }
 }
 
-const toml::node* find_node(const toml::table& table, const std::string& key) { return table.get(key); }
+const toml::node* find_node(const toml::table& table, const std::string& key) {
+  return table.get(key);
+}
 
 /// Where a key of a table is written: the override that set it or a table around it, else file and line.
-std::string origin_of(const std::filesystem::path& file, const std::map<std::string, std::string>& override_origin,
-                      const toml::table& table, const std::string& prefix, const std::string& key) {
+std::string origin_of(const std::filesystem::path& file,
+                      const std::map<std::string, std::string>& override_origin, const toml::table& table,
+                      const std::string& prefix, const std::string& key) {
   for (std::string around = joined(prefix, key); !around.empty();) {
     const auto origin = override_origin.find(around);
     if (origin != override_origin.end()) return origin->second;
@@ -83,10 +84,12 @@ void apply(toml::table& root, std::map<std::string, std::string>& origins, const
   try {
     parsed = toml::parse("value = " + change.toml_value);
   } catch (const toml::parse_error& error) {
-    throw InputError(fmt::format("{}: {}: not a TOML value: {}", change.where, change.key, error.description()));
+    throw InputError(
+        fmt::format("{}: {}: not a TOML value: {}", change.where, change.key, error.description()));
   }
   const std::vector<std::string> parts = split(change.key);
-  const bool empty_part = std::any_of(parts.begin(), parts.end(), [](const auto& part) { return part.empty(); });
+  const bool empty_part =
+      std::any_of(parts.begin(), parts.end(), [](const auto& part) { return part.empty(); });
   if (parts.empty() || empty_part || change.key.ends_with('.') || parsed.size() != 1) {
     throw InputError(fmt::format("{}: \"{}\" is not one key and one value", change.where, change.key));
   }
@@ -101,7 +104,8 @@ void apply(toml::table& root, std::map<std::string, std::string>& origins, const
     }
     table = next->as_table();
     if (table == nullptr) {
-      throw InputError(fmt::format("{}: {} is a value, not a table, so {} cannot be set", change.where, prefix, change.key));
+      throw InputError(fmt::format("{}: {} is a value, not a table, so {} cannot be set", change.where,
+                                   prefix, change.key));
     }
   }
   table->insert_or_assign(parts.back(), std::move(*parsed.get("value")));
@@ -123,6 +127,11 @@ std::vector<std::string> ordered_keys(const toml::table& table) {
 
 /// A node as TOML text, tables inline.
 std::string text_of(const toml::node& node) {
+  if (node.is_floating_point()) {
+    // toml++ writes 1.1 as 1.1000000000000001.
+    const std::string digits = fmt::format("{}", *node.value<double>());
+    return digits.find_first_of(".en") == std::string::npos ? digits + ".0" : digits;
+  }
   toml::table holder;
   holder.insert("v", node);
   if (toml::table* table = holder.get("v")->as_table()) table->is_inline(true);
@@ -139,7 +148,8 @@ void collect_values(const toml::table& table, const std::string& prefix,
     if (below != nullptr && !below->is_inline()) {
       collect_values(*below, name, found);
     } else {
-      const auto at = node.source().begin;  // the value's, because a dotted key shares its first parts with others
+      const auto at =
+          node.source().begin;  // the value's, because a dotted key shares its first parts with others
       found.emplace_back(at.line, at.column, name);
     }
   }
@@ -149,14 +159,19 @@ std::string show(double value, Dimension dimension) {
   switch (dimension) {
     case Dimension::length:
       return value < 0.1 && value > -0.1 && value != 0 ? fmt::format("{:g} mm", value * 1000)
-                                                      : fmt::format("{:g} m", value);
-    case Dimension::angle: return fmt::format("{:g} degree", value * 180 / std::numbers::pi);
-    case Dimension::fraction: return fmt::format("{:g} %", value * 100);
-    default: return fmt::format("{:g} {}", value, si_unit(dimension));
+                                                       : fmt::format("{:g} m", value);
+    case Dimension::angle:
+      return fmt::format("{:g} degree", value * 180 / std::numbers::pi);
+    case Dimension::fraction:
+      return fmt::format("{:g} %", value * 100);
+    default:
+      return fmt::format("{:g} {}", value, si_unit(dimension));
   }
 }
 
-std::string list_of(const std::vector<std::string>& names) { return fmt::format("{}", fmt::join(names, ", ")); }
+std::string list_of(const std::vector<std::string>& names) {
+  return fmt::format("{}", fmt::join(names, ", "));
+}
 
 std::size_t edit_distance(std::string_view a, std::string_view b) {
   std::vector<std::vector<std::size_t>> d(a.size() + 1, std::vector<std::size_t>(b.size() + 1));
@@ -207,7 +222,9 @@ std::shared_ptr<const Document> Document::read(const std::filesystem::path& file
   return std::shared_ptr<const Document>(new Document(std::move(contents)));
 }
 
-const std::filesystem::path& Document::file() const { return contents_->file; }
+const std::filesystem::path& Document::file() const {
+  return contents_->file;
+}
 
 std::string Document::where(const std::string& full_key) const {
   const toml::table* table = &contents_->root;
@@ -289,7 +306,8 @@ struct Table::State {
     if (fallback) fallback->reject_unknown_keys();
   }
 
-  /// The table under `key`, with the fallback's of the same name behind it; made once, so that what is known is kept.
+  /// The table under `key`, with the fallback's of the same name behind it; made once, so that what is known
+  /// is kept.
   std::shared_ptr<State> child(const std::string& key) {
     const auto made = children.find(key);
     if (made != children.end()) return made->second;
@@ -297,7 +315,8 @@ struct Table::State {
     const toml::node* here = find_node(*node, key);
     if (here == nullptr) return behind;
     if (!here->is_table()) {
-      throw InputError(fmt::format("{}: {}: must be a table, not {}", origin(key), joined(prefix, key), text_of(*here)));
+      throw InputError(
+          fmt::format("{}: {}: must be a table, not {}", origin(key), joined(prefix, key), text_of(*here)));
     }
     auto state = std::make_shared<State>(document, here->as_table(), joined(prefix, key));
     state->fallback = behind;
@@ -311,11 +330,17 @@ Table::Table(std::shared_ptr<const Document> document)
 
 Table::Table(std::shared_ptr<State> state) : state_(std::move(state)) {}
 
-void Table::set_fallback(const Table& preset) { state_->fallback = preset.state_; }
+void Table::set_fallback(const Table& preset) {
+  state_->fallback = preset.state_;
+}
 
-bool Table::has(const std::string& key) const { return state_->holder(key) != nullptr; }
+bool Table::has(const std::string& key) const {
+  return state_->holder(key) != nullptr;
+}
 
-bool Table::has_here(const std::string& key) const { return state_->node->contains(key); }
+bool Table::has_here(const std::string& key) const {
+  return state_->node->contains(key);
+}
 
 std::optional<Table> Table::table(const std::string& key) {
   state_->know(key);
@@ -329,7 +354,9 @@ Table Table::required_table(const std::string& key) {
   return *found;
 }
 
-std::vector<std::string> Table::keys() const { return ordered_keys(*state_->node); }
+std::vector<std::string> Table::keys() const {
+  return ordered_keys(*state_->node);
+}
 
 std::vector<Table> Table::tables(const std::string& key) {
   state_->know(key);
@@ -340,7 +367,8 @@ std::vector<Table> Table::tables(const std::string& key) {
   for (const toml::node& element : *found->as_array()) {
     const std::string name = fmt::format("{}[{}]", key, elements.size() + 1);
     auto& child = state_->children[name];
-    if (!child) child = std::make_shared<State>(state_->document, element.as_table(), joined(state_->prefix, name));
+    if (!child)
+      child = std::make_shared<State>(state_->document, element.as_table(), joined(state_->prefix, name));
     elements.push_back(Table(child));
   }
   return elements;
@@ -368,7 +396,8 @@ std::optional<bool> Table::boolean(const std::string& key) {
   return found->value<bool>();
 }
 
-std::optional<std::int64_t> Table::whole_number(const std::string& key, std::int64_t least, std::int64_t most) {
+std::optional<std::int64_t> Table::whole_number(const std::string& key, std::int64_t least,
+                                                std::int64_t most) {
   state_->know(key);
   const toml::node* found = state_->find(key);
   if (found == nullptr) return std::nullopt;
@@ -385,12 +414,14 @@ std::optional<double> Table::number(const std::string& key, double least, double
   if (found == nullptr) return std::nullopt;
   const std::optional<double> value = found->is_number() ? found->value<double>() : std::nullopt;
   if (!value || !(*value >= least && *value <= most)) {
-    fail(key, fmt::format("must be a number from {:g} to {:g}, without a unit, not {}", least, most, text_of(*found)));
+    fail(key, fmt::format("must be a number from {:g} to {:g}, without a unit, not {}", least, most,
+                          text_of(*found)));
   }
   return value;
 }
 
-std::optional<double> Table::quantity(const std::string& key, Dimension dimension, double least, double most) {
+std::optional<double> Table::quantity(const std::string& key, Dimension dimension, double least,
+                                      double most) {
   if (is_list(key)) fail(key, fmt::format("must be one value: {}", expected(dimension)));
   const std::vector<double> found = quantities(key, dimension, least, most);
   return found.empty() ? std::nullopt : std::optional(found.front());
@@ -402,13 +433,15 @@ double Table::required_quantity(const std::string& key, Dimension dimension, dou
   return *found;
 }
 
-std::vector<double> Table::quantities(const std::string& key, Dimension dimension, double least, double most) {
+std::vector<double> Table::quantities(const std::string& key, Dimension dimension, double least,
+                                      double most) {
   state_->know(key);
   const toml::node* found = state_->find(key);
   if (found == nullptr) return {};
   const auto read = [&](const toml::node& node) {
     if (!node.is_string()) {
-      fail(key, fmt::format("must be a quantity with its unit in quotes, {}, not {}", expected(dimension), text_of(node)));
+      fail(key, fmt::format("must be a quantity with its unit in quotes, {}, not {}", expected(dimension),
+                            text_of(node)));
     }
     const std::string text = *node.value<std::string>();
     double value = 0;
@@ -452,14 +485,17 @@ bool Table::is_list(const std::string& key) const {
   return found != nullptr && found->is_array();
 }
 
-void Table::skip(const std::string& key) { state_->know(key); }
+void Table::skip(const std::string& key) {
+  state_->know(key);
+}
 
 std::optional<std::size_t> Table::choice(const std::string& key, const std::vector<std::string>& choices) {
   const std::optional<std::string> found = text(key);
   if (!found) return std::nullopt;
   const auto chosen = std::find(choices.begin(), choices.end(), *found);
   if (chosen == choices.end()) {
-    fail(key, fmt::format("\"{}\" is not one of {}{}", *found, list_of(choices), did_you_mean(*found, choices)));
+    fail(key,
+         fmt::format("\"{}\" is not one of {}{}", *found, list_of(choices), did_you_mean(*found, choices)));
   }
   return static_cast<std::size_t>(chosen - choices.begin());
 }
@@ -515,9 +551,13 @@ std::string Table::origin(const std::string& key) const {
   return (holds != nullptr ? holds : state_.get())->origin(key);
 }
 
-std::string Table::where(const std::string& key) const { return origin(key) + ": " + full_key(key); }
+std::string Table::where(const std::string& key) const {
+  return origin(key) + ": " + full_key(key);
+}
 
-std::filesystem::path Table::directory() const { return state_->document->file().parent_path(); }
+std::filesystem::path Table::directory() const {
+  return state_->document->file().parent_path();
+}
 
 std::filesystem::path Table::directory(const std::string& key) const {
   const State* holds = state_->holder(key);
@@ -529,6 +569,14 @@ void Table::fail(const std::string& key, const std::string& message) const {
   throw InputError(where(key) + ": " + message);
 }
 
-void Table::reject_unknown_keys() const { state_->reject_unknown_keys(); }
+void Table::reject_keys_other_than(const std::vector<std::string>& known) const {
+  for (const std::string& key : keys()) {
+    if (std::find(known.begin(), known.end(), key) == known.end()) state_->unknown(key, known);
+  }
+}
+
+void Table::reject_unknown_keys() const {
+  state_->reject_unknown_keys();
+}
 
 }  // namespace vibrosow

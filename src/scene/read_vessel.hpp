@@ -5,8 +5,8 @@
 
 namespace vibrosow {
 
-/// Reads [tray] or [hopper]; the origin is left at (0, 0). `lots` give the diameter that hole widths may be counted in, and
-/// what has to fit. Throws InputError like read_scene.
+/// Reads [tray] or [hopper]; the origin is left at (0, 0). `lots` give the diameter that hole widths may be
+/// counted in, and what has to fit. Throws InputError like read_scene.
 Vessel read_vessel(Table table, const std::string& name, const std::vector<SeedLot>& lots);
 
 }  // namespace vibrosow

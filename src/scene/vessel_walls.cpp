@@ -30,8 +30,12 @@ class Chain {
   int vertex_ = -1;
 };
 
-double left_edge(const Hole& hole) { return hole.centre - hole.width / 2; }
-double right_edge(const Hole& hole) { return hole.centre + hole.width / 2; }
+double left_edge(const Hole& hole) {
+  return hole.centre - hole.width / 2;
+}
+double right_edge(const Hole& hole) {
+  return hole.centre + hole.width / 2;
+}
 
 }  // namespace
 

@@ -10,16 +10,16 @@ namespace vibrosow {
 
 /// A straight piece of a vessel's wall. Segments that meet share a vertex number.
 struct WallSegment {
-  Eigen::Vector2d a, b;    // m, in the vessel's own frame
+  Eigen::Vector2d a, b;  // m, in the vessel's own frame
   int vertex_a, vertex_b;
-  std::string name;        // "tray left wall", "tray floor 2", "hopper floor 1 falling"
+  std::string name;  // "tray left wall", "tray floor 2", "hopper floor 1 falling"
 };
 
-/// The walls of a vessel in its own frame, from its upper left to its upper right corner: left end wall, floor pieces
-/// between the holes, right end wall. With a funnel the floor falls to each hole's edges at y = 0 from the end walls and
-/// from a ridge midway between two neighbouring holes' edges; a funnel without holes is a flat floor. Every segment runs
-/// left to right along the chain, so the inside of the vessel lies to its left. Pieces shorter than 1e-9 of the vessel's
-/// length are left out: a hole may reach the end wall.
+/// The walls of a vessel in its own frame, from its upper left to its upper right corner: left end wall,
+/// floor pieces between the holes, right end wall. With a funnel the floor falls to each hole's edges at y =
+/// 0 from the end walls and from a ridge midway between two neighbouring holes' edges; a funnel without holes
+/// is a flat floor. Every segment runs left to right along the chain, so the inside of the vessel lies to its
+/// left. Pieces shorter than 1e-9 of the vessel's length are left out: a hole may reach the end wall.
 std::vector<WallSegment> vessel_walls(const Vessel& vessel);
 
 /// Height of the floor, in m, at its highest point: 0 when flat.

@@ -13,7 +13,7 @@ namespace vibrosow {
 namespace {
 
 struct DimensionFacts {
-  std::string_view si;        // for people and for udunits2
+  std::string_view si;  // for people and for udunits2
   std::string_view expected;
 };
 
@@ -28,15 +28,24 @@ const DimensionFacts& facts(Dimension dimension) {
   static constexpr DimensionFacts density{"kg/m3", "a density such as \"1300 kg/m3\""};
   static constexpr DimensionFacts fraction{"1", "a share in % such as \"70 %\""};
   switch (dimension) {
-    case Dimension::length: return length;
-    case Dimension::time: return time;
-    case Dimension::frequency: return frequency;
-    case Dimension::mass: return mass;
-    case Dimension::mass_rate: return mass_rate;
-    case Dimension::speed: return speed;
-    case Dimension::angle: return angle;
-    case Dimension::density: return density;
-    case Dimension::fraction: break;
+    case Dimension::length:
+      return length;
+    case Dimension::time:
+      return time;
+    case Dimension::frequency:
+      return frequency;
+    case Dimension::mass:
+      return mass;
+    case Dimension::mass_rate:
+      return mass_rate;
+    case Dimension::speed:
+      return speed;
+    case Dimension::angle:
+      return angle;
+    case Dimension::density:
+      return density;
+    case Dimension::fraction:
+      break;
   }
   return fraction;
 }
@@ -58,7 +67,8 @@ class UnitSystem {
     const Unit wanted = parse(si);
     const Unit given = parse(unit);
     if (!wanted || !given) return std::nan("");
-    // A ratio, because ut_are_convertible alone also calls a unit and its reciprocal convertible: 5 Hz would be 0.2 s.
+    // A ratio, because ut_are_convertible alone also calls a unit and its reciprocal convertible: 5 Hz would
+    // be 0.2 s.
     const Unit ratio(ut_divide(given.get(), wanted.get()), ut_free);
     const Unit one(ut_get_dimensionless_unit_one(system_.get()), ut_free);
     if (!ratio || ut_are_convertible(ratio.get(), one.get()) == 0) return std::nan("");
@@ -73,27 +83,34 @@ class UnitSystem {
     if (!system_) throw std::runtime_error("the unit database of udunits2 cannot be read");
   }
 
-  Unit parse(const std::string& text) { return Unit(ut_parse(system_.get(), text.c_str(), UT_UTF8), ut_free); }
+  Unit parse(const std::string& text) {
+    return Unit(ut_parse(system_.get(), text.c_str(), UT_UTF8), ut_free);
+  }
 
   std::mutex mutex_;
   std::unique_ptr<ut_system, decltype(&ut_free_system)> system_{nullptr, ut_free_system};
 };
 
-// One unit expression: names with an exponent straight after them, joined by / or *. Nothing that udunits2 would
-// calculate with: no leading number, no space, no minus, no offset.
+// One unit expression: names with an exponent straight after them, joined by / or *. Nothing that udunits2
+// would calculate with: no leading number, no space, no minus, no offset.
 const std::regex& plain_unit() {
   static const std::regex pattern(R"((?:[A-Za-z]|µ)+(?:\^?[1-9])?(?:[/*](?:[A-Za-z]|µ)+(?:\^?[1-9])?)*|%|°)");
   return pattern;
 }
 
-// udunits2 takes an angle for a plain number, so a name decides where an angle could slip in: rad/s is no frequency.
+// udunits2 takes an angle for a plain number, so a name decides where an angle could slip in: rad/s is no
+// frequency.
 bool names_the_dimension(const std::string& unit, Dimension dimension) {
   static const std::regex frequency("k?Hz|rpm"), angle("m?rad|radians?|degrees?|°"), fraction("%");
   switch (dimension) {
-    case Dimension::frequency: return std::regex_match(unit, frequency);
-    case Dimension::angle: return std::regex_match(unit, angle);
-    case Dimension::fraction: return std::regex_match(unit, fraction);
-    default: return unit != "d";  // a day to udunits2, a diameter to most who would write it here
+    case Dimension::frequency:
+      return std::regex_match(unit, frequency);
+    case Dimension::angle:
+      return std::regex_match(unit, angle);
+    case Dimension::fraction:
+      return std::regex_match(unit, fraction);
+    default:
+      return unit != "d";  // a day to udunits2, a diameter to most who would write it here
   }
 }
 
@@ -120,7 +137,7 @@ UnitSize find_unit(const std::string& unit, Dimension dimension) {
                           ? UnitSystem::instance().size(unit, std::string(si_unit(dimension)))
                           : std::nan("");
   if (!(size > 0)) {
-    throw UnitError(fmt::format("\"{}\" is no unit for this; expected {}", unit, expected(dimension)));
+    throw UnitError(fmt::format("wrong unit \"{}\"; expected {}", unit, expected(dimension)));
   }
   return exact_size(size);
 }
@@ -131,7 +148,8 @@ double parse_number(std::string_view text, std::string_view quantity, Dimension 
   double value = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
   if (error != std::errc() || end != text.data() + text.size() || !std::isfinite(value)) {
-    throw UnitError(fmt::format("\"{}\" is too large or too small a number; expected {}", quantity, expected(dimension)));
+    throw UnitError(
+        fmt::format("\"{}\" is too large or too small a number; expected {}", quantity, expected(dimension)));
   }
   return value;
 }
@@ -144,10 +162,12 @@ double parse_quantity(std::string_view text, Dimension dimension) {
   const std::string whole(text);
   std::smatch part;
   if (!std::regex_match(whole, part, number_then_unit)) {
-    throw UnitError(fmt::format("\"{}\" does not start with a number; expected {}", whole, expected(dimension)));
+    throw UnitError(
+        fmt::format("\"{}\" does not start with a number; expected {}", whole, expected(dimension)));
   }
   const std::string unit = part[3];
-  if (unit.empty()) throw UnitError(fmt::format("\"{}\" has no unit; expected {}", whole, expected(dimension)));
+  if (unit.empty())
+    throw UnitError(fmt::format("\"{}\" has no unit; expected {}", whole, expected(dimension)));
   const double number = parse_number(part[1].str(), whole, dimension);
   UnitSize size;
   try {
@@ -162,9 +182,13 @@ double parse_quantity(std::string_view text, Dimension dimension) {
   return value;
 }
 
-std::string_view si_unit(Dimension dimension) { return facts(dimension).si; }
+std::string_view si_unit(Dimension dimension) {
+  return facts(dimension).si;
+}
 
-std::string_view expected(Dimension dimension) { return facts(dimension).expected; }
+std::string_view expected(Dimension dimension) {
+  return facts(dimension).expected;
+}
 
 double unit_size(std::string_view unit, Dimension dimension) {
   const UnitSize size = find_unit(std::string(unit), dimension);

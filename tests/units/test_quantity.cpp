@@ -1,0 +1,150 @@
+#include "units/quantity.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <numbers>
+#include <string>
+#include <thread>
+#include <vector>
+
+namespace vibrosow {
+namespace {
+
+using testing::HasSubstr;
+using testing::ThrowsMessage;
+
+TEST(Quantity, DecimalUnitsAreExact) {
+  EXPECT_EQ(parse_quantity("8 mm", Dimension::length), 0.008);
+  EXPECT_EQ(parse_quantity("6 cm", Dimension::length), 0.06);
+  EXPECT_EQ(parse_quantity("3.57 mm", Dimension::length), 0.00357);
+  EXPECT_EQ(parse_quantity("250 µm", Dimension::length), 0.00025);
+  EXPECT_EQ(parse_quantity("1.5 m", Dimension::length), 1.5);
+  EXPECT_EQ(parse_quantity("0.6 g", Dimension::mass), 0.0006);
+  EXPECT_EQ(parse_quantity("103.57 mg", Dimension::mass), 0.00010357);
+  EXPECT_EQ(parse_quantity("70 %", Dimension::fraction), 0.7);
+  EXPECT_EQ(parse_quantity("9 Hz", Dimension::frequency), 9);
+  EXPECT_EQ(parse_quantity("1.2 kHz", Dimension::frequency), 1200);
+  EXPECT_EQ(parse_quantity("2e-5 s", Dimension::time), 2e-5);
+  EXPECT_EQ(parse_quantity("5 ms", Dimension::time), 0.005);
+  EXPECT_EQ(parse_quantity("3 g/s", Dimension::mass_rate), 0.003);
+  EXPECT_EQ(parse_quantity("20 mm/s", Dimension::speed), 0.02);
+  EXPECT_EQ(parse_quantity("1592 kg/m3", Dimension::density), 1592);
+  EXPECT_EQ(parse_quantity("1592 kg/m^3", Dimension::density), 1592);
+  EXPECT_EQ(parse_quantity("1.592 g/cm3", Dimension::density), 1592);
+}
+
+TEST(Quantity, OtherUnits) {
+  EXPECT_DOUBLE_EQ(parse_quantity("36 km/h", Dimension::speed), 10);
+  EXPECT_EQ(parse_quantity("2 min", Dimension::time), 120);
+  EXPECT_DOUBLE_EQ(parse_quantity("90 degree", Dimension::angle), std::numbers::pi / 2);
+  EXPECT_EQ(parse_quantity("1.5 rad", Dimension::angle), 1.5);
+  EXPECT_EQ(parse_quantity("-3 mm", Dimension::length), -0.003);
+  EXPECT_EQ(parse_quantity("+3mm", Dimension::length), 0.003);
+}
+
+TEST(Quantity, RpmIsTurnsAMinuteNotRadians) {
+  EXPECT_EQ(parse_quantity("540 rpm", Dimension::frequency), 9);
+  EXPECT_EQ(unit_size("rpm", Dimension::frequency), 1.0 / 60);
+}
+
+TEST(Quantity, UnitSize) {
+  EXPECT_EQ(unit_size("mm", Dimension::length), 0.001);
+  EXPECT_EQ(unit_size("Hz", Dimension::frequency), 1);
+  EXPECT_EQ(unit_size("%", Dimension::fraction), 0.01);
+  EXPECT_THROW(unit_size("s", Dimension::length), UnitError);
+  EXPECT_THROW(unit_size("", Dimension::length), UnitError);
+}
+
+struct Wrong {
+  const char* text;
+  Dimension dimension;
+  const char* message;
+};
+
+class RefusedQuantity : public testing::TestWithParam<Wrong> {};
+
+TEST_P(RefusedQuantity, NamesTheTextAndWhatIsExpected) {
+  const char* const text = GetParam().text;
+  const Dimension dimension = GetParam().dimension;
+  const char* const message = GetParam().message;
+  EXPECT_THAT(
+      [&] { parse_quantity(text, dimension); },
+      ThrowsMessage<UnitError>(testing::AllOf(HasSubstr(message), HasSubstr(std::string("\"") + text + "\""),
+                                              HasSubstr(std::string(expected(dimension))))));
+}
+
+constexpr const char* no_number = "does not start with a number";
+constexpr const char* no_unit = "has no unit";
+constexpr const char* not_plain = "is not a plain unit";
+constexpr const char* wrong_unit = "wrong unit";
+
+INSTANTIATE_TEST_SUITE_P(
+    UdunitsTraps, RefusedQuantity,
+    testing::Values(
+        Wrong{"8-10 mm", Dimension::length, not_plain},  // -0.08 m to udunits2
+        Wrong{"24 mm 3", Dimension::length, not_plain},  // 72 mm
+        Wrong{"1 d", Dimension::length, wrong_unit},     // a day
+        Wrong{"1 d", Dimension::time, wrong_unit}, Wrong{"mm", Dimension::length, no_number},  // 1 mm
+        Wrong{"56 rad/s", Dimension::frequency, wrong_unit},                                   // 56 Hz
+        Wrong{"3 1/s", Dimension::frequency, not_plain},
+        Wrong{"5 Hz", Dimension::time, wrong_unit},  // its reciprocal counts as convertible
+        Wrong{"5 s", Dimension::frequency, wrong_unit}, Wrong{"2 s/m", Dimension::speed, wrong_unit},
+        Wrong{"1 rad", Dimension::fraction, wrong_unit}, Wrong{"10 %", Dimension::angle, wrong_unit},
+        Wrong{"3 m-1", Dimension::length, not_plain}, Wrong{"3 mm @ 2", Dimension::length, not_plain},
+        Wrong{"3 s since 1970-01-01", Dimension::time, not_plain},
+        Wrong{"3 m m-1 m", Dimension::length, not_plain}, Wrong{"3 2mm", Dimension::length, not_plain},
+        Wrong{"3 (mm)", Dimension::length, not_plain}, Wrong{"3 mm ", Dimension::length, not_plain}));
+
+INSTANTIATE_TEST_SUITE_P(
+    Numbers, RefusedQuantity,
+    testing::Values(
+        Wrong{"9", Dimension::frequency, no_unit}, Wrong{"9 ", Dimension::frequency, no_unit},
+        Wrong{"", Dimension::length, no_number}, Wrong{"nan mm", Dimension::length, no_number},
+        Wrong{"inf mm", Dimension::length, no_number}, Wrong{"-inf mm", Dimension::length, no_number},
+        Wrong{"1e400 mm", Dimension::length, "too large or too small"},
+        Wrong{"1e-400 mm", Dimension::length, "too large or too small"},
+        Wrong{"1e308 km", Dimension::length, "too large"}, Wrong{".5 mm", Dimension::length, no_number},
+        Wrong{" 5 mm", Dimension::length, no_number}, Wrong{"5. mm", Dimension::length, not_plain},
+        Wrong{"05 mm", Dimension::length, not_plain}, Wrong{"0x10 mm", Dimension::length, not_plain},
+        Wrong{"1,5 mm", Dimension::length, not_plain}, Wrong{"1_000 mm", Dimension::length, not_plain},
+        Wrong{"1 000 mm", Dimension::length, not_plain}));
+
+INSTANTIATE_TEST_SUITE_P(Dimensions, RefusedQuantity,
+                         testing::Values(Wrong{"8 kg", Dimension::length, wrong_unit},
+                                         Wrong{"8 mm", Dimension::mass, wrong_unit},
+                                         Wrong{"20 degC", Dimension::length, wrong_unit},
+                                         Wrong{"20 K", Dimension::time, wrong_unit},
+                                         Wrong{"3 kg", Dimension::mass_rate, wrong_unit},
+                                         Wrong{"3 mm2", Dimension::length, wrong_unit},
+                                         Wrong{"3 g", Dimension::density, wrong_unit},
+                                         Wrong{"3 furlongz", Dimension::length, wrong_unit}));
+
+TEST(Quantity, EveryDimensionReadsItsOwnExample) {
+  for (const Dimension dimension :
+       {Dimension::length, Dimension::time, Dimension::frequency, Dimension::mass, Dimension::mass_rate,
+        Dimension::speed, Dimension::angle, Dimension::density, Dimension::fraction}) {
+    const std::string text(expected(dimension));
+    const auto open = text.find('"');
+    const std::string example = text.substr(open + 1, text.rfind('"') - open - 1);
+    EXPECT_GT(parse_quantity(example, dimension), 0) << example;
+  }
+}
+
+TEST(Quantity, ManyThreadsReadAtOnce) {
+  std::vector<std::jthread> threads;
+  std::vector<int> wrong(4, 0);
+  for (std::size_t t = 0; t < wrong.size(); ++t) {
+    threads.emplace_back([&wrong, t] {
+      for (int i = 0; i < 200; ++i) {
+        if (parse_quantity("8 mm", Dimension::length) != 0.008) ++wrong[t];
+        if (parse_quantity("1592 kg/m3", Dimension::density) != 1592) ++wrong[t];
+      }
+    });
+  }
+  threads.clear();
+  EXPECT_EQ(wrong, std::vector<int>(4, 0));
+}
+
+}  // namespace
+}  // namespace vibrosow
