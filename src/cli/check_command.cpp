@@ -68,15 +68,9 @@ int check_seeder(const CommonOptions& options) {
   print_effects(scene);
   print_step(scene, plan);
   print_compression(scene);
-  if (!plan.too_long) return exit_done;
-  if (scene.numerics.allow_long_step) {
-    fmt::print("the step is too long and insisted on: every result will be marked \"outside the model\"\n");
-    return exit_done;
-  }
-  std::fflush(stdout);
-  fmt::print(stderr, "vibrosow: {}: numerics.dt = {:.4g} s is too long ({}); the longest safe step is {:.4g} s\n",
-             options.file, plan.dt, plan.bound_by, plan.longest_safe);
-  return exit_wrong_input;
+  if (const auto refused = step_refused(scene, plan)) throw InputError(*refused);
+  if (plan.too_long) fmt::print("the step is too long and insisted on: every result will be marked \"outside the model\"\n");
+  return exit_done;
 }
 
 /// The header of a table of measured outflow for this study, ready to fill in.

@@ -31,13 +31,6 @@ std::vector<AccuracyRow> rows_of(const AccuracyGrid& grid) {
   return rows;
 }
 
-std::string step_refused(const Scene& scene) {
-  const StepPlan plan = plan_step(scene);
-  if (!plan.too_long || scene.numerics.allow_long_step) return {};
-  return fmt::format("step {:.3g} s is longer than the longest safe one, {:.3g} s ({})", plan.dt, plan.longest_safe,
-                     plan.bound_by);
-}
-
 /// What one setting's runs gave; `results` are its replicates.
 void take_results(AccuracyRow& row, const Scene& scene, const JobResult* results, int replicates) {
   std::vector<double> rates;
@@ -129,7 +122,7 @@ AccuracyResult measure_accuracy(const Scene& scene, const AccuracyGrid& grid, in
   std::vector<Scene> scenes;  // of every row, run or not
   for (AccuracyRow& row : result.rows) {
     scenes.push_back(scene_with(scene, row.setting));
-    row.refused = step_refused(scenes.back());
+    row.refused = step_refused(scenes.back(), plan_step(scenes.back())).value_or("");
   }
   std::vector<Job> jobs;
   std::vector<std::size_t> row_of;  // of each group of replicates

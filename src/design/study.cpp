@@ -201,19 +201,13 @@ void reject_set_and_varied(const Changes& set, const Changes& varied) {
                                      change.key, fixed.where));
 }
 
-std::string step_too_long(const StepPlan& plan) {
-  return fmt::format("numerics.dt = {:.3g} s is too long: the longest safe step is {:.3g} s ({})", plan.dt,
-                     plan.longest_safe, plan.bound_by);
-}
-
 /// Reads the scene of each layout and keeps each different one once.
 void resolve_scenes(Study& study) {
   std::map<std::string, std::size_t> known;
   for (Layout& layout : study.layouts) {
     try {
       const Scene scene = read_scene(study.base, layout.overrides);
-      const StepPlan plan = plan_step(scene);
-      if (plan.too_long && !scene.numerics.allow_long_step) throw InputError(step_too_long(plan));
+      if (const auto refused = step_refused(scene, plan_step(scene))) throw InputError(*refused);
       const auto [place, is_new] = known.try_emplace(describe_scene(scene).dump(), study.scenes.size());
       if (is_new) study.scenes.push_back(scene);
       layout.scene = place->second;

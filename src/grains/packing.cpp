@@ -30,9 +30,9 @@ std::vector<int> shuffled_lots(const std::vector<SeedLot>& lots, int count, Rand
 }
 
 [[noreturn]] void does_not_fit(const Vessel& vessel) {
-  throw InputError(fmt::format("{0}.fill.count = {1}: the packing rises above the end walls ({0}.height = {2:.6g} mm); "
-                               "take fewer grains or a higher {0}",
-                               vessel.name, vessel.fill->count, vessel.height * 1e3));
+  throw InputError(fmt::format("{}: {} grains rise above the end walls ({}.height = {:.6g} mm); take fewer, or a higher {}",
+                               vessel.fill->where.empty() ? vessel.name + ".fill.count" : vessel.fill->where,
+                               vessel.fill->count, vessel.name, vessel.height * 1e3, vessel.name));
 }
 
 std::vector<PackedGrain> pack_rows(const Vessel& vessel, const std::vector<SeedLot>& lots, Random& random) {

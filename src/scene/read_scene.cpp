@@ -119,6 +119,7 @@ Numerics read_numerics(Table table) {
   const auto integrator = table.choice("integrator", {"velocity-verlet", "rk2-midpoint"});
   numerics.integrator = integrator.value_or(0) == 0 ? Integrator::velocity_verlet : Integrator::rk2_midpoint;
   numerics.dt = table.quantity("dt", Dimension::time, 1e-12, 10);
+  if (numerics.dt) numerics.where = table.where("dt");
   const auto steps = table.number("steps_per_contact", 1, 1e6);
   if (numerics.dt && steps) table.fail("steps_per_contact", "contradicts dt; give one of them");
   numerics.steps_per_contact = steps.value_or(numerics.steps_per_contact);

@@ -142,6 +142,7 @@ Fill read_fill(Table table) {
   const std::optional<std::int64_t> count = table.whole_number("count", 1, 100'000'000);
   if (!count) table.fail("count", "is missing; how many seeds?");
   fill.count = static_cast<int>(*count);
+  fill.where = table.where("count");
   constexpr Packing packings[] = {Packing::poured, Packing::layers, Packing::hexagonal};
   fill.packing = packings[table.choice("packing", {"poured", "layers", "hexagonal"}).value_or(0)];
   const std::optional<double> jitter = table.number("jitter", 0, 0.1);

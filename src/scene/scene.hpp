@@ -53,6 +53,7 @@ struct Fill {
   Packing packing = Packing::poured;
   double jitter = 1e-3;  // largest shift of a grain in layers and hexagonal, in diameters
   bool keep = false;     // topped up to `count` during the run
+  std::string where = {};  // "FILE:LINE: KEY" of the count, for messages; empty in a scene not read from a file
 };
 
 /// Displacement A s(t) sin(2 pi f t) along `direction`; s grows smoothly from 0 to 1 over `ramp`.
@@ -84,6 +85,7 @@ struct Numerics {
   double steps_per_contact = 20;
   std::optional<double> dt;      // s; instead of steps_per_contact
   bool allow_long_step = false;  // run a step beyond the longest safe one; every result is then marked
+  std::string where;             // "FILE:LINE: KEY" of dt, for messages; empty in a scene not read from a file
 };
 
 struct GuardLimits {

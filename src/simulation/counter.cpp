@@ -13,7 +13,7 @@ Counter::Counter(const Scene& scene, std::size_t grains)
 int Counter::hole_at(double x) const {
   for (std::size_t k = 0; k < tray_.holes.size(); ++k)
     if (std::abs(x - tray_.holes[k].centre) <= 0.5 * tray_.holes[k].width) return static_cast<int>(k) + 1;
-  return 0;
+  return x > 0 && x < tray_.length ? through_the_floor : 0;
 }
 
 void Counter::watch(const Grains& grains, const Walls& walls, double time, std::vector<OutflowEvent>& events) {
@@ -42,6 +42,10 @@ void Counter::watch(const Grains& grains, const Walls& walls, double time, std::
     }
     if (height >= -count_below_) continue;
     state.counted = true;
+    if (state.hole == through_the_floor) {
+      ++lost_;
+      continue;
+    }
     const double ago = since(-count_below_);
     const double x = state.hole > 0 ? state.x : along - speed_along * ago;
     events.push_back({time - ago, state.hole, grains.lot[i], grains.number[i], grains.kind(i).mass, x,

@@ -20,20 +20,23 @@ class Counter {
 
   void add_grain() { state_.push_back({}); }
   void remove_flagged(const std::vector<char>& removed);
-  bool is_counted(std::size_t i) const { return state_[i].counted; }
+  bool is_counted(std::size_t i) const { return state_[i].counted; }  // or spilled, or lost
+  std::int64_t lost() const { return lost_; }                         // came through the floor beside its holes
 
  private:
   struct State {
     bool below = false;    // under the floor
     bool counted = false;
-    int hole = 0;          // passed; 0: none
+    int hole = 0;          // passed; 0: none, it fell beside the tray
     double x = 0;          // m, where
   };
+  static constexpr int through_the_floor = -1;
   int hole_at(double x) const;
 
   Vessel tray_;
   double count_below_;
   std::vector<State> state_;
+  std::int64_t lost_ = 0;
 };
 
 /// Whether a point of the lab lies inside a vessel, between its end walls, above its floor line and below their tops.

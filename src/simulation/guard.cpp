@@ -62,10 +62,15 @@ void Guard::watch_step(const Integration& s) {
   const double *vx = s.grains.vx.data(), *vy = s.grains.vy.data();
   int slow = 1;  // not-a-number fails the comparison too
   for (std::size_t i = 0; i < s.grains.size(); ++i) slow &= vx[i] * vx[i] + vy[i] * vy[i] <= fastest2 ? 1 : 0;
-  if (!slow)
-    stop(fmt::format("a grain moves more than {:.2g} radii in a step at {:.4g} s and could pass a wall unseen; a shorter step "
-                     "is needed",
-                     longest_stride, s.time));
+  if (!slow) watch_stride(s.time);
+}
+
+void Guard::watch_stride(double time) {
+  const std::string what =
+      fmt::format("a grain moves more than {:.2g} radii in a step at {:.4g} s and could pass a wall unseen", longest_stride, time);
+  if (!insisted_on_step_) return stop(what + "; a shorter step is needed");
+  if (!warned_of_stride_) warnings_.push_back(what);
+  warned_of_stride_ = true;
 }
 
 void Guard::watch_energy(const Integration& s, EnergyAccount& account) {
@@ -95,8 +100,10 @@ void Guard::watch_energy(const Integration& s, EnergyAccount& account) {
   if (made > limits_.energy_tolerance * scale && made > 0)
     stop(fmt::format("the numerics made {:.3g} J by {:.4g} s, {:.3g} of the energy in play: the step is too long", made, s.time,
                      made / scale));
-  else if (made > energy_warning * scale && made > 0 && warnings_.size() < 8)
+  else if (made > energy_warning * scale && made > 0 && !warned_of_energy_) {
+    warned_of_energy_ = true;
     warnings_.push_back(fmt::format("the numerics made {:.3g} of the energy in play by {:.4g} s", made / scale, s.time));
+  }
 }
 
 void Guard::wall_crossed(std::size_t grains, double time) {

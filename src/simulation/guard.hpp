@@ -38,12 +38,14 @@ class Guard {
 
  private:
   void stop(std::string reason);
+  void watch_stride(double time);
 
   GuardLimits limits_;
   bool insisted_on_step_;
   double smallest_radius_;
   double max_compression_ = 0;
   double warned_at_ = -1;  // s, when the compression first passed the warning limit
+  bool warned_of_stride_ = false, warned_of_energy_ = false;
   std::optional<std::string> stop_reason_;
   std::vector<std::string> warnings_;
 

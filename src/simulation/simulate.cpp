@@ -1,7 +1,5 @@
 #include "simulation/simulate.hpp"
 
-#include <fmt/format.h>
-
 #include <chrono>
 
 #include "scene/input_error.hpp"
@@ -18,10 +16,7 @@ constexpr std::int64_t steps_between_looks = 256;
 Run simulate(const Scene& scene, const SimulationOptions& options) {
   const auto started = std::chrono::steady_clock::now();
   const StepPlan plan = plan_step(scene);
-  if (plan.too_long && !scene.numerics.allow_long_step)
-    throw InputError(fmt::format("numerics.dt = {:.4g} s is too long: {} allows {:.4g} s at most "
-                                 "(numerics.allow_long_step = true runs it all the same, and marks the result)",
-                                 plan.dt, plan.bound_by, plan.longest_safe));
+  if (const auto refused = step_refused(scene, plan)) throw InputError(*refused);
   const EffectSet effects = effects_of(scene);
   Grains grains = starting_grains(scene, options.random_seed, effects);
   refuse_overlapping_start(scene, grains);

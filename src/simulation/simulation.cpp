@@ -65,8 +65,15 @@ void Simulation::steps(std::int64_t count) {
 
 void Simulation::count() {
   const std::size_t before = run_.events.size();
+  const std::int64_t lost_before = counter_.lost();
   counter_.watch(grains_, field_.walls(), s_.time, run_.events);
+  if (counter_.lost() > lost_before) note_lost(counter_.lost() - lost_before);
   for (std::size_t k = before; k < run_.events.size(); ++k) ++(run_.events[k].hole > 0 ? run_.balance.counted : run_.balance.spilled);
+}
+
+void Simulation::note_lost(std::int64_t grains) {
+  run_.balance.lost += grains;
+  guard_.wall_crossed(static_cast<std::size_t>(grains), s_.time);
 }
 
 /// Takes out grains that went through a wall, and counted ones that touch nothing.
@@ -89,8 +96,7 @@ void Simulation::take_out() {
     if (!removed[k] && !counter_.is_counted(k)) removed[k] = 1, ++lost;
   }
   s_.census.crossed.clear();
-  if (lost > 0) guard_.wall_crossed(static_cast<std::size_t>(lost), s_.time);
-  run_.balance.lost += lost;
+  if (lost > 0) note_lost(lost);
   if (std::find(removed.begin(), removed.end(), 1) != removed.end()) take_out_flagged(removed);
 }
 
@@ -167,10 +173,11 @@ void refuse_overlapping_start(const Scene& scene, const Grains& grains) {
   ContactCensus census;
   field.evaluate(grains, 0, census);
   // Grains at rest may carry their bed's weight, no more.
-  if (census.max_compression > scene.guard.warn_compression)
-    throw InputError(fmt::format("grains overlap at the start, their shells compressed by {:.3g} of the radius; do the {} and "
-                                 "the bed in the tray stand in each other's way? (hopper.above, fill.count)",
-                                 census.max_compression, scene.hopper ? "hopper" : "walls"));
+  if (census.max_compression <= scene.guard.warn_compression) return;
+  const Fill& fill = scene.hopper && scene.hopper->fill ? *scene.hopper->fill : *scene.tray.fill;
+  throw InputError(fmt::format("{}: grains overlap at the start, their shells compressed by {:.3g} of the radius; does the "
+                               "hopper stand in the tray's bed? (hopper.above, fill.count)",
+                               fill.where.empty() ? "fill.count" : fill.where, census.max_compression));
 }
 
 }  // namespace vibrosow

@@ -45,6 +45,7 @@ class Simulation {
  private:
   void count();
   void take_out();
+  void note_lost(std::int64_t grains);
   void feed();
   void note_whether_dry();
   void take_out_flagged(const std::vector<char>& removed);

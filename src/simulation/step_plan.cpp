@@ -1,5 +1,7 @@
 #include "simulation/step_plan.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -132,6 +134,14 @@ StepPlan plan_step(const Scene& scene) {
   plan.too_long = plan.dt > plan.longest_safe;
   plan.steps = std::llround(std::ceil(scene.run.duration / plan.dt * (1 - 1e-12)));
   return plan;
+}
+
+std::optional<std::string> step_refused(const Scene& scene, const StepPlan& plan) {
+  if (!plan.too_long || scene.numerics.allow_long_step) return std::nullopt;
+  return fmt::format("{}: {:.4g} s is too long, the longest safe step is {:.4g} s (bound by {}); numerics.allow_long_step = true "
+                     "runs it all the same, and marks the result",
+                     scene.numerics.where.empty() ? "numerics.dt" : scene.numerics.where, plan.dt, plan.longest_safe,
+                     plan.bound_by);
 }
 
 ForetoldCompression foretell_compression(const Scene& scene) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -24,6 +25,10 @@ struct StepPlan {
   std::int64_t steps;            // to the end of the run
 };
 StepPlan plan_step(const Scene& scene);
+
+/// Why the scene cannot run with its step, where that was written and the longest safe one; nothing when it can, or when the
+/// scene insists (numerics.allow_long_step).
+std::optional<std::string> step_refused(const Scene& scene, const StepPlan& plan);
 
 /// What the shells will suffer, foretold from layers, acceleration and speed of impact, before any grain moves.
 struct ForetoldCompression {

@@ -124,7 +124,7 @@ TEST(Packing, TooMuchForTheVesselIsRefusedByName) {
     pack(v, one_lot(), random);
     FAIL() << "3000 grains cannot fit";
   } catch (const InputError& error) {
-    EXPECT_NE(std::string(error.what()).find("tray.fill.count = 3000"), std::string::npos) << error.what();
+    EXPECT_NE(std::string(error.what()).find("tray.fill.count: 3000"), std::string::npos) << error.what();
   }
 }
 
