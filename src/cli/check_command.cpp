@@ -8,6 +8,7 @@
 #include "design/study.hpp"
 #include "outflow/measured.hpp"
 #include "scene/key_units.hpp"
+#include "scene/input_error.hpp"
 #include "scene/read_scene.hpp"
 #include "simulation/price.hpp"
 #include "simulation/step_plan.hpp"
