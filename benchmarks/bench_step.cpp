@@ -1,0 +1,66 @@
+// Whole steps, broadphase included, of the published tray: 2400 grains of 8 mm in 50 cm, 9 Hz, 1 cm, three holes of 24 mm,
+// friction 0.3, restitution 0.5, velocity Verlet. items_per_second is grain-steps per second on one core.
+#include <benchmark/benchmark.h>
+
+#include "simulation/simulation.hpp"
+#include "simulation/step_plan.hpp"
+
+namespace vibrosow {
+namespace {
+
+Scene published_tray(double shell_compression) {
+  Scene scene;
+  scene.lots = {{"grain", 8e-3, 0.6e-3, Shape::disc, 1.0}};
+  scene.contact.shell_compression = shell_compression;
+  scene.contact.seed = scene.contact.wall = {0.3, 0.5};
+  scene.tray.name = "tray";
+  scene.tray.length = 0.5;
+  scene.tray.height = 0.45;
+  scene.tray.holes = {{0.125, 0.024}, {0.25, 0.024}, {0.375, 0.024}};
+  scene.tray.fill = Fill{2400, Packing::layers, 1e-3, false};
+  scene.tray.motion = HarmonicMotion{0, 0.01, 9, 0};
+  scene.guard.stop_compression = 100;
+  scene.run.duration = 2;
+  return scene;
+}
+
+/// Runs to 0.3 s, past the first impacts, then times the steps up to 0.5 s, again and again from the start.
+void steps_of_the_published_tray(benchmark::State& state, double shell_compression, EffectSet effects) {
+  const Scene scene = published_tray(shell_compression);
+  const double dt = plan_step(scene).dt;
+  std::int64_t grain_steps = 0, searches = 0, prunes = 0, contacts = 0, steps = 0;
+  for (auto _ : state) {
+    state.PauseTiming();
+    Simulation simulation(scene, starting_grains(scene, 1, effects), {.dt = dt, .effects = effects, .margins = {}});
+    while (simulation.time() < 0.3) simulation.step();
+    const Run before = simulation.result();
+    const Neighbours& neighbours = simulation.field().neighbours();
+    const std::int64_t searches_before = neighbours.searches(), prunes_before = neighbours.prunes();
+    state.ResumeTiming();
+    while (simulation.time() < 0.5) simulation.step();
+    state.PauseTiming();
+    const Run after = simulation.result();
+    grain_steps += after.grain_steps - before.grain_steps;
+    contacts += after.force_evaluations - before.force_evaluations;
+    steps += after.steps - before.steps;
+    searches += neighbours.searches() - searches_before;
+    prunes += neighbours.prunes() - prunes_before;
+    state.ResumeTiming();
+  }
+  state.SetItemsProcessed(grain_steps);
+  state.counters["contacts_per_grain_step"] = static_cast<double>(contacts) / static_cast<double>(grain_steps);
+  state.counters["steps_per_search"] = static_cast<double>(steps) / static_cast<double>(searches);
+  state.counters["steps_per_prune"] = static_cast<double>(steps) / static_cast<double>(prunes);
+}
+
+const EffectSet as_the_scene_calls_for{.friction = true, .rotation = true, .damping = true, .motion = true};
+const EffectSet every_effect{.friction = true, .rotation = true, .damping = true, .unequal = true, .drag = true, .motion = true};
+
+BENCHMARK_CAPTURE(steps_of_the_published_tray, stiff_1e-4, 1e-4, as_the_scene_calls_for)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(steps_of_the_published_tray, stiff_1e-4_all_effects, 1e-4, every_effect)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(steps_of_the_published_tray, soft_1e-2, 1e-2, as_the_scene_calls_for)->Unit(benchmark::kMillisecond);
+
+}  // namespace
+}  // namespace vibrosow
+
+BENCHMARK_MAIN();
