@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <memory>
 
 #include "cli/commands.hpp"
@@ -10,6 +11,7 @@
 #include "scene/key_units.hpp"
 #include "scene/input_error.hpp"
 #include "scene/read_scene.hpp"
+#include "simulation/integrator.hpp"
 #include "simulation/price.hpp"
 #include "simulation/step_plan.hpp"
 
@@ -24,21 +26,23 @@ double foretold_grain_steps(const Scene& scene, const StepPlan& plan) {
   return grains * static_cast<double>(plan.steps);
 }
 
-void print_effects(const Scene& scene) {
+void print_effects(const Scene& scene, const std::vector<EffectPrice>& prices) {
   fmt::print("effects\n");
   for (const EffectReason& effect : explain_effects(scene))
     fmt::print("  {:<3} {:<10} {}\n", effect.present ? "yes" : "no", effect.effect, effect.reason);
   fmt::print("price on this machine, now\n");
-  for (const EffectPrice& price : price_list(effects_of(scene)))
-    fmt::print("  {:<22} {:8.1f} ns per grain-step\n", price.effect, price.ns_per_grain_step);
+  for (const EffectPrice& price : prices)  // a difference of two timings can fall below zero
+    fmt::print("  {:<22} {:8.1f} ns per grain-step\n", price.effect, std::max(0.0, price.ns_per_grain_step));
 }
 
-void print_step(const Scene& scene, const StepPlan& plan) {
+void print_step(const Scene& scene, const StepPlan& plan, double ns_per_grain_step) {
   fmt::print("step\n  dt {:.4g} s, shortest contact {:.4g} s: {:.3g} steps a contact\n", plan.dt, plan.contact_duration,
              plan.contact_duration / plan.dt);
   for (const StepLimit& limit : plan.limits) fmt::print("  at most {:.4g} s: {}\n", limit.dt, limit.reason);
   fmt::print("  longest safe step {:.4g} s ({})\n", plan.longest_safe, plan.bound_by);
-  fmt::print("  {} steps, about {:.3g} grain-steps\n", plan.steps, foretold_grain_steps(scene, plan));
+  const double grain_steps = foretold_grain_steps(scene, plan);
+  fmt::print("  {} steps, about {:.3g} grain-steps: some {:.2g} s of one core\n", plan.steps, grain_steps,
+             1e-9 * ns_per_grain_step * grain_steps);
 }
 
 void print_compression(const Scene& scene) {
@@ -48,7 +52,9 @@ void print_compression(const Scene& scene) {
   fmt::print("  at impact {:.3g} at {:.3g} m/s\n", foretold.impact_compression, foretold.impact_speed);
   const double warn = scene.guard.warn_compression;
   if (foretold.static_compression > warn || foretold.impact_compression > warn)
-    fmt::print("  warning: beyond guard.warn_compression = {:g}; a shell is thin, results will be outside the model\n", warn);
+    fmt::print("  warning: beyond guard.warn_compression = {:g}, and a shell is thin; contact.shell_compression = {:.2g} would "
+               "do\n",
+               warn, foretold.stiff_enough);
 }
 
 void print_vessel(const Vessel& vessel) {
@@ -66,8 +72,9 @@ int check_seeder(const CommonOptions& options) {
   fmt::print("{}\n", scene.title);
   print_vessel(scene.tray);
   if (scene.hopper) print_vessel(*scene.hopper);
-  print_effects(scene);
-  print_step(scene, plan);
+  const std::vector<EffectPrice> prices = price_list(effects_of(scene));
+  print_effects(scene, prices);
+  print_step(scene, plan, evaluations_per_step(scene.numerics.integrator) * prices.front().ns_per_grain_step);
   print_compression(scene);
   if (const auto refused = step_refused(scene, plan)) throw InputError(*refused);
   if (plan.too_long) fmt::print("the step is too long and insisted on: every result will be marked \"outside the model\"\n");

@@ -155,6 +155,9 @@ ForetoldCompression foretell_compression(const Scene& scene) {
   // d = V / omega with omega^2 = g / eps
   foretold.impact_compression =
       foretold.impact_speed * std::sqrt(compression / (standard_gravity * smallest_radius(scene)));
+  const double at_rest = scene.guard.warn_compression / foretold.static_compression;
+  const double at_impact = scene.guard.warn_compression / std::max(foretold.impact_compression, 1e-300);
+  foretold.stiff_enough = compression * std::min(at_rest, at_impact * at_impact);
   return foretold;
 }
 

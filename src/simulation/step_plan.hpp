@@ -37,6 +37,7 @@ struct ForetoldCompression {
   double static_overlap;       // of the lowest pair in radii, twice the above
   double impact_speed;         // m/s, 2 A omega
   double impact_compression;   // d/r at that speed on a wall
+  double stiff_enough;         // the largest contact.shell_compression that keeps both within guard.warn_compression
 };
 ForetoldCompression foretell_compression(const Scene& scene);
 

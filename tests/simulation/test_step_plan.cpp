@@ -95,6 +95,9 @@ TEST(StepPlan, ForetellsOverlapAtRestAndAtImpact) {
   Scene scene = published();
   scene.contact.shell_compression = 7.7e-5;
   EXPECT_NEAR(foretell_compression(scene).impact_compression, 0.05, 0.0005);
+  EXPECT_NEAR(foretell_compression(published()).stiff_enough, 7.7e-5, 0.1e-5);
+  scene.tray.motion.reset();  // then the weight of 39 layers decides
+  EXPECT_NEAR(foretell_compression(scene).stiff_enough, 0.05 / 39, 1e-9);
 }
 
 }  // namespace
