@@ -24,14 +24,24 @@ struct AccuracyOptions {
   int replicates = 5;
 };
 
+/// CLI::Range takes nan.
+CLI::Validator number_within(double least, double most) {
+  return {[least, most](const std::string& text) {
+            double number = 0;
+            const bool within = CLI::detail::lexical_cast(text, number) && number >= least && number <= most;
+            return within ? "" : fmt::format("\"{}\" is not a number from {:g} to {:g}", text, least, most);
+          },
+          "NUMBER"};
+}
+
 double slip_speed_of(const std::string& text) {
   try {
     const double speed = parse_quantity(text, Dimension::speed);
-    if (speed > 0) return speed;
+    if (speed >= 1e-6 && speed <= 100) return speed;
   } catch (const UnitError& error) {
     throw InputError(fmt::format("--slip-speed: {}", error.what()));
   }
-  throw InputError(fmt::format("--slip-speed: \"{}\" must be over zero", text));
+  throw InputError(fmt::format("--slip-speed: \"{}\" is out of range, which is from 1e-06 m/s to 100 m/s", text));
 }
 
 AccuracyGrid grid_of(const AccuracyOptions& options, const Scene& scene) {
@@ -88,10 +98,10 @@ void add_accuracy_command(CLI::App& app, int& exit_code) {
       ->check(CLI::IsMember({"velocity-verlet", "rk2-midpoint"}));
   command->add_option("--steps-per-contact", options->steps_per_contact, "default 10,20,40")
       ->delimiter(',')
-      ->check(CLI::Range(1.0, 1e4));
+      ->check(number_within(1, 1e4));
   command->add_option("--shell-compression", options->shell_compressions, "default: the seeder's, times 1, 10 and 100")
       ->delimiter(',')
-      ->check(CLI::Range(1e-9, 0.5));
+      ->check(number_within(1e-9, 0.5));
   command->add_option("--slip-speed", options->slip_speeds, "with units: \"20 mm/s\"; default: the seeder's, times 1 and 5")
       ->delimiter(',');
   command->add_option("--replicates", options->replicates, "runs of each setting")

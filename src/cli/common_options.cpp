@@ -2,13 +2,29 @@
 
 #include <fmt/format.h>
 
+#include <unistd.h>
+
 #include <algorithm>
+#include <cerrno>
+#include <charconv>
+#include <cstring>
 #include <system_error>
 #include <thread>
 
 #include "scene/input_error.hpp"
 
 namespace vibrosow {
+namespace {
+
+/// CLI11 alone takes -1 and numbers of thirty digits, and makes other numbers of them.
+std::string whole_number(const std::string& text) {
+  std::uint64_t number = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+  const bool whole = error == std::errc{} && end == text.data() + text.size();
+  return whole ? "" : fmt::format("\"{}\" is not a whole number from 0 to 18446744073709551615", text);
+}
+
+}  // namespace
 
 std::vector<Override> CommonOptions::overrides() const {
   std::vector<Override> result;
@@ -34,6 +50,7 @@ void add_common_options(CLI::App& command, CommonOptions& options, const std::st
   command.add_option("--out", options.out, "directory for the reports; default out/ and the file's name")->type_name("DIR");
   command.add_option("--random-seed", options.random_seed, "random seed, of replicates the first")
       ->type_name("N")
+      ->check(whole_number)
       ->capture_default_str();
   command.add_option("--jobs", options.jobs, "runs side by side; a single run takes one core")
       ->type_name("N")
@@ -46,6 +63,8 @@ void make_out_directory(const std::filesystem::path& directory) {
   std::error_code error;
   std::filesystem::create_directories(directory, error);
   if (error) throw InputError(fmt::format("{}: cannot be made: {}", directory.string(), error.message()));
+  if (access(directory.c_str(), W_OK | X_OK) != 0)
+    throw InputError(fmt::format("{}: cannot be written into: {}", directory.string(), std::strerror(errno)));
 }
 
 }  // namespace vibrosow

@@ -29,7 +29,8 @@ void add_input_options(CLI::App& command, CommonOptions& options, const std::str
 /// Adds --out, --random-seed, --jobs and --quiet too.
 void add_common_options(CLI::App& command, CommonOptions& options, const std::string& file_help);
 
-/// Makes the directory now, so that a long simulation does not end at a directory that cannot be made. Throws InputError.
+/// Makes the directory now, so that a long simulation does not end at a directory that cannot be made or
+/// written into. Throws InputError.
 void make_out_directory(const std::filesystem::path& directory);
 
 }  // namespace vibrosow

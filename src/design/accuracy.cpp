@@ -122,7 +122,9 @@ AccuracyResult measure_accuracy(const Scene& scene, const AccuracyGrid& grid, in
   std::vector<Scene> scenes;  // of every row, run or not
   for (AccuracyRow& row : result.rows) {
     scenes.push_back(scene_with(scene, row.setting));
-    row.refused = step_refused(scenes.back(), plan_step(scenes.back())).value_or("");
+    const StepPlan plan = plan_step(scenes.back());
+    if (step_refused(scenes.back(), plan))
+      row.refused = fmt::format("too long, at most {:.3g} s: {}", plan.longest_safe, plan.bound_by);
   }
   std::vector<Job> jobs;
   std::vector<std::size_t> row_of;  // of each group of replicates

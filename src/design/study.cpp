@@ -7,6 +7,7 @@
 #include <charconv>
 #include <cmath>
 #include <set>
+#include <system_error>
 
 #include "scene/describe_scene.hpp"
 #include "scene/document.hpp"
@@ -168,11 +169,20 @@ std::vector<NamedDesign> read_designs(Table& study) {
   return designs;
 }
 
+/// The file that a key names, relative to the file that holds the key.
+std::filesystem::path named_file(Table& table, const std::string& key) {
+  const std::filesystem::path file = (table.directory() / table.required_text(key)).lexically_normal();
+  std::error_code none;
+  if (!std::filesystem::is_regular_file(file, none))
+    table.fail(key, fmt::format("there is no file {}", file.string()));
+  return file;
+}
+
 std::optional<MeasuredPart> read_measured_part(Table& study) {
   auto table = study.table("measured");
   if (!table) return std::nullopt;
   MeasuredPart part;
-  part.file = (table->directory() / table->required_text("file")).lexically_normal();
+  part.file = named_file(*table, "file");
   part.scale = static_cast<MeasuredScale>(table->choice("scale", {"none", "depth", "free"}).value_or(0));
   part.table = read_measured(part.file);
   if (part.table.quantity == MeasuredQuantity::share_curve && part.scale != MeasuredScale::none)
@@ -270,6 +280,8 @@ std::vector<std::string> range_values(const std::string& key, const std::string&
   const double first = value_of(key, from);
   const double last = value_of(key, to);
   const double by = value_of(key, step);
+  if (!std::isfinite(first) || !std::isfinite(last) || !std::isfinite(by))
+    throw std::invalid_argument("a range is of finite numbers");
   const double steps = (last - first) / by;
   if (by == 0 || steps < 0) throw std::invalid_argument("the range's step does not lead from its start to its end");
   if (steps > static_cast<double>(most_layouts))
@@ -298,7 +310,7 @@ Study read_study(const std::filesystem::path& file, const std::vector<Override>&
   Table table(Document::read(file, of_study));
   Study study;
   study.title = table.text("title").value_or(file.stem().string());
-  study.base = (table.directory() / table.required_text("base")).lexically_normal();
+  study.base = named_file(table, "base");
   study.replicates = static_cast<int>(table.whole_number("replicates", 1, most_replicates).value_or(5));
   auto set = table.table("set");
   auto vary = table.table("vary");

@@ -4,13 +4,16 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <cmath>
+#include <cstring>
 #include <fstream>
 #include <iterator>
 #include <map>
 #include <numbers>
 #include <set>
 #include <sstream>
+#include <system_error>
 #include <tuple>
 
 #include "scene/input_error.hpp"
@@ -40,9 +43,15 @@ std::vector<std::string> split(const std::string& dotted) {
 }
 
 std::string read_file(const std::filesystem::path& file) {
-  if (!std::filesystem::exists(file)) throw InputError(file.string() + ": there is no such file");
+  const auto fail = [&](const std::string& reason) { throw InputError(file.string() + ": " + reason); };
+  std::error_code error;
+  const auto kind = std::filesystem::status(file, error).type();
+  if (kind == std::filesystem::file_type::not_found) fail("there is no such file");
+  if (error) fail("cannot be read: " + error.message());
+  if (kind == std::filesystem::file_type::directory) fail("cannot be read: it is a directory");
+  if (kind != std::filesystem::file_type::regular) fail("cannot be read: it is not a plain file");
   std::ifstream in(file, std::ios::binary);
-  if (!std::filesystem::is_regular_file(file) || !in) throw InputError(file.string() + ": cannot be read");
+  if (!in) fail(std::string("cannot be read: ") + std::strerror(errno));
   return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
 }
 
@@ -77,6 +86,20 @@ std::string origin_of(const std::filesystem::path& file,
   // The root table counts as line 1 although a key that is missing from it stands nowhere.
   if (line == 0 || (prefix.empty() && find_node(table, key) == nullptr)) return file.string();
   return fmt::format("{}:{}", file.string(), line);
+}
+
+/// As origin_of, for a dotted key below `table`; every part but the last names a table.
+std::string origin_below(const std::filesystem::path& file,
+                         const std::map<std::string, std::string>& override_origin, const toml::table* table,
+                         std::string prefix, std::string key) {
+  for (auto dot = key.find('.'); dot != std::string::npos; dot = key.find('.')) {
+    const toml::node* next = table->get(key.substr(0, dot));
+    if (next == nullptr || !next->is_table()) break;
+    table = next->as_table();
+    prefix = joined(prefix, key.substr(0, dot));
+    key = key.substr(dot + 1);
+  }
+  return origin_of(file, override_origin, *table, prefix, key);
 }
 
 void apply(toml::table& root, std::map<std::string, std::string>& origins, const Override& change) {
@@ -227,16 +250,7 @@ const std::filesystem::path& Document::file() const {
 }
 
 std::string Document::where(const std::string& full_key) const {
-  const toml::table* table = &contents_->root;
-  std::string prefix, key = full_key;
-  for (auto dot = key.find('.'); dot != std::string::npos; dot = key.find('.')) {
-    const toml::node* next = table->get(key.substr(0, dot));
-    if (next == nullptr || !next->is_table()) break;
-    table = next->as_table();
-    prefix = joined(prefix, key.substr(0, dot));
-    key = key.substr(dot + 1);
-  }
-  return origin_of(contents_->file, contents_->override_origin, *table, prefix, key) + ": " + full_key;
+  return origin_below(contents_->file, contents_->override_origin, &contents_->root, "", full_key) + ": " + full_key;
 }
 
 struct Table::State {
@@ -544,8 +558,8 @@ std::string Table::full_key(const std::string& key) const {
 
 std::string Table::origin(const std::string& key) const {
   if (key.find('.') != std::string::npos) {
-    const std::string where = state_->document->where(joined(state_->prefix, key));
-    return where.substr(0, where.rfind(": "));
+    const auto& contents = *state_->document->contents_;
+    return origin_below(contents.file, contents.override_origin, state_->node, state_->prefix, key);
   }
   const State* holds = state_->holder(key);
   return (holds != nullptr ? holds : state_.get())->origin(key);
