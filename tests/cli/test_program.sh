@@ -50,6 +50,11 @@ expect 2 "." nonsense
 expect 2 "." run
 expect 2 "." run seeder.toml --jobs 0
 expect 2 "nowhere.toml" run nowhere.toml
+expect 2 "random-seed.*-1" run seeder.toml --random-seed -1
+expect 2 "random-seed.*whole number" run seeder.toml --random-seed 99999999999999999999999
+expect 2 "steps-per-contact.*nan" accuracy seeder.toml --steps-per-contact nan
+expect 2 "shell-compression.*1e-09 to 0.5" accuracy seeder.toml --shell-compression inf
+expect 2 "slip-speed.*range" accuracy seeder.toml --slip-speed "1e300 m/s"
 expect 0 "wheat" presets crops
 expect 0 "wheat-tray" presets seeders
 
@@ -88,6 +93,24 @@ printed=$(bash -c 'trap "" XFSZ; ulimit -f 1; exec "$0" run seeder.toml --out fu
 [ $? -eq 2 ] || fail "a full disk does not end with 2: $printed"
 grep -q "cannot be written" <<<"$printed" || fail "a full disk is not named: $printed"
 [ -z "$(find full -type f 2>/dev/null)" ] || fail "a full disk leaves $(find full -type f)"
+
+# The same without the shell's help against the signal; and a table that cannot be printed.
+printed=$(bash -c 'ulimit -f 1; exec "$0" run seeder.toml --out full --quiet --set "run.duration=0.3 s"' "$program" 2>&1)
+[ $? -eq 2 ] || fail "a file over the size limit does not end with 2: $printed"
+[ -z "$(find full -type f 2>/dev/null)" ] || fail "a file over the size limit leaves $(find full -type f)"
+if [ -w /dev/full ]; then
+  printed=$("$program" check seeder.toml 2>&1 >/dev/full)
+  [ $? -eq 2 ] || fail "a check that cannot be printed does not end with 2"
+  grep -q "^vibrosow: .*space" <<<"$printed" || fail "a full standard output is not named: $printed"
+  printf 'base = "seeder.toml"\n[[layout]]\nname = "fits"\n[[layout]]\nname = "does not"\ntray.holes.span = "1 m"\n[vary]\n
+contact.friction = { from = 0, to = 1, step = 0.01 }\n' >many.toml
+  printed=$("$program" check many.toml 2>&1 >/dev/full)
+  [ $? -eq 2 ] || fail "a long check that cannot be printed does not end with 2: $printed"
+fi
+mkdir closed && chmod 555 closed
+if [ ! -w closed ]; then  # root may write everywhere
+  expect 2 "^vibrosow: closed: cannot be written into" run seeder.toml --out closed --set "run.duration=9000 s"
+fi
 
 # Ctrl-C: the first layouts are done in a moment, the last would take hours. Job control, because a background job of a
 # plain script ignores SIGINT.

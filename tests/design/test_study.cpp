@@ -27,6 +27,8 @@ TEST(Range, ThatMissesItsEndOrNeverStepsIsRefused) {
   EXPECT_THROW(range_values("tray.holes.count", "1", "5", "0"), std::invalid_argument);
   EXPECT_THROW(range_values("tray.holes.count", "1", "5", "-1"), std::invalid_argument);
   EXPECT_THROW(range_values("tray.holes.count", "1 mm", "5 mm", "1 mm"), std::invalid_argument);
+  EXPECT_THROW(range_values("contact.friction", "nan", "0.3", "0.1"), std::invalid_argument);
+  EXPECT_THROW(range_values("contact.friction", "0.1", "inf", "0.1"), std::invalid_argument);
 }
 
 TEST(Study, ExpandsTheGridFirstKeySlowestInFileOrder) {
@@ -127,6 +129,33 @@ TEST(Study, WithoutVaryItsLayoutsAreTheMeasuredConditions) {
   ASSERT_EQ(study.layouts.size(), 2u);
   ASSERT_EQ(study.measured->matches.size(), 3u);
   EXPECT_EQ(study.measured->matches[2].layout, 1u);
+}
+
+TEST(Study, MeasuredHoleOrLotThatALayoutHasNotIsRefused) {
+  const StudyFiles files;
+  for (const std::string table : {"hole,rate_g_per_s\n4,0.5\n", "lot,rate_g_per_s\nrye,0.5\n",
+                                  "hole,time_s,seeds\n4,1,5\n", "lot,time_s,seeds\nrye,1,5\n"}) {
+    files.write("bench.csv", table);
+    EXPECT_THAT([&] { read_study(files.study("[measured]\nfile = \"bench.csv\"\n")); },
+                ThrowsMessage<InputError>(testing::AllOf(
+                    HasSubstr("bench.csv:2: "), HasSubstr("layout 1 has no such hole or lot"))))
+        << table;
+  }
+}
+
+TEST(Study, FileThatIsNotThereIsToldWhereItIsNamed) {
+  const StudyFiles files;
+  EXPECT_THAT([&] { read_study(files.write("study.toml", "title = \"a\"\nbase = \"none.toml\"\n")); },
+              ThrowsMessage<InputError>(testing::AllOf(HasSubstr("study.toml:2: base: "), HasSubstr("none.toml"))));
+  EXPECT_THAT([&] { read_study(files.study("[measured]\nfile = \"none.csv\"\n")); },
+              ThrowsMessage<InputError>(
+                  testing::AllOf(HasSubstr("study.toml:3: measured.file: "), HasSubstr("none.csv"))));
+}
+
+TEST(Study, WrongKeyOfANamedDesignIsToldWithItsLine) {
+  const StudyFiles files;
+  EXPECT_THAT([&] { read_study(files.study("[[layout]]\nname = \"a\"\ntray.holes.count = \"many\"\n")); },
+              ThrowsMessage<InputError>(HasSubstr("study.toml:4: tray.holes.count: ")));
 }
 
 TEST(Study, MeasuredConditionLeftOutMeansTheBase) {

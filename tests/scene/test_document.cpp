@@ -34,6 +34,14 @@ TEST_F(DocumentTest, FileThatIsNotThere) {
   EXPECT_THROW(Document::read(folder_.path("")), InputError);
 }
 
+TEST_F(DocumentTest, WhatIsNoPlainFileIsToldAsWhatItIs) {
+  const auto loop = folder_.path("loop.toml");
+  std::filesystem::create_symlink(loop, loop);
+  EXPECT_THAT([&] { Document::read(folder_.path("")); }, ThrowsMessage<InputError>(HasSubstr("it is a directory")));
+  EXPECT_THAT([&] { Document::read("/dev/null"); }, ThrowsMessage<InputError>(HasSubstr("not a plain file")));
+  EXPECT_THAT([&] { Document::read(loop); }, ThrowsMessage<InputError>(HasSubstr("loop.toml: cannot be read: ")));
+}
+
 TEST_F(DocumentTest, SyntaxErrorNamesItsLine) {
   EXPECT_THAT([&] { read("a = 1\nb = = 2\n"); },
               ThrowsMessage<InputError>(HasSubstr("file.toml:2: not valid TOML: ")));
