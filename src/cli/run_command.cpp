@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <cmath>
 #include <memory>
 
 #include "cli/commands.hpp"
@@ -19,10 +20,12 @@ namespace {
 void print_summary(const Scene& scene, const Run& run, const Outflow& outflow) {
   fmt::print("{}\n\n{:>6} {:<12} {:>11} {:>8} {:>12} {:>10} {:>10}\n", scene.title, "hole", "lot", "position mm",
              "seeds", "seeds per s", "g per s", "pause s");
+  // A run that ended before its measuring window has no rates.
+  const auto figure = [](double value) { return std::isfinite(value) ? fmt::format("{:.4g}", value) : "-"; };
   for (const HoleOutflow& row : outflow.holes)
-    fmt::print("{:>6} {:<12} {:>11} {:>8} {:>12.4g} {:>10.4g} {:>10.3g}\n", row.hole, row.lot,
-               row.centre ? fmt::format("{:.1f}", *row.centre * 1e3) : "", row.grains, row.seeds_per_s,
-               row.mass_rate * 1e3, row.longest_pause);
+    fmt::print("{:>6} {:<12} {:>11} {:>8} {:>12} {:>10} {:>10}\n", row.hole, row.lot,
+               row.centre ? fmt::format("{:.1f}", *row.centre * 1e3) : "", row.grains, figure(row.seeds_per_s),
+               figure(row.mass_rate * 1e3), figure(row.longest_pause));
   const Balance& balance = run.balance;
   fmt::print("\nwindow {:g} to {:g} s; put in {} = inside {} + counted {} + spilled {} + lost {}\n", outflow.window_from,
              outflow.window_to, balance.put_in, balance.inside, balance.counted, balance.spilled, balance.lost);

@@ -84,7 +84,7 @@ std::vector<HoleFigures> hole_figures(const std::vector<Replicate>& replicates) 
 
 /// What to know about the finished runs of a layout.
 std::string remarks_on(const std::vector<Replicate>& replicates) {
-  std::size_t finished = 0, dry = 0, outside = 0, lost = 0;
+  std::size_t finished = 0, dry = 0, outside = 0, lost = 0, warned = 0;
   for (const Replicate& replicate : replicates) {
     if (!replicate.finished()) continue;
     ++finished;
@@ -92,11 +92,13 @@ std::string remarks_on(const std::vector<Replicate>& replicates) {
     if (run.tray_empty_since >= 0 && run.tray_empty_since < replicate.outflow.window_to) ++dry;
     if (run.outside_the_model) ++outside;
     if (run.balance.lost > 0) ++lost;
+    if (!run.warnings.empty()) ++warned;
   }
   std::vector<std::string> remarks;
   if (outside > 0) remarks.push_back("outside the model");
   if (dry > 0) remarks.push_back(fmt::format("ran dry in {} of {} runs", dry, finished));
   if (lost > 0) remarks.push_back(fmt::format("seeds lost through walls in {} of {} runs", lost, finished));
+  if (warned > 0) remarks.push_back(fmt::format("the guard warned in {} of {} runs", warned, finished));
   return fmt::format("{}", fmt::join(remarks, "; "));
 }
 

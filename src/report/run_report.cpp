@@ -127,7 +127,10 @@ std::string run_json(const Scene& scene, const Run& run, const Outflow& outflow,
 
 std::string timing_json(const Run& run) {
   Json json = {{"wall_s", run.wall_time}, {"grain_steps_per_s", nullptr}};
-  if (run.wall_time > 0) json["grain_steps_per_s"] = static_cast<double>(run.grain_steps) / run.wall_time;
+  if (run.wall_time <= 0) return text_of(json);
+  json["grain_steps_per_s"] = static_cast<double>(run.grain_steps) / run.wall_time;
+  const double neighbours = run.neighbour_time / run.wall_time, forces = run.force_time / run.wall_time;
+  json["shares"] = {{"neighbours", neighbours}, {"forces", forces}, {"integration_and_rest", 1 - neighbours - forces}};
   return text_of(json);
 }
 

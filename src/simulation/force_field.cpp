@@ -1,6 +1,7 @@
 #include "simulation/force_field.hpp"
 
 #include <algorithm>
+#include <chrono>
 
 namespace vibrosow {
 namespace {
@@ -24,8 +25,10 @@ ForceField::ForceField(const Scene& scene, const KernelSet& kernels, NeighbourMa
       kernels_(kernels) {}
 
 void ForceField::evaluate(const Grains& grains, double time, ContactCensus& census) {
+  const auto started = std::chrono::steady_clock::now();
   walls_.place(time);
   neighbours_.update(grains, walls_);
+  const auto found = std::chrono::steady_clock::now();
   forces_.fx.assign(grains.size(), 0);
   forces_.fy.assign(grains.size(), 0);
   forces_.torque.assign(grains.omega.size(), 0);
@@ -33,6 +36,8 @@ void ForceField::evaluate(const Grains& grains, double time, ContactCensus& cens
   const Motion at = motion_of(grains);
   kernels_.pair(grains, at, neighbours_.pairs(), parameters_, forces_, census);
   kernels_.wall(grains, at, neighbours_.near_walls(), walls_.placed(), parameters_, forces_, census);
+  neighbour_time_ += std::chrono::duration<double>(found - started).count();
+  force_time_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - found).count();
 }
 
 double ForceField::elastic_energy(const Grains& grains) const {

@@ -20,6 +20,9 @@ class ForceField {
 
   double elastic_energy(const Grains& grains) const;
 
+  double neighbour_time() const { return neighbour_time_; }  // s of wall time spent so far
+  double force_time() const { return force_time_; }
+
   const Forces& forces() const { return forces_; }
   const Walls& walls() const { return walls_; }
   Neighbours& neighbours() { return neighbours_; }
@@ -31,6 +34,7 @@ class ForceField {
   ContactParameters parameters_;
   const KernelSet& kernels_;
   Forces forces_;
+  double neighbour_time_ = 0, force_time_ = 0;
 };
 
 }  // namespace vibrosow

@@ -13,8 +13,8 @@ namespace vibrosow {
 
 /// Margins of the two lists, in diameters of the largest grain. They change the time of a run and never its result.
 struct NeighbourMargins {
-  double wide = 1.0;
-  double narrow = 0.12;
+  double wide = 1.5;
+  double narrow = 0.15;
 };
 
 /// Who may touch whom. A wide list comes from Box2D, seldom; a narrow one is pruned from it, often; both are renewed just

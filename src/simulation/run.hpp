@@ -35,7 +35,7 @@ struct EnergyAccount {  // J
 
 enum class RunStatus { finished, stopped_by_guard, interrupted };
 
-/// What one simulation gives. Holds nothing that depends on a clock but `wall_time`.
+/// What one simulation gives. Holds nothing that depends on a clock but the last three.
 struct Run {
   RunStatus status = RunStatus::finished;
   std::string stop_reason;             // of the guard
@@ -53,6 +53,8 @@ struct Run {
   Balance balance;
   std::vector<OutflowEvent> events;    // by time
   double wall_time = 0;                // s, of this machine
+  double neighbour_time = 0;           // s, of wall_time: boxes, lists, walls put in place
+  double force_time = 0;               // s, of wall_time: the kernels
 };
 
 }  // namespace vibrosow

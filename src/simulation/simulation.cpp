@@ -145,6 +145,9 @@ Run Simulation::result() const {
   run.end_time = s_.time;
   run.force_evaluations = s_.census.contacts;
   run.max_compression = guard_.max_compression();
+  std::ranges::stable_sort(run.events, {}, &OutflowEvent::time);  // of one step they come in the order of the grains
+  run.neighbour_time = field_.neighbour_time();
+  run.force_time = field_.force_time();
   run.balance.inside = 0;
   for (std::size_t i = 0; i < grains_.size(); ++i)
     if (!counter_.is_counted(i)) ++run.balance.inside;

@@ -36,6 +36,20 @@ TEST(Counter, AGrainBelongsToTheHoleItsCentrePasses) {
   expect_balanced(result.balance);
 }
 
+TEST(Counter, EventsComeByTimeNotByGrain) {
+  // Both cross the line in the same step, the second grain first.
+  Bench bench;
+  bench.gravity = {0, -standard_gravity};
+  bench.scene.tray.holes = {{0.3, 0.04}, {0.7, 0.05}};
+  bench.place(0.3, 0.1 + 5e-5).place(0.7, 0.1);
+  Simulation& run = bench.start(1e-4);
+  run.steps(4000);
+  const vibrosow::Run result = run.result();
+  ASSERT_EQ(result.events.size(), 2u);
+  EXPECT_LT(result.events[0].time, result.events[1].time);
+  EXPECT_EQ(result.events[0].grain, 1);
+}
+
 TEST(Counter, PassesInTheTraysFrame) {
   // The tray swings to the left under a grain that falls straight down: it passes the hole that lies there then.
   Bench bench;
