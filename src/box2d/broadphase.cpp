@@ -12,13 +12,13 @@ namespace vibrosow {
 
 struct Broadphase::World {
   b2World world{b2Vec2(0, 0)};
-  std::vector<b2Body*> bodies;       // by vessel
-  std::vector<b2Vec2> rest;          // by vessel, where its body stands at rest
-  std::vector<b2Fixture*> fixtures;  // by wall
-  b2DynamicTree tree;                // of the grains
-  std::vector<int> proxies;          // by grain
-  std::vector<std::int64_t> numbers; // by grain, ascending: which grain a proxy stands for
-  std::vector<int> grain_of_proxy;   // by proxy
+  std::vector<b2Body*> bodies;        // by vessel
+  std::vector<b2Vec2> rest;           // by vessel, where its body stands at rest
+  std::vector<b2Fixture*> fixtures;   // by wall
+  b2DynamicTree tree;                 // of the grains
+  std::vector<int> proxies;           // by grain
+  std::vector<std::int64_t> numbers;  // by grain, ascending: which grain a proxy stands for
+  std::vector<int> grain_of_proxy;    // by proxy
   std::vector<int> found;
   double units_per_metre;
 
@@ -122,7 +122,9 @@ Broadphase::Broadphase(const std::vector<Vessel>& vessels, double unit) : world_
 
 Broadphase::~Broadphase() = default;
 
-std::size_t Broadphase::wall_count() const { return world_->fixtures.size(); }
+std::size_t Broadphase::wall_count() const {
+  return world_->fixtures.size();
+}
 
 void Broadphase::remove_wall(int wall) {
   b2Fixture*& fixture = world_->fixtures[static_cast<std::size_t>(wall)];

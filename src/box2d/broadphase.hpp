@@ -11,19 +11,20 @@
 
 namespace vibrosow {
 
-/// Box2D's part: it holds the vessels' walls as shapes of bodies (the tray kinematic, the hopper static), keeps a tree of the
-/// grains' boxes, and says which grains may touch what. Its solver never runs, and it never says how deep a contact is.
-/// The only place where lengths become float: one Box2D unit is the largest grain's diameter, because Box2D's margins are
-/// compiled in for shapes of about one unit.
+/// Box2D's part: it holds the vessels' walls as shapes of bodies (the tray kinematic, the hopper static), keeps a tree
+/// of the grains' boxes, and says which grains may touch what. Its solver never runs, and it never says how deep a
+/// contact is. The only place where lengths become float: one Box2D unit is the largest grain's diameter, because
+/// Box2D's margins are compiled in for shapes of about one unit.
 class Broadphase {
  public:
   /// The vessels' walls are numbered in order, vessel after vessel. `unit` in m is the length of one Box2D unit.
   Broadphase(const std::vector<Vessel>& vessels, double unit);
   ~Broadphase();
 
-  /// Fills `pairs` with all (i, j) nearer than r_i + r_j + margin (m) and `near_walls` with at least all grains nearer than
-  /// r + margin to a wall, both sorted; the candidates' sides are not set. `displacement` (m) of each vessel from rest in the lab; coordinates are taken relative to the first
-  /// vessel, so that a bed moving with its tray stays in its boxes. Grains are known by their number.
+  /// Fills `pairs` with all (i, j) nearer than r_i + r_j + margin (m) and `near_walls` with at least all grains nearer
+  /// than r + margin to a wall, both sorted; the candidates' sides are not set. `displacement` (m) of each vessel from
+  /// rest in the lab; coordinates are taken relative to the first vessel, so that a bed moving with its tray stays in
+  /// its boxes. Grains are known by their number.
   void find(const Grains& grains, const std::vector<Eigen::Vector2d>& displacement, double margin, PairList& pairs,
             std::vector<WallCandidate>& near_walls);
 

@@ -102,7 +102,9 @@ void add_accuracy_command(CLI::App& app, int& exit_code) {
   command->add_option("--shell-compression", options->shell_compressions, "default: the seeder's, times 1, 10 and 100")
       ->delimiter(',')
       ->check(number_within(1e-9, 0.5));
-  command->add_option("--slip-speed", options->slip_speeds, "with units: \"20 mm/s\"; default: the seeder's, times 1 and 5")
+  command
+      ->add_option("--slip-speed", options->slip_speeds,
+                   "with units: \"20 mm/s\"; default: the seeder's, times 1 and 5")
       ->delimiter(',');
   command->add_option("--replicates", options->replicates, "runs of each setting")
       ->check(CLI::Range(1, 1000))

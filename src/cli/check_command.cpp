@@ -8,8 +8,8 @@
 #include "contact/effects.hpp"
 #include "design/study.hpp"
 #include "outflow/measured.hpp"
-#include "scene/key_units.hpp"
 #include "scene/input_error.hpp"
+#include "scene/key_units.hpp"
 #include "scene/read_scene.hpp"
 #include "simulation/integrator.hpp"
 #include "simulation/price.hpp"
@@ -18,7 +18,9 @@
 namespace vibrosow {
 namespace {
 
-double grains_in(const std::optional<Fill>& fill) { return fill ? fill->count : 0; }
+double grains_in(const std::optional<Fill>& fill) {
+  return fill ? fill->count : 0;
+}
 
 /// Grains at the start times steps; outflow lessens it, topping up adds to it.
 double foretold_grain_steps(const Scene& scene, const StepPlan& plan) {
@@ -52,9 +54,11 @@ void print_compression(const Scene& scene) {
   fmt::print("  at impact {:.3g} at {:.3g} m/s\n", foretold.impact_compression, foretold.impact_speed);
   const double warn = scene.guard.warn_compression;
   if (foretold.static_compression > warn || foretold.impact_compression > warn)
-    fmt::print("  warning: beyond guard.warn_compression = {:g}, and a shell is thin; contact.shell_compression = {:.2g} would "
-               "do\n",
-               warn, foretold.stiff_enough);
+    fmt::print(
+        "  warning: beyond guard.warn_compression = {:g}, and a shell is thin; contact.shell_compression = {:.2g} "
+        "would "
+        "do\n",
+        warn, foretold.stiff_enough);
 }
 
 void print_vessel(const Vessel& vessel) {
@@ -77,7 +81,8 @@ int check_seeder(const CommonOptions& options) {
   print_step(scene, plan, evaluations_per_step(scene.numerics.integrator) * prices.front().ns_per_grain_step);
   print_compression(scene);
   if (const auto refused = step_refused(scene, plan)) throw InputError(*refused);
-  if (plan.too_long) fmt::print("the step is too long and insisted on: every result will be marked \"outside the model\"\n");
+  if (plan.too_long)
+    fmt::print("the step is too long and insisted on: every result will be marked \"outside the model\"\n");
   return exit_done;
 }
 
@@ -107,7 +112,8 @@ int check_study(const CommonOptions& options) {
 
 void add_check_command(CLI::App& app, int& exit_code) {
   auto options = std::make_shared<CommonOptions>();
-  CLI::App* command = app.add_subcommand("check", "validate a seeder or a study; effects, step, predicted overlap and cost");
+  CLI::App* command =
+      app.add_subcommand("check", "validate a seeder or a study; effects, step, predicted overlap and cost");
   add_input_options(*command, *options, "seeder or study file (.toml)");
   command->callback(
       [options, &exit_code] { exit_code = is_study(options->file) ? check_study(*options) : check_seeder(*options); });

@@ -38,7 +38,8 @@ std::filesystem::path CommonOptions::out_directory() const {
 
 void add_input_options(CLI::App& command, CommonOptions& options, const std::string& file_help) {
   command.add_option("FILE", options.file, file_help)->required();
-  command.add_option("--set", options.sets, "change a key of the file: --set \"tray.motion.frequency=12 Hz\"; repeatable")
+  command
+      .add_option("--set", options.sets, "change a key of the file: --set \"tray.motion.frequency=12 Hz\"; repeatable")
       ->type_name("KEY=VALUE")
       ->expected(1)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
@@ -47,7 +48,8 @@ void add_input_options(CLI::App& command, CommonOptions& options, const std::str
 void add_common_options(CLI::App& command, CommonOptions& options, const std::string& file_help) {
   add_input_options(command, options, file_help);
   options.jobs = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
-  command.add_option("--out", options.out, "directory for the reports; default out/ and the file's name")->type_name("DIR");
+  command.add_option("--out", options.out, "directory for the reports; default out/ and the file's name")
+      ->type_name("DIR");
   command.add_option("--random-seed", options.random_seed, "random seed, of replicates the first")
       ->type_name("N")
       ->check(whole_number)

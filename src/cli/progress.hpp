@@ -5,8 +5,8 @@
 
 namespace vibrosow {
 
-/// How far the work is, on stderr: one redrawn line on a terminal, otherwise a plain line every few seconds; nothing when
-/// quiet. One thread at a time.
+/// How far the work is, on stderr: one redrawn line on a terminal, otherwise a plain line every few seconds; nothing
+/// when quiet. One thread at a time.
 class Progress {
  public:
   /// `unit_count` of `unit` make the whole: 40 "runs", 2e6 "steps".

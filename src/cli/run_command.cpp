@@ -27,8 +27,9 @@ void print_summary(const Scene& scene, const Run& run, const Outflow& outflow) {
                row.centre ? fmt::format("{:.1f}", *row.centre * 1e3) : "", row.grains, figure(row.seeds_per_s),
                figure(row.mass_rate * 1e3), figure(row.longest_pause));
   const Balance& balance = run.balance;
-  fmt::print("\nwindow {:g} to {:g} s; put in {} = inside {} + counted {} + spilled {} + lost {}\n", outflow.window_from,
-             outflow.window_to, balance.put_in, balance.inside, balance.counted, balance.spilled, balance.lost);
+  fmt::print("\nwindow {:g} to {:g} s; put in {} = inside {} + counted {} + spilled {} + lost {}\n",
+             outflow.window_from, outflow.window_to, balance.put_in, balance.inside, balance.counted, balance.spilled,
+             balance.lost);
   if (!outflow.note.empty()) fmt::print("note: {}\n", outflow.note);
 }
 

@@ -43,7 +43,8 @@ void print_table(const StudyResult& result) {
   if (!result.comparison) return;
   if (result.study.measured->scale == MeasuredScale::free && result.comparison->scale)
     fmt::print("\nscale fitted to the measured outflow: {:.4g}\n", *result.comparison->scale);
-  if (result.comparison->misfit_percent) fmt::print("misfit over all rows: {:.3g} %\n", *result.comparison->misfit_percent);
+  if (result.comparison->misfit_percent)
+    fmt::print("misfit over all rows: {:.3g} %\n", *result.comparison->misfit_percent);
 }
 
 int exit_code_of(const StudyResult& result, bool interrupted) {
@@ -54,8 +55,8 @@ int exit_code_of(const StudyResult& result, bool interrupted) {
                stopped->reason);
     return exit_stopped_by_guard;
   }
-  const bool all_invalid = std::ranges::all_of(
-      result.layouts, [](const LayoutResult& one) { return one.status == LayoutStatus::invalid; });
+  const bool all_invalid =
+      std::ranges::all_of(result.layouts, [](const LayoutResult& one) { return one.status == LayoutStatus::invalid; });
   if (!all_invalid) return exit_done;
   fmt::print(stderr, "vibrosow: no layout could be simulated: {}\n", result.layouts.front().reason);
   return exit_wrong_input;
@@ -90,7 +91,8 @@ int run_sweep(const CommonOptions& options) {
 
 void add_sweep_command(CLI::App& app, int& exit_code) {
   auto options = std::make_shared<CommonOptions>();
-  CLI::App* command = app.add_subcommand("sweep", "simulate every layout of a study, against measured outflow where it names some");
+  CLI::App* command =
+      app.add_subcommand("sweep", "simulate every layout of a study, against measured outflow where it names some");
   add_common_options(*command, *options, "study file (.toml)");
   command->callback([options, &exit_code] { exit_code = run_sweep(*options); });
 }

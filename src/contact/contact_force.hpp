@@ -17,9 +17,9 @@ struct ContactForce {
   Real tangential;  // N, on i along -t; positive opposes a positive sliding speed
 };
 
-/// Force of one contact. `approach` (m/s) is the rate at which the overlap grows, `sliding` (m/s) the speed W of i's surface
-/// over j's along t. The normal force never pulls. Sliding friction nu F_n sign(W) (paper A) is made continuous below the
-/// slip speed v_s: nu F_n min(1, |W| / v_s) sign(W).
+/// Force of one contact. `approach` (m/s) is the rate at which the overlap grows, `sliding` (m/s) the speed W of i's
+/// surface over j's along t. The normal force never pulls. Sliding friction nu F_n sign(W) (paper A) is made continuous
+/// below the slip speed v_s: nu F_n min(1, |W| / v_s) sign(W).
 template <class Law, bool with_friction, bool with_damping, class Real>
 inline ContactForce<Real> contact_force(Real overlap, Real approach, Real sliding, Real stiffness, Real damping,
                                         const SurfaceParameters& surface) {

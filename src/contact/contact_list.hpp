@@ -5,8 +5,8 @@
 
 namespace vibrosow {
 
-/// Candidate pairs (i, j), i < j, sorted: the partners of i are partner[first[i]] .. partner[first[i + 1] - 1]. The order of
-/// summation follows from it, whatever found the pairs.
+/// Candidate pairs (i, j), i < j, sorted: the partners of i are partner[first[i]] .. partner[first[i + 1] - 1]. The
+/// order of summation follows from it, whatever found the pairs.
 struct PairList {
   std::vector<int> first{0};
   std::vector<int> partner;
@@ -24,9 +24,9 @@ struct WallCandidate {
 
 /// A wall segment where it stands now, in the lab frame.
 struct PlacedWall {
-  double ax, ay, bx, by;     // m
-  int vertex_a, vertex_b;    // numbers unique over all vessels
-  double vx, vy;             // m/s
+  double ax, ay, bx, by;   // m
+  int vertex_a, vertex_b;  // numbers unique over all vessels
+  double vx, vy;           // m/s
 };
 
 }  // namespace vibrosow

@@ -48,7 +48,7 @@ std::vector<EffectReason> explain_effects(const Scene& scene) {
   const auto pair = [](const char* key, double seed, double wall) {
     return fmt::format("contact.{} = {:.6g} between seeds, {:.6g} on walls", key, seed, wall);
   };
-  const std::string rotation = effects.rotation     ? "friction turns the grains"
+  const std::string rotation = effects.rotation   ? "friction turns the grains"
                                : effects.friction ? "contact.rotation = false"
                                                   : "nothing turns a grain without friction";
   const auto moving = [&scene] {
@@ -64,7 +64,8 @@ std::vector<EffectReason> explain_effects(const Scene& scene) {
       {"rotation", effects.rotation, rotation},
       {"damping", effects.damping, pair("restitution", contact.seed.restitution, contact.wall.restitution)},
       {"unequal", effects.unequal,
-       effects.unequal ? "the lots differ in diameter, mass or shape" : "every grain has the same diameter, mass and shape"},
+       effects.unequal ? "the lots differ in diameter, mass or shape"
+                       : "every grain has the same diameter, mass and shape"},
       {"drag", effects.drag, fmt::format("contact.drag = {:.6g} g/s", contact.drag * 1e3)},
       {"motion", effects.motion, moving()},
   };

@@ -12,9 +12,9 @@ struct EffectSet {
   bool friction = false;
   bool rotation = false;  // only with friction
   bool damping = false;
-  bool unequal = false;   // grains of more than one diameter, mass or shape
-  bool drag = false;      // not part of the pair force: chosen in the integrator
-  bool motion = false;    // a vessel moves: chosen in the loop
+  bool unequal = false;  // grains of more than one diameter, mass or shape
+  bool drag = false;     // not part of the pair force: chosen in the integrator
+  bool motion = false;   // a vessel moves: chosen in the loop
 
   bool operator==(const EffectSet&) const = default;
 };

@@ -4,8 +4,8 @@
 
 namespace vibrosow {
 
-/// Paper A's normal law: a rigid disc in a thin elastic shell of stiffness c = m g / eps, two shells in series (Bogulskaya &
-/// Bogulsky 2020). Arguments in SI; a wall is a grain of compliance 0 and inverse mass 0.
+/// Paper A's normal law: a rigid disc in a thin elastic shell of stiffness c = m g / eps, two shells in series
+/// (Bogulskaya & Bogulsky 2020). Arguments in SI; a wall is a grain of compliance 0 and inverse mass 0.
 struct ElasticShell {
   /// c_i c_j / (c_i + c_j), N/m, from the shells' compliances in m/N.
   template <class Real>

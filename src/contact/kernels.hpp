@@ -30,19 +30,20 @@ struct Forces {
 
 /// What an evaluation of the forces tells besides the forces.
 struct ContactCensus {
-  std::int64_t contacts = 0;       // evaluations of the law
-  double max_compression = 0;      // shell compression d c_j / (c_i + c_j) / r_i
-  double wall_power = 0;           // W, work of moving walls on grains
-  std::vector<int> crossed;        // grains whose centre went through a wall
+  std::int64_t contacts = 0;   // evaluations of the law
+  double max_compression = 0;  // shell compression d c_j / (c_i + c_j) / r_i
+  double wall_power = 0;       // W, work of moving walls on grains
+  std::vector<int> crossed;    // grains whose centre went through a wall
 };
 
 /// Adds the forces of all touching pairs to `forces`. Neighbours of a grain are summed in the order of their indices.
-using PairKernel = void (*)(const Grains&, const Motion&, const PairList&, const ContactParameters&, Forces&, ContactCensus&);
+using PairKernel = void (*)(const Grains&, const Motion&, const PairList&, const ContactParameters&, Forces&,
+                            ContactCensus&);
 
-/// Adds the forces of walls; `candidates` sorted by grain. A grain that touches a wall's face and an end point of the same
-/// wall is pushed by the face alone, and once by an end point that two walls share.
-using WallKernel = void (*)(const Grains&, const Motion&, const std::vector<WallCandidate>&, const std::vector<PlacedWall>&,
-                            const ContactParameters&, Forces&, ContactCensus&);
+/// Adds the forces of walls; `candidates` sorted by grain. A grain that touches a wall's face and an end point of the
+/// same wall is pushed by the face alone, and once by an end point that two walls share.
+using WallKernel = void (*)(const Grains&, const Motion&, const std::vector<WallCandidate>&,
+                            const std::vector<PlacedWall>&, const ContactParameters&, Forces&, ContactCensus&);
 
 /// Elastic energy stored in all contacts, J.
 using EnergyKernel = double (*)(const Grains&, const Motion&, const PairList&, const std::vector<WallCandidate>&,

@@ -12,8 +12,8 @@ struct PairEffects {
   static constexpr bool friction = friction_, rotation = rotation_, damping = damping_, unequal = unequal_;
 };
 
-/// Properties of two grains as the kernel sees them: constants for equal grains, loads and a division for unequal ones, from
-/// the same expressions, so that both give the same bits for equal grains.
+/// Properties of two grains as the kernel sees them: constants for equal grains, loads and a division for unequal ones,
+/// from the same expressions, so that both give the same bits for equal grains.
 template <class Law, class Effects>
 class PairProperties {
  public:
@@ -108,8 +108,8 @@ void pair_forces(const Grains& grains, const Motion& at, const PairList& list, c
           sliding += arm_i * at.omega[i] + arm_j * at.omega[j];
         }
       }
-      const auto force = contact_force<Law, Effects::friction, Effects::damping>(overlap, approach, sliding, pair.stiffness,
-                                                                                 pair.damping, surface);
+      const auto force = contact_force<Law, Effects::friction, Effects::damping>(overlap, approach, sliding,
+                                                                                 pair.stiffness, pair.damping, surface);
       // On i: -F_n n - F_t t with t = (-n_y, n_x).
       double px = force.normal * nx, py = force.normal * ny;
       if constexpr (Effects::friction) px -= force.tangential * ny, py += force.tangential * nx;

@@ -21,8 +21,8 @@ double linear_damping_ratio(double restitution) {
   const auto excess = [restitution](double z) { return linear_restitution(z) - restitution; };
   const double largest = 1 / std::sqrt(restitution) + 1;  // e falls like 1 / (2 zeta)^2
   std::uintmax_t iterations = 200;
-  const auto [low, high] = boost::math::tools::toms748_solve(excess, 0.0, largest, boost::math::tools::eps_tolerance<double>(50),
-                                                             iterations);
+  const auto [low, high] = boost::math::tools::toms748_solve(excess, 0.0, largest,
+                                                             boost::math::tools::eps_tolerance<double>(50), iterations);
   return 0.5 * (low + high);
 }
 

@@ -9,10 +9,10 @@ namespace vibrosow {
 
 /// The nearest point of a wall segment to a grain's centre.
 struct NearestPoint {
-  double dx, dy;      // m, from the centre to the point
-  double distance2;   // m2
-  int vertex;         // number of the end point it is; -1 inside the segment (a face)
-  double side;        // sign tells the side of the wall's line
+  double dx, dy;     // m, from the centre to the point
+  double distance2;  // m2
+  int vertex;        // number of the end point it is; -1 inside the segment (a face)
+  double side;       // sign tells the side of the wall's line
 };
 
 inline NearestPoint nearest_point(const PlacedWall& wall, double x, double y) {
@@ -27,8 +27,8 @@ inline NearestPoint nearest_point(const PlacedWall& wall, double x, double y) {
   return {dx, dy, dx * dx + dy * dy, vertex, side};
 }
 
-/// Calls `touch(wall, nearest)` for each contact of grain `i`, which owns candidates [from, to): faces first, then each end
-/// point once and only where no touched face ends in it.
+/// Calls `touch(wall, nearest)` for each contact of grain `i`, which owns candidates [from, to): faces first, then each
+/// end point once and only where no touched face ends in it.
 template <class Touch>
 void for_each_wall_contact(const std::vector<WallCandidate>& candidates, std::size_t from, std::size_t to,
                            const std::vector<PlacedWall>& walls, double x, double y, double radius, Touch touch) {
@@ -83,34 +83,33 @@ void wall_forces(const Grains& grains, const Motion& at, const std::vector<WallC
       const NearestPoint nearest = nearest_point(walls[static_cast<std::size_t>(candidates[c].wall)], at.x[i], at.y[i]);
       if (nearest.vertex < 0 && nearest.side * candidates[c].side < 0) census.crossed.push_back(static_cast<int>(i));
     }
-    for_each_wall_contact(
-        candidates, from, to, walls, at.x[i], at.y[i], kind.radius,
-        [&](const WallCandidate& candidate, const PlacedWall& wall, const NearestPoint& nearest) {
-          const double distance = std::sqrt(nearest.distance2);
-          double nx = 0, ny = 0;
-          if (distance > 0) {
-            nx = nearest.dx / distance, ny = nearest.dy / distance;
-          } else {  // the centre lies on the wall: pushed back to the side it came from
-            const double ex = wall.bx - wall.ax, ey = wall.by - wall.ay;
-            const double length = std::copysign(std::sqrt(ex * ex + ey * ey), candidate.side);
-            nx = ey / length, ny = -ex / length;
-          }
-          const double overlap = kind.radius - distance;
-          census.max_compression = std::max(census.max_compression, overlap / kind.radius);
-          ++census.contacts;
-          const double ux = at.vx[i] - wall.vx, uy = at.vy[i] - wall.vy;
-          const double approach = ux * nx + uy * ny;
-          [[maybe_unused]] const double arm = kind.radius - parameters.arm_shortening * overlap;
-          [[maybe_unused]] double sliding = uy * nx - ux * ny;
-          if constexpr (Effects::rotation) sliding += arm * at.omega[i];
-          const auto force = contact_force<Law, Effects::friction, Effects::damping>(overlap, approach, sliding, stiffness,
-                                                                                     damping, parameters.wall);
-          double px = force.normal * nx, py = force.normal * ny;
-          if constexpr (Effects::friction) px -= force.tangential * ny, py += force.tangential * nx;
-          forces.fx[i] -= px, forces.fy[i] -= py;
-          if constexpr (Effects::rotation) forces.torque[i] -= arm * force.tangential;
-          census.wall_power -= px * wall.vx + py * wall.vy;
-        });
+    for_each_wall_contact(candidates, from, to, walls, at.x[i], at.y[i], kind.radius,
+                          [&](const WallCandidate& candidate, const PlacedWall& wall, const NearestPoint& nearest) {
+                            const double distance = std::sqrt(nearest.distance2);
+                            double nx = 0, ny = 0;
+                            if (distance > 0) {
+                              nx = nearest.dx / distance, ny = nearest.dy / distance;
+                            } else {  // the centre lies on the wall: pushed back to the side it came from
+                              const double ex = wall.bx - wall.ax, ey = wall.by - wall.ay;
+                              const double length = std::copysign(std::sqrt(ex * ex + ey * ey), candidate.side);
+                              nx = ey / length, ny = -ex / length;
+                            }
+                            const double overlap = kind.radius - distance;
+                            census.max_compression = std::max(census.max_compression, overlap / kind.radius);
+                            ++census.contacts;
+                            const double ux = at.vx[i] - wall.vx, uy = at.vy[i] - wall.vy;
+                            const double approach = ux * nx + uy * ny;
+                            [[maybe_unused]] const double arm = kind.radius - parameters.arm_shortening * overlap;
+                            [[maybe_unused]] double sliding = uy * nx - ux * ny;
+                            if constexpr (Effects::rotation) sliding += arm * at.omega[i];
+                            const auto force = contact_force<Law, Effects::friction, Effects::damping>(
+                                overlap, approach, sliding, stiffness, damping, parameters.wall);
+                            double px = force.normal * nx, py = force.normal * ny;
+                            if constexpr (Effects::friction) px -= force.tangential * ny, py += force.tangential * nx;
+                            forces.fx[i] -= px, forces.fy[i] -= py;
+                            if constexpr (Effects::rotation) forces.torque[i] -= arm * force.tangential;
+                            census.wall_power -= px * wall.vx + py * wall.vy;
+                          });
   });
 }
 

@@ -16,7 +16,9 @@ namespace {
 
 constexpr double softest_shell = 0.05;
 
-double cost_of(const AccuracyRow& row) { return row.grain_steps * evaluations_per_step(row.setting.integrator); }
+double cost_of(const AccuracyRow& row) {
+  return row.grain_steps * evaluations_per_step(row.setting.integrator);
+}
 
 std::vector<AccuracyRow> rows_of(const AccuracyGrid& grid) {
   std::vector<AccuracyRow> rows;

@@ -19,8 +19,8 @@ struct AccuracyGrid {
   std::vector<double> slip_speeds;         // m/s
 };
 
-/// Both integrators; 10, 20 and 40 steps a contact; the scene's shell compression and 10 and 100 times that, up to 0.05; the
-/// scene's slip speed and five times that, or one where there is no friction.
+/// Both integrators; 10, 20 and 40 steps a contact; the scene's shell compression and 10 and 100 times that, up to
+/// 0.05; the scene's slip speed and five times that, or one where there is no friction.
 AccuracyGrid default_accuracy_grid(const Scene& scene);
 
 struct AccuracySetting {
@@ -33,15 +33,16 @@ struct AccuracySetting {
 
 struct AccuracyRow {
   AccuracySetting setting;
-  std::string refused;   // why it has no rate: a step too long, stopped by the guard, interrupted
-  int replicates = 0;    // finished
+  std::string refused;                        // why it has no rate: a step too long, stopped by the guard, interrupted
+  int replicates = 0;                         // finished
   std::optional<MeanWithInterval> mass_rate;  // kg/s, all holes and lots, of the plane slice
   std::optional<double> error_percent;        // signed, against the reference
-  std::optional<double> error_ci95;           // half width, percent: both rates' intervals, as independent; none for the reference
-  double grain_steps = 0;                     // mean of the finished runs
-  std::optional<double> cost_ratio;           // grain-steps times force evaluations a step, over the reference's
-  bool on_front = false;                      // no other setting costs no more and errs less
-  double wall_time = 0;                       // s, mean of the finished runs; of this machine
+  std::optional<double>
+      error_ci95;          // half width, percent: both rates' intervals, as independent; none for the reference
+  double grain_steps = 0;  // mean of the finished runs
+  std::optional<double> cost_ratio;  // grain-steps times force evaluations a step, over the reference's
+  bool on_front = false;             // no other setting costs no more and errs less
+  double wall_time = 0;              // s, mean of the finished runs; of this machine
 };
 
 struct AccuracyResult {
@@ -52,13 +53,13 @@ struct AccuracyResult {
 /// The scene with a setting: its step is written down as `numerics.dt`, so that it is run as asked.
 Scene scene_with(const Scene& scene, AccuracySetting& setting);
 
-/// Runs every setting with every random seed. A setting whose step is too long is not run. Throws InputError when no setting
-/// can be run.
+/// Runs every setting with every random seed. A setting whose step is too long is not run. Throws InputError when no
+/// setting can be run.
 AccuracyResult measure_accuracy(const Scene& scene, const AccuracyGrid& grid, int replicates,
                                 const Simulator& simulator, const SweepOptions& options);
 
-/// Errors, cost ratios and the front, from rates and grain-steps. The reference: of the settings with a rate, the smallest shell
-/// compression, then the smallest slip speed, then velocity Verlet, then the most steps a contact.
+/// Errors, cost ratios and the front, from rates and grain-steps. The reference: of the settings with a rate, the
+/// smallest shell compression, then the smallest slip speed, then velocity Verlet, then the most steps a contact.
 void compare_with_finest(AccuracyResult& result);
 
 /// The cheapest setting other than the reference whose |error| is at most `percent`; none: nothing is so near.

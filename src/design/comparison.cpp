@@ -14,9 +14,12 @@ namespace {
 
 Discharge discharge_of(MeasuredQuantity quantity) {
   switch (quantity) {
-    case MeasuredQuantity::mass_curve: return Discharge::mass;
-    case MeasuredQuantity::seed_curve: return Discharge::seeds;
-    default: return Discharge::share;
+    case MeasuredQuantity::mass_curve:
+      return Discharge::mass;
+    case MeasuredQuantity::seed_curve:
+      return Discharge::seeds;
+    default:
+      return Discharge::share;
   }
 }
 
@@ -24,9 +27,9 @@ Discharge discharge_of(MeasuredQuantity quantity) {
 struct Pairing {
   const MeasuredMatch* match;
   const MeasuredSeries* series;
-  std::vector<double> times;                    // s, within the run; empty for a rate
-  std::vector<double> measured;                 // one for each time; a single one for a rate
-  std::vector<std::vector<double>> simulated;   // of each replicate, as `measured`
+  std::vector<double> times;                   // s, within the run; empty for a rate
+  std::vector<double> measured;                // one for each time; a single one for a rate
+  std::vector<std::vector<double>> simulated;  // of each replicate, as `measured`
   double depth_factor = 1;
   std::vector<double> means() const {
     std::vector<double> result(measured.size(), 0.0);
@@ -68,7 +71,9 @@ Pairing pair_up(const StudyResult& result, const MeasuredMatch& match) {
   return pairing;
 }
 
-void append(std::vector<double>& all, const std::vector<double>& more) { all.insert(all.end(), more.begin(), more.end()); }
+void append(std::vector<double>& all, const std::vector<double>& more) {
+  all.insert(all.end(), more.begin(), more.end());
+}
 
 /// One factor over every row of every layout.
 std::optional<double> fitted_scale(const std::vector<Pairing>& pairings, bool curve) {
@@ -85,8 +90,8 @@ std::vector<double> scaled(std::vector<double> values, double scale) {
   return values;
 }
 
-/// Of one choice of simulated values for each pairing. Rates: over all rows; curves: each against its own largest value,
-/// then root mean square over the curves, each weighed with its number of times.
+/// Of one choice of simulated values for each pairing. Rates: over all rows; curves: each against its own largest
+/// value, then root mean square over the curves, each weighed with its number of times.
 template <typename Simulated>
 std::optional<double> misfit(const std::vector<const Pairing*>& pairings, bool curve, Simulated simulated_of) {
   std::vector<double> simulated, measured;
@@ -108,9 +113,8 @@ std::optional<double> misfit(const std::vector<const Pairing*>& pairings, bool c
 
 /// Misfit of the mean outflow; its interval from the misfits of the single replicates.
 std::optional<MeanWithInterval> layout_misfit(const std::vector<const Pairing*>& pairings, bool curve, double scale) {
-  const auto of_mean = misfit(pairings, curve, [&](const Pairing& pairing) {
-    return scaled(pairing.means(), scale * pairing.depth_factor);
-  });
+  const auto of_mean = misfit(
+      pairings, curve, [&](const Pairing& pairing) { return scaled(pairing.means(), scale * pairing.depth_factor); });
   if (!of_mean) return std::nullopt;
   std::vector<double> single;
   for (std::size_t i = 0; i < pairings.front()->simulated.size(); ++i) {

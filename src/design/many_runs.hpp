@@ -34,13 +34,13 @@ struct ManyRunsProgress {
 };
 
 struct ManyRunsOptions {
-  int jobs = 0;                                  // runs side by side; 0: one per core
-  const std::atomic<bool>* interrupt = nullptr;  // true ends the runs under way and begins no other
+  int jobs = 0;                                           // runs side by side; 0: one per core
+  const std::atomic<bool>* interrupt = nullptr;           // true ends the runs under way and begins no other
   std::function<void(const ManyRunsProgress&)> progress;  // called by one thread at a time
 };
 
-/// Runs every job, begun in order and at most `options.jobs` side by side. Results lie in the order of the jobs whatever
-/// the order in which they ended, so the number of threads does not show in them.
+/// Runs every job, begun in order and at most `options.jobs` side by side. Results lie in the order of the jobs
+/// whatever the order in which they ended, so the number of threads does not show in them.
 std::vector<JobResult> run_jobs(const std::vector<Job>& jobs, const Simulator& simulator,
                                 const ManyRunsOptions& options);
 

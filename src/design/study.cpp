@@ -173,8 +173,7 @@ std::vector<NamedDesign> read_designs(Table& study) {
 std::filesystem::path named_file(Table& table, const std::string& key) {
   const std::filesystem::path file = (table.directory() / table.required_text(key)).lexically_normal();
   std::error_code none;
-  if (!std::filesystem::is_regular_file(file, none))
-    table.fail(key, fmt::format("there is no file {}", file.string()));
+  if (!std::filesystem::is_regular_file(file, none)) table.fail(key, fmt::format("there is no file {}", file.string()));
   return file;
 }
 
@@ -228,8 +227,8 @@ void resolve_scenes(Study& study) {
   if (study.scenes.empty()) throw InputError(study.layouts.front().invalid);
 }
 
-/// A series fits a layout when its conditions, laid over the layout, change nothing; so a condition that the study does not
-/// name means the base's value.
+/// A series fits a layout when its conditions, laid over the layout, change nothing; so a condition that the study does
+/// not name means the base's value.
 bool fits(const Study& study, const Layout& layout, const MeasuredSeries& series) {
   if (!layout.scene) return false;
   Changes conditions;
@@ -301,7 +300,9 @@ std::vector<std::string> range_values(const std::string& key, const std::string&
   return values;
 }
 
-bool is_study(const std::filesystem::path& file) { return Table(Document::read(file)).has("base"); }
+bool is_study(const std::filesystem::path& file) {
+  return Table(Document::read(file)).has("base");
+}
 
 Study read_study(const std::filesystem::path& file, const std::vector<Override>& overrides) {
   Changes of_study, of_seeder;

@@ -44,25 +44,25 @@ struct MeasuredPart {
 
 struct Study {
   std::string title;
-  std::filesystem::path base;      // of the seeder file
+  std::filesystem::path base;  // of the seeder file
   int replicates = 5;
-  std::vector<std::string> keys;   // that tell the layouts apart, in the order of the study
+  std::vector<std::string> keys;  // that tell the layouts apart, in the order of the study
   std::vector<Layout> layouts;
-  std::vector<Scene> scenes;       // each different scene once, in the order of the layouts
+  std::vector<Scene> scenes;  // each different scene once, in the order of the layouts
   std::optional<MeasuredPart> measured;
 };
 
-/// Reads a study and every scene in it. `overrides` whose first word is a key of a study (vary.tray.holes.count) change the
-/// study; any other changes each of its seeders. A combination that `read_scene` refuses, or whose step is too long, is a layout
-/// with the reason in `invalid`. Throws InputError for anything wrong in the study itself, when no layout is valid, when a
-/// key is both varied and set, or when no measured row fits a layout.
+/// Reads a study and every scene in it. `overrides` whose first word is a key of a study (vary.tray.holes.count) change
+/// the study; any other changes each of its seeders. A combination that `read_scene` refuses, or whose step is too
+/// long, is a layout with the reason in `invalid`. Throws InputError for anything wrong in the study itself, when no
+/// layout is valid, when a key is both varied and set, or when no measured row fits a layout.
 Study read_study(const std::filesystem::path& file, const std::vector<Override>& overrides = {});
 
 /// Whether a file is a study rather than a seeder: it has a `base`. Throws InputError when it cannot be read.
 bool is_study(const std::filesystem::path& file);
 
-/// Values of {from, to, step} as TOML text, both ends included, in the unit of `from`. Throws std::invalid_argument with what is
-/// wrong: a step of zero or the wrong sign, one that does not hit `to`, a unit that does not fit the key.
+/// Values of {from, to, step} as TOML text, both ends included, in the unit of `from`. Throws std::invalid_argument
+/// with what is wrong: a step of zero or the wrong sign, one that does not hit `to`, a unit that does not fit the key.
 std::vector<std::string> range_values(const std::string& key, const std::string& from, const std::string& to,
                                       const std::string& step);
 

@@ -61,7 +61,7 @@ struct LayoutResult {
 
 /// A measured value beside the simulated one, scaled; SI.
 struct ComparisonRow {
-  std::size_t layout;          // index in Study::layouts
+  std::size_t layout;  // index in Study::layouts
   std::string hole;
   std::optional<double> time;  // s, of a curve
   double measured;
@@ -81,8 +81,8 @@ struct StudyResult {
   std::optional<Comparison> comparison;
 };
 
-/// Runs every scene of a study with every random seed. The result depends on the study and the first random seed alone, not
-/// on the number of threads. An interrupted sweep keeps what was finished.
+/// Runs every scene of a study with every random seed. The result depends on the study and the first random seed alone,
+/// not on the number of threads. An interrupted sweep keeps what was finished.
 StudyResult sweep(const Study& study, const Simulator& simulator, const SweepOptions& options);
 
 }  // namespace vibrosow

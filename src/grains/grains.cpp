@@ -9,7 +9,8 @@ std::vector<GrainKind> grain_kinds(const Scene& scene, bool rotation) {
     const double inertia_factor = lot.shape == Shape::disc ? 0.5 : 0.4;
     const double inertia = inertia_factor * lot.mass * radius * radius;
     const double eps = scene.contact.shell_compression * radius;
-    kinds.push_back({radius, lot.mass, 1 / lot.mass, rotation ? 1 / inertia : 0.0, eps / (lot.mass * standard_gravity)});
+    kinds.push_back(
+        {radius, lot.mass, 1 / lot.mass, rotation ? 1 / inertia : 0.0, eps / (lot.mass * standard_gravity)});
   }
   return kinds;
 }

@@ -30,9 +30,10 @@ std::vector<int> shuffled_lots(const std::vector<SeedLot>& lots, int count, Rand
 }
 
 [[noreturn]] void does_not_fit(const Vessel& vessel) {
-  throw InputError(fmt::format("{}: {} grains rise above the end walls ({}.height = {:.6g} mm); take fewer, or a higher {}",
-                               vessel.fill->where.empty() ? vessel.name + ".fill.count" : vessel.fill->where,
-                               vessel.fill->count, vessel.name, vessel.height * 1e3, vessel.name));
+  throw InputError(
+      fmt::format("{}: {} grains rise above the end walls ({}.height = {:.6g} mm); take fewer, or a higher {}",
+                  vessel.fill->where.empty() ? vessel.name + ".fill.count" : vessel.fill->where, vessel.fill->count,
+                  vessel.name, vessel.height * 1e3, vessel.name));
 }
 
 std::vector<PackedGrain> pack_rows(const Vessel& vessel, const std::vector<SeedLot>& lots, Random& random) {
@@ -44,7 +45,8 @@ std::vector<PackedGrain> pack_rows(const Vessel& vessel, const std::vector<SeedL
   const int per_row = static_cast<int>(std::floor(vessel.length / clear));
   if (per_row < 2) does_not_fit(vessel);
   const double spacing = vessel.length / per_row;
-  const double rise = hexagonal ? std::sqrt(std::max(clear * clear - 0.25 * spacing * spacing, 0.25 * clear * clear)) : clear;
+  const double rise =
+      hexagonal ? std::sqrt(std::max(clear * clear - 0.25 * spacing * spacing, 0.25 * clear * clear)) : clear;
 
   std::vector<PackedGrain> packed;
   const std::vector<int> order = shuffled_lots(lots, fill.count, random);
@@ -180,8 +182,8 @@ Eigen::Vector2d drop_and_roll(const Heap& heap, double length, double x, double 
   return {x, radius};
 }
 
-/// Fixed points along the sloping walls, so close that a grain between two of them stays within 1/800 of its radius of the
-/// wall, and never overlaps it.
+/// Fixed points along the sloping walls, so close that a grain between two of them stays within 1/800 of its radius of
+/// the wall, and never overlaps it.
 void add_slopes(Heap& heap, const Vessel& vessel, double smallest_radius) {
   const double pitch = 0.1 * smallest_radius;
   const double inflation = pitch * pitch / (8 * smallest_radius);
@@ -233,8 +235,8 @@ std::vector<int> lot_counts(const std::vector<SeedLot>& lots, int count) {
 std::vector<PackedGrain> pack(const Vessel& vessel, const std::vector<SeedLot>& lots, Random& random) {
   if (!vessel.fill) return {};
   if (largest_diameter(lots) > vessel.length)
-    throw InputError(fmt::format("{}.length: a grain of {:.6g} mm does not fit in", vessel.name,
-                                 largest_diameter(lots) * 1e3));
+    throw InputError(
+        fmt::format("{}.length: a grain of {:.6g} mm does not fit in", vessel.name, largest_diameter(lots) * 1e3));
   return vessel.fill->packing == Packing::poured ? pour(vessel, lots, random) : pack_rows(vessel, lots, random);
 }
 

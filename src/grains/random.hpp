@@ -5,8 +5,8 @@
 
 namespace vibrosow {
 
-/// Random numbers of a run. The same seed gives the same numbers with every standard library: the engine is specified by
-/// the standard, its distributions are not, so the conversion to a real number is our own.
+/// Random numbers of a run. The same seed gives the same numbers with every standard library: the engine is specified
+/// by the standard, its distributions are not, so the conversion to a real number is our own.
 class Random {
  public:
   explicit Random(std::uint64_t seed) : engine_(seed) {}

@@ -95,8 +95,8 @@ CsvLines read_csv_lines(const std::filesystem::path& file) {
 
   Parser parser(csv.decimal_comma ? ';' : ',');
   const auto fail_on_quotes = [&] {
-    throw InputError(fmt::format("{}:{}: a quote is opened and not closed, or stands inside a field",
-                                 file.string(), parser.begun_on_line()));
+    throw InputError(fmt::format("{}:{}: a quote is opened and not closed, or stands inside a field", file.string(),
+                                 parser.begun_on_line()));
   };
   std::istringstream lines(text);
   int number = 0;
@@ -108,13 +108,11 @@ CsvLines read_csv_lines(const std::filesystem::path& file) {
   if (!parser.finish()) fail_on_quotes();
 
   std::vector<CsvLines::Row> rows = parser.take_rows();
-  if (rows.empty())
-    throw InputError(file.string() + ": is empty; a header line and at least one row are needed");
+  if (rows.empty()) throw InputError(file.string() + ": is empty; a header line and at least one row are needed");
   csv.header = std::move(rows.front());
   csv.rows.assign(std::make_move_iterator(rows.begin() + 1), std::make_move_iterator(rows.end()));
   if (csv.rows.empty())
-    throw InputError(
-        fmt::format("{}:{}: only a header; at least one row is needed", file.string(), csv.header.line));
+    throw InputError(fmt::format("{}:{}: only a header; at least one row is needed", file.string(), csv.header.line));
   for (const CsvLines::Row& row : csv.rows)
     if (row.fields.size() != csv.header.fields.size())
       throw InputError(fmt::format("{}:{}: {} fields where the header has {}", file.string(), row.line,

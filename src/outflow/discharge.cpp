@@ -32,8 +32,7 @@ double fill_mass(const Scene& scene, int lot) {
   if (scene.hopper && scene.hopper->fill) grains += scene.hopper->fill->count;
   double mass = 0;
   for (std::size_t i = 0; i < scene.lots.size(); ++i)
-    if (lot == all || static_cast<std::size_t>(lot) == i)
-      mass += scene.lots[i].number_share * scene.lots[i].mass;
+    if (lot == all || static_cast<std::size_t>(lot) == i) mass += scene.lots[i].number_share * scene.lots[i].mass;
   return grains * mass;
 }
 
@@ -53,8 +52,7 @@ std::vector<double> discharge_curve(const Scene& scene, const Run& run, const st
   }
   const double unit = kind == Discharge::share ? fill_mass(scene, wanted_lot) : 1;
   // The last step of a finished run may end a rounding error short of the duration.
-  const double end =
-      run.status == RunStatus::finished ? std::max(run.end_time, scene.run.duration) : run.end_time;
+  const double end = run.status == RunStatus::finished ? std::max(run.end_time, scene.run.duration) : run.end_time;
 
   std::vector<double> curve;
   for (const double time : times) {

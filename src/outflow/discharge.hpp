@@ -20,7 +20,6 @@ enum class Discharge {
 /// the lots' mean mass. A time beyond the run's end gives not a number. Throws std::invalid_argument for a
 /// hole or lot that the scene has not.
 std::vector<double> discharge_curve(const Scene& scene, const Run& run, const std::vector<double>& times,
-                                    Discharge kind, const std::string& hole = "all",
-                                    const std::string& lot = "all");
+                                    Discharge kind, const std::string& hole = "all", const std::string& lot = "all");
 
 }  // namespace vibrosow

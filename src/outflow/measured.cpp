@@ -115,17 +115,15 @@ class Reader {
     lot_ = column("lot");
   }
 
-  [[noreturn]] void fail_unknown(int line, const std::string& name,
-                                 const std::vector<std::string>& plain) const {
+  [[noreturn]] void fail_unknown(int line, const std::string& name, const std::vector<std::string>& plain) const {
     const bool dotted = name.find('.') != std::string::npos;
     if (dotted && column_unit(name))
       fail(line, name, fmt::format("a column carries its unit: {}", condition_column(name)));
     if (const auto near = nearest(name, dotted ? columns_beside(name) : plain))
       fail(line, name, fmt::format("unknown column; nearest: {}", *near));
     fail(line, name,
-         fmt::format(
-             "unknown column; known are {}, and full keys with their unit such as tray.motion.frequency_Hz",
-             fmt::join(plain, ", ")));
+         fmt::format("unknown column; known are {}, and full keys with their unit such as tray.motion.frequency_Hz",
+                     fmt::join(plain, ", ")));
   }
 
   void find_quantity(int line) {
@@ -137,10 +135,8 @@ class Reader {
     if (!quantity_) fail(line, "columns", one_quantity_needed);
     for (const std::string_view companion : companion_columns) {
       const bool wanted = quantity_->beside == companion;
-      if (wanted && !column(companion))
-        fail(line, quantity_->name, fmt::format("needs a column {}", companion));
-      if (!wanted && column(companion))
-        fail(line, companion, fmt::format("does not belong to {}", quantity_->name));
+      if (wanted && !column(companion)) fail(line, quantity_->name, fmt::format("needs a column {}", companion));
+      if (!wanted && column(companion)) fail(line, companion, fmt::format("does not belong to {}", quantity_->name));
     }
     value_ = *column(quantity_->name);
     if (!quantity_->beside.empty()) companion_ = column(quantity_->beside);
@@ -154,8 +150,7 @@ class Reader {
     }
     double value = 0;
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    if (error != std::errc{} || end != text.data() + text.size() || !std::isfinite(value))
-      return std::nullopt;
+    if (error != std::errc{} || end != text.data() + text.size() || !std::isfinite(value)) return std::nullopt;
     return value;
   }
 
@@ -172,8 +167,7 @@ class Reader {
 
   Condition condition(const CsvLines::Row& row, std::size_t index, const std::string& key) const {
     const std::string& text = row.fields[index];
-    if (text.empty())
-      fail(row.line, header(index), "is empty; a column left out means the value of the base");
+    if (text.empty()) fail(row.line, header(index), "is empty; a column left out means the value of the base");
     if (const auto value = number(text)) return {key, fmt::format("{}", *value), value};
     if (column_unit(key)) fail(row.line, header(index), fmt::format("\"{}\" is not a number", text));
     return {key, text, std::nullopt};
@@ -185,8 +179,7 @@ class Reader {
     int value = 0;
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
     if (error != std::errc{} || end != text.data() + text.size() || value < 1)
-      fail(row.line, "hole",
-           fmt::format("\"{}\" is neither a hole's number (1 is the leftmost) nor \"all\"", text));
+      fail(row.line, "hole", fmt::format("\"{}\" is neither a hole's number (1 is the leftmost) nor \"all\"", text));
     return fmt::format("{}", value);
   }
 

@@ -11,8 +11,7 @@ bool comparable(const std::vector<double>& simulated, const std::vector<double>&
   if (simulated.size() != measured.size())
     throw std::invalid_argument("simulated and measured values differ in number");
   const auto finite = [](double value) { return std::isfinite(value); };
-  return !simulated.empty() && std::ranges::all_of(simulated, finite) &&
-         std::ranges::all_of(measured, finite);
+  return !simulated.empty() && std::ranges::all_of(simulated, finite) && std::ranges::all_of(measured, finite);
 }
 
 double root_mean_square(double squares, std::size_t count) {
@@ -21,8 +20,8 @@ double root_mean_square(double squares, std::size_t count) {
 
 }  // namespace
 
-std::optional<double> rate_misfit_percent(const std::vector<double>& simulated,
-                                          const std::vector<double>& measured, double scale) {
+std::optional<double> rate_misfit_percent(const std::vector<double>& simulated, const std::vector<double>& measured,
+                                          double scale) {
   if (!comparable(simulated, measured) || std::ranges::count(measured, 0.0) > 0) return std::nullopt;
   double squares = 0;
   for (std::size_t i = 0; i < measured.size(); ++i) {
@@ -32,8 +31,7 @@ std::optional<double> rate_misfit_percent(const std::vector<double>& simulated,
   return 100 * root_mean_square(squares, measured.size());
 }
 
-std::optional<double> best_rate_scale(const std::vector<double>& simulated,
-                                      const std::vector<double>& measured) {
+std::optional<double> best_rate_scale(const std::vector<double>& simulated, const std::vector<double>& measured) {
   if (!comparable(simulated, measured) || std::ranges::count(measured, 0.0) > 0) return std::nullopt;
   double sum = 0, squares = 0;
   for (std::size_t i = 0; i < measured.size(); ++i) {
@@ -45,8 +43,8 @@ std::optional<double> best_rate_scale(const std::vector<double>& simulated,
   return sum / squares;
 }
 
-std::optional<double> curve_misfit_percent(const std::vector<double>& simulated,
-                                           const std::vector<double>& measured, double scale) {
+std::optional<double> curve_misfit_percent(const std::vector<double>& simulated, const std::vector<double>& measured,
+                                           double scale) {
   if (!comparable(simulated, measured)) return std::nullopt;
   const double largest = std::ranges::max(measured);
   if (largest <= 0) return std::nullopt;
@@ -58,8 +56,7 @@ std::optional<double> curve_misfit_percent(const std::vector<double>& simulated,
   return 100 * root_mean_square(squares, measured.size()) / largest;
 }
 
-std::optional<double> best_curve_scale(const std::vector<double>& simulated,
-                                       const std::vector<double>& measured) {
+std::optional<double> best_curve_scale(const std::vector<double>& simulated, const std::vector<double>& measured) {
   if (!comparable(simulated, measured)) return std::nullopt;
   double products = 0, squares = 0;
   for (std::size_t i = 0; i < measured.size(); ++i) {

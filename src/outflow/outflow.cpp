@@ -73,9 +73,7 @@ std::vector<HoleOutflow> measure_rows(const Scene& scene, const std::vector<Outf
   const int holes = static_cast<int>(scene.tray.holes.size());
   const int lots = static_cast<int>(scene.lots.size());
   std::vector<HoleOutflow> rows;
-  const auto add = [&](int hole, int lot) {
-    rows.push_back(measure_row(scene, events, window, {hole, lot}));
-  };
+  const auto add = [&](int hole, int lot) { rows.push_back(measure_row(scene, events, window, {hole, lot})); };
   for (int hole = 1; hole <= holes; ++hole) {
     for (int lot = 0; lot < lots; ++lot) add(hole, lot);
     if (lots > 1) add(hole, -1);
@@ -162,8 +160,7 @@ const HoleOutflow* find_row(const Outflow& outflow, const std::string& hole, con
     const auto row = std::ranges::find(outflow.holes, hole, &HoleOutflow::hole);
     return row == outflow.holes.end() ? nullptr : &*row;
   }
-  const bool named =
-      std::ranges::any_of(outflow.holes, [&](const HoleOutflow& one) { return one.lot == lot; });
+  const bool named = std::ranges::any_of(outflow.holes, [&](const HoleOutflow& one) { return one.lot == lot; });
   return named && hole == "all" ? find("all") : nullptr;
 }
 

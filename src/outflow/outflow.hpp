@@ -27,13 +27,13 @@ struct HoleOutflow {
 
 struct Outflow {
   double window_from = 0, window_to = 0;  // s; window_to is the run's end when it ended early
-  std::vector<HoleOutflow> holes;  // per hole and lot, per hole all lots when there are several, then "all"
-  std::optional<double> evenness_cv;     // fraction; CV of the holes' mean rates, counting share removed
-  std::optional<double> counting_cv;     // fraction; the CV that independent counting alone would give
-  std::optional<double> instability_cv;  // fraction; CV of the whole outflow over equal time windows
-  double spilled_share = 0;              // spilled / (counted + spilled), whole run
-  std::optional<double> depth_factor;    // tray.depth / diameter of the plane slice
-  std::string note;  // "ran dry at 3.2 s", "outside the model", ...; empty when all is well
+  std::vector<HoleOutflow> holes;         // per hole and lot, per hole all lots when there are several, then "all"
+  std::optional<double> evenness_cv;      // fraction; CV of the holes' mean rates, counting share removed
+  std::optional<double> counting_cv;      // fraction; the CV that independent counting alone would give
+  std::optional<double> instability_cv;   // fraction; CV of the whole outflow over equal time windows
+  double spilled_share = 0;               // spilled / (counted + spilled), whole run
+  std::optional<double> depth_factor;     // tray.depth / diameter of the plane slice
+  std::string note;                       // "ran dry at 3.2 s", "outside the model", ...; empty when all is well
 };
 
 /// Into how many equal parts the measuring window is cut for the instability.
@@ -48,9 +48,8 @@ const HoleOutflow* find_row(const Outflow& outflow, const std::string& hole, con
 
 /// How far the holes differ, beyond chance.
 struct Evenness {
-  double cv = 0;  // sqrt(max(0, cv_seen^2 - cv_counting^2))
-  double counting_cv =
-      0;  // 1 / sqrt(mean count of a hole): independent grains have a variance equal to their mean
+  double cv = 0;           // sqrt(max(0, cv_seen^2 - cv_counting^2))
+  double counting_cv = 0;  // 1 / sqrt(mean count of a hole): independent grains have a variance equal to their mean
 };
 
 /// From the number of grains of each hole over the same time. Of the raw rates: holes made of unequal widths

@@ -31,8 +31,9 @@ std::string error_text(const AccuracyRow& row) {
 }
 
 std::string setting_text(const AccuracySetting& setting) {
-  return fmt::format("{}, {:g} steps a contact, shell compression {:g}, slip speed {:g} mm/s", name_of(setting.integrator),
-                     setting.steps_per_contact, setting.shell_compression, setting.slip_speed / millimetre_per_second);
+  return fmt::format("{}, {:g} steps a contact, shell compression {:g}, slip speed {:g} mm/s",
+                     name_of(setting.integrator), setting.steps_per_contact, setting.shell_compression,
+                     setting.slip_speed / millimetre_per_second);
 }
 
 }  // namespace

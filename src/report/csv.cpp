@@ -18,8 +18,8 @@ std::string quoted(const std::string& field) {
 /// A leading # would be read as a comment, and space at an end would be trimmed, by our own reader too.
 bool needs_quotes(const std::string& field) {
   if (field.empty()) return false;
-  return field.find_first_of(",\"\r\n") != std::string::npos || field.front() == '#' ||
-         field.front() == ' ' || field.back() == ' ';
+  return field.find_first_of(",\"\r\n") != std::string::npos || field.front() == '#' || field.front() == ' ' ||
+         field.back() == ' ';
 }
 
 std::string line_of(const std::vector<std::string>& fields) {
@@ -46,8 +46,7 @@ std::string csv_number(std::int64_t value) {
   return fmt::format("{}", value);
 }
 
-CsvTable::CsvTable(const std::vector<std::string>& columns)
-    : columns_(columns.size()), text_(line_of(columns)) {}
+CsvTable::CsvTable(const std::vector<std::string>& columns) : columns_(columns.size()), text_(line_of(columns)) {}
 
 void CsvTable::add_row(const std::vector<std::string>& fields) {
   if (fields.size() != columns_)

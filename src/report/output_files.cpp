@@ -26,8 +26,7 @@ namespace fs = std::filesystem;
 class StagedFile {
  public:
   StagedFile(const fs::path& path, std::string_view content)
-      : path_(path),
-        temporary_(path.parent_path() / fmt::format(".{}.{}", path.filename().string(), getpid())) {
+      : path_(path), temporary_(path.parent_path() / fmt::format(".{}.{}", path.filename().string(), getpid())) {
     if (fs::is_directory(path_)) fail(path_, std::strerror(EISDIR));
     const int descriptor = open(temporary_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
     if (descriptor < 0) fail(path_, std::strerror(errno));

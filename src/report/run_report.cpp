@@ -83,8 +83,8 @@ std::string outflow_csv(const Scene& scene, const Run& run) {
   CsvTable table({"time_s", "hole", "lot", "grain", "mass_g", "x_mm", "speed_m_per_s"});
   for (const OutflowEvent& event : run.events)
     table.add_row({csv_number(event.time), event.hole > 0 ? fmt::format("{}", event.hole) : "spilled",
-                   scene.lots.at(static_cast<std::size_t>(event.lot)).name, csv_number(event.grain),
-                   grams(event.mass), millimetres(event.x), csv_number(event.speed)});
+                   scene.lots.at(static_cast<std::size_t>(event.lot)).name, csv_number(event.grain), grams(event.mass),
+                   millimetres(event.x), csv_number(event.speed)});
   return table.text();
 }
 
@@ -96,8 +96,8 @@ std::string summary_csv(const Outflow& outflow) {
     if (outflow.depth_factor) tray_rate = row.mass_rate * *outflow.depth_factor;
     table.add_row({row.hole, row.lot, millimetres(row.centre), millimetres(row.width), csv_number(row.grains),
                    grams(row.mass), csv_number(row.seeds_per_s), grams_per_second(row.mass_rate),
-                   csv_number(row.longest_pause), csv_number(outflow.depth_factor),
-                   grams_per_second(tray_rate), outflow.note});
+                   csv_number(row.longest_pause), csv_number(outflow.depth_factor), grams_per_second(tray_rate),
+                   outflow.note});
   }
   return table.text();
 }

@@ -12,13 +12,15 @@
 namespace vibrosow {
 namespace {
 
-constexpr double gram = 1e-3;       // kg
+constexpr double gram = 1e-3;        // kg
 constexpr double millimetre = 1e-3;  // m
 constexpr double percent = 1e-2;
 
 using Fields = std::vector<std::string>;
 
-void append(Fields& fields, const Fields& more) { fields.insert(fields.end(), more.begin(), more.end()); }
+void append(Fields& fields, const Fields& more) {
+  fields.insert(fields.end(), more.begin(), more.end());
+}
 
 /// Mean and half width, in `unit`; empty where there is none.
 Fields with_interval(const std::optional<MeanWithInterval>& value, double unit) {
@@ -32,10 +34,14 @@ std::string in_unit(const std::optional<double>& value, double unit) {
 
 std::string status_name(LayoutStatus status) {
   switch (status) {
-    case LayoutStatus::ok: return "ok";
-    case LayoutStatus::invalid: return "invalid";
-    case LayoutStatus::stopped: return "stopped";
-    case LayoutStatus::interrupted: return "interrupted";
+    case LayoutStatus::ok:
+      return "ok";
+    case LayoutStatus::invalid:
+      return "invalid";
+    case LayoutStatus::stopped:
+      return "stopped";
+    case LayoutStatus::interrupted:
+      return "interrupted";
   }
   return "";
 }
@@ -50,10 +56,10 @@ Fields run_figures(const Replicate& replicate) {
   if (!replicate.run) return Fields(11, "");
   const Run& run = *replicate.run;
   const HoleOutflow* all = find_row(replicate.outflow, "all", "all");
-  return {csv_number(run.balance.put_in),  csv_number(run.balance.inside),
-          csv_number(run.balance.counted), csv_number(run.balance.spilled),
-          csv_number(run.balance.lost),    csv_number(all->seeds_per_s),
-          csv_number(all->mass_rate / gram), csv_number(run.max_compression),
+  return {csv_number(run.balance.put_in),       csv_number(run.balance.inside),
+          csv_number(run.balance.counted),      csv_number(run.balance.spilled),
+          csv_number(run.balance.lost),         csv_number(all->seeds_per_s),
+          csv_number(all->mass_rate / gram),    csv_number(run.max_compression),
           run.outside_the_model ? "yes" : "no", csv_number(run.dt),
           csv_number(run.grain_steps)};
 }
@@ -113,8 +119,12 @@ std::string sweep_holes_csv(const StudyResult& result) {
   for (std::size_t i = 0; i < result.layouts.size(); ++i) {
     const Layout& layout = result.study.layouts[i];
     for (const HoleFigures& hole : result.layouts[i].holes) {
-      Fields row = {fmt::format("{}", layout.number), layout.name, hole.hole, hole.lot,
-                    in_unit(hole.centre, millimetre), in_unit(hole.width, millimetre),
+      Fields row = {fmt::format("{}", layout.number),
+                    layout.name,
+                    hole.hole,
+                    hole.lot,
+                    in_unit(hole.centre, millimetre),
+                    in_unit(hole.width, millimetre),
                     fmt::format("{}", result.layouts[i].replicates)};
       append(row, with_interval(hole.mass_rate, gram));
       append(row, with_interval(hole.seeds_per_s, 1));
@@ -129,7 +139,8 @@ std::string sweep_holes_csv(const StudyResult& result) {
 
 std::string sweep_runs_csv(const StudyResult& result) {
   CsvTable table({"layout", "name", "random_seed", "status", "put_in", "inside", "counted", "spilled", "lost",
-                  "seeds_per_s", "rate_g_per_s", "max_compression", "outside_the_model", "dt_s", "grain_steps", "note"});
+                  "seeds_per_s", "rate_g_per_s", "max_compression", "outside_the_model", "dt_s", "grain_steps",
+                  "note"});
   for (const Layout& layout : result.study.layouts) {
     if (!layout.scene) continue;
     for (const Replicate& replicate : result.runs[*layout.scene]) {

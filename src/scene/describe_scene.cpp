@@ -64,8 +64,7 @@ Json describe(const Vessel& vessel) {
 }
 
 Json describe(const Numerics& numerics) {
-  Json json = {
-      {"integrator", numerics.integrator == Integrator::rk2_midpoint ? "rk2-midpoint" : "velocity-verlet"}};
+  Json json = {{"integrator", numerics.integrator == Integrator::rk2_midpoint ? "rk2-midpoint" : "velocity-verlet"}};
   if (numerics.dt) {
     json["dt_s"] = *numerics.dt;
   } else {

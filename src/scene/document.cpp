@@ -60,8 +60,8 @@ toml::table parse_file(const std::filesystem::path& file) {
   try {
     return toml::parse(text, file.string());
   } catch (const toml::parse_error& error) {
-    throw InputError(fmt::format("{}:{}: not valid TOML: {}", file.string(), error.source().begin.line,
-                                 error.description()));
+    throw InputError(
+        fmt::format("{}:{}: not valid TOML: {}", file.string(), error.source().begin.line, error.description()));
   }
 }
 
@@ -70,9 +70,8 @@ const toml::node* find_node(const toml::table& table, const std::string& key) {
 }
 
 /// Where a key of a table is written: the override that set it or a table around it, else file and line.
-std::string origin_of(const std::filesystem::path& file,
-                      const std::map<std::string, std::string>& override_origin, const toml::table& table,
-                      const std::string& prefix, const std::string& key) {
+std::string origin_of(const std::filesystem::path& file, const std::map<std::string, std::string>& override_origin,
+                      const toml::table& table, const std::string& prefix, const std::string& key) {
   for (std::string around = joined(prefix, key); !around.empty();) {
     const auto origin = override_origin.find(around);
     if (origin != override_origin.end()) return origin->second;
@@ -89,9 +88,8 @@ std::string origin_of(const std::filesystem::path& file,
 }
 
 /// As origin_of, for a dotted key below `table`; every part but the last names a table.
-std::string origin_below(const std::filesystem::path& file,
-                         const std::map<std::string, std::string>& override_origin, const toml::table* table,
-                         std::string prefix, std::string key) {
+std::string origin_below(const std::filesystem::path& file, const std::map<std::string, std::string>& override_origin,
+                         const toml::table* table, std::string prefix, std::string key) {
   for (auto dot = key.find('.'); dot != std::string::npos; dot = key.find('.')) {
     const toml::node* next = table->get(key.substr(0, dot));
     if (next == nullptr || !next->is_table()) break;
@@ -107,12 +105,10 @@ void apply(toml::table& root, std::map<std::string, std::string>& origins, const
   try {
     parsed = toml::parse("value = " + change.toml_value);
   } catch (const toml::parse_error& error) {
-    throw InputError(
-        fmt::format("{}: {}: not a TOML value: {}", change.where, change.key, error.description()));
+    throw InputError(fmt::format("{}: {}: not a TOML value: {}", change.where, change.key, error.description()));
   }
   const std::vector<std::string> parts = split(change.key);
-  const bool empty_part =
-      std::any_of(parts.begin(), parts.end(), [](const auto& part) { return part.empty(); });
+  const bool empty_part = std::any_of(parts.begin(), parts.end(), [](const auto& part) { return part.empty(); });
   if (parts.empty() || empty_part || change.key.ends_with('.') || parsed.size() != 1) {
     throw InputError(fmt::format("{}: \"{}\" is not one key and one value", change.where, change.key));
   }
@@ -127,8 +123,8 @@ void apply(toml::table& root, std::map<std::string, std::string>& origins, const
     }
     table = next->as_table();
     if (table == nullptr) {
-      throw InputError(fmt::format("{}: {} is a value, not a table, so {} cannot be set", change.where,
-                                   prefix, change.key));
+      throw InputError(
+          fmt::format("{}: {} is a value, not a table, so {} cannot be set", change.where, prefix, change.key));
     }
   }
   table->insert_or_assign(parts.back(), std::move(*parsed.get("value")));
@@ -171,8 +167,7 @@ void collect_values(const toml::table& table, const std::string& prefix,
     if (below != nullptr && !below->is_inline()) {
       collect_values(*below, name, found);
     } else {
-      const auto at =
-          node.source().begin;  // the value's, because a dotted key shares its first parts with others
+      const auto at = node.source().begin;  // the value's, because a dotted key shares its first parts with others
       found.emplace_back(at.line, at.column, name);
     }
   }
@@ -296,8 +291,8 @@ struct Table::State {
   }
 
   [[noreturn]] void unknown(const std::string& key, const std::vector<std::string>& expected_keys) const {
-    throw InputError(fmt::format("{}: {}: unknown key{}", origin(key), joined(prefix, key),
-                                 did_you_mean(key, expected_keys)));
+    throw InputError(
+        fmt::format("{}: {}: unknown key{}", origin(key), joined(prefix, key), did_you_mean(key, expected_keys)));
   }
 
   /// A key that is missing may be there under a wrong name.
@@ -381,8 +376,7 @@ std::vector<Table> Table::tables(const std::string& key) {
   for (const toml::node& element : *found->as_array()) {
     const std::string name = fmt::format("{}[{}]", key, elements.size() + 1);
     auto& child = state_->children[name];
-    if (!child)
-      child = std::make_shared<State>(state_->document, element.as_table(), joined(state_->prefix, name));
+    if (!child) child = std::make_shared<State>(state_->document, element.as_table(), joined(state_->prefix, name));
     elements.push_back(Table(child));
   }
   return elements;
@@ -410,8 +404,7 @@ std::optional<bool> Table::boolean(const std::string& key) {
   return found->value<bool>();
 }
 
-std::optional<std::int64_t> Table::whole_number(const std::string& key, std::int64_t least,
-                                                std::int64_t most) {
+std::optional<std::int64_t> Table::whole_number(const std::string& key, std::int64_t least, std::int64_t most) {
   state_->know(key);
   const toml::node* found = state_->find(key);
   if (found == nullptr) return std::nullopt;
@@ -428,14 +421,12 @@ std::optional<double> Table::number(const std::string& key, double least, double
   if (found == nullptr) return std::nullopt;
   const std::optional<double> value = found->is_number() ? found->value<double>() : std::nullopt;
   if (!value || !(*value >= least && *value <= most)) {
-    fail(key, fmt::format("must be a number from {:g} to {:g}, without a unit, not {}", least, most,
-                          text_of(*found)));
+    fail(key, fmt::format("must be a number from {:g} to {:g}, without a unit, not {}", least, most, text_of(*found)));
   }
   return value;
 }
 
-std::optional<double> Table::quantity(const std::string& key, Dimension dimension, double least,
-                                      double most) {
+std::optional<double> Table::quantity(const std::string& key, Dimension dimension, double least, double most) {
   if (is_list(key)) fail(key, fmt::format("must be one value: {}", expected(dimension)));
   const std::vector<double> found = quantities(key, dimension, least, most);
   return found.empty() ? std::nullopt : std::optional(found.front());
@@ -447,15 +438,14 @@ double Table::required_quantity(const std::string& key, Dimension dimension, dou
   return *found;
 }
 
-std::vector<double> Table::quantities(const std::string& key, Dimension dimension, double least,
-                                      double most) {
+std::vector<double> Table::quantities(const std::string& key, Dimension dimension, double least, double most) {
   state_->know(key);
   const toml::node* found = state_->find(key);
   if (found == nullptr) return {};
   const auto read = [&](const toml::node& node) {
     if (!node.is_string()) {
-      fail(key, fmt::format("must be a quantity with its unit in quotes, {}, not {}", expected(dimension),
-                            text_of(node)));
+      fail(key,
+           fmt::format("must be a quantity with its unit in quotes, {}, not {}", expected(dimension), text_of(node)));
     }
     const std::string text = *node.value<std::string>();
     double value = 0;
@@ -508,8 +498,7 @@ std::optional<std::size_t> Table::choice(const std::string& key, const std::vect
   if (!found) return std::nullopt;
   const auto chosen = std::find(choices.begin(), choices.end(), *found);
   if (chosen == choices.end()) {
-    fail(key,
-         fmt::format("\"{}\" is not one of {}{}", *found, list_of(choices), did_you_mean(*found, choices)));
+    fail(key, fmt::format("\"{}\" is not one of {}{}", *found, list_of(choices), did_you_mean(*found, choices)));
   }
   return static_cast<std::size_t>(chosen - choices.begin());
 }

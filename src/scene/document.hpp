@@ -80,11 +80,10 @@ class Table {
   std::optional<Table> table_at(const std::string& dotted_key);
 
   std::string full_key(const std::string& key) const;
-  std::string where(const std::string& key) const;   // for messages
-  std::string origin(const std::string& key) const;  // "FILE:LINE" alone, for an Override's `where`
-  std::filesystem::path directory() const;           // of the file that holds this table
-  std::filesystem::path directory(
-      const std::string& key) const;  // of the file that holds this key, maybe the preset's
+  std::string where(const std::string& key) const;                // for messages
+  std::string origin(const std::string& key) const;               // "FILE:LINE" alone, for an Override's `where`
+  std::filesystem::path directory() const;                        // of the file that holds this table
+  std::filesystem::path directory(const std::string& key) const;  // of the file that holds this key, maybe the preset's
   /// Throws InputError "FILE:LINE: KEY: message". A key that is not written but nearly so is called
   /// misspelled instead.
   [[noreturn]] void fail(const std::string& key, const std::string& message) const;

@@ -24,8 +24,7 @@ std::vector<std::string> shipped(const fs::path& directory) {
   return names;
 }
 
-fs::path preset_file(const Table& table, const std::string& key, const std::string& name,
-                     const std::string& kind) {
+fs::path preset_file(const Table& table, const std::string& key, const std::string& name, const std::string& kind) {
   if (name.ends_with(".toml")) {
     const fs::path file = table.directory(key) / name;
     if (!fs::is_regular_file(file)) table.fail(key, fmt::format("there is no file {}", file.string()));
@@ -58,8 +57,7 @@ void use_preset(Table& table, const std::string& key, const std::string& kind) {
 fs::path data_directory() {
   const auto holds_models = [](const fs::path& directory) { return fs::is_directory(directory / "models"); };
   if (const char* given = std::getenv("VIBROSOW_DATA")) {
-    if (!holds_models(given))
-      throw InputError(fmt::format("VIBROSOW_DATA={}: holds no folder \"models\"", given));
+    if (!holds_models(given)) throw InputError(fmt::format("VIBROSOW_DATA={}: holds no folder \"models\"", given));
     return given;
   }
   std::error_code no_proc;
@@ -67,10 +65,10 @@ fs::path data_directory() {
   const fs::path installed = program.parent_path().parent_path() / "share" / "vibrosow";
   if (!no_proc && holds_models(installed)) return installed;
   if (holds_models(VIBROSOW_SOURCE_DIR)) return VIBROSOW_SOURCE_DIR;
-  throw InputError(fmt::format(
-      "the shipped models are neither in {} nor in {}; set VIBROSOW_DATA to the folder that holds "
-      "\"models\"",
-      installed.string(), VIBROSOW_SOURCE_DIR));
+  throw InputError(
+      fmt::format("the shipped models are neither in {} nor in {}; set VIBROSOW_DATA to the folder that holds "
+                  "\"models\"",
+                  installed.string(), VIBROSOW_SOURCE_DIR));
 }
 
 }  // namespace vibrosow

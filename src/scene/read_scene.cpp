@@ -14,8 +14,7 @@ namespace vibrosow {
 namespace {
 
 double read_mass(Table& seeds, const SeedLot& lot) {
-  if (seeds.has_here("mass") && seeds.has_here("density"))
-    seeds.fail("density", "contradicts mass; give one of them");
+  if (seeds.has_here("mass") && seeds.has_here("density")) seeds.fail("density", "contradicts mass; give one of them");
   const std::optional<double> mass = seeds.quantity("mass", Dimension::mass, 1e-12, 1e3);
   const std::optional<double> density = seeds.quantity("density", Dimension::density, 1, 3e4);
   const bool by_density = seeds.has_here("density") || (density && !mass);
@@ -50,8 +49,7 @@ void read_shares(Table& seeds, std::vector<SeedLot>& lots) {
     const std::string given = by_mass ? "mass_share" : by_number ? "number_share" : "";
     if (given.empty() && lots.size() == 1) return;
     if (key.empty()) key = given.empty() ? "mass_share" : given;
-    if (given.empty())
-      table.fail(key, "is missing; with several lots each has mass_share, or each has number_share");
+    if (given.empty()) table.fail(key, "is missing; with several lots each has mass_share, or each has number_share");
     if (given != key) table.fail(given, fmt::format("another lot has {}; give every lot the same", key));
     lot.number_share = by_mass ? *by_mass : *by_number;
     sum += lot.number_share;
@@ -145,12 +143,11 @@ RunPlan read_run(Table table) {
   run.duration = table.required_quantity("duration", Dimension::time, 1e-9, 1e6);
   run.measure_from = table.quantity("measure_from", Dimension::time, 0, 1e6).value_or(0);
   if (run.measure_from >= run.duration) {
-    table.fail("measure_from", fmt::format("{:g} s is not before the end of the run, {:g} s",
-                                           run.measure_from, run.duration));
+    table.fail("measure_from",
+               fmt::format("{:g} s is not before the end of the run, {:g} s", run.measure_from, run.duration));
   }
   run.count_below = table.quantity("count_below", Dimension::length, 1e-6, 100).value_or(run.count_below);
-  run.start =
-      table.choice("start", {"at-rest", "with-tray"}).value_or(0) == 0 ? Start::at_rest : Start::with_tray;
+  run.start = table.choice("start", {"at-rest", "with-tray"}).value_or(0) == 0 ? Start::at_rest : Start::with_tray;
   return run;
 }
 

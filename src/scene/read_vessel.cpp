@@ -53,13 +53,11 @@ double read_width(const Table& table, const std::string& text, double diameter) 
 }
 
 std::vector<double> read_widths(Table& table, std::size_t holes, double diameter) {
-  const std::vector<std::string> texts =
-      table.texts("width", "a length such as \"16 mm\" or \"3 diameters\"");
-  if (texts.empty())
-    table.fail("width", "is missing; expected a length such as \"16 mm\" or \"3 diameters\"");
+  const std::vector<std::string> texts = table.texts("width", "a length such as \"16 mm\" or \"3 diameters\"");
+  if (texts.empty()) table.fail("width", "is missing; expected a length such as \"16 mm\" or \"3 diameters\"");
   if (texts.size() != 1 && texts.size() != holes) {
-    table.fail("width", fmt::format("lists {} widths for {} holes; expected one for all or one each",
-                                    texts.size(), holes));
+    table.fail("width",
+               fmt::format("lists {} widths for {} holes; expected one for all or one each", texts.size(), holes));
   }
   std::vector<double> widths;
   for (const std::string& text : texts) widths.push_back(read_width(table, text, diameter));
@@ -106,21 +104,19 @@ HoleRow read_positions(Table& table, double length) {
   return {table.quantities("at", Dimension::length, 0, longest), "at"};
 }
 
-void check_holes(const Table& table, const std::vector<Hole>& holes, double length,
-                 const std::string& placed_by) {
+void check_holes(const Table& table, const std::vector<Hole>& holes, double length, const std::string& placed_by) {
   const double slack = rounding * length;
   for (std::size_t i = 0; i < holes.size(); ++i) {
     const Hole& hole = holes[i];
     if (hole.centre - hole.width / 2 < -slack || hole.centre + hole.width / 2 > length + slack) {
-      table.fail(placed_by,
-                 fmt::format("hole {} at {}, {} wide, is not within the floor, which is {} long", i + 1,
-                             millimetres(hole.centre), millimetres(hole.width), millimetres(length)));
+      table.fail(placed_by, fmt::format("hole {} at {}, {} wide, is not within the floor, which is {} long", i + 1,
+                                        millimetres(hole.centre), millimetres(hole.width), millimetres(length)));
     }
     if (i == 0) continue;
     const Hole& before = holes[i - 1];
     if (hole.centre - hole.width / 2 - (before.centre + before.width / 2) <= slack) {
-      table.fail(placed_by, fmt::format("hole {} at {}, {} wide, overlaps or touches hole {} at {}, {} wide",
-                                        i, millimetres(before.centre), millimetres(before.width), i + 1,
+      table.fail(placed_by, fmt::format("hole {} at {}, {} wide, overlaps or touches hole {} at {}, {} wide", i,
+                                        millimetres(before.centre), millimetres(before.width), i + 1,
                                         millimetres(hole.centre), millimetres(hole.width)));
     }
   }
@@ -131,8 +127,7 @@ std::vector<Hole> read_holes(Table table, double length, double diameter) {
   const std::vector<double> widths = read_widths(table, row.centres.size(), diameter);
   std::vector<Hole> holes;
   for (std::size_t i = 0; i < widths.size(); ++i) holes.push_back({row.centres[i], widths[i]});
-  std::stable_sort(holes.begin(), holes.end(),
-                   [](const Hole& a, const Hole& b) { return a.centre < b.centre; });
+  std::stable_sort(holes.begin(), holes.end(), [](const Hole& a, const Hole& b) { return a.centre < b.centre; });
   check_holes(table, holes, length, row.placed_by);
   return holes;
 }
@@ -147,8 +142,7 @@ Fill read_fill(Table table) {
   fill.packing = packings[table.choice("packing", {"poured", "layers", "hexagonal"}).value_or(0)];
   const std::optional<double> jitter = table.number("jitter", 0, 0.1);
   if (jitter && fill.packing == Packing::poured) {
-    table.fail("jitter",
-               "goes with packing = \"layers\" or \"hexagonal\"; poured seeds are dropped at random");
+    table.fail("jitter", "goes with packing = \"layers\" or \"hexagonal\"; poured seeds are dropped at random");
   }
   fill.jitter = jitter.value_or(fill.jitter);
   fill.keep = table.boolean("keep").value_or(fill.keep);
@@ -158,9 +152,8 @@ Fill read_fill(Table table) {
 /// Too crude to promise that a fill fits, but what fails here cannot fit.
 void check_fill_fits(Table fill_table, const Vessel& vessel, const std::vector<SeedLot>& lots) {
   if (largest_diameter(lots) > vessel.length) {
-    fill_table.fail(
-        "count", fmt::format("does not fit: a seed of {} is wider than the {}, which is {} long",
-                             millimetres(largest_diameter(lots)), vessel.name, millimetres(vessel.length)));
+    fill_table.fail("count", fmt::format("does not fit: a seed of {} is wider than the {}, which is {} long",
+                                         millimetres(largest_diameter(lots)), vessel.name, millimetres(vessel.length)));
   }
   double area_per_seed = 0;  // in a hexagonal packing
   for (const SeedLot& lot : lots) {
@@ -168,9 +161,8 @@ void check_fill_fits(Table fill_table, const Vessel& vessel, const std::vector<S
   }
   const double most = vessel.length * vessel.height / area_per_seed;
   if (vessel.fill->count > most) {
-    fill_table.fail("count",
-                    fmt::format("does not fit: {} seeds, but closely packed the {} holds no more than {:.0f}",
-                                vessel.fill->count, vessel.name, std::floor(most)));
+    fill_table.fail("count", fmt::format("does not fit: {} seeds, but closely packed the {} holds no more than {:.0f}",
+                                         vessel.fill->count, vessel.name, std::floor(most)));
   }
 }
 
@@ -196,10 +188,8 @@ Vessel read_vessel(Table table, const std::string& name, const std::vector<SeedL
   vessel.depth = table.quantity("depth", Dimension::length, shortest, longest);
   vessel.tilt = table.quantity("tilt", Dimension::angle, -30 * degree, 30 * degree).value_or(0);
   vessel.funnel = table.quantity("funnel", Dimension::angle, 0.01 * degree, 80 * degree).value_or(0);
-  if (const auto holes = table.table("holes"))
-    vessel.holes = read_holes(*holes, vessel.length, largest_diameter(lots));
-  if (vessel.funnel > 0 && vessel.holes.empty())
-    table.fail("funnel", "needs holes for the floor to slope to");
+  if (const auto holes = table.table("holes")) vessel.holes = read_holes(*holes, vessel.length, largest_diameter(lots));
+  if (vessel.funnel > 0 && vessel.holes.empty()) table.fail("funnel", "needs holes for the floor to slope to");
   if (highest_floor(vessel) >= vessel.height) {
     table.fail("funnel", fmt::format("the floor would rise to {}, as high as the walls or higher ({})",
                                      millimetres(highest_floor(vessel)), millimetres(vessel.height)));

@@ -14,8 +14,8 @@ enum class Shape { disc, ball };
 
 struct SeedLot {
   std::string name;
-  double diameter = 0;      // m
-  double mass = 0;          // kg, of one seed
+  double diameter = 0;  // m
+  double mass = 0;      // kg, of one seed
   Shape shape = Shape::ball;
   double number_share = 1;  // of all seeds; the shares of a scene sum to 1
 };
@@ -27,7 +27,8 @@ struct Surface {
   double restitution = 1;  // of a head-on impact, (0, 1]; 1 is elastic
 };
 
-/// Where friction acts: at the contact point, or on the undeformed rims as in paper A (angular momentum is then not kept).
+/// Where friction acts: at the contact point, or on the undeformed rims as in paper A (angular momentum is then not
+/// kept).
 enum class FrictionArm { contact_point, rim };
 
 struct Contact {
@@ -51,8 +52,8 @@ enum class Packing { poured, layers, hexagonal };
 struct Fill {
   int count = 0;
   Packing packing = Packing::poured;
-  double jitter = 1e-3;  // largest shift of a grain in layers and hexagonal, in diameters
-  bool keep = false;     // topped up to `count` during the run
+  double jitter = 1e-3;    // largest shift of a grain in layers and hexagonal, in diameters
+  bool keep = false;       // topped up to `count` during the run
   std::string where = {};  // "FILE:LINE: KEY" of the count, for messages; empty in a scene not read from a file
 };
 
@@ -66,14 +67,14 @@ struct HarmonicMotion {
 
 /// A tray or a hopper: floor from (0, 0) to (length, 0) with end walls of `height`, in the vessel's own frame.
 struct Vessel {
-  std::string name;                              // "tray" or "hopper"
+  std::string name;                                  // "tray" or "hopper"
   Eigen::Vector2d origin = Eigen::Vector2d::Zero();  // m, lab position of the floor's left end at rest
-  double length = 0;                             // m, between the inner faces of the end walls
-  double height = 0;                             // m
-  double tilt = 0;                               // rad, positive: right end up
-  double funnel = 0;                             // rad, slope of the floor towards its holes; 0: flat
-  std::optional<double> depth;                   // m, across the plane
-  std::vector<Hole> holes;                       // from the left, not overlapping
+  double length = 0;                                 // m, between the inner faces of the end walls
+  double height = 0;                                 // m
+  double tilt = 0;                                   // rad, positive: right end up
+  double funnel = 0;                                 // rad, slope of the floor towards its holes; 0: flat
+  std::optional<double> depth;                       // m, across the plane
+  std::vector<Hole> holes;                           // from the left, not overlapping
   std::optional<Fill> fill;
   std::optional<HarmonicMotion> motion;
 };
@@ -91,7 +92,7 @@ struct Numerics {
 struct GuardLimits {
   double warn_compression = 0.05;  // d c_j / (c_i + c_j) / r_i
   double stop_compression = 0.5;
-  double energy_tolerance = 0.2;   // energy made by the numerics, as a share of the energy in play
+  double energy_tolerance = 0.2;  // energy made by the numerics, as a share of the energy in play
 };
 
 enum class Start { at_rest, with_tray };

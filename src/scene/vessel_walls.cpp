@@ -43,8 +43,7 @@ std::vector<WallSegment> vessel_walls(const Vessel& vessel) {
   const double slope = vessel.holes.empty() ? 0.0 : std::tan(vessel.funnel);
   const std::size_t holes = vessel.holes.size();
   const double left_floor = holes == 0 ? 0.0 : slope * std::max(0.0, left_edge(vessel.holes.front()));
-  const double right_floor =
-      holes == 0 ? 0.0 : slope * std::max(0.0, vessel.length - right_edge(vessel.holes.back()));
+  const double right_floor = holes == 0 ? 0.0 : slope * std::max(0.0, vessel.length - right_edge(vessel.holes.back()));
 
   std::vector<WallSegment> segments;
   Chain chain(segments, 1e-9 * vessel.length);

@@ -8,9 +8,9 @@
 
 namespace vibrosow {
 
-/// Watches grains leave. A grain belongs to the hole whose opening its centre passes in the tray's frame; it is counted when
-/// its centre crosses the counting line, `count_below` under the tray's floor and as wide as the world. One that passes no
-/// hole is spilled.
+/// Watches grains leave. A grain belongs to the hole whose opening its centre passes in the tray's frame; it is counted
+/// when its centre crosses the counting line, `count_below` under the tray's floor and as wide as the world. One that
+/// passes no hole is spilled.
 class Counter {
  public:
   Counter(const Scene& scene, std::size_t grains);
@@ -25,10 +25,10 @@ class Counter {
 
  private:
   struct State {
-    bool below = false;    // under the floor
+    bool below = false;  // under the floor
     bool counted = false;
-    int hole = 0;          // passed; 0: none, it fell beside the tray
-    double x = 0;          // m, where
+    int hole = 0;  // passed; 0: none, it fell beside the tray
+    double x = 0;  // m, where
   };
   static constexpr int through_the_floor = -1;
   int hole_at(double x) const;

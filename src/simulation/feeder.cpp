@@ -36,7 +36,9 @@ double surface(const Inside& inside, double x, double radius) {
   return height;
 }
 
-bool is_kept(const Vessel& vessel) { return vessel.fill && vessel.fill->keep; }
+bool is_kept(const Vessel& vessel) {
+  return vessel.fill && vessel.fill->keep;
+}
 
 }  // namespace
 

@@ -6,8 +6,9 @@
 
 namespace vibrosow {
 
-/// Keeps vessels topped up (`fill.keep`): each missing grain is laid just above the heap at a random place, at rest with its
-/// vessel, of a lot drawn by the shares. Where the heap reaches the vessel's top there is no room, and it waits.
+/// Keeps vessels topped up (`fill.keep`): each missing grain is laid just above the heap at a random place, at rest
+/// with its vessel, of a lot drawn by the shares. Where the heap reaches the vessel's top there is no room, and it
+/// waits.
 class Feeder {
  public:
   Feeder(const Scene& scene, std::uint64_t random_seed);

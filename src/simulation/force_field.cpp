@@ -41,7 +41,8 @@ void ForceField::evaluate(const Grains& grains, double time, ContactCensus& cens
 }
 
 double ForceField::elastic_energy(const Grains& grains) const {
-  return kernels_.elastic_energy(grains, motion_of(grains), neighbours_.pairs(), neighbours_.near_walls(), walls_.placed());
+  return kernels_.elastic_energy(grains, motion_of(grains), neighbours_.pairs(), neighbours_.near_walls(),
+                                 walls_.placed());
 }
 
 }  // namespace vibrosow

@@ -14,8 +14,8 @@ class ForceField {
  public:
   ForceField(const Scene& scene, const KernelSet& kernels, NeighbourMargins margins);
 
-  /// Forces on the grains where they are now, with the vessels where they are at `time`. Census figures are added up, but for
-  /// the walls' power, which is this evaluation's.
+  /// Forces on the grains where they are now, with the vessels where they are at `time`. Census figures are added up,
+  /// but for the walls' power, which is this evaluation's.
   void evaluate(const Grains& grains, double time, ContactCensus& census);
 
   double elastic_energy(const Grains& grains) const;

@@ -19,7 +19,8 @@ constexpr double energy_warning = 0.05;
 double mechanical_energy(const Grains& grains, std::size_t i, const Eigen::Vector2d& gravity) {
   const GrainKind& kind = grains.kind(i);
   double energy = 0.5 * kind.mass * (grains.vx[i] * grains.vx[i] + grains.vy[i] * grains.vy[i]);
-  if (grains.rotation && kind.inverse_inertia > 0) energy += 0.5 * grains.omega[i] * grains.omega[i] / kind.inverse_inertia;
+  if (grains.rotation && kind.inverse_inertia > 0)
+    energy += 0.5 * grains.omega[i] * grains.omega[i] / kind.inverse_inertia;
   return energy - kind.mass * (gravity.x() * grains.x[i] + gravity.y() * grains.y[i]);
 }
 
@@ -49,9 +50,10 @@ void Guard::watch_step(const Integration& s) {
   max_compression_ = std::max(max_compression_, s.census.max_compression);
   if (warned_at_ < 0 && max_compression_ > limits_.warn_compression) {
     warned_at_ = s.time;
-    warnings_.push_back(fmt::format("shell compression passed {:.3g} of the radius at {:.4g} s: a thin shell is no longer a "
-                                    "good model; a smaller contact.shell_compression is stiffer",
-                                    limits_.warn_compression, s.time));
+    warnings_.push_back(
+        fmt::format("shell compression passed {:.3g} of the radius at {:.4g} s: a thin shell is no longer a "
+                    "good model; a smaller contact.shell_compression is stiffer",
+                    limits_.warn_compression, s.time));
   }
   if (max_compression_ > limits_.stop_compression)
     stop(fmt::format("shell compression reached {:.3g} of the radius at {:.4g} s (guard.stop_compression = {:.3g})",
@@ -66,8 +68,8 @@ void Guard::watch_step(const Integration& s) {
 }
 
 void Guard::watch_stride(double time) {
-  const std::string what =
-      fmt::format("a grain moves more than {:.2g} radii in a step at {:.4g} s and could pass a wall unseen", longest_stride, time);
+  const std::string what = fmt::format(
+      "a grain moves more than {:.2g} radii in a step at {:.4g} s and could pass a wall unseen", longest_stride, time);
   if (!insisted_on_step_) return stop(what + "; a shorter step is needed");
   if (!warned_of_stride_) warnings_.push_back(what);
   warned_of_stride_ = true;
@@ -98,11 +100,12 @@ void Guard::watch_energy(const Integration& s, EnergyAccount& account) {
   const double scale = in_play_ + fallen + s.gross_wall_work;
   const double made = only_falls - lowest_;
   if (made > limits_.energy_tolerance * scale && made > 0)
-    stop(fmt::format("the numerics made {:.3g} J by {:.4g} s, {:.3g} of the energy in play: the step is too long", made, s.time,
-                     made / scale));
+    stop(fmt::format("the numerics made {:.3g} J by {:.4g} s, {:.3g} of the energy in play: the step is too long", made,
+                     s.time, made / scale));
   else if (made > energy_warning * scale && made > 0 && !warned_of_energy_) {
     warned_of_energy_ = true;
-    warnings_.push_back(fmt::format("the numerics made {:.3g} of the energy in play by {:.4g} s", made / scale, s.time));
+    warnings_.push_back(
+        fmt::format("the numerics made {:.3g} of the energy in play by {:.4g} s", made / scale, s.time));
   }
 }
 
@@ -111,7 +114,9 @@ void Guard::wall_crossed(std::size_t grains, double time) {
     stop(fmt::format("{} grain{} went through a wall at {:.4g} s", grains, grains == 1 ? "" : "s", time));
 }
 
-std::vector<std::string> Guard::warnings() const { return warnings_; }
+std::vector<std::string> Guard::warnings() const {
+  return warnings_;
+}
 
 bool Guard::outside_the_model() const {
   const bool stop_was_raised = limits_.stop_compression > GuardLimits{}.stop_compression;

@@ -13,13 +13,15 @@ namespace vibrosow {
 /// Kinetic (with spin) and potential energy of the grains, J; height counts from y = 0 of the lab, along `gravity`.
 double kinetic_energy(const Grains& grains);
 double potential_energy(const Grains& grains, const Eigen::Vector2d& gravity);
-double mechanical_energy(const Grains& grains, std::size_t i, const Eigen::Vector2d& gravity);  // of one grain, no contact
+double mechanical_energy(const Grains& grains, std::size_t i,
+                         const Eigen::Vector2d& gravity);  // of one grain, no contact
 
 /// Watches a run for what the model or the step cannot bear, and says why it stopped.
 ///
-/// Energy: what is left of E_kin + E_pot + E_elastic after the walls' work and the grains put in and taken out can only fall,
-/// by friction, damping and drag. Its largest rise above an earlier value was made by the numerics. It is compared with the
-/// energy in play: the largest kinetic and elastic energy before that rise, what fell, and what the walls did.
+/// Energy: what is left of E_kin + E_pot + E_elastic after the walls' work and the grains put in and taken out can only
+/// fall, by friction, damping and drag. Its largest rise above an earlier value was made by the numerics. It is
+/// compared with the energy in play: the largest kinetic and elastic energy before that rise, what fell, and what the
+/// walls did.
 class Guard {
  public:
   Guard(const Scene& scene, bool insisted_on_step);
@@ -50,8 +52,8 @@ class Guard {
   std::vector<std::string> warnings_;
 
   bool has_energy_ = false;
-  double lowest_ = 0;        // J, of what can only fall
-  double in_play_ = 0;       // J, largest kinetic + elastic energy up to then
+  double lowest_ = 0;   // J, of what can only fall
+  double in_play_ = 0;  // J, largest kinetic + elastic energy up to then
   double first_potential_ = 0;
 };
 

@@ -52,7 +52,9 @@ void add_wall_work(Integration& s, double work) {
   s.gross_wall_work += std::abs(work);
 }
 
-double next_time(const Integration& s) { return static_cast<double>(s.step + 1) * s.dt; }
+double next_time(const Integration& s) {
+  return static_cast<double>(s.step + 1) * s.dt;
+}
 
 /// Positions and predicted velocities at the end of the step.
 void predict(std::vector<double>& x, std::vector<double>& v, const std::vector<double>& a, double dt) {
@@ -78,7 +80,8 @@ void velocity_verlet(Integration& s) {
   std::swap(s.ax, s.x), std::swap(s.ay, s.y), std::swap(s.alpha, s.omega);
   s.ax.resize(grains.size()), s.ay.resize(grains.size()), s.alpha.resize(grains.omega.size());
   accelerations<Effects>(s);
-  const auto correct = [half](std::vector<double>& v, const std::vector<double>& now, const std::vector<double>& before) {
+  const auto correct = [half](std::vector<double>& v, const std::vector<double>& now,
+                              const std::vector<double>& before) {
     double* pv = v.data();
     const double *a = now.data(), *b = before.data();
     for (std::size_t i = 0; i < v.size(); ++i) pv[i] += half * (a[i] - b[i]);
@@ -132,9 +135,12 @@ void start_integration(Integration& s) {
   if (grains.rotation)
     grains.unequal ? accelerations<BodyEffects<true, true, true>>(s) : accelerations<BodyEffects<true, true, false>>(s);
   else
-    grains.unequal ? accelerations<BodyEffects<false, true, true>>(s) : accelerations<BodyEffects<false, true, false>>(s);
+    grains.unequal ? accelerations<BodyEffects<false, true, true>>(s)
+                   : accelerations<BodyEffects<false, true, false>>(s);
 }
 
-int evaluations_per_step(Integrator integrator) { return integrator == Integrator::velocity_verlet ? 1 : 2; }
+int evaluations_per_step(Integrator integrator) {
+  return integrator == Integrator::velocity_verlet ? 1 : 2;
+}
 
 }  // namespace vibrosow

@@ -17,16 +17,16 @@ struct Integration {
 
   double time = 0;  // s
   std::int64_t step = 0;
-  ContactCensus census;
-  double wall_work = 0;        // J
-  double gross_wall_work = 0;  // J, sizes summed
-  std::vector<double> ax, ay, alpha;           // acceleration at the beginning of the step
-  double wall_power = 0;                       // W, then
-  std::vector<double> x, y, vx, vy, omega;     // the old state, for schemes that need it
+  ContactCensus census{};
+  double wall_work = 0;                               // J
+  double gross_wall_work = 0;                         // J, sizes summed
+  std::vector<double> ax{}, ay{}, alpha{};            // acceleration at the beginning of the step
+  double wall_power = 0;                              // W, then
+  std::vector<double> x{}, y{}, vx{}, vy{}, omega{};  // the old state, for schemes that need it
 };
 
-/// One step of a scheme. Velocity Verlet uses predicted velocities v + a dt in the forces, which keeps second order with
-/// damping and drag; RK2 is paper A's midpoint scheme, with the walls at the middle of the step too.
+/// One step of a scheme. Velocity Verlet uses predicted velocities v + a dt in the forces, which keeps second order
+/// with damping and drag; RK2 is paper A's midpoint scheme, with the walls at the middle of the step too.
 using StepFunction = void (*)(Integration&);
 StepFunction step_function(Integrator integrator, bool rotation, bool drag, bool unequal);
 

@@ -71,7 +71,8 @@ bool Neighbours::moved(const Reference& from, const Grains& grains, const Walls&
 void Neighbours::update(const Grains& grains, const Walls& walls) {
   // Two that were further apart than their reach plus a margin have touched only if they moved half the margin each.
   if (wide_is_valid_ && !moved(narrow_reference_, grains, walls, 0.5 * narrow_margin_)) return;
-  if (!wide_is_valid_ || moved(wide_reference_, grains, walls, 0.5 * (wide_margin_ - narrow_margin_))) search(grains, walls);
+  if (!wide_is_valid_ || moved(wide_reference_, grains, walls, 0.5 * (wide_margin_ - narrow_margin_)))
+    search(grains, walls);
   prune(grains, walls);
 }
 

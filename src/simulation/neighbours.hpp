@@ -17,8 +17,8 @@ struct NeighbourMargins {
   double narrow = 0.15;
 };
 
-/// Who may touch whom. A wide list comes from Box2D, seldom; a narrow one is pruned from it, often; both are renewed just
-/// when a grain has moved so far that a contact could be missed (a dual pair list).
+/// Who may touch whom. A wide list comes from Box2D, seldom; a narrow one is pruned from it, often; both are renewed
+/// just when a grain has moved so far that a contact could be missed (a dual pair list).
 class Neighbours {
  public:
   Neighbours(const std::vector<Vessel>& vessels, double largest_diameter, NeighbourMargins margins);

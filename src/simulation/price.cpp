@@ -32,8 +32,7 @@ double ns_per_grain_step(const EffectSet& effects) {
   constexpr std::int64_t steps = 400;
   constexpr int repeats = 3;
   const Scene scene = sample_bed(effects);
-  Simulation simulation(scene, starting_grains(scene, 1, effects),
-                        {.dt = plan_step(scene).dt, .effects = effects, .margins = {}});
+  Simulation simulation(scene, starting_grains(scene, 1, effects), {.dt = plan_step(scene).dt, .effects = effects});
   double best = 1e300;
   for (int repeat = 0; repeat < repeats; ++repeat) {
     const auto from = std::chrono::steady_clock::now();

@@ -8,12 +8,13 @@
 namespace vibrosow {
 
 struct EffectPrice {
-  std::string effect;          // "all effects present", or an effect's name
-  double ns_per_grain_step;    // of the whole, or what the effect adds to it
+  std::string effect;        // "all effects present", or an effect's name
+  double ns_per_grain_step;  // of the whole, or what the effect adds to it
 };
 
-/// Times a small bed of its own on this machine, with the given effects and with each left out in turn. Takes a fraction of
-/// a second; the figures depend on the machine and the moment, so they belong on a terminal and in no result.
+/// Times a small bed of its own on this machine, with the given effects and with each left out in turn. Takes a
+/// fraction of a second; the figures depend on the machine and the moment, so they belong on a terminal and in no
+/// result.
 std::vector<EffectPrice> price_list(const EffectSet& effects);
 
 }  // namespace vibrosow

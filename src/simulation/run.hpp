@@ -26,7 +26,7 @@ struct Balance {
   std::int64_t lost = 0;  // through a wall or not a number: an error
 };
 
-struct EnergyAccount {  // J
+struct EnergyAccount {                             // J
   double kinetic = 0, potential = 0, elastic = 0;  // at the end; potential from the tray's floor
   double wall_work = 0;                            // done by walls on grains
   double inserted = 0, removed = 0;                // carried by grains put in and taken out
@@ -38,23 +38,24 @@ enum class RunStatus { finished, stopped_by_guard, interrupted };
 /// What one simulation gives. Holds nothing that depends on a clock but the last three.
 struct Run {
   RunStatus status = RunStatus::finished;
-  std::string stop_reason;             // of the guard
-  std::vector<std::string> warnings;   // of the guard
-  bool outside_the_model = false;      // compression beyond the guard's warning limit with the stop raised, or a long step insisted on
+  std::string stop_reason;            // of the guard
+  std::vector<std::string> warnings;  // of the guard
+  bool outside_the_model =
+      false;  // compression beyond the guard's warning limit with the stop raised, or a long step insisted on
   std::uint64_t random_seed = 1;
-  double dt = 0;                       // s
+  double dt = 0;  // s
   std::int64_t steps = 0;
-  double end_time = 0;                 // s, = steps dt
+  double end_time = 0;  // s, = steps dt
   std::int64_t grain_steps = 0;
   std::int64_t force_evaluations = 0;  // of grain contacts
   double max_compression = 0;          // shell compression, largest of the run
   double tray_empty_since = -1;        // s, when the last grain left the tray; negative: it never ran dry
   EnergyAccount energy;
   Balance balance;
-  std::vector<OutflowEvent> events;    // by time
-  double wall_time = 0;                // s, of this machine
-  double neighbour_time = 0;           // s, of wall_time: boxes, lists, walls put in place
-  double force_time = 0;               // s, of wall_time: the kernels
+  std::vector<OutflowEvent> events;  // by time
+  double wall_time = 0;              // s, of this machine
+  double neighbour_time = 0;         // s, of wall_time: boxes, lists, walls put in place
+  double force_time = 0;             // s, of wall_time: the kernels
 };
 
 }  // namespace vibrosow

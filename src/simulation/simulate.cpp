@@ -21,7 +21,10 @@ Run simulate(const Scene& scene, const SimulationOptions& options) {
   Grains grains = starting_grains(scene, options.random_seed, effects);
   refuse_overlapping_start(scene, grains);
   Simulation simulation(scene, std::move(grains),
-                        {.dt = plan.dt, .random_seed = options.random_seed, .effects = effects, .margins = {},
+                        {.dt = plan.dt,
+                         .random_seed = options.random_seed,
+                         .effects = effects,
+                         .margins = {},
                          .insisted_on_step = plan.too_long});
   bool interrupted = false;
   for (std::int64_t done = 0; done < plan.steps && !interrupted && simulation.step();) {

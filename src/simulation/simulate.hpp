@@ -15,8 +15,9 @@ struct SimulationOptions {
   std::function<void(double share_done)> progress;  // called now and then with 0..1, in the simulating thread
 };
 
-/// Runs a scene to its end. Same scene and random seed: the same Run to the last bit, but for wall_time. Throws InputError
-/// when the fill does not fit its vessel, grains overlap at the start, or the step is too long and not insisted on.
+/// Runs a scene to its end. Same scene and random seed: the same Run to the last bit, but for wall_time. Throws
+/// InputError when the fill does not fit its vessel, grains overlap at the start, or the step is too long and not
+/// insisted on.
 Run simulate(const Scene& scene, const SimulationOptions& options = {});
 
 }  // namespace vibrosow

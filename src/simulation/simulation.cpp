@@ -17,7 +17,9 @@ constexpr double feeding_interval = 5e-3;  // s
 constexpr std::int64_t steps_per_energy_account = 100;
 
 /// Housekeeping goes by simulated time alone, so that nothing about lists or clocks can change a result.
-std::int64_t steps_in(double interval, double dt) { return std::max<std::int64_t>(1, std::llround(interval / dt)); }
+std::int64_t steps_in(double interval, double dt) {
+  return std::max<std::int64_t>(1, std::llround(interval / dt));
+}
 
 }  // namespace
 
@@ -26,9 +28,9 @@ Simulation::Simulation(const Scene& scene, Grains grains, const SimulationSetup&
       setup_(setup),
       grains_(std::move(grains)),
       field_(scene_, kernels_for(scene_.contact.law, setup.effects), setup.margins),
-      s_{.grains = grains_, .field = field_, .dt = setup.dt, .gravity = setup.gravity, .drag = scene_.contact.drag,
-         .census = {}, .ax = {}, .ay = {}, .alpha = {}, .x = {}, .y = {}, .vx = {}, .vy = {}, .omega = {}},
-      advance_(step_function(scene_.numerics.integrator, setup.effects.rotation, setup.effects.drag, setup.effects.unequal)),
+      s_{.grains = grains_, .field = field_, .dt = setup.dt, .gravity = setup.gravity, .drag = scene_.contact.drag},
+      advance_(
+          step_function(scene_.numerics.integrator, setup.effects.rotation, setup.effects.drag, setup.effects.unequal)),
       counter_(scene_, grains_.size()),
       feeder_(scene_, setup.random_seed),
       guard_(scene_, setup.insisted_on_step),
@@ -68,7 +70,8 @@ void Simulation::count() {
   const std::int64_t lost_before = counter_.lost();
   counter_.watch(grains_, field_.walls(), s_.time, run_.events);
   if (counter_.lost() > lost_before) note_lost(counter_.lost() - lost_before);
-  for (std::size_t k = before; k < run_.events.size(); ++k) ++(run_.events[k].hole > 0 ? run_.balance.counted : run_.balance.spilled);
+  for (std::size_t k = before; k < run_.events.size(); ++k)
+    ++(run_.events[k].hole > 0 ? run_.balance.counted : run_.balance.spilled);
 }
 
 void Simulation::note_lost(std::int64_t grains) {
@@ -178,9 +181,10 @@ void refuse_overlapping_start(const Scene& scene, const Grains& grains) {
   // Grains at rest may carry their bed's weight, no more.
   if (census.max_compression <= scene.guard.warn_compression) return;
   const Fill& fill = scene.hopper && scene.hopper->fill ? *scene.hopper->fill : *scene.tray.fill;
-  throw InputError(fmt::format("{}: grains overlap at the start, their shells compressed by {:.3g} of the radius; does the "
-                               "hopper stand in the tray's bed? (hopper.above, fill.count)",
-                               fill.where.empty() ? "fill.count" : fill.where, census.max_compression));
+  throw InputError(
+      fmt::format("{}: grains overlap at the start, their shells compressed by {:.3g} of the radius; does the "
+                  "hopper stand in the tray's bed? (hopper.above, fill.count)",
+                  fill.where.empty() ? "fill.count" : fill.where, census.max_compression));
 }
 
 }  // namespace vibrosow

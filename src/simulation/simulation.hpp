@@ -12,11 +12,11 @@ namespace vibrosow {
 
 /// How a simulation is set up beside its scene.
 struct SimulationSetup {
-  double dt;                                              // s
+  double dt;  // s
   std::uint64_t random_seed = 1;
-  Eigen::Vector2d gravity{0, -standard_gravity};          // m/s2
-  EffectSet effects;                                      // the kernels to run with; at least those the scene calls for
-  NeighbourMargins margins;
+  Eigen::Vector2d gravity{0, -standard_gravity};  // m/s2
+  EffectSet effects{};                            // the kernels to run with; at least those the scene calls for
+  NeighbourMargins margins{};
   bool insisted_on_step = false;
 };
 

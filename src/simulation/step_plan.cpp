@@ -15,17 +15,18 @@ namespace vibrosow {
 namespace {
 
 constexpr double contacts_of_a_packed_grain = 6;
-constexpr double longest_travel = 0.1;         // radii a step
-constexpr double wanted_friction_step = 0.5;   // dt lambda that a chosen step keeps to
-constexpr double allowed_energy_growth = 1.01; // of a free vibration under RK2 over the whole run, in amplitude
+constexpr double longest_travel = 0.1;          // radii a step
+constexpr double wanted_friction_step = 0.5;    // dt lambda that a chosen step keeps to
+constexpr double allowed_energy_growth = 1.01;  // of a free vibration under RK2 over the whole run, in amplitude
 
 /// Largest frequency (rad/s) of a grain among six others: omega^2 = 6 k / m; for equal grains sqrt(3 g / eps).
 double largest_frequency(const std::vector<GrainKind>& kinds) {
   double largest2 = 0;
   for (const GrainKind& light : kinds)
     for (const GrainKind& other : kinds)
-      largest2 = std::max(largest2, contacts_of_a_packed_grain *
-                                        ElasticShell::stiffness(light.compliance, other.compliance) * light.inverse_mass);
+      largest2 =
+          std::max(largest2, contacts_of_a_packed_grain * ElasticShell::stiffness(light.compliance, other.compliance) *
+                                 light.inverse_mass);
   return std::sqrt(largest2);
 }
 
@@ -35,8 +36,8 @@ double shortest_contact(const std::vector<GrainKind>& kinds) {
   for (const GrainKind& a : kinds) {
     largest2 = std::max(largest2, a.inverse_mass / a.compliance);
     for (const GrainKind& b : kinds)
-      largest2 = std::max(largest2,
-                          ElasticShell::stiffness(a.compliance, b.compliance) * (a.inverse_mass + b.inverse_mass));
+      largest2 =
+          std::max(largest2, ElasticShell::stiffness(a.compliance, b.compliance) * (a.inverse_mass + b.inverse_mass));
   }
   return std::numbers::pi / std::sqrt(largest2);
 }
@@ -66,7 +67,8 @@ double weight_factor(const Scene& scene) {
 /// lambda = nu F_n / (v_s m_t) of the regularised friction, 1/s, with F_n the weight of the layers above.
 double friction_rate(const Scene& scene) {
   const Contact& contact = scene.contact;
-  const bool ball = std::any_of(scene.lots.begin(), scene.lots.end(), [](const SeedLot& l) { return l.shape == Shape::ball; });
+  const bool ball =
+      std::any_of(scene.lots.begin(), scene.lots.end(), [](const SeedLot& l) { return l.shape == Shape::ball; });
   const bool rotation = effects_of(scene).rotation;
   const double per_surface = !rotation ? 1 : ball ? 3.5 : 3;  // 1 / (m m_t), of one grain
   const double layers = deepest_fill(scene), weight = standard_gravity * weight_factor(scene);
@@ -120,7 +122,8 @@ StepPlan plan_step(const Scene& scene) {
     plan.limits.push_back({"friction below the slip speed", factor / rate});
     wanted = std::min(wanted, wanted_friction_step / rate);
   }
-  plan.limits.push_back({"a grain's travel in one step", longest_travel * smallest_radius(scene) / foretold_speed(scene)});
+  plan.limits.push_back(
+      {"a grain's travel in one step", longest_travel * smallest_radius(scene) / foretold_speed(scene)});
   if (scene.contact.drag > 0) {
     double lightest = kinds.front().mass;
     for (const GrainKind& kind : kinds) lightest = std::min(lightest, kind.mass);
@@ -138,10 +141,10 @@ StepPlan plan_step(const Scene& scene) {
 
 std::optional<std::string> step_refused(const Scene& scene, const StepPlan& plan) {
   if (!plan.too_long || scene.numerics.allow_long_step) return std::nullopt;
-  return fmt::format("{}: {:.4g} s is too long, the longest safe step is {:.4g} s (bound by {}); numerics.allow_long_step = true "
-                     "runs it all the same, and marks the result",
-                     scene.numerics.where.empty() ? "numerics.dt" : scene.numerics.where, plan.dt, plan.longest_safe,
-                     plan.bound_by);
+  return fmt::format(
+      "{}: {:.4g} s is too long, the longest safe step is {:.4g} s (bound by {}); numerics.allow_long_step = true "
+      "runs it all the same, and marks the result",
+      scene.numerics.where.empty() ? "numerics.dt" : scene.numerics.where, plan.dt, plan.longest_safe, plan.bound_by);
 }
 
 ForetoldCompression foretell_compression(const Scene& scene) {

@@ -83,9 +83,7 @@ class UnitSystem {
     if (!system_) throw std::runtime_error("the unit database of udunits2 cannot be read");
   }
 
-  Unit parse(const std::string& text) {
-    return Unit(ut_parse(system_.get(), text.c_str(), UT_UTF8), ut_free);
-  }
+  Unit parse(const std::string& text) { return Unit(ut_parse(system_.get(), text.c_str(), UT_UTF8), ut_free); }
 
   std::mutex mutex_;
   std::unique_ptr<ut_system, decltype(&ut_free_system)> system_{nullptr, ut_free_system};
@@ -157,17 +155,14 @@ double parse_number(std::string_view text, std::string_view quantity, Dimension 
 }  // namespace
 
 double parse_quantity(std::string_view text, Dimension dimension) {
-  static const std::regex number_then_unit(
-      R"(([+-]?(?:0|[1-9][0-9]*)(?:\.[0-9]+)?(?:[eE][+-]?[0-9]+)?)( *)(.*))");
+  static const std::regex number_then_unit(R"(([+-]?(?:0|[1-9][0-9]*)(?:\.[0-9]+)?(?:[eE][+-]?[0-9]+)?)( *)(.*))");
   const std::string whole(text);
   std::smatch part;
   if (!std::regex_match(whole, part, number_then_unit)) {
-    throw UnitError(
-        fmt::format("\"{}\" does not start with a number; expected {}", whole, expected(dimension)));
+    throw UnitError(fmt::format("\"{}\" does not start with a number; expected {}", whole, expected(dimension)));
   }
   const std::string unit = part[3];
-  if (unit.empty())
-    throw UnitError(fmt::format("\"{}\" has no unit; expected {}", whole, expected(dimension)));
+  if (unit.empty()) throw UnitError(fmt::format("\"{}\" has no unit; expected {}", whole, expected(dimension)));
   const double number = parse_number(part[1].str(), whole, dimension);
   UnitSize size;
   try {

@@ -8,15 +8,15 @@ namespace vibrosow {
 
 /// What a quantity measures. Each has one SI unit, in which `parse_quantity` answers.
 enum class Dimension {
-  length,        // m
-  time,          // s
-  frequency,     // Hz; rpm is 1/60 Hz; rad/s is refused
-  mass,          // kg
-  mass_rate,     // kg/s
-  speed,         // m/s
-  angle,         // rad
-  density,       // kg/m3
-  fraction,      // 1; "70 %" is 0.7
+  length,     // m
+  time,       // s
+  frequency,  // Hz; rpm is 1/60 Hz; rad/s is refused
+  mass,       // kg
+  mass_rate,  // kg/s
+  speed,      // m/s
+  angle,      // rad
+  density,    // kg/m3
+  fraction,   // 1; "70 %" is 0.7
 };
 
 /// A quantity that cannot be read; the message names the text, and what would be right.
@@ -25,8 +25,8 @@ class UnitError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// Reads "8 mm", "9 Hz", "70 %" into SI. The number must be finite and written as in TOML (no thousands sign), the unit is
-/// required and must be one unit expression of the wanted dimension: throws UnitError otherwise.
+/// Reads "8 mm", "9 Hz", "70 %" into SI. The number must be finite and written as in TOML (no thousands sign), the unit
+/// is required and must be one unit expression of the wanted dimension: throws UnitError otherwise.
 double parse_quantity(std::string_view text, Dimension dimension);
 
 /// The SI unit's usual short name: "m", "Hz", "kg/s", ...

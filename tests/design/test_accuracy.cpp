@@ -22,9 +22,10 @@ AccuracyRow row(Integrator integrator, double steps, double compression, double 
 
 AccuracyResult made_up() {
   AccuracyResult result;
-  result.rows = {row(Integrator::velocity_verlet, 40, 1e-4, 1.000, 1000), row(Integrator::velocity_verlet, 20, 1e-4, 1.005, 500),
-                 row(Integrator::rk2_midpoint, 20, 1e-4, 1.004, 500), row(Integrator::velocity_verlet, 20, 1e-3, 0.95, 100),
-                 row(Integrator::velocity_verlet, 10, 1e-3, 0.90, 200)};
+  result.rows = {
+      row(Integrator::velocity_verlet, 40, 1e-4, 1.000, 1000), row(Integrator::velocity_verlet, 20, 1e-4, 1.005, 500),
+      row(Integrator::rk2_midpoint, 20, 1e-4, 1.004, 500), row(Integrator::velocity_verlet, 20, 1e-3, 0.95, 100),
+      row(Integrator::velocity_verlet, 10, 1e-3, 0.90, 200)};
   compare_with_finest(result);
   return result;
 }
@@ -61,7 +62,7 @@ TEST(Accuracy, CheapestWithinOnePercent) {
 
 TEST(Accuracy, RunsEachSettingAsAskedAndListsTheRefused) {
   const StudyFiles files;
-  const Scene scene = read_scene(files.write("scene.toml", "") .parent_path() / "seeder.toml");
+  const Scene scene = read_scene(files.write("scene.toml", "").parent_path() / "seeder.toml");
   AccuracyGrid grid = default_accuracy_grid(scene);
   EXPECT_EQ(grid.slip_speeds.size(), 2u);
   grid.steps_per_contact = {2, 40};

@@ -137,8 +137,8 @@ TEST(Study, MeasuredHoleOrLotThatALayoutHasNotIsRefused) {
                                   "hole,time_s,seeds\n4,1,5\n", "lot,time_s,seeds\nrye,1,5\n"}) {
     files.write("bench.csv", table);
     EXPECT_THAT([&] { read_study(files.study("[measured]\nfile = \"bench.csv\"\n")); },
-                ThrowsMessage<InputError>(testing::AllOf(
-                    HasSubstr("bench.csv:2: "), HasSubstr("layout 1 has no such hole or lot"))))
+                ThrowsMessage<InputError>(
+                    testing::AllOf(HasSubstr("bench.csv:2: "), HasSubstr("layout 1 has no such hole or lot"))))
         << table;
   }
 }
@@ -147,9 +147,9 @@ TEST(Study, FileThatIsNotThereIsToldWhereItIsNamed) {
   const StudyFiles files;
   EXPECT_THAT([&] { read_study(files.write("study.toml", "title = \"a\"\nbase = \"none.toml\"\n")); },
               ThrowsMessage<InputError>(testing::AllOf(HasSubstr("study.toml:2: base: "), HasSubstr("none.toml"))));
-  EXPECT_THAT([&] { read_study(files.study("[measured]\nfile = \"none.csv\"\n")); },
-              ThrowsMessage<InputError>(
-                  testing::AllOf(HasSubstr("study.toml:3: measured.file: "), HasSubstr("none.csv"))));
+  EXPECT_THAT(
+      [&] { read_study(files.study("[measured]\nfile = \"none.csv\"\n")); },
+      ThrowsMessage<InputError>(testing::AllOf(HasSubstr("study.toml:3: measured.file: "), HasSubstr("none.csv"))));
 }
 
 TEST(Study, WrongKeyOfANamedDesignIsToldWithItsLine) {
@@ -161,8 +161,8 @@ TEST(Study, WrongKeyOfANamedDesignIsToldWithItsLine) {
 TEST(Study, MeasuredConditionLeftOutMeansTheBase) {
   const StudyFiles files;
   files.write("bench.csv", "tray.holes.count,rate_g_per_s\n3,0.5\n5,2\n");
-  const Study study = read_study(
-      files.study("[vary]\ncontact.friction = [0.1, 0.2]\n[measured]\nfile = \"bench.csv\"\n"));
+  const Study study =
+      read_study(files.study("[vary]\ncontact.friction = [0.1, 0.2]\n[measured]\nfile = \"bench.csv\"\n"));
   ASSERT_EQ(study.measured->matches.size(), 2u);  // the base has three holes: the row of five fits no layout
   EXPECT_EQ(study.measured->matches[0].series, 0u);
   EXPECT_EQ(study.measured->matches[1].series, 0u);

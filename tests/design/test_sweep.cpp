@@ -100,8 +100,8 @@ TEST(Sweep, GuardAndRefusalGiveAStatusAndAReason) {
 
 TEST(Sweep, SharedSceneIsRunOnceAndListedUnderEach) {
   const StudyFiles files;
-  const Study study = read_study(files.study(
-      "replicates = 2\n[vary]\ntray.holes.count = [1]\ntray.holes.span = [\"30 cm\", \"36 cm\"]\n"));
+  const Study study = read_study(
+      files.study("replicates = 2\n[vary]\ntray.holes.count = [1]\ntray.holes.span = [\"30 cm\", \"36 cm\"]\n"));
   std::atomic<int> runs{0};
   const StudyResult result = sweep(
       study, [&](const Scene& scene, const SimulationOptions& options) { return ++runs, quick_run(scene, options); },

@@ -1,5 +1,5 @@
-// One scene's end state, pinned to the bit, for every compiler, optimisation level and machine. The scene uses no sine and
-// no cosine, whose last bit may differ between machines: nothing moves but the grains, and nothing is tilted.
+// One scene's end state, pinned to the bit, for every compiler, optimisation level and machine. The scene uses no sine
+// and no cosine, whose last bit may differ between machines: nothing moves but the grains, and nothing is tilted.
 #include <gtest/gtest.h>
 
 #include <bit>
@@ -48,7 +48,7 @@ std::uint64_t end_state(std::uint64_t random_seed) {
   const Scene scene = draining_box();
   const EffectSet effects = effects_of(scene);
   Simulation run(scene, starting_grains(scene, random_seed, effects),
-                 {.dt = 2e-5, .random_seed = random_seed, .effects = effects, .margins = {}});
+                 {.dt = 2e-5, .random_seed = random_seed, .effects = effects});
   run.steps(15000);
   EXPECT_FALSE(run.guard().stop_reason()) << *run.guard().stop_reason();
   Hash hash;
@@ -62,7 +62,9 @@ std::uint64_t end_state(std::uint64_t random_seed) {
   return hash.value();
 }
 
-TEST(Golden, DrainingBoxEndsInTheSameBits) { EXPECT_EQ(end_state(1), 0x79464cc10b709826u) << std::hex << end_state(1); }
+TEST(Golden, DrainingBoxEndsInTheSameBits) {
+  EXPECT_EQ(end_state(1), 0x79464cc10b709826u) << std::hex << end_state(1);
+}
 
 TEST(Golden, TwoRandomSeedsDifferAndOneRepeats) {
   EXPECT_EQ(end_state(2), end_state(2));

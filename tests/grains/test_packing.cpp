@@ -21,7 +21,9 @@ Vessel vessel(Packing packing, int count, double jitter = 1e-3) {
   return v;
 }
 
-std::vector<SeedLot> one_lot() { return {{"a", diameter, 4e-5, Shape::ball, 1.0}}; }
+std::vector<SeedLot> one_lot() {
+  return {{"a", diameter, 4e-5, Shape::ball, 1.0}};
+}
 std::vector<SeedLot> two_lots() {
   return {{"a", diameter, 4e-5, Shape::ball, 0.7}, {"b", 0.5 * diameter, 1e-5, Shape::ball, 0.3}};
 }
@@ -36,8 +38,8 @@ double deepest_overlap(const Vessel& v, const std::vector<PackedGrain>& packed, 
   for (std::size_t i = 0; i < packed.size(); ++i) {
     const double r = radius_of(packed[i], lots);
     for (std::size_t j = 0; j < i; ++j)
-      deepest = std::max(deepest, r + radius_of(packed[j], lots) -
-                                      std::hypot(packed[i].x - packed[j].x, packed[i].y - packed[j].y));
+      deepest = std::max(
+          deepest, r + radius_of(packed[j], lots) - std::hypot(packed[i].x - packed[j].x, packed[i].y - packed[j].y));
     for (const WallSegment& wall : vessel_walls(v)) {
       const Eigen::Vector2d p(packed[i].x, packed[i].y), along = wall.b - wall.a;
       const double part = std::clamp((p - wall.a).dot(along) / along.squaredNorm(), 0.0, 1.0);
@@ -112,7 +114,8 @@ TEST(Packing, RandomSeedActsAndRepeats) {
 TEST(Packing, LotsComeInExactShares) {
   EXPECT_EQ(lot_counts(two_lots(), 714), (std::vector<int>{500, 214}));
   EXPECT_EQ(lot_counts(one_lot(), 714), (std::vector<int>{714}));
-  const std::vector<SeedLot> thirds{{"a", 1, 1, Shape::ball, 1.0 / 3}, {"b", 1, 1, Shape::ball, 1.0 / 3}, {"c", 1, 1, Shape::ball, 1.0 / 3}};
+  const std::vector<SeedLot> thirds{
+      {"a", 1, 1, Shape::ball, 1.0 / 3}, {"b", 1, 1, Shape::ball, 1.0 / 3}, {"c", 1, 1, Shape::ball, 1.0 / 3}};
   const std::vector<int> counts = lot_counts(thirds, 100);
   EXPECT_EQ(std::accumulate(counts.begin(), counts.end(), 0), 100);
 }

@@ -30,8 +30,7 @@ class DischargeCurve : public testing::Test {
 TEST_F(DischargeCurve, AddsUpWhatHasLeftAHole) {
   const std::vector<double> times = {0, 1, 2.5, 10};
   EXPECT_EQ(discharge_curve(scene, run, times, Discharge::seeds), (std::vector<double>{0, 1, 1, 2}));
-  EXPECT_EQ(discharge_curve(scene, run, times, Discharge::mass),
-            (std::vector<double>{0, 40e-6, 40e-6, 200e-6}));
+  EXPECT_EQ(discharge_curve(scene, run, times, Discharge::mass), (std::vector<double>{0, 40e-6, 40e-6, 200e-6}));
   EXPECT_NEAR(discharge_curve(scene, run, {10}, Discharge::share)[0], 0.2, 1e-12);
 }
 

@@ -13,8 +13,7 @@ namespace {
 
 class Measured : public testing::Test {
  protected:
-  Measured()
-      : file_(std::filesystem::path(testing::TempDir()) / ("bench-" + std::to_string(getpid()) + ".csv")) {}
+  Measured() : file_(std::filesystem::path(testing::TempDir()) / ("bench-" + std::to_string(getpid()) + ".csv")) {}
   ~Measured() override { std::filesystem::remove(file_); }
 
   MeasuredTable read(const std::string& text) {
@@ -69,10 +68,9 @@ TEST_F(Measured, RatesWithRepeatsAreAveraged) {
 }
 
 TEST_F(Measured, SemicolonsAndDecimalCommasGiveTheSame) {
-  const MeasuredTable point =
-      read("tray.motion.amplitude_mm,lot,caught_seeds,duration_s\n9.5,wheat,42,10.5\n");
-  const MeasuredTable comma = read(
-      "\xEF\xBB\xBFtray.motion.amplitude_mm;lot;caught_seeds;duration_s\r\n9,5;wheat;42;10,5\r\n;;;\r\n");
+  const MeasuredTable point = read("tray.motion.amplitude_mm,lot,caught_seeds,duration_s\n9.5,wheat,42,10.5\n");
+  const MeasuredTable comma =
+      read("\xEF\xBB\xBFtray.motion.amplitude_mm;lot;caught_seeds;duration_s\r\n9,5;wheat;42;10,5\r\n;;;\r\n");
   for (const MeasuredTable& table : {point, comma}) {
     EXPECT_EQ(table.quantity, MeasuredQuantity::seed_rate);
     ASSERT_EQ(table.series.size(), 1U);
@@ -127,8 +125,8 @@ TEST_F(Measured, UnknownColumnsAreErrorsWithTheNearest) {
   EXPECT_TRUE(contains(error("holes,seeds_per_s\n1,3\n"), "nearest: hole"));
   EXPECT_TRUE(contains(error("# x\nweather_in_the_barn,seeds_per_s\n1,3\n"),
                        ":2: weather_in_the_barn: unknown column; known are"));
-  EXPECT_TRUE(contains(error("tray.motion.frequency,seeds_per_s\n9,3\n"),
-                       "carries its unit: tray.motion.frequency_Hz"));
+  EXPECT_TRUE(
+      contains(error("tray.motion.frequency,seeds_per_s\n9,3\n"), "carries its unit: tray.motion.frequency_Hz"));
   EXPECT_TRUE(contains(error("tray.motion.frequency_rpm,seeds_per_s\n540,3\n"), "unknown column"));
   EXPECT_TRUE(contains(error("hole,hole,seeds_per_s\n1,1,3\n"), ":1: hole: stands twice"));
 }
@@ -145,8 +143,8 @@ TEST_F(Measured, ExactlyOneQuantityIsNeeded) {
 TEST_F(Measured, BadValuesAreNamedByLineAndColumn) {
   EXPECT_TRUE(contains(error("hole,seeds_per_s\n1,3\n2,three\n"),
                        ":3: seeds_per_s: \"three\" is not a number with a decimal point"));
-  EXPECT_TRUE(contains(error("seeds_per_s;hole\n3.5;1\n"),
-                       ":2: seeds_per_s: \"3.5\" is not a number with a decimal comma"));
+  EXPECT_TRUE(
+      contains(error("seeds_per_s;hole\n3.5;1\n"), ":2: seeds_per_s: \"3.5\" is not a number with a decimal comma"));
   EXPECT_TRUE(contains(error("seeds_per_s\n-3\n"), "-3 is negative"));
   EXPECT_TRUE(contains(error("seeds_per_s\nnan\n"), "is not a number"));
   EXPECT_TRUE(contains(error("seeds_per_s\ninf\n"), "is not a number"));
@@ -159,8 +157,7 @@ TEST_F(Measured, BadValuesAreNamedByLineAndColumn) {
   EXPECT_TRUE(contains(error("hole,seeds_per_s\nleft,3\n"), ":2: hole: \"left\" is neither"));
   EXPECT_TRUE(contains(error("hole,seeds_per_s\n0,3\n"), "is neither"));
   EXPECT_TRUE(contains(error("lot,seeds_per_s\n,3\n"), "lot: is empty"));
-  EXPECT_TRUE(
-      contains(error("tray.motion.frequency_Hz,seeds_per_s\n,3\n"), "is empty; a column left out means"));
+  EXPECT_TRUE(contains(error("tray.motion.frequency_Hz,seeds_per_s\n,3\n"), "is empty; a column left out means"));
   EXPECT_TRUE(contains(error("tray.motion.frequency_Hz,seeds_per_s\nfast,3\n"), "\"fast\" is not a number"));
 }
 

@@ -53,10 +53,8 @@ TEST(Rows, OfSeveralLotsComePerLotAndTogether) {
   const Outflow outflow = measure_outflow(scene, run);
   std::vector<std::pair<std::string, std::string>> names;
   for (const HoleOutflow& row : outflow.holes) names.emplace_back(row.hole, row.lot);
-  EXPECT_EQ(
-      names,
-      (std::vector<std::pair<std::string, std::string>>{
-          {"1", "wheat"}, {"1", "pea"}, {"1", "all"}, {"all", "wheat"}, {"all", "pea"}, {"all", "all"}}));
+  EXPECT_EQ(names, (std::vector<std::pair<std::string, std::string>>{
+                       {"1", "wheat"}, {"1", "pea"}, {"1", "all"}, {"all", "wheat"}, {"all", "pea"}, {"all", "all"}}));
   EXPECT_DOUBLE_EQ(find_row(outflow, "1", "pea")->mass, 250e-6);
   EXPECT_DOUBLE_EQ(find_row(outflow, "all", "all")->mass, 290e-6);
   EXPECT_DOUBLE_EQ(*outflow.depth_factor, 0.06 / 5e-3);

@@ -25,8 +25,7 @@ TEST(MeanWithInterval, OneValueHasNoIntervalAndNoneHasNoMean) {
 }
 
 TEST(MeanWithInterval, KeepsDigitsFarFromZero) {
-  EXPECT_NEAR(*mean_with_interval({1e9 + 1, 1e9 + 2, 1e9 + 3, 1e9 + 4, 1e9 + 5}).half_width_95, 1.963243,
-              1e-6);
+  EXPECT_NEAR(*mean_with_interval({1e9 + 1, 1e9 + 2, 1e9 + 3, 1e9 + 4, 1e9 + 5}).half_width_95, 1.963243, 1e-6);
 }
 
 TEST(CoefficientOfVariation, IsSampleDeviationOverMean) {

@@ -117,13 +117,14 @@ TEST(Friction, SlopeHoldsOrSlips) {
     return run.grains().vx[0] / run.time() / (standard_gravity * std::sin(theta));
   };
   const auto slips = [](double tangent) { return 1 - 0.2 / tangent; };  // a / (g sin theta) in gross sliding
-  EXPECT_NEAR(acceleration(0.5, true), 2.0 / 3, 0.005 * 2 / 3);  // rolls: 0.5 < 3 * 0.2
+  EXPECT_NEAR(acceleration(0.5, true), 2.0 / 3, 0.005 * 2 / 3);         // rolls: 0.5 < 3 * 0.2
   EXPECT_NEAR(acceleration(0.9, true), slips(0.9), 0.005 * slips(0.9));
   EXPECT_NEAR(acceleration(0.15, false), 0, 0.01);  // held, but for creep below the slip speed
   EXPECT_NEAR(acceleration(0.5, false), slips(0.5), 0.005 * slips(0.5));
 }
 
-// Gross sliding through a whole oblique impact: spin and tangential speed change by (1 + e) nu v_n m / J r and (1 + e) nu v_n.
+// Gross sliding through a whole oblique impact: spin and tangential speed change by (1 + e) nu v_n m / J r and (1 + e)
+// nu v_n.
 TEST(Friction, ObliqueImpactInGrossSliding) {
   Bench bench;
   bench.scene.contact.wall = {0.1, 0.8};

@@ -14,7 +14,9 @@ struct Impact {
   double duration, peak_overlap, velocity_0, velocity_1, kinetic_before, kinetic_after;
 };
 
-double kinetic(const Simulation& run) { return kinetic_energy(run.grains()); }
+double kinetic(const Simulation& run) {
+  return kinetic_energy(run.grains());
+}
 
 /// Two grains meet head-on at `speed` relative to each other; the second may be heavier.
 Impact head_on(Bench& bench, double speed, int second_lot, double dt) {
@@ -111,7 +113,8 @@ TEST_P(EveryIntegrator, RestitutionAskedForIsMeasuredOnAWall) {
   }
 }
 
-// The textbook damping, for a force that may pull, gives these with a force that never pulls (PHYSICS: 0.325, 0.550, 0.718).
+// The textbook damping, for a force that may pull, gives these with a force that never pulls (PHYSICS: 0.325, 0.550,
+// 0.718).
 TEST(Restitution, TextbookDampingGivesTooLittleDissipation) {
   const auto textbook = [](double e) {
     const double l = std::log(e);

@@ -1,5 +1,5 @@
-// Convergence order of the integrators where the force is smooth: a grain that never leaves a vibrating floor, with drag and
-// normal damping.
+// Convergence order of the integrators where the force is smooth: a grain that never leaves a vibrating floor, with
+// drag and normal damping.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -28,7 +28,9 @@ State after(Integrator integrator, std::int64_t steps) {
   return {run.grains().y[0], run.grains().vy[0]};
 }
 
-double error(const State& a, const State& b) { return std::hypot((a.y - b.y) * 495, a.vy - b.vy); }
+double error(const State& a, const State& b) {
+  return std::hypot((a.y - b.y) * 495, a.vy - b.vy);
+}
 
 class Order : public testing::TestWithParam<Integrator> {};
 INSTANTIATE_TEST_SUITE_P(Integrators, Order, testing::Values(Integrator::velocity_verlet, Integrator::rk2_midpoint),

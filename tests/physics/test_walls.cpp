@@ -48,8 +48,8 @@ TEST(Wall, IsAGrainOfInfiniteRadiusAndMass) {
 }
 
 TEST(Wall, AJointOfTwoPiecesPushesOnce) {
-  // A funnel's ridge between two holes: two slopes share a vertex; a grain resting on it touches that vertex alone, and the
-  // force is one shell's.
+  // A funnel's ridge between two holes: two slopes share a vertex; a grain resting on it touches that vertex alone, and
+  // the force is one shell's.
   Bench bench;
   bench.scene.tray.holes = {{0.2, 0.1}, {0.8, 0.1}};
   bench.scene.tray.funnel = 0.5;

@@ -26,8 +26,7 @@ TEST(CsvTable, QuotesOnlyWhatNeedsIt) {
   table.add_row({"2", "dry, then \"stuck\""});
   table.add_row({"3", "two\nlines"});
   table.add_row({"#4", "plain; text"});
-  EXPECT_EQ(table.text(),
-            "hole,note\n1,\n2,\"dry, then \"\"stuck\"\"\"\n3,\"two\nlines\"\n\"#4\",plain; text\n");
+  EXPECT_EQ(table.text(), "hole,note\n1,\n2,\"dry, then \"\"stuck\"\"\"\n3,\"two\nlines\"\n\"#4\",plain; text\n");
 }
 
 TEST(CsvTable, RefusesARowOfAnotherLength) {

@@ -27,8 +27,7 @@ class OutputFiles : public testing::Test {
     return {std::istreambuf_iterator<char>(stream), {}};
   }
   std::size_t files_in_directory() const {
-    return static_cast<std::size_t>(
-        std::distance(fs::directory_iterator(directory_), fs::directory_iterator()));
+    return static_cast<std::size_t>(std::distance(fs::directory_iterator(directory_), fs::directory_iterator()));
   }
   fs::path directory_;
 };

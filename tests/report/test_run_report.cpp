@@ -40,13 +40,12 @@ TEST_F(RunReport, OutflowHasARowPerGrainAndNamesTheSpilled) {
 }
 
 TEST_F(RunReport, SummaryHasPlaneAndTrayRates) {
-  EXPECT_EQ(
-      summary_csv(measure_outflow(scene, run)),
-      "hole,lot,position_mm,width_mm,grains,mass_g,seeds_per_s,rate_g_per_s,longest_pause_s,depth_factor,"
-      "tray_rate_g_per_s,note\n"
-      "1,wheat,100,16,0,0,0,0,1,15,0,\n"
-      "2,wheat,200,16,1,0.04,1,0.04,0.5,15,0.6,\n"
-      "all,all,,,1,0.04,1,0.04,0.5,15,0.6,\n");
+  EXPECT_EQ(summary_csv(measure_outflow(scene, run)),
+            "hole,lot,position_mm,width_mm,grains,mass_g,seeds_per_s,rate_g_per_s,longest_pause_s,depth_factor,"
+            "tray_rate_g_per_s,note\n"
+            "1,wheat,100,16,0,0,0,0,1,15,0,\n"
+            "2,wheat,200,16,1,0.04,1,0.04,0.5,15,0.6,\n"
+            "all,all,,,1,0.04,1,0.04,0.5,15,0.6,\n");
 }
 
 TEST_F(RunReport, SummaryIsEmptyWhereUndefined) {
@@ -91,8 +90,7 @@ TEST_F(RunReport, TimingIsApart) {
 }
 
 TEST_F(RunReport, WritesItsFourFiles) {
-  const auto directory =
-      std::filesystem::path(testing::TempDir()) / ("run-report-" + std::to_string(getpid()));
+  const auto directory = std::filesystem::path(testing::TempDir()) / ("run-report-" + std::to_string(getpid()));
   write_run_report(directory, scene, run, measure_outflow(scene, run), {});
   for (const char* name : {"outflow.csv", "summary.csv", "run.json", "timing.json"})
     EXPECT_GT(std::filesystem::file_size(directory / name), 0U) << name;

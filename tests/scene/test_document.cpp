@@ -29,8 +29,7 @@ class DocumentTest : public testing::Test {
 
 TEST_F(DocumentTest, FileThatIsNotThere) {
   const auto file = folder_.path("none.toml");
-  EXPECT_THAT([&] { Document::read(file); },
-              ThrowsMessage<InputError>(file.string() + ": there is no such file"));
+  EXPECT_THAT([&] { Document::read(file); }, ThrowsMessage<InputError>(file.string() + ": there is no such file"));
   EXPECT_THROW(Document::read(folder_.path("")), InputError);
 }
 
@@ -43,8 +42,7 @@ TEST_F(DocumentTest, WhatIsNoPlainFileIsToldAsWhatItIs) {
 }
 
 TEST_F(DocumentTest, SyntaxErrorNamesItsLine) {
-  EXPECT_THAT([&] { read("a = 1\nb = = 2\n"); },
-              ThrowsMessage<InputError>(HasSubstr("file.toml:2: not valid TOML: ")));
+  EXPECT_THAT([&] { read("a = 1\nb = = 2\n"); }, ThrowsMessage<InputError>(HasSubstr("file.toml:2: not valid TOML: ")));
 }
 
 TEST_F(DocumentTest, UnknownKeyNamesTheNearest) {
@@ -71,23 +69,17 @@ TEST_F(DocumentTest, MissingKeyNamesItsTable) {
 }
 
 TEST_F(DocumentTest, RefusesOtherTypes) {
-  Table root =
-      read("text = 1\nyes = \"true\"\nwhole = 1.5\nplain = \"1 mm\"\nsize = 1.1\ntable = 3\nlist = []\n");
-  EXPECT_THAT([&] { root.text("text"); },
-              ThrowsMessage<InputError>(at(1, "text: must be a text in quotes, not 1")));
-  EXPECT_THAT([&] { root.boolean("yes"); },
-              ThrowsMessage<InputError>(HasSubstr("yes: must be true or false")));
+  Table root = read("text = 1\nyes = \"true\"\nwhole = 1.5\nplain = \"1 mm\"\nsize = 1.1\ntable = 3\nlist = []\n");
+  EXPECT_THAT([&] { root.text("text"); }, ThrowsMessage<InputError>(at(1, "text: must be a text in quotes, not 1")));
+  EXPECT_THAT([&] { root.boolean("yes"); }, ThrowsMessage<InputError>(HasSubstr("yes: must be true or false")));
   EXPECT_THAT([&] { root.whole_number("whole", 1, 9); },
               ThrowsMessage<InputError>(at(3, "whole: must be a whole number from 1 to 9, not 1.5")));
-  EXPECT_THAT(
-      [&] { root.number("plain", 0, 1); },
-      ThrowsMessage<InputError>(HasSubstr("plain: must be a number from 0 to 1, without a unit, not ")));
+  EXPECT_THAT([&] { root.number("plain", 0, 1); },
+              ThrowsMessage<InputError>(HasSubstr("plain: must be a number from 0 to 1, without a unit, not ")));
   EXPECT_THAT([&] { root.quantity("size", Dimension::length, 0, 1); },
-              ThrowsMessage<InputError>(
-                  HasSubstr("size: must be a quantity with its unit in quotes, a length such as "
-                            "\"8 mm\", not 1.1")));
-  EXPECT_THAT([&] { root.table("table"); },
-              ThrowsMessage<InputError>(at(6, "table: must be a table, not 3")));
+              ThrowsMessage<InputError>(HasSubstr("size: must be a quantity with its unit in quotes, a length such as "
+                                                  "\"8 mm\", not 1.1")));
+  EXPECT_THAT([&] { root.table("table"); }, ThrowsMessage<InputError>(at(6, "table: must be a table, not 3")));
   EXPECT_THAT([&] { root.quantities("list", Dimension::length, 0, 1); },
               ThrowsMessage<InputError>(at(7, "list: the list is empty")));
 }
@@ -96,9 +88,8 @@ TEST_F(DocumentTest, RangesIncludeTheirEnds) {
   Table root = read("a = \"30 degree\"\nb = \"0 mm\"\nc = 0.5\nd = nan\ne = inf\n");
   const double limit = 30 * 3.14159265358979323846 / 180;
   EXPECT_NEAR(*root.quantity("a", Dimension::angle, -limit, limit), limit, 1e-15);
-  EXPECT_THAT(
-      [&] { root.quantity("b", Dimension::length, 1e-6, 100); },
-      ThrowsMessage<InputError>(at(2, "b: \"0 mm\" is out of range, which is from 0.001 mm to 100 m")));
+  EXPECT_THAT([&] { root.quantity("b", Dimension::length, 1e-6, 100); },
+              ThrowsMessage<InputError>(at(2, "b: \"0 mm\" is out of range, which is from 0.001 mm to 100 m")));
   EXPECT_EQ(root.number("c", 0.5, 0.5), 0.5);
   EXPECT_THROW(root.number("d", 0, 1), InputError);
   EXPECT_THROW(root.number("e", 0, 1e308), InputError);
@@ -110,21 +101,18 @@ TEST_F(DocumentTest, ChoiceNamesTheNearest) {
       [&] {
         root.choice("packing", {"poured", "layers"});
       },
-      ThrowsMessage<InputError>(
-          at(1, "packing: \"pourd\" is not one of poured, layers; did you mean \"poured\"?")));
+      ThrowsMessage<InputError>(at(1, "packing: \"pourd\" is not one of poured, layers; did you mean \"poured\"?")));
 }
 
 TEST_F(DocumentTest, OverridesReplaceAddAndRememberTheirOrigin) {
-  Table root =
-      read("[tray]\nlength = \"1 m\"\n", {parse_override("tray.length=2 m"), parse_override("hopper.left=3"),
-                                          parse_override("tray.fill = { count = 0 }")});
+  Table root = read("[tray]\nlength = \"1 m\"\n", {parse_override("tray.length=2 m"), parse_override("hopper.left=3"),
+                                                   parse_override("tray.fill = { count = 0 }")});
   EXPECT_EQ(root.table("tray")->quantity("length", Dimension::length, 0, 9), 2);
   EXPECT_EQ(root.table("tray")->where("length"), "--set tray.length=2 m: tray.length");
   EXPECT_EQ(root.table("hopper")->where("left"), "--set hopper.left=3: hopper.left");
   EXPECT_EQ(root.table("hopper")->where("height"), "--set hopper.left=3: hopper.height");
-  EXPECT_THAT(
-      [&] { root.table("tray")->table("fill")->whole_number("count", 1, 9); },
-      ThrowsMessage<InputError>(HasSubstr("--set tray.fill = { count = 0 }: tray.fill.count: must be")));
+  EXPECT_THAT([&] { root.table("tray")->table("fill")->whole_number("count", 1, 9); },
+              ThrowsMessage<InputError>(HasSubstr("--set tray.fill = { count = 0 }: tray.fill.count: must be")));
 }
 
 TEST_F(DocumentTest, ImpossibleOverrides) {
@@ -152,8 +140,8 @@ TEST_F(DocumentTest, OverrideValueIsTomlWhereItCanBe) {
 }
 
 TEST_F(DocumentTest, FallbackStandsInAndKeepsItsOwnPlace) {
-  const auto preset_file = folder_.write(
-      "preset.toml", "\ndiameter = \"9 g\"\nmass = \"2 g\"\n[wall]\nfriction = 0.3\ntypo = 1\n");
+  const auto preset_file =
+      folder_.write("preset.toml", "\ndiameter = \"9 g\"\nmass = \"2 g\"\n[wall]\nfriction = 0.3\ntypo = 1\n");
   Table root = read("mass = \"1 g\"\n");
   root.set_fallback(Table(Document::read(preset_file)));
   EXPECT_EQ(root.quantity("mass", Dimension::mass, 0, 1), 0.001);
@@ -162,8 +150,7 @@ TEST_F(DocumentTest, FallbackStandsInAndKeepsItsOwnPlace) {
   EXPECT_THAT([&] { root.quantity("diameter", Dimension::length, 0, 1); },
               ThrowsMessage<InputError>(HasSubstr("preset.toml:2: diameter: \"9 g\"")));
   EXPECT_EQ(root.table("wall")->number("friction", 0, 1), 0.3);
-  EXPECT_THAT([&] { root.reject_unknown_keys(); },
-              ThrowsMessage<InputError>(HasSubstr("preset.toml:6: wall.typo: ")));
+  EXPECT_THAT([&] { root.reject_unknown_keys(); }, ThrowsMessage<InputError>(HasSubstr("preset.toml:6: wall.typo: ")));
 }
 
 TEST_F(DocumentTest, KeysOfAStudyInOrderOfTheFile) {
@@ -171,8 +158,8 @@ TEST_F(DocumentTest, KeysOfAStudyInOrderOfTheFile) {
       "[vary]\ntray.holes.count = [1, 3]\ntray.motion.frequency = { from = \"7 Hz\", to = \"9 Hz\" }\n"
       "tray.holes.span = [\"30 cm\"]\ncontact.friction = 0.1\n");
   Table vary = *root.table("vary");
-  EXPECT_THAT(vary.dotted_keys(), ElementsAre("tray.holes.count", "tray.motion.frequency", "tray.holes.span",
-                                              "contact.friction"));
+  EXPECT_THAT(vary.dotted_keys(),
+              ElementsAre("tray.holes.count", "tray.motion.frequency", "tray.holes.span", "contact.friction"));
   EXPECT_THAT(vary.toml_elements("tray.holes.count"), ElementsAre("1", "3"));
   EXPECT_EQ(vary.toml_text("contact.friction"), "0.1");
   EXPECT_EQ(vary.table_at("tray.motion.frequency")->text("to"), "9 Hz");
@@ -186,8 +173,7 @@ TEST_F(DocumentTest, ArrayOfTables) {
   ASSERT_EQ(layouts.size(), 2U);
   EXPECT_EQ(layouts[0].text("name"), "a");
   EXPECT_EQ(layouts[1].text("name"), "b");
-  EXPECT_THAT([&] { root.reject_unknown_keys(); },
-              ThrowsMessage<InputError>(at(5, "layout[2].odd: unknown key")));
+  EXPECT_THAT([&] { root.reject_unknown_keys(); }, ThrowsMessage<InputError>(at(5, "layout[2].odd: unknown key")));
 }
 
 TEST_F(DocumentTest, WhereOfAnyKey) {

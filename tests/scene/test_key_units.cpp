@@ -21,8 +21,7 @@ TEST(KeyUnits, ColumnsCarryOneUnitForEachKey) {
 }
 
 TEST(KeyUnits, AColumnLeadsBackToItsKey) {
-  for (const std::string key :
-       {"tray.motion.frequency", "run.count_below", "tray.holes.count", "seeds.pea.mass"})
+  for (const std::string key : {"tray.motion.frequency", "run.count_below", "tray.holes.count", "seeds.pea.mass"})
     EXPECT_EQ(key_of_column(condition_column(key)), key);
   EXPECT_FALSE(key_of_column("tray.motion.frequency"));
   EXPECT_FALSE(key_of_column("tray.motion.frequency_rpm"));

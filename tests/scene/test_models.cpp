@@ -1,4 +1,5 @@
-// Every shipped preset says where each of its values comes from, and every shipped seeder file is one that the reader takes.
+// Every shipped preset says where each of its values comes from, and every shipped seeder file is one that the reader
+// takes.
 
 #include <gtest/gtest.h>
 
@@ -93,8 +94,7 @@ TEST(Presets, FaultsInSourcesAreFound) {
 TEST(Presets, MassAgreesWithVolumeAndTrueDensity) {
   const std::vector<fs::path> crops = toml_files(data_directory() / "models" / "crops");
   ASSERT_GE(crops.size(), 3u);
-  for (const fs::path& file : crops)
-    EXPECT_NEAR(mass_ratio(toml::parse_file(file.string())), 1, 0.02) << file;
+  for (const fs::path& file : crops) EXPECT_NEAR(mass_ratio(toml::parse_file(file.string())), 1, 0.02) << file;
 }
 
 TEST(Presets, WheatAtItsGeometricMeanDiameterWouldNotAgree) {

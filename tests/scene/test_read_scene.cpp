@@ -198,9 +198,9 @@ TEST(ReadScene, OneHoleIgnoresSpanAndPitch) {
 
 TEST(ReadScene, MixtureByMassIsConvertedToNumbers) {
   const Scene scene =
-      read(small_example, {"seeds.pea={ diameter = '8 mm', mass = '0.3 g', mass_share = '75 %' }",
-                           "seeds.rape.diameter=2 mm", "seeds.rape.mass=0.1 g", "seeds.rape.mass_share=25 %",
-                           "tray.holes={ count = 1, width = '2 diameters' }"});
+      read(small_example,
+           {"seeds.pea={ diameter = '8 mm', mass = '0.3 g', mass_share = '75 %' }", "seeds.rape.diameter=2 mm",
+            "seeds.rape.mass=0.1 g", "seeds.rape.mass_share=25 %", "tray.holes={ count = 1, width = '2 diameters' }"});
   ASSERT_EQ(scene.lots.size(), 2U);
   EXPECT_NEAR(scene.lots[0].number_share, 0.5, 1e-15);
   EXPECT_NEAR(scene.lots[1].number_share, 0.5, 1e-15);
@@ -239,14 +239,14 @@ duration = "1 s"
   EXPECT_EQ(scene.contact.shell_compression, 1e-3);
   EXPECT_EQ(scene.contact.seed.friction, 0.5);
   EXPECT_EQ(scene.contact.wall.friction, 0.2);
-  const Scene by_density = read_scene(
-      file, {parse_override("seeds.pea.density=1000 kg/m3"), parse_override("seeds.pea.shape=ball")});
+  const Scene by_density =
+      read_scene(file, {parse_override("seeds.pea.density=1000 kg/m3"), parse_override("seeds.pea.shape=ball")});
   EXPECT_NEAR(by_density.lots[0].mass, 1000 * std::numbers::pi / 6 * std::pow(0.006, 3), 1e-18);
 }
 
 TEST(ReadScene, ShippedCropByName) {
-  const Scene scene = read(small_example, {"seeds.wheat.crop=wheat", "seeds.wheat.number_share=50 %",
-                                           "seeds.pea.number_share=50 %"});
+  const Scene scene =
+      read(small_example, {"seeds.wheat.crop=wheat", "seeds.wheat.number_share=50 %", "seeds.pea.number_share=50 %"});
   EXPECT_EQ(scene.lots[1].name, "wheat");
   EXPECT_GT(scene.lots[1].mass, 1e-5);
 }

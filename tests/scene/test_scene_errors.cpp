@@ -1,5 +1,5 @@
-// Every wrong input is refused with file, line, key and what is wrong. The base below is right; each case changes one line
-// of it or adds one, so that the line in the message is known.
+// Every wrong input is refused with file, line, key and what is wrong. The base below is right; each case changes one
+// line of it or adds one, so that the line in the message is known.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -18,37 +18,37 @@ using testing::HasSubstr;
 using testing::ThrowsMessage;
 
 const std::vector<std::string> base = {
-    "[seeds.wheat]",                      // 1
-    "diameter = '4 mm'",                  // 2
-    "mass = '30 mg'",                     // 3
-    "[contact]",                          // 4
-    "shell_compression = 1e-4",           // 5
-    "[tray]",                             // 6
-    "length = '50 cm'",                   // 7
-    "height = '12 cm'",                   // 8
-    "fill = { count = 600 }",             // 9
-    "[tray.holes]",                       // 10
-    "count = 5",                          // 11
-    "width = '16 mm'",                    // 12
-    "[tray.motion]",                      // 13
-    "kind = 'harmonic'",                  // 14
-    "amplitude = '1 cm'",                 // 15
-    "frequency = '9 Hz'",                 // 16
-    "[hopper]",                           // 17
-    "left = '19 cm'",                     // 18
-    "above = '7 cm'",                     // 19
-    "length = '12 cm'",                   // 20
-    "height = '20 cm'",                   // 21
-    "[numerics]",                         // 22
-    "[guard]",                            // 23
-    "[run]",                              // 24
-    "duration = '10 s'",                  // 25
+    "[seeds.wheat]",             // 1
+    "diameter = '4 mm'",         // 2
+    "mass = '30 mg'",            // 3
+    "[contact]",                 // 4
+    "shell_compression = 1e-4",  // 5
+    "[tray]",                    // 6
+    "length = '50 cm'",          // 7
+    "height = '12 cm'",          // 8
+    "fill = { count = 600 }",    // 9
+    "[tray.holes]",              // 10
+    "count = 5",                 // 11
+    "width = '16 mm'",           // 12
+    "[tray.motion]",             // 13
+    "kind = 'harmonic'",         // 14
+    "amplitude = '1 cm'",        // 15
+    "frequency = '9 Hz'",        // 16
+    "[hopper]",                  // 17
+    "left = '19 cm'",            // 18
+    "above = '7 cm'",            // 19
+    "length = '12 cm'",          // 20
+    "height = '20 cm'",          // 21
+    "[numerics]",                // 22
+    "[guard]",                   // 23
+    "[run]",                     // 24
+    "duration = '10 s'",         // 25
 };
 
 struct Case {
-  std::size_t line;         // replaced by the text; text starting with "+" is added after it
+  std::size_t line;  // replaced by the text; text starting with "+" is added after it
   const char* text;
-  std::size_t error_line;   // of the message; 0: the file alone
+  std::size_t error_line;  // of the message; 0: the file alone
   const char* key;
   const char* message;
 };
@@ -101,21 +101,15 @@ INSTANTIATE_TEST_SUITE_P(
 
 INSTANTIATE_TEST_SUITE_P(
     Missing, SceneError,
-    testing::Values(Case{2, "", 1, "seeds.wheat.diameter", "is missing"},
-                    Case{3, "", 1, "seeds.wheat.mass", "is missing"},
-                    Case{5, "", 4, "contact.shell_compression", "is missing"},
-                    Case{7, "", 6, "tray.length", "is missing"},
-                    Case{8, "", 6, "tray.height", "is missing"},
-                    Case{9, "", 6, "tray.fill", "nothing to sow"},
-                    Case{9, "fill = {}", 9, "tray.fill.count", "is missing"},
-                    Case{11, "", 10, "tray.holes.count", "is missing"},
-                    Case{12, "", 10, "tray.holes.width", "is missing"},
-                    Case{14, "", 13, "tray.motion.kind", "is missing"},
-                    Case{15, "", 13, "tray.motion.amplitude", "is missing"},
-                    Case{16, "", 13, "tray.motion.frequency", "is missing"},
-                    Case{18, "", 17, "hopper.left", "is missing"},
-                    Case{19, "", 17, "hopper.above", "is missing"},
-                    Case{25, "", 24, "run.duration", "is missing"}));
+    testing::Values(
+        Case{2, "", 1, "seeds.wheat.diameter", "is missing"}, Case{3, "", 1, "seeds.wheat.mass", "is missing"},
+        Case{5, "", 4, "contact.shell_compression", "is missing"}, Case{7, "", 6, "tray.length", "is missing"},
+        Case{8, "", 6, "tray.height", "is missing"}, Case{9, "", 6, "tray.fill", "nothing to sow"},
+        Case{9, "fill = {}", 9, "tray.fill.count", "is missing"}, Case{11, "", 10, "tray.holes.count", "is missing"},
+        Case{12, "", 10, "tray.holes.width", "is missing"}, Case{14, "", 13, "tray.motion.kind", "is missing"},
+        Case{15, "", 13, "tray.motion.amplitude", "is missing"},
+        Case{16, "", 13, "tray.motion.frequency", "is missing"}, Case{18, "", 17, "hopper.left", "is missing"},
+        Case{19, "", 17, "hopper.above", "is missing"}, Case{25, "", 24, "run.duration", "is missing"}));
 
 INSTANTIATE_TEST_SUITE_P(
     UnitsAndTypes, SceneError,
@@ -181,55 +175,60 @@ INSTANTIATE_TEST_SUITE_P(
 
 INSTANTIATE_TEST_SUITE_P(
     Choices, SceneError,
-    testing::Values(Case{5, "+law = 'hertz'", 6, "contact.law", "not built yet"},
-                    Case{5, "+law = 'spring'", 6, "contact.law", "is not one of elastic-shell, hertz"},
-                    Case{5, "+friction_arm = 'rimm'", 6, "contact.friction_arm", "did you mean \"rim\"?"},
-                    Case{3, "+shape = 'cube'", 4, "seeds.wheat.shape", "is not one of disc, ball"},
-                    Case{9, "fill = { count = 6, packing = 'pored' }", 9, "tray.fill.packing", "did you mean \"poured\"?"},
-                    Case{14, "kind = 'rocking'", 14, "tray.motion.kind", "not built yet"},
-                    Case{14, "kind = 'circular'", 14, "tray.motion.kind", "is not one of"},
-                    Case{22, "+integrator = 'verlet'", 23, "numerics.integrator", "is not one of velocity-verlet, rk2-midpoint"},
-                    Case{25, "+start = 'now'", 26, "run.start", "is not one of at-rest, with-tray"},
-                    Case{1, "[seeds.all]", 1, "seeds.all", "is not \"all\" or \"wall\""},
-                    Case{1, "[seeds.'a,b']", 1, "seeds.a,b", "letters, digits"},
-                    Case{3, "+crop = 'weat'", 4, "seeds.wheat.crop", "did you mean \"wheat\"?"},
-                    Case{3, "+crop = 'none.toml'", 4, "seeds.wheat.crop", "there is no file"},
-                    Case{5, "+model = 'wheat-steal'", 6, "contact.model", "did you mean \"wheat-steel\"?"}));
+    testing::Values(
+        Case{5, "+law = 'hertz'", 6, "contact.law", "not built yet"},
+        Case{5, "+law = 'spring'", 6, "contact.law", "is not one of elastic-shell, hertz"},
+        Case{5, "+friction_arm = 'rimm'", 6, "contact.friction_arm", "did you mean \"rim\"?"},
+        Case{3, "+shape = 'cube'", 4, "seeds.wheat.shape", "is not one of disc, ball"},
+        Case{9, "fill = { count = 6, packing = 'pored' }", 9, "tray.fill.packing", "did you mean \"poured\"?"},
+        Case{14, "kind = 'rocking'", 14, "tray.motion.kind", "not built yet"},
+        Case{14, "kind = 'circular'", 14, "tray.motion.kind", "is not one of"},
+        Case{22, "+integrator = 'verlet'", 23, "numerics.integrator", "is not one of velocity-verlet, rk2-midpoint"},
+        Case{25, "+start = 'now'", 26, "run.start", "is not one of at-rest, with-tray"},
+        Case{1, "[seeds.all]", 1, "seeds.all", "is not \"all\" or \"wall\""},
+        Case{1, "[seeds.'a,b']", 1, "seeds.a,b", "letters, digits"},
+        Case{3, "+crop = 'weat'", 4, "seeds.wheat.crop", "did you mean \"wheat\"?"},
+        Case{3, "+crop = 'none.toml'", 4, "seeds.wheat.crop", "there is no file"},
+        Case{5, "+model = 'wheat-steal'", 6, "contact.model", "did you mean \"wheat-steel\"?"}));
 
 INSTANTIATE_TEST_SUITE_P(
     Contradictions, SceneError,
-    testing::Values(Case{3, "+density = '1200 kg/m3'", 4, "seeds.wheat.density", "contradicts mass"},
-                    Case{3, "density = '1200 kg/m3'\nshape = 'disc'", 3, "seeds.wheat.density", "of a ball only"},
-                    Case{3, "+mass_share = '40 %'", 4, "seeds.wheat.mass_share", "sum to 40 %"},
-                    Case{3, "+mass_share = '40 %'\nnumber_share = '60 %'", 5, "seeds.wheat.number_share", "contradicts"},
-                    Case{3, "+[seeds.pea]\ndiameter = '7 mm'\nmass = '0.2 g'", 1, "seeds.wheat.mass_share", "is missing"},
-                    Case{3, "+mass_share = '40 %'\n[seeds.pea]\ndiameter = '7 mm'\nmass = '0.2 g'\nmass_share = '50 %'", 8,
-                         "seeds.pea.mass_share", "sum to 90 %"},
-                    Case{3, "+mass_share = '40 %'\n[seeds.pea]\ndiameter = '7 mm'\nmass = '0.2 g'\nnumber_share = '60 %'",
-                         8, "seeds.pea.number_share", "another lot has mass_share"},
-                    Case{12, "+span = '30 cm'\npitch = '7 cm'", 14, "tray.holes.pitch", "contradicts span"},
-                    Case{12, "+at = ['10 cm']", 11, "tray.holes.count", "contradicts at"},
-                    Case{11, "at = ['10 cm']\nspan = '3 cm'", 12, "tray.holes.span", "contradicts at"},
-                    Case{11, "at = ['10 cm']\ncentre = '3 cm'", 12, "tray.holes.centre", "contradicts at"},
-                    Case{11, "at = ['10 cm']\npitch = '3 cm'", 12, "tray.holes.pitch", "contradicts at"},
-                    Case{12, "width = ['1 cm', '2 cm']", 12, "tray.holes.width", "lists 2 widths for 5 holes"},
-                    Case{9, "fill = { count = 6, jitter = 0.01 }", 9, "tray.fill.jitter", "poured seeds are dropped"},
-                    Case{22, "+dt = '1e-5 s'\nsteps_per_contact = 20", 24, "numerics.steps_per_contact", "contradicts dt"},
-                    Case{20, "+funnel = '20 degree'", 21, "hopper.funnel", "needs holes"}));
+    testing::Values(
+        Case{3, "+density = '1200 kg/m3'", 4, "seeds.wheat.density", "contradicts mass"},
+        Case{3, "density = '1200 kg/m3'\nshape = 'disc'", 3, "seeds.wheat.density", "of a ball only"},
+        Case{3, "+mass_share = '40 %'", 4, "seeds.wheat.mass_share", "sum to 40 %"},
+        Case{3, "+mass_share = '40 %'\nnumber_share = '60 %'", 5, "seeds.wheat.number_share", "contradicts"},
+        Case{3, "+[seeds.pea]\ndiameter = '7 mm'\nmass = '0.2 g'", 1, "seeds.wheat.mass_share", "is missing"},
+        Case{3, "+mass_share = '40 %'\n[seeds.pea]\ndiameter = '7 mm'\nmass = '0.2 g'\nmass_share = '50 %'", 8,
+             "seeds.pea.mass_share", "sum to 90 %"},
+        Case{3, "+mass_share = '40 %'\n[seeds.pea]\ndiameter = '7 mm'\nmass = '0.2 g'\nnumber_share = '60 %'", 8,
+             "seeds.pea.number_share", "another lot has mass_share"},
+        Case{12, "+span = '30 cm'\npitch = '7 cm'", 14, "tray.holes.pitch", "contradicts span"},
+        Case{12, "+at = ['10 cm']", 11, "tray.holes.count", "contradicts at"},
+        Case{11, "at = ['10 cm']\nspan = '3 cm'", 12, "tray.holes.span", "contradicts at"},
+        Case{11, "at = ['10 cm']\ncentre = '3 cm'", 12, "tray.holes.centre", "contradicts at"},
+        Case{11, "at = ['10 cm']\npitch = '3 cm'", 12, "tray.holes.pitch", "contradicts at"},
+        Case{12, "width = ['1 cm', '2 cm']", 12, "tray.holes.width", "lists 2 widths for 5 holes"},
+        Case{9, "fill = { count = 6, jitter = 0.01 }", 9, "tray.fill.jitter", "poured seeds are dropped"},
+        Case{22, "+dt = '1e-5 s'\nsteps_per_contact = 20", 24, "numerics.steps_per_contact", "contradicts dt"},
+        Case{20, "+funnel = '20 degree'", 21, "hopper.funnel", "needs holes"}));
 
 INSTANTIATE_TEST_SUITE_P(
     Holes, SceneError,
-    testing::Values(Case{12, "+span = '49 cm'", 13, "tray.holes.span", "hole 1 at 5 mm, 16 mm wide, is not within the floor"},
-                    Case{12, "+pitch = '12.5 cm'", 13, "tray.holes.pitch", "hole 1 at 0 mm, 16 mm wide, is not within"},
-                    Case{12, "+centre = '40 cm'", 13, "tray.holes.centre", "hole 5 at 566.667 mm, 16 mm wide, is not within"},
-                    Case{12, "width = '10 cm'", 12, "tray.holes.width", "hole 1 at 83.3333 mm, 100 mm wide, overlaps or touches"
-                                                                        " hole 2 at 166.667 mm"},
-                    Case{12, "+span = '64 mm'", 13, "tray.holes.span", "hole 1 at 218 mm, 16 mm wide, overlaps or touches hole 2"},
-                    Case{11, "at = ['49.5 cm', '10 cm']", 11, "tray.holes.at", "hole 2 at 495 mm, 16 mm wide, is not within"},
-                    Case{11, "at = ['10 cm', '30 cm', '11 cm']", 11, "tray.holes.at", "hole 1 at 100 mm, 16 mm wide, overlaps or"
-                                                                                      " touches hole 2 at 110 mm"},
-                    Case{11, "at = []", 11, "tray.holes.at", "the list is empty"},
-                    Case{11, "at = [10, 20]", 11, "tray.holes.at", "must be a quantity with its unit"}));
+    testing::Values(
+        Case{12, "+span = '49 cm'", 13, "tray.holes.span", "hole 1 at 5 mm, 16 mm wide, is not within the floor"},
+        Case{12, "+pitch = '12.5 cm'", 13, "tray.holes.pitch", "hole 1 at 0 mm, 16 mm wide, is not within"},
+        Case{12, "+centre = '40 cm'", 13, "tray.holes.centre", "hole 5 at 566.667 mm, 16 mm wide, is not within"},
+        Case{12, "width = '10 cm'", 12, "tray.holes.width",
+             "hole 1 at 83.3333 mm, 100 mm wide, overlaps or touches"
+             " hole 2 at 166.667 mm"},
+        Case{12, "+span = '64 mm'", 13, "tray.holes.span", "hole 1 at 218 mm, 16 mm wide, overlaps or touches hole 2"},
+        Case{11, "at = ['49.5 cm', '10 cm']", 11, "tray.holes.at", "hole 2 at 495 mm, 16 mm wide, is not within"},
+        Case{11, "at = ['10 cm', '30 cm', '11 cm']", 11, "tray.holes.at",
+             "hole 1 at 100 mm, 16 mm wide, overlaps or"
+             " touches hole 2 at 110 mm"},
+        Case{11, "at = []", 11, "tray.holes.at", "the list is empty"},
+        Case{11, "at = [10, 20]", 11, "tray.holes.at", "must be a quantity with its unit"}));
 
 }  // namespace
 }  // namespace vibrosow

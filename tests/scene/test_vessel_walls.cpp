@@ -52,16 +52,14 @@ TEST(VesselWalls, HoleMayReachTheEndWall) {
   const auto walls = vessel_walls(box({{1, 2}}));
   EXPECT_EQ(names(walls), (std::vector<std::string>{"tray left wall", "tray floor 2", "tray right wall"}));
   EXPECT_NE(walls[0].vertex_b, walls[1].vertex_a);
-  EXPECT_EQ(names(vessel_walls(box({{5, 10}}))),
-            (std::vector<std::string>{"tray left wall", "tray right wall"}));
+  EXPECT_EQ(names(vessel_walls(box({{5, 10}}))), (std::vector<std::string>{"tray left wall", "tray right wall"}));
 }
 
 TEST(VesselWalls, FunnelFallsToEveryHolesEdge) {
   const double slope = 0.5;
   const auto walls = vessel_walls(box({{3, 2}, {7, 2}}, std::atan(slope)));
-  ASSERT_EQ(names(walls),
-            (std::vector<std::string>{"tray left wall", "tray floor 1", "tray floor 2 rising",
-                                      "tray floor 2 falling", "tray floor 3", "tray right wall"}));
+  ASSERT_EQ(names(walls), (std::vector<std::string>{"tray left wall", "tray floor 1", "tray floor 2 rising",
+                                                    "tray floor 2 falling", "tray floor 3", "tray right wall"}));
   EXPECT_NEAR(walls[0].b.y(), 2 * slope, 1e-15);
   EXPECT_EQ(walls[1].b, Eigen::Vector2d(2, 0));
   EXPECT_EQ(walls[2].a, Eigen::Vector2d(4, 0));

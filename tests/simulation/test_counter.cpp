@@ -10,7 +10,9 @@
 namespace vibrosow {
 namespace {
 
-void expect_balanced(const Balance& b) { EXPECT_EQ(b.put_in, b.inside + b.counted + b.spilled + b.lost); }
+void expect_balanced(const Balance& b) {
+  EXPECT_EQ(b.put_in, b.inside + b.counted + b.spilled + b.lost);
+}
 
 TEST(Counter, AGrainBelongsToTheHoleItsCentrePasses) {
   Bench bench;

@@ -21,7 +21,8 @@ Bench crowded_bench(const Chosen& chosen) {
   bench.scene.contact.drag = chosen.drag ? 1e-3 : 0.0;
   if (chosen.motion) bench.scene.tray.motion = HarmonicMotion{0.3, 2e-3, 15, 0};
   for (int k = 0; k < 42; ++k)
-    bench.place(0.005 + 0.0083 * (k % 7) + 1e-5 * (k % 3), 0.0045 + 0.0085 * (k / 7), 0.1 * ((k * 7) % 5 - 2), -0.05 * (k % 4));
+    bench.place(0.005 + 0.0083 * (k % 7) + 1e-5 * (k % 3), 0.0045 + 0.0085 * (k / 7), 0.1 * ((k * 7) % 5 - 2),
+                -0.05 * (k % 4));
   return bench;
 }
 
@@ -70,7 +71,8 @@ TEST(Effects, AreDerivedFromTheScene) {
   bench.scene.contact.wall.friction = 0.1;
   bench.scene.contact.drag = 1e-3;
   bench.scene.tray.motion = HarmonicMotion{0, 0.01, 9, 0};
-  EXPECT_EQ(effect_names(effects_of(bench.scene)), (std::vector<std::string>{"friction", "rotation", "drag", "motion"}));
+  EXPECT_EQ(effect_names(effects_of(bench.scene)),
+            (std::vector<std::string>{"friction", "rotation", "drag", "motion"}));
   bench.scene.contact.rotation = false;
   bench.scene.contact.seed.restitution = 0.9;
   bench.scene.lots.push_back({"b", 0.01, 1e-3, Shape::disc, 0.5});

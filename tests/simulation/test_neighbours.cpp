@@ -40,8 +40,9 @@ Scene busy_scene() {
 
 std::unique_ptr<Simulation> start(const Scene& scene, NeighbourMargins margins = {}) {
   const EffectSet effects = effects_of(scene);
-  return std::make_unique<Simulation>(scene, starting_grains(scene, 7, effects),
-                                      SimulationSetup{.dt = 5e-5, .random_seed = 7, .effects = effects, .margins = margins});
+  return std::make_unique<Simulation>(
+      scene, starting_grains(scene, 7, effects),
+      SimulationSetup{.dt = 5e-5, .random_seed = 7, .effects = effects, .margins = margins});
 }
 
 using Contacts = std::set<std::pair<int, int>>;
@@ -51,7 +52,8 @@ Contacts touching(const Grains& grains, const PairList& pairs) {
   for (std::size_t i = 0; i < pairs.grains(); ++i)
     for (int k = pairs.first[i]; k < pairs.first[i + 1]; ++k) {
       const std::size_t j = static_cast<std::size_t>(pairs.partner[static_cast<std::size_t>(k)]);
-      if (std::hypot(grains.x[i] - grains.x[j], grains.y[i] - grains.y[j]) < grains.kind(i).radius + grains.kind(j).radius)
+      if (std::hypot(grains.x[i] - grains.x[j], grains.y[i] - grains.y[j]) <
+          grains.kind(i).radius + grains.kind(j).radius)
         contacts.emplace(static_cast<int>(i), static_cast<int>(j));
     }
   return contacts;

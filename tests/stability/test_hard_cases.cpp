@@ -15,11 +15,12 @@ namespace {
 constexpr double up = std::numbers::pi / 2;
 
 double total_energy(const Simulation& run, const Eigen::Vector2d& gravity) {
-  return kinetic_energy(run.grains()) + potential_energy(run.grains(), gravity) + run.field().elastic_energy(run.grains());
+  return kinetic_energy(run.grains()) + potential_energy(run.grains(), gravity) +
+         run.field().elastic_energy(run.grains());
 }
 
-/// Relative change of energy in one elastic impact at z = omega dt: under both schemes the kink at touch and parting gives up
-/// to 0.23 z^2 of either sign, and RK2 a mean gain of (pi / 4) z^3 on top.
+/// Relative change of energy in one elastic impact at z = omega dt: under both schemes the kink at touch and parting
+/// gives up to 0.23 z^2 of either sign, and RK2 a mean gain of (pi / 4) z^3 on top.
 double largest_change(Integrator integrator, double z) {
   const double kink = 0.23 * z * z, gain = std::numbers::pi / 4 * z * z * z;
   return integrator == Integrator::velocity_verlet ? kink : kink + gain;
@@ -143,7 +144,8 @@ TEST(Stability, ElasticGasDriftsByNoMoreThanARandomWalkOfItsImpacts) {
   Bench bench;
   bench.scene.tray.length = 0.1;
   for (int k = 0; k < 64; ++k)
-    bench.place(0.006 + 0.0125 * (k % 8), 0.006 + 0.0115 * (k / 8), 0.3 * std::sin(1.7 * k), -0.3 * std::cos(2.3 * k) * (k % 2));
+    bench.place(0.006 + 0.0125 * (k % 8), 0.006 + 0.0115 * (k / 8), 0.3 * std::sin(1.7 * k),
+                -0.3 * std::cos(2.3 * k) * (k % 2));
   bench.gravity = {0, -standard_gravity};  // the box has no lid: its walls are 1 m high
   Simulation& run = bench.start(bench.contact_time() / 20);
   const double before = total_energy(run, bench.gravity);
@@ -191,15 +193,14 @@ TEST(Stability, OverlappingStartIsRefused) {
   }
 }
 
-// Regularised friction creeps: a pile spreads at about the slip speed times its load, but its kinetic energy dies and nothing
-// leaps. The tall step and walls keep this one in place.
+// Regularised friction creeps: a pile spreads at about the slip speed times its load, but its kinetic energy dies and
+// nothing leaps. The tall step and walls keep this one in place.
 TEST(Stability, PileComesToRest) {
   Scene scene = tray_scene(150, 0.12);
   scene.tray.fill->packing = Packing::poured;
   scene.run.duration = 1;
   const EffectSet effects = effects_of(scene);
-  Simulation run(scene, starting_grains(scene, 1, effects),
-                 {.dt = plan_step(scene).dt, .effects = effects, .margins = {}});
+  Simulation run(scene, starting_grains(scene, 1, effects), {.dt = plan_step(scene).dt, .effects = effects});
   while (run.time() < 1) ASSERT_TRUE(run.step());
   const double per_grain = kinetic_energy(run.grains()) / 150;
   EXPECT_LT(per_grain, 1e-8 * Bench::mass * standard_gravity * Bench::radius);

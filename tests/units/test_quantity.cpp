@@ -68,10 +68,9 @@ TEST_P(RefusedQuantity, NamesTheTextAndWhatIsExpected) {
   const char* const text = GetParam().text;
   const Dimension dimension = GetParam().dimension;
   const char* const message = GetParam().message;
-  EXPECT_THAT(
-      [&] { parse_quantity(text, dimension); },
-      ThrowsMessage<UnitError>(testing::AllOf(HasSubstr(message), HasSubstr(std::string("\"") + text + "\""),
-                                              HasSubstr(std::string(expected(dimension))))));
+  EXPECT_THAT([&] { parse_quantity(text, dimension); },
+              ThrowsMessage<UnitError>(testing::AllOf(HasSubstr(message), HasSubstr(std::string("\"") + text + "\""),
+                                                      HasSubstr(std::string(expected(dimension))))));
 }
 
 constexpr const char* no_number = "does not start with a number";
@@ -81,44 +80,39 @@ constexpr const char* wrong_unit = "wrong unit";
 
 INSTANTIATE_TEST_SUITE_P(
     UdunitsTraps, RefusedQuantity,
-    testing::Values(
-        Wrong{"8-10 mm", Dimension::length, not_plain},  // -0.08 m to udunits2
-        Wrong{"24 mm 3", Dimension::length, not_plain},  // 72 mm
-        Wrong{"1 d", Dimension::length, wrong_unit},     // a day
-        Wrong{"1 d", Dimension::time, wrong_unit}, Wrong{"mm", Dimension::length, no_number},  // 1 mm
-        Wrong{"56 rad/s", Dimension::frequency, wrong_unit},                                   // 56 Hz
-        Wrong{"3 1/s", Dimension::frequency, not_plain},
-        Wrong{"5 Hz", Dimension::time, wrong_unit},  // its reciprocal counts as convertible
-        Wrong{"5 s", Dimension::frequency, wrong_unit}, Wrong{"2 s/m", Dimension::speed, wrong_unit},
-        Wrong{"1 rad", Dimension::fraction, wrong_unit}, Wrong{"10 %", Dimension::angle, wrong_unit},
-        Wrong{"3 m-1", Dimension::length, not_plain}, Wrong{"3 mm @ 2", Dimension::length, not_plain},
-        Wrong{"3 s since 1970-01-01", Dimension::time, not_plain},
-        Wrong{"3 m m-1 m", Dimension::length, not_plain}, Wrong{"3 2mm", Dimension::length, not_plain},
-        Wrong{"3 (mm)", Dimension::length, not_plain}, Wrong{"3 mm ", Dimension::length, not_plain}));
+    testing::Values(Wrong{"8-10 mm", Dimension::length, not_plain},  // -0.08 m to udunits2
+                    Wrong{"24 mm 3", Dimension::length, not_plain},  // 72 mm
+                    Wrong{"1 d", Dimension::length, wrong_unit},     // a day
+                    Wrong{"1 d", Dimension::time, wrong_unit}, Wrong{"mm", Dimension::length, no_number},  // 1 mm
+                    Wrong{"56 rad/s", Dimension::frequency, wrong_unit},                                   // 56 Hz
+                    Wrong{"3 1/s", Dimension::frequency, not_plain},
+                    Wrong{"5 Hz", Dimension::time, wrong_unit},  // its reciprocal counts as convertible
+                    Wrong{"5 s", Dimension::frequency, wrong_unit}, Wrong{"2 s/m", Dimension::speed, wrong_unit},
+                    Wrong{"1 rad", Dimension::fraction, wrong_unit}, Wrong{"10 %", Dimension::angle, wrong_unit},
+                    Wrong{"3 m-1", Dimension::length, not_plain}, Wrong{"3 mm @ 2", Dimension::length, not_plain},
+                    Wrong{"3 s since 1970-01-01", Dimension::time, not_plain},
+                    Wrong{"3 m m-1 m", Dimension::length, not_plain}, Wrong{"3 2mm", Dimension::length, not_plain},
+                    Wrong{"3 (mm)", Dimension::length, not_plain}, Wrong{"3 mm ", Dimension::length, not_plain}));
 
 INSTANTIATE_TEST_SUITE_P(
     Numbers, RefusedQuantity,
-    testing::Values(
-        Wrong{"9", Dimension::frequency, no_unit}, Wrong{"9 ", Dimension::frequency, no_unit},
-        Wrong{"", Dimension::length, no_number}, Wrong{"nan mm", Dimension::length, no_number},
-        Wrong{"inf mm", Dimension::length, no_number}, Wrong{"-inf mm", Dimension::length, no_number},
-        Wrong{"1e400 mm", Dimension::length, "too large or too small"},
-        Wrong{"1e-400 mm", Dimension::length, "too large or too small"},
-        Wrong{"1e308 km", Dimension::length, "too large"}, Wrong{".5 mm", Dimension::length, no_number},
-        Wrong{" 5 mm", Dimension::length, no_number}, Wrong{"5. mm", Dimension::length, not_plain},
-        Wrong{"05 mm", Dimension::length, not_plain}, Wrong{"0x10 mm", Dimension::length, not_plain},
-        Wrong{"1,5 mm", Dimension::length, not_plain}, Wrong{"1_000 mm", Dimension::length, not_plain},
-        Wrong{"1 000 mm", Dimension::length, not_plain}));
+    testing::Values(Wrong{"9", Dimension::frequency, no_unit}, Wrong{"9 ", Dimension::frequency, no_unit},
+                    Wrong{"", Dimension::length, no_number}, Wrong{"nan mm", Dimension::length, no_number},
+                    Wrong{"inf mm", Dimension::length, no_number}, Wrong{"-inf mm", Dimension::length, no_number},
+                    Wrong{"1e400 mm", Dimension::length, "too large or too small"},
+                    Wrong{"1e-400 mm", Dimension::length, "too large or too small"},
+                    Wrong{"1e308 km", Dimension::length, "too large"}, Wrong{".5 mm", Dimension::length, no_number},
+                    Wrong{" 5 mm", Dimension::length, no_number}, Wrong{"5. mm", Dimension::length, not_plain},
+                    Wrong{"05 mm", Dimension::length, not_plain}, Wrong{"0x10 mm", Dimension::length, not_plain},
+                    Wrong{"1,5 mm", Dimension::length, not_plain}, Wrong{"1_000 mm", Dimension::length, not_plain},
+                    Wrong{"1 000 mm", Dimension::length, not_plain}));
 
-INSTANTIATE_TEST_SUITE_P(Dimensions, RefusedQuantity,
-                         testing::Values(Wrong{"8 kg", Dimension::length, wrong_unit},
-                                         Wrong{"8 mm", Dimension::mass, wrong_unit},
-                                         Wrong{"20 degC", Dimension::length, wrong_unit},
-                                         Wrong{"20 K", Dimension::time, wrong_unit},
-                                         Wrong{"3 kg", Dimension::mass_rate, wrong_unit},
-                                         Wrong{"3 mm2", Dimension::length, wrong_unit},
-                                         Wrong{"3 g", Dimension::density, wrong_unit},
-                                         Wrong{"3 furlongz", Dimension::length, wrong_unit}));
+INSTANTIATE_TEST_SUITE_P(
+    Dimensions, RefusedQuantity,
+    testing::Values(Wrong{"8 kg", Dimension::length, wrong_unit}, Wrong{"8 mm", Dimension::mass, wrong_unit},
+                    Wrong{"20 degC", Dimension::length, wrong_unit}, Wrong{"20 K", Dimension::time, wrong_unit},
+                    Wrong{"3 kg", Dimension::mass_rate, wrong_unit}, Wrong{"3 mm2", Dimension::length, wrong_unit},
+                    Wrong{"3 g", Dimension::density, wrong_unit}, Wrong{"3 furlongz", Dimension::length, wrong_unit}));
 
 TEST(Quantity, EveryDimensionReadsItsOwnExample) {
   for (const Dimension dimension :
