@@ -19,7 +19,7 @@ struct PairList {
 struct WallCandidate {
   int grain;
   int wall;     // index of the scene's wall segment
-  double side;  // sign of the side of the wall's line that the grain's centre was on
+  double side;  // sign of the side of the wall's line that the grain's centre came from
 };
 
 /// A wall segment where it stands now, in the lab frame.

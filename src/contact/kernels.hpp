@@ -41,9 +41,10 @@ using PairKernel = void (*)(const Grains&, const Motion&, const PairList&, const
                             ContactCensus&);
 
 /// Adds the forces of walls; `candidates` sorted by grain. A grain that touches a wall's face and an end point of the
-/// same wall is pushed by the face alone, and once by an end point that two walls share.
-using WallKernel = void (*)(const Grains&, const Motion&, const std::vector<WallCandidate>&,
-                            const std::vector<PlacedWall>&, const ContactParameters&, Forces&, ContactCensus&);
+/// same wall is pushed by the face alone, and once by an end point that two walls share. A candidate's side follows the
+/// grain while it is beyond the wall's ends; a change of side beside the wall is a crossing.
+using WallKernel = void (*)(const Grains&, const Motion&, std::vector<WallCandidate>&, const std::vector<PlacedWall>&,
+                            const ContactParameters&, Forces&, ContactCensus&);
 
 /// Elastic energy stored in all contacts, J.
 using EnergyKernel = double (*)(const Grains&, const Motion&, const PairList&, const std::vector<WallCandidate>&,

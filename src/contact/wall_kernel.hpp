@@ -71,7 +71,7 @@ void for_each_grain_near_walls(const std::vector<WallCandidate>& candidates, Vis
 
 /// A wall is a grain of compliance 0, inverse mass 0 and infinite radius: the law is the pair's.
 template <class Law, class Effects>
-void wall_forces(const Grains& grains, const Motion& at, const std::vector<WallCandidate>& candidates,
+void wall_forces(const Grains& grains, const Motion& at, std::vector<WallCandidate>& candidates,
                  const std::vector<PlacedWall>& walls, const ContactParameters& parameters, Forces& forces,
                  ContactCensus& census) {
   for_each_grain_near_walls(candidates, [&](std::size_t i, std::size_t from, std::size_t to) {
@@ -80,8 +80,12 @@ void wall_forces(const Grains& grains, const Motion& at, const std::vector<WallC
     const double damping =
         Effects::damping ? Law::damping(parameters.wall.damping_ratio, stiffness, kind.inverse_mass, 0.0) : 0.0;
     for (std::size_t c = from; c < to; ++c) {
-      const NearestPoint nearest = nearest_point(walls[static_cast<std::size_t>(candidates[c].wall)], at.x[i], at.y[i]);
-      if (nearest.vertex < 0 && nearest.side * candidates[c].side < 0) census.crossed.push_back(static_cast<int>(i));
+      WallCandidate& candidate = candidates[c];
+      const NearestPoint nearest = nearest_point(walls[static_cast<std::size_t>(candidate.wall)], at.x[i], at.y[i]);
+      if (nearest.vertex >= 0)
+        candidate.side = nearest.side;
+      else if (nearest.side * candidate.side < 0)
+        census.crossed.push_back(static_cast<int>(i));
     }
     for_each_wall_contact(candidates, from, to, walls, at.x[i], at.y[i], kind.radius,
                           [&](const WallCandidate& candidate, const PlacedWall& wall, const NearestPoint& nearest) {

@@ -97,16 +97,29 @@ void Neighbours::prune(const Grains& grains, const Walls& walls) {
     }
     narrow_.first.push_back(static_cast<int>(narrow_.partner.size()));
   }
+  prune_walls(grains, walls);
+  narrow_reference_ = reference(grains, walls);
+  ++prunes_;
+}
+
+/// A grain that was near a wall before keeps the side it came from: renewing the list must not hide a crossing.
+void Neighbours::prune_walls(const Grains& grains, const Walls& walls) {
+  const auto before = [](const WallCandidate& a, const WallCandidate& b) {
+    return a.grain != b.grain ? a.grain < b.grain : a.wall < b.wall;
+  };
+  const std::vector<WallCandidate> old = std::move(narrow_walls_);
   narrow_walls_.clear();
+  auto known = old.begin();
   for (const WallCandidate& candidate : wide_walls_) {
     const std::size_t i = static_cast<std::size_t>(candidate.grain);
     const NearestPoint nearest =
         nearest_point(walls.placed()[static_cast<std::size_t>(candidate.wall)], grains.x[i], grains.y[i]);
     const double reach = grains.kind(i).radius + narrow_margin_;
-    if (nearest.distance2 < reach * reach) narrow_walls_.push_back({candidate.grain, candidate.wall, nearest.side});
+    if (nearest.distance2 >= reach * reach) continue;
+    while (known != old.end() && before(*known, candidate)) ++known;
+    const bool was_near = known != old.end() && !before(candidate, *known);
+    narrow_walls_.push_back({candidate.grain, candidate.wall, was_near ? known->side : nearest.side});
   }
-  narrow_reference_ = reference(grains, walls);
-  ++prunes_;
 }
 
 void Neighbours::remove_flagged(Reference& reference, const std::vector<char>& removed) {

@@ -34,6 +34,7 @@ class Neighbours {
 
   const PairList& pairs() const { return narrow_; }
   const std::vector<WallCandidate>& near_walls() const { return narrow_walls_; }
+  std::vector<WallCandidate>& near_walls() { return narrow_walls_; }
   std::int64_t searches() const { return searches_; }
   std::int64_t prunes() const { return prunes_; }
   Broadphase& broadphase() { return broadphase_; }
@@ -50,6 +51,7 @@ class Neighbours {
 
   void search(const Grains& grains, const Walls& walls);
   void prune(const Grains& grains, const Walls& walls);
+  void prune_walls(const Grains& grains, const Walls& walls);
 
   Broadphase broadphase_;
   double wide_margin_, narrow_margin_;  // m

@@ -121,5 +121,28 @@ TEST(Neighbours, MarginsChangeNoBit) {
   EXPECT_EQ(narrow->grains().omega, wide->grains().omega);
 }
 
+TEST(Neighbours, MarginsChangeNoLossThroughAWall) {
+  // Shells so soft that many grains are pressed through the floor.
+  Scene scene = busy_scene();
+  scene.contact.shell_compression = 0.3;
+  scene.guard.stop_compression = 100;
+  scene.guard.energy_tolerance = 1e9;
+  scene.tray.motion = HarmonicMotion{1.2, 8e-3, 25, 0};
+  std::vector<std::int64_t> lost;
+  std::vector<std::vector<double>> heights;
+  for (const NeighbourMargins margins :
+       {NeighbourMargins{0.4, 0.02}, NeighbourMargins{1.5, 0.15}, NeighbourMargins{2.0, 0.5}}) {
+    const auto run = start(scene, margins);
+    run->steps(10000);
+    lost.push_back(run->result().balance.lost);
+    heights.push_back(run->grains().y);
+  }
+  EXPECT_GT(lost[0], 20);
+  EXPECT_EQ(lost[0], lost[1]);
+  EXPECT_EQ(lost[0], lost[2]);
+  EXPECT_EQ(heights[0], heights[1]);
+  EXPECT_EQ(heights[0], heights[2]);
+}
+
 }  // namespace
 }  // namespace vibrosow
