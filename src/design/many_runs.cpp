@@ -2,9 +2,10 @@
 
 #include <oneapi/tbb/global_control.h>
 #include <oneapi/tbb/info.h>
-#include <oneapi/tbb/parallel_pipeline.h>
+#include <oneapi/tbb/parallel_for.h>
 #include <oneapi/tbb/task_arena.h>
 
+#include <atomic>
 #include <mutex>
 
 #include "scene/input_error.hpp"
@@ -69,17 +70,15 @@ std::vector<JobResult> run_jobs(const std::vector<Job>& jobs, const Simulator& s
 
   const int wide = options.jobs > 0 ? options.jobs : tbb::info::default_concurrency();
   const tbb::global_control threads(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(wide));
-  // A pipeline begins the jobs in their order: an interrupted sweep has finished its first layouts, not parts of all.
-  std::size_t next = 0;
-  const auto next_job = [&](tbb::flow_control& control) -> std::size_t {
-    if (next == jobs.size()) control.stop();
-    return next++;
+  // Each worker takes the next job in order: an interrupted sweep has finished its first layouts, not parts of all. The
+  // counter also hands jobs and results over in a way that the thread sanitiser can see; it cannot see into TBB.
+  std::atomic<std::size_t> next;
+  next.store(0, std::memory_order_release);
+  const auto work = [&](int) {
+    for (std::size_t job = next.fetch_add(1); job < jobs.size(); job = next.fetch_add(1)) run_one(job);
   };
-  tbb::task_arena(wide).execute([&] {
-    tbb::parallel_pipeline(static_cast<std::size_t>(wide),
-                           tbb::make_filter<void, std::size_t>(tbb::filter_mode::serial_in_order, next_job) &
-                               tbb::make_filter<std::size_t, void>(tbb::filter_mode::parallel, run_one));
-  });
+  tbb::task_arena(wide).execute([&] { tbb::parallel_for(0, wide, work, tbb::simple_partitioner()); });
+  next.load(std::memory_order_acquire);
   return results;
 }
 
