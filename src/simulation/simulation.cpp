@@ -25,7 +25,6 @@ std::int64_t steps_in(double interval, double dt) {
 
 Simulation::Simulation(const Scene& scene, Grains grains, const SimulationSetup& setup)
     : scene_(scene),
-      setup_(setup),
       grains_(std::move(grains)),
       field_(scene_, kernels_for(scene_.contact.law, setup.effects), setup.margins),
       s_{.grains = grains_, .field = field_, .dt = setup.dt, .gravity = setup.gravity, .drag = scene_.contact.drag},

@@ -51,7 +51,6 @@ class Simulation {
   void take_out_flagged(const std::vector<char>& removed);
 
   Scene scene_;
-  SimulationSetup setup_;
   Grains grains_;
   ForceField field_;
   Integration s_;

@@ -51,8 +51,8 @@ class Bench {
     return *simulation_;
   }
 
-  /// eps / g: the square of the time scale of a contact of two grains or of one on a wall.
-  double contact_time() const {  // s, half a period of vibration
+  /// How long an elastic contact lasts, of two grains or of one on a wall: pi sqrt(eps / g).
+  double contact_time() const {  // s
     return 3.14159265358979323846 * std::sqrt(scene.contact.shell_compression * radius / standard_gravity);
   }
 
