@@ -23,7 +23,7 @@ class PairProperties {
       const GrainKind& kind = grains.kinds.front();
       radius_ = kind.radius;
       equal_ = combine(kind.radius, kind.radius, kind.compliance, kind.compliance, kind.inverse_mass, kind.inverse_mass,
-                       kind.compliance / kind.radius, kind.compliance / kind.radius);
+                       1 / kind.radius, 1 / kind.radius);
     }
   }
 
@@ -42,20 +42,20 @@ class PairProperties {
   Pair pair(std::size_t i, std::size_t j) const {
     if constexpr (Effects::unequal)
       return combine(grains_.radius[i], grains_.radius[j], grains_.compliance[i], grains_.compliance[j],
-                     grains_.inverse_mass[i], grains_.inverse_mass[j], grains_.compliance_per_radius[i],
-                     grains_.compliance_per_radius[j]);
+                     grains_.inverse_mass[i], grains_.inverse_mass[j], grains_.curvature[i], grains_.curvature[j]);
     return equal_;
   }
 
  private:
-  Pair combine(double ri, double rj, double si, double sj, double wi, double wj, double si_ri, double sj_rj) const {
+  Pair combine(double ri, double rj, double si, double sj, double wi, double wj, double ci, double cj) const {
     Pair p{};
     p.reach = ri + rj;
     p.stiffness = Law::stiffness(si, sj);
     if constexpr (Effects::damping) p.damping = Law::damping(damping_ratio_, p.stiffness, wi, wj);
     p.share_i = si * p.stiffness;
     p.share_j = sj * p.stiffness;
-    p.compression_per_overlap = p.stiffness * (si_ri > sj_rj ? si_ri : sj_rj);
+    const double at_i = p.share_i * ci, at_j = p.share_j * cj;
+    p.compression_per_overlap = at_i > at_j ? at_i : at_j;
     return p;
   }
 

@@ -75,7 +75,7 @@ void wall_forces(const Grains& grains, const Motion& at, std::vector<WallCandida
                  const std::vector<PlacedWall>& walls, const ContactParameters& parameters, Forces& forces,
                  ContactCensus& census) {
   for_each_grain_near_walls(candidates, [&](std::size_t i, std::size_t from, std::size_t to) {
-    const GrainKind& kind = grains.kind(i);
+    const GrainKind kind = grains.kind(i);
     const double stiffness = Law::stiffness(kind.compliance, 0.0);
     const double damping =
         Effects::damping ? Law::damping(parameters.wall.damping_ratio, stiffness, kind.inverse_mass, 0.0) : 0.0;
@@ -122,17 +122,17 @@ double elastic_energy(const Grains& grains, const Motion& at, const PairList& li
                       const std::vector<WallCandidate>& candidates, const std::vector<PlacedWall>& walls) {
   double energy = 0;
   for (std::size_t i = 0; i < list.grains(); ++i) {
-    const GrainKind& a = grains.kind(i);
+    const GrainKind a = grains.kind(i);
     for (int k = list.first[i]; k < list.first[i + 1]; ++k) {
       const std::size_t j = static_cast<std::size_t>(list.partner[static_cast<std::size_t>(k)]);
-      const GrainKind& b = grains.kind(j);
+      const GrainKind b = grains.kind(j);
       const double dx = at.x[j] - at.x[i], dy = at.y[j] - at.y[i];
       const double overlap = a.radius + b.radius - std::sqrt(dx * dx + dy * dy);
       if (overlap > 0) energy += Law::elastic_energy(Law::stiffness(a.compliance, b.compliance), overlap);
     }
   }
   for_each_grain_near_walls(candidates, [&](std::size_t i, std::size_t from, std::size_t to) {
-    const GrainKind& kind = grains.kind(i);
+    const GrainKind kind = grains.kind(i);
     for_each_wall_contact(candidates, from, to, walls, at.x[i], at.y[i], kind.radius,
                           [&](const WallCandidate&, const PlacedWall&, const NearestPoint& nearest) {
                             const double overlap = kind.radius - std::sqrt(nearest.distance2);

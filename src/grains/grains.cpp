@@ -6,16 +6,33 @@ std::vector<GrainKind> grain_kinds(const Scene& scene, bool rotation) {
   std::vector<GrainKind> kinds;
   for (const SeedLot& lot : scene.lots) {
     const double radius = 0.5 * lot.diameter;
-    const double inertia_factor = lot.shape == Shape::disc ? 0.5 : 0.4;
-    const double inertia = inertia_factor * lot.mass * radius * radius;
-    const double eps = scene.contact.shell_compression * radius;
-    kinds.push_back(
-        {radius, lot.mass, 1 / lot.mass, rotation ? 1 / inertia : 0.0, eps / (lot.mass * standard_gravity)});
+    const double gyration2 = lot.shape == Shape::clump  ? lot.gyration2
+                             : lot.shape == Shape::disc ? 0.5 * radius * radius
+                                                        : 0.4 * radius * radius;
+    const double inertia = lot.mass * gyration2;
+    const double eps = lot.shell_compression.value_or(scene.contact.shell_compression) * radius;
+    const double poisson = lot.poisson_ratio.value_or(scene.contact.poisson_ratio);
+    const double modulus = lot.youngs_modulus.value_or(scene.contact.youngs_modulus);
+    const double compliance = scene.contact.law == Law::elastic_shell ? eps / (lot.mass * standard_gravity)
+                                                                      : (1 - poisson * poisson) / modulus;
+    kinds.push_back({radius, lot.mass, 1 / lot.mass, rotation ? 1 / inertia : 0.0, compliance});
   }
   return kinds;
 }
 
+GrainKind sized_kind(const SeedLot& lot, Law law, const GrainKind& kind, double size) {
+  if (size == 1) return kind;
+  const double growth = lot.shape == Shape::ball ? size * size * size : size * size;
+  const double mass = kind.mass * growth;
+  return {kind.radius * size, mass, 1 / mass, kind.inverse_inertia / (growth * size * size),
+          law == Law::elastic_shell ? kind.compliance * size / growth : kind.compliance};
+}
+
 void Grains::add(double px, double py, double pvx, double pvy, int lot_index) {
+  add(px, py, pvx, pvy, lot_index, kinds[static_cast<std::size_t>(lot_index)]);
+}
+
+void Grains::add(double px, double py, double pvx, double pvy, int lot_index, const GrainKind& own) {
   x.push_back(px);
   y.push_back(py);
   vx.push_back(pvx);
@@ -24,12 +41,12 @@ void Grains::add(double px, double py, double pvx, double pvy, int lot_index) {
   lot.push_back(lot_index);
   number.push_back(next_number_++);
   if (!unequal) return;
-  const GrainKind& k = kinds[static_cast<std::size_t>(lot_index)];
-  radius.push_back(k.radius);
-  inverse_mass.push_back(k.inverse_mass);
-  inverse_inertia.push_back(k.inverse_inertia);
-  compliance.push_back(k.compliance);
-  compliance_per_radius.push_back(k.compliance / k.radius);
+  radius.push_back(own.radius);
+  mass.push_back(own.mass);
+  inverse_mass.push_back(own.inverse_mass);
+  inverse_inertia.push_back(own.inverse_inertia);
+  compliance.push_back(own.compliance);
+  curvature.push_back(1 / own.radius);
 }
 
 void Grains::remove_flagged(const std::vector<char>& remove) {
@@ -41,7 +58,7 @@ void Grains::remove_flagged(const std::vector<char>& remove) {
     array.resize(kept);
   };
   keep(x), keep(y), keep(vx), keep(vy), keep(omega), keep(lot), keep(number);
-  keep(radius), keep(inverse_mass), keep(inverse_inertia), keep(compliance), keep(compliance_per_radius);
+  keep(radius), keep(mass), keep(inverse_mass), keep(inverse_inertia), keep(compliance), keep(curvature);
 }
 
 }  // namespace vibrosow

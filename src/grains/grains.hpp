@@ -8,17 +8,22 @@
 
 namespace vibrosow {
 
-/// What is the same for every seed of a lot.
+/// What a grain is made of.
 struct GrainKind {
-  double radius;           // m
+  double radius;           // m; of a clump: of the circle about its centre of mass that just holds it
   double mass;             // kg
   double inverse_mass;     // 1/kg
   double inverse_inertia;  // 1/(kg m2); 0 without rotation
-  double compliance;       // m/N of one shell, eps / (m g)
+  double compliance;       // m/N of one shell, eps / (m g); with Hertz' law 1/Pa, (1 - nu^2) / E
 };
 
-/// Properties of each lot. Shell stiffness c = m g / eps with eps = shell_compression r (paper A).
+/// A seed of each lot's diameter. Shell stiffness c = m g / eps with eps = shell_compression r (paper A).
 std::vector<GrainKind> grain_kinds(const Scene& scene, bool rotation);
+
+/// A seed of a lot whose size is `size` times the lot's diameter. Mass grows with the cube of size for a ball and with
+/// its square for a disc or clump, at equal density; the shell's compression under the grain's own weight stays eps /
+/// r.
+GrainKind sized_kind(const SeedLot& lot, Law law, const GrainKind& kind, double size);
 
 /// State of all grains in the lab frame, structure of arrays. Order is order of insertion and survives removal.
 /// Arrays of an absent effect are empty: `omega` without rotation, the property arrays for equal grains.
@@ -32,16 +37,21 @@ struct Grains {
   std::vector<GrainKind> kinds;  // by lot
   bool unequal = false;          // whether the arrays below are filled
   bool rotation = false;
-  std::vector<double> radius, inverse_mass, inverse_inertia, compliance, compliance_per_radius;
+  std::vector<double> radius, mass, inverse_mass, inverse_inertia, compliance, curvature;  // curvature 1/m
 
   Grains(std::vector<GrainKind> lot_kinds, bool with_unequal, bool with_rotation)
       : kinds(std::move(lot_kinds)), unequal(with_unequal), rotation(with_rotation) {}
 
   std::size_t size() const { return x.size(); }
-  const GrainKind& kind(std::size_t i) const { return kinds[static_cast<std::size_t>(lot[i])]; }
+  GrainKind kind(std::size_t i) const {
+    if (!unequal) return kinds.front();
+    return {radius[i], mass[i], inverse_mass[i], inverse_inertia[i], compliance[i]};
+  }
 
-  /// Appends a grain of `lot_index` and gives it the next number.
+  /// Appends a grain of `lot_index`, of the lot's own kind, and gives it the next number.
   void add(double px, double py, double pvx, double pvy, int lot_index);
+  /// The same with properties of its own; only where `unequal` is set.
+  void add(double px, double py, double pvx, double pvy, int lot_index, const GrainKind& own);
 
   /// Keeps the grains whose flag is 0, in order. `remove` has one flag a grain.
   void remove_flagged(const std::vector<char>& remove);

@@ -9,22 +9,59 @@ namespace vibrosow {
 
 inline constexpr double standard_gravity = 9.81;  // m/s2, as in both papers
 
-/// Decides the moment of inertia: m r^2 / 2 for a disc, 2 m r^2 / 5 for a ball.
-enum class Shape { disc, ball };
+/// Decides the moment of inertia: m r^2 / 2 for a disc, 2 m r^2 / 5 for a ball, that of a uniform plate for a clump.
+enum class Shape { disc, ball, clump };
+
+/// One disc of a clump, m, from the clump's centre of mass.
+struct ClumpDisc {
+  double x, y, radius;
+};
+
+/// How the diameters of a lot scatter. Normal and lognormal are cut at `least` and `most` (a draw outside is drawn
+/// again); uniform lies between them; a table gives diameters and their shares by number.
+struct SizeDistribution {
+  enum class Kind { single, uniform, normal, lognormal, table };
+  Kind kind = Kind::single;
+  double mean = 0, deviation = 0;       // m, of normal and lognormal before they are cut
+  double least = 0, most = 0;           // m
+  std::vector<double> diameter, share;  // m and parts of 1, of a table
+};
 
 struct SeedLot {
   std::string name;
-  double diameter = 0;  // m
-  double mass = 0;      // kg, of one seed
+  double diameter = 0;  // m, mean; of a clump: of the circle about its centre of mass that just holds it
+  double mass = 0;      // kg, of a seed of that diameter; others scale with its cube (a disc or clump: its square)
   Shape shape = Shape::ball;
   double number_share = 1;  // of all seeds; the shares of a scene sum to 1
+  SizeDistribution sizes{};
+  std::vector<ClumpDisc> discs{};             // of a clump of that diameter
+  double gyration2 = 0;                       // m2, moment of inertia over mass of such a clump
+  std::optional<double> shell_compression{};  // these three: instead of the contact's
+  std::optional<double> youngs_modulus{};     // Pa
+  std::optional<double> poisson_ratio{};
 };
 
-enum class Law { elastic_shell };
+/// elastic_shell: paper A. hertz: damping from the restitution. hertz_viscous: paper B, damping -gamma_n M* v_n.
+enum class Law { elastic_shell, hertz, hertz_viscous };
+
+/// sliding: sign law made continuous below the slip speed (paper A); spring: a tangential spring with Coulomb's limit.
+enum class FrictionModel { sliding, spring };
+
+/// constant_torque and spring (elastic-plastic spring and dashpot) as named by Ai et al. 2011, models A and C.
+enum class Rolling { none, constant_torque, spring };
 
 struct Surface {
-  double friction = 0;     // Coulomb coefficient
-  double restitution = 1;  // of a head-on impact, (0, 1]; 1 is elastic
+  double friction = 0;          // Coulomb coefficient
+  double restitution = 1;       // of a head-on impact, (0, 1]; 1 is elastic
+  double rolling_friction = 0;  // largest rolling torque over normal force and rolling radius
+  double cohesion = 0;          // N, pull of two surfaces that touch
+};
+
+/// The surface between two lots, or a lot and the walls, where it is not the contact's general one.
+struct SurfaceOverride {
+  int lot;
+  int other;  // a lot; -1: the walls
+  Surface surface;
 };
 
 /// Where friction acts: at the contact point, or on the undeformed rims as in paper A (angular momentum is then not
@@ -34,10 +71,22 @@ enum class FrictionArm { contact_point, rim };
 struct Contact {
   Law law = Law::elastic_shell;
   double shell_compression = 1e-4;  // eps / r under the grain's own weight
-  Surface seed;                     // seed on seed
-  Surface wall;                     // seed on wall
-  double slip_speed = 0.02;         // m/s, below it friction is linear in the sliding speed
-  double drag = 0;                  // kg/s, paper A's mu
+  double youngs_modulus = 0;        // Pa, of seeds (hertz)
+  double poisson_ratio = 0.3;
+  std::optional<double> wall_youngs_modulus{};  // Pa; none: rigid walls
+  double wall_poisson_ratio = 0.3;
+  double damping_rate = 0;  // 1/s, paper B's gamma_n (hertz_viscous)
+  Surface seed;             // seed on seed
+  Surface wall;             // seed on wall
+  std::vector<SurfaceOverride> overrides{};
+  FrictionModel friction_model = FrictionModel::sliding;
+  std::optional<double>
+      tangential_ratio{};           // elastic_shell: k_t / k_n, 2/7; hertz: share of Mindlin's 8 G* sqrt(R* d), 1
+  double tangential_damping = 0.5;  // of the normal dashpot
+  Rolling rolling = Rolling::none;
+  double rolling_damping = 0.3;  // of critical, while the rolling spring is below its limit
+  double slip_speed = 0.02;      // m/s, below it friction is linear in the sliding speed
+  double drag = 0;               // kg/s, paper A's mu
   bool rotation = true;
   FrictionArm friction_arm = FrictionArm::contact_point;
 };
@@ -79,14 +128,15 @@ struct Vessel {
   std::optional<HarmonicMotion> motion;
 };
 
-enum class Integrator { velocity_verlet, rk2_midpoint };
+enum class Integrator { velocity_verlet, rk2_midpoint, gear5 };
 
 struct Numerics {
   Integrator integrator = Integrator::velocity_verlet;
   double steps_per_contact = 20;
-  std::optional<double> dt;      // s; instead of steps_per_contact
-  bool allow_long_step = false;  // run a step beyond the longest safe one; every result is then marked
-  std::string where;             // "FILE:LINE: KEY" of dt, for messages; empty in a scene not read from a file
+  std::optional<double> dt;              // s; instead of steps_per_contact
+  std::optional<double> impact_speed{};  // m/s, at which Hertz' contact time is taken; none: the fastest foretold
+  bool allow_long_step = false;          // run a step beyond the longest safe one; every result is then marked
+  std::string where;                     // "FILE:LINE: KEY" of dt, for messages; empty in a scene not read from a file
 };
 
 struct GuardLimits {
@@ -104,6 +154,12 @@ struct RunPlan {
   Start start = Start::at_rest;
 };
 
+/// Pictures of the bed at given times.
+struct Record {
+  std::vector<double> times{};  // s, ascending
+  double cell = 0;              // m, edge of the cells of maps
+};
+
 /// Everything a run needs, in SI; one value, read from a seeder file and validated.
 struct Scene {
   std::string title;
@@ -114,6 +170,7 @@ struct Scene {
   Numerics numerics;
   GuardLimits guard;
   RunPlan run;
+  std::optional<Record> record{};
 };
 
 }  // namespace vibrosow

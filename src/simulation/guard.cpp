@@ -17,7 +17,7 @@ constexpr double energy_warning = 0.05;
 }  // namespace
 
 double mechanical_energy(const Grains& grains, std::size_t i, const Eigen::Vector2d& gravity) {
-  const GrainKind& kind = grains.kind(i);
+  const GrainKind kind = grains.kind(i);
   double energy = 0.5 * kind.mass * (grains.vx[i] * grains.vx[i] + grains.vy[i] * grains.vy[i]);
   if (grains.rotation && kind.inverse_inertia > 0)
     energy += 0.5 * grains.omega[i] * grains.omega[i] / kind.inverse_inertia;
