@@ -6,30 +6,46 @@
 
 namespace vibrosow {
 
-/// Effects that enter the pair force, as a compile-time choice. Rotation needs friction.
-template <bool friction_, bool rotation_, bool damping_, bool unequal_>
-struct PairEffects {
-  static constexpr bool friction = friction_, rotation = rotation_, damping = damping_, unequal = unequal_;
+/// What the kernel needs to know of one grain for a contact.
+struct GrainSurface {
+  double radius, compliance, inverse_mass, inverse_inertia, curvature;
 };
 
-/// Properties of two grains as the kernel sees them: constants for equal grains, loads and a division for unequal ones,
-/// from the same expressions, so that both give the same bits for equal grains.
+/// Of two grains, or of a grain and a wall (radius 0 stands for its place, compliance its own, the rest 0).
+template <class Law, class Effects>
+inline PairConstants pair_constants(const GrainSurface& a, const GrainSurface& b, const SurfaceParameters& surface) {
+  PairConstants p{};
+  p.reach = a.radius + b.radius;
+  p.stiffness = Law::stiffness(a.compliance, b.compliance, a.curvature, b.curvature);
+  if constexpr (Effects::damping) p.dashpot = Law::dashpot(surface, p.stiffness, a.inverse_mass, b.inverse_mass);
+  const double compliance = a.compliance + b.compliance;
+  p.share_i = a.compliance / compliance;
+  p.share_j = b.compliance / compliance;
+  const double at_i = p.share_i * a.curvature, at_j = p.share_j * b.curvature;
+  p.compression_per_overlap = at_i > at_j ? at_i : at_j;
+  if constexpr (Effects::rolls) p.rolling_radius = 1 / (a.curvature + b.curvature);
+  if constexpr (Effects::rolling == Rolling::spring) {
+    // 1 / (I + m r^2) of each, about the contact; a wall has none, a grain kept from turning neither
+    const auto yield = [](const GrainSurface& g) {
+      return g.inverse_inertia > 0
+                 ? g.inverse_inertia * g.inverse_mass / (g.inverse_mass + g.inverse_inertia * g.radius * g.radius)
+                 : 0.0;
+    };
+    const double both = yield(a) + yield(b);
+    p.rolling_inertia = both > 0 ? 1 / both : 0;
+  }
+  return p;
+}
+
+/// Properties of two grains as the kernel sees them: constants for equal grains, worked out pair by pair for unequal
+/// ones from the same expressions, so that both give the same bits for equal grains.
 template <class Law, class Effects>
 class PairProperties {
  public:
-  PairProperties(const Grains& grains, const ContactParameters& parameters)
-      : grains_(grains), damping_ratio_(parameters.seed.damping_ratio) {
-    if constexpr (!Effects::unequal) {
-      const GrainKind& kind = grains.kinds.front();
-      radius_ = kind.radius;
-      equal_ = combine(kind.radius, kind.radius, kind.compliance, kind.compliance, kind.inverse_mass, kind.inverse_mass,
-                       1 / kind.radius, 1 / kind.radius);
-    }
+  PairProperties(const Grains& grains, const ContactParameters& parameters) : grains_(grains), parameters_(parameters) {
+    if constexpr (!Effects::unequal)
+      equal_ = pair_constants<Law, Effects>(surface(0), surface(0), parameters.pair(0, 0));
   }
-
-  struct Pair {
-    double reach, stiffness, damping, share_i, share_j, compression_per_overlap;
-  };
 
   double reach(std::size_t i, std::size_t j) const {
     if constexpr (Effects::unequal) return grains_.radius[i] + grains_.radius[j];
@@ -37,39 +53,35 @@ class PairProperties {
   }
   double radius(std::size_t i) const {
     if constexpr (Effects::unequal) return grains_.radius[i];
-    return radius_;
+    return 0.5 * equal_.reach;
   }
-  Pair pair(std::size_t i, std::size_t j) const {
-    if constexpr (Effects::unequal)
-      return combine(grains_.radius[i], grains_.radius[j], grains_.compliance[i], grains_.compliance[j],
-                     grains_.inverse_mass[i], grains_.inverse_mass[j], grains_.curvature[i], grains_.curvature[j]);
+  const SurfaceParameters& between(std::size_t i, std::size_t j) const {
+    if constexpr (Effects::unequal) return parameters_.pair(grains_.lot[i], grains_.lot[j]);
+    return parameters_.pairs.front();
+  }
+  PairConstants pair(std::size_t i, std::size_t j) const {
+    if constexpr (Effects::unequal) return pair_constants<Law, Effects>(surface(i), surface(j), between(i, j));
     return equal_;
   }
 
  private:
-  Pair combine(double ri, double rj, double si, double sj, double wi, double wj, double ci, double cj) const {
-    Pair p{};
-    p.reach = ri + rj;
-    p.stiffness = Law::stiffness(si, sj);
-    if constexpr (Effects::damping) p.damping = Law::damping(damping_ratio_, p.stiffness, wi, wj);
-    p.share_i = si * p.stiffness;
-    p.share_j = sj * p.stiffness;
-    const double at_i = p.share_i * ci, at_j = p.share_j * cj;
-    p.compression_per_overlap = at_i > at_j ? at_i : at_j;
-    return p;
+  GrainSurface surface(std::size_t i) const {
+    if constexpr (Effects::unequal)
+      return {grains_.radius[i], grains_.compliance[i], grains_.inverse_mass[i], grains_.inverse_inertia[i],
+              grains_.curvature[i]};
+    const GrainKind& kind = grains_.kinds.front();
+    return {kind.radius, kind.compliance, kind.inverse_mass, kind.inverse_inertia, 1 / kind.radius};
   }
 
   const Grains& grains_;
-  double damping_ratio_;
-  double radius_ = 0;
-  Pair equal_{};
+  const ContactParameters& parameters_;
+  PairConstants equal_{};
 };
 
 template <class Law, class Effects>
 void pair_forces(const Grains& grains, const Motion& at, const PairList& list, const ContactParameters& parameters,
-                 Forces& forces, ContactCensus& census) {
+                 const HistoryAdvance& advance, ContactHistory& history, Forces& forces, ContactCensus& census) {
   const PairProperties<Law, Effects> properties(grains, parameters);
-  const SurfaceParameters surface = parameters.seed;
   const double shortening = parameters.arm_shortening;
   const double *x = at.x, *y = at.y, *vx = at.vx, *vy = at.vy;
   double *fx = forces.fx.data(), *fy = forces.fy.data(), *torque = forces.torque.data();
@@ -78,17 +90,20 @@ void pair_forces(const Grains& grains, const Motion& at, const PairList& list, c
   std::int64_t contacts = 0;
 
   for (std::size_t i = 0; i < list.grains(); ++i) {
-    const double xi = x[i], yi = y[i];
+    const double xi = at.row_x[i], yi = y[i];
     double fxi = fx[i], fyi = fy[i];
     [[maybe_unused]] double torque_i = 0;
     if constexpr (Effects::rotation) torque_i = torque[i];
     for (int k = first[i]; k < first[i + 1]; ++k) {
-      const std::size_t j = static_cast<std::size_t>(partner[k]);
+      const std::size_t j = static_cast<std::size_t>(partner[k]), entry = static_cast<std::size_t>(k);
       const double dx = x[j] - xi, dy = y[j] - yi;
       const double distance2 = dx * dx + dy * dy;
       const double reach = properties.reach(i, j);
-      if (distance2 >= reach * reach) continue;
-      const auto pair = properties.pair(i, j);
+      if (distance2 >= reach * reach) {
+        forget_contact<Effects>(advance, history, entry);
+        continue;
+      }
+      const PairConstants pair = properties.pair(i, j);
       const double distance = std::sqrt(distance2);
       // Coincident centres have no normal: any fixed one parts them.
       const double nx = distance > 0 ? dx / distance : 1, ny = distance > 0 ? dy / distance : 0;
@@ -97,19 +112,21 @@ void pair_forces(const Grains& grains, const Motion& at, const PairList& list, c
       max_compression = compression > max_compression ? compression : max_compression;
       ++contacts;
 
-      [[maybe_unused]] double approach = 0, sliding = 0, arm_i = 0, arm_j = 0;
+      Touch touch{overlap, 0, 0, 0};
+      [[maybe_unused]] double arm_i = 0, arm_j = 0;
       if constexpr (Effects::damping || Effects::friction) {
         const double ux = vx[i] - vx[j], uy = vy[i] - vy[j];
-        if constexpr (Effects::damping) approach = ux * nx + uy * ny;
-        if constexpr (Effects::friction) sliding = uy * nx - ux * ny;
+        if constexpr (Effects::damping) touch.approach = ux * nx + uy * ny;
+        if constexpr (Effects::friction) touch.sliding = uy * nx - ux * ny;
         if constexpr (Effects::rotation) {
           arm_i = properties.radius(i) - shortening * overlap * pair.share_i;
           arm_j = properties.radius(j) - shortening * overlap * pair.share_j;
-          sliding += arm_i * at.omega[i] + arm_j * at.omega[j];
+          touch.sliding += arm_i * at.omega[i] + arm_j * at.omega[j];
         }
+        if constexpr (Effects::rolls) touch.turning = at.omega[i] - at.omega[j];
       }
-      const auto force = contact_force<Law, Effects::friction, Effects::damping>(overlap, approach, sliding,
-                                                                                 pair.stiffness, pair.damping, surface);
+      const ContactForce force =
+          contact_force<Law, Effects>(touch, pair, properties.between(i, j), advance, history, entry);
       // On i: -F_n n - F_t t with t = (-n_y, n_x).
       double px = force.normal * nx, py = force.normal * ny;
       if constexpr (Effects::friction) px -= force.tangential * ny, py += force.tangential * nx;
@@ -119,12 +136,31 @@ void pair_forces(const Grains& grains, const Motion& at, const PairList& list, c
         torque_i -= arm_i * force.tangential;
         torque[j] -= arm_j * force.tangential;
       }
+      if constexpr (Effects::rolls) torque_i += force.rolling, torque[j] -= force.rolling;
     }
     fx[i] = fxi, fy[i] = fyi;
     if constexpr (Effects::rotation) torque[i] = torque_i;
   }
   census.max_compression = max_compression;
   census.contacts += contacts;
+}
+
+template <class Law, class Effects>
+double pair_energy(const Grains& grains, const Motion& at, const PairList& list, const ContactParameters& parameters,
+                   const ContactHistory& history) {
+  const PairProperties<Law, Effects> properties(grains, parameters);
+  double energy = 0;
+  for (std::size_t i = 0; i < list.grains(); ++i) {
+    for (int k = list.first[i]; k < list.first[i + 1]; ++k) {
+      const std::size_t entry = static_cast<std::size_t>(k), j = static_cast<std::size_t>(list.partner[entry]);
+      const double dx = at.x[j] - at.row_x[i], dy = at.y[j] - at.y[i];
+      const double overlap = properties.reach(i, j) - std::sqrt(dx * dx + dy * dy);
+      if (overlap > 0)
+        energy +=
+            contact_energy<Law, Effects>(overlap, properties.pair(i, j), properties.between(i, j), history, entry);
+    }
+  }
+  return energy;
 }
 
 }  // namespace vibrosow

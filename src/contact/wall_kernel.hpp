@@ -3,7 +3,7 @@
 #include <array>
 #include <cmath>
 
-#include "contact/kernels.hpp"
+#include "contact/pair_kernel.hpp"
 
 namespace vibrosow {
 
@@ -27,8 +27,8 @@ inline NearestPoint nearest_point(const PlacedWall& wall, double x, double y) {
   return {dx, dy, dx * dx + dy * dy, vertex, side};
 }
 
-/// Calls `touch(wall, nearest)` for each contact of grain `i`, which owns candidates [from, to): faces first, then each
-/// end point once and only where no touched face ends in it.
+/// Calls `touch(candidate, nearest)` for each contact of grain `i`, which owns candidates [from, to): faces first, then
+/// each end point once and only where no touched face ends in it.
 template <class Touch>
 void for_each_wall_contact(const std::vector<WallCandidate>& candidates, std::size_t from, std::size_t to,
                            const std::vector<PlacedWall>& walls, double x, double y, double radius, Touch touch) {
@@ -54,7 +54,7 @@ void for_each_wall_contact(const std::vector<WallCandidate>& candidates, std::si
         if (is_covered(nearest.vertex)) continue;
         cover(nearest.vertex);
       }
-      touch(candidates[c], wall, nearest);
+      touch(c, nearest);
     }
   }
 }
@@ -69,74 +69,92 @@ void for_each_grain_near_walls(const std::vector<WallCandidate>& candidates, Vis
   }
 }
 
-/// A wall is a grain of compliance 0, inverse mass 0 and infinite radius: the law is the pair's.
+/// A grain and the walls, seen as a grain of infinite radius and mass: the law is the pair's.
+template <class Law, class Effects>
+PairConstants wall_constants(const GrainKind& kind, const ContactParameters& parameters,
+                             const SurfaceParameters& surface) {
+  return pair_constants<Law, Effects>(
+      {kind.radius, kind.compliance, kind.inverse_mass, kind.inverse_inertia, 1 / kind.radius},
+      {0, parameters.wall_compliance, 0, 0, 0}, surface);
+}
+
+/// Follows the side of each candidate and notes grains that changed it beside the wall.
+inline void watch_crossings(std::vector<WallCandidate>& candidates, std::size_t from, std::size_t to,
+                            const std::vector<PlacedWall>& walls, const Motion& at, ContactCensus& census) {
+  for (std::size_t c = from; c < to; ++c) {
+    WallCandidate& candidate = candidates[c];
+    const std::size_t i = static_cast<std::size_t>(candidate.grain);
+    const NearestPoint nearest = nearest_point(walls[static_cast<std::size_t>(candidate.wall)], at.x[i], at.y[i]);
+    if (nearest.vertex >= 0)
+      candidate.side = nearest.side;
+    else if (nearest.side * candidate.side < 0)
+      census.crossed.push_back(candidate.grain);
+  }
+}
+
 template <class Law, class Effects>
 void wall_forces(const Grains& grains, const Motion& at, std::vector<WallCandidate>& candidates,
-                 const std::vector<PlacedWall>& walls, const ContactParameters& parameters, Forces& forces,
-                 ContactCensus& census) {
-  for_each_grain_near_walls(candidates, [&](std::size_t i, std::size_t from, std::size_t to) {
-    const GrainKind kind = grains.kind(i);
-    const double stiffness = Law::stiffness(kind.compliance, 0.0);
-    const double damping =
-        Effects::damping ? Law::damping(parameters.wall.damping_ratio, stiffness, kind.inverse_mass, 0.0) : 0.0;
-    for (std::size_t c = from; c < to; ++c) {
-      WallCandidate& candidate = candidates[c];
-      const NearestPoint nearest = nearest_point(walls[static_cast<std::size_t>(candidate.wall)], at.x[i], at.y[i]);
-      if (nearest.vertex >= 0)
-        candidate.side = nearest.side;
-      else if (nearest.side * candidate.side < 0)
-        census.crossed.push_back(static_cast<int>(i));
+                 const std::vector<PlacedWall>& walls, const ContactParameters& parameters,
+                 const HistoryAdvance& advance, ContactHistory& history, Forces& forces, ContactCensus& census) {
+  const auto contact = [&](std::size_t i, const GrainKind& kind, const PairConstants& pair,
+                           const SurfaceParameters& surface, std::size_t c, const NearestPoint& nearest) {
+    const WallCandidate& candidate = candidates[c];
+    const PlacedWall& wall = walls[static_cast<std::size_t>(candidate.wall)];
+    const double distance = std::sqrt(nearest.distance2);
+    double nx = 0, ny = 0;
+    if (distance > 0) {
+      nx = nearest.dx / distance, ny = nearest.dy / distance;
+    } else {  // the centre lies on the wall: pushed back to the side it came from
+      const double ex = wall.bx - wall.ax, ey = wall.by - wall.ay;
+      const double length = std::copysign(std::sqrt(ex * ex + ey * ey), candidate.side);
+      nx = ey / length, ny = -ex / length;
     }
+    Touch touch{kind.radius - distance, 0, 0, 0};
+    census.max_compression = std::max(census.max_compression, touch.overlap * pair.compression_per_overlap);
+    ++census.contacts;
+    const double ux = at.vx[i] - wall.vx, uy = at.vy[i] - wall.vy;
+    touch.approach = ux * nx + uy * ny;
+    [[maybe_unused]] const double arm = kind.radius - parameters.arm_shortening * touch.overlap * pair.share_i;
+    touch.sliding = uy * nx - ux * ny;
+    if constexpr (Effects::rotation) touch.sliding += arm * at.omega[i];
+    if constexpr (Effects::rolls) touch.turning = at.omega[i];
+    const ContactForce force = contact_force<Law, Effects>(touch, pair, surface, advance, history, c);
+    double px = force.normal * nx, py = force.normal * ny;
+    if constexpr (Effects::friction) px -= force.tangential * ny, py += force.tangential * nx;
+    forces.fx[i] -= px, forces.fy[i] -= py;
+    if constexpr (Effects::rotation) forces.torque[i] -= arm * force.tangential;
+    if constexpr (Effects::rolls) forces.torque[i] += force.rolling;
+    census.wall_power -= px * wall.vx + py * wall.vy;
+  };
+  for_each_grain_near_walls(candidates, [&](std::size_t i, std::size_t from, std::size_t to) {
+    watch_crossings(candidates, from, to, walls, at, census);
+    const GrainKind kind = grains.kind(i);
+    const SurfaceParameters& surface = parameters.wall(grains.lot[i]);
+    const PairConstants pair = wall_constants<Law, Effects>(kind, parameters, surface);
+    std::uint64_t touched = 0;  // bit by candidate; a grain meets far fewer than 64 walls
     for_each_wall_contact(candidates, from, to, walls, at.x[i], at.y[i], kind.radius,
-                          [&](const WallCandidate& candidate, const PlacedWall& wall, const NearestPoint& nearest) {
-                            const double distance = std::sqrt(nearest.distance2);
-                            double nx = 0, ny = 0;
-                            if (distance > 0) {
-                              nx = nearest.dx / distance, ny = nearest.dy / distance;
-                            } else {  // the centre lies on the wall: pushed back to the side it came from
-                              const double ex = wall.bx - wall.ax, ey = wall.by - wall.ay;
-                              const double length = std::copysign(std::sqrt(ex * ex + ey * ey), candidate.side);
-                              nx = ey / length, ny = -ex / length;
-                            }
-                            const double overlap = kind.radius - distance;
-                            census.max_compression = std::max(census.max_compression, overlap / kind.radius);
-                            ++census.contacts;
-                            const double ux = at.vx[i] - wall.vx, uy = at.vy[i] - wall.vy;
-                            const double approach = ux * nx + uy * ny;
-                            [[maybe_unused]] const double arm = kind.radius - parameters.arm_shortening * overlap;
-                            [[maybe_unused]] double sliding = uy * nx - ux * ny;
-                            if constexpr (Effects::rotation) sliding += arm * at.omega[i];
-                            const auto force = contact_force<Law, Effects::friction, Effects::damping>(
-                                overlap, approach, sliding, stiffness, damping, parameters.wall);
-                            double px = force.normal * nx, py = force.normal * ny;
-                            if constexpr (Effects::friction) px -= force.tangential * ny, py += force.tangential * nx;
-                            forces.fx[i] -= px, forces.fy[i] -= py;
-                            if constexpr (Effects::rotation) forces.torque[i] -= arm * force.tangential;
-                            census.wall_power -= px * wall.vx + py * wall.vy;
+                          [&](std::size_t c, const NearestPoint& nearest) {
+                            touched |= std::uint64_t{1} << ((c - from) & 63);
+                            contact(i, kind, pair, surface, c, nearest);
                           });
+    for (std::size_t c = from; c < to; ++c)
+      if (!(touched >> ((c - from) & 63) & 1)) forget_contact<Effects>(advance, history, c);
   });
 }
 
-template <class Law>
-double elastic_energy(const Grains& grains, const Motion& at, const PairList& list,
-                      const std::vector<WallCandidate>& candidates, const std::vector<PlacedWall>& walls) {
+template <class Law, class Effects>
+double wall_energy(const Grains& grains, const Motion& at, const std::vector<WallCandidate>& candidates,
+                   const std::vector<PlacedWall>& walls, const ContactParameters& parameters,
+                   const ContactHistory& history) {
   double energy = 0;
-  for (std::size_t i = 0; i < list.grains(); ++i) {
-    const GrainKind a = grains.kind(i);
-    for (int k = list.first[i]; k < list.first[i + 1]; ++k) {
-      const std::size_t j = static_cast<std::size_t>(list.partner[static_cast<std::size_t>(k)]);
-      const GrainKind b = grains.kind(j);
-      const double dx = at.x[j] - at.x[i], dy = at.y[j] - at.y[i];
-      const double overlap = a.radius + b.radius - std::sqrt(dx * dx + dy * dy);
-      if (overlap > 0) energy += Law::elastic_energy(Law::stiffness(a.compliance, b.compliance), overlap);
-    }
-  }
   for_each_grain_near_walls(candidates, [&](std::size_t i, std::size_t from, std::size_t to) {
     const GrainKind kind = grains.kind(i);
+    const SurfaceParameters& surface = parameters.wall(grains.lot[i]);
+    const PairConstants pair = wall_constants<Law, Effects>(kind, parameters, surface);
     for_each_wall_contact(candidates, from, to, walls, at.x[i], at.y[i], kind.radius,
-                          [&](const WallCandidate&, const PlacedWall&, const NearestPoint& nearest) {
+                          [&](std::size_t c, const NearestPoint& nearest) {
                             const double overlap = kind.radius - std::sqrt(nearest.distance2);
-                            energy += Law::elastic_energy(Law::stiffness(kind.compliance, 0.0), overlap);
+                            energy += contact_energy<Law, Effects>(overlap, pair, surface, history, c);
                           });
   });
   return energy;

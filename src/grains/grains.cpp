@@ -38,6 +38,7 @@ void Grains::add(double px, double py, double pvx, double pvy, int lot_index, co
   vx.push_back(pvx);
   vy.push_back(pvy);
   if (rotation) omega.push_back(0);
+  if (oriented) angle.push_back(0);
   lot.push_back(lot_index);
   number.push_back(next_number_++);
   if (!unequal) return;
@@ -57,7 +58,7 @@ void Grains::remove_flagged(const std::vector<char>& remove) {
       if (!remove[i]) array[kept++] = array[i];
     array.resize(kept);
   };
-  keep(x), keep(y), keep(vx), keep(vy), keep(omega), keep(lot), keep(number);
+  keep(x), keep(y), keep(vx), keep(vy), keep(omega), keep(angle), keep(lot), keep(number);
   keep(radius), keep(mass), keep(inverse_mass), keep(inverse_inertia), keep(compliance), keep(curvature);
 }
 

@@ -31,6 +31,7 @@ struct Grains {
   std::vector<double> x, y;    // m
   std::vector<double> vx, vy;  // m/s
   std::vector<double> omega;   // rad/s, anticlockwise
+  std::vector<double> angle;   // rad, how far a clump is turned from its lot's shape; only with clumps
   std::vector<int> lot;
   std::vector<std::int64_t> number;  // order of insertion, from 0
 
@@ -39,8 +40,11 @@ struct Grains {
   bool rotation = false;
   std::vector<double> radius, mass, inverse_mass, inverse_inertia, compliance, curvature;  // curvature 1/m
 
-  Grains(std::vector<GrainKind> lot_kinds, bool with_unequal, bool with_rotation)
-      : kinds(std::move(lot_kinds)), unequal(with_unequal), rotation(with_rotation) {}
+  bool oriented = false;     // whether angles are kept
+  std::vector<int> clump{};  // where these are the discs of clumps: which clump each belongs to; else empty
+
+  Grains(std::vector<GrainKind> lot_kinds, bool with_unequal, bool with_rotation, bool with_angles = false)
+      : kinds(std::move(lot_kinds)), unequal(with_unequal), rotation(with_rotation), oriented(with_angles) {}
 
   std::size_t size() const { return x.size(); }
   GrainKind kind(std::size_t i) const {

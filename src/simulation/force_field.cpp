@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 
 namespace vibrosow {
 namespace {
@@ -12,37 +13,97 @@ double largest_diameter(const Scene& scene) {
   return largest;
 }
 
-Motion motion_of(const Grains& grains) {
-  return {grains.x.data(), grains.y.data(), grains.vx.data(), grains.vy.data(), grains.omega.data()};
+void clear(Forces& forces, const Grains& grains) {
+  forces.fx.assign(grains.size(), 0);
+  forces.fy.assign(grains.size(), 0);
+  forces.torque.assign(grains.omega.size(), 0);
 }
 
 }  // namespace
 
-ForceField::ForceField(const Scene& scene, const KernelSet& kernels, NeighbourMargins margins)
-    : walls_(vessels_of(scene)),
-      neighbours_(walls_.vessels(), largest_diameter(scene), margins),
-      parameters_(contact_parameters(scene.contact)),
-      kernels_(kernels) {}
+ForceField::ForceField(const Scene& scene, const EffectSet& effects, NeighbourMargins margins)
+    : scene_(scene),
+      walls_(vessels_of(scene)),
+      neighbours_(walls_.vessels(), largest_diameter(scene), margins,
+                  {effects.tangential_spring, effects.rolling == Rolling::spring}),
+      parameters_(contact_parameters(scene)),
+      kernels_(kernels_for(scene.contact.law, effects)) {
+  if (effects.clumps) clumps_.emplace(scene_, effects.rotation);
+}
 
-void ForceField::evaluate(const Grains& grains, double time, ContactCensus& census) {
+const Grains& ForceField::place_discs(const Grains& grains) {
+  if (!clumps_) return grains;
+  if (!clumps_are_current_) clumps_->rebuild(grains);
+  clumps_are_current_ = true;
+  clumps_->place(grains);
+  return clumps_->discs();
+}
+
+Motion ForceField::motion_of(const Grains& discs) const {
+  return {discs.x.data(), discs.y.data(), discs.vx.data(), discs.vy.data(), discs.omega.data(), discs.x.data()};
+}
+
+void ForceField::run_kernels(const Grains& discs, const HistoryAdvance& advance, Forces& forces,
+                             ContactCensus& census) {
+  clear(forces, discs);
+  const Motion at = motion_of(discs);
+  kernels_.pair(discs, at, neighbours_.pairs(), parameters_, advance, neighbours_.pair_history(), forces, census);
+  kernels_.wall(discs, at, neighbours_.near_walls(), walls_.placed(), parameters_, advance, neighbours_.wall_history(),
+                forces, census);
+}
+
+void ForceField::evaluate(const Grains& grains, double time, const HistoryAdvance& advance, ContactCensus& census) {
   const auto started = std::chrono::steady_clock::now();
   walls_.place(time);
-  neighbours_.update(grains, walls_);
+  const Grains& discs = place_discs(grains);
+  neighbours_.update(discs, walls_);
   const auto found = std::chrono::steady_clock::now();
-  forces_.fx.assign(grains.size(), 0);
-  forces_.fy.assign(grains.size(), 0);
-  forces_.torque.assign(grains.omega.size(), 0);
   census.wall_power = 0;
-  const Motion at = motion_of(grains);
-  kernels_.pair(grains, at, neighbours_.pairs(), parameters_, forces_, census);
-  kernels_.wall(grains, at, neighbours_.near_walls(), walls_.placed(), parameters_, forces_, census);
+  if (clumps_) {
+    const std::size_t crossed_before = census.crossed.size();
+    run_kernels(discs, advance, disc_forces_, census);
+    clear(forces_, grains);
+    clumps_->gather(disc_forces_, forces_);
+    for (std::size_t k = crossed_before; k < census.crossed.size(); ++k)
+      census.crossed[k] = discs.clump[static_cast<std::size_t>(census.crossed[k])];
+  } else {
+    run_kernels(grains, advance, forces_, census);
+  }
   neighbour_time_ += std::chrono::duration<double>(found - started).count();
   force_time_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - found).count();
 }
 
-double ForceField::elastic_energy(const Grains& grains) const {
-  return kernels_.elastic_energy(grains, motion_of(grains), neighbours_.pairs(), neighbours_.near_walls(),
-                                 walls_.placed());
+double ForceField::elastic_energy(const Grains& grains) {
+  const Grains& discs = place_discs(grains);
+  const Motion at = motion_of(discs);
+  return kernels_.pair_energy(discs, at, neighbours_.pairs(), parameters_, neighbours_.pair_history()) +
+         kernels_.wall_energy(discs, at, neighbours_.near_walls(), walls_.placed(), parameters_,
+                              neighbours_.wall_history());
+}
+
+std::vector<char> ForceField::touching(const Grains& grains) const {
+  std::vector<char> touches(grains.size(), 0);
+  const Grains& discs = clumps_ ? clumps_->discs() : grains;
+  const auto grain_of = [&](std::size_t k) { return clumps_ ? static_cast<std::size_t>(discs.clump[k]) : k; };
+  const PairList& pairs = neighbours_.pairs();
+  for (std::size_t i = 0; i < pairs.grains(); ++i)
+    for (int k = pairs.first[i]; k < pairs.first[i + 1]; ++k) {
+      const std::size_t j = static_cast<std::size_t>(pairs.partner[static_cast<std::size_t>(k)]);
+      const double reach = discs.kind(i).radius + discs.kind(j).radius;
+      if (std::hypot(discs.x[j] - discs.x[i], discs.y[j] - discs.y[i]) < reach)
+        touches[grain_of(i)] = touches[grain_of(j)] = 1;
+    }
+  return touches;
+}
+
+void ForceField::grains_added() {
+  clumps_are_current_ = false;
+  neighbours_.forget();
+}
+
+void ForceField::remove_flagged(const std::vector<char>& removed) {
+  clumps_are_current_ = false;
+  neighbours_.remove_flagged(clumps_ ? clumps_->flags_of_discs(removed) : removed);
 }
 
 }  // namespace vibrosow

@@ -1,24 +1,38 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "contact/kernels.hpp"
 #include "grains/grains.hpp"
+#include "simulation/clump_discs.hpp"
 #include "simulation/neighbours.hpp"
 #include "simulation/walls.hpp"
 
 namespace vibrosow {
 
 /// Contact forces on all grains at a time: walls are placed, neighbours brought up to date, the chosen kernels run.
+/// Where grains are clumps, lists and kernels see their discs, and the forces are gathered.
 class ForceField {
  public:
-  ForceField(const Scene& scene, const KernelSet& kernels, NeighbourMargins margins);
+  ForceField(const Scene& scene, const EffectSet& effects, NeighbourMargins margins);
+  ForceField(const ForceField&) = delete;
+  ForceField& operator=(const ForceField&) = delete;
 
   /// Forces on the grains where they are now, with the vessels where they are at `time`. Census figures are added up,
-  /// but for the walls' power, which is this evaluation's.
-  void evaluate(const Grains& grains, double time, ContactCensus& census);
+  /// but for the walls' power, which is this evaluation's. `advance` moves the memory of contacts on.
+  void evaluate(const Grains& grains, double time, const HistoryAdvance& advance, ContactCensus& census);
 
-  double elastic_energy(const Grains& grains) const;
+  /// Energy of all springs in contacts, J.
+  double elastic_energy(const Grains& grains);
+
+  /// Which grains touch another one.
+  std::vector<char> touching(const Grains& grains) const;
+
+  /// Grains were put in: the next evaluation looks for neighbours afresh.
+  void grains_added();
+  /// These grains (one flag each) are being taken out.
+  void remove_flagged(const std::vector<char>& removed);
 
   double neighbour_time() const { return neighbour_time_; }  // s of wall time spent so far
   double force_time() const { return force_time_; }
@@ -29,11 +43,18 @@ class ForceField {
   const Neighbours& neighbours() const { return neighbours_; }
 
  private:
+  const Grains& place_discs(const Grains& grains);
+  Motion motion_of(const Grains& discs) const;
+  void run_kernels(const Grains& discs, const HistoryAdvance& advance, Forces& forces, ContactCensus& census);
+
+  const Scene& scene_;
   Walls walls_;
   Neighbours neighbours_;
   ContactParameters parameters_;
   const KernelSet& kernels_;
-  Forces forces_;
+  std::optional<ClumpDiscs> clumps_;
+  bool clumps_are_current_ = false;
+  Forces forces_, disc_forces_;
   double neighbour_time_ = 0, force_time_ = 0;
 };
 

@@ -1,16 +1,21 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <vector>
 
 #include "simulation/force_field.hpp"
 
 namespace vibrosow {
 
+/// Scaled derivatives h^n / n! of one coordinate, n = 2 .. 5, by grain (Nordsieck form).
+using HigherDerivatives = std::array<std::vector<double>, 4>;
+
 /// What an integrator moves, and what it keeps from step to step.
 struct Integration {
   Grains& grains;
   ForceField& field;
+  Integrator scheme;
   double dt;                // s
   Eigen::Vector2d gravity;  // m/s2
   double drag;              // kg/s
@@ -18,20 +23,28 @@ struct Integration {
   double time = 0;  // s
   std::int64_t step = 0;
   ContactCensus census{};
-  double wall_work = 0;                               // J
-  double gross_wall_work = 0;                         // J, sizes summed
-  std::vector<double> ax{}, ay{}, alpha{};            // acceleration at the beginning of the step
-  double wall_power = 0;                              // W, then
-  std::vector<double> x{}, y{}, vx{}, vy{}, omega{};  // the old state, for schemes that need it
+  double wall_work = 0;                                        // J
+  double gross_wall_work = 0;                                  // J, sizes summed
+  std::vector<double> ax{}, ay{}, alpha{};                     // acceleration at the beginning of the step
+  double wall_power = 0;                                       // W, then
+  std::vector<double> x{}, y{}, vx{}, vy{}, omega{}, angle{};  // the old state, for schemes that need it
+  HigherDerivatives of_x{}, of_y{}, of_angle{};                // gear5 only
 };
 
 /// One step of a scheme. Velocity Verlet uses predicted velocities v + a dt in the forces, which keeps second order
-/// with damping and drag; RK2 is paper A's midpoint scheme, with the walls at the middle of the step too.
+/// with damping and drag; RK2 is paper A's midpoint scheme, with the walls at the middle of the step too; gear5 is the
+/// fifth-order predictor-corrector in Nordsieck form for forces that depend on velocity (alpha_0 = 3/16; Gear 1971,
+/// Allen & Tildesley 1987), one evaluation a step.
 using StepFunction = void (*)(Integration&);
 StepFunction step_function(Integrator integrator, bool rotation, bool drag, bool unequal);
 
-/// Computes the acceleration at the present time and state: at the start, and after grains were put in or taken out.
+/// Computes the acceleration at the present time and state; gear5 also the higher derivatives, to full order, from the
+/// accelerations along three fourth-order steps ahead, after which the state is put back.
 void start_integration(Integration& s);
+
+/// Grains were put in at the end of the arrays, or taken out (one flag each), since the last step.
+void add_to_integration(Integration& s);
+void remove_from_integration(Integration& s, const std::vector<char>& removed);
 
 /// Force evaluations a step takes: 1 or 2.
 int evaluations_per_step(Integrator integrator);

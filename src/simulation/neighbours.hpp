@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "box2d/broadphase.hpp"
+#include "contact/contact_history.hpp"
 #include "contact/contact_list.hpp"
 #include "grains/grains.hpp"
 #include "simulation/walls.hpp"
@@ -17,11 +18,18 @@ struct NeighbourMargins {
   double narrow = 0.15;
 };
 
+/// What contacts have to remember.
+struct NeighbourMemory {
+  bool slip = false, roll = false;
+};
+
 /// Who may touch whom. A wide list comes from Box2D, seldom; a narrow one is pruned from it, often; both are renewed
-/// just when a grain has moved so far that a contact could be missed (a dual pair list).
+/// just when a grain has moved so far that a contact could be missed (a dual pair list). What contacts remember is kept
+/// through every renewal.
 class Neighbours {
  public:
-  Neighbours(const std::vector<Vessel>& vessels, double largest_diameter, NeighbourMargins margins);
+  Neighbours(const std::vector<Vessel>& vessels, double largest_diameter, NeighbourMargins margins,
+             NeighbourMemory memory = {});
 
   /// Renews the lists if the grains or walls have moved too far for them.
   void update(const Grains& grains, const Walls& walls);
@@ -35,6 +43,10 @@ class Neighbours {
   const PairList& pairs() const { return narrow_; }
   const std::vector<WallCandidate>& near_walls() const { return narrow_walls_; }
   std::vector<WallCandidate>& near_walls() { return narrow_walls_; }
+  ContactHistory& pair_history() { return pair_history_; }
+  const ContactHistory& pair_history() const { return pair_history_; }
+  ContactHistory& wall_history() { return wall_history_; }
+  const ContactHistory& wall_history() const { return wall_history_; }
   std::int64_t searches() const { return searches_; }
   std::int64_t prunes() const { return prunes_; }
   Broadphase& broadphase() { return broadphase_; }
@@ -51,12 +63,15 @@ class Neighbours {
 
   void search(const Grains& grains, const Walls& walls);
   void prune(const Grains& grains, const Walls& walls);
+  void prune_pairs(const Grains& grains);
   void prune_walls(const Grains& grains, const Walls& walls);
 
   Broadphase broadphase_;
   double wide_margin_, narrow_margin_;  // m
   PairList wide_, narrow_;
   std::vector<WallCandidate> wide_walls_, narrow_walls_;
+  NeighbourMemory memory_;
+  ContactHistory pair_history_, wall_history_;
   Reference wide_reference_, narrow_reference_;
   bool wide_is_valid_ = false;
   std::int64_t searches_ = 0, prunes_ = 0;

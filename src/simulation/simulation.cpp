@@ -26,8 +26,13 @@ std::int64_t steps_in(double interval, double dt) {
 Simulation::Simulation(const Scene& scene, Grains grains, const SimulationSetup& setup)
     : scene_(scene),
       grains_(std::move(grains)),
-      field_(scene_, kernels_for(scene_.contact.law, setup.effects), setup.margins),
-      s_{.grains = grains_, .field = field_, .dt = setup.dt, .gravity = setup.gravity, .drag = scene_.contact.drag},
+      field_(scene_, setup.effects, setup.margins),
+      s_{.grains = grains_,
+         .field = field_,
+         .scheme = scene_.numerics.integrator,
+         .dt = setup.dt,
+         .gravity = setup.gravity,
+         .drag = scene_.contact.drag},
       advance_(
           step_function(scene_.numerics.integrator, setup.effects.rotation, setup.effects.drag, setup.effects.unequal)),
       counter_(scene_, grains_.size()),
@@ -84,13 +89,9 @@ void Simulation::take_out() {
   bool any = false;
   for (std::size_t i = 0; i < grains_.size(); ++i) any |= (removed[i] = counter_.is_counted(i) ? 1 : 0) != 0;
   if (any) {
-    const PairList& pairs = field_.neighbours().pairs();
+    const std::vector<char> touches = field_.touching(grains_);
     for (std::size_t i = 0; i < grains_.size(); ++i)
-      for (int k = pairs.first[i]; k < pairs.first[i + 1]; ++k) {
-        const std::size_t j = static_cast<std::size_t>(pairs.partner[static_cast<std::size_t>(k)]);
-        const double reach = grains_.kind(i).radius + grains_.kind(j).radius;
-        if (std::hypot(grains_.x[j] - grains_.x[i], grains_.y[j] - grains_.y[i]) < reach) removed[i] = removed[j] = 0;
-      }
+      if (touches[i]) removed[i] = 0;
   }
   std::int64_t lost = 0;
   for (int i : s_.census.crossed) {
@@ -108,8 +109,8 @@ void Simulation::take_out_flagged(const std::vector<char>& removed) {
     if (removed[i]) run_.energy.removed += mechanical_energy(grains_, i, s_.gravity);
   grains_.remove_flagged(removed);
   counter_.remove_flagged(removed);
-  field_.neighbours().remove_flagged(removed);
-  start_integration(s_);
+  field_.remove_flagged(removed);
+  remove_from_integration(s_, removed);
   run_.energy.removed += elastic - field_.elastic_energy(grains_);
 }
 
@@ -121,8 +122,8 @@ void Simulation::feed() {
     run_.energy.inserted += mechanical_energy(grains_, i, s_.gravity);
     counter_.add_grain();
   }
-  field_.neighbours().forget();
-  start_integration(s_);
+  field_.grains_added();
+  add_to_integration(s_);
 }
 
 void Simulation::note_whether_dry() {
@@ -158,7 +159,7 @@ Run Simulation::result() const {
 
 Grains starting_grains(const Scene& scene, std::uint64_t random_seed, const EffectSet& effects) {
   Random random(random_seed);
-  Grains grains(grain_kinds(scene, effects.rotation), effects.unequal, effects.rotation);
+  Grains grains(grain_kinds(scene, effects.rotation), effects.unequal, effects.rotation, effects.clumps);
   for (const Vessel& vessel : vessels_of(scene)) {
     const bool moves_along = scene.run.start == Start::with_tray;
     const Eigen::Vector2d velocity = moves_along ? vessel_velocity(vessel, 0) : Eigen::Vector2d::Zero();
@@ -174,9 +175,10 @@ Grains starting_grains(const Scene& scene, std::uint64_t random_seed, const Effe
 void refuse_overlapping_start(const Scene& scene, const Grains& grains) {
   EffectSet effects;
   effects.unequal = grains.unequal;
-  ForceField field(scene, kernels_for(scene.contact.law, effects), {});
+  effects.clumps = grains.oriented;
+  ForceField field(scene, effects, {});
   ContactCensus census;
-  field.evaluate(grains, 0, census);
+  field.evaluate(grains, 0, {}, census);
   // Grains at rest may carry their bed's weight, no more.
   if (census.max_compression <= scene.guard.warn_compression) return;
   const Fill& fill = scene.hopper && scene.hopper->fill ? *scene.hopper->fill : *scene.tray.fill;

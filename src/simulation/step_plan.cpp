@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "contact/elastic_shell.hpp"
+#include "contact/hertz.hpp"
 #include "contact/kernels.hpp"
 #include "simulation/vessel_motion.hpp"
 #include "simulation/walls.hpp"
@@ -19,27 +20,77 @@ constexpr double longest_travel = 0.1;          // radii a step
 constexpr double wanted_friction_step = 0.5;    // dt lambda that a chosen step keeps to
 constexpr double allowed_energy_growth = 1.01;  // of a free vibration under RK2 over the whole run, in amplitude
 
-/// Largest frequency (rad/s) of a grain among six others: omega^2 = 6 k / m; for equal grains sqrt(3 g / eps).
-double largest_frequency(const std::vector<GrainKind>& kinds) {
-  double largest2 = 0;
-  for (const GrainKind& light : kinds)
-    for (const GrainKind& other : kinds)
-      largest2 =
-          std::max(largest2, contacts_of_a_packed_grain * ElasticShell::stiffness(light.compliance, other.compliance) *
-                                 light.inverse_mass);
-  return std::sqrt(largest2);
+double smallest_size(const SeedLot& lot) {
+  return lot.sizes.least / lot.diameter;
+}
+double largest_size(const SeedLot& lot) {
+  return lot.sizes.most / lot.diameter;
 }
 
-/// Half a period of the stiffest, lightest pair or grain on a wall, s.
-double shortest_contact(const std::vector<GrainKind>& kinds) {
-  double largest2 = 0;
-  for (const GrainKind& a : kinds) {
-    largest2 = std::max(largest2, a.inverse_mass / a.compliance);
-    for (const GrainKind& b : kinds)
-      largest2 =
-          std::max(largest2, ElasticShell::stiffness(a.compliance, b.compliance) * (a.inverse_mass + b.inverse_mass));
+/// Grains as contacts see them: of a lot with a distribution its smallest and its largest, of a clump its discs.
+std::vector<GrainKind> touching_kinds(const Scene& scene) {
+  std::vector<GrainKind> touching;
+  const std::vector<GrainKind> kinds = grain_kinds(scene, true);
+  for (std::size_t l = 0; l < scene.lots.size(); ++l) {
+    const SeedLot& lot = scene.lots[l];
+    const bool scatter = lot.sizes.kind != SizeDistribution::Kind::single;
+    std::vector<double> sizes{1};
+    if (scatter) sizes = {smallest_size(lot), largest_size(lot)};
+    for (const double size : sizes) {
+      const GrainKind whole = sized_kind(lot, scene.contact.law, kinds[l], size);
+      if (lot.discs.empty()) touching.push_back(whole);
+      for (const ClumpDisc& disc : lot.discs) {
+        GrainKind part = whole;
+        part.radius = disc.radius * size;
+        if (scene.contact.law == Law::elastic_shell) part.compliance *= part.radius / whole.radius;
+        touching.push_back(part);
+      }
+    }
   }
-  return std::numbers::pi / std::sqrt(largest2);
+  return touching;
+}
+
+/// Two bodies that meet: a grain and another, or a wall (curvature and inverse mass 0).
+struct Meeting {
+  double stiffness, inverse_mass, share_over_radius;
+};
+
+Meeting meeting(const Scene& scene, const GrainKind& a, double compliance, double curvature, double inverse_mass) {
+  const double share = a.compliance / (a.compliance + compliance);
+  const double stiffness = scene.contact.law == Law::elastic_shell
+                               ? ElasticShell::stiffness(a.compliance, compliance, 1 / a.radius, curvature)
+                               : Hertz::stiffness(a.compliance, compliance, 1 / a.radius, curvature);
+  return {stiffness, a.inverse_mass + inverse_mass, share / a.radius};
+}
+
+Meeting on_wall(const Scene& scene, const GrainKind& a) {
+  return meeting(scene, a, contact_parameters(scene).wall_compliance, 0, 0);
+}
+
+Meeting with_grain(const Scene& scene, const GrainKind& a, const GrainKind& b) {
+  return meeting(scene, a, b.compliance, 1 / b.radius, b.inverse_mass);
+}
+
+/// Largest overlap (m) of an elastic impact at `speed`: V / omega, or (5 M V^2 / (4 k))^(2/5).
+double impact_overlap(const Scene& scene, const Meeting& m, double speed) {
+  if (scene.contact.law == Law::elastic_shell) return speed / std::sqrt(m.stiffness * m.inverse_mass);
+  return std::pow(1.25 * speed * speed / (m.stiffness * m.inverse_mass), 0.4);
+}
+
+/// How long it lasts, s: half a period, or 2.943275 d_max / V (2 sqrt(pi) Gamma(7/5) / Gamma(9/10)).
+double impact_duration(const Scene& scene, const Meeting& m, double speed) {
+  if (scene.contact.law == Law::elastic_shell) return std::numbers::pi / std::sqrt(m.stiffness * m.inverse_mass);
+  return 2.943275 * impact_overlap(scene, m, speed) / speed;
+}
+
+/// Overlap (m) under a force at rest.
+double static_overlap(const Scene& scene, const Meeting& m, double force) {
+  return scene.contact.law == Law::elastic_shell ? force / m.stiffness : std::pow(force / m.stiffness, 2.0 / 3);
+}
+
+/// Slope of the force, N/m, at an overlap.
+double slope(const Scene& scene, const Meeting& m, double overlap) {
+  return scene.contact.law == Law::elastic_shell ? m.stiffness : 1.5 * m.stiffness * std::sqrt(overlap);
 }
 
 double mean_diameter(const Scene& scene) {
@@ -64,17 +115,32 @@ double weight_factor(const Scene& scene) {
   return 1 + largest / standard_gravity;
 }
 
-/// lambda = nu F_n / (v_s m_t) of the regularised friction, 1/s, with F_n the weight of the layers above.
+double largest(const std::vector<SurfaceParameters>& surfaces, double SurfaceParameters::*value) {
+  double most = 0;
+  for (const SurfaceParameters& s : surfaces) most = std::max(most, s.*value);
+  return most;
+}
+
+/// lambda = nu F_n / (v_s m_t) of what is made continuous by the slip speed, 1/s, with F_n the weight of the layers
+/// above; sliding friction that is no spring, and a constant rolling torque. 0: there is nothing of the kind.
 double friction_rate(const Scene& scene) {
-  const Contact& contact = scene.contact;
+  const EffectSet effects = effects_of(scene);
+  const ContactParameters parameters = contact_parameters(scene);
   const bool ball =
       std::any_of(scene.lots.begin(), scene.lots.end(), [](const SeedLot& l) { return l.shape == Shape::ball; });
-  const bool rotation = effects_of(scene).rotation;
-  const double per_surface = !rotation ? 1 : ball ? 3.5 : 3;  // 1 / (m m_t), of one grain
+  const double per_spin = ball ? 2.5 : 2;                          // m r^2 / I
+  const double per_surface = effects.rotation ? 1 + per_spin : 1;  // 1 / (m m_t), of one grain
   const double layers = deepest_fill(scene), weight = standard_gravity * weight_factor(scene);
-  const double on_wall = contact.wall.friction * layers * weight * per_surface;
-  const double in_bed = contact.seed.friction * std::max(layers - 1, 1.0) * weight * 2 * per_surface;
-  return std::max(on_wall, in_bed) / contact.slip_speed;
+  const auto rate = [&](const std::vector<SurfaceParameters>& surfaces) {
+    double most = 0;
+    if (!effects.tangential_spring) most = per_surface * largest(surfaces, &SurfaceParameters::friction);
+    if (effects.rolling == Rolling::constant_torque)
+      most = std::max(most, per_spin * largest(surfaces, &SurfaceParameters::rolling_friction));
+    return most;
+  };
+  const double on_wall = rate(parameters.walls) * layers * weight;
+  const double in_bed = rate(parameters.pairs) * std::max(layers - 1, 1.0) * weight * 2;
+  return std::max(on_wall, in_bed) / scene.contact.slip_speed;
 }
 
 /// Speed that a grain can reach: twice the vessel's, or the fall from the highest edge to the counting line.
@@ -87,19 +153,82 @@ double foretold_speed(const Scene& scene) {
   return std::max(speed, std::sqrt(2 * standard_gravity * (drop + scene.run.count_below)));
 }
 
-StepLimit shell_limit(const Scene& scene, const std::vector<GrainKind>& kinds) {
-  const double omega = largest_frequency(kinds);
-  const ContactParameters parameters = contact_parameters(scene.contact);
-  const double zeta = std::max(parameters.seed.damping_ratio, parameters.wall.damping_ratio);
+/// Speed of impact at which Hertz' law is looked at, m/s; the elastic shell's contact does not depend on it.
+double impact_speed(const Scene& scene) {
+  return scene.numerics.impact_speed.value_or(foretold_speed(scene));
+}
+
+/// Stiffness of a grain against sliding and turning, over its stiffness against the normal.
+double tangential_stiffening(const Scene& scene, const GrainKind& kind) {
+  const EffectSet effects = effects_of(scene);
+  if (!effects.tangential_spring) return 1;
+  double ratio = 0;
+  const ContactParameters parameters = contact_parameters(scene);
+  for (const auto* surfaces : {&parameters.pairs, &parameters.walls})
+    for (const SurfaceParameters& s : *surfaces) ratio = std::max(ratio, s.tangential_ratio);
+  if (scene.contact.law != Law::elastic_shell) ratio /= 1.5;  // of the slope, not the secant
+  const double spin = effects.rotation ? kind.radius * kind.radius * kind.inverse_inertia / kind.inverse_mass : 0;
+  return std::max(1.0, ratio * (1 + spin));
+}
+
+/// Largest frequency (rad/s) of a grain among six others: omega^2 = 6 k / m; for equal grains in elastic shells
+/// sqrt(3 g / eps). Hertz' stiffness is taken at the larger of the overlaps of impact and of the layers' weight.
+double largest_frequency(const Scene& scene, const std::vector<GrainKind>& kinds) {
+  double largest2 = 0;
+  for (const GrainKind& light : kinds)
+    for (const GrainKind& other : kinds) {
+      const Meeting m = with_grain(scene, light, other);
+      const double weight = deepest_fill(scene) * weight_factor(scene) * other.mass * standard_gravity;
+      const double overlap = std::max(impact_overlap(scene, m, impact_speed(scene)), static_overlap(scene, m, weight));
+      largest2 = std::max(largest2, contacts_of_a_packed_grain * slope(scene, m, overlap) * light.inverse_mass *
+                                        tangential_stiffening(scene, light));
+    }
+  return std::sqrt(largest2);
+}
+
+/// The shortest elastic contact of any two grains or a grain on a wall, s.
+double shortest_contact(const Scene& scene, const std::vector<GrainKind>& kinds) {
+  const double speed = impact_speed(scene);
+  double shortest = 1e300;
+  for (const GrainKind& a : kinds) {
+    shortest = std::min(shortest, impact_duration(scene, on_wall(scene, a), speed));
+    for (const GrainKind& b : kinds)
+      shortest = std::min(shortest, impact_duration(scene, with_grain(scene, a, b), speed));
+  }
+  return shortest;
+}
+
+/// Damping ratios of all surfaces at the frequency omega, the smallest and the largest.
+std::pair<double, double> damping_ratios(const Scene& scene, double omega) {
+  double smallest = 1e300, largest = 0;
+  const ContactParameters parameters = contact_parameters(scene);
+  for (const auto* surfaces : {&parameters.pairs, &parameters.walls})
+    for (const SurfaceParameters& s : *surfaces) {
+      const double ratio = scene.contact.law == Law::hertz_viscous ? s.damping_rate / (2 * omega) : s.damping_ratio;
+      smallest = std::min(smallest, ratio), largest = std::max(largest, ratio);
+    }
+  return {smallest, largest};
+}
+
+double lightest(const std::vector<GrainKind>& kinds) {
+  return std::min_element(kinds.begin(), kinds.end(),
+                          [](const GrainKind& a, const GrainKind& b) { return a.mass < b.mass; })
+      ->mass;
+}
+
+StepLimit contact_limit(const Scene& scene, const std::vector<GrainKind>& kinds) {
+  const double omega = largest_frequency(scene, kinds);
+  const auto [smallest_zeta, zeta] = damping_ratios(scene, omega);
   const double stable = (std::sqrt(1 + zeta * zeta) - zeta) / omega;  // half of the explicit schemes' 2 (...) / omega
-  if (scene.numerics.integrator == Integrator::velocity_verlet) return {"the shell's vibration (Verlet)", stable};
-  double lightest = 1 / kinds.front().inverse_mass;
-  for (const GrainKind& kind : kinds) lightest = std::min(lightest, kind.mass);
+  const std::string what =
+      scene.contact.law == Law::elastic_shell ? "the shell's vibration" : "the contact's vibration";
+  if (scene.numerics.integrator == Integrator::velocity_verlet) return {what + " (Verlet)", stable};
+  // Gear's scheme of order 5 with alpha_0 = 3/16 is stable for omega dt up to about 0.7 of Verlet's 2, damped or not.
+  if (scene.numerics.integrator == Integrator::gear5) return {what + " (Gear)", 0.5 * stable};
   // A free vibration grows by omega^4 dt^3 / 8 per second; half of what drag and damping take may be used up.
-  const double smallest_zeta = std::min(parameters.seed.damping_ratio, parameters.wall.damping_ratio);
-  const double taken = 0.5 * (scene.contact.drag / (2 * lightest) + smallest_zeta * omega);
+  const double taken = 0.5 * (scene.contact.drag / (2 * lightest(kinds)) + smallest_zeta * omega);
   const double growth = taken + std::log(allowed_energy_growth) / scene.run.duration;
-  return {"the growth of the shell's vibration (RK2)", std::min(stable, std::cbrt(8 * growth / std::pow(omega, 4)))};
+  return {"the growth of " + what + " (RK2)", std::min(stable, std::cbrt(8 * growth / std::pow(omega, 4)))};
 }
 
 double smallest_radius(const Scene& scene) {
@@ -111,13 +240,12 @@ double smallest_radius(const Scene& scene) {
 }  // namespace
 
 StepPlan plan_step(const Scene& scene) {
-  const std::vector<GrainKind> kinds = grain_kinds(scene, true);
+  const std::vector<GrainKind> kinds = touching_kinds(scene);
   StepPlan plan{};
-  plan.contact_duration = shortest_contact(kinds);
-  plan.limits.push_back(shell_limit(scene, kinds));
+  plan.contact_duration = shortest_contact(scene, kinds);
+  plan.limits.push_back(contact_limit(scene, kinds));
   double wanted = plan.contact_duration / scene.numerics.steps_per_contact;
-  if (effects_of(scene).friction) {
-    const double rate = friction_rate(scene);
+  if (const double rate = friction_rate(scene); rate > 0) {
     const double factor = scene.numerics.integrator == Integrator::velocity_verlet ? 1 : 2;
     plan.limits.push_back({"friction below the slip speed", factor / rate});
     wanted = std::min(wanted, wanted_friction_step / rate);
@@ -125,9 +253,7 @@ StepPlan plan_step(const Scene& scene) {
   plan.limits.push_back(
       {"a grain's travel in one step", longest_travel * smallest_radius(scene) / foretold_speed(scene)});
   if (scene.contact.drag > 0) {
-    double lightest = kinds.front().mass;
-    for (const GrainKind& kind : kinds) lightest = std::min(lightest, kind.mass);
-    plan.limits.push_back({"drag", lightest / scene.contact.drag});
+    plan.limits.push_back({"drag", lightest(kinds) / scene.contact.drag});
   }
   const auto tightest = std::min_element(plan.limits.begin(), plan.limits.end(),
                                          [](const StepLimit& a, const StepLimit& b) { return a.dt < b.dt; });
@@ -149,18 +275,23 @@ std::optional<std::string> step_refused(const Scene& scene, const StepPlan& plan
 
 ForetoldCompression foretell_compression(const Scene& scene) {
   ForetoldCompression foretold{};
-  const double compression = scene.contact.shell_compression;
   foretold.layers = deepest_fill(scene);
-  foretold.static_compression = foretold.layers * compression * weight_factor(scene);
-  foretold.static_overlap = 2 * foretold.static_compression;
   for (const Vessel& vessel : vessels_of(scene))
     foretold.impact_speed = std::max(foretold.impact_speed, 2 * largest_speed(vessel));
-  // d = V / omega with omega^2 = g / eps
-  foretold.impact_compression =
-      foretold.impact_speed * std::sqrt(compression / (standard_gravity * smallest_radius(scene)));
+  for (const GrainKind& kind : touching_kinds(scene)) {
+    const Meeting wall = on_wall(scene, kind);
+    const double weight = foretold.layers * weight_factor(scene) * kind.mass * standard_gravity;
+    const double at_rest = static_overlap(scene, wall, weight);
+    foretold.static_compression = std::max(foretold.static_compression, at_rest * wall.share_over_radius);
+    foretold.static_overlap =
+        std::max(foretold.static_overlap, static_overlap(scene, with_grain(scene, kind, kind), weight) / kind.radius);
+    foretold.impact_compression = std::max(foretold.impact_compression,
+                                           impact_overlap(scene, wall, foretold.impact_speed) * wall.share_over_radius);
+  }
+  // The shell's compression goes with eps at rest and with its root at impact.
   const double at_rest = scene.guard.warn_compression / foretold.static_compression;
   const double at_impact = scene.guard.warn_compression / std::max(foretold.impact_compression, 1e-300);
-  foretold.stiff_enough = compression * std::min(at_rest, at_impact * at_impact);
+  foretold.stiff_enough = scene.contact.shell_compression * std::min(at_rest, at_impact * at_impact);
   return foretold;
 }
 

@@ -17,6 +17,8 @@ TEST(Wall, IsAGrainOfInfiniteRadiusAndMass) {
   EffectSet effects = effects_of(bench.scene);
   effects.unequal = true;
   const double overlap = 1e-5, giant = 1e3;
+  Scene scene = bench.scene;  // the giant is a lot with a rigid shell
+  scene.lots.push_back({"giant", 2 * giant, 1e300, Shape::disc, 0});
   const auto forces = [&](bool as_wall) {
     std::vector<GrainKind> kinds = grain_kinds(bench.scene, true);
     kinds.push_back({giant, 1e300, 0, 0, 0});
@@ -30,11 +32,13 @@ TEST(Wall, IsAGrainOfInfiniteRadiusAndMass) {
     if (as_wall) near.push_back({0, 0, 1});
     Forces f{{0, 0}, {0, 0}, {0, 0}};
     ContactCensus census;
-    const Motion at{grains.x.data(), grains.y.data(), grains.vx.data(), grains.vy.data(), grains.omega.data()};
+    const Motion at{grains.x.data(),  grains.y.data(),     grains.vx.data(),
+                    grains.vy.data(), grains.omega.data(), grains.x.data()};
     const KernelSet& kernels = kernels_for(Law::elastic_shell, effects);
-    const ContactParameters parameters = contact_parameters(bench.scene.contact);
-    kernels.pair(grains, at, pairs, parameters, f, census);
-    kernels.wall(grains, at, near, walls, parameters, f, census);
+    const ContactParameters parameters = contact_parameters(scene);
+    ContactHistory none;
+    kernels.pair(grains, at, pairs, parameters, {}, none, f, census);
+    kernels.wall(grains, at, near, walls, parameters, {}, none, f, census);
     EXPECT_EQ(census.contacts, 1);
     EXPECT_NEAR(census.max_compression, overlap / Bench::radius, 1e-7);
     return f;

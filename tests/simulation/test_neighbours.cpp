@@ -15,7 +15,7 @@ namespace {
 Scene busy_scene() {
   Scene scene;
   scene.lots = {{"big", 8e-3, 6e-4, Shape::ball, 0.6}, {"small", 5e-3, 1.5e-4, Shape::ball, 0.4}};
-  scene.contact.shell_compression = 1e-3;
+  scene.contact.shell_compression = 3e-4;
   scene.contact.seed = scene.contact.wall = {0.3, 0.5};
   scene.contact.slip_speed = 0.1;
   scene.tray.name = "tray";

@@ -14,7 +14,7 @@ namespace {
 
 constexpr double up = std::numbers::pi / 2;
 
-double total_energy(const Simulation& run, const Eigen::Vector2d& gravity) {
+double total_energy(Simulation& run, const Eigen::Vector2d& gravity) {
   return kinetic_energy(run.grains()) + potential_energy(run.grains(), gravity) +
          run.field().elastic_energy(run.grains());
 }

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <algorithm>
+
+namespace vibrosow {
+
+/// Sliding friction `limit` sign(W) (paper A), made continuous: linear in the sliding speed below the slip speed. Also
+/// the rolling torque of model A (Ai et al. 2011), of a limit in N m and a rolling speed.
+template <class Real>
+inline Real sliding_friction(Real limit, Real speed, Real inverse_slip_speed) {
+  using std::max, std::min;
+  return limit * min(Real(1), max(Real(-1), speed * inverse_slip_speed));
+}
+
+/// A spring and dashpot that hold up to `limit` (Cundall & Strack 1979): the force on a total displacement, which is
+/// shortened to what the limit can hold where the contact slips. Also the rolling torque of model C (Ai et al. 2011),
+/// on the angle rolled. A stiffness of 0 gives no displacement.
+template <class Real>
+inline Real spring_friction(Real stiffness, Real dashpot, Real limit, Real speed, Real& displacement) {
+  using std::max, std::min;
+  const Real wanted = stiffness * displacement + dashpot * speed;
+  const Real force = min(limit, max(-limit, wanted));
+  const Real held = stiffness > Real(0) ? force / stiffness : Real(0);
+  displacement = force == wanted ? displacement : held;
+  return force;
+}
+
+}  // namespace vibrosow

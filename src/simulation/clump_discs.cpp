@@ -1,0 +1,73 @@
+#include "simulation/clump_discs.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace vibrosow {
+namespace {
+
+const std::vector<ClumpDisc>& discs_of(const SeedLot& lot, const std::vector<ClumpDisc>& single) {
+  return lot.discs.empty() ? single : lot.discs;
+}
+
+}  // namespace
+
+ClumpDiscs::ClumpDiscs(const Scene& scene, bool rotation)
+    : scene_(scene), discs_per_number_(1), discs_(grain_kinds(scene, rotation), true, rotation) {
+  for (const SeedLot& lot : scene.lots)
+    discs_per_number_ = std::max(discs_per_number_, static_cast<std::int64_t>(lot.discs.size()));
+}
+
+void ClumpDiscs::rebuild(const Grains& clumps) {
+  discs_ = Grains(discs_.kinds, true, discs_.rotation);
+  own_x_.clear(), own_y_.clear();
+  for (std::size_t i = 0; i < clumps.size(); ++i) {
+    const SeedLot& lot = scene_.lots[static_cast<std::size_t>(clumps.lot[i])];
+    const GrainKind clump = clumps.kind(i);
+    const double size = 2 * clump.radius / lot.diameter;
+    const std::vector<ClumpDisc> single{{0, 0, 0.5 * lot.diameter}};
+    std::int64_t number = clumps.number[i] * discs_per_number_;
+    for (const ClumpDisc& disc : discs_of(lot, single)) {
+      GrainKind own = clump;
+      own.radius = disc.radius * size;
+      if (scene_.contact.law == Law::elastic_shell) own.compliance *= own.radius / clump.radius;
+      discs_.add(0, 0, 0, 0, clumps.lot[i], own);
+      discs_.number.back() = number++;
+      discs_.clump.push_back(static_cast<int>(i));
+      own_x_.push_back(disc.x * size), own_y_.push_back(disc.y * size);
+    }
+  }
+  arm_x_ = own_x_, arm_y_ = own_y_;
+}
+
+void ClumpDiscs::place(const Grains& clumps) {
+  double cosine = 1, sine = 0;
+  for (std::size_t k = 0; k < discs_.size(); ++k) {
+    const std::size_t i = static_cast<std::size_t>(discs_.clump[k]);
+    const bool first = k == 0 || discs_.clump[k - 1] != discs_.clump[k];
+    if (first) cosine = std::cos(clumps.angle[i]), sine = std::sin(clumps.angle[i]);
+    arm_x_[k] = cosine * own_x_[k] - sine * own_y_[k];
+    arm_y_[k] = sine * own_x_[k] + cosine * own_y_[k];
+    const double omega = clumps.rotation ? clumps.omega[i] : 0;
+    discs_.x[k] = clumps.x[i] + arm_x_[k], discs_.y[k] = clumps.y[i] + arm_y_[k];
+    discs_.vx[k] = clumps.vx[i] - omega * arm_y_[k], discs_.vy[k] = clumps.vy[i] + omega * arm_x_[k];
+    if (discs_.rotation) discs_.omega[k] = omega;
+  }
+}
+
+void ClumpDiscs::gather(const Forces& on_discs, Forces& on_clumps) const {
+  for (std::size_t k = 0; k < discs_.size(); ++k) {
+    const std::size_t i = static_cast<std::size_t>(discs_.clump[k]);
+    on_clumps.fx[i] += on_discs.fx[k], on_clumps.fy[i] += on_discs.fy[k];
+    if (on_clumps.torque.empty()) continue;
+    on_clumps.torque[i] += on_discs.torque[k] + arm_x_[k] * on_discs.fy[k] - arm_y_[k] * on_discs.fx[k];
+  }
+}
+
+std::vector<char> ClumpDiscs::flags_of_discs(const std::vector<char>& of_clumps) const {
+  std::vector<char> flags(discs_.size());
+  for (std::size_t k = 0; k < flags.size(); ++k) flags[k] = of_clumps[static_cast<std::size_t>(discs_.clump[k])];
+  return flags;
+}
+
+}  // namespace vibrosow
