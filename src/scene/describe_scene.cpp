@@ -10,26 +10,72 @@ Json optional_number(const std::optional<double>& value) {
 }
 
 Json describe(const SeedLot& lot) {
-  return {{"name", lot.name},
-          {"diameter_m", lot.diameter},
-          {"mass_kg", lot.mass},
-          {"shape", lot.shape == Shape::disc ? "disc" : "ball"},
-          {"number_share", lot.number_share}};
+  Json json = {{"name", lot.name},
+               {"diameter_m", lot.diameter},
+               {"mass_kg", lot.mass},
+               {"shape", lot.shape == Shape::disc ? "disc" : "ball"},
+               {"number_share", lot.number_share}};
+  if (lot.shell_compression) json["shell_compression"] = *lot.shell_compression;
+  if (lot.youngs_modulus) json["youngs_modulus_pa"] = *lot.youngs_modulus;
+  if (lot.poisson_ratio) json["poisson_ratio"] = *lot.poisson_ratio;
+  return json;
 }
 
 Json describe(const Surface& surface) {
-  return {{"friction", surface.friction}, {"restitution", surface.restitution}};
+  Json json = {{"friction", surface.friction}, {"restitution", surface.restitution}};
+  if (surface.rolling_friction != 0) json["rolling_friction"] = surface.rolling_friction;
+  if (surface.cohesion != 0) json["cohesion_n"] = surface.cohesion;
+  return json;
+}
+
+void describe_law(const Contact& contact, Json& json) {
+  if (contact.law == Law::elastic_shell) {
+    json["law"] = "elastic-shell";
+    json["shell_compression"] = contact.shell_compression;
+    return;
+  }
+  json["law"] = "hertz";
+  json["youngs_modulus_pa"] = contact.youngs_modulus;
+  json["poisson_ratio"] = contact.poisson_ratio;
+  if (contact.wall_youngs_modulus) {
+    json["wall_youngs_modulus_pa"] = *contact.wall_youngs_modulus;
+    json["wall_poisson_ratio"] = contact.wall_poisson_ratio;
+  }
+  if (contact.law == Law::hertz_viscous) json["damping_rate_per_s"] = contact.damping_rate;
+}
+
+void describe_friction_model(const Contact& contact, Json& json) {
+  if (contact.friction_model == FrictionModel::sliding) {
+    json["slip_speed_m_per_s"] = contact.slip_speed;
+    return;
+  }
+  json["friction_model"] = "spring";
+  if (contact.tangential_ratio) json["tangential_ratio"] = *contact.tangential_ratio;
+  json["tangential_damping"] = contact.tangential_damping;
+}
+
+void describe_rolling(const Contact& contact, Json& json) {
+  if (contact.rolling == Rolling::none) return;
+  json["rolling"] = contact.rolling == Rolling::spring ? "spring" : "constant-torque";
+  if (contact.rolling == Rolling::spring) json["rolling_damping"] = contact.rolling_damping;
 }
 
 Json describe(const Contact& contact) {
-  return {{"law", "elastic-shell"},
-          {"shell_compression", contact.shell_compression},
-          {"seed", describe(contact.seed)},
-          {"wall", describe(contact.wall)},
-          {"slip_speed_m_per_s", contact.slip_speed},
-          {"drag_kg_per_s", contact.drag},
-          {"rotation", contact.rotation},
-          {"friction_arm", contact.friction_arm == FrictionArm::rim ? "rim" : "contact-point"}};
+  Json json;
+  describe_law(contact, json);
+  json["seed"] = describe(contact.seed);
+  json["wall"] = describe(contact.wall);
+  for (const SurfaceOverride& pair : contact.overrides) {
+    Json surface = {{"lot", pair.lot}, {"other", pair.other}};
+    surface.update(describe(pair.surface));
+    json["pairs"].push_back(surface);
+  }
+  describe_friction_model(contact, json);
+  describe_rolling(contact, json);
+  json["drag_kg_per_s"] = contact.drag;
+  json["rotation"] = contact.rotation;
+  json["friction_arm"] = contact.friction_arm == FrictionArm::rim ? "rim" : "contact-point";
+  return json;
 }
 
 Json describe(const Fill& fill) {
@@ -64,12 +110,14 @@ Json describe(const Vessel& vessel) {
 }
 
 Json describe(const Numerics& numerics) {
-  Json json = {{"integrator", numerics.integrator == Integrator::rk2_midpoint ? "rk2-midpoint" : "velocity-verlet"}};
+  const char* integrators[] = {"velocity-verlet", "rk2-midpoint", "gear5"};
+  Json json = {{"integrator", integrators[static_cast<int>(numerics.integrator)]}};
   if (numerics.dt) {
     json["dt_s"] = *numerics.dt;
   } else {
     json["steps_per_contact"] = numerics.steps_per_contact;
   }
+  if (numerics.impact_speed) json["impact_speed_m_per_s"] = *numerics.impact_speed;
   json["allow_long_step"] = numerics.allow_long_step;
   return json;
 }
@@ -79,20 +127,22 @@ Json describe(const Numerics& numerics) {
 Json describe_scene(const Scene& scene) {
   Json lots = Json::array();
   for (const SeedLot& lot : scene.lots) lots.push_back(describe(lot));
-  return {{"lots", lots},
-          {"contact", describe(scene.contact)},
-          {"tray", describe(scene.tray)},
-          {"hopper", scene.hopper ? describe(*scene.hopper) : Json(nullptr)},
-          {"numerics", describe(scene.numerics)},
-          {"guard",
-           {{"warn_compression", scene.guard.warn_compression},
-            {"stop_compression", scene.guard.stop_compression},
-            {"energy_tolerance", scene.guard.energy_tolerance}}},
-          {"run",
-           {{"duration_s", scene.run.duration},
-            {"measure_from_s", scene.run.measure_from},
-            {"count_below_m", scene.run.count_below},
-            {"start", scene.run.start == Start::with_tray ? "with-tray" : "at-rest"}}}};
+  Json json = {{"lots", lots},
+               {"contact", describe(scene.contact)},
+               {"tray", describe(scene.tray)},
+               {"hopper", scene.hopper ? describe(*scene.hopper) : Json(nullptr)},
+               {"numerics", describe(scene.numerics)},
+               {"guard",
+                {{"warn_compression", scene.guard.warn_compression},
+                 {"stop_compression", scene.guard.stop_compression},
+                 {"energy_tolerance", scene.guard.energy_tolerance}}},
+               {"run",
+                {{"duration_s", scene.run.duration},
+                 {"measure_from_s", scene.run.measure_from},
+                 {"count_below_m", scene.run.count_below},
+                 {"start", scene.run.start == Start::with_tray ? "with-tray" : "at-rest"}}}};
+  if (scene.record) json["record"] = {{"times_s", scene.record->times}, {"cell_m", scene.record->cell}};
+  return json;
 }
 
 }  // namespace vibrosow

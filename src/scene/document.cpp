@@ -489,6 +489,11 @@ bool Table::is_list(const std::string& key) const {
   return found != nullptr && found->is_array();
 }
 
+bool Table::is_table(const std::string& key) const {
+  const toml::node* found = state_->find(key);
+  return found != nullptr && found->is_table();
+}
+
 void Table::skip(const std::string& key) {
   state_->know(key);
 }

@@ -15,6 +15,10 @@ constexpr ColumnUnit hertz{Dimension::frequency, "Hz", "Hz"};
 constexpr ColumnUnit gram{Dimension::mass, "g", "g"};
 constexpr ColumnUnit gram_per_second{Dimension::mass_rate, "g_per_s", "g/s"};
 constexpr ColumnUnit millimetre_per_second{Dimension::speed, "mm_per_s", "mm/s"};
+constexpr ColumnUnit metre_per_second{Dimension::speed, "m_per_s", "m/s"};
+constexpr ColumnUnit millinewton{Dimension::force, "mN", "mN"};
+constexpr ColumnUnit megapascal{Dimension::pressure, "MPa", "MPa"};
+constexpr ColumnUnit per_second{Dimension::rate, "per_s", "1/s"};
 constexpr ColumnUnit degree{Dimension::angle, "degree", "degree"};
 constexpr ColumnUnit density{Dimension::density, "kg_per_m3", "kg/m3"};
 constexpr ColumnUnit percent{Dimension::fraction, "percent", "%"};
@@ -43,6 +47,16 @@ constexpr std::array key_words = {
     KeyWord{"drag", gram_per_second},
     KeyWord{"rotation", {}},
     KeyWord{"friction_arm", {}},
+    KeyWord{"youngs_modulus", megapascal},
+    KeyWord{"poisson_ratio", {}},
+    KeyWord{"damping_rate", per_second},
+    KeyWord{"cohesion", millinewton},
+    KeyWord{"friction_model", {}},
+    KeyWord{"tangential_ratio", {}},
+    KeyWord{"tangential_damping", {}},
+    KeyWord{"rolling", {}},
+    KeyWord{"rolling_friction", {}},
+    KeyWord{"rolling_damping", {}},
     // vessels and their holes, fill and motion
     KeyWord{"length", millimetre},
     KeyWord{"height", millimetre},
@@ -65,10 +79,11 @@ constexpr std::array key_words = {
     KeyWord{"amplitude", millimetre},
     KeyWord{"frequency", hertz},
     KeyWord{"ramp", second},
-    // numerics, guard and run
+    // numerics, guard, run and record
     KeyWord{"integrator", {}},
     KeyWord{"steps_per_contact", {}},
     KeyWord{"dt", second},
+    KeyWord{"impact_speed", metre_per_second},
     KeyWord{"allow_long_step", {}},
     KeyWord{"warn_compression", {}},
     KeyWord{"stop_compression", {}},
@@ -77,6 +92,9 @@ constexpr std::array key_words = {
     KeyWord{"measure_from", second},
     KeyWord{"count_below", millimetre},
     KeyWord{"start", {}},
+    KeyWord{"times", second},
+    KeyWord{"every", second},
+    KeyWord{"cell", millimetre},
 };
 
 std::string_view last_word(std::string_view key) {

@@ -8,6 +8,7 @@
 
 #include "scene/document.hpp"
 #include "scene/presets.hpp"
+#include "scene/read_contact.hpp"
 #include "scene/read_vessel.hpp"
 
 namespace vibrosow {
@@ -88,39 +89,20 @@ std::vector<SeedLot> read_lots(Table seeds) {
   return lots;
 }
 
-Contact read_contact(Table table) {
-  use_preset(table, "model", "contacts");
-  Contact contact;
-  if (table.choice("law", {"elastic-shell", "hertz"}).value_or(0) != 0) {
-    table.fail("law", "\"hertz\" is not built yet; expected \"elastic-shell\"");
-  }
-  const auto shell_compression = table.number("shell_compression", 1e-12, 0.1);
-  if (!shell_compression) table.fail("shell_compression", "is missing; expected a number such as 1e-4");
-  contact.shell_compression = *shell_compression;
-  contact.seed.friction = table.number("friction", 0, 2).value_or(contact.seed.friction);
-  contact.seed.restitution = table.number("restitution", 0.05, 1).value_or(contact.seed.restitution);
-  contact.wall = contact.seed;
-  if (auto wall = table.table("wall")) {
-    contact.wall.friction = wall->number("friction", 0, 2).value_or(contact.seed.friction);
-    contact.wall.restitution = wall->number("restitution", 0.05, 1).value_or(contact.seed.restitution);
-  }
-  contact.slip_speed = table.quantity("slip_speed", Dimension::speed, 1e-6, 100).value_or(contact.slip_speed);
-  contact.drag = table.quantity("drag", Dimension::mass_rate, 0, 1000).value_or(contact.drag);
-  contact.rotation = table.boolean("rotation").value_or(contact.rotation);
-  const auto arm = table.choice("friction_arm", {"contact-point", "rim"});
-  contact.friction_arm = arm.value_or(0) == 0 ? FrictionArm::contact_point : FrictionArm::rim;
-  return contact;
-}
-
-Numerics read_numerics(Table table) {
+Numerics read_numerics(Table table, Law law) {
   Numerics numerics;
-  const auto integrator = table.choice("integrator", {"velocity-verlet", "rk2-midpoint"});
-  numerics.integrator = integrator.value_or(0) == 0 ? Integrator::velocity_verlet : Integrator::rk2_midpoint;
+  constexpr Integrator integrators[] = {Integrator::velocity_verlet, Integrator::rk2_midpoint, Integrator::gear5};
+  numerics.integrator =
+      integrators[table.choice("integrator", {"velocity-verlet", "rk2-midpoint", "gear5"}).value_or(0)];
   numerics.dt = table.quantity("dt", Dimension::time, 1e-12, 10);
   if (numerics.dt) numerics.where = table.where("dt");
   const auto steps = table.number("steps_per_contact", 1, 1e6);
   if (numerics.dt && steps) table.fail("steps_per_contact", "contradicts dt; give one of them");
   numerics.steps_per_contact = steps.value_or(numerics.steps_per_contact);
+  numerics.impact_speed = table.quantity("impact_speed", Dimension::speed, 1e-6, 1000);
+  if (numerics.impact_speed && law == Law::elastic_shell) {
+    table.fail("impact_speed", "belongs to law = \"hertz\"; an elastic shell's contact lasts as long at any speed");
+  }
   numerics.allow_long_step = table.boolean("allow_long_step").value_or(numerics.allow_long_step);
   return numerics;
 }
@@ -151,15 +133,47 @@ RunPlan read_run(Table table) {
   return run;
 }
 
+/// 0, every, 2 every, .. up to the end of the run, which a rounding error must not pass.
+std::vector<double> repeated_times(Table& table, double every, double duration) {
+  constexpr double most = 100'000, rounding = 1e-9;
+  const double count = std::floor(duration / every * (1 + rounding)) + 1;
+  if (count > most) table.fail("every", fmt::format("asks for {:.0f} pictures, more than {:.0f}", count, most));
+  std::vector<double> times;
+  for (int i = 0; i < static_cast<int>(count); ++i) times.push_back(std::min(i * every, duration));
+  return times;
+}
+
+std::vector<double> read_times(Table& table, double duration) {
+  const std::vector<double> times = table.quantities("times", Dimension::time, 0, duration);
+  const std::optional<double> every = table.quantity("every", Dimension::time, 1e-9, duration);
+  if (!times.empty() && every) table.fail("every", "contradicts times; give one of them");
+  if (every) return repeated_times(table, *every, duration);
+  if (times.empty()) table.fail("times", "is missing; give times such as [\"2 s\", \"6 s\"], or every");
+  for (std::size_t i = 1; i < times.size(); ++i) {
+    if (times[i] > times[i - 1]) continue;
+    table.fail("times", fmt::format("{:g} s after {:g} s; expected ascending times", times[i], times[i - 1]));
+  }
+  return times;
+}
+
+Record read_record(Table table, double duration, const std::vector<SeedLot>& lots) {
+  table.reject_keys_other_than({"times", "every", "cell"});
+  Record record;
+  record.times = read_times(table, duration);
+  record.cell = read_width(table, "cell", table.text("cell").value_or("2 diameters"), largest_diameter(lots));
+  return record;
+}
+
 }  // namespace
 
 Scene read_scene(const std::filesystem::path& file, const std::vector<Override>& overrides) {
   Table root(Document::read(file, overrides));
-  root.reject_keys_other_than({"title", "seeds", "contact", "tray", "hopper", "numerics", "guard", "run"});
+  root.reject_keys_other_than({"title", "seeds", "contact", "tray", "hopper", "numerics", "guard", "run", "record"});
   Scene scene;
   scene.title = root.text("title").value_or(file.stem().string());
-  scene.lots = read_lots(root.required_table("seeds"));
-  scene.contact = read_contact(root.required_table("contact"));
+  Table seeds = root.required_table("seeds");
+  scene.lots = read_lots(seeds);
+  scene.contact = read_contact(root.required_table("contact"), seeds, scene.lots);
   Table tray = root.required_table("tray");
   scene.tray = read_vessel(tray, "tray", scene.lots);
   if (auto hopper = root.table("hopper")) {
@@ -170,9 +184,10 @@ Scene read_scene(const std::filesystem::path& file, const std::vector<Override>&
   if (!scene.tray.fill && !(scene.hopper && scene.hopper->fill)) {
     tray.fail("fill", "is missing, and no hopper has one: there is nothing to sow");
   }
-  if (auto numerics = root.table("numerics")) scene.numerics = read_numerics(*numerics);
+  if (auto numerics = root.table("numerics")) scene.numerics = read_numerics(*numerics, scene.contact.law);
   if (auto guard = root.table("guard")) scene.guard = read_guard(*guard);
   scene.run = read_run(root.required_table("run"));
+  if (auto record = root.table("record")) scene.record = read_record(*record, scene.run.duration, scene.lots);
   root.reject_unknown_keys();
   return scene;
 }

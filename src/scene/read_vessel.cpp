@@ -24,14 +24,15 @@ double rounded(double length) {
   return std::round(length * 1e12) / 1e12;
 }
 
+}  // namespace
+
 double largest_diameter(const std::vector<SeedLot>& lots) {
   return std::max_element(lots.begin(), lots.end(),
                           [](const SeedLot& a, const SeedLot& b) { return a.diameter < b.diameter; })
       ->diameter;
 }
 
-/// A width is a length or a number of diameters.
-double read_width(const Table& table, const std::string& text, double diameter) {
+double read_width(const Table& table, const std::string& key, const std::string& text, double diameter) {
   static constexpr std::string_view expected_width = "a length such as \"16 mm\" or \"3 diameters\"";
   std::string as_length = text;
   double unit = 1;
@@ -44,13 +45,15 @@ double read_width(const Table& table, const std::string& text, double diameter) 
   try {
     width = rounded(parse_quantity(as_length, Dimension::length) * unit);
   } catch (const UnitError&) {
-    table.fail("width", fmt::format("\"{}\" is not a width; expected {}", text, expected_width));
+    table.fail(key, fmt::format("\"{}\" is not a {}; expected {}", text, key, expected_width));
   }
   if (!(width >= shortest && width <= longest)) {
-    table.fail("width", fmt::format("\"{}\" is out of range, which is from 0.001 mm to 100 m", text));
+    table.fail(key, fmt::format("\"{}\" is out of range, which is from 0.001 mm to 100 m", text));
   }
   return width;
 }
+
+namespace {
 
 std::vector<double> read_widths(Table& table, std::size_t holes, double diameter) {
   const std::vector<std::string> texts = table.texts("width", "a length such as \"16 mm\" or \"3 diameters\"");
@@ -60,7 +63,7 @@ std::vector<double> read_widths(Table& table, std::size_t holes, double diameter
                fmt::format("lists {} widths for {} holes; expected one for all or one each", texts.size(), holes));
   }
   std::vector<double> widths;
-  for (const std::string& text : texts) widths.push_back(read_width(table, text, diameter));
+  for (const std::string& text : texts) widths.push_back(read_width(table, "width", text, diameter));
   widths.resize(holes, widths.front());
   return widths;
 }

@@ -9,4 +9,11 @@ namespace vibrosow {
 /// counted in, and what has to fit. Throws InputError like read_scene.
 Vessel read_vessel(Table table, const std::string& name, const std::vector<SeedLot>& lots);
 
+/// m; `lots` is not empty.
+double largest_diameter(const std::vector<SeedLot>& lots);
+
+/// `text`, the value of `key`, in m: a length such as "16 mm", or "3 diameters" of `diameter`. Throws InputError at
+/// `key` when it is neither, or not from 1e-6 m to 100 m.
+double read_width(const Table& table, const std::string& key, const std::string& text, double diameter);
+
 }  // namespace vibrosow

@@ -55,6 +55,7 @@ struct Surface {
   double restitution = 1;       // of a head-on impact, (0, 1]; 1 is elastic
   double rolling_friction = 0;  // largest rolling torque over normal force and rolling radius
   double cohesion = 0;          // N, pull of two surfaces that touch
+  bool operator==(const Surface&) const = default;
 };
 
 /// The surface between two lots, or a lot and the walls, where it is not the contact's general one.

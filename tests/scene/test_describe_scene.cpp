@@ -3,6 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <functional>
+#include <map>
+#include <string>
+#include <vector>
 
 namespace vibrosow {
 namespace {
@@ -17,6 +20,14 @@ Scene example() {
   scene.tray.motion = HarmonicMotion{0, 0.01, 9, 0};
   scene.hopper = scene.tray;
   return scene;
+}
+
+void use_spring(Scene& scene) {
+  scene.contact.friction_model = FrictionModel::spring;
+}
+
+void use_hertz(Scene& scene) {
+  scene.contact.law = Law::hertz_viscous;
 }
 
 TEST(DescribeScene, TitleDoesNotCount) {
@@ -73,12 +84,62 @@ TEST(DescribeScene, EverythingThatActsCounts) {
       [](Scene& s) { s.run.measure_from = 9; },
       [](Scene& s) { s.run.count_below = 9; },
       [](Scene& s) { s.run.start = Start::with_tray; },
+      [](Scene& s) { s.lots[0].shell_compression = 1e-5; },
+      [](Scene& s) { s.contact.seed.rolling_friction = 0.1; },
+      [](Scene& s) { s.contact.wall.rolling_friction = 0.1; },
+      [](Scene& s) { s.contact.seed.cohesion = 1e-3; },
+      [](Scene& s) { s.contact.wall.cohesion = 1e-3; },
+      [](Scene& s) {
+        s.contact.overrides = {{0, -1, s.contact.wall}};
+      },
+      [](Scene& s) {
+        s.contact.overrides = {{0, 0, s.contact.seed}};
+      },
+      [](Scene& s) {
+        s.contact.overrides = {{0, -1, {0.1, 1}}};
+      },
+      [](Scene& s) {
+        s.contact.overrides = {{0, -1, {0, 0.1}}};
+      },
+      [](Scene& s) {
+        s.contact.overrides = {{0, -1, {0, 1, 0.1}}};
+      },
+      [](Scene& s) {
+        s.contact.overrides = {{0, -1, {0, 1, 0, 0.1}}};
+      },
+      [](Scene& s) { s.contact.friction_model = FrictionModel::spring; },
+      [](Scene& s) { use_spring(s), s.contact.tangential_ratio = 0.5; },
+      [](Scene& s) { use_spring(s), s.contact.tangential_damping = 0.1; },
+      [](Scene& s) { s.contact.rolling = Rolling::constant_torque; },
+      [](Scene& s) { s.contact.rolling = Rolling::spring; },
+      [](Scene& s) { s.contact.rolling = Rolling::spring, s.contact.rolling_damping = 0.1; },
+      [](Scene& s) { s.contact.law = Law::hertz; },
+      [](Scene& s) { s.contact.law = Law::hertz_viscous; },
+      [](Scene& s) { use_hertz(s), s.contact.youngs_modulus = 1e9; },
+      [](Scene& s) { use_hertz(s), s.contact.poisson_ratio = 0.1; },
+      [](Scene& s) { use_hertz(s), s.contact.damping_rate = 1e4; },
+      [](Scene& s) { use_hertz(s), s.contact.wall_youngs_modulus = 1e9; },
+      [](Scene& s) { use_hertz(s), s.contact.wall_youngs_modulus = 1e9, s.contact.wall_poisson_ratio = 0.1; },
+      [](Scene& s) { use_hertz(s), s.lots[0].youngs_modulus = 1e9; },
+      [](Scene& s) { use_hertz(s), s.lots[0].poisson_ratio = 0.1; },
+      [](Scene& s) { s.numerics.integrator = Integrator::gear5; },
+      [](Scene& s) { s.numerics.impact_speed = 1; },
+      [](Scene& s) {
+        s.record = Record{{}, 0.01};
+      },
+      [](Scene& s) {
+        s.record = Record{{1, 2}, 0.01};
+      },
+      [](Scene& s) {
+        s.record = Record{{1, 2}, 0.02};
+      },
   };
-  const std::string plain = describe_scene(example()).dump();
+  std::map<std::string, std::size_t> known{{describe_scene(example()).dump(), changes.size()}};
   for (std::size_t i = 0; i < changes.size(); ++i) {
     Scene changed = example();
     changes[i](changed);
-    EXPECT_NE(describe_scene(changed).dump(), plain) << "change number " << i;
+    const auto [same, is_new] = known.emplace(describe_scene(changed).dump(), i);
+    EXPECT_TRUE(is_new) << "change number " << i << " is described like number " << same->second;
   }
 }
 

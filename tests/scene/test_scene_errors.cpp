@@ -4,6 +4,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <ostream>
+#include <regex>
 #include <sstream>
 
 #include "scene/input_error.hpp"
@@ -45,6 +47,12 @@ const std::vector<std::string> base = {
     "duration = '10 s'",         // 25
 };
 
+std::string joined(const std::vector<std::string>& lines) {
+  std::ostringstream whole;
+  for (const std::string& line : lines) whole << line << "\n";
+  return whole.str();
+}
+
 struct Case {
   std::size_t line;  // replaced by the text; text starting with "+" is added after it
   const char* text;
@@ -52,6 +60,10 @@ struct Case {
   const char* key;
   const char* message;
 };
+
+void PrintTo(const Case& wrong, std::ostream* out) {
+  *out << wrong.key << " by line " << wrong.line << ": " << std::regex_replace(wrong.text, std::regex("\n"), " / ");
+}
 
 class SceneError : public testing::TestWithParam<Case> {};
 
@@ -64,10 +76,8 @@ TEST_P(SceneError, NamesFileLineKeyAndReason) {
   } else {
     lines[wrong.line - 1] = text;
   }
-  std::ostringstream whole;
-  for (const std::string& line : lines) whole << line << "\n";
   const TemporaryFolder folder;
-  const auto file = folder.write("seeder.toml", whole.str());
+  const auto file = folder.write("seeder.toml", joined(lines));
   const std::string place =
       file.string() + (wrong.error_line > 0 ? ":" + std::to_string(wrong.error_line) : "") + ": " + wrong.key + ": ";
   EXPECT_THAT([&] { read_scene(file); },
@@ -75,10 +85,8 @@ TEST_P(SceneError, NamesFileLineKeyAndReason) {
 }
 
 TEST(SceneErrors, BaseIsRight) {
-  std::ostringstream whole;
-  for (const std::string& line : base) whole << line << "\n";
   const TemporaryFolder folder;
-  EXPECT_NO_THROW(read_scene(folder.write("seeder.toml", whole.str())));
+  EXPECT_NO_THROW(read_scene(folder.write("seeder.toml", joined(base))));
 }
 
 TEST(SceneErrors, FileThatIsNotThereAndNotToml) {
@@ -90,14 +98,20 @@ TEST(SceneErrors, FileThatIsNotThereAndNotToml) {
 
 INSTANTIATE_TEST_SUITE_P(
     UnknownKeys, SceneError,
-    testing::Values(Case{12, "widht = '16 mm'", 12, "tray.holes.widht", "did you mean \"width\"?"},
-                    Case{12, "+spann = '16 mm'", 13, "tray.holes.spann", "did you mean \"span\"?"},
-                    Case{8, "+colour = 'red'", 9, "tray.colour", "unknown key"},
-                    Case{25, "durration = '10 s'", 25, "run.durration", "did you mean \"duration\"?"},
-                    Case{6, "[tary]", 6, "tary", "did you mean \"tray\"?"},
-                    Case{9, "fill = { count = 600, keap = true }", 9, "tray.fill.keap", "did you mean \"keep\"?"},
-                    Case{5, "+[contact.wheat.wall]", 6, "contact.wheat", "unknown key"},
-                    Case{22, "[numeric]", 22, "numeric", "did you mean \"numerics\"?"}));
+    testing::Values(
+        Case{12, "widht = '16 mm'", 12, "tray.holes.widht", "did you mean \"width\"?"},
+        Case{12, "+spann = '16 mm'", 13, "tray.holes.spann", "did you mean \"span\"?"},
+        Case{8, "+colour = 'red'", 9, "tray.colour", "unknown key"},
+        Case{25, "durration = '10 s'", 25, "run.durration", "did you mean \"duration\"?"},
+        Case{6, "[tary]", 6, "tary", "did you mean \"tray\"?"},
+        Case{9, "fill = { count = 600, keap = true }", 9, "tray.fill.keap", "did you mean \"keep\"?"},
+        Case{5, "+[contact.wheat.wall]\nfrictoin = 1", 7, "contact.wheat.wall.frictoin", "did you mean \"friction\"?"},
+        Case{5, "+rollin_friction = 0.1", 6, "contact.rollin_friction", "did you mean \"rolling_friction\"?"},
+        Case{5, "+rolling = 'spring'\nroling_friction = 0.1", 7, "contact.roling_friction",
+             "did you mean \"rolling_friction\"?"},
+        Case{25, "+[recrod]", 26, "recrod", "did you mean \"record\"?"},
+        Case{25, "+[record]\nevry = '1 s'", 27, "record.evry", "did you mean \"every\"?"},
+        Case{22, "[numeric]", 22, "numeric", "did you mean \"numerics\"?"}));
 
 INSTANTIATE_TEST_SUITE_P(
     Missing, SceneError,
@@ -175,21 +189,21 @@ INSTANTIATE_TEST_SUITE_P(
 
 INSTANTIATE_TEST_SUITE_P(
     Choices, SceneError,
-    testing::Values(
-        Case{5, "+law = 'hertz'", 6, "contact.law", "not built yet"},
-        Case{5, "+law = 'spring'", 6, "contact.law", "is not one of elastic-shell, hertz"},
-        Case{5, "+friction_arm = 'rimm'", 6, "contact.friction_arm", "did you mean \"rim\"?"},
-        Case{3, "+shape = 'cube'", 4, "seeds.wheat.shape", "is not one of disc, ball"},
-        Case{9, "fill = { count = 6, packing = 'pored' }", 9, "tray.fill.packing", "did you mean \"poured\"?"},
-        Case{14, "kind = 'rocking'", 14, "tray.motion.kind", "not built yet"},
-        Case{14, "kind = 'circular'", 14, "tray.motion.kind", "is not one of"},
-        Case{22, "+integrator = 'verlet'", 23, "numerics.integrator", "is not one of velocity-verlet, rk2-midpoint"},
-        Case{25, "+start = 'now'", 26, "run.start", "is not one of at-rest, with-tray"},
-        Case{1, "[seeds.all]", 1, "seeds.all", "is not \"all\" or \"wall\""},
-        Case{1, "[seeds.'a,b']", 1, "seeds.a,b", "letters, digits"},
-        Case{3, "+crop = 'weat'", 4, "seeds.wheat.crop", "did you mean \"wheat\"?"},
-        Case{3, "+crop = 'none.toml'", 4, "seeds.wheat.crop", "there is no file"},
-        Case{5, "+model = 'wheat-steal'", 6, "contact.model", "did you mean \"wheat-steel\"?"}));
+    testing::Values(Case{5, "+law = 'spring'", 6, "contact.law", "is not one of elastic-shell, hertz"},
+                    Case{5, "+friction_arm = 'rimm'", 6, "contact.friction_arm", "did you mean \"rim\"?"},
+                    Case{3, "+shape = 'cube'", 4, "seeds.wheat.shape", "is not one of disc, ball"},
+                    Case{9, "fill = { count = 6, packing = 'pored' }", 9, "tray.fill.packing",
+                         "did you mean \"poured\"?"},
+                    Case{14, "kind = 'rocking'", 14, "tray.motion.kind", "not built yet"},
+                    Case{14, "kind = 'circular'", 14, "tray.motion.kind", "is not one of"},
+                    Case{22, "+integrator = 'verlet'", 23, "numerics.integrator",
+                         "is not one of velocity-verlet, rk2-midpoint, gear5"},
+                    Case{25, "+start = 'now'", 26, "run.start", "is not one of at-rest, with-tray"},
+                    Case{1, "[seeds.all]", 1, "seeds.all", "is not \"all\" or \"wall\""},
+                    Case{1, "[seeds.'a,b']", 1, "seeds.a,b", "letters, digits"},
+                    Case{3, "+crop = 'weat'", 4, "seeds.wheat.crop", "did you mean \"wheat\"?"},
+                    Case{3, "+crop = 'none.toml'", 4, "seeds.wheat.crop", "there is no file"},
+                    Case{5, "+model = 'wheat-steal'", 6, "contact.model", "did you mean \"wheat-steel\"?"}));
 
 INSTANTIATE_TEST_SUITE_P(
     Contradictions, SceneError,
@@ -229,6 +243,145 @@ INSTANTIATE_TEST_SUITE_P(
              " touches hole 2 at 110 mm"},
         Case{11, "at = []", 11, "tray.holes.at", "the list is empty"},
         Case{11, "at = [10, 20]", 11, "tray.holes.at", "must be a quantity with its unit"}));
+
+constexpr const char* two_lots =
+    "mass = '30 mg'\nmass_share = '50 %'\n[seeds.pea]\ndiameter = '7 mm'\nmass = '0.2 g'\nmass_share = '50 %'";
+
+INSTANTIATE_TEST_SUITE_P(
+    Laws, SceneError,
+    testing::Values(
+        Case{5, "+law = 'hertz'", 5, "contact.shell_compression", "belongs to the elastic shell"},
+        Case{5, "law = 'hertz'", 4, "contact.youngs_modulus",
+             "is missing; law = \"hertz\" needs it here or in every lot"},
+        Case{5, "+youngs_modulus = '1 GPa'", 6, "contact.youngs_modulus", "belongs to law = \"hertz\""},
+        Case{5, "+poisson_ratio = 0.2", 6, "contact.poisson_ratio", "belongs to law = \"hertz\""},
+        Case{5, "+damping_rate = '1 1/s'", 6, "contact.damping_rate", "belongs to law = \"hertz\""},
+        Case{5, "+wall = { youngs_modulus = '1 GPa' }", 6, "contact.wall.youngs_modulus", "belongs to law = \"hertz\""},
+        Case{5, "+wall = { poisson_ratio = 0.2 }", 6, "contact.wall.poisson_ratio", "belongs to law = \"hertz\""},
+        Case{3, "+youngs_modulus = '1 GPa'", 4, "seeds.wheat.youngs_modulus", "belongs to law = \"hertz\""},
+        Case{3, "+poisson_ratio = 0.2", 4, "seeds.wheat.poisson_ratio", "belongs to law = \"hertz\""},
+        Case{5, "law = 'hertz'\nyoungs_modulus = '1 GPa'\nwall = { poisson_ratio = 0.2 }", 7,
+             "contact.wall.poisson_ratio", "without which walls are rigid"},
+        Case{22, "+impact_speed = '1 m/s'", 23, "numerics.impact_speed", "belongs to law = \"hertz\""}));
+
+INSTANTIATE_TEST_SUITE_P(
+    LawRanges, SceneError,
+    testing::Values(
+        Case{3, "+shell_compression = 0.2", 4, "seeds.wheat.shell_compression", "must be a number from"},
+        Case{3, "+youngs_modulus = '0 Pa'", 4, "seeds.wheat.youngs_modulus", "out of range"},
+        Case{3, "+poisson_ratio = 0.6", 4, "seeds.wheat.poisson_ratio", "from 0 to 0.5"},
+        Case{5, "law = 'hertz'\nyoungs_modulus = '0 Pa'", 6, "contact.youngs_modulus", "from 1 Pa to 1e+13 Pa"},
+        Case{5, "law = 'hertz'\nyoungs_modulus = 5e10", 6, "contact.youngs_modulus", "a pressure such as \"5e4 MPa\""},
+        Case{5, "law = 'hertz'\nyoungs_modulus = '5 N'", 6, "contact.youngs_modulus", "wrong unit \"N\""},
+        Case{5, "law = 'hertz'\nyoungs_modulus = '1 GPa'\npoisson_ratio = 0.51", 7, "contact.poisson_ratio",
+             "0 to 0.5"},
+        Case{5, "law = 'hertz'\nyoungs_modulus = '1 GPa'\ndamping_rate = '-1 1/s'", 7, "contact.damping_rate",
+             "out of range, which is from 0 1/s to 1e+09 1/s"},
+        Case{5, "law = 'hertz'\nyoungs_modulus = '1 GPa'\ndamping_rate = '9 Hz'", 7, "contact.damping_rate",
+             "wrong unit \"Hz\"; expected a rate such as \"2.1e4 1/s\""},
+        Case{22, "+impact_speed = '0 m/s'", 23, "numerics.impact_speed", "out of range"},
+        Case{5, "+cohesion = '-1 mN'", 6, "contact.cohesion", "out of range"},
+        Case{5, "+cohesion = '1 mg'", 6, "contact.cohesion", "expected a force such as \"0.2 mN\""},
+        Case{5, "+rolling_friction = 2.1", 6, "contact.rolling_friction", "from 0 to 2"},
+        Case{5, "+rolling_damping = 11", 6, "contact.rolling_damping", "from 0 to 10"},
+        Case{5, "+tangential_ratio = 0", 6, "contact.tangential_ratio", "from 0.01 to 10"},
+        Case{5, "+tangential_damping = -1", 6, "contact.tangential_damping", "from 0 to 10"}));
+
+INSTANTIATE_TEST_SUITE_P(
+    Damping, SceneError,
+    testing::Values(
+        Case{5, "law = 'hertz'\nyoungs_modulus = '1 GPa'\ndamping_rate = '1 1/s'\nrestitution = 0.5", 7,
+             "contact.damping_rate", "contradicts contact.restitution; give one of them"},
+        Case{5, "law = 'hertz'\nyoungs_modulus = '1 GPa'\ndamping_rate = '1 1/s'\nwall = { restitution = 0.5 }", 7,
+             "contact.damping_rate", "contradicts contact.wall.restitution; give one of them"},
+        Case{5, "law = 'hertz'\nyoungs_modulus = '1 GPa'\ndamping_rate = '1 1/s'\nwheat.wall = { restitution = 0.5 }",
+             7, "contact.damping_rate", "contradicts contact.wheat.wall.restitution; give one of them"},
+        Case{5,
+             "law = 'hertz'\nyoungs_modulus = '1 GPa'\ndamping_rate = '1 1/s'\nmodel = 'wheat-steel'\n"
+             "restitution = 0.5",
+             7, "contact.damping_rate", "contradicts contact.restitution; give one of them"}));
+
+INSTANTIATE_TEST_SUITE_P(FrictionModels, SceneError,
+                         testing::Values(Case{5, "+friction_model = 'springs'", 6, "contact.friction_model",
+                                              "did you mean \"spring\"?"},
+                                         Case{5, "+friction_model = 'spring'\nslip_speed = '20 mm/s'", 7,
+                                              "contact.slip_speed", "contradicts friction_model = \"spring\""},
+                                         Case{5, "+tangential_ratio = 1", 6, "contact.tangential_ratio",
+                                              "needs friction_model = \"spring\""},
+                                         Case{5, "+friction_model = 'sliding'\ntangential_damping = 1", 7,
+                                              "contact.tangential_damping", "needs friction_model = \"spring\""}));
+
+INSTANTIATE_TEST_SUITE_P(
+    RollingModels, SceneError,
+    testing::Values(
+        Case{5, "+rolling = 'viscous'", 6, "contact.rolling", "is not one of none, constant-torque, spring"},
+        Case{5, "+rolling_friction = 0.1", 6, "contact.rolling_friction",
+             "needs rolling = \"constant-torque\" or \"spring\""},
+        Case{5, "+rolling = 'none'\nrolling_friction = 0.1", 7, "contact.rolling_friction", "needs rolling = "},
+        Case{5, "+wall = { rolling_friction = 0.1 }", 6, "contact.wall.rolling_friction", "needs rolling = "},
+        Case{5, "+wheat.wheat = { rolling_friction = 0.1 }", 6, "contact.wheat.wheat.rolling_friction",
+             "needs rolling = "},
+        Case{5, "+rolling = 'spring'", 4, "contact.rolling_friction", "is missing; a rolling model needs it"},
+        Case{5, "+rolling = 'spring'\nrolling_friction = 0.1\nrotation = false", 6, "contact.rolling",
+             "needs rotation"},
+        Case{5, "+rolling = 'constant-torque'\nrolling_friction = 0.1\nrolling_damping = 0.1", 8,
+             "contact.rolling_damping", "needs rolling = \"spring\""},
+        Case{5, "+rolling_damping = 0.1", 6, "contact.rolling_damping", "needs rolling = \"spring\""}));
+
+INSTANTIATE_TEST_SUITE_P(
+    Pairs, SceneError,
+    testing::Values(
+        Case{5, "+[contact.weat.wall]\nfriction = 0.1", 6, "contact.weat",
+             "\"weat\" is not one of wheat, wall; did you mean \"wheat\"?"},
+        Case{5, "+[contact.wal]\nfriction = 0.1", 6, "contact.wal", "did you mean \"wall\"?"},
+        Case{5, "+[contact.wheat.wal]\nfriction = 0.1", 6, "contact.wheat.wal", "did you mean \"wall\"?"},
+        Case{5, "+[contact.wheat]\nfriction = 0.1", 7, "contact.wheat.friction",
+             "a pair of materials is [contact.LOT.LOT] or [contact.LOT.wall]"},
+        Case{5, "+wheat = 0.1", 6, "contact.wheat", "unknown key"},
+        Case{5, "+wheat.wall = 0.1", 6, "contact.wheat.wall", "must be a table"},
+        Case{5, "+wheat.wall = { friction = 3 }", 6, "contact.wheat.wall.friction", "from 0 to 2"},
+        Case{5, "+wheat.wall = { slip_speed = '1 m/s' }", 6, "contact.wheat.wall.slip_speed", "unknown key"},
+        Case{5, "+wall.wheat = { friction = 0.1 }", 6, "contact.wall.wheat", "is written [contact.wheat.wall]"}));
+
+TEST(SceneErrors, ShellOfALotUnderHertz) {
+  std::vector<std::string> lines = base;
+  lines[2] += "\nshell_compression = 1e-4";
+  lines[4] = "law = 'hertz'\nyoungs_modulus = '1 GPa'";
+  const TemporaryFolder folder;
+  const auto file = folder.write("seeder.toml", joined(lines));
+  EXPECT_THAT([&] { read_scene(file); },
+              ThrowsMessage<InputError>(
+                  HasSubstr("seeder.toml:4: seeds.wheat.shell_compression: belongs to the elastic shell")));
+}
+
+TEST(SceneErrors, APairGivenTwice) {
+  std::vector<std::string> lines = base;
+  lines[2] = two_lots;
+  lines[4] += "\n[contact.wheat.pea]\nfriction = 0.1\n[contact.pea.wheat]\nfriction = 0.2";
+  const TemporaryFolder folder;
+  const auto file = folder.write("seeder.toml", joined(lines));
+  EXPECT_THAT([&] { read_scene(file); },
+              ThrowsMessage<InputError>(HasSubstr(
+                  "seeder.toml:13: contact.pea.wheat: is the pair contact.wheat.pea again; give one of them")));
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Records, SceneError,
+    testing::Values(
+        Case{25, "+[record]", 26, "record.times", "is missing; give times such as [\"2 s\", \"6 s\"], or every"},
+        Case{25, "+[record]\ntimes = '2 s'\nevery = '1 s'", 28, "record.every", "contradicts times"},
+        Case{25, "+[record]\ntimes = ['2 s', '11 s']", 27, "record.times", "\"11 s\" is out of range"},
+        Case{25, "+[record]\ntimes = ['-1 s']", 27, "record.times", "out of range, which is from 0 s to 10 s"},
+        Case{25, "+[record]\ntimes = ['3 s', '2 s']", 27, "record.times", "2 s after 3 s; expected ascending times"},
+        Case{25, "+[record]\ntimes = ['3 s', '3 s']", 27, "record.times", "3 s after 3 s; expected ascending times"},
+        Case{25, "+[record]\ntimes = []", 27, "record.times", "the list is empty"},
+        Case{25, "+[record]\ntimes = [1, 2]", 27, "record.times", "must be a quantity with its unit"},
+        Case{25, "+[record]\nevery = '0 s'", 27, "record.every", "out of range"},
+        Case{25, "+[record]\nevery = '11 s'", 27, "record.every", "out of range"},
+        Case{25, "+[record]\nevery = '10 us'", 27, "record.every", "asks for 1000001 pictures, more than 100000"},
+        Case{25, "+[record]\nevery = '1 s'\ncell = '2 x'", 28, "record.cell", "is not a cell; expected a length"},
+        Case{25, "+[record]\nevery = '1 s'\ncell = '0 diameters'", 28, "record.cell", "out of range"},
+        Case{25, "+[record]\nevery = '1 s'\ncell = 2", 28, "record.cell", "in quotes"}));
 
 }  // namespace
 }  // namespace vibrosow

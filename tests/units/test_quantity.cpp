@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <numbers>
+#include <ostream>
 #include <string>
 #include <thread>
 #include <vector>
@@ -32,6 +33,12 @@ TEST(Quantity, DecimalUnitsAreExact) {
   EXPECT_EQ(parse_quantity("1592 kg/m3", Dimension::density), 1592);
   EXPECT_EQ(parse_quantity("1592 kg/m^3", Dimension::density), 1592);
   EXPECT_EQ(parse_quantity("1.592 g/cm3", Dimension::density), 1592);
+  EXPECT_EQ(parse_quantity("0.2 mN", Dimension::force), 0.0002);
+  EXPECT_EQ(parse_quantity("5e4 MPa", Dimension::pressure), 5e10);
+  EXPECT_EQ(parse_quantity("210 GPa", Dimension::pressure), 210e9);
+  EXPECT_EQ(parse_quantity("3 N/mm2", Dimension::pressure), 3e6);
+  EXPECT_EQ(parse_quantity("2.1e4 1/s", Dimension::rate), 2.1e4);
+  EXPECT_EQ(parse_quantity("21 1/ms", Dimension::rate), 21000);
 }
 
 TEST(Quantity, OtherUnits) {
@@ -61,6 +68,10 @@ struct Wrong {
   Dimension dimension;
   const char* message;
 };
+
+void PrintTo(const Wrong& wrong, std::ostream* out) {
+  *out << '"' << wrong.text << "\" for " << si_unit(wrong.dimension);
+}
 
 class RefusedQuantity : public testing::TestWithParam<Wrong> {};
 
@@ -112,12 +123,19 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Values(Wrong{"8 kg", Dimension::length, wrong_unit}, Wrong{"8 mm", Dimension::mass, wrong_unit},
                     Wrong{"20 degC", Dimension::length, wrong_unit}, Wrong{"20 K", Dimension::time, wrong_unit},
                     Wrong{"3 kg", Dimension::mass_rate, wrong_unit}, Wrong{"3 mm2", Dimension::length, wrong_unit},
-                    Wrong{"3 g", Dimension::density, wrong_unit}, Wrong{"3 furlongz", Dimension::length, wrong_unit}));
+                    Wrong{"3 g", Dimension::density, wrong_unit}, Wrong{"3 furlongz", Dimension::length, wrong_unit},
+                    Wrong{"3 g", Dimension::force, wrong_unit}, Wrong{"3 N", Dimension::pressure, wrong_unit},
+                    Wrong{"3 Pa", Dimension::force, wrong_unit}, Wrong{"3 mpa", Dimension::pressure, wrong_unit},
+                    Wrong{"3 Hz", Dimension::rate, wrong_unit},  // turns, not radians
+                    Wrong{"3 rpm", Dimension::rate, wrong_unit}, Wrong{"3 rad/s", Dimension::rate, wrong_unit},
+                    Wrong{"3 s", Dimension::rate, wrong_unit}, Wrong{"3 1/m", Dimension::rate, not_plain},
+                    Wrong{"3 1/s", Dimension::length, not_plain}, Wrong{"3 1/s2", Dimension::rate, not_plain},
+                    Wrong{"3 /s", Dimension::rate, not_plain}, Wrong{"1/s", Dimension::rate, not_plain}));
 
 TEST(Quantity, EveryDimensionReadsItsOwnExample) {
-  for (const Dimension dimension :
-       {Dimension::length, Dimension::time, Dimension::frequency, Dimension::mass, Dimension::mass_rate,
-        Dimension::speed, Dimension::angle, Dimension::density, Dimension::fraction}) {
+  for (const Dimension dimension : {Dimension::length, Dimension::time, Dimension::frequency, Dimension::mass,
+                                    Dimension::mass_rate, Dimension::speed, Dimension::angle, Dimension::density,
+                                    Dimension::fraction, Dimension::force, Dimension::pressure, Dimension::rate}) {
     const std::string text(expected(dimension));
     const auto open = text.find('"');
     const std::string example = text.substr(open + 1, text.rfind('"') - open - 1);
