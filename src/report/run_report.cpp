@@ -1,10 +1,14 @@
 #include "report/run_report.hpp"
 
 #include <fmt/format.h>
+
+#include <algorithm>
+#include <iterator>
 #include <nlohmann/json.hpp>
 
 #include "report/csv.hpp"
 #include "report/output_files.hpp"
+#include "report/record_report.hpp"
 #include "scene/describe_scene.hpp"
 #include "units/quantity.hpp"
 
@@ -136,10 +140,12 @@ std::string timing_json(const Run& run) {
 
 void write_run_report(const std::filesystem::path& directory, const Scene& scene, const Run& run,
                       const Outflow& outflow, const std::vector<std::string>& effects) {
-  write_files_atomically(directory, {{"outflow.csv", outflow_csv(scene, run)},
-                                     {"summary.csv", summary_csv(outflow)},
-                                     {"run.json", run_json(scene, run, outflow, effects)},
-                                     {"timing.json", timing_json(run)}});
+  std::vector<OutputFile> files = {{"outflow.csv", outflow_csv(scene, run)},
+                                   {"summary.csv", summary_csv(outflow)},
+                                   {"run.json", run_json(scene, run, outflow, effects)},
+                                   {"timing.json", timing_json(run)}};
+  std::ranges::move(record_files(scene, run), std::back_inserter(files));
+  write_files_atomically(directory, files);
 }
 
 }  // namespace vibrosow

@@ -25,8 +25,8 @@ std::string run_json(const Scene& scene, const Run& run, const Outflow& outflow,
 /// What the run took on this machine.
 std::string timing_json(const Run& run);
 
-/// Writes outflow.csv, summary.csv, run.json and timing.json into `directory`, all or none. Throws InputError
-/// where that fails.
+/// Writes outflow.csv, summary.csv, run.json, timing.json and the files of a record into `directory`, all or none.
+/// Throws InputError where that fails.
 void write_run_report(const std::filesystem::path& directory, const Scene& scene, const Run& run,
                       const Outflow& outflow, const std::vector<std::string>& effects);
 

@@ -4,6 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "simulation/snapshot.hpp"
+
 namespace vibrosow {
 
 /// A grain leaving: its centre crossed the counting line.
@@ -53,6 +55,7 @@ struct Run {
   EnergyAccount energy;
   Balance balance;
   std::vector<OutflowEvent> events;  // by time
+  std::vector<Snapshot> snapshots;   // one a record time that was reached; empty without a record
   double wall_time = 0;              // s, of this machine
   double neighbour_time = 0;         // s, of wall_time: boxes, lists, walls put in place
   double force_time = 0;             // s, of wall_time: the kernels

@@ -46,6 +46,10 @@ Simulation::Simulation(const Scene& scene, Grains grains, const SimulationSetup&
   start_integration(s_);
   guard_.watch_step(s_);
   guard_.watch_energy(s_, run_.energy);
+  if (!scene_.record) return;
+  recorder_.emplace(scene_);
+  recorder_->note_new(grains_);
+  recorder_->record(grains_, s_.time, run_.snapshots);
 }
 
 bool Simulation::step() {
@@ -61,6 +65,7 @@ bool Simulation::step() {
   if (s_.step % steps_per_removal_ == 0) take_out(), note_whether_dry();
   if (feeder_.feeds() && s_.step % steps_per_feed_ == 0) feed();
   if (s_.step % steps_per_energy_account == 0) guard_.watch_energy(s_, run_.energy);
+  if (recorder_ && recorder_->is_due(s_.time)) recorder_->record(grains_, s_.time, run_.snapshots);
   return !guard_.stop_reason();
 }
 
@@ -122,6 +127,7 @@ void Simulation::feed() {
     run_.energy.inserted += mechanical_energy(grains_, i, s_.gravity);
     counter_.add_grain();
   }
+  if (recorder_) recorder_->note_new(grains_);
   field_.grains_added();
   add_to_integration(s_);
 }

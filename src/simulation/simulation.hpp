@@ -1,11 +1,13 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 
 #include "simulation/counter.hpp"
 #include "simulation/feeder.hpp"
 #include "simulation/guard.hpp"
 #include "simulation/integrator.hpp"
+#include "simulation/recorder.hpp"
 #include "simulation/run.hpp"
 
 namespace vibrosow {
@@ -58,6 +60,7 @@ class Simulation {
   Counter counter_;
   Feeder feeder_;
   Guard guard_;
+  std::optional<Recorder> recorder_;
   Run run_;
   std::int64_t steps_per_removal_, steps_per_feed_;
 };

@@ -1,0 +1,68 @@
+#include "fields/packing_fraction.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace vibrosow {
+namespace {
+
+constexpr double pi = std::numbers::pi;
+
+/// Area of the unit disc left of x = t, |t| <= 1.
+double area_left_of(double t) {
+  return 0.5 * pi + std::asin(t) + t * std::sqrt(1 - t * t);
+}
+
+/// Area of the unit disc left of x = a and below y = b.
+double area_left_and_below(double a, double b) {
+  a = std::clamp(a, -1.0, 1.0), b = std::clamp(b, -1.0, 1.0);
+  if (a * a + b * b < 1)
+    return a * b + 0.5 * (a * std::sqrt(1 - a * a) + b * std::sqrt(1 - b * b) + std::asin(a) + std::asin(b)) +
+           0.25 * pi;
+  if (a > 0 && b > 0) return area_left_of(a) + area_left_of(b) - pi;
+  if (a > 0) return area_left_of(b);
+  return b > 0 ? area_left_of(a) : 0.0;
+}
+
+}  // namespace
+
+double disc_in_rectangle(double radius, const Eigen::Vector2d& low, const Eigen::Vector2d& high) {
+  const Eigen::Vector2d a = low / radius, b = high / radius;
+  const Eigen::Vector2d nearest(std::clamp(0.0, a.x(), b.x()), std::clamp(0.0, a.y(), b.y()));
+  if (nearest.squaredNorm() >= 1) return 0;  // exactly, without a rounding error left over
+  const double area = area_left_and_below(b.x(), b.y()) - area_left_and_below(a.x(), b.y()) -
+                      area_left_and_below(b.x(), a.y()) + area_left_and_below(a.x(), a.y());
+  return std::max(0.0, area) * radius * radius;
+}
+
+std::vector<double> packing_fraction(const Snapshot& snapshot, const Grid& grid) {
+  std::vector<double> fraction(grid.size(), 0.0);
+  const auto place = [&](double at, std::int64_t first, std::int64_t count) {
+    return std::clamp<std::int64_t>(static_cast<std::int64_t>(std::floor(at / grid.cell)) - first, -1, count);
+  };
+  for (std::size_t i = 0; i < snapshot.size(); ++i) {
+    const double x = snapshot.x[i], y = snapshot.y[i], r = snapshot.radius[i];
+    const std::int64_t left = std::max<std::int64_t>(0, place(x - r, grid.first_column, grid.columns));
+    const std::int64_t right = std::min(grid.columns - 1, place(x + r, grid.first_column, grid.columns));
+    const std::int64_t bottom = std::max<std::int64_t>(0, place(y - r, grid.first_row, grid.rows));
+    const std::int64_t top = std::min(grid.rows - 1, place(y + r, grid.first_row, grid.rows));
+    for (std::int64_t row = bottom; row <= top; ++row)
+      for (std::int64_t column = left; column <= right; ++column) {
+        const std::size_t k = grid.index(column, row);
+        const Eigen::Vector2d low = grid.lower_left(k) - Eigen::Vector2d(x, y);
+        const Eigen::Vector2d high = low + Eigen::Vector2d::Constant(grid.cell);
+        fraction[k] += disc_in_rectangle(r, low, high) / (grid.cell * grid.cell);
+      }
+  }
+  return fraction;
+}
+
+std::vector<double> packing_change(const Snapshot& before, const Snapshot& after, const Grid& grid) {
+  std::vector<double> change = packing_fraction(after, grid);
+  const std::vector<double> earlier = packing_fraction(before, grid);
+  for (std::size_t k = 0; k < change.size(); ++k) change[k] -= earlier[k];
+  return change;
+}
+
+}  // namespace vibrosow

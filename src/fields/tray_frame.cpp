@@ -1,0 +1,40 @@
+#include "fields/tray_frame.hpp"
+
+#include <Eigen/Geometry>
+
+namespace vibrosow {
+namespace {
+
+Eigen::Matrix2d turned_back(double angle) {
+  return angle == 0 ? Eigen::Matrix2d::Identity() : Eigen::Rotation2Dd(-angle).toRotationMatrix();
+}
+
+}  // namespace
+
+Snapshot in_tray_frame(const Snapshot& lab, const Vessel& tray) {
+  const Eigen::Matrix2d now = turned_back(tray.tilt + lab.tray_angle), at_rest = turned_back(tray.tilt);
+  const Eigen::Vector2d origin = tray.origin + Eigen::Vector2d(lab.tray_x, lab.tray_y);
+  Snapshot own = lab;
+  for (std::size_t i = 0; i < lab.size(); ++i) {
+    const Eigen::Vector2d arm = Eigen::Vector2d(lab.x[i], lab.y[i]) - origin;
+    const Eigen::Vector2d tray_velocity(lab.tray_vx - lab.tray_spin * arm.y(), lab.tray_vy + lab.tray_spin * arm.x());
+    const Eigen::Vector2d place = now * arm;
+    const Eigen::Vector2d velocity = now * (Eigen::Vector2d(lab.vx[i], lab.vy[i]) - tray_velocity);
+    const Eigen::Vector2d start = at_rest * (Eigen::Vector2d(lab.start_x[i], lab.start_y[i]) - tray.origin);
+    own.x[i] = place.x(), own.y[i] = place.y();
+    own.vx[i] = velocity.x(), own.vy[i] = velocity.y();
+    own.omega[i] -= lab.tray_spin;
+    own.start_x[i] = start.x(), own.start_y[i] = start.y();
+  }
+  own.tray_x = own.tray_y = own.tray_angle = own.tray_vx = own.tray_vy = own.tray_spin = 0;
+  return own;
+}
+
+std::vector<std::size_t> grains_in_tray(const Snapshot& own, const Vessel& tray) {
+  std::vector<std::size_t> inside;
+  for (std::size_t i = 0; i < own.size(); ++i)
+    if (own.x[i] >= 0 && own.x[i] <= tray.length && own.y[i] >= 0 && own.y[i] <= tray.height) inside.push_back(i);
+  return inside;
+}
+
+}  // namespace vibrosow

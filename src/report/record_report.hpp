@@ -1,0 +1,28 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "report/output_files.hpp"
+#include "scene/scene.hpp"
+#include "simulation/run.hpp"
+
+namespace vibrosow {
+
+/// What a scene's record adds to a run's report; nothing without one. Places and velocities are in the tray's frame.
+///  - grains_NNN.csv, of each snapshot: its grains, with the shear strain since the snapshot before;
+///  - fields_NNN.csv: maps by cell, with the change of the packing fraction since the snapshot before; cells that hold
+///    no part of a grain in either are left out;
+///  - records.csv: when each snapshot was taken, where the lots lie, and left against right;
+///  - profile.csv: the lots by height;
+///  - flow.csv: asymmetry and pauses of the outflow over time.
+/// Numbers that are not defined are left empty.
+std::vector<OutputFile> record_files(const Scene& scene, const Run& run);
+
+std::string grains_csv(const Scene& scene, const Snapshot& snapshot, const Snapshot* before);
+std::string fields_csv(const Scene& scene, const Snapshot& snapshot, const Snapshot* before);
+std::string records_csv(const Scene& scene, const std::vector<Snapshot>& snapshots);
+std::string profile_csv(const Scene& scene, const std::vector<Snapshot>& snapshots);
+std::string flow_csv(const Scene& scene, const Run& run);
+
+}  // namespace vibrosow

@@ -1,0 +1,51 @@
+#include "simulation/recorder.hpp"
+
+#include <algorithm>
+
+#include "simulation/vessel_motion.hpp"
+
+namespace vibrosow {
+
+void Recorder::note_new(const Grains& grains) {
+  const std::size_t known = start_.size();
+  for (std::size_t i = 0; i < grains.size(); ++i) {
+    const auto number = static_cast<std::size_t>(grains.number[i]);
+    if (number < known) continue;
+    start_.resize(std::max(start_.size(), number + 1));
+    start_[number] = {grains.x[i], grains.y[i]};
+  }
+}
+
+bool Recorder::is_due(double time) const {
+  // The last step may end a rounding error short of the run's duration, as in plan_step.
+  return taken_ < times_.size() && time >= times_[taken_] * (1 - 1e-12);
+}
+
+void Recorder::record(const Grains& grains, double time, std::vector<Snapshot>& snapshots) {
+  for (; is_due(time); ++taken_) snapshots.push_back(snapshot(grains, time));
+}
+
+Snapshot Recorder::snapshot(const Grains& grains, double time) const {
+  const Eigen::Vector2d displacement = vessel_displacement(tray_, time), velocity = vessel_velocity(tray_, time);
+  Snapshot s;
+  s.time = time;
+  s.tray_x = displacement.x(), s.tray_y = displacement.y();
+  s.tray_vx = velocity.x(), s.tray_vy = velocity.y();
+  s.x = grains.x, s.y = grains.y;
+  s.vx = grains.vx, s.vy = grains.vy;
+  s.omega = grains.omega;
+  s.omega.resize(grains.size(), 0.0);
+  s.lot = grains.lot;
+  s.number = grains.number;
+  for (std::size_t i = 0; i < grains.size(); ++i) {
+    const GrainKind kind = grains.kind(i);
+    s.radius.push_back(kind.radius);
+    s.mass.push_back(kind.mass);
+    const Eigen::Vector2d& start = start_.at(static_cast<std::size_t>(grains.number[i]));
+    s.start_x.push_back(start.x());
+    s.start_y.push_back(start.y());
+  }
+  return s;
+}
+
+}  // namespace vibrosow

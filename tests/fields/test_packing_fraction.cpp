@@ -1,0 +1,79 @@
+#include "fields/packing_fraction.hpp"
+
+#include <gtest/gtest.h>
+
+#include <rapidcheck/gtest.h>
+#include <cmath>
+#include <numbers>
+
+#include "fields/made_up_bed.hpp"
+
+namespace vibrosow {
+namespace {
+
+constexpr double pi = std::numbers::pi;
+using V = Eigen::Vector2d;
+
+TEST(DiscInRectangle, KnownAreas) {
+  EXPECT_NEAR(disc_in_rectangle(2, V(-3, -3), V(3, 3)), 4 * pi, 1e-14) << "the whole disc";
+  EXPECT_NEAR(disc_in_rectangle(2, V(-0.5, -0.5), V(0.5, 0.5)), 1, 1e-14) << "the whole rectangle";
+  EXPECT_NEAR(disc_in_rectangle(1, V(0, 0), V(2, 2)), pi / 4, 4e-15) << "a quarter";
+  EXPECT_NEAR(disc_in_rectangle(1, V(0.5, -2), V(2, 2)), pi / 3 - std::sqrt(3) / 4, 4e-15) << "a segment";
+  // The sector of 30 degrees between the corner's two points on the circle, and two triangles less.
+  EXPECT_NEAR(disc_in_rectangle(1, V(0.5, 0.5), V(2, 2)), pi / 12 - 0.5 * (std::sqrt(3) / 2 - 0.5), 4e-15);
+  EXPECT_EQ(disc_in_rectangle(1, V(0.8, 0.8), V(2, 2)), 0) << "a corner outside the disc, inside its box";
+  EXPECT_EQ(disc_in_rectangle(1, V(1, -2), V(2, 2)), 0) << "it touches";
+  // Both sides of a narrow strip through the middle.
+  EXPECT_NEAR(disc_in_rectangle(1, V(-0.1, -5), V(0.1, 5)), 2 * (0.1 * std::sqrt(0.99) + std::asin(0.1)), 4e-15);
+}
+
+RC_GTEST_PROP(PackingFraction, CellsSumToTheDisc, ()) {
+  const double x = *rc::gen::inRange(-10000, 10000) * 1e-6, y = *rc::gen::inRange(-10000, 10000) * 1e-6;
+  const double radius = *rc::gen::inRange(1, 9000) * 1e-6, cell = *rc::gen::inRange(800, 9000) * 1e-6;
+  Snapshot s;
+  put(s, x, y, 0, 0, 0, radius);
+  double area = 0;
+  const Grid grid = grid_over({&s}, cell);
+  for (const double fraction : packing_fraction(s, grid)) area += fraction * cell * cell;
+  RC_ASSERT(std::abs(area - pi * radius * radius) < 1e-13 * std::max(radius * radius, cell * cell));
+}
+
+TEST(PackingFraction, HexagonalPackingFillsPiOverTwoRootThree) {
+  const auto same = [](const V& at) { return at; };
+  const Snapshot s = hexagonal_bed(40, same, [](const V&) { return V(0, 0); });
+  // A cell of whole periods in x, and as near as may be in y: the sum over rows of a period is taken by a wide cell.
+  const Grid grid{.cell = 40e-3, .first_column = 1, .first_row = 1, .columns = 1, .rows = 1};
+  EXPECT_NEAR(packing_fraction(s, grid).front(), pi / (2 * std::sqrt(3)), 0.005);
+}
+
+TEST(PackingFraction, AGrainAtTheCornerOfFourCellsIsSharedEvenly) {
+  Snapshot s;
+  put(s, 5e-3, 5e-3);
+  const Grid grid = grid_over({&s}, 5e-3);
+  EXPECT_EQ(grid.columns, 2);
+  EXPECT_EQ(grid.rows, 2);
+  EXPECT_EQ(grid.centre(3), V(7.5e-3, 7.5e-3));
+  for (const double fraction : packing_fraction(s, grid)) EXPECT_NEAR(fraction, pi * 4e-6 / 4 / 25e-6, 1e-14);
+}
+
+TEST(PackingFraction, ChangeShowsWhereTheBedLoosens) {
+  Snapshot before, after;
+  put(before, 2.5e-3, 2.5e-3);
+  put(after, 12.5e-3, 2.5e-3);
+  const Grid grid = grid_over({&before, &after}, 5e-3);
+  const double share = pi * 4e-6 / 25e-6;
+  const std::vector<double> change = packing_change(before, after, grid);
+  ASSERT_EQ(change.size(), 3u);
+  EXPECT_NEAR(change[0], -share, 1e-14);
+  EXPECT_EQ(change[1], 0);
+  EXPECT_NEAR(change[2], share, 1e-14);
+}
+
+TEST(Grid, CoversNothingWithoutGrainsAndRefusesACellOfNothing) {
+  const Snapshot s;
+  EXPECT_EQ(grid_over({&s}, 1e-3).size(), 0u);
+  EXPECT_THROW(grid_over({&s}, 0), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace vibrosow

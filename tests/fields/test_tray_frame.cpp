@@ -1,0 +1,48 @@
+#include "fields/tray_frame.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "fields/made_up_bed.hpp"
+
+namespace vibrosow {
+namespace {
+
+TEST(TrayFrame, TakesOffDisplacementVelocityAndTilt) {
+  Vessel tray = made_up_tray(0.4);
+  tray.origin = {0.1, 0.2};
+  tray.tilt = std::asin(0.6);
+  Snapshot lab;
+  lab.tray_x = 0.01, lab.tray_vy = 0.5;
+  // 50 mm along the floor, which rises by 3 in 4, and 10 mm off it.
+  put(lab, 0.11 + 0.04 - 0.006, 0.2 + 0.03 + 0.008, 0.8, 0.5 + 0.6);
+  put(lab, 0.11 - 0.04, 0.2 - 0.03, 0, 0.5);
+  lab.start_x[0] = 0.1, lab.start_y[0] = 0.2;
+  const Snapshot own = in_tray_frame(lab, tray);
+  EXPECT_NEAR(own.x[0], 0.05, 1e-15);
+  EXPECT_NEAR(own.y[0], 0.01, 1e-15);
+  EXPECT_NEAR(own.vx[0], 1, 1e-15);
+  EXPECT_NEAR(own.vy[0], 0, 1e-15);
+  EXPECT_NEAR(own.start_x[0], 0, 1e-15);
+  EXPECT_NEAR(own.vy[1], 0, 1e-15);
+  EXPECT_EQ(own.tray_x, 0);
+  EXPECT_EQ(grains_in_tray(own, tray), std::vector<std::size_t>{0});
+}
+
+TEST(TrayFrame, AGrainThatTurnsWithTheTrayIsAtRestInIt) {
+  const Vessel tray = made_up_tray(0.4);
+  Snapshot lab;
+  lab.tray_y = 0.01, lab.tray_angle = 0.5, lab.tray_spin = 3, lab.tray_vx = 0.2;
+  put(lab, 0.1 * std::cos(0.5), 0.01 + 0.1 * std::sin(0.5), 0.2 - 0.3 * std::sin(0.5), 0.3 * std::cos(0.5));
+  lab.omega[0] = 3;
+  const Snapshot own = in_tray_frame(lab, tray);
+  EXPECT_NEAR(own.x[0], 0.1, 1e-15);
+  EXPECT_NEAR(own.y[0], 0, 1e-15);
+  EXPECT_NEAR(own.vx[0], 0, 1e-15);
+  EXPECT_NEAR(own.vy[0], 0, 1e-15);
+  EXPECT_EQ(own.omega[0], 0);
+}
+
+}  // namespace
+}  // namespace vibrosow

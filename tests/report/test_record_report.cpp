@@ -1,0 +1,110 @@
+#include "report/record_report.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+namespace vibrosow {
+namespace {
+
+class RecordReport : public testing::Test {
+ protected:
+  void SetUp() override {
+    scene.lots = {{.name = "wheat", .diameter = 4e-3, .mass = 40e-6, .number_share = 0.5},
+                  {.name = "weed", .diameter = 4e-3, .mass = 10e-6, .number_share = 0.5}};
+    scene.tray.name = "tray";
+    scene.tray.length = 0.04;
+    scene.tray.height = 0.1;
+    scene.tray.holes = {{0.01, 0.016}};
+    scene.record = Record{{0, 1}, 5e-3};
+    run.end_time = 10;
+    // Three grains at the corners of a triangle, moved with the tray and sheared by 0.5: x += y / 2.
+    Snapshot s{.time = 0,
+               .x = {7.5e-3, 12.5e-3, 7.5e-3},
+               .y = {2.5e-3, 2.5e-3, 7.5e-3},
+               .vx = {0, 0, 0.01},
+               .vy = {0, 0, 0},
+               .omega = {0, 0, 1},
+               .lot = {0, 0, 1},
+               .number = {4, 5, 6},
+               .radius = {2e-3, 2e-3, 2e-3},
+               .mass = {40e-6, 40e-6, 10e-6},
+               .start_x = {0, 0, 0.03},
+               .start_y = {0, 0, 0.02}};
+    run.snapshots = {s, s};
+    Snapshot& later = run.snapshots[1];
+    later.time = 1;
+    later.tray_x = 1e-3;
+    for (std::size_t i = 0; i < 3; ++i) later.x[i] += 1e-3 + 0.5 * (later.y[i] - 2.5e-3);
+    run.events = {{1, 1, 0, 0, 40e-6, 0.005, 0.5}};
+  }
+  Scene scene;
+  vibrosow::Run run;
+};
+
+TEST_F(RecordReport, NothingWithoutARecord) {
+  scene.record.reset();
+  EXPECT_TRUE(record_files(scene, run).empty());
+}
+
+TEST_F(RecordReport, HasTwoFilesASnapshotAndThreeOfTheRun) {
+  std::vector<std::string> names;
+  for (const OutputFile& file : record_files(scene, run)) names.push_back(file.name);
+  EXPECT_EQ(names, (std::vector<std::string>{"grains_001.csv", "fields_001.csv", "grains_002.csv", "fields_002.csv",
+                                             "records.csv", "profile.csv", "flow.csv"}));
+}
+
+TEST_F(RecordReport, GrainsAreInTheTraysFrameWithTheirShearSinceTheLastRecord) {
+  const std::string header =
+      "number,lot,x_mm,y_mm,vx_m_per_s,vy_m_per_s,omega_rad_per_s,radius_mm,start_x_mm,start_y_mm,shear\n";
+  EXPECT_EQ(grains_csv(scene, run.snapshots[0], nullptr), header +
+                                                              "4,wheat,7.5,2.5,0,0,0,2,0,0,\n"
+                                                              "5,wheat,12.5,2.5,0,0,0,2,0,0,\n"
+                                                              "6,weed,7.5,7.5,0.01,0,1,2,30,20,\n");
+  EXPECT_EQ(grains_csv(scene, run.snapshots[1], &run.snapshots[0]), header +
+                                                                        "4,wheat,7.5,2.5,0,0,0,2,0,0,0.5\n"
+                                                                        "5,wheat,12.5,2.5,0,0,0,2,0,0,0.5\n"
+                                                                        "6,weed,10,7.5,0.01,0,1,2,30,20,0.5\n");
+}
+
+TEST_F(RecordReport, FieldsHaveTheCellsThatHoldGrains) {
+  // pi 4 / 25 of a cell is covered. All three grains are in reach (12 mm): v_x = 0.01 m/s over 5 mm is 2 per s.
+  const std::string text = fields_csv(scene, run.snapshots[0], nullptr);
+  EXPECT_TRUE(text.starts_with(
+      "x_mm,y_mm,packing_fraction,packing_change,vx_m_per_s,vy_m_per_s,shear_rate_per_s,dilation_rate_per_s\n"));
+  EXPECT_EQ(std::ranges::count(text, '\n'), 4);
+  EXPECT_NE(text.find("\n12.5,2.5,0.502655,,"), std::string::npos) << text;
+  EXPECT_NE(text.find(",0,2,"), std::string::npos) << text;
+  // The third grain has moved by half a cell.
+  const std::string later = fields_csv(scene, run.snapshots[1], &run.snapshots[0]);
+  EXPECT_NE(later.find("\n7.5,7.5,0.251327,-0.251327,"), std::string::npos) << later;
+  EXPECT_NE(later.find("\n12.5,7.5,0.251327,0.251327,"), std::string::npos) << later;
+  EXPECT_NE(later.find("\n7.5,2.5,0.502655,0,"), std::string::npos) << later;
+}
+
+TEST_F(RecordReport, ProfileAndRecordsTellWhereTheLotsLie) {
+  run.snapshots.pop_back();
+  EXPECT_EQ(profile_csv(scene, run.snapshots),
+            "time_s,height_mm,lot,grains,mass_g,mass_fraction\n"
+            "0,2.5,wheat,2,0.08,1\n"
+            "0,2.5,weed,0,0,0\n"
+            "0,7.5,wheat,0,0,0\n"
+            "0,7.5,weed,1,0.01,1\n");
+  // Mean heights 2.5, 7.5 and, of all, 12.5 / 3 mm. Tops of 5 mm columns: 0, 9.5, 4.5 and 0 mm left, none right.
+  EXPECT_EQ(records_csv(scene, run.snapshots),
+            "record,time_s,lot,grains,mass_g,segregation,flux_asymmetry,surface_asymmetry\n"
+            "1,0,wheat,2,0.08,-1.2,,\n"
+            "1,0,weed,1,0.01,1.2,,\n"
+            "1,0,all,3,0.09,,,1\n");
+}
+
+TEST_F(RecordReport, FlowHasItsWindowsAndTheWhole) {
+  const std::string text = flow_csv(scene, run);
+  EXPECT_TRUE(text.starts_with(
+      "from_s,to_s,hole,grains,mass_g,asymmetry,pauses,longest_pause_s,paused_s,paused_share\n0,1,1,0,0,,1,1,1,1\n"))
+      << text;
+  EXPECT_TRUE(text.ends_with("\n0,10,1,1,0.04,1,2,9,10,1\n")) << text;
+}
+
+}  // namespace
+}  // namespace vibrosow

@@ -1,0 +1,86 @@
+// Snapshots: when they are taken, and what they hold.
+#include <gtest/gtest.h>
+
+#include "simulation/simulate.hpp"
+#include "simulation/vessel_motion.hpp"
+#include "support/bench.hpp"
+
+namespace vibrosow {
+namespace {
+
+TEST(Recorder, TakesTheFirstStepAtOrAfterEachTime) {
+  Bench bench;
+  bench.gravity = {0, -standard_gravity};
+  bench.scene.contact.seed.friction = 0.3;  // grains can turn
+  bench.scene.tray.motion = HarmonicMotion{0, 0.01, 2, 0};
+  bench.scene.record = Record{{0, 0.1, 0.10005, 0.2, 5}, 0.01};
+  bench.place(0.2, 0.5).place(0.6, 0.7, 0.25, 0, 3);
+  Simulation& run = bench.start(1e-4);
+  EXPECT_EQ(run.result().snapshots.size(), 1u) << "at time 0 before the first step";
+  run.steps(2000);
+  const std::vector<Snapshot> taken = run.result().snapshots;
+  ASSERT_EQ(taken.size(), 4u) << "5 s was not reached";
+  EXPECT_EQ(taken[0].time, 0);
+  EXPECT_NEAR(taken[1].time, 0.1, 1e-12);
+  EXPECT_NEAR(taken[2].time, 0.1001, 1e-12);
+  EXPECT_NEAR(taken[3].time, 0.2, 1e-12);
+  // Free flight, which Verlet has exactly.
+  const Snapshot& s = taken[3];
+  ASSERT_EQ(s.size(), 2u);
+  EXPECT_NEAR(s.x[1], 0.65, 1e-12);
+  EXPECT_NEAR(s.y[1], 0.7 - 0.5 * standard_gravity * 0.04, 1e-10);
+  EXPECT_NEAR(s.vy[1], -standard_gravity * 0.2, 1e-10);
+  EXPECT_EQ(s.omega[1], 3);
+  EXPECT_EQ(s.number, (std::vector<std::int64_t>{0, 1}));
+  EXPECT_EQ(s.radius[0], Bench::radius);
+  EXPECT_EQ(s.mass[0], Bench::mass);
+  EXPECT_EQ(s.start_x[1], 0.6);
+  EXPECT_EQ(s.start_y[1], 0.7);
+  EXPECT_EQ(s.tray_x, vessel_displacement(bench.scene.tray, s.time).x());
+  EXPECT_EQ(s.tray_vx, vessel_velocity(bench.scene.tray, s.time).x());
+}
+
+TEST(Recorder, KnowsWhereFedGrainsWerePutInAndWhoHasLeft) {
+  Bench bench;
+  bench.gravity = {0, -standard_gravity};
+  bench.scene.tray.holes = {{0.2, 0.05}};
+  bench.scene.tray.fill = Fill{.count = 2, .keep = true};
+  bench.scene.record = Record{{0.3}, 0.01};
+  bench.place(0.2, 0.05).place(0.6, Bench::radius);
+  Simulation& run = bench.start(1e-4);
+  run.steps(3000);
+  const std::vector<Snapshot> taken = run.result().snapshots;
+  ASSERT_EQ(taken.size(), 1u);
+  const Snapshot& s = taken[0];
+  ASSERT_EQ(s.number, (std::vector<std::int64_t>{1, 2})) << "grain 0 has left and one was fed";
+  EXPECT_EQ(s.start_x[0], 0.6);
+  // Laid at rest on the floor or the other grain: it has hardly moved since.
+  EXPECT_NEAR(s.start_x[1], s.x[1], 1e-3);
+  EXPECT_GE(s.start_y[1], Bench::radius);
+}
+
+TEST(Recorder, RecordsAtTheVeryEndAndChangesNothing) {
+  Scene scene = Bench().scene;
+  scene.tray.holes = {{0.5, 0.05}};
+  scene.tray.length = 0.6;
+  scene.tray.fill = Fill{.count = 60};
+  scene.run.duration = 0.1;
+  const vibrosow::Run plain = simulate(scene);
+  scene.record = Record{{0.05, 0.1}, 0.01};
+  const vibrosow::Run recorded = simulate(scene);
+  EXPECT_TRUE(plain.snapshots.empty());
+  EXPECT_EQ(recorded.snapshots.size(), 2u);
+  EXPECT_EQ(plain.energy.kinetic, recorded.energy.kinetic);
+  EXPECT_EQ(plain.events.size(), recorded.events.size());
+}
+
+TEST(Recorder, WithoutRotationSpinsAreZero) {
+  Bench bench;
+  bench.scene.contact.rotation = false;
+  bench.scene.record = Record{{0}, 0.01};
+  bench.place(0.2, 0.5);
+  EXPECT_EQ(bench.start(1e-4).result().snapshots.at(0).omega, std::vector<double>{0});
+}
+
+}  // namespace
+}  // namespace vibrosow
