@@ -9,7 +9,8 @@ namespace {
 
 bool grains_differ(const std::vector<SeedLot>& lots) {
   return std::any_of(lots.begin(), lots.end(), [&lots](const SeedLot& lot) {
-    return lot.diameter != lots.front().diameter || lot.mass != lots.front().mass || lot.shape != lots.front().shape;
+    return lot.diameter != lots.front().diameter || lot.mass != lots.front().mass || lot.shape != lots.front().shape ||
+           lot.gyration2 != lots.front().gyration2 || lot.sizes.kind != SizeDistribution::Kind::single;
   });
 }
 
@@ -64,7 +65,7 @@ std::vector<EffectReason> explain_effects(const Scene& scene) {
       {"rotation", effects.rotation, rotation},
       {"damping", effects.damping, pair("restitution", contact.seed.restitution, contact.wall.restitution)},
       {"unequal", effects.unequal,
-       effects.unequal ? "the lots differ in diameter, mass or shape"
+       effects.unequal ? "the grains differ in diameter, mass or shape"
                        : "every grain has the same diameter, mass and shape"},
       {"drag", effects.drag, fmt::format("contact.drag = {:.6g} g/s", contact.drag * 1e3)},
       {"motion", effects.motion, moving()},

@@ -1,16 +1,11 @@
 #include "simulation/force_field.hpp"
 
-#include <algorithm>
 #include <chrono>
+
+#include "scene/seed_lot.hpp"
 
 namespace vibrosow {
 namespace {
-
-double largest_diameter(const Scene& scene) {
-  double largest = 0;
-  for (const SeedLot& lot : scene.lots) largest = std::max(largest, lot.diameter);
-  return largest;
-}
 
 Motion motion_of(const Grains& grains) {
   return {grains.x.data(), grains.y.data(), grains.vx.data(), grains.vy.data(), grains.omega.data()};
@@ -20,7 +15,7 @@ Motion motion_of(const Grains& grains) {
 
 ForceField::ForceField(const Scene& scene, const KernelSet& kernels, NeighbourMargins margins)
     : walls_(vessels_of(scene)),
-      neighbours_(walls_.vessels(), largest_diameter(scene), margins),
+      neighbours_(walls_.vessels(), largest_diameter(scene.lots), margins),
       parameters_(contact_parameters(scene.contact)),
       kernels_(kernels) {}
 

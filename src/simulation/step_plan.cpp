@@ -8,6 +8,8 @@
 
 #include "contact/elastic_shell.hpp"
 #include "contact/kernels.hpp"
+#include "grains/size_distribution.hpp"
+#include "scene/seed_lot.hpp"
 #include "simulation/vessel_motion.hpp"
 #include "simulation/walls.hpp"
 
@@ -44,7 +46,7 @@ double shortest_contact(const std::vector<GrainKind>& kinds) {
 
 double mean_diameter(const Scene& scene) {
   double mean = 0;
-  for (const SeedLot& lot : scene.lots) mean += lot.number_share * lot.diameter;
+  for (const SeedLot& lot : scene.lots) mean += lot.number_share * size_moment(lot, 1) * lot.diameter;
   return mean;
 }
 
@@ -102,16 +104,10 @@ StepLimit shell_limit(const Scene& scene, const std::vector<GrainKind>& kinds) {
   return {"the growth of the shell's vibration (RK2)", std::min(stable, std::cbrt(8 * growth / std::pow(omega, 4)))};
 }
 
-double smallest_radius(const Scene& scene) {
-  double smallest = scene.lots.front().diameter;
-  for (const SeedLot& lot : scene.lots) smallest = std::min(smallest, lot.diameter);
-  return 0.5 * smallest;
-}
-
 }  // namespace
 
 StepPlan plan_step(const Scene& scene) {
-  const std::vector<GrainKind> kinds = grain_kinds(scene, true);
+  const std::vector<GrainKind> kinds = extreme_kinds(scene, true);
   StepPlan plan{};
   plan.contact_duration = shortest_contact(kinds);
   plan.limits.push_back(shell_limit(scene, kinds));
@@ -123,7 +119,7 @@ StepPlan plan_step(const Scene& scene) {
     wanted = std::min(wanted, wanted_friction_step / rate);
   }
   plan.limits.push_back(
-      {"a grain's travel in one step", longest_travel * smallest_radius(scene) / foretold_speed(scene)});
+      {"a grain's travel in one step", longest_travel * smallest_radius(scene.lots) / foretold_speed(scene)});
   if (scene.contact.drag > 0) {
     double lightest = kinds.front().mass;
     for (const GrainKind& kind : kinds) lightest = std::min(lightest, kind.mass);
@@ -157,7 +153,7 @@ ForetoldCompression foretell_compression(const Scene& scene) {
     foretold.impact_speed = std::max(foretold.impact_speed, 2 * largest_speed(vessel));
   // d = V / omega with omega^2 = g / eps
   foretold.impact_compression =
-      foretold.impact_speed * std::sqrt(compression / (standard_gravity * smallest_radius(scene)));
+      foretold.impact_speed * std::sqrt(compression / (standard_gravity * smallest_radius(scene.lots)));
   const double at_rest = scene.guard.warn_compression / foretold.static_compression;
   const double at_impact = scene.guard.warn_compression / std::max(foretold.impact_compression, 1e-300);
   foretold.stiff_enough = compression * std::min(at_rest, at_impact * at_impact);
