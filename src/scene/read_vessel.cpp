@@ -163,8 +163,11 @@ void check_fill_fits(Table fill_table, const Vessel& vessel, const std::vector<S
   }
   const double most = vessel.length * vessel.height / area_per_seed;
   if (vessel.fill->count > most) {
-    fill_table.fail("count", fmt::format("does not fit: {} seeds, but closely packed the {} holds no more than {:.0f}",
-                                         vessel.fill->count, vessel.name, std::floor(most)));
+    const bool clumps = std::ranges::any_of(lots, [](const SeedLot& lot) { return lot.shape == Shape::clump; });
+    fill_table.fail(
+        "count",
+        fmt::format("does not fit: {} seeds, but closely packed{} the {} holds no more than {:.0f}", vessel.fill->count,
+                    clumps ? ", as the circles that hold them," : "", vessel.name, std::floor(most)));
   }
 }
 
