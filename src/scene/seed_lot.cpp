@@ -16,13 +16,13 @@ double cut_moment(const SizeDistribution& sizes, double unit, int power) {
   constexpr unsigned halvings = 12;  // at most
   constexpr double tolerance = 1e-13;
   const bool logarithmic = sizes.kind == Kind::lognormal;
-  const auto [mean, deviation] = underlying_normal(sizes);
-  const auto deviations = [&](double x) { return ((logarithmic ? std::log(x) : x) - mean) / deviation; };
+  const UnderlyingNormal normal = underlying_normal(sizes);
+  const auto deviations = [&](double x) { return ((logarithmic ? std::log(x) : x) - normal.mean) / normal.deviation; };
   const double from = std::max(-far, deviations(sizes.least)), to = std::min(far, deviations(sizes.most));
   const auto weighted = [&](int exponent) {
     return boost::math::quadrature::gauss_kronrod<double, 31>::integrate(
         [&](double z) {
-          const double x = mean + deviation * z;
+          const double x = normal.mean + normal.deviation * z;
           return std::exp(-0.5 * z * z) * std::pow((logarithmic ? std::exp(x) : x) / unit, exponent);
         },
         from, to, halvings, tolerance);

@@ -66,6 +66,16 @@ double weight_factor(const Scene& scene) {
   return 1 + largest / standard_gravity;
 }
 
+/// Force over mass of a lot's smallest seed, against that of a seed of mean diameter in a bed of mean seeds: a share of
+/// the bed's pressure that goes with its diameter, over its own mass. 1 for single sizes.
+double load_of_smallest(const Scene& scene) {
+  double largest = 1;
+  for (const SeedLot& lot : scene.lots)
+    largest =
+        std::max(largest, mean_mass(lot) / lot.mass / std::pow(least_size(lot), lot.shape == Shape::ball ? 2 : 1));
+  return largest;
+}
+
 /// lambda = nu F_n / (v_s m_t) of the regularised friction, 1/s, with F_n the weight of the layers above.
 double friction_rate(const Scene& scene) {
   const Contact& contact = scene.contact;
@@ -76,7 +86,7 @@ double friction_rate(const Scene& scene) {
   const double layers = deepest_fill(scene), weight = standard_gravity * weight_factor(scene);
   const double on_wall = contact.wall.friction * layers * weight * per_surface;
   const double in_bed = contact.seed.friction * std::max(layers - 1, 1.0) * weight * 2 * per_surface;
-  return std::max(on_wall, in_bed) / contact.slip_speed;
+  return std::max(on_wall, in_bed) * load_of_smallest(scene) / contact.slip_speed;
 }
 
 /// Speed that a grain can reach: twice the vessel's, or the fall from the highest edge to the counting line.

@@ -54,6 +54,9 @@ TEST(StepPlan, SmallestSeedOfALotSetsTheStep) {
   scene.lots[0].sizes = {SizeDistribution::Kind::uniform, 8e-3, 0, 4e-3, 12e-3, {}, {}};
   const double stiffness = 0.5 * 1.5 / (0.5 + 1.5), mass = 0.25;  // over c and m of the mean seed; 1/2 and 1 for equals
   EXPECT_NEAR(limit(plan_step(scene), "Verlet").dt, single * std::sqrt(mass * 0.5 / stiffness), 1e-12);
+  // Friction: lambda grows with F_n / m, E[s^2] s / s^2 of the mean seed's.
+  EXPECT_NEAR(limit(plan_step(published()), "friction").dt / 2 / limit(plan_step(scene), "friction").dt,
+              (1 + 0.25 / 3) / 0.5, 1e-9);
   EXPECT_NEAR(limit(plan_step(scene), "travel").dt, 0.5 * limit(plan_step(published()), "travel").dt, 1e-15);
 }
 
