@@ -24,7 +24,7 @@ void print_crops(const std::filesystem::path& data) {
   for (const auto& file : toml_files(data / "models/crops")) {
     Table crop(Document::read(file));
     fmt::print("  {:<24}", file.stem().string());
-    for (const std::string key : {"diameter", "mass"})
+    for (const std::string key : {"diameter", "length", "width", "mass"})
       if (const auto value = crop.toml_text(key)) fmt::print(" {} {}", key, *value);
     fmt::print("\n");
   }

@@ -32,13 +32,13 @@ void Grains::add(double px, double py, double pvx, double pvy, int lot_index) {
   add(px, py, pvx, pvy, lot_index, kinds[static_cast<std::size_t>(lot_index)]);
 }
 
-void Grains::add(double px, double py, double pvx, double pvy, int lot_index, const GrainKind& own) {
+void Grains::add(double px, double py, double pvx, double pvy, int lot_index, const GrainKind& own, double turned) {
   x.push_back(px);
   y.push_back(py);
   vx.push_back(pvx);
   vy.push_back(pvy);
   if (rotation) omega.push_back(0);
-  if (oriented) angle.push_back(0);
+  if (oriented) angle.push_back(turned);
   lot.push_back(lot_index);
   number.push_back(next_number_++);
   if (!unequal) return;

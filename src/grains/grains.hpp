@@ -54,8 +54,8 @@ struct Grains {
 
   /// Appends a grain of `lot_index`, of the lot's own kind, and gives it the next number.
   void add(double px, double py, double pvx, double pvy, int lot_index);
-  /// The same with properties of its own; only where `unequal` is set.
-  void add(double px, double py, double pvx, double pvy, int lot_index, const GrainKind& own);
+  /// The same with properties of its own, which only count where `unequal` is set; a clump turned by `turned` (rad).
+  void add(double px, double py, double pvx, double pvy, int lot_index, const GrainKind& own, double turned = 0);
 
   /// Keeps the grains whose flag is 0, in order. `remove` has one flag a grain.
   void remove_flagged(const std::vector<char>& remove);

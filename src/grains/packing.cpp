@@ -7,17 +7,13 @@
 #include <limits>
 #include <numbers>
 
+#include "grains/size_distribution.hpp"
 #include "scene/input_error.hpp"
+#include "scene/seed_lot.hpp"
 #include "scene/vessel_walls.hpp"
 
 namespace vibrosow {
 namespace {
-
-double largest_diameter(const std::vector<SeedLot>& lots) {
-  double largest = 0;
-  for (const SeedLot& lot : lots) largest = std::max(largest, lot.diameter);
-  return largest;
-}
 
 std::vector<int> shuffled_lots(const std::vector<SeedLot>& lots, int count, Random& random) {
   const std::vector<int> counts = lot_counts(lots, count);
@@ -56,7 +52,10 @@ std::vector<PackedGrain> pack_rows(const Vessel& vessel, const std::vector<SeedL
     for (int k = 0; k < per_row - (offset ? 1 : 0) && packed.size() < order.size(); ++k) {
       const double centre = (k + (offset ? 1.0 : 0.5)) * spacing;
       const double dx = shift * random.uniform(-1, 1), dy = shift * random.uniform(-1, 1);
-      packed.push_back({centre + dx, y + dy, order[packed.size()]});
+      const int lot = order[packed.size()];
+      const SeedLot& seeds = lots[static_cast<std::size_t>(lot)];
+      const double size = draw_size(seeds, random), angle = draw_angle(seeds, random);
+      packed.push_back({centre + dx, y + dy, lot, size, angle});
     }
     if (y + 0.5 * clear > vessel.height) does_not_fit(vessel);
   }
@@ -199,18 +198,18 @@ void add_slopes(Heap& heap, const Vessel& vessel, double smallest_radius) {
 }
 
 std::vector<PackedGrain> pour(const Vessel& vessel, const std::vector<SeedLot>& lots, Random& random) {
-  double smallest = lots.front().diameter;
-  for (const SeedLot& lot : lots) smallest = std::min(smallest, lot.diameter);
   Heap heap(vessel.length, largest_diameter(lots));
-  add_slopes(heap, vessel, 0.5 * smallest);
+  add_slopes(heap, vessel, smallest_radius(lots));
   std::vector<PackedGrain> packed;
   for (int lot : shuffled_lots(lots, vessel.fill->count, random)) {
-    const double radius = 0.5 * lots[static_cast<std::size_t>(lot)].diameter;
+    const SeedLot& seeds = lots[static_cast<std::size_t>(lot)];
+    const double size = draw_size(seeds, random), angle = draw_angle(seeds, random);
+    const double radius = 0.5 * size * seeds.diameter;
     const double x = random.uniform(radius, vessel.length - radius);
     const Eigen::Vector2d at = drop_and_roll(heap, vessel.length, x, radius);
     if (at.y() + radius > vessel.height) does_not_fit(vessel);
     heap.add({at.x(), at.y(), radius});
-    packed.push_back({at.x(), at.y(), lot});
+    packed.push_back({at.x(), at.y(), lot, size, angle});
   }
   return packed;
 }

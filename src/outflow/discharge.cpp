@@ -5,6 +5,8 @@
 #include <limits>
 #include <stdexcept>
 
+#include "scene/seed_lot.hpp"
+
 namespace vibrosow {
 namespace {
 
@@ -32,7 +34,7 @@ double fill_mass(const Scene& scene, int lot) {
   if (scene.hopper && scene.hopper->fill) grains += scene.hopper->fill->count;
   double mass = 0;
   for (std::size_t i = 0; i < scene.lots.size(); ++i)
-    if (lot == all || static_cast<std::size_t>(lot) == i) mass += scene.lots[i].number_share * scene.lots[i].mass;
+    if (lot == all || static_cast<std::size_t>(lot) == i) mass += scene.lots[i].number_share * mean_mass(scene.lots[i]);
   return grains * mass;
 }
 

@@ -8,6 +8,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "scene/seed_lot.hpp"
+
 namespace vibrosow {
 namespace {
 
@@ -102,9 +104,9 @@ std::optional<double> instability(const std::vector<OutflowEvent>& events, const
 
 std::optional<double> depth_factor(const Scene& scene) {
   if (!scene.tray.depth) return std::nullopt;
-  double diameter = 0;
-  for (const SeedLot& lot : scene.lots) diameter += lot.number_share * lot.diameter;
-  return *scene.tray.depth / diameter;
+  double thickness = 0;
+  for (const SeedLot& lot : scene.lots) thickness += lot.number_share * mean_thickness(lot);
+  return *scene.tray.depth / thickness;
 }
 
 std::string note_of(const Run& run, const Window& window) {

@@ -9,12 +9,36 @@ Json optional_number(const std::optional<double>& value) {
   return value ? Json(*value) : Json(nullptr);
 }
 
+Json describe(const SizeDistribution& sizes) {
+  using Kind = SizeDistribution::Kind;
+  const char* names[] = {"single", "uniform", "normal", "lognormal", "table"};
+  Json json = {{"distribution", names[static_cast<int>(sizes.kind)]}};
+  if (sizes.kind == Kind::table) {
+    json["diameters_m"] = sizes.diameter;
+    json["shares"] = sizes.share;
+    return json;
+  }
+  if (sizes.kind != Kind::uniform) json["mean_m"] = sizes.mean, json["deviation_m"] = sizes.deviation;
+  json["least_m"] = sizes.least;
+  json["most_m"] = sizes.most;
+  return json;
+}
+
 Json describe(const SeedLot& lot) {
+  const char* shapes[] = {"disc", "ball", "clump"};
   Json json = {{"name", lot.name},
                {"diameter_m", lot.diameter},
                {"mass_kg", lot.mass},
-               {"shape", lot.shape == Shape::disc ? "disc" : "ball"},
+               {"shape", shapes[static_cast<int>(lot.shape)]},
                {"number_share", lot.number_share}};
+  if (lot.sizes.kind != SizeDistribution::Kind::single) json["sizes"] = describe(lot.sizes);
+  if (lot.shape == Shape::clump) {
+    Json discs = Json::array();
+    for (const ClumpDisc& disc : lot.discs)
+      discs.push_back({{"x_m", disc.x}, {"y_m", disc.y}, {"radius_m", disc.radius}});
+    json["discs"] = discs;
+    json["gyration2_m2"] = lot.gyration2;
+  }
   if (lot.shell_compression) json["shell_compression"] = *lot.shell_compression;
   if (lot.youngs_modulus) json["youngs_modulus_pa"] = *lot.youngs_modulus;
   if (lot.poisson_ratio) json["poisson_ratio"] = *lot.poisson_ratio;

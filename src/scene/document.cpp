@@ -376,7 +376,8 @@ std::vector<Table> Table::tables(const std::string& key) {
   for (const toml::node& element : *found->as_array()) {
     const std::string name = fmt::format("{}[{}]", key, elements.size() + 1);
     auto& child = state_->children[name];
-    if (!child) child = std::make_shared<State>(state_->document, element.as_table(), joined(state_->prefix, name));
+    const State& holder = *state_->holder(key);  // maybe the preset's
+    if (!child) child = std::make_shared<State>(holder.document, element.as_table(), joined(holder.prefix, name));
     elements.push_back(Table(child));
   }
   return elements;

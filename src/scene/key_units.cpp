@@ -33,6 +33,11 @@ constexpr std::array key_words = {
     // seeds
     KeyWord{"crop", {}},
     KeyWord{"diameter", millimetre},
+    KeyWord{"distance", millimetre},
+    KeyWord{"distribution", {}},
+    KeyWord{"deviation", millimetre},
+    KeyWord{"least", millimetre},
+    KeyWord{"most", millimetre},
     KeyWord{"mass", gram},
     KeyWord{"density", density},
     KeyWord{"shape", {}},

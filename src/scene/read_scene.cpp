@@ -4,39 +4,16 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "scene/document.hpp"
 #include "scene/presets.hpp"
 #include "scene/read_contact.hpp"
+#include "scene/read_lot.hpp"
 #include "scene/read_vessel.hpp"
+#include "scene/seed_lot.hpp"
 
 namespace vibrosow {
 namespace {
-
-double read_mass(Table& seeds, const SeedLot& lot) {
-  if (seeds.has_here("mass") && seeds.has_here("density")) seeds.fail("density", "contradicts mass; give one of them");
-  const std::optional<double> mass = seeds.quantity("mass", Dimension::mass, 1e-12, 1e3);
-  const std::optional<double> density = seeds.quantity("density", Dimension::density, 1, 3e4);
-  const bool by_density = seeds.has_here("density") || (density && !mass);
-  if (!by_density) {
-    if (!mass) seeds.fail("mass", "is missing; give a seed's mass, or its density");
-    if (density && !seeds.has_here("mass")) seeds.fail("density", "contradicts mass; give one of them");
-    return *mass;
-  }
-  if (lot.shape != Shape::ball) seeds.fail("density", "gives the mass of a ball only; give mass for a disc");
-  return std::numbers::pi / 6 * std::pow(lot.diameter, 3) * *density;
-}
-
-SeedLot read_lot(Table& seeds, const std::string& name) {
-  use_preset(seeds, "crop", "crops");
-  SeedLot lot;
-  lot.name = name;
-  lot.diameter = seeds.required_quantity("diameter", Dimension::length, 5e-5, 1);
-  lot.shape = seeds.choice("shape", {"disc", "ball"}).value_or(1) == 0 ? Shape::disc : Shape::ball;
-  lot.mass = read_mass(seeds, lot);
-  return lot;
-}
 
 /// Shares of all lots by number, from shares by mass or by number.
 void read_shares(Table& seeds, std::vector<SeedLot>& lots) {
@@ -60,7 +37,7 @@ void read_shares(Table& seeds, std::vector<SeedLot>& lots) {
         .fail(key, fmt::format("the shares of all lots sum to {:g} %, not to 100 %", sum * 100));
   }
   if (key == "mass_share") {
-    for (SeedLot& lot : lots) lot.number_share /= lot.mass;
+    for (SeedLot& lot : lots) lot.number_share /= mean_mass(lot);
   }
   double total = 0;
   for (const SeedLot& lot : lots) total += lot.number_share;
@@ -160,7 +137,7 @@ Record read_record(Table table, double duration, const std::vector<SeedLot>& lot
   table.reject_keys_other_than({"times", "every", "cell"});
   Record record;
   record.times = read_times(table, duration);
-  record.cell = read_width(table, "cell", table.text("cell").value_or("2 diameters"), largest_diameter(lots));
+  record.cell = read_width(table, "cell", table.text("cell").value_or("2 diameters"), largest_mean_diameter(lots));
   return record;
 }
 

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "scene/seed_lot.hpp"
 #include "scene/vessel_walls.hpp"
 
 namespace vibrosow {
@@ -26,7 +27,8 @@ double rounded(double length) {
 
 }  // namespace
 
-double largest_diameter(const std::vector<SeedLot>& lots) {
+/// What "3 diameters" are of.
+double largest_mean_diameter(const std::vector<SeedLot>& lots) {
   return std::max_element(lots.begin(), lots.end(),
                           [](const SeedLot& a, const SeedLot& b) { return a.diameter < b.diameter; })
       ->diameter;
@@ -160,12 +162,15 @@ void check_fill_fits(Table fill_table, const Vessel& vessel, const std::vector<S
   }
   double area_per_seed = 0;  // in a hexagonal packing
   for (const SeedLot& lot : lots) {
-    area_per_seed += lot.number_share * std::numbers::sqrt3 / 2 * lot.diameter * lot.diameter;
+    area_per_seed += lot.number_share * size_moment(lot, 2) * std::numbers::sqrt3 / 2 * lot.diameter * lot.diameter;
   }
   const double most = vessel.length * vessel.height / area_per_seed;
   if (vessel.fill->count > most) {
-    fill_table.fail("count", fmt::format("does not fit: {} seeds, but closely packed the {} holds no more than {:.0f}",
-                                         vessel.fill->count, vessel.name, std::floor(most)));
+    const bool clumps = std::ranges::any_of(lots, [](const SeedLot& lot) { return lot.shape == Shape::clump; });
+    fill_table.fail(
+        "count",
+        fmt::format("does not fit: {} seeds, but closely packed{} the {} holds no more than {:.0f}", vessel.fill->count,
+                    clumps ? ", as the circles that hold them," : "", vessel.name, std::floor(most)));
   }
 }
 
@@ -191,7 +196,8 @@ Vessel read_vessel(Table table, const std::string& name, const std::vector<SeedL
   vessel.depth = table.quantity("depth", Dimension::length, shortest, longest);
   vessel.tilt = table.quantity("tilt", Dimension::angle, -30 * degree, 30 * degree).value_or(0);
   vessel.funnel = table.quantity("funnel", Dimension::angle, 0.01 * degree, 80 * degree).value_or(0);
-  if (const auto holes = table.table("holes")) vessel.holes = read_holes(*holes, vessel.length, largest_diameter(lots));
+  if (const auto holes = table.table("holes"))
+    vessel.holes = read_holes(*holes, vessel.length, largest_mean_diameter(lots));
   if (vessel.funnel > 0 && vessel.holes.empty()) table.fail("funnel", "needs holes for the floor to slope to");
   if (highest_floor(vessel) >= vessel.height) {
     table.fail("funnel", fmt::format("the floor would rise to {}, as high as the walls or higher ({})",

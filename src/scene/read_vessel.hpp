@@ -10,7 +10,7 @@ namespace vibrosow {
 Vessel read_vessel(Table table, const std::string& name, const std::vector<SeedLot>& lots);
 
 /// m; `lots` is not empty.
-double largest_diameter(const std::vector<SeedLot>& lots);
+double largest_mean_diameter(const std::vector<SeedLot>& lots);
 
 /// `text`, the value of `key`, in m: a length such as "16 mm", or "3 diameters" of `diameter`. Throws InputError at
 /// `key` when it is neither, or not from 1e-6 m to 100 m.

@@ -17,8 +17,9 @@ struct ClumpDisc {
   double x, y, radius;
 };
 
-/// How the diameters of a lot scatter. Normal and lognormal are cut at `least` and `most` (a draw outside is drawn
-/// again); uniform lies between them; a table gives diameters and their shares by number.
+/// How the diameters of a lot scatter, by number. Normal and lognormal are cut at `least` and `most` (as if a draw
+/// outside were drawn again); uniform lies between them; a table gives diameters and their shares. Of a clump the
+/// diameter stands for its size: the whole seed is scaled.
 struct SizeDistribution {
   enum class Kind { single, uniform, normal, lognormal, table };
   Kind kind = Kind::single;
@@ -29,7 +30,7 @@ struct SizeDistribution {
 
 struct SeedLot {
   std::string name;
-  double diameter = 0;  // m, mean; of a clump: of the circle about its centre of mass that just holds it
+  double diameter = 0;  // m, mean (before a cut); of a clump: of the circle about its centre of mass that just holds it
   double mass = 0;      // kg, of a seed of that diameter; others scale with its cube (a disc or clump: its square)
   Shape shape = Shape::ball;
   double number_share = 1;  // of all seeds; the shares of a scene sum to 1

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "grains/size_distribution.hpp"
 #include "simulation/counter.hpp"
 #include "simulation/vessel_motion.hpp"
 
@@ -44,6 +45,7 @@ bool is_kept(const Vessel& vessel) {
 
 Feeder::Feeder(const Scene& scene, std::uint64_t random_seed)
     : lots_(scene.lots),
+      law_(scene.contact.law),
       random_(~random_seed),  // a stream of its own, apart from the packing's
       feeds_(is_kept(scene.tray) || (scene.hopper && is_kept(*scene.hopper))) {}
 
@@ -67,14 +69,17 @@ int Feeder::top_up(Grains& grains, const Walls& walls, double time) {
     const int missing = vessel.fill->count - static_cast<int>(inside.at.size());
     for (int k = 0; k < missing; ++k) {
       const int lot = draw_lot();
-      const double radius = 0.5 * lots_[static_cast<std::size_t>(lot)].diameter;
+      const SeedLot& seeds = lots_[static_cast<std::size_t>(lot)];
+      const double size = draw_size(seeds, random_), angle = draw_angle(seeds, random_);
+      const double radius = 0.5 * size * seeds.diameter;
       const double x = random_.uniform(radius, vessel.length - radius);
       const double y = surface(inside, x, radius);
       if (y + radius > vessel.height) continue;
       inside.at.emplace_back(x, y);
       inside.radius.push_back(radius);
       const Eigen::Vector2d lab = in_lab_frame(vessel, walls.displacement()[v], {x, y});
-      grains.add(lab.x(), lab.y(), velocity.x(), velocity.y(), lot);
+      const GrainKind kind = sized_kind(seeds, law_, grains.kinds[static_cast<std::size_t>(lot)], size);
+      grains.add(lab.x(), lab.y(), velocity.x(), velocity.y(), lot, kind, angle);
       ++added;
     }
   }

@@ -7,8 +7,8 @@
 namespace vibrosow {
 
 /// Keeps vessels topped up (`fill.keep`): each missing grain is laid just above the heap at a random place, at rest
-/// with its vessel, of a lot drawn by the shares. Where the heap reaches the vessel's top there is no room, and it
-/// waits.
+/// with its vessel, of a lot drawn by the shares, its size and a clump's angle drawn too. Where the heap reaches the
+/// vessel's top there is no room, and it waits.
 class Feeder {
  public:
   Feeder(const Scene& scene, std::uint64_t random_seed);
@@ -23,6 +23,7 @@ class Feeder {
   int draw_lot();
 
   std::vector<SeedLot> lots_;
+  Law law_;
   Random random_;
   bool feeds_;
 };

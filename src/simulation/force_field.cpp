@@ -1,17 +1,12 @@
 #include "simulation/force_field.hpp"
 
-#include <algorithm>
 #include <chrono>
 #include <cmath>
 
+#include "scene/seed_lot.hpp"
+
 namespace vibrosow {
 namespace {
-
-double largest_diameter(const Scene& scene) {
-  double largest = 0;
-  for (const SeedLot& lot : scene.lots) largest = std::max(largest, lot.diameter);
-  return largest;
-}
 
 void clear(Forces& forces, const Grains& grains) {
   forces.fx.assign(grains.size(), 0);
@@ -24,7 +19,7 @@ void clear(Forces& forces, const Grains& grains) {
 ForceField::ForceField(const Scene& scene, const EffectSet& effects, NeighbourMargins margins)
     : scene_(scene),
       walls_(vessels_of(scene)),
-      neighbours_(walls_.vessels(), largest_diameter(scene), margins,
+      neighbours_(walls_.vessels(), largest_diameter(scene.lots), margins,
                   {effects.tangential_spring, effects.rolling == Rolling::spring}),
       parameters_(contact_parameters(scene)),
       kernels_(kernels_for(scene.contact.law, effects)) {

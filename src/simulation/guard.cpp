@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "scene/seed_lot.hpp"
+
 namespace vibrosow {
 namespace {
 
@@ -38,9 +40,7 @@ double potential_energy(const Grains& grains, const Eigen::Vector2d& gravity) {
 }
 
 Guard::Guard(const Scene& scene, bool insisted_on_step)
-    : limits_(scene.guard), insisted_on_step_(insisted_on_step), smallest_radius_(0.5 * scene.lots.front().diameter) {
-  for (const SeedLot& lot : scene.lots) smallest_radius_ = std::min(smallest_radius_, 0.5 * lot.diameter);
-}
+    : limits_(scene.guard), insisted_on_step_(insisted_on_step), smallest_radius_(smallest_radius(scene.lots)) {}
 
 void Guard::stop(std::string reason) {
   if (!stop_reason_) stop_reason_ = std::move(reason);

@@ -172,7 +172,9 @@ Grains starting_grains(const Scene& scene, std::uint64_t random_seed, const Effe
     const Eigen::Vector2d displacement = vessel_displacement(vessel, 0);
     for (const PackedGrain& packed : pack(vessel, scene.lots, random)) {
       const Eigen::Vector2d at = in_lab_frame(vessel, displacement, {packed.x, packed.y});
-      grains.add(at.x(), at.y(), velocity.x(), velocity.y(), packed.lot);
+      const std::size_t lot = static_cast<std::size_t>(packed.lot);
+      const GrainKind kind = sized_kind(scene.lots[lot], scene.contact.law, grains.kinds[lot], packed.size);
+      grains.add(at.x(), at.y(), velocity.x(), velocity.y(), packed.lot, kind, packed.angle);
     }
   }
   return grains;

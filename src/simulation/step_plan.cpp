@@ -9,6 +9,8 @@
 #include "contact/elastic_shell.hpp"
 #include "contact/hertz.hpp"
 #include "contact/kernels.hpp"
+#include "grains/size_distribution.hpp"
+#include "scene/seed_lot.hpp"
 #include "simulation/vessel_motion.hpp"
 #include "simulation/walls.hpp"
 
@@ -20,13 +22,6 @@ constexpr double longest_travel = 0.1;          // radii a step
 constexpr double wanted_friction_step = 0.5;    // dt lambda that a chosen step keeps to
 constexpr double allowed_energy_growth = 1.01;  // of a free vibration under RK2 over the whole run, in amplitude
 
-double smallest_size(const SeedLot& lot) {
-  return lot.sizes.least / lot.diameter;
-}
-double largest_size(const SeedLot& lot) {
-  return lot.sizes.most / lot.diameter;
-}
-
 /// Grains as contacts see them: of a lot with a distribution its smallest and its largest, of a clump its discs.
 std::vector<GrainKind> touching_kinds(const Scene& scene) {
   std::vector<GrainKind> touching;
@@ -35,7 +30,7 @@ std::vector<GrainKind> touching_kinds(const Scene& scene) {
     const SeedLot& lot = scene.lots[l];
     const bool scatter = lot.sizes.kind != SizeDistribution::Kind::single;
     std::vector<double> sizes{1};
-    if (scatter) sizes = {smallest_size(lot), largest_size(lot)};
+    if (scatter) sizes = {1, least_size(lot), most_size(lot)};
     for (const double size : sizes) {
       const GrainKind whole = sized_kind(lot, scene.contact.law, kinds[l], size);
       if (lot.discs.empty()) touching.push_back(whole);
@@ -95,7 +90,7 @@ double slope(const Scene& scene, const Meeting& m, double overlap) {
 
 double mean_diameter(const Scene& scene) {
   double mean = 0;
-  for (const SeedLot& lot : scene.lots) mean += lot.number_share * lot.diameter;
+  for (const SeedLot& lot : scene.lots) mean += lot.number_share * size_moment(lot, 1) * lot.diameter;
   return mean;
 }
 
@@ -115,6 +110,16 @@ double weight_factor(const Scene& scene) {
   return 1 + largest / standard_gravity;
 }
 
+/// Force over mass of a lot's smallest seed, against that of a seed of mean diameter in a bed of mean seeds: a share of
+/// the bed's pressure that goes with its diameter, over its own mass. 1 for single sizes.
+double load_of_smallest(const Scene& scene) {
+  double largest = 1;
+  for (const SeedLot& lot : scene.lots)
+    largest =
+        std::max(largest, mean_mass(lot) / lot.mass / std::pow(least_size(lot), lot.shape == Shape::ball ? 2 : 1));
+  return largest;
+}
+
 double largest(const std::vector<SurfaceParameters>& surfaces, double SurfaceParameters::*value) {
   double most = 0;
   for (const SurfaceParameters& s : surfaces) most = std::max(most, s.*value);
@@ -126,9 +131,11 @@ double largest(const std::vector<SurfaceParameters>& surfaces, double SurfacePar
 double friction_rate(const Scene& scene) {
   const EffectSet effects = effects_of(scene);
   const ContactParameters parameters = contact_parameters(scene);
-  const bool ball =
-      std::any_of(scene.lots.begin(), scene.lots.end(), [](const SeedLot& l) { return l.shape == Shape::ball; });
-  const double per_spin = ball ? 2.5 : 2;                          // m r^2 / I
+  double per_spin = 2;  // m r^2 / I, of a clump at its furthest point
+  for (const SeedLot& lot : scene.lots)
+    per_spin = std::max(per_spin, lot.shape == Shape::ball    ? 2.5
+                                  : lot.shape == Shape::clump ? 0.25 * lot.diameter * lot.diameter / lot.gyration2
+                                                              : 2);
   const double per_surface = effects.rotation ? 1 + per_spin : 1;  // 1 / (m m_t), of one grain
   const double layers = deepest_fill(scene), weight = standard_gravity * weight_factor(scene);
   const auto rate = [&](const std::vector<SurfaceParameters>& surfaces) {
@@ -140,7 +147,7 @@ double friction_rate(const Scene& scene) {
   };
   const double on_wall = rate(parameters.walls) * layers * weight;
   const double in_bed = rate(parameters.pairs) * std::max(layers - 1, 1.0) * weight * 2;
-  return std::max(on_wall, in_bed) / scene.contact.slip_speed;
+  return std::max(on_wall, in_bed) * load_of_smallest(scene) / scene.contact.slip_speed;
 }
 
 /// Speed that a grain can reach: twice the vessel's, or the fall from the highest edge to the counting line.
@@ -231,12 +238,6 @@ StepLimit contact_limit(const Scene& scene, const std::vector<GrainKind>& kinds)
   return {"the growth of " + what + " (RK2)", std::min(stable, std::cbrt(8 * growth / std::pow(omega, 4)))};
 }
 
-double smallest_radius(const Scene& scene) {
-  double smallest = scene.lots.front().diameter;
-  for (const SeedLot& lot : scene.lots) smallest = std::min(smallest, lot.diameter);
-  return 0.5 * smallest;
-}
-
 }  // namespace
 
 StepPlan plan_step(const Scene& scene) {
@@ -251,7 +252,7 @@ StepPlan plan_step(const Scene& scene) {
     wanted = std::min(wanted, wanted_friction_step / rate);
   }
   plan.limits.push_back(
-      {"a grain's travel in one step", longest_travel * smallest_radius(scene) / foretold_speed(scene)});
+      {"a grain's travel in one step", longest_travel * smallest_radius(scene.lots) / foretold_speed(scene)});
   if (scene.contact.drag > 0) {
     plan.limits.push_back({"drag", lightest(kinds) / scene.contact.drag});
   }

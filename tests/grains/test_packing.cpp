@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <numeric>
+#include <set>
 
 #include "grains/packing.hpp"
 #include "scene/input_error.hpp"
@@ -28,8 +29,16 @@ std::vector<SeedLot> two_lots() {
   return {{"a", diameter, 4e-5, Shape::ball, 0.7}, {"b", 0.5 * diameter, 1e-5, Shape::ball, 0.3}};
 }
 
+std::vector<SeedLot> scattered_lots() {
+  std::vector<SeedLot> lots = two_lots();
+  lots[0].sizes = {SizeDistribution::Kind::normal, diameter, 0.2 * diameter, 0.5 * diameter, 1.5 * diameter, {}, {}};
+  lots[1].shape = Shape::clump;
+  lots[1].discs = {{-0.5e-3, 0, 0.5e-3}, {0.5e-3, 0, 0.5e-3}};
+  return lots;
+}
+
 double radius_of(const PackedGrain& grain, const std::vector<SeedLot>& lots) {
-  return 0.5 * lots[static_cast<std::size_t>(grain.lot)].diameter;
+  return 0.5 * grain.size * lots[static_cast<std::size_t>(grain.lot)].diameter;
 }
 
 /// Deepest overlap of two grains, or of a grain and a wall, in m; negative when nothing touches.
@@ -52,7 +61,7 @@ double deepest_overlap(const Vessel& v, const std::vector<PackedGrain>& packed, 
 TEST(Packing, NoPackingOverlaps) {
   for (const Packing packing : {Packing::poured, Packing::layers, Packing::hexagonal})
     for (std::uint64_t seed = 1; seed <= 40; ++seed)
-      for (const auto& lots : {one_lot(), two_lots()}) {
+      for (const auto& lots : {one_lot(), two_lots(), scattered_lots()}) {
         Random random(seed);
         const Vessel v = vessel(packing, 250, packing == Packing::poured ? 0 : 0.02);
         const std::vector<PackedGrain> packed = pack(v, lots, random);
@@ -108,6 +117,22 @@ TEST(Packing, RandomSeedActsAndRepeats) {
     };
     EXPECT_EQ(first(1), first(1));
     EXPECT_NE(first(1), first(2));
+  }
+}
+
+TEST(Packing, EachGrainHasItsOwnSizeAndEachClumpItsAngle) {
+  for (const Packing packing : {Packing::poured, Packing::layers, Packing::hexagonal}) {
+    Random random(4);
+    std::set<double> sizes, angles;
+    for (const PackedGrain& grain : pack(vessel(packing, 200), scattered_lots(), random)) {
+      if (grain.lot == 0) sizes.insert(grain.size);
+      if (grain.lot == 1) angles.insert(grain.angle);
+      EXPECT_TRUE(grain.lot == 0 ? grain.angle == 0 : grain.size == 1);
+    }
+    EXPECT_EQ(sizes.size(), 140u);
+    EXPECT_EQ(angles.size(), 60u);
+    EXPECT_GE(*sizes.begin(), 0.5);
+    EXPECT_LE(*sizes.rbegin(), 1.5);
   }
 }
 

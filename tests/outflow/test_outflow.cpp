@@ -60,6 +60,17 @@ TEST(Rows, OfSeveralLotsComePerLotAndTogether) {
   EXPECT_DOUBLE_EQ(*outflow.depth_factor, 0.06 / 5e-3);
 }
 
+TEST(DepthFactor, IsOfTheMeanThickness) {
+  Scene scene = made_up_scene(1);
+  scene.tray.depth = 0.06;
+  scene.lots[0].sizes = {SizeDistribution::Kind::table, scene.lots[0].diameter, 0, 0, 0, {4e-3, 8e-3}, {0.5, 0.5}};
+  EXPECT_NEAR(*measure_outflow(scene, made_up_run(scene)).depth_factor, 0.06 / 6e-3, 1e-12);
+  scene.lots[0].sizes = {};
+  scene.lots[0].shape = Shape::clump;
+  scene.lots[0].discs = {{-1e-3, 0, 1.5e-3}, {1e-3, 0, 1e-3}};
+  EXPECT_DOUBLE_EQ(*measure_outflow(scene, made_up_run(scene)).depth_factor, 0.06 / 3e-3) << "of its largest disc";
+}
+
 TEST(Rows, AreFoundByNameOrAll) {
   const Scene scene = made_up_scene(2);
   const Outflow outflow = measure_outflow(scene, made_up_run(scene));

@@ -10,6 +10,8 @@
 namespace vibrosow {
 namespace {
 
+using Kind = SizeDistribution::Kind;
+
 Scene example() {
   Scene scene;
   scene.lots = {{"pea", 0.007, 2e-4, Shape::ball, 1}};
@@ -42,6 +44,12 @@ TEST(DescribeScene, EverythingThatActsCounts) {
       [](Scene& s) { s.lots[0].mass *= 2; },
       [](Scene& s) { s.lots[0].shape = Shape::disc; },
       [](Scene& s) { s.lots[0].number_share = 0.5; },
+      [](Scene& s) { s.lots[0].shape = Shape::clump; },
+      [](Scene& s) { s.lots[0].sizes = {Kind::uniform, 0.007, 0, 0.006, 0.008, {}, {}}; },
+      [](Scene& s) { s.lots[0].sizes = {Kind::normal, 0.007, 0.001, 0.004, 0.01, {}, {}}; },
+      [](Scene& s) {
+        s.lots[0].sizes = {Kind::table, 0.007, 0, 0, 0, {0.006, 0.008}, {0.5, 0.5}};
+      },
       [](Scene& s) { s.contact.shell_compression *= 2; },
       [](Scene& s) { s.contact.seed.friction = 0.1; },
       [](Scene& s) { s.contact.seed.restitution = 0.9; },
@@ -141,6 +149,37 @@ TEST(DescribeScene, EverythingThatActsCounts) {
     const auto [same, is_new] = known.emplace(describe_scene(changed).dump(), i);
     EXPECT_TRUE(is_new) << "change number " << i << " is described like number " << same->second;
   }
+}
+
+TEST(DescribeScene, EveryMeasureOfSizesAndClumpsCounts) {
+  const auto text = [](const SeedLot& lot) {
+    Scene scene = example();
+    scene.lots = {lot};
+    return describe_scene(scene).dump();
+  };
+  const auto expect_change = [&](const SeedLot& lot, const std::function<void(SeedLot&)>& change) {
+    SeedLot changed = lot;
+    change(changed);
+    EXPECT_NE(text(changed), text(lot));
+  };
+  SeedLot lot = example().lots[0];
+  lot.sizes = {Kind::normal, 0.007, 0.001, 0.004, 0.01, {}, {}};
+  expect_change(lot, [](SeedLot& l) { l.sizes.kind = Kind::lognormal; });
+  expect_change(lot, [](SeedLot& l) { l.sizes.mean *= 1.1; });
+  expect_change(lot, [](SeedLot& l) { l.sizes.deviation *= 1.1; });
+  expect_change(lot, [](SeedLot& l) { l.sizes.least *= 1.1; });
+  expect_change(lot, [](SeedLot& l) { l.sizes.most *= 1.1; });
+  lot.sizes = {Kind::table, 0.007, 0, 0, 0, {0.006, 0.008}, {0.5, 0.5}};
+  expect_change(lot, [](SeedLot& l) { l.sizes.diameter[1] *= 1.1; });
+  expect_change(lot, [](SeedLot& l) { l.sizes.share = {0.4, 0.6}; });
+  lot.sizes = {};
+  lot.shape = Shape::clump;
+  lot.discs = {{0, 0, 1e-3}, {1e-3, 0, 1e-3}};
+  expect_change(lot, [](SeedLot& l) { l.discs[0].x = 1e-4; });
+  expect_change(lot, [](SeedLot& l) { l.discs[1].y = 1e-4; });
+  expect_change(lot, [](SeedLot& l) { l.discs[1].radius = 1e-4; });
+  expect_change(lot, [](SeedLot& l) { l.discs.pop_back(); });
+  expect_change(lot, [](SeedLot& l) { l.gyration2 = 1e-6; });
 }
 
 }  // namespace

@@ -13,6 +13,7 @@ TEST(KeyUnits, ColumnsCarryOneUnitForEachKey) {
   EXPECT_EQ(condition_column("contact.slip_speed"), "contact.slip_speed_mm_per_s");
   EXPECT_EQ(condition_column("contact.drag"), "contact.drag_g_per_s");
   EXPECT_EQ(condition_column("seeds.wheat.density"), "seeds.wheat.density_kg_per_m3");
+  EXPECT_EQ(condition_column("seeds.wheat.sizes.deviation"), "seeds.wheat.sizes.deviation_mm");
   EXPECT_EQ(condition_column("seeds.wheat.mass_share"), "seeds.wheat.mass_share_percent");
   EXPECT_EQ(condition_column("tray.tilt"), "tray.tilt_degree");
   EXPECT_EQ(condition_column("run.duration"), "run.duration_s");

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "scene/clump_shape.hpp"
 #include "scene/read_scene.hpp"
 #include "scene/toml_lib.hpp"
 #include "units/quantity.hpp"
@@ -60,14 +61,21 @@ std::vector<std::string> source_faults(const toml::table& preset) {
   return faults;
 }
 
-/// A crop's mass over its volume times true density, as a ball: 1 when they agree.
+/// A crop's mass over its volume times true density: 1 when they agree. The volume of a ball, or of a clump with the
+/// outline of its discs, 2/3 of its area times its thickness as an ellipsoid has.
 double mass_ratio(const toml::table& crop) {
   const auto quantity = [&](const toml::node_view<const toml::node>& node, Dimension dimension) {
     return parse_quantity(node.value_or(std::string()), dimension);
   };
-  const double diameter = quantity(crop["diameter"], Dimension::length);
-  const double density = quantity(crop["reference"]["true_density"], Dimension::density);
-  return quantity(crop["mass"], Dimension::mass) / (density * std::numbers::pi / 6 * std::pow(diameter, 3));
+  const double mass_per_volume =
+      quantity(crop["mass"], Dimension::mass) / quantity(crop["reference"]["true_density"], Dimension::density);
+  const std::string shape = crop["shape"].value_or(std::string("ball"));
+  if (shape == "ball")
+    return mass_per_volume / (std::numbers::pi / 6 * std::pow(quantity(crop["diameter"], Dimension::length), 3));
+  const double length = quantity(crop["length"], Dimension::length);
+  const double width = quantity(crop["width"], Dimension::length);
+  const double area = plate_of(shape == "drop" ? drop(length, width) : elongated(length, width)).area;
+  return mass_per_volume / (2.0 / 3 * area * quantity(crop["reference"]["thickness"], Dimension::length));
 }
 
 TEST(Presets, EveryValueHasASource) {
@@ -93,13 +101,29 @@ TEST(Presets, FaultsInSourcesAreFound) {
 
 TEST(Presets, MassAgreesWithVolumeAndTrueDensity) {
   const std::vector<fs::path> crops = toml_files(data_directory() / "models" / "crops");
-  ASSERT_GE(crops.size(), 3u);
+  ASSERT_GE(crops.size(), 6u);
   for (const fs::path& file : crops) EXPECT_NEAR(mass_ratio(toml::parse_file(file.string())), 1, 0.02) << file;
 }
 
 TEST(Presets, WheatAtItsGeometricMeanDiameterWouldNotAgree) {
   EXPECT_NEAR(mass_ratio(toml::parse("diameter = '4.26 mm'\nmass = '29.6 mg'\nreference.true_density = '1240 kg/m3'")),
               731.0 / 1240, 0.01);
+}
+
+TEST(Presets, WheatAtItsMeasuredLengthWidthAndThicknessWouldNotAgree) {
+  EXPECT_NEAR(mass_ratio(toml::parse("shape = 'elongated'\nlength = '7.08 mm'\nwidth = '3.27 mm'\nmass = '29.6 mg'\n"
+                                     "reference = { true_density = '1240 kg/m3', thickness = '2.98 mm' }")),
+              29.6 / 41.7, 0.01);
+}
+
+TEST(Presets, ElongatedAndDropCropsReadAsClumps) {
+  for (const auto& [crop, length] : {std::pair("wheat-grain", 6.32e-3), {"barley-grain", 9.13e-3}}) {
+    const Scene scene = read_scene(data_directory() / "seeders" / "wheat-tray.toml",
+                                   {parse_override(std::string("seeds.wheat.crop=") + crop),
+                                    parse_override("hopper.fill.count=50"), parse_override("tray.fill.count=50")});
+    EXPECT_EQ(scene.lots[0].shape, Shape::clump) << crop;
+    EXPECT_NEAR(scene.lots[0].diameter, length, 1e-12) << crop;
+  }
 }
 
 std::vector<fs::path> shipped_seeders() {

@@ -8,6 +8,7 @@
 #include <numbers>
 #include <sstream>
 
+#include "scene/input_error.hpp"
 #include "temporary_file.hpp"
 
 namespace vibrosow {
@@ -207,6 +208,28 @@ TEST(ReadScene, MixtureByMassIsConvertedToNumbers) {
   EXPECT_EQ(scene.tray.holes[0].width, 0.016) << "of the largest lot";
 }
 
+TEST(ReadScene, MixtureByMassCountsTheMeanMassOfAllSizes) {
+  // Balls of 6 to 10 mm: E[d^3] = 8^3 (1 + (1/4)^2) mm^3, so a seed weighs 0.31875 g on average.
+  const Scene scene =
+      read(small_example, {"seeds.pea={ mass = '0.3 g', mass_share = '75 %', sizes = { distribution = "
+                           "'uniform', least = '6 mm', most = '10 mm' } }",
+                           "seeds.rape.diameter=2 mm", "seeds.rape.mass=0.1 g", "seeds.rape.mass_share=25 %",
+                           "tray.holes={ count = 1, width = '2 diameters' }"});
+  const double peas = 0.75 / 0.31875, rapes = 0.25 / 0.1;
+  EXPECT_NEAR(scene.lots[0].number_share, peas / (peas + rapes), 1e-15);
+  EXPECT_EQ(scene.tray.holes[0].width, 0.016) << "of the mean of the largest lot";
+}
+
+TEST(ReadScene, LargestSeedOfALotMustFitIn) {
+  const auto with_a_wide_one = [](const char* most) {
+    return read(small_example,
+                {std::string("seeds.pea={ mass = '0.3 g', sizes = { distribution = 'table', diameters = ['6 mm', '") +
+                 most + "'], shares = ['99 %', '1 %'] } }"});
+  };
+  EXPECT_NO_THROW(with_a_wide_one("49 cm"));
+  EXPECT_THROW(with_a_wide_one("51 cm"), InputError);
+}
+
 TEST(ReadScene, MixtureByNumber) {
   const Scene scene = read(small_example, {"seeds.pea.number_share=75 %", "seeds.rape.diameter=2 mm",
                                            "seeds.rape.mass=0.1 g", "seeds.rape.number_share=25 %"});
@@ -252,7 +275,7 @@ TEST(ReadScene, ShippedCropByName) {
 }
 
 TEST(ReadScene, RowOfHolesEqualsTheSameHolesByPosition) {
-  rc::check("count, span and centre are the same as at", [] {
+  EXPECT_TRUE(rc::check("count, span and centre are the same as at", [] {
     const int count = *rc::gen::inRange(2, 8);
     const int span_mm = *rc::gen::inRange(20 * (count - 1), 400);
     const int centre_mm = *rc::gen::inRange(220, 281);
@@ -273,7 +296,7 @@ TEST(ReadScene, RowOfHolesEqualsTheSameHolesByPosition) {
       RC_ASSERT(std::abs(by_row.tray.holes[i].centre - by_position.tray.holes[i].centre) < 2e-12);
       RC_ASSERT(by_row.tray.holes[i].width == by_position.tray.holes[i].width);
     }
-  });
+  }));
 }
 
 }  // namespace

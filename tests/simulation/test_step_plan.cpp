@@ -45,6 +45,21 @@ TEST(StepPlan, LimitsAreThoseOfTheEquations) {
   EXPECT_NEAR(limit(plan_step(scene), "friction").dt, 1 / rate, 1e-9);
 }
 
+TEST(StepPlan, SmallestSeedOfALotSetsTheStep) {
+  // A disc of half the diameter at equal density and eps / r: omega^2 = 6 k / m with k = c_s c_l / (c_s + c_l), where
+  // c = m g / eps grows as the size; the stiffest is the smallest among largest.
+  Scene scene = published();
+  scene.numerics.integrator = Integrator::velocity_verlet;
+  const double single = limit(plan_step(scene), "Verlet").dt;
+  scene.lots[0].sizes = {SizeDistribution::Kind::uniform, 8e-3, 0, 4e-3, 12e-3, {}, {}};
+  const double stiffness = 0.5 * 1.5 / (0.5 + 1.5), mass = 0.25;  // over c and m of the mean seed; 1/2 and 1 for equals
+  EXPECT_NEAR(limit(plan_step(scene), "Verlet").dt, single * std::sqrt(mass * 0.5 / stiffness), 1e-12);
+  // Friction: lambda grows with F_n / m, E[s^2] s / s^2 of the mean seed's.
+  EXPECT_NEAR(limit(plan_step(published()), "friction").dt / 2 / limit(plan_step(scene), "friction").dt,
+              (1 + 0.25 / 3) / 0.5, 1e-9);
+  EXPECT_NEAR(limit(plan_step(scene), "travel").dt, 0.5 * limit(plan_step(published()), "travel").dt, 1e-15);
+}
+
 TEST(StepPlan, SofterShellsAllowLongerSteps) {
   Scene scene = published();
   scene.contact.seed.friction = scene.contact.wall.friction = 0;

@@ -1,0 +1,21 @@
+#pragma once
+
+#include <vector>
+
+#include "grains/grains.hpp"
+#include "grains/random.hpp"
+
+namespace vibrosow {
+
+/// Size of a seed of a lot, as a multiple of its diameter, within its least and most: the distribution's quantile of
+/// one uniform number. A single size is 1, and draws nothing.
+double draw_size(const SeedLot& lot, Random& random);
+
+/// How a seed is turned, rad in [0, 2 pi): at random for a clump; 0 for others, which draw nothing.
+double draw_angle(const SeedLot& lot, Random& random);
+
+/// What the grains of a scene can be at the extremes: a seed of each lot's diameter, and of its smallest and largest
+/// size where it has several.
+std::vector<GrainKind> extreme_kinds(const Scene& scene, bool rotation);
+
+}  // namespace vibrosow

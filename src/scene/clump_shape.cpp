@@ -1,0 +1,160 @@
+#include "scene/clump_shape.hpp"
+
+#include <algorithm>
+#include <boost/math/quadrature/gauss.hpp>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <optional>
+
+namespace vibrosow {
+namespace {
+
+constexpr double pi = std::numbers::pi;
+
+struct Arc {
+  double from, to;  // rad, from < to
+};
+
+/// The part of disc i's rim inside disc j, as an arc about `middle`; nothing when the rims do not cross. Of equal discs
+/// the first counts.
+std::optional<Arc> covered_arc(const ClumpDisc& i, const ClumpDisc& j, bool j_is_earlier) {
+  const double dx = j.x - i.x, dy = j.y - i.y, distance = std::hypot(dx, dy);
+  if (distance == 0 && i.radius == j.radius) return j_is_earlier ? std::optional(Arc{0, 2 * pi}) : std::nullopt;
+  if (distance + i.radius <= j.radius) return Arc{0, 2 * pi};
+  if (distance >= i.radius + j.radius || distance + j.radius <= i.radius) return std::nullopt;
+  const double cosine = (distance + (i.radius - j.radius) * (i.radius + j.radius) / distance) / (2 * i.radius);
+  const double half = std::acos(std::clamp(cosine, -1.0, 1.0)), middle = std::atan2(dy, dx);
+  return Arc{middle - half, middle + half};
+}
+
+/// Arcs of disc i's rim that no other disc covers.
+std::vector<Arc> free_arcs(const std::vector<ClumpDisc>& discs, std::size_t i) {
+  std::vector<Arc> covered;
+  for (std::size_t j = 0; j < discs.size(); ++j) {
+    if (j == i) continue;
+    const std::optional<Arc> arc = covered_arc(discs[i], discs[j], j < i);
+    if (!arc) continue;
+    const double turns = std::floor(arc->from / (2 * pi)) * 2 * pi;
+    const double from = arc->from - turns, to = arc->to - turns;
+    covered.push_back({from, std::min(to, 2 * pi)});
+    if (to > 2 * pi) covered.push_back({0, to - 2 * pi});
+  }
+  std::sort(covered.begin(), covered.end(), [](const Arc& a, const Arc& b) { return a.from < b.from; });
+  std::vector<Arc> free;
+  double reached = 0;
+  for (const Arc& arc : covered) {
+    if (arc.from > reached) free.push_back({reached, arc.from});
+    reached = std::max(reached, arc.to);
+  }
+  if (reached < 2 * pi) free.push_back({reached, 2 * pi});
+  return free;
+}
+
+/// Integral over an arc of f(x, y, dx/dt, dy/dt); on quarters the 20-point rule is exact to rounding.
+template <class Integrand>
+double along_arc(const ClumpDisc& disc, const Arc& arc, Integrand f) {
+  const int parts = static_cast<int>(std::ceil((arc.to - arc.from) / (pi / 2)));
+  const double step = (arc.to - arc.from) / parts;
+  double sum = 0;
+  for (int part = 0; part < parts; ++part)
+    sum += boost::math::quadrature::gauss<double, 20>::integrate(
+        [&](double t) {
+          const double cosine = disc.radius * std::cos(t), sine = disc.radius * std::sin(t);
+          return f(disc.x + cosine, disc.y + sine, -sine, cosine);
+        },
+        arc.from + part * step, arc.from + (part + 1) * step);
+  return sum;
+}
+
+/// The row's discs when no valley is too deep.
+bool is_smooth(const std::vector<ClumpDisc>& row, double width) {
+  for (std::size_t k = 1; k < row.size(); ++k)
+    if (valley_depth(row[k - 1], row[k]) > deepest_valley * width) return false;
+  return true;
+}
+
+/// The disc at a share `along` (-1 to 1) of the way from the ellipse's middle to its end disc.
+ClumpDisc inscribed_disc(double length, double width, double along) {
+  const double a = 0.5 * length, b = 0.5 * width, eccentricity2 = (a - b) * (a + b) / (a * a);
+  return {a * eccentricity2 * along, 0, b * std::sqrt(1 - eccentricity2 * along * along)};
+}
+
+}  // namespace
+
+Plate plate_of(const std::vector<ClumpDisc>& discs) {
+  // About the discs' own middle, so that a clump far from the origin loses no digits.
+  Eigen::Vector2d middle = Eigen::Vector2d::Zero();
+  for (const ClumpDisc& disc : discs) middle += Eigen::Vector2d(disc.x, disc.y) / static_cast<double>(discs.size());
+  std::vector<ClumpDisc> near = discs;
+  for (ClumpDisc& disc : near) disc.x -= middle.x(), disc.y -= middle.y();
+
+  double area = 0, polar = 0;
+  Eigen::Vector2d first = Eigen::Vector2d::Zero();
+  for (std::size_t i = 0; i < near.size(); ++i)
+    for (const Arc& arc : free_arcs(near, i)) {
+      area += along_arc(near[i], arc, [](double x, double y, double dx, double dy) { return (x * dy - y * dx) / 2; });
+      first.x() += along_arc(near[i], arc, [](double x, double, double, double dy) { return x * x * dy / 2; });
+      first.y() += along_arc(near[i], arc, [](double, double y, double dx, double) { return -y * y * dx / 2; });
+      polar += along_arc(
+          near[i], arc, [](double x, double y, double dx, double dy) { return (x * x * x * dy - y * y * y * dx) / 3; });
+    }
+  const Eigen::Vector2d centre = first / area;
+  return {area, middle + centre, polar / area - centre.squaredNorm()};
+}
+
+std::vector<ClumpDisc> about_centre_of_mass(std::vector<ClumpDisc> discs) {
+  const Eigen::Vector2d centre = plate_of(discs).centre;
+  for (ClumpDisc& disc : discs) disc.x -= centre.x(), disc.y -= centre.y();
+  return discs;
+}
+
+double holding_radius(const std::vector<ClumpDisc>& discs) {
+  double radius = 0;
+  for (const ClumpDisc& disc : discs) radius = std::max(radius, std::hypot(disc.x, disc.y) + disc.radius);
+  return radius;
+}
+
+double valley_depth(const ClumpDisc& a, const ClumpDisc& b) {
+  const double distance = std::abs(b.x - a.x);
+  if (distance <= std::abs(a.radius - b.radius)) return 0;
+  if (distance > a.radius + b.radius) return std::numeric_limits<double>::infinity();
+  const double along = (distance + (a.radius - b.radius) * (a.radius + b.radius) / distance) / 2;
+  const double across = std::sqrt(std::max(0.0, (a.radius - along) * (a.radius + along)));
+  const double sine = (a.radius - b.radius) / distance;  // of the common tangent's slope
+  return a.radius - along * sine - across * std::sqrt(1 - sine * sine);
+}
+
+std::vector<ClumpDisc> elongated(double length, double width) {
+  for (int count = 3; count <= most_row_discs; count += 2) {
+    std::vector<ClumpDisc> row;
+    for (int k = 0; k < count; ++k) {
+      // Denser towards the ends, where discs are small: the valleys come out about equally deep.
+      const double place = 2.0 * k / (count - 1) - 1;
+      row.push_back(inscribed_disc(length, width, std::sin(place * pi / 3) / std::sin(pi / 3)));
+    }
+    if (is_smooth(row, width)) return row;
+  }
+  return {};
+}
+
+std::vector<ClumpDisc> drop(double length, double width) {
+  constexpr double tip = 0.25;  // of the width
+  const double largest = 0.5 * width, smallest = tip * largest;
+  const double last = length - largest - smallest;  // from the first centre
+  for (int count = 3; count <= most_row_discs; ++count) {
+    std::vector<ClumpDisc> row;
+    for (int k = 0; k < count; ++k) {
+      const double radius = largest * std::pow(tip, static_cast<double>(k) / (count - 1));
+      row.push_back({last * (largest - radius) / (largest - smallest), 0, radius});
+    }
+    if (is_smooth(row, width)) return row;
+  }
+  return {};
+}
+
+std::vector<ClumpDisc> dipole(double diameter, double distance) {
+  return {{-0.5 * distance, 0, 0.5 * diameter}, {0.5 * distance, 0, 0.5 * diameter}};
+}
+
+}  // namespace vibrosow

@@ -1,0 +1,49 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "scene/scene.hpp"
+
+namespace vibrosow {
+
+/// A uniform plate in the shape of the union of discs; where they overlap, the plate is there once.
+struct Plate {
+  double area;             // m2
+  Eigen::Vector2d centre;  // m, of mass
+  double gyration2;        // m2, moment of inertia about the centre of mass over mass
+};
+
+/// Along the arcs of circles that no other disc covers, by Green's theorem: area = 1/2 integral(x dy - y dx),
+/// integral of x = 1/2 integral(x^2 dy), of y = -1/2 integral(y^2 dx), of x^2 + y^2 = 1/3 integral(x^3 dy - y^3 dx).
+/// Exact to rounding. The discs, at least one and of positive radius, may be apart, contain one another or be equal.
+Plate plate_of(const std::vector<ClumpDisc>& discs);
+
+/// The discs moved so that the centre of mass of their plate is the origin.
+std::vector<ClumpDisc> about_centre_of_mass(std::vector<ClumpDisc> discs);
+
+/// Radius (m) of the circle about the origin that just holds all discs.
+double holding_radius(const std::vector<ClumpDisc>& discs);
+
+/// How deep the outline of two discs on a line parallel to x dips below their common tangent, m; infinite when they
+/// are apart, 0 when one holds the other.
+double valley_depth(const ClumpDisc& a, const ClumpDisc& b);
+
+/// Valleys that a rounded shape may have, as a share of its width, and the discs it may take.
+inline constexpr double deepest_valley = 0.1;
+inline constexpr int most_row_discs = 11;
+
+/// A seed shaped as an ellipse, long axis along x, width < length (m): a row of discs that touch the ellipse from
+/// within, the first and last at its ends. As few discs (3, 5, .. 11) as make every valley shallower than
+/// `deepest_valley`: 3 to 1.6 widths, 5 to 2.4, 7 to 3.2, 9 to 4.2; empty when 11 are too few, beyond 5 widths.
+std::vector<ClumpDisc> elongated(double length, double width);
+
+/// A drop with its tip to the right, width < length (m): a disc of the width and smaller ones, in geometric order
+/// between two common tangents, down to one of a quarter of it. 3 to 11 discs, chosen as in `elongated`; empty beyond
+/// 3.9 widths.
+std::vector<ClumpDisc> drop(double length, double width);
+
+/// Two equal discs (m, diameter and distance of the centres) on a massless rod.
+std::vector<ClumpDisc> dipole(double diameter, double distance);
+
+}  // namespace vibrosow

@@ -1,0 +1,102 @@
+#include "scene/seed_lot.hpp"
+
+#include <algorithm>
+#include <boost/math/quadrature/gauss_kronrod.hpp>
+#include <cmath>
+#include <limits>
+
+namespace vibrosow {
+namespace {
+
+using Kind = SizeDistribution::Kind;
+
+/// E[(x / unit)^power] of a normal or lognormal cut at its least and most.
+double cut_moment(const SizeDistribution& sizes, double unit, int power) {
+  constexpr double far = 12;         // deviations from the mean; beyond lies no weight that a double could hold
+  constexpr unsigned halvings = 12;  // at most
+  constexpr double tolerance = 1e-13;
+  const bool logarithmic = sizes.kind == Kind::lognormal;
+  const UnderlyingNormal normal = underlying_normal(sizes);
+  const auto deviations = [&](double x) { return ((logarithmic ? std::log(x) : x) - normal.mean) / normal.deviation; };
+  const double from = std::max(-far, deviations(sizes.least)), to = std::min(far, deviations(sizes.most));
+  const auto weighted = [&](int exponent) {
+    return boost::math::quadrature::gauss_kronrod<double, 31>::integrate(
+        [&](double z) {
+          const double x = normal.mean + normal.deviation * z;
+          return std::exp(-0.5 * z * z) * std::pow((logarithmic ? std::exp(x) : x) / unit, exponent);
+        },
+        from, to, halvings, tolerance);
+  };
+  return weighted(power) / weighted(0);
+}
+
+}  // namespace
+
+UnderlyingNormal underlying_normal(const SizeDistribution& sizes) {
+  if (sizes.kind != Kind::lognormal) return {sizes.mean, sizes.deviation};
+  const double relative = sizes.deviation / sizes.mean;
+  const double variance = std::log1p(relative * relative);
+  return {std::log(sizes.mean) - 0.5 * variance, std::sqrt(variance)};
+}
+
+double least_size(const SeedLot& lot) {
+  const SizeDistribution& sizes = lot.sizes;
+  if (sizes.kind == Kind::single) return 1;
+  if (sizes.kind == Kind::table) return *std::min_element(sizes.diameter.begin(), sizes.diameter.end()) / lot.diameter;
+  return sizes.least / lot.diameter;
+}
+
+double most_size(const SeedLot& lot) {
+  const SizeDistribution& sizes = lot.sizes;
+  if (sizes.kind == Kind::single) return 1;
+  if (sizes.kind == Kind::table) return *std::max_element(sizes.diameter.begin(), sizes.diameter.end()) / lot.diameter;
+  return sizes.most / lot.diameter;
+}
+
+double size_moment(const SeedLot& lot, int power) {
+  const SizeDistribution& sizes = lot.sizes;
+  if (sizes.kind == Kind::single) return 1;
+  if (sizes.kind == Kind::table) {
+    double moment = 0;
+    for (std::size_t k = 0; k < sizes.diameter.size(); ++k)
+      moment += sizes.share[k] * std::pow(sizes.diameter[k] / lot.diameter, power);
+    return moment;
+  }
+  if (sizes.kind == Kind::uniform) {
+    double moment = 0;  // (b^(n+1) - a^(n+1)) / ((n + 1) (b - a)), divided out
+    for (int k = 0; k <= power; ++k) moment += std::pow(least_size(lot), k) * std::pow(most_size(lot), power - k);
+    return moment / (power + 1);
+  }
+  return cut_moment(sizes, lot.diameter, power);
+}
+
+double mean_mass(const SeedLot& lot) {
+  return lot.mass * size_moment(lot, lot.shape == Shape::ball ? 3 : 2);
+}
+
+double mean_thickness(const SeedLot& lot) {
+  double thickness = lot.diameter;
+  if (lot.shape == Shape::clump) {
+    thickness = 0;
+    for (const ClumpDisc& disc : lot.discs) thickness = std::max(thickness, 2 * disc.radius);
+  }
+  return thickness * size_moment(lot, 1);
+}
+
+double largest_diameter(const std::vector<SeedLot>& lots) {
+  double largest = 0;
+  for (const SeedLot& lot : lots) largest = std::max(largest, most_size(lot) * lot.diameter);
+  return largest;
+}
+
+double smallest_radius(const std::vector<SeedLot>& lots) {
+  double smallest = std::numeric_limits<double>::infinity();
+  for (const SeedLot& lot : lots) {
+    double radius = 0.5 * lot.diameter;
+    for (const ClumpDisc& disc : lot.discs) radius = std::min(radius, disc.radius);
+    smallest = std::min(smallest, least_size(lot) * radius);
+  }
+  return smallest;
+}
+
+}  // namespace vibrosow

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <vector>
+
+#include "scene/scene.hpp"
+
+namespace vibrosow {
+
+/// The normal distribution behind a normal (of the diameter, m) or a lognormal (of ln(diameter / m)) one. A
+/// lognormal's mean m and deviation s are of the diameter itself: sigma^2 = ln(1 + (s / m)^2), mu = ln m - sigma^2 / 2.
+struct UnderlyingNormal {
+  double mean, deviation;
+};
+UnderlyingNormal underlying_normal(const SizeDistribution& sizes);
+
+/// Smallest and largest size of a lot's seeds, and E[size^power] by number, all in multiples of `lot.diameter`; exactly
+/// 1 for a single size. `power` 1 to 3. Of normal and lognormal by Gauss-Kronrod quadrature, to 1e-12.
+double least_size(const SeedLot& lot);
+double most_size(const SeedLot& lot);
+double size_moment(const SeedLot& lot, int power);
+
+/// Mean mass of a lot's seeds, kg: m E[size^3] for balls, m E[size^2] for discs and clumps.
+double mean_mass(const SeedLot& lot);
+
+/// Mean diameter of a lot's seeds across the plane, m: of a clump that of its largest disc, as if it were round about
+/// its long axis.
+double mean_thickness(const SeedLot& lot);
+
+/// Diameter of the largest seed there can be, m; of a clump: of the circle that holds it.
+double largest_diameter(const std::vector<SeedLot>& lots);
+
+/// Radius of the smallest seed there can be, m; of a clump: of its smallest disc.
+double smallest_radius(const std::vector<SeedLot>& lots);
+
+}  // namespace vibrosow

@@ -1,0 +1,93 @@
+#include "simulation/feeder.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <set>
+
+#include "contact/effects.hpp"
+#include "scene/clump_shape.hpp"
+#include "scene/seed_lot.hpp"
+#include "simulation/simulation.hpp"
+
+namespace vibrosow {
+namespace {
+
+using Kind = SizeDistribution::Kind;
+
+Scene kept_full(const SeedLot& lot) {
+  Scene scene;
+  scene.lots = {lot};
+  scene.contact.seed.friction = 0.3;
+  scene.tray.name = "tray";
+  scene.tray.length = 0.2;
+  scene.tray.height = 1;
+  scene.tray.fill = Fill{300, Packing::poured, 1e-3, true};
+  scene.run.duration = 1;
+  return scene;
+}
+
+SeedLot scattered_balls() {
+  SeedLot lot{"a", 4e-3, 4e-5, Shape::ball, 1};
+  lot.sizes = {Kind::uniform, 4e-3, 0, 3e-3, 5e-3, {}, {}};
+  return lot;
+}
+
+SeedLot grains_of_wheat() {
+  SeedLot lot{"a", 0, 4e-5, Shape::clump, 1};
+  lot.discs = about_centre_of_mass(elongated(7e-3, 3e-3));
+  lot.gyration2 = plate_of(lot.discs).gyration2;
+  lot.diameter = 2 * holding_radius(lot.discs);
+  return lot;
+}
+
+/// Every grain has a size of its own within the lot's, and the density of all.
+void expect_scattered(const Grains& grains) {
+  std::set<double> radii;
+  for (std::size_t i = 0; i < grains.size(); ++i) {
+    radii.insert(grains.radius[i]);
+    EXPECT_GE(grains.radius[i], 1.5e-3);
+    EXPECT_LE(grains.radius[i], 2.5e-3);
+    EXPECT_NEAR(grains.mass[i], 4e-5 * std::pow(grains.radius[i] / 2e-3, 3), 1e-18);
+    for (std::size_t j = 0; j < i; ++j)
+      EXPECT_GT(std::hypot(grains.x[i] - grains.x[j], grains.y[i] - grains.y[j]),
+                (grains.radius[i] + grains.radius[j]) * (1 - 1e-5));
+  }
+  EXPECT_EQ(radii.size(), 300u);
+}
+
+TEST(Sizes, OfStartingGrainsAreDrawn) {
+  const Scene scene = kept_full(scattered_balls());
+  const EffectSet effects = effects_of(scene);
+  ASSERT_TRUE(effects.unequal) << "one lot, many sizes";
+  const Grains grains = starting_grains(scene, 1, effects);
+  ASSERT_EQ(grains.size(), 300u);
+  expect_scattered(grains);
+}
+
+TEST(Sizes, OfFedGrainsAreDrawn) {
+  const Scene scene = kept_full(scattered_balls());
+  Grains grains(grain_kinds(scene, true), true, true);
+  Walls walls(vessels_of(scene));
+  walls.place(0);
+  Feeder feeder(scene, 1);
+  EXPECT_EQ(feeder.top_up(grains, walls, 0), 300);
+  expect_scattered(grains);
+  EXPECT_TRUE(grains.angle.empty());
+}
+
+TEST(Angles, OfFedClumpsAreDrawn) {
+  const Scene scene = kept_full(grains_of_wheat());
+  Grains grains(grain_kinds(scene, true), true, true, true);
+  Walls walls(vessels_of(scene));
+  walls.place(0);
+  Feeder feeder(scene, 1);
+  const int added = feeder.top_up(grains, walls, 0);
+  EXPECT_EQ(added, 300);
+  ASSERT_EQ(grains.angle.size(), 300u);
+  EXPECT_EQ(std::set<double>(grains.angle.begin(), grains.angle.end()).size(), 300u);
+  EXPECT_EQ(feeder.top_up(grains, walls, 0), 0);
+}
+
+}  // namespace
+}  // namespace vibrosow
