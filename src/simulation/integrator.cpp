@@ -135,14 +135,14 @@ void rk2_midpoint(Integration& s) {
   add_wall_work(s, s.dt * s.census.wall_power);
 }
 
-/// Taylor's series for position, velocity and higher derivatives, one step on; `position` may be empty.
-void gear_predict(std::vector<double>& position, std::vector<double>& velocity, HigherDerivatives& higher, double dt) {
-  double *x = position.empty() ? nullptr : position.data(), *v = velocity.data();
-  double *q2 = higher[0].data(), *q3 = higher[1].data(), *q4 = higher[2].data(), *q5 = higher[3].data();
+/// Taylor's series for position, velocity and higher derivatives, one step on.
+template <bool with_position>
+void gear_predict(std::size_t n, double dt, double* __restrict x, double* __restrict v, double* __restrict q2,
+                  double* __restrict q3, double* __restrict q4, const double* __restrict q5) {
   const double per_dt = 1 / dt;
-  for (std::size_t i = 0; i < velocity.size(); ++i) {
+  for (std::size_t i = 0; i < n; ++i) {
     const double a = q2[i], b = q3[i], c = q4[i], d = q5[i];
-    if (x) x[i] += dt * v[i] + (a + b + c + d);
+    if constexpr (with_position) x[i] += dt * v[i] + (a + b + c + d);
     v[i] += per_dt * (2 * a + 3 * b + 4 * c + 5 * d);
     q2[i] = a + 3 * b + 6 * c + 10 * d;
     q3[i] = b + 4 * c + 10 * d;
@@ -151,20 +151,36 @@ void gear_predict(std::vector<double>& position, std::vector<double>& velocity, 
 }
 
 /// Shares of what the acceleration missed, in the order of the derivatives.
-void gear_correct(std::vector<double>& position, std::vector<double>& velocity, HigherDerivatives& higher,
-                  const std::vector<double>& acceleration, double dt) {
+template <bool with_position>
+void gear_correct(std::size_t n, double dt, const double* __restrict acceleration, double* __restrict x,
+                  double* __restrict v, double* __restrict q2, double* __restrict q3, double* __restrict q4,
+                  double* __restrict q5) {
   constexpr double share0 = 3.0 / 16, share1 = 251.0 / 360, share3 = 11.0 / 18, share4 = 1.0 / 6, share5 = 1.0 / 60;
-  double *x = position.empty() ? nullptr : position.data(), *v = velocity.data();
-  double *q2 = higher[0].data(), *q3 = higher[1].data(), *q4 = higher[2].data(), *q5 = higher[3].data();
-  const double* a = acceleration.data();
   const double half_dt2 = 0.5 * dt * dt, v_share = share1 / dt;
-  for (std::size_t i = 0; i < velocity.size(); ++i) {
-    const double now = half_dt2 * a[i], missed = now - q2[i];
-    if (x) x[i] += share0 * missed;
+  // In free flight the derivatives die out by a factor a step: below this (m) they are nothing, and the denormal
+  // numbers they would become take a hundred times as long.
+  constexpr double nothing = 1e-100;
+  const auto or_nothing = [](double q) { return std::abs(q) > nothing ? q : 0; };
+  for (std::size_t i = 0; i < n; ++i) {
+    const double now = half_dt2 * acceleration[i], missed = now - q2[i];
+    if constexpr (with_position) x[i] += share0 * missed;
     v[i] += v_share * missed;
     q2[i] = now;
-    q3[i] += share3 * missed, q4[i] += share4 * missed, q5[i] += share5 * missed;
+    q3[i] = or_nothing(q3[i] + share3 * missed);
+    q4[i] = or_nothing(q4[i] + share4 * missed);
+    q5[i] = or_nothing(q5[i] + share5 * missed);
   }
+}
+
+void gear_predict(std::vector<double>& x, std::vector<double>& v, HigherDerivatives& q, double dt) {
+  (x.empty() ? gear_predict<false> : gear_predict<true>)(v.size(), dt, x.data(), v.data(), q[0].data(), q[1].data(),
+                                                         q[2].data(), q[3].data());
+}
+
+void gear_correct(std::vector<double>& x, std::vector<double>& v, HigherDerivatives& q, const std::vector<double>& a,
+                  double dt) {
+  (x.empty() ? gear_correct<false> : gear_correct<true>)(v.size(), dt, a.data(), x.data(), v.data(), q[0].data(),
+                                                         q[1].data(), q[2].data(), q[3].data());
 }
 
 template <class Effects>
