@@ -26,6 +26,9 @@ const DimensionFacts& facts(Dimension dimension) {
   static constexpr DimensionFacts speed{"m/s", "a speed such as \"20 mm/s\""};
   static constexpr DimensionFacts angle{"rad", "an angle in degree or rad such as \"10 degree\""};
   static constexpr DimensionFacts density{"kg/m3", "a density such as \"1300 kg/m3\""};
+  static constexpr DimensionFacts force{"N", "a force such as \"0.2 mN\""};
+  static constexpr DimensionFacts pressure{"Pa", "a pressure such as \"5e4 MPa\""};
+  static constexpr DimensionFacts rate{"1/s", "a rate such as \"2.1e4 1/s\""};
   static constexpr DimensionFacts fraction{"1", "a share in % such as \"70 %\""};
   switch (dimension) {
     case Dimension::length:
@@ -44,6 +47,12 @@ const DimensionFacts& facts(Dimension dimension) {
       return angle;
     case Dimension::density:
       return density;
+    case Dimension::force:
+      return force;
+    case Dimension::pressure:
+      return pressure;
+    case Dimension::rate:
+      return rate;
     case Dimension::fraction:
       break;
   }
@@ -99,7 +108,7 @@ const std::regex& plain_unit() {
 // udunits2 takes an angle for a plain number, so a name decides where an angle could slip in: rad/s is no
 // frequency.
 bool names_the_dimension(const std::string& unit, Dimension dimension) {
-  static const std::regex frequency("k?Hz|rpm"), angle("m?rad|radians?|degrees?|°"), fraction("%");
+  static const std::regex frequency("k?Hz|rpm"), angle("m?rad|radians?|degrees?|°"), fraction("%"), rate("1/m?s");
   switch (dimension) {
     case Dimension::frequency:
       return std::regex_match(unit, frequency);
@@ -107,6 +116,8 @@ bool names_the_dimension(const std::string& unit, Dimension dimension) {
       return std::regex_match(unit, angle);
     case Dimension::fraction:
       return std::regex_match(unit, fraction);
+    case Dimension::rate:
+      return std::regex_match(unit, rate);
     default:
       return unit != "d";  // a day to udunits2, a diameter to most who would write it here
   }
@@ -127,7 +138,8 @@ UnitSize exact_size(double size) {
 }
 
 UnitSize find_unit(const std::string& unit, Dimension dimension) {
-  if (!std::regex_match(unit, plain_unit())) {
+  const bool reciprocal = dimension == Dimension::rate && names_the_dimension(unit, dimension);
+  if (!reciprocal && !std::regex_match(unit, plain_unit())) {
     throw UnitError(fmt::format("\"{}\" is not a plain unit; expected {}", unit, expected(dimension)));
   }
   if (unit == "rpm" && dimension == Dimension::frequency) return {1, 60};  // udunits2 counts radians: 0.105/s

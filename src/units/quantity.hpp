@@ -17,6 +17,9 @@ enum class Dimension {
   angle,      // rad
   density,    // kg/m3
   fraction,   // 1; "70 %" is 0.7
+  force,      // N
+  pressure,   // Pa, also an elastic modulus
+  rate,       // 1/s, of decay or growth: no turns, no cycles, so Hz is refused
 };
 
 /// A quantity that cannot be read; the message names the text, and what would be right.
