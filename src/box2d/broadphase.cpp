@@ -14,6 +14,7 @@ struct Broadphase::World {
   b2World world{b2Vec2(0, 0)};
   std::vector<b2Body*> bodies;        // by vessel
   std::vector<b2Vec2> rest;           // by vessel, where its body stands at rest
+  std::vector<double> tilt;           // by vessel, rad
   std::vector<b2Fixture*> fixtures;   // by wall
   b2DynamicTree tree;                 // of the grains
   std::vector<int> proxies;           // by grain
@@ -38,10 +39,14 @@ struct Broadphase::World {
     return box;
   }
 
-  /// The first vessel's frame is Box2D's; the others move past it.
-  void place_vessels(const std::vector<Eigen::Vector2d>& displacement) {
-    for (std::size_t v = 1; v < bodies.size(); ++v)
-      bodies[v]->SetTransform(rest[v] + units(displacement[v] - displacement.front()), bodies[v]->GetAngle());
+  /// Box2D's frame is displaced with the first vessel, which turns in it; the others move past it.
+  void place_vessels(const std::vector<Pose>& poses) {
+    for (std::size_t v = 0; v < bodies.size(); ++v) {
+      const b2Vec2 position = rest[v] + units(poses[v].displacement - poses.front().displacement);
+      const float angle = static_cast<float>(tilt[v] + poses[v].angle);
+      if (bodies[v]->GetPosition() != position || bodies[v]->GetAngle() != angle)
+        bodies[v]->SetTransform(position, angle);
+    }
   }
 
   /// Brings the tree up to date with the grains: grains gone, moved out of their boxes, or new.
@@ -109,6 +114,7 @@ Broadphase::Broadphase(const std::vector<Vessel>& vessels, double unit) : world_
     b2Body* body = w.world.CreateBody(&definition);
     w.bodies.push_back(body);
     w.rest.push_back(definition.position);
+    w.tilt.push_back(vessel.tilt);
     for (const WallSegment& wall : vessel_walls(vessel)) {
       b2EdgeShape edge;  // a chain would be one-sided
       edge.SetTwoSided(w.units(wall.a), w.units(wall.b));
@@ -132,11 +138,11 @@ void Broadphase::remove_wall(int wall) {
   fixture = nullptr;
 }
 
-void Broadphase::find(const Grains& grains, const std::vector<Eigen::Vector2d>& displacement, double margin,
-                      PairList& pairs, std::vector<WallCandidate>& near_walls) {
+void Broadphase::find(const Grains& grains, const std::vector<Pose>& poses, double margin, PairList& pairs,
+                      std::vector<WallCandidate>& near_walls) {
   World& w = *world_;
-  const Eigen::Vector2d shift = displacement.front();
-  w.place_vessels(displacement);
+  const Eigen::Vector2d shift = poses.front().displacement;
+  w.place_vessels(poses);
   w.update_boxes(grains, shift);
 
   pairs.first.assign(1, 0);

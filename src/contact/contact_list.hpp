@@ -26,7 +26,8 @@ struct WallCandidate {
 struct PlacedWall {
   double ax, ay, bx, by;   // m
   int vertex_a, vertex_b;  // numbers unique over all vessels
-  double vx, vy;           // m/s
+  double vx, vy;           // m/s; its material at the point (x, y) of the lab moves at (vx - spin y, vy + spin x)
+  double spin = 0;         // rad/s, anticlockwise
 };
 
 }  // namespace vibrosow

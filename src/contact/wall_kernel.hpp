@@ -101,7 +101,9 @@ void wall_forces(const Grains& grains, const Motion& at, std::vector<WallCandida
                             const double overlap = kind.radius - distance;
                             census.max_compression = std::max(census.max_compression, overlap / kind.radius);
                             ++census.contacts;
-                            const double ux = at.vx[i] - wall.vx, uy = at.vy[i] - wall.vy;
+                            const double wall_vx = wall.vx - wall.spin * (at.y[i] + nearest.dy);
+                            const double wall_vy = wall.vy + wall.spin * (at.x[i] + nearest.dx);
+                            const double ux = at.vx[i] - wall_vx, uy = at.vy[i] - wall_vy;
                             const double approach = ux * nx + uy * ny;
                             [[maybe_unused]] const double arm = kind.radius - parameters.arm_shortening * overlap;
                             [[maybe_unused]] double sliding = uy * nx - ux * ny;
@@ -112,7 +114,7 @@ void wall_forces(const Grains& grains, const Motion& at, std::vector<WallCandida
                             if constexpr (Effects::friction) px -= force.tangential * ny, py += force.tangential * nx;
                             forces.fx[i] -= px, forces.fy[i] -= py;
                             if constexpr (Effects::rotation) forces.torque[i] -= arm * force.tangential;
-                            census.wall_power -= px * wall.vx + py * wall.vy;
+                            census.wall_power -= px * wall_vx + py * wall_vy;
                           });
   });
 }

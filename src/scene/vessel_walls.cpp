@@ -76,4 +76,10 @@ double highest_floor(const Vessel& vessel) {
   return highest;
 }
 
+double largest_radius(const Vessel& vessel) {
+  double largest = 0;
+  for (const WallSegment& wall : vessel_walls(vessel)) largest = std::max({largest, wall.a.norm(), wall.b.norm()});
+  return largest;
+}
+
 }  // namespace vibrosow

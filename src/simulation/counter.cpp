@@ -17,10 +17,11 @@ int Counter::hole_at(double x) const {
 }
 
 void Counter::watch(const Grains& grains, const Walls& walls, double time, std::vector<OutflowEvent>& events) {
-  const Eigen::Vector2d displacement = walls.displacement().front();
-  const double sine = std::sin(tray_.tilt), cosine = std::cos(tray_.tilt);
-  const double ox = tray_.origin.x() + displacement.x(), oy = tray_.origin.y() + displacement.y();
-  const Eigen::Vector2d tray_velocity = vessel_velocity(tray_, time);
+  const Pose pose = walls.poses().front();
+  const double angle = tray_.tilt + pose.angle;
+  const double sine = std::sin(angle), cosine = std::cos(angle);
+  const double ox = tray_.origin.x() + pose.displacement.x(), oy = tray_.origin.y() + pose.displacement.y();
+  const auto [tray_velocity, spin] = vessel_velocity(tray_, time);
 
   for (std::size_t i = 0; i < grains.size(); ++i) {
     const double height = cosine * (grains.y[i] - oy) - sine * (grains.x[i] - ox);
@@ -31,7 +32,8 @@ void Counter::watch(const Grains& grains, const Walls& walls, double time, std::
     }
     if (state.counted) continue;
     const double along = cosine * (grains.x[i] - ox) + sine * (grains.y[i] - oy);
-    const double ux = grains.vx[i] - tray_velocity.x(), uy = grains.vy[i] - tray_velocity.y();
+    const double ux = grains.vx[i] - (tray_velocity.x() - spin * (grains.y[i] - oy));
+    const double uy = grains.vy[i] - (tray_velocity.y() + spin * (grains.x[i] - ox));
     const double speed_along = cosine * ux + sine * uy, speed_up = cosine * uy - sine * ux;
     // Back along the present velocity to the moment when the centre was `level` high.
     const auto since = [&](double level) { return speed_up < 0 ? (height - level) / speed_up : 0.0; };
@@ -60,8 +62,8 @@ void Counter::remove_flagged(const std::vector<char>& removed) {
   state_.resize(kept);
 }
 
-bool is_inside(const Vessel& vessel, const Eigen::Vector2d& displacement, double x, double y) {
-  const Eigen::Vector2d own = in_vessel_frame(vessel, displacement, {x, y});
+bool is_inside(const Vessel& vessel, const Pose& pose, double x, double y) {
+  const Eigen::Vector2d own = in_vessel_frame(vessel, pose, {x, y});
   return own.x() >= 0 && own.x() <= vessel.length && own.y() >= 0 && own.y() <= vessel.height;
 }
 

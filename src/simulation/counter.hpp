@@ -40,6 +40,6 @@ class Counter {
 };
 
 /// Whether a point of the lab lies inside a vessel, between its end walls, above its floor line and below their tops.
-bool is_inside(const Vessel& vessel, const Eigen::Vector2d& displacement, double x, double y);
+bool is_inside(const Vessel& vessel, const Pose& pose, double x, double y);
 
 }  // namespace vibrosow

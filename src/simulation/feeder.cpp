@@ -15,11 +15,11 @@ struct Inside {
   std::vector<double> radius;
 };
 
-Inside grains_inside(const Vessel& vessel, const Eigen::Vector2d& displacement, const Grains& grains) {
+Inside grains_inside(const Vessel& vessel, const Pose& pose, const Grains& grains) {
   Inside inside;
   for (std::size_t i = 0; i < grains.size(); ++i) {
-    if (!is_inside(vessel, displacement, grains.x[i], grains.y[i])) continue;
-    inside.at.push_back(in_vessel_frame(vessel, displacement, {grains.x[i], grains.y[i]}));
+    if (!is_inside(vessel, pose, grains.x[i], grains.y[i])) continue;
+    inside.at.push_back(in_vessel_frame(vessel, pose, {grains.x[i], grains.y[i]}));
     inside.radius.push_back(grains.kind(i).radius);
   }
   return inside;
@@ -62,8 +62,9 @@ int Feeder::top_up(Grains& grains, const Walls& walls, double time) {
   for (std::size_t v = 0; v < walls.vessels().size(); ++v) {
     const Vessel& vessel = walls.vessels()[v];
     if (!is_kept(vessel)) continue;
-    Inside inside = grains_inside(vessel, walls.displacement()[v], grains);
-    const Eigen::Vector2d velocity = vessel_velocity(vessel, time);
+    const Pose pose = walls.poses()[v];
+    const PoseRate rate = vessel_velocity(vessel, time);
+    Inside inside = grains_inside(vessel, pose, grains);
     const int missing = vessel.fill->count - static_cast<int>(inside.at.size());
     for (int k = 0; k < missing; ++k) {
       const int lot = draw_lot();
@@ -73,7 +74,8 @@ int Feeder::top_up(Grains& grains, const Walls& walls, double time) {
       if (y + radius > vessel.height) continue;
       inside.at.emplace_back(x, y);
       inside.radius.push_back(radius);
-      const Eigen::Vector2d lab = in_lab_frame(vessel, walls.displacement()[v], {x, y});
+      const Eigen::Vector2d lab = in_lab_frame(vessel, pose, {x, y});
+      const Eigen::Vector2d velocity = material_velocity(vessel, pose, rate, lab);
       grains.add(lab.x(), lab.y(), velocity.x(), velocity.y(), lot);
       ++added;
     }

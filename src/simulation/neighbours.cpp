@@ -1,6 +1,9 @@
 #include "simulation/neighbours.hpp"
 
+#include <cmath>
+
 #include "contact/wall_kernel.hpp"
+#include "scene/vessel_walls.hpp"
 
 namespace vibrosow {
 namespace {
@@ -41,18 +44,20 @@ void renumber(std::vector<WallCandidate>& list, const std::vector<char>& removed
 Neighbours::Neighbours(const std::vector<Vessel>& vessels, double largest_diameter, NeighbourMargins margins)
     : broadphase_(vessels, largest_diameter),
       wide_margin_(margins.wide * largest_diameter),
-      narrow_margin_(margins.narrow * largest_diameter) {}
+      narrow_margin_(margins.narrow * largest_diameter) {
+  for (const Vessel& vessel : vessels) largest_radius_.push_back(largest_radius(vessel));
+}
 
 Neighbours::Reference Neighbours::reference(const Grains& grains, const Walls& walls) {
-  const Eigen::Vector2d shift = walls.displacement().front();
-  Reference now{grains.x, grains.y, walls.displacement()};
+  const Eigen::Vector2d shift = walls.poses().front().displacement;
+  Reference now{grains.x, grains.y, walls.poses()};
   for (double& x : now.x) x -= shift.x();
   for (double& y : now.y) y -= shift.y();
   return now;
 }
 
-bool Neighbours::moved(const Reference& from, const Grains& grains, const Walls& walls, double limit) {
-  const Eigen::Vector2d shift = walls.displacement().front();
+bool Neighbours::moved(const Reference& from, const Grains& grains, const Walls& walls, double limit) const {
+  const Eigen::Vector2d shift = walls.poses().front().displacement;
   const double limit2 = limit * limit, shift_x = shift.x(), shift_y = shift.y();
   const double *x = grains.x.data(), *y = grains.y.data(), *fx = from.x.data(), *fy = from.y.data();
   int far = 0;  // a flag without a branch: the loop becomes vector instructions
@@ -60,10 +65,12 @@ bool Neighbours::moved(const Reference& from, const Grains& grains, const Walls&
     const double dx = x[i] - shift_x - fx[i], dy = y[i] - shift_y - fy[i];
     far |= dx * dx + dy * dy > limit2 ? 1 : 0;
   }
-  for (std::size_t v = 1; v < from.displacement.size(); ++v) {
-    const Eigen::Vector2d relative_now = walls.displacement()[v] - shift;
-    const Eigen::Vector2d relative_then = from.displacement[v] - from.displacement.front();
-    far |= (relative_now - relative_then).squaredNorm() > limit2 ? 1 : 0;
+  for (std::size_t v = 0; v < from.poses.size(); ++v) {
+    const Pose &now = walls.poses()[v], &then = from.poses[v];
+    const Eigen::Vector2d relative_now = now.displacement - shift;
+    const Eigen::Vector2d relative_then = then.displacement - from.poses.front().displacement;
+    const double turned = std::abs(now.angle - then.angle) * largest_radius_[v];
+    far |= (relative_now - relative_then).norm() + turned > limit ? 1 : 0;
   }
   return far != 0;
 }
@@ -77,7 +84,7 @@ void Neighbours::update(const Grains& grains, const Walls& walls) {
 }
 
 void Neighbours::search(const Grains& grains, const Walls& walls) {
-  broadphase_.find(grains, walls.displacement(), wide_margin_, wide_, wide_walls_);
+  broadphase_.find(grains, walls.poses(), wide_margin_, wide_, wide_walls_);
   wide_reference_ = reference(grains, walls);
   wide_is_valid_ = true;
   ++searches_;

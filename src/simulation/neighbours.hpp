@@ -43,10 +43,10 @@ class Neighbours {
   /// Where the grains (relative to the first vessel) and the other vessels were when a list was made.
   struct Reference {
     std::vector<double> x, y;
-    std::vector<Eigen::Vector2d> displacement;
+    std::vector<Pose> poses;
   };
   static Reference reference(const Grains& grains, const Walls& walls);
-  static bool moved(const Reference& from, const Grains& grains, const Walls& walls, double limit);
+  bool moved(const Reference& from, const Grains& grains, const Walls& walls, double limit) const;
   static void remove_flagged(Reference& reference, const std::vector<char>& removed);
 
   void search(const Grains& grains, const Walls& walls);
@@ -54,6 +54,7 @@ class Neighbours {
   void prune_walls(const Grains& grains, const Walls& walls);
 
   Broadphase broadphase_;
+  std::vector<double> largest_radius_;  // m, by vessel, of its walls about its frame's zero
   double wide_margin_, narrow_margin_;  // m
   PairList wide_, narrow_;
   std::vector<WallCandidate> wide_walls_, narrow_walls_;

@@ -126,9 +126,9 @@ void Simulation::feed() {
 }
 
 void Simulation::note_whether_dry() {
-  const Eigen::Vector2d displacement = field_.walls().displacement().front();
+  const Pose pose = field_.walls().poses().front();
   for (std::size_t i = 0; i < grains_.size(); ++i)
-    if (!counter_.is_counted(i) && is_inside(scene_.tray, displacement, grains_.x[i], grains_.y[i])) {
+    if (!counter_.is_counted(i) && is_inside(scene_.tray, pose, grains_.x[i], grains_.y[i])) {
       run_.tray_empty_since = -1;
       return;
     }
@@ -161,10 +161,11 @@ Grains starting_grains(const Scene& scene, std::uint64_t random_seed, const Effe
   Grains grains(grain_kinds(scene, effects.rotation), effects.unequal, effects.rotation);
   for (const Vessel& vessel : vessels_of(scene)) {
     const bool moves_along = scene.run.start == Start::with_tray;
-    const Eigen::Vector2d velocity = moves_along ? vessel_velocity(vessel, 0) : Eigen::Vector2d::Zero();
-    const Eigen::Vector2d displacement = vessel_displacement(vessel, 0);
+    const PoseRate rate = moves_along ? vessel_velocity(vessel, 0) : PoseRate{};
+    const Pose pose = vessel_pose(vessel, 0);
     for (const PackedGrain& packed : pack(vessel, scene.lots, random)) {
-      const Eigen::Vector2d at = in_lab_frame(vessel, displacement, {packed.x, packed.y});
+      const Eigen::Vector2d at = in_lab_frame(vessel, pose, {packed.x, packed.y});
+      const Eigen::Vector2d velocity = material_velocity(vessel, pose, rate, at);
       grains.add(at.x(), at.y(), velocity.x(), velocity.y(), packed.lot);
     }
   }

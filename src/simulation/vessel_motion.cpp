@@ -1,5 +1,6 @@
 #include "simulation/vessel_motion.hpp"
 
+#include <Eigen/Geometry>
 #include <cmath>
 #include <numbers>
 
@@ -24,19 +25,40 @@ Ramp ramp_at(const HarmonicMotion& motion, double time) {
 
 }  // namespace
 
-Eigen::Vector2d vessel_displacement(const Vessel& vessel, double time) {
-  if (!vessel.motion) return Eigen::Vector2d::Zero();
+Pose vessel_pose(const Vessel& vessel, double time) {
+  if (!vessel.motion) return {};
   const HarmonicMotion& m = *vessel.motion;
-  return m.amplitude * ramp_at(m, time).size * std::sin(two_pi * m.frequency * time) * unit_direction(m);
+  return {m.amplitude * ramp_at(m, time).size * std::sin(two_pi * m.frequency * time) * unit_direction(m), 0};
 }
 
-Eigen::Vector2d vessel_velocity(const Vessel& vessel, double time) {
-  if (!vessel.motion) return Eigen::Vector2d::Zero();
+PoseRate vessel_velocity(const Vessel& vessel, double time) {
+  if (!vessel.motion) return {};
   const HarmonicMotion& m = *vessel.motion;
   const double phase = two_pi * m.frequency * time;
   const Ramp ramp = ramp_at(m, time);
-  return m.amplitude * (ramp.rate * std::sin(phase) + ramp.size * two_pi * m.frequency * std::cos(phase)) *
-         unit_direction(m);
+  return {m.amplitude * (ramp.rate * std::sin(phase) + ramp.size * two_pi * m.frequency * std::cos(phase)) *
+              unit_direction(m),
+          0};
+}
+
+Eigen::Vector2d in_lab_frame(const Vessel& vessel, const Pose& pose, const Eigen::Vector2d& own) {
+  const double angle = vessel.tilt + pose.angle;
+  if (angle == 0) return vessel.origin + pose.displacement + own;
+  return vessel.origin + pose.displacement + Eigen::Rotation2Dd(angle) * own;
+}
+
+Eigen::Vector2d in_vessel_frame(const Vessel& vessel, const Pose& pose, const Eigen::Vector2d& lab) {
+  const Eigen::Vector2d moved = lab - vessel.origin - pose.displacement;
+  const double angle = vessel.tilt + pose.angle;
+  if (angle == 0) return moved;
+  return Eigen::Rotation2Dd(-angle) * moved;
+}
+
+Eigen::Vector2d material_velocity(const Vessel& vessel, const Pose& pose, const PoseRate& rate,
+                                  const Eigen::Vector2d& lab) {
+  if (rate.angular_velocity == 0) return rate.velocity;
+  const Eigen::Vector2d arm = lab - vessel.origin - pose.displacement;
+  return rate.velocity + rate.angular_velocity * Eigen::Vector2d(-arm.y(), arm.x());
 }
 
 double largest_acceleration(const Vessel& vessel) {

@@ -5,6 +5,7 @@
 
 #include "contact/contact_list.hpp"
 #include "scene/scene.hpp"
+#include "simulation/vessel_motion.hpp"
 
 namespace vibrosow {
 
@@ -21,25 +22,20 @@ class Walls {
   void place(double time);
 
   const std::vector<PlacedWall>& placed() const { return placed_; }
-  const std::vector<Eigen::Vector2d>& displacement() const { return displacement_; }  // m, by vessel
+  const std::vector<Pose>& poses() const { return poses_; }  // by vessel
   const std::vector<Vessel>& vessels() const { return vessels_; }
 
  private:
   struct AtRest {
-    Eigen::Vector2d a, b;  // m, lab
+    Eigen::Vector2d a, b;          // m, lab
+    Eigen::Vector2d own_a, own_b;  // m, in the vessel's frame
     std::size_t vessel;
   };
 
   std::vector<Vessel> vessels_;
   std::vector<AtRest> at_rest_;
   std::vector<PlacedWall> placed_;
-  std::vector<Eigen::Vector2d> displacement_;
+  std::vector<Pose> poses_;
 };
-
-/// Turns a point of the lab into a vessel's own frame, when the vessel is displaced by `displacement`.
-Eigen::Vector2d in_vessel_frame(const Vessel& vessel, const Eigen::Vector2d& displacement, const Eigen::Vector2d& lab);
-
-/// The inverse: a point of the vessel's own frame in the lab.
-Eigen::Vector2d in_lab_frame(const Vessel& vessel, const Eigen::Vector2d& displacement, const Eigen::Vector2d& own);
 
 }  // namespace vibrosow
