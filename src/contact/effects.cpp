@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "scene/motion.hpp"
+
 namespace vibrosow {
 namespace {
 
@@ -14,7 +16,7 @@ bool grains_differ(const std::vector<SeedLot>& lots) {
 }
 
 bool moves(const Vessel& vessel) {
-  return vessel.motion && vessel.motion->amplitude != 0 && vessel.motion->frequency != 0;
+  return vessel.motion && moves(*vessel.motion);
 }
 
 }  // namespace
@@ -55,8 +57,7 @@ std::vector<EffectReason> explain_effects(const Scene& scene) {
     std::string text;
     for (const Vessel* vessel : {&scene.tray, scene.hopper ? &*scene.hopper : nullptr})
       if (vessel && moves(*vessel))
-        text += fmt::format("{}{} moves: {:.6g} mm at {:.6g} Hz", text.empty() ? "" : ", ", vessel->name,
-                            vessel->motion->amplitude * 1e3, vessel->motion->frequency);
+        text += fmt::format("{}{} moves: {}", text.empty() ? "" : ", ", vessel->name, motion_text(*vessel->motion));
     return text.empty() ? std::string("every vessel stands still") : text;
   };
   return {

@@ -9,6 +9,10 @@ Json optional_number(const std::optional<double>& value) {
   return value ? Json(*value) : Json(nullptr);
 }
 
+Json time_or_never(double time) {
+  return time == never ? Json(nullptr) : Json(time);
+}
+
 Json describe(const SeedLot& lot) {
   return {{"name", lot.name},
           {"diameter_m", lot.diameter},
@@ -45,7 +49,36 @@ Json describe(const HarmonicMotion& motion) {
           {"direction_rad", motion.direction},
           {"amplitude_m", motion.amplitude},
           {"frequency_hz", motion.frequency},
-          {"ramp_s", motion.ramp}};
+          {"phase_rad", motion.phase},
+          {"ramp_s", motion.ramp},
+          {"stop_s", time_or_never(motion.stop)},
+          {"stop_ramp_s", motion.stop_ramp}};
+}
+
+Json describe(const SumMotion& motion) {
+  Json components = Json::array();
+  for (const HarmonicMotion& component : motion.components) components.push_back(describe(component));
+  return {{"kind", "sum"}, {"components", components}};
+}
+
+Json describe(const RockingMotion& motion) {
+  return {{"kind", "rocking"},
+          {"pivot_m", {motion.pivot.x(), motion.pivot.y()}},
+          {"angle_rad", motion.angle},
+          {"frequency_hz", motion.frequency},
+          {"ramp_s", motion.ramp},
+          {"stop_s", time_or_never(motion.stop)},
+          {"stop_ramp_s", motion.stop_ramp}};
+}
+
+Json describe(const TableMotion& motion) {
+  return {
+      {"kind", "table"}, {"time_s", motion.times}, {"x_m", motion.x}, {"y_m", motion.y}, {"angle_rad", motion.angle}};
+}
+
+Json describe(const std::optional<VesselMotion>& motion) {
+  if (!motion) return nullptr;
+  return std::visit([](const auto& kind) { return describe(kind); }, *motion);
 }
 
 Json describe(const Vessel& vessel) {
@@ -60,7 +93,7 @@ Json describe(const Vessel& vessel) {
           {"depth_m", optional_number(vessel.depth)},
           {"holes", holes},
           {"fill", vessel.fill ? describe(*vessel.fill) : Json(nullptr)},
-          {"motion", vessel.motion ? describe(*vessel.motion) : Json(nullptr)}};
+          {"motion", describe(vessel.motion)}};
 }
 
 Json describe(const Numerics& numerics) {

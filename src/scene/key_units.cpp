@@ -65,6 +65,11 @@ constexpr std::array key_words = {
     KeyWord{"amplitude", millimetre},
     KeyWord{"frequency", hertz},
     KeyWord{"ramp", second},
+    KeyWord{"stop", second},
+    KeyWord{"stop_ramp", second},
+    KeyWord{"phase", degree},
+    KeyWord{"angle", degree},
+    KeyWord{"file", {}},
     // numerics, guard and run
     KeyWord{"integrator", {}},
     KeyWord{"steps_per_contact", {}},

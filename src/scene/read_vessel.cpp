@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "scene/read_motion.hpp"
 #include "scene/vessel_walls.hpp"
 
 namespace vibrosow {
@@ -164,18 +165,6 @@ void check_fill_fits(Table fill_table, const Vessel& vessel, const std::vector<S
     fill_table.fail("count", fmt::format("does not fit: {} seeds, but closely packed the {} holds no more than {:.0f}",
                                          vessel.fill->count, vessel.name, std::floor(most)));
   }
-}
-
-HarmonicMotion read_motion(Table table) {
-  const std::optional<std::size_t> kind = table.choice("kind", {"harmonic", "rocking", "sum", "table"});
-  if (!kind) table.fail("kind", "is missing; expected \"harmonic\"");
-  if (*kind != 0) table.fail("kind", "this motion is not built yet; expected \"harmonic\"");
-  HarmonicMotion motion;
-  motion.direction = table.quantity("direction", Dimension::angle, -360 * degree, 360 * degree).value_or(0);
-  motion.amplitude = table.required_quantity("amplitude", Dimension::length, 1e-9, 10);
-  motion.frequency = table.required_quantity("frequency", Dimension::frequency, 1e-6, 1e4);
-  motion.ramp = table.quantity("ramp", Dimension::time, 0, 1e6).value_or(0);
-  return motion;
 }
 
 }  // namespace

@@ -76,9 +76,10 @@ double highest_floor(const Vessel& vessel) {
   return highest;
 }
 
-double largest_radius(const Vessel& vessel) {
+double largest_radius(const Vessel& vessel, const Eigen::Vector2d& about) {
   double largest = 0;
-  for (const WallSegment& wall : vessel_walls(vessel)) largest = std::max({largest, wall.a.norm(), wall.b.norm()});
+  for (const WallSegment& wall : vessel_walls(vessel))
+    largest = std::max({largest, (wall.a - about).norm(), (wall.b - about).norm()});
   return largest;
 }
 

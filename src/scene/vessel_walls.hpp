@@ -25,7 +25,7 @@ std::vector<WallSegment> vessel_walls(const Vessel& vessel);
 /// Height of the floor, in m, at its highest point: 0 when flat.
 double highest_floor(const Vessel& vessel);
 
-/// Distance, in m, of the wall point that lies furthest from the zero of the vessel's frame.
-double largest_radius(const Vessel& vessel);
+/// Distance, in m, of the wall point that lies furthest from the point `about` of the vessel's frame.
+double largest_radius(const Vessel& vessel, const Eigen::Vector2d& about);
 
 }  // namespace vibrosow

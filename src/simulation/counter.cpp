@@ -21,7 +21,7 @@ void Counter::watch(const Grains& grains, const Walls& walls, double time, std::
   const double angle = tray_.tilt + pose.angle;
   const double sine = std::sin(angle), cosine = std::cos(angle);
   const double ox = tray_.origin.x() + pose.displacement.x(), oy = tray_.origin.y() + pose.displacement.y();
-  const auto [tray_velocity, spin] = vessel_velocity(tray_, time);
+  const auto [tray_velocity, spin] = walls.paths().front().rate(time);
 
   for (std::size_t i = 0; i < grains.size(); ++i) {
     const double height = cosine * (grains.y[i] - oy) - sine * (grains.x[i] - ox);

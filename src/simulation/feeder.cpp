@@ -63,7 +63,7 @@ int Feeder::top_up(Grains& grains, const Walls& walls, double time) {
     const Vessel& vessel = walls.vessels()[v];
     if (!is_kept(vessel)) continue;
     const Pose pose = walls.poses()[v];
-    const PoseRate rate = vessel_velocity(vessel, time);
+    const PoseRate rate = walls.paths()[v].rate(time);
     Inside inside = grains_inside(vessel, pose, grains);
     const int missing = vessel.fill->count - static_cast<int>(inside.at.size());
     for (int k = 0; k < missing; ++k) {

@@ -45,7 +45,7 @@ Neighbours::Neighbours(const std::vector<Vessel>& vessels, double largest_diamet
     : broadphase_(vessels, largest_diameter),
       wide_margin_(margins.wide * largest_diameter),
       narrow_margin_(margins.narrow * largest_diameter) {
-  for (const Vessel& vessel : vessels) largest_radius_.push_back(largest_radius(vessel));
+  for (const Vessel& vessel : vessels) largest_radius_.push_back(largest_radius(vessel, Eigen::Vector2d::Zero()));
 }
 
 Neighbours::Reference Neighbours::reference(const Grains& grains, const Walls& walls) {

@@ -10,7 +10,8 @@ std::vector<Vessel> vessels_of(const Scene& scene) {
   return vessels;
 }
 
-Walls::Walls(std::vector<Vessel> vessels) : vessels_(std::move(vessels)), poses_(vessels_.size()) {
+Walls::Walls(std::vector<Vessel> vessels)
+    : vessels_(std::move(vessels)), paths_(vessels_.begin(), vessels_.end()), poses_(vessels_.size()) {
   int first_vertex = 0;
   for (std::size_t v = 0; v < vessels_.size(); ++v) {
     const Vessel& vessel = vessels_[v];
@@ -29,8 +30,8 @@ void Walls::place(double time) {
   std::size_t next = 0;
   for (std::size_t v = 0; v < vessels_.size(); ++v) {
     const Vessel& vessel = vessels_[v];
-    const Pose pose = vessel_pose(vessel, time);
-    const PoseRate rate = vessel_velocity(vessel, time);
+    const Pose pose = paths_[v].pose(time);
+    const PoseRate rate = paths_[v].rate(time);
     poses_[v] = pose;
     // The wall's velocity is stated for the material that passes the lab's zero: at (x, y) it is (vx - spin y, vy +
     // spin x).

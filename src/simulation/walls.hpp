@@ -22,7 +22,8 @@ class Walls {
   void place(double time);
 
   const std::vector<PlacedWall>& placed() const { return placed_; }
-  const std::vector<Pose>& poses() const { return poses_; }  // by vessel
+  const std::vector<Pose>& poses() const { return poses_; }        // by vessel
+  const std::vector<VesselPath>& paths() const { return paths_; }  // by vessel
   const std::vector<Vessel>& vessels() const { return vessels_; }
 
  private:
@@ -33,6 +34,7 @@ class Walls {
   };
 
   std::vector<Vessel> vessels_;
+  std::vector<VesselPath> paths_;
   std::vector<AtRest> at_rest_;
   std::vector<PlacedWall> placed_;
   std::vector<Pose> poses_;

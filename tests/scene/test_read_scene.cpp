@@ -125,10 +125,10 @@ TEST(ReadScene, EveryKey) {
   EXPECT_EQ(scene.tray.fill->packing, Packing::layers);
   EXPECT_EQ(scene.tray.fill->jitter, 0.01);
   EXPECT_FALSE(scene.tray.fill->keep);
-  EXPECT_NEAR(scene.tray.motion->direction, std::numbers::pi / 6, 1e-15);
-  EXPECT_EQ(scene.tray.motion->amplitude, 0.01);
-  EXPECT_EQ(scene.tray.motion->frequency, 9);
-  EXPECT_EQ(scene.tray.motion->ramp, 0.2);
+  EXPECT_NEAR(std::get<HarmonicMotion>(*scene.tray.motion).direction, std::numbers::pi / 6, 1e-15);
+  EXPECT_EQ(std::get<HarmonicMotion>(*scene.tray.motion).amplitude, 0.01);
+  EXPECT_EQ(std::get<HarmonicMotion>(*scene.tray.motion).frequency, 9);
+  EXPECT_EQ(std::get<HarmonicMotion>(*scene.tray.motion).ramp, 0.2);
 
   ASSERT_TRUE(scene.hopper);
   EXPECT_EQ(scene.hopper->name, "hopper");
@@ -170,7 +170,7 @@ TEST(ReadScene, DefaultsAreNeutral) {
 TEST(ReadScene, OverridesAct) {
   const Scene scene = read(small_example, {"tray.motion.kind=harmonic", "tray.motion.amplitude=5 mm",
                                            "tray.motion.frequency=12 Hz", "contact.friction=0.25"});
-  EXPECT_EQ(scene.tray.motion->frequency, 12);
+  EXPECT_EQ(std::get<HarmonicMotion>(*scene.tray.motion).frequency, 12);
   EXPECT_EQ(scene.contact.seed.friction, 0.25);
   EXPECT_EQ(scene.contact.wall.friction, 0.25);
 }

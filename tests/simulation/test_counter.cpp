@@ -126,19 +126,5 @@ TEST(Counter, FeedingKeepsTheBalance) {
   expect_balanced(run.balance);
 }
 
-TEST(Motion, VelocityIsTheDerivativeOfDisplacement) {
-  Vessel vessel;
-  vessel.motion = HarmonicMotion{0.7, 0.01, 9, 0.2};
-  for (double t : {0.0, 0.03, 0.1, 0.19, 0.2, 0.35}) {
-    const double h = 1e-6;
-    const Eigen::Vector2d slope =
-        (vessel_pose(vessel, t + h).displacement - vessel_pose(vessel, t - h).displacement) / (2 * h);
-    EXPECT_NEAR((slope - vessel_velocity(vessel, t).velocity).norm(), 0, 1e-5) << t;
-  }
-  EXPECT_EQ(vessel_velocity(vessel, 0).velocity.norm(), 0) << "a ramp starts from rest";
-  vessel.motion->ramp = 0;
-  EXPECT_NEAR(vessel_velocity(vessel, 0).velocity.norm(), 0.565, 1e-3) << "paper A's case jumps";
-}
-
 }  // namespace
 }  // namespace vibrosow
