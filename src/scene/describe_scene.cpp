@@ -81,7 +81,17 @@ Json describe(const std::optional<VesselMotion>& motion) {
   return std::visit([](const auto& kind) { return describe(kind); }, *motion);
 }
 
+Json describe(const WallPiece& piece) {
+  if (piece.radius == 0) return {{"from_m", {piece.a.x(), piece.a.y()}}, {"to_m", {piece.b.x(), piece.b.y()}}};
+  return {{"centre_m", {piece.centre.x(), piece.centre.y()}},
+          {"radius_m", piece.radius},
+          {"from_rad", piece.from},
+          {"to_rad", piece.to}};
+}
+
 Json describe(const Vessel& vessel) {
+  Json pieces = Json::array();
+  for (const WallPiece& piece : vessel.pieces) pieces.push_back(describe(piece));
   Json holes = Json::array();
   for (const Hole& hole : vessel.holes) holes.push_back({{"centre_m", hole.centre}, {"width_m", hole.width}});
   return {{"left_m", vessel.origin.x()},
@@ -92,6 +102,8 @@ Json describe(const Vessel& vessel) {
           {"funnel_rad", vessel.funnel},
           {"depth_m", optional_number(vessel.depth)},
           {"holes", holes},
+          {"pieces", pieces},
+          {"box", vessel.box},
           {"fill", vessel.fill ? describe(*vessel.fill) : Json(nullptr)},
           {"motion", describe(vessel.motion)}};
 }

@@ -70,6 +70,7 @@ constexpr std::array key_words = {
     KeyWord{"phase", degree},
     KeyWord{"angle", degree},
     KeyWord{"file", {}},
+    KeyWord{"box", {}},
     // numerics, guard and run
     KeyWord{"integrator", {}},
     KeyWord{"steps_per_contact", {}},

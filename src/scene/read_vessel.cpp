@@ -167,6 +167,54 @@ void check_fill_fits(Table fill_table, const Vessel& vessel, const std::vector<S
   }
 }
 
+std::vector<WallPiece> read_line(const Table& table, const std::vector<std::array<double, 2>>& points) {
+  if (points.size() < 2) table.fail("line", "has a single point; expected two or more");
+  std::vector<WallPiece> pieces;
+  for (std::size_t k = 1; k < points.size(); ++k) {
+    WallPiece piece;
+    piece.a = {points[k - 1][0], points[k - 1][1]};
+    piece.b = {points[k][0], points[k][1]};
+    if ((piece.b - piece.a).norm() < shortest)
+      table.fail("line", fmt::format("points {} and {} lie on each other", k, k + 1));
+    pieces.push_back(piece);
+  }
+  return pieces;
+}
+
+WallPiece read_arc(Table& table) {
+  WallPiece arc;
+  const std::vector<double> centre = table.quantities("centre", Dimension::length, -longest, longest);
+  if (centre.size() != 2) {
+    table.fail("centre",
+               "expected line = [[\"0 cm\", \"5 cm\"], ...], or an arc's centre such as [\"5 cm\", \"5 cm\"]");
+  }
+  arc.centre = {centre[0], centre[1]};
+  arc.radius = table.required_quantity("radius", Dimension::length, shortest, longest);
+  arc.from = table.quantity("from", Dimension::angle, -360 * degree, 360 * degree).value_or(0);
+  arc.to = table.quantity("to", Dimension::angle, -360 * degree, 720 * degree).value_or(arc.from + 360 * degree);
+  if (!(arc.to > arc.from && arc.to - arc.from <= 360 * degree * (1 + 1e-12))) {
+    table.fail("to",
+               fmt::format("an arc runs anticlockwise from {:g} to {:g} degree; expected a larger end, by no more "
+                           "than a full turn",
+                           arc.from / degree, arc.to / degree));
+  }
+  return arc;
+}
+
+std::vector<WallPiece> read_pieces(Table& vessel) {
+  std::vector<WallPiece> pieces;
+  for (Table& table : vessel.tables("pieces")) {
+    if (table.has("line")) {
+      const auto line = read_line(table, table.points("line", Dimension::length, -longest, longest));
+      pieces.insert(pieces.end(), line.begin(), line.end());
+    } else {
+      pieces.push_back(read_arc(table));
+      table.skip("line");
+    }
+  }
+  return pieces;
+}
+
 }  // namespace
 
 Vessel read_vessel(Table table, const std::string& name, const std::vector<SeedLot>& lots) {
@@ -177,6 +225,10 @@ Vessel read_vessel(Table table, const std::string& name, const std::vector<SeedL
   vessel.depth = table.quantity("depth", Dimension::length, shortest, longest);
   vessel.tilt = table.quantity("tilt", Dimension::angle, -30 * degree, 30 * degree).value_or(0);
   vessel.funnel = table.quantity("funnel", Dimension::angle, 0.01 * degree, 80 * degree).value_or(0);
+  vessel.box = table.boolean("box").value_or(true);
+  vessel.pieces = read_pieces(table);
+  if (!vessel.box && vessel.pieces.empty()) table.fail("box", "without floor and end walls a vessel needs pieces");
+  if (!vessel.box && vessel.funnel > 0) table.fail("funnel", "is a slope of the floor, which box = false leaves out");
   if (const auto holes = table.table("holes")) vessel.holes = read_holes(*holes, vessel.length, largest_diameter(lots));
   if (vessel.funnel > 0 && vessel.holes.empty()) table.fail("funnel", "needs holes for the floor to slope to");
   if (highest_floor(vessel) >= vessel.height) {

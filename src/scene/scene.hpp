@@ -94,9 +94,23 @@ struct Contact {
 };
 
 struct Hole {
-  double centre = 0;  // m along the floor from the vessel's left end
-  double width = 0;   // m
+  double centre = 0;   // m along the floor from the vessel's left end
+  double width = 0;    // m
+  double open_at = 0;  // s; until then a gate closes it
 };
+
+/// A piece of a vessel's wall beside its box, in the vessel's frame: a straight line from a to b, or, where the radius
+/// is not zero, an arc about `centre`, anticlockwise from the angle `from` to the angle `to` (at most a full turn). A
+/// grain larger than an arc's circle feels only the nearer end of it from within.
+struct WallPiece {
+  Eigen::Vector2d a = Eigen::Vector2d::Zero(), b = Eigen::Vector2d::Zero();  // m
+  Eigen::Vector2d centre = Eigen::Vector2d::Zero();                          // m
+  double radius = 0;                                                         // m
+  double from = 0, to = 0;                                                   // rad, 0 along x, pi/2 up
+};
+
+/// What stands at the ends of a vessel's floor: walls; nothing; or the same vessel again, for a slice of a long one.
+enum class Sides { walls, open, periodic };
 
 enum class Packing { poured, layers, hexagonal };
 
@@ -156,6 +170,9 @@ struct Vessel {
   double funnel = 0;                                 // rad, slope of the floor towards its holes; 0: flat
   std::optional<double> depth;                       // m, across the plane
   std::vector<Hole> holes;                           // from the left, not overlapping
+  std::vector<WallPiece> pieces{};                   // beside floor and end walls
+  bool box = true;                                   // whether there are floor and end walls
+  Sides sides = Sides::walls;
   std::optional<Fill> fill;
   std::optional<VesselMotion> motion;
 };

@@ -13,7 +13,7 @@ Counter::Counter(const Scene& scene, std::size_t grains)
 int Counter::hole_at(double x) const {
   for (std::size_t k = 0; k < tray_.holes.size(); ++k)
     if (std::abs(x - tray_.holes[k].centre) <= 0.5 * tray_.holes[k].width) return static_cast<int>(k) + 1;
-  return x > 0 && x < tray_.length ? through_the_floor : 0;
+  return tray_.box && x > 0 && x < tray_.length ? through_the_floor : 0;
 }
 
 void Counter::watch(const Grains& grains, const Walls& walls, double time, std::vector<OutflowEvent>& events) {

@@ -5,6 +5,7 @@
 
 #include "contact/contact_list.hpp"
 #include "scene/scene.hpp"
+#include "scene/vessel_walls.hpp"
 #include "simulation/vessel_motion.hpp"
 
 namespace vibrosow {
@@ -28,10 +29,11 @@ class Walls {
 
  private:
   struct AtRest {
-    Eigen::Vector2d a, b;          // m, lab
-    Eigen::Vector2d own_a, own_b;  // m, in the vessel's frame
+    Eigen::Vector2d a, b, centre;  // m, lab
+    WallSegment own;               // in the vessel's frame
     std::size_t vessel;
   };
+  void place_arc(PlacedWall& wall, const AtRest& rest, const Pose& pose) const;
 
   std::vector<Vessel> vessels_;
   std::vector<VesselPath> paths_;

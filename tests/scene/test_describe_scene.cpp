@@ -50,6 +50,10 @@ TEST(DescribeScene, EverythingThatActsCounts) {
       [](Scene& s) { s.tray.holes[0].centre = 0.04; },
       [](Scene& s) { s.tray.holes[0].width = 0.04; },
       [](Scene& s) { s.tray.holes.clear(); },
+      [](Scene& s) {
+        s.tray.pieces.push_back({{0, 0}, {1, 0}});
+      },
+      [](Scene& s) { s.tray.box = false; },
       [](Scene& s) { s.tray.fill->count = 2; },
       [](Scene& s) { s.tray.fill->packing = Packing::hexagonal; },
       [](Scene& s) { s.tray.fill->jitter = 0; },

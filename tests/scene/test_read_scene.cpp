@@ -175,6 +175,21 @@ TEST(ReadScene, OverridesAct) {
   EXPECT_EQ(scene.contact.wall.friction, 0.25);
 }
 
+TEST(ReadScene, PiecesAreLinesAndArcs) {
+  const Scene scene =
+      read(small_example, {"tray.pieces=[{ line = [['0 cm', '5 cm'], ['3 cm', '8 cm'], ['6 cm', '5 cm']] "
+                           "}, { centre = ['5 cm', '6 cm'], radius = '2 cm', from = '180 degree', to = "
+                           "'270 degree' }, { centre = ['5 cm', '6 cm'], radius = '1 cm' }]",
+                           "tray.box=false"});
+  ASSERT_EQ(scene.tray.pieces.size(), 4U);
+  EXPECT_EQ(scene.tray.pieces[1].a, Eigen::Vector2d(0.03, 0.08));
+  EXPECT_EQ(scene.tray.pieces[1].b, Eigen::Vector2d(0.06, 0.05));
+  EXPECT_EQ(scene.tray.pieces[2].centre, Eigen::Vector2d(0.05, 0.06));
+  EXPECT_NEAR(scene.tray.pieces[2].to, 1.5 * std::numbers::pi, 1e-15);
+  EXPECT_NEAR(scene.tray.pieces[3].to, 2 * std::numbers::pi, 1e-15);
+  EXPECT_FALSE(scene.tray.box);
+}
+
 TEST(ReadScene, HolesWithDefaultPitchAndHolesOutOfOrder) {
   Scene scene = read(small_example, {"tray.holes={ count = 4, width = '2 diameters' }"});
   ASSERT_EQ(scene.tray.holes.size(), 4U);
