@@ -109,6 +109,22 @@ std::vector<Eigen::Vector2d> edges_of(const WallSegment& wall, double unit, doub
   return corners;
 }
 
+/// The same across a seam: for all grains near the place of grain `i` a period to the right.
+struct SeamQuery {
+  const std::vector<int>& grain_of_proxy;
+  const Grains& grains;
+  double x, y, reach;  // m
+  std::vector<int>& found;
+
+  bool QueryCallback(int32 proxy) {
+    const std::size_t j = static_cast<std::size_t>(grain_of_proxy[static_cast<std::size_t>(proxy)]);
+    const double dx = grains.x[j] - x, dy = grains.y[j] - y;
+    const double limit = reach + grains.kind(j).radius;
+    if (dx * dx + dy * dy < limit * limit) found.push_back(static_cast<int>(j));
+    return true;
+  }
+};
+
 struct WallQuery : b2QueryCallback {
   explicit WallQuery(std::vector<int>& walls) : found(walls) {}
   bool ReportFixture(b2Fixture* fixture) override {
@@ -185,6 +201,23 @@ void Broadphase::find(const Grains& grains, const std::vector<Pose>& poses, doub
     std::sort(w.found.begin(), w.found.end());
     w.found.erase(std::unique(w.found.begin(), w.found.end()), w.found.end());
     for (int wall : w.found) near_walls.push_back({static_cast<int>(i), wall, 0.0});
+  }
+}
+
+void Broadphase::find_across(const Grains& grains, const std::vector<Pose>& poses, double period, double margin,
+                             PairList& pairs) {
+  World& w = *world_;
+  const Eigen::Vector2d shift = poses.front().displacement;
+  pairs.first.assign(1, 0);
+  pairs.partner.clear();
+  for (std::size_t i = 0; i < grains.size(); ++i) {
+    const double x = grains.x[i] + period, y = grains.y[i], reach = grains.kind(i).radius + margin;
+    w.found.clear();
+    SeamQuery query{w.grain_of_proxy, grains, x, y, reach, w.found};
+    w.tree.Query(&query, w.box(x - shift.x(), y - shift.y(), reach));
+    std::sort(w.found.begin(), w.found.end());
+    pairs.partner.insert(pairs.partner.end(), w.found.begin(), w.found.end());
+    pairs.first.push_back(static_cast<int>(pairs.partner.size()));
   }
 }
 

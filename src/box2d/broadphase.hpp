@@ -29,6 +29,11 @@ class Broadphase {
   void find(const Grains& grains, const std::vector<Pose>& poses, double margin, PairList& pairs,
             std::vector<WallCandidate>& near_walls);
 
+  /// Fills `pairs` with all (i, j) such that i, shifted by `period` (m) to the right, is nearer than r_i + r_j + margin
+  /// to j: pairs across the seam of a periodic tray. Every grain has a row; j may be less than i. For the grains and
+  /// poses of the last `find`.
+  void find_across(const Grains& grains, const std::vector<Pose>& poses, double period, double margin, PairList& pairs);
+
   /// Takes wall `wall` out of the vessel's body: nothing will touch it any more.
   void remove_wall(int wall);
 

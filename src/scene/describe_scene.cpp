@@ -90,6 +90,7 @@ Json describe(const WallPiece& piece) {
 }
 
 Json describe(const Vessel& vessel) {
+  const char* sides[] = {"walls", "open", "periodic"};
   Json pieces = Json::array();
   for (const WallPiece& piece : vessel.pieces) pieces.push_back(describe(piece));
   Json holes = Json::array();
@@ -104,6 +105,7 @@ Json describe(const Vessel& vessel) {
           {"holes", holes},
           {"pieces", pieces},
           {"box", vessel.box},
+          {"sides", sides[static_cast<int>(vessel.sides)]},
           {"fill", vessel.fill ? describe(*vessel.fill) : Json(nullptr)},
           {"motion", describe(vessel.motion)}};
 }

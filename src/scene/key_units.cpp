@@ -71,6 +71,7 @@ constexpr std::array key_words = {
     KeyWord{"angle", degree},
     KeyWord{"file", {}},
     KeyWord{"box", {}},
+    KeyWord{"sides", {}},
     // numerics, guard and run
     KeyWord{"integrator", {}},
     KeyWord{"steps_per_contact", {}},

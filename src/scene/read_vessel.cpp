@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "scene/motion.hpp"
 #include "scene/read_motion.hpp"
 #include "scene/vessel_walls.hpp"
 
@@ -215,6 +216,24 @@ std::vector<WallPiece> read_pieces(Table& vessel) {
   return pieces;
 }
 
+Sides read_sides(Table& table) {
+  constexpr Sides sides[] = {Sides::walls, Sides::open, Sides::periodic};
+  return sides[table.choice("sides", {"walls", "open", "periodic"}).value_or(0)];
+}
+
+/// A period needs a floor that continues itself, and room: no two seeds may meet both within it and across its ends.
+void check_periodic(const Table& table, const Vessel& vessel, double diameter) {
+  if (vessel.sides != Sides::periodic) return;
+  constexpr double fewest_diameters = 6;
+  if (vessel.name != "tray") table.fail("sides", "only the tray can be periodic");
+  if (vessel.tilt != 0) table.fail("sides", "a periodic tray cannot be tilted: its ends would not meet");
+  if (vessel.motion && turns(*vessel.motion))
+    table.fail("sides", "a periodic tray cannot turn: its ends would not meet");
+  if (vessel.length < fewest_diameters * diameter)
+    table.fail("sides", fmt::format("a periodic tray is at least {:g} diameters of the largest seed long, {}",
+                                    fewest_diameters, millimetres(fewest_diameters * diameter)));
+}
+
 }  // namespace
 
 Vessel read_vessel(Table table, const std::string& name, const std::vector<SeedLot>& lots) {
@@ -227,6 +246,7 @@ Vessel read_vessel(Table table, const std::string& name, const std::vector<SeedL
   vessel.funnel = table.quantity("funnel", Dimension::angle, 0.01 * degree, 80 * degree).value_or(0);
   vessel.box = table.boolean("box").value_or(true);
   vessel.pieces = read_pieces(table);
+  vessel.sides = read_sides(table);
   if (!vessel.box && vessel.pieces.empty()) table.fail("box", "without floor and end walls a vessel needs pieces");
   if (!vessel.box && vessel.funnel > 0) table.fail("funnel", "is a slope of the floor, which box = false leaves out");
   if (const auto holes = table.table("holes")) vessel.holes = read_holes(*holes, vessel.length, largest_diameter(lots));
@@ -240,6 +260,7 @@ Vessel read_vessel(Table table, const std::string& name, const std::vector<SeedL
     check_fill_fits(*fill, vessel, lots);
   }
   if (const auto motion = table.table("motion")) vessel.motion = read_motion(*motion);
+  check_periodic(table, vessel, largest_diameter(lots));
   return vessel;
 }
 

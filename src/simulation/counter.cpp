@@ -10,10 +10,15 @@ namespace vibrosow {
 Counter::Counter(const Scene& scene, std::size_t grains)
     : tray_(scene.tray), count_below_(scene.run.count_below), state_(grains) {}
 
+double Counter::within_period(double x) const {
+  return tray_.sides == Sides::periodic ? x - tray_.length * std::floor(x / tray_.length) : x;
+}
+
 int Counter::hole_at(double x) const {
   for (std::size_t k = 0; k < tray_.holes.size(); ++k)
     if (std::abs(x - tray_.holes[k].centre) <= 0.5 * tray_.holes[k].width) return static_cast<int>(k) + 1;
-  return tray_.box && x > 0 && x < tray_.length ? through_the_floor : 0;
+  const bool on_floor = tray_.sides == Sides::periodic || (x > 0 && x < tray_.length);
+  return tray_.box && on_floor ? through_the_floor : 0;
 }
 
 void Counter::watch(const Grains& grains, const Walls& walls, double time, std::vector<OutflowEvent>& events) {
@@ -39,7 +44,7 @@ void Counter::watch(const Grains& grains, const Walls& walls, double time, std::
     const auto since = [&](double level) { return speed_up < 0 ? (height - level) / speed_up : 0.0; };
     if (!state.below) {
       state.below = true;
-      state.x = along - speed_along * since(0);
+      state.x = within_period(along - speed_along * since(0));
       state.hole = hole_at(state.x);
     }
     if (height >= -count_below_) continue;
@@ -49,7 +54,7 @@ void Counter::watch(const Grains& grains, const Walls& walls, double time, std::
       continue;
     }
     const double ago = since(-count_below_);
-    const double x = state.hole > 0 ? state.x : along - speed_along * ago;
+    const double x = state.hole > 0 ? state.x : within_period(along - speed_along * ago);
     events.push_back({time - ago, state.hole, grains.lot[i], grains.number[i], grains.kind(i).mass, x,
                       std::hypot(grains.vx[i], grains.vy[i])});
   }
@@ -64,7 +69,8 @@ void Counter::remove_flagged(const std::vector<char>& removed) {
 
 bool is_inside(const Vessel& vessel, const Pose& pose, double x, double y) {
   const Eigen::Vector2d own = in_vessel_frame(vessel, pose, {x, y});
-  return own.x() >= 0 && own.x() <= vessel.length && own.y() >= 0 && own.y() <= vessel.height;
+  const bool along = vessel.sides == Sides::periodic || (own.x() >= 0 && own.x() <= vessel.length);
+  return along && own.y() >= 0 && own.y() <= vessel.height;
 }
 
 }  // namespace vibrosow

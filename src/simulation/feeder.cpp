@@ -11,16 +11,27 @@ namespace {
 
 /// Grains of one vessel, in its own frame.
 struct Inside {
+  int grains = 0;
   std::vector<Eigen::Vector2d> at;
   std::vector<double> radius;
+
+  /// In a periodic vessel with its images to either side.
+  void add(const Vessel& vessel, const Eigen::Vector2d& own, double own_radius) {
+    const bool periodic = vessel.sides == Sides::periodic;
+    for (int copy = periodic ? -1 : 0; copy <= (periodic ? 1 : 0); ++copy) {
+      at.emplace_back(own.x() + copy * vessel.length, own.y());
+      radius.push_back(own_radius);
+    }
+  }
 };
 
 Inside grains_inside(const Vessel& vessel, const Pose& pose, const Grains& grains) {
   Inside inside;
   for (std::size_t i = 0; i < grains.size(); ++i) {
     if (!is_inside(vessel, pose, grains.x[i], grains.y[i])) continue;
-    inside.at.push_back(in_vessel_frame(vessel, pose, {grains.x[i], grains.y[i]}));
-    inside.radius.push_back(grains.kind(i).radius);
+    ++inside.grains;
+    const Eigen::Vector2d own = in_vessel_frame(vessel, pose, {grains.x[i], grains.y[i]});
+    inside.add(vessel, own, grains.kind(i).radius);
   }
   return inside;
 }
@@ -65,15 +76,14 @@ int Feeder::top_up(Grains& grains, const Walls& walls, double time) {
     const Pose pose = walls.poses()[v];
     const PoseRate rate = walls.paths()[v].rate(time);
     Inside inside = grains_inside(vessel, pose, grains);
-    const int missing = vessel.fill->count - static_cast<int>(inside.at.size());
+    const int missing = vessel.fill->count - inside.grains;
     for (int k = 0; k < missing; ++k) {
       const int lot = draw_lot();
       const double radius = 0.5 * lots_[static_cast<std::size_t>(lot)].diameter;
       const double x = random_.uniform(radius, vessel.length - radius);
       const double y = surface(inside, x, radius);
       if (y + radius > vessel.height) continue;
-      inside.at.emplace_back(x, y);
-      inside.radius.push_back(radius);
+      inside.add(vessel, {x, y}, radius);
       const Eigen::Vector2d lab = in_lab_frame(vessel, pose, {x, y});
       const Eigen::Vector2d velocity = material_velocity(vessel, pose, rate, lab);
       grains.add(lab.x(), lab.y(), velocity.x(), velocity.y(), lot);

@@ -39,12 +39,30 @@ void renumber(std::vector<WallCandidate>& list, const std::vector<char>& removed
   list.resize(kept);
 }
 
+/// Keeps the pairs nearer than their reach plus `margin` (m), with the rows' grains shifted by `shift` (m) along x.
+void prune_pairs(const Grains& grains, const PairList& wide, double shift, double margin, PairList& narrow) {
+  narrow.first.assign(1, 0);
+  narrow.partner.clear();
+  for (std::size_t i = 0; i < wide.grains(); ++i) {
+    const double reach = grains.kind(i).radius + margin, x = grains.x[i] + shift;
+    for (int k = wide.first[i]; k < wide.first[i + 1]; ++k) {
+      const int partner = wide.partner[static_cast<std::size_t>(k)];
+      const std::size_t j = static_cast<std::size_t>(partner);
+      const double dx = grains.x[j] - x, dy = grains.y[j] - grains.y[i];
+      const double limit = reach + grains.kind(j).radius;
+      if (dx * dx + dy * dy < limit * limit) narrow.partner.push_back(partner);
+    }
+    narrow.first.push_back(static_cast<int>(narrow.partner.size()));
+  }
+}
+
 }  // namespace
 
 Neighbours::Neighbours(const std::vector<Vessel>& vessels, double largest_diameter, NeighbourMargins margins)
     : broadphase_(vessels, largest_diameter),
       wide_margin_(margins.wide * largest_diameter),
-      narrow_margin_(margins.narrow * largest_diameter) {
+      narrow_margin_(margins.narrow * largest_diameter),
+      period_(vessels.front().sides == Sides::periodic ? vessels.front().length : 0) {
   for (const Vessel& vessel : vessels) largest_radius_.push_back(largest_radius(vessel, Eigen::Vector2d::Zero()));
 }
 
@@ -85,25 +103,15 @@ void Neighbours::update(const Grains& grains, const Walls& walls) {
 
 void Neighbours::search(const Grains& grains, const Walls& walls) {
   broadphase_.find(grains, walls.poses(), wide_margin_, wide_, wide_walls_);
+  if (period_ > 0) broadphase_.find_across(grains, walls.poses(), period_, wide_margin_, wide_seam_);
   wide_reference_ = reference(grains, walls);
   wide_is_valid_ = true;
   ++searches_;
 }
 
 void Neighbours::prune(const Grains& grains, const Walls& walls) {
-  narrow_.first.assign(1, 0);
-  narrow_.partner.clear();
-  for (std::size_t i = 0; i < wide_.grains(); ++i) {
-    const double reach = grains.kind(i).radius + narrow_margin_;
-    for (int k = wide_.first[i]; k < wide_.first[i + 1]; ++k) {
-      const int partner = wide_.partner[static_cast<std::size_t>(k)];
-      const std::size_t j = static_cast<std::size_t>(partner);
-      const double dx = grains.x[j] - grains.x[i], dy = grains.y[j] - grains.y[i];
-      const double limit = reach + grains.kind(j).radius;
-      if (dx * dx + dy * dy < limit * limit) narrow_.partner.push_back(partner);
-    }
-    narrow_.first.push_back(static_cast<int>(narrow_.partner.size()));
-  }
+  prune_pairs(grains, wide_, 0, narrow_margin_, narrow_);
+  if (period_ > 0) prune_pairs(grains, wide_seam_, period_, narrow_margin_, narrow_seam_);
   prune_walls(grains, walls);
   narrow_reference_ = reference(grains, walls);
   ++prunes_;
@@ -141,6 +149,10 @@ void Neighbours::remove_flagged(const std::vector<char>& removed) {
   for (std::size_t i = 0; i < removed.size(); ++i) new_index[i] = removed[i] ? -1 : next++;
   renumber(wide_, removed, new_index);
   renumber(narrow_, removed, new_index);
+  if (period_ > 0) {
+    renumber(wide_seam_, removed, new_index);
+    renumber(narrow_seam_, removed, new_index);
+  }
   renumber(wide_walls_, removed, new_index);
   renumber(narrow_walls_, removed, new_index);
   remove_flagged(wide_reference_, removed);

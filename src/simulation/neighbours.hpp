@@ -33,6 +33,11 @@ class Neighbours {
   void remove_flagged(const std::vector<char>& removed);
 
   const PairList& pairs() const { return narrow_; }
+  /// Length (m) after which a periodic tray comes again; 0 when it does not.
+  double period() const { return period_; }
+  /// Pairs across the seam of a periodic tray: the row's grain, near the left side, with its x larger by the period may
+  /// touch its partners, near the right side. A row for each grain; no rows without a period.
+  const PairList& seam_pairs() const { return narrow_seam_; }
   const std::vector<WallCandidate>& near_walls() const { return narrow_walls_; }
   std::vector<WallCandidate>& near_walls() { return narrow_walls_; }
   std::int64_t searches() const { return searches_; }
@@ -56,7 +61,9 @@ class Neighbours {
   Broadphase broadphase_;
   std::vector<double> largest_radius_;  // m, by vessel, of its walls about its frame's zero
   double wide_margin_, narrow_margin_;  // m
+  double period_;                       // m
   PairList wide_, narrow_;
+  PairList wide_seam_, narrow_seam_;
   std::vector<WallCandidate> wide_walls_, narrow_walls_;
   Reference wide_reference_, narrow_reference_;
   bool wide_is_valid_ = false;

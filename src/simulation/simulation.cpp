@@ -53,7 +53,7 @@ bool Simulation::step() {
   if (guard_.stop_reason()) return false;
   if (!s_.census.crossed.empty()) take_out();
   count();
-  if (s_.step % steps_per_removal_ == 0) take_out(), note_whether_dry();
+  if (s_.step % steps_per_removal_ == 0) take_out(), wrap(), note_whether_dry();
   if (feeder_.feeds() && s_.step % steps_per_feed_ == 0) feed();
   if (s_.step % steps_per_energy_account == 0) guard_.watch_energy(s_, run_.energy);
   return !guard_.stop_reason();
@@ -84,13 +84,17 @@ void Simulation::take_out() {
   bool any = false;
   for (std::size_t i = 0; i < grains_.size(); ++i) any |= (removed[i] = counter_.is_counted(i) ? 1 : 0) != 0;
   if (any) {
-    const PairList& pairs = field_.neighbours().pairs();
-    for (std::size_t i = 0; i < grains_.size(); ++i)
-      for (int k = pairs.first[i]; k < pairs.first[i + 1]; ++k) {
-        const std::size_t j = static_cast<std::size_t>(pairs.partner[static_cast<std::size_t>(k)]);
-        const double reach = grains_.kind(i).radius + grains_.kind(j).radius;
-        if (std::hypot(grains_.x[j] - grains_.x[i], grains_.y[j] - grains_.y[i]) < reach) removed[i] = removed[j] = 0;
-      }
+    const auto keep_touching = [&](const PairList& pairs, double shift) {
+      for (std::size_t i = 0; i < pairs.grains(); ++i)
+        for (int k = pairs.first[i]; k < pairs.first[i + 1]; ++k) {
+          const std::size_t j = static_cast<std::size_t>(pairs.partner[static_cast<std::size_t>(k)]);
+          const double reach = grains_.kind(i).radius + grains_.kind(j).radius;
+          if (std::hypot(grains_.x[j] - (grains_.x[i] + shift), grains_.y[j] - grains_.y[i]) < reach)
+            removed[i] = removed[j] = 0;
+        }
+    };
+    keep_touching(field_.neighbours().pairs(), 0);
+    keep_touching(field_.neighbours().seam_pairs(), field_.neighbours().period());
   }
   std::int64_t lost = 0;
   for (int i : s_.census.crossed) {
@@ -100,6 +104,26 @@ void Simulation::take_out() {
   s_.census.crossed.clear();
   if (lost > 0) note_lost(lost);
   if (std::find(removed.begin(), removed.end(), 1) != removed.end()) take_out_flagged(removed);
+}
+
+/// Carries grains that are well beyond a side of a periodic tray over to the other side: by a diameter, so that none
+/// goes to and fro.
+void Simulation::wrap() {
+  const double period = field_.neighbours().period();
+  if (period == 0) return;
+  const double left = scene_.tray.origin.x() + field_.walls().poses().front().displacement.x();
+  double beyond = 0;
+  for (const SeedLot& lot : scene_.lots) beyond = std::max(beyond, lot.diameter);
+  bool any = false;
+  for (double& x : grains_.x) {
+    const double along = x - left;
+    if (along >= -beyond && along <= period + beyond) continue;
+    x += along < 0 ? period : -period;
+    any = true;
+  }
+  if (!any) return;
+  field_.neighbours().forget();
+  field_.neighbours().update(grains_, field_.walls());
 }
 
 void Simulation::take_out_flagged(const std::vector<char>& removed) {

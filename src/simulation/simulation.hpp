@@ -45,6 +45,7 @@ class Simulation {
  private:
   void count();
   void take_out();
+  void wrap();
   void note_lost(std::int64_t grains);
   void feed();
   void note_whether_dry();

@@ -54,6 +54,7 @@ TEST(DescribeScene, EverythingThatActsCounts) {
         s.tray.pieces.push_back({{0, 0}, {1, 0}});
       },
       [](Scene& s) { s.tray.box = false; },
+      [](Scene& s) { s.tray.sides = Sides::periodic; },
       [](Scene& s) { s.tray.fill->count = 2; },
       [](Scene& s) { s.tray.fill->packing = Packing::hexagonal; },
       [](Scene& s) { s.tray.fill->jitter = 0; },

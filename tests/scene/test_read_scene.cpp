@@ -1,5 +1,6 @@
 #include "scene/read_scene.hpp"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
 
@@ -8,6 +9,7 @@
 #include <numbers>
 #include <sstream>
 
+#include "scene/input_error.hpp"
 #include "temporary_file.hpp"
 
 namespace vibrosow {
@@ -188,6 +190,22 @@ TEST(ReadScene, PiecesAreLinesAndArcs) {
   EXPECT_NEAR(scene.tray.pieces[2].to, 1.5 * std::numbers::pi, 1e-15);
   EXPECT_NEAR(scene.tray.pieces[3].to, 2 * std::numbers::pi, 1e-15);
   EXPECT_FALSE(scene.tray.box);
+}
+
+TEST(ReadScene, PeriodicSidesNeedALevelTrayThatDoesNotTurn) {
+  EXPECT_EQ(read(small_example, {"tray.sides=periodic"}).tray.sides, Sides::periodic);
+  EXPECT_EQ(read(small_example, {"tray.sides=open"}).tray.sides, Sides::open);
+  const auto refused = [](std::vector<std::string> settings, const char* message) {
+    settings.push_back("tray.sides=periodic");
+    EXPECT_THAT([&] { read(small_example, settings); },
+                testing::ThrowsMessage<InputError>(testing::HasSubstr(message)));
+  };
+  refused({"tray.motion={ kind = 'rocking', pivot = ['1 cm', '0 cm'], angle = '1 degree', frequency = '9 Hz' }"},
+          "cannot turn");
+  refused({"tray.tilt=1 degree"}, "cannot be tilted");
+  refused({"tray.length=4 cm"}, "at least 6 diameters of the largest seed long, 48 mm");
+  refused({"hopper={ left = '45 cm', above = '5 cm', length = '10 cm', height = '5 cm' }"},
+          "does not lie within the length");
 }
 
 TEST(ReadScene, HolesWithDefaultPitchAndHolesOutOfOrder) {
