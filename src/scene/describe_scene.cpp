@@ -94,7 +94,8 @@ Json describe(const Vessel& vessel) {
   Json pieces = Json::array();
   for (const WallPiece& piece : vessel.pieces) pieces.push_back(describe(piece));
   Json holes = Json::array();
-  for (const Hole& hole : vessel.holes) holes.push_back({{"centre_m", hole.centre}, {"width_m", hole.width}});
+  for (const Hole& hole : vessel.holes)
+    holes.push_back({{"centre_m", hole.centre}, {"width_m", hole.width}, {"open_at_s", hole.open_at}});
   return {{"left_m", vessel.origin.x()},
           {"above_m", vessel.origin.y()},
           {"length_m", vessel.length},

@@ -72,6 +72,7 @@ constexpr std::array key_words = {
     KeyWord{"file", {}},
     KeyWord{"box", {}},
     KeyWord{"sides", {}},
+    KeyWord{"open_at", second},
     // numerics, guard and run
     KeyWord{"integrator", {}},
     KeyWord{"steps_per_contact", {}},

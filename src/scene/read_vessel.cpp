@@ -124,11 +124,22 @@ void check_holes(const Table& table, const std::vector<Hole>& holes, double leng
   }
 }
 
+std::vector<double> read_opening_times(Table& table, std::size_t holes) {
+  std::vector<double> times = table.quantities("open_at", Dimension::time, 0, 1e6);
+  if (times.size() > 1 && times.size() != holes) {
+    table.fail("open_at",
+               fmt::format("lists {} times for {} holes; expected one for all or one each", times.size(), holes));
+  }
+  times.resize(holes, times.empty() ? 0.0 : times.front());
+  return times;
+}
+
 std::vector<Hole> read_holes(Table table, double length, double diameter) {
   const HoleRow row = read_positions(table, length);
   const std::vector<double> widths = read_widths(table, row.centres.size(), diameter);
+  const std::vector<double> open_at = read_opening_times(table, row.centres.size());
   std::vector<Hole> holes;
-  for (std::size_t i = 0; i < widths.size(); ++i) holes.push_back({row.centres[i], widths[i]});
+  for (std::size_t i = 0; i < widths.size(); ++i) holes.push_back({row.centres[i], widths[i], open_at[i]});
   std::stable_sort(holes.begin(), holes.end(), [](const Hole& a, const Hole& b) { return a.centre < b.centre; });
   check_holes(table, holes, length, row.placed_by);
   return holes;

@@ -40,6 +40,11 @@ void ForceField::evaluate(const Grains& grains, double time, ContactCensus& cens
   force_time_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - found).count();
 }
 
+void ForceField::remove_wall(std::size_t wall) {
+  walls_.remove(wall);
+  neighbours_.remove_wall(static_cast<int>(wall));
+}
+
 double ForceField::elastic_energy(const Grains& grains) const {
   return kernels_.elastic_energy(grains, motion_of(grains), neighbours_.pairs(), neighbours_.near_walls(),
                                  walls_.placed());

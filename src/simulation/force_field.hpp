@@ -18,6 +18,9 @@ class ForceField {
   /// but for the walls' power, which is this evaluation's.
   void evaluate(const Grains& grains, double time, ContactCensus& census);
 
+  /// Takes a wall away at once; nothing touches it any more.
+  void remove_wall(std::size_t wall);
+
   double elastic_energy(const Grains& grains) const;
 
   double neighbour_time() const { return neighbour_time_; }  // s of wall time spent so far

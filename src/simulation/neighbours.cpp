@@ -142,6 +142,13 @@ void Neighbours::remove_flagged(Reference& reference, const std::vector<char>& r
   keep_unflagged(reference.y, removed);
 }
 
+void Neighbours::remove_wall(int wall) {
+  broadphase_.remove_wall(wall);
+  const auto is_of_it = [wall](const WallCandidate& candidate) { return candidate.wall == wall; };
+  std::erase_if(wide_walls_, is_of_it);
+  std::erase_if(narrow_walls_, is_of_it);
+}
+
 void Neighbours::remove_flagged(const std::vector<char>& removed) {
   if (!wide_is_valid_) return;
   std::vector<int> new_index(removed.size());

@@ -32,6 +32,9 @@ class Neighbours {
   /// Takes removed grains out of the lists without a search.
   void remove_flagged(const std::vector<char>& removed);
 
+  /// Takes a wall out of Box2D and of the lists.
+  void remove_wall(int wall);
+
   const PairList& pairs() const { return narrow_; }
   /// Length (m) after which a periodic tray comes again; 0 when it does not.
   double period() const { return period_; }

@@ -39,12 +39,14 @@ Simulation::Simulation(const Scene& scene, Grains grains, const SimulationSetup&
   run_.dt = setup.dt;
   run_.balance.put_in = static_cast<std::int64_t>(grains_.size());
   start_integration(s_);
+  open_gates();
   guard_.watch_step(s_);
   guard_.watch_energy(s_, run_.energy);
 }
 
 bool Simulation::step() {
   if (guard_.stop_reason()) return false;
+  if (s_.time >= next_gate_) open_gates();
   run_.grain_steps += static_cast<std::int64_t>(grains_.size());
   advance_(s_);
   ++s_.step;
@@ -133,6 +135,26 @@ void Simulation::take_out_flagged(const std::vector<char>& removed) {
   grains_.remove_flagged(removed);
   counter_.remove_flagged(removed);
   field_.neighbours().remove_flagged(removed);
+  start_integration(s_);
+  run_.energy.removed += elastic - field_.elastic_energy(grains_);
+}
+
+/// Opens every gate whose time has come, and looks up when the next does. What was stored in the gates' contacts leaves
+/// the account.
+void Simulation::open_gates() {
+  const Walls& walls = field_.walls();
+  std::vector<std::size_t> opening;
+  next_gate_ = never;
+  for (std::size_t wall = 0; wall < walls.placed().size(); ++wall) {
+    if (walls.opens_at(wall) == 0 || walls.is_removed(wall)) continue;
+    if (s_.time >= walls.opens_at(wall))
+      opening.push_back(wall);
+    else
+      next_gate_ = std::min(next_gate_, walls.opens_at(wall));
+  }
+  if (opening.empty()) return;
+  const double elastic = field_.elastic_energy(grains_);
+  for (const std::size_t wall : opening) field_.remove_wall(wall);
   start_integration(s_);
   run_.energy.removed += elastic - field_.elastic_energy(grains_);
 }

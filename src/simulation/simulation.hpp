@@ -47,6 +47,7 @@ class Simulation {
   void take_out();
   void wrap();
   void note_lost(std::int64_t grains);
+  void open_gates();
   void feed();
   void note_whether_dry();
   void take_out_flagged(const std::vector<char>& removed);
@@ -60,6 +61,7 @@ class Simulation {
   Feeder feeder_;
   Guard guard_;
   Run run_;
+  double next_gate_ = 0;  // s, when the next gate opens
   std::int64_t steps_per_removal_, steps_per_feed_;
 };
 

@@ -50,6 +50,7 @@ void Walls::place(double time) {
     const Eigen::Vector2d velocity = material_velocity(vessel, pose, rate, Eigen::Vector2d::Zero());
     for (; next < placed_.size() && at_rest_[next].vessel == v; ++next) {
       const AtRest& rest = at_rest_[next];
+      if (rest.removed) continue;
       const bool turned = pose.angle != 0;
       const Eigen::Vector2d a = turned ? in_lab_frame(vessel, pose, rest.own.a) : rest.a + pose.displacement;
       const Eigen::Vector2d b = turned ? in_lab_frame(vessel, pose, rest.own.b) : rest.b + pose.displacement;

@@ -22,6 +22,12 @@ class Walls {
   /// Moves every wall to where it is at `time` (s).
   void place(double time);
 
+  /// A wall that is gone, as a gate that opened: it is placed no more.
+  void remove(std::size_t wall) { at_rest_[wall].removed = true; }
+  bool is_removed(std::size_t wall) const { return at_rest_[wall].removed; }
+  /// When a gate opens (s); 0: the wall is no gate.
+  double opens_at(std::size_t wall) const { return at_rest_[wall].own.opens_at; }
+
   const std::vector<PlacedWall>& placed() const { return placed_; }
   const std::vector<Pose>& poses() const { return poses_; }        // by vessel
   const std::vector<VesselPath>& paths() const { return paths_; }  // by vessel
@@ -32,6 +38,7 @@ class Walls {
     Eigen::Vector2d a, b, centre;  // m, lab
     WallSegment own;               // in the vessel's frame
     std::size_t vessel;
+    bool removed = false;
   };
   void place_arc(PlacedWall& wall, const AtRest& rest, const Pose& pose) const;
 

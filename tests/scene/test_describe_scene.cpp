@@ -53,6 +53,7 @@ TEST(DescribeScene, EverythingThatActsCounts) {
       [](Scene& s) {
         s.tray.pieces.push_back({{0, 0}, {1, 0}});
       },
+      [](Scene& s) { s.tray.holes[0].open_at = 1; },
       [](Scene& s) { s.tray.box = false; },
       [](Scene& s) { s.tray.sides = Sides::periodic; },
       [](Scene& s) { s.tray.fill->count = 2; },

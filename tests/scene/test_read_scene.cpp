@@ -208,6 +208,16 @@ TEST(ReadScene, PeriodicSidesNeedALevelTrayThatDoesNotTurn) {
           "does not lie within the length");
 }
 
+TEST(ReadScene, GatesOpenAtOneTimeOrAtOneEach) {
+  Scene scene = read(small_example, {"tray.holes={ count = 2, width = '2 cm', open_at = '1.5 s' }"});
+  EXPECT_EQ(scene.tray.holes[0].open_at, 1.5);
+  EXPECT_EQ(scene.tray.holes[1].open_at, 1.5);
+  scene = read(small_example, {"tray.holes={ at = ['30 cm', '10 cm'], width = '2 cm', open_at = ['2 s', '0 s'] }"});
+  EXPECT_EQ(scene.tray.holes[0].centre, 0.1);
+  EXPECT_EQ(scene.tray.holes[0].open_at, 0);
+  EXPECT_EQ(scene.tray.holes[1].open_at, 2);
+}
+
 TEST(ReadScene, HolesWithDefaultPitchAndHolesOutOfOrder) {
   Scene scene = read(small_example, {"tray.holes={ count = 4, width = '2 diameters' }"});
   ASSERT_EQ(scene.tray.holes.size(), 4U);

@@ -191,6 +191,7 @@ INSTANTIATE_TEST_SUITE_P(
         Case{8, "+sides = 'none'", 9, "tray.sides", "is not one of walls, open, periodic"},
         Case{8, "+sides = 'periodic'\ntilt = '1 degree'", 9, "tray.sides", "cannot be tilted"},
         Case{21, "+sides = 'periodic'", 22, "hopper.sides", "only the tray"},
+        Case{12, "+open_at = ['1 s', '2 s']", 13, "tray.holes.open_at", "lists 2 times for 5 holes"},
         Case{14, "kind = 'sum'", 13, "tray.motion.components", "is missing"},
         Case{14, "kind = 'table'", 13, "tray.motion.file", "is missing"},
         Case{14, "kind = 'table'\nfile = 'nowhere.csv'", 15, "tray.motion.file", "there is no file"},
