@@ -7,6 +7,7 @@
 
 #include "contact/contact_list.hpp"
 #include "grains/grains.hpp"
+#include "scene/pose.hpp"
 #include "scene/scene.hpp"
 
 namespace vibrosow {
@@ -22,11 +23,16 @@ class Broadphase {
   ~Broadphase();
 
   /// Fills `pairs` with all (i, j) nearer than r_i + r_j + margin (m) and `near_walls` with at least all grains nearer
-  /// than r + margin to a wall, both sorted; the candidates' sides are not set. `displacement` (m) of each vessel from
-  /// rest in the lab; coordinates are taken relative to the first vessel, so that a bed moving with its tray stays in
-  /// its boxes. Grains are known by their number.
-  void find(const Grains& grains, const std::vector<Eigen::Vector2d>& displacement, double margin, PairList& pairs,
+  /// than r + margin to a wall, both sorted; the candidates' sides are not set. `poses` of each vessel; coordinates are
+  /// taken relative to the first vessel's displacement, so that a bed moving with its tray stays in its boxes. Grains
+  /// are known by their number.
+  void find(const Grains& grains, const std::vector<Pose>& poses, double margin, PairList& pairs,
             std::vector<WallCandidate>& near_walls);
+
+  /// Fills `pairs` with all (i, j) such that i, shifted by `period` (m) to the right, is nearer than r_i + r_j + margin
+  /// to j: pairs across the seam of a periodic tray. Every grain has a row; j may be less than i. For the grains and
+  /// poses of the last `find`.
+  void find_across(const Grains& grains, const std::vector<Pose>& poses, double period, double margin, PairList& pairs);
 
   /// Takes wall `wall` out of the vessel's body: nothing will touch it any more.
   void remove_wall(int wall);

@@ -11,6 +11,11 @@ struct ContactHistory {
   std::vector<double> slip, slip_speed;  // m, m/s: displacement of the tangential spring, last sliding speed
   std::vector<double> roll, roll_speed;  // rad, rad/s: the same of the rolling spring
 
+  bool remembers(std::size_t k) const {
+    return (!slip.empty() && (slip[k] != 0 || slip_speed[k] != 0)) ||
+           (!roll.empty() && (roll[k] != 0 || roll_speed[k] != 0));
+  }
+
   void resize(std::size_t candidates, bool tangential, bool rolling) {
     slip.resize(tangential ? candidates : 0), slip_speed.resize(slip.size());
     roll.resize(rolling ? candidates : 0), roll_speed.resize(roll.size());

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "contact/kernels.hpp"
+#include "scene/motion.hpp"
 
 namespace vibrosow {
 namespace {
@@ -31,7 +32,7 @@ bool any_surface(const Scene& scene, Property present) {
 }
 
 bool moves(const Vessel& vessel) {
-  return vessel.motion && vessel.motion->amplitude != 0 && vessel.motion->frequency != 0;
+  return vessel.motion && moves(*vessel.motion);
 }
 
 }  // namespace
@@ -53,6 +54,7 @@ EffectSet effects_of(const Scene& scene) {
   const bool rolls = effects.friction && effects.rotation &&
                      any_surface(scene, [](const Surface& s) { return s.rolling_friction != 0; });
   effects.rolling = rolls ? contact.rolling : Rolling::none;
+  effects.periodic = scene.tray.sides == Sides::periodic;
   effects.cohesion = any_surface(scene, [](const Surface& s) { return s.cohesion != 0; });
   return effects;
 }
@@ -93,8 +95,7 @@ std::vector<EffectReason> explain_effects(const Scene& scene) {
     std::string text;
     for (const Vessel* vessel : {&scene.tray, scene.hopper ? &*scene.hopper : nullptr})
       if (vessel && moves(*vessel))
-        text += fmt::format("{}{} moves: {:.6g} mm at {:.6g} Hz", text.empty() ? "" : ", ", vessel->name,
-                            vessel->motion->amplitude * 1e3, vessel->motion->frequency);
+        text += fmt::format("{}{} moves: {}", text.empty() ? "" : ", ", vessel->name, motion_text(*vessel->motion));
     return text.empty() ? std::string("every vessel stands still") : text;
   };
   const auto told = [](bool present, const char* yes, const char* no) { return std::string(present ? yes : no); };

@@ -32,6 +32,12 @@ std::vector<int> shuffled_lots(const std::vector<SeedLot>& lots, int count, Rand
                   vessel.name, vessel.height * 1e3, vessel.name));
 }
 
+bool is_on_a_piece(const std::vector<WallSegment>& walls, const Eigen::Vector2d& seat, double clear) {
+  return std::any_of(walls.begin(), walls.end(), [&](const WallSegment& wall) {
+    return wall.is_piece && distance_to_wall(wall, seat) < 0.5 * clear;
+  });
+}
+
 std::vector<PackedGrain> pack_rows(const Vessel& vessel, const std::vector<SeedLot>& lots, Random& random) {
   const Fill& fill = *vessel.fill;
   const bool hexagonal = fill.packing == Packing::hexagonal;
@@ -44,6 +50,7 @@ std::vector<PackedGrain> pack_rows(const Vessel& vessel, const std::vector<SeedL
   const double rise =
       hexagonal ? std::sqrt(std::max(clear * clear - 0.25 * spacing * spacing, 0.25 * clear * clear)) : clear;
 
+  const std::vector<WallSegment> walls = vessel_walls(vessel);
   std::vector<PackedGrain> packed;
   const std::vector<int> order = shuffled_lots(lots, fill.count, random);
   double y = highest_floor(vessel) + 0.5 * clear;
@@ -51,6 +58,7 @@ std::vector<PackedGrain> pack_rows(const Vessel& vessel, const std::vector<SeedL
     const bool offset = hexagonal && row % 2 == 1;
     for (int k = 0; k < per_row - (offset ? 1 : 0) && packed.size() < order.size(); ++k) {
       const double centre = (k + (offset ? 1.0 : 0.5)) * spacing;
+      if (is_on_a_piece(walls, {centre, y}, clear)) continue;
       const double dx = shift * random.uniform(-1, 1), dy = shift * random.uniform(-1, 1);
       const int lot = order[packed.size()];
       const SeedLot& seeds = lots[static_cast<std::size_t>(lot)];
@@ -181,18 +189,32 @@ Eigen::Vector2d drop_and_roll(const Heap& heap, double length, double x, double 
   return {x, radius};
 }
 
-/// Fixed points along the sloping walls, so close that a grain between two of them stays within 1/800 of its radius of
-/// the wall, and never overlaps it.
+/// Points of a wall no further apart than `pitch`.
+std::vector<Eigen::Vector2d> points_along(const WallSegment& wall, double pitch) {
+  const bool arc = wall.radius > 0;
+  const double length = arc ? wall.radius * (wall.to - wall.from) : (wall.b - wall.a).norm();
+  const int points = static_cast<int>(std::ceil(length / pitch));
+  std::vector<Eigen::Vector2d> along;
+  for (int k = 0; k <= points; ++k) {
+    const double part = static_cast<double>(k) / points, angle = wall.from + part * (wall.to - wall.from);
+    const Eigen::Vector2d on_arc = wall.centre + wall.radius * Eigen::Vector2d(std::cos(angle), std::sin(angle));
+    along.push_back(on_arc);
+    if (!arc) along.back() = wall.a + (wall.b - wall.a) * part;
+  }
+  return along;
+}
+
+/// Fixed points along the sloping walls and the pieces, so close that a grain between two of them stays within 1/800 of
+/// its radius of the wall, and never overlaps it.
 void add_slopes(Heap& heap, const Vessel& vessel, double smallest_radius) {
   const double pitch = 0.1 * smallest_radius;
   const double inflation = pitch * pitch / (8 * smallest_radius);
   for (const WallSegment& wall : vessel_walls(vessel)) {
     const Eigen::Vector2d along = wall.b - wall.a;
-    if (along.x() == 0 || along.y() == 0) continue;
-    const int points = static_cast<int>(std::ceil(along.norm() / pitch));
-    for (int k = 0; k <= points; ++k) {
-      const Eigen::Vector2d p = wall.a + along * (static_cast<double>(k) / points);
-      heap.add({p.x(), p.y(), inflation});
+    if (!wall.is_piece && (along.x() == 0 || along.y() == 0)) continue;
+    for (const Eigen::Vector2d& p : points_along(wall, pitch)) {
+      const bool beside = p.x() < -0.1 * vessel.length || p.x() > 1.1 * vessel.length;
+      if (!beside) heap.add({p.x(), p.y(), inflation});
     }
   }
 }

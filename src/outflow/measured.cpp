@@ -10,7 +10,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "outflow/csv_lines.hpp"
+#include "scene/csv_lines.hpp"
 #include "scene/document.hpp"
 #include "scene/input_error.hpp"
 #include "scene/key_units.hpp"
@@ -142,17 +142,7 @@ class Reader {
     if (!quantity_->beside.empty()) companion_ = column(quantity_->beside);
   }
 
-  /// A finite number in the file's dialect; none when the text is anything else.
-  std::optional<double> number(std::string text) const {
-    if (csv_.decimal_comma) {
-      if (text.find('.') != std::string::npos) return std::nullopt;
-      std::ranges::replace(text, ',', '.');
-    }
-    double value = 0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    if (error != std::errc{} || end != text.data() + text.size() || !std::isfinite(value)) return std::nullopt;
-    return value;
-  }
+  std::optional<double> number(const std::string& text) const { return csv_number(text, csv_.decimal_comma); }
 
   double required_number(const CsvLines::Row& row, std::size_t index) const {
     const std::string& text = row.fields[index];

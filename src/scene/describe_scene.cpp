@@ -24,6 +24,10 @@ Json describe(const SizeDistribution& sizes) {
   return json;
 }
 
+Json time_or_never(double time) {
+  return time == never ? Json(nullptr) : Json(time);
+}
+
 Json describe(const SeedLot& lot) {
   const char* shapes[] = {"disc", "ball", "clump"};
   Json json = {{"name", lot.name},
@@ -115,12 +119,53 @@ Json describe(const HarmonicMotion& motion) {
           {"direction_rad", motion.direction},
           {"amplitude_m", motion.amplitude},
           {"frequency_hz", motion.frequency},
-          {"ramp_s", motion.ramp}};
+          {"phase_rad", motion.phase},
+          {"ramp_s", motion.ramp},
+          {"stop_s", time_or_never(motion.stop)},
+          {"stop_ramp_s", motion.stop_ramp}};
+}
+
+Json describe(const SumMotion& motion) {
+  Json components = Json::array();
+  for (const HarmonicMotion& component : motion.components) components.push_back(describe(component));
+  return {{"kind", "sum"}, {"components", components}};
+}
+
+Json describe(const RockingMotion& motion) {
+  return {{"kind", "rocking"},
+          {"pivot_m", {motion.pivot.x(), motion.pivot.y()}},
+          {"angle_rad", motion.angle},
+          {"frequency_hz", motion.frequency},
+          {"ramp_s", motion.ramp},
+          {"stop_s", time_or_never(motion.stop)},
+          {"stop_ramp_s", motion.stop_ramp}};
+}
+
+Json describe(const TableMotion& motion) {
+  return {
+      {"kind", "table"}, {"time_s", motion.times}, {"x_m", motion.x}, {"y_m", motion.y}, {"angle_rad", motion.angle}};
+}
+
+Json describe(const std::optional<VesselMotion>& motion) {
+  if (!motion) return nullptr;
+  return std::visit([](const auto& kind) { return describe(kind); }, *motion);
+}
+
+Json describe(const WallPiece& piece) {
+  if (piece.radius == 0) return {{"from_m", {piece.a.x(), piece.a.y()}}, {"to_m", {piece.b.x(), piece.b.y()}}};
+  return {{"centre_m", {piece.centre.x(), piece.centre.y()}},
+          {"radius_m", piece.radius},
+          {"from_rad", piece.from},
+          {"to_rad", piece.to}};
 }
 
 Json describe(const Vessel& vessel) {
+  const char* sides[] = {"walls", "open", "periodic"};
+  Json pieces = Json::array();
+  for (const WallPiece& piece : vessel.pieces) pieces.push_back(describe(piece));
   Json holes = Json::array();
-  for (const Hole& hole : vessel.holes) holes.push_back({{"centre_m", hole.centre}, {"width_m", hole.width}});
+  for (const Hole& hole : vessel.holes)
+    holes.push_back({{"centre_m", hole.centre}, {"width_m", hole.width}, {"open_at_s", hole.open_at}});
   return {{"left_m", vessel.origin.x()},
           {"above_m", vessel.origin.y()},
           {"length_m", vessel.length},
@@ -129,8 +174,11 @@ Json describe(const Vessel& vessel) {
           {"funnel_rad", vessel.funnel},
           {"depth_m", optional_number(vessel.depth)},
           {"holes", holes},
+          {"pieces", pieces},
+          {"box", vessel.box},
+          {"sides", sides[static_cast<int>(vessel.sides)]},
           {"fill", vessel.fill ? describe(*vessel.fill) : Json(nullptr)},
-          {"motion", vessel.motion ? describe(*vessel.motion) : Json(nullptr)}};
+          {"motion", describe(vessel.motion)}};
 }
 
 Json describe(const Numerics& numerics) {

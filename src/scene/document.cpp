@@ -439,34 +439,58 @@ double Table::required_quantity(const std::string& key, Dimension dimension, dou
   return *found;
 }
 
+namespace {
+
+double quantity_of(const Table& table, const std::string& key, const toml::node& node, Dimension dimension,
+                   double least, double most) {
+  if (!node.is_string()) {
+    table.fail(
+        key, fmt::format("must be a quantity with its unit in quotes, {}, not {}", expected(dimension), text_of(node)));
+  }
+  const std::string text = *node.value<std::string>();
+  double value = 0;
+  try {
+    value = parse_quantity(text, dimension);
+  } catch (const UnitError& error) {
+    table.fail(key, error.what());
+  }
+  // Limits such as 30 degree are not exact in SI, so a rounding error beyond them is still within.
+  const double slack = 1e-12 * std::max(std::abs(least), std::abs(most));
+  if (!(value >= least - std::min(slack, std::abs(least) * 1e-9) && value <= most + slack)) {
+    table.fail(key, fmt::format("\"{}\" is out of range, which is from {} to {}", text, show(least, dimension),
+                                show(most, dimension)));
+  }
+  return value;
+}
+
+}  // namespace
+
 std::vector<double> Table::quantities(const std::string& key, Dimension dimension, double least, double most) {
   state_->know(key);
   const toml::node* found = state_->find(key);
   if (found == nullptr) return {};
-  const auto read = [&](const toml::node& node) {
-    if (!node.is_string()) {
-      fail(key,
-           fmt::format("must be a quantity with its unit in quotes, {}, not {}", expected(dimension), text_of(node)));
-    }
-    const std::string text = *node.value<std::string>();
-    double value = 0;
-    try {
-      value = parse_quantity(text, dimension);
-    } catch (const UnitError& error) {
-      fail(key, error.what());
-    }
-    // Limits such as 30 degree are not exact in SI, so a rounding error beyond them is still within.
-    const double slack = 1e-12 * std::max(std::abs(least), std::abs(most));
-    if (!(value >= least - std::min(slack, std::abs(least) * 1e-9) && value <= most + slack)) {
-      fail(key, fmt::format("\"{}\" is out of range, which is from {} to {}", text, show(least, dimension),
-                            show(most, dimension)));
-    }
-    return value;
-  };
-  if (!found->is_array()) return {read(*found)};
+  if (!found->is_array()) return {quantity_of(*this, key, *found, dimension, least, most)};
   if (found->as_array()->empty()) fail(key, "the list is empty");
   std::vector<double> values;
-  for (const toml::node& element : *found->as_array()) values.push_back(read(element));
+  for (const toml::node& element : *found->as_array())
+    values.push_back(quantity_of(*this, key, element, dimension, least, most));
+  return values;
+}
+
+std::vector<std::array<double, 2>> Table::points(const std::string& key, Dimension dimension, double least,
+                                                 double most) {
+  state_->know(key);
+  const toml::node* found = state_->find(key);
+  if (found == nullptr) return {};
+  if (!found->is_array()) fail(key, fmt::format("must be a list of points, not {}", text_of(*found)));
+  std::vector<std::array<double, 2>> values;
+  for (const toml::node& element : *found->as_array()) {
+    const toml::array* pair = element.as_array();
+    if (pair == nullptr || pair->size() != 2)
+      fail(key, fmt::format("each point is a list of two, such as [\"3 cm\", \"8 cm\"], not {}", text_of(element)));
+    values.push_back({quantity_of(*this, key, *pair->get(0), dimension, least, most),
+                      quantity_of(*this, key, *pair->get(1), dimension, least, most)});
+  }
   return values;
 }
 

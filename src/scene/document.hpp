@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <memory>
@@ -61,6 +62,8 @@ class Table {
   double required_quantity(const std::string& key, Dimension dimension, double least, double most);
   std::vector<double> quantities(const std::string& key, Dimension dimension, double least,
                                  double most);  // one or a list
+  /// A list of points, each a list of two quantities; absent: empty.
+  std::vector<std::array<double, 2>> points(const std::string& key, Dimension dimension, double least, double most);
   /// The text of a value, or of each element of a list of texts; absent: empty. `what` is expected, for
   /// messages.
   std::vector<std::string> texts(const std::string& key, std::string_view what = "a text");

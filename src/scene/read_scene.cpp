@@ -156,6 +156,10 @@ Scene read_scene(const std::filesystem::path& file, const std::vector<Override>&
   if (auto hopper = root.table("hopper")) {
     scene.hopper = read_vessel(*hopper, "hopper", scene.lots);
     scene.hopper->origin.x() = hopper->required_quantity("left", Dimension::length, -100, 100);
+    if (scene.tray.sides == Sides::periodic &&
+        !(scene.hopper->origin.x() >= 0 &&
+          scene.hopper->origin.x() + scene.hopper->length <= scene.tray.length * (1 + 1e-9)))
+      hopper->fail("left", "the hopper does not lie within the length of the periodic tray");
     scene.hopper->origin.y() = hopper->required_quantity("above", Dimension::length, 0, 100);
   }
   if (!scene.tray.fill && !(scene.hopper && scene.hopper->fill)) {

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "scene/motion.hpp"
+#include "scene/read_motion.hpp"
 #include "scene/seed_lot.hpp"
 #include "scene/vessel_walls.hpp"
 
@@ -127,11 +129,22 @@ void check_holes(const Table& table, const std::vector<Hole>& holes, double leng
   }
 }
 
+std::vector<double> read_opening_times(Table& table, std::size_t holes) {
+  std::vector<double> times = table.quantities("open_at", Dimension::time, 0, 1e6);
+  if (times.size() > 1 && times.size() != holes) {
+    table.fail("open_at",
+               fmt::format("lists {} times for {} holes; expected one for all or one each", times.size(), holes));
+  }
+  times.resize(holes, times.empty() ? 0.0 : times.front());
+  return times;
+}
+
 std::vector<Hole> read_holes(Table table, double length, double diameter) {
   const HoleRow row = read_positions(table, length);
   const std::vector<double> widths = read_widths(table, row.centres.size(), diameter);
+  const std::vector<double> open_at = read_opening_times(table, row.centres.size());
   std::vector<Hole> holes;
-  for (std::size_t i = 0; i < widths.size(); ++i) holes.push_back({row.centres[i], widths[i]});
+  for (std::size_t i = 0; i < widths.size(); ++i) holes.push_back({row.centres[i], widths[i], open_at[i]});
   std::stable_sort(holes.begin(), holes.end(), [](const Hole& a, const Hole& b) { return a.centre < b.centre; });
   check_holes(table, holes, length, row.placed_by);
   return holes;
@@ -174,16 +187,70 @@ void check_fill_fits(Table fill_table, const Vessel& vessel, const std::vector<S
   }
 }
 
-HarmonicMotion read_motion(Table table) {
-  const std::optional<std::size_t> kind = table.choice("kind", {"harmonic", "rocking", "sum", "table"});
-  if (!kind) table.fail("kind", "is missing; expected \"harmonic\"");
-  if (*kind != 0) table.fail("kind", "this motion is not built yet; expected \"harmonic\"");
-  HarmonicMotion motion;
-  motion.direction = table.quantity("direction", Dimension::angle, -360 * degree, 360 * degree).value_or(0);
-  motion.amplitude = table.required_quantity("amplitude", Dimension::length, 1e-9, 10);
-  motion.frequency = table.required_quantity("frequency", Dimension::frequency, 1e-6, 1e4);
-  motion.ramp = table.quantity("ramp", Dimension::time, 0, 1e6).value_or(0);
-  return motion;
+std::vector<WallPiece> read_line(const Table& table, const std::vector<std::array<double, 2>>& points) {
+  if (points.size() < 2) table.fail("line", "has a single point; expected two or more");
+  std::vector<WallPiece> pieces;
+  for (std::size_t k = 1; k < points.size(); ++k) {
+    WallPiece piece;
+    piece.a = {points[k - 1][0], points[k - 1][1]};
+    piece.b = {points[k][0], points[k][1]};
+    if ((piece.b - piece.a).norm() < shortest)
+      table.fail("line", fmt::format("points {} and {} lie on each other", k, k + 1));
+    pieces.push_back(piece);
+  }
+  return pieces;
+}
+
+WallPiece read_arc(Table& table) {
+  WallPiece arc;
+  const std::vector<double> centre = table.quantities("centre", Dimension::length, -longest, longest);
+  if (centre.size() != 2) {
+    table.fail("centre",
+               "expected line = [[\"0 cm\", \"5 cm\"], ...], or an arc's centre such as [\"5 cm\", \"5 cm\"]");
+  }
+  arc.centre = {centre[0], centre[1]};
+  arc.radius = table.required_quantity("radius", Dimension::length, shortest, longest);
+  arc.from = table.quantity("from", Dimension::angle, -360 * degree, 360 * degree).value_or(0);
+  arc.to = table.quantity("to", Dimension::angle, -360 * degree, 720 * degree).value_or(arc.from + 360 * degree);
+  if (!(arc.to > arc.from && arc.to - arc.from <= 360 * degree * (1 + 1e-12))) {
+    table.fail("to",
+               fmt::format("an arc runs anticlockwise from {:g} to {:g} degree; expected a larger end, by no more "
+                           "than a full turn",
+                           arc.from / degree, arc.to / degree));
+  }
+  return arc;
+}
+
+std::vector<WallPiece> read_pieces(Table& vessel) {
+  std::vector<WallPiece> pieces;
+  for (Table& table : vessel.tables("pieces")) {
+    if (table.has("line")) {
+      const auto line = read_line(table, table.points("line", Dimension::length, -longest, longest));
+      pieces.insert(pieces.end(), line.begin(), line.end());
+    } else {
+      pieces.push_back(read_arc(table));
+      table.skip("line");
+    }
+  }
+  return pieces;
+}
+
+Sides read_sides(Table& table) {
+  constexpr Sides sides[] = {Sides::walls, Sides::open, Sides::periodic};
+  return sides[table.choice("sides", {"walls", "open", "periodic"}).value_or(0)];
+}
+
+/// A period needs a floor that continues itself, and room: no two seeds may meet both within it and across its ends.
+void check_periodic(const Table& table, const Vessel& vessel, double diameter) {
+  if (vessel.sides != Sides::periodic) return;
+  constexpr double fewest_diameters = 6;
+  if (vessel.name != "tray") table.fail("sides", "only the tray can be periodic");
+  if (vessel.tilt != 0) table.fail("sides", "a periodic tray cannot be tilted: its ends would not meet");
+  if (vessel.motion && turns(*vessel.motion))
+    table.fail("sides", "a periodic tray cannot turn: its ends would not meet");
+  if (vessel.length < fewest_diameters * diameter)
+    table.fail("sides", fmt::format("a periodic tray is at least {:g} diameters of the largest seed long, {}",
+                                    fewest_diameters, millimetres(fewest_diameters * diameter)));
 }
 
 }  // namespace
@@ -196,8 +263,12 @@ Vessel read_vessel(Table table, const std::string& name, const std::vector<SeedL
   vessel.depth = table.quantity("depth", Dimension::length, shortest, longest);
   vessel.tilt = table.quantity("tilt", Dimension::angle, -30 * degree, 30 * degree).value_or(0);
   vessel.funnel = table.quantity("funnel", Dimension::angle, 0.01 * degree, 80 * degree).value_or(0);
-  if (const auto holes = table.table("holes"))
-    vessel.holes = read_holes(*holes, vessel.length, largest_mean_diameter(lots));
+  vessel.box = table.boolean("box").value_or(true);
+  vessel.pieces = read_pieces(table);
+  vessel.sides = read_sides(table);
+  if (!vessel.box && vessel.pieces.empty()) table.fail("box", "without floor and end walls a vessel needs pieces");
+  if (!vessel.box && vessel.funnel > 0) table.fail("funnel", "is a slope of the floor, which box = false leaves out");
+  if (const auto holes = table.table("holes")) vessel.holes = read_holes(*holes, vessel.length, largest_mean_diameter(lots));
   if (vessel.funnel > 0 && vessel.holes.empty()) table.fail("funnel", "needs holes for the floor to slope to");
   if (highest_floor(vessel) >= vessel.height) {
     table.fail("funnel", fmt::format("the floor would rise to {}, as high as the walls or higher ({})",
@@ -208,6 +279,7 @@ Vessel read_vessel(Table table, const std::string& name, const std::vector<SeedL
     check_fill_fits(*fill, vessel, lots);
   }
   if (const auto motion = table.table("motion")) vessel.motion = read_motion(*motion);
+  check_periodic(table, vessel, largest_diameter(lots));
   return vessel;
 }
 

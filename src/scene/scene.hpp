@@ -1,8 +1,10 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <limits>
 #include <optional>
 #include <string>
+#include <variant>
 #include <vector>
 
 namespace vibrosow {
@@ -94,9 +96,23 @@ struct Contact {
 };
 
 struct Hole {
-  double centre = 0;  // m along the floor from the vessel's left end
-  double width = 0;   // m
+  double centre = 0;   // m along the floor from the vessel's left end
+  double width = 0;    // m
+  double open_at = 0;  // s; until then a gate closes it
 };
+
+/// A piece of a vessel's wall beside its box, in the vessel's frame: a straight line from a to b, or, where the radius
+/// is not zero, an arc about `centre`, anticlockwise from the angle `from` to the angle `to` (at most a full turn). A
+/// grain larger than an arc's circle feels only the nearer end of it from within.
+struct WallPiece {
+  Eigen::Vector2d a = Eigen::Vector2d::Zero(), b = Eigen::Vector2d::Zero();  // m
+  Eigen::Vector2d centre = Eigen::Vector2d::Zero();                          // m
+  double radius = 0;                                                         // m
+  double from = 0, to = 0;                                                   // rad, 0 along x, pi/2 up
+};
+
+/// What stands at the ends of a vessel's floor: walls; nothing; or the same vessel again, for a slice of a long one.
+enum class Sides { walls, open, periodic };
 
 enum class Packing { poured, layers, hexagonal };
 
@@ -108,13 +124,43 @@ struct Fill {
   std::string where = {};  // "FILE:LINE: KEY" of the count, for messages; empty in a scene not read from a file
 };
 
-/// Displacement A s(t) sin(2 pi f t) along `direction`; s grows smoothly from 0 to 1 over `ramp`.
+inline constexpr double never = std::numeric_limits<double>::infinity();  // s
+
+/// Displacement A s(t) sin(2 pi f t + phase) along `direction`; s grows smoothly from 0 to 1 over `ramp`, and falls to
+/// 0 over `stop_ramp` from `stop` on.
 struct HarmonicMotion {
   double direction = 0;  // rad; 0 along x, pi/2 up
   double amplitude = 0;  // m, half the stroke
   double frequency = 0;  // Hz
   double ramp = 0;       // s
+  double phase = 0;      // rad
+  double stop = never;   // s
+  double stop_ramp = 0;  // s
 };
+
+struct SumMotion {
+  std::vector<HarmonicMotion> components;
+};
+
+/// The vessel turns by `angle` s(t) sin(2 pi f t) about a point of its own frame.
+struct RockingMotion {
+  Eigen::Vector2d pivot = Eigen::Vector2d::Zero();  // m, in the vessel's frame
+  double angle = 0;                                 // rad, amplitude
+  double frequency = 0;                             // Hz
+  double ramp = 0;                                  // s
+  double stop = never;                              // s
+  double stop_ramp = 0;                             // s
+};
+
+/// Displacement of the frame's zero and angle at given times, smooth in between, held before the first and after the
+/// last. All four lists are equally long, at least 4.
+struct TableMotion {
+  std::vector<double> times;  // s, ascending
+  std::vector<double> x, y;   // m, lab
+  std::vector<double> angle;  // rad, beside the tilt
+};
+
+using VesselMotion = std::variant<HarmonicMotion, SumMotion, RockingMotion, TableMotion>;
 
 /// A tray or a hopper: floor from (0, 0) to (length, 0) with end walls of `height`, in the vessel's own frame.
 struct Vessel {
@@ -126,8 +172,11 @@ struct Vessel {
   double funnel = 0;                                 // rad, slope of the floor towards its holes; 0: flat
   std::optional<double> depth;                       // m, across the plane
   std::vector<Hole> holes;                           // from the left, not overlapping
+  std::vector<WallPiece> pieces{};                   // beside floor and end walls
+  bool box = true;                                   // whether there are floor and end walls
+  Sides sides = Sides::walls;
   std::optional<Fill> fill;
-  std::optional<HarmonicMotion> motion;
+  std::optional<VesselMotion> motion;
 };
 
 enum class Integrator { velocity_verlet, rk2_midpoint, gear5 };

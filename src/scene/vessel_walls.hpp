@@ -8,21 +8,39 @@
 
 namespace vibrosow {
 
-/// A straight piece of a vessel's wall. Segments that meet share a vertex number.
+/// A piece of a vessel's wall: a straight line from a to b, or where the radius is not zero an arc, anticlockwise from
+/// a to b. Walls that meet at their ends share a vertex number.
 struct WallSegment {
   Eigen::Vector2d a, b;  // m, in the vessel's own frame
   int vertex_a, vertex_b;
-  std::string name;  // "tray left wall", "tray floor 2", "hopper floor 1 falling"
+  std::string name;       // "tray left wall", "tray floor 2", "hopper floor 1 falling", "tray piece 3", "tray gate 1"
+  bool is_piece = false;  // of Vessel::pieces
+  Eigen::Vector2d centre = Eigen::Vector2d::Zero();  // m, of an arc
+  double radius = 0;                                 // m, of an arc
+  double from = 0, to = 0;                           // rad, of an arc
+  double opens_at = 0;                               // s, of a gate: when it vanishes; 0: it stays
 };
 
-/// The walls of a vessel in its own frame, from its upper left to its upper right corner: left end wall,
-/// floor pieces between the holes, right end wall. With a funnel the floor falls to each hole's edges at y =
-/// 0 from the end walls and from a ridge midway between two neighbouring holes' edges; a funnel without holes
-/// is a flat floor. Every segment runs left to right along the chain, so the inside of the vessel lies to its
-/// left. Pieces shorter than 1e-9 of the vessel's length are left out: a hole may reach the end wall.
+/// The walls of a vessel in its own frame: its box, its pieces, its gates.
+///
+/// The box runs from the vessel's upper left to its upper right corner: left end wall, floor pieces between the holes,
+/// right end wall. With a funnel the floor falls to each hole's edges at y = 0 from the end walls and from a ridge
+/// midway between two neighbouring holes' edges; a funnel without holes is a flat floor. Every segment of the box runs
+/// left to right along the chain, so the inside of the vessel lies to its left. Pieces shorter than 1e-9 of the
+/// vessel's length are left out: a hole may reach the end wall. Open sides: no end walls. Periodic sides: no end walls,
+/// and everything is there three times, shifted by the length to either side, which leaves room for grains that are
+/// beyond a side and not yet carried over to the other.
+///
+/// A gate lies across each hole that opens later than 0.
 std::vector<WallSegment> vessel_walls(const Vessel& vessel);
 
 /// Height of the floor, in m, at its highest point: 0 when flat.
 double highest_floor(const Vessel& vessel);
+
+/// Distance, in m, of the furthest wall from the point `about` of the vessel's frame (of arcs: an upper bound).
+double largest_radius(const Vessel& vessel, const Eigen::Vector2d& about);
+
+/// Distance, in m, of a point of the vessel's frame from a wall.
+double distance_to_wall(const WallSegment& wall, const Eigen::Vector2d& point);
 
 }  // namespace vibrosow

@@ -10,17 +10,23 @@ namespace vibrosow {
 Counter::Counter(const Scene& scene, std::size_t grains)
     : tray_(scene.tray), count_below_(scene.run.count_below), state_(grains) {}
 
+double Counter::within_period(double x) const {
+  return tray_.sides == Sides::periodic ? x - tray_.length * std::floor(x / tray_.length) : x;
+}
+
 int Counter::hole_at(double x) const {
   for (std::size_t k = 0; k < tray_.holes.size(); ++k)
     if (std::abs(x - tray_.holes[k].centre) <= 0.5 * tray_.holes[k].width) return static_cast<int>(k) + 1;
-  return x > 0 && x < tray_.length ? through_the_floor : 0;
+  const bool on_floor = tray_.sides == Sides::periodic || (x > 0 && x < tray_.length);
+  return tray_.box && on_floor ? through_the_floor : 0;
 }
 
 void Counter::watch(const Grains& grains, const Walls& walls, double time, std::vector<OutflowEvent>& events) {
-  const Eigen::Vector2d displacement = walls.displacement().front();
-  const double sine = std::sin(tray_.tilt), cosine = std::cos(tray_.tilt);
-  const double ox = tray_.origin.x() + displacement.x(), oy = tray_.origin.y() + displacement.y();
-  const Eigen::Vector2d tray_velocity = vessel_velocity(tray_, time);
+  const Pose pose = walls.poses().front();
+  const double angle = tray_.tilt + pose.angle;
+  const double sine = std::sin(angle), cosine = std::cos(angle);
+  const double ox = tray_.origin.x() + pose.displacement.x(), oy = tray_.origin.y() + pose.displacement.y();
+  const auto [tray_velocity, spin] = walls.paths().front().rate(time);
 
   for (std::size_t i = 0; i < grains.size(); ++i) {
     const double height = cosine * (grains.y[i] - oy) - sine * (grains.x[i] - ox);
@@ -31,13 +37,14 @@ void Counter::watch(const Grains& grains, const Walls& walls, double time, std::
     }
     if (state.counted) continue;
     const double along = cosine * (grains.x[i] - ox) + sine * (grains.y[i] - oy);
-    const double ux = grains.vx[i] - tray_velocity.x(), uy = grains.vy[i] - tray_velocity.y();
+    const double ux = grains.vx[i] - (tray_velocity.x() - spin * (grains.y[i] - oy));
+    const double uy = grains.vy[i] - (tray_velocity.y() + spin * (grains.x[i] - ox));
     const double speed_along = cosine * ux + sine * uy, speed_up = cosine * uy - sine * ux;
     // Back along the present velocity to the moment when the centre was `level` high.
     const auto since = [&](double level) { return speed_up < 0 ? (height - level) / speed_up : 0.0; };
     if (!state.below) {
       state.below = true;
-      state.x = along - speed_along * since(0);
+      state.x = within_period(along - speed_along * since(0));
       state.hole = hole_at(state.x);
     }
     if (height >= -count_below_) continue;
@@ -47,7 +54,7 @@ void Counter::watch(const Grains& grains, const Walls& walls, double time, std::
       continue;
     }
     const double ago = since(-count_below_);
-    const double x = state.hole > 0 ? state.x : along - speed_along * ago;
+    const double x = state.hole > 0 ? state.x : within_period(along - speed_along * ago);
     events.push_back({time - ago, state.hole, grains.lot[i], grains.number[i], grains.kind(i).mass, x,
                       std::hypot(grains.vx[i], grains.vy[i])});
   }
@@ -60,9 +67,10 @@ void Counter::remove_flagged(const std::vector<char>& removed) {
   state_.resize(kept);
 }
 
-bool is_inside(const Vessel& vessel, const Eigen::Vector2d& displacement, double x, double y) {
-  const Eigen::Vector2d own = in_vessel_frame(vessel, displacement, {x, y});
-  return own.x() >= 0 && own.x() <= vessel.length && own.y() >= 0 && own.y() <= vessel.height;
+bool is_inside(const Vessel& vessel, const Pose& pose, double x, double y) {
+  const Eigen::Vector2d own = in_vessel_frame(vessel, pose, {x, y});
+  const bool along = vessel.sides == Sides::periodic || (own.x() >= 0 && own.x() <= vessel.length);
+  return along && own.y() >= 0 && own.y() <= vessel.height;
 }
 
 }  // namespace vibrosow

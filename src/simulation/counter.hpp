@@ -32,6 +32,7 @@ class Counter {
   };
   static constexpr int through_the_floor = -1;
   int hole_at(double x) const;
+  double within_period(double x) const;
 
   Vessel tray_;
   double count_below_;
@@ -39,7 +40,8 @@ class Counter {
   std::int64_t lost_ = 0;
 };
 
-/// Whether a point of the lab lies inside a vessel, between its end walls, above its floor line and below their tops.
-bool is_inside(const Vessel& vessel, const Eigen::Vector2d& displacement, double x, double y);
+/// Whether a point of the lab lies inside a vessel, between its ends (a periodic one has none),
+/// above its floor line and below the tops of its end walls.
+bool is_inside(const Vessel& vessel, const Pose& pose, double x, double y);
 
 }  // namespace vibrosow

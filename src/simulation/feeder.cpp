@@ -12,16 +12,27 @@ namespace {
 
 /// Grains of one vessel, in its own frame.
 struct Inside {
+  int grains = 0;
   std::vector<Eigen::Vector2d> at;
   std::vector<double> radius;
+
+  /// In a periodic vessel with its images to either side.
+  void add(const Vessel& vessel, const Eigen::Vector2d& own, double own_radius) {
+    const bool periodic = vessel.sides == Sides::periodic;
+    for (int copy = periodic ? -1 : 0; copy <= (periodic ? 1 : 0); ++copy) {
+      at.emplace_back(own.x() + copy * vessel.length, own.y());
+      radius.push_back(own_radius);
+    }
+  }
 };
 
-Inside grains_inside(const Vessel& vessel, const Eigen::Vector2d& displacement, const Grains& grains) {
+Inside grains_inside(const Vessel& vessel, const Pose& pose, const Grains& grains) {
   Inside inside;
   for (std::size_t i = 0; i < grains.size(); ++i) {
-    if (!is_inside(vessel, displacement, grains.x[i], grains.y[i])) continue;
-    inside.at.push_back(in_vessel_frame(vessel, displacement, {grains.x[i], grains.y[i]}));
-    inside.radius.push_back(grains.kind(i).radius);
+    if (!is_inside(vessel, pose, grains.x[i], grains.y[i])) continue;
+    ++inside.grains;
+    const Eigen::Vector2d own = in_vessel_frame(vessel, pose, {grains.x[i], grains.y[i]});
+    inside.add(vessel, own, grains.kind(i).radius);
   }
   return inside;
 }
@@ -64,9 +75,10 @@ int Feeder::top_up(Grains& grains, const Walls& walls, double time) {
   for (std::size_t v = 0; v < walls.vessels().size(); ++v) {
     const Vessel& vessel = walls.vessels()[v];
     if (!is_kept(vessel)) continue;
-    Inside inside = grains_inside(vessel, walls.displacement()[v], grains);
-    const Eigen::Vector2d velocity = vessel_velocity(vessel, time);
-    const int missing = vessel.fill->count - static_cast<int>(inside.at.size());
+    const Pose pose = walls.poses()[v];
+    const PoseRate rate = walls.paths()[v].rate(time);
+    Inside inside = grains_inside(vessel, pose, grains);
+    const int missing = vessel.fill->count - inside.grains;
     for (int k = 0; k < missing; ++k) {
       const int lot = draw_lot();
       const SeedLot& seeds = lots_[static_cast<std::size_t>(lot)];
@@ -75,9 +87,9 @@ int Feeder::top_up(Grains& grains, const Walls& walls, double time) {
       const double x = random_.uniform(radius, vessel.length - radius);
       const double y = surface(inside, x, radius);
       if (y + radius > vessel.height) continue;
-      inside.at.emplace_back(x, y);
-      inside.radius.push_back(radius);
-      const Eigen::Vector2d lab = in_lab_frame(vessel, walls.displacement()[v], {x, y});
+      inside.add(vessel, {x, y}, radius);
+      const Eigen::Vector2d lab = in_lab_frame(vessel, pose, {x, y});
+      const Eigen::Vector2d velocity = material_velocity(vessel, pose, rate, lab);
       const GrainKind kind = sized_kind(seeds, law_, grains.kinds[static_cast<std::size_t>(lot)], size);
       grains.add(lab.x(), lab.y(), velocity.x(), velocity.y(), lot, kind, angle);
       ++added;

@@ -38,11 +38,22 @@ Motion ForceField::motion_of(const Grains& discs) const {
   return {discs.x.data(), discs.y.data(), discs.vx.data(), discs.vy.data(), discs.omega.data(), discs.x.data()};
 }
 
+Motion ForceField::across_seam(const Grains& discs) {
+  shifted_x_ = discs.x;
+  for (double& x : shifted_x_) x += neighbours_.period();
+  Motion at = motion_of(discs);
+  at.row_x = shifted_x_.data();
+  return at;
+}
+
 void ForceField::run_kernels(const Grains& discs, const HistoryAdvance& advance, Forces& forces,
                              ContactCensus& census) {
   clear(forces, discs);
   const Motion at = motion_of(discs);
   kernels_.pair(discs, at, neighbours_.pairs(), parameters_, advance, neighbours_.pair_history(), forces, census);
+  if (neighbours_.period() > 0)
+    kernels_.pair(discs, across_seam(discs), neighbours_.seam_pairs(), parameters_, advance, neighbours_.seam_history(),
+                  forces, census);
   kernels_.wall(discs, at, neighbours_.near_walls(), walls_.placed(), parameters_, advance, neighbours_.wall_history(),
                 forces, census);
 }
@@ -71,23 +82,29 @@ void ForceField::evaluate(const Grains& grains, double time, const HistoryAdvanc
 double ForceField::elastic_energy(const Grains& grains) {
   const Grains& discs = place_discs(grains);
   const Motion at = motion_of(discs);
-  return kernels_.pair_energy(discs, at, neighbours_.pairs(), parameters_, neighbours_.pair_history()) +
-         kernels_.wall_energy(discs, at, neighbours_.near_walls(), walls_.placed(), parameters_,
-                              neighbours_.wall_history());
+  double energy = kernels_.pair_energy(discs, at, neighbours_.pairs(), parameters_, neighbours_.pair_history());
+  if (neighbours_.period() > 0)
+    energy += kernels_.pair_energy(discs, across_seam(discs), neighbours_.seam_pairs(), parameters_,
+                                   neighbours_.seam_history());
+  return energy + kernels_.wall_energy(discs, at, neighbours_.near_walls(), walls_.placed(), parameters_,
+                                       neighbours_.wall_history());
 }
 
 std::vector<char> ForceField::touching(const Grains& grains) const {
   std::vector<char> touches(grains.size(), 0);
   const Grains& discs = clumps_ ? clumps_->discs() : grains;
   const auto grain_of = [&](std::size_t k) { return clumps_ ? static_cast<std::size_t>(discs.clump[k]) : k; };
-  const PairList& pairs = neighbours_.pairs();
-  for (std::size_t i = 0; i < pairs.grains(); ++i)
-    for (int k = pairs.first[i]; k < pairs.first[i + 1]; ++k) {
-      const std::size_t j = static_cast<std::size_t>(pairs.partner[static_cast<std::size_t>(k)]);
-      const double reach = discs.kind(i).radius + discs.kind(j).radius;
-      if (std::hypot(discs.x[j] - discs.x[i], discs.y[j] - discs.y[i]) < reach)
-        touches[grain_of(i)] = touches[grain_of(j)] = 1;
-    }
+  const auto look = [&](const PairList& pairs, double shift) {
+    for (std::size_t i = 0; i < pairs.grains(); ++i)
+      for (int k = pairs.first[i]; k < pairs.first[i + 1]; ++k) {
+        const std::size_t j = static_cast<std::size_t>(pairs.partner[static_cast<std::size_t>(k)]);
+        const double reach = discs.kind(i).radius + discs.kind(j).radius;
+        if (std::hypot(discs.x[j] - (discs.x[i] + shift), discs.y[j] - discs.y[i]) < reach)
+          touches[grain_of(i)] = touches[grain_of(j)] = 1;
+      }
+  };
+  look(neighbours_.pairs(), 0);
+  look(neighbours_.seam_pairs(), neighbours_.period());
   return touches;
 }
 
@@ -99,6 +116,11 @@ void ForceField::grains_added() {
 void ForceField::remove_flagged(const std::vector<char>& removed) {
   clumps_are_current_ = false;
   neighbours_.remove_flagged(clumps_ ? clumps_->flags_of_discs(removed) : removed);
+}
+
+void ForceField::remove_wall(std::size_t wall) {
+  walls_.remove(wall);
+  neighbours_.remove_wall(static_cast<int>(wall));
 }
 
 }  // namespace vibrosow

@@ -33,6 +33,8 @@ class ForceField {
   void grains_added();
   /// These grains (one flag each) are being taken out.
   void remove_flagged(const std::vector<char>& removed);
+  /// Takes a wall away at once; nothing touches it any more.
+  void remove_wall(std::size_t wall);
 
   double neighbour_time() const { return neighbour_time_; }  // s of wall time spent so far
   double force_time() const { return force_time_; }
@@ -45,6 +47,7 @@ class ForceField {
  private:
   const Grains& place_discs(const Grains& grains);
   Motion motion_of(const Grains& discs) const;
+  Motion across_seam(const Grains& discs);
   void run_kernels(const Grains& discs, const HistoryAdvance& advance, Forces& forces, ContactCensus& census);
 
   const Scene& scene_;
@@ -55,6 +58,7 @@ class ForceField {
   std::optional<ClumpDiscs> clumps_;
   bool clumps_are_current_ = false;
   Forces forces_, disc_forces_;
+  std::vector<double> shifted_x_;  // m, of periodic sides
   double neighbour_time_ = 0, force_time_ = 0;
 };
 

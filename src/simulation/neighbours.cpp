@@ -1,9 +1,11 @@
 #include "simulation/neighbours.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "contact/wall_kernel.hpp"
+#include "scene/vessel_walls.hpp"
 
 namespace vibrosow {
 namespace {
@@ -59,16 +61,62 @@ void renumber(std::vector<WallCandidate>& list, ContactHistory& history, const s
   keep_entries(history, kept_entries);
 }
 
-/// What the pairs of `from` remember, for those of them that are in `to` as well; both lists are sorted.
-void carry_over(const PairList& from, const ContactHistory& old, const PairList& to, ContactHistory& history) {
-  for (std::size_t i = 0; i < std::min(from.grains(), to.grains()); ++i) {
-    int known = from.first[i];
-    for (int k = to.first[i]; k < to.first[i + 1]; ++k) {
-      const int partner = to.partner[static_cast<std::size_t>(k)];
-      while (known < from.first[i + 1] && from.partner[static_cast<std::size_t>(known)] < partner) ++known;
-      if (known < from.first[i + 1] && from.partner[static_cast<std::size_t>(known)] == partner)
-        copy_entry(old, static_cast<std::size_t>(known), history, static_cast<std::size_t>(k));
+/// A pair that remembers something, whichever of the two comes first in its list.
+struct RememberedPair {
+  int low, high;
+  const ContactHistory* history;
+  std::size_t entry;
+};
+bool operator<(const RememberedPair& a, const RememberedPair& b) {
+  return a.low != b.low ? a.low < b.low : a.high < b.high;
+}
+
+void add_active_pairs(const PairList& list, const ContactHistory& history, std::vector<RememberedPair>& active) {
+  for (std::size_t i = 0; i < list.grains(); ++i)
+    for (int k = list.first[i]; k < list.first[i + 1]; ++k) {
+      const std::size_t entry = static_cast<std::size_t>(k);
+      const int a = static_cast<int>(i), b = list.partner[entry];
+      if (history.remembers(entry)) active.push_back({std::min(a, b), std::max(a, b), &history, entry});
     }
+}
+
+/// Of both lists, sorted: a grain carried from one side to the other takes its contacts from one list to the other.
+std::vector<RememberedPair> active_pairs(const PairList& pairs, const ContactHistory& history, const PairList& seam,
+                                         const ContactHistory& seam_history) {
+  std::vector<RememberedPair> active;
+  add_active_pairs(pairs, history, active);
+  add_active_pairs(seam, seam_history, active);
+  std::sort(active.begin(), active.end());
+  return active;
+}
+
+void recall(const std::vector<RememberedPair>& remembered, const PairList& list, ContactHistory& history) {
+  for (std::size_t i = 0; i < list.grains(); ++i)
+    for (int k = list.first[i]; k < list.first[i + 1]; ++k) {
+      const std::size_t entry = static_cast<std::size_t>(k);
+      const int a = static_cast<int>(i), b = list.partner[entry];
+      const RememberedPair wanted{std::min(a, b), std::max(a, b), nullptr, 0};
+      const auto found = std::lower_bound(remembered.begin(), remembered.end(), wanted);
+      if (found != remembered.end() && !(wanted < *found)) copy_entry(*found->history, found->entry, history, entry);
+    }
+}
+
+/// Keeps the pairs nearer than their reach plus `margin` (m), with the rows' grains shifted by `shift` (m) along x.
+void prune_pairs(const Grains& grains, const PairList& wide, double shift, double margin, PairList& narrow) {
+  narrow.first.assign(1, 0);
+  narrow.partner.clear();
+  const bool clumps = !grains.clump.empty();
+  for (std::size_t i = 0; i < wide.grains(); ++i) {
+    const double reach = grains.kind(i).radius + margin, x = grains.x[i] + shift;
+    for (int k = wide.first[i]; k < wide.first[i + 1]; ++k) {
+      const int partner = wide.partner[static_cast<std::size_t>(k)];
+      const std::size_t j = static_cast<std::size_t>(partner);
+      if (clumps && grains.clump[i] == grains.clump[j]) continue;
+      const double dx = grains.x[j] - x, dy = grains.y[j] - grains.y[i];
+      const double limit = reach + grains.kind(j).radius;
+      if (dx * dx + dy * dy < limit * limit) narrow.partner.push_back(partner);
+    }
+    narrow.first.push_back(static_cast<int>(narrow.partner.size()));
   }
 }
 
@@ -79,18 +127,21 @@ Neighbours::Neighbours(const std::vector<Vessel>& vessels, double largest_diamet
     : broadphase_(vessels, largest_diameter),
       wide_margin_(margins.wide * largest_diameter),
       narrow_margin_(margins.narrow * largest_diameter),
-      memory_(memory) {}
+      memory_(memory),
+      period_(vessels.front().sides == Sides::periodic ? vessels.front().length : 0) {
+  for (const Vessel& vessel : vessels) largest_radius_.push_back(largest_radius(vessel, Eigen::Vector2d::Zero()));
+}
 
 Neighbours::Reference Neighbours::reference(const Grains& grains, const Walls& walls) {
-  const Eigen::Vector2d shift = walls.displacement().front();
-  Reference now{grains.x, grains.y, walls.displacement()};
+  const Eigen::Vector2d shift = walls.poses().front().displacement;
+  Reference now{grains.x, grains.y, walls.poses()};
   for (double& x : now.x) x -= shift.x();
   for (double& y : now.y) y -= shift.y();
   return now;
 }
 
-bool Neighbours::moved(const Reference& from, const Grains& grains, const Walls& walls, double limit) {
-  const Eigen::Vector2d shift = walls.displacement().front();
+bool Neighbours::moved(const Reference& from, const Grains& grains, const Walls& walls, double limit) const {
+  const Eigen::Vector2d shift = walls.poses().front().displacement;
   const double limit2 = limit * limit, shift_x = shift.x(), shift_y = shift.y();
   const double *x = grains.x.data(), *y = grains.y.data(), *fx = from.x.data(), *fy = from.y.data();
   int far = 0;  // a flag without a branch: the loop becomes vector instructions
@@ -98,10 +149,12 @@ bool Neighbours::moved(const Reference& from, const Grains& grains, const Walls&
     const double dx = x[i] - shift_x - fx[i], dy = y[i] - shift_y - fy[i];
     far |= dx * dx + dy * dy > limit2 ? 1 : 0;
   }
-  for (std::size_t v = 1; v < from.displacement.size(); ++v) {
-    const Eigen::Vector2d relative_now = walls.displacement()[v] - shift;
-    const Eigen::Vector2d relative_then = from.displacement[v] - from.displacement.front();
-    far |= (relative_now - relative_then).squaredNorm() > limit2 ? 1 : 0;
+  for (std::size_t v = 0; v < from.poses.size(); ++v) {
+    const Pose &now = walls.poses()[v], &then = from.poses[v];
+    const Eigen::Vector2d relative_now = now.displacement - shift;
+    const Eigen::Vector2d relative_then = then.displacement - from.poses.front().displacement;
+    const double turned = std::abs(now.angle - then.angle) * largest_radius_[v];
+    far |= (relative_now - relative_then).norm() + turned > limit ? 1 : 0;
   }
   return far != 0;
 }
@@ -115,44 +168,28 @@ void Neighbours::update(const Grains& grains, const Walls& walls) {
 }
 
 void Neighbours::search(const Grains& grains, const Walls& walls) {
-  broadphase_.find(grains, walls.displacement(), wide_margin_, wide_, wide_walls_);
+  broadphase_.find(grains, walls.poses(), wide_margin_, wide_, wide_walls_);
+  if (period_ > 0) broadphase_.find_across(grains, walls.poses(), period_, wide_margin_, wide_seam_);
   wide_reference_ = reference(grains, walls);
   wide_is_valid_ = true;
   ++searches_;
 }
 
 void Neighbours::prune(const Grains& grains, const Walls& walls) {
-  const bool remembers = memory_.slip || memory_.roll;
-  PairList old_pairs;
-  if (remembers) old_pairs = narrow_;
-  prune_pairs(grains);
-  if (remembers) {
-    const ContactHistory old = std::move(pair_history_);
-    pair_history_ = {};
+  const PairList old_pairs = memory_.any() ? narrow_ : PairList{}, old_seam = memory_.any() ? narrow_seam_ : PairList{};
+  prune_pairs(grains, wide_, 0, narrow_margin_, narrow_);
+  if (period_ > 0) prune_pairs(grains, wide_seam_, period_, narrow_margin_, narrow_seam_);
+  if (memory_.any()) {
+    const ContactHistory old = std::exchange(pair_history_, {}), old_of_seam = std::exchange(seam_history_, {});
+    const std::vector<RememberedPair> remembered = active_pairs(old_pairs, old, old_seam, old_of_seam);
     pair_history_.resize(narrow_.size(), memory_.slip, memory_.roll);
-    carry_over(old_pairs, old, narrow_, pair_history_);
+    seam_history_.resize(narrow_seam_.size(), memory_.slip, memory_.roll);
+    recall(remembered, narrow_, pair_history_);
+    recall(remembered, narrow_seam_, seam_history_);
   }
   prune_walls(grains, walls);
   narrow_reference_ = reference(grains, walls);
   ++prunes_;
-}
-
-void Neighbours::prune_pairs(const Grains& grains) {
-  narrow_.first.assign(1, 0);
-  narrow_.partner.clear();
-  const bool clumps = !grains.clump.empty();
-  for (std::size_t i = 0; i < wide_.grains(); ++i) {
-    const double reach = grains.kind(i).radius + narrow_margin_;
-    for (int k = wide_.first[i]; k < wide_.first[i + 1]; ++k) {
-      const int partner = wide_.partner[static_cast<std::size_t>(k)];
-      const std::size_t j = static_cast<std::size_t>(partner);
-      if (clumps && grains.clump[i] == grains.clump[j]) continue;
-      const double dx = grains.x[j] - grains.x[i], dy = grains.y[j] - grains.y[i];
-      const double limit = reach + grains.kind(j).radius;
-      if (dx * dx + dy * dy < limit * limit) narrow_.partner.push_back(partner);
-    }
-    narrow_.first.push_back(static_cast<int>(narrow_.partner.size()));
-  }
 }
 
 /// A grain that was near a wall before keeps the side it came from: renewing the list must not hide a crossing.
@@ -186,6 +223,19 @@ void Neighbours::remove_flagged(Reference& reference, const std::vector<char>& r
   keep_unflagged(reference.y, removed);
 }
 
+void Neighbours::remove_wall(int wall) {
+  broadphase_.remove_wall(wall);
+  std::erase_if(wide_walls_, [wall](const WallCandidate& candidate) { return candidate.wall == wall; });
+  std::vector<std::size_t> kept_entries;
+  for (std::size_t c = 0; c < narrow_walls_.size(); ++c) {
+    if (narrow_walls_[c].wall == wall) continue;
+    narrow_walls_[kept_entries.size()] = narrow_walls_[c];
+    kept_entries.push_back(c);
+  }
+  narrow_walls_.resize(kept_entries.size());
+  keep_entries(wall_history_, kept_entries);
+}
+
 void Neighbours::remove_flagged(const std::vector<char>& removed) {
   if (!wide_is_valid_) return;
   std::vector<int> new_index(removed.size());
@@ -194,6 +244,10 @@ void Neighbours::remove_flagged(const std::vector<char>& removed) {
   ContactHistory none;
   renumber(wide_, none, removed, new_index);
   renumber(narrow_, pair_history_, removed, new_index);
+  if (period_ > 0) {
+    renumber(wide_seam_, none, removed, new_index);
+    renumber(narrow_seam_, seam_history_, removed, new_index);
+  }
   renumber(wide_walls_, none, removed, new_index);
   renumber(narrow_walls_, wall_history_, removed, new_index);
   remove_flagged(wide_reference_, removed);

@@ -21,6 +21,8 @@ struct NeighbourMargins {
 /// What contacts have to remember.
 struct NeighbourMemory {
   bool slip = false, roll = false;
+
+  bool any() const { return slip || roll; }
 };
 
 /// Who may touch whom. A wide list comes from Box2D, seldom; a narrow one is pruned from it, often; both are renewed
@@ -40,11 +42,20 @@ class Neighbours {
   /// Takes removed grains out of the lists without a search.
   void remove_flagged(const std::vector<char>& removed);
 
+  /// Takes a wall out of Box2D and of the lists.
+  void remove_wall(int wall);
+
   const PairList& pairs() const { return narrow_; }
+  /// Length (m) after which a periodic tray comes again; 0 when it does not.
+  double period() const { return period_; }
+  /// Pairs across the seam of a periodic tray: the row's grain, near the left side, with its x larger by the period may
+  /// touch its partners, near the right side. A row for each grain; no rows without a period.
+  const PairList& seam_pairs() const { return narrow_seam_; }
   const std::vector<WallCandidate>& near_walls() const { return narrow_walls_; }
   std::vector<WallCandidate>& near_walls() { return narrow_walls_; }
   ContactHistory& pair_history() { return pair_history_; }
   const ContactHistory& pair_history() const { return pair_history_; }
+  ContactHistory& seam_history() { return seam_history_; }
   ContactHistory& wall_history() { return wall_history_; }
   const ContactHistory& wall_history() const { return wall_history_; }
   std::int64_t searches() const { return searches_; }
@@ -55,23 +66,25 @@ class Neighbours {
   /// Where the grains (relative to the first vessel) and the other vessels were when a list was made.
   struct Reference {
     std::vector<double> x, y;
-    std::vector<Eigen::Vector2d> displacement;
+    std::vector<Pose> poses;
   };
   static Reference reference(const Grains& grains, const Walls& walls);
-  static bool moved(const Reference& from, const Grains& grains, const Walls& walls, double limit);
+  bool moved(const Reference& from, const Grains& grains, const Walls& walls, double limit) const;
   static void remove_flagged(Reference& reference, const std::vector<char>& removed);
 
   void search(const Grains& grains, const Walls& walls);
   void prune(const Grains& grains, const Walls& walls);
-  void prune_pairs(const Grains& grains);
   void prune_walls(const Grains& grains, const Walls& walls);
 
   Broadphase broadphase_;
+  std::vector<double> largest_radius_;  // m, by vessel, of its walls about its frame's zero
   double wide_margin_, narrow_margin_;  // m
-  PairList wide_, narrow_;
-  std::vector<WallCandidate> wide_walls_, narrow_walls_;
   NeighbourMemory memory_;
-  ContactHistory pair_history_, wall_history_;
+  double period_;                       // m
+  PairList wide_, narrow_;
+  PairList wide_seam_, narrow_seam_;
+  std::vector<WallCandidate> wide_walls_, narrow_walls_;
+  ContactHistory pair_history_, seam_history_, wall_history_;
   Reference wide_reference_, narrow_reference_;
   bool wide_is_valid_ = false;
   std::int64_t searches_ = 0, prunes_ = 0;

@@ -26,11 +26,12 @@ void Recorder::record(const Grains& grains, double time, std::vector<Snapshot>& 
 }
 
 Snapshot Recorder::snapshot(const Grains& grains, double time) const {
-  const Eigen::Vector2d displacement = vessel_displacement(tray_, time), velocity = vessel_velocity(tray_, time);
+  const Pose pose = vessel_pose(tray_, time);
+  const PoseRate rate = vessel_velocity(tray_, time);
   Snapshot s;
   s.time = time;
-  s.tray_x = displacement.x(), s.tray_y = displacement.y();
-  s.tray_vx = velocity.x(), s.tray_vy = velocity.y();
+  s.tray_x = pose.displacement.x(), s.tray_y = pose.displacement.y(), s.tray_angle = pose.angle;
+  s.tray_vx = rate.velocity.x(), s.tray_vy = rate.velocity.y(), s.tray_spin = rate.angular_velocity;
   s.x = grains.x, s.y = grains.y;
   s.vx = grains.vx, s.vy = grains.vy;
   s.omega = grains.omega;

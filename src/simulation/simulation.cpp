@@ -44,6 +44,7 @@ Simulation::Simulation(const Scene& scene, Grains grains, const SimulationSetup&
   run_.dt = setup.dt;
   run_.balance.put_in = static_cast<std::int64_t>(grains_.size());
   start_integration(s_);
+  open_gates();
   guard_.watch_step(s_);
   guard_.watch_energy(s_, run_.energy);
   if (!scene_.record) return;
@@ -54,6 +55,7 @@ Simulation::Simulation(const Scene& scene, Grains grains, const SimulationSetup&
 
 bool Simulation::step() {
   if (guard_.stop_reason()) return false;
+  if (s_.time >= next_gate_) open_gates();
   run_.grain_steps += static_cast<std::int64_t>(grains_.size());
   advance_(s_);
   ++s_.step;
@@ -62,7 +64,7 @@ bool Simulation::step() {
   if (guard_.stop_reason()) return false;
   if (!s_.census.crossed.empty()) take_out();
   count();
-  if (s_.step % steps_per_removal_ == 0) take_out(), note_whether_dry();
+  if (s_.step % steps_per_removal_ == 0) take_out(), wrap(), note_whether_dry();
   if (feeder_.feeds() && s_.step % steps_per_feed_ == 0) feed();
   if (s_.step % steps_per_energy_account == 0) guard_.watch_energy(s_, run_.energy);
   if (recorder_ && recorder_->is_due(s_.time)) recorder_->record(grains_, s_.time, run_.snapshots);
@@ -108,6 +110,26 @@ void Simulation::take_out() {
   if (std::find(removed.begin(), removed.end(), 1) != removed.end()) take_out_flagged(removed);
 }
 
+/// Carries grains that are well beyond a side of a periodic tray over to the other side: by a diameter, so that none
+/// goes to and fro.
+void Simulation::wrap() {
+  const double period = field_.neighbours().period();
+  if (period == 0) return;
+  const double left = scene_.tray.origin.x() + field_.walls().poses().front().displacement.x();
+  double beyond = 0;
+  for (const SeedLot& lot : scene_.lots) beyond = std::max(beyond, lot.diameter);
+  bool any = false;
+  for (double& x : grains_.x) {
+    const double along = x - left;
+    if (along >= -beyond && along <= period + beyond) continue;
+    x += along < 0 ? period : -period;
+    any = true;
+  }
+  if (!any) return;
+  field_.neighbours().forget();
+  field_.neighbours().update(grains_, field_.walls());
+}
+
 void Simulation::take_out_flagged(const std::vector<char>& removed) {
   const double elastic = field_.elastic_energy(grains_);
   for (std::size_t i = 0; i < grains_.size(); ++i)
@@ -116,6 +138,26 @@ void Simulation::take_out_flagged(const std::vector<char>& removed) {
   counter_.remove_flagged(removed);
   field_.remove_flagged(removed);
   remove_from_integration(s_, removed);
+  run_.energy.removed += elastic - field_.elastic_energy(grains_);
+}
+
+/// Opens every gate whose time has come, and looks up when the next does. What was stored in the gates' contacts leaves
+/// the account.
+void Simulation::open_gates() {
+  const Walls& walls = field_.walls();
+  std::vector<std::size_t> opening;
+  next_gate_ = never;
+  for (std::size_t wall = 0; wall < walls.placed().size(); ++wall) {
+    if (walls.opens_at(wall) == 0 || walls.is_removed(wall)) continue;
+    if (s_.time >= walls.opens_at(wall))
+      opening.push_back(wall);
+    else
+      next_gate_ = std::min(next_gate_, walls.opens_at(wall));
+  }
+  if (opening.empty()) return;
+  const double elastic = field_.elastic_energy(grains_);
+  for (const std::size_t wall : opening) field_.remove_wall(wall);
+  start_integration(s_);
   run_.energy.removed += elastic - field_.elastic_energy(grains_);
 }
 
@@ -133,9 +175,9 @@ void Simulation::feed() {
 }
 
 void Simulation::note_whether_dry() {
-  const Eigen::Vector2d displacement = field_.walls().displacement().front();
+  const Pose pose = field_.walls().poses().front();
   for (std::size_t i = 0; i < grains_.size(); ++i)
-    if (!counter_.is_counted(i) && is_inside(scene_.tray, displacement, grains_.x[i], grains_.y[i])) {
+    if (!counter_.is_counted(i) && is_inside(scene_.tray, pose, grains_.x[i], grains_.y[i])) {
       run_.tray_empty_since = -1;
       return;
     }
@@ -168,10 +210,11 @@ Grains starting_grains(const Scene& scene, std::uint64_t random_seed, const Effe
   Grains grains(grain_kinds(scene, effects.rotation), effects.unequal, effects.rotation, effects.clumps);
   for (const Vessel& vessel : vessels_of(scene)) {
     const bool moves_along = scene.run.start == Start::with_tray;
-    const Eigen::Vector2d velocity = moves_along ? vessel_velocity(vessel, 0) : Eigen::Vector2d::Zero();
-    const Eigen::Vector2d displacement = vessel_displacement(vessel, 0);
+    const PoseRate rate = moves_along ? vessel_velocity(vessel, 0) : PoseRate{};
+    const Pose pose = vessel_pose(vessel, 0);
     for (const PackedGrain& packed : pack(vessel, scene.lots, random)) {
-      const Eigen::Vector2d at = in_lab_frame(vessel, displacement, {packed.x, packed.y});
+      const Eigen::Vector2d at = in_lab_frame(vessel, pose, {packed.x, packed.y});
+      const Eigen::Vector2d velocity = material_velocity(vessel, pose, rate, at);
       const std::size_t lot = static_cast<std::size_t>(packed.lot);
       const GrainKind kind = sized_kind(scene.lots[lot], scene.contact.law, grains.kinds[lot], packed.size);
       grains.add(at.x(), at.y(), velocity.x(), velocity.y(), packed.lot, kind, packed.angle);

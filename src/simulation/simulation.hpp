@@ -47,7 +47,9 @@ class Simulation {
  private:
   void count();
   void take_out();
+  void wrap();
   void note_lost(std::int64_t grains);
+  void open_gates();
   void feed();
   void note_whether_dry();
   void take_out_flagged(const std::vector<char>& removed);
@@ -62,6 +64,7 @@ class Simulation {
   Guard guard_;
   std::optional<Recorder> recorder_;
   Run run_;
+  double next_gate_ = 0;  // s, when the next gate opens
   std::int64_t steps_per_removal_, steps_per_feed_;
 };
 

@@ -104,9 +104,7 @@ double deepest_fill(const Scene& scene) {
 /// Weight of a grain in a vertically shaken vessel over its weight at rest.
 double weight_factor(const Scene& scene) {
   double largest = 0;
-  for (const Vessel& vessel : vessels_of(scene))
-    if (vessel.motion)
-      largest = std::max(largest, largest_acceleration(vessel) * std::abs(std::sin(vessel.motion->direction)));
+  for (const Vessel& vessel : vessels_of(scene)) largest = std::max(largest, largest_vertical_acceleration(vessel));
   return 1 + largest / standard_gravity;
 }
 

@@ -5,6 +5,8 @@
 
 #include "contact/contact_list.hpp"
 #include "scene/scene.hpp"
+#include "scene/vessel_walls.hpp"
+#include "simulation/vessel_motion.hpp"
 
 namespace vibrosow {
 
@@ -20,26 +22,31 @@ class Walls {
   /// Moves every wall to where it is at `time` (s).
   void place(double time);
 
+  /// A wall that is gone, as a gate that opened: it is placed no more.
+  void remove(std::size_t wall) { at_rest_[wall].removed = true; }
+  bool is_removed(std::size_t wall) const { return at_rest_[wall].removed; }
+  /// When a gate opens (s); 0: the wall is no gate.
+  double opens_at(std::size_t wall) const { return at_rest_[wall].own.opens_at; }
+
   const std::vector<PlacedWall>& placed() const { return placed_; }
-  const std::vector<Eigen::Vector2d>& displacement() const { return displacement_; }  // m, by vessel
+  const std::vector<Pose>& poses() const { return poses_; }        // by vessel
+  const std::vector<VesselPath>& paths() const { return paths_; }  // by vessel
   const std::vector<Vessel>& vessels() const { return vessels_; }
 
  private:
   struct AtRest {
-    Eigen::Vector2d a, b;  // m, lab
+    Eigen::Vector2d a, b, centre;  // m, lab
+    WallSegment own;               // in the vessel's frame
     std::size_t vessel;
+    bool removed = false;
   };
+  void place_arc(PlacedWall& wall, const AtRest& rest, const Pose& pose) const;
 
   std::vector<Vessel> vessels_;
+  std::vector<VesselPath> paths_;
   std::vector<AtRest> at_rest_;
   std::vector<PlacedWall> placed_;
-  std::vector<Eigen::Vector2d> displacement_;
+  std::vector<Pose> poses_;
 };
-
-/// Turns a point of the lab into a vessel's own frame, when the vessel is displaced by `displacement`.
-Eigen::Vector2d in_vessel_frame(const Vessel& vessel, const Eigen::Vector2d& displacement, const Eigen::Vector2d& lab);
-
-/// The inverse: a point of the vessel's own frame in the lab.
-Eigen::Vector2d in_lab_frame(const Vessel& vessel, const Eigen::Vector2d& displacement, const Eigen::Vector2d& own);
 
 }  // namespace vibrosow

@@ -69,15 +69,33 @@ TEST(DescribeScene, EverythingThatActsCounts) {
       [](Scene& s) { s.tray.holes[0].centre = 0.04; },
       [](Scene& s) { s.tray.holes[0].width = 0.04; },
       [](Scene& s) { s.tray.holes.clear(); },
+      [](Scene& s) {
+        s.tray.pieces.push_back({{0, 0}, {1, 0}});
+      },
+      [](Scene& s) { s.tray.holes[0].open_at = 1; },
+      [](Scene& s) { s.tray.box = false; },
+      [](Scene& s) { s.tray.sides = Sides::periodic; },
       [](Scene& s) { s.tray.fill->count = 2; },
       [](Scene& s) { s.tray.fill->packing = Packing::hexagonal; },
       [](Scene& s) { s.tray.fill->jitter = 0; },
       [](Scene& s) { s.tray.fill->keep = true; },
       [](Scene& s) { s.tray.fill.reset(); },
-      [](Scene& s) { s.tray.motion->direction = 1; },
-      [](Scene& s) { s.tray.motion->amplitude = 1; },
-      [](Scene& s) { s.tray.motion->frequency = 1; },
-      [](Scene& s) { s.tray.motion->ramp = 1; },
+      [](Scene& s) { std::get<HarmonicMotion>(*s.tray.motion).direction = 1; },
+      [](Scene& s) { std::get<HarmonicMotion>(*s.tray.motion).amplitude = 1; },
+      [](Scene& s) { std::get<HarmonicMotion>(*s.tray.motion).frequency = 1; },
+      [](Scene& s) { std::get<HarmonicMotion>(*s.tray.motion).ramp = 1; },
+      [](Scene& s) { std::get<HarmonicMotion>(*s.tray.motion).phase = 1; },
+      [](Scene& s) { std::get<HarmonicMotion>(*s.tray.motion).stop = 1; },
+      [](Scene& s) { std::get<HarmonicMotion>(*s.tray.motion).stop_ramp = 1; },
+      [](Scene& s) {
+        s.tray.motion = SumMotion{{HarmonicMotion{0, 0.01, 9, 0}}};
+      },
+      [](Scene& s) {
+        s.tray.motion = RockingMotion{{0, 0}, 0.01, 9, 0};
+      },
+      [](Scene& s) {
+        s.tray.motion = TableMotion{{0, 1, 2, 3}, {0, 0, 0, 0}, {0, 0, 0, 0}, {0, 0, 0, 1}};
+      },
       [](Scene& s) { s.tray.motion.reset(); },
       [](Scene& s) { s.hopper->height = 1; },
       [](Scene& s) { s.hopper.reset(); },

@@ -176,9 +176,9 @@ TEST(Seeders, PublishedTraysAreAsPublished) {
     EXPECT_FALSE(scene.numerics.allow_long_step);
     EXPECT_DOUBLE_EQ(scene.tray.length, 0.5);
     ASSERT_TRUE(scene.tray.motion);
-    EXPECT_DOUBLE_EQ(scene.tray.motion->frequency, 9);
-    EXPECT_DOUBLE_EQ(scene.tray.motion->amplitude, 0.01);
-    EXPECT_EQ(scene.tray.motion->ramp, 0);
+    EXPECT_DOUBLE_EQ(std::get<HarmonicMotion>(*scene.tray.motion).frequency, 9);
+    EXPECT_DOUBLE_EQ(std::get<HarmonicMotion>(*scene.tray.motion).amplitude, 0.01);
+    EXPECT_EQ(std::get<HarmonicMotion>(*scene.tray.motion).ramp, 0);
     ASSERT_TRUE(scene.tray.fill);
     EXPECT_EQ(scene.tray.fill->count, 2400);
     EXPECT_EQ(scene.tray.fill->packing, Packing::layers);

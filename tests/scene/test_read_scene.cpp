@@ -1,5 +1,6 @@
 #include "scene/read_scene.hpp"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
 
@@ -126,10 +127,10 @@ TEST(ReadScene, EveryKey) {
   EXPECT_EQ(scene.tray.fill->packing, Packing::layers);
   EXPECT_EQ(scene.tray.fill->jitter, 0.01);
   EXPECT_FALSE(scene.tray.fill->keep);
-  EXPECT_NEAR(scene.tray.motion->direction, std::numbers::pi / 6, 1e-15);
-  EXPECT_EQ(scene.tray.motion->amplitude, 0.01);
-  EXPECT_EQ(scene.tray.motion->frequency, 9);
-  EXPECT_EQ(scene.tray.motion->ramp, 0.2);
+  EXPECT_NEAR(std::get<HarmonicMotion>(*scene.tray.motion).direction, std::numbers::pi / 6, 1e-15);
+  EXPECT_EQ(std::get<HarmonicMotion>(*scene.tray.motion).amplitude, 0.01);
+  EXPECT_EQ(std::get<HarmonicMotion>(*scene.tray.motion).frequency, 9);
+  EXPECT_EQ(std::get<HarmonicMotion>(*scene.tray.motion).ramp, 0.2);
 
   ASSERT_TRUE(scene.hopper);
   EXPECT_EQ(scene.hopper->name, "hopper");
@@ -171,9 +172,50 @@ TEST(ReadScene, DefaultsAreNeutral) {
 TEST(ReadScene, OverridesAct) {
   const Scene scene = read(small_example, {"tray.motion.kind=harmonic", "tray.motion.amplitude=5 mm",
                                            "tray.motion.frequency=12 Hz", "contact.friction=0.25"});
-  EXPECT_EQ(scene.tray.motion->frequency, 12);
+  EXPECT_EQ(std::get<HarmonicMotion>(*scene.tray.motion).frequency, 12);
   EXPECT_EQ(scene.contact.seed.friction, 0.25);
   EXPECT_EQ(scene.contact.wall.friction, 0.25);
+}
+
+TEST(ReadScene, PiecesAreLinesAndArcs) {
+  const Scene scene =
+      read(small_example, {"tray.pieces=[{ line = [['0 cm', '5 cm'], ['3 cm', '8 cm'], ['6 cm', '5 cm']] "
+                           "}, { centre = ['5 cm', '6 cm'], radius = '2 cm', from = '180 degree', to = "
+                           "'270 degree' }, { centre = ['5 cm', '6 cm'], radius = '1 cm' }]",
+                           "tray.box=false"});
+  ASSERT_EQ(scene.tray.pieces.size(), 4U);
+  EXPECT_EQ(scene.tray.pieces[1].a, Eigen::Vector2d(0.03, 0.08));
+  EXPECT_EQ(scene.tray.pieces[1].b, Eigen::Vector2d(0.06, 0.05));
+  EXPECT_EQ(scene.tray.pieces[2].centre, Eigen::Vector2d(0.05, 0.06));
+  EXPECT_NEAR(scene.tray.pieces[2].to, 1.5 * std::numbers::pi, 1e-15);
+  EXPECT_NEAR(scene.tray.pieces[3].to, 2 * std::numbers::pi, 1e-15);
+  EXPECT_FALSE(scene.tray.box);
+}
+
+TEST(ReadScene, PeriodicSidesNeedALevelTrayThatDoesNotTurn) {
+  EXPECT_EQ(read(small_example, {"tray.sides=periodic"}).tray.sides, Sides::periodic);
+  EXPECT_EQ(read(small_example, {"tray.sides=open"}).tray.sides, Sides::open);
+  const auto refused = [](std::vector<std::string> settings, const char* message) {
+    settings.push_back("tray.sides=periodic");
+    EXPECT_THAT([&] { read(small_example, settings); },
+                testing::ThrowsMessage<InputError>(testing::HasSubstr(message)));
+  };
+  refused({"tray.motion={ kind = 'rocking', pivot = ['1 cm', '0 cm'], angle = '1 degree', frequency = '9 Hz' }"},
+          "cannot turn");
+  refused({"tray.tilt=1 degree"}, "cannot be tilted");
+  refused({"tray.length=4 cm"}, "at least 6 diameters of the largest seed long, 48 mm");
+  refused({"hopper={ left = '45 cm', above = '5 cm', length = '10 cm', height = '5 cm' }"},
+          "does not lie within the length");
+}
+
+TEST(ReadScene, GatesOpenAtOneTimeOrAtOneEach) {
+  Scene scene = read(small_example, {"tray.holes={ count = 2, width = '2 cm', open_at = '1.5 s' }"});
+  EXPECT_EQ(scene.tray.holes[0].open_at, 1.5);
+  EXPECT_EQ(scene.tray.holes[1].open_at, 1.5);
+  scene = read(small_example, {"tray.holes={ at = ['30 cm', '10 cm'], width = '2 cm', open_at = ['2 s', '0 s'] }"});
+  EXPECT_EQ(scene.tray.holes[0].centre, 0.1);
+  EXPECT_EQ(scene.tray.holes[0].open_at, 0);
+  EXPECT_EQ(scene.tray.holes[1].open_at, 2);
 }
 
 TEST(ReadScene, HolesWithDefaultPitchAndHolesOutOfOrder) {

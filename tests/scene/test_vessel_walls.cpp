@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
 
 namespace vibrosow {
 namespace {
@@ -76,6 +77,27 @@ TEST(VesselWalls, InsideLiesLeftOfEverySegment) {
     const Eigen::Vector2d along = wall.b - wall.a, to = inside - wall.a;
     EXPECT_GT(along.x() * to.y() - along.y() * to.x(), 0) << wall.name;
   }
+}
+
+TEST(VesselWalls, PiecesShareTheEndsThatMeet) {
+  Vessel vessel = box({});
+  WallPiece arc;
+  arc.centre = {2, 1}, arc.radius = 1, arc.from = std::numbers::pi,
+  arc.to = 1.5 * std::numbers::pi;  // from (1, 1) to the floor at (2, 0)
+  vessel.pieces = {{{0, 4}, {1, 3}}, {{1, 3}, {1, 1}}, arc};
+  const auto walls = vessel_walls(vessel);
+  ASSERT_EQ(walls.size(), 6U);
+  EXPECT_EQ(walls[3].vertex_a, walls[0].vertex_a) << "the left wall's top";
+  EXPECT_EQ(walls[3].vertex_b, walls[4].vertex_a);
+  EXPECT_EQ(walls[4].vertex_b, walls[5].vertex_a);
+  EXPECT_NE(walls[5].vertex_b, walls[5].vertex_a);
+  EXPECT_EQ(walls[5].name, "tray piece 3");
+  EXPECT_NEAR((walls[5].b - Eigen::Vector2d(2, 0)).norm(), 0, 1e-15);
+  EXPECT_NEAR(distance_to_wall(walls[5], {2, 1}), 1, 1e-15);
+  EXPECT_NEAR(distance_to_wall(walls[5], {1.5, 0.5}), 1 - std::sqrt(0.5), 1e-15);
+  EXPECT_NEAR(distance_to_wall(walls[5], {3, 1}), std::sqrt(2.0), 1e-15) << "its nearer end is (2, 0)";
+  vessel.box = false;
+  EXPECT_EQ(names(vessel_walls(vessel)), (std::vector<std::string>{"tray piece 1", "tray piece 2", "tray piece 3"}));
 }
 
 }  // namespace

@@ -59,7 +59,7 @@ TEST(Counter, PassesInTheTraysFrame) {
   bench.scene.tray.holes = {{0.5, 0.03}};
   bench.scene.tray.motion = HarmonicMotion{0, 0.05, 1.25, 0};
   const double fall_time = std::sqrt(2 * 0.1 / standard_gravity);
-  const double shift = vessel_displacement(bench.scene.tray, fall_time).x();
+  const double shift = vessel_pose(bench.scene.tray, fall_time).displacement.x();
   ASSERT_GT(std::abs(shift), 0.03) << "the hole must have left its place at rest";
   bench.place(0.5 + shift, 0.1);
   Simulation& run = bench.start(1e-4);
@@ -124,19 +124,6 @@ TEST(Counter, FeedingKeepsTheBalance) {
   // Never more than 5 ms of outflow short.
   EXPECT_NEAR(static_cast<double>(run.balance.inside), 150, 12);
   expect_balanced(run.balance);
-}
-
-TEST(Motion, VelocityIsTheDerivativeOfDisplacement) {
-  Vessel vessel;
-  vessel.motion = HarmonicMotion{0.7, 0.01, 9, 0.2};
-  for (double t : {0.0, 0.03, 0.1, 0.19, 0.2, 0.35}) {
-    const double h = 1e-6;
-    const Eigen::Vector2d slope = (vessel_displacement(vessel, t + h) - vessel_displacement(vessel, t - h)) / (2 * h);
-    EXPECT_NEAR((slope - vessel_velocity(vessel, t)).norm(), 0, 1e-5) << t;
-  }
-  EXPECT_EQ(vessel_velocity(vessel, 0).norm(), 0) << "a ramp starts from rest";
-  vessel.motion->ramp = 0;
-  EXPECT_NEAR(vessel_velocity(vessel, 0).norm(), 0.565, 1e-3) << "paper A's case jumps";
 }
 
 }  // namespace

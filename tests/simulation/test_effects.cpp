@@ -103,7 +103,7 @@ TEST(Effects, AreDerivedFromTheScene) {
   bench.scene.lots.push_back({"b", 0.01, 1e-3, Shape::disc, 0.5});
   EXPECT_EQ(effect_names(effects_of(bench.scene)),
             (std::vector<std::string>{"friction", "damping", "unequal", "drag", "motion"}));
-  bench.scene.tray.motion->amplitude = 0;  // a key at its neutral value
+  std::get<HarmonicMotion>(*bench.scene.tray.motion).amplitude = 0;  // a key at its neutral value
   EXPECT_FALSE(effects_of(bench.scene).motion);
 }
 

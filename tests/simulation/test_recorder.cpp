@@ -36,8 +36,8 @@ TEST(Recorder, TakesTheFirstStepAtOrAfterEachTime) {
   EXPECT_EQ(s.mass[0], Bench::mass);
   EXPECT_EQ(s.start_x[1], 0.6);
   EXPECT_EQ(s.start_y[1], 0.7);
-  EXPECT_EQ(s.tray_x, vessel_displacement(bench.scene.tray, s.time).x());
-  EXPECT_EQ(s.tray_vx, vessel_velocity(bench.scene.tray, s.time).x());
+  EXPECT_EQ(s.tray_x, vessel_pose(bench.scene.tray, s.time).displacement.x());
+  EXPECT_EQ(s.tray_vx, vessel_velocity(bench.scene.tray, s.time).velocity.x());
 }
 
 TEST(Recorder, KnowsWhereFedGrainsWerePutInAndWhoHasLeft) {

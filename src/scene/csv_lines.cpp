@@ -1,8 +1,10 @@
-#include "outflow/csv_lines.hpp"
+#include "scene/csv_lines.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cerrno>
+#include <charconv>
+#include <cmath>
 #include <cstring>
 #include <fstream>
 #include <iterator>
@@ -118,6 +120,17 @@ CsvLines read_csv_lines(const std::filesystem::path& file) {
       throw InputError(fmt::format("{}:{}: {} fields where the header has {}", file.string(), row.line,
                                    row.fields.size(), csv.header.fields.size()));
   return csv;
+}
+
+std::optional<double> csv_number(std::string text, bool decimal_comma) {
+  if (decimal_comma) {
+    if (text.find('.') != std::string::npos) return std::nullopt;
+    std::ranges::replace(text, ',', '.');
+  }
+  double value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc{} || end != text.data() + text.size() || !std::isfinite(value)) return std::nullopt;
+  return value;
 }
 
 }  // namespace vibrosow

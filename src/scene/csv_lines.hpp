@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -21,5 +22,8 @@ struct CsvLines {
 /// Lines that begin with # and rows without any value are skipped. Throws InputError when the file cannot be
 /// read, is empty, has no rows, a quote that does not end or a row of another length than the header.
 CsvLines read_csv_lines(const std::filesystem::path& file);
+
+/// A finite number in the file's dialect; none when the text is anything else.
+std::optional<double> csv_number(std::string text, bool decimal_comma);
 
 }  // namespace vibrosow

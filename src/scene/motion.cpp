@@ -1,0 +1,57 @@
+#include "scene/motion.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <numbers>
+
+namespace vibrosow {
+namespace {
+
+bool differs_from_zero(const std::vector<double>& values) {
+  return std::any_of(values.begin(), values.end(), [](double value) { return value != 0; });
+}
+
+struct Moves {
+  bool operator()(const HarmonicMotion& m) const { return m.amplitude != 0 && (m.frequency != 0 || m.phase != 0); }
+  bool operator()(const SumMotion& m) const { return std::any_of(m.components.begin(), m.components.end(), *this); }
+  bool operator()(const RockingMotion& m) const { return m.angle != 0 && m.frequency != 0; }
+  bool operator()(const TableMotion& m) const {
+    return differs_from_zero(m.x) || differs_from_zero(m.y) || differs_from_zero(m.angle);
+  }
+};
+
+struct Text {
+  std::string operator()(const HarmonicMotion& m) const {
+    return fmt::format("{:.6g} mm at {:.6g} Hz", m.amplitude * 1e3, m.frequency);
+  }
+  std::string operator()(const SumMotion& m) const {
+    std::string text;
+    for (const HarmonicMotion& component : m.components) text += (text.empty() ? "" : " + ") + (*this)(component);
+    return text;
+  }
+  std::string operator()(const RockingMotion& m) const {
+    return fmt::format("{:.6g} degree at {:.6g} Hz about ({:.6g}, {:.6g}) mm", m.angle * 180 / std::numbers::pi,
+                       m.frequency, m.pivot.x() * 1e3, m.pivot.y() * 1e3);
+  }
+  std::string operator()(const TableMotion& m) const {
+    return fmt::format("a table of {} times from {:.6g} to {:.6g} s", m.times.size(), m.times.front(), m.times.back());
+  }
+};
+
+}  // namespace
+
+bool moves(const VesselMotion& motion) {
+  return std::visit(Moves{}, motion);
+}
+
+bool turns(const VesselMotion& motion) {
+  if (const auto* table = std::get_if<TableMotion>(&motion)) return differs_from_zero(table->angle);
+  return std::holds_alternative<RockingMotion>(motion);
+}
+
+std::string motion_text(const VesselMotion& motion) {
+  return std::visit(Text{}, motion);
+}
+
+}  // namespace vibrosow

@@ -1,0 +1,18 @@
+#pragma once
+
+#include <string>
+
+#include "scene/scene.hpp"
+
+namespace vibrosow {
+
+/// Whether the motion moves the vessel at all: an amplitude or a frequency of zero does not.
+bool moves(const VesselMotion& motion);
+
+/// Whether the motion may turn the vessel.
+bool turns(const VesselMotion& motion);
+
+/// "10 mm at 9 Hz", for people.
+std::string motion_text(const VesselMotion& motion);
+
+}  // namespace vibrosow

@@ -1,0 +1,20 @@
+#pragma once
+
+#include <Eigen/Core>
+
+namespace vibrosow {
+
+/// Where a vessel stands against its place at rest: a point `own` of its frame lies at origin + displacement +
+/// R(tilt + angle) own in the lab.
+struct Pose {
+  Eigen::Vector2d displacement = Eigen::Vector2d::Zero();  // m, lab, of the frame's zero
+  double angle = 0;                                        // rad, anticlockwise, beside the tilt
+};
+
+/// The time derivative of a pose.
+struct PoseRate {
+  Eigen::Vector2d velocity = Eigen::Vector2d::Zero();  // m/s, lab, of the frame's zero
+  double angular_velocity = 0;                         // rad/s
+};
+
+}  // namespace vibrosow

@@ -1,0 +1,128 @@
+// A tray without end walls, and one whose ends are joined.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <set>
+
+#include "simulation/simulate.hpp"
+#include "support/bench.hpp"
+
+namespace vibrosow {
+namespace {
+
+Scene slice() {
+  Scene scene = Bench().scene;
+  scene.lots = {{"grain", 6e-3, 2e-4, Shape::ball, 0.6}, {"small", 4e-3, 8e-5, Shape::ball, 0.4}};
+  scene.contact.shell_compression = 1e-3;
+  scene.contact.seed = scene.contact.wall = {0.3, 0.5};
+  scene.contact.slip_speed = 0.1;
+  scene.tray.length = 0.1;
+  scene.tray.height = 0.1;
+  scene.tray.sides = Sides::periodic;
+  scene.tray.fill = Fill{80, Packing::layers, 1e-3, false};
+  scene.tray.motion = HarmonicMotion{0.6, 4e-3, 12, 0.1};
+  scene.run.duration = 0.5;
+  return scene;
+}
+
+TEST(OpenSides, GrainsRollOffTheEndsAndAreSpilled) {
+  Bench bench;
+  bench.gravity = {0, -standard_gravity};
+  bench.scene.tray.sides = Sides::open;
+  bench.place(0.05, Bench::radius, -0.6, 0).place(0.95, Bench::radius, 0.5, 0).place(0.5, Bench::radius);
+  Simulation& run = bench.start(1e-5);
+  run.steps(40000);
+  ASSERT_FALSE(run.guard().stop_reason()) << *run.guard().stop_reason();
+  EXPECT_EQ(run.result().balance.spilled, 2);
+  EXPECT_EQ(run.result().balance.inside, 1);
+  EXPECT_LT(run.result().events[0].x, 0);
+  EXPECT_GT(run.result().events[1].x, 1);
+}
+
+TEST(PeriodicSides, AGrainThatLeavesComesInAtTheOtherEnd) {
+  for (const double speed : {2.0, -2.0}) {
+    Bench bench;
+    bench.gravity = {0, -standard_gravity};
+    bench.scene.tray.sides = Sides::periodic;
+    bench.place(0.6, Bench::radius, speed, 0);
+    Simulation& run = bench.start(1e-5);
+    run.steps(100000);  // 1 s: two lengths
+    ASSERT_FALSE(run.guard().stop_reason()) << *run.guard().stop_reason();
+    EXPECT_EQ(run.result().balance.inside, 1);
+    EXPECT_NEAR(run.grains().x[0], 0.6, 1e-9);
+    EXPECT_NEAR(run.grains().y[0], Bench::radius, 0.001 * Bench::radius) << "the floor goes on beyond the ends";
+  }
+}
+
+TEST(PeriodicSides, AHoleCountsModuloTheLength) {
+  // Thrown off the right end so as to come down a full length and 0.3 m on, in the first hole.
+  Bench bench;
+  bench.gravity = {0, -standard_gravity};
+  bench.scene.tray.holes = {{0.3, 0.1}, {0.7, 0.1}};
+  bench.scene.tray.sides = Sides::periodic;
+  const double drop = 0.2, time = std::sqrt(2 * drop / standard_gravity);
+  bench.place(0.9, drop, 1.4 / time, 0);
+  Simulation& run = bench.start(1e-5);
+  run.steps(40000);
+  ASSERT_EQ(run.result().events.size(), 1u);
+  EXPECT_EQ(run.result().events[0].hole, 1);
+  EXPECT_NEAR(run.result().events[0].x, 0.3, 1e-4);
+}
+
+TEST(PeriodicSides, FunnelSlopesMeetAtTheSeam) {
+  Vessel vessel = slice().tray;
+  vessel.holes = {{0.02, 0.02}, {0.09, 0.02}};
+  vessel.funnel = 0.5;
+  double covered = 0;
+  for (const WallSegment& wall : vessel_walls(vessel)) {
+    covered += wall.b.x() - wall.a.x();
+    EXPECT_GE(wall.a.x(), -0.1 - 1e-15);
+    EXPECT_LE(wall.b.x(), 0.2 + 1e-15);
+  }
+  EXPECT_NEAR(covered, 3 * (0.1 - 0.04), 1e-12);
+  // From the hole that ends at 0.1 to the one that begins at 0.11: a ridge at 0.105.
+  EXPECT_NEAR(highest_floor(vessel), std::tan(0.5) * 0.5 * 0.05, 1e-12) << "between 0.03 and 0.08";
+}
+
+TEST(PeriodicSides, SeamPairsAreThoseOfBruteForce) {
+  const Scene scene = slice();
+  const EffectSet effects = effects_of(scene);
+  Simulation run(scene, starting_grains(scene, 3, effects), {.dt = 2e-5, .random_seed = 3, .effects = effects});
+  const double period = run.field().neighbours().period();
+  EXPECT_EQ(period, 0.1);
+  std::size_t met = 0;
+  for (int step = 0; step < 20000; ++step) {
+    run.step();
+    if (step % 7 != 0) continue;
+    const Grains& grains = run.grains();
+    const PairList& seam = run.field().neighbours().seam_pairs();
+    ASSERT_EQ(seam.grains(), grains.size());
+    std::set<std::pair<int, int>> all, found;
+    const auto touches = [&](std::size_t i, std::size_t j) {
+      return std::hypot(grains.x[j] - grains.x[i] - period, grains.y[j] - grains.y[i]) <
+             grains.kind(i).radius + grains.kind(j).radius;
+    };
+    for (std::size_t i = 0; i < grains.size(); ++i) {
+      for (std::size_t j = 0; j < grains.size(); ++j)
+        if (touches(i, j)) all.emplace(static_cast<int>(i), static_cast<int>(j));
+      for (int k = seam.first[i]; k < seam.first[i + 1]; ++k) {
+        const std::size_t j = static_cast<std::size_t>(seam.partner[static_cast<std::size_t>(k)]);
+        if (touches(i, j)) found.emplace(static_cast<int>(i), static_cast<int>(j));
+      }
+    }
+    ASSERT_EQ(found, all) << "step " << step;
+    met += all.size();
+  }
+  EXPECT_GT(met, 500u);
+}
+
+TEST(PeriodicSides, WithoutAPeriodThereIsNoSeam) {
+  Bench bench;
+  bench.place(0.5, 0.5);
+  const Simulation& run = bench.start(1e-5);
+  EXPECT_EQ(run.field().neighbours().period(), 0);
+  EXPECT_EQ(run.field().neighbours().seam_pairs().grains(), 0u);
+}
+
+}  // namespace
+}  // namespace vibrosow
