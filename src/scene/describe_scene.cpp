@@ -81,6 +81,11 @@ Json describe(const std::optional<VesselMotion>& motion) {
   return std::visit([](const auto& kind) { return describe(kind); }, *motion);
 }
 
+Json describe(const Rain& rain) {
+  return {{"rate_per_s", rain.rate}, {"from_m", rain.from},   {"to_m", rain.to},
+          {"height_m", rain.height}, {"start_s", rain.start}, {"stop_s", time_or_never(rain.stop)}};
+}
+
 Json describe(const WallPiece& piece) {
   if (piece.radius == 0) return {{"from_m", {piece.a.x(), piece.a.y()}}, {"to_m", {piece.b.x(), piece.b.y()}}};
   return {{"centre_m", {piece.centre.x(), piece.centre.y()}},
@@ -108,6 +113,7 @@ Json describe(const Vessel& vessel) {
           {"box", vessel.box},
           {"sides", sides[static_cast<int>(vessel.sides)]},
           {"fill", vessel.fill ? describe(*vessel.fill) : Json(nullptr)},
+          {"rain", vessel.rain ? describe(*vessel.rain) : Json(nullptr)},
           {"motion", describe(vessel.motion)}};
 }
 

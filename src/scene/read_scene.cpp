@@ -171,8 +171,9 @@ Scene read_scene(const std::filesystem::path& file, const std::vector<Override>&
       hopper->fail("left", "the hopper does not lie within the length of the periodic tray");
     scene.hopper->origin.y() = hopper->required_quantity("above", Dimension::length, 0, 100);
   }
-  if (!scene.tray.fill && !(scene.hopper && scene.hopper->fill)) {
-    tray.fail("fill", "is missing, and no hopper has one: there is nothing to sow");
+  const auto gives_seeds = [](const Vessel& vessel) { return vessel.fill || vessel.rain; };
+  if (!gives_seeds(scene.tray) && !(scene.hopper && gives_seeds(*scene.hopper))) {
+    tray.fail("fill", "is missing, no hopper has one, and no rain falls: there is nothing to sow");
   }
   if (auto numerics = root.table("numerics")) scene.numerics = read_numerics(*numerics);
   if (auto guard = root.table("guard")) scene.guard = read_guard(*guard);

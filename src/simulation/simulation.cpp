@@ -56,7 +56,9 @@ bool Simulation::step() {
   if (!s_.census.crossed.empty()) take_out();
   count();
   if (s_.step % steps_per_removal_ == 0) take_out(), wrap(), note_whether_dry();
-  if (feeder_.feeds() && s_.step % steps_per_feed_ == 0) feed();
+  const bool top_up = feeder_.feeds() && s_.step % steps_per_feed_ == 0;
+  const bool rain = feeder_.rains() && s_.step % steps_per_removal_ == 0;
+  if (top_up || rain) feed(top_up, rain);
   if (s_.step % steps_per_energy_account == 0) guard_.watch_energy(s_, run_.energy);
   return !guard_.stop_reason();
 }
@@ -159,8 +161,10 @@ void Simulation::open_gates() {
   run_.energy.removed += elastic - field_.elastic_energy(grains_);
 }
 
-void Simulation::feed() {
-  const int added = feeder_.top_up(grains_, field_.walls(), s_.time);
+void Simulation::feed(bool top_up, bool rain) {
+  int added = 0;
+  if (top_up) added += feeder_.top_up(grains_, field_.walls(), s_.time);
+  if (rain) added += feeder_.rain(grains_, field_.walls(), s_.time);
   if (added == 0) return;
   run_.balance.put_in += added;
   for (std::size_t i = grains_.size() - static_cast<std::size_t>(added); i < grains_.size(); ++i) {
@@ -226,7 +230,7 @@ void refuse_overlapping_start(const Scene& scene, const Grains& grains) {
   field.evaluate(grains, 0, census);
   // Grains at rest may carry their bed's weight, no more.
   if (census.max_compression <= scene.guard.warn_compression) return;
-  const Fill& fill = scene.hopper && scene.hopper->fill ? *scene.hopper->fill : *scene.tray.fill;
+  const Fill fill = scene.hopper && scene.hopper->fill ? *scene.hopper->fill : scene.tray.fill.value_or(Fill{});
   throw InputError(
       fmt::format("{}: grains overlap at the start, their shells compressed by {:.3g} of the radius; does the "
                   "hopper stand in the tray's bed? (hopper.above, fill.count)",

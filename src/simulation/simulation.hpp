@@ -48,7 +48,7 @@ class Simulation {
   void wrap();
   void note_lost(std::int64_t grains);
   void open_gates();
-  void feed();
+  void feed(bool top_up, bool rain);
   void note_whether_dry();
   void take_out_flagged(const std::vector<char>& removed);
 

@@ -17,11 +17,16 @@ TEST(KeyUnits, ColumnsCarryOneUnitForEachKey) {
   EXPECT_EQ(condition_column("tray.tilt"), "tray.tilt_degree");
   EXPECT_EQ(condition_column("run.duration"), "run.duration_s");
   EXPECT_EQ(condition_column("tray.holes.count"), "tray.holes.count");
+  EXPECT_EQ(condition_column("tray.holes.open_at"), "tray.holes.open_at_s");
+  EXPECT_EQ(condition_column("hopper.rain.rate"), "hopper.rain.rate_per_s");
+  EXPECT_EQ(condition_column("tray.rain.start"), "tray.rain.start_s");
+  EXPECT_EQ(condition_column("run.start"), "run.start") << "a name";
   EXPECT_EQ(condition_column("contact.shell_compression"), "contact.shell_compression");
 }
 
 TEST(KeyUnits, AColumnLeadsBackToItsKey) {
-  for (const std::string key : {"tray.motion.frequency", "run.count_below", "tray.holes.count", "seeds.pea.mass"})
+  for (const std::string key : {"tray.motion.frequency", "run.count_below", "tray.holes.count", "seeds.pea.mass",
+                                "tray.rain.start", "tray.rain.rate", "tray.motion.angle"})
     EXPECT_EQ(key_of_column(condition_column(key)), key);
   EXPECT_FALSE(key_of_column("tray.motion.frequency"));
   EXPECT_FALSE(key_of_column("tray.motion.frequency_rpm"));
