@@ -66,8 +66,12 @@ void print_vessel(const Vessel& vessel) {
              vessel.origin.x() * 1e3, vessel.origin.y() * 1e3, vessel.length * 1e3, vessel.height * 1e3,
              vessel.fill ? vessel.fill->count : 0);
   for (std::size_t i = 0; i < vessel.holes.size(); ++i)
-    fmt::print("  hole {} at {:.2f} mm, {:.2f} mm wide\n", i + 1, vessel.holes[i].centre * 1e3,
-               vessel.holes[i].width * 1e3);
+    fmt::print("  hole {} at {:.2f} mm, {:.2f} mm wide{}\n", i + 1, vessel.holes[i].centre * 1e3,
+               vessel.holes[i].width * 1e3,
+               vessel.holes[i].open_at > 0 ? fmt::format(", opens at {:.6g} s", vessel.holes[i].open_at) : "");
+  if (vessel.rain)
+    fmt::print("  rain of {:.6g} seeds/s from {:.1f} mm above its floor\n", vessel.rain->rate,
+               vessel.rain->height * 1e3);
 }
 
 int check_seeder(const CommonOptions& options) {

@@ -151,6 +151,11 @@ Json describe(const std::optional<VesselMotion>& motion) {
   return std::visit([](const auto& kind) { return describe(kind); }, *motion);
 }
 
+Json describe(const Rain& rain) {
+  return {{"rate_per_s", rain.rate}, {"from_m", rain.from},   {"to_m", rain.to},
+          {"height_m", rain.height}, {"start_s", rain.start}, {"stop_s", time_or_never(rain.stop)}};
+}
+
 Json describe(const WallPiece& piece) {
   if (piece.radius == 0) return {{"from_m", {piece.a.x(), piece.a.y()}}, {"to_m", {piece.b.x(), piece.b.y()}}};
   return {{"centre_m", {piece.centre.x(), piece.centre.y()}},
@@ -178,6 +183,7 @@ Json describe(const Vessel& vessel) {
           {"box", vessel.box},
           {"sides", sides[static_cast<int>(vessel.sides)]},
           {"fill", vessel.fill ? describe(*vessel.fill) : Json(nullptr)},
+          {"rain", vessel.rain ? describe(*vessel.rain) : Json(nullptr)},
           {"motion", describe(vessel.motion)}};
 }
 
@@ -213,6 +219,7 @@ Json describe_scene(const Scene& scene) {
                  {"measure_from_s", scene.run.measure_from},
                  {"count_below_m", scene.run.count_below},
                  {"start", scene.run.start == Start::with_tray ? "with-tray" : "at-rest"}}}};
+  if (scene.run.end_after_pause) json["run"]["end_after_pause_s"] = *scene.run.end_after_pause;
   if (scene.record) json["record"] = {{"times_s", scene.record->times}, {"cell_m", scene.record->cell}};
   return json;
 }

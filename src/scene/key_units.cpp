@@ -28,7 +28,8 @@ struct KeyWord {
   std::optional<ColumnUnit> unit;
 };
 
-/// Last words of the keys of a seeder file that a table may carry. One word means one thing in every table.
+/// Last words of the keys of a seeder file that a table may carry. One word means one thing in every table, but where
+/// it stands here with its table.
 constexpr std::array key_words = {
     // seeds
     KeyWord{"crop", {}},
@@ -92,6 +93,10 @@ constexpr std::array key_words = {
     KeyWord{"box", {}},
     KeyWord{"sides", {}},
     KeyWord{"open_at", second},
+    KeyWord{"rate", per_second},
+    KeyWord{"from", millimetre},
+    KeyWord{"to", millimetre},
+    KeyWord{"rain.start", second},  // before run.start, which is a name
     // numerics, guard, run and record
     KeyWord{"integrator", {}},
     KeyWord{"steps_per_contact", {}},
@@ -104,18 +109,18 @@ constexpr std::array key_words = {
     KeyWord{"duration", second},
     KeyWord{"measure_from", second},
     KeyWord{"count_below", millimetre},
+    KeyWord{"end_after_pause", second},
     KeyWord{"start", {}},
     KeyWord{"times", second},
     KeyWord{"every", second},
     KeyWord{"cell", millimetre},
 };
 
-std::string_view last_word(std::string_view key) {
-  return key.substr(key.rfind('.') + 1);
-}
-
 const KeyWord* find_word(std::string_view key) {
-  const auto found = std::ranges::find(key_words, last_word(key), &KeyWord::word);
+  const auto ends_key = [key](const KeyWord& word) {
+    return key == word.word || (key.ends_with(word.word) && key[key.size() - word.word.size() - 1] == '.');
+  };
+  const auto found = std::ranges::find_if(key_words, ends_key);
   return found == key_words.end() ? nullptr : &*found;
 }
 
@@ -158,7 +163,8 @@ std::optional<std::string> key_of_column(const std::string& column) {
 std::vector<std::string> columns_beside(const std::string& column) {
   std::vector<std::string> columns;
   for (const KeyWord& word : key_words)
-    columns.push_back(condition_column(column.substr(0, column.rfind('.') + 1) + std::string(word.word)));
+    if (word.word.find('.') == std::string_view::npos)
+      columns.push_back(condition_column(column.substr(0, column.rfind('.') + 1) + std::string(word.word)));
   return columns;
 }
 

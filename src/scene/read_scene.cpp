@@ -106,6 +106,7 @@ RunPlan read_run(Table table) {
                fmt::format("{:g} s is not before the end of the run, {:g} s", run.measure_from, run.duration));
   }
   run.count_below = table.quantity("count_below", Dimension::length, 1e-6, 100).value_or(run.count_below);
+  run.end_after_pause = table.quantity("end_after_pause", Dimension::time, 1e-3, 1e6);
   run.start = table.choice("start", {"at-rest", "with-tray"}).value_or(0) == 0 ? Start::at_rest : Start::with_tray;
   return run;
 }
@@ -162,8 +163,9 @@ Scene read_scene(const std::filesystem::path& file, const std::vector<Override>&
       hopper->fail("left", "the hopper does not lie within the length of the periodic tray");
     scene.hopper->origin.y() = hopper->required_quantity("above", Dimension::length, 0, 100);
   }
-  if (!scene.tray.fill && !(scene.hopper && scene.hopper->fill)) {
-    tray.fail("fill", "is missing, and no hopper has one: there is nothing to sow");
+  const auto gives_seeds = [](const Vessel& vessel) { return vessel.fill || vessel.rain; };
+  if (!gives_seeds(scene.tray) && !(scene.hopper && gives_seeds(*scene.hopper))) {
+    tray.fail("fill", "is missing, no hopper has one, and no rain falls: there is nothing to sow");
   }
   if (auto numerics = root.table("numerics")) scene.numerics = read_numerics(*numerics, scene.contact.law);
   if (auto guard = root.table("guard")) scene.guard = read_guard(*guard);

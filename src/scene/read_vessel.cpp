@@ -235,6 +235,22 @@ std::vector<WallPiece> read_pieces(Table& vessel) {
   return pieces;
 }
 
+Rain read_rain(Table table, const Vessel& vessel) {
+  Rain rain;
+  rain.rate = table.required_quantity("rate", Dimension::rate, 1e-6, 1e7);
+  rain.from = table.quantity("from", Dimension::length, 0, vessel.length).value_or(0);
+  rain.to = table.quantity("to", Dimension::length, 0, vessel.length).value_or(vessel.length);
+  if (rain.to < rain.from)
+    table.fail(table.has("to") ? "to" : "from",
+               fmt::format("{} is left of from = {}", millimetres(rain.to), millimetres(rain.from)));
+  rain.height = table.quantity("height", Dimension::length, shortest, longest).value_or(vessel.height);
+  rain.start = table.quantity("start", Dimension::time, 0, 1e6).value_or(0);
+  rain.stop = table.quantity("stop", Dimension::time, 0, 1e6).value_or(never);
+  if (rain.stop <= rain.start)
+    table.fail("stop", fmt::format("{:g} s is not after the start, {:g} s", rain.stop, rain.start));
+  return rain;
+}
+
 Sides read_sides(Table& table) {
   constexpr Sides sides[] = {Sides::walls, Sides::open, Sides::periodic};
   return sides[table.choice("sides", {"walls", "open", "periodic"}).value_or(0)];
@@ -268,7 +284,8 @@ Vessel read_vessel(Table table, const std::string& name, const std::vector<SeedL
   vessel.sides = read_sides(table);
   if (!vessel.box && vessel.pieces.empty()) table.fail("box", "without floor and end walls a vessel needs pieces");
   if (!vessel.box && vessel.funnel > 0) table.fail("funnel", "is a slope of the floor, which box = false leaves out");
-  if (const auto holes = table.table("holes")) vessel.holes = read_holes(*holes, vessel.length, largest_mean_diameter(lots));
+  if (const auto holes = table.table("holes"))
+    vessel.holes = read_holes(*holes, vessel.length, largest_mean_diameter(lots));
   if (vessel.funnel > 0 && vessel.holes.empty()) table.fail("funnel", "needs holes for the floor to slope to");
   if (highest_floor(vessel) >= vessel.height) {
     table.fail("funnel", fmt::format("the floor would rise to {}, as high as the walls or higher ({})",
@@ -278,6 +295,7 @@ Vessel read_vessel(Table table, const std::string& name, const std::vector<SeedL
     vessel.fill = read_fill(*fill);
     check_fill_fits(*fill, vessel, lots);
   }
+  if (const auto rain = table.table("rain")) vessel.rain = read_rain(*rain, vessel);
   if (const auto motion = table.table("motion")) vessel.motion = read_motion(*motion);
   check_periodic(table, vessel, largest_diameter(lots));
   return vessel;

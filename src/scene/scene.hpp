@@ -162,6 +162,17 @@ struct TableMotion {
 
 using VesselMotion = std::variant<HarmonicMotion, SumMotion, RockingMotion, TableMotion>;
 
+/// Seeds that come one by one at even intervals, the first 1 / rate after `start`, each at a random place, at rest in
+/// the lab. One whose place is taken waits.
+struct Rain {
+  double rate = 0;      // 1/s
+  double from = 0;      // m, of the seeds' centres along the floor; kept clear of the end walls
+  double to = 0;        // m
+  double height = 0;    // m, of the seeds' centres above the floor's left end, in the vessel's frame
+  double start = 0;     // s
+  double stop = never;  // s, none comes later
+};
+
 /// A tray or a hopper: floor from (0, 0) to (length, 0) with end walls of `height`, in the vessel's own frame.
 struct Vessel {
   std::string name;                                  // "tray" or "hopper"
@@ -176,6 +187,7 @@ struct Vessel {
   bool box = true;                                   // whether there are floor and end walls
   Sides sides = Sides::walls;
   std::optional<Fill> fill;
+  std::optional<Rain> rain{};
   std::optional<VesselMotion> motion;
 };
 
@@ -203,6 +215,7 @@ struct RunPlan {
   double measure_from = 0;    // s; the measuring window is [measure_from, duration]
   double count_below = 0.02;  // m, counting line below the tray's floor
   Start start = Start::at_rest;
+  std::optional<double> end_after_pause{};  // s without a grain leaving, once every gate is open: ends the run
 };
 
 /// Pictures of the bed at given times.

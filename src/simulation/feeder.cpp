@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "contact/wall_kernel.hpp"
 #include "grains/size_distribution.hpp"
 #include "simulation/counter.hpp"
 #include "simulation/vessel_motion.hpp"
@@ -52,17 +53,47 @@ bool is_kept(const Vessel& vessel) {
   return vessel.fill && vessel.fill->keep;
 }
 
+/// Seeds that have come up to `time`.
+std::int64_t arrivals(const Rain& rain, double time) {
+  const double lasted = std::min(time, rain.stop) - rain.start;
+  return lasted > 0 ? static_cast<std::int64_t>(std::floor(lasted * rain.rate * (1 + 1e-12))) : 0;
+}
+
+/// Whether a grain at `at` would touch nothing, a periodic tray's images included.
+bool is_clear(const Grains& grains, const Walls& walls, const Eigen::Vector2d& at, double radius) {
+  constexpr double clearance = 1.01;
+  const Vessel& tray = walls.vessels().front();
+  const double period = tray.sides == Sides::periodic ? tray.length : 0;
+  for (std::size_t i = 0; i < grains.size(); ++i) {
+    double dx = grains.x[i] - at.x();
+    if (period > 0) dx = std::remainder(dx, period);
+    if (std::hypot(dx, grains.y[i] - at.y()) < clearance * (radius + grains.kind(i).radius)) return false;
+  }
+  for (std::size_t wall = 0; wall < walls.placed().size(); ++wall) {
+    const NearestPoint nearest = nearest_point(walls.placed()[wall], at.x(), at.y());
+    if (!walls.is_removed(wall) && std::sqrt(nearest.distance2) < radius * (1 - 1e-9)) return false;
+  }
+  return true;
+}
+
 }  // namespace
 
 Feeder::Feeder(const Scene& scene, std::uint64_t random_seed)
     : lots_(scene.lots),
       law_(scene.contact.law),
-      random_(~random_seed),  // a stream of its own, apart from the packing's
-      feeds_(is_kept(scene.tray) || (scene.hopper && is_kept(*scene.hopper))) {}
+      random_(~random_seed)  // a stream of its own, apart from the packing's
+{
+  constexpr std::uint64_t apart = 0x9e3779b97f4a7c15;  // streams of their own, too
+  for (const Vessel& vessel : vessels_of(scene)) {
+    showers_.push_back({Random(random_seed ^ (apart * (showers_.size() + 1)))});
+    feeds_ = feeds_ || is_kept(vessel);
+    rains_ = rains_ || vessel.rain;
+  }
+}
 
-int Feeder::draw_lot() {
+int Feeder::draw_lot(Random& random) const {
   if (lots_.size() == 1) return 0;
-  double rest = random_.uniform();
+  double rest = random.uniform();
   for (std::size_t lot = 0; lot + 1 < lots_.size(); ++lot) {
     rest -= lots_[lot].number_share;
     if (rest < 0) return static_cast<int>(lot);
@@ -80,7 +111,7 @@ int Feeder::top_up(Grains& grains, const Walls& walls, double time) {
     Inside inside = grains_inside(vessel, pose, grains);
     const int missing = vessel.fill->count - inside.grains;
     for (int k = 0; k < missing; ++k) {
-      const int lot = draw_lot();
+      const int lot = draw_lot(random_);
       const SeedLot& seeds = lots_[static_cast<std::size_t>(lot)];
       const double size = draw_size(seeds, random_), angle = draw_angle(seeds, random_);
       const double radius = 0.5 * size * seeds.diameter;
@@ -94,6 +125,43 @@ int Feeder::top_up(Grains& grains, const Walls& walls, double time) {
       grains.add(lab.x(), lab.y(), velocity.x(), velocity.y(), lot, kind, angle);
       ++added;
     }
+  }
+  return added;
+}
+
+int Feeder::rain(Grains& grains, const Walls& walls, double time) {
+  int added = 0;
+  for (std::size_t v = 0; v < walls.vessels().size(); ++v)
+    if (walls.vessels()[v].rain) added += rain(walls.vessels()[v], showers_[v], grains, walls, walls.poses()[v], time);
+  return added;
+}
+
+void Feeder::draw_next(Shower& shower) const {
+  shower.next_lot = draw_lot(shower.random);
+  const SeedLot& seeds = lots_[static_cast<std::size_t>(shower.next_lot)];
+  shower.next_size = draw_size(seeds, shower.random);
+  shower.next_angle = draw_angle(seeds, shower.random);
+}
+
+int Feeder::rain(const Vessel& vessel, Shower& shower, Grains& grains, const Walls& walls, const Pose& pose,
+                 double time) {
+  const Rain& rain = *vessel.rain;
+  const std::int64_t waiting = arrivals(rain, time) - shower.arrived;
+  int added = 0;
+  for (std::int64_t k = 0; k < waiting; ++k) {
+    if (shower.next_lot < 0) draw_next(shower);
+    const std::size_t lot = static_cast<std::size_t>(shower.next_lot);
+    const double radius = 0.5 * shower.next_size * lots_[lot].diameter;
+    const double margin = vessel.sides == Sides::walls ? std::min(radius, 0.5 * vessel.length) : 0;
+    const double from = std::clamp(rain.from, margin, vessel.length - margin);
+    const double to = std::clamp(rain.to, margin, vessel.length - margin);
+    const Eigen::Vector2d at = in_lab_frame(vessel, pose, {shower.random.uniform(from, to), rain.height});
+    if (!is_clear(grains, walls, at, radius)) continue;
+    const GrainKind kind = sized_kind(lots_[lot], law_, grains.kinds[lot], shower.next_size);
+    grains.add(at.x(), at.y(), 0, 0, shower.next_lot, kind, shower.next_angle);
+    shower.next_lot = -1;
+    ++shower.arrived;
+    ++added;
   }
   return added;
 }

@@ -6,6 +6,11 @@
 
 namespace vibrosow {
 
+/// Puts grains in during a run.
+///
+/// Rain: see `Rain`; the arrivals up to now, lots drawn by the shares. Only a place clear of every grain and wall is
+/// taken; each waiting grain is tried once each time, at another place.
+///
 /// Keeps vessels topped up (`fill.keep`): each missing grain is laid just above the heap at a random place, at rest
 /// with its vessel, of a lot drawn by the shares, its size and a clump's angle drawn too. Where the heap reaches the
 /// vessel's top there is no room, and it waits.
@@ -13,19 +18,33 @@ class Feeder {
  public:
   Feeder(const Scene& scene, std::uint64_t random_seed);
 
-  /// Whether any vessel is kept topped up.
+  /// Whether any vessel is kept topped up, or rained into.
   bool feeds() const { return feeds_; }
+  bool rains() const { return rains_; }
 
   /// Adds what is missing at `time` (s); returns how many grains were added at the end of `grains`.
   int top_up(Grains& grains, const Walls& walls, double time);
 
+  /// Adds what has rained up to `time` (s); returns how many grains were added at the end of `grains`.
+  int rain(Grains& grains, const Walls& walls, double time);
+
  private:
-  int draw_lot();
+  /// The rain into one vessel so far.
+  struct Shower {
+    Random random;
+    std::int64_t arrived = 0;
+    int next_lot = -1;  // of the grain that waits; -1: not drawn
+    double next_size = 1, next_angle = 0;
+  };
+  int rain(const Vessel& vessel, Shower& shower, Grains& grains, const Walls& walls, const Pose& pose, double time);
+  int draw_lot(Random& random) const;
+  void draw_next(Shower& shower) const;
 
   std::vector<SeedLot> lots_;
   Law law_;
   Random random_;
-  bool feeds_;
+  std::vector<Shower> showers_;  // by vessel
+  bool feeds_ = false, rains_ = false;
 };
 
 }  // namespace vibrosow

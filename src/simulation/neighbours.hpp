@@ -80,7 +80,7 @@ class Neighbours {
   std::vector<double> largest_radius_;  // m, by vessel, of its walls about its frame's zero
   double wide_margin_, narrow_margin_;  // m
   NeighbourMemory memory_;
-  double period_;                       // m
+  double period_;  // m
   PairList wide_, narrow_;
   PairList wide_seam_, narrow_seam_;
   std::vector<WallCandidate> wide_walls_, narrow_walls_;

@@ -41,6 +41,7 @@ enum class RunStatus { finished, stopped_by_guard, interrupted };
 struct Run {
   RunStatus status = RunStatus::finished;
   std::string stop_reason;            // of the guard
+  std::string end_reason;             // why it ended before its duration, though sound; else empty
   std::vector<std::string> warnings;  // of the guard
   bool outside_the_model =
       false;  // compression beyond the guard's warning limit with the stop raised, or a long step insisted on

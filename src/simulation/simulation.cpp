@@ -54,7 +54,7 @@ Simulation::Simulation(const Scene& scene, Grains grains, const SimulationSetup&
 }
 
 bool Simulation::step() {
-  if (guard_.stop_reason()) return false;
+  if (guard_.stop_reason() || !run_.end_reason.empty()) return false;
   if (s_.time >= next_gate_) open_gates();
   run_.grain_steps += static_cast<std::int64_t>(grains_.size());
   advance_(s_);
@@ -64,11 +64,13 @@ bool Simulation::step() {
   if (guard_.stop_reason()) return false;
   if (!s_.census.crossed.empty()) take_out();
   count();
-  if (s_.step % steps_per_removal_ == 0) take_out(), wrap(), note_whether_dry();
-  if (feeder_.feeds() && s_.step % steps_per_feed_ == 0) feed();
+  if (s_.step % steps_per_removal_ == 0) take_out(), wrap(), note_whether_dry(), end_after_pause();
+  const bool top_up = feeder_.feeds() && s_.step % steps_per_feed_ == 0;
+  const bool rain = feeder_.rains() && s_.step % steps_per_removal_ == 0;
+  if (top_up || rain) feed(top_up, rain);
   if (s_.step % steps_per_energy_account == 0) guard_.watch_energy(s_, run_.energy);
   if (recorder_ && recorder_->is_due(s_.time)) recorder_->record(grains_, s_.time, run_.snapshots);
-  return !guard_.stop_reason();
+  return !guard_.stop_reason() && run_.end_reason.empty();
 }
 
 void Simulation::steps(std::int64_t count) {
@@ -161,8 +163,10 @@ void Simulation::open_gates() {
   run_.energy.removed += elastic - field_.elastic_energy(grains_);
 }
 
-void Simulation::feed() {
-  const int added = feeder_.top_up(grains_, field_.walls(), s_.time);
+void Simulation::feed(bool top_up, bool rain) {
+  int added = 0;
+  if (top_up) added += feeder_.top_up(grains_, field_.walls(), s_.time);
+  if (rain) added += feeder_.rain(grains_, field_.walls(), s_.time);
   if (added == 0) return;
   run_.balance.put_in += added;
   for (std::size_t i = grains_.size() - static_cast<std::size_t>(added); i < grains_.size(); ++i) {
@@ -182,6 +186,15 @@ void Simulation::note_whether_dry() {
       return;
     }
   if (run_.tray_empty_since < 0) run_.tray_empty_since = s_.time;
+}
+
+void Simulation::end_after_pause() {
+  if (!scene_.run.end_after_pause) return;
+  double since = 0;
+  for (const Hole& hole : scene_.tray.holes) since = std::max(since, hole.open_at);
+  for (const OutflowEvent& event : run_.events) since = std::max(since, event.time);
+  if (s_.time - since < *scene_.run.end_after_pause) return;
+  run_.end_reason = fmt::format("no grain left for {:g} s; {} are still inside", *scene_.run.end_after_pause, grains_.size());
 }
 
 Run Simulation::result() const {
@@ -232,7 +245,7 @@ void refuse_overlapping_start(const Scene& scene, const Grains& grains) {
   field.evaluate(grains, 0, {}, census);
   // Grains at rest may carry their bed's weight, no more.
   if (census.max_compression <= scene.guard.warn_compression) return;
-  const Fill& fill = scene.hopper && scene.hopper->fill ? *scene.hopper->fill : *scene.tray.fill;
+  const Fill fill = scene.hopper && scene.hopper->fill ? *scene.hopper->fill : scene.tray.fill.value_or(Fill{});
   throw InputError(
       fmt::format("{}: grains overlap at the start, their shells compressed by {:.3g} of the radius; does the "
                   "hopper stand in the tray's bed? (hopper.above, fill.count)",

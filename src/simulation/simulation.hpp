@@ -29,7 +29,7 @@ class Simulation {
   Simulation(const Simulation&) = delete;
   Simulation& operator=(const Simulation&) = delete;
 
-  /// One step; false once the guard has stopped the run.
+  /// One step; false once the guard has stopped the run, or a pause has ended it (run.end_after_pause).
   bool step();
   void steps(std::int64_t count);
 
@@ -50,8 +50,9 @@ class Simulation {
   void wrap();
   void note_lost(std::int64_t grains);
   void open_gates();
-  void feed();
+  void feed(bool top_up, bool rain);
   void note_whether_dry();
+  void end_after_pause();
   void take_out_flagged(const std::vector<char>& removed);
 
   Scene scene_;

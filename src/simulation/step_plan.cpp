@@ -94,10 +94,21 @@ double mean_diameter(const Scene& scene) {
   return mean;
 }
 
+/// At most: all that rains while the run lasts stays, up to the vessel's height.
+double seeds_of(const Scene& scene, const Vessel& vessel) {
+  const double filled = vessel.fill ? vessel.fill->count : 0;
+  if (!vessel.rain) return filled;
+  const double rained =
+      vessel.rain->rate * std::max(0.0, std::min(vessel.rain->stop, scene.run.duration) - vessel.rain->start);
+  const double diameter = mean_diameter(scene);
+  return std::max(filled, std::min(filled + rained, vessel.length * vessel.height / (diameter * diameter)));
+}
+
 double deepest_fill(const Scene& scene) {
   double layers = 1;
   for (const Vessel& vessel : vessels_of(scene))
-    if (vessel.fill) layers = std::max(layers, std::ceil(vessel.fill->count * mean_diameter(scene) / vessel.length));
+    if (vessel.fill || vessel.rain)
+      layers = std::max(layers, std::ceil(seeds_of(scene, vessel) * mean_diameter(scene) / vessel.length));
   return layers;
 }
 
@@ -154,6 +165,7 @@ double foretold_speed(const Scene& scene) {
   for (const Vessel& vessel : vessels_of(scene)) {
     speed = std::max(speed, 2 * largest_speed(vessel));
     drop = std::max(drop, vessel.origin.y() + vessel.height);
+    if (vessel.rain) drop = std::max(drop, vessel.origin.y() + vessel.rain->height);
   }
   return std::max(speed, std::sqrt(2 * standard_gravity * (drop + scene.run.count_below)));
 }

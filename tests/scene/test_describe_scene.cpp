@@ -73,6 +73,9 @@ TEST(DescribeScene, EverythingThatActsCounts) {
         s.tray.pieces.push_back({{0, 0}, {1, 0}});
       },
       [](Scene& s) { s.tray.holes[0].open_at = 1; },
+      [](Scene& s) {
+        s.tray.rain = Rain{200, 0, 0.1, 0.1};
+      },
       [](Scene& s) { s.tray.box = false; },
       [](Scene& s) { s.tray.sides = Sides::periodic; },
       [](Scene& s) { s.tray.fill->count = 2; },

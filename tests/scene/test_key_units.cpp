@@ -25,16 +25,36 @@ TEST(KeyUnits, ColumnsCarryOneUnitForEachKey) {
   EXPECT_EQ(condition_column("record.every"), "record.every_s");
   EXPECT_EQ(condition_column("contact.wall.rolling_friction"), "contact.wall.rolling_friction");
   EXPECT_EQ(condition_column("tray.holes.count"), "tray.holes.count");
+  EXPECT_EQ(condition_column("tray.holes.open_at"), "tray.holes.open_at_s");
+  EXPECT_EQ(condition_column("hopper.rain.rate"), "hopper.rain.rate_per_s");
+  EXPECT_EQ(condition_column("tray.rain.start"), "tray.rain.start_s");
+  EXPECT_EQ(condition_column("run.start"), "run.start") << "a name";
   EXPECT_EQ(condition_column("contact.shell_compression"), "contact.shell_compression");
 }
 
 TEST(KeyUnits, AColumnLeadsBackToItsKey) {
-  for (const std::string key :
-       {"tray.motion.frequency", "run.count_below", "tray.holes.count", "seeds.pea.mass", "contact.damping_rate",
-        "contact.drag", "contact.cohesion", "seeds.pea.youngs_modulus", "contact.poisson_ratio",
-        "contact.friction_model", "contact.tangential_ratio", "contact.tangential_damping", "contact.rolling",
-        "contact.rolling_friction", "contact.rolling_damping", "numerics.impact_speed", "record.times", "record.every",
-        "record.cell"})
+  for (const std::string key : {"tray.motion.frequency",
+                                "run.count_below",
+                                "tray.holes.count",
+                                "seeds.pea.mass",
+                                "contact.damping_rate",
+                                "contact.drag",
+                                "contact.cohesion",
+                                "seeds.pea.youngs_modulus",
+                                "contact.poisson_ratio",
+                                "contact.friction_model",
+                                "contact.tangential_ratio",
+                                "contact.tangential_damping",
+                                "contact.rolling",
+                                "contact.rolling_friction",
+                                "contact.rolling_damping",
+                                "numerics.impact_speed",
+                                "record.times",
+                                "record.every",
+                                "record.cell",
+                                "tray.rain.start",
+                                "tray.rain.rate",
+                                "tray.motion.angle"})
     EXPECT_EQ(key_of_column(condition_column(key)), key);
   EXPECT_FALSE(key_of_column("tray.motion.frequency"));
   EXPECT_FALSE(key_of_column("tray.motion.frequency_rpm"));

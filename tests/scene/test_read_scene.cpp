@@ -218,6 +218,24 @@ TEST(ReadScene, GatesOpenAtOneTimeOrAtOneEach) {
   EXPECT_EQ(scene.tray.holes[1].open_at, 2);
 }
 
+TEST(ReadScene, RainNeedsNoFill) {
+  const std::string dry = std::string(small_example).replace(std::string(small_example).find("fill ="), 22, "");
+  EXPECT_THROW(read(dry), InputError);
+  Scene scene = read(dry, {"tray.rain.rate=200 1/s"});
+  ASSERT_TRUE(scene.tray.rain);
+  EXPECT_FALSE(scene.tray.fill);
+  EXPECT_EQ(scene.tray.rain->rate, 200);
+  EXPECT_EQ(scene.tray.rain->to, 0.5);
+  EXPECT_EQ(scene.tray.rain->height, 0.12);
+  EXPECT_EQ(scene.tray.rain->stop, never);
+  scene = read(dry, {"tray.rain={ rate = '2 1/ms', from = '1 cm', to = '2 cm', height = '20 cm', start = '1 s', stop = "
+                     "'2 s' }"});
+  EXPECT_EQ(scene.tray.rain->rate, 2000);
+  EXPECT_EQ(scene.tray.rain->from, 0.01);
+  EXPECT_EQ(scene.tray.rain->height, 0.2);
+  EXPECT_EQ(scene.tray.rain->start, 1);
+}
+
 TEST(ReadScene, HolesWithDefaultPitchAndHolesOutOfOrder) {
   Scene scene = read(small_example, {"tray.holes={ count = 4, width = '2 diameters' }"});
   ASSERT_EQ(scene.tray.holes.size(), 4U);

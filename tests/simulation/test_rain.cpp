@@ -1,0 +1,123 @@
+// Seeds that rain into a vessel.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "simulation/simulate.hpp"
+#include "support/bench.hpp"
+
+namespace vibrosow {
+namespace {
+
+Scene wet() {
+  Scene scene = Bench().scene;
+  scene.lots = {{"grain", 6e-3, 2e-4, Shape::ball, 0.6}, {"small", 4e-3, 8e-5, Shape::ball, 0.4}};
+  scene.contact.shell_compression = 1e-3;
+  scene.contact.seed = scene.contact.wall = {0.3, 0.5};
+  scene.contact.slip_speed = 0.1;
+  scene.tray.length = 0.2;
+  scene.tray.height = 0.1;
+  scene.tray.rain = Rain{200, 0, 0.2, 0.1};
+  scene.run.duration = 0.5;
+  return scene;
+}
+
+void expect_balanced(const Balance& b) {
+  EXPECT_EQ(b.put_in, b.inside + b.counted + b.spilled + b.lost);
+}
+
+TEST(Rain, BringsRateTimesTime) {
+  Scene scene = wet();
+  scene.tray.rain->stop = 0.45;  // leaves time for those that wait
+  EXPECT_EQ(simulate(scene).balance.put_in, 90);
+  scene.tray.rain->start = 0.1;
+  scene.tray.rain->stop = 0.3;
+  const vibrosow::Run run = simulate(scene);
+  EXPECT_EQ(run.balance.put_in, 40);
+  EXPECT_EQ(run.balance.inside, 40);
+  EXPECT_EQ(run.status, RunStatus::finished) << run.stop_reason;
+  expect_balanced(run.balance);
+}
+
+TEST(Rain, ThroughTheHolesTheBalanceHolds) {
+  Scene scene = wet();
+  scene.tray.holes = {{0.1, 0.05}};
+  scene.tray.motion = HarmonicMotion{0, 5e-3, 9, 0.1};
+  scene.tray.fill = Fill{50, Packing::poured, 1e-3, false};
+  scene.tray.rain->stop = 0.45;
+  const vibrosow::Run run = simulate(scene);
+  EXPECT_EQ(run.balance.put_in, 140);
+  EXPECT_GT(run.balance.counted, 20);
+  EXPECT_EQ(run.balance.lost, 0);
+  expect_balanced(run.balance);
+}
+
+TEST(Rain, ComesAtRestInTheLabWithinItsRangeAndOverlapsNothing) {
+  Scene scene = wet();
+  scene.tray.rain = Rain{2000, 0.05, 0.12, 0.08};  // more than the place takes
+  scene.tray.motion = HarmonicMotion{0, 5e-3, 9, 0};
+  const EffectSet effects = effects_of(scene);
+  Simulation run(scene, starting_grains(scene, 1, effects), {.dt = 2e-5, .random_seed = 1, .effects = effects});
+  std::size_t seen = 0;
+  double least = 1, most = 0;
+  for (int step = 0; step < 10000; ++step) {
+    ASSERT_TRUE(run.step()) << *run.guard().stop_reason();
+    const Grains& g = run.grains();
+    for (; seen < g.size(); ++seen) {
+      EXPECT_EQ(g.vx[seen], 0);
+      EXPECT_EQ(g.vy[seen], 0);
+      EXPECT_NEAR(g.y[seen], 0.08, 1e-15);
+      const double along = g.x[seen] - run.field().walls().poses().front().displacement.x();
+      least = std::min(least, along), most = std::max(most, along);
+      for (std::size_t i = 0; i < seen; ++i)
+        ASSERT_GT(std::hypot(g.x[i] - g.x[seen], g.y[i] - g.y[seen]), g.kind(i).radius + g.kind(seen).radius);
+    }
+  }
+  EXPECT_GT(seen, 50u);
+  EXPECT_LT(seen, 400u) << "some had to wait";
+  EXPECT_GE(least, 0.05);
+  EXPECT_LE(most, 0.12);
+  EXPECT_LT(least, 0.055);
+  EXPECT_GT(most, 0.115);
+  EXPECT_EQ(run.result().balance.put_in, static_cast<std::int64_t>(seen));
+}
+
+TEST(Rain, HasARandomStreamOfItsOwn) {
+  const auto places = [](std::uint64_t random_seed) {
+    const Scene scene = wet();
+    const EffectSet effects = effects_of(scene);
+    Simulation run(scene, starting_grains(scene, random_seed, effects),
+                   {.dt = 2e-5, .random_seed = random_seed, .effects = effects});
+    run.steps(3000);
+    return run.grains().x;
+  };
+  EXPECT_EQ(places(1), places(1));
+  EXPECT_NE(places(1), places(2));
+}
+
+TEST(Rain, IntoAPeriodicTrayKeepsClearOfTheImages) {
+  Scene scene = wet();
+  scene.tray.length = 0.04;
+  scene.tray.sides = Sides::periodic;
+  scene.tray.rain = Rain{2000, 0, 0.04, 0.08};
+  const EffectSet effects = effects_of(scene);
+  Simulation run(scene, starting_grains(scene, 1, effects), {.dt = 2e-5, .random_seed = 1, .effects = effects});
+  std::size_t seen = 0;
+  double nearest_across = 1;
+  for (int step = 0; step < 4000; ++step) {
+    ASSERT_TRUE(run.step()) << *run.guard().stop_reason();
+    const Grains& g = run.grains();
+    for (; seen < g.size(); ++seen)
+      for (std::size_t i = 0; i < seen; ++i) {
+        const double dx = std::abs(g.x[i] - g.x[seen]), dy = g.y[i] - g.y[seen];
+        const double gap = std::hypot(0.04 - dx, dy) - g.kind(i).radius - g.kind(seen).radius;
+        nearest_across = std::min(nearest_across, gap);
+      }
+  }
+  EXPECT_GT(seen, 10u);
+  EXPECT_GT(nearest_across, 0);
+}
+
+}  // namespace
+}  // namespace vibrosow
