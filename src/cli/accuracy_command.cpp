@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <memory>
 
 #include "cli/commands.hpp"
@@ -9,6 +10,7 @@
 #include "design/accuracy.hpp"
 #include "report/accuracy_report.hpp"
 #include "scene/input_error.hpp"
+#include "scene/integrator_names.hpp"
 #include "scene/read_scene.hpp"
 #include "simulation/simulate.hpp"
 #include "units/quantity.hpp"
@@ -44,9 +46,17 @@ double slip_speed_of(const std::string& text) {
   throw InputError(fmt::format("--slip-speed: \"{}\" is out of range, which is from 1e-06 m/s to 100 m/s", text));
 }
 
+Integrator integrator_of(const std::string& name) {
+  const auto& names = integrator_names();
+  return static_cast<Integrator>(std::ranges::find(names, name) - names.begin());
+}
+
 AccuracyGrid grid_of(const AccuracyOptions& options, const Scene& scene) {
   AccuracyGrid grid = default_accuracy_grid(scene);
   if (!options.steps_per_contact.empty()) grid.steps_per_contact = options.steps_per_contact;
+  if (!options.shell_compressions.empty() && scene.contact.law != Law::elastic_shell)
+    throw InputError(
+        fmt::format("--shell-compression: {} has Hertz' law, which has no shell", options.common.file.string()));
   if (!options.shell_compressions.empty()) grid.shell_compressions = options.shell_compressions;
   if (!options.slip_speeds.empty()) {
     grid.slip_speeds.clear();
@@ -54,8 +64,7 @@ AccuracyGrid grid_of(const AccuracyOptions& options, const Scene& scene) {
   }
   if (!options.integrators.empty()) {
     grid.integrators.clear();
-    for (const std::string& name : options.integrators)
-      grid.integrators.push_back(name == "velocity-verlet" ? Integrator::velocity_verlet : Integrator::rk2_midpoint);
+    for (const std::string& name : options.integrators) grid.integrators.push_back(integrator_of(name));
   }
   return grid;
 }
@@ -93,9 +102,10 @@ void add_accuracy_command(CLI::App& app, int& exit_code) {
   auto options = std::make_shared<AccuracyOptions>();
   CLI::App* command = app.add_subcommand("accuracy", "what accuracy costs in time, on a seeder of yours");
   add_common_options(*command, options->common, "seeder file (.toml)");
-  command->add_option("--integrator", options->integrators, "velocity-verlet, rk2-midpoint; default both")
+  command
+      ->add_option("--integrator", options->integrators, "velocity-verlet, rk2-midpoint, gear5; default the first two")
       ->delimiter(',')
-      ->check(CLI::IsMember({"velocity-verlet", "rk2-midpoint"}));
+      ->check(CLI::IsMember(integrator_names()));
   command->add_option("--steps-per-contact", options->steps_per_contact, "default 10,20,40")
       ->delimiter(',')
       ->check(number_within(1, 1e4));

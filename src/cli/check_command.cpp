@@ -11,27 +11,31 @@
 #include "scene/input_error.hpp"
 #include "scene/key_units.hpp"
 #include "scene/read_scene.hpp"
-#include "simulation/integrator.hpp"
 #include "simulation/price.hpp"
 #include "simulation/step_plan.hpp"
 
 namespace vibrosow {
 namespace {
 
-double grains_in(const std::optional<Fill>& fill) {
-  return fill ? fill->count : 0;
+/// Seeds at the start, and of rain as many as have come on average over the run.
+double grains_in(const Vessel& vessel, double duration) {
+  double grains = vessel.fill ? vessel.fill->count : 0;
+  if (!vessel.rain) return grains;
+  const double stop = std::min(vessel.rain->stop, duration), start = std::min(vessel.rain->start, stop);
+  return grains + vessel.rain->rate * (stop - start) * (duration - 0.5 * (start + stop)) / duration;
 }
 
-/// Grains at the start times steps; outflow lessens it, topping up adds to it.
+/// Grains times steps; outflow lessens it, topping up adds to it.
 double foretold_grain_steps(const Scene& scene, const StepPlan& plan) {
-  const double grains = grains_in(scene.tray.fill) + (scene.hopper ? grains_in(scene.hopper->fill) : 0);
+  double grains = grains_in(scene.tray, scene.run.duration);
+  if (scene.hopper) grains += grains_in(*scene.hopper, scene.run.duration);
   return grains * static_cast<double>(plan.steps);
 }
 
 void print_effects(const Scene& scene, const std::vector<EffectPrice>& prices) {
   fmt::print("effects\n");
   for (const EffectReason& effect : explain_effects(scene))
-    fmt::print("  {:<3} {:<10} {}\n", effect.present ? "yes" : "no", effect.effect, effect.reason);
+    fmt::print("  {:<3} {:<17} {}\n", effect.present ? "yes" : "no", effect.effect, effect.reason);
   fmt::print("price on this machine, now\n");
   for (const EffectPrice& price : prices)  // a difference of two timings can fall below zero
     fmt::print("  {:<22} {:8.1f} ns per grain-step\n", price.effect, std::max(0.0, price.ns_per_grain_step));
@@ -53,12 +57,11 @@ void print_compression(const Scene& scene) {
              foretold.static_compression, foretold.layers, foretold.static_overlap);
   fmt::print("  at impact {:.3g} at {:.3g} m/s\n", foretold.impact_compression, foretold.impact_speed);
   const double warn = scene.guard.warn_compression;
-  if (foretold.static_compression > warn || foretold.impact_compression > warn)
-    fmt::print(
-        "  warning: beyond guard.warn_compression = {:g}, and a shell is thin; contact.shell_compression = {:.2g} "
-        "would "
-        "do\n",
-        warn, foretold.stiff_enough);
+  if (foretold.static_compression <= warn && foretold.impact_compression <= warn) return;
+  fmt::print("  warning: beyond guard.warn_compression = {:g}: {}\n", warn,
+             scene.contact.law == Law::elastic_shell
+                 ? fmt::format("a shell is thin; contact.shell_compression = {:.2g} would do", foretold.stiff_enough)
+                 : "Hertz' law is for small overlaps; a larger contact.youngs_modulus is stiffer");
 }
 
 void print_vessel(const Vessel& vessel) {
@@ -80,9 +83,9 @@ int check_seeder(const CommonOptions& options) {
   fmt::print("{}\n", scene.title);
   print_vessel(scene.tray);
   if (scene.hopper) print_vessel(*scene.hopper);
-  const std::vector<EffectPrice> prices = price_list(effects_of(scene));
+  const std::vector<EffectPrice> prices = price_list(scene);
   print_effects(scene, prices);
-  print_step(scene, plan, evaluations_per_step(scene.numerics.integrator) * prices.front().ns_per_grain_step);
+  print_step(scene, plan, prices.front().ns_per_grain_step);
   print_compression(scene);
   if (const auto refused = step_refused(scene, plan)) throw InputError(*refused);
   if (plan.too_long)

@@ -97,12 +97,14 @@ AccuracyGrid default_accuracy_grid(const Scene& scene) {
   AccuracyGrid grid;
   grid.integrators = {Integrator::velocity_verlet, Integrator::rk2_midpoint};
   grid.steps_per_contact = {10, 20, 40};
-  const double stiffest = scene.contact.shell_compression;
+  const double stiffest = scene.contact.shell_compression;  // 0 with Hertz' law
   grid.shell_compressions = {stiffest};
-  for (const double factor : {10.0, 100.0})
-    if (factor * stiffest <= softest_shell) grid.shell_compressions.push_back(factor * stiffest);
+  if (scene.contact.law == Law::elastic_shell)
+    for (const double factor : {10.0, 100.0})
+      if (factor * stiffest <= softest_shell) grid.shell_compressions.push_back(factor * stiffest);
   grid.slip_speeds = {scene.contact.slip_speed};
-  if (effects_of(scene).friction) grid.slip_speeds.push_back(5 * scene.contact.slip_speed);
+  const EffectSet effects = effects_of(scene);
+  if (effects.friction && !effects.tangential_spring) grid.slip_speeds.push_back(5 * scene.contact.slip_speed);
   return grid;
 }
 

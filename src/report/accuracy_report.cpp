@@ -6,6 +6,7 @@
 
 #include "report/csv.hpp"
 #include "report/output_files.hpp"
+#include "scene/integrator_names.hpp"
 
 namespace vibrosow {
 namespace {
@@ -15,13 +16,10 @@ constexpr double millimetre_per_second = 1e-3;  // m/s
 
 using Fields = std::vector<std::string>;
 
-std::string name_of(Integrator integrator) {
-  return integrator == Integrator::velocity_verlet ? "velocity-verlet" : "rk2-midpoint";
-}
-
 Fields setting_fields(const AccuracySetting& setting) {
-  return {name_of(setting.integrator), csv_number(setting.dt), csv_number(setting.steps_per_contact),
-          csv_number(setting.shell_compression), csv_number(setting.slip_speed / millimetre_per_second)};
+  return {integrator_name(setting.integrator), csv_number(setting.dt), csv_number(setting.steps_per_contact),
+          setting.shell_compression > 0 ? csv_number(setting.shell_compression) : "",
+          csv_number(setting.slip_speed / millimetre_per_second)};
 }
 
 /// "-0.4 +- 1.6 %".
@@ -32,7 +30,7 @@ std::string error_text(const AccuracyRow& row) {
 
 std::string setting_text(const AccuracySetting& setting) {
   return fmt::format("{}, {:g} steps a contact, shell compression {:g}, slip speed {:g} mm/s",
-                     name_of(setting.integrator), setting.steps_per_contact, setting.shell_compression,
+                     integrator_name(setting.integrator), setting.steps_per_contact, setting.shell_compression,
                      setting.slip_speed / millimetre_per_second);
 }
 
@@ -78,8 +76,9 @@ std::string accuracy_table(const AccuracyResult& result) {
   for (std::size_t i = 0; i < result.rows.size(); ++i) {
     const AccuracyRow& row = result.rows[i];
     const AccuracySetting& setting = row.setting;
-    text += fmt::format("{:<16} {:>5g} {:>9g} {:>7g} {:>9.3g} ", name_of(setting.integrator), setting.steps_per_contact,
-                        setting.shell_compression, setting.slip_speed / millimetre_per_second, setting.dt);
+    text += fmt::format("{:<16} {:>5g} {:>9g} {:>7g} {:>9.3g} ", integrator_name(setting.integrator),
+                        setting.steps_per_contact, setting.shell_compression,
+                        setting.slip_speed / millimetre_per_second, setting.dt);
     if (!row.mass_rate) {
       text += fmt::format("{}\n", row.refused);
       continue;

@@ -1,5 +1,7 @@
 #include "scene/describe_scene.hpp"
 
+#include "scene/integrator_names.hpp"
+
 namespace vibrosow {
 namespace {
 
@@ -188,8 +190,7 @@ Json describe(const Vessel& vessel) {
 }
 
 Json describe(const Numerics& numerics) {
-  const char* integrators[] = {"velocity-verlet", "rk2-midpoint", "gear5"};
-  Json json = {{"integrator", integrators[static_cast<int>(numerics.integrator)]}};
+  Json json = {{"integrator", integrator_name(numerics.integrator)}};
   if (numerics.dt) {
     json["dt_s"] = *numerics.dt;
   } else {

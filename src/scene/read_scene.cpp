@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "scene/document.hpp"
+#include "scene/integrator_names.hpp"
 #include "scene/presets.hpp"
 #include "scene/read_contact.hpp"
 #include "scene/read_lot.hpp"
@@ -68,9 +69,7 @@ std::vector<SeedLot> read_lots(Table seeds) {
 
 Numerics read_numerics(Table table, Law law) {
   Numerics numerics;
-  constexpr Integrator integrators[] = {Integrator::velocity_verlet, Integrator::rk2_midpoint, Integrator::gear5};
-  numerics.integrator =
-      integrators[table.choice("integrator", {"velocity-verlet", "rk2-midpoint", "gear5"}).value_or(0)];
+  numerics.integrator = static_cast<Integrator>(table.choice("integrator", integrator_names()).value_or(0));
   numerics.dt = table.quantity("dt", Dimension::time, 1e-12, 10);
   if (numerics.dt) numerics.where = table.where("dt");
   const auto steps = table.number("steps_per_contact", 1, 1e6);

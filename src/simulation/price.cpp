@@ -9,29 +9,49 @@
 namespace vibrosow {
 namespace {
 
-/// A box of 40 x 15 grains of 4 mm, at rest or shaken.
-Scene sample_bed(const EffectSet& effects) {
+/// A box of 40 x 15 grains of 4 mm, at rest or shaken, with the scene's law, scheme and motion of contacts, and as many
+/// discs a clump.
+Scene sample_bed(const Scene& of, const EffectSet& effects) {
   Scene scene;
   scene.lots = {{"a", 4e-3, 40e-6, Shape::ball, effects.unequal ? 0.5 : 1.0}};
   if (effects.unequal) scene.lots.push_back({"b", 3.6e-3, 30e-6, Shape::ball, 0.5});
-  const Surface surface{effects.friction ? 0.3 : 0.0, effects.damping ? 0.5 : 1.0};
-  scene.contact.seed = scene.contact.wall = surface;
-  scene.contact.rotation = effects.rotation;
-  scene.contact.slip_speed = 0.1;
-  scene.contact.drag = effects.drag ? 1e-6 : 0.0;
+  if (effects.clumps) {
+    scene.lots = {of.lots.front()};
+    for (const SeedLot& lot : of.lots)
+      if (lot.discs.size() > scene.lots.front().discs.size()) scene.lots = {lot};
+    scene.lots.front().number_share = 1;
+    scene.lots.front().sizes = {};
+  }
+  const double diameter = scene.lots.front().diameter;
+  Contact& contact = scene.contact;
+  contact = of.contact;
+  contact.overrides.clear();
+  contact.seed.friction = contact.wall.friction = effects.friction ? 0.3 : 0.0;
+  contact.seed.restitution = contact.wall.restitution = effects.damping ? 0.5 : 1.0;
+  if (contact.law == Law::hertz_viscous) contact.damping_rate = effects.damping ? of.contact.damping_rate : 0.0;
+  contact.seed.rolling_friction = contact.wall.rolling_friction = effects.rolling == Rolling::none ? 0.0 : 0.05;
+  contact.seed.cohesion = contact.wall.cohesion =
+      effects.cohesion ? 0.1 * scene.lots.front().mass * standard_gravity : 0.0;
+  contact.friction_model = effects.tangential_spring ? FrictionModel::spring : FrictionModel::sliding;
+  contact.rolling = effects.rolling;
+  contact.rotation = effects.rotation;
+  contact.slip_speed = 0.1;
+  contact.drag = effects.drag ? 1e-6 : 0.0;
+  scene.numerics.integrator = of.numerics.integrator;
   scene.tray.name = "tray";
-  scene.tray.length = 0.162;
-  scene.tray.height = 0.2;
+  scene.tray.length = 40.5 * diameter;
+  scene.tray.height = 50 * diameter;
   scene.tray.fill = Fill{600, Packing::hexagonal, 1e-3, false};
-  if (effects.motion) scene.tray.motion = HarmonicMotion{0, 1e-3, 9, 0};
+  if (effects.motion) scene.tray.motion = HarmonicMotion{0, 0.25 * diameter, 9, 0};
+  if (effects.periodic) scene.tray.sides = Sides::periodic;
   scene.run.duration = 1;
   return scene;
 }
 
-double ns_per_grain_step(const EffectSet& effects) {
+double ns_per_grain_step(const Scene& of, const EffectSet& effects) {
   constexpr std::int64_t steps = 400;
   constexpr int repeats = 3;
-  const Scene scene = sample_bed(effects);
+  const Scene scene = sample_bed(of, effects);
   Simulation simulation(scene, starting_grains(scene, 1, effects), {.dt = plan_step(scene).dt, .effects = effects});
   double best = 1e300;
   for (int repeat = 0; repeat < repeats; ++repeat) {
@@ -43,24 +63,31 @@ double ns_per_grain_step(const EffectSet& effects) {
   return best;
 }
 
+/// What is left when one effect is taken out with those that need it.
+EffectSet without(EffectSet effects, const std::string& effect) {
+  if (effect == "friction") effects.friction = effects.tangential_spring = false, effects.rolling = Rolling::none;
+  if (effect == "tangential spring") effects.tangential_spring = false;
+  if (effect == "rotation") effects.rotation = false, effects.rolling = Rolling::none;
+  if (effect == "rolling") effects.rolling = Rolling::none;
+  if (effect == "damping") effects.damping = false;
+  if (effect == "cohesion") effects.cohesion = false;
+  if (effect == "unequal" && !effects.clumps) effects.unequal = false;
+  if (effect == "clumps") effects.clumps = effects.unequal = false;
+  if (effect == "drag") effects.drag = false;
+  if (effect == "motion") effects.motion = false;
+  if (effect == "periodic") effects.periodic = false;
+  if (!effects.friction && !effects.clumps) effects.rotation = false;
+  return effects;
+}
+
 }  // namespace
 
-std::vector<EffectPrice> price_list(const EffectSet& effects) {
-  const double all = ns_per_grain_step(effects);
+std::vector<EffectPrice> price_list(const Scene& scene) {
+  const EffectSet effects = effects_of(scene);
+  const double all = ns_per_grain_step(scene, effects);
   std::vector<EffectPrice> prices{{"all effects present", all}};
-  const auto add = [&](const char* name, bool EffectSet::*effect) {
-    if (!(effects.*effect)) return;
-    EffectSet without = effects;
-    without.*effect = false;
-    if (!without.friction) without.rotation = false;
-    prices.push_back({name, all - ns_per_grain_step(without)});
-  };
-  add("friction", &EffectSet::friction);
-  add("rotation", &EffectSet::rotation);
-  add("damping", &EffectSet::damping);
-  add("unequal", &EffectSet::unequal);
-  add("drag", &EffectSet::drag);
-  add("motion", &EffectSet::motion);
+  for (const std::string& effect : effect_names(effects))
+    prices.push_back({effect, all - ns_per_grain_step(scene, without(effects, effect))});
   return prices;
 }
 

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "contact/effects.hpp"
+#include "scene/scene.hpp"
 
 namespace vibrosow {
 
@@ -12,9 +12,9 @@ struct EffectPrice {
   double ns_per_grain_step;  // of the whole, or what the effect adds to it
 };
 
-/// Times a small bed of its own on this machine, with the given effects and with each left out in turn. Takes a
-/// fraction of a second; the figures depend on the machine and the moment, so they belong on a terminal and in no
+/// Times a small bed of its own on this machine, with the scene's law, scheme and effects and with each effect left out
+/// in turn, together with those that need it. Takes a second; the figures depend on the machine and the moment, so they belong on a terminal and in no
 /// result.
-std::vector<EffectPrice> price_list(const EffectSet& effects);
+std::vector<EffectPrice> price_list(const Scene& scene);
 
 }  // namespace vibrosow

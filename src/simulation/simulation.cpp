@@ -194,7 +194,8 @@ void Simulation::end_after_pause() {
   for (const Hole& hole : scene_.tray.holes) since = std::max(since, hole.open_at);
   for (const OutflowEvent& event : run_.events) since = std::max(since, event.time);
   if (s_.time - since < *scene_.run.end_after_pause) return;
-  run_.end_reason = fmt::format("no grain left for {:g} s; {} are still inside", *scene_.run.end_after_pause, grains_.size());
+  run_.end_reason =
+      fmt::format("no grain left for {:g} s; {} are still inside", *scene_.run.end_after_pause, grains_.size());
 }
 
 Run Simulation::result() const {
