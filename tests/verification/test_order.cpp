@@ -32,17 +32,28 @@ struct Convergence {
   double order(std::size_t k) const { return std::log2(error[k - 1] / error[k]); }
 };
 
-/// All orders of one scheme on one problem, in one report.
-VerificationReport order_report(const std::string& name, const std::string& about) {
-  return {name, about, {"problem", "law", "integrator", "steps", "relative_error", "order"}};
-}
+/// All orders go into one report, when the whole program runs.
+class Order : public testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    report_.emplace(
+        "order",
+        "order of convergence. smooth: a grain that stays on a vibrating floor, with drag and damping; tangential "
+        "spring: a disc rolls down a slope on a spring that never slips (both against an independent solution); one "
+        "impact: speed after an elastic impact on a wall, root mean square over 64 moments of touch, steps per contact",
+        std::vector<std::string>{"problem", "law", "integrator", "steps", "relative_error", "order"});
+  }
+  static void TearDownTestSuite() { report_.reset(); }
 
-void tell(VerificationReport& report, const std::string& problem, Law law, Integrator integrator,
-          const Convergence& runs) {
-  for (std::size_t k = 0; k < runs.steps.size(); ++k)
-    report.add(problem, name_of(law), name_of(integrator), static_cast<int>(runs.steps[k]), runs.error[k],
-               k == 0 ? std::nan("") : runs.order(k));
-}
+  static void tell(const std::string& problem, Law law, Integrator integrator, const Convergence& runs) {
+    for (std::size_t k = 0; k < runs.steps.size(); ++k)
+      report_->add(problem, name_of(law), name_of(integrator), static_cast<int>(runs.steps[k]), runs.error[k],
+                   k == 0 ? std::nan("") : runs.order(k));
+  }
+
+ private:
+  static inline std::optional<VerificationReport> report_;
+};
 
 /// y' = f(t, y) by the classical fourth-order scheme with extended precision and many steps: the solution that runs are
 /// compared with, made from the equations of motion and from nothing of the program.
@@ -137,16 +148,12 @@ struct SmoothProblem {
   }
 };
 
-TEST(Order, OnASmoothProblemWithDragDampingAndAMovingWall) {
-  VerificationReport report =
-      order_report("order",
-                   "order of convergence; smooth: a grain that stays on a vibrating floor, drag and damping, "
-                   "against an independent solution");
+TEST_F(Order, OnASmoothProblemWithDragDampingAndAMovingWall) {
   for (const Law law : {Law::elastic_shell, Law::hertz})
     for (const Integrator integrator : every_integrator) {
       const bool gear = integrator == Integrator::gear5;
       const Convergence runs = SmoothProblem{law}.run(integrator, gear ? 64 : 256, gear ? 1024 : 4096);
-      tell(report, "smooth", law, integrator, runs);
+      tell("smooth", law, integrator, runs);
       for (std::size_t k = 1; k < runs.steps.size(); ++k) {
         SCOPED_TRACE(testing::Message() << name_of(law) << " " << name_of(integrator) << " " << runs.steps[k]
                                         << " steps, error " << runs.error[k]);
@@ -209,11 +216,7 @@ struct StuckProblem {
 
 // The memory moves on with the mean sliding speed of a step (Verlet) or its midpoint's (RK2): second order. Gear's
 // memory does the same, which makes it second order here too.
-TEST(Order, OfATangentialSpringThatHolds) {
-  VerificationReport report =
-      order_report("order_tangential_spring",
-                   "order of convergence of a disc that rolls down a slope on a tangential spring "
-                   "that never slips, against an independent solution");
+TEST_F(Order, OfATangentialSpringThatHolds) {
   for (const Law law : {Law::elastic_shell, Law::hertz}) {
     const StuckProblem problem{law};
     const std::array<double, 5> end = problem.exact();
@@ -230,7 +233,7 @@ TEST(Order, OfATangentialSpringThatHolds) {
         runs.steps.push_back(steps);
         runs.error.push_back(sum / speed);
       }
-      tell(report, "tangential spring", law, integrator, runs);
+      tell("tangential spring", law, integrator, runs);
       for (std::size_t k = 1; k < runs.steps.size(); ++k) {
         SCOPED_TRACE(testing::Message() << name_of(law) << " " << name_of(integrator) << " " << runs.steps[k]);
         EXPECT_GE(runs.order(k), 1.9);
@@ -261,17 +264,13 @@ double impact_error(Law law, Integrator integrator, int steps_per_contact) {
 }
 
 // The force has a kink at touch, where no scheme keeps its order: stated, and held to what a kink leaves.
-TEST(Order, AcrossOneImpact) {
-  VerificationReport report =
-      order_report("order_impact",
-                   "order of convergence across one elastic impact on a wall: error of the speed afterwards, root mean "
-                   "square over 64 moments of touch; steps are those of one contact");
+TEST_F(Order, AcrossOneImpact) {
   for (const Law law : {Law::elastic_shell, Law::hertz})
     for (const Integrator integrator : every_integrator) {
       Convergence runs;
       for (const int steps : {25, 50, 100, 200, 400, 800})
         runs.steps.push_back(steps), runs.error.push_back(impact_error(law, integrator, steps));
-      tell(report, "one impact", law, integrator, runs);
+      tell("one impact", law, integrator, runs);
       const double mean_order = std::log2(runs.error.front() / runs.error.back()) / 5;
       EXPECT_GE(mean_order, 1.9) << name_of(law) << " " << name_of(integrator);
     }

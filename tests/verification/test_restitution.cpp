@@ -115,7 +115,7 @@ TEST(Restitution, BounceHeights) {
     bench.scene.contact.wall.restitution = 0.9;
     const double start = 0.05;
     bench.place(0.5, Bench::radius + start);
-    Simulation& run = bench.start(contact_time(bench, -1, std::sqrt(2 * standard_gravity * start)) / 100);
+    Simulation& run = bench.start(contact_time(bench, -1, std::sqrt(2 * standard_gravity * start)) / 200);
     double expected = start;
     for (int bounce = 1; bounce <= 5; ++bounce) {
       while (run.grains().vy[0] <= 0) ASSERT_TRUE(run.step());
