@@ -13,16 +13,17 @@ inline Real sliding_friction(Real limit, Real speed, Real inverse_slip_speed) {
 }
 
 /// A spring and dashpot that hold up to `limit` (Cundall & Strack 1979): the force on a total displacement, which is
-/// shortened to what the limit can hold where the contact slips. Also the rolling torque of model C (Ai et al. 2011),
-/// on the angle rolled. A stiffness of 0 gives no displacement.
+/// shortened to what the limit can hold where the contact slips. The dashpot never lengthens it: then the spring would
+/// give back more than was put in. Also the rolling torque of model C (Ai et al. 2011), on the angle rolled. A
+/// stiffness of 0 gives no displacement.
 template <class Real>
 inline Real spring_friction(Real stiffness, Real dashpot, Real limit, Real speed, Real& displacement) {
   using std::max, std::min;
-  const Real wanted = stiffness * displacement + dashpot * speed;
-  const Real force = min(limit, max(-limit, wanted));
-  const Real held = stiffness > Real(0) ? force / stiffness : Real(0);
-  displacement = force == wanted ? displacement : held;
-  return force;
+  const auto within = [limit](Real force) { return min(limit, max(-limit, force)); };
+  const Real elastic = stiffness * displacement, held = within(elastic);
+  if (held != elastic) displacement = held / stiffness;
+  if (!(stiffness > Real(0))) displacement = Real(0);
+  return within(held + dashpot * speed);
 }
 
 }  // namespace vibrosow

@@ -80,49 +80,6 @@ TEST(Friction, ArmsToTheContactPointKeepAngularMomentum) {
   }
 }
 
-// Slip to roll on a level floor: a disc ends at 2/3 u_0 after u_0 / (3 mu g), a ball at 5/7 u_0 after 2 u_0 / (7 mu g).
-TEST(Friction, SlipTurnsToRolling) {
-  for (const Shape shape : {Shape::disc, Shape::ball}) {
-    Bench bench;
-    bench.gravity = {0, -standard_gravity};
-    bench.scene.lots[0].shape = shape;
-    bench.scene.contact.wall.friction = 0.3;
-    bench.scene.contact.slip_speed = 1e-4;
-    const double start = 0.2, eps = bench.scene.contact.shell_compression * Bench::radius;
-    bench.place(0.1, Bench::radius - eps, start);
-    Simulation& run = bench.start(2e-6);
-    const double part = shape == Shape::disc ? 1.0 / 3 : 2.0 / 7;
-    const double rolls_at = part * start / (0.3 * standard_gravity);
-    while (run.time() < 0.5 * rolls_at) run.step();
-    EXPECT_NEAR(run.grains().vx[0], start - 0.3 * standard_gravity * run.time(), 0.005 * start);
-    while (run.time() < 1.5 * rolls_at) run.step();
-    EXPECT_NEAR(run.grains().vx[0], (1 - part) * start, 0.005 * start);
-    EXPECT_NEAR(-run.grains().omega[0] * Bench::radius, run.grains().vx[0], 0.005 * start);
-  }
-}
-
-// On a slope a disc slips only for tan(theta) > 3 nu; without rotation it slips for tan(theta) > nu.
-TEST(Friction, SlopeHoldsOrSlips) {
-  const auto acceleration = [](double tangent, bool rotation) {
-    Bench bench;
-    const double theta = std::atan(tangent);
-    bench.gravity = standard_gravity * Eigen::Vector2d(std::sin(theta), -std::cos(theta));
-    bench.scene.contact.wall.friction = 0.2;
-    bench.scene.contact.slip_speed = 1e-4;
-    bench.scene.contact.rotation = rotation;
-    const double eps = bench.scene.contact.shell_compression * Bench::radius;
-    bench.place(0.1, Bench::radius - eps * std::cos(theta));
-    Simulation& run = bench.start(2e-6);
-    run.steps(50000);
-    return run.grains().vx[0] / run.time() / (standard_gravity * std::sin(theta));
-  };
-  const auto slips = [](double tangent) { return 1 - 0.2 / tangent; };  // a / (g sin theta) in gross sliding
-  EXPECT_NEAR(acceleration(0.5, true), 2.0 / 3, 0.005 * 2 / 3);         // rolls: 0.5 < 3 * 0.2
-  EXPECT_NEAR(acceleration(0.9, true), slips(0.9), 0.005 * slips(0.9));
-  EXPECT_NEAR(acceleration(0.15, false), 0, 0.01);  // held, but for creep below the slip speed
-  EXPECT_NEAR(acceleration(0.5, false), slips(0.5), 0.005 * slips(0.5));
-}
-
 // Gross sliding through a whole oblique impact: spin and tangential speed change by (1 + e) nu v_n m / J r and (1 + e)
 // nu v_n.
 TEST(Friction, ObliqueImpactInGrossSliding) {

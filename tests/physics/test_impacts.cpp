@@ -125,24 +125,5 @@ TEST(Restitution, TextbookDampingGivesTooLittleDissipation) {
   EXPECT_NEAR(linear_restitution(textbook(0.7)), 0.718, 5e-4);
 }
 
-// A falling grain bounces to h_n = r + (h_0 - r) e^(2 n), the first five bounces; a stiff shell and a low fall keep the
-// weight small against the contact force.
-TEST(Restitution, BounceHeights) {
-  Bench bench;
-  bench.gravity = {0, -standard_gravity};
-  bench.scene.contact.shell_compression = 1e-7;
-  bench.scene.contact.wall.restitution = 0.9;
-  const double start = 0.05;
-  bench.place(0.5, Bench::radius + start);
-  Simulation& run = bench.start(bench.contact_time() / 200);
-  double expected = start;
-  for (int bounce = 1; bounce <= 5; ++bounce) {
-    while (run.grains().vy[0] <= 0) ASSERT_TRUE(run.step());
-    while (run.grains().vy[0] > 0) ASSERT_TRUE(run.step());
-    expected *= 0.9 * 0.9;
-    EXPECT_NEAR(run.grains().y[0] - Bench::radius, expected, 0.005 * expected) << "bounce " << bounce;
-  }
-}
-
 }  // namespace
 }  // namespace vibrosow

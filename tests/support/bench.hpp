@@ -1,8 +1,11 @@
 #pragma once
 
+#include <cmath>
 #include <optional>
+#include <stdexcept>
 #include <utility>
 
+#include "scene/clump_shape.hpp"
 #include "simulation/simulation.hpp"
 
 namespace vibrosow {
@@ -17,6 +20,7 @@ class Bench {
  public:
   static constexpr double radius = 4e-3;  // m
   static constexpr double mass = 0.6e-3;  // kg
+  static constexpr double pi = 3.14159265358979323846;
 
   Scene scene;
   Eigen::Vector2d gravity{0, 0};
@@ -31,18 +35,39 @@ class Bench {
     scene.run.duration = 1;
   }
 
-  /// A grain at a place of the lab (m) with a velocity (m/s) and spin (rad/s). The box spans 0..1 m in x and y.
-  Bench& place(double x, double y, double vx = 0, double vy = 0, double omega = 0, int lot = 0) {
-    placed_.push_back({x, y, vx, vy, omega, lot});
+  /// A grain at a place of the lab (m) with a velocity (m/s) and spin (rad/s); a clump turned by `angle` (rad). The box
+  /// spans 0..1 m in x and y.
+  Bench& place(double x, double y, double vx = 0, double vy = 0, double omega = 0, int lot = 0, double angle = 0) {
+    placed_.push_back({x, y, vx, vy, omega, angle, lot});
+    return *this;
+  }
+
+  /// Lot 0 becomes a ball of Hertz' law (Pa, kg/m3, m); walls are rigid.
+  Bench& hertz_ball(double youngs_modulus, double poisson_ratio, double density, double ball_radius) {
+    const double ball_mass = 4.0 / 3 * pi * density * ball_radius * ball_radius * ball_radius;
+    scene.lots[0] = {"ball", 2 * ball_radius, ball_mass, Shape::ball, 1.0};
+    scene.contact.law = Law::hertz;
+    scene.contact.youngs_modulus = youngs_modulus;
+    scene.contact.poisson_ratio = poisson_ratio;
+    return *this;
+  }
+
+  /// Another lot, a rigid set of discs (m) about their common centre of mass.
+  Bench& add_clump(std::vector<ClumpDisc> discs, double clump_mass) {
+    discs = about_centre_of_mass(std::move(discs));
+    SeedLot lot{"clump", 2 * holding_radius(discs), clump_mass, Shape::clump, 1.0};
+    lot.gyration2 = plate_of(discs).gyration2;
+    lot.discs = std::move(discs);
+    scene.lots.push_back(std::move(lot));
     return *this;
   }
 
   /// Starts with the effects the scene calls for, or with more.
   Simulation& start(double dt, std::optional<EffectSet> effects = std::nullopt, NeighbourMargins margins = {}) {
     const EffectSet set = effects.value_or(effects_of(scene));
-    Grains grains(grain_kinds(scene, scene.contact.rotation), set.unequal, set.rotation);
+    Grains grains(grain_kinds(scene, scene.contact.rotation), set.unequal, set.rotation, set.clumps);
     for (const Placed& p : placed_) {
-      grains.add(p.x, p.y, p.vx, p.vy, p.lot);
+      grains.add(p.x, p.y, p.vx, p.vy, p.lot, grains.kinds[static_cast<std::size_t>(p.lot)], p.angle);
       if (set.rotation) grains.omega.back() = p.omega;
     }
     simulation_ = std::make_unique<Simulation>(
@@ -53,16 +78,86 @@ class Bench {
 
   /// How long an elastic contact lasts, of two grains or of one on a wall: pi sqrt(eps / g).
   double contact_time() const {  // s
-    return 3.14159265358979323846 * std::sqrt(scene.contact.shell_compression * radius / standard_gravity);
+    return pi * std::sqrt(scene.contact.shell_compression * radius / standard_gravity);
   }
 
  private:
   struct Placed {
-    double x, y, vx, vy, omega;
+    double x, y, vx, vy, omega, angle;
     int lot;
   };
   std::vector<Placed> placed_;
   std::unique_ptr<Simulation> simulation_;
 };
+
+/// Hertz' law for an impact of reduced mass m* (kg) and stiffness k (N/m^(3/2)) at `speed` (m/s): the largest overlap
+/// (5 m* V^2 / (4 k))^(2/5), the force there, and the duration 2 sqrt(pi) Gamma(7/5) / Gamma(9/10) of it over V.
+struct HertzImpact {
+  double overlap, force, duration;  // m, N, s
+
+  HertzImpact(double reduced_mass, double stiffness, double speed)
+      : overlap(std::pow(1.25 * reduced_mass * speed * speed / stiffness, 0.4)),
+        force(stiffness * std::pow(overlap, 1.5)),
+        duration(2 * std::sqrt(Bench::pi) * std::tgamma(1.4) / std::tgamma(0.9) * overlap / speed) {}
+};
+
+/// What an impact left behind and how it went. The force counts as ended where it fell to zero, by linear
+/// interpolation between steps.
+struct ImpactResult {
+  double vx, vy, omega;   // of the grain that hit, afterwards
+  double other_vx;        // of the grain that was hit
+  double peak_force;      // N, normal to the touching surfaces
+  double peak_overlap;    // m
+  double duration;        // s, from touch to parting
+  double force_duration;  // s, from touch to the force's end
+};
+
+/// Runs from before the touch to `after` steps past the parting. `overlap(run)` may be negative; `force(run)` is the
+/// repulsion on grain 0.
+template <class Overlap, class Force>
+ImpactResult run_impact(Simulation& run, double dt, Overlap overlap, Force force, std::int64_t most_steps = 2000000) {
+  ImpactResult result{};
+  double touched = -1, parted = -1, ended = -1, overlap_before = overlap(run), force_before = 0;
+  const auto crossing = [&](double before, double now) { return run.time() - dt * now / (now - before); };
+  for (std::int64_t step = 0; parted < 0; ++step) {
+    if (step > most_steps || !run.step()) throw std::runtime_error("the impact did not end");
+    const double d = overlap(run), f = force(run);
+    if (overlap_before <= 0 && d > 0) touched = crossing(overlap_before, d);
+    if (overlap_before > 0 && d <= 0) parted = crossing(overlap_before, d);
+    if (ended < 0 && force_before > 0 && f <= 0) ended = run.time();
+    result.peak_force = std::max(result.peak_force, f);
+    result.peak_overlap = std::max(result.peak_overlap, d);
+    overlap_before = d, force_before = f;
+  }
+  const Grains& g = run.grains();
+  result.vx = g.vx[0], result.vy = g.vy[0];
+  result.omega = g.rotation ? g.omega[0] : 0;
+  result.other_vx = g.size() > 1 ? g.vx[1] : 0;
+  result.duration = parted - touched;
+  result.force_duration = ended - touched;
+  return result;
+}
+
+/// A grain of lot 0 comes down on the floor with these velocities (m/s) and spin (rad/s). It starts `phase` steps
+/// above.
+inline ImpactResult wall_impact(Bench& bench, double down, double along, double dt, double spin = 0,
+                                double phase = 2.37) {
+  const double r = 0.5 * bench.scene.lots[0].diameter;
+  bench.place(0.5, r + phase * down * dt, along, -down, spin);
+  Simulation& run = bench.start(dt);
+  return run_impact(
+      run, dt, [r](const Simulation& s) { return r - s.grains().y[0]; },
+      [](const Simulation& s) { return s.field().forces().fy[0]; });
+}
+
+/// Grain 0 (lot 0) flies at `speed` (m/s) along x into grain 1 (of `lot`), which is at rest.
+inline ImpactResult head_on_impact(Bench& bench, double speed, int lot, double dt, double phase = 2.37) {
+  const double reach = 0.5 * (bench.scene.lots[0].diameter + bench.scene.lots[static_cast<std::size_t>(lot)].diameter);
+  bench.place(0.5, 0.5, speed).place(0.5 + reach + phase * speed * dt, 0.5, 0, 0, 0, lot);
+  Simulation& run = bench.start(dt);
+  return run_impact(
+      run, dt, [reach](const Simulation& s) { return reach - (s.grains().x[1] - s.grains().x[0]); },
+      [](const Simulation& s) { return -s.field().forces().fx[0]; });
+}
 
 }  // namespace vibrosow

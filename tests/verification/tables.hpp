@@ -1,0 +1,63 @@
+#pragma once
+
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <vector>
+
+#include "outflow/csv_lines.hpp"
+#include "report/csv.hpp"
+
+namespace vibrosow {
+
+/// A table of tests/data, by column name.
+class DataTable {
+ public:
+  explicit DataTable(const std::string& file)
+      : csv_(read_csv_lines(std::filesystem::path(VIBROSOW_SOURCE_DIR) / "tests" / "data" / file)) {}
+
+  std::size_t rows() const { return csv_.rows.size(); }
+  const std::string& text(std::size_t row, const std::string& column) const {
+    const auto& names = csv_.header.fields;
+    const auto found = std::find(names.begin(), names.end(), column);
+    if (found == names.end()) throw std::out_of_range(column);
+    return csv_.rows.at(row).fields[static_cast<std::size_t>(found - names.begin())];
+  }
+  double number(std::size_t row, const std::string& column) const { return std::stod(text(row, column)); }
+
+ private:
+  CsvLines csv_;
+};
+
+/// A report for plotting: written as NAME.csv into the directory that VIBROSOW_REPORTS names, or not at all.
+class VerificationReport {
+ public:
+  VerificationReport(std::string name, std::string about, const std::vector<std::string>& columns)
+      : name_(std::move(name)), about_(std::move(about)), table_(columns) {}
+  ~VerificationReport() {
+    const char* directory = std::getenv("VIBROSOW_REPORTS");
+    if (!directory) return;
+    std::filesystem::create_directories(directory);
+    std::ofstream(std::filesystem::path(directory) / (name_ + ".csv")) << "# " << about_ << "\n" << table_.text();
+  }
+  VerificationReport(const VerificationReport&) = delete;
+  VerificationReport& operator=(const VerificationReport&) = delete;
+
+  template <class... Fields>
+  void add(const Fields&... fields) {
+    table_.add_row({field(fields)...});
+  }
+
+ private:
+  static std::string field(const std::string& text) { return text; }
+  static std::string field(const char* text) { return text; }
+  static std::string field(double value) { return csv_number(value); }
+  static std::string field(int value) { return csv_number(std::int64_t{value}); }
+
+  std::string name_, about_;
+  CsvTable table_;
+};
+
+}  // namespace vibrosow
