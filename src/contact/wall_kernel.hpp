@@ -35,13 +35,17 @@ inline NearestPoint nearest_point(const PlacedWall& wall, double x, double y) {
   if (wall.radius > 0) return nearest_on_arc(wall, x, y);
   const double ex = wall.bx - wall.ax, ey = wall.by - wall.ay;
   const double rx = x - wall.ax, ry = y - wall.ay;
-  const double along = (rx * ex + ry * ey) / (ex * ex + ey * ey);
+  const double length2 = ex * ex + ey * ey;
+  const double along = (rx * ex + ry * ey) / length2;
   const double side = ex * ry - ey * rx;
-  const int vertex = along <= 0 ? wall.vertex_a : along >= 1 ? wall.vertex_b : -1;
-  const double px = along <= 0 ? wall.ax : along >= 1 ? wall.bx : wall.ax + along * ex;
-  const double py = along <= 0 ? wall.ay : along >= 1 ? wall.by : wall.ay + along * ey;
-  const double dx = px - x, dy = py - y;
-  return {dx, dy, dx * dx + dy * dy, vertex, side};
+  // On a face straight along the normal, which a level floor then has without any rounding.
+  if (along > 0 && along < 1) {
+    const double dx = side * ey / length2, dy = -side * ex / length2;
+    return {dx, dy, dx * dx + dy * dy, -1, side};
+  }
+  const bool at_a = along <= 0;
+  const double dx = (at_a ? wall.ax : wall.bx) - x, dy = (at_a ? wall.ay : wall.by) - y;
+  return {dx, dy, dx * dx + dy * dy, at_a ? wall.vertex_a : wall.vertex_b, side};
 }
 
 /// Calls `touch(candidate, nearest)` for each contact of grain `i`, which owns candidates [from, to): faces first, then
@@ -113,6 +117,7 @@ template <class Law, class Effects>
 void wall_forces(const Grains& grains, const Motion& at, std::vector<WallCandidate>& candidates,
                  const std::vector<PlacedWall>& walls, const ContactParameters& parameters,
                  const HistoryAdvance& advance, ContactHistory& history, Forces& forces, ContactCensus& census) {
+  double sum_x = 0, sum_y = 0, sum_torque = 0;  // of one grain: two walls add up alike in either order
   const auto contact = [&](std::size_t i, const GrainKind& kind, const PairConstants& pair,
                            const SurfaceParameters& surface, std::size_t c, const NearestPoint& nearest) {
     const WallCandidate& candidate = candidates[c];
@@ -138,9 +143,8 @@ void wall_forces(const Grains& grains, const Motion& at, std::vector<WallCandida
     const ContactForce force = contact_force<Law, Effects>(touch, pair, surface, advance, history, c);
     double px = force.normal * nx, py = force.normal * ny;
     if constexpr (Effects::friction) px -= force.tangential * ny, py += force.tangential * nx;
-    forces.fx[i] -= px, forces.fy[i] -= py;
-    if constexpr (Effects::rotation) forces.torque[i] -= arm * force.tangential;
-    if constexpr (Effects::rolls) forces.torque[i] += force.rolling;
+    sum_x -= px, sum_y -= py;
+    if constexpr (Effects::rotation) sum_torque += force.rolling - arm * force.tangential;
     census.wall_power -= px * wall.vx + py * wall.vy;
   };
   for_each_grain_near_walls(candidates, [&](std::size_t i, std::size_t from, std::size_t to) {
@@ -148,12 +152,15 @@ void wall_forces(const Grains& grains, const Motion& at, std::vector<WallCandida
     const GrainKind kind = grains.kind(i);
     const SurfaceParameters& surface = parameters.wall(grains.lot[i]);
     const PairConstants pair = wall_constants<Law, Effects>(kind, parameters, surface);
+    sum_x = sum_y = sum_torque = 0;
     std::uint64_t touched = 0;  // bit by candidate; a grain meets far fewer than 64 walls
     for_each_wall_contact(candidates, from, to, walls, at.x[i], at.y[i], kind.radius,
                           [&](std::size_t c, const NearestPoint& nearest) {
                             touched |= std::uint64_t{1} << ((c - from) & 63);
                             contact(i, kind, pair, surface, c, nearest);
                           });
+    forces.fx[i] += sum_x, forces.fy[i] += sum_y;
+    if constexpr (Effects::rotation) forces.torque[i] += sum_torque;
     for (std::size_t c = from; c < to; ++c)
       if (!(touched >> ((c - from) & 63) & 1)) forget_contact<Effects>(advance, history, c);
   });
