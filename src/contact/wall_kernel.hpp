@@ -127,25 +127,30 @@ void wall_forces(const Grains& grains, const Motion& at, std::vector<WallCandida
     if (distance > 0) {
       nx = nearest.dx / distance, ny = nearest.dy / distance;
     } else {  // the centre lies on the wall: pushed back to the side it came from
-      const double ex = wall.bx - wall.ax, ey = wall.by - wall.ay;
+      // Along the wall, with the side > 0 to the left.
+      const bool arc = wall.radius > 0;
+      const double ex = arc ? at.y[i] - wall.centre_y : wall.bx - wall.ax;
+      const double ey = arc ? wall.centre_x - at.x[i] : wall.by - wall.ay;
       const double length = std::copysign(std::sqrt(ex * ex + ey * ey), candidate.side);
       nx = ey / length, ny = -ex / length;
     }
     Touch touch{kind.radius - distance, 0, 0, 0};
     census.max_compression = std::max(census.max_compression, touch.overlap * pair.compression_per_overlap);
     ++census.contacts;
-    const double ux = at.vx[i] - wall.vx, uy = at.vy[i] - wall.vy;
+    const double wall_vx = wall.vx - wall.spin * (at.y[i] + nearest.dy);
+    const double wall_vy = wall.vy + wall.spin * (at.x[i] + nearest.dx);
+    const double ux = at.vx[i] - wall_vx, uy = at.vy[i] - wall_vy;
     touch.approach = ux * nx + uy * ny;
     [[maybe_unused]] const double arm = kind.radius - parameters.arm_shortening * touch.overlap * pair.share_i;
     touch.sliding = uy * nx - ux * ny;
     if constexpr (Effects::rotation) touch.sliding += arm * at.omega[i];
-    if constexpr (Effects::rolls) touch.turning = at.omega[i];
+    if constexpr (Effects::rolls) touch.turning = at.omega[i] - wall.spin;
     const ContactForce force = contact_force<Law, Effects>(touch, pair, surface, advance, history, c);
     double px = force.normal * nx, py = force.normal * ny;
     if constexpr (Effects::friction) px -= force.tangential * ny, py += force.tangential * nx;
     sum_x -= px, sum_y -= py;
     if constexpr (Effects::rotation) sum_torque += force.rolling - arm * force.tangential;
-    census.wall_power -= px * wall.vx + py * wall.vy;
+    census.wall_power -= px * wall_vx + py * wall_vy;
   };
   for_each_grain_near_walls(candidates, [&](std::size_t i, std::size_t from, std::size_t to) {
     watch_crossings(candidates, from, to, walls, at, census);

@@ -16,36 +16,48 @@ struct Inside {
   int grains = 0;
   std::vector<Eigen::Vector2d> at;
   std::vector<double> radius;
+  std::vector<char> lies;  // in the heap; otherwise it is falling
 
   /// In a periodic vessel with its images to either side.
-  void add(const Vessel& vessel, const Eigen::Vector2d& own, double own_radius) {
+  void add(const Vessel& vessel, const Eigen::Vector2d& own, double own_radius, bool in_heap) {
     const bool periodic = vessel.sides == Sides::periodic;
     for (int copy = periodic ? -1 : 0; copy <= (periodic ? 1 : 0); ++copy) {
       at.emplace_back(own.x() + copy * vessel.length, own.y());
       radius.push_back(own_radius);
+      lies.push_back(in_heap ? 1 : 0);
     }
   }
 };
 
-Inside grains_inside(const Vessel& vessel, const Pose& pose, const Grains& grains) {
+Inside grains_inside(const Vessel& vessel, const Pose& pose, const Grains& grains, const std::vector<char>& touching) {
   Inside inside;
   for (std::size_t i = 0; i < grains.size(); ++i) {
     if (!is_inside(vessel, pose, grains.x[i], grains.y[i])) continue;
     ++inside.grains;
     const Eigen::Vector2d own = in_vessel_frame(vessel, pose, {grains.x[i], grains.y[i]});
-    inside.add(vessel, own, grains.kind(i).radius);
+    inside.add(vessel, own, grains.kind(i).radius, touching[i] != 0);
   }
   return inside;
 }
 
-/// Lowest height at which a grain of `radius` at `x` clears all grains below it.
-double surface(const Inside& inside, double x, double radius) {
+/// Lowest height above the heap at which a grain of `radius` at `x` is clear of all others: between those that are still
+/// falling if there is room, so that a heap which sinks fast can be fed fast.
+double free_height(const Inside& inside, double x, double radius) {
   constexpr double clearance = 1.01;
   double height = radius;
+  std::vector<std::pair<double, double>> falling;  // m, heights taken by grains in the air
   for (std::size_t k = 0; k < inside.at.size(); ++k) {
     const double reach = clearance * (radius + inside.radius[k]), dx = x - inside.at[k].x();
-    if (std::abs(dx) < reach) height = std::max(height, inside.at[k].y() + std::sqrt(reach * reach - dx * dx));
+    if (std::abs(dx) >= reach) continue;
+    const double y = inside.at[k].y(), half = std::sqrt(reach * reach - dx * dx);
+    if (inside.lies[k])
+      height = std::max(height, y + half);
+    else
+      falling.emplace_back(y - half, y + half);
   }
+  std::sort(falling.begin(), falling.end());
+  for (const auto& [low, high] : falling)
+    if (low < height) height = std::max(height, high);
   return height;
 }
 
@@ -101,14 +113,14 @@ int Feeder::draw_lot(Random& random) const {
   return static_cast<int>(lots_.size()) - 1;
 }
 
-int Feeder::top_up(Grains& grains, const Walls& walls, double time) {
+int Feeder::top_up(Grains& grains, const std::vector<char>& touching, const Walls& walls, double time) {
   int added = 0;
   for (std::size_t v = 0; v < walls.vessels().size(); ++v) {
     const Vessel& vessel = walls.vessels()[v];
     if (!is_kept(vessel)) continue;
     const Pose pose = walls.poses()[v];
     const PoseRate rate = walls.paths()[v].rate(time);
-    Inside inside = grains_inside(vessel, pose, grains);
+    Inside inside = grains_inside(vessel, pose, grains, touching);
     const int missing = vessel.fill->count - inside.grains;
     for (int k = 0; k < missing; ++k) {
       const int lot = draw_lot(random_);
@@ -116,9 +128,9 @@ int Feeder::top_up(Grains& grains, const Walls& walls, double time) {
       const double size = draw_size(seeds, random_), angle = draw_angle(seeds, random_);
       const double radius = 0.5 * size * seeds.diameter;
       const double x = random_.uniform(radius, vessel.length - radius);
-      const double y = surface(inside, x, radius);
+      const double y = free_height(inside, x, radius);
       if (y + radius > vessel.height) continue;
-      inside.add(vessel, {x, y}, radius);
+      inside.add(vessel, {x, y}, radius, false);
       const Eigen::Vector2d lab = in_lab_frame(vessel, pose, {x, y});
       const Eigen::Vector2d velocity = material_velocity(vessel, pose, rate, lab);
       const GrainKind kind = sized_kind(seeds, law_, grains.kinds[static_cast<std::size_t>(lot)], size);

@@ -23,7 +23,7 @@ class Feeder {
   bool rains() const { return rains_; }
 
   /// Adds what is missing at `time` (s); returns how many grains were added at the end of `grains`.
-  int top_up(Grains& grains, const Walls& walls, double time);
+  int top_up(Grains& grains, const std::vector<char>& touching, const Walls& walls, double time);
 
   /// Adds what has rained up to `time` (s); returns how many grains were added at the end of `grains`.
   int rain(Grains& grains, const Walls& walls, double time);

@@ -165,7 +165,7 @@ void Simulation::open_gates() {
 
 void Simulation::feed(bool top_up, bool rain) {
   int added = 0;
-  if (top_up) added += feeder_.top_up(grains_, field_.walls(), s_.time);
+  if (top_up) added += feeder_.top_up(grains_, field_.touching(grains_), field_.walls(), s_.time);
   if (rain) added += feeder_.rain(grains_, field_.walls(), s_.time);
   if (added == 0) return;
   run_.balance.put_in += added;

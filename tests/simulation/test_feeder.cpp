@@ -71,7 +71,7 @@ TEST(Sizes, OfFedGrainsAreDrawn) {
   Walls walls(vessels_of(scene));
   walls.place(0);
   Feeder feeder(scene, 1);
-  EXPECT_EQ(feeder.top_up(grains, walls, 0), 300);
+  EXPECT_EQ(feeder.top_up(grains, std::vector<char>(grains.size(), 1), walls, 0), 300);
   expect_scattered(grains);
   EXPECT_TRUE(grains.angle.empty());
 }
@@ -82,11 +82,11 @@ TEST(Angles, OfFedClumpsAreDrawn) {
   Walls walls(vessels_of(scene));
   walls.place(0);
   Feeder feeder(scene, 1);
-  const int added = feeder.top_up(grains, walls, 0);
+  const int added = feeder.top_up(grains, std::vector<char>(grains.size(), 1), walls, 0);
   EXPECT_EQ(added, 300);
   ASSERT_EQ(grains.angle.size(), 300u);
   EXPECT_EQ(std::set<double>(grains.angle.begin(), grains.angle.end()).size(), 300u);
-  EXPECT_EQ(feeder.top_up(grains, walls, 0), 0);
+  EXPECT_EQ(feeder.top_up(grains, std::vector<char>(grains.size(), 1), walls, 0), 0);
 }
 
 }  // namespace

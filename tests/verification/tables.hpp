@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "outflow/csv_lines.hpp"
+#include "scene/csv_lines.hpp"
 #include "report/csv.hpp"
 
 namespace vibrosow {

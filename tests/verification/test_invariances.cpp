@@ -103,7 +103,7 @@ class Invariance : public testing::Test {
 
 /// The scene as a mirror at x = 0 shows it, and its grains.
 Scene mirror(Scene scene) {
-  if (scene.tray.motion) scene.tray.motion->amplitude = -scene.tray.motion->amplitude;
+  if (scene.tray.motion) std::get<HarmonicMotion>(*scene.tray.motion).amplitude *= -1;
   for (SeedLot& lot : scene.lots)
     for (ClumpDisc& disc : lot.discs) disc.x = -disc.x;
   return scene;
