@@ -34,7 +34,7 @@ RC_GTEST_PROP(PackingFraction, CellsSumToTheDisc, ()) {
   put(s, x, y, 0, 0, 0, radius);
   double area = 0;
   const Grid grid = grid_over({&s}, cell);
-  for (const double fraction : packing_fraction(s, grid)) area += fraction * cell * cell;
+  for (const double fraction : packing_fraction(s, {}, grid)) area += fraction * cell * cell;
   RC_ASSERT(std::abs(area - pi * radius * radius) < 1e-13 * std::max(radius * radius, cell * cell));
 }
 
@@ -43,7 +43,7 @@ TEST(PackingFraction, HexagonalPackingFillsPiOverTwoRootThree) {
   const Snapshot s = hexagonal_bed(40, same, [](const V&) { return V(0, 0); });
   // A cell of whole periods in x, and as near as may be in y: the sum over rows of a period is taken by a wide cell.
   const Grid grid{.cell = 40e-3, .first_column = 1, .first_row = 1, .columns = 1, .rows = 1};
-  EXPECT_NEAR(packing_fraction(s, grid).front(), pi / (2 * std::sqrt(3)), 0.005);
+  EXPECT_NEAR(packing_fraction(s, {}, grid).front(), pi / (2 * std::sqrt(3)), 0.005);
 }
 
 TEST(PackingFraction, AGrainAtTheCornerOfFourCellsIsSharedEvenly) {
@@ -53,7 +53,7 @@ TEST(PackingFraction, AGrainAtTheCornerOfFourCellsIsSharedEvenly) {
   EXPECT_EQ(grid.columns, 2);
   EXPECT_EQ(grid.rows, 2);
   EXPECT_EQ(grid.centre(3), V(7.5e-3, 7.5e-3));
-  for (const double fraction : packing_fraction(s, grid)) EXPECT_NEAR(fraction, pi * 4e-6 / 4 / 25e-6, 1e-14);
+  for (const double fraction : packing_fraction(s, {}, grid)) EXPECT_NEAR(fraction, pi * 4e-6 / 4 / 25e-6, 1e-14);
 }
 
 TEST(PackingFraction, ChangeShowsWhereTheBedLoosens) {
@@ -62,7 +62,7 @@ TEST(PackingFraction, ChangeShowsWhereTheBedLoosens) {
   put(after, 12.5e-3, 2.5e-3);
   const Grid grid = grid_over({&before, &after}, 5e-3);
   const double share = pi * 4e-6 / 25e-6;
-  const std::vector<double> change = packing_change(before, after, grid);
+  const std::vector<double> change = packing_change(before, after, {}, grid);
   ASSERT_EQ(change.size(), 3u);
   EXPECT_NEAR(change[0], -share, 1e-14);
   EXPECT_EQ(change[1], 0);
