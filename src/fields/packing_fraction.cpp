@@ -93,7 +93,8 @@ std::vector<double> packing_fraction(const Snapshot& snapshot, const std::vector
 
 std::optional<double> bed_packing(const Snapshot& own, const std::vector<SeedLot>& lots, const Vessel& tray,
                                   double margin) {
-  const Eigen::Vector2d low(margin, margin), high(tray.length - margin, height_holding(own, tray, 0.75));
+  const Eigen::Vector2d low(0.25 * tray.length, margin);
+  const Eigen::Vector2d high(0.75 * tray.length, height_holding(own, tray, 0.75));
   if ((high - low).minCoeff() <= 0) return std::nullopt;
   double covered = 0;
   for (const auto& [x, y, r, share] : covering_discs(own, lots)) {

@@ -29,10 +29,10 @@ std::vector<CoveringDisc> covering_discs(const Snapshot& snapshot, const std::ve
 /// twice. The whole cell counts, also where a wall cuts it. Grains outside the grid are left out.
 std::vector<double> packing_fraction(const Snapshot& snapshot, const std::vector<SeedLot>& lots, const Grid& grid);
 
-/// Packing fraction of the bed's inside, as above, of one rectangle: off the end walls and the floor by `margin` (m),
-/// up to the height under which the centres of three quarters of the grains' area lie. What the surface and the walls
-/// do to the packing is left out; a crater that reaches so deep counts as empty. None for a bed that is too low for
-/// it. Of the grains inside the tray. `own`: in the tray's frame.
+/// Packing fraction of the bed's inside, as above, of one rectangle: the middle half of the tray's length, from
+/// `margin` (m) over the floor to the height under which the centres of three quarters of the grains' area lie. What
+/// the surface and the walls do to the packing is left out; a crater that reaches so deep counts as empty. None for a
+/// bed that is too low for it. Of the grains inside the tray. `own`: in the tray's frame.
 std::optional<double> bed_packing(const Snapshot& own, const std::vector<SeedLot>& lots, const Vessel& tray,
                                   double margin);
 

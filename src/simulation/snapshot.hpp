@@ -16,7 +16,7 @@ struct Snapshot {
   std::vector<double> x, y;              // m
   std::vector<double> vx, vy;            // m/s
   std::vector<double> omega;             // rad/s, anticlockwise; 0 without rotation
-  std::vector<double> angle;             // rad, how far a clump is turned from its lot's shape; empty without clumps
+  std::vector<double> angle{};           // rad, how far a clump is turned from its lot's shape; empty without clumps
   std::vector<int> lot;                  // index in Scene::lots
   std::vector<std::int64_t> number;      // ascending, the same grain's in every snapshot of a run
   std::vector<double> radius, mass;      // m, kg
