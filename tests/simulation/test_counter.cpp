@@ -124,7 +124,9 @@ TEST(Counter, AClumpIsCountedWhereTheEdgeSlipsIntoItsWaist) {
     for (const double y : {-1e-6, -0.021}) grains.y[0] = y, counter.watch(grains, walls, 1e-3, events);
     const bool in_reach = x > 0.435;
     ASSERT_EQ(events.size(), in_reach ? 1u : 0u);
-    if (in_reach) EXPECT_EQ(events[0].hole, 2);
+    if (in_reach) {
+      EXPECT_EQ(events[0].hole, 2);
+    }
     EXPECT_EQ(counter.lost(), in_reach ? 0 : 1);
   }
 }
