@@ -61,7 +61,10 @@ std::vector<JobResult> run_jobs(const std::vector<Job>& jobs, const Simulator& s
     simulation.interrupt = options.interrupt;
     simulation.progress = [&progress, index](double share) { progress.set_share(index, share); };
     try {
-      results[index].run = simulator(*jobs[index].scene, simulation);
+      Run run = simulator(*jobs[index].scene, simulation);
+      results[index].records = record_figures(*jobs[index].scene, run.snapshots);
+      run.snapshots = {};
+      results[index].run = std::move(run);
     } catch (const InputError& error) {
       results[index].refused = error.what();
     }

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "fields/record_figures.hpp"
 #include "scene/scene.hpp"
 #include "simulation/run.hpp"
 #include "simulation/simulate.hpp"
@@ -23,8 +24,9 @@ struct Job {
 
 /// What came of a job. Neither a run nor a refusal: interrupted before it began.
 struct JobResult {
-  std::optional<Run> run;
-  std::string refused;  // the simulator's InputError: a fill that does not fit, ...
+  std::optional<Run> run;              // without its snapshots, which are large
+  std::vector<RecordFigures> records;  // of each snapshot
+  std::string refused;                 // the simulator's InputError: a fill that does not fit, ...
 };
 
 struct ManyRunsProgress {

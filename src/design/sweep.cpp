@@ -25,6 +25,7 @@ std::vector<std::vector<Replicate>> run_scenes(const Study& study, const Simulat
     replicate.random_seed = jobs[job].random_seed;
     replicate.refused = std::move(results[job].refused);
     replicate.run = std::move(results[job].run);
+    replicate.records = std::move(results[job].records);
     if (replicate.run) replicate.outflow = measure_outflow(*jobs[job].scene, *replicate.run);
     runs[job / static_cast<std::size_t>(study.replicates)].push_back(std::move(replicate));
   }
@@ -37,7 +38,7 @@ std::optional<MeanWithInterval> mean_over(const std::vector<Replicate>& replicat
   std::vector<double> values;
   for (const Replicate& replicate : replicates) {
     if (!replicate.finished()) continue;
-    const std::optional<double> value = figure(replicate.outflow);
+    const std::optional<double> value = figure(replicate);
     if (value && std::isfinite(*value)) values.push_back(*value);
   }
   if (values.empty()) return std::nullopt;
@@ -47,8 +48,8 @@ std::optional<MeanWithInterval> mean_over(const std::vector<Replicate>& replicat
 template <typename Member>
 std::optional<MeanWithInterval> mean_of_row(const std::vector<Replicate>& replicates, const std::string& hole,
                                             const std::string& lot, Member member) {
-  return mean_over(replicates, [&](const Outflow& outflow) -> std::optional<double> {
-    const HoleOutflow* row = find_row(outflow, hole, lot);
+  return mean_over(replicates, [&](const Replicate& one) -> std::optional<double> {
+    const HoleOutflow* row = find_row(one.outflow, hole, lot);
     return row ? std::optional(row->*member) : std::nullopt;
   });
 }
@@ -58,9 +59,10 @@ Figures figures_of(const std::vector<Replicate>& replicates) {
   figures.mass_rate = mean_of_row(replicates, "all", "all", &HoleOutflow::mass_rate);
   figures.seeds_per_s = mean_of_row(replicates, "all", "all", &HoleOutflow::seeds_per_s);
   figures.longest_pause = mean_of_row(replicates, "all", "all", &HoleOutflow::longest_pause);
-  figures.evenness_cv = mean_over(replicates, [](const Outflow& one) { return one.evenness_cv; });
-  figures.instability_cv = mean_over(replicates, [](const Outflow& one) { return one.instability_cv; });
-  figures.spilled_share = mean_over(replicates, [](const Outflow& one) { return std::optional(one.spilled_share); });
+  figures.evenness_cv = mean_over(replicates, [](const Replicate& one) { return one.outflow.evenness_cv; });
+  figures.instability_cv = mean_over(replicates, [](const Replicate& one) { return one.outflow.instability_cv; });
+  figures.spilled_share =
+      mean_over(replicates, [](const Replicate& one) { return std::optional(one.outflow.spilled_share); });
   return figures;
 }
 
@@ -80,6 +82,23 @@ std::vector<HoleFigures> hole_figures(const std::vector<Replicate>& replicates) 
     holes.push_back(std::move(figures));
   }
   return holes;
+}
+
+BedFigures bed_figures(const Scene& scene, std::size_t record, const std::vector<Replicate>& replicates) {
+  using Value = std::optional<double>;
+  const auto reached = [record](const Replicate& one) { return record < one.records.size(); };
+  BedFigures figures{record, scene.record->times[record], {}, {}, {}};
+  figures.packing =
+      mean_over(replicates, [&](const Replicate& one) { return reached(one) ? one.records[record].packing : Value(); });
+  figures.packing_change = mean_over(replicates, [&](const Replicate& one) {
+    if (!reached(one) || !one.records[record].packing || !one.records[0].packing) return Value();
+    return Value(*one.records[record].packing - *one.records[0].packing);
+  });
+  for (std::size_t lot = 0; lot < scene.lots.size(); ++lot)
+    figures.segregation.push_back(mean_over(replicates, [&](const Replicate& one) {
+      return reached(one) ? one.records[record].segregation[lot] : Value();
+    }));
+  return figures;
 }
 
 /// What to know about the finished runs of a layout.
@@ -121,7 +140,7 @@ void set_status(LayoutResult& result, const std::vector<Replicate>& replicates) 
   }
 }
 
-LayoutResult result_of(const Layout& layout, const std::vector<std::vector<Replicate>>& runs) {
+LayoutResult result_of(const Study& study, const Layout& layout, const std::vector<std::vector<Replicate>>& runs) {
   LayoutResult result;
   if (!layout.scene) {
     result.status = LayoutStatus::invalid;
@@ -132,6 +151,9 @@ LayoutResult result_of(const Layout& layout, const std::vector<std::vector<Repli
   set_status(result, replicates);
   result.figures = figures_of(replicates);
   result.holes = hole_figures(replicates);
+  const Scene& scene = study.scenes[*layout.scene];
+  for (std::size_t record = 0; scene.record && record < scene.record->times.size(); ++record)
+    result.bed.push_back(bed_figures(scene, record, replicates));
   return result;
 }
 
@@ -141,7 +163,7 @@ StudyResult sweep(const Study& study, const Simulator& simulator, const SweepOpt
   StudyResult result;
   result.study = study;
   result.runs = run_scenes(study, simulator, options);
-  for (const Layout& layout : study.layouts) result.layouts.push_back(result_of(layout, result.runs));
+  for (const Layout& layout : study.layouts) result.layouts.push_back(result_of(study, layout, result.runs));
   if (study.measured) compare_with_measured(result);
   return result;
 }

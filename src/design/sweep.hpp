@@ -22,8 +22,9 @@ struct SweepOptions {
 struct Replicate {
   std::uint64_t random_seed = 1;
   std::optional<Run> run;
-  Outflow outflow;      // when there is a run
-  std::string refused;  // why the simulator did not take the scene
+  Outflow outflow;                       // when there is a run
+  std::vector<RecordFigures> records{};  // of each record that was reached
+  std::string refused;                   // why the simulator did not take the scene
   bool finished() const { return run && run->status == RunStatus::finished; }
 };
 
@@ -51,12 +52,22 @@ struct HoleFigures {
   std::optional<double> difference_percent;       // (simulated scale - measured) / measured
 };
 
+/// The bed at a record time, over the finished replicates.
+struct BedFigures {
+  std::size_t record;  // index in Record::times
+  double time;         // s, as asked for
+  std::optional<MeanWithInterval> packing;
+  std::optional<MeanWithInterval> packing_change;            // since the first record
+  std::vector<std::optional<MeanWithInterval>> segregation;  // by lot
+};
+
 struct LayoutResult {
   LayoutStatus status = LayoutStatus::ok;
   std::string reason;  // of a status other than ok; of ok, what to know: "outside the model", "ran dry in 2 of 5 runs"
   int replicates = 0;  // finished
   Figures figures;
   std::vector<HoleFigures> holes;
+  std::vector<BedFigures> bed{};  // empty without a record
 };
 
 /// A measured value beside the simulated one, scaled; SI.

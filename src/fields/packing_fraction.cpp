@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "fields/tray_frame.hpp"
+
 namespace vibrosow {
 namespace {
 
@@ -25,6 +27,18 @@ double area_left_and_below(double a, double b) {
   return b > 0 ? area_left_of(a) : 0.0;
 }
 
+/// Height over the tray's floor under which the centres of a share of the grains' area lie, m; 0 for an empty tray.
+double height_holding(const Snapshot& own, const Vessel& tray, double share) {
+  std::vector<std::size_t> inside = grains_in_tray(own, tray);
+  std::ranges::stable_sort(inside, {}, [&](std::size_t i) { return own.y[i]; });
+  double area = 0;
+  for (const std::size_t i : inside) area += own.area[i];
+  double below = 0;
+  for (const std::size_t i : inside)
+    if ((below += own.area[i]) >= share * area) return own.y[i];
+  return 0;
+}
+
 }  // namespace
 
 double disc_in_rectangle(double radius, const Eigen::Vector2d& low, const Eigen::Vector2d& high) {
@@ -36,13 +50,32 @@ double disc_in_rectangle(double radius, const Eigen::Vector2d& low, const Eigen:
   return std::max(0.0, area) * radius * radius;
 }
 
-std::vector<double> packing_fraction(const Snapshot& snapshot, const Grid& grid) {
+std::vector<CoveringDisc> covering_discs(const Snapshot& snapshot, const std::vector<SeedLot>& lots) {
+  std::vector<CoveringDisc> covering;
+  for (std::size_t i = 0; i < snapshot.size(); ++i) {
+    const auto lot = static_cast<std::size_t>(snapshot.lot[i]);
+    if (snapshot.angle.empty() || lots[lot].discs.empty()) {
+      covering.push_back({snapshot.x[i], snapshot.y[i], snapshot.radius[i], 1});
+      continue;
+    }
+    const double size = 2 * snapshot.radius[i] / lots[lot].diameter;
+    const double cosine = size * std::cos(snapshot.angle[i]), sine = size * std::sin(snapshot.angle[i]);
+    double area = 0;
+    for (const ClumpDisc& disc : lots[lot].discs) area += pi * disc.radius * disc.radius * size * size;
+    for (const ClumpDisc& disc : lots[lot].discs)
+      covering.push_back({snapshot.x[i] + cosine * disc.x - sine * disc.y,
+                          snapshot.y[i] + sine * disc.x + cosine * disc.y, size * disc.radius,
+                          snapshot.area[i] / area});
+  }
+  return covering;
+}
+
+std::vector<double> packing_fraction(const Snapshot& snapshot, const std::vector<SeedLot>& lots, const Grid& grid) {
   std::vector<double> fraction(grid.size(), 0.0);
   const auto place = [&](double at, std::int64_t first, std::int64_t count) {
     return std::clamp<std::int64_t>(static_cast<std::int64_t>(std::floor(at / grid.cell)) - first, -1, count);
   };
-  for (std::size_t i = 0; i < snapshot.size(); ++i) {
-    const double x = snapshot.x[i], y = snapshot.y[i], r = snapshot.radius[i];
+  for (const auto& [x, y, r, share] : covering_discs(snapshot, lots)) {
     const std::int64_t left = std::max<std::int64_t>(0, place(x - r, grid.first_column, grid.columns));
     const std::int64_t right = std::min(grid.columns - 1, place(x + r, grid.first_column, grid.columns));
     const std::int64_t bottom = std::max<std::int64_t>(0, place(y - r, grid.first_row, grid.rows));
@@ -52,15 +85,29 @@ std::vector<double> packing_fraction(const Snapshot& snapshot, const Grid& grid)
         const std::size_t k = grid.index(column, row);
         const Eigen::Vector2d low = grid.lower_left(k) - Eigen::Vector2d(x, y);
         const Eigen::Vector2d high = low + Eigen::Vector2d::Constant(grid.cell);
-        fraction[k] += disc_in_rectangle(r, low, high) / (grid.cell * grid.cell);
+        fraction[k] += share * disc_in_rectangle(r, low, high) / (grid.cell * grid.cell);
       }
   }
   return fraction;
 }
 
-std::vector<double> packing_change(const Snapshot& before, const Snapshot& after, const Grid& grid) {
-  std::vector<double> change = packing_fraction(after, grid);
-  const std::vector<double> earlier = packing_fraction(before, grid);
+std::optional<double> bed_packing(const Snapshot& own, const std::vector<SeedLot>& lots, const Vessel& tray,
+                                  double margin) {
+  const Eigen::Vector2d low(0.25 * tray.length, margin);
+  const Eigen::Vector2d high(0.75 * tray.length, height_holding(own, tray, 0.75));
+  if ((high - low).minCoeff() <= 0) return std::nullopt;
+  double covered = 0;
+  for (const auto& [x, y, r, share] : covering_discs(own, lots)) {
+    const Eigen::Vector2d centre(x, y);
+    covered += share * disc_in_rectangle(r, low - centre, high - centre);
+  }
+  return covered / (high - low).prod();
+}
+
+std::vector<double> packing_change(const Snapshot& before, const Snapshot& after, const std::vector<SeedLot>& lots,
+                                   const Grid& grid) {
+  std::vector<double> change = packing_fraction(after, lots, grid);
+  const std::vector<double> earlier = packing_fraction(before, lots, grid);
   for (std::size_t k = 0; k < change.size(); ++k) change[k] -= earlier[k];
   return change;
 }

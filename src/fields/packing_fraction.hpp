@@ -1,9 +1,11 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <optional>
 #include <vector>
 
 #include "fields/grid.hpp"
+#include "scene/scene.hpp"
 
 namespace vibrosow {
 
@@ -13,11 +15,29 @@ namespace vibrosow {
 /// four such parts.
 double disc_in_rectangle(double radius, const Eigen::Vector2d& low, const Eigen::Vector2d& high);
 
-/// Share of each cell's area that grains cover, exact for discs; where two overlap their common area counts twice. The
-/// whole cell counts, also where a wall cuts it. Grains outside the grid are left out.
-std::vector<double> packing_fraction(const Snapshot& snapshot, const Grid& grid);
+/// A disc of the bed.
+struct CoveringDisc {
+  double x, y, radius;  // m
+  double share;         // of its area that counts
+};
+
+/// All discs of the grains. A clump's discs count with the same share each, so that together they have the clump's
+/// area, overlaps counted once: exact for the whole clump, even over it where a line cuts it. `lots`: the scene's.
+std::vector<CoveringDisc> covering_discs(const Snapshot& snapshot, const std::vector<SeedLot>& lots);
+
+/// Share of each cell's area that grains cover, exact for discs; where two grains overlap their common area counts
+/// twice. The whole cell counts, also where a wall cuts it. Grains outside the grid are left out.
+std::vector<double> packing_fraction(const Snapshot& snapshot, const std::vector<SeedLot>& lots, const Grid& grid);
+
+/// Packing fraction of the bed's inside, as above, of one rectangle: the middle half of the tray's length, from
+/// `margin` (m) over the floor to the height under which the centres of three quarters of the grains' area lie. What
+/// the surface and the walls do to the packing is left out; a crater that reaches so deep counts as empty. None for a
+/// bed that is too low for it. Of the grains inside the tray. `own`: in the tray's frame.
+std::optional<double> bed_packing(const Snapshot& own, const std::vector<SeedLot>& lots, const Vessel& tray,
+                                  double margin);
 
 /// Packing fraction of `after` minus that of `before`, cell by cell: below 0 the bed has loosened, above 0 compacted.
-std::vector<double> packing_change(const Snapshot& before, const Snapshot& after, const Grid& grid);
+std::vector<double> packing_change(const Snapshot& before, const Snapshot& after, const std::vector<SeedLot>& lots,
+                                   const Grid& grid);
 
 }  // namespace vibrosow

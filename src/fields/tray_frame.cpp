@@ -26,6 +26,7 @@ Snapshot in_tray_frame(const Snapshot& lab, const Vessel& tray) {
     own.omega[i] -= lab.tray_spin;
     own.start_x[i] = start.x(), own.start_y[i] = start.y();
   }
+  for (double& angle : own.angle) angle -= tray.tilt + lab.tray_angle;
   own.tray_x = own.tray_y = own.tray_angle = own.tray_vx = own.tray_vy = own.tray_spin = 0;
   return own;
 }

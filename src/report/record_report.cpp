@@ -46,7 +46,8 @@ std::vector<std::string> records_row(const Scene& scene, const Snapshot& own, st
           grams(mass),
           csv_number(all ? std::nullopt : segregation_index(own, scene.tray, lot)),
           csv_number(all ? flux_asymmetry(own, scene.tray) : std::nullopt),
-          csv_number(all ? surface_asymmetry(own, scene.tray, scene.record->cell) : std::nullopt)};
+          csv_number(all ? surface_asymmetry(own, scene.tray, scene.record->cell) : std::nullopt),
+          csv_number(all ? bed_packing(own, scene.lots, scene.tray, scene.record->cell) : std::nullopt)};
 }
 
 }  // namespace
@@ -55,11 +56,12 @@ std::string grains_csv(const Scene& scene, const Snapshot& snapshot, const Snaps
   const Snapshot own = in_tray_frame(snapshot, scene.tray);
   std::vector<std::optional<double>> shear(own.size());
   if (const auto earlier = in_tray_frame(scene, before)) shear = shear_strain(*earlier, own, fit_reach(*earlier));
-  CsvTable table({"number", "lot", "x_mm", "y_mm", "vx_m_per_s", "vy_m_per_s", "omega_rad_per_s", "radius_mm",
-                  "start_x_mm", "start_y_mm", "shear"});
+  CsvTable table({"number", "lot", "x_mm", "y_mm", "vx_m_per_s", "vy_m_per_s", "omega_rad_per_s", "angle_rad",
+                  "radius_mm", "start_x_mm", "start_y_mm", "shear"});
   for (std::size_t i = 0; i < own.size(); ++i)
     table.add_row({csv_number(own.number[i]), lot_name(scene, own.lot[i]), millimetres(own.x[i]), millimetres(own.y[i]),
-                   csv_number(own.vx[i]), csv_number(own.vy[i]), csv_number(own.omega[i]), millimetres(own.radius[i]),
+                   csv_number(own.vx[i]), csv_number(own.vy[i]), csv_number(own.omega[i]),
+                   own.angle.empty() ? "" : csv_number(own.angle[i]), millimetres(own.radius[i]),
                    millimetres(own.start_x[i]), millimetres(own.start_y[i]), csv_number(shear[i])});
   return table.text();
 }
@@ -69,8 +71,8 @@ std::string fields_csv(const Scene& scene, const Snapshot& snapshot, const Snaps
   const Snapshot own = in_tray_frame(snapshot, scene.tray);
   const std::optional<Snapshot> earlier = in_tray_frame(scene, before);
   const Grid grid = earlier ? grid_over({&*earlier, &own}, cell) : grid_over({&own}, cell);
-  const std::vector<double> packing = packing_fraction(own, grid);
-  const std::vector<double> change = earlier ? packing_change(*earlier, own, grid) : std::vector<double>{};
+  const std::vector<double> packing = packing_fraction(own, scene.lots, grid);
+  const std::vector<double> change = earlier ? packing_change(*earlier, own, scene.lots, grid) : std::vector<double>{};
   const auto motion = cell_motion(own, grid, std::max(fit_reach(own), cell));
   CsvTable table({"x_mm", "y_mm", "packing_fraction", "packing_change", "vx_m_per_s", "vy_m_per_s", "shear_rate_per_s",
                   "dilation_rate_per_s"});
@@ -90,7 +92,8 @@ std::string fields_csv(const Scene& scene, const Snapshot& snapshot, const Snaps
 }
 
 std::string records_csv(const Scene& scene, const std::vector<Snapshot>& snapshots) {
-  CsvTable table({"record", "time_s", "lot", "grains", "mass_g", "segregation", "flux_asymmetry", "surface_asymmetry"});
+  CsvTable table({"record", "time_s", "lot", "grains", "mass_g", "segregation", "flux_asymmetry", "surface_asymmetry",
+                  "packing_fraction"});
   const int lots = static_cast<int>(scene.lots.size());
   for (std::size_t k = 0; k < snapshots.size(); ++k) {
     const Snapshot own = in_tray_frame(snapshots[k], scene.tray);

@@ -13,7 +13,9 @@ namespace vibrosow {
 ///  - grains_NNN.csv, of each snapshot: its grains, with the shear strain since the snapshot before;
 ///  - fields_NNN.csv: maps by cell, with the change of the packing fraction since the snapshot before; cells that hold
 ///    no part of a grain in either are left out;
-///  - records.csv: when each snapshot was taken, where the lots lie, and left against right;
+///  - records.csv: when each snapshot was taken, where the lots lie, left against right, and the packing fraction of
+///  the
+///    bed's inside;
 ///  - profile.csv: the lots by height;
 ///  - flow.csv: asymmetry and pauses of the outflow over time.
 /// Numbers that are not defined are left empty.

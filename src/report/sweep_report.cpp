@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <limits>
 #include <nlohmann/json.hpp>
 
@@ -137,6 +138,34 @@ std::string sweep_holes_csv(const StudyResult& result) {
   return table.text();
 }
 
+std::string sweep_records_csv(const StudyResult& result) {
+  CsvTable table({"layout", "name", "record", "time_s", "lot", "replicates", "packing_fraction",
+                  "packing_fraction_ci95", "packing_change", "packing_change_ci95", "segregation", "segregation_ci95"});
+  for (std::size_t i = 0; i < result.layouts.size(); ++i) {
+    const Layout& layout = result.study.layouts[i];
+    for (const BedFigures& bed : result.layouts[i].bed) {
+      const auto add = [&](const std::string& lot, const auto& packing, const auto& change, const auto& segregation) {
+        Fields row = {fmt::format("{}", layout.number),
+                      layout.name,
+                      fmt::format("{}", bed.record + 1),
+                      csv_number(bed.time),
+                      lot,
+                      fmt::format("{}", result.layouts[i].replicates)};
+        append(row, with_interval(packing, 1));
+        append(row, with_interval(change, 1));
+        append(row, with_interval(segregation, 1));
+        table.add_row(row);
+      };
+      const std::optional<MeanWithInterval> none;
+      const std::vector<SeedLot>& lots = result.study.scenes[*layout.scene].lots;
+      for (std::size_t lot = 0; lots.size() > 1 && lot < lots.size(); ++lot)
+        add(lots[lot].name, none, none, bed.segregation[lot]);
+      add("all", bed.packing, bed.packing_change, none);
+    }
+  }
+  return table.text();
+}
+
 std::string sweep_runs_csv(const StudyResult& result) {
   CsvTable table({"layout", "name", "random_seed", "status", "put_in", "inside", "counted", "spilled", "lost",
                   "seeds_per_s", "rate_g_per_s", "max_compression", "outside_the_model", "dt_s", "grain_steps",
@@ -194,6 +223,8 @@ void write_sweep_report(const std::filesystem::path& directory, const StudyResul
                                    {"sweep_holes.csv", sweep_holes_csv(result)},
                                    {"sweep_runs.csv", sweep_runs_csv(result)},
                                    {"timing.json", sweep_timing_json(result, wall_time, jobs)}};
+  const auto records = [](const LayoutResult& one) { return !one.bed.empty(); };
+  if (std::ranges::any_of(result.layouts, records)) files.push_back({"sweep_records.csv", sweep_records_csv(result)});
   if (result.comparison) files.push_back({"comparison.csv", comparison_csv(result)});
   write_files_atomically(directory, files);
 }

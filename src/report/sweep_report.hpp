@@ -16,14 +16,18 @@ std::string sweep_holes_csv(const StudyResult& result);
 /// One row per layout and random seed; a scene shared by several layouts is listed under each and says so.
 std::string sweep_runs_csv(const StudyResult& result);
 
+/// One row per layout, record time and lot, of layouts that record: packing fraction of the bed's inside with its
+/// change since the first record, where the lot is "all"; the lot's segregation index.
+std::string sweep_records_csv(const StudyResult& result);
+
 /// One row per layout and measured value. Simulated values are scaled, in the unit of the measured column.
 std::string comparison_csv(const StudyResult& result);
 
 /// What the sweep took on this machine. `wall_time`: s, from beginning to end.
 std::string sweep_timing_json(const StudyResult& result, double wall_time, int jobs);
 
-/// Writes sweep.csv, sweep_holes.csv, sweep_runs.csv, timing.json and, with measured outflow, comparison.csv into
-/// `directory`, all or none. Throws InputError where that fails.
+/// Writes sweep.csv, sweep_holes.csv, sweep_runs.csv, timing.json, with a record sweep_records.csv and, with
+/// measured outflow, comparison.csv into `directory`, all or none. Throws InputError where that fails.
 void write_sweep_report(const std::filesystem::path& directory, const StudyResult& result, double wall_time, int jobs);
 
 }  // namespace vibrosow

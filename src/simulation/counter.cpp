@@ -21,6 +21,15 @@ int Counter::hole_at(double x) const {
   return tray_.box && on_floor ? through_the_floor : 0;
 }
 
+int Counter::hole_beside(double x, double reach) const {
+  int nearest = through_the_floor;
+  for (std::size_t k = 0; k < tray_.holes.size(); ++k) {
+    const double past_edge = std::abs(x - tray_.holes[k].centre) - 0.5 * tray_.holes[k].width;
+    if (past_edge <= reach) nearest = static_cast<int>(k) + 1, reach = past_edge;
+  }
+  return nearest;
+}
+
 void Counter::watch(const Grains& grains, const Walls& walls, double time, std::vector<OutflowEvent>& events) {
   const Pose pose = walls.poses().front();
   const double angle = tray_.tilt + pose.angle;
@@ -46,6 +55,9 @@ void Counter::watch(const Grains& grains, const Walls& walls, double time, std::
       state.below = true;
       state.x = within_period(along - speed_along * since(0));
       state.hole = hole_at(state.x);
+      // The edge may lie in the waist of a clump: its centre then passes beside the opening. A disc of it that goes
+      // through the floor itself is seen by the walls.
+      if (state.hole == through_the_floor && grains.oriented) state.hole = hole_beside(state.x, grains.kind(i).radius);
     }
     if (height >= -count_below_) continue;
     state.counted = true;

@@ -10,7 +10,7 @@ namespace vibrosow {
 
 /// Watches grains leave. A grain belongs to the hole whose opening its centre passes in the tray's frame; it is counted
 /// when its centre crosses the counting line, `count_below` under the tray's floor and as wide as the world. One that
-/// passes no hole is spilled.
+/// passes no hole is spilled. Of a clump the centre may pass beside the opening, as far as its circle reaches.
 class Counter {
  public:
   Counter(const Scene& scene, std::size_t grains);
@@ -33,6 +33,8 @@ class Counter {
   static constexpr int through_the_floor = -1;
   int hole_at(double x) const;
   double within_period(double x) const;
+  /// The hole whose nearer edge is no farther from x than `reach` (m), of several the nearest; else through_the_floor.
+  int hole_beside(double x, double reach) const;
 
   Vessel tray_;
   double count_below_;

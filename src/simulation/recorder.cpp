@@ -1,10 +1,24 @@
 #include "simulation/recorder.hpp"
 
 #include <algorithm>
+#include <numbers>
 
+#include "scene/clump_shape.hpp"
 #include "simulation/vessel_motion.hpp"
 
 namespace vibrosow {
+namespace {
+
+double circle_area(double radius) {
+  return std::numbers::pi * radius * radius;
+}
+
+}  // namespace
+
+Recorder::Recorder(const Scene& scene) : tray_(scene.tray), times_(scene.record->times) {
+  for (const SeedLot& lot : scene.lots)
+    filled_.push_back(lot.discs.empty() ? 1.0 : plate_of(lot.discs).area / circle_area(0.5 * lot.diameter));
+}
 
 void Recorder::note_new(const Grains& grains) {
   const std::size_t known = start_.size();
@@ -36,12 +50,14 @@ Snapshot Recorder::snapshot(const Grains& grains, double time) const {
   s.vx = grains.vx, s.vy = grains.vy;
   s.omega = grains.omega;
   s.omega.resize(grains.size(), 0.0);
+  s.angle = grains.angle;
   s.lot = grains.lot;
   s.number = grains.number;
   for (std::size_t i = 0; i < grains.size(); ++i) {
     const GrainKind kind = grains.kind(i);
     s.radius.push_back(kind.radius);
     s.mass.push_back(kind.mass);
+    s.area.push_back(filled_[static_cast<std::size_t>(grains.lot[i])] * circle_area(kind.radius));
     const Eigen::Vector2d& start = start_.at(static_cast<std::size_t>(grains.number[i]));
     s.start_x.push_back(start.x());
     s.start_y.push_back(start.y());

@@ -12,7 +12,7 @@ namespace vibrosow {
 /// without a record has no recorder.
 class Recorder {
  public:
-  explicit Recorder(const Scene& scene) : tray_(scene.tray), times_(scene.record->times) {}
+  explicit Recorder(const Scene& scene);
 
   /// Notes where grains put in since the last call are now: they are the last of `grains`.
   void note_new(const Grains& grains);
@@ -27,6 +27,7 @@ class Recorder {
 
   Vessel tray_;
   std::vector<double> times_;
+  std::vector<double> filled_;  // by lot, the grain's area over that of its circle
   std::size_t taken_ = 0;
   std::vector<Eigen::Vector2d> start_;  // by number
 };

@@ -241,6 +241,7 @@ void refuse_overlapping_start(const Scene& scene, const Grains& grains) {
   EffectSet effects;
   effects.unequal = grains.unequal;
   effects.clumps = grains.oriented;
+  effects.rotation = grains.rotation;
   ForceField field(scene, effects, {});
   ContactCensus census;
   field.evaluate(grains, 0, {}, census);

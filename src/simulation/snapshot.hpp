@@ -16,9 +16,11 @@ struct Snapshot {
   std::vector<double> x, y;              // m
   std::vector<double> vx, vy;            // m/s
   std::vector<double> omega;             // rad/s, anticlockwise; 0 without rotation
+  std::vector<double> angle{};           // rad, how far a clump is turned from its lot's shape; empty without clumps
   std::vector<int> lot;                  // index in Scene::lots
   std::vector<std::int64_t> number;      // ascending, the same grain's in every snapshot of a run
   std::vector<double> radius, mass;      // m, kg
+  std::vector<double> area;              // m2, of the grain itself, a clump's overlaps counted once
   std::vector<double> start_x, start_y;  // m, where the grain was put in
 
   std::size_t size() const { return x.size(); }

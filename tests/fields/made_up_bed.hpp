@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <numbers>
 
 #include "scene/scene.hpp"
 #include "simulation/snapshot.hpp"
@@ -24,6 +25,7 @@ inline void put(Snapshot& s, double x, double y, double vx = 0, double vy = 0, i
   s.omega.push_back(0);
   s.lot.push_back(lot);
   s.radius.push_back(radius), s.mass.push_back(mass);
+  s.area.push_back(std::numbers::pi * radius * radius);
   s.start_x.push_back(x), s.start_y.push_back(y);
 }
 

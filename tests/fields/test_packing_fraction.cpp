@@ -34,7 +34,7 @@ RC_GTEST_PROP(PackingFraction, CellsSumToTheDisc, ()) {
   put(s, x, y, 0, 0, 0, radius);
   double area = 0;
   const Grid grid = grid_over({&s}, cell);
-  for (const double fraction : packing_fraction(s, grid)) area += fraction * cell * cell;
+  for (const double fraction : packing_fraction(s, {}, grid)) area += fraction * cell * cell;
   RC_ASSERT(std::abs(area - pi * radius * radius) < 1e-13 * std::max(radius * radius, cell * cell));
 }
 
@@ -43,7 +43,7 @@ TEST(PackingFraction, HexagonalPackingFillsPiOverTwoRootThree) {
   const Snapshot s = hexagonal_bed(40, same, [](const V&) { return V(0, 0); });
   // A cell of whole periods in x, and as near as may be in y: the sum over rows of a period is taken by a wide cell.
   const Grid grid{.cell = 40e-3, .first_column = 1, .first_row = 1, .columns = 1, .rows = 1};
-  EXPECT_NEAR(packing_fraction(s, grid).front(), pi / (2 * std::sqrt(3)), 0.005);
+  EXPECT_NEAR(packing_fraction(s, {}, grid).front(), pi / (2 * std::sqrt(3)), 0.005);
 }
 
 TEST(PackingFraction, AGrainAtTheCornerOfFourCellsIsSharedEvenly) {
@@ -53,7 +53,7 @@ TEST(PackingFraction, AGrainAtTheCornerOfFourCellsIsSharedEvenly) {
   EXPECT_EQ(grid.columns, 2);
   EXPECT_EQ(grid.rows, 2);
   EXPECT_EQ(grid.centre(3), V(7.5e-3, 7.5e-3));
-  for (const double fraction : packing_fraction(s, grid)) EXPECT_NEAR(fraction, pi * 4e-6 / 4 / 25e-6, 1e-14);
+  for (const double fraction : packing_fraction(s, {}, grid)) EXPECT_NEAR(fraction, pi * 4e-6 / 4 / 25e-6, 1e-14);
 }
 
 TEST(PackingFraction, ChangeShowsWhereTheBedLoosens) {
@@ -62,11 +62,64 @@ TEST(PackingFraction, ChangeShowsWhereTheBedLoosens) {
   put(after, 12.5e-3, 2.5e-3);
   const Grid grid = grid_over({&before, &after}, 5e-3);
   const double share = pi * 4e-6 / 25e-6;
-  const std::vector<double> change = packing_change(before, after, grid);
+  const std::vector<double> change = packing_change(before, after, {}, grid);
   ASSERT_EQ(change.size(), 3u);
   EXPECT_NEAR(change[0], -share, 1e-14);
   EXPECT_EQ(change[1], 0);
   EXPECT_NEAR(change[2], share, 1e-14);
+}
+
+/// Two discs of 2 mm radius at (-1 mm, 0) and (1 mm, 0): they overlap.
+SeedLot overlapping_pair() {
+  SeedLot lot{.name = "pair", .diameter = 6e-3, .shape = Shape::clump};
+  lot.discs = {{-1e-3, 0, 2e-3}, {1e-3, 0, 2e-3}};
+  return lot;
+}
+constexpr double pair_area =
+    4e-6 * (2 * pi - (2 * pi / 3 - 0.8660254037844386));  // less the lens of two sectors of 120 degrees
+
+TEST(PackingFraction, AClumpIsItsDiscsWithOverlapsCountedOnce) {
+  Snapshot s;
+  put(s, 0, 1e-3, 0, 0, 0, 6e-3);  // twice the lot's size
+  s.angle = {pi / 2};
+  s.area = {4 * pair_area};
+  const auto covering = covering_discs(s, {overlapping_pair()});
+  ASSERT_EQ(covering.size(), 2u);
+  double area = 0;
+  for (const CoveringDisc& disc : covering) {
+    EXPECT_NEAR(disc.x, 0, 1e-18);
+    EXPECT_EQ(disc.radius, 4e-3);
+    area += disc.share * pi * disc.radius * disc.radius;
+  }
+  EXPECT_NEAR(covering[0].y, -1e-3, 1e-18) << "turned by a right angle";
+  EXPECT_NEAR(covering[1].y, 3e-3, 1e-18);
+  EXPECT_NEAR(area, 4 * pair_area, 1e-18);
+  double in_cells = 0;
+  const Grid grid = grid_over({&s}, 1e-3);
+  for (const double fraction : packing_fraction(s, {overlapping_pair()}, grid)) in_cells += fraction * 1e-6;
+  EXPECT_NEAR(in_cells, 4 * pair_area, 1e-17);
+}
+
+TEST(BedPacking, IsThatOfTheMiddleBelowThreeQuarters) {
+  const auto same = [](const V& at) { return at; };
+  Snapshot s = hexagonal_bed(40, same, [](const V&) { return V(0, 0); });  // 156 mm wide and 135 mm high
+  Vessel tray = made_up_tray(0.16);
+  tray.height = 0.2;
+  // 80 mm are twenty periods in x; what remains is half a row, at most, of the 22 between the heights.
+  EXPECT_NEAR(bed_packing(s, {}, tray, 20e-3).value(), pi / (2 * std::sqrt(3)), 0.02);
+  const double full = bed_packing(s, {}, tray, 20e-3).value();
+  for (std::size_t i = 0; i < s.size(); ++i)
+    if (s.x[i] < 36e-3 || s.x[i] > 124e-3 || s.y[i] < 15e-3) s.area[i] = 0, s.radius[i] = 1e-6;
+  EXPECT_NEAR(bed_packing(s, {}, tray, 20e-3).value(), full, 0.02) << "walls and floor do not count";
+  for (std::size_t i = 0; i < s.size(); i += 2) s.x[i] = -1;
+  EXPECT_LT(bed_packing(s, {}, tray, 20e-3).value(), 0.6 * full);
+}
+
+TEST(BedPacking, NoneForABedTooLow) {
+  Snapshot s;
+  put(s, 20e-3, 2e-3);
+  EXPECT_FALSE(bed_packing(s, {}, made_up_tray(0.04), 5e-3));
+  EXPECT_FALSE(bed_packing(Snapshot{}, {}, made_up_tray(0.04), 5e-3));
 }
 
 TEST(Grid, CoversNothingWithoutGrainsAndRefusesACellOfNothing) {

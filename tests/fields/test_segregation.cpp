@@ -62,6 +62,14 @@ TEST(SegregationIndex, IsThreeQuartersOfTheWayWhereAQuarterIsAstray) {
   EXPECT_NEAR(segregation_index(s, tray, 1).value(), 0.75, 1e-12);
 }
 
+TEST(SegregationIndex, AGrainCountsByItsOwnArea) {
+  Snapshot s;
+  put(s, 0.1, 2e-3, 0, 0, 0), put(s, 0.2, 8e-3, 0, 0, 1), put(s, 0.3, 2e-3, 0, 0, 1);
+  s.area = {1e-6, 1e-6, 2e-6};  // as of clumps, all in circles of 2 mm
+  // The lot's mean height is 4 mm, the other's 2 mm, of all (2 + 8 + 4) / 4 = 3.5 mm.
+  EXPECT_NEAR(segregation_index(s, tray, 1).value(), 2 / 3.5, 1e-12);
+}
+
 TEST(SegregationIndex, NoneForALotAlone) {
   EXPECT_FALSE(segregation_index(layered([](int, int) { return 0; }), tray, 0));
   EXPECT_FALSE(segregation_index(layered([](int, int) { return 0; }), tray, 1));

@@ -36,12 +36,14 @@ TEST(TrayFrame, AGrainThatTurnsWithTheTrayIsAtRestInIt) {
   lab.tray_y = 0.01, lab.tray_angle = 0.5, lab.tray_spin = 3, lab.tray_vx = 0.2;
   put(lab, 0.1 * std::cos(0.5), 0.01 + 0.1 * std::sin(0.5), 0.2 - 0.3 * std::sin(0.5), 0.3 * std::cos(0.5));
   lab.omega[0] = 3;
+  lab.angle = {0.7};
   const Snapshot own = in_tray_frame(lab, tray);
   EXPECT_NEAR(own.x[0], 0.1, 1e-15);
   EXPECT_NEAR(own.y[0], 0, 1e-15);
   EXPECT_NEAR(own.vx[0], 0, 1e-15);
   EXPECT_NEAR(own.vy[0], 0, 1e-15);
   EXPECT_EQ(own.omega[0], 0);
+  EXPECT_NEAR(own.angle[0], 0.2, 1e-15);
 }
 
 }  // namespace

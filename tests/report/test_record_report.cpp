@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <numbers>
 
 namespace vibrosow {
 namespace {
@@ -29,6 +30,7 @@ class RecordReport : public testing::Test {
                .number = {4, 5, 6},
                .radius = {2e-3, 2e-3, 2e-3},
                .mass = {40e-6, 40e-6, 10e-6},
+               .area = {4e-6 * std::numbers::pi, 4e-6 * std::numbers::pi, 4e-6 * std::numbers::pi},
                .start_x = {0, 0, 0.03},
                .start_y = {0, 0, 0.02}};
     run.snapshots = {s, s};
@@ -56,15 +58,15 @@ TEST_F(RecordReport, HasTwoFilesASnapshotAndThreeOfTheRun) {
 
 TEST_F(RecordReport, GrainsAreInTheTraysFrameWithTheirShearSinceTheLastRecord) {
   const std::string header =
-      "number,lot,x_mm,y_mm,vx_m_per_s,vy_m_per_s,omega_rad_per_s,radius_mm,start_x_mm,start_y_mm,shear\n";
+      "number,lot,x_mm,y_mm,vx_m_per_s,vy_m_per_s,omega_rad_per_s,angle_rad,radius_mm,start_x_mm,start_y_mm,shear\n";
   EXPECT_EQ(grains_csv(scene, run.snapshots[0], nullptr), header +
-                                                              "4,wheat,7.5,2.5,0,0,0,2,0,0,\n"
-                                                              "5,wheat,12.5,2.5,0,0,0,2,0,0,\n"
-                                                              "6,weed,7.5,7.5,0.01,0,1,2,30,20,\n");
+                                                              "4,wheat,7.5,2.5,0,0,0,,2,0,0,\n"
+                                                              "5,wheat,12.5,2.5,0,0,0,,2,0,0,\n"
+                                                              "6,weed,7.5,7.5,0.01,0,1,,2,30,20,\n");
   EXPECT_EQ(grains_csv(scene, run.snapshots[1], &run.snapshots[0]), header +
-                                                                        "4,wheat,7.5,2.5,0,0,0,2,0,0,0.5\n"
-                                                                        "5,wheat,12.5,2.5,0,0,0,2,0,0,0.5\n"
-                                                                        "6,weed,10,7.5,0.01,0,1,2,30,20,0.5\n");
+                                                                        "4,wheat,7.5,2.5,0,0,0,,2,0,0,0.5\n"
+                                                                        "5,wheat,12.5,2.5,0,0,0,,2,0,0,0.5\n"
+                                                                        "6,weed,10,7.5,0.01,0,1,,2,30,20,0.5\n");
 }
 
 TEST_F(RecordReport, FieldsHaveTheCellsThatHoldGrains) {
@@ -90,12 +92,13 @@ TEST_F(RecordReport, ProfileAndRecordsTellWhereTheLotsLie) {
             "0,2.5,weed,0,0,0\n"
             "0,7.5,wheat,0,0,0\n"
             "0,7.5,weed,1,0.01,1\n");
+  // No grain reaches into the bed's inside, 10 to 30 by 5 to 7.5 mm.
   // Mean heights 2.5, 7.5 and, of all, 12.5 / 3 mm. Tops of 5 mm columns: 0, 9.5, 4.5 and 0 mm left, none right.
   EXPECT_EQ(records_csv(scene, run.snapshots),
-            "record,time_s,lot,grains,mass_g,segregation,flux_asymmetry,surface_asymmetry\n"
-            "1,0,wheat,2,0.08,-1.2,,\n"
-            "1,0,weed,1,0.01,1.2,,\n"
-            "1,0,all,3,0.09,,,1\n");
+            "record,time_s,lot,grains,mass_g,segregation,flux_asymmetry,surface_asymmetry,packing_fraction\n"
+            "1,0,wheat,2,0.08,-1.2,,,\n"
+            "1,0,weed,1,0.01,1.2,,,\n"
+            "1,0,all,3,0.09,,,1,0\n");
 }
 
 TEST_F(RecordReport, FlowHasItsWindowsAndTheWhole) {

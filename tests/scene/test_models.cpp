@@ -141,7 +141,7 @@ TEST(Seeders, EveryShippedOneReads) {
     ASSERT_NO_THROW(scene = read_scene(file)) << file;
     EXPECT_FALSE(scene.title.empty()) << file;
     EXPECT_TRUE(scene.tray.fill) << file;
-    EXPECT_FALSE(scene.tray.holes.empty()) << file;
+    EXPECT_TRUE(!scene.tray.holes.empty() || scene.record) << file << ": nothing to count and nothing to see";
   }
 }
 

@@ -1,6 +1,10 @@
 // Snapshots: when they are taken, and what they hold.
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <numbers>
+
+#include "scene/clump_shape.hpp"
 #include "simulation/simulate.hpp"
 #include "simulation/vessel_motion.hpp"
 #include "support/bench.hpp"
@@ -72,6 +76,39 @@ TEST(Recorder, RecordsAtTheVeryEndAndChangesNothing) {
   EXPECT_EQ(recorded.snapshots.size(), 2u);
   EXPECT_EQ(plain.energy.kinetic, recorded.energy.kinetic);
   EXPECT_EQ(plain.events.size(), recorded.events.size());
+}
+
+TEST(Recorder, ClumpsHaveTheirAngleAndTheirOwnArea) {
+  Scene scene = Bench().scene;
+  SeedLot& lot = scene.lots[0];
+  lot.shape = Shape::clump;
+  lot.discs = dipole(4e-3, 3e-3);
+  lot.gyration2 = plate_of(lot.discs).gyration2;
+  lot.diameter = 7e-3;
+  scene.contact.seed.friction = 0.3;
+  scene.tray.length = 0.05;
+  scene.tray.fill = Fill{.count = 20};
+  scene.run.duration = 0.05;
+  scene.record = Record{{0, 0.05}, 0.01};
+  const vibrosow::Run run = simulate(scene);
+  ASSERT_EQ(run.status, RunStatus::finished);
+  ASSERT_EQ(run.snapshots.size(), 2u);
+  const Snapshot &start = run.snapshots[0], &end = run.snapshots[1];
+  ASSERT_EQ(start.angle.size(), 20u);
+  EXPECT_NE(start.angle[0], start.angle[1]) << "turned at random";
+  EXPECT_NE(end.angle[0], start.angle[0]) << "it has fallen over";
+  // Two discs of 2 mm radius less their lens: 2 r^2 acos(d / 2r) - d / 2 sqrt(4 r^2 - d^2).
+  const double lens = 8e-6 * std::acos(0.75) - 1.5e-3 * std::sqrt(7e-6);
+  EXPECT_NEAR(start.area[0], 8e-6 * std::numbers::pi - lens, 1e-16);
+}
+
+TEST(Recorder, AreaOfADiscIsItsCircles) {
+  Bench bench;
+  bench.scene.record = Record{{0}, 0.01};
+  bench.place(0.2, 0.5);
+  const vibrosow::Run run = bench.start(1e-4).result();
+  EXPECT_NEAR(run.snapshots.at(0).area.at(0), std::numbers::pi * 16e-6, 1e-18);
+  EXPECT_TRUE(run.snapshots.at(0).angle.empty());
 }
 
 TEST(Recorder, WithoutRotationSpinsAreZero) {
