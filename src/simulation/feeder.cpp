@@ -1,5 +1,7 @@
 #include "simulation/feeder.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -59,6 +61,16 @@ int Feeder::draw_lot() {
   return static_cast<int>(lots_.size()) - 1;
 }
 
+void Feeder::note_waiting(const Vessel& vessel, int waiting, double time) {
+  constexpr double noted_share = 0.1;
+  if (!warning_.empty() || waiting <= noted_share * vessel.fill->count) return;
+  warning_ = fmt::format(
+      "{}.fill.keep falls behind: {} of {} seeds missing at {:.4g} s, for want of room below the walls' top; seeds "
+      "laid "
+      "from rest follow no faster",
+      vessel.name, waiting, vessel.fill->count, time);
+}
+
 int Feeder::top_up(Grains& grains, const Walls& walls, double time) {
   int added = 0;
   for (std::size_t v = 0; v < walls.vessels().size(); ++v) {
@@ -67,6 +79,7 @@ int Feeder::top_up(Grains& grains, const Walls& walls, double time) {
     Inside inside = grains_inside(vessel, walls.displacement()[v], grains);
     const Eigen::Vector2d velocity = vessel_velocity(vessel, time);
     const int missing = vessel.fill->count - static_cast<int>(inside.at.size());
+    int waiting = 0;
     for (int k = 0; k < missing; ++k) {
       const int lot = draw_lot();
       const SeedLot& seeds = lots_[static_cast<std::size_t>(lot)];
@@ -74,7 +87,10 @@ int Feeder::top_up(Grains& grains, const Walls& walls, double time) {
       const double radius = 0.5 * size * seeds.diameter;
       const double x = random_.uniform(radius, vessel.length - radius);
       const double y = surface(inside, x, radius);
-      if (y + radius > vessel.height) continue;
+      if (y + radius > vessel.height) {
+        ++waiting;
+        continue;
+      }
       inside.at.emplace_back(x, y);
       inside.radius.push_back(radius);
       const Eigen::Vector2d lab = in_lab_frame(vessel, walls.displacement()[v], {x, y});
@@ -82,6 +98,7 @@ int Feeder::top_up(Grains& grains, const Walls& walls, double time) {
       grains.add(lab.x(), lab.y(), velocity.x(), velocity.y(), lot, kind, angle);
       ++added;
     }
+    note_waiting(vessel, waiting, time);
   }
   return added;
 }
