@@ -62,7 +62,7 @@ int Feeder::draw_lot() {
 }
 
 void Feeder::note_waiting(const Vessel& vessel, int waiting, double time) {
-  constexpr double noted_share = 0.1;
+  constexpr double noted_share = 0.25;
   if (!warning_.empty() || waiting <= noted_share * vessel.fill->count) return;
   warning_ = fmt::format(
       "{}.fill.keep falls behind: {} of {} seeds missing at {:.4g} s, for want of room below the walls' top; seeds "

@@ -22,7 +22,7 @@ class Feeder {
   /// Adds what is missing at `time` (s); returns how many grains were added at the end of `grains`.
   int top_up(Grains& grains, const Walls& walls, double time);
 
-  /// That more than a tenth of a fill was missing, and since when; empty if it never was.
+  /// That more than a quarter of a fill was missing, and since when; empty if it never was.
   const std::string& warning() const { return warning_; }
 
  private:
