@@ -55,8 +55,7 @@ AccuracyGrid grid_of(const AccuracyOptions& options, const Scene& scene) {
   AccuracyGrid grid = default_accuracy_grid(scene);
   if (!options.steps_per_contact.empty()) grid.steps_per_contact = options.steps_per_contact;
   if (!options.shell_compressions.empty() && scene.contact.law != Law::elastic_shell)
-    throw InputError(
-        fmt::format("--shell-compression: {} has Hertz' law, which has no shell", options.common.file));
+    throw InputError(fmt::format("--shell-compression: {} has Hertz' law, which has no shell", options.common.file));
   if (!options.shell_compressions.empty()) grid.shell_compressions = options.shell_compressions;
   if (!options.slip_speeds.empty()) {
     grid.slip_speeds.clear();

@@ -1,5 +1,7 @@
 #include "simulation/feeder.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -40,8 +42,8 @@ Inside grains_inside(const Vessel& vessel, const Pose& pose, const Grains& grain
   return inside;
 }
 
-/// Lowest height above the heap at which a grain of `radius` at `x` is clear of all others: between those that are still
-/// falling if there is room, so that a heap which sinks fast can be fed fast.
+/// Lowest height above the heap at which a grain of `radius` at `x` is clear of all others: between those that are
+/// still falling if there is room, so that a heap which sinks fast can be fed fast.
 double free_height(const Inside& inside, double x, double radius) {
   constexpr double clearance = 1.01;
   double height = radius;
@@ -113,6 +115,14 @@ int Feeder::draw_lot(Random& random) const {
   return static_cast<int>(lots_.size()) - 1;
 }
 
+void Feeder::note_waiting(const Vessel& vessel, int waiting, double time) {
+  constexpr double noted_share = 0.25;
+  if (!warning_.empty() || waiting <= noted_share * vessel.fill->count) return;
+  warning_ = fmt::format(
+      "{}.fill.keep falls behind: {} of {} seeds missing at {:.4g} s, for want of room below the walls' top",
+      vessel.name, waiting, vessel.fill->count, time);
+}
+
 int Feeder::top_up(Grains& grains, const std::vector<char>& touching, const Walls& walls, double time) {
   int added = 0;
   for (std::size_t v = 0; v < walls.vessels().size(); ++v) {
@@ -122,6 +132,7 @@ int Feeder::top_up(Grains& grains, const std::vector<char>& touching, const Wall
     const PoseRate rate = walls.paths()[v].rate(time);
     Inside inside = grains_inside(vessel, pose, grains, touching);
     const int missing = vessel.fill->count - inside.grains;
+    int waiting = 0;
     for (int k = 0; k < missing; ++k) {
       const int lot = draw_lot(random_);
       const SeedLot& seeds = lots_[static_cast<std::size_t>(lot)];
@@ -129,7 +140,10 @@ int Feeder::top_up(Grains& grains, const std::vector<char>& touching, const Wall
       const double radius = 0.5 * size * seeds.diameter;
       const double x = random_.uniform(radius, vessel.length - radius);
       const double y = free_height(inside, x, radius);
-      if (y + radius > vessel.height) continue;
+      if (y + radius > vessel.height) {
+        ++waiting;
+        continue;
+      }
       inside.add(vessel, {x, y}, radius, false);
       const Eigen::Vector2d lab = in_lab_frame(vessel, pose, {x, y});
       const Eigen::Vector2d velocity = material_velocity(vessel, pose, rate, lab);
@@ -137,6 +151,7 @@ int Feeder::top_up(Grains& grains, const std::vector<char>& touching, const Wall
       grains.add(lab.x(), lab.y(), velocity.x(), velocity.y(), lot, kind, angle);
       ++added;
     }
+    note_waiting(vessel, waiting, time);
   }
   return added;
 }

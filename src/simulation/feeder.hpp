@@ -1,5 +1,7 @@
 #pragma once
 
+#include <string>
+
 #include "grains/grains.hpp"
 #include "grains/random.hpp"
 #include "simulation/walls.hpp"
@@ -13,7 +15,8 @@ namespace vibrosow {
 ///
 /// Keeps vessels topped up (`fill.keep`): each missing grain is laid just above the heap at a random place, at rest
 /// with its vessel, of a lot drawn by the shares, its size and a clump's angle drawn too. Where the heap reaches the
-/// vessel's top there is no room, and it waits.
+/// vessel's top there is no room, and it waits. Grains of the heap touch others (`touching`, one flag a grain); between
+/// those that are still falling there may be room.
 class Feeder {
  public:
   Feeder(const Scene& scene, std::uint64_t random_seed);
@@ -28,6 +31,9 @@ class Feeder {
   /// Adds what has rained up to `time` (s); returns how many grains were added at the end of `grains`.
   int rain(Grains& grains, const Walls& walls, double time);
 
+  /// That more than a quarter of a fill was missing, and since when; empty if it never was.
+  const std::string& warning() const { return warning_; }
+
  private:
   /// The rain into one vessel so far.
   struct Shower {
@@ -39,12 +45,14 @@ class Feeder {
   int rain(const Vessel& vessel, Shower& shower, Grains& grains, const Walls& walls, const Pose& pose, double time);
   int draw_lot(Random& random) const;
   void draw_next(Shower& shower) const;
+  void note_waiting(const Vessel& vessel, int waiting, double time);
 
   std::vector<SeedLot> lots_;
   Law law_;
   Random random_;
   std::vector<Shower> showers_;  // by vessel
   bool feeds_ = false, rains_ = false;
+  std::string warning_;
 };
 
 }  // namespace vibrosow

@@ -90,6 +90,21 @@ double ForceField::elastic_energy(const Grains& grains) {
                                        neighbours_.wall_history());
 }
 
+Forces ForceField::wall_forces(const Grains& grains) {
+  const Grains& discs = place_discs(grains);
+  std::vector<WallCandidate> candidates = neighbours_.near_walls();
+  ContactCensus census;
+  Forces on_discs;
+  clear(on_discs, discs);
+  kernels_.wall(discs, motion_of(discs), candidates, walls_.placed(), parameters_, {}, neighbours_.wall_history(),
+                on_discs, census);
+  if (!clumps_) return on_discs;
+  Forces forces;
+  clear(forces, grains);
+  clumps_->gather(on_discs, forces);
+  return forces;
+}
+
 std::vector<char> ForceField::touching(const Grains& grains) const {
   std::vector<char> touches(grains.size(), 0);
   const Grains& discs = clumps_ ? clumps_->discs() : grains;

@@ -26,6 +26,9 @@ class ForceField {
   /// Energy of all springs in contacts, J.
   double elastic_energy(const Grains& grains);
 
+  /// Forces of the walls alone on each grain, where grains and walls are now; nothing moves on by it.
+  Forces wall_forces(const Grains& grains);
+
   /// Which grains touch another one.
   std::vector<char> touching(const Grains& grains) const;
 

@@ -13,8 +13,8 @@ struct EffectPrice {
 };
 
 /// Times a small bed of its own on this machine, with the scene's law, scheme and effects and with each effect left out
-/// in turn, together with those that need it. Takes a second; the figures depend on the machine and the moment, so they belong on a terminal and in no
-/// result.
+/// in turn, together with those that need it. Takes a second; the figures depend on the machine and the moment, so they
+/// belong on a terminal and in no result.
 std::vector<EffectPrice> price_list(const Scene& scene);
 
 }  // namespace vibrosow

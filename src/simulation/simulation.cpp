@@ -205,6 +205,7 @@ Run Simulation::result() const {
     run.stop_reason = *guard_.stop_reason();
   }
   run.warnings = guard_.warnings();
+  if (!feeder_.warning().empty()) run.warnings.push_back(feeder_.warning());
   run.outside_the_model = guard_.outside_the_model();
   run.steps = s_.step;
   run.end_time = s_.time;

@@ -1,5 +1,6 @@
 #include "simulation/feeder.hpp"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -87,6 +88,22 @@ TEST(Angles, OfFedClumpsAreDrawn) {
   ASSERT_EQ(grains.angle.size(), 300u);
   EXPECT_EQ(std::set<double>(grains.angle.begin(), grains.angle.end()).size(), 300u);
   EXPECT_EQ(feeder.top_up(grains, std::vector<char>(grains.size(), 1), walls, 0), 0);
+}
+
+TEST(Feeder, SaysThatItFallsBehind) {
+  Scene scene = kept_full(scattered_balls());
+  const auto warning = [&] {
+    Grains grains(grain_kinds(scene, true), true, true);
+    Walls walls(vessels_of(scene));
+    walls.place(0);
+    Feeder feeder(scene, 1);
+    feeder.top_up(grains, {}, walls, 0.5);
+    return feeder.warning();
+  };
+  EXPECT_EQ(warning(), "");
+  scene.tray.height = 8e-3;  // room for two layers of 300 balls' six
+  EXPECT_THAT(warning(), testing::StartsWith("tray.fill.keep falls behind: "));
+  EXPECT_THAT(warning(), testing::HasSubstr(" of 300 seeds missing at 0.5 s"));
 }
 
 }  // namespace

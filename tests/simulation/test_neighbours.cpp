@@ -42,7 +42,7 @@ std::unique_ptr<Simulation> start(const Scene& scene, NeighbourMargins margins =
   const EffectSet effects = effects_of(scene);
   return std::make_unique<Simulation>(
       scene, starting_grains(scene, 7, effects),
-      SimulationSetup{.dt = 5e-5, .random_seed = 7, .effects = effects, .margins = margins});
+      SimulationSetup{.dt = 2.5e-5, .random_seed = 7, .effects = effects, .margins = margins});
 }
 
 using Contacts = std::set<std::pair<int, int>>;
@@ -88,9 +88,9 @@ Contacts touching_walls(const Grains& grains, const std::vector<PlacedWall>& wal
 TEST(Neighbours, MissNoContactOfAWholeRun) {
   const auto run = start(busy_scene());
   std::size_t pairs = 0, walls = 0;
-  for (int step = 0; step < 20000; ++step) {
+  for (int step = 0; step < 40000; ++step) {
     ASSERT_TRUE(run->step()) << *run->guard().stop_reason();
-    if (step % 7 != 0) continue;
+    if (step % 13 != 0) continue;
     // Lists are those of the last force evaluation, which a velocity Verlet step makes at its end.
     const Grains& grains = run->grains();
     const Neighbours& neighbours = run->field().neighbours();

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "scene/csv_lines.hpp"
 #include "report/csv.hpp"
+#include "scene/csv_lines.hpp"
 
 namespace vibrosow {
 
