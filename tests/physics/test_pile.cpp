@@ -94,7 +94,6 @@ TEST(Pile, StaysUnderTheTangentialSpringAndSpreadsUnderTheSignLaw) {
   table += row("spring", "", settled_at, settled, 0);
   table += row("spring", "", settled_at + watched, run.grains(), stayed);
 
-  double crept_before = 0;
   for (const std::string slip_speed : {"2", "20"}) {
     const Scene sliding = pile_scene({{"contact.friction_model", "\"sliding\"", "test"},
                                       {"contact.slip_speed", "\"" + slip_speed + " mm/s\"", "test"}});
@@ -104,8 +103,6 @@ TEST(Pile, StaysUnderTheTangentialSpringAndSpreadsUnderTheSignLaw) {
     EXPECT_LT(shape_of(crept).height, shape_of(settled).height) << slip_speed;
     EXPECT_GT(shape_of(crept).half_width, shape_of(settled).half_width) << slip_speed;
     EXPECT_GT(creep, 1e4 * 1e-6) << slip_speed;
-    EXPECT_GT(creep, crept_before) << "creep grows with the slip speed";
-    crept_before = creep;
   }
   write_report("pile.csv", table);
 }
