@@ -52,7 +52,7 @@ void add_look(Simulation& run, Column& column) {
 
 /// The mean column of `widths` widths of grains over its random seeds.
 Column measured_column(int widths) {
-  const Scene scene = read_scene(std::string(VIBROSOW_SOURCE_DIR) + "/seeders/janssen.toml",
+  const Scene scene = read_scene(std::string(VIBROSOW_SOURCE_DIR) + "/tests/physics/janssen.toml",
                                  {{"hopper.fill.count", std::to_string(835 * widths / 8), "test"}});
   Column column;
   column.width = scene.hopper->length, column.band = 0.5 * column.width;
@@ -114,7 +114,7 @@ double janssen_stress(const Janssen& m, double width, double depth) {
 
 TEST(Janssen, FloorLoadSaturatesAndTheProfileIsTheFormulas) {
   std::string table =
-      "# seeders/janssen.toml: columns of 2 to 8 widths on a floor that sinks slowly, means of 3 random seeds\n"
+      "# tests/physics/janssen.toml: columns of 2 to 8 widths on a floor that sinks slowly, means of 3 random seeds\n"
       "# K and mobilised friction from the tallest one's middle; stresses in N per m of width and depth of one grain's "
       "slice\n"
       "widths,place,depth_mm,vertical_stress_N_per_m,horizontal_stress_N_per_m,janssen_N_per_m,K,mobilised_friction\n";
