@@ -54,7 +54,7 @@ void add_look(Simulation& run, Column& column) {
 
 /// Columns of `widths` widths of grains, one a random seed.
 std::vector<Column> measured_columns(int widths) {
-  const Scene scene = read_scene(std::string(VIBROSOW_SOURCE_DIR) + "/seeders/janssen.toml",
+  const Scene scene = read_scene(std::string(VIBROSOW_SOURCE_DIR) + "/tests/physics/janssen.toml",
                                  {{"hopper.fill.count", std::to_string(835 * widths / 8), "test"}});
   std::vector<Column> columns;
   for (std::uint64_t seed = 1; seed <= seeds; ++seed) {
@@ -128,7 +128,7 @@ double janssen_stress(const Janssen& m, double width, double depth) {
 
 TEST(Janssen, FloorLoadSaturates) {
   std::string table =
-      "# seeders/janssen.toml: columns of 2 to 8 widths on a floor that sinks slowly, medians of 8 random seeds\n"
+      "# tests/physics/janssen.toml: columns of 2 to 8 widths on a floor that sinks slowly, medians of 8 random seeds\n"
       "# K and mobilised friction from the tallest one's middle; stresses in N per m of width and depth of one grain's "
       "slice\n"
       "widths,depth_mm,floor_stress_N_per_m,janssen_N_per_m,weight_N_per_m,K,mobilised_friction\n";
