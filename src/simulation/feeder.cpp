@@ -7,6 +7,7 @@
 
 #include "contact/wall_kernel.hpp"
 #include "grains/size_distribution.hpp"
+#include "scene/seed_lot.hpp"
 #include "simulation/counter.hpp"
 #include "simulation/vessel_motion.hpp"
 
@@ -31,12 +32,16 @@ struct Inside {
   }
 };
 
-Inside grains_inside(const Vessel& vessel, const Pose& pose, const Grains& grains, const std::vector<char>& touching) {
+/// Those whose centre is in the vessel count; others that reach into it, at an outlet or over its edge, are in the way.
+Inside grains_inside(const Vessel& vessel, const Pose& pose, const Grains& grains, const std::vector<char>& touching,
+                     double largest_diameter) {
   Inside inside;
   for (std::size_t i = 0; i < grains.size(); ++i) {
-    if (!is_inside(vessel, pose, grains.x[i], grains.y[i])) continue;
-    ++inside.grains;
     const Eigen::Vector2d own = in_vessel_frame(vessel, pose, {grains.x[i], grains.y[i]});
+    const double reach = grains.kind(i).radius + largest_diameter;
+    if (own.x() < -reach || own.x() > vessel.length + reach || own.y() < -reach || own.y() > vessel.height + reach)
+      continue;
+    if (is_inside(vessel, pose, grains.x[i], grains.y[i])) ++inside.grains;
     inside.add(vessel, own, grains.kind(i).radius, touching[i] != 0);
   }
   return inside;
@@ -130,7 +135,7 @@ int Feeder::top_up(Grains& grains, const std::vector<char>& touching, const Wall
     if (!is_kept(vessel)) continue;
     const Pose pose = walls.poses()[v];
     const PoseRate rate = walls.paths()[v].rate(time);
-    Inside inside = grains_inside(vessel, pose, grains, touching);
+    Inside inside = grains_inside(vessel, pose, grains, touching, largest_diameter(lots_));
     const int missing = vessel.fill->count - inside.grains;
     int waiting = 0;
     for (int k = 0; k < missing; ++k) {

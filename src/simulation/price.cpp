@@ -86,8 +86,10 @@ std::vector<EffectPrice> price_list(const Scene& scene) {
   const EffectSet effects = effects_of(scene);
   const double all = ns_per_grain_step(scene, effects);
   std::vector<EffectPrice> prices{{"all effects present", all}};
-  for (const std::string& effect : effect_names(effects))
-    prices.push_back({effect, all - ns_per_grain_step(scene, without(effects, effect))});
+  for (const std::string& effect : effect_names(effects)) {
+    const EffectSet rest = without(effects, effect);
+    if (rest != effects) prices.push_back({effect, all - ns_per_grain_step(scene, rest)});
+  }
   return prices;
 }
 

@@ -106,5 +106,23 @@ TEST(Feeder, SaysThatItFallsBehind) {
   EXPECT_THAT(warning(), testing::HasSubstr(" of 300 seeds missing at 0.5 s"));
 }
 
+TEST(Feeder, LaysNothingIntoAGrainThatReachesInThroughAnOutlet) {
+  Scene scene = kept_full(scattered_balls());
+  scene.tray.holes = {{0.5 * scene.tray.length, 0.9 * scene.tray.length}};
+  Grains grains(grain_kinds(scene, true), true, true);
+  const double radius = grains.kinds.front().radius;
+  for (int k = 0; k < 40; ++k)  // a row that hangs through the floor, centres just below it
+    grains.add((k + 0.5) * scene.tray.length / 40, -0.2 * radius, 0, 0, 0);
+  const std::size_t below = grains.size();
+  Walls walls(vessels_of(scene));
+  walls.place(0);
+  Feeder(scene, 1).top_up(grains, std::vector<char>(below, 1), walls, 0);
+  ASSERT_GT(grains.size(), below);
+  for (std::size_t i = below; i < grains.size(); ++i)
+    for (std::size_t j = 0; j < below; ++j)
+      EXPECT_GE(std::hypot(grains.x[i] - grains.x[j], grains.y[i] - grains.y[j]),
+                grains.kind(i).radius + grains.kind(j).radius);
+}
+
 }  // namespace
 }  // namespace vibrosow
