@@ -153,5 +153,26 @@ TEST(Counter, FeedingKeepsTheBalance) {
   expect_balanced(run.balance);
 }
 
+TEST(Counter, APauseEndsTheRunWhereThatIsAsked) {
+  Scene scene;
+  scene.lots = {{"grain", 6e-3, 2e-4, Shape::ball, 1.0}};
+  scene.contact.shell_compression = 1e-3;
+  scene.tray.name = "tray";
+  scene.tray.length = 0.1;
+  scene.tray.height = 0.15;
+  scene.tray.fill = Fill{5, Packing::poured, 1e-3, false};
+  scene.run.duration = 0.6;
+  EXPECT_TRUE(simulate(scene).end_reason.empty());
+  scene.run.end_after_pause = 0.2;
+  const vibrosow::Run closed = simulate(scene);
+  EXPECT_EQ(closed.status, RunStatus::finished);
+  EXPECT_EQ(closed.end_reason, "no grain left for 0.2 s; 5 are still inside");
+  EXPECT_NEAR(closed.end_time, 0.2, 2e-3);
+  scene.tray.holes = {{0.05, 0.09, 0.1}};  // open from 0.1 s
+  const vibrosow::Run opened = simulate(scene);
+  ASSERT_GT(opened.balance.counted, 0);  // one may lie on a ledge
+  EXPECT_NEAR(opened.end_time, opened.events.back().time + 0.2, 2e-3);
+}
+
 }  // namespace
 }  // namespace vibrosow

@@ -115,5 +115,35 @@ TEST(StepPlan, ForetellsOverlapAtRestAndAtImpact) {
   EXPECT_NEAR(foretell_compression(scene).stiff_enough, 0.05 / 39, 1e-9);
 }
 
+/// A heap of grains, shaken, at the longest step that the plan allows: whatever law, damping and scheme, the numerics
+/// make no energy worth stopping for.
+TEST(StepPlan, EverySchemeIsSoundAtItsLongestSafeStep) {
+  for (const Law law : {Law::elastic_shell, Law::hertz, Law::hertz_viscous})
+    for (const Integrator integrator : {Integrator::velocity_verlet, Integrator::rk2_midpoint, Integrator::gear5})
+      for (const double restitution : {0.2, 0.8})
+        for (const FrictionModel model : {FrictionModel::sliding, FrictionModel::spring}) {
+          Scene scene = Bench().scene;
+          scene.contact.law = law;
+          scene.contact.youngs_modulus = 1e7;
+          scene.contact.poisson_ratio = 0.2;
+          const bool viscous = law == Law::hertz_viscous;
+          scene.contact.damping_rate = viscous ? (restitution < 0.5 ? 4000 : 300) : 0;
+          scene.contact.seed = scene.contact.wall = {0.3, viscous ? 1.0 : restitution};
+          scene.contact.friction_model = model;
+          scene.tray.length = 0.1;
+          scene.tray.height = 0.3;
+          scene.tray.fill = Fill{60, Packing::hexagonal, 1e-3, false};
+          scene.tray.motion = HarmonicMotion{std::numbers::pi / 2, 3e-3, 15, 0.05};
+          scene.numerics.integrator = integrator;
+          scene.run.duration = 0.5;
+          scene.numerics.dt = plan_step(scene).longest_safe * (1 - 1e-9);
+          const vibrosow::Run run = simulate(scene);
+          EXPECT_EQ(run.status, RunStatus::finished)
+              << run.stop_reason << "; law " << static_cast<int>(law) << ", scheme " << static_cast<int>(integrator)
+              << ", restitution " << restitution << ", model " << static_cast<int>(model);
+          EXPECT_EQ(run.balance.inside, 60);
+        }
+}
+
 }  // namespace
 }  // namespace vibrosow
