@@ -189,6 +189,16 @@ double tangential_stiffening(const Scene& scene, const GrainKind& kind) {
   return std::max(1.0, ratio * (1 + spin));
 }
 
+/// How much easier than its mass a clump yields where it is touched off its centre: 1 + arm^2 / gyration^2, the
+/// largest.
+double lever(const Scene& scene) {
+  double largest = 1;
+  for (const SeedLot& lot : scene.lots)
+    for (const ClumpDisc& disc : lot.discs)
+      largest = std::max(largest, 1 + (disc.x * disc.x + disc.y * disc.y) / lot.gyration2);
+  return largest;
+}
+
 /// Largest frequency (rad/s) of a grain among six others: omega^2 = 6 k / m; for equal grains in elastic shells
 /// sqrt(3 g / eps). Hertz' stiffness is taken at the larger of the overlaps of impact and of the layers' weight.
 double largest_frequency(const Scene& scene, const std::vector<GrainKind>& kinds) {
@@ -201,7 +211,7 @@ double largest_frequency(const Scene& scene, const std::vector<GrainKind>& kinds
       largest2 = std::max(largest2, contacts_of_a_packed_grain * slope(scene, m, overlap) * light.inverse_mass *
                                         tangential_stiffening(scene, light));
     }
-  return std::sqrt(largest2);
+  return std::sqrt(largest2 * lever(scene));
 }
 
 /// The shortest elastic contact of any two grains or a grain on a wall, s.

@@ -115,6 +115,19 @@ TEST(StepPlan, ForetellsOverlapAtRestAndAtImpact) {
   EXPECT_NEAR(foretell_compression(scene).stiff_enough, 0.05 / 39, 1e-9);
 }
 
+TEST(StepPlan, AClumpYieldsMoreOffItsCentre) {
+  // A dipole of two discs that touch: gyration^2 = r^2 / 2 + r^2, arm r, so 1 + 2/3.
+  Scene scene = Bench().scene;
+  SeedLot& lot = scene.lots.front();
+  const double r = 0.25 * lot.diameter;
+  lot.shape = Shape::clump;
+  lot.gyration2 = 1.5 * r * r;
+  lot.discs = {{0, 0, r}, {0, 0, r}};
+  const double centred = limit(plan_step(scene), "vibration").dt;
+  lot.discs = {{-r, 0, r}, {r, 0, r}};
+  EXPECT_NEAR(limit(plan_step(scene), "vibration").dt, centred / std::sqrt(5.0 / 3), 1e-9 * centred);
+}
+
 /// A heap of grains, shaken, at the longest step that the plan allows: whatever law, damping and scheme, the numerics
 /// make no energy worth stopping for.
 TEST(StepPlan, EverySchemeIsSoundAtItsLongestSafeStep) {
