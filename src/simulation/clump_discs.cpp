@@ -4,13 +4,13 @@
 #include <cmath>
 
 namespace vibrosow {
-namespace {
 
-const std::vector<ClumpDisc>& discs_of(const SeedLot& lot, const std::vector<ClumpDisc>& single) {
-  return lot.discs.empty() ? single : lot.discs;
+GrainKind kind_of_disc(const GrainKind& clump, const ClumpDisc& disc, double size, Law law) {
+  GrainKind own = clump;
+  own.radius = disc.radius * size;
+  if (law == Law::elastic_shell) own.compliance *= own.radius / clump.radius;  // eps goes with the disc's own radius
+  return own;
 }
-
-}  // namespace
 
 ClumpDiscs::ClumpDiscs(const Scene& scene, bool rotation)
     : scene_(scene), discs_per_number_(1), discs_(grain_kinds(scene, rotation), true, rotation) {
@@ -25,17 +25,15 @@ void ClumpDiscs::rebuild(const Grains& clumps) {
     const SeedLot& lot = scene_.lots[static_cast<std::size_t>(clumps.lot[i])];
     const GrainKind clump = clumps.kind(i);
     const double size = 2 * clump.radius / lot.diameter;
-    const std::vector<ClumpDisc> single{{0, 0, 0.5 * lot.diameter}};
     std::int64_t number = clumps.number[i] * discs_per_number_;
-    for (const ClumpDisc& disc : discs_of(lot, single)) {
-      GrainKind own = clump;
-      own.radius = disc.radius * size;
-      if (scene_.contact.law == Law::elastic_shell) own.compliance *= own.radius / clump.radius;
-      discs_.add(0, 0, 0, 0, clumps.lot[i], own);
+    const auto add = [&](const ClumpDisc& disc) {
+      discs_.add(0, 0, 0, 0, clumps.lot[i], kind_of_disc(clump, disc, size, scene_.contact.law));
       discs_.number.back() = number++;
       discs_.clump.push_back(static_cast<int>(i));
       own_x_.push_back(disc.x * size), own_y_.push_back(disc.y * size);
-    }
+    };
+    if (lot.discs.empty()) add({0, 0, 0.5 * lot.diameter});
+    for (const ClumpDisc& disc : lot.discs) add(disc);
   }
   arm_x_ = own_x_, arm_y_ = own_y_;
 }

@@ -7,6 +7,10 @@
 
 namespace vibrosow {
 
+/// A disc of a clump as a contact sees it: with its clump's whole mass and moment of inertia. `clump` is the whole
+/// seed, `size` its size over its lot's.
+GrainKind kind_of_disc(const GrainKind& clump, const ClumpDisc& disc, double size, Law law);
+
 /// The discs of rigid clumps: what the contact kernels and lists see when a grain is several discs. A grain of a lot
 /// that is a single disc is a clump of one. Each disc bears its clump's whole mass and moment of inertia in a contact;
 /// its shell is eps = shell_compression times its own radius thick under that weight.

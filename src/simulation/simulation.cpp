@@ -192,7 +192,7 @@ void Simulation::end_after_pause() {
   if (!scene_.run.end_after_pause) return;
   double since = 0;
   for (const Hole& hole : scene_.tray.holes) since = std::max(since, hole.open_at);
-  for (const OutflowEvent& event : run_.events) since = std::max(since, event.time);
+  if (!run_.events.empty()) since = std::max(since, run_.events.back().time);  // to within a step the last
   if (s_.time - since < *scene_.run.end_after_pause) return;
   run_.end_reason =
       fmt::format("no grain left for {:g} s; {} are still inside", *scene_.run.end_after_pause, grains_.size());

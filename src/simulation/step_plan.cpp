@@ -11,6 +11,7 @@
 #include "contact/kernels.hpp"
 #include "grains/size_distribution.hpp"
 #include "scene/seed_lot.hpp"
+#include "simulation/clump_discs.hpp"
 #include "simulation/vessel_motion.hpp"
 #include "simulation/walls.hpp"
 
@@ -35,12 +36,7 @@ std::vector<GrainKind> touching_kinds(const Scene& scene) {
     for (const double size : sizes) {
       const GrainKind whole = sized_kind(lot, scene.contact.law, kinds[l], size);
       if (lot.discs.empty()) touching.push_back(whole);
-      for (const ClumpDisc& disc : lot.discs) {
-        GrainKind part = whole;
-        part.radius = disc.radius * size;
-        if (scene.contact.law == Law::elastic_shell) part.compliance *= part.radius / whole.radius;
-        touching.push_back(part);
-      }
+      for (const ClumpDisc& disc : lot.discs) touching.push_back(kind_of_disc(whole, disc, size, scene.contact.law));
     }
   }
   return touching;

@@ -1,14 +1,13 @@
 #pragma once
 
 #include <algorithm>
-#include <cstdlib>
 #include <filesystem>
-#include <fstream>
 #include <string>
 #include <vector>
 
 #include "report/csv.hpp"
 #include "scene/csv_lines.hpp"
+#include "support/report_file.hpp"
 
 namespace vibrosow {
 
@@ -36,12 +35,7 @@ class VerificationReport {
  public:
   VerificationReport(std::string name, std::string about, const std::vector<std::string>& columns)
       : name_(std::move(name)), about_(std::move(about)), table_(columns) {}
-  ~VerificationReport() {
-    const char* directory = std::getenv("VIBROSOW_REPORTS");
-    if (!directory) return;
-    std::filesystem::create_directories(directory);
-    std::ofstream(std::filesystem::path(directory) / (name_ + ".csv")) << "# " << about_ << "\n" << table_.text();
-  }
+  ~VerificationReport() { write_report(name_ + ".csv", "# " + about_ + "\n" + table_.text()); }
   VerificationReport(const VerificationReport&) = delete;
   VerificationReport& operator=(const VerificationReport&) = delete;
 
