@@ -3,12 +3,58 @@
 #include <box2d/box2d.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <cstdint>
+#include <numeric>
+#include <utility>
 
 #include "scene/vessel_walls.hpp"
 
 namespace vibrosow {
+
+namespace {
+
+constexpr std::size_t cluster_size = 8;  // grains
+constexpr double strip_height = 2.8;     // in diameters of the largest grain: eight of them fill about a square
+
+/// Grains in the order of their places, so that each eight that follow each other are neighbours.
+struct Sorted {
+  std::vector<int> grain;         // by place
+  std::vector<double> x, y, r;    // m, relative to the first vessel
+  std::vector<int> strip, count;  // by grain; by strip
+
+  std::size_t clusters() const { return (grain.size() + cluster_size - 1) / cluster_size; }
+  std::size_t begin(std::size_t cluster) const { return cluster * cluster_size; }
+  std::size_t end(std::size_t cluster) const { return std::min(begin(cluster + 1), grain.size()); }
+
+  /// Strip by strip from below, each from left to right.
+  void sort(const Grains& grains, const Eigen::Vector2d& shift, double height) {
+    const std::size_t n = grains.size();
+    grain.resize(n), x.resize(n), y.resize(n), r.resize(n), strip.resize(n);
+    if (n == 0) return;
+    const auto [low, high] = std::minmax_element(grains.y.begin(), grains.y.end());
+    // A grain thrown far off must not cost a strip for every diameter on its way.
+    const double bottom = *low, step = std::max(height, (*high - *low) / static_cast<double>(n));
+    count.assign(static_cast<std::size_t>((*high - *low) / step) + 2, 0);
+    for (std::size_t i = 0; i < n; ++i) {
+      strip[i] = static_cast<int>((grains.y[i] - bottom) / step);
+      ++count[static_cast<std::size_t>(strip[i]) + 1];
+    }
+    std::partial_sum(count.begin(), count.end(), count.begin());
+    for (std::size_t i = 0; i < n; ++i)
+      grain[static_cast<std::size_t>(count[static_cast<std::size_t>(strip[i])]++)] = static_cast<int>(i);
+    for (std::size_t k = 0, from = 0; k + 1 < count.size(); from = static_cast<std::size_t>(count[k++]))
+      std::sort(grain.begin() + static_cast<std::ptrdiff_t>(from), grain.begin() + count[k], [&](int a, int b) {
+        return grains.x[static_cast<std::size_t>(a)] < grains.x[static_cast<std::size_t>(b)];
+      });
+    for (std::size_t k = 0; k < n; ++k) {
+      const std::size_t i = static_cast<std::size_t>(grain[k]);
+      x[k] = grains.x[i] - shift.x(), y[k] = grains.y[i] - shift.y(), r[k] = grains.kind(i).radius;
+    }
+  }
+};
+
+}  // namespace
 
 struct Broadphase::World {
   b2World world{b2Vec2(0, 0)};
@@ -17,11 +63,13 @@ struct Broadphase::World {
   std::vector<double> tilt;                       // by vessel, rad
   std::vector<std::vector<b2Fixture*>> fixtures;  // by wall; an arc is several edges
   double largest_sagitta = 0;                     // m, by which an arc bulges beyond its edges
-  b2DynamicTree tree;                             // of the grains
-  std::vector<int> proxies;                       // by grain
-  std::vector<std::int64_t> numbers;              // by grain, ascending: which grain a proxy stands for
-  std::vector<int> grain_of_proxy;                // by proxy
-  std::vector<int> found;
+  Sorted sorted;
+  b2DynamicTree tree;        // of the clusters
+  std::vector<int> proxies;  // by cluster
+  std::vector<int> cluster_of_proxy;
+  std::vector<int> found;  // clusters, or walls
+  PairList unsorted;
+  std::vector<int> row_end;  // by grain
   double units_per_metre;
 
   explicit World(double unit) : units_per_metre(1 / unit) {}
@@ -30,13 +78,21 @@ struct Broadphase::World {
     return {static_cast<float>(metres.x() * units_per_metre), static_cast<float>(metres.y() * units_per_metre)};
   }
 
-  b2AABB box(double x, double y, double half) const {
-    const double cx = x * units_per_metre, cy = y * units_per_metre;
+  /// Holds a cluster's grains, widened by `margin` and moved by `moved` along x (m).
+  b2AABB box(std::size_t cluster, double margin, double moved = 0) const {
+    const std::size_t first = sorted.begin(cluster);
+    double left = sorted.x[first], right = left, low = sorted.y[first], high = low, largest = 0;
+    for (std::size_t k = first; k < sorted.end(cluster); ++k) {
+      left = std::min(left, sorted.x[k]), right = std::max(right, sorted.x[k]);
+      low = std::min(low, sorted.y[k]), high = std::max(high, sorted.y[k]);
+      largest = std::max(largest, sorted.r[k]);
+    }
+    const double u = units_per_metre, far = std::max({-left, right, -low, high, std::abs(moved)});
     // Rounding to float must never shrink a box.
-    const double h = half * units_per_metre + 1e-6 * (1 + std::abs(cx) + std::abs(cy));
+    const double wider = (margin + largest) * u + 1e-6 * (1 + 2 * far * u);
     b2AABB box;
-    box.lowerBound.Set(static_cast<float>(cx - h), static_cast<float>(cy - h));
-    box.upperBound.Set(static_cast<float>(cx + h), static_cast<float>(cy + h));
+    box.lowerBound.Set(static_cast<float>((left + moved) * u - wider), static_cast<float>(low * u - wider));
+    box.upperBound.Set(static_cast<float>((right + moved) * u + wider), static_cast<float>(high * u + wider));
     return box;
   }
 
@@ -50,49 +106,57 @@ struct Broadphase::World {
     }
   }
 
-  /// Brings the tree up to date with the grains: grains gone, moved out of their boxes, or new.
+  /// Forms the clusters afresh and brings the tree up to date with them.
   void update_boxes(const Grains& grains, const Eigen::Vector2d& shift) {
-    std::size_t kept = 0;
-    for (std::size_t old = 0; old < proxies.size(); ++old) {
-      if (kept < grains.size() && grains.number[kept] == numbers[old])
-        proxies[kept++] = proxies[old];
+    sorted.sort(grains, shift, strip_height / units_per_metre);
+    while (proxies.size() > sorted.clusters()) tree.DestroyProxy(proxies.back()), proxies.pop_back();
+    for (std::size_t c = 0; c < sorted.clusters(); ++c) {
+      if (c < proxies.size())
+        tree.MoveProxy(proxies[c], box(c, 0), b2Vec2(0, 0));
       else
-        tree.DestroyProxy(proxies[old]);
+        proxies.push_back(tree.CreateProxy(box(c, 0), nullptr));
+      const std::size_t proxy = static_cast<std::size_t>(proxies[c]);
+      if (cluster_of_proxy.size() <= proxy) cluster_of_proxy.resize(proxy + 1);
+      cluster_of_proxy[proxy] = static_cast<int>(c);
     }
-    proxies.resize(grains.size());
-    numbers.assign(grains.number.begin(), grains.number.end());
-    for (std::size_t i = 0; i < grains.size(); ++i) {
-      const b2AABB tight = box(grains.x[i] - shift.x(), grains.y[i] - shift.y(), grains.kind(i).radius);
-      if (i < kept)
-        tree.MoveProxy(proxies[i], tight, b2Vec2(0, 0));
-      else
-        proxies[i] = tree.CreateProxy(tight, nullptr);
-      const std::size_t proxy = static_cast<std::size_t>(proxies[i]);
-      if (grain_of_proxy.size() <= proxy) grain_of_proxy.resize(proxy + 1);
-      grain_of_proxy[proxy] = static_cast<int>(i);
+  }
+
+  /// Box2D's tree calls it for every cluster met.
+  bool QueryCallback(int32 proxy) {
+    found.push_back(cluster_of_proxy[static_cast<std::size_t>(proxy)]);
+    return true;
+  }
+
+  /// Adds the pairs of grain `k` by place, moved by `moved` along x (m), and those of places [from, to) near enough.
+  void add_near(std::size_t k, double moved, double margin, std::size_t from, std::size_t to) {
+    const double x = sorted.x[k] + moved, y = sorted.y[k], reach = sorted.r[k] + margin;
+    std::array<int, cluster_size + 1> near;
+    std::size_t count = 0;
+    for (std::size_t m = from; m < to; ++m) {
+      const double dx = sorted.x[m] - x, dy = sorted.y[m] - y, limit = reach + sorted.r[m];
+      near[count] = sorted.grain[m];
+      count += dx * dx + dy * dy < limit * limit ? 1 : 0;  // without a branch: a third are
     }
+    for (std::size_t m = 0; m < count; ++m) unsorted.add(sorted.grain[k], near[m]);
+  }
+
+  /// All that was added, by grain and then by partner.
+  void sort_pairs(std::size_t grains, PairList& pairs) {
+    row_end.assign(grains + 1, 0);
+    for (const int i : unsorted.grain) ++row_end[static_cast<std::size_t>(i) + 1];
+    std::partial_sum(row_end.begin(), row_end.end(), row_end.begin());
+    pairs.grain.resize(unsorted.size()), pairs.partner.resize(unsorted.size());
+    for (std::size_t k = 0; k < unsorted.size(); ++k) {
+      const std::size_t place = static_cast<std::size_t>(row_end[static_cast<std::size_t>(unsorted.grain[k])]++);
+      pairs.grain[place] = unsorted.grain[k], pairs.partner[place] = unsorted.partner[k];
+    }
+    for (std::size_t i = 0, from = 0; i < grains; from = static_cast<std::size_t>(row_end[i++]))
+      std::sort(pairs.partner.begin() + static_cast<std::ptrdiff_t>(from), pairs.partner.begin() + row_end[i]);
+    unsorted.clear();
   }
 };
 
 namespace {
-
-/// Collects the grains after `i` that are near enough; Box2D's tree calls it for every box met.
-struct PairQuery {
-  const std::vector<int>& grain_of_proxy;
-  const Grains& grains;
-  std::size_t i;
-  double reach;  // m, r_i + margin
-  std::vector<int>& found;
-
-  bool QueryCallback(int32 proxy) {
-    const std::size_t j = static_cast<std::size_t>(grain_of_proxy[static_cast<std::size_t>(proxy)]);
-    if (j <= i) return true;
-    const double dx = grains.x[j] - grains.x[i], dy = grains.y[j] - grains.y[i];
-    const double limit = reach + grains.kind(j).radius;
-    if (dx * dx + dy * dy < limit * limit) found.push_back(static_cast<int>(j));
-    return true;
-  }
-};
 
 /// The corners of a wall as a chain of straight edges, none further than 0.05 of a unit (m) from the wall;
 /// `largest_sagitta` is raised to how far.
@@ -108,22 +172,6 @@ std::vector<Eigen::Vector2d> edges_of(const WallSegment& wall, double unit, doub
   }
   return corners;
 }
-
-/// The same across a seam: for all grains near the place of grain `i` a period to the right.
-struct SeamQuery {
-  const std::vector<int>& grain_of_proxy;
-  const Grains& grains;
-  double x, y, reach;  // m
-  std::vector<int>& found;
-
-  bool QueryCallback(int32 proxy) {
-    const std::size_t j = static_cast<std::size_t>(grain_of_proxy[static_cast<std::size_t>(proxy)]);
-    const double dx = grains.x[j] - x, dy = grains.y[j] - y;
-    const double limit = reach + grains.kind(j).radius;
-    if (dx * dx + dy * dy < limit * limit) found.push_back(static_cast<int>(j));
-    return true;
-  }
-};
 
 struct WallQuery : b2QueryCallback {
   explicit WallQuery(std::vector<int>& walls) : found(walls) {}
@@ -178,47 +226,48 @@ void Broadphase::remove_wall(int wall) {
 void Broadphase::find(const Grains& grains, const std::vector<Pose>& poses, double margin, PairList& pairs,
                       std::vector<WallCandidate>& near_walls) {
   World& w = *world_;
-  const Eigen::Vector2d shift = poses.front().displacement;
   w.place_vessels(poses);
-  w.update_boxes(grains, shift);
+  w.update_boxes(grains, poses.front().displacement);
 
-  pairs.first.assign(1, 0);
-  pairs.partner.clear();
   near_walls.clear();
-  WallQuery walls(w.found);
-  for (std::size_t i = 0; i < grains.size(); ++i) {
-    const double reach = grains.kind(i).radius + margin;
-    const b2AABB box = w.box(grains.x[i] - shift.x(), grains.y[i] - shift.y(), reach);
+  for (std::size_t c = 0; c < w.sorted.clusters(); ++c) {
+    const std::size_t first = w.sorted.begin(c), last = w.sorted.end(c);
     w.found.clear();
-    PairQuery query{w.grain_of_proxy, grains, i, reach, w.found};
-    w.tree.Query(&query, box);
-    std::sort(w.found.begin(), w.found.end());
-    pairs.partner.insert(pairs.partner.end(), w.found.begin(), w.found.end());
-    pairs.first.push_back(static_cast<int>(pairs.partner.size()));
+    w.tree.Query(&w, w.box(c, margin));
+    for (const int d : w.found) {
+      const std::size_t other = static_cast<std::size_t>(d);
+      if (other > c) continue;
+      for (std::size_t k = first; k < last; ++k)
+        w.add_near(k, 0, margin, w.sorted.begin(other), other == c ? k : w.sorted.end(other));
+    }
 
     w.found.clear();
-    w.world.QueryAABB(&walls, w.box(grains.x[i] - shift.x(), grains.y[i] - shift.y(), reach + w.largest_sagitta));
+    WallQuery walls(w.found);
+    w.world.QueryAABB(&walls, w.box(c, margin + w.largest_sagitta));
     std::sort(w.found.begin(), w.found.end());
     w.found.erase(std::unique(w.found.begin(), w.found.end()), w.found.end());
-    for (int wall : w.found) near_walls.push_back({static_cast<int>(i), wall, 0.0});
+    for (std::size_t k = first; k < last; ++k)
+      for (const int wall : w.found) near_walls.push_back({w.sorted.grain[k], wall, 0.0});
   }
+  for (std::size_t k = 0; k < w.unsorted.size(); ++k)
+    if (w.unsorted.grain[k] < w.unsorted.partner[k]) std::swap(w.unsorted.grain[k], w.unsorted.partner[k]);
+  w.sort_pairs(grains.size(), pairs);
+  std::sort(near_walls.begin(), near_walls.end(), [](const WallCandidate& a, const WallCandidate& b) {
+    return a.grain != b.grain ? a.grain < b.grain : a.wall < b.wall;
+  });
 }
 
-void Broadphase::find_across(const Grains& grains, const std::vector<Pose>& poses, double period, double margin,
-                             PairList& pairs) {
+void Broadphase::find_across(const Grains& grains, double period, double margin, PairList& pairs) {
   World& w = *world_;
-  const Eigen::Vector2d shift = poses.front().displacement;
-  pairs.first.assign(1, 0);
-  pairs.partner.clear();
-  for (std::size_t i = 0; i < grains.size(); ++i) {
-    const double x = grains.x[i] + period, y = grains.y[i], reach = grains.kind(i).radius + margin;
+  for (std::size_t c = 0; c < w.sorted.clusters(); ++c) {
     w.found.clear();
-    SeamQuery query{w.grain_of_proxy, grains, x, y, reach, w.found};
-    w.tree.Query(&query, w.box(x - shift.x(), y - shift.y(), reach));
-    std::sort(w.found.begin(), w.found.end());
-    pairs.partner.insert(pairs.partner.end(), w.found.begin(), w.found.end());
-    pairs.first.push_back(static_cast<int>(pairs.partner.size()));
+    w.tree.Query(&w, w.box(c, margin, period));
+    for (const int d : w.found)
+      for (std::size_t k = w.sorted.begin(c); k < w.sorted.end(c); ++k)
+        w.add_near(k, period, margin, w.sorted.begin(static_cast<std::size_t>(d)),
+                   w.sorted.end(static_cast<std::size_t>(d)));
   }
+  w.sort_pairs(grains.size(), pairs);
 }
 
 }  // namespace vibrosow

@@ -13,9 +13,9 @@
 namespace vibrosow {
 
 /// Box2D's part: it holds the vessels' walls as shapes of bodies (the tray kinematic, the hopper static), keeps a tree
-/// of the grains' boxes, and says which grains may touch what. Its solver never runs, and it never says how deep a
-/// contact is. The only place where lengths become float: one Box2D unit is the largest grain's diameter, because
-/// Box2D's margins are compiled in for shapes of about one unit.
+/// of the boxes of clusters of eight neighbouring grains, and says which grains may touch what. Its solver never runs,
+/// and it never says how deep a contact is. The only place where lengths become float: one Box2D unit is the largest
+/// grain's diameter, because Box2D's margins are compiled in for shapes of about one unit.
 class Broadphase {
  public:
   /// The vessels' walls are numbered in order, vessel after vessel. `unit` in m is the length of one Box2D unit.
@@ -24,15 +24,13 @@ class Broadphase {
 
   /// Fills `pairs` with all (i, j) nearer than r_i + r_j + margin (m) and `near_walls` with at least all grains nearer
   /// than r + margin to a wall, both sorted; the candidates' sides are not set. `poses` of each vessel; coordinates are
-  /// taken relative to the first vessel's displacement, so that a bed moving with its tray stays in its boxes. Grains
-  /// are known by their number.
+  /// taken relative to the first vessel's displacement, so that a bed moving with its tray stays in its boxes.
   void find(const Grains& grains, const std::vector<Pose>& poses, double margin, PairList& pairs,
             std::vector<WallCandidate>& near_walls);
 
   /// Fills `pairs` with all (i, j) such that i, shifted by `period` (m) to the right, is nearer than r_i + r_j + margin
-  /// to j: pairs across the seam of a periodic tray. Every grain has a row; j may be less than i. For the grains and
-  /// poses of the last `find`.
-  void find_across(const Grains& grains, const std::vector<Pose>& poses, double period, double margin, PairList& pairs);
+  /// to j: pairs across the seam of a periodic tray; j may be less than i. For the grains and poses of the last `find`.
+  void find_across(const Grains& grains, double period, double margin, PairList& pairs);
 
   /// Takes wall `wall` out of the vessel's body: nothing will touch it any more.
   void remove_wall(int wall);

@@ -3,27 +3,15 @@
 #include <algorithm>
 #include <cmath>
 
+#include "contact/compiled_effects.hpp"
 #include "contact/contact_history.hpp"
 #include "contact/friction.hpp"
+#include "contact/instruction_set.hpp"
 #include "contact/surface_parameters.hpp"
-#include "scene/scene.hpp"
 
-namespace vibrosow {
+namespace vibrosow::inline VIBROSOW_ISA {
 
-enum class FrictionChoice { none, sliding, spring };
-
-/// Effects that enter the contact force, as a compile-time choice. Rotation needs friction, rolling needs rotation.
-template <FrictionChoice friction_, bool rotation_, bool damping_, bool unequal_, Rolling rolling_, bool cohesion_>
-struct PairEffects {
-  static constexpr bool friction = friction_ != FrictionChoice::none;
-  static constexpr bool spring = friction_ == FrictionChoice::spring;
-  static constexpr bool rotation = rotation_, damping = damping_, unequal = unequal_;
-  static constexpr Rolling rolling = rolling_;
-  static constexpr bool rolls = rolling_ != Rolling::none;
-  static constexpr bool cohesion = cohesion_;
-};
-
-/// What stays the same for two surfaces as long as they touch.
+/// What stays the same for two surfaces as long as they touch. Members of an absent effect are not set.
 struct PairConstants {
   double reach;             // m, r_i + r_j
   double stiffness;         // of the law
@@ -42,6 +30,26 @@ struct Touch {
   double turning;   // rad/s, omega_i - omega_j
 };
 
+/// A displacement between two evaluations: read, moved on, and stored.
+class MovingHistory {
+ public:
+  MovingHistory(double stored, double old_speed, double speed, const HistoryAdvance& advance)
+      : displacement(stored + advance.trial * mean(old_speed, speed, advance)),
+        mean_(mean(old_speed, speed, advance)) {}
+
+  double displacement;  // at which the force is wanted; the law may shorten it
+
+  double to_store(const HistoryAdvance& advance) const {
+    return displacement + (advance.commit - advance.trial) * mean_;
+  }
+
+ private:
+  static double mean(double old_speed, double speed, const HistoryAdvance& advance) {
+    return old_speed + advance.present * (speed - old_speed);
+  }
+  double mean_;
+};
+
 struct ContactForce {
   double normal;      // N, repulsion; below zero only by cohesion
   double tangential;  // N, on i along -t; positive opposes a positive sliding speed
@@ -49,10 +57,10 @@ struct ContactForce {
 };
 
 /// Force of one contact. Elastic and damping force together never pull; cohesion pulls beside them and does not add to
-/// friction's limit. `memory` is entry `k` of the list's history.
+/// friction's limit. `memory` goes in as it was stored and comes out as it is to be stored.
 template <class Law, class Effects>
 inline ContactForce contact_force(const Touch& touch, const PairConstants& pair, const SurfaceParameters& surface,
-                                  const HistoryAdvance& advance, ContactHistory& memory, std::size_t k) {
+                                  const HistoryAdvance& advance, ContactMemory& memory) {
   const double secant = Law::secant(pair.stiffness, touch.overlap);
   double repulsion = secant * touch.overlap;
   [[maybe_unused]] double dashpot = 0;
@@ -63,10 +71,10 @@ inline ContactForce contact_force(const Touch& touch, const PairConstants& pair,
   ContactForce force{repulsion, 0, 0};
   if constexpr (Effects::cohesion) force.normal -= surface.cohesion;
   if constexpr (Effects::spring) {
-    MovingHistory slip(memory.slip[k], memory.slip_speed[k], touch.sliding, advance);
+    MovingHistory slip(memory.slip, memory.slip_speed, touch.sliding, advance);
     force.tangential = spring_friction(surface.tangential_ratio * secant, surface.tangential_damping * dashpot,
                                        surface.friction * repulsion, touch.sliding, slip.displacement);
-    if (advance.commit > 0) memory.slip[k] = slip.to_store(advance), memory.slip_speed[k] = touch.sliding;
+    memory.slip = slip.to_store(advance), memory.slip_speed = touch.sliding;
   } else if constexpr (Effects::friction) {
     force.tangential = sliding_friction(surface.friction * repulsion, touch.sliding, surface.inverse_slip_speed);
   }
@@ -77,35 +85,44 @@ inline ContactForce contact_force(const Touch& touch, const PairConstants& pair,
     const double arm = surface.rolling_friction * pair.rolling_radius;
     const double stiffness = 2.25 * secant * arm * arm;
     const double critical = 2 * std::sqrt(pair.rolling_inertia * stiffness);
-    MovingHistory roll(memory.roll[k], memory.roll_speed[k], touch.turning, advance);
+    MovingHistory roll(memory.roll, memory.roll_speed, touch.turning, advance);
     force.rolling = -spring_friction(stiffness, surface.rolling_damping * critical, arm * repulsion, touch.turning,
                                      roll.displacement);
-    if (advance.commit > 0) memory.roll[k] = roll.to_store(advance), memory.roll_speed[k] = touch.turning;
+    memory.roll = roll.to_store(advance), memory.roll_speed = touch.turning;
   }
   return force;
 }
 
-/// Nothing touches at entry `k`: it forgets.
 template <class Effects>
-inline void forget_contact(const HistoryAdvance& advance, ContactHistory& memory, std::size_t k) {
-  if (!(advance.commit > 0)) return;
-  if constexpr (Effects::spring) memory.slip[k] = memory.slip_speed[k] = 0;
-  if constexpr (Effects::rolling == Rolling::spring) memory.roll[k] = memory.roll_speed[k] = 0;
+inline ContactMemory recall(const ContactHistory& history, std::size_t k) {
+  ContactMemory memory;
+  if constexpr (Effects::spring) memory.slip = history.slip[k], memory.slip_speed = history.slip_speed[k];
+  if constexpr (Effects::rolling == Rolling::spring)
+    memory.roll = history.roll[k], memory.roll_speed = history.roll_speed[k];
+  return memory;
+}
+
+/// Keeps `memory` for the next step, at entry `k`; nothing, where nothing touches.
+template <class Effects>
+inline void store(const ContactMemory& memory, ContactHistory& history, std::size_t k) {
+  if constexpr (Effects::spring) history.slip[k] = memory.slip, history.slip_speed[k] = memory.slip_speed;
+  if constexpr (Effects::rolling == Rolling::spring)
+    history.roll[k] = memory.roll, history.roll_speed[k] = memory.roll_speed;
 }
 
 /// Energy of the springs of one contact, J; cohesion counts from the moment of touch.
 template <class Law, class Effects>
 inline double contact_energy(double overlap, const PairConstants& pair, const SurfaceParameters& surface,
-                             const ContactHistory& memory, std::size_t k) {
+                             const ContactMemory& memory) {
   double energy = Law::elastic_energy(pair.stiffness, overlap);
   [[maybe_unused]] const double secant = Law::secant(pair.stiffness, overlap);
   if constexpr (Effects::cohesion) energy -= surface.cohesion * overlap;
-  if constexpr (Effects::spring) energy += 0.5 * surface.tangential_ratio * secant * memory.slip[k] * memory.slip[k];
+  if constexpr (Effects::spring) energy += 0.5 * surface.tangential_ratio * secant * memory.slip * memory.slip;
   if constexpr (Effects::rolling == Rolling::spring) {
     const double arm = surface.rolling_friction * pair.rolling_radius;
-    energy += 0.5 * 2.25 * secant * arm * arm * memory.roll[k] * memory.roll[k];
+    energy += 0.5 * 2.25 * secant * arm * arm * memory.roll * memory.roll;
   }
   return energy;
 }
 
-}  // namespace vibrosow
+}  // namespace vibrosow::inline VIBROSOW_ISA

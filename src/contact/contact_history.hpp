@@ -5,11 +5,16 @@
 
 namespace vibrosow {
 
+/// What one contact remembers; signs do not depend on which of the two grains comes first.
+struct ContactMemory {
+  double slip = 0, slip_speed = 0;  // m, m/s: displacement of the tangential spring, last sliding speed
+  double roll = 0, roll_speed = 0;  // rad, rad/s: the same of the rolling spring
+};
+
 /// What touching contacts remember, one entry a candidate of a list; all zero where nothing touches. Arrays of an
-/// absent effect are empty. Signs do not depend on which of the two grains comes first.
+/// absent effect are empty.
 struct ContactHistory {
-  std::vector<double> slip, slip_speed;  // m, m/s: displacement of the tangential spring, last sliding speed
-  std::vector<double> roll, roll_speed;  // rad, rad/s: the same of the rolling spring
+  std::vector<double> slip, slip_speed, roll, roll_speed;
 
   bool remembers(std::size_t k) const {
     return (!slip.empty() && (slip[k] != 0 || slip_speed[k] != 0)) ||
@@ -28,26 +33,6 @@ struct ContactHistory {
 struct HistoryAdvance {
   double trial = 0, commit = 0;  // s
   double present = 1;
-};
-
-/// A displacement between two evaluations: read, moved on, and stored.
-class MovingHistory {
- public:
-  MovingHistory(double stored, double old_speed, double speed, const HistoryAdvance& advance)
-      : displacement(stored + advance.trial * mean(old_speed, speed, advance)),
-        mean_(mean(old_speed, speed, advance)) {}
-
-  double displacement;  // at which the force is wanted; the law may shorten it
-
-  double to_store(const HistoryAdvance& advance) const {
-    return displacement + (advance.commit - advance.trial) * mean_;
-  }
-
- private:
-  static double mean(double old_speed, double speed, const HistoryAdvance& advance) {
-    return old_speed + advance.present * (speed - old_speed);
-  }
-  double mean_;
 };
 
 }  // namespace vibrosow

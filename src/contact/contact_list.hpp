@@ -5,14 +5,14 @@
 
 namespace vibrosow {
 
-/// Candidate pairs (i, j), i < j, sorted: the partners of i are partner[first[i]] .. partner[first[i + 1] - 1]. The
-/// order of summation follows from it, whatever found the pairs.
+/// Candidate pairs (grain, partner), sorted by grain and then by partner; partner < grain but across a seam. The order
+/// of summation follows from it, whatever found the pairs.
 struct PairList {
-  std::vector<int> first{0};
-  std::vector<int> partner;
+  std::vector<int> grain, partner;
 
-  std::size_t grains() const { return first.size() - 1; }
   std::size_t size() const { return partner.size(); }
+  void clear() { grain.clear(), partner.clear(); }
+  void add(int i, int j) { grain.push_back(i), partner.push_back(j); }
 };
 
 /// A grain near a wall segment.

@@ -2,9 +2,10 @@
 
 #include <cmath>
 
+#include "contact/instruction_set.hpp"
 #include "contact/surface_parameters.hpp"
 
-namespace vibrosow {
+namespace vibrosow::inline VIBROSOW_ISA {
 
 /// Paper A's normal law: a rigid disc in a thin elastic shell of stiffness c = m g / eps, two shells in series
 /// (Bogulskaya & Bogulsky 2020). Arguments in SI; compliances are 1 / c in m/N; a wall is a grain of compliance 0,
@@ -40,4 +41,4 @@ struct ElasticShell {
   }
 };
 
-}  // namespace vibrosow
+}  // namespace vibrosow::inline VIBROSOW_ISA

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 
-namespace vibrosow {
+#include "contact/instruction_set.hpp"
+
+namespace vibrosow::inline VIBROSOW_ISA {
 
 /// Sliding friction `limit` sign(W) (paper A), made continuous: linear in the sliding speed below the slip speed. Also
 /// the rolling torque of model A (Ai et al. 2011), of a limit in N m and a rolling speed.
@@ -26,4 +28,4 @@ inline Real spring_friction(Real stiffness, Real dashpot, Real limit, Real speed
   return within(held + dashpot * speed);
 }
 
-}  // namespace vibrosow
+}  // namespace vibrosow::inline VIBROSOW_ISA

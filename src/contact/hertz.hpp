@@ -2,9 +2,10 @@
 
 #include <cmath>
 
+#include "contact/instruction_set.hpp"
 #include "contact/surface_parameters.hpp"
 
-namespace vibrosow {
+namespace vibrosow::inline VIBROSOW_ISA {
 
 /// Hertz' normal law F = (4/3) E* sqrt(R*) d^(3/2) (paper B, eq. 5). Arguments in SI; compliances are (1 - nu^2) / E in
 /// 1/Pa, so that 1/E* is their sum; curvatures are 1/R. A rigid wall is a grain of compliance 0, a plane one of
@@ -58,4 +59,4 @@ struct HertzViscous : Hertz {
   }
 };
 
-}  // namespace vibrosow
+}  // namespace vibrosow::inline VIBROSOW_ISA

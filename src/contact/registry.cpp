@@ -1,65 +1,61 @@
 #include <stdexcept>
+#include <utility>
 
-#include "contact/elastic_shell.hpp"
-#include "contact/hertz.hpp"
 #include "contact/kernels.hpp"
-#include "contact/pair_kernel.hpp"
-#include "contact/restitution.hpp"
+#include "contact/laws.hpp"
+#include "contact/pair_energy.hpp"
 #include "contact/wall_kernel.hpp"
 
 namespace vibrosow {
+
+// Defined in pair_kernels.cpp, compiled for each.
+inline namespace generic {
+template <Law law>
+const PairKernels& pair_kernels();
+}
+namespace avx2 {
+template <Law law>
+const PairKernels& pair_kernels();
+}
+namespace avx512 {
+template <Law law>
+const PairKernels& pair_kernels();
+}
+
 namespace {
 
 using Table = std::vector<KernelSet>;
 
-template <class LawType, FrictionChoice friction, bool rotation, bool damping, bool unequal, Rolling rolling,
-          bool cohesion>
-void add(Law law, Table& table) {
-  using Effects = PairEffects<friction, rotation, damping, unequal, rolling, cohesion>;
-  table.push_back({law, friction, rotation, damping, unequal, rolling, cohesion, pair_forces<LawType, Effects>,
-                   wall_forces<LawType, Effects>, pair_energy<LawType, Effects>, wall_energy<LawType, Effects>});
+template <Law law>
+std::array<PairKernel, instruction_sets.size()> pair_kernels_at(std::size_t index) {
+#ifdef VIBROSOW_X86_KERNELS
+  return {generic::pair_kernels<law>()[index], avx2::pair_kernels<law>()[index], avx512::pair_kernels<law>()[index]};
+#else
+  return {generic::pair_kernels<law>()[index], nullptr, nullptr};
+#endif
 }
 
-template <class LawType, bool damping, bool unequal, bool cohesion>
-void add_frictions(Law law, Table& table) {
-  using enum FrictionChoice;
-  add<LawType, none, false, damping, unequal, Rolling::none, cohesion>(law, table);
-  add<LawType, sliding, false, damping, unequal, Rolling::none, cohesion>(law, table);
-  add<LawType, sliding, true, damping, unequal, Rolling::none, cohesion>(law, table);
-  add<LawType, spring, false, damping, unequal, Rolling::none, cohesion>(law, table);
-  add<LawType, spring, true, damping, unequal, Rolling::none, cohesion>(law, table);
+template <Law law, std::size_t index>
+void add(Table& table) {
+  using Formulas = Registered<law>::Formulas;
+  using Effects = PairEffects<compiled_effects[index]>;
+  table.push_back({law, compiled_effects[index], pair_kernels_at<law>(index), wall_forces<Formulas, Effects>,
+                   pair_energy<Formulas, Effects>, wall_energy<Formulas, Effects>});
 }
 
-template <class LawType, bool unequal, bool cohesion>
-void add_rolling(Law law, Table& table) {
-  using enum FrictionChoice;
-  add<LawType, sliding, true, true, unequal, Rolling::constant_torque, cohesion>(law, table);
-  add<LawType, spring, true, true, unequal, Rolling::constant_torque, cohesion>(law, table);
-  add<LawType, sliding, true, true, unequal, Rolling::spring, cohesion>(law, table);
-  add<LawType, spring, true, true, unequal, Rolling::spring, cohesion>(law, table);
-}
-
-/// All combinations of effects for one law: 20 plain ones, 10 with cohesion and 16 with rolling resistance; those two
-/// always with damping, which bounds what there is to build.
-template <class LawType>
-void register_law(Law law, Table& table) {
-  add_frictions<LawType, false, false, false>(law, table);
-  add_frictions<LawType, false, true, false>(law, table);
-  add_frictions<LawType, true, false, false>(law, table);
-  add_frictions<LawType, true, true, false>(law, table);
-  add_frictions<LawType, true, false, true>(law, table);
-  add_frictions<LawType, true, true, true>(law, table);
-  add_rolling<LawType, false, false>(law, table);
-  add_rolling<LawType, false, true>(law, table);
-  add_rolling<LawType, true, false>(law, table);
-  add_rolling<LawType, true, true>(law, table);
+template <Law law>
+void add_law(Table& table) {
+  [&]<std::size_t... index>(std::index_sequence<index...>) {
+    (add<law, index>(table), ...);
+  }
+  (std::make_index_sequence<compiled_effects.size()>());
 }
 
 Table build_table() {
   Table table;
-  register_law<ElasticShell>(Law::elastic_shell, table);
-  register_law<Hertz>(Law::hertz, table);
-  register_law<HertzViscous>(Law::hertz_viscous, table);
+  add_law<Law::elastic_shell>(table);
+  add_law<Law::hertz>(table);
+  add_law<Law::hertz_viscous>(table);
   return table;
 }
 
@@ -70,16 +66,29 @@ const std::vector<KernelSet>& registered_kernels() {
   return table;
 }
 
+GrainSurfaces surfaces_of(const Grains& grains) {
+  const GrainKind& kind = grains.kinds.front();
+  return {{kind.radius, kind.compliance, kind.inverse_mass, kind.inverse_inertia, 1 / kind.radius},
+          grains.radius.data(),
+          grains.compliance.data(),
+          grains.inverse_mass.data(),
+          grains.inverse_inertia.data(),
+          grains.curvature.data(),
+          grains.lot.data()};
+}
+
 const KernelSet& kernels_for(Law law, const EffectSet& effects) {
-  const FrictionChoice friction = !effects.friction           ? FrictionChoice::none
-                                  : effects.tangential_spring ? FrictionChoice::spring
-                                                              : FrictionChoice::sliding;
-  const bool rotation = effects.rotation && effects.friction;  // without friction no contact turns a disc
-  const bool damping = effects.damping || effects.cohesion || effects.rolling != Rolling::none;
+  EffectChoice wanted;
+  wanted.friction = !effects.friction           ? FrictionChoice::none
+                    : effects.tangential_spring ? FrictionChoice::spring
+                                                : FrictionChoice::sliding;
+  wanted.rotation = effects.rotation && effects.friction;  // without friction no contact turns a disc
+  wanted.damping = effects.damping || effects.cohesion || effects.rolling != Rolling::none;
+  wanted.unequal = effects.unequal;
+  wanted.rolling = effects.rolling;
+  wanted.cohesion = effects.cohesion;
   for (const KernelSet& set : registered_kernels())
-    if (set.law == law && set.friction == friction && set.rotation == rotation && set.damping == damping &&
-        set.unequal == effects.unequal && set.rolling == effects.rolling && set.cohesion == effects.cohesion)
-      return set;
+    if (set.law == law && set.effects == wanted) return set;
   throw std::logic_error("no kernel is compiled for this set of effects");
 }
 

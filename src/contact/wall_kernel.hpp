@@ -3,9 +3,10 @@
 #include <array>
 #include <cmath>
 
-#include "contact/pair_kernel.hpp"
+#include "contact/kernels.hpp"
+#include "contact/pair_properties.hpp"
 
-namespace vibrosow {
+namespace vibrosow::inline VIBROSOW_ISA {
 
 /// The nearest point of a wall to a grain's centre.
 struct NearestPoint {
@@ -145,7 +146,9 @@ void wall_forces(const Grains& grains, const Motion& at, std::vector<WallCandida
     touch.sliding = uy * nx - ux * ny;
     if constexpr (Effects::rotation) touch.sliding += arm * at.omega[i];
     if constexpr (Effects::rolls) touch.turning = at.omega[i] - wall.spin;
-    const ContactForce force = contact_force<Law, Effects>(touch, pair, surface, advance, history, c);
+    ContactMemory memory = recall<Effects>(history, c);
+    const ContactForce force = contact_force<Law, Effects>(touch, pair, surface, advance, memory);
+    if (advance.commit > 0) store<Effects>(memory, history, c);
     double px = force.normal * nx, py = force.normal * ny;
     if constexpr (Effects::friction) px -= force.tangential * ny, py += force.tangential * nx;
     sum_x -= px, sum_y -= py;
@@ -167,7 +170,7 @@ void wall_forces(const Grains& grains, const Motion& at, std::vector<WallCandida
     forces.fx[i] += sum_x, forces.fy[i] += sum_y;
     if constexpr (Effects::rotation) forces.torque[i] += sum_torque;
     for (std::size_t c = from; c < to; ++c)
-      if (!(touched >> ((c - from) & 63) & 1)) forget_contact<Effects>(advance, history, c);
+      if (advance.commit > 0 && !(touched >> ((c - from) & 63) & 1)) store<Effects>({}, history, c);
   });
 }
 
@@ -183,10 +186,10 @@ double wall_energy(const Grains& grains, const Motion& at, const std::vector<Wal
     for_each_wall_contact(candidates, from, to, walls, at.x[i], at.y[i], kind.radius,
                           [&](std::size_t c, const NearestPoint& nearest) {
                             const double overlap = kind.radius - std::sqrt(nearest.distance2);
-                            energy += contact_energy<Law, Effects>(overlap, pair, surface, history, c);
+                            energy += contact_energy<Law, Effects>(overlap, pair, surface, recall<Effects>(history, c));
                           });
   });
   return energy;
 }
 
-}  // namespace vibrosow
+}  // namespace vibrosow::inline VIBROSOW_ISA

@@ -7,6 +7,8 @@
 #include <variant>
 #include <vector>
 
+#include "scene/contact_choices.hpp"
+
 namespace vibrosow {
 
 inline constexpr double standard_gravity = 9.81;  // m/s2, as in both papers
@@ -43,15 +45,6 @@ struct SeedLot {
   std::optional<double> youngs_modulus{};     // Pa
   std::optional<double> poisson_ratio{};
 };
-
-/// elastic_shell: paper A. hertz: damping from the restitution. hertz_viscous: paper B, damping -gamma_n M* v_n.
-enum class Law { elastic_shell, hertz, hertz_viscous };
-
-/// sliding: sign law made continuous below the slip speed (paper A); spring: a tangential spring with Coulomb's limit.
-enum class FrictionModel { sliding, spring };
-
-/// constant_torque and spring (elastic-plastic spring and dashpot) as named by Ai et al. 2011, models A and C.
-enum class Rolling { none, constant_torque, spring };
 
 struct Surface {
   double friction = 0;          // Coulomb coefficient

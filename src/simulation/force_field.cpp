@@ -16,13 +16,15 @@ void clear(Forces& forces, const Grains& grains) {
 
 }  // namespace
 
-ForceField::ForceField(const Scene& scene, const EffectSet& effects, NeighbourMargins margins)
+ForceField::ForceField(const Scene& scene, const EffectSet& effects, NeighbourMargins margins,
+                       InstructionSet instructions)
     : scene_(scene),
       walls_(vessels_of(scene)),
       neighbours_(walls_.vessels(), largest_diameter(scene.lots), margins,
                   {effects.tangential_spring, effects.rolling == Rolling::spring}),
       parameters_(contact_parameters(scene)),
-      kernels_(kernels_for(scene.contact.law, effects)) {
+      kernels_(kernels_for(scene.contact.law, effects)),
+      pair_kernel_(kernels_.pair[static_cast<std::size_t>(instructions)]) {
   if (effects.clumps) clumps_.emplace(scene_, effects.rotation);
 }
 
@@ -49,11 +51,14 @@ Motion ForceField::across_seam(const Grains& discs) {
 void ForceField::run_kernels(const Grains& discs, const HistoryAdvance& advance, Forces& forces,
                              ContactCensus& census) {
   clear(forces, discs);
+  const GrainSurfaces surfaces = surfaces_of(discs);
   const Motion at = motion_of(discs);
-  kernels_.pair(discs, at, neighbours_.pairs(), parameters_, advance, neighbours_.pair_history(), forces, census);
-  if (neighbours_.period() > 0)
-    kernels_.pair(discs, across_seam(discs), neighbours_.seam_pairs(), parameters_, advance, neighbours_.seam_history(),
-                  forces, census);
+  const auto add_pairs = [&](const Motion& motion, const PairList& pairs, ContactHistory& history) {
+    add_pair_forces(pair_kernel_, surfaces, motion, pairs, {0, static_cast<int>(pairs.size())}, parameters_, advance,
+                    history, 0, forces, foreign_, census);
+  };
+  add_pairs(at, neighbours_.pairs(), neighbours_.pair_history());
+  if (neighbours_.period() > 0) add_pairs(across_seam(discs), neighbours_.seam_pairs(), neighbours_.seam_history());
   kernels_.wall(discs, at, neighbours_.near_walls(), walls_.placed(), parameters_, advance, neighbours_.wall_history(),
                 forces, census);
 }
@@ -82,9 +87,10 @@ void ForceField::evaluate(const Grains& grains, double time, const HistoryAdvanc
 double ForceField::elastic_energy(const Grains& grains) {
   const Grains& discs = place_discs(grains);
   const Motion at = motion_of(discs);
-  double energy = kernels_.pair_energy(discs, at, neighbours_.pairs(), parameters_, neighbours_.pair_history());
+  double energy =
+      kernels_.pair_energy(surfaces_of(discs), at, neighbours_.pairs(), parameters_, neighbours_.pair_history());
   if (neighbours_.period() > 0)
-    energy += kernels_.pair_energy(discs, across_seam(discs), neighbours_.seam_pairs(), parameters_,
+    energy += kernels_.pair_energy(surfaces_of(discs), across_seam(discs), neighbours_.seam_pairs(), parameters_,
                                    neighbours_.seam_history());
   return energy + kernels_.wall_energy(discs, at, neighbours_.near_walls(), walls_.placed(), parameters_,
                                        neighbours_.wall_history());
@@ -110,13 +116,12 @@ std::vector<char> ForceField::touching(const Grains& grains) const {
   const Grains& discs = clumps_ ? clumps_->discs() : grains;
   const auto grain_of = [&](std::size_t k) { return clumps_ ? static_cast<std::size_t>(discs.clump[k]) : k; };
   const auto look = [&](const PairList& pairs, double shift) {
-    for (std::size_t i = 0; i < pairs.grains(); ++i)
-      for (int k = pairs.first[i]; k < pairs.first[i + 1]; ++k) {
-        const std::size_t j = static_cast<std::size_t>(pairs.partner[static_cast<std::size_t>(k)]);
-        const double reach = discs.kind(i).radius + discs.kind(j).radius;
-        if (std::hypot(discs.x[j] - (discs.x[i] + shift), discs.y[j] - discs.y[i]) < reach)
-          touches[grain_of(i)] = touches[grain_of(j)] = 1;
-      }
+    for (std::size_t k = 0; k < pairs.size(); ++k) {
+      const std::size_t i = static_cast<std::size_t>(pairs.grain[k]), j = static_cast<std::size_t>(pairs.partner[k]);
+      const double reach = discs.kind(i).radius + discs.kind(j).radius;
+      const double dx = discs.x[j] - (discs.x[i] + shift), dy = discs.y[j] - discs.y[i];
+      if (dx * dx + dy * dy < reach * reach) touches[grain_of(i)] = touches[grain_of(j)] = 1;
+    }
   };
   look(neighbours_.pairs(), 0);
   look(neighbours_.seam_pairs(), neighbours_.period());

@@ -3,7 +3,7 @@
 #include <optional>
 #include <vector>
 
-#include "contact/kernels.hpp"
+#include "contact/pair_forces.hpp"
 #include "grains/grains.hpp"
 #include "simulation/clump_discs.hpp"
 #include "simulation/neighbours.hpp"
@@ -15,7 +15,8 @@ namespace vibrosow {
 /// Where grains are clumps, lists and kernels see their discs, and the forces are gathered.
 class ForceField {
  public:
-  ForceField(const Scene& scene, const EffectSet& effects, NeighbourMargins margins);
+  ForceField(const Scene& scene, const EffectSet& effects, NeighbourMargins margins,
+             InstructionSet instructions = best_instruction_set());
   ForceField(const ForceField&) = delete;
   ForceField& operator=(const ForceField&) = delete;
 
@@ -58,9 +59,11 @@ class ForceField {
   Neighbours neighbours_;
   ContactParameters parameters_;
   const KernelSet& kernels_;
+  PairKernel pair_kernel_;
   std::optional<ClumpDiscs> clumps_;
   bool clumps_are_current_ = false;
   Forces forces_, disc_forces_;
+  std::vector<ForeignForce> foreign_;
   std::vector<double> shifted_x_;  // m, of periodic sides
   double neighbour_time_ = 0, force_time_ = 0;
 };

@@ -32,17 +32,11 @@ void renumber(PairList& list, ContactHistory& history, const std::vector<char>& 
               const std::vector<int>& new_index) {
   PairList kept;
   std::vector<std::size_t> kept_entries;
-  kept.partner.reserve(list.size());
-  kept.first.reserve(list.first.size());
-  for (std::size_t i = 0; i < list.grains(); ++i) {
-    if (removed[i]) continue;
-    for (int k = list.first[i]; k < list.first[i + 1]; ++k) {
-      const std::size_t entry = static_cast<std::size_t>(k), j = static_cast<std::size_t>(list.partner[entry]);
-      if (removed[j]) continue;
-      kept.partner.push_back(new_index[j]);
-      kept_entries.push_back(entry);
-    }
-    kept.first.push_back(static_cast<int>(kept.partner.size()));
+  for (std::size_t k = 0; k < list.size(); ++k) {
+    const std::size_t i = static_cast<std::size_t>(list.grain[k]), j = static_cast<std::size_t>(list.partner[k]);
+    if (removed[i] || removed[j]) continue;
+    kept.add(new_index[i], new_index[j]);
+    kept_entries.push_back(k);
   }
   list = std::move(kept);
   keep_entries(history, kept_entries);
@@ -72,12 +66,10 @@ bool operator<(const RememberedPair& a, const RememberedPair& b) {
 }
 
 void add_active_pairs(const PairList& list, const ContactHistory& history, std::vector<RememberedPair>& active) {
-  for (std::size_t i = 0; i < list.grains(); ++i)
-    for (int k = list.first[i]; k < list.first[i + 1]; ++k) {
-      const std::size_t entry = static_cast<std::size_t>(k);
-      const int a = static_cast<int>(i), b = list.partner[entry];
-      if (history.remembers(entry)) active.push_back({std::min(a, b), std::max(a, b), &history, entry});
-    }
+  for (std::size_t k = 0; k < list.size(); ++k)
+    if (history.remembers(k))
+      active.push_back(
+          {std::min(list.grain[k], list.partner[k]), std::max(list.grain[k], list.partner[k]), &history, k});
 }
 
 /// Of both lists, sorted: a grain carried from one side to the other takes its contacts from one list to the other.
@@ -91,32 +83,24 @@ std::vector<RememberedPair> active_pairs(const PairList& pairs, const ContactHis
 }
 
 void recall(const std::vector<RememberedPair>& remembered, const PairList& list, ContactHistory& history) {
-  for (std::size_t i = 0; i < list.grains(); ++i)
-    for (int k = list.first[i]; k < list.first[i + 1]; ++k) {
-      const std::size_t entry = static_cast<std::size_t>(k);
-      const int a = static_cast<int>(i), b = list.partner[entry];
-      const RememberedPair wanted{std::min(a, b), std::max(a, b), nullptr, 0};
-      const auto found = std::lower_bound(remembered.begin(), remembered.end(), wanted);
-      if (found != remembered.end() && !(wanted < *found)) copy_entry(*found->history, found->entry, history, entry);
-    }
+  for (std::size_t k = 0; k < list.size(); ++k) {
+    const RememberedPair wanted{std::min(list.grain[k], list.partner[k]), std::max(list.grain[k], list.partner[k]),
+                                nullptr, 0};
+    const auto found = std::lower_bound(remembered.begin(), remembered.end(), wanted);
+    if (found != remembered.end() && !(wanted < *found)) copy_entry(*found->history, found->entry, history, k);
+  }
 }
 
 /// Keeps the pairs nearer than their reach plus `margin` (m), with the rows' grains shifted by `shift` (m) along x.
 void prune_pairs(const Grains& grains, const PairList& wide, double shift, double margin, PairList& narrow) {
-  narrow.first.assign(1, 0);
-  narrow.partner.clear();
+  narrow.clear();
   const bool clumps = !grains.clump.empty();
-  for (std::size_t i = 0; i < wide.grains(); ++i) {
-    const double reach = grains.kind(i).radius + margin, x = grains.x[i] + shift;
-    for (int k = wide.first[i]; k < wide.first[i + 1]; ++k) {
-      const int partner = wide.partner[static_cast<std::size_t>(k)];
-      const std::size_t j = static_cast<std::size_t>(partner);
-      if (clumps && grains.clump[i] == grains.clump[j]) continue;
-      const double dx = grains.x[j] - x, dy = grains.y[j] - grains.y[i];
-      const double limit = reach + grains.kind(j).radius;
-      if (dx * dx + dy * dy < limit * limit) narrow.partner.push_back(partner);
-    }
-    narrow.first.push_back(static_cast<int>(narrow.partner.size()));
+  for (std::size_t k = 0; k < wide.size(); ++k) {
+    const std::size_t i = static_cast<std::size_t>(wide.grain[k]), j = static_cast<std::size_t>(wide.partner[k]);
+    if (clumps && grains.clump[i] == grains.clump[j]) continue;
+    const double dx = grains.x[j] - (grains.x[i] + shift), dy = grains.y[j] - grains.y[i];
+    const double limit = grains.kind(i).radius + margin + grains.kind(j).radius;
+    if (dx * dx + dy * dy < limit * limit) narrow.add(wide.grain[k], wide.partner[k]);
   }
 }
 
@@ -169,7 +153,7 @@ void Neighbours::update(const Grains& grains, const Walls& walls) {
 
 void Neighbours::search(const Grains& grains, const Walls& walls) {
   broadphase_.find(grains, walls.poses(), wide_margin_, wide_, wide_walls_);
-  if (period_ > 0) broadphase_.find_across(grains, walls.poses(), period_, wide_margin_, wide_seam_);
+  if (period_ > 0) broadphase_.find_across(grains, period_, wide_margin_, wide_seam_);
   wide_reference_ = reference(grains, walls);
   wide_is_valid_ = true;
   ++searches_;

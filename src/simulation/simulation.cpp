@@ -26,7 +26,7 @@ std::int64_t steps_in(double interval, double dt) {
 Simulation::Simulation(const Scene& scene, Grains grains, const SimulationSetup& setup)
     : scene_(scene),
       grains_(std::move(grains)),
-      field_(scene_, setup.effects, setup.margins),
+      field_(scene_, setup.effects, setup.margins, setup.instructions),
       s_{.grains = grains_,
          .field = field_,
          .scheme = scene_.numerics.integrator,

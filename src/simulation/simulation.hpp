@@ -20,6 +20,7 @@ struct SimulationSetup {
   EffectSet effects{};                            // the kernels to run with; at least those the scene calls for
   NeighbourMargins margins{};
   bool insisted_on_step = false;
+  InstructionSet instructions = best_instruction_set();  // changes the time of a run, never its result
 };
 
 /// The grains of a scene in motion, step by step.

@@ -29,7 +29,7 @@ TEST(Wall, IsAGrainOfInfiniteRadiusAndMass) {
       grains.add(0.5, Bench::radius - overlap, 0.07, -0.02, 0);
       grains.omega[0] = 5;
       if (!as_wall) grains.add(0.5, -giant, 0.01, 0.03, 1);
-      const PairList pairs = as_wall ? PairList{{0, 0}, {}} : PairList{{0, 1, 1}, {1}};
+      const PairList pairs = as_wall ? PairList{} : PairList{{0}, {1}};
       const std::vector<PlacedWall> walls{{0, 0, 1, 0, 0, 1, 0.01, 0.03}};
       std::vector<WallCandidate> near;
       if (as_wall) near.push_back({0, 0, 1});
@@ -40,7 +40,9 @@ TEST(Wall, IsAGrainOfInfiniteRadiusAndMass) {
       const KernelSet& kernels = kernels_for(law, effects);
       const ContactParameters parameters = contact_parameters(scene);
       ContactHistory none;
-      kernels.pair(grains, at, pairs, parameters, {}, none, f, census);
+      std::vector<ForeignForce> foreign;
+      add_pair_forces(kernels.pair[0], surfaces_of(grains), at, pairs, {0, static_cast<int>(pairs.size())}, parameters,
+                      {}, none, 0, f, foreign, census);
       kernels.wall(grains, at, near, walls, parameters, {}, none, f, census);
       EXPECT_EQ(census.contacts, 1);
       EXPECT_NEAR(census.max_compression, overlap / Bench::radius, 1e-7);

@@ -119,11 +119,12 @@ TEST(Effects, AbsentOnesHaveNoArrays) {
 TEST(Effects, EveryRegisteredSetIsFoundAndDistinct) {
   for (const KernelSet& set : registered_kernels()) {
     EffectSet wanted;
-    wanted.friction = set.friction != FrictionChoice::none;
-    wanted.tangential_spring = set.friction == FrictionChoice::spring;
-    wanted.rotation = set.rotation, wanted.damping = set.damping, wanted.unequal = set.unequal;
-    wanted.rolling = set.rolling, wanted.cohesion = set.cohesion;
-    EXPECT_EQ(kernels_for(set.law, wanted).pair, set.pair);
+    const EffectChoice& effects = set.effects;
+    wanted.friction = effects.friction != FrictionChoice::none;
+    wanted.tangential_spring = effects.friction == FrictionChoice::spring;
+    wanted.rotation = effects.rotation, wanted.damping = effects.damping, wanted.unequal = effects.unequal;
+    wanted.rolling = effects.rolling, wanted.cohesion = effects.cohesion;
+    EXPECT_EQ(&kernels_for(set.law, wanted), &set);
   }
   EXPECT_EQ(registered_kernels().size(), 3u * 46u);
 }

@@ -1,0 +1,71 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <vector>
+
+#include "contact/compiled_effects.hpp"
+#include "contact/contact_history.hpp"
+#include "contact/contact_list.hpp"
+#include "contact/instruction_set.hpp"
+#include "contact/surface_parameters.hpp"
+
+// Plain data between the simulation and kernels compiled for several instruction sets.
+
+namespace vibrosow {
+
+/// Everything the kernels know of a scene's contacts.
+struct ContactParameters {
+  std::size_t lots = 1;
+  std::vector<SurfaceParameters> pairs;  // lots x lots, symmetric
+  std::vector<SurfaceParameters> walls;  // by lot
+  double wall_compliance = 0;            // as a grain's; 0: rigid
+  double arm_shortening = 1;  // 1: friction acts at the contact point; 0: on the undeformed rim, as in paper A
+
+  const SurfaceParameters& pair(int lot_i, int lot_j) const {
+    return pairs[static_cast<std::size_t>(lot_i) * lots + static_cast<std::size_t>(lot_j)];
+  }
+  const SurfaceParameters& wall(int lot) const { return walls[static_cast<std::size_t>(lot)]; }
+};
+/// What a contact needs to know of one grain.
+struct GrainSurface {
+  double radius, compliance, inverse_mass, inverse_inertia, curvature;
+};
+
+/// The same of all grains: arrays where they are unequal, `equal` where they are not.
+struct GrainSurfaces {
+  GrainSurface equal;
+  const double *radius, *compliance, *inverse_mass, *inverse_inertia, *curvature;
+  const int* lot;
+};
+
+/// Where and how fast the grains are when forces are wanted. `row_x` stands for `x` of the first grain of each pair: it
+/// is the same array, or shifted by one period for pairs across the seam of periodic sides.
+struct Motion {
+  const double *x, *y, *vx, *vy, *omega, *row_x;
+};
+
+/// Entries [from, to) of a pair list, at most PairBlock::size of them.
+struct PairRange {
+  int from, to;
+};
+
+/// Forces of the touching ones among up to `size` pairs, in the order of the list.
+struct PairBlock {
+  static constexpr int size = 256;
+
+  int touching;                               // of the first so many places below
+  double max_compression;                     // of them
+  int entry[size];                            // of the list
+  double fx[size], fy[size];                  // N, on the partner; the opposite on the grain
+  double torque[size], partner_torque[size];  // N m, on the grain and on its partner; without rotation unset
+};
+
+/// Works out a block: the law for each touching pair of a range. `history` has an entry for each pair of the list.
+using PairKernel = void (*)(const GrainSurfaces&, const Motion&, const PairList&, PairRange, const ContactParameters&,
+                            const HistoryAdvance&, ContactHistory& history, PairBlock&);
+
+/// By index of `compiled_effects`.
+using PairKernels = std::array<PairKernel, compiled_effects.size()>;
+
+}  // namespace vibrosow

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <cmath>
+
+#include "contact/pair_properties.hpp"
+
+namespace vibrosow::inline VIBROSOW_ISA {
+
+template <class Law, class Effects>
+double pair_energy(const GrainSurfaces& grains, const Motion& at, const PairList& list,
+                   const ContactParameters& parameters, const ContactHistory& history) {
+  const PairProperties<Law, Effects> properties(grains, parameters);
+  double energy = 0;
+  for (std::size_t k = 0; k < list.size(); ++k) {
+    const std::size_t i = static_cast<std::size_t>(list.grain[k]), j = static_cast<std::size_t>(list.partner[k]);
+    const double dx = at.x[j] - at.row_x[i], dy = at.y[j] - at.y[i];
+    const double overlap = properties.reach(i, j) - std::sqrt(dx * dx + dy * dy);
+    if (overlap > 0)
+      energy += contact_energy<Law, Effects>(overlap, properties.pair(i, j), properties.between(i, j),
+                                             recall<Effects>(history, k));
+  }
+  return energy;
+}
+
+}  // namespace vibrosow::inline VIBROSOW_ISA

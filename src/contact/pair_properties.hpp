@@ -1,0 +1,80 @@
+#pragma once
+
+#include <cmath>
+
+#include "contact/contact_force.hpp"
+#include "contact/pair_block.hpp"
+
+namespace vibrosow::inline VIBROSOW_ISA {
+
+/// Of two grains, or of a grain and a wall (radius 0 stands for its place, compliance its own, the rest 0).
+template <class Law, class Effects>
+inline PairConstants pair_constants(const GrainSurface& a, const GrainSurface& b, const SurfaceParameters& surface) {
+  PairConstants p;
+  p.reach = a.radius + b.radius;
+  p.stiffness = Law::stiffness(a.compliance, b.compliance, a.curvature, b.curvature);
+  if constexpr (Effects::damping) p.dashpot = Law::dashpot(surface, p.stiffness, a.inverse_mass, b.inverse_mass);
+  const double compliance = a.compliance + b.compliance;
+  p.share_i = a.compliance / compliance;
+  p.share_j = b.compliance / compliance;
+  const double at_i = p.share_i * a.curvature, at_j = p.share_j * b.curvature;
+  p.compression_per_overlap = at_i > at_j ? at_i : at_j;
+  if constexpr (Effects::rolls) p.rolling_radius = 1 / (a.curvature + b.curvature);
+  if constexpr (Effects::rolling == Rolling::spring) {
+    // 1 / (I + m r^2) of each, about the contact; a wall has none, a grain kept from turning neither
+    const auto yield = [](const GrainSurface& g) {
+      return g.inverse_inertia > 0
+                 ? g.inverse_inertia * g.inverse_mass / (g.inverse_mass + g.inverse_inertia * g.radius * g.radius)
+                 : 0.0;
+    };
+    const double both = yield(a) + yield(b);
+    p.rolling_inertia = both > 0 ? 1 / both : 0;
+  }
+  return p;
+}
+
+/// Properties of two grains as the kernel sees them: constants for equal grains, worked out pair by pair for unequal
+/// ones from the same expressions, so that both give the same bits for equal grains.
+template <class Law, class Effects>
+class PairProperties {
+ public:
+  PairProperties(const GrainSurfaces& grains, const ContactParameters& parameters)
+      : grains_(grains), parameters_(parameters) {
+    if constexpr (!Effects::unequal)
+      equal_ = pair_constants<Law, Effects>(surface(0), surface(0), parameters.pair(0, 0));
+  }
+
+  double reach(std::size_t i, std::size_t j) const {
+    if constexpr (Effects::unequal) return grains_.radius[i] + grains_.radius[j];
+    return equal_.reach;
+  }
+  double radius(std::size_t i) const {
+    if constexpr (Effects::unequal) return grains_.radius[i];
+    return 0.5 * equal_.reach;
+  }
+  const SurfaceParameters& between(std::size_t i, std::size_t j) const {
+    if constexpr (Effects::unequal) return parameters_.pair(grains_.lot[i], grains_.lot[j]);
+    return parameters_.pairs.front();
+  }
+  /// A value for unequal grains, a reference for equal ones.
+  decltype(auto) pair(std::size_t i, std::size_t j) const {
+    if constexpr (Effects::unequal)
+      return pair_constants<Law, Effects>(surface(i), surface(j), between(i, j));
+    else
+      return (equal_);
+  }
+
+ private:
+  GrainSurface surface(std::size_t i) const {
+    if constexpr (Effects::unequal)
+      return {grains_.radius[i], grains_.compliance[i], grains_.inverse_mass[i], grains_.inverse_inertia[i],
+              grains_.curvature[i]};
+    return grains_.equal;
+  }
+
+  const GrainSurfaces grains_;
+  const ContactParameters& parameters_;
+  PairConstants equal_;
+};
+
+}  // namespace vibrosow::inline VIBROSOW_ISA
