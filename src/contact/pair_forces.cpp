@@ -26,14 +26,15 @@ void add_block(const PairBlock& block, const PairList& list, int first_own, Forc
 
 }  // namespace
 
-void add_pair_forces(PairKernel kernel, const GrainSurfaces& grains, const Motion& at, const PairList& list,
+void add_pair_forces(const ChosenKernel& kernel, const GrainSurfaces& grains, const Motion& at, const PairList& list,
                      PairRange range, const ContactParameters& parameters, const HistoryAdvance& advance,
                      ContactHistory& history, int first_own, Forces& forces, std::vector<ForeignForce>& foreign,
                      ContactCensus& census) {
-  const auto add = forces.torque.empty() ? add_block<false> : add_block<true>;
+  const auto add = kernel.rotation ? add_block<true> : add_block<false>;
   PairBlock block;
   for (int from = range.from; from < range.to; from += PairBlock::size) {
-    kernel(grains, at, list, {from, std::min(from + PairBlock::size, range.to)}, parameters, advance, history, block);
+    kernel.pair(grains, at, list, {from, std::min(from + PairBlock::size, range.to)}, parameters, advance, history,
+                block);
     add(block, list, first_own, forces, foreign);
     census.contacts += block.touching;
     census.max_compression = std::max(census.max_compression, block.max_compression);

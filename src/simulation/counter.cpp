@@ -2,13 +2,19 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 
 #include "simulation/vessel_motion.hpp"
 
 namespace vibrosow {
 
 Counter::Counter(const Scene& scene, std::size_t grains)
-    : tray_(scene.tray), count_below_(scene.run.count_below), state_(grains) {}
+    : tray_(scene.tray), count_below_(scene.run.count_below), state_(grains), below_(grains) {}
+
+std::size_t Counter::next_flag(std::size_t from) const {
+  const void* found = std::memchr(flags_.data() + from, 1, flags_.size() - from);
+  return found ? static_cast<std::size_t>(static_cast<const char*>(found) - flags_.data()) : flags_.size();
+}
 
 double Counter::within_period(double x) const {
   return tray_.sides == Sides::periodic ? x - tray_.length * std::floor(x / tray_.length) : x;
@@ -30,18 +36,24 @@ int Counter::hole_beside(double x, double reach) const {
   return nearest;
 }
 
-void Counter::watch(const Grains& grains, const Walls& walls, double time, std::vector<OutflowEvent>& events) {
+void Counter::watch(const Grains& grains, const Walls& walls, const GrainLoops& loops, double time,
+                    std::vector<OutflowEvent>& events) {
   const Pose pose = walls.poses().front();
   const double angle = tray_.tilt + pose.angle;
   const double sine = std::sin(angle), cosine = std::cos(angle);
   const double ox = tray_.origin.x() + pose.displacement.x(), oy = tray_.origin.y() + pose.displacement.y();
   const auto [tray_velocity, spin] = walls.paths().front().rate(time);
 
-  for (std::size_t i = 0; i < grains.size(); ++i) {
+  // Most grains are above the floor and were so before: they are passed over unseen.
+  const std::size_t n = grains.size();
+  flags_.resize(n);
+  loops.flag_below(n, grains.x.data(), grains.y.data(), -sine, cosine, cosine * oy - sine * ox, below_.data(),
+                   flags_.data());
+  for (std::size_t i = next_flag(0); i < n; i = next_flag(i + 1)) {
     const double height = cosine * (grains.y[i] - oy) - sine * (grains.x[i] - ox);
     State& state = state_[i];
     if (height >= 0) {
-      state.below = false;
+      below_[i] = 0;
       continue;
     }
     if (state.counted) continue;
@@ -51,8 +63,8 @@ void Counter::watch(const Grains& grains, const Walls& walls, double time, std::
     const double speed_along = cosine * ux + sine * uy, speed_up = cosine * uy - sine * ux;
     // Back along the present velocity to the moment when the centre was `level` high.
     const auto since = [&](double level) { return speed_up < 0 ? (height - level) / speed_up : 0.0; };
-    if (!state.below) {
-      state.below = true;
+    if (!below_[i]) {
+      below_[i] = 1;
       state.x = within_period(along - speed_along * since(0));
       state.hole = hole_at(state.x);
       // The edge may lie in the waist of a clump: its centre then passes beside the opening. A disc of it that goes
@@ -75,8 +87,8 @@ void Counter::watch(const Grains& grains, const Walls& walls, double time, std::
 void Counter::remove_flagged(const std::vector<char>& removed) {
   std::size_t kept = 0;
   for (std::size_t i = 0; i < state_.size(); ++i)
-    if (!removed[i]) state_[kept++] = state_[i];
-  state_.resize(kept);
+    if (!removed[i]) state_[kept] = state_[i], below_[kept++] = below_[i];
+  state_.resize(kept), below_.resize(kept);
 }
 
 bool is_inside(const Vessel& vessel, const Pose& pose, double x, double y) {

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "grains/grains.hpp"
+#include "simulation/grain_loops.hpp"
 #include "simulation/run.hpp"
 #include "simulation/walls.hpp"
 
@@ -16,22 +17,23 @@ class Counter {
   Counter(const Scene& scene, std::size_t grains);
 
   /// Looks at every grain after a step that ended at `time`; new events are appended.
-  void watch(const Grains& grains, const Walls& walls, double time, std::vector<OutflowEvent>& events);
+  void watch(const Grains& grains, const Walls& walls, const GrainLoops& loops, double time,
+             std::vector<OutflowEvent>& events);
 
-  void add_grain() { state_.push_back({}); }
+  void add_grain() { state_.push_back({}), below_.push_back(0); }
   void remove_flagged(const std::vector<char>& removed);
   bool is_counted(std::size_t i) const { return state_[i].counted; }  // or spilled, or lost
   std::int64_t lost() const { return lost_; }                         // came through the floor beside its holes
 
  private:
   struct State {
-    bool below = false;  // under the floor
     bool counted = false;
     int hole = 0;  // passed; 0: none, it fell beside the tray
     double x = 0;  // m, where
   };
   static constexpr int through_the_floor = -1;
   int hole_at(double x) const;
+  std::size_t next_flag(std::size_t from) const;
   double within_period(double x) const;
   /// The hole whose nearer edge is no farther from x than `reach` (m), of several the nearest; else through_the_floor.
   int hole_beside(double x, double reach) const;
@@ -39,6 +41,8 @@ class Counter {
   Vessel tray_;
   double count_below_;
   std::vector<State> state_;
+  std::vector<char> below_;  // whether a grain is under the floor
+  std::vector<char> flags_;  // of those to look at
   std::int64_t lost_ = 0;
 };
 

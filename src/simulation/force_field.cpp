@@ -21,10 +21,10 @@ ForceField::ForceField(const Scene& scene, const EffectSet& effects, NeighbourMa
     : scene_(scene),
       walls_(vessels_of(scene)),
       neighbours_(walls_.vessels(), largest_diameter(scene.lots), margins,
-                  {effects.tangential_spring, effects.rolling == Rolling::spring}),
+                  {effects.tangential_spring, effects.rolling == Rolling::spring}, instructions),
       parameters_(contact_parameters(scene)),
       kernels_(kernels_for(scene.contact.law, effects)),
-      pair_kernel_(kernels_.pair[static_cast<std::size_t>(instructions)]) {
+      pair_kernel_{kernels_.pair[static_cast<std::size_t>(instructions)], kernels_.effects.rotation} {
   if (effects.clumps) clumps_.emplace(scene_, effects.rotation);
 }
 

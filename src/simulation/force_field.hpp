@@ -59,7 +59,7 @@ class ForceField {
   Neighbours neighbours_;
   ContactParameters parameters_;
   const KernelSet& kernels_;
-  PairKernel pair_kernel_;
+  ChosenKernel pair_kernel_;
   std::optional<ClumpDiscs> clumps_;
   bool clumps_are_current_ = false;
   Forces forces_, disc_forces_;

@@ -60,11 +60,7 @@ void Guard::watch_step(const Integration& s) {
                      max_compression_, s.time, limits_.stop_compression));
 
   const double fastest = longest_stride * smallest_radius_ / s.dt;
-  const double fastest2 = fastest * fastest;
-  const double *vx = s.grains.vx.data(), *vy = s.grains.vy.data();
-  int slow = 1;  // not-a-number fails the comparison too
-  for (std::size_t i = 0; i < s.grains.size(); ++i) slow &= vx[i] * vx[i] + vy[i] * vy[i] <= fastest2 ? 1 : 0;
-  if (!slow) watch_stride(s.time);
+  if (s.loops.any_faster(s.grains.size(), s.grains.vx.data(), s.grains.vy.data(), fastest)) watch_stride(s.time);
 }
 
 void Guard::watch_stride(double time) {

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "simulation/force_field.hpp"
+#include "simulation/grain_loops.hpp"
 
 namespace vibrosow {
 
@@ -15,6 +16,7 @@ using HigherDerivatives = std::array<std::vector<double>, 4>;
 struct Integration {
   Grains& grains;
   ForceField& field;
+  const GrainLoops& loops;
   Integrator scheme;
   double dt;                // s
   Eigen::Vector2d gravity;  // m/s2
@@ -36,7 +38,7 @@ struct Integration {
 /// fifth-order predictor-corrector in Nordsieck form for forces that depend on velocity (alpha_0 = 3/16; Gear 1971,
 /// Allen & Tildesley 1987), one evaluation a step.
 using StepFunction = void (*)(Integration&);
-StepFunction step_function(Integrator integrator, bool rotation, bool drag, bool unequal);
+StepFunction step_function(Integrator integrator);
 
 /// Computes the acceleration at the present time and state; gear5 also the higher derivatives, to full order, from the
 /// accelerations along three fourth-order steps ahead, after which the state is put back.

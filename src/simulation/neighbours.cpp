@@ -107,8 +107,9 @@ void prune_pairs(const Grains& grains, const PairList& wide, double shift, doubl
 }  // namespace
 
 Neighbours::Neighbours(const std::vector<Vessel>& vessels, double largest_diameter, NeighbourMargins margins,
-                       NeighbourMemory memory)
-    : broadphase_(vessels, largest_diameter),
+                       NeighbourMemory memory, InstructionSet instructions)
+    : loops_(grain_loops(instructions)),
+      broadphase_(vessels, largest_diameter),
       wide_margin_(margins.wide * largest_diameter),
       narrow_margin_(margins.narrow * largest_diameter),
       memory_(memory),
@@ -126,21 +127,17 @@ Neighbours::Reference Neighbours::reference(const Grains& grains, const Walls& w
 
 bool Neighbours::moved(const Reference& from, const Grains& grains, const Walls& walls, double limit) const {
   const Eigen::Vector2d shift = walls.poses().front().displacement;
-  const double limit2 = limit * limit, shift_x = shift.x(), shift_y = shift.y();
-  const double *x = grains.x.data(), *y = grains.y.data(), *fx = from.x.data(), *fy = from.y.data();
-  int far = 0;  // a flag without a branch: the loop becomes vector instructions
-  for (std::size_t i = 0; i < from.x.size(); ++i) {
-    const double dx = x[i] - shift_x - fx[i], dy = y[i] - shift_y - fy[i];
-    far |= dx * dx + dy * dy > limit2 ? 1 : 0;
-  }
+  if (loops_.any_moved(from.x.size(), grains.x.data(), grains.y.data(), shift.x(), shift.y(), from.x.data(),
+                       from.y.data(), limit))
+    return true;
   for (std::size_t v = 0; v < from.poses.size(); ++v) {
     const Pose &now = walls.poses()[v], &then = from.poses[v];
     const Eigen::Vector2d relative_now = now.displacement - shift;
     const Eigen::Vector2d relative_then = then.displacement - from.poses.front().displacement;
     const double turned = std::abs(now.angle - then.angle) * largest_radius_[v];
-    far |= (relative_now - relative_then).norm() + turned > limit ? 1 : 0;
+    if ((relative_now - relative_then).norm() + turned > limit) return true;
   }
-  return far != 0;
+  return false;
 }
 
 void Neighbours::update(const Grains& grains, const Walls& walls) {

@@ -8,6 +8,7 @@
 #include "contact/contact_history.hpp"
 #include "contact/contact_list.hpp"
 #include "grains/grains.hpp"
+#include "simulation/grain_loops.hpp"
 #include "simulation/walls.hpp"
 
 namespace vibrosow {
@@ -31,7 +32,7 @@ struct NeighbourMemory {
 class Neighbours {
  public:
   Neighbours(const std::vector<Vessel>& vessels, double largest_diameter, NeighbourMargins margins,
-             NeighbourMemory memory = {});
+             NeighbourMemory memory = {}, InstructionSet instructions = best_instruction_set());
 
   /// Renews the lists if the grains or walls have moved too far for them.
   void update(const Grains& grains, const Walls& walls);
@@ -76,6 +77,7 @@ class Neighbours {
   void prune(const Grains& grains, const Walls& walls);
   void prune_walls(const Grains& grains, const Walls& walls);
 
+  const GrainLoops& loops_;
   Broadphase broadphase_;
   std::vector<double> largest_radius_;  // m, by vessel, of its walls about its frame's zero
   double wide_margin_, narrow_margin_;  // m

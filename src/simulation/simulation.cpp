@@ -29,12 +29,12 @@ Simulation::Simulation(const Scene& scene, Grains grains, const SimulationSetup&
       field_(scene_, setup.effects, setup.margins, setup.instructions),
       s_{.grains = grains_,
          .field = field_,
+         .loops = grain_loops(setup.instructions),
          .scheme = scene_.numerics.integrator,
          .dt = setup.dt,
          .gravity = setup.gravity,
          .drag = scene_.contact.drag},
-      advance_(
-          step_function(scene_.numerics.integrator, setup.effects.rotation, setup.effects.drag, setup.effects.unequal)),
+      advance_(step_function(scene_.numerics.integrator)),
       counter_(scene_, grains_.size()),
       feeder_(scene_, setup.random_seed),
       guard_(scene_, setup.insisted_on_step),
@@ -81,7 +81,7 @@ void Simulation::steps(std::int64_t count) {
 void Simulation::count() {
   const std::size_t before = run_.events.size();
   const std::int64_t lost_before = counter_.lost();
-  counter_.watch(grains_, field_.walls(), s_.time, run_.events);
+  counter_.watch(grains_, field_.walls(), s_.loops, s_.time, run_.events);
   if (counter_.lost() > lost_before) note_lost(counter_.lost() - lost_before);
   for (std::size_t k = before; k < run_.events.size(); ++k)
     ++(run_.events[k].hole > 0 ? run_.balance.counted : run_.balance.spilled);

@@ -41,8 +41,8 @@ TEST(Wall, IsAGrainOfInfiniteRadiusAndMass) {
       const ContactParameters parameters = contact_parameters(scene);
       ContactHistory none;
       std::vector<ForeignForce> foreign;
-      add_pair_forces(kernels.pair[0], surfaces_of(grains), at, pairs, {0, static_cast<int>(pairs.size())}, parameters,
-                      {}, none, 0, f, foreign, census);
+      add_pair_forces({kernels.pair[0], kernels.effects.rotation}, surfaces_of(grains), at, pairs,
+                      {0, static_cast<int>(pairs.size())}, parameters, {}, none, 0, f, foreign, census);
       kernels.wall(grains, at, near, walls, parameters, {}, none, f, census);
       EXPECT_EQ(census.contacts, 1);
       EXPECT_NEAR(census.max_compression, overlap / Bench::radius, 1e-7);

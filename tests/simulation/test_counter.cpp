@@ -120,8 +120,9 @@ TEST(Counter, AClumpIsCountedWhereTheEdgeSlipsIntoItsWaist) {
     walls.place(0);
     Counter counter(scene, 1);
     std::vector<OutflowEvent> events;
-    counter.watch(grains, walls, 0, events);
-    for (const double y : {-1e-6, -0.021}) grains.y[0] = y, counter.watch(grains, walls, 1e-3, events);
+    const GrainLoops& loops = grain_loops(InstructionSet::generic);
+    counter.watch(grains, walls, loops, 0, events);
+    for (const double y : {-1e-6, -0.021}) grains.y[0] = y, counter.watch(grains, walls, loops, 1e-3, events);
     const bool in_reach = x > 0.435;
     ASSERT_EQ(events.size(), in_reach ? 1u : 0u);
     if (in_reach) {

@@ -1,0 +1,130 @@
+// Compiled for each instruction set (VIBROSOW_ISA), see src/CMakeLists.txt.
+#include "simulation/grain_loops.hpp"
+
+namespace vibrosow::inline VIBROSOW_ISA {
+namespace {
+
+void predict(std::size_t n, double dt, double* x, double* v, const double* a) {
+  const double half = 0.5 * dt;
+  if (x) {
+#pragma omp simd
+    for (std::size_t i = 0; i < n; ++i) {
+      x[i] += dt * (v[i] + half * a[i]);
+      v[i] += dt * a[i];
+    }
+  } else {
+#pragma omp simd
+    for (std::size_t i = 0; i < n; ++i) v[i] += dt * a[i];
+  }
+}
+
+/// Calls `visit(i, w)` for all grains, `w` known before the loop where it is the same for all.
+template <class Visit>
+[[gnu::always_inline]] inline void for_each(std::size_t n, PerGrain w, Visit visit) {
+  if (w.each) {
+#pragma omp simd
+    for (std::size_t i = 0; i < n; ++i) visit(i, w.each[i]);
+  } else {
+#pragma omp simd
+    for (std::size_t i = 0; i < n; ++i) visit(i, w.same);
+  }
+}
+
+void accelerate(std::size_t n, const double* f, PerGrain w, double g, double drag, const double* v, double* a) {
+  if (drag == 0)
+    for_each(n, w, [=](std::size_t i, double per_mass) { a[i] = f[i] * per_mass + g; });
+  else
+    for_each(n, w, [=](std::size_t i, double per_mass) { a[i] = f[i] * per_mass + g - drag * per_mass * v[i]; });
+}
+
+void correct(std::size_t n, double dt, const double* f, PerGrain w, double g, double drag, double* v, double* a) {
+  const double half = 0.5 * dt;
+  const auto take = [=](std::size_t i, double now) {
+    v[i] += half * (now - a[i]);
+    a[i] = now;
+  };
+  if (drag == 0)
+    for_each(n, w, [=](std::size_t i, double per_mass) { take(i, f[i] * per_mass + g); });
+  else
+    for_each(n, w, [=](std::size_t i, double per_mass) { take(i, f[i] * per_mass + g - drag * per_mass * v[i]); });
+}
+
+bool any_moved(std::size_t n, const double* x, const double* y, double shift_x, double shift_y, const double* was_x,
+               const double* was_y, double limit) {
+  const double limit2 = limit * limit;
+  int far = 0;
+#pragma omp simd reduction(| : far)
+  for (std::size_t i = 0; i < n; ++i) {
+    const double dx = x[i] - shift_x - was_x[i], dy = y[i] - shift_y - was_y[i];
+    far |= dx * dx + dy * dy > limit2 ? 1 : 0;
+  }
+  return far != 0;
+}
+
+bool any_faster(std::size_t n, const double* vx, const double* vy, double limit) {
+  const double limit2 = limit * limit;
+  int slow = 1;
+#pragma omp simd reduction(& : slow)
+  for (std::size_t i = 0; i < n; ++i) slow &= vx[i] * vx[i] + vy[i] * vy[i] <= limit2 ? 1 : 0;
+  return slow == 0;
+}
+
+void flag_below(std::size_t n, const double* x, const double* y, double sine, double cosine, double level,
+                const char* before, char* flags) {
+#pragma omp simd
+  for (std::size_t i = 0; i < n; ++i)
+    flags[i] = static_cast<char>((sine * x[i] + cosine * y[i] < level ? 1 : 0) | before[i]);
+}
+
+template <bool with_position>
+void gear_predict_each(std::size_t n, double dt, double* x, double* v, double* q2, double* q3, double* q4,
+                       const double* q5) {
+  const double per_dt = 1 / dt;
+#pragma omp simd
+  for (std::size_t i = 0; i < n; ++i) {
+    const double a = q2[i], b = q3[i], c = q4[i], d = q5[i];
+    if constexpr (with_position) x[i] += dt * v[i] + (a + b + c + d);
+    v[i] += per_dt * (2 * a + 3 * b + 4 * c + 5 * d);
+    q2[i] = a + 3 * b + 6 * c + 10 * d;
+    q3[i] = b + 4 * c + 10 * d;
+    q4[i] = c + 5 * d;
+  }
+}
+
+template <bool with_position>
+void gear_correct_each(std::size_t n, double dt, const double* acceleration, double* x, double* v, double* q2,
+                       double* q3, double* q4, double* q5) {
+  constexpr double share0 = 3.0 / 16, share1 = 251.0 / 360, share3 = 11.0 / 18, share4 = 1.0 / 6, share5 = 1.0 / 60;
+  const double half_dt2 = 0.5 * dt * dt, v_share = share1 / dt;
+  // In free flight the derivatives die out by a factor a step: below this (m) they are nothing, and the denormal
+  // numbers they would become take a hundred times as long.
+  constexpr double nothing = 1e-100;
+  const auto or_nothing = [](double q) { return q > nothing || q < -nothing ? q : 0.0; };
+#pragma omp simd
+  for (std::size_t i = 0; i < n; ++i) {
+    const double now = half_dt2 * acceleration[i], missed = now - q2[i];
+    if constexpr (with_position) x[i] += share0 * missed;
+    v[i] += v_share * missed;
+    q2[i] = now;
+    q3[i] = or_nothing(q3[i] + share3 * missed);
+    q4[i] = or_nothing(q4[i] + share4 * missed);
+    q5[i] = or_nothing(q5[i] + share5 * missed);
+  }
+}
+
+void gear_predict(std::size_t n, double dt, double* x, double* v, double* q2, double* q3, double* q4,
+                  const double* q5) {
+  (x ? gear_predict_each<true> : gear_predict_each<false>)(n, dt, x, v, q2, q3, q4, q5);
+}
+
+void gear_correct(std::size_t n, double dt, const double* a, double* x, double* v, double* q2, double* q3, double* q4,
+                  double* q5) {
+  (x ? gear_correct_each<true> : gear_correct_each<false>)(n, dt, a, x, v, q2, q3, q4, q5);
+}
+
+}  // namespace
+
+extern const GrainLoops loops;
+const GrainLoops loops{predict, accelerate, correct, gear_predict, gear_correct, any_moved, any_faster, flag_below};
+
+}  // namespace vibrosow::inline VIBROSOW_ISA

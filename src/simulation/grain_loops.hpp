@@ -1,0 +1,48 @@
+#pragma once
+
+#include <cstddef>
+
+#include "contact/instruction_set.hpp"
+
+namespace vibrosow {
+
+/// One value for all grains, or one each.
+struct PerGrain {
+  const double* each;  // null: all have `same`
+  double same;
+};
+
+/// Loops over all grains, compiled for one instruction set. Every array has `n` entries.
+struct GrainLoops {
+  /// x += dt (v + dt/2 a), v += dt a: positions and predicted velocities at the end of a step. No positions: x = null.
+  void (*predict)(std::size_t n, double dt, double* x, double* v, const double* a);
+
+  /// a = f w + g - drag w v, with w = 1/m and g along this coordinate.
+  void (*accelerate)(std::size_t n, const double* f, PerGrain w, double g, double drag, const double* v, double* a);
+
+  /// The same in place of the old a, and v += (a - old a) dt/2: velocities corrected at the end of a step.
+  void (*correct)(std::size_t n, double dt, const double* f, PerGrain w, double g, double drag, double* v, double* a);
+
+  /// Taylor's series for position, velocity and higher derivatives (gear5), one step on; x = null as above.
+  void (*gear_predict)(std::size_t n, double dt, double* x, double* v, double* q2, double* q3, double* q4,
+                       const double* q5);
+  /// Shares of what the acceleration `a` missed, in the order of the derivatives.
+  void (*gear_correct)(std::size_t n, double dt, const double* a, double* x, double* v, double* q2, double* q3,
+                       double* q4, double* q5);
+
+  /// Whether a grain is farther than `limit` (m) from where it was, `x` and `y` taken relative to (shift_x, shift_y).
+  bool (*any_moved)(std::size_t n, const double* x, const double* y, double shift_x, double shift_y,
+                    const double* was_x, const double* was_y, double limit);
+
+  /// Whether a speed is beyond `limit` (m/s), or no number.
+  bool (*any_faster)(std::size_t n, const double* vx, const double* vy, double limit);
+
+  /// 1 for each grain whose sine x + cosine y is below `level`, or that has `before` set; else 0.
+  void (*flag_below)(std::size_t n, const double* x, const double* y, double sine, double cosine, double level,
+                     const char* before, char* flags);
+};
+
+/// Throws std::logic_error where it is not available.
+const GrainLoops& grain_loops(InstructionSet set);
+
+}  // namespace vibrosow
