@@ -21,6 +21,8 @@ struct ContactHistory {
            (!roll.empty() && (roll[k] != 0 || roll_speed[k] != 0));
   }
 
+  void clear() { slip.clear(), slip_speed.clear(), roll.clear(), roll_speed.clear(); }
+
   void resize(std::size_t candidates, bool tangential, bool rolling) {
     slip.resize(tangential ? candidates : 0), slip_speed.resize(slip.size());
     roll.resize(rolling ? candidates : 0), roll_speed.resize(roll.size());

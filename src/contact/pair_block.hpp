@@ -56,7 +56,7 @@ struct PairBlock {
 
   int touching;                               // of the first so many places below
   double max_compression;                     // of them
-  int entry[size];                            // of the list
+  int entry[size + 16];                       // of the list; places to spare for whole vectors
   double fx[size], fy[size];                  // N, on the partner; the opposite on the grain
   double torque[size], partner_torque[size];  // N m, on the grain and on its partner; without rotation unset
 };

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "contact/compress.hpp"
 #include "contact/pair_properties.hpp"
 
 namespace vibrosow::inline VIBROSOW_ISA {
@@ -13,7 +14,7 @@ void find_touching(const PairProperties<Law, Effects>& properties, const Motion&
   const double *x = at.x, *row_x = at.row_x, *y = at.y;
   const int *grain = list.grain.data() + range.from, *partner = list.partner.data() + range.from;
   const int count = range.to - range.from;
-  unsigned char touches[PairBlock::size];
+  unsigned char touches[PairBlock::size + 16];
 #pragma omp simd
   for (int k = 0; k < count; ++k) {
     const std::size_t i = static_cast<std::size_t>(grain[k]), j = static_cast<std::size_t>(partner[k]);
@@ -29,12 +30,7 @@ void find_touching(const PairProperties<Law, Effects>& properties, const Motion&
     if constexpr (Effects::spring) forget(history.slip), forget(history.slip_speed);
     if constexpr (Effects::rolling == Rolling::spring) forget(history.roll), forget(history.roll_speed);
   }
-  int touching = 0;
-  for (int k = 0; k < count; ++k) {
-    block.entry[touching] = range.from + k;
-    touching += touches[k];
-  }
-  block.touching = touching;
+  block.touching = positions_of_set(touches, count, range.from, block.entry);
 }
 
 /// What the contacts of a block will remember.

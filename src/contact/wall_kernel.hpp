@@ -49,13 +49,42 @@ inline NearestPoint nearest_point(const PlacedWall& wall, double x, double y) {
   return {dx, dy, dx * dx + dy * dy, at_a ? wall.vertex_a : wall.vertex_b, side};
 }
 
-/// Calls `touch(candidate, nearest)` for each contact of grain `i`, which owns candidates [from, to): faces first, then
+/// The nearest points of all candidates [from, to) of one grain.
+class NearestPoints {
+ public:
+  static constexpr std::size_t most = 32;  // kept; a grain near more walls than that looks again
+
+  NearestPoints(const std::vector<WallCandidate>& candidates, std::size_t from, std::size_t to,
+                const std::vector<PlacedWall>& walls, double x, double y)
+      : candidates_(candidates), walls_(walls), x_(x), y_(y), from_(from) {
+    for (std::size_t c = from; c < to && c - from < most; ++c) kept_[c - from] = of(c);
+  }
+  NearestPoint operator[](std::size_t candidate) const {
+    return candidate - from_ < most ? kept_[candidate - from_] : of(candidate);
+  }
+
+ private:
+  NearestPoint of(std::size_t candidate) const {
+    return nearest_point(walls_[static_cast<std::size_t>(candidates_[candidate].wall)], x_, y_);
+  }
+  const std::vector<WallCandidate>& candidates_;
+  const std::vector<PlacedWall>& walls_;
+  double x_, y_;
+  std::size_t from_;
+  std::array<NearestPoint, most> kept_;
+};
+
+/// Calls `touch(candidate, nearest)` for each contact of a grain, which owns candidates [from, to): faces first, then
 /// each end point once and only where no touched face ends in it.
 template <class Touch>
 void for_each_wall_contact(const std::vector<WallCandidate>& candidates, std::size_t from, std::size_t to,
-                           const std::vector<PlacedWall>& walls, double x, double y, double radius, Touch touch) {
+                           const std::vector<PlacedWall>& walls, const NearestPoints& points, double radius,
+                           Touch touch) {
+  bool any = false;
+  for (std::size_t c = from; c < to; ++c) any |= points[c].distance2 < radius * radius;
+  if (!any) return;
   constexpr std::size_t most = 32;  // end points met at once: many more than a plane corner can have
-  std::array<int, most> covered{};
+  std::array<int, most> covered;
   std::size_t covered_count = 0;
   const auto cover = [&](int vertex) {
     if (covered_count < most) covered[covered_count++] = vertex;
@@ -67,10 +96,10 @@ void for_each_wall_contact(const std::vector<WallCandidate>& candidates, std::si
   };
   for (const bool faces : {true, false}) {
     for (std::size_t c = from; c < to; ++c) {
-      const PlacedWall& wall = walls[static_cast<std::size_t>(candidates[c].wall)];
-      const NearestPoint nearest = nearest_point(wall, x, y);
+      const NearestPoint nearest = points[c];
       if ((nearest.vertex < 0) != faces || nearest.distance2 >= radius * radius) continue;
       if (faces) {
+        const PlacedWall& wall = walls[static_cast<std::size_t>(candidates[c].wall)];
         cover(wall.vertex_a), cover(wall.vertex_b);
       } else {
         if (is_covered(nearest.vertex)) continue;
@@ -102,15 +131,13 @@ PairConstants wall_constants(const GrainKind& kind, const ContactParameters& par
 
 /// Follows the side of each candidate and notes grains that changed it beside the wall.
 inline void watch_crossings(std::vector<WallCandidate>& candidates, std::size_t from, std::size_t to,
-                            const std::vector<PlacedWall>& walls, const Motion& at, ContactCensus& census) {
+                            const NearestPoints& points, ContactCensus& census) {
   for (std::size_t c = from; c < to; ++c) {
-    WallCandidate& candidate = candidates[c];
-    const std::size_t i = static_cast<std::size_t>(candidate.grain);
-    const NearestPoint nearest = nearest_point(walls[static_cast<std::size_t>(candidate.wall)], at.x[i], at.y[i]);
+    const NearestPoint nearest = points[c];
     if (nearest.vertex >= 0)
-      candidate.side = nearest.side;
-    else if (nearest.side * candidate.side < 0)
-      census.crossed.push_back(candidate.grain);
+      candidates[c].side = nearest.side;
+    else if (nearest.side * candidates[c].side < 0)
+      census.crossed.push_back(candidates[c].grain);
   }
 }
 
@@ -156,13 +183,14 @@ void wall_forces(const Grains& grains, const Motion& at, std::vector<WallCandida
     census.wall_power -= px * wall_vx + py * wall_vy;
   };
   for_each_grain_near_walls(candidates, [&](std::size_t i, std::size_t from, std::size_t to) {
-    watch_crossings(candidates, from, to, walls, at, census);
+    const NearestPoints points(candidates, from, to, walls, at.x[i], at.y[i]);
+    watch_crossings(candidates, from, to, points, census);
     const GrainKind kind = grains.kind(i);
     const SurfaceParameters& surface = parameters.wall(grains.lot[i]);
     const PairConstants pair = wall_constants<Law, Effects>(kind, parameters, surface);
     sum_x = sum_y = sum_torque = 0;
     std::uint64_t touched = 0;  // bit by candidate; a grain meets far fewer than 64 walls
-    for_each_wall_contact(candidates, from, to, walls, at.x[i], at.y[i], kind.radius,
+    for_each_wall_contact(candidates, from, to, walls, points, kind.radius,
                           [&](std::size_t c, const NearestPoint& nearest) {
                             touched |= std::uint64_t{1} << ((c - from) & 63);
                             contact(i, kind, pair, surface, c, nearest);
@@ -183,7 +211,8 @@ double wall_energy(const Grains& grains, const Motion& at, const std::vector<Wal
     const GrainKind kind = grains.kind(i);
     const SurfaceParameters& surface = parameters.wall(grains.lot[i]);
     const PairConstants pair = wall_constants<Law, Effects>(kind, parameters, surface);
-    for_each_wall_contact(candidates, from, to, walls, at.x[i], at.y[i], kind.radius,
+    const NearestPoints points(candidates, from, to, walls, at.x[i], at.y[i]);
+    for_each_wall_contact(candidates, from, to, walls, points, kind.radius,
                           [&](std::size_t c, const NearestPoint& nearest) {
                             const double overlap = kind.radius - std::sqrt(nearest.distance2);
                             energy += contact_energy<Law, Effects>(overlap, pair, surface, recall<Effects>(history, c));

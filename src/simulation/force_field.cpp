@@ -1,5 +1,6 @@
 #include "simulation/force_field.hpp"
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 
@@ -16,15 +17,16 @@ void clear(Forces& forces, const Grains& grains) {
 
 }  // namespace
 
-ForceField::ForceField(const Scene& scene, const EffectSet& effects, NeighbourMargins margins,
-                       InstructionSet instructions)
+ForceField::ForceField(const Scene& scene, const EffectSet& effects, NeighbourMargins margins, Execution& execution)
     : scene_(scene),
+      execution_(execution),
       walls_(vessels_of(scene)),
       neighbours_(walls_.vessels(), largest_diameter(scene.lots), margins,
-                  {effects.tangential_spring, effects.rolling == Rolling::spring}, instructions),
+                  {effects.tangential_spring, effects.rolling == Rolling::spring}, execution),
       parameters_(contact_parameters(scene)),
       kernels_(kernels_for(scene.contact.law, effects)),
-      pair_kernel_{kernels_.pair[static_cast<std::size_t>(instructions)], kernels_.effects.rotation} {
+      pair_kernel_{kernels_.pair[static_cast<std::size_t>(execution.instructions())], kernels_.effects.rotation},
+      range_results_(static_cast<std::size_t>(execution.threads())) {
   if (effects.clumps) clumps_.emplace(scene_, effects.rotation);
 }
 
@@ -48,17 +50,50 @@ Motion ForceField::across_seam(const Grains& discs) {
   return at;
 }
 
+/// Each thread takes the rows of a range of grains. What they do to grains of earlier ranges is added afterwards, range
+/// by range: a grain's own row first, then the later rows in order, as one thread would.
+void ForceField::add_pairs(const GrainSurfaces& surfaces, const Motion& at, const PairList& pairs,
+                           const HistoryAdvance& advance, ContactHistory& history, Forces& forces,
+                           ContactCensus& census) {
+  const std::size_t ranges = range_results_.size();
+  const auto first_grain = [&](std::size_t range) {
+    return range == 0 || pairs.size() == 0 ? 0 : pairs.grain[pairs.size() * range / ranges];
+  };
+  const auto first_entry = [&](std::size_t range) {
+    if (range == ranges) return static_cast<int>(pairs.size());
+    return static_cast<int>(std::ranges::lower_bound(pairs.grain, first_grain(range)) - pairs.grain.begin());
+  };
+  execution_.for_each_range([&](int k) {
+    const std::size_t range = static_cast<std::size_t>(k);
+    RangeResult& result = range_results_[range];
+    result.foreign.clear();
+    result.census = {};
+    add_pair_forces(pair_kernel_, surfaces, at, pairs, {first_entry(range), first_entry(range + 1)}, parameters_,
+                    advance, history, first_grain(range), forces, result.foreign, result.census);
+  });
+  for (const RangeResult& result : range_results_) {
+    census.contacts += result.census.contacts;
+    census.max_compression = std::max(census.max_compression, result.census.max_compression);
+    for (const ForeignForce& force : result.foreign) {
+      const std::size_t j = static_cast<std::size_t>(force.grain);
+      forces.fx[j] += force.fx, forces.fy[j] += force.fy;
+      if (pair_kernel_.rotation) forces.torque[j] += force.torque;
+    }
+  }
+}
+
 void ForceField::run_kernels(const Grains& discs, const HistoryAdvance& advance, Forces& forces,
                              ContactCensus& census) {
   clear(forces, discs);
   const GrainSurfaces surfaces = surfaces_of(discs);
   const Motion at = motion_of(discs);
-  const auto add_pairs = [&](const Motion& motion, const PairList& pairs, ContactHistory& history) {
-    add_pair_forces(pair_kernel_, surfaces, motion, pairs, {0, static_cast<int>(pairs.size())}, parameters_, advance,
-                    history, 0, forces, foreign_, census);
-  };
-  add_pairs(at, neighbours_.pairs(), neighbours_.pair_history());
-  if (neighbours_.period() > 0) add_pairs(across_seam(discs), neighbours_.seam_pairs(), neighbours_.seam_history());
+  add_pairs(surfaces, at, neighbours_.pairs(), advance, neighbours_.pair_history(), forces, census);
+  // Few, and their partners come before and after: one thread does them.
+  if (neighbours_.period() > 0) {
+    const PairList& seam = neighbours_.seam_pairs();
+    add_pair_forces(pair_kernel_, surfaces, across_seam(discs), seam, {0, static_cast<int>(seam.size())}, parameters_,
+                    advance, neighbours_.seam_history(), 0, forces, range_results_.front().foreign, census);
+  }
   kernels_.wall(discs, at, neighbours_.near_walls(), walls_.placed(), parameters_, advance, neighbours_.wall_history(),
                 forces, census);
 }

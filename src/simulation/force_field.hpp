@@ -6,6 +6,7 @@
 #include "contact/pair_forces.hpp"
 #include "grains/grains.hpp"
 #include "simulation/clump_discs.hpp"
+#include "simulation/execution.hpp"
 #include "simulation/neighbours.hpp"
 #include "simulation/walls.hpp"
 
@@ -15,8 +16,7 @@ namespace vibrosow {
 /// Where grains are clumps, lists and kernels see their discs, and the forces are gathered.
 class ForceField {
  public:
-  ForceField(const Scene& scene, const EffectSet& effects, NeighbourMargins margins,
-             InstructionSet instructions = best_instruction_set());
+  ForceField(const Scene& scene, const EffectSet& effects, NeighbourMargins margins, Execution& execution);
   ForceField(const ForceField&) = delete;
   ForceField& operator=(const ForceField&) = delete;
 
@@ -50,11 +50,14 @@ class ForceField {
 
  private:
   const Grains& place_discs(const Grains& grains);
+  void add_pairs(const GrainSurfaces& surfaces, const Motion& at, const PairList& pairs, const HistoryAdvance& advance,
+                 ContactHistory& history, Forces& forces, ContactCensus& census);
   Motion motion_of(const Grains& discs) const;
   Motion across_seam(const Grains& discs);
   void run_kernels(const Grains& discs, const HistoryAdvance& advance, Forces& forces, ContactCensus& census);
 
   const Scene& scene_;
+  Execution& execution_;
   Walls walls_;
   Neighbours neighbours_;
   ContactParameters parameters_;
@@ -63,7 +66,13 @@ class ForceField {
   std::optional<ClumpDiscs> clumps_;
   bool clumps_are_current_ = false;
   Forces forces_, disc_forces_;
-  std::vector<ForeignForce> foreign_;
+
+  /// What one thread's range of pairs leaves for the others.
+  struct RangeResult {
+    std::vector<ForeignForce> foreign;
+    ContactCensus census;
+  };
+  std::vector<RangeResult> range_results_;
   std::vector<double> shifted_x_;  // m, of periodic sides
   double neighbour_time_ = 0, force_time_ = 0;
 };

@@ -1,6 +1,8 @@
 // Compiled for each instruction set (VIBROSOW_ISA), see src/CMakeLists.txt.
 #include "simulation/grain_loops.hpp"
 
+#include "contact/compress.hpp"
+
 namespace vibrosow::inline VIBROSOW_ISA {
 namespace {
 
@@ -76,6 +78,39 @@ void flag_below(std::size_t n, const double* x, const double* y, double sine, do
     flags[i] = static_cast<char>((sine * x[i] + cosine * y[i] < level ? 1 : 0) | before[i]);
 }
 
+template <class Radius>
+[[gnu::always_inline]] inline std::size_t near_pairs_of(std::size_t n, const int* grain, const int* partner,
+                                                        const double* x, const double* y, double shift, Radius radius,
+                                                        double margin, int* near_grain, int* near_partner) {
+  constexpr std::size_t block = 256;
+  unsigned char flags[block + 16];
+  int place[block + 16];
+  std::size_t near = 0;
+  for (std::size_t from = 0; from < n; from += block) {
+    const int count = static_cast<int>(n - from < block ? n - from : block);
+    const int *a = grain + from, *b = partner + from;
+#pragma omp simd
+    for (int k = 0; k < count; ++k) {
+      const std::size_t i = static_cast<std::size_t>(a[k]), j = static_cast<std::size_t>(b[k]);
+      const double dx = x[j] - (x[i] + shift), dy = y[j] - y[i], limit = radius(i) + margin + radius(j);
+      flags[k] = dx * dx + dy * dy < limit * limit ? 1 : 0;
+    }
+    const int set = positions_of_set(flags, count, 0, place);
+    for (int k = 0; k < set; ++k) near_grain[near] = a[place[k]], near_partner[near++] = b[place[k]];
+  }
+  return near;
+}
+
+std::size_t near_pairs(std::size_t n, const int* grain, const int* partner, const double* x, const double* y,
+                       double shift, PerGrain radius, double margin, int* near_grain, int* near_partner) {
+  if (radius.each)
+    return near_pairs_of(
+        n, grain, partner, x, y, shift, [=](std::size_t i) { return radius.each[i]; }, margin, near_grain,
+        near_partner);
+  return near_pairs_of(
+      n, grain, partner, x, y, shift, [=](std::size_t) { return radius.same; }, margin, near_grain, near_partner);
+}
+
 template <bool with_position>
 void gear_predict_each(std::size_t n, double dt, double* x, double* v, double* q2, double* q3, double* q4,
                        const double* q5) {
@@ -125,6 +160,7 @@ void gear_correct(std::size_t n, double dt, const double* a, double* x, double* 
 }  // namespace
 
 extern const GrainLoops loops;
-const GrainLoops loops{predict, accelerate, correct, gear_predict, gear_correct, any_moved, any_faster, flag_below};
+const GrainLoops loops{predict,   accelerate, correct,    gear_predict, gear_correct,
+                       any_moved, any_faster, flag_below, near_pairs};
 
 }  // namespace vibrosow::inline VIBROSOW_ISA

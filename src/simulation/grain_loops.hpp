@@ -40,6 +40,11 @@ struct GrainLoops {
   /// 1 for each grain whose sine x + cosine y is below `level`, or that has `before` set; else 0.
   void (*flag_below)(std::size_t n, const double* x, const double* y, double sine, double cosine, double level,
                      const char* before, char* flags);
+
+  /// Copies the pairs k in [0, n) nearer than r_i + r_j + margin (m) to the front of `near`, in order, and returns how
+  /// many; `grain`s are moved by `shift` along x. `near_grain` and `near_partner` have n + 16 places.
+  std::size_t (*near_pairs)(std::size_t n, const int* grain, const int* partner, const double* x, const double* y,
+                            double shift, PerGrain radius, double margin, int* near_grain, int* near_partner);
 };
 
 /// Throws std::logic_error where it is not available.

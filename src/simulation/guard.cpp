@@ -60,7 +60,8 @@ void Guard::watch_step(const Integration& s) {
                      max_compression_, s.time, limits_.stop_compression));
 
   const double fastest = longest_stride * smallest_radius_ / s.dt;
-  if (s.loops.any_faster(s.grains.size(), s.grains.vx.data(), s.grains.vy.data(), fastest)) watch_stride(s.time);
+  if (s.execution.loops().any_faster(s.grains.size(), s.grains.vx.data(), s.grains.vy.data(), fastest))
+    watch_stride(s.time);
 }
 
 void Guard::watch_stride(double time) {

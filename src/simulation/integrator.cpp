@@ -5,23 +5,25 @@
 namespace vibrosow {
 namespace {
 
-PerGrain per_mass(const Grains& grains) {
-  return {grains.unequal ? grains.inverse_mass.data() : nullptr, grains.kinds.front().inverse_mass};
+PerGrain per_mass(const Grains& grains, std::size_t from) {
+  return {grains.unequal ? grains.inverse_mass.data() + from : nullptr, grains.kinds.front().inverse_mass};
 }
-PerGrain per_inertia(const Grains& grains) {
-  return {grains.unequal ? grains.inverse_inertia.data() : nullptr, grains.kinds.front().inverse_inertia};
+PerGrain per_inertia(const Grains& grains, std::size_t from) {
+  return {grains.unequal ? grains.inverse_inertia.data() + from : nullptr, grains.kinds.front().inverse_inertia};
 }
 
 /// a = F / m + g - (mu / m) v, alpha = T / J, into the arrays of `s`.
 void accelerations(Integration& s) {
   const Grains& grains = s.grains;
   const Forces& forces = s.field.forces();
-  const std::size_t n = grains.size();
-  s.ax.resize(n), s.ay.resize(n), s.alpha.resize(grains.omega.size());
-  const PerGrain w = per_mass(grains);
-  s.loops.accelerate(n, forces.fx.data(), w, s.gravity.x(), s.drag, grains.vx.data(), s.ax.data());
-  s.loops.accelerate(n, forces.fy.data(), w, s.gravity.y(), s.drag, grains.vy.data(), s.ay.data());
-  s.loops.accelerate(s.alpha.size(), forces.torque.data(), per_inertia(grains), 0, 0, nullptr, s.alpha.data());
+  const GrainLoops& loops = s.execution.loops();
+  s.ax.resize(grains.size()), s.ay.resize(grains.size()), s.alpha.resize(grains.omega.size());
+  s.execution.share(grains.size(), [&](std::size_t a, std::size_t b) {
+    const PerGrain w = per_mass(grains, a);
+    loops.accelerate(b - a, &forces.fx[a], w, s.gravity.x(), s.drag, &grains.vx[a], &s.ax[a]);
+    loops.accelerate(b - a, &forces.fy[a], w, s.gravity.y(), s.drag, &grains.vy[a], &s.ay[a]);
+    if (grains.rotation) loops.accelerate(b - a, &forces.torque[a], per_inertia(grains, a), 0, 0, nullptr, &s.alpha[a]);
+  });
 }
 
 void add_scaled(std::vector<double>& to, const std::vector<double>& rate, double factor) {
@@ -51,24 +53,30 @@ double next_time(const Integration& s) {
   return static_cast<double>(s.step + 1) * s.dt;
 }
 
-double* position_or_null(std::vector<double>& x) {
-  return x.empty() ? nullptr : x.data();
+/// Angles are kept of clumps alone.
+double* angle_or_null(Grains& grains, std::size_t from) {
+  return grains.oriented ? &grains.angle[from] : nullptr;
 }
 
 void velocity_verlet(Integration& s) {
   Grains& grains = s.grains;
-  const std::size_t n = grains.size(), turning = grains.omega.size();
-  s.loops.predict(n, s.dt, grains.x.data(), grains.vx.data(), s.ax.data());
-  s.loops.predict(n, s.dt, grains.y.data(), grains.vy.data(), s.ay.data());
-  s.loops.predict(turning, s.dt, position_or_null(grains.angle), grains.omega.data(), s.alpha.data());
+  const GrainLoops& loops = s.execution.loops();
+  s.execution.share(grains.size(), [&](std::size_t a, std::size_t b) {
+    loops.predict(b - a, s.dt, &grains.x[a], &grains.vx[a], &s.ax[a]);
+    loops.predict(b - a, s.dt, &grains.y[a], &grains.vy[a], &s.ay[a]);
+    if (grains.rotation) loops.predict(b - a, s.dt, angle_or_null(grains, a), &grains.omega[a], &s.alpha[a]);
+  });
   const double power_before = s.wall_power;
   s.field.evaluate(grains, next_time(s), {.trial = s.dt, .commit = s.dt, .present = 0.5}, s.census);
 
   const Forces& forces = s.field.forces();
-  const PerGrain w = per_mass(grains);
-  s.loops.correct(n, s.dt, forces.fx.data(), w, s.gravity.x(), s.drag, grains.vx.data(), s.ax.data());
-  s.loops.correct(n, s.dt, forces.fy.data(), w, s.gravity.y(), s.drag, grains.vy.data(), s.ay.data());
-  s.loops.correct(turning, s.dt, forces.torque.data(), per_inertia(grains), 0, 0, grains.omega.data(), s.alpha.data());
+  s.execution.share(grains.size(), [&](std::size_t a, std::size_t b) {
+    const PerGrain w = per_mass(grains, a);
+    loops.correct(b - a, s.dt, &forces.fx[a], w, s.gravity.x(), s.drag, &grains.vx[a], &s.ax[a]);
+    loops.correct(b - a, s.dt, &forces.fy[a], w, s.gravity.y(), s.drag, &grains.vy[a], &s.ay[a]);
+    if (grains.rotation)
+      loops.correct(b - a, s.dt, &forces.torque[a], per_inertia(grains, a), 0, 0, &grains.omega[a], &s.alpha[a]);
+  });
   s.wall_power = s.census.wall_power;
   add_wall_work(s, 0.5 * s.dt * (power_before + s.wall_power));
 }
@@ -97,28 +105,30 @@ void rk2_midpoint(Integration& s) {
   add_wall_work(s, s.dt * s.census.wall_power);
 }
 
-void gear_predict(Integration& s, std::vector<double>& x, std::vector<double>& v, HigherDerivatives& q) {
-  s.loops.gear_predict(v.size(), s.dt, position_or_null(x), v.data(), q[0].data(), q[1].data(), q[2].data(),
-                       q[3].data());
+void gear_predict(Integration& s, double* x, double* v, HigherDerivatives& q, std::size_t a, std::size_t b) {
+  s.execution.loops().gear_predict(b - a, s.dt, x, v, &q[0][a], &q[1][a], &q[2][a], &q[3][a]);
 }
 
-void gear_correct(Integration& s, std::vector<double>& x, std::vector<double>& v, HigherDerivatives& q,
-                  const std::vector<double>& a) {
-  s.loops.gear_correct(v.size(), s.dt, a.data(), position_or_null(x), v.data(), q[0].data(), q[1].data(), q[2].data(),
-                       q[3].data());
+void gear_correct(Integration& s, double* x, double* v, HigherDerivatives& q, const std::vector<double>& acceleration,
+                  std::size_t a, std::size_t b) {
+  s.execution.loops().gear_correct(b - a, s.dt, &acceleration[a], x, v, &q[0][a], &q[1][a], &q[2][a], &q[3][a]);
 }
 
 void gear5(Integration& s) {
-  Grains& grains = s.grains;
-  gear_predict(s, grains.x, grains.vx, s.of_x);
-  gear_predict(s, grains.y, grains.vy, s.of_y);
-  if (grains.rotation) gear_predict(s, grains.angle, grains.omega, s.of_angle);
+  Grains& g = s.grains;
+  s.execution.share(g.size(), [&](std::size_t a, std::size_t b) {
+    gear_predict(s, &g.x[a], &g.vx[a], s.of_x, a, b);
+    gear_predict(s, &g.y[a], &g.vy[a], s.of_y, a, b);
+    if (g.rotation) gear_predict(s, angle_or_null(g, a), &g.omega[a], s.of_angle, a, b);
+  });
   const double power_before = s.wall_power;
-  s.field.evaluate(grains, next_time(s), {.trial = s.dt, .commit = s.dt, .present = 0.5}, s.census);
+  s.field.evaluate(g, next_time(s), {.trial = s.dt, .commit = s.dt, .present = 0.5}, s.census);
   accelerations(s);
-  gear_correct(s, grains.x, grains.vx, s.of_x, s.ax);
-  gear_correct(s, grains.y, grains.vy, s.of_y, s.ay);
-  if (grains.rotation) gear_correct(s, grains.angle, grains.omega, s.of_angle, s.alpha);
+  s.execution.share(g.size(), [&](std::size_t a, std::size_t b) {
+    gear_correct(s, &g.x[a], &g.vx[a], s.of_x, s.ax, a, b);
+    gear_correct(s, &g.y[a], &g.vy[a], s.of_y, s.ay, a, b);
+    if (g.rotation) gear_correct(s, angle_or_null(g, a), &g.omega[a], s.of_angle, s.alpha, a, b);
+  });
   s.wall_power = s.census.wall_power;
   add_wall_work(s, 0.5 * s.dt * (power_before + s.wall_power));
 }

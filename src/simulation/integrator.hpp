@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "simulation/force_field.hpp"
-#include "simulation/grain_loops.hpp"
 
 namespace vibrosow {
 
@@ -16,7 +15,7 @@ using HigherDerivatives = std::array<std::vector<double>, 4>;
 struct Integration {
   Grains& grains;
   ForceField& field;
-  const GrainLoops& loops;
+  Execution& execution;
   Integrator scheme;
   double dt;                // s
   Eigen::Vector2d gravity;  // m/s2

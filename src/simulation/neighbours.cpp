@@ -1,6 +1,7 @@
 #include "simulation/neighbours.hpp"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <utility>
 
@@ -91,24 +92,33 @@ void recall(const std::vector<RememberedPair>& remembered, const PairList& list,
   }
 }
 
-/// Keeps the pairs nearer than their reach plus `margin` (m), with the rows' grains shifted by `shift` (m) along x.
-void prune_pairs(const Grains& grains, const PairList& wide, double shift, double margin, PairList& narrow) {
-  narrow.clear();
-  const bool clumps = !grains.clump.empty();
-  for (std::size_t k = 0; k < wide.size(); ++k) {
-    const std::size_t i = static_cast<std::size_t>(wide.grain[k]), j = static_cast<std::size_t>(wide.partner[k]);
-    if (clumps && grains.clump[i] == grains.clump[j]) continue;
-    const double dx = grains.x[j] - (grains.x[i] + shift), dy = grains.y[j] - grains.y[i];
-    const double limit = grains.kind(i).radius + margin + grains.kind(j).radius;
-    if (dx * dx + dy * dy < limit * limit) narrow.add(wide.grain[k], wide.partner[k]);
+void drop_pairs_within_clumps(const std::vector<int>& clump, PairList& list) {
+  std::size_t kept = 0;
+  for (std::size_t k = 0; k < list.size(); ++k) {
+    if (clump[static_cast<std::size_t>(list.grain[k])] == clump[static_cast<std::size_t>(list.partner[k])]) continue;
+    list.grain[kept] = list.grain[k], list.partner[kept++] = list.partner[k];
+  }
+  list.grain.resize(kept), list.partner.resize(kept);
+}
+
+/// The same where both lists know each pair by the same order: no search.
+void carry_over(const PairList& old, const ContactHistory& old_history, const PairList& list, ContactHistory& history) {
+  const auto before = [](const PairList& a, std::size_t k, const PairList& b, std::size_t m) {
+    return a.grain[k] != b.grain[m] ? a.grain[k] < b.grain[m] : a.partner[k] < b.partner[m];
+  };
+  std::size_t k = 0;
+  for (std::size_t m = 0; m < list.size(); ++m) {
+    while (k < old.size() && before(old, k, list, m)) ++k;
+    if (k == old.size()) return;
+    if (!before(list, m, old, k)) copy_entry(old_history, k, history, m);
   }
 }
 
 }  // namespace
 
 Neighbours::Neighbours(const std::vector<Vessel>& vessels, double largest_diameter, NeighbourMargins margins,
-                       NeighbourMemory memory, InstructionSet instructions)
-    : loops_(grain_loops(instructions)),
+                       NeighbourMemory memory, Execution& execution)
+    : execution_(execution),
       broadphase_(vessels, largest_diameter),
       wide_margin_(margins.wide * largest_diameter),
       narrow_margin_(margins.narrow * largest_diameter),
@@ -127,9 +137,13 @@ Neighbours::Reference Neighbours::reference(const Grains& grains, const Walls& w
 
 bool Neighbours::moved(const Reference& from, const Grains& grains, const Walls& walls, double limit) const {
   const Eigen::Vector2d shift = walls.poses().front().displacement;
-  if (loops_.any_moved(from.x.size(), grains.x.data(), grains.y.data(), shift.x(), shift.y(), from.x.data(),
-                       from.y.data(), limit))
-    return true;
+  std::atomic<bool> any = false;
+  execution_.share(from.x.size(), [&](std::size_t a, std::size_t b) {
+    if (execution_.loops().any_moved(b - a, grains.x.data() + a, grains.y.data() + a, shift.x(), shift.y(),
+                                     from.x.data() + a, from.y.data() + a, limit))
+      any = true;
+  });
+  if (any) return true;
   for (std::size_t v = 0; v < from.poses.size(); ++v) {
     const Pose &now = walls.poses()[v], &then = from.poses[v];
     const Eigen::Vector2d relative_now = now.displacement - shift;
@@ -151,22 +165,40 @@ void Neighbours::update(const Grains& grains, const Walls& walls) {
 void Neighbours::search(const Grains& grains, const Walls& walls) {
   broadphase_.find(grains, walls.poses(), wide_margin_, wide_, wide_walls_);
   if (period_ > 0) broadphase_.find_across(grains, period_, wide_margin_, wide_seam_);
+  if (!grains.clump.empty())
+    drop_pairs_within_clumps(grains.clump, wide_), drop_pairs_within_clumps(grains.clump, wide_seam_);
   wide_reference_ = reference(grains, walls);
   wide_is_valid_ = true;
   ++searches_;
 }
 
+/// Keeps the pairs nearer than their reach plus the narrow margin, with the rows' grains shifted by `shift` (m) along
+/// x.
+void Neighbours::prune_pairs(const Grains& grains, const PairList& wide, double shift, PairList& narrow) {
+  const PerGrain radius{grains.unequal ? grains.radius.data() : nullptr, grains.kinds.front().radius};
+  narrow.grain.resize(wide.size() + 16), narrow.partner.resize(wide.size() + 16);
+  const std::size_t near = execution_.loops().near_pairs(wide.size(), wide.grain.data(), wide.partner.data(),
+                                                         grains.x.data(), grains.y.data(), shift, radius,
+                                                         narrow_margin_, narrow.grain.data(), narrow.partner.data());
+  narrow.grain.resize(near), narrow.partner.resize(near);
+}
+
 void Neighbours::prune(const Grains& grains, const Walls& walls) {
-  const PairList old_pairs = memory_.any() ? narrow_ : PairList{}, old_seam = memory_.any() ? narrow_seam_ : PairList{};
-  prune_pairs(grains, wide_, 0, narrow_margin_, narrow_);
-  if (period_ > 0) prune_pairs(grains, wide_seam_, period_, narrow_margin_, narrow_seam_);
+  std::swap(narrow_, old_), std::swap(narrow_seam_, old_seam_);
+  prune_pairs(grains, wide_, 0, narrow_);
+  if (period_ > 0) prune_pairs(grains, wide_seam_, period_, narrow_seam_);
   if (memory_.any()) {
-    const ContactHistory old = std::exchange(pair_history_, {}), old_of_seam = std::exchange(seam_history_, {});
-    const std::vector<RememberedPair> remembered = active_pairs(old_pairs, old, old_seam, old_of_seam);
+    std::swap(pair_history_, old_history_), std::swap(seam_history_, old_seam_history_);
+    pair_history_.clear(), seam_history_.clear();
     pair_history_.resize(narrow_.size(), memory_.slip, memory_.roll);
     seam_history_.resize(narrow_seam_.size(), memory_.slip, memory_.roll);
-    recall(remembered, narrow_, pair_history_);
-    recall(remembered, narrow_seam_, seam_history_);
+    if (period_ > 0) {
+      const std::vector<RememberedPair> remembered = active_pairs(old_, old_history_, old_seam_, old_seam_history_);
+      recall(remembered, narrow_, pair_history_);
+      recall(remembered, narrow_seam_, seam_history_);
+    } else {
+      carry_over(old_, old_history_, narrow_, pair_history_);
+    }
   }
   prune_walls(grains, walls);
   narrow_reference_ = reference(grains, walls);

@@ -8,7 +8,7 @@
 #include "contact/contact_history.hpp"
 #include "contact/contact_list.hpp"
 #include "grains/grains.hpp"
-#include "simulation/grain_loops.hpp"
+#include "simulation/execution.hpp"
 #include "simulation/walls.hpp"
 
 namespace vibrosow {
@@ -32,7 +32,7 @@ struct NeighbourMemory {
 class Neighbours {
  public:
   Neighbours(const std::vector<Vessel>& vessels, double largest_diameter, NeighbourMargins margins,
-             NeighbourMemory memory = {}, InstructionSet instructions = best_instruction_set());
+             NeighbourMemory memory, Execution& execution);
 
   /// Renews the lists if the grains or walls have moved too far for them.
   void update(const Grains& grains, const Walls& walls);
@@ -75,9 +75,10 @@ class Neighbours {
 
   void search(const Grains& grains, const Walls& walls);
   void prune(const Grains& grains, const Walls& walls);
+  void prune_pairs(const Grains& grains, const PairList& wide, double shift, PairList& narrow);
   void prune_walls(const Grains& grains, const Walls& walls);
 
-  const GrainLoops& loops_;
+  Execution& execution_;
   Broadphase broadphase_;
   std::vector<double> largest_radius_;  // m, by vessel, of its walls about its frame's zero
   double wide_margin_, narrow_margin_;  // m
@@ -85,8 +86,9 @@ class Neighbours {
   double period_;  // m
   PairList wide_, narrow_;
   PairList wide_seam_, narrow_seam_;
+  PairList old_, old_seam_;  // the lists before, while memories are carried over
   std::vector<WallCandidate> wide_walls_, narrow_walls_;
-  ContactHistory pair_history_, seam_history_, wall_history_;
+  ContactHistory pair_history_, seam_history_, wall_history_, old_history_, old_seam_history_;
   Reference wide_reference_, narrow_reference_;
   bool wide_is_valid_ = false;
   std::int64_t searches_ = 0, prunes_ = 0;

@@ -26,10 +26,11 @@ std::int64_t steps_in(double interval, double dt) {
 Simulation::Simulation(const Scene& scene, Grains grains, const SimulationSetup& setup)
     : scene_(scene),
       grains_(std::move(grains)),
-      field_(scene_, setup.effects, setup.margins, setup.instructions),
+      execution_(setup.instructions, setup.threads),
+      field_(scene_, setup.effects, setup.margins, execution_),
       s_{.grains = grains_,
          .field = field_,
-         .loops = grain_loops(setup.instructions),
+         .execution = execution_,
          .scheme = scene_.numerics.integrator,
          .dt = setup.dt,
          .gravity = setup.gravity,
@@ -81,7 +82,7 @@ void Simulation::steps(std::int64_t count) {
 void Simulation::count() {
   const std::size_t before = run_.events.size();
   const std::int64_t lost_before = counter_.lost();
-  counter_.watch(grains_, field_.walls(), s_.loops, s_.time, run_.events);
+  counter_.watch(grains_, field_.walls(), execution_.loops(), s_.time, run_.events);
   if (counter_.lost() > lost_before) note_lost(counter_.lost() - lost_before);
   for (std::size_t k = before; k < run_.events.size(); ++k)
     ++(run_.events[k].hole > 0 ? run_.balance.counted : run_.balance.spilled);
@@ -243,7 +244,8 @@ void refuse_overlapping_start(const Scene& scene, const Grains& grains) {
   effects.unequal = grains.unequal;
   effects.clumps = grains.oriented;
   effects.rotation = grains.rotation;
-  ForceField field(scene, effects, {});
+  Execution execution;
+  ForceField field(scene, effects, {}, execution);
   ContactCensus census;
   field.evaluate(grains, 0, {}, census);
   // Grains at rest may carry their bed's weight, no more.

@@ -20,7 +20,9 @@ struct SimulationSetup {
   EffectSet effects{};                            // the kernels to run with; at least those the scene calls for
   NeighbourMargins margins{};
   bool insisted_on_step = false;
-  InstructionSet instructions = best_instruction_set();  // changes the time of a run, never its result
+  // These change the time of a run, never its result.
+  InstructionSet instructions = best_instruction_set();
+  int threads = 1;
 };
 
 /// The grains of a scene in motion, step by step.
@@ -58,6 +60,7 @@ class Simulation {
 
   Scene scene_;
   Grains grains_;
+  Execution execution_;
   ForceField field_;
   Integration s_;
   StepFunction advance_;

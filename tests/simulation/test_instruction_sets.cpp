@@ -9,7 +9,7 @@ namespace vibrosow {
 namespace {
 
 /// Two lots shaken in a tray with a hole, with the choice of effects that `effects` asks for beside the scene's own.
-Grains shaken(Law law, const EffectChoice& choice, InstructionSet instructions) {
+Grains shaken(Law law, const EffectChoice& choice, InstructionSet instructions, int threads = 1) {
   Scene scene;
   scene.lots = {{"a", 8e-3, 0.6e-3, Shape::disc, 0.5}, {"b", 8e-3, 0.6e-3, Shape::disc, 0.5}};
   scene.contact.law = law;
@@ -33,9 +33,13 @@ Grains shaken(Law law, const EffectChoice& choice, InstructionSet instructions) 
   effects.rolling = choice.rolling, effects.cohesion = choice.cohesion;
   effects.motion = true;
   if (choice.unequal) scene.lots[1].diameter = 5e-3, scene.lots[1].mass = 0.2e-3;
-  Simulation run(
-      scene, starting_grains(scene, 5, effects),
-      {.dt = 5e-5, .random_seed = 5, .effects = effects, .insisted_on_step = true, .instructions = instructions});
+  Simulation run(scene, starting_grains(scene, 5, effects),
+                 {.dt = 5e-5,
+                  .random_seed = 5,
+                  .effects = effects,
+                  .insisted_on_step = true,
+                  .instructions = instructions,
+                  .threads = threads});
   run.steps(1500);
   EXPECT_GT(run.census().contacts, 20000);
   return run.grains();
@@ -55,6 +59,19 @@ TEST(InstructionSets, GiveTheSameBits) {
         ASSERT_EQ(same.omega, generic.omega) << name_of(set);
       }
     }
+}
+
+// The sums of a grain are the same whichever thread's range it and its neighbours are in.
+TEST(Threads, GiveTheSameBits) {
+  for (const EffectChoice& choice : compiled_effects) {
+    const Grains one = shaken(Law::elastic_shell, choice, best_instruction_set());
+    for (const int threads : {2, 3, 7}) {
+      const Grains same = shaken(Law::elastic_shell, choice, best_instruction_set(), threads);
+      ASSERT_EQ(same.x, one.x) << threads;
+      ASSERT_EQ(same.vy, one.vy) << threads;
+      ASSERT_EQ(same.omega, one.omega) << threads;
+    }
+  }
 }
 
 TEST(InstructionSets, TheBestIsAvailable) {

@@ -1,0 +1,52 @@
+#pragma once
+
+#include <oneapi/tbb/parallel_for.h>
+#include <oneapi/tbb/partitioner.h>
+#include <oneapi/tbb/task_arena.h>
+
+#include <cstddef>
+
+#include "simulation/grain_loops.hpp"
+
+namespace vibrosow {
+
+/// With what one run is computed: vector instructions, and threads that share its loops. Neither changes a result: what
+/// is computed for one grain does not depend on which others are in its range.
+class Execution {
+ public:
+  /// `threads` >= 1. Throws std::logic_error when the instructions are not available.
+  explicit Execution(InstructionSet instructions = best_instruction_set(), int threads = 1)
+      : instructions_(instructions), loops_(grain_loops(instructions)), threads_(threads), arena_(threads) {}
+
+  InstructionSet instructions() const { return instructions_; }
+  const GrainLoops& loops() const { return loops_; }
+  int threads() const { return threads_; }
+
+  /// Calls work(range) for each range 0 .. threads - 1 and returns when all are done.
+  template <class Work>
+  void for_each_range(Work work) {
+    if (threads_ == 1) return work(0);
+    arena_.execute([&] {
+      oneapi::tbb::parallel_for(
+          0, threads_, [&](int range) { work(range); }, oneapi::tbb::static_partitioner{});
+    });
+  }
+
+  /// Calls work(from, to) for equal parts of [0, n).
+  template <class Work>
+  void share(std::size_t n, Work work) {
+    const std::size_t parts = static_cast<std::size_t>(threads_);
+    for_each_range([&](int range) {
+      const std::size_t k = static_cast<std::size_t>(range);
+      work(n * k / parts, n * (k + 1) / parts);
+    });
+  }
+
+ private:
+  InstructionSet instructions_;
+  const GrainLoops& loops_;
+  int threads_;
+  oneapi::tbb::task_arena arena_;
+};
+
+}  // namespace vibrosow
