@@ -182,18 +182,21 @@ void wall_forces(const Grains& grains, const Motion& at, std::vector<WallCandida
     if constexpr (Effects::rotation) sum_torque += force.rolling - arm * force.tangential;
     census.wall_power -= px * wall_vx + py * wall_vy;
   };
+  const PairConstants equal = wall_constants<Law, Effects>(grains.kinds.front(), parameters, parameters.walls.front());
+  const auto constants_of = [&](const GrainKind& kind, const SurfaceParameters& surface) {
+    return Effects::unequal ? wall_constants<Law, Effects>(kind, parameters, surface) : equal;
+  };
   for_each_grain_near_walls(candidates, [&](std::size_t i, std::size_t from, std::size_t to) {
     const NearestPoints points(candidates, from, to, walls, at.x[i], at.y[i]);
     watch_crossings(candidates, from, to, points, census);
     const GrainKind kind = grains.kind(i);
     const SurfaceParameters& surface = parameters.wall(grains.lot[i]);
-    const PairConstants pair = wall_constants<Law, Effects>(kind, parameters, surface);
     sum_x = sum_y = sum_torque = 0;
     std::uint64_t touched = 0;  // bit by candidate; a grain meets far fewer than 64 walls
     for_each_wall_contact(candidates, from, to, walls, points, kind.radius,
                           [&](std::size_t c, const NearestPoint& nearest) {
                             touched |= std::uint64_t{1} << ((c - from) & 63);
-                            contact(i, kind, pair, surface, c, nearest);
+                            contact(i, kind, constants_of(kind, surface), surface, c, nearest);
                           });
     forces.fx[i] += sum_x, forces.fy[i] += sum_y;
     if constexpr (Effects::rotation) forces.torque[i] += sum_torque;

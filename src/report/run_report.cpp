@@ -134,8 +134,9 @@ std::string timing_json(const Run& run) {
   Json json = {{"wall_s", run.wall_time}, {"grain_steps_per_s", nullptr}};
   if (run.wall_time <= 0) return text_of(json);
   json["grain_steps_per_s"] = static_cast<double>(run.grain_steps) / run.wall_time;
-  const double neighbours = run.neighbour_time / run.wall_time, forces = run.force_time / run.wall_time;
-  json["shares"] = {{"neighbours", neighbours}, {"forces", forces}, {"integration_and_rest", 1 - neighbours - forces}};
+  if (run.phase_times)
+    for (std::size_t k = 0; k < phase_names.size(); ++k)
+      json["shares"][std::string(phase_names[k])] = (*run.phase_times)[k] / run.wall_time;
   return text_of(json);
 }
 

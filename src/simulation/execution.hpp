@@ -7,6 +7,7 @@
 #include <cstddef>
 
 #include "simulation/grain_loops.hpp"
+#include "simulation/profile.hpp"
 
 namespace vibrosow {
 
@@ -21,6 +22,8 @@ class Execution {
   InstructionSet instructions() const { return instructions_; }
   const GrainLoops& loops() const { return loops_; }
   int threads() const { return threads_; }
+  Profile& profile() { return profile_; }
+  const Profile& profile() const { return profile_; }
 
   /// Calls work(range) for each range 0 .. threads - 1 and returns when all are done.
   template <class Work>
@@ -47,6 +50,7 @@ class Execution {
   const GrainLoops& loops_;
   int threads_;
   oneapi::tbb::task_arena arena_;
+  Profile profile_;
 };
 
 }  // namespace vibrosow

@@ -1,7 +1,6 @@
 #include "simulation/force_field.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 
 #include "scene/seed_lot.hpp"
@@ -94,29 +93,25 @@ void ForceField::run_kernels(const Grains& discs, const HistoryAdvance& advance,
     add_pair_forces(pair_kernel_, surfaces, across_seam(discs), seam, {0, static_cast<int>(seam.size())}, parameters_,
                     advance, neighbours_.seam_history(), 0, forces, range_results_.front().foreign, census);
   }
+  execution_.profile().lap(Phase::pairs);
   kernels_.wall(discs, at, neighbours_.near_walls(), walls_.placed(), parameters_, advance, neighbours_.wall_history(),
                 forces, census);
+  execution_.profile().lap(Phase::walls);
 }
 
 void ForceField::evaluate(const Grains& grains, double time, const HistoryAdvance& advance, ContactCensus& census) {
-  const auto started = std::chrono::steady_clock::now();
   walls_.place(time);
   const Grains& discs = place_discs(grains);
   neighbours_.update(discs, walls_);
-  const auto found = std::chrono::steady_clock::now();
+  execution_.profile().lap(Phase::neighbours);
   census.wall_power = 0;
-  if (clumps_) {
-    const std::size_t crossed_before = census.crossed.size();
-    run_kernels(discs, advance, disc_forces_, census);
-    clear(forces_, grains);
-    clumps_->gather(disc_forces_, forces_);
-    for (std::size_t k = crossed_before; k < census.crossed.size(); ++k)
-      census.crossed[k] = discs.clump[static_cast<std::size_t>(census.crossed[k])];
-  } else {
-    run_kernels(grains, advance, forces_, census);
-  }
-  neighbour_time_ += std::chrono::duration<double>(found - started).count();
-  force_time_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - found).count();
+  if (!clumps_) return run_kernels(grains, advance, forces_, census);
+  const std::size_t crossed_before = census.crossed.size();
+  run_kernels(discs, advance, disc_forces_, census);
+  clear(forces_, grains);
+  clumps_->gather(disc_forces_, forces_);
+  for (std::size_t k = crossed_before; k < census.crossed.size(); ++k)
+    census.crossed[k] = discs.clump[static_cast<std::size_t>(census.crossed[k])];
 }
 
 double ForceField::elastic_energy(const Grains& grains) {

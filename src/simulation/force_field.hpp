@@ -40,9 +40,6 @@ class ForceField {
   /// Takes a wall away at once; nothing touches it any more.
   void remove_wall(std::size_t wall);
 
-  double neighbour_time() const { return neighbour_time_; }  // s of wall time spent so far
-  double force_time() const { return force_time_; }
-
   const Forces& forces() const { return forces_; }
   const Walls& walls() const { return walls_; }
   Neighbours& neighbours() { return neighbours_; }
@@ -74,7 +71,6 @@ class ForceField {
   };
   std::vector<RangeResult> range_results_;
   std::vector<double> shifted_x_;  // m, of periodic sides
-  double neighbour_time_ = 0, force_time_ = 0;
 };
 
 }  // namespace vibrosow

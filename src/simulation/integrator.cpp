@@ -66,6 +66,7 @@ void velocity_verlet(Integration& s) {
     loops.predict(b - a, s.dt, &grains.y[a], &grains.vy[a], &s.ay[a]);
     if (grains.rotation) loops.predict(b - a, s.dt, angle_or_null(grains, a), &grains.omega[a], &s.alpha[a]);
   });
+  s.execution.profile().lap(Phase::integration);
   const double power_before = s.wall_power;
   s.field.evaluate(grains, next_time(s), {.trial = s.dt, .commit = s.dt, .present = 0.5}, s.census);
 
@@ -121,6 +122,7 @@ void gear5(Integration& s) {
     gear_predict(s, &g.y[a], &g.vy[a], s.of_y, a, b);
     if (g.rotation) gear_predict(s, angle_or_null(g, a), &g.omega[a], s.of_angle, a, b);
   });
+  s.execution.profile().lap(Phase::integration);
   const double power_before = s.wall_power;
   s.field.evaluate(g, next_time(s), {.trial = s.dt, .commit = s.dt, .present = 0.5}, s.census);
   accelerations(s);

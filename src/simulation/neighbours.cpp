@@ -127,12 +127,11 @@ Neighbours::Neighbours(const std::vector<Vessel>& vessels, double largest_diamet
   for (const Vessel& vessel : vessels) largest_radius_.push_back(largest_radius(vessel, Eigen::Vector2d::Zero()));
 }
 
-Neighbours::Reference Neighbours::reference(const Grains& grains, const Walls& walls) {
+void Neighbours::note(const Grains& grains, const Walls& walls, Reference& reference) {
   const Eigen::Vector2d shift = walls.poses().front().displacement;
-  Reference now{grains.x, grains.y, walls.poses()};
-  for (double& x : now.x) x -= shift.x();
-  for (double& y : now.y) y -= shift.y();
-  return now;
+  reference.x = grains.x, reference.y = grains.y, reference.poses = walls.poses();
+  for (double& x : reference.x) x -= shift.x();
+  for (double& y : reference.y) y -= shift.y();
 }
 
 bool Neighbours::moved(const Reference& from, const Grains& grains, const Walls& walls, double limit) const {
@@ -167,7 +166,7 @@ void Neighbours::search(const Grains& grains, const Walls& walls) {
   if (period_ > 0) broadphase_.find_across(grains, period_, wide_margin_, wide_seam_);
   if (!grains.clump.empty())
     drop_pairs_within_clumps(grains.clump, wide_), drop_pairs_within_clumps(grains.clump, wide_seam_);
-  wide_reference_ = reference(grains, walls);
+  note(grains, walls, wide_reference_);
   wide_is_valid_ = true;
   ++searches_;
 }
@@ -201,7 +200,7 @@ void Neighbours::prune(const Grains& grains, const Walls& walls) {
     }
   }
   prune_walls(grains, walls);
-  narrow_reference_ = reference(grains, walls);
+  note(grains, walls, narrow_reference_);
   ++prunes_;
 }
 

@@ -69,7 +69,7 @@ class Neighbours {
     std::vector<double> x, y;
     std::vector<Pose> poses;
   };
-  static Reference reference(const Grains& grains, const Walls& walls);
+  static void note(const Grains& grains, const Walls& walls, Reference& reference);
   bool moved(const Reference& from, const Grains& grains, const Walls& walls, double limit) const;
   static void remove_flagged(Reference& reference, const std::vector<char>& removed);
 

@@ -1,10 +1,13 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "simulation/snapshot.hpp"
+
+#include "simulation/profile.hpp"
 
 namespace vibrosow {
 
@@ -37,7 +40,7 @@ struct EnergyAccount {                             // J
 
 enum class RunStatus { finished, stopped_by_guard, interrupted };
 
-/// What one simulation gives. Holds nothing that depends on a clock but the last three.
+/// What one simulation gives. Holds nothing that depends on a clock but the last two.
 struct Run {
   RunStatus status = RunStatus::finished;
   std::string stop_reason;            // of the guard
@@ -55,11 +58,10 @@ struct Run {
   double tray_empty_since = -1;        // s, when the last grain left the tray; negative: it never ran dry
   EnergyAccount energy;
   Balance balance;
-  std::vector<OutflowEvent> events;  // by time
-  std::vector<Snapshot> snapshots;   // one a record time that was reached; empty without a record
-  double wall_time = 0;              // s, of this machine
-  double neighbour_time = 0;         // s, of wall_time: boxes, lists, walls put in place
-  double force_time = 0;             // s, of wall_time: the kernels
+  std::vector<OutflowEvent> events;       // by time
+  std::vector<Snapshot> snapshots;        // one a record time that was reached; empty without a record
+  double wall_time = 0;                   // s, of this machine
+  std::optional<PhaseTimes> phase_times;  // of wall_time, where asked for
 };
 
 }  // namespace vibrosow

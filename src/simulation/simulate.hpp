@@ -11,6 +11,8 @@ namespace vibrosow {
 
 struct SimulationOptions {
   std::uint64_t random_seed = 1;
+  int threads = 1;                                  // that share the run's loops; the result is the same for any number
+  bool profile = false;                             // whether Run::phase_times are taken
   const std::atomic<bool>* interrupt = nullptr;     // looked at now and then; true ends the run as interrupted
   std::function<void(double share_done)> progress;  // called now and then with 0..1, in the simulating thread
 };

@@ -41,6 +41,7 @@ Simulation::Simulation(const Scene& scene, Grains grains, const SimulationSetup&
       guard_(scene_, setup.insisted_on_step),
       steps_per_removal_(steps_in(removal_interval, setup.dt)),
       steps_per_feed_(steps_in(feeding_interval, setup.dt)) {
+  if (setup.profile) execution_.profile().start();
   run_.random_seed = setup.random_seed;
   run_.dt = setup.dt;
   run_.balance.put_in = static_cast<std::int64_t>(grains_.size());
@@ -48,6 +49,7 @@ Simulation::Simulation(const Scene& scene, Grains grains, const SimulationSetup&
   open_gates();
   guard_.watch_step(s_);
   guard_.watch_energy(s_, run_.energy);
+  execution_.profile().lap(Phase::start);
   if (!scene_.record) return;
   recorder_.emplace(scene_);
   recorder_->note_new(grains_);
@@ -58,19 +60,24 @@ bool Simulation::step() {
   if (guard_.stop_reason() || !run_.end_reason.empty()) return false;
   if (s_.time >= next_gate_) open_gates();
   run_.grain_steps += static_cast<std::int64_t>(grains_.size());
+  Profile& profile = execution_.profile();
   advance_(s_);
+  profile.lap(Phase::integration);
   ++s_.step;
   s_.time = static_cast<double>(s_.step) * s_.dt;
   guard_.watch_step(s_);
   if (guard_.stop_reason()) return false;
   if (!s_.census.crossed.empty()) take_out();
   count();
+  profile.lap(Phase::counters);
   if (s_.step % steps_per_removal_ == 0) take_out(), wrap(), note_whether_dry(), end_after_pause();
   const bool top_up = feeder_.feeds() && s_.step % steps_per_feed_ == 0;
   const bool rain = feeder_.rains() && s_.step % steps_per_removal_ == 0;
   if (top_up || rain) feed(top_up, rain);
   if (s_.step % steps_per_energy_account == 0) guard_.watch_energy(s_, run_.energy);
+  profile.lap(Phase::housekeeping);
   if (recorder_ && recorder_->is_due(s_.time)) recorder_->record(grains_, s_.time, run_.snapshots);
+  profile.lap(Phase::recording);
   return !guard_.stop_reason() && run_.end_reason.empty();
 }
 
@@ -213,8 +220,7 @@ Run Simulation::result() const {
   run.force_evaluations = s_.census.contacts;
   run.max_compression = guard_.max_compression();
   std::ranges::stable_sort(run.events, {}, &OutflowEvent::time);  // of one step they come in the order of the grains
-  run.neighbour_time = field_.neighbour_time();
-  run.force_time = field_.force_time();
+  if (execution_.profile().is_on()) run.phase_times = execution_.profile().times();
   run.balance.inside = 0;
   for (std::size_t i = 0; i < grains_.size(); ++i)
     if (!counter_.is_counted(i)) ++run.balance.inside;

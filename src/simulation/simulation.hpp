@@ -23,6 +23,7 @@ struct SimulationSetup {
   // These change the time of a run, never its result.
   InstructionSet instructions = best_instruction_set();
   int threads = 1;
+  bool profile = false;  // whether Run::phase_times are taken
 };
 
 /// The grains of a scene in motion, step by step.
