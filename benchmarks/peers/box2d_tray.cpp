@@ -24,11 +24,13 @@ float scaled(double length) {
   return static_cast<float>(length / unit);
 }
 
-void add_wall(b2Body& tray, double xa, double ya, double xb, double yb) {
-  b2EdgeShape edge;
-  edge.SetTwoSided({scaled(xa), scaled(ya)}, {scaled(xb), scaled(yb)});
+/// A block from (left, bottom) to (right, top): thick, or grains would pass a thin line at the lowest rate.
+void add_block(b2Body& tray, double left, double right, double bottom, double top) {
+  b2PolygonShape block;
+  block.SetAsBox(scaled((right - left) / 2), scaled((top - bottom) / 2),
+                 {scaled((left + right) / 2), scaled((bottom + top) / 2)}, 0);
   b2FixtureDef fixture;
-  fixture.shape = &edge;
+  fixture.shape = &block;
   fixture.friction = static_cast<float>(friction);
   fixture.restitution = static_cast<float>(restitution);
   tray.CreateFixture(&fixture);
@@ -38,12 +40,13 @@ b2Body& add_tray(b2World& world, bool holes) {
   b2BodyDef definition;
   definition.type = b2_kinematicBody;
   b2Body& tray = *world.CreateBody(&definition);
-  add_wall(tray, 0, 0, 0, 0.45), add_wall(tray, 0.5, 0, 0.5, 0.45);
+  constexpr double deep = -0.01, high = 0.6, thick = 0.04;
+  add_block(tray, -thick, 0, deep, high), add_block(tray, 0.5, 0.5 + thick, deep, high);
   if (!holes) {
-    add_wall(tray, 0, 0, 0.5, 0);
+    add_block(tray, 0, 0.5, deep, 0);
   } else {
-    add_wall(tray, 0, 0, 0.113, 0), add_wall(tray, 0.137, 0, 0.238, 0);
-    add_wall(tray, 0.262, 0, 0.363, 0), add_wall(tray, 0.387, 0, 0.5, 0);
+    add_block(tray, 0, 0.113, deep, 0), add_block(tray, 0.137, 0.238, deep, 0);
+    add_block(tray, 0.262, 0.363, deep, 0), add_block(tray, 0.387, 0.5, deep, 0);
   }
   return tray;
 }

@@ -52,9 +52,10 @@ class Bench:
 
 @dataclass
 class Start:
-    """The grains of a scene at time 0 as Vibrosow lays them, and its step."""
+    """The grains of a scene at time 0 as Vibrosow lays them with a random seed, and its step."""
     places: list
     dt: float
+    seed: int = 1
 
 
 def run_vibrosow(bench, scene, duration, *options):
@@ -71,27 +72,28 @@ def start_of(bench, scene, seed=1):
     shift = 0 if scene.is_tray else -run['scene']['tray']['holes'][0]['centre_m']
     with open(bench.work / 'vibrosow' / 'grains_001.csv') as file:
         places = [(float(row['x_mm']) / 1e3 + shift, float(row['y_mm']) / 1e3) for row in csv.DictReader(file)]
-    return Start(places, run['dt_s'])
+    return Start(places, run['dt_s'], seed)
 
 
 def vibrosow(bench, scene, start, window, options=()):
     """The window is the difference of two runs from the start."""
+    options = ('--random-seed', start.seed, *options)
     runs = [run_vibrosow(bench, scene, steps * start.dt, *options) for steps in (window.lead, window.lead + window.steps)]
     (before, wall_before), (after, wall_after) = runs
     steps = after['steps'] - before['steps']
     result = Result(wall_after['wall_s'] - wall_before['wall_s'], after['grain_steps'] - before['grain_steps'],
                     after['balance']['put_in'], after['dt_s'], steps,
                     (after['force_evaluations'] - before['force_evaluations']) / steps)
-    if window.sample and scene.outflow:
+    if window.rest:
         last, _ = run_vibrosow(bench, scene, scene.outflow, *options)
         result.out = last['balance']['counted'] + last['balance']['spilled']
     return result
 
 
 def vibrosow_as_published(bench, scene, start, window):
-    """Paper B's own friction and integrator."""
-    return vibrosow(bench, scene, start, window, ('--set', 'numerics.integrator=gear5', '--set',
-                                                  'contact.friction_model=sliding'))
+    """Paper B's friction and integrator."""
+    published = ('numerics.integrator=gear5', 'contact.friction_model=sliding')
+    return vibrosow(bench, scene, start, window, [word for text in published for word in ('--set', text)])
 
 
 def write_atoms(path, scene, places, density, types=1):
@@ -217,7 +219,8 @@ def version_of(bench, name):
         return re.search(r'\d+(\.\d+)+', bench.output_of([bench.vibrosow, '--version']))[0]
     if name.startswith('box2d'):
         return bench.output_of([bench.box2d, '--version']).strip()
-    question = {'lammps': (['lmp', '-h'], r'- (.*)'), 'liggghts': (['liggghts', '-h'], r'Version (\S+?),'),
+    question = {'lammps': (['lmp', '-h'], r'- (.*)'),
+                'liggghts': (['liggghts', '-in', '/dev/null', '-log', 'none'], r'Version (\S+?),'),
                 'yade': (['yade', '--version'], r'version: (\S+)')}
     command, pattern = question[name]
     return re.search(pattern, bench.output_of(command))[1].strip()
