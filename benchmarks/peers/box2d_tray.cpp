@@ -128,7 +128,7 @@ class Loop {
 
 int main(int count, char** arguments) {
   if (count == 2) {
-    std::printf("%d.%d.%d\n", b2_version.major, b2_version.minor, b2_version.revision);
+    std::puts(BOX2D_VERSION);
     return 0;
   }
   if (count != 7) {

@@ -220,7 +220,7 @@ def version_of(bench, name):
     if name.startswith('box2d'):
         return bench.output_of([bench.box2d, '--version']).strip()
     question = {'lammps': (['lmp', '-h'], r'- (.*)'),
-                'liggghts': (['liggghts', '-in', '/dev/null', '-log', 'none'], r'Version (\S+?),'),
+                'liggghts': (['liggghts', '-in', '/dev/null', '-log', 'none'], r'PUBLIC ([\d.]+)'),
                 'yade': (['yade', '--version'], r'version: (\S+)')}
     command, pattern = question[name]
     return re.search(pattern, bench.output_of(command))[1].strip()
