@@ -123,8 +123,9 @@ def ball_density(scene):
 
 
 def window_variables(window, skin):
+    never = 10**9
     return {'lead': window.lead, 'steps': window.steps, 'rest': window.rest, 'last': sum(window[:3]),
-            'sample': window.sample, 'skin': skin, 'pictures': 'pictures', 'thermo': max(1, window.steps // 40)}
+            'sample': window.sample or never, 'skin': skin, 'pictures': 'pictures', 'thermo': max(1, window.steps // 40)}
 
 
 def lammps_laws(scene):
