@@ -1,0 +1,237 @@
+"""How each program is started on a scene and what its output says. Every program gives a Result."""
+import csv
+import json
+import math
+import os
+import re
+import subprocess
+from dataclasses import dataclass
+from pathlib import Path
+
+from contacts import mean_contacts, pictures
+from scenes import textbook_restitution
+
+HERE = Path(__file__).resolve().parent
+# Damping of LAMMPS' gran/hertz/history, proportional to sqrt(overlap): 9.93e7 1/(m s) gives a pair of these grains the
+# restitution 0.5 at 1 m/s (integrated numerically), as paper B's 2.1e4 1/s does.
+LAMMPS_HERTZ_DAMPING = 9.93e7
+
+
+@dataclass
+class Result:
+    """Of the timed window: wall time of the loop alone, grains present summed over steps; touching contacts a step and grains
+    out at the scene's `outflow` where they were looked at."""
+    wall: float
+    grain_steps: float
+    grains: int = 0
+    dt: float = 0
+    steps: int = 0
+    contacts: float = math.nan
+    out: int = 0
+
+    @property
+    def speed(self):
+        return self.grain_steps / self.wall / 1e6
+
+
+class Bench:
+    """Where and on which core programs run."""
+
+    def __init__(self, vibrosow, box2d, core, work):
+        self.vibrosow, self.box2d, self.core, self.work = Path(vibrosow).resolve(), box2d, core, Path(work)
+
+    def output_of(self, command):
+        """Runs on the one core, without threads; returns what it printed, or fails with it."""
+        environment = dict(os.environ, OMP_NUM_THREADS='1', PYTHONPATH=str(HERE / 'yade'), PYTHONDONTWRITEBYTECODE='1')
+        done = subprocess.run(['taskset', '-c', str(self.core)] + [str(word) for word in command], cwd=self.work,
+                              env=environment, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+        if done.returncode != 0:
+            raise RuntimeError(f'{" ".join(str(word) for word in command)}\n{done.stdout[-3000:]}')
+        return done.stdout
+
+
+@dataclass
+class Start:
+    """The grains of a scene at time 0 as Vibrosow lays them with a random seed, and its step."""
+    places: list
+    dt: float
+    seed: int = 1
+
+
+def run_vibrosow(bench, scene, duration, *options):
+    out = bench.work / 'vibrosow'
+    sets = [f'run.duration={duration!r} s', *scene.sets]
+    bench.output_of([bench.vibrosow, 'run', HERE / scene.file, '--quiet', '--out', out, *options] +
+                    [word for text in sets for word in ('--set', text)])
+    return json.loads((out / 'run.json').read_text()), json.loads((out / 'timing.json').read_text())
+
+
+def start_of(bench, scene, seed=1):
+    """The first picture of a short run: x and y from the tray's left end; of the channel from the middle of its gate."""
+    run, _ = run_vibrosow(bench, scene, 1e-4, '--random-seed', seed, '--set', 'record.times=["0 s"]')
+    shift = 0 if scene.is_tray else -run['scene']['tray']['holes'][0]['centre_m']
+    with open(bench.work / 'vibrosow' / 'grains_001.csv') as file:
+        places = [(float(row['x_mm']) / 1e3 + shift, float(row['y_mm']) / 1e3) for row in csv.DictReader(file)]
+    return Start(places, run['dt_s'], seed)
+
+
+def vibrosow(bench, scene, start, window, options=()):
+    """The window is the difference of two runs from the start."""
+    options = ('--random-seed', start.seed, *options)
+    runs = [run_vibrosow(bench, scene, steps * start.dt, *options) for steps in (window.lead, window.lead + window.steps)]
+    (before, wall_before), (after, wall_after) = runs
+    steps = after['steps'] - before['steps']
+    result = Result(wall_after['wall_s'] - wall_before['wall_s'], after['grain_steps'] - before['grain_steps'],
+                    after['balance']['put_in'], after['dt_s'], steps,
+                    (after['force_evaluations'] - before['force_evaluations']) / steps)
+    if window.rest:
+        last, _ = run_vibrosow(bench, scene, scene.outflow, *options)
+        result.out = last['balance']['counted'] + last['balance']['spilled']
+    return result
+
+
+def vibrosow_as_published(bench, scene, start, window):
+    """Paper B's friction and integrator."""
+    published = ('numerics.integrator=gear5', 'contact.friction_model=sliding')
+    return vibrosow(bench, scene, start, window, [word for text in published for word in ('--set', text)])
+
+
+def write_atoms(path, scene, places, density, types=1):
+    """A data file of spheres: number, type, diameter, density, x, y, z."""
+    low, high = min(scene.count_at, -2 * scene.radius) - 0.002, max(y for _, y in places) + 0.3
+    wide = max(max(abs(x) for wall in scene.walls for x, _ in wall), 0) + 0.05
+    lines = [scene.name, '', f'{len(places)} atoms', f'{types} atom types', '', f'{-wide} {wide} xlo xhi',
+             f'{low} {high} ylo yhi', f'{-2 * scene.radius} {2 * scene.radius} zlo zhi', '', 'Atoms', '']
+    lines += [f'{k} 1 {2 * scene.radius} {density!r} {x!r} {y!r} 0' for k, (x, y) in enumerate(places, 1)]
+    path.write_text('\n'.join(lines) + '\n')
+
+
+def write_mesh(path, scene):
+    """The walls as an STL surface, two triangles each, across the whole depth."""
+    deep = 1.9 * scene.radius
+    lines = ['solid walls']
+    for (xa, ya), (xb, yb) in scene.walls:
+        a, b, c, d = (xa, ya, -deep), (xb, yb, -deep), (xb, yb, deep), (xa, ya, deep)
+        for triangle in ((a, b, c), (a, c, d)):
+            corners = [f'vertex {x!r} {y!r} {z!r}' for x, y, z in triangle]
+            lines += ['facet normal 0 0 0', 'outer loop', *corners, 'endloop', 'endfacet']
+    path.write_text('\n'.join(lines + ['endsolid walls']) + '\n')
+
+
+def ball_density(scene):
+    return scene.mass / (4 / 3 * math.pi * scene.radius**3)
+
+
+def window_variables(window, skin):
+    never = 10**9
+    return {'lead': window.lead, 'steps': window.steps, 'rest': window.rest, 'last': sum(window[:3]),
+            'sample': window.sample or never, 'skin': skin, 'pictures': 'pictures', 'thermo': max(1, window.steps // 40)}
+
+
+def lammps_laws(scene):
+    law = scene.law
+    if not scene.is_tray:
+        return {'pair_law': f'{law["kn"]} {law["kt"]} {LAMMPS_HERTZ_DAMPING} NULL {law["friction"]}'}
+    form = '{0} {1} {gamma_n} {gamma_t} {friction}'
+    return {'pair_law': form.format(law['kn'], law['kt'], **law), 'wall_law': form.format(2 * law['kn'], 2 * law['kt'], **law)}
+
+
+def lammps(bench, scene, start, window, skin=None):
+    write_atoms(bench.work / 'lammps.data', scene, start.places, ball_density(scene))
+    steep = math.radians(67.5)
+    variables = window_variables(window, skin or scene.skin['lammps']) | lammps_laws(scene) | {
+        'data': 'lammps.data', 'dt': start.dt, 'holes': scene.holes, 'amplitude': scene.amplitude,
+        'frequency': scene.frequency, 'half_width': 0.05, 'slope_x': math.sin(steep), 'slope_y': math.cos(steep)}
+    deck = HERE / 'lammps' / ('tray.in' if scene.is_tray else 'channel.in')
+    return molecular(bench, scene, start, window, ['lmp', '-screen', 'none'], deck, variables)
+
+
+def liggghts(bench, scene, start, window):
+    write_atoms(bench.work / 'liggghts.data', scene, start.places, ball_density(scene), types=2)
+    write_mesh(bench.work / 'walls.stl', scene)
+    variables = window_variables(window, scene.skin['liggghts']) | {
+        key: value for key, value in scene.law.items() if key != 'restitution'} | {
+            'data': 'liggghts.data', 'dt': start.dt, 'amplitude': scene.amplitude, 'tray': 'walls.stl', 'walls': 'walls.stl',
+            'wall_kn': 2 * scene.law['kn'], 'wall_kt': 2 * scene.law['kt'], 'textbook_restitution': textbook_restitution(0.5),
+            'period': 1 / scene.frequency if scene.frequency else 0}
+    deck = HERE / 'liggghts' / ('tray.in' if scene.is_tray else 'channel.in')
+    # With -screen none it crashes on reading a mesh.
+    return molecular(bench, scene, start, window, ['liggghts'], deck, variables)
+
+
+def molecular(bench, scene, start, window, command, deck, variables):
+    """LAMMPS or its child: variables in, log and pictures out."""
+    log = bench.work / 'log'
+    words = [word for key, value in variables.items() for word in ('-var', key, value)]
+    bench.output_of(command + ['-in', deck, '-log', log, *words])
+    result = read_log(log.read_text())
+    if window.sample:
+        result.contacts = mean_contacts(bench.work / 'pictures', scene, start.dt, window.lead)
+        *_, (_, last) = pictures(bench.work / 'pictures.end') if scene.is_tray else pictures(bench.work / 'pictures')
+        result.out = result.grains - sum(1 for _, y in last if y > scene.count_at)
+    return result
+
+
+def read_log(text):
+    """The second loop's time; its grain-steps by the trapezoidal rule from the table of step, atoms and dt."""
+    tables = re.findall(r'^ *Step +Atoms +Dt *\n((?:[ \d.e+-]+\n|WARNING.*\n)*)', text, re.MULTILINE)
+    rows = [[[float(word) for word in line.split()] for line in table.splitlines() if line[:1] != 'W'] for table in tables]
+    loops = re.findall(r'Loop time of (\S+) on 1 procs for (\d+) steps', text)
+    timed = rows[1]
+    grain_steps = sum((b[0] - a[0]) * (a[1] + b[1]) / 2 for a, b in zip(timed, timed[1:]))
+    return Result(float(loops[1][0]), grain_steps, int(rows[0][0][1]), timed[0][2], int(loops[1][1]))
+
+
+def yade(bench, scene, start, window):
+    law = dict(scene.law)
+    reduced = scene.mass / 2
+    if scene.is_tray:
+        law |= {'dashpot_n': law['gamma_n'] * reduced, 'dashpot_t': law['gamma_t'] * reduced}
+    parameters = law | {
+        'textbook_restitution': textbook_restitution(0.5), 'places': start.places, 'walls': scene.walls, 'radius': scene.radius,
+        'density': ball_density(scene), 'inertia': scene.inertia, 'amplitude': scene.amplitude, 'frequency': scene.frequency,
+        'count_at': scene.count_at, 'dt': start.dt, 'lead': window.lead, 'steps': window.steps, 'rest': window.rest,
+        'sample': window.sample or max(1, window.steps // 40), 'verlet_distance': scene.skin['yade']}
+    (bench.work / 'yade.json').write_text(json.dumps(parameters))
+    deck = HERE / 'yade' / ('tray.py' if scene.is_tray else 'channel.py')
+    found = result_line(bench.output_of(['yade', '-j1', '-n', '-x', deck, bench.work / 'yade.json']))
+    return Result(found['wall_s'], found['grain_steps'], found['number'], found['dt'], window.steps, found['contacts'],
+                  found['out'])
+
+
+def box2d(rate):
+    def run(bench, scene, start, window):
+        (bench.work / 'start.txt').write_text(''.join(f'{x!r} {y!r}\n' for x, y in start.places))
+        rest = window.rest * start.dt
+        text = bench.output_of([bench.box2d, 'start.txt', scene.holes, rate, scene.lead, scene.window, rest])
+        found = result_line(text)
+        return Result(found['wall_s'], found['grain_steps'], found['number'], 1 / rate, found['steps'], found['contacts'],
+                      found['out'])
+    return run
+
+
+def result_line(text):
+    return json.loads(re.search(r'^RESULT (.*)$', text, re.MULTILINE)[1])
+
+
+def version_of(bench, name):
+    """As the program itself says it."""
+    if name.startswith('vibrosow'):
+        return re.search(r'\d+(\.\d+)+', bench.output_of([bench.vibrosow, '--version']))[0]
+    if name.startswith('box2d'):
+        return bench.output_of([bench.box2d, '--version']).strip()
+    question = {'lammps': (['lmp', '-h'], r'- (.*)'),
+                'liggghts': (['liggghts', '-in', '/dev/null', '-log', 'none'], r'PUBLIC ([\d.]+)'),
+                'yade': (['yade', '--version'], r'version: (\S+)')}
+    command, pattern = question[name]
+    return re.search(pattern, bench.output_of(command))[1].strip()
+
+
+PROGRAMS = {'vibrosow': vibrosow, 'lammps': lammps, 'liggghts': liggghts, 'yade': yade, 'box2d 240 Hz': box2d(240),
+            'box2d 1 kHz': box2d(1000), 'box2d 4 kHz': box2d(4000), 'vibrosow as published': vibrosow_as_published}
+
+
+def can_run(program, scene):
+    if program.startswith('box2d'):
+        return scene.is_tray
+    return program != 'vibrosow as published' or not scene.is_tray
