@@ -24,20 +24,27 @@ Scene published_tray(double shell_compression) {
   return scene;
 }
 
-/// Runs to 0.3 s, past the first impacts, then times the steps up to 0.5 s, again and again from the start.
-void steps_of_the_published_tray(benchmark::State& state, double shell_compression, EffectSet effects) {
-  const Scene scene = published_tray(shell_compression);
+EffectSet effects_of_tray(bool spring) {
+  return {.friction = true, .rotation = true, .damping = true, .motion = true, .tangential_spring = spring};
+}
+
+/// Runs to 0.3 s, past the first impacts, then times the steps up to 0.4 s, again and again from the start.
+void steps_of_the_published_tray(benchmark::State& state, double shell_compression, EffectSet effects,
+                                 NeighbourMargins margins = {}) {
+  Scene scene = published_tray(shell_compression);
+  if (effects.tangential_spring) scene.contact.friction_model = FrictionModel::spring;
   const double dt = plan_step(scene).dt;
   std::int64_t grain_steps = 0, searches = 0, prunes = 0, contacts = 0, steps = 0;
   for (auto _ : state) {
     state.PauseTiming();
-    Simulation simulation(scene, starting_grains(scene, 1, effects), {.dt = dt, .effects = effects});
+    Simulation simulation(scene, starting_grains(scene, 1, effects),
+                          {.dt = dt, .effects = effects, .margins = margins});
     while (simulation.time() < 0.3) simulation.step();
     const Run before = simulation.result();
     const Neighbours& neighbours = simulation.field().neighbours();
     const std::int64_t searches_before = neighbours.searches(), prunes_before = neighbours.prunes();
     state.ResumeTiming();
-    while (simulation.time() < 0.5) simulation.step();
+    while (simulation.time() < 0.4) simulation.step();
     state.PauseTiming();
     const Run after = simulation.result();
     grain_steps += after.grain_steps - before.grain_steps;
@@ -53,16 +60,12 @@ void steps_of_the_published_tray(benchmark::State& state, double shell_compressi
   state.counters["steps_per_prune"] = static_cast<double>(steps) / static_cast<double>(prunes);
 }
 
-const EffectSet as_the_scene_calls_for{.friction = true, .rotation = true, .damping = true, .motion = true};
-const EffectSet every_effect{
-    .friction = true, .rotation = true, .damping = true, .unequal = true, .drag = true, .motion = true};
-
-BENCHMARK_CAPTURE(steps_of_the_published_tray, stiff, 1e-4, as_the_scene_calls_for)
-    ->Unit(benchmark::kMillisecond);
-BENCHMARK_CAPTURE(steps_of_the_published_tray, stiff_all_effects, 1e-4, every_effect)
-    ->Unit(benchmark::kMillisecond);
-BENCHMARK_CAPTURE(steps_of_the_published_tray, soft, 1e-2, as_the_scene_calls_for)
-    ->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(steps_of_the_published_tray, stiff_spring, 1e-4, effects_of_tray(true))->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(steps_of_the_published_tray, stiff, 1e-4, effects_of_tray(false))->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(steps_of_the_published_tray, soft_spring, 1e-2, effects_of_tray(true))->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(steps_of_the_published_tray, soft, 1e-2, effects_of_tray(false))->Unit(benchmark::kMillisecond);
+#define M(w,n) BENCHMARK_CAPTURE(steps_of_the_published_tray, stiff_m_##w##_##n, 1e-4, effects_of_tray(true), NeighbourMargins{w*0.1,n*0.01})->Unit(benchmark::kMillisecond); BENCHMARK_CAPTURE(steps_of_the_published_tray, soft_m_##w##_##n, 1e-2, effects_of_tray(true), NeighbourMargins{w*0.1,n*0.01})->Unit(benchmark::kMillisecond);
+M(15,15) M(15,10) M(15,7) M(15,5) M(8,10) M(8,15) M(10,20) M(8,7) M(5,10) M(10,10)
 
 }  // namespace
 }  // namespace vibrosow

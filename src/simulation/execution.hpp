@@ -1,10 +1,12 @@
 #pragma once
 
+#include <oneapi/tbb/global_control.h>
 #include <oneapi/tbb/parallel_for.h>
 #include <oneapi/tbb/partitioner.h>
 #include <oneapi/tbb/task_arena.h>
 
 #include <cstddef>
+#include <optional>
 
 #include "simulation/grain_loops.hpp"
 #include "simulation/profile.hpp"
@@ -17,7 +19,9 @@ class Execution {
  public:
   /// `threads` >= 1. Throws std::logic_error when the instructions are not available.
   explicit Execution(InstructionSet instructions = best_instruction_set(), int threads = 1)
-      : instructions_(instructions), loops_(grain_loops(instructions)), threads_(threads), arena_(threads) {}
+      : instructions_(instructions), loops_(grain_loops(instructions)), threads_(threads), arena_(threads) {
+    if (threads > 1) limit_.emplace(oneapi::tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads));
+  }
 
   InstructionSet instructions() const { return instructions_; }
   const GrainLoops& loops() const { return loops_; }
@@ -49,6 +53,7 @@ class Execution {
   InstructionSet instructions_;
   const GrainLoops& loops_;
   int threads_;
+  std::optional<oneapi::tbb::global_control> limit_;  // more threads than cores are the user's to ask for
   oneapi::tbb::task_arena arena_;
   Profile profile_;
 };

@@ -120,6 +120,7 @@ Neighbours::Neighbours(const std::vector<Vessel>& vessels, double largest_diamet
                        NeighbourMemory memory, Execution& execution)
     : execution_(execution),
       broadphase_(vessels, largest_diameter),
+      diameter_(largest_diameter),
       wide_margin_(margins.wide * largest_diameter),
       narrow_margin_(margins.narrow * largest_diameter),
       memory_(memory),
@@ -155,10 +156,26 @@ bool Neighbours::moved(const Reference& from, const Grains& grains, const Walls&
 
 void Neighbours::update(const Grains& grains, const Walls& walls) {
   // Two that were further apart than their reach plus a margin have touched only if they moved half the margin each.
+  ++updates_since_prune_;
   if (wide_is_valid_ && !moved(narrow_reference_, grains, walls, 0.5 * narrow_margin_)) return;
+  choose_narrow_margin();
   if (!wide_is_valid_ || moved(wide_reference_, grains, walls, 0.5 * (wide_margin_ - narrow_margin_)))
     search(grains, walls);
   prune(grains, walls);
+}
+
+/// A margin m costs c m at every update, in pairs looked at for nothing, and P every T updates, when the list is
+/// pruned; T grows as m, so that both are least together where they are alike: m^2 = P m_before / (c T_before). Counted
+/// in updates, not in seconds: a run's lists are the same wherever it runs.
+void Neighbours::choose_narrow_margin() {
+  constexpr double prune_per_candidate_cost = 3;  // P / c, in diameters; measured (benchmarks/bench_step)
+  constexpr double least = 0.02, most = 0.35;     // diameters
+  if (updates_since_prune_ > 1) {
+    const double before = narrow_margin_ / diameter_;
+    const double best = std::sqrt(prune_per_candidate_cost * before / static_cast<double>(updates_since_prune_));
+    narrow_margin_ = std::min(std::clamp(best, least, most) * diameter_, 0.5 * wide_margin_);
+  }
+  updates_since_prune_ = 0;
 }
 
 void Neighbours::search(const Grains& grains, const Walls& walls) {

@@ -13,7 +13,8 @@
 
 namespace vibrosow {
 
-/// Margins of the two lists, in diameters of the largest grain. They change the time of a run and never its result.
+/// Margins of the two lists, in diameters of the largest grain; the narrow one is where a run begins, and is then
+/// chosen from how long the lists last. They change the time of a run and never its result.
 struct NeighbourMargins {
   double wide = 1.5;
   double narrow = 0.15;
@@ -73,6 +74,7 @@ class Neighbours {
   bool moved(const Reference& from, const Grains& grains, const Walls& walls, double limit) const;
   static void remove_flagged(Reference& reference, const std::vector<char>& removed);
 
+  void choose_narrow_margin();
   void search(const Grains& grains, const Walls& walls);
   void prune(const Grains& grains, const Walls& walls);
   void prune_pairs(const Grains& grains, const PairList& wide, double shift, PairList& narrow);
@@ -81,7 +83,9 @@ class Neighbours {
   Execution& execution_;
   Broadphase broadphase_;
   std::vector<double> largest_radius_;  // m, by vessel, of its walls about its frame's zero
+  double diameter_;                     // m, of the largest grain
   double wide_margin_, narrow_margin_;  // m
+  std::int64_t updates_since_prune_ = 0;
   NeighbourMemory memory_;
   double period_;  // m
   PairList wide_, narrow_;
