@@ -60,12 +60,19 @@ void steps_of_the_published_tray(benchmark::State& state, double shell_compressi
   state.counters["steps_per_prune"] = static_cast<double>(steps) / static_cast<double>(prunes);
 }
 
-BENCHMARK_CAPTURE(steps_of_the_published_tray, stiff_spring, 1e-4, effects_of_tray(true))->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(steps_of_the_published_tray, stiff_spring, 1e-4, effects_of_tray(true))
+    ->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(steps_of_the_published_tray, stiff, 1e-4, effects_of_tray(false))->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(steps_of_the_published_tray, soft_spring, 1e-2, effects_of_tray(true))->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(steps_of_the_published_tray, soft, 1e-2, effects_of_tray(false))->Unit(benchmark::kMillisecond);
-#define M(w,n) BENCHMARK_CAPTURE(steps_of_the_published_tray, stiff_m_##w##_##n, 1e-4, effects_of_tray(true), NeighbourMargins{w*0.1,n*0.01})->Unit(benchmark::kMillisecond); BENCHMARK_CAPTURE(steps_of_the_published_tray, soft_m_##w##_##n, 1e-2, effects_of_tray(true), NeighbourMargins{w*0.1,n*0.01})->Unit(benchmark::kMillisecond);
-M(15,15) M(15,10) M(15,7) M(15,5) M(8,10) M(8,15) M(10,20) M(8,7) M(5,10) M(10,10)
+#define M(w, n)                                                                                  \
+  BENCHMARK_CAPTURE(steps_of_the_published_tray, stiff_m_##w##_##n, 1e-4, effects_of_tray(true), \
+                    NeighbourMargins{w * 0.1, n * 0.01})                                         \
+      ->Unit(benchmark::kMillisecond);                                                           \
+  BENCHMARK_CAPTURE(steps_of_the_published_tray, soft_m_##w##_##n, 1e-2, effects_of_tray(true),  \
+                    NeighbourMargins{w * 0.1, n * 0.01})                                         \
+      ->Unit(benchmark::kMillisecond);
+M(15, 15) M(15, 10) M(15, 7) M(15, 5) M(8, 10) M(8, 15) M(10, 20) M(8, 7) M(5, 10) M(10, 10)
 
 }  // namespace
 }  // namespace vibrosow

@@ -15,17 +15,19 @@ struct ContactMemory {
 /// absent effect are empty.
 struct ContactHistory {
   std::vector<double> slip, slip_speed, roll, roll_speed;
+  std::vector<unsigned char> touched;  // 1 where there may be something to forget
 
   bool remembers(std::size_t k) const {
     return (!slip.empty() && (slip[k] != 0 || slip_speed[k] != 0)) ||
            (!roll.empty() && (roll[k] != 0 || roll_speed[k] != 0));
   }
 
-  void clear() { slip.clear(), slip_speed.clear(), roll.clear(), roll_speed.clear(); }
+  void clear() { slip.clear(), slip_speed.clear(), roll.clear(), roll_speed.clear(), touched.clear(); }
 
   void resize(std::size_t candidates, bool tangential, bool rolling) {
     slip.resize(tangential ? candidates : 0), slip_speed.resize(slip.size());
     roll.resize(rolling ? candidates : 0), roll_speed.resize(roll.size());
+    touched.resize(tangential || rolling ? candidates : 0);
   }
 };
 

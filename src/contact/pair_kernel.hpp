@@ -7,6 +7,25 @@
 
 namespace vibrosow::inline VIBROSOW_ISA {
 
+template <class Effects>
+inline constexpr bool remembers = Effects::spring || Effects::rolling == Rolling::spring;
+
+/// Pairs of a range that touched before and do not now remember nothing.
+template <class Effects>
+void forget_parted(PairRange range, const unsigned char* touches, ContactHistory& history) {
+  const int count = range.to - range.from;
+  unsigned char* touched = history.touched.data() + range.from;
+  unsigned char parted[PairBlock::size + 16];
+  int entry[PairBlock::size + 16];
+#pragma omp simd
+  for (int k = 0; k < count; ++k) {
+    parted[k] = static_cast<unsigned char>(touched[k] & (touches[k] ^ 1));
+    touched[k] = touches[k];
+  }
+  const int forgotten = positions_of_set(parted, count, range.from, entry);
+  for (int k = 0; k < forgotten; ++k) store<Effects>({}, history, static_cast<std::size_t>(entry[k]));
+}
+
 /// Notes the entries of a range whose grains touch. Those that do not forget, where the evaluation leaves a trace.
 template <class Law, class Effects>
 void find_touching(const PairProperties<Law, Effects>& properties, const Motion& at, const PairList& list,
@@ -21,15 +40,8 @@ void find_touching(const PairProperties<Law, Effects>& properties, const Motion&
     const double dx = x[j] - row_x[i], dy = y[j] - y[i], reach = properties.reach(i, j);
     touches[k] = dx * dx + dy * dy < reach * reach ? 1 : 0;
   }
-  const auto forget = [&](std::vector<double>& memory) {
-    double* of_pair = memory.data() + range.from;
-#pragma omp simd
-    for (int k = 0; k < count; ++k) of_pair[k] = touches[k] ? of_pair[k] : 0.0;
-  };
-  if (leaves_trace) {
-    if constexpr (Effects::spring) forget(history.slip), forget(history.slip_speed);
-    if constexpr (Effects::rolling == Rolling::spring) forget(history.roll), forget(history.roll_speed);
-  }
+  if constexpr (remembers<Effects>)
+    if (leaves_trace) forget_parted<Effects>(range, touches, history);
   block.touching = positions_of_set(touches, count, range.from, block.entry);
 }
 
@@ -101,7 +113,7 @@ template <class Law, class Effects>
   find_touching<Law, Effects>(properties, at, list, range, leaves_trace, history, block);
   BlockMemory memory;
   forces_of_touching<Law, Effects>(properties, at, list, parameters, advance, history, block, memory);
-  if (!leaves_trace) return;
+  if (!remembers<Effects> || !leaves_trace) return;
   const auto keep = [&block](const double* of_block, std::vector<double>& of_list) {
     double* memory_of_list = of_list.data();
     for (int k = 0; k < block.touching; ++k) memory_of_list[block.entry[k]] = of_block[k];

@@ -253,12 +253,27 @@ std::vector<int> lot_counts(const std::vector<SeedLot>& lots, int count) {
   return counts;
 }
 
+namespace {
+
+constexpr std::size_t large_bed = 20000;  // grains whose state is more than a core's cache holds
+
+/// Lists a bed column by column instead of row by row, so that neighbours are near each other in memory.
+void order_by_columns(double diameter, std::vector<PackedGrain>& grains) {
+  const double width = 64 * diameter;  // m
+  std::ranges::stable_sort(grains, {}, [width](const PackedGrain& grain) { return std::floor(grain.x / width); });
+}
+
+}  // namespace
+
 std::vector<PackedGrain> pack(const Vessel& vessel, const std::vector<SeedLot>& lots, Random& random) {
   if (!vessel.fill) return {};
   if (largest_diameter(lots) > vessel.length)
     throw InputError(
         fmt::format("{}.length: a grain of {:.6g} mm does not fit in", vessel.name, largest_diameter(lots) * 1e3));
-  return vessel.fill->packing == Packing::poured ? pour(vessel, lots, random) : pack_rows(vessel, lots, random);
+  std::vector<PackedGrain> grains =
+      vessel.fill->packing == Packing::poured ? pour(vessel, lots, random) : pack_rows(vessel, lots, random);
+  if (grains.size() > large_bed) order_by_columns(largest_diameter(lots), grains);
+  return grains;
 }
 
 }  // namespace vibrosow

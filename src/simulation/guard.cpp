@@ -5,13 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "scene/seed_lot.hpp"
-
 namespace vibrosow {
 namespace {
-
-/// A grain that moves further than this in one step, in radii, could pass a wall between two looks at it.
-constexpr double longest_stride = 0.5;
 
 /// Share of the energy in play that the numerics may make before it is worth a word.
 constexpr double energy_warning = 0.05;
@@ -39,8 +34,7 @@ double potential_energy(const Grains& grains, const Eigen::Vector2d& gravity) {
   return energy;
 }
 
-Guard::Guard(const Scene& scene, bool insisted_on_step)
-    : limits_(scene.guard), insisted_on_step_(insisted_on_step), smallest_radius_(smallest_radius(scene.lots)) {}
+Guard::Guard(const Scene& scene, bool insisted_on_step) : limits_(scene.guard), insisted_on_step_(insisted_on_step) {}
 
 void Guard::stop(std::string reason) {
   if (!stop_reason_) stop_reason_ = std::move(reason);
@@ -59,14 +53,13 @@ void Guard::watch_step(const Integration& s) {
     stop(fmt::format("shell compression reached {:.3g} of the radius at {:.4g} s (guard.stop_compression = {:.3g})",
                      max_compression_, s.time, limits_.stop_compression));
 
-  const double fastest = longest_stride * smallest_radius_ / s.dt;
-  if (s.execution.loops().any_faster(s.grains.size(), s.grains.vx.data(), s.grains.vy.data(), fastest))
-    watch_stride(s.time);
+  if (s.too_fast) watch_stride(s.time);
 }
 
 void Guard::watch_stride(double time) {
-  const std::string what = fmt::format(
-      "a grain moves more than {:.2g} radii in a step at {:.4g} s and could pass a wall unseen", longest_stride, time);
+  const std::string what =
+      fmt::format("a grain moves more than {:.2g} radii in a step at {:.4g} s and could pass a wall unseen",
+                  longest_stride_in_radii, time);
   if (!insisted_on_step_) return stop(what + "; a shorter step is needed");
   if (!warned_of_stride_) warnings_.push_back(what);
   warned_of_stride_ = true;

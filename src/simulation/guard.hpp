@@ -16,6 +16,9 @@ double potential_energy(const Grains& grains, const Eigen::Vector2d& gravity);
 double mechanical_energy(const Grains& grains, std::size_t i,
                          const Eigen::Vector2d& gravity);  // of one grain, no contact
 
+/// A grain that moves further than this in one step, in radii, could pass a wall between two looks at it.
+inline constexpr double longest_stride_in_radii = 0.5;
+
 /// Watches a run for what the model or the step cannot bear, and says why it stopped.
 ///
 /// Energy: what is left of E_kin + E_pot + E_elastic after the walls' work and the grains put in and taken out can only
@@ -44,7 +47,6 @@ class Guard {
 
   GuardLimits limits_;
   bool insisted_on_step_;
-  double smallest_radius_;
   double max_compression_ = 0;
   double warned_at_ = -1;  // s, when the compression first passed the warning limit
   bool warned_of_stride_ = false, warned_of_energy_ = false;

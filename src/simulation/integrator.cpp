@@ -53,6 +53,11 @@ double next_time(const Integration& s) {
   return static_cast<double>(s.step + 1) * s.dt;
 }
 
+/// At the end of a step, while the velocities are at hand.
+void watch_speed(Integration& s, std::size_t a, std::size_t b) {
+  if (s.execution.loops().any_faster(b - a, &s.grains.vx[a], &s.grains.vy[a], s.fastest)) s.too_fast = true;
+}
+
 /// Angles are kept of clumps alone.
 double* angle_or_null(Grains& grains, std::size_t from) {
   return grains.oriented ? &grains.angle[from] : nullptr;
@@ -77,6 +82,7 @@ void velocity_verlet(Integration& s) {
     loops.correct(b - a, s.dt, &forces.fy[a], w, s.gravity.y(), s.drag, &grains.vy[a], &s.ay[a]);
     if (grains.rotation)
       loops.correct(b - a, s.dt, &forces.torque[a], per_inertia(grains, a), 0, 0, &grains.omega[a], &s.alpha[a]);
+    watch_speed(s, a, b);
   });
   s.wall_power = s.census.wall_power;
   add_wall_work(s, 0.5 * s.dt * (power_before + s.wall_power));
@@ -103,6 +109,7 @@ void rk2_midpoint(Integration& s) {
     if (grains.oriented) set_sum(grains.angle, s.angle, grains.omega, s.dt);
     set_sum(grains.omega, s.omega, s.alpha, s.dt);
   }
+  s.execution.share(grains.size(), [&](std::size_t a, std::size_t b) { watch_speed(s, a, b); });
   add_wall_work(s, s.dt * s.census.wall_power);
 }
 
@@ -130,6 +137,7 @@ void gear5(Integration& s) {
     gear_correct(s, &g.x[a], &g.vx[a], s.of_x, s.ax, a, b);
     gear_correct(s, &g.y[a], &g.vy[a], s.of_y, s.ay, a, b);
     if (g.rotation) gear_correct(s, angle_or_null(g, a), &g.omega[a], s.of_angle, s.alpha, a, b);
+    watch_speed(s, a, b);
   });
   s.wall_power = s.census.wall_power;
   add_wall_work(s, 0.5 * s.dt * (power_before + s.wall_power));

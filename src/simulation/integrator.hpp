@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <atomic>
 #include <vector>
 
 #include "simulation/force_field.hpp"
@@ -21,8 +22,11 @@ struct Integration {
   Eigen::Vector2d gravity;  // m/s2
   double drag;              // kg/s
 
+  double fastest;  // m/s; a step that ends with a faster grain is noted
+
   double time = 0;  // s
   std::int64_t step = 0;
+  std::atomic<bool> too_fast = false;  // whether a grain was faster at the end of the last step
   ContactCensus census{};
   double wall_work = 0;                                        // J
   double gross_wall_work = 0;                                  // J, sizes summed

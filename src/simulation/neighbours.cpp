@@ -21,6 +21,7 @@ void keep_unflagged(std::vector<double>& array, const std::vector<char>& removed
 void copy_entry(const ContactHistory& from, std::size_t old_entry, ContactHistory& to, std::size_t entry) {
   if (!to.slip.empty()) to.slip[entry] = from.slip[old_entry], to.slip_speed[entry] = from.slip_speed[old_entry];
   if (!to.roll.empty()) to.roll[entry] = from.roll[old_entry], to.roll_speed[entry] = from.roll_speed[old_entry];
+  if (!to.touched.empty()) to.touched[entry] = 1;
 }
 
 /// Drops entries whose flag in `kept_entries` was not set; the history then matches a list shortened the same way.
@@ -31,16 +32,16 @@ void keep_entries(ContactHistory& history, const std::vector<std::size_t>& kept_
 
 void renumber(PairList& list, ContactHistory& history, const std::vector<char>& removed,
               const std::vector<int>& new_index) {
-  PairList kept;
-  std::vector<std::size_t> kept_entries;
+  const bool memory = !history.touched.empty();
+  std::size_t kept = 0;
   for (std::size_t k = 0; k < list.size(); ++k) {
     const std::size_t i = static_cast<std::size_t>(list.grain[k]), j = static_cast<std::size_t>(list.partner[k]);
     if (removed[i] || removed[j]) continue;
-    kept.add(new_index[i], new_index[j]);
-    kept_entries.push_back(k);
+    if (memory) copy_entry(history, k, history, kept);
+    list.grain[kept] = new_index[i], list.partner[kept++] = new_index[j];
   }
-  list = std::move(kept);
-  keep_entries(history, kept_entries);
+  list.grain.resize(kept), list.partner.resize(kept);
+  if (memory) history.resize(kept, !history.slip.empty(), !history.roll.empty());
 }
 
 void renumber(std::vector<WallCandidate>& list, ContactHistory& history, const std::vector<char>& removed,
@@ -192,10 +193,16 @@ void Neighbours::search(const Grains& grains, const Walls& walls) {
 /// x.
 void Neighbours::prune_pairs(const Grains& grains, const PairList& wide, double shift, PairList& narrow) {
   const PerGrain radius{grains.unequal ? grains.radius.data() : nullptr, grains.kinds.front().radius};
-  narrow.grain.resize(wide.size() + 16), narrow.partner.resize(wide.size() + 16);
-  const std::size_t near = execution_.loops().near_pairs(wide.size(), wide.grain.data(), wide.partner.data(),
-                                                         grains.x.data(), grains.y.data(), shift, radius,
-                                                         narrow_margin_, narrow.grain.data(), narrow.partner.data());
+  constexpr std::size_t chunk = 4096;  // of the wide list: the narrow one is never much longer than it must be
+  std::size_t near = 0;
+  for (std::size_t from = 0; from < wide.size(); from += chunk) {
+    const std::size_t count = std::min(chunk, wide.size() - from);
+    if (narrow.grain.size() < near + count + 16)
+      narrow.grain.resize(near + count + 16), narrow.partner.resize(near + count + 16);
+    near +=
+        execution_.loops().near_pairs(count, &wide.grain[from], &wide.partner[from], grains.x.data(), grains.y.data(),
+                                      shift, radius, narrow_margin_, &narrow.grain[near], &narrow.partner[near]);
+  }
   narrow.grain.resize(near), narrow.partner.resize(near);
 }
 

@@ -7,6 +7,7 @@
 
 #include "grains/packing.hpp"
 #include "scene/input_error.hpp"
+#include "scene/seed_lot.hpp"
 #include "simulation/vessel_motion.hpp"
 
 namespace vibrosow {
@@ -34,7 +35,8 @@ Simulation::Simulation(const Scene& scene, Grains grains, const SimulationSetup&
          .scheme = scene_.numerics.integrator,
          .dt = setup.dt,
          .gravity = setup.gravity,
-         .drag = scene_.contact.drag},
+         .drag = scene_.contact.drag,
+         .fastest = longest_stride_in_radii * smallest_radius(scene_.lots) / setup.dt},
       advance_(step_function(scene_.numerics.integrator)),
       counter_(scene_, grains_.size()),
       feeder_(scene_, setup.random_seed),
@@ -61,6 +63,7 @@ bool Simulation::step() {
   if (s_.time >= next_gate_) open_gates();
   run_.grain_steps += static_cast<std::int64_t>(grains_.size());
   Profile& profile = execution_.profile();
+  s_.too_fast = false;
   advance_(s_);
   profile.lap(Phase::integration);
   ++s_.step;
