@@ -16,7 +16,7 @@ namespace vibrosow {
 /// Margins of the two lists, in diameters of the largest grain; the narrow one is where a run begins, and is then
 /// chosen from how long the lists last. They change the time of a run and never its result.
 struct NeighbourMargins {
-  double wide = 1.5;
+  double wide = 2;
   double narrow = 0.15;
 };
 

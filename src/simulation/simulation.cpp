@@ -13,7 +13,8 @@
 namespace vibrosow {
 namespace {
 
-constexpr double removal_interval = 1e-3;  // s
+constexpr double look_interval = 1e-3;     // s
+constexpr double removal_interval = 5e-3;  // s
 constexpr double feeding_interval = 5e-3;  // s
 constexpr std::int64_t steps_per_energy_account = 100;
 
@@ -41,6 +42,7 @@ Simulation::Simulation(const Scene& scene, Grains grains, const SimulationSetup&
       counter_(scene_, grains_.size()),
       feeder_(scene_, setup.random_seed),
       guard_(scene_, setup.insisted_on_step),
+      steps_per_look_(steps_in(look_interval, setup.dt)),
       steps_per_removal_(steps_in(removal_interval, setup.dt)),
       steps_per_feed_(steps_in(feeding_interval, setup.dt)) {
   if (setup.profile) execution_.profile().start();
@@ -73,9 +75,10 @@ bool Simulation::step() {
   if (!s_.census.crossed.empty()) take_out();
   count();
   profile.lap(Phase::counters);
-  if (s_.step % steps_per_removal_ == 0) take_out(), wrap(), note_whether_dry(), end_after_pause();
+  if (s_.step % steps_per_removal_ == 0) take_out();
+  if (s_.step % steps_per_look_ == 0) wrap(), note_whether_dry(), end_after_pause();
   const bool top_up = feeder_.feeds() && s_.step % steps_per_feed_ == 0;
-  const bool rain = feeder_.rains() && s_.step % steps_per_removal_ == 0;
+  const bool rain = feeder_.rains() && s_.step % steps_per_look_ == 0;
   if (top_up || rain) feed(top_up, rain);
   if (s_.step % steps_per_energy_account == 0) guard_.watch_energy(s_, run_.energy);
   profile.lap(Phase::housekeeping);

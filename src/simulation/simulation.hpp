@@ -71,7 +71,7 @@ class Simulation {
   std::optional<Recorder> recorder_;
   Run run_;
   double next_gate_ = 0;  // s, when the next gate opens
-  std::int64_t steps_per_removal_, steps_per_feed_;
+  std::int64_t steps_per_look_, steps_per_removal_, steps_per_feed_;
 };
 
 /// The grains of a scene where they start, at rest in the lab or with the tray.
