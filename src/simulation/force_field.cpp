@@ -49,14 +49,21 @@ Motion ForceField::across_seam(const Grains& discs) {
   return at;
 }
 
-/// Each thread takes the rows of a range of grains. What they do to grains of earlier ranges is added afterwards, range
-/// by range: a grain's own row first, then the later rows in order, as one thread would.
-void ForceField::add_pairs(const GrainSurfaces& surfaces, const Motion& at, const PairList& pairs,
-                           const HistoryAdvance& advance, ContactHistory& history, Forces& forces,
-                           ContactCensus& census) {
+/// Each thread takes the rows of a range of grains, whose forces it begins with zero. What they do to grains of earlier
+/// ranges is added afterwards, range by range: a grain's own row first, then the later rows in order, as one thread
+/// would.
+void ForceField::set_pair_forces(const Grains& discs, const Motion& at, const HistoryAdvance& advance, Forces& forces,
+                                 ContactCensus& census) {
+  const PairList& pairs = neighbours_.pairs();
+  ContactHistory& history = neighbours_.pair_history();
+  const GrainSurfaces surfaces = surfaces_of(discs);
+  const std::size_t count = discs.size(), turning = discs.omega.size();
   const std::size_t ranges = range_results_.size();
+  const int grains = static_cast<int>(count);
+  forces.fx.resize(count), forces.fy.resize(count), forces.torque.resize(turning);
   const auto first_grain = [&](std::size_t range) {
-    return range == 0 || pairs.size() == 0 ? 0 : pairs.grain[pairs.size() * range / ranges];
+    if (range == 0 || range == ranges) return range == 0 ? 0 : grains;
+    return pairs.size() == 0 ? grains : pairs.grain[pairs.size() * range / ranges];
   };
   const auto first_entry = [&](std::size_t range) {
     if (range == ranges) return static_cast<int>(pairs.size());
@@ -67,6 +74,8 @@ void ForceField::add_pairs(const GrainSurfaces& surfaces, const Motion& at, cons
     RangeResult& result = range_results_[range];
     result.foreign.clear();
     result.census = {};
+    for (std::vector<double>* of : {&forces.fx, &forces.fy, &forces.torque})
+      if (!of->empty()) std::fill(of->begin() + first_grain(range), of->begin() + first_grain(range + 1), 0.0);
     add_pair_forces(pair_kernel_, surfaces, at, pairs, {first_entry(range), first_entry(range + 1)}, parameters_,
                     advance, history, first_grain(range), forces, result.foreign, result.census);
   });
@@ -83,15 +92,14 @@ void ForceField::add_pairs(const GrainSurfaces& surfaces, const Motion& at, cons
 
 void ForceField::run_kernels(const Grains& discs, const HistoryAdvance& advance, Forces& forces,
                              ContactCensus& census) {
-  clear(forces, discs);
-  const GrainSurfaces surfaces = surfaces_of(discs);
   const Motion at = motion_of(discs);
-  add_pairs(surfaces, at, neighbours_.pairs(), advance, neighbours_.pair_history(), forces, census);
+  set_pair_forces(discs, at, advance, forces, census);
   // Few, and their partners come before and after: one thread does them.
   if (neighbours_.period() > 0) {
     const PairList& seam = neighbours_.seam_pairs();
-    add_pair_forces(pair_kernel_, surfaces, across_seam(discs), seam, {0, static_cast<int>(seam.size())}, parameters_,
-                    advance, neighbours_.seam_history(), 0, forces, range_results_.front().foreign, census);
+    add_pair_forces(pair_kernel_, surfaces_of(discs), across_seam(discs), seam, {0, static_cast<int>(seam.size())},
+                    parameters_, advance, neighbours_.seam_history(), 0, forces, range_results_.front().foreign,
+                    census);
   }
   execution_.profile().lap(Phase::pairs);
   kernels_.wall(discs, at, neighbours_.near_walls(), walls_.placed(), parameters_, advance, neighbours_.wall_history(),

@@ -47,8 +47,8 @@ class ForceField {
 
  private:
   const Grains& place_discs(const Grains& grains);
-  void add_pairs(const GrainSurfaces& surfaces, const Motion& at, const PairList& pairs, const HistoryAdvance& advance,
-                 ContactHistory& history, Forces& forces, ContactCensus& census);
+  void set_pair_forces(const Grains& discs, const Motion& at, const HistoryAdvance& advance, Forces& forces,
+                       ContactCensus& census);
   Motion motion_of(const Grains& discs) const;
   Motion across_seam(const Grains& discs);
   void run_kernels(const Grains& discs, const HistoryAdvance& advance, Forces& forces, ContactCensus& census);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <ranges>
 #include <utility>
 
 #include "contact/wall_kernel.hpp"
@@ -102,13 +103,16 @@ void drop_pairs_within_clumps(const std::vector<int>& clump, PairList& list) {
   list.grain.resize(kept), list.partner.resize(kept);
 }
 
-/// The same where both lists know each pair by the same order: no search.
-void carry_over(const PairList& old, const ContactHistory& old_history, const PairList& list, ContactHistory& history) {
+/// The same where both lists know each pair by the same order, for entries [from, to) of the new one: one search.
+void carry_over(const PairList& old, const ContactHistory& old_history, const PairList& list, std::size_t from,
+                std::size_t to, ContactHistory& history) {
   const auto before = [](const PairList& a, std::size_t k, const PairList& b, std::size_t m) {
     return a.grain[k] != b.grain[m] ? a.grain[k] < b.grain[m] : a.partner[k] < b.partner[m];
   };
-  std::size_t k = 0;
-  for (std::size_t m = 0; m < list.size(); ++m) {
+  if (from == to) return;
+  std::size_t k = *std::ranges::partition_point(std::views::iota(std::size_t{0}, old.size()),
+                                                [&](std::size_t entry) { return before(old, entry, list, from); });
+  for (std::size_t m = from; m < to; ++m) {
     while (k < old.size() && before(old, k, list, m)) ++k;
     if (k == old.size()) return;
     if (!before(list, m, old, k)) copy_entry(old_history, k, history, m);
@@ -189,14 +193,15 @@ void Neighbours::search(const Grains& grains, const Walls& walls) {
   ++searches_;
 }
 
-/// Keeps the pairs nearer than their reach plus the narrow margin, with the rows' grains shifted by `shift` (m) along
-/// x.
-void Neighbours::prune_pairs(const Grains& grains, const PairList& wide, double shift, PairList& narrow) {
+/// Of the entries [from, to) of a wide list, keeps the pairs nearer than their reach plus the narrow margin, with the
+/// rows' grains shifted by `shift` (m) along x.
+void Neighbours::prune_range(const Grains& grains, const PairList& wide, std::size_t from, std::size_t to, double shift,
+                             PairList& narrow) const {
   const PerGrain radius{grains.unequal ? grains.radius.data() : nullptr, grains.kinds.front().radius};
   constexpr std::size_t chunk = 4096;  // of the wide list: the narrow one is never much longer than it must be
   std::size_t near = 0;
-  for (std::size_t from = 0; from < wide.size(); from += chunk) {
-    const std::size_t count = std::min(chunk, wide.size() - from);
+  for (; from < to; from += chunk) {
+    const std::size_t count = std::min(chunk, to - from);
     if (narrow.grain.size() < near + count + 16)
       narrow.grain.resize(near + count + 16), narrow.partner.resize(near + count + 16);
     near +=
@@ -204,6 +209,21 @@ void Neighbours::prune_pairs(const Grains& grains, const PairList& wide, double 
                                       shift, radius, narrow_margin_, &narrow.grain[near], &narrow.partner[near]);
   }
   narrow.grain.resize(near), narrow.partner.resize(near);
+}
+
+void Neighbours::prune_pairs(const Grains& grains, const PairList& wide, double shift, PairList& narrow) {
+  const std::size_t threads = static_cast<std::size_t>(execution_.threads());
+  if (threads == 1) return prune_range(grains, wide, 0, wide.size(), shift, narrow);
+  parts_.resize(threads);
+  execution_.for_each_range([&](int range) {
+    const std::size_t k = static_cast<std::size_t>(range);
+    prune_range(grains, wide, wide.size() * k / threads, wide.size() * (k + 1) / threads, shift, parts_[k]);
+  });
+  narrow.clear();
+  for (const PairList& part : parts_) {
+    narrow.grain.insert(narrow.grain.end(), part.grain.begin(), part.grain.end());
+    narrow.partner.insert(narrow.partner.end(), part.partner.begin(), part.partner.end());
+  }
 }
 
 void Neighbours::prune(const Grains& grains, const Walls& walls) {
@@ -220,7 +240,9 @@ void Neighbours::prune(const Grains& grains, const Walls& walls) {
       recall(remembered, narrow_, pair_history_);
       recall(remembered, narrow_seam_, seam_history_);
     } else {
-      carry_over(old_, old_history_, narrow_, pair_history_);
+      execution_.share(narrow_.size(), [&](std::size_t from, std::size_t to) {
+        carry_over(old_, old_history_, narrow_, from, to, pair_history_);
+      });
     }
   }
   prune_walls(grains, walls);

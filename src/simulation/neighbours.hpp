@@ -78,6 +78,8 @@ class Neighbours {
   void search(const Grains& grains, const Walls& walls);
   void prune(const Grains& grains, const Walls& walls);
   void prune_pairs(const Grains& grains, const PairList& wide, double shift, PairList& narrow);
+  void prune_range(const Grains& grains, const PairList& wide, std::size_t from, std::size_t to, double shift,
+                   PairList& narrow) const;
   void prune_walls(const Grains& grains, const Walls& walls);
 
   Execution& execution_;
@@ -90,7 +92,8 @@ class Neighbours {
   double period_;  // m
   PairList wide_, narrow_;
   PairList wide_seam_, narrow_seam_;
-  PairList old_, old_seam_;  // the lists before, while memories are carried over
+  std::vector<PairList> parts_;  // by thread
+  PairList old_, old_seam_;      // the lists before, while memories are carried over
   std::vector<WallCandidate> wide_walls_, narrow_walls_;
   ContactHistory pair_history_, seam_history_, wall_history_, old_history_, old_seam_history_;
   Reference wide_reference_, narrow_reference_;
