@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include "simulation/simulation.hpp"
-#include "support/bench.hpp"
 
 namespace vibrosow {
 namespace {
