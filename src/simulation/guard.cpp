@@ -53,7 +53,12 @@ void Guard::watch_step(const Integration& s) {
     stop(fmt::format("shell compression reached {:.3g} of the radius at {:.4g} s (guard.stop_compression = {:.3g})",
                      max_compression_, s.time, limits_.stop_compression));
 
-  if (s.too_fast) watch_stride(s.time);
+  if (!s.too_fast) return;
+  // Insisted on or not: no list can be made of grains that are nowhere.
+  if (!std::isfinite(kinetic_energy(s.grains)))
+    stop(fmt::format("a grain's state is not a number at {:.4g} s", s.time));
+  else
+    watch_stride(s.time);
 }
 
 void Guard::watch_stride(double time) {

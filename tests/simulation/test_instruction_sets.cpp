@@ -2,6 +2,8 @@
 // faster.
 #include <gtest/gtest.h>
 
+#include <limits>
+
 #include "simulation/simulation.hpp"
 
 namespace vibrosow {
@@ -70,6 +72,25 @@ TEST(Threads, GiveTheSameBits) {
       ASSERT_EQ(same.vy, one.vy) << threads;
       ASSERT_EQ(same.omega, one.omega) << threads;
     }
+  }
+}
+
+// A state that is not a number ends a run at once, insisted on or not: it must never reach the lists.
+TEST(InstructionSets, AllSeeWhatIsNotANumber) {
+  Scene scene;
+  scene.lots = {{"a", 8e-3, 0.6e-3, Shape::disc, 1}};
+  scene.contact.shell_compression = 1e-3;
+  scene.tray.length = 0.12, scene.tray.height = 0.2;
+  scene.tray.fill = Fill{40, Packing::layers, 0, false};
+  scene.run.duration = 1;
+  for (const InstructionSet set : instruction_sets) {
+    if (!is_available(set)) continue;
+    Simulation run(scene, starting_grains(scene, 1, {}),
+                   {.dt = 1e-5, .effects = {}, .insisted_on_step = true, .instructions = set});
+    run.grains().vx[37] = std::numeric_limits<double>::quiet_NaN();
+    EXPECT_FALSE(run.step()) << name_of(set);
+    ASSERT_TRUE(run.guard().stop_reason()) << name_of(set);
+    EXPECT_NE(run.guard().stop_reason()->find("not a number"), std::string::npos);
   }
 }
 
