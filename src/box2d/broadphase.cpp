@@ -3,11 +3,12 @@
 #include <box2d/box2d.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numeric>
+#include <span>
 #include <utility>
 
+#include "box2d/near_places.hpp"
 #include "scene/vessel_walls.hpp"
 
 namespace vibrosow {
@@ -16,6 +17,15 @@ namespace {
 
 constexpr std::size_t cluster_size = 8;  // grains
 constexpr double strip_height = 2.8;     // in diameters of the largest grain: eight of them fill about a square
+
+/// Places of the grains of some clusters, next to each other in memory.
+struct Surroundings {
+  std::vector<int> grain;
+  std::vector<double> x, y, r;  // m
+
+  void clear() { grain.clear(), x.clear(), y.clear(), r.clear(); }
+  Places view() const { return {static_cast<int>(grain.size()), grain.data(), x.data(), y.data(), r.data()}; }
+};
 
 /// Grains in the order of their places, so that each eight that follow each other are neighbours.
 struct Sorted {
@@ -54,9 +64,43 @@ struct Sorted {
   }
 };
 
+/// What one range of a search works with and finds.
+struct Part {
+  std::vector<int> found;  // clusters, or walls
+  Surroundings around;
+  std::vector<int> near;  // grains
+  std::vector<WallCandidate> walls;
+};
+
+/// Where the grains near one grain stand: `count` places of a part's `near`.
+struct Row {
+  int part;
+  std::size_t begin, count;
+};
+
+struct WallQuery : b2QueryCallback {
+  explicit WallQuery(std::vector<int>& walls) : found(walls) {}
+  bool ReportFixture(b2Fixture* fixture) override {
+    found.push_back(static_cast<int>(fixture->GetUserData().pointer));
+    return true;
+  }
+  std::vector<int>& found;
+};
+
 }  // namespace
 
 struct Broadphase::World {
+  /// Box2D's tree calls it for every cluster met.
+  struct ClusterQuery {
+    const World& world;
+    std::vector<int>& found;
+
+    bool QueryCallback(int32 proxy) {
+      found.push_back(world.cluster_of_proxy[static_cast<std::size_t>(proxy)]);
+      return true;
+    }
+  };
+
   b2World world{b2Vec2(0, 0)};
   std::vector<b2Body*> bodies;                    // by vessel
   std::vector<b2Vec2> rest;                       // by vessel, where its body stands at rest
@@ -67,13 +111,14 @@ struct Broadphase::World {
   b2DynamicTree tree;        // of the clusters
   std::vector<int> proxies;  // by cluster
   std::vector<int> cluster_of_proxy;
-  std::vector<int> found;  // clusters, or walls
-  PairList unsorted;
-  std::size_t expected_pairs = 0;
+  std::vector<Part> parts;   // by range
+  std::vector<Row> rows;     // by grain
   std::vector<int> row_end;  // by grain
   double units_per_metre;
+  NearPlaces near_places;
 
-  explicit World(double unit) : units_per_metre(1 / unit) {}
+  World(double unit, InstructionSet instructions)
+      : units_per_metre(1 / unit), near_places(vibrosow::near_places(instructions)) {}
 
   b2Vec2 units(const Eigen::Vector2d& metres) const {
     return {static_cast<float>(metres.x() * units_per_metre), static_cast<float>(metres.y() * units_per_metre)};
@@ -122,40 +167,88 @@ struct Broadphase::World {
     }
   }
 
-  /// Box2D's tree calls it for every cluster met.
-  bool QueryCallback(int32 proxy) {
-    found.push_back(cluster_of_proxy[static_cast<std::size_t>(proxy)]);
-    return true;
-  }
-
-  /// Adds the pairs of grain `k` by place, moved by `moved` along x (m), and those of places [from, to) near enough.
-  void add_near(std::size_t k, double moved, double margin, std::size_t from, std::size_t to) {
-    const double x = sorted.x[k] + moved, y = sorted.y[k], reach = sorted.r[k] + margin;
-    std::array<int, cluster_size + 1> near;
-    std::size_t count = 0;
-    for (std::size_t m = from; m < to; ++m) {
-      const double dx = sorted.x[m] - x, dy = sorted.y[m] - y, limit = reach + sorted.r[m];
-      near[count] = sorted.grain[m];
-      count += dx * dx + dy * dy < limit * limit ? 1 : 0;  // without a branch: a third are
+  /// For each grain of the clusters [from, to), moved by `moved` along x (m): the numbers of those that are nearer than
+  /// r + r + margin (m) to it, where `all` is not set only of those with higher numbers than its own.
+  void look_around(int range, std::size_t from, std::size_t to, double margin, double moved, bool all) {
+    Part& part = parts[static_cast<std::size_t>(range)];
+    part.near.clear();
+    for (std::size_t c = from; c < to; ++c) {
+      part.found.clear();
+      ClusterQuery query{*this, part.found};
+      tree.Query(&query, box(c, margin, moved));
+      gather(part.found, part.around);
+      for (std::size_t k = sorted.begin(c); k < sorted.end(c); ++k) {
+        const int grain = sorted.grain[k];
+        const std::size_t begin = part.near.size();
+        part.near.resize(begin + part.around.grain.size() + 16);
+        const int count = near_places(part.around.view(), all ? -1 : grain, sorted.x[k] + moved, sorted.y[k],
+                                      sorted.r[k] + margin, part.near.data() + begin);
+        part.near.resize(begin + static_cast<std::size_t>(count));
+        rows[static_cast<std::size_t>(grain)] = {range, begin, static_cast<std::size_t>(count)};
+      }
     }
-    for (std::size_t m = 0; m < count; ++m) unsorted.add(sorted.grain[k], near[m]);
   }
 
-  /// All that was added, by grain and then by partner.
-  void sort_pairs(std::size_t grains, PairList& pairs) {
-    row_end.assign(grains + 1, 0);
-    for (const int i : unsorted.grain) ++row_end[static_cast<std::size_t>(i) + 1];
+  void gather(const std::vector<int>& clusters, Surroundings& around) const {
+    around.clear();
+    for (const int c : clusters) {
+      const std::ptrdiff_t from = static_cast<std::ptrdiff_t>(sorted.begin(static_cast<std::size_t>(c)));
+      const std::ptrdiff_t to = static_cast<std::ptrdiff_t>(sorted.end(static_cast<std::size_t>(c)));
+      const auto append = [from, to](auto& array, const auto& all) {
+        array.insert(array.end(), all.begin() + from, all.begin() + to);
+      };
+      append(around.grain, sorted.grain);
+      append(around.x, sorted.x), append(around.y, sorted.y), append(around.r, sorted.r);
+    }
+  }
+
+  /// All walls that a box of one of the clusters [from, to) meets, for each of the cluster's grains.
+  void look_for_walls(Part& part, std::size_t from, std::size_t to, double margin) const {
+    part.walls.clear();
+    for (std::size_t c = from; c < to; ++c) {
+      part.found.clear();
+      WallQuery query(part.found);
+      world.QueryAABB(&query, box(c, margin + largest_sagitta));
+      std::sort(part.found.begin(), part.found.end());
+      part.found.erase(std::unique(part.found.begin(), part.found.end()), part.found.end());
+      for (std::size_t k = sorted.begin(c); k < sorted.end(c); ++k)
+        for (const int wall : part.found) part.walls.push_back({sorted.grain[k], wall, 0.0});
+    }
+  }
+
+  void find_pairs(const Ranges& ranges, double margin, double moved, bool all, PairList& pairs) {
+    parts.resize(static_cast<std::size_t>(ranges.count));
+    rows.resize(sorted.grain.size());
+    share_clusters(
+        ranges, [&](int range, std::size_t from, std::size_t to) { look_around(range, from, to, margin, moved, all); });
+    transpose(pairs);
+  }
+
+  template <class Work>
+  void share_clusters(const Ranges& ranges, Work work) const {
+    const std::size_t clusters = sorted.clusters(), count = static_cast<std::size_t>(ranges.count);
+    ranges.for_each([&](int range) {
+      const std::size_t k = static_cast<std::size_t>(range);
+      work(range, clusters * k / count, clusters * (k + 1) / count);
+    });
+  }
+
+  /// Whom each grain was found by: grains taken in order, the finders of each come in order, without a sort.
+  void transpose(PairList& pairs) {
+    row_end.assign(rows.size() + 1, 0);
+    for (const Row& row : rows)
+      for (const int i : near_of(row)) ++row_end[static_cast<std::size_t>(i) + 1];
     std::partial_sum(row_end.begin(), row_end.end(), row_end.begin());
-    pairs.grain.resize(unsorted.size()), pairs.partner.resize(unsorted.size());
-    for (std::size_t k = 0; k < unsorted.size(); ++k) {
-      const std::size_t place = static_cast<std::size_t>(row_end[static_cast<std::size_t>(unsorted.grain[k])]++);
-      pairs.grain[place] = unsorted.grain[k], pairs.partner[place] = unsorted.partner[k];
-    }
-    for (std::size_t i = 0, from = 0; i < grains; from = static_cast<std::size_t>(row_end[i++]))
-      std::sort(pairs.partner.begin() + static_cast<std::ptrdiff_t>(from), pairs.partner.begin() + row_end[i]);
-    const std::size_t about = unsorted.size() + unsorted.size() / 8;
-    unsorted = {};  // seldom needed, and as large as all else together
-    expected_pairs = about;
+    pairs.grain.resize(static_cast<std::size_t>(row_end.back())), pairs.partner.resize(pairs.grain.size());
+    for (std::size_t i = 0; i < rows.size(); ++i)
+      std::fill(pairs.grain.begin() + row_end[i], pairs.grain.begin() + row_end[i + 1], static_cast<int>(i));
+    for (std::size_t j = 0; j < rows.size(); ++j)
+      for (const int i : near_of(rows[j]))
+        pairs.partner[static_cast<std::size_t>(row_end[static_cast<std::size_t>(i)]++)] = static_cast<int>(j);
+  }
+
+  std::span<const int> near_of(const Row& row) const {
+    return {parts[static_cast<std::size_t>(row.part)].near.data() + row.begin, row.count};
   }
 };
 
@@ -176,18 +269,10 @@ std::vector<Eigen::Vector2d> edges_of(const WallSegment& wall, double unit, doub
   return corners;
 }
 
-struct WallQuery : b2QueryCallback {
-  explicit WallQuery(std::vector<int>& walls) : found(walls) {}
-  bool ReportFixture(b2Fixture* fixture) override {
-    found.push_back(static_cast<int>(fixture->GetUserData().pointer));
-    return true;
-  }
-  std::vector<int>& found;
-};
-
 }  // namespace
 
-Broadphase::Broadphase(const std::vector<Vessel>& vessels, double unit) : world_(std::make_unique<World>(unit)) {
+Broadphase::Broadphase(const std::vector<Vessel>& vessels, double unit, InstructionSet instructions)
+    : world_(std::make_unique<World>(unit, instructions)) {
   World& w = *world_;
   for (const Vessel& vessel : vessels) {
     b2BodyDef definition;
@@ -226,52 +311,25 @@ void Broadphase::remove_wall(int wall) {
   fixtures.clear();
 }
 
-void Broadphase::find(const Grains& grains, const std::vector<Pose>& poses, double margin, PairList& pairs,
-                      std::vector<WallCandidate>& near_walls) {
+void Broadphase::find(const Grains& grains, const std::vector<Pose>& poses, double margin, const Ranges& ranges,
+                      PairList& pairs, std::vector<WallCandidate>& near_walls) {
   World& w = *world_;
   w.place_vessels(poses);
   w.update_boxes(grains, poses.front().displacement);
+  w.find_pairs(ranges, margin, 0, false, pairs);
 
+  w.share_clusters(ranges, [&](int range, std::size_t from, std::size_t to) {
+    w.look_for_walls(w.parts[static_cast<std::size_t>(range)], from, to, margin);
+  });
   near_walls.clear();
-  w.unsorted.grain.reserve(w.expected_pairs), w.unsorted.partner.reserve(w.expected_pairs);
-  for (std::size_t c = 0; c < w.sorted.clusters(); ++c) {
-    const std::size_t first = w.sorted.begin(c), last = w.sorted.end(c);
-    w.found.clear();
-    w.tree.Query(&w, w.box(c, margin));
-    for (const int d : w.found) {
-      const std::size_t other = static_cast<std::size_t>(d);
-      if (other > c) continue;
-      for (std::size_t k = first; k < last; ++k)
-        w.add_near(k, 0, margin, w.sorted.begin(other), other == c ? k : w.sorted.end(other));
-    }
-
-    w.found.clear();
-    WallQuery walls(w.found);
-    w.world.QueryAABB(&walls, w.box(c, margin + w.largest_sagitta));
-    std::sort(w.found.begin(), w.found.end());
-    w.found.erase(std::unique(w.found.begin(), w.found.end()), w.found.end());
-    for (std::size_t k = first; k < last; ++k)
-      for (const int wall : w.found) near_walls.push_back({w.sorted.grain[k], wall, 0.0});
-  }
-  for (std::size_t k = 0; k < w.unsorted.size(); ++k)
-    if (w.unsorted.grain[k] < w.unsorted.partner[k]) std::swap(w.unsorted.grain[k], w.unsorted.partner[k]);
-  w.sort_pairs(grains.size(), pairs);
+  for (const Part& part : w.parts) near_walls.insert(near_walls.end(), part.walls.begin(), part.walls.end());
   std::sort(near_walls.begin(), near_walls.end(), [](const WallCandidate& a, const WallCandidate& b) {
     return a.grain != b.grain ? a.grain < b.grain : a.wall < b.wall;
   });
 }
 
-void Broadphase::find_across(const Grains& grains, double period, double margin, PairList& pairs) {
-  World& w = *world_;
-  for (std::size_t c = 0; c < w.sorted.clusters(); ++c) {
-    w.found.clear();
-    w.tree.Query(&w, w.box(c, margin, period));
-    for (const int d : w.found)
-      for (std::size_t k = w.sorted.begin(c); k < w.sorted.end(c); ++k)
-        w.add_near(k, period, margin, w.sorted.begin(static_cast<std::size_t>(d)),
-                   w.sorted.end(static_cast<std::size_t>(d)));
-  }
-  w.sort_pairs(grains.size(), pairs);
+void Broadphase::find_across(double period, double margin, const Ranges& ranges, PairList& pairs) {
+  world_->find_pairs(ranges, margin, -period, true, pairs);
 }
 
 }  // namespace vibrosow

@@ -1,16 +1,23 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <functional>
 #include <memory>
-#include <string>
 #include <vector>
 
 #include "contact/contact_list.hpp"
+#include "contact/instruction_set.hpp"
 #include "grains/grains.hpp"
 #include "scene/pose.hpp"
 #include "scene/scene.hpp"
 
 namespace vibrosow {
+
+/// How a search is shared: `for_each(work)` calls work(range) for each range 0 .. count - 1, perhaps several at once.
+struct Ranges {
+  int count;
+  std::function<void(const std::function<void(int)>&)> for_each;
+};
 
 /// Box2D's part: it holds the vessels' walls as shapes of bodies (the tray kinematic, the hopper static), keeps a tree
 /// of the boxes of clusters of eight neighbouring grains, and says which grains may touch what. Its solver never runs,
@@ -19,18 +26,18 @@ namespace vibrosow {
 class Broadphase {
  public:
   /// The vessels' walls are numbered in order, vessel after vessel. `unit` in m is the length of one Box2D unit.
-  Broadphase(const std::vector<Vessel>& vessels, double unit);
+  Broadphase(const std::vector<Vessel>& vessels, double unit, InstructionSet instructions);
   ~Broadphase();
 
   /// Fills `pairs` with all (i, j) nearer than r_i + r_j + margin (m) and `near_walls` with at least all grains nearer
   /// than r + margin to a wall, both sorted; the candidates' sides are not set. `poses` of each vessel; coordinates are
   /// taken relative to the first vessel's displacement, so that a bed moving with its tray stays in its boxes.
-  void find(const Grains& grains, const std::vector<Pose>& poses, double margin, PairList& pairs,
+  void find(const Grains& grains, const std::vector<Pose>& poses, double margin, const Ranges& ranges, PairList& pairs,
             std::vector<WallCandidate>& near_walls);
 
   /// Fills `pairs` with all (i, j) such that i, shifted by `period` (m) to the right, is nearer than r_i + r_j + margin
   /// to j: pairs across the seam of a periodic tray; j may be less than i. For the grains and poses of the last `find`.
-  void find_across(const Grains& grains, double period, double margin, PairList& pairs);
+  void find_across(double period, double margin, const Ranges& ranges, PairList& pairs);
 
   /// Takes wall `wall` out of the vessel's body: nothing will touch it any more.
   void remove_wall(int wall);

@@ -124,7 +124,7 @@ void carry_over(const PairList& old, const ContactHistory& old_history, const Pa
 Neighbours::Neighbours(const std::vector<Vessel>& vessels, double largest_diameter, NeighbourMargins margins,
                        NeighbourMemory memory, Execution& execution)
     : execution_(execution),
-      broadphase_(vessels, largest_diameter),
+      broadphase_(vessels, largest_diameter, execution.instructions()),
       diameter_(largest_diameter),
       wide_margin_(margins.wide * largest_diameter),
       narrow_margin_(margins.narrow * largest_diameter),
@@ -184,8 +184,9 @@ void Neighbours::choose_narrow_margin() {
 }
 
 void Neighbours::search(const Grains& grains, const Walls& walls) {
-  broadphase_.find(grains, walls.poses(), wide_margin_, wide_, wide_walls_);
-  if (period_ > 0) broadphase_.find_across(grains, period_, wide_margin_, wide_seam_);
+  const Ranges ranges{execution_.threads(), [this](const auto& work) { execution_.for_each_range(work); }};
+  broadphase_.find(grains, walls.poses(), wide_margin_, ranges, wide_, wide_walls_);
+  if (period_ > 0) broadphase_.find_across(period_, wide_margin_, ranges, wide_seam_);
   if (!grains.clump.empty())
     drop_pairs_within_clumps(grains.clump, wide_), drop_pairs_within_clumps(grains.clump, wide_seam_);
   note(grains, walls, wide_reference_);

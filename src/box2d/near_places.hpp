@@ -1,0 +1,21 @@
+#pragma once
+
+#include "contact/instruction_set.hpp"
+
+namespace vibrosow {
+
+/// Grains side by side in memory.
+struct Places {
+  int count;
+  const int* grain;         // numbers
+  const double *x, *y, *r;  // m
+};
+
+/// Writes the numbers above `after` of the grains nearer than `reach` + r (m) to (x, y), in order, to `near`, which has
+/// 16 places to spare, and returns how many.
+using NearPlaces = int (*)(const Places& places, int after, double x, double y, double reach, int* near);
+
+/// Compiled for one instruction set. Throws std::logic_error where it is not available.
+NearPlaces near_places(InstructionSet set);
+
+}  // namespace vibrosow

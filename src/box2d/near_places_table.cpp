@@ -1,0 +1,27 @@
+#include <stdexcept>
+
+#include "box2d/near_places.hpp"
+
+namespace vibrosow {
+
+// Defined in near_places.cpp, compiled for each.
+inline namespace generic {
+int places_near(const Places&, int, double, double, double, int*);
+}
+namespace avx2 {
+int places_near(const Places&, int, double, double, double, int*);
+}
+namespace avx512 {
+int places_near(const Places&, int, double, double, double, int*);
+}
+
+NearPlaces near_places(InstructionSet set) {
+  if (!is_available(set)) throw std::logic_error("these vector instructions are not available");
+#ifdef VIBROSOW_X86_KERNELS
+  if (set == InstructionSet::avx2) return avx2::places_near;
+  if (set == InstructionSet::avx512) return avx512::places_near;
+#endif
+  return generic::places_near;
+}
+
+}  // namespace vibrosow
