@@ -117,7 +117,8 @@ void compare() {
                 std::vector<double>(grains.size())};
   std::vector<ForeignForce> foreign;
   ContactCensus census;
-  const ChosenKernel kernel{kernels.pair[static_cast<std::size_t>(best_instruction_set())], kernels.effects.rotation};
+  const ChosenKernel kernel{kernels.vectors[static_cast<std::size_t>(best_instruction_set())].pair,
+                            kernels.effects.rotation};
   constexpr int evaluations = 2000, rounds = 15;
   std::vector<double> ours, theirs, ratios;
   long bare_contacts = 0;

@@ -28,28 +28,20 @@ struct ContactCensus {
   std::vector<int> crossed;    // grains whose centre went through a wall
 };
 
-/// Adds the forces of walls; `candidates` sorted by grain. A grain that touches a wall's face and an end point of the
-/// same wall is pushed by the face alone, and once by an end point that two walls share. A candidate's side follows the
-/// grain while it is beyond the wall's ends; a change of side beside the wall is a crossing.
-using WallKernel = void (*)(const Grains&, const Motion&, std::vector<WallCandidate>&, const std::vector<PlacedWall>&,
-                            const ContactParameters&, const HistoryAdvance&, ContactHistory& history, Forces&,
-                            ContactCensus&);
-
 /// What pair kernels need to know of the grains.
 GrainSurfaces surfaces_of(const Grains& grains);
 
 /// Energy stored in all contacts of pairs, or of walls, J.
 using PairEnergyKernel = double (*)(const GrainSurfaces&, const Motion&, const PairList&, const ContactParameters&,
                                     const ContactHistory&);
-using WallEnergyKernel = double (*)(const Grains&, const Motion&, const std::vector<WallCandidate>&,
-                                    const std::vector<PlacedWall>&, const ContactParameters&, const ContactHistory&);
+using WallEnergyKernel = double (*)(const GrainSurfaces&, const WallContacts&, const ContactParameters&,
+                                    const ContactHistory&);
 
 /// One compiled combination of a law and the effects that enter the pair force.
 struct KernelSet {
   Law law;
   EffectChoice effects;
-  std::array<PairKernel, instruction_sets.size()> pair;  // null where this program was built without
-  WallKernel wall;
+  std::array<VectorKernels, instruction_sets.size()> vectors;  // null where this program was built without
   PairEnergyKernel pair_energy;
   WallEnergyKernel wall_energy;
 };

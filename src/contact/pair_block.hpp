@@ -65,7 +65,27 @@ struct PairBlock {
 using PairKernel = void (*)(const GrainSurfaces&, const Motion&, const PairList&, PairRange, const ContactParameters&,
                             const HistoryAdvance&, ContactHistory& history, PairBlock&);
 
+/// Grains that touch walls: of each array the first `count` places count.
+struct WallContacts {
+  int count = 0;
+  std::vector<int> candidate, grain;
+  std::vector<double> dx, dy, distance2;            // m, m2: from the centre to the wall's nearest point
+  std::vector<double> normal_x, normal_y;           // towards the wall, set where the distance is 0
+  std::vector<double> wall_vx, wall_vy, wall_spin;  // m/s, rad/s: of the wall's material at that point
+  std::vector<double> fx, fy, torque;               // N, on the wall; N m, on the grain, without rotation unset
+};
+
+/// Works out the forces of all contacts and returns the largest compression. `history` has an entry for each candidate.
+using WallKernel = double (*)(const GrainSurfaces&, const Motion&, const ContactParameters&, const HistoryAdvance&,
+                              ContactHistory& history, WallContacts&);
+
+/// What is compiled for each instruction set.
+struct VectorKernels {
+  PairKernel pair;
+  WallKernel wall;
+};
+
 /// By index of `compiled_effects`.
-using PairKernels = std::array<PairKernel, compiled_effects.size()>;
+using LawKernels = std::array<VectorKernels, compiled_effects.size()>;
 
 }  // namespace vibrosow

@@ -50,6 +50,18 @@ struct BlockMemory {
   double slip[PairBlock::size], slip_speed[PairBlock::size], roll[PairBlock::size], roll_speed[PairBlock::size];
 };
 
+/// Keeps what the first `count` contacts of a block remember, at their entries of the list.
+template <class Effects>
+void store_block(const BlockMemory& memory, const int* entry, int count, ContactHistory& history) {
+  const auto keep = [entry, count](const double* of_block, std::vector<double>& of_list) {
+    double* memory_of_list = of_list.data();
+    for (int k = 0; k < count; ++k) memory_of_list[entry[k]] = of_block[k];
+  };
+  if constexpr (Effects::spring) keep(memory.slip, history.slip), keep(memory.slip_speed, history.slip_speed);
+  if constexpr (Effects::rolling == Rolling::spring)
+    keep(memory.roll, history.roll), keep(memory.roll_speed, history.roll_speed);
+}
+
 template <class Law, class Effects>
 [[gnu::flatten]] void forces_of_touching(const PairProperties<Law, Effects>& properties, const Motion& at,
                                          const PairList& list, const ContactParameters& parameters,
@@ -113,14 +125,7 @@ template <class Law, class Effects>
   find_touching<Law, Effects>(properties, at, list, range, leaves_trace, history, block);
   BlockMemory memory;
   forces_of_touching<Law, Effects>(properties, at, list, parameters, advance, history, block, memory);
-  if (!remembers<Effects> || !leaves_trace) return;
-  const auto keep = [&block](const double* of_block, std::vector<double>& of_list) {
-    double* memory_of_list = of_list.data();
-    for (int k = 0; k < block.touching; ++k) memory_of_list[block.entry[k]] = of_block[k];
-  };
-  if constexpr (Effects::spring) keep(memory.slip, history.slip), keep(memory.slip_speed, history.slip_speed);
-  if constexpr (Effects::rolling == Rolling::spring)
-    keep(memory.roll, history.roll), keep(memory.roll_speed, history.roll_speed);
+  if (remembers<Effects> && leaves_trace) store_block<Effects>(memory, block.entry, block.touching, history);
 }
 
 }  // namespace vibrosow::inline VIBROSOW_ISA

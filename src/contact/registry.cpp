@@ -4,22 +4,22 @@
 #include "contact/kernels.hpp"
 #include "contact/laws.hpp"
 #include "contact/pair_energy.hpp"
-#include "contact/wall_kernel.hpp"
+#include "contact/wall_energy.hpp"
 
 namespace vibrosow {
 
-// Defined in pair_kernels.cpp, compiled for each.
+// Defined in law_kernels.cpp, compiled for each.
 inline namespace generic {
 template <Law law>
-const PairKernels& pair_kernels();
+const LawKernels& law_kernels();
 }
 namespace avx2 {
 template <Law law>
-const PairKernels& pair_kernels();
+const LawKernels& law_kernels();
 }
 namespace avx512 {
 template <Law law>
-const PairKernels& pair_kernels();
+const LawKernels& law_kernels();
 }
 
 namespace {
@@ -27,11 +27,11 @@ namespace {
 using Table = std::vector<KernelSet>;
 
 template <Law law>
-std::array<PairKernel, instruction_sets.size()> pair_kernels_at(std::size_t index) {
+std::array<VectorKernels, instruction_sets.size()> kernels_at(std::size_t index) {
 #ifdef VIBROSOW_X86_KERNELS
-  return {generic::pair_kernels<law>()[index], avx2::pair_kernels<law>()[index], avx512::pair_kernels<law>()[index]};
+  return {generic::law_kernels<law>()[index], avx2::law_kernels<law>()[index], avx512::law_kernels<law>()[index]};
 #else
-  return {generic::pair_kernels<law>()[index], nullptr, nullptr};
+  return {generic::law_kernels<law>()[index], {}, {}};
 #endif
 }
 
@@ -39,8 +39,8 @@ template <Law law, std::size_t index>
 void add(Table& table) {
   using Formulas = Registered<law>::Formulas;
   using Effects = PairEffects<compiled_effects[index]>;
-  table.push_back({law, compiled_effects[index], pair_kernels_at<law>(index), wall_forces<Formulas, Effects>,
-                   pair_energy<Formulas, Effects>, wall_energy<Formulas, Effects>});
+  table.push_back({law, compiled_effects[index], kernels_at<law>(index), pair_energy<Formulas, Effects>,
+                   wall_energy<Formulas, Effects>});
 }
 
 template <Law law>

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "contact/wall_kernel.hpp"
+#include "contact/nearest_point.hpp"
 #include "grains/size_distribution.hpp"
 #include "scene/seed_lot.hpp"
 #include "simulation/counter.hpp"

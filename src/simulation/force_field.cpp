@@ -24,7 +24,9 @@ ForceField::ForceField(const Scene& scene, const EffectSet& effects, NeighbourMa
                   {effects.tangential_spring, effects.rolling == Rolling::spring}, execution),
       parameters_(contact_parameters(scene)),
       kernels_(kernels_for(scene.contact.law, effects)),
-      pair_kernel_{kernels_.pair[static_cast<std::size_t>(execution.instructions())], kernels_.effects.rotation},
+      pair_kernel_{kernels_.vectors[static_cast<std::size_t>(execution.instructions())].pair,
+                   kernels_.effects.rotation},
+      wall_kernel_(kernels_.vectors[static_cast<std::size_t>(execution.instructions())].wall),
       range_results_(static_cast<std::size_t>(execution.threads())) {
   if (effects.clumps) clumps_.emplace(scene_, effects.rotation);
 }
@@ -102,9 +104,20 @@ void ForceField::run_kernels(const Grains& discs, const HistoryAdvance& advance,
                     census);
   }
   execution_.profile().lap(Phase::pairs);
-  kernels_.wall(discs, at, neighbours_.near_walls(), walls_.placed(), parameters_, advance, neighbours_.wall_history(),
-                forces, census);
+  wall_finder_.find(discs, neighbours_.near_walls(), walls_.placed(), wall_contacts_);
+  wall_finder_.watch_crossings(neighbours_.near_walls(), census.crossed);
+  if (advance.commit > 0) wall_finder_.forget_parted(neighbours_.wall_history());
+  add_wall_forces(discs, at, advance, forces, census);
   execution_.profile().lap(Phase::walls);
+}
+
+/// Of the contacts found last.
+void ForceField::add_wall_forces(const Grains& discs, const Motion& at, const HistoryAdvance& advance, Forces& forces,
+                                 ContactCensus& census) {
+  const double compression =
+      wall_kernel_(surfaces_of(discs), at, parameters_, advance, neighbours_.wall_history(), wall_contacts_);
+  census.max_compression = std::max(census.max_compression, compression);
+  vibrosow::add_wall_forces(wall_contacts_, pair_kernel_.rotation, forces, census);
 }
 
 void ForceField::evaluate(const Grains& grains, double time, const HistoryAdvance& advance, ContactCensus& census) {
@@ -130,18 +143,17 @@ double ForceField::elastic_energy(const Grains& grains) {
   if (neighbours_.period() > 0)
     energy += kernels_.pair_energy(surfaces_of(discs), across_seam(discs), neighbours_.seam_pairs(), parameters_,
                                    neighbours_.seam_history());
-  return energy + kernels_.wall_energy(discs, at, neighbours_.near_walls(), walls_.placed(), parameters_,
-                                       neighbours_.wall_history());
+  wall_finder_.find(discs, neighbours_.near_walls(), walls_.placed(), wall_contacts_);
+  return energy + kernels_.wall_energy(surfaces_of(discs), wall_contacts_, parameters_, neighbours_.wall_history());
 }
 
 Forces ForceField::wall_forces(const Grains& grains) {
   const Grains& discs = place_discs(grains);
-  std::vector<WallCandidate> candidates = neighbours_.near_walls();
   ContactCensus census;
   Forces on_discs;
   clear(on_discs, discs);
-  kernels_.wall(discs, motion_of(discs), candidates, walls_.placed(), parameters_, {}, neighbours_.wall_history(),
-                on_discs, census);
+  wall_finder_.find(discs, neighbours_.near_walls(), walls_.placed(), wall_contacts_);
+  add_wall_forces(discs, motion_of(discs), {}, on_discs, census);
   if (!clumps_) return on_discs;
   Forces forces;
   clear(forces, grains);

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "contact/pair_forces.hpp"
+#include "contact/wall_contacts.hpp"
 #include "grains/grains.hpp"
 #include "simulation/clump_discs.hpp"
 #include "simulation/execution.hpp"
@@ -51,6 +52,8 @@ class ForceField {
                        ContactCensus& census);
   Motion motion_of(const Grains& discs) const;
   Motion across_seam(const Grains& discs);
+  void add_wall_forces(const Grains& discs, const Motion& at, const HistoryAdvance& advance, Forces& forces,
+                       ContactCensus& census);
   void run_kernels(const Grains& discs, const HistoryAdvance& advance, Forces& forces, ContactCensus& census);
 
   const Scene& scene_;
@@ -60,6 +63,9 @@ class ForceField {
   ContactParameters parameters_;
   const KernelSet& kernels_;
   ChosenKernel pair_kernel_;
+  WallKernel wall_kernel_;
+  WallContactFinder wall_finder_;
+  WallContacts wall_contacts_;
   std::optional<ClumpDiscs> clumps_;
   bool clumps_are_current_ = false;
   Forces forces_, disc_forces_;

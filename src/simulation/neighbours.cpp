@@ -6,7 +6,7 @@
 #include <ranges>
 #include <utility>
 
-#include "contact/wall_kernel.hpp"
+#include "contact/nearest_point.hpp"
 #include "scene/vessel_walls.hpp"
 
 namespace vibrosow {

@@ -41,9 +41,13 @@ TEST(Wall, IsAGrainOfInfiniteRadiusAndMass) {
       const ContactParameters parameters = contact_parameters(scene);
       ContactHistory none;
       std::vector<ForeignForce> foreign;
-      add_pair_forces({kernels.pair[0], kernels.effects.rotation}, surfaces_of(grains), at, pairs,
+      add_pair_forces({kernels.vectors[0].pair, kernels.effects.rotation}, surfaces_of(grains), at, pairs,
                       {0, static_cast<int>(pairs.size())}, parameters, {}, none, 0, f, foreign, census);
-      kernels.wall(grains, at, near, walls, parameters, {}, none, f, census);
+      WallContacts contacts;
+      WallContactFinder().find(grains, near, walls, contacts);
+      const double compression = kernels.vectors[0].wall(surfaces_of(grains), at, parameters, {}, none, contacts);
+      census.max_compression = std::max(census.max_compression, compression);
+      add_wall_forces(contacts, kernels.effects.rotation, f, census);
       EXPECT_EQ(census.contacts, 1);
       EXPECT_NEAR(census.max_compression, overlap / Bench::radius, 1e-7);
       return f;

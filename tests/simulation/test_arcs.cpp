@@ -5,7 +5,7 @@
 #include <numbers>
 #include <set>
 
-#include "contact/wall_kernel.hpp"
+#include "contact/nearest_point.hpp"
 #include "simulation/simulate.hpp"
 #include "support/bench.hpp"
 

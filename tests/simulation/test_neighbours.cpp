@@ -4,7 +4,7 @@
 #include <cmath>
 #include <set>
 
-#include "contact/wall_kernel.hpp"
+#include "contact/nearest_point.hpp"
 #include "simulation/simulate.hpp"
 #include "support/bench.hpp"
 

@@ -1,0 +1,124 @@
+#include "contact/wall_contacts.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace vibrosow {
+namespace {
+
+/// Where the centre lies on the wall it is pushed back to the side it came from.
+void set_normal_on_wall(const WallCandidate& candidate, const PlacedWall& wall, double x, double y,
+                        WallContacts& contacts, std::size_t k) {
+  // Along the wall, with the side > 0 to the left.
+  const bool arc = wall.radius > 0;
+  const double ex = arc ? y - wall.centre_y : wall.bx - wall.ax;
+  const double ey = arc ? wall.centre_x - x : wall.by - wall.ay;
+  const double length = std::copysign(std::sqrt(ex * ex + ey * ey), candidate.side);
+  contacts.normal_x[k] = ey / length, contacts.normal_y[k] = -ex / length;
+}
+
+void add(const WallCandidate& candidate, std::size_t c, const NearestPoint& nearest, const PlacedWall& wall, double x,
+         double y, WallContacts& contacts) {
+  const std::size_t k = static_cast<std::size_t>(contacts.count++);
+  contacts.candidate[k] = static_cast<int>(c), contacts.grain[k] = candidate.grain;
+  contacts.dx[k] = nearest.dx, contacts.dy[k] = nearest.dy, contacts.distance2[k] = nearest.distance2;
+  contacts.wall_vx[k] = wall.vx - wall.spin * (y + nearest.dy);
+  contacts.wall_vy[k] = wall.vy + wall.spin * (x + nearest.dx);
+  contacts.wall_spin[k] = wall.spin;
+  if (nearest.distance2 == 0) set_normal_on_wall(candidate, wall, x, y, contacts, k);
+}
+
+void make_room(std::size_t most, WallContacts& contacts) {
+  if (contacts.grain.size() >= most) return;
+  for (std::vector<int>* array : {&contacts.candidate, &contacts.grain}) array->resize(most);
+  for (std::vector<double>* array :
+       {&contacts.dx, &contacts.dy, &contacts.distance2, &contacts.normal_x, &contacts.normal_y, &contacts.wall_vx,
+        &contacts.wall_vy, &contacts.wall_spin, &contacts.fx, &contacts.fy, &contacts.torque})
+    array->resize(most);
+}
+
+}  // namespace
+
+void WallContactFinder::find(const Grains& grains, const std::vector<WallCandidate>& candidates,
+                             const std::vector<PlacedWall>& walls, WallContacts& contacts) {
+  make_room(candidates.size(), contacts);
+  contacts.count = 0;
+  nearest_.resize(candidates.size()), touches_.resize(candidates.size());
+  for (std::size_t from = 0, to = 0; from < candidates.size(); from = to) {
+    while (to < candidates.size() && candidates[to].grain == candidates[from].grain) ++to;
+    find_of_grain(grains, candidates, from, to, walls, contacts);
+  }
+}
+
+/// Faces first, then each end point once and only where no touched face ends in it.
+void WallContactFinder::find_of_grain(const Grains& grains, const std::vector<WallCandidate>& candidates,
+                                      std::size_t from, std::size_t to, const std::vector<PlacedWall>& walls,
+                                      WallContacts& contacts) {
+  const std::size_t i = static_cast<std::size_t>(candidates[from].grain);
+  const double x = grains.x[i], y = grains.y[i];
+  const double radius = grains.unequal ? grains.radius[i] : grains.kinds.front().radius, radius2 = radius * radius;
+  const auto wall_of = [&](std::size_t c) -> const PlacedWall& {
+    return walls[static_cast<std::size_t>(candidates[c].wall)];
+  };
+  bool any = false;
+  for (std::size_t c = from; c < to; ++c) {
+    nearest_[c] = nearest_point(wall_of(c), x, y);
+    touches_[c] = 0;
+    any |= nearest_[c].distance2 < radius2;
+  }
+  if (!any) return;
+  covered_.clear();
+  const auto touch = [&](std::size_t c) {
+    touches_[c] = 1;
+    add(candidates[c], c, nearest_[c], wall_of(c), x, y, contacts);
+  };
+  for (std::size_t c = from; c < to; ++c) {
+    if (nearest_[c].vertex >= 0 || nearest_[c].distance2 >= radius2) continue;
+    covered_.push_back(wall_of(c).vertex_a), covered_.push_back(wall_of(c).vertex_b);
+    touch(c);
+  }
+  for (std::size_t c = from; c < to; ++c) {
+    const int vertex = nearest_[c].vertex;
+    if (vertex < 0 || nearest_[c].distance2 >= radius2) continue;
+    if (std::find(covered_.begin(), covered_.end(), vertex) != covered_.end()) continue;
+    covered_.push_back(vertex);
+    touch(c);
+  }
+}
+
+void WallContactFinder::watch_crossings(std::vector<WallCandidate>& candidates, std::vector<int>& crossed) const {
+  for (std::size_t c = 0; c < candidates.size(); ++c) {
+    if (nearest_[c].vertex >= 0)
+      candidates[c].side = nearest_[c].side;
+    else if (nearest_[c].side * candidates[c].side < 0)
+      crossed.push_back(candidates[c].grain);
+  }
+}
+
+void add_wall_forces(const WallContacts& contacts, bool rotation, Forces& forces, ContactCensus& census) {
+  const std::size_t count = static_cast<std::size_t>(contacts.count);
+  for (std::size_t k = 0; k < count;) {
+    const std::size_t i = static_cast<std::size_t>(contacts.grain[k]);
+    double sum_x = 0, sum_y = 0, sum_torque = 0;
+    for (; k < count && contacts.grain[k] == static_cast<int>(i); ++k) {
+      sum_x -= contacts.fx[k], sum_y -= contacts.fy[k];
+      if (rotation) sum_torque += contacts.torque[k];
+      census.wall_power -= contacts.fx[k] * contacts.wall_vx[k] + contacts.fy[k] * contacts.wall_vy[k];
+    }
+    forces.fx[i] += sum_x, forces.fy[i] += sum_y;
+    if (rotation) forces.torque[i] += sum_torque;
+  }
+  census.contacts += contacts.count;
+}
+
+void WallContactFinder::forget_parted(ContactHistory& history) const {
+  for (std::size_t c = 0; c < history.touched.size(); ++c) {
+    if (history.touched[c] && !touches_[c]) {
+      if (!history.slip.empty()) history.slip[c] = history.slip_speed[c] = 0;
+      if (!history.roll.empty()) history.roll[c] = history.roll_speed[c] = 0;
+    }
+    history.touched[c] = touches_[c];
+  }
+}
+
+}  // namespace vibrosow

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <vector>
+
+#include "contact/contact_history.hpp"
+#include "contact/contact_list.hpp"
+#include "contact/kernels.hpp"
+#include "contact/nearest_point.hpp"
+
+namespace vibrosow {
+
+/// Looks through the candidates for grains that touch walls. A grain that touches a wall's face and an end point of the
+/// same wall is pushed by the face alone, and once by an end point that two walls share.
+class WallContactFinder {
+ public:
+  /// Sets `contacts`; `candidates` sorted by grain.
+  void find(const Grains& grains, const std::vector<WallCandidate>& candidates, const std::vector<PlacedWall>& walls,
+            WallContacts& contacts);
+
+  /// For the candidates of the last `find`: a side follows the grain while it is beyond the wall's ends; a change of
+  /// side beside the wall is a crossing, noted in `crossed` (numbers of grains).
+  void watch_crossings(std::vector<WallCandidate>& candidates, std::vector<int>& crossed) const;
+
+  /// Candidates of the last `find` that touched before and do not now remember nothing.
+  void forget_parted(ContactHistory& history) const;
+
+ private:
+  void find_of_grain(const Grains& grains, const std::vector<WallCandidate>& candidates, std::size_t from,
+                     std::size_t to, const std::vector<PlacedWall>& walls, WallContacts& contacts);
+
+  std::vector<NearestPoint> nearest_;   // by candidate
+  std::vector<unsigned char> touches_;  // by candidate
+  std::vector<int> covered_;            // end points of one grain
+};
+
+/// Adds the forces of contacts to their grains, those of one grain added up among themselves first, so that two walls
+/// add up alike in either order; and what the walls do by their motion.
+void add_wall_forces(const WallContacts& contacts, bool rotation, Forces& forces, ContactCensus& census);
+
+}  // namespace vibrosow
