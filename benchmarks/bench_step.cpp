@@ -1,8 +1,11 @@
 // Whole steps, broadphase included, of the published tray: 2400 grains of 8 mm in 50 cm, 9 Hz, 1 cm, three holes of 24
 // mm, friction 0.3 (sliding, or held by springs), restitution 0.5, velocity Verlet at its planned step.
-// items_per_second is grain-steps per second on one core.
+// items_per_second is grain-steps per second on one core. Beside them the parts of a step on the tray as it is at 0.3 s
+// (an evaluation of the forces, a search with Box2D, both lists renewed) and a whole run from its start, in grains or
+// grain-steps per second.
 #include <benchmark/benchmark.h>
 
+#include "simulation/simulate.hpp"
 #include "simulation/simulation.hpp"
 #include "simulation/step_plan.hpp"
 
@@ -64,6 +67,56 @@ BENCHMARK_CAPTURE(steps_of_the_published_tray, stiff_spring, 1e-4, effects_of_tr
 BENCHMARK_CAPTURE(steps_of_the_published_tray, stiff, 1e-4, effects_of_tray(false))->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(steps_of_the_published_tray, soft_spring, 1e-2, effects_of_tray(true))->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(steps_of_the_published_tray, soft, 1e-2, effects_of_tray(false))->Unit(benchmark::kMillisecond);
+
+/// Calls `part(simulation)` again and again on the stiff tray with springs at 0.3 s; an item is a grain.
+template <class Part>
+void part_of_a_step(benchmark::State& state, Part part) {
+  Scene scene = published_tray(1e-4);
+  scene.contact.friction_model = FrictionModel::spring;
+  const EffectSet effects = effects_of_tray(true);
+  Simulation simulation(scene, starting_grains(scene, 1, effects), {.dt = plan_step(scene).dt, .effects = effects});
+  while (simulation.time() < 0.3) simulation.step();
+  for (auto _ : state) part(simulation);
+  state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(simulation.grains().size()));
+}
+
+void forces(benchmark::State& state) {
+  ContactCensus census;
+  part_of_a_step(state,
+                 [&](Simulation& simulation) { simulation.field().evaluate(simulation.grains(), 0.3, {}, census); });
+}
+
+void search(benchmark::State& state) {
+  PairList pairs;
+  std::vector<WallCandidate> walls;
+  const Ranges one{1, [](const auto& work) { work(0); }};
+  part_of_a_step(state, [&](Simulation& simulation) {
+    const Grains& grains = simulation.grains();
+    simulation.field().neighbours().broadphase().find(grains, simulation.field().walls().poses(), 0.016, one, pairs,
+                                                      walls);
+  });
+}
+
+void renew_both_lists(benchmark::State& state) {
+  part_of_a_step(state, [](Simulation& simulation) {
+    Neighbours& neighbours = simulation.field().neighbours();
+    neighbours.forget();
+    neighbours.update(simulation.grains(), simulation.field().walls());
+  });
+}
+
+void whole_run(benchmark::State& state) {
+  Scene scene = published_tray(1e-4);
+  scene.run.duration = 0.1;
+  std::int64_t grain_steps = 0;
+  for (auto _ : state) grain_steps += simulate(scene).grain_steps;
+  state.SetItemsProcessed(grain_steps);
+}
+
+BENCHMARK(forces)->Unit(benchmark::kMicrosecond);
+BENCHMARK(search)->Unit(benchmark::kMicrosecond);
+BENCHMARK(renew_both_lists)->Unit(benchmark::kMicrosecond);
+BENCHMARK(whole_run)->Unit(benchmark::kMillisecond);
 
 }  // namespace
 }  // namespace vibrosow

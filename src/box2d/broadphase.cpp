@@ -200,6 +200,10 @@ struct Broadphase::World {
       append(around.grain, sorted.grain);
       append(around.x, sorted.x), append(around.y, sorted.y), append(around.r, sorted.r);
     }
+    // Whole vectors of the widest kind: what is added has no number that any grain looks for.
+    const std::size_t padded = (around.grain.size() + 63) / 64 * 64;
+    around.grain.resize(padded, -1);
+    for (std::vector<double>* array : {&around.x, &around.y, &around.r}) array->resize(padded, 0.0);
   }
 
   /// All walls that a box of one of the clusters [from, to) meets, for each of the cluster's grains.

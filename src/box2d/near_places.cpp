@@ -20,7 +20,9 @@ int places_near(const Places& places, int after, double x, double y, double reac
       flags[k] = static_cast<unsigned char>((dx * dx + dy * dy < limit * limit ? 1 : 0) & (grain[k] > after ? 1 : 0));
     }
     const int set = positions_of_set(flags, count, 0, position);
-    for (int k = 0; k < set; ++k) near[found + k] = grain[position[k]];
+    int* next = near + found;
+#pragma omp simd
+    for (int k = 0; k < set; ++k) next[k] = grain[position[k]];
     found += set;
   }
   return found;
