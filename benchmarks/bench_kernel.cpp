@@ -4,8 +4,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cmath>
+#include <numeric>
 
 #include "contact/compress.hpp"
 #include "contact/kernels.hpp"
@@ -41,9 +43,10 @@ long bare_kernel(const Bare& c, const Grains& g, const PairList& list, ContactHi
   constexpr int block = 256;
   unsigned char touches[block + 16];
   int entry[block + 16];
+  std::array<int, block> places;
+  std::iota(places.begin(), places.end(), 0);
   double px[block], py[block], turn[block], slip[block], slip_speed[block];
   const double *x = g.x.data(), *y = g.y.data(), *vx = g.vx.data(), *vy = g.vy.data(), *omega = g.omega.data();
-  double *fx = forces.fx.data(), *fy = forces.fy.data(), *torque = forces.torque.data();
   long contacts = 0;
   for (std::size_t from = 0; from < list.size(); from += block) {
     const int *a = list.grain.data() + from, *b = list.partner.data() + from;
@@ -55,7 +58,7 @@ long bare_kernel(const Bare& c, const Grains& g, const PairList& list, ContactHi
       const double dx = x[b[k]] - x[a[k]], dy = y[b[k]] - y[a[k]];
       touches[k] = dx * dx + dy * dy < reach2 ? 1 : 0;
     }
-    const int touching = positions_of_set(touches, count, 0, entry);
+    const int touching = compress(touches, count, Kept<int>{places.data(), entry});
 #pragma omp simd
     for (int k = 0; k < touching; ++k) {
       const int e = entry[k], i = a[e], j = b[e];
@@ -73,8 +76,8 @@ long bare_kernel(const Bare& c, const Grains& g, const PairList& list, ContactHi
     }
     for (int k = 0; k < touching; ++k) {
       const int e = entry[k], i = a[e], j = b[e];
-      fx[i] -= px[k], fy[i] -= py[k], torque[i] -= turn[k];
-      fx[j] += px[k], fy[j] += py[k], torque[j] -= turn[k];
+      forces[i].fx -= px[k], forces[i].fy -= py[k], forces[i].torque -= turn[k];
+      forces[j].fx += px[k], forces[j].fy += py[k], forces[j].torque -= turn[k];
       old_slip[e] = slip[k], old_speed[e] = slip_speed[k];
     }
     contacts += touching;
@@ -113,12 +116,10 @@ void compare() {
   const Motion at{grains.x.data(),  grains.y.data(),     grains.vx.data(),
                   grains.vy.data(), grains.omega.data(), grains.x.data()};
   ContactHistory history = simulation.field().neighbours().pair_history(), bare_history = history;
-  Forces forces{std::vector<double>(grains.size()), std::vector<double>(grains.size()),
-                std::vector<double>(grains.size())};
+  Forces forces(grains.size());
   std::vector<ForeignForce> foreign;
   ContactCensus census;
-  const ChosenKernel kernel{kernels.vectors[static_cast<std::size_t>(best_instruction_set())].pair,
-                            kernels.effects.rotation};
+  const PairKernel kernel = kernels.vectors[static_cast<std::size_t>(best_instruction_set())].pair;
   constexpr int evaluations = 2000, rounds = 15;
   std::vector<double> ours, theirs, ratios;
   long bare_contacts = 0;

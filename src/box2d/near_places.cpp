@@ -8,7 +8,6 @@ namespace vibrosow::inline VIBROSOW_ISA {
 int places_near(const Places& places, int after, double x, double y, double reach, int* near) {
   constexpr int block = 256;
   unsigned char flags[block + 16];
-  int position[block + 16];
   int found = 0;
   for (int from = 0; from < places.count; from += block) {
     const int count = places.count - from < block ? places.count - from : block;
@@ -19,11 +18,7 @@ int places_near(const Places& places, int after, double x, double y, double reac
       const double dx = px[k] - x, dy = py[k] - y, limit = reach + pr[k];
       flags[k] = static_cast<unsigned char>((dx * dx + dy * dy < limit * limit ? 1 : 0) & (grain[k] > after ? 1 : 0));
     }
-    const int set = positions_of_set(flags, count, 0, position);
-    int* next = near + found;
-#pragma omp simd
-    for (int k = 0; k < set; ++k) next[k] = grain[position[k]];
-    found += set;
+    found += compress(flags, count, Kept<int>{grain, near + found});
   }
   return found;
 }

@@ -15,11 +15,6 @@ ContactParameters contact_parameters(const Scene& scene);
 /// The surface between two lots, or of a lot and the walls (`other` = -1).
 const Surface& surface_between(const Contact& contact, int lot, int other);
 
-struct Forces {
-  std::vector<double> fx, fy;  // N
-  std::vector<double> torque;  // N m; empty without rotation
-};
-
 /// What an evaluation of the forces tells besides the forces.
 struct ContactCensus {
   std::int64_t contacts = 0;   // evaluations of the law

@@ -7,6 +7,7 @@
 #include "contact/compiled_effects.hpp"
 #include "contact/contact_history.hpp"
 #include "contact/contact_list.hpp"
+#include "contact/grain_force.hpp"
 #include "contact/instruction_set.hpp"
 #include "contact/surface_parameters.hpp"
 
@@ -45,25 +46,28 @@ struct Motion {
   const double *x, *y, *vx, *vy, *omega, *row_x;
 };
 
-/// Entries [from, to) of a pair list, at most PairBlock::size of them.
+/// Entries [from, to) of a pair list, at most pair_block_size of them.
 struct PairRange {
   int from, to;
 };
+inline constexpr int pair_block_size = 256;
 
-/// Forces of the touching ones among up to `size` pairs, in the order of the list.
-struct PairBlock {
-  static constexpr int size = 256;
+/// Where the forces of a block of pairs go: to their grains, but for grains before `first_own`, whose forces are listed
+/// in the order of the pairs.
+struct PairResult {
+  GrainForce* forces;
+  int first_own;
 
-  int touching;                               // of the first so many places below
-  double max_compression;                     // of them
-  int entry[size + 16];                       // of the list; places to spare for whole vectors
-  double fx[size], fy[size];                  // N, on the partner; the opposite on the grain
-  double torque[size], partner_torque[size];  // N m, on the grain and on its partner; without rotation unset
+  int contacts;
+  double max_compression;
+  int foreign_count;
+  ForeignForce foreign[pair_block_size];
 };
 
-/// Works out a block: the law for each touching pair of a range. `history` has an entry for each pair of the list.
+/// Works out a block: the law for each touching pair of a range, contact by contact added to the grains in the order of
+/// the list. `history` has an entry for each pair of the list.
 using PairKernel = void (*)(const GrainSurfaces&, const Motion&, const PairList&, PairRange, const ContactParameters&,
-                            const HistoryAdvance&, ContactHistory& history, PairBlock&);
+                            const HistoryAdvance&, ContactHistory& history, PairResult&);
 
 /// Grains that touch walls: of each array the first `count` places count.
 struct WallContacts {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cmath>
 
 #include "contact/compress.hpp"
@@ -10,51 +11,90 @@ namespace vibrosow::inline VIBROSOW_ISA {
 template <class Effects>
 inline constexpr bool remembers = Effects::spring || Effects::rolling == Rolling::spring;
 
+/// Four numbers that are added at once, whatever else their place in memory is called.
+using Four [[gnu::vector_size(32), gnu::may_alias]] = double;
+
+/// The touching ones among up to `size` pairs, in the order of the list: of each array the first `touching` places, and
+/// more for whole vectors.
+struct PairBlock {
+  static constexpr int size = pair_block_size, spare = 16;
+
+  int touching;
+  int entry[size + spare];  // of the list, counted from the range's first
+  int grain[size + spare], partner[size + spare];
+  double dx[size + spare], dy[size + spare];              // m, from the grain to its partner
+  alignas(64) double fx[size], fy[size];                  // N, on the partner; the opposite on the grain
+  alignas(64) double torque[size], partner_torque[size];  // N m, with its sign changed on the grain
+
+  int whole_vectors() const { return (touching + spare - 1) & -spare; }
+};
+
+/// 0, 1, 2, ..
+inline constexpr auto places = [] {
+  std::array<int, PairBlock::size> list{};
+  for (int k = 0; k < PairBlock::size; ++k) list[static_cast<std::size_t>(k)] = k;
+  return list;
+}();
+
 /// Pairs of a range that touched before and do not now remember nothing.
 template <class Effects>
 void forget_parted(PairRange range, const unsigned char* touches, ContactHistory& history) {
   const int count = range.to - range.from;
   unsigned char* touched = history.touched.data() + range.from;
-  unsigned char parted[PairBlock::size + 16];
-  int entry[PairBlock::size + 16];
+  unsigned char parted[PairBlock::size + PairBlock::spare];
+  int place[PairBlock::size + PairBlock::spare];
 #pragma omp simd
   for (int k = 0; k < count; ++k) {
     parted[k] = static_cast<unsigned char>(touched[k] & (touches[k] ^ 1));
     touched[k] = touches[k];
   }
-  const int forgotten = positions_of_set(parted, count, range.from, entry);
-  for (int k = 0; k < forgotten; ++k) store<Effects>({}, history, static_cast<std::size_t>(entry[k]));
+  const int forgotten = compress(parted, count, Kept<int>{places.data(), place});
+  for (int k = 0; k < forgotten; ++k) store<Effects>({}, history, static_cast<std::size_t>(range.from + place[k]));
 }
 
-/// Notes the entries of a range whose grains touch. Those that do not forget, where the evaluation leaves a trace.
+/// Repeats the last contact up to a whole number of vectors: what is worked out for it there counts for nothing.
+inline void fill_up(PairBlock& block) {
+  const int last = block.touching - 1;
+  for (int k = block.touching; k < block.whole_vectors(); ++k) {
+    block.entry[k] = block.entry[last], block.grain[k] = block.grain[last], block.partner[k] = block.partner[last];
+    block.dx[k] = block.dx[last], block.dy[k] = block.dy[last];
+  }
+}
+
+/// Finds the pairs of a range whose grains touch. Those that do not forget, where the evaluation leaves a trace.
 template <class Law, class Effects>
 void find_touching(const PairProperties<Law, Effects>& properties, const Motion& at, const PairList& list,
                    PairRange range, bool leaves_trace, ContactHistory& history, PairBlock& block) {
   const double *x = at.x, *row_x = at.row_x, *y = at.y;
   const int *grain = list.grain.data() + range.from, *partner = list.partner.data() + range.from;
   const int count = range.to - range.from;
-  unsigned char touches[PairBlock::size + 16];
+  unsigned char touches[PairBlock::size + PairBlock::spare];
+  double all_dx[PairBlock::size], all_dy[PairBlock::size];
 #pragma omp simd
   for (int k = 0; k < count; ++k) {
     const std::size_t i = static_cast<std::size_t>(grain[k]), j = static_cast<std::size_t>(partner[k]);
     const double dx = x[j] - row_x[i], dy = y[j] - y[i], reach = properties.reach(i, j);
+    all_dx[k] = dx, all_dy[k] = dy;
     touches[k] = dx * dx + dy * dy < reach * reach ? 1 : 0;
   }
   if constexpr (remembers<Effects>)
     if (leaves_trace) forget_parted<Effects>(range, touches, history);
-  block.touching = positions_of_set(touches, count, range.from, block.entry);
+  block.touching =
+      compress(touches, count, Kept<int>{places.data(), block.entry}, Kept<int>{grain, block.grain},
+               Kept<int>{partner, block.partner}, Kept<double>{all_dx, block.dx}, Kept<double>{all_dy, block.dy});
+  fill_up(block);
 }
 
 /// What the contacts of a block will remember.
 struct BlockMemory {
-  double slip[PairBlock::size], slip_speed[PairBlock::size], roll[PairBlock::size], roll_speed[PairBlock::size];
+  double slip[pair_block_size], slip_speed[pair_block_size], roll[pair_block_size], roll_speed[pair_block_size];
 };
 
-/// Keeps what the first `count` contacts of a block remember, at their entries of the list.
+/// Keeps what the first `count` contacts of a block remember, at their entries of the list after `first`.
 template <class Effects>
-void store_block(const BlockMemory& memory, const int* entry, int count, ContactHistory& history) {
-  const auto keep = [entry, count](const double* of_block, std::vector<double>& of_list) {
-    double* memory_of_list = of_list.data();
+void store_block(const BlockMemory& memory, const int* entry, int first, int count, ContactHistory& history) {
+  const auto keep = [entry, first, count](const double* of_block, std::vector<double>& of_list) {
+    double* memory_of_list = of_list.data() + first;
     for (int k = 0; k < count; ++k) memory_of_list[entry[k]] = of_block[k];
   };
   if constexpr (Effects::spring) keep(memory.slip, history.slip), keep(memory.slip_speed, history.slip_speed);
@@ -62,22 +102,23 @@ void store_block(const BlockMemory& memory, const int* entry, int count, Contact
     keep(memory.roll, history.roll), keep(memory.roll_speed, history.roll_speed);
 }
 
+/// Returns the largest compression.
 template <class Law, class Effects>
-[[gnu::flatten]] void forces_of_touching(const PairProperties<Law, Effects>& properties, const Motion& at,
-                                         const PairList& list, const ContactParameters& parameters,
-                                         const HistoryAdvance& advance_, const ContactHistory& history,
-                                         PairBlock& block, BlockMemory& memory) {
+[[gnu::flatten]] double forces_of_touching(const PairProperties<Law, Effects>& properties, const Motion& at,
+                                           int first_entry, const ContactParameters& parameters,
+                                           const HistoryAdvance& advance_, const ContactHistory& history,
+                                           PairBlock& block, BlockMemory& memory) {
   const double shortening = parameters.arm_shortening;
   const HistoryAdvance advance = advance_;
-  const double *x = at.x, *y = at.y, *vx = at.vx, *vy = at.vy, *omega = at.omega, *row_x = at.row_x;
-  const int *grain = list.grain.data(), *partner = list.partner.data(), *entry = block.entry;
+  const double *vx = at.vx, *vy = at.vy, *omega = at.omega;
+  const int whole = block.whole_vectors();
   double max_compression = 0;
 #pragma omp simd reduction(max : max_compression)
-  for (int k = 0; k < block.touching; ++k) {
-    const std::size_t e = static_cast<std::size_t>(entry[k]);
-    const std::size_t i = static_cast<std::size_t>(grain[e]), j = static_cast<std::size_t>(partner[e]);
+  for (int k = 0; k < whole; ++k) {
+    const std::size_t e = static_cast<std::size_t>(first_entry + block.entry[k]);
+    const std::size_t i = static_cast<std::size_t>(block.grain[k]), j = static_cast<std::size_t>(block.partner[k]);
     const PairConstants& pair = properties.pair(i, j);
-    const double dx = x[j] - row_x[i], dy = y[j] - y[i];
+    const double dx = block.dx[k], dy = block.dy[k];
     const double distance = std::sqrt(dx * dx + dy * dy);
     // Coincident centres have no normal: any fixed one parts them.
     const double per_distance = 1 / distance;
@@ -107,25 +148,59 @@ template <class Law, class Effects>
     // On the grain: -F_n n - F_t t with t = (-n_y, n_x).
     double fx = force.normal * nx, fy = force.normal * ny;
     if constexpr (Effects::friction) fx -= force.tangential * ny, fy += force.tangential * nx;
-    block.fx[k] = fx, block.fy[k] = fy;
+    double torque = 0, partner_torque = 0;
     if constexpr (Effects::rotation) {
-      block.torque[k] = force.rolling - arm_i * force.tangential;
-      block.partner_torque[k] = -force.rolling - arm_j * force.tangential;
+      torque = force.rolling - arm_i * force.tangential;
+      partner_torque = -force.rolling - arm_j * force.tangential;
     }
+    block.fx[k] = fx, block.fy[k] = fy, block.torque[k] = -torque, block.partner_torque[k] = partner_torque;
   }
-  block.max_compression = max_compression;
+  return max_compression;
+}
+
+/// Adds the forces of a block to its grains, four contacts at a time. The spare number of a sum takes up whichever
+/// torque is not its own.
+inline void add_block(const PairBlock& block, PairResult& result) {
+  Four* sums = reinterpret_cast<Four*>(result.forces);
+  result.foreign_count = 0;
+  const auto add = [&](int k, const Four& force) {
+    sums[block.grain[k]] -= force;
+    const int j = block.partner[k];
+    if (j >= result.first_own)
+      sums[j] += __builtin_shufflevector(force, force, 0, 1, 3, 2);
+    else
+      result.foreign[result.foreign_count++] = {j, force[0], force[1], force[3]};
+  };
+  const auto four = [](const double* array, int k) -> const Four& { return *reinterpret_cast<const Four*>(array + k); };
+  for (int k = 0; k < block.touching; k += 4) {
+    const Four fx = four(block.fx, k), fy = four(block.fy, k);
+    const Four own = four(block.torque, k), other = four(block.partner_torque, k);
+    const Four force02 = __builtin_shufflevector(fx, fy, 0, 4, 2, 6),
+               force13 = __builtin_shufflevector(fx, fy, 1, 5, 3, 7);
+    const Four turn02 = __builtin_shufflevector(own, other, 0, 4, 2, 6);
+    const Four turn13 = __builtin_shufflevector(own, other, 1, 5, 3, 7);
+    add(k, __builtin_shufflevector(force02, turn02, 0, 1, 4, 5));
+    if (k + 1 < block.touching) add(k + 1, __builtin_shufflevector(force13, turn13, 0, 1, 4, 5));
+    if (k + 2 < block.touching) add(k + 2, __builtin_shufflevector(force02, turn02, 2, 3, 6, 7));
+    if (k + 3 < block.touching) add(k + 3, __builtin_shufflevector(force13, turn13, 2, 3, 6, 7));
+  }
 }
 
 template <class Law, class Effects>
 [[gnu::flatten]] void pair_forces(const GrainSurfaces& grains, const Motion& at, const PairList& list, PairRange range,
                                   const ContactParameters& parameters, const HistoryAdvance& advance,
-                                  ContactHistory& history, PairBlock& block) {
+                                  ContactHistory& history, PairResult& result) {
   const PairProperties<Law, Effects> properties(grains, parameters);
   const bool leaves_trace = advance.commit > 0;
+  PairBlock block;
   find_touching<Law, Effects>(properties, at, list, range, leaves_trace, history, block);
   BlockMemory memory;
-  forces_of_touching<Law, Effects>(properties, at, list, parameters, advance, history, block, memory);
-  if (remembers<Effects> && leaves_trace) store_block<Effects>(memory, block.entry, block.touching, history);
+  result.max_compression =
+      forces_of_touching<Law, Effects>(properties, at, range.from, parameters, advance, history, block, memory);
+  if (remembers<Effects> && leaves_trace)
+    store_block<Effects>(memory, block.entry, range.from, block.touching, history);
+  add_block(block, result);
+  result.contacts = block.touching;
 }
 
 }  // namespace vibrosow::inline VIBROSOW_ISA

@@ -105,8 +105,8 @@ void add_wall_forces(const WallContacts& contacts, bool rotation, Forces& forces
       if (rotation) sum_torque += contacts.torque[k];
       census.wall_power -= contacts.fx[k] * contacts.wall_vx[k] + contacts.fy[k] * contacts.wall_vy[k];
     }
-    forces.fx[i] += sum_x, forces.fy[i] += sum_y;
-    if (rotation) forces.torque[i] += sum_torque;
+    forces[i].fx += sum_x, forces[i].fy += sum_y;
+    if (rotation) forces[i].torque += sum_torque;
   }
   census.contacts += contacts.count;
 }

@@ -7,7 +7,7 @@
 
 namespace vibrosow::inline VIBROSOW_ISA {
 
-/// Forces of the contacts [from, from + count), at most PairBlock::size of them; returns the largest compression.
+/// Forces of the contacts [from, from + count), at most pair_block_size of them; returns the largest compression.
 template <class Law, class Effects>
 [[gnu::flatten]] double forces_of_walls(const WallProperties<Law, Effects>& properties, const Motion& at,
                                         const ContactParameters& parameters, const HistoryAdvance& advance_,
@@ -65,13 +65,13 @@ template <class Law, class Effects>
   const WallProperties<Law, Effects> properties(grains, parameters);
   BlockMemory memory;
   double max_compression = 0;
-  for (int from = 0; from < contacts.count; from += PairBlock::size) {
-    const int count = contacts.count - from < PairBlock::size ? contacts.count - from : PairBlock::size;
+  for (int from = 0; from < contacts.count; from += pair_block_size) {
+    const int count = contacts.count - from < pair_block_size ? contacts.count - from : pair_block_size;
     const double here =
         forces_of_walls<Law, Effects>(properties, at, parameters, advance, history, from, count, contacts, memory);
     max_compression = here > max_compression ? here : max_compression;
     if (remembers<Effects> && advance.commit > 0)
-      store_block<Effects>(memory, contacts.candidate.data() + from, count, history);
+      store_block<Effects>(memory, contacts.candidate.data() + from, 0, count, history);
   }
   return max_compression;
 }

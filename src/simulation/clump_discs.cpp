@@ -56,9 +56,9 @@ void ClumpDiscs::place(const Grains& clumps) {
 void ClumpDiscs::gather(const Forces& on_discs, Forces& on_clumps) const {
   for (std::size_t k = 0; k < discs_.size(); ++k) {
     const std::size_t i = static_cast<std::size_t>(discs_.clump[k]);
-    on_clumps.fx[i] += on_discs.fx[k], on_clumps.fy[i] += on_discs.fy[k];
-    if (on_clumps.torque.empty()) continue;
-    on_clumps.torque[i] += on_discs.torque[k] + arm_x_[k] * on_discs.fy[k] - arm_y_[k] * on_discs.fx[k];
+    const GrainForce& disc = on_discs[k];
+    on_clumps[i].fx += disc.fx, on_clumps[i].fy += disc.fy;
+    if (discs_.rotation) on_clumps[i].torque += disc.torque + arm_x_[k] * disc.fy - arm_y_[k] * disc.fx;
   }
 }
 

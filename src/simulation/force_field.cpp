@@ -6,15 +6,6 @@
 #include "scene/seed_lot.hpp"
 
 namespace vibrosow {
-namespace {
-
-void clear(Forces& forces, const Grains& grains) {
-  forces.fx.assign(grains.size(), 0);
-  forces.fy.assign(grains.size(), 0);
-  forces.torque.assign(grains.omega.size(), 0);
-}
-
-}  // namespace
 
 ForceField::ForceField(const Scene& scene, const EffectSet& effects, NeighbourMargins margins, Execution& execution)
     : scene_(scene),
@@ -24,8 +15,7 @@ ForceField::ForceField(const Scene& scene, const EffectSet& effects, NeighbourMa
                   {effects.tangential_spring, effects.rolling == Rolling::spring}, execution),
       parameters_(contact_parameters(scene)),
       kernels_(kernels_for(scene.contact.law, effects)),
-      pair_kernel_{kernels_.vectors[static_cast<std::size_t>(execution.instructions())].pair,
-                   kernels_.effects.rotation},
+      pair_kernel_(kernels_.vectors[static_cast<std::size_t>(execution.instructions())].pair),
       wall_kernel_(kernels_.vectors[static_cast<std::size_t>(execution.instructions())].wall),
       range_results_(static_cast<std::size_t>(execution.threads())) {
   if (effects.clumps) clumps_.emplace(scene_, effects.rotation);
@@ -59,10 +49,9 @@ void ForceField::set_pair_forces(const Grains& discs, const Motion& at, const Hi
   const PairList& pairs = neighbours_.pairs();
   ContactHistory& history = neighbours_.pair_history();
   const GrainSurfaces surfaces = surfaces_of(discs);
-  const std::size_t count = discs.size(), turning = discs.omega.size();
   const std::size_t ranges = range_results_.size();
-  const int grains = static_cast<int>(count);
-  forces.fx.resize(count), forces.fy.resize(count), forces.torque.resize(turning);
+  const int grains = static_cast<int>(discs.size());
+  forces.resize(discs.size());
   const auto first_grain = [&](std::size_t range) {
     if (range == 0 || range == ranges) return range == 0 ? 0 : grains;
     return pairs.size() == 0 ? grains : pairs.grain[pairs.size() * range / ranges];
@@ -76,8 +65,7 @@ void ForceField::set_pair_forces(const Grains& discs, const Motion& at, const Hi
     RangeResult& result = range_results_[range];
     result.foreign.clear();
     result.census = {};
-    for (std::vector<double>* of : {&forces.fx, &forces.fy, &forces.torque})
-      if (!of->empty()) std::fill(of->begin() + first_grain(range), of->begin() + first_grain(range + 1), 0.0);
+    std::fill(forces.begin() + first_grain(range), forces.begin() + first_grain(range + 1), GrainForce{});
     add_pair_forces(pair_kernel_, surfaces, at, pairs, {first_entry(range), first_entry(range + 1)}, parameters_,
                     advance, history, first_grain(range), forces, result.foreign, result.census);
   });
@@ -85,9 +73,8 @@ void ForceField::set_pair_forces(const Grains& discs, const Motion& at, const Hi
     census.contacts += result.census.contacts;
     census.max_compression = std::max(census.max_compression, result.census.max_compression);
     for (const ForeignForce& force : result.foreign) {
-      const std::size_t j = static_cast<std::size_t>(force.grain);
-      forces.fx[j] += force.fx, forces.fy[j] += force.fy;
-      if (pair_kernel_.rotation) forces.torque[j] += force.torque;
+      GrainForce& sum = forces[static_cast<std::size_t>(force.grain)];
+      sum.fx += force.fx, sum.fy += force.fy, sum.torque += force.torque;
     }
   }
 }
@@ -117,7 +104,7 @@ void ForceField::add_wall_forces(const Grains& discs, const Motion& at, const Hi
   const double compression =
       wall_kernel_(surfaces_of(discs), at, parameters_, advance, neighbours_.wall_history(), wall_contacts_);
   census.max_compression = std::max(census.max_compression, compression);
-  vibrosow::add_wall_forces(wall_contacts_, pair_kernel_.rotation, forces, census);
+  vibrosow::add_wall_forces(wall_contacts_, kernels_.effects.rotation, forces, census);
 }
 
 void ForceField::evaluate(const Grains& grains, double time, const HistoryAdvance& advance, ContactCensus& census) {
@@ -129,7 +116,7 @@ void ForceField::evaluate(const Grains& grains, double time, const HistoryAdvanc
   if (!clumps_) return run_kernels(grains, advance, forces_, census);
   const std::size_t crossed_before = census.crossed.size();
   run_kernels(discs, advance, disc_forces_, census);
-  clear(forces_, grains);
+  forces_.assign(grains.size(), {});
   clumps_->gather(disc_forces_, forces_);
   for (std::size_t k = crossed_before; k < census.crossed.size(); ++k)
     census.crossed[k] = discs.clump[static_cast<std::size_t>(census.crossed[k])];
@@ -150,13 +137,11 @@ double ForceField::elastic_energy(const Grains& grains) {
 Forces ForceField::wall_forces(const Grains& grains) {
   const Grains& discs = place_discs(grains);
   ContactCensus census;
-  Forces on_discs;
-  clear(on_discs, discs);
+  Forces on_discs(discs.size());
   wall_finder_.find(discs, neighbours_.near_walls(), walls_.placed(), wall_contacts_);
   add_wall_forces(discs, motion_of(discs), {}, on_discs, census);
   if (!clumps_) return on_discs;
-  Forces forces;
-  clear(forces, grains);
+  Forces forces(grains.size());
   clumps_->gather(on_discs, forces);
   return forces;
 }

@@ -62,7 +62,7 @@ class ForceField {
   Neighbours neighbours_;
   ContactParameters parameters_;
   const KernelSet& kernels_;
-  ChosenKernel pair_kernel_;
+  PairKernel pair_kernel_;
   WallKernel wall_kernel_;
   WallContactFinder wall_finder_;
   WallContacts wall_contacts_;

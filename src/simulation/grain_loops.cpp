@@ -1,6 +1,8 @@
 // Compiled for each instruction set (VIBROSOW_ISA), see src/CMakeLists.txt.
 #include "simulation/grain_loops.hpp"
 
+#include <type_traits>
+
 #include "contact/compress.hpp"
 
 namespace vibrosow::inline VIBROSOW_ISA {
@@ -20,35 +22,48 @@ void predict(std::size_t n, double dt, double* x, double* v, const double* a) {
   }
 }
 
-/// Calls `visit(i, w)` for all grains, `w` known before the loop where it is the same for all.
-template <class Visit>
-[[gnu::always_inline]] inline void for_each(std::size_t n, PerGrain w, Visit visit) {
-  if (w.each) {
+/// Calls `take(v, a, now)` for each velocity of each grain, its old rate and that by which it is driven now.
+template <bool unequal, bool drags, bool rotation, class Take>
+[[gnu::always_inline]] inline void for_each_rate(std::size_t n, const Drive& drive, const Rates& rates, Take take) {
+  const double* force = &drive.force->fx;  // four numbers each
+  const double *each_per_mass = drive.per_mass.each, *each_per_inertia = drive.per_inertia.each;
+  const double same_per_mass = drive.per_mass.same, same_per_inertia = drive.per_inertia.same;
+  const double gx = drive.gravity_x, gy = drive.gravity_y, drag = drive.drag;
+  double *vx = rates.vx, *vy = rates.vy, *omega = rates.omega, *ax = rates.ax, *ay = rates.ay, *alpha = rates.alpha;
 #pragma omp simd
-    for (std::size_t i = 0; i < n; ++i) visit(i, w.each[i]);
-  } else {
-#pragma omp simd
-    for (std::size_t i = 0; i < n; ++i) visit(i, w.same);
+  for (std::size_t i = 0; i < n; ++i) {
+    const double per_mass = unequal ? each_per_mass[i] : same_per_mass;
+    double now_x = force[4 * i] * per_mass + gx, now_y = force[4 * i + 1] * per_mass + gy;
+    if constexpr (drags) now_x -= drag * per_mass * vx[i], now_y -= drag * per_mass * vy[i];
+    take(vx[i], ax[i], now_x), take(vy[i], ay[i], now_y);
+    if constexpr (rotation)
+      take(omega[i], alpha[i], force[4 * i + 2] * (unequal ? each_per_inertia[i] : same_per_inertia));
   }
 }
 
-void accelerate(std::size_t n, const double* f, PerGrain w, double g, double drag, const double* v, double* a) {
-  if (drag == 0)
-    for_each(n, w, [=](std::size_t i, double per_mass) { a[i] = f[i] * per_mass + g; });
+template <class Take>
+[[gnu::always_inline]] inline void drive_all(std::size_t n, const Drive& drive, const Rates& rates, Take take) {
+  const auto with = [&](auto unequal, auto drags) {
+    rates.omega ? for_each_rate<unequal, drags, true>(n, drive, rates, take)
+                : for_each_rate<unequal, drags, false>(n, drive, rates, take);
+  };
+  const std::true_type yes;
+  const std::false_type no;
+  if (drive.per_mass.each)
+    drive.drag == 0 ? with(yes, no) : with(yes, yes);
   else
-    for_each(n, w, [=](std::size_t i, double per_mass) { a[i] = f[i] * per_mass + g - drag * per_mass * v[i]; });
+    drive.drag == 0 ? with(no, no) : with(no, yes);
 }
 
-void correct(std::size_t n, double dt, const double* f, PerGrain w, double g, double drag, double* v, double* a) {
-  const double half = 0.5 * dt;
-  const auto take = [=](std::size_t i, double now) {
-    v[i] += half * (now - a[i]);
-    a[i] = now;
-  };
-  if (drag == 0)
-    for_each(n, w, [=](std::size_t i, double per_mass) { take(i, f[i] * per_mass + g); });
-  else
-    for_each(n, w, [=](std::size_t i, double per_mass) { take(i, f[i] * per_mass + g - drag * per_mass * v[i]); });
+void accelerate(std::size_t n, const Drive& drive, const Rates& rates) {
+  drive_all(n, drive, rates, [](double /*v*/, double& a, double now) { a = now; });
+}
+
+void correct(std::size_t n, double dt, const Drive& drive, const Rates& rates) {
+  drive_all(n, drive, rates, [half = 0.5 * dt](double& v, double& a, double now) {
+    v += half * (now - a);
+    a = now;
+  });
 }
 
 bool any_moved(std::size_t n, const double* x, const double* y, double shift_x, double shift_y, const double* was_x,
@@ -84,7 +99,6 @@ template <class Radius>
                                                         double margin, int* near_grain, int* near_partner) {
   constexpr std::size_t block = 256;
   unsigned char flags[block + 16];
-  int place[block + 16];
   std::size_t near = 0;
   for (std::size_t from = 0; from < n; from += block) {
     const int count = static_cast<int>(n - from < block ? n - from : block);
@@ -95,8 +109,8 @@ template <class Radius>
       const double dx = x[j] - (x[i] + shift), dy = y[j] - y[i], limit = radius(i) + margin + radius(j);
       flags[k] = dx * dx + dy * dy < limit * limit ? 1 : 0;
     }
-    const int set = positions_of_set(flags, count, 0, place);
-    for (int k = 0; k < set; ++k) near_grain[near] = a[place[k]], near_partner[near++] = b[place[k]];
+    near += static_cast<std::size_t>(
+        compress(flags, count, Kept<int>{a, near_grain + near}, Kept<int>{b, near_partner + near}));
   }
   return near;
 }

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 
+#include "contact/grain_force.hpp"
 #include "contact/instruction_set.hpp"
 
 namespace vibrosow {
@@ -12,16 +13,28 @@ struct PerGrain {
   double same;
 };
 
+/// What drives the grains: w F + g - drag w v and w T, with w = 1/m and 1/J.
+struct Drive {
+  const GrainForce* force;
+  PerGrain per_mass, per_inertia;
+  double gravity_x, gravity_y, drag;  // m/s2, kg/s
+};
+
+/// Velocities and their rates; without rotation `omega` and `alpha` are null.
+struct Rates {
+  double *vx, *vy, *omega, *ax, *ay, *alpha;
+};
+
 /// Loops over all grains, compiled for one instruction set. Every array has `n` entries.
 struct GrainLoops {
   /// x += dt (v + dt/2 a), v += dt a: positions and predicted velocities at the end of a step. No positions: x = null.
   void (*predict)(std::size_t n, double dt, double* x, double* v, const double* a);
 
-  /// a = f w + g - drag w v, with w = 1/m and g along this coordinate.
-  void (*accelerate)(std::size_t n, const double* f, PerGrain w, double g, double drag, const double* v, double* a);
+  /// Rates as they are driven.
+  void (*accelerate)(std::size_t n, const Drive& drive, const Rates& rates);
 
-  /// The same in place of the old a, and v += (a - old a) dt/2: velocities corrected at the end of a step.
-  void (*correct)(std::size_t n, double dt, const double* f, PerGrain w, double g, double drag, double* v, double* a);
+  /// The same in place of the old rates, and v += (a - old a) dt/2: velocities corrected at the end of a step.
+  void (*correct)(std::size_t n, double dt, const Drive& drive, const Rates& rates);
 
   /// Taylor's series for position, velocity and higher derivatives (gear5), one step on; x = null as above.
   void (*gear_predict)(std::size_t n, double dt, double* x, double* v, double* q2, double* q3, double* q4,

@@ -12,17 +12,22 @@ PerGrain per_inertia(const Grains& grains, std::size_t from) {
   return {grains.unequal ? grains.inverse_inertia.data() + from : nullptr, grains.kinds.front().inverse_inertia};
 }
 
+/// The forces of the last evaluation on the grains from number `a`.
+Drive drive_of(const Integration& s, std::size_t a) {
+  return {&s.field.forces()[a], per_mass(s.grains, a), per_inertia(s.grains, a), s.gravity.x(), s.gravity.y(), s.drag};
+}
+Rates rates_of(Integration& s, std::size_t a) {
+  const bool turns = s.grains.rotation;
+  return {&s.grains.vx[a], &s.grains.vy[a], turns ? &s.grains.omega[a] : nullptr,
+          &s.ax[a],        &s.ay[a],        turns ? &s.alpha[a] : nullptr};
+}
+
 /// a = F / m + g - (mu / m) v, alpha = T / J, into the arrays of `s`.
 void accelerations(Integration& s) {
   const Grains& grains = s.grains;
-  const Forces& forces = s.field.forces();
-  const GrainLoops& loops = s.execution.loops();
   s.ax.resize(grains.size()), s.ay.resize(grains.size()), s.alpha.resize(grains.omega.size());
   s.execution.share(grains.size(), [&](std::size_t a, std::size_t b) {
-    const PerGrain w = per_mass(grains, a);
-    loops.accelerate(b - a, &forces.fx[a], w, s.gravity.x(), s.drag, &grains.vx[a], &s.ax[a]);
-    loops.accelerate(b - a, &forces.fy[a], w, s.gravity.y(), s.drag, &grains.vy[a], &s.ay[a]);
-    if (grains.rotation) loops.accelerate(b - a, &forces.torque[a], per_inertia(grains, a), 0, 0, nullptr, &s.alpha[a]);
+    s.execution.loops().accelerate(b - a, drive_of(s, a), rates_of(s, a));
   });
 }
 
@@ -75,13 +80,8 @@ void velocity_verlet(Integration& s) {
   const double power_before = s.wall_power;
   s.field.evaluate(grains, next_time(s), {.trial = s.dt, .commit = s.dt, .present = 0.5}, s.census);
 
-  const Forces& forces = s.field.forces();
   s.execution.share(grains.size(), [&](std::size_t a, std::size_t b) {
-    const PerGrain w = per_mass(grains, a);
-    loops.correct(b - a, s.dt, &forces.fx[a], w, s.gravity.x(), s.drag, &grains.vx[a], &s.ax[a]);
-    loops.correct(b - a, s.dt, &forces.fy[a], w, s.gravity.y(), s.drag, &grains.vy[a], &s.ay[a]);
-    if (grains.rotation)
-      loops.correct(b - a, s.dt, &forces.torque[a], per_inertia(grains, a), 0, 0, &grains.omega[a], &s.alpha[a]);
+    loops.correct(b - a, s.dt, drive_of(s, a), rates_of(s, a));
     watch_speed(s, a, b);
   });
   s.wall_power = s.census.wall_power;

@@ -15,10 +15,10 @@ TEST(Friction, OpposesSlidingOnTheFloorAndTurnsTheGrain) {
   bench.place(0.5, Bench::radius - overlap, 1, 0);
   Simulation& run = bench.start(1e-9);
   const Forces& forces = run.field().forces();
-  EXPECT_LT(forces.fx[0], 0);
-  EXPECT_NEAR(-forces.fx[0], 0.3 * forces.fy[0], 1e-12 * forces.fy[0]);
+  EXPECT_LT(forces[0].fx, 0);
+  EXPECT_NEAR(-forces[0].fx, 0.3 * forces[0].fy, 1e-12 * forces[0].fy);
   // Sliding to the right, the floor drags the lowest point back: clockwise, negative.
-  EXPECT_NEAR(forces.torque[0], (Bench::radius - overlap) * forces.fx[0], 1e-15);
+  EXPECT_NEAR(forces[0].torque, (Bench::radius - overlap) * forces[0].fx, 1e-15);
 }
 
 TEST(Friction, SpinAloneDrivesTheGrainAlong) {
@@ -26,8 +26,8 @@ TEST(Friction, SpinAloneDrivesTheGrainAlong) {
   bench.scene.contact.wall.friction = 0.3;
   bench.place(0.5, Bench::radius - 1e-6, 0, 0, -100);  // clockwise: its lowest point moves left
   Simulation& run = bench.start(1e-9);
-  EXPECT_GT(run.field().forces().fx[0], 0);
-  EXPECT_GT(run.field().forces().torque[0], 0);
+  EXPECT_GT(run.field().forces()[0].fx, 0);
+  EXPECT_GT(run.field().forces()[0].torque, 0);
 }
 
 TEST(Friction, RollingWithoutSlidingFeelsNone) {
@@ -36,7 +36,7 @@ TEST(Friction, RollingWithoutSlidingFeelsNone) {
   const double arm = Bench::radius - 1e-6;
   bench.place(0.5, arm, 0.4, 0, -0.4 / arm);
   Simulation& run = bench.start(1e-9);
-  EXPECT_NEAR(run.field().forces().fx[0], 0, 1e-12);
+  EXPECT_NEAR(run.field().forces()[0].fx, 0, 1e-12);
 }
 
 TEST(Friction, BothGrainsOfAPairGetTorqueOfTheSameSign) {
@@ -46,10 +46,10 @@ TEST(Friction, BothGrainsOfAPairGetTorqueOfTheSameSign) {
   Simulation& run = bench.start(1e-9);
   const Forces& f = run.field().forces();
   // n = (1, 0), t = (0, 1), W > 0.
-  EXPECT_LT(f.fy[0], 0);
-  EXPECT_EQ(f.fy[0], -f.fy[1]);
-  EXPECT_LT(f.torque[0], 0);
-  EXPECT_EQ(f.torque[0], f.torque[1]);
+  EXPECT_LT(f[0].fy, 0);
+  EXPECT_EQ(f[0].fy, -f[1].fy);
+  EXPECT_LT(f[0].torque, 0);
+  EXPECT_EQ(f[0].torque, f[1].torque);
 }
 
 TEST(Friction, ArmsToTheContactPointKeepAngularMomentum) {

@@ -43,10 +43,10 @@ void add_look(Simulation& run, Column& column) {
     column.total_weight += part * weight;
     top = std::max(top, height + kind.radius);
     if (height < 1.1 * kind.radius) {  // on the floor; a wall's share in a corner's grain goes with it
-      column.floor_load += part * forces.fy[i];
+      column.floor_load += part * forces[i].fy;
     } else {
-      column.push[band] += part * std::abs(forces.fx[i]);
-      column.drag[band] += part * forces.fy[i];
+      column.push[band] += part * std::abs(forces[i].fx);
+      column.drag[band] += part * forces[i].fy;
     }
   }
   column.top += part * top;

@@ -33,7 +33,7 @@ TEST(Wall, IsAGrainOfInfiniteRadiusAndMass) {
       const std::vector<PlacedWall> walls{{0, 0, 1, 0, 0, 1, 0.01, 0.03}};
       std::vector<WallCandidate> near;
       if (as_wall) near.push_back({0, 0, 1});
-      Forces f{{0, 0}, {0, 0}, {0, 0}};
+      Forces f(2);
       ContactCensus census;
       const Motion at{grains.x.data(),  grains.y.data(),     grains.vx.data(),
                       grains.vy.data(), grains.omega.data(), grains.x.data()};
@@ -41,8 +41,8 @@ TEST(Wall, IsAGrainOfInfiniteRadiusAndMass) {
       const ContactParameters parameters = contact_parameters(scene);
       ContactHistory none;
       std::vector<ForeignForce> foreign;
-      add_pair_forces({kernels.vectors[0].pair, kernels.effects.rotation}, surfaces_of(grains), at, pairs,
-                      {0, static_cast<int>(pairs.size())}, parameters, {}, none, 0, f, foreign, census);
+      add_pair_forces(kernels.vectors[0].pair, surfaces_of(grains), at, pairs, {0, static_cast<int>(pairs.size())},
+                      parameters, {}, none, 0, f, foreign, census);
       WallContacts contacts;
       WallContactFinder().find(grains, near, walls, contacts);
       const double compression = kernels.vectors[0].wall(surfaces_of(grains), at, parameters, {}, none, contacts);
@@ -55,10 +55,10 @@ TEST(Wall, IsAGrainOfInfiniteRadiusAndMass) {
     const Forces wall = forces(true), pair = forces(false);
     // The giant's centre is 1 km away: its surface is placed to 1e-13 m, 1e-8 of the overlap, and 1/R* is out by 4e-6.
     const double tolerance = law == Law::elastic_shell ? 1e-6 : 3e-6;
-    EXPECT_NEAR(wall.fx[0], pair.fx[0], tolerance * std::abs(pair.fx[0]));
-    EXPECT_NEAR(wall.fy[0], pair.fy[0], tolerance * std::abs(pair.fy[0]));
-    EXPECT_NEAR(wall.torque[0], pair.torque[0], tolerance * std::abs(pair.torque[0]));
-    EXPECT_GT(pair.fy[0], 0);
+    EXPECT_NEAR(wall[0].fx, pair[0].fx, tolerance * std::abs(pair[0].fx));
+    EXPECT_NEAR(wall[0].fy, pair[0].fy, tolerance * std::abs(pair[0].fy));
+    EXPECT_NEAR(wall[0].torque, pair[0].torque, tolerance * std::abs(pair[0].torque));
+    EXPECT_GT(pair[0].fy, 0);
   }
 }
 
@@ -72,7 +72,7 @@ TEST(Wall, AJointOfTwoPiecesPushesOnce) {
   bench.place(0.5, ridge + Bench::radius - overlap);
   Simulation& run = bench.start(1e-9);
   const double stiffness = Bench::mass * standard_gravity / (1e-4 * Bench::radius);
-  EXPECT_NEAR(run.field().forces().fy[0], stiffness * overlap, 1e-6 * stiffness * overlap);
+  EXPECT_NEAR(run.field().forces()[0].fy, stiffness * overlap, 1e-6 * stiffness * overlap);
 }
 
 TEST(Wall, AVertexIsDroppedWhereAnAdjacentFaceIsTouched) {
@@ -82,8 +82,8 @@ TEST(Wall, AVertexIsDroppedWhereAnAdjacentFaceIsTouched) {
   bench.place(0.45 - inside, Bench::radius - overlap);
   Simulation& run = bench.start(1e-9);
   const double stiffness = Bench::mass * standard_gravity / (1e-4 * Bench::radius);
-  EXPECT_NEAR(run.field().forces().fy[0], stiffness * overlap, 1e-9 * stiffness * overlap);
-  EXPECT_NEAR(run.field().forces().fx[0], 0, 1e-9 * stiffness * overlap);
+  EXPECT_NEAR(run.field().forces()[0].fy, stiffness * overlap, 1e-9 * stiffness * overlap);
+  EXPECT_NEAR(run.field().forces()[0].fx, 0, 1e-9 * stiffness * overlap);
 }
 
 TEST(Wall, IsKnownToTheContactsThroughBox2DAlone) {

@@ -34,8 +34,8 @@ TEST(Arc, PushesOnceAlongItsRadiusFromBothSides) {
       bench.place(0.5 + distance * std::cos(angle), 0.5 + distance * std::sin(angle));
       const Simulation& run = bench.start(1e-9);
       const double outward = inside ? -1 : 1;
-      EXPECT_NEAR(run.field().forces().fx[0], outward * force * std::cos(angle), 1e-6 * force);
-      EXPECT_NEAR(run.field().forces().fy[0], outward * force * std::sin(angle), 1e-6 * force);
+      EXPECT_NEAR(run.field().forces()[0].fx, outward * force * std::cos(angle), 1e-6 * force);
+      EXPECT_NEAR(run.field().forces()[0].fy, outward * force * std::sin(angle), 1e-6 * force);
       EXPECT_EQ(run.census().contacts, 1);
     }
 }
@@ -47,8 +47,8 @@ TEST(Arc, BeyondItsSectorItsEndPushes) {
   const double distance = Bench::radius - overlap;
   bench.place(0.6 + distance * std::cos(angle), 0.5 + distance * std::sin(angle));
   const Simulation& run = bench.start(1e-9);
-  EXPECT_NEAR(run.field().forces().fx[0], force * std::cos(angle), 1e-6 * force);
-  EXPECT_NEAR(run.field().forces().fy[0], force * std::sin(angle), 1e-6 * force);
+  EXPECT_NEAR(run.field().forces()[0].fx, force * std::cos(angle), 1e-6 * force);
+  EXPECT_NEAR(run.field().forces()[0].fy, force * std::sin(angle), 1e-6 * force);
 }
 
 TEST(Arc, ALineThatRunsIntoItIsFeltOnce) {
@@ -60,7 +60,7 @@ TEST(Arc, ALineThatRunsIntoItIsFeltOnce) {
     one.place(0.4 + Bench::radius - overlap, y);
     const Simulation& run = one.start(1e-9);
     EXPECT_EQ(run.census().contacts, 1) << y;
-    EXPECT_NEAR(run.field().forces().fx[0], force, 1e-3 * force) << y;
+    EXPECT_NEAR(run.field().forces()[0].fx, force, 1e-3 * force) << y;
   }
 }
 

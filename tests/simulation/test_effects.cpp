@@ -113,7 +113,6 @@ TEST(Effects, AbsentOnesHaveNoArrays) {
   Simulation& run = bench.start(1e-5);
   EXPECT_TRUE(run.grains().omega.empty());
   EXPECT_TRUE(run.grains().radius.empty());
-  EXPECT_TRUE(run.field().forces().torque.empty());
 }
 
 TEST(Effects, EveryRegisteredSetIsFoundAndDistinct) {

@@ -161,10 +161,10 @@ TEST(Motion, AGrainLyingOnARockingFloorFeelsTheFloorsOwnVelocity) {
   const double stiffness = Bench::mass * standard_gravity / (1e-4 * Bench::radius);
   const double height = Bench::radius - overlap;
   bench.place(along, height, -spin * height, spin * along, spin);
-  EXPECT_NEAR(bench.start(1e-9).field().forces().fy[0], stiffness * overlap, 1e-6 * stiffness * overlap);
-  EXPECT_NEAR(bench.start(1e-9).field().forces().fx[0], 0, 1e-6 * stiffness * overlap);
+  EXPECT_NEAR(bench.start(1e-9).field().forces()[0].fy, stiffness * overlap, 1e-6 * stiffness * overlap);
+  EXPECT_NEAR(bench.start(1e-9).field().forces()[0].fx, 0, 1e-6 * stiffness * overlap);
   bench.scene.tray.motion.reset();
-  EXPECT_GT(std::abs(bench.start(1e-9).field().forces().fy[0] - stiffness * overlap), 0.1 * stiffness * overlap)
+  EXPECT_GT(std::abs(bench.start(1e-9).field().forces()[0].fy - stiffness * overlap), 0.1 * stiffness * overlap)
       << "against a floor at rest it is damped";
 }
 

@@ -147,7 +147,7 @@ inline ImpactResult wall_impact(Bench& bench, double down, double along, double 
   Simulation& run = bench.start(dt);
   return run_impact(
       run, dt, [r](const Simulation& s) { return r - s.grains().y[0]; },
-      [](const Simulation& s) { return s.field().forces().fy[0]; });
+      [](const Simulation& s) { return s.field().forces()[0].fy; });
 }
 
 /// Grain 0 (lot 0) flies at `speed` (m/s) along x into grain 1 (of `lot`), which is at rest.
@@ -157,7 +157,7 @@ inline ImpactResult head_on_impact(Bench& bench, double speed, int lot, double d
   Simulation& run = bench.start(dt);
   return run_impact(
       run, dt, [reach](const Simulation& s) { return reach - (s.grains().x[1] - s.grains().x[0]); },
-      [](const Simulation& s) { return -s.field().forces().fx[0]; });
+      [](const Simulation& s) { return -s.field().forces()[0].fx; });
 }
 
 }  // namespace vibrosow

@@ -108,7 +108,7 @@ TEST(Clump, AnImpactOffCentreIsThatOfARigidBody) {
             std::int64_t touched = 0, free_steps = 0;
             while (free_steps < 10 && run.time() < 1e-3) {
               ASSERT_TRUE(run.step()) << *run.guard().stop_reason();
-              const bool pushed = run.field().forces().fy[0] > 0;
+              const bool pushed = run.field().forces()[0].fy > 0;
               touched += pushed ? 1 : 0;
               free_steps = touched > 0 && !pushed ? free_steps + 1 : 0;
             }

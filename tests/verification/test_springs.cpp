@@ -113,9 +113,9 @@ TEST(TangentialSpring, IsLimitedByCoulombAndShortened) {
       for (int k = 0; k < 100; ++k) {
         ASSERT_TRUE(run.step());
         const Forces& f = run.field().forces();
-        ASSERT_NEAR(-f.fx[0], 0.5 * f.fy[0], 1e-12 * f.fy[0]);
+        ASSERT_NEAR(-f[0].fx, 0.5 * f[0].fy, 1e-12 * f[0].fy);
         const double slip = run.field().neighbours().wall_history().slip[0];
-        ASSERT_NEAR(slip, 0.5 * f.fy[0] / grain.stiffness(), 1e-3 * slip);
+        ASSERT_NEAR(slip, 0.5 * f[0].fy / grain.stiffness(), 1e-3 * slip);
       }
     }
 }

@@ -138,9 +138,9 @@ Felt felt(Law law, int lot, int other) {
   }
   Simulation& run = bench.start(1e-9);
   const Forces& f = run.field().forces();
-  const double repulsion = k * overlap, normal = other < 0 ? f.fy[0] : -f.fx[0];
-  const double tangential = other < 0 ? -f.fx[0] : f.fy[0], arm = Bench::radius - (other < 0 ? 1 : 0.5) * overlap;
-  const double rolling = f.torque[0] + (other < 0 ? 1 : -1) * arm * tangential;
+  const double repulsion = k * overlap, normal = other < 0 ? f[0].fy : -f[0].fx;
+  const double tangential = other < 0 ? -f[0].fx : f[0].fy, arm = Bench::radius - (other < 0 ? 1 : 0.5) * overlap;
+  const double rolling = f[0].torque + (other < 0 ? 1 : -1) * arm * tangential;
   const double rolling_radius = other < 0 ? Bench::radius : 0.5 * Bench::radius;
   return {std::abs(tangential) / repulsion, std::abs(rolling) / (repulsion * rolling_radius), repulsion - normal};
 }
