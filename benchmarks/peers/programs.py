@@ -76,12 +76,13 @@ def start_of(bench, scene, seed=1):
 
 
 def vibrosow(bench, scene, start, window, options=()):
-    """The window is the difference of two runs from the start."""
+    """The window is the measuring window of a run; what was counted in it, the difference from a run that ends there."""
     options = ('--random-seed', start.seed, *options)
-    runs = [run_vibrosow(bench, scene, steps * start.dt, *options) for steps in (window.lead, window.lead + window.steps)]
-    (before, wall_before), (after, wall_after) = runs
+    lead = window.lead * start.dt
+    before, _ = run_vibrosow(bench, scene, lead, *options)
+    after, timing = run_vibrosow(bench, scene, lead + window.steps * start.dt, *options, '--set', f'run.measure_from={lead!r} s')
     steps = after['steps'] - before['steps']
-    result = Result(wall_after['wall_s'] - wall_before['wall_s'], after['grain_steps'] - before['grain_steps'],
+    result = Result(timing['measured_wall_s'], after['grain_steps'] - before['grain_steps'],
                     after['balance']['put_in'], after['dt_s'], steps,
                     (after['force_evaluations'] - before['force_evaluations']) / steps)
     if window.rest:

@@ -6,9 +6,9 @@ namespace vibrosow {
 
 /// Contact force on one grain; four numbers, so that vector instructions add them at once.
 struct alignas(32) GrainForce {
-  double fx = 0, fy = 0;  // N
-  double torque = 0;      // N m; 0 without rotation
-  double spare = 0;       // means nothing
+  double fx, fy;  // N
+  double torque;  // N m; 0 without rotation
+  double spare;   // means nothing
 };
 
 /// By grain.

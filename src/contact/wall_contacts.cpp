@@ -41,48 +41,52 @@ void make_room(std::size_t most, WallContacts& contacts) {
 
 void WallContactFinder::find(const Grains& grains, const std::vector<WallCandidate>& candidates,
                              const std::vector<PlacedWall>& walls, WallContacts& contacts) {
-  make_room(candidates.size(), contacts);
+  const std::size_t count = candidates.size();
+  make_room(count, contacts);
   contacts.count = 0;
-  nearest_.resize(candidates.size()), touches_.resize(candidates.size());
-  for (std::size_t from = 0, to = 0; from < candidates.size(); from = to) {
-    while (to < candidates.size() && candidates[to].grain == candidates[from].grain) ++to;
-    find_of_grain(grains, candidates, from, to, walls, contacts);
+  nearest_.resize(count), touches_.resize(count), near_.resize(count + 1);
+  std::size_t near = 0;
+  for (std::size_t c = 0; c < count; ++c) {
+    const std::size_t i = static_cast<std::size_t>(candidates[c].grain);
+    const double radius = grains.unequal ? grains.radius[i] : grains.kinds.front().radius;
+    nearest_[c] = nearest_point(walls[static_cast<std::size_t>(candidates[c].wall)], grains.x[i], grains.y[i]);
+    touches_[c] = 0;
+    near_[near] = c;
+    near += nearest_[c].distance2 < radius * radius ? 1 : 0;
+  }
+  const auto touch = [&](std::size_t c) {
+    const std::size_t i = static_cast<std::size_t>(candidates[c].grain);
+    touches_[c] = 1;
+    add(candidates[c], c, nearest_[c], walls[static_cast<std::size_t>(candidates[c].wall)], grains.x[i], grains.y[i],
+        contacts);
+  };
+  for (std::size_t from = 0, to = 0; from < near; from = to) {
+    while (to < near && candidates[near_[to]].grain == candidates[near_[from]].grain) ++to;
+    if (to == from + 1)
+      touch(near_[from]);
+    else
+      touch_each_point_once(candidates, walls, from, to, touch);
   }
 }
 
 /// Faces first, then each end point once and only where no touched face ends in it.
-void WallContactFinder::find_of_grain(const Grains& grains, const std::vector<WallCandidate>& candidates,
-                                      std::size_t from, std::size_t to, const std::vector<PlacedWall>& walls,
-                                      WallContacts& contacts) {
-  const std::size_t i = static_cast<std::size_t>(candidates[from].grain);
-  const double x = grains.x[i], y = grains.y[i];
-  const double radius = grains.unequal ? grains.radius[i] : grains.kinds.front().radius, radius2 = radius * radius;
-  const auto wall_of = [&](std::size_t c) -> const PlacedWall& {
-    return walls[static_cast<std::size_t>(candidates[c].wall)];
-  };
-  bool any = false;
-  for (std::size_t c = from; c < to; ++c) {
-    nearest_[c] = nearest_point(wall_of(c), x, y);
-    touches_[c] = 0;
-    any |= nearest_[c].distance2 < radius2;
-  }
-  if (!any) return;
+template <class Touch>
+void WallContactFinder::touch_each_point_once(const std::vector<WallCandidate>& candidates,
+                                              const std::vector<PlacedWall>& walls, std::size_t from, std::size_t to,
+                                              Touch touch) {
   covered_.clear();
-  const auto touch = [&](std::size_t c) {
-    touches_[c] = 1;
-    add(candidates[c], c, nearest_[c], wall_of(c), x, y, contacts);
-  };
-  for (std::size_t c = from; c < to; ++c) {
-    if (nearest_[c].vertex >= 0 || nearest_[c].distance2 >= radius2) continue;
-    covered_.push_back(wall_of(c).vertex_a), covered_.push_back(wall_of(c).vertex_b);
+  for (std::size_t k = from; k < to; ++k) {
+    const std::size_t c = near_[k];
+    if (nearest_[c].vertex >= 0) continue;
+    const PlacedWall& wall = walls[static_cast<std::size_t>(candidates[c].wall)];
+    covered_.push_back(wall.vertex_a), covered_.push_back(wall.vertex_b);
     touch(c);
   }
-  for (std::size_t c = from; c < to; ++c) {
-    const int vertex = nearest_[c].vertex;
-    if (vertex < 0 || nearest_[c].distance2 >= radius2) continue;
-    if (std::find(covered_.begin(), covered_.end(), vertex) != covered_.end()) continue;
+  for (std::size_t k = from; k < to; ++k) {
+    const int vertex = nearest_[near_[k]].vertex;
+    if (vertex < 0 || std::ranges::find(covered_, vertex) != covered_.end()) continue;
     covered_.push_back(vertex);
-    touch(c);
+    touch(near_[k]);
   }
 }
 

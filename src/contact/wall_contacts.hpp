@@ -25,11 +25,13 @@ class WallContactFinder {
   void forget_parted(ContactHistory& history) const;
 
  private:
-  void find_of_grain(const Grains& grains, const std::vector<WallCandidate>& candidates, std::size_t from,
-                     std::size_t to, const std::vector<PlacedWall>& walls, WallContacts& contacts);
+  template <class Touch>
+  void touch_each_point_once(const std::vector<WallCandidate>& candidates, const std::vector<PlacedWall>& walls,
+                             std::size_t from, std::size_t to, Touch touch);
 
   std::vector<NearestPoint> nearest_;   // by candidate
   std::vector<unsigned char> touches_;  // by candidate
+  std::vector<std::size_t> near_;       // candidates nearer than a radius; places to spare
   std::vector<int> covered_;            // end points of one grain
 };
 

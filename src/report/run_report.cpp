@@ -131,7 +131,7 @@ std::string run_json(const Scene& scene, const Run& run, const Outflow& outflow,
 }
 
 std::string timing_json(const Run& run) {
-  Json json = {{"wall_s", run.wall_time}, {"grain_steps_per_s", nullptr}};
+  Json json = {{"wall_s", run.wall_time}, {"measured_wall_s", run.measured_wall_time}, {"grain_steps_per_s", nullptr}};
   if (run.wall_time <= 0) return text_of(json);
   json["grain_steps_per_s"] = static_cast<double>(run.grain_steps) / run.wall_time;
   if (run.phase_times)

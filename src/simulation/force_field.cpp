@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 
 #include "scene/seed_lot.hpp"
 
@@ -65,7 +66,8 @@ void ForceField::set_pair_forces(const Grains& discs, const Motion& at, const Hi
     RangeResult& result = range_results_[range];
     result.foreign.clear();
     result.census = {};
-    std::fill(forces.begin() + first_grain(range), forces.begin() + first_grain(range + 1), GrainForce{});
+    std::memset(forces.data() + first_grain(range), 0,
+                sizeof(GrainForce) * static_cast<std::size_t>(first_grain(range + 1) - first_grain(range)));
     add_pair_forces(pair_kernel_, surfaces, at, pairs, {first_entry(range), first_entry(range + 1)}, parameters_,
                     advance, history, first_grain(range), forces, result.foreign, result.census);
   });

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <cstdint>
 #include <ranges>
 #include <utility>
 
@@ -106,16 +107,18 @@ void drop_pairs_within_clumps(const std::vector<int>& clump, PairList& list) {
 /// The same where both lists know each pair by the same order, for entries [from, to) of the new one: one search.
 void carry_over(const PairList& old, const ContactHistory& old_history, const PairList& list, std::size_t from,
                 std::size_t to, ContactHistory& history) {
-  const auto before = [](const PairList& a, std::size_t k, const PairList& b, std::size_t m) {
-    return a.grain[k] != b.grain[m] ? a.grain[k] < b.grain[m] : a.partner[k] < b.partner[m];
+  const auto pair_of = [](const PairList& pairs, std::size_t k) {
+    return std::int64_t{pairs.grain[k]} << 32 | std::int64_t{pairs.partner[k]};
   };
   if (from == to) return;
-  std::size_t k = *std::ranges::partition_point(std::views::iota(std::size_t{0}, old.size()),
-                                                [&](std::size_t entry) { return before(old, entry, list, from); });
-  for (std::size_t m = from; m < to; ++m) {
-    while (k < old.size() && before(old, k, list, m)) ++k;
-    if (k == old.size()) return;
-    if (!before(list, m, old, k)) copy_entry(old_history, k, history, m);
+  const std::size_t end = old.size();
+  std::size_t k = *std::ranges::partition_point(std::views::iota(std::size_t{0}, end), [&](std::size_t entry) {
+    return pair_of(old, entry) < pair_of(list, from);
+  });
+  for (std::size_t m = from; m < to && k < end; ++m) {
+    const std::int64_t pair = pair_of(list, m);
+    while (k < end && pair_of(old, k) < pair) ++k;
+    if (k < end && pair_of(old, k) == pair && old_history.touched[k]) copy_entry(old_history, k, history, m);
   }
 }
 

@@ -12,10 +12,16 @@ namespace {
 
 constexpr std::int64_t steps_between_looks = 256;
 
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
 }  // namespace
 
 Run simulate(const Scene& scene, const SimulationOptions& options) {
-  const auto started = std::chrono::steady_clock::now();
+  const Clock::time_point started = Clock::now();
   const StepPlan plan = plan_step(scene);
   if (const auto refused = step_refused(scene, plan)) throw InputError(*refused);
   const EffectSet effects = effects_of(scene);
@@ -30,14 +36,17 @@ Run simulate(const Scene& scene, const SimulationOptions& options) {
                          .threads = options.threads,
                          .profile = options.profile});
   bool interrupted = false;
+  Clock::time_point measuring = Clock::now();
   for (std::int64_t done = 0; done < plan.steps && !interrupted && simulation.step();) {
+    if (simulation.time() <= scene.run.measure_from) measuring = Clock::now();
     if (++done % steps_between_looks != 0) continue;
     interrupted = options.interrupt && options.interrupt->load();
     if (options.progress) options.progress(static_cast<double>(done) / static_cast<double>(plan.steps));
   }
   Run run = simulation.result();
   if (interrupted) run.status = RunStatus::interrupted;
-  run.wall_time = std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
+  run.wall_time = seconds_since(started);
+  run.measured_wall_time = run.end_time > scene.run.measure_from ? seconds_since(measuring) : 0;
   if (run.phase_times)  // packing came before the stopwatch was started
     run.phase_times->front() += run.wall_time - std::accumulate(run.phase_times->begin(), run.phase_times->end(), 0.0);
   return run;
