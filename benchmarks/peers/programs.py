@@ -39,6 +39,7 @@ class Bench:
 
     def __init__(self, vibrosow, box2d, core, work):
         self.vibrosow, self.box2d, self.core, self.work = Path(vibrosow).resolve(), box2d, core, Path(work)
+        self.before = {}  # of each scene and its start: what Vibrosow counts up to the timed window
 
     def output_of(self, command):
         """Runs on the one core, without threads; returns what it printed, or fails with it."""
@@ -52,10 +53,12 @@ class Bench:
 
 @dataclass
 class Start:
-    """The grains of a scene at time 0 as Vibrosow lays them with a random seed, and its step."""
+    """The grains of a scene as Vibrosow has laid them with a random seed and let them fall, and its step. Without motions (m/s,
+    m/s, rad/s) they start at rest."""
     places: list
     dt: float
     seed: int = 1
+    motions: list = ()
 
 
 def run_vibrosow(bench, scene, duration, *options):
@@ -67,19 +70,25 @@ def run_vibrosow(bench, scene, duration, *options):
 
 
 def start_of(bench, scene, seed=1):
-    """The first picture of a short run: x and y from the tray's left end; of the channel from the middle of its gate."""
-    run, _ = run_vibrosow(bench, scene, 1e-4, '--random-seed', seed, '--set', 'record.times=["0 s"]')
+    """A picture when they have fallen: x and y from the tray's left end; of the channel from the middle of its gate."""
+    run, _ = run_vibrosow(bench, scene, scene.fallen + 1e-4, '--random-seed', seed, '--set',
+                          f'record.times=["{scene.fallen!r} s"]')
     shift = 0 if scene.is_tray else -run['scene']['tray']['holes'][0]['centre_m']
     with open(bench.work / 'vibrosow' / 'grains_001.csv') as file:
-        places = [(float(row['x_mm']) / 1e3 + shift, float(row['y_mm']) / 1e3) for row in csv.DictReader(file)]
-    return Start(places, run['dt_s'], seed)
+        rows = list(csv.DictReader(file))
+    places = [(float(row['x_mm']) / 1e3 + shift, float(row['y_mm']) / 1e3) for row in rows]
+    motions = [tuple(float(row[name]) for name in ('vx_m_per_s', 'vy_m_per_s', 'omega_rad_per_s')) for row in rows]
+    return Start(places, run['dt_s'], seed, motions if scene.fallen else ())
 
 
 def vibrosow(bench, scene, start, window, options=()):
     """The window is the measuring window of a run; what was counted in it, the difference from a run that ends there."""
     options = ('--random-seed', start.seed, *options)
-    lead = window.lead * start.dt
-    before, _ = run_vibrosow(bench, scene, lead, *options)
+    lead = scene.fallen + window.lead * start.dt
+    case = (scene.name, lead, options)
+    if case not in bench.before:
+        bench.before[case], _ = run_vibrosow(bench, scene, lead, *options)
+    before = bench.before[case]
     after, timing = run_vibrosow(bench, scene, lead + window.steps * start.dt, *options, '--set', f'run.measure_from={lead!r} s')
     steps = after['steps'] - before['steps']
     result = Result(timing['measured_wall_s'], after['grain_steps'] - before['grain_steps'],
@@ -97,13 +106,17 @@ def vibrosow_as_published(bench, scene, start, window):
     return vibrosow(bench, scene, start, window, [word for text in published for word in ('--set', text)])
 
 
-def write_atoms(path, scene, places, density, types=1):
-    """A data file of spheres: number, type, diameter, density, x, y, z."""
+def write_atoms(path, scene, start, density, types=1):
+    """A data file of spheres: number, type, diameter, density, x, y, z; number, velocity, spin."""
+    places = start.places
     low, high = min(scene.count_at, -2 * scene.radius) - 0.002, max(y for _, y in places) + 0.3
     wide = max(max(abs(x) for wall in scene.walls for x, _ in wall), 0) + 0.05
     lines = [scene.name, '', f'{len(places)} atoms', f'{types} atom types', '', f'{-wide} {wide} xlo xhi',
              f'{low} {high} ylo yhi', f'{-2 * scene.radius} {2 * scene.radius} zlo zhi', '', 'Atoms', '']
     lines += [f'{k} 1 {2 * scene.radius} {density!r} {x!r} {y!r} 0' for k, (x, y) in enumerate(places, 1)]
+    if start.motions:
+        lines += ['', 'Velocities', '']
+        lines += [f'{k} {vx!r} {vy!r} 0 0 0 {omega!r}' for k, (vx, vy, omega) in enumerate(start.motions, 1)]
     path.write_text('\n'.join(lines) + '\n')
 
 
@@ -138,7 +151,7 @@ def lammps_laws(scene):
 
 
 def lammps(bench, scene, start, window, skin=None):
-    write_atoms(bench.work / 'lammps.data', scene, start.places, ball_density(scene))
+    write_atoms(bench.work / 'lammps.data', scene, start, ball_density(scene))
     steep = math.radians(67.5)
     variables = window_variables(window, skin or scene.skin['lammps']) | lammps_laws(scene) | {
         'data': 'lammps.data', 'dt': start.dt, 'holes': scene.holes, 'amplitude': scene.amplitude,
@@ -148,7 +161,7 @@ def lammps(bench, scene, start, window, skin=None):
 
 
 def liggghts(bench, scene, start, window):
-    write_atoms(bench.work / 'liggghts.data', scene, start.places, ball_density(scene), types=2)
+    write_atoms(bench.work / 'liggghts.data', scene, start, ball_density(scene), types=2)
     write_mesh(bench.work / 'walls.stl', scene)
     variables = window_variables(window, scene.skin['liggghts']) | {
         key: value for key, value in scene.law.items() if key != 'restitution'} | {
@@ -189,7 +202,7 @@ def yade(bench, scene, start, window):
     if scene.is_tray:
         law |= {'dashpot_n': law['gamma_n'] * reduced, 'dashpot_t': law['gamma_t'] * reduced}
     parameters = law | {
-        'textbook_restitution': textbook_restitution(0.5), 'places': start.places, 'walls': scene.walls, 'radius': scene.radius,
+        'textbook_restitution': textbook_restitution(0.5), 'places': start.places, 'motions': start.motions, 'walls': scene.walls, 'radius': scene.radius,
         'density': ball_density(scene), 'inertia': scene.inertia, 'amplitude': scene.amplitude, 'frequency': scene.frequency,
         'count_at': scene.count_at, 'dt': start.dt, 'lead': window.lead, 'steps': window.steps, 'rest': window.rest,
         'sample': window.sample or max(1, window.steps // 40), 'verlet_distance': scene.skin['yade']}

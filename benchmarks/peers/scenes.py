@@ -16,7 +16,8 @@ class Window(NamedTuple):
 
 @dataclass(frozen=True)
 class Scene:
-    """`lead` and `window` are seconds; `outflow` the time at which grains out are counted (0: nothing leaves)."""
+    """`lead` and `window` are seconds; `outflow` the time at which grains out are counted (0: nothing leaves); `fallen` that
+    at which Vibrosow's grains are taken over by the others, for whom it is time 0."""
     name: str
     file: str
     sets: tuple
@@ -33,6 +34,7 @@ class Scene:
     frequency: float = 0
     skin: dict = field(default_factory=dict)
     count_at: float = -0.02
+    fallen: float = 0
 
     @property
     def is_tray(self):
@@ -106,7 +108,7 @@ def channel():
     mass = 4 / 3 * math.pi * 2500 * radius**3
     wide = half + top * math.tan(math.radians(22.5))
     walls = (((-half, 0), (half, 0)), ((-half, 0), (-wide, top)), ((half, 0), (wide, top)))
-    return Scene(name='channel', file='channel.toml', sets=(), lead=0.02, window=0.05, outflow=0, radius=radius, mass=mass,
+    return Scene(name='channel', file='channel.toml', sets=(), lead=0.02, window=0.05, outflow=0, fallen=0.45, radius=radius, mass=mass,
                  inertia=0.4 * mass * radius**2, walls=walls, law=hertz_law(5e10, 0.2, 0.4663),
                  skin={'lammps': 1e-3, 'liggghts': 1e-3, 'yade': 0.1 * radius})
 

@@ -74,8 +74,8 @@ struct Part {
 
 /// Where the grains near one grain stand: `count` places of a part's `near`.
 struct Row {
-  int part;
-  std::size_t begin, count;
+  std::size_t begin;
+  int part, count;
 };
 
 struct WallQuery : b2QueryCallback {
@@ -184,7 +184,7 @@ struct Broadphase::World {
         const int count = near_places(part.around.view(), all ? -1 : grain, sorted.x[k] + moved, sorted.y[k],
                                       sorted.r[k] + margin, part.near.data() + begin);
         part.near.resize(begin + static_cast<std::size_t>(count));
-        rows[static_cast<std::size_t>(grain)] = {range, begin, static_cast<std::size_t>(count)};
+        rows[static_cast<std::size_t>(grain)] = {begin, range, count};
       }
     }
   }
@@ -252,7 +252,7 @@ struct Broadphase::World {
   }
 
   std::span<const int> near_of(const Row& row) const {
-    return {parts[static_cast<std::size_t>(row.part)].near.data() + row.begin, row.count};
+    return {parts[static_cast<std::size_t>(row.part)].near.data() + row.begin, static_cast<std::size_t>(row.count)};
   }
 };
 

@@ -15,6 +15,11 @@
 namespace vibrosow {
 namespace {
 
+/// In mm, of nine digits: overlaps of stiff grains are below a micrometre.
+std::string place(double length) {
+  return fmt::format("{:.9g}", 1e3 * length + 0.0);  // no "-0"
+}
+
 std::string millimetres(double length) {
   return csv_number(length * 1e3);
 }
@@ -59,7 +64,7 @@ std::string grains_csv(const Scene& scene, const Snapshot& snapshot, const Snaps
   CsvTable table({"number", "lot", "x_mm", "y_mm", "vx_m_per_s", "vy_m_per_s", "omega_rad_per_s", "angle_rad",
                   "radius_mm", "start_x_mm", "start_y_mm", "shear"});
   for (std::size_t i = 0; i < own.size(); ++i)
-    table.add_row({csv_number(own.number[i]), lot_name(scene, own.lot[i]), millimetres(own.x[i]), millimetres(own.y[i]),
+    table.add_row({csv_number(own.number[i]), lot_name(scene, own.lot[i]), place(own.x[i]), place(own.y[i]),
                    csv_number(own.vx[i]), csv_number(own.vy[i]), csv_number(own.omega[i]),
                    own.angle.empty() ? "" : csv_number(own.angle[i]), millimetres(own.radius[i]),
                    millimetres(own.start_x[i]), millimetres(own.start_y[i]), csv_number(shear[i])});

@@ -8,7 +8,7 @@ p = read_parameters()
 number = len(p['places'])
 rock = O.materials.append(FrictMat(young=p['youngs_modulus'], poisson=p['poisson_ratio'],
                                    frictionAngle=math.atan(p['friction']), density=p['density']))
-grains(p['places'], p['radius'], rock, p['inertia'])
+grains(p, rock)
 for start, end in p['walls']:
     wall(start, end, rock)
 restitution = p['textbook_restitution']

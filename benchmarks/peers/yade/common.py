@@ -22,12 +22,14 @@ def wall(start, end, material):
     return O.bodies.append([facet([a, b, c], material=material), facet([a, c, d], material=material)])
 
 
-def grains(places, radius, material, inertia):
+def grains(parameters, material):
     """Balls that stay in the plane z = 0 and turn about z only."""
-    for x, y in places:
-        ball = sphere((x, y, 0), radius, material=material)
+    motions = parameters['motions'] or [(0, 0, 0)] * len(parameters['places'])
+    for (x, y), (vx, vy, omega) in zip(parameters['places'], motions):
+        ball = sphere((x, y, 0), parameters['radius'], material=material)
         ball.state.blockedDOFs = 'zXY'
-        ball.state.inertia = (inertia,) * 3
+        ball.state.inertia = (parameters['inertia'],) * 3
+        ball.state.vel, ball.state.angVel = (vx, vy, 0), (0, 0, omega)
         O.bodies.append(ball)
 
 

@@ -12,7 +12,7 @@ law = dict(frictionAngle=math.atan(p['friction']), density=p['density'])
 grain = O.materials.append(
     ViscElMat(kn=2 * p['kn'], ks=2 * p['kt'], cn=2 * p['dashpot_n'], cs=2 * p['dashpot_t'], **law))
 rigid = O.materials.append(ViscElMat(kn=0, ks=0, cn=0, cs=0, **law))
-grains(p['places'], p['radius'], grain, p['inertia'])
+grains(p, grain)
 tray = [i for start, end in p['walls'] for i in wall(start, end, rigid)]
 
 
