@@ -127,7 +127,7 @@ void compare() {
     ours.push_back(seconds([&] {
       for (int k = 0; k < evaluations; ++k)
         add_pair_forces(kernel, surfaces_of(grains), at, list, {0, static_cast<int>(list.size())}, parameters,
-                        {.trial = dt, .commit = dt, .present = 0.5}, history, 0, forces, foreign, census);
+                        {.trial = dt, .commit = dt, .present = 0.5}, history, {0, 0}, forces, foreign, census);
     }));
     theirs.push_back(seconds([&] {
       for (int k = 0; k < evaluations; ++k) bare_contacts += bare_kernel(bare, grains, list, bare_history, forces);

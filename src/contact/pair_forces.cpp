@@ -1,21 +1,30 @@
 #include "contact/pair_forces.hpp"
 
 #include <algorithm>
+#include <cstring>
 
 namespace vibrosow {
 
 void add_pair_forces(PairKernel kernel, const GrainSurfaces& grains, const Motion& at, const PairList& list,
                      PairRange range, const ContactParameters& parameters, const HistoryAdvance& advance,
-                     ContactHistory& history, int first_own, Forces& forces, std::vector<ForeignForce>& foreign,
+                     ContactHistory& history, GrainRange fresh, Forces& forces, std::vector<ForeignForce>& foreign,
                      ContactCensus& census) {
   PairResult result;
-  result.forces = forces.data(), result.first_own = first_own;
+  result.forces = forces.data(), result.first_own = fresh.from;
+  int begun = fresh.from;
+  const auto begin_up_to = [&](int end) {  // just before they are added to, and still in the cache then
+    if (end > begun) std::memset(forces.data() + begun, 0, sizeof(GrainForce) * static_cast<std::size_t>(end - begun));
+    begun = std::max(begun, end);
+  };
   for (int from = range.from; from < range.to; from += pair_block_size) {
-    kernel(grains, at, list, {from, std::min(from + pair_block_size, range.to)}, parameters, advance, history, result);
+    const int to = std::min(from + pair_block_size, range.to);
+    begin_up_to(std::min(list.grain[static_cast<std::size_t>(to) - 1] + 1, fresh.to));
+    kernel(grains, at, list, {from, to}, parameters, advance, history, result);
     foreign.insert(foreign.end(), result.foreign, result.foreign + result.foreign_count);
     census.contacts += result.contacts;
     census.max_compression = std::max(census.max_compression, result.max_compression);
   }
+  begin_up_to(fresh.to);
 }
 
 }  // namespace vibrosow

@@ -4,11 +4,17 @@
 
 namespace vibrosow {
 
+/// Grains [from, to).
+struct GrainRange {
+  int from, to;
+};
+
 /// Adds the forces of the pairs in `range` to their grains, contact by contact in the order of the list, with `kernel`.
-/// Forces on grains before `first_own` go to `foreign` instead, in the same order.
+/// Forces on grains before `fresh.from` go to `foreign` instead, in the same order. Forces on `fresh` grains, each of
+/// whose pairs comes with a partner of a lower number, begin with zero.
 void add_pair_forces(PairKernel kernel, const GrainSurfaces& grains, const Motion& at, const PairList& list,
                      PairRange range, const ContactParameters& parameters, const HistoryAdvance& advance,
-                     ContactHistory& history, int first_own, Forces& forces, std::vector<ForeignForce>& foreign,
+                     ContactHistory& history, GrainRange fresh, Forces& forces, std::vector<ForeignForce>& foreign,
                      ContactCensus& census);
 
 }  // namespace vibrosow

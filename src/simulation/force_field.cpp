@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 
 #include "scene/seed_lot.hpp"
 
@@ -66,10 +65,9 @@ void ForceField::set_pair_forces(const Grains& discs, const Motion& at, const Hi
     RangeResult& result = range_results_[range];
     result.foreign.clear();
     result.census = {};
-    std::memset(forces.data() + first_grain(range), 0,
-                sizeof(GrainForce) * static_cast<std::size_t>(first_grain(range + 1) - first_grain(range)));
     add_pair_forces(pair_kernel_, surfaces, at, pairs, {first_entry(range), first_entry(range + 1)}, parameters_,
-                    advance, history, first_grain(range), forces, result.foreign, result.census);
+                    advance, history, {first_grain(range), first_grain(range + 1)}, forces, result.foreign,
+                    result.census);
   });
   for (const RangeResult& result : range_results_) {
     census.contacts += result.census.contacts;
@@ -89,7 +87,7 @@ void ForceField::run_kernels(const Grains& discs, const HistoryAdvance& advance,
   if (neighbours_.period() > 0) {
     const PairList& seam = neighbours_.seam_pairs();
     add_pair_forces(pair_kernel_, surfaces_of(discs), across_seam(discs), seam, {0, static_cast<int>(seam.size())},
-                    parameters_, advance, neighbours_.seam_history(), 0, forces, range_results_.front().foreign,
+                    parameters_, advance, neighbours_.seam_history(), {0, 0}, forces, range_results_.front().foreign,
                     census);
   }
   execution_.profile().lap(Phase::pairs);

@@ -42,7 +42,7 @@ TEST(Wall, IsAGrainOfInfiniteRadiusAndMass) {
       ContactHistory none;
       std::vector<ForeignForce> foreign;
       add_pair_forces(kernels.vectors[0].pair, surfaces_of(grains), at, pairs, {0, static_cast<int>(pairs.size())},
-                      parameters, {}, none, 0, f, foreign, census);
+                      parameters, {}, none, {0, 0}, f, foreign, census);
       WallContacts contacts;
       WallContactFinder().find(grains, near, walls, contacts);
       const double compression = kernels.vectors[0].wall(surfaces_of(grains), at, parameters, {}, none, contacts);
