@@ -2,6 +2,7 @@
 // restitution 0.5, eps = 1e-4 r), as long as the number of grains asks for. CSV on stdout, one row for a number of
 // grains and of threads: 1000 steps to shake in, then as many as are timed.
 #include <fmt/format.h>
+#include <malloc.h>
 #include <unistd.h>
 
 #include <chrono>
@@ -47,6 +48,7 @@ double resident_bytes() {
 void print_row(int grains, int threads) {
   const Scene scene = tray_of(grains);
   const EffectSet effects = effects_of(scene);
+  malloc_trim(0);  // what earlier rows have given back is not to be had for nothing
   const double before = resident_bytes();
   const auto started = std::chrono::steady_clock::now();
   Simulation simulation(scene, starting_grains(scene, 1, effects),
