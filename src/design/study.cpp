@@ -249,6 +249,23 @@ bool has_hole_and_lot(const Scene& scene, const MeasuredSeries& series) {
   return hole && lot;
 }
 
+bool has_fill(const Scene& scene) {
+  return scene.tray.fill || (scene.hopper && scene.hopper->fill);
+}
+
+/// That a layout can be measured as the series was.
+void check_measurable(const MeasuredPart& part, const MeasuredSeries& series, const Scene& scene, std::size_t layout,
+                      const std::filesystem::path& base) {
+  if (!has_hole_and_lot(scene, series))
+    throw InputError(fmt::format("{}: hole {}, lot {}: layout {} has no such hole or lot", series.where, series.hole,
+                                 series.lot, layout + 1));
+  if (part.table.quantity == MeasuredQuantity::share_curve && !has_fill(scene))
+    throw InputError(fmt::format("{}: discharged_percent is of the fill, and layout {} has none; expected mass_g or seeds",
+                                 series.where, layout + 1));
+  if (part.scale == MeasuredScale::depth && !scene.tray.depth)
+    throw InputError(fmt::format("{}: measured.scale = \"depth\" needs tray.depth", base.string()));
+}
+
 void match_measured(Study& study) {
   MeasuredPart& part = *study.measured;
   for (std::size_t layout = 0; layout < study.layouts.size(); ++layout) {
@@ -256,11 +273,7 @@ void match_measured(Study& study) {
       const MeasuredSeries& measured = part.table.series[series];
       if (!fits(study, study.layouts[layout], measured)) continue;
       const Scene& scene = study.scenes[*study.layouts[layout].scene];
-      if (!has_hole_and_lot(scene, measured))
-        throw InputError(fmt::format("{}: hole {}, lot {}: layout {} has no such hole or lot", measured.where,
-                                     measured.hole, measured.lot, layout + 1));
-      if (part.scale == MeasuredScale::depth && !scene.tray.depth)
-        throw InputError(fmt::format("{}: measured.scale = \"depth\" needs tray.depth", study.base.string()));
+      check_measurable(part, measured, scene, layout, study.base);
       part.matches.push_back({layout, series});
     }
   }

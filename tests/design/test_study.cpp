@@ -143,6 +143,30 @@ TEST(Study, MeasuredHoleOrLotThatALayoutHasNotIsRefused) {
   }
 }
 
+TEST(Study, RefusesASharePassedWhereNothingIsFilledIn) {
+  const StudyFiles files;
+  files.write("bench.csv", "time_s,discharged_percent\n1,20\n3,60\n");
+  const std::string measured = "[measured]\nfile = \"bench.csv\"\n";
+  EXPECT_EQ(read_study(files.study(measured)).measured->matches.size(), 1u);
+  files.write("seeder.toml", R"([seeds.wheat]
+diameter = "4 mm"
+mass = "40 mg"
+[contact]
+shell_compression = 1e-3
+[tray]
+length = "50 cm"
+height = "12 cm"
+rain = { rate = "20 1/s" }
+[tray.holes]
+at = ["25 cm"]
+width = "16 mm"
+[run]
+duration = "4 s"
+)");
+  EXPECT_THAT([&] { read_study(files.study(measured)); },
+              ThrowsMessage<InputError>(testing::AllOf(HasSubstr("bench.csv:2: "), HasSubstr("discharged_percent"))));
+}
+
 TEST(Study, FileThatIsNotThereIsToldWhereItIsNamed) {
   const StudyFiles files;
   EXPECT_THAT([&] { read_study(files.write("study.toml", "title = \"a\"\nbase = \"none.toml\"\n")); },
