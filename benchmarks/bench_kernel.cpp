@@ -9,11 +9,12 @@
 #include <cmath>
 #include <numeric>
 
-#include "contact/compress.hpp"
+#include "plan/contact_parameters.hpp"
+#include "compute/compress.hpp"
 #include "contact/kernels.hpp"
 #include "contact/pair_forces.hpp"
+#include "plan/step_plan.hpp"
 #include "simulation/simulation.hpp"
-#include "simulation/step_plan.hpp"
 
 namespace vibrosow {
 namespace {
@@ -118,7 +119,7 @@ void compare() {
   ContactHistory history = simulation.field().neighbours().pair_history(), bare_history = history;
   Forces forces(grains.size());
   std::vector<ForeignForce> foreign;
-  ContactCensus census;
+  ContactStatistics statistics;
   const PairKernel kernel = kernels.vectors[static_cast<std::size_t>(best_instruction_set())].pair;
   constexpr int evaluations = 2000, rounds = 15;
   std::vector<double> ours, theirs, ratios;
@@ -127,7 +128,7 @@ void compare() {
     ours.push_back(seconds([&] {
       for (int k = 0; k < evaluations; ++k)
         add_pair_forces(kernel, surfaces_of(grains), at, list, {0, static_cast<int>(list.size())}, parameters,
-                        {.trial = dt, .commit = dt, .present = 0.5}, history, {0, 0}, forces, foreign, census);
+                        {.trial = dt, .commit = dt, .present = 0.5}, history, {0, 0}, forces, foreign, statistics);
     }));
     theirs.push_back(seconds([&] {
       for (int k = 0; k < evaluations; ++k) bare_contacts += bare_kernel(bare, grains, list, bare_history, forces);
@@ -145,7 +146,7 @@ void compare() {
   const double evaluated = static_cast<double>(evaluations) * rounds * static_cast<double>(grains.size());
   fmt::print("{},{:.2f},{:.3f},{:.3f},{:.2f},{:.2f},{:.3f},{:.3f},{:.3f}\n", name_of(best_instruction_set()),
              static_cast<double>(list.size()) / static_cast<double>(grains.size()),
-             static_cast<double>(census.contacts) / evaluated, static_cast<double>(bare_contacts) / evaluated,
+             static_cast<double>(statistics.contacts) / evaluated, static_cast<double>(bare_contacts) / evaluated,
              median(ours) * per_grain, median(theirs) * per_grain, median(ratios), *std::ranges::min_element(ratios),
              *std::ranges::max_element(ratios));
 }

@@ -5,9 +5,9 @@
 // grain-steps per second.
 #include <benchmark/benchmark.h>
 
+#include "plan/step_plan.hpp"
 #include "simulation/simulate.hpp"
 #include "simulation/simulation.hpp"
-#include "simulation/step_plan.hpp"
 
 namespace vibrosow {
 namespace {
@@ -81,9 +81,9 @@ void part_of_a_step(benchmark::State& state, Part part) {
 }
 
 void forces(benchmark::State& state) {
-  ContactCensus census;
-  part_of_a_step(state,
-                 [&](Simulation& simulation) { simulation.field().evaluate(simulation.grains(), 0.3, {}, census); });
+  ContactStatistics statistics;
+  part_of_a_step(
+      state, [&](Simulation& simulation) { simulation.field().evaluate(simulation.grains(), 0.3, {}, statistics); });
 }
 
 void search(benchmark::State& state) {

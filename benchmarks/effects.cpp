@@ -1,4 +1,4 @@
-// The price list of effects: the published tray (2400 discs, stiff shells, closed, shaken) with every effect, with each
+// The cost list of effects: the published tray (2400 discs, stiff shells, closed, shaken) with every effect, with each
 // one left out, and with normal contact alone. CSV on stdout: ns per grain-step, the median of rounds that take the
 // cases in turn, and what the effect adds. The last row but one runs the kernel of all effects on a scene that calls
 // for few.
@@ -7,8 +7,8 @@
 #include <algorithm>
 #include <chrono>
 
+#include "plan/step_plan.hpp"
 #include "simulation/simulation.hpp"
-#include "simulation/step_plan.hpp"
 
 namespace vibrosow {
 namespace {
@@ -22,7 +22,7 @@ struct Case {
 const EffectSet every_effect{.friction = true,
                              .rotation = true,
                              .damping = true,
-                             .unequal = true,
+                             .polydisperse = true,
                              .drag = true,
                              .motion = true,
                              .tangential_spring = true,
@@ -31,8 +31,8 @@ const EffectSet every_effect{.friction = true,
 
 Scene tray_with(const EffectSet& effects) {
   Scene scene;
-  scene.lots = {{"grain", 8e-3, 0.6e-3, Shape::disc, effects.unequal ? 0.5 : 1.0}};
-  if (effects.unequal) scene.lots.push_back({"other", 7.6e-3, 0.55e-3, Shape::disc, 0.5});
+  scene.lots = {{"grain", 8e-3, 0.6e-3, Shape::disc, effects.polydisperse ? 0.5 : 1.0}};
+  if (effects.polydisperse) scene.lots.push_back({"other", 7.6e-3, 0.55e-3, Shape::disc, 0.5});
   Contact& contact = scene.contact;
   contact.shell_compression = 1e-4;
   contact.seed = contact.wall = {effects.friction ? 0.3 : 0.0, effects.damping ? 0.5 : 1.0};
@@ -54,7 +54,7 @@ Scene tray_with(const EffectSet& effects) {
 }
 
 /// Settled for 0.1 s and then timed for 1000 steps; ns per grain-step.
-double price(const Case& of) {
+double cost(const Case& of) {
   const Scene scene = tray_with(of.effects);
   EffectSet run_with = of.effects;
   if (of.kernel_of_all) {
@@ -82,7 +82,7 @@ std::vector<Case> cases() {
   without("rotation", [](EffectSet& e) { e.rotation = false, e.rolling = Rolling::none; });
   without("rolling", [](EffectSet& e) { e.rolling = Rolling::none; });
   without("cohesion", [](EffectSet& e) { e.cohesion = false; });
-  without("unequal", [](EffectSet& e) { e.unequal = false; });
+  without("polydisperse", [](EffectSet& e) { e.polydisperse = false; });
   without("drag", [](EffectSet& e) { e.drag = false; });
   without("motion", [](EffectSet& e) { e.motion = false; });
   EffectSet few{.motion = true};
@@ -100,11 +100,11 @@ int main() {
   using namespace vibrosow;
   constexpr int rounds = 7;
   const std::vector<Case> all = cases();
-  std::vector<std::vector<double>> prices(all.size()), ratios(all.size());
+  std::vector<std::vector<double>> costs(all.size()), ratios(all.size());
   for (int round = 0; round < rounds; ++round)
     for (std::size_t k = 0; k < all.size(); ++k) {
-      prices[k].push_back(price(all[k]));
-      ratios[k].push_back(prices[0].back() / prices[k].back());
+      costs[k].push_back(cost(all[k]));
+      ratios[k].push_back(costs[0].back() / costs[k].back());
     }
   const auto median = [](std::vector<double> values) {
     std::ranges::sort(values);
@@ -113,8 +113,8 @@ int main() {
   fmt::print("case,ns_per_grain_step,added_by_the_effect_ns,all_effects_take_times_as_long,least,most\n");
   for (std::size_t k = 0; k < all.size(); ++k) {
     const bool is_price = all[k].name.starts_with("without");
-    fmt::print("\"{}\",{:.2f},{},{:.2f},{:.2f},{:.2f}\n", all[k].name, median(prices[k]),
-               is_price ? fmt::format("{:.2f}", median(prices[0]) - median(prices[k])) : "", median(ratios[k]),
+    fmt::print("\"{}\",{:.2f},{},{:.2f},{:.2f},{:.2f}\n", all[k].name, median(costs[k]),
+               is_price ? fmt::format("{:.2f}", median(costs[0]) - median(costs[k])) : "", median(ratios[k]),
                *std::ranges::min_element(ratios[k]), *std::ranges::max_element(ratios[k]));
   }
 }

@@ -8,8 +8,8 @@
 #include <chrono>
 #include <fstream>
 
+#include "plan/step_plan.hpp"
 #include "simulation/simulation.hpp"
-#include "simulation/step_plan.hpp"
 
 namespace vibrosow {
 namespace {

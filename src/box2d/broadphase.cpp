@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "box2d/near_places.hpp"
-#include "scene/vessel_walls.hpp"
+#include "vessel/vessel_walls.hpp"
 
 namespace vibrosow {
 

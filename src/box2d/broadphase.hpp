@@ -5,11 +5,11 @@
 #include <memory>
 #include <vector>
 
+#include "compute/instruction_set.hpp"
 #include "contact/contact_list.hpp"
-#include "contact/instruction_set.hpp"
 #include "grains/grains.hpp"
-#include "scene/pose.hpp"
 #include "scene/scene.hpp"
+#include "vessel/pose.hpp"
 
 namespace vibrosow {
 
@@ -36,7 +36,7 @@ class Broadphase {
             std::vector<WallCandidate>& near_walls);
 
   /// Fills `pairs` with all (i, j) such that i, shifted by `period` (m) to the right, is nearer than r_i + r_j + margin
-  /// to j: pairs across the seam of a periodic tray; j may be less than i. For the grains and poses of the last `find`.
+  /// to j: pairs across the periodic boundary; j may be less than i. For the grains and poses of the last `find`.
   void find_across(double period, double margin, const Ranges& ranges, PairList& pairs);
 
   /// Takes wall `wall` out of the vessel's body: nothing will touch it any more.

@@ -1,7 +1,7 @@
 // Compiled for each instruction set (VIBROSOW_ISA), see src/CMakeLists.txt.
 #include "box2d/near_places.hpp"
 
-#include "contact/compress.hpp"
+#include "compute/compress.hpp"
 
 namespace vibrosow::inline VIBROSOW_ISA {
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "contact/instruction_set.hpp"
+#include "compute/instruction_set.hpp"
 
 namespace vibrosow {
 

@@ -8,10 +8,10 @@
 #include "cli/interrupt.hpp"
 #include "cli/progress.hpp"
 #include "design/accuracy.hpp"
+#include "input/read_scene.hpp"
 #include "report/accuracy_report.hpp"
 #include "scene/input_error.hpp"
 #include "scene/integrator_names.hpp"
-#include "scene/read_scene.hpp"
 #include "simulation/simulate.hpp"
 #include "units/quantity.hpp"
 
@@ -84,7 +84,7 @@ int run_accuracy(const AccuracyOptions& options) {
     sweep_options.first_random_seed = options.common.random_seed;
     sweep_options.runs.jobs = options.common.jobs;
     sweep_options.runs.interrupt = &interrupt;
-    sweep_options.runs.progress = [&](const ManyRunsProgress& done) { progress.update(done.share_done); };
+    sweep_options.runs.progress = [&](const ManyRunsProgress& done) { progress.update(done.fraction_done); };
     result = measure_accuracy(scene, grid, options.replicates, simulate, sweep_options);
     wall_time = progress.seconds();
   }

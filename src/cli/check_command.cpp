@@ -5,14 +5,14 @@
 
 #include "cli/commands.hpp"
 #include "cli/common_options.hpp"
-#include "contact/effects.hpp"
 #include "design/study.hpp"
-#include "outflow/measured.hpp"
+#include "input/key_units.hpp"
+#include "input/measured.hpp"
+#include "input/read_scene.hpp"
+#include "plan/effects.hpp"
+#include "plan/step_plan.hpp"
 #include "scene/input_error.hpp"
-#include "scene/key_units.hpp"
-#include "scene/read_scene.hpp"
-#include "simulation/price.hpp"
-#include "simulation/step_plan.hpp"
+#include "simulation/effect_cost.hpp"
 
 namespace vibrosow {
 namespace {
@@ -26,19 +26,19 @@ double grains_in(const Vessel& vessel, double duration) {
 }
 
 /// Grains times steps; outflow lessens it, topping up adds to it.
-double foretold_grain_steps(const Scene& scene, const StepPlan& plan) {
+double predicted_grain_steps(const Scene& scene, const StepPlan& plan) {
   double grains = grains_in(scene.tray, scene.run.duration);
   if (scene.hopper) grains += grains_in(*scene.hopper, scene.run.duration);
   return grains * static_cast<double>(plan.steps);
 }
 
-void print_effects(const Scene& scene, const std::vector<EffectPrice>& prices) {
+void print_effects(const Scene& scene, const std::vector<EffectCost>& costs) {
   fmt::print("effects\n");
   for (const EffectReason& effect : explain_effects(scene))
     fmt::print("  {:<3} {:<17} {}\n", effect.present ? "yes" : "no", effect.effect, effect.reason);
-  fmt::print("price on this machine, now\n");
-  for (const EffectPrice& price : prices)  // a difference of two timings can fall below zero
-    fmt::print("  {:<22} {:8.1f} ns per grain-step\n", price.effect, std::max(0.0, price.ns_per_grain_step));
+  fmt::print("cost on this machine, now\n");
+  for (const EffectCost& cost : costs)  // a difference of two timings can fall below zero
+    fmt::print("  {:<22} {:8.1f} ns per grain-step\n", cost.effect, std::max(0.0, cost.ns_per_grain_step));
 }
 
 void print_step(const Scene& scene, const StepPlan& plan, double ns_per_grain_step) {
@@ -46,21 +46,21 @@ void print_step(const Scene& scene, const StepPlan& plan, double ns_per_grain_st
              plan.contact_duration / plan.dt);
   for (const StepLimit& limit : plan.limits) fmt::print("  at most {:.4g} s: {}\n", limit.dt, limit.reason);
   fmt::print("  longest safe step {:.4g} s ({})\n", plan.longest_safe, plan.bound_by);
-  const double grain_steps = foretold_grain_steps(scene, plan);
+  const double grain_steps = predicted_grain_steps(scene, plan);
   fmt::print("  {} steps, about {:.3g} grain-steps: some {:.2g} s of one core\n", plan.steps, grain_steps,
              1e-9 * ns_per_grain_step * grain_steps);
 }
 
 void print_compression(const Scene& scene) {
-  const ForetoldCompression foretold = foretell_compression(scene);
-  fmt::print("compression foretold, d/r\n  at rest {:.3g} under {:.3g} layers (overlap of the lowest pair {:.3g} r)\n",
-             foretold.static_compression, foretold.layers, foretold.static_overlap);
-  fmt::print("  at impact {:.3g} at {:.3g} m/s\n", foretold.impact_compression, foretold.impact_speed);
+  const PredictedCompression predicted = predict_compression(scene);
+  fmt::print("compression predicted, d/r\n  at rest {:.3g} under {:.3g} layers (overlap of the lowest pair {:.3g} r)\n",
+             predicted.static_compression, predicted.layers, predicted.static_overlap);
+  fmt::print("  at impact {:.3g} at {:.3g} m/s\n", predicted.impact_compression, predicted.impact_speed);
   const double warn = scene.guard.warn_compression;
-  if (foretold.static_compression <= warn && foretold.impact_compression <= warn) return;
+  if (predicted.static_compression <= warn && predicted.impact_compression <= warn) return;
   fmt::print("  warning: beyond guard.warn_compression = {:g}: {}\n", warn,
              scene.contact.law == Law::elastic_shell
-                 ? fmt::format("a shell is thin; contact.shell_compression = {:.2g} would do", foretold.stiff_enough)
+                 ? fmt::format("a shell is thin; contact.shell_compression = {:.2g} would do", predicted.stiff_enough)
                  : "Hertz' law is for small overlaps; a larger contact.youngs_modulus is stiffer");
 }
 
@@ -83,9 +83,9 @@ int check_seeder(const CommonOptions& options) {
   fmt::print("{}\n", scene.title);
   print_vessel(scene.tray);
   if (scene.hopper) print_vessel(*scene.hopper);
-  const std::vector<EffectPrice> prices = price_list(scene);
-  print_effects(scene, prices);
-  print_step(scene, plan, prices.front().ns_per_grain_step);
+  const std::vector<EffectCost> costs = effect_costs(scene);
+  print_effects(scene, costs);
+  print_step(scene, plan, costs.front().ns_per_grain_step);
   print_compression(scene);
   if (const auto refused = step_refused(scene, plan)) throw InputError(*refused);
   if (plan.too_long)
@@ -103,7 +103,7 @@ std::string measured_header(const Study& study) {
 int check_study(const CommonOptions& options) {
   const Study study = read_study(options.file, options.overrides());
   double grain_steps = 0;
-  for (const Scene& scene : study.scenes) grain_steps += foretold_grain_steps(scene, plan_step(scene));
+  for (const Scene& scene : study.scenes) grain_steps += predicted_grain_steps(scene, plan_step(scene));
   fmt::print("{}\n{} layouts, {} different scenes, {} runs of each, about {:.3g} grain-steps in all\n", study.title,
              study.layouts.size(), study.scenes.size(), study.replicates, grain_steps * study.replicates);
   for (const Layout& layout : study.layouts)

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "scene/override.hpp"
+#include "input/override.hpp"
 
 namespace vibrosow {
 

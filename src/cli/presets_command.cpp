@@ -5,8 +5,8 @@
 #include <memory>
 
 #include "cli/commands.hpp"
-#include "scene/document.hpp"
-#include "scene/read_scene.hpp"
+#include "input/document.hpp"
+#include "input/read_scene.hpp"
 
 namespace vibrosow {
 namespace {

@@ -38,29 +38,29 @@ double Progress::seconds() const {
   return std::chrono::duration<double>(Clock::now() - begin_).count();
 }
 
-std::string Progress::line(double share_done) const {
+std::string Progress::line(double fraction_done) const {
   const double passed = seconds();
-  std::string text = fmt::format("{:3.0f} %  {} passed", 100 * share_done, duration_text(passed));
-  if (share_done > 0 && passed > 0)
-    text += fmt::format(", {}, {} left", rate_text(unit_count_ * share_done / passed, unit_),
-                        duration_text(passed * (1 - share_done) / share_done));
+  std::string text = fmt::format("{:3.0f} %  {} passed", 100 * fraction_done, duration_text(passed));
+  if (fraction_done > 0 && passed > 0)
+    text += fmt::format(", {}, {} left", rate_text(unit_count_ * fraction_done / passed, unit_),
+                        duration_text(passed * (1 - fraction_done) / fraction_done));
   return text;
 }
 
-void Progress::update(double share_done) {
+void Progress::update(double fraction_done) {
   if (quiet_) return;
   const auto now = Clock::now();
   if (std::chrono::duration<double>(now - last_).count() < (terminal_ ? redraw_every : line_every)) return;
   last_ = now;
   drawn_ = true;
   if (!terminal_) {
-    std::fputs((line(share_done) + "\n").c_str(), stderr);
+    std::fputs((line(fraction_done) + "\n").c_str(), stderr);
     return;
   }
   constexpr int width = 24;
-  const auto filled = static_cast<std::size_t>(std::clamp(share_done, 0.0, 1.0) * width);
+  const auto filled = static_cast<std::size_t>(std::clamp(fraction_done, 0.0, 1.0) * width);
   const std::string bar = std::string(filled, '#') + std::string(width - filled, '.');
-  std::fputs(fmt::format("\r\033[K[{}] {}", bar, line(share_done)).c_str(), stderr);
+  std::fputs(fmt::format("\r\033[K[{}] {}", bar, line(fraction_done)).c_str(), stderr);
   std::fflush(stderr);
 }
 

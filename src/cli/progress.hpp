@@ -15,11 +15,11 @@ class Progress {
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
 
-  void update(double share_done);
+  void update(double fraction_done);
   double seconds() const;  // since it began
 
  private:
-  std::string line(double share_done) const;
+  std::string line(double fraction_done) const;
 
   using Clock = std::chrono::steady_clock;
   Clock::time_point begin_ = Clock::now();

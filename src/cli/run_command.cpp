@@ -7,12 +7,12 @@
 #include "cli/common_options.hpp"
 #include "cli/interrupt.hpp"
 #include "cli/progress.hpp"
-#include "contact/effects.hpp"
+#include "input/read_scene.hpp"
 #include "outflow/outflow.hpp"
+#include "plan/effects.hpp"
+#include "plan/step_plan.hpp"
 #include "report/run_report.hpp"
-#include "scene/read_scene.hpp"
 #include "simulation/simulate.hpp"
-#include "simulation/step_plan.hpp"
 
 namespace vibrosow {
 namespace {
@@ -60,7 +60,7 @@ int run_scene(const RunOptions& options) {
   Run run;
   {
     Progress progress(options.quiet, static_cast<double>(plan_step(scene).steps), "steps");
-    simulation.progress = [&](double share) { progress.update(share); };
+    simulation.progress = [&](double fraction) { progress.update(fraction); };
     run = simulate(scene, simulation);
   }
   const Outflow outflow = measure_outflow(scene, run);

@@ -75,7 +75,7 @@ int run_sweep(const CommonOptions& options) {
     sweep_options.first_random_seed = options.random_seed;
     sweep_options.runs.jobs = options.jobs;
     sweep_options.runs.interrupt = &interrupt;
-    sweep_options.runs.progress = [&](const ManyRunsProgress& done) { progress.update(done.share_done); };
+    sweep_options.runs.progress = [&](const ManyRunsProgress& done) { progress.update(done.fraction_done); };
     result = sweep(study, simulate, sweep_options);
     wall_time = progress.seconds();
   }

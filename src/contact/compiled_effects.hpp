@@ -12,7 +12,7 @@ enum class FrictionChoice { none, sliding, spring };
 /// Effects that enter the contact force. Rotation needs friction, rolling needs rotation.
 struct EffectChoice {
   FrictionChoice friction = FrictionChoice::none;
-  bool rotation = false, damping = false, unequal = false;
+  bool rotation = false, damping = false, polydisperse = false;
   Rolling rolling = Rolling::none;
   bool cohesion = false;
 
@@ -25,18 +25,18 @@ constexpr auto list_compiled_effects() {
   using enum FrictionChoice;
   std::array<EffectChoice, 46> list{};
   std::size_t count = 0;
-  for (const bool unequal : {false, true}) {
+  for (const bool polydisperse : {false, true}) {
     for (int kind = 0; kind < 3; ++kind) {
       const bool damping = kind > 0, cohesion = kind > 1;
-      list[count++] = {none, false, damping, unequal, Rolling::none, cohesion};
+      list[count++] = {none, false, damping, polydisperse, Rolling::none, cohesion};
       for (const FrictionChoice friction : {sliding, spring})
         for (const bool rotation : {false, true})
-          list[count++] = {friction, rotation, damping, unequal, Rolling::none, cohesion};
+          list[count++] = {friction, rotation, damping, polydisperse, Rolling::none, cohesion};
     }
     for (const bool cohesion : {false, true})
       for (const FrictionChoice friction : {sliding, spring})
         for (const Rolling rolling : {Rolling::constant_torque, Rolling::spring})
-          list[count++] = {friction, true, true, unequal, rolling, cohesion};
+          list[count++] = {friction, true, true, polydisperse, rolling, cohesion};
   }
   return list;
 }
@@ -47,7 +47,7 @@ template <EffectChoice choice>
 struct PairEffects {
   static constexpr bool friction = choice.friction != FrictionChoice::none;
   static constexpr bool spring = choice.friction == FrictionChoice::spring;
-  static constexpr bool rotation = choice.rotation, damping = choice.damping, unequal = choice.unequal;
+  static constexpr bool rotation = choice.rotation, damping = choice.damping, polydisperse = choice.polydisperse;
   static constexpr Rolling rolling = choice.rolling;
   static constexpr bool rolls = choice.rolling != Rolling::none;
   static constexpr bool cohesion = choice.cohesion;

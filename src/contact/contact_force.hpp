@@ -3,20 +3,20 @@
 #include <algorithm>
 #include <cmath>
 
+#include "compute/instruction_set.hpp"
 #include "contact/compiled_effects.hpp"
 #include "contact/contact_history.hpp"
 #include "contact/friction.hpp"
-#include "contact/instruction_set.hpp"
 #include "contact/surface_parameters.hpp"
 
 namespace vibrosow::inline VIBROSOW_ISA {
 
 /// What stays the same for two surfaces as long as they touch. Members of an absent effect are not set.
 struct PairConstants {
-  double reach;             // m, r_i + r_j
-  double stiffness;         // of the law
-  double dashpot;           // of the law
-  double share_i, share_j;  // of the overlap
+  double reach;                                   // m, r_i + r_j
+  double stiffness;                               // of the law
+  double dashpot;                                 // of the law
+  double overlap_fraction_i, overlap_fraction_j;  // of the overlap
   double compression_per_overlap;
   double rolling_radius;   // m, 1 / (1/r_i + 1/r_j)
   double rolling_inertia;  // kg m2, of turning about the contact

@@ -5,8 +5,8 @@
 
 namespace vibrosow {
 
-/// Candidate pairs (grain, partner), sorted by grain and then by partner; partner < grain but across a seam. The order
-/// of summation follows from it, whatever found the pairs.
+/// Candidate pairs (grain, partner), sorted by grain and then by partner; partner < grain but across a boundary. The
+/// order of summation follows from it, whatever found the pairs.
 struct PairList {
   std::vector<int> grain, partner;
 
@@ -20,17 +20,6 @@ struct WallCandidate {
   int grain;
   int wall;     // index of the scene's wall segment
   double side;  // sign of the side that the grain's centre came from: NearestPoint::side
-};
-
-/// A wall where it stands now, in the lab frame: a straight segment from a to b, or with a radius an arc from a to b.
-struct PlacedWall {
-  double ax, ay, bx, by;   // m
-  int vertex_a, vertex_b;  // numbers unique over all vessels
-  double vx, vy;           // m/s; its material at the point (x, y) of the lab moves at (vx - spin y, vy + spin x)
-  double spin = 0;         // rad/s, anticlockwise
-  // Of an arc: its centre and radius, the direction from the centre to its middle, the cosine of half its angle.
-  double centre_x = 0, centre_y = 0, radius = 0;  // m
-  double middle_x = 0, middle_y = 0, cos_half = 0;
 };
 
 }  // namespace vibrosow

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "contact/instruction_set.hpp"
+#include "compute/instruction_set.hpp"
 
 namespace vibrosow::inline VIBROSOW_ISA {
 

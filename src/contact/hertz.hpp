@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "contact/instruction_set.hpp"
+#include "compute/instruction_set.hpp"
 #include "contact/surface_parameters.hpp"
 
 namespace vibrosow::inline VIBROSOW_ISA {

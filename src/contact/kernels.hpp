@@ -4,19 +4,14 @@
 #include <string>
 #include <vector>
 
-#include "contact/effects.hpp"
+#include "contact/effect_set.hpp"
 #include "contact/pair_block.hpp"
 #include "grains/grains.hpp"
 
 namespace vibrosow {
 
-ContactParameters contact_parameters(const Scene& scene);
-
-/// The surface between two lots, or of a lot and the walls (`other` = -1).
-const Surface& surface_between(const Contact& contact, int lot, int other);
-
 /// What an evaluation of the forces tells besides the forces.
-struct ContactCensus {
+struct ContactStatistics {
   std::int64_t contacts = 0;   // evaluations of the law
   double max_compression = 0;  // shell compression d c_j / (c_i + c_j) / r_i
   double wall_power = 0;       // W, work of moving walls on grains

@@ -4,11 +4,11 @@
 #include <cstddef>
 #include <vector>
 
+#include "compute/grain_force.hpp"
+#include "compute/instruction_set.hpp"
 #include "contact/compiled_effects.hpp"
 #include "contact/contact_history.hpp"
 #include "contact/contact_list.hpp"
-#include "contact/grain_force.hpp"
-#include "contact/instruction_set.hpp"
 #include "contact/surface_parameters.hpp"
 
 // Plain data between the simulation and kernels compiled for several instruction sets.
@@ -33,7 +33,7 @@ struct GrainSurface {
   double radius, compliance, inverse_mass, inverse_inertia, curvature;
 };
 
-/// The same of all grains: arrays where they are unequal, `equal` where they are not.
+/// The same of all grains: arrays where they are polydisperse, `equal` where they are not.
 struct GrainSurfaces {
   GrainSurface equal;
   const double *radius, *compliance, *inverse_mass, *inverse_inertia, *curvature;
@@ -41,7 +41,7 @@ struct GrainSurfaces {
 };
 
 /// Where and how fast the grains are when forces are wanted. `row_x` stands for `x` of the first grain of each pair: it
-/// is the same array, or shifted by one period for pairs across the seam of periodic sides.
+/// is the same array, or shifted by one period for pairs across the periodic boundary.
 struct Motion {
   const double *x, *y, *vx, *vy, *omega, *row_x;
 };

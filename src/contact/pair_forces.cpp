@@ -8,7 +8,7 @@ namespace vibrosow {
 void add_pair_forces(PairKernel kernel, const GrainSurfaces& grains, const Motion& at, const PairList& list,
                      PairRange range, const ContactParameters& parameters, const HistoryAdvance& advance,
                      ContactHistory& history, GrainRange fresh, Forces& forces, std::vector<ForeignForce>& foreign,
-                     ContactCensus& census) {
+                     ContactStatistics& statistics) {
   PairResult result;
   result.forces = forces.data(), result.first_own = fresh.from;
   int begun = fresh.from;
@@ -21,8 +21,8 @@ void add_pair_forces(PairKernel kernel, const GrainSurfaces& grains, const Motio
     begin_up_to(std::min(list.grain[static_cast<std::size_t>(to) - 1] + 1, fresh.to));
     kernel(grains, at, list, {from, to}, parameters, advance, history, result);
     foreign.insert(foreign.end(), result.foreign, result.foreign + result.foreign_count);
-    census.contacts += result.contacts;
-    census.max_compression = std::max(census.max_compression, result.max_compression);
+    statistics.contacts += result.contacts;
+    statistics.max_compression = std::max(statistics.max_compression, result.max_compression);
   }
   begin_up_to(fresh.to);
 }

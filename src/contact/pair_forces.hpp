@@ -15,6 +15,6 @@ struct GrainRange {
 void add_pair_forces(PairKernel kernel, const GrainSurfaces& grains, const Motion& at, const PairList& list,
                      PairRange range, const ContactParameters& parameters, const HistoryAdvance& advance,
                      ContactHistory& history, GrainRange fresh, Forces& forces, std::vector<ForeignForce>& foreign,
-                     ContactCensus& census);
+                     ContactStatistics& statistics);
 
 }  // namespace vibrosow

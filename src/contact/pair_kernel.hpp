@@ -3,7 +3,7 @@
 #include <array>
 #include <cmath>
 
-#include "contact/compress.hpp"
+#include "compute/compress.hpp"
 #include "contact/pair_properties.hpp"
 
 namespace vibrosow::inline VIBROSOW_ISA {
@@ -134,8 +134,8 @@ template <class Law, class Effects>
       if constexpr (Effects::damping) touch.approach = ux * nx + uy * ny;
       if constexpr (Effects::friction) touch.sliding = uy * nx - ux * ny;
       if constexpr (Effects::rotation) {
-        arm_i = properties.radius(i) - shortening * overlap * pair.share_i;
-        arm_j = properties.radius(j) - shortening * overlap * pair.share_j;
+        arm_i = properties.radius(i) - shortening * overlap * pair.overlap_fraction_i;
+        arm_j = properties.radius(j) - shortening * overlap * pair.overlap_fraction_j;
         touch.sliding += arm_i * omega[i] + arm_j * omega[j];
       }
       if constexpr (Effects::rolls) touch.turning = omega[i] - omega[j];

@@ -15,9 +15,9 @@ inline PairConstants pair_constants(const GrainSurface& a, const GrainSurface& b
   p.stiffness = Law::stiffness(a.compliance, b.compliance, a.curvature, b.curvature);
   if constexpr (Effects::damping) p.dashpot = Law::dashpot(surface, p.stiffness, a.inverse_mass, b.inverse_mass);
   const double compliance = a.compliance + b.compliance;
-  p.share_i = a.compliance / compliance;
-  p.share_j = b.compliance / compliance;
-  const double at_i = p.share_i * a.curvature, at_j = p.share_j * b.curvature;
+  p.overlap_fraction_i = a.compliance / compliance;
+  p.overlap_fraction_j = b.compliance / compliance;
+  const double at_i = p.overlap_fraction_i * a.curvature, at_j = p.overlap_fraction_j * b.curvature;
   p.compression_per_overlap = at_i > at_j ? at_i : at_j;
   if constexpr (Effects::rolls) p.rolling_radius = 1 / (a.curvature + b.curvature);
   if constexpr (Effects::rolling == Rolling::spring) {
@@ -33,32 +33,32 @@ inline PairConstants pair_constants(const GrainSurface& a, const GrainSurface& b
   return p;
 }
 
-/// Properties of two grains as the kernel sees them: constants for equal grains, worked out pair by pair for unequal
-/// ones from the same expressions, so that both give the same bits for equal grains.
+/// Properties of two grains as the kernel sees them: constants for equal grains, worked out pair by pair for
+/// polydisperse ones from the same expressions, so that both give the same bits for equal grains.
 template <class Law, class Effects>
 class PairProperties {
  public:
   PairProperties(const GrainSurfaces& grains, const ContactParameters& parameters)
       : grains_(grains), parameters_(parameters) {
-    if constexpr (!Effects::unequal)
+    if constexpr (!Effects::polydisperse)
       equal_ = pair_constants<Law, Effects>(surface(0), surface(0), parameters.pair(0, 0));
   }
 
   double reach(std::size_t i, std::size_t j) const {
-    if constexpr (Effects::unequal) return grains_.radius[i] + grains_.radius[j];
+    if constexpr (Effects::polydisperse) return grains_.radius[i] + grains_.radius[j];
     return equal_.reach;
   }
   double radius(std::size_t i) const {
-    if constexpr (Effects::unequal) return grains_.radius[i];
+    if constexpr (Effects::polydisperse) return grains_.radius[i];
     return 0.5 * equal_.reach;
   }
   const SurfaceParameters& between(std::size_t i, std::size_t j) const {
-    if constexpr (Effects::unequal) return parameters_.pair(grains_.lot[i], grains_.lot[j]);
+    if constexpr (Effects::polydisperse) return parameters_.pair(grains_.lot[i], grains_.lot[j]);
     return parameters_.pairs.front();
   }
-  /// A value for unequal grains, a reference for equal ones.
+  /// A value for polydisperse grains, a reference for equal ones.
   decltype(auto) pair(std::size_t i, std::size_t j) const {
-    if constexpr (Effects::unequal)
+    if constexpr (Effects::polydisperse)
       return pair_constants<Law, Effects>(surface(i), surface(j), between(i, j));
     else
       return (equal_);
@@ -66,7 +66,7 @@ class PairProperties {
 
  private:
   GrainSurface surface(std::size_t i) const {
-    if constexpr (Effects::unequal)
+    if constexpr (Effects::polydisperse)
       return {grains_.radius[i], grains_.compliance[i], grains_.inverse_mass[i], grains_.inverse_inertia[i],
               grains_.curvature[i]};
     return grains_.equal;

@@ -84,7 +84,7 @@ const KernelSet& kernels_for(Law law, const EffectSet& effects) {
                                                 : FrictionChoice::sliding;
   wanted.rotation = effects.rotation && effects.friction;  // without friction no contact turns a disc
   wanted.damping = effects.damping || effects.cohesion || effects.rolling != Rolling::none;
-  wanted.unequal = effects.unequal;
+  wanted.polydisperse = effects.polydisperse;
   wanted.rolling = effects.rolling;
   wanted.cohesion = effects.cohesion;
   for (const KernelSet& set : registered_kernels())
@@ -93,7 +93,7 @@ const KernelSet& kernels_for(Law law, const EffectSet& effects) {
 }
 
 EffectSet all_pair_effects(EffectSet effects) {
-  effects.friction = effects.rotation = effects.damping = effects.unequal = effects.cohesion = true;
+  effects.friction = effects.rotation = effects.damping = effects.polydisperse = effects.cohesion = true;
   if (effects.rolling == Rolling::none) effects.rolling = Rolling::constant_torque;
   return effects;
 }

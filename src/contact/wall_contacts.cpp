@@ -48,7 +48,7 @@ void WallContactFinder::find(const Grains& grains, const std::vector<WallCandida
   std::size_t near = 0;
   for (std::size_t c = 0; c < count; ++c) {
     const std::size_t i = static_cast<std::size_t>(candidates[c].grain);
-    const double radius = grains.unequal ? grains.radius[i] : grains.kinds.front().radius;
+    const double radius = grains.polydisperse ? grains.radius[i] : grains.kinds.front().radius;
     nearest_[c] = nearest_point(walls[static_cast<std::size_t>(candidates[c].wall)], grains.x[i], grains.y[i]);
     touches_[c] = 0;
     near_[near] = c;
@@ -99,7 +99,7 @@ void WallContactFinder::watch_crossings(std::vector<WallCandidate>& candidates, 
   }
 }
 
-void add_wall_forces(const WallContacts& contacts, bool rotation, Forces& forces, ContactCensus& census) {
+void add_wall_forces(const WallContacts& contacts, bool rotation, Forces& forces, ContactStatistics& statistics) {
   const std::size_t count = static_cast<std::size_t>(contacts.count);
   for (std::size_t k = 0; k < count;) {
     const std::size_t i = static_cast<std::size_t>(contacts.grain[k]);
@@ -107,12 +107,12 @@ void add_wall_forces(const WallContacts& contacts, bool rotation, Forces& forces
     for (; k < count && contacts.grain[k] == static_cast<int>(i); ++k) {
       sum_x -= contacts.fx[k], sum_y -= contacts.fy[k];
       if (rotation) sum_torque += contacts.torque[k];
-      census.wall_power -= contacts.fx[k] * contacts.wall_vx[k] + contacts.fy[k] * contacts.wall_vy[k];
+      statistics.wall_power -= contacts.fx[k] * contacts.wall_vx[k] + contacts.fy[k] * contacts.wall_vy[k];
     }
     forces[i].fx += sum_x, forces[i].fy += sum_y;
     if (rotation) forces[i].torque += sum_torque;
   }
-  census.contacts += contacts.count;
+  statistics.contacts += contacts.count;
 }
 
 void WallContactFinder::forget_parted(ContactHistory& history) const {

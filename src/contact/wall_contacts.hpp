@@ -5,7 +5,8 @@
 #include "contact/contact_history.hpp"
 #include "contact/contact_list.hpp"
 #include "contact/kernels.hpp"
-#include "contact/nearest_point.hpp"
+#include "vessel/nearest_point.hpp"
+#include "vessel/placed_wall.hpp"
 
 namespace vibrosow {
 
@@ -37,6 +38,6 @@ class WallContactFinder {
 
 /// Adds the forces of contacts to their grains, those of one grain added up among themselves first, so that two walls
 /// add up alike in either order; and what the walls do by their motion.
-void add_wall_forces(const WallContacts& contacts, bool rotation, Forces& forces, ContactCensus& census);
+void add_wall_forces(const WallContacts& contacts, bool rotation, Forces& forces, ContactStatistics& statistics);
 
 }  // namespace vibrosow

@@ -41,7 +41,7 @@ template <class Law, class Effects>
       if constexpr (Effects::damping) touch.approach = ux * nx + uy * ny;
       if constexpr (Effects::friction) touch.sliding = uy * nx - ux * ny;
       if constexpr (Effects::rotation) {
-        arm = properties.radius(i) - shortening * touch.overlap * pair.share_i;
+        arm = properties.radius(i) - shortening * touch.overlap * pair.overlap_fraction_i;
         touch.sliding += arm * omega[i];
       }
       if constexpr (Effects::rolls) touch.turning = omega[i] - wall_spin[k];

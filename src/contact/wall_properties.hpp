@@ -10,20 +10,20 @@ class WallProperties {
  public:
   WallProperties(const GrainSurfaces& grains, const ContactParameters& parameters)
       : grains_(grains), parameters_(parameters) {
-    if constexpr (!Effects::unequal) equal_ = constants(grains.equal, parameters.walls.front());
+    if constexpr (!Effects::polydisperse) equal_ = constants(grains.equal, parameters.walls.front());
   }
 
   double radius(std::size_t i) const {
-    if constexpr (Effects::unequal) return grains_.radius[i];
+    if constexpr (Effects::polydisperse) return grains_.radius[i];
     return grains_.equal.radius;
   }
   const SurfaceParameters& surface(std::size_t i) const {
-    if constexpr (Effects::unequal) return parameters_.wall(grains_.lot[i]);
+    if constexpr (Effects::polydisperse) return parameters_.wall(grains_.lot[i]);
     return parameters_.walls.front();
   }
-  /// A value for unequal grains, a reference for equal ones.
+  /// A value for polydisperse grains, a reference for equal ones.
   decltype(auto) pair(std::size_t i) const {
-    if constexpr (Effects::unequal)
+    if constexpr (Effects::polydisperse)
       return constants({grains_.radius[i], grains_.compliance[i], grains_.inverse_mass[i], grains_.inverse_inertia[i],
                         grains_.curvature[i]},
                        surface(i));

@@ -6,10 +6,10 @@
 #include <cmath>
 #include <tuple>
 
-#include "contact/effects.hpp"
+#include "plan/effects.hpp"
+#include "plan/step_plan.hpp"
 #include "scene/input_error.hpp"
 #include "simulation/integrator.hpp"
-#include "simulation/step_plan.hpp"
 
 namespace vibrosow {
 namespace {

@@ -19,7 +19,7 @@ Discharge discharge_of(MeasuredQuantity quantity) {
     case MeasuredQuantity::seed_curve:
       return Discharge::seeds;
     default:
-      return Discharge::share;
+      return Discharge::fraction;
   }
 }
 

@@ -13,34 +13,34 @@
 namespace vibrosow {
 namespace {
 
-/// Adds up the shares of runs under way for one progress callback.
+/// Adds up the fractions of runs under way for one progress callback.
 class SharedProgress {
  public:
   SharedProgress(std::size_t runs, const std::function<void(const ManyRunsProgress&)>& report)
-      : shares_(runs, 0.0), report_(report) {}
+      : fractions_(runs, 0.0), report_(report) {}
 
-  void set_share(std::size_t run, double share) {
+  void set_fraction(std::size_t run, double fraction) {
     if (!report_) return;
     const std::lock_guard lock(mutex_);
-    total_ += share - shares_[run];
-    shares_[run] = share;
+    total_ += fraction - fractions_[run];
+    fractions_[run] = fraction;
     tell();
   }
 
   void finish(std::size_t run) {
     if (!report_) return;
     const std::lock_guard lock(mutex_);
-    total_ += 1.0 - shares_[run];
-    shares_[run] = 1.0;
+    total_ += 1.0 - fractions_[run];
+    fractions_[run] = 1.0;
     ++done_;
     tell();
   }
 
  private:
-  void tell() const { report_({total_ / static_cast<double>(shares_.size()), done_, shares_.size()}); }
+  void tell() const { report_({total_ / static_cast<double>(fractions_.size()), done_, fractions_.size()}); }
 
   std::mutex mutex_;
-  std::vector<double> shares_;
+  std::vector<double> fractions_;
   double total_ = 0;
   std::size_t done_ = 0;
   const std::function<void(const ManyRunsProgress&)>& report_;
@@ -59,7 +59,7 @@ std::vector<JobResult> run_jobs(const std::vector<Job>& jobs, const Simulator& s
     SimulationOptions simulation;
     simulation.random_seed = jobs[index].random_seed;
     simulation.interrupt = options.interrupt;
-    simulation.progress = [&progress, index](double share) { progress.set_share(index, share); };
+    simulation.progress = [&progress, index](double fraction) { progress.set_fraction(index, fraction); };
     try {
       Run run = simulator(*jobs[index].scene, simulation);
       results[index].records = record_figures(*jobs[index].scene, run.snapshots);

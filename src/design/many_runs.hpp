@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "fields/record_figures.hpp"
+#include "result/run.hpp"
 #include "scene/scene.hpp"
-#include "simulation/run.hpp"
 #include "simulation/simulate.hpp"
 
 namespace vibrosow {
@@ -30,7 +30,7 @@ struct JobResult {
 };
 
 struct ManyRunsProgress {
-  double share_done;  // 0..1, runs under way counted by their shares
+  double fraction_done;  // 0..1, runs under way counted by their fractions
   std::size_t runs_done;
   std::size_t runs;
 };

@@ -9,13 +9,13 @@
 #include <set>
 #include <system_error>
 
+#include "input/document.hpp"
+#include "input/key_units.hpp"
+#include "input/read_scene.hpp"
+#include "input/toml_lib.hpp"
+#include "plan/step_plan.hpp"
 #include "scene/describe_scene.hpp"
-#include "scene/document.hpp"
 #include "scene/input_error.hpp"
-#include "scene/key_units.hpp"
-#include "scene/read_scene.hpp"
-#include "scene/toml_lib.hpp"
-#include "simulation/step_plan.hpp"
 #include "units/quantity.hpp"
 
 namespace vibrosow {
@@ -184,7 +184,7 @@ std::optional<MeasuredPart> read_measured_part(Table& study) {
   part.file = named_file(*table, "file");
   part.scale = static_cast<MeasuredScale>(table->choice("scale", {"none", "depth", "free"}).value_or(0));
   part.table = read_measured(part.file);
-  if (part.table.quantity == MeasuredQuantity::share_curve && part.scale != MeasuredScale::none)
+  if (part.table.quantity == MeasuredQuantity::fraction_curve && part.scale != MeasuredScale::none)
     table->fail("scale", "discharged_percent needs no scale; only \"none\" is allowed");
   return part;
 }
@@ -259,9 +259,10 @@ void check_measurable(const MeasuredPart& part, const MeasuredSeries& series, co
   if (!has_hole_and_lot(scene, series))
     throw InputError(fmt::format("{}: hole {}, lot {}: layout {} has no such hole or lot", series.where, series.hole,
                                  series.lot, layout + 1));
-  if (part.table.quantity == MeasuredQuantity::share_curve && !has_fill(scene))
-    throw InputError(fmt::format("{}: discharged_percent is of the fill, and layout {} has none; expected mass_g or seeds",
-                                 series.where, layout + 1));
+  if (part.table.quantity == MeasuredQuantity::fraction_curve && !has_fill(scene))
+    throw InputError(
+        fmt::format("{}: discharged_percent is of the fill, and layout {} has none; expected mass_g or seeds",
+                    series.where, layout + 1));
   if (part.scale == MeasuredScale::depth && !scene.tray.depth)
     throw InputError(fmt::format("{}: measured.scale = \"depth\" needs tray.depth", base.string()));
 }

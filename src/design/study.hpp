@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "outflow/measured.hpp"
-#include "scene/override.hpp"
+#include "input/measured.hpp"
+#include "input/override.hpp"
 #include "scene/scene.hpp"
 
 namespace vibrosow {

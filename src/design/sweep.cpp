@@ -61,8 +61,8 @@ Figures figures_of(const std::vector<Replicate>& replicates) {
   figures.longest_pause = mean_of_row(replicates, "all", "all", &HoleOutflow::longest_pause);
   figures.evenness_cv = mean_over(replicates, [](const Replicate& one) { return one.outflow.evenness_cv; });
   figures.instability_cv = mean_over(replicates, [](const Replicate& one) { return one.outflow.instability_cv; });
-  figures.spilled_share =
-      mean_over(replicates, [](const Replicate& one) { return std::optional(one.outflow.spilled_share); });
+  figures.spilled_fraction =
+      mean_over(replicates, [](const Replicate& one) { return std::optional(one.outflow.spilled_fraction); });
   return figures;
 }
 

@@ -9,7 +9,7 @@
 #include "design/study.hpp"
 #include "outflow/outflow.hpp"
 #include "outflow/statistics.hpp"
-#include "simulation/run.hpp"
+#include "result/run.hpp"
 
 namespace vibrosow {
 
@@ -32,13 +32,13 @@ enum class LayoutStatus { ok, invalid, stopped, interrupted };
 
 /// Means over the finished replicates; none where no replicate has a value.
 struct Figures {
-  std::optional<MeanWithInterval> mass_rate;       // kg/s, all holes and lots, of the plane slice
-  std::optional<MeanWithInterval> seeds_per_s;     // all holes and lots
-  std::optional<MeanWithInterval> evenness_cv;     // fraction
-  std::optional<MeanWithInterval> instability_cv;  // fraction
-  std::optional<MeanWithInterval> longest_pause;   // s, between any two seeds of the whole outflow
-  std::optional<MeanWithInterval> spilled_share;   // fraction
-  std::optional<MeanWithInterval> misfit_percent;  // of the mean outflow; interval from the misfits of the replicates
+  std::optional<MeanWithInterval> mass_rate;         // kg/s, all holes and lots, of the plane slice
+  std::optional<MeanWithInterval> seeds_per_s;       // all holes and lots
+  std::optional<MeanWithInterval> evenness_cv;       // fraction
+  std::optional<MeanWithInterval> instability_cv;    // fraction
+  std::optional<MeanWithInterval> longest_pause;     // s, between any two seeds of the whole outflow
+  std::optional<MeanWithInterval> spilled_fraction;  // fraction
+  std::optional<MeanWithInterval> misfit_percent;    // of the mean outflow; interval from the misfits of the replicates
 };
 
 /// One hole and lot, over the finished replicates.

@@ -2,8 +2,8 @@
 
 #include <optional>
 
+#include "result/snapshot.hpp"
 #include "scene/scene.hpp"
-#include "simulation/snapshot.hpp"
 
 namespace vibrosow {
 

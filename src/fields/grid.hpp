@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "simulation/snapshot.hpp"
+#include "result/snapshot.hpp"
 
 namespace vibrosow {
 

@@ -48,9 +48,9 @@ std::vector<std::optional<double>> shear_strain(const Snapshot& before, const Sn
   Points places, displacements;
   std::vector<std::size_t> grain;  // of `after`
   for (std::size_t i = 0; i < after.size(); ++i) {
-    const auto found = std::ranges::lower_bound(before.number, after.number[i]);
-    if (found == before.number.end() || *found != after.number[i]) continue;
-    const auto j = static_cast<std::size_t>(found - before.number.begin());
+    const auto found = std::ranges::lower_bound(before.id, after.id[i]);
+    if (found == before.id.end() || *found != after.id[i]) continue;
+    const auto j = static_cast<std::size_t>(found - before.id.begin());
     grain.push_back(i);
     places.emplace_back(before.x[j], before.y[j]);
     displacements.emplace_back(after.x[i] - before.x[j], after.y[i] - before.y[j]);

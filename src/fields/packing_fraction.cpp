@@ -27,15 +27,15 @@ double area_left_and_below(double a, double b) {
   return b > 0 ? area_left_of(a) : 0.0;
 }
 
-/// Height over the tray's floor under which the centres of a share of the grains' area lie, m; 0 for an empty tray.
-double height_holding(const Snapshot& own, const Vessel& tray, double share) {
+/// Height over the tray's floor under which the centres of a fraction of the grains' area lie, m; 0 for an empty tray.
+double height_holding(const Snapshot& own, const Vessel& tray, double fraction) {
   std::vector<std::size_t> inside = grains_in_tray(own, tray);
   std::ranges::stable_sort(inside, {}, [&](std::size_t i) { return own.y[i]; });
   double area = 0;
   for (const std::size_t i : inside) area += own.area[i];
   double below = 0;
   for (const std::size_t i : inside)
-    if ((below += own.area[i]) >= share * area) return own.y[i];
+    if ((below += own.area[i]) >= fraction * area) return own.y[i];
   return 0;
 }
 
@@ -75,7 +75,7 @@ std::vector<double> packing_fraction(const Snapshot& snapshot, const std::vector
   const auto place = [&](double at, std::int64_t first, std::int64_t count) {
     return std::clamp<std::int64_t>(static_cast<std::int64_t>(std::floor(at / grid.cell)) - first, -1, count);
   };
-  for (const auto& [x, y, r, share] : covering_discs(snapshot, lots)) {
+  for (const auto& [x, y, r, counted] : covering_discs(snapshot, lots)) {
     const std::int64_t left = std::max<std::int64_t>(0, place(x - r, grid.first_column, grid.columns));
     const std::int64_t right = std::min(grid.columns - 1, place(x + r, grid.first_column, grid.columns));
     const std::int64_t bottom = std::max<std::int64_t>(0, place(y - r, grid.first_row, grid.rows));
@@ -85,7 +85,7 @@ std::vector<double> packing_fraction(const Snapshot& snapshot, const std::vector
         const std::size_t k = grid.index(column, row);
         const Eigen::Vector2d low = grid.lower_left(k) - Eigen::Vector2d(x, y);
         const Eigen::Vector2d high = low + Eigen::Vector2d::Constant(grid.cell);
-        fraction[k] += share * disc_in_rectangle(r, low, high) / (grid.cell * grid.cell);
+        fraction[k] += counted * disc_in_rectangle(r, low, high) / (grid.cell * grid.cell);
       }
   }
   return fraction;
@@ -97,9 +97,9 @@ std::optional<double> bed_packing(const Snapshot& own, const std::vector<SeedLot
   const Eigen::Vector2d high(0.75 * tray.length, height_holding(own, tray, 0.75));
   if ((high - low).minCoeff() <= 0) return std::nullopt;
   double covered = 0;
-  for (const auto& [x, y, r, share] : covering_discs(own, lots)) {
+  for (const auto& [x, y, r, counted] : covering_discs(own, lots)) {
     const Eigen::Vector2d centre(x, y);
-    covered += share * disc_in_rectangle(r, low - centre, high - centre);
+    covered += counted * disc_in_rectangle(r, low - centre, high - centre);
   }
   return covered / (high - low).prod();
 }

@@ -18,10 +18,10 @@ double disc_in_rectangle(double radius, const Eigen::Vector2d& low, const Eigen:
 /// A disc of the bed.
 struct CoveringDisc {
   double x, y, radius;  // m
-  double share;         // of its area that counts
+  double fraction;      // of its area that counts
 };
 
-/// All discs of the grains. A clump's discs count with the same share each, so that together they have the clump's
+/// All discs of the grains. A clump's discs count with the same fraction each, so that together they have the clump's
 /// area, overlaps counted once: exact for the whole clump, even over it where a line cuts it. `lots`: the scene's.
 std::vector<CoveringDisc> covering_discs(const Snapshot& snapshot, const std::vector<SeedLot>& lots);
 

@@ -3,8 +3,8 @@
 #include <optional>
 #include <vector>
 
+#include "result/snapshot.hpp"
 #include "scene/scene.hpp"
-#include "simulation/snapshot.hpp"
 
 namespace vibrosow {
 

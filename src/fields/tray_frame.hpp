@@ -1,7 +1,7 @@
 #pragma once
 
+#include "result/snapshot.hpp"
 #include "scene/scene.hpp"
-#include "simulation/snapshot.hpp"
 
 namespace vibrosow {
 

@@ -40,8 +40,8 @@ void Grains::add(double px, double py, double pvx, double pvy, int lot_index, co
   if (rotation) omega.push_back(0);
   if (oriented) angle.push_back(turned);
   lot.push_back(lot_index);
-  number.push_back(next_number_++);
-  if (!unequal) return;
+  id.push_back(next_id_++);
+  if (!polydisperse) return;
   radius.push_back(own.radius);
   mass.push_back(own.mass);
   inverse_mass.push_back(own.inverse_mass);
@@ -58,7 +58,7 @@ void Grains::remove_flagged(const std::vector<char>& remove) {
       if (!remove[i]) array[kept++] = array[i];
     array.resize(kept);
   };
-  keep(x), keep(y), keep(vx), keep(vy), keep(omega), keep(angle), keep(lot), keep(number);
+  keep(x), keep(y), keep(vx), keep(vy), keep(omega), keep(angle), keep(lot), keep(id);
   keep(radius), keep(mass), keep(inverse_mass), keep(inverse_inertia), keep(compliance), keep(curvature);
 }
 

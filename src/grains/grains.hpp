@@ -33,35 +33,36 @@ struct Grains {
   std::vector<double> omega;   // rad/s, anticlockwise
   std::vector<double> angle;   // rad, how far a clump is turned from its lot's shape; only with clumps
   std::vector<int> lot;
-  std::vector<std::int64_t> number;  // order of insertion, from 0
+  std::vector<std::int64_t> id;  // order of insertion, from 0
 
   std::vector<GrainKind> kinds;  // by lot
-  bool unequal = false;          // whether the arrays below are filled
+  bool polydisperse = false;     // whether the arrays below are filled
   bool rotation = false;
   std::vector<double> radius, mass, inverse_mass, inverse_inertia, compliance, curvature;  // curvature 1/m
 
   bool oriented = false;     // whether angles are kept
   std::vector<int> clump{};  // where these are the discs of clumps: which clump each belongs to; else empty
 
-  Grains(std::vector<GrainKind> lot_kinds, bool with_unequal, bool with_rotation, bool with_angles = false)
-      : kinds(std::move(lot_kinds)), unequal(with_unequal), rotation(with_rotation), oriented(with_angles) {}
+  Grains(std::vector<GrainKind> lot_kinds, bool with_polydisperse, bool with_rotation, bool with_angles = false)
+      : kinds(std::move(lot_kinds)), polydisperse(with_polydisperse), rotation(with_rotation), oriented(with_angles) {}
 
   std::size_t size() const { return x.size(); }
   GrainKind kind(std::size_t i) const {
-    if (!unequal) return kinds.front();
+    if (!polydisperse) return kinds.front();
     return {radius[i], mass[i], inverse_mass[i], inverse_inertia[i], compliance[i]};
   }
 
-  /// Appends a grain of `lot_index`, of the lot's own kind, and gives it the next number.
+  /// Appends a grain of `lot_index`, of the lot's own kind, and gives it the next id.
   void add(double px, double py, double pvx, double pvy, int lot_index);
-  /// The same with properties of its own, which only count where `unequal` is set; a clump turned by `turned` (rad).
+  /// The same with properties of its own, which only count where `polydisperse` is set; a clump turned by `turned`
+  /// (rad).
   void add(double px, double py, double pvx, double pvy, int lot_index, const GrainKind& own, double turned = 0);
 
   /// Keeps the grains whose flag is 0, in order. `remove` has one flag a grain.
   void remove_flagged(const std::vector<char>& remove);
 
  private:
-  std::int64_t next_number_ = 0;
+  std::int64_t next_id_ = 0;
 };
 
 }  // namespace vibrosow

@@ -10,7 +10,7 @@
 #include "grains/size_distribution.hpp"
 #include "scene/input_error.hpp"
 #include "scene/seed_lot.hpp"
-#include "scene/vessel_walls.hpp"
+#include "vessel/vessel_walls.hpp"
 
 namespace vibrosow {
 namespace {
@@ -243,7 +243,7 @@ std::vector<int> lot_counts(const std::vector<SeedLot>& lots, int count) {
   std::vector<std::pair<double, std::size_t>> remainders;
   int placed = 0;
   for (std::size_t lot = 0; lot < lots.size(); ++lot) {
-    const double wanted = lots[lot].number_share * count;
+    const double wanted = lots[lot].number_fraction * count;
     counts.push_back(static_cast<int>(std::floor(wanted)));
     placed += counts.back();
     remainders.emplace_back(std::floor(wanted) - wanted, lot);

@@ -12,7 +12,7 @@ namespace {
 
 using Kind = SizeDistribution::Kind;
 
-/// Diameter (m) below which the share `part` of a normal or lognormal, cut at its least and most, lies. Boost's
+/// Diameter (m) below which the fraction `part` of a normal or lognormal, cut at its least and most, lies. Boost's
 /// arithmetic is kept in double, so that it does not depend on what a machine's long double is.
 double cut_quantile(const SizeDistribution& sizes, double part) {
   using namespace boost::math::policies;
@@ -30,8 +30,8 @@ double cut_quantile(const SizeDistribution& sizes, double part) {
 }
 
 double table_quantile(const SizeDistribution& sizes, double part) {
-  for (std::size_t k = 0; k + 1 < sizes.share.size(); ++k) {
-    part -= sizes.share[k];
+  for (std::size_t k = 0; k + 1 < sizes.fraction.size(); ++k) {
+    part -= sizes.fraction[k];
     if (part < 0) return sizes.diameter[k];
   }
   return sizes.diameter.back();

@@ -34,7 +34,8 @@ double fill_mass(const Scene& scene, int lot) {
   if (scene.hopper && scene.hopper->fill) grains += scene.hopper->fill->count;
   double mass = 0;
   for (std::size_t i = 0; i < scene.lots.size(); ++i)
-    if (lot == all || static_cast<std::size_t>(lot) == i) mass += scene.lots[i].number_share * mean_mass(scene.lots[i]);
+    if (lot == all || static_cast<std::size_t>(lot) == i)
+      mass += scene.lots[i].number_fraction * mean_mass(scene.lots[i]);
   return grains * mass;
 }
 
@@ -52,7 +53,7 @@ std::vector<double> discharge_curve(const Scene& scene, const Run& run, const st
     event_times.push_back(event.time);
     totals.push_back(totals.back() + (kind == Discharge::seeds ? 1 : event.mass));
   }
-  const double unit = kind == Discharge::share ? fill_mass(scene, wanted_lot) : 1;
+  const double unit = kind == Discharge::fraction ? fill_mass(scene, wanted_lot) : 1;
   // The last step of a finished run may end a rounding error short of the duration.
   const double end = run.status == RunStatus::finished ? std::max(run.end_time, scene.run.duration) : run.end_time;
 

@@ -3,16 +3,16 @@
 #include <string>
 #include <vector>
 
+#include "result/run.hpp"
 #include "scene/scene.hpp"
-#include "simulation/run.hpp"
 
 namespace vibrosow {
 
 /// What a cumulative curve counts.
 enum class Discharge {
   seeds,
-  mass,   // kg, of the plane slice
-  share,  // of the mass of the fill at the start, as a fraction
+  mass,      // kg, of the plane slice
+  fraction,  // of the mass of the fill at the start, as a fraction
 };
 
 /// What has left the tray's holes up to and including each of `times` (s, in any order), in total or for one

@@ -59,7 +59,7 @@ std::vector<Pause> pauses(const std::vector<double>& times, double from, double 
 
 double pause_threshold(const Scene& scene) {
   double diameter = 0;
-  for (const SeedLot& lot : scene.lots) diameter += lot.number_share * lot.diameter;
+  for (const SeedLot& lot : scene.lots) diameter += lot.number_fraction * lot.diameter;
   return 5 * std::sqrt(diameter / standard_gravity);
 }
 

@@ -4,8 +4,8 @@
 #include <optional>
 #include <vector>
 
+#include "result/run.hpp"
 #include "scene/scene.hpp"
-#include "simulation/run.hpp"
 
 namespace vibrosow {
 
@@ -32,7 +32,7 @@ struct FlowWindow {
   std::int64_t pauses = 0;            // that begin in the window
   double longest_pause = 0;           // s, of these, in full; 0 without one
   double paused = 0;                  // s, in pauses, of the window
-  double paused_share() const { return to > from ? paused / (to - from) : 0; }
+  double paused_fraction() const { return to > from ? paused / (to - from) : 0; }
 };
 
 /// Into how many equal parts a run is cut for its flow over time.

@@ -105,7 +105,7 @@ std::optional<double> instability(const std::vector<OutflowEvent>& events, const
 std::optional<double> depth_factor(const Scene& scene) {
   if (!scene.tray.depth) return std::nullopt;
   double thickness = 0;
-  for (const SeedLot& lot : scene.lots) thickness += lot.number_share * mean_thickness(lot);
+  for (const SeedLot& lot : scene.lots) thickness += lot.number_fraction * mean_thickness(lot);
   return *scene.tray.depth / thickness;
 }
 
@@ -144,7 +144,7 @@ Outflow measure_outflow(const Scene& scene, const Run& run) {
   }
   outflow.instability_cv = instability(events, window);
   const std::int64_t left = run.balance.counted + run.balance.spilled;
-  if (left > 0) outflow.spilled_share = static_cast<double>(run.balance.spilled) / static_cast<double>(left);
+  if (left > 0) outflow.spilled_fraction = static_cast<double>(run.balance.spilled) / static_cast<double>(left);
   outflow.depth_factor = depth_factor(scene);
   outflow.note = note_of(run, window);
   return outflow;

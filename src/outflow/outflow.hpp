@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "outflow/statistics.hpp"
+#include "result/run.hpp"
 #include "scene/scene.hpp"
-#include "simulation/run.hpp"
 
 namespace vibrosow {
 
@@ -28,10 +28,10 @@ struct HoleOutflow {
 struct Outflow {
   double window_from = 0, window_to = 0;  // s; window_to is the run's end when it ended early
   std::vector<HoleOutflow> holes;         // per hole and lot, per hole all lots when there are several, then "all"
-  std::optional<double> evenness_cv;      // fraction; CV of the holes' mean rates, counting share removed
+  std::optional<double> evenness_cv;      // fraction; CV of the holes' mean rates, counting fraction removed
   std::optional<double> counting_cv;      // fraction; the CV that independent counting alone would give
   std::optional<double> instability_cv;   // fraction; CV of the whole outflow over equal time windows
-  double spilled_share = 0;               // spilled / (counted + spilled), whole run
+  double spilled_fraction = 0;            // spilled / (counted + spilled), whole run
   std::optional<double> depth_factor;     // tray.depth / diameter of the plane slice
   std::string note;                       // "ran dry at 3.2 s", "outside the model", ...; empty when all is well
 };
@@ -52,7 +52,7 @@ struct Evenness {
   double counting_cv = 0;  // 1 / sqrt(mean count of a hole): independent grains have a variance equal to their mean
 };
 
-/// From the number of grains of each hole over the same time. Of the raw rates: holes made of unequal widths
+/// From the number of grains of each hole over the same time. Of the raw rates: holes made of polydisperse widths
 /// are uneven by intent and count as uneven. Counts of replicates may be summed hole by hole before. None for
 /// fewer than two holes or no grains.
 std::optional<Evenness> evenness(const std::vector<std::int64_t>& grains_of_hole);

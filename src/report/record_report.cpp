@@ -61,10 +61,10 @@ std::string grains_csv(const Scene& scene, const Snapshot& snapshot, const Snaps
   const Snapshot own = in_tray_frame(snapshot, scene.tray);
   std::vector<std::optional<double>> shear(own.size());
   if (const auto earlier = in_tray_frame(scene, before)) shear = shear_strain(*earlier, own, fit_reach(*earlier));
-  CsvTable table({"number", "lot", "x_mm", "y_mm", "vx_m_per_s", "vy_m_per_s", "omega_rad_per_s", "angle_rad",
-                  "radius_mm", "start_x_mm", "start_y_mm", "shear"});
+  CsvTable table({"id", "lot", "x_mm", "y_mm", "vx_m_per_s", "vy_m_per_s", "omega_rad_per_s", "angle_rad", "radius_mm",
+                  "start_x_mm", "start_y_mm", "shear"});
   for (std::size_t i = 0; i < own.size(); ++i)
-    table.add_row({csv_number(own.number[i]), lot_name(scene, own.lot[i]), place(own.x[i]), place(own.y[i]),
+    table.add_row({csv_number(own.id[i]), lot_name(scene, own.lot[i]), place(own.x[i]), place(own.y[i]),
                    csv_number(own.vx[i]), csv_number(own.vy[i]), csv_number(own.omega[i]),
                    own.angle.empty() ? "" : csv_number(own.angle[i]), millimetres(own.radius[i]),
                    millimetres(own.start_x[i]), millimetres(own.start_y[i]), csv_number(shear[i])});
@@ -120,11 +120,11 @@ std::string profile_csv(const Scene& scene, const std::vector<Snapshot>& snapsho
 
 std::string flow_csv(const Scene& scene, const Run& run) {
   CsvTable table({"from_s", "to_s", "hole", "grains", "mass_g", "asymmetry", "pauses", "longest_pause_s", "paused_s",
-                  "paused_share"});
+                  "paused_fraction"});
   for (const FlowWindow& row : flow_over_time(scene, run))
     table.add_row({csv_number(row.from), csv_number(row.to), row.hole > 0 ? fmt::format("{}", row.hole) : "all",
                    csv_number(row.grains), grams(row.mass), csv_number(row.asymmetry), csv_number(row.pauses),
-                   csv_number(row.longest_pause), csv_number(row.paused), csv_number(row.paused_share())});
+                   csv_number(row.longest_pause), csv_number(row.paused), csv_number(row.paused_fraction())});
   return table.text();
 }
 

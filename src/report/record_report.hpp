@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "report/output_files.hpp"
+#include "result/run.hpp"
 #include "scene/scene.hpp"
-#include "simulation/run.hpp"
 
 namespace vibrosow {
 

@@ -72,7 +72,7 @@ Json outflow_json(const Outflow& outflow) {
           {"counting_cv_percent", percent(outflow.counting_cv)},
           {"instability_cv_percent", percent(outflow.instability_cv)},
           {"instability_windows", instability_windows},
-          {"spilled_percent", percent(outflow.spilled_share)},
+          {"spilled_percent", percent(outflow.spilled_fraction)},
           {"depth_factor", outflow.depth_factor ? Json(*outflow.depth_factor) : Json(nullptr)},
           {"note", outflow.note}};
 }
@@ -136,7 +136,7 @@ std::string timing_json(const Run& run) {
   json["grain_steps_per_s"] = static_cast<double>(run.grain_steps) / run.wall_time;
   if (run.phase_times)
     for (std::size_t k = 0; k < phase_names.size(); ++k)
-      json["shares"][std::string(phase_names[k])] = (*run.phase_times)[k] / run.wall_time;
+      json["fractions"][std::string(phase_names[k])] = (*run.phase_times)[k] / run.wall_time;
   return text_of(json);
 }
 

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "outflow/outflow.hpp"
+#include "result/run.hpp"
 #include "scene/scene.hpp"
-#include "simulation/run.hpp"
 
 namespace vibrosow {
 

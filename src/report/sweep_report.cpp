@@ -6,9 +6,9 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
+#include "input/key_units.hpp"
 #include "report/csv.hpp"
 #include "report/output_files.hpp"
-#include "scene/key_units.hpp"
 
 namespace vibrosow {
 namespace {
@@ -104,7 +104,7 @@ std::string sweep_csv(const StudyResult& result) {
     append(row, with_interval(of.figures.evenness_cv, percent));
     append(row, with_interval(of.figures.instability_cv, percent));
     append(row, with_interval(of.figures.longest_pause, 1));
-    append(row, with_interval(of.figures.spilled_share, percent));
+    append(row, with_interval(of.figures.spilled_fraction, percent));
     append(row, with_interval(of.figures.misfit_percent, 1));
     table.add_row(row);
   }

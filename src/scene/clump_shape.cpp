@@ -74,7 +74,7 @@ bool is_smooth(const std::vector<ClumpDisc>& row, double width) {
   return true;
 }
 
-/// The disc at a share `along` (-1 to 1) of the way from the ellipse's middle to its end disc.
+/// The disc at a fraction `along` (-1 to 1) of the way from the ellipse's middle to its end disc.
 ClumpDisc inscribed_disc(double length, double width, double along) {
   const double a = 0.5 * length, b = 0.5 * width, eccentricity2 = (a - b) * (a + b) / (a * a);
   return {a * eccentricity2 * along, 0, b * std::sqrt(1 - eccentricity2 * along * along)};

@@ -29,7 +29,7 @@ double holding_radius(const std::vector<ClumpDisc>& discs);
 /// are apart, 0 when one holds the other.
 double valley_depth(const ClumpDisc& a, const ClumpDisc& b);
 
-/// Valleys that a rounded shape may have, as a share of its width, and the discs it may take.
+/// Valleys that a rounded shape may have, as a fraction of its width, and the discs it may take.
 inline constexpr double deepest_valley = 0.1;
 inline constexpr int most_row_discs = 11;
 

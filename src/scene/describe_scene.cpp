@@ -17,7 +17,7 @@ Json describe(const SizeDistribution& sizes) {
   Json json = {{"distribution", names[static_cast<int>(sizes.kind)]}};
   if (sizes.kind == Kind::table) {
     json["diameters_m"] = sizes.diameter;
-    json["shares"] = sizes.share;
+    json["fractions"] = sizes.fraction;
     return json;
   }
   if (sizes.kind != Kind::uniform) json["mean_m"] = sizes.mean, json["deviation_m"] = sizes.deviation;
@@ -36,7 +36,7 @@ Json describe(const SeedLot& lot) {
                {"diameter_m", lot.diameter},
                {"mass_kg", lot.mass},
                {"shape", shapes[static_cast<int>(lot.shape)]},
-               {"number_share", lot.number_share}};
+               {"number_fraction", lot.number_fraction}};
   if (lot.sizes.kind != SizeDistribution::Kind::single) json["sizes"] = describe(lot.sizes);
   if (lot.shape == Shape::clump) {
     Json discs = Json::array();

@@ -22,14 +22,14 @@ struct ClumpDisc {
 };
 
 /// How the diameters of a lot scatter, by number. Normal and lognormal are cut at `least` and `most` (as if a draw
-/// outside were drawn again); uniform lies between them; a table gives diameters and their shares. Of a clump the
+/// outside were drawn again); uniform lies between them; a table gives diameters and their fractions. Of a clump the
 /// diameter stands for its size: the whole seed is scaled.
 struct SizeDistribution {
   enum class Kind { single, uniform, normal, lognormal, table };
   Kind kind = Kind::single;
-  double mean = 0, deviation = 0;       // m, of normal and lognormal before they are cut
-  double least = 0, most = 0;           // m
-  std::vector<double> diameter, share;  // m and parts of 1, of a table
+  double mean = 0, deviation = 0;          // m, of normal and lognormal before they are cut
+  double least = 0, most = 0;              // m
+  std::vector<double> diameter, fraction;  // m and parts of 1, of a table
 };
 
 struct SeedLot {
@@ -37,7 +37,7 @@ struct SeedLot {
   double diameter = 0;  // m, mean (before a cut); of a clump: of the circle about its centre of mass that just holds it
   double mass = 0;      // kg, of a seed of that diameter; others scale with its cube (a disc or clump: its square)
   Shape shape = Shape::ball;
-  double number_share = 1;  // of all seeds; the shares of a scene sum to 1
+  double number_fraction = 1;  // of all seeds; the fractions of a scene sum to 1
   SizeDistribution sizes{};
   std::vector<ClumpDisc> discs{};             // of a clump of that diameter
   double gyration2 = 0;                       // m2, moment of inertia over mass of such a clump
@@ -78,7 +78,7 @@ struct Contact {
   std::vector<SurfaceOverride> overrides{};
   FrictionModel friction_model = FrictionModel::sliding;
   std::optional<double>
-      tangential_ratio{};           // elastic_shell: k_t / k_n, 2/7; hertz: share of Mindlin's 8 G* sqrt(R* d), 1
+      tangential_ratio{};           // elastic_shell: k_t / k_n, 2/7; hertz: fraction of Mindlin's 8 G* sqrt(R* d), 1
   double tangential_damping = 0.5;  // of the normal dashpot
   Rolling rolling = Rolling::none;
   double rolling_damping = 0.3;  // of critical, while the rolling spring is below its limit
@@ -190,7 +190,7 @@ struct Numerics {
   Integrator integrator = Integrator::velocity_verlet;
   double steps_per_contact = 20;
   std::optional<double> dt;              // s; instead of steps_per_contact
-  std::optional<double> impact_speed{};  // m/s, at which Hertz' contact time is taken; none: the fastest foretold
+  std::optional<double> impact_speed{};  // m/s, at which Hertz' contact time is taken; none: the fastest predicted
   bool allow_long_step = false;          // run a step beyond the longest safe one; every result is then marked
   std::string where;                     // "FILE:LINE: KEY" of dt, for messages; empty in a scene not read from a file
 };
@@ -198,7 +198,7 @@ struct Numerics {
 struct GuardLimits {
   double warn_compression = 0.05;  // d c_j / (c_i + c_j) / r_i
   double stop_compression = 0.5;
-  double energy_tolerance = 0.2;  // energy made by the numerics, as a share of the energy in play
+  double energy_tolerance = 0.2;  // energy made by the numerics, as a fraction of the energy in play
 };
 
 enum class Start { at_rest, with_tray };
@@ -211,7 +211,7 @@ struct RunPlan {
   std::optional<double> end_after_pause{};  // s without a grain leaving, once every gate is open: ends the run
 };
 
-/// Pictures of the bed at given times.
+/// Snapshots of the bed at given times.
 struct Record {
   std::vector<double> times{};  // s, ascending
   double cell = 0;              // m, edge of the cells of maps

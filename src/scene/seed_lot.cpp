@@ -59,7 +59,7 @@ double size_moment(const SeedLot& lot, int power) {
   if (sizes.kind == Kind::table) {
     double moment = 0;
     for (std::size_t k = 0; k < sizes.diameter.size(); ++k)
-      moment += sizes.share[k] * std::pow(sizes.diameter[k] / lot.diameter, power);
+      moment += sizes.fraction[k] * std::pow(sizes.diameter[k] / lot.diameter, power);
     return moment;
   }
   if (sizes.kind == Kind::uniform) {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstring>
 
-#include "simulation/vessel_motion.hpp"
+#include "vessel/vessel_motion.hpp"
 
 namespace vibrosow {
 
@@ -79,7 +79,7 @@ void Counter::watch(const Grains& grains, const Walls& walls, const GrainLoops& 
     }
     const double ago = since(-count_below_);
     const double x = state.hole > 0 ? state.x : within_period(along - speed_along * ago);
-    events.push_back({time - ago, state.hole, grains.lot[i], grains.number[i], grains.kind(i).mass, x,
+    events.push_back({time - ago, state.hole, grains.lot[i], grains.id[i], grains.kind(i).mass, x,
                       std::hypot(grains.vx[i], grains.vy[i])});
   }
 }

@@ -2,10 +2,10 @@
 
 #include <vector>
 
+#include "compute/grain_loops.hpp"
 #include "grains/grains.hpp"
-#include "simulation/grain_loops.hpp"
-#include "simulation/run.hpp"
-#include "simulation/walls.hpp"
+#include "result/run.hpp"
+#include "vessel/walls.hpp"
 
 namespace vibrosow {
 

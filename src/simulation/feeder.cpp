@@ -5,11 +5,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include "contact/nearest_point.hpp"
 #include "grains/size_distribution.hpp"
 #include "scene/seed_lot.hpp"
 #include "simulation/counter.hpp"
-#include "simulation/vessel_motion.hpp"
+#include "vessel/nearest_point.hpp"
+#include "vessel/vessel_motion.hpp"
 
 namespace vibrosow {
 namespace {
@@ -114,15 +114,15 @@ int Feeder::draw_lot(Random& random) const {
   if (lots_.size() == 1) return 0;
   double rest = random.uniform();
   for (std::size_t lot = 0; lot + 1 < lots_.size(); ++lot) {
-    rest -= lots_[lot].number_share;
+    rest -= lots_[lot].number_fraction;
     if (rest < 0) return static_cast<int>(lot);
   }
   return static_cast<int>(lots_.size()) - 1;
 }
 
 void Feeder::note_waiting(const Vessel& vessel, int waiting, double time) {
-  constexpr double noted_share = 0.25;
-  if (!warning_.empty() || waiting <= noted_share * vessel.fill->count) return;
+  constexpr double noted_fraction = 0.25;
+  if (!warning_.empty() || waiting <= noted_fraction * vessel.fill->count) return;
   warning_ = fmt::format(
       "{}.fill.keep falls behind: {} of {} seeds missing at {:.4g} s, for want of room below the walls' top",
       vessel.name, waiting, vessel.fill->count, time);

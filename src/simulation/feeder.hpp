@@ -4,17 +4,17 @@
 
 #include "grains/grains.hpp"
 #include "grains/random.hpp"
-#include "simulation/walls.hpp"
+#include "vessel/walls.hpp"
 
 namespace vibrosow {
 
 /// Puts grains in during a run.
 ///
-/// Rain: see `Rain`; the arrivals up to now, lots drawn by the shares. Only a place clear of every grain and wall is
+/// Rain: see `Rain`; the arrivals up to now, lots drawn by the fractions. Only a place clear of every grain and wall is
 /// taken; each waiting grain is tried once each time, at another place.
 ///
 /// Keeps vessels topped up (`fill.keep`): each missing grain is laid just above the heap at a random place, at rest
-/// with its vessel, of a lot drawn by the shares, its size and a clump's angle drawn too. Where the heap reaches the
+/// with its vessel, of a lot drawn by the fractions, its size and a clump's angle drawn too. Where the heap reaches the
 /// vessel's top there is no room, and it waits. Grains of the heap touch others (`touching`, one flag a grain); between
 /// those that are still falling there may be room.
 class Feeder {

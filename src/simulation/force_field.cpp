@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "plan/contact_parameters.hpp"
 #include "scene/seed_lot.hpp"
 
 namespace vibrosow {
@@ -33,7 +34,7 @@ Motion ForceField::motion_of(const Grains& discs) const {
   return {discs.x.data(), discs.y.data(), discs.vx.data(), discs.vy.data(), discs.omega.data(), discs.x.data()};
 }
 
-Motion ForceField::across_seam(const Grains& discs) {
+Motion ForceField::across_boundary(const Grains& discs) {
   shifted_x_ = discs.x;
   for (double& x : shifted_x_) x += neighbours_.period();
   Motion at = motion_of(discs);
@@ -45,7 +46,7 @@ Motion ForceField::across_seam(const Grains& discs) {
 /// ranges is added afterwards, range by range: a grain's own row first, then the later rows in order, as one thread
 /// would.
 void ForceField::set_pair_forces(const Grains& discs, const Motion& at, const HistoryAdvance& advance, Forces& forces,
-                                 ContactCensus& census) {
+                                 ContactStatistics& statistics) {
   const PairList& pairs = neighbours_.pairs();
   ContactHistory& history = neighbours_.pair_history();
   const GrainSurfaces surfaces = surfaces_of(discs);
@@ -64,14 +65,14 @@ void ForceField::set_pair_forces(const Grains& discs, const Motion& at, const Hi
     const std::size_t range = static_cast<std::size_t>(k);
     RangeResult& result = range_results_[range];
     result.foreign.clear();
-    result.census = {};
+    result.statistics = {};
     add_pair_forces(pair_kernel_, surfaces, at, pairs, {first_entry(range), first_entry(range + 1)}, parameters_,
                     advance, history, {first_grain(range), first_grain(range + 1)}, forces, result.foreign,
-                    result.census);
+                    result.statistics);
   });
   for (const RangeResult& result : range_results_) {
-    census.contacts += result.census.contacts;
-    census.max_compression = std::max(census.max_compression, result.census.max_compression);
+    statistics.contacts += result.statistics.contacts;
+    statistics.max_compression = std::max(statistics.max_compression, result.statistics.max_compression);
     for (const ForeignForce& force : result.foreign) {
       GrainForce& sum = forces[static_cast<std::size_t>(force.grain)];
       sum.fx += force.fx, sum.fy += force.fy, sum.torque += force.torque;
@@ -80,46 +81,47 @@ void ForceField::set_pair_forces(const Grains& discs, const Motion& at, const Hi
 }
 
 void ForceField::run_kernels(const Grains& discs, const HistoryAdvance& advance, Forces& forces,
-                             ContactCensus& census) {
+                             ContactStatistics& statistics) {
   const Motion at = motion_of(discs);
-  set_pair_forces(discs, at, advance, forces, census);
+  set_pair_forces(discs, at, advance, forces, statistics);
   // Few, and their partners come before and after: one thread does them.
   if (neighbours_.period() > 0) {
-    const PairList& seam = neighbours_.seam_pairs();
-    add_pair_forces(pair_kernel_, surfaces_of(discs), across_seam(discs), seam, {0, static_cast<int>(seam.size())},
-                    parameters_, advance, neighbours_.seam_history(), {0, 0}, forces, range_results_.front().foreign,
-                    census);
+    const PairList& boundary = neighbours_.boundary_pairs();
+    add_pair_forces(pair_kernel_, surfaces_of(discs), across_boundary(discs), boundary,
+                    {0, static_cast<int>(boundary.size())}, parameters_, advance, neighbours_.boundary_history(),
+                    {0, 0}, forces, range_results_.front().foreign, statistics);
   }
   execution_.profile().lap(Phase::pairs);
   wall_finder_.find(discs, neighbours_.near_walls(), walls_.placed(), wall_contacts_);
-  wall_finder_.watch_crossings(neighbours_.near_walls(), census.crossed);
+  wall_finder_.watch_crossings(neighbours_.near_walls(), statistics.crossed);
   if (advance.commit > 0) wall_finder_.forget_parted(neighbours_.wall_history());
-  add_wall_forces(discs, at, advance, forces, census);
+  add_wall_forces(discs, at, advance, forces, statistics);
   execution_.profile().lap(Phase::walls);
 }
 
 /// Of the contacts found last.
 void ForceField::add_wall_forces(const Grains& discs, const Motion& at, const HistoryAdvance& advance, Forces& forces,
-                                 ContactCensus& census) {
+                                 ContactStatistics& statistics) {
   const double compression =
       wall_kernel_(surfaces_of(discs), at, parameters_, advance, neighbours_.wall_history(), wall_contacts_);
-  census.max_compression = std::max(census.max_compression, compression);
-  vibrosow::add_wall_forces(wall_contacts_, kernels_.effects.rotation, forces, census);
+  statistics.max_compression = std::max(statistics.max_compression, compression);
+  vibrosow::add_wall_forces(wall_contacts_, kernels_.effects.rotation, forces, statistics);
 }
 
-void ForceField::evaluate(const Grains& grains, double time, const HistoryAdvance& advance, ContactCensus& census) {
+void ForceField::evaluate(const Grains& grains, double time, const HistoryAdvance& advance,
+                          ContactStatistics& statistics) {
   walls_.place(time);
   const Grains& discs = place_discs(grains);
   neighbours_.update(discs, walls_);
   execution_.profile().lap(Phase::neighbours);
-  census.wall_power = 0;
-  if (!clumps_) return run_kernels(grains, advance, forces_, census);
-  const std::size_t crossed_before = census.crossed.size();
-  run_kernels(discs, advance, disc_forces_, census);
+  statistics.wall_power = 0;
+  if (!clumps_) return run_kernels(grains, advance, forces_, statistics);
+  const std::size_t crossed_before = statistics.crossed.size();
+  run_kernels(discs, advance, disc_forces_, statistics);
   forces_.assign(grains.size(), {});
   clumps_->gather(disc_forces_, forces_);
-  for (std::size_t k = crossed_before; k < census.crossed.size(); ++k)
-    census.crossed[k] = discs.clump[static_cast<std::size_t>(census.crossed[k])];
+  for (std::size_t k = crossed_before; k < statistics.crossed.size(); ++k)
+    statistics.crossed[k] = discs.clump[static_cast<std::size_t>(statistics.crossed[k])];
 }
 
 double ForceField::elastic_energy(const Grains& grains) {
@@ -128,18 +130,18 @@ double ForceField::elastic_energy(const Grains& grains) {
   double energy =
       kernels_.pair_energy(surfaces_of(discs), at, neighbours_.pairs(), parameters_, neighbours_.pair_history());
   if (neighbours_.period() > 0)
-    energy += kernels_.pair_energy(surfaces_of(discs), across_seam(discs), neighbours_.seam_pairs(), parameters_,
-                                   neighbours_.seam_history());
+    energy += kernels_.pair_energy(surfaces_of(discs), across_boundary(discs), neighbours_.boundary_pairs(),
+                                   parameters_, neighbours_.boundary_history());
   wall_finder_.find(discs, neighbours_.near_walls(), walls_.placed(), wall_contacts_);
   return energy + kernels_.wall_energy(surfaces_of(discs), wall_contacts_, parameters_, neighbours_.wall_history());
 }
 
 Forces ForceField::wall_forces(const Grains& grains) {
   const Grains& discs = place_discs(grains);
-  ContactCensus census;
+  ContactStatistics statistics;
   Forces on_discs(discs.size());
   wall_finder_.find(discs, neighbours_.near_walls(), walls_.placed(), wall_contacts_);
-  add_wall_forces(discs, motion_of(discs), {}, on_discs, census);
+  add_wall_forces(discs, motion_of(discs), {}, on_discs, statistics);
   if (!clumps_) return on_discs;
   Forces forces(grains.size());
   clumps_->gather(on_discs, forces);
@@ -159,7 +161,7 @@ std::vector<char> ForceField::touching(const Grains& grains) const {
     }
   };
   look(neighbours_.pairs(), 0);
-  look(neighbours_.seam_pairs(), neighbours_.period());
+  look(neighbours_.boundary_pairs(), neighbours_.period());
   return touches;
 }
 

@@ -3,13 +3,13 @@
 #include <optional>
 #include <vector>
 
+#include "compute/execution.hpp"
 #include "contact/pair_forces.hpp"
 #include "contact/wall_contacts.hpp"
+#include "grains/clump_discs.hpp"
 #include "grains/grains.hpp"
-#include "simulation/clump_discs.hpp"
-#include "simulation/execution.hpp"
 #include "simulation/neighbours.hpp"
-#include "simulation/walls.hpp"
+#include "vessel/walls.hpp"
 
 namespace vibrosow {
 
@@ -21,9 +21,9 @@ class ForceField {
   ForceField(const ForceField&) = delete;
   ForceField& operator=(const ForceField&) = delete;
 
-  /// Forces on the grains where they are now, with the vessels where they are at `time`. Census figures are added up,
-  /// but for the walls' power, which is this evaluation's. `advance` moves the memory of contacts on.
-  void evaluate(const Grains& grains, double time, const HistoryAdvance& advance, ContactCensus& census);
+  /// Forces on the grains where they are now, with the vessels where they are at `time`. Statistics figures are added
+  /// up, but for the walls' power, which is this evaluation's. `advance` moves the memory of contacts on.
+  void evaluate(const Grains& grains, double time, const HistoryAdvance& advance, ContactStatistics& statistics);
 
   /// Energy of all springs in contacts, J.
   double elastic_energy(const Grains& grains);
@@ -49,12 +49,12 @@ class ForceField {
  private:
   const Grains& place_discs(const Grains& grains);
   void set_pair_forces(const Grains& discs, const Motion& at, const HistoryAdvance& advance, Forces& forces,
-                       ContactCensus& census);
+                       ContactStatistics& statistics);
   Motion motion_of(const Grains& discs) const;
-  Motion across_seam(const Grains& discs);
+  Motion across_boundary(const Grains& discs);
   void add_wall_forces(const Grains& discs, const Motion& at, const HistoryAdvance& advance, Forces& forces,
-                       ContactCensus& census);
-  void run_kernels(const Grains& discs, const HistoryAdvance& advance, Forces& forces, ContactCensus& census);
+                       ContactStatistics& statistics);
+  void run_kernels(const Grains& discs, const HistoryAdvance& advance, Forces& forces, ContactStatistics& statistics);
 
   const Scene& scene_;
   Execution& execution_;
@@ -73,7 +73,7 @@ class ForceField {
   /// What one thread's range of pairs leaves for the others.
   struct RangeResult {
     std::vector<ForeignForce> foreign;
-    ContactCensus census;
+    ContactStatistics statistics;
   };
   std::vector<RangeResult> range_results_;
   std::vector<double> shifted_x_;  // m, of periodic sides

@@ -41,7 +41,7 @@ void Guard::stop(std::string reason) {
 }
 
 void Guard::watch_step(const Integration& s) {
-  max_compression_ = std::max(max_compression_, s.census.max_compression);
+  max_compression_ = std::max(max_compression_, s.statistics.max_compression);
   if (warned_at_ < 0 && max_compression_ > limits_.warn_compression) {
     warned_at_ = s.time;
     warnings_.push_back(

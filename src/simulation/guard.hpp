@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
+#include "result/run.hpp"
 #include "scene/scene.hpp"
 #include "simulation/integrator.hpp"
-#include "simulation/run.hpp"
 
 namespace vibrosow {
 

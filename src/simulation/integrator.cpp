@@ -6,10 +6,10 @@ namespace vibrosow {
 namespace {
 
 PerGrain per_mass(const Grains& grains, std::size_t from) {
-  return {grains.unequal ? grains.inverse_mass.data() + from : nullptr, grains.kinds.front().inverse_mass};
+  return {grains.polydisperse ? grains.inverse_mass.data() + from : nullptr, grains.kinds.front().inverse_mass};
 }
 PerGrain per_inertia(const Grains& grains, std::size_t from) {
-  return {grains.unequal ? grains.inverse_inertia.data() + from : nullptr, grains.kinds.front().inverse_inertia};
+  return {grains.polydisperse ? grains.inverse_inertia.data() + from : nullptr, grains.kinds.front().inverse_inertia};
 }
 
 /// The forces of the last evaluation on the grains from number `a`.
@@ -44,8 +44,8 @@ void set_sum(std::vector<double>& to, const std::vector<double>& from, const std
   for (std::size_t i = 0; i < to.size(); ++i) t[i] = f[i] + factor * r[i];
 }
 
-void accelerations_now(Integration& s, double time, const HistoryAdvance& advance, ContactCensus& census) {
-  s.field.evaluate(s.grains, time, advance, census);
+void accelerations_now(Integration& s, double time, const HistoryAdvance& advance, ContactStatistics& statistics) {
+  s.field.evaluate(s.grains, time, advance, statistics);
   accelerations(s);
 }
 
@@ -78,19 +78,19 @@ void velocity_verlet(Integration& s) {
   });
   s.execution.profile().lap(Phase::integration);
   const double power_before = s.wall_power;
-  s.field.evaluate(grains, next_time(s), {.trial = s.dt, .commit = s.dt, .present = 0.5}, s.census);
+  s.field.evaluate(grains, next_time(s), {.trial = s.dt, .commit = s.dt, .present = 0.5}, s.statistics);
 
   s.execution.share(grains.size(), [&](std::size_t a, std::size_t b) {
     loops.correct(b - a, s.dt, drive_of(s, a), rates_of(s, a));
     watch_speed(s, a, b);
   });
-  s.wall_power = s.census.wall_power;
+  s.wall_power = s.statistics.wall_power;
   add_wall_work(s, 0.5 * s.dt * (power_before + s.wall_power));
 }
 
 void rk2_midpoint(Integration& s) {
   Grains& grains = s.grains;
-  s.field.evaluate(grains, s.time, {}, s.census);
+  s.field.evaluate(grains, s.time, {}, s.statistics);
   accelerations(s);
   s.x = grains.x, s.y = grains.y, s.vx = grains.vx, s.vy = grains.vy, s.omega = grains.omega, s.angle = grains.angle;
   const double half = 0.5 * s.dt;
@@ -101,7 +101,7 @@ void rk2_midpoint(Integration& s) {
     add_scaled(grains.omega, s.alpha, half);
   }
 
-  s.field.evaluate(grains, s.time + half, {.trial = half, .commit = s.dt, .present = 1}, s.census);
+  s.field.evaluate(grains, s.time + half, {.trial = half, .commit = s.dt, .present = 1}, s.statistics);
   accelerations(s);
   set_sum(grains.x, s.x, grains.vx, s.dt), set_sum(grains.y, s.y, grains.vy, s.dt);
   set_sum(grains.vx, s.vx, s.ax, s.dt), set_sum(grains.vy, s.vy, s.ay, s.dt);
@@ -110,7 +110,7 @@ void rk2_midpoint(Integration& s) {
     set_sum(grains.omega, s.omega, s.alpha, s.dt);
   }
   s.execution.share(grains.size(), [&](std::size_t a, std::size_t b) { watch_speed(s, a, b); });
-  add_wall_work(s, s.dt * s.census.wall_power);
+  add_wall_work(s, s.dt * s.statistics.wall_power);
 }
 
 void gear_predict(Integration& s, double* x, double* v, HigherDerivatives& q, std::size_t a, std::size_t b) {
@@ -131,7 +131,7 @@ void gear5(Integration& s) {
   });
   s.execution.profile().lap(Phase::integration);
   const double power_before = s.wall_power;
-  s.field.evaluate(g, next_time(s), {.trial = s.dt, .commit = s.dt, .present = 0.5}, s.census);
+  s.field.evaluate(g, next_time(s), {.trial = s.dt, .commit = s.dt, .present = 0.5}, s.statistics);
   accelerations(s);
   s.execution.share(g.size(), [&](std::size_t a, std::size_t b) {
     gear_correct(s, &g.x[a], &g.vx[a], s.of_x, s.ax, a, b);
@@ -139,17 +139,17 @@ void gear5(Integration& s) {
     if (g.rotation) gear_correct(s, angle_or_null(g, a), &g.omega[a], s.of_angle, s.alpha, a, b);
     watch_speed(s, a, b);
   });
-  s.wall_power = s.census.wall_power;
+  s.wall_power = s.statistics.wall_power;
   add_wall_work(s, 0.5 * s.dt * (power_before + s.wall_power));
 }
 
 /// One step of the classical fourth-order scheme that leaves no trace in the contacts' memory.
-void runge_kutta4(Integration& s, double time, ContactCensus& census) {
+void runge_kutta4(Integration& s, double time, ContactStatistics& statistics) {
   const Grains start = s.grains;
   Grains end = s.grains;
   const double h = s.dt;
   const auto stage = [&](double at, double weight, double ahead) {
-    accelerations_now(s, at, {}, census);
+    accelerations_now(s, at, {}, statistics);
     const auto move = [&](std::vector<double>& x, std::vector<double>& v, const std::vector<double>& x0,
                           const std::vector<double>& v0, std::vector<double>& x1, std::vector<double>& v1,
                           const std::vector<double>& a) {
@@ -183,7 +183,7 @@ void fit_derivatives(const std::array<std::vector<double>, 4>& a, double h, High
 
 void start_gear(Integration& s) {
   const Grains start = s.grains;
-  ContactCensus aside;  // a look ahead: what it meets has not happened
+  ContactStatistics aside;  // a look ahead: what it meets has not happened
   std::array<std::vector<double>, 4> ax, ay, alpha;
   for (std::size_t k = 0; k < 4; ++k) {
     const double time = s.time + static_cast<double>(k) * s.dt;
@@ -211,13 +211,13 @@ StepFunction step_function(Integrator integrator) {
 
 void start_integration(Integration& s) {
   if (s.scheme == Integrator::gear5) start_gear(s);
-  accelerations_now(s, s.time, {}, s.census);
-  s.wall_power = s.census.wall_power;
+  accelerations_now(s, s.time, {}, s.statistics);
+  s.wall_power = s.statistics.wall_power;
 }
 
 void add_to_integration(Integration& s) {
-  accelerations_now(s, s.time, {}, s.census);
-  s.wall_power = s.census.wall_power;
+  accelerations_now(s, s.time, {}, s.statistics);
+  s.wall_power = s.statistics.wall_power;
   if (s.scheme != Integrator::gear5) return;
   // Newcomers start with their acceleration; those who were there keep what they have.
   const auto extend = [&s](HigherDerivatives& higher, const std::vector<double>& a) {
@@ -230,8 +230,8 @@ void add_to_integration(Integration& s) {
 }
 
 void remove_from_integration(Integration& s, const std::vector<char>& removed) {
-  accelerations_now(s, s.time, {}, s.census);
-  s.wall_power = s.census.wall_power;
+  accelerations_now(s, s.time, {}, s.statistics);
+  s.wall_power = s.statistics.wall_power;
   if (s.scheme != Integrator::gear5) return;
   for (HigherDerivatives* higher : {&s.of_x, &s.of_y, &s.of_angle})
     for (std::vector<double>& q : *higher) {

@@ -27,7 +27,7 @@ struct Integration {
   double time = 0;  // s
   std::int64_t step = 0;
   std::atomic<bool> too_fast = false;  // whether a grain was faster at the end of the last step
-  ContactCensus census{};
+  ContactStatistics statistics{};
   double wall_work = 0;                                        // J
   double gross_wall_work = 0;                                  // J, sizes summed
   std::vector<double> ax{}, ay{}, alpha{};                     // acceleration at the beginning of the step

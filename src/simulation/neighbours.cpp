@@ -7,8 +7,8 @@
 #include <ranges>
 #include <utility>
 
-#include "contact/nearest_point.hpp"
-#include "scene/vessel_walls.hpp"
+#include "vessel/nearest_point.hpp"
+#include "vessel/vessel_walls.hpp"
 
 namespace vibrosow {
 namespace {
@@ -77,11 +77,11 @@ void add_active_pairs(const PairList& list, const ContactHistory& history, std::
 }
 
 /// Of both lists, sorted: a grain carried from one side to the other takes its contacts from one list to the other.
-std::vector<RememberedPair> active_pairs(const PairList& pairs, const ContactHistory& history, const PairList& seam,
-                                         const ContactHistory& seam_history) {
+std::vector<RememberedPair> active_pairs(const PairList& pairs, const ContactHistory& history, const PairList& boundary,
+                                         const ContactHistory& boundary_history) {
   std::vector<RememberedPair> active;
   add_active_pairs(pairs, history, active);
-  add_active_pairs(seam, seam_history, active);
+  add_active_pairs(boundary, boundary_history, active);
   std::sort(active.begin(), active.end());
   return active;
 }
@@ -177,7 +177,7 @@ void Neighbours::update(const Grains& grains, const Walls& walls) {
 /// in updates, not in seconds: a run's lists are the same wherever it runs.
 void Neighbours::choose_narrow_margin() {
   constexpr double prune_per_candidate_cost = 12;  // P / c, in diameters; measured on shaken trays
-  constexpr double least = 0.02, most = 0.35;     // diameters
+  constexpr double least = 0.02, most = 0.35;      // diameters
   if (updates_since_prune_ > 1) {
     const double before = narrow_margin_ / diameter_;
     const double best = std::sqrt(prune_per_candidate_cost * before / static_cast<double>(updates_since_prune_));
@@ -189,9 +189,9 @@ void Neighbours::choose_narrow_margin() {
 void Neighbours::search(const Grains& grains, const Walls& walls) {
   const Ranges ranges{execution_.threads(), [this](const auto& work) { execution_.for_each_range(work); }};
   broadphase_.find(grains, walls.poses(), wide_margin_, ranges, wide_, wide_walls_);
-  if (period_ > 0) broadphase_.find_across(period_, wide_margin_, ranges, wide_seam_);
+  if (period_ > 0) broadphase_.find_across(period_, wide_margin_, ranges, wide_boundary_);
   if (!grains.clump.empty())
-    drop_pairs_within_clumps(grains.clump, wide_), drop_pairs_within_clumps(grains.clump, wide_seam_);
+    drop_pairs_within_clumps(grains.clump, wide_), drop_pairs_within_clumps(grains.clump, wide_boundary_);
   note(grains, walls, wide_reference_);
   wide_is_valid_ = true;
   ++searches_;
@@ -201,7 +201,7 @@ void Neighbours::search(const Grains& grains, const Walls& walls) {
 /// rows' grains shifted by `shift` (m) along x.
 void Neighbours::prune_range(const Grains& grains, const PairList& wide, std::size_t from, std::size_t to, double shift,
                              PairList& narrow) const {
-  const PerGrain radius{grains.unequal ? grains.radius.data() : nullptr, grains.kinds.front().radius};
+  const PerGrain radius{grains.polydisperse ? grains.radius.data() : nullptr, grains.kinds.front().radius};
   constexpr std::size_t chunk = 4096;  // of the wide list: the narrow one is never much longer than it must be
   std::size_t near = 0;
   for (; from < to; from += chunk) {
@@ -231,18 +231,19 @@ void Neighbours::prune_pairs(const Grains& grains, const PairList& wide, double 
 }
 
 void Neighbours::prune(const Grains& grains, const Walls& walls) {
-  std::swap(narrow_, old_), std::swap(narrow_seam_, old_seam_);
+  std::swap(narrow_, old_), std::swap(narrow_boundary_, old_boundary_);
   prune_pairs(grains, wide_, 0, narrow_);
-  if (period_ > 0) prune_pairs(grains, wide_seam_, period_, narrow_seam_);
+  if (period_ > 0) prune_pairs(grains, wide_boundary_, period_, narrow_boundary_);
   if (memory_.any()) {
-    std::swap(pair_history_, old_history_), std::swap(seam_history_, old_seam_history_);
-    pair_history_.clear(), seam_history_.clear();
+    std::swap(pair_history_, old_history_), std::swap(boundary_history_, old_boundary_history_);
+    pair_history_.clear(), boundary_history_.clear();
     pair_history_.resize(narrow_.size(), memory_.slip, memory_.roll);
-    seam_history_.resize(narrow_seam_.size(), memory_.slip, memory_.roll);
+    boundary_history_.resize(narrow_boundary_.size(), memory_.slip, memory_.roll);
     if (period_ > 0) {
-      const std::vector<RememberedPair> remembered = active_pairs(old_, old_history_, old_seam_, old_seam_history_);
+      const std::vector<RememberedPair> remembered =
+          active_pairs(old_, old_history_, old_boundary_, old_boundary_history_);
       recall(remembered, narrow_, pair_history_);
-      recall(remembered, narrow_seam_, seam_history_);
+      recall(remembered, narrow_boundary_, boundary_history_);
     } else {
       execution_.share(narrow_.size(), [&](std::size_t from, std::size_t to) {
         carry_over(old_, old_history_, narrow_, from, to, pair_history_);
@@ -307,8 +308,8 @@ void Neighbours::remove_flagged(const std::vector<char>& removed) {
   renumber(wide_, none, removed, new_index);
   renumber(narrow_, pair_history_, removed, new_index);
   if (period_ > 0) {
-    renumber(wide_seam_, none, removed, new_index);
-    renumber(narrow_seam_, seam_history_, removed, new_index);
+    renumber(wide_boundary_, none, removed, new_index);
+    renumber(narrow_boundary_, boundary_history_, removed, new_index);
   }
   renumber(wide_walls_, none, removed, new_index);
   renumber(narrow_walls_, wall_history_, removed, new_index);

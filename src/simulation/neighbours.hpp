@@ -5,11 +5,11 @@
 #include <vector>
 
 #include "box2d/broadphase.hpp"
+#include "compute/execution.hpp"
 #include "contact/contact_history.hpp"
 #include "contact/contact_list.hpp"
 #include "grains/grains.hpp"
-#include "simulation/execution.hpp"
-#include "simulation/walls.hpp"
+#include "vessel/walls.hpp"
 
 namespace vibrosow {
 
@@ -50,14 +50,14 @@ class Neighbours {
   const PairList& pairs() const { return narrow_; }
   /// Length (m) after which a periodic tray comes again; 0 when it does not.
   double period() const { return period_; }
-  /// Pairs across the seam of a periodic tray: the row's grain, near the left side, with its x larger by the period may
+  /// Pairs across the periodic boundary: the row's grain, near the left side, with its x larger by the period may
   /// touch its partners, near the right side. A row for each grain; no rows without a period.
-  const PairList& seam_pairs() const { return narrow_seam_; }
+  const PairList& boundary_pairs() const { return narrow_boundary_; }
   const std::vector<WallCandidate>& near_walls() const { return narrow_walls_; }
   std::vector<WallCandidate>& near_walls() { return narrow_walls_; }
   ContactHistory& pair_history() { return pair_history_; }
   const ContactHistory& pair_history() const { return pair_history_; }
-  ContactHistory& seam_history() { return seam_history_; }
+  ContactHistory& boundary_history() { return boundary_history_; }
   ContactHistory& wall_history() { return wall_history_; }
   const ContactHistory& wall_history() const { return wall_history_; }
   std::int64_t searches() const { return searches_; }
@@ -91,11 +91,11 @@ class Neighbours {
   NeighbourMemory memory_;
   double period_;  // m
   PairList wide_, narrow_;
-  PairList wide_seam_, narrow_seam_;
+  PairList wide_boundary_, narrow_boundary_;
   std::vector<PairList> parts_;  // by thread
-  PairList old_, old_seam_;      // the lists before, while memories are carried over
+  PairList old_, old_boundary_;  // the lists before, while memories are carried over
   std::vector<WallCandidate> wide_walls_, narrow_walls_;
-  ContactHistory pair_history_, seam_history_, wall_history_, old_history_, old_seam_history_;
+  ContactHistory pair_history_, boundary_history_, wall_history_, old_history_, old_boundary_history_;
   Reference wide_reference_, narrow_reference_;
   bool wide_is_valid_ = false;
   std::int64_t searches_ = 0, prunes_ = 0;

@@ -4,7 +4,7 @@
 #include <numbers>
 
 #include "scene/clump_shape.hpp"
-#include "simulation/vessel_motion.hpp"
+#include "vessel/vessel_motion.hpp"
 
 namespace vibrosow {
 namespace {
@@ -23,10 +23,10 @@ Recorder::Recorder(const Scene& scene) : tray_(scene.tray), times_(scene.record-
 void Recorder::note_new(const Grains& grains) {
   const std::size_t known = start_.size();
   for (std::size_t i = 0; i < grains.size(); ++i) {
-    const auto number = static_cast<std::size_t>(grains.number[i]);
-    if (number < known) continue;
-    start_.resize(std::max(start_.size(), number + 1));
-    start_[number] = {grains.x[i], grains.y[i]};
+    const auto id = static_cast<std::size_t>(grains.id[i]);
+    if (id < known) continue;
+    start_.resize(std::max(start_.size(), id + 1));
+    start_[id] = {grains.x[i], grains.y[i]};
   }
 }
 
@@ -52,13 +52,13 @@ Snapshot Recorder::snapshot(const Grains& grains, double time) const {
   s.omega.resize(grains.size(), 0.0);
   s.angle = grains.angle;
   s.lot = grains.lot;
-  s.number = grains.number;
+  s.id = grains.id;
   for (std::size_t i = 0; i < grains.size(); ++i) {
     const GrainKind kind = grains.kind(i);
     s.radius.push_back(kind.radius);
     s.mass.push_back(kind.mass);
     s.area.push_back(filled_[static_cast<std::size_t>(grains.lot[i])] * circle_area(kind.radius));
-    const Eigen::Vector2d& start = start_.at(static_cast<std::size_t>(grains.number[i]));
+    const Eigen::Vector2d& start = start_.at(static_cast<std::size_t>(grains.id[i]));
     s.start_x.push_back(start.x());
     s.start_y.push_back(start.y());
   }

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "grains/grains.hpp"
-#include "simulation/snapshot.hpp"
+#include "result/snapshot.hpp"
 
 namespace vibrosow {
 
@@ -29,7 +29,7 @@ class Recorder {
   std::vector<double> times_;
   std::vector<double> filled_;  // by lot, the grain's area over that of its circle
   std::size_t taken_ = 0;
-  std::vector<Eigen::Vector2d> start_;  // by number
+  std::vector<Eigen::Vector2d> start_;  // by id
 };
 
 }  // namespace vibrosow

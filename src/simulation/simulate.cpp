@@ -3,9 +3,10 @@
 #include <chrono>
 #include <numeric>
 
+#include "plan/effects.hpp"
+#include "plan/step_plan.hpp"
 #include "scene/input_error.hpp"
 #include "simulation/simulation.hpp"
-#include "simulation/step_plan.hpp"
 
 namespace vibrosow {
 namespace {

@@ -4,17 +4,17 @@
 #include <cstdint>
 #include <functional>
 
+#include "result/run.hpp"
 #include "scene/scene.hpp"
-#include "simulation/run.hpp"
 
 namespace vibrosow {
 
 struct SimulationOptions {
   std::uint64_t random_seed = 1;
-  int threads = 1;                                  // that share the run's loops; the result is the same for any number
-  bool profile = false;                             // whether Run::phase_times are taken
-  const std::atomic<bool>* interrupt = nullptr;     // looked at now and then; true ends the run as interrupted
-  std::function<void(double share_done)> progress;  // called now and then with 0..1, in the simulating thread
+  int threads = 1;                               // that share the run's loops; the result is the same for any number
+  bool profile = false;                          // whether Run::phase_times are taken
+  const std::atomic<bool>* interrupt = nullptr;  // looked at now and then; true ends the run as interrupted
+  std::function<void(double fraction_done)> progress;  // called now and then with 0..1, in the simulating thread
 };
 
 /// Runs a scene to its end. Same scene and random seed: the same Run to the last bit, but for wall_time. Throws

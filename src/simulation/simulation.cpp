@@ -8,7 +8,7 @@
 #include "grains/packing.hpp"
 #include "scene/input_error.hpp"
 #include "scene/seed_lot.hpp"
-#include "simulation/vessel_motion.hpp"
+#include "vessel/vessel_motion.hpp"
 
 namespace vibrosow {
 namespace {
@@ -72,7 +72,7 @@ bool Simulation::step() {
   s_.time = static_cast<double>(s_.step) * s_.dt;
   guard_.watch_step(s_);
   if (guard_.stop_reason()) return false;
-  if (!s_.census.crossed.empty()) take_out();
+  if (!s_.statistics.crossed.empty()) take_out();
   count();
   profile.lap(Phase::counters);
   if (s_.step % steps_per_removal_ == 0) take_out();
@@ -117,11 +117,11 @@ void Simulation::take_out() {
       if (touches[i]) removed[i] = 0;
   }
   std::int64_t lost = 0;
-  for (int i : s_.census.crossed) {
+  for (int i : s_.statistics.crossed) {
     const std::size_t k = static_cast<std::size_t>(i);
     if (!removed[k] && !counter_.is_counted(k)) removed[k] = 1, ++lost;
   }
-  s_.census.crossed.clear();
+  s_.statistics.crossed.clear();
   if (lost > 0) note_lost(lost);
   if (std::find(removed.begin(), removed.end(), 1) != removed.end()) take_out_flagged(removed);
 }
@@ -223,7 +223,7 @@ Run Simulation::result() const {
   run.outside_the_model = guard_.outside_the_model();
   run.steps = s_.step;
   run.end_time = s_.time;
-  run.force_evaluations = s_.census.contacts;
+  run.force_evaluations = s_.statistics.contacts;
   run.max_compression = guard_.max_compression();
   std::ranges::stable_sort(run.events, {}, &OutflowEvent::time);  // of one step they come in the order of the grains
   if (execution_.profile().is_on()) run.phase_times = execution_.profile().times();
@@ -235,7 +235,7 @@ Run Simulation::result() const {
 
 Grains starting_grains(const Scene& scene, std::uint64_t random_seed, const EffectSet& effects) {
   Random random(random_seed);
-  Grains grains(grain_kinds(scene, effects.rotation), effects.unequal, effects.rotation, effects.clumps);
+  Grains grains(grain_kinds(scene, effects.rotation), effects.polydisperse, effects.rotation, effects.clumps);
   for (const Vessel& vessel : vessels_of(scene)) {
     const bool moves_along = scene.run.start == Start::with_tray;
     const PoseRate rate = moves_along ? vessel_velocity(vessel, 0) : PoseRate{};
@@ -253,20 +253,20 @@ Grains starting_grains(const Scene& scene, std::uint64_t random_seed, const Effe
 
 void refuse_overlapping_start(const Scene& scene, const Grains& grains) {
   EffectSet effects;
-  effects.unequal = grains.unequal;
+  effects.polydisperse = grains.polydisperse;
   effects.clumps = grains.oriented;
   effects.rotation = grains.rotation;
   Execution execution;
   ForceField field(scene, effects, {}, execution);
-  ContactCensus census;
-  field.evaluate(grains, 0, {}, census);
+  ContactStatistics statistics;
+  field.evaluate(grains, 0, {}, statistics);
   // Grains at rest may carry their bed's weight, no more.
-  if (census.max_compression <= scene.guard.warn_compression) return;
+  if (statistics.max_compression <= scene.guard.warn_compression) return;
   const Fill fill = scene.hopper && scene.hopper->fill ? *scene.hopper->fill : scene.tray.fill.value_or(Fill{});
   throw InputError(
       fmt::format("{}: grains overlap at the start, their shells compressed by {:.3g} of the radius; does the "
                   "hopper stand in the tray's bed? (hopper.above, fill.count)",
-                  fill.where.empty() ? "fill.count" : fill.where, census.max_compression));
+                  fill.where.empty() ? "fill.count" : fill.where, statistics.max_compression));
 }
 
 }  // namespace vibrosow

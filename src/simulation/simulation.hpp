@@ -3,12 +3,13 @@
 #include <memory>
 #include <optional>
 
+#include "plan/effects.hpp"
+#include "result/run.hpp"
 #include "simulation/counter.hpp"
 #include "simulation/feeder.hpp"
 #include "simulation/guard.hpp"
 #include "simulation/integrator.hpp"
 #include "simulation/recorder.hpp"
-#include "simulation/run.hpp"
 
 namespace vibrosow {
 
@@ -43,7 +44,7 @@ class Simulation {
   ForceField& field() { return field_; }
   const ForceField& field() const { return field_; }
   const Guard& guard() const { return guard_; }
-  const ContactCensus& census() const { return s_.census; }
+  const ContactStatistics& statistics() const { return s_.statistics; }
 
   /// What has come of it so far.
   Run result() const;

@@ -29,7 +29,7 @@ const DimensionFacts& facts(Dimension dimension) {
   static constexpr DimensionFacts force{"N", "a force such as \"0.2 mN\""};
   static constexpr DimensionFacts pressure{"Pa", "a pressure such as \"5e4 MPa\""};
   static constexpr DimensionFacts rate{"1/s", "a rate such as \"2.1e4 1/s\""};
-  static constexpr DimensionFacts fraction{"1", "a share in % such as \"70 %\""};
+  static constexpr DimensionFacts fraction{"1", "a fraction in % such as \"70 %\""};
   switch (dimension) {
     case Dimension::length:
       return length;

@@ -6,7 +6,7 @@
 #include <fstream>
 #include <string>
 
-#include "simulation/run.hpp"
+#include "result/run.hpp"
 #include "simulation/simulate.hpp"
 
 namespace vibrosow {

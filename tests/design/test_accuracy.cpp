@@ -3,9 +3,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "input/read_scene.hpp"
+#include "plan/step_plan.hpp"
 #include "report/accuracy_report.hpp"
-#include "scene/read_scene.hpp"
-#include "simulation/step_plan.hpp"
 #include "study_files.hpp"
 
 namespace vibrosow {

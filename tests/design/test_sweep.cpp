@@ -144,7 +144,7 @@ vibrosow::Run recorded_run(const Scene& scene, const SimulationOptions& options)
     Snapshot s;
     s.x = {0.25, 0.25}, s.y = {0.02, 0.02 + rise};
     s.vx = s.vy = s.omega = s.start_x = s.start_y = {0, 0};
-    s.lot = {0, 1}, s.number = {0, 1};
+    s.lot = {0, 1}, s.id = {0, 1};
     s.radius = {2e-3, 2e-3}, s.mass = {1, 1}, s.area = {1, 1};
     run.snapshots.push_back(s);
   }
@@ -154,8 +154,8 @@ vibrosow::Run recorded_run(const Scene& scene, const SimulationOptions& options)
 TEST(Sweep, ARecordLeavesItsFiguresAndNoSnapshots) {
   const StudyFiles files;
   const Study study = read_study(files.study(
-      "replicates = 3\n[set]\nseeds.weed = { diameter = \"4 mm\", mass = \"40 mg\", number_share = \"50 %\" }\n"
-      "seeds.wheat.number_share = \"50 %\"\nrecord = { times = [\"0 s\", \"1 s\"], cell = \"1 cm\" }\n"
+      "replicates = 3\n[set]\nseeds.weed = { diameter = \"4 mm\", mass = \"40 mg\", number_fraction = \"50 %\" }\n"
+      "seeds.wheat.number_fraction = \"50 %\"\nrecord = { times = [\"0 s\", \"1 s\"], cell = \"1 cm\" }\n"
       "tray.holes.count = 1\n"));
   const StudyResult result = sweep(study, recorded_run, with_jobs(2));
   for (const Replicate& replicate : result.runs[0]) EXPECT_TRUE(replicate.run->snapshots.empty());

@@ -3,8 +3,8 @@
 #include <Eigen/Core>
 #include <numbers>
 
+#include "result/snapshot.hpp"
 #include "scene/scene.hpp"
-#include "simulation/snapshot.hpp"
 
 namespace vibrosow {
 
@@ -19,7 +19,7 @@ inline Vessel made_up_tray(double length) {
 /// One more grain of 2 mm radius and 30 mg, numbered in order.
 inline void put(Snapshot& s, double x, double y, double vx = 0, double vy = 0, int lot = 0, double radius = 2e-3,
                 double mass = 30e-6) {
-  s.number.push_back(static_cast<std::int64_t>(s.size()));
+  s.id.push_back(static_cast<std::int64_t>(s.size()));
   s.x.push_back(x), s.y.push_back(y);
   s.vx.push_back(vx), s.vy.push_back(vy);
   s.omega.push_back(0);

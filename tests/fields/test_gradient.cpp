@@ -128,7 +128,7 @@ TEST(ShearStrain, NoneForAGrainThatWasNotThere) {
   put(after, 0.1, 0.1);
   // A grain that left changes no other's number.
   const auto drop_first = [](auto& array) { array.erase(array.begin()); };
-  drop_first(after.x), drop_first(after.y), drop_first(after.number), drop_first(after.radius);
+  drop_first(after.x), drop_first(after.y), drop_first(after.id), drop_first(after.radius);
   const auto strain = shear_strain(before, after, fit_reach(before));
   ASSERT_EQ(strain.size(), 16u);
   for (std::size_t i = 0; i < 15; ++i) EXPECT_NEAR(strain[i].value(), 0, 1e-12) << i;

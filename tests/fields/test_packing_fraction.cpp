@@ -61,12 +61,12 @@ TEST(PackingFraction, ChangeShowsWhereTheBedLoosens) {
   put(before, 2.5e-3, 2.5e-3);
   put(after, 12.5e-3, 2.5e-3);
   const Grid grid = grid_over({&before, &after}, 5e-3);
-  const double share = pi * 4e-6 / 25e-6;
+  const double fraction = pi * 4e-6 / 25e-6;
   const std::vector<double> change = packing_change(before, after, {}, grid);
   ASSERT_EQ(change.size(), 3u);
-  EXPECT_NEAR(change[0], -share, 1e-14);
+  EXPECT_NEAR(change[0], -fraction, 1e-14);
   EXPECT_EQ(change[1], 0);
-  EXPECT_NEAR(change[2], share, 1e-14);
+  EXPECT_NEAR(change[2], fraction, 1e-14);
 }
 
 /// Two discs of 2 mm radius at (-1 mm, 0) and (1 mm, 0): they overlap.
@@ -89,7 +89,7 @@ TEST(PackingFraction, AClumpIsItsDiscsWithOverlapsCountedOnce) {
   for (const CoveringDisc& disc : covering) {
     EXPECT_NEAR(disc.x, 0, 1e-18);
     EXPECT_EQ(disc.radius, 4e-3);
-    area += disc.share * pi * disc.radius * disc.radius;
+    area += disc.fraction * pi * disc.radius * disc.radius;
   }
   EXPECT_NEAR(covering[0].y, -1e-3, 1e-18) << "turned by a right angle";
   EXPECT_NEAR(covering[1].y, 3e-3, 1e-18);

@@ -6,7 +6,7 @@
 
 #include "grains/packing.hpp"
 #include "scene/input_error.hpp"
-#include "scene/vessel_walls.hpp"
+#include "vessel/vessel_walls.hpp"
 
 namespace vibrosow {
 namespace {

@@ -93,8 +93,8 @@ TEST(DrawSize, TableComesInItsShares) {
     EXPECT_TRUE(d == 3e-3 || d == 4e-3 || d == 6e-3) << d;
   }
   for (int k = 0; k < 3; ++k) {
-    const double share = lot.sizes.share[static_cast<std::size_t>(k)];
-    EXPECT_NEAR(counts[k], draws * share, 4 * std::sqrt(draws * share * (1 - share)));
+    const double fraction = lot.sizes.fraction[static_cast<std::size_t>(k)];
+    EXPECT_NEAR(counts[k], draws * fraction, 4 * std::sqrt(draws * fraction * (1 - fraction)));
   }
 }
 

@@ -2,8 +2,8 @@
 
 #include <vector>
 
+#include "result/run.hpp"
 #include "scene/scene.hpp"
-#include "simulation/run.hpp"
 
 namespace vibrosow {
 

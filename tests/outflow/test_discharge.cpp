@@ -13,8 +13,8 @@ namespace {
 class DischargeCurve : public testing::Test {
  protected:
   void SetUp() override {
-    scene.lots[0].number_share = 0.5;
-    scene.lots.push_back({.name = "pea", .diameter = 8e-3, .mass = 160e-6, .number_share = 0.5});
+    scene.lots[0].number_fraction = 0.5;
+    scene.lots.push_back({.name = "pea", .diameter = 8e-3, .mass = 160e-6, .number_fraction = 0.5});
     scene.tray.fill = Fill{.count = 6};
     scene.hopper = Vessel{};
     scene.hopper->fill = Fill{.count = 4};  // 10 grains of 100 mg: 1 g
@@ -31,13 +31,13 @@ TEST_F(DischargeCurve, AddsUpWhatHasLeftAHole) {
   const std::vector<double> times = {0, 1, 2.5, 10};
   EXPECT_EQ(discharge_curve(scene, run, times, Discharge::seeds), (std::vector<double>{0, 1, 1, 2}));
   EXPECT_EQ(discharge_curve(scene, run, times, Discharge::mass), (std::vector<double>{0, 40e-6, 40e-6, 200e-6}));
-  EXPECT_NEAR(discharge_curve(scene, run, {10}, Discharge::share)[0], 0.2, 1e-12);
+  EXPECT_NEAR(discharge_curve(scene, run, {10}, Discharge::fraction)[0], 0.2, 1e-12);
 }
 
 TEST_F(DischargeCurve, OfOneHoleOrLot) {
   EXPECT_EQ(discharge_curve(scene, run, {10}, Discharge::seeds, "2")[0], 1);
   EXPECT_EQ(discharge_curve(scene, run, {2}, Discharge::seeds, "2")[0], 0);
-  EXPECT_NEAR(discharge_curve(scene, run, {10}, Discharge::share, "all", "pea")[0], 0.16 / 0.8, 1e-12);
+  EXPECT_NEAR(discharge_curve(scene, run, {10}, Discharge::fraction, "all", "pea")[0], 0.16 / 0.8, 1e-12);
 }
 
 TEST_F(DischargeCurve, KnowsNothingBeyondTheRunsEnd) {

@@ -23,8 +23,8 @@ TEST(Pauses, AreTheLongGapsEndsIncluded) {
 TEST(Pauses, ThresholdGoesWithTheFallOfAGrain) {
   Scene scene = made_up_scene(1);
   EXPECT_NEAR(pause_threshold(scene), 5 * std::sqrt(4e-3 / 9.81), 1e-15);
-  scene.lots = {{.name = "a", .diameter = 4e-3, .number_share = 0.75},
-                {.name = "b", .diameter = 8e-3, .number_share = 0.25}};
+  scene.lots = {{.name = "a", .diameter = 4e-3, .number_fraction = 0.75},
+                {.name = "b", .diameter = 8e-3, .number_fraction = 0.25}};
   EXPECT_NEAR(pause_threshold(scene), 5 * std::sqrt(5e-3 / 9.81), 1e-15);
 }
 
@@ -50,7 +50,7 @@ TEST(Flow, WindowsSumToTheWhole) {
   EXPECT_EQ(whole.pauses, 1);
   EXPECT_NEAR(whole.longest_pause, 1.75, 1e-12);
   EXPECT_NEAR(whole.paused, 1.75, 1e-12);
-  EXPECT_NEAR(whole.paused_share(), 0.175, 1e-12);
+  EXPECT_NEAR(whole.paused_fraction(), 0.175, 1e-12);
   FlowWindow sum;
   for (int k = 0; k < flow_windows; ++k) {
     const FlowWindow& row = rows[static_cast<std::size_t>(k)];
@@ -63,7 +63,7 @@ TEST(Flow, WindowsSumToTheWhole) {
   EXPECT_EQ(rows[4].pauses, 1) << "it begins there";
   EXPECT_NEAR(rows[4].paused, 0.5, 1e-12);
   EXPECT_EQ(rows[5].pauses, 0);
-  EXPECT_NEAR(rows[5].paused_share(), 1, 1e-12);
+  EXPECT_NEAR(rows[5].paused_fraction(), 1, 1e-12);
   EXPECT_FALSE(rows[5].asymmetry);
 }
 

@@ -37,14 +37,14 @@ TEST(Rows, CountOnlyTheWindowAndNoSpilledGrain) {
   EXPECT_EQ(all.lot, "all");
   EXPECT_FALSE(all.centre);
   EXPECT_EQ(all.grains, 4);
-  EXPECT_DOUBLE_EQ(outflow.spilled_share, 1.0 / 7);
+  EXPECT_DOUBLE_EQ(outflow.spilled_fraction, 1.0 / 7);
   EXPECT_EQ(outflow.note, "");
 }
 
 TEST(Rows, OfSeveralLotsComePerLotAndTogether) {
   Scene scene = made_up_scene(1);
-  scene.lots[0].number_share = 0.75;
-  scene.lots.push_back({.name = "pea", .diameter = 8e-3, .mass = 250e-6, .number_share = 0.25});
+  scene.lots[0].number_fraction = 0.75;
+  scene.lots.push_back({.name = "pea", .diameter = 8e-3, .mass = 250e-6, .number_fraction = 0.25});
   scene.tray.depth = 0.06;
   vibrosow::Run run = made_up_run(scene);
   add_grain(run, 3, 1, 0);
@@ -133,10 +133,10 @@ TEST(Note, SaysWhatIsWrong) {
 
 TEST(Evenness, OfUnequalHolesIsTheirCvWithoutTheCountingShare) {
   // counts 80, 100, 120: cv 0.2, counting 1 / sqrt(100) = 0.1
-  const auto unequal = evenness({80, 100, 120});
-  ASSERT_TRUE(unequal);
-  EXPECT_DOUBLE_EQ(unequal->counting_cv, 0.1);
-  EXPECT_NEAR(unequal->cv, std::sqrt(0.04 - 0.01), 1e-12);
+  const auto polydisperse = evenness({80, 100, 120});
+  ASSERT_TRUE(polydisperse);
+  EXPECT_DOUBLE_EQ(polydisperse->counting_cv, 0.1);
+  EXPECT_NEAR(polydisperse->cv, std::sqrt(0.04 - 0.01), 1e-12);
 }
 
 TEST(Evenness, OfIndependentGrainsIsNearZeroAndCountingSevenPercentAt200) {

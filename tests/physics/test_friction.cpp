@@ -71,7 +71,7 @@ TEST(Friction, ArmsToTheContactPointKeepAngularMomentum) {
     Simulation& run = bench.start(1e-6);
     const double before = angular_momentum(run), scale = Bench::mass * 0.3 * Bench::radius;
     run.steps(20000);
-    ASSERT_GT(run.census().contacts, 1000);
+    ASSERT_GT(run.statistics().contacts, 1000);
     const double change = std::abs(angular_momentum(run) - before) / scale;
     if (arm == FrictionArm::contact_point)
       EXPECT_LT(change, 1e-9);

@@ -72,7 +72,7 @@ TEST_P(EveryIntegrator, ImpactKeepsMomentumToTheLastBits) {
   EXPECT_NEAR(impact.velocity_0 + impact.velocity_1, speed, 1e-14 * speed * 1000);
 }
 
-TEST_P(EveryIntegrator, UnequalGrainsHaveTheirShellsInSeries) {
+TEST_P(EveryIntegrator, PolydisperseGrainsHaveTheirShellsInSeries) {
   Bench bench;
   bench.scene.numerics.integrator = GetParam();
   bench.scene.lots.push_back({"heavy", 3 * Bench::radius, 5 * Bench::mass, Shape::disc, 0.5});

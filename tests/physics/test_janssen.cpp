@@ -8,9 +8,9 @@
 #include <cmath>
 #include <map>
 
-#include "scene/read_scene.hpp"
+#include "input/read_scene.hpp"
+#include "plan/step_plan.hpp"
 #include "simulation/simulation.hpp"
-#include "simulation/step_plan.hpp"
 #include "support/report_file.hpp"
 
 namespace vibrosow {
@@ -42,7 +42,7 @@ void add_look(Simulation& run, Column& column) {
     column.weight[band] += part * weight;
     column.total_weight += part * weight;
     top = std::max(top, height + kind.radius);
-    if (height < 1.1 * kind.radius) {  // on the floor; a wall's share in a corner's grain goes with it
+    if (height < 1.1 * kind.radius) {  // on the floor; a wall's fraction in a corner's grain goes with it
       column.floor_load += part * forces[i].fy;
     } else {
       column.push[band] += part * std::abs(forces[i].fx);

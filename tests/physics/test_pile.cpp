@@ -7,9 +7,9 @@
 #include <cmath>
 #include <numbers>
 
-#include "scene/read_scene.hpp"
+#include "input/read_scene.hpp"
+#include "plan/step_plan.hpp"
 #include "simulation/simulation.hpp"
-#include "simulation/step_plan.hpp"
 #include "support/report_file.hpp"
 
 namespace vibrosow {
@@ -39,7 +39,7 @@ PileShape shape_of(const Grains& grains) {
 }
 
 /// Kinetic energy a grain, over m g r.
-double kinetic_share(const Grains& grains) {
+double kinetic_fraction(const Grains& grains) {
   const GrainKind& kind = grains.kinds[0];
   return kinetic_energy(grains) / static_cast<double>(grains.size()) / (kind.mass * standard_gravity * kind.radius);
 }
@@ -48,7 +48,7 @@ double kinetic_share(const Grains& grains) {
 double largest_displacement(const Grains& before, const Grains& after) {
   double largest = 0;
   for (std::size_t i = 0, k = 0; i < after.size(); ++i) {
-    while (before.number[k] != after.number[i]) ++k;
+    while (before.id[k] != after.id[i]) ++k;
     largest = std::max(largest, std::hypot(after.x[i] - before.x[k], after.y[i] - before.y[k]));
   }
   return largest / before.kinds[0].radius;
@@ -69,7 +69,7 @@ std::string row(const std::string& law, const std::string& slip_speed, double ti
                 double displacement) {
   const PileShape shape = shape_of(grains);
   return fmt::format("{},{},{:g},{},{:.3f},{:.2f},{:.3f},{:.2e},{:.2e}\n", law, slip_speed, time, grains.size(),
-                     1e3 * shape.height, 1e3 * shape.half_width, shape.angle_of_repose, kinetic_share(grains),
+                     1e3 * shape.height, 1e3 * shape.half_width, shape.angle_of_repose, kinetic_fraction(grains),
                      displacement);
 }
 
@@ -85,7 +85,7 @@ TEST(Pile, StaysUnderTheTangentialSpringAndSpreadsUnderTheSignLaw) {
                  {.dt = plan_step(scene).dt, .effects = effects_of(scene)});
   while (run.time() < settled_at) ASSERT_TRUE(run.step()) << *run.guard().stop_reason();
   const Grains settled = run.grains();
-  EXPECT_LT(kinetic_share(settled), 1e-12);
+  EXPECT_LT(kinetic_fraction(settled), 1e-12);
   EXPECT_GT(shape_of(settled).angle_of_repose, 10);
   while (run.time() < settled_at + watched) ASSERT_TRUE(run.step()) << *run.guard().stop_reason();
   const double stayed = largest_displacement(settled, run.grains());

@@ -4,8 +4,9 @@
 #include <cmath>
 #include <random>
 
-#include "scene/vessel_walls.hpp"
+#include "plan/contact_parameters.hpp"
 #include "support/bench.hpp"
+#include "vessel/vessel_walls.hpp"
 
 namespace vibrosow {
 namespace {
@@ -18,7 +19,7 @@ TEST(Wall, IsAGrainOfInfiniteRadiusAndMass) {
     bench.scene.contact.youngs_modulus = 1e9;
     bench.scene.contact.seed = bench.scene.contact.wall = {0.3, 0.5};
     EffectSet effects = effects_of(bench.scene);
-    effects.unequal = true;
+    effects.polydisperse = true;
     const double overlap = 1e-5, giant = 1e3;
     Scene scene = bench.scene;  // the giant is a lot with a rigid shell
     scene.lots.push_back({"giant", 2 * giant, 1e300, Shape::disc, 0});
@@ -34,7 +35,7 @@ TEST(Wall, IsAGrainOfInfiniteRadiusAndMass) {
       std::vector<WallCandidate> near;
       if (as_wall) near.push_back({0, 0, 1});
       Forces f(2);
-      ContactCensus census;
+      ContactStatistics statistics;
       const Motion at{grains.x.data(),  grains.y.data(),     grains.vx.data(),
                       grains.vy.data(), grains.omega.data(), grains.x.data()};
       const KernelSet& kernels = kernels_for(law, effects);
@@ -42,14 +43,14 @@ TEST(Wall, IsAGrainOfInfiniteRadiusAndMass) {
       ContactHistory none;
       std::vector<ForeignForce> foreign;
       add_pair_forces(kernels.vectors[0].pair, surfaces_of(grains), at, pairs, {0, static_cast<int>(pairs.size())},
-                      parameters, {}, none, {0, 0}, f, foreign, census);
+                      parameters, {}, none, {0, 0}, f, foreign, statistics);
       WallContacts contacts;
       WallContactFinder().find(grains, near, walls, contacts);
       const double compression = kernels.vectors[0].wall(surfaces_of(grains), at, parameters, {}, none, contacts);
-      census.max_compression = std::max(census.max_compression, compression);
-      add_wall_forces(contacts, kernels.effects.rotation, f, census);
-      EXPECT_EQ(census.contacts, 1);
-      EXPECT_NEAR(census.max_compression, overlap / Bench::radius, 1e-7);
+      statistics.max_compression = std::max(statistics.max_compression, compression);
+      add_wall_forces(contacts, kernels.effects.rotation, f, statistics);
+      EXPECT_EQ(statistics.contacts, 1);
+      EXPECT_NEAR(statistics.max_compression, overlap / Bench::radius, 1e-7);
       return f;
     };
     const Forces wall = forces(true), pair = forces(false);

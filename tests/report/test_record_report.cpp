@@ -11,8 +11,8 @@ namespace {
 class RecordReport : public testing::Test {
  protected:
   void SetUp() override {
-    scene.lots = {{.name = "wheat", .diameter = 4e-3, .mass = 40e-6, .number_share = 0.5},
-                  {.name = "weed", .diameter = 4e-3, .mass = 10e-6, .number_share = 0.5}};
+    scene.lots = {{.name = "wheat", .diameter = 4e-3, .mass = 40e-6, .number_fraction = 0.5},
+                  {.name = "weed", .diameter = 4e-3, .mass = 10e-6, .number_fraction = 0.5}};
     scene.tray.name = "tray";
     scene.tray.length = 0.04;
     scene.tray.height = 0.1;
@@ -27,7 +27,7 @@ class RecordReport : public testing::Test {
                .vy = {0, 0, 0},
                .omega = {0, 0, 1},
                .lot = {0, 0, 1},
-               .number = {4, 5, 6},
+               .id = {4, 5, 6},
                .radius = {2e-3, 2e-3, 2e-3},
                .mass = {40e-6, 40e-6, 10e-6},
                .area = {4e-6 * std::numbers::pi, 4e-6 * std::numbers::pi, 4e-6 * std::numbers::pi},
@@ -58,7 +58,7 @@ TEST_F(RecordReport, HasTwoFilesASnapshotAndThreeOfTheRun) {
 
 TEST_F(RecordReport, GrainsAreInTheTraysFrameWithTheirShearSinceTheLastRecord) {
   const std::string header =
-      "number,lot,x_mm,y_mm,vx_m_per_s,vy_m_per_s,omega_rad_per_s,angle_rad,radius_mm,start_x_mm,start_y_mm,shear\n";
+      "id,lot,x_mm,y_mm,vx_m_per_s,vy_m_per_s,omega_rad_per_s,angle_rad,radius_mm,start_x_mm,start_y_mm,shear\n";
   EXPECT_EQ(grains_csv(scene, run.snapshots[0], nullptr), header +
                                                               "4,wheat,7.5,2.5,0,0,0,,2,0,0,\n"
                                                               "5,wheat,12.5,2.5,0,0,0,,2,0,0,\n"
@@ -104,7 +104,7 @@ TEST_F(RecordReport, ProfileAndRecordsTellWhereTheLotsLie) {
 TEST_F(RecordReport, FlowHasItsWindowsAndTheWhole) {
   const std::string text = flow_csv(scene, run);
   EXPECT_TRUE(text.starts_with(
-      "from_s,to_s,hole,grains,mass_g,asymmetry,pauses,longest_pause_s,paused_s,paused_share\n0,1,1,0,0,,1,1,1,1\n"))
+      "from_s,to_s,hole,grains,mass_g,asymmetry,pauses,longest_pause_s,paused_s,paused_fraction\n0,1,1,0,0,,1,1,1,1\n"))
       << text;
   EXPECT_TRUE(text.ends_with("\n0,10,1,1,0.04,1,2,9,10,1\n")) << text;
 }

@@ -84,12 +84,12 @@ TEST_F(RunReport, TimingIsApart) {
   EXPECT_EQ(json["wall_s"], 0.5);
   EXPECT_EQ(json["measured_wall_s"], 0.3);
   EXPECT_EQ(json["grain_steps_per_s"], 12000);
-  EXPECT_FALSE(json.contains("shares"));  // not asked for
+  EXPECT_FALSE(json.contains("fractions"));  // not asked for
   run.phase_times.emplace();
   run.phase_times->at(static_cast<std::size_t>(Phase::pairs)) = 0.2;
-  const auto shares = nlohmann::json::parse(timing_json(run))["shares"];
-  EXPECT_EQ(shares.size(), phase_names.size());
-  EXPECT_DOUBLE_EQ(shares["pairs"], 0.4);
+  const auto fractions = nlohmann::json::parse(timing_json(run))["fractions"];
+  EXPECT_EQ(fractions.size(), phase_names.size());
+  EXPECT_DOUBLE_EQ(fractions["pairs"], 0.4);
   run.wall_time = 0;
   EXPECT_TRUE(nlohmann::json::parse(timing_json(run))["grain_steps_per_s"].is_null());
 }

@@ -176,9 +176,9 @@ TEST(ClumpShape, ElongatedLiesWithinItsEllipseAndTouchesItsEnds) {
       }
       EXPECT_NEAR(outermost, 1, 1e-5) << "touches the ellipse from within";
     }
-    const double share = plate_of(row).area / (pi / 4 * length);
-    EXPECT_GT(share, 0.90);
-    EXPECT_LT(share, 1);
+    const double fraction = plate_of(row).area / (pi / 4 * length);
+    EXPECT_GT(fraction, 0.90);
+    EXPECT_LT(fraction, 1);
   }
   EXPECT_EQ(elongated(7.08, 3.27).size(), 5u) << "wheat";
   EXPECT_EQ(elongated(8.91, 3.30).size(), 7u) << "barley";

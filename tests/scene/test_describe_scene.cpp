@@ -43,7 +43,7 @@ TEST(DescribeScene, EverythingThatActsCounts) {
       [](Scene& s) { s.lots[0].diameter *= 1 + 1e-15; },
       [](Scene& s) { s.lots[0].mass *= 2; },
       [](Scene& s) { s.lots[0].shape = Shape::disc; },
-      [](Scene& s) { s.lots[0].number_share = 0.5; },
+      [](Scene& s) { s.lots[0].number_fraction = 0.5; },
       [](Scene& s) { s.lots[0].shape = Shape::clump; },
       [](Scene& s) { s.lots[0].sizes = {Kind::uniform, 0.007, 0, 0.006, 0.008, {}, {}}; },
       [](Scene& s) { s.lots[0].sizes = {Kind::normal, 0.007, 0.001, 0.004, 0.01, {}, {}}; },
@@ -192,7 +192,7 @@ TEST(DescribeScene, EveryMeasureOfSizesAndClumpsCounts) {
   expect_change(lot, [](SeedLot& l) { l.sizes.most *= 1.1; });
   lot.sizes = {Kind::table, 0.007, 0, 0, 0, {0.006, 0.008}, {0.5, 0.5}};
   expect_change(lot, [](SeedLot& l) { l.sizes.diameter[1] *= 1.1; });
-  expect_change(lot, [](SeedLot& l) { l.sizes.share = {0.4, 0.6}; });
+  expect_change(lot, [](SeedLot& l) { l.sizes.fraction = {0.4, 0.6}; });
   lot.sizes = {};
   lot.shape = Shape::clump;
   lot.discs = {{0, 0, 1e-3}, {1e-3, 0, 1e-3}};

@@ -5,9 +5,9 @@
 #include <numbers>
 #include <set>
 
-#include "contact/nearest_point.hpp"
 #include "simulation/simulate.hpp"
 #include "support/bench.hpp"
+#include "vessel/nearest_point.hpp"
 
 namespace vibrosow {
 namespace {
@@ -36,7 +36,7 @@ TEST(Arc, PushesOnceAlongItsRadiusFromBothSides) {
       const double outward = inside ? -1 : 1;
       EXPECT_NEAR(run.field().forces()[0].fx, outward * force * std::cos(angle), 1e-6 * force);
       EXPECT_NEAR(run.field().forces()[0].fy, outward * force * std::sin(angle), 1e-6 * force);
-      EXPECT_EQ(run.census().contacts, 1);
+      EXPECT_EQ(run.statistics().contacts, 1);
     }
 }
 
@@ -59,7 +59,7 @@ TEST(Arc, ALineThatRunsIntoItIsFeltOnce) {
     one.scene.tray.pieces = {{{0.4, 0.8}, {0.4, 0.5}}, arc(0.5, 0.5, 0.1, pi, 1.5 * pi)};
     one.place(0.4 + Bench::radius - overlap, y);
     const Simulation& run = one.start(1e-9);
-    EXPECT_EQ(run.census().contacts, 1) << y;
+    EXPECT_EQ(run.statistics().contacts, 1) << y;
     EXPECT_NEAR(run.field().forces()[0].fx, force, 1e-3 * force) << y;
   }
 }

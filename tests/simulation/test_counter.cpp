@@ -6,8 +6,8 @@
 
 #include "scene/clump_shape.hpp"
 #include "simulation/simulate.hpp"
-#include "simulation/vessel_motion.hpp"
 #include "support/bench.hpp"
+#include "vessel/vessel_motion.hpp"
 
 namespace vibrosow {
 namespace {

@@ -50,7 +50,7 @@ void expect_same_trajectories(const Chosen& chosen, Integrator integrator) {
     // Rotation left out of a scene with friction is neutral at 1/J = 0, which grain_kinds gives.
     Simulation& run = bench.start(2e-5, effects);
     run.steps(3000);
-    EXPECT_GT(run.census().contacts, 5000);
+    EXPECT_GT(run.statistics().contacts, 5000);
     EXPECT_FALSE(run.guard().stop_reason()) << *run.guard().stop_reason();
     return run.grains();
   };
@@ -102,7 +102,7 @@ TEST(Effects, AreDerivedFromTheScene) {
   bench.scene.contact.seed.restitution = 0.9;
   bench.scene.lots.push_back({"b", 0.01, 1e-3, Shape::disc, 0.5});
   EXPECT_EQ(effect_names(effects_of(bench.scene)),
-            (std::vector<std::string>{"friction", "damping", "unequal", "drag", "motion"}));
+            (std::vector<std::string>{"friction", "damping", "polydisperse", "drag", "motion"}));
   std::get<HarmonicMotion>(*bench.scene.tray.motion).amplitude = 0;  // a key at its neutral value
   EXPECT_FALSE(effects_of(bench.scene).motion);
 }
@@ -121,7 +121,7 @@ TEST(Effects, EveryRegisteredSetIsFoundAndDistinct) {
     const EffectChoice& effects = set.effects;
     wanted.friction = effects.friction != FrictionChoice::none;
     wanted.tangential_spring = effects.friction == FrictionChoice::spring;
-    wanted.rotation = effects.rotation, wanted.damping = effects.damping, wanted.unequal = effects.unequal;
+    wanted.rotation = effects.rotation, wanted.damping = effects.damping, wanted.polydisperse = effects.polydisperse;
     wanted.rolling = effects.rolling, wanted.cohesion = effects.cohesion;
     EXPECT_EQ(&kernels_for(set.law, wanted), &set);
   }

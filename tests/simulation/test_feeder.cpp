@@ -6,7 +6,7 @@
 #include <cmath>
 #include <set>
 
-#include "contact/effects.hpp"
+#include "plan/effects.hpp"
 #include "scene/clump_shape.hpp"
 #include "scene/seed_lot.hpp"
 #include "simulation/simulation.hpp"
@@ -60,7 +60,7 @@ void expect_scattered(const Grains& grains) {
 TEST(Sizes, OfStartingGrainsAreDrawn) {
   const Scene scene = kept_full(scattered_balls());
   const EffectSet effects = effects_of(scene);
-  ASSERT_TRUE(effects.unequal) << "one lot, many sizes";
+  ASSERT_TRUE(effects.polydisperse) << "one lot, many sizes";
   const Grains grains = starting_grains(scene, 1, effects);
   ASSERT_EQ(grains.size(), 300u);
   expect_scattered(grains);

@@ -4,9 +4,9 @@
 #include <cmath>
 #include <set>
 
-#include "contact/nearest_point.hpp"
 #include "simulation/simulate.hpp"
 #include "support/bench.hpp"
+#include "vessel/nearest_point.hpp"
 
 namespace vibrosow {
 namespace {
@@ -111,7 +111,7 @@ TEST(Neighbours, MarginsChangeNoBit) {
   narrow->steps(20000);
   wide->steps(20000);
   EXPECT_NE(narrow->field().neighbours().prunes(), wide->field().neighbours().prunes());
-  ASSERT_EQ(narrow->grains().number, wide->grains().number);
+  ASSERT_EQ(narrow->grains().id, wide->grains().id);
   EXPECT_EQ(narrow->grains().x, wide->grains().x);
   EXPECT_EQ(narrow->grains().y, wide->grains().y);
   EXPECT_EQ(narrow->grains().omega, wide->grains().omega);

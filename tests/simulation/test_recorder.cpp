@@ -6,8 +6,8 @@
 
 #include "scene/clump_shape.hpp"
 #include "simulation/simulate.hpp"
-#include "simulation/vessel_motion.hpp"
 #include "support/bench.hpp"
+#include "vessel/vessel_motion.hpp"
 
 namespace vibrosow {
 namespace {
@@ -35,7 +35,7 @@ TEST(Recorder, TakesTheFirstStepAtOrAfterEachTime) {
   EXPECT_NEAR(s.y[1], 0.7 - 0.5 * standard_gravity * 0.04, 1e-10);
   EXPECT_NEAR(s.vy[1], -standard_gravity * 0.2, 1e-10);
   EXPECT_EQ(s.omega[1], 3);
-  EXPECT_EQ(s.number, (std::vector<std::int64_t>{0, 1}));
+  EXPECT_EQ(s.id, (std::vector<std::int64_t>{0, 1}));
   EXPECT_EQ(s.radius[0], Bench::radius);
   EXPECT_EQ(s.mass[0], Bench::mass);
   EXPECT_EQ(s.start_x[1], 0.6);
@@ -56,7 +56,7 @@ TEST(Recorder, KnowsWhereFedGrainsWerePutInAndWhoHasLeft) {
   const std::vector<Snapshot> taken = run.result().snapshots;
   ASSERT_EQ(taken.size(), 1u);
   const Snapshot& s = taken[0];
-  ASSERT_EQ(s.number, (std::vector<std::int64_t>{1, 2})) << "grain 0 has left and one was fed";
+  ASSERT_EQ(s.id, (std::vector<std::int64_t>{1, 2})) << "grain 0 has left and one was fed";
   EXPECT_EQ(s.start_x[0], 0.6);
   // Laid at rest on the floor or the other grain: it has hardly moved since.
   EXPECT_NEAR(s.start_x[1], s.x[1], 1e-3);

@@ -95,7 +95,7 @@ TEST(PeriodicSides, SeamPairsAreThoseOfBruteForce) {
     run.step();
     if (step % 7 != 0) continue;
     const Grains& grains = run.grains();
-    const PairList& seam = run.field().neighbours().seam_pairs();
+    const PairList& boundary = run.field().neighbours().boundary_pairs();
     std::set<std::pair<int, int>> all, found;
     const auto touches = [&](std::size_t i, std::size_t j) {
       return std::hypot(grains.x[j] - grains.x[i] - period, grains.y[j] - grains.y[i]) <
@@ -104,9 +104,9 @@ TEST(PeriodicSides, SeamPairsAreThoseOfBruteForce) {
     for (std::size_t i = 0; i < grains.size(); ++i)
       for (std::size_t j = 0; j < grains.size(); ++j)
         if (touches(i, j)) all.emplace(static_cast<int>(i), static_cast<int>(j));
-    for (std::size_t k = 0; k < seam.size(); ++k)
-      if (touches(static_cast<std::size_t>(seam.grain[k]), static_cast<std::size_t>(seam.partner[k])))
-        found.emplace(seam.grain[k], seam.partner[k]);
+    for (std::size_t k = 0; k < boundary.size(); ++k)
+      if (touches(static_cast<std::size_t>(boundary.grain[k]), static_cast<std::size_t>(boundary.partner[k])))
+        found.emplace(boundary.grain[k], boundary.partner[k]);
     ASSERT_EQ(found, all) << "step " << step;
     met += all.size();
   }
@@ -118,7 +118,7 @@ TEST(PeriodicSides, WithoutAPeriodThereIsNoSeam) {
   bench.place(0.5, 0.5);
   const Simulation& run = bench.start(1e-5);
   EXPECT_EQ(run.field().neighbours().period(), 0);
-  EXPECT_EQ(run.field().neighbours().seam_pairs().size(), 0u);
+  EXPECT_EQ(run.field().neighbours().boundary_pairs().size(), 0u);
 }
 
 }  // namespace

@@ -4,9 +4,9 @@
 #include <cmath>
 #include <numbers>
 
+#include "plan/step_plan.hpp"
 #include "scene/input_error.hpp"
 #include "simulation/simulate.hpp"
-#include "simulation/step_plan.hpp"
 #include "support/bench.hpp"
 
 namespace vibrosow {
@@ -103,10 +103,10 @@ Changes throw_at(Integrator integrator, int throws, Aim aim) {
     aim(bench, k);
     Simulation& run = bench.start(bench.contact_time() / 20);
     const double before = total_energy(run, bench.gravity);
-    while (run.census().contacts == 0 && run.time() < 1) run.step();
-    EXPECT_GT(run.census().contacts, 0);
-    for (std::int64_t seen = -1; seen != run.census().contacts;) {
-      seen = run.census().contacts;
+    while (run.statistics().contacts == 0 && run.time() < 1) run.step();
+    EXPECT_GT(run.statistics().contacts, 0);
+    for (std::int64_t seen = -1; seen != run.statistics().contacts;) {
+      seen = run.statistics().contacts;
       run.steps(3);
     }
     const double change = total_energy(run, bench.gravity) / before - 1;

@@ -65,7 +65,7 @@ class Bench {
   /// Starts with the effects the scene calls for, or with more.
   Simulation& start(double dt, std::optional<EffectSet> effects = std::nullopt, NeighbourMargins margins = {}) {
     const EffectSet set = effects.value_or(effects_of(scene));
-    Grains grains(grain_kinds(scene, scene.contact.rotation), set.unequal, set.rotation, set.clumps);
+    Grains grains(grain_kinds(scene, scene.contact.rotation), set.polydisperse, set.rotation, set.clumps);
     for (const Placed& p : placed_) {
       grains.add(p.x, p.y, p.vx, p.vy, p.lot, grains.kinds[static_cast<std::size_t>(p.lot)], p.angle);
       if (set.rotation) grains.omega.back() = p.omega;

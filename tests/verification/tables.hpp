@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "input/csv_lines.hpp"
 #include "report/csv.hpp"
-#include "scene/csv_lines.hpp"
 #include "support/report_file.hpp"
 
 namespace vibrosow {

@@ -86,11 +86,11 @@ TEST(ChungOoi, RestitutionIsTheOneAskedFor) {
 }
 
 /// A ball that comes down obliquely on a rigid wall, without spin.
-ImpactResult oblique(const Ball& b, double friction, double restitution, double down, double along, double share) {
+ImpactResult oblique(const Ball& b, double friction, double restitution, double down, double along, double fraction) {
   Bench bench = bench_of(b);
   bench.scene.contact.wall = {friction, restitution};
   bench.scene.contact.friction_model = FrictionModel::spring;
-  bench.scene.contact.tangential_ratio = share;
+  bench.scene.contact.tangential_ratio = fraction;
   bench.scene.contact.tangential_damping = 0;
   const HertzImpact theory(b.mass(), b.stiffness, down);
   return wall_impact(bench, down, along, theory.duration / 500);
@@ -164,9 +164,9 @@ struct Normalised {
 
 constexpr double friction_5 = 0.3;
 
-Normalised normalised(const Ball& b, double incidence, double share) {
+Normalised normalised(const Ball& b, double incidence, double fraction) {
   const double unit = friction_5 * b.speed;
-  const ImpactResult impact = oblique(b, friction_5, 1, b.speed, incidence * unit, share);
+  const ImpactResult impact = oblique(b, friction_5, 1, b.speed, incidence * unit, fraction);
   return {(impact.vx + b.radius * impact.omega) / (friction_5 * impact.vy), b.radius * impact.omega / unit};
 }
 
@@ -200,12 +200,12 @@ TEST(ChungOoi, SlidingImpactFollowsThePublishedCurves) {
     }
 }
 
-double mean_square_deviation(const Ball& b, const Curve& published, double share) {
+double mean_square_deviation(const Ball& b, const Curve& published, double fraction) {
   double sum = 0;
   int points = 0;
   for (std::size_t k = 0; k < published.x.size(); ++k) {
     if (published.x[k] >= slides_from) continue;
-    const Normalised n = normalised(b, published.x[k], share);
+    const Normalised n = normalised(b, published.x[k], fraction);
     const double deviation =
         100 * ((published.quantity.ends_with("spin") ? n.spin : n.recoil) - published.y[k]) / published.range();
     sum += deviation * deviation, ++points;
@@ -213,26 +213,26 @@ double mean_square_deviation(const Ball& b, const Curve& published, double share
   return sum / points;
 }
 
-// Test 5 below gross sliding: which share of Mindlin's stiffness comes nearest to each published curve. A finding, told
-// in the report; what is asserted is that Mindlin's whole stiffness is not the one behind the published DEM curve.
+// Test 5 below gross sliding: which fraction of Mindlin's stiffness comes nearest to each published curve. A finding,
+// told in the report; what is asserted is that Mindlin's whole stiffness is not the one behind the published DEM curve.
 TEST(ChungOoi, StiffnessBehindTheSlowerImpactsOfTest5IsFound) {
   VerificationReport report("chung_ooi_5_scan",
                             "test 5 below Vst/(mu Vcn) = 6: root mean square deviation, percent of the axis' range, by "
-                            "the tangential spring's share of Mindlin's stiffness",
+                            "the tangential spring's fraction of Mindlin's stiffness",
                             {"quantity", "series", "tangential_ratio", "rms_deviation_percent"});
   const Ball b = ball("5", "steel");
   for (const std::string series : {"Steel", "Polyethylene", "FEM"})
     for (const std::string quantity : {"normalised recoil angle", "normalised post-impact spin"}) {
       const Curve published = curve("5", quantity, series);
-      double best_share = 0, best = 1e300;
-      for (double share = 0.1; share < 1.55; share += 0.05) {
-        const double deviation = mean_square_deviation(b, published, share);
-        report.add(quantity, series, share, std::sqrt(deviation));
-        if (deviation < best) best = deviation, best_share = share;
+      double best_fraction = 0, best = 1e300;
+      for (double fraction = 0.1; fraction < 1.55; fraction += 0.05) {
+        const double deviation = mean_square_deviation(b, published, fraction);
+        report.add(quantity, series, fraction, std::sqrt(deviation));
+        if (deviation < best) best = deviation, best_fraction = fraction;
       }
-      RecordProperty(series + " " + quantity, std::to_string(best_share));
+      RecordProperty(series + " " + quantity, std::to_string(best_fraction));
       if (series == "Steel") {
-        EXPECT_NEAR(best_share, 0.5, 0.15) << quantity << ", rms " << std::sqrt(best);
+        EXPECT_NEAR(best_fraction, 0.5, 0.15) << quantity << ", rms " << std::sqrt(best);
       }
     }
 }

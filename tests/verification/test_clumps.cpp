@@ -62,7 +62,7 @@ TEST(Clump, CollidingClumpsKeepTheirMomenta) {
       Simulation& run = bench.start(1e-6);
       const double energy = kinetic_energy(run.grains()), momentum = angular_momentum(run.grains());
       run.steps(150000);
-      ASSERT_GT(run.census().contacts, 100);
+      ASSERT_GT(run.statistics().contacts, 100);
       const Grains& g = run.grains();
       EXPECT_NEAR(clump_mass * (g.vx[0] + g.vx[1]), clump_mass * 0.1, 1e-13 * clump_mass);
       EXPECT_NEAR(angular_momentum(g), momentum, 1e-9 * clump_mass * 0.3 * 0.01);
@@ -153,7 +153,7 @@ TEST(Clump, OfOneDiscIsABall) {
           bench.place(0.3, 0.02, 0.3, 0, 10).place(0.305, 0.03).place(0.302, 0.045, 0, -0.5);
           Simulation& run = bench.start(2e-5);
           run.steps(20000);
-          EXPECT_GT(run.census().contacts, 100);
+          EXPECT_GT(run.statistics().contacts, 100);
           return run.grains();
         };
         const Grains ball = trajectory(false), clump = trajectory(true);

@@ -71,7 +71,7 @@ Grains run_from(const Scene& scene, const Grains& start) {
   Simulation run(scene, start, {.dt = 1e-5, .effects = effects});
   run.steps(5000);  // 0.05 s
   EXPECT_FALSE(run.guard().stop_reason()) << *run.guard().stop_reason();
-  EXPECT_GT(run.census().contacts, 5000);
+  EXPECT_GT(run.statistics().contacts, 5000);
   return run.grains();
 }
 
@@ -172,7 +172,7 @@ TEST_F(Invariance, UnderOtherNumbers) {
   for (const Case& c : cases()) {
     const Scene scene = without_cohesion(scene_of(c));
     const Grains start = start_of(scene);
-    Grains other(start.kinds, start.unequal, start.rotation, start.oriented);
+    Grains other(start.kinds, start.polydisperse, start.rotation, start.oriented);
     for (std::size_t k = start.size(); k-- > 0;)
       other.add(start.x[k], start.y[k], start.vx[k], start.vy[k], start.lot[k], start.kind(k),
                 start.oriented ? start.angle[k] : 0);

@@ -37,10 +37,10 @@ double contact_time(const Bench& bench, int other, double speed) {
   return HertzImpact(reduced, 4.0 / 3 * modulus / std::sqrt(curvature), speed).duration;
 }
 
-// Head-on, equal and unequal grains and a wall, three decades of speed, both laws that take a restitution.
+// Head-on, equal and polydisperse grains and a wall, three decades of speed, both laws that take a restitution.
 TEST(Restitution, AskedForIsMeasured) {
   VerificationReport report(
-      "restitution_asked", "restitution asked for and measured, equal and unequal grains and a wall",
+      "restitution_asked", "restitution asked for and measured, equal and polydisperse grains and a wall",
       {"law", "against", "speed_m_per_s", "restitution_asked", "restitution", "deviation_percent"});
   for (const Law law : {Law::elastic_shell, Law::hertz})
     for (const int other : {0, 1, -1})
@@ -57,7 +57,7 @@ TEST(Restitution, AskedForIsMeasured) {
             const ImpactResult impact = head_on_impact(bench, speed, other, dt);
             measured = (impact.other_vx - impact.vx) / speed;
           }
-          const std::string against = other < 0 ? "wall" : other == 0 ? "equal grain" : "unequal grain";
+          const std::string against = other < 0 ? "wall" : other == 0 ? "equal grain" : "polydisperse grain";
           const std::string name = law == Law::hertz ? "hertz" : "elastic_shell";
           EXPECT_NEAR(measured, asked, 0.005 * asked) << name << " " << against << " " << speed << " m/s";
           report.add(name, against, speed, asked, measured, 100 * (measured / asked - 1));

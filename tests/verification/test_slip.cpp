@@ -85,7 +85,7 @@ TEST(Slip, TurnsToRolling) {
 }
 
 /// Acceleration down a slope over g sin(theta), between 0.05 and 0.1 s after the start at rest: by then the slip speed
-/// is passed, or the tangential spring stretched, whose share in a slow start is no matter of the slope's.
+/// is passed, or the tangential spring stretched, whose fraction in a slow start is no matter of the slope's.
 double acceleration(const Case& c, double friction, double tangent, bool rotation) {
   Bench bench = bench_of(c, friction);
   const double theta = std::atan(tangent);

@@ -256,7 +256,7 @@ TEST(TangentialSpring, MemorySurvivesEveryRenewalOfTheLists) {
   }
 }
 
-// Which grain is first is a matter of names: an oblique impact of two unequal grains, both ways, to the bit.
+// Which grain is first is a matter of names: an oblique impact of two polydisperse grains, both ways, to the bit.
 TEST(TangentialSpring, SwappingTheGrainsChangesNothing) {
   for (const Law law : {Law::elastic_shell, Law::hertz})
     for (const Rolling rolling : {Rolling::none, Rolling::constant_torque, Rolling::spring})
@@ -277,7 +277,7 @@ TEST(TangentialSpring, SwappingTheGrainsChangesNothing) {
             light(), heavy();
           Simulation& run = bench.start(1e-6);
           run.steps(8000);
-          EXPECT_GT(run.census().contacts, 50);
+          EXPECT_GT(run.statistics().contacts, 50);
           return run.grains();
         };
         const Grains a = impact(false), b = impact(true);

@@ -71,8 +71,8 @@ TEST(Cohesion, ElasticImpactKeepsItsEnergy) {
   for (const Law law : {Law::elastic_shell, Law::hertz}) {
     const double peak_force = law == Law::hertz ? HertzImpact(Bench::mass, hertz_stiffness(), speed).force
                                                 : speed * std::sqrt(shell_stiffness() * Bench::mass);
-    for (const double share : {0.0, 0.1, 0.5}) {
-      const double cohesion = share * peak_force;
+    for (const double fraction : {0.0, 0.1, 0.5}) {
+      const double cohesion = fraction * peak_force;
       double low = 0, high = 1e-3;  // m
       for (int k = 0; k < 100; ++k) {
         const double d = 0.5 * (low + high);

@@ -1,0 +1,65 @@
+#pragma once
+
+#include <oneapi/tbb/global_control.h>
+#include <oneapi/tbb/parallel_for.h>
+#include <oneapi/tbb/partitioner.h>
+#include <oneapi/tbb/task_arena.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <optional>
+
+#include "compute/grain_loops.hpp"
+#include "compute/profile.hpp"
+
+namespace vibrosow {
+
+/// With what one run is computed: vector instructions, and threads that share its loops. Neither changes a result: what
+/// is computed for one grain does not depend on which others are in its range.
+class Execution {
+ public:
+  /// `threads` >= 1. Throws std::logic_error when the instructions are not available.
+  explicit Execution(InstructionSet instructions = best_instruction_set(), int threads = 1)
+      : instructions_(instructions), loops_(grain_loops(instructions)), threads_(threads), arena_(threads) {
+    if (threads > 1)
+      limit_.emplace(oneapi::tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads));
+  }
+
+  InstructionSet instructions() const { return instructions_; }
+  const GrainLoops& loops() const { return loops_; }
+  int threads() const { return threads_; }
+  Profile& profile() { return profile_; }
+  const Profile& profile() const { return profile_; }
+
+  /// Calls work(range) for each range 0 .. threads - 1 and returns when all are done.
+  template <class Work>
+  void for_each_range(Work work) {
+    if (threads_ == 1) return work(0);
+    arena_.execute([&] {
+      oneapi::tbb::parallel_for(
+          0, threads_, [&](int range) { work(range); }, oneapi::tbb::static_partitioner{});
+    });
+  }
+
+  /// Calls work(from, to) for parts of [0, n), one after the other within a thread's fraction, that stay in its cache
+  /// from one loop to the next.
+  template <class Work>
+  void share(std::size_t n, Work work) {
+    constexpr std::size_t part = 4096;
+    const std::size_t fractions = static_cast<std::size_t>(threads_);
+    for_each_range([&](int range) {
+      const std::size_t k = static_cast<std::size_t>(range), end = n * (k + 1) / fractions;
+      for (std::size_t from = n * k / fractions; from < end; from += part) work(from, std::min(from + part, end));
+    });
+  }
+
+ private:
+  InstructionSet instructions_;
+  const GrainLoops& loops_;
+  int threads_;
+  std::optional<oneapi::tbb::global_control> limit_;  // more threads than cores are the user's to ask for
+  oneapi::tbb::task_arena arena_;
+  Profile profile_;
+};
+
+}  // namespace vibrosow

@@ -1,0 +1,71 @@
+#include "grains/clump_discs.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace vibrosow {
+
+GrainKind kind_of_disc(const GrainKind& clump, const ClumpDisc& disc, double size, Law law) {
+  GrainKind own = clump;
+  own.radius = disc.radius * size;
+  if (law == Law::elastic_shell) own.compliance *= own.radius / clump.radius;  // eps goes with the disc's own radius
+  return own;
+}
+
+ClumpDiscs::ClumpDiscs(const Scene& scene, bool rotation)
+    : scene_(scene), discs_per_id_(1), discs_(grain_kinds(scene, rotation), true, rotation) {
+  for (const SeedLot& lot : scene.lots)
+    discs_per_id_ = std::max(discs_per_id_, static_cast<std::int64_t>(lot.discs.size()));
+}
+
+void ClumpDiscs::rebuild(const Grains& clumps) {
+  discs_ = Grains(discs_.kinds, true, discs_.rotation);
+  own_x_.clear(), own_y_.clear();
+  for (std::size_t i = 0; i < clumps.size(); ++i) {
+    const SeedLot& lot = scene_.lots[static_cast<std::size_t>(clumps.lot[i])];
+    const GrainKind clump = clumps.kind(i);
+    const double size = 2 * clump.radius / lot.diameter;
+    std::int64_t id = clumps.id[i] * discs_per_id_;
+    const auto add = [&](const ClumpDisc& disc) {
+      discs_.add(0, 0, 0, 0, clumps.lot[i], kind_of_disc(clump, disc, size, scene_.contact.law));
+      discs_.id.back() = id++;
+      discs_.clump.push_back(static_cast<int>(i));
+      own_x_.push_back(disc.x * size), own_y_.push_back(disc.y * size);
+    };
+    if (lot.discs.empty()) add({0, 0, 0.5 * lot.diameter});
+    for (const ClumpDisc& disc : lot.discs) add(disc);
+  }
+  arm_x_ = own_x_, arm_y_ = own_y_;
+}
+
+void ClumpDiscs::place(const Grains& clumps) {
+  double cosine = 1, sine = 0;
+  for (std::size_t k = 0; k < discs_.size(); ++k) {
+    const std::size_t i = static_cast<std::size_t>(discs_.clump[k]);
+    const bool first = k == 0 || discs_.clump[k - 1] != discs_.clump[k];
+    if (first) cosine = std::cos(clumps.angle[i]), sine = std::sin(clumps.angle[i]);
+    arm_x_[k] = cosine * own_x_[k] - sine * own_y_[k];
+    arm_y_[k] = sine * own_x_[k] + cosine * own_y_[k];
+    const double omega = clumps.rotation ? clumps.omega[i] : 0;
+    discs_.x[k] = clumps.x[i] + arm_x_[k], discs_.y[k] = clumps.y[i] + arm_y_[k];
+    discs_.vx[k] = clumps.vx[i] - omega * arm_y_[k], discs_.vy[k] = clumps.vy[i] + omega * arm_x_[k];
+    if (discs_.rotation) discs_.omega[k] = omega;
+  }
+}
+
+void ClumpDiscs::gather(const Forces& on_discs, Forces& on_clumps) const {
+  for (std::size_t k = 0; k < discs_.size(); ++k) {
+    const std::size_t i = static_cast<std::size_t>(discs_.clump[k]);
+    const GrainForce& disc = on_discs[k];
+    on_clumps[i].fx += disc.fx, on_clumps[i].fy += disc.fy;
+    if (discs_.rotation) on_clumps[i].torque += disc.torque + arm_x_[k] * disc.fy - arm_y_[k] * disc.fx;
+  }
+}
+
+std::vector<char> ClumpDiscs::flags_of_discs(const std::vector<char>& of_clumps) const {
+  std::vector<char> flags(discs_.size());
+  for (std::size_t k = 0; k < flags.size(); ++k) flags[k] = of_clumps[static_cast<std::size_t>(discs_.clump[k])];
+  return flags;
+}
+
+}  // namespace vibrosow

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <vector>
+
+#include "compute/grain_force.hpp"
+#include "grains/grains.hpp"
+
+namespace vibrosow {
+
+/// A disc of a clump as a contact sees it: with its clump's whole mass and moment of inertia. `clump` is the whole
+/// seed, `size` its size over its lot's.
+GrainKind kind_of_disc(const GrainKind& clump, const ClumpDisc& disc, double size, Law law);
+
+/// The discs of rigid clumps: what the contact kernels and lists see when a grain is several discs. A grain of a lot
+/// that is a single disc is a clump of one. Each disc bears its clump's whole mass and moment of inertia in a contact;
+/// its shell is eps = shell_compression times its own radius thick under that weight.
+class ClumpDiscs {
+ public:
+  ClumpDiscs(const Scene& scene, bool rotation);
+
+  /// Makes the discs anew for these clumps.
+  void rebuild(const Grains& clumps);
+  /// Moves the discs with their clumps: x + R(angle) c, v + omega x c.
+  void place(const Grains& clumps);
+  /// Force and torque about the centres of mass, from those on the discs about their own centres.
+  void gather(const Forces& on_discs, Forces& on_clumps) const;
+
+  const Grains& discs() const { return discs_; }
+  /// One flag a disc, from one a clump.
+  std::vector<char> flags_of_discs(const std::vector<char>& of_clumps) const;
+
+ private:
+  const Scene& scene_;
+  std::int64_t discs_per_id_;  // numbers kept free for the discs of a clump
+  Grains discs_;
+  std::vector<double> own_x_, own_y_;  // m, from the centre of mass, clump not turned
+  std::vector<double> arm_x_, arm_y_;  // m, the same as it lies now
+};
+
+}  // namespace vibrosow

@@ -1,0 +1,182 @@
+#include "input/key_units.hpp"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+
+#include <fmt/format.h>
+
+namespace vibrosow {
+namespace {
+
+constexpr ColumnUnit millimetre{Dimension::length, "mm", "mm"};
+constexpr ColumnUnit second{Dimension::time, "s", "s"};
+constexpr ColumnUnit hertz{Dimension::frequency, "Hz", "Hz"};
+constexpr ColumnUnit gram{Dimension::mass, "g", "g"};
+constexpr ColumnUnit gram_per_second{Dimension::mass_rate, "g_per_s", "g/s"};
+constexpr ColumnUnit millimetre_per_second{Dimension::speed, "mm_per_s", "mm/s"};
+constexpr ColumnUnit metre_per_second{Dimension::speed, "m_per_s", "m/s"};
+constexpr ColumnUnit millinewton{Dimension::force, "mN", "mN"};
+constexpr ColumnUnit megapascal{Dimension::pressure, "MPa", "MPa"};
+constexpr ColumnUnit per_second{Dimension::rate, "per_s", "1/s"};
+constexpr ColumnUnit degree{Dimension::angle, "degree", "degree"};
+constexpr ColumnUnit density{Dimension::density, "kg_per_m3", "kg/m3"};
+constexpr ColumnUnit percent{Dimension::fraction, "percent", "%"};
+
+struct KeyWord {
+  std::string_view word;
+  std::optional<ColumnUnit> unit;
+};
+
+/// Last words of the keys of a seeder file that a table may carry. One word means one thing in every table, but where
+/// it stands here with its table.
+constexpr std::array key_words = {
+    // seeds
+    KeyWord{"crop", {}},
+    KeyWord{"diameter", millimetre},
+    KeyWord{"distance", millimetre},
+    KeyWord{"distribution", {}},
+    KeyWord{"deviation", millimetre},
+    KeyWord{"least", millimetre},
+    KeyWord{"most", millimetre},
+    KeyWord{"mass", gram},
+    KeyWord{"density", density},
+    KeyWord{"shape", {}},
+    KeyWord{"mass_fraction", percent},
+    KeyWord{"number_fraction", percent},
+    // contact
+    KeyWord{"law", {}},
+    KeyWord{"shell_compression", {}},
+    KeyWord{"friction", {}},
+    KeyWord{"restitution", {}},
+    KeyWord{"slip_speed", millimetre_per_second},
+    KeyWord{"drag", gram_per_second},
+    KeyWord{"rotation", {}},
+    KeyWord{"friction_arm", {}},
+    KeyWord{"youngs_modulus", megapascal},
+    KeyWord{"poisson_ratio", {}},
+    KeyWord{"damping_rate", per_second},
+    KeyWord{"cohesion", millinewton},
+    KeyWord{"friction_model", {}},
+    KeyWord{"tangential_ratio", {}},
+    KeyWord{"tangential_damping", {}},
+    KeyWord{"rolling", {}},
+    KeyWord{"rolling_friction", {}},
+    KeyWord{"rolling_damping", {}},
+    // vessels and their holes, fill and motion
+    KeyWord{"length", millimetre},
+    KeyWord{"height", millimetre},
+    KeyWord{"depth", millimetre},
+    KeyWord{"tilt", degree},
+    KeyWord{"funnel", degree},
+    KeyWord{"left", millimetre},
+    KeyWord{"above", millimetre},
+    KeyWord{"count", {}},
+    KeyWord{"width", millimetre},
+    KeyWord{"span", millimetre},
+    KeyWord{"pitch", millimetre},
+    KeyWord{"centre", millimetre},
+    KeyWord{"at", millimetre},
+    KeyWord{"packing", {}},
+    KeyWord{"jitter", {}},
+    KeyWord{"keep", {}},
+    KeyWord{"kind", {}},
+    KeyWord{"direction", degree},
+    KeyWord{"amplitude", millimetre},
+    KeyWord{"frequency", hertz},
+    KeyWord{"ramp", second},
+    KeyWord{"stop", second},
+    KeyWord{"stop_ramp", second},
+    KeyWord{"phase", degree},
+    KeyWord{"angle", degree},
+    KeyWord{"file", {}},
+    KeyWord{"box", {}},
+    KeyWord{"sides", {}},
+    KeyWord{"open_at", second},
+    KeyWord{"rate", per_second},
+    KeyWord{"from", millimetre},
+    KeyWord{"to", millimetre},
+    KeyWord{"rain.start", second},  // before run.start, which is a name
+    // numerics, guard, run and record
+    KeyWord{"integrator", {}},
+    KeyWord{"steps_per_contact", {}},
+    KeyWord{"dt", second},
+    KeyWord{"impact_speed", metre_per_second},
+    KeyWord{"allow_long_step", {}},
+    KeyWord{"warn_compression", {}},
+    KeyWord{"stop_compression", {}},
+    KeyWord{"energy_tolerance", {}},
+    KeyWord{"duration", second},
+    KeyWord{"measure_from", second},
+    KeyWord{"count_below", millimetre},
+    KeyWord{"end_after_pause", second},
+    KeyWord{"start", {}},
+    KeyWord{"times", second},
+    KeyWord{"every", second},
+    KeyWord{"cell", millimetre},
+};
+
+const KeyWord* find_word(std::string_view key) {
+  const auto ends_key = [key](const KeyWord& word) {
+    return key == word.word || (key.ends_with(word.word) && key[key.size() - word.word.size() - 1] == '.');
+  };
+  const auto found = std::ranges::find_if(key_words, ends_key);
+  return found == key_words.end() ? nullptr : &*found;
+}
+
+bool is_number(std::string_view text) {
+  double number = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+  return error == std::errc{} && end == text.data() + text.size();
+}
+
+std::string toml_string(std::string_view text) {
+  std::string quoted = "\"";
+  for (const char c : text) {
+    if (c == '"' || c == '\\') quoted += '\\';
+    quoted += c;
+  }
+  return quoted + '"';
+}
+
+}  // namespace
+
+std::optional<ColumnUnit> column_unit(std::string_view key) {
+  const KeyWord* word = find_word(key);
+  return word ? word->unit : std::nullopt;
+}
+
+std::string condition_column(const std::string& key) {
+  const auto unit = column_unit(key);
+  return unit ? fmt::format("{}_{}", key, unit->suffix) : key;
+}
+
+std::optional<std::string> key_of_column(const std::string& column) {
+  if (column.find('.') == std::string::npos) return std::nullopt;
+  for (const KeyWord& word : key_words) {
+    const std::string key = column.substr(0, column.rfind('.') + 1) + std::string(word.word);
+    if (condition_column(key) == column) return key;
+  }
+  return std::nullopt;
+}
+
+std::vector<std::string> columns_beside(const std::string& column) {
+  std::vector<std::string> columns;
+  for (const KeyWord& word : key_words)
+    if (word.word.find('.') == std::string_view::npos)
+      columns.push_back(condition_column(column.substr(0, column.rfind('.') + 1) + std::string(word.word)));
+  return columns;
+}
+
+double to_column_unit(std::string_view key, double si_value) {
+  const auto unit = column_unit(key);
+  return unit ? si_value / unit_size(unit->unit, unit->dimension) : si_value;
+}
+
+std::string toml_value_of_column(std::string_view key, std::string_view text) {
+  if (const auto unit = column_unit(key)) return fmt::format("\"{} {}\"", text, unit->unit);
+  if (is_number(text) || text == "true" || text == "false") return std::string(text);
+  return toml_string(text);
+}
+
+}  // namespace vibrosow

@@ -1,0 +1,271 @@
+#include "input/measured.hpp"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <map>
+#include <utility>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "input/csv_lines.hpp"
+#include "input/document.hpp"
+#include "input/key_units.hpp"
+#include "scene/input_error.hpp"
+
+namespace vibrosow {
+namespace {
+
+/// A column that states a quantity, and the column that must stand beside it.
+struct QuantityColumn {
+  std::string_view name;
+  std::string_view beside;  // "": none
+  MeasuredQuantity quantity;
+};
+
+constexpr std::array quantity_columns = {
+    QuantityColumn{"caught_g", "duration_s", MeasuredQuantity::mass_rate},
+    QuantityColumn{"caught_seeds", "duration_s", MeasuredQuantity::seed_rate},
+    QuantityColumn{"rate_g_per_s", "", MeasuredQuantity::mass_rate},
+    QuantityColumn{"seeds_per_s", "", MeasuredQuantity::seed_rate},
+    QuantityColumn{"mass_g", "time_s", MeasuredQuantity::mass_curve},
+    QuantityColumn{"seeds", "time_s", MeasuredQuantity::seed_curve},
+    QuantityColumn{"discharged_percent", "time_s", MeasuredQuantity::fraction_curve},
+};
+constexpr std::string_view one_quantity_needed =
+    "exactly one quantity is needed: caught_g or caught_seeds with duration_s; rate_g_per_s; seeds_per_s; or "
+    "time_s with "
+    "mass_g, seeds or discharged_percent";
+
+constexpr std::array<std::string_view, 4> label_columns = {"hole", "lot", "repeat", "note"};
+constexpr std::array<std::string_view, 2> companion_columns = {"duration_s", "time_s"};
+
+std::vector<std::string> known_plain_columns() {
+  std::vector<std::string> known(label_columns.begin(), label_columns.end());
+  known.insert(known.end(), companion_columns.begin(), companion_columns.end());
+  for (const QuantityColumn& column : quantity_columns) known.emplace_back(column.name);
+  return known;
+}
+
+double unit_of(MeasuredQuantity quantity) {
+  switch (quantity) {
+    case MeasuredQuantity::mass_rate:
+      return unit_size("g/s", Dimension::mass_rate);
+    case MeasuredQuantity::mass_curve:
+      return unit_size("g", Dimension::mass);
+    case MeasuredQuantity::fraction_curve:
+      return unit_size("%", Dimension::fraction);
+    case MeasuredQuantity::seed_rate:
+    case MeasuredQuantity::seed_curve:
+      break;
+  }
+  return 1;
+}
+
+/// Reads the rows of one file. Column indices are found once, in the header.
+class Reader {
+ public:
+  explicit Reader(const std::filesystem::path& file) : file_(file.string()), csv_(read_csv_lines(file)) {
+    read_header();
+  }
+
+  MeasuredTable read() {
+    for (const CsvLines::Row& row : csv_.rows) read_row(row);
+    MeasuredTable table;
+    table.quantity = quantity_->quantity;
+    for (const auto& [index, key] : conditions_) table.condition_keys.push_back(key);
+    for (const Gathered& one : gathered_) table.series.push_back(average(one));
+    return table;
+  }
+
+ private:
+  /// Values of one series before repeats are averaged; a rate stands at time 0.
+  struct Gathered {
+    MeasuredSeries series;
+    int line;
+    std::map<double, std::vector<double>> values_at;
+  };
+
+  [[noreturn]] void fail(int line, std::string_view column, std::string_view message) const {
+    throw InputError(fmt::format("{}:{}: {}: {}", file_, line, column, message));
+  }
+
+  const std::string& header(std::size_t index) const { return csv_.header.fields[index]; }
+
+  std::optional<std::size_t> column(std::string_view name) const {
+    const auto found = std::ranges::find(csv_.header.fields, name);
+    if (found == csv_.header.fields.end()) return std::nullopt;
+    return static_cast<std::size_t>(found - csv_.header.fields.begin());
+  }
+
+  void read_header() {
+    const int line = csv_.header.line;
+    const std::vector<std::string> known = known_plain_columns();
+    for (std::size_t i = 0; i < csv_.header.fields.size(); ++i) {
+      if (*column(header(i)) != i) fail(line, header(i), "stands twice");
+      if (std::ranges::count(known, header(i)) > 0) continue;
+      const auto key = key_of_column(header(i));
+      if (!key) fail_unknown(line, header(i), known);
+      conditions_.emplace_back(i, *key);
+    }
+    find_quantity(line);
+    hole_ = column("hole");
+    lot_ = column("lot");
+  }
+
+  [[noreturn]] void fail_unknown(int line, const std::string& name, const std::vector<std::string>& plain) const {
+    const bool dotted = name.find('.') != std::string::npos;
+    if (dotted && column_unit(name))
+      fail(line, name, fmt::format("a column carries its unit: {}", condition_column(name)));
+    if (const auto near = nearest(name, dotted ? columns_beside(name) : plain))
+      fail(line, name, fmt::format("unknown column; nearest: {}", *near));
+    fail(line, name,
+         fmt::format("unknown column; known are {}, and full keys with their unit such as tray.motion.frequency_Hz",
+                     fmt::join(plain, ", ")));
+  }
+
+  void find_quantity(int line) {
+    for (const QuantityColumn& candidate : quantity_columns) {
+      if (!column(candidate.name)) continue;
+      if (quantity_) fail(line, candidate.name, one_quantity_needed);
+      quantity_ = &candidate;
+    }
+    if (!quantity_) fail(line, "columns", one_quantity_needed);
+    for (const std::string_view companion : companion_columns) {
+      const bool wanted = quantity_->beside == companion;
+      if (wanted && !column(companion)) fail(line, quantity_->name, fmt::format("needs a column {}", companion));
+      if (!wanted && column(companion)) fail(line, companion, fmt::format("does not belong to {}", quantity_->name));
+    }
+    value_ = *column(quantity_->name);
+    if (!quantity_->beside.empty()) companion_ = column(quantity_->beside);
+  }
+
+  std::optional<double> number(const std::string& text) const { return csv_number(text, csv_.decimal_comma); }
+
+  double required_number(const CsvLines::Row& row, std::size_t index) const {
+    const std::string& text = row.fields[index];
+    const auto value = number(text);
+    if (!value)
+      fail(row.line, header(index),
+           fmt::format("\"{}\" is not a number with a decimal {}", text,
+                       csv_.decimal_comma ? "comma (fields are separated by semicolons)" : "point"));
+    if (*value < 0) fail(row.line, header(index), fmt::format("{} is negative", text));
+    return *value;
+  }
+
+  Condition condition(const CsvLines::Row& row, std::size_t index, const std::string& key) const {
+    const std::string& text = row.fields[index];
+    if (text.empty()) fail(row.line, header(index), "is empty; a column left out means the value of the base");
+    if (const auto value = number(text)) return {key, fmt::format("{}", *value), value};
+    if (column_unit(key)) fail(row.line, header(index), fmt::format("\"{}\" is not a number", text));
+    return {key, text, std::nullopt};
+  }
+
+  std::string hole(const CsvLines::Row& row) const {
+    if (!hole_ || row.fields[*hole_] == "all") return "all";
+    const std::string& text = row.fields[*hole_];
+    int value = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    if (error != std::errc{} || end != text.data() + text.size() || value < 1)
+      fail(row.line, "hole", fmt::format("\"{}\" is neither a hole's number (1 is the leftmost) nor \"all\"", text));
+    return fmt::format("{}", value);
+  }
+
+  std::string lot(const CsvLines::Row& row) const {
+    if (!lot_) return "all";
+    if (row.fields[*lot_].empty()) fail(row.line, "lot", "is empty; write the name of the seeds or \"all\"");
+    return row.fields[*lot_];
+  }
+
+  double value(const CsvLines::Row& row) const {
+    const double stated = required_number(row, value_);
+    if (quantity_->quantity == MeasuredQuantity::fraction_curve && stated > 100)
+      fail(row.line, header(value_), fmt::format("{} is more than 100 %", row.fields[value_]));
+    const double si = stated * unit_of(quantity_->quantity);
+    if (quantity_->beside != "duration_s") return si;
+    const double duration = required_number(row, *companion_);
+    if (duration == 0) fail(row.line, "duration_s", "must be greater than zero");
+    return si / duration;
+  }
+
+  void read_row(const CsvLines::Row& row) {
+    MeasuredSeries series;
+    for (const auto& [index, key] : conditions_) series.conditions.push_back(condition(row, index, key));
+    series.hole = hole(row);
+    series.lot = lot(row);
+    series.where = fmt::format("{}:{}", file_, row.line);
+    const double time = is_curve(quantity_->quantity) ? required_number(row, *companion_) : 0;
+    gathered(series, row.line).values_at[time].push_back(value(row));
+  }
+
+  Gathered& gathered(const MeasuredSeries& series, int line) {
+    const auto same = std::ranges::find_if(gathered_, [&](const Gathered& one) {
+      return one.series.conditions == series.conditions && one.series.hole == series.hole &&
+             one.series.lot == series.lot;
+    });
+    if (same != gathered_.end()) return *same;
+    gathered_.push_back({series, line, {}});
+    return gathered_.back();
+  }
+
+  MeasuredSeries average(const Gathered& one) const {
+    MeasuredSeries series = one.series;
+    double largest = 0;
+    for (const auto& [time, values] : one.values_at) {
+      if (is_curve(quantity_->quantity)) series.times.push_back(time);
+      series.values.push_back(mean_with_interval(values));
+      largest = std::max(largest, series.values.back().mean);
+    }
+    if (largest == 0)
+      fail(one.line, quantity_->name,
+           is_curve(quantity_->quantity) ? "the curve never leaves zero: it has no misfit"
+                                         : "a rate of zero has no relative misfit; leave the row out");
+    return series;
+  }
+
+  std::string file_;
+  CsvLines csv_;
+  std::vector<std::pair<std::size_t, std::string>> conditions_;  // column and key
+  const QuantityColumn* quantity_ = nullptr;
+  std::size_t value_ = 0;
+  std::optional<std::size_t> companion_, hole_, lot_;
+  std::vector<Gathered> gathered_;
+};
+
+}  // namespace
+
+bool is_curve(MeasuredQuantity quantity) {
+  return quantity != MeasuredQuantity::mass_rate && quantity != MeasuredQuantity::seed_rate;
+}
+
+std::string_view column_of(MeasuredQuantity quantity) {
+  switch (quantity) {
+    case MeasuredQuantity::mass_rate:
+      return "rate_g_per_s";
+    case MeasuredQuantity::seed_rate:
+      return "seeds_per_s";
+    case MeasuredQuantity::mass_curve:
+      return "mass_g";
+    case MeasuredQuantity::seed_curve:
+      return "seeds";
+    case MeasuredQuantity::fraction_curve:
+      return "discharged_percent";
+  }
+  return "";
+}
+
+double to_column_unit(MeasuredQuantity quantity, double si_value) {
+  return si_value / unit_of(quantity);
+}
+
+Override override_of(const Condition& condition, const std::string& where) {
+  return {condition.key, toml_value_of_column(condition.key, condition.text), where};
+}
+
+MeasuredTable read_measured(const std::filesystem::path& file) {
+  return Reader(file).read();
+}
+
+}  // namespace vibrosow

@@ -1,0 +1,75 @@
+#include "input/presets.hpp"
+
+#include <fmt/core.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cstdlib>
+
+#include "input/read_scene.hpp"
+#include "scene/input_error.hpp"
+
+namespace vibrosow {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::vector<std::string> shipped(const fs::path& directory) {
+  std::vector<std::string> names;
+  if (!fs::is_directory(directory)) return names;
+  for (const auto& entry : fs::directory_iterator(directory)) {
+    if (entry.path().extension() == ".toml") names.push_back(entry.path().stem().string());
+  }
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+fs::path preset_file(const Table& table, const std::string& key, const std::string& name, const std::string& kind) {
+  if (name.ends_with(".toml")) {
+    const fs::path file = table.directory(key) / name;
+    if (!fs::is_regular_file(file)) table.fail(key, fmt::format("there is no file {}", file.string()));
+    return file;
+  }
+  const fs::path directory = data_directory() / "models" / kind;
+  const std::vector<std::string> names = shipped(directory);
+  if (std::find(names.begin(), names.end(), name) == names.end()) {
+    table.fail(key, fmt::format("\"{}\" is not shipped; there are {}, or give a path ending in .toml{}", name,
+                                fmt::join(names, ", "), did_you_mean(name, names)));
+  }
+  return directory / (name + ".toml");
+}
+
+}  // namespace
+
+void use_preset(Table& table, const std::string& key, const std::string& kind) {
+  const std::optional<std::string> name = table.text(key);
+  if (!name) return;
+  Table preset(Document::read(preset_file(table, key, *name, kind)));
+  preset.skip("title");
+  if (auto reference = preset.table("reference")) {
+    // Mass is checked against these when presets are tested.
+    reference->quantity("true_density", Dimension::density, 1, 3e4);
+    reference->quantity("thickness", Dimension::length, 5e-5, 1);
+  }
+  preset.skip("sources");
+  table.set_fallback(preset);
+}
+
+fs::path data_directory() {
+  const auto holds_models = [](const fs::path& directory) { return fs::is_directory(directory / "models"); };
+  if (const char* given = std::getenv("VIBROSOW_DATA")) {
+    if (!holds_models(given)) throw InputError(fmt::format("VIBROSOW_DATA={}: holds no folder \"models\"", given));
+    return given;
+  }
+  std::error_code no_proc;
+  const fs::path program = fs::read_symlink("/proc/self/exe", no_proc);
+  const fs::path installed = program.parent_path().parent_path() / "share" / "vibrosow";
+  if (!no_proc && holds_models(installed)) return installed;
+  if (holds_models(VIBROSOW_SOURCE_DIR)) return VIBROSOW_SOURCE_DIR;
+  throw InputError(
+      fmt::format("the shipped models are neither in {} nor in {}; set VIBROSOW_DATA to the folder that holds "
+                  "\"models\"",
+                  installed.string(), VIBROSOW_SOURCE_DIR));
+}
+
+}  // namespace vibrosow

@@ -1,0 +1,15 @@
+#pragma once
+
+#include <vector>
+
+#include "input/document.hpp"
+#include "scene/scene.hpp"
+
+namespace vibrosow {
+
+/// Reads [contact] with its walls and pairs of materials, and into `lots` the material keys of [seeds.NAME]. `seeds` is
+/// the table [seeds]. Where the seeder itself makes a choice (a law, say), keys of a contact model or a crop that the
+/// choice rules out are left out; written in the seeder they are an error. Throws InputError like read_scene.
+Contact read_contact(Table table, Table seeds, std::vector<SeedLot>& lots);
+
+}  // namespace vibrosow

@@ -1,0 +1,14 @@
+#pragma once
+
+#include <string>
+
+#include "input/document.hpp"
+#include "scene/scene.hpp"
+
+namespace vibrosow {
+
+/// One lot of seeds from its table [seeds.NAME]: crop, shape and measures, sizes, mass. Throws InputError on keys that
+/// are missing, out of range, contradict each other or go with another shape or distribution. Fractions are not read.
+SeedLot read_lot(Table& seeds, const std::string& name);
+
+}  // namespace vibrosow

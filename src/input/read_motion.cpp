@@ -1,0 +1,162 @@
+#include "input/read_motion.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <numbers>
+
+#include "input/csv_lines.hpp"
+#include "scene/input_error.hpp"
+
+namespace vibrosow {
+namespace {
+
+constexpr double degree = std::numbers::pi / 180;
+constexpr std::size_t fewest_rows = 4;  // that the interpolation needs
+
+/// When a motion grows and fades.
+struct Course {
+  double ramp, stop, stop_ramp;  // s
+};
+
+/// `period` (s) of the slowest motion: it fades over that time unless the file says otherwise, never at once.
+Course read_course(Table& table, double period) {
+  Course course{};
+  course.ramp = table.quantity("ramp", Dimension::time, 0, 1e6).value_or(0);
+  const std::optional<double> stop = table.quantity("stop", Dimension::time, 0, 1e6);
+  const std::optional<double> stop_ramp = table.quantity("stop_ramp", Dimension::time, 1e-4, 1e6);
+  if (stop_ramp && !stop) table.fail("stop_ramp", "goes with stop, the time at which the motion begins to fade");
+  course.stop = stop.value_or(never);
+  course.stop_ramp = stop ? stop_ramp.value_or(period) : 0;
+  return course;
+}
+
+HarmonicMotion read_oscillation(Table& table) {
+  HarmonicMotion motion;
+  motion.direction = table.quantity("direction", Dimension::angle, -360 * degree, 360 * degree).value_or(0);
+  motion.amplitude = table.required_quantity("amplitude", Dimension::length, 1e-9, 10);
+  motion.frequency = table.required_quantity("frequency", Dimension::frequency, 1e-6, 1e4);
+  motion.phase = table.quantity("phase", Dimension::angle, -360 * degree, 360 * degree).value_or(0);
+  return motion;
+}
+
+void follow(HarmonicMotion& motion, const Course& course) {
+  motion.ramp = course.ramp, motion.stop = course.stop, motion.stop_ramp = course.stop_ramp;
+}
+
+HarmonicMotion read_harmonic(Table& table) {
+  HarmonicMotion motion = read_oscillation(table);
+  follow(motion, read_course(table, 1 / motion.frequency));
+  return motion;
+}
+
+SumMotion read_sum(Table& table) {
+  SumMotion sum;
+  double longest_period = 0;
+  for (Table& component : table.tables("components")) {
+    sum.components.push_back(read_oscillation(component));
+    longest_period = std::max(longest_period, 1 / sum.components.back().frequency);
+  }
+  if (sum.components.empty()) {
+    table.fail("components", "is missing; expected a list such as [{ amplitude = \"1 mm\", frequency = \"9 Hz\" }]");
+  }
+  const Course course = read_course(table, longest_period);
+  for (HarmonicMotion& component : sum.components) follow(component, course);
+  return sum;
+}
+
+RockingMotion read_rocking(Table& table) {
+  RockingMotion motion;
+  const std::vector<double> pivot = table.quantities("pivot", Dimension::length, -100, 100);
+  if (pivot.size() != 2) {
+    table.fail("pivot", "expected the point it turns about, in the vessel's frame, such as [\"25 cm\", \"0 cm\"]");
+  }
+  motion.pivot = {pivot[0], pivot[1]};
+  motion.angle = table.required_quantity("angle", Dimension::angle, 1e-6 * degree, 30 * degree);
+  motion.frequency = table.required_quantity("frequency", Dimension::frequency, 1e-6, 1e4);
+  const Course course = read_course(table, 1 / motion.frequency);
+  motion.ramp = course.ramp, motion.stop = course.stop, motion.stop_ramp = course.stop_ramp;
+  return motion;
+}
+
+/// A CSV file of positions, column by column.
+class MotionTableReader {
+ public:
+  explicit MotionTableReader(const std::filesystem::path& file) : file_(file.string()), csv_(read_csv_lines(file)) {}
+
+  TableMotion read() {
+    check_header();
+    if (csv_.rows.size() < fewest_rows)
+      fail(csv_.rows.back().line, "time_s", fmt::format("expected at least {} rows", fewest_rows));
+    TableMotion motion;
+    motion.times = column("time_s", 1);
+    for (std::size_t k = 1; k < motion.times.size(); ++k)
+      if (!(motion.times[k] > motion.times[k - 1]))
+        fail(csv_.rows[k].line, "time_s", fmt::format("{:g} is not later than the row before", motion.times[k]));
+    motion.x = column("x_mm", 1e-3);
+    motion.y = column("y_mm", 1e-3);
+    motion.angle = column("angle_degree", degree);
+    return motion;
+  }
+
+ private:
+  [[noreturn]] void fail(int line, const std::string& name, const std::string& message) const {
+    throw InputError(fmt::format("{}:{}: {}: {}", file_, line, name, message));
+  }
+
+  std::size_t index_of(const std::string& name) const {
+    return static_cast<std::size_t>(std::ranges::find(csv_.header.fields, name) - csv_.header.fields.begin());
+  }
+  bool has(const std::string& name) const { return index_of(name) < csv_.header.fields.size(); }
+
+  void check_header() const {
+    static const std::vector<std::string> known = {"time_s", "x_mm", "y_mm", "angle_degree"};
+    for (std::size_t k = 0; k < csv_.header.fields.size(); ++k) {
+      const std::string& name = csv_.header.fields[k];
+      if (std::ranges::count(known, name) == 0)
+        fail(csv_.header.line, name,
+             fmt::format("unknown column; known are {}{}", fmt::join(known, ", "), did_you_mean(name, known)));
+      if (index_of(name) != k) fail(csv_.header.line, name, "stands twice");
+    }
+    if (!has("time_s")) fail(csv_.header.line, "time_s", "is missing");
+    if (csv_.header.fields.size() < 2)
+      fail(csv_.header.line, "time_s", "stands alone; expected x_mm, y_mm or angle_degree beside it");
+  }
+
+  std::vector<double> column(const std::string& name, double unit) const {
+    if (!has(name)) return std::vector<double>(csv_.rows.size(), 0.0);
+    std::vector<double> values;
+    for (const CsvLines::Row& row : csv_.rows) {
+      const std::string& text = row.fields[index_of(name)];
+      const std::optional<double> value = csv_number(text, csv_.decimal_comma);
+      if (!value) fail(row.line, name, fmt::format("\"{}\" is not a number", text));
+      values.push_back(*value * unit);
+    }
+    return values;
+  }
+
+  std::string file_;
+  CsvLines csv_;
+};
+
+}  // namespace
+
+TableMotion read_motion_table(const std::filesystem::path& file) {
+  return MotionTableReader(file).read();
+}
+
+VesselMotion read_motion(Table table) {
+  const std::vector<std::string> kinds = {"harmonic", "sum", "rocking", "table"};
+  const std::optional<std::size_t> kind = table.choice("kind", kinds);
+  if (!kind) table.fail("kind", "is missing; expected \"harmonic\", \"sum\", \"rocking\" or \"table\"");
+  if (*kind == 0) return read_harmonic(table);
+  if (*kind == 1) return read_sum(table);
+  if (*kind == 2) return read_rocking(table);
+  const std::string file = table.required_text("file");
+  const std::filesystem::path path = table.directory("file") / file;
+  if (!std::filesystem::is_regular_file(path)) table.fail("file", fmt::format("there is no file {}", path.string()));
+  return read_motion_table(path);
+}
+
+}  // namespace vibrosow

@@ -1,0 +1,178 @@
+#include "input/read_scene.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "input/document.hpp"
+#include "input/presets.hpp"
+#include "input/read_contact.hpp"
+#include "input/read_lot.hpp"
+#include "input/read_vessel.hpp"
+#include "scene/integrator_names.hpp"
+#include "scene/seed_lot.hpp"
+
+namespace vibrosow {
+namespace {
+
+/// Fractions of all lots by number, from fractions by mass or by number.
+void read_fractions(Table& seeds, std::vector<SeedLot>& lots) {
+  std::string key;
+  double sum = 0;
+  for (SeedLot& lot : lots) {
+    Table table = seeds.required_table(lot.name);
+    const auto by_mass = table.quantity("mass_fraction", Dimension::fraction, 1e-9, 1);
+    const auto by_number = table.quantity("number_fraction", Dimension::fraction, 1e-9, 1);
+    if (by_mass && by_number) table.fail("number_fraction", "contradicts mass_fraction; give one of them");
+    const std::string given = by_mass ? "mass_fraction" : by_number ? "number_fraction" : "";
+    if (given.empty() && lots.size() == 1) return;
+    if (key.empty()) key = given.empty() ? "mass_fraction" : given;
+    if (given.empty())
+      table.fail(key, "is missing; with several lots each has mass_fraction, or each has number_fraction");
+    if (given != key) table.fail(given, fmt::format("another lot has {}; give every lot the same", key));
+    lot.number_fraction = by_mass ? *by_mass : *by_number;
+    sum += lot.number_fraction;
+  }
+  if (std::abs(sum - 1) > 1e-6) {
+    seeds.required_table(lots.back().name)
+        .fail(key, fmt::format("the fractions of all lots sum to {:g} %, not to 100 %", sum * 100));
+  }
+  if (key == "mass_fraction") {
+    for (SeedLot& lot : lots) lot.number_fraction /= mean_mass(lot);
+  }
+  double total = 0;
+  for (const SeedLot& lot : lots) total += lot.number_fraction;
+  for (SeedLot& lot : lots) lot.number_fraction /= total;
+}
+
+/// Lot names stand in CSV files and beside the words "all" and "wall".
+void check_lot_name(const Table& seeds, const std::string& name) {
+  const bool plain = std::all_of(name.begin(), name.end(), [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '-';
+  });
+  if (!plain || name.empty() || name == "all" || name == "wall") {
+    seeds.fail(name, "a lot's name has letters, digits, _ and - only, and is not \"all\" or \"wall\"");
+  }
+}
+
+std::vector<SeedLot> read_lots(Table seeds) {
+  std::vector<SeedLot> lots;
+  for (const std::string& name : seeds.keys()) {
+    check_lot_name(seeds, name);
+    Table table = seeds.required_table(name);
+    lots.push_back(read_lot(table, name));
+  }
+  if (lots.empty()) seeds.fail("", "names no seed lot; expected a table such as [seeds.wheat]");
+  read_fractions(seeds, lots);
+  return lots;
+}
+
+Numerics read_numerics(Table table, Law law) {
+  Numerics numerics;
+  numerics.integrator = static_cast<Integrator>(table.choice("integrator", integrator_names()).value_or(0));
+  numerics.dt = table.quantity("dt", Dimension::time, 1e-12, 10);
+  if (numerics.dt) numerics.where = table.where("dt");
+  const auto steps = table.number("steps_per_contact", 1, 1e6);
+  if (numerics.dt && steps) table.fail("steps_per_contact", "contradicts dt; give one of them");
+  numerics.steps_per_contact = steps.value_or(numerics.steps_per_contact);
+  numerics.impact_speed = table.quantity("impact_speed", Dimension::speed, 1e-6, 1000);
+  if (numerics.impact_speed && law == Law::elastic_shell) {
+    table.fail("impact_speed", "belongs to law = \"hertz\"; an elastic shell's contact lasts as long at any speed");
+  }
+  numerics.allow_long_step = table.boolean("allow_long_step").value_or(numerics.allow_long_step);
+  return numerics;
+}
+
+GuardLimits read_guard(Table table) {
+  GuardLimits guard;
+  guard.warn_compression = table.number("warn_compression", 1e-9, 1000).value_or(guard.warn_compression);
+  guard.stop_compression = table.number("stop_compression", 1e-9, 1000).value_or(guard.stop_compression);
+  guard.energy_tolerance = table.number("energy_tolerance", 1e-9, 1e12).value_or(guard.energy_tolerance);
+  if (guard.stop_compression < guard.warn_compression) {
+    table.fail(table.has("stop_compression") ? "stop_compression" : "warn_compression",
+               fmt::format("the guard would stop at {:g}, before it warns at {:g}", guard.stop_compression,
+                           guard.warn_compression));
+  }
+  return guard;
+}
+
+RunPlan read_run(Table table) {
+  RunPlan run;
+  run.duration = table.required_quantity("duration", Dimension::time, 1e-9, 1e6);
+  run.measure_from = table.quantity("measure_from", Dimension::time, 0, 1e6).value_or(0);
+  if (run.measure_from >= run.duration) {
+    table.fail("measure_from",
+               fmt::format("{:g} s is not before the end of the run, {:g} s", run.measure_from, run.duration));
+  }
+  run.count_below = table.quantity("count_below", Dimension::length, 1e-6, 100).value_or(run.count_below);
+  run.end_after_pause = table.quantity("end_after_pause", Dimension::time, 1e-3, 1e6);
+  run.start = table.choice("start", {"at-rest", "with-tray"}).value_or(0) == 0 ? Start::at_rest : Start::with_tray;
+  return run;
+}
+
+/// 0, every, 2 every, .. up to the end of the run, which a rounding error must not pass.
+std::vector<double> repeated_times(Table& table, double every, double duration) {
+  constexpr double most = 100'000, rounding = 1e-9;
+  const double count = std::floor(duration / every * (1 + rounding)) + 1;
+  if (count > most) table.fail("every", fmt::format("asks for {:.0f} snapshots, more than {:.0f}", count, most));
+  std::vector<double> times;
+  for (int i = 0; i < static_cast<int>(count); ++i) times.push_back(std::min(i * every, duration));
+  return times;
+}
+
+std::vector<double> read_times(Table& table, double duration) {
+  const std::vector<double> times = table.quantities("times", Dimension::time, 0, duration);
+  const std::optional<double> every = table.quantity("every", Dimension::time, 1e-9, duration);
+  if (!times.empty() && every) table.fail("every", "contradicts times; give one of them");
+  if (every) return repeated_times(table, *every, duration);
+  if (times.empty()) table.fail("times", "is missing; give times such as [\"2 s\", \"6 s\"], or every");
+  for (std::size_t i = 1; i < times.size(); ++i) {
+    if (times[i] > times[i - 1]) continue;
+    table.fail("times", fmt::format("{:g} s after {:g} s; expected ascending times", times[i], times[i - 1]));
+  }
+  return times;
+}
+
+Record read_record(Table table, double duration, const std::vector<SeedLot>& lots) {
+  table.reject_keys_other_than({"times", "every", "cell"});
+  Record record;
+  record.times = read_times(table, duration);
+  record.cell = read_width(table, "cell", table.text("cell").value_or("2 diameters"), largest_mean_diameter(lots));
+  return record;
+}
+
+}  // namespace
+
+Scene read_scene(const std::filesystem::path& file, const std::vector<Override>& overrides) {
+  Table root(Document::read(file, overrides));
+  root.reject_keys_other_than({"title", "seeds", "contact", "tray", "hopper", "numerics", "guard", "run", "record"});
+  Scene scene;
+  scene.title = root.text("title").value_or(file.stem().string());
+  Table seeds = root.required_table("seeds");
+  scene.lots = read_lots(seeds);
+  scene.contact = read_contact(root.required_table("contact"), seeds, scene.lots);
+  Table tray = root.required_table("tray");
+  scene.tray = read_vessel(tray, "tray", scene.lots);
+  if (auto hopper = root.table("hopper")) {
+    scene.hopper = read_vessel(*hopper, "hopper", scene.lots);
+    scene.hopper->origin.x() = hopper->required_quantity("left", Dimension::length, -100, 100);
+    if (scene.tray.sides == Sides::periodic &&
+        !(scene.hopper->origin.x() >= 0 &&
+          scene.hopper->origin.x() + scene.hopper->length <= scene.tray.length * (1 + 1e-9)))
+      hopper->fail("left", "the hopper does not lie within the length of the periodic tray");
+    scene.hopper->origin.y() = hopper->required_quantity("above", Dimension::length, 0, 100);
+  }
+  const auto gives_seeds = [](const Vessel& vessel) { return vessel.fill || vessel.rain; };
+  if (!gives_seeds(scene.tray) && !(scene.hopper && gives_seeds(*scene.hopper))) {
+    tray.fail("fill", "is missing, no hopper has one, and no rain falls: there is nothing to sow");
+  }
+  if (auto numerics = root.table("numerics")) scene.numerics = read_numerics(*numerics, scene.contact.law);
+  if (auto guard = root.table("guard")) scene.guard = read_guard(*guard);
+  scene.run = read_run(root.required_table("run"));
+  if (auto record = root.table("record")) scene.record = read_record(*record, scene.run.duration, scene.lots);
+  root.reject_unknown_keys();
+  return scene;
+}
+
+}  // namespace vibrosow

@@ -1,0 +1,68 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "result/snapshot.hpp"
+
+#include "compute/profile.hpp"
+
+namespace vibrosow {
+
+/// A grain leaving: its centre crossed the counting line.
+struct OutflowEvent {
+  double time;         // s, interpolated
+  int hole;            // 1.. from the left; 0: spilled, it passed no hole of the tray
+  int lot;             // index in Scene::lots
+  std::int64_t grain;  // id of the grain, in order of insertion
+  double mass;         // kg
+  double x;            // m from the tray's left end, where it passed the floor (a spilled grain: where it was counted)
+  double speed;        // m/s at the counting line
+};
+
+/// put_in = inside + counted + spilled + lost, always.
+struct Balance {
+  std::int64_t put_in = 0;
+  std::int64_t inside = 0;
+  std::int64_t counted = 0;
+  std::int64_t spilled = 0;
+  std::int64_t lost = 0;  // through a wall or not a number: an error
+};
+
+struct EnergyAccount {                             // J
+  double kinetic = 0, potential = 0, elastic = 0;  // at the end; potential from the tray's floor
+  double wall_work = 0;                            // done by walls on grains
+  double inserted = 0, removed = 0;                // carried by grains put in and taken out
+  double made_by_numerics = 0;                     // largest rise of what must only fall
+};
+
+enum class RunStatus { finished, stopped_by_guard, interrupted };
+
+/// What one simulation gives. Holds nothing that depends on a clock but the last two.
+struct Run {
+  RunStatus status = RunStatus::finished;
+  std::string stop_reason;            // of the guard
+  std::string end_reason;             // why it ended before its duration, though sound; else empty
+  std::vector<std::string> warnings;  // of the guard
+  bool outside_the_model =
+      false;  // compression beyond the guard's warning limit with the stop raised, or a long step insisted on
+  std::uint64_t random_seed = 1;
+  double dt = 0;  // s
+  std::int64_t steps = 0;
+  double end_time = 0;  // s, = steps dt
+  std::int64_t grain_steps = 0;
+  std::int64_t force_evaluations = 0;  // of grain contacts
+  double max_compression = 0;          // shell compression, largest of the run
+  double tray_empty_since = -1;        // s, when the last grain left the tray; negative: it never ran dry
+  EnergyAccount energy;
+  Balance balance;
+  std::vector<OutflowEvent> events;       // by time
+  std::vector<Snapshot> snapshots;        // one a record time that was reached; empty without a record
+  double wall_time = 0;                   // s, of this machine
+  double measured_wall_time = 0;          // s, that part of it that went into the measuring window
+  std::optional<PhaseTimes> phase_times;  // of wall_time, where asked for
+};
+
+}  // namespace vibrosow

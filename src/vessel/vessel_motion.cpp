@@ -1,0 +1,230 @@
+#include "vessel/vessel_motion.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <boost/math/interpolators/makima.hpp>
+#include <cmath>
+#include <numbers>
+
+#include "vessel/vessel_walls.hpp"
+
+namespace vibrosow {
+namespace {
+
+constexpr double two_pi = 2 * std::numbers::pi;
+
+Eigen::Vector2d unit_direction(const HarmonicMotion& motion) {
+  return {std::cos(motion.direction), std::sin(motion.direction)};
+}
+
+/// A size between 0 and 1 and its rate (1/s).
+struct Ramp {
+  double size = 1, rate = 0;
+};
+
+Ramp smooth_rise(double part, double duration) {
+  return {part * part * (3 - 2 * part), 6 * part * (1 - part) / duration};
+}
+
+template <class Motion>
+Ramp ramp_at(const Motion& motion, double time) {
+  Ramp ramp;
+  if (time < motion.ramp) ramp = smooth_rise(time / motion.ramp, motion.ramp);
+  if (time < motion.stop) return ramp;
+  if (time >= motion.stop + motion.stop_ramp) return {0, 0};
+  const Ramp fallen = smooth_rise((time - motion.stop) / motion.stop_ramp, motion.stop_ramp);
+  return {ramp.size * (1 - fallen.size), ramp.rate * (1 - fallen.size) - ramp.size * fallen.rate};
+}
+
+/// s(t) sin(2 pi f t + phase) and its rate.
+template <class Motion>
+Ramp swing(const Motion& m, double phase, double time) {
+  const double angle = two_pi * m.frequency * time + phase;
+  const Ramp ramp = ramp_at(m, time);
+  return {ramp.size * std::sin(angle),
+          ramp.rate * std::sin(angle) + ramp.size * two_pi * m.frequency * std::cos(angle)};
+}
+
+Pose harmonic_pose(const HarmonicMotion& m, double time) {
+  const double angle = two_pi * m.frequency * time + m.phase;
+  return {m.amplitude * ramp_at(m, time).size * std::sin(angle) * unit_direction(m), 0};
+}
+
+PoseRate harmonic_rate(const HarmonicMotion& m, double time) {
+  return {m.amplitude * swing(m, m.phase, time).rate * unit_direction(m), 0};
+}
+
+Eigen::Vector2d turned_left(const Eigen::Vector2d& v) {
+  return {-v.y(), v.x()};
+}
+
+/// The frame's zero moves so that the pivot stays: displacement = R(tilt) p - R(tilt + angle) p.
+Pose rocking_pose(const RockingMotion& m, double tilt, double time) {
+  const double angle = m.angle * swing(m, 0, time).size;
+  const Eigen::Vector2d at_rest = Eigen::Rotation2Dd(tilt) * m.pivot;
+  return {at_rest - Eigen::Rotation2Dd(tilt + angle) * m.pivot, angle};
+}
+
+PoseRate rocking_rate(const RockingMotion& m, double tilt, double time) {
+  const Ramp now = swing(m, 0, time);
+  const double spin = m.angle * now.rate;
+  return {-spin * turned_left(Eigen::Rotation2Dd(tilt + m.angle * now.size) * m.pivot), spin};
+}
+
+using Curve = boost::math::interpolators::makima<std::vector<double>>;
+
+/// At rest at both ends, so that the velocity is continuous there too.
+Curve curve(std::vector<double> times, std::vector<double> values) {
+  return Curve(std::move(times), std::move(values), 0.0, 0.0);
+}
+
+}  // namespace
+
+struct VesselPath::Curves {
+  explicit Curves(const TableMotion& table)
+      : first(table.times.front()),
+        last(table.times.back()),
+        x(curve(table.times, table.x)),
+        y(curve(table.times, table.y)),
+        angle(curve(table.times, table.angle)) {}
+
+  Pose pose(double time) const {
+    const double t = std::clamp(time, first, last);
+    return {{x(t), y(t)}, angle(t)};
+  }
+  PoseRate rate(double time) const {
+    if (time <= first || time >= last) return {};
+    return {{x.prime(time), y.prime(time)}, angle.prime(time)};
+  }
+
+  double first, last;  // s
+  Curve x, y, angle;
+};
+
+VesselPath::VesselPath(const Vessel& vessel) : tilt_(vessel.tilt), motion_(vessel.motion) {
+  if (!motion_) return;
+  if (const auto* table = std::get_if<TableMotion>(&*motion_)) curves_ = std::make_shared<Curves>(*table);
+}
+
+Pose VesselPath::pose(double time) const {
+  if (!motion_) return {};
+  if (curves_) return curves_->pose(time);
+  if (const auto* harmonic = std::get_if<HarmonicMotion>(&*motion_)) return harmonic_pose(*harmonic, time);
+  if (const auto* rocking = std::get_if<RockingMotion>(&*motion_)) return rocking_pose(*rocking, tilt_, time);
+  Pose sum;
+  for (const HarmonicMotion& component : std::get<SumMotion>(*motion_).components)
+    sum.displacement += harmonic_pose(component, time).displacement;
+  return sum;
+}
+
+PoseRate VesselPath::rate(double time) const {
+  if (!motion_) return {};
+  if (curves_) return curves_->rate(time);
+  if (const auto* harmonic = std::get_if<HarmonicMotion>(&*motion_)) return harmonic_rate(*harmonic, time);
+  if (const auto* rocking = std::get_if<RockingMotion>(&*motion_)) return rocking_rate(*rocking, tilt_, time);
+  PoseRate sum;
+  for (const HarmonicMotion& component : std::get<SumMotion>(*motion_).components)
+    sum.velocity += harmonic_rate(component, time).velocity;
+  return sum;
+}
+
+Pose vessel_pose(const Vessel& vessel, double time) {
+  return VesselPath(vessel).pose(time);
+}
+
+PoseRate vessel_velocity(const Vessel& vessel, double time) {
+  return VesselPath(vessel).rate(time);
+}
+
+Eigen::Vector2d in_lab_frame(const Vessel& vessel, const Pose& pose, const Eigen::Vector2d& own) {
+  const double angle = vessel.tilt + pose.angle;
+  if (angle == 0) return vessel.origin + pose.displacement + own;
+  return vessel.origin + pose.displacement + Eigen::Rotation2Dd(angle) * own;
+}
+
+Eigen::Vector2d in_vessel_frame(const Vessel& vessel, const Pose& pose, const Eigen::Vector2d& lab) {
+  const Eigen::Vector2d moved = lab - vessel.origin - pose.displacement;
+  const double angle = vessel.tilt + pose.angle;
+  if (angle == 0) return moved;
+  return Eigen::Rotation2Dd(-angle) * moved;
+}
+
+Eigen::Vector2d material_velocity(const Vessel& vessel, const Pose& pose, const PoseRate& rate,
+                                  const Eigen::Vector2d& lab) {
+  if (rate.angular_velocity == 0) return rate.velocity;
+  return rate.velocity + rate.angular_velocity * turned_left(lab - vessel.origin - pose.displacement);
+}
+
+namespace {
+
+struct Bounds {
+  double speed = 0, acceleration = 0, vertical_acceleration = 0;
+};
+
+Bounds bounds(const HarmonicMotion& m) {
+  const double omega = two_pi * m.frequency;
+  const double acceleration = m.amplitude * omega * omega;
+  return {m.amplitude * two_pi * m.frequency, acceleration, acceleration * std::abs(std::sin(m.direction))};
+}
+
+Bounds bounds(const SumMotion& sum) {
+  Bounds all;
+  for (const HarmonicMotion& component : sum.components) {
+    const Bounds one = bounds(component);
+    all.speed += one.speed, all.acceleration += one.acceleration;
+    all.vertical_acceleration += one.vertical_acceleration;
+  }
+  return all;
+}
+
+Bounds bounds(const RockingMotion& m, const Vessel& vessel) {
+  const double omega = two_pi * m.frequency, reach = m.angle * largest_radius(vessel, m.pivot);
+  return {reach * omega, reach * omega * omega, reach * omega * omega};
+}
+
+/// Velocity is quadratic in time between two times of the table, acceleration linear.
+Bounds sampled_bounds(const TableMotion& table, const Vessel& vessel) {
+  constexpr int samples = 16;
+  const VesselPath path(vessel);
+  const double radius = largest_radius(vessel, Eigen::Vector2d::Zero());
+  Bounds most;
+  for (std::size_t k = 1; k < table.times.size(); ++k) {
+    const double from = table.times[k - 1], step = (table.times[k] - from) / samples;
+    PoseRate before = path.rate(from);
+    for (int part = 1; part <= samples; ++part) {
+      const PoseRate now = path.rate(from + part * step);
+      const Eigen::Vector2d acceleration = (now.velocity - before.velocity) / step;
+      const double spin = std::abs(now.angular_velocity);
+      const double turning = radius * (std::abs(now.angular_velocity - before.angular_velocity) / step + spin * spin);
+      most.speed = std::max(most.speed, now.velocity.norm() + spin * radius);
+      most.acceleration = std::max(most.acceleration, acceleration.norm() + turning);
+      most.vertical_acceleration = std::max(most.vertical_acceleration, std::abs(acceleration.y()) + turning);
+      before = now;
+    }
+  }
+  return most;
+}
+
+Bounds bounds_of(const Vessel& vessel) {
+  if (!vessel.motion) return {};
+  if (const auto* harmonic = std::get_if<HarmonicMotion>(&*vessel.motion)) return bounds(*harmonic);
+  if (const auto* sum = std::get_if<SumMotion>(&*vessel.motion)) return bounds(*sum);
+  if (const auto* rocking = std::get_if<RockingMotion>(&*vessel.motion)) return bounds(*rocking, vessel);
+  return sampled_bounds(std::get<TableMotion>(*vessel.motion), vessel);
+}
+
+}  // namespace
+
+double largest_speed(const Vessel& vessel) {
+  return bounds_of(vessel).speed;
+}
+
+double largest_acceleration(const Vessel& vessel) {
+  return bounds_of(vessel).acceleration;
+}
+
+double largest_vertical_acceleration(const Vessel& vessel) {
+  return bounds_of(vessel).vertical_acceleration;
+}
+
+}  // namespace vibrosow

@@ -1,0 +1,54 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <memory>
+
+#include "scene/scene.hpp"
+#include "vessel/pose.hpp"
+
+namespace vibrosow {
+
+/// A vessel's motion, ready to be asked often. Times in s.
+///
+/// harmonic: the frame moves by A s(t) sin(2 pi f t + phase) along a direction. sum: the sum of such. rocking: it turns
+/// by Theta s(t) sin(2 pi f t) about a pivot that stays where it is at rest. table: positions and angle are
+/// interpolated between the times by piecewise cubics with continuous first derivatives (modified Akima), at rest
+/// before the first and after the last. s grows as 3 p^2 - 2 p^3 during the ramp, p its elapsed part, and from `stop`
+/// falls to zero likewise; then the vessel stands still.
+class VesselPath {
+ public:
+  explicit VesselPath(const Vessel& vessel);
+
+  Pose pose(double time) const;
+  /// The time derivative of the pose.
+  PoseRate rate(double time) const;
+
+  struct Curves;  // through a table's points
+
+ private:
+  double tilt_;
+  std::optional<VesselMotion> motion_;
+  std::shared_ptr<const Curves> curves_;
+};
+
+/// The same for one time.
+Pose vessel_pose(const Vessel& vessel, double time);
+PoseRate vessel_velocity(const Vessel& vessel, double time);
+
+/// A point of the vessel's own frame in the lab, and the inverse. Frames in m.
+Eigen::Vector2d in_lab_frame(const Vessel& vessel, const Pose& pose, const Eigen::Vector2d& own);
+Eigen::Vector2d in_vessel_frame(const Vessel& vessel, const Pose& pose, const Eigen::Vector2d& lab);
+
+/// Velocity (m/s, lab) of the vessel's material at the point `lab` (m).
+Eigen::Vector2d material_velocity(const Vessel& vessel, const Pose& pose, const PoseRate& rate,
+                                  const Eigen::Vector2d& lab);
+
+/// Bounds for any point of the vessel's walls, without the ramps' fraction; 0 without motion. A harmonic has 2 pi f A
+/// and (2 pi f)^2 A, a sum the sum of these, rocking the same with Theta times the furthest wall's distance R from the
+/// pivot for A (its centripetal fraction is never the larger one below 1 rad). A table is sampled between its times;
+/// there an angle's rate counts with R from the frame's zero.
+double largest_speed(const Vessel& vessel);                  // m/s
+double largest_acceleration(const Vessel& vessel);           // m/s2
+double largest_vertical_acceleration(const Vessel& vessel);  // m/s2
+
+}  // namespace vibrosow

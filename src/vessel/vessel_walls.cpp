@@ -1,0 +1,215 @@
+#include "vessel/vessel_walls.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace vibrosow {
+namespace {
+
+/// A chain of wall segments; each vertex after the first closes a segment.
+class Chain {
+ public:
+  Chain(std::vector<WallSegment>& segments, double shortest) : segments_(segments), shortest_(shortest) {}
+
+  /// Starts anew at `point`, joined to nothing.
+  void start(const Eigen::Vector2d& point) {
+    last_ = point;
+    ++vertex_;
+  }
+
+  void line_to(const Eigen::Vector2d& point, const std::string& name) {
+    if ((point - last_).norm() <= shortest_) return;
+    segments_.push_back({last_, point, vertex_, vertex_ + 1, name});
+    start(point);
+  }
+
+ private:
+  std::vector<WallSegment>& segments_;
+  double shortest_;
+  Eigen::Vector2d last_ = Eigen::Vector2d::Zero();
+  int vertex_ = -1;
+};
+
+double left_edge(const Hole& hole) {
+  return hole.centre - hole.width / 2;
+}
+double right_edge(const Hole& hole) {
+  return hole.centre + hole.width / 2;
+}
+
+double shortest(const Vessel& vessel) {
+  return 1e-9 * vessel.length;
+}
+
+void add_box(const Vessel& vessel, std::vector<WallSegment>& segments) {
+  const double slope = vessel.holes.empty() ? 0.0 : std::tan(vessel.funnel);
+  const std::size_t holes = vessel.holes.size();
+  const double left_floor = holes == 0 ? 0.0 : slope * std::max(0.0, left_edge(vessel.holes.front()));
+  const double right_floor = holes == 0 ? 0.0 : slope * std::max(0.0, vessel.length - right_edge(vessel.holes.back()));
+
+  const bool end_walls = vessel.sides == Sides::walls;
+  Chain chain(segments, shortest(vessel));
+  chain.start({0, end_walls ? vessel.height : left_floor});
+  if (end_walls) chain.line_to({0, left_floor}, vessel.name + " left wall");
+  for (std::size_t piece = 0; piece <= holes; ++piece) {
+    const std::string name = vessel.name + " floor " + std::to_string(piece + 1);
+    if (piece > 0) chain.start({right_edge(vessel.holes[piece - 1]), 0});
+    const bool between_holes = piece > 0 && piece < holes;
+    if (between_holes && slope > 0) {
+      const double from = right_edge(vessel.holes[piece - 1]);
+      const double to = left_edge(vessel.holes[piece]);
+      chain.line_to({(from + to) / 2, slope * (to - from) / 2}, name + " rising");
+      chain.line_to({to, 0}, name + " falling");
+    } else if (piece < holes) {
+      chain.line_to({left_edge(vessel.holes[piece]), 0}, name);
+    } else {
+      chain.line_to({vessel.length, right_floor}, name);
+    }
+  }
+  if (end_walls) chain.line_to({vessel.length, vessel.height}, vessel.name + " right wall");
+}
+
+/// A floor from -length to 2 length whose holes come again with every length.
+class EndlessFloor {
+ public:
+  EndlessFloor(const Vessel& vessel, std::vector<WallSegment>& segments)
+      : vessel_(vessel), chain_(segments, shortest(vessel)), least_(-vessel.length), most_(2 * vessel.length) {}
+
+  void add() {
+    if (vessel_.holes.empty()) return add_line({least_, 0}, {most_, 0}, vessel_.name + " floor 1");
+    const double slope = std::tan(vessel_.funnel);
+    const std::size_t holes = vessel_.holes.size();
+    for (int copy = -2; copy < 2; ++copy)
+      for (std::size_t k = 0; k < holes; ++k) {
+        const bool last = k + 1 == holes;
+        const double shift = copy * vessel_.length;
+        const double from = right_edge(vessel_.holes[k]) + shift;
+        const double to = left_edge(vessel_.holes[last ? 0 : k + 1]) + (last ? shift + vessel_.length : shift);
+        const Eigen::Vector2d ridge((from + to) / 2, slope * (to - from) / 2);
+        const std::string name = vessel_.name + " floor " + std::to_string(k + 1);
+        if (slope > 0) {
+          add_line({from, 0}, ridge, name + " rising");
+          add_line(ridge, {to, 0}, name + " falling");
+        } else {
+          add_line({from, 0}, {to, 0}, name);
+        }
+      }
+  }
+
+ private:
+  void add_line(Eigen::Vector2d a, Eigen::Vector2d b, const std::string& name) {
+    if (b.x() <= least_ || a.x() >= most_) return;
+    const Eigen::Vector2d along = (b - a) / (b.x() - a.x());
+    if (a.x() < least_) a += (least_ - a.x()) * along;
+    if (b.x() > most_) b += (most_ - b.x()) * along;
+    if (!begun_ || a != end_) chain_.start(a);
+    chain_.line_to(b, name);
+    begun_ = true, end_ = b;
+  }
+
+  const Vessel& vessel_;
+  Chain chain_;
+  double least_, most_;
+  bool begun_ = false;
+  Eigen::Vector2d end_ = Eigen::Vector2d::Zero();
+};
+
+/// Gives walls that are added one by one the vertex numbers of the ends they meet.
+class Joiner {
+ public:
+  Joiner(std::vector<WallSegment>& segments, double tolerance) : segments_(segments), tolerance_(tolerance) {}
+
+  void add(WallSegment wall) {
+    wall.vertex_a = vertex_at(wall.a);
+    wall.vertex_b = (wall.b - wall.a).norm() <= tolerance_ ? wall.vertex_a : vertex_at(wall.b, wall.vertex_a + 1);
+    segments_.push_back(std::move(wall));
+  }
+
+ private:
+  int vertex_at(const Eigen::Vector2d& point, int least = 0) const {
+    int next = least;
+    for (const WallSegment& wall : segments_) {
+      if ((wall.a - point).norm() <= tolerance_) return wall.vertex_a;
+      if ((wall.b - point).norm() <= tolerance_) return wall.vertex_b;
+      next = std::max({next, wall.vertex_a + 1, wall.vertex_b + 1});
+    }
+    return next;
+  }
+
+  std::vector<WallSegment>& segments_;
+  double tolerance_;
+};
+
+Eigen::Vector2d on_arc(const WallPiece& arc, double angle) {
+  return arc.centre + arc.radius * Eigen::Vector2d(std::cos(angle), std::sin(angle));
+}
+
+WallSegment segment_of(const WallPiece& piece, const Eigen::Vector2d& shift, const std::string& name) {
+  if (piece.radius == 0) return {piece.a + shift, piece.b + shift, 0, 0, name, true};
+  return {on_arc(piece, piece.from) + shift,
+          on_arc(piece, piece.to) + shift,
+          0,
+          0,
+          name,
+          true,
+          piece.centre + shift,
+          piece.radius,
+          piece.from,
+          piece.to};
+}
+
+WallSegment gate(const Hole& hole, double shift, const std::string& name) {
+  WallSegment wall{{left_edge(hole) + shift, 0}, {right_edge(hole) + shift, 0}, 0, 0, name};
+  wall.opens_at = hole.open_at;
+  return wall;
+}
+
+}  // namespace
+
+std::vector<WallSegment> vessel_walls(const Vessel& vessel) {
+  std::vector<WallSegment> walls;
+  const bool periodic = vessel.sides == Sides::periodic;
+  if (vessel.box) periodic ? EndlessFloor(vessel, walls).add() : add_box(vessel, walls);
+  Joiner joiner(walls, shortest(vessel));
+  for (int copy = periodic ? -1 : 0; copy <= (periodic ? 1 : 0); ++copy) {
+    const double shift = copy * vessel.length;
+    for (std::size_t k = 0; k < vessel.pieces.size(); ++k)
+      joiner.add(segment_of(vessel.pieces[k], {shift, 0}, vessel.name + " piece " + std::to_string(k + 1)));
+    for (std::size_t k = 0; k < vessel.holes.size(); ++k)
+      if (vessel.holes[k].open_at > 0)
+        joiner.add(gate(vessel.holes[k], shift, vessel.name + " gate " + std::to_string(k + 1)));
+  }
+  return walls;
+}
+
+double highest_floor(const Vessel& vessel) {
+  double highest = 0;
+  for (const WallSegment& wall : vessel_walls(vessel)) {
+    if (wall.name.find(" floor ") != std::string::npos) highest = std::max({highest, wall.a.y(), wall.b.y()});
+  }
+  return highest;
+}
+
+double largest_radius(const Vessel& vessel, const Eigen::Vector2d& about) {
+  double largest = 0;
+  for (const WallSegment& wall : vessel_walls(vessel)) {
+    largest = std::max({largest, (wall.a - about).norm(), (wall.b - about).norm()});
+    if (wall.radius > 0) largest = std::max(largest, (wall.centre - about).norm() + wall.radius);
+  }
+  return largest;
+}
+
+double distance_to_wall(const WallSegment& wall, const Eigen::Vector2d& point) {
+  const double to_ends = std::min((point - wall.a).norm(), (point - wall.b).norm());
+  if (wall.radius > 0) {
+    const Eigen::Vector2d arm = point - wall.centre;
+    const double middle = 0.5 * (wall.from + wall.to), half = 0.5 * (wall.to - wall.from);
+    const bool beside = arm.dot(Eigen::Vector2d(std::cos(middle), std::sin(middle))) >= arm.norm() * std::cos(half);
+    return beside ? std::abs(arm.norm() - wall.radius) : to_ends;
+  }
+  const Eigen::Vector2d along = wall.b - wall.a;
+  const double part = (point - wall.a).dot(along) / along.squaredNorm();
+  return part <= 0 || part >= 1 ? to_ends : (point - wall.a - part * along).norm();
+}
+
+}  // namespace vibrosow

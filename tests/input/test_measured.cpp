@@ -1,0 +1,174 @@
+#include "input/measured.hpp"
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include "scene/input_error.hpp"
+
+namespace vibrosow {
+namespace {
+
+class Measured : public testing::Test {
+ protected:
+  Measured() : file_(std::filesystem::path(testing::TempDir()) / ("bench-" + std::to_string(getpid()) + ".csv")) {}
+  ~Measured() override { std::filesystem::remove(file_); }
+
+  MeasuredTable read(const std::string& text) {
+    std::ofstream(file_, std::ios::binary) << text;
+    return read_measured(file_);
+  }
+  /// The message without the file's name: ":LINE: COLUMN: ...".
+  std::string error(const std::string& text) {
+    try {
+      read(text);
+    } catch (const InputError& error) {
+      const std::string message = error.what();
+      EXPECT_TRUE(message.starts_with(file_.string())) << message;
+      return message.substr(file_.string().size());
+    }
+    return "no error";
+  }
+  std::filesystem::path file_;
+};
+
+bool contains(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
+TEST_F(Measured, RatesWithRepeatsAreAveraged) {
+  const MeasuredTable table = read(
+      "# bench, 3 May\n"
+      "tray.motion.frequency_Hz,tray.holes.count,hole,repeat,rate_g_per_s,note\n"
+      "9,5,1,1,2,\n"
+      "9,5,1,2,4,\"lid open, then shut\"\n"
+      "9,5,all,1,15,\n"
+      "# a break\n"
+      "\n"
+      "11.50,5,1,1,3,\n");
+  EXPECT_EQ(table.quantity, MeasuredQuantity::mass_rate);
+  EXPECT_EQ(table.condition_keys, (std::vector<std::string>{"tray.motion.frequency", "tray.holes.count"}));
+  ASSERT_EQ(table.series.size(), 3U);
+  const MeasuredSeries& first = table.series[0];
+  EXPECT_EQ(first.conditions,
+            (std::vector<Condition>{{"tray.motion.frequency", "9", 9.0}, {"tray.holes.count", "5", 5.0}}));
+  EXPECT_EQ(first.hole, "1");
+  EXPECT_EQ(first.lot, "all");
+  EXPECT_TRUE(first.times.empty());
+  ASSERT_EQ(first.values.size(), 1U);
+  EXPECT_DOUBLE_EQ(first.values[0].mean, 3e-3);                   // SI
+  EXPECT_NEAR(*first.values[0].half_width_95, 12.7062e-3, 1e-7);  // t(0.975, 1) * 1 g/s
+  EXPECT_EQ(first.where, file_.string() + ":3");
+  EXPECT_EQ(table.series[1].hole, "all");
+  EXPECT_FALSE(table.series[1].values[0].half_width_95);
+  EXPECT_EQ(table.series[2].conditions[0].text, "11.5");
+  EXPECT_EQ(table.series[2].where, file_.string() + ":8");
+}
+
+TEST_F(Measured, SemicolonsAndDecimalCommasGiveTheSame) {
+  const MeasuredTable point = read("tray.motion.amplitude_mm,lot,caught_seeds,duration_s\n9.5,wheat,42,10.5\n");
+  const MeasuredTable comma =
+      read("\xEF\xBB\xBFtray.motion.amplitude_mm;lot;caught_seeds;duration_s\r\n9,5;wheat;42;10,5\r\n;;;\r\n");
+  for (const MeasuredTable& table : {point, comma}) {
+    EXPECT_EQ(table.quantity, MeasuredQuantity::seed_rate);
+    ASSERT_EQ(table.series.size(), 1U);
+    EXPECT_EQ(table.series[0].conditions, (std::vector<Condition>{{"tray.motion.amplitude", "9.5", 9.5}}));
+    EXPECT_EQ(table.series[0].lot, "wheat");
+    EXPECT_DOUBLE_EQ(table.series[0].values[0].mean, 4);
+  }
+}
+
+TEST_F(Measured, CurvesAreSortedByTimeAndKeptPerCondition) {
+  const MeasuredTable table = read(
+      "tray.holes.width_mm,repeat,time_s,discharged_percent\n"
+      "40,1,0,0\n40,1,2,30\n40,1,1,10\n40,2,1,20\n60,1,1,40\n");
+  EXPECT_EQ(table.quantity, MeasuredQuantity::fraction_curve);
+  ASSERT_EQ(table.series.size(), 2U);
+  EXPECT_EQ(table.series[0].times, (std::vector<double>{0, 1, 2}));
+  EXPECT_DOUBLE_EQ(table.series[0].values[1].mean, 0.15);
+  EXPECT_TRUE(table.series[0].values[1].half_width_95);
+  EXPECT_FALSE(table.series[0].values[2].half_width_95);
+  EXPECT_DOUBLE_EQ(table.series[1].values[0].mean, 0.4);
+}
+
+TEST_F(Measured, EveryQuantityIsRead) {
+  EXPECT_DOUBLE_EQ(read("caught_g,duration_s\n30,10\n").series[0].values[0].mean, 3e-3);
+  EXPECT_DOUBLE_EQ(read("seeds_per_s\n30\n").series[0].values[0].mean, 30);
+  EXPECT_DOUBLE_EQ(read("time_s,mass_g\n1,30\n").series[0].values[0].mean, 0.03);
+  EXPECT_DOUBLE_EQ(read("time_s,seeds\n1,30\n").series[0].values[0].mean, 30);
+}
+
+TEST_F(Measured, ResultsAreStatedInTheColumnsOwnUnit) {
+  EXPECT_EQ(column_of(MeasuredQuantity::fraction_curve), "discharged_percent");
+  EXPECT_DOUBLE_EQ(to_column_unit(MeasuredQuantity::fraction_curve, 0.15), 15);
+  EXPECT_DOUBLE_EQ(to_column_unit(MeasuredQuantity::mass_rate, 3e-3), 3);
+  EXPECT_DOUBLE_EQ(to_column_unit(MeasuredQuantity::seed_curve, 7), 7);
+}
+
+TEST_F(Measured, ConditionsBecomeOverrides) {
+  const MeasuredTable table =
+      read("tray.motion.frequency_Hz,tray.holes.count,numerics.integrator,seeds_per_s\n9,5,rk2-midpoint,3\n");
+  const auto& conditions = table.series[0].conditions;
+  const Override frequency = override_of(conditions[0], table.series[0].where);
+  EXPECT_EQ(frequency.key, "tray.motion.frequency");
+  EXPECT_EQ(frequency.toml_value, "\"9 Hz\"");
+  EXPECT_EQ(frequency.where, file_.string() + ":2");
+  EXPECT_EQ(override_of(conditions[1], "").toml_value, "5");
+  EXPECT_EQ(override_of(conditions[2], "").toml_value, "\"rk2-midpoint\"");
+}
+
+TEST_F(Measured, UnknownColumnsAreErrorsWithTheNearest) {
+  EXPECT_TRUE(contains(error("tray.motion.frequncy_Hz,seeds_per_s\n9,3\n"),
+                       ":1: tray.motion.frequncy_Hz: unknown column; nearest: tray.motion.frequency_Hz"));
+  EXPECT_TRUE(contains(error("holes,seeds_per_s\n1,3\n"), "nearest: hole"));
+  EXPECT_TRUE(contains(error("# x\nweather_in_the_barn,seeds_per_s\n1,3\n"),
+                       ":2: weather_in_the_barn: unknown column; known are"));
+  EXPECT_TRUE(
+      contains(error("tray.motion.frequency,seeds_per_s\n9,3\n"), "carries its unit: tray.motion.frequency_Hz"));
+  EXPECT_TRUE(contains(error("tray.motion.frequency_rpm,seeds_per_s\n540,3\n"), "unknown column"));
+  EXPECT_TRUE(contains(error("hole,hole,seeds_per_s\n1,1,3\n"), ":1: hole: stands twice"));
+}
+
+TEST_F(Measured, ExactlyOneQuantityIsNeeded) {
+  EXPECT_TRUE(contains(error("hole\n1\n"), "exactly one quantity is needed"));
+  EXPECT_TRUE(contains(error("seeds_per_s,rate_g_per_s\n1,3\n"), "exactly one quantity is needed"));
+  EXPECT_TRUE(contains(error("caught_g\n1\n"), "caught_g: needs a column duration_s"));
+  EXPECT_TRUE(contains(error("seeds\n1\n"), "seeds: needs a column time_s"));
+  EXPECT_TRUE(contains(error("seeds_per_s,duration_s\n1,3\n"), "duration_s: does not belong to seeds_per_s"));
+  EXPECT_TRUE(contains(error("caught_g,duration_s,time_s\n1,3,3\n"), "time_s: does not belong to caught_g"));
+}
+
+TEST_F(Measured, BadValuesAreNamedByLineAndColumn) {
+  EXPECT_TRUE(contains(error("hole,seeds_per_s\n1,3\n2,three\n"),
+                       ":3: seeds_per_s: \"three\" is not a number with a decimal point"));
+  EXPECT_TRUE(
+      contains(error("seeds_per_s;hole\n3.5;1\n"), ":2: seeds_per_s: \"3.5\" is not a number with a decimal comma"));
+  EXPECT_TRUE(contains(error("seeds_per_s\n-3\n"), "-3 is negative"));
+  EXPECT_TRUE(contains(error("seeds_per_s\nnan\n"), "is not a number"));
+  EXPECT_TRUE(contains(error("seeds_per_s\ninf\n"), "is not a number"));
+  EXPECT_TRUE(contains(error("seeds_per_s\n1e999\n"), "is not a number"));
+  EXPECT_TRUE(contains(error("seeds_per_s,hole\n,1\n"), "is not a number"));
+  EXPECT_TRUE(contains(error("seeds_per_s\n0\n"), "rate of zero"));
+  EXPECT_TRUE(contains(error("time_s,seeds\n1,0\n2,0\n"), "never leaves zero"));
+  EXPECT_TRUE(contains(error("caught_g,duration_s\n3,0\n"), "duration_s: must be greater than zero"));
+  EXPECT_TRUE(contains(error("time_s,discharged_percent\n1,120\n"), "more than 100 %"));
+  EXPECT_TRUE(contains(error("hole,seeds_per_s\nleft,3\n"), ":2: hole: \"left\" is neither"));
+  EXPECT_TRUE(contains(error("hole,seeds_per_s\n0,3\n"), "is neither"));
+  EXPECT_TRUE(contains(error("lot,seeds_per_s\n,3\n"), "lot: is empty"));
+  EXPECT_TRUE(contains(error("tray.motion.frequency_Hz,seeds_per_s\n,3\n"), "is empty; a column left out means"));
+  EXPECT_TRUE(contains(error("tray.motion.frequency_Hz,seeds_per_s\nfast,3\n"), "\"fast\" is not a number"));
+}
+
+TEST_F(Measured, BrokenFilesAreErrors) {
+  EXPECT_TRUE(contains(error("hole,seeds_per_s\n1,3,4\n"), ":2: 3 fields where the header has 2"));
+  EXPECT_TRUE(contains(error("seeds_per_s,note\n3,\"never closed\n4,x\n"), ":2: a quote"));
+  EXPECT_TRUE(contains(error("# only a comment\n"), ": is empty"));
+  EXPECT_TRUE(contains(error("seeds_per_s\n"), ":1: only a header"));
+  EXPECT_THROW(read_measured("no/such/file.csv"), InputError);
+  EXPECT_THROW(read_measured(std::filesystem::path(testing::TempDir())), InputError);
+}
+
+}  // namespace
+}  // namespace vibrosow

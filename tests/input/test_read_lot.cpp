@@ -1,0 +1,191 @@
+#include "input/read_lot.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "input/read_scene.hpp"
+#include "scene/clump_shape.hpp"
+#include "scene/input_error.hpp"
+#include "scene/seed_lot.hpp"
+#include "temporary_file.hpp"
+
+namespace vibrosow {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::ThrowsMessage;
+using Kind = SizeDistribution::Kind;
+
+/// The lot with the given lines in its table; every key must be known.
+SeedLot lot_of(const std::string& lines) {
+  const TemporaryFolder folder;
+  Table root(Document::read(folder.write("seeder.toml", lines)));
+  const SeedLot lot = read_lot(root, "a");
+  root.reject_unknown_keys();
+  return lot;
+}
+
+TEST(ReadLot, ElongatedFromLengthAndWidth) {
+  const SeedLot lot = lot_of("shape = 'elongated'\nlength = '7 mm'\nwidth = '3 mm'\nmass = '30 mg'");
+  EXPECT_EQ(lot.shape, Shape::clump);
+  EXPECT_NEAR(lot.diameter, 7e-3, 1e-15);
+  EXPECT_EQ(lot.mass, 3e-5);
+  EXPECT_EQ(lot.discs.size(), elongated(7e-3, 3e-3).size());
+  const Plate plate = plate_of(lot.discs);
+  EXPECT_NEAR(plate.centre.norm(), 0, 1e-15);
+  EXPECT_DOUBLE_EQ(lot.gyration2, plate.gyration2);
+  EXPECT_NEAR(lot.gyration2, (3.5e-3 * 3.5e-3 + 1.5e-3 * 1.5e-3) / 4, 0.05 * lot.gyration2) << "near the ellipse's";
+  EXPECT_EQ(lot.sizes.kind, Kind::single);
+}
+
+TEST(ReadLot, DropsHoldingCircleIsAboutItsCentreOfMass) {
+  const SeedLot lot = lot_of("shape = 'drop'\nlength = '12 mm'\nwidth = '6 mm'\nmass = '80 mg'");
+  EXPECT_GT(lot.diameter, 12e-3);
+  EXPECT_LT(lot.diameter, 16e-3);
+  EXPECT_DOUBLE_EQ(lot.diameter, 2 * (lot.discs.back().x + lot.discs.back().radius));
+}
+
+TEST(ReadLot, DipoleIsTwoDiscsOnARod) {
+  const SeedLot lot = lot_of("shape = 'dipole'\ndiameter = '8 mm'\ndistance = '20 mm'\nmass = '1 g'");
+  ASSERT_EQ(lot.discs.size(), 2u);
+  EXPECT_DOUBLE_EQ(lot.discs[1].x - lot.discs[0].x, 0.02);
+  EXPECT_NEAR(lot.gyration2, 0.5 * 16e-6 + 1e-4, 1e-16);
+  EXPECT_DOUBLE_EQ(lot.diameter, 0.028);
+}
+
+TEST(ReadLot, AnyDiscsAboutTheirCentreOfMass) {
+  const SeedLot lot = lot_of(
+      "shape = 'discs'\nmass = '30 mg'\n"
+      "discs = [{ x = '1 mm', y = '2 mm', diameter = '2 mm' }, { x = '5 mm', y = '2 mm', diameter = '2 mm' }]");
+  ASSERT_EQ(lot.discs.size(), 2u);
+  EXPECT_NEAR(lot.discs[0].x, -2e-3, 1e-17);
+  EXPECT_NEAR(lot.discs[0].y, 0, 1e-17);
+  EXPECT_EQ(lot.discs[0].radius, 1e-3);
+  EXPECT_NEAR(lot.diameter, 6e-3, 1e-17);
+}
+
+TEST(ReadLot, MeanOfUniformAndTableIsTheDiameter) {
+  const SeedLot uniform =
+      lot_of("density = '1200 kg/m3'\nsizes = { distribution = 'uniform', least = '3 mm', most = '5 mm' }");
+  EXPECT_DOUBLE_EQ(uniform.diameter, 4e-3);
+  EXPECT_DOUBLE_EQ(uniform.mass, 1200 * std::numbers::pi / 6 * 64e-9);
+  EXPECT_DOUBLE_EQ(uniform.sizes.least, 3e-3);
+  const SeedLot table = lot_of(
+      "mass = '30 mg'\n"
+      "sizes = { distribution = 'table', diameters = ['3 mm', '5 mm', '4 mm'], fractions = ['20 %', '10 %', '70 %'] }");
+  EXPECT_DOUBLE_EQ(table.diameter, 3.9e-3);
+  EXPECT_EQ(table.sizes.diameter, (std::vector<double>{3e-3, 5e-3, 4e-3}));
+  EXPECT_NEAR(table.sizes.fraction[2], 0.7, 1e-15);
+}
+
+TEST(ReadLot, NormalAndLognormalAreCutAtThreeDeviations) {
+  for (const auto& [name, kind] : {std::pair("normal", Kind::normal), std::pair("lognormal", Kind::lognormal)}) {
+    const std::string start = std::string("diameter = '4 mm'\nmass = '30 mg'\nsizes = { distribution = '") + name;
+    const SeedLot lot = lot_of(start + "', deviation = '0.4 mm' }");
+    EXPECT_EQ(lot.sizes.kind, kind);
+    EXPECT_EQ(lot.diameter, 4e-3);
+    EXPECT_DOUBLE_EQ(lot.sizes.deviation, 0.4e-3);
+    EXPECT_DOUBLE_EQ(lot.sizes.least, 2.8e-3);
+    EXPECT_DOUBLE_EQ(lot.sizes.most, 5.2e-3);
+    const SeedLot cut = lot_of(start + "', deviation = '3 mm', least = '1 mm', most = '9 mm' }");
+    EXPECT_DOUBLE_EQ(cut.sizes.least, 1e-3);
+    EXPECT_DOUBLE_EQ(cut.sizes.most, 9e-3);
+  }
+}
+
+TEST(ReadLot, ClumpsScatterInTheMeasureThatIsGiven) {
+  const SeedLot drop = lot_of(
+      "shape = 'drop'\nlength = '12 mm'\nwidth = '6 mm'\nmass = '80 mg'\n"
+      "sizes = { distribution = 'normal', deviation = '0.6 mm' }");
+  EXPECT_DOUBLE_EQ(drop.sizes.mean, drop.diameter);
+  EXPECT_NEAR(drop.sizes.deviation / drop.diameter, 0.05, 1e-15);
+  EXPECT_NEAR(least_size(drop), 0.85, 1e-14);
+  EXPECT_NEAR(most_size(drop), 1.15, 1e-14);
+  const SeedLot rows = lot_of(
+      "shape = 'elongated'\nwidth = '3 mm'\nmass = '30 mg'\n"
+      "sizes = { distribution = 'table', lengths = ['6 mm', '8 mm'], fractions = ['50 %', '50 %'] }");
+  EXPECT_NEAR(rows.diameter, 7e-3, 1e-15);
+  EXPECT_NEAR(least_size(rows), 6 / 7.0, 1e-14);
+  const SeedLot dipoles = lot_of(
+      "shape = 'dipole'\ndistance = '8 mm'\nmass = '1 g'\n"
+      "sizes = { distribution = 'uniform', least = '6 mm', most = '10 mm' }");
+  EXPECT_DOUBLE_EQ(dipoles.diameter, 16e-3);
+  EXPECT_DOUBLE_EQ(dipoles.sizes.most, 20e-3);
+}
+
+TEST(ReadLot, ShapeWrittenOverACropsOwn) {
+  const SeedLot ball = lot_of("crop = 'sunflower'\nshape = 'ball'\ndiameter = '6 mm'");
+  EXPECT_EQ(ball.shape, Shape::ball);
+  EXPECT_EQ(ball.diameter, 6e-3);
+  const SeedLot grain = lot_of("crop = 'wheat'\nshape = 'elongated'\nlength = '7 mm'\nwidth = '3 mm'");
+  EXPECT_NEAR(grain.diameter, 7e-3, 1e-15);
+  const SeedLot scattered =
+      lot_of("crop = 'wheat'\nsizes = { distribution = 'uniform', least = '3 mm', most = '5 mm' }");
+  EXPECT_DOUBLE_EQ(scattered.diameter, 4e-3);
+}
+
+struct Wrong {
+  const char* lines;
+  const char* place;
+  const char* message;
+};
+
+class LotError : public testing::TestWithParam<Wrong> {};
+
+TEST_P(LotError, NamesLineKeyAndReason) {
+  EXPECT_THAT([] { lot_of(GetParam().lines); },
+              ThrowsMessage<InputError>(AllOf(HasSubstr(std::string("seeder.toml") + GetParam().place + ": "),
+                                              HasSubstr(GetParam().message))));
+}
+
+#define SIZES(text) "mass = '30 mg'\ndiameter = '4 mm'\nsizes = { " text " }"
+#define MEANLESS(text) "mass = '30 mg'\nsizes = { " text " }"
+
+INSTANTIATE_TEST_SUITE_P(
+    Shapes, LotError,
+    testing::Values(
+        Wrong{"diameter = '4 mm'\nshape = 'elongated'\nlength = '7 mm'", ":1: diameter",
+              "go with shape = \"elongated\""},
+        Wrong{"diameter = '4 mm'\nlength = '7 mm'", ":2: length", "does not go with shape = \"ball\""},
+        Wrong{"shape = 'drop'\nlength = '7 mm'\ndistance = '7 mm'", ":3: distance", "does not go with"},
+        Wrong{"mass = '1 g'\nshape = 'drop'\nlength = '7 mm'\nwidth = '7 mm'", ":4: width", "not less than the length"},
+        Wrong{"mass = '1 g'\nshape = 'drop'\nlength = '7 mm'\nwidth = '1 mm'", ":4: width", "up to 3.9 widths"},
+        Wrong{"mass = '1 g'\nshape = 'elongated'\nlength = '7 mm'\nwidth = '1 mm'", ":4: width", "up to 5 widths"},
+        Wrong{"shape = 'discs'\ndiscs = [{ x = '0 mm', y = '0 mm' }]", ":2: discs[1].diameter", "is missing"},
+        Wrong{"shape = 'discs'\ndiscs = [{ x = '0 mm', y = '0 mm', r = '1 mm', diameter = '1 mm' }]\nmass = '1 g'",
+              ":2: discs[1].r", "unknown key"},
+        Wrong{"shape = 'discs'\ndiscs = '4 mm'", ":2: discs", "must be tables"},
+        Wrong{"shape = 'discs'\nsizes = { distribution = 'uniform' }", ":2: sizes", "does not go with"},
+        Wrong{"shape = 'dipole'\ndiameter = '4 mm'\ndistance = '9 mm'\ndensity = '1200 kg/m3'", ":4: density",
+              "of a ball only"}));
+
+INSTANTIATE_TEST_SUITE_P(
+    Sizes, LotError,
+    testing::Values(
+        Wrong{SIZES("deviation = '1 mm'"), ":3: sizes.distribution", "is missing"},
+        Wrong{SIZES("distribution = 'gauss'"), ":3: sizes.distribution", "uniform, normal, lognormal, table"},
+        Wrong{SIZES("distribution = 'normal'"), ":3: sizes.deviation", "is missing"},
+        Wrong{SIZES("distribution = 'normal', deviation = '0 mm'"), ":3: sizes.deviation", "out of range"},
+        Wrong{SIZES("distribution = 'normal', deviation = '8 %'"), ":3: sizes.deviation", "wrong unit"},
+        Wrong{SIZES("distribution = 'normal', deviation = '1.3 mm'"), ":3: sizes.least", "too small for a seed"},
+        Wrong{SIZES("distribution = 'normal', deviation = '1 mm', least = '4 mm'"), ":3: sizes.least", "not below"},
+        Wrong{SIZES("distribution = 'normal', deviation = '1 mm', most = '4 mm'"), ":3: sizes.most", "not above"},
+        Wrong{SIZES("distribution = 'normal', deviation = '1 mm', fractions = ['1 %']"), ":3: sizes.fractions",
+              "\"table\""},
+        Wrong{SIZES("distribution = 'uniform', least = '3 mm', most = '5 mm'"), ":2: diameter", "contradicts sizes"},
+        Wrong{MEANLESS("distribution = 'uniform', least = '3 mm'"), ":2: sizes.most", "is missing"},
+        Wrong{MEANLESS("distribution = 'uniform', least = '3 mm', most = '3 mm'"), ":2: sizes.most", "not above least"},
+        Wrong{MEANLESS("distribution = 'uniform', deviation = '3 mm'"), ":2: sizes.deviation", "does not go with"},
+        Wrong{MEANLESS("distribution = 'normal', deviation = '1 mm'"), ": diameter", "is missing"},
+        Wrong{MEANLESS("distribution = 'table', fractions = ['100 %']"), ":2: sizes.diameters", "is missing"},
+        Wrong{MEANLESS("distribution = 'table', diameters = ['3 mm', '4 mm'], fractions = ['100 %']"),
+              ":2: sizes.fractions", "lists 1 fractions, by number, for 2 diameters"},
+        Wrong{MEANLESS("distribution = 'table', diameters = ['3 mm', '4 mm'], fractions = ['90 %', '5 %']"),
+              ":2: sizes.fractions", "sum to 95 %"}));
+
+}  // namespace
+}  // namespace vibrosow

@@ -1,0 +1,162 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "plan/step_plan.hpp"
+#include "scene/input_error.hpp"
+#include "simulation/simulate.hpp"
+#include "support/bench.hpp"
+
+namespace vibrosow {
+namespace {
+
+/// Paper A's fig. 3 without its hopper: 39 layers of 8 mm grains, eps = 0.01 r, 9 Hz, 1 cm.
+Scene published() {
+  Scene scene = Bench().scene;
+  scene.contact.shell_compression = 0.01;
+  scene.contact.seed.friction = scene.contact.wall.friction = 0.3;
+  scene.tray.length = 0.5;
+  scene.tray.fill = Fill{2400, Packing::layers, 1e-3, false};
+  scene.tray.motion = HarmonicMotion{0, 0.01, 9, 0};
+  scene.numerics.integrator = Integrator::rk2_midpoint;
+  scene.run.duration = 2;
+  return scene;
+}
+
+const StepLimit& limit(const StepPlan& plan, const char* part_of_reason) {
+  for (const StepLimit& l : plan.limits)
+    if (l.reason.find(part_of_reason) != std::string::npos) return l;
+  throw std::runtime_error("no such limit");
+}
+
+TEST(StepPlan, ContactLastsHalfAPeriodOfTheShell) {
+  EXPECT_NEAR(plan_step(published()).contact_duration, 6.34e-3, 0.01e-3);
+}
+
+TEST(StepPlan, LimitsAreThoseOfTheEquations) {
+  Scene scene = published();
+  // RK2: omega_max = 858 1/s, growth ln(1.01) / 2 s without drag: 4.2e-5 s.
+  EXPECT_NEAR(limit(plan_step(scene), "RK2").dt, 4.2e-5, 0.05e-5);
+  scene.numerics.integrator = Integrator::velocity_verlet;
+  EXPECT_NEAR(limit(plan_step(scene), "Verlet").dt, 1 / 858.0, 0.01 / 858);
+  // Friction in the bed: lambda = nu F_n 6 / (m v_s), 38 layers on the lowest pair.
+  const double rate = 0.3 * 38 * standard_gravity * 6 / 0.02;
+  EXPECT_NEAR(limit(plan_step(scene), "friction").dt, 1 / rate, 1e-9);
+}
+
+TEST(StepPlan, SmallestSeedOfALotSetsTheStep) {
+  // A disc of half the diameter at equal density and eps / r: omega^2 = 6 k / m with k = c_s c_l / (c_s + c_l), where
+  // c = m g / eps grows as the size; the stiffest is the smallest among largest.
+  Scene scene = published();
+  scene.numerics.integrator = Integrator::velocity_verlet;
+  const double single = limit(plan_step(scene), "Verlet").dt;
+  scene.lots[0].sizes = {SizeDistribution::Kind::uniform, 8e-3, 0, 4e-3, 12e-3, {}, {}};
+  const double stiffness = 0.5 * 1.5 / (0.5 + 1.5), mass = 0.25;  // over c and m of the mean seed; 1/2 and 1 for equals
+  EXPECT_NEAR(limit(plan_step(scene), "Verlet").dt, single * std::sqrt(mass * 0.5 / stiffness), 1e-12);
+  // Friction: lambda grows with F_n / m, E[s^2] s / s^2 of the mean seed's.
+  EXPECT_NEAR(limit(plan_step(published()), "friction").dt / 2 / limit(plan_step(scene), "friction").dt,
+              (1 + 0.25 / 3) / 0.5, 1e-9);
+  EXPECT_NEAR(limit(plan_step(scene), "travel").dt, 0.5 * limit(plan_step(published()), "travel").dt, 1e-15);
+}
+
+TEST(StepPlan, SofterShellsAllowLongerSteps) {
+  Scene scene = published();
+  scene.contact.seed.friction = scene.contact.wall.friction = 0;
+  for (const auto& [integrator, factor] :
+       {std::pair{Integrator::velocity_verlet, std::sqrt(2.0)}, std::pair{Integrator::rk2_midpoint, std::cbrt(4.0)}}) {
+    scene.numerics.integrator = integrator;
+    scene.contact.shell_compression = 0.001;
+    const double stiff = plan_step(scene).limits.front().dt;
+    scene.contact.shell_compression = 0.002;
+    EXPECT_NEAR(plan_step(scene).limits.front().dt / stiff, factor, 1e-9);
+  }
+}
+
+TEST(StepPlan, ChosenStepIsSafe) {
+  Scene scene = published();
+  for (const double compression : {1e-5, 1e-4, 1e-2})
+    for (const double restitution : {0.05, 0.5, 1.0})
+      for (const Integrator integrator : {Integrator::velocity_verlet, Integrator::rk2_midpoint}) {
+        scene.contact.shell_compression = compression;
+        scene.contact.seed.restitution = scene.contact.wall.restitution = restitution;
+        scene.numerics.integrator = integrator;
+        EXPECT_FALSE(plan_step(scene).too_long);
+      }
+}
+
+TEST(StepPlan, PublishedStepIsTooLongAndSaysWhyAndWhatIsSafe) {
+  Scene scene = published();
+  scene.numerics.dt = 0.002;
+  const StepPlan plan = plan_step(scene);
+  EXPECT_TRUE(plan.too_long);
+  try {
+    simulate(scene);
+    FAIL() << "must be refused";
+  } catch (const InputError& error) {
+    const std::string message = error.what();
+    EXPECT_NE(message.find("0.002"), std::string::npos) << message;
+    EXPECT_NE(message.find(plan.bound_by), std::string::npos) << message;
+    EXPECT_NE(message.find("4.1"), std::string::npos) << message;  // the longest safe step, 4.19e-5 s
+  }
+}
+
+TEST(StepPlan, ForetellsOverlapAtRestAndAtImpact) {
+  const PredictedCompression predicted = predict_compression(published());
+  EXPECT_EQ(predicted.layers, 39);
+  EXPECT_NEAR(predicted.static_overlap, 0.78, 1e-9);
+  EXPECT_NEAR(predicted.impact_speed, 2 * 0.565, 2e-3);
+  // At V = 2 A omega, 5 % needs eps/r = 0.0025 g r / V^2 = 7.7e-5.
+  Scene scene = published();
+  scene.contact.shell_compression = 7.7e-5;
+  EXPECT_NEAR(predict_compression(scene).impact_compression, 0.05, 0.0005);
+  EXPECT_NEAR(predict_compression(published()).stiff_enough, 7.7e-5, 0.1e-5);
+  scene.tray.motion.reset();  // then the weight of 39 layers decides
+  EXPECT_NEAR(predict_compression(scene).stiff_enough, 0.05 / 39, 1e-9);
+}
+
+TEST(StepPlan, AClumpYieldsMoreOffItsCentre) {
+  // A dipole of two discs that touch: gyration^2 = r^2 / 2 + r^2, arm r, so 1 + 2/3.
+  Scene scene = Bench().scene;
+  SeedLot& lot = scene.lots.front();
+  const double r = 0.25 * lot.diameter;
+  lot.shape = Shape::clump;
+  lot.gyration2 = 1.5 * r * r;
+  lot.discs = {{0, 0, r}, {0, 0, r}};
+  const double centred = limit(plan_step(scene), "vibration").dt;
+  lot.discs = {{-r, 0, r}, {r, 0, r}};
+  EXPECT_NEAR(limit(plan_step(scene), "vibration").dt, centred / std::sqrt(5.0 / 3), 1e-9 * centred);
+}
+
+/// A heap of grains, shaken, at the longest step that the plan allows: whatever law, damping and scheme, the numerics
+/// make no energy worth stopping for.
+TEST(StepPlan, EverySchemeIsSoundAtItsLongestSafeStep) {
+  for (const Law law : {Law::elastic_shell, Law::hertz, Law::hertz_viscous})
+    for (const Integrator integrator : {Integrator::velocity_verlet, Integrator::rk2_midpoint, Integrator::gear5})
+      for (const double restitution : {0.2, 0.8})
+        for (const FrictionModel model : {FrictionModel::sliding, FrictionModel::spring}) {
+          Scene scene = Bench().scene;
+          scene.contact.law = law;
+          scene.contact.youngs_modulus = 1e7;
+          scene.contact.poisson_ratio = 0.2;
+          const bool viscous = law == Law::hertz_viscous;
+          scene.contact.damping_rate = viscous ? (restitution < 0.5 ? 4000 : 300) : 0;
+          scene.contact.seed = scene.contact.wall = {0.3, viscous ? 1.0 : restitution};
+          scene.contact.friction_model = model;
+          scene.tray.length = 0.1;
+          scene.tray.height = 0.3;
+          scene.tray.fill = Fill{60, Packing::hexagonal, 1e-3, false};
+          scene.tray.motion = HarmonicMotion{std::numbers::pi / 2, 3e-3, 15, 0.05};
+          scene.numerics.integrator = integrator;
+          scene.run.duration = 0.5;
+          scene.numerics.dt = plan_step(scene).longest_safe * (1 - 1e-9);
+          const vibrosow::Run run = simulate(scene);
+          EXPECT_EQ(run.status, RunStatus::finished)
+              << run.stop_reason << "; law " << static_cast<int>(law) << ", scheme " << static_cast<int>(integrator)
+              << ", restitution " << restitution << ", model " << static_cast<int>(model);
+          EXPECT_EQ(run.balance.inside, 60);
+        }
+}
+
+}  // namespace
+}  // namespace vibrosow

@@ -1,0 +1,205 @@
+// Vessels in motion: each kind's velocity is the derivative of its pose, and its bounds are bounds.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "simulation/simulate.hpp"
+#include "support/bench.hpp"
+#include "vessel/vessel_motion.hpp"
+
+namespace vibrosow {
+namespace {
+
+Vessel moving(VesselMotion motion) {
+  Vessel vessel;
+  vessel.name = "tray";
+  vessel.length = 0.5;
+  vessel.height = 0.1;
+  vessel.tilt = 0.1;
+  vessel.origin = {0.3, -0.2};
+  vessel.motion = std::move(motion);
+  return vessel;
+}
+
+TableMotion sampled_sine() {
+  TableMotion table;
+  for (int k = 0; k <= 40; ++k) {
+    const double time = 0.1 + 0.0125 * k;
+    table.times.push_back(time);
+    table.x.push_back(2e-3 * std::sin(20 * time));
+    table.y.push_back(1e-3 * std::cos(30 * time));
+    table.angle.push_back(0.02 * std::sin(10 * time));
+  }
+  return table;
+}
+
+struct Kind {
+  const char* name;
+  VesselMotion motion;
+};
+
+std::vector<Kind> every_kind() {
+  const double stop = 0.4, stop_ramp = 0.15;
+  return {{"harmonic", HarmonicMotion{0.7, 0.01, 9, 0.2, 0.4, stop, stop_ramp}},
+          {"sum", SumMotion{{{0.7, 0.01, 9, 0.2, 0, stop, stop_ramp}, {1.6, 0.002, 23, 0.2, 1.1, stop, stop_ramp}}}},
+          {"rocking", RockingMotion{{0.25, 0.03}, 0.05, 7, 0.2, stop, stop_ramp}},
+          {"table", sampled_sine()}};
+}
+
+TEST(Motion, VelocityIsTheDerivativeOfThePose) {
+  for (const Kind& kind : every_kind()) {
+    const VesselPath path(moving(kind.motion));
+    for (const double t : {0.0, 0.03, 0.1, 0.19, 0.2, 0.35, 0.4, 0.45, 0.549, 0.55, 0.6, 0.61}) {
+      const double h = 1e-6;
+      const Pose before = path.pose(t - h), after = path.pose(t + h);
+      const PoseRate rate = path.rate(t);
+      EXPECT_NEAR(((after.displacement - before.displacement) / (2 * h) - rate.velocity).norm(), 0, 1e-4)
+          << kind.name << " at " << t;
+      EXPECT_NEAR((after.angle - before.angle) / (2 * h), rate.angular_velocity, 1e-4) << kind.name << " at " << t;
+    }
+  }
+}
+
+TEST(Motion, RampsBeginAndEndAtRest) {
+  for (const Kind& kind : every_kind()) {
+    const VesselPath path(moving(kind.motion));
+    for (const double t : {0.0, 0.7}) {
+      EXPECT_EQ(path.rate(t).velocity.norm(), 0) << kind.name;
+      EXPECT_EQ(path.rate(t).angular_velocity, 0) << kind.name;
+      if (std::holds_alternative<TableMotion>(kind.motion)) continue;
+      EXPECT_EQ(path.pose(t).displacement.norm(), 0) << kind.name;
+      EXPECT_EQ(path.pose(t).angle, 0) << kind.name;
+    }
+  }
+  EXPECT_NEAR(vessel_velocity(moving(HarmonicMotion{0, 0.01, 9, 0}), 0).velocity.norm(), 0.565, 1e-3)
+      << "paper A's case jumps";
+}
+
+TEST(Motion, HalfwayThroughARampTheAmplitudeIsHalf) {
+  const HarmonicMotion m{0, 0.01, 9, 0.2, 0, 1.0, 0.4};
+  const double two_pi = 2 * std::numbers::pi;
+  EXPECT_NEAR(vessel_pose(moving(m), 0.1).displacement.x(), 0.5 * 0.01 * std::sin(two_pi * 9 * 0.1), 1e-15);
+  EXPECT_NEAR(vessel_pose(moving(m), 1.2).displacement.x(), 0.5 * 0.01 * std::sin(two_pi * 9 * 1.2), 1e-15);
+}
+
+TEST(Motion, ASumAddsItsComponents) {
+  const HarmonicMotion a{0, 0.01, 9, 0}, b{1, 0.002, 21, 0, 0.3};
+  for (const double t : {0.013, 0.4}) {
+    const Eigen::Vector2d expected = vessel_pose(moving(a), t).displacement + vessel_pose(moving(b), t).displacement;
+    EXPECT_NEAR((vessel_pose(moving(SumMotion{{a, b}}), t).displacement - expected).norm(), 0, 1e-16);
+  }
+}
+
+TEST(Motion, RockingLeavesThePivotAndTurnsTheRest) {
+  const RockingMotion rocking{{0.25, 0.03}, 0.05, 7, 0};
+  const Vessel vessel = moving(rocking);
+  const Eigen::Vector2d at_rest = in_lab_frame(vessel, {}, rocking.pivot);
+  for (const double t : {0.01, 0.05, 0.33}) {
+    const Pose pose = vessel_pose(vessel, t);
+    const PoseRate rate = vessel_velocity(vessel, t);
+    EXPECT_NEAR(pose.angle, 0.05 * std::sin(2 * std::numbers::pi * 7 * t), 1e-15);
+    EXPECT_NEAR((in_lab_frame(vessel, pose, rocking.pivot) - at_rest).norm(), 0, 1e-15);
+    EXPECT_NEAR(material_velocity(vessel, pose, rate, at_rest).norm(), 0, 1e-15);
+    const Eigen::Vector2d own(0.1, 0.02);
+    EXPECT_NEAR((in_vessel_frame(vessel, pose, in_lab_frame(vessel, pose, own)) - own).norm(), 0, 1e-15);
+  }
+}
+
+TEST(Motion, ATableIsMetAtItsTimesAndHeldOutside) {
+  const TableMotion table = sampled_sine();
+  const VesselPath path(moving(table));
+  for (std::size_t k = 0; k < table.times.size(); ++k) {
+    const Pose pose = path.pose(table.times[k]);
+    EXPECT_NEAR(pose.displacement.x(), table.x[k], 1e-15);
+    EXPECT_NEAR(pose.displacement.y(), table.y[k], 1e-15);
+    EXPECT_NEAR(pose.angle, table.angle[k], 1e-15);
+  }
+  EXPECT_NEAR(path.pose(0).displacement.x(), table.x.front(), 1e-15);
+  EXPECT_NEAR(path.pose(9).angle, table.angle.back(), 1e-15);
+  // Between the times the sine is met to the order of the interpolation.
+  EXPECT_NEAR(path.pose(0.35625).displacement.x(), 2e-3 * std::sin(20 * 0.35625), 1e-6);
+}
+
+TEST(Motion, BoundsAreReachedAndNotPassed) {
+  for (const Kind& kind : every_kind()) {
+    const Vessel vessel = moving(kind.motion);
+    const VesselPath path(vessel);
+    const double length = vessel.length, height = vessel.height;
+    double speed = 0, acceleration = 0, vertical = 0;
+    const double h = 1e-5;
+    // Between the ramps, whose fraction the bounds leave out; of the table all of it, for it is jerked to rest at its
+    // ends.
+    const bool whole = std::holds_alternative<TableMotion>(kind.motion);
+    for (double t = whole ? 0.1002 : 0.21; t < (whole ? 0.5998 : 0.39); t += 1e-4)
+      for (const Eigen::Vector2d& own :
+           {Eigen::Vector2d(0, 0), Eigen::Vector2d(length, 0), Eigen::Vector2d(length, height)}) {
+        const auto at = [&](double time) { return in_lab_frame(vessel, path.pose(time), own); };
+        const Eigen::Vector2d a = (at(t + h) - 2 * at(t) + at(t - h)) / (h * h);
+        speed = std::max(speed, ((at(t + h) - at(t - h)) / (2 * h)).norm());
+        acceleration = std::max(acceleration, a.norm());
+        vertical = std::max(vertical, std::abs(a.y()));
+      }
+    EXPECT_LE(speed, largest_speed(vessel) * 1.001) << kind.name;
+    EXPECT_LE(acceleration, largest_acceleration(vessel) * 1.02) << kind.name;
+    EXPECT_LE(vertical, largest_vertical_acceleration(vessel) * 1.02) << kind.name;
+    EXPECT_GE(speed, 0.5 * largest_speed(vessel)) << kind.name;
+    EXPECT_GE(acceleration, 0.3 * largest_acceleration(vessel)) << kind.name;
+  }
+  EXPECT_EQ(largest_speed(Vessel{}), 0);
+  EXPECT_EQ(largest_vertical_acceleration(moving(HarmonicMotion{0, 0.01, 9, 0})), 0);
+}
+
+TEST(Motion, AGrainLyingOnARockingFloorFeelsTheFloorsOwnVelocity) {
+  // The floor turns about its left end; its material under a grain 0.4 m away moves up with 0.4 omega. A grain that
+  // moves along with it feels no damping: the force is that of a floor at rest.
+  Bench bench;
+  bench.scene.contact.wall = {0.4, 0.5};
+  const double angle = 0.01, frequency = 5, along = 0.4, overlap = 1e-6;
+  bench.scene.tray.motion = RockingMotion{{0, 0}, angle, frequency, 0};
+  const double spin = angle * 2 * std::numbers::pi * frequency;
+  const double stiffness = Bench::mass * standard_gravity / (1e-4 * Bench::radius);
+  const double height = Bench::radius - overlap;
+  bench.place(along, height, -spin * height, spin * along, spin);
+  EXPECT_NEAR(bench.start(1e-9).field().forces()[0].fy, stiffness * overlap, 1e-6 * stiffness * overlap);
+  EXPECT_NEAR(bench.start(1e-9).field().forces()[0].fx, 0, 1e-6 * stiffness * overlap);
+  bench.scene.tray.motion.reset();
+  EXPECT_GT(std::abs(bench.start(1e-9).field().forces()[0].fy - stiffness * overlap), 0.1 * stiffness * overlap)
+      << "against a floor at rest it is damped";
+}
+
+TEST(Motion, WorkOfARockingFloorIsAccountedFor) {
+  Bench bench;
+  bench.gravity = {0, -standard_gravity};
+  bench.scene.tray.motion = RockingMotion{{0.3, 0.02}, 0.01, 8, 0.05};
+  for (int k = 0; k < 10; ++k) bench.place(0.1 + 0.08 * k, (1.5 + 0.3 * k) * Bench::radius);
+  Simulation& run = bench.start(bench.contact_time() / 200);
+  const double before = kinetic_energy(run.grains()) + potential_energy(run.grains(), bench.gravity);
+  run.steps(100000);
+  const vibrosow::Run result = run.result();
+  ASSERT_FALSE(run.guard().stop_reason()) << *run.guard().stop_reason();
+  ASSERT_GT(std::abs(result.energy.wall_work), 1e-5);
+  const double account = result.energy.kinetic + result.energy.potential + result.energy.elastic - before;
+  EXPECT_NEAR(account, result.energy.wall_work, 0.01 * std::abs(result.energy.wall_work));
+}
+
+TEST(Motion, GrainsFallThroughTheHolesOfARockingTrayAndNowhereElse) {
+  Scene scene = Bench().scene;
+  scene.lots = {{"grain", 6e-3, 2e-4, Shape::ball, 1.0}};
+  scene.contact.shell_compression = 1e-3;
+  scene.contact.seed = scene.contact.wall = {0.3, 0.5};
+  scene.contact.slip_speed = 0.1;
+  scene.tray.length = 0.2;
+  scene.tray.height = 0.1;
+  scene.tray.holes = {{0.05, 0.03}, {0.15, 0.03}};
+  scene.tray.fill = Fill{150, Packing::poured, 1e-3, false};
+  scene.tray.motion = RockingMotion{{0.1, 0}, 0.1, 4, 0.1};
+  scene.run.duration = 0.5;
+  const vibrosow::Run run = simulate(scene);
+  EXPECT_EQ(run.status, RunStatus::finished) << run.stop_reason;
+  EXPECT_GT(run.balance.counted, 50);
+  EXPECT_EQ(run.balance.lost, 0);
+}
+
+}  // namespace
+}  // namespace vibrosow
