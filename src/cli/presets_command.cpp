@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <memory>
+#include <utility>
 
 #include "cli/commands.hpp"
 #include "input/document.hpp"
@@ -30,11 +31,22 @@ void print_crops(const std::filesystem::path& data) {
   }
 }
 
+void print_titles(const std::filesystem::path& directory) {
+  for (const auto& file : toml_files(directory))
+    fmt::print("  {:<24} {}\n", file.stem().string(), Table(Document::read(file)).text("title").value_or(""));
+}
+
 void print_seeders(const std::filesystem::path& data) {
-  for (const std::string directory : {"seeders", "seeders/studies"}) {
-    fmt::print("{}, in {}\n", directory == "seeders" ? "seeders" : "studies", (data / directory).string());
-    for (const auto& file : toml_files(data / directory))
-      fmt::print("  {:<24} {}\n", file.stem().string(), Table(Document::read(file)).text("title").value_or(""));
+  constexpr std::pair<const char*, const char*> rooms[] = {
+      {"seeders", "seeders to start from"},
+      {"seeders/papers", "seeders of published papers"},
+      {"seeders/verification", "scenes that verify the program"},
+  };
+  for (const auto& [room, meaning] : rooms) {
+    fmt::print("{}, in {}\n", meaning, (data / room).string());
+    print_titles(data / room);
+    fmt::print("their studies, in {}\n", (data / room / "studies").string());
+    print_titles(data / room / "studies");
   }
 }
 

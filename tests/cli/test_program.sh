@@ -59,7 +59,9 @@ expect 2 "threads" run seeder.toml --threads 0
 expect 0 "pairs +[0-9.]+ +[0-9.]+ %" run seeder.toml --profile --out profiled
 grep -q '"neighbours"' profiled/timing.json || fail "timing.json has no shares"
 expect 0 "wheat" presets crops
-expect 0 "wheat-tray" presets seeders
+expect 0 "wheat-tray +Wheat tray" presets seeders
+"$program" presets seeders | awk '/^seeders to start from/ { start = NR } /paper-a-fig3 / { paper = paper ? paper : NR }
+  /^  silo / { silo = NR } END { exit !(start && start < paper && paper < silo) }' || fail "presets: seeders do not come first"
 
 sed 's/width = "16 mm"/widht = "16 mm"/' seeder.toml >misspelled.toml
 expect 2 "misspelled.toml:15.*widht.*width" check misspelled.toml

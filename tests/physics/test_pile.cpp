@@ -62,7 +62,7 @@ Grains after(const Scene& scene, Grains grains, double duration) {
 }
 
 Scene pile_scene(const std::vector<Override>& overrides = {}) {
-  return read_scene(std::string(VIBROSOW_SOURCE_DIR) + "/seeders/pile.toml", overrides);
+  return read_scene(std::string(VIBROSOW_SOURCE_DIR) + "/seeders/verification/pile.toml", overrides);
 }
 
 std::string row(const std::string& law, const std::string& slip_speed, double time, const Grains& grains,
@@ -75,7 +75,8 @@ std::string row(const std::string& law, const std::string& slip_speed, double ti
 
 TEST(Pile, StaysUnderTheTangentialSpringAndSpreadsUnderTheSignLaw) {
   std::string table =
-      "# seeders/pile.toml settles for 5 s under springs; the same pile then stands 5 s under each friction model\n"
+      "# seeders/verification/pile.toml settles for 5 s under springs; the same pile then stands 5 s under each "
+      "friction model\n"
       "friction_model,slip_speed_mm_per_s,time_s,grains,height_mm,half_width_mm,angle_of_repose_deg,"
       "kinetic_energy_per_grain_over_mgr,largest_displacement_since_5_s_over_r\n";
 
