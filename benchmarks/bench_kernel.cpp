@@ -40,7 +40,7 @@ struct Bare {
 };
 
 /// Forces, torques and spring lengths of all pairs; returns the contacts.
-long bare_kernel(const Bare& c, const Grains& g, const PairList& list, ContactHistory& history, Forces& forces) {
+long bare_kernel(const Bare& c, const Grains& g, const PairList& list, ContactHistories& histories, Forces& forces) {
   constexpr int block = 256;
   unsigned char touches[block + 16];
   int entry[block + 16];
@@ -52,7 +52,7 @@ long bare_kernel(const Bare& c, const Grains& g, const PairList& list, ContactHi
   for (std::size_t from = 0; from < list.size(); from += block) {
     const int *a = list.grain.data() + from, *b = list.partner.data() + from;
     const int count = static_cast<int>(std::min<std::size_t>(block, list.size() - from));
-    double *old_slip = history.slip.data() + from, *old_speed = history.slip_speed.data() + from;
+    double *old_slip = histories.slip.data() + from, *old_speed = histories.slip_speed.data() + from;
     const double reach2 = c.reach * c.reach;
 #pragma omp simd
     for (int k = 0; k < count; ++k) {
@@ -96,7 +96,7 @@ double seconds(Work work) {
 void compare() {
   const Scene scene = published_tray();
   const EffectSet effects = effects_of(scene);
-  const double dt = plan_step(scene).dt;
+  const double dt = prepare(scene).step.dt;
   Simulation simulation(scene, starting_grains(scene, 1, effects), {.dt = dt, .effects = effects});
   while (simulation.time() < 0.3) simulation.step();
   const Grains& grains = simulation.grains();
@@ -116,7 +116,7 @@ void compare() {
                   dt};
   const Motion at{grains.x.data(),  grains.y.data(),     grains.vx.data(),
                   grains.vy.data(), grains.omega.data(), grains.x.data()};
-  ContactHistory history = simulation.field().neighbours().pair_history(), bare_history = history;
+  ContactHistories histories = simulation.state().contacts.pair_histories, bare_history = histories;
   Forces forces(grains.size());
   std::vector<ForeignForce> foreign;
   ContactStatistics statistics;
@@ -128,7 +128,7 @@ void compare() {
     ours.push_back(seconds([&] {
       for (int k = 0; k < evaluations; ++k)
         add_pair_forces(kernel, surfaces_of(grains), at, list, {0, static_cast<int>(list.size())}, parameters,
-                        {.trial = dt, .commit = dt, .present = 0.5}, history, {0, 0}, forces, foreign, statistics);
+                        {.trial = dt, .commit = dt, .present = 0.5}, histories, {0, 0}, forces, foreign, statistics);
     }));
     theirs.push_back(seconds([&] {
       for (int k = 0; k < evaluations; ++k) bare_contacts += bare_kernel(bare, grains, list, bare_history, forces);

@@ -36,7 +36,7 @@ EffectSet effects_of_tray(bool spring) {
 void steps_of_the_published_tray(benchmark::State& state, double shell_compression, EffectSet effects) {
   Scene scene = published_tray(shell_compression);
   if (effects.tangential_spring) scene.contact.friction_model = FrictionModel::spring;
-  const double dt = plan_step(scene).dt;
+  const double dt = prepare(scene).step.dt;
   std::int64_t grain_steps = 0, searches = 0, prunes = 0, contacts = 0, steps = 0;
   for (auto _ : state) {
     state.PauseTiming();
@@ -74,7 +74,7 @@ void part_of_a_step(benchmark::State& state, Part part) {
   Scene scene = published_tray(1e-4);
   scene.contact.friction_model = FrictionModel::spring;
   const EffectSet effects = effects_of_tray(true);
-  Simulation simulation(scene, starting_grains(scene, 1, effects), {.dt = plan_step(scene).dt, .effects = effects});
+  Simulation simulation(scene, starting_grains(scene, 1, effects), {.dt = prepare(scene).step.dt, .effects = effects});
   while (simulation.time() < 0.3) simulation.step();
   for (auto _ : state) part(simulation);
   state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(simulation.grains().size()));

@@ -52,7 +52,7 @@ void print_row(int grains, int threads) {
   const double before = resident_bytes();
   const auto started = std::chrono::steady_clock::now();
   Simulation simulation(scene, starting_grains(scene, 1, effects),
-                        {.dt = plan_step(scene).dt, .effects = effects, .threads = threads});
+                        {.dt = prepare(scene).step.dt, .effects = effects, .threads = threads});
   const double start = seconds_since(started);
   simulation.steps(1000);
   const std::int64_t timed = std::max<std::int64_t>(200, 20'000'000 / grains);

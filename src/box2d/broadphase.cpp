@@ -90,6 +90,12 @@ struct WallQuery : b2QueryCallback {
 }  // namespace
 
 struct Broadphase::World {
+  struct Wall {
+    b2Body* body;
+    std::vector<Eigen::Vector2d> corners;  // m, in the vessel's frame; an arc is several edges
+    std::vector<b2Fixture*> fixtures;      // none while the wall is removed
+  };
+
   /// Box2D's tree calls it for every cluster met.
   struct ClusterQuery {
     const World& world;
@@ -102,11 +108,11 @@ struct Broadphase::World {
   };
 
   b2World world{b2Vec2(0, 0)};
-  std::vector<b2Body*> bodies;                    // by vessel
-  std::vector<b2Vec2> rest;                       // by vessel, where its body stands at rest
-  std::vector<double> tilt;                       // by vessel, rad
-  std::vector<std::vector<b2Fixture*>> fixtures;  // by wall; an arc is several edges
-  double largest_sagitta = 0;                     // m, by which an arc bulges beyond its edges
+  std::vector<b2Body*> bodies;  // by vessel
+  std::vector<b2Vec2> rest;     // by vessel, where its body stands at rest
+  std::vector<double> tilt;     // by vessel, rad
+  std::vector<Wall> walls;
+  double largest_sagitta = 0;  // m, by which an arc bulges beyond its edges
   Sorted sorted;
   b2DynamicTree tree;        // of the clusters
   std::vector<int> proxies;  // by cluster
@@ -122,6 +128,18 @@ struct Broadphase::World {
 
   b2Vec2 units(const Eigen::Vector2d& metres) const {
     return {static_cast<float>(metres.x() * units_per_metre), static_cast<float>(metres.y() * units_per_metre)};
+  }
+
+  void create_fixtures(std::size_t number) {
+    Wall& wall = walls[number];
+    for (std::size_t k = 1; k < wall.corners.size(); ++k) {
+      b2EdgeShape edge;  // a chain would be one-sided
+      edge.SetTwoSided(units(wall.corners[k - 1]), units(wall.corners[k]));
+      b2FixtureDef fixture;
+      fixture.shape = &edge;
+      fixture.userData.pointer = number;
+      wall.fixtures.push_back(wall.body->CreateFixture(&fixture));
+    }
   }
 
   /// Holds a cluster's grains, widened by `margin` and moved by `moved` along x (m).
@@ -288,31 +306,22 @@ Broadphase::Broadphase(const std::vector<Vessel>& vessels, double unit, Instruct
     w.rest.push_back(definition.position);
     w.tilt.push_back(vessel.tilt);
     for (const WallSegment& wall : vessel_walls(vessel)) {
-      const std::vector<Eigen::Vector2d> corners = edges_of(wall, unit, w.largest_sagitta);
-      std::vector<b2Fixture*> fixtures;
-      for (std::size_t k = 1; k < corners.size(); ++k) {
-        b2EdgeShape edge;  // a chain would be one-sided
-        edge.SetTwoSided(w.units(corners[k - 1]), w.units(corners[k]));
-        b2FixtureDef fixture;
-        fixture.shape = &edge;
-        fixture.userData.pointer = w.fixtures.size();
-        fixtures.push_back(body->CreateFixture(&fixture));
-      }
-      w.fixtures.push_back(std::move(fixtures));
+      w.walls.push_back({body, edges_of(wall, unit, w.largest_sagitta), {}});
+      w.create_fixtures(w.walls.size() - 1);
     }
   }
 }
 
 Broadphase::~Broadphase() = default;
 
-std::size_t Broadphase::wall_count() const {
-  return world_->fixtures.size();
-}
-
 void Broadphase::remove_wall(int wall) {
-  std::vector<b2Fixture*>& fixtures = world_->fixtures[static_cast<std::size_t>(wall)];
+  std::vector<b2Fixture*>& fixtures = world_->walls[static_cast<std::size_t>(wall)].fixtures;
   for (b2Fixture* fixture : fixtures) fixture->GetBody()->DestroyFixture(fixture);
   fixtures.clear();
+}
+
+void Broadphase::restore_wall(int wall) {
+  world_->create_fixtures(static_cast<std::size_t>(wall));
 }
 
 void Broadphase::find(const Grains& grains, const std::vector<Pose>& poses, double margin, const Ranges& ranges,

@@ -41,8 +41,8 @@ class Broadphase {
 
   /// Takes wall `wall` out of the vessel's body: nothing will touch it any more.
   void remove_wall(int wall);
-
-  std::size_t wall_count() const;
+  /// Puts it back.
+  void restore_wall(int wall);
 
  private:
   struct World;

@@ -10,7 +10,7 @@
 #include "input/measured.hpp"
 #include "input/read_scene.hpp"
 #include "plan/effects.hpp"
-#include "plan/step_plan.hpp"
+#include "plan/model.hpp"
 #include "scene/input_error.hpp"
 #include "simulation/effect_cost.hpp"
 
@@ -51,8 +51,7 @@ void print_step(const Scene& scene, const StepPlan& plan, double ns_per_grain_st
              1e-9 * ns_per_grain_step * grain_steps);
 }
 
-void print_compression(const Scene& scene) {
-  const PredictedCompression predicted = predict_compression(scene);
+void print_compression(const Scene& scene, const PredictedCompression& predicted) {
   fmt::print("compression predicted, d/r\n  at rest {:.3g} under {:.3g} layers (overlap of the lowest pair {:.3g} r)\n",
              predicted.static_compression, predicted.layers, predicted.static_overlap);
   fmt::print("  at impact {:.3g} at {:.3g} m/s\n", predicted.impact_compression, predicted.impact_speed);
@@ -78,16 +77,17 @@ void print_vessel(const Vessel& vessel) {
 }
 
 int check_seeder(const CommonOptions& options) {
-  const Scene scene = read_scene(options.file, options.overrides());
-  const StepPlan plan = plan_step(scene);
+  const Model model = prepare(read_scene(options.file, options.overrides()));
+  const Scene& scene = model.scene;
+  const StepPlan& plan = model.step;
   fmt::print("{}\n", scene.title);
   print_vessel(scene.tray);
   if (scene.hopper) print_vessel(*scene.hopper);
   const std::vector<EffectCost> costs = effect_costs(scene);
   print_effects(scene, costs);
   print_step(scene, plan, costs.front().ns_per_grain_step);
-  print_compression(scene);
-  if (const auto refused = step_refused(scene, plan)) throw InputError(*refused);
+  print_compression(scene, model.compression);
+  if (const auto refused = step_refused(scene.numerics, plan)) throw InputError(*refused);
   if (plan.too_long)
     fmt::print("the step is too long and insisted on: every result will be marked \"outside the model\"\n");
   return exit_done;
@@ -103,7 +103,7 @@ std::string measured_header(const Study& study) {
 int check_study(const CommonOptions& options) {
   const Study study = read_study(options.file, options.overrides());
   double grain_steps = 0;
-  for (const Scene& scene : study.scenes) grain_steps += predicted_grain_steps(scene, plan_step(scene));
+  for (const Scene& scene : study.scenes) grain_steps += predicted_grain_steps(scene, prepare(scene).step);
   fmt::print("{}\n{} layouts, {} different scenes, {} runs of each, about {:.3g} grain-steps in all\n", study.title,
              study.layouts.size(), study.scenes.size(), study.replicates, grain_steps * study.replicates);
   for (const Layout& layout : study.layouts)

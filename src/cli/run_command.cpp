@@ -10,7 +10,7 @@
 #include "input/read_scene.hpp"
 #include "outflow/outflow.hpp"
 #include "plan/effects.hpp"
-#include "plan/step_plan.hpp"
+#include "plan/model.hpp"
 #include "report/run_report.hpp"
 #include "simulation/simulate.hpp"
 
@@ -49,7 +49,8 @@ struct RunOptions : CommonOptions {
 };
 
 int run_scene(const RunOptions& options) {
-  const Scene scene = read_scene(options.file, options.overrides());
+  const Model model = prepare_to_run(read_scene(options.file, options.overrides()));
+  const Scene& scene = model.scene;
   const auto directory = options.out_directory();
   make_out_directory(directory);
   SimulationOptions simulation;
@@ -59,12 +60,12 @@ int run_scene(const RunOptions& options) {
   simulation.interrupt = &watch_for_interrupt();
   Run run;
   {
-    Progress progress(options.quiet, static_cast<double>(plan_step(scene).steps), "steps");
+    Progress progress(options.quiet, static_cast<double>(model.step.steps), "steps");
     simulation.progress = [&](double fraction) { progress.update(fraction); };
-    run = simulate(scene, simulation);
+    run = simulate(model, simulation);
   }
   const Outflow outflow = measure_outflow(scene, run);
-  write_run_report(directory, scene, run, outflow, effect_names(effects_of(scene)));
+  write_run_report(directory, scene, run, outflow, effect_names(model.effects));
   if (!options.quiet) {
     print_summary(scene, run, outflow);
     if (run.phase_times) print_profile(run);

@@ -7,7 +7,7 @@
 #include "contact/compiled_effects.hpp"
 #include "contact/contact_history.hpp"
 #include "contact/friction.hpp"
-#include "contact/surface_parameters.hpp"
+#include "laws/surface_parameters.hpp"
 
 namespace vibrosow::inline VIBROSOW_ISA {
 
@@ -57,10 +57,10 @@ struct ContactForce {
 };
 
 /// Force of one contact. Elastic and damping force together never pull; cohesion pulls beside them and does not add to
-/// friction's limit. `memory` goes in as it was stored and comes out as it is to be stored.
+/// friction's limit. `history` goes in as it was stored and comes out as it is to be stored.
 template <class Law, class Effects>
 inline ContactForce contact_force(const Touch& touch, const PairConstants& pair, const SurfaceParameters& surface,
-                                  const HistoryAdvance& advance, ContactMemory& memory) {
+                                  const HistoryAdvance& advance, ContactHistory& history) {
   const double secant = Law::secant(pair.stiffness, touch.overlap);
   double repulsion = secant * touch.overlap;
   [[maybe_unused]] double dashpot = 0;
@@ -71,10 +71,10 @@ inline ContactForce contact_force(const Touch& touch, const PairConstants& pair,
   ContactForce force{repulsion, 0, 0};
   if constexpr (Effects::cohesion) force.normal -= surface.cohesion;
   if constexpr (Effects::spring) {
-    MovingHistory slip(memory.slip, memory.slip_speed, touch.sliding, advance);
+    MovingHistory slip(history.slip, history.slip_speed, touch.sliding, advance);
     force.tangential = spring_friction(surface.tangential_ratio * secant, surface.tangential_damping * dashpot,
                                        surface.friction * repulsion, touch.sliding, slip.displacement);
-    memory.slip = slip.to_store(advance), memory.slip_speed = touch.sliding;
+    history.slip = slip.to_store(advance), history.slip_speed = touch.sliding;
   } else if constexpr (Effects::friction) {
     force.tangential = sliding_friction(surface.friction * repulsion, touch.sliding, surface.inverse_slip_speed);
   }
@@ -85,42 +85,42 @@ inline ContactForce contact_force(const Touch& touch, const PairConstants& pair,
     const double arm = surface.rolling_friction * pair.rolling_radius;
     const double stiffness = 2.25 * secant * arm * arm;
     const double critical = 2 * std::sqrt(pair.rolling_inertia * stiffness);
-    MovingHistory roll(memory.roll, memory.roll_speed, touch.turning, advance);
+    MovingHistory roll(history.roll, history.roll_speed, touch.turning, advance);
     force.rolling = -spring_friction(stiffness, surface.rolling_damping * critical, arm * repulsion, touch.turning,
                                      roll.displacement);
-    memory.roll = roll.to_store(advance), memory.roll_speed = touch.turning;
+    history.roll = roll.to_store(advance), history.roll_speed = touch.turning;
   }
   return force;
 }
 
 template <class Effects>
-inline ContactMemory recall(const ContactHistory& history, std::size_t k) {
-  ContactMemory memory;
-  if constexpr (Effects::spring) memory.slip = history.slip[k], memory.slip_speed = history.slip_speed[k];
+inline ContactHistory load_history(const ContactHistories& histories, std::size_t k) {
+  ContactHistory history;
+  if constexpr (Effects::spring) history.slip = histories.slip[k], history.slip_speed = histories.slip_speed[k];
   if constexpr (Effects::rolling == Rolling::spring)
-    memory.roll = history.roll[k], memory.roll_speed = history.roll_speed[k];
-  return memory;
+    history.roll = histories.roll[k], history.roll_speed = histories.roll_speed[k];
+  return history;
 }
 
-/// Keeps `memory` for the next step, at entry `k`; nothing, where nothing touches.
+/// Keeps `history` for the next step, at entry `k`; nothing, where nothing touches.
 template <class Effects>
-inline void store(const ContactMemory& memory, ContactHistory& history, std::size_t k) {
-  if constexpr (Effects::spring) history.slip[k] = memory.slip, history.slip_speed[k] = memory.slip_speed;
+inline void store_history(const ContactHistory& history, ContactHistories& histories, std::size_t k) {
+  if constexpr (Effects::spring) histories.slip[k] = history.slip, histories.slip_speed[k] = history.slip_speed;
   if constexpr (Effects::rolling == Rolling::spring)
-    history.roll[k] = memory.roll, history.roll_speed[k] = memory.roll_speed;
+    histories.roll[k] = history.roll, histories.roll_speed[k] = history.roll_speed;
 }
 
 /// Energy of the springs of one contact, J; cohesion counts from the moment of touch.
 template <class Law, class Effects>
 inline double contact_energy(double overlap, const PairConstants& pair, const SurfaceParameters& surface,
-                             const ContactMemory& memory) {
+                             const ContactHistory& history) {
   double energy = Law::elastic_energy(pair.stiffness, overlap);
   [[maybe_unused]] const double secant = Law::secant(pair.stiffness, overlap);
   if constexpr (Effects::cohesion) energy -= surface.cohesion * overlap;
-  if constexpr (Effects::spring) energy += 0.5 * surface.tangential_ratio * secant * memory.slip * memory.slip;
+  if constexpr (Effects::spring) energy += 0.5 * surface.tangential_ratio * secant * history.slip * history.slip;
   if constexpr (Effects::rolling == Rolling::spring) {
     const double arm = surface.rolling_friction * pair.rolling_radius;
-    energy += 0.5 * 2.25 * secant * arm * arm * memory.roll * memory.roll;
+    energy += 0.5 * 2.25 * secant * arm * arm * history.roll * history.roll;
   }
   return energy;
 }

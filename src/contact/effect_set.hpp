@@ -12,7 +12,7 @@ struct EffectSet {
   bool polydisperse = false;       // grains of more than one diameter, mass, shape or material
   bool drag = false;               // not part of the pair force: chosen in the integrator
   bool motion = false;             // a vessel moves: chosen in the loop
-  bool tangential_spring = false;  // friction holds by a spring, and contacts remember
+  bool tangential_spring = false;  // friction holds by a spring, and contacts have a history
   Rolling rolling = Rolling::none;
   bool cohesion = false;
   bool clumps = false;    // a grain is several discs: the kernels see discs

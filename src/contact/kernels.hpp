@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "contact/effect_set.hpp"
+#include "contact/energy_kernels.hpp"
 #include "contact/pair_block.hpp"
 #include "grains/grains.hpp"
 
@@ -20,12 +21,6 @@ struct ContactStatistics {
 
 /// What pair kernels need to know of the grains.
 GrainSurfaces surfaces_of(const Grains& grains);
-
-/// Energy stored in all contacts of pairs, or of walls, J.
-using PairEnergyKernel = double (*)(const GrainSurfaces&, const Motion&, const PairList&, const ContactParameters&,
-                                    const ContactHistory&);
-using WallEnergyKernel = double (*)(const GrainSurfaces&, const WallContacts&, const ContactParameters&,
-                                    const ContactHistory&);
 
 /// One compiled combination of a law and the effects that enter the pair force.
 struct KernelSet {

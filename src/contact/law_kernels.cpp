@@ -1,7 +1,8 @@
-// Compiled for each law (VIBROSOW_LAW) and instruction set (VIBROSOW_ISA), see src/CMakeLists.txt.
+// Compiled for each law (VIBROSOW_LAW, VIBROSOW_LAW_HEADER) and instruction set (VIBROSOW_ISA), see src/CMakeLists.txt.
+#include VIBROSOW_LAW_HEADER
+
 #include <utility>
 
-#include "contact/laws.hpp"
 #include "contact/pair_kernel.hpp"
 #include "contact/wall_kernel.hpp"
 
@@ -13,7 +14,7 @@ const LawKernels& law_kernels();
 template <>
 const LawKernels& law_kernels<Law::VIBROSOW_LAW>() {
   static constexpr LawKernels kernels = []<std::size_t... index>(std::index_sequence<index...>) {
-    using Formulas = Registered<Law::VIBROSOW_LAW>::Formulas;
+    using Formulas = FormulasOf<Law::VIBROSOW_LAW>::Type;
     return LawKernels{VectorKernels{pair_forces<Formulas, PairEffects<compiled_effects[index]>>,
                                     wall_forces<Formulas, PairEffects<compiled_effects[index]>>}...};
   }

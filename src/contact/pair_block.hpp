@@ -9,7 +9,7 @@
 #include "contact/compiled_effects.hpp"
 #include "contact/contact_history.hpp"
 #include "contact/contact_list.hpp"
-#include "contact/surface_parameters.hpp"
+#include "laws/surface_parameters.hpp"
 
 // Plain data between the simulation and kernels compiled for several instruction sets.
 
@@ -65,9 +65,9 @@ struct PairResult {
 };
 
 /// Works out a block: the law for each touching pair of a range, contact by contact added to the grains in the order of
-/// the list. `history` has an entry for each pair of the list.
+/// the list. `histories` has an entry for each pair of the list.
 using PairKernel = void (*)(const GrainSurfaces&, const Motion&, const PairList&, PairRange, const ContactParameters&,
-                            const HistoryAdvance&, ContactHistory& history, PairResult&);
+                            const HistoryAdvance&, ContactHistories& histories, PairResult&);
 
 /// Grains that touch walls: of each array the first `count` places count.
 struct WallContacts {
@@ -79,9 +79,10 @@ struct WallContacts {
   std::vector<double> fx, fy, torque;               // N, on the wall; N m, on the grain, without rotation unset
 };
 
-/// Works out the forces of all contacts and returns the largest compression. `history` has an entry for each candidate.
+/// Works out the forces of all contacts and returns the largest compression. `histories` has an entry for each
+/// candidate.
 using WallKernel = double (*)(const GrainSurfaces&, const Motion&, const ContactParameters&, const HistoryAdvance&,
-                              ContactHistory& history, WallContacts&);
+                              ContactHistories& histories, WallContacts&);
 
 /// What is compiled for each instruction set.
 struct VectorKernels {

@@ -8,7 +8,7 @@ namespace vibrosow::inline VIBROSOW_ISA {
 
 template <class Law, class Effects>
 double pair_energy(const GrainSurfaces& grains, const Motion& at, const PairList& list,
-                   const ContactParameters& parameters, const ContactHistory& history) {
+                   const ContactParameters& parameters, const ContactHistories& histories) {
   const PairProperties<Law, Effects> properties(grains, parameters);
   double energy = 0;
   for (std::size_t k = 0; k < list.size(); ++k) {
@@ -17,7 +17,7 @@ double pair_energy(const GrainSurfaces& grains, const Motion& at, const PairList
     const double overlap = properties.reach(i, j) - std::sqrt(dx * dx + dy * dy);
     if (overlap > 0)
       energy += contact_energy<Law, Effects>(overlap, properties.pair(i, j), properties.between(i, j),
-                                             recall<Effects>(history, k));
+                                             load_history<Effects>(histories, k));
   }
   return energy;
 }

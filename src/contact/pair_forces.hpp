@@ -14,7 +14,7 @@ struct GrainRange {
 /// whose pairs comes with a partner of a lower number, begin with zero.
 void add_pair_forces(PairKernel kernel, const GrainSurfaces& grains, const Motion& at, const PairList& list,
                      PairRange range, const ContactParameters& parameters, const HistoryAdvance& advance,
-                     ContactHistory& history, GrainRange fresh, Forces& forces, std::vector<ForeignForce>& foreign,
+                     ContactHistories& histories, GrainRange fresh, Forces& forces, std::vector<ForeignForce>& foreign,
                      ContactStatistics& statistics);
 
 }  // namespace vibrosow

@@ -9,9 +9,9 @@
 namespace vibrosow::inline VIBROSOW_ISA {
 
 template <class Effects>
-inline constexpr bool remembers = Effects::spring || Effects::rolling == Rolling::spring;
+inline constexpr bool keeps_history = Effects::spring || Effects::rolling == Rolling::spring;
 
-/// Four numbers that are added at once, whatever else their place in memory is called.
+/// Four numbers that are added at once, whatever else their place in block_histories is called.
 using Four [[gnu::vector_size(32), gnu::may_alias]] = double;
 
 /// The touching ones among up to `size` pairs, in the order of the list: of each array the first `touching` places, and
@@ -36,11 +36,11 @@ inline constexpr auto places = [] {
   return list;
 }();
 
-/// Pairs of a range that touched before and do not now remember nothing.
+/// Pairs of a range that touched before and do not now have no history.
 template <class Effects>
-void forget_parted(PairRange range, const unsigned char* touches, ContactHistory& history) {
+void clear_parted(PairRange range, const unsigned char* touches, ContactHistories& histories) {
   const int count = range.to - range.from;
-  unsigned char* touched = history.touched.data() + range.from;
+  unsigned char* touched = histories.touched.data() + range.from;
   unsigned char parted[PairBlock::size + PairBlock::spare];
   int place[PairBlock::size + PairBlock::spare];
 #pragma omp simd
@@ -49,7 +49,8 @@ void forget_parted(PairRange range, const unsigned char* touches, ContactHistory
     touched[k] = touches[k];
   }
   const int forgotten = compress(parted, count, Kept<int>{places.data(), place});
-  for (int k = 0; k < forgotten; ++k) store<Effects>({}, history, static_cast<std::size_t>(range.from + place[k]));
+  for (int k = 0; k < forgotten; ++k)
+    store_history<Effects>({}, histories, static_cast<std::size_t>(range.from + place[k]));
 }
 
 /// Repeats the last contact up to a whole number of vectors: what is worked out for it there counts for nothing.
@@ -61,10 +62,11 @@ inline void fill_up(PairBlock& block) {
   }
 }
 
-/// Finds the pairs of a range whose grains touch. Those that do not forget, where the evaluation leaves a trace.
+/// Finds the pairs of a range whose grains touch. Those that do not lose their history, where the evaluation leaves a
+/// trace.
 template <class Law, class Effects>
 void find_touching(const PairProperties<Law, Effects>& properties, const Motion& at, const PairList& list,
-                   PairRange range, bool leaves_trace, ContactHistory& history, PairBlock& block) {
+                   PairRange range, bool leaves_trace, ContactHistories& histories, PairBlock& block) {
   const double *x = at.x, *row_x = at.row_x, *y = at.y;
   const int *grain = list.grain.data() + range.from, *partner = list.partner.data() + range.from;
   const int count = range.to - range.from;
@@ -77,37 +79,39 @@ void find_touching(const PairProperties<Law, Effects>& properties, const Motion&
     all_dx[k] = dx, all_dy[k] = dy;
     touches[k] = dx * dx + dy * dy < reach * reach ? 1 : 0;
   }
-  if constexpr (remembers<Effects>)
-    if (leaves_trace) forget_parted<Effects>(range, touches, history);
+  if constexpr (keeps_history<Effects>)
+    if (leaves_trace) clear_parted<Effects>(range, touches, histories);
   block.touching =
       compress(touches, count, Kept<int>{places.data(), block.entry}, Kept<int>{grain, block.grain},
                Kept<int>{partner, block.partner}, Kept<double>{all_dx, block.dx}, Kept<double>{all_dy, block.dy});
   fill_up(block);
 }
 
-/// What the contacts of a block will remember.
-struct BlockMemory {
+/// Histories of the contacts of a block.
+struct BlockHistories {
   double slip[pair_block_size], slip_speed[pair_block_size], roll[pair_block_size], roll_speed[pair_block_size];
 };
 
-/// Keeps what the first `count` contacts of a block remember, at their entries of the list after `first`.
+/// Stores the histories of the first `count` contacts of a block, at their entries of the list after `first`.
 template <class Effects>
-void store_block(const BlockMemory& memory, const int* entry, int first, int count, ContactHistory& history) {
+void store_block(const BlockHistories& block_histories, const int* entry, int first, int count,
+                 ContactHistories& histories) {
   const auto keep = [entry, first, count](const double* of_block, std::vector<double>& of_list) {
-    double* memory_of_list = of_list.data() + first;
-    for (int k = 0; k < count; ++k) memory_of_list[entry[k]] = of_block[k];
+    double* of_list_at = of_list.data() + first;
+    for (int k = 0; k < count; ++k) of_list_at[entry[k]] = of_block[k];
   };
-  if constexpr (Effects::spring) keep(memory.slip, history.slip), keep(memory.slip_speed, history.slip_speed);
+  if constexpr (Effects::spring)
+    keep(block_histories.slip, histories.slip), keep(block_histories.slip_speed, histories.slip_speed);
   if constexpr (Effects::rolling == Rolling::spring)
-    keep(memory.roll, history.roll), keep(memory.roll_speed, history.roll_speed);
+    keep(block_histories.roll, histories.roll), keep(block_histories.roll_speed, histories.roll_speed);
 }
 
 /// Returns the largest compression.
 template <class Law, class Effects>
 [[gnu::flatten]] double forces_of_touching(const PairProperties<Law, Effects>& properties, const Motion& at,
                                            int first_entry, const ContactParameters& parameters,
-                                           const HistoryAdvance& advance_, const ContactHistory& history,
-                                           PairBlock& block, BlockMemory& memory) {
+                                           const HistoryAdvance& advance_, const ContactHistories& histories,
+                                           PairBlock& block, BlockHistories& block_histories) {
   const double shortening = parameters.arm_shortening;
   const HistoryAdvance advance = advance_;
   const double *vx = at.vx, *vy = at.vy, *omega = at.omega;
@@ -140,11 +144,12 @@ template <class Law, class Effects>
       }
       if constexpr (Effects::rolls) touch.turning = omega[i] - omega[j];
     }
-    ContactMemory remembered = recall<Effects>(history, e);
-    const ContactForce force = contact_force<Law, Effects>(touch, pair, properties.between(i, j), advance, remembered);
-    if constexpr (Effects::spring) memory.slip[k] = remembered.slip, memory.slip_speed[k] = remembered.slip_speed;
+    ContactHistory history = load_history<Effects>(histories, e);
+    const ContactForce force = contact_force<Law, Effects>(touch, pair, properties.between(i, j), advance, history);
+    if constexpr (Effects::spring)
+      block_histories.slip[k] = history.slip, block_histories.slip_speed[k] = history.slip_speed;
     if constexpr (Effects::rolling == Rolling::spring)
-      memory.roll[k] = remembered.roll, memory.roll_speed[k] = remembered.roll_speed;
+      block_histories.roll[k] = history.roll, block_histories.roll_speed[k] = history.roll_speed;
     // On the grain: -F_n n - F_t t with t = (-n_y, n_x).
     double fx = force.normal * nx, fy = force.normal * ny;
     if constexpr (Effects::friction) fx -= force.tangential * ny, fy += force.tangential * nx;
@@ -189,16 +194,16 @@ inline void add_block(const PairBlock& block, PairResult& result) {
 template <class Law, class Effects>
 [[gnu::flatten]] void pair_forces(const GrainSurfaces& grains, const Motion& at, const PairList& list, PairRange range,
                                   const ContactParameters& parameters, const HistoryAdvance& advance,
-                                  ContactHistory& history, PairResult& result) {
+                                  ContactHistories& histories, PairResult& result) {
   const PairProperties<Law, Effects> properties(grains, parameters);
   const bool leaves_trace = advance.commit > 0;
   PairBlock block;
-  find_touching<Law, Effects>(properties, at, list, range, leaves_trace, history, block);
-  BlockMemory memory;
-  result.max_compression =
-      forces_of_touching<Law, Effects>(properties, at, range.from, parameters, advance, history, block, memory);
-  if (remembers<Effects> && leaves_trace)
-    store_block<Effects>(memory, block.entry, range.from, block.touching, history);
+  find_touching<Law, Effects>(properties, at, list, range, leaves_trace, histories, block);
+  BlockHistories block_histories;
+  result.max_compression = forces_of_touching<Law, Effects>(properties, at, range.from, parameters, advance, histories,
+                                                            block, block_histories);
+  if (keeps_history<Effects> && leaves_trace)
+    store_block<Effects>(block_histories, block.entry, range.from, block.touching, histories);
   add_block(block, result);
   result.contacts = block.touching;
 }

@@ -1,10 +1,7 @@
 #include <stdexcept>
-#include <utility>
 
+#include "contact/energy_kernels.hpp"
 #include "contact/kernels.hpp"
-#include "contact/laws.hpp"
-#include "contact/pair_energy.hpp"
-#include "contact/wall_energy.hpp"
 
 namespace vibrosow {
 
@@ -22,6 +19,9 @@ template <Law law>
 const LawKernels& law_kernels();
 }
 
+template <Law law>
+const EnergyKernels& energy_kernels();  // law_energies.cpp, compiled for each law
+
 namespace {
 
 using Table = std::vector<KernelSet>;
@@ -35,27 +35,18 @@ std::array<VectorKernels, instruction_sets.size()> kernels_at(std::size_t index)
 #endif
 }
 
-template <Law law, std::size_t index>
-void add(Table& table) {
-  using Formulas = Registered<law>::Formulas;
-  using Effects = PairEffects<compiled_effects[index]>;
-  table.push_back({law, compiled_effects[index], kernels_at<law>(index), pair_energy<Formulas, Effects>,
-                   wall_energy<Formulas, Effects>});
-}
-
 template <Law law>
 void add_law(Table& table) {
-  [&]<std::size_t... index>(std::index_sequence<index...>) {
-    (add<law, index>(table), ...);
-  }
-  (std::make_index_sequence<compiled_effects.size()>());
+  const EnergyKernels& energies = energy_kernels<law>();
+  for (std::size_t index = 0; index < compiled_effects.size(); ++index)
+    table.push_back({law, compiled_effects[index], kernels_at<law>(index), energies[index].pair, energies[index].wall});
 }
 
 Table build_table() {
   Table table;
-  add_law<Law::elastic_shell>(table);
-  add_law<Law::hertz>(table);
-  add_law<Law::hertz_viscous>(table);
+#define VIBROSOW_ADD(name) add_law<Law::name>(table);
+  VIBROSOW_LAWS(VIBROSOW_ADD)
+#undef VIBROSOW_ADD
   return table;
 }
 

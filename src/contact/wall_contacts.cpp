@@ -115,13 +115,13 @@ void add_wall_forces(const WallContacts& contacts, bool rotation, Forces& forces
   statistics.contacts += contacts.count;
 }
 
-void WallContactFinder::forget_parted(ContactHistory& history) const {
-  for (std::size_t c = 0; c < history.touched.size(); ++c) {
-    if (history.touched[c] && !touches_[c]) {
-      if (!history.slip.empty()) history.slip[c] = history.slip_speed[c] = 0;
-      if (!history.roll.empty()) history.roll[c] = history.roll_speed[c] = 0;
+void WallContactFinder::clear_parted(ContactHistories& histories) const {
+  for (std::size_t c = 0; c < histories.touched.size(); ++c) {
+    if (histories.touched[c] && !touches_[c]) {
+      if (!histories.slip.empty()) histories.slip[c] = histories.slip_speed[c] = 0;
+      if (!histories.roll.empty()) histories.roll[c] = histories.roll_speed[c] = 0;
     }
-    history.touched[c] = touches_[c];
+    histories.touched[c] = touches_[c];
   }
 }
 

@@ -22,8 +22,8 @@ class WallContactFinder {
   /// side beside the wall is a crossing, noted in `crossed` (numbers of grains).
   void watch_crossings(std::vector<WallCandidate>& candidates, std::vector<int>& crossed) const;
 
-  /// Candidates of the last `find` that touched before and do not now remember nothing.
-  void forget_parted(ContactHistory& history) const;
+  /// Candidates of the last `find` that touched before and do not now have no history.
+  void clear_parted(ContactHistories& histories) const;
 
  private:
   template <class Touch>

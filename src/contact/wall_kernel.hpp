@@ -11,8 +11,8 @@ namespace vibrosow::inline VIBROSOW_ISA {
 template <class Law, class Effects>
 [[gnu::flatten]] double forces_of_walls(const WallProperties<Law, Effects>& properties, const Motion& at,
                                         const ContactParameters& parameters, const HistoryAdvance& advance_,
-                                        const ContactHistory& history, int from, int count, WallContacts& contacts,
-                                        BlockMemory& memory) {
+                                        const ContactHistories& histories, int from, int count, WallContacts& contacts,
+                                        BlockHistories& block_histories) {
   const double shortening = parameters.arm_shortening;
   const HistoryAdvance advance = advance_;
   const double *vx = at.vx, *vy = at.vy, *omega = at.omega;
@@ -46,11 +46,12 @@ template <class Law, class Effects>
       }
       if constexpr (Effects::rolls) touch.turning = omega[i] - wall_spin[k];
     }
-    ContactMemory remembered = recall<Effects>(history, c);
-    const ContactForce force = contact_force<Law, Effects>(touch, pair, properties.surface(i), advance, remembered);
-    if constexpr (Effects::spring) memory.slip[k] = remembered.slip, memory.slip_speed[k] = remembered.slip_speed;
+    ContactHistory history = load_history<Effects>(histories, c);
+    const ContactForce force = contact_force<Law, Effects>(touch, pair, properties.surface(i), advance, history);
+    if constexpr (Effects::spring)
+      block_histories.slip[k] = history.slip, block_histories.slip_speed[k] = history.slip_speed;
     if constexpr (Effects::rolling == Rolling::spring)
-      memory.roll[k] = remembered.roll, memory.roll_speed[k] = remembered.roll_speed;
+      block_histories.roll[k] = history.roll, block_histories.roll_speed[k] = history.roll_speed;
     double fx = force.normal * nx, fy = force.normal * ny;
     if constexpr (Effects::friction) fx -= force.tangential * ny, fy += force.tangential * nx;
     out_x[k] = fx, out_y[k] = fy;
@@ -61,17 +62,18 @@ template <class Law, class Effects>
 
 template <class Law, class Effects>
 [[gnu::flatten]] double wall_forces(const GrainSurfaces& grains, const Motion& at, const ContactParameters& parameters,
-                                    const HistoryAdvance& advance, ContactHistory& history, WallContacts& contacts) {
+                                    const HistoryAdvance& advance, ContactHistories& histories,
+                                    WallContacts& contacts) {
   const WallProperties<Law, Effects> properties(grains, parameters);
-  BlockMemory memory;
+  BlockHistories block_histories;
   double max_compression = 0;
   for (int from = 0; from < contacts.count; from += pair_block_size) {
     const int count = contacts.count - from < pair_block_size ? contacts.count - from : pair_block_size;
-    const double here =
-        forces_of_walls<Law, Effects>(properties, at, parameters, advance, history, from, count, contacts, memory);
+    const double here = forces_of_walls<Law, Effects>(properties, at, parameters, advance, histories, from, count,
+                                                      contacts, block_histories);
     max_compression = here > max_compression ? here : max_compression;
-    if (remembers<Effects> && advance.commit > 0)
-      store_block<Effects>(memory, contacts.candidate.data() + from, 0, count, history);
+    if (keeps_history<Effects> && advance.commit > 0)
+      store_block<Effects>(block_histories, contacts.candidate.data() + from, 0, count, histories);
   }
   return max_compression;
 }

@@ -7,7 +7,7 @@
 #include <tuple>
 
 #include "plan/effects.hpp"
-#include "plan/step_plan.hpp"
+#include "plan/model.hpp"
 #include "scene/input_error.hpp"
 #include "simulation/integrator.hpp"
 
@@ -114,7 +114,7 @@ Scene scene_with(const Scene& scene, AccuracySetting& setting) {
   changed.contact.slip_speed = setting.slip_speed;
   changed.numerics.integrator = setting.integrator;
   changed.numerics.steps_per_contact = setting.steps_per_contact;
-  setting.dt = plan_step(changed).contact_duration / setting.steps_per_contact;
+  setting.dt = prepare(changed).step.contact_duration / setting.steps_per_contact;
   changed.numerics.dt = setting.dt;
   return changed;
 }
@@ -126,8 +126,8 @@ AccuracyResult measure_accuracy(const Scene& scene, const AccuracyGrid& grid, in
   std::vector<Scene> scenes;  // of every row, run or not
   for (AccuracyRow& row : result.rows) {
     scenes.push_back(scene_with(scene, row.setting));
-    const StepPlan plan = plan_step(scenes.back());
-    if (step_refused(scenes.back(), plan))
+    const StepPlan plan = prepare(scenes.back()).step;
+    if (step_refused(scenes.back().numerics, plan))
       row.refused = fmt::format("too long, at most {:.3g} s: {}", plan.longest_safe, plan.bound_by);
   }
   std::vector<Job> jobs;

@@ -13,7 +13,7 @@
 #include "input/key_units.hpp"
 #include "input/read_scene.hpp"
 #include "input/toml_lib.hpp"
-#include "plan/step_plan.hpp"
+#include "plan/model.hpp"
 #include "scene/describe_scene.hpp"
 #include "scene/input_error.hpp"
 #include "units/quantity.hpp"
@@ -216,7 +216,7 @@ void resolve_scenes(Study& study) {
   for (Layout& layout : study.layouts) {
     try {
       const Scene scene = read_scene(study.base, layout.overrides);
-      if (const auto refused = step_refused(scene, plan_step(scene))) throw InputError(*refused);
+      prepare_to_run(scene);
       const auto [place, is_new] = known.try_emplace(describe_scene(scene).dump(), study.scenes.size());
       if (is_new) study.scenes.push_back(scene);
       layout.scene = place->second;

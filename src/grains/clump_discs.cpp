@@ -5,29 +5,30 @@
 
 namespace vibrosow {
 
-GrainKind kind_of_disc(const GrainKind& clump, const ClumpDisc& disc, double size, Law law) {
+GrainKind kind_of_disc(const GrainKind& clump, const ClumpDisc& disc, double size, const LawTraits& law) {
   GrainKind own = clump;
   own.radius = disc.radius * size;
-  if (law == Law::elastic_shell) own.compliance *= own.radius / clump.radius;  // eps goes with the disc's own radius
+  // eps goes with the disc's own radius, under the whole clump's weight
+  own.compliance = law.compliance_of_size(clump.compliance, own.radius / clump.radius, 1);
   return own;
 }
 
-ClumpDiscs::ClumpDiscs(const Scene& scene, bool rotation)
-    : scene_(scene), discs_per_id_(1), discs_(grain_kinds(scene, rotation), true, rotation) {
-  for (const SeedLot& lot : scene.lots)
-    discs_per_id_ = std::max(discs_per_id_, static_cast<std::int64_t>(lot.discs.size()));
+ClumpDiscs::ClumpDiscs(const std::vector<SeedLot>& lots, const std::vector<GrainKind>& kinds, const LawTraits& law,
+                       bool rotation)
+    : lots_(lots), law_(law), discs_per_id_(1), discs_(kinds, true, rotation) {
+  for (const SeedLot& lot : lots) discs_per_id_ = std::max(discs_per_id_, static_cast<std::int64_t>(lot.discs.size()));
 }
 
 void ClumpDiscs::rebuild(const Grains& clumps) {
   discs_ = Grains(discs_.kinds, true, discs_.rotation);
   own_x_.clear(), own_y_.clear();
   for (std::size_t i = 0; i < clumps.size(); ++i) {
-    const SeedLot& lot = scene_.lots[static_cast<std::size_t>(clumps.lot[i])];
+    const SeedLot& lot = lots_[static_cast<std::size_t>(clumps.lot[i])];
     const GrainKind clump = clumps.kind(i);
     const double size = 2 * clump.radius / lot.diameter;
     std::int64_t id = clumps.id[i] * discs_per_id_;
     const auto add = [&](const ClumpDisc& disc) {
-      discs_.add(0, 0, 0, 0, clumps.lot[i], kind_of_disc(clump, disc, size, scene_.contact.law));
+      discs_.add(0, 0, 0, 0, clumps.lot[i], kind_of_disc(clump, disc, size, law_));
       discs_.id.back() = id++;
       discs_.clump.push_back(static_cast<int>(i));
       own_x_.push_back(disc.x * size), own_y_.push_back(disc.y * size);

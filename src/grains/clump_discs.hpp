@@ -9,14 +9,16 @@ namespace vibrosow {
 
 /// A disc of a clump as a contact sees it: with its clump's whole mass and moment of inertia. `clump` is the whole
 /// seed, `size` its size over its lot's.
-GrainKind kind_of_disc(const GrainKind& clump, const ClumpDisc& disc, double size, Law law);
+GrainKind kind_of_disc(const GrainKind& clump, const ClumpDisc& disc, double size, const LawTraits& law);
 
 /// The discs of rigid clumps: what the contact kernels and lists see when a grain is several discs. A grain of a lot
 /// that is a single disc is a clump of one. Each disc bears its clump's whole mass and moment of inertia in a contact;
 /// its shell is eps = shell_compression times its own radius thick under that weight.
 class ClumpDiscs {
  public:
-  ClumpDiscs(const Scene& scene, bool rotation);
+  /// `kinds`: a seed of each lot's diameter.
+  ClumpDiscs(const std::vector<SeedLot>& lots, const std::vector<GrainKind>& kinds, const LawTraits& law,
+             bool rotation);
 
   /// Makes the discs anew for these clumps.
   void rebuild(const Grains& clumps);
@@ -30,7 +32,8 @@ class ClumpDiscs {
   std::vector<char> flags_of_discs(const std::vector<char>& of_clumps) const;
 
  private:
-  const Scene& scene_;
+  const std::vector<SeedLot>& lots_;
+  const LawTraits& law_;
   std::int64_t discs_per_id_;  // numbers kept free for the discs of a clump
   Grains discs_;
   std::vector<double> own_x_, own_y_;  // m, from the centre of mass, clump not turned

@@ -2,7 +2,15 @@
 
 namespace vibrosow {
 
-std::vector<GrainKind> grain_kinds(const Scene& scene, bool rotation) {
+SeedMaterial seed_material(const Contact& contact, const SeedLot& lot) {
+  return {.radius = 0.5 * lot.diameter,
+          .weight = lot.mass * standard_gravity,
+          .shell_compression = lot.shell_compression.value_or(contact.shell_compression),
+          .youngs_modulus = lot.youngs_modulus.value_or(contact.youngs_modulus),
+          .poisson_ratio = lot.poisson_ratio.value_or(contact.poisson_ratio)};
+}
+
+std::vector<GrainKind> grain_kinds(const Scene& scene) {
   std::vector<GrainKind> kinds;
   for (const SeedLot& lot : scene.lots) {
     const double radius = 0.5 * lot.diameter;
@@ -10,22 +18,18 @@ std::vector<GrainKind> grain_kinds(const Scene& scene, bool rotation) {
                              : lot.shape == Shape::disc ? 0.5 * radius * radius
                                                         : 0.4 * radius * radius;
     const double inertia = lot.mass * gyration2;
-    const double eps = lot.shell_compression.value_or(scene.contact.shell_compression) * radius;
-    const double poisson = lot.poisson_ratio.value_or(scene.contact.poisson_ratio);
-    const double modulus = lot.youngs_modulus.value_or(scene.contact.youngs_modulus);
-    const double compliance = scene.contact.law == Law::elastic_shell ? eps / (lot.mass * standard_gravity)
-                                                                      : (1 - poisson * poisson) / modulus;
-    kinds.push_back({radius, lot.mass, 1 / lot.mass, rotation ? 1 / inertia : 0.0, compliance});
+    const double compliance = traits_of(scene.contact.law).compliance(seed_material(scene.contact, lot));
+    kinds.push_back({radius, lot.mass, 1 / lot.mass, 1 / inertia, compliance});
   }
   return kinds;
 }
 
-GrainKind sized_kind(const SeedLot& lot, Law law, const GrainKind& kind, double size) {
+GrainKind sized_kind(const SeedLot& lot, const LawTraits& law, const GrainKind& kind, double size) {
   if (size == 1) return kind;
   const double growth = lot.shape == Shape::ball ? size * size * size : size * size;
   const double mass = kind.mass * growth;
   return {kind.radius * size, mass, 1 / mass, kind.inverse_inertia / (growth * size * size),
-          law == Law::elastic_shell ? kind.compliance * size / growth : kind.compliance};
+          law.compliance_of_size(kind.compliance, size, growth)};
 }
 
 void Grains::add(double px, double py, double pvx, double pvy, int lot_index) {

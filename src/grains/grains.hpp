@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "laws/law.hpp"
 #include "scene/scene.hpp"
 
 namespace vibrosow {
@@ -17,13 +18,16 @@ struct GrainKind {
   double compliance;       // m/N of one shell, eps / (m g); with Hertz' law 1/Pa, (1 - nu^2) / E
 };
 
+/// What a lot's seeds are made of: its own values, or the contact's.
+SeedMaterial seed_material(const Contact& contact, const SeedLot& lot);
+
 /// A seed of each lot's diameter. Shell stiffness c = m g / eps with eps = shell_compression r (paper A).
-std::vector<GrainKind> grain_kinds(const Scene& scene, bool rotation);
+std::vector<GrainKind> grain_kinds(const Scene& scene);
 
 /// A seed of a lot whose size is `size` times the lot's diameter. Mass grows with the cube of size for a ball and with
 /// its square for a disc or clump, at equal density; the shell's compression under the grain's own weight stays eps /
 /// r.
-GrainKind sized_kind(const SeedLot& lot, Law law, const GrainKind& kind, double size);
+GrainKind sized_kind(const SeedLot& lot, const LawTraits& law, const GrainKind& kind, double size);
 
 /// State of all grains in the lab frame, structure of arrays. Order is order of insertion and survives removal.
 /// Arrays of an absent effect are empty: `omega` without rotation, the property arrays for equal grains.

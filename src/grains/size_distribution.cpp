@@ -51,15 +51,4 @@ double draw_angle(const SeedLot& lot, Random& random) {
   return lot.shape == Shape::clump ? random.uniform(0, 2 * std::numbers::pi) : 0;
 }
 
-std::vector<GrainKind> extreme_kinds(const Scene& scene, bool rotation) {
-  std::vector<GrainKind> kinds = grain_kinds(scene, rotation);
-  for (std::size_t k = 0; k < scene.lots.size(); ++k) {
-    const SeedLot& lot = scene.lots[k];
-    if (lot.sizes.kind == Kind::single) continue;
-    for (const double size : {least_size(lot), most_size(lot)})
-      kinds.push_back(sized_kind(lot, scene.contact.law, GrainKind(kinds[k]), size));
-  }
-  return kinds;
-}
-
 }  // namespace vibrosow

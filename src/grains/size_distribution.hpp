@@ -14,8 +14,4 @@ double draw_size(const SeedLot& lot, Random& random);
 /// How a seed is turned, rad in [0, 2 pi): at random for a clump; 0 for others, which draw nothing.
 double draw_angle(const SeedLot& lot, Random& random);
 
-/// What the grains of a scene can be at the extremes: a seed of each lot's diameter, and of its smallest and largest
-/// size where it has several.
-std::vector<GrainKind> extreme_kinds(const Scene& scene, bool rotation);
-
 }  // namespace vibrosow

@@ -5,16 +5,32 @@
 #include <string>
 #include <vector>
 
+#include "contact/effect_set.hpp"
+#include "contact/pair_block.hpp"
+#include "grains/grains.hpp"
+#include "laws/law.hpp"
+#include "plan/bed_loads.hpp"
 #include "scene/scene.hpp"
 
 namespace vibrosow {
+
+/// What a step is planned from: values of the scene, and what was derived from it.
+struct StepBasis {
+  const Scene& scene;
+  const EffectSet& effects;
+  const ContactParameters& contacts;
+  const LawTraits& law;
+  const std::vector<GrainKind>& touching;  // touching_kinds
+  const BedLoads& loads;
+  double smallest_radius;  // m
+};
 
 struct StepLimit {
   std::string reason;
   double dt;  // s, the longest step that this limit allows
 };
 
-/// The step that a scene runs with and what bounds it (PHYSICS in ARCHITECTURE.md).
+/// The step that a scene runs with and what bounds it (docs/THEORY.md).
 struct StepPlan {
   double contact_duration;        // s, shortest elastic contact of any two grains
   std::vector<StepLimit> limits;  // each reason on its own
@@ -24,11 +40,11 @@ struct StepPlan {
   bool too_long;                  // dt > longest_safe
   std::int64_t steps;             // to the end of the run
 };
-StepPlan plan_step(const Scene& scene);
+StepPlan plan_step(const StepBasis& basis);
 
 /// Why the scene cannot run with its step, where that was written and the longest safe one; nothing when it can, or
 /// when the scene insists (numerics.allow_long_step).
-std::optional<std::string> step_refused(const Scene& scene, const StepPlan& plan);
+std::optional<std::string> step_refused(const Numerics& numerics, const StepPlan& plan);
 
 /// What the shells will suffer, predicted from layers, acceleration and speed of impact, before any grain moves.
 struct PredictedCompression {
@@ -39,6 +55,6 @@ struct PredictedCompression {
   double impact_compression;  // d/r at that speed on a wall
   double stiff_enough;        // the largest contact.shell_compression that keeps both within guard.warn_compression
 };
-PredictedCompression predict_compression(const Scene& scene);
+PredictedCompression predict_compression(const StepBasis& basis);
 
 }  // namespace vibrosow

@@ -1,9 +1,23 @@
 #pragma once
 
+#include <cstddef>
+
 namespace vibrosow {
 
-/// elastic_shell: paper A. hertz: damping from the restitution. hertz_viscous: paper B, damping -gamma_n M* v_n.
-enum class Law { elastic_shell, hertz, hertz_viscous };
+/// The table of normal laws: NAME is an enumerator of `Law` and the header laws/NAME.hpp, which says everything about
+/// the law (laws/law.hpp tells what that is).
+#define VIBROSOW_LAWS(LAW) \
+  LAW(elastic_shell)       \
+  LAW(hertz)               \
+  LAW(hertz_viscous)
+
+#define VIBROSOW_ENUMERATOR(name) name,
+enum class Law { VIBROSOW_LAWS(VIBROSOW_ENUMERATOR) };
+#undef VIBROSOW_ENUMERATOR
+
+#define VIBROSOW_COUNT(name) +1
+inline constexpr std::size_t law_count = 0 VIBROSOW_LAWS(VIBROSOW_COUNT);
+#undef VIBROSOW_COUNT
 
 /// sliding: sign law made continuous below the slip speed (paper A); spring: a tangential spring with Coulomb's limit.
 enum class FrictionModel { sliding, spring };

@@ -8,10 +8,8 @@
 
 namespace vibrosow {
 
-Counter::Counter(const Scene& scene, std::size_t grains)
-    : tray_(scene.tray), count_below_(scene.run.count_below), state_(grains), below_(grains) {}
-
 std::size_t Counter::next_flag(std::size_t from) const {
+  if (from >= flags_.size()) return flags_.size();
   const void* found = std::memchr(flags_.data() + from, 1, flags_.size() - from);
   return found ? static_cast<std::size_t>(static_cast<const char*>(found) - flags_.data()) : flags_.size();
 }
@@ -42,53 +40,54 @@ void Counter::watch(const Grains& grains, const Walls& walls, const GrainLoops& 
   const double angle = tray_.tilt + pose.angle;
   const double sine = std::sin(angle), cosine = std::cos(angle);
   const double ox = tray_.origin.x() + pose.displacement.x(), oy = tray_.origin.y() + pose.displacement.y();
-  const auto [tray_velocity, spin] = walls.paths().front().rate(time);
+  const auto [tray_velocity, spin] = walls.rate(0, time);
 
   // Most grains are above the floor and were so before: they are passed over unseen.
   const std::size_t n = grains.size();
   flags_.resize(n);
-  loops.flag_below(n, grains.x.data(), grains.y.data(), -sine, cosine, cosine * oy - sine * ox, below_.data(),
+  loops.flag_below(n, grains.x.data(), grains.y.data(), -sine, cosine, cosine * oy - sine * ox, state_.below.data(),
                    flags_.data());
   for (std::size_t i = next_flag(0); i < n; i = next_flag(i + 1)) {
     const double height = cosine * (grains.y[i] - oy) - sine * (grains.x[i] - ox);
-    State& state = state_[i];
+    CounterState::Passage& passage = state_.passages[i];
     if (height >= 0) {
-      below_[i] = 0;
+      state_.below[i] = 0;
       continue;
     }
-    if (state.counted) continue;
+    if (passage.counted) continue;
     const double along = cosine * (grains.x[i] - ox) + sine * (grains.y[i] - oy);
     const double ux = grains.vx[i] - (tray_velocity.x() - spin * (grains.y[i] - oy));
     const double uy = grains.vy[i] - (tray_velocity.y() + spin * (grains.x[i] - ox));
     const double speed_along = cosine * ux + sine * uy, speed_up = cosine * uy - sine * ux;
     // Back along the present velocity to the moment when the centre was `level` high.
     const auto since = [&](double level) { return speed_up < 0 ? (height - level) / speed_up : 0.0; };
-    if (!below_[i]) {
-      below_[i] = 1;
-      state.x = within_period(along - speed_along * since(0));
-      state.hole = hole_at(state.x);
+    if (!state_.below[i]) {
+      state_.below[i] = 1;
+      passage.x = within_period(along - speed_along * since(0));
+      passage.hole = hole_at(passage.x);
       // The edge may lie in the waist of a clump: its centre then passes beside the opening. A disc of it that goes
       // through the floor itself is seen by the walls.
-      if (state.hole == through_the_floor && grains.oriented) state.hole = hole_beside(state.x, grains.kind(i).radius);
+      if (passage.hole == through_the_floor && grains.oriented)
+        passage.hole = hole_beside(passage.x, grains.kind(i).radius);
     }
     if (height >= -count_below_) continue;
-    state.counted = true;
-    if (state.hole == through_the_floor) {
-      ++lost_;
+    passage.counted = true;
+    if (passage.hole == through_the_floor) {
+      ++state_.lost;
       continue;
     }
     const double ago = since(-count_below_);
-    const double x = state.hole > 0 ? state.x : within_period(along - speed_along * ago);
-    events.push_back({time - ago, state.hole, grains.lot[i], grains.id[i], grains.kind(i).mass, x,
+    const double x = passage.hole > 0 ? passage.x : within_period(along - speed_along * ago);
+    events.push_back({time - ago, passage.hole, grains.lot[i], grains.id[i], grains.kind(i).mass, x,
                       std::hypot(grains.vx[i], grains.vy[i])});
   }
 }
 
 void Counter::remove_flagged(const std::vector<char>& removed) {
   std::size_t kept = 0;
-  for (std::size_t i = 0; i < state_.size(); ++i)
-    if (!removed[i]) state_[kept] = state_[i], below_[kept++] = below_[i];
-  state_.resize(kept), below_.resize(kept);
+  for (std::size_t i = 0; i < state_.passages.size(); ++i)
+    if (!removed[i]) state_.passages[kept] = state_.passages[i], state_.below[kept++] = state_.below[i];
+  state_.passages.resize(kept), state_.below.resize(kept);
 }
 
 bool is_inside(const Vessel& vessel, const Pose& pose, double x, double y) {

@@ -4,7 +4,6 @@
 #include <chrono>
 
 #include "plan/effects.hpp"
-#include "plan/step_plan.hpp"
 #include "simulation/simulation.hpp"
 
 namespace vibrosow {
@@ -53,7 +52,7 @@ double ns_per_grain_step(const Scene& of, const EffectSet& effects) {
   constexpr std::int64_t steps = 400;
   constexpr int repeats = 3;
   const Scene scene = sample_bed(of, effects);
-  Simulation simulation(scene, starting_grains(scene, 1, effects), {.dt = plan_step(scene).dt, .effects = effects});
+  Simulation simulation(prepare(scene, effects), 1);
   double best = 1e300;
   for (int repeat = 0; repeat < repeats; ++repeat) {
     const auto from = std::chrono::steady_clock::now();

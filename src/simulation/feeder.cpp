@@ -97,33 +97,27 @@ bool is_clear(const Grains& grains, const Walls& walls, const Eigen::Vector2d& a
 
 }  // namespace
 
-Feeder::Feeder(const Scene& scene, std::uint64_t random_seed)
-    : lots_(scene.lots),
-      law_(scene.contact.law),
-      random_(~random_seed)  // a stream of its own, apart from the packing's
-{
-  constexpr std::uint64_t apart = 0x9e3779b97f4a7c15;  // streams of their own, too
-  for (const Vessel& vessel : vessels_of(scene)) {
-    showers_.push_back({Random(random_seed ^ (apart * (showers_.size() + 1)))});
+Feeder::Feeder(const Model& model, FeederState& state) : model_(model), state_(state) {
+  for (const Vessel& vessel : model.vessels) {
     feeds_ = feeds_ || is_kept(vessel);
     rains_ = rains_ || vessel.rain;
   }
 }
 
 int Feeder::draw_lot(Random& random) const {
-  if (lots_.size() == 1) return 0;
+  if (model_.scene.lots.size() == 1) return 0;
   double rest = random.uniform();
-  for (std::size_t lot = 0; lot + 1 < lots_.size(); ++lot) {
-    rest -= lots_[lot].number_fraction;
+  for (std::size_t lot = 0; lot + 1 < model_.scene.lots.size(); ++lot) {
+    rest -= model_.scene.lots[lot].number_fraction;
     if (rest < 0) return static_cast<int>(lot);
   }
-  return static_cast<int>(lots_.size()) - 1;
+  return static_cast<int>(model_.scene.lots.size()) - 1;
 }
 
 void Feeder::note_waiting(const Vessel& vessel, int waiting, double time) {
   constexpr double noted_fraction = 0.25;
-  if (!warning_.empty() || waiting <= noted_fraction * vessel.fill->count) return;
-  warning_ = fmt::format(
+  if (!state_.warning.empty() || waiting <= noted_fraction * vessel.fill->count) return;
+  state_.warning = fmt::format(
       "{}.fill.keep falls behind: {} of {} seeds missing at {:.4g} s, for want of room below the walls' top",
       vessel.name, waiting, vessel.fill->count, time);
 }
@@ -134,16 +128,16 @@ int Feeder::top_up(Grains& grains, const std::vector<char>& touching, const Wall
     const Vessel& vessel = walls.vessels()[v];
     if (!is_kept(vessel)) continue;
     const Pose pose = walls.poses()[v];
-    const PoseRate rate = walls.paths()[v].rate(time);
-    Inside inside = grains_inside(vessel, pose, grains, touching, largest_diameter(lots_));
+    const PoseRate rate = walls.rate(v, time);
+    Inside inside = grains_inside(vessel, pose, grains, touching, model_.largest_diameter);
     const int missing = vessel.fill->count - inside.grains;
     int waiting = 0;
     for (int k = 0; k < missing; ++k) {
-      const int lot = draw_lot(random_);
-      const SeedLot& seeds = lots_[static_cast<std::size_t>(lot)];
-      const double size = draw_size(seeds, random_), angle = draw_angle(seeds, random_);
+      const int lot = draw_lot(state_.random);
+      const SeedLot& seeds = model_.scene.lots[static_cast<std::size_t>(lot)];
+      const double size = draw_size(seeds, state_.random), angle = draw_angle(seeds, state_.random);
       const double radius = 0.5 * size * seeds.diameter;
-      const double x = random_.uniform(radius, vessel.length - radius);
+      const double x = state_.random.uniform(radius, vessel.length - radius);
       const double y = free_height(inside, x, radius);
       if (y + radius > vessel.height) {
         ++waiting;
@@ -152,7 +146,7 @@ int Feeder::top_up(Grains& grains, const std::vector<char>& touching, const Wall
       inside.add(vessel, {x, y}, radius, false);
       const Eigen::Vector2d lab = in_lab_frame(vessel, pose, {x, y});
       const Eigen::Vector2d velocity = material_velocity(vessel, pose, rate, lab);
-      const GrainKind kind = sized_kind(seeds, law_, grains.kinds[static_cast<std::size_t>(lot)], size);
+      const GrainKind kind = sized_kind(seeds, *model_.law, model_.kinds[static_cast<std::size_t>(lot)], size);
       grains.add(lab.x(), lab.y(), velocity.x(), velocity.y(), lot, kind, angle);
       ++added;
     }
@@ -164,13 +158,14 @@ int Feeder::top_up(Grains& grains, const std::vector<char>& touching, const Wall
 int Feeder::rain(Grains& grains, const Walls& walls, double time) {
   int added = 0;
   for (std::size_t v = 0; v < walls.vessels().size(); ++v)
-    if (walls.vessels()[v].rain) added += rain(walls.vessels()[v], showers_[v], grains, walls, walls.poses()[v], time);
+    if (walls.vessels()[v].rain)
+      added += rain(walls.vessels()[v], state_.showers[v], grains, walls, walls.poses()[v], time);
   return added;
 }
 
 void Feeder::draw_next(Shower& shower) const {
   shower.next_lot = draw_lot(shower.random);
-  const SeedLot& seeds = lots_[static_cast<std::size_t>(shower.next_lot)];
+  const SeedLot& seeds = model_.scene.lots[static_cast<std::size_t>(shower.next_lot)];
   shower.next_size = draw_size(seeds, shower.random);
   shower.next_angle = draw_angle(seeds, shower.random);
 }
@@ -183,13 +178,13 @@ int Feeder::rain(const Vessel& vessel, Shower& shower, Grains& grains, const Wal
   for (std::int64_t k = 0; k < waiting; ++k) {
     if (shower.next_lot < 0) draw_next(shower);
     const std::size_t lot = static_cast<std::size_t>(shower.next_lot);
-    const double radius = 0.5 * shower.next_size * lots_[lot].diameter;
+    const double radius = 0.5 * shower.next_size * model_.scene.lots[lot].diameter;
     const double margin = vessel.sides == Sides::walls ? std::min(radius, 0.5 * vessel.length) : 0;
     const double from = std::clamp(rain.from, margin, vessel.length - margin);
     const double to = std::clamp(rain.to, margin, vessel.length - margin);
     const Eigen::Vector2d at = in_lab_frame(vessel, pose, {shower.random.uniform(from, to), rain.height});
     if (!is_clear(grains, walls, at, radius)) continue;
-    const GrainKind kind = sized_kind(lots_[lot], law_, grains.kinds[lot], shower.next_size);
+    const GrainKind kind = sized_kind(model_.scene.lots[lot], *model_.law, model_.kinds[lot], shower.next_size);
     grains.add(at.x(), at.y(), 0, 0, shower.next_lot, kind, shower.next_angle);
     shower.next_lot = -1;
     ++shower.arrived;

@@ -2,8 +2,7 @@
 
 #include <string>
 
-#include "grains/grains.hpp"
-#include "grains/random.hpp"
+#include "simulation/state.hpp"
 #include "vessel/walls.hpp"
 
 namespace vibrosow {
@@ -19,7 +18,7 @@ namespace vibrosow {
 /// those that are still falling there may be room.
 class Feeder {
  public:
-  Feeder(const Scene& scene, std::uint64_t random_seed);
+  Feeder(const Model& model, FeederState& state);
 
   /// Whether any vessel is kept topped up, or rained into.
   bool feeds() const { return feeds_; }
@@ -32,27 +31,18 @@ class Feeder {
   int rain(Grains& grains, const Walls& walls, double time);
 
   /// That more than a quarter of a fill was missing, and since when; empty if it never was.
-  const std::string& warning() const { return warning_; }
+  const std::string& warning() const { return state_.warning; }
 
  private:
-  /// The rain into one vessel so far.
-  struct Shower {
-    Random random;
-    std::int64_t arrived = 0;
-    int next_lot = -1;  // of the grain that waits; -1: not drawn
-    double next_size = 1, next_angle = 0;
-  };
+  using Shower = FeederState::Shower;
   int rain(const Vessel& vessel, Shower& shower, Grains& grains, const Walls& walls, const Pose& pose, double time);
   int draw_lot(Random& random) const;
   void draw_next(Shower& shower) const;
   void note_waiting(const Vessel& vessel, int waiting, double time);
 
-  std::vector<SeedLot> lots_;
-  Law law_;
-  Random random_;
-  std::vector<Shower> showers_;  // by vessel
+  const Model& model_;
+  FeederState& state_;
   bool feeds_ = false, rains_ = false;
-  std::string warning_;
 };
 
 }  // namespace vibrosow

@@ -3,26 +3,29 @@
 #include <algorithm>
 #include <cmath>
 
-#include "plan/contact_parameters.hpp"
-#include "scene/seed_lot.hpp"
-
 namespace vibrosow {
 
-ForceField::ForceField(const Scene& scene, const EffectSet& effects, NeighbourMargins margins, Execution& execution)
-    : scene_(scene),
+ForceField::ForceField(const Model& model, SimulationState& state, NeighbourMargins margins, Execution& execution)
+    : model_(model),
+      state_(state),
       execution_(execution),
-      walls_(vessels_of(scene)),
-      neighbours_(walls_.vessels(), largest_diameter(scene.lots), margins,
-                  {effects.tangential_spring, effects.rolling == Rolling::spring}, execution),
-      parameters_(contact_parameters(scene)),
-      kernels_(kernels_for(scene.contact.law, effects)),
-      pair_kernel_(kernels_.vectors[static_cast<std::size_t>(execution.instructions())].pair),
-      wall_kernel_(kernels_.vectors[static_cast<std::size_t>(execution.instructions())].wall),
+      walls_(model.vessels),
+      neighbours_(model.vessels, model.largest_diameter, margins,
+                  {model.effects.tangential_spring, model.effects.rolling == Rolling::spring}, execution),
+      pair_kernel_(model.kernels->vectors[static_cast<std::size_t>(execution.instructions())].pair),
+      wall_kernel_(model.kernels->vectors[static_cast<std::size_t>(execution.instructions())].wall),
       range_results_(static_cast<std::size_t>(execution.threads())) {
-  if (effects.clumps) clumps_.emplace(scene_, effects.rotation);
+  if (model.effects.clumps) clumps_.emplace(model.scene.lots, model.kinds, *model.law, model.effects.rotation);
+  for (std::size_t v = 0; v < model.vessels.size(); ++v)
+    walls_.set_motion(v, state.vessels.motion[v], state.vessels.shift[v]);
+  for (std::size_t wall = 0; wall < state.vessels.removed.size(); ++wall)
+    if (state.vessels.removed[wall]) remove_wall(wall);
+  walls_.place(state.vessels.placed_at);
+  if (state.started) neighbours_.update(place_discs(), walls_, state_.contacts);
 }
 
-const Grains& ForceField::place_discs(const Grains& grains) {
+const Grains& ForceField::place_discs() {
+  const Grains& grains = state_.grains;
   if (!clumps_) return grains;
   if (!clumps_are_current_) clumps_->rebuild(grains);
   clumps_are_current_ = true;
@@ -47,8 +50,8 @@ Motion ForceField::across_boundary(const Grains& discs) {
 /// would.
 void ForceField::set_pair_forces(const Grains& discs, const Motion& at, const HistoryAdvance& advance, Forces& forces,
                                  ContactStatistics& statistics) {
-  const PairList& pairs = neighbours_.pairs();
-  ContactHistory& history = neighbours_.pair_history();
+  const PairList& pairs = state_.contacts.pairs;
+  ContactHistories& histories = state_.contacts.pair_histories;
   const GrainSurfaces surfaces = surfaces_of(discs);
   const std::size_t ranges = range_results_.size();
   const int grains = static_cast<int>(discs.size());
@@ -66,8 +69,8 @@ void ForceField::set_pair_forces(const Grains& discs, const Motion& at, const Hi
     RangeResult& result = range_results_[range];
     result.foreign.clear();
     result.statistics = {};
-    add_pair_forces(pair_kernel_, surfaces, at, pairs, {first_entry(range), first_entry(range + 1)}, parameters_,
-                    advance, history, {first_grain(range), first_grain(range + 1)}, forces, result.foreign,
+    add_pair_forces(pair_kernel_, surfaces, at, pairs, {first_entry(range), first_entry(range + 1)}, model_.contacts,
+                    advance, histories, {first_grain(range), first_grain(range + 1)}, forces, result.foreign,
                     result.statistics);
   });
   for (const RangeResult& result : range_results_) {
@@ -86,15 +89,15 @@ void ForceField::run_kernels(const Grains& discs, const HistoryAdvance& advance,
   set_pair_forces(discs, at, advance, forces, statistics);
   // Few, and their partners come before and after: one thread does them.
   if (neighbours_.period() > 0) {
-    const PairList& boundary = neighbours_.boundary_pairs();
+    const PairList& boundary = state_.contacts.boundary_pairs;
     add_pair_forces(pair_kernel_, surfaces_of(discs), across_boundary(discs), boundary,
-                    {0, static_cast<int>(boundary.size())}, parameters_, advance, neighbours_.boundary_history(),
-                    {0, 0}, forces, range_results_.front().foreign, statistics);
+                    {0, static_cast<int>(boundary.size())}, model_.contacts, advance,
+                    state_.contacts.boundary_histories, {0, 0}, forces, range_results_.front().foreign, statistics);
   }
   execution_.profile().lap(Phase::pairs);
-  wall_finder_.find(discs, neighbours_.near_walls(), walls_.placed(), wall_contacts_);
-  wall_finder_.watch_crossings(neighbours_.near_walls(), statistics.crossed);
-  if (advance.commit > 0) wall_finder_.forget_parted(neighbours_.wall_history());
+  wall_finder_.find(discs, state_.contacts.walls, walls_.placed(), wall_contacts_);
+  wall_finder_.watch_crossings(state_.contacts.walls, statistics.crossed);
+  if (advance.commit > 0) wall_finder_.clear_parted(state_.contacts.wall_histories);
   add_wall_forces(discs, at, advance, forces, statistics);
   execution_.profile().lap(Phase::walls);
 }
@@ -103,54 +106,55 @@ void ForceField::run_kernels(const Grains& discs, const HistoryAdvance& advance,
 void ForceField::add_wall_forces(const Grains& discs, const Motion& at, const HistoryAdvance& advance, Forces& forces,
                                  ContactStatistics& statistics) {
   const double compression =
-      wall_kernel_(surfaces_of(discs), at, parameters_, advance, neighbours_.wall_history(), wall_contacts_);
+      wall_kernel_(surfaces_of(discs), at, model_.contacts, advance, state_.contacts.wall_histories, wall_contacts_);
   statistics.max_compression = std::max(statistics.max_compression, compression);
-  vibrosow::add_wall_forces(wall_contacts_, kernels_.effects.rotation, forces, statistics);
+  vibrosow::add_wall_forces(wall_contacts_, model_.kernels->effects.rotation, forces, statistics);
 }
 
-void ForceField::evaluate(const Grains& grains, double time, const HistoryAdvance& advance,
-                          ContactStatistics& statistics) {
+void ForceField::evaluate(double time, const HistoryAdvance& advance, ContactStatistics& statistics) {
   walls_.place(time);
-  const Grains& discs = place_discs(grains);
-  neighbours_.update(discs, walls_);
+  state_.vessels.placed_at = time;
+  const Grains& discs = place_discs();
+  neighbours_.update(discs, walls_, state_.contacts);
   execution_.profile().lap(Phase::neighbours);
   statistics.wall_power = 0;
-  if (!clumps_) return run_kernels(grains, advance, forces_, statistics);
+  if (!clumps_) return run_kernels(discs, advance, forces_, statistics);
   const std::size_t crossed_before = statistics.crossed.size();
   run_kernels(discs, advance, disc_forces_, statistics);
-  forces_.assign(grains.size(), {});
+  forces_.assign(state_.grains.size(), {});
   clumps_->gather(disc_forces_, forces_);
   for (std::size_t k = crossed_before; k < statistics.crossed.size(); ++k)
     statistics.crossed[k] = discs.clump[static_cast<std::size_t>(statistics.crossed[k])];
 }
 
-double ForceField::elastic_energy(const Grains& grains) {
-  const Grains& discs = place_discs(grains);
+double ForceField::elastic_energy() {
+  const Grains& discs = place_discs();
   const Motion at = motion_of(discs);
-  double energy =
-      kernels_.pair_energy(surfaces_of(discs), at, neighbours_.pairs(), parameters_, neighbours_.pair_history());
+  double energy = model_.kernels->pair_energy(surfaces_of(discs), at, state_.contacts.pairs, model_.contacts,
+                                              state_.contacts.pair_histories);
   if (neighbours_.period() > 0)
-    energy += kernels_.pair_energy(surfaces_of(discs), across_boundary(discs), neighbours_.boundary_pairs(),
-                                   parameters_, neighbours_.boundary_history());
-  wall_finder_.find(discs, neighbours_.near_walls(), walls_.placed(), wall_contacts_);
-  return energy + kernels_.wall_energy(surfaces_of(discs), wall_contacts_, parameters_, neighbours_.wall_history());
+    energy += model_.kernels->pair_energy(surfaces_of(discs), across_boundary(discs), state_.contacts.boundary_pairs,
+                                          model_.contacts, state_.contacts.boundary_histories);
+  wall_finder_.find(discs, state_.contacts.walls, walls_.placed(), wall_contacts_);
+  return energy + model_.kernels->wall_energy(surfaces_of(discs), wall_contacts_, model_.contacts,
+                                              state_.contacts.wall_histories);
 }
 
-Forces ForceField::wall_forces(const Grains& grains) {
-  const Grains& discs = place_discs(grains);
+Forces ForceField::wall_forces() {
+  const Grains& discs = place_discs();
   ContactStatistics statistics;
   Forces on_discs(discs.size());
-  wall_finder_.find(discs, neighbours_.near_walls(), walls_.placed(), wall_contacts_);
+  wall_finder_.find(discs, state_.contacts.walls, walls_.placed(), wall_contacts_);
   add_wall_forces(discs, motion_of(discs), {}, on_discs, statistics);
   if (!clumps_) return on_discs;
-  Forces forces(grains.size());
+  Forces forces(state_.grains.size());
   clumps_->gather(on_discs, forces);
   return forces;
 }
 
-std::vector<char> ForceField::touching(const Grains& grains) const {
-  std::vector<char> touches(grains.size(), 0);
-  const Grains& discs = clumps_ ? clumps_->discs() : grains;
+std::vector<char> ForceField::touching() {
+  std::vector<char> touches(state_.grains.size(), 0);
+  const Grains& discs = place_discs();
   const auto grain_of = [&](std::size_t k) { return clumps_ ? static_cast<std::size_t>(discs.clump[k]) : k; };
   const auto look = [&](const PairList& pairs, double shift) {
     for (std::size_t k = 0; k < pairs.size(); ++k) {
@@ -160,24 +164,43 @@ std::vector<char> ForceField::touching(const Grains& grains) const {
       if (dx * dx + dy * dy < reach * reach) touches[grain_of(i)] = touches[grain_of(j)] = 1;
     }
   };
-  look(neighbours_.pairs(), 0);
-  look(neighbours_.boundary_pairs(), neighbours_.period());
+  look(state_.contacts.pairs, 0);
+  look(state_.contacts.boundary_pairs, neighbours_.period());
   return touches;
 }
 
 void ForceField::grains_added() {
   clumps_are_current_ = false;
-  neighbours_.forget();
+  neighbours_.start_afresh();
+}
+
+void ForceField::grains_wrapped() {
+  neighbours_.start_afresh();
+  neighbours_.update(place_discs(), walls_, state_.contacts);
 }
 
 void ForceField::remove_flagged(const std::vector<char>& removed) {
   clumps_are_current_ = false;
-  neighbours_.remove_flagged(clumps_ ? clumps_->flags_of_discs(removed) : removed);
+  neighbours_.remove_flagged(clumps_ ? clumps_->flags_of_discs(removed) : removed, state_.contacts);
 }
 
 void ForceField::remove_wall(std::size_t wall) {
+  state_.vessels.removed[wall] = 1;
   walls_.remove(wall);
-  neighbours_.remove_wall(static_cast<int>(wall));
+  neighbours_.remove_wall(static_cast<int>(wall), state_.contacts);
+}
+
+void ForceField::restore_wall(std::size_t wall) {
+  state_.vessels.removed[wall] = 0;
+  walls_.restore(wall);
+  walls_.place(state_.vessels.placed_at);
+  neighbours_.restore_wall(static_cast<int>(wall));
+}
+
+void ForceField::set_motion(std::size_t vessel, const std::optional<VesselMotion>& motion,
+                            const Eigen::Vector2d& shift) {
+  state_.vessels.motion[vessel] = motion, state_.vessels.shift[vessel] = shift;
+  walls_.set_motion(vessel, motion, shift);
 }
 
 }  // namespace vibrosow

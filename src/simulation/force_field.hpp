@@ -7,39 +7,47 @@
 #include "contact/pair_forces.hpp"
 #include "contact/wall_contacts.hpp"
 #include "grains/clump_discs.hpp"
-#include "grains/grains.hpp"
 #include "simulation/neighbours.hpp"
+#include "simulation/state.hpp"
 #include "vessel/walls.hpp"
 
 namespace vibrosow {
 
-/// Contact forces on all grains at a time: walls are placed, neighbours brought up to date, the chosen kernels run.
-/// Where grains are clumps, lists and kernels see their discs, and the forces are gathered.
+/// Contact forces on all grains of a state at a time: walls are placed, neighbours brought up to date, the chosen
+/// kernels run. Where grains are clumps, lists and kernels see their discs, and the forces are gathered.
 class ForceField {
  public:
-  ForceField(const Scene& scene, const EffectSet& effects, NeighbourMargins margins, Execution& execution);
+  /// Both live as long as the field. Walls stand as they do in the state, and lists are made from it.
+  ForceField(const Model& model, SimulationState& state, NeighbourMargins margins, Execution& execution);
   ForceField(const ForceField&) = delete;
   ForceField& operator=(const ForceField&) = delete;
 
-  /// Forces on the grains where they are now, with the vessels where they are at `time`. Statistics figures are added
-  /// up, but for the walls' power, which is this evaluation's. `advance` moves the memory of contacts on.
-  void evaluate(const Grains& grains, double time, const HistoryAdvance& advance, ContactStatistics& statistics);
+  /// Forces on the grains where they are now, with the vessels where they are at `time`. Statistics are added up, but
+  /// for the walls' power, which is this evaluation's. `advance` moves the histories of contacts on.
+  void evaluate(double time, const HistoryAdvance& advance) { evaluate(time, advance, state_.statistics); }
+  /// The same with other statistics, of a look ahead.
+  void evaluate(double time, const HistoryAdvance& advance, ContactStatistics& statistics);
 
   /// Energy of all springs in contacts, J.
-  double elastic_energy(const Grains& grains);
+  double elastic_energy();
 
   /// Forces of the walls alone on each grain, where grains and walls are now; nothing moves on by it.
-  Forces wall_forces(const Grains& grains);
+  Forces wall_forces();
 
   /// Which grains touch another one.
-  std::vector<char> touching(const Grains& grains) const;
+  std::vector<char> touching();
 
   /// Grains were put in: the next evaluation looks for neighbours afresh.
   void grains_added();
+  /// Grains were moved by a period: neighbours are looked for at once.
+  void grains_wrapped();
   /// These grains (one flag each) are being taken out.
   void remove_flagged(const std::vector<char>& removed);
   /// Takes a wall away at once; nothing touches it any more.
   void remove_wall(std::size_t wall);
+  /// Puts it back where its vessel is now.
+  void restore_wall(std::size_t wall);
+  void set_motion(std::size_t vessel, const std::optional<VesselMotion>& motion, const Eigen::Vector2d& shift);
 
   const Forces& forces() const { return forces_; }
   const Walls& walls() const { return walls_; }
@@ -47,7 +55,7 @@ class ForceField {
   const Neighbours& neighbours() const { return neighbours_; }
 
  private:
-  const Grains& place_discs(const Grains& grains);
+  const Grains& place_discs();
   void set_pair_forces(const Grains& discs, const Motion& at, const HistoryAdvance& advance, Forces& forces,
                        ContactStatistics& statistics);
   Motion motion_of(const Grains& discs) const;
@@ -56,12 +64,11 @@ class ForceField {
                        ContactStatistics& statistics);
   void run_kernels(const Grains& discs, const HistoryAdvance& advance, Forces& forces, ContactStatistics& statistics);
 
-  const Scene& scene_;
+  const Model& model_;
+  SimulationState& state_;
   Execution& execution_;
   Walls walls_;
   Neighbours neighbours_;
-  ContactParameters parameters_;
-  const KernelSet& kernels_;
   PairKernel pair_kernel_;
   WallKernel wall_kernel_;
   WallContactFinder wall_finder_;

@@ -34,31 +34,34 @@ double potential_energy(const Grains& grains, const Eigen::Vector2d& gravity) {
   return energy;
 }
 
-Guard::Guard(const Scene& scene, bool insisted_on_step) : limits_(scene.guard), insisted_on_step_(insisted_on_step) {}
+Guard::Guard(const Model& model, GuardState& state)
+    : limits_(model.scene.guard), law_(*model.law), insisted_on_step_(model.step.too_long), state_(state) {}
 
 void Guard::stop(std::string reason) {
-  if (!stop_reason_) stop_reason_ = std::move(reason);
+  if (!state_.stop_reason) state_.stop_reason = std::move(reason);
 }
 
 void Guard::watch_step(const Integration& s) {
-  max_compression_ = std::max(max_compression_, s.statistics.max_compression);
-  if (warned_at_ < 0 && max_compression_ > limits_.warn_compression) {
-    warned_at_ = s.time;
-    warnings_.push_back(
-        fmt::format("shell compression passed {:.3g} of the radius at {:.4g} s: a thin shell is no longer a "
-                    "good model; a smaller contact.shell_compression is stiffer",
-                    limits_.warn_compression, s.time));
+  state_.max_compression = std::max(state_.max_compression, s.state.statistics.max_compression);
+  if (state_.warned_at < 0 && state_.max_compression > limits_.warn_compression) {
+    state_.warned_at = s.state.time;
+    state_.warnings.push_back(
+        fmt::format("shell compression passed {:.3g} of the radius at {:.4g} s: {}; a {} {} is stiffer",
+                    limits_.warn_compression, s.state.time,
+                    law_.material == LawMaterial::shell ? "a thin shell is no longer a good model"
+                                                        : "Hertz' law is for small overlaps",
+                    law_.stiffer_value(), law_.stiffness_key()));
   }
-  if (max_compression_ > limits_.stop_compression)
+  if (state_.max_compression > limits_.stop_compression)
     stop(fmt::format("shell compression reached {:.3g} of the radius at {:.4g} s (guard.stop_compression = {:.3g})",
-                     max_compression_, s.time, limits_.stop_compression));
+                     state_.max_compression, s.state.time, limits_.stop_compression));
 
   if (!s.too_fast) return;
   // Insisted on or not: no list can be made of grains that are nowhere.
   if (!std::isfinite(kinetic_energy(s.grains)))
-    stop(fmt::format("a grain's state is not a number at {:.4g} s", s.time));
+    stop(fmt::format("a grain's state is not a number at {:.4g} s", s.state.time));
   else
-    watch_stride(s.time);
+    watch_stride(s.state.time);
 }
 
 void Guard::watch_stride(double time) {
@@ -66,41 +69,41 @@ void Guard::watch_stride(double time) {
       fmt::format("a grain moves more than {:.2g} radii in a step at {:.4g} s and could pass a wall unseen",
                   longest_stride_in_radii, time);
   if (!insisted_on_step_) return stop(what + "; a shorter step is needed");
-  if (!warned_of_stride_) warnings_.push_back(what);
-  warned_of_stride_ = true;
+  if (!state_.warned_of_stride) state_.warnings.push_back(what);
+  state_.warned_of_stride = true;
 }
 
 void Guard::watch_energy(const Integration& s, EnergyAccount& account) {
   account.kinetic = kinetic_energy(s.grains);
-  account.potential = potential_energy(s.grains, s.gravity);
-  account.elastic = s.field.elastic_energy(s.grains);
-  account.wall_work = s.wall_work;
+  account.potential = potential_energy(s.grains, s.model.gravity);
+  account.elastic = s.field.elastic_energy();
+  account.wall_work = s.kept.wall_work;
   const double moving = account.kinetic + account.elastic;
   if (!std::isfinite(moving + account.potential)) {
-    stop(fmt::format("a grain's state is not a number at {:.4g} s", s.time));
+    stop(fmt::format("a grain's state is not a number at {:.4g} s", s.state.time));
     return;
   }
   const double only_falls = moving + account.potential - account.wall_work - account.inserted + account.removed;
-  if (!has_energy_) {
-    has_energy_ = true;
-    lowest_ = only_falls;
-    first_potential_ = account.potential;
+  if (!state_.has_energy) {
+    state_.has_energy = true;
+    state_.lowest = only_falls;
+    state_.first_potential = account.potential;
   }
-  if (only_falls <= lowest_) {
-    lowest_ = only_falls;
-    in_play_ = std::max(in_play_, moving);
+  if (only_falls <= state_.lowest) {
+    state_.lowest = only_falls;
+    state_.in_play = std::max(state_.in_play, moving);
   }
-  account.made_by_numerics = std::max(account.made_by_numerics, only_falls - lowest_);
-  const double fallen = std::max(0.0, first_potential_ + account.inserted - account.removed - account.potential);
-  const double scale = in_play_ + fallen + s.gross_wall_work;
-  const double made = only_falls - lowest_;
+  account.made_by_numerics = std::max(account.made_by_numerics, only_falls - state_.lowest);
+  const double fallen = std::max(0.0, state_.first_potential + account.inserted - account.removed - account.potential);
+  const double scale = state_.in_play + fallen + s.kept.gross_wall_work;
+  const double made = only_falls - state_.lowest;
   if (made > limits_.energy_tolerance * scale && made > 0)
     stop(fmt::format("the numerics made {:.3g} J by {:.4g} s, {:.3g} of the energy in play: the step is too long", made,
-                     s.time, made / scale));
-  else if (made > energy_warning * scale && made > 0 && !warned_of_energy_) {
-    warned_of_energy_ = true;
-    warnings_.push_back(
-        fmt::format("the numerics made {:.3g} of the energy in play by {:.4g} s", made / scale, s.time));
+                     s.state.time, made / scale));
+  else if (made > energy_warning * scale && made > 0 && !state_.warned_of_energy) {
+    state_.warned_of_energy = true;
+    state_.warnings.push_back(
+        fmt::format("the numerics made {:.3g} of the energy in play by {:.4g} s", made / scale, s.state.time));
   }
 }
 
@@ -110,12 +113,12 @@ void Guard::wall_crossed(std::size_t grains, double time) {
 }
 
 std::vector<std::string> Guard::warnings() const {
-  return warnings_;
+  return state_.warnings;
 }
 
 bool Guard::outside_the_model() const {
   const bool stop_was_raised = limits_.stop_compression > GuardLimits{}.stop_compression;
-  return insisted_on_step_ || (stop_was_raised && max_compression_ > limits_.warn_compression);
+  return insisted_on_step_ || (stop_was_raised && state_.max_compression > limits_.warn_compression);
 }
 
 }  // namespace vibrosow

@@ -4,8 +4,6 @@
 #include <string>
 #include <vector>
 
-#include "result/run.hpp"
-#include "scene/scene.hpp"
 #include "simulation/integrator.hpp"
 
 namespace vibrosow {
@@ -27,7 +25,7 @@ inline constexpr double longest_stride_in_radii = 0.5;
 /// walls did.
 class Guard {
  public:
-  Guard(const Scene& scene, bool insisted_on_step);
+  Guard(const Model& model, GuardState& state);
 
   /// After each step; cheap.
   void watch_step(const Integration& s);
@@ -36,27 +34,19 @@ class Guard {
   /// A grain's centre went through a wall.
   void wall_crossed(std::size_t grains, double time);
 
-  const std::optional<std::string>& stop_reason() const { return stop_reason_; }
+  const std::optional<std::string>& stop_reason() const { return state_.stop_reason; }
   std::vector<std::string> warnings() const;
-  double max_compression() const { return max_compression_; }
+  double max_compression() const { return state_.max_compression; }
   bool outside_the_model() const;
 
  private:
   void stop(std::string reason);
   void watch_stride(double time);
 
-  GuardLimits limits_;
+  const GuardLimits& limits_;
+  const LawTraits& law_;
   bool insisted_on_step_;
-  double max_compression_ = 0;
-  double warned_at_ = -1;  // s, when the compression first passed the warning limit
-  bool warned_of_stride_ = false, warned_of_energy_ = false;
-  std::optional<std::string> stop_reason_;
-  std::vector<std::string> warnings_;
-
-  bool has_energy_ = false;
-  double lowest_ = 0;   // J, of what can only fall
-  double in_play_ = 0;  // J, largest kinetic + elastic energy up to then
-  double first_potential_ = 0;
+  GuardState& state_;
 };
 
 }  // namespace vibrosow

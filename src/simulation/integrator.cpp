@@ -14,18 +14,19 @@ PerGrain per_inertia(const Grains& grains, std::size_t from) {
 
 /// The forces of the last evaluation on the grains from number `a`.
 Drive drive_of(const Integration& s, std::size_t a) {
-  return {&s.field.forces()[a], per_mass(s.grains, a), per_inertia(s.grains, a), s.gravity.x(), s.gravity.y(), s.drag};
+  return {&s.field.forces()[a], per_mass(s.grains, a), per_inertia(s.grains, a),
+          s.model.gravity.x(),  s.model.gravity.y(),   s.drag};
 }
 Rates rates_of(Integration& s, std::size_t a) {
   const bool turns = s.grains.rotation;
   return {&s.grains.vx[a], &s.grains.vy[a], turns ? &s.grains.omega[a] : nullptr,
-          &s.ax[a],        &s.ay[a],        turns ? &s.alpha[a] : nullptr};
+          &s.kept.ax[a],   &s.kept.ay[a],   turns ? &s.kept.alpha[a] : nullptr};
 }
 
 /// a = F / m + g - (mu / m) v, alpha = T / J, into the arrays of `s`.
 void accelerations(Integration& s) {
   const Grains& grains = s.grains;
-  s.ax.resize(grains.size()), s.ay.resize(grains.size()), s.alpha.resize(grains.omega.size());
+  s.kept.ax.resize(grains.size()), s.kept.ay.resize(grains.size()), s.kept.alpha.resize(grains.omega.size());
   s.execution.share(grains.size(), [&](std::size_t a, std::size_t b) {
     s.execution.loops().accelerate(b - a, drive_of(s, a), rates_of(s, a));
   });
@@ -45,17 +46,17 @@ void set_sum(std::vector<double>& to, const std::vector<double>& from, const std
 }
 
 void accelerations_now(Integration& s, double time, const HistoryAdvance& advance, ContactStatistics& statistics) {
-  s.field.evaluate(s.grains, time, advance, statistics);
+  s.field.evaluate(time, advance, statistics);
   accelerations(s);
 }
 
 void add_wall_work(Integration& s, double work) {
-  s.wall_work += work;
-  s.gross_wall_work += std::abs(work);
+  s.kept.wall_work += work;
+  s.kept.gross_wall_work += std::abs(work);
 }
 
 double next_time(const Integration& s) {
-  return static_cast<double>(s.step + 1) * s.dt;
+  return static_cast<double>(s.state.step + 1) * s.dt;
 }
 
 /// At the end of a step, while the velocities are at hand.
@@ -72,45 +73,45 @@ void velocity_verlet(Integration& s) {
   Grains& grains = s.grains;
   const GrainLoops& loops = s.execution.loops();
   s.execution.share(grains.size(), [&](std::size_t a, std::size_t b) {
-    loops.predict(b - a, s.dt, &grains.x[a], &grains.vx[a], &s.ax[a]);
-    loops.predict(b - a, s.dt, &grains.y[a], &grains.vy[a], &s.ay[a]);
-    if (grains.rotation) loops.predict(b - a, s.dt, angle_or_null(grains, a), &grains.omega[a], &s.alpha[a]);
+    loops.predict(b - a, s.dt, &grains.x[a], &grains.vx[a], &s.kept.ax[a]);
+    loops.predict(b - a, s.dt, &grains.y[a], &grains.vy[a], &s.kept.ay[a]);
+    if (grains.rotation) loops.predict(b - a, s.dt, angle_or_null(grains, a), &grains.omega[a], &s.kept.alpha[a]);
   });
   s.execution.profile().lap(Phase::integration);
-  const double power_before = s.wall_power;
-  s.field.evaluate(grains, next_time(s), {.trial = s.dt, .commit = s.dt, .present = 0.5}, s.statistics);
+  const double power_before = s.kept.wall_power;
+  s.field.evaluate(next_time(s), {.trial = s.dt, .commit = s.dt, .present = 0.5}, s.state.statistics);
 
   s.execution.share(grains.size(), [&](std::size_t a, std::size_t b) {
     loops.correct(b - a, s.dt, drive_of(s, a), rates_of(s, a));
     watch_speed(s, a, b);
   });
-  s.wall_power = s.statistics.wall_power;
-  add_wall_work(s, 0.5 * s.dt * (power_before + s.wall_power));
+  s.kept.wall_power = s.state.statistics.wall_power;
+  add_wall_work(s, 0.5 * s.dt * (power_before + s.kept.wall_power));
 }
 
 void rk2_midpoint(Integration& s) {
   Grains& grains = s.grains;
-  s.field.evaluate(grains, s.time, {}, s.statistics);
+  s.field.evaluate(s.state.time, {}, s.state.statistics);
   accelerations(s);
   s.x = grains.x, s.y = grains.y, s.vx = grains.vx, s.vy = grains.vy, s.omega = grains.omega, s.angle = grains.angle;
   const double half = 0.5 * s.dt;
   add_scaled(grains.x, s.vx, half), add_scaled(grains.y, s.vy, half);
-  add_scaled(grains.vx, s.ax, half), add_scaled(grains.vy, s.ay, half);
+  add_scaled(grains.vx, s.kept.ax, half), add_scaled(grains.vy, s.kept.ay, half);
   if (grains.rotation) {
     if (grains.oriented) add_scaled(grains.angle, s.omega, half);
-    add_scaled(grains.omega, s.alpha, half);
+    add_scaled(grains.omega, s.kept.alpha, half);
   }
 
-  s.field.evaluate(grains, s.time + half, {.trial = half, .commit = s.dt, .present = 1}, s.statistics);
+  s.field.evaluate(s.state.time + half, {.trial = half, .commit = s.dt, .present = 1}, s.state.statistics);
   accelerations(s);
   set_sum(grains.x, s.x, grains.vx, s.dt), set_sum(grains.y, s.y, grains.vy, s.dt);
-  set_sum(grains.vx, s.vx, s.ax, s.dt), set_sum(grains.vy, s.vy, s.ay, s.dt);
+  set_sum(grains.vx, s.vx, s.kept.ax, s.dt), set_sum(grains.vy, s.vy, s.kept.ay, s.dt);
   if (grains.rotation) {
     if (grains.oriented) set_sum(grains.angle, s.angle, grains.omega, s.dt);
-    set_sum(grains.omega, s.omega, s.alpha, s.dt);
+    set_sum(grains.omega, s.omega, s.kept.alpha, s.dt);
   }
   s.execution.share(grains.size(), [&](std::size_t a, std::size_t b) { watch_speed(s, a, b); });
-  add_wall_work(s, s.dt * s.statistics.wall_power);
+  add_wall_work(s, s.dt * s.state.statistics.wall_power);
 }
 
 void gear_predict(Integration& s, double* x, double* v, HigherDerivatives& q, std::size_t a, std::size_t b) {
@@ -125,22 +126,22 @@ void gear_correct(Integration& s, double* x, double* v, HigherDerivatives& q, co
 void gear5(Integration& s) {
   Grains& g = s.grains;
   s.execution.share(g.size(), [&](std::size_t a, std::size_t b) {
-    gear_predict(s, &g.x[a], &g.vx[a], s.of_x, a, b);
-    gear_predict(s, &g.y[a], &g.vy[a], s.of_y, a, b);
-    if (g.rotation) gear_predict(s, angle_or_null(g, a), &g.omega[a], s.of_angle, a, b);
+    gear_predict(s, &g.x[a], &g.vx[a], s.kept.of_x, a, b);
+    gear_predict(s, &g.y[a], &g.vy[a], s.kept.of_y, a, b);
+    if (g.rotation) gear_predict(s, angle_or_null(g, a), &g.omega[a], s.kept.of_angle, a, b);
   });
   s.execution.profile().lap(Phase::integration);
-  const double power_before = s.wall_power;
-  s.field.evaluate(g, next_time(s), {.trial = s.dt, .commit = s.dt, .present = 0.5}, s.statistics);
+  const double power_before = s.kept.wall_power;
+  s.field.evaluate(next_time(s), {.trial = s.dt, .commit = s.dt, .present = 0.5}, s.state.statistics);
   accelerations(s);
   s.execution.share(g.size(), [&](std::size_t a, std::size_t b) {
-    gear_correct(s, &g.x[a], &g.vx[a], s.of_x, s.ax, a, b);
-    gear_correct(s, &g.y[a], &g.vy[a], s.of_y, s.ay, a, b);
-    if (g.rotation) gear_correct(s, angle_or_null(g, a), &g.omega[a], s.of_angle, s.alpha, a, b);
+    gear_correct(s, &g.x[a], &g.vx[a], s.kept.of_x, s.kept.ax, a, b);
+    gear_correct(s, &g.y[a], &g.vy[a], s.kept.of_y, s.kept.ay, a, b);
+    if (g.rotation) gear_correct(s, angle_or_null(g, a), &g.omega[a], s.kept.of_angle, s.kept.alpha, a, b);
     watch_speed(s, a, b);
   });
-  s.wall_power = s.statistics.wall_power;
-  add_wall_work(s, 0.5 * s.dt * (power_before + s.wall_power));
+  s.kept.wall_power = s.state.statistics.wall_power;
+  add_wall_work(s, 0.5 * s.dt * (power_before + s.kept.wall_power));
 }
 
 /// One step of the classical fourth-order scheme that leaves no trace in the contacts' memory.
@@ -159,9 +160,9 @@ void runge_kutta4(Integration& s, double time, ContactStatistics& statistics) {
       }
     };
     Grains& g = s.grains;
-    move(g.x, g.vx, start.x, start.vx, end.x, end.vx, s.ax);
-    move(g.y, g.vy, start.y, start.vy, end.y, end.vy, s.ay);
-    move(g.angle, g.omega, start.angle, start.omega, end.angle, end.omega, s.alpha);
+    move(g.x, g.vx, start.x, start.vx, end.x, end.vx, s.kept.ax);
+    move(g.y, g.vy, start.y, start.vy, end.y, end.vy, s.kept.ay);
+    move(g.angle, g.omega, start.angle, start.omega, end.angle, end.omega, s.kept.alpha);
   };
   stage(time, 1.0 / 6, 0.5), stage(time + 0.5 * h, 1.0 / 3, 0.5), stage(time + 0.5 * h, 1.0 / 3, 1);
   stage(time + h, 1.0 / 6, 1);
@@ -186,13 +187,14 @@ void start_gear(Integration& s) {
   ContactStatistics aside;  // a look ahead: what it meets has not happened
   std::array<std::vector<double>, 4> ax, ay, alpha;
   for (std::size_t k = 0; k < 4; ++k) {
-    const double time = s.time + static_cast<double>(k) * s.dt;
+    const double time = s.state.time + static_cast<double>(k) * s.dt;
     accelerations_now(s, time, {}, aside);
-    ax[k] = s.ax, ay[k] = s.ay, alpha[k] = s.alpha;
+    ax[k] = s.kept.ax, ay[k] = s.kept.ay, alpha[k] = s.kept.alpha;
     if (k < 3) runge_kutta4(s, time, aside);
   }
   s.grains = start;
-  fit_derivatives(ax, s.dt, s.of_x), fit_derivatives(ay, s.dt, s.of_y), fit_derivatives(alpha, s.dt, s.of_angle);
+  fit_derivatives(ax, s.dt, s.kept.of_x), fit_derivatives(ay, s.dt, s.kept.of_y),
+      fit_derivatives(alpha, s.dt, s.kept.of_angle);
 }
 
 }  // namespace
@@ -210,15 +212,15 @@ StepFunction step_function(Integrator integrator) {
 }
 
 void start_integration(Integration& s) {
-  if (s.scheme == Integrator::gear5) start_gear(s);
-  accelerations_now(s, s.time, {}, s.statistics);
-  s.wall_power = s.statistics.wall_power;
+  if (s.model.scene.numerics.integrator == Integrator::gear5) start_gear(s);
+  accelerations_now(s, s.state.time, {}, s.state.statistics);
+  s.kept.wall_power = s.state.statistics.wall_power;
 }
 
 void add_to_integration(Integration& s) {
-  accelerations_now(s, s.time, {}, s.statistics);
-  s.wall_power = s.statistics.wall_power;
-  if (s.scheme != Integrator::gear5) return;
+  accelerations_now(s, s.state.time, {}, s.state.statistics);
+  s.kept.wall_power = s.state.statistics.wall_power;
+  if (s.model.scene.numerics.integrator != Integrator::gear5) return;
   // Newcomers start with their acceleration; those who were there keep what they have.
   const auto extend = [&s](HigherDerivatives& higher, const std::vector<double>& a) {
     for (std::size_t i = higher[0].size(); i < a.size(); ++i) {
@@ -226,14 +228,14 @@ void add_to_integration(Integration& s) {
       for (std::size_t n = 1; n < 4; ++n) higher[n].push_back(0);
     }
   };
-  extend(s.of_x, s.ax), extend(s.of_y, s.ay), extend(s.of_angle, s.alpha);
+  extend(s.kept.of_x, s.kept.ax), extend(s.kept.of_y, s.kept.ay), extend(s.kept.of_angle, s.kept.alpha);
 }
 
 void remove_from_integration(Integration& s, const std::vector<char>& removed) {
-  accelerations_now(s, s.time, {}, s.statistics);
-  s.wall_power = s.statistics.wall_power;
-  if (s.scheme != Integrator::gear5) return;
-  for (HigherDerivatives* higher : {&s.of_x, &s.of_y, &s.of_angle})
+  accelerations_now(s, s.state.time, {}, s.state.statistics);
+  s.kept.wall_power = s.state.statistics.wall_power;
+  if (s.model.scene.numerics.integrator != Integrator::gear5) return;
+  for (HigherDerivatives* higher : {&s.kept.of_x, &s.kept.of_y, &s.kept.of_angle})
     for (std::vector<double>& q : *higher) {
       if (q.empty()) continue;
       std::size_t kept = 0;

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <Eigen/Core>
-#include <array>
 #include <atomic>
 #include <vector>
 
@@ -9,31 +7,20 @@
 
 namespace vibrosow {
 
-/// Scaled derivatives h^n / n! of one coordinate, n = 2 .. 5, by grain (Nordsieck form).
-using HigherDerivatives = std::array<std::vector<double>, 4>;
-
-/// What an integrator moves, and what it keeps from step to step.
+/// What an integrator moves, with what, and where it keeps things within a step.
 struct Integration {
-  Grains& grains;
+  const Model& model;
+  SimulationState& state;
   ForceField& field;
   Execution& execution;
-  Integrator scheme;
-  double dt;                // s
-  Eigen::Vector2d gravity;  // m/s2
-  double drag;              // kg/s
+  Grains& grains;         // of the state
+  IntegratorState& kept;  // of the state
+  double dt;              // s
+  double drag;            // kg/s
+  double fastest;         // m/s; a step that ends with a faster grain is noted
 
-  double fastest;  // m/s; a step that ends with a faster grain is noted
-
-  double time = 0;  // s
-  std::int64_t step = 0;
-  std::atomic<bool> too_fast = false;  // whether a grain was faster at the end of the last step
-  ContactStatistics statistics{};
-  double wall_work = 0;                                        // J
-  double gross_wall_work = 0;                                  // J, sizes summed
-  std::vector<double> ax{}, ay{}, alpha{};                     // acceleration at the beginning of the step
-  double wall_power = 0;                                       // W, then
-  std::vector<double> x{}, y{}, vx{}, vy{}, omega{}, angle{};  // the old state, for schemes that need it
-  HigherDerivatives of_x{}, of_y{}, of_angle{};                // gear5 only
+  std::atomic<bool> too_fast = false;                          // whether a grain was faster at the end of the last step
+  std::vector<double> x{}, y{}, vx{}, vy{}, omega{}, angle{};  // the state at the beginning of a step (rk2_midpoint)
 };
 
 /// One step of a scheme. Velocity Verlet uses predicted velocities v + a dt in the forces, which keeps second order

@@ -20,78 +20,72 @@ void keep_unflagged(std::vector<double>& array, const std::vector<char>& removed
   array.resize(kept);
 }
 
-void copy_entry(const ContactHistory& from, std::size_t old_entry, ContactHistory& to, std::size_t entry) {
-  if (!to.slip.empty()) to.slip[entry] = from.slip[old_entry], to.slip_speed[entry] = from.slip_speed[old_entry];
-  if (!to.roll.empty()) to.roll[entry] = from.roll[old_entry], to.roll_speed[entry] = from.roll_speed[old_entry];
-  if (!to.touched.empty()) to.touched[entry] = 1;
-}
-
-/// Drops entries whose flag in `kept_entries` was not set; the history then matches a list shortened the same way.
-void keep_entries(ContactHistory& history, const std::vector<std::size_t>& kept_entries) {
-  for (std::size_t k = 0; k < kept_entries.size(); ++k) copy_entry(history, kept_entries[k], history, k);
-  history.resize(kept_entries.size(), !history.slip.empty(), !history.roll.empty());
-}
-
-void renumber(PairList& list, ContactHistory& history, const std::vector<char>& removed,
+void renumber(PairList& list, ContactHistories& histories, const std::vector<char>& removed,
               const std::vector<int>& new_index) {
-  const bool memory = !history.touched.empty();
+  const bool have_history = !histories.touched.empty();
   std::size_t kept = 0;
   for (std::size_t k = 0; k < list.size(); ++k) {
     const std::size_t i = static_cast<std::size_t>(list.grain[k]), j = static_cast<std::size_t>(list.partner[k]);
     if (removed[i] || removed[j]) continue;
-    if (memory) copy_entry(history, k, history, kept);
+    if (have_history) histories.copy_entry(kept, histories, k);
     list.grain[kept] = new_index[i], list.partner[kept++] = new_index[j];
   }
   list.grain.resize(kept), list.partner.resize(kept);
-  if (memory) history.resize(kept, !history.slip.empty(), !history.roll.empty());
+  if (have_history) histories.resize(kept, histories.kinds());
 }
 
-void renumber(std::vector<WallCandidate>& list, ContactHistory& history, const std::vector<char>& removed,
-              const std::vector<int>& new_index) {
+/// Keeps the candidates of a list for which `keep` is true, with their histories.
+template <class Keep>
+void keep_candidates(std::vector<WallCandidate>& list, ContactHistories& histories, Keep keep) {
   std::vector<std::size_t> kept_entries;
   for (std::size_t c = 0; c < list.size(); ++c) {
-    const std::size_t i = static_cast<std::size_t>(list[c].grain);
-    if (removed[i]) continue;
-    list[kept_entries.size()] = {new_index[i], list[c].wall, list[c].side};
+    if (!keep(list[c])) continue;
+    list[kept_entries.size()] = list[c];
     kept_entries.push_back(c);
   }
   list.resize(kept_entries.size());
-  keep_entries(history, kept_entries);
+  histories.keep_entries(kept_entries);
 }
 
-/// A pair that remembers something, whichever of the two comes first in its list.
-struct RememberedPair {
+void renumber(std::vector<WallCandidate>& list, ContactHistories& histories, const std::vector<char>& removed,
+              const std::vector<int>& new_index) {
+  keep_candidates(list, histories, [&](const WallCandidate& c) { return !removed[static_cast<std::size_t>(c.grain)]; });
+  for (WallCandidate& c : list) c.grain = new_index[static_cast<std::size_t>(c.grain)];
+}
+
+/// A pair with a history, whichever of the two comes first in its list.
+struct ActivePair {
   int low, high;
-  const ContactHistory* history;
+  const ContactHistories* histories;
   std::size_t entry;
 };
-bool operator<(const RememberedPair& a, const RememberedPair& b) {
+bool operator<(const ActivePair& a, const ActivePair& b) {
   return a.low != b.low ? a.low < b.low : a.high < b.high;
 }
 
-void add_active_pairs(const PairList& list, const ContactHistory& history, std::vector<RememberedPair>& active) {
+void add_active_pairs(const PairList& list, const ContactHistories& histories, std::vector<ActivePair>& active) {
   for (std::size_t k = 0; k < list.size(); ++k)
-    if (history.remembers(k))
+    if (histories.has_history(k))
       active.push_back(
-          {std::min(list.grain[k], list.partner[k]), std::max(list.grain[k], list.partner[k]), &history, k});
+          {std::min(list.grain[k], list.partner[k]), std::max(list.grain[k], list.partner[k]), &histories, k});
 }
 
 /// Of both lists, sorted: a grain carried from one side to the other takes its contacts from one list to the other.
-std::vector<RememberedPair> active_pairs(const PairList& pairs, const ContactHistory& history, const PairList& boundary,
-                                         const ContactHistory& boundary_history) {
-  std::vector<RememberedPair> active;
-  add_active_pairs(pairs, history, active);
-  add_active_pairs(boundary, boundary_history, active);
+std::vector<ActivePair> active_pairs(const PairList& pairs, const ContactHistories& histories, const PairList& boundary,
+                                     const ContactHistories& boundary_histories) {
+  std::vector<ActivePair> active;
+  add_active_pairs(pairs, histories, active);
+  add_active_pairs(boundary, boundary_histories, active);
   std::sort(active.begin(), active.end());
   return active;
 }
 
-void recall(const std::vector<RememberedPair>& remembered, const PairList& list, ContactHistory& history) {
+void carry_over(const std::vector<ActivePair>& active, const PairList& list, ContactHistories& histories) {
   for (std::size_t k = 0; k < list.size(); ++k) {
-    const RememberedPair wanted{std::min(list.grain[k], list.partner[k]), std::max(list.grain[k], list.partner[k]),
-                                nullptr, 0};
-    const auto found = std::lower_bound(remembered.begin(), remembered.end(), wanted);
-    if (found != remembered.end() && !(wanted < *found)) copy_entry(*found->history, found->entry, history, k);
+    const ActivePair wanted{std::min(list.grain[k], list.partner[k]), std::max(list.grain[k], list.partner[k]), nullptr,
+                            0};
+    const auto found = std::lower_bound(active.begin(), active.end(), wanted);
+    if (found != active.end() && !(wanted < *found)) histories.copy_entry(k, *found->histories, found->entry);
   }
 }
 
@@ -105,8 +99,8 @@ void drop_pairs_within_clumps(const std::vector<int>& clump, PairList& list) {
 }
 
 /// The same where both lists know each pair by the same order, for entries [from, to) of the new one: one search.
-void carry_over(const PairList& old, const ContactHistory& old_history, const PairList& list, std::size_t from,
-                std::size_t to, ContactHistory& history) {
+void carry_over(const PairList& old, const ContactHistories& old_histories, const PairList& list, std::size_t from,
+                std::size_t to, ContactHistories& histories) {
   const auto pair_of = [](const PairList& pairs, std::size_t k) {
     return std::int64_t{pairs.grain[k]} << 32 | std::int64_t{pairs.partner[k]};
   };
@@ -118,20 +112,20 @@ void carry_over(const PairList& old, const ContactHistory& old_history, const Pa
   for (std::size_t m = from; m < to && k < end; ++m) {
     const std::int64_t pair = pair_of(list, m);
     while (k < end && pair_of(old, k) < pair) ++k;
-    if (k < end && pair_of(old, k) == pair && old_history.touched[k]) copy_entry(old_history, k, history, m);
+    if (k < end && pair_of(old, k) == pair && old_histories.touched[k]) histories.copy_entry(m, old_histories, k);
   }
 }
 
 }  // namespace
 
 Neighbours::Neighbours(const std::vector<Vessel>& vessels, double largest_diameter, NeighbourMargins margins,
-                       NeighbourMemory memory, Execution& execution)
+                       HistoryKinds kinds, Execution& execution)
     : execution_(execution),
       broadphase_(vessels, largest_diameter, execution.instructions()),
       diameter_(largest_diameter),
       wide_margin_(margins.wide * largest_diameter),
       narrow_margin_(margins.narrow * largest_diameter),
-      memory_(memory),
+      kinds_(kinds),
       period_(vessels.front().sides == Sides::periodic ? vessels.front().length : 0) {
   for (const Vessel& vessel : vessels) largest_radius_.push_back(largest_radius(vessel, Eigen::Vector2d::Zero()));
 }
@@ -162,14 +156,14 @@ bool Neighbours::moved(const Reference& from, const Grains& grains, const Walls&
   return false;
 }
 
-void Neighbours::update(const Grains& grains, const Walls& walls) {
+void Neighbours::update(const Grains& grains, const Walls& walls, ContactState& contacts) {
   // Two that were further apart than their reach plus a margin have touched only if they moved half the margin each.
   ++updates_since_prune_;
   if (wide_is_valid_ && !moved(narrow_reference_, grains, walls, 0.5 * narrow_margin_)) return;
   choose_narrow_margin();
   if (!wide_is_valid_ || moved(wide_reference_, grains, walls, 0.5 * (wide_margin_ - narrow_margin_)))
     search(grains, walls);
-  prune(grains, walls);
+  prune(grains, walls, contacts);
 }
 
 /// A margin m costs c m at every update, in pairs looked at for nothing, and P every T updates, when the list is
@@ -230,40 +224,40 @@ void Neighbours::prune_pairs(const Grains& grains, const PairList& wide, double 
   }
 }
 
-void Neighbours::prune(const Grains& grains, const Walls& walls) {
-  std::swap(narrow_, old_), std::swap(narrow_boundary_, old_boundary_);
-  prune_pairs(grains, wide_, 0, narrow_);
-  if (period_ > 0) prune_pairs(grains, wide_boundary_, period_, narrow_boundary_);
-  if (memory_.any()) {
-    std::swap(pair_history_, old_history_), std::swap(boundary_history_, old_boundary_history_);
-    pair_history_.clear(), boundary_history_.clear();
-    pair_history_.resize(narrow_.size(), memory_.slip, memory_.roll);
-    boundary_history_.resize(narrow_boundary_.size(), memory_.slip, memory_.roll);
+void Neighbours::prune(const Grains& grains, const Walls& walls, ContactState& contacts) {
+  std::swap(contacts.pairs, old_), std::swap(contacts.boundary_pairs, old_boundary_);
+  prune_pairs(grains, wide_, 0, contacts.pairs);
+  contacts.boundary_pairs.clear();
+  if (period_ > 0) prune_pairs(grains, wide_boundary_, period_, contacts.boundary_pairs);
+  if (kinds_.any()) {
+    std::swap(contacts.pair_histories, old_histories_), std::swap(contacts.boundary_histories, old_boundary_histories_);
+    contacts.pair_histories.clear(), contacts.boundary_histories.clear();
+    contacts.pair_histories.resize(contacts.pairs.size(), kinds_);
+    contacts.boundary_histories.resize(contacts.boundary_pairs.size(), kinds_);
     if (period_ > 0) {
-      const std::vector<RememberedPair> remembered =
-          active_pairs(old_, old_history_, old_boundary_, old_boundary_history_);
-      recall(remembered, narrow_, pair_history_);
-      recall(remembered, narrow_boundary_, boundary_history_);
+      const std::vector<ActivePair> active = active_pairs(old_, old_histories_, old_boundary_, old_boundary_histories_);
+      carry_over(active, contacts.pairs, contacts.pair_histories);
+      carry_over(active, contacts.boundary_pairs, contacts.boundary_histories);
     } else {
-      execution_.share(narrow_.size(), [&](std::size_t from, std::size_t to) {
-        carry_over(old_, old_history_, narrow_, from, to, pair_history_);
+      execution_.share(contacts.pairs.size(), [&](std::size_t from, std::size_t to) {
+        carry_over(old_, old_histories_, contacts.pairs, from, to, contacts.pair_histories);
       });
     }
   }
-  prune_walls(grains, walls);
+  prune_walls(grains, walls, contacts);
   note(grains, walls, narrow_reference_);
   ++prunes_;
 }
 
 /// A grain that was near a wall before keeps the side it came from: renewing the list must not hide a crossing.
-void Neighbours::prune_walls(const Grains& grains, const Walls& walls) {
+void Neighbours::prune_walls(const Grains& grains, const Walls& walls, ContactState& contacts) {
   const auto before = [](const WallCandidate& a, const WallCandidate& b) {
     return a.grain != b.grain ? a.grain < b.grain : a.wall < b.wall;
   };
-  const std::vector<WallCandidate> old = std::move(narrow_walls_);
-  const ContactHistory old_history = std::move(wall_history_);
-  std::vector<std::pair<std::size_t, std::size_t>> remembered;  // old entry, new entry
-  narrow_walls_.clear();
+  const std::vector<WallCandidate> old = std::move(contacts.walls);
+  const ContactHistories old_histories = std::move(contacts.wall_histories);
+  std::vector<std::pair<std::size_t, std::size_t>> known_before;  // old entry, new entry
+  contacts.walls.clear();
   auto known = old.begin();
   for (const WallCandidate& candidate : wide_walls_) {
     const std::size_t i = static_cast<std::size_t>(candidate.grain);
@@ -273,12 +267,13 @@ void Neighbours::prune_walls(const Grains& grains, const Walls& walls) {
     if (nearest.distance2 >= reach * reach) continue;
     while (known != old.end() && before(*known, candidate)) ++known;
     const bool was_near = known != old.end() && !before(candidate, *known);
-    if (was_near) remembered.emplace_back(static_cast<std::size_t>(known - old.begin()), narrow_walls_.size());
-    narrow_walls_.push_back({candidate.grain, candidate.wall, was_near ? known->side : nearest.side});
+    if (was_near) known_before.emplace_back(static_cast<std::size_t>(known - old.begin()), contacts.walls.size());
+    contacts.walls.push_back({candidate.grain, candidate.wall, was_near ? known->side : nearest.side});
   }
-  wall_history_ = {};
-  wall_history_.resize(narrow_walls_.size(), memory_.slip, memory_.roll);
-  for (const auto& [old_entry, entry] : remembered) copy_entry(old_history, old_entry, wall_history_, entry);
+  contacts.wall_histories = {};
+  contacts.wall_histories.resize(contacts.walls.size(), kinds_);
+  for (const auto& [old_entry, entry] : known_before)
+    contacts.wall_histories.copy_entry(entry, old_histories, old_entry);
 }
 
 void Neighbours::remove_flagged(Reference& reference, const std::vector<char>& removed) {
@@ -286,33 +281,30 @@ void Neighbours::remove_flagged(Reference& reference, const std::vector<char>& r
   keep_unflagged(reference.y, removed);
 }
 
-void Neighbours::remove_wall(int wall) {
+void Neighbours::remove_wall(int wall, ContactState& contacts) {
   broadphase_.remove_wall(wall);
   std::erase_if(wide_walls_, [wall](const WallCandidate& candidate) { return candidate.wall == wall; });
-  std::vector<std::size_t> kept_entries;
-  for (std::size_t c = 0; c < narrow_walls_.size(); ++c) {
-    if (narrow_walls_[c].wall == wall) continue;
-    narrow_walls_[kept_entries.size()] = narrow_walls_[c];
-    kept_entries.push_back(c);
-  }
-  narrow_walls_.resize(kept_entries.size());
-  keep_entries(wall_history_, kept_entries);
+  keep_candidates(contacts.walls, contacts.wall_histories,
+                  [wall](const WallCandidate& candidate) { return candidate.wall != wall; });
 }
 
-void Neighbours::remove_flagged(const std::vector<char>& removed) {
-  if (!wide_is_valid_) return;
+void Neighbours::restore_wall(int wall) {
+  broadphase_.restore_wall(wall);
+  start_afresh();
+}
+
+void Neighbours::remove_flagged(const std::vector<char>& removed, ContactState& contacts) {
   std::vector<int> new_index(removed.size());
   int next = 0;
   for (std::size_t i = 0; i < removed.size(); ++i) new_index[i] = removed[i] ? -1 : next++;
-  ContactHistory none;
+  ContactHistories none;
+  renumber(contacts.pairs, contacts.pair_histories, removed, new_index);
+  renumber(contacts.boundary_pairs, contacts.boundary_histories, removed, new_index);
+  renumber(contacts.walls, contacts.wall_histories, removed, new_index);
+  if (!wide_is_valid_) return;
   renumber(wide_, none, removed, new_index);
-  renumber(narrow_, pair_history_, removed, new_index);
-  if (period_ > 0) {
-    renumber(wide_boundary_, none, removed, new_index);
-    renumber(narrow_boundary_, boundary_history_, removed, new_index);
-  }
+  if (period_ > 0) renumber(wide_boundary_, none, removed, new_index);
   renumber(wide_walls_, none, removed, new_index);
-  renumber(narrow_walls_, wall_history_, removed, new_index);
   remove_flagged(wide_reference_, removed);
   remove_flagged(narrow_reference_, removed);
 }

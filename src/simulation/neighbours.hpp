@@ -6,8 +6,7 @@
 
 #include "box2d/broadphase.hpp"
 #include "compute/execution.hpp"
-#include "contact/contact_history.hpp"
-#include "contact/contact_list.hpp"
+#include "contact/contact_state.hpp"
 #include "grains/grains.hpp"
 #include "vessel/walls.hpp"
 
@@ -20,46 +19,31 @@ struct NeighbourMargins {
   double narrow = 0.15;
 };
 
-/// What contacts have to remember.
-struct NeighbourMemory {
-  bool slip = false, roll = false;
-
-  bool any() const { return slip || roll; }
-};
-
-/// Who may touch whom. A wide list comes from Box2D, seldom; a narrow one is pruned from it, often; both are renewed
-/// just when a grain has moved so far that a contact could be missed (a dual pair list). What contacts remember is kept
-/// through every renewal.
+/// Who may touch whom. A wide list comes from Box2D, seldom; the narrow ones of a ContactState are pruned from it,
+/// often; both are renewed just when a grain has moved so far that a contact could be missed (a dual pair list).
+/// Contacts keep their histories through every renewal. Nothing here is state of a run: made anew, it gives the same
+/// contacts.
 class Neighbours {
  public:
-  Neighbours(const std::vector<Vessel>& vessels, double largest_diameter, NeighbourMargins margins,
-             NeighbourMemory memory, Execution& execution);
+  Neighbours(const std::vector<Vessel>& vessels, double largest_diameter, NeighbourMargins margins, HistoryKinds kinds,
+             Execution& execution);
 
   /// Renews the lists if the grains or walls have moved too far for them.
-  void update(const Grains& grains, const Walls& walls);
+  void update(const Grains& grains, const Walls& walls, ContactState& contacts);
 
   /// The grains have changed in number: the next update starts afresh.
-  void forget() { wide_is_valid_ = false; }
+  void start_afresh() { wide_is_valid_ = false; }
 
   /// Takes removed grains out of the lists without a search.
-  void remove_flagged(const std::vector<char>& removed);
+  void remove_flagged(const std::vector<char>& removed, ContactState& contacts);
 
   /// Takes a wall out of Box2D and of the lists.
-  void remove_wall(int wall);
+  void remove_wall(int wall, ContactState& contacts);
+  /// Puts it back; the next update starts afresh.
+  void restore_wall(int wall);
 
-  const PairList& pairs() const { return narrow_; }
   /// Length (m) after which a periodic tray comes again; 0 when it does not.
   double period() const { return period_; }
-  /// Pairs across the periodic boundary: the row's grain, near the left side, with its x larger by the period may
-  /// touch its partners, near the right side. A row for each grain; no rows without a period.
-  const PairList& boundary_pairs() const { return narrow_boundary_; }
-  const std::vector<WallCandidate>& near_walls() const { return narrow_walls_; }
-  std::vector<WallCandidate>& near_walls() { return narrow_walls_; }
-  ContactHistory& pair_history() { return pair_history_; }
-  const ContactHistory& pair_history() const { return pair_history_; }
-  ContactHistory& boundary_history() { return boundary_history_; }
-  ContactHistory& wall_history() { return wall_history_; }
-  const ContactHistory& wall_history() const { return wall_history_; }
   std::int64_t searches() const { return searches_; }
   std::int64_t prunes() const { return prunes_; }
   Broadphase& broadphase() { return broadphase_; }
@@ -76,11 +60,11 @@ class Neighbours {
 
   void choose_narrow_margin();
   void search(const Grains& grains, const Walls& walls);
-  void prune(const Grains& grains, const Walls& walls);
+  void prune(const Grains& grains, const Walls& walls, ContactState& contacts);
   void prune_pairs(const Grains& grains, const PairList& wide, double shift, PairList& narrow);
   void prune_range(const Grains& grains, const PairList& wide, std::size_t from, std::size_t to, double shift,
                    PairList& narrow) const;
-  void prune_walls(const Grains& grains, const Walls& walls);
+  void prune_walls(const Grains& grains, const Walls& walls, ContactState& contacts);
 
   Execution& execution_;
   Broadphase broadphase_;
@@ -88,14 +72,13 @@ class Neighbours {
   double diameter_;                     // m, of the largest grain
   double wide_margin_, narrow_margin_;  // m
   std::int64_t updates_since_prune_ = 0;
-  NeighbourMemory memory_;
+  HistoryKinds kinds_;
   double period_;  // m
-  PairList wide_, narrow_;
-  PairList wide_boundary_, narrow_boundary_;
+  PairList wide_, wide_boundary_;
+  std::vector<WallCandidate> wide_walls_;
   std::vector<PairList> parts_;  // by thread
-  PairList old_, old_boundary_;  // the lists before, while memories are carried over
-  std::vector<WallCandidate> wide_walls_, narrow_walls_;
-  ContactHistory pair_history_, boundary_history_, wall_history_, old_history_, old_boundary_history_;
+  PairList old_, old_boundary_;  // the narrow lists before, while histories are carried over
+  ContactHistories old_histories_, old_boundary_histories_;
   Reference wide_reference_, narrow_reference_;
   bool wide_is_valid_ = false;
   std::int64_t searches_ = 0, prunes_ = 0;

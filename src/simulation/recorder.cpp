@@ -15,33 +15,33 @@ double circle_area(double radius) {
 
 }  // namespace
 
-Recorder::Recorder(const Scene& scene) : tray_(scene.tray), times_(scene.record->times) {
+Recorder::Recorder(const Scene& scene, RecorderState& state) : times_(scene.record->times), state_(state) {
   for (const SeedLot& lot : scene.lots)
     filled_.push_back(lot.discs.empty() ? 1.0 : plate_of(lot.discs).area / circle_area(0.5 * lot.diameter));
 }
 
 void Recorder::note_new(const Grains& grains) {
-  const std::size_t known = start_.size();
+  const std::size_t known = state_.start.size();
   for (std::size_t i = 0; i < grains.size(); ++i) {
     const auto id = static_cast<std::size_t>(grains.id[i]);
     if (id < known) continue;
-    start_.resize(std::max(start_.size(), id + 1));
-    start_[id] = {grains.x[i], grains.y[i]};
+    state_.start.resize(std::max(state_.start.size(), id + 1));
+    state_.start[id] = {grains.x[i], grains.y[i]};
   }
 }
 
 bool Recorder::is_due(double time) const {
   // The last step may end a rounding error short of the run's duration, as in plan_step.
-  return taken_ < times_.size() && time >= times_[taken_] * (1 - 1e-12);
+  return state_.taken < times_.size() && time >= times_[state_.taken] * (1 - 1e-12);
 }
 
-void Recorder::record(const Grains& grains, double time, std::vector<Snapshot>& snapshots) {
-  for (; is_due(time); ++taken_) snapshots.push_back(snapshot(grains, time));
+void Recorder::record(const Grains& grains, const Walls& walls, double time, std::vector<Snapshot>& snapshots) {
+  for (; is_due(time); ++state_.taken) snapshots.push_back(snapshot(grains, walls, time));
 }
 
-Snapshot Recorder::snapshot(const Grains& grains, double time) const {
-  const Pose pose = vessel_pose(tray_, time);
-  const PoseRate rate = vessel_velocity(tray_, time);
+Snapshot Recorder::snapshot(const Grains& grains, const Walls& walls, double time) const {
+  const Pose pose = walls.pose(0, time);
+  const PoseRate rate = walls.rate(0, time);
   Snapshot s;
   s.time = time;
   s.tray_x = pose.displacement.x(), s.tray_y = pose.displacement.y(), s.tray_angle = pose.angle;
@@ -58,7 +58,7 @@ Snapshot Recorder::snapshot(const Grains& grains, double time) const {
     s.radius.push_back(kind.radius);
     s.mass.push_back(kind.mass);
     s.area.push_back(filled_[static_cast<std::size_t>(grains.lot[i])] * circle_area(kind.radius));
-    const Eigen::Vector2d& start = start_.at(static_cast<std::size_t>(grains.id[i]));
+    const Eigen::Vector2d& start = state_.start.at(static_cast<std::size_t>(grains.id[i]));
     s.start_x.push_back(start.x());
     s.start_y.push_back(start.y());
   }

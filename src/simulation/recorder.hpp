@@ -3,8 +3,8 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "grains/grains.hpp"
-#include "result/snapshot.hpp"
+#include "simulation/state.hpp"
+#include "vessel/walls.hpp"
 
 namespace vibrosow {
 
@@ -12,7 +12,7 @@ namespace vibrosow {
 /// without a record has no recorder.
 class Recorder {
  public:
-  explicit Recorder(const Scene& scene);
+  Recorder(const Scene& scene, RecorderState& state);
 
   /// Notes where grains put in since the last call are now: they are the last of `grains`.
   void note_new(const Grains& grains);
@@ -20,16 +20,14 @@ class Recorder {
   bool is_due(double time) const;
 
   /// Appends a snapshot for each record time that has come.
-  void record(const Grains& grains, double time, std::vector<Snapshot>& snapshots);
+  void record(const Grains& grains, const Walls& walls, double time, std::vector<Snapshot>& snapshots);
 
  private:
-  Snapshot snapshot(const Grains& grains, double time) const;
+  Snapshot snapshot(const Grains& grains, const Walls& walls, double time) const;
 
-  Vessel tray_;
   std::vector<double> times_;
   std::vector<double> filled_;  // by lot, the grain's area over that of its circle
-  std::size_t taken_ = 0;
-  std::vector<Eigen::Vector2d> start_;  // by id
+  RecorderState& state_;
 };
 
 }  // namespace vibrosow

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <functional>
 
+#include "plan/model.hpp"
 #include "result/run.hpp"
 #include "scene/scene.hpp"
 
@@ -21,5 +22,8 @@ struct SimulationOptions {
 /// InputError when the fill does not fit its vessel, grains overlap at the start, or the step is too long and not
 /// insisted on.
 Run simulate(const Scene& scene, const SimulationOptions& options = {});
+
+/// The same of a scene that is prepared.
+Run simulate(const Model& model, const SimulationOptions& options = {});
 
 }  // namespace vibrosow

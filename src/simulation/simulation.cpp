@@ -4,10 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
+#include <utility>
 
-#include "grains/packing.hpp"
-#include "scene/input_error.hpp"
-#include "scene/seed_lot.hpp"
+#include "scene/motion.hpp"
+#include "vessel/nearest_point.hpp"
 #include "vessel/vessel_motion.hpp"
 
 namespace vibrosow {
@@ -25,66 +26,132 @@ std::int64_t steps_in(double interval, double dt) {
 
 }  // namespace
 
-Simulation::Simulation(const Scene& scene, Grains grains, const SimulationSetup& setup)
-    : scene_(scene),
-      grains_(std::move(grains)),
-      execution_(setup.instructions, setup.threads),
-      field_(scene_, setup.effects, setup.margins, execution_),
-      s_{.grains = grains_,
+Simulation::Simulation(Model model, std::uint64_t random_seed, const ComputeOptions& options)
+    : Simulation(model, starting_state(model, random_seed), options) {}
+
+Simulation::Simulation(Model model, SimulationState state, const ComputeOptions& options)
+    : model_(std::move(model)),
+      state_(std::move(state)),
+      execution_(options.instructions, options.threads),
+      field_(model_, state_, options.margins, execution_),
+      s_{.model = model_,
+         .state = state_,
          .field = field_,
          .execution = execution_,
-         .scheme = scene_.numerics.integrator,
-         .dt = setup.dt,
-         .gravity = setup.gravity,
-         .drag = scene_.contact.drag,
-         .fastest = longest_stride_in_radii * smallest_radius(scene_.lots) / setup.dt},
-      advance_(step_function(scene_.numerics.integrator)),
-      counter_(scene_, grains_.size()),
-      feeder_(scene_, setup.random_seed),
-      guard_(scene_, setup.insisted_on_step),
-      steps_per_look_(steps_in(look_interval, setup.dt)),
-      steps_per_removal_(steps_in(removal_interval, setup.dt)),
-      steps_per_feed_(steps_in(feeding_interval, setup.dt)) {
-  if (setup.profile) execution_.profile().start();
-  run_.random_seed = setup.random_seed;
-  run_.dt = setup.dt;
-  run_.balance.put_in = static_cast<std::int64_t>(grains_.size());
+         .grains = state_.grains,
+         .kept = state_.integrator,
+         .dt = model_.step.dt,
+         .drag = model_.scene.contact.drag,
+         .fastest = longest_stride_in_radii * model_.smallest_radius / model_.step.dt},
+      advance_(step_function(model_.scene.numerics.integrator)),
+      counter_(model_.scene, state_.counter),
+      feeder_(model_, state_.feeder),
+      guard_(model_, state_.guard),
+      steps_per_look_(steps_in(look_interval, model_.step.dt)),
+      steps_per_removal_(steps_in(removal_interval, model_.step.dt)),
+      steps_per_feed_(steps_in(feeding_interval, model_.step.dt)) {
+  if (options.profile) execution_.profile().start();
+  if (model_.scene.record) recorder_.emplace(model_.scene, state_.recorder);
+  if (state_.started)
+    find_next_gate();
+  else
+    begin();
+}
+
+void Simulation::begin() {
+  state_.started = true;
   start_integration(s_);
-  open_gates();
+  open_due_gates();
   guard_.watch_step(s_);
-  guard_.watch_energy(s_, run_.energy);
+  guard_.watch_energy(s_, state_.run.energy);
   execution_.profile().lap(Phase::start);
-  if (!scene_.record) return;
-  recorder_.emplace(scene_);
-  recorder_->note_new(grains_);
-  recorder_->record(grains_, s_.time, run_.snapshots);
+  if (!recorder_) return;
+  recorder_->note_new(state_.grains);
+  recorder_->record(state_.grains, field_.walls(), state_.time, state_.run.snapshots);
 }
 
 bool Simulation::step() {
-  if (guard_.stop_reason() || !run_.end_reason.empty()) return false;
-  if (s_.time >= next_gate_) open_gates();
-  run_.grain_steps += static_cast<std::int64_t>(grains_.size());
+  Run& run = state_.run;
+  if (state_.guard.stop_reason || !run.end_reason.empty()) return false;
+  if (state_.time >= next_gate_) open_due_gates();
+  run.grain_steps += static_cast<std::int64_t>(state_.grains.size());
   Profile& profile = execution_.profile();
   s_.too_fast = false;
   advance_(s_);
   profile.lap(Phase::integration);
-  ++s_.step;
-  s_.time = static_cast<double>(s_.step) * s_.dt;
+  ++state_.step;
+  state_.time = static_cast<double>(state_.step) * s_.dt;
   guard_.watch_step(s_);
-  if (guard_.stop_reason()) return false;
-  if (!s_.statistics.crossed.empty()) take_out();
+  if (state_.guard.stop_reason) return false;
+  if (!state_.statistics.crossed.empty()) take_out();
   count();
   profile.lap(Phase::counters);
-  if (s_.step % steps_per_removal_ == 0) take_out();
-  if (s_.step % steps_per_look_ == 0) wrap(), note_whether_dry(), end_after_pause();
-  const bool top_up = feeder_.feeds() && s_.step % steps_per_feed_ == 0;
-  const bool rain = feeder_.rains() && s_.step % steps_per_look_ == 0;
+  const auto is_due = [this](std::int64_t every) { return state_.step % every == 0; };
+  if (is_due(steps_per_removal_)) take_out();
+  if (is_due(steps_per_look_)) wrap(), note_whether_dry(), end_after_pause();
+  const bool top_up = feeder_.feeds() && is_due(steps_per_feed_), rain = feeder_.rains() && is_due(steps_per_look_);
   if (top_up || rain) feed(top_up, rain);
-  if (s_.step % steps_per_energy_account == 0) guard_.watch_energy(s_, run_.energy);
+  if (is_due(steps_per_energy_account)) guard_.watch_energy(s_, run.energy);
   profile.lap(Phase::housekeeping);
-  if (recorder_ && recorder_->is_due(s_.time)) recorder_->record(grains_, s_.time, run_.snapshots);
+  if (recorder_ && recorder_->is_due(state_.time))
+    recorder_->record(state_.grains, field_.walls(), state_.time, run.snapshots);
   profile.lap(Phase::recording);
-  return !guard_.stop_reason() && run_.end_reason.empty();
+  for (const Watcher& watcher : watchers_)
+    if (is_due(watcher.every)) watcher.look(*this);
+  return !state_.guard.stop_reason && run.end_reason.empty();
+}
+
+bool Simulation::run_until(double time) {
+  while (state_.time < time && !at_end())
+    if (!step()) return false;
+  return true;
+}
+
+void Simulation::watch(double interval, std::function<void(Simulation&)> look) {
+  watchers_.push_back({steps_in(interval, s_.dt), std::move(look)});
+}
+
+std::span<const OutflowEvent> Simulation::events_since(std::size_t first) const {
+  const std::vector<OutflowEvent>& events = state_.run.events;
+  return std::span(events).subspan(std::min(first, events.size()));
+}
+
+void Simulation::set_motion(std::size_t vessel, const std::optional<VesselMotion>& motion) {
+  if (vessel >= model_.vessels.size()) throw std::invalid_argument("set_motion: there is no such vessel");
+  const std::optional<VesselMotion>& old = state_.vessels.motion[vessel];
+  if ((old && turns(*old)) || (motion && turns(*motion)))
+    throw std::invalid_argument("set_motion: a motion that turns a vessel can neither begin nor end during a run");
+  const Eigen::Vector2d at = field_.walls().pose(vessel, state_.time).displacement;
+  field_.set_motion(vessel, motion, Eigen::Vector2d::Zero());
+  field_.set_motion(vessel, motion, at - field_.walls().pose(vessel, state_.time).displacement);
+}
+
+/// The gate's wall, there or not.
+std::size_t Simulation::gate_of(const std::string& vessel, int hole) const {
+  const auto wall = field_.walls().find(fmt::format("{} gate {}", vessel, hole));
+  if (!wall) throw std::invalid_argument(fmt::format("hole {} of the {} has no gate", hole, vessel));
+  return *wall;
+}
+
+void Simulation::open_gate(const std::string& vessel, int hole) {
+  const std::size_t wall = gate_of(vessel, hole);
+  if (!field_.walls().is_removed(wall)) open_walls({wall});
+}
+
+bool Simulation::close_gate(const std::string& vessel, int hole) {
+  const std::size_t wall = gate_of(vessel, hole);
+  if (!field_.walls().is_removed(wall)) return true;
+  field_.restore_wall(wall);
+  const PlacedWall& placed = field_.walls().placed()[wall];
+  for (std::size_t i = 0; i < state_.grains.size(); ++i) {
+    const double radius = state_.grains.kind(i).radius;
+    if (nearest_point(placed, state_.grains.x[i], state_.grains.y[i]).distance2 >= radius * radius) continue;
+    field_.remove_wall(wall);
+    return false;
+  }
+  state_.vessels.closed_by_hand[wall] = 1;
+  start_integration(s_);
+  return true;
 }
 
 void Simulation::steps(std::int64_t count) {
@@ -93,35 +160,35 @@ void Simulation::steps(std::int64_t count) {
 }
 
 void Simulation::count() {
-  const std::size_t before = run_.events.size();
+  const std::size_t before = state_.run.events.size();
   const std::int64_t lost_before = counter_.lost();
-  counter_.watch(grains_, field_.walls(), execution_.loops(), s_.time, run_.events);
+  counter_.watch(state_.grains, field_.walls(), execution_.loops(), state_.time, state_.run.events);
   if (counter_.lost() > lost_before) note_lost(counter_.lost() - lost_before);
-  for (std::size_t k = before; k < run_.events.size(); ++k)
-    ++(run_.events[k].hole > 0 ? run_.balance.counted : run_.balance.spilled);
+  for (std::size_t k = before; k < state_.run.events.size(); ++k)
+    ++(state_.run.events[k].hole > 0 ? state_.run.balance.counted : state_.run.balance.spilled);
 }
 
 void Simulation::note_lost(std::int64_t grains) {
-  run_.balance.lost += grains;
-  guard_.wall_crossed(static_cast<std::size_t>(grains), s_.time);
+  state_.run.balance.lost += grains;
+  guard_.wall_crossed(static_cast<std::size_t>(grains), state_.time);
 }
 
 /// Takes out grains that went through a wall, and counted ones that touch nothing.
 void Simulation::take_out() {
-  std::vector<char> removed(grains_.size(), 0);
+  std::vector<char> removed(state_.grains.size(), 0);
   bool any = false;
-  for (std::size_t i = 0; i < grains_.size(); ++i) any |= (removed[i] = counter_.is_counted(i) ? 1 : 0) != 0;
+  for (std::size_t i = 0; i < state_.grains.size(); ++i) any |= (removed[i] = counter_.is_counted(i) ? 1 : 0) != 0;
   if (any) {
-    const std::vector<char> touches = field_.touching(grains_);
-    for (std::size_t i = 0; i < grains_.size(); ++i)
+    const std::vector<char> touches = field_.touching();
+    for (std::size_t i = 0; i < state_.grains.size(); ++i)
       if (touches[i]) removed[i] = 0;
   }
   std::int64_t lost = 0;
-  for (int i : s_.statistics.crossed) {
+  for (int i : state_.statistics.crossed) {
     const std::size_t k = static_cast<std::size_t>(i);
     if (!removed[k] && !counter_.is_counted(k)) removed[k] = 1, ++lost;
   }
-  s_.statistics.crossed.clear();
+  state_.statistics.crossed.clear();
   if (lost > 0) note_lost(lost);
   if (std::find(removed.begin(), removed.end(), 1) != removed.end()) take_out_flagged(removed);
 }
@@ -131,89 +198,95 @@ void Simulation::take_out() {
 void Simulation::wrap() {
   const double period = field_.neighbours().period();
   if (period == 0) return;
-  const double left = scene_.tray.origin.x() + field_.walls().poses().front().displacement.x();
+  const double left = model_.scene.tray.origin.x() + field_.walls().poses().front().displacement.x();
   double beyond = 0;
-  for (const SeedLot& lot : scene_.lots) beyond = std::max(beyond, lot.diameter);
+  for (const SeedLot& lot : model_.scene.lots) beyond = std::max(beyond, lot.diameter);
   bool any = false;
-  for (double& x : grains_.x) {
+  for (double& x : state_.grains.x) {
     const double along = x - left;
     if (along >= -beyond && along <= period + beyond) continue;
     x += along < 0 ? period : -period;
     any = true;
   }
-  if (!any) return;
-  field_.neighbours().forget();
-  field_.neighbours().update(grains_, field_.walls());
+  if (any) field_.grains_wrapped();
 }
 
 void Simulation::take_out_flagged(const std::vector<char>& removed) {
-  const double elastic = field_.elastic_energy(grains_);
-  for (std::size_t i = 0; i < grains_.size(); ++i)
-    if (removed[i]) run_.energy.removed += mechanical_energy(grains_, i, s_.gravity);
-  grains_.remove_flagged(removed);
+  const double elastic = field_.elastic_energy();
+  for (std::size_t i = 0; i < state_.grains.size(); ++i)
+    if (removed[i]) state_.run.energy.removed += mechanical_energy(state_.grains, i, model_.gravity);
+  state_.grains.remove_flagged(removed);
   counter_.remove_flagged(removed);
   field_.remove_flagged(removed);
   remove_from_integration(s_, removed);
-  run_.energy.removed += elastic - field_.elastic_energy(grains_);
+  state_.run.energy.removed += elastic - field_.elastic_energy();
 }
 
-/// Opens every gate whose time has come, and looks up when the next does. What was stored in the gates' contacts leaves
-/// the account.
-void Simulation::open_gates() {
+void Simulation::find_next_gate() {
+  const Walls& walls = field_.walls();
+  next_gate_ = never;
+  for (std::size_t wall = 0; wall < walls.placed().size(); ++wall)
+    if (walls.opens_at(wall) > state_.time && !walls.is_removed(wall))
+      next_gate_ = std::min(next_gate_, walls.opens_at(wall));
+}
+
+/// Opens every gate whose time has come, and looks up when the next does.
+void Simulation::open_due_gates() {
   const Walls& walls = field_.walls();
   std::vector<std::size_t> opening;
-  next_gate_ = never;
-  for (std::size_t wall = 0; wall < walls.placed().size(); ++wall) {
-    if (walls.opens_at(wall) == 0 || walls.is_removed(wall)) continue;
-    if (s_.time >= walls.opens_at(wall))
+  for (std::size_t wall = 0; wall < walls.placed().size(); ++wall)
+    if (walls.opens_at(wall) != 0 && state_.time >= walls.opens_at(wall) && !walls.is_removed(wall) &&
+        !state_.vessels.closed_by_hand[wall])
       opening.push_back(wall);
-    else
-      next_gate_ = std::min(next_gate_, walls.opens_at(wall));
-  }
-  if (opening.empty()) return;
-  const double elastic = field_.elastic_energy(grains_);
-  for (const std::size_t wall : opening) field_.remove_wall(wall);
+  find_next_gate();
+  if (!opening.empty()) open_walls(opening);
+}
+
+/// What was stored in their contacts leaves the account.
+void Simulation::open_walls(const std::vector<std::size_t>& walls) {
+  const double elastic = field_.elastic_energy();
+  for (const std::size_t wall : walls) field_.remove_wall(wall), state_.vessels.closed_by_hand[wall] = 0;
   start_integration(s_);
-  run_.energy.removed += elastic - field_.elastic_energy(grains_);
+  state_.run.energy.removed += elastic - field_.elastic_energy();
 }
 
 void Simulation::feed(bool top_up, bool rain) {
   int added = 0;
-  if (top_up) added += feeder_.top_up(grains_, field_.touching(grains_), field_.walls(), s_.time);
-  if (rain) added += feeder_.rain(grains_, field_.walls(), s_.time);
+  if (top_up) added += feeder_.top_up(state_.grains, field_.touching(), field_.walls(), state_.time);
+  if (rain) added += feeder_.rain(state_.grains, field_.walls(), state_.time);
   if (added == 0) return;
-  run_.balance.put_in += added;
-  for (std::size_t i = grains_.size() - static_cast<std::size_t>(added); i < grains_.size(); ++i) {
-    run_.energy.inserted += mechanical_energy(grains_, i, s_.gravity);
+  state_.run.balance.put_in += added;
+  for (std::size_t i = state_.grains.size() - static_cast<std::size_t>(added); i < state_.grains.size(); ++i) {
+    state_.run.energy.inserted += mechanical_energy(state_.grains, i, model_.gravity);
     counter_.add_grain();
   }
-  if (recorder_) recorder_->note_new(grains_);
+  if (recorder_) recorder_->note_new(state_.grains);
   field_.grains_added();
   add_to_integration(s_);
 }
 
 void Simulation::note_whether_dry() {
   const Pose pose = field_.walls().poses().front();
-  for (std::size_t i = 0; i < grains_.size(); ++i)
-    if (!counter_.is_counted(i) && is_inside(scene_.tray, pose, grains_.x[i], grains_.y[i])) {
-      run_.tray_empty_since = -1;
+  for (std::size_t i = 0; i < state_.grains.size(); ++i)
+    if (!counter_.is_counted(i) && is_inside(model_.scene.tray, pose, state_.grains.x[i], state_.grains.y[i])) {
+      state_.run.tray_empty_since = -1;
       return;
     }
-  if (run_.tray_empty_since < 0) run_.tray_empty_since = s_.time;
+  if (state_.run.tray_empty_since < 0) state_.run.tray_empty_since = state_.time;
 }
 
 void Simulation::end_after_pause() {
-  if (!scene_.run.end_after_pause) return;
+  if (!model_.scene.run.end_after_pause) return;
   double since = 0;
-  for (const Hole& hole : scene_.tray.holes) since = std::max(since, hole.open_at);
-  if (!run_.events.empty()) since = std::max(since, run_.events.back().time);  // to within a step the last
-  if (s_.time - since < *scene_.run.end_after_pause) return;
-  run_.end_reason =
-      fmt::format("no grain left for {:g} s; {} are still inside", *scene_.run.end_after_pause, grains_.size());
+  for (const Hole& hole : model_.scene.tray.holes) since = std::max(since, hole.open_at);
+  if (!state_.run.events.empty()) since = std::max(since, state_.run.events.back().time);  // to within a step the last
+  if (state_.time - since < *model_.scene.run.end_after_pause) return;
+  state_.run.end_reason = fmt::format("no grain left for {:g} s; {} are still inside",
+                                      *model_.scene.run.end_after_pause, state_.grains.size());
 }
 
 Run Simulation::result() const {
-  Run run = run_;
+  Run run = state_.run;
   if (guard_.stop_reason()) {
     run.status = RunStatus::stopped_by_guard;
     run.stop_reason = *guard_.stop_reason();
@@ -221,52 +294,16 @@ Run Simulation::result() const {
   run.warnings = guard_.warnings();
   if (!feeder_.warning().empty()) run.warnings.push_back(feeder_.warning());
   run.outside_the_model = guard_.outside_the_model();
-  run.steps = s_.step;
-  run.end_time = s_.time;
-  run.force_evaluations = s_.statistics.contacts;
+  run.steps = state_.step;
+  run.end_time = state_.time;
+  run.force_evaluations = state_.statistics.contacts;
   run.max_compression = guard_.max_compression();
   std::ranges::stable_sort(run.events, {}, &OutflowEvent::time);  // of one step they come in the order of the grains
   if (execution_.profile().is_on()) run.phase_times = execution_.profile().times();
   run.balance.inside = 0;
-  for (std::size_t i = 0; i < grains_.size(); ++i)
+  for (std::size_t i = 0; i < state_.grains.size(); ++i)
     if (!counter_.is_counted(i)) ++run.balance.inside;
   return run;
-}
-
-Grains starting_grains(const Scene& scene, std::uint64_t random_seed, const EffectSet& effects) {
-  Random random(random_seed);
-  Grains grains(grain_kinds(scene, effects.rotation), effects.polydisperse, effects.rotation, effects.clumps);
-  for (const Vessel& vessel : vessels_of(scene)) {
-    const bool moves_along = scene.run.start == Start::with_tray;
-    const PoseRate rate = moves_along ? vessel_velocity(vessel, 0) : PoseRate{};
-    const Pose pose = vessel_pose(vessel, 0);
-    for (const PackedGrain& packed : pack(vessel, scene.lots, random)) {
-      const Eigen::Vector2d at = in_lab_frame(vessel, pose, {packed.x, packed.y});
-      const Eigen::Vector2d velocity = material_velocity(vessel, pose, rate, at);
-      const std::size_t lot = static_cast<std::size_t>(packed.lot);
-      const GrainKind kind = sized_kind(scene.lots[lot], scene.contact.law, grains.kinds[lot], packed.size);
-      grains.add(at.x(), at.y(), velocity.x(), velocity.y(), packed.lot, kind, packed.angle);
-    }
-  }
-  return grains;
-}
-
-void refuse_overlapping_start(const Scene& scene, const Grains& grains) {
-  EffectSet effects;
-  effects.polydisperse = grains.polydisperse;
-  effects.clumps = grains.oriented;
-  effects.rotation = grains.rotation;
-  Execution execution;
-  ForceField field(scene, effects, {}, execution);
-  ContactStatistics statistics;
-  field.evaluate(grains, 0, {}, statistics);
-  // Grains at rest may carry their bed's weight, no more.
-  if (statistics.max_compression <= scene.guard.warn_compression) return;
-  const Fill fill = scene.hopper && scene.hopper->fill ? *scene.hopper->fill : scene.tray.fill.value_or(Fill{});
-  throw InputError(
-      fmt::format("{}: grains overlap at the start, their shells compressed by {:.3g} of the radius; does the "
-                  "hopper stand in the tray's bed? (hopper.above, fill.count)",
-                  fill.where.empty() ? "fill.count" : fill.where, statistics.max_compression));
 }
 
 }  // namespace vibrosow

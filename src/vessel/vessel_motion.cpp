@@ -157,37 +157,33 @@ Eigen::Vector2d material_velocity(const Vessel& vessel, const Pose& pose, const 
 
 namespace {
 
-struct Bounds {
-  double speed = 0, acceleration = 0, vertical_acceleration = 0;
-};
-
-Bounds bounds(const HarmonicMotion& m) {
+MotionBounds bounds(const HarmonicMotion& m) {
   const double omega = two_pi * m.frequency;
   const double acceleration = m.amplitude * omega * omega;
   return {m.amplitude * two_pi * m.frequency, acceleration, acceleration * std::abs(std::sin(m.direction))};
 }
 
-Bounds bounds(const SumMotion& sum) {
-  Bounds all;
+MotionBounds bounds(const SumMotion& sum) {
+  MotionBounds all;
   for (const HarmonicMotion& component : sum.components) {
-    const Bounds one = bounds(component);
+    const MotionBounds one = bounds(component);
     all.speed += one.speed, all.acceleration += one.acceleration;
     all.vertical_acceleration += one.vertical_acceleration;
   }
   return all;
 }
 
-Bounds bounds(const RockingMotion& m, const Vessel& vessel) {
+MotionBounds bounds(const RockingMotion& m, const Vessel& vessel) {
   const double omega = two_pi * m.frequency, reach = m.angle * largest_radius(vessel, m.pivot);
   return {reach * omega, reach * omega * omega, reach * omega * omega};
 }
 
 /// Velocity is quadratic in time between two times of the table, acceleration linear.
-Bounds sampled_bounds(const TableMotion& table, const Vessel& vessel) {
+MotionBounds sampled_bounds(const TableMotion& table, const Vessel& vessel) {
   constexpr int samples = 16;
   const VesselPath path(vessel);
   const double radius = largest_radius(vessel, Eigen::Vector2d::Zero());
-  Bounds most;
+  MotionBounds most;
   for (std::size_t k = 1; k < table.times.size(); ++k) {
     const double from = table.times[k - 1], step = (table.times[k] - from) / samples;
     PoseRate before = path.rate(from);
@@ -205,26 +201,14 @@ Bounds sampled_bounds(const TableMotion& table, const Vessel& vessel) {
   return most;
 }
 
-Bounds bounds_of(const Vessel& vessel) {
+}  // namespace
+
+MotionBounds motion_bounds(const Vessel& vessel) {
   if (!vessel.motion) return {};
   if (const auto* harmonic = std::get_if<HarmonicMotion>(&*vessel.motion)) return bounds(*harmonic);
   if (const auto* sum = std::get_if<SumMotion>(&*vessel.motion)) return bounds(*sum);
   if (const auto* rocking = std::get_if<RockingMotion>(&*vessel.motion)) return bounds(*rocking, vessel);
   return sampled_bounds(std::get<TableMotion>(*vessel.motion), vessel);
-}
-
-}  // namespace
-
-double largest_speed(const Vessel& vessel) {
-  return bounds_of(vessel).speed;
-}
-
-double largest_acceleration(const Vessel& vessel) {
-  return bounds_of(vessel).acceleration;
-}
-
-double largest_vertical_acceleration(const Vessel& vessel) {
-  return bounds_of(vessel).vertical_acceleration;
 }
 
 }  // namespace vibrosow

@@ -47,8 +47,11 @@ Eigen::Vector2d material_velocity(const Vessel& vessel, const Pose& pose, const 
 /// and (2 pi f)^2 A, a sum the sum of these, rocking the same with Theta times the furthest wall's distance R from the
 /// pivot for A (its centripetal fraction is never the larger one below 1 rad). A table is sampled between its times;
 /// there an angle's rate counts with R from the frame's zero.
-double largest_speed(const Vessel& vessel);                  // m/s
-double largest_acceleration(const Vessel& vessel);           // m/s2
-double largest_vertical_acceleration(const Vessel& vessel);  // m/s2
+struct MotionBounds {
+  double speed = 0;                  // m/s
+  double acceleration = 0;           // m/s2
+  double vertical_acceleration = 0;  // m/s2
+};
+MotionBounds motion_bounds(const Vessel& vessel);
 
 }  // namespace vibrosow

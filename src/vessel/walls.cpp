@@ -5,14 +5,11 @@
 
 namespace vibrosow {
 
-std::vector<Vessel> vessels_of(const Scene& scene) {
-  std::vector<Vessel> vessels{scene.tray};
-  if (scene.hopper) vessels.push_back(*scene.hopper);
-  return vessels;
-}
-
 Walls::Walls(std::vector<Vessel> vessels)
-    : vessels_(std::move(vessels)), paths_(vessels_.begin(), vessels_.end()), poses_(vessels_.size()) {
+    : vessels_(std::move(vessels)),
+      paths_(vessels_.begin(), vessels_.end()),
+      shifts_(vessels_.size(), Eigen::Vector2d::Zero()),
+      poses_(vessels_.size()) {
   int first_vertex = 0;
   for (std::size_t v = 0; v < vessels_.size(); ++v) {
     const Vessel& vessel = vessels_[v];
@@ -26,6 +23,24 @@ Walls::Walls(std::vector<Vessel> vessels)
     first_vertex += vertices;
   }
   place(0);
+}
+
+void Walls::set_motion(std::size_t vessel, const std::optional<VesselMotion>& motion, const Eigen::Vector2d& shift) {
+  vessels_[vessel].motion = motion;
+  paths_[vessel] = VesselPath(vessels_[vessel]);
+  shifts_[vessel] = shift;
+}
+
+Pose Walls::pose(std::size_t vessel, double time) const {
+  Pose pose = paths_[vessel].pose(time);
+  pose.displacement += shifts_[vessel];
+  return pose;
+}
+
+std::optional<std::size_t> Walls::find(const std::string& name) const {
+  const auto found = std::ranges::find_if(at_rest_, [&](const AtRest& wall) { return wall.own.name == name; });
+  if (found == at_rest_.end()) return std::nullopt;
+  return static_cast<std::size_t>(found - at_rest_.begin());
 }
 
 void Walls::place_arc(PlacedWall& wall, const AtRest& rest, const Pose& pose) const {
@@ -42,8 +57,8 @@ void Walls::place(double time) {
   std::size_t next = 0;
   for (std::size_t v = 0; v < vessels_.size(); ++v) {
     const Vessel& vessel = vessels_[v];
-    const Pose pose = paths_[v].pose(time);
-    const PoseRate rate = paths_[v].rate(time);
+    const Pose pose = this->pose(v, time);
+    const PoseRate rate = this->rate(v, time);
     poses_[v] = pose;
     // The wall's velocity is stated for the material that passes the lab's zero: at (x, y) it is (vx - spin y, vy +
     // spin x).

@@ -71,7 +71,7 @@ TEST(Accuracy, RunsEachSettingAsAskedAndListsTheRefused) {
   SweepOptions options;
   options.runs.jobs = 1;
   const Simulator checked = [](const Scene& one, const SimulationOptions& simulation) {
-    EXPECT_NEAR(plan_step(one).contact_duration / *one.numerics.dt, 40, 1e-9);
+    EXPECT_NEAR(prepare(one).step.contact_duration / *one.numerics.dt, 40, 1e-9);
     return quick_run(one, simulation);
   };
   const AccuracyResult result = measure_accuracy(scene, grid, 2, checked, options);

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "contact/restitution.hpp"
+#include "laws/restitution.hpp"
 #include "support/bench.hpp"
 
 namespace vibrosow {

@@ -30,7 +30,7 @@ struct Column {
 /// Adds one look at the column, a part 1 / looks of the mean.
 void add_look(Simulation& run, Column& column) {
   const Grains& grains = run.grains();
-  const Forces forces = run.field().wall_forces(grains);
+  const Forces forces = run.field().wall_forces();
   const double floor = run.field().walls().poses().front().displacement.y(), part = 1.0 / looks;
   double top = 0;
   for (std::size_t i = 0; i < grains.size(); ++i) {
@@ -61,7 +61,7 @@ std::vector<Column> measured_columns(int widths) {
     Column column;
     column.width = scene.hopper->length, column.band = 0.5 * column.width;
     Simulation run(scene, starting_grains(scene, seed, effects_of(scene)),
-                   {.dt = plan_step(scene).dt, .effects = effects_of(scene)});
+                   {.dt = prepare(scene).step.dt, .effects = effects_of(scene)});
     for (int look = 0; look < looks; ++look) {
       const double at = measured_from + (measured_to - measured_from) * (look + 0.5) / looks;
       while (run.time() < at)

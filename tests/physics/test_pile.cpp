@@ -55,7 +55,7 @@ double largest_displacement(const Grains& before, const Grains& after) {
 }
 
 Grains after(const Scene& scene, Grains grains, double duration) {
-  Simulation run(scene, std::move(grains), {.dt = plan_step(scene).dt, .effects = effects_of(scene)});
+  Simulation run(scene, std::move(grains), {.dt = prepare(scene).step.dt, .effects = effects_of(scene)});
   while (run.time() < duration)
     if (!run.step()) ADD_FAILURE() << *run.guard().stop_reason();
   return run.grains();
@@ -83,7 +83,7 @@ TEST(Pile, StaysUnderTheTangentialSpringAndSpreadsUnderTheSignLaw) {
   // One run, so that the springs keep their memory.
   const Scene scene = pile_scene();
   Simulation run(scene, starting_grains(scene, 1, effects_of(scene)),
-                 {.dt = plan_step(scene).dt, .effects = effects_of(scene)});
+                 {.dt = prepare(scene).step.dt, .effects = effects_of(scene)});
   while (run.time() < settled_at) ASSERT_TRUE(run.step()) << *run.guard().stop_reason();
   const Grains settled = run.grains();
   EXPECT_LT(kinetic_fraction(settled), 1e-12);

@@ -31,18 +31,18 @@ const StepLimit& limit(const StepPlan& plan, const char* part_of_reason) {
 }
 
 TEST(StepPlan, ContactLastsHalfAPeriodOfTheShell) {
-  EXPECT_NEAR(plan_step(published()).contact_duration, 6.34e-3, 0.01e-3);
+  EXPECT_NEAR(prepare(published()).step.contact_duration, 6.34e-3, 0.01e-3);
 }
 
 TEST(StepPlan, LimitsAreThoseOfTheEquations) {
   Scene scene = published();
   // RK2: omega_max = 858 1/s, growth ln(1.01) / 2 s without drag: 4.2e-5 s.
-  EXPECT_NEAR(limit(plan_step(scene), "RK2").dt, 4.2e-5, 0.05e-5);
+  EXPECT_NEAR(limit(prepare(scene).step, "RK2").dt, 4.2e-5, 0.05e-5);
   scene.numerics.integrator = Integrator::velocity_verlet;
-  EXPECT_NEAR(limit(plan_step(scene), "Verlet").dt, 1 / 858.0, 0.01 / 858);
+  EXPECT_NEAR(limit(prepare(scene).step, "Verlet").dt, 1 / 858.0, 0.01 / 858);
   // Friction in the bed: lambda = nu F_n 6 / (m v_s), 38 layers on the lowest pair.
   const double rate = 0.3 * 38 * standard_gravity * 6 / 0.02;
-  EXPECT_NEAR(limit(plan_step(scene), "friction").dt, 1 / rate, 1e-9);
+  EXPECT_NEAR(limit(prepare(scene).step, "friction").dt, 1 / rate, 1e-9);
 }
 
 TEST(StepPlan, SmallestSeedOfALotSetsTheStep) {
@@ -50,14 +50,14 @@ TEST(StepPlan, SmallestSeedOfALotSetsTheStep) {
   // c = m g / eps grows as the size; the stiffest is the smallest among largest.
   Scene scene = published();
   scene.numerics.integrator = Integrator::velocity_verlet;
-  const double single = limit(plan_step(scene), "Verlet").dt;
+  const double single = limit(prepare(scene).step, "Verlet").dt;
   scene.lots[0].sizes = {SizeDistribution::Kind::uniform, 8e-3, 0, 4e-3, 12e-3, {}, {}};
   const double stiffness = 0.5 * 1.5 / (0.5 + 1.5), mass = 0.25;  // over c and m of the mean seed; 1/2 and 1 for equals
-  EXPECT_NEAR(limit(plan_step(scene), "Verlet").dt, single * std::sqrt(mass * 0.5 / stiffness), 1e-12);
+  EXPECT_NEAR(limit(prepare(scene).step, "Verlet").dt, single * std::sqrt(mass * 0.5 / stiffness), 1e-12);
   // Friction: lambda grows with F_n / m, E[s^2] s / s^2 of the mean seed's.
-  EXPECT_NEAR(limit(plan_step(published()), "friction").dt / 2 / limit(plan_step(scene), "friction").dt,
+  EXPECT_NEAR(limit(prepare(published()).step, "friction").dt / 2 / limit(prepare(scene).step, "friction").dt,
               (1 + 0.25 / 3) / 0.5, 1e-9);
-  EXPECT_NEAR(limit(plan_step(scene), "travel").dt, 0.5 * limit(plan_step(published()), "travel").dt, 1e-15);
+  EXPECT_NEAR(limit(prepare(scene).step, "travel").dt, 0.5 * limit(prepare(published()).step, "travel").dt, 1e-15);
 }
 
 TEST(StepPlan, SofterShellsAllowLongerSteps) {
@@ -67,9 +67,9 @@ TEST(StepPlan, SofterShellsAllowLongerSteps) {
        {std::pair{Integrator::velocity_verlet, std::sqrt(2.0)}, std::pair{Integrator::rk2_midpoint, std::cbrt(4.0)}}) {
     scene.numerics.integrator = integrator;
     scene.contact.shell_compression = 0.001;
-    const double stiff = plan_step(scene).limits.front().dt;
+    const double stiff = prepare(scene).step.limits.front().dt;
     scene.contact.shell_compression = 0.002;
-    EXPECT_NEAR(plan_step(scene).limits.front().dt / stiff, factor, 1e-9);
+    EXPECT_NEAR(prepare(scene).step.limits.front().dt / stiff, factor, 1e-9);
   }
 }
 
@@ -81,14 +81,14 @@ TEST(StepPlan, ChosenStepIsSafe) {
         scene.contact.shell_compression = compression;
         scene.contact.seed.restitution = scene.contact.wall.restitution = restitution;
         scene.numerics.integrator = integrator;
-        EXPECT_FALSE(plan_step(scene).too_long);
+        EXPECT_FALSE(prepare(scene).step.too_long);
       }
 }
 
 TEST(StepPlan, PublishedStepIsTooLongAndSaysWhyAndWhatIsSafe) {
   Scene scene = published();
   scene.numerics.dt = 0.002;
-  const StepPlan plan = plan_step(scene);
+  const StepPlan plan = prepare(scene).step;
   EXPECT_TRUE(plan.too_long);
   try {
     simulate(scene);
@@ -102,17 +102,17 @@ TEST(StepPlan, PublishedStepIsTooLongAndSaysWhyAndWhatIsSafe) {
 }
 
 TEST(StepPlan, ForetellsOverlapAtRestAndAtImpact) {
-  const PredictedCompression predicted = predict_compression(published());
+  const PredictedCompression predicted = prepare(published()).compression;
   EXPECT_EQ(predicted.layers, 39);
   EXPECT_NEAR(predicted.static_overlap, 0.78, 1e-9);
   EXPECT_NEAR(predicted.impact_speed, 2 * 0.565, 2e-3);
   // At V = 2 A omega, 5 % needs eps/r = 0.0025 g r / V^2 = 7.7e-5.
   Scene scene = published();
   scene.contact.shell_compression = 7.7e-5;
-  EXPECT_NEAR(predict_compression(scene).impact_compression, 0.05, 0.0005);
-  EXPECT_NEAR(predict_compression(published()).stiff_enough, 7.7e-5, 0.1e-5);
+  EXPECT_NEAR(prepare(scene).compression.impact_compression, 0.05, 0.0005);
+  EXPECT_NEAR(prepare(published()).compression.stiff_enough, 7.7e-5, 0.1e-5);
   scene.tray.motion.reset();  // then the weight of 39 layers decides
-  EXPECT_NEAR(predict_compression(scene).stiff_enough, 0.05 / 39, 1e-9);
+  EXPECT_NEAR(prepare(scene).compression.stiff_enough, 0.05 / 39, 1e-9);
 }
 
 TEST(StepPlan, AClumpYieldsMoreOffItsCentre) {
@@ -123,9 +123,9 @@ TEST(StepPlan, AClumpYieldsMoreOffItsCentre) {
   lot.shape = Shape::clump;
   lot.gyration2 = 1.5 * r * r;
   lot.discs = {{0, 0, r}, {0, 0, r}};
-  const double centred = limit(plan_step(scene), "vibration").dt;
+  const double centred = limit(prepare(scene).step, "vibration").dt;
   lot.discs = {{-r, 0, r}, {r, 0, r}};
-  EXPECT_NEAR(limit(plan_step(scene), "vibration").dt, centred / std::sqrt(5.0 / 3), 1e-9 * centred);
+  EXPECT_NEAR(limit(prepare(scene).step, "vibration").dt, centred / std::sqrt(5.0 / 3), 1e-9 * centred);
 }
 
 /// A heap of grains, shaken, at the longest step that the plan allows: whatever law, damping and scheme, the numerics
@@ -149,7 +149,7 @@ TEST(StepPlan, EverySchemeIsSoundAtItsLongestSafeStep) {
           scene.tray.motion = HarmonicMotion{std::numbers::pi / 2, 3e-3, 15, 0.05};
           scene.numerics.integrator = integrator;
           scene.run.duration = 0.5;
-          scene.numerics.dt = plan_step(scene).longest_safe * (1 - 1e-9);
+          scene.numerics.dt = prepare(scene).step.longest_safe * (1 - 1e-9);
           const vibrosow::Run run = simulate(scene);
           EXPECT_EQ(run.status, RunStatus::finished)
               << run.stop_reason << "; law " << static_cast<int>(law) << ", scheme " << static_cast<int>(integrator)

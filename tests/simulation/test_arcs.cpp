@@ -81,7 +81,7 @@ TEST(Arc, SlidingAroundInsideACircleKeepsEnergy) {
     quadrants_seen |= 1 << ((dx > 0 ? 1 : 0) + (dy > 0 ? 2 : 0));
   }
   EXPECT_EQ(quadrants_seen, 15) << "all the way round";
-  EXPECT_NEAR(kinetic_energy(run.grains()) + run.field().elastic_energy(run.grains()), before, 1e-4 * before);
+  EXPECT_NEAR(kinetic_energy(run.grains()) + run.field().elastic_energy(), before, 1e-4 * before);
   EXPECT_EQ(run.result().balance.lost, 0);
 }
 
@@ -143,7 +143,7 @@ TEST(Arc, NoContactIsMissedInABowlThatRocks) {
         const NearestPoint nearest = nearest_point(walls[w], grains.x[i], grains.y[i]);
         if (std::sqrt(nearest.distance2) < grains.kind(i).radius) all.emplace(static_cast<int>(i), static_cast<int>(w));
       }
-    for (const WallCandidate& c : run.field().neighbours().near_walls()) {
+    for (const WallCandidate& c : run.state().contacts.walls) {
       const std::size_t i = static_cast<std::size_t>(c.grain);
       const NearestPoint nearest = nearest_point(walls[static_cast<std::size_t>(c.wall)], grains.x[i], grains.y[i]);
       const bool touches = std::sqrt(nearest.distance2) < grains.kind(i).radius;

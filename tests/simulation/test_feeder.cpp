@@ -69,7 +69,7 @@ TEST(Sizes, OfStartingGrainsAreDrawn) {
 TEST(Sizes, OfFedGrainsAreDrawn) {
   const Scene scene = kept_full(scattered_balls());
   Grains grains(grain_kinds(scene, true), true, true);
-  Walls walls(vessels_of(scene));
+  Walls walls(prepare(scene).vessels);
   walls.place(0);
   Feeder feeder(scene, 1);
   EXPECT_EQ(feeder.top_up(grains, std::vector<char>(grains.size(), 1), walls, 0), 300);
@@ -80,7 +80,7 @@ TEST(Sizes, OfFedGrainsAreDrawn) {
 TEST(Angles, OfFedClumpsAreDrawn) {
   const Scene scene = kept_full(grains_of_wheat());
   Grains grains(grain_kinds(scene, true), true, true, true);
-  Walls walls(vessels_of(scene));
+  Walls walls(prepare(scene).vessels);
   walls.place(0);
   Feeder feeder(scene, 1);
   const int added = feeder.top_up(grains, std::vector<char>(grains.size(), 1), walls, 0);
@@ -94,7 +94,7 @@ TEST(Feeder, SaysThatItFallsBehind) {
   Scene scene = kept_full(scattered_balls());
   const auto warning = [&] {
     Grains grains(grain_kinds(scene, true), true, true);
-    Walls walls(vessels_of(scene));
+    Walls walls(prepare(scene).vessels);
     walls.place(0);
     Feeder feeder(scene, 1);
     feeder.top_up(grains, {}, walls, 0.5);
@@ -114,7 +114,7 @@ TEST(Feeder, LaysNothingIntoAGrainThatReachesInThroughAnOutlet) {
   for (int k = 0; k < 40; ++k)  // a row that hangs through the floor, centres just below it
     grains.add((k + 0.5) * scene.tray.length / 40, -0.2 * radius, 0, 0, 0);
   const std::size_t below = grains.size();
-  Walls walls(vessels_of(scene));
+  Walls walls(prepare(scene).vessels);
   walls.place(0);
   Feeder(scene, 1).top_up(grains, std::vector<char>(below, 1), walls, 0);
   ASSERT_GT(grains.size(), below);

@@ -95,7 +95,7 @@ TEST(PeriodicSides, SeamPairsAreThoseOfBruteForce) {
     run.step();
     if (step % 7 != 0) continue;
     const Grains& grains = run.grains();
-    const PairList& boundary = run.field().neighbours().boundary_pairs();
+    const PairList& boundary = run.state().contacts.boundary_pairs;
     std::set<std::pair<int, int>> all, found;
     const auto touches = [&](std::size_t i, std::size_t j) {
       return std::hypot(grains.x[j] - grains.x[i] - period, grains.y[j] - grains.y[i]) <
@@ -118,7 +118,7 @@ TEST(PeriodicSides, WithoutAPeriodThereIsNoSeam) {
   bench.place(0.5, 0.5);
   const Simulation& run = bench.start(1e-5);
   EXPECT_EQ(run.field().neighbours().period(), 0);
-  EXPECT_EQ(run.field().neighbours().boundary_pairs().size(), 0u);
+  EXPECT_EQ(run.state().contacts.boundary_pairs.size(), 0u);
 }
 
 }  // namespace

@@ -10,6 +10,13 @@
 
 namespace vibrosow {
 
+/// A model that runs with this step (s), as if it were safe.
+inline Model with_step(Model model, double dt) {
+  model.step.dt = dt;
+  model.step.too_long = false;
+  return model;
+}
+
 /// A bench for tests: a few grains placed by hand in a wide box, with or without gravity.
 ///
 ///     Bench bench;
@@ -64,15 +71,15 @@ class Bench {
 
   /// Starts with the effects the scene calls for, or with more.
   Simulation& start(double dt, std::optional<EffectSet> effects = std::nullopt, NeighbourMargins margins = {}) {
-    const EffectSet set = effects.value_or(effects_of(scene));
-    Grains grains(grain_kinds(scene, scene.contact.rotation), set.polydisperse, set.rotation, set.clumps);
+    Model model = with_step(prepare(scene, effects), dt);
+    model.gravity = gravity;
+    Grains grains(model.kinds, model.effects.polydisperse, model.effects.rotation, model.effects.clumps);
     for (const Placed& p : placed_) {
       grains.add(p.x, p.y, p.vx, p.vy, p.lot, grains.kinds[static_cast<std::size_t>(p.lot)], p.angle);
-      if (set.rotation) grains.omega.back() = p.omega;
+      if (model.effects.rotation) grains.omega.back() = p.omega;
     }
-    simulation_ = std::make_unique<Simulation>(
-        scene, std::move(grains),
-        SimulationSetup{.dt = dt, .gravity = gravity, .effects = set, .margins = margins, .insisted_on_step = false});
+    simulation_ =
+        std::make_unique<Simulation>(model, starting_state(model, 1, std::move(grains)), ComputeOptions{.margins = margins});
     return *simulation_;
   }
 

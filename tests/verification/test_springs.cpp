@@ -49,7 +49,7 @@ struct StuckGrain {
 };
 
 double energy(Simulation& run) {
-  return kinetic_energy(run.grains()) + run.field().elastic_energy(run.grains());
+  return kinetic_energy(run.grains()) + run.field().elastic_energy();
 }
 
 // A grain that is pushed a little swings on its tangential spring. Without any damping its energy changes by no more
@@ -114,7 +114,7 @@ TEST(TangentialSpring, IsLimitedByCoulombAndShortened) {
         ASSERT_TRUE(run.step());
         const Forces& f = run.field().forces();
         ASSERT_NEAR(-f[0].fx, 0.5 * f[0].fy, 1e-12 * f[0].fy);
-        const double slip = run.field().neighbours().wall_history().slip[0];
+        const double slip = run.state().contacts.wall_histories.slip[0];
         ASSERT_NEAR(slip, 0.5 * f[0].fy / grain.stiffness(), 1e-3 * slip);
       }
     }
@@ -188,12 +188,12 @@ TEST(TangentialSpring, ForgetsAtSeparation) {
   double longest = 0;
   while (run.grains().vy[0] <= 0 || run.grains().y[0] < Bench::radius) {
     ASSERT_TRUE(run.step());
-    longest = std::max(longest, std::abs(run.field().neighbours().wall_history().slip[0]));
+    longest = std::max(longest, std::abs(run.state().contacts.wall_histories.slip[0]));
   }
   EXPECT_GT(longest, 1e-8);
   run.step();
-  EXPECT_EQ(run.field().neighbours().wall_history().slip[0], 0);
-  EXPECT_EQ(run.field().neighbours().wall_history().slip_speed[0], 0);
+  EXPECT_EQ(run.state().contacts.wall_histories.slip[0], 0);
+  EXPECT_EQ(run.state().contacts.wall_histories.slip_speed[0], 0);
   EXPECT_NEAR(run.grains().vx[0], once.vx, 1e-12);
   // Sent down again as the first time, after a contact that left the spring stretched: the same impact to the last
   // bits.
@@ -240,7 +240,7 @@ TEST(TangentialSpring, MemorySurvivesEveryRenewalOfTheLists) {
   for (const Integrator integrator : {Integrator::velocity_verlet, Integrator::rk2_midpoint}) {
     const auto usual = run({}, integrator);
     double remembered = 0;
-    for (const double slip : usual->field().neighbours().pair_history().slip) remembered += std::abs(slip);
+    for (const double slip : usual->state().contacts.pair_histories.slip) remembered += std::abs(slip);
     ASSERT_GT(remembered, 1e-6);
     for (const NeighbourMargins margins : {NeighbourMargins{0.5, 0.02}, NeighbourMargins{0.02, 0.002}}) {
       const auto other = run(margins, integrator);

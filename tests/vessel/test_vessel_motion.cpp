@@ -140,14 +140,14 @@ TEST(Motion, BoundsAreReachedAndNotPassed) {
         acceleration = std::max(acceleration, a.norm());
         vertical = std::max(vertical, std::abs(a.y()));
       }
-    EXPECT_LE(speed, largest_speed(vessel) * 1.001) << kind.name;
-    EXPECT_LE(acceleration, largest_acceleration(vessel) * 1.02) << kind.name;
-    EXPECT_LE(vertical, largest_vertical_acceleration(vessel) * 1.02) << kind.name;
-    EXPECT_GE(speed, 0.5 * largest_speed(vessel)) << kind.name;
-    EXPECT_GE(acceleration, 0.3 * largest_acceleration(vessel)) << kind.name;
+    EXPECT_LE(speed, motion_bounds(vessel).speed * 1.001) << kind.name;
+    EXPECT_LE(acceleration, motion_bounds(vessel).acceleration * 1.02) << kind.name;
+    EXPECT_LE(vertical, motion_bounds(vessel).vertical_acceleration * 1.02) << kind.name;
+    EXPECT_GE(speed, 0.5 * motion_bounds(vessel).speed) << kind.name;
+    EXPECT_GE(acceleration, 0.3 * motion_bounds(vessel).acceleration) << kind.name;
   }
-  EXPECT_EQ(largest_speed(Vessel{}), 0);
-  EXPECT_EQ(largest_vertical_acceleration(moving(HarmonicMotion{0, 0.01, 9, 0})), 0);
+  EXPECT_EQ(motion_bounds(Vessel{}).speed, 0);
+  EXPECT_EQ(motion_bounds(moving(HarmonicMotion{0, 0.01, 9, 0})).vertical_acceleration, 0);
 }
 
 TEST(Motion, AGrainLyingOnARockingFloorFeelsTheFloorsOwnVelocity) {

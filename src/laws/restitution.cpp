@@ -1,4 +1,4 @@
-#include "contact/restitution.hpp"
+#include "laws/restitution.hpp"
 
 #include <boost/math/tools/toms748_solve.hpp>
 #include <cmath>

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <array>
+
+#include "contact/pair_block.hpp"
+
+namespace vibrosow {
+
+/// Energy stored in all contacts of pairs, or of walls, J.
+using PairEnergyKernel = double (*)(const GrainSurfaces&, const Motion&, const PairList&, const ContactParameters&,
+                                    const ContactHistories&);
+using WallEnergyKernel = double (*)(const GrainSurfaces&, const WallContacts&, const ContactParameters&,
+                                    const ContactHistories&);
+
+struct EnergyKernel {
+  PairEnergyKernel pair;
+  WallEnergyKernel wall;
+};
+
+/// By index of `compiled_effects`.
+using EnergyKernels = std::array<EnergyKernel, compiled_effects.size()>;
+
+}  // namespace vibrosow

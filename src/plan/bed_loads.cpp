@@ -1,0 +1,69 @@
+#include "plan/bed_loads.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "scene/seed_lot.hpp"
+#include "vessel/vessel_motion.hpp"
+
+namespace vibrosow {
+namespace {
+
+double mean_diameter(const std::vector<SeedLot>& lots) {
+  double mean = 0;
+  for (const SeedLot& lot : lots) mean += lot.number_fraction * size_moment(lot, 1) * lot.diameter;
+  return mean;
+}
+
+/// At most: all that rains while the run lasts stays, up to the vessel's height.
+double seeds_of(const Vessel& vessel, double diameter, double duration) {
+  const double filled = vessel.fill ? vessel.fill->count : 0;
+  if (!vessel.rain) return filled;
+  const double rained = vessel.rain->rate * std::max(0.0, std::min(vessel.rain->stop, duration) - vessel.rain->start);
+  return std::max(filled, std::min(filled + rained, vessel.length * vessel.height / (diameter * diameter)));
+}
+
+double deepest_fill(const std::vector<Vessel>& vessels, double diameter, double duration) {
+  double layers = 1;
+  for (const Vessel& vessel : vessels)
+    if (vessel.fill || vessel.rain)
+      layers = std::max(layers, std::ceil(seeds_of(vessel, diameter, duration) * diameter / vessel.length));
+  return layers;
+}
+
+double load_of_smallest(const std::vector<SeedLot>& lots) {
+  double largest = 1;
+  for (const SeedLot& lot : lots)
+    largest =
+        std::max(largest, mean_mass(lot) / lot.mass / std::pow(least_size(lot), lot.shape == Shape::ball ? 2 : 1));
+  return largest;
+}
+
+/// From the highest edge, or place of rain, to the counting line, m.
+double longest_fall(const std::vector<Vessel>& vessels, double count_below) {
+  double drop = vessels.front().height;
+  for (const Vessel& vessel : vessels) {
+    drop = std::max(drop, vessel.origin.y() + vessel.height);
+    if (vessel.rain) drop = std::max(drop, vessel.origin.y() + vessel.rain->height);
+  }
+  return drop + count_below;
+}
+
+}  // namespace
+
+BedLoads bed_loads(const std::vector<SeedLot>& lots, const std::vector<Vessel>& vessels, const RunPlan& run) {
+  MotionBounds most;
+  for (const Vessel& vessel : vessels) {
+    const MotionBounds bounds = motion_bounds(vessel);
+    most.speed = std::max(most.speed, bounds.speed);
+    most.vertical_acceleration = std::max(most.vertical_acceleration, bounds.vertical_acceleration);
+  }
+  return {.layers = deepest_fill(vessels, mean_diameter(lots), run.duration),
+          .weight_factor = 1 + most.vertical_acceleration / standard_gravity,
+          .load_of_smallest = load_of_smallest(lots),
+          .vessel_speed = most.speed,
+          .grain_speed =
+              std::max(2 * most.speed, std::sqrt(2 * standard_gravity * longest_fall(vessels, run.count_below)))};
+}
+
+}  // namespace vibrosow

@@ -1,0 +1,106 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "contact/contact_state.hpp"
+#include "contact/kernels.hpp"
+#include "grains/grains.hpp"
+#include "grains/random.hpp"
+#include "plan/model.hpp"
+#include "result/run.hpp"
+#include "scene/scene.hpp"
+
+namespace vibrosow {
+
+/// Scaled derivatives h^n / n! of one coordinate, n = 2 .. 5, by grain (Nordsieck form).
+using HigherDerivatives = std::array<std::vector<double>, 4>;
+
+/// What a scheme keeps from step to step.
+struct IntegratorState {
+  std::vector<double> ax, ay, alpha;             // accelerations at the beginning of the next step
+  HigherDerivatives of_x{}, of_y{}, of_angle{};  // gear5 only
+  double wall_power = 0;                         // W, at the beginning of the next step
+  double wall_work = 0, gross_wall_work = 0;     // J; sizes summed
+};
+
+/// The vessels as they are driven, and their walls.
+struct VesselState {
+  std::vector<std::optional<VesselMotion>> motion;  // by vessel
+  std::vector<Eigen::Vector2d> shift;               // m, by vessel, added to the motion's displacement
+  std::vector<char> removed;                        // by wall: whether it is gone, as a gate that opened
+  std::vector<char> closed_by_hand;                 // by wall: a gate that was closed from outside, whatever its time
+  double placed_at = 0;                             // s, for which the walls were placed last
+};
+
+struct CounterState {
+  struct Passage {
+    bool counted = false;
+    int hole = 0;  // passed; 0: none, it fell beside the tray
+    double x = 0;  // m, where
+  };
+  std::vector<Passage> passages;  // by grain
+  std::vector<char> below;        // by grain: whether it is under the floor
+  std::int64_t lost = 0;          // came through the floor beside its holes
+};
+
+struct FeederState {
+  /// The rain into one vessel so far.
+  struct Shower {
+    Random random;
+    std::int64_t arrived = 0;
+    int next_lot = -1;  // of the grain that waits; -1: not drawn
+    double next_size = 1, next_angle = 0;
+  };
+  Random random;
+  std::vector<Shower> showers;  // by vessel
+  std::string warning;          // that more than a quarter of a fill was missing, and since when
+};
+
+struct GuardState {
+  double max_compression = 0;
+  double warned_at = -1;  // s, when the compression first passed the warning limit
+  bool warned_of_stride = false, warned_of_energy = false;
+  std::optional<std::string> stop_reason;
+  std::vector<std::string> warnings;
+  bool has_energy = false;
+  double lowest = 0;   // J, of what can only fall
+  double in_play = 0;  // J, largest kinetic + elastic energy up to then
+  double first_potential = 0;
+};
+
+struct RecorderState {
+  std::size_t taken = 0;               // of the record's times
+  std::vector<Eigen::Vector2d> start;  // m, by id: where a grain was put in
+};
+
+/// Everything of a run that changes from step to step. Two simulations of the same model and state go on alike, to the
+/// last bit; lists, box trees and caches are made from it.
+struct SimulationState {
+  double time = 0;  // s
+  std::int64_t step = 0;
+  bool started = false;  // whether the first accelerations are known
+  Grains grains;
+  IntegratorState integrator{};
+  ContactState contacts{};
+  ContactStatistics statistics{};
+  VesselState vessels{};
+  CounterState counter{};
+  FeederState feeder;
+  GuardState guard{};
+  RecorderState recorder{};
+  Run run{};  // what has come of it so far
+};
+
+/// A model's fill in place, at rest in the lab or with its vessel. Throws InputError where it does not fit, or grains
+/// overlap at the start by more than the guard's warning allows.
+SimulationState starting_state(const Model& model, std::uint64_t random_seed);
+
+/// The same with grains placed by the caller, whatever they overlap.
+SimulationState starting_state(const Model& model, std::uint64_t random_seed, Grains grains);
+
+}  // namespace vibrosow
