@@ -292,7 +292,7 @@ std::optional<std::string> step_refused(const Scene& scene, const StepPlan& plan
   return fmt::format(
       "{}: {:.4g} s is too long, the longest safe step is {:.4g} s (bound by {}); numerics.allow_long_step = true "
       "runs it all the same, and marks the result",
-      scene.numerics.where.empty() ? "numerics.dt" : scene.numerics.where, plan.dt, plan.longest_safe, plan.bound_by);
+      scene.numerics.where.or_key("numerics.dt"), plan.dt, plan.longest_safe, plan.bound_by);
 }
 
 PredictedCompression predict_compression(const Scene& scene) {

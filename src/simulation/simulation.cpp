@@ -266,7 +266,7 @@ void refuse_overlapping_start(const Scene& scene, const Grains& grains) {
   throw InputError(
       fmt::format("{}: grains overlap at the start, their shells compressed by {:.3g} of the radius; does the "
                   "hopper stand in the tray's bed? (hopper.above, fill.count)",
-                  fill.where.empty() ? "fill.count" : fill.where, statistics.max_compression));
+                  fill.where.or_key("fill.count"), statistics.max_compression));
 }
 
 }  // namespace vibrosow
