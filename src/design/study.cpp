@@ -14,8 +14,8 @@
 #include "input/read_scene.hpp"
 #include "input/toml_lib.hpp"
 #include "plan/model.hpp"
-#include "scene/describe_scene.hpp"
 #include "scene/input_error.hpp"
+#include "scene/scene_json.hpp"
 #include "units/quantity.hpp"
 
 namespace vibrosow {
@@ -210,6 +210,12 @@ void reject_set_and_varied(const Changes& set, const Changes& varied) {
                                      change.key, fixed.where));
 }
 
+/// What a run depends on.
+Scene untitled(Scene scene) {
+  scene.title.clear();
+  return scene;
+}
+
 /// Reads the scene of each layout and keeps each different one once.
 void resolve_scenes(Study& study) {
   std::map<std::string, std::size_t> known;
@@ -217,7 +223,7 @@ void resolve_scenes(Study& study) {
     try {
       const Scene scene = read_scene(study.base, layout.overrides);
       prepare_to_run(scene);
-      const auto [place, is_new] = known.try_emplace(describe_scene(scene).dump(), study.scenes.size());
+      const auto [place, is_new] = known.try_emplace(scene_to_json(untitled(scene)), study.scenes.size());
       if (is_new) study.scenes.push_back(scene);
       layout.scene = place->second;
     } catch (const InputError& error) {
@@ -237,7 +243,7 @@ bool fits(const Study& study, const Layout& layout, const MeasuredSeries& series
   Changes changes = layout.overrides;
   add_changes(changes, conditions);
   try {
-    return describe_scene(read_scene(study.base, changes)) == describe_scene(study.scenes[*layout.scene]);
+    return untitled(read_scene(study.base, changes)) == untitled(study.scenes[*layout.scene]);
   } catch (const InputError&) {
     return false;
   }

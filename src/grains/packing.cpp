@@ -28,8 +28,8 @@ std::vector<int> shuffled_lots(const std::vector<SeedLot>& lots, int count, Rand
 [[noreturn]] void does_not_fit(const Vessel& vessel) {
   throw InputError(
       fmt::format("{}: {} grains rise above the end walls ({}.height = {:.6g} mm); take fewer, or a higher {}",
-                  vessel.fill->where.empty() ? vessel.name + ".fill.count" : vessel.fill->where, vessel.fill->count,
-                  vessel.name, vessel.height * 1e3, vessel.name));
+                  vessel.fill->where.or_key(vessel.name + ".fill.count"), vessel.fill->count, vessel.name,
+                  vessel.height * 1e3, vessel.name));
 }
 
 bool is_on_a_piece(const std::vector<WallSegment>& walls, const Eigen::Vector2d& seat, double clear) {

@@ -202,6 +202,7 @@ SeedLot read_lot(Table& seeds, const std::string& name) {
   read_shape(seeds, shape, lot.sizes.mean, lot);
   if (lot.shape == Shape::clump && lot.sizes.kind != Kind::single) scale(lot.sizes, lot.diameter / lot.sizes.mean);
   if (lot.sizes.kind == Kind::single) lot.sizes = {};
+  if (lot.sizes.kind == Kind::uniform || lot.sizes.kind == Kind::table) lot.sizes.mean = 0;  // told by the others
   lot.mass = read_mass(seeds, lot);
   return lot;
 }

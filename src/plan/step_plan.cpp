@@ -184,7 +184,7 @@ std::optional<std::string> step_refused(const Numerics& numerics, const StepPlan
   return fmt::format(
       "{}: {:.4g} s is too long, the longest safe step is {:.4g} s (bound by {}); numerics.allow_long_step = true "
       "runs it all the same, and marks the result",
-      numerics.where.empty() ? "numerics.dt" : numerics.where, plan.dt, plan.longest_safe, plan.bound_by);
+      numerics.where.or_key("numerics.dt"), plan.dt, plan.longest_safe, plan.bound_by);
 }
 
 PredictedCompression predict_compression(const StepBasis& basis) {

@@ -9,7 +9,7 @@
 #include "report/csv.hpp"
 #include "report/output_files.hpp"
 #include "report/record_report.hpp"
-#include "scene/describe_scene.hpp"
+#include "scene/scene_json.hpp"
 #include "units/quantity.hpp"
 
 namespace vibrosow {
@@ -77,6 +77,12 @@ Json outflow_json(const Outflow& outflow) {
           {"note", outflow.note}};
 }
 
+/// The title stands in the report already.
+Json untitled(Scene scene) {
+  scene.title.clear();
+  return Json::parse(scene_to_json(scene));
+}
+
 std::string text_of(const Json& json) {
   return json.dump(2) + '\n';
 }
@@ -126,7 +132,7 @@ std::string run_json(const Scene& scene, const Run& run, const Outflow& outflow,
                      {"balance", balance_json(run.balance)},
                      {"outflow", outflow_json(outflow)},
                      {"versions", {{"vibrosow", VIBROSOW_VERSION}, {"box2d", VIBROSOW_BOX2D_VERSION}}},
-                     {"scene", describe_scene(scene)}};
+                     {"scene", untitled(scene)}};
   return text_of(json);
 }
 

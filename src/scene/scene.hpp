@@ -4,6 +4,7 @@
 #include <limits>
 #include <optional>
 #include <string>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -13,12 +14,26 @@ namespace vibrosow {
 
 inline constexpr double standard_gravity = 9.81;  // m/s2, as in both papers
 
+/// "FILE:LINE: KEY" of a value, for messages; empty in a scene not read from a file. Says nothing about the scene, so
+/// any two are equal.
+class WrittenAt {
+ public:
+  WrittenAt() = default;
+  WrittenAt(std::string text) : text_(std::move(text)) {}
+  std::string or_key(const std::string& key) const { return text_.empty() ? key : text_; }
+  bool operator==(const WrittenAt&) const { return true; }
+
+ private:
+  std::string text_;
+};
+
 /// Decides the moment of inertia: m r^2 / 2 for a disc, 2 m r^2 / 5 for a ball, that of a uniform plate for a clump.
 enum class Shape { disc, ball, clump };
 
 /// One disc of a clump, m, from the clump's centre of mass.
 struct ClumpDisc {
   double x, y, radius;
+  bool operator==(const ClumpDisc&) const = default;
 };
 
 /// How the diameters of a lot scatter, by number. Normal and lognormal are cut at `least` and `most` (as if a draw
@@ -30,6 +45,7 @@ struct SizeDistribution {
   double mean = 0, deviation = 0;          // m, of normal and lognormal before they are cut
   double least = 0, most = 0;              // m
   std::vector<double> diameter, fraction;  // m and parts of 1, of a table
+  bool operator==(const SizeDistribution&) const = default;
 };
 
 struct SeedLot {
@@ -44,6 +60,7 @@ struct SeedLot {
   std::optional<double> shell_compression{};  // these three: instead of the contact's
   std::optional<double> youngs_modulus{};     // Pa
   std::optional<double> poisson_ratio{};
+  bool operator==(const SeedLot&) const = default;
 };
 
 struct Surface {
@@ -59,6 +76,7 @@ struct SurfaceOverride {
   int lot;
   int other;  // a lot; -1: the walls
   Surface surface;
+  bool operator==(const SurfaceOverride&) const = default;
 };
 
 /// Where friction acts: at the contact point, or on the undeformed rims as in paper A (angular momentum is then not
@@ -86,12 +104,14 @@ struct Contact {
   double drag = 0;               // kg/s, paper A's mu
   bool rotation = true;
   FrictionArm friction_arm = FrictionArm::contact_point;
+  bool operator==(const Contact&) const = default;
 };
 
 struct Hole {
   double centre = 0;   // m along the floor from the vessel's left end
   double width = 0;    // m
   double open_at = 0;  // s; until then a gate closes it
+  bool operator==(const Hole&) const = default;
 };
 
 /// A piece of a vessel's wall beside its box, in the vessel's frame: a straight line from a to b, or, where the radius
@@ -102,6 +122,7 @@ struct WallPiece {
   Eigen::Vector2d centre = Eigen::Vector2d::Zero();                          // m
   double radius = 0;                                                         // m
   double from = 0, to = 0;                                                   // rad, 0 along x, pi/2 up
+  bool operator==(const WallPiece&) const = default;
 };
 
 /// What stands at the ends of a vessel's floor: walls; nothing; or the same vessel again, for a slice of a long one.
@@ -112,9 +133,10 @@ enum class Packing { poured, layers, hexagonal };
 struct Fill {
   int count = 0;
   Packing packing = Packing::poured;
-  double jitter = 1e-3;    // largest shift of a grain in layers and hexagonal, in diameters
-  bool keep = false;       // topped up to `count` during the run
-  std::string where = {};  // "FILE:LINE: KEY" of the count, for messages; empty in a scene not read from a file
+  double jitter = 1e-3;  // largest shift of a grain in layers and hexagonal, in diameters
+  bool keep = false;     // topped up to `count` during the run
+  WrittenAt where = {};  // of the count
+  bool operator==(const Fill&) const = default;
 };
 
 inline constexpr double never = std::numeric_limits<double>::infinity();  // s
@@ -129,10 +151,12 @@ struct HarmonicMotion {
   double phase = 0;      // rad
   double stop = never;   // s
   double stop_ramp = 0;  // s
+  bool operator==(const HarmonicMotion&) const = default;
 };
 
 struct SumMotion {
   std::vector<HarmonicMotion> components;
+  bool operator==(const SumMotion&) const = default;
 };
 
 /// The vessel turns by `angle` s(t) sin(2 pi f t) about a point of its own frame.
@@ -143,6 +167,7 @@ struct RockingMotion {
   double ramp = 0;                                  // s
   double stop = never;                              // s
   double stop_ramp = 0;                             // s
+  bool operator==(const RockingMotion&) const = default;
 };
 
 /// Displacement of the frame's zero and angle at given times, smooth in between, held before the first and after the
@@ -151,6 +176,7 @@ struct TableMotion {
   std::vector<double> times;  // s, ascending
   std::vector<double> x, y;   // m, lab
   std::vector<double> angle;  // rad, beside the tilt
+  bool operator==(const TableMotion&) const = default;
 };
 
 using VesselMotion = std::variant<HarmonicMotion, SumMotion, RockingMotion, TableMotion>;
@@ -164,6 +190,7 @@ struct Rain {
   double height = 0;    // m, of the seeds' centres above the floor's left end, in the vessel's frame
   double start = 0;     // s
   double stop = never;  // s, none comes later
+  bool operator==(const Rain&) const = default;
 };
 
 /// A tray or a hopper: floor from (0, 0) to (length, 0) with end walls of `height`, in the vessel's own frame.
@@ -182,6 +209,7 @@ struct Vessel {
   std::optional<Fill> fill;
   std::optional<Rain> rain{};
   std::optional<VesselMotion> motion;
+  bool operator==(const Vessel&) const = default;
 };
 
 enum class Integrator { velocity_verlet, rk2_midpoint, gear5 };
@@ -192,13 +220,15 @@ struct Numerics {
   std::optional<double> dt;              // s; instead of steps_per_contact
   std::optional<double> impact_speed{};  // m/s, at which Hertz' contact time is taken; none: the fastest predicted
   bool allow_long_step = false;          // run a step beyond the longest safe one; every result is then marked
-  std::string where;                     // "FILE:LINE: KEY" of dt, for messages; empty in a scene not read from a file
+  WrittenAt where{};                     // of dt
+  bool operator==(const Numerics&) const = default;
 };
 
 struct GuardLimits {
   double warn_compression = 0.05;  // d c_j / (c_i + c_j) / r_i
   double stop_compression = 0.5;
   double energy_tolerance = 0.2;  // energy made by the numerics, as a fraction of the energy in play
+  bool operator==(const GuardLimits&) const = default;
 };
 
 enum class Start { at_rest, with_tray };
@@ -209,12 +239,14 @@ struct RunPlan {
   double count_below = 0.02;  // m, counting line below the tray's floor
   Start start = Start::at_rest;
   std::optional<double> end_after_pause{};  // s without a grain leaving, once every gate is open: ends the run
+  bool operator==(const RunPlan&) const = default;
 };
 
 /// Snapshots of the bed at given times.
 struct Record {
   std::vector<double> times{};  // s, ascending
   double cell = 0;              // m, edge of the cells of maps
+  bool operator==(const Record&) const = default;
 };
 
 /// Everything a run needs, in SI; one value, read from a seeder file and validated.
@@ -228,6 +260,7 @@ struct Scene {
   GuardLimits guard;
   RunPlan run;
   std::optional<Record> record{};
+  bool operator==(const Scene&) const = default;
 };
 
 }  // namespace vibrosow

@@ -38,7 +38,7 @@ void refuse_overlap(const Model& model, SimulationState state) {
   throw InputError(
       fmt::format("{}: grains overlap at the start, their shells compressed by {:.3g} of the radius; does the "
                   "hopper stand in the tray's bed? (hopper.above, fill.count)",
-                  fill.where.empty() ? "fill.count" : fill.where, state.statistics.max_compression));
+                  fill.where.or_key("fill.count"), state.statistics.max_compression));
 }
 
 FeederState first_draws(const Model& model, std::uint64_t random_seed) {

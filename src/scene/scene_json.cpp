@@ -1,0 +1,525 @@
+#include "scene/scene_json.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+#include <type_traits>
+
+#include "scene/input_error.hpp"
+#include "scene/integrator_names.hpp"
+
+namespace vibrosow {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+// What stands under which key is said once, by the functions `fields`, for writing and for reading. They are called
+// with a Writer or a Reader of one JSON object, which have
+//  - value: always there; time: the same, and null for `never`
+//  - used: there while `is_used`, else only where it is not the default
+//  - optional: there when it has a value; nullable: always there, and null when it has none
+//  - choice: one of some names, in the order of the enumeration
+//  - key: the one that the object itself stands under
+// Keys are written in the order of the calls; what decides whether a value is used comes before it.
+
+std::string key_path(const std::string& path, std::string_view key) {
+  return fmt::format("{}.{}", path, key);
+}
+
+std::string last_key(const std::string& path) {
+  return path.substr(path.rfind('.') + 1);
+}
+
+std::string entry_path(const std::string& path, std::size_t index) {
+  return fmt::format("{}[{}]", path, index);
+}
+
+class Writer {
+ public:
+  explicit Writer(std::string path) : path_(std::move(path)) {}
+
+  template <class T>
+  void value(const char* key, T& value) {
+    json_[key] = to_json(key_path(path_, key), value);
+  }
+  void time(const char* key, double& time) {
+    json_[key] = nullptr;
+    if (time != never) value(key, time);
+  }
+  template <class T>
+  void used(const char* key, T& value, const T& otherwise, bool is_used) {
+    if (is_used || !(value == otherwise)) this->value(key, value);
+  }
+  template <class T>
+  void optional(const char* key, std::optional<T>& value) {
+    if (value) this->value(key, *value);
+  }
+  template <class T>
+  void nullable(const char* key, std::optional<T>& value) {
+    json_[key] = nullptr;
+    optional(key, value);
+  }
+  template <class E>
+  void choice(const char* key, E& value, const std::vector<std::string>& names) {
+    json_[key] = names.at(static_cast<std::size_t>(value));
+  }
+  template <class E>
+  void used_choice(const char* key, E& value, const std::vector<std::string>& names, E otherwise) {
+    if (value != otherwise) choice(key, value, names);
+  }
+  std::string key() const { return last_key(path_); }
+  Json json() && { return std::move(json_); }
+
+ private:
+  static Json number(const std::string& path, double value) {
+    if (std::isfinite(value)) return value;
+    throw std::invalid_argument(fmt::format("{}: {} cannot be written as JSON", path, value));
+  }
+  static Json to_json(const std::string& path, double& value) { return number(path, value); }
+  static Json to_json(const std::string&, int& value) { return value; }
+  static Json to_json(const std::string&, bool& value) { return value; }
+  static Json to_json(const std::string&, std::string& value) { return value; }
+  static Json to_json(const std::string& path, Eigen::Vector2d& point) {
+    return Json::array({number(path, point.x()), number(path, point.y())});
+  }
+  template <class T>
+  static Json to_json(const std::string& path, std::vector<T>& list) {
+    Json json = Json::array();
+    for (std::size_t k = 0; k < list.size(); ++k) json.push_back(to_json(entry_path(path, k), list[k]));
+    return json;
+  }
+  template <class T>
+  static Json to_json(const std::string& path, T& object) {
+    Writer writer(path);
+    fields(writer, object);
+    return std::move(writer).json();
+  }
+
+  std::string path_;
+  Json json_ = Json::object();
+};
+
+[[noreturn]] void fail(const std::string& path, const std::string& message) {
+  throw InputError(path + ": " + message);
+}
+
+class Reader {
+ public:
+  /// Throws InputError when it is not an object.
+  Reader(std::string path, const Json& json) : path_(std::move(path)), json_(json) {
+    if (!json.is_object()) wrong_type(path_, "an object", json);
+  }
+
+  template <class T>
+  void value(const char* key, T& value) {
+    if (!has(key)) fail(key_path(path_, key), "is missing");
+    from_json(key_path(path_, key), json_.at(key), value);
+  }
+  void time(const char* key, double& time) {
+    if (has(key) && json_.at(key).is_null()) {
+      time = never;
+    } else {
+      value(key, time);
+    }
+  }
+  template <class T>
+  void used(const char* key, T& value, const T& otherwise, bool is_used) {
+    value = otherwise;
+    if (has(key) || is_used) this->value(key, value);
+  }
+  template <class T>
+  void optional(const char* key, std::optional<T>& value) {
+    value.reset();
+    if (has(key) && !json_.at(key).is_null()) this->value(key, value.emplace());
+  }
+  template <class T>
+  void nullable(const char* key, std::optional<T>& value) {
+    optional(key, value);
+  }
+  template <class E>
+  void choice(const char* key, E& value, const std::vector<std::string>& names) {
+    std::string name;
+    this->value(key, name);
+    const auto found = std::ranges::find(names, name);
+    if (found == names.end())
+      fail(key_path(path_, key), fmt::format("\"{}\" is not one of {}", name, fmt::join(names, ", ")));
+    value = static_cast<E>(found - names.begin());
+  }
+  template <class E>
+  void used_choice(const char* key, E& value, const std::vector<std::string>& names, E otherwise) {
+    value = otherwise;
+    if (has(key)) choice(key, value, names);
+  }
+  std::string key() const { return last_key(path_); }
+  void check(bool right, const char* key, const char* message) const {
+    if (!right) fail(key_path(path_, key), message);
+  }
+  /// After all that may be there was read.
+  void reject_unknown_keys() const {
+    for (const auto& [key, value] : json_.items())
+      if (std::ranges::find(known_, key) == known_.end())
+        fail(key_path(path_, key), fmt::format("unknown key; known here are {}", fmt::join(known_, ", ")));
+  }
+
+ private:
+  bool has(const char* key) {
+    if (std::ranges::find(known_, key) == known_.end()) known_.emplace_back(key);
+    return json_.contains(key);
+  }
+  [[noreturn]] static void wrong_type(const std::string& path, const char* expected, const Json& json) {
+    const char* found = json.is_object()    ? "an object"
+                        : json.is_array()   ? "a list"
+                        : json.is_string()  ? "a text"
+                        : json.is_boolean() ? "true or false"
+                        : json.is_null()    ? "null"
+                                            : "this number";
+    fail(path, fmt::format("expected {}, not {}", expected, found));
+  }
+  static void from_json(const std::string& path, const Json& json, double& value) {
+    if (!json.is_number()) wrong_type(path, "a number", json);
+    value = json.get<double>();
+  }
+  static void from_json(const std::string& path, const Json& json, int& value) {
+    constexpr auto least = std::numeric_limits<int>::min(), most = std::numeric_limits<int>::max();
+    const bool fits = json.is_number_unsigned() ? json.get<std::uint64_t>() <= most
+                                                : json.is_number_integer() && json.get<std::int64_t>() >= least;
+    if (!fits) wrong_type(path, "a whole number of 32 bits", json);
+    value = json.get<int>();
+  }
+  static void from_json(const std::string& path, const Json& json, bool& value) {
+    if (!json.is_boolean()) wrong_type(path, "true or false", json);
+    value = json.get<bool>();
+  }
+  static void from_json(const std::string& path, const Json& json, std::string& value) {
+    if (!json.is_string()) wrong_type(path, "a text", json);
+    value = json.get<std::string>();
+  }
+  static void from_json(const std::string& path, const Json& json, Eigen::Vector2d& point) {
+    std::vector<double> values;
+    from_json(path, json, values);
+    if (values.size() != 2) fail(path, fmt::format("expected two numbers, not {}", values.size()));
+    point = {values[0], values[1]};
+  }
+  template <class T>
+  static void from_json(const std::string& path, const Json& json, std::vector<T>& list) {
+    if (!json.is_array()) wrong_type(path, "a list", json);
+    list.assign(json.size(), T{});
+    for (std::size_t k = 0; k < list.size(); ++k) from_json(entry_path(path, k), json[k], list[k]);
+  }
+  template <class T>
+  static void from_json(const std::string& path, const Json& json, T& object) {
+    Reader reader(path, json);
+    fields(reader, object);
+    reader.reject_unknown_keys();
+  }
+
+  std::string path_;
+  const Json& json_;
+  std::vector<std::string> known_;
+};
+
+/// What a scene must have to be one; of one that is written it is taken for granted.
+void check(const Writer&, bool, const char*, const char*) {}
+void check(const Reader& reader, bool right, const char* key, const char* message) {
+  reader.check(right, key, message);
+}
+
+template <class Io>
+void fields(Io& io, SizeDistribution& sizes) {
+  using Kind = SizeDistribution::Kind;
+  const SizeDistribution usual;
+  io.choice("distribution", sizes.kind, {"single", "uniform", "normal", "lognormal", "table"});
+  const bool table = sizes.kind == Kind::table, normal = sizes.kind == Kind::normal || sizes.kind == Kind::lognormal;
+  io.used("diameters_m", sizes.diameter, usual.diameter, table);
+  io.used("fractions", sizes.fraction, usual.fraction, table);
+  check(io, sizes.fraction.size() == sizes.diameter.size(), "fractions", "has not as many numbers as diameters_m");
+  check(io, !table || !sizes.diameter.empty(), "diameters_m", "is empty");
+  io.used("mean_m", sizes.mean, usual.mean, normal);
+  io.used("deviation_m", sizes.deviation, usual.deviation, normal);
+  io.used("least_m", sizes.least, usual.least, normal || sizes.kind == Kind::uniform);
+  io.used("most_m", sizes.most, usual.most, normal || sizes.kind == Kind::uniform);
+}
+
+template <class Io>
+void fields(Io& io, ClumpDisc& disc) {
+  io.value("x_m", disc.x);
+  io.value("y_m", disc.y);
+  io.value("radius_m", disc.radius);
+}
+
+template <class Io>
+void fields(Io& io, SeedLot& lot) {
+  const SeedLot usual;
+  io.value("name", lot.name);
+  io.value("diameter_m", lot.diameter);
+  io.value("mass_kg", lot.mass);
+  io.choice("shape", lot.shape, {"disc", "ball", "clump"});
+  io.value("number_fraction", lot.number_fraction);
+  io.used("sizes", lot.sizes, usual.sizes, false);
+  const bool clump = lot.shape == Shape::clump;
+  io.used("discs", lot.discs, usual.discs, clump);
+  check(io, !clump || !lot.discs.empty(), "discs", "is empty");
+  io.used("gyration2_m2", lot.gyration2, usual.gyration2, clump);
+  io.optional("shell_compression", lot.shell_compression);
+  io.optional("youngs_modulus_pa", lot.youngs_modulus);
+  io.optional("poisson_ratio", lot.poisson_ratio);
+}
+
+template <class Io>
+void fields(Io& io, Surface& surface) {
+  const Surface usual;
+  io.value("friction", surface.friction);
+  io.value("restitution", surface.restitution);
+  io.used("rolling_friction", surface.rolling_friction, usual.rolling_friction, false);
+  io.used("cohesion_n", surface.cohesion, usual.cohesion, false);
+}
+
+template <class Io>
+void fields(Io& io, SurfaceOverride& pair) {
+  io.value("lot", pair.lot);
+  io.value("other", pair.other);
+  fields(io, pair.surface);
+}
+
+template <class Io>
+void fields(Io& io, Contact& contact) {
+  const Contact usual;
+  io.choice("law", contact.law, {"elastic-shell", "hertz", "hertz-viscous"});
+  const bool hertz = contact.law != Law::elastic_shell;
+  io.used("shell_compression", contact.shell_compression, usual.shell_compression, !hertz);
+  io.used("youngs_modulus_pa", contact.youngs_modulus, usual.youngs_modulus, hertz);
+  io.used("poisson_ratio", contact.poisson_ratio, usual.poisson_ratio, hertz);
+  io.optional("wall_youngs_modulus_pa", contact.wall_youngs_modulus);
+  io.used("wall_poisson_ratio", contact.wall_poisson_ratio, usual.wall_poisson_ratio,
+          contact.wall_youngs_modulus.has_value());
+  io.used("damping_rate_per_s", contact.damping_rate, usual.damping_rate, contact.law == Law::hertz_viscous);
+  io.value("seed", contact.seed);
+  io.value("wall", contact.wall);
+  io.used("pairs", contact.overrides, usual.overrides, false);
+  io.used_choice("friction_model", contact.friction_model, {"sliding", "spring"}, usual.friction_model);
+  const bool spring = contact.friction_model == FrictionModel::spring;
+  io.used("slip_speed_m_per_s", contact.slip_speed, usual.slip_speed, !spring);
+  io.optional("tangential_ratio", contact.tangential_ratio);
+  io.used("tangential_damping", contact.tangential_damping, usual.tangential_damping, spring);
+  io.used_choice("rolling", contact.rolling, {"none", "constant-torque", "spring"}, usual.rolling);
+  io.used("rolling_damping", contact.rolling_damping, usual.rolling_damping, contact.rolling == Rolling::spring);
+  io.value("drag_kg_per_s", contact.drag);
+  io.value("rotation", contact.rotation);
+  io.choice("friction_arm", contact.friction_arm, {"contact-point", "rim"});
+}
+
+template <class Io>
+void fields(Io& io, Hole& hole) {
+  io.value("centre_m", hole.centre);
+  io.value("width_m", hole.width);
+  io.time("open_at_s", hole.open_at);
+}
+
+template <class Io>
+void fields(Io& io, WallPiece& piece) {
+  const WallPiece usual;
+  io.used("radius_m", piece.radius, usual.radius, false);
+  const bool arc = piece.radius != 0;
+  io.used("from_m", piece.a, usual.a, !arc);
+  io.used("to_m", piece.b, usual.b, !arc);
+  io.used("centre_m", piece.centre, usual.centre, arc);
+  io.used("from_rad", piece.from, usual.from, arc);
+  io.used("to_rad", piece.to, usual.to, arc);
+}
+
+template <class Io>
+void fields(Io& io, Fill& fill) {
+  io.value("count", fill.count);
+  io.choice("packing", fill.packing, {"poured", "layers", "hexagonal"});
+  io.used("jitter", fill.jitter, Fill{}.jitter, fill.packing != Packing::poured);
+  io.value("keep", fill.keep);
+}
+
+template <class Io>
+void fields(Io& io, Rain& rain) {
+  io.value("rate_per_s", rain.rate);
+  io.value("from_m", rain.from);
+  io.value("to_m", rain.to);
+  io.value("height_m", rain.height);
+  io.value("start_s", rain.start);
+  io.time("stop_s", rain.stop);
+}
+
+/// Of a harmonic and of a rocking motion.
+template <class Io, class Motion>
+void course(Io& io, Motion& motion) {
+  io.value("ramp_s", motion.ramp);
+  io.time("stop_s", motion.stop);
+  io.value("stop_ramp_s", motion.stop_ramp);
+}
+
+template <class Io>
+void fields(Io& io, HarmonicMotion& motion) {
+  io.value("direction_rad", motion.direction);
+  io.value("amplitude_m", motion.amplitude);
+  io.value("frequency_hz", motion.frequency);
+  io.value("phase_rad", motion.phase);
+  course(io, motion);
+}
+
+template <class Io>
+void fields(Io& io, SumMotion& motion) {
+  io.value("components", motion.components);
+}
+
+template <class Io>
+void fields(Io& io, RockingMotion& motion) {
+  io.value("pivot_m", motion.pivot);
+  io.value("angle_rad", motion.angle);
+  io.value("frequency_hz", motion.frequency);
+  course(io, motion);
+}
+
+template <class Io>
+void fields(Io& io, TableMotion& motion) {
+  io.value("time_s", motion.times);
+  io.value("x_m", motion.x);
+  io.value("y_m", motion.y);
+  io.value("angle_rad", motion.angle);
+  const std::size_t rows = motion.times.size();
+  check(io, rows >= 4, "time_s", "has fewer than 4 numbers");
+  check(io, std::ranges::adjacent_find(motion.times, std::greater_equal{}) == motion.times.end(), "time_s",
+        "does not ascend");
+  check(io, motion.x.size() == rows, "x_m", "has not as many numbers as time_s");
+  check(io, motion.y.size() == rows, "y_m", "has not as many numbers as time_s");
+  check(io, motion.angle.size() == rows, "angle_rad", "has not as many numbers as time_s");
+}
+
+template <class Io>
+void fields(Io& io, VesselMotion& motion) {
+  std::size_t kind = motion.index();
+  io.choice("kind", kind, {"harmonic", "sum", "rocking", "table"});
+  if (kind != motion.index()) {
+    const std::array<VesselMotion, 4> kinds = {HarmonicMotion{}, SumMotion{}, RockingMotion{}, TableMotion{}};
+    motion = kinds.at(kind);
+  }
+  std::visit([&io](auto& one) { fields(io, one); }, motion);
+}
+
+template <class Io>
+void fields(Io& io, Vessel& vessel) {
+  io.used("name", vessel.name, io.key(), false);
+  io.value("left_m", vessel.origin.x());
+  io.value("above_m", vessel.origin.y());
+  io.value("length_m", vessel.length);
+  io.value("height_m", vessel.height);
+  io.value("tilt_rad", vessel.tilt);
+  io.value("funnel_rad", vessel.funnel);
+  io.nullable("depth_m", vessel.depth);
+  io.value("holes", vessel.holes);
+  io.value("pieces", vessel.pieces);
+  io.value("box", vessel.box);
+  io.choice("sides", vessel.sides, {"walls", "open", "periodic"});
+  io.nullable("fill", vessel.fill);
+  io.nullable("rain", vessel.rain);
+  io.nullable("motion", vessel.motion);
+}
+
+template <class Io>
+void fields(Io& io, Numerics& numerics) {
+  const Numerics usual;
+  io.choice("integrator", numerics.integrator, integrator_names());
+  io.optional("dt_s", numerics.dt);
+  io.used("steps_per_contact", numerics.steps_per_contact, usual.steps_per_contact, !numerics.dt);
+  io.optional("impact_speed_m_per_s", numerics.impact_speed);
+  io.value("allow_long_step", numerics.allow_long_step);
+}
+
+template <class Io>
+void fields(Io& io, GuardLimits& guard) {
+  io.value("warn_compression", guard.warn_compression);
+  io.value("stop_compression", guard.stop_compression);
+  io.value("energy_tolerance", guard.energy_tolerance);
+}
+
+template <class Io>
+void fields(Io& io, RunPlan& run) {
+  io.value("duration_s", run.duration);
+  io.value("measure_from_s", run.measure_from);
+  io.value("count_below_m", run.count_below);
+  io.choice("start", run.start, {"at-rest", "with-tray"});
+  io.optional("end_after_pause_s", run.end_after_pause);
+}
+
+template <class Io>
+void fields(Io& io, Record& record) {
+  io.value("times_s", record.times);
+  io.value("cell_m", record.cell);
+}
+
+bool lots_exist(const Scene& scene) {
+  const int lots = static_cast<int>(scene.lots.size());
+  return std::ranges::all_of(scene.contact.overrides, [lots](const SurfaceOverride& pair) {
+    return pair.lot >= 0 && pair.lot < lots && pair.other >= -1 && pair.other < lots;
+  });
+}
+
+template <class Io>
+void fields(Io& io, Scene& scene) {
+  io.used("title", scene.title, {}, false);
+  io.value("lots", scene.lots);
+  check(io, !scene.lots.empty(), "lots", "is empty");
+  io.value("contact", scene.contact);
+  check(io, lots_exist(scene), "contact.pairs", "names a lot that does not exist");
+  io.value("tray", scene.tray);
+  io.nullable("hopper", scene.hopper);
+  io.value("numerics", scene.numerics);
+  io.value("guard", scene.guard);
+  io.value("run", scene.run);
+  io.optional("record", scene.record);
+}
+
+/// As the library's parser takes a key twice without a word, it is watched.
+Json parse(std::string_view text) {
+  std::vector<std::vector<std::string>> open_objects;
+  const auto refuse_twice = [&](int, Json::parse_event_t event, const Json& key) {
+    if (event == Json::parse_event_t::object_start) open_objects.emplace_back();
+    if (event == Json::parse_event_t::object_end) open_objects.pop_back();
+    if (event == Json::parse_event_t::key) {
+      std::vector<std::string>& keys = open_objects.back();
+      if (std::ranges::find(keys, key.get_ref<const std::string&>()) != keys.end())
+        fail("scene", fmt::format("the key {} stands twice in one object", key.dump()));
+      keys.push_back(key.get_ref<const std::string&>());
+    }
+    return true;
+  };
+  try {
+    return Json::parse(text, refuse_twice);
+  } catch (const Json::exception& error) {
+    fail("scene", fmt::format("not JSON: {}", error.what()));
+  }
+}
+
+}  // namespace
+
+std::string scene_to_json(const Scene& scene) {
+  Scene copy = scene;  // since `fields` may write as well
+  Writer writer("scene");
+  fields(writer, copy);
+  try {
+    return std::move(writer).json().dump();
+  } catch (const Json::exception& error) {
+    throw std::invalid_argument(fmt::format("scene: cannot be written as JSON: {}", error.what()));
+  }
+}
+
+Scene scene_from_json(std::string_view json) {
+  const Json parsed = parse(json);
+  Scene scene;
+  Reader reader("scene", parsed);
+  fields(reader, scene);
+  reader.reject_unknown_keys();
+  return scene;
+}
+
+}  // namespace vibrosow
