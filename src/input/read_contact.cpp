@@ -7,6 +7,7 @@
 #include <array>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "input/presets.hpp"
 
@@ -80,7 +81,9 @@ std::vector<Pair> find_pairs(Table& table, const std::vector<SeedLot>& lots) {
 }
 
 Parts find_parts(Table& table, const std::vector<SeedLot>& lots) {
-  Parts parts{{table, true}, std::nullopt, find_pairs(table, lots)};
+  // Before Parts: where an initialiser in braces throws, g++ 12 destroys members it has not made.
+  std::vector<Pair> pairs = find_pairs(table, lots);
+  Parts parts{{table, true}, std::nullopt, std::move(pairs)};
   if (const auto wall = table.table("wall")) parts.wall = Part{*wall, table.has_here("wall")};
   for (const SeedLot& lot : lots) {
     if (!parts.wall || !parts.wall->table.is_table(lot.name)) continue;

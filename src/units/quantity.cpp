@@ -3,11 +3,15 @@
 #include <fmt/core.h>
 #include <udunits2.h>
 
+#include <algorithm>
+#include <cerrno>
 #include <charconv>
 #include <cmath>
+#include <cstdlib>
+#include <initializer_list>
 #include <memory>
 #include <mutex>
-#include <regex>
+#include <system_error>
 
 namespace vibrosow {
 namespace {
@@ -88,8 +92,17 @@ class UnitSystem {
  private:
   UnitSystem() {
     ut_set_error_message_handler(ut_ignore);
+    errno = 0;
     system_.reset(ut_read_xml(nullptr));
-    if (!system_) throw std::runtime_error("the unit database of udunits2 cannot be read");
+    if (!system_) fail();
+  }
+
+  [[noreturn]] static void fail() {
+    constexpr const char* variable = "UDUNITS2_XML_PATH";
+    const char* const path = std::getenv(variable);
+    const std::string given = path != nullptr ? fmt::format(", {} = {}", variable, path) : "";
+    throw std::system_error(errno != 0 ? errno : EINVAL, std::generic_category(),
+                            fmt::format("the unit database of udunits2 cannot be read{}", given));
   }
 
   Unit parse(const std::string& text) { return Unit(ut_parse(system_.get(), text.c_str(), UT_UTF8), ut_free); }
@@ -98,26 +111,63 @@ class UnitSystem {
   std::unique_ptr<ut_system, decltype(&ut_free_system)> system_{nullptr, ut_free_system};
 };
 
-// One unit expression: names with an exponent straight after them, joined by / or *. Nothing that udunits2
-// would calculate with: no leading number, no space, no minus, no offset.
-const std::regex& plain_unit() {
-  static const std::regex pattern(R"((?:[A-Za-z]|µ)+(?:\^?[1-9])?(?:[/*](?:[A-Za-z]|µ)+(?:\^?[1-9])?)*|%|°)");
-  return pattern;
+constexpr std::size_t longest_unit = 60;  // characters; udunits2's parser is not asked about longer ones
+
+bool is_digit(char c) {
+  return c >= '0' && c <= '9';
+}
+
+/// Length of the letters (A to Z, a to z, µ) that `text` begins with, in bytes.
+std::size_t letters(std::string_view text) {
+  constexpr std::string_view micro = "µ";
+  std::size_t length = 0;
+  while (length < text.size()) {
+    const char c = text[length];
+    if ((c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z')) {
+      ++length;
+    } else if (text.substr(length).starts_with(micro)) {
+      length += micro.size();
+    } else {
+      break;
+    }
+  }
+  return length;
+}
+
+/// One unit expression: names with an exponent straight after them, joined by / or *. Nothing that udunits2
+/// would calculate with: no leading number, no space, no minus, no offset.
+bool is_plain_unit(std::string_view unit) {
+  if (unit == "%" || unit == "°") return true;
+  if (unit.size() > longest_unit) return false;
+  for (;;) {
+    const std::size_t name = letters(unit);
+    if (name == 0) return false;
+    unit.remove_prefix(name);
+    if (unit.starts_with('^') && (unit.size() < 2 || !is_digit(unit[1]))) return false;
+    if (unit.starts_with('^')) unit.remove_prefix(1);
+    if (!unit.empty() && unit[0] >= '1' && unit[0] <= '9') unit.remove_prefix(1);
+    if (unit.empty()) return true;
+    if (unit[0] != '/' && unit[0] != '*') return false;
+    unit.remove_prefix(1);
+  }
+}
+
+bool is_one_of(std::string_view unit, std::initializer_list<std::string_view> units) {
+  return std::find(units.begin(), units.end(), unit) != units.end();
 }
 
 // udunits2 takes an angle for a plain number, so a name decides where an angle could slip in: rad/s is no
 // frequency.
-bool names_the_dimension(const std::string& unit, Dimension dimension) {
-  static const std::regex frequency("k?Hz|rpm"), angle("m?rad|radians?|degrees?|°"), fraction("%"), rate("1/m?s");
+bool names_the_dimension(std::string_view unit, Dimension dimension) {
   switch (dimension) {
     case Dimension::frequency:
-      return std::regex_match(unit, frequency);
+      return is_one_of(unit, {"Hz", "kHz", "rpm"});
     case Dimension::angle:
-      return std::regex_match(unit, angle);
+      return is_one_of(unit, {"rad", "mrad", "radian", "radians", "deg", "degree", "degrees", "°"});
     case Dimension::fraction:
-      return std::regex_match(unit, fraction);
+      return unit == "%";
     case Dimension::rate:
-      return std::regex_match(unit, rate);
+      return is_one_of(unit, {"1/s", "1/ms"});
     default:
       return unit != "d";  // a day to udunits2, a diameter to most who would write it here
   }
@@ -137,56 +187,88 @@ UnitSize exact_size(double size) {
   return {size, 1};
 }
 
+/// `text` for a message, cut where it is long.
+std::string shown(std::string_view text) {
+  constexpr std::size_t longest = 60;
+  return text.size() <= longest ? std::string(text) : fmt::format("{}...", text.substr(0, longest));
+}
+
 UnitSize find_unit(const std::string& unit, Dimension dimension) {
   const bool reciprocal = dimension == Dimension::rate && names_the_dimension(unit, dimension);
-  if (!reciprocal && !std::regex_match(unit, plain_unit())) {
-    throw UnitError(fmt::format("\"{}\" is not a plain unit; expected {}", unit, expected(dimension)));
+  if (!reciprocal && !is_plain_unit(unit)) {
+    throw UnitError(fmt::format("\"{}\" is not a plain unit", shown(unit)));
   }
   if (unit == "rpm" && dimension == Dimension::frequency) return {1, 60};  // udunits2 counts radians: 0.105/s
-  const double size = names_the_dimension(unit, dimension)
-                          ? UnitSystem::instance().size(unit, std::string(si_unit(dimension)))
-                          : std::nan("");
+  const double size =
+      names_the_dimension(unit, dimension)
+          ? UnitSystem::instance().size(unit == "deg" ? "degree" : unit, std::string(si_unit(dimension)))
+          : std::nan("");
   if (!(size > 0)) {
-    throw UnitError(fmt::format("wrong unit \"{}\"; expected {}", unit, expected(dimension)));
+    throw UnitError(fmt::format("wrong unit \"{}\"", unit));
   }
   return exact_size(size);
 }
 
 /// A finite number written as in TOML.
-double parse_number(std::string_view text, std::string_view quantity, Dimension dimension) {
-  if (text.starts_with('+')) text.remove_prefix(1);
+double parse_number(std::string_view number) {
+  if (number.starts_with('+')) number.remove_prefix(1);
   double value = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc() || end != text.data() + text.size() || !std::isfinite(value)) {
-    throw UnitError(
-        fmt::format("\"{}\" is too large or too small a number; expected {}", quantity, expected(dimension)));
+  const auto [end, error] = std::from_chars(number.data(), number.data() + number.size(), value);
+  if (error != std::errc() || end != number.data() + number.size() || !std::isfinite(value)) {
+    throw UnitError("is too large or too small a number");
   }
   return value;
 }
 
+/// "4,0 mm" is nearly right.
+void reject_decimal_comma(std::string_view number, std::string_view rest) {
+  if (rest.size() < 2 || rest[0] != ',' || !is_digit(rest[1])) return;
+  throw UnitError(fmt::format("has a decimal comma; write a decimal point: \"{}.{}\"", number, shown(rest.substr(1))));
+}
+
 }  // namespace
 
-double parse_quantity(std::string_view text, Dimension dimension) {
-  static const std::regex number_then_unit(R"(([+-]?(?:0|[1-9][0-9]*)(?:\.[0-9]+)?(?:[eE][+-]?[0-9]+)?)( *)(.*))");
-  const std::string whole(text);
-  std::smatch part;
-  if (!std::regex_match(whole, part, number_then_unit)) {
-    throw UnitError(fmt::format("\"{}\" does not start with a number; expected {}", whole, expected(dimension)));
+std::size_t number_length(std::string_view text) {
+  std::size_t at = text.starts_with('+') || text.starts_with('-') ? 1 : 0;
+  const auto digits = [&](std::size_t from) {
+    std::size_t end = from;
+    while (end < text.size() && is_digit(text[end])) ++end;
+    return end - from;
+  };
+  const std::size_t whole = at < text.size() && text[at] == '0' ? 1 : digits(at);
+  if (whole == 0) return 0;
+  at += whole;
+  if (at < text.size() && text[at] == '.' && digits(at + 1) > 0) at += 1 + digits(at + 1);
+  if (at < text.size() && (text[at] == 'e' || text[at] == 'E')) {
+    const std::size_t sign = at + 1 < text.size() && (text[at + 1] == '+' || text[at + 1] == '-') ? 1 : 0;
+    if (digits(at + 1 + sign) > 0) at += 1 + sign + digits(at + 1 + sign);
   }
-  const std::string unit = part[3];
-  if (unit.empty()) throw UnitError(fmt::format("\"{}\" has no unit; expected {}", whole, expected(dimension)));
-  const double number = parse_number(part[1].str(), whole, dimension);
-  UnitSize size;
-  try {
-    size = find_unit(unit, dimension);
-  } catch (const UnitError& error) {
-    throw UnitError(fmt::format("\"{}\": {}", whole, error.what()));
-  }
-  const double value = number * size.times / size.over;
-  if (!std::isfinite(value)) {
-    throw UnitError(fmt::format("\"{}\" is too large; expected {}", whole, expected(dimension)));
-  }
+  return at;
+}
+
+Quantity split_quantity(std::string_view text) {
+  const std::string_view number = text.substr(0, number_length(text));
+  if (number.empty()) throw UnitError("does not start with a number");
+  std::string_view rest = text.substr(number.size());
+  reject_decimal_comma(number, rest);
+  rest.remove_prefix(std::min(rest.find_first_not_of(' '), rest.size()));
+  return {parse_number(number), std::string(rest)};
+}
+
+double in_si(const Quantity& quantity, Dimension dimension) {
+  if (quantity.unit.empty()) throw UnitError("has no unit");
+  const UnitSize size = find_unit(quantity.unit, dimension);
+  const double value = quantity.number * size.times / size.over;
+  if (!std::isfinite(value)) throw UnitError("is too large");
   return value;
+}
+
+double parse_quantity(std::string_view text, Dimension dimension) {
+  try {
+    return in_si(split_quantity(text), dimension);
+  } catch (const UnitError& error) {
+    throw UnitError(fmt::format("\"{}\": {}; expected {}", shown(text), error.what(), expected(dimension)));
+  }
 }
 
 std::string_view si_unit(Dimension dimension) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -28,8 +29,27 @@ class UnitError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+/// A number and its unit as written: "8 mm" is 8 and "mm".
+struct Quantity {
+  double number = 0;
+  std::string unit;  // "": a plain number
+  bool operator==(const Quantity&) const = default;
+};
+
+/// How many characters at the front of `text` are a number as TOML writes it (a sign, no leading zero, digits on both
+/// sides of a decimal point); 0: none.
+std::size_t number_length(std::string_view text);
+
+/// Number and unit of a text; the unit may be empty or wrong. Throws UnitError where the text does not begin with a
+/// number, the number is not finite, or a decimal comma follows; the message begins after the text: "does not ..".
+Quantity split_quantity(std::string_view text);
+
+/// In SI. The unit must be one unit expression of the wanted dimension: throws UnitError otherwise.
+double in_si(const Quantity& quantity, Dimension dimension);
+
 /// Reads "8 mm", "9 Hz", "70 %" into SI. The number must be finite and written as in TOML (no thousands sign), the unit
-/// is required and must be one unit expression of the wanted dimension: throws UnitError otherwise.
+/// is required and must be one unit expression of the wanted dimension: throws UnitError otherwise. Like every function
+/// here that asks for a unit it throws std::system_error when udunits2 cannot read its database.
 double parse_quantity(std::string_view text, Dimension dimension);
 
 /// The SI unit's usual short name: "m", "Hz", "kg/s", ...

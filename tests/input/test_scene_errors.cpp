@@ -127,7 +127,7 @@ INSTANTIATE_TEST_SUITE_P(
 
 INSTANTIATE_TEST_SUITE_P(
     UnitsAndTypes, SceneError,
-    testing::Values(Case{7, "length = '50'", 7, "tray.length", "\"50\" has no unit; expected a length such as"},
+    testing::Values(Case{7, "length = '50'", 7, "tray.length", "\"50\": has no unit; expected a length such as"},
                     Case{7, "length = 50", 7, "tray.length", "must be a quantity with its unit"},
                     Case{7, "length = nan", 7, "tray.length", "must be a quantity with its unit"},
                     Case{7, "length = '50 kg'", 7, "tray.length", "wrong unit \"kg\""},

@@ -1,11 +1,17 @@
 #include "units/quantity.hpp"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <rapidcheck.h>
+
+#include <cmath>
+#include <cstdlib>
 
 #include <numbers>
 #include <ostream>
 #include <string>
+#include <system_error>
 #include <thread>
 #include <vector>
 
@@ -45,6 +51,7 @@ TEST(Quantity, OtherUnits) {
   EXPECT_DOUBLE_EQ(parse_quantity("36 km/h", Dimension::speed), 10);
   EXPECT_EQ(parse_quantity("2 min", Dimension::time), 120);
   EXPECT_DOUBLE_EQ(parse_quantity("90 degree", Dimension::angle), std::numbers::pi / 2);
+  EXPECT_EQ(parse_quantity("90 deg", Dimension::angle), parse_quantity("90 degree", Dimension::angle));
   EXPECT_EQ(parse_quantity("1.5 rad", Dimension::angle), 1.5);
   EXPECT_EQ(parse_quantity("-3 mm", Dimension::length), -0.003);
   EXPECT_EQ(parse_quantity("+3mm", Dimension::length), 0.003);
@@ -115,7 +122,9 @@ INSTANTIATE_TEST_SUITE_P(
                     Wrong{"1e308 km", Dimension::length, "too large"}, Wrong{".5 mm", Dimension::length, no_number},
                     Wrong{" 5 mm", Dimension::length, no_number}, Wrong{"5. mm", Dimension::length, not_plain},
                     Wrong{"05 mm", Dimension::length, not_plain}, Wrong{"0x10 mm", Dimension::length, not_plain},
-                    Wrong{"1,5 mm", Dimension::length, not_plain}, Wrong{"1_000 mm", Dimension::length, not_plain},
+                    Wrong{"1,5 mm", Dimension::length, "write a decimal point: \"1.5 mm\""},
+                    Wrong{"1,500.5 mm", Dimension::length, "decimal comma"},
+                    Wrong{"1, 5 mm", Dimension::length, not_plain}, Wrong{"1_000 mm", Dimension::length, not_plain},
                     Wrong{"1 000 mm", Dimension::length, not_plain}));
 
 INSTANTIATE_TEST_SUITE_P(
@@ -131,6 +140,66 @@ INSTANTIATE_TEST_SUITE_P(
                     Wrong{"3 s", Dimension::rate, wrong_unit}, Wrong{"3 1/m", Dimension::rate, not_plain},
                     Wrong{"3 1/s", Dimension::length, not_plain}, Wrong{"3 1/s2", Dimension::rate, not_plain},
                     Wrong{"3 /s", Dimension::rate, not_plain}, Wrong{"1/s", Dimension::rate, not_plain}));
+
+TEST(Quantity, AnyLengthOfTextIsReadOrRefusedInAShortMessage) {
+  constexpr std::size_t length = 200'000;
+  const auto message = [](const std::string& text) {
+    try {
+      parse_quantity(text, Dimension::length);
+    } catch (const UnitError& error) {
+      return std::string(error.what());
+    }
+    return std::string("none");
+  };
+  EXPECT_EQ(parse_quantity("0." + std::string(length, '1') + " mm", Dimension::length), 1.0 / 9 / 1000);
+  for (const std::string& text :
+       {std::string(length, '1') + " mm", "1 " + std::string(length, 'm'), "1 m" + std::string(length, '/'),
+        std::string(length, ' '), "1e" + std::string(length, '9') + " mm", "1," + std::string(length, '0')}) {
+    const std::string told = message(text);
+    EXPECT_THAT(told, testing::AllOf(HasSubstr("..."), HasSubstr("expected a length such as \"8 mm\"")));
+    EXPECT_LT(told.size(), 300U);
+  }
+}
+
+TEST(Quantity, SplitsIntoNumberAndUnit) {
+  EXPECT_EQ(split_quantity("8 mm"), (Quantity{8, "mm"}));
+  EXPECT_EQ(split_quantity("-1.5e3%"), (Quantity{-1500, "%"}));
+  EXPECT_EQ(split_quantity("+7"), (Quantity{7, ""}));
+  EXPECT_THROW(split_quantity("mm"), UnitError);
+  EXPECT_EQ(in_si({12.5, "mm"}, Dimension::length), parse_quantity("12.5 mm", Dimension::length));
+  EXPECT_THROW(in_si({12.5, ""}, Dimension::length), UnitError);
+  EXPECT_THROW(in_si({12.5, "Hz"}, Dimension::length), UnitError);
+}
+
+TEST(Quantity, SplittingUndoesPrinting) {
+  rc::check("number and unit come back", [](double number) {
+    RC_PRE(std::isfinite(number));
+    const Quantity quantity{number, "mm"};
+    RC_ASSERT(split_quantity(fmt::format("{} mm", number)) == quantity);
+  });
+  rc::check("any text is read or refused", [](const std::string& text) {
+    try {
+      RC_ASSERT(std::isfinite(parse_quantity(text, Dimension::length)));
+    } catch (const UnitError&) {
+    }
+  });
+}
+
+TEST(Quantity, UnitDatabaseThatIsNotThereIsToldAsSuch) {
+  GTEST_FLAG_SET(death_test_style, "threadsafe");  // in a program that has not yet read the database
+  EXPECT_EXIT(
+      {
+        setenv("UDUNITS2_XML_PATH", "/no/such/udunits2.xml", 1);
+        try {
+          parse_quantity("8 mm", Dimension::length);
+        } catch (const std::system_error& error) {
+          std::fputs(error.what(), stderr);
+          std::exit(2);
+        }
+      },
+      testing::ExitedWithCode(2),
+      "unit database of udunits2 cannot be read, UDUNITS2_XML_PATH = /no/such/udunits2.xml");
+}
 
 TEST(Quantity, EveryDimensionReadsItsOwnExample) {
   for (const Dimension dimension : {Dimension::length, Dimension::time, Dimension::frequency, Dimension::mass,
