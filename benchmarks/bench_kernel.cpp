@@ -9,10 +9,10 @@
 #include <cmath>
 #include <numeric>
 
-#include "plan/contact_parameters.hpp"
 #include "compute/compress.hpp"
 #include "contact/kernels.hpp"
 #include "contact/pair_forces.hpp"
+#include "plan/contact_parameters.hpp"
 #include "plan/step_plan.hpp"
 #include "simulation/simulation.hpp"
 
