@@ -9,7 +9,6 @@
 #include <cmath>
 #include <numeric>
 
-#include "plan/contact_parameters.hpp"
 #include "compute/compress.hpp"
 #include "contact/kernels.hpp"
 #include "contact/pair_forces.hpp"
@@ -94,15 +93,13 @@ double seconds(Work work) {
 }
 
 void compare() {
-  const Scene scene = published_tray();
-  const EffectSet effects = effects_of(scene);
-  const double dt = prepare(scene).step.dt;
-  Simulation simulation(scene, starting_grains(scene, 1, effects), {.dt = dt, .effects = effects});
+  const Model model = prepare(published_tray());
+  const double dt = model.step.dt;
+  Simulation simulation(model, 1);
   while (simulation.time() < 0.3) simulation.step();
   const Grains& grains = simulation.grains();
-  const PairList& list = simulation.field().neighbours().pairs();
-  const KernelSet& kernels = kernels_for(scene.contact.law, effects);
-  const ContactParameters parameters = contact_parameters(scene);
+  const PairList& list = simulation.state().contacts.pairs;
+  const ContactParameters& parameters = model.contacts;
   const SurfaceParameters& surface = parameters.pairs.front();
   const GrainKind& kind = grains.kinds.front();
   const double stiffness = 0.5 / kind.compliance;
@@ -120,7 +117,7 @@ void compare() {
   Forces forces(grains.size());
   std::vector<ForeignForce> foreign;
   ContactStatistics statistics;
-  const PairKernel kernel = kernels.vectors[static_cast<std::size_t>(best_instruction_set())].pair;
+  const PairKernel kernel = model.kernels->vectors[static_cast<std::size_t>(best_instruction_set())].pair;
   constexpr int evaluations = 2000, rounds = 15;
   std::vector<double> ours, theirs, ratios;
   long bare_contacts = 0;

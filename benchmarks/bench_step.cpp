@@ -36,11 +36,11 @@ EffectSet effects_of_tray(bool spring) {
 void steps_of_the_published_tray(benchmark::State& state, double shell_compression, EffectSet effects) {
   Scene scene = published_tray(shell_compression);
   if (effects.tangential_spring) scene.contact.friction_model = FrictionModel::spring;
-  const double dt = prepare(scene).step.dt;
+  const Model model = prepare(scene, effects);
   std::int64_t grain_steps = 0, searches = 0, prunes = 0, contacts = 0, steps = 0;
   for (auto _ : state) {
     state.PauseTiming();
-    Simulation simulation(scene, starting_grains(scene, 1, effects), {.dt = dt, .effects = effects});
+    Simulation simulation(model, 1);
     while (simulation.time() < 0.3) simulation.step();
     const Run before = simulation.result();
     const Neighbours& neighbours = simulation.field().neighbours();
@@ -73,8 +73,7 @@ template <class Part>
 void part_of_a_step(benchmark::State& state, Part part) {
   Scene scene = published_tray(1e-4);
   scene.contact.friction_model = FrictionModel::spring;
-  const EffectSet effects = effects_of_tray(true);
-  Simulation simulation(scene, starting_grains(scene, 1, effects), {.dt = prepare(scene).step.dt, .effects = effects});
+  Simulation simulation(prepare(scene, effects_of_tray(true)), 1);
   while (simulation.time() < 0.3) simulation.step();
   for (auto _ : state) part(simulation);
   state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(simulation.grains().size()));
@@ -83,7 +82,7 @@ void part_of_a_step(benchmark::State& state, Part part) {
 void forces(benchmark::State& state) {
   ContactStatistics statistics;
   part_of_a_step(
-      state, [&](Simulation& simulation) { simulation.field().evaluate(simulation.grains(), 0.3, {}, statistics); });
+      state, [&](Simulation& simulation) { simulation.field().evaluate(0.3, {}, statistics); });
 }
 
 void search(benchmark::State& state) {
@@ -99,9 +98,7 @@ void search(benchmark::State& state) {
 
 void renew_both_lists(benchmark::State& state) {
   part_of_a_step(state, [](Simulation& simulation) {
-    Neighbours& neighbours = simulation.field().neighbours();
-    neighbours.forget();
-    neighbours.update(simulation.grains(), simulation.field().walls());
+    simulation.field().grains_wrapped();
   });
 }
 

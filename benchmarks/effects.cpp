@@ -61,7 +61,9 @@ double cost(const Case& of) {
     run_with = all_pair_effects(of.effects);
     run_with.drag = true;
   }
-  Simulation simulation(scene, starting_grains(scene, 1, run_with), {.dt = 1e-5, .effects = run_with});
+  Model model = prepare(scene, run_with);
+  model.step.dt = 1e-5;
+  Simulation simulation(model, 1);
   simulation.steps(10000);
   const auto from = std::chrono::steady_clock::now();
   simulation.steps(1000);

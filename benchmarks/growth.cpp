@@ -47,12 +47,10 @@ double resident_bytes() {
 
 void print_row(int grains, int threads) {
   const Scene scene = tray_of(grains);
-  const EffectSet effects = effects_of(scene);
   malloc_trim(0);  // what earlier rows have given back is not to be had for nothing
   const double before = resident_bytes();
   const auto started = std::chrono::steady_clock::now();
-  Simulation simulation(scene, starting_grains(scene, 1, effects),
-                        {.dt = prepare(scene).step.dt, .effects = effects, .threads = threads});
+  Simulation simulation(prepare(scene), 1, {.threads = threads});
   const double start = seconds_since(started);
   simulation.steps(1000);
   const std::int64_t timed = std::max<std::int64_t>(200, 20'000'000 / grains);

@@ -62,7 +62,7 @@ int run_scene(const RunOptions& options) {
   {
     Progress progress(options.quiet, static_cast<double>(model.step.steps), "steps");
     simulation.progress = [&](double fraction) { progress.update(fraction); };
-    run = simulate(model, simulation);
+    run = run_model(model, simulation);
   }
   const Outflow outflow = measure_outflow(scene, run);
   write_run_report(directory, scene, run, outflow, effect_names(model.effects));

@@ -19,10 +19,10 @@ double seconds_since(Clock::time_point start) {
 }  // namespace
 
 Run simulate(const Scene& scene, const SimulationOptions& options) {
-  return simulate(prepare_to_run(scene), options);
+  return run_model(prepare_to_run(scene), options);
 }
 
-Run simulate(const Model& model, const SimulationOptions& options) {
+Run run_model(const Model& model, const SimulationOptions& options) {
   const Clock::time_point started = Clock::now();
   Simulation simulation(model, options.random_seed, {.threads = options.threads, .profile = options.profile});
   const double measure_from = model.scene.run.measure_from;

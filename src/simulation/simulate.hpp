@@ -24,6 +24,6 @@ struct SimulationOptions {
 Run simulate(const Scene& scene, const SimulationOptions& options = {});
 
 /// The same of a scene that is prepared.
-Run simulate(const Model& model, const SimulationOptions& options = {});
+Run run_model(const Model& model, const SimulationOptions& options = {});
 
 }  // namespace vibrosow

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "simulation/simulation.hpp"
+#include "support/bench.hpp"
 
 namespace vibrosow {
 namespace {
@@ -34,13 +35,9 @@ Grains shaken(Law law, const EffectChoice& choice, InstructionSet instructions, 
   effects.rolling = choice.rolling, effects.cohesion = choice.cohesion;
   effects.motion = true;
   if (choice.polydisperse) scene.lots[1].diameter = 5e-3, scene.lots[1].mass = 0.2e-3;
-  Simulation run(scene, starting_grains(scene, 5, effects),
-                 {.dt = 5e-5,
-                  .random_seed = 5,
-                  .effects = effects,
-                  .insisted_on_step = true,
-                  .instructions = instructions,
-                  .threads = threads});
+  Model model = with_step(prepare(scene, effects), 5e-5);
+  model.step.too_long = true;
+  Simulation run(model, 5, {.instructions = instructions, .threads = threads});
   run.steps(1500);
   EXPECT_GT(run.statistics().contacts, 20000);
   return run.grains();
@@ -85,8 +82,9 @@ TEST(InstructionSets, AllSeeWhatIsNotANumber) {
   scene.run.duration = 1;
   for (const InstructionSet set : instruction_sets) {
     if (!is_available(set)) continue;
-    Simulation run(scene, starting_grains(scene, 1, {}),
-                   {.dt = 1e-5, .effects = {}, .insisted_on_step = true, .instructions = set});
+    Model model = with_step(prepare(scene), 1e-5);
+    model.step.too_long = true;
+    Simulation run(model, 1, {.instructions = set});
     run.grains().vx[37] = std::numeric_limits<double>::quiet_NaN();
     EXPECT_FALSE(run.step()) << name_of(set);
     ASSERT_TRUE(run.guard().stop_reason()) << name_of(set);

@@ -60,8 +60,7 @@ std::vector<Column> measured_columns(int widths) {
   for (std::uint64_t seed = 1; seed <= seeds; ++seed) {
     Column column;
     column.width = scene.hopper->length, column.band = 0.5 * column.width;
-    Simulation run(scene, starting_grains(scene, seed, effects_of(scene)),
-                   {.dt = prepare(scene).step.dt, .effects = effects_of(scene)});
+    Simulation run(prepare(scene), seed);
     for (int look = 0; look < looks; ++look) {
       const double at = measured_from + (measured_to - measured_from) * (look + 0.5) / looks;
       while (run.time() < at)

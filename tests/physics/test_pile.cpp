@@ -55,7 +55,8 @@ double largest_displacement(const Grains& before, const Grains& after) {
 }
 
 Grains after(const Scene& scene, Grains grains, double duration) {
-  Simulation run(scene, std::move(grains), {.dt = prepare(scene).step.dt, .effects = effects_of(scene)});
+  const Model model = prepare(scene);
+  Simulation run(model, starting_state(model, 1, std::move(grains)));
   while (run.time() < duration)
     if (!run.step()) ADD_FAILURE() << *run.guard().stop_reason();
   return run.grains();
@@ -82,8 +83,7 @@ TEST(Pile, StaysUnderTheTangentialSpringAndSpreadsUnderTheSignLaw) {
 
   // One run, so that the springs keep their memory.
   const Scene scene = pile_scene();
-  Simulation run(scene, starting_grains(scene, 1, effects_of(scene)),
-                 {.dt = prepare(scene).step.dt, .effects = effects_of(scene)});
+  Simulation run(prepare(scene), 1);
   while (run.time() < settled_at) ASSERT_TRUE(run.step()) << *run.guard().stop_reason();
   const Grains settled = run.grains();
   EXPECT_LT(kinetic_fraction(settled), 1e-12);

@@ -24,7 +24,7 @@ TEST(Wall, IsAGrainOfInfiniteRadiusAndMass) {
     Scene scene = bench.scene;  // the giant is a lot with a rigid shell
     scene.lots.push_back({"giant", 2 * giant, 1e300, Shape::disc, 0});
     const auto forces = [&](bool as_wall) {
-      std::vector<GrainKind> kinds = grain_kinds(bench.scene, true);
+      std::vector<GrainKind> kinds = grain_kinds(bench.scene);
       kinds.push_back({giant, 1e300, 0, 0, 0});
       Grains grains(kinds, true, true);
       grains.add(0.5, Bench::radius - overlap, 0.07, -0.02, 0);
@@ -39,8 +39,8 @@ TEST(Wall, IsAGrainOfInfiniteRadiusAndMass) {
       const Motion at{grains.x.data(),  grains.y.data(),     grains.vx.data(),
                       grains.vy.data(), grains.omega.data(), grains.x.data()};
       const KernelSet& kernels = kernels_for(law, effects);
-      const ContactParameters parameters = contact_parameters(scene);
-      ContactHistory none;
+      const ContactParameters parameters = contact_parameters(scene.contact, scene.lots);
+      ContactHistories none;
       std::vector<ForeignForce> foreign;
       add_pair_forces(kernels.vectors[0].pair, surfaces_of(grains), at, pairs, {0, static_cast<int>(pairs.size())},
                       parameters, {}, none, {0, 0}, f, foreign, statistics);
@@ -99,7 +99,7 @@ TEST(Wall, IsKnownToTheContactsThroughBox2DAlone) {
       for (std::size_t w = 0; w < walls.size(); ++w)
         if (walls[w].name.find("floor") != std::string::npos)
           run.field().neighbours().broadphase().remove_wall(static_cast<int>(w));
-    run.field().neighbours().forget();
+    run.field().neighbours().start_afresh();
     run.steps(8000);
     if (without)
       EXPECT_LT(run.grains().size() == 0 ? -1.0 : run.grains().y[0], -0.01) << "nothing else may hold the grain";

@@ -129,8 +129,7 @@ Scene bowl() {
 
 TEST(Arc, NoContactIsMissedInABowlThatRocks) {
   const Scene scene = bowl();
-  const EffectSet effects = effects_of(scene);
-  Simulation run(scene, starting_grains(scene, 3, effects), {.dt = 2e-5, .random_seed = 3, .effects = effects});
+  Simulation run(with_step(prepare(scene), 2e-5), 3);
   std::size_t met = 0;
   for (int step = 0; step < 30000; ++step) {
     ASSERT_TRUE(run.step()) << *run.guard().stop_reason();

@@ -57,32 +57,44 @@ void expect_scattered(const Grains& grains) {
   EXPECT_EQ(radii.size(), 300u);
 }
 
+/// A feeder and vessels without any grain.
+struct Fed {
+  Model model;
+  SimulationState state;
+  Walls walls;
+  Feeder feeder;
+
+  explicit Fed(const Scene& scene)
+      : model(prepare(scene)), state(starting_state(model, 1, none(model))), walls(model.vessels), feeder(model, state.feeder) {
+    walls.place(0);
+  }
+  static Grains none(const Model& model) {
+    return Grains(model.kinds, model.effects.polydisperse, model.effects.rotation, model.effects.clumps);
+  }
+};
+
 TEST(Sizes, OfStartingGrainsAreDrawn) {
   const Scene scene = kept_full(scattered_balls());
-  const EffectSet effects = effects_of(scene);
-  ASSERT_TRUE(effects.polydisperse) << "one lot, many sizes";
-  const Grains grains = starting_grains(scene, 1, effects);
+  const Model model = prepare(scene);
+  ASSERT_TRUE(model.effects.polydisperse) << "one lot, many sizes";
+  const Grains grains = starting_state(model, 1).grains;
   ASSERT_EQ(grains.size(), 300u);
   expect_scattered(grains);
 }
 
 TEST(Sizes, OfFedGrainsAreDrawn) {
-  const Scene scene = kept_full(scattered_balls());
-  Grains grains(grain_kinds(scene, true), true, true);
-  Walls walls(prepare(scene).vessels);
-  walls.place(0);
-  Feeder feeder(scene, 1);
+  Fed fed(kept_full(scattered_balls()));
+  auto& [model, state, walls, feeder] = fed;
+  Grains& grains = state.grains;
   EXPECT_EQ(feeder.top_up(grains, std::vector<char>(grains.size(), 1), walls, 0), 300);
   expect_scattered(grains);
   EXPECT_TRUE(grains.angle.empty());
 }
 
 TEST(Angles, OfFedClumpsAreDrawn) {
-  const Scene scene = kept_full(grains_of_wheat());
-  Grains grains(grain_kinds(scene, true), true, true, true);
-  Walls walls(prepare(scene).vessels);
-  walls.place(0);
-  Feeder feeder(scene, 1);
+  Fed fed(kept_full(grains_of_wheat()));
+  auto& [model, state, walls, feeder] = fed;
+  Grains& grains = state.grains;
   const int added = feeder.top_up(grains, std::vector<char>(grains.size(), 1), walls, 0);
   EXPECT_EQ(added, 300);
   ASSERT_EQ(grains.angle.size(), 300u);
@@ -93,12 +105,9 @@ TEST(Angles, OfFedClumpsAreDrawn) {
 TEST(Feeder, SaysThatItFallsBehind) {
   Scene scene = kept_full(scattered_balls());
   const auto warning = [&] {
-    Grains grains(grain_kinds(scene, true), true, true);
-    Walls walls(prepare(scene).vessels);
-    walls.place(0);
-    Feeder feeder(scene, 1);
-    feeder.top_up(grains, {}, walls, 0.5);
-    return feeder.warning();
+    Fed fed(scene);
+    fed.feeder.top_up(fed.state.grains, {}, fed.walls, 0.5);
+    return fed.feeder.warning();
   };
   EXPECT_EQ(warning(), "");
   scene.tray.height = 8e-3;  // room for two layers of 300 balls' six
@@ -109,14 +118,14 @@ TEST(Feeder, SaysThatItFallsBehind) {
 TEST(Feeder, LaysNothingIntoAGrainThatReachesInThroughAnOutlet) {
   Scene scene = kept_full(scattered_balls());
   scene.tray.holes = {{0.5 * scene.tray.length, 0.9 * scene.tray.length}};
-  Grains grains(grain_kinds(scene, true), true, true);
+  Fed fed(scene);
+  auto& [model, state, walls, feeder] = fed;
+  Grains& grains = state.grains;
   const double radius = grains.kinds.front().radius;
   for (int k = 0; k < 40; ++k)  // a row that hangs through the floor, centres just below it
     grains.add((k + 0.5) * scene.tray.length / 40, -0.2 * radius, 0, 0, 0);
   const std::size_t below = grains.size();
-  Walls walls(prepare(scene).vessels);
-  walls.place(0);
-  Feeder(scene, 1).top_up(grains, std::vector<char>(below, 1), walls, 0);
+  feeder.top_up(grains, std::vector<char>(below, 1), walls, 0);
   ASSERT_GT(grains.size(), below);
   for (std::size_t i = below; i < grains.size(); ++i)
     for (std::size_t j = 0; j < below; ++j)

@@ -39,10 +39,7 @@ Scene busy_scene() {
 }
 
 std::unique_ptr<Simulation> start(const Scene& scene, NeighbourMargins margins = {}) {
-  const EffectSet effects = effects_of(scene);
-  return std::make_unique<Simulation>(
-      scene, starting_grains(scene, 7, effects),
-      SimulationSetup{.dt = 2.5e-5, .random_seed = 7, .effects = effects, .margins = margins});
+  return std::make_unique<Simulation>(with_step(prepare(scene), 2.5e-5), 7, ComputeOptions{.margins = margins});
 }
 
 using Contacts = std::set<std::pair<int, int>>;

@@ -57,8 +57,7 @@ TEST(Rain, ComesAtRestInTheLabWithinItsRangeAndOverlapsNothing) {
   Scene scene = wet();
   scene.tray.rain = Rain{2000, 0.05, 0.12, 0.08};  // more than the place takes
   scene.tray.motion = HarmonicMotion{0, 5e-3, 9, 0};
-  const EffectSet effects = effects_of(scene);
-  Simulation run(scene, starting_grains(scene, 1, effects), {.dt = 2e-5, .random_seed = 1, .effects = effects});
+  Simulation run(with_step(prepare(scene), 2e-5), 1);
   std::size_t seen = 0;
   double least = 1, most = 0;
   for (int step = 0; step < 10000; ++step) {
@@ -86,9 +85,7 @@ TEST(Rain, ComesAtRestInTheLabWithinItsRangeAndOverlapsNothing) {
 TEST(Rain, HasARandomStreamOfItsOwn) {
   const auto places = [](std::uint64_t random_seed) {
     const Scene scene = wet();
-    const EffectSet effects = effects_of(scene);
-    Simulation run(scene, starting_grains(scene, random_seed, effects),
-                   {.dt = 2e-5, .random_seed = random_seed, .effects = effects});
+    Simulation run(with_step(prepare(scene), 2e-5), random_seed);
     run.steps(3000);
     return run.grains().x;
   };
@@ -101,8 +98,7 @@ TEST(Rain, IntoAPeriodicTrayKeepsClearOfTheImages) {
   scene.tray.length = 0.04;
   scene.tray.sides = Sides::periodic;
   scene.tray.rain = Rain{2000, 0, 0.04, 0.08};
-  const EffectSet effects = effects_of(scene);
-  Simulation run(scene, starting_grains(scene, 1, effects), {.dt = 2e-5, .random_seed = 1, .effects = effects});
+  Simulation run(with_step(prepare(scene), 2e-5), 1);
   std::size_t seen = 0;
   double nearest_across = 1;
   for (int step = 0; step < 4000; ++step) {

@@ -86,8 +86,7 @@ TEST(PeriodicSides, FunnelSlopesMeetAtTheSeam) {
 
 TEST(PeriodicSides, SeamPairsAreThoseOfBruteForce) {
   const Scene scene = slice();
-  const EffectSet effects = effects_of(scene);
-  Simulation run(scene, starting_grains(scene, 3, effects), {.dt = 2e-5, .random_seed = 3, .effects = effects});
+  Simulation run(with_step(prepare(scene), 2e-5), 3);
   const double period = run.field().neighbours().period();
   EXPECT_EQ(period, 0.1);
   std::size_t met = 0;

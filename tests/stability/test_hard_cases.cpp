@@ -199,8 +199,7 @@ TEST(Stability, PileComesToRest) {
   Scene scene = tray_scene(150, 0.12);
   scene.tray.fill->packing = Packing::poured;
   scene.run.duration = 1;
-  const EffectSet effects = effects_of(scene);
-  Simulation run(scene, starting_grains(scene, 1, effects), {.dt = prepare(scene).step.dt, .effects = effects});
+  Simulation run(prepare(scene), 1);
   while (run.time() < 1) ASSERT_TRUE(run.step());
   const double per_grain = kinetic_energy(run.grains()) / 150;
   EXPECT_LT(per_grain, 1e-8 * Bench::mass * standard_gravity * Bench::radius);

@@ -67,8 +67,8 @@ Scene without_cohesion(Scene scene) {
 }
 
 Grains run_from(const Scene& scene, const Grains& start) {
-  const EffectSet effects = effects_of(scene);
-  Simulation run(scene, start, {.dt = 1e-5, .effects = effects});
+  const Model model = with_step(prepare(scene), 1e-5);
+  Simulation run(model, starting_state(model, 1, start));
   run.steps(5000);  // 0.05 s
   EXPECT_FALSE(run.guard().stop_reason()) << *run.guard().stop_reason();
   EXPECT_GT(run.statistics().contacts, 5000);
@@ -76,7 +76,7 @@ Grains run_from(const Scene& scene, const Grains& start) {
 }
 
 Grains start_of(const Scene& scene) {
-  return starting_grains(scene, 11, effects_of(scene));
+  return starting_state(prepare(scene), 11).grains;
 }
 
 double largest_difference(const Grains& a, const Grains& b, double shift_x = 0, double mirror = 1) {

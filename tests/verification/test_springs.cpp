@@ -227,13 +227,10 @@ Scene remembering_scene() {
 // The lists are renewed at other times, or at every step: not a bit changes.
 TEST(TangentialSpring, MemorySurvivesEveryRenewalOfTheLists) {
   const Scene scene = remembering_scene();
-  const EffectSet effects = effects_of(scene);
   const auto run = [&](NeighbourMargins margins, Integrator integrator) {
     Scene own = scene;
     own.numerics.integrator = integrator;
-    auto simulation = std::make_unique<Simulation>(
-        own, starting_grains(own, 3, effects),
-        SimulationSetup{.dt = 5e-5, .random_seed = 3, .effects = effects, .margins = margins});
+    auto simulation = std::make_unique<Simulation>(with_step(prepare(own), 5e-5), 3, ComputeOptions{.margins = margins});
     simulation->steps(4000);
     return simulation;
   };

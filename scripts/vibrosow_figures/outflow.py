@@ -1,0 +1,131 @@
+"""Rates of a silo through slots of several widths, and slopes of measured and simulated discharge curves."""
+import csv
+import math
+import re
+import sys
+
+import numpy as np
+from scipy.optimize import curve_fit
+from scipy.stats import linregress
+from scipy.stats import t as student
+
+from .tables import command, mean_and_half_width, rows
+
+GRAVITY = 9.81  # m/s2
+
+
+def fit(by_slot, slots, unit):
+    """(C, k, p) and the half widths of their intervals; rates in `unit` (1/s)."""
+    widths = np.concatenate([np.full(len(by_slot[at]), at) for at in slots])
+    logs = np.concatenate([np.log(np.array(by_slot[at]) / unit) for at in slots])
+    scatter = np.concatenate([np.full(len(by_slot[at]), np.std(np.log(by_slot[at]), ddof=1)) for at in slots])
+    bounds = ((-np.inf, -3, 0), (np.inf, slots[0] - 0.05, 5))
+    (log_c, k, p), covariance = curve_fit(lambda width, log_c, k, p: log_c + p * np.log(width - k), widths, logs, p0=(0, 1, 1.5),
+                                          sigma=scatter, bounds=bounds, xtol=1e-12, ftol=1e-12)
+    half = student.ppf(0.975, len(logs) - 3) * np.sqrt(np.diag(covariance))
+    c = math.exp(log_c)
+    return (c, k, p), (c * half[0], half[1], half[2])
+
+
+def ranges(values, least):
+    """Of neighbouring values, at least so many, the longest first."""
+    return [values[k:k + length] for length in range(len(values), least - 1, -1) for k in range(len(values) - length + 1)]
+
+
+def read_runs(folder, fill, flowing, clogged):
+    """Adds rates (1/s) of the runs that flowed to their end, and numbers of the others, by the layout's name. Ends the program
+    where neither the study nor `fill` tells how many grains the silo is kept at."""
+    layouts = rows(f"{folder}/sweep.csv")
+    if fill is None and "tray.fill.count" not in layouts[0]:
+        sys.exit(f"{folder}/sweep.csv: no column tray.fill.count; --fill is needed")
+    filled = {r["layout"]: int(r.get("tray.fill.count", fill)) for r in layouts}
+    for r in rows(f"{folder}/sweep_runs.csv"):
+        rates = flowing.setdefault(r["name"], [])
+        clogged.setdefault(r["name"], 0)
+        if int(r["inside"]) > filled[r["layout"]]:
+            rates.append(float(r["seeds_per_s"]))
+        else:
+            clogged[r["name"]] += 1
+
+
+def slot_of(name):
+    """Width in diameters that a layout's name gives; None: it is not to be fitted."""
+    named = re.fullmatch(r"([0-9.]+) d", name)
+    return float(named[1]) if named else None
+
+
+def write_table(path, header, lines):
+    with open(path, "w", newline="", encoding="utf-8") as file:
+        csv.writer(file, lineterminator="\n").writerows([header.split(","), *lines])
+
+
+def write_fits(path, flowing, unit):
+    """Fits of each range of slots; returns the rates that the widest range's fit has."""
+    by_slot = {slot_of(name): rates for name, rates in flowing.items() if slot_of(name) and len(rates) > 1}
+    fitted, lines = {}, []
+    if len(by_slot) < 3:
+        return fitted
+    for slots in ranges(sorted(by_slot), min(4, len(by_slot))):
+        values, halves = fit(by_slot, slots, unit)
+        cells = [f"{number:.4f}" for pair in zip(values, halves) for number in pair]
+        lines.append([f"{slots[0]:g}-{slots[-1]:g} d", sum(len(by_slot[at]) for at in slots), *cells])
+        c, k, p = values
+        fitted = fitted or {at: c * unit * (at - k) ** p for at in slots}
+    write_table(path, "slots,runs,C,C_ci95,k,k_ci95,p,p_ci95", lines)
+    return fitted
+
+
+def rate_cells(rates, fitted):
+    """Mean, its interval in percent, the fitted rate, and how far the mean is off it in percent; empty where there is none."""
+    if not rates:
+        return [""] * 4
+    mean, half = mean_and_half_width(rates)
+    interval = "" if half is None else f"{100 * half / mean:.2f}"
+    return [f"{mean:.2f}", interval, *(["", ""] if fitted is None else [f"{fitted:.2f}", f"{100 * (mean / fitted - 1):.2f}"])]
+
+
+def fit_outflow(options):
+    """Fits seeds/s = C sqrt(g / d) (D / d - k)^p to the slots of a silo's study, with C, k and p free.
+
+    This is Beverloo's form; p is 3/2 in a plane where grains fall freely from an arch as wide as the slot.
+    REPORTS: a folder made by `vibrosow sweep`, and folders with more runs. Writes rates.csv, every layout's rate, into the first.
+    Layouts that are called "5 d", "7 d", .. are fitted, if there are three or more: fit.csv, of each range of four neighbouring
+    slots or more (of three, if that is all), the widest first. A run that ends with no more grains than its fill has none
+    between floor and counter: it has clogged, is left out and counted. Least squares of the logarithms of all other runs, each
+    with the inverse of the variance among its slot's runs as weight: runs of a narrow slot scatter three times as much as those
+    of a wide one. Intervals (95 %) from the fit's covariance and Student's t."""
+    folder = options.reports[0]
+    unit = math.sqrt(GRAVITY / (options.diameter_mm * 1e-3))
+    flowing, clogged = {}, {}
+    for more in options.reports:
+        read_runs(more, options.fill, flowing, clogged)
+    fitted = write_fits(f"{folder}/fit.csv", flowing, unit)
+    write_table(f"{folder}/rates.csv", "name,runs,clogged,seeds_per_s,ci95_percent,fitted_seeds_per_s,difference_percent",
+                [[name, len(rates), clogged[name], *rate_cells(rates, fitted.get(slot_of(name)))] for name, rates in flowing.items()])
+
+
+def outflow_slope(options):
+    """Slopes of the measured and the simulated curve between two times, from a study's comparison.csv.
+
+    Least squares. Writes slope.csv into REPORTS: in the measured quantity's unit per second, and how far the simulated slope is
+    off."""
+    chosen = [r for r in rows(f"{options.reports}/comparison.csv") if options.start <= float(r["time_s"]) <= options.end]
+    lines = []
+    for layout in sorted({r["layout"] for r in chosen}, key=int):
+        own = [r for r in chosen if r["layout"] == layout]
+        times = [float(r["time_s"]) for r in own]
+        measured, simulated = (linregress(times, [float(r[name]) for r in own]).slope for name in ("measured", "simulated"))
+        lines.append([layout, f"{options.start:g}", f"{options.end:g}", f"{measured:.2f}", f"{simulated:.2f}",
+                      f"{100 * (simulated / measured - 1):.1f}"])
+    write_table(f"{options.reports}/slope.csv", "layout,from_s,to_s,measured_per_s,simulated_per_s,difference_percent", lines)
+
+
+def add_commands(commands):
+    parser = command(commands, "fit-outflow", fit_outflow)
+    parser.add_argument("--diameter-mm", type=float, required=True, help="d, mean diameter of the grains")
+    parser.add_argument("--fill", type=int, help="grains that the silo is kept at, where the studies do not vary it")
+    parser.add_argument("reports", nargs="+", metavar="REPORTS")
+    parser = command(commands, "outflow-slope", outflow_slope)
+    parser.add_argument("reports", metavar="REPORTS")
+    parser.add_argument("start", type=float, metavar="FROM_S")
+    parser.add_argument("end", type=float, metavar="TO_S")

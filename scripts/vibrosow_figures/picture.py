@@ -1,0 +1,207 @@
+"""A picture of a bed: its grains, the vessels about them, and what falls out of their holes."""
+import json
+import math
+import os
+import re
+import sys
+
+import matplotlib
+import numpy as np
+
+matplotlib.use("Agg")
+from matplotlib import pyplot
+from matplotlib.collections import EllipseCollection, LineCollection
+from matplotlib.colors import LinearSegmentedColormap
+
+from .tables import command, number, rows
+
+# Seed-coloured even at rest: the palest tenth of the map is left out.
+SEEDS = LinearSegmentedColormap.from_list("seeds", matplotlib.colormaps["YlOrBr"](np.linspace(0.1, 1, 256))).with_extremes(bad="lightgrey")
+LABELS = {"speed": "speed against the tray, m/s", "shear": "shear strain since the record before"}
+WALL = "#37424d"
+
+
+def stripes(table, height):
+    """Every second stripe of starting height 1, the others 0."""
+    starts = np.array([float(row["start_y_mm"]) for row in table])
+    height = height or np.ptp(starts) / 10 or 1
+    return np.floor((starts - starts.min()) / height) % 2
+
+
+def values_and_colours(table, options):
+    """A value per grain, the colour map, and the range of values."""
+    if options.by == "start":
+        return stripes(table, options.stripe), "cividis", (0, 1.25)
+    if options.by == "lot":
+        lots = sorted({row["lot"] for row in table})
+        return [lots.index(row["lot"]) for row in table], "tab10", (0, 10)
+    if options.by == "shear":
+        values = np.array([number(row["shear"]) for row in table])
+    else:
+        values = np.hypot(*([float(row[name]) for row in table] for name in ("vx_m_per_s", "vy_m_per_s")))
+    if np.all(np.isnan(values)):
+        sys.exit(f"{options.grains}: no grain has a {options.by}; the first record of a run has no shear")
+    return values, SEEDS, (0, options.most or np.nanpercentile(values, 95) or 1)
+
+
+def read_scene(path):
+    """The scene of the run that wrote `path`; empty where run.json is not beside it."""
+    try:
+        with open(os.path.join(os.path.dirname(path), "run.json"), encoding="utf-8") as file:
+            return json.load(file)["scene"]
+    except FileNotFoundError:
+        return {}
+
+
+def clumps(scene):
+    """(diameter, discs) in mm of each lot whose grains are clumps."""
+    def in_mm(disc):
+        return [1e3 * disc[key] for key in ("x_m", "y_m", "radius_m")]
+
+    return {lot["name"]: (1e3 * lot["diameter_m"], [in_mm(disc) for disc in lot["discs"]])
+            for lot in scene.get("lots", []) if "discs" in lot}
+
+
+def discs(row, shapes):
+    """(x, y, radius) in mm of each disc of a grain."""
+    x, y, radius = (float(row[name]) for name in ("x_mm", "y_mm", "radius_mm"))
+    if row["lot"] not in shapes:
+        return [(x, y, radius)]
+    diameter, parts = shapes[row["lot"]]
+    angle = float(row["angle_rad"])
+    cosine, sine, size = math.cos(angle), math.sin(angle), 2 * radius / diameter
+    return [(x + size * (cosine * a - sine * b), y + size * (sine * a + cosine * b), size * r) for a, b, r in parts]
+
+
+def floor(vessel):
+    """Lines of a box: its end walls, and its floor, which slopes towards the holes by the funnel's angle; all in m."""
+    length, slope = vessel["length_m"], math.tan(vessel["funnel_rad"])
+    lefts, rights = ([hole["centre_m"] + side * hole["width_m"] / 2 for hole in vessel["holes"]] for side in (-1, 1))
+    lines = [[(start, 0), ((start + end) / 2, slope * (end - start) / 2), (end, 0)] for start, end in zip(rights, lefts[1:])]
+    if lefts:
+        lines = [[(0, slope * lefts[0]), (lefts[0], 0)], *lines, [(rights[-1], 0), (length, slope * (length - rights[-1]))]]
+    else:
+        lines = [[(0, 0), (length, 0)]]
+    if vessel["sides"] == "walls":
+        lines[0].insert(0, (0, vessel["height_m"]))
+        lines[-1].append((length, vessel["height_m"]))
+    return lines
+
+
+def arc(piece):
+    angles = np.linspace(piece["from_rad"], piece["to_rad"], 90)
+    (x, y), radius = piece["centre_m"], piece["radius_m"]
+    return list(zip(x + radius * np.cos(angles), y + radius * np.sin(angles)))
+
+
+def outline(vessel):
+    """Lines of a vessel's walls in its own frame, in mm."""
+    lines = floor(vessel) if vessel["box"] else []
+    lines += [arc(piece) if "radius_m" in piece else [piece["from_m"], piece["to_m"]] for piece in vessel["pieces"]]
+    return [1e3 * np.array(line) for line in lines]
+
+
+def turned(line, angle):
+    cosine, sine = math.cos(angle), math.sin(angle)
+    return line @ np.array([[cosine, sine], [-sine, cosine]])
+
+
+def displacement(vessel, time):
+    """Of a vessel from where it stands at rest, in mm: of a harmonic motion between its ramps. Zero of all others."""
+    motion = vessel["motion"]
+    if not motion or motion["kind"] != "harmonic":
+        return np.zeros(2)
+    stop = motion["stop_s"]
+    if time < motion["ramp_s"] or (stop is not None and time > stop):
+        return np.zeros(2)
+    along = 1e3 * motion["amplitude_m"] * math.sin(2 * math.pi * motion["frequency_hz"] * time + motion["phase_rad"])
+    return along * np.array([math.cos(motion["direction_rad"]), math.sin(motion["direction_rad"])])
+
+
+def walls(scene, time):
+    """Lines of the tray and of the hopper, in the tray's frame, in mm."""
+    if not scene:
+        return []
+    tray, hopper = scene["tray"], scene.get("hopper")
+    lines = outline(tray)
+    if hopper:
+        place = 1e3 * np.array([hopper["left_m"], hopper["above_m"]]) + displacement(hopper, time) - displacement(tray, time)
+        lines += [turned(turned(line, hopper["tilt_rad"]) + place, -tray["tilt_rad"]) for line in outline(hopper)]
+    return lines
+
+
+def time_of(path):
+    """When the record was taken, s; records.csv beside it tells. Zero without."""
+    number_of = re.search(r"grains_(\d+)\.csv$", path)
+    records = os.path.join(os.path.dirname(path), "records.csv")
+    if not number_of or not os.path.exists(records):
+        return 0.0
+    return next((float(r["time_s"]) for r in rows(records) if int(r["record"]) == int(number_of[1])), 0.0)
+
+
+def bounds_of(parts, lines):
+    """Corners of the smallest box around all discs and walls, with a little room."""
+    places, radii = parts[:, :2], parts[:, 2:3]
+    points = np.concatenate([places - radii, places + radii, *lines])
+    room = 0.02 * np.ptp(points, axis=0).max()
+    return points.min(axis=0) - room, points.max(axis=0) + room
+
+
+def add_discs(axes, parts, colours, limits):
+    x, y, radius, values = parts.T
+    grains = EllipseCollection(2 * radius, 2 * radius, np.zeros(len(x)), units="x", offsets=parts[:, :2], transOffset=axes.transData,
+                               cmap=colours, edgecolor="#4a2c12", linewidth=0.35, zorder=2)
+    grains.set_array(values)
+    grains.set_clim(*limits)
+    return axes.add_collection(grains)
+
+
+def add_scale(axes, low, high):
+    """A bar instead of axes: the longest of 1, 2, 5, 10, .. mm below a tenth of the width."""
+    tenth = (high[0] - low[0]) / 10
+    length = max(n * 10**k for n in (1, 2, 5) for k in range(-2, 6) if n * 10**k <= tenth)
+    right, up = high[0] - 0.02 * (high[0] - low[0]), low[1] + 0.04 * (high[1] - low[1])
+    axes.plot([right - length, right], [up, up], color=WALL, linewidth=2, solid_capstyle="butt")
+    axes.annotate(f"{length:g} mm", (right - length / 2, up), xytext=(0, 4), textcoords="offset points", ha="center", color=WALL)
+
+
+def draw(table, options):
+    scene = read_scene(options.grains)
+    values, colours, limits = values_and_colours(table, options)
+    shapes = clumps(scene)
+    parts = np.array([(*disc, value) for row, value in zip(table, values) for disc in discs(row, shapes)])
+    lines = walls(scene, time_of(options.grains))
+    low, high = bounds_of(parts, lines)
+    wide, tall = high - low
+
+    figure, axes = pyplot.subplots(figsize=(12, min(16, max(2, 12 * tall / wide))))
+    axes.add_collection(LineCollection(lines, colors=WALL, linewidths=5, capstyle="round", joinstyle="round", zorder=1))
+    grains = add_discs(axes, parts, colours, limits)
+    axes.set(xlim=(low[0], high[0]), ylim=(low[1], high[1]), aspect="equal")
+    axes.set_axis_off()
+    add_scale(axes, low, high)
+    if options.by in LABELS:
+        figure.colorbar(grains, ax=axes, label=LABELS[options.by], orientation="horizontal", shrink=0.4, aspect=40, pad=0.02)
+    figure.savefig(options.picture, dpi=130, bbox_inches="tight", facecolor="white")
+
+
+def draw_bed(options):
+    """Draws a grains_NNN.csv of `vibrosow run` as a picture: grains, tray and hopper.
+
+    Each grain is coloured by the stripe of height where it started, by its shear strain since the record before, by its speed
+    against the tray, or by lot; clumps as their discs. Walls and clumps' shapes are told by run.json, the moment by records.csv
+    beside the file. All is in the tray's frame; a hopper is put where it stood when the tray's motion is harmonic, and else
+    where it stands while the tray is at rest."""
+    table = rows(options.grains)
+    if not table:
+        sys.exit(f"{options.grains}: no grains")
+    draw(table, options)
+
+
+def add_commands(commands):
+    parser = command(commands, "draw", draw_bed)
+    parser.add_argument("grains", metavar="GRAINS_CSV")
+    parser.add_argument("picture", metavar="PICTURE", help="file to write: .png, .svg or .pdf")
+    parser.add_argument("--by", choices=["start", "shear", "speed", "lot"], default="start")
+    parser.add_argument("--stripe", type=float, metavar="MM", help="height of a stripe of starts; default: a tenth")
+    parser.add_argument("--most", type=float, help="value of the darkest colour of shear or speed; default: 95 %% lie below")

@@ -1,0 +1,101 @@
+#!/usr/bin/env python3
+"""What the documents name exists: files, reports, commands and their options; and the front page is short.
+
+    tests/docs/test_docs.py VIBROSOW"""
+import re
+import shlex
+import subprocess
+import sys
+import tempfile
+import tomllib
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[2]
+DOCUMENTS = [path for pattern in ("*.md", "docs/*.md", "seeders/*.md", "reports/*.md", "benchmarks/peers/*.md") for path in ROOT.glob(pattern)]
+HISTORY = ["CHANGELOG.md"]  # names what is gone
+ROOMS = "seeders|scripts|reports|models|docs|tests|benchmarks|examples|src|include"
+failures = []
+
+
+def expect(holds, message):
+    if not holds:
+        failures.append(message)
+
+
+def run(*words):
+    return subprocess.run(words, capture_output=True, text=True, cwd=ROOT)
+
+
+def check_links(path, text):
+    for target in re.findall(r"\]\(([^)#\s]+)[^)]*\)", text):
+        if "://" not in target:
+            expect((path.parent / target).exists(), f"{path.name}: link to {target}, which does not exist")
+
+
+def check_paths(path, text):
+    for target in re.findall(rf"`((?:{ROOMS})/[\w./-]*\w)", text):
+        expect((ROOT / target).exists(), f"{path.name}: names {target}, which does not exist")
+
+
+def check_reports(path, text):
+    recipes = tomllib.loads((ROOT / "reports/recipes.toml").read_text())
+    for names in re.findall(r"scripts/make-reports((?:\s+[a-z][\w-]+)+)`", text):
+        for name in names.split():
+            expect(name in recipes, f"{path.name}: scripts/make-reports {name}: there is no such recipe")
+
+
+def commands_in(text):
+    """Words of each line and each backticked text that begins with vibrosow; comments are left out."""
+    indented = re.findall(r"^    (vibrosow .*)$", text, re.MULTILINE)
+    quoted = [" ".join(one.split()) for one in re.findall(r"`(vibrosow [^`]*)`", text)]
+    return [shlex.split(line, comments=True)[1:] for line in indented + quoted]
+
+
+def check_command(program, name, words):
+    if words[0].startswith("-"):
+        return expect(run(program, *words).returncode == 0, f"{name}: vibrosow {' '.join(words)} fails")
+    help_text = run(program, words[0], "--help")
+    expect(help_text.returncode == 0, f"{name}: there is no command vibrosow {words[0]}")
+    for option in words[1:]:
+        if option.startswith("--"):
+            expect(re.search(rf"{option}\b", help_text.stdout), f"{name}: vibrosow {words[0]} has no option {option}")
+    files = [word for word in words[1:] if word.endswith(".toml") and not re.search(r"\b[A-Z]{3,}\b", word)]  # STUDY.toml: any
+    for file in files:
+        expect((ROOT / file).exists(), f"{name}: vibrosow {words[0]} {file}: there is no such file")
+    sets = [word for k, word in enumerate(words) if k and words[k - 1] == "--set"]
+    if sets and files:
+        checked = run(program, "check", *files, *(part for one in sets for part in ("--set", one)))
+        expect(checked.returncode == 0, f"{name}: vibrosow {' '.join(words)}: {checked.stderr}")
+
+
+def check_seeder_of_front_page(program, text):
+    seeders = re.findall(r"```toml\n(.*?)```", text, re.DOTALL)
+    expect(len(seeders) == 1, "README.md: not one seeder")
+    with tempfile.NamedTemporaryFile("w", suffix=".toml") as file:
+        file.write(seeders[0])
+        file.flush()
+        checked = run(program, "check", file.name)
+        expect(checked.returncode == 0, f"README.md: its seeder is refused: {checked.stderr}")
+
+
+def main():
+    program = str(Path(sys.argv[1]).resolve())
+    for path in DOCUMENTS:
+        text = path.read_text(encoding="utf-8")
+        check_links(path, text)
+        if path.name in HISTORY:
+            continue
+        check_paths(path, text)
+        check_reports(path, text)
+        for words in commands_in(text):
+            check_command(program, path.name, words)
+    front = (ROOT / "README.md").read_text(encoding="utf-8")
+    check_seeder_of_front_page(program, front)
+    expect(len(front.split()) <= 800, f"README.md has {len(front.split())} words, more than 800")
+    expect(len(commands_in(front)) >= 5, "README.md: fewer than five commands found")
+    for failure in failures:
+        print(failure)
+    sys.exit(1 if failures else 0)
+
+
+main()
