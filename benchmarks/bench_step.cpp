@@ -81,8 +81,7 @@ void part_of_a_step(benchmark::State& state, Part part) {
 
 void forces(benchmark::State& state) {
   ContactStatistics statistics;
-  part_of_a_step(
-      state, [&](Simulation& simulation) { simulation.field().evaluate(0.3, {}, statistics); });
+  part_of_a_step(state, [&](Simulation& simulation) { simulation.field().evaluate(0.3, {}, statistics); });
 }
 
 void search(benchmark::State& state) {
@@ -97,9 +96,7 @@ void search(benchmark::State& state) {
 }
 
 void renew_both_lists(benchmark::State& state) {
-  part_of_a_step(state, [](Simulation& simulation) {
-    simulation.field().grains_wrapped();
-  });
+  part_of_a_step(state, [](Simulation& simulation) { simulation.field().grains_wrapped(); });
 }
 
 void whole_run(benchmark::State& state) {

@@ -44,7 +44,7 @@ void Grains::add(double px, double py, double pvx, double pvy, int lot_index, co
   if (rotation) omega.push_back(0);
   if (oriented) angle.push_back(turned);
   lot.push_back(lot_index);
-  id.push_back(next_id_++);
+  id.push_back(next_id++);
   if (!polydisperse) return;
   radius.push_back(own.radius);
   mass.push_back(own.mass);

@@ -44,6 +44,7 @@ struct Grains {
   bool rotation = false;
   std::vector<double> radius, mass, inverse_mass, inverse_inertia, compliance, curvature;  // curvature 1/m
 
+  std::int64_t next_id = 0;  // of the next grain that is added
   bool oriented = false;     // whether angles are kept
   std::vector<int> clump{};  // where these are the discs of clumps: which clump each belongs to; else empty
 
@@ -64,9 +65,6 @@ struct Grains {
 
   /// Keeps the grains whose flag is 0, in order. `remove` has one flag a grain.
   void remove_flagged(const std::vector<char>& remove);
-
- private:
-  std::int64_t next_id_ = 0;
 };
 
 }  // namespace vibrosow

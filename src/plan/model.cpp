@@ -26,7 +26,7 @@ Model prepare(const Scene& scene, const std::optional<EffectSet>& effects) {
                         touching,    model.loads,   model.smallest_radius};
   model.step = plan_step(basis);
   model.compression = predict_compression(basis);
-  if (!model.effects.rotation)
+  if (!model.effects.rotation || !scene.contact.rotation)
     for (GrainKind& kind : model.kinds) kind.inverse_inertia = 0;
   return model;
 }

@@ -74,7 +74,7 @@ struct GuardState {
 };
 
 struct RecorderState {
-  std::size_t taken = 0;               // of the record's times
+  std::uint64_t taken = 0;             // of the record's times
   std::vector<Eigen::Vector2d> start;  // m, by id: where a grain was put in
 };
 

@@ -46,7 +46,7 @@ Scene draining_box() {
 
 std::uint64_t end_state(std::uint64_t random_seed) {
   const Scene scene = draining_box();
-    Simulation run(with_step(prepare(scene), 2e-5), random_seed);
+  Simulation run(with_step(prepare(scene), 2e-5), random_seed);
   run.steps(15000);
   EXPECT_FALSE(run.guard().stop_reason()) << *run.guard().stop_reason();
   Hash hash;

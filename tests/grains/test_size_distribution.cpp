@@ -120,18 +120,5 @@ TEST(DrawAngle, OfClumpsIsUniformOverAllTurns) {
   EXPECT_GT(most, 2 * std::numbers::pi - 0.001);
 }
 
-TEST(ExtremeKinds, SmallestAndLargestSeedAtEqualDensity) {
-  Scene scene;
-  scene.lots = {lot_with({Kind::uniform, diameter, 0, 2e-3, 6e-3, {}, {}}), lot_with({}, Shape::disc)};
-  const std::vector<GrainKind> kinds = extreme_kinds(scene, true);
-  ASSERT_EQ(kinds.size(), 4u);
-  EXPECT_EQ(kinds[0].radius, 2e-3);
-  EXPECT_DOUBLE_EQ(kinds[2].radius, 1e-3);
-  EXPECT_DOUBLE_EQ(kinds[3].radius, 3e-3);
-  EXPECT_DOUBLE_EQ(kinds[2].mass, 4e-5 / 8);
-  EXPECT_DOUBLE_EQ(kinds[3].mass, 4e-5 * 27 / 8);
-  EXPECT_DOUBLE_EQ(1 / kinds[2].inverse_inertia, 0.4 * kinds[2].mass * 1e-6);
-}
-
 }  // namespace
 }  // namespace vibrosow

@@ -5,6 +5,7 @@
 #include <random>
 
 #include "plan/contact_parameters.hpp"
+#include "plan/effects.hpp"
 #include "support/bench.hpp"
 #include "vessel/vessel_walls.hpp"
 

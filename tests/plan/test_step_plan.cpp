@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "plan/step_plan.hpp"
+#include "plan/touching_kinds.hpp"
 #include "scene/input_error.hpp"
 #include "simulation/simulate.hpp"
 #include "support/bench.hpp"
@@ -156,6 +157,20 @@ TEST(StepPlan, EverySchemeIsSoundAtItsLongestSafeStep) {
               << ", restitution " << restitution << ", model " << static_cast<int>(model);
           EXPECT_EQ(run.balance.inside, 60);
         }
+}
+
+TEST(TouchingKinds, OneSizeTheSmallestAndTheLargestAtEqualDensity) {
+  Scene scene = Bench().scene;
+  scene.lots = {{"scattered", 4e-3, 4e-5, Shape::ball, 0.5}, {"single", 4e-3, 4e-5, Shape::disc, 0.5}};
+  scene.lots[0].sizes = {SizeDistribution::Kind::uniform, 4e-3, 0, 2e-3, 6e-3, {}, {}};
+  const std::vector<GrainKind> kinds = touching_kinds(scene.lots, grain_kinds(scene), traits_of(scene.contact.law));
+  ASSERT_EQ(kinds.size(), 4u);
+  EXPECT_EQ(kinds[0].radius, 2e-3);
+  EXPECT_DOUBLE_EQ(kinds[1].radius, 1e-3);
+  EXPECT_DOUBLE_EQ(kinds[2].radius, 3e-3);
+  EXPECT_DOUBLE_EQ(kinds[1].mass, 4e-5 / 8);
+  EXPECT_DOUBLE_EQ(kinds[2].mass, 4e-5 * 27 / 8);
+  EXPECT_DOUBLE_EQ(1 / kinds[1].inverse_inertia, 0.4 * kinds[1].mass * 1e-6);
 }
 
 }  // namespace

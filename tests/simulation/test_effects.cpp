@@ -1,6 +1,7 @@
 // Specialised kernels against the all-effects kernel at neutral values: the same trajectories, compared with ==.
 #include <gtest/gtest.h>
 
+#include "plan/effects.hpp"
 #include "support/bench.hpp"
 
 namespace vibrosow {

@@ -65,7 +65,10 @@ struct Fed {
   Feeder feeder;
 
   explicit Fed(const Scene& scene)
-      : model(prepare(scene)), state(starting_state(model, 1, none(model))), walls(model.vessels), feeder(model, state.feeder) {
+      : model(prepare(scene)),
+        state(starting_state(model, 1, none(model))),
+        walls(model.vessels),
+        feeder(model, state.feeder) {
     walls.place(0);
   }
   static Grains none(const Model& model) {

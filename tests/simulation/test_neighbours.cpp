@@ -87,11 +87,11 @@ TEST(Neighbours, MissNoContactOfAWholeRun) {
     if (step % 13 != 0) continue;
     // Lists are those of the last force evaluation, which a velocity Verlet step makes at its end.
     const Grains& grains = run->grains();
-    const Neighbours& neighbours = run->field().neighbours();
-    const Contacts found = touching(grains, neighbours.pairs()), all = touching(grains, every_pair(grains.size()));
+    const ContactState& contacts = run->state().contacts;
+    const Contacts found = touching(grains, contacts.pairs), all = touching(grains, every_pair(grains.size()));
     ASSERT_EQ(found, all) << "step " << step;
     const std::vector<PlacedWall>& placed = run->field().walls().placed();
-    const Contacts found_walls = touching_walls(grains, placed, &neighbours.near_walls());
+    const Contacts found_walls = touching_walls(grains, placed, &contacts.walls);
     ASSERT_EQ(found_walls, touching_walls(grains, placed, nullptr)) << "step " << step;
     pairs += all.size(), walls += found_walls.size();
   }

@@ -15,8 +15,7 @@ namespace {
 constexpr double up = std::numbers::pi / 2;
 
 double total_energy(Simulation& run, const Eigen::Vector2d& gravity) {
-  return kinetic_energy(run.grains()) + potential_energy(run.grains(), gravity) +
-         run.field().elastic_energy();
+  return kinetic_energy(run.grains()) + potential_energy(run.grains(), gravity) + run.field().elastic_energy();
 }
 
 /// Relative change of energy in one elastic impact at z = omega dt: under both schemes the kink at touch and parting

@@ -78,8 +78,8 @@ class Bench {
       grains.add(p.x, p.y, p.vx, p.vy, p.lot, grains.kinds[static_cast<std::size_t>(p.lot)], p.angle);
       if (model.effects.rotation) grains.omega.back() = p.omega;
     }
-    simulation_ =
-        std::make_unique<Simulation>(model, starting_state(model, 1, std::move(grains)), ComputeOptions{.margins = margins});
+    simulation_ = std::make_unique<Simulation>(model, starting_state(model, 1, std::move(grains)),
+                                               ComputeOptions{.margins = margins});
     return *simulation_;
   }
 

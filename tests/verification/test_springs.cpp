@@ -230,7 +230,8 @@ TEST(TangentialSpring, MemorySurvivesEveryRenewalOfTheLists) {
   const auto run = [&](NeighbourMargins margins, Integrator integrator) {
     Scene own = scene;
     own.numerics.integrator = integrator;
-    auto simulation = std::make_unique<Simulation>(with_step(prepare(own), 5e-5), 3, ComputeOptions{.margins = margins});
+    auto simulation =
+        std::make_unique<Simulation>(with_step(prepare(own), 5e-5), 3, ComputeOptions{.margins = margins});
     simulation->steps(4000);
     return simulation;
   };

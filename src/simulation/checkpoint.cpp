@@ -1,0 +1,218 @@
+#include "simulation/checkpoint.hpp"
+
+#include <fmt/format.h>
+
+#include <boost/crc.hpp>
+#include <cereal/archives/portable_binary.hpp>
+#include <cereal/types/array.hpp>
+#include <cereal/types/optional.hpp>
+#include <cereal/types/string.hpp>
+#include <cereal/types/variant.hpp>
+#include <cereal/types/vector.hpp>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "scene/input_error.hpp"
+#include "scene/scene_json.hpp"
+
+// cereal finds these by the types' namespaces. Each lists every field of its type: what is missing here is lost.
+namespace cereal {
+template <class Archive>
+void serialize(Archive& archive, Eigen::Vector2d& v) {
+  archive(v.x(), v.y());
+}
+}  // namespace cereal
+
+namespace vibrosow {
+
+template <class Archive>
+void save(Archive& archive, const Random& random) {
+  std::ostringstream text;
+  text << random.engine();
+  archive(text.str());
+}
+template <class Archive>
+void load(Archive& archive, Random& random) {
+  std::string text;
+  archive(text);
+  std::istringstream(text) >> random.engine();
+}
+template <class Archive>
+void serialize(Archive& archive, HarmonicMotion& m) {
+  archive(m.direction, m.amplitude, m.frequency, m.ramp, m.phase, m.stop, m.stop_ramp);
+}
+template <class Archive>
+void serialize(Archive& archive, SumMotion& m) {
+  archive(m.components);
+}
+template <class Archive>
+void serialize(Archive& archive, RockingMotion& m) {
+  archive(m.pivot, m.angle, m.frequency, m.ramp, m.stop, m.stop_ramp);
+}
+template <class Archive>
+void serialize(Archive& archive, TableMotion& m) {
+  archive(m.times, m.x, m.y, m.angle);
+}
+template <class Archive>
+void serialize(Archive& archive, Grains& g) {  // kinds and flags are the model's
+  archive(g.x, g.y, g.vx, g.vy, g.omega, g.angle, g.lot, g.id);
+  archive(g.radius, g.mass, g.inverse_mass, g.inverse_inertia, g.compliance, g.curvature, g.next_id);
+}
+template <class Archive>
+void serialize(Archive& archive, IntegratorState& s) {
+  archive(s.ax, s.ay, s.alpha, s.of_x, s.of_y, s.of_angle, s.wall_power, s.wall_work, s.gross_wall_work);
+}
+template <class Archive>
+void serialize(Archive& archive, PairList& list) {
+  archive(list.grain, list.partner);
+}
+template <class Archive>
+void serialize(Archive& archive, WallCandidate& candidate) {
+  archive(candidate.grain, candidate.wall, candidate.side);
+}
+template <class Archive>
+void serialize(Archive& archive, ContactHistories& h) {
+  archive(h.slip, h.slip_speed, h.roll, h.roll_speed, h.touched);
+}
+template <class Archive>
+void serialize(Archive& archive, ContactState& s) {
+  archive(s.pairs, s.boundary_pairs, s.walls, s.pair_histories, s.boundary_histories, s.wall_histories);
+}
+template <class Archive>
+void serialize(Archive& archive, ContactStatistics& s) {
+  archive(s.contacts, s.max_compression, s.wall_power, s.crossed);
+}
+template <class Archive>
+void serialize(Archive& archive, VesselState& s) {
+  archive(s.motion, s.shift, s.removed, s.closed_by_hand, s.placed_at);
+}
+template <class Archive>
+void serialize(Archive& archive, CounterState::Passage& p) {
+  archive(p.counted, p.hole, p.x);
+}
+template <class Archive>
+void serialize(Archive& archive, CounterState& s) {
+  archive(s.passages, s.below, s.lost);
+}
+template <class Archive>
+void serialize(Archive& archive, FeederState::Shower& s) {
+  archive(s.random, s.arrived, s.next_lot, s.next_size, s.next_angle);
+}
+template <class Archive>
+void serialize(Archive& archive, FeederState& s) {
+  archive(s.random, s.showers, s.warning);
+}
+template <class Archive>
+void serialize(Archive& archive, GuardState& s) {
+  archive(s.max_compression, s.warned_at, s.warned_of_stride, s.warned_of_energy, s.stop_reason, s.warnings);
+  archive(s.has_energy, s.lowest, s.in_play, s.first_potential);
+}
+template <class Archive>
+void serialize(Archive& archive, RecorderState& s) {
+  archive(s.taken, s.start);
+}
+template <class Archive>
+void serialize(Archive& archive, OutflowEvent& e) {
+  archive(e.time, e.hole, e.lot, e.grain, e.mass, e.x, e.speed);
+}
+template <class Archive>
+void serialize(Archive& archive, Snapshot& s) {
+  archive(s.time, s.tray_x, s.tray_y, s.tray_angle, s.tray_vx, s.tray_vy, s.tray_spin, s.x, s.y, s.vx, s.vy, s.omega,
+          s.angle, s.lot, s.id, s.radius, s.mass, s.area, s.start_x, s.start_y);
+}
+template <class Archive>
+void serialize(Archive& archive, EnergyAccount& e) {
+  archive(e.kinetic, e.potential, e.elastic, e.wall_work, e.inserted, e.removed, e.made_by_numerics);
+}
+template <class Archive>
+void serialize(Archive& archive, Balance& b) {
+  archive(b.put_in, b.inside, b.counted, b.spilled, b.lost);
+}
+/// What a running simulation has put into its Run; the rest is filled in by `Simulation::result`.
+template <class Archive>
+void serialize(Archive& archive, Run& r) {
+  archive(r.end_reason, r.random_seed, r.dt, r.grain_steps, r.tray_empty_since, r.energy, r.balance, r.events,
+          r.snapshots);
+}
+template <class Archive>
+void serialize(Archive& archive, SimulationState& s) {
+  archive(s.time, s.step, s.started, s.grains, s.integrator, s.contacts, s.statistics, s.vessels, s.counter, s.feeder,
+          s.guard, s.recorder, s.run);
+}
+
+namespace {
+
+constexpr std::string_view signature = "vibrosow checkpoint\n";
+/// To be raised whenever a state has other fields, or goes on differently.
+constexpr std::uint32_t version = 1;
+
+std::uint32_t checksum(std::string_view bytes) {
+  boost::crc_32_type crc;
+  crc.process_bytes(bytes.data(), bytes.size());
+  return crc.checksum();
+}
+
+[[noreturn]] void refuse(const std::string& reason) {
+  throw InputError("the checkpoint does not fit: " + reason);
+}
+
+/// The first key in which two canonical scenes differ.
+std::string first_difference(const std::string& saved, const std::string& wanted) {
+  const nlohmann::json difference = nlohmann::json::diff(nlohmann::json::parse(saved), nlohmann::json::parse(wanted));
+  return difference.empty() ? "/" : difference.front().at("path").get<std::string>();
+}
+
+struct Header {
+  std::uint32_t version = 0, checksum = 0;
+};
+
+}  // namespace
+
+std::string save(const Model& model, const SimulationState& state) {
+  SimulationState saved = state;
+  saved.contacts = without_idle_pairs(state.contacts);
+  std::ostringstream body;
+  {
+    cereal::PortableBinaryOutputArchive archive(body);
+    archive(scene_to_json(model.scene), model.step.dt, saved);
+  }
+  std::ostringstream all;
+  all << signature;
+  {
+    cereal::PortableBinaryOutputArchive archive(all);
+    archive(version, checksum(body.str()));
+  }
+  all << body.str();
+  return all.str();
+}
+
+SimulationState restore(const Model& model, std::string_view bytes) {
+  if (!bytes.starts_with(signature)) refuse("it is no checkpoint of Vibrosow");
+  try {
+    std::istringstream in(std::string(bytes.substr(signature.size())));
+    Header header;
+    {
+      cereal::PortableBinaryInputArchive archive(in);
+      archive(header.version, header.checksum);
+    }
+    if (header.version != version)
+      refuse(fmt::format("it is of version {}, and this program reads {}", header.version, version));
+    const auto body_at = static_cast<std::size_t>(in.tellg());
+    if (checksum(bytes.substr(signature.size() + body_at)) != header.checksum) refuse("it is damaged");
+    cereal::PortableBinaryInputArchive archive(in);
+    std::string scene;
+    double dt = 0;
+    archive(scene, dt);
+    if (const std::string wanted = scene_to_json(model.scene); scene != wanted)
+      refuse(fmt::format("it is of another scene, which differs in {}", first_difference(scene, wanted)));
+    if (dt != model.step.dt) refuse(fmt::format("its step was {:g} s, and is now {:g} s", dt, model.step.dt));
+    SimulationState state = starting_state(
+        model, 1, Grains(model.kinds, model.effects.polydisperse, model.effects.rotation, model.effects.clumps));
+    archive(state);
+    return state;
+  } catch (const cereal::Exception&) {
+    refuse("it ends too early");
+  }
+}
+
+}  // namespace vibrosow
