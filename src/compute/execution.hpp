@@ -1,16 +1,12 @@
 #pragma once
 
-#include <oneapi/tbb/global_control.h>
-#include <oneapi/tbb/parallel_for.h>
-#include <oneapi/tbb/partitioner.h>
-#include <oneapi/tbb/task_arena.h>
-
 #include <algorithm>
 #include <cstddef>
-#include <optional>
+#include <functional>
 
 #include "compute/grain_loops.hpp"
 #include "compute/profile.hpp"
+#include "compute/thread_team.hpp"
 
 namespace vibrosow {
 
@@ -18,27 +14,22 @@ namespace vibrosow {
 /// is computed for one grain does not depend on which others are in its range.
 class Execution {
  public:
-  /// `threads` >= 1. Throws std::logic_error when the instructions are not available.
+  /// `threads` >= 1. Throws std::logic_error when the instructions are not available, std::invalid_argument when there
+  /// are not so many threads to be had.
   explicit Execution(InstructionSet instructions = best_instruction_set(), int threads = 1)
-      : instructions_(instructions), loops_(grain_loops(instructions)), threads_(threads), arena_(threads) {
-    if (threads > 1)
-      limit_.emplace(oneapi::tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads));
-  }
+      : instructions_(instructions), loops_(grain_loops(instructions)), team_(threads) {}
 
   InstructionSet instructions() const { return instructions_; }
   const GrainLoops& loops() const { return loops_; }
-  int threads() const { return threads_; }
+  int threads() const { return team_.size(); }
   Profile& profile() { return profile_; }
   const Profile& profile() const { return profile_; }
 
   /// Calls work(range) for each range 0 .. threads - 1 and returns when all are done.
   template <class Work>
   void for_each_range(Work work) {
-    if (threads_ == 1) return work(0);
-    arena_.execute([&] {
-      oneapi::tbb::parallel_for(
-          0, threads_, [&](int range) { work(range); }, oneapi::tbb::static_partitioner{});
-    });
+    if (threads() == 1) return work(0);
+    team_.share(std::ref(work));
   }
 
   /// Calls work(from, to) for parts of [0, n), one after the other within a thread's fraction, that stay in its cache
@@ -46,7 +37,7 @@ class Execution {
   template <class Work>
   void share(std::size_t n, Work work) {
     constexpr std::size_t part = 4096;
-    const std::size_t fractions = static_cast<std::size_t>(threads_);
+    const std::size_t fractions = static_cast<std::size_t>(threads());
     for_each_range([&](int range) {
       const std::size_t k = static_cast<std::size_t>(range), end = n * (k + 1) / fractions;
       for (std::size_t from = n * k / fractions; from < end; from += part) work(from, std::min(from + part, end));
@@ -56,9 +47,7 @@ class Execution {
  private:
   InstructionSet instructions_;
   const GrainLoops& loops_;
-  int threads_;
-  std::optional<oneapi::tbb::global_control> limit_;  // more threads than cores are the user's to ask for
-  oneapi::tbb::task_arena arena_;
+  ThreadTeam team_;
   Profile profile_;
 };
 

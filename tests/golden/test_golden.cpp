@@ -2,30 +2,14 @@
 // and no cosine, whose last bit may differ between machines: nothing moves but the grains, and nothing is tilted.
 #include <gtest/gtest.h>
 
-#include <bit>
 #include <cstdint>
 
 #include "simulation/simulate.hpp"
 #include "support/bench.hpp"
+#include "support/bit_hash.hpp"
 
 namespace vibrosow {
 namespace {
-
-/// FNV-1a over the bits of doubles.
-class Hash {
- public:
-  void add(double value) {
-    const std::uint64_t bits = std::bit_cast<std::uint64_t>(value);
-    for (int byte = 0; byte < 8; ++byte) {
-      value_ ^= (bits >> (8 * byte)) & 0xff;
-      value_ *= 0x100000001b3;
-    }
-  }
-  std::uint64_t value() const { return value_; }
-
- private:
-  std::uint64_t value_ = 0xcbf29ce484222325;
-};
 
 Scene draining_box() {
   Scene scene;
@@ -49,7 +33,7 @@ std::uint64_t end_state(std::uint64_t random_seed) {
   Simulation run(with_step(prepare(scene), 2e-5), random_seed);
   run.steps(15000);
   EXPECT_FALSE(run.guard().stop_reason()) << *run.guard().stop_reason();
-  Hash hash;
+  BitHash hash;
   const Grains& g = run.grains();
   for (std::size_t i = 0; i < g.size(); ++i)
     for (double value : {g.x[i], g.y[i], g.vx[i], g.vy[i], g.omega[i]}) hash.add(value);
