@@ -34,22 +34,16 @@ std::vector<AccuracyRow> rows_of(const AccuracyGrid& grid) {
 }
 
 /// What one setting's runs gave; `results` are its replicates.
-void take_results(AccuracyRow& row, const Scene& scene, const JobResult* results, int replicates) {
+void take_results(AccuracyRow& row, const Evaluation* results, int replicates) {
   std::vector<double> rates;
-  for (const JobResult* result = results; result != results + replicates; ++result) {
-    if (!result->run) {
-      row.refused = result->refused.empty() ? "interrupted" : result->refused;
+  for (const Evaluation* result = results; result != results + replicates; ++result) {
+    if (!result->finished()) {
+      row.refused = result->reason.empty() ? "interrupted" : result->reason;
       continue;
     }
-    const Run& run = *result->run;
-    if (run.status != RunStatus::finished) {
-      row.refused = run.status == RunStatus::interrupted ? "interrupted" : run.stop_reason;
-      continue;
-    }
-    const Outflow outflow = measure_outflow(scene, run);
-    rates.push_back(find_row(outflow, "all", "all")->mass_rate);
-    row.grain_steps += static_cast<double>(run.grain_steps);
-    row.wall_time += run.wall_time;
+    rates.push_back(find_row(result->outflow, "all", "all")->mass_rate);
+    row.grain_steps += static_cast<double>(result->grain_steps);
+    row.wall_time += result->wall_time;
   }
   if (rates.empty()) return;
   const double runs = static_cast<double>(rates.size());
@@ -140,10 +134,9 @@ AccuracyResult measure_accuracy(const Scene& scene, const AccuracyGrid& grid, in
   }
   if (jobs.empty()) throw InputError(fmt::format("no setting can be run: {}", result.rows.front().refused));
 
-  const std::vector<JobResult> results = run_jobs(jobs, simulator, options.runs);
+  const std::vector<Evaluation> results = run_jobs(jobs, simulator, options.runs);
   for (std::size_t group = 0; group < row_of.size(); ++group)
-    take_results(result.rows[row_of[group]], scenes[row_of[group]],
-                 results.data() + group * static_cast<std::size_t>(replicates), replicates);
+    take_results(result.rows[row_of[group]], results.data() + group * static_cast<std::size_t>(replicates), replicates);
   compare_with_finest(result);
   return result;
 }

@@ -4,9 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <stdexcept>
 
-#include "outflow/discharge.hpp"
 #include "outflow/misfit.hpp"
 
 namespace vibrosow {
@@ -39,33 +39,42 @@ struct Pairing {
   }
 };
 
-std::vector<double> simulated_values(const Scene& scene, const Replicate& replicate, MeasuredQuantity quantity,
-                                     const MeasuredSeries& series, const std::vector<double>& times) {
-  if (is_curve(quantity))
-    return discharge_curve(scene, *replicate.run, times, discharge_of(quantity), series.hole, series.lot);
+/// The measured times of a curve that lie within the run of a scene, and what is to be compared with.
+CurveRequest curve_request(const MeasuredPart& part, const MeasuredSeries& series, const Scene& scene) {
+  CurveRequest request{discharge_of(part.table.quantity), series.hole, series.lot, {}};
+  std::ranges::copy_if(series.times, std::back_inserter(request.times),
+                       [&](double time) { return time <= scene.run.duration; });
+  return request;
+}
+
+double simulated_rate(const Evaluation& replicate, MeasuredQuantity quantity, const MeasuredSeries& series) {
   const HoleOutflow* row = find_row(replicate.outflow, series.hole, series.lot);
   if (!row) throw std::logic_error("a measured hole that the layout has not");
-  return {quantity == MeasuredQuantity::mass_rate ? row->mass_rate : row->seeds_per_s};
+  return quantity == MeasuredQuantity::mass_rate ? row->mass_rate : row->seeds_per_s;
+}
+
+const std::vector<double>& simulated_curve(const Evaluation& replicate, const CurveRequest& request) {
+  const auto curve = std::ranges::find(replicate.curves, request, &Curve::request);
+  if (curve == replicate.curves.end()) throw std::logic_error("a measured curve that was not evaluated");
+  return curve->values;
 }
 
 Pairing pair_up(const StudyResult& result, const MeasuredMatch& match) {
   const MeasuredPart& part = *result.study.measured;
-  const std::size_t scene_index = *result.study.layouts[match.layout].scene;
-  const Scene& scene = result.study.scenes[scene_index];
+  const std::size_t scene = *result.study.layouts[match.layout].scene;
+  const bool curve = is_curve(part.table.quantity);
   Pairing pairing;
   pairing.match = &match;
   pairing.series = &part.table.series[match.series];
-  for (std::size_t i = 0; i < pairing.series->values.size(); ++i) {
-    if (is_curve(part.table.quantity)) {
-      if (pairing.series->times[i] > scene.run.duration) continue;
-      pairing.times.push_back(pairing.series->times[i]);
-    }
-    pairing.measured.push_back(pairing.series->values[i].mean);
-  }
-  for (const Replicate& replicate : result.runs[scene_index]) {
+  const CurveRequest request = curve_request(part, *pairing.series, result.study.scenes[scene]);
+  pairing.times = request.times;
+  const std::size_t values = curve ? request.times.size() : 1;
+  for (std::size_t i = 0; i < values; ++i) pairing.measured.push_back(pairing.series->values[i].mean);
+  for (const Evaluation& replicate : result.runs[scene]) {
     if (!replicate.finished()) continue;
     pairing.simulated.push_back(
-        simulated_values(scene, replicate, part.table.quantity, *pairing.series, pairing.times));
+        curve ? simulated_curve(replicate, request)
+              : std::vector<double>{simulated_rate(replicate, part.table.quantity, *pairing.series)});
     if (part.scale == MeasuredScale::depth) pairing.depth_factor = replicate.outflow.depth_factor.value();
   }
   return pairing;
@@ -146,8 +155,8 @@ void set_measured_rate(LayoutResult& layout, const Pairing& pairing, double scal
   }
 }
 
-const Outflow& a_finished_outflow(const std::vector<Replicate>& replicates) {
-  return std::ranges::find_if(replicates, &Replicate::finished)->outflow;
+const Outflow& a_finished_outflow(const std::vector<Evaluation>& replicates) {
+  return std::ranges::find_if(replicates, &Evaluation::finished)->outflow;
 }
 
 void add_remark(LayoutResult& layout, const std::string& remark) {
@@ -155,6 +164,16 @@ void add_remark(LayoutResult& layout, const std::string& remark) {
 }
 
 }  // namespace
+
+std::vector<CurveRequest> measured_curves(const Study& study, std::size_t scene) {
+  std::vector<CurveRequest> requests;
+  if (!study.measured || !is_curve(study.measured->table.quantity)) return requests;
+  for (const MeasuredMatch& match : study.measured->matches)
+    if (study.layouts[match.layout].scene == scene)
+      requests.push_back(
+          curve_request(*study.measured, study.measured->table.series[match.series], study.scenes[scene]));
+  return requests;
+}
 
 void compare_with_measured(StudyResult& result) {
   const MeasuredPart& part = *result.study.measured;

@@ -8,8 +8,6 @@
 #include <atomic>
 #include <mutex>
 
-#include "scene/input_error.hpp"
-
 namespace vibrosow {
 namespace {
 
@@ -48,26 +46,20 @@ class SharedProgress {
 
 }  // namespace
 
-std::vector<JobResult> run_jobs(const std::vector<Job>& jobs, const Simulator& simulator,
-                                const ManyRunsOptions& options) {
-  std::vector<JobResult> results(jobs.size());
+std::vector<Evaluation> run_jobs(const std::vector<Job>& jobs, const Simulator& simulator,
+                                 const ManyRunsOptions& options) {
+  std::vector<Evaluation> results(jobs.size());
   SharedProgress progress(jobs.size(), options.progress);
   const auto interrupted = [&] { return options.interrupt && options.interrupt->load(); };
 
   const auto run_one = [&](std::size_t index) {
+    results[index].random_seed = jobs[index].random_seed;
     if (interrupted()) return;
     SimulationOptions simulation;
     simulation.random_seed = jobs[index].random_seed;
     simulation.interrupt = options.interrupt;
     simulation.progress = [&progress, index](double fraction) { progress.set_fraction(index, fraction); };
-    try {
-      Run run = simulator(*jobs[index].scene, simulation);
-      results[index].records = record_figures(*jobs[index].scene, run.snapshots);
-      run.snapshots = {};
-      results[index].run = std::move(run);
-    } catch (const InputError& error) {
-      results[index].refused = error.what();
-    }
+    results[index] = evaluate(*jobs[index].scene, simulation, jobs[index].curves, simulator);
     progress.finish(index);
   };
 

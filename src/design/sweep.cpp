@@ -11,32 +11,26 @@
 namespace vibrosow {
 namespace {
 
-std::vector<std::vector<Replicate>> run_scenes(const Study& study, const Simulator& simulator,
-                                               const SweepOptions& options) {
+std::vector<std::vector<Evaluation>> run_scenes(const Study& study, const Simulator& simulator,
+                                                const SweepOptions& options) {
   std::vector<Job> jobs;
-  for (const Scene& scene : study.scenes)
+  for (std::size_t scene = 0; scene < study.scenes.size(); ++scene)
     for (int i = 0; i < study.replicates; ++i)
-      jobs.push_back({&scene, options.first_random_seed + static_cast<std::uint64_t>(i)});
-  std::vector<JobResult> results = run_jobs(jobs, simulator, options.runs);
+      jobs.push_back({&study.scenes[scene], options.first_random_seed + static_cast<std::uint64_t>(i),
+                      measured_curves(study, scene)});
+  std::vector<Evaluation> results = run_jobs(jobs, simulator, options.runs);
 
-  std::vector<std::vector<Replicate>> runs(study.scenes.size());
-  for (std::size_t job = 0; job < jobs.size(); ++job) {
-    Replicate replicate;
-    replicate.random_seed = jobs[job].random_seed;
-    replicate.refused = std::move(results[job].refused);
-    replicate.run = std::move(results[job].run);
-    replicate.records = std::move(results[job].records);
-    if (replicate.run) replicate.outflow = measure_outflow(*jobs[job].scene, *replicate.run);
-    runs[job / static_cast<std::size_t>(study.replicates)].push_back(std::move(replicate));
-  }
+  std::vector<std::vector<Evaluation>> runs(study.scenes.size());
+  for (std::size_t job = 0; job < jobs.size(); ++job)
+    runs[job / static_cast<std::size_t>(study.replicates)].push_back(std::move(results[job]));
   return runs;
 }
 
 /// Mean of a figure over the finished replicates that have it.
 template <typename Figure>
-std::optional<MeanWithInterval> mean_over(const std::vector<Replicate>& replicates, Figure figure) {
+std::optional<MeanWithInterval> mean_over(const std::vector<Evaluation>& replicates, Figure figure) {
   std::vector<double> values;
-  for (const Replicate& replicate : replicates) {
+  for (const Evaluation& replicate : replicates) {
     if (!replicate.finished()) continue;
     const std::optional<double> value = figure(replicate);
     if (value && std::isfinite(*value)) values.push_back(*value);
@@ -46,28 +40,28 @@ std::optional<MeanWithInterval> mean_over(const std::vector<Replicate>& replicat
 }
 
 template <typename Member>
-std::optional<MeanWithInterval> mean_of_row(const std::vector<Replicate>& replicates, const std::string& hole,
+std::optional<MeanWithInterval> mean_of_row(const std::vector<Evaluation>& replicates, const std::string& hole,
                                             const std::string& lot, Member member) {
-  return mean_over(replicates, [&](const Replicate& one) -> std::optional<double> {
+  return mean_over(replicates, [&](const Evaluation& one) -> std::optional<double> {
     const HoleOutflow* row = find_row(one.outflow, hole, lot);
     return row ? std::optional(row->*member) : std::nullopt;
   });
 }
 
-Figures figures_of(const std::vector<Replicate>& replicates) {
+Figures figures_of(const std::vector<Evaluation>& replicates) {
   Figures figures;
   figures.mass_rate = mean_of_row(replicates, "all", "all", &HoleOutflow::mass_rate);
   figures.seeds_per_s = mean_of_row(replicates, "all", "all", &HoleOutflow::seeds_per_s);
   figures.longest_pause = mean_of_row(replicates, "all", "all", &HoleOutflow::longest_pause);
-  figures.evenness_cv = mean_over(replicates, [](const Replicate& one) { return one.outflow.evenness_cv; });
-  figures.instability_cv = mean_over(replicates, [](const Replicate& one) { return one.outflow.instability_cv; });
+  figures.evenness_cv = mean_over(replicates, [](const Evaluation& one) { return one.outflow.evenness_cv; });
+  figures.instability_cv = mean_over(replicates, [](const Evaluation& one) { return one.outflow.instability_cv; });
   figures.spilled_fraction =
-      mean_over(replicates, [](const Replicate& one) { return std::optional(one.outflow.spilled_fraction); });
+      mean_over(replicates, [](const Evaluation& one) { return std::optional(one.outflow.spilled_fraction); });
   return figures;
 }
 
-std::vector<HoleFigures> hole_figures(const std::vector<Replicate>& replicates) {
-  const auto finished = std::ranges::find_if(replicates, &Replicate::finished);
+std::vector<HoleFigures> hole_figures(const std::vector<Evaluation>& replicates) {
+  const auto finished = std::ranges::find_if(replicates, &Evaluation::finished);
   if (finished == replicates.end()) return {};
   std::vector<HoleFigures> holes;
   for (const HoleOutflow& row : finished->outflow.holes) {
@@ -84,34 +78,33 @@ std::vector<HoleFigures> hole_figures(const std::vector<Replicate>& replicates) 
   return holes;
 }
 
-BedFigures bed_figures(const Scene& scene, std::size_t record, const std::vector<Replicate>& replicates) {
+BedFigures bed_figures(const Scene& scene, std::size_t record, const std::vector<Evaluation>& replicates) {
   using Value = std::optional<double>;
-  const auto reached = [record](const Replicate& one) { return record < one.records.size(); };
+  const auto reached = [record](const Evaluation& one) { return record < one.records.size(); };
   BedFigures figures{record, scene.record->times[record], {}, {}, {}};
-  figures.packing =
-      mean_over(replicates, [&](const Replicate& one) { return reached(one) ? one.records[record].packing : Value(); });
-  figures.packing_change = mean_over(replicates, [&](const Replicate& one) {
+  figures.packing = mean_over(
+      replicates, [&](const Evaluation& one) { return reached(one) ? one.records[record].packing : Value(); });
+  figures.packing_change = mean_over(replicates, [&](const Evaluation& one) {
     if (!reached(one) || !one.records[record].packing || !one.records[0].packing) return Value();
     return Value(*one.records[record].packing - *one.records[0].packing);
   });
   for (std::size_t lot = 0; lot < scene.lots.size(); ++lot)
-    figures.segregation.push_back(mean_over(replicates, [&](const Replicate& one) {
+    figures.segregation.push_back(mean_over(replicates, [&](const Evaluation& one) {
       return reached(one) ? one.records[record].segregation[lot] : Value();
     }));
   return figures;
 }
 
 /// What to know about the finished runs of a layout.
-std::string remarks_on(const std::vector<Replicate>& replicates) {
+std::string remarks_on(const std::vector<Evaluation>& replicates) {
   std::size_t finished = 0, dry = 0, outside = 0, lost = 0, warned = 0;
-  for (const Replicate& replicate : replicates) {
+  for (const Evaluation& replicate : replicates) {
     if (!replicate.finished()) continue;
     ++finished;
-    const Run& run = *replicate.run;
-    if (run.tray_empty_since >= 0 && run.tray_empty_since < replicate.outflow.window_to) ++dry;
-    if (run.outside_the_model) ++outside;
-    if (run.balance.lost > 0) ++lost;
-    if (!run.warnings.empty()) ++warned;
+    if (replicate.tray_empty_since && *replicate.tray_empty_since < replicate.outflow.window_to) ++dry;
+    if (replicate.outside_the_model) ++outside;
+    if (replicate.balance.lost > 0) ++lost;
+    if (!replicate.warnings.empty()) ++warned;
   }
   std::vector<std::string> remarks;
   if (outside > 0) remarks.push_back("outside the model");
@@ -121,17 +114,16 @@ std::string remarks_on(const std::vector<Replicate>& replicates) {
   return fmt::format("{}", fmt::join(remarks, "; "));
 }
 
-void set_status(LayoutResult& result, const std::vector<Replicate>& replicates) {
-  result.replicates = static_cast<int>(std::ranges::count_if(replicates, &Replicate::finished));
-  const auto refused = std::ranges::find_if(replicates, [](const Replicate& one) { return !one.refused.empty(); });
-  const auto stopped = std::ranges::find_if(
-      replicates, [](const Replicate& one) { return one.run && one.run->status == RunStatus::stopped_by_guard; });
+void set_status(LayoutResult& result, const std::vector<Evaluation>& replicates) {
+  result.replicates = static_cast<int>(std::ranges::count_if(replicates, &Evaluation::finished));
+  const auto refused = std::ranges::find(replicates, EvaluationStatus::refused, &Evaluation::status);
+  const auto stopped = std::ranges::find(replicates, EvaluationStatus::stopped, &Evaluation::status);
   if (refused != replicates.end()) {
     result.status = LayoutStatus::invalid;
-    result.reason = refused->refused;
+    result.reason = refused->reason;
   } else if (stopped != replicates.end()) {
     result.status = LayoutStatus::stopped;
-    result.reason = fmt::format("random seed {}: {}", stopped->random_seed, stopped->run->stop_reason);
+    result.reason = fmt::format("random seed {}: {}", stopped->random_seed, stopped->reason);
   } else if (result.replicates < static_cast<int>(replicates.size())) {
     result.status = LayoutStatus::interrupted;
     result.reason = fmt::format("{} of {} runs finished", result.replicates, replicates.size());
@@ -140,14 +132,14 @@ void set_status(LayoutResult& result, const std::vector<Replicate>& replicates) 
   }
 }
 
-LayoutResult result_of(const Study& study, const Layout& layout, const std::vector<std::vector<Replicate>>& runs) {
+LayoutResult result_of(const Study& study, const Layout& layout, const std::vector<std::vector<Evaluation>>& runs) {
   LayoutResult result;
   if (!layout.scene) {
     result.status = LayoutStatus::invalid;
     result.reason = layout.invalid;
     return result;
   }
-  const std::vector<Replicate>& replicates = runs[*layout.scene];
+  const std::vector<Evaluation>& replicates = runs[*layout.scene];
   set_status(result, replicates);
   result.figures = figures_of(replicates);
   result.holes = hole_figures(replicates);

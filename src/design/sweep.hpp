@@ -7,25 +7,13 @@
 
 #include "design/many_runs.hpp"
 #include "design/study.hpp"
-#include "outflow/outflow.hpp"
 #include "outflow/statistics.hpp"
-#include "result/run.hpp"
 
 namespace vibrosow {
 
 struct SweepOptions {
   std::uint64_t first_random_seed = 1;  // replicates use this one and those that follow
   ManyRunsOptions runs;
-};
-
-/// One run of a scene and what its holes gave. Not begun: no run.
-struct Replicate {
-  std::uint64_t random_seed = 1;
-  std::optional<Run> run;
-  Outflow outflow;                       // when there is a run
-  std::vector<RecordFigures> records{};  // of each record that was reached
-  std::string refused;                   // why the simulator did not take the scene
-  bool finished() const { return run && run->status == RunStatus::finished; }
 };
 
 enum class LayoutStatus { ok, invalid, stopped, interrupted };
@@ -87,8 +75,8 @@ struct Comparison {
 
 struct StudyResult {
   Study study;
-  std::vector<std::vector<Replicate>> runs;  // of each of Study::scenes
-  std::vector<LayoutResult> layouts;         // of each of Study::layouts
+  std::vector<std::vector<Evaluation>> runs;  // of each of Study::scenes, by random seed
+  std::vector<LayoutResult> layouts;          // of each of Study::layouts
   std::optional<Comparison> comparison;
 };
 

@@ -47,16 +47,24 @@ std::string status_name(LayoutStatus status) {
   return "";
 }
 
-std::string run_status(const Replicate& replicate) {
-  if (!replicate.refused.empty()) return "invalid";
-  if (!replicate.run || replicate.run->status == RunStatus::interrupted) return "interrupted";
-  return replicate.run->status == RunStatus::finished ? "ok" : "stopped";
+std::string run_status(EvaluationStatus status) {
+  switch (status) {
+    case EvaluationStatus::refused:
+      return "invalid";
+    case EvaluationStatus::not_begun:
+    case EvaluationStatus::interrupted:
+      return "interrupted";
+    case EvaluationStatus::stopped:
+      return "stopped";
+    case EvaluationStatus::finished:
+      return "ok";
+  }
+  return "";
 }
 
-Fields run_figures(const Replicate& replicate) {
-  if (!replicate.run) return Fields(11, "");
-  const Run& run = *replicate.run;
-  const HoleOutflow* all = find_row(replicate.outflow, "all", "all");
+Fields run_figures(const Evaluation& run) {
+  if (!run.was_run()) return Fields(11, "");
+  const HoleOutflow* all = find_row(run.outflow, "all", "all");
   return {csv_number(run.balance.put_in),       csv_number(run.balance.inside),
           csv_number(run.balance.counted),      csv_number(run.balance.spilled),
           csv_number(run.balance.lost),         csv_number(all->seeds_per_s),
@@ -72,8 +80,8 @@ int first_with_scene(const Study& study, std::size_t scene) {
   return 0;
 }
 
-std::string run_note(const Study& study, const Layout& layout, const Replicate& replicate) {
-  std::string note = replicate.refused.empty() ? replicate.outflow.note : replicate.refused;
+std::string run_note(const Study& study, const Layout& layout, const Evaluation& run) {
+  std::string note = run.was_run() ? run.outflow.note : run.reason;
   const int first = first_with_scene(study, *layout.scene);
   if (first != layout.number) note += fmt::format("{}same run as of layout {}", note.empty() ? "" : "; ", first);
   return note;
@@ -172,11 +180,11 @@ std::string sweep_runs_csv(const StudyResult& result) {
                   "note"});
   for (const Layout& layout : result.study.layouts) {
     if (!layout.scene) continue;
-    for (const Replicate& replicate : result.runs[*layout.scene]) {
-      Fields row = {fmt::format("{}", layout.number), layout.name, fmt::format("{}", replicate.random_seed),
-                    run_status(replicate)};
-      append(row, run_figures(replicate));
-      row.push_back(run_note(result.study, layout, replicate));
+    for (const Evaluation& run : result.runs[*layout.scene]) {
+      Fields row = {fmt::format("{}", layout.number), layout.name, fmt::format("{}", run.random_seed),
+                    run_status(run.status)};
+      append(row, run_figures(run));
+      row.push_back(run_note(result.study, layout, run));
       table.add_row(row);
     }
   }
@@ -201,11 +209,11 @@ std::string sweep_timing_json(const StudyResult& result, double wall_time, int j
   double grain_steps = 0, run_time = 0;
   int runs = 0;
   for (const auto& replicates : result.runs)
-    for (const Replicate& replicate : replicates) {
-      if (!replicate.run) continue;
+    for (const Evaluation& run : replicates) {
+      if (!run.was_run()) continue;
       ++runs;
-      grain_steps += static_cast<double>(replicate.run->grain_steps);
-      run_time += replicate.run->wall_time;
+      grain_steps += static_cast<double>(run.grain_steps);
+      run_time += run.wall_time;
     }
   nlohmann::ordered_json timing;
   timing["wall_s"] = wall_time;

@@ -2,6 +2,7 @@
 
 #include <unistd.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <string>
@@ -73,6 +74,7 @@ inline Run quick_run(const Scene& scene, const SimulationOptions& options) {
       run.events.push_back({time, hole, 0, run.balance.counted++, scene.lots[0].mass, 0.1, 0.5});
     }
   }
+  std::ranges::stable_sort(run.events, {}, &OutflowEvent::time);
   run.balance.put_in = run.balance.counted;
   return run;
 }

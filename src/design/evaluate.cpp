@@ -1,0 +1,53 @@
+#include "design/evaluate.hpp"
+
+#include "scene/input_error.hpp"
+
+namespace vibrosow {
+namespace {
+
+EvaluationStatus status_of(const Run& run) {
+  switch (run.status) {
+    case RunStatus::finished:
+      return EvaluationStatus::finished;
+    case RunStatus::stopped_by_guard:
+      return EvaluationStatus::stopped;
+    case RunStatus::interrupted:
+      break;
+  }
+  return EvaluationStatus::interrupted;
+}
+
+Evaluation reduced(const Scene& scene, const Run& run, const std::vector<CurveRequest>& wanted) {
+  Evaluation evaluation{.random_seed = run.random_seed,
+                        .status = status_of(run),
+                        .reason = run.stop_reason,
+                        .end_reason = run.end_reason,
+                        .warnings = run.warnings,
+                        .outside_the_model = run.outside_the_model,
+                        .dt = run.dt,
+                        .end_time = run.end_time,
+                        .grain_steps = run.grain_steps,
+                        .max_compression = run.max_compression,
+                        .balance = run.balance,
+                        .outflow = measure_outflow(scene, run),
+                        .records = record_figures(scene, run.snapshots),
+                        .wall_time = run.wall_time};
+  if (run.tray_empty_since >= 0) evaluation.tray_empty_since = run.tray_empty_since;
+  for (const CurveRequest& request : wanted)
+    evaluation.curves.push_back(
+        {request, discharge_curve(scene, run, request.times, request.kind, request.hole, request.lot)});
+  return evaluation;
+}
+
+}  // namespace
+
+Evaluation evaluate(const Scene& scene, const SimulationOptions& options, const std::vector<CurveRequest>& curves,
+                    const Simulator& simulator) {
+  try {
+    return reduced(scene, simulator(scene, options), curves);
+  } catch (const InputError& error) {
+    return {.random_seed = options.random_seed, .status = EvaluationStatus::refused, .reason = error.what()};
+  }
+}
+
+}  // namespace vibrosow

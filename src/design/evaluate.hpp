@@ -1,0 +1,72 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "fields/record_figures.hpp"
+#include "outflow/discharge.hpp"
+#include "outflow/outflow.hpp"
+#include "result/run.hpp"
+#include "scene/scene.hpp"
+#include "simulation/simulate.hpp"
+
+namespace vibrosow {
+
+/// What runs a scene: `simulate`, or something quick in a test.
+using Simulator = std::function<Run(const Scene&, const SimulationOptions&)>;
+
+/// A discharge curve that is wanted of a run, as `discharge_curve` takes it.
+struct CurveRequest {
+  Discharge kind = Discharge::fraction;
+  std::string hole = "all", lot = "all";
+  std::vector<double> times;  // s
+  bool operator==(const CurveRequest&) const = default;
+};
+
+struct Curve {
+  CurveRequest request;
+  std::vector<double> values;  // SI, one for each time
+};
+
+enum class EvaluationStatus {
+  not_begun,  // interrupted before its turn
+  refused,    // the scene cannot be run: a fill that does not fit, ...
+  interrupted,
+  stopped,  // by the guard
+  finished,
+};
+
+/// What is kept of one run of a scene: all that studies ask for, in SI, and nothing large. Depends on the scene and the
+/// random seed alone, but for `wall_time`.
+struct Evaluation {
+  std::uint64_t random_seed = 1;
+  EvaluationStatus status = EvaluationStatus::not_begun;
+  std::string reason{};                 // of `refused` and `stopped`
+  std::string end_reason{};             // why it ended before its duration, though sound; else empty
+  std::vector<std::string> warnings{};  // of the guard
+  bool outside_the_model = false;
+  double dt = 0;        // s
+  double end_time = 0;  // s
+  std::int64_t grain_steps = 0;
+  double max_compression = 0;                // shell compression, largest of the run
+  std::optional<double> tray_empty_since{};  // s, when the last grain left the tray; none: it never ran dry
+  Balance balance{};
+  Outflow outflow{};
+  std::vector<RecordFigures> records{};  // of each record that was reached
+  std::vector<Curve> curves{};           // those wanted, in their order
+  double wall_time = 0;                  // s, of this machine
+
+  bool finished() const { return status == EvaluationStatus::finished; }
+  /// Whether there was a run, so that the figures mean something.
+  bool was_run() const { return status != EvaluationStatus::not_begun && status != EvaluationStatus::refused; }
+};
+
+/// Runs a scene once and reduces what comes of it. A simulator's InputError makes a `refused` evaluation. Throws
+/// std::invalid_argument for a curve of a hole or lot that the scene has not.
+Evaluation evaluate(const Scene& scene, const SimulationOptions& options, const std::vector<CurveRequest>& curves = {},
+                    const Simulator& simulator = simulate);
+
+}  // namespace vibrosow
