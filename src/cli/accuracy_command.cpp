@@ -22,7 +22,7 @@ struct AccuracyOptions {
   CommonOptions common;
   std::vector<std::string> integrators;
   std::vector<double> steps_per_contact, shell_compressions;
-  std::vector<std::string> slip_speeds;
+  std::vector<std::string> youngs_moduli, slip_speeds;
   int replicates = 5;
 };
 
@@ -36,14 +36,20 @@ CLI::Validator number_within(double least, double most) {
           "NUMBER"};
 }
 
-double slip_speed_of(const std::string& text) {
-  try {
-    const double speed = parse_quantity(text, Dimension::speed);
-    if (speed >= 1e-6 && speed <= 100) return speed;
-  } catch (const UnitError& error) {
-    throw InputError(fmt::format("--slip-speed: {}", error.what()));
+/// A list of quantities of one option, each from `least` to `most` (SI), which `range` states.
+std::vector<double> quantities(const char* option, const std::vector<std::string>& texts, Dimension dimension,
+                               double least, double most, const char* range) {
+  std::vector<double> values;
+  for (const std::string& text : texts) {
+    try {
+      values.push_back(parse_quantity(text, dimension));
+    } catch (const UnitError& error) {
+      throw InputError(fmt::format("{}: {}", option, error.what()));
+    }
+    if (values.back() < least || values.back() > most)
+      throw InputError(fmt::format("{}: \"{}\" is out of range, which is from {}", option, text, range));
   }
-  throw InputError(fmt::format("--slip-speed: \"{}\" is out of range, which is from 1e-06 m/s to 100 m/s", text));
+  return values;
 }
 
 Integrator integrator_of(const std::string& name) {
@@ -57,10 +63,14 @@ AccuracyGrid grid_of(const AccuracyOptions& options, const Scene& scene) {
   if (!options.shell_compressions.empty() && scene.contact.law != Law::elastic_shell)
     throw InputError(fmt::format("--shell-compression: {} has Hertz' law, which has no shell", options.common.file));
   if (!options.shell_compressions.empty()) grid.shell_compressions = options.shell_compressions;
-  if (!options.slip_speeds.empty()) {
-    grid.slip_speeds.clear();
-    for (const std::string& text : options.slip_speeds) grid.slip_speeds.push_back(slip_speed_of(text));
-  }
+  if (!options.youngs_moduli.empty() && scene.contact.law == Law::elastic_shell)
+    throw InputError(fmt::format("--youngs-modulus: {} has elastic shells, which have none", options.common.file));
+  if (!options.youngs_moduli.empty())
+    grid.youngs_moduli =
+        quantities("--youngs-modulus", options.youngs_moduli, Dimension::pressure, 1, 1e13, "1 Pa to 1e+07 MPa");
+  if (!options.slip_speeds.empty())
+    grid.slip_speeds =
+        quantities("--slip-speed", options.slip_speeds, Dimension::speed, 1e-6, 100, "1e-06 m/s to 100 m/s");
   if (!options.integrators.empty()) {
     grid.integrators.clear();
     for (const std::string& name : options.integrators) grid.integrators.push_back(integrator_of(name));
@@ -74,8 +84,7 @@ int run_accuracy(const AccuracyOptions& options) {
   const auto directory = options.common.out_directory();
   make_out_directory(directory);
   const std::atomic<bool>& interrupt = watch_for_interrupt();
-  const double settings = static_cast<double>(grid.integrators.size() * grid.steps_per_contact.size() *
-                                              grid.shell_compressions.size() * grid.slip_speeds.size());
+  const auto settings = static_cast<double>(settings_of(grid).size());
   AccuracyResult result;
   double wall_time = 0;
   {
@@ -108,9 +117,15 @@ void add_accuracy_command(CLI::App& app, int& exit_code) {
   command->add_option("--steps-per-contact", options->steps_per_contact, "default 10,20,40")
       ->delimiter(',')
       ->check(number_within(1, 1e4));
-  command->add_option("--shell-compression", options->shell_compressions, "default: the seeder's, times 1, 10 and 100")
+  command
+      ->add_option("--shell-compression", options->shell_compressions,
+                   "default: the seeder's, times 1, 10 and 100, up to 0.05")
       ->delimiter(',')
       ->check(number_within(1e-9, 0.5));
+  command
+      ->add_option("--youngs-modulus", options->youngs_moduli,
+                   "with units: \"50 MPa\"; default with Hertz' law: the seeder's, over 1, 10 and 100")
+      ->delimiter(',');
   command
       ->add_option("--slip-speed", options->slip_speeds,
                    "with units: \"20 mm/s\"; default: the seeder's, times 1 and 5")

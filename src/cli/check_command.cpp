@@ -5,6 +5,8 @@
 
 #include "cli/commands.hpp"
 #include "cli/common_options.hpp"
+#include "cli/progress.hpp"
+#include "design/predicted_cost.hpp"
 #include "design/study.hpp"
 #include "input/key_units.hpp"
 #include "input/measured.hpp"
@@ -12,43 +14,31 @@
 #include "plan/effects.hpp"
 #include "plan/model.hpp"
 #include "scene/input_error.hpp"
-#include "simulation/effect_cost.hpp"
 
 namespace vibrosow {
 namespace {
 
-/// Seeds at the start, and of rain as many as have come on average over the run.
-double grains_in(const Vessel& vessel, double duration) {
-  double grains = vessel.fill ? vessel.fill->count : 0;
-  if (!vessel.rain) return grains;
-  const double stop = std::min(vessel.rain->stop, duration), start = std::min(vessel.rain->start, stop);
-  return grains + vessel.rain->rate * (stop - start) * (duration - 0.5 * (start + stop)) / duration;
-}
-
-/// Grains times steps; outflow lessens it, topping up adds to it.
-double predicted_grain_steps(const Scene& scene, const StepPlan& plan) {
-  double grains = grains_in(scene.tray, scene.run.duration);
-  if (scene.hopper) grains += grains_in(*scene.hopper, scene.run.duration);
-  return grains * static_cast<double>(plan.steps);
-}
-
-void print_effects(const Scene& scene, const std::vector<EffectCost>& costs) {
+void print_effects(const Scene& scene, const CostBreakdown& cost) {
   fmt::print("effects\n");
   for (const EffectReason& effect : explain_effects(scene))
     fmt::print("  {:<3} {:<17} {}\n", effect.present ? "yes" : "no", effect.effect, effect.reason);
-  fmt::print("cost on this machine, now\n");
-  for (const EffectCost& cost : costs)  // a difference of two timings can fall below zero
-    fmt::print("  {:<22} {:8.1f} ns per grain-step\n", cost.effect, std::max(0.0, cost.ns_per_grain_step));
+  fmt::print("cost on this machine, now, ns of CPU time per grain-step\n  {:<22} {:6.1f}\n", "all effects present",
+             cost.whole.ns_per_grain_step);
+  for (const EffectCost& effect : cost.effects)
+    if (effect.is_resolved())
+      fmt::print("  {:<22} {:6.1f} +- {:.1f}\n", effect.effect, effect.ns_per_grain_step, effect.half_width_95);
+    else
+      fmt::print("  {:<22} below what this timing resolves, {:.1f}\n", effect.effect,
+                 std::max(0.0, effect.ns_per_grain_step) + effect.half_width_95);
 }
 
-void print_step(const Scene& scene, const StepPlan& plan, double ns_per_grain_step) {
+void print_step(const StepPlan& plan, const PredictedCost& cost) {
   fmt::print("step\n  dt {:.4g} s, shortest contact {:.4g} s: {:.3g} steps a contact\n", plan.dt, plan.contact_duration,
              plan.contact_duration / plan.dt);
   for (const StepLimit& limit : plan.limits) fmt::print("  at most {:.4g} s: {}\n", limit.dt, limit.reason);
   fmt::print("  longest safe step {:.4g} s ({})\n", plan.longest_safe, plan.bound_by);
-  const double grain_steps = predicted_grain_steps(scene, plan);
-  fmt::print("  {} steps, about {:.3g} grain-steps: some {:.2g} s of one core\n", plan.steps, grain_steps,
-             1e-9 * ns_per_grain_step * grain_steps);
+  fmt::print("  {} steps, about {:.3g} grain-steps: some {:.2g} s of one core\n", plan.steps, cost.grain_steps,
+             cost.seconds());
 }
 
 void print_compression(const Scene& scene, const PredictedCompression& predicted) {
@@ -83,9 +73,9 @@ int check_seeder(const CommonOptions& options) {
   fmt::print("{}\n", scene.title);
   print_vessel(scene.tray);
   if (scene.hopper) print_vessel(*scene.hopper);
-  const std::vector<EffectCost> costs = effect_costs(scene);
-  print_effects(scene, costs);
-  print_step(scene, plan, costs.front().ns_per_grain_step);
+  const CostBreakdown cost = break_down_cost(scene);
+  print_effects(scene, cost);
+  print_step(plan, cost.whole);
   print_compression(scene, model.compression);
   if (const auto refused = step_refused(scene.numerics, plan)) throw InputError(*refused);
   if (plan.too_long)
@@ -102,10 +92,8 @@ std::string measured_header(const Study& study) {
 
 int check_study(const CommonOptions& options) {
   const Study study = read_study(options.file, options.overrides());
-  double grain_steps = 0;
-  for (const Scene& scene : study.scenes) grain_steps += predicted_grain_steps(scene, prepare(scene).step);
-  fmt::print("{}\n{} layouts, {} different scenes, {} runs of each, about {:.3g} grain-steps in all\n", study.title,
-             study.layouts.size(), study.scenes.size(), study.replicates, grain_steps * study.replicates);
+  fmt::print("{}\n{} layouts, {} different scenes, {} runs of each: some {} of one core in all\n", study.title,
+             study.layouts.size(), study.scenes.size(), study.replicates, duration_text(predict_seconds(study)));
   for (const Layout& layout : study.layouts)
     if (!layout.scene) fmt::print("layout {} {}: invalid: {}\n", layout.number, layout.name, layout.invalid);
   if (study.measured)

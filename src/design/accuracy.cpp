@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <ranges>
 #include <tuple>
 
 #include "plan/effects.hpp"
@@ -15,22 +16,42 @@ namespace vibrosow {
 namespace {
 
 constexpr double softest_shell = 0.05;
+constexpr int most_replicates = 100000;
 
 double cost_of(const AccuracyRow& row) {
   return row.grain_steps * evaluations_per_step(row.setting.integrator);
 }
 
-std::vector<AccuracyRow> rows_of(const AccuracyGrid& grid) {
-  std::vector<AccuracyRow> rows;
-  for (const Integrator integrator : grid.integrators)
-    for (const double steps : grid.steps_per_contact)
-      for (const double compression : grid.shell_compressions)
-        for (const double slip_speed : grid.slip_speeds) {
-          AccuracyRow row;
-          row.setting = {integrator, steps, compression, slip_speed, 0};
-          rows.push_back(row);
-        }
-  return rows;
+/// A value of `contact` that lots may have of their own: the contact's, or, where all have, the first lot's.
+double general_value(const Scene& scene, double Contact::*general, std::optional<double> SeedLot::*own) {
+  const bool all_their_own =
+      std::ranges::all_of(scene.lots, [own](const SeedLot& lot) { return (lot.*own).has_value(); });
+  return all_their_own ? *(scene.lots.front().*own) : scene.contact.*general;
+}
+
+double shell_compression_of(const Scene& scene) {
+  return general_value(scene, &Contact::shell_compression, &SeedLot::shell_compression);
+}
+
+double youngs_modulus_of(const Scene& scene) {
+  return general_value(scene, &Contact::youngs_modulus, &SeedLot::youngs_modulus);
+}
+
+void scale(std::optional<double>& value, double factor) {
+  if (value) *value *= factor;
+}
+
+void set_softness(Scene& scene, const AccuracySetting& setting) {
+  if (scene.contact.law == Law::elastic_shell) {
+    const double factor = setting.shell_compression / shell_compression_of(scene);
+    for (SeedLot& lot : scene.lots) scale(lot.shell_compression, factor);
+    scene.contact.shell_compression = setting.shell_compression;
+    return;
+  }
+  const double factor = setting.youngs_modulus / youngs_modulus_of(scene);
+  for (SeedLot& lot : scene.lots) scale(lot.youngs_modulus, factor);
+  scale(scene.contact.wall_youngs_modulus, factor);
+  scene.contact.youngs_modulus = setting.youngs_modulus;
 }
 
 /// What one setting's runs gave; `results` are its replicates.
@@ -53,19 +74,17 @@ void take_results(AccuracyRow& row, const Evaluation* results, int replicates) {
   row.mass_rate = mean_with_interval(rates);
 }
 
-bool finer(const AccuracyRow& a, const AccuracyRow& b) {
-  const auto fineness = [](const AccuracyRow& row) {
-    const AccuracySetting& setting = row.setting;
-    return std::tuple(setting.shell_compression, setting.slip_speed, setting.integrator != Integrator::velocity_verlet,
-                      -setting.steps_per_contact);
-  };
-  return fineness(a) < fineness(b);
+/// The one that is finer compares as less.
+auto coarseness(const AccuracyRow& row) {
+  const AccuracySetting& setting = row.setting;
+  return std::tuple(setting.shell_compression, -setting.youngs_modulus, setting.slip_speed,
+                    setting.integrator != Integrator::velocity_verlet, -setting.steps_per_contact);
 }
 
 std::size_t finest(const std::vector<AccuracyRow>& rows) {
-  std::size_t best = rows.size();
-  for (std::size_t i = 0; i < rows.size(); ++i)
-    if (rows[i].mass_rate && (best == rows.size() || finer(rows[i], rows[best]))) best = i;
+  std::size_t best = 0;
+  for (std::size_t i = 1; i < rows.size(); ++i)
+    if (!rows[i].too_long && (rows[best].too_long || coarseness(rows[i]) < coarseness(rows[best]))) best = i;
   return best;
 }
 
@@ -79,10 +98,38 @@ void set_error(AccuracyRow& row, const AccuracyRow& reference) {
 }
 
 bool beaten(const AccuracyRow& row, const std::vector<AccuracyRow>& rows) {
+  const auto figures = [](const AccuracyRow& one) { return std::pair(cost_of(one), std::abs(*one.error_percent)); };
+  const auto [cost, error] = figures(row);
   return std::ranges::any_of(rows, [&](const AccuracyRow& other) {
-    return other.error_percent && cost_of(other) <= cost_of(row) &&
-           std::abs(*other.error_percent) < std::abs(*row.error_percent);
+    if (&other == &row || !other.error_percent) return false;
+    const auto [other_cost, other_error] = figures(other);
+    if (other_cost > cost || other_error > error) return false;
+    return other_cost < cost || other_error < error || &other < &row;
   });
+}
+
+/// How an interval goes with the number of replicates.
+double interval_factor(int replicates) {
+  return student_t_95(replicates - 1) / std::sqrt(replicates);
+}
+
+/// How many replicates a setting would need for its interval to lie on one side of the target.
+std::optional<int> replicates_to_tell(const AccuracyRow& row, double percent) {
+  if (!row.error_ci95 || row.replicates < 2) return std::nullopt;
+  const double wanted = std::abs(percent - std::abs(*row.error_percent)) / *row.error_ci95;
+  const double factor = wanted * interval_factor(row.replicates);
+  const auto numbers = std::views::iota(row.replicates, most_replicates + 1);
+  const auto enough = std::ranges::partition_point(numbers, [&](int n) { return interval_factor(n) > factor; });
+  return enough == numbers.end() ? std::nullopt : std::optional(*enough);
+}
+
+enum class Verdict { within, beyond, unresolved };
+
+Verdict verdict(const AccuracyRow& row, double percent) {
+  if (!row.error_ci95) return Verdict::unresolved;
+  const double error = std::abs(*row.error_percent);
+  if (error + *row.error_ci95 <= percent) return Verdict::within;
+  return error - *row.error_ci95 > percent ? Verdict::beyond : Verdict::unresolved;
 }
 
 }  // namespace
@@ -91,20 +138,38 @@ AccuracyGrid default_accuracy_grid(const Scene& scene) {
   AccuracyGrid grid;
   grid.integrators = {Integrator::velocity_verlet, Integrator::rk2_midpoint};
   grid.steps_per_contact = {10, 20, 40};
-  const double stiffest = scene.contact.shell_compression;  // 0 with Hertz' law
-  grid.shell_compressions = {stiffest};
-  if (scene.contact.law == Law::elastic_shell)
-    for (const double factor : {10.0, 100.0})
-      if (factor * stiffest <= softest_shell) grid.shell_compressions.push_back(factor * stiffest);
+  for (const double softer : {1.0, 10.0, 100.0}) {
+    if (scene.contact.law != Law::elastic_shell)
+      grid.youngs_moduli.push_back(youngs_modulus_of(scene) / softer);
+    else if (softer == 1 || softer * shell_compression_of(scene) <= softest_shell)
+      grid.shell_compressions.push_back(softer * shell_compression_of(scene));
+  }
   grid.slip_speeds = {scene.contact.slip_speed};
   const EffectSet effects = effects_of(scene);
   if (effects.friction && !effects.tangential_spring) grid.slip_speeds.push_back(5 * scene.contact.slip_speed);
   return grid;
 }
 
+std::vector<AccuracySetting> settings_of(const AccuracyGrid& grid) {
+  std::vector<AccuracySetting> softnesses;
+  for (const double compression : grid.shell_compressions) softnesses.push_back({.shell_compression = compression});
+  for (const double modulus : grid.youngs_moduli) softnesses.push_back({.youngs_modulus = modulus});
+  std::vector<AccuracySetting> settings;
+  for (const Integrator integrator : grid.integrators)
+    for (const double steps : grid.steps_per_contact)
+      for (AccuracySetting setting : softnesses)
+        for (const double slip_speed : grid.slip_speeds) {
+          setting.integrator = integrator;
+          setting.steps_per_contact = steps;
+          setting.slip_speed = slip_speed;
+          settings.push_back(setting);
+        }
+  return settings;
+}
+
 Scene scene_with(const Scene& scene, AccuracySetting& setting) {
   Scene changed = scene;
-  changed.contact.shell_compression = setting.shell_compression;
+  set_softness(changed, setting);
   changed.contact.slip_speed = setting.slip_speed;
   changed.numerics.integrator = setting.integrator;
   changed.numerics.steps_per_contact = setting.steps_per_contact;
@@ -116,18 +181,19 @@ Scene scene_with(const Scene& scene, AccuracySetting& setting) {
 AccuracyResult measure_accuracy(const Scene& scene, const AccuracyGrid& grid, int replicates,
                                 const Simulator& simulator, const SweepOptions& options) {
   AccuracyResult result;
-  result.rows = rows_of(grid);
   std::vector<Scene> scenes;  // of every row, run or not
-  for (AccuracyRow& row : result.rows) {
+  for (const AccuracySetting& setting : settings_of(grid)) {
+    AccuracyRow& row = result.rows.emplace_back();
+    row.setting = setting;
     scenes.push_back(scene_with(scene, row.setting));
     const StepPlan plan = prepare(scenes.back()).step;
-    if (step_refused(scenes.back().numerics, plan))
-      row.refused = fmt::format("too long, at most {:.3g} s: {}", plan.longest_safe, plan.bound_by);
+    row.too_long = step_refused(scenes.back().numerics, plan).has_value();
+    if (row.too_long) row.refused = fmt::format("too long, at most {:.3g} s: {}", plan.longest_safe, plan.bound_by);
   }
   std::vector<Job> jobs;
   std::vector<std::size_t> row_of;  // of each group of replicates
   for (std::size_t row = 0; row < scenes.size(); ++row) {
-    if (!result.rows[row].refused.empty()) continue;
+    if (result.rows[row].too_long) continue;
     row_of.push_back(row);
     for (int i = 0; i < replicates; ++i)
       jobs.push_back({&scenes[row], options.first_random_seed + static_cast<std::uint64_t>(i)});
@@ -143,11 +209,8 @@ AccuracyResult measure_accuracy(const Scene& scene, const AccuracyGrid& grid, in
 
 void compare_with_finest(AccuracyResult& result) {
   result.reference = finest(result.rows);
-  if (result.reference == result.rows.size()) {
-    result.reference = 0;  // nothing finished: nothing to compare
-    return;
-  }
   const AccuracyRow& reference = result.rows[result.reference];
+  if (!reference.mass_rate) return;
   for (AccuracyRow& row : result.rows) {
     if (!row.mass_rate) continue;
     set_error(row, reference);
@@ -156,14 +219,21 @@ void compare_with_finest(AccuracyResult& result) {
   for (AccuracyRow& row : result.rows) row.on_front = row.error_percent && !beaten(row, result.rows);
 }
 
-std::optional<std::size_t> cheapest_within(const AccuracyResult& result, double percent) {
-  std::optional<std::size_t> best;
+Recommendation recommend(const AccuracyResult& result, double percent) {
+  Recommendation recommended;
+  double least = cost_of(result.rows[result.reference]), least_unresolved = least;
   for (std::size_t i = 0; i < result.rows.size(); ++i) {
     const AccuracyRow& row = result.rows[i];
-    if (i == result.reference || !row.error_percent || std::abs(*row.error_percent) > percent) continue;
-    if (!best || cost_of(row) < cost_of(result.rows[*best])) best = i;
+    if (i == result.reference || !row.error_percent) continue;
+    const Verdict told = verdict(row, percent);
+    if (told == Verdict::within && cost_of(row) < least) recommended.setting = i, least = cost_of(row);
+    if (told == Verdict::unresolved && cost_of(row) < least_unresolved)
+      recommended.unresolved = i, least_unresolved = cost_of(row);
   }
-  return best;
+  if (least_unresolved >= least) recommended.unresolved.reset();
+  if (recommended.unresolved)
+    recommended.replicates = replicates_to_tell(result.rows[*recommended.unresolved], percent);
+  return recommended;
 }
 
 }  // namespace vibrosow

@@ -15,24 +15,32 @@ namespace vibrosow {
 struct AccuracyGrid {
   std::vector<Integrator> integrators;
   std::vector<double> steps_per_contact;
-  std::vector<double> shell_compressions;  // eps / r under the grain's own weight
+  std::vector<double> shell_compressions;  // eps / r under the grain's own weight; none with Hertz' law
+  std::vector<double> youngs_moduli;       // Pa, of seeds; none with elastic shells
   std::vector<double> slip_speeds;         // m/s
 };
 
-/// Both integrators; 10, 20 and 40 steps a contact; the scene's shell compression and 10 and 100 times that, up to
-/// 0.05; the scene's slip speed and five times that, or one where there is no friction.
+/// Velocity Verlet and the midpoint rule; 10, 20 and 40 steps a contact; the scene's softness and 10 and 100 times
+/// that: shell compressions up to 0.05, or Young's moduli; the scene's slip speed and five times that, or one where no
+/// friction has a slip speed.
 AccuracyGrid default_accuracy_grid(const Scene& scene);
 
+/// The softness named is the contact's, or, where every lot has its own, the first lot's.
 struct AccuracySetting {
   Integrator integrator = Integrator::velocity_verlet;
   double steps_per_contact = 20;
-  double shell_compression = 1e-4;
-  double slip_speed = 0.02;  // m/s
-  double dt = 0;             // s, contact duration / steps per contact
+  double shell_compression = 0;  // 0: Hertz' law
+  double youngs_modulus = 0;     // Pa; 0: elastic shells
+  double slip_speed = 0.02;      // m/s
+  double dt = 0;                 // s, contact duration / steps per contact
 };
+
+/// Every combination, integrator slowest, slip speed fastest.
+std::vector<AccuracySetting> settings_of(const AccuracyGrid& grid);
 
 struct AccuracyRow {
   AccuracySetting setting;
+  bool too_long = false;                      // its step is refused, so it is not run
   std::string refused;                        // why it has no rate: a step too long, stopped by the guard, interrupted
   int replicates = 0;                         // finished
   std::optional<MeanWithInterval> mass_rate;  // kg/s, all holes and lots, of the plane slice
@@ -41,16 +49,17 @@ struct AccuracyRow {
       error_ci95;          // half width, percent: both rates' intervals, as independent; none for the reference
   double grain_steps = 0;  // mean of the finished runs
   std::optional<double> cost_ratio;  // grain-steps times force evaluations a step, over the reference's
-  bool on_front = false;             // no other setting costs no more and errs less
+  bool on_front = false;             // no other setting costs no more and errs no more; of equals the first
   double wall_time = 0;              // s, mean of the finished runs; of this machine
 };
 
 struct AccuracyResult {
-  std::vector<AccuracyRow> rows;  // integrator slowest, slip speed fastest
-  std::size_t reference = 0;      // index of the finest setting that gave a rate
+  std::vector<AccuracyRow> rows;  // in the order of `settings_of`
+  std::size_t reference = 0;      // index of the finest setting whose step is not too long; it may have no rate
 };
 
-/// The scene with a setting: its step is written down as `numerics.dt`, so that it is run as asked.
+/// The scene with a setting: its step is written down as `numerics.dt`, so that it is run as asked. Lots and walls with
+/// a softness of their own are softened alike.
 Scene scene_with(const Scene& scene, AccuracySetting& setting);
 
 /// Runs every setting with every random seed. A setting whose step is too long is not run. Throws InputError when no
@@ -58,11 +67,19 @@ Scene scene_with(const Scene& scene, AccuracySetting& setting);
 AccuracyResult measure_accuracy(const Scene& scene, const AccuracyGrid& grid, int replicates,
                                 const Simulator& simulator, const SweepOptions& options);
 
-/// Errors, cost ratios and the front, from rates and grain-steps. The reference: of the settings with a rate, the
-/// smallest shell compression, then the smallest slip speed, then velocity Verlet, then the most steps a contact.
+/// Sets the reference and, where that has a rate, errors, cost ratios and the front, from rates and grain-steps. The
+/// reference: of the settings whose step is not too long, the stiffest, then the one of smallest slip speed, then
+/// velocity Verlet, then the most steps a contact.
 void compare_with_finest(AccuracyResult& result);
 
-/// The cheapest setting other than the reference whose |error| is at most `percent`; none: nothing is so near.
-std::optional<std::size_t> cheapest_within(const AccuracyResult& result, double percent);
+/// What the replicates tell of settings cheaper than the reference.
+struct Recommendation {
+  std::optional<std::size_t> setting;     // the cheapest whose |error| and half width make up at most the target
+  std::optional<std::size_t> unresolved;  // the cheapest below that of which they do not tell whether it is within
+  std::optional<int> replicates;          // about so many of each setting would tell, from the scatter of these
+};
+
+/// `percent`: the target. No number of replicates is given where there is no interval, or it would be over 100 000.
+Recommendation recommend(const AccuracyResult& result, double percent);
 
 }  // namespace vibrosow

@@ -21,13 +21,16 @@ double sample_deviation(const std::vector<double>& values, double mean) {
 
 }  // namespace
 
+double student_t_95(double degrees_of_freedom) {
+  return boost::math::quantile(boost::math::students_t(degrees_of_freedom), 0.975);
+}
+
 MeanWithInterval mean_with_interval(const std::vector<double>& values) {
   if (values.empty()) return {std::numeric_limits<double>::quiet_NaN(), std::nullopt};
   const double mean = mean_of(values);
   if (values.size() < 2) return {mean, std::nullopt};
   const auto count = static_cast<double>(values.size());
-  const double t = boost::math::quantile(boost::math::students_t(count - 1), 0.975);
-  return {mean, t * sample_deviation(values, mean) / std::sqrt(count)};
+  return {mean, student_t_95(count - 1) * sample_deviation(values, mean) / std::sqrt(count)};
 }
 
 std::optional<double> coefficient_of_variation(const std::vector<double>& values) {

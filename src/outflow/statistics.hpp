@@ -11,6 +11,9 @@ struct MeanWithInterval {
   std::optional<double> half_width_95;
 };
 
+/// Student's t that leaves 2.5 % above it. Throws std::domain_error for degrees of freedom that are not positive.
+double student_t_95(double degrees_of_freedom);
+
 /// Mean and t(0.975, n - 1) s / sqrt(n). Not a number for no values.
 MeanWithInterval mean_with_interval(const std::vector<double>& values);
 

@@ -13,12 +13,16 @@ namespace {
 
 constexpr double gram = 1e-3;                   // kg
 constexpr double millimetre_per_second = 1e-3;  // m/s
+constexpr double megapascal = 1e6;              // Pa
 
 using Fields = std::vector<std::string>;
 
 Fields setting_fields(const AccuracySetting& setting) {
-  return {integrator_name(setting.integrator), csv_number(setting.dt), csv_number(setting.steps_per_contact),
+  return {integrator_name(setting.integrator),
+          csv_number(setting.dt),
+          csv_number(setting.steps_per_contact),
           setting.shell_compression > 0 ? csv_number(setting.shell_compression) : "",
+          setting.youngs_modulus > 0 ? csv_number(setting.youngs_modulus / megapascal) : "",
           csv_number(setting.slip_speed / millimetre_per_second)};
 }
 
@@ -29,16 +33,29 @@ std::string error_text(const AccuracyRow& row) {
 }
 
 std::string setting_text(const AccuracySetting& setting) {
-  return fmt::format("{}, {:g} steps a contact, shell compression {:g}, slip speed {:g} mm/s",
-                     integrator_name(setting.integrator), setting.steps_per_contact, setting.shell_compression,
-                     setting.slip_speed / millimetre_per_second);
+  const std::string softness = setting.shell_compression > 0
+                                   ? fmt::format("shell compression {:g}", setting.shell_compression)
+                                   : fmt::format("Young's modulus {:g} MPa", setting.youngs_modulus / megapascal);
+  return fmt::format("{}, {:g} steps a contact, {}, slip speed {:g} mm/s", integrator_name(setting.integrator),
+                     setting.steps_per_contact, softness, setting.slip_speed / millimetre_per_second);
+}
+
+std::string setting_and_error(const AccuracyRow& row) {
+  return fmt::format("{} (error {}, at {:.3g} of its cost)", setting_text(row.setting), error_text(row),
+                     row.cost_ratio.value_or(1));
+}
+
+std::string unresolved_text(const AccuracyRow& row, const std::optional<int>& replicates) {
+  return fmt::format("Whether {} is within 1 % these replicates do not tell; {}.", setting_and_error(row),
+                     replicates ? fmt::format("about {} would", *replicates) : "no affordable number would");
 }
 
 }  // namespace
 
 std::string accuracy_csv(const AccuracyResult& result) {
-  CsvTable table({"integrator", "dt_s", "steps_per_contact", "shell_compression", "slip_speed_mm_per_s", "replicates",
-                  "rate_g_per_s", "rate_ci95", "error_percent", "error_ci95", "grain_steps", "cost_ratio", "on_front"});
+  CsvTable table({"integrator", "dt_s", "steps_per_contact", "shell_compression", "youngs_modulus_MPa",
+                  "slip_speed_mm_per_s", "replicates", "rate_g_per_s", "rate_ci95", "error_percent", "error_ci95",
+                  "grain_steps", "cost_ratio", "on_front"});
   for (const AccuracyRow& row : result.rows) {
     Fields fields = setting_fields(row.setting);
     fields.push_back(fmt::format("{}", row.replicates));
@@ -56,8 +73,8 @@ std::string accuracy_csv(const AccuracyResult& result) {
 }
 
 std::string accuracy_timing_csv(const AccuracyResult& result) {
-  CsvTable table({"integrator", "dt_s", "steps_per_contact", "shell_compression", "slip_speed_mm_per_s", "wall_s",
-                  "grain_steps_per_s", "wall_ratio"});
+  CsvTable table({"integrator", "dt_s", "steps_per_contact", "shell_compression", "youngs_modulus_MPa",
+                  "slip_speed_mm_per_s", "wall_s", "grain_steps_per_s", "wall_ratio"});
   const double reference = result.rows[result.reference].wall_time;
   for (const AccuracyRow& row : result.rows) {
     Fields fields = setting_fields(row.setting);
@@ -71,14 +88,16 @@ std::string accuracy_timing_csv(const AccuracyResult& result) {
 }
 
 std::string accuracy_table(const AccuracyResult& result) {
+  const bool hertz = result.rows.front().setting.youngs_modulus > 0;
   std::string text = fmt::format("{:<16} {:>5} {:>9} {:>7} {:>9} {:>10} {:>18} {:>9} {}\n", "integrator", "steps",
-                                 "eps/r", "slip", "dt s", "rate g/s", "error", "cost", "front");
+                                 hertz ? "E MPa" : "eps/r", "slip", "dt s", "rate g/s", "error", "cost", "front");
   for (std::size_t i = 0; i < result.rows.size(); ++i) {
     const AccuracyRow& row = result.rows[i];
     const AccuracySetting& setting = row.setting;
-    text += fmt::format("{:<16} {:>5g} {:>9g} {:>7g} {:>9.3g} ", integrator_name(setting.integrator),
-                        setting.steps_per_contact, setting.shell_compression,
-                        setting.slip_speed / millimetre_per_second, setting.dt);
+    text +=
+        fmt::format("{:<16} {:>5g} {:>9g} {:>7g} {:>9.3g} ", integrator_name(setting.integrator),
+                    setting.steps_per_contact, hertz ? setting.youngs_modulus / megapascal : setting.shell_compression,
+                    setting.slip_speed / millimetre_per_second, setting.dt);
     if (!row.mass_rate) {
       text += fmt::format("{}\n", row.refused);
       continue;
@@ -93,15 +112,21 @@ std::string accuracy_table(const AccuracyResult& result) {
 
 std::string accuracy_sentence(const AccuracyResult& result) {
   const AccuracyRow& reference = result.rows[result.reference];
-  if (!reference.error_percent) return "No setting gave an outflow to compare with.";
-  const auto cheapest = cheapest_within(result, 1.0);
-  if (!cheapest)
-    return fmt::format("No setting but the finest itself ({}) comes within 1 % of its outflow.",
-                       setting_text(reference.setting));
-  const AccuracyRow& row = result.rows[*cheapest];
-  return fmt::format(
-      "The cheapest setting whose mean outflow is within 1 % of the finest ({}) is {}: error {} at {:.3g} of its cost.",
-      setting_text(reference.setting), setting_text(row.setting), error_text(row), row.cost_ratio.value_or(1));
+  const std::string finest = setting_text(reference.setting);
+  if (!reference.mass_rate)
+    return fmt::format("The finest setting ({}) has no result ({}), so there is nothing to compare with.", finest,
+                       reference.refused);
+  if (!reference.error_percent)
+    return fmt::format("Nothing flows at the finest setting ({}), so there is nothing to compare with.", finest);
+  const Recommendation recommended = recommend(result, 1.0);
+  std::string text;
+  if (recommended.setting)
+    text = fmt::format("The cheapest setting shown to be within 1 % of the finest ({}) is {}.", finest,
+                       setting_and_error(result.rows[*recommended.setting]));
+  else
+    text = fmt::format("No cheaper setting is shown to be within 1 % of the finest ({}).", finest);
+  if (!recommended.unresolved) return text;
+  return fmt::format("{} {}", text, unresolved_text(result.rows[*recommended.unresolved], recommended.replicates));
 }
 
 void write_accuracy_report(const std::filesystem::path& directory, const AccuracyResult& result, double wall_time,

@@ -16,8 +16,8 @@ std::string accuracy_timing_csv(const AccuracyResult& result);
 /// The same rows for a terminal, with the reason where a setting gave no rate.
 std::string accuracy_table(const AccuracyResult& result);
 
-/// What 1 % of outflow costs: the cheapest setting whose |error| is at most 1 %, with its error and its cost against
-/// the reference.
+/// What 1 % of outflow costs: the cheapest setting whose |error| and interval together make up at most 1 %, and the
+/// cheaper one, if any, of which the replicates do not tell.
 std::string accuracy_sentence(const AccuracyResult& result);
 
 /// Writes accuracy.csv, accuracy_timing.csv and timing.json into `directory`, all or none. Throws InputError where that

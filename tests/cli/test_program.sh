@@ -55,6 +55,7 @@ expect 2 "random-seed.*whole number" run seeder.toml --random-seed 9999999999999
 expect 2 "steps-per-contact.*nan" accuracy seeder.toml --steps-per-contact nan
 expect 2 "shell-compression.*1e-09 to 0.5" accuracy seeder.toml --shell-compression inf
 expect 2 "slip-speed.*range" accuracy seeder.toml --slip-speed "1e300 m/s"
+expect 2 "youngs-modulus.*elastic shells" accuracy seeder.toml --youngs-modulus "5 MPa"
 expect 2 "threads" run seeder.toml --threads 0
 expect 0 "pairs +[0-9.]+ +[0-9.]+ %" run seeder.toml --profile --out profiled
 grep -q '"neighbours"' profiled/timing.json || fail "timing.json has no shares"

@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <atomic>
+
 #include "input/read_scene.hpp"
 #include "plan/step_plan.hpp"
 #include "report/accuracy_report.hpp"
@@ -11,23 +13,43 @@
 namespace vibrosow {
 namespace {
 
-AccuracyRow row(Integrator integrator, double steps, double compression, double rate, double grain_steps) {
+AccuracyRow row(Integrator integrator, double steps, double compression, double rate, double grain_steps,
+                double interval = 0.03) {
   AccuracyRow made;
-  made.setting = {integrator, steps, compression, 0.02, 1e-5};
-  made.mass_rate = MeanWithInterval{rate, 0.03 * rate};
+  made.setting.integrator = integrator;
+  made.setting.steps_per_contact = steps;
+  made.setting.shell_compression = compression;
+  made.setting.dt = 1e-5;
+  made.mass_rate = MeanWithInterval{rate, interval * rate};
   made.grain_steps = grain_steps;
   made.replicates = 5;
   return made;
 }
 
-AccuracyResult made_up() {
+AccuracyResult compared(std::vector<AccuracyRow> rows) {
   AccuracyResult result;
-  result.rows = {
-      row(Integrator::velocity_verlet, 40, 1e-4, 1.000, 1000), row(Integrator::velocity_verlet, 20, 1e-4, 1.005, 500),
-      row(Integrator::rk2_midpoint, 20, 1e-4, 1.004, 500), row(Integrator::velocity_verlet, 20, 1e-3, 0.95, 100),
-      row(Integrator::velocity_verlet, 10, 1e-3, 0.90, 200)};
+  result.rows = std::move(rows);
   compare_with_finest(result);
   return result;
+}
+
+constexpr Integrator verlet = Integrator::velocity_verlet;
+
+AccuracyResult made_up() {
+  return compared({row(verlet, 40, 1e-4, 1.000, 1000), row(verlet, 20, 1e-4, 1.005, 500),
+                   row(Integrator::rk2_midpoint, 20, 1e-4, 1.004, 500), row(verlet, 20, 1e-3, 0.95, 100),
+                   row(verlet, 10, 1e-3, 0.90, 200)});
+}
+
+/// Of a study's seeder with other keys.
+Scene scene_of(const StudyFiles& files, const std::vector<Override>& overrides = {}) {
+  return read_scene(files.write("scene.toml", "").parent_path() / "seeder.toml", overrides);
+}
+
+SweepOptions one_job() {
+  SweepOptions options;
+  options.runs.jobs = 1;
+  return options;
 }
 
 TEST(Accuracy, ErrorIsSignedAndItsIntervalHoldsBothRates) {
@@ -53,28 +75,146 @@ TEST(Accuracy, FrontHoldsWhatNothingBeats) {
   EXPECT_FALSE(result.rows[4].on_front);
 }
 
-TEST(Accuracy, CheapestWithinOnePercent) {
-  const AccuracyResult result = made_up();
-  EXPECT_EQ(cheapest_within(result, 1.0), 1u);
-  EXPECT_EQ(cheapest_within(result, 0.1), std::nullopt);
-  EXPECT_THAT(accuracy_sentence(result), testing::HasSubstr("at 0.5 of its cost"));
+TEST(Accuracy, TiesDoNotStandOnTheFront) {
+  const AccuracyResult result =
+      compared({row(verlet, 40, 1e-4, 1.00, 1000), row(verlet, 20, 1e-4, 1.01, 500), row(verlet, 20, 2e-4, 1.01, 400),
+                row(verlet, 20, 3e-4, 0.99, 600), row(verlet, 10, 3e-4, 1.01, 400), row(verlet, 5, 1e-4, 0.90, 400)});
+  EXPECT_TRUE(result.rows[0].on_front);
+  EXPECT_FALSE(result.rows[1].on_front);  // as good as the third and dearer
+  EXPECT_TRUE(result.rows[2].on_front);
+  EXPECT_FALSE(result.rows[4].on_front);  // its equal, and later
+  EXPECT_FALSE(result.rows[5].on_front);  // costs as much and errs more
+}
+
+TEST(Accuracy, RecommendsOnlyWhatTheIntervalLeavesWithinTheTarget) {
+  const std::vector<AccuracyRow> rows = {row(verlet, 40, 1e-4, 1.000, 1000, 0.002),
+                                         row(verlet, 20, 1e-4, 1.005, 500, 0.002),
+                                         row(verlet, 10, 1e-4, 1.008, 250, 0.004)};
+  const AccuracyResult result = compared(rows);
+  const Recommendation recommended = recommend(result, 1.0);
+  EXPECT_EQ(recommended.setting, 1u);
+  EXPECT_EQ(recommended.unresolved, 2u);  // 0.8 +- 0.45 %
+  EXPECT_THAT(accuracy_sentence(result),
+              testing::AllOf(testing::HasSubstr("20 steps a contact"), testing::HasSubstr("at 0.5 of its cost"),
+                             testing::HasSubstr("Whether velocity-verlet, 10 steps a contact")));
+  EXPECT_EQ(recommend(result, 5.0).setting, 2u);
+  EXPECT_EQ(recommend(result, 5.0).unresolved, std::nullopt);
+}
+
+TEST(Accuracy, MeanWithinTheTargetIsNoRecommendationWhereTheIntervalIsWide) {
+  // The error is 0.41 +- 12.14 %.
+  const AccuracyResult result =
+      compared({row(verlet, 40, 1e-4, 1.0, 1000, 0.0858), row(verlet, 20, 1e-3, 1.0041, 100, 0.0858)});
+  const Recommendation recommended = recommend(result, 1.0);
+  EXPECT_EQ(recommended.setting, std::nullopt);
+  EXPECT_EQ(recommended.unresolved, 1u);
+  // t(0.975, n - 1) / sqrt(n) is to fall from t(0.975, 4) / sqrt(5), 1.2417, by 0.59 / 12.16: with t = 1.96, n = 1055.
+  EXPECT_NEAR(*recommended.replicates, 1055, 15);
+  EXPECT_THAT(accuracy_sentence(result), testing::StartsWith("No cheaper setting is shown to be within 1 %"));
+}
+
+TEST(Accuracy, OneReplicateRecommendsNothing) {
+  AccuracyResult result = made_up();
+  for (AccuracyRow& one : result.rows) one.mass_rate->half_width_95.reset(), one.error_ci95.reset();
+  compare_with_finest(result);
+  EXPECT_EQ(recommend(result, 1.0).setting, std::nullopt);
+  EXPECT_EQ(recommend(result, 1.0).replicates, std::nullopt);
+}
+
+TEST(Accuracy, NothingCheaperIsWithin) {
+  const AccuracyResult result =
+      compared({row(verlet, 40, 1e-4, 1.0, 1000, 0.001), row(verlet, 20, 1e-3, 0.9, 100, 0.001),
+                row(Integrator::rk2_midpoint, 40, 1e-4, 1.0001, 1000, 0.001)});
+  EXPECT_EQ(recommend(result, 1.0).setting, std::nullopt);  // the midpoint rule costs twice the reference
+  EXPECT_EQ(recommend(result, 1.0).unresolved, std::nullopt);
+}
+
+TEST(Accuracy, InterruptedBeforeTheFinestSettingGivesNoErrors) {
+  const StudyFiles files;
+  AccuracyGrid grid = default_accuracy_grid(scene_of(files));
+  grid.integrators = {verlet};
+  grid.steps_per_contact = {20, 40};
+  grid.slip_speeds = {0.02};
+  SweepOptions options = one_job();
+  std::atomic<bool> interrupt{false};
+  options.runs.interrupt = &interrupt;
+  int begun = 0;
+  const Simulator third_is_interrupted = [&](const Scene& scene, const SimulationOptions& simulation) {
+    vibrosow::Run run = quick_run(scene, simulation);
+    if (++begun == 3) interrupt = true, run.status = RunStatus::interrupted;
+    return run;
+  };
+  const AccuracyResult result = measure_accuracy(scene_of(files), grid, 2, third_is_interrupted, options);
+  ASSERT_TRUE(result.rows.front().mass_rate);
+  for (const AccuracyRow& one : result.rows) {
+    EXPECT_FALSE(one.error_percent);
+    EXPECT_FALSE(one.on_front);
+  }
+  EXPECT_EQ(result.rows[result.reference].setting.steps_per_contact, 40);
+  EXPECT_THAT(accuracy_sentence(result), testing::HasSubstr("has no result (interrupted)"));
+  EXPECT_THAT(accuracy_table(result), testing::Not(testing::HasSubstr("reference")));
+}
+
+TEST(Accuracy, HertzIsSoftenedByYoungsModulusInItsOwnColumn) {
+  const StudyFiles files;
+  files.write("seeder.toml", R"([seeds.wheat]
+diameter = "4 mm"
+mass = "40 mg"
+number_fraction = "50 %"
+[seeds.weed]
+diameter = "4 mm"
+mass = "40 mg"
+number_fraction = "50 %"
+youngs_modulus = "100 MPa"
+[contact]
+law = "hertz"
+youngs_modulus = "500 MPa"
+friction = 0.3
+[contact.wall]
+youngs_modulus = "2000 MPa"
+[tray]
+length = "50 cm"
+height = "12 cm"
+fill = { count = 40, packing = "layers" }
+holes = { count = 1, width = "16 mm" }
+[run]
+duration = "4 s"
+)");
+  const Scene scene = scene_of(files);
+  AccuracyGrid grid = default_accuracy_grid(scene);
+  EXPECT_TRUE(grid.shell_compressions.empty());
+  EXPECT_THAT(grid.youngs_moduli, testing::ElementsAre(5e8, 5e7, 5e6));
+  AccuracySetting soft = settings_of(grid)[4];  // 10 steps a contact, second slip speed aside: the softest
+  EXPECT_EQ(soft.youngs_modulus, 5e6);
+  const Scene softened = scene_with(scene, soft);
+  EXPECT_EQ(softened.contact.youngs_modulus, 5e6);
+  EXPECT_DOUBLE_EQ(*softened.lots[1].youngs_modulus, 1e6);
+  EXPECT_DOUBLE_EQ(*softened.contact.wall_youngs_modulus, 2e7);
+
+  grid.integrators = {verlet};
+  grid.steps_per_contact = {40};
+  grid.slip_speeds = {0.1};
+  const AccuracyResult result = measure_accuracy(scene, grid, 1, quick_run, one_job());
+  ASSERT_EQ(result.rows.size(), 3u);
+  EXPECT_EQ(result.reference, 0u);
+  EXPECT_THAT(accuracy_table(result),
+              testing::AllOf(testing::HasSubstr("E MPa"), testing::Not(testing::HasSubstr("eps/r"))));
+  EXPECT_THAT(accuracy_csv(result), testing::HasSubstr(",40,,50,100,1,"));
 }
 
 TEST(Accuracy, RunsEachSettingAsAskedAndListsTheRefused) {
   const StudyFiles files;
-  const Scene scene = read_scene(files.write("scene.toml", "").parent_path() / "seeder.toml");
+  const Scene scene = scene_of(files);
   AccuracyGrid grid = default_accuracy_grid(scene);
   EXPECT_EQ(grid.slip_speeds.size(), 2u);
   grid.steps_per_contact = {2, 40};
   grid.shell_compressions = {1e-4};
-  grid.integrators = {Integrator::velocity_verlet};
-  SweepOptions options;
-  options.runs.jobs = 1;
+  grid.integrators = {verlet};
   const Simulator checked = [](const Scene& one, const SimulationOptions& simulation) {
     EXPECT_NEAR(prepare(one).step.contact_duration / *one.numerics.dt, 40, 1e-9);
     return quick_run(one, simulation);
   };
-  const AccuracyResult result = measure_accuracy(scene, grid, 2, checked, options);
+  const AccuracyResult result = measure_accuracy(scene, grid, 2, checked, one_job());
   ASSERT_EQ(result.rows.size(), 4u);
   EXPECT_FALSE(result.rows[0].mass_rate);
   EXPECT_THAT(result.rows[0].refused, testing::HasSubstr("at most"));
@@ -82,8 +222,8 @@ TEST(Accuracy, RunsEachSettingAsAskedAndListsTheRefused) {
   EXPECT_EQ(result.rows[3].replicates, 2);
   const std::string csv = accuracy_csv(result);
   EXPECT_EQ(csv.substr(0, csv.find('\n')),
-            "integrator,dt_s,steps_per_contact,shell_compression,slip_speed_mm_per_s,replicates,rate_g_per_s,rate_ci95,"
-            "error_percent,error_ci95,grain_steps,cost_ratio,on_front");
+            "integrator,dt_s,steps_per_contact,shell_compression,youngs_modulus_MPa,slip_speed_mm_per_s,replicates,"
+            "rate_g_per_s,rate_ci95,error_percent,error_ci95,grain_steps,cost_ratio,on_front");
 }
 
 }  // namespace

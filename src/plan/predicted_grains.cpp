@@ -1,0 +1,147 @@
+#include "plan/predicted_grains.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+#include "scene/clump_shape.hpp"
+#include "scene/motion.hpp"
+#include "scene/seed_lot.hpp"
+
+namespace vibrosow {
+namespace {
+
+constexpr double flow_constant = 1.25;
+constexpr double lost_width_at_rest = 1.9, lost_width_shaken = 1.4;  // mean diameters of a hole that pass nothing
+constexpr double steepest_heap = 0.35;     // tangent; piles of discs stand at 17 to 20 degrees
+constexpr double shaken_heap = 0.13;       // tangent, under the wheat and pea trays' hoppers
+constexpr double packing_fraction = 0.82;  // of a poured bed
+constexpr int parts_of_a_run = 2000;
+
+/// Mean area of a grain in the plane, m2.
+double mean_area(const Scene& scene) {
+  double area = 0;
+  for (const SeedLot& lot : scene.lots) {
+    const double circle = 0.25 * std::numbers::pi * lot.diameter * lot.diameter;
+    area += lot.number_fraction * size_moment(lot, 2) * (lot.discs.empty() ? circle : plate_of(lot.discs).area);
+  }
+  return area;
+}
+
+double equal_diameter(const Scene& scene) {
+  return std::sqrt(4 / std::numbers::pi * mean_area(scene));
+}
+
+bool is_shaken(const Vessel& vessel) {
+  return vessel.motion && moves(*vessel.motion);
+}
+
+double lost_width(const Vessel& vessel) {
+  return is_shaken(vessel) ? lost_width_shaken : lost_width_at_rest;
+}
+
+double passing(double width, const Vessel& vessel, double diameter) {
+  const double effective = std::max(0.0, width / diameter - lost_width(vessel));
+  return flow_constant * std::sqrt(standard_gravity / diameter) * std::pow(effective, 1.5);
+}
+
+double funnel_factor(const Vessel& vessel) {
+  return vessel.funnel > std::numbers::pi / 4 ? std::pow(std::tan(0.5 * std::numbers::pi - vessel.funnel), -0.35) : 1;
+}
+
+double heap_slope(const Scene& scene) {
+  return std::min(steepest_heap, scene.contact.seed.friction);
+}
+
+/// Grains that stay on a stretch of flat floor, heaped up towards its middle, or towards a wall at one end of it.
+double heap(double length, bool against_wall, double slope, double area) {
+  return (against_wall ? 0.5 : 0.25) * length * length * slope * packing_fraction / area;
+}
+
+/// Grains that holes never drain: heaps between them and at the ends. None where the vessel is shaken or a funnel.
+double resting(const Scene& scene, const Vessel& vessel) {
+  if (is_shaken(vessel) || vessel.funnel > 0) return 0;
+  const double diameter = equal_diameter(scene), area = mean_area(scene);
+  const double slope = heap_slope(scene);
+  double grains = 0, from = 0;
+  bool exit_before = vessel.sides == Sides::open;
+  for (const Hole& hole : vessel.holes) {
+    if (hole.width <= lost_width(vessel) * diameter) continue;
+    grains += heap(hole.centre - 0.5 * hole.width - from, !exit_before, slope, area);
+    from = hole.centre + 0.5 * hole.width;
+    exit_before = true;
+  }
+  return grains + heap(vessel.length - from, vessel.sides != Sides::open, slope, area);
+}
+
+/// The grains of one vessel as a run goes on.
+struct Store {
+  const Vessel* vessel;
+  double grains = 0, resting = 0;
+  bool kept = false;
+
+  Store(const Scene& scene, const Vessel& of)
+      : vessel(&of),
+        grains(of.fill ? of.fill->count : 0),
+        resting(vibrosow::resting(scene, of)),
+        kept(of.fill && of.fill->keep) {}
+
+  double rain(double from, double to) const {
+    if (!vessel->rain) return 0;
+    return vessel->rain->rate * std::max(0.0, std::min(to, vessel->rain->stop) - std::max(from, vessel->rain->start));
+  }
+  /// What leaves in a time `step` (s), at most `room` grains.
+  double let_out(const Scene& scene, double time, double step, double room) {
+    const double most = kept ? room : std::min(room, std::max(0.0, grains - resting));
+    const double out = std::min(predicted_outflow(scene, *vessel, time) * step, most);
+    if (!kept) grains -= out;
+    return out;
+  }
+};
+
+/// How many grains a tray takes before its heap closes the hopper above it: a heap that reaches up to the hopper's
+/// floor in the middle and slopes to both sides; at least its fill.
+double room_under_hopper(const Scene& scene) {
+  if (!scene.hopper) return 0;
+  const Vessel& tray = scene.tray;
+  const double slope = is_shaken(tray) ? shaken_heap : heap_slope(scene);
+  const double height = scene.hopper->origin.y() - tray.origin.y() - 0.25 * slope * tray.length;
+  const double heaped = tray.length * std::max(0.0, height) * packing_fraction / mean_area(scene);
+  return std::max(heaped, tray.fill ? tray.fill->count : 0.0);
+}
+
+}  // namespace
+
+double predicted_outflow(const Scene& scene, const Vessel& vessel, double time) {
+  if (!vessel.box) return 0;
+  const double diameter = equal_diameter(scene);
+  double rate = 0;
+  for (const Hole& hole : vessel.holes)
+    if (hole.open_at <= time) rate += passing(hole.width, vessel, diameter);
+  return rate * funnel_factor(vessel);
+}
+
+double predicted_grain_steps(const Scene& scene, double dt) {
+  Store tray(scene, scene.tray);
+  std::optional<Store> hopper;
+  if (scene.hopper) hopper.emplace(scene, *scene.hopper);
+  const double room = room_under_hopper(scene);
+  const double step = scene.run.duration / parts_of_a_run;
+  double grain_seconds = 0, since_outflow = 0;
+  for (int part = 0; part < parts_of_a_run; ++part) {
+    const double time = part * step;
+    grain_seconds += step * (tray.grains + (hopper ? hopper->grains : 0));
+    const double out = tray.let_out(scene, time, step, 1e300);
+    if (hopper) {
+      hopper->grains += hopper->rain(time, time + step);
+      tray.grains += hopper->let_out(scene, time, step, std::max(0.0, room - tray.grains));
+    }
+    tray.grains += tray.rain(time, time + step);
+    since_outflow = out > 0 ? 0 : since_outflow + step;
+    if (scene.run.end_after_pause && since_outflow > *scene.run.end_after_pause) break;
+  }
+  return grain_seconds / dt;
+}
+
+}  // namespace vibrosow
