@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <optional>
 #include <sstream>
 
@@ -55,8 +56,8 @@ class LimitCheck {
     for (at_ += end.size(); !text_.substr(at_, end.size()).starts_with(end); ++at_) {
       broken_ = at_ >= text_.size() || (text_[at_] == '\n' && !long_string);
       if (broken_) return;
-      if (text_[at_] == '\\' && quote == '"') ++at_;
-      if (at_ < text_.size() && text_[at_] == '\n') ++line_;
+      if (text_[at_] == '\\' && quote == '"' && at_ + 1 < text_.size()) ++at_;
+      if (text_[at_] == '\n') ++line_;
     }
     at_ = std::min(at_ + end.size(), text_.size());
   }
@@ -87,12 +88,15 @@ std::optional<std::string> unquoted(std::string_view rest) {
   const std::string_view unit = trimmed(value.substr(number_length(value)));
   const bool quantity = number_length(value) > 0 && !unit.empty() &&
                         (is_letter(unit[0]) || unit[0] == '%' || static_cast<unsigned char>(unit[0]) >= 0x80);
-  const bool word = is_letter(value[0]) && value != "true" && value != "false";
+  std::string lower(value);
+  std::ranges::transform(lower, lower.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  const bool word = is_letter(value[0]) && lower != "true" && lower != "false";
   if (!quantity && !word) return std::nullopt;
   return fmt::format("a {} is written in quotes: \"{}\"", quantity ? "quantity with its unit" : "text", value);
 }
 
 std::optional<std::string> missing_quote(std::string_view line) {
+  if (trimmed(line).starts_with('[')) return std::nullopt;  // a table's name
   for (std::size_t at = 0; at < line.size(); ++at) {
     const char c = line[at];
     if (c == '#') break;

@@ -257,7 +257,13 @@ TEST_F(DocumentTest, AMissingQuoteIsSaidToBeOne) {
        "a quantity with its unit is written in quotes: \"1 cm\"");
   told("crop = wheat", "a text is written in quotes: \"wheat\"");
   told("diameter = \"4 mm", "the quote before \"4 mm\" is not closed");
-  EXPECT_THAT([&] { read("\nb = = 2\n"); }, ThrowsMessage<InputError>(testing::Not(HasSubstr("quote"))));
+  for (const std::string line : {"b = = 2", "[tray", "keep = True", "x = [1, 2"})
+    EXPECT_THAT([&] { read("\n" + line + "\n"); }, ThrowsMessage<InputError>(testing::Not(HasSubstr("quote")))) << line;
+}
+
+TEST_F(DocumentTest, AStringThatTheFileCutsOff) {
+  for (const std::string end : {R"(")", R"("a\)", R"("""a\)", "\"\"\"a\n\\", "'", R"('''a\)", R"("""")", "\"a\\\n"})
+    EXPECT_THAT([&] { read("x = " + end); }, ThrowsMessage<InputError>(HasSubstr("not valid TOML"))) << end;
 }
 
 TEST_F(DocumentTest, AListOfTablesInPlaceOfATable) {
