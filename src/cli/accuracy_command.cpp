@@ -8,6 +8,7 @@
 #include "cli/interrupt.hpp"
 #include "cli/progress.hpp"
 #include "design/accuracy.hpp"
+#include "input/input_file.hpp"
 #include "input/read_scene.hpp"
 #include "report/accuracy_report.hpp"
 #include "scene/input_error.hpp"
@@ -79,7 +80,7 @@ AccuracyGrid grid_of(const AccuracyOptions& options, const Scene& scene) {
 }
 
 int run_accuracy(const AccuracyOptions& options) {
-  const Scene scene = read_scene(options.common.file, options.common.overrides());
+  const Scene scene = read_scene(input_file(options.common.file, FileKind::seeder), options.common.overrides());
   const AccuracyGrid grid = grid_of(options, scene);
   const auto directory = options.common.out_directory();
   make_out_directory(directory);

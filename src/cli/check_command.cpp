@@ -8,11 +8,13 @@
 #include "cli/progress.hpp"
 #include "design/predicted_cost.hpp"
 #include "design/study.hpp"
+#include "input/input_file.hpp"
 #include "input/key_units.hpp"
 #include "input/measured.hpp"
 #include "input/read_scene.hpp"
 #include "plan/effects.hpp"
 #include "plan/model.hpp"
+#include "plan/scene_warnings.hpp"
 #include "scene/input_error.hpp"
 
 namespace vibrosow {
@@ -66,9 +68,10 @@ void print_vessel(const Vessel& vessel) {
                vessel.rain->height * 1e3);
 }
 
-int check_seeder(const CommonOptions& options) {
-  const Model model = prepare(read_scene(options.file, options.overrides()));
+int check_seeder(const std::filesystem::path& file, const CommonOptions& options) {
+  const Model model = prepare(read_scene(file, options.overrides()));
   const Scene& scene = model.scene;
+  print_warnings(scene_warnings(scene));
   const StepPlan& plan = model.step;
   fmt::print("{}\n", scene.title);
   print_vessel(scene.tray);
@@ -90,8 +93,9 @@ std::string measured_header(const Study& study) {
   return header + "hole,lot,repeat,caught_g,duration_s,note";
 }
 
-int check_study(const CommonOptions& options) {
-  const Study study = read_study(options.file, options.overrides());
+int check_study(const std::filesystem::path& file, const CommonOptions& options) {
+  const Study study = read_study(file, options.overrides());
+  print_warnings(study_warnings(study));
   fmt::print("{}\n{} layouts, {} different scenes, {} runs of each: some {} of one core in all\n", study.title,
              study.layouts.size(), study.scenes.size(), study.replicates, duration_text(predict_seconds(study)));
   for (const Layout& layout : study.layouts)
@@ -110,8 +114,10 @@ void add_check_command(CLI::App& app, int& exit_code) {
   CLI::App* command =
       app.add_subcommand("check", "validate a seeder or a study; effects, step, predicted overlap and cost");
   add_input_options(*command, *options, "seeder or study file (.toml)");
-  command->callback(
-      [options, &exit_code] { exit_code = is_study(options->file) ? check_study(*options) : check_seeder(*options); });
+  command->callback([options, &exit_code] {
+    const std::filesystem::path file = input_file(options->file);
+    exit_code = kind_of(file) == FileKind::study ? check_study(file, *options) : check_seeder(file, *options);
+  });
 }
 
 }  // namespace vibrosow

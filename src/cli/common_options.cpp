@@ -61,6 +61,10 @@ void add_common_options(CLI::App& command, CommonOptions& options, const std::st
   command.add_flag("--quiet", options.quiet, "no progress and no table");
 }
 
+void print_warnings(const std::vector<std::string>& warnings) {
+  for (const std::string& warning : warnings) fmt::print(stderr, "vibrosow: warning: {}\n", warning);
+}
+
 void make_out_directory(const std::filesystem::path& directory) {
   std::error_code error;
   std::filesystem::create_directories(directory, error);

@@ -29,6 +29,9 @@ void add_input_options(CLI::App& command, CommonOptions& options, const std::str
 /// Adds --out, --random-seed, --jobs and --quiet too.
 void add_common_options(CLI::App& command, CommonOptions& options, const std::string& file_help);
 
+/// Each on stderr.
+void print_warnings(const std::vector<std::string>& warnings);
+
 /// Makes the directory now, so that a long simulation does not end at a directory that cannot be made or
 /// written into. Throws InputError.
 void make_out_directory(const std::filesystem::path& directory);

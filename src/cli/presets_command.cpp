@@ -6,8 +6,8 @@
 #include <utility>
 
 #include "cli/commands.hpp"
-#include "input/document.hpp"
 #include "input/read_scene.hpp"
+#include "input/table.hpp"
 
 namespace vibrosow {
 namespace {
@@ -26,7 +26,7 @@ void print_crops(const std::filesystem::path& data) {
     Table crop(Document::read(file));
     fmt::print("  {:<24}", file.stem().string());
     for (const std::string key : {"diameter", "length", "width", "mass"})
-      if (const auto value = crop.toml_text(key)) fmt::print(" {} {}", key, *value);
+      if (const auto value = crop.text(key)) fmt::print(" {} \"{}\"", key, *value);
     fmt::print("\n");
   }
 }

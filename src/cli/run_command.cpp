@@ -7,10 +7,12 @@
 #include "cli/common_options.hpp"
 #include "cli/interrupt.hpp"
 #include "cli/progress.hpp"
+#include "input/input_file.hpp"
 #include "input/read_scene.hpp"
 #include "outflow/outflow.hpp"
 #include "plan/effects.hpp"
 #include "plan/model.hpp"
+#include "plan/scene_warnings.hpp"
 #include "report/run_report.hpp"
 #include "simulation/simulate.hpp"
 
@@ -49,7 +51,10 @@ struct RunOptions : CommonOptions {
 };
 
 int run_scene(const RunOptions& options) {
-  const Model model = prepare_to_run(read_scene(options.file, options.overrides()));
+  const Scene read = read_scene(input_file(options.file, FileKind::seeder), options.overrides());
+  const std::vector<std::string> warnings = scene_warnings(read);
+  print_warnings(warnings);
+  const Model model = prepare_to_run(read);
   const Scene& scene = model.scene;
   const auto directory = options.out_directory();
   make_out_directory(directory);
@@ -65,13 +70,15 @@ int run_scene(const RunOptions& options) {
     run = run_model(model, simulation);
   }
   const Outflow outflow = measure_outflow(scene, run);
+  const std::vector<std::string> warnings_of_run = run.warnings;
+  run.warnings.insert(run.warnings.begin(), warnings.begin(), warnings.end());
   write_run_report(directory, scene, run, outflow, effect_names(model.effects));
   if (!options.quiet) {
     print_summary(scene, run, outflow);
     if (run.phase_times) print_profile(run);
     fmt::print("reports: {}\n", directory.string());
   }
-  for (const std::string& warning : run.warnings) fmt::print(stderr, "vibrosow: warning: {}\n", warning);
+  print_warnings(warnings_of_run);
   if (run.status == RunStatus::stopped_by_guard) {
     fmt::print(stderr, "vibrosow: the guard stopped the run: {}\n", run.stop_reason);
     return exit_stopped_by_guard;

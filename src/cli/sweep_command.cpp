@@ -8,6 +8,7 @@
 #include "cli/interrupt.hpp"
 #include "cli/progress.hpp"
 #include "design/sweep.hpp"
+#include "input/input_file.hpp"
 #include "report/sweep_report.hpp"
 #include "simulation/simulate.hpp"
 
@@ -63,7 +64,8 @@ int exit_code_of(const StudyResult& result, bool interrupted) {
 }
 
 int run_sweep(const CommonOptions& options) {
-  const Study study = read_study(options.file, options.overrides());
+  const Study study = read_study(input_file(options.file, FileKind::study), options.overrides());
+  print_warnings(study_warnings(study));
   const auto directory = options.out_directory();
   make_out_directory(directory);
   const std::atomic<bool>& interrupt = watch_for_interrupt();

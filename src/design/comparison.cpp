@@ -39,11 +39,19 @@ struct Pairing {
   }
 };
 
-/// The measured times of a curve that lie within the run of a scene, and what is to be compared with.
+/// The time of the run (s) at which a measured curve's time is zero.
+double curve_zero(const MeasuredPart& part, const Scene& scene) {
+  const auto first = std::ranges::min_element(scene.tray.holes, {}, &Hole::open_at);
+  return part.time_zero.value_or(first != scene.tray.holes.end() ? first->open_at : 0);
+}
+
+/// The times of the run at which a measured curve's are: those within the run, and last its zero, from which it counts.
 CurveRequest curve_request(const MeasuredPart& part, const MeasuredSeries& series, const Scene& scene) {
   CurveRequest request{discharge_of(part.table.quantity), series.hole, series.lot, {}};
-  std::ranges::copy_if(series.times, std::back_inserter(request.times),
-                       [&](double time) { return time <= scene.run.duration; });
+  const double zero = curve_zero(part, scene);
+  for (const double time : series.times)
+    if (time + zero <= scene.run.duration) request.times.push_back(time + zero);
+  request.times.push_back(zero);
   return request;
 }
 
@@ -53,10 +61,18 @@ double simulated_rate(const Evaluation& replicate, MeasuredQuantity quantity, co
   return quantity == MeasuredQuantity::mass_rate ? row->mass_rate : row->seeds_per_s;
 }
 
-const std::vector<double>& simulated_curve(const Evaluation& replicate, const CurveRequest& request) {
+/// How many of a curve's times, which rise, lie within the run.
+std::ptrdiff_t times_within(const CurveRequest& request) {
+  return std::ssize(request.times) - 1;
+}
+
+/// What has left since the curve's zero.
+std::vector<double> simulated_curve(const Evaluation& replicate, const CurveRequest& request) {
   const auto curve = std::ranges::find(replicate.curves, request, &Curve::request);
   if (curve == replicate.curves.end()) throw std::logic_error("a measured curve that was not evaluated");
-  return curve->values;
+  std::vector<double> values(curve->values.begin(), curve->values.begin() + times_within(request));
+  for (double& value : values) value -= curve->values.back();
+  return values;
 }
 
 Pairing pair_up(const StudyResult& result, const MeasuredMatch& match) {
@@ -67,8 +83,8 @@ Pairing pair_up(const StudyResult& result, const MeasuredMatch& match) {
   pairing.match = &match;
   pairing.series = &part.table.series[match.series];
   const CurveRequest request = curve_request(part, *pairing.series, result.study.scenes[scene]);
-  pairing.times = request.times;
-  const std::size_t values = curve ? request.times.size() : 1;
+  if (curve) pairing.times.assign(pairing.series->times.begin(), pairing.series->times.begin() + times_within(request));
+  const std::size_t values = curve ? pairing.times.size() : 1;
   for (std::size_t i = 0; i < values; ++i) pairing.measured.push_back(pairing.series->values[i].mean);
   for (const Evaluation& replicate : result.runs[scene]) {
     if (!replicate.finished()) continue;

@@ -4,17 +4,17 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <set>
 #include <system_error>
 
-#include "input/document.hpp"
 #include "input/key_units.hpp"
 #include "input/read_scene.hpp"
-#include "input/toml_lib.hpp"
+#include "input/table.hpp"
 #include "plan/model.hpp"
+#include "plan/scene_warnings.hpp"
 #include "scene/input_error.hpp"
+#include "scene/printable.hpp"
 #include "scene/scene_json.hpp"
 #include "units/quantity.hpp"
 
@@ -34,113 +34,116 @@ struct NamedDesign {
   Changes changes;
 };
 
-std::string without_quotes(const std::string& toml) {
-  const bool quoted = toml.size() >= 2 && (toml.front() == '"' || toml.front() == '\'') && toml.back() == toml.front();
-  return quoted ? toml.substr(1, toml.size() - 2) : toml;
+/// A value of a range: with the unit of the key's column, or a plain number.
+Quantity quantity_of(const std::string& key, const TomlValue& value) {
+  if (const auto* whole = value.get<std::int64_t>()) return {static_cast<double>(*whole), ""};
+  if (const auto* number = value.get<double>()) return {*number, ""};
+  const auto* typed = value.get<Quantity>();
+  const auto* text = value.get<std::string>();
+  if (typed == nullptr && text == nullptr)
+    throw std::invalid_argument(fmt::format("{} is not a number", toml_text(value)));
+  const Quantity quantity = typed != nullptr ? *typed : split_quantity(*text);
+  if (!column_unit(key) && !quantity.unit.empty())
+    throw std::invalid_argument(fmt::format("{}: a plain number is expected", toml_text(value)));
+  return quantity;
 }
 
-/// "7 Hz" into 7 and "Hz"; a plain number has no unit.
-struct NumberWithUnit {
-  double number;
-  std::string unit;
-};
-
-NumberWithUnit split_number(const std::string& text) {
-  double number = 0;
-  const char* begin = text.data() + (text.starts_with('+') ? 1 : 0);
-  const char* end = text.data() + text.size();
-  const auto [stop, error] = std::from_chars(begin, end, number);
-  if (error != std::errc{}) throw std::invalid_argument(fmt::format("\"{}\" is not a number", text));
-  const char* unit = std::find_if(stop, end, [](char c) { return c != ' '; });
-  return {number, std::string(unit, end)};
+/// In SI, or the plain number of a key without a unit.
+double value_of(const std::string& key, const Quantity& quantity) {
+  const auto unit = column_unit(key);
+  return unit ? in_si(quantity, unit->dimension) : quantity.number;
 }
 
-/// A value in SI, or the plain number of a key without a unit.
-double value_of(const std::string& key, const std::string& text) {
-  if (const auto unit = column_unit(key)) return parse_quantity(text, unit->dimension);
-  const NumberWithUnit value = split_number(text);
-  if (!value.unit.empty()) throw std::invalid_argument(fmt::format("\"{}\": a plain number is expected", text));
-  return value.number;
+/// To twelve digits: 0.1 + 2 * 0.1 is 0.3.
+double rounded(double value) {
+  if (value == 0) return 0;
+  const int places = 11 - static_cast<int>(std::floor(std::log10(std::abs(value))));
+  const double unit = std::pow(10.0, std::abs(places));
+  return places > 0 ? std::round(value * unit) / unit : std::round(value / unit) * unit;
 }
 
-std::string printed(const std::string& key, const toml::node& node) {
-  if (const toml::array* list = node.as_array()) {
+std::string printed(const std::string& key, const TomlValue& value) {
+  if (const auto* list = value.get<TomlValue::List>()) {
     std::vector<std::string> parts;
-    for (const toml::node& element : *list) parts.push_back(printed(key, element));
+    for (const TomlValue& element : *list) parts.push_back(printed(key, element));
     return fmt::format("{}", fmt::join(parts, ";"));
   }
-  if (const auto* number = node.as_integer()) return fmt::format("{}", number->get());
-  if (const auto* number = node.as_floating_point()) return fmt::format("{:.6g}", number->get());
-  if (const auto* flag = node.as_boolean()) return flag->get() ? "true" : "false";
-  const std::string text = node.value_or(std::string());
-  const auto unit = column_unit(key);
-  if (!unit) return text;
+  if (const auto* number = value.get<double>()) return fmt::format("{:.6g}", *number);
+  const auto* text = value.get<std::string>();
+  const bool quantity = text != nullptr || value.get<Quantity>() != nullptr;
   try {
-    return fmt::format("{:.6g}", to_column_unit(key, parse_quantity(text, unit->dimension)));
-  } catch (const UnitError&) {
-    return text;  // "3 diameters"; anything wrong is told by read_scene
+    if (quantity && column_unit(key))
+      return fmt::format("{:.6g}", to_column_unit(key, value_of(key, quantity_of(key, value))));
+  } catch (const UnitError&) {  // "3 diameters"; anything wrong is told by read_scene
   }
+  return text != nullptr ? printable(*text) : toml_text(value);
 }
 
 /// A value for a table: in the unit of the key's column, a list's elements separated by ";".
 std::string printed_value(const Override& change) {
-  try {
-    const toml::table parsed = toml::parse("value = " + change.toml_value);
-    const toml::node& value = *parsed.get("value");
-    return value.is_table() ? change.toml_value : printed(change.key, value);
-  } catch (const toml::parse_error&) {
-    return change.toml_value;
-  }
+  return change.value ? printed(change.key, *change.value) : "unset";
 }
 
-std::vector<std::string> values_of(Table& vary, const std::string& key) {
-  const auto range = vary.table_at(key);
-  if (!range) return vary.toml_elements(key);
-  for (const std::string& word : range->keys())
-    if (word != "from" && word != "to" && word != "step")
-      vary.fail(key, fmt::format("a range has from, to and step, not \"{}\"", word));
-  Table ends = *range;
-  const auto text = [&](const std::string& word) {
-    const auto value = ends.toml_text(word);
-    if (!value) vary.fail(key, fmt::format("a range needs from, to and step; {} is missing", word));
-    return without_quotes(*value);
+/// The values of one varied key: a list, one value, or a table { from, to, step }.
+std::vector<TomlValue> values_of(const Override& varied) {
+  if (const auto* list = varied.value->get<TomlValue::List>()) return *list;
+  const auto* range = varied.value->get<TomlTable>();
+  if (range == nullptr) return {*varied.value};
+  for (const TomlEntry& entry : range->entries)
+    if (entry.key != "from" && entry.key != "to" && entry.key != "step")
+      throw std::invalid_argument(fmt::format("a range has from, to and step, not \"{}\"", entry.key));
+  const auto end = [&](std::string_view word) {
+    const TomlEntry* entry = range->find(word);
+    if (entry == nullptr)
+      throw std::invalid_argument(fmt::format("a range needs from, to and step; {} is missing", word));
+    return entry->value;
   };
-  try {
-    return range_values(key, text("from"), text("to"), text("step"));
-  } catch (const std::invalid_argument& error) {
-    vary.fail(key, error.what());
-  } catch (const UnitError& error) {
-    vary.fail(key, error.what());
-  }
+  return range_values(varied.key, end("from"), end("to"), end("step"));
 }
 
-/// Every key of a [set] or [[layout]] table.
+/// What a [set] or [[layout]] table changes: first the keys that `unset` lists are taken out, then its own are laid
+/// over.
 Changes read_changes(Table& table, const std::set<std::string>& not_keys = {}) {
   Changes changes;
-  for (const std::string& key : table.dotted_keys())
-    if (!not_keys.contains(key)) changes.push_back({key, *table.toml_text(key), table.origin(key)});
+  for (const std::string& key : table.texts("unset", "full keys such as [\"tray.holes.count\"]"))
+    changes.push_back({key, std::nullopt, table.origin("unset")});
+  for (const Override& change : table.dotted_values())
+    if (change.key != "unset" && !not_keys.contains(change.key)) changes.push_back(change);
   return changes;
 }
 
 /// The full grid, first key slowest.
 std::vector<Changes> read_grid(Table& vary) {
   std::vector<Changes> grid{{}};
-  for (const std::string& key : vary.dotted_keys()) {
-    const std::vector<std::string> values = values_of(vary, key);
-    if (values.empty()) vary.fail(key, "an empty list; at least one value is needed");
+  for (const Override& varied : vary.dotted_values()) {
+    std::vector<TomlValue> values;
+    try {
+      values = values_of(varied);
+    } catch (const std::invalid_argument& error) {
+      vary.fail(varied.key, error.what());
+    } catch (const UnitError& error) {
+      vary.fail(varied.key, error.what());
+    }
+    if (values.empty()) vary.fail(varied.key, "an empty list; at least one value is needed");
     if (grid.size() * values.size() > most_layouts)
-      vary.fail(key, fmt::format("the grid has more than {} layouts", most_layouts));
+      vary.fail(varied.key, fmt::format("the grid has more than {} layouts", most_layouts));
     std::vector<Changes> longer;
     longer.reserve(grid.size() * values.size());
     for (const Changes& point : grid) {
-      for (const std::string& value : values) {
+      for (const TomlValue& value : values) {
         longer.push_back(point);
-        longer.back().push_back({key, value, vary.origin(key)});
+        longer.back().push_back({varied.key, value, varied.where});
       }
     }
     grid = std::move(longer);
   }
   return grid;
+}
+
+Changes conditions_of(const MeasuredSeries& series) {
+  Changes changes;
+  for (const Condition& condition : series.conditions) changes.push_back(override_of(condition, series.where));
+  return changes;
 }
 
 /// The conditions under which a table was measured, each once.
@@ -150,9 +153,7 @@ std::vector<Changes> measured_grid(const MeasuredTable& table) {
   for (const MeasuredSeries& series : table.series) {
     if (std::ranges::find(seen, series.conditions) != seen.end()) continue;
     seen.push_back(series.conditions);
-    Changes point;
-    for (const Condition& condition : series.conditions) point.push_back(override_of(condition, series.where));
-    grid.push_back(point);
+    grid.push_back(conditions_of(series));
   }
   return grid;
 }
@@ -160,7 +161,7 @@ std::vector<Changes> measured_grid(const MeasuredTable& table) {
 std::vector<NamedDesign> read_designs(Table& study) {
   std::vector<NamedDesign> designs;
   for (Table& layout : study.tables("layout")) {
-    const std::string name = layout.required_text("name");
+    const std::string name = printable(layout.required_text("name"));
     if (std::ranges::find(designs, name, &NamedDesign::name) != designs.end())
       layout.fail("name", fmt::format("two layouts are named \"{}\"", name));
     designs.push_back({name, read_changes(layout, {"name"})});
@@ -183,9 +184,12 @@ std::optional<MeasuredPart> read_measured_part(Table& study) {
   MeasuredPart part;
   part.file = named_file(*table, "file");
   part.scale = static_cast<MeasuredScale>(table->choice("scale", {"none", "depth", "free"}).value_or(0));
-  part.table = read_measured(part.file);
+  part.time_zero = table->quantity("time_zero", Dimension::time, 0, 1e6);
+  part.table = read_measured(study.files()->csv(part.file));
   if (part.table.quantity == MeasuredQuantity::fraction_curve && part.scale != MeasuredScale::none)
     table->fail("scale", "discharged_percent needs no scale; only \"none\" is allowed");
+  if (part.time_zero && !is_curve(part.table.quantity))
+    table->fail("time_zero", "goes with a curve, a table with time_s; rates are taken from run.measure_from on");
   return part;
 }
 
@@ -216,38 +220,46 @@ Scene untitled(Scene scene) {
   return scene;
 }
 
-/// Reads the scene of each layout and keeps each different one once.
-void resolve_scenes(Study& study) {
-  std::map<std::string, std::size_t> known;
-  for (Layout& layout : study.layouts) {
+/// The scene of each layout, each different one kept once, and whether measured conditions are a layout's own. All on
+/// one parsed base.
+class Scenes {
+ public:
+  Scenes(Study& study, std::shared_ptr<SourceFiles> files) : study_(study), files_(std::move(files)) {}
+
+  void resolve() {
+    std::map<std::string, std::size_t> known;
+    for (Layout& layout : study_.layouts) {
+      try {
+        const Scene scene = read_scene(study_.base, layout.overrides, files_);
+        prepare_to_run(scene);
+        const auto [place, is_new] = known.try_emplace(scene_to_json(untitled(scene)), study_.scenes.size());
+        if (is_new) study_.scenes.push_back(scene);
+        layout.scene = place->second;
+      } catch (const InputError& error) {
+        layout.invalid = error.what();
+      }
+    }
+    if (study_.scenes.empty()) throw InputError(study_.layouts.front().invalid);
+  }
+
+  /// Conditions fit a layout when, laid over it, they change nothing; so a condition that the study does not name means
+  /// the base's value.
+  bool fit(const Layout& layout, const MeasuredSeries& series) const {
+    if (!layout.scene) return false;
+    if (series.conditions.empty()) return true;
+    Changes changes = layout.overrides;
+    add_changes(changes, conditions_of(series));
     try {
-      const Scene scene = read_scene(study.base, layout.overrides);
-      prepare_to_run(scene);
-      const auto [place, is_new] = known.try_emplace(scene_to_json(untitled(scene)), study.scenes.size());
-      if (is_new) study.scenes.push_back(scene);
-      layout.scene = place->second;
-    } catch (const InputError& error) {
-      layout.invalid = error.what();
+      return untitled(read_scene(study_.base, changes, files_)) == untitled(study_.scenes[*layout.scene]);
+    } catch (const InputError&) {
+      return false;
     }
   }
-  if (study.scenes.empty()) throw InputError(study.layouts.front().invalid);
-}
 
-/// A series fits a layout when its conditions, laid over the layout, change nothing; so a condition that the study does
-/// not name means the base's value.
-bool fits(const Study& study, const Layout& layout, const MeasuredSeries& series) {
-  if (!layout.scene) return false;
-  Changes conditions;
-  for (const Condition& condition : series.conditions) conditions.push_back(override_of(condition, series.where));
-  if (conditions.empty()) return true;
-  Changes changes = layout.overrides;
-  add_changes(changes, conditions);
-  try {
-    return untitled(read_scene(study.base, changes)) == untitled(study.scenes[*layout.scene]);
-  } catch (const InputError&) {
-    return false;
-  }
-}
+ private:
+  Study& study_;
+  std::shared_ptr<SourceFiles> files_;
+};
 
 bool has_hole_and_lot(const Scene& scene, const MeasuredSeries& series) {
   const bool hole = series.hole == "all" || std::stoul(series.hole) <= scene.tray.holes.size();
@@ -273,12 +285,12 @@ void check_measurable(const MeasuredPart& part, const MeasuredSeries& series, co
     throw InputError(fmt::format("{}: measured.scale = \"depth\" needs tray.depth", base.string()));
 }
 
-void match_measured(Study& study) {
+void match_measured(Study& study, const Scenes& scenes) {
   MeasuredPart& part = *study.measured;
   for (std::size_t layout = 0; layout < study.layouts.size(); ++layout) {
     for (std::size_t series = 0; series < part.table.series.size(); ++series) {
       const MeasuredSeries& measured = part.table.series[series];
-      if (!fits(study, study.layouts[layout], measured)) continue;
+      if (!scenes.fit(study.layouts[layout], measured)) continue;
       const Scene& scene = study.scenes[*study.layouts[layout].scene];
       check_measurable(part, measured, scene, layout, study.base);
       part.matches.push_back({layout, series});
@@ -294,11 +306,11 @@ bool is_study_key(const Override& change) {
 
 }  // namespace
 
-std::vector<std::string> range_values(const std::string& key, const std::string& from, const std::string& to,
-                                      const std::string& step) {
-  const double first = value_of(key, from);
-  const double last = value_of(key, to);
-  const double by = value_of(key, step);
+std::vector<TomlValue> range_values(const std::string& key, const TomlValue& from, const TomlValue& to,
+                                    const TomlValue& step) {
+  const Quantity start = quantity_of(key, from);
+  const double first = value_of(key, start), last = value_of(key, quantity_of(key, to));
+  const double by = value_of(key, quantity_of(key, step));
   if (!std::isfinite(first) || !std::isfinite(last) || !std::isfinite(by))
     throw std::invalid_argument("a range is of finite numbers");
   const double steps = (last - first) / by;
@@ -306,31 +318,50 @@ std::vector<std::string> range_values(const std::string& key, const std::string&
   if (steps > static_cast<double>(most_layouts))
     throw std::invalid_argument(fmt::format("the range has more than {} values", most_layouts));
   if (std::abs(steps - std::round(steps)) > 1e-6)
-    throw std::invalid_argument(fmt::format("a step of {} from {} does not end at {}", step, from, to));
+    throw std::invalid_argument(
+        fmt::format("a step of {} from {} does not end at {}", toml_text(step), toml_text(from), toml_text(to)));
 
-  const NumberWithUnit start = split_number(from);
   const auto unit = column_unit(key);
   const double size = unit ? unit_size(start.unit, unit->dimension) : 1;
-  std::vector<std::string> values;
+  std::vector<TomlValue> values;
   for (int i = 0; i <= static_cast<int>(std::round(steps)); ++i) {
-    // Twelve digits: 0.1 + 2 * 0.1 is written 0.3.
-    const std::string number = fmt::format("{:.12g}", start.number + i * by / size);
-    values.push_back(unit ? fmt::format("\"{} {}\"", number, start.unit) : number);
+    const double number = rounded(start.number + i * by / size);
+    if (unit) {
+      values.push_back({Quantity{number, start.unit}});
+    } else {
+      values.push_back(value_of_column(key, "", number));
+    }
   }
   return values;
 }
 
-bool is_study(const std::filesystem::path& file) {
-  return Table(Document::read(file)).has("base");
+std::vector<std::string> study_warnings(const Study& study) {
+  std::vector<std::pair<std::string, std::vector<int>>> told;  // and by which layouts, in their order
+  for (const Layout& layout : study.layouts) {
+    if (!layout.scene) continue;
+    for (const std::string& warning : scene_warnings(study.scenes[*layout.scene])) {
+      auto known = std::ranges::find(told, warning, &std::pair<std::string, std::vector<int>>::first);
+      if (known == told.end()) known = told.insert(known, {warning, {}});
+      known->second.push_back(layout.number);
+    }
+  }
+  std::vector<std::string> warnings;
+  for (const auto& [warning, layouts] : told)
+    warnings.push_back(
+        layouts.size() == study.layouts.size()
+            ? warning
+            : fmt::format("layout{} {}: {}", layouts.size() == 1 ? "" : "s", fmt::join(layouts, ", "), warning));
+  return warnings;
 }
 
-Study read_study(const std::filesystem::path& file, const std::vector<Override>& overrides) {
+Study read_study(const std::filesystem::path& file, const std::vector<Override>& overrides,
+                 const std::shared_ptr<SourceFiles>& files) {
   Changes of_study, of_seeder;
   for (const Override& change : overrides) (is_study_key(change) ? of_study : of_seeder).push_back(change);
 
-  Table table(Document::read(file, of_study));
+  Table table(Document::read(file, of_study, files));
   Study study;
-  study.title = table.text("title").value_or(file.stem().string());
+  study.title = printable(table.text("title").value_or(file.stem().string()));
   study.base = named_file(table, "base");
   study.replicates = static_cast<int>(table.whole_number("replicates", 1, most_replicates).value_or(5));
   auto set = table.table("set");
@@ -365,8 +396,9 @@ Study read_study(const std::filesystem::path& file, const std::vector<Override>&
     }
   }
   add_keys(study.keys, grid.front());
-  resolve_scenes(study);
-  if (study.measured) match_measured(study);
+  Scenes scenes(study, files);
+  scenes.resolve();
+  if (study.measured) match_measured(study, scenes);
   return study;
 }
 

@@ -2,24 +2,27 @@
 
 #include <filesystem>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "input/measured.hpp"
 #include "input/override.hpp"
+#include "input/source_files.hpp"
 #include "scene/scene.hpp"
 
 namespace vibrosow {
 
 /// One combination of a study: a named design at one point of the grid.
 struct Layout {
-  int number = 0;                             // 1.., in the order of the study
-  std::string name;                           // of its [[layout]]; empty without
-  std::map<std::string, std::string> values;  // of Study::keys, in the unit of the key's column, as printed
-  std::vector<Override> overrides;            // what makes it out of the base
-  std::optional<std::size_t> scene;           // index in Study::scenes; none: it cannot be built
-  std::string invalid;                        // why it cannot
+  int number = 0;    // 1.., in the order of the study
+  std::string name;  // of its [[layout]]; empty without
+  std::map<std::string, std::string>
+      values;                        // of Study::keys, in the unit of the key's column, as printed; "unset": taken out
+  std::vector<Override> overrides;   // what makes it out of the base
+  std::optional<std::size_t> scene;  // index in Study::scenes; none: it cannot be built
+  std::string invalid;               // why it cannot
 };
 
 /// How simulated outflow is made comparable with measured.
@@ -38,6 +41,7 @@ struct MeasuredMatch {
 struct MeasuredPart {
   std::filesystem::path file;
   MeasuredScale scale = MeasuredScale::none;
+  std::optional<double> time_zero;  // s of the run, at which a curve's time is zero; none: when the first hole opens
   MeasuredTable table;
   std::vector<MeasuredMatch> matches;  // by layout, then series
 };
@@ -56,14 +60,16 @@ struct Study {
 /// the study; any other changes each of its seeders. A combination that `read_scene` refuses, or whose step is too
 /// long, is a layout with the reason in `invalid`. Throws InputError for anything wrong in the study itself, when no
 /// layout is valid, when a key is both varied and set, or when no measured row fits a layout.
-Study read_study(const std::filesystem::path& file, const std::vector<Override>& overrides = {});
+/// Every file is read once, through `files`.
+Study read_study(const std::filesystem::path& file, const std::vector<Override>& overrides = {},
+                 const std::shared_ptr<SourceFiles>& files = std::make_shared<SourceFiles>());
 
-/// Whether a file is a study rather than a seeder: it has a `base`. Throws InputError when it cannot be read.
-bool is_study(const std::filesystem::path& file);
+/// What `scene_warnings` says of the scenes of a study, each sentence once, with the layouts that it is about.
+std::vector<std::string> study_warnings(const Study& study);
 
-/// Values of {from, to, step} as TOML text, both ends included, in the unit of `from`. Throws std::invalid_argument
+/// Values of {from, to, step}, both ends included, in the unit of `from`. Throws std::invalid_argument or UnitError
 /// with what is wrong: a step of zero or the wrong sign, one that does not hit `to`, a unit that does not fit the key.
-std::vector<std::string> range_values(const std::string& key, const std::string& from, const std::string& to,
-                                      const std::string& step);
+std::vector<TomlValue> range_values(const std::string& key, const TomlValue& from, const TomlValue& to,
+                                    const TomlValue& step);
 
 }  // namespace vibrosow

@@ -1,12 +1,8 @@
 #include "input/csv_lines.hpp"
 
 #include <algorithm>
-#include <array>
-#include <cerrno>
 #include <charconv>
 #include <cmath>
-#include <cstring>
-#include <fstream>
 #include <iterator>
 #include <sstream>
 
@@ -17,22 +13,6 @@
 
 namespace vibrosow {
 namespace {
-
-std::string read_text(const std::filesystem::path& file) {
-  const auto fail = [&](int error) {
-    throw InputError(fmt::format("{}: cannot be read: {}", file.string(), std::strerror(error)));
-  };
-  if (std::filesystem::is_directory(file)) fail(EISDIR);
-  std::ifstream stream(file, std::ios::binary);
-  if (!stream) fail(errno);
-  std::string text;
-  std::array<char, 65536> part;
-  while (stream.read(part.data(), part.size()) || stream.gcount() > 0)
-    text.append(part.data(), static_cast<std::size_t>(stream.gcount()));
-  if (stream.bad()) fail(EIO);
-  if (text.starts_with("\xEF\xBB\xBF")) text.erase(0, 3);
-  return text;
-}
 
 /// Owns libcsv's parser and gathers what it reports.
 class Parser {
@@ -88,17 +68,25 @@ bool has_semicolons(const std::string& text) {
   return false;
 }
 
+/// Columns after the last one that has a name, where they hold nothing: spreadsheets append them.
+void drop_empty_columns(CsvLines& csv) {
+  while (csv.header.fields.size() > 1 && csv.header.fields.back().empty()) csv.header.fields.pop_back();
+  for (CsvLines::Row& row : csv.rows)
+    while (row.fields.size() > csv.header.fields.size() && row.fields.back().empty()) row.fields.pop_back();
+}
+
 }  // namespace
 
-CsvLines read_csv_lines(const std::filesystem::path& file) {
-  const std::string text = read_text(file);
+CsvLines parse_csv_lines(std::string text, const std::string& file) {
+  if (text.starts_with("\xEF\xBB\xBF")) text.erase(0, 3);
   CsvLines csv;
+  csv.file = file;
   csv.decimal_comma = has_semicolons(text);
 
   Parser parser(csv.decimal_comma ? ';' : ',');
   const auto fail_on_quotes = [&] {
-    throw InputError(fmt::format("{}:{}: a quote is opened and not closed, or stands inside a field", file.string(),
-                                 parser.begun_on_line()));
+    throw InputError(
+        fmt::format("{}:{}: a quote is opened and not closed, or stands inside a field", file, parser.begun_on_line()));
   };
   std::istringstream lines(text);
   int number = 0;
@@ -110,15 +98,16 @@ CsvLines read_csv_lines(const std::filesystem::path& file) {
   if (!parser.finish()) fail_on_quotes();
 
   std::vector<CsvLines::Row> rows = parser.take_rows();
-  if (rows.empty()) throw InputError(file.string() + ": is empty; a header line and at least one row are needed");
+  if (rows.empty()) throw InputError(file + ": is empty; a header line and at least one row are needed");
   csv.header = std::move(rows.front());
   csv.rows.assign(std::make_move_iterator(rows.begin() + 1), std::make_move_iterator(rows.end()));
   if (csv.rows.empty())
-    throw InputError(fmt::format("{}:{}: only a header; at least one row is needed", file.string(), csv.header.line));
+    throw InputError(fmt::format("{}:{}: only a header; at least one row is needed", file, csv.header.line));
+  drop_empty_columns(csv);
   for (const CsvLines::Row& row : csv.rows)
     if (row.fields.size() != csv.header.fields.size())
-      throw InputError(fmt::format("{}:{}: {} fields where the header has {}", file.string(), row.line,
-                                   row.fields.size(), csv.header.fields.size()));
+      throw InputError(fmt::format("{}:{}: {} fields where the header has {}", file, row.line, row.fields.size(),
+                                   csv.header.fields.size()));
   return csv;
 }
 

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
@@ -9,6 +8,7 @@ namespace vibrosow {
 
 /// A CSV file as read: fields are text, trimmed.
 struct CsvLines {
+  std::string file;  // its name, for messages
   struct Row {
     int line = 0;  // of the file, where the row begins
     std::vector<std::string> fields;
@@ -19,9 +19,10 @@ struct CsvLines {
 };
 
 /// Reads comma- or semicolon-separated text (RFC 4180 quotes; any line ends; UTF-8 with or without its mark).
-/// Lines that begin with # and rows without any value are skipped. Throws InputError when the file cannot be
-/// read, is empty, has no rows, a quote that does not end or a row of another length than the header.
-CsvLines read_csv_lines(const std::filesystem::path& file);
+/// Lines that begin with # and rows without any value are skipped, and so are columns without name and values after the
+/// last, which spreadsheets append. Throws InputError "FILE:LINE: .." when the text has no rows, a quote that does not
+/// end or a row of another length than the header. `file` names it in messages.
+CsvLines parse_csv_lines(std::string text, const std::string& file);
 
 /// A finite number in the file's dialect; none when the text is anything else.
 std::optional<double> csv_number(std::string text, bool decimal_comma);

@@ -1,111 +1,38 @@
 #pragma once
 
-#include <array>
-#include <cstdint>
 #include <filesystem>
 #include <memory>
-#include <optional>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "input/override.hpp"
-#include "units/quantity.hpp"
+#include "input/source_files.hpp"
+#include "input/toml_value.hpp"
 
 namespace vibrosow {
 
-/// A parsed TOML file with overrides laid over it, which knows for every key where it was written.
+/// A TOML file with overrides laid over a copy of what was parsed, which knows for every key where it was written.
 class Document {
  public:
-  /// Throws InputError when the file cannot be read or parsed, or when an override does not parse or runs
-  /// through a value.
+  /// Throws InputError when the file cannot be read or parsed, or when an override runs through a value, or takes out a
+  /// key that is not there. `files` is kept, for the files that this one names.
   static std::shared_ptr<const Document> read(const std::filesystem::path& file,
-                                              const std::vector<Override>& overrides = {});
-  ~Document();
-  const std::filesystem::path& file() const;
-  /// "FILE:LINE: KEY", or the override's origin and the key. A key that is not written: the line of its
-  /// table.
-  std::string where(const std::string& full_key) const;
+                                              const std::vector<Override>& overrides = {},
+                                              std::shared_ptr<SourceFiles> files = std::make_shared<SourceFiles>());
+
+  const std::filesystem::path& file() const { return file_; }
+  const TomlTable& root() const { return root_; }
+  const std::shared_ptr<SourceFiles>& files() const { return files_; }
+
+  /// "FILE:LINE", or an override's origin; "FILE" for nowhere.
+  std::string origin(const Place& place) const;
 
  private:
-  friend class Table;
-  struct Contents;  // keeps toml++, slow to compile, out of this header
-  explicit Document(std::unique_ptr<Contents> contents);
-  std::unique_ptr<Contents> contents_;
+  Document(std::filesystem::path file, std::shared_ptr<SourceFiles> files);
+
+  std::filesystem::path file_;
+  std::shared_ptr<SourceFiles> files_;
+  TomlTable root_;
 };
-
-/// One table of a document, read key by key. Every key asked for counts as known; `reject_unknown_keys` then
-/// names each key that was written and never asked for, with the nearest known one. A table may have a
-/// fallback (a preset): keys missing here are taken from there, with the preset's own file and line in
-/// messages. Copies share what is known.
-class Table {
- public:
-  explicit Table(std::shared_ptr<const Document> document);  // the root table
-
-  /// Before any key is read.
-  void set_fallback(const Table& preset);
-
-  bool has(const std::string& key) const;              // here or in the fallback
-  bool has_here(const std::string& key) const;         // written in this document
-  std::optional<Table> table(const std::string& key);  // absent: nullopt; not a table: InputError
-  Table required_table(const std::string& key);
-  std::vector<std::string> keys() const;              // written in this document, in order of the file
-  std::vector<Table> tables(const std::string& key);  // array of tables ([[layout]]); absent: empty
-
-  std::optional<std::string> text(const std::string& key);
-  std::string required_text(const std::string& key);
-  std::optional<bool> boolean(const std::string& key);
-  std::optional<std::int64_t> whole_number(const std::string& key, std::int64_t least, std::int64_t most);
-  std::optional<double> number(const std::string& key, double least, double most);  // plain, no unit
-  /// Ranges are in SI and include their ends.
-  std::optional<double> quantity(const std::string& key, Dimension dimension, double least, double most);
-  double required_quantity(const std::string& key, Dimension dimension, double least, double most);
-  std::vector<double> quantities(const std::string& key, Dimension dimension, double least,
-                                 double most);  // one or a list
-  /// A list of points, each a list of two quantities; absent: empty.
-  std::vector<std::array<double, 2>> points(const std::string& key, Dimension dimension, double least, double most);
-  /// The text of a value, or of each element of a list of texts; absent: empty. `what` is expected, for
-  /// messages.
-  std::vector<std::string> texts(const std::string& key, std::string_view what = "a text");
-  bool is_list(const std::string& key) const;
-  bool is_table(const std::string& key) const;
-  void skip(const std::string& key);  // known, with all below it, without being read
-  /// One of `choices` by name, as its index; anything else: InputError with the list and the nearest.
-  std::optional<std::size_t> choice(const std::string& key, const std::vector<std::string>& choices);
-
-  /// For tables of full keys, as [set] and [vary] of a study: every value, list and inline table below this
-  /// table by its dotted key ("tray.holes.count"), in order of the file. These three take dotted keys.
-  std::vector<std::string> dotted_keys() const;
-  /// The value of `key` as TOML text, for an Override.
-  std::optional<std::string> toml_text(const std::string& key);
-  /// The elements of the list `key` as TOML text each; of a single value, that one; absent: empty.
-  std::vector<std::string> toml_elements(const std::string& key);
-  /// The inline or ordinary table under a dotted key; absent or not a table: nullopt.
-  std::optional<Table> table_at(const std::string& dotted_key);
-
-  std::string full_key(const std::string& key) const;
-  std::string where(const std::string& key) const;                // for messages
-  std::string origin(const std::string& key) const;               // "FILE:LINE" alone, for an Override's `where`
-  std::filesystem::path directory() const;                        // of the file that holds this table
-  std::filesystem::path directory(const std::string& key) const;  // of the file that holds this key, maybe the preset's
-  /// Throws InputError "FILE:LINE: KEY: message". A key that is not written but nearly so is called
-  /// misspelled instead.
-  [[noreturn]] void fail(const std::string& key, const std::string& message) const;
-  /// At once, for a table whose misspelled key would otherwise show as something missing elsewhere.
-  void reject_keys_other_than(const std::vector<std::string>& known) const;
-  /// Also in the tables that were read from this one, and in fallbacks.
-  void reject_unknown_keys() const;
-
- private:
-  struct State;
-  explicit Table(std::shared_ptr<State> state);
-  std::shared_ptr<State> state_;
-};
-
-/// The nearest of `known` by edit distance (Damerau-Levenshtein) when it is near enough to be meant.
-std::optional<std::string> nearest(std::string_view word, const std::vector<std::string>& known);
-
-/// "; did you mean "width"?", or nothing.
-std::string did_you_mean(std::string_view word, const std::vector<std::string>& known);
 
 }  // namespace vibrosow

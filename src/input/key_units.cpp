@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
+#include <cmath>
 
 #include <fmt/format.h>
 
@@ -124,21 +124,6 @@ const KeyWord* find_word(std::string_view key) {
   return found == key_words.end() ? nullptr : &*found;
 }
 
-bool is_number(std::string_view text) {
-  double number = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-  return error == std::errc{} && end == text.data() + text.size();
-}
-
-std::string toml_string(std::string_view text) {
-  std::string quoted = "\"";
-  for (const char c : text) {
-    if (c == '"' || c == '\\') quoted += '\\';
-    quoted += c;
-  }
-  return quoted + '"';
-}
-
 }  // namespace
 
 std::optional<ColumnUnit> column_unit(std::string_view key) {
@@ -173,10 +158,13 @@ double to_column_unit(std::string_view key, double si_value) {
   return unit ? si_value / unit_size(unit->unit, unit->dimension) : si_value;
 }
 
-std::string toml_value_of_column(std::string_view key, std::string_view text) {
-  if (const auto unit = column_unit(key)) return fmt::format("\"{} {}\"", text, unit->unit);
-  if (is_number(text) || text == "true" || text == "false") return std::string(text);
-  return toml_string(text);
+TomlValue value_of_column(std::string_view key, std::string_view text, std::optional<double> number) {
+  if (!number && (text == "true" || text == "false")) return {text == "true"};
+  if (!number) return {std::string(text)};
+  if (const auto unit = column_unit(key)) return {Quantity{*number, std::string(unit->unit)}};
+  constexpr double exact = 9007199254740992;  // 2^53: up to here a whole double is one whole number
+  const bool whole = std::round(*number) == *number && std::abs(*number) <= exact;
+  return whole ? TomlValue{static_cast<std::int64_t>(*number)} : TomlValue{*number};
 }
 
 }  // namespace vibrosow

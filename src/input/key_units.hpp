@@ -5,6 +5,7 @@
 #include <string_view>
 #include <vector>
 
+#include "input/toml_value.hpp"
 #include "units/quantity.hpp"
 
 namespace vibrosow {
@@ -34,8 +35,8 @@ std::vector<std::string> columns_beside(const std::string& column);
 /// An SI value in the unit of the key's column; unchanged where the column has no unit.
 double to_column_unit(std::string_view key, double si_value);
 
-/// A value in the column's unit as TOML text for an Override: "\"9 Hz\"", "5", "true", "\"layers\"". `text`
-/// has a decimal point and no unit.
-std::string toml_value_of_column(std::string_view key, std::string_view text);
+/// A value in the column's unit as a file would have it: 9 of a frequency is 9 Hz; a whole number, a number, true,
+/// false or a text where the column has no unit. `number`: what `text` is, if it is one.
+TomlValue value_of_column(std::string_view key, std::string_view text, std::optional<double> number);
 
 }  // namespace vibrosow

@@ -10,9 +10,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "input/csv_lines.hpp"
-#include "input/document.hpp"
 #include "input/key_units.hpp"
+#include "input/wording.hpp"
 #include "scene/input_error.hpp"
 
 namespace vibrosow {
@@ -67,9 +66,7 @@ double unit_of(MeasuredQuantity quantity) {
 /// Reads the rows of one file. Column indices are found once, in the header.
 class Reader {
  public:
-  explicit Reader(const std::filesystem::path& file) : file_(file.string()), csv_(read_csv_lines(file)) {
-    read_header();
-  }
+  explicit Reader(const CsvLines& csv) : csv_(csv) { read_header(); }
 
   MeasuredTable read() {
     for (const CsvLines::Row& row : csv_.rows) read_row(row);
@@ -89,7 +86,7 @@ class Reader {
   };
 
   [[noreturn]] void fail(int line, std::string_view column, std::string_view message) const {
-    throw InputError(fmt::format("{}:{}: {}: {}", file_, line, column, message));
+    throw InputError(fmt::format("{}:{}: {}: {}", csv_.file, line, column, message));
   }
 
   const std::string& header(std::size_t index) const { return csv_.header.fields[index]; }
@@ -195,7 +192,7 @@ class Reader {
     for (const auto& [index, key] : conditions_) series.conditions.push_back(condition(row, index, key));
     series.hole = hole(row);
     series.lot = lot(row);
-    series.where = fmt::format("{}:{}", file_, row.line);
+    series.where = fmt::format("{}:{}", csv_.file, row.line);
     const double time = is_curve(quantity_->quantity) ? required_number(row, *companion_) : 0;
     gathered(series, row.line).values_at[time].push_back(value(row));
   }
@@ -225,8 +222,7 @@ class Reader {
     return series;
   }
 
-  std::string file_;
-  CsvLines csv_;
+  const CsvLines& csv_;
   std::vector<std::pair<std::size_t, std::string>> conditions_;  // column and key
   const QuantityColumn* quantity_ = nullptr;
   std::size_t value_ = 0;
@@ -261,11 +257,11 @@ double to_column_unit(MeasuredQuantity quantity, double si_value) {
 }
 
 Override override_of(const Condition& condition, const std::string& where) {
-  return {condition.key, toml_value_of_column(condition.key, condition.text), where};
+  return {condition.key, value_of_column(condition.key, condition.text, condition.number), where};
 }
 
-MeasuredTable read_measured(const std::filesystem::path& file) {
-  return Reader(file).read();
+MeasuredTable read_measured(const CsvLines& csv) {
+  return Reader(csv).read();
 }
 
 }  // namespace vibrosow

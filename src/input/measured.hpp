@@ -1,11 +1,11 @@
 #pragma once
 
-#include <filesystem>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "input/csv_lines.hpp"
 #include "input/override.hpp"
 #include "outflow/statistics.hpp"
 
@@ -56,8 +56,8 @@ struct MeasuredTable {
 /// quantity must: caught_g or caught_seeds with duration_s; rate_g_per_s; seeds_per_s; or time_s with mass_g,
 /// seeds or discharged_percent. Comma and decimal point, or semicolon and decimal comma, as the header shows.
 /// Rows alike in conditions, hole, lot and time are repeats. Throws InputError "FILE:LINE: COLUMN: ..." for
-/// anything else, an unreadable file, an unknown column (with the nearest known one), a value that is not a
+/// anything else, an unknown column (with the nearest known one), a value that is not a
 /// finite number, negative, or over 100 %, and a rate of zero, which has no relative misfit.
-MeasuredTable read_measured(const std::filesystem::path& file);
+MeasuredTable read_measured(const CsvLines& csv);
 
 }  // namespace vibrosow

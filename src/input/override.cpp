@@ -1,25 +1,19 @@
 #include "input/override.hpp"
 
-#include <sstream>
+#include <algorithm>
 
-#include "input/toml_lib.hpp"
+#include "input/wording.hpp"
 #include "scene/input_error.hpp"
 
 namespace vibrosow {
 namespace {
 
-bool is_toml_value(const std::string& text) {
+TomlValue value_or_text(const std::string& text) {
   try {
-    return toml::parse("value = " + text).size() == 1;
-  } catch (const toml::parse_error&) {
-    return false;
+    return parse_toml_value(text);
+  } catch (const TomlError&) {
+    return {text};
   }
-}
-
-std::string quoted(const std::string& text) {
-  std::ostringstream out;
-  out << toml::toml_formatter(toml::value<std::string>(text));
-  return out.str();
 }
 
 std::string trimmed(const std::string& text) {
@@ -31,7 +25,7 @@ std::string trimmed(const std::string& text) {
 }  // namespace
 
 Override parse_override(const std::string& key_equals_value) {
-  const std::string where = "--set " + key_equals_value;
+  const std::string where = "--set " + shortened(key_equals_value);
   const auto equals = key_equals_value.find('=');
   if (equals == std::string::npos) {
     throw InputError(where + ": expected KEY=VALUE such as \"tray.motion.frequency=12 Hz\"");
@@ -39,7 +33,8 @@ Override parse_override(const std::string& key_equals_value) {
   const std::string key = trimmed(key_equals_value.substr(0, equals));
   const std::string value = trimmed(key_equals_value.substr(equals + 1));
   if (key.empty()) throw InputError(where + ": the key before \"=\" is missing");
-  return {key, is_toml_value(value) ? value : quoted(value), where};
+  if (value.empty()) return {key, std::nullopt, where};
+  return {key, value_or_text(value), where};
 }
 
 }  // namespace vibrosow

@@ -7,6 +7,7 @@
 #include <cstdlib>
 
 #include "input/read_scene.hpp"
+#include "input/wording.hpp"
 #include "scene/input_error.hpp"
 
 namespace vibrosow {
@@ -44,7 +45,7 @@ fs::path preset_file(const Table& table, const std::string& key, const std::stri
 void use_preset(Table& table, const std::string& key, const std::string& kind) {
   const std::optional<std::string> name = table.text(key);
   if (!name) return;
-  Table preset(Document::read(preset_file(table, key, *name, kind)));
+  Table preset(Document::read(preset_file(table, key, *name, kind), {}, table.files()));
   preset.skip("title");
   if (auto reference = preset.table("reference")) {
     // Mass is checked against these when presets are tested.

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "input/presets.hpp"
+#include "input/wording.hpp"
 
 namespace vibrosow {
 namespace {
@@ -241,14 +242,20 @@ void read_surfaces(Parts& parts, Contact& contact) {
   }
 }
 
+/// After `rolling`, which may slip as sliding friction does.
 void read_friction(Parts& parts, Contact& contact) {
   Table& table = parts.general.table;
   const bool spring = table.choice("friction_model", {"sliding", "spring"}).value_or(0) == 1;
   const auto slip_speed = table.quantity("slip_speed", Dimension::speed, 1e-6, 100);
   const auto ratio = table.number("tangential_ratio", 0.01, 10);
   const auto damping = table.number("tangential_damping", 0, 10);
+  if (!spring || contact.rolling == Rolling::constant_torque) {
+    contact.slip_speed = slip_speed.value_or(contact.slip_speed);
+  } else {
+    refuse(parts, "slip_speed", "friction_model",
+           "is of friction_model = \"sliding\" and of rolling = \"constant-torque\", and neither is chosen");
+  }
   if (spring) {
-    refuse(parts, "slip_speed", "friction_model", "contradicts friction_model = \"spring\", which has no slip speed");
     contact.friction_model = FrictionModel::spring;
     contact.tangential_ratio = ratio;
     contact.tangential_damping = damping.value_or(contact.tangential_damping);
@@ -256,7 +263,6 @@ void read_friction(Parts& parts, Contact& contact) {
     for (const char* key : {"tangential_ratio", "tangential_damping"}) {
       refuse(parts, key, "friction_model", "needs friction_model = \"spring\"");
     }
-    contact.slip_speed = slip_speed.value_or(contact.slip_speed);
   }
   const auto arm = table.choice("friction_arm", {"contact-point", "rim"});
   contact.friction_arm = arm.value_or(0) == 0 ? FrictionArm::contact_point : FrictionArm::rim;
@@ -311,8 +317,8 @@ Contact read_contact(Table table, Table seeds, std::vector<SeedLot>& lots) {
   read_law(parts, seeds, lots, contact);
   contact.drag = table.quantity("drag", Dimension::mass_rate, 0, 1000).value_or(contact.drag);
   contact.rotation = table.boolean("rotation").value_or(contact.rotation);
-  read_friction(parts, contact);
   read_rolling(parts, contact);
+  read_friction(parts, contact);
   read_surfaces(parts, contact);
   return contact;
 }

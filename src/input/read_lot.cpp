@@ -8,6 +8,7 @@
 
 #include "input/presets.hpp"
 #include "scene/clump_shape.hpp"
+#include "scene/seed_lot.hpp"
 
 namespace vibrosow {
 namespace {
@@ -184,8 +185,19 @@ double read_mass(Table& seeds, const SeedLot& lot) {
     if (density && !seeds.has_here("mass")) seeds.fail("density", "contradicts mass; give one of them");
     return *mass;
   }
-  if (lot.shape != Shape::ball) seeds.fail("density", "gives the mass of a ball only; give mass for other shapes");
+  if (lot.shape == Shape::disc) seeds.fail("density", "gives no mass to a disc, which has no thickness; give mass");
+  if (lot.shape == Shape::clump) return volume_of_balls(lot.discs) * *density;
   return std::numbers::pi / 6 * std::pow(lot.diameter, 3) * *density;
+}
+
+/// Catalogues state the mass of a thousand seeds.
+void reject_thousand_grain_mass(const Table& seeds, const SeedLot& lot) {
+  const std::optional<double> density = seed_density(lot);
+  if (!density || *density < 200e3 || *density > 3000e3) return;
+  seeds.fail("mass",
+             fmt::format("{:.3g} g in a seed this small is a density of {:.3g} kg/m3; it looks like the mass of "
+                         "a thousand seeds, and a seed's is {:.3g} mg",
+                         lot.mass * 1e3, *density, lot.mass * 1e3));
 }
 
 }  // namespace
@@ -204,6 +216,7 @@ SeedLot read_lot(Table& seeds, const std::string& name) {
   if (lot.sizes.kind == Kind::single) lot.sizes = {};
   if (lot.sizes.kind == Kind::uniform || lot.sizes.kind == Kind::table) lot.sizes.mean = 0;  // told by the others
   lot.mass = read_mass(seeds, lot);
+  reject_thousand_grain_mass(seeds, lot);
   return lot;
 }
 

@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "input/document.hpp"
+#include "input/table.hpp"
 #include "scene/scene.hpp"
 
 namespace vibrosow {

@@ -4,9 +4,10 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cmath>
 #include <numbers>
 
-#include "input/csv_lines.hpp"
+#include "input/wording.hpp"
 #include "scene/input_error.hpp"
 
 namespace vibrosow {
@@ -14,6 +15,10 @@ namespace {
 
 constexpr double degree = std::numbers::pi / 180;
 constexpr std::size_t fewest_rows = 4;  // that the interpolation needs
+// Bounds of a table, beyond any vessel, within which steps and speeds stay finite.
+constexpr double latest = 1e6;                                // s
+constexpr double fastest = 1000;                              // m/s
+constexpr double fastest_turn = 1000 * 2 * std::numbers::pi;  // rad/s
 
 /// When a motion grows and fades.
 struct Course {
@@ -83,7 +88,7 @@ RockingMotion read_rocking(Table& table) {
 /// A CSV file of positions, column by column.
 class MotionTableReader {
  public:
-  explicit MotionTableReader(const std::filesystem::path& file) : file_(file.string()), csv_(read_csv_lines(file)) {}
+  explicit MotionTableReader(const CsvLines& csv) : csv_(csv) {}
 
   TableMotion read() {
     check_header();
@@ -91,18 +96,25 @@ class MotionTableReader {
       fail(csv_.rows.back().line, "time_s", fmt::format("expected at least {} rows", fewest_rows));
     TableMotion motion;
     motion.times = column("time_s", 1);
+    for (std::size_t k = 0; k < motion.times.size(); ++k)
+      if (!(std::abs(motion.times[k]) <= latest))
+        fail(csv_.rows[k].line, "time_s",
+             fmt::format("{:g} s is out of range, which is up to {:g} s", motion.times[k], latest));
     for (std::size_t k = 1; k < motion.times.size(); ++k)
       if (!(motion.times[k] > motion.times[k - 1]))
         fail(csv_.rows[k].line, "time_s", fmt::format("{:g} is not later than the row before", motion.times[k]));
     motion.x = column("x_mm", 1e-3);
     motion.y = column("y_mm", 1e-3);
     motion.angle = column("angle_degree", degree);
+    check_speeds("x_mm", motion.times, motion.x, fastest);
+    check_speeds("y_mm", motion.times, motion.y, fastest);
+    check_speeds("angle_degree", motion.times, motion.angle, fastest_turn);
     return motion;
   }
 
  private:
   [[noreturn]] void fail(int line, const std::string& name, const std::string& message) const {
-    throw InputError(fmt::format("{}:{}: {}: {}", file_, line, name, message));
+    throw InputError(fmt::format("{}:{}: {}: {}", csv_.file, line, name, message));
   }
 
   std::size_t index_of(const std::string& name) const {
@@ -124,6 +136,16 @@ class MotionTableReader {
       fail(csv_.header.line, "time_s", "stands alone; expected x_mm, y_mm or angle_degree beside it");
   }
 
+  void check_speeds(const std::string& name, const std::vector<double>& times, const std::vector<double>& places,
+                    double most) const {
+    for (std::size_t k = 1; k < times.size(); ++k)
+      if (!(std::abs(places[k] - places[k - 1]) <= most * (times[k] - times[k - 1])))
+        fail(csv_.rows[k].line, name,
+             fmt::format("\"{}\" is too far from the row before: faster than {}", csv_.rows[k].fields[index_of(name)],
+                         name == "angle_degree" ? fmt::format("{:g} turns a second", most / (2 * std::numbers::pi))
+                                                : fmt::format("{:g} m/s", most)));
+  }
+
   std::vector<double> column(const std::string& name, double unit) const {
     if (!has(name)) return std::vector<double>(csv_.rows.size(), 0.0);
     std::vector<double> values;
@@ -136,14 +158,13 @@ class MotionTableReader {
     return values;
   }
 
-  std::string file_;
-  CsvLines csv_;
+  const CsvLines& csv_;
 };
 
 }  // namespace
 
-TableMotion read_motion_table(const std::filesystem::path& file) {
-  return MotionTableReader(file).read();
+TableMotion read_motion_table(const CsvLines& csv) {
+  return MotionTableReader(csv).read();
 }
 
 VesselMotion read_motion(Table table) {
@@ -156,7 +177,7 @@ VesselMotion read_motion(Table table) {
   const std::string file = table.required_text("file");
   const std::filesystem::path path = table.directory("file") / file;
   if (!std::filesystem::is_regular_file(path)) table.fail("file", fmt::format("there is no file {}", path.string()));
-  return read_motion_table(path);
+  return read_motion_table(table.files()->csv(path));
 }
 
 }  // namespace vibrosow

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "input/document.hpp"
+#include "input/table.hpp"
 #include "scene/scene.hpp"
 
 namespace vibrosow {
@@ -11,6 +11,6 @@ VesselMotion read_motion(Table table);
 
 /// Reads positions over time from a CSV file: columns time_s and at least one of x_mm, y_mm and angle_degree, four rows
 /// or more, times ascending. Columns left out are zero. Throws InputError.
-TableMotion read_motion_table(const std::filesystem::path& file);
+TableMotion read_motion_table(const CsvLines& csv);
 
 }  // namespace vibrosow

@@ -5,12 +5,13 @@
 #include <algorithm>
 #include <cmath>
 
-#include "input/document.hpp"
 #include "input/presets.hpp"
 #include "input/read_contact.hpp"
 #include "input/read_lot.hpp"
 #include "input/read_vessel.hpp"
+#include "input/table.hpp"
 #include "scene/integrator_names.hpp"
+#include "scene/printable.hpp"
 #include "scene/seed_lot.hpp"
 
 namespace vibrosow {
@@ -138,17 +139,21 @@ Record read_record(Table table, double duration, const std::vector<SeedLot>& lot
   table.reject_keys_other_than({"times", "every", "cell"});
   Record record;
   record.times = read_times(table, duration);
-  record.cell = read_width(table, "cell", table.text("cell").value_or("2 diameters"), largest_mean_diameter(lots));
+  const double diameter = largest_mean_diameter(lots);
+  const std::vector<TomlValue> cell = table.values_of("cell");
+  if (cell.size() > 1) table.fail("cell", "must be one value");
+  record.cell = read_width(table, "cell", cell.empty() ? TomlValue{"2 diameters"} : cell.front(), diameter);
   return record;
 }
 
 }  // namespace
 
-Scene read_scene(const std::filesystem::path& file, const std::vector<Override>& overrides) {
-  Table root(Document::read(file, overrides));
+Scene read_scene(const std::filesystem::path& file, const std::vector<Override>& overrides,
+                 const std::shared_ptr<SourceFiles>& files) {
+  Table root(Document::read(file, overrides, files));
   root.reject_keys_other_than({"title", "seeds", "contact", "tray", "hopper", "numerics", "guard", "run", "record"});
   Scene scene;
-  scene.title = root.text("title").value_or(file.stem().string());
+  scene.title = printable(root.text("title").value_or(file.stem().string()));
   Table seeds = root.required_table("seeds");
   scene.lots = read_lots(seeds);
   scene.contact = read_contact(root.required_table("contact"), seeds, scene.lots);

@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "input/read_motion.hpp"
+#include "input/wording.hpp"
 #include "scene/motion.hpp"
 #include "scene/seed_lot.hpp"
 #include "vessel/vessel_walls.hpp"
@@ -36,23 +37,23 @@ double largest_mean_diameter(const std::vector<SeedLot>& lots) {
       ->diameter;
 }
 
-double read_width(const Table& table, const std::string& key, const std::string& text, double diameter) {
+double read_width(const Table& table, const std::string& key, const TomlValue& value, double diameter) {
   static constexpr std::string_view expected_width = "a length such as \"16 mm\" or \"3 diameters\"";
-  std::string as_length = text;
-  double unit = 1;
-  for (const std::string_view word : {" diameters", " diameter"}) {
-    if (!text.ends_with(word)) continue;
-    as_length = text.substr(0, text.size() - word.size()) + " m";
-    unit = diameter;
-  }
+  const std::string shown_value = shortened(toml_text(value));
+  const auto* text = value.get<std::string>();
+  const auto* typed = value.get<Quantity>();
+  if (text == nullptr && typed == nullptr)
+    table.fail(key, fmt::format("must be {}, in quotes, not {}", expected_width, shown_value));
   double width = 0;
   try {
-    width = rounded(parse_quantity(as_length, Dimension::length) * unit);
-  } catch (const UnitError&) {
-    table.fail(key, fmt::format("\"{}\" is not a {}; expected {}", text, key, expected_width));
+    const Quantity quantity = typed != nullptr ? *typed : split_quantity(*text);
+    const bool counted = quantity.unit == "diameters" || quantity.unit == "diameter";
+    width = rounded(counted ? quantity.number * diameter : in_si(quantity, Dimension::length));
+  } catch (const UnitError& error) {
+    table.fail(key, fmt::format("{} is not a {}; expected {}: {}", shown_value, key, expected_width, error.what()));
   }
   if (!(width >= shortest && width <= longest)) {
-    table.fail(key, fmt::format("\"{}\" is out of range, which is from 0.001 mm to 100 m", text));
+    table.fail(key, fmt::format("{} is out of range, which is from 0.001 mm to 100 m", shown_value));
   }
   return width;
 }
@@ -60,14 +61,14 @@ double read_width(const Table& table, const std::string& key, const std::string&
 namespace {
 
 std::vector<double> read_widths(Table& table, std::size_t holes, double diameter) {
-  const std::vector<std::string> texts = table.texts("width", "a length such as \"16 mm\" or \"3 diameters\"");
-  if (texts.empty()) table.fail("width", "is missing; expected a length such as \"16 mm\" or \"3 diameters\"");
-  if (texts.size() != 1 && texts.size() != holes) {
+  const std::vector<TomlValue> given = table.values_of("width");
+  if (given.empty()) table.fail("width", "is missing; expected a length such as \"16 mm\" or \"3 diameters\"");
+  if (given.size() != 1 && given.size() != holes) {
     table.fail("width",
-               fmt::format("lists {} widths for {} holes; expected one for all or one each", texts.size(), holes));
+               fmt::format("lists {} widths for {} holes; expected one for all or one each", given.size(), holes));
   }
   std::vector<double> widths;
-  for (const std::string& text : texts) widths.push_back(read_width(table, "width", text, diameter));
+  for (const TomlValue& value : given) widths.push_back(read_width(table, "width", value, diameter));
   widths.resize(holes, widths.front());
   return widths;
 }
@@ -251,6 +252,13 @@ Rain read_rain(Table table, const Vessel& vessel) {
   return rain;
 }
 
+void check_depth(const Table& table, const Vessel& vessel, const std::vector<SeedLot>& lots) {
+  for (const SeedLot& lot : lots)
+    if (vessel.depth && *vessel.depth < mean_thickness(lot) * (1 - rounding))
+      table.fail("depth", fmt::format("{} is less than one seed of {}, which is {} thick", millimetres(*vessel.depth),
+                                      lot.name, millimetres(mean_thickness(lot))));
+}
+
 Sides read_sides(Table& table) {
   constexpr Sides sides[] = {Sides::walls, Sides::open, Sides::periodic};
   return sides[table.choice("sides", {"walls", "open", "periodic"}).value_or(0)];
@@ -277,6 +285,7 @@ Vessel read_vessel(Table table, const std::string& name, const std::vector<SeedL
   vessel.length = table.required_quantity("length", Dimension::length, shortest, longest);
   vessel.height = table.required_quantity("height", Dimension::length, shortest, longest);
   vessel.depth = table.quantity("depth", Dimension::length, shortest, longest);
+  check_depth(table, vessel, lots);
   vessel.tilt = table.quantity("tilt", Dimension::angle, -30 * degree, 30 * degree).value_or(0);
   vessel.funnel = table.quantity("funnel", Dimension::angle, 0.01 * degree, 80 * degree).value_or(0);
   vessel.box = table.boolean("box").value_or(true);

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "input/document.hpp"
+#include "input/table.hpp"
 #include "scene/scene.hpp"
 
 namespace vibrosow {
@@ -12,8 +12,8 @@ Vessel read_vessel(Table table, const std::string& name, const std::vector<SeedL
 /// m; `lots` is not empty.
 double largest_mean_diameter(const std::vector<SeedLot>& lots);
 
-/// `text`, the value of `key`, in m: a length such as "16 mm", or "3 diameters" of `diameter`. Throws InputError at
+/// `value`, which `key` has, in m: a length such as "16 mm", or "3 diameters" of `diameter`. Throws InputError at
 /// `key` when it is neither, or not from 1e-6 m to 100 m.
-double read_width(const Table& table, const std::string& key, const std::string& text, double diameter);
+double read_width(const Table& table, const std::string& key, const TomlValue& value, double diameter);
 
 }  // namespace vibrosow

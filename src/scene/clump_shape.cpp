@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <boost/math/quadrature/gauss.hpp>
+#include <boost/math/quadrature/gauss_kronrod.hpp>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -67,6 +68,81 @@ double along_arc(const ClumpDisc& disc, const Arc& arc, Integrand f) {
   return sum;
 }
 
+/// Area of the discs' union: 1/2 integral(x dy - y dx) along the free arcs, in closed form.
+double covered_area(const std::vector<ClumpDisc>& discs) {
+  double area = 0;
+  for (std::size_t i = 0; i < discs.size(); ++i) {
+    const ClumpDisc& disc = discs[i];
+    for (const Arc& arc : free_arcs(discs, i))
+      area += 0.5 * disc.radius *
+              (disc.radius * (arc.to - arc.from) + disc.x * (std::sin(arc.to) - std::sin(arc.from)) -
+               disc.y * (std::cos(arc.to) - std::cos(arc.from)));
+  }
+  return area;
+}
+
+/// What a plane at the height z cuts out of the balls whose sections the discs are.
+std::vector<ClumpDisc> sections(const std::vector<ClumpDisc>& discs, double z) {
+  std::vector<ClumpDisc> cut;
+  for (const ClumpDisc& disc : discs)
+    if (disc.radius > z) cut.push_back({disc.x, disc.y, std::sqrt((disc.radius - z) * (disc.radius + z))});
+  return cut;
+}
+
+/// Heights at which a ball ends, or the sections of two part: there their area is not smooth.
+std::vector<double> kink_heights(const std::vector<ClumpDisc>& discs) {
+  std::vector<double> heights;
+  for (std::size_t i = 0; i < discs.size(); ++i) {
+    heights.push_back(discs[i].radius);
+    for (std::size_t j = i + 1; j < discs.size(); ++j) {
+      const double distance = std::hypot(discs[j].x - discs[i].x, discs[j].y - discs[i].y), r = discs[i].radius;
+      const double along = (distance + (r - discs[j].radius) * (r + discs[j].radius) / distance) / 2;
+      if (std::abs(along) < r) heights.push_back(std::sqrt((r - along) * (r + along)));
+    }
+  }
+  return heights;
+}
+
+double volume_by_heights(const std::vector<ClumpDisc>& discs) {
+  std::vector<double> heights = kink_heights(discs);
+  heights.push_back(0);
+  std::ranges::sort(heights);
+  double volume = 0;
+  for (std::size_t k = 1; k < heights.size(); ++k) {
+    if (!(heights[k] > heights[k - 1])) continue;
+    constexpr unsigned halvings = 10;  // at most
+    constexpr double tolerance = 1e-10;
+    volume += 2 * boost::math::quadrature::gauss_kronrod<double, 31>::integrate(
+                      [&](double z) { return covered_area(sections(discs, z)); }, heights[k - 1], heights[k], halvings,
+                      tolerance);
+  }
+  return volume;
+}
+
+/// Of balls on a line parallel to x: between places where another ball becomes the widest, pi (r^2 - (x - c)^2) is
+/// integrated in closed form.
+double volume_of_row(const std::vector<ClumpDisc>& discs) {
+  std::vector<double> places;
+  for (const ClumpDisc& a : discs) {
+    places.insert(places.end(), {a.x - a.radius, a.x + a.radius});
+    for (const ClumpDisc& b : discs)
+      if (b.x > a.x) places.push_back(0.5 * (a.x + b.x + (a.radius - b.radius) * (a.radius + b.radius) / (b.x - a.x)));
+  }
+  std::ranges::sort(places);
+  double volume = 0;
+  for (std::size_t k = 1; k < places.size(); ++k) {
+    const double from = places[k - 1], to = places[k], middle = 0.5 * (from + to);
+    const auto width2 = [middle](const ClumpDisc& disc) {
+      return (disc.radius - (middle - disc.x)) * (disc.radius + (middle - disc.x));
+    };
+    const ClumpDisc widest = *std::ranges::max_element(discs, {}, width2);
+    if (width2(widest) <= 0) continue;
+    const double half = 0.5 * (to - from);
+    volume += 2 * half * pi * (width2(widest) - half * half / 3);
+  }
+  return volume;
+}
+
 /// The row's discs when no valley is too deep.
 bool is_smooth(const std::vector<ClumpDisc>& row, double width) {
   for (std::size_t k = 1; k < row.size(); ++k)
@@ -101,6 +177,11 @@ Plate plate_of(const std::vector<ClumpDisc>& discs) {
     }
   const Eigen::Vector2d centre = first / area;
   return {area, middle + centre, polar / area - centre.squaredNorm()};
+}
+
+double volume_of_balls(const std::vector<ClumpDisc>& discs) {
+  const bool in_a_row = std::ranges::all_of(discs, [&](const ClumpDisc& disc) { return disc.y == discs.front().y; });
+  return in_a_row ? volume_of_row(discs) : volume_by_heights(discs);
 }
 
 std::vector<ClumpDisc> about_centre_of_mass(std::vector<ClumpDisc> discs) {

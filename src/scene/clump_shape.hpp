@@ -19,6 +19,11 @@ struct Plate {
 /// Exact to rounding. The discs, at least one and of positive radius, may be apart, contain one another or be equal.
 Plate plate_of(const std::vector<ClumpDisc>& discs);
 
+/// Volume (m3) of the balls whose sections the discs are, all centres in one plane, overlaps counted once; of
+/// a row parallel to x this is the body of revolution about its axis, in closed form; of others the integral over
+/// the height z of the area that the discs of radius sqrt(r^2 - z^2) cover, to 1e-9 of itself.
+double volume_of_balls(const std::vector<ClumpDisc>& discs);
+
 /// The discs moved so that the centre of mass of their plate is the origin.
 std::vector<ClumpDisc> about_centre_of_mass(std::vector<ClumpDisc> discs);
 

@@ -3,13 +3,15 @@
 #include <stdexcept>
 #include <string>
 
+#include "scene/printable.hpp"
+
 namespace vibrosow {
 
-/// The input is wrong. The message stands alone: "FILE:LINE: KEY: what is wrong, what is allowed". The program ends
-/// with exit code 2.
+/// The input is wrong. The message stands alone: "FILE:LINE: KEY: what is wrong, what is allowed", and is made
+/// printable whatever it quotes. The program ends with exit code 2.
 class InputError : public std::runtime_error {
  public:
-  using std::runtime_error::runtime_error;
+  explicit InputError(const std::string& message) : std::runtime_error(printable(message)) {}
 };
 
 }  // namespace vibrosow

@@ -303,10 +303,11 @@ void fields(Io& io, Contact& contact) {
   io.used("pairs", contact.overrides, usual.overrides, false);
   io.used_choice("friction_model", contact.friction_model, {"sliding", "spring"}, usual.friction_model);
   const bool spring = contact.friction_model == FrictionModel::spring;
-  io.used("slip_speed_m_per_s", contact.slip_speed, usual.slip_speed, !spring);
   io.optional("tangential_ratio", contact.tangential_ratio);
   io.used("tangential_damping", contact.tangential_damping, usual.tangential_damping, spring);
   io.used_choice("rolling", contact.rolling, {"none", "constant-torque", "spring"}, usual.rolling);
+  const bool slips = !spring || contact.rolling == Rolling::constant_torque;
+  io.used("slip_speed_m_per_s", contact.slip_speed, usual.slip_speed, slips);
   io.used("rolling_damping", contact.rolling_damping, usual.rolling_damping, contact.rolling == Rolling::spring);
   io.value("drag_kg_per_s", contact.drag);
   io.value("rotation", contact.rotation);

@@ -4,6 +4,9 @@
 #include <boost/math/quadrature/gauss_kronrod.hpp>
 #include <cmath>
 #include <limits>
+#include <numbers>
+
+#include "scene/clump_shape.hpp"
 
 namespace vibrosow {
 namespace {
@@ -72,6 +75,12 @@ double size_moment(const SeedLot& lot, int power) {
 
 double mean_mass(const SeedLot& lot) {
   return lot.mass * size_moment(lot, lot.shape == Shape::ball ? 3 : 2);
+}
+
+std::optional<double> seed_density(const SeedLot& lot) {
+  if (lot.shape == Shape::disc) return std::nullopt;
+  if (lot.shape == Shape::clump) return lot.mass / volume_of_balls(lot.discs);
+  return lot.mass / (std::numbers::pi / 6 * std::pow(lot.diameter, 3));
 }
 
 double mean_thickness(const SeedLot& lot) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "scene/scene.hpp"
@@ -21,6 +22,10 @@ double size_moment(const SeedLot& lot, int power);
 
 /// Mean mass of a lot's seeds, kg: m E[size^3] for balls, m E[size^2] for discs and clumps.
 double mean_mass(const SeedLot& lot);
+
+/// Density of a seed, kg/m3: of a clump as if its discs were balls (volume_of_balls); none of a disc, which has no
+/// thickness.
+std::optional<double> seed_density(const SeedLot& lot);
 
 /// Mean diameter of a lot's seeds across the plane, m: of a clump that of its largest disc, as if it were round about
 /// its long axis.

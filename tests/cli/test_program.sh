@@ -73,6 +73,24 @@ expect 2 "too long" run seeder.toml --set "numerics.dt=1 ms"
 expect 0 "friction" check seeder.toml
 expect 0 "^tray.holes.count,hole" check study.toml
 
+# Names of what is shipped; the wrong command for a file; keys taken out; what can hardly be meant.
+expect 0 "^Wheat tray" check wheat-tray
+expect 0 "layouts" check wheat-demo
+expect 2 "did you mean \"wheat-tray\"" run wheat-trey
+expect 2 "study.toml: this is a study: use vibrosow sweep" run study.toml
+expect 2 "seeder.toml: this is a seeder" sweep seeder.toml
+expect 0 "hole 1 at 20.00 mm" check seeder.toml --set "tray.holes.count=" --set 'tray.holes.at=["20 mm"]'
+expect 0 "^vibrosow: warning: tray.holes.width: 3 mm is narrower" check seeder.toml --set "tray.holes.width=3 mm"
+expect 0 "^vibrosow: warning: tray.holes.width: 3 mm is narrower" sweep study.toml --out narrow --set "tray.holes.width=3 mm"
+expect 0 "^vibrosow: warning: tray.holes.width: 3 mm is narrower" run seeder.toml --out narrow-run --set "tray.holes.width=3 mm"
+grep -q "is narrower" narrow-run/run.json || fail "run.json does not carry the warning"
+
+# No abort, whatever the name of a file, the units' database or the length of a key.
+grep -v title seeder.toml >"$(printf 'caf\xe9.toml')"
+expect 0 "reports: bytes" run "$(printf 'caf\xe9.toml')" --out bytes
+(export UDUNITS2_XML_PATH=/no/such/file.xml; expect 2 "unit database .*/no/such/file.xml" check seeder.toml; exit $failures) || failures=1
+expect 2 "more than 32 parts" check seeder.toml --set "$(printf 'a.%.0s' {1..40000})a=1"
+
 expect 0 "reports: one" run seeder.toml --out one
 have one/outflow.csv one/summary.csv one/run.json one/timing.json
 expect 0 "" run seeder.toml --quiet

@@ -1,7 +1,9 @@
 #include "design/study.hpp"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <rapidcheck.h>
 
 #include "scene/input_error.hpp"
 #include "study_files.hpp"
@@ -13,22 +15,48 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::ThrowsMessage;
 
+std::vector<std::string> range(const std::string& key, const std::string& from, const std::string& to,
+                               const std::string& step) {
+  std::vector<std::string> texts;
+  for (const TomlValue& value : range_values(key, parse_toml_value(from), parse_toml_value(to), parse_toml_value(step)))
+    texts.push_back(toml_text(value));
+  return texts;
+}
+
 TEST(Range, HasBothEndsInTheUnitOfItsStart) {
-  EXPECT_THAT(range_values("tray.motion.frequency", "7 Hz", "13 Hz", "2 Hz"),
+  EXPECT_THAT(range("tray.motion.frequency", "'7 Hz'", "'13 Hz'", "'2 Hz'"),
               ElementsAre("\"7 Hz\"", "\"9 Hz\"", "\"11 Hz\"", "\"13 Hz\""));
-  EXPECT_THAT(range_values("tray.holes.span", "30 cm", "0.36 m", "30 mm"),
+  EXPECT_THAT(range("tray.holes.span", "'30 cm'", "'0.36 m'", "'30 mm'"),
               ElementsAre("\"30 cm\"", "\"33 cm\"", "\"36 cm\""));
-  EXPECT_THAT(range_values("contact.friction", "0.1", "0.3", "0.1"), ElementsAre("0.1", "0.2", "0.3"));
-  EXPECT_THAT(range_values("tray.holes.count", "5", "1", "-2"), ElementsAre("5", "3", "1"));
+  EXPECT_THAT(range("contact.friction", "0.1", "0.3", "0.1"), ElementsAre("0.1", "0.2", "0.3"));
+  EXPECT_THAT(range("tray.holes.count", "5", "1", "-2"), ElementsAre("5", "3", "1"));
+}
+
+TEST(Range, ValuesAreThoseOfTheirTwelveDigits) {
+  rc::check("as if written and read", [] {
+    const double first = *rc::gen::inRange(-100000, 100000) / 1000.0;
+    const double step = *rc::gen::inRange(1, 100000) / 1e6;
+    const int steps = *rc::gen::inRange(0, 20);
+    const auto values = range_values("contact.friction", {first}, {first + steps * step}, {step});
+    RC_ASSERT(values.size() == static_cast<std::size_t>(steps) + 1);
+    for (int k = 0; k <= steps; ++k) {
+      const double written = std::stod(fmt::format("{:.12g}", first + k * step));
+      const TomlValue& value = values[static_cast<std::size_t>(k)];
+      const auto* whole = value.get<std::int64_t>();
+      RC_ASSERT(written == (whole != nullptr ? static_cast<double>(*whole) : *value.get<double>()));
+    }
+  });
 }
 
 TEST(Range, ThatMissesItsEndOrNeverStepsIsRefused) {
-  EXPECT_THROW(range_values("tray.motion.frequency", "7 Hz", "12 Hz", "2 Hz"), std::invalid_argument);
-  EXPECT_THROW(range_values("tray.holes.count", "1", "5", "0"), std::invalid_argument);
-  EXPECT_THROW(range_values("tray.holes.count", "1", "5", "-1"), std::invalid_argument);
-  EXPECT_THROW(range_values("tray.holes.count", "1 mm", "5 mm", "1 mm"), std::invalid_argument);
-  EXPECT_THROW(range_values("contact.friction", "nan", "0.3", "0.1"), std::invalid_argument);
-  EXPECT_THROW(range_values("contact.friction", "0.1", "inf", "0.1"), std::invalid_argument);
+  EXPECT_THROW(range("tray.motion.frequency", "'7 Hz'", "'12 Hz'", "'2 Hz'"), std::invalid_argument);
+  EXPECT_THROW(range("tray.motion.frequency", "7", "12", "2"), UnitError);
+  EXPECT_THROW(range("tray.holes.count", "1", "5", "0"), std::invalid_argument);
+  EXPECT_THROW(range("tray.holes.count", "1", "5", "-1"), std::invalid_argument);
+  EXPECT_THROW(range("tray.holes.count", "'1 mm'", "'5 mm'", "'1 mm'"), std::invalid_argument);
+  EXPECT_THROW(range("contact.friction", "nan", "0.3", "0.1"), std::invalid_argument);
+  EXPECT_THROW(range("contact.friction", "0.1", "inf", "0.1"), std::invalid_argument);
+  EXPECT_THROW(range("contact.friction", "true", "0.3", "0.1"), std::invalid_argument);
 }
 
 TEST(Study, ExpandsTheGridFirstKeySlowestInFileOrder) {
@@ -109,7 +137,7 @@ TEST(Study, KeyBothSetAndVariedIsRefused) {
 TEST(Study, OverridesReachTheStudyOrItsSeeders) {
   const StudyFiles files;
   const auto path = files.study("[vary]\ncontact.friction = [0.1, 0.2]\n");
-  const Study study = read_study(path, {{"replicates", "7", "--set"}, {"tray.holes.count", "5", "--set"}});
+  const Study study = read_study(path, {parse_override("replicates=7"), parse_override("tray.holes.count=5")});
   EXPECT_EQ(study.replicates, 7);
   EXPECT_EQ(study.scenes[0].tray.holes.size(), 5u);
 }
@@ -165,6 +193,71 @@ duration = "4 s"
 )");
   EXPECT_THAT([&] { read_study(files.study(measured)); },
               ThrowsMessage<InputError>(testing::AllOf(HasSubstr("bench.csv:2: "), HasSubstr("discharged_percent"))));
+}
+
+TEST(Study, ReadsEveryFileOnce) {
+  const StudyFiles files;
+  files.write("bench.csv",
+              "tray.holes.count,contact.friction,hole,rate_g_per_s\n3,0.1,1,0.5\n3,0.1,2,0.6\n5,0.2,all,2\n");
+  files.write("crop.toml", "diameter = \"4 mm\"\nmass = \"40 mg\"\n");
+  const auto source = std::make_shared<SourceFiles>();
+  const Study study = read_study(files.study("[set]\nseeds.wheat.crop = \"crop.toml\"\n"
+                                             "[vary]\ntray.holes.count = [3, 5]\ncontact.friction = [0.1, 0.2]\n"
+                                             "[measured]\nfile = \"bench.csv\"\n"),
+                                 {}, source);
+  EXPECT_EQ(study.scenes.size(), 4u);
+  EXPECT_EQ(study.measured->matches.size(), 3u);
+  EXPECT_EQ(source->reads(), 4);  // the study, its base, the crop, the measured table
+}
+
+TEST(Study, KeysAreUnsetByAStudyALayoutAndTheCommandLine) {
+  const StudyFiles files;
+  const std::string layouts = R"([[layout]]
+name = "row"
+[[layout]]
+name = "by hand"
+unset = ["tray.holes.count", "tray.holes.span"]
+tray.holes.at = ["10 cm", "20 cm", "40 cm"]
+)";
+  const Study study = read_study(files.study(layouts));
+  ASSERT_EQ(study.scenes.size(), 2u);
+  EXPECT_DOUBLE_EQ(study.scenes[1].tray.holes[1].centre, 0.2);
+  EXPECT_EQ(study.layouts[1].values.at("tray.holes.count"), "unset");
+  EXPECT_FALSE(study.layouts[0].values.contains("tray.holes.count"));
+
+  const Study by_set =
+      read_study(files.study("[set]\nunset = [\"tray.holes.count\", \"tray.holes.span\"]\n[vary]\ntray.holes.at = "
+                             "[[\"10 cm\"], [\"20 cm\"]]\n"));
+  EXPECT_DOUBLE_EQ(by_set.scenes[1].tray.holes[0].centre, 0.2);
+
+  const Study by_command = read_study(files.study("[vary]\ncontact.friction = [0.1, 0.2]\n"),
+                                      {parse_override("tray.holes.span="), parse_override("tray.holes.pitch=10 cm")});
+  EXPECT_DOUBLE_EQ(by_command.scenes[0].tray.holes[0].centre, 0.15);
+}
+
+TEST(Study, UnsettingWhatIsNotThereOrIsVariedIsRefused) {
+  const StudyFiles files;
+  EXPECT_THAT([&] { read_study(files.study("[set]\nunset = [\"tray.hoels\"]\n")); },
+              ThrowsMessage<InputError>(HasSubstr("study.toml:3: tray.hoels: cannot be taken out: tray.hoels is not "
+                                                  "written; did you mean \"holes\"?")));
+  EXPECT_THAT(
+      [&] {
+        read_study(files.study("[set]\nunset = [\"contact.friction\"]\n[vary]\ncontact.friction = [0.1, 0.2]\n"));
+      },
+      ThrowsMessage<InputError>(HasSubstr("varied here, and set at")));
+  EXPECT_THROW(read_study(files.study("[set]\nunset = 3\n")), InputError);
+}
+
+TEST(Study, WarningsAreToldOnceWithTheirLayouts) {
+  const StudyFiles files;
+  const std::string sound = "[set]\nseeds.wheat.density = \"1200 kg/m3\"\nunset = [\"seeds.wheat.mass\"]\n";
+  EXPECT_THAT(study_warnings(read_study(files.study(sound))), testing::IsEmpty());
+  const std::string varied = "[vary]\ntray.holes.width = [\"3 mm\", \"16 mm\"]\ncontact.restitution = [0.4, 0.5]\n";
+  EXPECT_THAT(study_warnings(read_study(files.study(sound + varied))),
+              ElementsAre(testing::StartsWith("layouts 1, 2: tray.holes.width: 3 mm is narrower")));
+  const std::string all = "[vary]\ntray.holes.width = [\"3 mm\"]\n";
+  EXPECT_THAT(study_warnings(read_study(files.study(sound + all))),
+              ElementsAre(testing::StartsWith("tray.holes.width")));
 }
 
 TEST(Study, FileThatIsNotThereIsToldWhereItIsNamed) {

@@ -136,6 +136,26 @@ TEST(Sweep, CurveIsComparedAtItsTimesWithinTheRun) {
   EXPECT_THAT(result.layouts[0].reason, HasSubstr("left out"));
 }
 
+TEST(Sweep, CurveBeginsWhenTheFirstHoleOpensOrAsTheStudySays) {
+  const StudyFiles files;
+  files.write("curve.csv", "time_s,seeds\n0,0\n1,5\n2,8\n");
+  const std::string study =
+      "replicates = 1\n[set]\ntray.holes.count = 1\n%s[measured]\nfile = \"curve.csv\"\nscale = \"none\"\n";
+  const auto simulated = [&](const std::string& set, const std::string& more) {
+    std::string text = study;
+    text.replace(text.find("%s"), 2, set);
+    const StudyResult result = sweep(read_study(files.study(text + more)), quick_run, with_jobs(1));
+    std::vector<double> means;
+    for (const ComparisonRow& row : result.comparison->rows) means.push_back(row.simulated.mean);
+    return means;
+  };
+  // The run lets 11 seeds go evenly from 2 s to 4 s.
+  EXPECT_EQ(simulated("", ""), (std::vector<double>{0, 0, 0}));
+  EXPECT_EQ(simulated("tray.holes.open_at = \"1.5 s\"\n", ""), (std::vector<double>{0, 3, 8}));
+  EXPECT_EQ(simulated("", "time_zero = \"1.5 s\"\n"), (std::vector<double>{0, 3, 8}));
+  EXPECT_EQ(simulated("tray.holes.open_at = \"2 s\"\n", "time_zero = \"2.5 s\"\n"), (std::vector<double>{0, 5}));
+}
+
 /// A grain of each lot in the middle of a tray 50 cm long: the second rises to 3, 4 or 5 cm with the random seed, and
 /// the bed's inside, 1 cm deep at the start, holds of it what is left.
 vibrosow::Run recorded_run(const Scene& scene, const SimulationOptions& options) {

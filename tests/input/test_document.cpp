@@ -1,8 +1,9 @@
-#include "input/document.hpp"
+#include "input/table.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "input/wording.hpp"
 #include "scene/input_error.hpp"
 #include "temporary_file.hpp"
 
@@ -119,24 +120,26 @@ TEST_F(DocumentTest, ImpossibleOverrides) {
   const std::string text = "[tray]\nlength = \"1 m\"\n";
   EXPECT_THAT([&] { read(text, {parse_override("tray.length.x=2")}); },
               ThrowsMessage<InputError>(HasSubstr("tray.length is a value, not a table")));
-  EXPECT_THROW(read(text, {{"tray.length", "= 3", "here"}}), InputError);
-  EXPECT_THROW(read(text, {{"tray..length", "3", "here"}}), InputError);
-  EXPECT_THROW(read(text, {{"tray.", "3", "here"}}), InputError);
-  EXPECT_THROW(read(text, {{"tray.length", "3\nother = 4", "here"}}), InputError);
+  EXPECT_THAT(
+      [&] { read(text, {parse_override("tray..length=3")}); },
+      ThrowsMessage<InputError>(HasSubstr("tray..length: not one key and one value: a part of the key is empty")));
+  EXPECT_THROW(read(text, {parse_override("tray.=3")}), InputError);
+  EXPECT_THROW(read(text, {parse_override(".tray=3")}), InputError);
   EXPECT_THROW(parse_override("tray.length"), InputError);
   EXPECT_THROW(parse_override("=3"), InputError);
 }
 
 TEST_F(DocumentTest, OverrideValueIsTomlWhereItCanBe) {
-  EXPECT_EQ(parse_override("a.b = 5").toml_value, "5");
+  EXPECT_EQ(*parse_override("a.b = 5").value->get<std::int64_t>(), 5);
   EXPECT_EQ(parse_override("a.b = 5").key, "a.b");
   Table root = read("", {parse_override("a=12 Hz"), parse_override("b=\"12 Hz\""), parse_override("c=[1, 2]"),
-                         parse_override("d=true"), parse_override("e=it's \"x\"")});
+                         parse_override("d=true"), parse_override("e=it's \"x\""), parse_override("f=3\ng = 4")});
   EXPECT_EQ(root.text("a"), "12 Hz");
   EXPECT_EQ(root.text("b"), "12 Hz");
-  EXPECT_THAT(root.toml_elements("c"), ElementsAre("1", "2"));
+  EXPECT_EQ(root.values_of("c").size(), 2U);
   EXPECT_EQ(root.boolean("d"), true);
   EXPECT_EQ(root.text("e"), "it's \"x\"");
+  EXPECT_EQ(root.text("f"), "3\ng = 4");
 }
 
 TEST_F(DocumentTest, FallbackStandsInAndKeepsItsOwnPlace) {
@@ -158,13 +161,123 @@ TEST_F(DocumentTest, KeysOfAStudyInOrderOfTheFile) {
       "[vary]\ntray.holes.count = [1, 3]\ntray.motion.frequency = { from = \"7 Hz\", to = \"9 Hz\" }\n"
       "tray.holes.span = [\"30 cm\"]\ncontact.friction = 0.1\n");
   Table vary = *root.table("vary");
-  EXPECT_THAT(vary.dotted_keys(),
-              ElementsAre("tray.holes.count", "tray.motion.frequency", "tray.holes.span", "contact.friction"));
-  EXPECT_THAT(vary.toml_elements("tray.holes.count"), ElementsAre("1", "3"));
-  EXPECT_EQ(vary.toml_text("contact.friction"), "0.1");
-  EXPECT_EQ(vary.table_at("tray.motion.frequency")->text("to"), "9 Hz");
-  EXPECT_FALSE(vary.table_at("tray.holes.count"));
+  std::vector<std::string> keys, values;
+  for (const Override& one : vary.dotted_values()) {
+    keys.push_back(one.key);
+    values.push_back(toml_text(*one.value));
+  }
+  EXPECT_THAT(keys, ElementsAre("tray.holes.count", "tray.motion.frequency", "tray.holes.span", "contact.friction"));
+  EXPECT_THAT(values, ElementsAre("[ 1, 3 ]", "{ from = \"7 Hz\", to = \"9 Hz\" }", "[ \"30 cm\" ]", "0.1"));
+  EXPECT_EQ(vary.dotted_values()[2].where, file_.string() + ":4");
   EXPECT_EQ(vary.origin("tray.holes.span"), file_.string() + ":4");
+  EXPECT_NO_THROW(root.reject_unknown_keys());
+}
+
+TEST_F(DocumentTest, DottedKeyInQuotesIsTheSameKey) {
+  Table root = read("[set]\n\"tray.length\" = \"2 m\"\n");
+  const std::vector<Override> values = root.table("set")->dotted_values();
+  ASSERT_EQ(values.size(), 1U);
+  EXPECT_EQ(values[0].key, "tray.length");
+  EXPECT_EQ(values[0].where, file_.string() + ":2");
+}
+
+TEST_F(DocumentTest, TypedQuantityIsReadLikeItsText) {
+  const TomlValue typed{Quantity{12.5, "mm"}};
+  Table root = read("b = \"12.5 mm\"\n", {{"a", typed, "here"}, {"c", TomlValue{Quantity{3, "Hz"}}, "here"}});
+  EXPECT_EQ(root.quantity("a", Dimension::length, 0, 1), root.quantity("b", Dimension::length, 0, 1));
+  EXPECT_THAT([&] { root.quantity("c", Dimension::length, 0, 1); }, ThrowsMessage<InputError>(HasSubstr("here: c: ")));
+  EXPECT_THAT([&] { root.quantity("a", Dimension::length, 0, 0.001); },
+              ThrowsMessage<InputError>(HasSubstr("\"12.5 mm\" is out of range")));
+}
+
+TEST_F(DocumentTest, KeysAreTakenOut) {
+  const std::string text = "[tray]\nlength = \"1 m\"\n[tray.holes]\ncount = 3\n";
+  Table root = read(text, {parse_override("tray.holes.count="), parse_override("tray.length=")});
+  EXPECT_FALSE(root.table("tray")->has("length"));
+  EXPECT_TRUE(root.table("tray")->has("holes"));
+  EXPECT_FALSE(root.table("tray")->table("holes")->has("count"));
+  EXPECT_FALSE(read(text, {parse_override("tray=")}).has("tray"));
+  EXPECT_TRUE(read(text, {parse_override("tray="), parse_override("tray.length=2 m")}).has("tray"));
+  EXPECT_THAT(
+      [&] { read(text, {parse_override("tray.lenght=")}); },
+      ThrowsMessage<InputError>(HasSubstr("--set tray.lenght=: tray.lenght: cannot be taken out: tray.lenght is "
+                                          "not written; did you mean \"length\"?")));
+  EXPECT_THROW(read(text, {parse_override("tray.length.x=")}), InputError);
+}
+
+TEST_F(DocumentTest, AFileIsReadOnceForAnyNumberOfDocuments) {
+  const auto file = folder_.write("file.toml", "a = 1\n");
+  const auto files = std::make_shared<SourceFiles>();
+  for (int k = 0; k < 5; ++k) {
+    Table root(Document::read(file, {{"b", TomlValue{std::int64_t{k}}, "here"}}, files));
+    EXPECT_EQ(root.whole_number("a", 0, 9), 1);
+    EXPECT_EQ(root.whole_number("b", 0, 9), k);
+  }
+  EXPECT_EQ(files->reads(), 1);
+  EXPECT_FALSE(Table(Document::read(file, {}, files)).has("b"));
+}
+
+TEST_F(DocumentTest, WithinTheLimitsOfLengthAndDepth) {
+  const auto repeated = [](const std::string& part, int times) {
+    std::string text;
+    for (int k = 0; k < times; ++k) text += part;
+    return text;
+  };
+  EXPECT_NO_THROW(read(repeated("a.", 31) + "a = 1\n[" + repeated("b.", 31) + "b]\n"));
+  EXPECT_NO_THROW(read("x = " + repeated("[", 30) + repeated("]", 30) + "\n"));
+  EXPECT_NO_THROW(read("x = [" + repeated("1.5, ", 10000) + "2.5]\n# " + repeated("a.", 100) + "\ny = '" +
+                       repeated("a.", 100) + "'\nz = \"\"\"" + repeated("[{a.\\\"", 100) + "\"\"\"\n"));
+  const auto refused = [&](const std::string& text, const std::string& message) {
+    EXPECT_THAT([&] { read(text); }, ThrowsMessage<InputError>(HasSubstr("file.toml:2: not valid TOML: " + message)));
+  };
+  for (const int times : {32, 40000}) {
+    refused("\n" + repeated("a.", times) + "a = 1\n", "a key has more than 32 parts");
+    refused("\n[" + repeated("a.", times) + "a]\n", "a key has more than 32 parts");
+    refused("\nx = {" + repeated("a.", times) + "a = 1}\n", "a key has more than 32 parts");
+    refused("\nx = " + repeated("[", times + 1) + "\n", "lists or tables lie more than 32 deep");
+  }
+  refused("\n" + std::string(201, 'a') + " = 1\n", "the key aaa");
+  EXPECT_THAT([&] { read("", {parse_override(repeated("a.", 40000) + "a=1")}); },
+              ThrowsMessage<InputError>(HasSubstr("a key has more than 32 parts")));
+  EXPECT_THAT([&] { read("x = " + repeated("y", 100)); }, ThrowsMessage<InputError>(testing::Not(HasSubstr("limit"))));
+  EXPECT_LT(parse_override("x=" + std::string(100000, 'y')).where.size(), 200U);
+}
+
+TEST_F(DocumentTest, AMissingQuoteIsSaidToBeOne) {
+  const auto told = [&](const std::string& line, const std::string& message) {
+    EXPECT_THAT([&] { read("\n" + line + "\n"); },
+                ThrowsMessage<InputError>(HasSubstr("file.toml:2: not valid TOML: " + message)));
+  };
+  told("diameter = 4 mm", "a quantity with its unit is written in quotes: \"4 mm\"");
+  told("diameter = 4mm  # wide", "a quantity with its unit is written in quotes: \"4mm\"");
+  told("fraction = 70 %", "a quantity with its unit is written in quotes: \"70 %\"");
+  told("diameter = 4 mm\"", "a quantity with its unit is written in quotes: \"4 mm\"");
+  told("at = [\"1 cm\", 2 cm]", "a quantity with its unit is written in quotes: \"2 cm\"");
+  told("motion = { amplitude = 1 cm, frequency = \"9 Hz\" }",
+       "a quantity with its unit is written in quotes: \"1 cm\"");
+  told("crop = wheat", "a text is written in quotes: \"wheat\"");
+  told("diameter = \"4 mm", "the quote before \"4 mm\" is not closed");
+  for (const std::string line : {"b = = 2", "[tray", "keep = True", "x = [1, 2"})
+    EXPECT_THAT([&] { read("\n" + line + "\n"); }, ThrowsMessage<InputError>(testing::Not(HasSubstr("quote")))) << line;
+}
+
+TEST_F(DocumentTest, AStringThatTheFileCutsOff) {
+  for (const std::string end : {R"(")", R"("a\)", R"("""a\)", "\"\"\"a\n\\", "'", R"('''a\)", R"("""")", "\"a\\\n"})
+    EXPECT_THAT([&] { read("x = " + end); }, ThrowsMessage<InputError>(HasSubstr("not valid TOML"))) << end;
+}
+
+TEST_F(DocumentTest, AListOfTablesInPlaceOfATable) {
+  Table root = read("\n[[tray]]\nlength = \"1 m\"\n");
+  EXPECT_THAT(
+      [&] { root.table("tray"); },
+      ThrowsMessage<InputError>(at(2, "tray: is a list of tables; there is one tray, so write [tray], not [[tray]]")));
+}
+
+TEST_F(DocumentTest, WhatAFileHoldsIsNotEchoedToTheTerminal) {
+  Table root = read("\"\\u001b[5m\" = 1\ntext = \"a\\u0007\\u009bb\\u00e9\"\n");
+  root.skip("text");
+  EXPECT_THAT([&] { root.reject_unknown_keys(); }, ThrowsMessage<InputError>(at(1, "\\x1b[5m: unknown key")));
+  EXPECT_THAT([&] { root.choice("text", {"c"}); }, ThrowsMessage<InputError>(HasSubstr("\"a\\x07\\xc2\\x9bb\u00e9\"")));
 }
 
 TEST_F(DocumentTest, ArrayOfTables) {
@@ -177,12 +290,12 @@ TEST_F(DocumentTest, ArrayOfTables) {
 }
 
 TEST_F(DocumentTest, WhereOfAnyKey) {
-  read("[a]\nb = 1\n[a.c]\nd = 2\n");
-  const auto document = Document::read(file_);
-  EXPECT_EQ(document->where("a.b"), at(2, "a.b"));
-  EXPECT_EQ(document->where("a.c.d"), at(4, "a.c.d"));
-  EXPECT_EQ(document->where("a.c.none"), at(3, "a.c.none"));
-  EXPECT_EQ(document->where("none"), file_.string() + ": none");
+  Table root = read("[a]\nb = 1\n[a.c]\nd = 2\n");
+  EXPECT_EQ(root.table("a")->where("b"), at(2, "a.b"));
+  EXPECT_EQ(root.table("a")->table("c")->where("d"), at(4, "a.c.d"));
+  EXPECT_EQ(root.where("a.c.d"), at(4, "a.c.d"));
+  EXPECT_EQ(root.where("a.c.none"), at(3, "a.c.none"));
+  EXPECT_EQ(root.where("none"), file_.string() + ": none");
 }
 
 TEST(Nearest, IsAnEditAwayOrNothing) {

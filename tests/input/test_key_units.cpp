@@ -75,13 +75,13 @@ TEST(KeyUnits, ValuesAreConvertedToTheColumn) {
 }
 
 TEST(KeyUnits, ValuesOfColumnsBecomeToml) {
-  EXPECT_EQ(toml_value_of_column("tray.motion.frequency", "9"), "\"9 Hz\"");
-  EXPECT_EQ(toml_value_of_column("seeds.wheat.mass_fraction", "70"), "\"70 %\"");
-  EXPECT_EQ(toml_value_of_column("contact.damping_rate", "21000"), "\"21000 1/s\"");
-  EXPECT_EQ(toml_value_of_column("contact.friction", "0.3"), "0.3");
-  EXPECT_EQ(toml_value_of_column("contact.rotation", "false"), "false");
-  EXPECT_EQ(toml_value_of_column("tray.fill.packing", "layers"), "\"layers\"");
-  EXPECT_EQ(toml_value_of_column("tray.fill.packing", "a\"b"), "\"a\\\"b\"");
+  EXPECT_EQ(toml_text(value_of_column("tray.motion.frequency", "9", 9)), "\"9 Hz\"");
+  EXPECT_EQ(toml_text(value_of_column("seeds.wheat.mass_fraction", "70", 70)), "\"70 %\"");
+  EXPECT_EQ(toml_text(value_of_column("contact.damping_rate", "21000", 21000)), "\"21000 1/s\"");
+  EXPECT_EQ(toml_text(value_of_column("contact.friction", "0.3", 0.3)), "0.3");
+  EXPECT_EQ(toml_text(value_of_column("contact.rotation", "false", std::nullopt)), "false");
+  EXPECT_EQ(toml_text(value_of_column("tray.fill.packing", "layers", std::nullopt)), "\"layers\"");
+  EXPECT_EQ(toml_text(value_of_column("tray.fill.packing", "a\"b", std::nullopt)), "\"a\\\"b\"");
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <fstream>
 
+#include "input/source_files.hpp"
 #include "scene/input_error.hpp"
 
 namespace vibrosow {
@@ -18,7 +19,7 @@ class Measured : public testing::Test {
 
   MeasuredTable read(const std::string& text) {
     std::ofstream(file_, std::ios::binary) << text;
-    return read_measured(file_);
+    return read_measured(SourceFiles().csv(file_));
   }
   /// The message without the file's name: ":LINE: COLUMN: ...".
   std::string error(const std::string& text) {
@@ -36,6 +37,14 @@ class Measured : public testing::Test {
 
 bool contains(const std::string& text, const std::string& part) {
   return text.find(part) != std::string::npos;
+}
+
+TEST_F(Measured, EmptyColumnsThatASpreadsheetAppendsAreLeftOut) {
+  const MeasuredTable table = read("hole;seeds_per_s;;\n1;3,5;;\n2;4,5;;;;\n3;1\n");
+  ASSERT_EQ(table.series.size(), 3U);
+  EXPECT_EQ(table.series[1].values[0].mean, 4.5);
+  EXPECT_TRUE(contains(error("hole;seeds_per_s;;\n1;3;;x\n"), ":2: 4 fields where the header has 2"));
+  EXPECT_TRUE(contains(error("hole;;seeds_per_s\n1;;3\n"), ":1: : unknown column"));
 }
 
 TEST_F(Measured, RatesWithRepeatsAreAveraged) {
@@ -113,10 +122,10 @@ TEST_F(Measured, ConditionsBecomeOverrides) {
   const auto& conditions = table.series[0].conditions;
   const Override frequency = override_of(conditions[0], table.series[0].where);
   EXPECT_EQ(frequency.key, "tray.motion.frequency");
-  EXPECT_EQ(frequency.toml_value, "\"9 Hz\"");
+  EXPECT_EQ(toml_text(*frequency.value), "\"9 Hz\"");
   EXPECT_EQ(frequency.where, file_.string() + ":2");
-  EXPECT_EQ(override_of(conditions[1], "").toml_value, "5");
-  EXPECT_EQ(override_of(conditions[2], "").toml_value, "\"rk2-midpoint\"");
+  EXPECT_EQ(toml_text(*override_of(conditions[1], "").value), "5");
+  EXPECT_EQ(toml_text(*override_of(conditions[2], "").value), "\"rk2-midpoint\"");
 }
 
 TEST_F(Measured, UnknownColumnsAreErrorsWithTheNearest) {
@@ -166,8 +175,8 @@ TEST_F(Measured, BrokenFilesAreErrors) {
   EXPECT_TRUE(contains(error("seeds_per_s,note\n3,\"never closed\n4,x\n"), ":2: a quote"));
   EXPECT_TRUE(contains(error("# only a comment\n"), ": is empty"));
   EXPECT_TRUE(contains(error("seeds_per_s\n"), ":1: only a header"));
-  EXPECT_THROW(read_measured("no/such/file.csv"), InputError);
-  EXPECT_THROW(read_measured(std::filesystem::path(testing::TempDir())), InputError);
+  EXPECT_THROW(SourceFiles().csv("no/such/file.csv"), InputError);
+  EXPECT_THROW(SourceFiles().csv(std::filesystem::path(testing::TempDir())), InputError);
 }
 
 }  // namespace

@@ -10,8 +10,9 @@
 #include <string>
 #include <vector>
 
+#include <toml++/toml.h>
+
 #include "input/read_scene.hpp"
-#include "input/toml_lib.hpp"
 #include "scene/clump_shape.hpp"
 #include "units/quantity.hpp"
 

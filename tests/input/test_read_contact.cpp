@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "input/read_scene.hpp"
+#include "scene/input_error.hpp"
 #include "temporary_file.hpp"
 
 namespace vibrosow {
@@ -208,6 +209,12 @@ TEST(ReadContact, TheSeedersFrictionModelLeavesOutTheModelsSlipSpeed) {
   EXPECT_EQ(c.friction_model, FrictionModel::spring);
   EXPECT_EQ(c.slip_speed, Contact().slip_speed);
   EXPECT_EQ(read_with_model(shell_model, "").contact.slip_speed, 9);
+}
+
+TEST(ReadContact, ConstantTorqueHasASlipSpeedBesideSprings) {
+  const std::string springs = shell + "friction_model = 'spring'\nslip_speed = '5 mm/s'\n";
+  EXPECT_EQ(contact(springs + "rolling = 'constant-torque'\nrolling_friction = 0.1\n").slip_speed, 0.005);
+  EXPECT_THROW(contact(springs + "rolling = 'spring'\nrolling_friction = 0.1\n"), InputError);
 }
 
 TEST(ReadContact, TheSeedersRollingLeavesOutTheModels) {

@@ -57,6 +57,15 @@ TEST(ReadLot, DipoleIsTwoDiscsOnARod) {
   EXPECT_DOUBLE_EQ(lot.diameter, 0.028);
 }
 
+TEST(ReadLot, DensityGivesAClumpTheMassOfItsBalls) {
+  const double ball = std::numbers::pi / 6 * 1e3 * std::pow(8e-3, 3);
+  const SeedLot dipole = lot_of("shape = 'dipole'\ndiameter = '8 mm'\ndistance = '20 mm'\ndensity = '1000 kg/m3'");
+  EXPECT_NEAR(dipole.mass, 2 * ball, 1e-9 * ball);
+  const SeedLot grain = lot_of("shape = 'elongated'\nlength = '7 mm'\nwidth = '3 mm'\ndensity = '1300 kg/m3'");
+  const double spheroid = std::numbers::pi / 6 * 7e-3 * 3e-3 * 3e-3 * 1300;
+  EXPECT_NEAR(grain.mass, 0.85 * spheroid, 0.01 * spheroid) << "the valleys between the discs are empty";
+}
+
 TEST(ReadLot, AnyDiscsAboutTheirCentreOfMass) {
   const SeedLot lot = lot_of(
       "shape = 'discs'\nmass = '30 mg'\n"
@@ -156,12 +165,11 @@ INSTANTIATE_TEST_SUITE_P(
         Wrong{"mass = '1 g'\nshape = 'drop'\nlength = '7 mm'\nwidth = '1 mm'", ":4: width", "up to 3.9 widths"},
         Wrong{"mass = '1 g'\nshape = 'elongated'\nlength = '7 mm'\nwidth = '1 mm'", ":4: width", "up to 5 widths"},
         Wrong{"shape = 'discs'\ndiscs = [{ x = '0 mm', y = '0 mm' }]", ":2: discs[1].diameter", "is missing"},
-        Wrong{"shape = 'discs'\ndiscs = [{ x = '0 mm', y = '0 mm', r = '1 mm', diameter = '1 mm' }]\nmass = '1 g'",
+        Wrong{"shape = 'discs'\ndiscs = [{ x = '0 mm', y = '0 mm', r = '1 mm', diameter = '1 mm' }]\nmass = '1 mg'",
               ":2: discs[1].r", "unknown key"},
         Wrong{"shape = 'discs'\ndiscs = '4 mm'", ":2: discs", "must be tables"},
         Wrong{"shape = 'discs'\nsizes = { distribution = 'uniform' }", ":2: sizes", "does not go with"},
-        Wrong{"shape = 'dipole'\ndiameter = '4 mm'\ndistance = '9 mm'\ndensity = '1200 kg/m3'", ":4: density",
-              "of a ball only"}));
+        Wrong{"shape = 'disc'\ndiameter = '4 mm'\ndensity = '1200 kg/m3'", ":3: density", "no thickness"}));
 
 INSTANTIATE_TEST_SUITE_P(
     Sizes, LotError,

@@ -101,9 +101,16 @@ TEST(ReadMotion, WrongTablesAreRefusedWithLineAndColumn) {
   const TemporaryFolder folder;
   const auto refused = [&](const std::string& text, const std::string& message) {
     const auto file = folder.write("shake.csv", text);
-    EXPECT_THAT([&] { read_motion_table(file); }, ThrowsMessage<InputError>(HasSubstr(file.string() + message)));
+    EXPECT_THAT([&] { read_motion_table(SourceFiles().csv(file)); },
+                ThrowsMessage<InputError>(HasSubstr(file.string() + message)));
   };
   refused("time_s,x_mm\n0,0\n1,1\n2,0\n", ":4: time_s: expected at least 4 rows");
+  refused("time_s,x_mm\n0,0\n1,1e300\n2,0\n3,0\n",
+          ":3: x_mm: \"1e300\" is too far from the row before: faster than 1000 m/s");
+  refused("time_s,y_mm\n0,0\n1e-9,1\n2,0\n3,0\n", ":3: y_mm: \"1\" is too far from the row before");
+  refused("time_s,angle_degree\n0,0\n1,1e6\n2,0\n3,0\n",
+          ":3: angle_degree: \"1e6\" is too far from the row before: faster than 1000 turns");
+  refused("time_s,x_mm\n0,0\n1,1\n2,0\n1e300,0\n", ":5: time_s: 1e+300 s is out of range, which is up to 1e+06 s");
   refused("time_s,x_mm\n0,0\n1,1\n1,0\n2,0\n", ":4: time_s: 1 is not later than the row before");
   refused("time_s,x_mm\n0,0\n1,a\n2,0\n3,0\n", ":3: x_mm: \"a\" is not a number");
   refused("time_s,x_m\n0,0\n1,1\n2,0\n3,0\n", ":1: x_m: unknown column; known are time_s, x_mm, y_mm, angle_degree");

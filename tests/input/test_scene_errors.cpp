@@ -229,7 +229,7 @@ INSTANTIATE_TEST_SUITE_P(
     Contradictions, SceneError,
     testing::Values(
         Case{3, "+density = '1200 kg/m3'", 4, "seeds.wheat.density", "contradicts mass"},
-        Case{3, "density = '1200 kg/m3'\nshape = 'disc'", 3, "seeds.wheat.density", "of a ball only"},
+        Case{3, "density = '1200 kg/m3'\nshape = 'disc'", 3, "seeds.wheat.density", "no thickness"},
         Case{3, "+mass_fraction = '40 %'", 4, "seeds.wheat.mass_fraction", "sum to 40 %"},
         Case{3, "+mass_fraction = '40 %'\nnumber_fraction = '60 %'", 5, "seeds.wheat.number_fraction", "contradicts"},
         Case{3, "+[seeds.pea]\ndiameter = '7 mm'\nmass = '0.2 g'", 1, "seeds.wheat.mass_fraction", "is missing"},
@@ -325,7 +325,7 @@ INSTANTIATE_TEST_SUITE_P(FrictionModels, SceneError,
                          testing::Values(Case{5, "+friction_model = 'springs'", 6, "contact.friction_model",
                                               "did you mean \"spring\"?"},
                                          Case{5, "+friction_model = 'spring'\nslip_speed = '20 mm/s'", 7,
-                                              "contact.slip_speed", "contradicts friction_model = \"spring\""},
+                                              "contact.slip_speed", "neither is chosen"},
                                          Case{5, "+tangential_ratio = 1", 6, "contact.tangential_ratio",
                                               "needs friction_model = \"spring\""},
                                          Case{5, "+friction_model = 'sliding'\ntangential_damping = 1", 7,
@@ -373,6 +373,12 @@ TEST(SceneErrors, ShellOfALotUnderHertz) {
               ThrowsMessage<InputError>(
                   HasSubstr("seeder.toml:4: seeds.wheat.shell_compression: belongs to the elastic shell")));
 }
+
+INSTANTIATE_TEST_SUITE_P(CannotBeMeant, SceneError,
+                         testing::Values(Case{3, "mass = '40 g'", 3, "seeds.wheat.mass",
+                                              "it looks like the mass of a thousand seeds, and a seed's is 40 mg"},
+                                         Case{8, "+depth = '3.9 mm'", 9, "tray.depth",
+                                              "3.9 mm is less than one seed of wheat, which is 4 mm thick"}));
 
 TEST(SceneErrors, APairGivenTwice) {
   std::vector<std::string> lines = base;

@@ -50,6 +50,55 @@ Plate plate_by_strips(const std::vector<ClumpDisc>& discs, int strips) {
   return {area, centre, polar / area - centre.squaredNorm()};
 }
 
+double cap(double r, double height) {
+  return pi * height * height * (3 * r - height) / 3;
+}
+
+TEST(VolumeOfBalls, OneAndSeveralApartOrWithinEachOther) {
+  EXPECT_NEAR(volume_of_balls({{0.3, -0.4, 2}}), 4 * pi / 3 * 8, 1e-9 * 32);
+  EXPECT_NEAR(volume_of_balls({{0, 0, 2}, {5, 0, 1}}), 4 * pi / 3 * 9, 1e-9 * 36);
+  EXPECT_NEAR(volume_of_balls({{0, 0, 2}, {0.5, 0.5, 1}, {0, 0, 2}}), 4 * pi / 3 * 8, 1e-9 * 32);
+}
+
+TEST(VolumeOfBalls, TwoThatOverlapLoseTheirLens) {
+  const double d = 2.5, r = 2, s = 1, x = (d * d + r * r - s * s) / (2 * d);
+  const double lens = cap(r, r - x) + cap(s, s - (d - x));
+  EXPECT_NEAR(volume_of_balls({{0, 0, r}, {d, 0, s}}), 4 * pi / 3 * (r * r * r + s * s * s) - lens, 1e-8);
+}
+
+TEST(VolumeOfBalls, ARowIsItsBodyOfRevolution) {
+  for (const auto& row : {elongated(7e-3, 3e-3), drop(9e-3, 3e-3)}) {
+    const int strips = 400000;
+    double low = 1, high = -1, volume = 0;
+    for (const ClumpDisc& d : row) low = std::min(low, d.x - d.radius), high = std::max(high, d.x + d.radius);
+    for (int k = 0; k < strips; ++k) {
+      const double x = low + (k + 0.5) * (high - low) / strips;
+      double radius2 = 0;
+      for (const ClumpDisc& d : row) radius2 = std::max(radius2, d.radius * d.radius - (x - d.x) * (x - d.x));
+      volume += pi * radius2 * (high - low) / strips;
+    }
+    EXPECT_NEAR(volume_of_balls(row), volume, 1e-8 * volume);
+  }
+}
+
+TEST(VolumeOfBalls, TurningAndScalingAClump) {
+  rc::check("volume turns with nothing and scales with the cube", [] {
+    std::vector<ClumpDisc> discs, turned;
+    const double angle = *rc::gen::inRange(0, 628) / 100.0, factor = *rc::gen::inRange(1, 50) / 10.0;
+    const int count = *rc::gen::inRange(1, 6);
+    for (int k = 0; k < count; ++k) {
+      const double x = *rc::gen::inRange(-20, 20) / 10.0, y = *rc::gen::inRange(-20, 20) / 10.0;
+      const double r = *rc::gen::inRange(5, 20) / 10.0;
+      discs.push_back({x, y, r});
+      turned.push_back({factor * (x * std::cos(angle) - y * std::sin(angle)),
+                        factor * (x * std::sin(angle) + y * std::cos(angle)), factor * r});
+    }
+    const double volume = volume_of_balls(discs);
+    RC_ASSERT(std::abs(volume_of_balls(turned) - volume * factor * factor * factor) <
+              1e-7 * volume * factor * factor * factor);
+  });
+}
+
 TEST(Plate, OneDisc) {
   expect_plate({{0, 0, 2e-3}}, pi * 4e-6, 0, 0, 2e-6);
   expect_plate({{0.3, -0.4, 2e-3}}, pi * 4e-6, 0.3, -0.4, 2e-6);

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "input/csv_lines.hpp"
+#include "input/source_files.hpp"
 #include "report/csv.hpp"
 #include "support/report_file.hpp"
 
@@ -15,7 +15,7 @@ namespace vibrosow {
 class DataTable {
  public:
   explicit DataTable(const std::string& file)
-      : csv_(read_csv_lines(std::filesystem::path(VIBROSOW_SOURCE_DIR) / "tests" / "data" / file)) {}
+      : csv_(SourceFiles().csv(std::filesystem::path(VIBROSOW_SOURCE_DIR) / "tests" / "data" / file)) {}
 
   std::size_t rows() const { return csv_.rows.size(); }
   const std::string& text(std::size_t row, const std::string& column) const {

@@ -1,0 +1,63 @@
+#include "input/input_file.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <vector>
+
+#include "input/read_scene.hpp"
+#include "input/table.hpp"
+#include "input/wording.hpp"
+#include "scene/input_error.hpp"
+
+namespace vibrosow {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::vector<fs::path> shipped_files() {
+  std::vector<fs::path> files;
+  for (const auto& entry : fs::recursive_directory_iterator(data_directory() / "seeders"))
+    if (entry.path().extension() == ".toml") files.push_back(entry.path());
+  std::ranges::sort(files);
+  return files;
+}
+
+fs::path shipped_file(const std::string& name, FileKind wanted) {
+  std::vector<fs::path> found;
+  std::vector<std::string> names;
+  for (const fs::path& file : shipped_files()) {
+    names.push_back(file.stem().string());
+    if (names.back() == name) found.push_back(file);
+  }
+  if (found.empty())
+    throw InputError(fmt::format("{}: there is no such file, and no seeder or study of that name is shipped{}",
+                                 shortened(name), did_you_mean(shortened(name), names)));
+  const auto of_kind = std::ranges::find(found, wanted, kind_of);
+  return of_kind != found.end() ? *of_kind : found.front();
+}
+
+bool is_plain_name(const std::string& name) {
+  return !name.empty() && name.find('/') == std::string::npos && fs::path(name).extension() != ".toml";
+}
+
+}  // namespace
+
+FileKind kind_of(const fs::path& file) {
+  return Table(Document::read(file)).has("base") ? FileKind::study : FileKind::seeder;
+}
+
+fs::path input_file(const std::string& name, std::optional<FileKind> wanted) {
+  std::error_code none;
+  const bool shipped = is_plain_name(name) && !fs::exists(name, none);
+  const fs::path file = shipped ? shipped_file(name, wanted.value_or(FileKind::seeder)) : fs::path(name);
+  if (!wanted || kind_of(file) == *wanted) return file;
+  throw InputError(
+      *wanted == FileKind::seeder
+          ? fmt::format("{}: this is a study: use vibrosow sweep", file.string())
+          : fmt::format("{}: this is a seeder, not a study: use vibrosow run; a study names its seeder with "
+                        "the key base",
+                        file.string()));
+}
+
+}  // namespace vibrosow

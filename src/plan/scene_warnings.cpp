@@ -1,0 +1,148 @@
+#include "plan/scene_warnings.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "scene/motion.hpp"
+#include "scene/seed_lot.hpp"
+
+namespace vibrosow {
+namespace {
+
+using Warnings = std::vector<std::string>;
+
+/// By number over all lots, of a figure of each.
+template <class Figure>
+double mean_over_seeds(const Scene& scene, Figure figure) {
+  double mean = 0;
+  for (const SeedLot& lot : scene.lots) mean += lot.number_fraction * figure(lot);
+  return mean;
+}
+
+double mean_diameter(const Scene& scene) {
+  return mean_over_seeds(scene, [](const SeedLot& lot) { return lot.diameter * size_moment(lot, 1); });
+}
+
+std::string millimetres(double length) {
+  return fmt::format("{:.3g} mm", length * 1e3);
+}
+
+void warn_of_density(const SeedLot& lot, Warnings& warnings) {
+  constexpr double least = 100, most = 5000;  // kg/m3, of anything that is sown
+  const std::optional<double> density = seed_density(lot);
+  if (!density || (*density >= least && *density <= most)) return;
+  warnings.push_back(fmt::format("seeds.{}.mass: {:.4g} mg is a density of {:.3g} kg/m3; seeds have {:g} to {:g} kg/m3",
+                                 lot.name, lot.mass * 1e6, *density, least, most));
+}
+
+/// Thickness of a lot's largest seed, the least width that it passes.
+double largest_thickness(const SeedLot& lot) {
+  return mean_thickness(lot) / size_moment(lot, 1) * most_size(lot);
+}
+
+void warn_of_narrow_holes(const Vessel& vessel, const std::vector<SeedLot>& lots, Warnings& warnings) {
+  const auto narrowest = std::ranges::min_element(vessel.holes, {}, &Hole::width);
+  if (narrowest == vessel.holes.end()) return;
+  for (const SeedLot& lot : lots) {
+    if (narrowest->width >= largest_thickness(lot)) continue;
+    warnings.push_back(fmt::format("{}.holes.width: {} is narrower than seeds of {}, up to {} thick, which cannot pass",
+                                   vessel.name, millimetres(narrowest->width), lot.name,
+                                   millimetres(largest_thickness(lot))));
+  }
+}
+
+bool has_friction(const Contact& contact) {
+  return contact.seed.friction > 0 || contact.wall.friction > 0 ||
+         std::ranges::any_of(contact.overrides, [](const SurfaceOverride& pair) { return pair.surface.friction > 0; });
+}
+
+void warn_of_standing_liquid(const Scene& scene, Warnings& warnings) {
+  if ((scene.tray.motion && moves(*scene.tray.motion)) || has_friction(scene.contact)) return;
+  warnings.push_back(
+      "tray.motion: the tray stands still and contact.friction is 0: without either the bed flows as a liquid does");
+}
+
+/// Seeds that have no way out of a vessel.
+bool is_closed(const Vessel& vessel) {
+  return vessel.holes.empty() && vessel.box && vessel.sides != Sides::open;
+}
+
+/// Of a closely packed vessel, more than can ever be.
+double most_seeds(const Scene& scene, const Vessel& vessel, double height) {
+  const double area = mean_over_seeds(scene, [](const SeedLot& lot) {
+    const double thickness = mean_thickness(lot);
+    return std::numbers::sqrt3 / 2 * thickness * thickness;
+  });
+  return vessel.length * height / area;
+}
+
+void warn_of_rain(const Scene& scene, const Vessel& vessel, Warnings& warnings) {
+  if (!vessel.rain) return;
+  const Rain& rain = *vessel.rain;
+  const double diameter = mean_diameter(scene);
+  const double side_by_side = std::floor((rain.to - rain.from) / diameter) + 1;
+  const double most_rate = side_by_side / std::sqrt(2 * diameter / standard_gravity);
+  if (rain.rate > most_rate)
+    warnings.push_back(fmt::format(
+        "{}.rain.rate: {:.4g} seeds/s cannot all come: {:.0f} seeds lie side by side where it rains, and the room is "
+        "free again when they have fallen by a diameter, which is {:.3g} seeds/s at most",
+        vessel.name, rain.rate, side_by_side, most_rate));
+  const double lasts = std::min(rain.stop, scene.run.duration) - rain.start;
+  const double asked = std::max(0.0, lasts) * rain.rate + (vessel.fill ? vessel.fill->count : 0);
+  const double most = most_seeds(scene, vessel, std::min(rain.height + diameter, vessel.height + diameter));
+  if (is_closed(vessel) && asked > most)
+    warnings.push_back(fmt::format(
+        "{}.rain.rate: {:.4g} seeds are to come, but the {} has no holes and holds no more than {:.0f} below its rain",
+        vessel.name, asked, vessel.name, most));
+}
+
+/// What holes pass, but for a common factor.
+double passed(const Vessel& vessel, double diameter) {
+  constexpr double empty_rim = 1.4;  // diameters
+  double sum = 0;
+  for (const Hole& hole : vessel.holes) sum += std::pow(std::max(0.0, hole.width - empty_rim * diameter), 1.5);
+  return sum;
+}
+
+void warn_of_hopper(const Scene& scene, const Vessel& hopper, Warnings& warnings) {
+  if (!hopper.fill && !hopper.rain) return;
+  if (is_closed(hopper)) {
+    warnings.push_back("hopper.holes: is missing, so no seed leaves the hopper");
+    return;
+  }
+  if (hopper.holes.empty()) return;
+  constexpr double arching = 3, half = 0.5;
+  const double thickness = mean_over_seeds(scene, [](const SeedLot& lot) { return mean_thickness(lot); });
+  const double widest = std::ranges::max_element(hopper.holes, {}, &Hole::width)->width;
+  const double fraction = passed(hopper, thickness) / passed(scene.tray, thickness);
+  if (widest < arching * thickness) {
+    warnings.push_back(fmt::format("hopper.holes.width: {} is {:.2g} seeds of {}; below {:g} arches stop the flow",
+                                   millimetres(widest), widest / thickness, millimetres(thickness), arching));
+  } else if (fraction < half) {
+    warnings.push_back(
+        fmt::format("hopper.holes.width: the hopper cannot follow: its outlet passes some {:.2g} of what the tray's "
+                    "holes can, so it "
+                    "alone decides the rate",
+                    fraction));
+  }
+}
+
+}  // namespace
+
+std::vector<std::string> scene_warnings(const Scene& scene) {
+  Warnings warnings;
+  for (const SeedLot& lot : scene.lots) warn_of_density(lot, warnings);
+  warn_of_narrow_holes(scene.tray, scene.lots, warnings);
+  warn_of_standing_liquid(scene, warnings);
+  warn_of_rain(scene, scene.tray, warnings);
+  if (!scene.hopper) return warnings;
+  warn_of_narrow_holes(*scene.hopper, scene.lots, warnings);
+  warn_of_rain(scene, *scene.hopper, warnings);
+  warn_of_hopper(scene, *scene.hopper, warnings);
+  return warnings;
+}
+
+}  // namespace vibrosow

@@ -1,0 +1,128 @@
+#include "plan/scene_warnings.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+namespace vibrosow {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::StartsWith;
+
+constexpr double diameter = 4e-3;
+
+/// A shaken tray with three holes, and seeds of 1200 kg/m3.
+Scene sound() {
+  Scene scene;
+  SeedLot lot;
+  lot.name = "wheat";
+  lot.diameter = diameter;
+  lot.mass = 1200 * std::numbers::pi / 6 * std::pow(diameter, 3);
+  scene.lots = {lot};
+  scene.contact.seed.friction = scene.contact.wall.friction = 0.3;
+  scene.tray.name = "tray";
+  scene.tray.length = 0.5;
+  scene.tray.height = 0.12;
+  scene.tray.holes = {{0.1, 0.012}, {0.25, 0.012}, {0.4, 0.012}};
+  scene.tray.fill = Fill{500};
+  scene.tray.motion = HarmonicMotion{0, 0.01, 9};
+  scene.run.duration = 10;
+  return scene;
+}
+
+Vessel hopper(double outlet) {
+  Vessel vessel;
+  vessel.name = "hopper";
+  vessel.length = 0.08;
+  vessel.height = 0.15;
+  vessel.holes = {{0.04, outlet}};
+  vessel.fill = Fill{200};
+  return vessel;
+}
+
+TEST(SceneWarnings, ASoundSceneHasNone) {
+  Scene scene = sound();
+  EXPECT_THAT(scene_warnings(scene), IsEmpty());
+  scene.hopper = hopper(0.03);
+  EXPECT_THAT(scene_warnings(scene), IsEmpty());
+  scene.tray.rain = Rain{200, 0, 0.5, 0.12};
+  EXPECT_THAT(scene_warnings(scene), IsEmpty());
+}
+
+TEST(SceneWarnings, DensityThatNoSeedHas) {
+  Scene scene = sound();
+  scene.lots[0].mass *= 10;
+  EXPECT_THAT(scene_warnings(scene), ElementsAre(StartsWith("seeds.wheat.mass: ")));
+  scene.lots[0].mass /= 200;
+  EXPECT_THAT(scene_warnings(scene), ElementsAre(HasSubstr("is a density of 60 kg/m3")));
+  scene.lots[0].shape = Shape::disc;  // has no thickness
+  EXPECT_THAT(scene_warnings(scene), IsEmpty());
+}
+
+TEST(SceneWarnings, HolesNarrowerThanASeed) {
+  Scene scene = sound();
+  scene.tray.holes[1].width = 3.9e-3;
+  EXPECT_THAT(scene_warnings(scene), ElementsAre("tray.holes.width: 3.9 mm is narrower than seeds of wheat, up to 4 mm "
+                                                 "thick, which cannot pass"));
+  scene.lots[0].shape = Shape::clump;  // 4 mm long, 3 mm thick
+  scene.lots[0].discs = {{-0.5e-3, 0, 1.5e-3}, {0.5e-3, 0, 1.5e-3}};
+  EXPECT_THAT(scene_warnings(scene), IsEmpty());
+  scene.lots[0].sizes = {SizeDistribution::Kind::uniform, diameter, 0, 2e-3, 6e-3, {}, {}};
+  EXPECT_THAT(scene_warnings(scene), ElementsAre(HasSubstr("up to 4.5 mm thick")));
+}
+
+TEST(SceneWarnings, NeitherMotionNorFriction) {
+  Scene scene = sound();
+  scene.tray.motion.reset();
+  EXPECT_THAT(scene_warnings(scene), IsEmpty());
+  scene.contact.seed.friction = scene.contact.wall.friction = 0;
+  EXPECT_THAT(scene_warnings(scene), ElementsAre(StartsWith("tray.motion: the tray stands still")));
+  scene.tray.motion = HarmonicMotion{0, 0, 9};
+  EXPECT_THAT(scene_warnings(scene), ElementsAre(StartsWith("tray.motion: ")));
+  scene.contact.overrides = {{0, -1, {0.2}}};
+  EXPECT_THAT(scene_warnings(scene), IsEmpty());
+}
+
+TEST(SceneWarnings, RainThatHasNoRoom) {
+  Scene scene = sound();
+  scene.tray.fill.reset();
+  scene.tray.rain = Rain{10000, 0.2, 0.2, 0.12};
+  EXPECT_THAT(scene_warnings(scene),
+              ElementsAre(StartsWith("tray.rain.rate: 1e+04 seeds/s cannot all come: 1 seeds lie side by side")));
+  scene.tray.rain->rate = 30;
+  EXPECT_THAT(scene_warnings(scene), IsEmpty());
+  scene.tray.rain->rate = 10000;
+  scene.tray.rain->from = 0, scene.tray.rain->to = 0.5;
+  EXPECT_THAT(scene_warnings(scene), ElementsAre(HasSubstr("126 seeds lie side by side")));
+}
+
+TEST(SceneWarnings, MoreRainThanAClosedTrayHolds) {
+  Scene scene = sound();
+  scene.tray.fill.reset();
+  scene.tray.rain = Rain{1000, 0, 0.5, 0.12};
+  EXPECT_THAT(scene_warnings(scene), IsEmpty());
+  scene.tray.holes.clear();
+  EXPECT_THAT(scene_warnings(scene),
+              ElementsAre(StartsWith("tray.rain.rate: 1e+04 seeds are to come, but the tray has no")));
+  scene.tray.rain->stop = 3;
+  EXPECT_THAT(scene_warnings(scene), IsEmpty());
+}
+
+TEST(SceneWarnings, HopperThatCannotFollow) {
+  Scene scene = sound();
+  scene.hopper = hopper(0.011);
+  EXPECT_THAT(scene_warnings(scene), ElementsAre(HasSubstr("below 3 arches stop the flow")));
+  scene.hopper = hopper(0.013);
+  scene.tray.holes.assign(5, {0.1, 0.02});
+  EXPECT_THAT(scene_warnings(scene), ElementsAre(StartsWith("hopper.holes.width: the hopper cannot follow")));
+  scene.hopper->holes.clear();
+  EXPECT_THAT(scene_warnings(scene), ElementsAre("hopper.holes: is missing, so no seed leaves the hopper"));
+}
+
+}  // namespace
+}  // namespace vibrosow
