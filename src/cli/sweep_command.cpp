@@ -35,10 +35,9 @@ void print_table(const StudyResult& result) {
              "seeds per s", "evenness CV %", "misfit %");
   for (std::size_t i = 0; i < result.layouts.size(); ++i) {
     const LayoutResult& of = result.layouts[i];
-    const Figures& figures = of.figures;
     fmt::print("{:>6} {:<36} {:>18} {:>18} {:>18} {:>14} {}\n", i + 1, described(result.study, result.study.layouts[i]),
-               with_interval(figures.mass_rate, 1e3), with_interval(figures.seeds_per_s, 1),
-               with_interval(figures.evenness_cv, 100), with_interval(figures.misfit_percent, 1), of.reason);
+               with_interval(of.figures["rate_g_per_s"], 1e3), with_interval(of.figures["seeds_per_s"], 1),
+               with_interval(of.figures["evenness_cv_percent"], 100), with_interval(of.misfit_percent, 1), of.reason);
   }
   if (!result.comparison) return;
   if (result.study.measured->scale == MeasuredScale::free && result.comparison->scale)

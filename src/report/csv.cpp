@@ -22,33 +22,34 @@ bool needs_quotes(const std::string& field) {
          field.back() == ' ';
 }
 
-std::string line_of(const std::vector<std::string>& fields) {
+std::string line_of(const std::vector<CsvField>& fields) {
   std::string line;
-  for (const std::string& field : fields) {
+  for (const CsvField& field : fields) {
     if (&field != &fields.front()) line += ',';
-    line += needs_quotes(field) ? quoted(field) : field;
+    line += needs_quotes(field.text) ? quoted(field.text) : field.text;
   }
   return line + '\n';
 }
 
 }  // namespace
 
-std::string csv_number(double value) {
-  if (!std::isfinite(value)) return "";
-  return fmt::format("{:.6g}", value == 0 ? 0.0 : value);  // no "-0"
+CsvField csv_number(double value) {
+  if (!std::isfinite(value)) return {};
+  return {fmt::format("{:.6g}", value == 0 ? 0.0 : value), true};  // no "-0"
 }
 
-std::string csv_number(const std::optional<double>& value) {
-  return value ? csv_number(*value) : "";
+CsvField csv_number(const std::optional<double>& value) {
+  return value ? csv_number(*value) : CsvField();
 }
 
-std::string csv_number(std::int64_t value) {
-  return fmt::format("{}", value);
+CsvField csv_number(std::int64_t value) {
+  return {fmt::format("{}", value), true};
 }
 
-CsvTable::CsvTable(const std::vector<std::string>& columns) : columns_(columns.size()), text_(line_of(columns)) {}
+CsvTable::CsvTable(const std::vector<std::string>& columns)
+    : columns_(columns.size()), text_(line_of({columns.begin(), columns.end()})) {}
 
-void CsvTable::add_row(const std::vector<std::string>& fields) {
+void CsvTable::add_row(const std::vector<CsvField>& fields) {
   if (fields.size() != columns_)
     throw std::invalid_argument(fmt::format("{} fields for {} columns", fields.size(), columns_));
   text_ += line_of(fields);

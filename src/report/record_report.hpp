@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "report/columns.hpp"
 #include "report/output_files.hpp"
 #include "result/run.hpp"
 #include "scene/scene.hpp"
@@ -26,5 +27,8 @@ std::string fields_csv(const Scene& scene, const Snapshot& snapshot, const Snaps
 std::string records_csv(const Scene& scene, const std::vector<Snapshot>& snapshots);
 std::string profile_csv(const Scene& scene, const std::vector<Snapshot>& snapshots);
 std::string flow_csv(const Scene& scene, const Run& run);
+
+/// What these files hold.
+std::vector<FileText> record_file_texts();
 
 }  // namespace vibrosow

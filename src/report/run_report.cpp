@@ -6,34 +6,78 @@
 #include <iterator>
 #include <nlohmann/json.hpp>
 
-#include "report/csv.hpp"
+#include "report/columns.hpp"
 #include "report/output_files.hpp"
 #include "report/record_report.hpp"
 #include "scene/describe_scene.hpp"
-#include "units/quantity.hpp"
 
 namespace vibrosow {
 namespace {
 
 using Json = nlohmann::ordered_json;
 
-std::string in_unit(std::optional<double> si_value, std::string_view unit, Dimension dimension) {
-  if (si_value) *si_value /= unit_size(unit, dimension);
-  return csv_number(si_value);
+/// A grain that left.
+struct EventRow {
+  const Scene* scene;
+  const OutflowEvent* event;
+};
+
+Columns<EventRow> outflow_columns() {
+  using R = const EventRow&;
+  return {quantity_column<EventRow>("time_s", seconds, "when its centre crossed the counting line",
+                                    [](R r) { return r.event->time; }),
+          text_column<EventRow>("hole", "number of the hole from the left; spilled: it passed none",
+                                [](R r) { return r.event->hole > 0 ? fmt::format("{}", r.event->hole) : "spilled"; }),
+          text_column<EventRow>("lot", "name of its seeds",
+                                [](R r) { return r.scene->lots.at(static_cast<std::size_t>(r.event->lot)).name; }),
+          text_column<EventRow>("grain", "its number, in order of insertion", [](R r) { return r.event->grain; }),
+          quantity_column<EventRow>("mass_g", grams, "its mass", [](R r) { return r.event->mass; }),
+          quantity_column<EventRow>("x_mm", millimetres,
+                                    "where it passed the floor, from the tray's left end; of a spilled grain where it "
+                                    "was counted",
+                                    [](R r) { return r.event->x; }),
+          quantity_column<EventRow>("speed_m_per_s", metres_per_second, "its speed at the counting line",
+                                    [](R r) { return r.event->speed; })};
 }
 
-std::string millimetres(std::optional<double> length) {
-  return in_unit(length, "mm", Dimension::length);
-}
-std::string grams(double mass) {
-  return in_unit(mass, "g", Dimension::mass);
-}
-std::string grams_per_second(std::optional<double> rate) {
-  return in_unit(rate, "g/s", Dimension::mass_rate);
+struct SummaryRow {
+  const Outflow* outflow;
+  const HoleOutflow* hole;
+};
+
+std::optional<double> tray_rate(const SummaryRow& row) {
+  if (!row.outflow->depth_factor) return std::nullopt;
+  return row.hole->mass_rate * *row.outflow->depth_factor;
 }
 
-Json percent(const std::optional<double>& fraction) {
-  return fraction ? Json(*fraction / unit_size("%", Dimension::fraction)) : Json(nullptr);
+Columns<SummaryRow> summary_columns() {
+  using R = const SummaryRow&;
+  return {text_column<SummaryRow>("hole", "number of the hole from the left, or all", [](R r) { return r.hole->hole; }),
+          text_column<SummaryRow>("lot", "name of the seeds, or all", [](R r) { return r.hole->lot; }),
+          quantity_column<SummaryRow>("position_mm", millimetres, "middle of the hole, from the tray's left end",
+                                      [](R r) { return r.hole->centre; }),
+          quantity_column<SummaryRow>("width_mm", millimetres, "of the hole", [](R r) { return r.hole->width; }),
+          text_column<SummaryRow>("grains", "that left in the window, of the plane slice",
+                                  [](R r) { return r.hole->grains; }),
+          quantity_column<SummaryRow>("mass_g", grams, "that left in the window, of the plane slice",
+                                      [](R r) { return r.hole->mass; }),
+          quantity_column<SummaryRow>("seeds_per_s", per_second, "of the plane slice",
+                                      [](R r) { return r.hole->seeds_per_s; }),
+          quantity_column<SummaryRow>("rate_g_per_s", grams_per_second, "of the plane slice",
+                                      [](R r) { return r.hole->mass_rate; }),
+          quantity_column<SummaryRow>("longest_pause_s", seconds, "longest time in the window without a seed",
+                                      [](R r) { return r.hole->longest_pause; }),
+          quantity_column<SummaryRow>("depth_factor", plain,
+                                      "tray.depth over the thickness of the plane slice; empty without tray.depth",
+                                      [](R r) { return r.outflow->depth_factor; }),
+          quantity_column<SummaryRow>("tray_rate_g_per_s", grams_per_second,
+                                      "of the whole tray: the slice's rate times the depth factor", tray_rate),
+          text_column<SummaryRow>("note", "what to know about the run; empty when all is well",
+                                  [](R r) { return r.outflow->note; })};
+}
+
+Json in_percent(const std::optional<double>& fraction) {
+  return fraction ? Json(*fraction / percent.size) : Json(nullptr);
 }
 
 std::string_view name_of(RunStatus status) {
@@ -68,11 +112,11 @@ Json balance_json(const Balance& balance) {
 
 Json outflow_json(const Outflow& outflow) {
   return {{"window_s", {outflow.window_from, outflow.window_to}},
-          {"evenness_cv_percent", percent(outflow.evenness_cv)},
-          {"counting_cv_percent", percent(outflow.counting_cv)},
-          {"instability_cv_percent", percent(outflow.instability_cv)},
+          {"evenness_cv_percent", in_percent(outflow.evenness_cv)},
+          {"counting_cv_percent", in_percent(outflow.counting_cv)},
+          {"instability_cv_percent", in_percent(outflow.instability_cv)},
           {"instability_windows", instability_windows},
-          {"spilled_percent", percent(outflow.spilled_fraction)},
+          {"spilled_percent", in_percent(outflow.spilled_fraction)},
           {"depth_factor", outflow.depth_factor ? Json(*outflow.depth_factor) : Json(nullptr)},
           {"note", outflow.note}};
 }
@@ -84,26 +128,15 @@ std::string text_of(const Json& json) {
 }  // namespace
 
 std::string outflow_csv(const Scene& scene, const Run& run) {
-  CsvTable table({"time_s", "hole", "lot", "grain", "mass_g", "x_mm", "speed_m_per_s"});
-  for (const OutflowEvent& event : run.events)
-    table.add_row({csv_number(event.time), event.hole > 0 ? fmt::format("{}", event.hole) : "spilled",
-                   scene.lots.at(static_cast<std::size_t>(event.lot)).name, csv_number(event.grain), grams(event.mass),
-                   millimetres(event.x), csv_number(event.speed)});
-  return table.text();
+  Csv<EventRow> csv(outflow_columns());
+  for (const OutflowEvent& event : run.events) csv.add({&scene, &event});
+  return csv.text();
 }
 
 std::string summary_csv(const Outflow& outflow) {
-  CsvTable table({"hole", "lot", "position_mm", "width_mm", "grains", "mass_g", "seeds_per_s", "rate_g_per_s",
-                  "longest_pause_s", "depth_factor", "tray_rate_g_per_s", "note"});
-  for (const HoleOutflow& row : outflow.holes) {
-    std::optional<double> tray_rate;
-    if (outflow.depth_factor) tray_rate = row.mass_rate * *outflow.depth_factor;
-    table.add_row({row.hole, row.lot, millimetres(row.centre), millimetres(row.width), csv_number(row.grains),
-                   grams(row.mass), csv_number(row.seeds_per_s), grams_per_second(row.mass_rate),
-                   csv_number(row.longest_pause), csv_number(outflow.depth_factor), grams_per_second(tray_rate),
-                   outflow.note});
-  }
-  return table.text();
+  Csv<SummaryRow> csv(summary_columns());
+  for (const HoleOutflow& hole : outflow.holes) csv.add({&outflow, &hole});
+  return csv.text();
 }
 
 std::string run_json(const Scene& scene, const Run& run, const Outflow& outflow,
