@@ -22,6 +22,7 @@ int main(int argument_count, char** arguments) {
   add_accuracy_command(app, exit_code);
   add_check_command(app, exit_code);
   add_presets_command(app, exit_code);
+  add_columns_command(app, exit_code);
   try {
     app.parse(argument_count, arguments);  // runs the chosen command
     if (std::fflush(stdout) != 0) throw std::system_error(errno, std::generic_category(), "standard output");

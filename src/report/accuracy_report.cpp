@@ -2,9 +2,8 @@
 
 #include <fmt/format.h>
 
-#include <nlohmann/json.hpp>
-
 #include "report/columns.hpp"
+#include "report/json_keys.hpp"
 #include "report/output_files.hpp"
 #include "scene/integrator_names.hpp"
 
@@ -84,6 +83,22 @@ Columns<AccuracyRow> timing_columns(double reference) {
   return columns;
 }
 
+struct AccuracyTiming {
+  double wall_time;  // s, from beginning to end
+  int jobs;
+  double run_time = 0, grain_steps = 0;
+};
+
+JsonKeys<AccuracyTiming> timing_keys() {
+  using T = const AccuracyTiming&;
+  return {{"wall_s", "s", "wall time of the command", [](T t) { return t.wall_time; }},
+          {"jobs", "", "runs side by side", [](T t) { return t.jobs; }},
+          {"run_wall_s", "s", "wall times of the runs, summed", [](T t) { return t.run_time; }},
+          {"grain_steps", "", "grains times steps, summed", [](T t) { return t.grain_steps; }},
+          {"grain_steps_per_s", "1/s", "these in a second of the command's wall time",
+           [](T t) { return t.wall_time > 0 ? t.grain_steps / t.wall_time : 0; }}};
+}
+
 /// "-0.4 +- 1.6 %".
 std::string error_text(const AccuracyRow& row) {
   const std::string error = fmt::format("{:+.2f}", *row.error_percent);
@@ -160,22 +175,23 @@ std::string accuracy_sentence(const AccuracyResult& result) {
   return fmt::format("{} {}", text, unresolved_text(result.rows[*recommended.unresolved], recommended.replicates));
 }
 
+std::vector<FileText> accuracy_file_texts() {
+  return {
+      file_text("accuracy.csv", "one row per setting; one that gave no rate has its cells empty", accuracy_columns()),
+      file_text("accuracy_timing.csv", "one row per setting: what it took on this machine", timing_columns(0)),
+      file_text("timing.json", "what the command took on this machine", timing_keys())};
+}
+
 void write_accuracy_report(const std::filesystem::path& directory, const AccuracyResult& result, double wall_time,
                            int jobs) {
-  nlohmann::ordered_json timing;
-  timing["wall_s"] = wall_time;
-  timing["jobs"] = jobs;
-  double grain_steps = 0, run_time = 0;
+  AccuracyTiming timing{wall_time, jobs};
   for (const AccuracyRow& row : result.rows) {
-    grain_steps += row.grain_steps * row.replicates;
-    run_time += row.wall_time * row.replicates;
+    timing.grain_steps += row.grain_steps * row.replicates;
+    timing.run_time += row.wall_time * row.replicates;
   }
-  timing["run_wall_s"] = run_time;
-  timing["grain_steps"] = grain_steps;
-  timing["grain_steps_per_s"] = wall_time > 0 ? grain_steps / wall_time : 0;
   write_files_atomically(directory, {{"accuracy.csv", accuracy_csv(result)},
                                      {"accuracy_timing.csv", accuracy_timing_csv(result)},
-                                     {"timing.json", timing.dump(2) + "\n"}});
+                                     {"timing.json", json_of(timing_keys(), timing)}});
 }
 
 }  // namespace vibrosow

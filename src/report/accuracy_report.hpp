@@ -4,6 +4,7 @@
 #include <string>
 
 #include "design/accuracy.hpp"
+#include "report/columns.hpp"
 
 namespace vibrosow {
 
@@ -19,6 +20,9 @@ std::string accuracy_table(const AccuracyResult& result);
 /// What 1 % of outflow costs: the cheapest setting whose |error| and interval together make up at most 1 %, and the
 /// cheaper one, if any, of which the replicates do not tell.
 std::string accuracy_sentence(const AccuracyResult& result);
+
+/// What the files of the command hold.
+std::vector<FileText> accuracy_file_texts();
 
 /// Writes accuracy.csv, accuracy_timing.csv and timing.json into `directory`, all or none. Throws InputError where that
 /// fails.

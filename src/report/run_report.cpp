@@ -4,9 +4,9 @@
 
 #include <algorithm>
 #include <iterator>
-#include <nlohmann/json.hpp>
 
 #include "report/columns.hpp"
+#include "report/json_keys.hpp"
 #include "report/output_files.hpp"
 #include "report/record_report.hpp"
 #include "scene/describe_scene.hpp"
@@ -92,37 +92,80 @@ std::string_view name_of(RunStatus status) {
   return "";
 }
 
-Json energy_json(const EnergyAccount& energy) {
-  return {{"kinetic", energy.kinetic},
-          {"potential", energy.potential},
-          {"elastic", energy.elastic},
-          {"wall_work", energy.wall_work},
-          {"inserted", energy.inserted},
-          {"removed", energy.removed},
-          {"made_by_numerics", energy.made_by_numerics}};
+/// What run.json is made from.
+struct RunSource {
+  const Scene& scene;
+  const Run& run;
+  const Outflow& outflow;
+  const std::vector<std::string>& effects;
+};
+
+JsonKeys<RunSource> run_keys() {
+  using S = const RunSource&;
+  return {
+      {"title", "", "of the seeder file", [](S s) { return s.scene.title; }},
+      {"status", "", "finished, stopped by the guard or interrupted", [](S s) { return name_of(s.run.status); }},
+      {"stop_reason", "", "why the guard stopped it", [](S s) { return s.run.stop_reason; }},
+      {"warnings", "", "of the guard", [](S s) { return s.run.warnings; }},
+      {"outside_the_model", "", "whether the run is beyond what the model is for",
+       [](S s) { return s.run.outside_the_model; }},
+      {"random_seed", "", "of the run", [](S s) { return s.run.random_seed; }},
+      {"dt_s", "s", "time step", [](S s) { return s.run.dt; }},
+      {"steps", "", "time steps taken", [](S s) { return s.run.steps; }},
+      {"end_time_s", "s", "simulated time at the end", [](S s) { return s.run.end_time; }},
+      {"end_reason", "", "why a sound run ended before its duration", [](S s) { return s.run.end_reason; }},
+      {"grain_steps", "", "grains times steps", [](S s) { return s.run.grain_steps; }},
+      {"force_evaluations", "", "how often the forces between grains were worked out",
+       [](S s) { return s.run.force_evaluations; }},
+      {"effects", "", "effects that the scene calls for", [](S s) { return s.effects; }},
+      {"max_compression", "", "largest shell compression, of the grain's radius",
+       [](S s) { return s.run.max_compression; }},
+      {"energy_J.kinetic", "J", "at the end", [](S s) { return s.run.energy.kinetic; }},
+      {"energy_J.potential", "J", "at the end, from the tray's floor", [](S s) { return s.run.energy.potential; }},
+      {"energy_J.elastic", "J", "in the contacts at the end", [](S s) { return s.run.energy.elastic; }},
+      {"energy_J.wall_work", "J", "done by walls on grains", [](S s) { return s.run.energy.wall_work; }},
+      {"energy_J.inserted", "J", "carried by grains put in", [](S s) { return s.run.energy.inserted; }},
+      {"energy_J.removed", "J", "carried by grains taken out", [](S s) { return s.run.energy.removed; }},
+      {"energy_J.made_by_numerics", "J", "largest rise of what must only fall",
+       [](S s) { return s.run.energy.made_by_numerics; }},
+      {"balance.put_in", "", "seeds put in: inside + counted + spilled + lost",
+       [](S s) { return s.run.balance.put_in; }},
+      {"balance.inside", "", "seeds still inside at the end", [](S s) { return s.run.balance.inside; }},
+      {"balance.counted", "", "seeds that left through holes, in the whole run",
+       [](S s) { return s.run.balance.counted; }},
+      {"balance.spilled", "", "seeds that left over the rim", [](S s) { return s.run.balance.spilled; }},
+      {"balance.lost", "", "seeds that went through a wall: an error", [](S s) { return s.run.balance.lost; }},
+      {"outflow.window_s", "s", "begin and end of the measuring window",
+       [](S s) {
+         return Json{s.outflow.window_from, s.outflow.window_to};
+       }},
+      {"outflow.evenness_cv_percent", "%", "as in sweep.csv", [](S s) { return in_percent(s.outflow.evenness_cv); }},
+      {"outflow.counting_cv_percent", "%", "coefficient of variation that counting alone would give",
+       [](S s) { return in_percent(s.outflow.counting_cv); }},
+      {"outflow.instability_cv_percent", "%", "as in sweep.csv",
+       [](S s) { return in_percent(s.outflow.instability_cv); }},
+      {"outflow.instability_windows", "", "parts of the window for that", [](S) { return instability_windows; }},
+      {"outflow.spilled_percent", "%", "as in sweep.csv", [](S s) { return in_percent(s.outflow.spilled_fraction); }},
+      {"outflow.depth_factor", "", "as in summary.csv",
+       [](S s) { return s.outflow.depth_factor ? Json(*s.outflow.depth_factor) : Json(nullptr); }},
+      {"outflow.note", "", "as in summary.csv", [](S s) { return s.outflow.note; }},
+      {"versions.vibrosow", "", "of the program", [](S) { return VIBROSOW_VERSION; }},
+      {"versions.box2d", "", "of Box2D", [](S) { return VIBROSOW_BOX2D_VERSION; }},
+      {"scene", "SI", "the whole scene as it was run", [](S s) { return describe_scene(s.scene); }}};
 }
 
-Json balance_json(const Balance& balance) {
-  return {{"put_in", balance.put_in},
-          {"inside", balance.inside},
-          {"counted", balance.counted},
-          {"spilled", balance.spilled},
-          {"lost", balance.lost}};
-}
-
-Json outflow_json(const Outflow& outflow) {
-  return {{"window_s", {outflow.window_from, outflow.window_to}},
-          {"evenness_cv_percent", in_percent(outflow.evenness_cv)},
-          {"counting_cv_percent", in_percent(outflow.counting_cv)},
-          {"instability_cv_percent", in_percent(outflow.instability_cv)},
-          {"instability_windows", instability_windows},
-          {"spilled_percent", in_percent(outflow.spilled_fraction)},
-          {"depth_factor", outflow.depth_factor ? Json(*outflow.depth_factor) : Json(nullptr)},
-          {"note", outflow.note}};
-}
-
-std::string text_of(const Json& json) {
-  return json.dump(2) + '\n';
+JsonKeys<Run> timing_keys(bool phases) {
+  using R = const Run&;
+  JsonKeys<Run> keys = {
+      {"wall_s", "s", "wall time of the run", [](R r) { return r.wall_time; }},
+      {"measured_wall_s", "s", "that part of it that went into the measuring window",
+       [](R r) { return r.measured_wall_time; }},
+      {"grain_steps_per_s", "1/s", "grains times steps in a second of wall time",
+       [](R r) { return r.wall_time > 0 ? Json(static_cast<double>(r.grain_steps) / r.wall_time) : Json(nullptr); }}};
+  for (std::size_t k = 0; phases && k < phase_names.size(); ++k)
+    keys.push_back({fmt::format("fractions.{}", phase_names[k]), "", "its part of the wall time; with --profile",
+                    [k](R r) { return (*r.phase_times)[k] / r.wall_time; }});
+  return keys;
 }
 
 }  // namespace
@@ -141,36 +184,24 @@ std::string summary_csv(const Outflow& outflow) {
 
 std::string run_json(const Scene& scene, const Run& run, const Outflow& outflow,
                      const std::vector<std::string>& effects) {
-  const Json json = {{"title", scene.title},
-                     {"status", name_of(run.status)},
-                     {"stop_reason", run.stop_reason},
-                     {"warnings", run.warnings},
-                     {"outside_the_model", run.outside_the_model},
-                     {"random_seed", run.random_seed},
-                     {"dt_s", run.dt},
-                     {"steps", run.steps},
-                     {"end_time_s", run.end_time},
-                     {"end_reason", run.end_reason},
-                     {"grain_steps", run.grain_steps},
-                     {"force_evaluations", run.force_evaluations},
-                     {"effects", effects},
-                     {"max_compression", run.max_compression},
-                     {"energy_J", energy_json(run.energy)},
-                     {"balance", balance_json(run.balance)},
-                     {"outflow", outflow_json(outflow)},
-                     {"versions", {{"vibrosow", VIBROSOW_VERSION}, {"box2d", VIBROSOW_BOX2D_VERSION}}},
-                     {"scene", describe_scene(scene)}};
-  return text_of(json);
+  return json_of(run_keys(), RunSource{scene, run, outflow, effects});
 }
 
 std::string timing_json(const Run& run) {
-  Json json = {{"wall_s", run.wall_time}, {"measured_wall_s", run.measured_wall_time}, {"grain_steps_per_s", nullptr}};
-  if (run.wall_time <= 0) return text_of(json);
-  json["grain_steps_per_s"] = static_cast<double>(run.grain_steps) / run.wall_time;
-  if (run.phase_times)
-    for (std::size_t k = 0; k < phase_names.size(); ++k)
-      json["fractions"][std::string(phase_names[k])] = (*run.phase_times)[k] / run.wall_time;
-  return text_of(json);
+  return json_of(timing_keys(run.phase_times && run.wall_time > 0), run);
+}
+
+std::vector<FileText> run_file_texts() {
+  std::vector<FileText> texts = {
+      file_text("outflow.csv", "one row per seed that left, by time", outflow_columns()),
+      file_text(
+          "summary.csv",
+          "one row per hole and lot, per hole one of all lots where there are several, then the same of all holes",
+          summary_columns()),
+      file_text("run.json", "what the run was and how it went", run_keys()),
+      file_text("timing.json", "what the run took on this machine", timing_keys(true))};
+  std::ranges::move(record_file_texts(), std::back_inserter(texts));
+  return texts;
 }
 
 void write_run_report(const std::filesystem::path& directory, const Scene& scene, const Run& run,

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "outflow/outflow.hpp"
+#include "report/columns.hpp"
 #include "result/run.hpp"
 #include "scene/scene.hpp"
 
@@ -24,6 +25,9 @@ std::string run_json(const Scene& scene, const Run& run, const Outflow& outflow,
 
 /// What the run took on this machine.
 std::string timing_json(const Run& run);
+
+/// What the files of a run hold.
+std::vector<FileText> run_file_texts();
 
 /// Writes outflow.csv, summary.csv, run.json, timing.json and the files of a record into `directory`, all or none.
 /// Throws InputError where that fails.

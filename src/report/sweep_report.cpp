@@ -4,10 +4,10 @@
 
 #include <algorithm>
 #include <limits>
-#include <nlohmann/json.hpp>
 
 #include "input/key_units.hpp"
 #include "report/columns.hpp"
+#include "report/json_keys.hpp"
 #include "report/output_files.hpp"
 
 namespace vibrosow {
@@ -92,10 +92,12 @@ Columns<LayoutRow> sweep_columns(const std::vector<std::string>& keys) {
   columns.push_back(text_column<LayoutRow>("reason", "why it is not ok; of ok, what to know about its runs",
                                            [](R r) { return r.of().reason; }));
   for (const std::string& key : keys)
-    columns.push_back({{condition_column(key), "", "value of this key of the seeder file"}, [key](R r) {
-                         const auto value = r.layout().values.find(key);
-                         return csv_field(value == r.layout().values.end() ? "" : value->second);
-                       }});
+    columns.push_back(
+        {{condition_column(key), "", "value of this key of the seeder file, in the unit that its column names"},
+         [key](R r) {
+           const auto value = r.layout().values.find(key);
+           return csv_field(value == r.layout().values.end() ? "" : value->second);
+         }});
   columns.push_back(replicates_column<LayoutRow>());
   add_figure_columns(
       columns, [](R r) -> const auto& { return r.of().figures; });
@@ -260,6 +262,27 @@ Columns<MeasuredRow> comparison_columns() {
   return columns;
 }
 
+/// What the sweep took, summed over its runs.
+struct SweepTiming {
+  double wall_time;  // s, from beginning to end
+  int jobs;
+  int runs = 0;
+  double run_time = 0, grain_steps = 0;
+};
+
+JsonKeys<SweepTiming> timing_keys() {
+  using T = const SweepTiming&;
+  return {{"wall_s", "s", "wall time of the sweep", [](T t) { return t.wall_time; }},
+          {"jobs", "", "runs side by side", [](T t) { return t.jobs; }},
+          {"runs", "", "runs that were begun", [](T t) { return t.runs; }},
+          {"run_wall_s", "s", "wall times of the runs, summed", [](T t) { return t.run_time; }},
+          {"grain_steps", "", "grains times steps, summed", [](T t) { return t.grain_steps; }},
+          {"grain_steps_per_s", "1/s", "these in a second of the sweep's wall time",
+           [](T t) { return t.wall_time > 0 ? t.grain_steps / t.wall_time : 0; }},
+          {"grain_steps_per_s_of_a_run", "1/s", "these in a second of a run's wall time",
+           [](T t) { return t.run_time > 0 ? t.grain_steps / t.run_time : 0; }}};
+}
+
 }  // namespace
 
 std::string sweep_csv(const StudyResult& result) {
@@ -302,24 +325,30 @@ std::string comparison_csv(const StudyResult& result) {
 }
 
 std::string sweep_timing_json(const StudyResult& result, double wall_time, int jobs) {
-  double grain_steps = 0, run_time = 0;
-  int runs = 0;
+  SweepTiming timing{wall_time, jobs};
   for (const auto& replicates : result.runs)
     for (const Evaluation& run : replicates) {
       if (!run.was_run()) continue;
-      ++runs;
-      grain_steps += static_cast<double>(run.grain_steps);
-      run_time += run.wall_time;
+      ++timing.runs;
+      timing.grain_steps += static_cast<double>(run.grain_steps);
+      timing.run_time += run.wall_time;
     }
-  nlohmann::ordered_json timing;
-  timing["wall_s"] = wall_time;
-  timing["jobs"] = jobs;
-  timing["runs"] = runs;
-  timing["run_wall_s"] = run_time;
-  timing["grain_steps"] = grain_steps;
-  timing["grain_steps_per_s"] = wall_time > 0 ? grain_steps / wall_time : 0;
-  timing["grain_steps_per_s_of_a_run"] = run_time > 0 ? grain_steps / run_time : 0;
-  return timing.dump(2) + "\n";
+  return json_of(timing_keys(), timing);
+}
+
+std::vector<FileText> sweep_file_texts() {
+  return {file_text("sweep.csv", "one row per layout", sweep_columns({"KEY"})),
+          file_text("sweep_holes.csv",
+                    "one row per layout, hole and lot, per hole one of all lots where there are several, then the same "
+                    "of all holes",
+                    sweep_holes_columns()),
+          file_text("sweep_runs.csv", "one row per layout and random seed", sweep_runs_columns()),
+          file_text("timing.json", "what the sweep took on this machine", timing_keys()),
+          file_text("sweep_records.csv",
+                    "of a study whose seeder has a record: one row per layout, snapshot and lot, and one of all lots",
+                    sweep_records_columns()),
+          file_text("comparison.csv", "of a study with measured outflow: one row per layout and measured value",
+                    comparison_columns())};
 }
 
 void write_sweep_report(const std::filesystem::path& directory, const StudyResult& result, double wall_time, int jobs) {

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "design/sweep.hpp"
+#include "report/columns.hpp"
 
 namespace vibrosow {
 
@@ -25,6 +26,9 @@ std::string comparison_csv(const StudyResult& result);
 
 /// What the sweep took on this machine. `wall_time`: s, from beginning to end.
 std::string sweep_timing_json(const StudyResult& result, double wall_time, int jobs);
+
+/// What the files of a sweep hold; the keys that a study varies stand as one column KEY.
+std::vector<FileText> sweep_file_texts();
 
 /// Writes sweep.csv, sweep_holes.csv, sweep_runs.csv, timing.json, with a record sweep_records.csv and, with
 /// measured outflow, comparison.csv into `directory`, all or none. Throws InputError where that fails.
