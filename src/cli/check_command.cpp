@@ -5,6 +5,7 @@
 
 #include "cli/commands.hpp"
 #include "cli/common_options.hpp"
+#include "cli/console.hpp"
 #include "design/study.hpp"
 #include "input/key_units.hpp"
 #include "input/measured.hpp"
@@ -33,54 +34,53 @@ double predicted_grain_steps(const Scene& scene, const StepPlan& plan) {
 }
 
 void print_effects(const Scene& scene, const std::vector<EffectCost>& costs) {
-  fmt::print("effects\n");
+  print("effects\n");
   for (const EffectReason& effect : explain_effects(scene))
-    fmt::print("  {:<3} {:<17} {}\n", effect.present ? "yes" : "no", effect.effect, effect.reason);
-  fmt::print("cost on this machine, now\n");
+    print("  {:<3} {:<17} {}\n", effect.present ? "yes" : "no", effect.effect, effect.reason);
+  print("cost on this machine, now\n");
   for (const EffectCost& cost : costs)  // a difference of two timings can fall below zero
-    fmt::print("  {:<22} {:8.1f} ns per grain-step\n", cost.effect, std::max(0.0, cost.ns_per_grain_step));
+    print("  {:<22} {:8.1f} ns per grain-step\n", cost.effect, std::max(0.0, cost.ns_per_grain_step));
 }
 
 void print_step(const Scene& scene, const StepPlan& plan, double ns_per_grain_step) {
-  fmt::print("step\n  dt {:.4g} s, shortest contact {:.4g} s: {:.3g} steps a contact\n", plan.dt, plan.contact_duration,
-             plan.contact_duration / plan.dt);
-  for (const StepLimit& limit : plan.limits) fmt::print("  at most {:.4g} s: {}\n", limit.dt, limit.reason);
-  fmt::print("  longest safe step {:.4g} s ({})\n", plan.longest_safe, plan.bound_by);
+  print("step\n  dt {:.4g} s, shortest contact {:.4g} s: {:.3g} steps a contact\n", plan.dt, plan.contact_duration,
+        plan.contact_duration / plan.dt);
+  for (const StepLimit& limit : plan.limits) print("  at most {:.4g} s: {}\n", limit.dt, limit.reason);
+  print("  longest safe step {:.4g} s ({})\n", plan.longest_safe, plan.bound_by);
   const double grain_steps = predicted_grain_steps(scene, plan);
-  fmt::print("  {} steps, about {:.3g} grain-steps: some {:.2g} s of one core\n", plan.steps, grain_steps,
-             1e-9 * ns_per_grain_step * grain_steps);
+  print("  {} steps, about {:.3g} grain-steps: some {:.2g} s of one core\n", plan.steps, grain_steps,
+        1e-9 * ns_per_grain_step * grain_steps);
 }
 
 void print_compression(const Scene& scene) {
   const PredictedCompression predicted = predict_compression(scene);
-  fmt::print("compression predicted, d/r\n  at rest {:.3g} under {:.3g} layers (overlap of the lowest pair {:.3g} r)\n",
-             predicted.static_compression, predicted.layers, predicted.static_overlap);
-  fmt::print("  at impact {:.3g} at {:.3g} m/s\n", predicted.impact_compression, predicted.impact_speed);
+  print("compression predicted, d/r\n  at rest {:.3g} under {:.3g} layers (overlap of the lowest pair {:.3g} r)\n",
+        predicted.static_compression, predicted.layers, predicted.static_overlap);
+  print("  at impact {:.3g} at {:.3g} m/s\n", predicted.impact_compression, predicted.impact_speed);
   const double warn = scene.guard.warn_compression;
   if (predicted.static_compression <= warn && predicted.impact_compression <= warn) return;
-  fmt::print("  warning: beyond guard.warn_compression = {:g}: {}\n", warn,
-             scene.contact.law == Law::elastic_shell
-                 ? fmt::format("a shell is thin; contact.shell_compression = {:.2g} would do", predicted.stiff_enough)
-                 : "Hertz' law is for small overlaps; a larger contact.youngs_modulus is stiffer");
+  print("  warning: beyond guard.warn_compression = {:g}: {}\n", warn,
+        scene.contact.law == Law::elastic_shell
+            ? fmt::format("a shell is thin; contact.shell_compression = {:.2g} would do", predicted.stiff_enough)
+            : "Hertz' law is for small overlaps; a larger contact.youngs_modulus is stiffer");
 }
 
 void print_vessel(const Vessel& vessel) {
-  fmt::print("{}\n  floor from ({:.1f}, {:.1f}) mm, {:.1f} mm long, end walls {:.1f} mm, {} seeds\n", vessel.name,
-             vessel.origin.x() * 1e3, vessel.origin.y() * 1e3, vessel.length * 1e3, vessel.height * 1e3,
-             vessel.fill ? vessel.fill->count : 0);
+  print("{}\n  floor from ({:.1f}, {:.1f}) mm, {:.1f} mm long, end walls {:.1f} mm, {} seeds\n", vessel.name,
+        vessel.origin.x() * 1e3, vessel.origin.y() * 1e3, vessel.length * 1e3, vessel.height * 1e3,
+        vessel.fill ? vessel.fill->count : 0);
   for (std::size_t i = 0; i < vessel.holes.size(); ++i)
-    fmt::print("  hole {} at {:.2f} mm, {:.2f} mm wide{}\n", i + 1, vessel.holes[i].centre * 1e3,
-               vessel.holes[i].width * 1e3,
-               vessel.holes[i].open_at > 0 ? fmt::format(", opens at {:.6g} s", vessel.holes[i].open_at) : "");
+    print("  hole {} at {:.2f} mm, {:.2f} mm wide{}\n", i + 1, vessel.holes[i].centre * 1e3,
+          vessel.holes[i].width * 1e3,
+          vessel.holes[i].open_at > 0 ? fmt::format(", opens at {:.6g} s", vessel.holes[i].open_at) : "");
   if (vessel.rain)
-    fmt::print("  rain of {:.6g} seeds/s from {:.1f} mm above its floor\n", vessel.rain->rate,
-               vessel.rain->height * 1e3);
+    print("  rain of {:.6g} seeds/s from {:.1f} mm above its floor\n", vessel.rain->rate, vessel.rain->height * 1e3);
 }
 
 int check_seeder(const CommonOptions& options) {
   const Scene scene = read_scene(options.file, options.overrides());
   const StepPlan plan = plan_step(scene);
-  fmt::print("{}\n", scene.title);
+  print("{}\n", scene.title);
   print_vessel(scene.tray);
   if (scene.hopper) print_vessel(*scene.hopper);
   const std::vector<EffectCost> costs = effect_costs(scene);
@@ -88,8 +88,7 @@ int check_seeder(const CommonOptions& options) {
   print_step(scene, plan, costs.front().ns_per_grain_step);
   print_compression(scene);
   if (const auto refused = step_refused(scene, plan)) throw InputError(*refused);
-  if (plan.too_long)
-    fmt::print("the step is too long and insisted on: every result will be marked \"outside the model\"\n");
+  if (plan.too_long) print("the step is too long and insisted on: every result will be marked \"outside the model\"\n");
   return exit_done;
 }
 
@@ -104,14 +103,14 @@ int check_study(const CommonOptions& options) {
   const Study study = read_study(options.file, options.overrides());
   double grain_steps = 0;
   for (const Scene& scene : study.scenes) grain_steps += predicted_grain_steps(scene, plan_step(scene));
-  fmt::print("{}\n{} layouts, {} different scenes, {} runs of each, about {:.3g} grain-steps in all\n", study.title,
-             study.layouts.size(), study.scenes.size(), study.replicates, grain_steps * study.replicates);
+  print("{}\n{} layouts, {} different scenes, {} runs of each, about {:.3g} grain-steps in all\n", study.title,
+        study.layouts.size(), study.scenes.size(), study.replicates, grain_steps * study.replicates);
   for (const Layout& layout : study.layouts)
-    if (!layout.scene) fmt::print("layout {} {}: invalid: {}\n", layout.number, layout.name, layout.invalid);
+    if (!layout.scene) print("layout {} {}: invalid: {}\n", layout.number, layout.name, layout.invalid);
   if (study.measured)
-    fmt::print("measured: {}, {} series, {} matched to layouts\n", study.measured->file.string(),
-               study.measured->table.series.size(), study.measured->matches.size());
-  fmt::print("header of a table of measured outflow:\n{}\n", measured_header(study));
+    print("measured: {}, {} series, {} matched to layouts\n", study.measured->file.string(),
+          study.measured->table.series.size(), study.measured->matches.size());
+  print("header of a table of measured outflow:\n{}\n", measured_header(study));
   return exit_done;
 }
 

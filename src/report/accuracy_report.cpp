@@ -4,7 +4,6 @@
 
 #include "report/columns.hpp"
 #include "report/json_keys.hpp"
-#include "report/output_files.hpp"
 #include "scene/integrator_names.hpp"
 
 namespace vibrosow {
@@ -125,12 +124,12 @@ std::string unresolved_text(const AccuracyRow& row, const std::optional<int>& re
 
 }  // namespace
 
-std::string accuracy_csv(const AccuracyResult& result) {
-  return csv_of(accuracy_columns(), result.rows);
+std::string accuracy_csv(const AccuracyResult& result, CsvFormat format) {
+  return csv_of(accuracy_columns(), result.rows, format);
 }
 
-std::string accuracy_timing_csv(const AccuracyResult& result) {
-  return csv_of(timing_columns(result.rows[result.reference].wall_time), result.rows);
+std::string accuracy_timing_csv(const AccuracyResult& result, CsvFormat format) {
+  return csv_of(timing_columns(result.rows[result.reference].wall_time), result.rows, format);
 }
 
 std::string accuracy_table(const AccuracyResult& result) {
@@ -182,16 +181,15 @@ std::vector<FileText> accuracy_file_texts() {
       file_text("timing.json", "what the command took on this machine", timing_keys())};
 }
 
-void write_accuracy_report(const std::filesystem::path& directory, const AccuracyResult& result, double wall_time,
-                           int jobs) {
+std::vector<OutputFile> accuracy_files(const AccuracyResult& result, double wall_time, int jobs, CsvFormat format) {
   AccuracyTiming timing{wall_time, jobs};
   for (const AccuracyRow& row : result.rows) {
     timing.grain_steps += row.grain_steps * row.replicates;
     timing.run_time += row.wall_time * row.replicates;
   }
-  write_files_atomically(directory, {{"accuracy.csv", accuracy_csv(result)},
-                                     {"accuracy_timing.csv", accuracy_timing_csv(result)},
-                                     {"timing.json", json_of(timing_keys(), timing)}});
+  return {{"accuracy.csv", accuracy_csv(result, format)},
+          {"accuracy_timing.csv", accuracy_timing_csv(result, format)},
+          {"timing.json", json_of(timing_keys(), timing)}};
 }
 
 }  // namespace vibrosow

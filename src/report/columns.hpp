@@ -91,7 +91,8 @@ void append(Columns<Row>& columns, Columns<Row> more) {
 template <class Row>
 class Csv {
  public:
-  explicit Csv(Columns<Row> columns) : columns_(std::move(columns)), table_(names_of(columns_)) {}
+  explicit Csv(Columns<Row> columns, CsvFormat format = {})
+      : columns_(std::move(columns)), table_(names_of(columns_), format) {}
   void add(const Row& row) {
     std::vector<CsvField> fields;
     fields.reserve(columns_.size());
@@ -112,8 +113,8 @@ class Csv {
 
 /// A CSV file of these rows.
 template <class Row>
-std::string csv_of(Columns<Row> columns, const std::vector<Row>& rows) {
-  Csv<Row> csv(std::move(columns));
+std::string csv_of(Columns<Row> columns, const std::vector<Row>& rows, CsvFormat format = {}) {
+  Csv<Row> csv(std::move(columns), format);
   for (const Row& row : rows) csv.add(row);
   return csv.text();
 }

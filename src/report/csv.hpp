@@ -31,16 +31,29 @@ inline CsvField csv_field(std::integral auto number) {
   return {std::to_string(number), true};
 }
 
-/// Comma-separated text (RFC 4180, line ends \n): a header, then rows. Fields are quoted where they need it.
+/// A text that is a number where it reads as one.
+CsvField csv_text_or_number(std::string text);
+
+/// How a CSV file is written: as programs read it, or as spreadsheets of countries with a decimal comma do.
+struct CsvFormat {
+  char separator = ',';
+  char decimal = '.';
+};
+inline constexpr CsvFormat semicolon_csv{';', ','};
+
+/// Separated text (RFC 4180, line ends \n): a header, then rows. Fields are quoted where they need it.
 class CsvTable {
  public:
-  explicit CsvTable(const std::vector<std::string>& columns);
+  explicit CsvTable(const std::vector<std::string>& columns, CsvFormat format = {});
   /// Throws std::invalid_argument for another number of fields than columns.
   void add_row(const std::vector<CsvField>& fields);
   const std::string& text() const { return text_; }
 
  private:
+  void add_line(const std::vector<CsvField>& fields);
+
   std::size_t columns_;
+  CsvFormat format_;
   std::string text_;
 };
 

@@ -186,16 +186,16 @@ Columns<FlowWindow> flow_columns() {
 
 }  // namespace
 
-std::string grains_csv(const Scene& scene, const Snapshot& snapshot, const Snapshot* before) {
+std::string grains_csv(const Scene& scene, const Snapshot& snapshot, const Snapshot* before, CsvFormat format) {
   const Snapshot own = in_tray_frame(snapshot, scene.tray);
   std::vector<Value> shear(own.size());
   if (const auto earlier = in_tray_frame(scene, before)) shear = shear_strain(*earlier, own, fit_reach(*earlier));
-  Csv<GrainRow> csv(grains_columns());
+  Csv<GrainRow> csv(grains_columns(), format);
   for (std::size_t i = 0; i < own.size(); ++i) csv.add({&scene, &own, i, shear[i]});
   return csv.text();
 }
 
-std::string fields_csv(const Scene& scene, const Snapshot& snapshot, const Snapshot* before) {
+std::string fields_csv(const Scene& scene, const Snapshot& snapshot, const Snapshot* before, CsvFormat format) {
   const double cell = scene.record->cell;
   const Snapshot own = in_tray_frame(snapshot, scene.tray);
   const std::optional<Snapshot> earlier = in_tray_frame(scene, before);
@@ -203,7 +203,7 @@ std::string fields_csv(const Scene& scene, const Snapshot& snapshot, const Snaps
   const std::vector<double> packing = packing_fraction(own, scene.lots, grid);
   const std::vector<double> change = earlier ? packing_change(*earlier, own, scene.lots, grid) : std::vector<double>{};
   const auto motion = cell_motion(own, grid, std::max(fit_reach(own), cell));
-  Csv<CellRow> csv(fields_columns());
+  Csv<CellRow> csv(fields_columns(), format);
   for (std::size_t k = 0; k < grid.size(); ++k) {
     if (packing[k] == 0 && (!earlier || change[k] == 0)) continue;
     csv.add(cell_row(grid, k, packing[k], earlier ? Value(change[k]) : Value(), motion[k]));
@@ -211,8 +211,8 @@ std::string fields_csv(const Scene& scene, const Snapshot& snapshot, const Snaps
   return csv.text();
 }
 
-std::string records_csv(const Scene& scene, const std::vector<Snapshot>& snapshots) {
-  Csv<RecordRow> csv(records_columns());
+std::string records_csv(const Scene& scene, const std::vector<Snapshot>& snapshots, CsvFormat format) {
+  Csv<RecordRow> csv(records_columns(), format);
   const int lots = static_cast<int>(scene.lots.size());
   for (std::size_t k = 0; k < snapshots.size(); ++k) {
     const Snapshot own = in_tray_frame(snapshots[k], scene.tray);
@@ -222,8 +222,8 @@ std::string records_csv(const Scene& scene, const std::vector<Snapshot>& snapsho
   return csv.text();
 }
 
-std::string profile_csv(const Scene& scene, const std::vector<Snapshot>& snapshots) {
-  Csv<ProfileRow> csv(profile_columns());
+std::string profile_csv(const Scene& scene, const std::vector<Snapshot>& snapshots, CsvFormat format) {
+  Csv<ProfileRow> csv(profile_columns(), format);
   for (const Snapshot& snapshot : snapshots)
     for (const LotInLayer& layer : lot_profile(in_tray_frame(snapshot, scene.tray), scene.tray,
                                                static_cast<int>(scene.lots.size()), scene.record->cell))
@@ -231,21 +231,21 @@ std::string profile_csv(const Scene& scene, const std::vector<Snapshot>& snapsho
   return csv.text();
 }
 
-std::string flow_csv(const Scene& scene, const Run& run) {
-  return csv_of(flow_columns(), flow_over_time(scene, run));
+std::string flow_csv(const Scene& scene, const Run& run, CsvFormat format) {
+  return csv_of(flow_columns(), flow_over_time(scene, run), format);
 }
 
-std::vector<OutputFile> record_files(const Scene& scene, const Run& run) {
+std::vector<OutputFile> record_files(const Scene& scene, const Run& run, CsvFormat format) {
   if (!scene.record) return {};
   std::vector<OutputFile> files;
   for (std::size_t k = 0; k < run.snapshots.size(); ++k) {
     const Snapshot* before = k > 0 ? &run.snapshots[k - 1] : nullptr;
-    files.push_back({fmt::format("grains_{:03}.csv", k + 1), grains_csv(scene, run.snapshots[k], before)});
-    files.push_back({fmt::format("fields_{:03}.csv", k + 1), fields_csv(scene, run.snapshots[k], before)});
+    files.push_back({fmt::format("grains_{:03}.csv", k + 1), grains_csv(scene, run.snapshots[k], before, format)});
+    files.push_back({fmt::format("fields_{:03}.csv", k + 1), fields_csv(scene, run.snapshots[k], before, format)});
   }
-  files.push_back({"records.csv", records_csv(scene, run.snapshots)});
-  files.push_back({"profile.csv", profile_csv(scene, run.snapshots)});
-  files.push_back({"flow.csv", flow_csv(scene, run)});
+  files.push_back({"records.csv", records_csv(scene, run.snapshots, format)});
+  files.push_back({"profile.csv", profile_csv(scene, run.snapshots, format)});
+  files.push_back({"flow.csv", flow_csv(scene, run, format)});
   return files;
 }
 

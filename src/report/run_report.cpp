@@ -7,7 +7,6 @@
 
 #include "report/columns.hpp"
 #include "report/json_keys.hpp"
-#include "report/output_files.hpp"
 #include "report/record_report.hpp"
 #include "scene/describe_scene.hpp"
 
@@ -170,14 +169,14 @@ JsonKeys<Run> timing_keys(bool phases) {
 
 }  // namespace
 
-std::string outflow_csv(const Scene& scene, const Run& run) {
-  Csv<EventRow> csv(outflow_columns());
+std::string outflow_csv(const Scene& scene, const Run& run, CsvFormat format) {
+  Csv<EventRow> csv(outflow_columns(), format);
   for (const OutflowEvent& event : run.events) csv.add({&scene, &event});
   return csv.text();
 }
 
-std::string summary_csv(const Outflow& outflow) {
-  Csv<SummaryRow> csv(summary_columns());
+std::string summary_csv(const Outflow& outflow, CsvFormat format) {
+  Csv<SummaryRow> csv(summary_columns(), format);
   for (const HoleOutflow& hole : outflow.holes) csv.add({&outflow, &hole});
   return csv.text();
 }
@@ -204,14 +203,14 @@ std::vector<FileText> run_file_texts() {
   return texts;
 }
 
-void write_run_report(const std::filesystem::path& directory, const Scene& scene, const Run& run,
-                      const Outflow& outflow, const std::vector<std::string>& effects) {
-  std::vector<OutputFile> files = {{"outflow.csv", outflow_csv(scene, run)},
-                                   {"summary.csv", summary_csv(outflow)},
+std::vector<OutputFile> run_files(const Scene& scene, const Run& run, const Outflow& outflow,
+                                  const std::vector<std::string>& effects, CsvFormat format) {
+  std::vector<OutputFile> files = {{"outflow.csv", outflow_csv(scene, run, format)},
+                                   {"summary.csv", summary_csv(outflow, format)},
                                    {"run.json", run_json(scene, run, outflow, effects)},
                                    {"timing.json", timing_json(run)}};
-  std::ranges::move(record_files(scene, run), std::back_inserter(files));
-  write_files_atomically(directory, files);
+  std::ranges::move(record_files(scene, run, format), std::back_inserter(files));
+  return files;
 }
 
 }  // namespace vibrosow

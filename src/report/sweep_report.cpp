@@ -8,7 +8,6 @@
 #include "input/key_units.hpp"
 #include "report/columns.hpp"
 #include "report/json_keys.hpp"
-#include "report/output_files.hpp"
 
 namespace vibrosow {
 namespace {
@@ -96,7 +95,7 @@ Columns<LayoutRow> sweep_columns(const std::vector<std::string>& keys) {
         {{condition_column(key), "", "value of this key of the seeder file, in the unit that its column names"},
          [key](R r) {
            const auto value = r.layout().values.find(key);
-           return csv_field(value == r.layout().values.end() ? "" : value->second);
+           return value == r.layout().values.end() ? CsvField() : csv_text_or_number(value->second);
          }});
   columns.push_back(replicates_column<LayoutRow>());
   add_figure_columns(
@@ -285,19 +284,19 @@ JsonKeys<SweepTiming> timing_keys() {
 
 }  // namespace
 
-std::string sweep_csv(const StudyResult& result) {
-  return csv_of(sweep_columns(result.study.keys), layout_rows(result));
+std::string sweep_csv(const StudyResult& result, CsvFormat format) {
+  return csv_of(sweep_columns(result.study.keys), layout_rows(result), format);
 }
 
-std::string sweep_holes_csv(const StudyResult& result) {
-  Csv<HoleRow> csv(sweep_holes_columns());
+std::string sweep_holes_csv(const StudyResult& result, CsvFormat format) {
+  Csv<HoleRow> csv(sweep_holes_columns(), format);
   for (const LayoutRow& row : layout_rows(result))
     for (const HoleFigures& hole : row.of().holes) csv.add({row, &hole});
   return csv.text();
 }
 
-std::string sweep_records_csv(const StudyResult& result) {
-  Csv<BedRow> csv(sweep_records_columns());
+std::string sweep_records_csv(const StudyResult& result, CsvFormat format) {
+  Csv<BedRow> csv(sweep_records_columns(), format);
   for (const LayoutRow& row : layout_rows(result))
     for (const BedFigures& bed : row.of().bed) {
       const std::vector<SeedLot>& lots = result.study.scenes[*row.layout().scene].lots;
@@ -308,8 +307,8 @@ std::string sweep_records_csv(const StudyResult& result) {
   return csv.text();
 }
 
-std::string sweep_runs_csv(const StudyResult& result) {
-  Csv<RunRow> csv(sweep_runs_columns());
+std::string sweep_runs_csv(const StudyResult& result, CsvFormat format) {
+  Csv<RunRow> csv(sweep_runs_columns(), format);
   for (const Layout& layout : result.study.layouts) {
     if (!layout.scene) continue;
     for (const Evaluation& run : result.runs[*layout.scene]) csv.add({&result, &layout, &run});
@@ -317,8 +316,8 @@ std::string sweep_runs_csv(const StudyResult& result) {
   return csv.text();
 }
 
-std::string comparison_csv(const StudyResult& result) {
-  Csv<MeasuredRow> csv(comparison_columns());
+std::string comparison_csv(const StudyResult& result, CsvFormat format) {
+  Csv<MeasuredRow> csv(comparison_columns(), format);
   if (result.comparison)
     for (const ComparisonRow& row : result.comparison->rows) csv.add({&result, &row});
   return csv.text();
@@ -351,15 +350,16 @@ std::vector<FileText> sweep_file_texts() {
                     comparison_columns())};
 }
 
-void write_sweep_report(const std::filesystem::path& directory, const StudyResult& result, double wall_time, int jobs) {
-  std::vector<OutputFile> files = {{"sweep.csv", sweep_csv(result)},
-                                   {"sweep_holes.csv", sweep_holes_csv(result)},
-                                   {"sweep_runs.csv", sweep_runs_csv(result)},
+std::vector<OutputFile> sweep_files(const StudyResult& result, double wall_time, int jobs, CsvFormat format) {
+  std::vector<OutputFile> files = {{"sweep.csv", sweep_csv(result, format)},
+                                   {"sweep_holes.csv", sweep_holes_csv(result, format)},
+                                   {"sweep_runs.csv", sweep_runs_csv(result, format)},
                                    {"timing.json", sweep_timing_json(result, wall_time, jobs)}};
   const auto records = [](const LayoutResult& one) { return !one.bed.empty(); };
-  if (std::ranges::any_of(result.layouts, records)) files.push_back({"sweep_records.csv", sweep_records_csv(result)});
-  if (result.comparison) files.push_back({"comparison.csv", comparison_csv(result)});
-  write_files_atomically(directory, files);
+  if (std::ranges::any_of(result.layouts, records))
+    files.push_back({"sweep_records.csv", sweep_records_csv(result, format)});
+  if (result.comparison) files.push_back({"comparison.csv", comparison_csv(result, format)});
+  return files;
 }
 
 }  // namespace vibrosow
