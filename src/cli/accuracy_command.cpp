@@ -5,8 +5,10 @@
 
 #include "cli/commands.hpp"
 #include "cli/common_options.hpp"
+#include "cli/console.hpp"
 #include "cli/interrupt.hpp"
 #include "cli/progress.hpp"
+#include "cli/threads.hpp"
 #include "design/accuracy.hpp"
 #include "input/input_file.hpp"
 #include "input/read_scene.hpp"
@@ -82,8 +84,8 @@ AccuracyGrid grid_of(const AccuracyOptions& options, const Scene& scene) {
 int run_accuracy(const AccuracyOptions& options) {
   const Scene scene = read_scene(input_file(options.common.file, FileKind::seeder), options.common.overrides());
   const AccuracyGrid grid = grid_of(options, scene);
-  const auto directory = options.common.out_directory();
-  make_out_directory(directory);
+  const OutputFolder folder = options.common.output_folder("accuracy", accuracy_file_texts(), "-accuracy");
+  const int jobs = threads_to_be_had(options.common.jobs);
   const std::atomic<bool>& interrupt = watch_for_interrupt();
   const auto settings = static_cast<double>(settings_of(grid).size());
   AccuracyResult result;
@@ -92,16 +94,16 @@ int run_accuracy(const AccuracyOptions& options) {
     Progress progress(options.common.quiet, settings * options.replicates, "runs");
     SweepOptions sweep_options;
     sweep_options.first_random_seed = options.common.random_seed;
-    sweep_options.runs.jobs = options.common.jobs;
+    sweep_options.runs.jobs = jobs;
     sweep_options.runs.interrupt = &interrupt;
     sweep_options.runs.progress = [&](const ManyRunsProgress& done) { progress.update(done.fraction_done); };
     result = measure_accuracy(scene, grid, options.replicates, simulate, sweep_options);
     wall_time = progress.seconds();
   }
-  write_accuracy_report(directory, result, wall_time, options.common.jobs);
-  if (!options.common.quiet)
-    fmt::print("{}\n\n{}\n{}\nreports: {}\n", scene.title, accuracy_table(result), accuracy_sentence(result),
-               directory.string());
+  write_then_print(
+      options.common.quiet, [&] { folder.write(accuracy_files(result, wall_time, jobs, options.common.csv)); },
+      [&] { print("{}\n\n{}\n{}\n", scene.title, accuracy_table(result), accuracy_sentence(result)); });
+  if (!options.common.quiet) print("reports: {}\n", folder.path().string());
   return interrupt ? exit_interrupted : exit_done;
 }
 

@@ -5,6 +5,7 @@
 
 #include "cli/commands.hpp"
 #include "cli/common_options.hpp"
+#include "cli/console.hpp"
 #include "cli/progress.hpp"
 #include "design/predicted_cost.hpp"
 #include "design/study.hpp"
@@ -21,51 +22,50 @@ namespace vibrosow {
 namespace {
 
 void print_effects(const Scene& scene, const CostBreakdown& cost) {
-  fmt::print("effects\n");
+  print("effects\n");
   for (const EffectReason& effect : explain_effects(scene))
-    fmt::print("  {:<3} {:<17} {}\n", effect.present ? "yes" : "no", effect.effect, effect.reason);
-  fmt::print("cost on this machine, now, ns of CPU time per grain-step\n  {:<22} {:6.1f}\n", "all effects present",
-             cost.whole.ns_per_grain_step);
+    print("  {:<3} {:<17} {}\n", effect.present ? "yes" : "no", effect.effect, effect.reason);
+  print("cost on this machine, now, ns of CPU time per grain-step\n  {:<22} {:6.1f}\n", "all effects present",
+        cost.whole.ns_per_grain_step);
   for (const EffectCost& effect : cost.effects)
     if (effect.is_resolved())
-      fmt::print("  {:<22} {:6.1f} +- {:.1f}\n", effect.effect, effect.ns_per_grain_step, effect.half_width_95);
+      print("  {:<22} {:6.1f} +- {:.1f}\n", effect.effect, effect.ns_per_grain_step, effect.half_width_95);
     else
-      fmt::print("  {:<22} below what this timing resolves, {:.1f}\n", effect.effect,
-                 std::max(0.0, effect.ns_per_grain_step) + effect.half_width_95);
+      print("  {:<22} below what this timing resolves, {:.1f}\n", effect.effect,
+            std::max(0.0, effect.ns_per_grain_step) + effect.half_width_95);
 }
 
 void print_step(const StepPlan& plan, const PredictedCost& cost) {
-  fmt::print("step\n  dt {:.4g} s, shortest contact {:.4g} s: {:.3g} steps a contact\n", plan.dt, plan.contact_duration,
-             plan.contact_duration / plan.dt);
-  for (const StepLimit& limit : plan.limits) fmt::print("  at most {:.4g} s: {}\n", limit.dt, limit.reason);
-  fmt::print("  longest safe step {:.4g} s ({})\n", plan.longest_safe, plan.bound_by);
-  fmt::print("  {} steps, about {:.3g} grain-steps: some {:.2g} s of one core\n", plan.steps, cost.grain_steps,
-             cost.seconds());
+  print("step\n  dt {:.4g} s, shortest contact {:.4g} s: {:.3g} steps a contact\n", plan.dt, plan.contact_duration,
+        plan.contact_duration / plan.dt);
+  for (const StepLimit& limit : plan.limits) print("  at most {:.4g} s: {}\n", limit.dt, limit.reason);
+  print("  longest safe step {:.4g} s ({})\n", plan.longest_safe, plan.bound_by);
+  print("  {} steps, about {:.3g} grain-steps: some {:.2g} s of one core\n", plan.steps, cost.grain_steps,
+        cost.seconds());
 }
 
 void print_compression(const Scene& scene, const PredictedCompression& predicted) {
-  fmt::print("compression predicted, d/r\n  at rest {:.3g} under {:.3g} layers (overlap of the lowest pair {:.3g} r)\n",
-             predicted.static_compression, predicted.layers, predicted.static_overlap);
-  fmt::print("  at impact {:.3g} at {:.3g} m/s\n", predicted.impact_compression, predicted.impact_speed);
+  print("compression predicted, d/r\n  at rest {:.3g} under {:.3g} layers (overlap of the lowest pair {:.3g} r)\n",
+        predicted.static_compression, predicted.layers, predicted.static_overlap);
+  print("  at impact {:.3g} at {:.3g} m/s\n", predicted.impact_compression, predicted.impact_speed);
   const double warn = scene.guard.warn_compression;
   if (predicted.static_compression <= warn && predicted.impact_compression <= warn) return;
-  fmt::print("  warning: beyond guard.warn_compression = {:g}: {}\n", warn,
-             scene.contact.law == Law::elastic_shell
-                 ? fmt::format("a shell is thin; contact.shell_compression = {:.2g} would do", predicted.stiff_enough)
-                 : "Hertz' law is for small overlaps; a larger contact.youngs_modulus is stiffer");
+  print("  warning: beyond guard.warn_compression = {:g}: {}\n", warn,
+        scene.contact.law == Law::elastic_shell
+            ? fmt::format("a shell is thin; contact.shell_compression = {:.2g} would do", predicted.stiff_enough)
+            : "Hertz' law is for small overlaps; a larger contact.youngs_modulus is stiffer");
 }
 
 void print_vessel(const Vessel& vessel) {
-  fmt::print("{}\n  floor from ({:.1f}, {:.1f}) mm, {:.1f} mm long, end walls {:.1f} mm, {} seeds\n", vessel.name,
-             vessel.origin.x() * 1e3, vessel.origin.y() * 1e3, vessel.length * 1e3, vessel.height * 1e3,
-             vessel.fill ? vessel.fill->count : 0);
+  print("{}\n  floor from ({:.1f}, {:.1f}) mm, {:.1f} mm long, end walls {:.1f} mm, {} seeds\n", vessel.name,
+        vessel.origin.x() * 1e3, vessel.origin.y() * 1e3, vessel.length * 1e3, vessel.height * 1e3,
+        vessel.fill ? vessel.fill->count : 0);
   for (std::size_t i = 0; i < vessel.holes.size(); ++i)
-    fmt::print("  hole {} at {:.2f} mm, {:.2f} mm wide{}\n", i + 1, vessel.holes[i].centre * 1e3,
-               vessel.holes[i].width * 1e3,
-               vessel.holes[i].open_at > 0 ? fmt::format(", opens at {:.6g} s", vessel.holes[i].open_at) : "");
+    print("  hole {} at {:.2f} mm, {:.2f} mm wide{}\n", i + 1, vessel.holes[i].centre * 1e3,
+          vessel.holes[i].width * 1e3,
+          vessel.holes[i].open_at > 0 ? fmt::format(", opens at {:.6g} s", vessel.holes[i].open_at) : "");
   if (vessel.rain)
-    fmt::print("  rain of {:.6g} seeds/s from {:.1f} mm above its floor\n", vessel.rain->rate,
-               vessel.rain->height * 1e3);
+    print("  rain of {:.6g} seeds/s from {:.1f} mm above its floor\n", vessel.rain->rate, vessel.rain->height * 1e3);
 }
 
 int check_seeder(const std::filesystem::path& file, const CommonOptions& options) {
@@ -73,7 +73,7 @@ int check_seeder(const std::filesystem::path& file, const CommonOptions& options
   const Scene& scene = model.scene;
   print_warnings(scene_warnings(scene));
   const StepPlan& plan = model.step;
-  fmt::print("{}\n", scene.title);
+  print("{}\n", scene.title);
   print_vessel(scene.tray);
   if (scene.hopper) print_vessel(*scene.hopper);
   const CostBreakdown cost = break_down_cost(scene);
@@ -81,8 +81,7 @@ int check_seeder(const std::filesystem::path& file, const CommonOptions& options
   print_step(plan, cost.whole);
   print_compression(scene, model.compression);
   if (const auto refused = step_refused(scene.numerics, plan)) throw InputError(*refused);
-  if (plan.too_long)
-    fmt::print("the step is too long and insisted on: every result will be marked \"outside the model\"\n");
+  if (plan.too_long) print("the step is too long and insisted on: every result will be marked \"outside the model\"\n");
   return exit_done;
 }
 
@@ -96,14 +95,14 @@ std::string measured_header(const Study& study) {
 int check_study(const std::filesystem::path& file, const CommonOptions& options) {
   const Study study = read_study(file, options.overrides());
   print_warnings(study_warnings(study));
-  fmt::print("{}\n{} layouts, {} different scenes, {} runs of each: some {} of one core in all\n", study.title,
-             study.layouts.size(), study.scenes.size(), study.replicates, duration_text(predict_seconds(study)));
+  print("{}\n{} layouts, {} different scenes, {} runs of each: some {} of one core in all\n", study.title,
+        study.layouts.size(), study.scenes.size(), study.replicates, duration_text(predict_seconds(study)));
   for (const Layout& layout : study.layouts)
-    if (!layout.scene) fmt::print("layout {} {}: invalid: {}\n", layout.number, layout.name, layout.invalid);
+    if (!layout.scene) print("layout {} {}: invalid: {}\n", layout.number, layout.name, layout.invalid);
   if (study.measured)
-    fmt::print("measured: {}, {} series, {} matched to layouts\n", study.measured->file.string(),
-               study.measured->table.series.size(), study.measured->matches.size());
-  fmt::print("header of a table of measured outflow:\n{}\n", measured_header(study));
+    print("measured: {}, {} series, {} matched to layouts\n", study.measured->file.string(),
+          study.measured->table.series.size(), study.measured->matches.size());
+  print("header of a table of measured outflow:\n{}\n", measured_header(study));
   return exit_done;
 }
 

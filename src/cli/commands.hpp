@@ -13,5 +13,6 @@ void add_sweep_command(CLI::App& app, int& exit_code);
 void add_accuracy_command(CLI::App& app, int& exit_code);
 void add_check_command(CLI::App& app, int& exit_code);
 void add_presets_command(CLI::App& app, int& exit_code);
+void add_columns_command(CLI::App& app, int& exit_code);
 
 }  // namespace vibrosow

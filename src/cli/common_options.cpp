@@ -1,17 +1,13 @@
 #include "cli/common_options.hpp"
 
+#include "cli/console.hpp"
+
 #include <fmt/format.h>
 
-#include <unistd.h>
-
 #include <algorithm>
-#include <cerrno>
 #include <charconv>
-#include <cstring>
 #include <system_error>
 #include <thread>
-
-#include "scene/input_error.hpp"
 
 namespace vibrosow {
 namespace {
@@ -32,8 +28,15 @@ std::vector<Override> CommonOptions::overrides() const {
   return result;
 }
 
-std::filesystem::path CommonOptions::out_directory() const {
-  return out.empty() ? "out" / std::filesystem::path(file).stem() : std::filesystem::path(out);
+OutputFolder CommonOptions::output_folder(const std::string& command, const std::vector<FileText>& files,
+                                          const std::string& suffix) const {
+  std::vector<std::string> names;
+  for (const FileText& text : files) {
+    names.push_back(text.name);
+    if (const auto number = names.back().find("NNN"); number != std::string::npos) names.back().replace(number, 3, "*");
+  }
+  const std::string stem = std::filesystem::path(file).stem().string() + suffix;
+  return {out.empty() ? std::filesystem::path("out") / stem : std::filesystem::path(out), command, names};
 }
 
 void add_input_options(CLI::App& command, CommonOptions& options, const std::string& file_help) {
@@ -59,18 +62,17 @@ void add_common_options(CLI::App& command, CommonOptions& options, const std::st
       ->check(CLI::Range(1, 4096))
       ->capture_default_str();
   command.add_flag("--quiet", options.quiet, "no progress and no table");
+  command
+      .add_option_function<std::string>(
+          "--csv",
+          [&options](const std::string& name) { options.csv = name == "semicolon" ? semicolon_csv : CsvFormat{}; },
+          "how CSV files are written: comma, or semicolon with decimal commas, for spreadsheets")
+      ->check(CLI::IsMember({"comma", "semicolon"}))
+      ->default_str("comma");
 }
 
 void print_warnings(const std::vector<std::string>& warnings) {
-  for (const std::string& warning : warnings) fmt::print(stderr, "vibrosow: warning: {}\n", warning);
-}
-
-void make_out_directory(const std::filesystem::path& directory) {
-  std::error_code error;
-  std::filesystem::create_directories(directory, error);
-  if (error) throw InputError(fmt::format("{}: cannot be made: {}", directory.string(), error.message()));
-  if (access(directory.c_str(), W_OK | X_OK) != 0)
-    throw InputError(fmt::format("{}: cannot be written into: {}", directory.string(), std::strerror(errno)));
+  for (const std::string& warning : warnings) complain("warning: " + warning);
 }
 
 }  // namespace vibrosow

@@ -7,20 +7,25 @@
 #include <vector>
 
 #include "input/override.hpp"
+#include "report/columns.hpp"
+#include "report/output_folder.hpp"
 
 namespace vibrosow {
 
 /// What every command that simulates takes.
 struct CommonOptions {
   std::string file;
-  std::string out;                // empty: out/<stem of the file>
+  std::string out;
   std::vector<std::string> sets;  // KEY=VALUE
   std::uint64_t random_seed = 1;
   int jobs = 1;
   bool quiet = false;
+  CsvFormat csv;
 
   std::vector<Override> overrides() const;
-  std::filesystem::path out_directory() const;
+  /// Where the reports go, in the name of this command: --out, or out/ and the file's name with `suffix`.
+  OutputFolder output_folder(const std::string& command, const std::vector<FileText>& files,
+                             const std::string& suffix = "") const;
 };
 
 /// Adds the file and --set.
@@ -31,9 +36,5 @@ void add_common_options(CLI::App& command, CommonOptions& options, const std::st
 
 /// Each on stderr.
 void print_warnings(const std::vector<std::string>& warnings);
-
-/// Makes the directory now, so that a long simulation does not end at a directory that cannot be made or
-/// written into. Throws InputError.
-void make_out_directory(const std::filesystem::path& directory);
 
 }  // namespace vibrosow

@@ -17,8 +17,12 @@ extern "C" void note_interrupt(int) {
 const std::atomic<bool>& watch_for_interrupt() {
   struct sigaction action = {};
   action.sa_handler = note_interrupt;
-  action.sa_flags = static_cast<int>(SA_RESETHAND | SA_RESTART);  // the second Ctrl-C finds the default: death
-  sigaction(SIGINT, &action, nullptr);
+  action.sa_flags = static_cast<int>(SA_RESETHAND | SA_RESTART);  // the second of a kind finds the default: death
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
+    struct sigaction former = {};
+    sigaction(signal, nullptr, &former);
+    if (former.sa_handler != SIG_IGN) sigaction(signal, &action, nullptr);  // nohup and job control keep theirs
+  }
   return interrupted;
 }
 

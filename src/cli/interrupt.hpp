@@ -4,7 +4,8 @@
 
 namespace vibrosow {
 
-/// From now on the first Ctrl-C sets the flag; a second ends the program at once.
+/// From now on the first Ctrl-C (SIGINT), SIGTERM or SIGHUP sets the flag; a second of its kind ends the program at
+/// once. What the caller ignores stays ignored.
 const std::atomic<bool>& watch_for_interrupt();
 
 }  // namespace vibrosow

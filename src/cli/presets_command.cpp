@@ -6,6 +6,8 @@
 #include <utility>
 
 #include "cli/commands.hpp"
+#include "cli/console.hpp"
+#include "input/document.hpp"
 #include "input/read_scene.hpp"
 #include "input/table.hpp"
 
@@ -21,19 +23,19 @@ std::vector<std::filesystem::path> toml_files(const std::filesystem::path& direc
 }
 
 void print_crops(const std::filesystem::path& data) {
-  fmt::print("crops (seeds.NAME.crop = \"...\"), in {}\n", (data / "models/crops").string());
+  print("crops (seeds.NAME.crop = \"...\"), in {}\n", (data / "models/crops").string());
   for (const auto& file : toml_files(data / "models/crops")) {
     Table crop(Document::read(file));
-    fmt::print("  {:<24}", file.stem().string());
+    print("  {:<24}", file.stem().string());
     for (const std::string key : {"diameter", "length", "width", "mass"})
-      if (const auto value = crop.text(key)) fmt::print(" {} \"{}\"", key, *value);
-    fmt::print("\n");
+      if (const auto value = crop.text(key)) print(" {} \"{}\"", key, *value);
+    print("\n");
   }
 }
 
 void print_titles(const std::filesystem::path& directory) {
   for (const auto& file : toml_files(directory))
-    fmt::print("  {:<24} {}\n", file.stem().string(), Table(Document::read(file)).text("title").value_or(""));
+    print("  {:<24} {}\n", file.stem().string(), Table(Document::read(file)).text("title").value_or(""));
 }
 
 void print_seeders(const std::filesystem::path& data) {
@@ -43,9 +45,9 @@ void print_seeders(const std::filesystem::path& data) {
       {"seeders/verification", "scenes that verify the program"},
   };
   for (const auto& [room, meaning] : rooms) {
-    fmt::print("{}, in {}\n", meaning, (data / room).string());
+    print("{}, in {}\n", meaning, (data / room).string());
     print_titles(data / room);
-    fmt::print("their studies, in {}\n", (data / room / "studies").string());
+    print("their studies, in {}\n", (data / room / "studies").string());
     print_titles(data / room / "studies");
   }
 }

@@ -5,8 +5,10 @@
 
 #include "cli/commands.hpp"
 #include "cli/common_options.hpp"
+#include "cli/console.hpp"
 #include "cli/interrupt.hpp"
 #include "cli/progress.hpp"
+#include "cli/threads.hpp"
 #include "input/input_file.hpp"
 #include "input/read_scene.hpp"
 #include "outflow/outflow.hpp"
@@ -20,26 +22,25 @@ namespace vibrosow {
 namespace {
 
 void print_summary(const Scene& scene, const Run& run, const Outflow& outflow) {
-  fmt::print("{}\n\n{:>6} {:<12} {:>11} {:>8} {:>12} {:>10} {:>10}\n", scene.title, "hole", "lot", "position mm",
-             "seeds", "seeds per s", "g per s", "pause s");
+  print("{}\n\n{:>6} {:<12} {:>11} {:>8} {:>12} {:>10} {:>10}\n", scene.title, "hole", "lot", "position mm", "seeds",
+        "seeds per s", "g per s", "pause s");
   // A run that ended before its measuring window has no rates.
   const auto figure = [](double value) { return std::isfinite(value) ? fmt::format("{:.4g}", value) : "-"; };
   for (const HoleOutflow& row : outflow.holes)
-    fmt::print("{:>6} {:<12} {:>11} {:>8} {:>12} {:>10} {:>10}\n", row.hole, row.lot,
-               row.centre ? fmt::format("{:.1f}", *row.centre * 1e3) : "", row.grains, figure(row.seeds_per_s),
-               figure(row.mass_rate * 1e3), figure(row.longest_pause));
+    print("{:>6} {:<12} {:>11} {:>8} {:>12} {:>10} {:>10}\n", row.hole, row.lot,
+          row.centre ? fmt::format("{:.1f}", *row.centre * 1e3) : "", row.grains, figure(row.seeds_per_s),
+          figure(row.mass_rate * 1e3), figure(row.longest_pause));
   const Balance& balance = run.balance;
-  fmt::print("\nwindow {:g} to {:g} s; put in {} = inside {} + counted {} + spilled {} + lost {}\n",
-             outflow.window_from, outflow.window_to, balance.put_in, balance.inside, balance.counted, balance.spilled,
-             balance.lost);
-  if (!outflow.note.empty()) fmt::print("note: {}\n", outflow.note);
+  print("\nwindow {:g} to {:g} s; put in {} = inside {} + counted {} + spilled {} + lost {}\n", outflow.window_from,
+        outflow.window_to, balance.put_in, balance.inside, balance.counted, balance.spilled, balance.lost);
+  if (!outflow.note.empty()) print("note: {}\n", outflow.note);
 }
 
 void print_profile(const Run& run) {
-  fmt::print("\n{:<14} {:>8} {:>8} {:>20}\n", "time spent on", "s", "share", "ns per grain-step");
+  print("\n{:<14} {:>8} {:>8} {:>20}\n", "time spent on", "s", "share", "ns per grain-step");
   const auto row = [&](std::string_view phase, double time) {
-    fmt::print("{:<14} {:>8.3f} {:>6.1f} % {:>20.2f}\n", phase, time, 100 * time / run.wall_time,
-               1e9 * time / static_cast<double>(run.grain_steps));
+    print("{:<14} {:>8.3f} {:>6.1f} % {:>20.2f}\n", phase, time, 100 * time / run.wall_time,
+          1e9 * time / static_cast<double>(run.grain_steps));
   };
   for (std::size_t k = 0; k < phase_names.size(); ++k) row(phase_names[k], (*run.phase_times)[k]);
   row("all", run.wall_time);
@@ -56,11 +57,10 @@ int run_scene(const RunOptions& options) {
   print_warnings(warnings);
   const Model model = prepare_to_run(read);
   const Scene& scene = model.scene;
-  const auto directory = options.out_directory();
-  make_out_directory(directory);
+  const OutputFolder folder = options.output_folder("run", run_file_texts());
   SimulationOptions simulation;
   simulation.random_seed = options.random_seed;
-  simulation.threads = options.threads;
+  simulation.threads = threads_to_be_had(options.threads);
   simulation.profile = options.profile;
   simulation.interrupt = &watch_for_interrupt();
   Run run;
@@ -72,15 +72,16 @@ int run_scene(const RunOptions& options) {
   const Outflow outflow = measure_outflow(scene, run);
   const std::vector<std::string> warnings_of_run = run.warnings;
   run.warnings.insert(run.warnings.begin(), warnings.begin(), warnings.end());
-  write_run_report(directory, scene, run, outflow, effect_names(model.effects));
-  if (!options.quiet) {
-    print_summary(scene, run, outflow);
-    if (run.phase_times) print_profile(run);
-    fmt::print("reports: {}\n", directory.string());
-  }
+  write_then_print(
+      options.quiet, [&] { folder.write(run_files(scene, run, outflow, effect_names(model.effects), options.csv)); },
+      [&] {
+        print_summary(scene, run, outflow);
+        if (run.phase_times) print_profile(run);
+      });
+  if (!options.quiet) print("reports: {}\n", folder.path().string());
   print_warnings(warnings_of_run);
   if (run.status == RunStatus::stopped_by_guard) {
-    fmt::print(stderr, "vibrosow: the guard stopped the run: {}\n", run.stop_reason);
+    complain("the guard stopped the run: " + run.stop_reason);
     return exit_stopped_by_guard;
   }
   return run.status == RunStatus::interrupted ? exit_interrupted : exit_done;

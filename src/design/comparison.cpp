@@ -221,7 +221,7 @@ void compare_with_measured(StudyResult& result) {
   }
   for (std::size_t layout = 0; layout < result.layouts.size(); ++layout)
     if (!of_layout[layout].empty())
-      result.layouts[layout].figures.misfit_percent = layout_misfit(of_layout[layout], curve, scale);
+      result.layouts[layout].misfit_percent = layout_misfit(of_layout[layout], curve, scale);
   if (!all.empty())
     comparison.misfit_percent = misfit(
         all, curve, [&](const Pairing& pairing) { return scaled(pairing.means(), scale * pairing.depth_factor); });

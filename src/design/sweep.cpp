@@ -48,16 +48,11 @@ std::optional<MeanWithInterval> mean_of_row(const std::vector<Evaluation>& repli
   });
 }
 
-Figures figures_of(const std::vector<Evaluation>& replicates) {
-  Figures figures;
-  figures.mass_rate = mean_of_row(replicates, "all", "all", &HoleOutflow::mass_rate);
-  figures.seeds_per_s = mean_of_row(replicates, "all", "all", &HoleOutflow::seeds_per_s);
-  figures.longest_pause = mean_of_row(replicates, "all", "all", &HoleOutflow::longest_pause);
-  figures.evenness_cv = mean_over(replicates, [](const Evaluation& one) { return one.outflow.evenness_cv; });
-  figures.instability_cv = mean_over(replicates, [](const Evaluation& one) { return one.outflow.instability_cv; });
-  figures.spilled_fraction =
-      mean_over(replicates, [](const Evaluation& one) { return std::optional(one.outflow.spilled_fraction); });
-  return figures;
+FigureMeans figures_of(const std::vector<Evaluation>& replicates) {
+  std::vector<const Outflow*> finished;
+  for (const Evaluation& one : replicates)
+    if (one.finished()) finished.push_back(&one.outflow);
+  return FigureMeans(finished);
 }
 
 std::vector<HoleFigures> hole_figures(const std::vector<Evaluation>& replicates) {

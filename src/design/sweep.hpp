@@ -7,6 +7,7 @@
 
 #include "design/many_runs.hpp"
 #include "design/study.hpp"
+#include "outflow/figures.hpp"
 #include "outflow/statistics.hpp"
 
 namespace vibrosow {
@@ -17,17 +18,6 @@ struct SweepOptions {
 };
 
 enum class LayoutStatus { ok, invalid, stopped, interrupted };
-
-/// Means over the finished replicates; none where no replicate has a value.
-struct Figures {
-  std::optional<MeanWithInterval> mass_rate;         // kg/s, all holes and lots, of the plane slice
-  std::optional<MeanWithInterval> seeds_per_s;       // all holes and lots
-  std::optional<MeanWithInterval> evenness_cv;       // fraction
-  std::optional<MeanWithInterval> instability_cv;    // fraction
-  std::optional<MeanWithInterval> longest_pause;     // s, between any two seeds of the whole outflow
-  std::optional<MeanWithInterval> spilled_fraction;  // fraction
-  std::optional<MeanWithInterval> misfit_percent;    // of the mean outflow; interval from the misfits of the replicates
-};
 
 /// One hole and lot, over the finished replicates.
 struct HoleFigures {
@@ -51,9 +41,10 @@ struct BedFigures {
 
 struct LayoutResult {
   LayoutStatus status = LayoutStatus::ok;
-  std::string reason;  // of a status other than ok; of ok, what to know: "outside the model", "ran dry in 2 of 5 runs"
-  int replicates = 0;  // finished
-  Figures figures;
+  std::string reason;   // of a status other than ok; of ok, what to know: "outside the model", "ran dry in 2 of 5 runs"
+  int replicates = 0;   // finished
+  FigureMeans figures;  // over the finished replicates
+  std::optional<MeanWithInterval> misfit_percent;  // of the mean outflow; interval from the misfits of the replicates
   std::vector<HoleFigures> holes;
   std::vector<BedFigures> bed{};  // empty without a record
 };

@@ -2,10 +2,8 @@
 
 #include <fmt/format.h>
 
-#include <nlohmann/json.hpp>
-
-#include "report/csv.hpp"
-#include "report/output_files.hpp"
+#include "report/columns.hpp"
+#include "report/json_keys.hpp"
 #include "scene/integrator_names.hpp"
 
 namespace vibrosow {
@@ -15,15 +13,89 @@ constexpr double gram = 1e-3;                   // kg
 constexpr double millimetre_per_second = 1e-3;  // m/s
 constexpr double megapascal = 1e6;              // Pa
 
-using Fields = std::vector<std::string>;
+using R = const AccuracyRow&;
+using Value = std::optional<double>;
 
-Fields setting_fields(const AccuracySetting& setting) {
-  return {integrator_name(setting.integrator),
-          csv_number(setting.dt),
-          csv_number(setting.steps_per_contact),
-          setting.shell_compression > 0 ? csv_number(setting.shell_compression) : "",
-          setting.youngs_modulus > 0 ? csv_number(setting.youngs_modulus / megapascal) : "",
-          csv_number(setting.slip_speed / millimetre_per_second)};
+/// The first columns of both files.
+Columns<AccuracyRow> setting_columns() {
+  return {text_column<AccuracyRow>("integrator", "scheme", [](R r) { return integrator_name(r.setting.integrator); }),
+          quantity_column<AccuracyRow>("dt_s", seconds, "time step", [](R r) { return r.setting.dt; }),
+          quantity_column<AccuracyRow>("steps_per_contact", plain, "contact duration over the time step",
+                                       [](R r) { return r.setting.steps_per_contact; }),
+          quantity_column<AccuracyRow>("shell_compression", plain, "eps / r; empty where the law has no shell",
+                                       [](R r) {
+                                         const double compression = r.setting.shell_compression;
+                                         return compression > 0 ? Value(compression) : Value();
+                                       }),
+          quantity_column<AccuracyRow>("youngs_modulus_MPa", megapascals, "empty where the law has a shell",
+                                       [](R r) {
+                                         const double modulus = r.setting.youngs_modulus;
+                                         return modulus > 0 ? Value(modulus) : Value();
+                                       }),
+          quantity_column<AccuracyRow>("slip_speed_mm_per_s", millimetres_per_second, "slip speed of friction",
+                                       [](R r) { return r.setting.slip_speed; })};
+}
+
+Columns<AccuracyRow> accuracy_columns() {
+  const Figure& rate = figure_named("rate_g_per_s");
+  const Unit unit{rate.unit, rate.unit_size};
+  Columns<AccuracyRow> columns = setting_columns();
+  append(columns,
+         {text_column<AccuracyRow>("replicates", "runs that finished, of which the figures are",
+                                   [](R r) { return r.replicates; }),
+          quantity_column<AccuracyRow>(std::string(rate.name), unit, std::string(rate.description),
+                                       [](R r) { return r.mass_rate ? Value(r.mass_rate->mean) : Value(); }),
+          quantity_column<AccuracyRow>("rate_ci95", unit, "half width of its 95 % interval",
+                                       [](R r) { return r.mass_rate ? r.mass_rate->half_width_95 : Value(); }),
+          quantity_column<AccuracyRow>("error_percent", Unit{"%", 1}, "difference of the rate from the reference's",
+                                       [](R r) { return r.error_percent; }),
+          quantity_column<AccuracyRow>("error_ci95", Unit{"%", 1}, "half width of its 95 % interval, of both rates",
+                                       [](R r) { return r.error_ci95; }),
+          quantity_column<AccuracyRow>("grain_steps", plain, "grains times steps, mean of a run",
+                                       [](R r) { return r.mass_rate ? Value(r.grain_steps) : Value(); }),
+          quantity_column<AccuracyRow>("cost_ratio", plain,
+                                       "grain-steps times force evaluations a step, over the reference's",
+                                       [](R r) { return r.cost_ratio; }),
+          text_column<AccuracyRow>("on_front", "yes where no other setting costs no more and errs less",
+                                   [](R r) -> std::string {
+                                     if (!r.mass_rate) return "";
+                                     return r.on_front ? "yes" : "no";
+                                   })});
+  return columns;
+}
+
+bool timed(const AccuracyRow& row) {
+  return row.mass_rate && row.wall_time > 0;
+}
+
+/// `reference`: wall time of the reference, s.
+Columns<AccuracyRow> timing_columns(double reference) {
+  Columns<AccuracyRow> columns = setting_columns();
+  append(columns,
+         {quantity_column<AccuracyRow>("wall_s", seconds, "wall time of this machine, mean of a run",
+                                       [](R r) { return timed(r) ? Value(r.wall_time) : Value(); }),
+          quantity_column<AccuracyRow>("grain_steps_per_s", per_second, "grains times steps in a second of wall time",
+                                       [](R r) { return timed(r) ? Value(r.grain_steps / r.wall_time) : Value(); }),
+          quantity_column<AccuracyRow>("wall_ratio", plain, "wall time over the reference's", [reference](R r) {
+            return timed(r) && reference > 0 ? Value(r.wall_time / reference) : Value();
+          })});
+  return columns;
+}
+
+struct AccuracyTiming {
+  double wall_time;  // s, from beginning to end
+  int jobs;
+  double run_time = 0, grain_steps = 0;
+};
+
+JsonKeys<AccuracyTiming> timing_keys() {
+  using T = const AccuracyTiming&;
+  return {{"wall_s", "s", "wall time of the command", [](T t) { return t.wall_time; }},
+          {"jobs", "", "runs side by side", [](T t) { return t.jobs; }},
+          {"run_wall_s", "s", "wall times of the runs, summed", [](T t) { return t.run_time; }},
+          {"grain_steps", "", "grains times steps, summed", [](T t) { return t.grain_steps; }},
+          {"grain_steps_per_s", "1/s", "these in a second of the command's wall time",
+           [](T t) { return t.wall_time > 0 ? t.grain_steps / t.wall_time : 0; }}};
 }
 
 /// "-0.4 +- 1.6 %".
@@ -52,39 +124,12 @@ std::string unresolved_text(const AccuracyRow& row, const std::optional<int>& re
 
 }  // namespace
 
-std::string accuracy_csv(const AccuracyResult& result) {
-  CsvTable table({"integrator", "dt_s", "steps_per_contact", "shell_compression", "youngs_modulus_MPa",
-                  "slip_speed_mm_per_s", "replicates", "rate_g_per_s", "rate_ci95", "error_percent", "error_ci95",
-                  "grain_steps", "cost_ratio", "on_front"});
-  for (const AccuracyRow& row : result.rows) {
-    Fields fields = setting_fields(row.setting);
-    fields.push_back(fmt::format("{}", row.replicates));
-    const auto& rate = row.mass_rate;
-    fields.push_back(rate ? csv_number(rate->mean / gram) : "");
-    fields.push_back(rate && rate->half_width_95 ? csv_number(*rate->half_width_95 / gram) : "");
-    fields.push_back(csv_number(row.error_percent));
-    fields.push_back(csv_number(row.error_ci95));
-    fields.push_back(rate ? csv_number(row.grain_steps) : "");
-    fields.push_back(csv_number(row.cost_ratio));
-    fields.push_back(rate ? (row.on_front ? "yes" : "no") : "");
-    table.add_row(fields);
-  }
-  return table.text();
+std::string accuracy_csv(const AccuracyResult& result, CsvFormat format) {
+  return csv_of(accuracy_columns(), result.rows, format);
 }
 
-std::string accuracy_timing_csv(const AccuracyResult& result) {
-  CsvTable table({"integrator", "dt_s", "steps_per_contact", "shell_compression", "youngs_modulus_MPa",
-                  "slip_speed_mm_per_s", "wall_s", "grain_steps_per_s", "wall_ratio"});
-  const double reference = result.rows[result.reference].wall_time;
-  for (const AccuracyRow& row : result.rows) {
-    Fields fields = setting_fields(row.setting);
-    const bool timed = row.mass_rate && row.wall_time > 0;
-    fields.push_back(timed ? csv_number(row.wall_time) : "");
-    fields.push_back(timed ? csv_number(row.grain_steps / row.wall_time) : "");
-    fields.push_back(timed && reference > 0 ? csv_number(row.wall_time / reference) : "");
-    table.add_row(fields);
-  }
-  return table.text();
+std::string accuracy_timing_csv(const AccuracyResult& result, CsvFormat format) {
+  return csv_of(timing_columns(result.rows[result.reference].wall_time), result.rows, format);
 }
 
 std::string accuracy_table(const AccuracyResult& result) {
@@ -129,22 +174,22 @@ std::string accuracy_sentence(const AccuracyResult& result) {
   return fmt::format("{} {}", text, unresolved_text(result.rows[*recommended.unresolved], recommended.replicates));
 }
 
-void write_accuracy_report(const std::filesystem::path& directory, const AccuracyResult& result, double wall_time,
-                           int jobs) {
-  nlohmann::ordered_json timing;
-  timing["wall_s"] = wall_time;
-  timing["jobs"] = jobs;
-  double grain_steps = 0, run_time = 0;
+std::vector<FileText> accuracy_file_texts() {
+  return {
+      file_text("accuracy.csv", "one row per setting; one that gave no rate has its cells empty", accuracy_columns()),
+      file_text("accuracy_timing.csv", "one row per setting: what it took on this machine", timing_columns(0)),
+      file_text("timing.json", "what the command took on this machine", timing_keys())};
+}
+
+std::vector<OutputFile> accuracy_files(const AccuracyResult& result, double wall_time, int jobs, CsvFormat format) {
+  AccuracyTiming timing{wall_time, jobs};
   for (const AccuracyRow& row : result.rows) {
-    grain_steps += row.grain_steps * row.replicates;
-    run_time += row.wall_time * row.replicates;
+    timing.grain_steps += row.grain_steps * row.replicates;
+    timing.run_time += row.wall_time * row.replicates;
   }
-  timing["run_wall_s"] = run_time;
-  timing["grain_steps"] = grain_steps;
-  timing["grain_steps_per_s"] = wall_time > 0 ? grain_steps / wall_time : 0;
-  write_files_atomically(directory, {{"accuracy.csv", accuracy_csv(result)},
-                                     {"accuracy_timing.csv", accuracy_timing_csv(result)},
-                                     {"timing.json", timing.dump(2) + "\n"}});
+  return {{"accuracy.csv", accuracy_csv(result, format)},
+          {"accuracy_timing.csv", accuracy_timing_csv(result, format)},
+          {"timing.json", json_of(timing_keys(), timing)}};
 }
 
 }  // namespace vibrosow

@@ -1,17 +1,18 @@
 #pragma once
 
-#include <filesystem>
 #include <string>
 
 #include "design/accuracy.hpp"
+#include "report/columns.hpp"
+#include "report/output_folder.hpp"
 
 namespace vibrosow {
 
 /// One row per setting; a setting that gave no rate has its cells empty.
-std::string accuracy_csv(const AccuracyResult& result);
+std::string accuracy_csv(const AccuracyResult& result, CsvFormat format = {});
 
 /// Wall times of this machine, mean of a setting's runs.
-std::string accuracy_timing_csv(const AccuracyResult& result);
+std::string accuracy_timing_csv(const AccuracyResult& result, CsvFormat format = {});
 
 /// The same rows for a terminal, with the reason where a setting gave no rate.
 std::string accuracy_table(const AccuracyResult& result);
@@ -20,9 +21,10 @@ std::string accuracy_table(const AccuracyResult& result);
 /// cheaper one, if any, of which the replicates do not tell.
 std::string accuracy_sentence(const AccuracyResult& result);
 
-/// Writes accuracy.csv, accuracy_timing.csv and timing.json into `directory`, all or none. Throws InputError where that
-/// fails.
-void write_accuracy_report(const std::filesystem::path& directory, const AccuracyResult& result, double wall_time,
-                           int jobs);
+/// What the files of the command hold.
+std::vector<FileText> accuracy_file_texts();
+
+/// Its files: accuracy.csv, accuracy_timing.csv and timing.json. `wall_time`: s, from beginning to end.
+std::vector<OutputFile> accuracy_files(const AccuracyResult& result, double wall_time, int jobs, CsvFormat format = {});
 
 }  // namespace vibrosow

@@ -1,5 +1,7 @@
 #include "report/csv.hpp"
 
+#include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <stdexcept>
 
@@ -16,42 +18,54 @@ std::string quoted(const std::string& field) {
 }
 
 /// A leading # would be read as a comment, and space at an end would be trimmed, by our own reader too.
-bool needs_quotes(const std::string& field) {
+bool needs_quotes(const std::string& field, char separator) {
   if (field.empty()) return false;
-  return field.find_first_of(",\"\r\n") != std::string::npos || field.front() == '#' || field.front() == ' ' ||
-         field.back() == ' ';
-}
-
-std::string line_of(const std::vector<std::string>& fields) {
-  std::string line;
-  for (const std::string& field : fields) {
-    if (&field != &fields.front()) line += ',';
-    line += needs_quotes(field) ? quoted(field) : field;
-  }
-  return line + '\n';
+  return field.find_first_of("\"\r\n") != std::string::npos || field.find(separator) != std::string::npos ||
+         field.front() == '#' || field.front() == ' ' || field.back() == ' ';
 }
 
 }  // namespace
 
-std::string csv_number(double value) {
-  if (!std::isfinite(value)) return "";
-  return fmt::format("{:.6g}", value == 0 ? 0.0 : value);  // no "-0"
+CsvField csv_number(double value) {
+  if (!std::isfinite(value)) return {};
+  return {fmt::format("{:.6g}", value == 0 ? 0.0 : value), true};  // no "-0"
 }
 
-std::string csv_number(const std::optional<double>& value) {
-  return value ? csv_number(*value) : "";
+CsvField csv_number(const std::optional<double>& value) {
+  return value ? csv_number(*value) : CsvField();
 }
 
-std::string csv_number(std::int64_t value) {
-  return fmt::format("{}", value);
+CsvField csv_number(std::int64_t value) {
+  return {fmt::format("{}", value), true};
 }
 
-CsvTable::CsvTable(const std::vector<std::string>& columns) : columns_(columns.size()), text_(line_of(columns)) {}
+CsvField csv_text_or_number(std::string text) {
+  double number = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+  const bool whole = error == std::errc{} && end == text.data() + text.size();
+  return {std::move(text), whole};
+}
 
-void CsvTable::add_row(const std::vector<std::string>& fields) {
+CsvTable::CsvTable(const std::vector<std::string>& columns, CsvFormat format)
+    : columns_(columns.size()), format_(format) {
+  add_line({columns.begin(), columns.end()});
+}
+
+void CsvTable::add_row(const std::vector<CsvField>& fields) {
   if (fields.size() != columns_)
     throw std::invalid_argument(fmt::format("{} fields for {} columns", fields.size(), columns_));
-  text_ += line_of(fields);
+  add_line(fields);
+}
+
+void CsvTable::add_line(const std::vector<CsvField>& fields) {
+  for (const CsvField& field : fields) {
+    if (&field != &fields.front()) text_ += format_.separator;
+    const std::size_t from = text_.size();
+    text_ += needs_quotes(field.text, format_.separator) ? quoted(field.text) : field.text;
+    if (field.is_number)
+      std::replace(text_.begin() + static_cast<std::ptrdiff_t>(from), text_.end(), '.', format_.decimal);
+  }
+  text_ += '\n';
 }
 
 }  // namespace vibrosow

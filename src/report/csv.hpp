@@ -1,5 +1,6 @@
 #pragma once
 
+#include <concepts>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -8,22 +9,51 @@
 
 namespace vibrosow {
 
-/// A number as every CSV file of the program has it: 6 significant digits, decimal point; empty where it is
-/// undefined (no value, not a number, infinite).
-std::string csv_number(double value);
-std::string csv_number(const std::optional<double>& value);
-std::string csv_number(std::int64_t value);
+/// One field of a row. A number keeps its decimal point here; what is written depends on the file's format.
+struct CsvField {
+  std::string text;
+  bool is_number = false;
+  CsvField(std::string text_ = {}, bool is_number_ = false) : text(std::move(text_)), is_number(is_number_) {}
+  CsvField(const char* text_) : text(text_) {}
+};
 
-/// Comma-separated text (RFC 4180, line ends \n): a header, then rows. Fields are quoted where they need it.
+/// A number as every CSV file of the program has it: 6 significant digits; empty where it is undefined (no value, not a
+/// number, infinite).
+CsvField csv_number(double value);
+CsvField csv_number(const std::optional<double>& value);
+CsvField csv_number(std::int64_t value);
+
+/// A text, or a whole number.
+inline CsvField csv_field(std::string text) {
+  return {std::move(text)};
+}
+inline CsvField csv_field(std::integral auto number) {
+  return {std::to_string(number), true};
+}
+
+/// A text that is a number where it reads as one.
+CsvField csv_text_or_number(std::string text);
+
+/// How a CSV file is written: as programs read it, or as spreadsheets of countries with a decimal comma do.
+struct CsvFormat {
+  char separator = ',';
+  char decimal = '.';
+};
+inline constexpr CsvFormat semicolon_csv{';', ','};
+
+/// Separated text (RFC 4180, line ends \n): a header, then rows. Fields are quoted where they need it.
 class CsvTable {
  public:
-  explicit CsvTable(const std::vector<std::string>& columns);
+  explicit CsvTable(const std::vector<std::string>& columns, CsvFormat format = {});
   /// Throws std::invalid_argument for another number of fields than columns.
-  void add_row(const std::vector<std::string>& fields);
+  void add_row(const std::vector<CsvField>& fields);
   const std::string& text() const { return text_; }
 
  private:
+  void add_line(const std::vector<CsvField>& fields);
+
   std::size_t columns_;
+  CsvFormat format_;
   std::string text_;
 };
 

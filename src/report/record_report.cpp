@@ -10,22 +10,21 @@
 #include "fields/segregation.hpp"
 #include "fields/tray_frame.hpp"
 #include "outflow/flow.hpp"
-#include "report/csv.hpp"
+#include "report/columns.hpp"
 
 namespace vibrosow {
 namespace {
 
-/// In mm, of nine digits: overlaps of stiff grains are below a micrometre.
-std::string place(double length) {
-  return fmt::format("{:.9g}", 1e3 * length + 0.0);  // no "-0"
+using Value = std::optional<double>;
+
+/// A coordinate in mm, of nine digits: overlaps of stiff grains are below a micrometre.
+template <class Row, class Get>
+Column<Row> place_column(std::string name, std::string description, Get get) {
+  return {{std::move(name), "mm", std::move(description)}, [get](const Row& row) {
+            return CsvField(fmt::format("{:.9g}", 1e3 * get(row) + 0.0), true);  // no "-0"
+          }};
 }
 
-std::string millimetres(double length) {
-  return csv_number(length * 1e3);
-}
-std::string grams(double mass) {
-  return csv_number(mass * 1e3);
-}
 std::string lot_name(const Scene& scene, int lot) {
   return scene.lots.at(static_cast<std::size_t>(lot)).name;
 }
@@ -36,42 +35,167 @@ std::optional<Snapshot> in_tray_frame(const Scene& scene, const Snapshot* lab) {
   return in_tray_frame(*lab, scene.tray);
 }
 
+struct GrainRow {
+  const Scene* scene;
+  const Snapshot* own;
+  std::size_t i;
+  Value shear;
+};
+
+Columns<GrainRow> grains_columns() {
+  using R = const GrainRow&;
+  const auto quantity = [](std::string name, Unit unit, std::string description,
+                           std::vector<double> Snapshot::*values) {
+    return quantity_column<GrainRow>(std::move(name), unit, std::move(description),
+                                     [values](R r) { return (r.own->*values)[r.i]; });
+  };
+  const auto place = [](std::string name, std::string description, std::vector<double> Snapshot::*values) {
+    return place_column<GrainRow>(std::move(name), std::move(description),
+                                  [values](R r) { return (r.own->*values)[r.i]; });
+  };
+  return {text_column<GrainRow>("id", "number of the grain, in order of insertion, the same in every snapshot",
+                                [](R r) { return r.own->id[r.i]; }),
+          text_column<GrainRow>("lot", "name of its seeds", [](R r) { return lot_name(*r.scene, r.own->lot[r.i]); }),
+          place("x_mm", "place from the tray's left end", &Snapshot::x),
+          place("y_mm", "height over the tray's floor", &Snapshot::y),
+          quantity("vx_m_per_s", metres_per_second, "velocity along the floor", &Snapshot::vx),
+          quantity("vy_m_per_s", metres_per_second, "velocity upwards", &Snapshot::vy),
+          quantity("omega_rad_per_s", radians_per_second, "angular velocity, anticlockwise", &Snapshot::omega),
+          quantity_column<GrainRow>("angle_rad", radians, "how far a clump is turned; empty in a scene without clumps",
+                                    [](R r) { return r.own->angle.empty() ? Value() : Value(r.own->angle[r.i]); }),
+          quantity("radius_mm", millimetres, "radius of the grain, of a clump of the circle that just holds it",
+                   &Snapshot::radius),
+          quantity("start_x_mm", millimetres, "where it was put in", &Snapshot::start_x),
+          quantity("start_y_mm", millimetres, "where it was put in", &Snapshot::start_y),
+          quantity_column<GrainRow>("shear", plain,
+                                    "shear strain about it since the snapshot before; empty where it is undefined",
+                                    [](R r) { return r.shear; })};
+}
+
+struct CellRow {
+  Eigen::Vector2d centre;
+  double packing;
+  Value change, vx, vy, shear_rate, dilation_rate;
+};
+
+Columns<CellRow> fields_columns() {
+  const auto quantity = [](std::string name, Unit unit, std::string description, Value CellRow::*value) {
+    return quantity_column<CellRow>(std::move(name), unit, std::move(description),
+                                    [value](const CellRow& r) { return r.*value; });
+  };
+  return {quantity_column<CellRow>("x_mm", millimetres, "middle of the cell, from the tray's left end",
+                                   [](const CellRow& r) { return r.centre.x(); }),
+          quantity_column<CellRow>("y_mm", millimetres, "middle of the cell, over the tray's floor",
+                                   [](const CellRow& r) { return r.centre.y(); }),
+          quantity_column<CellRow>("packing_fraction", plain, "share of the cell that grains cover",
+                                   [](const CellRow& r) { return r.packing; }),
+          quantity("packing_change", plain, "its change since the snapshot before", &CellRow::change),
+          quantity("vx_m_per_s", metres_per_second, "mean velocity along the floor", &CellRow::vx),
+          quantity("vy_m_per_s", metres_per_second, "mean velocity upwards", &CellRow::vy),
+          quantity("shear_rate_per_s", per_second, "difference of the principal stretch rates", &CellRow::shear_rate),
+          quantity("dilation_rate_per_s", per_second, "trace of the velocity gradient, above 0 where the bed loosens",
+                   &CellRow::dilation_rate)};
+}
+
+CellRow cell_row(const Grid& grid, std::size_t k, double packing, Value change,
+                 const std::optional<CellMotion>& motion) {
+  CellRow row{grid.centre(k), packing, change, {}, {}, {}, {}};
+  if (packing == 0 || !motion) return row;
+  row.vx = motion->velocity.x(), row.vy = motion->velocity.y();
+  if (motion->gradient) row.shear_rate = shear(*motion->gradient), row.dilation_rate = dilation(*motion->gradient);
+  return row;
+}
+
 /// Of one lot, or of all where `lot` is negative.
-std::vector<std::string> records_row(const Scene& scene, const Snapshot& own, std::size_t record, int lot) {
-  const std::vector<std::size_t> inside = grains_in_tray(own, scene.tray);
-  std::int64_t grains = 0;
+struct RecordRow {
+  const Scene* scene;
+  const Snapshot* own;
+  std::size_t record;
+  int lot;
+  bool all() const { return lot < 0; }
+};
+
+std::vector<std::size_t> grains_of(const RecordRow& row) {
+  std::vector<std::size_t> grains = grains_in_tray(*row.own, row.scene->tray);
+  std::erase_if(grains, [&](std::size_t i) { return !row.all() && row.own->lot[i] != row.lot; });
+  return grains;
+}
+
+double mass_of(const RecordRow& row) {
   double mass = 0;
-  for (const std::size_t i : inside)
-    if (lot < 0 || own.lot[i] == lot) ++grains, mass += own.mass[i];
-  const bool all = lot < 0;
-  return {fmt::format("{}", record),
-          csv_number(own.time),
-          all ? "all" : lot_name(scene, lot),
-          csv_number(grains),
-          grams(mass),
-          csv_number(all ? std::nullopt : segregation_index(own, scene.tray, lot)),
-          csv_number(all ? flux_asymmetry(own, scene.tray) : std::nullopt),
-          csv_number(all ? surface_asymmetry(own, scene.tray, scene.record->cell) : std::nullopt),
-          csv_number(all ? bed_packing(own, scene.lots, scene.tray, scene.record->cell) : std::nullopt)};
+  for (const std::size_t i : grains_of(row)) mass += row.own->mass[i];
+  return mass;
+}
+
+Columns<RecordRow> records_columns() {
+  using R = const RecordRow&;
+  return {text_column<RecordRow>("record", "number of the snapshot", [](R r) { return r.record; }),
+          quantity_column<RecordRow>("time_s", seconds, "when it was taken", [](R r) { return r.own->time; }),
+          text_column<RecordRow>("lot", "name of the seeds, or all",
+                                 [](R r) { return r.all() ? "all" : lot_name(*r.scene, r.lot); }),
+          text_column<RecordRow>("grains", "in the tray", [](R r) { return grains_of(r).size(); }),
+          quantity_column<RecordRow>("mass_g", grams, "in the tray", mass_of),
+          quantity_column<RecordRow>(
+              "segregation", plain, "segregation index, above 0 where the lot lies high",
+              [](R r) { return r.all() ? Value() : segregation_index(*r.own, r.scene->tray, r.lot); }),
+          quantity_column<RecordRow>("flux_asymmetry", plain, "left less right of the downward momentum, of their sum",
+                                     [](R r) { return r.all() ? flux_asymmetry(*r.own, r.scene->tray) : Value(); }),
+          quantity_column<RecordRow>(
+              "surface_asymmetry", plain, "left less right of the free surface's height, of their sum",
+              [](R r) { return r.all() ? surface_asymmetry(*r.own, r.scene->tray, r.scene->record->cell) : Value(); }),
+          quantity_column<RecordRow>("packing_fraction", plain, "of the inside of the bed", [](R r) {
+            return r.all() ? bed_packing(*r.own, r.scene->lots, r.scene->tray, r.scene->record->cell) : Value();
+          })};
+}
+
+struct ProfileRow {
+  const Scene* scene;
+  double time;
+  LotInLayer layer;
+};
+
+Columns<ProfileRow> profile_columns() {
+  using R = const ProfileRow&;
+  return {quantity_column<ProfileRow>("time_s", seconds, "when the snapshot was taken", [](R r) { return r.time; }),
+          quantity_column<ProfileRow>("height_mm", millimetres, "middle of the layer, over the tray's floor",
+                                      [](R r) { return r.layer.height; }),
+          text_column<ProfileRow>("lot", "name of the seeds", [](R r) { return lot_name(*r.scene, r.layer.lot); }),
+          text_column<ProfileRow>("grains", "of the lot in the layer", [](R r) { return r.layer.grains; }),
+          quantity_column<ProfileRow>("mass_g", grams, "of the lot in the layer", [](R r) { return r.layer.mass; }),
+          quantity_column<ProfileRow>("mass_fraction", plain, "share of the lot in the layer's mass",
+                                      [](R r) { return r.layer.mass_fraction; })};
+}
+
+Columns<FlowWindow> flow_columns() {
+  using R = const FlowWindow&;
+  return {quantity_column<FlowWindow>("from_s", seconds, "begin of the part of the run", [](R r) { return r.from; }),
+          quantity_column<FlowWindow>("to_s", seconds, "its end", [](R r) { return r.to; }),
+          text_column<FlowWindow>("hole", "number of the hole from the left, or all",
+                                  [](R r) { return r.hole > 0 ? fmt::format("{}", r.hole) : "all"; }),
+          text_column<FlowWindow>("grains", "that left", [](R r) { return r.grains; }),
+          quantity_column<FlowWindow>("mass_g", grams, "that left", [](R r) { return r.mass; }),
+          quantity_column<FlowWindow>("asymmetry", plain, "left less right of its hole's middle, of the mass that left",
+                                      [](R r) { return r.asymmetry; }),
+          text_column<FlowWindow>("pauses", "that begin in this part", [](R r) { return r.pauses; }),
+          quantity_column<FlowWindow>("longest_pause_s", seconds, "the longest of these",
+                                      [](R r) { return r.longest_pause; }),
+          quantity_column<FlowWindow>("paused_s", seconds, "time in pauses in this part", [](R r) { return r.paused; }),
+          quantity_column<FlowWindow>("paused_fraction", plain, "share of this part that is paused",
+                                      [](R r) { return r.paused_fraction(); })};
 }
 
 }  // namespace
 
-std::string grains_csv(const Scene& scene, const Snapshot& snapshot, const Snapshot* before) {
+std::string grains_csv(const Scene& scene, const Snapshot& snapshot, const Snapshot* before, CsvFormat format) {
   const Snapshot own = in_tray_frame(snapshot, scene.tray);
-  std::vector<std::optional<double>> shear(own.size());
+  std::vector<Value> shear(own.size());
   if (const auto earlier = in_tray_frame(scene, before)) shear = shear_strain(*earlier, own, fit_reach(*earlier));
-  CsvTable table({"id", "lot", "x_mm", "y_mm", "vx_m_per_s", "vy_m_per_s", "omega_rad_per_s", "angle_rad", "radius_mm",
-                  "start_x_mm", "start_y_mm", "shear"});
-  for (std::size_t i = 0; i < own.size(); ++i)
-    table.add_row({csv_number(own.id[i]), lot_name(scene, own.lot[i]), place(own.x[i]), place(own.y[i]),
-                   csv_number(own.vx[i]), csv_number(own.vy[i]), csv_number(own.omega[i]),
-                   own.angle.empty() ? "" : csv_number(own.angle[i]), millimetres(own.radius[i]),
-                   millimetres(own.start_x[i]), millimetres(own.start_y[i]), csv_number(shear[i])});
-  return table.text();
+  Csv<GrainRow> csv(grains_columns(), format);
+  for (std::size_t i = 0; i < own.size(); ++i) csv.add({&scene, &own, i, shear[i]});
+  return csv.text();
 }
 
-std::string fields_csv(const Scene& scene, const Snapshot& snapshot, const Snapshot* before) {
+std::string fields_csv(const Scene& scene, const Snapshot& snapshot, const Snapshot* before, CsvFormat format) {
   const double cell = scene.record->cell;
   const Snapshot own = in_tray_frame(snapshot, scene.tray);
   const std::optional<Snapshot> earlier = in_tray_frame(scene, before);
@@ -79,67 +203,62 @@ std::string fields_csv(const Scene& scene, const Snapshot& snapshot, const Snaps
   const std::vector<double> packing = packing_fraction(own, scene.lots, grid);
   const std::vector<double> change = earlier ? packing_change(*earlier, own, scene.lots, grid) : std::vector<double>{};
   const auto motion = cell_motion(own, grid, std::max(fit_reach(own), cell));
-  CsvTable table({"x_mm", "y_mm", "packing_fraction", "packing_change", "vx_m_per_s", "vy_m_per_s", "shear_rate_per_s",
-                  "dilation_rate_per_s"});
+  Csv<CellRow> csv(fields_columns(), format);
   for (std::size_t k = 0; k < grid.size(); ++k) {
     if (packing[k] == 0 && (!earlier || change[k] == 0)) continue;
-    std::optional<double> vx, vy, shear_rate, dilation_rate;
-    if (packing[k] > 0 && motion[k]) {
-      vx = motion[k]->velocity.x(), vy = motion[k]->velocity.y();
-      if (motion[k]->gradient) shear_rate = shear(*motion[k]->gradient), dilation_rate = dilation(*motion[k]->gradient);
-    }
-    const Eigen::Vector2d centre = grid.centre(k);
-    table.add_row({millimetres(centre.x()), millimetres(centre.y()), csv_number(packing[k]),
-                   earlier ? csv_number(change[k]) : "", csv_number(vx), csv_number(vy), csv_number(shear_rate),
-                   csv_number(dilation_rate)});
+    csv.add(cell_row(grid, k, packing[k], earlier ? Value(change[k]) : Value(), motion[k]));
   }
-  return table.text();
+  return csv.text();
 }
 
-std::string records_csv(const Scene& scene, const std::vector<Snapshot>& snapshots) {
-  CsvTable table({"record", "time_s", "lot", "grains", "mass_g", "segregation", "flux_asymmetry", "surface_asymmetry",
-                  "packing_fraction"});
+std::string records_csv(const Scene& scene, const std::vector<Snapshot>& snapshots, CsvFormat format) {
+  Csv<RecordRow> csv(records_columns(), format);
   const int lots = static_cast<int>(scene.lots.size());
   for (std::size_t k = 0; k < snapshots.size(); ++k) {
     const Snapshot own = in_tray_frame(snapshots[k], scene.tray);
-    for (int lot = 0; lots > 1 && lot < lots; ++lot) table.add_row(records_row(scene, own, k + 1, lot));
-    table.add_row(records_row(scene, own, k + 1, -1));
+    for (int lot = 0; lots > 1 && lot < lots; ++lot) csv.add({&scene, &own, k + 1, lot});
+    csv.add({&scene, &own, k + 1, -1});
   }
-  return table.text();
+  return csv.text();
 }
 
-std::string profile_csv(const Scene& scene, const std::vector<Snapshot>& snapshots) {
-  CsvTable table({"time_s", "height_mm", "lot", "grains", "mass_g", "mass_fraction"});
+std::string profile_csv(const Scene& scene, const std::vector<Snapshot>& snapshots, CsvFormat format) {
+  Csv<ProfileRow> csv(profile_columns(), format);
   for (const Snapshot& snapshot : snapshots)
-    for (const LotInLayer& row : lot_profile(in_tray_frame(snapshot, scene.tray), scene.tray,
-                                             static_cast<int>(scene.lots.size()), scene.record->cell))
-      table.add_row({csv_number(snapshot.time), millimetres(row.height), lot_name(scene, row.lot),
-                     csv_number(row.grains), grams(row.mass), csv_number(row.mass_fraction)});
-  return table.text();
+    for (const LotInLayer& layer : lot_profile(in_tray_frame(snapshot, scene.tray), scene.tray,
+                                               static_cast<int>(scene.lots.size()), scene.record->cell))
+      csv.add({&scene, snapshot.time, layer});
+  return csv.text();
 }
 
-std::string flow_csv(const Scene& scene, const Run& run) {
-  CsvTable table({"from_s", "to_s", "hole", "grains", "mass_g", "asymmetry", "pauses", "longest_pause_s", "paused_s",
-                  "paused_fraction"});
-  for (const FlowWindow& row : flow_over_time(scene, run))
-    table.add_row({csv_number(row.from), csv_number(row.to), row.hole > 0 ? fmt::format("{}", row.hole) : "all",
-                   csv_number(row.grains), grams(row.mass), csv_number(row.asymmetry), csv_number(row.pauses),
-                   csv_number(row.longest_pause), csv_number(row.paused), csv_number(row.paused_fraction())});
-  return table.text();
+std::string flow_csv(const Scene& scene, const Run& run, CsvFormat format) {
+  return csv_of(flow_columns(), flow_over_time(scene, run), format);
 }
 
-std::vector<OutputFile> record_files(const Scene& scene, const Run& run) {
+std::vector<OutputFile> record_files(const Scene& scene, const Run& run, CsvFormat format) {
   if (!scene.record) return {};
   std::vector<OutputFile> files;
   for (std::size_t k = 0; k < run.snapshots.size(); ++k) {
     const Snapshot* before = k > 0 ? &run.snapshots[k - 1] : nullptr;
-    files.push_back({fmt::format("grains_{:03}.csv", k + 1), grains_csv(scene, run.snapshots[k], before)});
-    files.push_back({fmt::format("fields_{:03}.csv", k + 1), fields_csv(scene, run.snapshots[k], before)});
+    files.push_back({fmt::format("grains_{:03}.csv", k + 1), grains_csv(scene, run.snapshots[k], before, format)});
+    files.push_back({fmt::format("fields_{:03}.csv", k + 1), fields_csv(scene, run.snapshots[k], before, format)});
   }
-  files.push_back({"records.csv", records_csv(scene, run.snapshots)});
-  files.push_back({"profile.csv", profile_csv(scene, run.snapshots)});
-  files.push_back({"flow.csv", flow_csv(scene, run)});
+  files.push_back({"records.csv", records_csv(scene, run.snapshots, format)});
+  files.push_back({"profile.csv", profile_csv(scene, run.snapshots, format)});
+  files.push_back({"flow.csv", flow_csv(scene, run, format)});
   return files;
+}
+
+std::vector<FileText> record_file_texts() {
+  return {file_text("grains_NNN.csv", "of each snapshot: one row per grain, in the tray's frame", grains_columns()),
+          file_text("fields_NNN.csv",
+                    "of each snapshot: one row per cell that holds a part of a grain, in it or in the snapshot before, "
+                    "in the tray's frame",
+                    fields_columns()),
+          file_text("records.csv", "one row per snapshot and lot, and per snapshot one of all lots", records_columns()),
+          file_text("profile.csv", "one row per snapshot, layer and lot", profile_columns()),
+          file_text("flow.csv", "one row per hole and tenth of the run, and per hole one of the whole run",
+                    flow_columns())};
 }
 
 }  // namespace vibrosow

@@ -3,7 +3,8 @@
 #include <string>
 #include <vector>
 
-#include "report/output_files.hpp"
+#include "report/columns.hpp"
+#include "report/output_folder.hpp"
 #include "result/run.hpp"
 #include "scene/scene.hpp"
 
@@ -19,12 +20,15 @@ namespace vibrosow {
 ///  - profile.csv: the lots by height;
 ///  - flow.csv: asymmetry and pauses of the outflow over time.
 /// Numbers that are not defined are left empty.
-std::vector<OutputFile> record_files(const Scene& scene, const Run& run);
+std::vector<OutputFile> record_files(const Scene& scene, const Run& run, CsvFormat format = {});
 
-std::string grains_csv(const Scene& scene, const Snapshot& snapshot, const Snapshot* before);
-std::string fields_csv(const Scene& scene, const Snapshot& snapshot, const Snapshot* before);
-std::string records_csv(const Scene& scene, const std::vector<Snapshot>& snapshots);
-std::string profile_csv(const Scene& scene, const std::vector<Snapshot>& snapshots);
-std::string flow_csv(const Scene& scene, const Run& run);
+std::string grains_csv(const Scene& scene, const Snapshot& snapshot, const Snapshot* before, CsvFormat format = {});
+std::string fields_csv(const Scene& scene, const Snapshot& snapshot, const Snapshot* before, CsvFormat format = {});
+std::string records_csv(const Scene& scene, const std::vector<Snapshot>& snapshots, CsvFormat format = {});
+std::string profile_csv(const Scene& scene, const std::vector<Snapshot>& snapshots, CsvFormat format = {});
+std::string flow_csv(const Scene& scene, const Run& run, CsvFormat format = {});
+
+/// What these files hold.
+std::vector<FileText> record_file_texts();
 
 }  // namespace vibrosow

@@ -4,10 +4,9 @@
 
 #include <algorithm>
 #include <iterator>
-#include <nlohmann/json.hpp>
 
-#include "report/csv.hpp"
-#include "report/output_files.hpp"
+#include "report/columns.hpp"
+#include "report/json_keys.hpp"
 #include "report/record_report.hpp"
 #include "scene/scene_json.hpp"
 #include "units/quantity.hpp"
@@ -17,23 +16,68 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-std::string in_unit(std::optional<double> si_value, std::string_view unit, Dimension dimension) {
-  if (si_value) *si_value /= unit_size(unit, dimension);
-  return csv_number(si_value);
+/// A grain that left.
+struct EventRow {
+  const Scene* scene;
+  const OutflowEvent* event;
+};
+
+Columns<EventRow> outflow_columns() {
+  using R = const EventRow&;
+  return {quantity_column<EventRow>("time_s", seconds, "when its centre crossed the counting line",
+                                    [](R r) { return r.event->time; }),
+          text_column<EventRow>("hole", "number of the hole from the left; spilled: it passed none",
+                                [](R r) { return r.event->hole > 0 ? fmt::format("{}", r.event->hole) : "spilled"; }),
+          text_column<EventRow>("lot", "name of its seeds",
+                                [](R r) { return r.scene->lots.at(static_cast<std::size_t>(r.event->lot)).name; }),
+          text_column<EventRow>("grain", "its number, in order of insertion", [](R r) { return r.event->grain; }),
+          quantity_column<EventRow>("mass_g", grams, "its mass", [](R r) { return r.event->mass; }),
+          quantity_column<EventRow>("x_mm", millimetres,
+                                    "where it passed the floor, from the tray's left end; of a spilled grain where it "
+                                    "was counted",
+                                    [](R r) { return r.event->x; }),
+          quantity_column<EventRow>("speed_m_per_s", metres_per_second, "its speed at the counting line",
+                                    [](R r) { return r.event->speed; })};
 }
 
-std::string millimetres(std::optional<double> length) {
-  return in_unit(length, "mm", Dimension::length);
-}
-std::string grams(double mass) {
-  return in_unit(mass, "g", Dimension::mass);
-}
-std::string grams_per_second(std::optional<double> rate) {
-  return in_unit(rate, "g/s", Dimension::mass_rate);
+struct SummaryRow {
+  const Outflow* outflow;
+  const HoleOutflow* hole;
+};
+
+std::optional<double> tray_rate(const SummaryRow& row) {
+  if (!row.outflow->depth_factor) return std::nullopt;
+  return row.hole->mass_rate * *row.outflow->depth_factor;
 }
 
-Json percent(const std::optional<double>& fraction) {
-  return fraction ? Json(*fraction / unit_size("%", Dimension::fraction)) : Json(nullptr);
+Columns<SummaryRow> summary_columns() {
+  using R = const SummaryRow&;
+  return {text_column<SummaryRow>("hole", "number of the hole from the left, or all", [](R r) { return r.hole->hole; }),
+          text_column<SummaryRow>("lot", "name of the seeds, or all", [](R r) { return r.hole->lot; }),
+          quantity_column<SummaryRow>("position_mm", millimetres, "middle of the hole, from the tray's left end",
+                                      [](R r) { return r.hole->centre; }),
+          quantity_column<SummaryRow>("width_mm", millimetres, "of the hole", [](R r) { return r.hole->width; }),
+          text_column<SummaryRow>("grains", "that left in the window, of the plane slice",
+                                  [](R r) { return r.hole->grains; }),
+          quantity_column<SummaryRow>("mass_g", grams, "that left in the window, of the plane slice",
+                                      [](R r) { return r.hole->mass; }),
+          quantity_column<SummaryRow>("seeds_per_s", per_second, "of the plane slice",
+                                      [](R r) { return r.hole->seeds_per_s; }),
+          quantity_column<SummaryRow>("rate_g_per_s", grams_per_second, "of the plane slice",
+                                      [](R r) { return r.hole->mass_rate; }),
+          quantity_column<SummaryRow>("longest_pause_s", seconds, "longest time in the window without a seed",
+                                      [](R r) { return r.hole->longest_pause; }),
+          quantity_column<SummaryRow>("depth_factor", plain,
+                                      "tray.depth over the thickness of the plane slice; empty without tray.depth",
+                                      [](R r) { return r.outflow->depth_factor; }),
+          quantity_column<SummaryRow>("tray_rate_g_per_s", grams_per_second,
+                                      "of the whole tray: the slice's rate times the depth factor", tray_rate),
+          text_column<SummaryRow>("note", "what to know about the run; empty when all is well",
+                                  [](R r) { return r.outflow->note; })};
+}
+
+Json in_percent(const std::optional<double>& fraction) {
+  return fraction ? Json(*fraction / percent.size) : Json(nullptr);
 }
 
 std::string_view name_of(RunStatus status) {
@@ -48,112 +92,132 @@ std::string_view name_of(RunStatus status) {
   return "";
 }
 
-Json energy_json(const EnergyAccount& energy) {
-  return {{"kinetic", energy.kinetic},
-          {"potential", energy.potential},
-          {"elastic", energy.elastic},
-          {"wall_work", energy.wall_work},
-          {"inserted", energy.inserted},
-          {"removed", energy.removed},
-          {"made_by_numerics", energy.made_by_numerics}};
-}
-
-Json balance_json(const Balance& balance) {
-  return {{"put_in", balance.put_in},
-          {"inside", balance.inside},
-          {"counted", balance.counted},
-          {"spilled", balance.spilled},
-          {"lost", balance.lost}};
-}
-
-Json outflow_json(const Outflow& outflow) {
-  return {{"window_s", {outflow.window_from, outflow.window_to}},
-          {"evenness_cv_percent", percent(outflow.evenness_cv)},
-          {"counting_cv_percent", percent(outflow.counting_cv)},
-          {"instability_cv_percent", percent(outflow.instability_cv)},
-          {"instability_windows", instability_windows},
-          {"spilled_percent", percent(outflow.spilled_fraction)},
-          {"depth_factor", outflow.depth_factor ? Json(*outflow.depth_factor) : Json(nullptr)},
-          {"note", outflow.note}};
-}
-
 /// The title stands in the report already.
 Json untitled(Scene scene) {
   scene.title.clear();
   return Json::parse(scene_to_json(scene));
 }
 
-std::string text_of(const Json& json) {
-  return json.dump(2) + '\n';
+/// What run.json is made from.
+struct RunSource {
+  const Scene& scene;
+  const Run& run;
+  const Outflow& outflow;
+  const std::vector<std::string>& effects;
+};
+
+JsonKeys<RunSource> run_keys() {
+  using S = const RunSource&;
+  return {
+      {"title", "", "of the seeder file", [](S s) { return s.scene.title; }},
+      {"status", "", "finished, stopped by the guard or interrupted", [](S s) { return name_of(s.run.status); }},
+      {"stop_reason", "", "why the guard stopped it", [](S s) { return s.run.stop_reason; }},
+      {"warnings", "", "of the guard", [](S s) { return s.run.warnings; }},
+      {"outside_the_model", "", "whether the run is beyond what the model is for",
+       [](S s) { return s.run.outside_the_model; }},
+      {"random_seed", "", "of the run", [](S s) { return s.run.random_seed; }},
+      {"dt_s", "s", "time step", [](S s) { return s.run.dt; }},
+      {"steps", "", "time steps taken", [](S s) { return s.run.steps; }},
+      {"end_time_s", "s", "simulated time at the end", [](S s) { return s.run.end_time; }},
+      {"end_reason", "", "why a sound run ended before its duration", [](S s) { return s.run.end_reason; }},
+      {"grain_steps", "", "grains times steps", [](S s) { return s.run.grain_steps; }},
+      {"force_evaluations", "", "how often the forces between grains were worked out",
+       [](S s) { return s.run.force_evaluations; }},
+      {"effects", "", "effects that the scene calls for", [](S s) { return s.effects; }},
+      {"max_compression", "", "largest shell compression, of the grain's radius",
+       [](S s) { return s.run.max_compression; }},
+      {"energy_J.kinetic", "J", "at the end", [](S s) { return s.run.energy.kinetic; }},
+      {"energy_J.potential", "J", "at the end, from the tray's floor", [](S s) { return s.run.energy.potential; }},
+      {"energy_J.elastic", "J", "in the contacts at the end", [](S s) { return s.run.energy.elastic; }},
+      {"energy_J.wall_work", "J", "done by walls on grains", [](S s) { return s.run.energy.wall_work; }},
+      {"energy_J.inserted", "J", "carried by grains put in", [](S s) { return s.run.energy.inserted; }},
+      {"energy_J.removed", "J", "carried by grains taken out", [](S s) { return s.run.energy.removed; }},
+      {"energy_J.made_by_numerics", "J", "largest rise of what must only fall",
+       [](S s) { return s.run.energy.made_by_numerics; }},
+      {"balance.put_in", "", "seeds put in: inside + counted + spilled + lost",
+       [](S s) { return s.run.balance.put_in; }},
+      {"balance.inside", "", "seeds still inside at the end", [](S s) { return s.run.balance.inside; }},
+      {"balance.counted", "", "seeds that left through holes, in the whole run",
+       [](S s) { return s.run.balance.counted; }},
+      {"balance.spilled", "", "seeds that left over the rim", [](S s) { return s.run.balance.spilled; }},
+      {"balance.lost", "", "seeds that went through a wall: an error", [](S s) { return s.run.balance.lost; }},
+      {"outflow.window_s", "s", "begin and end of the measuring window",
+       [](S s) {
+         return Json{s.outflow.window_from, s.outflow.window_to};
+       }},
+      {"outflow.evenness_cv_percent", "%", "as in sweep.csv", [](S s) { return in_percent(s.outflow.evenness_cv); }},
+      {"outflow.counting_cv_percent", "%", "coefficient of variation that counting alone would give",
+       [](S s) { return in_percent(s.outflow.counting_cv); }},
+      {"outflow.instability_cv_percent", "%", "as in sweep.csv",
+       [](S s) { return in_percent(s.outflow.instability_cv); }},
+      {"outflow.instability_windows", "", "parts of the window for that", [](S) { return instability_windows; }},
+      {"outflow.spilled_percent", "%", "as in sweep.csv", [](S s) { return in_percent(s.outflow.spilled_fraction); }},
+      {"outflow.depth_factor", "", "as in summary.csv",
+       [](S s) { return s.outflow.depth_factor ? Json(*s.outflow.depth_factor) : Json(nullptr); }},
+      {"outflow.note", "", "as in summary.csv", [](S s) { return s.outflow.note; }},
+      {"versions.vibrosow", "", "of the program", [](S) { return VIBROSOW_VERSION; }},
+      {"versions.box2d", "", "of Box2D", [](S) { return VIBROSOW_BOX2D_VERSION; }},
+      {"scene", "SI", "the whole scene as it was run", [](S s) { return untitled(s.scene); }}};
+}
+
+JsonKeys<Run> timing_keys(bool phases) {
+  using R = const Run&;
+  JsonKeys<Run> keys = {
+      {"wall_s", "s", "wall time of the run", [](R r) { return r.wall_time; }},
+      {"measured_wall_s", "s", "that part of it that went into the measuring window",
+       [](R r) { return r.measured_wall_time; }},
+      {"grain_steps_per_s", "1/s", "grains times steps in a second of wall time",
+       [](R r) { return r.wall_time > 0 ? Json(static_cast<double>(r.grain_steps) / r.wall_time) : Json(nullptr); }}};
+  for (std::size_t k = 0; phases && k < phase_names.size(); ++k)
+    keys.push_back({fmt::format("fractions.{}", phase_names[k]), "", "its part of the wall time; with --profile",
+                    [k](R r) { return (*r.phase_times)[k] / r.wall_time; }});
+  return keys;
 }
 
 }  // namespace
 
-std::string outflow_csv(const Scene& scene, const Run& run) {
-  CsvTable table({"time_s", "hole", "lot", "grain", "mass_g", "x_mm", "speed_m_per_s"});
-  for (const OutflowEvent& event : run.events)
-    table.add_row({csv_number(event.time), event.hole > 0 ? fmt::format("{}", event.hole) : "spilled",
-                   scene.lots.at(static_cast<std::size_t>(event.lot)).name, csv_number(event.grain), grams(event.mass),
-                   millimetres(event.x), csv_number(event.speed)});
-  return table.text();
+std::string outflow_csv(const Scene& scene, const Run& run, CsvFormat format) {
+  Csv<EventRow> csv(outflow_columns(), format);
+  for (const OutflowEvent& event : run.events) csv.add({&scene, &event});
+  return csv.text();
 }
 
-std::string summary_csv(const Outflow& outflow) {
-  CsvTable table({"hole", "lot", "position_mm", "width_mm", "grains", "mass_g", "seeds_per_s", "rate_g_per_s",
-                  "longest_pause_s", "depth_factor", "tray_rate_g_per_s", "note"});
-  for (const HoleOutflow& row : outflow.holes) {
-    std::optional<double> tray_rate;
-    if (outflow.depth_factor) tray_rate = row.mass_rate * *outflow.depth_factor;
-    table.add_row({row.hole, row.lot, millimetres(row.centre), millimetres(row.width), csv_number(row.grains),
-                   grams(row.mass), csv_number(row.seeds_per_s), grams_per_second(row.mass_rate),
-                   csv_number(row.longest_pause), csv_number(outflow.depth_factor), grams_per_second(tray_rate),
-                   outflow.note});
-  }
-  return table.text();
+std::string summary_csv(const Outflow& outflow, CsvFormat format) {
+  Csv<SummaryRow> csv(summary_columns(), format);
+  for (const HoleOutflow& hole : outflow.holes) csv.add({&outflow, &hole});
+  return csv.text();
 }
 
 std::string run_json(const Scene& scene, const Run& run, const Outflow& outflow,
                      const std::vector<std::string>& effects) {
-  const Json json = {{"title", scene.title},
-                     {"status", name_of(run.status)},
-                     {"stop_reason", run.stop_reason},
-                     {"warnings", run.warnings},
-                     {"outside_the_model", run.outside_the_model},
-                     {"random_seed", run.random_seed},
-                     {"dt_s", run.dt},
-                     {"steps", run.steps},
-                     {"end_time_s", run.end_time},
-                     {"end_reason", run.end_reason},
-                     {"grain_steps", run.grain_steps},
-                     {"force_evaluations", run.force_evaluations},
-                     {"effects", effects},
-                     {"max_compression", run.max_compression},
-                     {"energy_J", energy_json(run.energy)},
-                     {"balance", balance_json(run.balance)},
-                     {"outflow", outflow_json(outflow)},
-                     {"versions", {{"vibrosow", VIBROSOW_VERSION}, {"box2d", VIBROSOW_BOX2D_VERSION}}},
-                     {"scene", untitled(scene)}};
-  return text_of(json);
+  return json_of(run_keys(), RunSource{scene, run, outflow, effects});
 }
 
 std::string timing_json(const Run& run) {
-  Json json = {{"wall_s", run.wall_time}, {"measured_wall_s", run.measured_wall_time}, {"grain_steps_per_s", nullptr}};
-  if (run.wall_time <= 0) return text_of(json);
-  json["grain_steps_per_s"] = static_cast<double>(run.grain_steps) / run.wall_time;
-  if (run.phase_times)
-    for (std::size_t k = 0; k < phase_names.size(); ++k)
-      json["fractions"][std::string(phase_names[k])] = (*run.phase_times)[k] / run.wall_time;
-  return text_of(json);
+  return json_of(timing_keys(run.phase_times && run.wall_time > 0), run);
 }
 
-void write_run_report(const std::filesystem::path& directory, const Scene& scene, const Run& run,
-                      const Outflow& outflow, const std::vector<std::string>& effects) {
-  std::vector<OutputFile> files = {{"outflow.csv", outflow_csv(scene, run)},
-                                   {"summary.csv", summary_csv(outflow)},
+std::vector<FileText> run_file_texts() {
+  std::vector<FileText> texts = {
+      file_text("outflow.csv", "one row per seed that left, by time", outflow_columns()),
+      file_text(
+          "summary.csv",
+          "one row per hole and lot, per hole one of all lots where there are several, then the same of all holes",
+          summary_columns()),
+      file_text("run.json", "what the run was and how it went", run_keys()),
+      file_text("timing.json", "what the run took on this machine", timing_keys(true))};
+  std::ranges::move(record_file_texts(), std::back_inserter(texts));
+  return texts;
+}
+
+std::vector<OutputFile> run_files(const Scene& scene, const Run& run, const Outflow& outflow,
+                                  const std::vector<std::string>& effects, CsvFormat format) {
+  std::vector<OutputFile> files = {{"outflow.csv", outflow_csv(scene, run, format)},
+                                   {"summary.csv", summary_csv(outflow, format)},
                                    {"run.json", run_json(scene, run, outflow, effects)},
                                    {"timing.json", timing_json(run)}};
-  std::ranges::move(record_files(scene, run), std::back_inserter(files));
-  write_files_atomically(directory, files);
+  std::ranges::move(record_files(scene, run, format), std::back_inserter(files));
+  return files;
 }
 
 }  // namespace vibrosow

@@ -1,21 +1,22 @@
 #pragma once
 
-#include <filesystem>
 #include <string>
 #include <vector>
 
 #include "outflow/outflow.hpp"
+#include "report/columns.hpp"
+#include "report/output_folder.hpp"
 #include "result/run.hpp"
 #include "scene/scene.hpp"
 
 namespace vibrosow {
 
 /// One row per grain leaving; `hole` is "spilled" for a grain that passed no hole.
-std::string outflow_csv(const Scene& scene, const Run& run);
+std::string outflow_csv(const Scene& scene, const Run& run, CsvFormat format = {});
 
 /// One row per hole and lot. The tray's rate is the plane's times the depth factor; both are empty without
 /// `tray.depth`.
-std::string summary_csv(const Outflow& outflow);
+std::string summary_csv(const Outflow& outflow, CsvFormat format = {});
 
 /// What the run was and how it went, with the whole scene. Holds nothing that depends on a clock. `effects`:
 /// names of those present.
@@ -25,9 +26,11 @@ std::string run_json(const Scene& scene, const Run& run, const Outflow& outflow,
 /// What the run took on this machine.
 std::string timing_json(const Run& run);
 
-/// Writes outflow.csv, summary.csv, run.json, timing.json and the files of a record into `directory`, all or none.
-/// Throws InputError where that fails.
-void write_run_report(const std::filesystem::path& directory, const Scene& scene, const Run& run,
-                      const Outflow& outflow, const std::vector<std::string>& effects);
+/// What the files of a run hold.
+std::vector<FileText> run_file_texts();
+
+/// Its files: outflow.csv, summary.csv, run.json, timing.json and those of a record.
+std::vector<OutputFile> run_files(const Scene& scene, const Run& run, const Outflow& outflow,
+                                  const std::vector<std::string>& effects, CsvFormat format = {});
 
 }  // namespace vibrosow

@@ -4,34 +4,13 @@
 
 #include <algorithm>
 #include <limits>
-#include <nlohmann/json.hpp>
 
 #include "input/key_units.hpp"
-#include "report/csv.hpp"
-#include "report/output_files.hpp"
+#include "report/columns.hpp"
+#include "report/json_keys.hpp"
 
 namespace vibrosow {
 namespace {
-
-constexpr double gram = 1e-3;        // kg
-constexpr double millimetre = 1e-3;  // m
-constexpr double percent = 1e-2;
-
-using Fields = std::vector<std::string>;
-
-void append(Fields& fields, const Fields& more) {
-  fields.insert(fields.end(), more.begin(), more.end());
-}
-
-/// Mean and half width, in `unit`; empty where there is none.
-Fields with_interval(const std::optional<MeanWithInterval>& value, double unit) {
-  if (!value) return {"", ""};
-  return {csv_number(value->mean / unit), value->half_width_95 ? csv_number(*value->half_width_95 / unit) : ""};
-}
-
-std::string in_unit(const std::optional<double>& value, double unit) {
-  return value ? csv_number(*value / unit) : std::string();
-}
 
 std::string status_name(LayoutStatus status) {
   switch (status) {
@@ -62,17 +41,6 @@ std::string run_status(EvaluationStatus status) {
   return "";
 }
 
-Fields run_figures(const Evaluation& run) {
-  if (!run.was_run()) return Fields(11, "");
-  const HoleOutflow* all = find_row(run.outflow, "all", "all");
-  return {csv_number(run.balance.put_in),       csv_number(run.balance.inside),
-          csv_number(run.balance.counted),      csv_number(run.balance.spilled),
-          csv_number(run.balance.lost),         csv_number(all->seeds_per_s),
-          csv_number(all->mass_rate / gram),    csv_number(run.max_compression),
-          run.outside_the_model ? "yes" : "no", csv_number(run.dt),
-          csv_number(run.grain_steps)};
-}
-
 /// The first layout with the same scene.
 int first_with_scene(const Study& study, std::size_t scene) {
   for (const Layout& layout : study.layouts)
@@ -87,154 +55,311 @@ std::string run_note(const Study& study, const Layout& layout, const Evaluation&
   return note;
 }
 
+/// A layout of a study with what came of it.
+struct LayoutRow {
+  const StudyResult* result;
+  std::size_t index;
+  const Layout& layout() const { return result->study.layouts[index]; }
+  const LayoutResult& of() const { return result->layouts[index]; }
+};
+
+std::vector<LayoutRow> layout_rows(const StudyResult& result) {
+  std::vector<LayoutRow> rows;
+  for (std::size_t i = 0; i < result.layouts.size(); ++i) rows.push_back({&result, i});
+  return rows;
+}
+
+/// The first columns of every file; a `Row` has its layout().
+template <class Row>
+Columns<Row> layout_columns() {
+  return {text_column<Row>("layout", "number of the layout, in the order of the study",
+                           [](const Row& r) { return r.layout().number; }),
+          text_column<Row>("name", "of its [[layout]]; empty without", [](const Row& r) { return r.layout().name; })};
+}
+
+template <class Row>
+Column<Row> replicates_column() {
+  return text_column<Row>("replicates", "runs that finished, of which the figures are",
+                          [](const Row& r) { return r.of().replicates; });
+}
+
+Columns<LayoutRow> sweep_columns(const std::vector<std::string>& keys) {
+  using R = const LayoutRow&;
+  Columns<LayoutRow> columns = layout_columns<LayoutRow>();
+  columns.push_back(text_column<LayoutRow>("status", "ok, invalid, stopped (by the guard) or interrupted",
+                                           [](R r) { return status_name(r.of().status); }));
+  columns.push_back(text_column<LayoutRow>("reason", "why it is not ok; of ok, what to know about its runs",
+                                           [](R r) { return r.of().reason; }));
+  for (const std::string& key : keys)
+    columns.push_back(
+        {{condition_column(key), "", "value of this key of the seeder file, in the unit that its column names"},
+         [key](R r) {
+           const auto value = r.layout().values.find(key);
+           return value == r.layout().values.end() ? CsvField() : csv_text_or_number(value->second);
+         }});
+  columns.push_back(replicates_column<LayoutRow>());
+  add_figure_columns(
+      columns, [](R r) -> const auto& { return r.of().figures; });
+  add_mean_columns(columns, "misfit_percent", Unit{"%", 1},
+                   "misfit to the measured outflow; empty without a measurement",
+                   [](R r) { return r.of().misfit_percent; });
+  return columns;
+}
+
+struct HoleRow : LayoutRow {
+  const HoleFigures* hole;
+};
+
+/// Size of the unit in which a measured table states its quantity.
+double measured_unit(const StudyResult& result) {
+  const auto& measured = result.study.measured;
+  return measured ? 1 / to_column_unit(measured->table.quantity, 1.0) : 1;
+}
+
+/// An SI mean and its interval in the unit of the measured table.
+template <class Row, class Get>
+void add_measured_columns(Columns<Row>& columns, const std::string& name, const std::string& description, Get get) {
+  add_mean_columns(columns, name, Unit{"", 1}, description, [get](const Row& r) {
+    std::optional<MeanWithInterval> value = get(r);
+    if (!value) return value;
+    const double unit = measured_unit(*r.result);
+    value->mean /= unit;
+    if (value->half_width_95) *value->half_width_95 /= unit;
+    return value;
+  });
+}
+
+Columns<HoleRow> sweep_holes_columns() {
+  using R = const HoleRow&;
+  Columns<HoleRow> columns = layout_columns<HoleRow>();
+  append(columns,
+         {text_column<HoleRow>("hole", "number of the hole from the left, or all", [](R r) { return r.hole->hole; }),
+          text_column<HoleRow>("lot", "name of the seeds, or all", [](R r) { return r.hole->lot; }),
+          quantity_column<HoleRow>("position_mm", millimetres, "middle of the hole, from the tray's left end",
+                                   [](R r) { return r.hole->centre; }),
+          quantity_column<HoleRow>("width_mm", millimetres, "of the hole", [](R r) { return r.hole->width; }),
+          replicates_column<HoleRow>()});
+  add_mean_columns(columns, "rate_g_per_s", grams_per_second, "mass flow, of the plane slice",
+                   [](R r) { return r.hole->mass_rate; });
+  add_mean_columns(columns, "seeds_per_s", per_second, "seeds, of the plane slice",
+                   [](R r) { return r.hole->seeds_per_s; });
+  add_mean_columns(columns, "longest_pause_s", seconds, "longest time in the window without a seed",
+                   [](R r) { return r.hole->longest_pause; });
+  add_measured_columns(columns, "measured", "measured rate in the unit of the measured table",
+                       [](R r) { return r.hole->measured; });
+  columns.push_back(quantity_column<HoleRow>("difference_percent", Unit{"%", 1},
+                                             "simulated, scaled, less measured, of measured",
+                                             [](R r) { return r.hole->difference_percent; }));
+  return columns;
+}
+
+/// The bed of a layout at a record time, of one lot or, where `lot` is null, of all.
+struct BedRow : LayoutRow {
+  const BedFigures* bed;
+  const SeedLot* lot;
+};
+
+std::optional<MeanWithInterval> segregation_of(const BedRow& row) {
+  if (!row.lot) return std::nullopt;
+  const std::vector<SeedLot>& lots = row.result->study.scenes[*row.layout().scene].lots;
+  return row.bed->segregation[static_cast<std::size_t>(row.lot - lots.data())];
+}
+
+Columns<BedRow> sweep_records_columns() {
+  using R = const BedRow&;
+  using Mean = std::optional<MeanWithInterval>;
+  Columns<BedRow> columns = layout_columns<BedRow>();
+  append(columns,
+         {text_column<BedRow>("record", "number of the snapshot", [](R r) { return r.bed->record + 1; }),
+          quantity_column<BedRow>("time_s", seconds, "when it was asked for", [](R r) { return r.bed->time; }),
+          text_column<BedRow>("lot", "name of the seeds, or all", [](R r) { return r.lot ? r.lot->name : "all"; }),
+          replicates_column<BedRow>()});
+  add_mean_columns(columns, "packing_fraction", plain, "of the inside of the bed",
+                   [](R r) { return r.lot ? Mean() : r.bed->packing; });
+  add_mean_columns(columns, "packing_change", plain, "its change since the first record",
+                   [](R r) { return r.lot ? Mean() : r.bed->packing_change; });
+  add_mean_columns(columns, "segregation", plain, "segregation index of the lot, above 0 where it lies high",
+                   segregation_of);
+  return columns;
+}
+
+/// A run under one of the layouts that share its scene.
+struct RunRow {
+  const StudyResult* result;
+  const Layout* of_layout;
+  const Evaluation* run;
+  const Layout& layout() const { return *of_layout; }
+};
+
+/// A column that is empty where the run was not begun. `get`: an SI value or count of an Evaluation.
+template <class Get>
+Column<RunRow> run_column(std::string name, Unit unit, std::string description, Get get) {
+  return {{std::move(name), std::string(unit.name), std::move(description)}, [get, unit](const RunRow& r) {
+            if (!r.run->was_run()) return CsvField();
+            const auto value = get(*r.run);
+            if constexpr (std::integral<decltype(value)>)
+              return csv_number(std::int64_t{value});
+            else
+              return in_unit(value, unit);
+          }};
+}
+
+Column<RunRow> figure_column(std::string_view name) {
+  const Figure& figure = figure_named(name);
+  return run_column(std::string(figure.name), Unit{figure.unit, figure.unit_size}, std::string(figure.description),
+                    [&figure](const Evaluation& one) { return figure.of(one.outflow); });
+}
+
+Columns<RunRow> sweep_runs_columns() {
+  using R = const RunRow&;
+  using One = const Evaluation&;
+  Columns<RunRow> columns = layout_columns<RunRow>();
+  append(
+      columns,
+      {text_column<RunRow>("random_seed", "of the run", [](R r) { return r.run->random_seed; }),
+       text_column<RunRow>("status", "ok, invalid, stopped (by the guard) or interrupted",
+                           [](R r) { return run_status(r.run->status); }),
+       run_column("put_in", plain, "seeds put in: inside + counted + spilled + lost",
+                  [](One one) { return one.balance.put_in; }),
+       run_column("inside", plain, "seeds still inside at the end", [](One one) { return one.balance.inside; }),
+       run_column("counted", plain, "seeds that left through holes, in the whole run",
+                  [](One one) { return one.balance.counted; }),
+       run_column("spilled", plain, "seeds that left over the rim", [](One one) { return one.balance.spilled; }),
+       run_column("lost", plain, "seeds that went through a wall: an error", [](One one) { return one.balance.lost; }),
+       figure_column("seeds_per_s"), figure_column("rate_g_per_s"),
+       run_column("max_compression", plain, "largest shell compression, of the grain's radius",
+                  [](One one) { return one.max_compression; }),
+       text_column<RunRow>("outside_the_model", "yes where the run is beyond what the model is for",
+                           [](R r) -> std::string {
+                             if (!r.run->was_run()) return "";
+                             return r.run->outside_the_model ? "yes" : "no";
+                           }),
+       run_column("dt_s", seconds, "time step", [](One one) { return one.dt; }),
+       run_column("grain_steps", plain, "grains times steps", [](One one) { return one.grain_steps; }),
+       text_column<RunRow>("note", "what to know about the run; empty when all is well",
+                           [](R r) { return run_note(r.result->study, r.layout(), *r.run); })});
+  return columns;
+}
+
+struct MeasuredRow {
+  const StudyResult* result;
+  const ComparisonRow* row;
+};
+
+Columns<MeasuredRow> comparison_columns() {
+  using R = const MeasuredRow&;
+  Columns<MeasuredRow> columns = {
+      text_column<MeasuredRow>("layout", "number of the layout, in the order of the study",
+                               [](R r) { return r.result->study.layouts[r.row->layout].number; }),
+      text_column<MeasuredRow>("hole", "number of the hole from the left, or all", [](R r) { return r.row->hole; }),
+      quantity_column<MeasuredRow>("time_s", seconds, "of a point of a curve; empty for a rate",
+                                   [](R r) { return r.row->time; }),
+      quantity_column<MeasuredRow>("measured", plain, "in the unit of the measured table",
+                                   [](R r) { return r.row->measured / measured_unit(*r.result); })};
+  add_measured_columns(columns, "simulated", "simulated and scaled, in the same unit",
+                       [](R r) { return std::optional(r.row->simulated); });
+  return columns;
+}
+
+/// What the sweep took, summed over its runs.
+struct SweepTiming {
+  double wall_time;  // s, from beginning to end
+  int jobs;
+  int runs = 0;
+  double run_time = 0, grain_steps = 0;
+};
+
+JsonKeys<SweepTiming> timing_keys() {
+  using T = const SweepTiming&;
+  return {{"wall_s", "s", "wall time of the sweep", [](T t) { return t.wall_time; }},
+          {"jobs", "", "runs side by side", [](T t) { return t.jobs; }},
+          {"runs", "", "runs that were begun", [](T t) { return t.runs; }},
+          {"run_wall_s", "s", "wall times of the runs, summed", [](T t) { return t.run_time; }},
+          {"grain_steps", "", "grains times steps, summed", [](T t) { return t.grain_steps; }},
+          {"grain_steps_per_s", "1/s", "these in a second of the sweep's wall time",
+           [](T t) { return t.wall_time > 0 ? t.grain_steps / t.wall_time : 0; }},
+          {"grain_steps_per_s_of_a_run", "1/s", "these in a second of a run's wall time",
+           [](T t) { return t.run_time > 0 ? t.grain_steps / t.run_time : 0; }}};
+}
+
 }  // namespace
 
-std::string sweep_csv(const StudyResult& result) {
-  const Study& study = result.study;
-  Fields columns = {"layout", "name", "status", "reason"};
-  for (const std::string& key : study.keys) columns.push_back(condition_column(key));
-  columns.push_back("replicates");
-  for (const std::string figure : {"rate_g_per_s", "seeds_per_s", "evenness_cv_percent", "instability_cv_percent",
-                                   "longest_pause_s", "spilled_percent", "misfit_percent"})
-    append(columns, {figure, figure + "_ci95"});
-  CsvTable table(columns);
-  for (std::size_t i = 0; i < study.layouts.size(); ++i) {
-    const Layout& layout = study.layouts[i];
-    const LayoutResult& of = result.layouts[i];
-    Fields row = {fmt::format("{}", layout.number), layout.name, status_name(of.status), of.reason};
-    for (const std::string& key : study.keys) {
-      const auto value = layout.values.find(key);
-      row.push_back(value == layout.values.end() ? "" : value->second);
-    }
-    row.push_back(fmt::format("{}", of.replicates));
-    append(row, with_interval(of.figures.mass_rate, gram));
-    append(row, with_interval(of.figures.seeds_per_s, 1));
-    append(row, with_interval(of.figures.evenness_cv, percent));
-    append(row, with_interval(of.figures.instability_cv, percent));
-    append(row, with_interval(of.figures.longest_pause, 1));
-    append(row, with_interval(of.figures.spilled_fraction, percent));
-    append(row, with_interval(of.figures.misfit_percent, 1));
-    table.add_row(row);
-  }
-  return table.text();
+std::string sweep_csv(const StudyResult& result, CsvFormat format) {
+  return csv_of(sweep_columns(result.study.keys), layout_rows(result), format);
 }
 
-std::string sweep_holes_csv(const StudyResult& result) {
-  CsvTable table({"layout", "name", "hole", "lot", "position_mm", "width_mm", "replicates", "rate_g_per_s",
-                  "rate_g_per_s_ci95", "seeds_per_s", "seeds_per_s_ci95", "longest_pause_s", "longest_pause_s_ci95",
-                  "measured", "measured_ci95", "difference_percent"});
-  const auto& measured = result.study.measured;
-  const double unit = measured ? 1 / to_column_unit(measured->table.quantity, 1.0) : 1;
-  for (std::size_t i = 0; i < result.layouts.size(); ++i) {
-    const Layout& layout = result.study.layouts[i];
-    for (const HoleFigures& hole : result.layouts[i].holes) {
-      Fields row = {fmt::format("{}", layout.number),
-                    layout.name,
-                    hole.hole,
-                    hole.lot,
-                    in_unit(hole.centre, millimetre),
-                    in_unit(hole.width, millimetre),
-                    fmt::format("{}", result.layouts[i].replicates)};
-      append(row, with_interval(hole.mass_rate, gram));
-      append(row, with_interval(hole.seeds_per_s, 1));
-      append(row, with_interval(hole.longest_pause, 1));
-      append(row, with_interval(hole.measured, unit));
-      row.push_back(csv_number(hole.difference_percent));
-      table.add_row(row);
-    }
-  }
-  return table.text();
+std::string sweep_holes_csv(const StudyResult& result, CsvFormat format) {
+  Csv<HoleRow> csv(sweep_holes_columns(), format);
+  for (const LayoutRow& row : layout_rows(result))
+    for (const HoleFigures& hole : row.of().holes) csv.add({row, &hole});
+  return csv.text();
 }
 
-std::string sweep_records_csv(const StudyResult& result) {
-  CsvTable table({"layout", "name", "record", "time_s", "lot", "replicates", "packing_fraction",
-                  "packing_fraction_ci95", "packing_change", "packing_change_ci95", "segregation", "segregation_ci95"});
-  for (std::size_t i = 0; i < result.layouts.size(); ++i) {
-    const Layout& layout = result.study.layouts[i];
-    for (const BedFigures& bed : result.layouts[i].bed) {
-      const auto add = [&](const std::string& lot, const auto& packing, const auto& change, const auto& segregation) {
-        Fields row = {fmt::format("{}", layout.number),
-                      layout.name,
-                      fmt::format("{}", bed.record + 1),
-                      csv_number(bed.time),
-                      lot,
-                      fmt::format("{}", result.layouts[i].replicates)};
-        append(row, with_interval(packing, 1));
-        append(row, with_interval(change, 1));
-        append(row, with_interval(segregation, 1));
-        table.add_row(row);
-      };
-      const std::optional<MeanWithInterval> none;
-      const std::vector<SeedLot>& lots = result.study.scenes[*layout.scene].lots;
-      for (std::size_t lot = 0; lots.size() > 1 && lot < lots.size(); ++lot)
-        add(lots[lot].name, none, none, bed.segregation[lot]);
-      add("all", bed.packing, bed.packing_change, none);
+std::string sweep_records_csv(const StudyResult& result, CsvFormat format) {
+  Csv<BedRow> csv(sweep_records_columns(), format);
+  for (const LayoutRow& row : layout_rows(result))
+    for (const BedFigures& bed : row.of().bed) {
+      const std::vector<SeedLot>& lots = result.study.scenes[*row.layout().scene].lots;
+      if (lots.size() > 1)
+        for (const SeedLot& lot : lots) csv.add({row, &bed, &lot});
+      csv.add({row, &bed, nullptr});
     }
-  }
-  return table.text();
+  return csv.text();
 }
 
-std::string sweep_runs_csv(const StudyResult& result) {
-  CsvTable table({"layout", "name", "random_seed", "status", "put_in", "inside", "counted", "spilled", "lost",
-                  "seeds_per_s", "rate_g_per_s", "max_compression", "outside_the_model", "dt_s", "grain_steps",
-                  "note"});
+std::string sweep_runs_csv(const StudyResult& result, CsvFormat format) {
+  Csv<RunRow> csv(sweep_runs_columns(), format);
   for (const Layout& layout : result.study.layouts) {
     if (!layout.scene) continue;
-    for (const Evaluation& run : result.runs[*layout.scene]) {
-      Fields row = {fmt::format("{}", layout.number), layout.name, fmt::format("{}", run.random_seed),
-                    run_status(run.status)};
-      append(row, run_figures(run));
-      row.push_back(run_note(result.study, layout, run));
-      table.add_row(row);
-    }
+    for (const Evaluation& run : result.runs[*layout.scene]) csv.add({&result, &layout, &run});
   }
-  return table.text();
+  return csv.text();
 }
 
-std::string comparison_csv(const StudyResult& result) {
-  CsvTable table({"layout", "hole", "time_s", "measured", "simulated", "simulated_ci95"});
-  if (!result.comparison) return table.text();
-  const MeasuredQuantity quantity = result.study.measured->table.quantity;
-  const double unit = 1 / to_column_unit(quantity, 1.0);
-  for (const ComparisonRow& row : result.comparison->rows) {
-    Fields fields = {fmt::format("{}", result.study.layouts[row.layout].number), row.hole, csv_number(row.time),
-                     csv_number(row.measured / unit)};
-    append(fields, with_interval(row.simulated, unit));
-    table.add_row(fields);
-  }
-  return table.text();
+std::string comparison_csv(const StudyResult& result, CsvFormat format) {
+  Csv<MeasuredRow> csv(comparison_columns(), format);
+  if (result.comparison)
+    for (const ComparisonRow& row : result.comparison->rows) csv.add({&result, &row});
+  return csv.text();
 }
 
 std::string sweep_timing_json(const StudyResult& result, double wall_time, int jobs) {
-  double grain_steps = 0, run_time = 0;
-  int runs = 0;
+  SweepTiming timing{wall_time, jobs};
   for (const auto& replicates : result.runs)
     for (const Evaluation& run : replicates) {
       if (!run.was_run()) continue;
-      ++runs;
-      grain_steps += static_cast<double>(run.grain_steps);
-      run_time += run.wall_time;
+      ++timing.runs;
+      timing.grain_steps += static_cast<double>(run.grain_steps);
+      timing.run_time += run.wall_time;
     }
-  nlohmann::ordered_json timing;
-  timing["wall_s"] = wall_time;
-  timing["jobs"] = jobs;
-  timing["runs"] = runs;
-  timing["run_wall_s"] = run_time;
-  timing["grain_steps"] = grain_steps;
-  timing["grain_steps_per_s"] = wall_time > 0 ? grain_steps / wall_time : 0;
-  timing["grain_steps_per_s_of_a_run"] = run_time > 0 ? grain_steps / run_time : 0;
-  return timing.dump(2) + "\n";
+  return json_of(timing_keys(), timing);
 }
 
-void write_sweep_report(const std::filesystem::path& directory, const StudyResult& result, double wall_time, int jobs) {
-  std::vector<OutputFile> files = {{"sweep.csv", sweep_csv(result)},
-                                   {"sweep_holes.csv", sweep_holes_csv(result)},
-                                   {"sweep_runs.csv", sweep_runs_csv(result)},
+std::vector<FileText> sweep_file_texts() {
+  return {file_text("sweep.csv", "one row per layout", sweep_columns({"KEY"})),
+          file_text("sweep_holes.csv",
+                    "one row per layout, hole and lot, per hole one of all lots where there are several, then the same "
+                    "of all holes",
+                    sweep_holes_columns()),
+          file_text("sweep_runs.csv", "one row per layout and random seed", sweep_runs_columns()),
+          file_text("timing.json", "what the sweep took on this machine", timing_keys()),
+          file_text("sweep_records.csv",
+                    "of a study whose seeder has a record: one row per layout, snapshot and lot, and one of all lots",
+                    sweep_records_columns()),
+          file_text("comparison.csv", "of a study with measured outflow: one row per layout and measured value",
+                    comparison_columns())};
+}
+
+std::vector<OutputFile> sweep_files(const StudyResult& result, double wall_time, int jobs, CsvFormat format) {
+  std::vector<OutputFile> files = {{"sweep.csv", sweep_csv(result, format)},
+                                   {"sweep_holes.csv", sweep_holes_csv(result, format)},
+                                   {"sweep_runs.csv", sweep_runs_csv(result, format)},
                                    {"timing.json", sweep_timing_json(result, wall_time, jobs)}};
   const auto records = [](const LayoutResult& one) { return !one.bed.empty(); };
-  if (std::ranges::any_of(result.layouts, records)) files.push_back({"sweep_records.csv", sweep_records_csv(result)});
-  if (result.comparison) files.push_back({"comparison.csv", comparison_csv(result)});
-  write_files_atomically(directory, files);
+  if (std::ranges::any_of(result.layouts, records))
+    files.push_back({"sweep_records.csv", sweep_records_csv(result, format)});
+  if (result.comparison) files.push_back({"comparison.csv", comparison_csv(result, format)});
+  return files;
 }
 
 }  // namespace vibrosow

@@ -107,6 +107,21 @@ for file in sweep.csv sweep_holes.csv sweep_runs.csv; do
   cmp -s one-job/$file two-jobs/$file || fail "$file depends on --jobs"
 done
 
+# A folder belongs to one command; a second run replaces its set, whole.
+"$program" run seeder.toml --quiet --out set --set 'record={ times = ["0 s", "0.1 s"], cell = "1 cm" }' || fail "no record"
+have set/grains_002.csv set/files.json
+expect 0 "reports: set" run seeder.toml --out set
+[ -e set/grains_002.csv ] && fail "a second run leaves files of the first"
+expect 2 "set holds the reports of vibrosow run, not of sweep" sweep study.toml --out set
+mkdir foreign && echo mine >foreign/sweep.csv
+expect 2 "foreign/sweep.csv would be overwritten" sweep study.toml --out foreign
+[ "$(cat foreign/sweep.csv)" = mine ] || fail "a foreign file was overwritten"
+expect 0 "reports: out/seeder-accuracy" accuracy seeder.toml --integrator velocity-verlet --steps-per-contact 20 \
+  --shell-compression 1e-3 --slip-speed "20 mm/s" --replicates 1
+expect 0 "reports: semicolon" run seeder.toml --csv semicolon --out semicolon
+head -2 semicolon/summary.csv | tail -1 | grep -qE '^1;wheat;40;16;[0-9]+;[0-9]+,[0-9]+;' || fail "no decimal commas"
+expect 2 "csv.*comma,semicolon" run seeder.toml --csv tabs
+
 expect 0 "cost" accuracy seeder.toml --out accuracy --integrator velocity-verlet --steps-per-contact 10,20 \
   --shell-compression 1e-3 --slip-speed "20 mm/s" --replicates 2
 have accuracy/accuracy.csv accuracy/accuracy_timing.csv accuracy/timing.json
@@ -131,12 +146,41 @@ contact.friction = { from = 0, to = 1, step = 0.01 }\n' >many.toml
   printed=$("$program" check many.toml 2>&1 >/dev/full)
   [ $? -eq 2 ] || fail "a long check that cannot be printed does not end with 2: $printed"
 fi
+# The table is printed all the same, even when quiet: it is all that is left.
+printed=$(bash -c 'ulimit -f 1; exec "$0" run seeder.toml --out full --quiet --set "run.duration=0.3 s"' "$program" 2>/dev/null)
+grep -q "put in 40 = inside" <<<"$printed" || fail "a full disk takes the table too: $printed"
+
+# A reader that has gone, closed streams and a full standard error stop nothing.
+"$program" run seeder.toml --out streams-1 2>&1 | true
+[ "${PIPESTATUS[0]}" -eq 0 ] || fail "a closed pipe stops a run"
+"$program" run seeder.toml --out streams-2 >&- 2>&- || fail "closed streams stop a run"
+have streams-1/run.json streams-2/run.json
+"$program" run nowhere.toml 2>&-
+[ $? -eq 2 ] || fail "a message to a closed standard error does not end with 2"
+if [ -w /dev/full ]; then
+  "$program" run nowhere.toml 2>/dev/full
+  [ $? -eq 2 ] || fail "a message to a full standard error does not end with 2"
+  "$program" run seeder.toml --out streams-3 >/dev/full 2>&1
+  [ $? -eq 2 ] || fail "a table that cannot be printed does not end with 2"
+  have streams-3/run.json
+fi
+
+# No second thread to be had. Only a user with a limit of processes can see that; root has none.
+if [ "$(id -u)" -eq 0 ] && command -v setpriv >/dev/null; then
+  chmod a+rx "$work" && mkdir nobody && chmod a+rwx nobody
+  printed=$(setpriv --reuid=65534 --regid=65534 --clear-groups bash -c \
+    'ulimit -u 1; exec "$0" sweep study.toml --jobs 2 --quiet --out nobody/out' "$program" 2>&1)
+  code=$?
+  # Not where this user may not even read the program.
+  [ $code -eq 126 ] || [ $code -eq 0 ] || fail "without threads the program ends with $code: $printed"
+  [ $code -eq 126 ] || grep -q "1 thread of the 2" <<<"$printed" || fail "nothing is said of threads: $printed"
+fi
 mkdir closed && chmod 555 closed
 if [ ! -w closed ]; then  # root may write everywhere
   expect 2 "^vibrosow: closed: cannot be written into" run seeder.toml --out closed --set "run.duration=9000 s"
 fi
 
-# Ctrl-C: the first layouts are done in a moment, the last would take hours. Job control, because a background job of a
+# Ctrl-C, and what a system sends that shuts down: the first layouts are done in a moment, the last would take hours. Job control, because a background job of a
 # plain script ignores SIGINT.
 cat >long.toml <<'END'
 base = "seeder.toml"
@@ -145,16 +189,19 @@ replicates = 1
 run.duration = ["0.1 s", "9000 s"]
 END
 set -m
-"$program" sweep long.toml --out long --jobs 1 --quiet &
-pid=$!
-sleep 2
-kill -INT $pid
-wait $pid
-[ $? -eq 130 ] || fail "Ctrl-C does not end with 130"
+for signal in INT TERM HUP; do
+  "$program" sweep long.toml --out long --jobs 1 --quiet &
+  pid=$!
+  sleep 1.5
+  kill -$signal $pid
+  wait $pid
+  [ $? -eq 130 ] || fail "SIG$signal does not end with 130"
+  have long/sweep.csv
+  grep -q '^1,,ok,' long/sweep.csv || fail "SIG$signal lost what was finished: $(cat long/sweep.csv)"
+  grep -q '^2,,interrupted,' long/sweep.csv || fail "the interrupted layout is not marked: $(cat long/sweep.csv)"
+  rm -r long
+done
 set +m
-have long/sweep.csv
-grep -q '^1,,ok,' long/sweep.csv || fail "Ctrl-C lost what was finished: $(cat long/sweep.csv)"
-grep -q '^2,,interrupted,' long/sweep.csv || fail "the interrupted layout is not marked: $(cat long/sweep.csv)"
 
 [ $failures -eq 0 ] && echo "all checks hold"
 exit $((failures > 0))

@@ -55,7 +55,7 @@ void add_look(Simulation& run, Column& column) {
 /// Columns of `widths` widths of grains, one a random seed.
 std::vector<Column> measured_columns(int widths) {
   const Scene scene = read_scene(std::string(VIBROSOW_SOURCE_DIR) + "/tests/physics/janssen.toml",
-                                 {{"hopper.fill.count", std::to_string(835 * widths / 8), "test"}});
+                                 {parse_override("hopper.fill.count=" + std::to_string(835 * widths / 8))});
   std::vector<Column> columns;
   for (std::uint64_t seed = 1; seed <= seeds; ++seed) {
     Column column;

@@ -9,15 +9,15 @@ namespace vibrosow {
 namespace {
 
 TEST(CsvNumber, HasSixDigitsAndIsEmptyWhereUndefined) {
-  EXPECT_EQ(csv_number(1.0 / 3), "0.333333");
-  EXPECT_EQ(csv_number(16.000000000000004), "16");
-  EXPECT_EQ(csv_number(1234567.0), "1.23457e+06");
-  EXPECT_EQ(csv_number(-0.0), "0");
-  EXPECT_EQ(csv_number(std::int64_t{1234567}), "1234567");
-  EXPECT_EQ(csv_number(std::optional<double>{}), "");
-  EXPECT_EQ(csv_number(std::optional<double>{2.5}), "2.5");
-  EXPECT_EQ(csv_number(std::numeric_limits<double>::quiet_NaN()), "");
-  EXPECT_EQ(csv_number(std::numeric_limits<double>::infinity()), "");
+  EXPECT_EQ(csv_number(1.0 / 3).text, "0.333333");
+  EXPECT_EQ(csv_number(16.000000000000004).text, "16");
+  EXPECT_EQ(csv_number(1234567.0).text, "1.23457e+06");
+  EXPECT_EQ(csv_number(-0.0).text, "0");
+  EXPECT_EQ(csv_number(std::int64_t{1234567}).text, "1234567");
+  EXPECT_EQ(csv_number(std::optional<double>{}).text, "");
+  EXPECT_EQ(csv_number(std::optional<double>{2.5}).text, "2.5");
+  EXPECT_EQ(csv_number(std::numeric_limits<double>::quiet_NaN()).text, "");
+  EXPECT_EQ(csv_number(std::numeric_limits<double>::infinity()).text, "");
 }
 
 TEST(CsvTable, QuotesOnlyWhatNeedsIt) {

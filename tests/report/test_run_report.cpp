@@ -1,8 +1,8 @@
 #include "report/run_report.hpp"
 
 #include <gtest/gtest.h>
-#include <unistd.h>
 
+#include <algorithm>
 #include <limits>
 #include <nlohmann/json.hpp>
 
@@ -94,12 +94,20 @@ TEST_F(RunReport, TimingIsApart) {
   EXPECT_TRUE(nlohmann::json::parse(timing_json(run))["grain_steps_per_s"].is_null());
 }
 
-TEST_F(RunReport, WritesItsFourFiles) {
-  const auto directory = std::filesystem::path(testing::TempDir()) / ("run-report-" + std::to_string(getpid()));
-  write_run_report(directory, scene, run, measure_outflow(scene, run), {});
-  for (const char* name : {"outflow.csv", "summary.csv", "run.json", "timing.json"})
-    EXPECT_GT(std::filesystem::file_size(directory / name), 0U) << name;
-  std::filesystem::remove_all(directory);
+TEST_F(RunReport, HasFourFilesAllDocumented) {
+  std::vector<std::string> names, documented;
+  for (const OutputFile& file : run_files(scene, run, measure_outflow(scene, run), {})) names.push_back(file.name);
+  for (const FileText& text : run_file_texts()) documented.push_back(text.name);
+  EXPECT_EQ(names, (std::vector<std::string>{"outflow.csv", "summary.csv", "run.json", "timing.json"}));
+  EXPECT_TRUE(std::equal(names.begin(), names.end(), documented.begin()));
+}
+
+TEST_F(RunReport, SpreadsheetsWithADecimalCommaGetSemicolons) {
+  scene.lots[0].name = "wheat 1.5";  // a name stays as it is
+  EXPECT_EQ(outflow_csv(scene, run, semicolon_csv),
+            "time_s;hole;lot;grain;mass_g;x_mm;speed_m_per_s\n"
+            "1,5;2;wheat 1.5;17;0,04;201;0,6264\n"
+            "1,75;spilled;wheat 1.5;18;0,04;-3,5;0,5\n");
 }
 
 }  // namespace

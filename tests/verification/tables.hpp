@@ -45,10 +45,10 @@ class VerificationReport {
   }
 
  private:
-  static std::string field(const std::string& text) { return text; }
-  static std::string field(const char* text) { return text; }
-  static std::string field(double value) { return csv_number(value); }
-  static std::string field(int value) { return csv_number(std::int64_t{value}); }
+  static CsvField field(const std::string& text) { return text; }
+  static CsvField field(const char* text) { return text; }
+  static CsvField field(double value) { return csv_number(value); }
+  static CsvField field(int value) { return csv_number(std::int64_t{value}); }
 
   std::string name_, about_;
   CsvTable table_;

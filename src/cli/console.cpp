@@ -1,0 +1,43 @@
+#include "cli/console.hpp"
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <csignal>
+#include <cstdio>
+#include <cstring>
+
+namespace vibrosow {
+namespace {
+
+int first_error = 0;  // of standard output
+
+void note_error() {
+  if (first_error == 0 && errno != EPIPE) first_error = errno;
+}
+
+}  // namespace
+
+void make_streams_safe() {
+  std::signal(SIGPIPE, SIG_IGN);
+  std::signal(SIGXFSZ, SIG_IGN);
+  for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
+    if (fcntl(stream, F_GETFD) < 0) open("/dev/null", O_RDWR);  // takes the lowest free number
+}
+
+void print_text(const std::string& text) {
+  if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size()) note_error();
+}
+
+void complain(const std::string& text) {
+  const std::string line = "vibrosow: " + text + "\n";
+  std::fwrite(line.data(), 1, line.size(), stderr);  // nobody is left to be told of a failure
+}
+
+std::optional<std::string> output_error() {
+  if (std::fflush(stdout) != 0) note_error();
+  return first_error != 0 ? std::optional<std::string>(std::strerror(first_error)) : std::nullopt;
+}
+
+}  // namespace vibrosow

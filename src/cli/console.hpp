@@ -1,0 +1,43 @@
+#pragma once
+
+#include <fmt/format.h>
+
+#include <exception>
+#include <optional>
+#include <string>
+
+namespace vibrosow {
+
+/// From now on a closed pipe or a closed standard stream stops nothing: no signal, and no other file gets the number of
+/// a closed stream. A file over the size limit is a failed write, told as one.
+void make_streams_safe();
+
+/// Prints on standard output. Never throws: a reader that has gone away is no error, what else cannot be printed is
+/// kept for `output_error`.
+void print_text(const std::string& text);
+template <class... Arguments>
+void print(fmt::format_string<Arguments...> format, Arguments&&... arguments) {
+  print_text(fmt::format(format, std::forward<Arguments>(arguments)...));
+}
+
+/// Prints "vibrosow: TEXT" on standard error. Never throws.
+void complain(const std::string& text);
+
+/// Brings what was printed out of the program; why it could not be, if so ("No space left on device").
+std::optional<std::string> output_error();
+
+/// Writes the reports, then prints the table: also where the reports cannot be written, and then even when `quiet`,
+/// since it is all that is left of the work. Throws what `write` threw.
+template <class Write, class Table>
+void write_then_print(bool quiet, Write write, Table table) {
+  std::exception_ptr failure;
+  try {
+    write();
+  } catch (...) {
+    failure = std::current_exception();
+  }
+  if (!quiet || failure) table();
+  if (failure) std::rethrow_exception(failure);
+}
+
+}  // namespace vibrosow

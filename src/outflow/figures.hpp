@@ -1,0 +1,44 @@
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "outflow/outflow.hpp"
+#include "outflow/statistics.hpp"
+
+namespace vibrosow {
+
+/// A number that a run gives. The one place that says what it is called, in which unit it is stated and how it is
+/// taken: tables, CSV files and their documentation ask here.
+struct Figure {
+  std::string_view name;                        // of its column, with its unit: "rate_g_per_s"
+  std::string_view heading;                     // of its column on a screen: "g/s"
+  std::string_view unit;                        // "g/s"; empty for a plain number
+  double unit_size;                             // of that unit, in SI
+  std::string_view description;                 // a clause without a full stop
+  std::optional<double> (*of)(const Outflow&);  // SI; none where it is undefined
+};
+
+/// All figures of a run, in the order of sweep.csv.
+std::span<const Figure> figures();
+
+/// The figure of a name; throws std::invalid_argument for a name that is none.
+const Figure& figure_named(std::string_view name);
+
+/// Every figure over the finished replicates of a scene: its mean with Student's t interval over those that have a
+/// finite value, in SI. None where no replicate has one.
+class FigureMeans {
+ public:
+  FigureMeans() = default;
+  explicit FigureMeans(const std::vector<const Outflow*>& replicates);
+  /// Throws std::invalid_argument for a name that is no figure.
+  const std::optional<MeanWithInterval>& operator[](std::string_view name) const { return (*this)[figure_named(name)]; }
+  const std::optional<MeanWithInterval>& operator[](const Figure& figure) const;
+
+ private:
+  std::vector<std::optional<MeanWithInterval>> means_ = std::vector<std::optional<MeanWithInterval>>(figures().size());
+};
+
+}  // namespace vibrosow

@@ -1,0 +1,44 @@
+#include "report/documentation.hpp"
+
+#include <fmt/format.h>
+
+#include "report/accuracy_report.hpp"
+#include "report/run_report.hpp"
+#include "report/sweep_report.hpp"
+
+namespace vibrosow {
+namespace {
+
+constexpr const char* introduction = R"(# What the program writes
+
+Made by `vibrosow columns > docs/OUTPUT.md`; a test compares the two.
+
+CSV files have one header row, numbers of six digits, and an empty field where a value is undefined. Rates are of the
+plane slice, one seed thick, unless their name says `tray`. A column `X_ci95` is the half width of the 95 % interval of
+the mean `X` over replicates (Student's t); it is empty for a single run.
+)";
+
+std::string described(const FileText& file) {
+  const bool csv = file.name.ends_with(".csv");
+  std::string text = fmt::format("\n### `{}`\n\n{}.\n\n| {} | unit | meaning |\n|---|---|---|\n", file.name,
+                                 file.description, csv ? "column" : "key");
+  for (const ColumnText& column : file.columns)
+    text += fmt::format("| `{}` | {} | {} |\n", column.name, column.unit, column.description);
+  return text;
+}
+
+std::string chapter(const std::string& command, const std::string& does, const std::vector<FileText>& files) {
+  std::string text = fmt::format("\n## `vibrosow {}`: {}\n", command, does);
+  for (const FileText& file : files) text += described(file);
+  return text;
+}
+
+}  // namespace
+
+std::string output_documentation() {
+  return introduction + chapter("run", "one run of a seeder", run_file_texts()) +
+         chapter("sweep", "every layout of a study", sweep_file_texts()) +
+         chapter("accuracy", "what accuracy costs in time", accuracy_file_texts());
+}
+
+}  // namespace vibrosow

@@ -1,0 +1,10 @@
+#pragma once
+
+#include <string>
+
+namespace vibrosow {
+
+/// Every file that the program writes and every column and key in it, as Markdown: docs/OUTPUT.md.
+std::string output_documentation();
+
+}  // namespace vibrosow

@@ -1,0 +1,223 @@
+#include "report/output_folder.hpp"
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <fstream>
+#include <optional>
+#include <set>
+#include <string_view>
+#include <system_error>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+
+#include "scene/input_error.hpp"
+
+namespace vibrosow {
+namespace {
+
+namespace fs = std::filesystem;
+using Names = std::set<std::string>;
+
+constexpr const char* list_name = "files.json";
+
+[[noreturn]] void fail(const fs::path& path, const std::string& reason) {
+  throw InputError(fmt::format("{}: cannot be written: {}", path.string(), reason));
+}
+
+[[noreturn]] void refuse(const fs::path& path, const std::string& reason) {
+  throw InputError(fmt::format("{} {}; choose another --out, or remove it", path.string(), reason));
+}
+
+/// 0, or the errno of what failed. A full disk may show only at fsync.
+int write_all(int descriptor, std::string_view content) {
+  while (!content.empty()) {
+    const ssize_t written = write(descriptor, content.data(), content.size());
+    if (written < 0 && errno == EINTR) continue;
+    if (written < 0) return errno;
+    content.remove_prefix(static_cast<std::size_t>(written));
+  }
+  return fsync(descriptor) == 0 ? 0 : errno;
+}
+
+/// A new file with this content on the disk. Errors name `as`, the path that the file will have.
+void write_new_file(const fs::path& path, std::string_view content, const fs::path& as) {
+  const int descriptor = open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
+  if (descriptor < 0) fail(as, std::strerror(errno));
+  const int error = write_all(descriptor, content);
+  const int close_error = close(descriptor) == 0 ? 0 : errno;
+  if (error || close_error) fail(as, std::strerror(error ? error : close_error));
+}
+
+/// Brings what a directory lists down to the disk. Some file systems know no such thing: then nothing is to be done.
+void sync_directory(const fs::path& directory) {
+  const int descriptor = open(directory.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (descriptor < 0) return;
+  fsync(descriptor);
+  close(descriptor);
+}
+
+void move_file(const fs::path& from, const fs::path& to) {
+  if (rename(from.c_str(), to.c_str()) != 0) fail(to, std::strerror(errno));
+}
+
+/// A directory that is removed again with all that is in it.
+class TemporaryDirectory {
+ public:
+  explicit TemporaryDirectory(fs::path path) : path_(std::move(path)) {
+    std::error_code error;
+    fs::remove_all(path_, error);  // of a process that had this number
+    if (mkdir(path_.c_str(), 0777) != 0) fail(path_, std::strerror(errno));
+  }
+  TemporaryDirectory(const TemporaryDirectory&) = delete;
+  TemporaryDirectory& operator=(const TemporaryDirectory&) = delete;
+  ~TemporaryDirectory() {
+    std::error_code error;
+    fs::remove_all(path_, error);
+  }
+  const fs::path& path() const { return path_; }
+
+ private:
+  fs::path path_;
+};
+
+/// What files.json says.
+struct FileList {
+  std::string command;
+  Names files;
+};
+
+std::string text_of(const FileList& list, bool complete) {
+  nlohmann::ordered_json json = {{"command", list.command}, {"complete", complete}, {"files", list.files}};
+  return json.dump(2) + '\n';
+}
+
+/// The list of a folder; none without one. Throws InputError for a files.json that is not ours.
+std::optional<FileList> read_list(const fs::path& folder) {
+  const fs::path path = folder / list_name;
+  std::ifstream stream(path);
+  if (!stream) return std::nullopt;
+  try {
+    const auto json = nlohmann::json::parse(stream);
+    return FileList{json.at("command"), json.at("files")};
+  } catch (const nlohmann::json::exception&) {
+    refuse(path, "was not written by vibrosow");
+  }
+}
+
+/// `pattern`: a name in which * stands for digits.
+bool fits(std::string_view name, std::string_view pattern) {
+  const std::size_t star = pattern.find('*');
+  if (star == std::string_view::npos) return name == pattern;
+  const std::string_view head = pattern.substr(0, star), tail = pattern.substr(star + 1);
+  if (name.size() <= head.size() + tail.size() || !name.starts_with(head) || !name.ends_with(tail)) return false;
+  name.remove_prefix(head.size());
+  name.remove_suffix(tail.size());
+  return std::ranges::all_of(name, [](char c) { return c >= '0' && c <= '9'; });
+}
+
+/// The former set of the command; throws InputError where the folder holds what it may not replace.
+FileList former_set(const fs::path& folder, const std::string& command, const std::vector<std::string>& files) {
+  const FileList former = read_list(folder).value_or(FileList{command, {}});
+  if (former.command != command)
+    refuse(folder, fmt::format("holds the reports of vibrosow {}, not of {}", former.command, command));
+  for (const auto& entry : fs::directory_iterator(folder)) {
+    const std::string name = entry.path().filename().string();
+    if (former.files.contains(name)) continue;
+    for (const std::string& file : files)
+      if (fits(name, file)) refuse(entry.path(), "would be overwritten, and no files.json names it as a report");
+  }
+  return former;
+}
+
+/// Whether there is nothing in the folder but this set and its list.
+bool holds_only(const fs::path& folder, const FileList& list) {
+  return std::ranges::all_of(fs::directory_iterator(folder), [&](const fs::directory_entry& entry) {
+    const std::string name = entry.path().filename().string();
+    return name == list_name || list.files.contains(name);
+  });
+}
+
+/// Puts `fresh` where `folder` is by one rename; false where that is not possible. What was there goes.
+bool exchange(const fs::path& fresh, const fs::path& folder) {
+  std::error_code error;
+  if (fs::equivalent(folder, fs::current_path(error), error) || error) return false;
+  struct stat former = {};
+  if (stat(folder.c_str(), &former) != 0 || chmod(fresh.c_str(), former.st_mode & 07777) != 0) return false;
+  const bool done = rename(fresh.c_str(), folder.c_str()) == 0 ||  // an empty folder is replaced
+                    renameat2(AT_FDCWD, fresh.c_str(), AT_FDCWD, folder.c_str(), RENAME_EXCHANGE) == 0;
+  if (done) sync_directory(folder.parent_path());
+  return done;
+}
+
+void move_in_one_by_one(const fs::path& fresh, const fs::path& folder, const FileList& former, const FileList& list) {
+  FileList both = list;
+  both.files.insert(former.files.begin(), former.files.end());
+  write_file_atomically(folder / list_name, text_of(both, false));
+  for (const std::string& name : former.files)
+    if (!list.files.contains(name)) fs::remove(folder / name);
+  for (const std::string& name : list.files) move_file(fresh / name, folder / name);
+  sync_directory(folder);
+  move_file(fresh / list_name, folder / list_name);
+  sync_directory(folder);
+}
+
+/// Where the new set is made: beside the folder, or within it where one may not write beside it.
+fs::path place_for_fresh(const fs::path& folder) {
+  const fs::path beside = folder.parent_path();
+  const std::string name = fmt::format(".{}.{}", folder.filename().string(), getpid());
+  return access(beside.c_str(), W_OK | X_OK) == 0 ? beside / name : folder / name;
+}
+
+}  // namespace
+
+OutputFolder::OutputFolder(fs::path folder, std::string command, const std::vector<std::string>& files)
+    : folder_(std::move(folder)), command_(std::move(command)) {
+  std::error_code error;
+  fs::create_directories(folder_, error);
+  if (error) throw InputError(fmt::format("{}: cannot be made: {}", folder_.string(), error.message()));
+  if (access(folder_.c_str(), W_OK | X_OK) != 0)
+    throw InputError(fmt::format("{}: cannot be written into: {}", folder_.string(), std::strerror(errno)));
+  former_set(folder_, command_, files);
+}
+
+void OutputFolder::write(const std::vector<OutputFile>& files) const {
+  std::error_code error;
+  fs::create_directories(folder_, error);
+  if (error) fail(folder_, error.message());
+  std::vector<std::string> names;
+  for (const OutputFile& file : files) names.push_back(file.name);
+  const FileList former = former_set(folder_, command_, names);
+  const FileList list{command_, {names.begin(), names.end()}};
+
+  const fs::path folder = fs::canonical(folder_);
+  const TemporaryDirectory fresh(place_for_fresh(folder));
+  for (const OutputFile& file : files) write_new_file(fresh.path() / file.name, file.content, folder_ / file.name);
+  write_new_file(fresh.path() / list_name, text_of(list, true), folder_ / list_name);
+  sync_directory(fresh.path());
+  if (!holds_only(folder, former) || !exchange(fresh.path(), folder))
+    move_in_one_by_one(fresh.path(), folder, former, list);
+}
+
+void write_file_atomically(const fs::path& path, const std::string& content) {
+  const fs::path directory = path.has_parent_path() ? path.parent_path() : fs::path(".");
+  const fs::path temporary = directory / fmt::format(".{}.{}", path.filename().string(), getpid());
+  try {
+    write_new_file(temporary, content, path);
+    move_file(temporary, path);
+  } catch (const InputError&) {
+    unlink(temporary.c_str());
+    throw;
+  }
+  sync_directory(directory);
+}
+
+}  // namespace vibrosow

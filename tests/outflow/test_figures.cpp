@@ -1,0 +1,39 @@
+#include "outflow/figures.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "made_up_run.hpp"
+
+namespace vibrosow {
+namespace {
+
+TEST(Figures, HaveEachANameAUnitAndAMeaning) {
+  for (const Figure& figure : figures()) {
+    EXPECT_EQ(&figure_named(figure.name), &figure);
+    EXPECT_GT(figure.unit_size, 0) << figure.name;
+    EXPECT_FALSE(figure.description.empty() || figure.description.ends_with('.')) << figure.name;
+    EXPECT_EQ(std::ranges::count(figures(), figure.name, &Figure::name), 1) << figure.name;
+  }
+  EXPECT_THROW(figure_named("rate"), std::invalid_argument);
+}
+
+TEST(Figures, AreTakenFromTheRunAndMeansOverItsReplicates) {
+  const Scene scene = made_up_scene(1);
+  vibrosow::Run one = made_up_run(scene), other = made_up_run(scene);
+  for (int i = 0; i < 8; ++i) add_grain(one, 3 + 0.1 * i, 1);     // 1 a second in the window of 8 s
+  for (int i = 0; i < 24; ++i) add_grain(other, 3 + 0.1 * i, 1);  // 3 a second
+  const Outflow first = measure_outflow(scene, one), second = measure_outflow(scene, other);
+  const FigureMeans means({&first, &second});
+  EXPECT_DOUBLE_EQ(means["seeds_per_s"]->mean, 2);
+  EXPECT_NEAR(*means["seeds_per_s"]->half_width_95, 12.7062 * std::sqrt(2.0) / std::sqrt(2.0), 1e-3);
+  EXPECT_DOUBLE_EQ(means["rate_g_per_s"]->mean, 2 * 40e-6);
+  EXPECT_FALSE(means["evenness_cv_percent"]);  // one hole
+  EXPECT_FALSE(FigureMeans()["seeds_per_s"]);
+}
+
+}  // namespace
+}  // namespace vibrosow
