@@ -33,7 +33,7 @@ TEST(Range, HasBothEndsInTheUnitOfItsStart) {
 }
 
 TEST(Range, ValuesAreThoseOfTheirTwelveDigits) {
-  rc::check("as if written and read", [] {
+  EXPECT_TRUE(rc::check("as if written and read", [] {
     const double first = *rc::gen::inRange(-100000, 100000) / 1000.0;
     const double step = *rc::gen::inRange(1, 100000) / 1e6;
     const int steps = *rc::gen::inRange(0, 20);
@@ -45,7 +45,7 @@ TEST(Range, ValuesAreThoseOfTheirTwelveDigits) {
       const auto* whole = value.get<std::int64_t>();
       RC_ASSERT(written == (whole != nullptr ? static_cast<double>(*whole) : *value.get<double>()));
     }
-  });
+  }));
 }
 
 TEST(Range, ThatMissesItsEndOrNeverStepsIsRefused) {

@@ -82,7 +82,7 @@ TEST(VolumeOfBalls, ARowIsItsBodyOfRevolution) {
 }
 
 TEST(VolumeOfBalls, TurningAndScalingAClump) {
-  rc::check("volume turns with nothing and scales with the cube", [] {
+  EXPECT_TRUE(rc::check("volume turns with nothing and scales with the cube", [] {
     std::vector<ClumpDisc> discs, turned;
     const double angle = *rc::gen::inRange(0, 628) / 100.0, factor = *rc::gen::inRange(1, 50) / 10.0;
     const int count = *rc::gen::inRange(1, 6);
@@ -96,7 +96,7 @@ TEST(VolumeOfBalls, TurningAndScalingAClump) {
     const double volume = volume_of_balls(discs);
     RC_ASSERT(std::abs(volume_of_balls(turned) - volume * factor * factor * factor) <
               1e-7 * volume * factor * factor * factor);
-  });
+  }));
 }
 
 TEST(Plate, OneDisc) {
