@@ -97,7 +97,7 @@ int run_accuracy(const AccuracyOptions& options) {
     sweep_options.runs.jobs = jobs;
     sweep_options.runs.interrupt = &interrupt;
     sweep_options.runs.progress = [&](const ManyRunsProgress& done) { progress.update(done.fraction_done); };
-    result = measure_accuracy(scene, grid, options.replicates, simulate, sweep_options);
+    result = measure_accuracy(scene, grid, options.replicates, run_model, sweep_options);
     wall_time = progress.seconds();
   }
   write_then_print(

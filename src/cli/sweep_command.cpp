@@ -77,7 +77,7 @@ int run_sweep(const CommonOptions& options) {
     sweep_options.runs.jobs = jobs;
     sweep_options.runs.interrupt = &interrupt;
     sweep_options.runs.progress = [&](const ManyRunsProgress& done) { progress.update(done.fraction_done); };
-    result = sweep(study, simulate, sweep_options);
+    result = sweep(study, run_model, sweep_options);
     wall_time = progress.seconds();
   }
   write_then_print(

@@ -181,22 +181,22 @@ Scene scene_with(const Scene& scene, AccuracySetting& setting) {
 AccuracyResult measure_accuracy(const Scene& scene, const AccuracyGrid& grid, int replicates,
                                 const Simulator& simulator, const SweepOptions& options) {
   AccuracyResult result;
-  std::vector<Scene> scenes;  // of every row, run or not
+  std::vector<Model> models;  // of every row, run or not
   for (const AccuracySetting& setting : settings_of(grid)) {
     AccuracyRow& row = result.rows.emplace_back();
     row.setting = setting;
-    scenes.push_back(scene_with(scene, row.setting));
-    const StepPlan plan = prepare(scenes.back()).step;
-    row.too_long = step_refused(scenes.back().numerics, plan).has_value();
+    models.push_back(prepare(scene_with(scene, row.setting)));
+    const StepPlan& plan = models.back().step;
+    row.too_long = step_refused(models.back().scene.numerics, plan).has_value();
     if (row.too_long) row.refused = fmt::format("too long, at most {:.3g} s: {}", plan.longest_safe, plan.bound_by);
   }
   std::vector<Job> jobs;
   std::vector<std::size_t> row_of;  // of each group of replicates
-  for (std::size_t row = 0; row < scenes.size(); ++row) {
+  for (std::size_t row = 0; row < models.size(); ++row) {
     if (result.rows[row].too_long) continue;
     row_of.push_back(row);
     for (int i = 0; i < replicates; ++i)
-      jobs.push_back({&scenes[row], options.first_random_seed + static_cast<std::uint64_t>(i)});
+      jobs.push_back({&models[row], options.first_random_seed + static_cast<std::uint64_t>(i)});
   }
   if (jobs.empty()) throw InputError(fmt::format("no setting can be run: {}", result.rows.front().refused));
 

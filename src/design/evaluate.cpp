@@ -41,12 +41,16 @@ Evaluation reduced(const Scene& scene, const Run& run, const std::vector<CurveRe
 
 }  // namespace
 
-Evaluation evaluate(const Scene& scene, const SimulationOptions& options, const std::vector<CurveRequest>& curves,
+Evaluation evaluate(const Model& model, const SimulationOptions& options, const std::vector<CurveRequest>& curves,
                     const Simulator& simulator) {
+  const auto refused = [&](const std::string& reason) {
+    return Evaluation{.random_seed = options.random_seed, .status = EvaluationStatus::refused, .reason = reason};
+  };
+  if (const auto too_long = step_refused(model.scene.numerics, model.step)) return refused(*too_long);
   try {
-    return reduced(scene, simulator(scene, options), curves);
+    return reduced(model.scene, simulator(model, options), curves);
   } catch (const InputError& error) {
-    return {.random_seed = options.random_seed, .status = EvaluationStatus::refused, .reason = error.what()};
+    return refused(error.what());
   }
 }
 

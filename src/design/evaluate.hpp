@@ -9,14 +9,14 @@
 #include "fields/record_figures.hpp"
 #include "outflow/discharge.hpp"
 #include "outflow/outflow.hpp"
+#include "plan/model.hpp"
 #include "result/run.hpp"
-#include "scene/scene.hpp"
 #include "simulation/simulate.hpp"
 
 namespace vibrosow {
 
-/// What runs a scene: `simulate`, or something quick in a test.
-using Simulator = std::function<Run(const Scene&, const SimulationOptions&)>;
+/// What runs a model: `run_model`, or something quick in a test.
+using Simulator = std::function<Run(const Model&, const SimulationOptions&)>;
 
 /// A discharge curve that is wanted of a run, as `discharge_curve` takes it.
 struct CurveRequest {
@@ -64,9 +64,10 @@ struct Evaluation {
   bool was_run() const { return status != EvaluationStatus::not_begun && status != EvaluationStatus::refused; }
 };
 
-/// Runs a scene once and reduces what comes of it. A simulator's InputError makes a `refused` evaluation. Throws
-/// std::invalid_argument for a curve of a hole or lot that the scene has not.
-Evaluation evaluate(const Scene& scene, const SimulationOptions& options, const std::vector<CurveRequest>& curves = {},
-                    const Simulator& simulator = simulate);
+/// Runs a scene's model once and reduces what comes of it. A step that is too long and not insisted on, or a
+/// simulator's InputError, makes a `refused` evaluation. Throws std::invalid_argument for a curve of a hole or lot that
+/// the scene has not.
+Evaluation evaluate(const Model& model, const SimulationOptions& options, const std::vector<CurveRequest>& curves = {},
+                    const Simulator& simulator = run_model);
 
 }  // namespace vibrosow

@@ -6,12 +6,11 @@
 #include <vector>
 
 #include "design/evaluate.hpp"
-#include "scene/scene.hpp"
 
 namespace vibrosow {
 
 struct Job {
-  const Scene* scene;
+  const Model* model;
   std::uint64_t random_seed;
   std::vector<CurveRequest> curves{};
 };

@@ -13,11 +13,13 @@ namespace {
 
 std::vector<std::vector<Evaluation>> run_scenes(const Study& study, const Simulator& simulator,
                                                 const SweepOptions& options) {
+  std::vector<Model> models;
+  for (const Scene& scene : study.scenes) models.push_back(prepare(scene));
   std::vector<Job> jobs;
-  for (std::size_t scene = 0; scene < study.scenes.size(); ++scene)
+  for (std::size_t scene = 0; scene < models.size(); ++scene)
     for (int i = 0; i < study.replicates; ++i)
-      jobs.push_back({&study.scenes[scene], options.first_random_seed + static_cast<std::uint64_t>(i),
-                      measured_curves(study, scene)});
+      jobs.push_back(
+          {&models[scene], options.first_random_seed + static_cast<std::uint64_t>(i), measured_curves(study, scene)});
   std::vector<Evaluation> results = run_jobs(jobs, simulator, options.runs);
 
   std::vector<std::vector<Evaluation>> runs(study.scenes.size());

@@ -39,6 +39,18 @@ double load_of_smallest(const std::vector<SeedLot>& lots) {
   return largest;
 }
 
+/// How far seeds fall freely before they meet others or a floor, m: rain, from its height; from a hopper with holes to
+/// the tray's floor; and at a hole about its width, from the arch over it. What is poured lies still.
+double free_fall(const std::vector<Vessel>& vessels) {
+  double fall = 0;
+  for (const Vessel& vessel : vessels) {
+    if (vessel.rain) fall = std::max(fall, vessel.rain->height);
+    for (const Hole& hole : vessel.holes)
+      fall = std::max({fall, hole.width, vessel.origin.y() - vessels.front().origin.y()});
+  }
+  return fall;
+}
+
 /// From the highest edge, or place of rain, to the counting line, m.
 double longest_fall(const std::vector<Vessel>& vessels, double count_below) {
   double drop = vessels.front().height;
@@ -62,6 +74,7 @@ BedLoads bed_loads(const std::vector<SeedLot>& lots, const std::vector<Vessel>& 
           .weight_factor = 1 + most.vertical_acceleration / standard_gravity,
           .load_of_smallest = load_of_smallest(lots),
           .vessel_speed = most.speed,
+          .fall_speed = std::sqrt(2 * standard_gravity * free_fall(vessels)),
           .grain_speed =
               std::max(2 * most.speed, std::sqrt(2 * standard_gravity * longest_fall(vessels, run.count_below)))};
 }

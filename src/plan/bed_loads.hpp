@@ -14,6 +14,7 @@ struct BedLoads {
   /// fraction of the bed's pressure that goes with its diameter, over its own mass. 1 for single sizes.
   double load_of_smallest;
   double vessel_speed;  // m/s, the fastest of any vessel's wall
+  double fall_speed;    // m/s, of seeds that rain, that drop from a hopper to the tray's floor, or through a hole
   double grain_speed;   // m/s, that a grain can reach: twice the vessel's, or the fall from the highest edge
 };
 

@@ -190,7 +190,7 @@ std::optional<std::string> step_refused(const Numerics& numerics, const StepPlan
 PredictedCompression predict_compression(const StepBasis& basis) {
   PredictedCompression predicted{};
   predicted.layers = basis.loads.layers;
-  predicted.impact_speed = 2 * basis.loads.vessel_speed;
+  predicted.impact_speed = std::max(2 * basis.loads.vessel_speed, basis.loads.fall_speed);
   for (const GrainKind& kind : basis.touching) {
     const Meeting wall = on_wall(basis, kind), pair = with_grain(basis, kind, kind);
     const double weight = predicted.layers * basis.loads.weight_factor * kind.mass * standard_gravity;

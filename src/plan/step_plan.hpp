@@ -51,7 +51,7 @@ struct PredictedCompression {
   double layers;              // of the deepest fill
   double static_compression;  // d/r of the lowest shell at rest
   double static_overlap;      // of the lowest pair in radii, twice the above
-  double impact_speed;        // m/s, 2 A omega
+  double impact_speed;        // m/s, 2 A omega, or of falling seeds
   double impact_compression;  // d/r at that speed on a wall
   double stiff_enough;        // the largest contact.shell_compression that keeps both within guard.warn_compression
 };

@@ -60,7 +60,8 @@ measure_from = "2 s"
 };
 
 /// Sows at once, evenly, and a little more with every random seed: 10 n + seed seeds from hole n in the 4 s of the run.
-inline Run quick_run(const Scene& scene, const SimulationOptions& options) {
+inline Run quick_run(const Model& model, const SimulationOptions& options) {
+  const Scene& scene = model.scene;
   Run run;
   run.random_seed = options.random_seed;
   run.dt = 1e-3;

@@ -139,8 +139,8 @@ TEST(Accuracy, InterruptedBeforeTheFinestSettingGivesNoErrors) {
   std::atomic<bool> interrupt{false};
   options.runs.interrupt = &interrupt;
   int begun = 0;
-  const Simulator third_is_interrupted = [&](const Scene& scene, const SimulationOptions& simulation) {
-    vibrosow::Run run = quick_run(scene, simulation);
+  const Simulator third_is_interrupted = [&](const Model& model, const SimulationOptions& simulation) {
+    vibrosow::Run run = quick_run(model, simulation);
     if (++begun == 3) interrupt = true, run.status = RunStatus::interrupted;
     return run;
   };
@@ -210,9 +210,9 @@ TEST(Accuracy, RunsEachSettingAsAskedAndListsTheRefused) {
   grid.steps_per_contact = {2, 40};
   grid.shell_compressions = {1e-4};
   grid.integrators = {verlet};
-  const Simulator checked = [](const Scene& one, const SimulationOptions& simulation) {
+  const Simulator checked = [](const Model& model, const SimulationOptions& simulation) {
     EXPECT_NEAR(prepare(one).step.contact_duration / *one.numerics.dt, 40, 1e-9);
-    return quick_run(one, simulation);
+    return quick_run(model, simulation);
   };
   const AccuracyResult result = measure_accuracy(scene, grid, 2, checked, one_job());
   ASSERT_EQ(result.rows.size(), 4u);

@@ -14,8 +14,8 @@ namespace {
 
 using testing::ElementsAre;
 
-Scene small_scene(const StudyFiles& files) {
-  return read_scene(files.write("scene.toml", "").parent_path() / "seeder.toml");
+Model small_model(const StudyFiles& files) {
+  return prepare(read_scene(files.write("scene.toml", "").parent_path() / "seeder.toml"));
 }
 
 SimulationOptions with_random_seed(std::uint64_t random_seed) {
@@ -26,10 +26,10 @@ SimulationOptions with_random_seed(std::uint64_t random_seed) {
 
 TEST(Evaluate, KeepsWhatHolesGaveAndTheCurvesAskedFor) {
   const StudyFiles files;
-  const Scene scene = small_scene(files);
+  const Model model = small_model(files);
   const std::vector<CurveRequest> wanted = {{Discharge::seeds, "2", "all", {1, 3, 4}},
                                             {Discharge::fraction, "all", "wheat", {4}}};
-  const Evaluation evaluation = evaluate(scene, with_random_seed(4), wanted, quick_run);
+  const Evaluation evaluation = evaluate(model, with_random_seed(4), wanted, quick_run);
   EXPECT_TRUE(evaluation.finished());
   EXPECT_EQ(evaluation.random_seed, 4u);
   EXPECT_EQ(evaluation.grain_steps, 12000);
@@ -45,8 +45,8 @@ TEST(Evaluate, KeepsWhatHolesGaveAndTheCurvesAskedFor) {
 
 TEST(Evaluate, ARunCutShortKeepsItsFiguresAndItsReason) {
   const StudyFiles files;
-  const Simulator dry_and_stopped = [](const Scene& scene, const SimulationOptions& options) {
-    vibrosow::Run run = quick_run(scene, options);
+  const Simulator dry_and_stopped = [](const Model& model, const SimulationOptions& options) {
+    vibrosow::Run run = quick_run(model, options);
     run.status = RunStatus::stopped_by_guard;
     run.stop_reason = "compression 0.6";
     run.tray_empty_since = 3;
@@ -54,7 +54,7 @@ TEST(Evaluate, ARunCutShortKeepsItsFiguresAndItsReason) {
     return run;
   };
   const Evaluation evaluation =
-      evaluate(small_scene(files), with_random_seed(2), {{Discharge::seeds, "all", "all", {3, 4}}}, dry_and_stopped);
+      evaluate(small_model(files), with_random_seed(2), {{Discharge::seeds, "all", "all", {3, 4}}}, dry_and_stopped);
   EXPECT_EQ(evaluation.status, EvaluationStatus::stopped);
   EXPECT_TRUE(evaluation.was_run());
   EXPECT_EQ(evaluation.reason, "compression 0.6");
@@ -65,10 +65,10 @@ TEST(Evaluate, ARunCutShortKeepsItsFiguresAndItsReason) {
 
 TEST(Evaluate, WhatTheSimulatorRefusesIsAReasonAndNoFigures) {
   const StudyFiles files;
-  const Simulator refusing = [](const Scene&, const SimulationOptions&) -> vibrosow::Run {
+  const Simulator refusing = [](const Model&, const SimulationOptions&) -> vibrosow::Run {
     throw InputError("the fill does not fit");
   };
-  const Evaluation evaluation = evaluate(small_scene(files), with_random_seed(7), {}, refusing);
+  const Evaluation evaluation = evaluate(small_model(files), with_random_seed(7), {}, refusing);
   EXPECT_EQ(evaluation.status, EvaluationStatus::refused);
   EXPECT_FALSE(evaluation.was_run());
   EXPECT_EQ(evaluation.reason, "the fill does not fit");

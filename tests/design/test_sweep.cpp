@@ -60,8 +60,8 @@ TEST(Sweep, InterruptKeepsWhatIsFinished) {
   const StudyFiles files;
   std::atomic<bool> interrupt{false};
   std::atomic<int> begun{0};
-  const Simulator fifth_is_interrupted = [&](const Scene& scene, const SimulationOptions& options) {
-    vibrosow::Run run = quick_run(scene, options);
+  const Simulator fifth_is_interrupted = [&](const Model& model, const SimulationOptions& options) {
+    vibrosow::Run run = quick_run(model, options);
     if (++begun == 5) {
       interrupt = true;
       run.status = RunStatus::interrupted;
@@ -82,10 +82,10 @@ TEST(Sweep, InterruptKeepsWhatIsFinished) {
 
 TEST(Sweep, GuardAndRefusalGiveAStatusAndAReason) {
   const StudyFiles files;
-  const Simulator troubled = [](const Scene& scene, const SimulationOptions& options) {
-    if (scene.tray.holes.size() == 3) throw InputError("the fill does not fit");
-    vibrosow::Run run = quick_run(scene, options);
-    if (scene.tray.holes.size() == 5 && options.random_seed == 2) {
+  const Simulator troubled = [](const Model& model, const SimulationOptions& options) {
+    if (model.scene.tray.holes.size() == 3) throw InputError("the fill does not fit");
+    vibrosow::Run run = quick_run(model, options);
+    if (model.scene.tray.holes.size() == 5 && options.random_seed == 2) {
       run.status = RunStatus::stopped_by_guard;
       run.stop_reason = "compression 0.6";
     }
@@ -105,7 +105,7 @@ TEST(Sweep, SharedSceneIsRunOnceAndListedUnderEach) {
       files.study("replicates = 2\n[vary]\ntray.holes.count = [1]\ntray.holes.span = [\"30 cm\", \"36 cm\"]\n"));
   std::atomic<int> runs{0};
   const StudyResult result = sweep(
-      study, [&](const Scene& scene, const SimulationOptions& options) { return ++runs, quick_run(scene, options); },
+      study, [&](const Model& model, const SimulationOptions& options) { return ++runs, quick_run(model, options); },
       with_jobs(1));
   EXPECT_EQ(runs, 2);
   EXPECT_EQ(result.layouts[0].figures["rate_g_per_s"]->mean, result.layouts[1].figures["rate_g_per_s"]->mean);
@@ -158,8 +158,8 @@ TEST(Sweep, CurveBeginsWhenTheFirstHoleOpensOrAsTheStudySays) {
 
 /// A grain of each lot in the middle of a tray 50 cm long: the second rises to 3, 4 or 5 cm with the random seed, and
 /// the bed's inside, 1 cm deep at the start, holds of it what is left.
-vibrosow::Run recorded_run(const Scene& scene, const SimulationOptions& options) {
-  vibrosow::Run run = quick_run(scene, options);
+vibrosow::Run recorded_run(const Model& model, const SimulationOptions& options) {
+  vibrosow::Run run = quick_run(model, options);
   for (const double rise : {0.0, 0.01 * static_cast<double>(options.random_seed)}) {
     Snapshot s;
     s.x = {0.25, 0.25}, s.y = {0.02, 0.02 + rise};

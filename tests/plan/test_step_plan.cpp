@@ -173,5 +173,27 @@ TEST(TouchingKinds, OneSizeTheSmallestAndTheLargestAtEqualDensity) {
   EXPECT_DOUBLE_EQ(1 / kinds[1].inverse_inertia, 0.4 * kinds[1].mass * 1e-6);
 }
 
+TEST(PredictedCompression, OfASeedThatRainsOnTheFloorIsThatOfTheRun) {
+  Scene scene = Bench().scene;  // nothing moves, no fill, no damping
+  scene.tray.rain = Rain{.rate = 4, .from = 0.5, .to = 0.5, .height = 0.3, .start = 0, .stop = 0.3};
+  scene.run.duration = 0.6;
+  const PredictedCompression predicted = prepare(scene).compression;
+  EXPECT_NEAR(predicted.impact_speed, std::sqrt(2 * standard_gravity * 0.3), 1e-9);
+  EXPECT_NEAR(simulate(scene).max_compression / predicted.impact_compression, 1, 0.02);
+}
+
+TEST(PredictedCompression, CountsTheFallFromAHopperAndThroughAHole) {
+  Scene scene = published();
+  scene.hopper = scene.tray;
+  scene.hopper->motion.reset();
+  scene.hopper->origin = {0, 0.36};
+  scene.hopper->holes = {{0.25, 0.04, 0}};
+  EXPECT_NEAR(prepare(scene).compression.impact_speed, std::sqrt(2 * standard_gravity * 0.36), 1e-9);
+  scene.hopper.reset();
+  scene.tray.motion.reset();
+  scene.tray.holes = {{0.25, 0.08, 0}};
+  EXPECT_NEAR(prepare(scene).compression.impact_speed, std::sqrt(2 * standard_gravity * 0.08), 1e-9);
+}
+
 }  // namespace
 }  // namespace vibrosow
