@@ -64,6 +64,10 @@ struct Evaluation {
   bool was_run() const { return status != EvaluationStatus::not_begun && status != EvaluationStatus::refused; }
 };
 
+/// What is kept of a run of `scene` that has ended, or is cut short here. Throws std::invalid_argument as `evaluate`
+/// does.
+Evaluation reduced(const Scene& scene, const Run& run, const std::vector<CurveRequest>& wanted = {});
+
 /// Runs a scene once and reduces what comes of it. A simulator's InputError makes a `refused` evaluation. Throws
 /// std::invalid_argument for a curve of a hole or lot that the scene has not.
 Evaluation evaluate(const Scene& scene, const SimulationOptions& options, const std::vector<CurveRequest>& curves = {},

@@ -14,7 +14,7 @@ namespace vibrosow {
 /// dimension, value out of range, contradicting keys, a hole off the floor or overlapping another.
 Scene read_scene(const std::filesystem::path& file, const std::vector<Override>& overrides = {});
 
-/// Where shipped presets lie: $VIBROSOW_DATA if set, the installed fraction directory beside the program, or the source
+/// Where shipped presets lie: $VIBROSOW_DATA if set, the installed share directory beside the program, or the source
 /// tree it was built from. Throws InputError when none exists.
 std::filesystem::path data_directory();
 
