@@ -17,6 +17,8 @@ EvaluationStatus status_of(const Run& run) {
   return EvaluationStatus::interrupted;
 }
 
+}  // namespace
+
 Evaluation reduced(const Scene& scene, const Run& run, const std::vector<CurveRequest>& wanted) {
   Evaluation evaluation{.random_seed = run.random_seed,
                         .status = status_of(run),
@@ -38,8 +40,6 @@ Evaluation reduced(const Scene& scene, const Run& run, const std::vector<CurveRe
         {request, discharge_curve(scene, run, request.times, request.kind, request.hole, request.lot)});
   return evaluation;
 }
-
-}  // namespace
 
 Evaluation evaluate(const Model& model, const SimulationOptions& options, const std::vector<CurveRequest>& curves,
                     const Simulator& simulator) {

@@ -64,6 +64,10 @@ struct Evaluation {
   bool was_run() const { return status != EvaluationStatus::not_begun && status != EvaluationStatus::refused; }
 };
 
+/// What is kept of a run of `scene` that has ended, or is cut short here. Throws std::invalid_argument as `evaluate`
+/// does.
+Evaluation reduced(const Scene& scene, const Run& run, const std::vector<CurveRequest>& wanted = {});
+
 /// Runs a scene's model once and reduces what comes of it. A step that is too long and not insisted on, or a
 /// simulator's InputError, makes a `refused` evaluation. Throws std::invalid_argument for a curve of a hole or lot that
 /// the scene has not.

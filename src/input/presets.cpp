@@ -66,11 +66,12 @@ fs::path data_directory() {
   const fs::path program = fs::read_symlink("/proc/self/exe", no_proc);
   const fs::path installed = program.parent_path().parent_path() / "share" / "vibrosow";
   if (!no_proc && holds_models(installed)) return installed;
-  if (holds_models(VIBROSOW_SOURCE_DIR)) return VIBROSOW_SOURCE_DIR;
-  throw InputError(
-      fmt::format("the shipped models are neither in {} nor in {}; set VIBROSOW_DATA to the folder that holds "
-                  "\"models\"",
-                  installed.string(), VIBROSOW_SOURCE_DIR));
+  for (const char* directory : {VIBROSOW_SOURCE_DIR, VIBROSOW_INSTALLED_DATA})  // the second: of other programs
+    if (holds_models(directory)) return directory;
+  throw InputError(fmt::format(
+      "the shipped models are neither in {} nor in {} nor in {}; set VIBROSOW_DATA to the folder that holds "
+      "\"models\"",
+      installed.string(), VIBROSOW_SOURCE_DIR, VIBROSOW_INSTALLED_DATA));
 }
 
 }  // namespace vibrosow

@@ -35,6 +35,8 @@ def check_links(path, text):
 def check_paths(path, text):
     for target in re.findall(rf"`((?:{ROOMS})/[\w./-]*\w)", text):
         expect((ROOT / target).exists(), f"{path.name}: names {target}, which does not exist")
+    for target in re.findall(r"`([a-z0-9]+/\w+\.[ch]pp)`", text):
+        expect((ROOT / "src" / target).exists() or (ROOT / target).exists(), f"{path.name}: names {target}, which is not in src")
 
 
 def check_reports(path, text):

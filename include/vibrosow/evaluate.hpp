@@ -1,0 +1,48 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "vibrosow/scene.hpp"
+
+namespace vibrosow::api {
+
+/// Grains; put_in = inside + counted + spilled + lost, always.
+struct Balance {
+  std::int64_t put_in = 0;
+  std::int64_t inside = 0;
+  std::int64_t counted = 0;  // left through a hole
+  std::int64_t spilled = 0;  // fell beside the tray
+  std::int64_t lost = 0;     // through a wall: an error
+};
+
+/// What leaves one hole (or all) of one lot (or all) in the measuring window.
+struct HoleOutflow {
+  std::string hole;          // "1".. from the left, or "all"
+  std::string lot;           // its name, or "all"
+  std::int64_t grains = 0;   // in the window
+  double seeds_per_s = 0;    // of a plane slice one seed thick; not a number where a run ended before its window
+  double mass_rate = 0;      // kg/s, the same
+  double longest_pause = 0;  // s
+};
+
+/// What one run of a scene comes to.
+struct Evaluation {
+  bool finished = false;
+  std::string reason;                 // why it was refused or stopped by the guard, or ended early
+  std::vector<std::string> warnings;  // of the guard
+  double end_time = 0;                // s
+  Balance balance;
+  std::vector<HoleOutflow> holes;  // by hole and lot, the last row of all; empty where refused
+  std::optional<double>
+      evenness_cv;  // fraction; scatter of the holes' rates beyond that of counting; none for one hole
+  std::optional<double> depth_factor;  // the real tray's rate over the slice's; none without tray.depth
+};
+
+/// Runs a scene to its end. The same scene and random seed give the same result to the last bit, for any number of
+/// threads. A scene that cannot be run is not `finished`, and `reason` says why.
+Evaluation evaluate(const Scene& scene, std::uint64_t random_seed = 1, int threads = 1);
+
+}  // namespace vibrosow::api

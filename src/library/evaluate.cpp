@@ -1,0 +1,40 @@
+#include "vibrosow/evaluate.hpp"
+
+#include "design/evaluate.hpp"
+#include "library/convert.hpp"
+
+namespace vibrosow::api {
+namespace {
+
+std::string reason_of(const vibrosow::Evaluation& own) {
+  return own.reason.empty() ? own.end_reason : own.reason;
+}
+
+}  // namespace
+
+Balance converted(const vibrosow::Balance& own) {
+  return {own.put_in, own.inside, own.counted, own.spilled, own.lost};
+}
+
+Evaluation converted(const vibrosow::Evaluation& own) {
+  Evaluation evaluation{.finished = own.finished(),
+                        .reason = reason_of(own),
+                        .warnings = own.warnings,
+                        .end_time = own.end_time,
+                        .balance = converted(own.balance),
+                        .holes = {},
+                        .evenness_cv = own.outflow.evenness_cv,
+                        .depth_factor = own.outflow.depth_factor};
+  for (const vibrosow::HoleOutflow& row : own.outflow.holes)
+    evaluation.holes.push_back({row.hole, row.lot, row.grains, row.seeds_per_s, row.mass_rate, row.longest_pause});
+  return evaluation;
+}
+
+Evaluation evaluate(const Scene& scene, std::uint64_t random_seed, int threads) {
+  SimulationOptions options;
+  options.random_seed = random_seed;
+  options.threads = threads;
+  return converted(vibrosow::evaluate(scene.value(), options));
+}
+
+}  // namespace vibrosow::api

@@ -1,0 +1,31 @@
+#include "vibrosow/scene.hpp"
+
+#include "input/read_scene.hpp"
+#include "scene/scene_json.hpp"
+
+namespace vibrosow::api {
+
+Scene Scene::read(const std::filesystem::path& file, const std::vector<std::string>& changes) {
+  std::vector<Override> overrides;
+  for (const std::string& change : changes) overrides.push_back(parse_override(change));
+  return Scene(std::make_shared<const vibrosow::Scene>(read_scene(file, overrides)));
+}
+
+Scene Scene::from_json(std::string_view json) {
+  return Scene(std::make_shared<const vibrosow::Scene>(scene_from_json(json)));
+}
+
+std::string Scene::json() const {
+  return scene_to_json(*scene_);
+}
+std::string Scene::title() const {
+  return scene_->title;
+}
+double Scene::duration() const {
+  return scene_->run.duration;
+}
+int Scene::holes() const {
+  return static_cast<int>(scene_->tray.holes.size());
+}
+
+}  // namespace vibrosow::api
