@@ -34,7 +34,7 @@ Evaluation evaluate(const Scene& scene, std::uint64_t random_seed, int threads) 
   SimulationOptions options;
   options.random_seed = random_seed;
   options.threads = threads;
-  return converted(vibrosow::evaluate(scene.value(), options));
+  return converted(vibrosow::evaluate(prepare(scene.value()), options));
 }
 
 }  // namespace vibrosow::api
