@@ -21,6 +21,16 @@
 namespace vibrosow {
 namespace {
 
+std::string evenness_sentence(const Evenness& even) {
+  const std::string parts =
+      fmt::format("raw CV {:.3g} %, of which counting alone {:.3g} %", 100 * even.raw_cv, 100 * even.counting_cv);
+  if (!even.cv)
+    return fmt::format("holes differ: {}; below what this many seeds resolve, at most {:.3g} %", parts,
+                       100 * even.high);
+  return fmt::format("holes differ: CV {:.3g} %, 95 % interval {:.3g} to {:.3g} % ({})", 100 * *even.cv, 100 * even.low,
+                     100 * even.high, parts);
+}
+
 void print_summary(const Scene& scene, const Run& run, const Outflow& outflow) {
   print("{}\n\n{:>6} {:<12} {:>11} {:>8} {:>12} {:>10} {:>10}\n", scene.title, "hole", "lot", "position mm", "seeds",
         "seeds per s", "g per s", "pause s");
@@ -30,10 +40,16 @@ void print_summary(const Scene& scene, const Run& run, const Outflow& outflow) {
     print("{:>6} {:<12} {:>11} {:>8} {:>12} {:>10} {:>10}\n", row.hole, row.lot,
           row.centre ? fmt::format("{:.1f}", *row.centre * 1e3) : "", row.grains, figure(row.seeds_per_s),
           figure(row.mass_rate * 1e3), figure(row.longest_pause));
+  const HoleOutflow& all = *find_row(outflow, "all", "all");
+  if (outflow.depth_factor)
+    print("\nwhole tray, {:.4g} times the slice: {} g/s = {} g/min, {} seeds/s\n", *outflow.depth_factor,
+          figure(all.mass_rate * 1e3 * *outflow.depth_factor), figure(all.mass_rate * 6e4 * *outflow.depth_factor),
+          figure(all.seeds_per_s * *outflow.depth_factor));
+  if (outflow.evenness) print_text("\n" + wrapped(evenness_sentence(*outflow.evenness)));
   const Balance& balance = run.balance;
-  print("\nwindow {:g} to {:g} s; put in {} = inside {} + counted {} + spilled {} + lost {}\n", outflow.window_from,
+  print("\nwindow {:g} to {:g} s\nput in {} = inside {} + counted {} + spilled {} + lost {}\n", outflow.window_from,
         outflow.window_to, balance.put_in, balance.inside, balance.counted, balance.spilled, balance.lost);
-  if (!outflow.note.empty()) print("note: {}\n", outflow.note);
+  for (const Remark& remark : outflow.remarks) print_text(wrapped("note: " + remark.text));
 }
 
 void print_profile(const Run& run) {

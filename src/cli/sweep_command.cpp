@@ -17,10 +17,28 @@
 namespace vibrosow {
 namespace {
 
-std::string with_interval(const std::optional<MeanWithInterval>& value, double factor) {
+std::string with_interval(const std::optional<MeanWithInterval>& value, double unit) {
   if (!value) return "";
-  if (!value->half_width_95) return fmt::format("{:.3g}", value->mean * factor);
-  return fmt::format("{:.3g} +- {:.2g}", value->mean * factor, *value->half_width_95 * factor);
+  if (!value->half_width_95) return fmt::format("{:.4g}", value->mean / unit);
+  return fmt::format("{:.4g} +- {:.2g}", value->mean / unit, *value->half_width_95 / unit);
+}
+
+std::string mean_text(const FigureMeans& figures, std::string_view name) {
+  const Figure& figure = figure_named(name);
+  return with_interval(figures[figure], figure.unit_size);
+}
+
+/// "12.1 (9.3-16)", or "< 6.2" where the seeds do not resolve it.
+std::string evenness_text(const FigureMeans& figures) {
+  const auto text = [&](std::string_view name) {
+    const Figure& figure = figure_named(name);
+    return figures[figure] ? fmt::format("{:.2g}", figures[figure]->mean / figure.unit_size) : "";
+  };
+  const std::string high = text("evenness_cv_percent_high"), cv = mean_text(figures, "evenness_cv_percent");
+  if (high.empty()) return "";
+  if (cv.empty()) return "< " + high;
+  return fmt::format("{:.3g} ({}-{})", figures["evenness_cv_percent"]->mean * 100, text("evenness_cv_percent_low"),
+                     high);
 }
 
 std::string described(const Study& study, const Layout& layout) {
@@ -33,15 +51,32 @@ std::string described(const Study& study, const Layout& layout) {
   return text;
 }
 
+void print_layout(const StudyResult& result, std::size_t index) {
+  const LayoutResult& of = result.layouts[index];
+  const FigureMeans& figures = of.figures;
+  const std::string name = described(result.study, result.study.layouts[index]);
+  constexpr std::size_t name_width = 23;
+  if (name.size() > name_width) print_text(fmt::format("{:>3} {}", index + 1, wrapped(name, 4).substr(4)));
+  print("{:>3} {:<23} {:>15} {:>14} {:>6} {:>13}\n", name.size() > name_width ? "" : fmt::format("{}", index + 1),
+        name.size() > name_width ? "" : name, mean_text(figures, "rate_g_per_s"), mean_text(figures, "seeds_per_s"),
+        mean_text(figures, "raw_cv_percent"), evenness_text(figures));
+  if (figures["tray_rate_g_per_s"])
+    print_text(wrapped(fmt::format("tray, times {}: {} g/s, {} g/min, {} seeds/s", mean_text(figures, "depth_factor"),
+                                   mean_text(figures, "tray_rate_g_per_s"), mean_text(figures, "tray_rate_g_per_min"),
+                                   mean_text(figures, "tray_seeds_per_s")),
+                       4));
+  if (of.misfit_percent) print("    misfit {} %\n", with_interval(of.misfit_percent, 1));
+  if (!of.reason.empty()) print_text(wrapped(of.reason, 4));
+}
+
 void print_table(const StudyResult& result) {
-  print("{}\n\n{:>6} {:<36} {:>18} {:>18} {:>18} {:>14}\n", result.study.title, "layout", "", "g per s", "seeds per s",
-        "evenness CV %", "misfit %");
-  for (std::size_t i = 0; i < result.layouts.size(); ++i) {
-    const LayoutResult& of = result.layouts[i];
-    print("{:>6} {:<36} {:>18} {:>18} {:>18} {:>14} {}\n", i + 1, described(result.study, result.study.layouts[i]),
-          with_interval(of.figures["rate_g_per_s"], 1e3), with_interval(of.figures["seeds_per_s"], 1),
-          with_interval(of.figures["evenness_cv_percent"], 100), with_interval(of.misfit_percent, 1), of.reason);
-  }
+  print("{}\n\n{:<27} {:>15} {:>14} {:>6} {:>13}\n", result.study.title, "layout", "g/s", "seeds/s", "raw CV", "CV, %");
+  for (std::size_t i = 0; i < result.layouts.size(); ++i) print_layout(result, i);
+  const bool uneven = std::ranges::any_of(
+      result.layouts, [](const LayoutResult& one) { return one.figures["raw_cv_percent"].has_value(); });
+  if (uneven)
+    print_text("\n" + wrapped("CV between the holes, %: raw, and without what counting alone gives, with its 95 % "
+                              "interval; \"<\": below what this many seeds resolve"));
   if (!result.comparison) return;
   if (result.study.measured->scale == MeasuredScale::free && result.comparison->scale)
     print("\nscale fitted to the measured outflow: {:.4g}\n", *result.comparison->scale);

@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
+#include <utility>
 
 #include "design/comparison.hpp"
 
@@ -92,22 +94,25 @@ BedFigures bed_figures(const Scene& scene, std::size_t record, const std::vector
   return figures;
 }
 
-/// What to know about the finished runs of a layout.
+/// What to know about the finished runs of a layout: each kind of remark, and how many runs have it.
 std::string remarks_on(const std::vector<Evaluation>& replicates) {
-  std::size_t finished = 0, dry = 0, outside = 0, lost = 0, warned = 0;
+  std::vector<std::pair<std::string, int>> kinds;  // in the order in which they come up
+  int finished = 0;
   for (const Evaluation& replicate : replicates) {
     if (!replicate.finished()) continue;
     ++finished;
-    if (replicate.tray_empty_since && *replicate.tray_empty_since < replicate.outflow.window_to) ++dry;
-    if (replicate.outside_the_model) ++outside;
-    if (replicate.balance.lost > 0) ++lost;
-    if (!replicate.warnings.empty()) ++warned;
+    std::set<std::string> of_run;
+    for (const Remark& remark : replicate.outflow.remarks) {
+      if (!of_run.insert(remark.kind).second) continue;
+      const auto known = std::ranges::find(kinds, remark.kind, &std::pair<std::string, int>::first);
+      if (known == kinds.end())
+        kinds.emplace_back(remark.kind, 1);
+      else
+        ++known->second;
+    }
   }
   std::vector<std::string> remarks;
-  if (outside > 0) remarks.push_back("outside the model");
-  if (dry > 0) remarks.push_back(fmt::format("ran dry in {} of {} runs", dry, finished));
-  if (lost > 0) remarks.push_back(fmt::format("seeds lost through walls in {} of {} runs", lost, finished));
-  if (warned > 0) remarks.push_back(fmt::format("the guard warned in {} of {} runs", warned, finished));
+  for (const auto& [kind, runs] : kinds) remarks.push_back(fmt::format("{} in {} of {} runs", kind, runs, finished));
   return fmt::format("{}", fmt::join(remarks, "; "));
 }
 

@@ -18,14 +18,42 @@ const HoleOutflow& whole(const Outflow& outflow) {
   return *find_row(outflow, "all", "all");
 }
 
+Value of_tray(const Outflow& outflow, double of_slice) {
+  return outflow.depth_factor ? Value(of_slice * *outflow.depth_factor) : Value();
+}
+
+template <class Get>
+Value of_evenness(const Outflow& outflow, Get get) {
+  return outflow.evenness ? Value(get(*outflow.evenness)) : Value();
+}
+
 constexpr std::array table = {
-    Figure{"rate_g_per_s", "g per s", "g/s", gram, "mass flow through all holes, of the plane slice, in the window",
+    Figure{"rate_g_per_s", "g/s", "g/s", gram, "mass flow through all holes, of the plane slice, in the window",
            [](const Outflow& o) { return Value(whole(o).mass_rate); }},
-    Figure{"seeds_per_s", "seeds per s", "1/s", 1, "seeds through all holes, of the plane slice, in the window",
+    Figure{"seeds_per_s", "seeds/s", "1/s", 1, "seeds through all holes, of the plane slice, in the window",
            [](const Outflow& o) { return Value(whole(o).seeds_per_s); }},
+    Figure{
+        "depth_factor", "factor", "", 1,
+        "tray.depth over the thickness of the plane slice, by which its rates are multiplied; empty without tray.depth",
+        [](const Outflow& o) { return o.depth_factor; }, true},
+    Figure{"tray_rate_g_per_s", "tray g/s", "g/s", gram, "mass flow of the whole tray; empty without tray.depth",
+           [](const Outflow& o) { return of_tray(o, whole(o).mass_rate); }},
+    Figure{"tray_rate_g_per_min", "tray g/min", "g/min", gram / 60, "the same per minute",
+           [](const Outflow& o) { return of_tray(o, whole(o).mass_rate); }},
+    Figure{"tray_seeds_per_s", "tray seeds/s", "1/s", 1, "seeds of the whole tray; empty without tray.depth",
+           [](const Outflow& o) { return of_tray(o, whole(o).seeds_per_s); }},
+    Figure{"raw_cv_percent", "raw CV %", "%", percent,
+           "coefficient of variation of the seeds of the holes, all replicates together",
+           [](const Outflow& o) { return of_evenness(o, [](const Evenness& e) { return e.raw_cv; }); }, true},
+    Figure{"counting_cv_percent", "counting %", "%", percent, "what counting so many independent seeds gives alone",
+           [](const Outflow& o) { return of_evenness(o, [](const Evenness& e) { return e.counting_cv; }); }, true},
     Figure{"evenness_cv_percent", "evenness CV %", "%", percent,
-           "coefficient of variation of the holes' rates, without what counting alone gives",
-           [](const Outflow& o) { return o.evenness_cv; }},
+           "coefficient of variation of the holes' rates, chance taken out; empty: below what this many seeds resolve",
+           [](const Outflow& o) { return of_evenness(o, [](const Evenness& e) { return e.cv; }); }, true},
+    Figure{"evenness_cv_percent_low", "low", "%", percent, "lower end of its 95 % interval (noncentral chi squared)",
+           [](const Outflow& o) { return of_evenness(o, [](const Evenness& e) { return e.low; }); }, true},
+    Figure{"evenness_cv_percent_high", "high", "%", percent, "upper end: what the seeds resolve where it is empty",
+           [](const Outflow& o) { return of_evenness(o, [](const Evenness& e) { return e.high; }); }, true},
     Figure{"instability_cv_percent", "instability CV %", "%", percent,
            "coefficient of variation of the whole outflow over ten equal parts of the window",
            [](const Outflow& o) { return o.instability_cv; }},
@@ -35,6 +63,15 @@ constexpr std::array table = {
            "seeds that left over the rim, of all that left the tray in the whole run",
            [](const Outflow& o) { return Value(o.spilled_fraction); }},
 };
+
+/// The first replicate with the seeds of all.
+Outflow pooled(const std::vector<const Outflow*>& replicates) {
+  Outflow all = *replicates.front();
+  std::vector<std::vector<std::int64_t>> counts;
+  for (const Outflow* one : replicates) counts.push_back(one->grains_of_hole);
+  all.evenness = evenness(counts);
+  return all;
+}
 
 }  // namespace
 
@@ -49,9 +86,11 @@ const Figure& figure_named(std::string_view name) {
 }
 
 FigureMeans::FigureMeans(const std::vector<const Outflow*>& replicates) {
+  if (replicates.empty()) return;
+  const Outflow all = pooled(replicates);
   for (std::size_t i = 0; i < table.size(); ++i) {
     std::vector<double> values;
-    for (const Outflow* one : replicates) {
+    for (const Outflow* one : table[i].pooled ? std::vector{&all} : replicates) {
       const Value value = table[i].of(*one);
       if (value && std::isfinite(*value)) values.push_back(*value);
     }

@@ -19,6 +19,7 @@ struct Figure {
   double unit_size;                             // of that unit, in SI
   std::string_view description;                 // a clause without a full stop
   std::optional<double> (*of)(const Outflow&);  // SI; none where it is undefined
+  bool pooled = false;  // of replicates: taken once from the seeds of all together, not a mean with an interval
 };
 
 /// All figures of a run, in the order of sweep.csv.

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -109,25 +108,58 @@ std::optional<double> depth_factor(const Scene& scene) {
   return *scene.tray.depth / thickness;
 }
 
-std::string note_of(const Run& run, const Window& window) {
-  std::vector<std::string> parts;
-  if (run.outside_the_model) parts.push_back("outside the model");
+bool is_fed(const Scene& scene) {
+  const auto fed = [](const Vessel& vessel) { return vessel.rain || (vessel.fill && vessel.fill->keep); };
+  return fed(scene.tray) || (scene.hopper && fed(*scene.hopper));
+}
+
+/// Of a fill that nothing tops up: what is left at the window's end, of what was there when it began, below which the
+/// rate is not that of a full tray.
+constexpr double drained_fraction = 0.5;
+
+std::optional<Remark> drained(const Scene& scene, const Run& run, const Window& window) {
+  if (is_fed(scene) || window.empty()) return std::nullopt;
+  const auto left_before =
+      std::ranges::count_if(run.events, [&](const auto& event) { return event.time < window.from; });
+  const Balance& balance = run.balance;
+  const std::int64_t at_begin = balance.put_in - left_before;
+  if (static_cast<double>(balance.inside) >= drained_fraction * static_cast<double>(at_begin)) return std::nullopt;
+  return Remark{"drained in the window", fmt::format("drained in the window: {} of {} seeds gone",
+                                                     balance.put_in - balance.inside, balance.put_in)};
+}
+
+std::vector<Remark> remarks_on(const Scene& scene, const Run& run, const Window& window, std::size_t counted) {
+  std::vector<Remark> remarks;
+  const auto add = [&](std::string kind, const std::string& text = "") {
+    remarks.push_back({kind, text.empty() ? kind : text});
+  };
+  if (run.outside_the_model) add("outside the model");
   if (run.tray_empty_since >= 0 && run.tray_empty_since < window.to)
-    parts.push_back(fmt::format("ran dry at {:.3g} s", run.tray_empty_since));
-  if (run.status == RunStatus::stopped_by_guard) parts.push_back("stopped: " + run.stop_reason);
-  if (run.status == RunStatus::interrupted) parts.push_back("interrupted");
-  if (window.empty()) parts.push_back("ended before the measuring window");
-  return fmt::format("{}", fmt::join(parts, "; "));
+    add("ran dry", fmt::format("ran dry at {:.3g} s", run.tray_empty_since));
+  else if (const auto remark = drained(scene, run, window))
+    remarks.push_back(*remark);
+  if (!run.end_reason.empty())
+    add("stopped flowing", fmt::format("ended at {:.3g} s: {}", run.end_time, run.end_reason));
+  if (run.balance.lost > 0)
+    add("seeds lost through walls",
+        fmt::format("{} of {} seeds lost through walls", run.balance.lost, run.balance.put_in));
+  for (const std::string& warning : run.warnings)
+    add(warning.find("falls behind") != std::string::npos ? "the feeder fell behind" : "the guard warned", warning);
+  if (run.status == RunStatus::stopped_by_guard) add("stopped", "stopped: " + run.stop_reason);
+  if (run.status == RunStatus::interrupted) add("interrupted");
+  if (window.empty())
+    add("ended before the measuring window");
+  else if (static_cast<std::int64_t>(counted) < few_grains && !scene.tray.holes.empty())
+    add("few seeds", fmt::format("a rate from {} seed{}", counted, counted == 1 ? "" : "s"));
+  return remarks;
 }
 
 }  // namespace
 
-std::optional<Evenness> evenness(const std::vector<std::int64_t>& grains_of_hole) {
-  const std::vector<double> counts(grains_of_hole.begin(), grains_of_hole.end());
-  const auto seen = coefficient_of_variation(counts);
-  if (!seen) return std::nullopt;
-  const double mean = std::accumulate(counts.begin(), counts.end(), 0.0) / static_cast<double>(counts.size());
-  return Evenness{std::sqrt(std::max(0.0, *seen * *seen - 1 / mean)), 1 / std::sqrt(mean)};
+std::string Outflow::note() const {
+  std::vector<std::string_view> texts;
+  for (const Remark& remark : remarks) texts.push_back(remark.text);
+  return fmt::format("{}", fmt::join(texts, "; "));
 }
 
 Outflow measure_outflow(const Scene& scene, const Run& run) {
@@ -138,15 +170,13 @@ Outflow measure_outflow(const Scene& scene, const Run& run) {
   outflow.window_from = window.from;
   outflow.window_to = window.to;
   outflow.holes = measure_rows(scene, events, window);
-  if (const auto even = evenness(grains_of_holes(scene, events))) {
-    outflow.evenness_cv = even->cv;
-    outflow.counting_cv = even->counting_cv;
-  }
+  outflow.grains_of_hole = grains_of_holes(scene, events);
+  outflow.evenness = evenness({outflow.grains_of_hole});
   outflow.instability_cv = instability(events, window);
   const std::int64_t left = run.balance.counted + run.balance.spilled;
   if (left > 0) outflow.spilled_fraction = static_cast<double>(run.balance.spilled) / static_cast<double>(left);
   outflow.depth_factor = depth_factor(scene);
-  outflow.note = note_of(run, window);
+  outflow.remarks = remarks_on(scene, run, window, events.size());
   return outflow;
 }
 

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "outflow/evenness.hpp"
 #include "outflow/statistics.hpp"
 #include "result/run.hpp"
 #include "scene/scene.hpp"
@@ -25,15 +26,25 @@ struct HoleOutflow {
   double longest_pause = 0;  // s, inside the window, its ends counting as events
 };
 
+/// Something about a run that its figures do not show.
+struct Remark {
+  std::string kind;  // the same for every run: "ran dry"
+  std::string text;  // of this one: "ran dry at 3.2 s"
+};
+
+/// A rate from fewer seeds than this is remarked upon: by counting alone it is uncertain by 36 % (95 %).
+inline constexpr std::int64_t few_grains = 30;
+
 struct Outflow {
-  double window_from = 0, window_to = 0;  // s; window_to is the run's end when it ended early
-  std::vector<HoleOutflow> holes;         // per hole and lot, per hole all lots when there are several, then "all"
-  std::optional<double> evenness_cv;      // fraction; CV of the holes' mean rates, counting fraction removed
-  std::optional<double> counting_cv;      // fraction; the CV that independent counting alone would give
-  std::optional<double> instability_cv;   // fraction; CV of the whole outflow over equal time windows
-  double spilled_fraction = 0;            // spilled / (counted + spilled), whole run
-  std::optional<double> depth_factor;     // tray.depth / diameter of the plane slice
-  std::string note;                       // "ran dry at 3.2 s", "outside the model", ...; empty when all is well
+  double window_from = 0, window_to = 0;     // s; window_to is the run's end when it ended early
+  std::vector<HoleOutflow> holes;            // per hole and lot, per hole all lots when there are several, then "all"
+  std::vector<std::int64_t> grains_of_hole;  // in the window
+  std::optional<Evenness> evenness;          // of these
+  std::optional<double> instability_cv;      // fraction; CV of the whole outflow over equal time windows
+  double spilled_fraction = 0;               // spilled / (counted + spilled), whole run
+  std::optional<double> depth_factor;        // tray.depth / diameter of the plane slice
+  std::vector<Remark> remarks;               // what happened that a reader must know; empty when all is well
+  std::string note() const;                  // their texts: "ran dry at 3.2 s; outside the model"
 };
 
 /// Into how many equal parts the measuring window is cut for the instability.
@@ -45,16 +56,5 @@ Outflow measure_outflow(const Scene& scene, const Run& run);
 /// The row of a hole ("1".., "all") and lot (name, "all"). With a single lot, its name and "all" mean the
 /// same. Null when there is no such hole or lot.
 const HoleOutflow* find_row(const Outflow& outflow, const std::string& hole, const std::string& lot);
-
-/// How far the holes differ, beyond chance.
-struct Evenness {
-  double cv = 0;           // sqrt(max(0, cv_seen^2 - cv_counting^2))
-  double counting_cv = 0;  // 1 / sqrt(mean count of a hole): independent grains have a variance equal to their mean
-};
-
-/// From the number of grains of each hole over the same time. Of the raw rates: holes made of polydisperse widths
-/// are uneven by intent and count as uneven. Counts of replicates may be summed hole by hole before. None for
-/// fewer than two holes or no grains.
-std::optional<Evenness> evenness(const std::vector<std::int64_t>& grains_of_hole);
 
 }  // namespace vibrosow

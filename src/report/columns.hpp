@@ -73,13 +73,22 @@ void add_mean_columns(Columns<Row>& columns, const std::string& name, Unit unit,
        }});
 }
 
-/// Every figure of `means(row)` with its interval.
+/// Every figure of `means(row)`, a mean with its interval.
 template <class Row, class Get>
 void add_figure_columns(Columns<Row>& columns, Get means) {
-  for (const Figure& figure : figures())
-    add_mean_columns(
-        columns, std::string(figure.name), Unit{figure.unit, figure.unit_size}, std::string(figure.description),
-        [ means, &figure ](const Row& row) -> const auto& { return means(row)[figure]; });
+  for (const Figure& figure : figures()) {
+    const Unit unit{figure.unit, figure.unit_size};
+    const std::string name(figure.name), description(figure.description);
+    if (!figure.pooled)
+      add_mean_columns(
+          columns, name, unit, description,
+          [ means, &figure ](const Row& row) -> const auto& { return means(row)[figure]; });
+    else
+      columns.push_back(quantity_column<Row>(name, unit, description, [means, &figure](const Row& row) {
+        const std::optional<MeanWithInterval>& value = means(row)[figure];
+        return value ? std::optional(value->mean) : std::nullopt;
+      }));
+  }
 }
 
 template <class Row>

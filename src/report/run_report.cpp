@@ -45,9 +45,8 @@ struct SummaryRow {
   const HoleOutflow* hole;
 };
 
-std::optional<double> tray_rate(const SummaryRow& row) {
-  if (!row.outflow->depth_factor) return std::nullopt;
-  return row.hole->mass_rate * *row.outflow->depth_factor;
+std::optional<double> of_tray(const SummaryRow& row, double of_slice) {
+  return row.outflow->depth_factor ? std::optional(of_slice * *row.outflow->depth_factor) : std::nullopt;
 }
 
 Columns<SummaryRow> summary_columns() {
@@ -71,13 +70,12 @@ Columns<SummaryRow> summary_columns() {
                                       "tray.depth over the thickness of the plane slice; empty without tray.depth",
                                       [](R r) { return r.outflow->depth_factor; }),
           quantity_column<SummaryRow>("tray_rate_g_per_s", grams_per_second,
-                                      "of the whole tray: the slice's rate times the depth factor", tray_rate),
+                                      "of the whole tray: the slice's rate times the depth factor",
+                                      [](R r) { return of_tray(r, r.hole->mass_rate); }),
+          quantity_column<SummaryRow>("tray_seeds_per_s", per_second, "of the whole tray",
+                                      [](R r) { return of_tray(r, r.hole->seeds_per_s); }),
           text_column<SummaryRow>("note", "what to know about the run; empty when all is well",
-                                  [](R r) { return r.outflow->note; })};
-}
-
-Json in_percent(const std::optional<double>& fraction) {
-  return fraction ? Json(*fraction / percent.size) : Json(nullptr);
+                                  [](R r) { return r.outflow->note(); })};
 }
 
 std::string_view name_of(RunStatus status) {
@@ -106,9 +104,21 @@ struct RunSource {
   const std::vector<std::string>& effects;
 };
 
+/// Every figure, under its name.
+JsonKeys<RunSource> figure_keys() {
+  JsonKeys<RunSource> keys;
+  for (const Figure& figure : figures())
+    keys.push_back({fmt::format("outflow.{}", figure.name), std::string(figure.unit), std::string(figure.description),
+                    [&figure](const RunSource& s) {
+                      const std::optional<double> value = figure.of(s.outflow);
+                      return value ? Json(*value / figure.unit_size) : Json(nullptr);
+                    }});
+  return keys;
+}
+
 JsonKeys<RunSource> run_keys() {
   using S = const RunSource&;
-  return {
+  JsonKeys<RunSource> keys = {
       {"title", "", "of the seeder file", [](S s) { return s.scene.title; }},
       {"status", "", "finished, stopped by the guard or interrupted", [](S s) { return name_of(s.run.status); }},
       {"stop_reason", "", "why the guard stopped it", [](S s) { return s.run.stop_reason; }},
@@ -145,19 +155,14 @@ JsonKeys<RunSource> run_keys() {
        [](S s) {
          return Json{s.outflow.window_from, s.outflow.window_to};
        }},
-      {"outflow.evenness_cv_percent", "%", "as in sweep.csv", [](S s) { return in_percent(s.outflow.evenness_cv); }},
-      {"outflow.counting_cv_percent", "%", "coefficient of variation that counting alone would give",
-       [](S s) { return in_percent(s.outflow.counting_cv); }},
-      {"outflow.instability_cv_percent", "%", "as in sweep.csv",
-       [](S s) { return in_percent(s.outflow.instability_cv); }},
       {"outflow.instability_windows", "", "parts of the window for that", [](S) { return instability_windows; }},
-      {"outflow.spilled_percent", "%", "as in sweep.csv", [](S s) { return in_percent(s.outflow.spilled_fraction); }},
-      {"outflow.depth_factor", "", "as in summary.csv",
-       [](S s) { return s.outflow.depth_factor ? Json(*s.outflow.depth_factor) : Json(nullptr); }},
-      {"outflow.note", "", "as in summary.csv", [](S s) { return s.outflow.note; }},
+      {"outflow.note", "", "as in summary.csv", [](S s) { return s.outflow.note(); }},
       {"versions.vibrosow", "", "of the program", [](S) { return VIBROSOW_VERSION; }},
       {"versions.box2d", "", "of Box2D", [](S) { return VIBROSOW_BOX2D_VERSION; }},
       {"scene", "SI", "the whole scene as it was run", [](S s) { return untitled(s.scene); }}};
+  const JsonKeys<RunSource> of_figures = figure_keys();
+  keys.insert(std::ranges::find(keys, "outflow.note", &JsonKey<RunSource>::path), of_figures.begin(), of_figures.end());
+  return keys;
 }
 
 JsonKeys<Run> timing_keys(bool phases) {

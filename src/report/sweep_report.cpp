@@ -49,7 +49,7 @@ int first_with_scene(const Study& study, std::size_t scene) {
 }
 
 std::string run_note(const Study& study, const Layout& layout, const Evaluation& run) {
-  std::string note = run.was_run() ? run.outflow.note : run.reason;
+  std::string note = run.was_run() ? run.outflow.note() : run.reason;
   const int first = first_with_scene(study, *layout.scene);
   if (first != layout.number) note += fmt::format("{}same run as of layout {}", note.empty() ? "" : "; ", first);
   return note;
@@ -226,7 +226,7 @@ Columns<RunRow> sweep_runs_columns() {
                   [](One one) { return one.balance.counted; }),
        run_column("spilled", plain, "seeds that left over the rim", [](One one) { return one.balance.spilled; }),
        run_column("lost", plain, "seeds that went through a wall: an error", [](One one) { return one.balance.lost; }),
-       figure_column("seeds_per_s"), figure_column("rate_g_per_s"),
+       figure_column("seeds_per_s"), figure_column("rate_g_per_s"), figure_column("tray_rate_g_per_s"),
        run_column("max_compression", plain, "largest shell compression, of the grain's radius",
                   [](One one) { return one.max_compression; }),
        text_column<RunRow>("outside_the_model", "yes where the run is beyond what the model is for",

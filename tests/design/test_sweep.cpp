@@ -32,8 +32,8 @@ TEST(Sweep, MeansAndIntervalsAreOfTheReplicates) {
   const auto& rate = *result.layouts[0].figures["seeds_per_s"];
   EXPECT_DOUBLE_EQ(rate.mean, 6.0);
   EXPECT_NEAR(*rate.half_width_95, 4.3027 * 0.5 / std::sqrt(3.0), 1e-4);
-  EXPECT_FALSE(result.layouts[0].figures["evenness_cv_percent"]);
-  EXPECT_TRUE(result.layouts[1].figures["evenness_cv_percent"]);
+  EXPECT_FALSE(result.layouts[0].figures["raw_cv_percent"]);
+  EXPECT_TRUE(result.layouts[1].figures["raw_cv_percent"]);
   EXPECT_EQ(result.layouts[2].replicates, 3);
 }
 
@@ -205,7 +205,9 @@ TEST(SweepReport, ColumnsAreTheDocumentedOnes) {
   const std::string csv = sweep_csv(sweep(study, quick_run, with_jobs(1)));
   EXPECT_EQ(csv.substr(0, csv.find('\n')),
             "layout,name,status,reason,tray.holes.span_mm,replicates,rate_g_per_s,rate_g_per_s_ci95,seeds_per_s,"
-            "seeds_per_s_ci95,evenness_cv_percent,evenness_cv_percent_ci95,instability_cv_percent,"
+            "seeds_per_s_ci95,depth_factor,tray_rate_g_per_s,tray_rate_g_per_s_ci95,tray_rate_g_per_min,"
+            "tray_rate_g_per_min_ci95,tray_seeds_per_s,tray_seeds_per_s_ci95,raw_cv_percent,counting_cv_percent,"
+            "evenness_cv_percent,evenness_cv_percent_low,evenness_cv_percent_high,instability_cv_percent,"
             "instability_cv_percent_ci95,longest_pause_s,longest_pause_s_ci95,spilled_percent,spilled_percent_ci95,"
             "misfit_percent,misfit_percent_ci95");
 }

@@ -31,8 +31,32 @@ TEST(Figures, AreTakenFromTheRunAndMeansOverItsReplicates) {
   EXPECT_DOUBLE_EQ(means["seeds_per_s"]->mean, 2);
   EXPECT_NEAR(*means["seeds_per_s"]->half_width_95, 12.7062 * std::sqrt(2.0) / std::sqrt(2.0), 1e-3);
   EXPECT_DOUBLE_EQ(means["rate_g_per_s"]->mean, 2 * 40e-6);
-  EXPECT_FALSE(means["evenness_cv_percent"]);  // one hole
+  EXPECT_FALSE(means["raw_cv_percent"]);     // one hole
+  EXPECT_FALSE(means["tray_rate_g_per_s"]);  // no depth
   EXPECT_FALSE(FigureMeans()["seeds_per_s"]);
+}
+
+TEST(Figures, OfTheTrayAreTheSlicesTimesItsDepthFactor) {
+  Scene scene = made_up_scene(1);
+  scene.tray.depth = 0.06;  // of balls of 4 mm: 15
+  vibrosow::Run run = made_up_run(scene);
+  for (int i = 0; i < 8; ++i) add_grain(run, 3 + 0.1 * i, 1);
+  const Outflow outflow = measure_outflow(scene, run);
+  EXPECT_DOUBLE_EQ(*figure_named("depth_factor").of(outflow), 15);
+  EXPECT_DOUBLE_EQ(*figure_named("tray_seeds_per_s").of(outflow), 15);
+  const Figure& per_minute = figure_named("tray_rate_g_per_min");
+  EXPECT_NEAR(*per_minute.of(outflow) / per_minute.unit_size, 15 * 0.04 * 60, 1e-9);
+}
+
+TEST(Figures, OfEvennessAreOfTheSeedsOfAllReplicates) {
+  const Scene scene = made_up_scene(2);
+  vibrosow::Run one = made_up_run(scene), other = made_up_run(scene);
+  for (int i = 0; i < 300; ++i) add_grain(one, 3, i < 100 ? 1 : 2), add_grain(other, 3, i < 120 ? 1 : 2);
+  const Outflow first = measure_outflow(scene, one), second = measure_outflow(scene, other);
+  const FigureMeans means({&first, &second});
+  EXPECT_NEAR(means["raw_cv_percent"]->mean, std::sqrt(2.0) * 80 / 300, 1e-12);  // 220 and 380
+  EXPECT_FALSE(means["raw_cv_percent"]->half_width_95);
+  EXPECT_LT(means["evenness_cv_percent_low"]->mean, means["evenness_cv_percent"]->mean);
 }
 
 }  // namespace
