@@ -36,8 +36,8 @@ struct Evaluation {
   double end_time = 0;                // s
   Balance balance;
   std::vector<HoleOutflow> holes;  // by hole and lot, the last row of all; empty where refused
-  std::optional<double>
-      evenness_cv;  // fraction; scatter of the holes' rates beyond that of counting; none for one hole
+  /// Fraction: scatter of the holes' rates beyond that of counting; none for one hole, or below what the seeds resolve.
+  std::optional<double> evenness_cv;
   std::optional<double> depth_factor;  // the real tray's rate over the slice's; none without tray.depth
 };
 

@@ -23,7 +23,7 @@ Evaluation converted(const vibrosow::Evaluation& own) {
                         .end_time = own.end_time,
                         .balance = converted(own.balance),
                         .holes = {},
-                        .evenness_cv = own.outflow.evenness_cv,
+                        .evenness_cv = own.outflow.evenness ? own.outflow.evenness->cv : std::nullopt,
                         .depth_factor = own.outflow.depth_factor};
   for (const vibrosow::HoleOutflow& row : own.outflow.holes)
     evaluation.holes.push_back({row.hole, row.lot, row.grains, row.seeds_per_s, row.mass_rate, row.longest_pause});

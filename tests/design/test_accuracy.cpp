@@ -211,7 +211,7 @@ TEST(Accuracy, RunsEachSettingAsAskedAndListsTheRefused) {
   grid.shell_compressions = {1e-4};
   grid.integrators = {verlet};
   const Simulator checked = [](const Model& model, const SimulationOptions& simulation) {
-    EXPECT_NEAR(prepare(one).step.contact_duration / *one.numerics.dt, 40, 1e-9);
+    EXPECT_NEAR(model.step.contact_duration / *model.scene.numerics.dt, 40, 1e-9);
     return quick_run(model, simulation);
   };
   const AccuracyResult result = measure_accuracy(scene, grid, 2, checked, one_job());

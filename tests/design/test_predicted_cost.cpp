@@ -23,15 +23,12 @@ Scene small_scene(const StudyFiles& files, const std::vector<Override>& override
 
 TEST(PredictedCost, EveryEffectThatCanBeLeftOutHasAFigure) {
   const StudyFiles files;
-  const Scene scene = small_scene(files, {parse_override("contact.friction_model=\"spring\""),
-                                          parse_override("contact.rolling=\"spring\""),
-                                          parse_override("contact.rolling_friction=0.05"),
-                                          parse_override("contact.cohesion=\"1 uN\""),
-                                          parse_override("contact.drag=\"0.01 g/s\""),
-                                          parse_override("tray.motion.kind=\"rocking\""),
-                                          parse_override("tray.motion.pivot=[\"25 cm\", \"0 cm\"]"),
-                                          parse_override("tray.motion.angle=\"2 degree\""),
-                                          parse_override("tray.motion.frequency=\"9 Hz\"")});
+  const Scene scene = small_scene(
+      files, {parse_override("contact.friction_model=\"spring\""), parse_override("contact.rolling=\"spring\""),
+              parse_override("contact.rolling_friction=0.05"), parse_override("contact.cohesion=\"1 uN\""),
+              parse_override("contact.drag=\"0.01 g/s\""), parse_override("tray.motion.kind=\"rocking\""),
+              parse_override("tray.motion.pivot=[\"25 cm\", \"0 cm\"]"),
+              parse_override("tray.motion.angle=\"2 degree\""), parse_override("tray.motion.frequency=\"9 Hz\"")});
   const CostBreakdown cost = break_down_cost(scene);
   EXPECT_THAT(names_of(cost.effects), testing::ElementsAre("friction", "tangential spring", "rotation", "rolling",
                                                            "damping", "cohesion", "drag"));
