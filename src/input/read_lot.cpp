@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "elementary/functions.hpp"
 #include "input/presets.hpp"
 #include "scene/clump_shape.hpp"
 
@@ -185,7 +186,7 @@ double read_mass(Table& seeds, const SeedLot& lot) {
     return *mass;
   }
   if (lot.shape != Shape::ball) seeds.fail("density", "gives the mass of a ball only; give mass for other shapes");
-  return std::numbers::pi / 6 * std::pow(lot.diameter, 3) * *density;
+  return std::numbers::pi / 6 * elementary::pow(lot.diameter, 3) * *density;
 }
 
 }  // namespace
