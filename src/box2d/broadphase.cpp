@@ -9,6 +9,8 @@
 #include <utility>
 
 #include "box2d/near_places.hpp"
+#include "elementary/functions.hpp"
+#include "vessel/directions.hpp"
 #include "vessel/vessel_walls.hpp"
 
 namespace vibrosow {
@@ -281,12 +283,12 @@ namespace {
 std::vector<Eigen::Vector2d> edges_of(const WallSegment& wall, double unit, double& largest_sagitta) {
   if (wall.radius == 0) return {wall.a, wall.b};
   const double allowed = std::min(0.05 * unit, wall.radius), span = wall.to - wall.from;
-  const int edges = std::max(1, static_cast<int>(std::ceil(span / (2 * std::acos(1 - allowed / wall.radius)))));
-  largest_sagitta = std::max(largest_sagitta, wall.radius * (1 - std::cos(0.5 * span / edges)));
+  const int edges = std::max(1, static_cast<int>(std::ceil(span / (2 * elementary::acos(1 - allowed / wall.radius)))));
+  largest_sagitta = std::max(largest_sagitta, wall.radius * (1 - elementary::cos(0.5 * span / edges)));
   std::vector<Eigen::Vector2d> corners;
   for (int k = 0; k <= edges; ++k) {
     const double angle = wall.from + span * k / edges;
-    corners.push_back(wall.centre + wall.radius * Eigen::Vector2d(std::cos(angle), std::sin(angle)));
+    corners.push_back(wall.centre + wall.radius * unit_vector(angle));
   }
   return corners;
 }

@@ -50,6 +50,12 @@ double pow(double base, double exponent) {
   return Sleef_cinz_powd1_u10purec(base, exponent);
 }
 
+double pow(double base, int exponent) {
+  double power = 1;
+  for (int factor = 0; factor < exponent; ++factor) power *= base;
+  return power;
+}
+
 double cbrt(double value) {
   return Sleef_cinz_cbrtd1_u10purec(value);
 }

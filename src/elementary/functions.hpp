@@ -27,6 +27,7 @@ double exp(double value);
 double log(double value);
 double log1p(double value);
 double pow(double base, double exponent);
+double pow(double base, int exponent);  // exponent >= 0: that many factors, each product rounded
 double cbrt(double value);
 double acosh(double value);  // up to 1e150
 double hypot(double x, double y);

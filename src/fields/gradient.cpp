@@ -3,6 +3,8 @@
 #include <Eigen/LU>
 #include <cmath>
 
+#include "elementary/functions.hpp"
+
 namespace vibrosow {
 
 Neighbourhoods::Neighbourhoods(const Points& points, double reach) : points_(points), reach_(reach) {
@@ -45,7 +47,7 @@ std::optional<Eigen::Matrix2d> fit_gradient(const Points& points, const Points& 
 }
 
 double shear(const Eigen::Matrix2d& gradient) {
-  return std::hypot(gradient(0, 0) - gradient(1, 1), gradient(0, 1) + gradient(1, 0));
+  return elementary::hypot(gradient(0, 0) - gradient(1, 1), gradient(0, 1) + gradient(1, 0));
 }
 
 double dilation(const Eigen::Matrix2d& gradient) {

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "elementary/functions.hpp"
 #include "fields/tray_frame.hpp"
 
 namespace vibrosow {
@@ -13,14 +14,15 @@ constexpr double pi = std::numbers::pi;
 
 /// Area of the unit disc left of x = t, |t| <= 1.
 double area_left_of(double t) {
-  return 0.5 * pi + std::asin(t) + t * std::sqrt(1 - t * t);
+  return 0.5 * pi + elementary::asin(t) + t * std::sqrt(1 - t * t);
 }
 
 /// Area of the unit disc left of x = a and below y = b.
 double area_left_and_below(double a, double b) {
   a = std::clamp(a, -1.0, 1.0), b = std::clamp(b, -1.0, 1.0);
   if (a * a + b * b < 1)
-    return a * b + 0.5 * (a * std::sqrt(1 - a * a) + b * std::sqrt(1 - b * b) + std::asin(a) + std::asin(b)) +
+    return a * b +
+           0.5 * (a * std::sqrt(1 - a * a) + b * std::sqrt(1 - b * b) + elementary::asin(a) + elementary::asin(b)) +
            0.25 * pi;
   if (a > 0 && b > 0) return area_left_of(a) + area_left_of(b) - pi;
   if (a > 0) return area_left_of(b);
@@ -59,7 +61,8 @@ std::vector<CoveringDisc> covering_discs(const Snapshot& snapshot, const std::ve
       continue;
     }
     const double size = 2 * snapshot.radius[i] / lots[lot].diameter;
-    const double cosine = size * std::cos(snapshot.angle[i]), sine = size * std::sin(snapshot.angle[i]);
+    const auto turn = elementary::sine_cosine(snapshot.angle[i]);
+    const double cosine = size * turn.cosine, sine = size * turn.sine;
     double area = 0;
     for (const ClumpDisc& disc : lots[lot].discs) area += pi * disc.radius * disc.radius * size * size;
     for (const ClumpDisc& disc : lots[lot].discs)

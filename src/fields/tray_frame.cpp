@@ -1,12 +1,12 @@
 #include "fields/tray_frame.hpp"
 
-#include <Eigen/Geometry>
+#include "vessel/directions.hpp"
 
 namespace vibrosow {
 namespace {
 
 Eigen::Matrix2d turned_back(double angle) {
-  return angle == 0 ? Eigen::Matrix2d::Identity() : Eigen::Rotation2Dd(-angle).toRotationMatrix();
+  return angle == 0 ? Eigen::Matrix2d(Eigen::Matrix2d::Identity()) : rotation(-angle);
 }
 
 }  // namespace

@@ -1,7 +1,8 @@
 #include "grains/clump_discs.hpp"
 
 #include <algorithm>
-#include <cmath>
+
+#include "elementary/functions.hpp"
 
 namespace vibrosow {
 
@@ -40,11 +41,12 @@ void ClumpDiscs::rebuild(const Grains& clumps) {
 }
 
 void ClumpDiscs::place(const Grains& clumps) {
-  double cosine = 1, sine = 0;
+  elementary::SineCosine turn{0, 1};
   for (std::size_t k = 0; k < discs_.size(); ++k) {
     const std::size_t i = static_cast<std::size_t>(discs_.clump[k]);
     const bool first = k == 0 || discs_.clump[k - 1] != discs_.clump[k];
-    if (first) cosine = std::cos(clumps.angle[i]), sine = std::sin(clumps.angle[i]);
+    if (first) turn = elementary::sine_cosine(clumps.angle[i]);
+    const auto [sine, cosine] = turn;
     arm_x_[k] = cosine * own_x_[k] - sine * own_y_[k];
     arm_y_[k] = sine * own_x_[k] + cosine * own_y_[k];
     const double omega = clumps.rotation ? clumps.omega[i] : 0;

@@ -10,6 +10,7 @@
 #include "grains/size_distribution.hpp"
 #include "scene/input_error.hpp"
 #include "scene/seed_lot.hpp"
+#include "vessel/directions.hpp"
 #include "vessel/vessel_walls.hpp"
 
 namespace vibrosow {
@@ -197,7 +198,7 @@ std::vector<Eigen::Vector2d> points_along(const WallSegment& wall, double pitch)
   std::vector<Eigen::Vector2d> along;
   for (int k = 0; k <= points; ++k) {
     const double part = static_cast<double>(k) / points, angle = wall.from + part * (wall.to - wall.from);
-    const Eigen::Vector2d on_arc = wall.centre + wall.radius * Eigen::Vector2d(std::cos(angle), std::sin(angle));
+    const Eigen::Vector2d on_arc = wall.centre + wall.radius * unit_vector(angle);
     along.push_back(on_arc);
     if (!arc) along.back() = wall.a + (wall.b - wall.a) * part;
   }

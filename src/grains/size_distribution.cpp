@@ -1,10 +1,11 @@
 #include "grains/size_distribution.hpp"
 
 #include <algorithm>
-#include <boost/math/distributions/normal.hpp>
-#include <cmath>
+#include <boost/math/tools/toms748_solve.hpp>
+#include <cstdint>
 #include <numbers>
 
+#include "elementary/functions.hpp"
 #include "scene/seed_lot.hpp"
 
 namespace vibrosow {
@@ -12,21 +13,28 @@ namespace {
 
 using Kind = SizeDistribution::Kind;
 
-/// Diameter (m) below which the fraction `part` of a normal or lognormal, cut at its least and most, lies. Boost's
-/// arithmetic is kept in double, so that it does not depend on what a machine's long double is.
+/// The fraction of a normal distribution below `deviations` from its mean.
+double normal_fraction(double deviations) {
+  return 0.5 * elementary::erfc(-deviations / std::numbers::sqrt2);
+}
+
+/// Diameter (m) below which the fraction `part` of a normal or lognormal, cut at its least and most, lies.
 double cut_quantile(const SizeDistribution& sizes, double part) {
-  using namespace boost::math::policies;
-  using Normal = boost::math::normal_distribution<double, policy<promote_double<false>>>;
   const bool logarithmic = sizes.kind == Kind::lognormal;
   const auto [mean, deviation] = underlying_normal(sizes);
-  const Normal normal(mean, deviation);
-  const double below = cdf(normal, logarithmic ? std::log(sizes.least) : sizes.least);
-  const double up_to = cdf(normal, logarithmic ? std::log(sizes.most) : sizes.most);
-  const double probability = below + part * (up_to - below);
-  if (probability <= 0) return sizes.least;
-  if (probability >= 1) return sizes.most;
-  const double x = quantile(normal, probability);
-  return std::clamp(logarithmic ? std::exp(x) : x, sizes.least, sizes.most);
+  constexpr double far = 12;  // deviations from the mean; beyond lies no weight that a double could hold
+  const auto deviations = [&](double x) { return ((logarithmic ? elementary::log(x) : x) - mean) / deviation; };
+  const double from = std::max(-far, deviations(sizes.least)), to = std::min(far, deviations(sizes.most));
+  const double below = normal_fraction(from), up_to = normal_fraction(to);
+  const double fraction = below + part * (up_to - below);
+  if (fraction <= below) return sizes.least;
+  if (fraction >= up_to) return sizes.most;
+  std::uintmax_t iterations = 200;
+  const auto [low, high] = boost::math::tools::toms748_solve([&](double z) { return normal_fraction(z) - fraction; },
+                                                             from, to, below - fraction, up_to - fraction,
+                                                             boost::math::tools::eps_tolerance<double>(52), iterations);
+  const double x = mean + deviation * 0.5 * (low + high);
+  return std::clamp(logarithmic ? elementary::exp(x) : x, sizes.least, sizes.most);
 }
 
 double table_quantile(const SizeDistribution& sizes, double part) {

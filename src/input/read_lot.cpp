@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "elementary/functions.hpp"
 #include "input/presets.hpp"
 #include "scene/clump_shape.hpp"
 #include "scene/seed_lot.hpp"
@@ -187,7 +188,7 @@ double read_mass(Table& seeds, const SeedLot& lot) {
   }
   if (lot.shape == Shape::disc) seeds.fail("density", "gives no mass to a disc, which has no thickness; give mass");
   if (lot.shape == Shape::clump) return volume_of_balls(lot.discs) * *density;
-  return std::numbers::pi / 6 * std::pow(lot.diameter, 3) * *density;
+  return std::numbers::pi / 6 * elementary::pow(lot.diameter, 3) * *density;
 }
 
 /// Catalogues state the mass of a thousand seeds.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "elementary/functions.hpp"
 #include "scene/seed_lot.hpp"
 #include "vessel/vessel_motion.hpp"
 
@@ -34,8 +35,8 @@ double deepest_fill(const std::vector<Vessel>& vessels, double diameter, double 
 double load_of_smallest(const std::vector<SeedLot>& lots) {
   double largest = 1;
   for (const SeedLot& lot : lots)
-    largest =
-        std::max(largest, mean_mass(lot) / lot.mass / std::pow(least_size(lot), lot.shape == Shape::ball ? 2 : 1));
+    largest = std::max(largest,
+                       mean_mass(lot) / lot.mass / elementary::pow(least_size(lot), lot.shape == Shape::ball ? 2 : 1));
   return largest;
 }
 

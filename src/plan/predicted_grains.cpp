@@ -5,6 +5,7 @@
 #include <numbers>
 #include <vector>
 
+#include "elementary/functions.hpp"
 #include "scene/clump_shape.hpp"
 #include "scene/motion.hpp"
 #include "scene/seed_lot.hpp"
@@ -43,11 +44,13 @@ double lost_width(const Vessel& vessel) {
 
 double passing(double width, const Vessel& vessel, double diameter) {
   const double effective = std::max(0.0, width / diameter - lost_width(vessel));
-  return flow_constant * std::sqrt(standard_gravity / diameter) * std::pow(effective, 1.5);
+  return flow_constant * std::sqrt(standard_gravity / diameter) * elementary::pow(effective, 1.5);
 }
 
 double funnel_factor(const Vessel& vessel) {
-  return vessel.funnel > std::numbers::pi / 4 ? std::pow(std::tan(0.5 * std::numbers::pi - vessel.funnel), -0.35) : 1;
+  return vessel.funnel > std::numbers::pi / 4
+             ? elementary::pow(elementary::tan(0.5 * std::numbers::pi - vessel.funnel), -0.35)
+             : 1;
 }
 
 double heap_slope(const Scene& scene) {

@@ -8,6 +8,8 @@
 #include <numbers>
 #include <utility>
 
+#include "elementary/functions.hpp"
+
 namespace vibrosow {
 namespace {
 
@@ -149,8 +151,9 @@ StepLimit contact_limit(const StepBasis& basis) {
     return {what + " (Gear)", std::min(0.327, 0.081 / (packed_to_pair * zeta)) / omega};
   // A free vibration grows by omega^4 dt^3 / 8 per second; half of what drag and damping take may be used up.
   const double taken = 0.5 * (basis.scene.contact.drag / (2 * lightest(basis.touching)) + smallest_zeta * omega);
-  const double growth = taken + std::log(allowed_energy_growth) / basis.scene.run.duration;
-  return {"the growth of " + what + " (RK2)", std::min(stable, std::cbrt(8 * growth / std::pow(omega, 4)))};
+  const double growth = taken + elementary::log(allowed_energy_growth) / basis.scene.run.duration;
+  return {"the growth of " + what + " (RK2)",
+          std::min(stable, elementary::cbrt(8 * growth / elementary::pow(omega, 4)))};
 }
 
 }  // namespace

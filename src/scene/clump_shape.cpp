@@ -8,6 +8,8 @@
 #include <numbers>
 #include <optional>
 
+#include "elementary/functions.hpp"
+
 namespace vibrosow {
 namespace {
 
@@ -20,12 +22,12 @@ struct Arc {
 /// The part of disc i's rim inside disc j, as an arc about `middle`; nothing when the rims do not cross. Of equal discs
 /// the first counts.
 std::optional<Arc> covered_arc(const ClumpDisc& i, const ClumpDisc& j, bool j_is_earlier) {
-  const double dx = j.x - i.x, dy = j.y - i.y, distance = std::hypot(dx, dy);
+  const double dx = j.x - i.x, dy = j.y - i.y, distance = elementary::hypot(dx, dy);
   if (distance == 0 && i.radius == j.radius) return j_is_earlier ? std::optional(Arc{0, 2 * pi}) : std::nullopt;
   if (distance + i.radius <= j.radius) return Arc{0, 2 * pi};
   if (distance >= i.radius + j.radius || distance + j.radius <= i.radius) return std::nullopt;
   const double cosine = (distance + (i.radius - j.radius) * (i.radius + j.radius) / distance) / (2 * i.radius);
-  const double half = std::acos(std::clamp(cosine, -1.0, 1.0)), middle = std::atan2(dy, dx);
+  const double half = elementary::acos(std::clamp(cosine, -1.0, 1.0)), middle = elementary::atan2(dy, dx);
   return Arc{middle - half, middle + half};
 }
 
@@ -61,7 +63,8 @@ double along_arc(const ClumpDisc& disc, const Arc& arc, Integrand f) {
   for (int part = 0; part < parts; ++part)
     sum += boost::math::quadrature::gauss<double, 20>::integrate(
         [&](double t) {
-          const double cosine = disc.radius * std::cos(t), sine = disc.radius * std::sin(t);
+          const auto at = elementary::sine_cosine(t);
+          const double cosine = disc.radius * at.cosine, sine = disc.radius * at.sine;
           return f(disc.x + cosine, disc.y + sine, -sine, cosine);
         },
         arc.from + part * step, arc.from + (part + 1) * step);
@@ -192,7 +195,7 @@ std::vector<ClumpDisc> about_centre_of_mass(std::vector<ClumpDisc> discs) {
 
 double holding_radius(const std::vector<ClumpDisc>& discs) {
   double radius = 0;
-  for (const ClumpDisc& disc : discs) radius = std::max(radius, std::hypot(disc.x, disc.y) + disc.radius);
+  for (const ClumpDisc& disc : discs) radius = std::max(radius, elementary::hypot(disc.x, disc.y) + disc.radius);
   return radius;
 }
 
@@ -212,7 +215,7 @@ std::vector<ClumpDisc> elongated(double length, double width) {
     for (int k = 0; k < count; ++k) {
       // Denser towards the ends, where discs are small: the valleys come out about equally deep.
       const double place = 2.0 * k / (count - 1) - 1;
-      row.push_back(inscribed_disc(length, width, std::sin(place * pi / 3) / std::sin(pi / 3)));
+      row.push_back(inscribed_disc(length, width, elementary::sin(place * pi / 3) / elementary::sin(pi / 3)));
     }
     if (is_smooth(row, width)) return row;
   }
@@ -226,7 +229,7 @@ std::vector<ClumpDisc> drop(double length, double width) {
   for (int count = 3; count <= most_row_discs; ++count) {
     std::vector<ClumpDisc> row;
     for (int k = 0; k < count; ++k) {
-      const double radius = largest * std::pow(tip, static_cast<double>(k) / (count - 1));
+      const double radius = largest * elementary::pow(tip, static_cast<double>(k) / (count - 1));
       row.push_back({last * (largest - radius) / (largest - smallest), 0, radius});
     }
     if (is_smooth(row, width)) return row;

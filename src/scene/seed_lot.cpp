@@ -8,6 +8,8 @@
 
 #include "scene/clump_shape.hpp"
 
+#include "elementary/functions.hpp"
+
 namespace vibrosow {
 namespace {
 
@@ -20,13 +22,16 @@ double cut_moment(const SizeDistribution& sizes, double unit, int power) {
   constexpr double tolerance = 1e-13;
   const bool logarithmic = sizes.kind == Kind::lognormal;
   const UnderlyingNormal normal = underlying_normal(sizes);
-  const auto deviations = [&](double x) { return ((logarithmic ? std::log(x) : x) - normal.mean) / normal.deviation; };
+  const auto deviations = [&](double x) {
+    return ((logarithmic ? elementary::log(x) : x) - normal.mean) / normal.deviation;
+  };
   const double from = std::max(-far, deviations(sizes.least)), to = std::min(far, deviations(sizes.most));
   const auto weighted = [&](int exponent) {
     return boost::math::quadrature::gauss_kronrod<double, 31>::integrate(
         [&](double z) {
           const double x = normal.mean + normal.deviation * z;
-          return std::exp(-0.5 * z * z) * std::pow((logarithmic ? std::exp(x) : x) / unit, exponent);
+          return elementary::exp(-0.5 * z * z) *
+                 elementary::pow((logarithmic ? elementary::exp(x) : x) / unit, exponent);
         },
         from, to, halvings, tolerance);
   };
@@ -38,8 +43,8 @@ double cut_moment(const SizeDistribution& sizes, double unit, int power) {
 UnderlyingNormal underlying_normal(const SizeDistribution& sizes) {
   if (sizes.kind != Kind::lognormal) return {sizes.mean, sizes.deviation};
   const double relative = sizes.deviation / sizes.mean;
-  const double variance = std::log1p(relative * relative);
-  return {std::log(sizes.mean) - 0.5 * variance, std::sqrt(variance)};
+  const double variance = elementary::log1p(relative * relative);
+  return {elementary::log(sizes.mean) - 0.5 * variance, std::sqrt(variance)};
 }
 
 double least_size(const SeedLot& lot) {
@@ -62,12 +67,13 @@ double size_moment(const SeedLot& lot, int power) {
   if (sizes.kind == Kind::table) {
     double moment = 0;
     for (std::size_t k = 0; k < sizes.diameter.size(); ++k)
-      moment += sizes.fraction[k] * std::pow(sizes.diameter[k] / lot.diameter, power);
+      moment += sizes.fraction[k] * elementary::pow(sizes.diameter[k] / lot.diameter, power);
     return moment;
   }
   if (sizes.kind == Kind::uniform) {
     double moment = 0;  // (b^(n+1) - a^(n+1)) / ((n + 1) (b - a)), divided out
-    for (int k = 0; k <= power; ++k) moment += std::pow(least_size(lot), k) * std::pow(most_size(lot), power - k);
+    for (int k = 0; k <= power; ++k)
+      moment += elementary::pow(least_size(lot), k) * elementary::pow(most_size(lot), power - k);
     return moment / (power + 1);
   }
   return cut_moment(sizes, lot.diameter, power);

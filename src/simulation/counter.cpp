@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstring>
 
+#include "elementary/functions.hpp"
 #include "vessel/vessel_motion.hpp"
 
 namespace vibrosow {
@@ -38,7 +39,7 @@ void Counter::watch(const Grains& grains, const Walls& walls, const GrainLoops& 
                     std::vector<OutflowEvent>& events) {
   const Pose pose = walls.poses().front();
   const double angle = tray_.tilt + pose.angle;
-  const double sine = std::sin(angle), cosine = std::cos(angle);
+  const auto [sine, cosine] = elementary::sine_cosine(angle);
   const double ox = tray_.origin.x() + pose.displacement.x(), oy = tray_.origin.y() + pose.displacement.y();
   const auto [tray_velocity, spin] = walls.rate(0, time);
 
@@ -79,7 +80,7 @@ void Counter::watch(const Grains& grains, const Walls& walls, const GrainLoops& 
     const double ago = since(-count_below_);
     const double x = passage.hole > 0 ? passage.x : within_period(along - speed_along * ago);
     events.push_back({time - ago, passage.hole, grains.lot[i], grains.id[i], grains.kind(i).mass, x,
-                      std::hypot(grains.vx[i], grains.vy[i])});
+                      elementary::hypot(grains.vx[i], grains.vy[i])});
   }
 }
 

@@ -86,7 +86,8 @@ bool is_clear(const Grains& grains, const Walls& walls, const Eigen::Vector2d& a
   for (std::size_t i = 0; i < grains.size(); ++i) {
     double dx = grains.x[i] - at.x();
     if (period > 0) dx = std::remainder(dx, period);
-    if (std::hypot(dx, grains.y[i] - at.y()) < clearance * (radius + grains.kind(i).radius)) return false;
+    const double dy = grains.y[i] - at.y(), reach = clearance * (radius + grains.kind(i).radius);
+    if (dx * dx + dy * dy < reach * reach) return false;
   }
   for (std::size_t wall = 0; wall < walls.placed().size(); ++wall) {
     const NearestPoint nearest = nearest_point(walls.placed()[wall], at.x(), at.y());

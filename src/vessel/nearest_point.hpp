@@ -22,9 +22,10 @@ inline NearestPoint nearest_on_arc(const PlacedWall& wall, double x, double y) {
   if (r > 0 && rx * wall.middle_x + ry * wall.middle_y > r * wall.cos_half) {
     px = wall.centre_x + wall.radius * rx / r, py = wall.centre_y + wall.radius * ry / r;
   } else if (r > 0) {
-    const double to_a = std::hypot(x - wall.ax, y - wall.ay), to_b = std::hypot(x - wall.bx, y - wall.by);
-    vertex = to_a <= to_b ? wall.vertex_a : wall.vertex_b;
-    px = to_a <= to_b ? wall.ax : wall.bx, py = to_a <= to_b ? wall.ay : wall.by;
+    const double ax = x - wall.ax, ay = y - wall.ay, bx = x - wall.bx, by = y - wall.by;
+    const bool at_a = ax * ax + ay * ay <= bx * bx + by * by;
+    vertex = at_a ? wall.vertex_a : wall.vertex_b;
+    px = at_a ? wall.ax : wall.bx, py = at_a ? wall.ay : wall.by;
   }
   const double dx = px - x, dy = py - y;
   return {dx, dy, dx * dx + dy * dy, vertex, side};

@@ -1,21 +1,18 @@
 #include "vessel/vessel_motion.hpp"
 
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <boost/math/interpolators/makima.hpp>
 #include <cmath>
 #include <numbers>
 
+#include "elementary/functions.hpp"
+#include "vessel/directions.hpp"
 #include "vessel/vessel_walls.hpp"
 
 namespace vibrosow {
 namespace {
 
 constexpr double two_pi = 2 * std::numbers::pi;
-
-Eigen::Vector2d unit_direction(const HarmonicMotion& motion) {
-  return {std::cos(motion.direction), std::sin(motion.direction)};
-}
 
 /// A size between 0 and 1 and its rate (1/s).
 struct Ramp {
@@ -41,17 +38,16 @@ template <class Motion>
 Ramp swing(const Motion& m, double phase, double time) {
   const double angle = two_pi * m.frequency * time + phase;
   const Ramp ramp = ramp_at(m, time);
-  return {ramp.size * std::sin(angle),
-          ramp.rate * std::sin(angle) + ramp.size * two_pi * m.frequency * std::cos(angle)};
+  const auto [sine, cosine] = elementary::sine_cosine(angle);
+  return {ramp.size * sine, ramp.rate * sine + ramp.size * two_pi * m.frequency * cosine};
 }
 
 Pose harmonic_pose(const HarmonicMotion& m, double time) {
-  const double angle = two_pi * m.frequency * time + m.phase;
-  return {m.amplitude * ramp_at(m, time).size * std::sin(angle) * unit_direction(m), 0};
+  return {m.amplitude * swing(m, m.phase, time).size * unit_vector(m.direction), 0};
 }
 
 PoseRate harmonic_rate(const HarmonicMotion& m, double time) {
-  return {m.amplitude * swing(m, m.phase, time).rate * unit_direction(m), 0};
+  return {m.amplitude * swing(m, m.phase, time).rate * unit_vector(m.direction), 0};
 }
 
 Eigen::Vector2d turned_left(const Eigen::Vector2d& v) {
@@ -61,14 +57,14 @@ Eigen::Vector2d turned_left(const Eigen::Vector2d& v) {
 /// The frame's zero moves so that the pivot stays: displacement = R(tilt) p - R(tilt + angle) p.
 Pose rocking_pose(const RockingMotion& m, double tilt, double time) {
   const double angle = m.angle * swing(m, 0, time).size;
-  const Eigen::Vector2d at_rest = Eigen::Rotation2Dd(tilt) * m.pivot;
-  return {at_rest - Eigen::Rotation2Dd(tilt + angle) * m.pivot, angle};
+  const Eigen::Vector2d at_rest = rotation(tilt) * m.pivot;
+  return {at_rest - rotation(tilt + angle) * m.pivot, angle};
 }
 
 PoseRate rocking_rate(const RockingMotion& m, double tilt, double time) {
   const Ramp now = swing(m, 0, time);
   const double spin = m.angle * now.rate;
-  return {-spin * turned_left(Eigen::Rotation2Dd(tilt + m.angle * now.size) * m.pivot), spin};
+  return {-spin * turned_left(rotation(tilt + m.angle * now.size) * m.pivot), spin};
 }
 
 using Curve = boost::math::interpolators::makima<std::vector<double>>;
@@ -139,14 +135,14 @@ PoseRate vessel_velocity(const Vessel& vessel, double time) {
 Eigen::Vector2d in_lab_frame(const Vessel& vessel, const Pose& pose, const Eigen::Vector2d& own) {
   const double angle = vessel.tilt + pose.angle;
   if (angle == 0) return vessel.origin + pose.displacement + own;
-  return vessel.origin + pose.displacement + Eigen::Rotation2Dd(angle) * own;
+  return vessel.origin + pose.displacement + rotation(angle) * own;
 }
 
 Eigen::Vector2d in_vessel_frame(const Vessel& vessel, const Pose& pose, const Eigen::Vector2d& lab) {
   const Eigen::Vector2d moved = lab - vessel.origin - pose.displacement;
   const double angle = vessel.tilt + pose.angle;
   if (angle == 0) return moved;
-  return Eigen::Rotation2Dd(-angle) * moved;
+  return rotation(-angle) * moved;
 }
 
 Eigen::Vector2d material_velocity(const Vessel& vessel, const Pose& pose, const PoseRate& rate,
@@ -160,7 +156,7 @@ namespace {
 MotionBounds bounds(const HarmonicMotion& m) {
   const double omega = two_pi * m.frequency;
   const double acceleration = m.amplitude * omega * omega;
-  return {m.amplitude * two_pi * m.frequency, acceleration, acceleration * std::abs(std::sin(m.direction))};
+  return {m.amplitude * two_pi * m.frequency, acceleration, acceleration * std::abs(elementary::sin(m.direction))};
 }
 
 MotionBounds bounds(const SumMotion& sum) {

@@ -1,7 +1,8 @@
 #include "vessel/walls.hpp"
 
 #include <algorithm>
-#include <cmath>
+
+#include "elementary/functions.hpp"
 
 namespace vibrosow {
 
@@ -49,8 +50,8 @@ void Walls::place_arc(PlacedWall& wall, const AtRest& rest, const Pose& pose) co
       pose.angle != 0 ? in_lab_frame(vessel, pose, rest.own.centre) : rest.centre + pose.displacement;
   const double middle = vessel.tilt + pose.angle + 0.5 * (rest.own.from + rest.own.to);
   wall.centre_x = centre.x(), wall.centre_y = centre.y(), wall.radius = rest.own.radius;
-  wall.middle_x = std::cos(middle), wall.middle_y = std::sin(middle);
-  wall.cos_half = std::cos(0.5 * (rest.own.to - rest.own.from));
+  wall.middle_x = elementary::cos(middle), wall.middle_y = elementary::sin(middle);
+  wall.cos_half = elementary::cos(0.5 * (rest.own.to - rest.own.from));
 }
 
 void Walls::place(double time) {

@@ -141,6 +141,32 @@ void expect_same(double result, double expected, const std::string& call) {
   }
 }
 
+TEST(Elementary, PowersToWholeNumbersAreProducts) {
+  for (const double base : {-3.1, 0.0, 0.7, 1e-80, infinity}) {
+    EXPECT_EQ(elementary::pow(base, 0), 1);
+    EXPECT_EQ(elementary::pow(base, 1), base);
+    EXPECT_EQ(elementary::pow(base, 4), base * base * base * base);
+  }
+}
+
+TEST(Elementary, WhatIsLevelStaysLevel) {
+  EXPECT_EQ(elementary::sin(0), 0);
+  EXPECT_EQ(elementary::cos(0), 1);
+  EXPECT_EQ(elementary::sine_cosine(0).sine, 0);
+  EXPECT_EQ(elementary::sine_cosine(0).cosine, 1);
+}
+
+TEST(Elementary, MirrorsToTheBit) {
+  for (const double x : arguments({0, 1e5}, 500)) {
+    const auto [sine, cosine] = elementary::sine_cosine(x);
+    EXPECT_EQ(elementary::sin(-x), -elementary::sin(x));
+    EXPECT_EQ(elementary::cos(-x), elementary::cos(x));
+    EXPECT_EQ(elementary::sine_cosine(-x).sine, -sine);
+    EXPECT_EQ(elementary::sine_cosine(-x).cosine, cosine);
+    EXPECT_EQ(elementary::tan(-x), -elementary::tan(x));
+  }
+}
+
 TEST(Elementary, SpecialArgumentsGiveWhatTheStandardSays) {
   const std::array special = {0.0, -0.0, 1.0, -1.0, 2.0, infinity, -infinity, not_a_number};
   struct Pair {

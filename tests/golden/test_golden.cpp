@@ -1,5 +1,4 @@
-// One scene's end state, pinned to the bit, for every compiler, optimisation level and machine. The scene uses no sine
-// and no cosine, whose last bit may differ between machines: nothing moves but the grains, and nothing is tilted.
+// One scene's end state, pinned to the bit, for every compiler, optimisation level and machine.
 #include <gtest/gtest.h>
 
 #include <cstdint>
