@@ -60,9 +60,10 @@ struct ElasticShell {
     return compliance * size / mass_growth;
   }
 
-  /// k_t / k_n, as given; 2/7 where nothing is.
+  /// k_t / k_n, as given; where nothing is, Mindlin's 2 (1 - nu) / (2 - nu) at nu = 0.3: the shell has no nu of its
+  /// own.
   static double tangential_ratio(const RubbingMaterials& /*materials*/, const std::optional<double>& given) {
-    return given.value_or(2.0 / 7);
+    return given.value_or(14.0 / 17);
   }
 
   /// Largest overlap (m) of an elastic impact at `speed`: V / omega, omega^2 = k / m*.

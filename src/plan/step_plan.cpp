@@ -72,16 +72,6 @@ double impact_speed(const StepBasis& basis) {
   return basis.scene.numerics.impact_speed.value_or(basis.loads.grain_speed);
 }
 
-/// Stiffness of a grain against sliding and turning, over its stiffness against the normal.
-double tangential_stiffening(const StepBasis& basis, const GrainKind& kind) {
-  if (!basis.effects.tangential_spring) return 1;
-  const double ratio = std::max(largest(basis.contacts.pairs, &SurfaceParameters::tangential_ratio),
-                                largest(basis.contacts.walls, &SurfaceParameters::tangential_ratio)) /
-                       basis.law.slope_over_secant;
-  const double spin = basis.effects.rotation ? kind.radius * kind.radius * kind.inverse_inertia / kind.inverse_mass : 0;
-  return std::max(1.0, ratio * (1 + spin));
-}
-
 /// How much easier than its mass a clump yields where it is touched off its centre: 1 + arm^2 / gyration^2, the
 /// largest.
 double lever(const std::vector<SeedLot>& lots) {
@@ -92,20 +82,69 @@ double lever(const std::vector<SeedLot>& lots) {
   return largest;
 }
 
-/// Largest frequency (rad/s) of a grain among six others: omega^2 = 6 k / m; for equal grains in elastic shells
-/// sqrt(3 g / eps). The slope is taken at the larger of the overlaps of impact and of the layers' weight.
-double largest_frequency(const StepBasis& basis) {
-  double largest2 = 0;
+/// A way in which a packed bed vibrates fastest: its frequency, and its damping ratio at the most and least dissipative
+/// surface.
+struct Mode {
+  std::string what;
+  double omega;  // rad/s
+  double most_damped, least_damped;
+  double room_to_spare;  // fraction of the limit of stability that a step may take
+};
+
+/// The steepest slope of any contact over the lighter grain's mass, 1/s2: the slope is taken at the larger of the
+/// overlaps of impact and of the layers' weight. Clumps yield more easily where they are touched off their centres.
+double slope_per_mass(const StepBasis& basis) {
+  double largest = 0;
   for (const GrainKind& light : basis.touching)
     for (const GrainKind& other : basis.touching) {
       const Meeting m = with_grain(basis, light, other);
       const double weight = basis.loads.layers * basis.loads.weight_factor * other.mass * standard_gravity;
       const double overlap = std::max(basis.law.impact_overlap(m.stiffness, m.inverse_mass, impact_speed(basis)),
                                       basis.law.static_overlap(m.stiffness, weight));
-      largest2 = std::max(largest2, contacts_of_a_packed_grain * basis.law.slope(m.stiffness, overlap) *
-                                        light.inverse_mass * tangential_stiffening(basis, light));
+      largest = std::max(largest, basis.law.slope(m.stiffness, overlap) * light.inverse_mass);
     }
-  return std::sqrt(largest2 * lever(basis.scene.lots));
+  return largest * lever(basis.scene.lots);
+}
+
+/// Largest ratio of tangential to normal stiffness (slopes), 0 without tangential springs.
+double spring_ratio(const StepBasis& basis) {
+  if (!basis.effects.tangential_spring) return 0;
+  return std::max(largest(basis.contacts.pairs, &SurfaceParameters::tangential_ratio),
+                  largest(basis.contacts.walls, &SurfaceParameters::tangential_ratio)) /
+         basis.law.slope_over_secant;
+}
+
+/// Damping ratios of a pair on all surfaces, the smallest and the largest; `omega` is the pair's.
+std::pair<double, double> damping_ratios(const StepBasis& basis, double omega) {
+  double smallest = std::numeric_limits<double>::infinity(), largest = 0;
+  for (const auto* surfaces : {&basis.contacts.pairs, &basis.contacts.walls})
+    for (const SurfaceParameters& s : *surfaces) {
+      const double ratio = basis.law.damping_ratio(s, omega);
+      smallest = std::min(smallest, ratio), largest = std::max(largest, ratio);
+    }
+  return {smallest, largest};
+}
+
+/// Grains against each other, in a triangular lattice of contacts of slope k and tangential ratio rho: omega^2 <= (6 +
+/// 3 rho) k / m, its largest eigenvalues being 6 + 2 rho (at the middle of the zone's edge) and 9/2 (1 + rho) (at its
+/// corner). Without springs sqrt(3 g / eps) for equal grains in elastic shells.
+Mode translation(const StepBasis& basis, double slope_over_mass) {
+  const double omega = std::sqrt((contacts_of_a_packed_grain + 3 * spring_ratio(basis)) * slope_over_mass);
+  const auto [least, most] = damping_ratios(basis, omega / packed_to_pair);
+  return {basis.law.material == LawMaterial::shell ? "the shell's vibration" : "the contact's vibration", omega,
+          packed_to_pair * most, packed_to_pair * least, 0.5};
+}
+
+/// All grains turning alike, each against its six neighbours: omega^2 = 2 x rho k / m with x = 6 m r^2 / I, damped by
+/// the tangential dashpots, tau times the normal ones: the pair's ratio times tau sqrt(x / rho).
+Mode rotation(const StepBasis& basis, double slope_over_mass) {
+  double x = 0;
+  for (const GrainKind& kind : basis.touching)
+    x = std::max(x, contacts_of_a_packed_grain * kind.radius * kind.radius * kind.inverse_inertia / kind.inverse_mass);
+  const double rho = spring_ratio(basis);
+  const auto [least, most] = damping_ratios(basis, std::sqrt(2 * slope_over_mass));
+  const double damped = basis.scene.contact.tangential_damping * std::sqrt(x / rho);
+  return {"the spin's vibration", std::sqrt(2 * x * rho * slope_over_mass), damped * most, damped * least, 0.75};
 }
 
 /// The shortest elastic contact of any two grains or a grain on a wall, s.
@@ -121,39 +160,29 @@ double shortest_contact(const StepBasis& basis) {
   return shortest;
 }
 
-/// Damping ratios of a pair on all surfaces, the smallest and the largest; `omega` is that of a packed grain.
-std::pair<double, double> damping_ratios(const StepBasis& basis, double omega) {
-  double smallest = std::numeric_limits<double>::infinity(), largest = 0;
-  for (const auto* surfaces : {&basis.contacts.pairs, &basis.contacts.walls})
-    for (const SurfaceParameters& s : *surfaces) {
-      const double ratio = basis.law.damping_ratio(s, omega / packed_to_pair);
-      smallest = std::min(smallest, ratio), largest = std::max(largest, ratio);
-    }
-  return {smallest, largest};
-}
-
 double lightest(const std::vector<GrainKind>& kinds) {
   return std::min_element(kinds.begin(), kinds.end(),
                           [](const GrainKind& a, const GrainKind& b) { return a.mass < b.mass; })
       ->mass;
 }
 
-StepLimit contact_limit(const StepBasis& basis) {
-  const double omega = largest_frequency(basis);
-  const auto [smallest_zeta, zeta] = damping_ratios(basis, omega);
-  const double stable = (std::sqrt(1 + zeta * zeta) - zeta) / omega;  // half of the explicit schemes' 2 (...) / omega
-  const std::string what =
-      basis.law.material == LawMaterial::shell ? "the shell's vibration" : "the contact's vibration";
-  if (basis.scene.numerics.integrator == Integrator::velocity_verlet) return {what + " (Verlet)", stable};
-  // Eigenvalues of a step of a damped oscillator with alpha_0 = 3/16: none is larger than 1 for omega dt up to 0.327
-  // where it is hardly damped, and up to 0.081 / zeta where it is; a packed grain's ratio is sqrt(3) times a pair's.
+/// The longest step that keeps a mode stable, with room to spare.
+StepLimit vibration_limit(const StepBasis& basis, const Mode& mode) {
+  const double zeta = mode.most_damped, omega = mode.omega;
+  // Eigenvalues of a step of a damped oscillator: velocity Verlet with predicted velocities is stable up to omega dt =
+  // 2 (sqrt(1 + 4 zeta^2) - 2 zeta), the midpoint scheme where it is damped beyond 2 (sqrt(1 + zeta^2) - zeta).
+  if (basis.scene.numerics.integrator == Integrator::velocity_verlet)
+    return {mode.what + " (Verlet)", mode.room_to_spare * 2 * (std::sqrt(1 + 4 * zeta * zeta) - 2 * zeta) / omega};
+  // Gear's with alpha_0 = 3/16: none is larger than 1 for omega dt up to 0.327 where it is hardly damped, and up to
+  // 0.081 / zeta where it is.
   if (basis.scene.numerics.integrator == Integrator::gear5)
-    return {what + " (Gear)", std::min(0.327, 0.081 / (packed_to_pair * zeta)) / omega};
+    return {mode.what + " (Gear)", std::min(0.327, 0.081 / zeta) / omega};
   // A free vibration grows by omega^4 dt^3 / 8 per second; half of what drag and damping take may be used up.
-  const double taken = 0.5 * (basis.scene.contact.drag / (2 * lightest(basis.touching)) + smallest_zeta * omega);
+  const double taken = 0.5 * (basis.scene.contact.drag / (2 * lightest(basis.touching)) + mode.least_damped * omega);
   const double growth = taken + elementary::log(allowed_energy_growth) / basis.scene.run.duration;
-  return {"the growth of " + what + " (RK2)",
-          std::min(stable, elementary::cbrt(8 * growth / elementary::pow(omega, 4)))};
+  const double stable = mode.room_to_spare * 2 * (std::sqrt(1 + zeta * zeta) - zeta) / omega;
+  return {"the growth of " + mode.what + " (RK2)",
+          std::min(stable, elementary::cbrt(8 * growth / (omega * omega * omega * omega)))};
 }
 
 }  // namespace
@@ -162,7 +191,10 @@ StepPlan plan_step(const StepBasis& basis) {
   const Numerics& numerics = basis.scene.numerics;
   StepPlan plan{};
   plan.contact_duration = shortest_contact(basis);
-  plan.limits.push_back(contact_limit(basis));
+  const double slope_over_mass = slope_per_mass(basis);
+  plan.limits.push_back(vibration_limit(basis, translation(basis, slope_over_mass)));
+  if (basis.effects.tangential_spring && basis.effects.rotation)
+    plan.limits.push_back(vibration_limit(basis, rotation(basis, slope_over_mass)));
   double wanted = plan.contact_duration / numerics.steps_per_contact;
   if (const double rate = friction_rate(basis); rate > 0) {
     const double factor = numerics.integrator == Integrator::velocity_verlet ? 1 : 2;

@@ -96,7 +96,7 @@ struct Contact {
   std::vector<SurfaceOverride> overrides{};
   FrictionModel friction_model = FrictionModel::sliding;
   std::optional<double>
-      tangential_ratio{};           // elastic_shell: k_t / k_n, 2/7; hertz: fraction of Mindlin's 8 G* sqrt(R* d), 1
+      tangential_ratio{};           // elastic_shell: k_t / k_n, 14/17; hertz: fraction of Mindlin's 8 G* sqrt(R* d), 1
   double tangential_damping = 0.5;  // of the normal dashpot
   Rolling rolling = Rolling::none;
   double rolling_damping = 0.3;  // of critical, while the rolling spring is below its limit

@@ -96,8 +96,9 @@ TEST(Pile, StaysUnderTheTangentialSpringAndSpreadsUnderTheSignLaw) {
   table += row("spring", "", settled_at + watched, run.grains(), stayed);
 
   for (const std::string slip_speed : {"2", "20"}) {
-    const Scene sliding = pile_scene({parse_override("contact.friction_model=\"sliding\""),
-                                      parse_override("contact.slip_speed=" + slip_speed + " mm/s")});
+    const Scene sliding =
+        pile_scene({parse_override("contact.friction_model=\"sliding\""), parse_override("contact.tangential_ratio="),
+                    parse_override("contact.slip_speed=" + slip_speed + " mm/s")});
     const Grains crept = after(sliding, settled, watched);
     const double creep = largest_displacement(settled, crept);
     table += row("sliding", slip_speed, settled_at + watched, crept, creep);

@@ -278,5 +278,41 @@ TEST(Stability, NotANumberIsStopped) {
   EXPECT_TRUE(run.guard().stop_reason());
 }
 
+/// 200 balls of 4 mm that rest in a box 10 cm wide, with the step that is chosen for them.
+Scene damped_bed() {
+  Scene scene;
+  scene.lots = {{"ball", 4e-3, 40e-6, Shape::ball, 1}};
+  scene.contact.shell_compression = 1e-4;
+  scene.contact.seed = scene.contact.wall = {1.0, 0.1};
+  scene.contact.friction_model = FrictionModel::spring;
+  scene.tray.name = "tray";
+  scene.tray.length = 0.1, scene.tray.height = 0.2;
+  scene.tray.fill = Fill{200, Packing::poured, 0, false};
+  scene.run.duration = 0.5;
+  return scene;
+}
+
+TEST(StrongDamping, ABedAtRestFallsSilent) {
+  for (const Integrator scheme : {Integrator::velocity_verlet, Integrator::rk2_midpoint, Integrator::gear5})
+    for (const double ratio : {2.0 / 7, 14.0 / 17}) {
+      Scene scene = damped_bed();
+      scene.numerics.integrator = scheme;
+      scene.contact.tangential_ratio = ratio;
+      Simulation run(prepare(scene), 1);
+      while (run.time() < 0.3) ASSERT_TRUE(run.step()) << *run.guard().stop_reason();
+      EXPECT_LT(kinetic_energy(run.grains()) / 200, 1e-9 * 40e-6 * standard_gravity * 2e-3) << static_cast<int>(scheme);
+    }
+}
+
+TEST(StrongDamping, HertzWithFrictionTwoFallsSilent) {
+  Scene scene = damped_bed();
+  scene.contact.law = Law::hertz;
+  scene.contact.youngs_modulus = 1e7;
+  scene.contact.seed = scene.contact.wall = {2.0, 0.05};
+  Simulation run(prepare(scene), 1);
+  while (run.time() < 0.3) ASSERT_TRUE(run.step()) << *run.guard().stop_reason();
+  EXPECT_LT(kinetic_energy(run.grains()) / 200, 1e-9 * 40e-6 * standard_gravity * 2e-3);
+}
+
 }  // namespace
 }  // namespace vibrosow

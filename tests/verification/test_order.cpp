@@ -168,7 +168,7 @@ TEST_F(Order, OnASmoothProblemWithDragDampingAndAMovingWall) {
 struct StuckProblem {
   Law law;
 
-  static constexpr double duration = 0.02, tangent = 0.1, drag = 0.02, tangential_ratio = 2.0 / 7,
+  static constexpr double duration = 0.02, tangent = 0.1, drag = 0.02, tangential_ratio = 14.0 / 17,
                           tangential_damping = 0.5;
   static constexpr double damping_rate = 300;
 

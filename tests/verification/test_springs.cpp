@@ -24,11 +24,11 @@ struct StuckGrain {
     return law == Law::hertz ? std::pow(Bench::mass * standard_gravity / hertz_stiffness(), 2.0 / 3)
                              : 1e-4 * Bench::radius;
   }
-  /// Of the tangential spring, N/m: Mindlin's 8 G* sqrt(R d) on a rigid wall, or 2/7 of the shell's m g / eps.
+  /// Of the tangential spring, N/m: Mindlin's 8 G* sqrt(R d) on a rigid wall, or 14/17 of the shell's m g / eps.
   double stiffness() const {
     const double shear = modulus / (2 * (1 + poisson)) / (2 - poisson);
     return law == Law::hertz ? 8 * shear * std::sqrt(Bench::radius * overlap())
-                             : 2.0 / 7 * Bench::mass * standard_gravity / (1e-4 * Bench::radius);
+                             : 14.0 / 17 * Bench::mass * standard_gravity / (1e-4 * Bench::radius);
   }
   double arm() const { return Bench::radius - overlap(); }
   /// sqrt(k_t (1/m + a^2/I)), rad/s
@@ -136,6 +136,8 @@ TEST(TangentialSpring, ObliqueImpactGainsNoEnergy) {
         bench.gravity = {0, 0};
         bench.scene.guard.energy_tolerance = 10;
         bench.scene.contact.wall.friction = friction;
+        // With 2/7 a ball's tangential spring is slack again when the contact opens: nothing is lost where it sticks.
+        if (law == Law::elastic_shell) bench.scene.contact.tangential_ratio = 2.0 / 7;
         const double speed = 0.1, angle = degrees * Bench::pi / 180, down = speed * std::cos(angle);
         const double contact =
             law == Law::hertz ? HertzImpact(Bench::mass, StuckGrain{law, Shape::ball}.hertz_stiffness(), down).duration
