@@ -1,7 +1,12 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
 #include <memory>
+#include <optional>
+#include <system_error>
 
 #include "cli/commands.hpp"
 #include "cli/common_options.hpp"
@@ -15,8 +20,12 @@
 #include "plan/effects.hpp"
 #include "plan/model.hpp"
 #include "plan/scene_warnings.hpp"
+#include "report/output_folder.hpp"
 #include "report/run_report.hpp"
+#include "scene/input_error.hpp"
+#include "simulation/checkpoint.hpp"
 #include "simulation/simulate.hpp"
+#include "units/quantity.hpp"
 
 namespace vibrosow {
 namespace {
@@ -65,7 +74,55 @@ void print_profile(const Run& run) {
 struct RunOptions : CommonOptions {
   int threads = 1;
   bool profile = false;
+  std::string checkpoint_every;
+  bool resume = false;
 };
+
+/// A run's checkpoint lies beside its folder, "out/wheat-tray.checkpoint", until the run is finished.
+class CheckpointFile {
+ public:
+  explicit CheckpointFile(const std::filesystem::path& folder) : path_(folder) { path_ += ".checkpoint"; }
+
+  void write(const Model& model, const SimulationState& state) const {
+    write_file_atomically(path_, save(model, state));
+  }
+
+  /// What is there to go on from. Throws InputError where it does not fit.
+  std::optional<SimulationState> read(const Model& model, std::uint64_t random_seed) const {
+    std::ifstream file(path_, std::ios::binary);
+    if (!file) {
+      complain(fmt::format("there is no {}: the run starts from the beginning", path_.string()));
+      return std::nullopt;
+    }
+    const std::string bytes(std::istreambuf_iterator<char>(file), {});
+    try {
+      SimulationState state = restore(model, bytes);
+      if (state.run.random_seed == random_seed) return state;
+      throw InputError(fmt::format("the checkpoint does not fit: its random seed was {}, and now {} is asked for",
+                                   state.run.random_seed, random_seed));
+    } catch (const InputError& error) {
+      throw InputError(fmt::format("{}: {}; leave out --resume to start anew", path_.string(), error.what()));
+    }
+  }
+
+  void remove() const {
+    std::error_code none;
+    std::filesystem::remove(path_, none);
+  }
+
+ private:
+  std::filesystem::path path_;
+};
+
+double checkpoint_interval(const std::string& text) {
+  if (text.empty()) return 0;
+  try {
+    if (const double interval = parse_quantity(text, Dimension::time); interval > 0) return interval;
+  } catch (const UnitError& error) {
+    throw InputError(fmt::format("--checkpoint-every: {}", error.what()));
+  }
+  throw InputError(fmt::format("--checkpoint-every: \"{}\" is no time to wait", text));
+}
 
 int run_scene(const RunOptions& options) {
   const Scene read = read_scene(input_file(options.file, FileKind::seeder), options.overrides());
@@ -79,6 +136,11 @@ int run_scene(const RunOptions& options) {
   simulation.threads = threads_to_be_had(options.threads);
   simulation.profile = options.profile;
   simulation.interrupt = &watch_for_interrupt();
+  const CheckpointFile checkpoint(folder.path());
+  simulation.checkpoint_every = checkpoint_interval(options.checkpoint_every);
+  if (simulation.checkpoint_every > 0)
+    simulation.on_checkpoint = [&](const SimulationState& state) { checkpoint.write(model, state); };
+  if (options.resume) simulation.from = checkpoint.read(model, options.random_seed);
   Run run;
   {
     Progress progress(options.quiet, static_cast<double>(model.step.steps), "steps");
@@ -94,6 +156,7 @@ int run_scene(const RunOptions& options) {
         print_summary(scene, run, outflow);
         if (run.phase_times) print_profile(run);
       });
+  if (run.status == RunStatus::finished) checkpoint.remove();
   if (!options.quiet) print("reports: {}\n", folder.path().string());
   print_warnings(warnings_of_run);
   if (run.status == RunStatus::stopped_by_guard) {
@@ -113,6 +176,12 @@ void add_run_command(CLI::App& app, int& exit_code) {
       ->check(CLI::Range(1, 256))
       ->capture_default_str();
   command->add_flag("--profile", options->profile, "show what the time went into; also in timing.json");
+  command
+      ->add_option("--checkpoint-every", options->checkpoint_every,
+                   "of simulated time, such as \"1 s\": the run is saved beside its folder, to be resumed")
+      ->type_name("TIME");
+  command->add_flag("--resume", options->resume,
+                    "go on from the checkpoint, to the same bytes as if never interrupted");
   command->callback([options, &exit_code] { exit_code = run_scene(*options); });
 }
 

@@ -17,8 +17,8 @@ struct ContactState {
   ContactHistories pair_histories, boundary_histories, wall_histories;  // by entry of these lists
 };
 
-/// The same with no more pairs than have a history: all that a later step depends on. Lists made from it anew hold the
-/// same contacts, whatever other pairs they hold beside.
-ContactState without_idle_pairs(const ContactState& contacts);
+/// The same with no more candidates than have a history: all that a later step depends on. Lists made from it anew hold
+/// the same contacts, whatever other candidates they hold beside.
+ContactState without_idle_candidates(const ContactState& contacts);
 
 }  // namespace vibrosow

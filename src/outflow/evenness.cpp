@@ -12,6 +12,10 @@
 namespace vibrosow {
 namespace {
 
+double squared(double value) {
+  return value * value;
+}
+
 using Counts = std::vector<std::int64_t>;
 
 double total(const Counts& counts) {
@@ -41,7 +45,7 @@ Scatter scatter_of(const std::vector<Counts>& counts, const Counts& sums) {
     replicates += of_run > 0;
     for (std::size_t hole = 0; hole < sums.size(); ++hole) {
       const double expected = of_run * static_cast<double>(sums[hole]) / all;
-      if (expected > 0) chi_squared += std::pow(static_cast<double>(one[hole]) - expected, 2) / expected;
+      if (expected > 0) chi_squared += squared(static_cast<double>(one[hole]) - expected) / expected;
     }
   }
   const double degrees = (replicates - 1) * (holes - 1);
@@ -79,7 +83,7 @@ std::optional<Evenness> evenness(const std::vector<Counts>& counts) {
   const double mean = total(sums) / holes, degrees = holes - 1;
   if (mean <= 0) return std::nullopt;
   double squares = 0;
-  for (const std::int64_t sum : sums) squares += std::pow(static_cast<double>(sum) - mean, 2);
+  for (const std::int64_t sum : sums) squares += squared(static_cast<double>(sum) - mean);
   const Scatter scatter = scatter_of(counts, sums);
   const double x = squares / mean;
   const auto cv_of = [&](double noncentrality) { return std::sqrt(noncentrality / (mean * degrees)); };

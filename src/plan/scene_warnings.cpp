@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "elementary/functions.hpp"
 #include "scene/motion.hpp"
 #include "scene/seed_lot.hpp"
 
@@ -103,7 +104,7 @@ void warn_of_rain(const Scene& scene, const Vessel& vessel, Warnings& warnings) 
 double passed(const Vessel& vessel, double diameter) {
   constexpr double empty_rim = 1.4;  // diameters
   double sum = 0;
-  for (const Hole& hole : vessel.holes) sum += std::pow(std::max(0.0, hole.width - empty_rim * diameter), 1.5);
+  for (const Hole& hole : vessel.holes) sum += elementary::pow(std::max(0.0, hole.width - empty_rim * diameter), 1.5);
   return sum;
 }
 

@@ -78,8 +78,8 @@ double covered_area(const std::vector<ClumpDisc>& discs) {
     const ClumpDisc& disc = discs[i];
     for (const Arc& arc : free_arcs(discs, i))
       area += 0.5 * disc.radius *
-              (disc.radius * (arc.to - arc.from) + disc.x * (std::sin(arc.to) - std::sin(arc.from)) -
-               disc.y * (std::cos(arc.to) - std::cos(arc.from)));
+              (disc.radius * (arc.to - arc.from) + disc.x * (elementary::sin(arc.to) - elementary::sin(arc.from)) -
+               disc.y * (elementary::cos(arc.to) - elementary::cos(arc.from)));
   }
   return area;
 }
@@ -98,7 +98,7 @@ std::vector<double> kink_heights(const std::vector<ClumpDisc>& discs) {
   for (std::size_t i = 0; i < discs.size(); ++i) {
     heights.push_back(discs[i].radius);
     for (std::size_t j = i + 1; j < discs.size(); ++j) {
-      const double distance = std::hypot(discs[j].x - discs[i].x, discs[j].y - discs[i].y), r = discs[i].radius;
+      const double distance = elementary::hypot(discs[j].x - discs[i].x, discs[j].y - discs[i].y), r = discs[i].radius;
       const double along = (distance + (r - discs[j].radius) * (r + discs[j].radius) / distance) / 2;
       if (std::abs(along) < r) heights.push_back(std::sqrt((r - along) * (r + along)));
     }

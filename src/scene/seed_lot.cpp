@@ -86,7 +86,7 @@ double mean_mass(const SeedLot& lot) {
 std::optional<double> seed_density(const SeedLot& lot) {
   if (lot.shape == Shape::disc) return std::nullopt;
   if (lot.shape == Shape::clump) return lot.mass / volume_of_balls(lot.discs);
-  return lot.mass / (std::numbers::pi / 6 * std::pow(lot.diameter, 3));
+  return lot.mass / (std::numbers::pi / 6 * elementary::pow(lot.diameter, 3));
 }
 
 double mean_thickness(const SeedLot& lot) {

@@ -170,7 +170,7 @@ struct Header {
 
 std::string save(const Model& model, const SimulationState& state) {
   SimulationState saved = state;
-  saved.contacts = without_idle_pairs(state.contacts);
+  saved.contacts = without_idle_candidates(state.contacts);
   std::ostringstream body;
   {
     cereal::PortableBinaryOutputArchive archive(body);

@@ -24,7 +24,10 @@ Run simulate(const Scene& scene, const SimulationOptions& options) {
 
 Run run_model(const Model& model, const SimulationOptions& options) {
   const Clock::time_point started = Clock::now();
-  Simulation simulation(model, options.random_seed, {.threads = options.threads, .profile = options.profile});
+  Simulation simulation(model, options.from ? *options.from : starting_state(model, options.random_seed),
+                        {.threads = options.threads, .profile = options.profile});
+  const auto checkpoint = [&](const Simulation& now) { options.on_checkpoint(now.state()); };
+  if (options.on_checkpoint && options.checkpoint_every > 0) simulation.watch(options.checkpoint_every, checkpoint);
   const double measure_from = model.scene.run.measure_from;
   bool interrupted = false;
   Clock::time_point measuring = Clock::now();
@@ -32,8 +35,10 @@ Run run_model(const Model& model, const SimulationOptions& options) {
     if (simulation.time() <= measure_from) measuring = Clock::now();
     if (++done % steps_between_looks != 0) continue;
     interrupted = options.interrupt && options.interrupt->load();
-    if (options.progress) options.progress(static_cast<double>(done) / static_cast<double>(model.step.steps));
+    if (options.progress)
+      options.progress(static_cast<double>(simulation.state().step) / static_cast<double>(model.step.steps));
   }
+  if (interrupted && options.on_checkpoint) checkpoint(simulation);
   Run run = simulation.result();
   if (interrupted) run.status = RunStatus::interrupted;
   run.wall_time = seconds_since(started);

@@ -3,10 +3,12 @@
 #include <atomic>
 #include <cstdint>
 #include <functional>
+#include <optional>
 
 #include "plan/model.hpp"
 #include "result/run.hpp"
 #include "scene/scene.hpp"
+#include "simulation/state.hpp"
 
 namespace vibrosow {
 
@@ -15,7 +17,11 @@ struct SimulationOptions {
   int threads = 1;                               // that share the run's loops; the result is the same for any number
   bool profile = false;                          // whether Run::phase_times are taken
   const std::atomic<bool>* interrupt = nullptr;  // looked at now and then; true ends the run as interrupted
-  std::function<void(double fraction_done)> progress;  // called now and then with 0..1, in the simulating thread
+  std::function<void(double fraction_done)> progress{};  // called now and then with 0..1, in the simulating thread
+
+  std::optional<SimulationState> from{};                        // to go on from; none: the scene's start
+  double checkpoint_every = 0;                                  // s, simulated; 0: never
+  std::function<void(const SimulationState&)> on_checkpoint{};  // then, and where the run is interrupted
 };
 
 /// Runs a scene to its end. Same scene and random seed: the same Run to the last bit, but for wall_time. Throws

@@ -168,6 +168,7 @@ fi
 # No second thread to be had. Only a user with a limit of processes can see that; root has none.
 if [ "$(id -u)" -eq 0 ] && command -v setpriv >/dev/null; then
   chmod a+rx "$work" && mkdir nobody && chmod a+rwx nobody
+  # shellcheck disable=SC2016
   printed=$(setpriv --reuid=65534 --regid=65534 --clear-groups bash -c \
     'ulimit -u 1; exec "$0" sweep study.toml --jobs 2 --quiet --out nobody/out' "$program" 2>&1)
   code=$?

@@ -19,11 +19,12 @@ inline Scene made_up_scene(int holes) {
   return scene;
 }
 
-/// A run to the scene's end in which nothing has left yet.
+/// A run to the scene's end in which nothing has left yet of a full tray.
 inline Run made_up_run(const Scene& scene) {
   Run run;
   run.dt = 1e-3;
   run.end_time = scene.run.duration;
+  run.balance.put_in = run.balance.inside = 1000;
   run.steps = static_cast<std::int64_t>(scene.run.duration / run.dt);
   return run;
 }

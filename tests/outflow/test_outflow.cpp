@@ -38,7 +38,7 @@ TEST(Rows, CountOnlyTheWindowAndNoSpilledGrain) {
   EXPECT_FALSE(all.centre);
   EXPECT_EQ(all.grains, 4);
   EXPECT_DOUBLE_EQ(outflow.spilled_fraction, 1.0 / 7);
-  EXPECT_EQ(outflow.note(), "");
+  EXPECT_EQ(outflow.note(), "a rate from 4 seeds");
 }
 
 TEST(Rows, OfSeveralLotsComePerLotAndTogether) {
@@ -103,7 +103,7 @@ TEST(Window, EndsWithARunThatEndsEarly) {
   const Outflow outflow = measure_outflow(scene, run);
   EXPECT_DOUBLE_EQ(outflow.window_to, 6);
   EXPECT_DOUBLE_EQ(outflow.holes[0].seeds_per_s, 0.25);
-  EXPECT_EQ(outflow.note(), "stopped: shell compression 0.6");
+  EXPECT_EQ(outflow.note(), "stopped: shell compression 0.6; a rate from 1 seed");
 }
 
 TEST(Window, NeverReachedGivesNoRate) {

@@ -44,9 +44,9 @@ TEST_F(RunReport, SummaryHasPlaneAndTrayRates) {
   EXPECT_EQ(summary_csv(measure_outflow(scene, run)),
             "hole,lot,position_mm,width_mm,grains,mass_g,seeds_per_s,rate_g_per_s,longest_pause_s,depth_factor,"
             "tray_rate_g_per_s,tray_seeds_per_s,note\n"
-            "1,wheat,100,16,0,0,0,0,1,15,0,0,a rate from 1 seed\n"
-            "2,wheat,200,16,1,0.04,1,0.04,0.5,15,0.6,15,a rate from 1 seed\n"
-            "all,all,,,1,0.04,1,0.04,0.5,15,0.6,15,a rate from 1 seed\n");
+            "1,wheat,100,16,0,0,0,0,1,15,0,0,drained in the window: 2 of 3 seeds gone; a rate from 1 seed\n"
+            "2,wheat,200,16,1,0.04,1,0.04,0.5,15,0.6,15,drained in the window: 2 of 3 seeds gone; a rate from 1 seed\n"
+            "all,all,,,1,0.04,1,0.04,0.5,15,0.6,15,drained in the window: 2 of 3 seeds gone; a rate from 1 seed\n");
 }
 
 TEST_F(RunReport, SummaryIsEmptyWhereUndefined) {

@@ -67,6 +67,7 @@ void expect_resumes(const char* what, const Scene& scene, double dt) {
         {.instructions = threads == 1 ? InstructionSet::generic : best_instruction_set(), .threads = threads});
     resumed.steps(steps - cut);
     EXPECT_EQ(outcome(resumed), outcome(whole)) << what << ", " << threads << " threads";
+    EXPECT_TRUE(save(model, resumed.state()) == save(model, whole.state())) << what;
   }
 }
 
