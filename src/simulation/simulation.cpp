@@ -96,8 +96,8 @@ bool Simulation::step() {
   if (recorder_ && recorder_->is_due(state_.time))
     recorder_->record(state_.grains, field_.walls(), state_.time, run.snapshots);
   profile.lap(Phase::recording);
-  for (const Watcher& watcher : watchers_)
-    if (is_due(watcher.every)) watcher.look(*this);
+  for (std::size_t k = 0; k < watchers_.size(); ++k)  // a look may add watchers
+    if (is_due(watchers_[k].every)) std::function(watchers_[k].look)(*this);
   return !state_.guard.stop_reason && run.end_reason.empty();
 }
 

@@ -64,5 +64,16 @@ TEST(Driving, WatchersLookAtWholeIntervals) {
   for (std::size_t k = 0; k < 5; ++k) EXPECT_NEAR(times[k], 0.01 * static_cast<double>(k + 1), 1e-12);
 }
 
+TEST(Driving, AWatcherMayAddWatchers) {
+  Simulation run(with_step(prepare(gated_box()), 5e-5), 1);
+  int looks = 0;
+  run.watch(0.01, [&looks, text = std::string(64, 'x')](Simulation& now) {
+    for (int k = 0; k < 20; ++k) now.watch(0.01, [&looks](Simulation&) { ++looks; });
+    EXPECT_EQ(text.size(), 64u);
+  });
+  ASSERT_TRUE(run.run_until(0.02));
+  EXPECT_EQ(looks, 20 + 40);
+}
+
 }  // namespace
 }  // namespace vibrosow
