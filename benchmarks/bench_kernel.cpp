@@ -29,7 +29,7 @@ Scene published_tray() {
   scene.tray.height = 0.45;
   scene.tray.fill = Fill{2400, Packing::layers, 1e-3, false};
   scene.tray.motion = HarmonicMotion{0, 0.01, 9, 0};
-  scene.guard.stop_compression = 100;
+  scene.guard.stop_relative_overlap = 100;
   scene.run.duration = 2;
   return scene;
 }

@@ -23,7 +23,7 @@ Scene published_tray(double shell_compression) {
   scene.tray.holes = {{0.125, 0.024}, {0.25, 0.024}, {0.375, 0.024}};
   scene.tray.fill = Fill{2400, Packing::layers, 1e-3, false};
   scene.tray.motion = HarmonicMotion{0, 0.01, 9, 0};
-  scene.guard.stop_compression = 100;
+  scene.guard.stop_relative_overlap = 100;
   scene.run.duration = 2;
   return scene;
 }

@@ -48,7 +48,7 @@ Scene tray_with(const EffectSet& effects) {
   scene.tray.height = 0.45;
   scene.tray.fill = Fill{2400, Packing::layers, 1e-3, false};
   scene.tray.motion = HarmonicMotion{0, effects.motion ? 0.01 : 0, 9, 0};
-  scene.guard.stop_compression = scene.guard.energy_tolerance = 1e9;
+  scene.guard.stop_relative_overlap = scene.guard.energy_tolerance = 1e9;
   scene.run.duration = 2;
   return scene;
 }

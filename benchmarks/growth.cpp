@@ -28,7 +28,7 @@ Scene tray_of(int grains) {
   scene.tray.height = 2 * layers * diameter;
   scene.tray.fill = Fill{grains, Packing::layers, 1e-3, false};
   scene.tray.motion = HarmonicMotion{0, 0.01, 9, 0};
-  scene.guard.stop_compression = 100;
+  scene.guard.stop_relative_overlap = 100;
   scene.run.duration = 2;
   return scene;
 }

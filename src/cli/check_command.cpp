@@ -44,13 +44,15 @@ void print_step(const StepPlan& plan, const PredictedCost& cost) {
         cost.seconds());
 }
 
-void print_compression(const Scene& scene, const PredictedCompression& predicted) {
-  print("compression predicted, d/r\n  at rest {:.3g} under {:.3g} layers (overlap of the lowest pair {:.3g} r)\n",
-        predicted.static_compression, predicted.layers, predicted.static_overlap);
-  print("  at impact {:.3g} at {:.3g} m/s\n", predicted.impact_compression, predicted.impact_speed);
-  const double warn = scene.guard.warn_compression;
-  if (predicted.static_compression <= warn && predicted.impact_compression <= warn) return;
-  print("  warning: beyond guard.warn_compression = {:g}: {}\n", warn,
+void print_overlap(const Scene& scene, const PredictedOverlap& predicted) {
+  print(
+      "relative overlap predicted (a grain's share of the overlap over its radius)\n  at rest {:.3g} under {:.3g} "
+      "layers (overlap of the lowest pair {:.3g} r)\n",
+      predicted.overlap_at_rest, predicted.layers, predicted.pair_overlap_at_rest);
+  print("  at impact {:.3g} at {:.3g} m/s\n", predicted.overlap_at_impact, predicted.impact_speed);
+  const double warn = scene.guard.warn_relative_overlap;
+  if (predicted.overlap_at_rest <= warn && predicted.overlap_at_impact <= warn) return;
+  print("  warning: beyond guard.warn_relative_overlap = {:g}: {}\n", warn,
         scene.contact.law == Law::elastic_shell
             ? fmt::format("a shell is thin; contact.shell_compression = {:.2g} would do", predicted.stiff_enough)
             : "Hertz' law is for small overlaps; a larger contact.youngs_modulus is stiffer");
@@ -79,7 +81,7 @@ int check_seeder(const std::filesystem::path& file, const CommonOptions& options
   const CostBreakdown cost = break_down_cost(scene);
   print_effects(scene, cost);
   print_step(plan, cost.whole);
-  print_compression(scene, model.compression);
+  print_overlap(scene, model.overlap);
   if (const auto refused = step_refused(scene.numerics, plan)) throw InputError(*refused);
   if (plan.too_long) print("the step is too long and insisted on: every result will be marked \"outside the model\"\n");
   return exit_done;

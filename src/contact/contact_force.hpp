@@ -17,7 +17,7 @@ struct PairConstants {
   double stiffness;                               // of the law
   double dashpot;                                 // of the law
   double overlap_fraction_i, overlap_fraction_j;  // of the overlap
-  double compression_per_overlap;
+  double relative_per_overlap;
   double rolling_radius;   // m, 1 / (1/r_i + 1/r_j)
   double rolling_inertia;  // kg m2, of turning about the contact
 };

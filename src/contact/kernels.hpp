@@ -13,10 +13,10 @@ namespace vibrosow {
 
 /// What an evaluation of the forces tells besides the forces.
 struct ContactStatistics {
-  std::int64_t contacts = 0;   // evaluations of the law
-  double max_compression = 0;  // shell compression d c_j / (c_i + c_j) / r_i
-  double wall_power = 0;       // W, work of moving walls on grains
-  std::vector<int> crossed;    // grains whose centre went through a wall
+  std::int64_t contacts = 0;        // evaluations of the law
+  double max_relative_overlap = 0;  // overlap c_i / (c_i + c_j) / r_i, compliances c
+  double wall_power = 0;            // W, work of moving walls on grains
+  std::vector<int> crossed;         // grains whose centre went through a wall
 };
 
 /// What pair kernels need to know of the grains.

@@ -59,7 +59,7 @@ struct PairResult {
   int first_own;
 
   int contacts;
-  double max_compression;
+  double max_relative_overlap;
   int foreign_count;
   ForeignForce foreign[pair_block_size];
 };
@@ -79,7 +79,7 @@ struct WallContacts {
   std::vector<double> fx, fy, torque;               // N, on the wall; N m, on the grain, without rotation unset
 };
 
-/// Works out the forces of all contacts and returns the largest compression. `histories` has an entry for each
+/// Works out the forces of all contacts and returns the largest relative overlap. `histories` has an entry for each
 /// candidate.
 using WallKernel = double (*)(const GrainSurfaces&, const Motion&, const ContactParameters&, const HistoryAdvance&,
                               ContactHistories& histories, WallContacts&);

@@ -22,7 +22,7 @@ void add_pair_forces(PairKernel kernel, const GrainSurfaces& grains, const Motio
     kernel(grains, at, list, {from, to}, parameters, advance, histories, result);
     foreign.insert(foreign.end(), result.foreign, result.foreign + result.foreign_count);
     statistics.contacts += result.contacts;
-    statistics.max_compression = std::max(statistics.max_compression, result.max_compression);
+    statistics.max_relative_overlap = std::max(statistics.max_relative_overlap, result.max_relative_overlap);
   }
   begin_up_to(fresh.to);
 }

@@ -106,7 +106,7 @@ void store_block(const BlockHistories& block_histories, const int* entry, int fi
     keep(block_histories.roll, histories.roll), keep(block_histories.roll_speed, histories.roll_speed);
 }
 
-/// Returns the largest compression.
+/// Returns the largest relative overlap.
 template <class Law, class Effects>
 [[gnu::flatten]] double forces_of_touching(const PairProperties<Law, Effects>& properties, const Motion& at,
                                            int first_entry, const ContactParameters& parameters,
@@ -116,8 +116,8 @@ template <class Law, class Effects>
   const HistoryAdvance advance = advance_;
   const double *vx = at.vx, *vy = at.vy, *omega = at.omega;
   const int whole = block.whole_vectors();
-  double max_compression = 0;
-#pragma omp simd reduction(max : max_compression)
+  double max_relative_overlap = 0;
+#pragma omp simd reduction(max : max_relative_overlap)
   for (int k = 0; k < whole; ++k) {
     const std::size_t e = static_cast<std::size_t>(first_entry + block.entry[k]);
     const std::size_t i = static_cast<std::size_t>(block.grain[k]), j = static_cast<std::size_t>(block.partner[k]);
@@ -128,8 +128,8 @@ template <class Law, class Effects>
     const double per_distance = 1 / distance;
     const double nx = distance > 0 ? dx * per_distance : 1, ny = distance > 0 ? dy * per_distance : 0;
     const double overlap = pair.reach - distance;
-    const double compression = overlap * pair.compression_per_overlap;
-    max_compression = compression > max_compression ? compression : max_compression;
+    const double relative_overlap = overlap * pair.relative_per_overlap;
+    max_relative_overlap = relative_overlap > max_relative_overlap ? relative_overlap : max_relative_overlap;
 
     Touch touch{overlap, 0, 0, 0};
     [[maybe_unused]] double arm_i = 0, arm_j = 0;
@@ -160,7 +160,7 @@ template <class Law, class Effects>
     }
     block.fx[k] = fx, block.fy[k] = fy, block.torque[k] = -torque, block.partner_torque[k] = partner_torque;
   }
-  return max_compression;
+  return max_relative_overlap;
 }
 
 /// Adds the forces of a block to its grains, four contacts at a time. The spare number of a sum takes up whichever
@@ -200,8 +200,8 @@ template <class Law, class Effects>
   PairBlock block;
   find_touching<Law, Effects>(properties, at, list, range, leaves_trace, histories, block);
   BlockHistories block_histories;
-  result.max_compression = forces_of_touching<Law, Effects>(properties, at, range.from, parameters, advance, histories,
-                                                            block, block_histories);
+  result.max_relative_overlap = forces_of_touching<Law, Effects>(properties, at, range.from, parameters, advance,
+                                                                 histories, block, block_histories);
   if (keeps_history<Effects> && leaves_trace)
     store_block<Effects>(block_histories, block.entry, range.from, block.touching, histories);
   add_block(block, result);

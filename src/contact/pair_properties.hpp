@@ -18,7 +18,7 @@ inline PairConstants pair_constants(const GrainSurface& a, const GrainSurface& b
   p.overlap_fraction_i = a.compliance / compliance;
   p.overlap_fraction_j = b.compliance / compliance;
   const double at_i = p.overlap_fraction_i * a.curvature, at_j = p.overlap_fraction_j * b.curvature;
-  p.compression_per_overlap = at_i > at_j ? at_i : at_j;
+  p.relative_per_overlap = at_i > at_j ? at_i : at_j;
   if constexpr (Effects::rolls) p.rolling_radius = 1 / (a.curvature + b.curvature);
   if constexpr (Effects::rolling == Rolling::spring) {
     // 1 / (I + m r^2) of each, about the contact; a wall has none, a grain kept from turning neither

@@ -7,7 +7,7 @@
 
 namespace vibrosow::inline VIBROSOW_ISA {
 
-/// Forces of the contacts [from, from + count), at most pair_block_size of them; returns the largest compression.
+/// Forces of the contacts [from, from + count), at most pair_block_size of them; returns the largest relative overlap.
 template <class Law, class Effects>
 [[gnu::flatten]] double forces_of_walls(const WallProperties<Law, Effects>& properties, const Motion& at,
                                         const ContactParameters& parameters, const HistoryAdvance& advance_,
@@ -24,8 +24,8 @@ template <class Law, class Effects>
   const double* wall_spin = contacts.wall_spin.data() + from;
   double *out_x = contacts.fx.data() + from, *out_y = contacts.fy.data() + from;
   double* torque = contacts.torque.data() + from;
-  double max_compression = 0;
-#pragma omp simd reduction(max : max_compression)
+  double max_relative_overlap = 0;
+#pragma omp simd reduction(max : max_relative_overlap)
   for (int k = 0; k < count; ++k) {
     const std::size_t i = static_cast<std::size_t>(grain[k]), c = static_cast<std::size_t>(candidate[k]);
     const PairConstants& pair = properties.pair(i);
@@ -33,8 +33,8 @@ template <class Law, class Effects>
     const double nx = distance > 0 ? dx[k] / distance : normal_x[k];
     const double ny = distance > 0 ? dy[k] / distance : normal_y[k];
     Touch touch{properties.radius(i) - distance, 0, 0, 0};
-    const double compression = touch.overlap * pair.compression_per_overlap;
-    max_compression = compression > max_compression ? compression : max_compression;
+    const double relative_overlap = touch.overlap * pair.relative_per_overlap;
+    max_relative_overlap = relative_overlap > max_relative_overlap ? relative_overlap : max_relative_overlap;
     [[maybe_unused]] double arm = 0;
     if constexpr (Effects::damping || Effects::friction) {
       const double ux = vx[i] - wall_vx[k], uy = vy[i] - wall_vy[k];
@@ -57,7 +57,7 @@ template <class Law, class Effects>
     out_x[k] = fx, out_y[k] = fy;
     if constexpr (Effects::rotation) torque[k] = force.rolling - arm * force.tangential;
   }
-  return max_compression;
+  return max_relative_overlap;
 }
 
 template <class Law, class Effects>
@@ -66,16 +66,16 @@ template <class Law, class Effects>
                                     WallContacts& contacts) {
   const WallProperties<Law, Effects> properties(grains, parameters);
   BlockHistories block_histories;
-  double max_compression = 0;
+  double max_relative_overlap = 0;
   for (int from = 0; from < contacts.count; from += pair_block_size) {
     const int count = contacts.count - from < pair_block_size ? contacts.count - from : pair_block_size;
     const double here = forces_of_walls<Law, Effects>(properties, at, parameters, advance, histories, from, count,
                                                       contacts, block_histories);
-    max_compression = here > max_compression ? here : max_compression;
+    max_relative_overlap = here > max_relative_overlap ? here : max_relative_overlap;
     if (keeps_history<Effects> && advance.commit > 0)
       store_block<Effects>(block_histories, contacts.candidate.data() + from, 0, count, histories);
   }
-  return max_compression;
+  return max_relative_overlap;
 }
 
 }  // namespace vibrosow::inline VIBROSOW_ISA

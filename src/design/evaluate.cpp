@@ -29,7 +29,7 @@ Evaluation reduced(const Scene& scene, const Run& run, const std::vector<CurveRe
                         .dt = run.dt,
                         .end_time = run.end_time,
                         .grain_steps = run.grain_steps,
-                        .max_compression = run.max_compression,
+                        .max_relative_overlap = run.max_relative_overlap,
                         .balance = run.balance,
                         .outflow = measure_outflow(scene, run),
                         .records = record_figures(scene, run.snapshots),

@@ -51,7 +51,7 @@ struct Evaluation {
   double dt = 0;        // s
   double end_time = 0;  // s
   std::int64_t grain_steps = 0;
-  double max_compression = 0;                // shell compression, largest of the run
+  double max_relative_overlap = 0;           // a grain's share of the overlap over its radius, the largest of the run
   std::optional<double> tray_empty_since{};  // s, when the last grain left the tray; none: it never ran dry
   Balance balance{};
   Outflow outflow{};

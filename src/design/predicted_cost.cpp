@@ -79,7 +79,7 @@ Scene in_full_motion(Scene scene) {
   });
   scene.record.reset();
   scene.run.end_after_pause.reset();
-  scene.guard.stop_compression = scene.guard.energy_tolerance = 1e9;
+  scene.guard.stop_relative_overlap = scene.guard.energy_tolerance = 1e9;
   return scene;
 }
 

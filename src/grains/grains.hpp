@@ -25,8 +25,8 @@ SeedMaterial seed_material(const Contact& contact, const SeedLot& lot);
 std::vector<GrainKind> grain_kinds(const Scene& scene);
 
 /// A seed of a lot whose size is `size` times the lot's diameter. Mass grows with the cube of size for a ball and with
-/// its square for a disc or clump, at equal density; the shell's compression under the grain's own weight stays eps /
-/// r.
+/// its square for a disc or clump, at equal density; under its own weight the shell yields by the same fraction of the
+/// radius.
 GrainKind sized_kind(const SeedLot& lot, const LawTraits& law, const GrainKind& kind, double size);
 
 /// State of all grains in the lab frame, structure of arrays. Order is order of insertion and survives removal.

@@ -87,13 +87,13 @@ Numerics read_numerics(Table table, Law law) {
 
 GuardLimits read_guard(Table table) {
   GuardLimits guard;
-  guard.warn_compression = table.number("warn_compression", 1e-9, 1000).value_or(guard.warn_compression);
-  guard.stop_compression = table.number("stop_compression", 1e-9, 1000).value_or(guard.stop_compression);
+  guard.warn_relative_overlap = table.number("warn_relative_overlap", 1e-9, 1000).value_or(guard.warn_relative_overlap);
+  guard.stop_relative_overlap = table.number("stop_relative_overlap", 1e-9, 1000).value_or(guard.stop_relative_overlap);
   guard.energy_tolerance = table.number("energy_tolerance", 1e-9, 1e12).value_or(guard.energy_tolerance);
-  if (guard.stop_compression < guard.warn_compression) {
-    table.fail(table.has("stop_compression") ? "stop_compression" : "warn_compression",
-               fmt::format("the guard would stop at {:g}, before it warns at {:g}", guard.stop_compression,
-                           guard.warn_compression));
+  if (guard.stop_relative_overlap < guard.warn_relative_overlap) {
+    table.fail(table.has("stop_relative_overlap") ? "stop_relative_overlap" : "warn_relative_overlap",
+               fmt::format("the guard would stop at {:g}, before it warns at {:g}", guard.stop_relative_overlap,
+                           guard.warn_relative_overlap));
   }
   return guard;
 }

@@ -25,7 +25,7 @@ Model prepare(const Scene& scene, const std::optional<EffectSet>& effects) {
   const StepBasis basis{model.scene, model.effects, model.contacts,       *model.law,
                         touching,    model.loads,   model.smallest_radius};
   model.step = plan_step(basis);
-  model.compression = predict_compression(basis);
+  model.overlap = predict_overlap(basis);
   if (!model.effects.rotation || !scene.contact.rotation)
     for (GrainKind& kind : model.kinds) kind.inverse_inertia = 0;
   return model;

@@ -29,7 +29,7 @@ struct Model {
   Eigen::Vector2d gravity{0, -standard_gravity};  // m/s2
   BedLoads loads;
   StepPlan step;
-  PredictedCompression compression;
+  PredictedOverlap overlap;
 };
 
 /// `effects`: to run with more than the scene calls for, or to leave some out. Throws std::logic_error when no kernel

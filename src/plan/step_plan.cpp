@@ -21,7 +21,7 @@ constexpr double allowed_energy_growth = 1.01;  // of a free vibration under RK2
 
 /// Two bodies that meet: a grain and another, or a wall (curvature and inverse mass 0).
 struct Meeting {
-  double stiffness, inverse_mass, compression_per_overlap;
+  double stiffness, inverse_mass, relative_per_overlap;
 };
 
 Meeting meeting(const LawTraits& law, const GrainKind& a, double compliance, double curvature, double inverse_mass) {
@@ -222,24 +222,24 @@ std::optional<std::string> step_refused(const Numerics& numerics, const StepPlan
       numerics.where.or_key("numerics.dt"), plan.dt, plan.longest_safe, plan.bound_by);
 }
 
-PredictedCompression predict_compression(const StepBasis& basis) {
-  PredictedCompression predicted{};
+PredictedOverlap predict_overlap(const StepBasis& basis) {
+  PredictedOverlap predicted{};
   predicted.layers = basis.loads.layers;
   predicted.impact_speed = std::max(2 * basis.loads.vessel_speed, basis.loads.fall_speed);
   for (const GrainKind& kind : basis.touching) {
     const Meeting wall = on_wall(basis, kind), pair = with_grain(basis, kind, kind);
     const double weight = predicted.layers * basis.loads.weight_factor * kind.mass * standard_gravity;
     const double impact = basis.law.impact_overlap(wall.stiffness, wall.inverse_mass, predicted.impact_speed);
-    predicted.static_compression = std::max(
-        predicted.static_compression, basis.law.static_overlap(wall.stiffness, weight) * wall.compression_per_overlap);
-    predicted.static_overlap =
-        std::max(predicted.static_overlap, basis.law.static_overlap(pair.stiffness, weight) / kind.radius);
-    predicted.impact_compression = std::max(predicted.impact_compression, impact * wall.compression_per_overlap);
+    predicted.overlap_at_rest = std::max(predicted.overlap_at_rest,
+                                         basis.law.static_overlap(wall.stiffness, weight) * wall.relative_per_overlap);
+    predicted.pair_overlap_at_rest =
+        std::max(predicted.pair_overlap_at_rest, basis.law.static_overlap(pair.stiffness, weight) / kind.radius);
+    predicted.overlap_at_impact = std::max(predicted.overlap_at_impact, impact * wall.relative_per_overlap);
   }
-  // The shell's compression goes with eps at rest and with its root at impact.
-  const double warn = basis.scene.guard.warn_compression;
-  const double at_rest = warn / predicted.static_compression;
-  const double at_impact = warn / std::max(predicted.impact_compression, 1e-300);
+  // The overlap goes with eps at rest and with its root at impact.
+  const double warn = basis.scene.guard.warn_relative_overlap;
+  const double at_rest = warn / predicted.overlap_at_rest;
+  const double at_impact = warn / std::max(predicted.overlap_at_impact, 1e-300);
   predicted.stiff_enough = basis.scene.contact.shell_compression * std::min(at_rest, at_impact * at_impact);
   return predicted;
 }

@@ -47,14 +47,14 @@ StepPlan plan_step(const StepBasis& basis);
 std::optional<std::string> step_refused(const Numerics& numerics, const StepPlan& plan);
 
 /// What the shells will suffer, predicted from layers, acceleration and speed of impact, before any grain moves.
-struct PredictedCompression {
-  double layers;              // of the deepest fill
-  double static_compression;  // d/r of the lowest shell at rest
-  double static_overlap;      // of the lowest pair in radii, twice the above
-  double impact_speed;        // m/s, 2 A omega, or of falling seeds
-  double impact_compression;  // d/r at that speed on a wall
-  double stiff_enough;        // the largest contact.shell_compression that keeps both within guard.warn_compression
+struct PredictedOverlap {
+  double layers;                // of the deepest fill
+  double overlap_at_rest;       // of the lowest grain at rest, on the floor
+  double pair_overlap_at_rest;  // of the lowest pair in radii, twice the above
+  double impact_speed;          // m/s, 2 A omega, or of falling seeds
+  double overlap_at_impact;     // at that speed on a wall
+  double stiff_enough;  // the largest contact.shell_compression that keeps both within guard.warn_relative_overlap
 };
-PredictedCompression predict_compression(const StepBasis& basis);
+PredictedOverlap predict_overlap(const StepBasis& basis);
 
 }  // namespace vibrosow

@@ -227,8 +227,9 @@ Columns<RunRow> sweep_runs_columns() {
        run_column("spilled", plain, "seeds that left over the rim", [](One one) { return one.balance.spilled; }),
        run_column("lost", plain, "seeds that went through a wall: an error", [](One one) { return one.balance.lost; }),
        figure_column("seeds_per_s"), figure_column("rate_g_per_s"), figure_column("tray_rate_g_per_s"),
-       run_column("max_compression", plain, "largest shell compression, of the grain's radius",
-                  [](One one) { return one.max_compression; }),
+       run_column("max_relative_overlap", plain,
+                  "largest share of a contact's overlap that one grain takes, over its radius",
+                  [](One one) { return one.max_relative_overlap; }),
        text_column<RunRow>("outside_the_model", "yes where the run is beyond what the model is for",
                            [](R r) -> std::string {
                              if (!r.run->was_run()) return "";

@@ -47,14 +47,14 @@ struct Run {
   std::string end_reason;             // why it ended before its duration, though sound; else empty
   std::vector<std::string> warnings;  // of the guard
   bool outside_the_model =
-      false;  // compression beyond the guard's warning limit with the stop raised, or a long step insisted on
+      false;  // overlap beyond the guard's warning limit with the stop raised, or a long step insisted on
   std::uint64_t random_seed = 1;
   double dt = 0;  // s
   std::int64_t steps = 0;
   double end_time = 0;  // s, = steps dt
   std::int64_t grain_steps = 0;
   std::int64_t force_evaluations = 0;  // of grain contacts
-  double max_compression = 0;          // shell compression, largest of the run
+  double max_relative_overlap = 0;     // a grain's share of the overlap over its radius, the largest of the run
   double tray_empty_since = -1;        // s, when the last grain left the tray; negative: it never ran dry
   EnergyAccount energy;
   Balance balance;

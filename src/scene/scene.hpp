@@ -225,8 +225,8 @@ struct Numerics {
 };
 
 struct GuardLimits {
-  double warn_compression = 0.05;  // d c_j / (c_i + c_j) / r_i
-  double stop_compression = 0.5;
+  double warn_relative_overlap = 0.05;  // d c_j / (c_i + c_j) / r_i
+  double stop_relative_overlap = 0.5;
   double energy_tolerance = 0.2;  // energy made by the numerics, as a fraction of the energy in play
   bool operator==(const GuardLimits&) const = default;
 };

@@ -438,8 +438,8 @@ void fields(Io& io, Numerics& numerics) {
 
 template <class Io>
 void fields(Io& io, GuardLimits& guard) {
-  io.value("warn_compression", guard.warn_compression);
-  io.value("stop_compression", guard.stop_compression);
+  io.value("warn_relative_overlap", guard.warn_relative_overlap);
+  io.value("stop_relative_overlap", guard.stop_relative_overlap);
   io.value("energy_tolerance", guard.energy_tolerance);
 }
 

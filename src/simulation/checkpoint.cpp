@@ -80,7 +80,7 @@ void serialize(Archive& archive, ContactState& s) {
 }
 template <class Archive>
 void serialize(Archive& archive, ContactStatistics& s) {
-  archive(s.contacts, s.max_compression, s.wall_power, s.crossed);
+  archive(s.contacts, s.max_relative_overlap, s.wall_power, s.crossed);
 }
 template <class Archive>
 void serialize(Archive& archive, VesselState& s) {
@@ -104,7 +104,7 @@ void serialize(Archive& archive, FeederState& s) {
 }
 template <class Archive>
 void serialize(Archive& archive, GuardState& s) {
-  archive(s.max_compression, s.warned_at, s.warned_of_stride, s.warned_of_energy, s.stop_reason, s.warnings);
+  archive(s.max_relative_overlap, s.warned_at, s.warned_of_stride, s.warned_of_energy, s.stop_reason, s.warnings);
   archive(s.has_energy, s.lowest, s.in_play, s.first_potential);
 }
 template <class Archive>

@@ -75,7 +75,7 @@ void ForceField::set_pair_forces(const Grains& discs, const Motion& at, const Hi
   });
   for (const RangeResult& result : range_results_) {
     statistics.contacts += result.statistics.contacts;
-    statistics.max_compression = std::max(statistics.max_compression, result.statistics.max_compression);
+    statistics.max_relative_overlap = std::max(statistics.max_relative_overlap, result.statistics.max_relative_overlap);
     for (const ForeignForce& force : result.foreign) {
       GrainForce& sum = forces[static_cast<std::size_t>(force.grain)];
       sum.fx += force.fx, sum.fy += force.fy, sum.torque += force.torque;
@@ -105,9 +105,9 @@ void ForceField::run_kernels(const Grains& discs, const HistoryAdvance& advance,
 /// Of the contacts found last.
 void ForceField::add_wall_forces(const Grains& discs, const Motion& at, const HistoryAdvance& advance, Forces& forces,
                                  ContactStatistics& statistics) {
-  const double compression =
+  const double relative_overlap =
       wall_kernel_(surfaces_of(discs), at, model_.contacts, advance, state_.contacts.wall_histories, wall_contacts_);
-  statistics.max_compression = std::max(statistics.max_compression, compression);
+  statistics.max_relative_overlap = std::max(statistics.max_relative_overlap, relative_overlap);
   vibrosow::add_wall_forces(wall_contacts_, model_.kernels->effects.rotation, forces, statistics);
 }
 

@@ -42,19 +42,18 @@ void Guard::stop(std::string reason) {
 }
 
 void Guard::watch_step(const Integration& s) {
-  state_.max_compression = std::max(state_.max_compression, s.state.statistics.max_compression);
-  if (state_.warned_at < 0 && state_.max_compression > limits_.warn_compression) {
+  state_.max_relative_overlap = std::max(state_.max_relative_overlap, s.state.statistics.max_relative_overlap);
+  if (state_.warned_at < 0 && state_.max_relative_overlap > limits_.warn_relative_overlap) {
     state_.warned_at = s.state.time;
-    state_.warnings.push_back(
-        fmt::format("shell compression passed {:.3g} of the radius at {:.4g} s: {}; a {} {} is stiffer",
-                    limits_.warn_compression, s.state.time,
-                    law_.material == LawMaterial::shell ? "a thin shell is no longer a good model"
-                                                        : "Hertz' law is for small overlaps",
-                    law_.stiffer_value(), law_.stiffness_key()));
+    state_.warnings.push_back(fmt::format("the relative overlap passed {:.3g} at {:.4g} s: {}; a {} {} is stiffer",
+                                          limits_.warn_relative_overlap, s.state.time,
+                                          law_.material == LawMaterial::shell ? "a thin shell is no longer a good model"
+                                                                              : "Hertz' law is for small overlaps",
+                                          law_.stiffer_value(), law_.stiffness_key()));
   }
-  if (state_.max_compression > limits_.stop_compression)
-    stop(fmt::format("shell compression reached {:.3g} of the radius at {:.4g} s (guard.stop_compression = {:.3g})",
-                     state_.max_compression, s.state.time, limits_.stop_compression));
+  if (state_.max_relative_overlap > limits_.stop_relative_overlap)
+    stop(fmt::format("the relative overlap reached {:.3g} at {:.4g} s (guard.stop_relative_overlap = {:.3g})",
+                     state_.max_relative_overlap, s.state.time, limits_.stop_relative_overlap));
 
   if (!s.too_fast) return;
   // Insisted on or not: no list can be made of grains that are nowhere.
@@ -108,7 +107,7 @@ void Guard::watch_energy(const Integration& s, EnergyAccount& account) {
 }
 
 void Guard::wall_crossed(std::size_t grains, double time) {
-  if (limits_.stop_compression < 1)
+  if (limits_.stop_relative_overlap < 1)
     stop(fmt::format("{} grain{} went through a wall at {:.4g} s", grains, grains == 1 ? "" : "s", time));
 }
 
@@ -117,8 +116,8 @@ std::vector<std::string> Guard::warnings() const {
 }
 
 bool Guard::outside_the_model() const {
-  const bool stop_was_raised = limits_.stop_compression > GuardLimits{}.stop_compression;
-  return insisted_on_step_ || (stop_was_raised && state_.max_compression > limits_.warn_compression);
+  const bool stop_was_raised = limits_.stop_relative_overlap > GuardLimits{}.stop_relative_overlap;
+  return insisted_on_step_ || (stop_was_raised && state_.max_relative_overlap > limits_.warn_relative_overlap);
 }
 
 }  // namespace vibrosow

@@ -36,7 +36,7 @@ class Guard {
 
   const std::optional<std::string>& stop_reason() const { return state_.stop_reason; }
   std::vector<std::string> warnings() const;
-  double max_compression() const { return state_.max_compression; }
+  double max_relative_overlap() const { return state_.max_relative_overlap; }
   bool outside_the_model() const;
 
  private:

@@ -32,13 +32,13 @@ void refuse_overlap(const Model& model, SimulationState state) {
   Execution execution;
   ForceField field(model, state, {}, execution);
   field.evaluate(0, {});
-  if (state.statistics.max_compression <= model.scene.guard.warn_compression) return;
+  if (state.statistics.max_relative_overlap <= model.scene.guard.warn_relative_overlap) return;
   const Scene& scene = model.scene;
   const Fill fill = scene.hopper && scene.hopper->fill ? *scene.hopper->fill : scene.tray.fill.value_or(Fill{});
   throw InputError(
-      fmt::format("{}: grains overlap at the start, their shells compressed by {:.3g} of the radius; does the "
+      fmt::format("{}: grains overlap at the start, by {:.3g} of the radius; does the "
                   "hopper stand in the tray's bed? (hopper.above, fill.count)",
-                  fill.where.or_key("fill.count"), state.statistics.max_compression));
+                  fill.where.or_key("fill.count"), state.statistics.max_relative_overlap));
 }
 
 FeederState first_draws(const Model& model, std::uint64_t random_seed) {

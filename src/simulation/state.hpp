@@ -62,8 +62,8 @@ struct FeederState {
 };
 
 struct GuardState {
-  double max_compression = 0;
-  double warned_at = -1;  // s, when the compression first passed the warning limit
+  double max_relative_overlap = 0;
+  double warned_at = -1;  // s, when the relative overlap first passed the warning limit
   bool warned_of_stride = false, warned_of_energy = false;
   std::optional<std::string> stop_reason;
   std::vector<std::string> warnings;

@@ -26,7 +26,7 @@ Grains shaken(Law law, const EffectChoice& choice, InstructionSet instructions, 
   scene.tray.holes = {{0.06, 0.03}};
   scene.tray.fill = Fill{150, Packing::layers, 1e-4, false};
   scene.tray.motion = HarmonicMotion{0.5, 0.01, 12, 0};
-  scene.guard.stop_compression = 100;
+  scene.guard.stop_relative_overlap = 100;
   scene.run.duration = 1;
   EffectSet effects;
   effects.friction = choice.friction != FrictionChoice::none;

@@ -48,7 +48,7 @@ TEST(Evaluate, ARunCutShortKeepsItsFiguresAndItsReason) {
   const Simulator dry_and_stopped = [](const Model& model, const SimulationOptions& options) {
     vibrosow::Run run = quick_run(model, options);
     run.status = RunStatus::stopped_by_guard;
-    run.stop_reason = "compression 0.6";
+    run.stop_reason = "relative overlap 0.6";
     run.tray_empty_since = 3;
     run.end_time = 3.5;
     return run;
@@ -57,7 +57,7 @@ TEST(Evaluate, ARunCutShortKeepsItsFiguresAndItsReason) {
       evaluate(small_model(files), with_random_seed(2), {{Discharge::seeds, "all", "all", {3, 4}}}, dry_and_stopped);
   EXPECT_EQ(evaluation.status, EvaluationStatus::stopped);
   EXPECT_TRUE(evaluation.was_run());
-  EXPECT_EQ(evaluation.reason, "compression 0.6");
+  EXPECT_EQ(evaluation.reason, "relative overlap 0.6");
   EXPECT_EQ(evaluation.tray_empty_since, 3);
   EXPECT_EQ(evaluation.curves[0].values[0], 33);  // half of 12, 22 and 32
   EXPECT_TRUE(std::isnan(evaluation.curves[0].values[1]));

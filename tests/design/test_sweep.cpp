@@ -87,7 +87,7 @@ TEST(Sweep, GuardAndRefusalGiveAStatusAndAReason) {
     vibrosow::Run run = quick_run(model, options);
     if (model.scene.tray.holes.size() == 5 && options.random_seed == 2) {
       run.status = RunStatus::stopped_by_guard;
-      run.stop_reason = "compression 0.6";
+      run.stop_reason = "relative overlap 0.6";
     }
     return run;
   };
@@ -95,7 +95,7 @@ TEST(Sweep, GuardAndRefusalGiveAStatusAndAReason) {
   EXPECT_EQ(result.layouts[1].status, LayoutStatus::invalid);
   EXPECT_EQ(result.layouts[1].reason, "the fill does not fit");
   EXPECT_EQ(result.layouts[2].status, LayoutStatus::stopped);
-  EXPECT_EQ(result.layouts[2].reason, "random seed 2: compression 0.6");
+  EXPECT_EQ(result.layouts[2].reason, "random seed 2: relative overlap 0.6");
   EXPECT_EQ(result.layouts[2].replicates, 2);
 }
 

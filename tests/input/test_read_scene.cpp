@@ -60,8 +60,8 @@ integrator = "rk2-midpoint"
 dt = "2e-5 s"
 allow_long_step = true
 [guard]
-warn_compression = 0.1
-stop_compression = 0.7
+warn_relative_overlap = 0.1
+stop_relative_overlap = 0.7
 energy_tolerance = 0.3
 [run]
 duration     = "10 s"
@@ -144,8 +144,8 @@ TEST(ReadScene, EveryKey) {
   EXPECT_EQ(scene.numerics.integrator, Integrator::rk2_midpoint);
   EXPECT_EQ(scene.numerics.dt, 2e-5);
   EXPECT_TRUE(scene.numerics.allow_long_step);
-  EXPECT_EQ(scene.guard.warn_compression, 0.1);
-  EXPECT_EQ(scene.guard.stop_compression, 0.7);
+  EXPECT_EQ(scene.guard.warn_relative_overlap, 0.1);
+  EXPECT_EQ(scene.guard.stop_relative_overlap, 0.7);
   EXPECT_EQ(scene.guard.energy_tolerance, 0.3);
   EXPECT_EQ(scene.run.duration, 10);
   EXPECT_EQ(scene.run.measure_from, 2);

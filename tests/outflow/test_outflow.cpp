@@ -97,13 +97,13 @@ TEST(Window, EndsWithARunThatEndsEarly) {
   const Scene scene = made_up_scene(1);
   vibrosow::Run run = made_up_run(scene);
   run.status = RunStatus::stopped_by_guard;
-  run.stop_reason = "shell compression 0.6";
+  run.stop_reason = "relative overlap 0.6";
   run.end_time = 6;
   add_grain(run, 3, 1);
   const Outflow outflow = measure_outflow(scene, run);
   EXPECT_DOUBLE_EQ(outflow.window_to, 6);
   EXPECT_DOUBLE_EQ(outflow.holes[0].seeds_per_s, 0.25);
-  EXPECT_EQ(outflow.note(), "stopped: shell compression 0.6; a rate from 1 seed");
+  EXPECT_EQ(outflow.note(), "stopped: relative overlap 0.6; a rate from 1 seed");
 }
 
 TEST(Window, NeverReachedGivesNoRate) {

@@ -47,11 +47,11 @@ TEST(Wall, IsAGrainOfInfiniteRadiusAndMass) {
                       parameters, {}, none, {0, 0}, f, foreign, statistics);
       WallContacts contacts;
       WallContactFinder().find(grains, near, walls, contacts);
-      const double compression = kernels.vectors[0].wall(surfaces_of(grains), at, parameters, {}, none, contacts);
-      statistics.max_compression = std::max(statistics.max_compression, compression);
+      const double relative_overlap = kernels.vectors[0].wall(surfaces_of(grains), at, parameters, {}, none, contacts);
+      statistics.max_relative_overlap = std::max(statistics.max_relative_overlap, relative_overlap);
       add_wall_forces(contacts, kernels.effects.rotation, f, statistics);
       EXPECT_EQ(statistics.contacts, 1);
-      EXPECT_NEAR(statistics.max_compression, overlap / Bench::radius, 1e-7);
+      EXPECT_NEAR(statistics.max_relative_overlap, overlap / Bench::radius, 1e-7);
       return f;
     };
     const Forces wall = forces(true), pair = forces(false);
@@ -92,7 +92,7 @@ TEST(Wall, IsKnownToTheContactsThroughBox2DAlone) {
   for (const bool without : {false, true}) {
     Bench bench;
     bench.gravity = {0, -standard_gravity};
-    bench.scene.guard.stop_compression = 100;
+    bench.scene.guard.stop_relative_overlap = 100;
     bench.place(0.5, 2 * Bench::radius);
     Simulation& run = bench.start(1e-5);
     const std::vector<WallSegment> walls = vessel_walls(bench.scene.tray);

@@ -103,17 +103,17 @@ TEST(StepPlan, PublishedStepIsTooLongAndSaysWhyAndWhatIsSafe) {
 }
 
 TEST(StepPlan, ForetellsOverlapAtRestAndAtImpact) {
-  const PredictedCompression predicted = prepare(published()).compression;
+  const PredictedOverlap predicted = prepare(published()).overlap;
   EXPECT_EQ(predicted.layers, 39);
   EXPECT_NEAR(predicted.static_overlap, 0.78, 1e-9);
   EXPECT_NEAR(predicted.impact_speed, 2 * 0.565, 2e-3);
   // At V = 2 A omega, 5 % needs eps/r = 0.0025 g r / V^2 = 7.7e-5.
   Scene scene = published();
   scene.contact.shell_compression = 7.7e-5;
-  EXPECT_NEAR(prepare(scene).compression.impact_compression, 0.05, 0.0005);
-  EXPECT_NEAR(prepare(published()).compression.stiff_enough, 7.7e-5, 0.1e-5);
+  EXPECT_NEAR(prepare(scene).overlap.overlap_at_impact, 0.05, 0.0005);
+  EXPECT_NEAR(prepare(published()).overlap.stiff_enough, 7.7e-5, 0.1e-5);
   scene.tray.motion.reset();  // then the weight of 39 layers decides
-  EXPECT_NEAR(prepare(scene).compression.stiff_enough, 0.05 / 39, 1e-9);
+  EXPECT_NEAR(prepare(scene).overlap.stiff_enough, 0.05 / 39, 1e-9);
 }
 
 TEST(StepPlan, AClumpYieldsMoreOffItsCentre) {
@@ -173,26 +173,26 @@ TEST(TouchingKinds, OneSizeTheSmallestAndTheLargestAtEqualDensity) {
   EXPECT_DOUBLE_EQ(1 / kinds[1].inverse_inertia, 0.4 * kinds[1].mass * 1e-6);
 }
 
-TEST(PredictedCompression, OfASeedThatRainsOnTheFloorIsThatOfTheRun) {
+TEST(PredictedOverlap, OfASeedThatRainsOnTheFloorIsThatOfTheRun) {
   Scene scene = Bench().scene;  // nothing moves, no fill, no damping
   scene.tray.rain = Rain{.rate = 4, .from = 0.5, .to = 0.5, .height = 0.3, .start = 0, .stop = 0.3};
   scene.run.duration = 0.6;
-  const PredictedCompression predicted = prepare(scene).compression;
+  const PredictedOverlap predicted = prepare(scene).overlap;
   EXPECT_NEAR(predicted.impact_speed, std::sqrt(2 * standard_gravity * 0.3), 1e-9);
-  EXPECT_NEAR(simulate(scene).max_compression / predicted.impact_compression, 1, 0.02);
+  EXPECT_NEAR(simulate(scene).max_relative_overlap / predicted.overlap_at_impact, 1, 0.02);
 }
 
-TEST(PredictedCompression, CountsTheFallFromAHopperAndThroughAHole) {
+TEST(PredictedOverlap, CountsTheFallFromAHopperAndThroughAHole) {
   Scene scene = published();
   scene.hopper = scene.tray;
   scene.hopper->motion.reset();
   scene.hopper->origin = {0, 0.36};
   scene.hopper->holes = {{0.25, 0.04, 0}};
-  EXPECT_NEAR(prepare(scene).compression.impact_speed, std::sqrt(2 * standard_gravity * 0.36), 1e-9);
+  EXPECT_NEAR(prepare(scene).overlap.impact_speed, std::sqrt(2 * standard_gravity * 0.36), 1e-9);
   scene.hopper.reset();
   scene.tray.motion.reset();
   scene.tray.holes = {{0.25, 0.08, 0}};
-  EXPECT_NEAR(prepare(scene).compression.impact_speed, std::sqrt(2 * standard_gravity * 0.08), 1e-9);
+  EXPECT_NEAR(prepare(scene).overlap.impact_speed, std::sqrt(2 * standard_gravity * 0.08), 1e-9);
 }
 
 }  // namespace

@@ -96,7 +96,7 @@ TEST(Counter, ThrownBackUpIsNotCounted) {
 TEST(Counter, AGrainThroughAWallIsLostNotCounted) {
   Bench bench;
   bench.gravity = {0, 0};
-  bench.scene.guard.stop_compression = 100;  // otherwise the guard stops first, see stability
+  bench.scene.guard.stop_relative_overlap = 100;  // otherwise the guard stops first, see stability
   bench.scene.contact.shell_compression = 0.1;
   bench.place(0.5, 0.02, 0, -3);
   Simulation& run = bench.start(1e-5);

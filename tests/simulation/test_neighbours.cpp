@@ -118,7 +118,7 @@ TEST(Neighbours, MarginsChangeNoLossThroughAWall) {
   // Shells so soft that many grains are pressed through the floor.
   Scene scene = busy_scene();
   scene.contact.shell_compression = 0.3;
-  scene.guard.stop_compression = 100;
+  scene.guard.stop_relative_overlap = 100;
   scene.guard.energy_tolerance = 1e9;
   scene.tray.motion = HarmonicMotion{1.2, 8e-3, 25, 0};
   std::vector<std::int64_t> lost;

@@ -48,7 +48,7 @@ TEST(Stability, TallBedShakenVerticallyAtThreeG) {
   scene.run.duration = 1;
   const vibrosow::Run run = simulate(scene);
   expect_sound(run);
-  EXPECT_LT(run.max_compression, 0.2);
+  EXPECT_LT(run.max_relative_overlap, 0.2);
   EXPECT_LT(run.energy.made_by_numerics, 0.01 * run.energy.wall_work);
 }
 
@@ -79,7 +79,7 @@ TEST(Stability, HeavyGrainsOnLightOnesAtOneToThousand) {
   EXPECT_LT(half_way, before);
   EXPECT_LT(end, half_way);
   EXPECT_EQ(run.result().balance.inside, 16);
-  EXPECT_LT(run.result().max_compression, 0.2);
+  EXPECT_LT(run.result().max_relative_overlap, 0.2);
   // In play: the fall of the heavy row.
   EXPECT_LT(run.result().energy.made_by_numerics, 0.01 * (before - end));
 }
@@ -156,7 +156,7 @@ TEST(Stability, ElasticGasDriftsByNoMoreThanARandomWalkOfItsImpacts) {
 
 TEST(Stability, CoincidentCentresPartWithoutAnyNotANumber) {
   Bench bench;
-  bench.scene.guard.stop_compression = 100;
+  bench.scene.guard.stop_relative_overlap = 100;
   bench.scene.guard.energy_tolerance = 1e9;
   bench.scene.contact.seed = {0.3, 0.5};
   bench.place(0.5, 0.5).place(0.5, 0.5);
@@ -173,7 +173,7 @@ TEST(Stability, CoincidentCentresStopAnOrdinaryRun) {
   bench.place(0.5, 0.5).place(0.5, 0.5);
   Simulation& run = bench.start(bench.contact_time() / 50);
   EXPECT_FALSE(run.step());
-  EXPECT_NE(run.guard().stop_reason()->find("compression"), std::string::npos);
+  EXPECT_NE(run.guard().stop_reason()->find("relative overlap"), std::string::npos);
 }
 
 TEST(Stability, OverlappingStartIsRefused) {
@@ -222,13 +222,13 @@ TEST(Stability, StepTooLongForTheShellIsRefusedAndInsistedOnIsStopped) {
 }
 
 TEST(Stability, EnergyGuardStopsAStepThatMakesEnergy) {
-  // Midpoint RK2 at z = 1 multiplies a free vibration by 1.11 each step; shells far from the compression limit.
+  // Midpoint RK2 at z = 1 multiplies a free vibration by 1.11 each step; shells far from the guard's limit.
   Scene scene = tray_scene(30, 0.085);
   scene.contact.seed = scene.contact.wall = {0, 1};
   scene.numerics.integrator = Integrator::rk2_midpoint;
   scene.numerics.dt = 0.99 * prepare(scene).step.contact_duration / std::numbers::pi;
   scene.numerics.allow_long_step = true;
-  scene.guard.stop_compression = 100;
+  scene.guard.stop_relative_overlap = 100;
   scene.run.duration = 0.5;
   const vibrosow::Run run = simulate(scene);
   EXPECT_EQ(run.status, RunStatus::stopped_by_guard);

@@ -47,7 +47,7 @@ TEST(Restitution, AskedForIsMeasured) {
       for (const double speed : {0.005, 0.1, 2.0})
         for (const double asked : asked_for) {
           Bench bench = two_lots(law);
-          bench.scene.guard.stop_compression = 100;  // a shell at 2 m/s is pressed far beyond a thin shell's use
+          bench.scene.guard.stop_relative_overlap = 100;  // a shell at 2 m/s is pressed far beyond a thin shell's use
           bench.scene.contact.seed.restitution = bench.scene.contact.wall.restitution = asked;
           const double dt = contact_time(bench, other, speed) / 4000;
           double measured = 0;
