@@ -21,9 +21,9 @@
 namespace vibrosow {
 namespace {
 
-void print_effects(const Scene& scene, const CostBreakdown& cost) {
+void print_effects(const Model& model, const CostBreakdown& cost) {
   print("effects\n");
-  for (const EffectReason& effect : explain_effects(scene))
+  for (const EffectReason& effect : explain_effects(model.scene, model.effects, *model.law))
     print("  {:<3} {:<17} {}\n", effect.present ? "yes" : "no", effect.effect, effect.reason);
   print("cost on this machine, now, ns of CPU time per grain-step\n  {:<22} {:6.1f}\n", "all effects present",
         cost.whole.ns_per_grain_step);
@@ -79,7 +79,7 @@ int check_seeder(const std::filesystem::path& file, const CommonOptions& options
   print_vessel(scene.tray);
   if (scene.hopper) print_vessel(*scene.hopper);
   const CostBreakdown cost = break_down_cost(scene);
-  print_effects(scene, cost);
+  print_effects(model, cost);
   print_step(plan, cost.whole);
   print_overlap(scene, model.overlap);
   if (const auto refused = step_refused(scene.numerics, plan)) throw InputError(*refused);

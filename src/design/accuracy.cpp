@@ -7,7 +7,6 @@
 #include <ranges>
 #include <tuple>
 
-#include "plan/effects.hpp"
 #include "plan/model.hpp"
 #include "scene/input_error.hpp"
 #include "simulation/integrator.hpp"
@@ -145,7 +144,7 @@ AccuracyGrid default_accuracy_grid(const Scene& scene) {
       grid.shell_compressions.push_back(softer * shell_compression_of(scene));
   }
   grid.slip_speeds = {scene.contact.slip_speed};
-  const EffectSet effects = effects_of(scene);
+  const EffectSet effects = prepare(scene).effects;
   if (effects.friction && !effects.tangential_spring) grid.slip_speeds.push_back(5 * scene.contact.slip_speed);
   return grid;
 }

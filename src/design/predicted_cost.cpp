@@ -176,7 +176,7 @@ struct Variant {
 
 std::vector<Variant> variants_of(const TimedBed& bed, double span) {
   const Scene scene = continued(bed.scene, bed.simulation->time(), span);
-  const EffectSet effects = effects_of(scene);
+  const EffectSet effects = prepare(scene).effects;
   std::vector<std::string> names = effect_names(effects);
   names.insert(names.begin(), "");
   std::vector<Variant> variants;

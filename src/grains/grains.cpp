@@ -2,24 +2,28 @@
 
 namespace vibrosow {
 
-SeedMaterial seed_material(const Contact& contact, const SeedLot& lot) {
-  return {.radius = 0.5 * lot.diameter,
-          .weight = lot.mass * standard_gravity,
-          .shell_compression = lot.shell_compression.value_or(contact.shell_compression),
-          .youngs_modulus = lot.youngs_modulus.value_or(contact.youngs_modulus),
-          .poisson_ratio = lot.poisson_ratio.value_or(contact.poisson_ratio)};
+std::vector<SeedMaterial> seed_materials(const Contact& contact, const std::vector<SeedLot>& lots) {
+  std::vector<SeedMaterial> materials;
+  for (const SeedLot& lot : lots)
+    materials.push_back({.radius = 0.5 * lot.diameter,
+                         .weight = lot.mass * standard_gravity,
+                         .shell_compression = lot.shell_compression.value_or(contact.shell_compression),
+                         .youngs_modulus = lot.youngs_modulus.value_or(contact.youngs_modulus),
+                         .poisson_ratio = lot.poisson_ratio.value_or(contact.poisson_ratio)});
+  return materials;
 }
 
-std::vector<GrainKind> grain_kinds(const Scene& scene) {
+std::vector<GrainKind> grain_kinds(const std::vector<SeedLot>& lots, const std::vector<SeedMaterial>& materials,
+                                   const LawTraits& law) {
   std::vector<GrainKind> kinds;
-  for (const SeedLot& lot : scene.lots) {
+  for (std::size_t l = 0; l < lots.size(); ++l) {
+    const SeedLot& lot = lots[l];
     const double radius = 0.5 * lot.diameter;
     const double gyration2 = lot.shape == Shape::clump  ? lot.gyration2
                              : lot.shape == Shape::disc ? 0.5 * radius * radius
                                                         : 0.4 * radius * radius;
     const double inertia = lot.mass * gyration2;
-    const double compliance = traits_of(scene.contact.law).compliance(seed_material(scene.contact, lot));
-    kinds.push_back({radius, lot.mass, 1 / lot.mass, 1 / inertia, compliance});
+    kinds.push_back({radius, lot.mass, 1 / lot.mass, 1 / inertia, law.compliance(materials[l])});
   }
   return kinds;
 }

@@ -18,11 +18,12 @@ struct GrainKind {
   double compliance;       // m/N of one shell, eps / (m g); with Hertz' law 1/Pa, (1 - nu^2) / E
 };
 
-/// What a lot's seeds are made of: its own values, or the contact's.
-SeedMaterial seed_material(const Contact& contact, const SeedLot& lot);
+/// What each lot's seeds are made of: its own values, or the contact's.
+std::vector<SeedMaterial> seed_materials(const Contact& contact, const std::vector<SeedLot>& lots);
 
 /// A seed of each lot's diameter. Shell stiffness c = m g / eps with eps = shell_compression r (paper A).
-std::vector<GrainKind> grain_kinds(const Scene& scene);
+std::vector<GrainKind> grain_kinds(const std::vector<SeedLot>& lots, const std::vector<SeedMaterial>& materials,
+                                   const LawTraits& law);
 
 /// A seed of a lot whose size is `size` times the lot's diameter. Mass grows with the cube of size for a ball and with
 /// its square for a disc or clump, at equal density; under its own weight the shell yields by the same fraction of the

@@ -4,15 +4,14 @@
 #include <cmath>
 
 #include "elementary/functions.hpp"
-#include "scene/seed_lot.hpp"
 #include "vessel/vessel_motion.hpp"
 
 namespace vibrosow {
 namespace {
 
-double mean_diameter(const std::vector<SeedLot>& lots) {
+double mean_diameter(const std::vector<SeedLot>& lots, const std::vector<SeedSizes>& sizes) {
   double mean = 0;
-  for (const SeedLot& lot : lots) mean += lot.number_fraction * size_moment(lot, 1) * lot.diameter;
+  for (std::size_t l = 0; l < lots.size(); ++l) mean += lots[l].number_fraction * sizes[l].mean * lots[l].diameter;
   return mean;
 }
 
@@ -32,11 +31,12 @@ double deepest_fill(const std::vector<Vessel>& vessels, double diameter, double 
   return layers;
 }
 
-double load_of_smallest(const std::vector<SeedLot>& lots) {
+double load_of_smallest(const std::vector<SeedLot>& lots, const std::vector<SeedSizes>& sizes) {
   double largest = 1;
-  for (const SeedLot& lot : lots)
-    largest = std::max(largest,
-                       mean_mass(lot) / lot.mass / elementary::pow(least_size(lot), lot.shape == Shape::ball ? 2 : 1));
+  for (std::size_t l = 0; l < lots.size(); ++l) {
+    const double pressed = elementary::pow(sizes[l].least, lots[l].shape == Shape::ball ? 2 : 1);
+    largest = std::max(largest, sizes[l].mean_mass / lots[l].mass / pressed);
+  }
   return largest;
 }
 
@@ -64,16 +64,17 @@ double longest_fall(const std::vector<Vessel>& vessels, double count_below) {
 
 }  // namespace
 
-BedLoads bed_loads(const std::vector<SeedLot>& lots, const std::vector<Vessel>& vessels, const RunPlan& run) {
+BedLoads bed_loads(const std::vector<SeedLot>& lots, const std::vector<SeedSizes>& sizes,
+                   const std::vector<Vessel>& vessels, const RunPlan& run) {
   MotionBounds most;
   for (const Vessel& vessel : vessels) {
     const MotionBounds bounds = motion_bounds(vessel);
     most.speed = std::max(most.speed, bounds.speed);
     most.vertical_acceleration = std::max(most.vertical_acceleration, bounds.vertical_acceleration);
   }
-  return {.layers = deepest_fill(vessels, mean_diameter(lots), run.duration),
+  return {.layers = deepest_fill(vessels, mean_diameter(lots, sizes), run.duration),
           .weight_factor = 1 + most.vertical_acceleration / standard_gravity,
-          .load_of_smallest = load_of_smallest(lots),
+          .load_of_smallest = load_of_smallest(lots, sizes),
           .vessel_speed = most.speed,
           .fall_speed = std::sqrt(2 * standard_gravity * free_fall(vessels)),
           .grain_speed =

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "scene/scene.hpp"
+#include "scene/seed_lot.hpp"
 
 namespace vibrosow {
 
@@ -18,7 +19,8 @@ struct BedLoads {
   double grain_speed;   // m/s, that a grain can reach: twice the vessel's, or the fall from the highest edge
 };
 
-/// `vessels`: the scene's, the tray first.
-BedLoads bed_loads(const std::vector<SeedLot>& lots, const std::vector<Vessel>& vessels, const RunPlan& run);
+/// `sizes`: by lot; `vessels`: the scene's, the tray first.
+BedLoads bed_loads(const std::vector<SeedLot>& lots, const std::vector<SeedSizes>& sizes,
+                   const std::vector<Vessel>& vessels, const RunPlan& run);
 
 }  // namespace vibrosow

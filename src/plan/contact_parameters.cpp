@@ -1,8 +1,6 @@
 #include "plan/contact_parameters.hpp"
 
-#include "grains/grains.hpp"
 #include "laws/restitution.hpp"
-#include "scene/surfaces.hpp"
 
 namespace vibrosow {
 namespace {
@@ -26,26 +24,21 @@ std::optional<ElasticMaterial> wall_material(const Contact& contact) {
 
 }  // namespace
 
-ContactParameters contact_parameters(const Contact& contact, const std::vector<SeedLot>& lots) {
-  const LawTraits& law = traits_of(contact.law);
+ContactParameters contact_parameters(const Contact& contact, const Surfaces& surfaces,
+                                     const std::vector<SeedMaterial>& materials, const LawTraits& law) {
   const std::optional<ElasticMaterial> wall = wall_material(contact);
+  const std::size_t lots = materials.size();
   ContactParameters parameters;
-  parameters.lots = lots.size();
-  std::vector<SeedMaterial> seeds;
-  for (const SeedLot& lot : lots) seeds.push_back(seed_material(contact, lot));
-  const int count = static_cast<int>(lots.size());
-  const auto parameters_between = [&](int lot, int other, const RubbingMaterials& materials) {
-    return parameters_of(contact, surface_between(contact, lot, other),
-                         law.tangential_ratio(materials, contact.tangential_ratio));
+  parameters.lots = lots;
+  const auto between = [&](const Surface& surface, const RubbingMaterials& rubbing) {
+    return parameters_of(contact, surface, law.tangential_ratio(rubbing, contact.tangential_ratio));
   };
-  for (int a = 0; a < count; ++a) {
-    const SeedMaterial& seed = seeds[static_cast<std::size_t>(a)];
-    for (int b = 0; b < count; ++b) {
-      const SeedMaterial& other = seeds[static_cast<std::size_t>(b)];
-      parameters.pairs.push_back(
-          parameters_between(a, b, {seed, ElasticMaterial{other.youngs_modulus, other.poisson_ratio}}));
+  for (std::size_t a = 0; a < lots; ++a) {
+    for (std::size_t b = 0; b < lots; ++b) {
+      const ElasticMaterial other{materials[b].youngs_modulus, materials[b].poisson_ratio};
+      parameters.pairs.push_back(between(surfaces.pairs[a * lots + b], {materials[a], other}));
     }
-    parameters.walls.push_back(parameters_between(a, -1, {seed, wall}));
+    parameters.walls.push_back(between(surfaces.walls[a], {materials[a], wall}));
   }
   parameters.wall_compliance = law.wall_compliance(wall);
   parameters.arm_shortening = contact.friction_arm == FrictionArm::contact_point ? 1 : 0;

@@ -5,7 +5,6 @@
 #include <algorithm>
 
 #include "scene/motion.hpp"
-#include "scene/surfaces.hpp"
 
 namespace vibrosow {
 namespace {
@@ -23,12 +22,8 @@ bool grains_differ(const Scene& scene) {
 
 /// Whether any two surfaces that can meet have `property` beside its neutral value.
 template <class Property>
-bool any_surface(const Scene& scene, Property present) {
-  const int lots = static_cast<int>(scene.lots.size());
-  for (int lot = 0; lot < lots; ++lot)
-    for (int other = -1; other <= lot; ++other)
-      if (present(surface_between(scene.contact, lot, other))) return true;
-  return false;
+bool any_surface(const Surfaces& surfaces, Property present) {
+  return std::ranges::any_of(surfaces.pairs, present) || std::ranges::any_of(surfaces.walls, present);
 }
 
 bool moves(const Vessel& vessel) {
@@ -37,25 +32,25 @@ bool moves(const Vessel& vessel) {
 
 }  // namespace
 
-EffectSet effects_of(const Scene& scene) {
+EffectSet effects_of(const Scene& scene, const Surfaces& surfaces, const LawTraits& law) {
   const Contact& contact = scene.contact;
   EffectSet effects;
-  effects.friction = any_surface(scene, [](const Surface& s) { return s.friction != 0; });
+  effects.friction = any_surface(surfaces, [](const Surface& s) { return s.friction != 0; });
   effects.clumps =
       std::any_of(scene.lots.begin(), scene.lots.end(), [](const SeedLot& lot) { return !lot.discs.empty(); });
   effects.rotation = (effects.friction || effects.clumps) && contact.rotation;
-  effects.damping = contact.law == Law::hertz_viscous
+  effects.damping = law.damping == LawDamping::rate
                         ? contact.damping_rate != 0
-                        : any_surface(scene, [](const Surface& s) { return s.restitution != 1; });
+                        : any_surface(surfaces, [](const Surface& s) { return s.restitution != 1; });
   effects.polydisperse = effects.clumps || grains_differ(scene);
   effects.drag = contact.drag != 0;
   effects.motion = moves(scene.tray) || (scene.hopper && moves(*scene.hopper));
   effects.tangential_spring = effects.friction && contact.friction_model == FrictionModel::spring;
   const bool rolls = effects.friction && effects.rotation &&
-                     any_surface(scene, [](const Surface& s) { return s.rolling_friction != 0; });
+                     any_surface(surfaces, [](const Surface& s) { return s.rolling_friction != 0; });
   effects.rolling = rolls ? contact.rolling : Rolling::none;
   effects.periodic = scene.tray.sides == Sides::periodic;
-  effects.cohesion = any_surface(scene, [](const Surface& s) { return s.cohesion != 0; });
+  effects.cohesion = any_surface(surfaces, [](const Surface& s) { return s.cohesion != 0; });
   return effects;
 }
 
@@ -78,8 +73,7 @@ std::vector<std::string> effect_names(const EffectSet& effects) {
   return names;
 }
 
-std::vector<EffectReason> explain_effects(const Scene& scene) {
-  const EffectSet effects = effects_of(scene);
+std::vector<EffectReason> explain_effects(const Scene& scene, const EffectSet& effects, const LawTraits& law) {
   const Contact& contact = scene.contact;
   const auto pair = [&](const char* key, double Surface::*value) {
     return fmt::format("contact.{} = {:.6g} between seeds, {:.6g} on walls{}", key, contact.seed.*value,
@@ -88,7 +82,7 @@ std::vector<EffectReason> explain_effects(const Scene& scene) {
   const std::string rotation = effects.rotation   ? effects.friction ? "friction turns the grains" : "clumps turn"
                                : effects.friction ? "contact.rotation = false"
                                                   : "nothing turns a grain without friction";
-  const std::string damping = contact.law == Law::hertz_viscous
+  const std::string damping = law.damping == LawDamping::rate
                                   ? fmt::format("contact.damping_rate = {:.6g} 1/s", contact.damping_rate)
                                   : pair("restitution", &Surface::restitution);
   const auto moving = [&scene] {

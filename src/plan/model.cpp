@@ -13,16 +13,20 @@ Model prepare(const Scene& scene, const std::optional<EffectSet>& effects) {
   model.scene = scene;
   model.vessels = {scene.tray};
   if (scene.hopper) model.vessels.push_back(*scene.hopper);
-  model.law = &traits_of(scene.contact.law);
-  model.effects = effects ? *effects : effects_of(scene);
-  model.kernels = &kernels_for(scene.contact.law, model.effects);
-  model.contacts = contact_parameters(scene.contact, scene.lots);
+  const LawTraits& law = traits_of(scene.contact.law);
+  const Surfaces surfaces = meeting_surfaces(scene.contact, scene.lots.size());
+  const std::vector<SeedSizes> sizes = sizes_of(scene.lots);
   model.smallest_radius = smallest_radius(scene.lots);
   model.largest_diameter = largest_diameter(scene.lots);
-  model.loads = bed_loads(scene.lots, model.vessels, scene.run);
-  model.kinds = grain_kinds(scene);
-  const std::vector<GrainKind> touching = touching_kinds(scene.lots, model.kinds, *model.law);
-  const StepBasis basis{model.scene, model.effects, model.contacts,       *model.law,
+  const std::vector<SeedMaterial> materials = seed_materials(scene.contact, scene.lots);
+  model.law = &law;
+  model.kinds = grain_kinds(scene.lots, materials, law);
+  const std::vector<GrainKind> touching = touching_kinds(scene.lots, sizes, model.kinds, law);
+  model.effects = effects ? *effects : effects_of(scene, surfaces, law);
+  model.kernels = &kernels_for(scene.contact.law, model.effects);
+  model.contacts = contact_parameters(scene.contact, surfaces, materials, law);
+  model.loads = bed_loads(scene.lots, sizes, model.vessels, scene.run);
+  const StepBasis basis{model.scene, model.effects, model.contacts,       law,
                         touching,    model.loads,   model.smallest_radius};
   model.step = plan_step(basis);
   model.overlap = predict_overlap(basis);

@@ -64,6 +64,7 @@ double most_size(const SeedLot& lot) {
 double size_moment(const SeedLot& lot, int power) {
   const SizeDistribution& sizes = lot.sizes;
   if (sizes.kind == Kind::single) return 1;
+  const double least = least_size(lot), most = most_size(lot);
   if (sizes.kind == Kind::table) {
     double moment = 0;
     for (std::size_t k = 0; k < sizes.diameter.size(); ++k)
@@ -73,7 +74,7 @@ double size_moment(const SeedLot& lot, int power) {
   if (sizes.kind == Kind::uniform) {
     double moment = 0;  // (b^(n+1) - a^(n+1)) / ((n + 1) (b - a)), divided out
     for (int k = 0; k <= power; ++k)
-      moment += elementary::pow(least_size(lot), k) * elementary::pow(most_size(lot), power - k);
+      moment += elementary::pow(least, k) * elementary::pow(most, power - k);
     return moment / (power + 1);
   }
   return cut_moment(sizes, lot.diameter, power);
@@ -81,6 +82,12 @@ double size_moment(const SeedLot& lot, int power) {
 
 double mean_mass(const SeedLot& lot) {
   return lot.mass * size_moment(lot, lot.shape == Shape::ball ? 3 : 2);
+}
+
+std::vector<SeedSizes> sizes_of(const std::vector<SeedLot>& lots) {
+  std::vector<SeedSizes> sizes;
+  for (const SeedLot& lot : lots) sizes.push_back({least_size(lot), most_size(lot), size_moment(lot, 1), mean_mass(lot)});
+  return sizes;
 }
 
 std::optional<double> seed_density(const SeedLot& lot) {

@@ -23,6 +23,13 @@ double size_moment(const SeedLot& lot, int power);
 /// Mean mass of a lot's seeds, kg: m E[size^3] for balls, m E[size^2] for discs and clumps.
 double mean_mass(const SeedLot& lot);
 
+/// The above, of a lot.
+struct SeedSizes {
+  double least, most, mean;  // in multiples of the lot's diameter
+  double mean_mass;          // kg
+};
+std::vector<SeedSizes> sizes_of(const std::vector<SeedLot>& lots);
+
 /// Density of a seed, kg/m3: of a clump as if its discs were balls (volume_of_balls); none of a disc, which has no
 /// thickness.
 std::optional<double> seed_density(const SeedLot& lot);

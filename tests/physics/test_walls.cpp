@@ -4,8 +4,7 @@
 #include <cmath>
 #include <random>
 
-#include "plan/contact_parameters.hpp"
-#include "plan/effects.hpp"
+#include "plan/model.hpp"
 #include "support/bench.hpp"
 #include "vessel/vessel_walls.hpp"
 
@@ -19,13 +18,13 @@ TEST(Wall, IsAGrainOfInfiniteRadiusAndMass) {
     bench.scene.contact.law = law;
     bench.scene.contact.youngs_modulus = 1e9;
     bench.scene.contact.seed = bench.scene.contact.wall = {0.3, 0.5};
-    EffectSet effects = effects_of(bench.scene);
+    EffectSet effects = prepare(bench.scene).effects;
     effects.polydisperse = true;
     const double overlap = 1e-5, giant = 1e3;
     Scene scene = bench.scene;  // the giant is a lot with a rigid shell
     scene.lots.push_back({"giant", 2 * giant, 1e300, Shape::disc, 0});
     const auto forces = [&](bool as_wall) {
-      std::vector<GrainKind> kinds = grain_kinds(bench.scene);
+      std::vector<GrainKind> kinds = prepare(bench.scene).kinds;
       kinds.push_back({giant, 1e300, 0, 0, 0});
       Grains grains(kinds, true, true);
       grains.add(0.5, Bench::radius - overlap, 0.07, -0.02, 0);
@@ -40,7 +39,7 @@ TEST(Wall, IsAGrainOfInfiniteRadiusAndMass) {
       const Motion at{grains.x.data(),  grains.y.data(),     grains.vx.data(),
                       grains.vy.data(), grains.omega.data(), grains.x.data()};
       const KernelSet& kernels = kernels_for(law, effects);
-      const ContactParameters parameters = contact_parameters(scene.contact, scene.lots);
+      const ContactParameters parameters = prepare(scene).contacts;
       ContactHistories none;
       std::vector<ForeignForce> foreign;
       add_pair_forces(kernels.vectors[0].pair, surfaces_of(grains), at, pairs, {0, static_cast<int>(pairs.size())},

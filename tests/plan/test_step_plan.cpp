@@ -3,7 +3,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "plan/step_plan.hpp"
+#include "plan/model.hpp"
 #include "plan/touching_kinds.hpp"
 #include "scene/input_error.hpp"
 #include "simulation/simulate.hpp"
@@ -105,7 +105,7 @@ TEST(StepPlan, PublishedStepIsTooLongAndSaysWhyAndWhatIsSafe) {
 TEST(StepPlan, ForetellsOverlapAtRestAndAtImpact) {
   const PredictedOverlap predicted = prepare(published()).overlap;
   EXPECT_EQ(predicted.layers, 39);
-  EXPECT_NEAR(predicted.static_overlap, 0.78, 1e-9);
+  EXPECT_NEAR(predicted.pair_overlap_at_rest, 0.78, 1e-9);
   EXPECT_NEAR(predicted.impact_speed, 2 * 0.565, 2e-3);
   // At V = 2 A omega, 5 % needs eps/r = 0.0025 g r / V^2 = 7.7e-5.
   Scene scene = published();
@@ -163,7 +163,9 @@ TEST(TouchingKinds, OneSizeTheSmallestAndTheLargestAtEqualDensity) {
   Scene scene = Bench().scene;
   scene.lots = {{"scattered", 4e-3, 4e-5, Shape::ball, 0.5}, {"single", 4e-3, 4e-5, Shape::disc, 0.5}};
   scene.lots[0].sizes = {SizeDistribution::Kind::uniform, 4e-3, 0, 2e-3, 6e-3, {}, {}};
-  const std::vector<GrainKind> kinds = touching_kinds(scene.lots, grain_kinds(scene), traits_of(scene.contact.law));
+  scene.contact.seed.friction = 0.3;  // turns them
+  const Model model = prepare(scene);
+  const std::vector<GrainKind> kinds = touching_kinds(scene.lots, sizes_of(scene.lots), model.kinds, *model.law);
   ASSERT_EQ(kinds.size(), 4u);
   EXPECT_EQ(kinds[0].radius, 2e-3);
   EXPECT_DOUBLE_EQ(kinds[1].radius, 1e-3);

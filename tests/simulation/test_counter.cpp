@@ -114,7 +114,7 @@ TEST(Counter, AClumpIsCountedWhereTheEdgeSlipsIntoItsWaist) {
   scene.tray.holes = {{0.2, 0.05}, {0.5, 0.1}};
   // Upright, the rod 1 mm beside the second opening, 45 to 55 cm: between its discs it is through the floor already.
   for (const double x : {0.449, 0.43}) {
-    Grains grains(grain_kinds(scene), true, true, true);
+    Grains grains(prepare(scene).kinds, true, true, true);
     grains.add(x, 1e-6, 0, -1, 0, grains.kinds[0], std::numbers::pi / 2);
     Walls walls({scene.tray});
     walls.place(0);

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "plan/effects.hpp"
+#include "plan/model.hpp"
 #include "support/bench.hpp"
 
 namespace vibrosow {
@@ -42,13 +43,13 @@ void expect_same_trajectories(const Chosen& chosen, Integrator integrator) {
   const auto end = [&](bool all) {
     Bench bench = crowded_bench(chosen);
     bench.scene.numerics.integrator = integrator;
-    EffectSet effects = effects_of(bench.scene);
+    EffectSet effects = prepare(bench.scene).effects;
     if (all) {
       if (!effects.friction) effects.tangential_spring = chosen.model == FrictionModel::spring;
       effects = all_pair_effects(effects);
       effects.drag = effects.motion = true;
     }
-    // Rotation left out of a scene with friction is neutral at 1/J = 0, which grain_kinds gives.
+    // Rotation left out of a scene with friction is neutral at 1/J = 0.
     Simulation& run = bench.start(2e-5, effects);
     run.steps(3000);
     EXPECT_GT(run.statistics().contacts, 5000);
@@ -93,19 +94,19 @@ TEST(Effects, EveryLawAndKindOfFrictionAndRollingAgreesWithItsAllEffectsKernelTo
 
 TEST(Effects, AreDerivedFromTheScene) {
   Bench bench;
-  EXPECT_EQ(effect_names(effects_of(bench.scene)), std::vector<std::string>{});
+  EXPECT_EQ(effect_names(prepare(bench.scene).effects), std::vector<std::string>{});
   bench.scene.contact.wall.friction = 0.1;
   bench.scene.contact.drag = 1e-3;
   bench.scene.tray.motion = HarmonicMotion{0, 0.01, 9, 0};
-  EXPECT_EQ(effect_names(effects_of(bench.scene)),
+  EXPECT_EQ(effect_names(prepare(bench.scene).effects),
             (std::vector<std::string>{"friction", "rotation", "drag", "motion"}));
   bench.scene.contact.rotation = false;
   bench.scene.contact.seed.restitution = 0.9;
   bench.scene.lots.push_back({"b", 0.01, 1e-3, Shape::disc, 0.5});
-  EXPECT_EQ(effect_names(effects_of(bench.scene)),
+  EXPECT_EQ(effect_names(prepare(bench.scene).effects),
             (std::vector<std::string>{"friction", "damping", "polydisperse", "drag", "motion"}));
   std::get<HarmonicMotion>(*bench.scene.tray.motion).amplitude = 0;  // a key at its neutral value
-  EXPECT_FALSE(effects_of(bench.scene).motion);
+  EXPECT_FALSE(prepare(bench.scene).effects.motion);
 }
 
 TEST(Effects, AbsentOnesHaveNoArrays) {
