@@ -55,15 +55,14 @@ Scene tray_with(const EffectSet& effects) {
 
 /// Settled for 0.1 s and then timed for 1000 steps; ns per grain-step.
 double cost(const Case& of) {
-  const Scene scene = tray_with(of.effects);
+  Scene scene = tray_with(of.effects);
+  scene.numerics.dt = 1e-5;
   EffectSet run_with = of.effects;
   if (of.kernel_of_all) {
     run_with = all_pair_effects(of.effects);
     run_with.drag = true;
   }
-  Model model = prepare(scene, run_with);
-  model.step.dt = 1e-5;
-  Simulation simulation(model, 1);
+  Simulation simulation(prepare(scene, run_with), 1);
   simulation.steps(10000);
   const auto from = std::chrono::steady_clock::now();
   simulation.steps(1000);

@@ -18,8 +18,10 @@ struct PairConstants {
   double dashpot;                                 // of the law
   double overlap_fraction_i, overlap_fraction_j;  // of the overlap
   double relative_per_overlap;
-  double rolling_radius;   // m, 1 / (1/r_i + 1/r_j)
-  double rolling_inertia;  // kg m2, of turning about the contact
+  double steepest_sliding;  // N s/m, of sliding friction
+  double rolling_radius;    // m, 1 / (1/r_i + 1/r_j)
+  double steepest_rolling;  // N s, of a constant rolling torque by the rolling speed
+  double rolling_inertia;   // kg m2, of turning about the contact
 };
 
 /// How two surfaces stand and move.
@@ -51,9 +53,10 @@ class MovingHistory {
 };
 
 struct ContactForce {
-  double normal;      // N, repulsion; below zero only by cohesion
-  double tangential;  // N, on i along -t; positive opposes a positive sliding speed
-  double rolling;     // N m, on i; the opposite acts on j
+  double normal;       // N, repulsion; below zero only by cohesion
+  double tangential;   // N, on i along -t; positive opposes a positive sliding speed
+  double rolling;      // N m, on i; the opposite acts on j
+  double slip_raised;  // 1 where a slip speed was raised, else 0
 };
 
 /// Force of one contact. Elastic and damping force together never pull; cohesion pulls beside them and does not add to
@@ -68,7 +71,7 @@ inline ContactForce contact_force(const Touch& touch, const PairConstants& pair,
     dashpot = Law::dashpot_at(pair.dashpot, touch.overlap);
     repulsion = std::max(0.0, repulsion + dashpot * touch.approach);
   }
-  ContactForce force{repulsion, 0, 0};
+  ContactForce force{repulsion, 0, 0, 0};
   if constexpr (Effects::cohesion) force.normal -= surface.cohesion;
   if constexpr (Effects::spring) {
     MovingHistory slip(history.slip, history.slip_speed, touch.sliding, advance);
@@ -76,11 +79,15 @@ inline ContactForce contact_force(const Touch& touch, const PairConstants& pair,
                                        surface.friction * repulsion, touch.sliding, slip.displacement);
     history.slip = slip.to_store(advance), history.slip_speed = touch.sliding;
   } else if constexpr (Effects::friction) {
-    force.tangential = sliding_friction(surface.friction * repulsion, touch.sliding, surface.inverse_slip_speed);
+    const auto sliding = sliding_friction(surface.friction * repulsion, touch.sliding, surface.inverse_slip_speed,
+                                          pair.steepest_sliding);
+    force.tangential = sliding.force, force.slip_raised = sliding.raised;
   }
   if constexpr (Effects::rolling == Rolling::constant_torque) {
     const double arm = surface.rolling_friction * pair.rolling_radius;
-    force.rolling = -sliding_friction(arm * repulsion, pair.rolling_radius * touch.turning, surface.inverse_slip_speed);
+    const auto rolling = sliding_friction(arm * repulsion, pair.rolling_radius * touch.turning,
+                                          surface.inverse_slip_speed, pair.steepest_rolling);
+    force.rolling = -rolling.force, force.slip_raised = std::max(force.slip_raised, rolling.raised);
   } else if constexpr (Effects::rolling == Rolling::spring) {
     const double arm = surface.rolling_friction * pair.rolling_radius;
     const double stiffness = 2.25 * secant * arm * arm;

@@ -1,17 +1,28 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 
 #include "compute/instruction_set.hpp"
 
 namespace vibrosow::inline VIBROSOW_ISA {
 
-/// Sliding friction `limit` sign(W) (paper A), made continuous: linear in the sliding speed below the slip speed. Also
-/// the rolling torque of model A (Ai et al. 2011), of a limit in N m and a rolling speed.
 template <class Real>
-inline Real sliding_friction(Real limit, Real speed, Real inverse_slip_speed) {
-  using std::max, std::min;
-  return limit * min(Real(1), max(Real(-1), speed * inverse_slip_speed));
+struct SlidingFriction {
+  Real force;
+  Real raised;  // 1 where the slip speed was raised and the force is smaller for it, else 0
+};
+
+/// Sliding friction `limit` sign(W) (paper A), made continuous: linear in the sliding speed below the slip speed. That
+/// is raised to limit / steepest in a hard impact, so that no step turns the sliding round and back again. Also the
+/// rolling torque of model A (Ai et al. 2011), of a limit in N m and a rolling speed.
+template <class Real>
+inline SlidingFriction<Real> sliding_friction(Real limit, Real speed, Real inverse_slip_speed, Real steepest) {
+  using std::abs, std::max, std::min;
+  const Real usual = limit * min(Real(1), max(Real(-1), speed * inverse_slip_speed));
+  const Real most = steepest * speed;
+  const bool raised = abs(most) < abs(usual);
+  return {raised ? most : usual, raised ? Real(1) : Real(0)};
 }
 
 /// A spring and dashpot that hold up to `limit` (Cundall & Strack 1979): the force on a total displacement, which is

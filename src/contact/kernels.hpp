@@ -14,6 +14,7 @@ namespace vibrosow {
 /// What an evaluation of the forces tells besides the forces.
 struct ContactStatistics {
   std::int64_t contacts = 0;        // evaluations of the law
+  std::int64_t slip_raised = 0;     // of these with a slip speed raised
   double max_relative_overlap = 0;  // overlap c_i / (c_i + c_j) / r_i, compliances c
   double wall_power = 0;            // W, work of moving walls on grains
   std::vector<int> crossed;         // grains whose centre went through a wall

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstddef>
+#include <limits>
 #include <vector>
 
 #include "compute/grain_force.hpp"
@@ -22,6 +23,10 @@ struct ContactParameters {
   std::vector<SurfaceParameters> walls;  // by lot
   double wall_compliance = 0;            // as a grain's; 0: rigid
   double arm_shortening = 1;  // 1: friction acts at the contact point; 0: on the undeformed rim, as in paper A
+  /// No slope of sliding friction by the sliding speed, nor of a constant rolling torque by the speed of turning, is
+  /// larger than this times the mass, or the moment of inertia, of the two that meet, 1/s.
+  double steepest_sliding = std::numeric_limits<double>::infinity();
+  double steepest_rolling = std::numeric_limits<double>::infinity();
 
   const SurfaceParameters& pair(int lot_i, int lot_j) const {
     return pairs[static_cast<std::size_t>(lot_i) * lots + static_cast<std::size_t>(lot_j)];
@@ -52,6 +57,12 @@ struct PairRange {
 };
 inline constexpr int pair_block_size = 256;
 
+/// Of the contacts that were worked out.
+struct LawFigures {
+  double max_relative_overlap = 0;
+  double slip_raised = 0;  // how many had a slip speed raised
+};
+
 /// Where the forces of a block of pairs go: to their grains, but for grains before `first_own`, whose forces are listed
 /// in the order of the pairs.
 struct PairResult {
@@ -59,7 +70,7 @@ struct PairResult {
   int first_own;
 
   int contacts;
-  double max_relative_overlap;
+  LawFigures figures;
   int foreign_count;
   ForeignForce foreign[pair_block_size];
 };
@@ -79,10 +90,9 @@ struct WallContacts {
   std::vector<double> fx, fy, torque;               // N, on the wall; N m, on the grain, without rotation unset
 };
 
-/// Works out the forces of all contacts and returns the largest relative overlap. `histories` has an entry for each
-/// candidate.
-using WallKernel = double (*)(const GrainSurfaces&, const Motion&, const ContactParameters&, const HistoryAdvance&,
-                              ContactHistories& histories, WallContacts&);
+/// Works out the forces of all contacts. `histories` has an entry for each candidate.
+using WallKernel = LawFigures (*)(const GrainSurfaces&, const Motion&, const ContactParameters&, const HistoryAdvance&,
+                                  ContactHistories& histories, WallContacts&);
 
 /// What is compiled for each instruction set.
 struct VectorKernels {

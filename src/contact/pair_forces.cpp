@@ -1,9 +1,15 @@
 #include "contact/pair_forces.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstring>
 
 namespace vibrosow {
+
+void add_figures(const LawFigures& figures, ContactStatistics& statistics) {
+  statistics.slip_raised += std::llround(figures.slip_raised);
+  statistics.max_relative_overlap = std::max(statistics.max_relative_overlap, figures.max_relative_overlap);
+}
 
 void add_pair_forces(PairKernel kernel, const GrainSurfaces& grains, const Motion& at, const PairList& list,
                      PairRange range, const ContactParameters& parameters, const HistoryAdvance& advance,
@@ -22,7 +28,7 @@ void add_pair_forces(PairKernel kernel, const GrainSurfaces& grains, const Motio
     kernel(grains, at, list, {from, to}, parameters, advance, histories, result);
     foreign.insert(foreign.end(), result.foreign, result.foreign + result.foreign_count);
     statistics.contacts += result.contacts;
-    statistics.max_relative_overlap = std::max(statistics.max_relative_overlap, result.max_relative_overlap);
+    add_figures(result.figures, statistics);
   }
   begin_up_to(fresh.to);
 }

@@ -11,6 +11,11 @@ namespace vibrosow::inline VIBROSOW_ISA {
 template <class Effects>
 inline constexpr bool keeps_history = Effects::spring || Effects::rolling == Rolling::spring;
 
+/// Whether a slip speed makes something continuous.
+template <class Effects>
+inline constexpr bool regularised = (Effects::friction && !Effects::spring) || Effects::rolling
+                                                                                   == Rolling::constant_torque;
+
 /// Four numbers that are added at once, whatever else their place in block_histories is called.
 using Four [[gnu::vector_size(32), gnu::may_alias]] = double;
 
@@ -106,18 +111,18 @@ void store_block(const BlockHistories& block_histories, const int* entry, int fi
     keep(block_histories.roll, histories.roll), keep(block_histories.roll_speed, histories.roll_speed);
 }
 
-/// Returns the largest relative overlap.
 template <class Law, class Effects>
-[[gnu::flatten]] double forces_of_touching(const PairProperties<Law, Effects>& properties, const Motion& at,
-                                           int first_entry, const ContactParameters& parameters,
-                                           const HistoryAdvance& advance_, const ContactHistories& histories,
-                                           PairBlock& block, BlockHistories& block_histories) {
+[[gnu::flatten]] LawFigures forces_of_touching(const PairProperties<Law, Effects>& properties, const Motion& at,
+                                               int first_entry, const ContactParameters& parameters,
+                                               const HistoryAdvance& advance_, const ContactHistories& histories,
+                                               PairBlock& block, BlockHistories& block_histories) {
   const double shortening = parameters.arm_shortening;
   const HistoryAdvance advance = advance_;
   const double *vx = at.vx, *vy = at.vy, *omega = at.omega;
   const int whole = block.whole_vectors();
-  double max_relative_overlap = 0;
-#pragma omp simd reduction(max : max_relative_overlap)
+  const int touching = block.touching;
+  double max_relative_overlap = 0, slip_raised = 0;
+#pragma omp simd reduction(max : max_relative_overlap) reduction(+ : slip_raised)
   for (int k = 0; k < whole; ++k) {
     const std::size_t e = static_cast<std::size_t>(first_entry + block.entry[k]);
     const std::size_t i = static_cast<std::size_t>(block.grain[k]), j = static_cast<std::size_t>(block.partner[k]);
@@ -158,9 +163,10 @@ template <class Law, class Effects>
       torque = force.rolling - arm_i * force.tangential;
       partner_torque = -force.rolling - arm_j * force.tangential;
     }
+    if constexpr (regularised<Effects>) slip_raised += k < touching ? force.slip_raised : 0;
     block.fx[k] = fx, block.fy[k] = fy, block.torque[k] = -torque, block.partner_torque[k] = partner_torque;
   }
-  return max_relative_overlap;
+  return {max_relative_overlap, slip_raised};
 }
 
 /// Adds the forces of a block to its grains, four contacts at a time. The spare number of a sum takes up whichever
@@ -200,8 +206,8 @@ template <class Law, class Effects>
   PairBlock block;
   find_touching<Law, Effects>(properties, at, list, range, leaves_trace, histories, block);
   BlockHistories block_histories;
-  result.max_relative_overlap = forces_of_touching<Law, Effects>(properties, at, range.from, parameters, advance,
-                                                                 histories, block, block_histories);
+  result.figures = forces_of_touching<Law, Effects>(properties, at, range.from, parameters, advance, histories, block,
+                                                    block_histories);
   if (keeps_history<Effects> && leaves_trace)
     store_block<Effects>(block_histories, block.entry, range.from, block.touching, histories);
   add_block(block, result);

@@ -9,7 +9,8 @@ namespace vibrosow::inline VIBROSOW_ISA {
 
 /// Of two grains, or of a grain and a wall (radius 0 stands for its place, compliance its own, the rest 0).
 template <class Law, class Effects>
-inline PairConstants pair_constants(const GrainSurface& a, const GrainSurface& b, const SurfaceParameters& surface) {
+inline PairConstants pair_constants(const GrainSurface& a, const GrainSurface& b, const SurfaceParameters& surface,
+                                    const ContactParameters& parameters) {
   PairConstants p;
   p.reach = a.radius + b.radius;
   p.stiffness = Law::stiffness(a.compliance, b.compliance, a.curvature, b.curvature);
@@ -19,7 +20,11 @@ inline PairConstants pair_constants(const GrainSurface& a, const GrainSurface& b
   p.overlap_fraction_j = b.compliance / compliance;
   const double at_i = p.overlap_fraction_i * a.curvature, at_j = p.overlap_fraction_j * b.curvature;
   p.relative_per_overlap = at_i > at_j ? at_i : at_j;
+  if constexpr (Effects::friction && !Effects::spring)
+    p.steepest_sliding = parameters.steepest_sliding / (a.inverse_mass + b.inverse_mass);
   if constexpr (Effects::rolls) p.rolling_radius = 1 / (a.curvature + b.curvature);
+  if constexpr (Effects::rolling == Rolling::constant_torque)
+    p.steepest_rolling = parameters.steepest_rolling / (p.rolling_radius * (a.inverse_inertia + b.inverse_inertia));
   if constexpr (Effects::rolling == Rolling::spring) {
     // 1 / (I + m r^2) of each, about the contact; a wall has none, a grain kept from turning neither
     const auto yield = [](const GrainSurface& g) {
@@ -41,7 +46,7 @@ class PairProperties {
   PairProperties(const GrainSurfaces& grains, const ContactParameters& parameters)
       : grains_(grains), parameters_(parameters) {
     if constexpr (!Effects::polydisperse)
-      equal_ = pair_constants<Law, Effects>(surface(0), surface(0), parameters.pair(0, 0));
+      equal_ = pair_constants<Law, Effects>(surface(0), surface(0), parameters.pair(0, 0), parameters);
   }
 
   double reach(std::size_t i, std::size_t j) const {
@@ -59,7 +64,7 @@ class PairProperties {
   /// A value for polydisperse grains, a reference for equal ones.
   decltype(auto) pair(std::size_t i, std::size_t j) const {
     if constexpr (Effects::polydisperse)
-      return pair_constants<Law, Effects>(surface(i), surface(j), between(i, j));
+      return pair_constants<Law, Effects>(surface(i), surface(j), between(i, j), parameters_);
     else
       return (equal_);
   }

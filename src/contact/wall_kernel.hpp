@@ -7,12 +7,12 @@
 
 namespace vibrosow::inline VIBROSOW_ISA {
 
-/// Forces of the contacts [from, from + count), at most pair_block_size of them; returns the largest relative overlap.
+/// Forces of the contacts [from, from + count), at most pair_block_size of them.
 template <class Law, class Effects>
-[[gnu::flatten]] double forces_of_walls(const WallProperties<Law, Effects>& properties, const Motion& at,
-                                        const ContactParameters& parameters, const HistoryAdvance& advance_,
-                                        const ContactHistories& histories, int from, int count, WallContacts& contacts,
-                                        BlockHistories& block_histories) {
+[[gnu::flatten]] LawFigures forces_of_walls(const WallProperties<Law, Effects>& properties, const Motion& at,
+                                            const ContactParameters& parameters, const HistoryAdvance& advance_,
+                                            const ContactHistories& histories, int from, int count,
+                                            WallContacts& contacts, BlockHistories& block_histories) {
   const double shortening = parameters.arm_shortening;
   const HistoryAdvance advance = advance_;
   const double *vx = at.vx, *vy = at.vy, *omega = at.omega;
@@ -24,8 +24,8 @@ template <class Law, class Effects>
   const double* wall_spin = contacts.wall_spin.data() + from;
   double *out_x = contacts.fx.data() + from, *out_y = contacts.fy.data() + from;
   double* torque = contacts.torque.data() + from;
-  double max_relative_overlap = 0;
-#pragma omp simd reduction(max : max_relative_overlap)
+  double max_relative_overlap = 0, slip_raised = 0;
+#pragma omp simd reduction(max : max_relative_overlap) reduction(+ : slip_raised)
   for (int k = 0; k < count; ++k) {
     const std::size_t i = static_cast<std::size_t>(grain[k]), c = static_cast<std::size_t>(candidate[k]);
     const PairConstants& pair = properties.pair(i);
@@ -52,30 +52,32 @@ template <class Law, class Effects>
       block_histories.slip[k] = history.slip, block_histories.slip_speed[k] = history.slip_speed;
     if constexpr (Effects::rolling == Rolling::spring)
       block_histories.roll[k] = history.roll, block_histories.roll_speed[k] = history.roll_speed;
+    if constexpr (regularised<Effects>) slip_raised += force.slip_raised;
     double fx = force.normal * nx, fy = force.normal * ny;
     if constexpr (Effects::friction) fx -= force.tangential * ny, fy += force.tangential * nx;
     out_x[k] = fx, out_y[k] = fy;
     if constexpr (Effects::rotation) torque[k] = force.rolling - arm * force.tangential;
   }
-  return max_relative_overlap;
+  return {max_relative_overlap, slip_raised};
 }
 
 template <class Law, class Effects>
-[[gnu::flatten]] double wall_forces(const GrainSurfaces& grains, const Motion& at, const ContactParameters& parameters,
-                                    const HistoryAdvance& advance, ContactHistories& histories,
-                                    WallContacts& contacts) {
+[[gnu::flatten]] LawFigures wall_forces(const GrainSurfaces& grains, const Motion& at,
+                                        const ContactParameters& parameters, const HistoryAdvance& advance,
+                                        ContactHistories& histories, WallContacts& contacts) {
   const WallProperties<Law, Effects> properties(grains, parameters);
   BlockHistories block_histories;
-  double max_relative_overlap = 0;
+  LawFigures figures;
   for (int from = 0; from < contacts.count; from += pair_block_size) {
     const int count = contacts.count - from < pair_block_size ? contacts.count - from : pair_block_size;
-    const double here = forces_of_walls<Law, Effects>(properties, at, parameters, advance, histories, from, count,
-                                                      contacts, block_histories);
-    max_relative_overlap = here > max_relative_overlap ? here : max_relative_overlap;
+    const LawFigures here = forces_of_walls<Law, Effects>(properties, at, parameters, advance, histories, from, count,
+                                                          contacts, block_histories);
+    figures.max_relative_overlap = std::max(figures.max_relative_overlap, here.max_relative_overlap);
+    figures.slip_raised += here.slip_raised;
     if (keeps_history<Effects> && advance.commit > 0)
       store_block<Effects>(block_histories, contacts.candidate.data() + from, 0, count, histories);
   }
-  return max_relative_overlap;
+  return figures;
 }
 
 }  // namespace vibrosow::inline VIBROSOW_ISA

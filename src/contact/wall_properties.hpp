@@ -33,7 +33,7 @@ class WallProperties {
 
  private:
   PairConstants constants(const GrainSurface& grain, const SurfaceParameters& surface) const {
-    return pair_constants<Law, Effects>(grain, {0, parameters_.wall_compliance, 0, 0, 0}, surface);
+    return pair_constants<Law, Effects>(grain, {0, parameters_.wall_compliance, 0, 0, 0}, surface, parameters_);
   }
 
   const GrainSurfaces grains_;

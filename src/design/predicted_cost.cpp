@@ -128,9 +128,9 @@ Scene without(Scene scene, const std::string& effect) {
 }
 
 /// A scene to be timed with a step of `dt` (s), whatever is safe.
-Model model_of(const Scene& scene, double dt) {
+Model model_of(Scene scene, double dt) {
+  scene.numerics.dt = dt;
   Model model = prepare(scene);
-  model.step.dt = dt;
   model.step.too_long = true;
   return model;
 }

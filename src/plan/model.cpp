@@ -15,23 +15,31 @@ Model prepare(const Scene& scene, const std::optional<EffectSet>& effects) {
   if (scene.hopper) model.vessels.push_back(*scene.hopper);
   const LawTraits& law = traits_of(scene.contact.law);
   const Surfaces surfaces = meeting_surfaces(scene.contact, scene.lots.size());
+  model.law = &law;
+  model.effects = effects ? *effects : effects_of(scene, surfaces, law);
+  model.kernels = &kernels_for(scene.contact.law, model.effects);
   const std::vector<SeedSizes> sizes = sizes_of(scene.lots);
   model.smallest_radius = smallest_radius(scene.lots);
   model.largest_diameter = largest_diameter(scene.lots);
   const std::vector<SeedMaterial> materials = seed_materials(scene.contact, scene.lots);
-  model.law = &law;
   model.kinds = grain_kinds(scene.lots, materials, law);
-  const std::vector<GrainKind> touching = touching_kinds(scene.lots, sizes, model.kinds, law);
-  model.effects = effects ? *effects : effects_of(scene, surfaces, law);
-  model.kernels = &kernels_for(scene.contact.law, model.effects);
-  model.contacts = contact_parameters(scene.contact, surfaces, materials, law);
-  model.loads = bed_loads(scene.lots, sizes, model.vessels, scene.run);
-  const StepBasis basis{model.scene, model.effects, model.contacts,       law,
-                        touching,    model.loads,   model.smallest_radius};
-  model.step = plan_step(basis);
-  model.overlap = predict_overlap(basis);
   if (!model.effects.rotation || !scene.contact.rotation)
     for (GrainKind& kind : model.kinds) kind.inverse_inertia = 0;
+  const std::vector<GrainKind> touching = touching_kinds(scene.lots, sizes, model.kinds, law);
+  model.contacts = contact_parameters(scene.contact, surfaces, materials, law);
+  model.loads = bed_loads(scene.lots, sizes, model.vessels, scene.run);
+  const StepBasis basis{.scene = model.scene,
+                        .effects = model.effects,
+                        .contacts = model.contacts,
+                        .law = law,
+                        .seeds = model.kinds,
+                        .touching = touching,
+                        .loads = model.loads,
+                        .smallest_radius = model.smallest_radius};
+  model.step = plan_step(basis);
+  model.contacts.steepest_sliding = model.step.steepest_sliding;
+  model.contacts.steepest_rolling = model.step.steepest_rolling;
+  model.overlap = predict_overlap(basis);
   return model;
 }
 

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <stdexcept>
 #include <utility>
 
 #include "elementary/functions.hpp"
@@ -16,7 +17,6 @@ namespace {
 constexpr double contacts_of_a_packed_grain = 6;
 constexpr double packed_to_pair = std::numbers::sqrt3;  // of frequencies, and of damping ratios
 constexpr double longest_travel = 0.1;                  // radii a step
-constexpr double wanted_friction_step = 0.5;            // dt lambda that a chosen step keeps to
 constexpr double allowed_energy_growth = 1.01;  // of a free vibration under RK2 over the whole run, in amplitude
 
 /// Two bodies that meet: a grain and another, or a wall (curvature and inverse mass 0).
@@ -44,16 +44,36 @@ double largest(const std::vector<SurfaceParameters>& surfaces, double SurfacePar
   return most;
 }
 
-/// lambda = nu F_n / (v_s m_t) of what is made continuous by the slip speed, 1/s, with F_n the weight of the layers
-/// above; sliding friction that is no spring, and a constant rolling torque. 0: there is nothing of the kind.
+/// dt lambda of friction below its slip speed, lambda = nu F_n / (v_s m_t).
+struct FrictionStep {
+  double longest;  // from the eigenvalues of a step: beyond it, what should slow down grows
+  double wanted;   // that a chosen step keeps to
+};
+FrictionStep friction_step(Integrator integrator) {
+  switch (integrator) {
+    case Integrator::velocity_verlet:
+      return {1, 0.5};  // with predicted velocities it swings from here on
+    case Integrator::rk2_midpoint:
+      return {2, 0.5};
+    case Integrator::gear5:
+      return {0.16, 0.08};
+  }
+  throw std::logic_error("a scheme without a limit for friction");
+}
+
+/// m r^2 / I, the largest, of a clump at its furthest point; 0 where nothing turns.
+double spin_share(const StepBasis& basis) {
+  double largest = 0;
+  for (const GrainKind& seed : basis.seeds)
+    largest = std::max(largest, seed.radius * seed.radius * seed.inverse_inertia / seed.inverse_mass);
+  return largest;
+}
+
+/// lambda of what is made continuous by the slip speed, 1/s, with F_n the weight of the layers above; sliding friction
+/// that is no spring, and a constant rolling torque. 0: there is nothing of the kind.
 double friction_rate(const StepBasis& basis) {
   const EffectSet& effects = basis.effects;
-  double per_spin = 2;  // m r^2 / I, of a clump at its furthest point
-  for (const SeedLot& lot : basis.scene.lots)
-    per_spin = std::max(per_spin, lot.shape == Shape::ball    ? 2.5
-                                  : lot.shape == Shape::clump ? 0.25 * lot.diameter * lot.diameter / lot.gyration2
-                                                              : 2);
-  const double per_surface = effects.rotation ? 1 + per_spin : 1;  // 1 / (m m_t), of one grain
+  const double per_spin = spin_share(basis), per_surface = 1 + per_spin;  // 1 / (m m_t), of one grain
   const double layers = basis.loads.layers, weight = standard_gravity * basis.loads.weight_factor;
   const auto rate = [&](const std::vector<SurfaceParameters>& surfaces) {
     double most = 0;
@@ -196,10 +216,10 @@ StepPlan plan_step(const StepBasis& basis) {
   if (basis.effects.tangential_spring && basis.effects.rotation)
     plan.limits.push_back(vibration_limit(basis, rotation(basis, slope_over_mass)));
   double wanted = plan.contact_duration / numerics.steps_per_contact;
+  const FrictionStep friction = friction_step(numerics.integrator);
   if (const double rate = friction_rate(basis); rate > 0) {
-    const double factor = numerics.integrator == Integrator::velocity_verlet ? 1 : 2;
-    plan.limits.push_back({"friction below the slip speed", factor / rate});
-    wanted = std::min(wanted, wanted_friction_step / rate);
+    plan.limits.push_back({"friction below the slip speed", friction.longest / rate});
+    wanted = std::min(wanted, friction.wanted / rate);
   }
   plan.limits.push_back(
       {"a grain's travel in one step", longest_travel * basis.smallest_radius / basis.loads.grain_speed});
@@ -209,6 +229,8 @@ StepPlan plan_step(const StepBasis& basis) {
   plan.longest_safe = tightest.dt;
   plan.bound_by = tightest.reason;
   plan.dt = numerics.dt.value_or(std::min(wanted, plan.longest_safe));
+  plan.steepest_rolling = friction.wanted / plan.dt;
+  plan.steepest_sliding = plan.steepest_rolling / (1 + spin_share(basis));
   plan.too_long = plan.dt > plan.longest_safe;
   plan.steps = std::llround(std::ceil(basis.scene.run.duration / plan.dt * (1 - 1e-12)));
   return plan;

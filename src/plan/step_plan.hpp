@@ -20,6 +20,7 @@ struct StepBasis {
   const EffectSet& effects;
   const ContactParameters& contacts;
   const LawTraits& law;
+  const std::vector<GrainKind>& seeds;     // by lot, whole
   const std::vector<GrainKind>& touching;  // touching_kinds
   const BedLoads& loads;
   double smallest_radius;  // m
@@ -37,8 +38,10 @@ struct StepPlan {
   double longest_safe;            // s, the smallest of the limits
   std::string bound_by;           // its reason
   double dt;                      // s, asked for or chosen
-  bool too_long;                  // dt > longest_safe
-  std::int64_t steps;             // to the end of the run
+  /// What ContactParameters of the same names are to be for this step, 1/s.
+  double steepest_sliding, steepest_rolling;
+  bool too_long;       // dt > longest_safe
+  std::int64_t steps;  // to the end of the run
 };
 StepPlan plan_step(const StepBasis& basis);
 

@@ -133,6 +133,8 @@ JsonKeys<RunSource> run_keys() {
       {"grain_steps", "", "grains times steps", [](S s) { return s.run.grain_steps; }},
       {"force_evaluations", "", "how often the forces between grains were worked out",
        [](S s) { return s.run.force_evaluations; }},
+      {"slip_speed_raised", "", "in how many of these a hard impact raised the slip speed, which softens its friction",
+       [](S s) { return s.run.slip_speed_raised; }},
       {"effects", "", "effects that the scene calls for", [](S s) { return s.effects; }},
       {"max_relative_overlap", "", "largest share of a contact's overlap that one grain takes, over its radius",
        [](S s) { return s.run.max_relative_overlap; }},

@@ -54,6 +54,7 @@ struct Run {
   double end_time = 0;  // s, = steps dt
   std::int64_t grain_steps = 0;
   std::int64_t force_evaluations = 0;  // of grain contacts
+  std::int64_t slip_speed_raised = 0;  // of these, where sliding friction's slip speed was raised in a hard impact
   double max_relative_overlap = 0;     // a grain's share of the overlap over its radius, the largest of the run
   double tray_empty_since = -1;        // s, when the last grain left the tray; negative: it never ran dry
   EnergyAccount energy;

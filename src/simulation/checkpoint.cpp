@@ -80,7 +80,7 @@ void serialize(Archive& archive, ContactState& s) {
 }
 template <class Archive>
 void serialize(Archive& archive, ContactStatistics& s) {
-  archive(s.contacts, s.max_relative_overlap, s.wall_power, s.crossed);
+  archive(s.contacts, s.slip_raised, s.max_relative_overlap, s.wall_power, s.crossed);
 }
 template <class Archive>
 void serialize(Archive& archive, VesselState& s) {
@@ -144,7 +144,7 @@ namespace {
 
 constexpr std::string_view signature = "vibrosow checkpoint\n";
 /// To be raised whenever a state has other fields, or goes on differently.
-constexpr std::uint32_t version = 1;
+constexpr std::uint32_t version = 2;
 
 std::uint32_t checksum(std::string_view bytes) {
   boost::crc_32_type crc;

@@ -75,6 +75,7 @@ void ForceField::set_pair_forces(const Grains& discs, const Motion& at, const Hi
   });
   for (const RangeResult& result : range_results_) {
     statistics.contacts += result.statistics.contacts;
+    statistics.slip_raised += result.statistics.slip_raised;
     statistics.max_relative_overlap = std::max(statistics.max_relative_overlap, result.statistics.max_relative_overlap);
     for (const ForeignForce& force : result.foreign) {
       GrainForce& sum = forces[static_cast<std::size_t>(force.grain)];
@@ -105,9 +106,9 @@ void ForceField::run_kernels(const Grains& discs, const HistoryAdvance& advance,
 /// Of the contacts found last.
 void ForceField::add_wall_forces(const Grains& discs, const Motion& at, const HistoryAdvance& advance, Forces& forces,
                                  ContactStatistics& statistics) {
-  const double relative_overlap =
-      wall_kernel_(surfaces_of(discs), at, model_.contacts, advance, state_.contacts.wall_histories, wall_contacts_);
-  statistics.max_relative_overlap = std::max(statistics.max_relative_overlap, relative_overlap);
+  add_figures(
+      wall_kernel_(surfaces_of(discs), at, model_.contacts, advance, state_.contacts.wall_histories, wall_contacts_),
+      statistics);
   vibrosow::add_wall_forces(wall_contacts_, model_.kernels->effects.rotation, forces, statistics);
 }
 

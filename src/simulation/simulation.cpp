@@ -297,6 +297,7 @@ Run Simulation::result() const {
   run.steps = state_.step;
   run.end_time = state_.time;
   run.force_evaluations = state_.statistics.contacts;
+  run.slip_speed_raised = state_.statistics.slip_raised;
   run.max_relative_overlap = guard_.max_relative_overlap();
   std::ranges::stable_sort(run.events, {}, &OutflowEvent::time);  // of one step they come in the order of the grains
   if (execution_.profile().is_on()) run.phase_times = execution_.profile().times();

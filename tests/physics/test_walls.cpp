@@ -46,8 +46,7 @@ TEST(Wall, IsAGrainOfInfiniteRadiusAndMass) {
                       parameters, {}, none, {0, 0}, f, foreign, statistics);
       WallContacts contacts;
       WallContactFinder().find(grains, near, walls, contacts);
-      const double relative_overlap = kernels.vectors[0].wall(surfaces_of(grains), at, parameters, {}, none, contacts);
-      statistics.max_relative_overlap = std::max(statistics.max_relative_overlap, relative_overlap);
+      add_figures(kernels.vectors[0].wall(surfaces_of(grains), at, parameters, {}, none, contacts), statistics);
       add_wall_forces(contacts, kernels.effects.rotation, f, statistics);
       EXPECT_EQ(statistics.contacts, 1);
       EXPECT_NEAR(statistics.max_relative_overlap, overlap / Bench::radius, 1e-7);

@@ -10,11 +10,13 @@
 
 namespace vibrosow {
 
-/// A model that runs with this step (s), as if it were safe.
-inline Model with_step(Model model, double dt) {
-  model.step.dt = dt;
-  model.step.too_long = false;
-  return model;
+/// The model of the same scene and effects that runs with this step (s), as if it were safe.
+inline Model with_step(const Model& model, double dt) {
+  Scene scene = model.scene;
+  scene.numerics.dt = dt;
+  Model other = prepare(scene, model.effects);
+  other.step.too_long = false;
+  return other;
 }
 
 /// A bench for tests: a few grains placed by hand in a wide box, with or without gravity.
