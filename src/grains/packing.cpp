@@ -7,6 +7,7 @@
 #include <limits>
 #include <numbers>
 
+#include "elementary/functions.hpp"
 #include "grains/size_distribution.hpp"
 #include "scene/input_error.hpp"
 #include "scene/seed_lot.hpp"
@@ -71,7 +72,7 @@ std::vector<PackedGrain> pack_rows(const Vessel& vessel, const std::vector<SeedL
   return packed;
 }
 
-/// Grains and fixed points that a dropped grain can touch, found through square cells of one diameter.
+/// Discs of grains and fixed points that a dropped grain can touch, found through square cells as wide as the largest.
 class Heap {
  public:
   struct Disc {
@@ -107,6 +108,20 @@ class Heap {
       }
     }
     return first;
+  }
+
+  /// Height of the centre of a disc that falls along `x` when it first touches another; at least `least`.
+  double touching_height(double x, double radius, double least) const {
+    const double furthest = radius + 0.5 * cell_;
+    for (std::size_t c = column_of(x - furthest); c <= column_of(x + furthest); ++c)
+      for (std::size_t row = columns_[c].size(); row-- > 0 && static_cast<double>(row + 1) * cell_ + furthest > least;)
+        for (int k : columns_[c][row]) {
+          const Disc& disc = (*this)[k];
+          const double reach = radius + disc.radius, dx = x - disc.x;
+          if (std::abs(dx) < reach && disc.y + reach > least)
+            least = std::max(least, disc.y + std::sqrt(reach * reach - dx * dx));
+        }
+    return least;
   }
 
   /// Calls `visit(k)` for every disc within two cells of (x, y).
@@ -174,8 +189,13 @@ Rolled roll_down(const Heap& heap, int support, double length, double side, doub
   return first;
 }
 
+/// How a seed lies: its centre, m, and how far it is turned, rad.
+struct Place {
+  double x, y, angle;
+};
+
 /// Where a grain of `radius` dropped at `x` comes to rest.
-Eigen::Vector2d drop_and_roll(const Heap& heap, double length, double x, double radius) {
+Place drop_and_roll(const Heap& heap, double length, double x, double radius) {
   constexpr int most_moves = 100000;  // never reached: each move goes down
   double y = 0;
   int support = heap.first_below(x, std::numeric_limits<double>::max(), radius, y);
@@ -184,10 +204,10 @@ Eigen::Vector2d drop_and_roll(const Heap& heap, double length, double x, double 
     const Rolled rolled = roll_down(heap, support, length, side, y, radius);
     x = std::clamp(rolled.centre.x(), radius, length - radius);
     y = rolled.centre.y();
-    if (rolled.rests) return {x, y};
+    if (rolled.rests) return {x, y, 0};
     support = rolled.met >= 0 ? rolled.met : heap.first_below(x + side * 1e-9 * radius, y, radius, y);
   }
-  return {x, radius};
+  return {x, radius, 0};
 }
 
 /// Points of a wall no further apart than `pitch`.
@@ -220,8 +240,72 @@ void add_slopes(Heap& heap, const Vessel& vessel, double smallest_radius) {
   }
 }
 
+/// A seed as it is turned: its discs, from its centre, and how far they reach.
+struct TurnedSeed {
+  std::vector<Heap::Disc> discs;
+  double left = 0, right = 0, top = 0;  // m
+
+  TurnedSeed(const SeedLot& lot, double size, double angle) {
+    const auto [sine, cosine] = elementary::sine_cosine(angle);
+    discs.reserve(lot.discs.size());
+    if (lot.discs.empty()) add({0, 0, 0.5 * size * lot.diameter});
+    for (const ClumpDisc& disc : lot.discs)
+      add({size * (cosine * disc.x - sine * disc.y), size * (sine * disc.x + cosine * disc.y), size * disc.radius});
+  }
+
+ private:
+  void add(const Heap::Disc& disc) {
+    discs.push_back(disc);
+    left = std::max(left, disc.radius - disc.x), right = std::max(right, disc.radius + disc.x);
+    top = std::max(top, disc.radius + disc.y);
+  }
+};
+
+/// Height of a seed's centre when, dropped at `x`, its first disc touches; or some height from `limit` to that one.
+double touching_height(const Heap& heap, const TurnedSeed& seed, double x, double limit) {
+  double height = 0;
+  for (const Heap::Disc& disc : seed.discs) {
+    if (height >= limit) break;
+    const double least = std::max(disc.radius, height + disc.y);  // the floor, and what other discs touch
+    height = std::max(height, heap.touching_height(x + disc.x, disc.radius, least) - disc.y);
+  }
+  return height;
+}
+
+/// Where a clump dropped at `x` comes to rest: it is dropped again a little aside and turned a little, at random,
+/// less and less, and stays where its centre lies lowest. A search for the lowest place near where it fell, since a
+/// clump, unlike a disc, has no closed form for where it rolls to.
+Place drop_and_search(const Heap& heap, double length, const SeedLot& lot, double size, double x, double angle,
+                      Random& random) {
+  constexpr int tries = 60;        // fills 0.79 of the plane with seeds of four widths, as poured discs do; 30: 0.73
+  constexpr double shrink = 0.95;  // of the steps, which begin with the seed's diameter and a quarter turn
+  Place lowest{0, std::numeric_limits<double>::infinity(), 0};
+  const auto drop = [&](double at, double turned) {
+    const TurnedSeed seed(lot, size, turned);
+    at = std::max(seed.left, std::min(at, length - seed.right));
+    const double y = touching_height(heap, seed, at, lowest.y);
+    if (y < lowest.y) lowest = {at, y, turned};
+  };
+  drop(x, angle);
+  double step = 1;
+  for (int k = 0; k < tries; ++k, step *= shrink) {
+    const double aside = step * size * lot.diameter * random.uniform(-1, 1);
+    const double turn = step * 0.5 * std::numbers::pi * random.uniform(-1, 1);
+    drop(lowest.x + aside, lowest.angle + turn);
+  }
+  return lowest;
+}
+
+double largest_disc(const std::vector<SeedLot>& lots) {
+  double largest = 0;
+  for (const SeedLot& lot : lots)
+    for (const Heap::Disc& disc : TurnedSeed(lot, most_size(lot), 0).discs)
+      largest = std::max(largest, 2 * disc.radius);
+  return largest;
+}
+
 std::vector<PackedGrain> pour(const Vessel& vessel, const std::vector<SeedLot>& lots, Random& random) {
-  Heap heap(vessel.length, largest_diameter(lots));
+  Heap heap(vessel.length, largest_disc(lots));
   add_slopes(heap, vessel, smallest_radius(lots));
   std::vector<PackedGrain> packed;
   for (int lot : shuffled_lots(lots, vessel.fill->count, random)) {
@@ -229,10 +313,12 @@ std::vector<PackedGrain> pour(const Vessel& vessel, const std::vector<SeedLot>& 
     const double size = draw_size(seeds, random), angle = draw_angle(seeds, random);
     const double radius = 0.5 * size * seeds.diameter;
     const double x = random.uniform(radius, vessel.length - radius);
-    const Eigen::Vector2d at = drop_and_roll(heap, vessel.length, x, radius);
-    if (at.y() + radius > vessel.height) does_not_fit(vessel);
-    heap.add({at.x(), at.y(), radius});
-    packed.push_back({at.x(), at.y(), lot, size, angle});
+    const Place at = seeds.discs.empty() ? drop_and_roll(heap, vessel.length, x, radius)
+                                         : drop_and_search(heap, vessel.length, seeds, size, x, angle, random);
+    const TurnedSeed seed(seeds, size, at.angle);
+    if (at.y + seed.top > vessel.height) does_not_fit(vessel);
+    for (const Heap::Disc& disc : seed.discs) heap.add({at.x + disc.x, at.y + disc.y, disc.radius});
+    packed.push_back({at.x, at.y, lot, size, at.angle});
   }
   return packed;
 }

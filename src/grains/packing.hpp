@@ -15,10 +15,11 @@ struct PackedGrain {
 };
 
 /// Places the vessel's fill at rest without overlap, its holes closed. `poured`: each grain drops at a random place and
-/// rolls down to where two contacts hold it (drop-and-roll: Visscher & Bolsterli 1972, in the plane); `layers` and
-/// `hexagonal`: rows, each grain shifted at random by up to the jitter. Lots are mixed at random in exact fractions
-/// (largest remainder), sizes and the angles of clumps are drawn; a clump is placed as the circle that holds it. No
-/// fill: empty. Throws InputError when the packing rises above the vessel's end walls.
+/// rolls down to where two contacts hold it (drop-and-roll: Visscher & Bolsterli 1972, in the plane); a clump lies
+/// where, of many drops near its first, its centre comes lowest, its discs touching. `layers` and `hexagonal`: rows,
+/// each grain shifted at random by up to the jitter, a clump in the circle that holds it. Lots are mixed at random in
+/// exact fractions (largest remainder), sizes and the angles of clumps are drawn. No fill: empty. Throws InputError
+/// when the packing rises above the vessel's end walls.
 std::vector<PackedGrain> pack(const Vessel& vessel, const std::vector<SeedLot>& lots, Random& random);
 
 /// Number of grains of each lot among `count`, by largest remainder.

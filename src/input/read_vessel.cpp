@@ -8,6 +8,7 @@
 
 #include "input/read_motion.hpp"
 #include "input/wording.hpp"
+#include "scene/clump_shape.hpp"
 #include "scene/motion.hpp"
 #include "scene/seed_lot.hpp"
 #include "vessel/vessel_walls.hpp"
@@ -168,23 +169,30 @@ Fill read_fill(Table table) {
   return fill;
 }
 
+/// Area that a seed of the lot's diameter takes at least: hexagonally packed; of clumps, which may fill the plane,
+/// their own if poured, since rows are of the circles that hold them.
+double least_area(const SeedLot& lot, bool poured) {
+  if (poured && lot.shape == Shape::clump) return plate_of(lot.discs).area;
+  return std::numbers::sqrt3 / 2 * lot.diameter * lot.diameter;
+}
+
 /// Too crude to promise that a fill fits, but what fails here cannot fit.
 void check_fill_fits(Table fill_table, const Vessel& vessel, const std::vector<SeedLot>& lots) {
   if (largest_diameter(lots) > vessel.length) {
     fill_table.fail("count", fmt::format("does not fit: a seed of {} is wider than the {}, which is {} long",
                                          millimetres(largest_diameter(lots)), vessel.name, millimetres(vessel.length)));
   }
-  double area_per_seed = 0;  // in a hexagonal packing
-  for (const SeedLot& lot : lots) {
-    area_per_seed += lot.number_fraction * size_moment(lot, 2) * std::numbers::sqrt3 / 2 * lot.diameter * lot.diameter;
-  }
+  const bool poured = vessel.fill->packing == Packing::poured;
+  double area_per_seed = 0;
+  for (const SeedLot& lot : lots) area_per_seed += lot.number_fraction * size_moment(lot, 2) * least_area(lot, poured);
   const double most = vessel.length * vessel.height / area_per_seed;
   if (vessel.fill->count > most) {
-    const bool clumps = std::ranges::any_of(lots, [](const SeedLot& lot) { return lot.shape == Shape::clump; });
+    const bool circles =
+        !poured && std::ranges::any_of(lots, [](const SeedLot& lot) { return lot.shape == Shape::clump; });
     fill_table.fail(
         "count",
         fmt::format("does not fit: {} seeds, but closely packed{} the {} holds no more than {:.0f}", vessel.fill->count,
-                    clumps ? ", as the circles that hold them," : "", vessel.name, std::floor(most)));
+                    circles ? ", as the circles that hold them," : "", vessel.name, std::floor(most)));
   }
 }
 

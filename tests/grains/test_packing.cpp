@@ -1,10 +1,12 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numeric>
 #include <set>
 
 #include "grains/packing.hpp"
+#include "scene/clump_shape.hpp"
 #include "scene/input_error.hpp"
 #include "vessel/vessel_walls.hpp"
 
@@ -37,23 +39,55 @@ std::vector<SeedLot> scattered_lots() {
   return lots;
 }
 
-double radius_of(const PackedGrain& grain, const std::vector<SeedLot>& lots) {
-  return 0.5 * grain.size * lots[static_cast<std::size_t>(grain.lot)].diameter;
+/// A cylinder lying in the plane, 20 mm long and 5 mm wide, of nine discs.
+SeedLot cylinder() {
+  SeedLot lot{"cylinder", 0, 4e-4, Shape::clump, 1.0};
+  for (int k = -4; k <= 4; ++k) lot.discs.push_back({k * 15e-3 / 8, 0, 2.5e-3});
+  lot.diameter = 2 * holding_radius(lot.discs);
+  return lot;
 }
 
-/// Deepest overlap of two grains, or of a grain and a wall, in m; negative when nothing touches.
+/// Not symmetric, in many sizes, among single grains.
+std::vector<SeedLot> hooks_and_balls() {
+  SeedLot hook{"hook", 0, 4e-5, Shape::clump, 0.6};
+  hook.discs = about_centre_of_mass({{0, 0, 1.5e-3}, {3e-3, 0, 1.5e-3}, {6e-3, 0, 1.5e-3}, {7e-3, 3e-3, 1e-3}});
+  hook.diameter = 2 * holding_radius(hook.discs);
+  hook.sizes = {SizeDistribution::Kind::uniform, hook.diameter, 0, 0.7 * hook.diameter, 1.3 * hook.diameter, {}, {}};
+  return {hook, {"ball", diameter, 4e-5, Shape::ball, 0.4}};
+}
+
+struct Disc {
+  double x, y, radius;
+  std::size_t grain;
+};
+
+/// What was packed, disc by disc.
+std::vector<Disc> discs_of(const std::vector<PackedGrain>& packed, const std::vector<SeedLot>& lots) {
+  std::vector<Disc> discs;
+  for (std::size_t i = 0; i < packed.size(); ++i) {
+    const PackedGrain& grain = packed[i];
+    const SeedLot& lot = lots[static_cast<std::size_t>(grain.lot)];
+    const double c = grain.size * std::cos(grain.angle), s = grain.size * std::sin(grain.angle);
+    if (lot.discs.empty()) discs.push_back({grain.x, grain.y, 0.5 * grain.size * lot.diameter, i});
+    for (const ClumpDisc& disc : lot.discs)
+      discs.push_back(
+          {grain.x + c * disc.x - s * disc.y, grain.y + s * disc.x + c * disc.y, grain.size * disc.radius, i});
+  }
+  return discs;
+}
+
+/// Deepest overlap of two grains' discs, or of one and a wall, in m; negative when nothing touches.
 double deepest_overlap(const Vessel& v, const std::vector<PackedGrain>& packed, const std::vector<SeedLot>& lots) {
   double deepest = -1;
-  for (std::size_t i = 0; i < packed.size(); ++i) {
-    const double r = radius_of(packed[i], lots);
-    for (std::size_t j = 0; j < i; ++j)
-      deepest = std::max(
-          deepest, r + radius_of(packed[j], lots) - std::hypot(packed[i].x - packed[j].x, packed[i].y - packed[j].y));
-    for (const WallSegment& wall : vessel_walls(v)) {
-      const Eigen::Vector2d p(packed[i].x, packed[i].y), along = wall.b - wall.a;
-      const double part = std::clamp((p - wall.a).dot(along) / along.squaredNorm(), 0.0, 1.0);
-      deepest = std::max(deepest, r - (p - wall.a - part * along).norm());
+  const std::vector<Disc> discs = discs_of(packed, lots);
+  for (std::size_t i = 0; i < discs.size(); ++i) {
+    const Disc& a = discs[i];
+    for (std::size_t j = 0; j < i; ++j) {
+      const Disc& b = discs[j];
+      if (a.grain != b.grain) deepest = std::max(deepest, a.radius + b.radius - std::hypot(a.x - b.x, a.y - b.y));
     }
+    for (const WallSegment& wall : vessel_walls(v))
+      deepest = std::max(deepest, a.radius - distance_to_wall(wall, {a.x, a.y}));
   }
   return deepest;
 }
@@ -107,6 +141,45 @@ TEST(Packing, PouredIntoAFunnelStaysClearOfItsSlopes) {
   const auto lots = one_lot();
   const std::vector<PackedGrain> packed = pack(v, lots, random);
   EXPECT_LT(deepest_overlap(v, packed, lots), 1e-5 * diameter);
+}
+
+TEST(Packing, CylindersFillATrayThatTheirCirclesWouldNot) {
+  Vessel v = vessel(Packing::poured, 2200);
+  v.length = 0.57, v.height = 0.6;
+  const std::vector<SeedLot> lots{cylinder()};
+  Random random(1);
+  const std::vector<PackedGrain> packed = pack(v, lots, random);
+  const auto highest =
+      std::ranges::max(discs_of(packed, lots), {}, [](const Disc& disc) { return disc.y + disc.radius; });
+  EXPECT_LT(highest.y, 0.5);
+  EXPECT_GT(highest.y, 0.4) << "the cylinders' own area is 37 cm of the tray's height";
+}
+
+TEST(Packing, ClumpsOfAnyShapeAndSizeTouchButDoNotOverlap) {
+  Vessel funnel = vessel(Packing::poured, 150);
+  funnel.holes = {{0.05, 0.02}};
+  funnel.funnel = 0.8;
+  Vessel open = vessel(Packing::poured, 150);
+  open.sides = Sides::open;
+  open.pieces = {{{0.02, 0.02}, {0.06, 0.04}}, {.centre = {0.08, 0.02}, .radius = 0.01, .from = 0, .to = 3.14}};
+  Vessel periodic = open;
+  periodic.sides = Sides::periodic;
+  Vessel hopper = vessel(Packing::poured, 150);
+  hopper.holes = {{0.03, 0.02}, {0.07, 0.01, 1.0}};
+  for (const Vessel& v : {funnel, open, periodic, hopper})
+    for (const auto& lots : {std::vector{cylinder()}, hooks_and_balls()})
+      for (std::uint64_t seed = 1; seed <= 5; ++seed) {
+        Random random(seed);
+        const std::vector<PackedGrain> packed = pack(v, lots, random);
+        ASSERT_EQ(packed.size(), 150u);
+        const double deepest = deepest_overlap(v, packed, lots);
+        EXPECT_LT(deepest, 1e-5 * diameter) << "seed " << seed;
+        EXPECT_GT(deepest, -1e-5 * diameter) << "seed " << seed;
+        for (const Disc& disc : discs_of(packed, lots)) {
+          EXPECT_GT(disc.y, disc.radius - 1e-5 * diameter) << "holes are closed";
+          EXPECT_NEAR(disc.x, 0.5 * v.length, 0.5 * v.length - disc.radius + 1e-5 * diameter) << "between the ends";
+        }
+      }
 }
 
 TEST(Packing, RandomSeedActsAndRepeats) {

@@ -218,6 +218,20 @@ TEST(ReadScene, GatesOpenAtOneTimeOrAtOneEach) {
   EXPECT_EQ(scene.tray.holes[1].open_at, 2);
 }
 
+TEST(ReadScene, PouredClumpsNeedTheirOwnAreaAndRowsThatOfTheirCircles) {
+  const std::vector<std::string> long_seeds = {
+      "seeds.pea={ shape = 'elongated', length = '20 mm', width = '5 mm', mass = "
+      "'0.4 g' }"};  // 76 mm2 each; the tray is 60 000 mm2
+  const auto read_with = [&](const std::string& fill) {
+    std::vector<std::string> settings = long_seeds;
+    settings.push_back("tray.fill=" + fill);
+    return read(small_example, settings);
+  };
+  EXPECT_EQ(read_with("{ count = 700 }").tray.fill->count, 700);
+  EXPECT_THROW(read_with("{ count = 850 }"), InputError);
+  EXPECT_THROW(read_with("{ count = 700, packing = 'layers' }"), InputError);
+}
+
 TEST(ReadScene, RainNeedsNoFill) {
   const std::string dry = std::string(small_example).replace(std::string(small_example).find("fill ="), 22, "");
   EXPECT_THROW(read(dry), InputError);

@@ -1,0 +1,53 @@
+// How a bed of clumps starts: nearly as it will lie.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "scene/clump_shape.hpp"
+#include "simulation/simulate.hpp"
+#include "support/bench.hpp"
+
+namespace vibrosow {
+namespace {
+
+/// Cylinders of 20 by 5 mm, in the tray's own height, at rest.
+Scene bed_of_cylinders(int count) {
+  Bench bench;
+  bench.scene.lots.clear();
+  std::vector<ClumpDisc> discs;
+  for (int k = -3; k <= 3; ++k) discs.push_back({k * 2.5e-3, 0, 2.5e-3});
+  bench.add_clump(discs, 4e-4);
+  Scene scene = bench.scene;
+  scene.contact.shell_compression = 1e-3;
+  scene.contact.seed = scene.contact.wall = {0.3, 0.5};
+  scene.contact.slip_speed = 0.1;
+  scene.tray.length = 0.15;
+  scene.tray.height = 0.2;
+  scene.tray.fill = Fill{count, Packing::poured, 1e-3, false};
+  scene.run.duration = 0.5;
+  return scene;
+}
+
+/// Twice the mean height of the centres, m: of a level bed its height.
+double height_of(const Grains& grains) {
+  return 2 * std::accumulate(grains.y.begin(), grains.y.end(), 0.0) / static_cast<double>(grains.size());
+}
+
+TEST(StartingState, ABedOfClumpsBarelySettles) {
+  for (const std::uint64_t random_seed : {1, 2}) {
+    Simulation run(prepare(bed_of_cylinders(150)), random_seed);
+    const double poured = height_of(run.grains());
+    ASSERT_TRUE(run.step());
+    EXPECT_LT(run.result().max_relative_overlap, 1e-3) << "nothing overlaps at the start";
+    EXPECT_TRUE(run.run_until(0.5)) << *run.guard().stop_reason();
+    EXPECT_EQ(run.result().status, RunStatus::finished);
+    EXPECT_LT(run.result().energy.kinetic, 1e-3 * run.result().energy.potential) << "settled";
+    EXPECT_LT(poured, 1.25 * height_of(run.grains()));
+    EXPECT_GT(poured, height_of(run.grains()));
+  }
+}
+
+}  // namespace
+}  // namespace vibrosow
