@@ -13,6 +13,7 @@
 #include "input/input_file.hpp"
 #include "input/read_scene.hpp"
 #include "report/accuracy_report.hpp"
+#include "report/terminal_text.hpp"
 #include "scene/input_error.hpp"
 #include "scene/integrator_names.hpp"
 #include "simulation/simulate.hpp"
@@ -102,7 +103,7 @@ int run_accuracy(const AccuracyOptions& options) {
   }
   write_then_print(
       options.common.quiet, [&] { folder.write(accuracy_files(result, wall_time, jobs, options.common.csv)); },
-      [&] { print("{}\n\n{}\n{}\n", scene.title, accuracy_table(result), accuracy_sentence(result)); });
+      [&] { print("{}\n{}\n{}", wrapped(scene.title), accuracy_table(result), wrapped(accuracy_sentence(result))); });
   if (!options.common.quiet) print("reports: {}\n", folder.path().string());
   return interrupt ? exit_interrupted : exit_done;
 }

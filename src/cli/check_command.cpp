@@ -16,6 +16,7 @@
 #include "plan/effects.hpp"
 #include "plan/model.hpp"
 #include "plan/scene_warnings.hpp"
+#include "report/terminal_text.hpp"
 #include "scene/input_error.hpp"
 
 namespace vibrosow {
@@ -24,7 +25,8 @@ namespace {
 void print_effects(const Model& model, const CostBreakdown& cost) {
   print("effects\n");
   for (const EffectReason& effect : explain_effects(model.scene, model.effects, *model.law))
-    print("  {:<3} {:<17} {}\n", effect.present ? "yes" : "no", effect.effect, effect.reason);
+    print_text(
+        wrapped_beside(fmt::format("  {:<3} {:<17} ", effect.present ? "yes" : "no", effect.effect), effect.reason));
   print("cost on this machine, now, ns of CPU time per grain-step\n  {:<22} {:6.1f}\n", "all effects present",
         cost.whole.ns_per_grain_step);
   for (const EffectCost& effect : cost.effects)
@@ -38,8 +40,9 @@ void print_effects(const Model& model, const CostBreakdown& cost) {
 void print_step(const StepPlan& plan, const PredictedCost& cost) {
   print("step\n  dt {:.4g} s, shortest contact {:.4g} s: {:.3g} steps a contact\n", plan.dt, plan.contact_duration,
         plan.contact_duration / plan.dt);
-  for (const StepLimit& limit : plan.limits) print("  at most {:.4g} s: {}\n", limit.dt, limit.reason);
-  print("  longest safe step {:.4g} s ({})\n", plan.longest_safe, plan.bound_by);
+  for (const StepLimit& limit : plan.limits)
+    print_text(wrapped_beside(fmt::format("  at most {:.4g} s: ", limit.dt), limit.reason));
+  print_text(wrapped(fmt::format("longest safe step {:.4g} s ({})", plan.longest_safe, plan.bound_by), 2));
   print("  {} steps, about {:.3g} grain-steps: some {:.2g} s of one core\n", plan.steps, cost.grain_steps,
         cost.seconds());
 }
@@ -52,10 +55,13 @@ void print_overlap(const Scene& scene, const PredictedOverlap& predicted) {
   print("  at impact {:.3g} at {:.3g} m/s\n", predicted.overlap_at_impact, predicted.impact_speed);
   const double warn = scene.guard.warn_relative_overlap;
   if (predicted.overlap_at_rest <= warn && predicted.overlap_at_impact <= warn) return;
-  print("  warning: beyond guard.warn_relative_overlap = {:g}: {}\n", warn,
-        scene.contact.law == Law::elastic_shell
-            ? fmt::format("a shell is thin; contact.shell_compression = {:.2g} would do", predicted.stiff_enough)
-            : "Hertz' law is for small overlaps; a larger contact.youngs_modulus is stiffer");
+  print_text(wrapped_beside(
+      "  warning: ",
+      fmt::format(
+          "beyond guard.warn_relative_overlap = {:g}: {}", warn,
+          scene.contact.law == Law::elastic_shell
+              ? fmt::format("a shell is thin; contact.shell_compression = {:.2g} would do", predicted.stiff_enough)
+              : "Hertz' law is for small overlaps; a larger contact.youngs_modulus is stiffer")));
 }
 
 void print_vessel(const Vessel& vessel) {
@@ -75,7 +81,7 @@ int check_seeder(const std::filesystem::path& file, const CommonOptions& options
   const Scene& scene = model.scene;
   print_warnings(scene_warnings(scene));
   const StepPlan& plan = model.step;
-  print("{}\n", scene.title);
+  print_text(wrapped(scene.title));
   print_vessel(scene.tray);
   if (scene.hopper) print_vessel(*scene.hopper);
   const CostBreakdown cost = break_down_cost(scene);
@@ -97,13 +103,16 @@ std::string measured_header(const Study& study) {
 int check_study(const std::filesystem::path& file, const CommonOptions& options) {
   const Study study = read_study(file, options.overrides());
   print_warnings(study_warnings(study));
-  print("{}\n{} layouts, {} different scenes, {} runs of each: some {} of one core in all\n", study.title,
-        study.layouts.size(), study.scenes.size(), study.replicates, duration_text(predict_seconds(study)));
+  print_text(wrapped(study.title));
+  print_text(wrapped(fmt::format("{} layouts, {} different scenes, {} runs of each: some {} of one core in all",
+                                 study.layouts.size(), study.scenes.size(), study.replicates,
+                                 duration_text(predict_seconds(study)))));
   for (const Layout& layout : study.layouts)
-    if (!layout.scene) print("layout {} {}: invalid: {}\n", layout.number, layout.name, layout.invalid);
+    if (!layout.scene)
+      print_text(wrapped(fmt::format("layout {} {}: invalid: {}", layout.number, layout.name, layout.invalid)));
   if (study.measured)
-    print("measured: {}, {} series, {} matched to layouts\n", study.measured->file.string(),
-          study.measured->table.series.size(), study.measured->matches.size());
+    print_text(wrapped(fmt::format("measured: {}, {} series, {} matched to layouts", study.measured->file.string(),
+                                   study.measured->table.series.size(), study.measured->matches.size())));
   print("header of a table of measured outflow:\n{}\n", measured_header(study));
   return exit_done;
 }

@@ -10,6 +10,7 @@
 #include "input/document.hpp"
 #include "input/read_scene.hpp"
 #include "input/table.hpp"
+#include "report/terminal_text.hpp"
 
 namespace vibrosow {
 namespace {
@@ -22,20 +23,24 @@ std::vector<std::filesystem::path> toml_files(const std::filesystem::path& direc
   return files;
 }
 
+void print_entry(const std::filesystem::path& file, const std::string& text) {
+  print_text(wrapped_beside(fmt::format("  {:<24} ", file.stem().string()), text));
+}
+
 void print_crops(const std::filesystem::path& data) {
   print("crops (seeds.NAME.crop = \"...\"), in {}\n", (data / "models/crops").string());
   for (const auto& file : toml_files(data / "models/crops")) {
     Table crop(Document::read(file));
-    print("  {:<24}", file.stem().string());
+    std::string values;
     for (const std::string key : {"diameter", "length", "width", "mass"})
-      if (const auto value = crop.text(key)) print(" {} \"{}\"", key, *value);
-    print("\n");
+      if (const auto value = crop.text(key)) values += fmt::format("{}{} {}", values.empty() ? "" : ", ", key, *value);
+    print_entry(file, values);
   }
 }
 
 void print_titles(const std::filesystem::path& directory) {
   for (const auto& file : toml_files(directory))
-    print("  {:<24} {}\n", file.stem().string(), Table(Document::read(file)).text("title").value_or(""));
+    print_entry(file, Table(Document::read(file)).text("title").value_or(""));
 }
 
 void print_seeders(const std::filesystem::path& data) {

@@ -4,6 +4,7 @@
 
 #include "report/columns.hpp"
 #include "report/json_keys.hpp"
+#include "report/terminal_text.hpp"
 #include "scene/integrator_names.hpp"
 
 namespace vibrosow {
@@ -117,6 +118,22 @@ std::string setting_and_error(const AccuracyRow& row) {
                      row.cost_ratio.value_or(1));
 }
 
+std::string setting_columns_text(const AccuracySetting& setting) {
+  const double softness = setting.youngs_modulus > 0 ? setting.youngs_modulus / megapascal : setting.shell_compression;
+  return fmt::format("  {:>5g} {:>9g} {:>9g} {:>10.3g} ", setting.steps_per_contact, softness,
+                     setting.slip_speed / millimetre_per_second, setting.dt);
+}
+
+/// A line of the table for a terminal.
+std::string row_text(const AccuracyRow& row, bool reference) {
+  const std::string setting = setting_columns_text(row.setting);
+  if (!row.mass_rate) return wrapped_beside(setting, row.refused);
+  const std::string error = reference ? "reference" : (row.error_percent ? error_text(row) : "");
+  const std::string cost = row.cost_ratio ? fmt::format("{:.3g}", *row.cost_ratio) : "";
+  return fmt::format("{}{:>10.5g} {:>18} {:>9}{}\n", setting, row.mass_rate->mean / gram, error, cost,
+                     row.on_front ? "  *" : "");
+}
+
 std::string unresolved_text(const AccuracyRow& row, const std::optional<int>& replicates) {
   return fmt::format("Whether {} is within 1 % these replicates do not tell; {}.", setting_and_error(row),
                      replicates ? fmt::format("about {} would", *replicates) : "no affordable number would");
@@ -134,25 +151,19 @@ std::string accuracy_timing_csv(const AccuracyResult& result, CsvFormat format) 
 
 std::string accuracy_table(const AccuracyResult& result) {
   const bool hertz = result.rows.front().setting.youngs_modulus > 0;
-  std::string text = fmt::format("{:<16} {:>5} {:>9} {:>7} {:>9} {:>10} {:>18} {:>9} {}\n", "integrator", "steps",
-                                 hertz ? "E MPa" : "eps/r", "slip", "dt s", "rate g/s", "error", "cost", "front");
+  std::string text = fmt::format("  {:>5} {:>9} {:>9} {:>10} {:>10} {:>18} {:>9}\n", "steps", hertz ? "E MPa" : "eps/r",
+                                 "slip mm/s", "dt s", "rate g/s", "error", "cost");
+  std::string scheme;
   for (std::size_t i = 0; i < result.rows.size(); ++i) {
     const AccuracyRow& row = result.rows[i];
-    const AccuracySetting& setting = row.setting;
-    text +=
-        fmt::format("{:<16} {:>5g} {:>9g} {:>7g} {:>9.3g} ", integrator_name(setting.integrator),
-                    setting.steps_per_contact, hertz ? setting.youngs_modulus / megapascal : setting.shell_compression,
-                    setting.slip_speed / millimetre_per_second, setting.dt);
-    if (!row.mass_rate) {
-      text += fmt::format("{}\n", row.refused);
-      continue;
-    }
-    const bool reference = i == result.reference;
-    const std::string error = reference ? "reference" : (row.error_percent ? error_text(row) : "");
-    text += fmt::format("{:>10.5g} {:>18} {:>9.3g} {}\n", row.mass_rate->mean / gram, error, row.cost_ratio.value_or(0),
-                        row.on_front ? "*" : "");
+    if (const std::string& name = integrator_name(row.setting.integrator); name != scheme)
+      scheme = name, text += name + '\n';
+    text += row_text(row, i == result.reference);
   }
-  return text;
+  return text + '\n' +
+         wrapped(
+             "cost: grain-steps times force evaluations a step, over the reference's; *: no other setting costs no "
+             "more and errs less");
 }
 
 std::string accuracy_sentence(const AccuracyResult& result) {

@@ -8,10 +8,14 @@ cd "$work" || exit 1
 failures=0
 
 fail() { echo "FAILED: $*"; failures=$((failures + 1)); }
-# expect CODE PATTERN ARGUMENTS...: exit code and a pattern in what was printed.
+# expect CODE PATTERN ARGUMENTS...: exit code and a pattern in what was printed, of which tables fit 80 columns. Only paths, and the
+# header of a CSV file that is there to be copied, are as long as they are.
 expect() {
   local code=$1 pattern=$2; shift 2
-  local printed; printed=$("$program" "$@" 2>&1); local got=$?
+  local table; table=$("$program" "$@" 2>messages); local got=$?
+  local printed; printed=$table$'\n'$(<messages)
+  local wide; wide=$(awk 'length > 80 && !/\// && !/,hole,lot,repeat,/' <<<"$table")
+  [ -z "$wide" ] || fail "vibrosow $*: wider than 80 columns: $wide"
   [ $got -eq "$code" ] || fail "vibrosow $*: exit code $got, not $code: $printed"
   grep -qE -- "$pattern" <<<"$printed" || fail "vibrosow $*: nothing like \"$pattern\" in: $printed"
 }
@@ -60,6 +64,8 @@ expect 2 "threads" run seeder.toml --threads 0
 expect 0 "pairs +[0-9.]+ +[0-9.]+ %" run seeder.toml --profile --out profiled
 grep -q '"neighbours"' profiled/timing.json || fail "timing.json has no shares"
 expect 0 "wheat" presets crops
+expect 0 "wheat-holes" presets
+for command in run sweep accuracy check presets columns; do expect 0 "^Usage: vibrosow $command" $command --help; done
 expect 0 "wheat-tray +Wheat tray" presets seeders
 "$program" presets seeders | awk '/^seeders to start from/ { start = NR } /paper-a-fig3 / { paper = paper ? paper : NR }
   /^  silo / { silo = NR } END { exit !(start && start < paper && paper < silo) }' || fail "presets: seeders do not come first"
@@ -76,6 +82,13 @@ expect 0 "^tray.holes.count,hole" check study.toml
 # Names of what is shipped; the wrong command for a file; keys taken out; what can hardly be meant.
 expect 0 "^Wheat tray" check wheat-tray
 expect 0 "layouts" check wheat-demo
+expect 0 "guard.warn_relative_overlap" check paper-a-fig3
+short=(--set "run.duration=0.2 s" --set "run.measure_from=0.1 s")
+expect 0 "^whole tray" run wheat-tray --out shipped "${short[@]}"
+expect 0 "tray, times" sweep wheat-holes --out shipped-sweep "${short[@]}" --set replicates=2 --set "vary.tray.motion.frequency=[\"9 Hz\"]" \
+  --set "vary.tray.holes.count=[1, 5]"
+expect 0 "^velocity-verlet" accuracy wheat-tray --out shipped-accuracy "${short[@]}" \
+  --integrator velocity-verlet --steps-per-contact 10,20 --replicates 2
 expect 2 "did you mean \"wheat-tray\"" run wheat-trey
 expect 2 "study.toml: this is a study: use vibrosow sweep" run study.toml
 expect 2 "seeder.toml: this is a seeder" sweep seeder.toml

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <atomic>
+#include <sstream>
 
 #include "input/read_scene.hpp"
 #include "plan/step_plan.hpp"
@@ -127,6 +128,20 @@ TEST(Accuracy, NothingCheaperIsWithin) {
                 row(Integrator::rk2_midpoint, 40, 1e-4, 1.0001, 1000, 0.001)});
   EXPECT_EQ(recommend(result, 1.0).setting, std::nullopt);  // the midpoint rule costs twice the reference
   EXPECT_EQ(recommend(result, 1.0).unresolved, std::nullopt);
+}
+
+TEST(Accuracy, TableFitsATerminal) {
+  AccuracyResult result = made_up();
+  AccuracyRow& wide = result.rows[1];
+  wide.setting = {Integrator::velocity_verlet, 1234.5, 1.23456e-5, 0, 0.0123456, 1.234e-05};
+  wide.mass_rate->mean = 1.23456e-05, wide.error_percent = -123.45, wide.error_ci95 = 123.45,
+  wide.cost_ratio = 1.234e-05;
+  AccuracyRow& refused = result.rows[2];
+  refused.mass_rate.reset();
+  refused.refused = "too long, at most 1.234e-05 s: the shell's vibration with the damping of its dashpots (Verlet)";
+  std::istringstream table(accuracy_table(result));
+  for (std::string line; std::getline(table, line);) EXPECT_LE(line.size(), 80u) << line;
+  EXPECT_THAT(accuracy_table(result), testing::HasSubstr("\nrk2-midpoint\n"));
 }
 
 TEST(Accuracy, InterruptedBeforeTheFinestSettingGivesNoErrors) {
