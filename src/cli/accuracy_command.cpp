@@ -12,6 +12,7 @@
 #include "design/accuracy.hpp"
 #include "input/input_file.hpp"
 #include "input/read_scene.hpp"
+#include "laws/law.hpp"
 #include "report/accuracy_report.hpp"
 #include "report/terminal_text.hpp"
 #include "scene/input_error.hpp"
@@ -64,11 +65,15 @@ Integrator integrator_of(const std::string& name) {
 AccuracyGrid grid_of(const AccuracyOptions& options, const Scene& scene) {
   AccuracyGrid grid = default_accuracy_grid(scene);
   if (!options.steps_per_contact.empty()) grid.steps_per_contact = options.steps_per_contact;
-  if (!options.shell_compressions.empty() && scene.contact.law != Law::elastic_shell)
-    throw InputError(fmt::format("--shell-compression: {} has Hertz' law, which has no shell", options.common.file));
+  const LawTraits& law = traits_of(scene.contact.law);
+  const auto refuse_unless = [&](LawMaterial material, const char* option, const auto& values) {
+    if (values.empty() || law.material == material) return;
+    throw InputError(fmt::format("{}: {} has the law {}, whose stiffness is {}", option, options.common.file, law.name,
+                                 law.stiffness_key()));
+  };
+  refuse_unless(LawMaterial::shell, "--shell-compression", options.shell_compressions);
+  refuse_unless(LawMaterial::elastic, "--youngs-modulus", options.youngs_moduli);
   if (!options.shell_compressions.empty()) grid.shell_compressions = options.shell_compressions;
-  if (!options.youngs_moduli.empty() && scene.contact.law == Law::elastic_shell)
-    throw InputError(fmt::format("--youngs-modulus: {} has elastic shells, which have none", options.common.file));
   if (!options.youngs_moduli.empty())
     grid.youngs_moduli =
         quantities("--youngs-modulus", options.youngs_moduli, Dimension::pressure, 1, 1e13, "1 Pa to 1e+07 MPa");

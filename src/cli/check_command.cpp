@@ -18,9 +18,31 @@
 #include "plan/scene_warnings.hpp"
 #include "report/terminal_text.hpp"
 #include "scene/input_error.hpp"
+#include "scene/integrator_names.hpp"
 
 namespace vibrosow {
 namespace {
+
+std::string friction_text(const Model& model) {
+  if (!model.effects.friction) return "none: nothing rubs";
+  if (model.effects.tangential_spring) return "spring: a tangential spring up to Coulomb's limit";
+  return fmt::format("sliding: Coulomb's limit, less below the slip speed of {:g} mm/s",
+                     model.scene.contact.slip_speed * 1e3);
+}
+
+/// The laws by which contacts push, rub and roll, and the scheme that moves the seeds.
+void print_model(const Model& model) {
+  const auto line = [](std::string_view what, const std::string& text) {
+    print_text(wrapped_beside(fmt::format("  {:<9} ", what), text));
+  };
+  print("model\n");
+  line("law", fmt::format("{}: {}", model.law->name, model.law->description));
+  line("friction", friction_text(model));
+  if (model.effects.rolling != Rolling::none)
+    line("rolling", model.effects.rolling == Rolling::spring ? "spring: a rolling spring up to its limit"
+                                                             : "constant torque: a torque against rolling");
+  line("scheme", integrator_name(model.scene.numerics.integrator));
+}
 
 void print_effects(const Model& model, const CostBreakdown& cost) {
   print("effects\n");
@@ -47,21 +69,26 @@ void print_step(const StepPlan& plan, const PredictedCost& cost) {
         cost.seconds());
 }
 
-void print_overlap(const Scene& scene, const PredictedOverlap& predicted) {
+/// What keeps overlaps small.
+std::string advice(const LawTraits& law, const PredictedOverlap& predicted) {
+  const std::string stiffer = fmt::format("take a {} {}", law.stiffer_value(), law.stiffness_key());
+  return law.material == LawMaterial::shell ? fmt::format("{}: {:.2g} would do", stiffer, predicted.stiff_enough)
+                                            : stiffer;
+}
+
+void print_overlap(const Model& model) {
+  const PredictedOverlap& predicted = model.overlap;
   print(
       "relative overlap predicted (a grain's share of the overlap over its radius)\n  at rest {:.3g} under {:.3g} "
       "layers (overlap of the lowest pair {:.3g} r)\n",
       predicted.overlap_at_rest, predicted.layers, predicted.pair_overlap_at_rest);
   print("  at impact {:.3g} at {:.3g} m/s\n", predicted.overlap_at_impact, predicted.impact_speed);
-  const double warn = scene.guard.warn_relative_overlap;
+  const double warn = model.scene.guard.warn_relative_overlap;
   if (predicted.overlap_at_rest <= warn && predicted.overlap_at_impact <= warn) return;
-  print_text(wrapped_beside(
-      "  warning: ",
-      fmt::format(
-          "beyond guard.warn_relative_overlap = {:g}: {}", warn,
-          scene.contact.law == Law::elastic_shell
-              ? fmt::format("a shell is thin; contact.shell_compression = {:.2g} would do", predicted.stiff_enough)
-              : "Hertz' law is for small overlaps; a larger contact.youngs_modulus is stiffer")));
+  print_text(
+      wrapped_beside("  warning: ", fmt::format("beyond guard.warn_relative_overlap = {:g}, and the law is for small "
+                                                "overlaps; {}",
+                                                warn, advice(*model.law, predicted))));
 }
 
 void print_vessel(const Vessel& vessel) {
@@ -84,10 +111,11 @@ int check_seeder(const std::filesystem::path& file, const CommonOptions& options
   print_text(wrapped(scene.title));
   print_vessel(scene.tray);
   if (scene.hopper) print_vessel(*scene.hopper);
+  print_model(model);
   const CostBreakdown cost = break_down_cost(scene);
   print_effects(model, cost);
   print_step(plan, cost.whole);
-  print_overlap(scene, model.overlap);
+  print_overlap(model);
   if (const auto refused = step_refused(scene.numerics, plan)) throw InputError(*refused);
   if (plan.too_long) print("the step is too long and insisted on: every result will be marked \"outside the model\"\n");
   return exit_done;

@@ -7,6 +7,8 @@
 #include <ranges>
 #include <tuple>
 
+#include "laws/law.hpp"
+#include "plan/effects.hpp"
 #include "plan/model.hpp"
 #include "scene/input_error.hpp"
 #include "simulation/integrator.hpp"
@@ -36,12 +38,16 @@ double youngs_modulus_of(const Scene& scene) {
   return general_value(scene, &Contact::youngs_modulus, &SeedLot::youngs_modulus);
 }
 
+bool has_shell(const Scene& scene) {
+  return traits_of(scene.contact.law).material == LawMaterial::shell;
+}
+
 void scale(std::optional<double>& value, double factor) {
   if (value) *value *= factor;
 }
 
 void set_softness(Scene& scene, const AccuracySetting& setting) {
-  if (scene.contact.law == Law::elastic_shell) {
+  if (has_shell(scene)) {
     const double factor = setting.shell_compression / shell_compression_of(scene);
     for (SeedLot& lot : scene.lots) scale(lot.shell_compression, factor);
     scene.contact.shell_compression = setting.shell_compression;
@@ -138,7 +144,7 @@ AccuracyGrid default_accuracy_grid(const Scene& scene) {
   grid.integrators = {Integrator::velocity_verlet, Integrator::rk2_midpoint};
   grid.steps_per_contact = {10, 20, 40};
   for (const double softer : {1.0, 10.0, 100.0}) {
-    if (scene.contact.law != Law::elastic_shell)
+    if (!has_shell(scene))
       grid.youngs_moduli.push_back(youngs_modulus_of(scene) / softer);
     else if (softer == 1 || softer * shell_compression_of(scene) <= softest_shell)
       grid.shell_compressions.push_back(softer * shell_compression_of(scene));

@@ -59,7 +59,7 @@ expect 2 "random-seed.*whole number" run seeder.toml --random-seed 9999999999999
 expect 2 "steps-per-contact.*nan" accuracy seeder.toml --steps-per-contact nan
 expect 2 "shell-compression.*1e-09 to 0.5" accuracy seeder.toml --shell-compression inf
 expect 2 "slip-speed.*range" accuracy seeder.toml --slip-speed "1e300 m/s"
-expect 2 "youngs-modulus.*elastic shells" accuracy seeder.toml --youngs-modulus "5 MPa"
+expect 2 "youngs-modulus.*law elastic-shell.*shell_compression" accuracy seeder.toml --youngs-modulus "5 MPa"
 expect 2 "threads" run seeder.toml --threads 0
 expect 0 "pairs +[0-9.]+ +[0-9.]+ %" run seeder.toml --profile --out profiled
 grep -q '"neighbours"' profiled/timing.json || fail "timing.json has no shares"
@@ -82,7 +82,16 @@ expect 0 "^tray.holes.count,hole" check study.toml
 # Names of what is shipped; the wrong command for a file; keys taken out; what can hardly be meant.
 expect 0 "^Wheat tray" check wheat-tray
 expect 0 "layouts" check wheat-demo
-expect 0 "guard.warn_relative_overlap" check paper-a-fig3
+# What a scene is computed with, and advice that fits it.
+expect 0 "law +elastic-shell: .*shell" check seeder.toml
+expect 0 "friction +sliding: .* 20 mm/s" check seeder.toml
+expect 0 "friction +spring" check wheat-tray
+expect 0 "scheme +gear5" check seeder.toml --set numerics.integrator=gear5
+expect 0 "take a smaller contact.shell_compression: " check paper-a-fig3
+hertz=(--set contact.law=hertz --set contact.shell_compression= --set "contact.youngs_modulus=0.1 MPa")
+expect 0 "law +hertz: Hertz" check seeder.toml "${hertz[@]}"
+expect 0 "take a larger contact.youngs_modulus" check seeder.toml "${hertz[@]}" --set "tray.motion.kind=harmonic" \
+  --set "tray.motion.amplitude=1 cm" --set "tray.motion.frequency=9 Hz"
 short=(--set "run.duration=0.2 s" --set "run.measure_from=0.1 s")
 expect 0 "^whole tray" run wheat-tray --out shipped "${short[@]}"
 expect 0 "tray, times" sweep wheat-holes --out shipped-sweep "${short[@]}" --set replicates=2 --set "vary.tray.motion.frequency=[\"9 Hz\"]" \
