@@ -77,6 +77,8 @@ AccuracyGrid grid_of(const AccuracyOptions& options, const Scene& scene) {
   if (!options.youngs_moduli.empty())
     grid.youngs_moduli =
         quantities("--youngs-modulus", options.youngs_moduli, Dimension::pressure, 1, 1e13, "1 Pa to 1e+07 MPa");
+  if (!options.slip_speeds.empty() && grid.slip_speeds.empty())
+    throw InputError(fmt::format("--slip-speed: the friction of {} has none", options.common.file));
   if (!options.slip_speeds.empty())
     grid.slip_speeds =
         quantities("--slip-speed", options.slip_speeds, Dimension::speed, 1e-6, 100, "1e-06 m/s to 100 m/s");
@@ -137,7 +139,7 @@ void add_accuracy_command(CLI::App& app, int& exit_code) {
       ->delimiter(',');
   command
       ->add_option("--slip-speed", options->slip_speeds,
-                   "with units: \"20 mm/s\"; default: the seeder's, times 1 and 5")
+                   "with units: \"20 mm/s\"; default: the seeder's, times 1 and 5, where its friction is sliding")
       ->delimiter(',');
   command->add_option("--replicates", options->replicates, "runs of each setting")
       ->check(CLI::Range(1, 1000))

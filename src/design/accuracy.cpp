@@ -8,7 +8,6 @@
 #include <tuple>
 
 #include "laws/law.hpp"
-#include "plan/effects.hpp"
 #include "plan/model.hpp"
 #include "scene/input_error.hpp"
 #include "simulation/integrator.hpp"
@@ -149,9 +148,9 @@ AccuracyGrid default_accuracy_grid(const Scene& scene) {
     else if (softer == 1 || softer * shell_compression_of(scene) <= softest_shell)
       grid.shell_compressions.push_back(softer * shell_compression_of(scene));
   }
-  grid.slip_speeds = {scene.contact.slip_speed};
   const EffectSet effects = prepare(scene).effects;
-  if (effects.friction && !effects.tangential_spring) grid.slip_speeds.push_back(5 * scene.contact.slip_speed);
+  if ((effects.friction && !effects.tangential_spring) || effects.rolling == Rolling::constant_torque)
+    grid.slip_speeds = {scene.contact.slip_speed, 5 * scene.contact.slip_speed};
   return grid;
 }
 
@@ -159,11 +158,12 @@ std::vector<AccuracySetting> settings_of(const AccuracyGrid& grid) {
   std::vector<AccuracySetting> softnesses;
   for (const double compression : grid.shell_compressions) softnesses.push_back({.shell_compression = compression});
   for (const double modulus : grid.youngs_moduli) softnesses.push_back({.youngs_modulus = modulus});
+  const std::vector<double> slip_speeds = grid.slip_speeds.empty() ? std::vector<double>{0} : grid.slip_speeds;
   std::vector<AccuracySetting> settings;
   for (const Integrator integrator : grid.integrators)
     for (const double steps : grid.steps_per_contact)
       for (AccuracySetting setting : softnesses)
-        for (const double slip_speed : grid.slip_speeds) {
+        for (const double slip_speed : slip_speeds) {
           setting.integrator = integrator;
           setting.steps_per_contact = steps;
           setting.slip_speed = slip_speed;
@@ -175,7 +175,7 @@ std::vector<AccuracySetting> settings_of(const AccuracyGrid& grid) {
 Scene scene_with(const Scene& scene, AccuracySetting& setting) {
   Scene changed = scene;
   set_softness(changed, setting);
-  changed.contact.slip_speed = setting.slip_speed;
+  if (setting.slip_speed > 0) changed.contact.slip_speed = setting.slip_speed;
   changed.numerics.integrator = setting.integrator;
   changed.numerics.steps_per_contact = setting.steps_per_contact;
   setting.dt = prepare(changed).step.contact_duration / setting.steps_per_contact;

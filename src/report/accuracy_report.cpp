@@ -19,22 +19,26 @@ using Value = std::optional<double>;
 
 /// The first columns of both files.
 Columns<AccuracyRow> setting_columns() {
-  return {text_column<AccuracyRow>("integrator", "scheme", [](R r) { return integrator_name(r.setting.integrator); }),
-          quantity_column<AccuracyRow>("dt_s", seconds, "time step", [](R r) { return r.setting.dt; }),
-          quantity_column<AccuracyRow>("steps_per_contact", plain, "contact duration over the time step",
-                                       [](R r) { return r.setting.steps_per_contact; }),
-          quantity_column<AccuracyRow>("shell_compression", plain, "eps / r; empty where the law has no shell",
-                                       [](R r) {
-                                         const double compression = r.setting.shell_compression;
-                                         return compression > 0 ? Value(compression) : Value();
-                                       }),
-          quantity_column<AccuracyRow>("youngs_modulus_MPa", megapascals, "empty where the law has a shell",
-                                       [](R r) {
-                                         const double modulus = r.setting.youngs_modulus;
-                                         return modulus > 0 ? Value(modulus) : Value();
-                                       }),
-          quantity_column<AccuracyRow>("slip_speed_mm_per_s", millimetres_per_second, "slip speed of friction",
-                                       [](R r) { return r.setting.slip_speed; })};
+  return {
+      text_column<AccuracyRow>("integrator", "scheme", [](R r) { return integrator_name(r.setting.integrator); }),
+      quantity_column<AccuracyRow>("dt_s", seconds, "time step", [](R r) { return r.setting.dt; }),
+      quantity_column<AccuracyRow>("steps_per_contact", plain, "contact duration over the time step",
+                                   [](R r) { return r.setting.steps_per_contact; }),
+      quantity_column<AccuracyRow>("shell_compression", plain, "eps / r; empty where the law has no shell",
+                                   [](R r) {
+                                     const double compression = r.setting.shell_compression;
+                                     return compression > 0 ? Value(compression) : Value();
+                                   }),
+      quantity_column<AccuracyRow>("youngs_modulus_MPa", megapascals, "empty where the law has a shell",
+                                   [](R r) {
+                                     const double modulus = r.setting.youngs_modulus;
+                                     return modulus > 0 ? Value(modulus) : Value();
+                                   }),
+      quantity_column<AccuracyRow>("slip_speed_mm_per_s", millimetres_per_second,
+                                   "slip speed of friction; empty where friction has none, as a spring has", [](R r) {
+                                     const double slip_speed = r.setting.slip_speed;
+                                     return slip_speed > 0 ? Value(slip_speed) : Value();
+                                   })};
 }
 
 Columns<AccuracyRow> accuracy_columns() {
@@ -109,8 +113,10 @@ std::string setting_text(const AccuracySetting& setting) {
   const std::string softness = setting.shell_compression > 0
                                    ? fmt::format("shell compression {:g}", setting.shell_compression)
                                    : fmt::format("Young's modulus {:g} MPa", setting.youngs_modulus / megapascal);
-  return fmt::format("{}, {:g} steps a contact, {}, slip speed {:g} mm/s", integrator_name(setting.integrator),
-                     setting.steps_per_contact, softness, setting.slip_speed / millimetre_per_second);
+  const std::string slip_speed =
+      setting.slip_speed > 0 ? fmt::format(", slip speed {:g} mm/s", setting.slip_speed / millimetre_per_second) : "";
+  return fmt::format("{}, {:g} steps a contact, {}{}", integrator_name(setting.integrator), setting.steps_per_contact,
+                     softness, slip_speed);
 }
 
 std::string setting_and_error(const AccuracyRow& row) {
@@ -120,8 +126,9 @@ std::string setting_and_error(const AccuracyRow& row) {
 
 std::string setting_columns_text(const AccuracySetting& setting) {
   const double softness = setting.youngs_modulus > 0 ? setting.youngs_modulus / megapascal : setting.shell_compression;
-  return fmt::format("  {:>5g} {:>9g} {:>9g} {:>10.3g} ", setting.steps_per_contact, softness,
-                     setting.slip_speed / millimetre_per_second, setting.dt);
+  const std::string slip_speed =
+      setting.slip_speed > 0 ? fmt::format("{:>9g} ", setting.slip_speed / millimetre_per_second) : "";
+  return fmt::format("  {:>5g} {:>9g} {}{:>10.3g} ", setting.steps_per_contact, softness, slip_speed, setting.dt);
 }
 
 /// A line of the table for a terminal.
@@ -150,9 +157,10 @@ std::string accuracy_timing_csv(const AccuracyResult& result, CsvFormat format) 
 }
 
 std::string accuracy_table(const AccuracyResult& result) {
-  const bool hertz = result.rows.front().setting.youngs_modulus > 0;
-  std::string text = fmt::format("  {:>5} {:>9} {:>9} {:>10} {:>10} {:>18} {:>9}\n", "steps", hertz ? "E MPa" : "eps/r",
-                                 "slip mm/s", "dt s", "rate g/s", "error", "cost");
+  const AccuracySetting& first = result.rows.front().setting;
+  std::string text =
+      fmt::format("  {:>5} {:>9} {}{:>10} {:>10} {:>18} {:>9}\n", "steps", first.youngs_modulus > 0 ? "E MPa" : "eps/r",
+                  first.slip_speed > 0 ? "slip mm/s " : "", "dt s", "rate g/s", "error", "cost");
   std::string scheme;
   for (std::size_t i = 0; i < result.rows.size(); ++i) {
     const AccuracyRow& row = result.rows[i];

@@ -98,6 +98,7 @@ expect 0 "tray, times" sweep wheat-holes --out shipped-sweep "${short[@]}" --set
   --set "vary.tray.holes.count=[1, 5]"
 expect 0 "^velocity-verlet" accuracy wheat-tray --out shipped-accuracy "${short[@]}" \
   --integrator velocity-verlet --steps-per-contact 10,20 --replicates 2
+expect 2 "slip-speed: .* has none" accuracy wheat-tray --slip-speed "20 mm/s"
 expect 2 "did you mean \"wheat-tray\"" run wheat-trey
 expect 2 "study.toml: this is a study: use vibrosow sweep" run study.toml
 expect 2 "seeder.toml: this is a seeder" sweep seeder.toml
