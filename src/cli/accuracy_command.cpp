@@ -90,7 +90,8 @@ AccuracyGrid grid_of(const AccuracyOptions& options, const Scene& scene) {
 }
 
 int run_accuracy(const AccuracyOptions& options) {
-  const Scene scene = read_scene(input_file(options.common.file, FileKind::seeder), options.common.overrides());
+  const InputFile file = input_file(options.common.file, FileKind::seeder);
+  const Scene scene = read_scene(file.path, options.common.overrides(), file.files);
   const AccuracyGrid grid = grid_of(options, scene);
   const OutputFolder folder = options.common.output_folder("accuracy", accuracy_file_texts(), "-accuracy");
   const int jobs = threads_to_be_had(options.common.jobs);

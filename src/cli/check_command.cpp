@@ -103,8 +103,8 @@ void print_vessel(const Vessel& vessel) {
     print("  rain of {:.6g} seeds/s from {:.1f} mm above its floor\n", vessel.rain->rate, vessel.rain->height * 1e3);
 }
 
-int check_seeder(const std::filesystem::path& file, const CommonOptions& options) {
-  const Model model = prepare(read_scene(file, options.overrides()));
+int check_seeder(const InputFile& file, const CommonOptions& options) {
+  const Model model = prepare(read_scene(file.path, options.overrides(), file.files));
   const Scene& scene = model.scene;
   print_warnings(scene_warnings(scene));
   const StepPlan& plan = model.step;
@@ -128,8 +128,8 @@ std::string measured_header(const Study& study) {
   return header + "hole,lot,repeat,caught_g,duration_s,note";
 }
 
-int check_study(const std::filesystem::path& file, const CommonOptions& options) {
-  const Study study = read_study(file, options.overrides());
+int check_study(const InputFile& file, const CommonOptions& options) {
+  const Study study = read_study(file.path, options.overrides(), file.files);
   print_warnings(study_warnings(study));
   print_text(wrapped(study.title));
   print_text(wrapped(fmt::format("{} layouts, {} different scenes, {} runs of each: some {} of one core in all",
@@ -153,8 +153,8 @@ void add_check_command(CLI::App& app, int& exit_code) {
       app.add_subcommand("check", "validate a seeder or a study; effects, step, predicted overlap and cost");
   add_input_options(*command, *options, "seeder or study file (.toml)");
   command->callback([options, &exit_code] {
-    const std::filesystem::path file = input_file(options->file);
-    exit_code = kind_of(file) == FileKind::study ? check_study(file, *options) : check_seeder(file, *options);
+    const InputFile file = input_file(options->file);
+    exit_code = file.kind == FileKind::study ? check_study(file, *options) : check_seeder(file, *options);
   });
 }
 

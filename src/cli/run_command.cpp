@@ -138,7 +138,8 @@ double checkpoint_interval(const std::string& text) {
 }
 
 int run_scene(const RunOptions& options) {
-  const Scene read = read_scene(input_file(options.file, FileKind::seeder), options.overrides());
+  const InputFile file = input_file(options.file, FileKind::seeder);
+  const Scene read = read_scene(file.path, options.overrides(), file.files);
   const std::vector<std::string> warnings = scene_warnings(read);
   print_warnings(warnings);
   const Model model = prepare_to_run(read);

@@ -131,7 +131,8 @@ int exit_code_of(const StudyResult& result, bool interrupted) {
 }
 
 int run_sweep(const CommonOptions& options) {
-  const Study study = read_study(input_file(options.file, FileKind::study), options.overrides());
+  const InputFile file = input_file(options.file, FileKind::study);
+  const Study study = read_study(file.path, options.overrides(), file.files);
   print_warnings(study_warnings(study));
   const OutputFolder folder = options.output_folder("sweep", sweep_file_texts());
   const int jobs = threads_to_be_had(options.jobs);
