@@ -64,6 +64,7 @@ expect 2 "threads" run seeder.toml --threads 0
 expect 0 "pairs +[0-9.]+ +[0-9.]+ %" run seeder.toml --profile --out profiled
 grep -q '"neighbours"' profiled/timing.json || fail "timing.json has no shares"
 expect 0 "wheat" presets crops
+expect 0 "wheat-steel +Wheat on steel" presets contacts
 expect 0 "wheat-holes" presets
 for command in run sweep accuracy check presets columns; do expect 0 "^Usage: vibrosow $command" $command --help; done
 expect 0 "wheat-tray +Wheat tray" presets seeders
@@ -94,7 +95,7 @@ expect 0 "take a larger contact.youngs_modulus" check seeder.toml "${hertz[@]}" 
   --set "tray.motion.amplitude=1 cm" --set "tray.motion.frequency=9 Hz"
 short=(--set "run.duration=0.2 s" --set "run.measure_from=0.1 s")
 expect 0 "^whole tray" run wheat-tray --out shipped "${short[@]}"
-expect 0 "tray, times" sweep wheat-holes --out shipped-sweep "${short[@]}" --set replicates=2 --set "vary.tray.motion.frequency=[\"9 Hz\"]" \
+expect 0 "span 420 mm, count 5, frequency 9 Hz" sweep wheat-holes --out shipped-sweep "${short[@]}" --set replicates=2 --set "vary.tray.motion.frequency=[\"9 Hz\"]" \
   --set "vary.tray.holes.count=[1, 5]"
 expect 0 "^velocity-verlet" accuracy wheat-tray --out shipped-accuracy "${short[@]}" \
   --integrator velocity-verlet --steps-per-contact 10,20 --replicates 2
@@ -105,6 +106,10 @@ expect 2 "seeder.toml: this is a seeder" sweep seeder.toml
 expect 0 "hole 1 at 20.00 mm" check seeder.toml --set "tray.holes.count=" --set 'tray.holes.at=["20 mm"]'
 expect 0 "^vibrosow: warning: tray.holes.width: 3 mm is narrower" check seeder.toml --set "tray.holes.width=3 mm"
 expect 0 "^vibrosow: warning: tray.holes.width: 3 mm is narrower" sweep study.toml --out narrow --set "tray.holes.width=3 mm"
+grep -q "^1,.*is narrower" narrow/sweep.csv || fail "sweep.csv does not carry the warning"
+expect 0 "^vibrosow: warning: tray.holes.width: 3 mm is narrower" accuracy seeder.toml --out narrow-accuracy \
+  --integrator velocity-verlet --steps-per-contact 20 --shell-compression 1e-3 --slip-speed "20 mm/s" --replicates 1 \
+  --set "tray.holes.width=3 mm"
 expect 0 "^vibrosow: warning: tray.holes.width: 3 mm is narrower" run seeder.toml --out narrow-run --set "tray.holes.width=3 mm"
 grep -q "is narrower" narrow-run/run.json || fail "run.json does not carry the warning"
 
