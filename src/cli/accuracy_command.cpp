@@ -13,6 +13,7 @@
 #include "input/input_file.hpp"
 #include "input/read_scene.hpp"
 #include "laws/law.hpp"
+#include "plan/scene_warnings.hpp"
 #include "report/accuracy_report.hpp"
 #include "report/terminal_text.hpp"
 #include "scene/input_error.hpp"
@@ -92,6 +93,7 @@ AccuracyGrid grid_of(const AccuracyOptions& options, const Scene& scene) {
 int run_accuracy(const AccuracyOptions& options) {
   const InputFile file = input_file(options.common.file, FileKind::seeder);
   const Scene scene = read_scene(file.path, options.common.overrides(), file.files);
+  print_warnings(scene_warnings(scene));
   const AccuracyGrid grid = grid_of(options, scene);
   const OutputFolder folder = options.common.output_folder("accuracy", accuracy_file_texts(), "-accuracy");
   const int jobs = threads_to_be_had(options.common.jobs);
@@ -125,24 +127,30 @@ void add_accuracy_command(CLI::App& app, int& exit_code) {
   command
       ->add_option("--integrator", options->integrators, "velocity-verlet, rk2-midpoint, gear5; default the first two")
       ->delimiter(',')
+      ->type_name("NAME")
       ->check(CLI::IsMember(integrator_names()));
   command->add_option("--steps-per-contact", options->steps_per_contact, "default 10,20,40")
       ->delimiter(',')
+      ->type_name("N")
       ->check(number_within(1, 1e4));
   command
       ->add_option("--shell-compression", options->shell_compressions,
                    "default: the seeder's, times 1, 10 and 100, up to 0.05")
       ->delimiter(',')
+      ->type_name("EPS/R")
       ->check(number_within(1e-9, 0.5));
   command
       ->add_option("--youngs-modulus", options->youngs_moduli,
                    "with units: \"50 MPa\"; default with Hertz' law: the seeder's, over 1, 10 and 100")
-      ->delimiter(',');
+      ->delimiter(',')
+      ->type_name("E");
   command
       ->add_option("--slip-speed", options->slip_speeds,
                    "with units: \"20 mm/s\"; default: the seeder's, times 1 and 5, where its friction is sliding")
-      ->delimiter(',');
+      ->delimiter(',')
+      ->type_name("SPEED");
   command->add_option("--replicates", options->replicates, "runs of each setting")
+      ->type_name("N")
       ->check(CLI::Range(1, 1000))
       ->capture_default_str();
   command->callback([options, &exit_code] { exit_code = run_accuracy(*options); });

@@ -17,7 +17,7 @@ std::string HelpText::entry(const std::string& name, const std::string& descript
   std::string label = "  " + name + " ";
   const bool beside = label.size() <= get_column_width();
   label.resize(std::max(label.size(), get_column_width()), ' ');
-  return beside ? wrapped_beside(label, description) : label + '\n' + wrapped(description, get_column_width());
+  return beside ? wrapped_beside(label, description) : "  " + name + '\n' + wrapped(description, get_column_width());
 }
 
 std::string HelpText::make_description(const CLI::App* app) const {

@@ -43,6 +43,11 @@ void print_titles(const std::filesystem::path& directory) {
     print_entry(file, Table(Document::read(file)).text("title").value_or(""));
 }
 
+void print_contacts(const std::filesystem::path& data) {
+  print("contact models (contact.model = \"...\"), in {}\n", (data / "models/contacts").string());
+  print_titles(data / "models/contacts");
+}
+
 void print_seeders(const std::filesystem::path& data) {
   constexpr std::pair<const char*, const char*> rooms[] = {
       {"seeders", "seeders to start from"},
@@ -62,11 +67,14 @@ void print_seeders(const std::filesystem::path& data) {
 void add_presets_command(CLI::App& app, int& exit_code) {
   auto kind = std::make_shared<std::string>();
   CLI::App* command = app.add_subcommand("presets", "what is shipped");
-  command->add_option("KIND", *kind, "crops or seeders; default both")->check(CLI::IsMember({"crops", "seeders"}));
+  command->add_option("KIND", *kind, "crops, contacts or seeders; default all")
+      ->check(CLI::IsMember({"crops", "contacts", "seeders"}));
   command->callback([kind, &exit_code] {
     const std::filesystem::path data = data_directory();
-    if (*kind != "seeders") print_crops(data);
-    if (*kind != "crops") print_seeders(data);
+    const auto wanted = [&](std::string_view one) { return kind->empty() || *kind == one; };
+    if (wanted("crops")) print_crops(data);
+    if (wanted("contacts")) print_contacts(data);
+    if (wanted("seeders")) print_seeders(data);
     exit_code = exit_done;
   });
 }

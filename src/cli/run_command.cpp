@@ -187,6 +187,7 @@ void add_run_command(CLI::App& app, int& exit_code) {
   CLI::App* command = app.add_subcommand("run", "simulate a seeder once; outflow per hole");
   add_common_options(*command, *options, "seeder file (.toml)");
   command->add_option("--threads", options->threads, "that share one run; worth it from about 10000 seeds")
+      ->type_name("N")
       ->check(CLI::Range(1, 256))
       ->capture_default_str();
   command->add_flag("--profile", options->profile, "show what the time went into; also in timing.json");

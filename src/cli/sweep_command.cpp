@@ -13,6 +13,7 @@
 #include "cli/threads.hpp"
 #include "design/sweep.hpp"
 #include "input/input_file.hpp"
+#include "input/key_units.hpp"
 #include "report/sweep_report.hpp"
 #include "report/terminal_text.hpp"
 #include "simulation/simulate.hpp"
@@ -44,12 +45,18 @@ std::string evenness_text(const FigureMeans& figures) {
                      text("evenness_cv_percent_low"), high);
 }
 
+/// A value of a layout as a person writes it: "9 Hz".
+std::string with_unit(const std::string& key, const std::string& value) {
+  const auto unit = column_unit(key);
+  return unit && csv_text_or_number(value).is_number ? fmt::format("{} {}", value, unit->unit) : value;
+}
+
 std::string described(const Study& study, const Layout& layout) {
   std::string text = layout.name;
   for (const std::string& key : study.keys) {
     const auto value = layout.values.find(key);
     if (value == layout.values.end() || !layout.name.empty()) continue;
-    text += (text.empty() ? "" : ", ") + key.substr(key.rfind('.') + 1) + " " + value->second;
+    text += (text.empty() ? "" : ", ") + key.substr(key.rfind('.') + 1) + " " + with_unit(key, value->second);
   }
   return text;
 }

@@ -127,8 +127,8 @@ std::string setting_and_error(const AccuracyRow& row) {
 std::string setting_columns_text(const AccuracySetting& setting) {
   const double softness = setting.youngs_modulus > 0 ? setting.youngs_modulus / megapascal : setting.shell_compression;
   const std::string slip_speed =
-      setting.slip_speed > 0 ? fmt::format("{:>9g} ", setting.slip_speed / millimetre_per_second) : "";
-  return fmt::format("  {:>5g} {:>9g} {}{:>10.3g} ", setting.steps_per_contact, softness, slip_speed, setting.dt);
+      setting.slip_speed > 0 ? fmt::format("{:>9.4g} ", setting.slip_speed / millimetre_per_second) : "";
+  return fmt::format("  {:>5.4g} {:>9.4g} {}{:>9.3g} ", setting.steps_per_contact, softness, slip_speed, setting.dt);
 }
 
 /// A line of the table for a terminal.
@@ -137,8 +137,8 @@ std::string row_text(const AccuracyRow& row, bool reference) {
   if (!row.mass_rate) return wrapped_beside(setting, row.refused);
   const std::string error = reference ? "reference" : (row.error_percent ? error_text(row) : "");
   const std::string cost = row.cost_ratio ? fmt::format("{:.3g}", *row.cost_ratio) : "";
-  return fmt::format("{}{:>10.5g} {:>18} {:>9}{}\n", setting, row.mass_rate->mean / gram, error, cost,
-                     row.on_front ? "  *" : "");
+  return fmt::format("{}{:>10.5g} {:>19} {:>8}{}\n", setting, row.mass_rate->mean / gram, error, cost,
+                     row.on_front ? " *" : "");
 }
 
 std::string unresolved_text(const AccuracyRow& row, const std::optional<int>& replicates) {
@@ -159,7 +159,7 @@ std::string accuracy_timing_csv(const AccuracyResult& result, CsvFormat format) 
 std::string accuracy_table(const AccuracyResult& result) {
   const AccuracySetting& first = result.rows.front().setting;
   std::string text =
-      fmt::format("  {:>5} {:>9} {}{:>10} {:>10} {:>18} {:>9}\n", "steps", first.youngs_modulus > 0 ? "E MPa" : "eps/r",
+      fmt::format("  {:>5} {:>9} {}{:>9} {:>10} {:>19} {:>8}\n", "steps", first.youngs_modulus > 0 ? "E MPa" : "eps/r",
                   first.slip_speed > 0 ? "slip mm/s " : "", "dt s", "rate g/s", "error", "cost");
   std::string scheme;
   for (std::size_t i = 0; i < result.rows.size(); ++i) {
@@ -170,8 +170,8 @@ std::string accuracy_table(const AccuracyResult& result) {
   }
   return text + '\n' +
          wrapped(
-             "cost: grain-steps times force evaluations a step, over the reference's; *: no other setting costs no "
-             "more and errs less");
+             "cost: grain-steps times force evaluations a step, of the finest setting's; *: no other setting costs "
+             "no more and errs less");
 }
 
 std::string accuracy_sentence(const AccuracyResult& result) {
