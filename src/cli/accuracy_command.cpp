@@ -12,7 +12,10 @@
 #include "design/accuracy.hpp"
 #include "input/input_file.hpp"
 #include "input/read_scene.hpp"
+#include "laws/law.hpp"
+#include "plan/scene_warnings.hpp"
 #include "report/accuracy_report.hpp"
+#include "report/terminal_text.hpp"
 #include "scene/input_error.hpp"
 #include "scene/integrator_names.hpp"
 #include "simulation/simulate.hpp"
@@ -63,14 +66,20 @@ Integrator integrator_of(const std::string& name) {
 AccuracyGrid grid_of(const AccuracyOptions& options, const Scene& scene) {
   AccuracyGrid grid = default_accuracy_grid(scene);
   if (!options.steps_per_contact.empty()) grid.steps_per_contact = options.steps_per_contact;
-  if (!options.shell_compressions.empty() && scene.contact.law != Law::elastic_shell)
-    throw InputError(fmt::format("--shell-compression: {} has Hertz' law, which has no shell", options.common.file));
+  const LawTraits& law = traits_of(scene.contact.law);
+  const auto refuse_unless = [&](LawMaterial material, const char* option, const auto& values) {
+    if (values.empty() || law.material == material) return;
+    throw InputError(fmt::format("{}: {} has the law {}, whose stiffness is {}", option, options.common.file, law.name,
+                                 law.stiffness_key()));
+  };
+  refuse_unless(LawMaterial::shell, "--shell-compression", options.shell_compressions);
+  refuse_unless(LawMaterial::elastic, "--youngs-modulus", options.youngs_moduli);
   if (!options.shell_compressions.empty()) grid.shell_compressions = options.shell_compressions;
-  if (!options.youngs_moduli.empty() && scene.contact.law == Law::elastic_shell)
-    throw InputError(fmt::format("--youngs-modulus: {} has elastic shells, which have none", options.common.file));
   if (!options.youngs_moduli.empty())
     grid.youngs_moduli =
         quantities("--youngs-modulus", options.youngs_moduli, Dimension::pressure, 1, 1e13, "1 Pa to 1e+07 MPa");
+  if (!options.slip_speeds.empty() && grid.slip_speeds.empty())
+    throw InputError(fmt::format("--slip-speed: the friction of {} has none", options.common.file));
   if (!options.slip_speeds.empty())
     grid.slip_speeds =
         quantities("--slip-speed", options.slip_speeds, Dimension::speed, 1e-6, 100, "1e-06 m/s to 100 m/s");
@@ -82,7 +91,9 @@ AccuracyGrid grid_of(const AccuracyOptions& options, const Scene& scene) {
 }
 
 int run_accuracy(const AccuracyOptions& options) {
-  const Scene scene = read_scene(input_file(options.common.file, FileKind::seeder), options.common.overrides());
+  const InputFile file = input_file(options.common.file, FileKind::seeder);
+  const Scene scene = read_scene(file.path, options.common.overrides(), file.files);
+  print_warnings(scene_warnings(scene));
   const AccuracyGrid grid = grid_of(options, scene);
   const OutputFolder folder = options.common.output_folder("accuracy", accuracy_file_texts(), "-accuracy");
   const int jobs = threads_to_be_had(options.common.jobs);
@@ -102,7 +113,7 @@ int run_accuracy(const AccuracyOptions& options) {
   }
   write_then_print(
       options.common.quiet, [&] { folder.write(accuracy_files(result, wall_time, jobs, options.common.csv)); },
-      [&] { print("{}\n\n{}\n{}\n", scene.title, accuracy_table(result), accuracy_sentence(result)); });
+      [&] { print("{}\n{}\n{}", wrapped(scene.title), accuracy_table(result), wrapped(accuracy_sentence(result))); });
   if (!options.common.quiet) print("reports: {}\n", folder.path().string());
   return interrupt ? exit_interrupted : exit_done;
 }
@@ -116,24 +127,30 @@ void add_accuracy_command(CLI::App& app, int& exit_code) {
   command
       ->add_option("--integrator", options->integrators, "velocity-verlet, rk2-midpoint, gear5; default the first two")
       ->delimiter(',')
+      ->type_name("NAME")
       ->check(CLI::IsMember(integrator_names()));
   command->add_option("--steps-per-contact", options->steps_per_contact, "default 10,20,40")
       ->delimiter(',')
+      ->type_name("N")
       ->check(number_within(1, 1e4));
   command
       ->add_option("--shell-compression", options->shell_compressions,
                    "default: the seeder's, times 1, 10 and 100, up to 0.05")
       ->delimiter(',')
+      ->type_name("EPS/R")
       ->check(number_within(1e-9, 0.5));
   command
       ->add_option("--youngs-modulus", options->youngs_moduli,
                    "with units: \"50 MPa\"; default with Hertz' law: the seeder's, over 1, 10 and 100")
-      ->delimiter(',');
+      ->delimiter(',')
+      ->type_name("E");
   command
       ->add_option("--slip-speed", options->slip_speeds,
-                   "with units: \"20 mm/s\"; default: the seeder's, times 1 and 5")
-      ->delimiter(',');
+                   "with units: \"20 mm/s\"; default: the seeder's, times 1 and 5, where its friction is sliding")
+      ->delimiter(',')
+      ->type_name("SPEED");
   command->add_option("--replicates", options->replicates, "runs of each setting")
+      ->type_name("N")
       ->check(CLI::Range(1, 1000))
       ->capture_default_str();
   command->callback([options, &exit_code] { exit_code = run_accuracy(*options); });

@@ -16,15 +16,39 @@
 #include "plan/effects.hpp"
 #include "plan/model.hpp"
 #include "plan/scene_warnings.hpp"
+#include "report/terminal_text.hpp"
 #include "scene/input_error.hpp"
+#include "scene/integrator_names.hpp"
 
 namespace vibrosow {
 namespace {
 
+std::string friction_text(const Model& model) {
+  if (!model.effects.friction) return "none: nothing rubs";
+  if (model.effects.tangential_spring) return "spring: a tangential spring up to Coulomb's limit";
+  return fmt::format("sliding: Coulomb's limit, less below the slip speed of {:g} mm/s",
+                     model.scene.contact.slip_speed * 1e3);
+}
+
+/// The laws by which contacts push, rub and roll, and the scheme that moves the seeds.
+void print_model(const Model& model) {
+  const auto line = [](std::string_view what, const std::string& text) {
+    print_text(wrapped_beside(fmt::format("  {:<9} ", what), text));
+  };
+  print("model\n");
+  line("law", fmt::format("{}: {}", model.law->name, model.law->description));
+  line("friction", friction_text(model));
+  if (model.effects.rolling != Rolling::none)
+    line("rolling", model.effects.rolling == Rolling::spring ? "spring: a rolling spring up to its limit"
+                                                             : "constant torque: a torque against rolling");
+  line("scheme", integrator_name(model.scene.numerics.integrator));
+}
+
 void print_effects(const Model& model, const CostBreakdown& cost) {
   print("effects\n");
   for (const EffectReason& effect : explain_effects(model.scene, model.effects, *model.law))
-    print("  {:<3} {:<17} {}\n", effect.present ? "yes" : "no", effect.effect, effect.reason);
+    print_text(
+        wrapped_beside(fmt::format("  {:<3} {:<17} ", effect.present ? "yes" : "no", effect.effect), effect.reason));
   print("cost on this machine, now, ns of CPU time per grain-step\n  {:<22} {:6.1f}\n", "all effects present",
         cost.whole.ns_per_grain_step);
   for (const EffectCost& effect : cost.effects)
@@ -38,24 +62,33 @@ void print_effects(const Model& model, const CostBreakdown& cost) {
 void print_step(const StepPlan& plan, const PredictedCost& cost) {
   print("step\n  dt {:.4g} s, shortest contact {:.4g} s: {:.3g} steps a contact\n", plan.dt, plan.contact_duration,
         plan.contact_duration / plan.dt);
-  for (const StepLimit& limit : plan.limits) print("  at most {:.4g} s: {}\n", limit.dt, limit.reason);
-  print("  longest safe step {:.4g} s ({})\n", plan.longest_safe, plan.bound_by);
+  for (const StepLimit& limit : plan.limits)
+    print_text(wrapped_beside(fmt::format("  at most {:.4g} s: ", limit.dt), limit.reason));
+  print_text(wrapped(fmt::format("longest safe step {:.4g} s ({})", plan.longest_safe, plan.bound_by), 2));
   print("  {} steps, about {:.3g} grain-steps: some {:.2g} s of one core\n", plan.steps, cost.grain_steps,
         cost.seconds());
 }
 
-void print_overlap(const Scene& scene, const PredictedOverlap& predicted) {
+/// What keeps overlaps small.
+std::string advice(const LawTraits& law, const PredictedOverlap& predicted) {
+  const std::string stiffer = fmt::format("take a {} {}", law.stiffer_value(), law.stiffness_key());
+  return law.material == LawMaterial::shell ? fmt::format("{}: {:.2g} would do", stiffer, predicted.stiff_enough)
+                                            : stiffer;
+}
+
+void print_overlap(const Model& model) {
+  const PredictedOverlap& predicted = model.overlap;
   print(
       "relative overlap predicted (a grain's share of the overlap over its radius)\n  at rest {:.3g} under {:.3g} "
       "layers (overlap of the lowest pair {:.3g} r)\n",
       predicted.overlap_at_rest, predicted.layers, predicted.pair_overlap_at_rest);
   print("  at impact {:.3g} at {:.3g} m/s\n", predicted.overlap_at_impact, predicted.impact_speed);
-  const double warn = scene.guard.warn_relative_overlap;
+  const double warn = model.scene.guard.warn_relative_overlap;
   if (predicted.overlap_at_rest <= warn && predicted.overlap_at_impact <= warn) return;
-  print("  warning: beyond guard.warn_relative_overlap = {:g}: {}\n", warn,
-        scene.contact.law == Law::elastic_shell
-            ? fmt::format("a shell is thin; contact.shell_compression = {:.2g} would do", predicted.stiff_enough)
-            : "Hertz' law is for small overlaps; a larger contact.youngs_modulus is stiffer");
+  print_text(
+      wrapped_beside("  warning: ", fmt::format("beyond guard.warn_relative_overlap = {:g}, and the law is for small "
+                                                "overlaps; {}",
+                                                warn, advice(*model.law, predicted))));
 }
 
 void print_vessel(const Vessel& vessel) {
@@ -70,18 +103,19 @@ void print_vessel(const Vessel& vessel) {
     print("  rain of {:.6g} seeds/s from {:.1f} mm above its floor\n", vessel.rain->rate, vessel.rain->height * 1e3);
 }
 
-int check_seeder(const std::filesystem::path& file, const CommonOptions& options) {
-  const Model model = prepare(read_scene(file, options.overrides()));
+int check_seeder(const InputFile& file, const CommonOptions& options) {
+  const Model model = prepare(read_scene(file.path, options.overrides(), file.files));
   const Scene& scene = model.scene;
   print_warnings(scene_warnings(scene));
   const StepPlan& plan = model.step;
-  print("{}\n", scene.title);
+  print_text(wrapped(scene.title));
   print_vessel(scene.tray);
   if (scene.hopper) print_vessel(*scene.hopper);
+  print_model(model);
   const CostBreakdown cost = break_down_cost(scene);
   print_effects(model, cost);
   print_step(plan, cost.whole);
-  print_overlap(scene, model.overlap);
+  print_overlap(model);
   if (const auto refused = step_refused(scene.numerics, plan)) throw InputError(*refused);
   if (plan.too_long) print("the step is too long and insisted on: every result will be marked \"outside the model\"\n");
   return exit_done;
@@ -94,16 +128,19 @@ std::string measured_header(const Study& study) {
   return header + "hole,lot,repeat,caught_g,duration_s,note";
 }
 
-int check_study(const std::filesystem::path& file, const CommonOptions& options) {
-  const Study study = read_study(file, options.overrides());
+int check_study(const InputFile& file, const CommonOptions& options) {
+  const Study study = read_study(file.path, options.overrides(), file.files);
   print_warnings(study_warnings(study));
-  print("{}\n{} layouts, {} different scenes, {} runs of each: some {} of one core in all\n", study.title,
-        study.layouts.size(), study.scenes.size(), study.replicates, duration_text(predict_seconds(study)));
+  print_text(wrapped(study.title));
+  print_text(wrapped(fmt::format("{} layouts, {} different scenes, {} runs of each: some {} of one core in all",
+                                 study.layouts.size(), study.scenes.size(), study.replicates,
+                                 duration_text(predict_seconds(study)))));
   for (const Layout& layout : study.layouts)
-    if (!layout.scene) print("layout {} {}: invalid: {}\n", layout.number, layout.name, layout.invalid);
+    if (!layout.scene)
+      print_text(wrapped(fmt::format("layout {} {}: invalid: {}", layout.number, layout.name, layout.invalid)));
   if (study.measured)
-    print("measured: {}, {} series, {} matched to layouts\n", study.measured->file.string(),
-          study.measured->table.series.size(), study.measured->matches.size());
+    print_text(wrapped(fmt::format("measured: {}, {} series, {} matched to layouts", study.measured->file.string(),
+                                   study.measured->table.series.size(), study.measured->matches.size())));
   print("header of a table of measured outflow:\n{}\n", measured_header(study));
   return exit_done;
 }
@@ -116,8 +153,8 @@ void add_check_command(CLI::App& app, int& exit_code) {
       app.add_subcommand("check", "validate a seeder or a study; effects, step, predicted overlap and cost");
   add_input_options(*command, *options, "seeder or study file (.toml)");
   command->callback([options, &exit_code] {
-    const std::filesystem::path file = input_file(options->file);
-    exit_code = kind_of(file) == FileKind::study ? check_study(file, *options) : check_seeder(file, *options);
+    const InputFile file = input_file(options->file);
+    exit_code = file.kind == FileKind::study ? check_study(file, *options) : check_seeder(file, *options);
   });
 }
 

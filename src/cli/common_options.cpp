@@ -67,6 +67,7 @@ void add_common_options(CLI::App& command, CommonOptions& options, const std::st
           "--csv",
           [&options](const std::string& name) { options.csv = name == "semicolon" ? semicolon_csv : CsvFormat{}; },
           "how CSV files are written: comma, or semicolon with decimal commas, for spreadsheets")
+      ->type_name("FORMAT")
       ->check(CLI::IsMember({"comma", "semicolon"}))
       ->default_str("comma");
 }

@@ -3,7 +3,6 @@
 #include <fcntl.h>
 #include <unistd.h>
 
-#include <algorithm>
 #include <cerrno>
 #include <csignal>
 #include <cstdio>
@@ -29,22 +28,6 @@ void make_streams_safe() {
 
 void print_text(const std::string& text) {
   if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size()) note_error();
-}
-
-std::string wrapped(const std::string& text, std::size_t indent) {
-  constexpr std::size_t width = 80;
-  std::string lines, line;
-  for (std::size_t from = 0; from < text.size();) {
-    const std::size_t to = std::min(text.find(' ', from), text.size());
-    const std::string word = text.substr(from, to - from);
-    if (!line.empty() && indent + line.size() + 1 + word.size() > width) {
-      lines += std::string(indent, ' ') + line + '\n';
-      line.clear();
-    }
-    line += (line.empty() ? "" : " ") + word;
-    from = to + 1;
-  }
-  return lines + std::string(indent, ' ') + line + '\n';
 }
 
 void complain(const std::string& text) {

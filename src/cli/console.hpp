@@ -23,9 +23,6 @@ void print(fmt::format_string<Arguments...> format, Arguments&&... arguments) {
 /// Prints "vibrosow: TEXT" on standard error. Never throws.
 void complain(const std::string& text);
 
-/// Text in lines of at most 80 columns, cut at spaces, each indented by `indent` spaces and ended.
-std::string wrapped(const std::string& text, std::size_t indent = 0);
-
 /// Brings what was printed out of the program; why it could not be, if so ("No space left on device").
 std::optional<std::string> output_error();
 

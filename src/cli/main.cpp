@@ -1,8 +1,10 @@
+#include <memory>
 #include <new>
 #include <system_error>
 
 #include "cli/commands.hpp"
 #include "cli/console.hpp"
+#include "cli/help_text.hpp"
 #include "scene/input_error.hpp"
 
 int main(int argument_count, char** arguments) {
@@ -10,6 +12,7 @@ int main(int argument_count, char** arguments) {
   make_streams_safe();
   CLI::App app("Vibrosow designs vibrating-tray seeders: it simulates every seed and counts what leaves each hole.",
                "vibrosow");
+  app.formatter(std::make_shared<HelpText>());
   app.set_version_flag("--version", "vibrosow " VIBROSOW_VERSION);
   app.require_subcommand(1);
   int exit_code = exit_done;

@@ -10,6 +10,7 @@
 #include "input/document.hpp"
 #include "input/read_scene.hpp"
 #include "input/table.hpp"
+#include "report/terminal_text.hpp"
 
 namespace vibrosow {
 namespace {
@@ -22,20 +23,29 @@ std::vector<std::filesystem::path> toml_files(const std::filesystem::path& direc
   return files;
 }
 
+void print_entry(const std::filesystem::path& file, const std::string& text) {
+  print_text(wrapped_beside(fmt::format("  {:<24} ", file.stem().string()), text));
+}
+
 void print_crops(const std::filesystem::path& data) {
   print("crops (seeds.NAME.crop = \"...\"), in {}\n", (data / "models/crops").string());
   for (const auto& file : toml_files(data / "models/crops")) {
     Table crop(Document::read(file));
-    print("  {:<24}", file.stem().string());
+    std::string values;
     for (const std::string key : {"diameter", "length", "width", "mass"})
-      if (const auto value = crop.text(key)) print(" {} \"{}\"", key, *value);
-    print("\n");
+      if (const auto value = crop.text(key)) values += fmt::format("{}{} {}", values.empty() ? "" : ", ", key, *value);
+    print_entry(file, values);
   }
 }
 
 void print_titles(const std::filesystem::path& directory) {
   for (const auto& file : toml_files(directory))
-    print("  {:<24} {}\n", file.stem().string(), Table(Document::read(file)).text("title").value_or(""));
+    print_entry(file, Table(Document::read(file)).text("title").value_or(""));
+}
+
+void print_contacts(const std::filesystem::path& data) {
+  print("contact models (contact.model = \"...\"), in {}\n", (data / "models/contacts").string());
+  print_titles(data / "models/contacts");
 }
 
 void print_seeders(const std::filesystem::path& data) {
@@ -57,11 +67,14 @@ void print_seeders(const std::filesystem::path& data) {
 void add_presets_command(CLI::App& app, int& exit_code) {
   auto kind = std::make_shared<std::string>();
   CLI::App* command = app.add_subcommand("presets", "what is shipped");
-  command->add_option("KIND", *kind, "crops or seeders; default both")->check(CLI::IsMember({"crops", "seeders"}));
+  command->add_option("KIND", *kind, "crops, contacts or seeders; default all")
+      ->check(CLI::IsMember({"crops", "contacts", "seeders"}));
   command->callback([kind, &exit_code] {
     const std::filesystem::path data = data_directory();
-    if (*kind != "seeders") print_crops(data);
-    if (*kind != "crops") print_seeders(data);
+    const auto wanted = [&](std::string_view one) { return kind->empty() || *kind == one; };
+    if (wanted("crops")) print_crops(data);
+    if (wanted("contacts")) print_contacts(data);
+    if (wanted("seeders")) print_seeders(data);
     exit_code = exit_done;
   });
 }

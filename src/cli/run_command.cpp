@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -22,6 +23,7 @@
 #include "plan/scene_warnings.hpp"
 #include "report/output_folder.hpp"
 #include "report/run_report.hpp"
+#include "report/terminal_text.hpp"
 #include "scene/input_error.hpp"
 #include "simulation/checkpoint.hpp"
 #include "simulation/simulate.hpp"
@@ -40,20 +42,31 @@ std::string evenness_sentence(const Evenness& even) {
                      100 * even.high, parts);
 }
 
-void print_summary(const Scene& scene, const Run& run, const Outflow& outflow) {
-  print("{}\n\n{:>6} {:<12} {:>11} {:>8} {:>12} {:>10} {:>10}\n", scene.title, "hole", "lot", "position mm", "seeds",
-        "seeds per s", "g per s", "pause s");
-  // A run that ended before its measuring window has no rates.
-  const auto figure = [](double value) { return std::isfinite(value) ? fmt::format("{:.4g}", value) : "-"; };
+/// A run that ended before its measuring window has no rates.
+std::string figure_text(double value) {
+  return std::isfinite(value) ? to_digits(value, 4) : "-";
+}
+
+void print_holes(const Outflow& outflow) {
+  std::size_t width = 3;  // of the names of lots
+  for (const HoleOutflow& row : outflow.holes) width = std::max(width, row.lot.size());
+  print("{:>6}  {:<{}} {:>12} {:>8} {:>9} {:>9} {:>9}\n", "hole", "lot", width, "position mm", "seeds", "seeds/s",
+        "g/s", "pause s");
   for (const HoleOutflow& row : outflow.holes)
-    print("{:>6} {:<12} {:>11} {:>8} {:>12} {:>10} {:>10}\n", row.hole, row.lot,
-          row.centre ? fmt::format("{:.1f}", *row.centre * 1e3) : "", row.grains, figure(row.seeds_per_s),
-          figure(row.mass_rate * 1e3), figure(row.longest_pause));
+    print("{:>6}  {:<{}} {:>12} {:>8} {:>9} {:>9} {:>9}\n", row.hole, row.lot, width,
+          row.centre ? fmt::format("{:.1f}", *row.centre * 1e3) : "", row.grains, figure_text(row.seeds_per_s),
+          figure_text(row.mass_rate * 1e3), figure_text(row.longest_pause));
+}
+
+void print_summary(const Scene& scene, const Run& run, const Outflow& outflow) {
+  print("{}\n", wrapped(scene.title));
+  print_holes(outflow);
   const HoleOutflow& all = *find_row(outflow, "all", "all");
-  if (outflow.depth_factor)
-    print("\nwhole tray, {:.4g} times the slice: {} g/s = {} g/min, {} seeds/s\n", *outflow.depth_factor,
-          figure(all.mass_rate * 1e3 * *outflow.depth_factor), figure(all.mass_rate * 6e4 * *outflow.depth_factor),
-          figure(all.seeds_per_s * *outflow.depth_factor));
+  if (const auto& depth = outflow.depth_factor)
+    print_text("\n" +
+               wrapped(fmt::format("whole tray, {:.4g} times the slice: {} g/s = {} g/min, {} seeds/s", *depth,
+                                   figure_text(all.mass_rate * 1e3 * *depth), figure_text(all.mass_rate * 6e4 * *depth),
+                                   figure_text(all.seeds_per_s * *depth))));
   if (outflow.evenness) print_text("\n" + wrapped(evenness_sentence(*outflow.evenness)));
   const Balance& balance = run.balance;
   print("\nwindow {:g} to {:g} s\nput in {} = inside {} + counted {} + spilled {} + lost {}\n", outflow.window_from,
@@ -125,7 +138,8 @@ double checkpoint_interval(const std::string& text) {
 }
 
 int run_scene(const RunOptions& options) {
-  const Scene read = read_scene(input_file(options.file, FileKind::seeder), options.overrides());
+  const InputFile file = input_file(options.file, FileKind::seeder);
+  const Scene read = read_scene(file.path, options.overrides(), file.files);
   const std::vector<std::string> warnings = scene_warnings(read);
   print_warnings(warnings);
   const Model model = prepare_to_run(read);
@@ -173,6 +187,7 @@ void add_run_command(CLI::App& app, int& exit_code) {
   CLI::App* command = app.add_subcommand("run", "simulate a seeder once; outflow per hole");
   add_common_options(*command, *options, "seeder file (.toml)");
   command->add_option("--threads", options->threads, "that share one run; worth it from about 10000 seeds")
+      ->type_name("N")
       ->check(CLI::Range(1, 256))
       ->capture_default_str();
   command->add_flag("--profile", options->profile, "show what the time went into; also in timing.json");

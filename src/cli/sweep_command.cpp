@@ -1,7 +1,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <memory>
+#include <numeric>
 
 #include "cli/commands.hpp"
 #include "cli/common_options.hpp"
@@ -11,7 +13,9 @@
 #include "cli/threads.hpp"
 #include "design/sweep.hpp"
 #include "input/input_file.hpp"
+#include "input/key_units.hpp"
 #include "report/sweep_report.hpp"
+#include "report/terminal_text.hpp"
 #include "simulation/simulate.hpp"
 
 namespace vibrosow {
@@ -19,8 +23,8 @@ namespace {
 
 std::string with_interval(const std::optional<MeanWithInterval>& value, double unit) {
   if (!value) return "";
-  if (!value->half_width_95) return fmt::format("{:.4g}", value->mean / unit);
-  return fmt::format("{:.4g} +- {:.2g}", value->mean / unit, *value->half_width_95 / unit);
+  const std::string mean = to_digits(value->mean / unit, 4);
+  return value->half_width_95 ? fmt::format("{} +- {}", mean, to_digits(*value->half_width_95 / unit, 2)) : mean;
 }
 
 std::string mean_text(const FigureMeans& figures, std::string_view name) {
@@ -32,13 +36,19 @@ std::string mean_text(const FigureMeans& figures, std::string_view name) {
 std::string evenness_text(const FigureMeans& figures) {
   const auto text = [&](std::string_view name) {
     const Figure& figure = figure_named(name);
-    return figures[figure] ? fmt::format("{:.2g}", figures[figure]->mean / figure.unit_size) : "";
+    return figures[figure] ? to_digits(figures[figure]->mean / figure.unit_size, 2) : "";
   };
   const std::string high = text("evenness_cv_percent_high"), cv = mean_text(figures, "evenness_cv_percent");
   if (high.empty()) return "";
   if (cv.empty()) return "< " + high;
-  return fmt::format("{:.3g} ({}-{})", figures["evenness_cv_percent"]->mean * 100, text("evenness_cv_percent_low"),
-                     high);
+  return fmt::format("{} ({}-{})", to_digits(figures["evenness_cv_percent"]->mean * 100, 3),
+                     text("evenness_cv_percent_low"), high);
+}
+
+/// A value of a layout as a person writes it: "9 Hz".
+std::string with_unit(const std::string& key, const std::string& value) {
+  const auto unit = column_unit(key);
+  return unit && csv_text_or_number(value).is_number ? fmt::format("{} {}", value, unit->unit) : value;
 }
 
 std::string described(const Study& study, const Layout& layout) {
@@ -46,20 +56,35 @@ std::string described(const Study& study, const Layout& layout) {
   for (const std::string& key : study.keys) {
     const auto value = layout.values.find(key);
     if (value == layout.values.end() || !layout.name.empty()) continue;
-    text += (text.empty() ? "" : ", ") + key.substr(key.rfind('.') + 1) + " " + value->second;
+    text += (text.empty() ? "" : ", ") + key.substr(key.rfind('.') + 1) + " " + with_unit(key, value->second);
   }
   return text;
 }
 
-void print_layout(const StudyResult& result, std::size_t index) {
-  const LayoutResult& of = result.layouts[index];
+/// What the table shows of a layout, but for its name; each column is as wide as its longest cell.
+using Cells = std::array<std::string, 4>;
+const Cells heads = {"g/s", "seeds/s", "raw CV", "CV, %"};
+
+Cells cells_of(const FigureMeans& figures) {
+  return {mean_text(figures, "rate_g_per_s"), mean_text(figures, "seeds_per_s"), mean_text(figures, "raw_cv_percent"),
+          evenness_text(figures)};
+}
+
+/// A line of the table: a name longer than what the cells leave has lines of its own.
+std::string line_of(const std::string& number, const std::string& name, const Cells& cells,
+                    const std::array<std::size_t, 4>& widths) {
+  const std::string label = fmt::format("{:>3} ", number);
+  const std::size_t room =
+      terminal_columns - label.size() - std::accumulate(widths.begin(), widths.end(), widths.size());
+  const bool fits = name.size() <= room;
+  std::string text = fits ? label : wrapped_beside(label, name) + std::string(label.size(), ' ');
+  text += fmt::format("{:<{}}", fits ? name : "", room);
+  for (std::size_t k = 0; k < cells.size(); ++k) text += fmt::format(" {:>{}}", cells[k], widths[k]);
+  return text + '\n';
+}
+
+void print_remarks(const LayoutResult& of) {
   const FigureMeans& figures = of.figures;
-  const std::string name = described(result.study, result.study.layouts[index]);
-  constexpr std::size_t name_width = 23;
-  if (name.size() > name_width) print_text(fmt::format("{:>3} {}", index + 1, wrapped(name, 4).substr(4)));
-  print("{:>3} {:<23} {:>15} {:>14} {:>6} {:>13}\n", name.size() > name_width ? "" : fmt::format("{}", index + 1),
-        name.size() > name_width ? "" : name, mean_text(figures, "rate_g_per_s"), mean_text(figures, "seeds_per_s"),
-        mean_text(figures, "raw_cv_percent"), evenness_text(figures));
   if (figures["tray_rate_g_per_s"])
     print_text(wrapped(fmt::format("tray, times {}: {} g/s, {} g/min, {} seeds/s", mean_text(figures, "depth_factor"),
                                    mean_text(figures, "tray_rate_g_per_s"), mean_text(figures, "tray_rate_g_per_min"),
@@ -69,9 +94,24 @@ void print_layout(const StudyResult& result, std::size_t index) {
   if (!of.reason.empty()) print_text(wrapped(of.reason, 4));
 }
 
+void print_layouts(const StudyResult& result) {
+  std::vector<Cells> rows;
+  std::array<std::size_t, 4> widths{};
+  for (const LayoutResult& layout : result.layouts) rows.push_back(cells_of(layout.figures));
+  for (std::size_t k = 0; k < widths.size(); ++k) {
+    widths[k] = heads[k].size();
+    for (const Cells& row : rows) widths[k] = std::max(widths[k], row[k].size());
+  }
+  print_text(line_of("", "layout", heads, widths));
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    print_text(line_of(std::to_string(i + 1), described(result.study, result.study.layouts[i]), rows[i], widths));
+    print_remarks(result.layouts[i]);
+  }
+}
+
 void print_table(const StudyResult& result) {
-  print("{}\n\n{:<27} {:>15} {:>14} {:>6} {:>13}\n", result.study.title, "layout", "g/s", "seeds/s", "raw CV", "CV, %");
-  for (std::size_t i = 0; i < result.layouts.size(); ++i) print_layout(result, i);
+  print("{}\n", wrapped(result.study.title));
+  print_layouts(result);
   const bool uneven = std::ranges::any_of(
       result.layouts, [](const LayoutResult& one) { return one.figures["raw_cv_percent"].has_value(); });
   if (uneven)
@@ -98,7 +138,8 @@ int exit_code_of(const StudyResult& result, bool interrupted) {
 }
 
 int run_sweep(const CommonOptions& options) {
-  const Study study = read_study(input_file(options.file, FileKind::study), options.overrides());
+  const InputFile file = input_file(options.file, FileKind::study);
+  const Study study = read_study(file.path, options.overrides(), file.files);
   print_warnings(study_warnings(study));
   const OutputFolder folder = options.output_folder("sweep", sweep_file_texts());
   const int jobs = threads_to_be_had(options.jobs);

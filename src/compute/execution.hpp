@@ -6,6 +6,7 @@
 
 #include "compute/grain_loops.hpp"
 #include "compute/profile.hpp"
+#include "compute/stop_request.hpp"
 #include "compute/thread_team.hpp"
 
 namespace vibrosow {
@@ -16,14 +17,19 @@ class Execution {
  public:
   /// `threads` >= 1. Throws std::logic_error when the instructions are not available, std::invalid_argument when there
   /// are not so many threads to be had.
-  explicit Execution(InstructionSet instructions = best_instruction_set(), int threads = 1)
-      : instructions_(instructions), loops_(grain_loops(instructions)), team_(threads) {}
+  explicit Execution(InstructionSet instructions = best_instruction_set(), int threads = 1, StopRequest stop = {})
+      : instructions_(instructions), loops_(grain_loops(instructions)), team_(threads), stop_(stop) {}
 
   InstructionSet instructions() const { return instructions_; }
   const GrainLoops& loops() const { return loops_; }
   int threads() const { return team_.size(); }
   Profile& profile() { return profile_; }
   const Profile& profile() const { return profile_; }
+
+  /// Throws Interrupted where that is asked for.
+  void stop_if_asked() const { stop_.throw_if_set(); }
+  /// From now on nothing is broken off: a run that has begun ends between two steps.
+  void stop_no_more() { stop_ = {}; }
 
   /// Calls work(range) for each range 0 .. threads - 1 and returns when all are done.
   template <class Work>
@@ -49,6 +55,7 @@ class Execution {
   const GrainLoops& loops_;
   ThreadTeam team_;
   Profile profile_;
+  StopRequest stop_;
 };
 
 }  // namespace vibrosow

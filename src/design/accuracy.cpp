@@ -7,6 +7,7 @@
 #include <ranges>
 #include <tuple>
 
+#include "laws/law.hpp"
 #include "plan/model.hpp"
 #include "scene/input_error.hpp"
 #include "simulation/integrator.hpp"
@@ -36,12 +37,16 @@ double youngs_modulus_of(const Scene& scene) {
   return general_value(scene, &Contact::youngs_modulus, &SeedLot::youngs_modulus);
 }
 
+bool has_shell(const Scene& scene) {
+  return traits_of(scene.contact.law).material == LawMaterial::shell;
+}
+
 void scale(std::optional<double>& value, double factor) {
   if (value) *value *= factor;
 }
 
 void set_softness(Scene& scene, const AccuracySetting& setting) {
-  if (scene.contact.law == Law::elastic_shell) {
+  if (has_shell(scene)) {
     const double factor = setting.shell_compression / shell_compression_of(scene);
     for (SeedLot& lot : scene.lots) scale(lot.shell_compression, factor);
     scene.contact.shell_compression = setting.shell_compression;
@@ -138,14 +143,14 @@ AccuracyGrid default_accuracy_grid(const Scene& scene) {
   grid.integrators = {Integrator::velocity_verlet, Integrator::rk2_midpoint};
   grid.steps_per_contact = {10, 20, 40};
   for (const double softer : {1.0, 10.0, 100.0}) {
-    if (scene.contact.law != Law::elastic_shell)
+    if (!has_shell(scene))
       grid.youngs_moduli.push_back(youngs_modulus_of(scene) / softer);
     else if (softer == 1 || softer * shell_compression_of(scene) <= softest_shell)
       grid.shell_compressions.push_back(softer * shell_compression_of(scene));
   }
-  grid.slip_speeds = {scene.contact.slip_speed};
   const EffectSet effects = prepare(scene).effects;
-  if (effects.friction && !effects.tangential_spring) grid.slip_speeds.push_back(5 * scene.contact.slip_speed);
+  if ((effects.friction && !effects.tangential_spring) || effects.rolling == Rolling::constant_torque)
+    grid.slip_speeds = {scene.contact.slip_speed, 5 * scene.contact.slip_speed};
   return grid;
 }
 
@@ -153,11 +158,12 @@ std::vector<AccuracySetting> settings_of(const AccuracyGrid& grid) {
   std::vector<AccuracySetting> softnesses;
   for (const double compression : grid.shell_compressions) softnesses.push_back({.shell_compression = compression});
   for (const double modulus : grid.youngs_moduli) softnesses.push_back({.youngs_modulus = modulus});
+  const std::vector<double> slip_speeds = grid.slip_speeds.empty() ? std::vector<double>{0} : grid.slip_speeds;
   std::vector<AccuracySetting> settings;
   for (const Integrator integrator : grid.integrators)
     for (const double steps : grid.steps_per_contact)
       for (AccuracySetting setting : softnesses)
-        for (const double slip_speed : grid.slip_speeds) {
+        for (const double slip_speed : slip_speeds) {
           setting.integrator = integrator;
           setting.steps_per_contact = steps;
           setting.slip_speed = slip_speed;
@@ -169,7 +175,7 @@ std::vector<AccuracySetting> settings_of(const AccuracyGrid& grid) {
 Scene scene_with(const Scene& scene, AccuracySetting& setting) {
   Scene changed = scene;
   set_softness(changed, setting);
-  changed.contact.slip_speed = setting.slip_speed;
+  if (setting.slip_speed > 0) changed.contact.slip_speed = setting.slip_speed;
   changed.numerics.integrator = setting.integrator;
   changed.numerics.steps_per_contact = setting.steps_per_contact;
   setting.dt = prepare(changed).step.contact_duration / setting.steps_per_contact;

@@ -17,12 +17,12 @@ struct AccuracyGrid {
   std::vector<double> steps_per_contact;
   std::vector<double> shell_compressions;  // eps / r under the grain's own weight; none with Hertz' law
   std::vector<double> youngs_moduli;       // Pa, of seeds; none with elastic shells
-  std::vector<double> slip_speeds;         // m/s
+  std::vector<double> slip_speeds;         // m/s; none where friction is a spring, or absent
 };
 
 /// Velocity Verlet and the midpoint rule; 10, 20 and 40 steps a contact; the scene's softness and 10 and 100 times
-/// that: shell compressions up to 0.05, or Young's moduli; the scene's slip speed and five times that, or one where no
-/// friction has a slip speed.
+/// that: shell compressions up to 0.05, or Young's moduli; where friction (or rolling's torque) has a slip speed, the
+/// scene's and five times that.
 AccuracyGrid default_accuracy_grid(const Scene& scene);
 
 /// The softness named is the contact's, or, where every lot has its own, the first lot's.
@@ -31,7 +31,7 @@ struct AccuracySetting {
   double steps_per_contact = 20;
   double shell_compression = 0;  // 0: Hertz' law
   double youngs_modulus = 0;     // Pa; 0: elastic shells
-  double slip_speed = 0.02;      // m/s
+  double slip_speed = 0;         // m/s; 0: none
   double dt = 0;                 // s, contact duration / steps per contact
 };
 

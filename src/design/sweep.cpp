@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "design/comparison.hpp"
+#include "plan/scene_warnings.hpp"
 
 namespace vibrosow {
 namespace {
@@ -146,6 +147,7 @@ LayoutResult result_of(const Study& study, const Layout& layout, const std::vect
   result.figures = figures_of(replicates);
   result.holes = hole_figures(replicates);
   const Scene& scene = study.scenes[*layout.scene];
+  result.warnings = scene_warnings(scene);
   for (std::size_t record = 0; scene.record && record < scene.record->times.size(); ++record)
     result.bed.push_back(bed_figures(scene, record, replicates));
   return result;

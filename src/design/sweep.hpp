@@ -41,9 +41,10 @@ struct BedFigures {
 
 struct LayoutResult {
   LayoutStatus status = LayoutStatus::ok;
-  std::string reason;   // of a status other than ok; of ok, what to know: "outside the model", "ran dry in 2 of 5 runs"
-  int replicates = 0;   // finished
-  FigureMeans figures;  // over the finished replicates
+  std::string reason;  // of a status other than ok; of ok, what to know: "outside the model", "ran dry in 2 of 5 runs"
+  std::vector<std::string> warnings;               // what in its scene can hardly be meant
+  int replicates = 0;                              // finished
+  FigureMeans figures;                             // over the finished replicates
   std::optional<MeanWithInterval> misfit_percent;  // of the mean outflow; interval from the misfits of the replicates
   std::vector<HoleFigures> holes;
   std::vector<BedFigures> bed{};  // empty without a record

@@ -304,11 +304,13 @@ double largest_disc(const std::vector<SeedLot>& lots) {
   return largest;
 }
 
-std::vector<PackedGrain> pour(const Vessel& vessel, const std::vector<SeedLot>& lots, Random& random) {
+std::vector<PackedGrain> pour(const Vessel& vessel, const std::vector<SeedLot>& lots, Random& random,
+                              StopRequest stop) {
   Heap heap(vessel.length, largest_disc(lots));
   add_slopes(heap, vessel, smallest_radius(lots));
   std::vector<PackedGrain> packed;
   for (int lot : shuffled_lots(lots, vessel.fill->count, random)) {
+    stop.throw_if_set();
     const SeedLot& seeds = lots[static_cast<std::size_t>(lot)];
     const double size = draw_size(seeds, random), angle = draw_angle(seeds, random);
     const double radius = 0.5 * size * seeds.diameter;
@@ -352,13 +354,15 @@ void order_by_columns(double diameter, std::vector<PackedGrain>& grains) {
 
 }  // namespace
 
-std::vector<PackedGrain> pack(const Vessel& vessel, const std::vector<SeedLot>& lots, Random& random) {
+std::vector<PackedGrain> pack(const Vessel& vessel, const std::vector<SeedLot>& lots, Random& random,
+                              StopRequest stop) {
   if (!vessel.fill) return {};
+  stop.throw_if_set();
   if (largest_diameter(lots) > vessel.length)
     throw InputError(
         fmt::format("{}.length: a grain of {:.6g} mm does not fit in", vessel.name, largest_diameter(lots) * 1e3));
   std::vector<PackedGrain> grains =
-      vessel.fill->packing == Packing::poured ? pour(vessel, lots, random) : pack_rows(vessel, lots, random);
+      vessel.fill->packing == Packing::poured ? pour(vessel, lots, random, stop) : pack_rows(vessel, lots, random);
   if (grains.size() > large_bed) order_by_columns(largest_diameter(lots), grains);
   return grains;
 }

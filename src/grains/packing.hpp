@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "compute/stop_request.hpp"
 #include "grains/random.hpp"
 #include "scene/scene.hpp"
 
@@ -19,8 +20,9 @@ struct PackedGrain {
 /// where, of many drops near its first, its centre comes lowest, its discs touching. `layers` and `hexagonal`: rows,
 /// each grain shifted at random by up to the jitter, a clump in the circle that holds it. Lots are mixed at random in
 /// exact fractions (largest remainder), sizes and the angles of clumps are drawn. No fill: empty. Throws InputError
-/// when the packing rises above the vessel's end walls.
-std::vector<PackedGrain> pack(const Vessel& vessel, const std::vector<SeedLot>& lots, Random& random);
+/// when the packing rises above the vessel's end walls, Interrupted where `stop` is set.
+std::vector<PackedGrain> pack(const Vessel& vessel, const std::vector<SeedLot>& lots, Random& random,
+                              StopRequest stop = {});
 
 /// Number of grains of each lot among `count`, by largest remainder.
 std::vector<int> lot_counts(const std::vector<SeedLot>& lots, int count);

@@ -23,7 +23,7 @@ std::vector<fs::path> shipped_files() {
   return files;
 }
 
-fs::path shipped_file(const std::string& name, FileKind wanted) {
+fs::path shipped_file(const std::string& name, FileKind wanted, const std::shared_ptr<SourceFiles>& source) {
   std::vector<fs::path> found;
   std::vector<std::string> names;
   for (const fs::path& file : shipped_files()) {
@@ -33,7 +33,7 @@ fs::path shipped_file(const std::string& name, FileKind wanted) {
   if (found.empty())
     throw InputError(fmt::format("{}: there is no such file, and no seeder or study of that name is shipped{}",
                                  shortened(name), did_you_mean(shortened(name), names)));
-  const auto of_kind = std::ranges::find(found, wanted, kind_of);
+  const auto of_kind = std::ranges::find(found, wanted, [&](const fs::path& file) { return kind_of(file, source); });
   return of_kind != found.end() ? *of_kind : found.front();
 }
 
@@ -43,21 +43,23 @@ bool is_plain_name(const std::string& name) {
 
 }  // namespace
 
-FileKind kind_of(const fs::path& file) {
-  return Table(Document::read(file)).has("base") ? FileKind::study : FileKind::seeder;
+FileKind kind_of(const fs::path& file, const std::shared_ptr<SourceFiles>& files) {
+  return Table(Document::read(file, {}, files)).has("base") ? FileKind::study : FileKind::seeder;
 }
 
-fs::path input_file(const std::string& name, std::optional<FileKind> wanted) {
+InputFile input_file(const std::string& name, std::optional<FileKind> wanted) {
+  const auto files = std::make_shared<SourceFiles>();
   std::error_code none;
   const bool shipped = is_plain_name(name) && !fs::exists(name, none);
-  const fs::path file = shipped ? shipped_file(name, wanted.value_or(FileKind::seeder)) : fs::path(name);
-  if (!wanted || kind_of(file) == *wanted) return file;
+  const fs::path path = shipped ? shipped_file(name, wanted.value_or(FileKind::seeder), files) : fs::path(name);
+  const InputFile file{path, kind_of(path, files), files};
+  if (!wanted || file.kind == *wanted) return file;
   throw InputError(
       *wanted == FileKind::seeder
-          ? fmt::format("{}: this is a study: use vibrosow sweep", file.string())
+          ? fmt::format("{}: this is a study: use vibrosow sweep", path.string())
           : fmt::format("{}: this is a seeder, not a study: use vibrosow run; a study names its seeder with "
                         "the key base",
-                        file.string()));
+                        path.string()));
 }
 
 }  // namespace vibrosow

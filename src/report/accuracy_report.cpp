@@ -4,6 +4,7 @@
 
 #include "report/columns.hpp"
 #include "report/json_keys.hpp"
+#include "report/terminal_text.hpp"
 #include "scene/integrator_names.hpp"
 
 namespace vibrosow {
@@ -18,22 +19,26 @@ using Value = std::optional<double>;
 
 /// The first columns of both files.
 Columns<AccuracyRow> setting_columns() {
-  return {text_column<AccuracyRow>("integrator", "scheme", [](R r) { return integrator_name(r.setting.integrator); }),
-          quantity_column<AccuracyRow>("dt_s", seconds, "time step", [](R r) { return r.setting.dt; }),
-          quantity_column<AccuracyRow>("steps_per_contact", plain, "contact duration over the time step",
-                                       [](R r) { return r.setting.steps_per_contact; }),
-          quantity_column<AccuracyRow>("shell_compression", plain, "eps / r; empty where the law has no shell",
-                                       [](R r) {
-                                         const double compression = r.setting.shell_compression;
-                                         return compression > 0 ? Value(compression) : Value();
-                                       }),
-          quantity_column<AccuracyRow>("youngs_modulus_MPa", megapascals, "empty where the law has a shell",
-                                       [](R r) {
-                                         const double modulus = r.setting.youngs_modulus;
-                                         return modulus > 0 ? Value(modulus) : Value();
-                                       }),
-          quantity_column<AccuracyRow>("slip_speed_mm_per_s", millimetres_per_second, "slip speed of friction",
-                                       [](R r) { return r.setting.slip_speed; })};
+  return {
+      text_column<AccuracyRow>("integrator", "scheme", [](R r) { return integrator_name(r.setting.integrator); }),
+      quantity_column<AccuracyRow>("dt_s", seconds, "time step", [](R r) { return r.setting.dt; }),
+      quantity_column<AccuracyRow>("steps_per_contact", plain, "contact duration over the time step",
+                                   [](R r) { return r.setting.steps_per_contact; }),
+      quantity_column<AccuracyRow>("shell_compression", plain, "eps / r; empty where the law has no shell",
+                                   [](R r) {
+                                     const double compression = r.setting.shell_compression;
+                                     return compression > 0 ? Value(compression) : Value();
+                                   }),
+      quantity_column<AccuracyRow>("youngs_modulus_MPa", megapascals, "empty where the law has a shell",
+                                   [](R r) {
+                                     const double modulus = r.setting.youngs_modulus;
+                                     return modulus > 0 ? Value(modulus) : Value();
+                                   }),
+      quantity_column<AccuracyRow>("slip_speed_mm_per_s", millimetres_per_second,
+                                   "slip speed of friction; empty where friction has none, as a spring has", [](R r) {
+                                     const double slip_speed = r.setting.slip_speed;
+                                     return slip_speed > 0 ? Value(slip_speed) : Value();
+                                   })};
 }
 
 Columns<AccuracyRow> accuracy_columns() {
@@ -108,13 +113,32 @@ std::string setting_text(const AccuracySetting& setting) {
   const std::string softness = setting.shell_compression > 0
                                    ? fmt::format("shell compression {:g}", setting.shell_compression)
                                    : fmt::format("Young's modulus {:g} MPa", setting.youngs_modulus / megapascal);
-  return fmt::format("{}, {:g} steps a contact, {}, slip speed {:g} mm/s", integrator_name(setting.integrator),
-                     setting.steps_per_contact, softness, setting.slip_speed / millimetre_per_second);
+  const std::string slip_speed =
+      setting.slip_speed > 0 ? fmt::format(", slip speed {:g} mm/s", setting.slip_speed / millimetre_per_second) : "";
+  return fmt::format("{}, {:g} steps a contact, {}{}", integrator_name(setting.integrator), setting.steps_per_contact,
+                     softness, slip_speed);
 }
 
 std::string setting_and_error(const AccuracyRow& row) {
   return fmt::format("{} (error {}, at {:.3g} of its cost)", setting_text(row.setting), error_text(row),
                      row.cost_ratio.value_or(1));
+}
+
+std::string setting_columns_text(const AccuracySetting& setting) {
+  const double softness = setting.youngs_modulus > 0 ? setting.youngs_modulus / megapascal : setting.shell_compression;
+  const std::string slip_speed =
+      setting.slip_speed > 0 ? fmt::format("{:>9.4g} ", setting.slip_speed / millimetre_per_second) : "";
+  return fmt::format("  {:>5.4g} {:>9.4g} {}{:>9.3g} ", setting.steps_per_contact, softness, slip_speed, setting.dt);
+}
+
+/// A line of the table for a terminal.
+std::string row_text(const AccuracyRow& row, bool reference) {
+  const std::string setting = setting_columns_text(row.setting);
+  if (!row.mass_rate) return wrapped_beside(setting, row.refused);
+  const std::string error = reference ? "reference" : (row.error_percent ? error_text(row) : "");
+  const std::string cost = row.cost_ratio ? fmt::format("{:.3g}", *row.cost_ratio) : "";
+  return fmt::format("{}{:>10.5g} {:>19} {:>8}{}\n", setting, row.mass_rate->mean / gram, error, cost,
+                     row.on_front ? " *" : "");
 }
 
 std::string unresolved_text(const AccuracyRow& row, const std::optional<int>& replicates) {
@@ -133,26 +157,21 @@ std::string accuracy_timing_csv(const AccuracyResult& result, CsvFormat format) 
 }
 
 std::string accuracy_table(const AccuracyResult& result) {
-  const bool hertz = result.rows.front().setting.youngs_modulus > 0;
-  std::string text = fmt::format("{:<16} {:>5} {:>9} {:>7} {:>9} {:>10} {:>18} {:>9} {}\n", "integrator", "steps",
-                                 hertz ? "E MPa" : "eps/r", "slip", "dt s", "rate g/s", "error", "cost", "front");
+  const AccuracySetting& first = result.rows.front().setting;
+  std::string text =
+      fmt::format("  {:>5} {:>9} {}{:>9} {:>10} {:>19} {:>8}\n", "steps", first.youngs_modulus > 0 ? "E MPa" : "eps/r",
+                  first.slip_speed > 0 ? "slip mm/s " : "", "dt s", "rate g/s", "error", "cost");
+  std::string scheme;
   for (std::size_t i = 0; i < result.rows.size(); ++i) {
     const AccuracyRow& row = result.rows[i];
-    const AccuracySetting& setting = row.setting;
-    text +=
-        fmt::format("{:<16} {:>5g} {:>9g} {:>7g} {:>9.3g} ", integrator_name(setting.integrator),
-                    setting.steps_per_contact, hertz ? setting.youngs_modulus / megapascal : setting.shell_compression,
-                    setting.slip_speed / millimetre_per_second, setting.dt);
-    if (!row.mass_rate) {
-      text += fmt::format("{}\n", row.refused);
-      continue;
-    }
-    const bool reference = i == result.reference;
-    const std::string error = reference ? "reference" : (row.error_percent ? error_text(row) : "");
-    text += fmt::format("{:>10.5g} {:>18} {:>9.3g} {}\n", row.mass_rate->mean / gram, error, row.cost_ratio.value_or(0),
-                        row.on_front ? "*" : "");
+    if (const std::string& name = integrator_name(row.setting.integrator); name != scheme)
+      scheme = name, text += name + '\n';
+    text += row_text(row, i == result.reference);
   }
-  return text;
+  return text + '\n' +
+         wrapped(
+             "cost: grain-steps times force evaluations a step, of the finest setting's; *: no other setting costs "
+             "no more and errs less");
 }
 
 std::string accuracy_sentence(const AccuracyResult& result) {

@@ -14,7 +14,7 @@ std::string accuracy_csv(const AccuracyResult& result, CsvFormat format = {});
 /// Wall times of this machine, mean of a setting's runs.
 std::string accuracy_timing_csv(const AccuracyResult& result, CsvFormat format = {});
 
-/// The same rows for a terminal, with the reason where a setting gave no rate.
+/// The same rows for a terminal, scheme by scheme, with the reason where a setting gave no rate.
 std::string accuracy_table(const AccuracyResult& result);
 
 /// What 1 % of outflow costs: the cheapest setting whose |error| and interval together make up at most 1 %, and the

@@ -83,13 +83,20 @@ Column<Row> replicates_column() {
                           [](const Row& r) { return r.of().replicates; });
 }
 
+std::string reason_and_warnings(const LayoutResult& layout) {
+  std::string text = layout.reason;
+  for (const std::string& warning : layout.warnings) text += (text.empty() ? "" : "; ") + warning;
+  return text;
+}
+
 Columns<LayoutRow> sweep_columns(const std::vector<std::string>& keys) {
   using R = const LayoutRow&;
   Columns<LayoutRow> columns = layout_columns<LayoutRow>();
   columns.push_back(text_column<LayoutRow>("status", "ok, invalid, stopped (by the guard) or interrupted",
                                            [](R r) { return status_name(r.of().status); }));
-  columns.push_back(text_column<LayoutRow>("reason", "why it is not ok; of ok, what to know about its runs",
-                                           [](R r) { return r.of().reason; }));
+  columns.push_back(text_column<LayoutRow>(
+      "reason", "why it is not ok; of ok, what to know about its runs; and what in its scene can hardly be meant",
+      [](R r) { return reason_and_warnings(r.of()); }));
   for (const std::string& key : keys)
     columns.push_back(
         {{condition_column(key), "", "value of this key of the seeder file, in the unit that its column names"},

@@ -181,7 +181,11 @@ void Neighbours::choose_narrow_margin() {
 }
 
 void Neighbours::search(const Grains& grains, const Walls& walls) {
-  const Ranges ranges{execution_.threads(), [this](const auto& work) { execution_.for_each_range(work); }};
+  execution_.stop_if_asked();  // a search among millions takes seconds
+  const Ranges ranges{execution_.threads(), [this](const auto& work) {
+                        execution_.stop_if_asked();
+                        execution_.for_each_range(work);
+                      }};
   broadphase_.find(grains, walls.poses(), wide_margin_, ranges, wide_, wide_walls_);
   if (period_ > 0) broadphase_.find_across(period_, wide_margin_, ranges, wide_boundary_);
   if (!grains.clump.empty())
@@ -225,6 +229,7 @@ void Neighbours::prune_pairs(const Grains& grains, const PairList& wide, double 
 }
 
 void Neighbours::prune(const Grains& grains, const Walls& walls, ContactState& contacts) {
+  execution_.stop_if_asked();
   std::swap(contacts.pairs, old_), std::swap(contacts.boundary_pairs, old_boundary_);
   prune_pairs(grains, wide_, 0, contacts.pairs);
   contacts.boundary_pairs.clear();

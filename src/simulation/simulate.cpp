@@ -8,12 +8,56 @@
 namespace vibrosow {
 namespace {
 
-constexpr std::int64_t steps_between_looks = 256;
+constexpr std::int64_t steps_between_looks = 256, grain_steps_between_looks = 1000000;  // some 0.03 s
 
 using Clock = std::chrono::steady_clock;
 
 double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+/// A run that was interrupted before its first step.
+Run not_begun(const Model& model, const SimulationOptions& options) {
+  Run run;
+  run.status = RunStatus::interrupted;
+  run.random_seed = options.random_seed;
+  run.dt = model.step.dt;
+  return run;
+}
+
+Run run_to_end(Simulation& simulation, const SimulationOptions& options) {
+  const Model& model = simulation.model();
+  const auto checkpoint = [&](const Simulation& now) { options.on_checkpoint(now.state()); };
+  if (options.on_checkpoint && options.checkpoint_every > 0) simulation.watch(options.checkpoint_every, checkpoint);
+  const double measure_from = model.scene.run.measure_from;
+  bool interrupted = false;
+  Clock::time_point measuring = Clock::now();
+  std::int64_t steps = 0, grain_steps = 0;  // since the last look
+  while (!simulation.at_end() && !interrupted && simulation.step()) {
+    if (simulation.time() <= measure_from) measuring = Clock::now();
+    grain_steps += static_cast<std::int64_t>(simulation.grains().size());
+    if (++steps < steps_between_looks && grain_steps < grain_steps_between_looks) continue;
+    steps = grain_steps = 0;
+    interrupted = StopRequest(options.interrupt).is_set();
+    if (options.progress)
+      options.progress(static_cast<double>(simulation.state().step) / static_cast<double>(model.step.steps));
+  }
+  if (interrupted && options.on_checkpoint) checkpoint(simulation);
+  Run run = simulation.result();
+  if (interrupted) run.status = RunStatus::interrupted;
+  run.measured_wall_time = run.end_time > measure_from ? seconds_since(measuring) : 0;
+  return run;
+}
+
+Run begin_and_run(const Model& model, const SimulationOptions& options) {
+  const StopRequest stop(options.interrupt);
+  try {
+    Simulation simulation(model, options.from ? *options.from : starting_state(model, options.random_seed, stop),
+                          {.threads = options.threads, .profile = options.profile, .stop = stop});
+    return run_to_end(simulation, options);
+  } catch (const Interrupted&) {
+    return not_begun(model, options);
+  }
 }
 
 }  // namespace
@@ -24,25 +68,8 @@ Run simulate(const Scene& scene, const SimulationOptions& options) {
 
 Run run_model(const Model& model, const SimulationOptions& options) {
   const Clock::time_point started = Clock::now();
-  Simulation simulation(model, options.from ? *options.from : starting_state(model, options.random_seed),
-                        {.threads = options.threads, .profile = options.profile});
-  const auto checkpoint = [&](const Simulation& now) { options.on_checkpoint(now.state()); };
-  if (options.on_checkpoint && options.checkpoint_every > 0) simulation.watch(options.checkpoint_every, checkpoint);
-  const double measure_from = model.scene.run.measure_from;
-  bool interrupted = false;
-  Clock::time_point measuring = Clock::now();
-  for (std::int64_t done = 0; !simulation.at_end() && !interrupted && simulation.step();) {
-    if (simulation.time() <= measure_from) measuring = Clock::now();
-    if (++done % steps_between_looks != 0) continue;
-    interrupted = options.interrupt && options.interrupt->load();
-    if (options.progress)
-      options.progress(static_cast<double>(simulation.state().step) / static_cast<double>(model.step.steps));
-  }
-  if (interrupted && options.on_checkpoint) checkpoint(simulation);
-  Run run = simulation.result();
-  if (interrupted) run.status = RunStatus::interrupted;
+  Run run = begin_and_run(model, options);
   run.wall_time = seconds_since(started);
-  run.measured_wall_time = run.end_time > measure_from ? seconds_since(measuring) : 0;
   if (run.phase_times)  // packing came before the stopwatch was started
     run.phase_times->front() += run.wall_time - std::accumulate(run.phase_times->begin(), run.phase_times->end(), 0.0);
   return run;

@@ -16,7 +16,8 @@ struct SimulationOptions {
   std::uint64_t random_seed = 1;
   int threads = 1;                               // that share the run's loops; the result is the same for any number
   bool profile = false;                          // whether Run::phase_times are taken
-  const std::atomic<bool>* interrupt = nullptr;  // looked at now and then; true ends the run as interrupted
+  const std::atomic<bool>* interrupt = nullptr;  // looked at now and then, also while the fill is packed and the first
+                                                 // neighbours are sought; true ends the run as interrupted
   std::function<void(double fraction_done)> progress{};  // called now and then with 0..1, in the simulating thread
 
   std::optional<SimulationState> from{};                        // to go on from; none: the scene's start

@@ -32,7 +32,7 @@ Simulation::Simulation(Model model, std::uint64_t random_seed, const ComputeOpti
 Simulation::Simulation(Model model, SimulationState state, const ComputeOptions& options)
     : model_(std::move(model)),
       state_(std::move(state)),
-      execution_(options.instructions, options.threads),
+      execution_(options.instructions, options.threads, options.stop),
       field_(model_, state_, options.margins, execution_),
       s_{.model = model_,
          .state = state_,
@@ -56,6 +56,7 @@ Simulation::Simulation(Model model, SimulationState state, const ComputeOptions&
     find_next_gate();
   else
     begin();
+  execution_.stop_no_more();
 }
 
 void Simulation::begin() {

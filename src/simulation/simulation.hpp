@@ -22,6 +22,7 @@ struct ComputeOptions {
   InstructionSet instructions = best_instruction_set();
   int threads = 1;
   bool profile = false;  // whether Run::phase_times are taken
+  StopRequest stop{};    // while the simulation is constructed: throws Interrupted
 };
 
 /// The grains of a model in motion, step by step. It can be watched and driven between two steps.

@@ -9,14 +9,14 @@
 namespace vibrosow {
 namespace {
 
-Grains packed_grains(const Model& model, std::uint64_t random_seed) {
+Grains packed_grains(const Model& model, std::uint64_t random_seed, StopRequest stop) {
   Random random(random_seed);
   Grains grains(model.kinds, model.effects.polydisperse, model.effects.rotation, model.effects.clumps);
   for (const Vessel& vessel : model.vessels) {
     const VesselPath path(vessel);
     const PoseRate rate = model.scene.run.start == Start::with_tray ? path.rate(0) : PoseRate{};
     const Pose pose = path.pose(0);
-    for (const PackedGrain& packed : pack(vessel, model.scene.lots, random)) {
+    for (const PackedGrain& packed : pack(vessel, model.scene.lots, random, stop)) {
       const Eigen::Vector2d at = in_lab_frame(vessel, pose, {packed.x, packed.y});
       const Eigen::Vector2d velocity = material_velocity(vessel, pose, rate, at);
       const std::size_t lot = static_cast<std::size_t>(packed.lot);
@@ -28,8 +28,8 @@ Grains packed_grains(const Model& model, std::uint64_t random_seed) {
 }
 
 /// Grains at rest may carry their bed's weight, no more.
-void refuse_overlap(const Model& model, SimulationState state) {
-  Execution execution;
+void refuse_overlap(const Model& model, SimulationState state, StopRequest stop) {
+  Execution execution(best_instruction_set(), 1, stop);
   ForceField field(model, state, {}, execution);
   field.evaluate(0, {});
   if (state.statistics.max_relative_overlap <= model.scene.guard.warn_relative_overlap) return;
@@ -67,9 +67,9 @@ SimulationState starting_state(const Model& model, std::uint64_t random_seed, Gr
   return state;
 }
 
-SimulationState starting_state(const Model& model, std::uint64_t random_seed) {
-  SimulationState state = starting_state(model, random_seed, packed_grains(model, random_seed));
-  refuse_overlap(model, state);
+SimulationState starting_state(const Model& model, std::uint64_t random_seed, StopRequest stop) {
+  SimulationState state = starting_state(model, random_seed, packed_grains(model, random_seed, stop));
+  refuse_overlap(model, state, stop);
   return state;
 }
 

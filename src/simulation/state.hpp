@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "compute/stop_request.hpp"
 #include "contact/contact_state.hpp"
 #include "contact/kernels.hpp"
 #include "grains/grains.hpp"
@@ -97,8 +98,8 @@ struct SimulationState {
 };
 
 /// A model's fill in place, at rest in the lab or with its vessel. Throws InputError where it does not fit, or grains
-/// overlap at the start by more than the guard's warning allows.
-SimulationState starting_state(const Model& model, std::uint64_t random_seed);
+/// overlap at the start by more than the guard's warning allows; Interrupted where `stop` is set.
+SimulationState starting_state(const Model& model, std::uint64_t random_seed, StopRequest stop = {});
 
 /// The same with grains placed by the caller, whatever they overlap.
 SimulationState starting_state(const Model& model, std::uint64_t random_seed, Grains grains);

@@ -8,10 +8,14 @@ cd "$work" || exit 1
 failures=0
 
 fail() { echo "FAILED: $*"; failures=$((failures + 1)); }
-# expect CODE PATTERN ARGUMENTS...: exit code and a pattern in what was printed.
+# expect CODE PATTERN ARGUMENTS...: exit code and a pattern in what was printed, of which tables fit 80 columns. Only paths, and the
+# header of a CSV file that is there to be copied, are as long as they are.
 expect() {
   local code=$1 pattern=$2; shift 2
-  local printed; printed=$("$program" "$@" 2>&1); local got=$?
+  local table; table=$("$program" "$@" 2>messages); local got=$?
+  local printed; printed=$table$'\n'$(<messages)
+  local wide; wide=$(awk 'length > 80 && !/\// && !/,hole,lot,repeat,/' <<<"$table")
+  [ -z "$wide" ] || fail "vibrosow $*: wider than 80 columns: $wide"
   [ $got -eq "$code" ] || fail "vibrosow $*: exit code $got, not $code: $printed"
   grep -qE -- "$pattern" <<<"$printed" || fail "vibrosow $*: nothing like \"$pattern\" in: $printed"
 }
@@ -55,11 +59,14 @@ expect 2 "random-seed.*whole number" run seeder.toml --random-seed 9999999999999
 expect 2 "steps-per-contact.*nan" accuracy seeder.toml --steps-per-contact nan
 expect 2 "shell-compression.*1e-09 to 0.5" accuracy seeder.toml --shell-compression inf
 expect 2 "slip-speed.*range" accuracy seeder.toml --slip-speed "1e300 m/s"
-expect 2 "youngs-modulus.*elastic shells" accuracy seeder.toml --youngs-modulus "5 MPa"
+expect 2 "youngs-modulus.*law elastic-shell.*shell_compression" accuracy seeder.toml --youngs-modulus "5 MPa"
 expect 2 "threads" run seeder.toml --threads 0
 expect 0 "pairs +[0-9.]+ +[0-9.]+ %" run seeder.toml --profile --out profiled
 grep -q '"neighbours"' profiled/timing.json || fail "timing.json has no shares"
 expect 0 "wheat" presets crops
+expect 0 "wheat-steel +Wheat on steel" presets contacts
+expect 0 "wheat-holes" presets
+for command in run sweep accuracy check presets columns; do expect 0 "^Usage: vibrosow $command" $command --help; done
 expect 0 "wheat-tray +Wheat tray" presets seeders
 "$program" presets seeders | awk '/^seeders to start from/ { start = NR } /paper-a-fig3 / { paper = paper ? paper : NR }
   /^  silo / { silo = NR } END { exit !(start && start < paper && paper < silo) }' || fail "presets: seeders do not come first"
@@ -76,12 +83,33 @@ expect 0 "^tray.holes.count,hole" check study.toml
 # Names of what is shipped; the wrong command for a file; keys taken out; what can hardly be meant.
 expect 0 "^Wheat tray" check wheat-tray
 expect 0 "layouts" check wheat-demo
+# What a scene is computed with, and advice that fits it.
+expect 0 "law +elastic-shell: .*shell" check seeder.toml
+expect 0 "friction +sliding: .* 20 mm/s" check seeder.toml
+expect 0 "friction +spring" check wheat-tray
+expect 0 "scheme +gear5" check seeder.toml --set numerics.integrator=gear5
+expect 2 "take a smaller contact.shell_compression: " check paper-a-fig3
+hertz=(--set contact.law=hertz --set contact.shell_compression= --set "contact.youngs_modulus=0.1 MPa")
+expect 0 "law +hertz: Hertz" check seeder.toml "${hertz[@]}"
+expect 0 "take a larger contact.youngs_modulus" check seeder.toml "${hertz[@]}" --set "tray.motion.kind=harmonic" \
+  --set "tray.motion.amplitude=1 cm" --set "tray.motion.frequency=9 Hz"
+short=(--set "run.duration=0.2 s" --set "run.measure_from=0.1 s")
+expect 0 "^whole tray" run wheat-tray --out shipped "${short[@]}"
+expect 0 "span 420 mm, count 5, frequency 9 Hz" sweep wheat-holes --out shipped-sweep "${short[@]}" --set replicates=2 --set "vary.tray.motion.frequency=[\"9 Hz\"]" \
+  --set "vary.tray.holes.count=[1, 5]"
+expect 0 "^velocity-verlet" accuracy wheat-tray --out shipped-accuracy "${short[@]}" \
+  --integrator velocity-verlet --steps-per-contact 10,20 --replicates 2
+expect 2 "slip-speed: .* has none" accuracy wheat-tray --slip-speed "20 mm/s"
 expect 2 "did you mean \"wheat-tray\"" run wheat-trey
 expect 2 "study.toml: this is a study: use vibrosow sweep" run study.toml
 expect 2 "seeder.toml: this is a seeder" sweep seeder.toml
 expect 0 "hole 1 at 20.00 mm" check seeder.toml --set "tray.holes.count=" --set 'tray.holes.at=["20 mm"]'
 expect 0 "^vibrosow: warning: tray.holes.width: 3 mm is narrower" check seeder.toml --set "tray.holes.width=3 mm"
 expect 0 "^vibrosow: warning: tray.holes.width: 3 mm is narrower" sweep study.toml --out narrow --set "tray.holes.width=3 mm"
+grep -q "^1,.*is narrower" narrow/sweep.csv || fail "sweep.csv does not carry the warning"
+expect 0 "^vibrosow: warning: tray.holes.width: 3 mm is narrower" accuracy seeder.toml --out narrow-accuracy \
+  --integrator velocity-verlet --steps-per-contact 20 --shell-compression 1e-3 --slip-speed "20 mm/s" --replicates 1 \
+  --set "tray.holes.width=3 mm"
 expect 0 "^vibrosow: warning: tray.holes.width: 3 mm is narrower" run seeder.toml --out narrow-run --set "tray.holes.width=3 mm"
 grep -q "is narrower" narrow-run/run.json || fail "run.json does not carry the warning"
 

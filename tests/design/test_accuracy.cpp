@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <atomic>
+#include <sstream>
 
 #include "input/read_scene.hpp"
 #include "plan/step_plan.hpp"
@@ -127,6 +128,43 @@ TEST(Accuracy, NothingCheaperIsWithin) {
                 row(Integrator::rk2_midpoint, 40, 1e-4, 1.0001, 1000, 0.001)});
   EXPECT_EQ(recommend(result, 1.0).setting, std::nullopt);  // the midpoint rule costs twice the reference
   EXPECT_EQ(recommend(result, 1.0).unresolved, std::nullopt);
+}
+
+TEST(Accuracy, SlipSpeedIsLeftOutWhereFrictionHasNone) {
+  const StudyFiles files;
+  const Override spring = parse_override("contact.friction_model=spring");
+  const Override smooth = parse_override("contact.friction=0");
+  const std::vector<Override> rolling = {spring, parse_override("contact.rolling=constant-torque"),
+                                         parse_override("contact.rolling_friction=0.1")};
+  EXPECT_THAT(default_accuracy_grid(scene_of(files, {spring})).slip_speeds, testing::IsEmpty());
+  EXPECT_THAT(default_accuracy_grid(scene_of(files, {smooth})).slip_speeds, testing::IsEmpty());
+  EXPECT_THAT(default_accuracy_grid(scene_of(files, rolling)).slip_speeds, testing::ElementsAre(0.02, 0.1));
+
+  const Scene scene = scene_of(files, {spring});
+  AccuracyGrid grid = default_accuracy_grid(scene);
+  grid.integrators = {verlet};
+  grid.steps_per_contact = {20, 40};
+  grid.shell_compressions = {1e-4};
+  const AccuracyResult result = measure_accuracy(scene, grid, 2, quick_run, one_job());
+  ASSERT_EQ(result.rows.size(), 2u);
+  EXPECT_THAT(accuracy_table(result), testing::Not(testing::HasSubstr("slip")));
+  EXPECT_THAT(accuracy_sentence(result), testing::Not(testing::HasSubstr("slip")));
+  EXPECT_THAT(accuracy_csv(result), testing::HasSubstr(",20,0.0001,,,2,"));
+}
+
+TEST(Accuracy, TableFitsATerminal) {
+  AccuracyResult result = made_up();
+  for (AccuracyRow& one : result.rows) one.setting.slip_speed = 0.02;
+  AccuracyRow& wide = result.rows[1];
+  wide.setting = {Integrator::velocity_verlet, 1234.5, 1.23456e-5, 0, 0.0123456, 1.234e-05};
+  wide.mass_rate->mean = 1.23456e-05, wide.error_percent = -123.45, wide.error_ci95 = 123.45,
+  wide.cost_ratio = 1.234e-05;
+  AccuracyRow& refused = result.rows[2];
+  refused.mass_rate.reset();
+  refused.refused = "too long, at most 1.234e-05 s: the shell's vibration with the damping of its dashpots (Verlet)";
+  std::istringstream table(accuracy_table(result));
+  for (std::string line; std::getline(table, line);) EXPECT_LE(line.size(), 80u) << line;
+  EXPECT_THAT(accuracy_table(result), testing::HasSubstr("\nrk2-midpoint\n"));
 }
 
 TEST(Accuracy, InterruptedBeforeTheFinestSettingGivesNoErrors) {

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
 
+#include "input/input_file.hpp"
 #include "scene/input_error.hpp"
 #include "study_files.hpp"
 
@@ -200,14 +201,15 @@ TEST(Study, ReadsEveryFileOnce) {
   files.write("bench.csv",
               "tray.holes.count,contact.friction,hole,rate_g_per_s\n3,0.1,1,0.5\n3,0.1,2,0.6\n5,0.2,all,2\n");
   files.write("crop.toml", "diameter = \"4 mm\"\nmass = \"40 mg\"\n");
-  const auto source = std::make_shared<SourceFiles>();
-  const Study study = read_study(files.study("[set]\nseeds.wheat.crop = \"crop.toml\"\n"
-                                             "[vary]\ntray.holes.count = [3, 5]\ncontact.friction = [0.1, 0.2]\n"
-                                             "[measured]\nfile = \"bench.csv\"\n"),
-                                 {}, source);
+  const InputFile file = input_file(files
+                                        .study("[set]\nseeds.wheat.crop = \"crop.toml\"\n"
+                                               "[vary]\ntray.holes.count = [3, 5]\ncontact.friction = [0.1, 0.2]\n"
+                                               "[measured]\nfile = \"bench.csv\"\n")
+                                        .string());
+  const Study study = read_study(file.path, {}, file.files);
   EXPECT_EQ(study.scenes.size(), 4u);
   EXPECT_EQ(study.measured->matches.size(), 3u);
-  EXPECT_EQ(source->reads(), 4);  // the study, its base, the crop, the measured table
+  EXPECT_EQ(file.files->reads(), 4);  // the study, its base, the crop, the measured table
 }
 
 TEST(Study, KeysAreUnsetByAStudyALayoutAndTheCommandLine) {

@@ -14,15 +14,15 @@ using testing::HasSubstr;
 using testing::ThrowsMessage;
 
 TEST(InputFile, ShippedNamesStandForTheirFiles) {
-  EXPECT_EQ(input_file("wheat-tray", FileKind::seeder), data_directory() / "seeders" / "wheat-tray.toml");
-  EXPECT_EQ(kind_of(input_file("wheat-demo", FileKind::study)), FileKind::study);
-  EXPECT_EQ(kind_of(input_file("wheat-demo")), FileKind::study);
+  EXPECT_EQ(input_file("wheat-tray", FileKind::seeder).path, data_directory() / "seeders" / "wheat-tray.toml");
+  EXPECT_EQ(input_file("wheat-demo", FileKind::study).kind, FileKind::study);
+  EXPECT_EQ(input_file("wheat-demo").kind, FileKind::study);
 }
 
 TEST(InputFile, OfASeederAndAStudyOfOneNameTheWantedOneIsTaken) {
-  EXPECT_EQ(kind_of(input_file("paper-a-fig3", FileKind::seeder)), FileKind::seeder);
-  EXPECT_EQ(kind_of(input_file("paper-a-fig3", FileKind::study)), FileKind::study);
-  EXPECT_EQ(kind_of(input_file("paper-a-fig3")), FileKind::seeder);
+  EXPECT_EQ(input_file("paper-a-fig3", FileKind::seeder).kind, FileKind::seeder);
+  EXPECT_EQ(input_file("paper-a-fig3", FileKind::study).kind, FileKind::study);
+  EXPECT_EQ(input_file("paper-a-fig3").kind, FileKind::seeder);
 }
 
 TEST(InputFile, UnknownNameNamesTheNearest) {
@@ -39,11 +39,19 @@ TEST(InputFile, TheOtherKindIsToldItsCommand) {
   const TemporaryFolder folder;
   const auto study = folder.write("study.toml", "base = \"a.toml\"\n"),
              seeder = folder.write("a.toml", "title = \"a\"\n");
-  EXPECT_EQ(input_file(study.string(), FileKind::study), study);
+  EXPECT_EQ(input_file(study.string(), FileKind::study).path, study);
   EXPECT_THAT([&] { input_file(study.string(), FileKind::seeder); },
               ThrowsMessage<InputError>(HasSubstr("study.toml: this is a study: use vibrosow sweep")));
   EXPECT_THAT([&] { input_file(seeder.string(), FileKind::study); },
               ThrowsMessage<InputError>(HasSubstr("a.toml: this is a seeder, not a study: use vibrosow run")));
+}
+
+TEST(InputFile, LookingIntoAFileIsItsOnlyReading) {
+  const TemporaryFolder folder;
+  const auto study = folder.write("study.toml", "base = \"a.toml\"\n");
+  const InputFile file = input_file(study.string());
+  EXPECT_EQ(kind_of(file.path, file.files), FileKind::study);
+  EXPECT_EQ(file.files->reads(), 1);
 }
 
 }  // namespace
