@@ -73,8 +73,7 @@ double size_moment(const SeedLot& lot, int power) {
   }
   if (sizes.kind == Kind::uniform) {
     double moment = 0;  // (b^(n+1) - a^(n+1)) / ((n + 1) (b - a)), divided out
-    for (int k = 0; k <= power; ++k)
-      moment += elementary::pow(least, k) * elementary::pow(most, power - k);
+    for (int k = 0; k <= power; ++k) moment += elementary::pow(least, k) * elementary::pow(most, power - k);
     return moment / (power + 1);
   }
   return cut_moment(sizes, lot.diameter, power);
@@ -86,7 +85,8 @@ double mean_mass(const SeedLot& lot) {
 
 std::vector<SeedSizes> sizes_of(const std::vector<SeedLot>& lots) {
   std::vector<SeedSizes> sizes;
-  for (const SeedLot& lot : lots) sizes.push_back({least_size(lot), most_size(lot), size_moment(lot, 1), mean_mass(lot)});
+  for (const SeedLot& lot : lots)
+    sizes.push_back({least_size(lot), most_size(lot), size_moment(lot, 1), mean_mass(lot)});
   return sizes;
 }
 
