@@ -10,13 +10,14 @@
 #include <utility>
 
 #include "elementary/functions.hpp"
+#include "grains/clump_discs.hpp"
+#include "scene/clump_shape.hpp"
 
 namespace vibrosow {
 namespace {
 
 constexpr double contacts_of_a_packed_grain = 6;
-constexpr double packed_to_pair = std::numbers::sqrt3;  // of frequencies, and of damping ratios
-constexpr double longest_travel = 0.1;                  // radii a step
+constexpr double longest_travel = 0.1;          // radii a step
 constexpr double allowed_energy_growth = 1.01;  // of a free vibration under RK2 over the whole run, in amplitude
 
 /// Two bodies that meet: a grain and another, or a wall (curvature and inverse mass 0).
@@ -92,14 +93,34 @@ double impact_speed(const StepBasis& basis) {
   return basis.scene.numerics.impact_speed.value_or(basis.loads.grain_speed);
 }
 
-/// How much easier than its mass a clump yields where it is touched off its centre: 1 + arm^2 / gyration^2, the
-/// largest.
-double lever(const std::vector<SeedLot>& lots) {
-  double largest = 1;
-  for (const SeedLot& lot : lots)
-    for (const ClumpDisc& disc : lot.discs)
-      largest = std::max(largest, 1 + (disc.x * disc.x + disc.y * disc.y) / lot.gyration2);
-  return largest;
+/// How the seeds of a lot lean on what they touch; a round one on a point. Sides that lie within the depth a run bears
+/// unwarned count as flat.
+SideContacts side_contacts_of(const StepBasis& basis, std::size_t lot) {
+  const GrainKind& seed = basis.seeds[lot];
+  const std::vector<ClumpDisc>& discs = basis.scene.lots[lot].discs;
+  if (discs.empty()) return {1, 1, 1, seed.radius * seed.radius * seed.inverse_inertia / seed.inverse_mass};
+  std::vector<double> weights;
+  for (const ClumpDisc& disc : discs)
+    weights.push_back(on_wall(basis, kind_of_disc(seed, disc, 1, basis.law)).stiffness);
+  const double stiffest = *std::ranges::max_element(weights);
+  for (double& weight : weights) weight /= stiffest;
+  SideContacts contacts =
+      side_contacts(discs, weights, basis.scene.lots[lot].gyration2, basis.scene.guard.warn_relative_overlap);
+  if (seed.inverse_inertia == 0) contacts.turning = 0;
+  return contacts;
+}
+
+/// The most over all lots.
+SideContacts most_side_contacts(const StepBasis& basis) {
+  SideContacts most;
+  for (std::size_t lot = 0; lot < basis.seeds.size(); ++lot) {
+    const SideContacts side = side_contacts_of(basis, lot);
+    most.discs = std::max(most.discs, side.discs);
+    most.at_a_tip = std::max(most.at_a_tip, side.at_a_tip);
+    most.on_a_side = std::max(most.on_a_side, side.on_a_side);
+    most.turning = std::max(most.turning, side.turning);
+  }
+  return most;
 }
 
 /// A way in which a packed bed vibrates fastest: its frequency, and its damping ratio at the most and least dissipative
@@ -112,7 +133,7 @@ struct Mode {
 };
 
 /// The steepest slope of any contact over the lighter grain's mass, 1/s2: the slope is taken at the larger of the
-/// overlaps of impact and of the layers' weight. Clumps yield more easily where they are touched off their centres.
+/// overlaps of impact and of the layers' weight.
 double slope_per_mass(const StepBasis& basis) {
   double largest = 0;
   for (const GrainKind& light : basis.touching)
@@ -123,7 +144,7 @@ double slope_per_mass(const StepBasis& basis) {
                                       basis.law.static_overlap(m.stiffness, weight));
       largest = std::max(largest, basis.law.slope(m.stiffness, overlap) * light.inverse_mass);
     }
-  return largest * lever(basis.scene.lots);
+  return largest;
 }
 
 /// Largest ratio of tangential to normal stiffness (slopes), 0 without tangential springs.
@@ -147,20 +168,31 @@ std::pair<double, double> damping_ratios(const StepBasis& basis, double omega) {
 
 /// Grains against each other, in a triangular lattice of contacts of slope k and tangential ratio rho: omega^2 <= (6 +
 /// 3 rho) k / m, its largest eigenvalues being 6 + 2 rho (at the middle of the zone's edge) and 9/2 (1 + rho) (at its
-/// corner). Without springs sqrt(3 g / eps) for equal grains in elastic shells.
-Mode translation(const StepBasis& basis, double slope_over_mass) {
-  const double omega = std::sqrt((contacts_of_a_packed_grain + 3 * spring_ratio(basis)) * slope_over_mass);
-  const auto [least, most] = damping_ratios(basis, omega / packed_to_pair);
+/// corner). Without springs sqrt(3 g / eps) for equal grains in elastic shells. Clumps touched at their tips yield more
+/// easily, and are damped alike.
+Mode translation(const StepBasis& basis, double slope_over_mass, const SideContacts& sides) {
+  const double omega =
+      std::sqrt((contacts_of_a_packed_grain + 3 * spring_ratio(basis)) * sides.at_a_tip * slope_over_mass);
+  const double over_pair = std::sqrt(3 * sides.at_a_tip);  // of frequencies, and of damping ratios
+  const auto [least, most] = damping_ratios(basis, omega / over_pair);
   return {basis.law.material == LawMaterial::shell ? "the shell's vibration" : "the contact's vibration", omega,
-          packed_to_pair * most, packed_to_pair * least, 0.5};
+          over_pair * most, over_pair * least, 0.5};
+}
+
+/// Clumps in a stack, flat side on flat side, each against its two neighbours: omega^2 = 4 k / m times what the discs
+/// of a side add up to.
+Mode stack(const StepBasis& basis, double slope_over_mass, const SideContacts& sides) {
+  const double over_pair = std::sqrt(2 * sides.on_a_side);
+  const double pair = std::sqrt(2 * slope_over_mass);
+  const auto [least, most] = damping_ratios(basis, pair);
+  return {"the vibration of flat sides", over_pair * pair, over_pair * most, over_pair * least, 0.5};
 }
 
 /// All grains turning alike, each against its six neighbours: omega^2 = 2 x rho k / m with x = 6 m r^2 / I, damped by
-/// the tangential dashpots, tau times the normal ones: the pair's ratio times tau sqrt(x / rho).
-Mode rotation(const StepBasis& basis, double slope_over_mass) {
-  double x = 0;
-  for (const GrainKind& kind : basis.touching)
-    x = std::max(x, contacts_of_a_packed_grain * kind.radius * kind.radius * kind.inverse_inertia / kind.inverse_mass);
+/// the tangential dashpots, tau times the normal ones: the pair's ratio times tau sqrt(x / rho). A clump's neighbours
+/// touch all the discs of a side.
+Mode rotation(const StepBasis& basis, double slope_over_mass, const SideContacts& sides) {
+  const double x = contacts_of_a_packed_grain * sides.turning;
   const double rho = spring_ratio(basis);
   const auto [least, most] = damping_ratios(basis, std::sqrt(2 * slope_over_mass));
   const double damped = basis.scene.contact.tangential_damping * std::sqrt(x / rho);
@@ -212,9 +244,11 @@ StepPlan plan_step(const StepBasis& basis) {
   StepPlan plan{};
   plan.contact_duration = shortest_contact(basis);
   const double slope_over_mass = slope_per_mass(basis);
-  plan.limits.push_back(vibration_limit(basis, translation(basis, slope_over_mass)));
+  const SideContacts sides = most_side_contacts(basis);
+  plan.limits.push_back(vibration_limit(basis, translation(basis, slope_over_mass, sides)));
+  if (basis.effects.clumps) plan.limits.push_back(vibration_limit(basis, stack(basis, slope_over_mass, sides)));
   if (basis.effects.tangential_spring && basis.effects.rotation)
-    plan.limits.push_back(vibration_limit(basis, rotation(basis, slope_over_mass)));
+    plan.limits.push_back(vibration_limit(basis, rotation(basis, slope_over_mass, sides)));
   double wanted = plan.contact_duration / numerics.steps_per_contact;
   const FrictionStep friction = friction_step(numerics.integrator);
   if (const double rate = friction_rate(basis); rate > 0) {
@@ -230,7 +264,7 @@ StepPlan plan_step(const StepBasis& basis) {
   plan.bound_by = tightest.reason;
   plan.dt = numerics.dt.value_or(std::min(wanted, plan.longest_safe));
   plan.steepest_rolling = friction.wanted / plan.dt;
-  plan.steepest_sliding = plan.steepest_rolling / (1 + spin_share(basis));
+  plan.steepest_sliding = plan.steepest_rolling / (1 + spin_share(basis)) / sides.discs;
   plan.too_long = plan.dt > plan.longest_safe;
   plan.steps = std::llround(std::ceil(basis.scene.run.duration / plan.dt * (1 - 1e-12)));
   return plan;

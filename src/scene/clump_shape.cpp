@@ -199,6 +199,59 @@ double holding_radius(const std::vector<ClumpDisc>& discs) {
   return radius;
 }
 
+namespace {
+
+struct LeaningClump {
+  const std::vector<ClumpDisc>& discs;
+  const std::vector<double>& weights;
+  double gyration2, depth;
+
+  /// On the side whose outward normal is (nx, ny).
+  SideContacts on_side(double nx, double ny) const {
+    const auto reach = [nx, ny](const ClumpDisc& disc) { return disc.x * nx + disc.y * ny + disc.radius; };
+    const double furthest = reach(*std::ranges::max_element(discs, {}, reach));
+    SideContacts side{0, 0, 0, 0};
+    double weight = 0, arms = 0, squares = 0;
+    for (std::size_t k = 0; k < discs.size(); ++k) {
+      const ClumpDisc& disc = discs[k];
+      if (reach(disc) < furthest - depth * disc.radius) continue;
+      const double arm = disc.y * nx - disc.x * ny;
+      ++side.discs;
+      weight += weights[k], arms += weights[k] * arm, squares += weights[k] * arm * arm / gyration2;
+      side.turning += weights[k] * disc.radius * disc.radius / gyration2;
+    }
+    const double apart = weight - squares;
+    side.on_a_side = 0.5 * (weight + squares + std::sqrt(apart * apart + 4 * arms * arms / gyration2));
+    return side;
+  }
+};
+
+}  // namespace
+
+SideContacts side_contacts(const std::vector<ClumpDisc>& discs, const std::vector<double>& weights, double gyration2,
+                           double depth) {
+  const LeaningClump clump{discs, weights, gyration2, depth};
+  SideContacts most{1, 0, 0, 0};
+  for (std::size_t i = 0; i < discs.size(); ++i) {
+    const ClumpDisc& a = discs[i];
+    most.at_a_tip = std::max(most.at_a_tip, weights[i] * (1 + (a.x * a.x + a.y * a.y) / gyration2));
+    most.on_a_side = std::max(most.on_a_side, weights[i]);
+    most.turning = std::max(most.turning, weights[i] * a.radius * a.radius / gyration2);
+    for (const ClumpDisc& b : discs) {
+      // The side along the common tangent of two discs, to the left of the way from a to b.
+      const double dx = b.x - a.x, dy = b.y - a.y, distance = std::sqrt(dx * dx + dy * dy);
+      if (!(distance > std::abs(a.radius - b.radius))) continue;
+      const double along = (a.radius - b.radius) / distance, across = std::sqrt(1 - along * along);
+      const SideContacts side =
+          clump.on_side((along * dx - across * dy) / distance, (along * dy + across * dx) / distance);
+      most.discs = std::max(most.discs, side.discs);
+      most.on_a_side = std::max(most.on_a_side, side.on_a_side);
+      most.turning = std::max(most.turning, side.turning);
+    }
+  }
+  return most;
+}
+
 double valley_depth(const ClumpDisc& a, const ClumpDisc& b) {
   const double distance = std::abs(b.x - a.x);
   if (distance <= std::abs(a.radius - b.radius)) return 0;

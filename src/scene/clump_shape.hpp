@@ -30,6 +30,21 @@ std::vector<ClumpDisc> about_centre_of_mass(std::vector<ClumpDisc> discs);
 /// Radius (m) of the circle about the origin that just holds all discs.
 double holding_radius(const std::vector<ClumpDisc>& discs);
 
+/// How a clump leans on a wall, at most over all its sides. Arms and radii in radii of gyration.
+struct SideContacts {
+  int discs = 1;  // that touch at once
+  /// Stiffness over mass of the clump's fastest vibration against a wall, over that of one disc of weight 1 touched
+  /// straight below the centre: touched at one disc, w (1 + a^2) with a its distance from the centre; and on a side the
+  /// larger eigenvalue of [sum w, sum w a; sum w a, sum w a^2] in displacement and turn, of discs with arms a along it.
+  double at_a_tip = 1, on_a_side = 1;
+  double turning = 0;  // sum w r^2, of discs with radius r that hold it by friction
+};
+
+/// `discs` about their centre of mass, at least one, with their stiffnesses over the largest as `weights`; `gyration2`
+/// in m2. A disc touches that the wall reaches when it presses the outermost in by `depth` (of its own radius).
+SideContacts side_contacts(const std::vector<ClumpDisc>& discs, const std::vector<double>& weights, double gyration2,
+                           double depth);
+
 /// How deep the outline of two discs on a line parallel to x dips below their common tangent, m; infinite when they
 /// are apart, 0 when one holds the other.
 double valley_depth(const ClumpDisc& a, const ClumpDisc& b);

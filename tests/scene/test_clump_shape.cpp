@@ -251,5 +251,37 @@ TEST(ClumpShape, DropTapersToATip) {
   EXPECT_TRUE(drop(5, 1).empty());
 }
 
+/// With discs that are equally stiff.
+SideContacts leaning(const std::vector<ClumpDisc>& discs, double gyration2, double depth = 0) {
+  return side_contacts(discs, std::vector<double>(discs.size(), 1.0), gyration2, depth);
+}
+
+TEST(SideContacts, OfADiscADipoleAndARow) {
+  const SideContacts disc = leaning({{0, 0, 2e-3}}, 2e-6);
+  EXPECT_EQ(disc.discs, 1);
+  EXPECT_EQ(disc.on_a_side, 1);
+  EXPECT_EQ(disc.at_a_tip, 1);
+  EXPECT_NEAR(disc.turning, 2, 1e-12);
+  // Two discs on their common tangent, each 4 mm from the centre.
+  const SideContacts pair = leaning({{-4e-3, 0, 3e-3}, {4e-3, 0, 3e-3}}, 20e-6);
+  EXPECT_EQ(pair.discs, 2);
+  EXPECT_NEAR(pair.at_a_tip, 1 + 16.0 / 20, 1e-12);
+  EXPECT_NEAR(pair.on_a_side, 2, 1e-12) << "straight up is its fastest way";
+  EXPECT_NEAR(pair.turning, 2 * 9.0 / 20, 1e-12);
+  EXPECT_NEAR(leaning({{-4e-3, 0, 3e-3}, {4e-3, 0, 3e-3}}, 8e-6).on_a_side, 4, 1e-12) << "turning is";
+  // A soft disc beside a stiff one: [1.5, 2; 2, 6] in displacement and turn.
+  const SideContacts uneven = side_contacts({{-4e-3, 0, 3e-3}, {4e-3, 0, 3e-3}}, {0.5, 1}, 4e-6, 0);
+  EXPECT_NEAR(uneven.on_a_side, 0.5 * (1.5 + 6 + std::sqrt(4.5 * 4.5 + 4 * 1)), 1e-12);
+  // Of different sizes, aslant: the tangent of the outer two leaves the third out.
+  const double c = std::cos(0.7), s = std::sin(0.7);
+  EXPECT_EQ(leaning({{-4e-3 * c, -4e-3 * s, 3e-3}, {4e-3 * c, 4e-3 * s, 1e-3}, {0, 0, 1e-3}}, 20e-6).discs, 2);
+  // Eleven discs in a row, the middle one 2 % of its radius lower: it counts from that depth on.
+  std::vector<ClumpDisc> row;
+  for (int k = -5; k <= 5; ++k) row.push_back({1e-3 * k, k == 0 ? -0.02e-3 : 0, 1e-3});
+  EXPECT_EQ(leaning(row, 10e-6, 0.01).discs, 10);
+  EXPECT_EQ(leaning(row, 10e-6, 0.03).discs, 11);
+  EXPECT_NEAR(leaning(row, 5e-6, 0.03).on_a_side, 110e-6 / 5e-6, 1e-6);
+}
+
 }  // namespace
 }  // namespace vibrosow

@@ -305,10 +305,10 @@ TEST(StrongDamping, ABedAtRestFallsSilent) {
     }
 }
 
-/// Whether a bed gets through 0.3 s; what still moves then only creeps, as friction below its slip speed lets it.
-void expect_only_creep(const Scene& scene) {
+/// Whether a bed gets to `end` (s); what still moves then only creeps, as friction below its slip speed lets it.
+void expect_only_creep(const Scene& scene, double end) {
   Simulation run(prepare(scene), 1);
-  while (run.time() < 0.3) ASSERT_TRUE(run.step()) << *run.guard().stop_reason();
+  while (run.time() < end) ASSERT_TRUE(run.step()) << *run.guard().stop_reason();
   EXPECT_GT(run.statistics().slip_raised, 0) << "no hard impact: nothing was tried";
   const double mass = run.model().kinds.front().mass * static_cast<double>(run.grains().size());
   EXPECT_LT(std::sqrt(2 * kinetic_energy(run.grains()) / mass), scene.contact.slip_speed);
@@ -323,11 +323,11 @@ TEST(StrongDamping, ABedThatSlidesComesToRest) {
       scene.contact.friction_model = FrictionModel::sliding;
       scene.contact.rolling = Rolling::constant_torque;
       scene.contact.seed.rolling_friction = scene.contact.wall.rolling_friction = rolling;
-      expect_only_creep(scene);
+      expect_only_creep(scene, 0.3);
     }
 }
 
-/// Forty discs of 2 mm in a rod of 2 cm: touched far from its centre, it turns easily.
+/// Forty discs of 2 mm in a rod of 2 cm: many of them touch at once when it lies flat, on the floor or another rod.
 TEST(StrongDamping, RodsOfFortyDiscsThatSlideComeToRest) {
   Scene scene = damped_bed();
   std::vector<ClumpDisc> rod;
@@ -336,9 +336,9 @@ TEST(StrongDamping, RodsOfFortyDiscsThatSlideComeToRest) {
   lot.gyration2 = plate_of(rod).gyration2;
   lot.discs = rod;
   scene.lots = {lot};
-  scene.tray.fill->count = 30;
+  scene.tray.fill->count = 12;
   scene.contact.friction_model = FrictionModel::sliding;
-  expect_only_creep(scene);
+  expect_only_creep(scene, 0.05);
 }
 
 TEST(StrongDamping, HertzWithFrictionTwoFallsSilent) {
