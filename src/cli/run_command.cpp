@@ -36,10 +36,10 @@ std::string evenness_sentence(const Evenness& even) {
   const std::string parts =
       fmt::format("raw CV {:.3g} %, of which counting alone {:.3g} %", 100 * even.raw_cv, 100 * even.counting_cv);
   if (!even.cv)
-    return fmt::format("holes differ: {}; below what this many seeds resolve, at most {:.3g} %", parts,
+    return fmt::format("between holes: {}; so few seeds show no difference, which may be up to {:.3g} %", parts,
                        100 * even.high);
-  return fmt::format("holes differ: CV {:.3g} %, 95 % interval {:.3g} to {:.3g} % ({})", 100 * *even.cv, 100 * even.low,
-                     100 * even.high, parts);
+  return fmt::format("between holes: CV {:.3g} %, 95 % interval {:.3g} to {:.3g} % ({})", 100 * *even.cv,
+                     100 * even.low, 100 * even.high, parts);
 }
 
 /// A run that ended before its measuring window has no rates.
