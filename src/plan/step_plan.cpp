@@ -63,7 +63,7 @@ FrictionStep friction_step(Integrator integrator) {
 }
 
 /// m r^2 / I, the largest, of a clump at its furthest point; 0 where nothing turns.
-double spin_share(const StepBasis& basis) {
+double spin_factor(const StepBasis& basis) {
   double largest = 0;
   for (const GrainKind& seed : basis.seeds)
     largest = std::max(largest, seed.radius * seed.radius * seed.inverse_inertia / seed.inverse_mass);
@@ -74,7 +74,7 @@ double spin_share(const StepBasis& basis) {
 /// that is no spring, and a constant rolling torque. 0: there is nothing of the kind.
 double friction_rate(const StepBasis& basis) {
   const EffectSet& effects = basis.effects;
-  const double per_spin = spin_share(basis), per_surface = 1 + per_spin;  // 1 / (m m_t), of one grain
+  const double per_spin = spin_factor(basis), per_surface = 1 + per_spin;  // 1 / (m m_t), of one grain
   const double layers = basis.loads.layers, weight = standard_gravity * basis.loads.weight_factor;
   const auto rate = [&](const std::vector<SurfaceParameters>& surfaces) {
     double most = 0;
@@ -264,7 +264,7 @@ StepPlan plan_step(const StepBasis& basis) {
   plan.bound_by = tightest.reason;
   plan.dt = numerics.dt.value_or(std::min(wanted, plan.longest_safe));
   plan.steepest_rolling = friction.wanted / plan.dt;
-  plan.steepest_sliding = plan.steepest_rolling / (1 + spin_share(basis)) / sides.discs;
+  plan.steepest_sliding = plan.steepest_rolling / (1 + spin_factor(basis)) / sides.discs;
   plan.too_long = plan.dt > plan.longest_safe;
   plan.steps = std::llround(std::ceil(basis.scene.run.duration / plan.dt * (1 - 1e-12)));
   return plan;

@@ -40,8 +40,9 @@ struct SideContacts {
   double turning = 0;  // sum w r^2, of discs with radius r that hold it by friction
 };
 
-/// `discs` about their centre of mass, at least one, with their stiffnesses over the largest as `weights`; `gyration2`
-/// in m2. A disc touches that the wall reaches when it presses the outermost in by `depth` (of its own radius).
+/// `discs` about their centre of mass, at least one, and as many `weights`: their stiffnesses over the largest;
+/// `gyration2` in m2. A disc touches that the wall reaches when it presses the outermost in by `depth` (of its own
+/// radius).
 SideContacts side_contacts(const std::vector<ClumpDisc>& discs, const std::vector<double>& weights, double gyration2,
                            double depth);
 
