@@ -101,15 +101,24 @@ void set_error(AccuracyRow& row, const AccuracyRow& reference) {
   if (a && b) row.error_ci95 = 100 * std::hypot(*a, *b) / rate;
 }
 
-bool beaten(const AccuracyRow& row, const std::vector<AccuracyRow>& rows) {
-  const auto figures = [](const AccuracyRow& one) { return std::pair(cost_of(one), std::abs(*one.error_percent)); };
-  const auto [cost, error] = figures(row);
-  return std::ranges::any_of(rows, [&](const AccuracyRow& other) {
-    if (&other == &row || !other.error_percent) return false;
-    const auto [other_cost, other_error] = figures(other);
-    if (other_cost > cost || other_error > error) return false;
-    return other_cost < cost || other_error < error || &other < &row;
-  });
+/// Whether `row` errs less than `other` by more than both rates' intervals leave open; without intervals, by anything.
+bool errs_less(const AccuracyRow& row, const AccuracyRow& other, double rate) {
+  const double chance =
+      100 * std::hypot(row.mass_rate->half_width_95.value_or(0), other.mass_rate->half_width_95.value_or(0)) / rate;
+  return std::abs(*other.error_percent) - std::abs(*row.error_percent) > chance;
+}
+
+/// From the cheapest setting on, each that errs less than all cheaper ones on the front.
+void mark_front(std::vector<AccuracyRow>& rows, double rate) {
+  std::vector<AccuracyRow*> by_cost, front;
+  for (AccuracyRow& row : rows)
+    if (row.error_percent) by_cost.push_back(&row);
+  std::ranges::stable_sort(
+      by_cost, {}, [](const AccuracyRow* row) { return std::pair(cost_of(*row), std::abs(*row->error_percent)); });
+  for (AccuracyRow* row : by_cost) {
+    row->on_front = std::ranges::all_of(front, [&](const AccuracyRow* other) { return errs_less(*row, *other, rate); });
+    if (row->on_front) front.push_back(row);
+  }
 }
 
 /// How an interval goes with the number of replicates.
@@ -221,7 +230,7 @@ void compare_with_finest(AccuracyResult& result) {
     set_error(row, reference);
     if (cost_of(reference) > 0) row.cost_ratio = cost_of(row) / cost_of(reference);
   }
-  for (AccuracyRow& row : result.rows) row.on_front = row.error_percent && !beaten(row, result.rows);
+  mark_front(result.rows, reference.mass_rate->mean);
 }
 
 Recommendation recommend(const AccuracyResult& result, double percent) {

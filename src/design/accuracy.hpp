@@ -49,7 +49,7 @@ struct AccuracyRow {
       error_ci95;          // half width, percent: both rates' intervals, as independent; none for the reference
   double grain_steps = 0;  // mean of the finished runs
   std::optional<double> cost_ratio;  // grain-steps times force evaluations a step, over the reference's
-  bool on_front = false;             // no other setting costs no more and errs no more; of equals the first
+  bool on_front = false;             // errs less, beyond chance, than every cheaper setting on the front
   double wall_time = 0;              // s, mean of the finished runs; of this machine
 };
 

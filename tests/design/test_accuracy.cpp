@@ -67,24 +67,27 @@ TEST(Accuracy, MidpointCostsTwoEvaluationsAStep) {
   EXPECT_DOUBLE_EQ(*result.rows[2].cost_ratio, 1.0);
 }
 
-TEST(Accuracy, FrontHoldsWhatNothingBeats) {
+TEST(Accuracy, FrontHoldsWhatErrsLessThanAllThatIsCheaper) {
   const AccuracyResult result = made_up();
-  EXPECT_TRUE(result.rows[0].on_front);
-  EXPECT_TRUE(result.rows[1].on_front);
-  EXPECT_FALSE(result.rows[2].on_front);  // the reference costs as much and errs less
   EXPECT_TRUE(result.rows[3].on_front);
+  EXPECT_TRUE(result.rows[1].on_front);   // 0.5 against 5 %, 4.2 % by chance
+  EXPECT_FALSE(result.rows[0].on_front);  // the reference costs twice as much as what is not told apart from it
+  EXPECT_FALSE(result.rows[2].on_front);
   EXPECT_FALSE(result.rows[4].on_front);
 }
 
 TEST(Accuracy, TiesDoNotStandOnTheFront) {
   const AccuracyResult result =
-      compared({row(verlet, 40, 1e-4, 1.00, 1000), row(verlet, 20, 1e-4, 1.01, 500), row(verlet, 20, 2e-4, 1.01, 400),
-                row(verlet, 20, 3e-4, 0.99, 600), row(verlet, 10, 3e-4, 1.01, 400), row(verlet, 5, 1e-4, 0.90, 400)});
+      compared({row(verlet, 40, 1e-4, 1.00, 1000, 0.001), row(verlet, 20, 1e-4, 1.01, 500, 0.001),
+                row(verlet, 20, 2e-4, 1.01, 400, 0.001), row(verlet, 20, 3e-4, 0.99, 600, 0.001),
+                row(verlet, 10, 3e-4, 1.01, 400, 0.001), row(verlet, 5, 1e-4, 0.90, 400, 0.001),
+                row(verlet, 40, 2e-4, 1.0095, 700, 0.001)});
   EXPECT_TRUE(result.rows[0].on_front);
   EXPECT_FALSE(result.rows[1].on_front);  // as good as the third and dearer
   EXPECT_TRUE(result.rows[2].on_front);
   EXPECT_FALSE(result.rows[4].on_front);  // its equal, and later
   EXPECT_FALSE(result.rows[5].on_front);  // costs as much and errs more
+  EXPECT_FALSE(result.rows[6].on_front);  // 0.05 % better, 0.14 % by chance
 }
 
 TEST(Accuracy, RecommendsOnlyWhatTheIntervalLeavesWithinTheTarget) {
