@@ -75,7 +75,8 @@ long bare_kernel(const Bare& c, const Grains& g, const PairList& list, ContactHi
       px[k] = normal * nx - force * ny, py[k] = normal * ny + force * nx, turn[k] = arm * force;
     }
     for (int k = 0; k < touching; ++k) {
-      const int e = entry[k], i = a[e], j = b[e];
+      const std::size_t e = static_cast<std::size_t>(entry[k]);
+      const std::size_t i = static_cast<std::size_t>(a[e]), j = static_cast<std::size_t>(b[e]);
       forces[i].fx -= px[k], forces[i].fy -= py[k], forces[i].torque -= turn[k];
       forces[j].fx += px[k], forces[j].fy += py[k], forces[j].torque -= turn[k];
       old_slip[e] = slip[k], old_speed[e] = slip_speed[k];

@@ -80,10 +80,10 @@ bool any_moved(std::size_t n, const double* x, const double* y, double shift_x, 
 
 bool any_faster(std::size_t n, const double* vx, const double* vy, double limit) {
   const double limit2 = limit * limit;
-  int slow = 1;
-#pragma omp simd reduction(& : slow)
-  for (std::size_t i = 0; i < n; ++i) slow &= vx[i] * vx[i] + vy[i] * vy[i] <= limit2 ? 1 : 0;
-  return slow == 0;
+  int fast = 0;
+#pragma omp simd reduction(| : fast)
+  for (std::size_t i = 0; i < n; ++i) fast |= vx[i] * vx[i] + vy[i] * vy[i] <= limit2 ? 0 : 1;
+  return fast != 0;
 }
 
 void flag_below(std::size_t n, const double* x, const double* y, double sine, double cosine, double level,

@@ -3,8 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <boost/iterator/counting_iterator.hpp>
 #include <cmath>
-#include <ranges>
 #include <tuple>
 
 #include "laws/law.hpp"
@@ -131,9 +131,11 @@ std::optional<int> replicates_to_tell(const AccuracyRow& row, double percent) {
   if (!row.error_ci95 || row.replicates < 2) return std::nullopt;
   const double wanted = std::abs(percent - std::abs(*row.error_percent)) / *row.error_ci95;
   const double factor = wanted * interval_factor(row.replicates);
-  const auto numbers = std::views::iota(row.replicates, most_replicates + 1);
-  const auto enough = std::ranges::partition_point(numbers, [&](int n) { return interval_factor(n) > factor; });
-  return enough == numbers.end() ? std::nullopt : std::optional(*enough);
+  using Number = boost::counting_iterator<int>;
+  const Number end(most_replicates + 1);
+  const Number enough =
+      std::partition_point(Number(row.replicates), end, [&](int n) { return interval_factor(n) > factor; });
+  return enough == end ? std::nullopt : std::optional(*enough);
 }
 
 enum class Verdict { within, beyond, unresolved };

@@ -21,7 +21,8 @@ double normal_fraction(double deviations) {
 /// Diameter (m) below which the fraction `part` of a normal or lognormal, cut at its least and most, lies.
 double cut_quantile(const SizeDistribution& sizes, double part) {
   const bool logarithmic = sizes.kind == Kind::lognormal;
-  const auto [mean, deviation] = underlying_normal(sizes);
+  const UnderlyingNormal normal = underlying_normal(sizes);
+  const double mean = normal.mean, deviation = normal.deviation;
   constexpr double far = 12;  // deviations from the mean; beyond lies no weight that a double could hold
   const auto deviations = [&](double x) { return ((logarithmic ? elementary::log(x) : x) - mean) / deviation; };
   const double from = std::max(-far, deviations(sizes.least)), to = std::min(far, deviations(sizes.most));

@@ -23,7 +23,7 @@ struct TomlEntry;
 
 /// The keys of a table in the order of the file; what was added later comes last.
 struct TomlTable {
-  std::vector<TomlEntry> entries{};
+  std::vector<TomlEntry> entries;
   Place place{};
   bool is_inline = false;  // written { .. }
 

@@ -198,16 +198,20 @@ struct RunRow {
   const Layout& layout() const { return *of_layout; }
 };
 
+CsvField run_field(const std::integral auto& count, const Unit&) {
+  return csv_number(std::int64_t{count});
+}
+template <class Value>
+CsvField run_field(const Value& value, const Unit& unit) {
+  return in_unit(value, unit);
+}
+
 /// A column that is empty where the run was not begun. `get`: an SI value or count of an Evaluation.
 template <class Get>
 Column<RunRow> run_column(std::string name, Unit unit, std::string description, Get get) {
   return {{std::move(name), std::string(unit.name), std::move(description)}, [get, unit](const RunRow& r) {
             if (!r.run->was_run()) return CsvField();
-            const auto value = get(*r.run);
-            if constexpr (std::integral<decltype(value)>)
-              return csv_number(std::int64_t{value});
-            else
-              return in_unit(value, unit);
+            return run_field(get(*r.run), unit);
           }};
 }
 

@@ -27,7 +27,6 @@ using Exact = number<cpp_bin_float<240, digit_base_2, void, int, -20000, 20000>,
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double largest = std::numeric_limits<double>::max();
 constexpr double smallest = std::numeric_limits<double>::denorm_min();
-constexpr double smallest_normal = std::numeric_limits<double>::min();
 constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
 
 /// Distance of a result from the exact one, in units of the last place of the exact one.

@@ -36,7 +36,7 @@ double height_of(const Grains& grains) {
 }
 
 TEST(StartingState, ABedOfClumpsBarelySettles) {
-  for (const std::uint64_t random_seed : {1, 2}) {
+  for (const std::uint64_t random_seed : {1u, 2u}) {
     Simulation run(prepare(bed_of_cylinders(150)), random_seed);
     const double poured = height_of(run.grains());
     ASSERT_TRUE(run.step());
