@@ -6,6 +6,7 @@
 
 #include "compute/grain_loops.hpp"
 #include "compute/profile.hpp"
+#include "compute/space_loops.hpp"
 #include "compute/stop_request.hpp"
 #include "compute/thread_team.hpp"
 
@@ -18,10 +19,15 @@ class Execution {
   /// `threads` >= 1. Throws std::logic_error when the instructions are not available, std::invalid_argument when there
   /// are not so many threads to be had.
   explicit Execution(InstructionSet instructions = best_instruction_set(), int threads = 1, StopRequest stop = {})
-      : instructions_(instructions), loops_(grain_loops(instructions)), team_(threads), stop_(stop) {}
+      : instructions_(instructions),
+        loops_(grain_loops(instructions)),
+        loops_in_space_(vibrosow::space_loops(instructions)),
+        team_(threads),
+        stop_(stop) {}
 
   InstructionSet instructions() const { return instructions_; }
   const GrainLoops& loops() const { return loops_; }
+  const SpaceLoops& space_loops() const { return loops_in_space_; }
   int threads() const { return team_.size(); }
   Profile& profile() { return profile_; }
   const Profile& profile() const { return profile_; }
@@ -53,6 +59,7 @@ class Execution {
  private:
   InstructionSet instructions_;
   const GrainLoops& loops_;
+  const SpaceLoops& loops_in_space_;
   ThreadTeam team_;
   Profile profile_;
   StopRequest stop_;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <vector>
 
 namespace vibrosow {
@@ -18,6 +19,18 @@ using Forces = std::vector<GrainForce>;
 struct ForeignForce {
   int grain;
   double fx, fy, torque;  // N, N m
+};
+
+/// Force or torque on one ball in space, N or N m; four numbers as above.
+struct alignas(32) GrainVector {
+  double x, y, z;
+  double spare;
+};
+
+/// As ForeignForce, in space.
+struct ForeignSpaceForce {
+  int grain;
+  std::array<double, 3> force, torque;  // N, N m
 };
 
 }  // namespace vibrosow

@@ -11,6 +11,14 @@
 
 namespace vibrosow::inline VIBROSOW_ISA {
 
+template <class Effects>
+inline constexpr bool keeps_history = Effects::spring || Effects::rolling == Rolling::spring;
+
+/// Whether a slip speed makes something continuous.
+template <class Effects>
+inline constexpr bool regularised = (Effects::friction && !Effects::spring) || Effects::rolling
+                                                                                   == Rolling::constant_torque;
+
 /// What stays the same for two surfaces as long as they touch. Members of an absent effect are not set.
 struct PairConstants {
   double reach;                                   // m, r_i + r_j
@@ -22,6 +30,7 @@ struct PairConstants {
   double rolling_radius;    // m, 1 / (1/r_i + 1/r_j)
   double steepest_rolling;  // N s, of a constant rolling torque by the rolling speed
   double rolling_inertia;   // kg m2, of turning about the contact
+  double twisting_inertia;  // kg m2, of the two about their common normal
 };
 
 /// How two surfaces stand and move.
@@ -52,6 +61,23 @@ class MovingHistory {
   double mean_;
 };
 
+/// What a law and its dashpot make of an overlap: together they never pull.
+struct NormalForce {
+  double secant;     // N/m, of the elastic force
+  double dashpot;    // N s/m; 0 without damping
+  double repulsion;  // N
+};
+template <class Law, class Effects>
+inline NormalForce normal_force(double overlap, double approach, const PairConstants& pair) {
+  const double secant = Law::secant(pair.stiffness, overlap);
+  double repulsion = secant * overlap, dashpot = 0;
+  if constexpr (Effects::damping) {
+    dashpot = Law::dashpot_at(pair.dashpot, overlap);
+    repulsion = std::max(0.0, repulsion + dashpot * approach);
+  }
+  return {secant, dashpot, repulsion};
+}
+
 struct ContactForce {
   double normal;       // N, repulsion; below zero only by cohesion
   double tangential;   // N, on i along -t; positive opposes a positive sliding speed
@@ -59,18 +85,13 @@ struct ContactForce {
   double slip_raised;  // 1 where a slip speed was raised, else 0
 };
 
-/// Force of one contact. Elastic and damping force together never pull; cohesion pulls beside them and does not add to
-/// friction's limit. `history` goes in as it was stored and comes out as it is to be stored.
+/// Force of one contact. Cohesion pulls beside the normal force and does not add to friction's limit. `history` goes in
+/// as it was stored and comes out as it is to be stored.
 template <class Law, class Effects>
 inline ContactForce contact_force(const Touch& touch, const PairConstants& pair, const SurfaceParameters& surface,
                                   const HistoryAdvance& advance, ContactHistory& history) {
-  const double secant = Law::secant(pair.stiffness, touch.overlap);
-  double repulsion = secant * touch.overlap;
-  [[maybe_unused]] double dashpot = 0;
-  if constexpr (Effects::damping) {
-    dashpot = Law::dashpot_at(pair.dashpot, touch.overlap);
-    repulsion = std::max(0.0, repulsion + dashpot * touch.approach);
-  }
+  [[maybe_unused]] const auto [secant, dashpot, repulsion] =
+      normal_force<Law, Effects>(touch.overlap, touch.approach, pair);
   ContactForce force{repulsion, 0, 0, 0};
   if constexpr (Effects::cohesion) force.normal -= surface.cohesion;
   if constexpr (Effects::spring) {

@@ -14,40 +14,63 @@ struct ContactHistory {
 /// Which histories contacts have.
 struct HistoryKinds {
   bool slip = false, roll = false;
+  bool in_space = false;  // a record for each contact instead of a column for each number
 
-  bool any() const { return slip || roll; }
+  constexpr bool any() const { return slip || roll; }
+  /// Numbers a record has: the normal (3), slip and its speed (3 each), roll and its speed (3 each), twist and its.
+  constexpr std::size_t record_length() const {
+    return in_space && any() ? 3 + (slip ? 6u : 0u) + (roll ? 8u : 0u) : 0;
+  }
 };
 
-/// Histories of touching contacts, one entry a candidate of a list; all zero where nothing touches. Arrays of an
-/// absent effect are empty.
+/// Histories of touching contacts, one entry a candidate of a list; all zero where nothing touches. In the plane a
+/// column for each number, empty where its effect is absent; in space a record for each candidate, seen from the pair's
+/// first grain.
 struct ContactHistories {
   std::vector<double> slip, slip_speed, roll, roll_speed;
+  std::vector<double> records;         // HistoryKinds::record_length() numbers each
   std::vector<unsigned char> touched;  // 1 where there may be a history
+  HistoryKinds kinds;                  // which of these are filled; set by `resize`
 
   bool has_history(std::size_t k) const {
     return (!slip.empty() && (slip[k] != 0 || slip_speed[k] != 0)) ||
-           (!roll.empty() && (roll[k] != 0 || roll_speed[k] != 0));
+           (!roll.empty() && (roll[k] != 0 || roll_speed[k] != 0)) || (!records.empty() && touched[k]);
   }
 
-  void clear() { slip.clear(), slip_speed.clear(), roll.clear(), roll_speed.clear(), touched.clear(); }
-
-  void resize(std::size_t candidates, HistoryKinds kinds) {
-    slip.resize(kinds.slip ? candidates : 0), slip_speed.resize(slip.size());
-    roll.resize(kinds.roll ? candidates : 0), roll_speed.resize(roll.size());
-    touched.resize(kinds.any() ? candidates : 0);
+  void clear() {
+    for (std::vector<double>* column : {&slip, &slip_speed, &roll, &roll_speed, &records}) column->clear();
+    touched.clear();
   }
-  HistoryKinds kinds() const { return {!slip.empty(), !roll.empty()}; }
+
+  void resize(std::size_t candidates, HistoryKinds of) {
+    kinds = of;
+    const bool columns = !of.in_space;
+    slip.resize(columns && of.slip ? candidates : 0), slip_speed.resize(slip.size());
+    roll.resize(columns && of.roll ? candidates : 0), roll_speed.resize(roll.size());
+    records.resize(candidates * of.record_length());
+    touched.resize(of.any() ? candidates : 0);
+  }
 
   /// Entry `k` becomes entry `from_entry` of `from`, which has the same kinds, and counts as touched.
   void copy_entry(std::size_t k, const ContactHistories& from, std::size_t from_entry) {
     if (!slip.empty()) slip[k] = from.slip[from_entry], slip_speed[k] = from.slip_speed[from_entry];
     if (!roll.empty()) roll[k] = from.roll[from_entry], roll_speed[k] = from.roll_speed[from_entry];
+    const std::size_t length = kinds.record_length();
+    for (std::size_t n = 0; n < length; ++n) records[k * length + n] = from.records[from_entry * length + n];
     if (!touched.empty()) touched[k] = 1;
+  }
+
+  /// Nothing touches at entry `k` any more.
+  void forget(std::size_t k) {
+    if (!slip.empty()) slip[k] = slip_speed[k] = 0;
+    if (!roll.empty()) roll[k] = roll_speed[k] = 0;
+    const std::size_t length = kinds.record_length();
+    for (std::size_t n = 0; n < length; ++n) records[k * length + n] = 0;
   }
 
   /// Keeps these entries alone, ascending; the histories then match a list shortened the same way.
   void keep_entries(const std::vector<std::size_t>& kept) {
-    const HistoryKinds before = kinds();
+    const HistoryKinds before = kinds;
     for (std::size_t k = 0; k < kept.size(); ++k) copy_entry(k, *this, kept[k]);
     resize(kept.size(), before);
   }

@@ -3,6 +3,7 @@
 #include <array>
 
 #include "contact/pair_block.hpp"
+#include "contact/space_data.hpp"
 
 namespace vibrosow {
 
@@ -12,9 +13,16 @@ using PairEnergyKernel = double (*)(const GrainSurfaces&, const Motion&, const P
 using WallEnergyKernel = double (*)(const GrainSurfaces&, const WallContacts&, const ContactParameters&,
                                     const ContactHistories&);
 
+using SpacePairEnergyKernel = double (*)(const GrainSurfaces&, const SpaceMotion&, const PairList&,
+                                         const ContactParameters&, const ContactHistories&);
+using SpaceWallEnergyKernel = double (*)(const GrainSurfaces&, const SpaceWallContacts&, const ContactParameters&,
+                                         const ContactHistories&);
+
 struct EnergyKernel {
   PairEnergyKernel pair;
   WallEnergyKernel wall;
+  SpacePairEnergyKernel space_pair;
+  SpaceWallEnergyKernel space_wall;
 };
 
 /// By index of `compiled_effects`.

@@ -27,9 +27,9 @@ GrainSurfaces surfaces_of(const Grains& grains);
 struct KernelSet {
   Law law;
   EffectChoice effects;
-  std::array<VectorKernels, instruction_sets.size()> vectors;  // null where this program was built without
-  PairEnergyKernel pair_energy;
-  WallEnergyKernel wall_energy;
+  std::array<VectorKernels, instruction_sets.size()> vectors;        // null where this program was built without
+  std::array<SpaceVectorKernels, instruction_sets.size()> in_space;  // the same of balls in space
+  EnergyKernel energy;
 };
 
 /// The registration table: every compiled combination.

@@ -8,14 +8,6 @@
 
 namespace vibrosow::inline VIBROSOW_ISA {
 
-template <class Effects>
-inline constexpr bool keeps_history = Effects::spring || Effects::rolling == Rolling::spring;
-
-/// Whether a slip speed makes something continuous.
-template <class Effects>
-inline constexpr bool regularised = (Effects::friction && !Effects::spring) || Effects::rolling
-                                                                                   == Rolling::constant_torque;
-
 /// Four numbers that are added at once, whatever else their place in block_histories is called.
 using Four [[gnu::vector_size(32), gnu::may_alias]] = double;
 
@@ -41,9 +33,9 @@ inline constexpr auto places = [] {
   return list;
 }();
 
-/// Pairs of a range that touched before and do not now have no history.
-template <class Effects>
-void clear_parted(PairRange range, const unsigned char* touches, ContactHistories& histories) {
+/// Marks the pairs of a range that touch, and calls `forget(entry)` for those that touched before and do not now.
+template <class Forget>
+void part(PairRange range, const unsigned char* touches, ContactHistories& histories, Forget forget) {
   const int count = range.to - range.from;
   unsigned char* touched = histories.touched.data() + range.from;
   unsigned char parted[PairBlock::size + PairBlock::spare];
@@ -54,8 +46,7 @@ void clear_parted(PairRange range, const unsigned char* touches, ContactHistorie
     touched[k] = touches[k];
   }
   const int forgotten = compress(parted, count, Kept<int>{places.data(), place});
-  for (int k = 0; k < forgotten; ++k)
-    store_history<Effects>({}, histories, static_cast<std::size_t>(range.from + place[k]));
+  for (int k = 0; k < forgotten; ++k) forget(static_cast<std::size_t>(range.from + place[k]));
 }
 
 /// Repeats the last contact up to a whole number of vectors: what is worked out for it there counts for nothing.
@@ -85,7 +76,8 @@ void find_touching(const PairProperties<Law, Effects>& properties, const Motion&
     touches[k] = dx * dx + dy * dy < reach * reach ? 1 : 0;
   }
   if constexpr (keeps_history<Effects>)
-    if (leaves_trace) clear_parted<Effects>(range, touches, histories);
+    if (leaves_trace)
+      part(range, touches, histories, [&](std::size_t entry) { store_history<Effects>({}, histories, entry); });
   block.touching =
       compress(touches, count, Kept<int>{places.data(), block.entry}, Kept<int>{grain, block.grain},
                Kept<int>{partner, block.partner}, Kept<double>{all_dx, block.dx}, Kept<double>{all_dy, block.dy});

@@ -34,6 +34,8 @@ inline PairConstants pair_constants(const GrainSurface& a, const GrainSurface& b
     };
     const double both = yield(a) + yield(b);
     p.rolling_inertia = both > 0 ? 1 / both : 0;
+    const double about_normal = a.inverse_inertia + b.inverse_inertia;
+    p.twisting_inertia = about_normal > 0 ? 1 / about_normal : 0;
   }
   return p;
 }

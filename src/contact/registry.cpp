@@ -5,19 +5,25 @@
 
 namespace vibrosow {
 
-// Defined in law_kernels.cpp, compiled for each.
+// Defined in law_kernels.cpp and space_law_kernels.cpp, compiled for each.
 inline namespace generic {
 template <Law law>
 const LawKernels& law_kernels();
-}
+template <Law law>
+const SpaceLawKernels& space_law_kernels();
+}  // namespace generic
 namespace avx2 {
 template <Law law>
 const LawKernels& law_kernels();
-}
+template <Law law>
+const SpaceLawKernels& space_law_kernels();
+}  // namespace avx2
 namespace avx512 {
 template <Law law>
 const LawKernels& law_kernels();
-}
+template <Law law>
+const SpaceLawKernels& space_law_kernels();
+}  // namespace avx512
 
 template <Law law>
 const EnergyKernels& energy_kernels();  // law_energies.cpp, compiled for each law
@@ -36,10 +42,21 @@ std::array<VectorKernels, instruction_sets.size()> kernels_at(std::size_t index)
 }
 
 template <Law law>
+std::array<SpaceVectorKernels, instruction_sets.size()> space_kernels_at(std::size_t index) {
+#ifdef VIBROSOW_X86_KERNELS
+  return {generic::space_law_kernels<law>()[index], avx2::space_law_kernels<law>()[index],
+          avx512::space_law_kernels<law>()[index]};
+#else
+  return {generic::space_law_kernels<law>()[index], {}, {}};
+#endif
+}
+
+template <Law law>
 void add_law(Table& table) {
   const EnergyKernels& energies = energy_kernels<law>();
   for (std::size_t index = 0; index < compiled_effects.size(); ++index)
-    table.push_back({law, compiled_effects[index], kernels_at<law>(index), energies[index].pair, energies[index].wall});
+    table.push_back(
+        {law, compiled_effects[index], kernels_at<law>(index), space_kernels_at<law>(index), energies[index]});
 }
 
 Table build_table() {

@@ -117,10 +117,7 @@ void add_wall_forces(const WallContacts& contacts, bool rotation, Forces& forces
 
 void WallContactFinder::clear_parted(ContactHistories& histories) const {
   for (std::size_t c = 0; c < histories.touched.size(); ++c) {
-    if (histories.touched[c] && !touches_[c]) {
-      if (!histories.slip.empty()) histories.slip[c] = histories.slip_speed[c] = 0;
-      if (!histories.roll.empty()) histories.roll[c] = histories.roll_speed[c] = 0;
-    }
+    if (histories.touched[c] && !touches_[c]) histories.forget(c);
     histories.touched[c] = touches_[c];
   }
 }

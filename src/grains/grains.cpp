@@ -58,6 +58,13 @@ void Grains::add(double px, double py, double pvx, double pvy, int lot_index, co
   curvature.push_back(1 / own.radius);
 }
 
+void Grains::add(const Eigen::Vector3d& at, const Eigen::Vector3d& velocity, int lot_index, const GrainKind& own) {
+  add(at.x(), at.y(), velocity.x(), velocity.y(), lot_index, own);
+  z.push_back(at.z());
+  vz.push_back(velocity.z());
+  if (rotation) omega_x.push_back(0), omega_y.push_back(0);
+}
+
 void Grains::remove_flagged(const std::vector<char>& remove) {
   const auto keep = [&remove](auto& array) {
     if (array.empty()) return;
@@ -66,6 +73,7 @@ void Grains::remove_flagged(const std::vector<char>& remove) {
       if (!remove[i]) array[kept++] = array[i];
     array.resize(kept);
   };
+  keep(z), keep(vz), keep(omega_x), keep(omega_y);
   keep(x), keep(y), keep(vx), keep(vy), keep(omega), keep(angle), keep(lot), keep(id);
   keep(radius), keep(mass), keep(inverse_mass), keep(inverse_inertia), keep(compliance), keep(curvature);
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <Eigen/Core>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -33,16 +34,19 @@ GrainKind sized_kind(const SeedLot& lot, const LawTraits& law, const GrainKind& 
 /// State of all grains in the lab frame, structure of arrays. Order is order of insertion and survives removal.
 /// Arrays of an absent effect are empty: `omega` without rotation, the property arrays for equal grains.
 struct Grains {
-  std::vector<double> x, y;    // m
-  std::vector<double> vx, vy;  // m/s
-  std::vector<double> omega;   // rad/s, anticlockwise
-  std::vector<double> angle;   // rad, how far a clump is turned from its lot's shape; only with clumps
+  std::vector<double> x, y;              // m
+  std::vector<double> vx, vy;            // m/s
+  std::vector<double> omega;             // rad/s, anticlockwise
+  std::vector<double> z, vz;             // m, m/s: across the plane; of balls in space alone
+  std::vector<double> omega_x, omega_y;  // rad/s; of balls in space alone
+  std::vector<double> angle;             // rad, how far a clump is turned from its lot's shape; only with clumps
   std::vector<int> lot;
   std::vector<std::int64_t> id;  // order of insertion, from 0
 
   std::vector<GrainKind> kinds;  // by lot
   bool polydisperse = false;     // whether the arrays below are filled
   bool rotation = false;
+  bool in_space = false;
   std::vector<double> radius, mass, inverse_mass, inverse_inertia, compliance, curvature;  // curvature 1/m
 
   std::int64_t next_id = 0;  // of the next grain that is added
@@ -63,6 +67,9 @@ struct Grains {
   /// The same with properties of its own, which only count where `polydisperse` is set; a clump turned by `turned`
   /// (rad).
   void add(double px, double py, double pvx, double pvy, int lot_index, const GrainKind& own, double turned = 0);
+
+  /// Appends a ball in space.
+  void add(const Eigen::Vector3d& at, const Eigen::Vector3d& velocity, int lot_index, const GrainKind& own);
 
   /// Keeps the grains whose flag is 0, in order. `remove` has one flag a grain.
   void remove_flagged(const std::vector<char>& remove);

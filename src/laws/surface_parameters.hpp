@@ -11,8 +11,9 @@ struct SurfaceParameters {
   double tangential_ratio = 0;    // stiffness of the tangential spring over the secant of the normal law
   double tangential_damping = 0;  // tangential dashpot over the normal one
   double rolling_friction = 0;
-  double rolling_damping = 0;  // of critical
-  double cohesion = 0;         // N
+  double rolling_damping = 0;    // of critical
+  double twisting_friction = 0;  // in space; largest twisting torque over normal force and rolling radius
+  double cohesion = 0;           // N
 };
 
 }  // namespace vibrosow

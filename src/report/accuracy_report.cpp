@@ -61,7 +61,8 @@ Columns<AccuracyRow> accuracy_columns() {
           quantity_column<AccuracyRow>("cost_ratio", plain,
                                        "grain-steps times force evaluations a step, over the reference's",
                                        [](R r) { return r.cost_ratio; }),
-          text_column<AccuracyRow>("on_front", "yes where it errs less, beyond chance, than every cheaper setting so marked",
+          text_column<AccuracyRow>("on_front",
+                                   "yes where it errs less, beyond chance, than every cheaper setting so marked",
                                    [](R r) -> std::string {
                                      if (!r.mass_rate) return "";
                                      return r.on_front ? "yes" : "no";

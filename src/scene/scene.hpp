@@ -107,10 +107,16 @@ struct Contact {
   bool operator==(const Contact&) const = default;
 };
 
+enum class HoleShape { slot, round };
+
 struct Hole {
   double centre = 0;   // m along the floor from the vessel's left end
-  double width = 0;    // m
+  double width = 0;    // m; of a round hole its diameter
   double open_at = 0;  // s; until then a gate closes it
+  // In space:
+  HoleShape shape = HoleShape::slot;
+  double across = 0;         // m, of its centre from the vessel's front
+  double across_length = 0;  // m, of a slot
   bool operator==(const Hole&) const = default;
 };
 
@@ -151,6 +157,7 @@ struct HarmonicMotion {
   double phase = 0;      // rad
   double stop = never;   // s
   double stop_ramp = 0;  // s
+  double across = 0;     // rad, between the direction and the plane; pi/2: straight across, from front to back
   bool operator==(const HarmonicMotion&) const = default;
 };
 
@@ -193,7 +200,8 @@ struct Rain {
   bool operator==(const Rain&) const = default;
 };
 
-/// A tray or a hopper: floor from (0, 0) to (length, 0) with end walls of `height`, in the vessel's own frame.
+/// A tray or a hopper: floor from (0, 0) to (length, 0) with end walls of `height`, in the vessel's own frame. In space
+/// x and y are the same and z goes across, from the front at 0 to the back at `depth`.
 struct Vessel {
   std::string name;                                  // "tray" or "hopper"
   Eigen::Vector2d origin = Eigen::Vector2d::Zero();  // m, lab position of the floor's left end at rest
@@ -206,6 +214,7 @@ struct Vessel {
   std::vector<WallPiece> pieces{};                   // beside floor and end walls
   bool box = true;                                   // whether there are floor and end walls
   Sides sides = Sides::walls;
+  Sides front_and_back = Sides::walls;  // in space
   std::optional<Fill> fill;
   std::optional<Rain> rain{};
   std::optional<VesselMotion> motion;
@@ -249,9 +258,13 @@ struct Record {
   bool operator==(const Record&) const = default;
 };
 
+/// Whether seeds are discs of a slice one seed thick, or balls in space.
+enum class Space { plane, three_dimensional };
+
 /// Everything a run needs, in SI; one value, read from a seeder file and validated.
 struct Scene {
   std::string title;
+  Space space = Space::plane;
   std::vector<SeedLot> lots;
   Contact contact;
   Vessel tray;

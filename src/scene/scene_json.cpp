@@ -319,6 +319,10 @@ void fields(Io& io, Hole& hole) {
   io.value("centre_m", hole.centre);
   io.value("width_m", hole.width);
   io.time("open_at_s", hole.open_at);
+  const Hole usual;
+  io.used_choice("shape", hole.shape, {"slot", "round"}, usual.shape);
+  io.used("across_m", hole.across, usual.across, false);
+  io.used("across_length_m", hole.across_length, usual.across_length, false);
 }
 
 template <class Io>
@@ -366,6 +370,7 @@ void fields(Io& io, HarmonicMotion& motion) {
   io.value("frequency_hz", motion.frequency);
   io.value("phase_rad", motion.phase);
   course(io, motion);
+  io.used("across_rad", motion.across, 0.0, false);
 }
 
 template <class Io>
@@ -421,6 +426,7 @@ void fields(Io& io, Vessel& vessel) {
   io.value("pieces", vessel.pieces);
   io.value("box", vessel.box);
   io.choice("sides", vessel.sides, {"walls", "open", "periodic"});
+  io.used_choice("front_and_back", vessel.front_and_back, {"walls", "open", "periodic"}, Sides::walls);
   io.nullable("fill", vessel.fill);
   io.nullable("rain", vessel.rain);
   io.nullable("motion", vessel.motion);
@@ -468,6 +474,7 @@ bool lots_exist(const Scene& scene) {
 template <class Io>
 void fields(Io& io, Scene& scene) {
   io.used("title", scene.title, {}, false);
+  io.used_choice("space", scene.space, {"plane", "3d"}, Space::plane);
   io.value("lots", scene.lots);
   check(io, !scene.lots.empty(), "lots", "is empty");
   io.value("contact", scene.contact);

@@ -72,7 +72,8 @@ void serialize(Archive& archive, WallCandidate& candidate) {
 }
 template <class Archive>
 void serialize(Archive& archive, ContactHistories& h) {
-  archive(h.slip, h.slip_speed, h.roll, h.roll_speed, h.touched);
+  archive(h.kinds.slip, h.kinds.roll, h.kinds.in_space, h.slip, h.slip_speed, h.roll, h.roll_speed, h.records,
+          h.touched);
 }
 template <class Archive>
 void serialize(Archive& archive, ContactState& s) {
@@ -144,7 +145,7 @@ namespace {
 
 constexpr std::string_view signature = "vibrosow checkpoint\n";
 /// To be raised whenever a state has other fields, or goes on differently.
-constexpr std::uint32_t version = 2;
+constexpr std::uint32_t version = 3;
 
 std::uint32_t checksum(std::string_view bytes) {
   boost::crc_32_type crc;

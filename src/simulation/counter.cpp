@@ -41,7 +41,9 @@ void Counter::watch(const Grains& grains, const Walls& walls, const GrainLoops& 
   const double angle = tray_.tilt + pose.angle;
   const auto [sine, cosine] = elementary::sine_cosine(angle);
   const double ox = tray_.origin.x() + pose.displacement.x(), oy = tray_.origin.y() + pose.displacement.y();
-  const auto [tray_velocity, spin] = walls.rate(0, time);
+  const PoseRate rate = walls.rate(0, time);
+  const Eigen::Vector2d& tray_velocity = rate.velocity;
+  const double spin = rate.angular_velocity;
 
   // Most grains are above the floor and were so before: they are passed over unseen.
   const std::size_t n = grains.size();

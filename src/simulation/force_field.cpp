@@ -131,13 +131,13 @@ void ForceField::evaluate(double time, const HistoryAdvance& advance, ContactSta
 double ForceField::elastic_energy() {
   const Grains& discs = place_discs();
   const Motion at = motion_of(discs);
-  double energy = model_.kernels->pair_energy(surfaces_of(discs), at, state_.contacts.pairs, model_.contacts,
+  double energy = model_.kernels->energy.pair(surfaces_of(discs), at, state_.contacts.pairs, model_.contacts,
                                               state_.contacts.pair_histories);
   if (neighbours_.period() > 0)
-    energy += model_.kernels->pair_energy(surfaces_of(discs), across_boundary(discs), state_.contacts.boundary_pairs,
+    energy += model_.kernels->energy.pair(surfaces_of(discs), across_boundary(discs), state_.contacts.boundary_pairs,
                                           model_.contacts, state_.contacts.boundary_histories);
   wall_finder_.find(discs, state_.contacts.walls, walls_.placed(), wall_contacts_);
-  return energy + model_.kernels->wall_energy(surfaces_of(discs), wall_contacts_, model_.contacts,
+  return energy + model_.kernels->energy.wall(surfaces_of(discs), wall_contacts_, model_.contacts,
                                               state_.contacts.wall_histories);
 }
 

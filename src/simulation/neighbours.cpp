@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <atomic>
+#include <boost/iterator/counting_iterator.hpp>
 #include <cmath>
 #include <cstdint>
-#include <ranges>
 #include <utility>
 
 #include "vessel/nearest_point.hpp"
@@ -31,7 +31,7 @@ void renumber(PairList& list, ContactHistories& histories, const std::vector<cha
     list.grain[kept] = new_index[i], list.partner[kept++] = new_index[j];
   }
   list.grain.resize(kept), list.partner.resize(kept);
-  if (have_history) histories.resize(kept, histories.kinds());
+  if (have_history) histories.resize(kept, histories.kinds);
 }
 
 /// Keeps the candidates of a list for which `keep` is true, with their histories.
@@ -106,9 +106,9 @@ void carry_over(const PairList& old, const ContactHistories& old_histories, cons
   };
   if (from == to) return;
   const std::size_t end = old.size();
-  std::size_t k = *std::ranges::partition_point(std::views::iota(std::size_t{0}, end), [&](std::size_t entry) {
-    return pair_of(old, entry) < pair_of(list, from);
-  });
+  using Entry = boost::counting_iterator<std::size_t>;
+  std::size_t k = *std::partition_point(Entry(0), Entry(end),
+                                        [&](std::size_t entry) { return pair_of(old, entry) < pair_of(list, from); });
   for (std::size_t m = from; m < to && k < end; ++m) {
     const std::int64_t pair = pair_of(list, m);
     while (k < end && pair_of(old, k) < pair) ++k;

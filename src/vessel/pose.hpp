@@ -9,12 +9,14 @@ namespace vibrosow {
 struct Pose {
   Eigen::Vector2d displacement = Eigen::Vector2d::Zero();  // m, lab, of the frame's zero
   double angle = 0;                                        // rad, anticlockwise, beside the tilt
+  double across = 0;                                       // m, displacement in space, from front to back
 };
 
 /// The time derivative of a pose.
 struct PoseRate {
   Eigen::Vector2d velocity = Eigen::Vector2d::Zero();  // m/s, lab, of the frame's zero
   double angular_velocity = 0;                         // rad/s
+  double across_velocity = 0;                          // m/s
 };
 
 }  // namespace vibrosow

@@ -42,12 +42,26 @@ Ramp swing(const Motion& m, double phase, double time) {
   return {ramp.size * sine, ramp.rate * sine + ramp.size * two_pi * m.frequency * cosine};
 }
 
+/// What part of a motion lies in the plane, and across it.
+struct Parts {
+  double in_plane = 1, across = 0;
+};
+Parts parts_of(const HarmonicMotion& m) {
+  if (m.across == 0) return {};
+  const auto [sine, cosine] = elementary::sine_cosine(m.across);
+  return {cosine, sine};
+}
+
 Pose harmonic_pose(const HarmonicMotion& m, double time) {
-  return {m.amplitude * swing(m, m.phase, time).size * unit_vector(m.direction), 0};
+  const double size = m.amplitude * swing(m, m.phase, time).size;
+  const Parts parts = parts_of(m);
+  return {(size * parts.in_plane) * unit_vector(m.direction), 0, size * parts.across};
 }
 
 PoseRate harmonic_rate(const HarmonicMotion& m, double time) {
-  return {m.amplitude * swing(m, m.phase, time).rate * unit_vector(m.direction), 0};
+  const double rate = m.amplitude * swing(m, m.phase, time).rate;
+  const Parts parts = parts_of(m);
+  return {(rate * parts.in_plane) * unit_vector(m.direction), 0, rate * parts.across};
 }
 
 Eigen::Vector2d turned_left(const Eigen::Vector2d& v) {
@@ -58,13 +72,20 @@ Eigen::Vector2d turned_left(const Eigen::Vector2d& v) {
 Pose rocking_pose(const RockingMotion& m, double tilt, double time) {
   const double angle = m.angle * swing(m, 0, time).size;
   const Eigen::Vector2d at_rest = rotation(tilt) * m.pivot;
-  return {at_rest - rotation(tilt + angle) * m.pivot, angle};
+  return {at_rest - rotation(tilt + angle) * m.pivot, angle, 0};
 }
 
 PoseRate rocking_rate(const RockingMotion& m, double tilt, double time) {
   const Ramp now = swing(m, 0, time);
   const double spin = m.angle * now.rate;
-  return {-spin * turned_left(rotation(tilt + m.angle * now.size) * m.pivot), spin};
+  return {-spin * turned_left(rotation(tilt + m.angle * now.size) * m.pivot), spin, 0};
+}
+
+void add(Pose& sum, const Pose& part) {
+  sum.displacement += part.displacement, sum.across += part.across;
+}
+void add(PoseRate& sum, const PoseRate& part) {
+  sum.velocity += part.velocity, sum.across_velocity += part.across_velocity;
 }
 
 using Curve = boost::math::interpolators::makima<std::vector<double>>;
@@ -86,11 +107,11 @@ struct VesselPath::Curves {
 
   Pose pose(double time) const {
     const double t = std::clamp(time, first, last);
-    return {{x(t), y(t)}, angle(t)};
+    return {{x(t), y(t)}, angle(t), 0};
   }
   PoseRate rate(double time) const {
     if (time <= first || time >= last) return {};
-    return {{x.prime(time), y.prime(time)}, angle.prime(time)};
+    return {{x.prime(time), y.prime(time)}, angle.prime(time), 0};
   }
 
   double first, last;  // s
@@ -109,7 +130,7 @@ Pose VesselPath::pose(double time) const {
   if (const auto* rocking = std::get_if<RockingMotion>(&*motion_)) return rocking_pose(*rocking, tilt_, time);
   Pose sum;
   for (const HarmonicMotion& component : std::get<SumMotion>(*motion_).components)
-    sum.displacement += harmonic_pose(component, time).displacement;
+    add(sum, harmonic_pose(component, time));
   return sum;
 }
 
@@ -120,7 +141,7 @@ PoseRate VesselPath::rate(double time) const {
   if (const auto* rocking = std::get_if<RockingMotion>(&*motion_)) return rocking_rate(*rocking, tilt_, time);
   PoseRate sum;
   for (const HarmonicMotion& component : std::get<SumMotion>(*motion_).components)
-    sum.velocity += harmonic_rate(component, time).velocity;
+    add(sum, harmonic_rate(component, time));
   return sum;
 }
 
@@ -145,6 +166,16 @@ Eigen::Vector2d in_vessel_frame(const Vessel& vessel, const Pose& pose, const Ei
   return rotation(-angle) * moved;
 }
 
+Eigen::Vector3d point_in_lab(const Vessel& vessel, const Pose& pose, const Eigen::Vector3d& own) {
+  const Eigen::Vector2d in_plane = in_lab_frame(vessel, pose, Eigen::Vector2d(own.x(), own.y()));
+  return {in_plane.x(), in_plane.y(), pose.across + own.z()};
+}
+
+Eigen::Vector3d point_in_vessel(const Vessel& vessel, const Pose& pose, const Eigen::Vector3d& lab) {
+  const Eigen::Vector2d in_plane = in_vessel_frame(vessel, pose, Eigen::Vector2d(lab.x(), lab.y()));
+  return {in_plane.x(), in_plane.y(), lab.z() - pose.across};
+}
+
 Eigen::Vector2d material_velocity(const Vessel& vessel, const Pose& pose, const PoseRate& rate,
                                   const Eigen::Vector2d& lab) {
   if (rate.angular_velocity == 0) return rate.velocity;
@@ -156,7 +187,8 @@ namespace {
 MotionBounds bounds(const HarmonicMotion& m) {
   const double omega = two_pi * m.frequency;
   const double acceleration = m.amplitude * omega * omega;
-  return {m.amplitude * two_pi * m.frequency, acceleration, acceleration * std::abs(elementary::sin(m.direction))};
+  const double upward = std::abs(elementary::sin(m.direction)) * std::abs(parts_of(m).in_plane);
+  return {m.amplitude * two_pi * m.frequency, acceleration, acceleration * upward};
 }
 
 MotionBounds bounds(const SumMotion& sum) {

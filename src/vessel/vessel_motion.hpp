@@ -39,6 +39,10 @@ PoseRate vessel_velocity(const Vessel& vessel, double time);
 Eigen::Vector2d in_lab_frame(const Vessel& vessel, const Pose& pose, const Eigen::Vector2d& own);
 Eigen::Vector2d in_vessel_frame(const Vessel& vessel, const Pose& pose, const Eigen::Vector2d& lab);
 
+/// The same in space: a vessel turns about the axis across the plane.
+Eigen::Vector3d point_in_lab(const Vessel& vessel, const Pose& pose, const Eigen::Vector3d& own);
+Eigen::Vector3d point_in_vessel(const Vessel& vessel, const Pose& pose, const Eigen::Vector3d& lab);
+
 /// Velocity (m/s, lab) of the vessel's material at the point `lab` (m).
 Eigen::Vector2d material_velocity(const Vessel& vessel, const Pose& pose, const PoseRate& rate,
                                   const Eigen::Vector2d& lab);

@@ -3,27 +3,46 @@
 #include <algorithm>
 
 #include "elementary/functions.hpp"
+#include "vessel/directions.hpp"
+#include "vessel/vessel_faces.hpp"
 
 namespace vibrosow {
 
-Walls::Walls(std::vector<Vessel> vessels)
+Walls::Walls(std::vector<Vessel> vessels, Space space)
     : vessels_(std::move(vessels)),
       paths_(vessels_.begin(), vessels_.end()),
       shifts_(vessels_.size(), Eigen::Vector2d::Zero()),
       poses_(vessels_.size()) {
   int first_vertex = 0;
-  for (std::size_t v = 0; v < vessels_.size(); ++v) {
-    const Vessel& vessel = vessels_[v];
-    int vertices = 0;
-    for (const WallSegment& wall : vessel_walls(vessel)) {
-      at_rest_.push_back({in_lab_frame(vessel, {}, wall.a), in_lab_frame(vessel, {}, wall.b),
-                          in_lab_frame(vessel, {}, wall.centre), wall, v});
-      placed_.push_back({0, 0, 0, 0, first_vertex + wall.vertex_a, first_vertex + wall.vertex_b, 0, 0});
-      vertices = std::max({vertices, wall.vertex_a + 1, wall.vertex_b + 1});
-    }
-    first_vertex += vertices;
+  for (std::size_t v = 0; v < vessels_.size(); ++v)
+    space == Space::plane ? add_segments(v, first_vertex) : add_faces(v);
+  for (std::size_t wall = 0; wall < faces_.size(); ++wall) {
+    PlacedFace& placed = placed_faces_.emplace_back();
+    placed.own = &faces_[wall];
+    const auto [sine, cosine] = elementary::sine_cosine(faces_[wall].half_angle);
+    placed.sine_half = sine, placed.cosine_half = cosine;
   }
   place(0);
+}
+
+void Walls::add_segments(std::size_t v, int& first_vertex) {
+  const Vessel& vessel = vessels_[v];
+  int vertices = 0;
+  for (const WallSegment& wall : vessel_walls(vessel)) {
+    about_.push_back({v, wall.name, wall.opens_at});
+    at_rest_.push_back({in_lab_frame(vessel, {}, wall.a), in_lab_frame(vessel, {}, wall.b),
+                        in_lab_frame(vessel, {}, wall.centre), wall});
+    placed_.push_back({0, 0, 0, 0, first_vertex + wall.vertex_a, first_vertex + wall.vertex_b, 0, 0});
+    vertices = std::max({vertices, wall.vertex_a + 1, wall.vertex_b + 1});
+  }
+  first_vertex += vertices;
+}
+
+void Walls::add_faces(std::size_t v) {
+  for (Face& face : vessel_faces(vessels_[v])) {
+    about_.push_back({v, face.name, face.opens_at});
+    faces_.push_back(std::move(face));
+  }
 }
 
 void Walls::set_motion(std::size_t vessel, const std::optional<VesselMotion>& motion, const Eigen::Vector2d& shift) {
@@ -39,13 +58,12 @@ Pose Walls::pose(std::size_t vessel, double time) const {
 }
 
 std::optional<std::size_t> Walls::find(const std::string& name) const {
-  const auto found = std::ranges::find_if(at_rest_, [&](const AtRest& wall) { return wall.own.name == name; });
-  if (found == at_rest_.end()) return std::nullopt;
-  return static_cast<std::size_t>(found - at_rest_.begin());
+  const auto found = std::ranges::find(about_, name, &About::name);
+  if (found == about_.end()) return std::nullopt;
+  return static_cast<std::size_t>(found - about_.begin());
 }
 
-void Walls::place_arc(PlacedWall& wall, const AtRest& rest, const Pose& pose) const {
-  const Vessel& vessel = vessels_[rest.vessel];
+void Walls::place_arc(PlacedWall& wall, const AtRest& rest, const Vessel& vessel, const Pose& pose) const {
   const Eigen::Vector2d centre =
       pose.angle != 0 ? in_lab_frame(vessel, pose, rest.own.centre) : rest.centre + pose.displacement;
   const double middle = vessel.tilt + pose.angle + 0.5 * (rest.own.from + rest.own.to);
@@ -54,26 +72,47 @@ void Walls::place_arc(PlacedWall& wall, const AtRest& rest, const Pose& pose) co
   wall.cos_half = elementary::cos(0.5 * (rest.own.to - rest.own.from));
 }
 
+void Walls::place_segment(std::size_t number, const Pose& pose, const PoseRate& rate) {
+  const Vessel& vessel = vessels_[about_[number].vessel];
+  // The wall's velocity is stated for the material that passes the lab's zero: at (x, y) it is (vx - spin y, vy +
+  // spin x).
+  const Eigen::Vector2d velocity = material_velocity(vessel, pose, rate, Eigen::Vector2d::Zero());
+  const AtRest& rest = at_rest_[number];
+  const bool turned = pose.angle != 0;
+  const Eigen::Vector2d a = turned ? in_lab_frame(vessel, pose, rest.own.a) : rest.a + pose.displacement;
+  const Eigen::Vector2d b = turned ? in_lab_frame(vessel, pose, rest.own.b) : rest.b + pose.displacement;
+  PlacedWall& wall = placed_[number];
+  wall.ax = a.x(), wall.ay = a.y(), wall.bx = b.x(), wall.by = b.y();
+  wall.vx = velocity.x(), wall.vy = velocity.y(), wall.spin = rate.angular_velocity;
+  if (rest.own.radius > 0) place_arc(wall, rest, vessel, pose);
+}
+
+void Walls::place_face(std::size_t number, const Pose& pose, const PoseRate& rate) {
+  const Vessel& vessel = vessels_[about_[number].vessel];
+  const Face& own = faces_[number];
+  PlacedFace& face = placed_faces_[number];
+  face.origin = point_in_lab(vessel, pose, own.origin);
+  face.e1 = own.e1, face.e2 = own.e2, face.normal = own.normal;
+  const double angle = vessel.tilt + pose.angle;
+  if (angle != 0) {
+    const Eigen::Matrix2d turn = rotation(angle);
+    for (Eigen::Vector3d* direction : {&face.e1, &face.e2, &face.normal})
+      direction->head<2>() = turn * direction->head<2>();
+  }
+  const Eigen::Vector2d velocity = material_velocity(vessel, pose, rate, Eigen::Vector2d::Zero());
+  face.velocity = {velocity.x(), velocity.y(), rate.across_velocity};
+  face.spin = {0, 0, rate.angular_velocity};
+}
+
 void Walls::place(double time) {
   std::size_t next = 0;
   for (std::size_t v = 0; v < vessels_.size(); ++v) {
-    const Vessel& vessel = vessels_[v];
     const Pose pose = this->pose(v, time);
     const PoseRate rate = this->rate(v, time);
     poses_[v] = pose;
-    // The wall's velocity is stated for the material that passes the lab's zero: at (x, y) it is (vx - spin y, vy +
-    // spin x).
-    const Eigen::Vector2d velocity = material_velocity(vessel, pose, rate, Eigen::Vector2d::Zero());
-    for (; next < placed_.size() && at_rest_[next].vessel == v; ++next) {
-      const AtRest& rest = at_rest_[next];
-      if (rest.removed) continue;
-      const bool turned = pose.angle != 0;
-      const Eigen::Vector2d a = turned ? in_lab_frame(vessel, pose, rest.own.a) : rest.a + pose.displacement;
-      const Eigen::Vector2d b = turned ? in_lab_frame(vessel, pose, rest.own.b) : rest.b + pose.displacement;
-      PlacedWall& wall = placed_[next];
-      wall.ax = a.x(), wall.ay = a.y(), wall.bx = b.x(), wall.by = b.y();
-      wall.vx = velocity.x(), wall.vy = velocity.y(), wall.spin = rate.angular_velocity;
-      if (rest.own.radius > 0) place_arc(wall, rest, pose);
+    for (; next < about_.size() && about_[next].vessel == v; ++next) {
+      if (about_[next].removed) continue;
+      faces_.empty() ? place_segment(next, pose, rate) : place_face(next, pose, rate);
     }
   }
 }

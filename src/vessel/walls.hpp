@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "scene/scene.hpp"
+#include "vessel/placed_face.hpp"
 #include "vessel/placed_wall.hpp"
 #include "vessel/vessel_motion.hpp"
 #include "vessel/vessel_walls.hpp"
@@ -13,23 +14,27 @@
 namespace vibrosow {
 
 /// All vessels' walls where they stand at one time, numbered like Box2D's shapes: vessel after vessel, in the order of
-/// `vessel_walls`.
+/// `vessel_walls`, or in space of `vessel_faces`.
 class Walls {
  public:
-  explicit Walls(std::vector<Vessel> vessels);
+  explicit Walls(std::vector<Vessel> vessels, Space space = Space::plane);
+  Walls(const Walls&) = delete;
+  Walls& operator=(const Walls&) = delete;
 
   /// Moves every wall to where it is at `time` (s).
   void place(double time);
 
   /// A wall that is gone, as a gate that opened: it is placed no more.
-  void remove(std::size_t wall) { at_rest_[wall].removed = true; }
-  void restore(std::size_t wall) { at_rest_[wall].removed = false; }
-  bool is_removed(std::size_t wall) const { return at_rest_[wall].removed; }
+  void remove(std::size_t wall) { about_[wall].removed = true; }
+  void restore(std::size_t wall) { about_[wall].removed = false; }
+  bool is_removed(std::size_t wall) const { return about_[wall].removed; }
   /// When a gate opens (s); 0: the wall is no gate.
-  double opens_at(std::size_t wall) const { return at_rest_[wall].own.opens_at; }
+  double opens_at(std::size_t wall) const { return about_[wall].opens_at; }
+  std::size_t count() const { return about_.size(); }
 
-  const std::vector<PlacedWall>& placed() const { return placed_; }
-  const std::vector<Pose>& poses() const { return poses_; }  // by vessel
+  const std::vector<PlacedWall>& placed() const { return placed_; }              // in the plane
+  const std::vector<PlacedFace>& placed_faces() const { return placed_faces_; }  // in space
+  const std::vector<Pose>& poses() const { return poses_; }                      // by vessel
 
   /// Another motion for a vessel from now on, its displacement moved by `shift` (m).
   void set_motion(std::size_t vessel, const std::optional<VesselMotion>& motion, const Eigen::Vector2d& shift);
@@ -41,19 +46,30 @@ class Walls {
   const std::vector<Vessel>& vessels() const { return vessels_; }
 
  private:
+  struct About {
+    std::size_t vessel;
+    std::string name;
+    double opens_at;  // s
+    bool removed = false;
+  };
   struct AtRest {
     Eigen::Vector2d a, b, centre;  // m, lab
     WallSegment own;               // in the vessel's frame
-    std::size_t vessel;
-    bool removed = false;
   };
-  void place_arc(PlacedWall& wall, const AtRest& rest, const Pose& pose) const;
+  void add_segments(std::size_t vessel, int& first_vertex);
+  void add_faces(std::size_t vessel);
+  void place_segment(std::size_t wall, const Pose& pose, const PoseRate& rate);
+  void place_face(std::size_t wall, const Pose& pose, const PoseRate& rate);
+  void place_arc(PlacedWall& wall, const AtRest& rest, const Vessel& vessel, const Pose& pose) const;
 
   std::vector<Vessel> vessels_;
   std::vector<VesselPath> paths_;
   std::vector<Eigen::Vector2d> shifts_;  // m
-  std::vector<AtRest> at_rest_;
+  std::vector<About> about_;
+  std::vector<AtRest> at_rest_;  // in the plane
+  std::vector<Face> faces_;      // in space, in their vessel's frame
   std::vector<PlacedWall> placed_;
+  std::vector<PlacedFace> placed_faces_;  // each points to its face
   std::vector<Pose> poses_;
 };
 

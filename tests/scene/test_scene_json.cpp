@@ -313,8 +313,10 @@ Contact any_contact(int lots) {
 
 Hole any_hole() {
   Hole hole;
-  auto& [centre, width, open_at] = hole;
+  auto& [centre, width, open_at, shape, across, across_length] = hole;
   centre = any_number(), width = any_number(), open_at = any_time();
+  shape = any_of_first<HoleShape>(2);
+  across = any_number(), across_length = any_number();
   return hole;
 }
 
@@ -348,8 +350,9 @@ Rain any_rain() {
 
 HarmonicMotion any_harmonic() {
   HarmonicMotion motion;
-  auto& [direction, amplitude, frequency, ramp, phase, stop, stop_ramp] = motion;
-  for (double* number : {&direction, &amplitude, &frequency, &ramp, &phase, &stop_ramp}) *number = any_number();
+  auto& [direction, amplitude, frequency, ramp, phase, stop, stop_ramp, across] = motion;
+  for (double* number : {&direction, &amplitude, &frequency, &ramp, &phase, &stop_ramp, &across})
+    *number = any_number();
   stop = any_time();
   return motion;
 }
@@ -387,7 +390,8 @@ VesselMotion any_motion() {
 
 Vessel any_vessel() {
   Vessel vessel;
-  auto& [name, origin, length, height, tilt, funnel, depth, holes, pieces, box, sides, fill, rain, motion] = vessel;
+  auto& [name, origin, length, height, tilt, funnel, depth, holes, pieces, box, sides, front_and_back, fill, rain,
+         motion] = vessel;
   name = *rc::gen::elementOf(std::vector<std::string>{"", "tray", "hopper"});
   origin = any_point();
   for (double* number : {&length, &height, &tilt, &funnel}) *number = any_number();
@@ -396,6 +400,7 @@ Vessel any_vessel() {
   pieces = any_list(any_piece);
   box = any_choice();
   sides = any_of_first<Sides>(3);
+  front_and_back = any_of_first<Sides>(3);
   fill = maybe(any_fill);
   rain = maybe(any_rain);
   motion = maybe(any_motion);
@@ -404,7 +409,8 @@ Vessel any_vessel() {
 
 Scene any_scene() {
   Scene scene;
-  auto& [title, lots, contact, tray, hopper, numerics, guard, run, record] = scene;
+  auto& [title, space, lots, contact, tray, hopper, numerics, guard, run, record] = scene;
+  space = any_of_first<Space>(2);
   title = any_text();
   lots = any_list(any_lot, 1);
   contact = any_contact(static_cast<int>(lots.size()));

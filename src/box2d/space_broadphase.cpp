@@ -1,0 +1,423 @@
+#include "box2d/space_broadphase.hpp"
+
+#include <box2d/box2d.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <numeric>
+#include <span>
+#include <utility>
+
+#include "box2d/near_places.hpp"
+#include "scene/motion.hpp"
+#include "vessel/directions.hpp"
+#include "vessel/vessel_faces.hpp"
+
+namespace vibrosow {
+namespace {
+
+constexpr int cluster_size = 8;        // balls
+constexpr double slab_diameters = 2;   // of the largest ball: eight of them fill about a cube
+constexpr double strip_diameters = 2;  // within a slab
+
+/// A box with sides along the axes, m.
+struct Box {
+  Eigen::Vector3d low = Eigen::Vector3d::Constant(std::numeric_limits<double>::infinity()), high = -low;
+
+  void include(const Eigen::Vector3d& point) { low = low.cwiseMin(point), high = high.cwiseMax(point); }
+};
+
+/// Neighbouring balls: places [begin, end) of the sorted ones.
+struct Cluster {
+  std::size_t begin, end;
+  int slab;
+  Box box;         // of centres
+  double largest;  // m, radius
+};
+
+/// Balls in the order of their places: slab by slab from below, strip by strip across, to and fro along.
+struct SortedBalls {
+  std::vector<int> grain;          // by place
+  std::vector<double> x, y, z, r;  // m, relative to the first vessel
+  std::vector<Cluster> clusters;
+  double bottom = 0, slab_height = 1;  // m
+  int slabs = 0;
+
+  void sort(const Grains& grains, const Eigen::Vector3d& shift, double diameter) {
+    const std::size_t n = grains.size();
+    grain.resize(n), x.resize(n), y.resize(n), z.resize(n), r.resize(n);
+    clusters.clear(), slabs = 0;
+    if (n == 0) return;
+    const auto [low, high] = std::ranges::minmax(grains.y);
+    // A ball thrown far off must not cost a slab for every diameter on its way.
+    slab_height = std::max(slab_diameters * diameter, (high - low) / static_cast<double>(n));
+    bottom = low - shift.y();
+    const double near = std::ranges::min(grains.z), strip = strip_diameters * diameter;
+    struct Key {
+      int slab, strip;
+      double along;
+    };
+    std::vector<Key> keys(n);
+    for (std::size_t i = 0; i < n; ++i) {
+      Key& key = keys[i];
+      key.slab = static_cast<int>((grains.y[i] - low) / slab_height);
+      key.strip = static_cast<int>(std::min((grains.z[i] - near) / strip, 1e6));
+      if (key.slab % 2 == 1) key.strip = -key.strip;  // the next slab begins where this one ends
+      key.along = key.strip % 2 == 0 ? grains.x[i] : -grains.x[i];
+      slabs = std::max(slabs, key.slab + 1);
+    }
+    std::iota(grain.begin(), grain.end(), 0);
+    std::ranges::sort(grain, [&keys](int a, int b) {
+      const Key &p = keys[static_cast<std::size_t>(a)], &q = keys[static_cast<std::size_t>(b)];
+      if (p.slab != q.slab) return p.slab < q.slab;
+      if (p.strip != q.strip) return p.strip < q.strip;
+      return p.along != q.along ? p.along < q.along : a < b;
+    });
+    for (std::size_t k = 0; k < n; ++k) {
+      const std::size_t i = static_cast<std::size_t>(grain[k]);
+      x[k] = grains.x[i] - shift.x(), y[k] = grains.y[i] - shift.y(), z[k] = grains.z[i] - shift.z();
+      r[k] = grains.kind(i).radius;
+      const int slab = keys[i].slab;
+      if (clusters.empty() || clusters.back().slab != slab || clusters.back().end - clusters.back().begin == cluster_size)
+        clusters.push_back({k, k, slab, {}, 0});
+      Cluster& cluster = clusters.back();
+      cluster.end = k + 1;
+      cluster.box.include({x[k], y[k], z[k]});
+      cluster.largest = std::max(cluster.largest, r[k]);
+    }
+  }
+
+  int slab_at(double height) const { return static_cast<int>(std::floor((height - bottom) / slab_height)); }
+};
+
+/// Balls of some clusters, next to each other in memory.
+struct Around {
+  std::vector<int> grain;
+  std::vector<double> x, y, z, r;  // m
+
+  void clear() { grain.clear(), x.clear(), y.clear(), z.clear(), r.clear(); }
+  /// Its plan is x and z.
+  Places view() const { return {static_cast<int>(grain.size()), grain.data(), x.data(), z.data(), r.data()}; }
+};
+
+struct Part {
+  std::vector<int> found;  // clusters, or walls
+  Around around;
+  std::vector<int> near;  // grains
+  std::vector<WallCandidate> walls;
+};
+
+/// Where the grains near one grain stand: `count` places of a part's `near`.
+struct Row {
+  std::size_t begin;
+  int part, count;
+};
+
+struct WallQuery : b2QueryCallback {
+  explicit WallQuery(std::vector<int>& walls) : found(walls) {}
+  bool ReportFixture(b2Fixture* fixture) override {
+    found.push_back(static_cast<int>(fixture->GetUserData().pointer));
+    return true;
+  }
+  std::vector<int>& found;
+};
+
+/// Holds a face wherever its vessel is tilted by `angle` (rad), in the lab's directions about the vessel's zero.
+Box box_of(const Face& face, double angle) {
+  const Eigen::Matrix2d turn = rotation(angle);
+  Box box;
+  const auto include = [&](Eigen::Vector3d point) {
+    point.head<2>() = turn * point.head<2>();
+    box.include(point);
+  };
+  if (face.kind == Face::Kind::plate) {
+    for (const double u : {0.0, face.length_u})
+      for (const double v : {0.0, face.length_v}) include(face.origin + u * face.e1 + v * face.e2);
+    return box;
+  }
+  for (const auto& [radius, height] : {std::pair(face.radius_a, face.height_a), std::pair(face.radius_b, face.height_b)})
+    for (const double u : {-radius, radius})
+      for (const double v : {-radius, radius}) include(face.origin + u * face.e1 + v * face.e2 + height * face.normal);
+  return box;
+}
+
+/// The same however it is turned about the axis across.
+Box box_of_turning(const Face& face) {
+  const Box at_rest = box_of(face, 0);
+  const double radius = at_rest.low.head<2>().cwiseAbs().cwiseMax(at_rest.high.head<2>().cwiseAbs()).norm();
+  return {{-radius, -radius, at_rest.low.z()}, {radius, radius, at_rest.high.z()}};
+}
+
+}  // namespace
+
+struct SpaceBroadphase::World {
+  struct Wall {
+    b2Body* body;
+    std::size_t vessel;
+    Box box;  // m, about the vessel's zero
+    b2Fixture* fixture = nullptr;
+  };
+  /// Box2D's tree calls it for every cluster met.
+  struct ClusterQuery {
+    const World& world;
+    const Box& wanted;
+    double reach;  // m
+    std::vector<int>& found;
+
+    bool QueryCallback(int32 proxy) {
+      const int number = world.cluster_of_proxy[static_cast<std::size_t>(proxy)];
+      const Cluster& cluster = world.sorted.clusters[static_cast<std::size_t>(number)];
+      const double apart = reach + cluster.largest;
+      if (cluster.box.low.y() <= wanted.high.y() + apart && cluster.box.high.y() >= wanted.low.y() - apart)
+        found.push_back(number);
+      return true;
+    }
+  };
+
+  b2World world{b2Vec2(0, 0)};
+  std::vector<b2Body*> bodies;  // by vessel
+  std::vector<Eigen::Vector2d> rest;  // m, by vessel, its zero in the plan
+  std::vector<double> height;         // m, by vessel, its zero
+  std::vector<Wall> walls;
+  std::vector<Pose> poses;
+  SortedBalls sorted;
+  b2DynamicTree tree;        // of the clusters
+  std::vector<int> proxies;  // by cluster
+  std::vector<int> cluster_of_proxy;
+  double stride = 0;  // m, along x from a slab's plan to the next
+  std::vector<Part> parts;   // by range
+  std::vector<Row> rows;     // by grain
+  std::vector<int> row_end;  // by grain
+  double diameter, units_per_metre;
+  NearPlacesInSpace near_places;
+
+  World(double unit, InstructionSet instructions)
+      : diameter(unit), units_per_metre(1 / unit), near_places(near_places_in_space(instructions)) {}
+
+  /// In the plan, widened by `wider` (m) and moved by `moved` along x; rounding to float must never shrink it.
+  b2AABB in_plan(const Box& box, double wider, double moved) const {
+    const double u = units_per_metre;
+    const double far = std::max({std::abs(box.low.x() + moved), std::abs(box.high.x() + moved), std::abs(box.low.z()),
+                                 std::abs(box.high.z()), std::abs(moved)});
+    const double margin = wider * u + 1e-6 * (1 + 2 * far * u);
+    b2AABB plan;
+    plan.lowerBound.Set(static_cast<float>((box.low.x() + moved) * u - margin), static_cast<float>(box.low.z() * u - margin));
+    plan.upperBound.Set(static_cast<float>((box.high.x() + moved) * u + margin),
+                        static_cast<float>(box.high.z() * u + margin));
+    return plan;
+  }
+
+  void create_fixture(std::size_t number) {
+    Wall& wall = walls[number];
+    const b2AABB plan = in_plan(wall.box, 0, 0);
+    b2PolygonShape shape;  // a rectangle, or what Box2D takes for one where the face is upright
+    const b2Vec2 half = plan.GetExtents();
+    shape.SetAsBox(std::max(half.x, 1e-3f), std::max(half.y, 1e-3f), plan.GetCenter(), 0);
+    b2FixtureDef fixture;
+    fixture.shape = &shape;
+    fixture.userData.pointer = number;
+    wall.fixture = wall.body->CreateFixture(&fixture);
+  }
+
+  /// Where a vessel's zero stands in Box2D's frame, which is displaced with the first vessel.
+  Eigen::Vector3d zero_of(std::size_t v) const {
+    const Eigen::Vector2d moved = poses[v].displacement - poses.front().displacement;
+    return {rest[v].x() + moved.x(), height[v] + moved.y(), rest[v].y() + poses[v].across - poses.front().across};
+  }
+
+  void place_vessels() {
+    for (std::size_t v = 0; v < bodies.size(); ++v) {
+      const Eigen::Vector3d zero = units_per_metre * zero_of(v);
+      const b2Vec2 position(static_cast<float>(zero.x()), static_cast<float>(zero.z()));
+      if (bodies[v]->GetPosition() != position) bodies[v]->SetTransform(position, 0);
+    }
+  }
+
+  /// Forms the clusters afresh and brings the tree up to date with them.
+  void update_boxes(const Grains& grains, double margin) {
+    const Eigen::Vector2d& moved = poses.front().displacement;
+    sorted.sort(grains, {moved.x(), moved.y(), poses.front().across}, diameter);
+    Box all;
+    for (const Cluster& cluster : sorted.clusters) all.include(cluster.box.low), all.include(cluster.box.high);
+    // Far enough that no query of one slab reaches the plan of another, even moved by a period.
+    stride = sorted.clusters.empty() ? 0 : 3 * (all.high.x() - all.low.x()) + 4 * (margin + 2 * diameter);
+    while (proxies.size() > sorted.clusters.size()) tree.DestroyProxy(proxies.back()), proxies.pop_back();
+    for (std::size_t c = 0; c < sorted.clusters.size(); ++c) {
+      const Cluster& cluster = sorted.clusters[c];
+      const b2AABB plan = in_plan(cluster.box, cluster.largest, cluster.slab * stride);
+      if (c < proxies.size())
+        tree.MoveProxy(proxies[c], plan, b2Vec2(0, 0));
+      else
+        proxies.push_back(tree.CreateProxy(plan, nullptr));
+      const std::size_t proxy = static_cast<std::size_t>(proxies[c]);
+      if (cluster_of_proxy.size() <= proxy) cluster_of_proxy.resize(proxy + 1);
+      cluster_of_proxy[proxy] = static_cast<int>(c);
+    }
+  }
+
+  /// The clusters whose balls may be nearer than `margin` to one of a cluster moved by (shift_x, 0, shift_z).
+  void find_clusters(const Cluster& cluster, double margin, double shift_x, double shift_z, std::vector<int>& found) const {
+    found.clear();
+    Box moved = cluster.box;
+    const Eigen::Vector3d shift(shift_x, 0, shift_z);
+    moved.low += shift, moved.high += shift;
+    const double reach = cluster.largest + margin, highest = reach + 0.5 * diameter;
+    const int from = std::max(0, sorted.slab_at(moved.low.y() - highest));
+    const int to = std::min(sorted.slabs - 1, sorted.slab_at(moved.high.y() + highest));
+    for (int slab = from; slab <= to; ++slab) {
+      ClusterQuery query{*this, moved, reach, found};
+      tree.Query(&query, in_plan(moved, reach, slab * stride));
+    }
+  }
+
+  /// For each ball of the clusters [from, to), moved: the numbers of those that are nearer than r + r + margin (m) to it,
+  /// where `all` is not set only of those with higher numbers than its own.
+  void look_around(int range, std::size_t from, std::size_t to, double margin, double shift_x, double shift_z, bool all) {
+    Part& part = parts[static_cast<std::size_t>(range)];
+    part.near.clear();
+    for (std::size_t c = from; c < to; ++c) {
+      const Cluster& cluster = sorted.clusters[c];
+      find_clusters(cluster, margin, shift_x, shift_z, part.found);
+      gather(part.found, part.around);
+      for (std::size_t k = cluster.begin; k < cluster.end; ++k) {
+        const int grain = sorted.grain[k];
+        const std::size_t begin = part.near.size();
+        part.near.resize(begin + part.around.grain.size() + 16);
+        const int count = near_places(part.around.view(), part.around.y.data(), all ? -1 : grain, sorted.x[k] + shift_x,
+                                      sorted.z[k] + shift_z, sorted.y[k], sorted.r[k] + margin, part.near.data() + begin);
+        part.near.resize(begin + static_cast<std::size_t>(count));
+        rows[static_cast<std::size_t>(grain)] = {begin, range, count};
+      }
+    }
+  }
+
+  void gather(const std::vector<int>& clusters, Around& around) const {
+    around.clear();
+    for (const int c : clusters) {
+      const Cluster& cluster = sorted.clusters[static_cast<std::size_t>(c)];
+      const auto append = [&cluster](auto& array, const auto& all) {
+        array.insert(array.end(), all.begin() + static_cast<std::ptrdiff_t>(cluster.begin),
+                     all.begin() + static_cast<std::ptrdiff_t>(cluster.end));
+      };
+      append(around.grain, sorted.grain);
+      append(around.x, sorted.x), append(around.y, sorted.y), append(around.z, sorted.z), append(around.r, sorted.r);
+    }
+    // Whole vectors of the widest kind: what is added has no number that any grain looks for.
+    const std::size_t padded = (around.grain.size() + 63) / 64 * 64;
+    around.grain.resize(padded, -1);
+    for (std::vector<double>* array : {&around.x, &around.y, &around.z, &around.r}) array->resize(padded, 0.0);
+  }
+
+  /// All faces whose boxes a cluster's box meets, for each of the cluster's balls.
+  void look_for_walls(Part& part, std::size_t from, std::size_t to, double margin) const {
+    part.walls.clear();
+    for (std::size_t c = from; c < to; ++c) {
+      const Cluster& cluster = sorted.clusters[c];
+      const double reach = cluster.largest + margin;
+      part.found.clear();
+      WallQuery query(part.found);
+      world.QueryAABB(&query, in_plan(cluster.box, reach, 0));
+      std::erase_if(part.found, [&](int number) {
+        const Wall& wall = walls[static_cast<std::size_t>(number)];
+        const double zero = zero_of(wall.vessel).y();
+        return zero + wall.box.low.y() > cluster.box.high.y() + reach || zero + wall.box.high.y() < cluster.box.low.y() - reach;
+      });
+      std::ranges::sort(part.found);
+      for (std::size_t k = cluster.begin; k < cluster.end; ++k)
+        for (const int wall : part.found) part.walls.push_back({sorted.grain[k], wall, 0.0});
+    }
+  }
+
+  void find_pairs(const Ranges& ranges, double margin, double shift_x, double shift_z, bool all, PairList& pairs) {
+    parts.resize(static_cast<std::size_t>(ranges.count));
+    rows.resize(sorted.grain.size());
+    share_clusters(ranges, [&](int range, std::size_t from, std::size_t to) {
+      look_around(range, from, to, margin, shift_x, shift_z, all);
+    });
+    transpose(pairs);
+  }
+
+  template <class Work>
+  void share_clusters(const Ranges& ranges, Work work) const {
+    const std::size_t clusters = sorted.clusters.size(), count = static_cast<std::size_t>(ranges.count);
+    ranges.for_each([&](int range) {
+      const std::size_t k = static_cast<std::size_t>(range);
+      work(range, clusters * k / count, clusters * (k + 1) / count);
+    });
+  }
+
+  /// Whom each grain was found by: grains taken in order, the finders of each come in order, without a sort.
+  void transpose(PairList& pairs) {
+    row_end.assign(rows.size() + 1, 0);
+    for (const Row& row : rows)
+      for (const int i : near_of(row)) ++row_end[static_cast<std::size_t>(i) + 1];
+    std::partial_sum(row_end.begin(), row_end.end(), row_end.begin());
+    pairs.grain.resize(static_cast<std::size_t>(row_end.back())), pairs.partner.resize(pairs.grain.size());
+    for (std::size_t i = 0; i < rows.size(); ++i)
+      std::fill(pairs.grain.begin() + row_end[i], pairs.grain.begin() + row_end[i + 1], static_cast<int>(i));
+    for (std::size_t j = 0; j < rows.size(); ++j)
+      for (const int i : near_of(rows[j]))
+        pairs.partner[static_cast<std::size_t>(row_end[static_cast<std::size_t>(i)]++)] = static_cast<int>(j);
+  }
+
+  std::span<const int> near_of(const Row& row) const {
+    return {parts[static_cast<std::size_t>(row.part)].near.data() + row.begin, static_cast<std::size_t>(row.count)};
+  }
+};
+
+SpaceBroadphase::SpaceBroadphase(const std::vector<Vessel>& vessels, double unit, InstructionSet instructions)
+    : world_(std::make_unique<World>(unit, instructions)) {
+  World& w = *world_;
+  for (std::size_t v = 0; v < vessels.size(); ++v) {
+    const Vessel& vessel = vessels[v];
+    b2BodyDef definition;
+    definition.type = v == 0 ? b2_kinematicBody : b2_staticBody;
+    w.bodies.push_back(w.world.CreateBody(&definition));
+    w.rest.emplace_back(vessel.origin.x(), 0);
+    w.height.push_back(vessel.origin.y());
+    const bool turning = vessel.motion && turns(*vessel.motion);
+    for (const Face& face : vessel_faces(vessel)) {
+      w.walls.push_back({w.bodies.back(), v, turning ? box_of_turning(face) : box_of(face, vessel.tilt)});
+      w.create_fixture(w.walls.size() - 1);
+    }
+  }
+}
+
+SpaceBroadphase::~SpaceBroadphase() = default;
+
+void SpaceBroadphase::remove_wall(int number) {
+  World::Wall& wall = world_->walls[static_cast<std::size_t>(number)];
+  if (wall.fixture) wall.body->DestroyFixture(wall.fixture);
+  wall.fixture = nullptr;
+}
+
+void SpaceBroadphase::restore_wall(int wall) {
+  world_->create_fixture(static_cast<std::size_t>(wall));
+}
+
+void SpaceBroadphase::find(const Grains& grains, const std::vector<Pose>& poses, double margin, const Ranges& ranges,
+                           PairList& pairs, std::vector<WallCandidate>& near_walls) {
+  World& w = *world_;
+  w.poses = poses;
+  w.place_vessels();
+  w.update_boxes(grains, margin);
+  w.find_pairs(ranges, margin, 0, 0, false, pairs);
+
+  w.share_clusters(ranges, [&](int range, std::size_t from, std::size_t to) {
+    w.look_for_walls(w.parts[static_cast<std::size_t>(range)], from, to, margin);
+  });
+  near_walls.clear();
+  for (const Part& part : w.parts) near_walls.insert(near_walls.end(), part.walls.begin(), part.walls.end());
+  std::sort(near_walls.begin(), near_walls.end(), [](const WallCandidate& a, const WallCandidate& b) {
+    return a.grain != b.grain ? a.grain < b.grain : a.wall < b.wall;
+  });
+}
+
+void SpaceBroadphase::find_across(double shift_x, double shift_z, double margin, const Ranges& ranges, PairList& pairs) {
+  // As in the plane: who is moved is the row's grain i, so the others are looked for moved the other way.
+  world_->find_pairs(ranges, margin, -shift_x, -shift_z, true, pairs);
+}
+
+}  // namespace vibrosow

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <cstddef>
+
+#include "compute/grain_force.hpp"
+#include "compute/grain_loops.hpp"
+#include "compute/instruction_set.hpp"
+
+namespace vibrosow {
+
+/// What drives balls in space: w F + g - drag w v and w T, with w = 1/m and 1/J.
+struct SpaceDrive {
+  const GrainVector *force, *torque;
+  PerGrain per_mass, per_inertia;
+  double gravity_x, gravity_y, gravity_z, drag;  // m/s2, kg/s
+};
+
+/// Velocities (x, y, z) and their rates; without rotation the spins and theirs are null.
+struct SpaceRates {
+  double *v[3], *omega[3], *a[3], *alpha[3];
+};
+
+/// Coordinates x, y, z.
+struct Coordinates {
+  const double *x, *y, *z;  // m
+};
+
+/// Loops over all balls in space, compiled for one instruction set, beside those of GrainLoops that know nothing of
+/// dimensions.
+struct SpaceLoops {
+  /// As in GrainLoops.
+  void (*accelerate)(std::size_t n, const SpaceDrive& drive, const SpaceRates& rates);
+  void (*correct)(std::size_t n, double dt, const SpaceDrive& drive, const SpaceRates& rates);
+  bool (*any_moved)(std::size_t n, const Coordinates& now, const double (&shift)[3], const Coordinates& was,
+                    double limit);
+  bool (*any_faster)(std::size_t n, const double* vx, const double* vy, const double* vz, double limit);
+  /// The grains are moved by `shift_x` and `shift_z`.
+  std::size_t (*near_pairs)(std::size_t n, const int* grain, const int* partner, const Coordinates& at, double shift_x,
+                            double shift_z, PerGrain radius, double margin, int* near_grain, int* near_partner);
+};
+
+/// Throws std::logic_error where it is not available.
+const SpaceLoops& space_loops(InstructionSet set);
+
+}  // namespace vibrosow

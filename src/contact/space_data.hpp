@@ -1,0 +1,62 @@
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "compute/grain_force.hpp"
+#include "contact/pair_block.hpp"
+
+// Plain data between the simulation and the kernels of balls in space, as pair_block.hpp has it for the plane.
+
+namespace vibrosow {
+
+/// Where and how fast the balls are when forces are wanted. `row_x` and `row_z` stand for `x` and `z` of the first
+/// grain of each pair, as `row_x` of Motion does.
+struct SpaceMotion {
+  const double *x, *y, *z, *vx, *vy, *vz, *omega_x, *omega_y, *omega_z, *row_x, *row_z;
+};
+
+/// Where the forces of a block of pairs go.
+struct SpacePairResult {
+  GrainVector *forces, *torques;  // N, N m; without rotation no torque is added
+  int first_own;
+
+  int contacts;
+  LawFigures figures;
+  int foreign_count;
+  ForeignSpaceForce foreign[pair_block_size];
+};
+
+using SpacePairKernel = void (*)(const GrainSurfaces&, const SpaceMotion&, const PairList&, PairRange,
+                                 const ContactParameters&, const HistoryAdvance&, ContactHistories&, SpacePairResult&);
+
+/// One vector for each contact.
+struct VectorColumns {
+  std::vector<double> x, y, z;
+
+  void resize(std::size_t count) { x.resize(count), y.resize(count), z.resize(count); }
+};
+
+/// Balls that touch walls: of each array the first `count` places count.
+struct SpaceWallContacts {
+  int count = 0;
+  std::vector<int> candidate, grain;
+  std::vector<double> distance;            // m, from the centre to the wall's nearest point
+  VectorColumns normal;                    // towards that point
+  VectorColumns wall_velocity, wall_spin;  // m/s, rad/s: of the wall's material there
+  VectorColumns force, torque;             // N, N m, on the grain; torques without rotation unset
+};
+
+using SpaceWallKernel = LawFigures (*)(const GrainSurfaces&, const SpaceMotion&, const ContactParameters&,
+                                       const HistoryAdvance&, ContactHistories&, SpaceWallContacts&);
+
+/// What is compiled for each instruction set.
+struct SpaceVectorKernels {
+  SpacePairKernel pair;
+  SpaceWallKernel wall;
+};
+
+/// By index of `compiled_effects`.
+using SpaceLawKernels = std::array<SpaceVectorKernels, compiled_effects.size()>;
+
+}  // namespace vibrosow

@@ -1,0 +1,60 @@
+#pragma once
+
+#include <cmath>
+
+#include "contact/pair_properties.hpp"
+#include "contact/space_data.hpp"
+#include "contact/space_history.hpp"
+#include "contact/wall_properties.hpp"
+
+namespace vibrosow::inline VIBROSOW_ISA {
+
+/// Energy of the springs of one contact in space, J.
+template <class Law, class Effects>
+inline double space_contact_energy(double overlap, const PairConstants& pair, const SurfaceParameters& surface,
+                                   const SpaceHistory& history) {
+  double energy = Law::elastic_energy(pair.stiffness, overlap);
+  [[maybe_unused]] const double secant = Law::secant(pair.stiffness, overlap);
+  if constexpr (Effects::cohesion) energy -= surface.cohesion * overlap;
+  if constexpr (Effects::spring) energy += 0.5 * surface.tangential_ratio * secant * dot(history.slip, history.slip);
+  if constexpr (Effects::rolling == Rolling::spring) {
+    const double rolls = surface.rolling_friction * pair.rolling_radius;
+    const double twists = surface.twisting_friction * pair.rolling_radius;
+    energy += 0.5 * 2.25 * secant *
+              (rolls * rolls * dot(history.roll, history.roll) + twists * twists * history.twist * history.twist);
+  }
+  return energy;
+}
+
+template <class Law, class Effects>
+double space_pair_energy(const GrainSurfaces& grains, const SpaceMotion& at, const PairList& list,
+                         const ContactParameters& parameters, const ContactHistories& histories) {
+  const PairProperties<Law, Effects> properties(grains, parameters);
+  double energy = 0;
+  for (std::size_t k = 0; k < list.size(); ++k) {
+    const std::size_t i = static_cast<std::size_t>(list.grain[k]), j = static_cast<std::size_t>(list.partner[k]);
+    const Vector3 apart{at.x[j] - at.row_x[i], at.y[j] - at.y[i], at.z[j] - at.row_z[i]};
+    const double overlap = properties.reach(i, j) - length(apart);
+    if (overlap > 0)
+      energy += space_contact_energy<Law, Effects>(overlap, properties.pair(i, j), properties.between(i, j),
+                                                   load_history<Effects>(histories.records.data(), k));
+  }
+  return energy;
+}
+
+template <class Law, class Effects>
+double space_wall_energy(const GrainSurfaces& grains, const SpaceWallContacts& contacts,
+                         const ContactParameters& parameters, const ContactHistories& histories) {
+  const WallProperties<Law, Effects> properties(grains, parameters);
+  double energy = 0;
+  for (std::size_t k = 0; k < static_cast<std::size_t>(contacts.count); ++k) {
+    const std::size_t i = static_cast<std::size_t>(contacts.grain[k]);
+    const SpaceHistory history =
+        load_history<Effects>(histories.records.data(), static_cast<std::size_t>(contacts.candidate[k]));
+    energy += space_contact_energy<Law, Effects>(properties.radius(i) - contacts.distance[k], properties.pair(i),
+                                                 properties.surface(i), history);
+  }
+  return energy;
+}
+
+}  // namespace vibrosow::inline VIBROSOW_ISA

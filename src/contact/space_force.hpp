@@ -1,0 +1,172 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+#include "contact/contact_force.hpp"
+#include "contact/vector3.hpp"
+
+namespace vibrosow::inline VIBROSOW_ISA {
+
+/// How two surfaces stand and move in space. n is the unit vector from i to j.
+struct SpaceTouch {
+  double overlap = 0;   // m
+  double approach = 0;  // m/s, growth of the overlap
+  Vector3 n;
+  Vector3 sliding;      // m/s, W: velocity of i's surface over j's, across n
+  Vector3 turning;      // rad/s, omega_i - omega_j, across n
+  double twisting = 0;  // rad/s, the same along n
+  double spin = 0;      // rad/s, of both together about n: their mean
+};
+
+/// How i's surface turns over j's: sets what of `touch` the effects ask for, and adds to its sliding. Arms in m.
+template <class Effects>
+inline void set_turning(const Vector3& omega_i, const Vector3& omega_j, double arm_i, double arm_j, SpaceTouch& touch) {
+  touch.sliding = touch.sliding + cross(arm_i * omega_i + arm_j * omega_j, touch.n);
+  if constexpr (keeps_history<Effects>) touch.spin = 0.5 * dot(omega_i + omega_j, touch.n);
+  if constexpr (Effects::rolls) {
+    const Vector3 relative = omega_i - omega_j;
+    touch.twisting = dot(relative, touch.n);
+    touch.turning = relative - touch.twisting * touch.n;
+  }
+}
+
+/// History of one contact in space. The displacements lie across the normal of the moment when they were stored.
+struct SpaceHistory {
+  Vector3 normal;                     // from the list's grain to its partner, or to the wall
+  Vector3 slip, slip_speed;           // m, m/s: displacement of the tangential spring, last sliding velocity
+  Vector3 roll, roll_speed;           // rad, rad/s: the same of the rolling spring
+  double twist = 0, twist_speed = 0;  // rad, rad/s: of the twisting spring
+};
+
+struct SpaceContactForce {
+  double normal;       // N, repulsion; below zero only by cohesion
+  Vector3 tangential;  // N, on i
+  Vector3 resistance;  // N m, on i, of rolling and twisting; the opposite acts on j
+  double slip_raised;  // 1 where a slip speed was raised, else 0
+};
+
+/// Carries a vector that lay across the unit vector `from` along with a contact: by the smallest rotation that takes
+/// `from` to `to`, then by the angle 2 atan(half_angle) about `to`.
+class Carrier {
+ public:
+  Carrier(const Vector3& from, const Vector3& to, double half_angle) : to_(to) {
+    both_ = (1 / std::max(1 + dot(from, to), 1e-9)) * (from + to);  // never turned right round in a step
+    const double square = half_angle * half_angle, per = 1 / (1 + square);
+    cosine_ = (1 - square) * per, sine_ = 2 * half_angle * per;
+  }
+  Vector3 operator()(const Vector3& a) const {
+    const Vector3 turned = a - dot(a, to_) * both_;
+    return cosine_ * turned + sine_ * cross(to_, turned);
+  }
+
+ private:
+  Vector3 to_, both_;
+  double cosine_, sine_;
+};
+
+/// A displacement across the contact's normal between two evaluations: read, carried, moved on, and stored.
+class MovingVector {
+ public:
+  MovingVector(const Vector3& stored, const Vector3& old_speed, const Vector3& speed, const Carrier& carry,
+               const HistoryAdvance& advance) {
+    const Vector3 old = carry(old_speed);
+    mean_ = old + advance.present * (speed - old);
+    displacement = carry(stored) + advance.trial * mean_;
+  }
+
+  Vector3 displacement;  // at which the force is wanted; the law may shorten it
+
+  Vector3 to_store(const HistoryAdvance& advance) const {
+    return displacement + (advance.commit - advance.trial) * mean_;
+  }
+
+ private:
+  Vector3 mean_;
+};
+
+/// `limit` against the direction of a velocity, made continuous as in the plane.
+struct SpaceSliding {
+  Vector3 force;
+  double raised;
+};
+inline SpaceSliding sliding_friction(double limit, const Vector3& speed, double inverse_slip_speed, double steepest) {
+  const double size = length(speed);
+  // The plane's limit min(1, |W| / v_s) over |W|.
+  const double usual = limit * std::min(inverse_slip_speed, 1 / std::max(size, 1e-300));
+  const bool raised = steepest < usual && size > 0;
+  return {(raised ? steepest : usual) * speed, raised ? 1.0 : 0.0};
+}
+
+/// As in the plane; at slip the displacement is shortened without changing its direction.
+inline Vector3 spring_friction(double stiffness, double dashpot, double limit, const Vector3& speed,
+                               Vector3& displacement) {
+  const Vector3 elastic = stiffness * displacement;
+  const auto within = [limit](const Vector3& force) {
+    const double size = length(force);
+    return size > limit ? limit / size : 1.0;
+  };
+  const double held = stiffness > 0 ? within(elastic) : 0.0;
+  displacement = held * displacement;
+  const Vector3 both = held * elastic + dashpot * speed;
+  return within(both) * both;
+}
+
+/// Torque (N m) of model C against twisting, with an arm of its own; moves the history on.
+inline double twisting_torque(const SpaceTouch& touch, const PairConstants& pair, const SurfaceParameters& surface,
+                              const NormalForce& normal, const HistoryAdvance& advance, SpaceHistory& history) {
+  const double arm = surface.twisting_friction * pair.rolling_radius;
+  const double stiffness = 2.25 * normal.secant * arm * arm;
+  const double critical = 2 * std::sqrt(pair.twisting_inertia * stiffness);
+  MovingHistory twist(history.twist, history.twist_speed, touch.twisting, advance);
+  const double torque = spring_friction(stiffness, surface.rolling_damping * critical, arm * normal.repulsion,
+                                        touch.twisting, twist.displacement);
+  history.twist = twist.to_store(advance), history.twist_speed = touch.twisting;
+  return torque;
+}
+
+/// Force of one contact in space, of the same laws as in the plane. `history` goes in as it was stored and comes out as
+/// it is to be stored.
+template <class Law, class Effects>
+inline SpaceContactForce space_contact_force(const SpaceTouch& touch, const PairConstants& pair,
+                                             const SurfaceParameters& surface, const HistoryAdvance& advance,
+                                             SpaceHistory& history) {
+  const NormalForce normal = normal_force<Law, Effects>(touch.overlap, touch.approach, pair);
+  SpaceContactForce force{normal.repulsion, {}, {}, 0};
+  if constexpr (Effects::cohesion) force.normal -= surface.cohesion;
+  [[maybe_unused]] const Carrier carry(history.normal, touch.n, 0.5 * advance.commit * touch.spin);
+  if constexpr (Effects::spring) {
+    MovingVector slip(history.slip, history.slip_speed, touch.sliding, carry, advance);
+    force.tangential =
+        -1 * spring_friction(surface.tangential_ratio * normal.secant, surface.tangential_damping * normal.dashpot,
+                             surface.friction * normal.repulsion, touch.sliding, slip.displacement);
+    history.slip = slip.to_store(advance), history.slip_speed = touch.sliding;
+  } else if constexpr (Effects::friction) {
+    const auto sliding = sliding_friction(surface.friction * normal.repulsion, touch.sliding,
+                                          surface.inverse_slip_speed, pair.steepest_sliding);
+    force.tangential = -1 * sliding.force, force.slip_raised = sliding.raised;
+  }
+  if constexpr (Effects::rolling == Rolling::constant_torque) {
+    const double arm = surface.rolling_friction * pair.rolling_radius;
+    const auto rolling = sliding_friction(arm * normal.repulsion, pair.rolling_radius * touch.turning,
+                                          surface.inverse_slip_speed, pair.steepest_rolling);
+    const auto twisting =
+        sliding_friction(surface.twisting_friction * pair.rolling_radius * normal.repulsion,
+                         pair.rolling_radius * touch.twisting, surface.inverse_slip_speed, pair.steepest_rolling);
+    force.resistance = -1 * rolling.force - twisting.force * touch.n;
+    force.slip_raised = std::max(force.slip_raised, std::max(rolling.raised, twisting.raised));
+  } else if constexpr (Effects::rolling == Rolling::spring) {
+    const double arm = surface.rolling_friction * pair.rolling_radius;
+    const double stiffness = 2.25 * normal.secant * arm * arm;
+    const double critical = 2 * std::sqrt(pair.rolling_inertia * stiffness);
+    MovingVector roll(history.roll, history.roll_speed, touch.turning, carry, advance);
+    force.resistance = -1 * spring_friction(stiffness, surface.rolling_damping * critical, arm * normal.repulsion,
+                                            touch.turning, roll.displacement);
+    history.roll = roll.to_store(advance), history.roll_speed = touch.turning;
+    force.resistance = force.resistance - twisting_torque(touch, pair, surface, normal, advance, history) * touch.n;
+  }
+  history.normal = touch.n;
+  return force;
+}
+
+}  // namespace vibrosow::inline VIBROSOW_ISA

@@ -1,0 +1,174 @@
+#pragma once
+
+#include <cmath>
+
+#include "contact/pair_kernel.hpp"
+#include "contact/space_data.hpp"
+#include "contact/space_force.hpp"
+#include "contact/space_history.hpp"
+
+namespace vibrosow::inline VIBROSOW_ISA {
+
+/// The touching ones among up to `size` pairs, as PairBlock holds them in the plane.
+struct SpaceBlock {
+  static constexpr int size = pair_block_size, spare = PairBlock::spare;
+
+  int touching;
+  int entry[size + spare];  // of the list, counted from the range's first
+  int grain[size + spare], partner[size + spare];
+  double dx[size + spare], dy[size + spare], dz[size + spare];           // m, from the grain to its partner
+  alignas(64) double fx[size], fy[size], fz[size];                       // N, on the grain; the opposite on its partner
+  alignas(64) double torque_x[size], torque_y[size], torque_z[size];     // N m, on the grain
+  alignas(64) double partner_x[size], partner_y[size], partner_z[size];  // N m, on the partner
+
+  int whole_vectors() const { return (touching + spare - 1) & -spare; }
+};
+
+inline void fill_up(SpaceBlock& block) {
+  const int last = block.touching - 1;
+  for (int k = block.touching; k < block.whole_vectors(); ++k) {
+    block.entry[k] = block.entry[last], block.grain[k] = block.grain[last], block.partner[k] = block.partner[last];
+    block.dx[k] = block.dx[last], block.dy[k] = block.dy[last], block.dz[k] = block.dz[last];
+  }
+}
+
+template <class Law, class Effects>
+void find_touching(const PairProperties<Law, Effects>& properties, const SpaceMotion& at, const PairList& list,
+                   PairRange range, bool leaves_trace, ContactHistories& histories, SpaceBlock& block) {
+  const double *x = at.x, *y = at.y, *z = at.z, *row_x = at.row_x, *row_z = at.row_z;
+  const int *grain = list.grain.data() + range.from, *partner = list.partner.data() + range.from;
+  const int count = range.to - range.from;
+  unsigned char touches[SpaceBlock::size + SpaceBlock::spare];
+  double all_dx[SpaceBlock::size], all_dy[SpaceBlock::size], all_dz[SpaceBlock::size];
+#pragma omp simd
+  for (int k = 0; k < count; ++k) {
+    const std::size_t i = static_cast<std::size_t>(grain[k]), j = static_cast<std::size_t>(partner[k]);
+    const double dx = x[j] - row_x[i], dy = y[j] - y[i], dz = z[j] - row_z[i], reach = properties.reach(i, j);
+    all_dx[k] = dx, all_dy[k] = dy, all_dz[k] = dz;
+    touches[k] = dx * dx + dy * dy + dz * dz < reach * reach ? 1 : 0;
+  }
+  if constexpr (keeps_history<Effects>)
+    if (leaves_trace)
+      part(range, touches, histories, [&](std::size_t entry) { clear_record<Effects>(histories, entry); });
+  block.touching = compress(touches, count, Kept<int>{places.data(), block.entry}, Kept<int>{grain, block.grain},
+                            Kept<int>{partner, block.partner}, Kept<double>{all_dx, block.dx},
+                            Kept<double>{all_dy, block.dy}, Kept<double>{all_dz, block.dz});
+  fill_up(block);
+}
+
+template <class Law, class Effects>
+[[gnu::flatten]] LawFigures forces_of_touching(const PairProperties<Law, Effects>& properties, const SpaceMotion& at,
+                                               int first_entry, const ContactParameters& parameters,
+                                               const HistoryAdvance& advance_, const ContactHistories& histories,
+                                               SpaceBlock& block, SpaceBlockHistories& block_histories) {
+  const double shortening = parameters.arm_shortening;
+  const HistoryAdvance advance = advance_;
+  const SpaceMotion m = at;
+  const double* records = histories.records.data();
+  const int whole = block.whole_vectors(), touching = block.touching;
+  double max_relative_overlap = 0, slip_raised = 0;
+#pragma omp simd reduction(max : max_relative_overlap) reduction(+ : slip_raised)
+  for (int k = 0; k < whole; ++k) {
+    const std::size_t e = static_cast<std::size_t>(first_entry + block.entry[k]);
+    const std::size_t i = static_cast<std::size_t>(block.grain[k]), j = static_cast<std::size_t>(block.partner[k]);
+    const PairConstants& pair = properties.pair(i, j);
+    const Vector3 apart{block.dx[k], block.dy[k], block.dz[k]};
+    const double distance = length(apart);
+    // Coincident centres have no normal: any fixed one parts them.
+    const double per_distance = 1 / distance;
+    SpaceTouch touch;
+    touch.n.x = distance > 0 ? apart.x * per_distance : 1;
+    touch.n.y = distance > 0 ? apart.y * per_distance : 0;
+    touch.n.z = distance > 0 ? apart.z * per_distance : 0;
+    touch.overlap = pair.reach - distance;
+    const double relative_overlap = touch.overlap * pair.relative_per_overlap;
+    max_relative_overlap = relative_overlap > max_relative_overlap ? relative_overlap : max_relative_overlap;
+    [[maybe_unused]] double arm_i = 0, arm_j = 0;
+    if constexpr (Effects::damping || Effects::friction) {
+      const Vector3 u{m.vx[i] - m.vx[j], m.vy[i] - m.vy[j], m.vz[i] - m.vz[j]};
+      touch.approach = dot(u, touch.n);
+      if constexpr (Effects::friction) touch.sliding = u - touch.approach * touch.n;
+    }
+    if constexpr (Effects::rotation) {
+      arm_i = properties.radius(i) - shortening * touch.overlap * pair.overlap_fraction_i;
+      arm_j = properties.radius(j) - shortening * touch.overlap * pair.overlap_fraction_j;
+      set_turning<Effects>({m.omega_x[i], m.omega_y[i], m.omega_z[i]}, {m.omega_x[j], m.omega_y[j], m.omega_z[j]},
+                           arm_i, arm_j, touch);
+    }
+    SpaceHistory history = load_history<Effects>(records, e);
+    const SpaceContactForce force =
+        space_contact_force<Law, Effects>(touch, pair, properties.between(i, j), advance, history);
+    block_histories.template set<Effects>(k, history);
+    if constexpr (regularised<Effects>) slip_raised += k < touching ? force.slip_raised : 0;
+    const Vector3 on_grain = force.tangential - force.normal * touch.n;
+    block.fx[k] = on_grain.x, block.fy[k] = on_grain.y, block.fz[k] = on_grain.z;
+    if constexpr (Effects::rotation) {
+      const Vector3 lever = cross(touch.n, force.tangential);
+      const Vector3 own = arm_i * lever + force.resistance, other = arm_j * lever - force.resistance;
+      block.torque_x[k] = own.x, block.torque_y[k] = own.y, block.torque_z[k] = own.z;
+      block.partner_x[k] = other.x, block.partner_y[k] = other.y, block.partner_z[k] = other.z;
+    }
+  }
+  return {max_relative_overlap, slip_raised};
+}
+
+/// Three columns of four contacts each as four vectors, the fourth number of each 0.
+inline void as_rows(const double* x, const double* y, const double* z, Four (&rows)[4]) {
+  const auto four = [](const double* array) -> const Four& { return *reinterpret_cast<const Four*>(array); };
+  const Four zero{};
+  const Four xy02 = __builtin_shufflevector(four(x), four(y), 0, 4, 2, 6);
+  const Four xy13 = __builtin_shufflevector(four(x), four(y), 1, 5, 3, 7);
+  const Four z02 = __builtin_shufflevector(four(z), zero, 0, 4, 2, 6);
+  const Four z13 = __builtin_shufflevector(four(z), zero, 1, 5, 3, 7);
+  rows[0] = __builtin_shufflevector(xy02, z02, 0, 1, 4, 5), rows[1] = __builtin_shufflevector(xy13, z13, 0, 1, 4, 5);
+  rows[2] = __builtin_shufflevector(xy02, z02, 2, 3, 6, 7), rows[3] = __builtin_shufflevector(xy13, z13, 2, 3, 6, 7);
+}
+
+/// Adds the forces of a block to its grains, contact by contact in the order of the list.
+template <bool rotation>
+void add_block(const SpaceBlock& block, SpacePairResult& result) {
+  Four *forces = reinterpret_cast<Four*>(result.forces), *torques = reinterpret_cast<Four*>(result.torques);
+  result.foreign_count = 0;
+  for (int from = 0; from < block.touching; from += 4) {
+    Four force[4], own[4], other[4];
+    as_rows(block.fx + from, block.fy + from, block.fz + from, force);
+    if constexpr (rotation) {
+      as_rows(block.torque_x + from, block.torque_y + from, block.torque_z + from, own);
+      as_rows(block.partner_x + from, block.partner_y + from, block.partner_z + from, other);
+    }
+    const int count = block.touching - from < 4 ? block.touching - from : 4;
+    for (int k = 0; k < count; ++k) {
+      const int i = block.grain[from + k], j = block.partner[from + k];
+      forces[i] += force[k];
+      if constexpr (rotation) torques[i] += own[k];
+      if (j >= result.first_own) {
+        forces[j] -= force[k];
+        if constexpr (rotation) torques[j] += other[k];
+      } else {
+        ForeignSpaceForce& foreign = result.foreign[result.foreign_count++];
+        foreign = {j, {-force[k][0], -force[k][1], -force[k][2]}, {}};
+        if constexpr (rotation) foreign.torque = {other[k][0], other[k][1], other[k][2]};
+      }
+    }
+  }
+}
+
+template <class Law, class Effects>
+[[gnu::flatten]] void space_pair_forces(const GrainSurfaces& grains, const SpaceMotion& at, const PairList& list,
+                                        PairRange range, const ContactParameters& parameters,
+                                        const HistoryAdvance& advance, ContactHistories& histories,
+                                        SpacePairResult& result) {
+  const PairProperties<Law, Effects> properties(grains, parameters);
+  const bool leaves_trace = advance.commit > 0;
+  SpaceBlock block;
+  find_touching<Law, Effects>(properties, at, list, range, leaves_trace, histories, block);
+  SpaceBlockHistories block_histories;
+  result.figures = forces_of_touching<Law, Effects>(properties, at, range.from, parameters, advance, histories, block,
+                                                    block_histories);
+  if (keeps_history<Effects> && leaves_trace)
+    store_block<Effects>(block_histories, block.entry, range.from, block.touching, histories);
+  add_block<Effects::rotation>(block, result);
+  result.contacts = block.touching;
+}
+
+}  // namespace vibrosow::inline VIBROSOW_ISA

@@ -1,0 +1,142 @@
+#include "contact/space_wall_contacts.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "vessel/directions.hpp"
+
+namespace vibrosow {
+namespace {
+
+Eigen::Vector3d centre_of(const Grains& grains, std::size_t i) {
+  return {grains.x[i], grains.y[i], grains.z[i]};
+}
+double radius_of(const Grains& grains, std::size_t i) {
+  return grains.polydisperse ? grains.radius[i] : grains.kinds.front().radius;
+}
+
+void put(VectorColumns& columns, std::size_t k, const Eigen::Vector3d& vector) {
+  columns.x[k] = vector.x(), columns.y[k] = vector.y(), columns.z[k] = vector.z();
+}
+
+void add(const WallCandidate& candidate, std::size_t c, const NearestOnFace& nearest, const PlacedFace& face,
+         const Eigen::Vector3d& centre, SpaceWallContacts& contacts) {
+  const std::size_t k = static_cast<std::size_t>(contacts.count++);
+  contacts.candidate[k] = static_cast<int>(c), contacts.grain[k] = candidate.grain;
+  const double distance = std::sqrt(nearest.distance2);
+  contacts.distance[k] = distance;
+  // Where the centre lies on the face it is pushed back to the side it came from.
+  const Eigen::Vector3d normal =
+      distance > 0 ? Eigen::Vector3d(nearest.apart / distance)
+                   : Eigen::Vector3d(std::copysign(1.0, -candidate.side) * face_normal_at(face, centre));
+  put(contacts.normal, k, normal);
+  put(contacts.wall_velocity, k, face.velocity + cross(face.spin, centre + nearest.apart));
+  put(contacts.wall_spin, k, face.spin);
+}
+
+void make_room(std::size_t most, SpaceWallContacts& contacts) {
+  if (contacts.grain.size() >= most) return;
+  contacts.candidate.resize(most), contacts.grain.resize(most), contacts.distance.resize(most);
+  for (VectorColumns* columns :
+       {&contacts.normal, &contacts.wall_velocity, &contacts.wall_spin, &contacts.force, &contacts.torque})
+    columns->resize(most);
+}
+
+}  // namespace
+
+void SpaceWallFinder::find(const Grains& grains, const std::vector<WallCandidate>& candidates,
+                           const std::vector<PlacedFace>& faces, SpaceWallContacts& contacts) {
+  const std::size_t count = candidates.size();
+  make_room(count, contacts);
+  contacts.count = 0;
+  nearest_.resize(count), touches_.resize(count), near_.resize(count + 1);
+  std::size_t near = 0;
+  for (std::size_t c = 0; c < count; ++c) {
+    const std::size_t i = static_cast<std::size_t>(candidates[c].grain);
+    const double radius = radius_of(grains, i);
+    nearest_[c] = nearest_on_face(faces[static_cast<std::size_t>(candidates[c].wall)], centre_of(grains, i));
+    touches_[c] = 0;
+    near_[near] = c;
+    near += nearest_[c].distance2 < radius * radius ? 1 : 0;
+  }
+  for (std::size_t from = 0, to = 0; from < near; from = to) {
+    while (to < near && candidates[near_[to]].grain == candidates[near_[from]].grain) ++to;
+    const std::size_t i = static_cast<std::size_t>(candidates[near_[from]].grain);
+    const Eigen::Vector3d centre = centre_of(grains, i);
+    const auto touch = [&](std::size_t c) {
+      touches_[c] = 1;
+      add(candidates[c], c, nearest_[c], faces[static_cast<std::size_t>(candidates[c].wall)], centre, contacts);
+    };
+    if (to == from + 1)
+      touch(near_[from]);
+    else
+      touch_each_point_once(faces, candidates, centre, radius_of(grains, i), from, to, touch);
+  }
+}
+
+/// Faces touched inside first, then each other point that is on none of what pushes already.
+template <class Touch>
+void SpaceWallFinder::touch_each_point_once(const std::vector<PlacedFace>& faces,
+                                            const std::vector<WallCandidate>& candidates, const Eigen::Vector3d& centre,
+                                            double radius, std::size_t from, std::size_t to, Touch touch) {
+  constexpr double same_place = 1e-9;  // of the radius
+  pushing_.clear();
+  const auto push = [&](std::size_t c) {
+    pushing_.push_back(c);
+    touch(c);
+  };
+  for (std::size_t k = from; k < to; ++k)
+    if (nearest_[near_[k]].inside) push(near_[k]);
+  for (std::size_t k = from; k < to; ++k) {
+    const std::size_t c = near_[k];
+    if (nearest_[c].inside) continue;
+    const Eigen::Vector3d point = centre + nearest_[c].apart;
+    const bool known = std::ranges::any_of(pushing_, [&](std::size_t other) {
+      const PlacedFace& face = faces[static_cast<std::size_t>(candidates[other].wall)];
+      const double distance2 = nearest_[other].inside ? nearest_on_face(face, point).distance2
+                                                      : (nearest_[other].apart - nearest_[c].apart).squaredNorm();
+      return distance2 <= same_place * same_place * radius * radius;
+    });
+    if (!known) push(c);
+  }
+}
+
+void SpaceWallFinder::watch_crossings(std::vector<WallCandidate>& candidates, std::vector<int>& crossed) const {
+  for (std::size_t c = 0; c < candidates.size(); ++c) {
+    if (!nearest_[c].inside)
+      candidates[c].side = nearest_[c].side;
+    else if (nearest_[c].side * candidates[c].side < 0)
+      crossed.push_back(candidates[c].grain);
+  }
+}
+
+void SpaceWallFinder::clear_parted(ContactHistories& histories) const {
+  for (std::size_t c = 0; c < histories.touched.size(); ++c) {
+    if (histories.touched[c] && !touches_[c]) histories.forget(c);
+    histories.touched[c] = touches_[c];
+  }
+}
+
+void add_wall_forces(const SpaceWallContacts& contacts, bool rotation, std::vector<GrainVector>& forces,
+                     std::vector<GrainVector>& torques, ContactStatistics& statistics) {
+  const std::size_t count = static_cast<std::size_t>(contacts.count);
+  const auto add_up = [](const VectorColumns& columns, std::size_t k, GrainVector& sum) {
+    sum.x += columns.x[k], sum.y += columns.y[k], sum.z += columns.z[k];
+  };
+  for (std::size_t k = 0; k < count;) {
+    const std::size_t i = static_cast<std::size_t>(contacts.grain[k]);
+    GrainVector force{}, torque{};
+    for (; k < count && contacts.grain[k] == static_cast<int>(i); ++k) {
+      add_up(contacts.force, k, force);
+      if (rotation) add_up(contacts.torque, k, torque);
+      const VectorColumns& v = contacts.wall_velocity;
+      statistics.wall_power +=
+          contacts.force.x[k] * v.x[k] + contacts.force.y[k] * v.y[k] + contacts.force.z[k] * v.z[k];
+    }
+    forces[i].x += force.x, forces[i].y += force.y, forces[i].z += force.z;
+    if (rotation) torques[i].x += torque.x, torques[i].y += torque.y, torques[i].z += torque.z;
+  }
+  statistics.contacts += contacts.count;
+}
+
+}  // namespace vibrosow

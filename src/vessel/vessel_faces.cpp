@@ -1,0 +1,184 @@
+#include "vessel/vessel_faces.hpp"
+
+#include <algorithm>
+#include <numbers>
+#include <stdexcept>
+
+#include "vessel/directions.hpp"
+#include "vessel/vessel_walls.hpp"
+
+namespace vibrosow {
+namespace {
+
+using Vector = Eigen::Vector3d;
+
+/// A plate from `corner` along two edges at right angles; edge_u x edge_v points to its positive side.
+Face plate(const std::string& name, const Vector& corner, const Vector& edge_u, const Vector& edge_v) {
+  Face face;
+  face.name = name;
+  face.origin = corner;
+  face.length_u = edge_u.norm(), face.length_v = edge_v.norm();
+  face.e1 = edge_u / face.length_u, face.e2 = edge_v / face.length_v;
+  face.normal = cross(face.e1, face.e2);
+  return face;
+}
+
+/// Over the rectangle of the floor [from_x, to_x] x [from_z, to_z], facing up.
+Face level_plate(const std::string& name, double from_x, double to_x, double from_z, double to_z) {
+  return plate(name, {from_x, 0, from_z}, {0, 0, to_z - from_z}, {to_x - from_x, 0, 0});
+}
+
+struct Span {
+  double from, to;  // m
+
+  double length() const { return to - from; }
+};
+
+/// A wall's piece of the plane drawn out across.
+Face drawn_out(const WallSegment& wall, const Span& z) {
+  if (wall.radius == 0) {
+    const Vector a(wall.a.x(), wall.a.y(), z.from), b(wall.b.x(), wall.b.y(), z.from);
+    return plate(wall.name, a, {0, 0, z.length()}, b - a);
+  }
+  Face face;
+  face.kind = Face::Kind::revolved;
+  face.name = wall.name;
+  face.origin = {wall.centre.x(), wall.centre.y(), z.from};
+  const Eigen::Vector2d middle = unit_vector(0.5 * (wall.from + wall.to));
+  face.e1 = {middle.x(), middle.y(), 0};
+  face.normal = Vector::UnitZ();
+  face.e2 = cross(face.normal, face.e1);
+  face.radius_a = face.radius_b = wall.radius;
+  face.height_b = z.length();
+  face.half_angle = 0.5 * (wall.to - wall.from);
+  return face;
+}
+
+Span along(const Hole& hole) {
+  return {hole.centre - hole.width / 2, hole.centre + hole.width / 2};
+}
+Span across(const Hole& hole) {
+  return {hole.across - hole.across_length / 2, hole.across + hole.across_length / 2};
+}
+
+bool is_round(const Hole& hole) {
+  return hole.shape == HoleShape::round;
+}
+
+/// Where a periodic direction goes on, one period to either side: no ball gets further before it is carried over.
+Span with_periods(Sides sides, double length) {
+  return sides == Sides::periodic ? Span{-length, 2 * length} : Span{0, length};
+}
+
+/// Holes, and where a direction is periodic their images.
+std::vector<Hole> with_images(const Vessel& vessel) {
+  std::vector<Hole> holes;
+  const int most_x = vessel.sides == Sides::periodic ? 1 : 0, most_z = vessel.front_and_back == Sides::periodic ? 1 : 0;
+  for (int i = -most_x; i <= most_x; ++i)
+    for (int k = -most_z; k <= most_z; ++k)
+      for (Hole hole : vessel.holes) {
+        hole.centre += i * vessel.length, hole.across += k * *vessel.depth;
+        holes.push_back(hole);
+      }
+  return holes;
+}
+
+/// Whether every hole is a slot from front to back.
+bool like_the_plane(const Vessel& vessel) {
+  const double slack = 1e-9 * *vessel.depth;
+  return std::ranges::all_of(vessel.holes, [&](const Hole& hole) {
+    return !is_round(hole) && across(hole).from <= slack && across(hole).to >= *vessel.depth - slack;
+  });
+}
+
+/// Strips between the ends of slots, each cut where slots pass through it.
+void add_floor_with_slots(const std::string& name, const Span& x, const Span& z, const std::vector<Hole>& holes,
+                          std::vector<Face>& faces) {
+  std::vector<double> cuts = {x.from, x.to};
+  for (const Hole& hole : holes) cuts.push_back(along(hole).from), cuts.push_back(along(hole).to);
+  std::ranges::sort(cuts);
+  int number = 0;
+  for (std::size_t k = 1; k < cuts.size(); ++k) {
+    const Span strip{cuts[k - 1], cuts[k]};
+    if (strip.length() <= 1e-9 * x.length()) continue;
+    std::vector<Span> open;
+    for (const Hole& hole : holes)
+      if (along(hole).from < 0.5 * (strip.from + strip.to) && along(hole).to > 0.5 * (strip.from + strip.to))
+        open.push_back(across(hole));
+    std::ranges::sort(open, {}, &Span::from);
+    open.push_back({z.to, z.to});
+    double begin = z.from;
+    for (const Span& slot : open) {
+      if (slot.from - begin > 1e-9 * z.length())
+        faces.push_back(level_plate(name + std::to_string(++number), strip.from, strip.to, begin, slot.from));
+      begin = slot.to;
+    }
+  }
+}
+
+void add_floor(const Vessel& vessel, const Span& z, std::vector<Face>& faces) {
+  const std::vector<Hole> holes = with_images(vessel);
+  const bool round = std::ranges::any_of(holes, is_round);
+  if (vessel.funnel > 0) throw std::invalid_argument("a floor that slopes needs slots as long as the vessel is deep");
+  if (round && !std::ranges::all_of(holes, is_round))
+    throw std::invalid_argument("round holes and slots cannot be mixed in one floor");
+  const Span x = with_periods(vessel.sides, vessel.length);
+  const std::string name = vessel.name + " floor ";
+  if (!round) return add_floor_with_slots(name, x, z, holes, faces);
+  Face face = level_plate(name + "1", x.from, x.to, z.from, z.to);
+  for (const Hole& hole : holes)  // u goes across
+    face.holes.push_back({hole.across - z.from, hole.centre - x.from, hole.width / 2});
+  faces.push_back(face);
+}
+
+void add_end_walls(const Vessel& vessel, const Span& z, std::vector<Face>& faces) {
+  if (vessel.sides != Sides::walls) return;
+  const double height = vessel.height;
+  faces.push_back(plate(vessel.name + " left wall", {0, 0, z.from}, {0, height, 0}, {0, 0, z.length()}));
+  faces.push_back(plate(vessel.name + " right wall", {vessel.length, 0, z.from}, {0, 0, z.length()}, {0, height, 0}));
+}
+
+void add_front_and_back(const Vessel& vessel, std::vector<Face>& faces) {
+  if (vessel.front_and_back != Sides::walls) return;
+  const Span x = with_periods(vessel.sides, vessel.length);
+  const double height = vessel.height;
+  faces.push_back(plate(vessel.name + " front", {x.from, 0, 0}, {x.length(), 0, 0}, {0, height, 0}));
+  faces.push_back(plate(vessel.name + " back", {x.from, 0, *vessel.depth}, {0, height, 0}, {x.length(), 0, 0}));
+}
+
+/// A lid over a hole and over its images.
+void add_gate(const std::string& name, const Hole& hole, std::vector<Face>& faces) {
+  Face face = level_plate(name, along(hole).from, along(hole).to, across(hole).from, across(hole).to);
+  if (is_round(hole)) {
+    face = {};
+    face.kind = Face::Kind::revolved;
+    face.name = name;
+    face.origin = {hole.centre, 0, hole.across};
+    face.e1 = Vector::UnitZ(), face.e2 = Vector::UnitX(), face.normal = Vector::UnitY();
+    face.radius_b = hole.width / 2;
+    face.half_angle = std::numbers::pi;
+  }
+  face.opens_at = hole.open_at;
+  faces.push_back(face);
+}
+
+}  // namespace
+
+std::vector<Face> vessel_faces(const Vessel& vessel) {
+  std::vector<Face> faces;
+  const Span z = with_periods(vessel.front_and_back, *vessel.depth);
+  // What is drawn out: all of the plane's walls where holes are slots from front to back, else pieces alone.
+  Vessel drawn = vessel;
+  drawn.box = vessel.box && like_the_plane(vessel);
+  for (Hole& hole : drawn.holes) hole.open_at = 0;
+  if (vessel.box && !drawn.box) add_floor(vessel, z, faces), add_end_walls(vessel, z, faces);
+  for (const WallSegment& wall : vessel_walls(drawn)) faces.push_back(drawn_out(wall, z));
+  if (vessel.box) add_front_and_back(vessel, faces);
+  const std::vector<Hole> holes = with_images(vessel);
+  for (std::size_t k = 0; k < holes.size(); ++k)
+    if (holes[k].open_at > 0)
+      add_gate(vessel.name + " gate " + std::to_string(k % vessel.holes.size() + 1), holes[k], faces);
+  return faces;
+}
+
+}  // namespace vibrosow

@@ -1,0 +1,101 @@
+// Which faces push a ball, and how.
+#include <gmock/gmock.h>
+
+#include <Eigen/Geometry>
+#include <cmath>
+#include <vector>
+
+#include "contact/space_wall_contacts.hpp"
+#include "vessel/walls.hpp"
+
+namespace vibrosow {
+namespace {
+
+constexpr double radius = 2e-3;
+
+/// A tray of 6 x 4 x 3 cm (length, height, depth).
+Vessel tray(std::vector<Hole> holes = {}) {
+  Vessel vessel;
+  vessel.name = "tray";
+  vessel.length = 0.06, vessel.height = 0.04, vessel.depth = 0.03;
+  vessel.holes = std::move(holes);
+  return vessel;
+}
+
+/// Normals of all contacts of one ball with a vessel.
+std::vector<Eigen::Vector3d> pushed_by(const Vessel& vessel, const Eigen::Vector3d& centre) {
+  const Walls walls({vessel}, Space::three_dimensional);
+  Grains grains({{radius, 1e-5, 1e5, 1e10, 1e-3}}, false, true);
+  grains.in_space = true;
+  grains.add(centre, Eigen::Vector3d::Zero(), 0, grains.kinds.front());
+  std::vector<WallCandidate> candidates;
+  for (std::size_t wall = 0; wall < walls.count(); ++wall) candidates.push_back({0, static_cast<int>(wall), 1});
+  SpaceWallContacts contacts;
+  SpaceWallFinder finder;
+  finder.find(grains, candidates, walls.placed_faces(), contacts);
+  std::vector<Eigen::Vector3d> normals;
+  for (std::size_t k = 0; k < static_cast<std::size_t>(contacts.count); ++k)
+    normals.emplace_back(contacts.normal.x[k], contacts.normal.y[k], contacts.normal.z[k]);
+  return normals;
+}
+
+TEST(SpaceWalls, AFloorAnEdgeAndACorner) {
+  EXPECT_THAT(pushed_by(tray(), {0.03, 0.0019, 0.015}), testing::ElementsAre(Eigen::Vector3d(0, -1, 0)));
+  EXPECT_THAT(pushed_by(tray(), {0.0019, 0.0019, 0.015}),
+              testing::UnorderedElementsAre(Eigen::Vector3d(0, -1, 0), Eigen::Vector3d(-1, 0, 0)));
+  EXPECT_THAT(pushed_by(tray(), {0.0581, 0.0019, 0.0281}),
+              testing::UnorderedElementsAre(Eigen::Vector3d(0, -1, 0), Eigen::Vector3d(1, 0, 0), Eigen::Vector3d(0, 0, 1)));
+  EXPECT_THAT(pushed_by(tray(), {0.03, 0.02, 0.015}), testing::IsEmpty());
+}
+
+TEST(SpaceWalls, OverARoundHoleItTouchesTheRimAlone) {
+  const Hole hole{.centre = 0.03, .width = 0.008, .shape = HoleShape::round, .across = 0.015};
+  EXPECT_THAT(pushed_by(tray({hole}), {0.03, 0.0005, 0.015}), testing::IsEmpty());
+  const auto normals = pushed_by(tray({hole}), {0.0325, 0.0005, 0.015});
+  ASSERT_EQ(normals.size(), 1u);
+  EXPECT_LT((normals[0] - Eigen::Vector3d(0.0015, -0.0005, 0).normalized()).norm(), 1e-12);
+}
+
+TEST(SpaceWalls, PlatesThatMeetPushOnce) {
+  // Slots that do not reach the front: the floor is several plates whose long side meets short ones.
+  const Hole slot{.centre = 0.03, .width = 0.01, .across = 0.015, .across_length = 0.01};
+  for (const double x : {0.0249, 0.025, 0.0251})
+    EXPECT_THAT(pushed_by(tray({slot}), {x, 0.0019, 0.005}), testing::ElementsAre(Eigen::Vector3d(0, -1, 0))) << x;
+  EXPECT_THAT(pushed_by(tray({slot}), {0.03, 0.0019, 0.015}), testing::IsEmpty());
+  // In a corner of the slot it meets two edges.
+  EXPECT_EQ(pushed_by(tray({slot}), {0.0262, 0.0003, 0.0112}).size(), 2u);
+}
+
+TEST(SpaceWalls, AboveAWallItsEdgePushesOnce) {
+  const auto normals = pushed_by(tray(), {-0.0005, 0.0415, 0.015});
+  ASSERT_EQ(normals.size(), 1u);
+  EXPECT_LT((normals[0] - Eigen::Vector3d(0.0005, -0.0015, 0).normalized()).norm(), 1e-12);
+  EXPECT_EQ(pushed_by(tray(), {-0.0005, 0.0415, -0.0005}).size(), 1u);  // where three faces' corners meet
+}
+
+TEST(SpaceWalls, AGateClosesItsHole) {
+  const Hole hole{.centre = 0.03, .width = 0.008, .open_at = 1, .shape = HoleShape::round, .across = 0.015};
+  EXPECT_THAT(pushed_by(tray({hole}), {0.03, 0.0019, 0.015}), testing::ElementsAre(Eigen::Vector3d(0, -1, 0)));
+  EXPECT_THAT(pushed_by(tray({hole}), {0.034, 0.0019, 0.015}), testing::ElementsAre(Eigen::Vector3d(0, -1, 0)));
+}
+
+TEST(SpaceWalls, ADrumPushesFromInsideAndOutside) {
+  Vessel drum = tray();
+  drum.box = false;
+  drum.pieces = {{.centre = {0.03, 0.02}, .radius = 0.02, .from = 0, .to = 2 * 3.14159265358979323846}};
+  for (const double y : {0.0019, -0.0019}) {
+    const auto normals = pushed_by(drum, {0.03, y, 0.015});
+    ASSERT_EQ(normals.size(), 1u);
+    EXPECT_LT((normals[0] - Eigen::Vector3d(0, std::copysign(1, -y), 0)).norm(), 1e-12);
+  }
+}
+
+TEST(SpaceWalls, APeriodicFloorGoesOnWithItsHoles) {
+  Vessel vessel = tray({{.centre = 0.005, .width = 0.008, .shape = HoleShape::round, .across = 0.004}});
+  vessel.sides = vessel.front_and_back = Sides::periodic;
+  EXPECT_THAT(pushed_by(vessel, {0.065, 0.0005, 0.034}), testing::IsEmpty());
+  EXPECT_THAT(pushed_by(vessel, {-0.001, 0.0019, 0.031}), testing::ElementsAre(Eigen::Vector3d(0, -1, 0)));
+}
+
+}  // namespace
+}  // namespace vibrosow
