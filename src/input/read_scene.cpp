@@ -123,7 +123,7 @@ std::vector<double> repeated_times(Table& table, double every, double duration) 
 }
 
 std::vector<double> read_times(Table& table, double duration) {
-  const std::vector<double> times = table.quantities("times", Dimension::time, 0, duration);
+  std::vector<double> times = table.quantities("times", Dimension::time, 0, duration);
   const std::optional<double> every = table.quantity("every", Dimension::time, 1e-9, duration);
   if (!times.empty() && every) table.fail("every", "contradicts times; give one of them");
   if (every) return repeated_times(table, *every, duration);

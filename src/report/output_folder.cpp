@@ -126,7 +126,7 @@ bool fits(std::string_view name, std::string_view pattern) {
 
 /// The former set of the command; throws InputError where the folder holds what it may not replace.
 FileList former_set(const fs::path& folder, const std::string& command, const std::vector<std::string>& files) {
-  const FileList former = read_list(folder).value_or(FileList{command, {}});
+  FileList former = read_list(folder).value_or(FileList{command, {}});
   if (former.command != command)
     refuse(folder, fmt::format("holds the reports of vibrosow {}, not of {}", former.command, command));
   for (const auto& entry : fs::directory_iterator(folder)) {

@@ -225,8 +225,8 @@ TEST(ChungOoi, StiffnessBehindTheSlowerImpactsOfTest5IsFound) {
     for (const std::string quantity : {"normalised recoil angle", "normalised post-impact spin"}) {
       const Curve published = curve("5", quantity, series);
       double best_fraction = 0, best = 1e300;
-      for (double fraction = 0.1; fraction < 1.55; fraction += 0.05) {
-        const double deviation = mean_square_deviation(b, published, fraction);
+      for (int step = 2; step <= 30; ++step) {
+        const double fraction = 0.05 * step, deviation = mean_square_deviation(b, published, fraction);
         report.add(quantity, series, fraction, std::sqrt(deviation));
         if (deviation < best) best = deviation, best_fraction = fraction;
       }
