@@ -80,7 +80,8 @@ struct SortedBalls {
       x[k] = grains.x[i] - shift.x(), y[k] = grains.y[i] - shift.y(), z[k] = grains.z[i] - shift.z();
       r[k] = grains.kind(i).radius;
       const int slab = keys[i].slab;
-      if (clusters.empty() || clusters.back().slab != slab || clusters.back().end - clusters.back().begin == cluster_size)
+      if (clusters.empty() || clusters.back().slab != slab ||
+          clusters.back().end - clusters.back().begin == cluster_size)
         clusters.push_back({k, k, slab, {}, 0});
       Cluster& cluster = clusters.back();
       cluster.end = k + 1;
@@ -137,7 +138,8 @@ Box box_of(const Face& face, double angle) {
       for (const double v : {0.0, face.length_v}) include(face.origin + u * face.e1 + v * face.e2);
     return box;
   }
-  for (const auto& [radius, height] : {std::pair(face.radius_a, face.height_a), std::pair(face.radius_b, face.height_b)})
+  for (const auto& [radius, height] :
+       {std::pair(face.radius_a, face.height_a), std::pair(face.radius_b, face.height_b)})
     for (const double u : {-radius, radius})
       for (const double v : {-radius, radius}) include(face.origin + u * face.e1 + v * face.e2 + height * face.normal);
   return box;
@@ -177,7 +179,7 @@ struct SpaceBroadphase::World {
   };
 
   b2World world{b2Vec2(0, 0)};
-  std::vector<b2Body*> bodies;  // by vessel
+  std::vector<b2Body*> bodies;        // by vessel
   std::vector<Eigen::Vector2d> rest;  // m, by vessel, its zero in the plan
   std::vector<double> height;         // m, by vessel, its zero
   std::vector<Wall> walls;
@@ -186,7 +188,7 @@ struct SpaceBroadphase::World {
   b2DynamicTree tree;        // of the clusters
   std::vector<int> proxies;  // by cluster
   std::vector<int> cluster_of_proxy;
-  double stride = 0;  // m, along x from a slab's plan to the next
+  double stride = 0;         // m, along x from a slab's plan to the next
   std::vector<Part> parts;   // by range
   std::vector<Row> rows;     // by grain
   std::vector<int> row_end;  // by grain
@@ -203,7 +205,8 @@ struct SpaceBroadphase::World {
                                  std::abs(box.high.z()), std::abs(moved)});
     const double margin = wider * u + 1e-6 * (1 + 2 * far * u);
     b2AABB plan;
-    plan.lowerBound.Set(static_cast<float>((box.low.x() + moved) * u - margin), static_cast<float>(box.low.z() * u - margin));
+    plan.lowerBound.Set(static_cast<float>((box.low.x() + moved) * u - margin),
+                        static_cast<float>(box.low.z() * u - margin));
     plan.upperBound.Set(static_cast<float>((box.high.x() + moved) * u + margin),
                         static_cast<float>(box.high.z() * u + margin));
     return plan;
@@ -258,7 +261,8 @@ struct SpaceBroadphase::World {
   }
 
   /// The clusters whose balls may be nearer than `margin` to one of a cluster moved by (shift_x, 0, shift_z).
-  void find_clusters(const Cluster& cluster, double margin, double shift_x, double shift_z, std::vector<int>& found) const {
+  void find_clusters(const Cluster& cluster, double margin, double shift_x, double shift_z,
+                     std::vector<int>& found) const {
     found.clear();
     Box moved = cluster.box;
     const Eigen::Vector3d shift(shift_x, 0, shift_z);
@@ -272,9 +276,10 @@ struct SpaceBroadphase::World {
     }
   }
 
-  /// For each ball of the clusters [from, to), moved: the numbers of those that are nearer than r + r + margin (m) to it,
-  /// where `all` is not set only of those with higher numbers than its own.
-  void look_around(int range, std::size_t from, std::size_t to, double margin, double shift_x, double shift_z, bool all) {
+  /// For each ball of the clusters [from, to), moved: the numbers of those that are nearer than r + r + margin (m) to
+  /// it, where `all` is not set only of those with higher numbers than its own.
+  void look_around(int range, std::size_t from, std::size_t to, double margin, double shift_x, double shift_z,
+                   bool all) {
     Part& part = parts[static_cast<std::size_t>(range)];
     part.near.clear();
     for (std::size_t c = from; c < to; ++c) {
@@ -285,8 +290,9 @@ struct SpaceBroadphase::World {
         const int grain = sorted.grain[k];
         const std::size_t begin = part.near.size();
         part.near.resize(begin + part.around.grain.size() + 16);
-        const int count = near_places(part.around.view(), part.around.y.data(), all ? -1 : grain, sorted.x[k] + shift_x,
-                                      sorted.z[k] + shift_z, sorted.y[k], sorted.r[k] + margin, part.near.data() + begin);
+        const int count =
+            near_places(part.around.view(), part.around.y.data(), all ? -1 : grain, sorted.x[k] + shift_x,
+                        sorted.z[k] + shift_z, sorted.y[k], sorted.r[k] + margin, part.near.data() + begin);
         part.near.resize(begin + static_cast<std::size_t>(count));
         rows[static_cast<std::size_t>(grain)] = {begin, range, count};
       }
@@ -322,7 +328,8 @@ struct SpaceBroadphase::World {
       std::erase_if(part.found, [&](int number) {
         const Wall& wall = walls[static_cast<std::size_t>(number)];
         const double zero = zero_of(wall.vessel).y();
-        return zero + wall.box.low.y() > cluster.box.high.y() + reach || zero + wall.box.high.y() < cluster.box.low.y() - reach;
+        return zero + wall.box.low.y() > cluster.box.high.y() + reach ||
+               zero + wall.box.high.y() < cluster.box.low.y() - reach;
       });
       std::ranges::sort(part.found);
       for (std::size_t k = cluster.begin; k < cluster.end; ++k)
@@ -415,7 +422,8 @@ void SpaceBroadphase::find(const Grains& grains, const std::vector<Pose>& poses,
   });
 }
 
-void SpaceBroadphase::find_across(double shift_x, double shift_z, double margin, const Ranges& ranges, PairList& pairs) {
+void SpaceBroadphase::find_across(double shift_x, double shift_z, double margin, const Ranges& ranges,
+                                  PairList& pairs) {
   // As in the plane: who is moved is the row's grain i, so the others are looked for moved the other way.
   world_->find_pairs(ranges, margin, -shift_x, -shift_z, true, pairs);
 }

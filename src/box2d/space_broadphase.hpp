@@ -12,8 +12,9 @@
 namespace vibrosow {
 
 /// Box2D's part in space: it keeps the ground plan, x and z. Balls are sorted into slabs of some two diameters by their
-/// height, within a slab into clusters of eight neighbours; the slabs' plans lie side by side in one tree, so that a query
-/// meets a cluster only where its slab is near too. Faces are shapes of bodies in the plan; heights are compared after.
+/// height, within a slab into clusters of eight neighbours; the slabs' plans lie side by side in one tree, so that a
+/// query meets a cluster only where its slab is near too. Faces are shapes of bodies in the plan; heights are compared
+/// after.
 class SpaceBroadphase {
  public:
   /// `unit` in m is the length of one Box2D unit.
@@ -25,8 +26,8 @@ class SpaceBroadphase {
   void find(const Grains& grains, const std::vector<Pose>& poses, double margin, const Ranges& ranges, PairList& pairs,
             std::vector<WallCandidate>& near_walls);
 
-  /// Fills `pairs` with all (i, j) such that i, moved by (shift_x, shift_z) (m), is nearer than r_i + r_j + margin to j:
-  /// pairs across a periodic boundary; j may be less than i. For the balls and poses of the last `find`.
+  /// Fills `pairs` with all (i, j) such that i, moved by (shift_x, shift_z) (m), is nearer than r_i + r_j + margin to
+  /// j: pairs across a periodic boundary; j may be less than i. For the balls and poses of the last `find`.
   void find_across(double shift_x, double shift_z, double margin, const Ranges& ranges, PairList& pairs);
 
   /// Takes a face out of the vessel's body: nothing will touch it any more.

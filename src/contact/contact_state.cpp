@@ -33,7 +33,7 @@ void keep_active(std::vector<WallCandidate>& list, ContactHistories& histories) 
 ContactState without_idle_candidates(const ContactState& contacts) {
   ContactState state = contacts;
   keep_active(state.pairs, state.pair_histories);
-  keep_active(state.boundary_pairs, state.boundary_histories);
+  for (BoundaryContacts& boundary : state.boundaries) keep_active(boundary.pairs, boundary.histories);
   keep_active(state.walls, state.wall_histories);
   return state;
 }

@@ -112,6 +112,11 @@ inline Vector3 spring_friction(double stiffness, double dashpot, double limit, c
   return within(both) * both;
 }
 
+/// Of two flags, each 0 or 1. (g++ 12 breaks down over the larger of several such.)
+inline double either(double a, double b) {
+  return a + b - a * b;
+}
+
 /// Torque (N m) of model C against twisting, with an arm of its own; moves the history on.
 inline double twisting_torque(const SpaceTouch& touch, const PairConstants& pair, const SurfaceParameters& surface,
                               const NormalForce& normal, const HistoryAdvance& advance, SpaceHistory& history) {
@@ -154,7 +159,7 @@ inline SpaceContactForce space_contact_force(const SpaceTouch& touch, const Pair
         sliding_friction(surface.twisting_friction * pair.rolling_radius * normal.repulsion,
                          pair.rolling_radius * touch.twisting, surface.inverse_slip_speed, pair.steepest_rolling);
     force.resistance = -1 * rolling.force - twisting.force * touch.n;
-    force.slip_raised = std::max(force.slip_raised, std::max(rolling.raised, twisting.raised));
+    force.slip_raised = either(force.slip_raised, either(rolling.raised, twisting.raised));
   } else if constexpr (Effects::rolling == Rolling::spring) {
     const double arm = surface.rolling_friction * pair.rolling_radius;
     const double stiffness = 2.25 * normal.secant * arm * arm;

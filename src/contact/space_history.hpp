@@ -16,21 +16,27 @@ struct RecordOf {
   static constexpr std::size_t length = kinds.record_length();
 };
 
-template <class Effects>
-inline SpaceHistory load_history(const double* records, std::size_t entry) {
+/// A record's numbers, each at `at(n)`.
+template <class Effects, class At>
+inline SpaceHistory history_from(At at) {
   using Record = RecordOf<Effects>;
   SpaceHistory history;
   if constexpr (keeps_history<Effects>) {
-    const double* r = records + entry * Record::length;
-    const auto vector = [r](std::size_t at) { return Vector3{r[at], r[at + 1], r[at + 2]}; };
+    const auto vector = [&at](std::size_t n) { return Vector3(at(n), at(n + 1), at(n + 2)); };
     history.normal = vector(0);
     if constexpr (Record::slips) history.slip = vector(Record::slip), history.slip_speed = vector(Record::slip_speed);
     if constexpr (Record::rolls) {
       history.roll = vector(Record::roll), history.roll_speed = vector(Record::roll_speed);
-      history.twist = r[Record::twist], history.twist_speed = r[Record::twist_speed];
+      history.twist = at(Record::twist), history.twist_speed = at(Record::twist_speed);
     }
   }
   return history;
+}
+
+template <class Effects>
+inline SpaceHistory load_history(const double* records, std::size_t entry) {
+  const double* record = records + entry * RecordOf<Effects>::length;
+  return history_from<Effects>([record](std::size_t n) { return record[n]; });
 }
 
 template <class Effects>
@@ -44,6 +50,10 @@ struct SpaceBlockHistories {
   static constexpr std::size_t longest = HistoryKinds{true, true, true}.record_length();
   double numbers[longest][pair_block_size];
 
+  template <class Effects>
+  SpaceHistory get(std::size_t k) const {
+    return history_from<Effects>([this, k](std::size_t n) { return numbers[n][k]; });
+  }
   template <class Effects>
   void set(std::size_t k, const SpaceHistory& history) {
     using Record = RecordOf<Effects>;
@@ -59,6 +69,20 @@ struct SpaceBlockHistories {
     }
   }
 };
+
+/// Fetches the records of the first `count` contacts of a block, from their entries of the list after `first`: side by
+/// side, where vector instructions find them.
+template <class Effects>
+void load_block(const ContactHistories& histories, const int* entry, int first, int count,
+                SpaceBlockHistories& of_block) {
+  if constexpr (!keeps_history<Effects>) return;
+  constexpr std::size_t length = RecordOf<Effects>::length;
+  const double* records = histories.records.data();
+  for (int k = 0; k < count; ++k) {
+    const double* record = records + static_cast<std::size_t>(first + entry[k]) * length;
+    for (std::size_t n = 0; n < length; ++n) of_block.numbers[n][k] = record[n];
+  }
+}
 
 /// Stores the records of the first `count` contacts of a block, at their entries of the list after `first`.
 template <class Effects>

@@ -56,20 +56,18 @@ void find_touching(const PairProperties<Law, Effects>& properties, const SpaceMo
   fill_up(block);
 }
 
+/// What the contacts of a block are worked out from, and where to.
 template <class Law, class Effects>
-[[gnu::flatten]] LawFigures forces_of_touching(const PairProperties<Law, Effects>& properties, const SpaceMotion& at,
-                                               int first_entry, const ContactParameters& parameters,
-                                               const HistoryAdvance& advance_, const ContactHistories& histories,
-                                               SpaceBlock& block, SpaceBlockHistories& block_histories) {
-  const double shortening = parameters.arm_shortening;
-  const HistoryAdvance advance = advance_;
-  const SpaceMotion m = at;
-  const double* records = histories.records.data();
-  const int whole = block.whole_vectors(), touching = block.touching;
-  double max_relative_overlap = 0, slip_raised = 0;
-#pragma omp simd reduction(max : max_relative_overlap) reduction(+ : slip_raised)
-  for (int k = 0; k < whole; ++k) {
-    const std::size_t e = static_cast<std::size_t>(first_entry + block.entry[k]);
+struct SpacePairWork {
+  const PairProperties<Law, Effects>& properties;
+  const SpaceMotion m;
+  const double shortening;
+  const HistoryAdvance advance;
+  SpaceBlock& block;
+  SpaceBlockHistories& block_histories;
+
+  /// The contact at place k of the block.
+  [[gnu::always_inline]] LawFigures operator()(int k) const {
     const std::size_t i = static_cast<std::size_t>(block.grain[k]), j = static_cast<std::size_t>(block.partner[k]);
     const PairConstants& pair = properties.pair(i, j);
     const Vector3 apart{block.dx[k], block.dy[k], block.dz[k]};
@@ -81,8 +79,6 @@ template <class Law, class Effects>
     touch.n.y = distance > 0 ? apart.y * per_distance : 0;
     touch.n.z = distance > 0 ? apart.z * per_distance : 0;
     touch.overlap = pair.reach - distance;
-    const double relative_overlap = touch.overlap * pair.relative_per_overlap;
-    max_relative_overlap = relative_overlap > max_relative_overlap ? relative_overlap : max_relative_overlap;
     [[maybe_unused]] double arm_i = 0, arm_j = 0;
     if constexpr (Effects::damping || Effects::friction) {
       const Vector3 u{m.vx[i] - m.vx[j], m.vy[i] - m.vy[j], m.vz[i] - m.vz[j]};
@@ -95,11 +91,10 @@ template <class Law, class Effects>
       set_turning<Effects>({m.omega_x[i], m.omega_y[i], m.omega_z[i]}, {m.omega_x[j], m.omega_y[j], m.omega_z[j]},
                            arm_i, arm_j, touch);
     }
-    SpaceHistory history = load_history<Effects>(records, e);
+    SpaceHistory history = block_histories.template get<Effects>(static_cast<std::size_t>(k));
     const SpaceContactForce force =
         space_contact_force<Law, Effects>(touch, pair, properties.between(i, j), advance, history);
-    block_histories.template set<Effects>(k, history);
-    if constexpr (regularised<Effects>) slip_raised += k < touching ? force.slip_raised : 0;
+    block_histories.template set<Effects>(static_cast<std::size_t>(k), history);
     const Vector3 on_grain = force.tangential - force.normal * touch.n;
     block.fx[k] = on_grain.x, block.fy[k] = on_grain.y, block.fz[k] = on_grain.z;
     if constexpr (Effects::rotation) {
@@ -108,6 +103,21 @@ template <class Law, class Effects>
       block.torque_x[k] = own.x, block.torque_y[k] = own.y, block.torque_z[k] = own.z;
       block.partner_x[k] = other.x, block.partner_y[k] = other.y, block.partner_z[k] = other.z;
     }
+    return {touch.overlap * pair.relative_per_overlap, force.slip_raised};
+  }
+};
+
+template <class Law, class Effects>
+[[gnu::flatten]] LawFigures forces_of_touching(const SpacePairWork<Law, Effects>& work_) {
+  const SpacePairWork<Law, Effects> work = work_;
+  const int whole = work.block.whole_vectors(), touching = work.block.touching;
+  double max_relative_overlap = 0, slip_raised = 0;
+#pragma omp simd reduction(max : max_relative_overlap) reduction(+ : slip_raised)
+  for (int k = 0; k < whole; ++k) {
+    const LawFigures one = work(k);
+    max_relative_overlap =
+        one.max_relative_overlap > max_relative_overlap ? one.max_relative_overlap : max_relative_overlap;
+    if constexpr (regularised<Effects>) slip_raised += k < touching ? one.slip_raised : 0;
   }
   return {max_relative_overlap, slip_raised};
 }
@@ -163,8 +173,9 @@ template <class Law, class Effects>
   SpaceBlock block;
   find_touching<Law, Effects>(properties, at, list, range, leaves_trace, histories, block);
   SpaceBlockHistories block_histories;
-  result.figures = forces_of_touching<Law, Effects>(properties, at, range.from, parameters, advance, histories, block,
-                                                    block_histories);
+  load_block<Effects>(histories, block.entry, range.from, block.whole_vectors(), block_histories);
+  result.figures =
+      forces_of_touching<Law, Effects>({properties, at, parameters.arm_shortening, advance, block, block_histories});
   if (keeps_history<Effects> && leaves_trace)
     store_block<Effects>(block_histories, block.entry, range.from, block.touching, histories);
   add_block<Effects::rotation>(block, result);

@@ -13,13 +13,12 @@ namespace vibrosow::inline VIBROSOW_ISA {
 template <class Law, class Effects>
 [[gnu::flatten]] LawFigures forces_of_walls(const WallProperties<Law, Effects>& properties, const SpaceMotion& at,
                                             const ContactParameters& parameters, const HistoryAdvance& advance_,
-                                            const ContactHistories& histories, int from, int count,
-                                            SpaceWallContacts& contacts, SpaceBlockHistories& block_histories) {
+                                            int from, int count, SpaceWallContacts& contacts,
+                                            SpaceBlockHistories& block_histories) {
   const double shortening = parameters.arm_shortening;
   const HistoryAdvance advance = advance_;
   const SpaceMotion m = at;
-  const double* records = histories.records.data();
-  const int *grain = contacts.grain.data() + from, *candidate = contacts.candidate.data() + from;
+  const int* grain = contacts.grain.data() + from;
   const double *nx = contacts.normal.x.data() + from, *ny = contacts.normal.y.data() + from,
                *nz = contacts.normal.z.data() + from, *distances = contacts.distance.data() + from;
   const double *wall_x = contacts.wall_velocity.x.data() + from, *wall_y = contacts.wall_velocity.y.data() + from,
@@ -33,7 +32,7 @@ template <class Law, class Effects>
   double max_relative_overlap = 0, slip_raised = 0;
 #pragma omp simd reduction(max : max_relative_overlap) reduction(+ : slip_raised)
   for (int k = 0; k < count; ++k) {
-    const std::size_t i = static_cast<std::size_t>(grain[k]), c = static_cast<std::size_t>(candidate[k]);
+    const std::size_t i = static_cast<std::size_t>(grain[k]);
     const PairConstants& pair = properties.pair(i);
     SpaceTouch touch;
     touch.n = {nx[k], ny[k], nz[k]};
@@ -51,7 +50,7 @@ template <class Law, class Effects>
       set_turning<Effects>({m.omega_x[i], m.omega_y[i], m.omega_z[i]}, {spin_x[k], spin_y[k], spin_z[k]}, arm, 0,
                            touch);
     }
-    SpaceHistory history = load_history<Effects>(records, c);
+    SpaceHistory history = block_histories.template get<Effects>(static_cast<std::size_t>(k));
     const SpaceContactForce force =
         space_contact_force<Law, Effects>(touch, pair, properties.surface(i), advance, history);
     block_histories.template set<Effects>(static_cast<std::size_t>(k), history);
@@ -75,12 +74,14 @@ template <class Law, class Effects>
   LawFigures figures;
   for (int from = 0; from < contacts.count; from += pair_block_size) {
     const int count = contacts.count - from < pair_block_size ? contacts.count - from : pair_block_size;
-    const LawFigures here = forces_of_walls<Law, Effects>(properties, at, parameters, advance, histories, from, count,
-                                                          contacts, block_histories);
+    const int* candidate = contacts.candidate.data() + from;
+    load_block<Effects>(histories, candidate, 0, count, block_histories);
+    const LawFigures here =
+        forces_of_walls<Law, Effects>(properties, at, parameters, advance, from, count, contacts, block_histories);
     figures.max_relative_overlap = std::max(figures.max_relative_overlap, here.max_relative_overlap);
     figures.slip_raised += here.slip_raised;
     if (keeps_history<Effects> && advance.commit > 0)
-      store_block<Effects>(block_histories, contacts.candidate.data() + from, 0, count, histories);
+      store_block<Effects>(block_histories, candidate, 0, count, histories);
   }
   return figures;
 }

@@ -15,19 +15,25 @@ double mean_diameter(const std::vector<SeedLot>& lots, const std::vector<SeedSiz
   return mean;
 }
 
+double seeds_of_a_layer(const Vessel& vessel, double diameter, Space space) {
+  return vessel.length / diameter * (space == Space::plane ? 1 : *vessel.depth / diameter);
+}
+
 /// At most: all that rains while the run lasts stays, up to the vessel's height.
-double seeds_of(const Vessel& vessel, double diameter, double duration) {
+double seeds_of(const Vessel& vessel, double diameter, double duration, Space space) {
   const double filled = vessel.fill ? vessel.fill->count : 0;
   if (!vessel.rain) return filled;
   const double rained = vessel.rain->rate * std::max(0.0, std::min(vessel.rain->stop, duration) - vessel.rain->start);
-  return std::max(filled, std::min(filled + rained, vessel.length * vessel.height / (diameter * diameter)));
+  const double most = seeds_of_a_layer(vessel, diameter, space) * vessel.height / diameter;
+  return std::max(filled, std::min(filled + rained, most));
 }
 
-double deepest_fill(const std::vector<Vessel>& vessels, double diameter, double duration) {
+double deepest_fill(const std::vector<Vessel>& vessels, double diameter, double duration, Space space) {
   double layers = 1;
   for (const Vessel& vessel : vessels)
     if (vessel.fill || vessel.rain)
-      layers = std::max(layers, std::ceil(seeds_of(vessel, diameter, duration) * diameter / vessel.length));
+      layers = std::max(
+          layers, std::ceil(seeds_of(vessel, diameter, duration, space) / seeds_of_a_layer(vessel, diameter, space)));
   return layers;
 }
 
@@ -65,14 +71,14 @@ double longest_fall(const std::vector<Vessel>& vessels, double count_below) {
 }  // namespace
 
 BedLoads bed_loads(const std::vector<SeedLot>& lots, const std::vector<SeedSizes>& sizes,
-                   const std::vector<Vessel>& vessels, const RunPlan& run) {
+                   const std::vector<Vessel>& vessels, const RunPlan& run, Space space) {
   MotionBounds most;
   for (const Vessel& vessel : vessels) {
     const MotionBounds bounds = motion_bounds(vessel);
     most.speed = std::max(most.speed, bounds.speed);
     most.vertical_acceleration = std::max(most.vertical_acceleration, bounds.vertical_acceleration);
   }
-  return {.layers = deepest_fill(vessels, mean_diameter(lots, sizes), run.duration),
+  return {.layers = deepest_fill(vessels, mean_diameter(lots, sizes), run.duration, space),
           .weight_factor = 1 + most.vertical_acceleration / standard_gravity,
           .load_of_smallest = load_of_smallest(lots, sizes),
           .vessel_speed = most.speed,

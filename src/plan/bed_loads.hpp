@@ -21,6 +21,6 @@ struct BedLoads {
 
 /// `sizes`: by lot; `vessels`: the scene's, the tray first.
 BedLoads bed_loads(const std::vector<SeedLot>& lots, const std::vector<SeedSizes>& sizes,
-                   const std::vector<Vessel>& vessels, const RunPlan& run);
+                   const std::vector<Vessel>& vessels, const RunPlan& run, Space space);
 
 }  // namespace vibrosow

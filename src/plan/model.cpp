@@ -27,7 +27,7 @@ Model prepare(const Scene& scene, const std::optional<EffectSet>& effects) {
     for (GrainKind& kind : model.kinds) kind.inverse_inertia = 0;
   const std::vector<GrainKind> touching = touching_kinds(scene.lots, sizes, model.kinds, law);
   model.contacts = contact_parameters(scene.contact, surfaces, materials, law);
-  model.loads = bed_loads(scene.lots, sizes, model.vessels, scene.run);
+  model.loads = bed_loads(scene.lots, sizes, model.vessels, scene.run, scene.space);
   const StepBasis basis{.scene = model.scene,
                         .effects = model.effects,
                         .contacts = model.contacts,

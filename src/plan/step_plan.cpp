@@ -16,9 +16,19 @@
 namespace vibrosow {
 namespace {
 
-constexpr double contacts_of_a_packed_grain = 6;
 constexpr double longest_travel = 0.1;          // radii a step
 constexpr double allowed_energy_growth = 1.01;  // of a free vibration under RK2 over the whole run, in amplitude
+
+/// The fastest ways in which a closely packed bed of equal grains vibrates, its contacts having a slope k and a
+/// tangential ratio rho: against each other, omega^2 = (normal + tangential rho) k / m, and all turning alike, omega^2
+/// = 2 x rho k / m with x = turning m r^2 / I. In the plane hexagonal, in space face-centred cubic; computed over all
+/// wave vectors.
+struct PackedBed {
+  double normal, tangential, turning;
+};
+PackedBed packed_bed(const StepBasis& basis) {
+  return basis.scene.space == Space::plane ? PackedBed{6, 3, 6} : PackedBed{8, 8, 8};
+}
 
 /// Two bodies that meet: a grain and another, or a wall (curvature and inverse mass 0).
 struct Meeting {
@@ -166,14 +176,14 @@ std::pair<double, double> damping_ratios(const StepBasis& basis, double omega) {
   return {smallest, largest};
 }
 
-/// Grains against each other, in a triangular lattice of contacts of slope k and tangential ratio rho: omega^2 <= (6 +
-/// 3 rho) k / m, its largest eigenvalues being 6 + 2 rho (at the middle of the zone's edge) and 9/2 (1 + rho) (at its
-/// corner). Without springs sqrt(3 g / eps) for equal grains in elastic shells. Clumps touched at their tips yield more
-/// easily, and are damped alike.
+/// Grains against each other. (In the plane the largest eigenvalues are 6 + 2 rho, at the middle of the zone's edge,
+/// and 9/2 (1 + rho), at its corner.) Without springs sqrt(3 g / eps), in space sqrt(4 g / eps), for equal grains in
+/// elastic shells. Clumps touched at their tips yield more easily, and are damped alike.
 Mode translation(const StepBasis& basis, double slope_over_mass, const SideContacts& sides) {
+  const PackedBed bed = packed_bed(basis);
   const double omega =
-      std::sqrt((contacts_of_a_packed_grain + 3 * spring_ratio(basis)) * sides.at_a_tip * slope_over_mass);
-  const double over_pair = std::sqrt(3 * sides.at_a_tip);  // of frequencies, and of damping ratios
+      std::sqrt((bed.normal + bed.tangential * spring_ratio(basis)) * sides.at_a_tip * slope_over_mass);
+  const double over_pair = std::sqrt(0.5 * bed.normal * sides.at_a_tip);  // of frequencies, and of damping ratios
   const auto [least, most] = damping_ratios(basis, omega / over_pair);
   return {basis.law.material == LawMaterial::shell ? "the shell's vibration" : "the contact's vibration", omega,
           over_pair * most, over_pair * least, 0.5};
@@ -188,11 +198,10 @@ Mode stack(const StepBasis& basis, double slope_over_mass, const SideContacts& s
   return {"the vibration of flat sides", over_pair * pair, over_pair * most, over_pair * least, 0.5};
 }
 
-/// All grains turning alike, each against its six neighbours: omega^2 = 2 x rho k / m with x = 6 m r^2 / I, damped by
-/// the tangential dashpots, tau times the normal ones: the pair's ratio times tau sqrt(x / rho). A clump's neighbours
-/// touch all the discs of a side.
+/// All grains turning alike, each against its neighbours, damped by the tangential dashpots, tau times the normal ones:
+/// the pair's ratio times tau sqrt(x / rho). A clump's neighbours touch all the discs of a side.
 Mode rotation(const StepBasis& basis, double slope_over_mass, const SideContacts& sides) {
-  const double x = contacts_of_a_packed_grain * sides.turning;
+  const double x = packed_bed(basis).turning * sides.turning;
   const double rho = spring_ratio(basis);
   const auto [least, most] = damping_ratios(basis, std::sqrt(2 * slope_over_mass));
   const double damped = basis.scene.contact.tangential_damping * std::sqrt(x / rho);

@@ -39,7 +39,7 @@ void load(Archive& archive, Random& random) {
 }
 template <class Archive>
 void serialize(Archive& archive, HarmonicMotion& m) {
-  archive(m.direction, m.amplitude, m.frequency, m.ramp, m.phase, m.stop, m.stop_ramp);
+  archive(m.direction, m.amplitude, m.frequency, m.ramp, m.phase, m.stop, m.stop_ramp, m.across);
 }
 template <class Archive>
 void serialize(Archive& archive, SumMotion& m) {
@@ -56,11 +56,13 @@ void serialize(Archive& archive, TableMotion& m) {
 template <class Archive>
 void serialize(Archive& archive, Grains& g) {  // kinds and flags are the model's
   archive(g.x, g.y, g.vx, g.vy, g.omega, g.angle, g.lot, g.id);
+  archive(g.z, g.vz, g.omega_x, g.omega_y);
   archive(g.radius, g.mass, g.inverse_mass, g.inverse_inertia, g.compliance, g.curvature, g.next_id);
 }
 template <class Archive>
 void serialize(Archive& archive, IntegratorState& s) {
   archive(s.ax, s.ay, s.alpha, s.of_x, s.of_y, s.of_angle, s.wall_power, s.wall_work, s.gross_wall_work);
+  archive(s.az, s.alpha_x, s.alpha_y, s.of_z, s.of_angle_x, s.of_angle_y);
 }
 template <class Archive>
 void serialize(Archive& archive, PairList& list) {
@@ -76,8 +78,12 @@ void serialize(Archive& archive, ContactHistories& h) {
           h.touched);
 }
 template <class Archive>
+void serialize(Archive& archive, BoundaryContacts& b) {
+  archive(b.pairs, b.histories);
+}
+template <class Archive>
 void serialize(Archive& archive, ContactState& s) {
-  archive(s.pairs, s.boundary_pairs, s.walls, s.pair_histories, s.boundary_histories, s.wall_histories);
+  archive(s.pairs, s.boundaries, s.walls, s.pair_histories, s.wall_histories);
 }
 template <class Archive>
 void serialize(Archive& archive, ContactStatistics& s) {
@@ -207,8 +213,7 @@ SimulationState restore(const Model& model, std::string_view bytes) {
     if (const std::string wanted = scene_to_json(model.scene); scene != wanted)
       refuse(fmt::format("it is of another scene, which differs in {}", first_difference(scene, wanted)));
     if (dt != model.step.dt) refuse(fmt::format("its step was {:g} s, and is now {:g} s", dt, model.step.dt));
-    SimulationState state = starting_state(
-        model, 1, Grains(model.kinds, model.effects.polydisperse, model.effects.rotation, model.effects.clumps));
+    SimulationState state = starting_state(model, 1, no_grains(model));
     archive(state);
     return state;
   } catch (const cereal::Exception&) {

@@ -9,11 +9,15 @@ ForceField::ForceField(const Model& model, SimulationState& state, NeighbourMarg
     : model_(model),
       state_(state),
       execution_(execution),
-      walls_(model.vessels),
+      walls_(model.vessels, model.scene.space),
       neighbours_(model.vessels, model.largest_diameter, margins,
-                  {model.effects.tangential_spring, model.effects.rolling == Rolling::spring}, execution),
+                  {model.effects.tangential_spring, model.effects.rolling == Rolling::spring,
+                   model.scene.space == Space::three_dimensional},
+                  execution),
       pair_kernel_(model.kernels->vectors[static_cast<std::size_t>(execution.instructions())].pair),
       wall_kernel_(model.kernels->vectors[static_cast<std::size_t>(execution.instructions())].wall),
+      space_pair_kernel_(model.kernels->in_space[static_cast<std::size_t>(execution.instructions())].pair),
+      space_wall_kernel_(model.kernels->in_space[static_cast<std::size_t>(execution.instructions())].wall),
       range_results_(static_cast<std::size_t>(execution.threads())) {
   if (model.effects.clumps) clumps_.emplace(model.scene.lots, model.kinds, *model.law, model.effects.rotation);
   for (std::size_t v = 0; v < model.vessels.size(); ++v)
@@ -37,9 +41,9 @@ Motion ForceField::motion_of(const Grains& discs) const {
   return {discs.x.data(), discs.y.data(), discs.vx.data(), discs.vy.data(), discs.omega.data(), discs.x.data()};
 }
 
-Motion ForceField::across_boundary(const Grains& discs) {
+Motion ForceField::across_boundary(const Grains& discs, double period) {
   shifted_x_ = discs.x;
-  for (double& x : shifted_x_) x += neighbours_.period();
+  for (double& x : shifted_x_) x += period;
   Motion at = motion_of(discs);
   at.row_x = shifted_x_.data();
   return at;
@@ -89,11 +93,11 @@ void ForceField::run_kernels(const Grains& discs, const HistoryAdvance& advance,
   const Motion at = motion_of(discs);
   set_pair_forces(discs, at, advance, forces, statistics);
   // Few, and their partners come before and after: one thread does them.
-  if (neighbours_.period() > 0) {
-    const PairList& boundary = state_.contacts.boundary_pairs;
-    add_pair_forces(pair_kernel_, surfaces_of(discs), across_boundary(discs), boundary,
-                    {0, static_cast<int>(boundary.size())}, model_.contacts, advance,
-                    state_.contacts.boundary_histories, {0, 0}, forces, range_results_.front().foreign, statistics);
+  for (std::size_t k = 0; k < neighbours_.images().size(); ++k) {
+    BoundaryContacts& boundary = state_.contacts.boundaries[k];
+    add_pair_forces(pair_kernel_, surfaces_of(discs), across_boundary(discs, neighbours_.images()[k].x), boundary.pairs,
+                    {0, static_cast<int>(boundary.pairs.size())}, model_.contacts, advance, boundary.histories, {0, 0},
+                    forces, range_results_.front().foreign, statistics);
   }
   execution_.profile().lap(Phase::pairs);
   wall_finder_.find(discs, state_.contacts.walls, walls_.placed(), wall_contacts_);
@@ -119,6 +123,7 @@ void ForceField::evaluate(double time, const HistoryAdvance& advance, ContactSta
   neighbours_.update(discs, walls_, state_.contacts);
   execution_.profile().lap(Phase::neighbours);
   statistics.wall_power = 0;
+  if (discs.in_space) return run_kernels_in_space(advance, statistics);
   if (!clumps_) return run_kernels(discs, advance, forces_, statistics);
   const std::size_t crossed_before = statistics.crossed.size();
   run_kernels(discs, advance, disc_forces_, statistics);
@@ -129,13 +134,16 @@ void ForceField::evaluate(double time, const HistoryAdvance& advance, ContactSta
 }
 
 double ForceField::elastic_energy() {
+  if (state_.grains.in_space) return elastic_energy_in_space();
   const Grains& discs = place_discs();
   const Motion at = motion_of(discs);
   double energy = model_.kernels->energy.pair(surfaces_of(discs), at, state_.contacts.pairs, model_.contacts,
                                               state_.contacts.pair_histories);
-  if (neighbours_.period() > 0)
-    energy += model_.kernels->energy.pair(surfaces_of(discs), across_boundary(discs), state_.contacts.boundary_pairs,
-                                          model_.contacts, state_.contacts.boundary_histories);
+  for (std::size_t k = 0; k < neighbours_.images().size(); ++k) {
+    const BoundaryContacts& boundary = state_.contacts.boundaries[k];
+    energy += model_.kernels->energy.pair(surfaces_of(discs), across_boundary(discs, neighbours_.images()[k].x),
+                                          boundary.pairs, model_.contacts, boundary.histories);
+  }
   wall_finder_.find(discs, state_.contacts.walls, walls_.placed(), wall_contacts_);
   return energy + model_.kernels->energy.wall(surfaces_of(discs), wall_contacts_, model_.contacts,
                                               state_.contacts.wall_histories);
@@ -157,16 +165,18 @@ std::vector<char> ForceField::touching() {
   std::vector<char> touches(state_.grains.size(), 0);
   const Grains& discs = place_discs();
   const auto grain_of = [&](std::size_t k) { return clumps_ ? static_cast<std::size_t>(discs.clump[k]) : k; };
-  const auto look = [&](const PairList& pairs, double shift) {
+  const auto look = [&](const PairList& pairs, const Neighbours::Image& shift) {
     for (std::size_t k = 0; k < pairs.size(); ++k) {
       const std::size_t i = static_cast<std::size_t>(pairs.grain[k]), j = static_cast<std::size_t>(pairs.partner[k]);
       const double reach = discs.kind(i).radius + discs.kind(j).radius;
-      const double dx = discs.x[j] - (discs.x[i] + shift), dy = discs.y[j] - discs.y[i];
-      if (dx * dx + dy * dy < reach * reach) touches[grain_of(i)] = touches[grain_of(j)] = 1;
+      const double dx = discs.x[j] - (discs.x[i] + shift.x), dy = discs.y[j] - discs.y[i];
+      const double dz = discs.in_space ? discs.z[j] - (discs.z[i] + shift.z) : 0;
+      if (dx * dx + dy * dy + dz * dz < reach * reach) touches[grain_of(i)] = touches[grain_of(j)] = 1;
     }
   };
-  look(state_.contacts.pairs, 0);
-  look(state_.contacts.boundary_pairs, neighbours_.period());
+  look(state_.contacts.pairs, {0, 0});
+  for (std::size_t k = 0; k < neighbours_.images().size(); ++k)
+    look(state_.contacts.boundaries[k].pairs, neighbours_.images()[k]);
   return touches;
 }
 

@@ -5,6 +5,7 @@
 
 #include "compute/execution.hpp"
 #include "contact/pair_forces.hpp"
+#include "contact/space_wall_contacts.hpp"
 #include "contact/wall_contacts.hpp"
 #include "grains/clump_discs.hpp"
 #include "simulation/neighbours.hpp"
@@ -50,6 +51,9 @@ class ForceField {
   void set_motion(std::size_t vessel, const std::optional<VesselMotion>& motion, const Eigen::Vector2d& shift);
 
   const Forces& forces() const { return forces_; }
+  /// The same of balls in space: forces (N) and torques (N m), the latter without rotation empty.
+  const std::vector<GrainVector>& forces_in_space() const { return space_forces_; }
+  const std::vector<GrainVector>& torques_in_space() const { return space_torques_; }
   const Walls& walls() const { return walls_; }
   Neighbours& neighbours() { return neighbours_; }
   const Neighbours& neighbours() const { return neighbours_; }
@@ -59,10 +63,15 @@ class ForceField {
   void set_pair_forces(const Grains& discs, const Motion& at, const HistoryAdvance& advance, Forces& forces,
                        ContactStatistics& statistics);
   Motion motion_of(const Grains& discs) const;
-  Motion across_boundary(const Grains& discs);
+  Motion across_boundary(const Grains& discs, double period);
   void add_wall_forces(const Grains& discs, const Motion& at, const HistoryAdvance& advance, Forces& forces,
                        ContactStatistics& statistics);
   void run_kernels(const Grains& discs, const HistoryAdvance& advance, Forces& forces, ContactStatistics& statistics);
+  SpaceMotion motion_in_space() const;
+  SpaceMotion motion_of_image(const Neighbours::Image& image);
+  void run_kernels_in_space(const HistoryAdvance& advance, ContactStatistics& statistics);
+  void set_pair_forces_in_space(const HistoryAdvance& advance, ContactStatistics& statistics);
+  double elastic_energy_in_space();
 
   const Model& model_;
   SimulationState& state_;
@@ -76,14 +85,20 @@ class ForceField {
   std::optional<ClumpDiscs> clumps_;
   bool clumps_are_current_ = false;
   Forces forces_, disc_forces_;
+  SpacePairKernel space_pair_kernel_;
+  SpaceWallKernel space_wall_kernel_;
+  SpaceWallFinder space_wall_finder_;
+  SpaceWallContacts space_wall_contacts_;
+  std::vector<GrainVector> space_forces_, space_torques_;
 
   /// What one thread's range of pairs leaves for the others.
   struct RangeResult {
     std::vector<ForeignForce> foreign;
+    std::vector<ForeignSpaceForce> foreign_in_space;
     ContactStatistics statistics;
   };
   std::vector<RangeResult> range_results_;
-  std::vector<double> shifted_x_;  // m, of periodic sides
+  std::vector<double> shifted_x_, shifted_z_;  // m, across periodic boundaries
 };
 
 }  // namespace vibrosow

@@ -16,8 +16,12 @@ constexpr double energy_warning = 0.05;
 double mechanical_energy(const Grains& grains, std::size_t i, const Eigen::Vector2d& gravity) {
   const GrainKind kind = grains.kind(i);
   double energy = 0.5 * kind.mass * (grains.vx[i] * grains.vx[i] + grains.vy[i] * grains.vy[i]);
-  if (grains.rotation && kind.inverse_inertia > 0)
-    energy += 0.5 * grains.omega[i] * grains.omega[i] / kind.inverse_inertia;
+  double spin2 = grains.rotation ? grains.omega[i] * grains.omega[i] : 0;
+  if (grains.in_space) {
+    energy += 0.5 * kind.mass * grains.vz[i] * grains.vz[i];
+    if (grains.rotation) spin2 += grains.omega_x[i] * grains.omega_x[i] + grains.omega_y[i] * grains.omega_y[i];
+  }
+  if (grains.rotation && kind.inverse_inertia > 0) energy += 0.5 * spin2 / kind.inverse_inertia;
   return energy - kind.mass * (gravity.x() * grains.x[i] + gravity.y() * grains.y[i]);
 }
 

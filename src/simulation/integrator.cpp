@@ -23,9 +23,42 @@ Rates rates_of(Integration& s, std::size_t a) {
           &s.kept.ax[a],   &s.kept.ay[a],   turns ? &s.kept.alpha[a] : nullptr};
 }
 
+SpaceDrive space_drive_of(const Integration& s, std::size_t a) {
+  const auto& torques = s.field.torques_in_space();
+  return {&s.field.forces_in_space()[a],
+          torques.empty() ? nullptr : &torques[a],
+          per_mass(s.grains, a),
+          per_inertia(s.grains, a),
+          s.model.gravity.x(),
+          s.model.gravity.y(),
+          0,
+          s.drag};
+}
+SpaceRates space_rates_of(Integration& s, std::size_t a) {
+  Grains& g = s.grains;
+  IntegratorState& k = s.kept;
+  SpaceRates rates{{&g.vx[a], &g.vy[a], &g.vz[a]}, {}, {&k.ax[a], &k.ay[a], &k.az[a]}, {}};
+  // Without friction nothing turns a ball: there are no torques then.
+  if (!g.rotation || s.field.torques_in_space().empty()) return rates;
+  rates.omega[0] = &g.omega_x[a], rates.omega[1] = &g.omega_y[a], rates.omega[2] = &g.omega[a];
+  rates.alpha[0] = &k.alpha_x[a], rates.alpha[1] = &k.alpha_y[a], rates.alpha[2] = &k.alpha[a];
+  return rates;
+}
+
+void accelerations_in_space(Integration& s) {
+  const Grains& grains = s.grains;
+  const std::size_t n = grains.size(), turning = grains.omega.size();
+  for (std::vector<double>* a : {&s.kept.ax, &s.kept.ay, &s.kept.az}) a->resize(n);
+  for (std::vector<double>* a : {&s.kept.alpha_x, &s.kept.alpha_y, &s.kept.alpha}) a->resize(turning);
+  s.execution.share(n, [&](std::size_t a, std::size_t b) {
+    s.execution.space_loops().accelerate(b - a, space_drive_of(s, a), space_rates_of(s, a));
+  });
+}
+
 /// a = F / m + g - (mu / m) v, alpha = T / J, into the arrays of `s`.
 void accelerations(Integration& s) {
   const Grains& grains = s.grains;
+  if (grains.in_space) return accelerations_in_space(s);
   s.kept.ax.resize(grains.size()), s.kept.ay.resize(grains.size()), s.kept.alpha.resize(grains.omega.size());
   s.execution.share(grains.size(), [&](std::size_t a, std::size_t b) {
     s.execution.loops().accelerate(b - a, drive_of(s, a), rates_of(s, a));
@@ -61,6 +94,11 @@ double next_time(const Integration& s) {
 
 /// At the end of a step, while the velocities are at hand.
 void watch_speed(Integration& s, std::size_t a, std::size_t b) {
+  const Grains& g = s.grains;
+  if (g.in_space) {
+    if (s.execution.space_loops().any_faster(b - a, &g.vx[a], &g.vy[a], &g.vz[a], s.fastest)) s.too_fast = true;
+    return;
+  }
   if (s.execution.loops().any_faster(b - a, &s.grains.vx[a], &s.grains.vy[a], s.fastest)) s.too_fast = true;
 }
 
@@ -76,13 +114,21 @@ void velocity_verlet(Integration& s) {
     loops.predict(b - a, s.dt, &grains.x[a], &grains.vx[a], &s.kept.ax[a]);
     loops.predict(b - a, s.dt, &grains.y[a], &grains.vy[a], &s.kept.ay[a]);
     if (grains.rotation) loops.predict(b - a, s.dt, angle_or_null(grains, a), &grains.omega[a], &s.kept.alpha[a]);
+    if (!grains.in_space) return;
+    loops.predict(b - a, s.dt, &grains.z[a], &grains.vz[a], &s.kept.az[a]);
+    if (!grains.rotation) return;
+    loops.predict(b - a, s.dt, nullptr, &grains.omega_x[a], &s.kept.alpha_x[a]);
+    loops.predict(b - a, s.dt, nullptr, &grains.omega_y[a], &s.kept.alpha_y[a]);
   });
   s.execution.profile().lap(Phase::integration);
   const double power_before = s.kept.wall_power;
   s.field.evaluate(next_time(s), {.trial = s.dt, .commit = s.dt, .present = 0.5}, s.state.statistics);
 
   s.execution.share(grains.size(), [&](std::size_t a, std::size_t b) {
-    loops.correct(b - a, s.dt, drive_of(s, a), rates_of(s, a));
+    if (grains.in_space)
+      s.execution.space_loops().correct(b - a, s.dt, space_drive_of(s, a), space_rates_of(s, a));
+    else
+      loops.correct(b - a, s.dt, drive_of(s, a), rates_of(s, a));
     watch_speed(s, a, b);
   });
   s.kept.wall_power = s.state.statistics.wall_power;
@@ -94,6 +140,7 @@ void rk2_midpoint(Integration& s) {
   s.field.evaluate(s.state.time, {}, s.state.statistics);
   accelerations(s);
   s.x = grains.x, s.y = grains.y, s.vx = grains.vx, s.vy = grains.vy, s.omega = grains.omega, s.angle = grains.angle;
+  s.z = grains.z, s.vz = grains.vz, s.omega_x = grains.omega_x, s.omega_y = grains.omega_y;  // in the plane all empty
   const double half = 0.5 * s.dt;
   add_scaled(grains.x, s.vx, half), add_scaled(grains.y, s.vy, half);
   add_scaled(grains.vx, s.kept.ax, half), add_scaled(grains.vy, s.kept.ay, half);
@@ -101,6 +148,8 @@ void rk2_midpoint(Integration& s) {
     if (grains.oriented) add_scaled(grains.angle, s.omega, half);
     add_scaled(grains.omega, s.kept.alpha, half);
   }
+  add_scaled(grains.z, s.vz, half), add_scaled(grains.vz, s.kept.az, half);
+  add_scaled(grains.omega_x, s.kept.alpha_x, half), add_scaled(grains.omega_y, s.kept.alpha_y, half);
 
   s.field.evaluate(s.state.time + half, {.trial = half, .commit = s.dt, .present = 1}, s.state.statistics);
   accelerations(s);
@@ -110,6 +159,8 @@ void rk2_midpoint(Integration& s) {
     if (grains.oriented) set_sum(grains.angle, s.angle, grains.omega, s.dt);
     set_sum(grains.omega, s.omega, s.kept.alpha, s.dt);
   }
+  set_sum(grains.z, s.z, grains.vz, s.dt), set_sum(grains.vz, s.vz, s.kept.az, s.dt);
+  set_sum(grains.omega_x, s.omega_x, s.kept.alpha_x, s.dt), set_sum(grains.omega_y, s.omega_y, s.kept.alpha_y, s.dt);
   s.execution.share(grains.size(), [&](std::size_t a, std::size_t b) { watch_speed(s, a, b); });
   add_wall_work(s, s.dt * s.state.statistics.wall_power);
 }
@@ -129,6 +180,11 @@ void gear5(Integration& s) {
     gear_predict(s, &g.x[a], &g.vx[a], s.kept.of_x, a, b);
     gear_predict(s, &g.y[a], &g.vy[a], s.kept.of_y, a, b);
     if (g.rotation) gear_predict(s, angle_or_null(g, a), &g.omega[a], s.kept.of_angle, a, b);
+    if (!g.in_space) return;
+    gear_predict(s, &g.z[a], &g.vz[a], s.kept.of_z, a, b);
+    if (!g.rotation) return;
+    gear_predict(s, nullptr, &g.omega_x[a], s.kept.of_angle_x, a, b);
+    gear_predict(s, nullptr, &g.omega_y[a], s.kept.of_angle_y, a, b);
   });
   s.execution.profile().lap(Phase::integration);
   const double power_before = s.kept.wall_power;
@@ -138,6 +194,11 @@ void gear5(Integration& s) {
     gear_correct(s, &g.x[a], &g.vx[a], s.kept.of_x, s.kept.ax, a, b);
     gear_correct(s, &g.y[a], &g.vy[a], s.kept.of_y, s.kept.ay, a, b);
     if (g.rotation) gear_correct(s, angle_or_null(g, a), &g.omega[a], s.kept.of_angle, s.kept.alpha, a, b);
+    if (g.in_space) gear_correct(s, &g.z[a], &g.vz[a], s.kept.of_z, s.kept.az, a, b);
+    if (g.in_space && g.rotation) {
+      gear_correct(s, nullptr, &g.omega_x[a], s.kept.of_angle_x, s.kept.alpha_x, a, b);
+      gear_correct(s, nullptr, &g.omega_y[a], s.kept.of_angle_y, s.kept.alpha_y, a, b);
+    }
     watch_speed(s, a, b);
   });
   s.kept.wall_power = s.state.statistics.wall_power;
@@ -163,6 +224,10 @@ void runge_kutta4(Integration& s, double time, ContactStatistics& statistics) {
     move(g.x, g.vx, start.x, start.vx, end.x, end.vx, s.kept.ax);
     move(g.y, g.vy, start.y, start.vy, end.y, end.vy, s.kept.ay);
     move(g.angle, g.omega, start.angle, start.omega, end.angle, end.omega, s.kept.alpha);
+    move(g.z, g.vz, start.z, start.vz, end.z, end.vz, s.kept.az);
+    std::vector<double> none;
+    move(none, g.omega_x, none, start.omega_x, none, end.omega_x, s.kept.alpha_x);
+    move(none, g.omega_y, none, start.omega_y, none, end.omega_y, s.kept.alpha_y);
   };
   stage(time, 1.0 / 6, 0.5), stage(time + 0.5 * h, 1.0 / 3, 0.5), stage(time + 0.5 * h, 1.0 / 3, 1);
   stage(time + h, 1.0 / 6, 1);
@@ -185,16 +250,19 @@ void fit_derivatives(const std::array<std::vector<double>, 4>& a, double h, High
 void start_gear(Integration& s) {
   const Grains start = s.grains;
   ContactStatistics aside;  // a look ahead: what it meets has not happened
-  std::array<std::vector<double>, 4> ax, ay, alpha;
+  std::array<std::vector<double>, 4> ax, ay, alpha, az, alpha_x, alpha_y;
   for (std::size_t k = 0; k < 4; ++k) {
     const double time = s.state.time + static_cast<double>(k) * s.dt;
     accelerations_now(s, time, {}, aside);
     ax[k] = s.kept.ax, ay[k] = s.kept.ay, alpha[k] = s.kept.alpha;
+    az[k] = s.kept.az, alpha_x[k] = s.kept.alpha_x, alpha_y[k] = s.kept.alpha_y;
     if (k < 3) runge_kutta4(s, time, aside);
   }
   s.grains = start;
   fit_derivatives(ax, s.dt, s.kept.of_x), fit_derivatives(ay, s.dt, s.kept.of_y),
       fit_derivatives(alpha, s.dt, s.kept.of_angle);
+  fit_derivatives(az, s.dt, s.kept.of_z);
+  fit_derivatives(alpha_x, s.dt, s.kept.of_angle_x), fit_derivatives(alpha_y, s.dt, s.kept.of_angle_y);
 }
 
 }  // namespace
@@ -229,13 +297,15 @@ void add_to_integration(Integration& s) {
     }
   };
   extend(s.kept.of_x, s.kept.ax), extend(s.kept.of_y, s.kept.ay), extend(s.kept.of_angle, s.kept.alpha);
+  extend(s.kept.of_z, s.kept.az), extend(s.kept.of_angle_x, s.kept.alpha_x), extend(s.kept.of_angle_y, s.kept.alpha_y);
 }
 
 void remove_from_integration(Integration& s, const std::vector<char>& removed) {
   accelerations_now(s, s.state.time, {}, s.state.statistics);
   s.kept.wall_power = s.state.statistics.wall_power;
   if (s.model.scene.numerics.integrator != Integrator::gear5) return;
-  for (HigherDerivatives* higher : {&s.kept.of_x, &s.kept.of_y, &s.kept.of_angle})
+  for (HigherDerivatives* higher :
+       {&s.kept.of_x, &s.kept.of_y, &s.kept.of_angle, &s.kept.of_z, &s.kept.of_angle_x, &s.kept.of_angle_y})
     for (std::vector<double>& q : *higher) {
       if (q.empty()) continue;
       std::size_t kept = 0;

@@ -19,8 +19,10 @@ struct Integration {
   double drag;            // kg/s
   double fastest;         // m/s; a step that ends with a faster grain is noted
 
-  std::atomic<bool> too_fast = false;                          // whether a grain was faster at the end of the last step
-  std::vector<double> x{}, y{}, vx{}, vy{}, omega{}, angle{};  // the state at the beginning of a step (rk2_midpoint)
+  std::atomic<bool> too_fast = false;  // whether a grain was faster at the end of the last step
+  // The state at the beginning of a step (rk2_midpoint); the second line in space alone.
+  std::vector<double> x{}, y{}, vx{}, vy{}, omega{}, angle{};
+  std::vector<double> z{}, vz{}, omega_x{}, omega_y{};
 };
 
 /// One step of a scheme. Velocity Verlet uses predicted velocities v + a dt in the forces, which keeps second order

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <utility>
 
+#include "vessel/nearest_on_face.hpp"
 #include "vessel/nearest_point.hpp"
 #include "vessel/vessel_walls.hpp"
 
@@ -58,6 +59,7 @@ struct ActivePair {
   int low, high;
   const ContactHistories* histories;
   std::size_t entry;
+  bool from_low;  // whether the lower number is its list's first grain
 };
 bool operator<(const ActivePair& a, const ActivePair& b) {
   return a.low != b.low ? a.low < b.low : a.high < b.high;
@@ -66,26 +68,37 @@ bool operator<(const ActivePair& a, const ActivePair& b) {
 void add_active_pairs(const PairList& list, const ContactHistories& histories, std::vector<ActivePair>& active) {
   for (std::size_t k = 0; k < list.size(); ++k)
     if (histories.has_history(k))
-      active.push_back(
-          {std::min(list.grain[k], list.partner[k]), std::max(list.grain[k], list.partner[k]), &histories, k});
+      active.push_back({std::min(list.grain[k], list.partner[k]), std::max(list.grain[k], list.partner[k]), &histories,
+                        k, list.grain[k] < list.partner[k]});
 }
 
-/// Of both lists, sorted: a grain carried from one side to the other takes its contacts from one list to the other.
-std::vector<ActivePair> active_pairs(const PairList& pairs, const ContactHistories& histories, const PairList& boundary,
-                                     const ContactHistories& boundary_histories) {
+/// Of all lists, sorted: a grain carried from one side to the other takes its contacts from one list to the other.
+std::vector<ActivePair> active_pairs(const PairList& pairs, const ContactHistories& histories,
+                                     const std::vector<BoundaryContacts>& boundaries) {
   std::vector<ActivePair> active;
   add_active_pairs(pairs, histories, active);
-  add_active_pairs(boundary, boundary_histories, active);
+  for (const BoundaryContacts& boundary : boundaries) add_active_pairs(boundary.pairs, boundary.histories, active);
   std::sort(active.begin(), active.end());
   return active;
 }
 
+/// Seen from the pair's other grain: in space vectors change their sign, in the plane nothing does.
+void reverse(ContactHistories& histories, std::size_t k) {
+  const std::size_t length = histories.kinds.record_length(),
+                    scalars = histories.kinds.roll ? 2 : 0;  // twist, its speed
+  for (std::size_t n = 0; n + scalars < length; ++n)
+    histories.records[k * length + n] = -histories.records[k * length + n];
+}
+
 void carry_over(const std::vector<ActivePair>& active, const PairList& list, ContactHistories& histories) {
   for (std::size_t k = 0; k < list.size(); ++k) {
+    const bool from_low = list.grain[k] < list.partner[k];
     const ActivePair wanted{std::min(list.grain[k], list.partner[k]), std::max(list.grain[k], list.partner[k]), nullptr,
-                            0};
+                            0, from_low};
     const auto found = std::lower_bound(active.begin(), active.end(), wanted);
-    if (found != active.end() && !(wanted < *found)) histories.copy_entry(k, *found->histories, found->entry);
+    if (found == active.end() || wanted < *found) continue;
+    histories.copy_entry(k, *found->histories, found->entry);
+    if (found->from_low != from_low) reverse(histories, k);
   }
 }
 
@@ -116,42 +129,74 @@ void carry_over(const PairList& old, const ContactHistories& old_histories, cons
   }
 }
 
+/// How far a wall is from a grain's centre, and on which side of it the grain stands.
+struct SeenWall {
+  double distance2, side;  // m2; its sign
+};
+SeenWall seen_in_plane(const Grains& grains, std::size_t i, const Walls& walls, int wall) {
+  const NearestPoint nearest = nearest_point(walls.placed()[static_cast<std::size_t>(wall)], grains.x[i], grains.y[i]);
+  return {nearest.distance2, nearest.side};
+}
+SeenWall seen_in_space(const Grains& grains, std::size_t i, const Walls& walls, int wall) {
+  const NearestOnFace nearest =
+      nearest_on_face(walls.placed_faces()[static_cast<std::size_t>(wall)], {grains.x[i], grains.y[i], grains.z[i]});
+  return {nearest.distance2, nearest.side};
+}
+
 }  // namespace
 
 Neighbours::Neighbours(const std::vector<Vessel>& vessels, double largest_diameter, NeighbourMargins margins,
                        HistoryKinds kinds, Execution& execution)
     : execution_(execution),
-      broadphase_(vessels, largest_diameter, execution.instructions()),
       diameter_(largest_diameter),
-      wide_margin_(margins.wide * largest_diameter),
+      wide_margin_((kinds.in_space ? margins.wide_in_space : margins.wide) * largest_diameter),
       narrow_margin_(margins.narrow * largest_diameter),
-      kinds_(kinds),
-      period_(vessels.front().sides == Sides::periodic ? vessels.front().length : 0) {
+      kinds_(kinds) {
+  if (kinds.in_space)
+    in_space_.emplace(vessels, largest_diameter, execution.instructions());
+  else
+    in_plane_.emplace(vessels, largest_diameter, execution.instructions());
+  const Vessel& tray = vessels.front();
+  const bool along = tray.sides == Sides::periodic, across = kinds.in_space && tray.front_and_back == Sides::periodic;
+  if (along) images_.push_back({tray.length, 0});
+  if (across) images_.push_back({0, *tray.depth});
+  if (along && across) images_.push_back({tray.length, *tray.depth}), images_.push_back({tray.length, -*tray.depth});
+  wide_boundaries_.resize(images_.size()), old_boundaries_.resize(images_.size());
   for (const Vessel& vessel : vessels) largest_radius_.push_back(largest_radius(vessel, Eigen::Vector2d::Zero()));
 }
 
 void Neighbours::note(const Grains& grains, const Walls& walls, Reference& reference) {
-  const Eigen::Vector2d shift = walls.poses().front().displacement;
-  reference.x = grains.x, reference.y = grains.y, reference.poses = walls.poses();
-  for (double& x : reference.x) x -= shift.x();
-  for (double& y : reference.y) y -= shift.y();
+  const Pose& first = walls.poses().front();
+  reference.x = grains.x, reference.y = grains.y, reference.z = grains.z, reference.poses = walls.poses();
+  for (double& x : reference.x) x -= first.displacement.x();
+  for (double& y : reference.y) y -= first.displacement.y();
+  for (double& z : reference.z) z -= first.across;
+}
+
+bool Neighbours::any_moved(const Reference& from, const Grains& grains, const Pose& first, double limit) const {
+  std::atomic<bool> any = false;
+  const double shift[] = {first.displacement.x(), first.displacement.y(), first.across};
+  execution_.share(from.x.size(), [&](std::size_t a, std::size_t b) {
+    const bool here = kinds_.in_space
+                          ? execution_.space_loops().any_moved(b - a, {&grains.x[a], &grains.y[a], &grains.z[a]}, shift,
+                                                               {&from.x[a], &from.y[a], &from.z[a]}, limit)
+                          : execution_.loops().any_moved(b - a, grains.x.data() + a, grains.y.data() + a, shift[0],
+                                                         shift[1], from.x.data() + a, from.y.data() + a, limit);
+    if (here) any = true;
+  });
+  return any;
 }
 
 bool Neighbours::moved(const Reference& from, const Grains& grains, const Walls& walls, double limit) const {
-  const Eigen::Vector2d shift = walls.poses().front().displacement;
-  std::atomic<bool> any = false;
-  execution_.share(from.x.size(), [&](std::size_t a, std::size_t b) {
-    if (execution_.loops().any_moved(b - a, grains.x.data() + a, grains.y.data() + a, shift.x(), shift.y(),
-                                     from.x.data() + a, from.y.data() + a, limit))
-      any = true;
-  });
-  if (any) return true;
+  const Pose& first = walls.poses().front();
+  if (any_moved(from, grains, first, limit)) return true;
   for (std::size_t v = 0; v < from.poses.size(); ++v) {
     const Pose &now = walls.poses()[v], &then = from.poses[v];
-    const Eigen::Vector2d relative_now = now.displacement - shift;
+    const Eigen::Vector2d relative_now = now.displacement - first.displacement;
     const Eigen::Vector2d relative_then = then.displacement - from.poses.front().displacement;
     const double turned = std::abs(now.angle - then.angle) * largest_radius_[v];
-    if ((relative_now - relative_then).norm() + turned > limit) return true;
+    const double across = std::abs(now.across - first.across - then.across + from.poses.front().across);
+    if ((relative_now - relative_then).norm() + across + turned > limit) return true;
   }
   return false;
 }
@@ -186,19 +231,29 @@ void Neighbours::search(const Grains& grains, const Walls& walls) {
                         execution_.stop_if_asked();
                         execution_.for_each_range(work);
                       }};
-  broadphase_.find(grains, walls.poses(), wide_margin_, ranges, wide_, wide_walls_);
-  if (period_ > 0) broadphase_.find_across(period_, wide_margin_, ranges, wide_boundary_);
-  if (!grains.clump.empty())
-    drop_pairs_within_clumps(grains.clump, wide_), drop_pairs_within_clumps(grains.clump, wide_boundary_);
+  if (in_plane_)
+    in_plane_->find(grains, walls.poses(), wide_margin_, ranges, wide_, wide_walls_);
+  else
+    in_space_->find(grains, walls.poses(), wide_margin_, ranges, wide_, wide_walls_);
+  for (std::size_t k = 0; k < images_.size(); ++k) {
+    if (in_plane_)
+      in_plane_->find_across(images_[k].x, wide_margin_, ranges, wide_boundaries_[k]);
+    else
+      in_space_->find_across(images_[k].x, images_[k].z, wide_margin_, ranges, wide_boundaries_[k]);
+  }
+  if (!grains.clump.empty()) {
+    drop_pairs_within_clumps(grains.clump, wide_);
+    for (PairList& boundary : wide_boundaries_) drop_pairs_within_clumps(grains.clump, boundary);
+  }
   note(grains, walls, wide_reference_);
   wide_is_valid_ = true;
   ++searches_;
 }
 
 /// Of the entries [from, to) of a wide list, keeps the pairs nearer than their reach plus the narrow margin, with the
-/// rows' grains shifted by `shift` (m) along x.
-void Neighbours::prune_range(const Grains& grains, const PairList& wide, std::size_t from, std::size_t to, double shift,
-                             PairList& narrow) const {
+/// rows' grains moved by `shift`.
+void Neighbours::prune_range(const Grains& grains, const PairList& wide, std::size_t from, std::size_t to,
+                             const Image& shift, PairList& narrow) const {
   const PerGrain radius{grains.polydisperse ? grains.radius.data() : nullptr, grains.kinds.front().radius};
   constexpr std::size_t chunk = 4096;  // of the wide list: the narrow one is never much longer than it must be
   std::size_t near = 0;
@@ -206,14 +261,18 @@ void Neighbours::prune_range(const Grains& grains, const PairList& wide, std::si
     const std::size_t count = std::min(chunk, to - from);
     if (narrow.grain.size() < near + count + 16)
       narrow.grain.resize(near + count + 16), narrow.partner.resize(near + count + 16);
-    near +=
-        execution_.loops().near_pairs(count, &wide.grain[from], &wide.partner[from], grains.x.data(), grains.y.data(),
-                                      shift, radius, narrow_margin_, &narrow.grain[near], &narrow.partner[near]);
+    const int *grain = &wide.grain[from], *partner = &wide.partner[from];
+    int *near_grain = &narrow.grain[near], *near_partner = &narrow.partner[near];
+    near += kinds_.in_space ? execution_.space_loops().near_pairs(
+                                  count, grain, partner, {grains.x.data(), grains.y.data(), grains.z.data()}, shift.x,
+                                  shift.z, radius, narrow_margin_, near_grain, near_partner)
+                            : execution_.loops().near_pairs(count, grain, partner, grains.x.data(), grains.y.data(),
+                                                            shift.x, radius, narrow_margin_, near_grain, near_partner);
   }
   narrow.grain.resize(near), narrow.partner.resize(near);
 }
 
-void Neighbours::prune_pairs(const Grains& grains, const PairList& wide, double shift, PairList& narrow) {
+void Neighbours::prune_pairs(const Grains& grains, const PairList& wide, const Image& shift, PairList& narrow) {
   const std::size_t threads = static_cast<std::size_t>(execution_.threads());
   if (threads == 1) return prune_range(grains, wide, 0, wide.size(), shift, narrow);
   parts_.resize(threads);
@@ -230,28 +289,34 @@ void Neighbours::prune_pairs(const Grains& grains, const PairList& wide, double 
 
 void Neighbours::prune(const Grains& grains, const Walls& walls, ContactState& contacts) {
   execution_.stop_if_asked();
-  std::swap(contacts.pairs, old_), std::swap(contacts.boundary_pairs, old_boundary_);
-  prune_pairs(grains, wide_, 0, contacts.pairs);
-  contacts.boundary_pairs.clear();
-  if (period_ > 0) prune_pairs(grains, wide_boundary_, period_, contacts.boundary_pairs);
-  if (kinds_.any()) {
-    std::swap(contacts.pair_histories, old_histories_), std::swap(contacts.boundary_histories, old_boundary_histories_);
-    contacts.pair_histories.clear(), contacts.boundary_histories.clear();
-    contacts.pair_histories.resize(contacts.pairs.size(), kinds_);
-    contacts.boundary_histories.resize(contacts.boundary_pairs.size(), kinds_);
-    if (period_ > 0) {
-      const std::vector<ActivePair> active = active_pairs(old_, old_histories_, old_boundary_, old_boundary_histories_);
-      carry_over(active, contacts.pairs, contacts.pair_histories);
-      carry_over(active, contacts.boundary_pairs, contacts.boundary_histories);
-    } else {
-      execution_.share(contacts.pairs.size(), [&](std::size_t from, std::size_t to) {
-        carry_over(old_, old_histories_, contacts.pairs, from, to, contacts.pair_histories);
-      });
-    }
-  }
+  contacts.boundaries.resize(images_.size());
+  std::swap(contacts.pairs, old_), std::swap(contacts.pair_histories, old_histories_);
+  std::swap(contacts.boundaries, old_boundaries_);
+  prune_pairs(grains, wide_, {0, 0}, contacts.pairs);
+  for (std::size_t k = 0; k < images_.size(); ++k)
+    prune_pairs(grains, wide_boundaries_[k], images_[k], contacts.boundaries[k].pairs);
+  if (kinds_.any()) carry_histories_over(contacts);
   prune_walls(grains, walls, contacts);
   note(grains, walls, narrow_reference_);
   ++prunes_;
+}
+
+void Neighbours::carry_histories_over(ContactState& contacts) {
+  const auto begin = [this](const PairList& list, ContactHistories& histories) {
+    histories.clear();
+    histories.resize(list.size(), kinds_);
+  };
+  begin(contacts.pairs, contacts.pair_histories);
+  for (BoundaryContacts& boundary : contacts.boundaries) begin(boundary.pairs, boundary.histories);
+  if (images_.empty()) {
+    execution_.share(contacts.pairs.size(), [&](std::size_t from, std::size_t to) {
+      carry_over(old_, old_histories_, contacts.pairs, from, to, contacts.pair_histories);
+    });
+    return;
+  }
+  const std::vector<ActivePair> active = active_pairs(old_, old_histories_, old_boundaries_);
+  carry_over(active, contacts.pairs, contacts.pair_histories);
+  for (BoundaryContacts& boundary : contacts.boundaries) carry_over(active, boundary.pairs, boundary.histories);
 }
 
 /// A grain that was near a wall before keeps the side it came from: renewing the list must not hide a crossing.
@@ -266,14 +331,14 @@ void Neighbours::prune_walls(const Grains& grains, const Walls& walls, ContactSt
   auto known = old.begin();
   for (const WallCandidate& candidate : wide_walls_) {
     const std::size_t i = static_cast<std::size_t>(candidate.grain);
-    const NearestPoint nearest =
-        nearest_point(walls.placed()[static_cast<std::size_t>(candidate.wall)], grains.x[i], grains.y[i]);
+    const auto [distance2, side] =
+        in_plane_ ? seen_in_plane(grains, i, walls, candidate.wall) : seen_in_space(grains, i, walls, candidate.wall);
     const double reach = grains.kind(i).radius + narrow_margin_;
-    if (nearest.distance2 >= reach * reach) continue;
+    if (distance2 >= reach * reach) continue;
     while (known != old.end() && before(*known, candidate)) ++known;
     const bool was_near = known != old.end() && !before(candidate, *known);
     if (was_near) known_before.emplace_back(static_cast<std::size_t>(known - old.begin()), contacts.walls.size());
-    contacts.walls.push_back({candidate.grain, candidate.wall, was_near ? known->side : nearest.side});
+    contacts.walls.push_back({candidate.grain, candidate.wall, was_near ? known->side : side});
   }
   contacts.wall_histories = {};
   contacts.wall_histories.resize(contacts.walls.size(), kinds_);
@@ -284,17 +349,18 @@ void Neighbours::prune_walls(const Grains& grains, const Walls& walls, ContactSt
 void Neighbours::remove_flagged(Reference& reference, const std::vector<char>& removed) {
   keep_unflagged(reference.x, removed);
   keep_unflagged(reference.y, removed);
+  if (!reference.z.empty()) keep_unflagged(reference.z, removed);
 }
 
 void Neighbours::remove_wall(int wall, ContactState& contacts) {
-  broadphase_.remove_wall(wall);
+  in_plane_ ? in_plane_->remove_wall(wall) : in_space_->remove_wall(wall);
   std::erase_if(wide_walls_, [wall](const WallCandidate& candidate) { return candidate.wall == wall; });
   keep_candidates(contacts.walls, contacts.wall_histories,
                   [wall](const WallCandidate& candidate) { return candidate.wall != wall; });
 }
 
 void Neighbours::restore_wall(int wall) {
-  broadphase_.restore_wall(wall);
+  in_plane_ ? in_plane_->restore_wall(wall) : in_space_->restore_wall(wall);
   start_afresh();
 }
 
@@ -304,11 +370,12 @@ void Neighbours::remove_flagged(const std::vector<char>& removed, ContactState& 
   for (std::size_t i = 0; i < removed.size(); ++i) new_index[i] = removed[i] ? -1 : next++;
   ContactHistories none;
   renumber(contacts.pairs, contacts.pair_histories, removed, new_index);
-  renumber(contacts.boundary_pairs, contacts.boundary_histories, removed, new_index);
+  for (BoundaryContacts& boundary : contacts.boundaries)
+    renumber(boundary.pairs, boundary.histories, removed, new_index);
   renumber(contacts.walls, contacts.wall_histories, removed, new_index);
   if (!wide_is_valid_) return;
   renumber(wide_, none, removed, new_index);
-  if (period_ > 0) renumber(wide_boundary_, none, removed, new_index);
+  for (PairList& boundary : wide_boundaries_) renumber(boundary, none, removed, new_index);
   renumber(wide_walls_, none, removed, new_index);
   remove_flagged(wide_reference_, removed);
   remove_flagged(narrow_reference_, removed);

@@ -2,9 +2,11 @@
 
 #include <Eigen/Core>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "box2d/broadphase.hpp"
+#include "box2d/space_broadphase.hpp"
 #include "compute/execution.hpp"
 #include "contact/contact_state.hpp"
 #include "grains/grains.hpp"
@@ -17,6 +19,7 @@ namespace vibrosow {
 struct NeighbourMargins {
   double wide = 2;
   double narrow = 0.15;
+  double wide_in_space = 0.9;  // a wide list grows with its cube there
 };
 
 /// Who may touch whom. A wide list comes from Box2D, seldom; the narrow ones of a ContactState are pruned from it,
@@ -25,6 +28,7 @@ struct NeighbourMargins {
 /// contacts.
 class Neighbours {
  public:
+  /// In space where the histories' kinds are.
   Neighbours(const std::vector<Vessel>& vessels, double largest_diameter, NeighbourMargins margins, HistoryKinds kinds,
              Execution& execution);
 
@@ -42,43 +46,51 @@ class Neighbours {
   /// Puts it back; the next update starts afresh.
   void restore_wall(int wall);
 
-  /// Length (m) after which a periodic tray comes again; 0 when it does not.
-  double period() const { return period_; }
+  /// How the first grains of pairs across a periodic boundary are moved (m), for each list of ContactState::boundaries.
+  struct Image {
+    double x, z;
+  };
+  const std::vector<Image>& images() const { return images_; }
   std::int64_t searches() const { return searches_; }
   std::int64_t prunes() const { return prunes_; }
-  Broadphase& broadphase() { return broadphase_; }
+  Broadphase& broadphase() { return *in_plane_; }  // of a plane
 
  private:
   /// Where the grains (relative to the first vessel) and the other vessels were when a list was made.
   struct Reference {
-    std::vector<double> x, y;
+    std::vector<double> x, y, z;
     std::vector<Pose> poses;
   };
   static void note(const Grains& grains, const Walls& walls, Reference& reference);
+  bool any_moved(const Reference& from, const Grains& grains, const Pose& first, double limit) const;
   bool moved(const Reference& from, const Grains& grains, const Walls& walls, double limit) const;
   static void remove_flagged(Reference& reference, const std::vector<char>& removed);
 
   void choose_narrow_margin();
   void search(const Grains& grains, const Walls& walls);
   void prune(const Grains& grains, const Walls& walls, ContactState& contacts);
-  void prune_pairs(const Grains& grains, const PairList& wide, double shift, PairList& narrow);
-  void prune_range(const Grains& grains, const PairList& wide, std::size_t from, std::size_t to, double shift,
+  void prune_pairs(const Grains& grains, const PairList& wide, const Image& shift, PairList& narrow);
+  void prune_range(const Grains& grains, const PairList& wide, std::size_t from, std::size_t to, const Image& shift,
                    PairList& narrow) const;
+  void carry_histories_over(ContactState& contacts);
   void prune_walls(const Grains& grains, const Walls& walls, ContactState& contacts);
 
   Execution& execution_;
-  Broadphase broadphase_;
+  std::optional<Broadphase> in_plane_;
+  std::optional<SpaceBroadphase> in_space_;
   std::vector<double> largest_radius_;  // m, by vessel, of its walls about its frame's zero
   double diameter_;                     // m, of the largest grain
   double wide_margin_, narrow_margin_;  // m
   std::int64_t updates_since_prune_ = 0;
   HistoryKinds kinds_;
-  double period_;  // m
-  PairList wide_, wide_boundary_;
+  std::vector<Image> images_;
+  PairList wide_;
+  std::vector<PairList> wide_boundaries_;  // by image
   std::vector<WallCandidate> wide_walls_;
   std::vector<PairList> parts_;  // by thread
-  PairList old_, old_boundary_;  // the narrow lists before, while histories are carried over
-  ContactHistories old_histories_, old_boundary_histories_;
+  PairList old_;                 // the narrow lists before, while histories are carried over
+  std::vector<BoundaryContacts> old_boundaries_;
+  ContactHistories old_histories_;
   Reference wide_reference_, narrow_reference_;
   bool wide_is_valid_ = false;
   std::int64_t searches_ = 0, prunes_ = 0;

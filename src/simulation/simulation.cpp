@@ -194,21 +194,35 @@ void Simulation::take_out() {
   if (std::find(removed.begin(), removed.end(), 1) != removed.end()) take_out_flagged(removed);
 }
 
-/// Carries grains that are well beyond a side of a periodic tray over to the other side: by a diameter, so that none
-/// goes to and fro.
-void Simulation::wrap() {
-  const double period = field_.neighbours().period();
-  if (period == 0) return;
-  const double left = model_.scene.tray.origin.x() + field_.walls().poses().front().displacement.x();
-  double beyond = 0;
-  for (const SeedLot& lot : model_.scene.lots) beyond = std::max(beyond, lot.diameter);
+namespace {
+
+/// Carries what is more than `beyond` outside of [from, from + period] over to the other side; whether anything was.
+bool carry_over(std::vector<double>& positions, double from, double period, double beyond) {
   bool any = false;
-  for (double& x : state_.grains.x) {
-    const double along = x - left;
+  for (double& x : positions) {
+    const double along = x - from;
     if (along >= -beyond && along <= period + beyond) continue;
     x += along < 0 ? period : -period;
     any = true;
   }
+  return any;
+}
+
+}  // namespace
+
+/// Carries grains that are well beyond a side of a periodic tray over to the other side: by a diameter, so that none
+/// goes to and fro.
+void Simulation::wrap() {
+  if (field_.neighbours().images().empty()) return;
+  const Vessel& tray = model_.scene.tray;
+  const Pose& pose = field_.walls().poses().front();
+  double beyond = 0;
+  for (const SeedLot& lot : model_.scene.lots) beyond = std::max(beyond, lot.diameter);
+  bool any = false;
+  if (tray.sides == Sides::periodic)
+    any |= carry_over(state_.grains.x, tray.origin.x() + pose.displacement.x(), tray.length, beyond);
+  if (state_.grains.in_space && tray.front_and_back == Sides::periodic)
+    any |= carry_over(state_.grains.z, pose.across, *tray.depth, beyond);
   if (any) field_.grains_wrapped();
 }
 
@@ -226,7 +240,7 @@ void Simulation::take_out_flagged(const std::vector<char>& removed) {
 void Simulation::find_next_gate() {
   const Walls& walls = field_.walls();
   next_gate_ = never;
-  for (std::size_t wall = 0; wall < walls.placed().size(); ++wall)
+  for (std::size_t wall = 0; wall < walls.count(); ++wall)
     if (walls.opens_at(wall) > state_.time && !walls.is_removed(wall))
       next_gate_ = std::min(next_gate_, walls.opens_at(wall));
 }
@@ -235,7 +249,7 @@ void Simulation::find_next_gate() {
 void Simulation::open_due_gates() {
   const Walls& walls = field_.walls();
   std::vector<std::size_t> opening;
-  for (std::size_t wall = 0; wall < walls.placed().size(); ++wall)
+  for (std::size_t wall = 0; wall < walls.count(); ++wall)
     if (walls.opens_at(wall) != 0 && state_.time >= walls.opens_at(wall) && !walls.is_removed(wall) &&
         !state_.vessels.closed_by_hand[wall])
       opening.push_back(wall);

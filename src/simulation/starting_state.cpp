@@ -11,7 +11,7 @@ namespace {
 
 Grains packed_grains(const Model& model, std::uint64_t random_seed, StopRequest stop) {
   Random random(random_seed);
-  Grains grains(model.kinds, model.effects.polydisperse, model.effects.rotation, model.effects.clumps);
+  Grains grains = no_grains(model);
   for (const Vessel& vessel : model.vessels) {
     const VesselPath path(vessel);
     const PoseRate rate = model.scene.run.start == Start::with_tray ? path.rate(0) : PoseRate{};
@@ -51,13 +51,19 @@ FeederState first_draws(const Model& model, std::uint64_t random_seed) {
 
 }  // namespace
 
+Grains no_grains(const Model& model) {
+  Grains grains(model.kinds, model.effects.polydisperse, model.effects.rotation, model.effects.clumps);
+  grains.in_space = model.scene.space == Space::three_dimensional;
+  return grains;
+}
+
 SimulationState starting_state(const Model& model, std::uint64_t random_seed, Grains grains) {
   SimulationState state{.grains = std::move(grains), .feeder = first_draws(model, random_seed)};
   for (const Vessel& vessel : model.vessels) {
     state.vessels.motion.push_back(vessel.motion);
     state.vessels.shift.push_back(Eigen::Vector2d::Zero());
   }
-  state.vessels.removed.resize(Walls(model.vessels).placed().size());
+  state.vessels.removed.resize(Walls(model.vessels, model.scene.space).count());
   state.vessels.closed_by_hand.resize(state.vessels.removed.size());
   state.counter.passages.resize(state.grains.size());
   state.counter.below.resize(state.grains.size());

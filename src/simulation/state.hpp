@@ -23,10 +23,12 @@ using HigherDerivatives = std::array<std::vector<double>, 4>;
 
 /// What a scheme keeps from step to step.
 struct IntegratorState {
-  std::vector<double> ax, ay, alpha;             // accelerations at the beginning of the next step
-  HigherDerivatives of_x{}, of_y{}, of_angle{};  // gear5 only
-  double wall_power = 0;                         // W, at the beginning of the next step
-  double wall_work = 0, gross_wall_work = 0;     // J; sizes summed
+  std::vector<double> ax, ay, alpha;               // accelerations at the beginning of the next step
+  HigherDerivatives of_x{}, of_y{}, of_angle{};    // gear5 only
+  std::vector<double> az{}, alpha_x{}, alpha_y{};  // the same in space
+  HigherDerivatives of_z{}, of_angle_x{}, of_angle_y{};
+  double wall_power = 0;                      // W, at the beginning of the next step
+  double wall_work = 0, gross_wall_work = 0;  // J; sizes summed
 };
 
 /// The vessels as they are driven, and their walls.
@@ -96,6 +98,9 @@ struct SimulationState {
   RecorderState recorder{};
   Run run{};  // what has come of it so far
 };
+
+/// What a model's grains are kept in, with none in it.
+Grains no_grains(const Model& model);
 
 /// A model's fill in place, at rest in the lab or with its vessel. Throws InputError where it does not fit, or grains
 /// overlap at the start by more than the guard's warning allows; Interrupted where `stop` is set.

@@ -7,10 +7,10 @@
 
 namespace vibrosow {
 
-/// All faces of a vessel in space, in its own frame: floor, end walls, front and back, then its pieces from front to back,
-/// then its gates. The floor is a plate with round holes, or plates between slots; a floor that slopes towards slots as long as
-/// the vessel is deep is a wedge. Throws std::invalid_argument where a floor slopes towards other holes, or round holes and
-/// slots are mixed.
+/// All faces of a vessel in space, in its own frame: floor, end walls, front and back, then its pieces from front to
+/// back, then its gates. The floor is a plate with round holes, or plates between slots; a floor that slopes towards
+/// slots as long as the vessel is deep is a wedge. Throws std::invalid_argument where a floor slopes towards other
+/// holes, or round holes and slots are mixed.
 std::vector<Face> vessel_faces(const Vessel& vessel);
 
 }  // namespace vibrosow

@@ -102,7 +102,8 @@ TEST(SpaceBroadphase, MissesNoFaceWhereverItsVesselIs) {
     for (std::size_t i = 0; i < grains.size(); ++i)
       for (std::size_t wall = 0; wall < walls.count(); ++wall) {
         const double reach = grains.radius[i] + 1e-3;
-        const NearestOnFace nearest = nearest_on_face(walls.placed_faces()[wall], {grains.x[i], grains.y[i], grains.z[i]});
+        const NearestOnFace nearest =
+            nearest_on_face(walls.placed_faces()[wall], {grains.x[i], grains.y[i], grains.z[i]});
         if (nearest.distance2 >= reach * reach) continue;
         const bool found = std::ranges::any_of(near, [&](const WallCandidate& c) {
           return c.grain == static_cast<int>(i) && c.wall == static_cast<int>(wall);

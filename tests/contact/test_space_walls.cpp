@@ -43,8 +43,9 @@ TEST(SpaceWalls, AFloorAnEdgeAndACorner) {
   EXPECT_THAT(pushed_by(tray(), {0.03, 0.0019, 0.015}), testing::ElementsAre(Eigen::Vector3d(0, -1, 0)));
   EXPECT_THAT(pushed_by(tray(), {0.0019, 0.0019, 0.015}),
               testing::UnorderedElementsAre(Eigen::Vector3d(0, -1, 0), Eigen::Vector3d(-1, 0, 0)));
-  EXPECT_THAT(pushed_by(tray(), {0.0581, 0.0019, 0.0281}),
-              testing::UnorderedElementsAre(Eigen::Vector3d(0, -1, 0), Eigen::Vector3d(1, 0, 0), Eigen::Vector3d(0, 0, 1)));
+  EXPECT_THAT(
+      pushed_by(tray(), {0.0581, 0.0019, 0.0281}),
+      testing::UnorderedElementsAre(Eigen::Vector3d(0, -1, 0), Eigen::Vector3d(1, 0, 0), Eigen::Vector3d(0, 0, 1)));
   EXPECT_THAT(pushed_by(tray(), {0.03, 0.02, 0.015}), testing::IsEmpty());
 }
 

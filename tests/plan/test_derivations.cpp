@@ -57,9 +57,10 @@ COUNTED(contact_parameters,
         (contact, surfaces, materials, law))
 COUNTED(bed_loads,
         "_ZN8vibrosow9bed_loadsERKSt6vectorINS_7SeedLotESaIS1_EERKS0_INS_9SeedSizesESaIS6_EERKS0_INS_6VesselESaISB_"
-        "EERKNS_7RunPlanE",
-        BedLoads, (const Lots& lots, const Sizes& sizes, const std::vector<Vessel>& vessels, const RunPlan& run),
-        (lots, sizes, vessels, run))
+        "EERKNS_7RunPlanENS_5SpaceE",
+        BedLoads,
+        (const Lots& lots, const Sizes& sizes, const std::vector<Vessel>& vessels, const RunPlan& run, Space space),
+        (lots, sizes, vessels, run, space))
 COUNTED(plan_step, "_ZN8vibrosow9plan_stepERKNS_9StepBasisE", StepPlan, (const StepBasis& basis), (basis))
 COUNTED(predict_overlap, "_ZN8vibrosow15predict_overlapERKNS_9StepBasisE", PredictedOverlap, (const StepBasis& basis),
         (basis))

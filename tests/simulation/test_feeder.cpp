@@ -71,9 +71,7 @@ struct Fed {
         feeder(model, state.feeder) {
     walls.place(0);
   }
-  static Grains none(const Model& model) {
-    return Grains(model.kinds, model.effects.polydisperse, model.effects.rotation, model.effects.clumps);
-  }
+  static Grains none(const Model& model) { return no_grains(model); }
 };
 
 TEST(Sizes, OfStartingGrainsAreDrawn) {

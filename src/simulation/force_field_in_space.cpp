@@ -1,0 +1,124 @@
+// ForceField's part for balls in space.
+#include <algorithm>
+
+#include "simulation/force_field.hpp"
+
+namespace vibrosow {
+
+SpaceMotion ForceField::motion_in_space() const {
+  const Grains& g = state_.grains;
+  return {g.x.data(),       g.y.data(),       g.z.data(),     g.vx.data(), g.vy.data(), g.vz.data(),
+          g.omega_x.data(), g.omega_y.data(), g.omega.data(), g.x.data(),  g.z.data()};
+}
+
+SpaceMotion ForceField::motion_of_image(const Neighbours::Image& image) {
+  shifted_x_ = state_.grains.x, shifted_z_ = state_.grains.z;
+  for (double& x : shifted_x_) x += image.x;
+  for (double& z : shifted_z_) z += image.z;
+  SpaceMotion at = motion_in_space();
+  at.row_x = shifted_x_.data(), at.row_z = shifted_z_.data();
+  return at;
+}
+
+namespace {
+
+/// Runs a kernel over the pairs of a range, block by block; what it leaves for others goes to `foreign`.
+void add_pairs(SpacePairKernel kernel, const GrainSurfaces& surfaces, const SpaceMotion& at, const PairList& list,
+               PairRange range, const ContactParameters& parameters, const HistoryAdvance& advance,
+               ContactHistories& histories, SpacePairResult& result, std::vector<ForeignSpaceForce>& foreign,
+               ContactStatistics& statistics) {
+  for (int from = range.from; from < range.to; from += pair_block_size) {
+    kernel(surfaces, at, list, {from, std::min(from + pair_block_size, range.to)}, parameters, advance, histories, result);
+    foreign.insert(foreign.end(), result.foreign, result.foreign + result.foreign_count);
+    statistics.contacts += result.contacts;
+    add_figures(result.figures, statistics);
+  }
+}
+
+}  // namespace
+
+/// As in the plane, range by range.
+void ForceField::set_pair_forces_in_space(const HistoryAdvance& advance, ContactStatistics& statistics) {
+  const PairList& pairs = state_.contacts.pairs;
+  const GrainSurfaces surfaces = surfaces_of(state_.grains);
+  const SpaceMotion at = motion_in_space();
+  const std::size_t ranges = range_results_.size(), grains = state_.grains.size();
+  space_forces_.resize(grains), space_torques_.resize(model_.kernels->effects.rotation ? grains : 0);
+  const auto first_grain = [&](std::size_t range) {
+    if (range == 0 || range == ranges) return range == 0 ? std::size_t{0} : grains;
+    return pairs.size() == 0 ? grains : static_cast<std::size_t>(pairs.grain[pairs.size() * range / ranges]);
+  };
+  const auto first_entry = [&](std::size_t range) {
+    if (range == ranges) return static_cast<int>(pairs.size());
+    return static_cast<int>(std::ranges::lower_bound(pairs.grain, static_cast<int>(first_grain(range))) -
+                            pairs.grain.begin());
+  };
+  execution_.for_each_range([&](int k) {
+    const std::size_t range = static_cast<std::size_t>(k), from = first_grain(range), to = first_grain(range + 1);
+    RangeResult& own = range_results_[range];
+    own.foreign_in_space.clear();
+    own.statistics = {};
+    std::fill(space_forces_.begin() + static_cast<std::ptrdiff_t>(from),
+              space_forces_.begin() + static_cast<std::ptrdiff_t>(to), GrainVector{});
+    if (!space_torques_.empty())
+      std::fill(space_torques_.begin() + static_cast<std::ptrdiff_t>(from),
+                space_torques_.begin() + static_cast<std::ptrdiff_t>(to), GrainVector{});
+    SpacePairResult result;
+    result.forces = space_forces_.data(), result.torques = space_torques_.data();
+    result.first_own = static_cast<int>(from);
+    add_pairs(space_pair_kernel_, surfaces, at, pairs, {first_entry(range), first_entry(range + 1)}, model_.contacts,
+              advance, state_.contacts.pair_histories, result, own.foreign_in_space, own.statistics);
+  });
+  for (const RangeResult& own : range_results_) {
+    statistics.contacts += own.statistics.contacts;
+    statistics.slip_raised += own.statistics.slip_raised;
+    statistics.max_relative_overlap = std::max(statistics.max_relative_overlap, own.statistics.max_relative_overlap);
+    for (const ForeignSpaceForce& foreign : own.foreign_in_space) {
+      const std::size_t i = static_cast<std::size_t>(foreign.grain);
+      GrainVector& force = space_forces_[i];
+      force.x += foreign.force[0], force.y += foreign.force[1], force.z += foreign.force[2];
+      if (space_torques_.empty()) continue;
+      GrainVector& torque = space_torques_[i];
+      torque.x += foreign.torque[0], torque.y += foreign.torque[1], torque.z += foreign.torque[2];
+    }
+  }
+}
+
+void ForceField::run_kernels_in_space(const HistoryAdvance& advance, ContactStatistics& statistics) {
+  set_pair_forces_in_space(advance, statistics);
+  const GrainSurfaces surfaces = surfaces_of(state_.grains);
+  for (std::size_t k = 0; k < neighbours_.images().size(); ++k) {
+    BoundaryContacts& boundary = state_.contacts.boundaries[k];
+    SpacePairResult result;
+    result.forces = space_forces_.data(), result.torques = space_torques_.data(), result.first_own = 0;
+    add_pairs(space_pair_kernel_, surfaces, motion_of_image(neighbours_.images()[k]), boundary.pairs,
+              {0, static_cast<int>(boundary.pairs.size())}, model_.contacts, advance, boundary.histories, result,
+              range_results_.front().foreign_in_space, statistics);
+  }
+  execution_.profile().lap(Phase::pairs);
+  space_wall_finder_.find(state_.grains, state_.contacts.walls, walls_.placed_faces(), space_wall_contacts_);
+  space_wall_finder_.watch_crossings(state_.contacts.walls, statistics.crossed);
+  if (advance.commit > 0) space_wall_finder_.clear_parted(state_.contacts.wall_histories);
+  add_figures(space_wall_kernel_(surfaces, motion_in_space(), model_.contacts, advance, state_.contacts.wall_histories,
+                                 space_wall_contacts_),
+              statistics);
+  vibrosow::add_wall_forces(space_wall_contacts_, model_.kernels->effects.rotation, space_forces_, space_torques_,
+                            statistics);
+  execution_.profile().lap(Phase::walls);
+}
+
+double ForceField::elastic_energy_in_space() {
+  const GrainSurfaces surfaces = surfaces_of(state_.grains);
+  const EnergyKernel& energies = model_.kernels->energy;
+  double energy = energies.space_pair(surfaces, motion_in_space(), state_.contacts.pairs, model_.contacts,
+                                      state_.contacts.pair_histories);
+  for (std::size_t k = 0; k < neighbours_.images().size(); ++k) {
+    const BoundaryContacts& boundary = state_.contacts.boundaries[k];
+    energy += energies.space_pair(surfaces, motion_of_image(neighbours_.images()[k]), boundary.pairs, model_.contacts,
+                                  boundary.histories);
+  }
+  space_wall_finder_.find(state_.grains, state_.contacts.walls, walls_.placed_faces(), space_wall_contacts_);
+  return energy + energies.space_wall(surfaces, space_wall_contacts_, model_.contacts, state_.contacts.wall_histories);
+}
+
+}  // namespace vibrosow
