@@ -8,11 +8,22 @@
 
 namespace vibrosow {
 
+namespace {
+
+void check_depths(const Model& model) {
+  if (model.scene.space == Space::plane) return;
+  for (const Vessel& vessel : model.vessels)
+    if (!vessel.depth) throw InputError(vessel.name + ".depth: is missing; in space a vessel has one");
+}
+
+}  // namespace
+
 Model prepare(const Scene& scene, const std::optional<EffectSet>& effects) {
   Model model{};
   model.scene = scene;
   model.vessels = {scene.tray};
   if (scene.hopper) model.vessels.push_back(*scene.hopper);
+  check_depths(model);
   const LawTraits& law = traits_of(scene.contact.law);
   const Surfaces surfaces = meeting_surfaces(scene.contact, scene.lots.size());
   model.law = &law;

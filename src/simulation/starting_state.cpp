@@ -74,6 +74,9 @@ SimulationState starting_state(const Model& model, std::uint64_t random_seed, Gr
 }
 
 SimulationState starting_state(const Model& model, std::uint64_t random_seed, StopRequest stop) {
+  if (model.scene.space != Space::plane)
+    throw InputError(
+        "space: seeds can be poured and counted in the plane alone so far; in space they are placed one by one");
   SimulationState state = starting_state(model, random_seed, packed_grains(model, random_seed, stop));
   refuse_overlap(model, state, stop);
   return state;

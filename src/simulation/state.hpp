@@ -103,7 +103,7 @@ struct SimulationState {
 Grains no_grains(const Model& model);
 
 /// A model's fill in place, at rest in the lab or with its vessel. Throws InputError where it does not fit, or grains
-/// overlap at the start by more than the guard's warning allows; Interrupted where `stop` is set.
+/// overlap at the start by more than the guard's warning allows, or in space; Interrupted where `stop` is set.
 SimulationState starting_state(const Model& model, std::uint64_t random_seed, StopRequest stop = {});
 
 /// The same with grains placed by the caller, whatever they overlap.

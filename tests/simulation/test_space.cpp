@@ -1,11 +1,12 @@
-// Balls in space, step by step: like the plane where all happens in one, whichever scheme, threads and instructions, and
-// across periodic boundaries.
+// Balls in space, step by step: like the plane where all happens in one, whichever scheme, threads and instructions,
+// and across periodic boundaries.
 #include <gmock/gmock.h>
 
 #include <cmath>
 #include <functional>
 #include <vector>
 
+#include "scene/input_error.hpp"
 #include "simulation/checkpoint.hpp"
 #include "simulation/simulation.hpp"
 #include "support/bench.hpp"
@@ -54,8 +55,9 @@ std::vector<Ball> heap(int along, int up, int across) {
   for (int j = 0; j < up; ++j)
     for (int i = 0; i < along; ++i)
       for (int k = 0; k < across; ++k)
-        balls.push_back({{0.003 + 0.0045 * i + 0.0011 * (j % 3), 0.003 + 0.0045 * j, 0.003 + 0.0045 * k + 0.0007 * (j % 2)},
-                         {0.02 * (i % 2), 0, 0.03 * (k % 3)}});
+        balls.push_back(
+            {{0.003 + 0.0045 * i + 0.0011 * (j % 3), 0.003 + 0.0045 * j, 0.003 + 0.0045 * k + 0.0007 * (j % 2)},
+             {0.02 * (i % 2), 0, 0.03 * (k % 3)}});
   return balls;
 }
 
@@ -72,7 +74,8 @@ INSTANTIATE_TEST_SUITE_P(Space, EveryScheme,
 
 TEST_P(EveryScheme, InThePlaneItIsThePlane) {
   // Thrown against floor, end wall and each other, in the plane z = 13 mm.
-  const std::vector<Ball> balls = {{{0.005, 0.004, 0.013}, {0.3, -0.1, 0}}, {{0.012, 0.0041, 0.013}, {-0.2, 0, 0}},
+  const std::vector<Ball> balls = {{{0.005, 0.004, 0.013}, {0.3, -0.1, 0}},
+                                   {{0.012, 0.0041, 0.013}, {-0.2, 0, 0}},
                                    {{0.026, 0.01, 0.013}, {0.1, -0.3, 0}}};
   std::vector<Grains> ends;
   for (const Space space : {Space::plane, Space::three_dimensional}) {
@@ -124,7 +127,8 @@ TEST(Space, ThreadsAndInstructionsChangeNoBit) {
 TEST(Space, ListsChangeNoBit) {
   const Model model = prepare_to_run(box(Space::three_dimensional));
   std::vector<std::vector<double>> ends;
-  for (const NeighbourMargins margins : {NeighbourMargins{}, NeighbourMargins{2, 0.02, 0.5}, NeighbourMargins{2, 0.3, 2}}) {
+  for (const NeighbourMargins margins :
+       {NeighbourMargins{}, NeighbourMargins{2, 0.02, 0.5}, NeighbourMargins{2, 0.3, 2}}) {
     ComputeOptions options;
     options.margins = margins;
     Simulation run(model, start_of(model, heap(5, 4, 5)), options);
@@ -182,6 +186,13 @@ TEST(Space, AShakenTrayCarriesItsBallsAcross) {
   run.run_until(0.05);
   EXPECT_NEAR(run.grains().x[0], 0.015, 1e-12);
   EXPECT_GT(run.grains().z[0], 0.0132);  // a ball that rolls follows by 2/7
+}
+
+TEST(Space, WhatCannotBeDoneYetIsSaid) {
+  Scene scene = box(Space::three_dimensional);
+  EXPECT_THROW(Simulation(prepare(scene), 1), InputError);
+  scene.tray.depth.reset();
+  EXPECT_THROW(prepare(scene), InputError);
 }
 
 TEST(Space, FrictionOneAndHardlyAnyReboundFallSilent) {
