@@ -22,7 +22,7 @@ inline SpaceHistory history_from(At at) {
   using Record = RecordOf<Effects>;
   SpaceHistory history;
   if constexpr (keeps_history<Effects>) {
-    const auto vector = [&at](std::size_t n) { return Vector3(at(n), at(n + 1), at(n + 2)); };
+    const auto vector = [&at](std::size_t n) { return Vector3{at(n), at(n + 1), at(n + 2)}; };
     history.normal = vector(0);
     if constexpr (Record::slips) history.slip = vector(Record::slip), history.slip_speed = vector(Record::slip_speed);
     if constexpr (Record::rolls) {
