@@ -5,10 +5,10 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
-#include <span>
 #include <utility>
 
 #include "box2d/near_places.hpp"
+#include "box2d/pair_rows.hpp"
 #include "elementary/functions.hpp"
 #include "vessel/directions.hpp"
 #include "vessel/vessel_walls.hpp"
@@ -70,14 +70,7 @@ struct Sorted {
 struct Part {
   std::vector<int> found;  // clusters, or walls
   Surroundings around;
-  std::vector<int> near;  // grains
   std::vector<WallCandidate> walls;
-};
-
-/// Where the grains near one grain stand: `count` places of a part's `near`.
-struct Row {
-  std::size_t begin;
-  int part, count;
 };
 
 struct WallQuery : b2QueryCallback {
@@ -119,9 +112,8 @@ struct Broadphase::World {
   b2DynamicTree tree;        // of the clusters
   std::vector<int> proxies;  // by cluster
   std::vector<int> cluster_of_proxy;
-  std::vector<Part> parts;   // by range
-  std::vector<Row> rows;     // by grain
-  std::vector<int> row_end;  // by grain
+  std::vector<Part> parts;  // by range
+  PairRows rows;
   double units_per_metre;
   NearPlaces near_places;
 
@@ -191,7 +183,7 @@ struct Broadphase::World {
   /// r + r + margin (m) to it, where `all` is not set only of those with higher numbers than its own.
   void look_around(int range, std::size_t from, std::size_t to, double margin, double moved, bool all) {
     Part& part = parts[static_cast<std::size_t>(range)];
-    part.near.clear();
+    rows.begin_range(range);
     for (std::size_t c = from; c < to; ++c) {
       part.found.clear();
       ClusterQuery query{*this, part.found};
@@ -199,12 +191,10 @@ struct Broadphase::World {
       gather(part.found, part.around);
       for (std::size_t k = sorted.begin(c); k < sorted.end(c); ++k) {
         const int grain = sorted.grain[k];
-        const std::size_t begin = part.near.size();
-        part.near.resize(begin + part.around.grain.size() + 16);
+        int* near = rows.room(range, part.around.grain.size() + 16);
         const int count = near_places(part.around.view(), all ? -1 : grain, sorted.x[k] + moved, sorted.y[k],
-                                      sorted.r[k] + margin, part.near.data() + begin);
-        part.near.resize(begin + static_cast<std::size_t>(count));
-        rows[static_cast<std::size_t>(grain)] = {begin, range, count};
+                                      sorted.r[k] + margin, near);
+        rows.found(range, grain, count);
       }
     }
   }
@@ -242,10 +232,10 @@ struct Broadphase::World {
 
   void find_pairs(const Ranges& ranges, double margin, double moved, bool all, PairList& pairs) {
     parts.resize(static_cast<std::size_t>(ranges.count));
-    rows.resize(sorted.grain.size());
+    rows.begin(sorted.grain.size(), ranges.count);
     share_clusters(
         ranges, [&](int range, std::size_t from, std::size_t to) { look_around(range, from, to, margin, moved, all); });
-    transpose(pairs);
+    rows.transpose(pairs);
   }
 
   template <class Work>
@@ -255,24 +245,6 @@ struct Broadphase::World {
       const std::size_t k = static_cast<std::size_t>(range);
       work(range, clusters * k / count, clusters * (k + 1) / count);
     });
-  }
-
-  /// Whom each grain was found by: grains taken in order, the finders of each come in order, without a sort.
-  void transpose(PairList& pairs) {
-    row_end.assign(rows.size() + 1, 0);
-    for (const Row& row : rows)
-      for (const int i : near_of(row)) ++row_end[static_cast<std::size_t>(i) + 1];
-    std::partial_sum(row_end.begin(), row_end.end(), row_end.begin());
-    pairs.grain.resize(static_cast<std::size_t>(row_end.back())), pairs.partner.resize(pairs.grain.size());
-    for (std::size_t i = 0; i < rows.size(); ++i)
-      std::fill(pairs.grain.begin() + row_end[i], pairs.grain.begin() + row_end[i + 1], static_cast<int>(i));
-    for (std::size_t j = 0; j < rows.size(); ++j)
-      for (const int i : near_of(rows[j]))
-        pairs.partner[static_cast<std::size_t>(row_end[static_cast<std::size_t>(i)]++)] = static_cast<int>(j);
-  }
-
-  std::span<const int> near_of(const Row& row) const {
-    return {parts[static_cast<std::size_t>(row.part)].near.data() + row.begin, static_cast<std::size_t>(row.count)};
   }
 };
 

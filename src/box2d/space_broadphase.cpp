@@ -7,10 +7,10 @@
 #include <limits>
 #include <numbers>
 #include <numeric>
-#include <span>
 #include <utility>
 
 #include "box2d/near_places.hpp"
+#include "box2d/pair_rows.hpp"
 #include "scene/motion.hpp"
 #include "vessel/directions.hpp"
 #include "vessel/vessel_faces.hpp"
@@ -106,14 +106,7 @@ struct Around {
 struct Part {
   std::vector<int> found;  // clusters, or walls
   Around around;
-  std::vector<int> near;  // grains
   std::vector<WallCandidate> walls;
-};
-
-/// Where the grains near one grain stand: `count` places of a part's `near`.
-struct Row {
-  std::size_t begin;
-  int part, count;
 };
 
 struct WallQuery : b2QueryCallback {
@@ -188,10 +181,9 @@ struct SpaceBroadphase::World {
   b2DynamicTree tree;        // of the clusters
   std::vector<int> proxies;  // by cluster
   std::vector<int> cluster_of_proxy;
-  double stride = 0;         // m, along x from a slab's plan to the next
-  std::vector<Part> parts;   // by range
-  std::vector<Row> rows;     // by grain
-  std::vector<int> row_end;  // by grain
+  double stride = 0;        // m, along x from a slab's plan to the next
+  std::vector<Part> parts;  // by range
+  PairRows rows;
   double diameter, units_per_metre;
   NearPlacesInSpace near_places;
 
@@ -281,20 +273,17 @@ struct SpaceBroadphase::World {
   void look_around(int range, std::size_t from, std::size_t to, double margin, double shift_x, double shift_z,
                    bool all) {
     Part& part = parts[static_cast<std::size_t>(range)];
-    part.near.clear();
+    rows.begin_range(range);
     for (std::size_t c = from; c < to; ++c) {
       const Cluster& cluster = sorted.clusters[c];
       find_clusters(cluster, margin, shift_x, shift_z, part.found);
       gather(part.found, part.around);
       for (std::size_t k = cluster.begin; k < cluster.end; ++k) {
         const int grain = sorted.grain[k];
-        const std::size_t begin = part.near.size();
-        part.near.resize(begin + part.around.grain.size() + 16);
-        const int count =
-            near_places(part.around.view(), part.around.y.data(), all ? -1 : grain, sorted.x[k] + shift_x,
-                        sorted.z[k] + shift_z, sorted.y[k], sorted.r[k] + margin, part.near.data() + begin);
-        part.near.resize(begin + static_cast<std::size_t>(count));
-        rows[static_cast<std::size_t>(grain)] = {begin, range, count};
+        int* near = rows.room(range, part.around.grain.size() + 16);
+        const int count = near_places(part.around.view(), part.around.y.data(), all ? -1 : grain, sorted.x[k] + shift_x,
+                                      sorted.z[k] + shift_z, sorted.y[k], sorted.r[k] + margin, near);
+        rows.found(range, grain, count);
       }
     }
   }
@@ -339,11 +328,11 @@ struct SpaceBroadphase::World {
 
   void find_pairs(const Ranges& ranges, double margin, double shift_x, double shift_z, bool all, PairList& pairs) {
     parts.resize(static_cast<std::size_t>(ranges.count));
-    rows.resize(sorted.grain.size());
+    rows.begin(sorted.grain.size(), ranges.count);
     share_clusters(ranges, [&](int range, std::size_t from, std::size_t to) {
       look_around(range, from, to, margin, shift_x, shift_z, all);
     });
-    transpose(pairs);
+    rows.transpose(pairs);
   }
 
   template <class Work>
@@ -353,24 +342,6 @@ struct SpaceBroadphase::World {
       const std::size_t k = static_cast<std::size_t>(range);
       work(range, clusters * k / count, clusters * (k + 1) / count);
     });
-  }
-
-  /// Whom each grain was found by: grains taken in order, the finders of each come in order, without a sort.
-  void transpose(PairList& pairs) {
-    row_end.assign(rows.size() + 1, 0);
-    for (const Row& row : rows)
-      for (const int i : near_of(row)) ++row_end[static_cast<std::size_t>(i) + 1];
-    std::partial_sum(row_end.begin(), row_end.end(), row_end.begin());
-    pairs.grain.resize(static_cast<std::size_t>(row_end.back())), pairs.partner.resize(pairs.grain.size());
-    for (std::size_t i = 0; i < rows.size(); ++i)
-      std::fill(pairs.grain.begin() + row_end[i], pairs.grain.begin() + row_end[i + 1], static_cast<int>(i));
-    for (std::size_t j = 0; j < rows.size(); ++j)
-      for (const int i : near_of(rows[j]))
-        pairs.partner[static_cast<std::size_t>(row_end[static_cast<std::size_t>(i)]++)] = static_cast<int>(j);
-  }
-
-  std::span<const int> near_of(const Row& row) const {
-    return {parts[static_cast<std::size_t>(row.part)].near.data() + row.begin, static_cast<std::size_t>(row.count)};
   }
 };
 
