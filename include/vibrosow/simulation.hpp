@@ -20,6 +20,7 @@ struct Event {
   double mass;         // kg
   double x;            // m from the tray's left end, where it passed the floor
   double speed;        // m/s
+  double z;            // m from the tray's front, as x; 0 in the plane
 };
 
 /// A grain at one moment, in the lab frame.

@@ -353,7 +353,7 @@ SpaceBroadphase::SpaceBroadphase(const std::vector<Vessel>& vessels, double unit
     b2BodyDef definition;
     definition.type = v == 0 ? b2_kinematicBody : b2_staticBody;
     w.bodies.push_back(w.world.CreateBody(&definition));
-    w.rest.emplace_back(vessel.origin.x(), 0);
+    w.rest.emplace_back(vessel.origin.x(), vessel.front);
     w.height.push_back(vessel.origin.y());
     const bool turning = vessel.motion && turns(*vessel.motion);
     for (const Face& face : vessel_faces(vessel)) {

@@ -5,6 +5,7 @@
 
 #include "cli/commands.hpp"
 #include "cli/common_options.hpp"
+#include "cli/compare_spaces.hpp"
 #include "cli/console.hpp"
 #include "cli/progress.hpp"
 #include "design/predicted_cost.hpp"
@@ -91,26 +92,45 @@ void print_overlap(const Model& model) {
                                                 warn, advice(*model.law, predicted))));
 }
 
-void print_vessel(const Vessel& vessel) {
-  print("{}\n  floor from ({:.1f}, {:.1f}) mm, {:.1f} mm long, end walls {:.1f} mm, {} seeds\n", vessel.name,
-        vessel.origin.x() * 1e3, vessel.origin.y() * 1e3, vessel.length * 1e3, vessel.height * 1e3,
+std::string hole_text(const Hole& hole, Space space) {
+  const double mm = 1e3;
+  const std::string plane = fmt::format("at {:.2f} mm, {:.2f} mm wide", hole.centre * mm, hole.width * mm);
+  if (space == Space::plane) return plane;
+  if (hole.shape == HoleShape::round)
+    return fmt::format("at {:.2f} mm, {:.2f} mm from the front, {:.2f} mm in diameter", hole.centre * mm,
+                       hole.across * mm, hole.width * mm);
+  return fmt::format("{}, {:.2f} mm across about {:.2f} mm from the front", plane, hole.across_length * mm,
+                     hole.across * mm);
+}
+
+void print_vessel(const Vessel& vessel, Space space) {
+  const double mm = 1e3;
+  const bool round = space == Space::three_dimensional && vessel.plan == Plan::round;
+  const std::string depth = space == Space::plane || round ? "" : fmt::format("{:.1f} mm deep, ", *vessel.depth * mm);
+  print("{}\n  {}floor from ({:.1f}, {:.1f}) mm, {:.1f} mm {}, {}walls {:.1f} mm, {} seeds\n", vessel.name,
+        round ? "round, " : "", vessel.origin.x() * mm, vessel.origin.y() * mm, vessel.length * mm,
+        round ? "in diameter" : "long", space == Space::plane ? "end " : depth, vessel.height * mm,
         vessel.fill ? vessel.fill->count : 0);
   for (std::size_t i = 0; i < vessel.holes.size(); ++i)
-    print("  hole {} at {:.2f} mm, {:.2f} mm wide{}\n", i + 1, vessel.holes[i].centre * 1e3,
-          vessel.holes[i].width * 1e3,
+    print("  hole {} {}{}\n", i + 1, hole_text(vessel.holes[i], space),
           vessel.holes[i].open_at > 0 ? fmt::format(", opens at {:.6g} s", vessel.holes[i].open_at) : "");
   if (vessel.rain)
     print("  rain of {:.6g} seeds/s from {:.1f} mm above its floor\n", vessel.rain->rate, vessel.rain->height * 1e3);
 }
 
-int check_seeder(const InputFile& file, const CommonOptions& options) {
+struct CheckOptions : CommonOptions {
+  bool both = false;
+};
+
+int check_seeder(const InputFile& file, const CheckOptions& options) {
   const Model model = prepare(read_scene(file.path, options.overrides(), file.files));
   const Scene& scene = model.scene;
   print_warnings(scene_warnings(scene));
   const StepPlan& plan = model.step;
   print_text(wrapped(scene.title));
-  print_vessel(scene.tray);
-  if (scene.hopper) print_vessel(*scene.hopper);
+  print_vessel(scene.tray, scene.space);
+  if (scene.hopper) print_vessel(*scene.hopper, scene.space);
+  print_space_advice(scene);
   print_model(model);
   const CostBreakdown cost = break_down_cost(scene);
   print_effects(model, cost);
@@ -118,7 +138,7 @@ int check_seeder(const InputFile& file, const CommonOptions& options) {
   print_overlap(model);
   if (const auto refused = step_refused(scene.numerics, plan)) throw InputError(*refused);
   if (plan.too_long) print("the step is too long and insisted on: every result will be marked \"outside the model\"\n");
-  return exit_done;
+  return options.both ? run_in_both_spaces(scene) : exit_done;
 }
 
 /// The header of a table of measured outflow for this study, ready to fill in.
@@ -128,7 +148,8 @@ std::string measured_header(const Study& study) {
   return header + "hole,lot,repeat,caught_g,duration_s,note";
 }
 
-int check_study(const InputFile& file, const CommonOptions& options) {
+int check_study(const InputFile& file, const CheckOptions& options) {
+  if (options.both) throw InputError("--both: is for one seeder, not for a study");
   const Study study = read_study(file.path, options.overrides(), file.files);
   print_warnings(study_warnings(study));
   print_text(wrapped(study.title));
@@ -148,10 +169,12 @@ int check_study(const InputFile& file, const CommonOptions& options) {
 }  // namespace
 
 void add_check_command(CLI::App& app, int& exit_code) {
-  auto options = std::make_shared<CommonOptions>();
+  auto options = std::make_shared<CheckOptions>();
   CLI::App* command =
       app.add_subcommand("check", "validate a seeder or a study; effects, step, predicted overlap and cost");
   add_input_options(*command, *options, "seeder or study file (.toml)");
+  command->add_flag("--both", options->both,
+                    "run the seeder in the plane and in space, and print the ratio of their rates");
   command->callback([options, &exit_code] {
     const InputFile file = input_file(options->file);
     exit_code = file.kind == FileKind::study ? check_study(file, *options) : check_seeder(file, *options);

@@ -62,9 +62,11 @@ void print_summary(const Scene& scene, const Run& run, const Outflow& outflow) {
   print("{}\n", wrapped(scene.title));
   print_holes(outflow);
   const HoleOutflow& all = *find_row(outflow, "all", "all");
+  const bool in_space = scene.space == Space::three_dimensional;
   if (const auto& depth = outflow.depth_factor)
     print_text("\n" +
-               wrapped(fmt::format("whole tray, {:.4g} times the slice: {} g/s = {} g/min, {} seeds/s", *depth,
+               wrapped(fmt::format("whole tray{}: {} g/s = {} g/min, {} seeds/s",
+                                   in_space ? "" : fmt::format(", {:.4g} times the slice", *depth),
                                    figure_text(all.mass_rate * 1e3 * *depth), figure_text(all.mass_rate * 6e4 * *depth),
                                    figure_text(all.seeds_per_s * *depth))));
   if (outflow.evenness) print_text("\n" + wrapped(evenness_sentence(*outflow.evenness)));

@@ -95,6 +95,7 @@ TableMotion motion_from(const Vessel& vessel, double from, double span) {
     motion.x.push_back(pose.displacement.x());
     motion.y.push_back(pose.displacement.y());
     motion.angle.push_back(pose.angle);
+    motion.z.push_back(pose.across);
   }
   return motion;
 }
@@ -138,13 +139,16 @@ Model model_of(Scene scene, double dt) {
 /// The same grains for a model of other effects.
 Grains grains_for(const Model& model, const Grains& grains) {
   const EffectSet& effects = model.effects;
-  Grains same(model.kinds, effects.polydisperse, effects.rotation, effects.clumps);
+  Grains same = no_grains(model);
   for (std::size_t i = 0; i < grains.size(); ++i) {
     GrainKind kind = grains.kind(i);
     if (!effects.rotation) kind.inverse_inertia = 0;
-    same.add(grains.x[i], grains.y[i], grains.vx[i], grains.vy[i], grains.lot[i], kind,
-             grains.oriented ? grains.angle[i] : 0);
-    if (effects.rotation && grains.rotation) same.omega[i] = grains.omega[i];
+    const Eigen::Vector3d at(grains.x[i], grains.y[i], grains.in_space ? grains.z[i] : 0);
+    const Eigen::Vector3d velocity(grains.vx[i], grains.vy[i], grains.in_space ? grains.vz[i] : 0);
+    same.add(at, velocity, grains.lot[i], kind, grains.oriented ? grains.angle[i] : 0);
+    if (!effects.rotation || !grains.rotation) continue;
+    same.omega[i] = grains.omega[i];
+    if (grains.in_space) same.omega_x[i] = grains.omega_x[i], same.omega_y[i] = grains.omega_y[i];
   }
   return same;
 }

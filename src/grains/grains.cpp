@@ -58,8 +58,10 @@ void Grains::add(double px, double py, double pvx, double pvy, int lot_index, co
   curvature.push_back(1 / own.radius);
 }
 
-void Grains::add(const Eigen::Vector3d& at, const Eigen::Vector3d& velocity, int lot_index, const GrainKind& own) {
-  add(at.x(), at.y(), velocity.x(), velocity.y(), lot_index, own);
+void Grains::add(const Eigen::Vector3d& at, const Eigen::Vector3d& velocity, int lot_index, const GrainKind& own,
+                 double turned) {
+  add(at.x(), at.y(), velocity.x(), velocity.y(), lot_index, own, turned);
+  if (!in_space) return;
   z.push_back(at.z());
   vz.push_back(velocity.z());
   if (rotation) omega_x.push_back(0), omega_y.push_back(0);

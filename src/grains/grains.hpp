@@ -68,8 +68,9 @@ struct Grains {
   /// (rad).
   void add(double px, double py, double pvx, double pvy, int lot_index, const GrainKind& own, double turned = 0);
 
-  /// Appends a ball in space.
-  void add(const Eigen::Vector3d& at, const Eigen::Vector3d& velocity, int lot_index, const GrainKind& own);
+  /// The same at a place (m) and with a velocity (m/s) of the lab, whose z counts in space alone.
+  void add(const Eigen::Vector3d& at, const Eigen::Vector3d& velocity, int lot_index, const GrainKind& own,
+           double turned = 0);
 
   /// Keeps the grains whose flag is 0, in order. `remove` has one flag a grain.
   void remove_flagged(const std::vector<char>& remove);

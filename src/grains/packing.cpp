@@ -4,17 +4,24 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
 
-#include "elementary/functions.hpp"
+#include "grains/places.hpp"
+#include "grains/pour.hpp"
 #include "grains/size_distribution.hpp"
 #include "scene/input_error.hpp"
 #include "scene/seed_lot.hpp"
-#include "vessel/directions.hpp"
 #include "vessel/vessel_walls.hpp"
 
 namespace vibrosow {
+
+void refuse_fill(const Vessel& vessel) {
+  throw InputError(
+      fmt::format("{}: {} grains rise above the end walls ({}.height = {:.6g} mm); take fewer, or a higher {}",
+                  vessel.fill->where.or_key(vessel.name + ".fill.count"), vessel.fill->count, vessel.name,
+                  vessel.height * 1e3, vessel.name));
+}
+
 namespace {
 
 std::vector<int> shuffled_lots(const std::vector<SeedLot>& lots, int count, Random& random) {
@@ -27,300 +34,89 @@ std::vector<int> shuffled_lots(const std::vector<SeedLot>& lots, int count, Rand
   return order;
 }
 
-[[noreturn]] void does_not_fit(const Vessel& vessel) {
-  throw InputError(
-      fmt::format("{}: {} grains rise above the end walls ({}.height = {:.6g} mm); take fewer, or a higher {}",
-                  vessel.fill->where.or_key(vessel.name + ".fill.count"), vessel.fill->count, vessel.name,
-                  vessel.height * 1e3, vessel.name));
-}
-
 bool is_on_a_piece(const std::vector<WallSegment>& walls, const Eigen::Vector2d& seat, double clear) {
   return std::any_of(walls.begin(), walls.end(), [&](const WallSegment& wall) {
     return wall.is_piece && distance_to_wall(wall, seat) < 0.5 * clear;
   });
 }
 
-std::vector<PackedGrain> pack_rows(const Vessel& vessel, const std::vector<SeedLot>& lots, Random& random) {
-  const Fill& fill = *vessel.fill;
-  const bool hexagonal = fill.packing == Packing::hexagonal;
-  const double diameter = largest_diameter(lots);
-  const double clear = diameter * (1 + 2 * fill.jitter);  // so that jitter never makes an overlap
-  const double shift = diameter * fill.jitter / std::numbers::sqrt2;
-  const int per_row = static_cast<int>(std::floor(vessel.length / clear));
-  if (per_row < 2) does_not_fit(vessel);
-  const double spacing = vessel.length / per_row;
-  const double rise =
-      hexagonal ? std::sqrt(std::max(clear * clear - 0.25 * spacing * spacing, 0.25 * clear * clear)) : clear;
+/// Places side by side along one direction of a vessel.
+struct Row {
+  int places;
+  double spacing;  // m
 
+  Row(double length, double clear)
+      : places(static_cast<int>(std::floor(length / clear))), spacing(length / std::max(1, places)) {}
+
+  int of_layer(bool offset) const { return places - (offset ? 1 : 0); }
+  double at(int k, bool offset) const { return (k + (offset ? 1.0 : 0.5)) * spacing; }
+};
+
+/// How rows of a fill lie.
+struct RowPlan {
+  bool hexagonal;  // every other layer is offset by half a place
+  double clear;    // m, so wide that jitter never makes an overlap
+  double shift;    // m, each way
+
+  RowPlan(const Fill& fill, const std::vector<SeedLot>& lots, double directions)
+      : hexagonal(fill.packing == Packing::hexagonal),
+        clear(largest_diameter(lots) * (1 + 2 * fill.jitter)),
+        shift(largest_diameter(lots) * fill.jitter / std::sqrt(directions)) {}
+
+  /// m, from a layer to the next whose places lie `aside` (m) of it.
+  double rise(double aside) const {
+    return hexagonal ? std::sqrt(std::max(clear * clear - aside * aside, 0.25 * clear * clear)) : clear;
+  }
+};
+
+std::vector<PackedGrain> pack_rows(const Vessel& vessel, const std::vector<SeedLot>& lots,
+                                   const std::vector<int>& order, Random& random) {
+  const RowPlan plan(*vessel.fill, lots, 2);
+  const Row row(vessel.length, plan.clear);
+  if (row.places < 2) refuse_fill(vessel);
   const std::vector<WallSegment> walls = vessel_walls(vessel);
   std::vector<PackedGrain> packed;
-  const std::vector<int> order = shuffled_lots(lots, fill.count, random);
-  double y = highest_floor(vessel) + 0.5 * clear;
-  for (int row = 0; packed.size() < order.size(); ++row, y += rise) {
-    const bool offset = hexagonal && row % 2 == 1;
-    for (int k = 0; k < per_row - (offset ? 1 : 0) && packed.size() < order.size(); ++k) {
-      const double centre = (k + (offset ? 1.0 : 0.5)) * spacing;
-      if (is_on_a_piece(walls, {centre, y}, clear)) continue;
-      const double dx = shift * random.uniform(-1, 1), dy = shift * random.uniform(-1, 1);
+  double y = highest_floor(vessel) + 0.5 * plan.clear;
+  for (int layer = 0; packed.size() < order.size(); ++layer, y += plan.rise(0.5 * row.spacing)) {
+    const bool offset = plan.hexagonal && layer % 2 == 1;
+    for (int k = 0; k < row.of_layer(offset) && packed.size() < order.size(); ++k) {
+      const double x = row.at(k, offset);
+      if (is_on_a_piece(walls, {x, y}, plan.clear)) continue;
+      const double dx = plan.shift * random.uniform(-1, 1), dy = plan.shift * random.uniform(-1, 1);
       const int lot = order[packed.size()];
       const SeedLot& seeds = lots[static_cast<std::size_t>(lot)];
       const double size = draw_size(seeds, random), angle = draw_angle(seeds, random);
-      packed.push_back({centre + dx, y + dy, lot, size, angle});
+      packed.push_back({x + dx, y + dy, lot, size, angle});
     }
-    if (y + 0.5 * clear > vessel.height) does_not_fit(vessel);
+    if (y + 0.5 * plan.clear > vessel.height) refuse_fill(vessel);
   }
   return packed;
 }
 
-/// Discs of grains and fixed points that a dropped grain can touch, found through square cells as wide as the largest.
-class Heap {
- public:
-  struct Disc {
-    double x, y, radius;
-  };
-
-  Heap(double length, double cell) : cell_(cell), columns_(static_cast<std::size_t>(length / cell) + 1) {}
-
-  void add(const Disc& disc) {
-    std::vector<std::vector<int>>& column = columns_[column_of(disc.x)];
-    const std::size_t row = row_of(disc.y);
-    if (column.size() <= row) column.resize(row + 1);
-    column[row].push_back(static_cast<int>(discs_.size()));
-    discs_.push_back(disc);
-  }
-
-  const Disc& operator[](int k) const { return discs_[static_cast<std::size_t>(k)]; }
-
-  /// The first disc that a grain falling along `x` from `from` touches, with the height of its centre then.
-  int first_below(double x, double from, double radius, double& height) const {
-    int first = -1;
-    const std::size_t centre = column_of(x);
-    for (std::size_t c = centre == 0 ? 0 : centre - 1; c <= std::min(centre + 1, columns_.size() - 1); ++c) {
-      for (std::size_t row = columns_[c].size(); row-- > 0;) {
-        if (first >= 0 && static_cast<double>(row + 1) * cell_ + 2 * cell_ < height) break;
-        for (int k : columns_[c][row]) {
-          const Disc& disc = (*this)[k];
-          const double reach = radius + disc.radius, dx = x - disc.x;
-          if (std::abs(dx) >= reach) continue;
-          const double touch = disc.y + std::sqrt(reach * reach - dx * dx);
-          if (touch <= from + 1e-6 * cell_ && (first < 0 || touch > height)) first = k, height = touch;
-        }
-      }
-    }
-    return first;
-  }
-
-  /// Height of the centre of a disc that falls along `x` when it first touches another; at least `least`.
-  double touching_height(double x, double radius, double least) const {
-    const double furthest = radius + 0.5 * cell_;
-    for (std::size_t c = column_of(x - furthest); c <= column_of(x + furthest); ++c)
-      for (std::size_t row = columns_[c].size(); row-- > 0 && static_cast<double>(row + 1) * cell_ + furthest > least;)
-        for (int k : columns_[c][row]) {
-          const Disc& disc = (*this)[k];
-          const double reach = radius + disc.radius, dx = x - disc.x;
-          if (std::abs(dx) < reach && disc.y + reach > least)
-            least = std::max(least, disc.y + std::sqrt(reach * reach - dx * dx));
-        }
-    return least;
-  }
-
-  /// Calls `visit(k)` for every disc within two cells of (x, y).
-  template <class Visit>
-  void near(double x, double y, Visit visit) const {
-    const std::size_t column = column_of(x), row = row_of(y);
-    for (std::size_t c = column < 2 ? 0 : column - 2; c <= std::min(column + 2, columns_.size() - 1); ++c)
-      for (std::size_t r = row < 2 ? 0 : row - 2; r <= row + 2 && r < columns_[c].size(); ++r)
-        for (int k : columns_[c][r]) visit(k);
-  }
-
- private:
-  std::size_t column_of(double x) const {
-    return std::min(static_cast<std::size_t>(std::max(x, 0.0) / cell_), columns_.size() - 1);
-  }
-  std::size_t row_of(double y) const { return static_cast<std::size_t>(std::max(y, 0.0) / cell_); }
-
-  double cell_;
-  std::vector<std::vector<std::vector<int>>> columns_;  // [column][row] -> discs
-  std::vector<Disc> discs_;
-};
-
-struct Rolled {
-  Eigen::Vector2d centre;
-  int met;     // the disc that stopped the roll; -1: a wall, the floor, or nothing
-  bool rests;  // held from both sides; otherwise it rolls on over `met`, or falls
-};
-
-/// Rolls a grain of `radius` that touches disc `support` at height `y` down on its side, to the first thing it meets.
-Rolled roll_down(const Heap& heap, int support, double length, double side, double y, double radius) {
-  const Heap::Disc& on = heap[support];
-  const double reach = radius + on.radius;
-  // In a perfect lattice a grain touches several others at once: places closer than this are the same.
-  const double tolerance = 1e-6 * reach;
-  Rolled first{{on.x + side * reach, on.y}, -1, false};  // nothing met: it comes off at the disc's equator
-  const auto meet = [&](const Eigen::Vector2d& at, int disc, bool rests) {
-    const bool on_the_way = at.y() <= y + tolerance && side * (at.x() - on.x) >= -tolerance;
-    if (on_the_way && at.y() >= first.centre.y() - (first.met < 0 && !first.rests ? tolerance : 0))
-      first = {at, disc, rests};
-  };
-  heap.near(on.x, on.y, [&](int k) {
-    if (k == support) return;
-    const Heap::Disc& other = heap[k];
-    const double reach_other = radius + other.radius;
-    const Eigen::Vector2d to_other(other.x - on.x, other.y - on.y);
-    const double gap = to_other.norm();
-    const double along = (gap * gap + reach * reach - reach_other * reach_other) / (2 * gap);
-    if (gap >= reach + reach_other || along * along >= reach * reach) return;
-    const double across = std::sqrt(reach * reach - along * along);
-    const Eigen::Vector2d u = to_other / gap, left(-u.y(), u.x());
-    for (const double sign : {1.0, -1.0}) {
-      const Eigen::Vector2d arm = along * u + sign * across * left;
-      const Eigen::Vector2d at = Eigen::Vector2d(on.x, on.y) + arm;
-      const Eigen::Vector2d downhill(side * arm.y(), -side * arm.x());
-      const Eigen::Vector2d towards(other.x - at.x(), other.y - at.y());
-      if (downhill.dot(towards) > 0) meet(at, k, side * towards.x() > 0);
-    }
-  });
-  const double wall_x = side > 0 ? length - radius : radius;
-  const double to_wall = wall_x - on.x;
-  if (std::abs(to_wall) < reach) meet({wall_x, on.y + std::sqrt(reach * reach - to_wall * to_wall)}, -1, true);
-  const double to_floor = radius - on.y;
-  if (to_floor >= 0 && to_floor < reach)
-    meet({on.x + side * std::sqrt(reach * reach - to_floor * to_floor), radius}, -1, true);
-  return first;
-}
-
-/// How a seed lies: its centre, m, and how far it is turned, rad.
-struct Place {
-  double x, y, angle;
-};
-
-/// Where a grain of `radius` dropped at `x` comes to rest.
-Place drop_and_roll(const Heap& heap, double length, double x, double radius) {
-  constexpr int most_moves = 100000;  // never reached: each move goes down
-  double y = 0;
-  int support = heap.first_below(x, std::numeric_limits<double>::max(), radius, y);
-  for (int move = 0; move < most_moves && support >= 0 && y > radius; ++move) {
-    const double side = x >= heap[support].x ? 1 : -1;
-    const Rolled rolled = roll_down(heap, support, length, side, y, radius);
-    x = std::clamp(rolled.centre.x(), radius, length - radius);
-    y = rolled.centre.y();
-    if (rolled.rests) return {x, y, 0};
-    support = rolled.met >= 0 ? rolled.met : heap.first_below(x + side * 1e-9 * radius, y, radius, y);
-  }
-  return {x, radius, 0};
-}
-
-/// Points of a wall no further apart than `pitch`.
-std::vector<Eigen::Vector2d> points_along(const WallSegment& wall, double pitch) {
-  const bool arc = wall.radius > 0;
-  const double length = arc ? wall.radius * (wall.to - wall.from) : (wall.b - wall.a).norm();
-  const int points = static_cast<int>(std::ceil(length / pitch));
-  std::vector<Eigen::Vector2d> along;
-  for (int k = 0; k <= points; ++k) {
-    const double part = static_cast<double>(k) / points, angle = wall.from + part * (wall.to - wall.from);
-    const Eigen::Vector2d on_arc = wall.centre + wall.radius * unit_vector(angle);
-    along.push_back(on_arc);
-    if (!arc) along.back() = wall.a + (wall.b - wall.a) * part;
-  }
-  return along;
-}
-
-/// Fixed points along the sloping walls and the pieces, so close that a grain between two of them stays within 1/800 of
-/// its radius of the wall, and never overlaps it.
-void add_slopes(Heap& heap, const Vessel& vessel, double smallest_radius) {
-  const double pitch = 0.1 * smallest_radius;
-  const double inflation = pitch * pitch / (8 * smallest_radius);
-  for (const WallSegment& wall : vessel_walls(vessel)) {
-    const Eigen::Vector2d along = wall.b - wall.a;
-    if (!wall.is_piece && (along.x() == 0 || along.y() == 0)) continue;
-    for (const Eigen::Vector2d& p : points_along(wall, pitch)) {
-      const bool beside = p.x() < -0.1 * vessel.length || p.x() > 1.1 * vessel.length;
-      if (!beside) heap.add({p.x(), p.y(), inflation});
-    }
-  }
-}
-
-/// A seed as it is turned: its discs, from its centre, and how far they reach.
-struct TurnedSeed {
-  std::vector<Heap::Disc> discs;
-  double left = 0, right = 0, top = 0;  // m
-
-  TurnedSeed(const SeedLot& lot, double size, double angle) {
-    const auto [sine, cosine] = elementary::sine_cosine(angle);
-    discs.reserve(lot.discs.size());
-    if (lot.discs.empty()) add({0, 0, 0.5 * size * lot.diameter});
-    for (const ClumpDisc& disc : lot.discs)
-      add({size * (cosine * disc.x - sine * disc.y), size * (sine * disc.x + cosine * disc.y), size * disc.radius});
-  }
-
- private:
-  void add(const Heap::Disc& disc) {
-    discs.push_back(disc);
-    left = std::max(left, disc.radius - disc.x), right = std::max(right, disc.radius + disc.x);
-    top = std::max(top, disc.radius + disc.y);
-  }
-};
-
-/// Height of a seed's centre when, dropped at `x`, its first disc touches; or some height from `limit` to that one.
-double touching_height(const Heap& heap, const TurnedSeed& seed, double x, double limit) {
-  double height = 0;
-  for (const Heap::Disc& disc : seed.discs) {
-    if (height >= limit) break;
-    const double least = std::max(disc.radius, height + disc.y);  // the floor, and what other discs touch
-    height = std::max(height, heap.touching_height(x + disc.x, disc.radius, least) - disc.y);
-  }
-  return height;
-}
-
-/// Where a clump dropped at `x` comes to rest: it is dropped again a little aside and turned a little, at random,
-/// less and less, and stays where its centre lies lowest. A search for the lowest place near where it fell, since a
-/// clump, unlike a disc, has no closed form for where it rolls to.
-Place drop_and_search(const Heap& heap, double length, const SeedLot& lot, double size, double x, double angle,
-                      Random& random) {
-  constexpr int tries = 60;        // fills 0.79 of the plane with seeds of four widths, as poured discs do; 30: 0.73
-  constexpr double shrink = 0.95;  // of the steps, which begin with the seed's diameter and a quarter turn
-  Place lowest{0, std::numeric_limits<double>::infinity(), 0};
-  const auto drop = [&](double at, double turned) {
-    const TurnedSeed seed(lot, size, turned);
-    at = std::max(seed.left, std::min(at, length - seed.right));
-    const double y = touching_height(heap, seed, at, lowest.y);
-    if (y < lowest.y) lowest = {at, y, turned};
-  };
-  drop(x, angle);
-  double step = 1;
-  for (int k = 0; k < tries; ++k, step *= shrink) {
-    const double aside = step * size * lot.diameter * random.uniform(-1, 1);
-    const double turn = step * 0.5 * std::numbers::pi * random.uniform(-1, 1);
-    drop(lowest.x + aside, lowest.angle + turn);
-  }
-  return lowest;
-}
-
-double largest_disc(const std::vector<SeedLot>& lots) {
-  double largest = 0;
-  for (const SeedLot& lot : lots)
-    for (const Heap::Disc& disc : TurnedSeed(lot, most_size(lot), 0).discs)
-      largest = std::max(largest, 2 * disc.radius);
-  return largest;
-}
-
-std::vector<PackedGrain> pour(const Vessel& vessel, const std::vector<SeedLot>& lots, Random& random,
-                              StopRequest stop) {
-  Heap heap(vessel.length, largest_disc(lots));
-  add_slopes(heap, vessel, smallest_radius(lots));
+/// Square layers: one above the other, or closest packed.
+std::vector<PackedGrain> pack_layers(const Vessel& vessel, const std::vector<SeedLot>& lots,
+                                     const std::vector<int>& order, Random& random) {
+  const RowPlan plan(*vessel.fill, lots, 3);
+  const Row along(vessel.length, plan.clear), across(*vessel.depth, plan.clear);
+  if (along.places < 2 || across.places < (plan.hexagonal ? 2 : 1)) refuse_fill(vessel);
+  const Obstacles obstacles(vessel);
+  const double rise = plan.rise(0.5 * FloorPlace(along.spacing, across.spacing).norm());
   std::vector<PackedGrain> packed;
-  for (int lot : shuffled_lots(lots, vessel.fill->count, random)) {
-    stop.throw_if_set();
-    const SeedLot& seeds = lots[static_cast<std::size_t>(lot)];
-    const double size = draw_size(seeds, random), angle = draw_angle(seeds, random);
-    const double radius = 0.5 * size * seeds.diameter;
-    const double x = random.uniform(radius, vessel.length - radius);
-    const Place at = seeds.discs.empty() ? drop_and_roll(heap, vessel.length, x, radius)
-                                         : drop_and_search(heap, vessel.length, seeds, size, x, angle, random);
-    const TurnedSeed seed(seeds, size, at.angle);
-    if (at.y + seed.top > vessel.height) does_not_fit(vessel);
-    for (const Heap::Disc& disc : seed.discs) heap.add({at.x + disc.x, at.y + disc.y, disc.radius});
-    packed.push_back({at.x, at.y, lot, size, at.angle});
+  double y = 0.5 * plan.clear;
+  for (int layer = 0; packed.size() < order.size(); ++layer, y += rise) {
+    const bool offset = plan.hexagonal && layer % 2 == 1;
+    const int in_row = along.of_layer(offset), in_layer = in_row * across.of_layer(offset);
+    for (int k = 0; k < in_layer && packed.size() < order.size(); ++k) {
+      const FloorPlace place(along.at(k % in_row, offset), across.at(k / in_row, offset));
+      if (between_ends(vessel, 0.5 * plan.clear * (1 - 1e-9), place) != place) continue;
+      if (obstacles.distance({place.x(), y, place.y()}) < 0.5 * plan.clear) continue;
+      const double dx = plan.shift * random.uniform(-1, 1), dy = plan.shift * random.uniform(-1, 1);
+      const double dz = plan.shift * random.uniform(-1, 1);
+      const int lot = order[packed.size()];
+      const double size = draw_size(lots[static_cast<std::size_t>(lot)], random);
+      packed.push_back({place.x() + dx, y + dy, lot, size, 0, place.y() + dz});
+    }
+    if (y + 0.5 * plan.clear > vessel.height) refuse_fill(vessel);
   }
   return packed;
 }
@@ -347,23 +143,30 @@ namespace {
 constexpr std::size_t large_bed = 20000;  // grains whose state is more than a core's cache holds
 
 /// Lists a bed column by column instead of row by row, so that neighbours are near each other in memory.
-void order_by_columns(double diameter, std::vector<PackedGrain>& grains) {
-  const double width = 64 * diameter;  // m
-  std::ranges::stable_sort(grains, {}, [width](const PackedGrain& grain) { return std::floor(grain.x / width); });
+void order_by_columns(double width, std::vector<PackedGrain>& grains) {
+  std::ranges::stable_sort(grains, {}, [width](const PackedGrain& grain) {
+    return std::pair(std::floor(grain.x / width), std::floor(grain.z / width));
+  });
 }
 
 }  // namespace
 
-std::vector<PackedGrain> pack(const Vessel& vessel, const std::vector<SeedLot>& lots, Random& random,
+std::vector<PackedGrain> pack(const Vessel& vessel, const std::vector<SeedLot>& lots, Space space, Random& random,
                               StopRequest stop) {
   if (!vessel.fill) return {};
   stop.throw_if_set();
-  if (largest_diameter(lots) > vessel.length)
-    throw InputError(
-        fmt::format("{}.length: a grain of {:.6g} mm does not fit in", vessel.name, largest_diameter(lots) * 1e3));
-  std::vector<PackedGrain> grains =
-      vessel.fill->packing == Packing::poured ? pour(vessel, lots, random, stop) : pack_rows(vessel, lots, random);
-  if (grains.size() > large_bed) order_by_columns(largest_diameter(lots), grains);
+  const double diameter = largest_diameter(lots);
+  const bool poured = vessel.fill->packing == Packing::poured, in_space = space == Space::three_dimensional;
+  if (diameter > vessel.length)
+    throw InputError(fmt::format("{}.length: a grain of {:.6g} mm does not fit in", vessel.name, diameter * 1e3));
+  if (in_space && diameter > *vessel.depth)
+    throw InputError(fmt::format("{}.depth: a grain of {:.6g} mm does not fit in", vessel.name, diameter * 1e3));
+  const std::vector<int> order = shuffled_lots(lots, vessel.fill->count, random);
+  std::vector<PackedGrain> grains = poured     ? (in_space ? pour_in_space : pour)(vessel, lots, order, random, stop)
+                                    : in_space ? pack_layers(vessel, lots, order, random)
+                                               : pack_rows(vessel, lots, order, random);
+  constexpr double in_plane = 64, across_columns = 8;  // diameters
+  if (grains.size() > large_bed) order_by_columns((in_space ? across_columns : in_plane) * diameter, grains);
   return grains;
 }
 

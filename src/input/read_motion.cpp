@@ -7,6 +7,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "elementary/functions.hpp"
 #include "input/wording.hpp"
 #include "scene/input_error.hpp"
 
@@ -37,9 +38,23 @@ Course read_course(Table& table, double period) {
   return course;
 }
 
+/// An angle in the plane, or in space a list of three numbers: how far along, up and across.
+void read_direction(Table& table, HarmonicMotion& motion) {
+  if (!table.is_list("direction")) {
+    motion.direction = table.quantity("direction", Dimension::angle, -360 * degree, 360 * degree).value_or(0);
+    return;
+  }
+  const std::vector<double> parts = table.numbers("direction", -1e9, 1e9);
+  if (parts.size() != 3) table.fail("direction", "expected an angle, or three numbers: along, up and across");
+  const double in_plane = elementary::hypot(parts[0], parts[1]);
+  if (elementary::hypot(in_plane, parts[2]) == 0) table.fail("direction", "[0, 0, 0] has no direction");
+  motion.direction = elementary::atan2(parts[1], parts[0]);
+  motion.across = elementary::atan2(parts[2], in_plane);
+}
+
 HarmonicMotion read_oscillation(Table& table) {
   HarmonicMotion motion;
-  motion.direction = table.quantity("direction", Dimension::angle, -360 * degree, 360 * degree).value_or(0);
+  read_direction(table, motion);
   motion.amplitude = table.required_quantity("amplitude", Dimension::length, 1e-9, 10);
   motion.frequency = table.required_quantity("frequency", Dimension::frequency, 1e-6, 1e4);
   motion.phase = table.quantity("phase", Dimension::angle, -360 * degree, 360 * degree).value_or(0);
@@ -106,8 +121,10 @@ class MotionTableReader {
     motion.x = column("x_mm", 1e-3);
     motion.y = column("y_mm", 1e-3);
     motion.angle = column("angle_degree", degree);
+    if (has("z_mm")) motion.z = column("z_mm", 1e-3);
     check_speeds("x_mm", motion.times, motion.x, fastest);
     check_speeds("y_mm", motion.times, motion.y, fastest);
+    if (has("z_mm")) check_speeds("z_mm", motion.times, motion.z, fastest);
     check_speeds("angle_degree", motion.times, motion.angle, fastest_turn);
     return motion;
   }
@@ -123,7 +140,7 @@ class MotionTableReader {
   bool has(const std::string& name) const { return index_of(name) < csv_.header.fields.size(); }
 
   void check_header() const {
-    static const std::vector<std::string> known = {"time_s", "x_mm", "y_mm", "angle_degree"};
+    static const std::vector<std::string> known = {"time_s", "x_mm", "y_mm", "z_mm", "angle_degree"};
     for (std::size_t k = 0; k < csv_.header.fields.size(); ++k) {
       const std::string& name = csv_.header.fields[k];
       if (std::ranges::count(known, name) == 0)
@@ -133,7 +150,7 @@ class MotionTableReader {
     }
     if (!has("time_s")) fail(csv_.header.line, "time_s", "is missing");
     if (csv_.header.fields.size() < 2)
-      fail(csv_.header.line, "time_s", "stands alone; expected x_mm, y_mm or angle_degree beside it");
+      fail(csv_.header.line, "time_s", "stands alone; expected x_mm, y_mm, z_mm or angle_degree beside it");
   }
 
   void check_speeds(const std::string& name, const std::vector<double>& times, const std::vector<double>& places,

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "input/lengths.hpp"
 #include "input/presets.hpp"
 #include "input/read_contact.hpp"
 #include "input/read_lot.hpp"
@@ -151,16 +152,19 @@ Record read_record(Table table, double duration, const std::vector<SeedLot>& lot
 Scene read_scene(const std::filesystem::path& file, const std::vector<Override>& overrides,
                  const std::shared_ptr<SourceFiles>& files) {
   Table root(Document::read(file, overrides, files));
-  root.reject_keys_other_than({"title", "seeds", "contact", "tray", "hopper", "numerics", "guard", "run", "record"});
+  root.reject_keys_other_than(
+      {"title", "space", "seeds", "contact", "tray", "hopper", "numerics", "guard", "run", "record"});
   Scene scene;
   scene.title = printable(root.text("title").value_or(file.stem().string()));
+  constexpr Space spaces[] = {Space::plane, Space::three_dimensional};
+  scene.space = spaces[root.choice("space", {"plane", "3d"}).value_or(0)];
   Table seeds = root.required_table("seeds");
   scene.lots = read_lots(seeds);
   scene.contact = read_contact(root.required_table("contact"), seeds, scene.lots);
   Table tray = root.required_table("tray");
-  scene.tray = read_vessel(tray, "tray", scene.lots);
+  scene.tray = read_vessel(tray, "tray", scene.lots, scene.space);
   if (auto hopper = root.table("hopper")) {
-    scene.hopper = read_vessel(*hopper, "hopper", scene.lots);
+    scene.hopper = read_vessel(*hopper, "hopper", scene.lots, scene.space, &scene.tray);
     scene.hopper->origin.x() = hopper->required_quantity("left", Dimension::length, -100, 100);
     if (scene.tray.sides == Sides::periodic &&
         !(scene.hopper->origin.x() >= 0 &&

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "input/lengths.hpp"
+#include "input/read_holes.hpp"
 #include "input/read_motion.hpp"
 #include "input/wording.hpp"
 #include "scene/clump_shape.hpp"
@@ -17,140 +19,7 @@ namespace vibrosow {
 namespace {
 
 constexpr double degree = std::numbers::pi / 180;
-constexpr double shortest = 1e-6, longest = 100;  // m, of any length in a vessel
-constexpr double rounding = 1e-9;                 // of the floor's length, forgiven at its ends
-
-std::string millimetres(double length) {
-  return fmt::format("{:g} mm", std::round(length * 1e9) / 1e6);
-}
-
-/// To the picometre, so that the same holes from other keys are the same numbers: 25 cm + 9 cm is 34 cm.
-double rounded(double length) {
-  return std::round(length * 1e12) / 1e12;
-}
-
-}  // namespace
-
-/// What "3 diameters" are of.
-double largest_mean_diameter(const std::vector<SeedLot>& lots) {
-  return std::max_element(lots.begin(), lots.end(),
-                          [](const SeedLot& a, const SeedLot& b) { return a.diameter < b.diameter; })
-      ->diameter;
-}
-
-double read_width(const Table& table, const std::string& key, const TomlValue& value, double diameter) {
-  static constexpr std::string_view expected_width = "a length such as \"16 mm\" or \"3 diameters\"";
-  const std::string shown_value = shortened(toml_text(value));
-  const auto* text = value.get<std::string>();
-  const auto* typed = value.get<Quantity>();
-  if (text == nullptr && typed == nullptr)
-    table.fail(key, fmt::format("must be {}, in quotes, not {}", expected_width, shown_value));
-  double width = 0;
-  try {
-    const Quantity quantity = typed != nullptr ? *typed : split_quantity(*text);
-    const bool counted = quantity.unit == "diameters" || quantity.unit == "diameter";
-    width = rounded(counted ? quantity.number * diameter : in_si(quantity, Dimension::length));
-  } catch (const UnitError& error) {
-    table.fail(key, fmt::format("{} is not a {}; expected {}: {}", shown_value, key, expected_width, error.what()));
-  }
-  if (!(width >= shortest && width <= longest)) {
-    table.fail(key, fmt::format("{} is out of range, which is from 0.001 mm to 100 m", shown_value));
-  }
-  return width;
-}
-
-namespace {
-
-std::vector<double> read_widths(Table& table, std::size_t holes, double diameter) {
-  const std::vector<TomlValue> given = table.values_of("width");
-  if (given.empty()) table.fail("width", "is missing; expected a length such as \"16 mm\" or \"3 diameters\"");
-  if (given.size() != 1 && given.size() != holes) {
-    table.fail("width",
-               fmt::format("lists {} widths for {} holes; expected one for all or one each", given.size(), holes));
-  }
-  std::vector<double> widths;
-  for (const TomlValue& value : given) widths.push_back(read_width(table, "width", value, diameter));
-  widths.resize(holes, widths.front());
-  return widths;
-}
-
-struct HoleRow {
-  std::vector<double> centres;  // m
-  std::string placed_by;        // key that answers for a hole in the wrong place
-};
-
-/// `count` holes, evenly spaced about a centre.
-HoleRow read_row(Table& table, double length) {
-  if (table.has("span") && table.has("pitch")) table.fail("pitch", "contradicts span; give one of them");
-  const std::optional<std::int64_t> count = table.whole_number("count", 1, 10000);
-  const std::optional<double> span = table.quantity("span", Dimension::length, shortest, longest);
-  const std::optional<double> pitch_given = table.quantity("pitch", Dimension::length, shortest, longest);
-  const std::optional<double> centre = table.quantity("centre", Dimension::length, 0, longest);
-  if (!count) table.fail("count", "is missing; give count, or at with the holes' centres");
-
-  const double n = static_cast<double>(*count);
-  double pitch = pitch_given.value_or(length / (n + 1));
-  if (span) pitch = *count > 1 ? *span / (n - 1) : 0;
-  HoleRow row;
-  for (int i = 0; i < *count; ++i) {
-    row.centres.push_back(rounded(centre.value_or(length / 2) + (i - (n - 1) / 2) * pitch));
-  }
-  const bool spaced = *count > 1;
-  row.placed_by = spaced && span ? "span" : spaced && pitch_given ? "pitch" : centre ? "centre" : "width";
-  return row;
-}
-
-HoleRow read_positions(Table& table, double length) {
-  if (!table.has("at")) {
-    HoleRow row = read_row(table, length);
-    table.skip("at");
-    return row;
-  }
-  for (const char* key : {"count", "span", "pitch", "centre"}) {
-    table.skip(key);
-    if (table.has(key)) table.fail(key, "contradicts at, which already gives each hole's centre");
-  }
-  return {table.quantities("at", Dimension::length, 0, longest), "at"};
-}
-
-void check_holes(const Table& table, const std::vector<Hole>& holes, double length, const std::string& placed_by) {
-  const double slack = rounding * length;
-  for (std::size_t i = 0; i < holes.size(); ++i) {
-    const Hole& hole = holes[i];
-    if (hole.centre - hole.width / 2 < -slack || hole.centre + hole.width / 2 > length + slack) {
-      table.fail(placed_by, fmt::format("hole {} at {}, {} wide, is not within the floor, which is {} long", i + 1,
-                                        millimetres(hole.centre), millimetres(hole.width), millimetres(length)));
-    }
-    if (i == 0) continue;
-    const Hole& before = holes[i - 1];
-    if (hole.centre - hole.width / 2 - (before.centre + before.width / 2) <= slack) {
-      table.fail(placed_by, fmt::format("hole {} at {}, {} wide, overlaps or touches hole {} at {}, {} wide", i,
-                                        millimetres(before.centre), millimetres(before.width), i + 1,
-                                        millimetres(hole.centre), millimetres(hole.width)));
-    }
-  }
-}
-
-std::vector<double> read_opening_times(Table& table, std::size_t holes) {
-  std::vector<double> times = table.quantities("open_at", Dimension::time, 0, 1e6);
-  if (times.size() > 1 && times.size() != holes) {
-    table.fail("open_at",
-               fmt::format("lists {} times for {} holes; expected one for all or one each", times.size(), holes));
-  }
-  times.resize(holes, times.empty() ? 0.0 : times.front());
-  return times;
-}
-
-std::vector<Hole> read_holes(Table table, double length, double diameter) {
-  const HoleRow row = read_positions(table, length);
-  const std::vector<double> widths = read_widths(table, row.centres.size(), diameter);
-  const std::vector<double> open_at = read_opening_times(table, row.centres.size());
-  std::vector<Hole> holes;
-  for (std::size_t i = 0; i < widths.size(); ++i) holes.push_back({row.centres[i], widths[i], open_at[i]});
-  std::stable_sort(holes.begin(), holes.end(), [](const Hole& a, const Hole& b) { return a.centre < b.centre; });
-  check_holes(table, holes, length, row.placed_by);
-  return holes;
-}
+constexpr double rounding = 1e-9;  // of a seed's thickness, forgiven
 
 Fill read_fill(Table table) {
   Fill fill;
@@ -169,30 +38,50 @@ Fill read_fill(Table table) {
   return fill;
 }
 
-/// Area that a seed of the lot's diameter takes at least: hexagonally packed; of clumps, which may fill the plane,
-/// their own if poured, since rows are of the circles that hold them.
+/// Area that a seed of the lot's diameter takes at least in the plane: hexagonally packed; of clumps, which may fill
+/// the plane, their own if poured, since rows are of the circles that hold them.
 double least_area(const SeedLot& lot, bool poured) {
   if (poured && lot.shape == Shape::clump) return plate_of(lot.discs).area;
   return std::numbers::sqrt3 / 2 * lot.diameter * lot.diameter;
 }
 
+/// The same in space, m3: closest packed; of clumps, if poured, their own.
+double least_volume(const SeedLot& lot, bool poured) {
+  if (poured && lot.shape == Shape::clump) return volume_of_balls(lot.discs);
+  return lot.diameter * lot.diameter * lot.diameter / std::numbers::sqrt2;
+}
+
+/// Seeds that the vessel could hold at most.
+double most_seeds(const Vessel& vessel, const std::vector<SeedLot>& lots, Space space) {
+  const bool poured = vessel.fill->packing == Packing::poured, flat = space == Space::plane;
+  double per_seed = 0;
+  for (const SeedLot& lot : lots)
+    per_seed += lot.number_fraction * size_moment(lot, flat ? 2 : 3) *
+                (flat ? least_area(lot, poured) : least_volume(lot, poured));
+  const double outline = vessel.plan == Plan::round && !flat ? std::numbers::pi / 4 : 1;
+  return vessel.length * vessel.height * (flat ? 1 : outline * *vessel.depth) / per_seed;
+}
+
 /// Too crude to promise that a fill fits, but what fails here cannot fit.
-void check_fill_fits(Table fill_table, const Vessel& vessel, const std::vector<SeedLot>& lots) {
-  if (largest_diameter(lots) > vessel.length) {
-    fill_table.fail("count", fmt::format("does not fit: a seed of {} is wider than the {}, which is {} long",
-                                         millimetres(largest_diameter(lots)), vessel.name, millimetres(vessel.length)));
-  }
-  const bool poured = vessel.fill->packing == Packing::poured;
-  double area_per_seed = 0;
-  for (const SeedLot& lot : lots) area_per_seed += lot.number_fraction * size_moment(lot, 2) * least_area(lot, poured);
-  const double most = vessel.length * vessel.height / area_per_seed;
+void check_fill_fits(Table fill_table, const Vessel& vessel, const std::vector<SeedLot>& lots, Space space) {
+  const double widest = largest_diameter(lots);
+  const auto check_room = [&](double room, std::string_view extent) {
+    if (widest > room)
+      fill_table.fail("count", fmt::format("does not fit: a seed of {} is wider than the {}, which is {} {}",
+                                           millimetres(widest), vessel.name, millimetres(room), extent));
+  };
+  check_room(vessel.length, "long");
+  if (space == Space::three_dimensional) check_room(*vessel.depth, "deep");
+  const double most = most_seeds(vessel, lots, space);
   if (vessel.fill->count > most) {
-    const bool circles =
-        !poured && std::ranges::any_of(lots, [](const SeedLot& lot) { return lot.shape == Shape::clump; });
+    const bool holders = vessel.fill->packing != Packing::poured &&
+                         std::ranges::any_of(lots, [](const SeedLot& lot) { return lot.shape == Shape::clump; });
     fill_table.fail(
         "count",
-        fmt::format("does not fit: {} seeds, but closely packed{} the {} holds no more than {:.0f}", vessel.fill->count,
-                    circles ? ", as the circles that hold them," : "", vessel.name, std::floor(most)));
+        fmt::format(
+            "does not fit: {} seeds, but closely packed{} the {} holds no more than {:.0f}", vessel.fill->count,
+            holders ? fmt::format(", as the {} that hold them,", space == Space::plane ? "circles" : "balls") : "",
+            vessel.name, std::floor(most)));
   }
 }
 
@@ -267,54 +156,129 @@ void check_depth(const Table& table, const Vessel& vessel, const std::vector<See
                                       lot.name, millimetres(mean_thickness(lot))));
 }
 
-Sides read_sides(Table& table) {
+Sides read_sides(Table& table, const std::string& key, Sides otherwise) {
   constexpr Sides sides[] = {Sides::walls, Sides::open, Sides::periodic};
-  return sides[table.choice("sides", {"walls", "open", "periodic"}).value_or(0)];
+  const auto chosen = table.choice(key, {"walls", "open", "periodic"});
+  return chosen ? sides[*chosen] : otherwise;
 }
 
 /// A period needs a floor that continues itself, and room: no two seeds may meet both within it and across its ends.
+void check_period(const Table& table, const std::string& key, const std::string& vessel, double length, double diameter,
+                  std::string_view extent) {
+  constexpr double fewest_diameters = 6;
+  if (length < fewest_diameters * diameter)
+    table.fail(key, fmt::format("a periodic {} is at least {:g} diameters of the largest seed {}, {}", vessel,
+                                fewest_diameters, extent, millimetres(fewest_diameters * diameter)));
+}
+
 void check_periodic(const Table& table, const Vessel& vessel, double diameter) {
   if (vessel.sides != Sides::periodic) return;
-  constexpr double fewest_diameters = 6;
   if (vessel.name != "tray") table.fail("sides", "only the tray can be periodic");
   if (vessel.tilt != 0) table.fail("sides", "a periodic tray cannot be tilted: its ends would not meet");
   if (vessel.motion && turns(*vessel.motion))
     table.fail("sides", "a periodic tray cannot turn: its ends would not meet");
-  if (vessel.length < fewest_diameters * diameter)
-    table.fail("sides", fmt::format("a periodic tray is at least {:g} diameters of the largest seed long, {}",
-                                    fewest_diameters, millimetres(fewest_diameters * diameter)));
+  check_period(table, "sides", "tray", vessel.length, diameter, "long");
+}
+
+/// A slice of a deep seeder is one of its tray and its hopper alike.
+void check_periodic_across(const Table& table, const Vessel& vessel, const Vessel* tray, double diameter) {
+  const bool periodic = vessel.front_and_back == Sides::periodic;
+  if (tray != nullptr) {
+    const bool of_tray = tray->front_and_back == Sides::periodic;
+    if (periodic && (!of_tray || *vessel.depth != *tray->depth || vessel.front != 0))
+      table.fail("front_and_back",
+                 "a hopper is periodic across only with its tray, as deep as that and in front of it");
+    const double slack = rounding * *tray->depth;
+    if (of_tray && !periodic && (vessel.front < 0 || vessel.front + *vessel.depth > *tray->depth + slack))
+      table.fail("depth", "the hopper does not lie within the depth of the periodic tray");
+    return;
+  }
+  if (periodic) check_period(table, "front_and_back", "tray", *vessel.depth, diameter, "deep");
+}
+
+/// What a vessel has in space alone; in the plane these keys are known and count for nothing.
+void read_space(Table& table, Space space, const Vessel* tray, Vessel& vessel) {
+  if (space == Space::plane) {
+    for (const char* key : {"plan", "front_and_back"}) table.skip(key);
+    if (tray != nullptr) table.skip("front");
+    return;
+  }
+  constexpr Plan plans[] = {Plan::rectangle, Plan::round};
+  vessel.plan = plans[table.choice("plan", {"rectangle", "round"}).value_or(0)];
+  const bool round = vessel.plan == Plan::round;
+  if (round && vessel.depth && *vessel.depth != vessel.length)
+    table.fail("depth", "contradicts length: a round vessel is as deep as it is long, its diameter");
+  if (round) vessel.depth = vessel.length;
+  if (!vessel.depth && tray != nullptr) vessel.depth = tray->depth;
+  if (!vessel.depth) table.fail("depth", "is missing; with space = \"3d\" a tray has a depth, from front to back");
+  vessel.front_and_back =
+      read_sides(table, "front_and_back", tray != nullptr && !round ? tray->front_and_back : Sides::walls);
+  if (round && (vessel.sides != Sides::walls || vessel.front_and_back != Sides::walls))
+    table.fail(vessel.sides != Sides::walls ? "sides" : "front_and_back", "a round vessel has one wall all round");
+  if (tray != nullptr) vessel.front = table.quantity("front", Dimension::length, -longest, longest).value_or(0);
+}
+
+/// A floor slopes to slots from front to back, and in a round vessel to one round hole in its middle.
+void check_funnel(const Table& table, const Vessel& vessel, Space space) {
+  if (vessel.funnel == 0) return;
+  if (!vessel.box) table.fail("funnel", "is a slope of the floor, which box = false leaves out");
+  if (vessel.holes.empty()) table.fail("funnel", "needs holes for the floor to slope to");
+  if (space == Space::plane) return;
+  const Hole& hole = vessel.holes.front();
+  const double middle = vessel.length / 2, slack = rounding * vessel.length;
+  if (vessel.plan == Plan::round) {
+    if (vessel.holes.size() > 1 || std::abs(hole.centre - middle) > slack || std::abs(hole.across - middle) > slack)
+      table.fail("funnel", "a round vessel's funnel has one hole, in the middle");
+    return;
+  }
+  const bool from_front_to_back = std::ranges::all_of(vessel.holes, [&](const Hole& one) {
+    return one.shape == HoleShape::slot && one.across_length >= *vessel.depth * (1 - rounding);
+  });
+  if (!from_front_to_back)
+    table.fail("funnel", "needs slots from front to back, or plan = \"round\" with a round hole in the middle");
 }
 
 }  // namespace
 
-Vessel read_vessel(Table table, const std::string& name, const std::vector<SeedLot>& lots) {
+Vessel read_vessel(Table table, const std::string& name, const std::vector<SeedLot>& lots, Space space,
+                   const Vessel* tray) {
   Vessel vessel;
   vessel.name = name;
   vessel.length = table.required_quantity("length", Dimension::length, shortest, longest);
   vessel.height = table.required_quantity("height", Dimension::length, shortest, longest);
   vessel.depth = table.quantity("depth", Dimension::length, shortest, longest);
+  vessel.sides = read_sides(table, "sides", Sides::walls);
+  read_space(table, space, tray, vessel);
   check_depth(table, vessel, lots);
   vessel.tilt = table.quantity("tilt", Dimension::angle, -30 * degree, 30 * degree).value_or(0);
   vessel.funnel = table.quantity("funnel", Dimension::angle, 0.01 * degree, 80 * degree).value_or(0);
   vessel.box = table.boolean("box").value_or(true);
   vessel.pieces = read_pieces(table);
-  vessel.sides = read_sides(table);
   if (!vessel.box && vessel.pieces.empty()) table.fail("box", "without floor and end walls a vessel needs pieces");
-  if (!vessel.box && vessel.funnel > 0) table.fail("funnel", "is a slope of the floor, which box = false leaves out");
   if (const auto holes = table.table("holes"))
-    vessel.holes = read_holes(*holes, vessel.length, largest_mean_diameter(lots));
-  if (vessel.funnel > 0 && vessel.holes.empty()) table.fail("funnel", "needs holes for the floor to slope to");
+    vessel.holes = read_holes(*holes, vessel, space, largest_mean_diameter(lots));
+  if (vessel.plan == Plan::round && !vessel.holes.empty() && vessel.holes.front().shape != HoleShape::round)
+    table.fail("plan", "a round vessel has round holes: holes.shape = \"round\"");
+  check_funnel(table, vessel, space);
   if (highest_floor(vessel) >= vessel.height) {
     table.fail("funnel", fmt::format("the floor would rise to {}, as high as the walls or higher ({})",
                                      millimetres(highest_floor(vessel)), millimetres(vessel.height)));
   }
   if (const auto fill = table.table("fill")) {
     vessel.fill = read_fill(*fill);
-    check_fill_fits(*fill, vessel, lots);
+    check_fill_fits(*fill, vessel, lots, space);
   }
   if (const auto rain = table.table("rain")) vessel.rain = read_rain(*rain, vessel);
-  if (const auto motion = table.table("motion")) vessel.motion = read_motion(*motion);
+  if (const auto motion = table.table("motion")) {
+    vessel.motion = read_motion(*motion);
+    if (space == Space::plane && moves_across(*vessel.motion))
+      motion->fail(motion->has("file")         ? "file"
+                   : motion->has("components") ? "components"
+                                               : "direction",
+                   "a motion across the plane needs space = \"3d\"");
+  }
   check_periodic(table, vessel, largest_diameter(lots));
+  if (space == Space::three_dimensional) check_periodic_across(table, vessel, tray, largest_diameter(lots));
   return vessel;
 }
 

@@ -228,18 +228,31 @@ std::optional<std::int64_t> Table::whole_number(const std::string& key, std::int
   return *whole;
 }
 
+namespace {
+
+double number_of(const Table& table, const std::string& key, const TomlValue& found, double least, double most) {
+  std::optional<double> value;
+  if (const auto* whole = found.get<std::int64_t>()) value = static_cast<double>(*whole);
+  if (const auto* number = found.get<double>()) value = *number;
+  if (!value || !(*value >= least && *value <= most))
+    table.fail(key, fmt::format("must be a number from {:g} to {:g}, without a unit, not {}", least, most,
+                                message_text(found)));
+  return *value;
+}
+
+}  // namespace
+
 std::optional<double> Table::number(const std::string& key, double least, double most) {
   state_->know(key);
   const TomlValue* found = state_->find(key);
   if (found == nullptr) return std::nullopt;
-  std::optional<double> value;
-  if (const auto* whole = found->get<std::int64_t>()) value = static_cast<double>(*whole);
-  if (const auto* number = found->get<double>()) value = *number;
-  if (!value || !(*value >= least && *value <= most)) {
-    fail(key,
-         fmt::format("must be a number from {:g} to {:g}, without a unit, not {}", least, most, message_text(*found)));
-  }
-  return value;
+  return number_of(*this, key, *found, least, most);
+}
+
+std::vector<double> Table::numbers(const std::string& key, double least, double most) {
+  std::vector<double> values;
+  for (const TomlValue& element : values_of(key)) values.push_back(number_of(*this, key, element, least, most));
+  return values;
 }
 
 std::optional<double> Table::quantity(const std::string& key, Dimension dimension, double least, double most) {

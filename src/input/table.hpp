@@ -37,6 +37,7 @@ class Table {
   std::optional<bool> boolean(const std::string& key);
   std::optional<std::int64_t> whole_number(const std::string& key, std::int64_t least, std::int64_t most);
   std::optional<double> number(const std::string& key, double least, double most);  // plain, no unit
+  std::vector<double> numbers(const std::string& key, double least, double most);   // a list of such; absent: empty
   /// Ranges are in SI and include their ends.
   std::optional<double> quantity(const std::string& key, Dimension dimension, double least, double most);
   double required_quantity(const std::string& key, Dimension dimension, double least, double most);

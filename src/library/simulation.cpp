@@ -43,7 +43,7 @@ bool Simulation::advance_to(double time) {
 std::vector<Event> Simulation::events_since(std::size_t first) const {
   std::vector<Event> events;
   for (const OutflowEvent& own : inside_->simulation.events_since(first))
-    events.push_back({own.time, own.hole, own.lot, own.grain, own.mass, own.x, own.speed});
+    events.push_back({own.time, own.hole, own.lot, own.grain, own.mass, own.x, own.speed, own.z});
   return events;
 }
 

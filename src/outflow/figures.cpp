@@ -28,14 +28,17 @@ Value of_evenness(const Outflow& outflow, Get get) {
 }
 
 constexpr std::array table = {
-    Figure{"rate_g_per_s", "g/s", "g/s", gram, "mass flow through all holes, of the plane slice, in the window",
+    Figure{"rate_g_per_s", "g/s", "g/s", gram,
+           "mass flow through all holes, of the plane slice or in space of the tray, in the window",
            [](const Outflow& o) { return Value(whole(o).mass_rate); }},
-    Figure{"seeds_per_s", "seeds/s", "1/s", 1, "seeds through all holes, of the plane slice, in the window",
+    Figure{"seeds_per_s", "seeds/s", "1/s", 1,
+           "seeds through all holes, of the plane slice or in space of the tray, in the window",
            [](const Outflow& o) { return Value(whole(o).seeds_per_s); }},
-    Figure{
-        "depth_factor", "factor", "", 1,
-        "tray.depth over the thickness of the plane slice, by which its rates are multiplied; empty without tray.depth",
-        [](const Outflow& o) { return o.depth_factor; }, true},
+    Figure{"depth_factor", "factor", "", 1,
+           "tray.depth over the thickness of the plane slice, by which its rates are multiplied; in space 1; empty "
+           "without "
+           "tray.depth",
+           [](const Outflow& o) { return o.depth_factor; }, true},
     Figure{"tray_rate_g_per_s", "tray g/s", "g/s", gram, "mass flow of the whole tray; empty without tray.depth",
            [](const Outflow& o) { return of_tray(o, whole(o).mass_rate); }},
     Figure{"tray_rate_g_per_min", "tray g/min", "g/min", gram / 60, "the same per minute",

@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "scene/seed_lot.hpp"
+#include "scene/spaces.hpp"
 
 namespace vibrosow {
 namespace {
@@ -50,6 +50,7 @@ HoleOutflow measure_row(const Scene& scene, const std::vector<OutflowEvent>& eve
     const Hole& hole = scene.tray.holes[static_cast<std::size_t>(selection.hole - 1)];
     row.centre = hole.centre;
     row.width = hole.width;
+    if (scene.space == Space::three_dimensional) row.across = hole.across;
   }
   if (window.empty()) {
     row.seeds_per_s = row.mass_rate = row.longest_pause = std::numeric_limits<double>::quiet_NaN();
@@ -102,10 +103,7 @@ std::optional<double> instability(const std::vector<OutflowEvent>& events, const
 }
 
 std::optional<double> depth_factor(const Scene& scene) {
-  if (!scene.tray.depth) return std::nullopt;
-  double thickness = 0;
-  for (const SeedLot& lot : scene.lots) thickness += lot.number_fraction * mean_thickness(lot);
-  return *scene.tray.depth / thickness;
+  return scene.space == Space::three_dimensional ? std::optional(1.0) : slices_of_tray(scene);
 }
 
 bool is_fed(const Scene& scene) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "elementary/functions.hpp"
 #include "vessel/vessel_motion.hpp"
@@ -16,7 +17,9 @@ double mean_diameter(const std::vector<SeedLot>& lots, const std::vector<SeedSiz
 }
 
 double seeds_of_a_layer(const Vessel& vessel, double diameter, Space space) {
-  return vessel.length / diameter * (space == Space::plane ? 1 : *vessel.depth / diameter);
+  if (space == Space::plane) return vessel.length / diameter;
+  const double outline = vessel.plan == Plan::round ? std::numbers::pi / 4 : 1;
+  return outline * vessel.length * *vessel.depth / (diameter * diameter);
 }
 
 /// At most: all that rains while the run lasts stays, up to the vessel's height.

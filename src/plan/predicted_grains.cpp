@@ -15,9 +15,10 @@ namespace {
 
 constexpr double flow_constant = 1.25;
 constexpr double lost_width_at_rest = 1.9, lost_width_shaken = 1.4;  // mean diameters of a hole that pass nothing
-constexpr double steepest_heap = 0.35;     // tangent; piles of discs stand at 17 to 20 degrees
-constexpr double shaken_heap = 0.13;       // tangent, under the wheat and pea trays' hoppers
-constexpr double packing_fraction = 0.82;  // of a poured bed
+constexpr double steepest_heap = 0.35;  // tangent; piles of discs stand at 17 to 20 degrees
+constexpr double shaken_heap = 0.13;    // tangent, under the wheat and pea trays' hoppers
+constexpr double packing_fraction = 0.82, packing_fraction_in_space = 0.6;  // of a poured bed
+constexpr double round_constant = 0.58, slot_constant = 1.03;               // Beverloo's, of the bulk in space
 constexpr int parts_of_a_run = 2000;
 
 /// Mean area of a grain in the plane, m2.
@@ -30,8 +31,31 @@ double mean_area(const Scene& scene) {
   return area;
 }
 
+bool is_flat(const Scene& scene) {
+  return scene.space == Space::plane;
+}
+
+/// Mean volume of a grain in space, m3.
+double mean_volume(const Scene& scene) {
+  double volume = 0;
+  for (const SeedLot& lot : scene.lots) {
+    const double ball = std::numbers::pi / 6 * elementary::pow(lot.diameter, 3);
+    volume += lot.number_fraction * size_moment(lot, 3) * (lot.discs.empty() ? ball : volume_of_balls(lot.discs));
+  }
+  return volume;
+}
+
+/// Of the disc, or in space the ball, that is as large as the mean grain.
 double equal_diameter(const Scene& scene) {
-  return std::sqrt(4 / std::numbers::pi * mean_area(scene));
+  return is_flat(scene) ? std::sqrt(4 / std::numbers::pi * mean_area(scene))
+                        : elementary::cbrt(6 / std::numbers::pi * mean_volume(scene));
+}
+
+/// Grains of a bed over an area (m2) of the plane, in space over all of a vessel's depth.
+double grains_over(double area, const Scene& scene, const Vessel& vessel) {
+  if (is_flat(scene)) return area * packing_fraction / mean_area(scene);
+  const double outline = vessel.plan == Plan::round ? std::numbers::pi / 4 : 1;
+  return outline * area * *vessel.depth * packing_fraction_in_space / mean_volume(scene);
 }
 
 bool is_shaken(const Vessel& vessel) {
@@ -42,9 +66,16 @@ double lost_width(const Vessel& vessel) {
   return is_shaken(vessel) ? lost_width_shaken : lost_width_at_rest;
 }
 
-double passing(double width, const Vessel& vessel, double diameter) {
-  const double effective = std::max(0.0, width / diameter - lost_width(vessel));
-  return flow_constant * std::sqrt(standard_gravity / diameter) * elementary::pow(effective, 1.5);
+/// Grains a second through a hole, see `predicted_outflow`.
+double passing(const Hole& hole, const Scene& scene, const Vessel& vessel, double diameter) {
+  const double effective = std::max(0.0, hole.width / diameter - lost_width(vessel));
+  const double per_second = std::sqrt(standard_gravity / diameter);
+  if (is_flat(scene)) return flow_constant * per_second * elementary::pow(effective, 1.5);
+  const double bulk = 6 / std::numbers::pi * packing_fraction_in_space;  // grains in a cube of their diameter
+  if (hole.shape == HoleShape::round) return round_constant * bulk * per_second * elementary::pow(effective, 2.5);
+  const bool ends = hole.across_length < *vessel.depth * (1 - 1e-9) || vessel.front_and_back != Sides::periodic;
+  const double length = std::max(0.0, hole.across_length / diameter - (ends ? lost_width(vessel) : 0));
+  return slot_constant * bulk * per_second * length * elementary::pow(effective, 1.5);
 }
 
 double funnel_factor(const Vessel& vessel) {
@@ -57,25 +88,26 @@ double heap_slope(const Scene& scene) {
   return std::min(steepest_heap, scene.contact.seed.friction);
 }
 
-/// Grains that stay on a stretch of flat floor, heaped up towards its middle, or towards a wall at one end of it.
-double heap(double length, bool against_wall, double slope, double area) {
-  return (against_wall ? 0.5 : 0.25) * length * length * slope * packing_fraction / area;
+/// Area (m2) of what stays on a stretch of flat floor, heaped up towards its middle, or towards a wall at one end of
+/// it.
+double heap_area(double length, bool against_wall, double slope) {
+  return (against_wall ? 0.5 : 0.25) * length * length * slope;
 }
 
 /// Grains that holes never drain: heaps between them and at the ends. None where the vessel is shaken or a funnel.
 double resting(const Scene& scene, const Vessel& vessel) {
   if (is_shaken(vessel) || vessel.funnel > 0) return 0;
-  const double diameter = equal_diameter(scene), area = mean_area(scene);
-  const double slope = heap_slope(scene);
-  double grains = 0, from = 0;
+  const double diameter = equal_diameter(scene), slope = heap_slope(scene);
+  double area = 0, from = 0;
   bool exit_before = vessel.sides == Sides::open;
   for (const Hole& hole : vessel.holes) {
     if (hole.width <= lost_width(vessel) * diameter) continue;
-    grains += heap(hole.centre - 0.5 * hole.width - from, !exit_before, slope, area);
+    area += heap_area(std::max(0.0, hole.centre - 0.5 * hole.width - from), !exit_before, slope);
     from = hole.centre + 0.5 * hole.width;
     exit_before = true;
   }
-  return grains + heap(vessel.length - from, vessel.sides != Sides::open, slope, area);
+  area += heap_area(vessel.length - from, vessel.sides != Sides::open, slope);
+  return grains_over(area, scene, vessel);
 }
 
 /// The grains of one vessel as a run goes on.
@@ -110,7 +142,7 @@ double room_under_hopper(const Scene& scene) {
   const Vessel& tray = scene.tray;
   const double slope = is_shaken(tray) ? shaken_heap : heap_slope(scene);
   const double height = scene.hopper->origin.y() - tray.origin.y() - 0.25 * slope * tray.length;
-  const double heaped = tray.length * std::max(0.0, height) * packing_fraction / mean_area(scene);
+  const double heaped = grains_over(tray.length * std::max(0.0, height), scene, tray);
   return std::max(heaped, tray.fill ? tray.fill->count : 0.0);
 }
 
@@ -121,7 +153,7 @@ double predicted_outflow(const Scene& scene, const Vessel& vessel, double time) 
   const double diameter = equal_diameter(scene);
   double rate = 0;
   for (const Hole& hole : vessel.holes)
-    if (hole.open_at <= time) rate += passing(hole.width, vessel, diameter);
+    if (hole.open_at <= time) rate += passing(hole, scene, vessel, diameter);
   return rate * funnel_factor(vessel);
 }
 

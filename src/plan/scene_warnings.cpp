@@ -73,6 +73,13 @@ bool is_closed(const Vessel& vessel) {
 
 /// Of a closely packed vessel, more than can ever be.
 double most_seeds(const Scene& scene, const Vessel& vessel, double height) {
+  if (scene.space == Space::three_dimensional) {
+    const double volume = mean_over_seeds(scene, [](const SeedLot& lot) {
+      const double thickness = mean_thickness(lot);
+      return thickness * thickness * thickness / std::numbers::sqrt2;
+    });
+    return vessel.length * *vessel.depth * height / volume;
+  }
   const double area = mean_over_seeds(scene, [](const SeedLot& lot) {
     const double thickness = mean_thickness(lot);
     return std::numbers::sqrt3 / 2 * thickness * thickness;
@@ -84,7 +91,8 @@ void warn_of_rain(const Scene& scene, const Vessel& vessel, Warnings& warnings) 
   if (!vessel.rain) return;
   const Rain& rain = *vessel.rain;
   const double diameter = mean_diameter(scene);
-  const double side_by_side = std::floor((rain.to - rain.from) / diameter) + 1;
+  const double rows = scene.space == Space::plane ? 1 : std::floor(*vessel.depth / diameter);
+  const double side_by_side = rows * (std::floor((rain.to - rain.from) / diameter) + 1);
   const double most_rate = side_by_side / std::sqrt(2 * diameter / standard_gravity);
   if (rain.rate > most_rate)
     warnings.push_back(fmt::format(
@@ -101,11 +109,30 @@ void warn_of_rain(const Scene& scene, const Vessel& vessel, Warnings& warnings) 
 }
 
 /// What holes pass, but for a common factor.
-double passed(const Vessel& vessel, double diameter) {
+double passed(const Vessel& vessel, Space space, double diameter) {
   constexpr double empty_rim = 1.4;  // diameters
   double sum = 0;
-  for (const Hole& hole : vessel.holes) sum += elementary::pow(std::max(0.0, hole.width - empty_rim * diameter), 1.5);
+  for (const Hole& hole : vessel.holes) {
+    const double width = std::max(0.0, hole.width - empty_rim * diameter);
+    const bool round = space == Space::three_dimensional && hole.shape == HoleShape::round;
+    const double across = space == Space::plane ? 1 : round ? 0.58 / 1.03 * width : hole.across_length;
+    sum += across * elementary::pow(width, 1.5);
+  }
   return sum;
+}
+
+/// The plane takes every hole for a slot from front to back.
+void warn_of_round_holes(const Vessel& vessel, Warnings& warnings) {
+  if (vessel.holes.empty() || vessel.holes.front().shape != HoleShape::round) return;
+  std::string taken;
+  if (vessel.depth) {
+    const double width = vessel.holes.front().width;
+    taken = fmt::format(", {:.2g} times the area of a round hole", *vessel.depth / (std::numbers::pi / 4 * width));
+  }
+  warnings.push_back(fmt::format(
+      "{}.holes.shape: in the plane a round hole is taken for a slot from front to back{}: rates are those of such "
+      "slots; space = \"3d\" simulates round holes",
+      vessel.name, taken));
 }
 
 void warn_of_hopper(const Scene& scene, const Vessel& hopper, Warnings& warnings) {
@@ -118,7 +145,7 @@ void warn_of_hopper(const Scene& scene, const Vessel& hopper, Warnings& warnings
   constexpr double arching = 3, half = 0.5;
   const double thickness = mean_over_seeds(scene, [](const SeedLot& lot) { return mean_thickness(lot); });
   const double widest = std::ranges::max_element(hopper.holes, {}, &Hole::width)->width;
-  const double fraction = passed(hopper, thickness) / passed(scene.tray, thickness);
+  const double fraction = passed(hopper, scene.space, thickness) / passed(scene.tray, scene.space, thickness);
   if (widest < arching * thickness) {
     warnings.push_back(fmt::format("hopper.holes.width: {} is {:.2g} seeds of {}; below {:g} arches stop the flow",
                                    millimetres(widest), widest / thickness, millimetres(thickness), arching));
@@ -139,7 +166,9 @@ std::vector<std::string> scene_warnings(const Scene& scene) {
   warn_of_narrow_holes(scene.tray, scene.lots, warnings);
   warn_of_standing_liquid(scene, warnings);
   warn_of_rain(scene, scene.tray, warnings);
+  if (scene.space == Space::plane) warn_of_round_holes(scene.tray, warnings);
   if (!scene.hopper) return warnings;
+  if (scene.space == Space::plane) warn_of_round_holes(*scene.hopper, warnings);
   warn_of_narrow_holes(*scene.hopper, scene.lots, warnings);
   warn_of_rain(scene, *scene.hopper, warnings);
   warn_of_hopper(scene, *scene.hopper, warnings);

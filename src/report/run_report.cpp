@@ -22,22 +22,27 @@ struct EventRow {
   const OutflowEvent* event;
 };
 
-Columns<EventRow> outflow_columns() {
+Columns<EventRow> outflow_columns(Space space) {
   using R = const EventRow&;
-  return {quantity_column<EventRow>("time_s", seconds, "when its centre crossed the counting line",
-                                    [](R r) { return r.event->time; }),
-          text_column<EventRow>("hole", "number of the hole from the left; spilled: it passed none",
-                                [](R r) { return r.event->hole > 0 ? fmt::format("{}", r.event->hole) : "spilled"; }),
-          text_column<EventRow>("lot", "name of its seeds",
-                                [](R r) { return r.scene->lots.at(static_cast<std::size_t>(r.event->lot)).name; }),
-          text_column<EventRow>("grain", "its number, in order of insertion", [](R r) { return r.event->grain; }),
-          quantity_column<EventRow>("mass_g", grams, "its mass", [](R r) { return r.event->mass; }),
-          quantity_column<EventRow>("x_mm", millimetres,
-                                    "where it passed the floor, from the tray's left end; of a spilled grain where it "
-                                    "was counted",
-                                    [](R r) { return r.event->x; }),
-          quantity_column<EventRow>("speed_m_per_s", metres_per_second, "its speed at the counting line",
-                                    [](R r) { return r.event->speed; })};
+  Columns<EventRow> columns = {
+      quantity_column<EventRow>("time_s", seconds, "when its centre crossed the counting line",
+                                [](R r) { return r.event->time; }),
+      text_column<EventRow>("hole", "number of the hole from the left; spilled: it passed none",
+                            [](R r) { return r.event->hole > 0 ? fmt::format("{}", r.event->hole) : "spilled"; }),
+      text_column<EventRow>("lot", "name of its seeds",
+                            [](R r) { return r.scene->lots.at(static_cast<std::size_t>(r.event->lot)).name; }),
+      text_column<EventRow>("grain", "its number, in order of insertion", [](R r) { return r.event->grain; }),
+      quantity_column<EventRow>("mass_g", grams, "its mass", [](R r) { return r.event->mass; }),
+      quantity_column<EventRow>("x_mm", millimetres,
+                                "where it passed the floor, from the tray's left end; of a spilled grain where it "
+                                "was counted",
+                                [](R r) { return r.event->x; }),
+      quantity_column<EventRow>("speed_m_per_s", metres_per_second, "its speed at the counting line",
+                                [](R r) { return r.event->speed; })};
+  if (space == Space::three_dimensional)
+    columns.push_back(quantity_column<EventRow>("z_mm", millimetres, "in space: as x, from the tray's front",
+                                                [](R r) { return r.event->z; }));
+  return columns;
 }
 
 struct SummaryRow {
@@ -49,33 +54,41 @@ std::optional<double> of_tray(const SummaryRow& row, double of_slice) {
   return row.outflow->depth_factor ? std::optional(of_slice * *row.outflow->depth_factor) : std::nullopt;
 }
 
-Columns<SummaryRow> summary_columns() {
+Columns<SummaryRow> summary_columns(bool with_across) {
   using R = const SummaryRow&;
-  return {text_column<SummaryRow>("hole", "number of the hole from the left, or all", [](R r) { return r.hole->hole; }),
-          text_column<SummaryRow>("lot", "name of the seeds, or all", [](R r) { return r.hole->lot; }),
-          quantity_column<SummaryRow>("position_mm", millimetres, "middle of the hole, from the tray's left end",
-                                      [](R r) { return r.hole->centre; }),
-          quantity_column<SummaryRow>("width_mm", millimetres, "of the hole", [](R r) { return r.hole->width; }),
-          text_column<SummaryRow>("grains", "that left in the window, of the plane slice",
-                                  [](R r) { return r.hole->grains; }),
-          quantity_column<SummaryRow>("mass_g", grams, "that left in the window, of the plane slice",
-                                      [](R r) { return r.hole->mass; }),
-          quantity_column<SummaryRow>("seeds_per_s", per_second, "of the plane slice",
-                                      [](R r) { return r.hole->seeds_per_s; }),
-          quantity_column<SummaryRow>("rate_g_per_s", grams_per_second, "of the plane slice",
-                                      [](R r) { return r.hole->mass_rate; }),
-          quantity_column<SummaryRow>("longest_pause_s", seconds, "longest time in the window without a seed",
-                                      [](R r) { return r.hole->longest_pause; }),
-          quantity_column<SummaryRow>("depth_factor", plain,
-                                      "tray.depth over the thickness of the plane slice; empty without tray.depth",
-                                      [](R r) { return r.outflow->depth_factor; }),
-          quantity_column<SummaryRow>("tray_rate_g_per_s", grams_per_second,
-                                      "of the whole tray: the slice's rate times the depth factor",
-                                      [](R r) { return of_tray(r, r.hole->mass_rate); }),
-          quantity_column<SummaryRow>("tray_seeds_per_s", per_second, "of the whole tray",
-                                      [](R r) { return of_tray(r, r.hole->seeds_per_s); }),
-          text_column<SummaryRow>("note", "what to know about the run; empty when all is well",
-                                  [](R r) { return r.outflow->note(); })};
+  Columns<SummaryRow> columns = {
+      text_column<SummaryRow>("hole", "number of the hole from the left, or all", [](R r) { return r.hole->hole; }),
+      text_column<SummaryRow>("lot", "name of the seeds, or all", [](R r) { return r.hole->lot; }),
+      quantity_column<SummaryRow>("position_mm", millimetres, "middle of the hole, from the tray's left end",
+                                  [](R r) { return r.hole->centre; }),
+      quantity_column<SummaryRow>("width_mm", millimetres, "of the hole", [](R r) { return r.hole->width; }),
+      text_column<SummaryRow>("grains", "that left in the window, of the plane slice or in space of the tray",
+                              [](R r) { return r.hole->grains; }),
+      quantity_column<SummaryRow>("mass_g", grams,
+                                  "that left in the window, of the plane slice or in space of the tray",
+                                  [](R r) { return r.hole->mass; }),
+      quantity_column<SummaryRow>("seeds_per_s", per_second, "of the plane slice or in space of the tray",
+                                  [](R r) { return r.hole->seeds_per_s; }),
+      quantity_column<SummaryRow>("rate_g_per_s", grams_per_second, "of the plane slice or in space of the tray",
+                                  [](R r) { return r.hole->mass_rate; }),
+      quantity_column<SummaryRow>("longest_pause_s", seconds, "longest time in the window without a seed",
+                                  [](R r) { return r.hole->longest_pause; }),
+      quantity_column<SummaryRow>(
+          "depth_factor", plain,
+          "tray.depth over the thickness of the plane slice; in space 1; empty without tray.depth",
+          [](R r) { return r.outflow->depth_factor; }),
+      quantity_column<SummaryRow>("tray_rate_g_per_s", grams_per_second,
+                                  "of the whole tray: the slice's rate times the depth factor",
+                                  [](R r) { return of_tray(r, r.hole->mass_rate); }),
+      quantity_column<SummaryRow>("tray_seeds_per_s", per_second, "of the whole tray",
+                                  [](R r) { return of_tray(r, r.hole->seeds_per_s); }),
+      text_column<SummaryRow>("note", "what to know about the run; empty when all is well",
+                              [](R r) { return r.outflow->note(); })};
+  if (with_across)
+    columns.push_back(quantity_column<SummaryRow>("across_mm", millimetres,
+                                                  "in space: middle of the hole, from the tray's front",
+                                                  [](R r) { return r.hole->across; }));
+  return columns;
 }
 
 std::string_view name_of(RunStatus status) {
@@ -185,13 +198,15 @@ JsonKeys<Run> timing_keys(bool phases) {
 }  // namespace
 
 std::string outflow_csv(const Scene& scene, const Run& run, CsvFormat format) {
-  Csv<EventRow> csv(outflow_columns(), format);
+  Csv<EventRow> csv(outflow_columns(scene.space), format);
   for (const OutflowEvent& event : run.events) csv.add({&scene, &event});
   return csv.text();
 }
 
 std::string summary_csv(const Outflow& outflow, CsvFormat format) {
-  Csv<SummaryRow> csv(summary_columns(), format);
+  const bool with_across =
+      std::ranges::any_of(outflow.holes, [](const HoleOutflow& row) { return row.across.has_value(); });
+  Csv<SummaryRow> csv(summary_columns(with_across), format);
   for (const HoleOutflow& hole : outflow.holes) csv.add({&outflow, &hole});
   return csv.text();
 }
@@ -207,11 +222,11 @@ std::string timing_json(const Run& run) {
 
 std::vector<FileText> run_file_texts() {
   std::vector<FileText> texts = {
-      file_text("outflow.csv", "one row per seed that left, by time", outflow_columns()),
+      file_text("outflow.csv", "one row per seed that left, by time", outflow_columns(Space::three_dimensional)),
       file_text(
           "summary.csv",
           "one row per hole and lot, per hole one of all lots where there are several, then the same of all holes",
-          summary_columns()),
+          summary_columns(true)),
       file_text("run.json", "what the run was and how it went", run_keys()),
       file_text("timing.json", "what the run took on this machine", timing_keys(true))};
   std::ranges::move(record_file_texts(), std::back_inserter(texts));

@@ -17,7 +17,7 @@ struct Moves {
   bool operator()(const SumMotion& m) const { return std::any_of(m.components.begin(), m.components.end(), *this); }
   bool operator()(const RockingMotion& m) const { return m.angle != 0 && m.frequency != 0; }
   bool operator()(const TableMotion& m) const {
-    return differs_from_zero(m.x) || differs_from_zero(m.y) || differs_from_zero(m.angle);
+    return differs_from_zero(m.x) || differs_from_zero(m.y) || differs_from_zero(m.angle) || differs_from_zero(m.z);
   }
 };
 
@@ -43,6 +43,14 @@ struct Text {
 
 bool moves(const VesselMotion& motion) {
   return std::visit(Moves{}, motion);
+}
+
+bool moves_across(const VesselMotion& motion) {
+  if (const auto* harmonic = std::get_if<HarmonicMotion>(&motion)) return harmonic->across != 0;
+  if (const auto* table = std::get_if<TableMotion>(&motion)) return differs_from_zero(table->z);
+  const auto* sum = std::get_if<SumMotion>(&motion);
+  return sum != nullptr &&
+         std::ranges::any_of(sum->components, [](const HarmonicMotion& component) { return component.across != 0; });
 }
 
 bool turns(const VesselMotion& motion) {

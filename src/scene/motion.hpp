@@ -12,6 +12,9 @@ bool moves(const VesselMotion& motion);
 /// Whether the motion may turn the vessel.
 bool turns(const VesselMotion& motion);
 
+/// Whether the motion may move the vessel across the plane.
+bool moves_across(const VesselMotion& motion);
+
 /// "10 mm at 9 Hz", for people.
 std::string motion_text(const VesselMotion& motion);
 

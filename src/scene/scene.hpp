@@ -134,6 +134,9 @@ struct WallPiece {
 /// What stands at the ends of a vessel's floor: walls; nothing; or the same vessel again, for a slice of a long one.
 enum class Sides { walls, open, periodic };
 
+/// The outline of a vessel's floor and walls, seen from above.
+enum class Plan { rectangle, round };
+
 enum class Packing { poured, layers, hexagonal };
 
 struct Fill {
@@ -178,11 +181,12 @@ struct RockingMotion {
 };
 
 /// Displacement of the frame's zero and angle at given times, smooth in between, held before the first and after the
-/// last. All four lists are equally long, at least 4.
+/// last. All lists are equally long, at least 4, but z may be empty.
 struct TableMotion {
   std::vector<double> times;  // s, ascending
   std::vector<double> x, y;   // m, lab
   std::vector<double> angle;  // rad, beside the tilt
+  std::vector<double> z;      // m, lab, in space; empty: no motion across
   bool operator==(const TableMotion&) const = default;
 };
 
@@ -192,7 +196,7 @@ using VesselMotion = std::variant<HarmonicMotion, SumMotion, RockingMotion, Tabl
 /// the lab. One whose place is taken waits.
 struct Rain {
   double rate = 0;      // 1/s
-  double from = 0;      // m, of the seeds' centres along the floor; kept clear of the end walls
+  double from = 0;      // m, of the seeds' centres along the floor; kept clear of the end walls; anywhere across
   double to = 0;        // m
   double height = 0;    // m, of the seeds' centres above the floor's left end, in the vessel's frame
   double start = 0;     // s
@@ -201,7 +205,8 @@ struct Rain {
 };
 
 /// A tray or a hopper: floor from (0, 0) to (length, 0) with end walls of `height`, in the vessel's own frame. In space
-/// x and y are the same and z goes across, from the front at 0 to the back at `depth`.
+/// x and y are the same and z goes across, from the front at 0 to the back at `depth`. A round vessel is as deep as it
+/// is long: its wall is a cylinder of that diameter.
 struct Vessel {
   std::string name;                                  // "tray" or "hopper"
   Eigen::Vector2d origin = Eigen::Vector2d::Zero();  // m, lab position of the floor's left end at rest
@@ -215,6 +220,8 @@ struct Vessel {
   bool box = true;                                   // whether there are floor and end walls
   Sides sides = Sides::walls;
   Sides front_and_back = Sides::walls;  // in space
+  double front = 0;                     // m, lab position of the front at rest, in space
+  Plan plan = Plan::rectangle;          // in space
   std::optional<Fill> fill;
   std::optional<Rain> rain{};
   std::optional<VesselMotion> motion;

@@ -399,6 +399,8 @@ void fields(Io& io, TableMotion& motion) {
   check(io, motion.x.size() == rows, "x_m", "has not as many numbers as time_s");
   check(io, motion.y.size() == rows, "y_m", "has not as many numbers as time_s");
   check(io, motion.angle.size() == rows, "angle_rad", "has not as many numbers as time_s");
+  io.used("z_m", motion.z, {}, false);
+  check(io, motion.z.empty() || motion.z.size() == rows, "z_m", "has not as many numbers as time_s");
 }
 
 template <class Io>
@@ -427,6 +429,8 @@ void fields(Io& io, Vessel& vessel) {
   io.value("box", vessel.box);
   io.choice("sides", vessel.sides, {"walls", "open", "periodic"});
   io.used_choice("front_and_back", vessel.front_and_back, {"walls", "open", "periodic"}, Sides::walls);
+  io.used("front_m", vessel.front, 0.0, false);
+  io.used_choice("plan", vessel.plan, {"rectangle", "round"}, Plan::rectangle);
   io.nullable("fill", vessel.fill);
   io.nullable("rain", vessel.rain);
   io.nullable("motion", vessel.motion);

@@ -51,7 +51,7 @@ void serialize(Archive& archive, RockingMotion& m) {
 }
 template <class Archive>
 void serialize(Archive& archive, TableMotion& m) {
-  archive(m.times, m.x, m.y, m.angle);
+  archive(m.times, m.x, m.y, m.angle, m.z);
 }
 template <class Archive>
 void serialize(Archive& archive, Grains& g) {  // kinds and flags are the model's
@@ -95,7 +95,7 @@ void serialize(Archive& archive, VesselState& s) {
 }
 template <class Archive>
 void serialize(Archive& archive, CounterState::Passage& p) {
-  archive(p.counted, p.hole, p.x);
+  archive(p.counted, p.hole, p.x, p.z);
 }
 template <class Archive>
 void serialize(Archive& archive, CounterState& s) {
@@ -120,7 +120,7 @@ void serialize(Archive& archive, RecorderState& s) {
 }
 template <class Archive>
 void serialize(Archive& archive, OutflowEvent& e) {
-  archive(e.time, e.hole, e.lot, e.grain, e.mass, e.x, e.speed);
+  archive(e.time, e.hole, e.lot, e.grain, e.mass, e.x, e.speed, e.z);
 }
 template <class Archive>
 void serialize(Archive& archive, Snapshot& s) {
@@ -151,7 +151,7 @@ namespace {
 
 constexpr std::string_view signature = "vibrosow checkpoint\n";
 /// To be raised whenever a state has other fields, or goes on differently.
-constexpr std::uint32_t version = 3;
+constexpr std::uint32_t version = 4;
 
 std::uint32_t checksum(std::string_view bytes) {
   boost::crc_32_type crc;

@@ -15,22 +15,49 @@ std::size_t Counter::next_flag(std::size_t from) const {
   return found ? static_cast<std::size_t>(static_cast<const char*>(found) - flags_.data()) : flags_.size();
 }
 
-double Counter::within_period(double x) const {
-  return tray_.sides == Sides::periodic ? x - tray_.length * std::floor(x / tray_.length) : x;
+namespace {
+
+double within(double place, double period) {
+  return place - period * std::floor(place / period);
 }
 
-int Counter::hole_at(double x) const {
+/// Of a place on the floor or above it, in the vessel's frame.
+bool is_between_ends(const Vessel& vessel, bool in_space, double x, double z) {
+  const auto between = [](Sides sides, double at, double length) {
+    return sides == Sides::periodic || (at >= 0 && at <= length);
+  };
+  if (in_space && vessel.plan == Plan::round) {
+    const double radius = 0.5 * vessel.length;
+    return elementary::hypot(x - radius, z - radius) <= radius;
+  }
+  return between(vessel.sides, x, vessel.length) && (!in_space || between(vessel.front_and_back, z, *vessel.depth));
+}
+
+}  // namespace
+
+Counter::Place Counter::within_period(const Place& place) const {
+  return {tray_.sides == Sides::periodic ? within(place.x, tray_.length) : place.x,
+          in_space_ && tray_.front_and_back == Sides::periodic ? within(place.z, *tray_.depth) : place.z};
+}
+
+double Counter::past_edge(const Hole& hole, const Place& place) const {
+  const double along = std::abs(place.x - hole.centre), across = std::abs(place.z - hole.across);
+  if (!in_space_) return along - 0.5 * hole.width;
+  if (hole.shape == HoleShape::round) return elementary::hypot(along, across) - 0.5 * hole.width;
+  return std::max(along - 0.5 * hole.width, across - 0.5 * hole.across_length);
+}
+
+int Counter::hole_at(const Place& place) const {
   for (std::size_t k = 0; k < tray_.holes.size(); ++k)
-    if (std::abs(x - tray_.holes[k].centre) <= 0.5 * tray_.holes[k].width) return static_cast<int>(k) + 1;
-  const bool on_floor = tray_.sides == Sides::periodic || (x > 0 && x < tray_.length);
-  return tray_.box && on_floor ? through_the_floor : 0;
+    if (past_edge(tray_.holes[k], place) <= 0) return static_cast<int>(k) + 1;
+  return tray_.box && is_between_ends(tray_, in_space_, place.x, place.z) ? through_the_floor : 0;
 }
 
-int Counter::hole_beside(double x, double reach) const {
+int Counter::hole_beside(const Place& place, double reach) const {
   int nearest = through_the_floor;
   for (std::size_t k = 0; k < tray_.holes.size(); ++k) {
-    const double past_edge = std::abs(x - tray_.holes[k].centre) - 0.5 * tray_.holes[k].width;
-    if (past_edge <= reach) nearest = static_cast<int>(k) + 1, reach = past_edge;
+    const double apart = past_edge(tray_.holes[k], place);
+    if (apart <= reach) nearest = static_cast<int>(k) + 1, reach = apart;
   }
   return nearest;
 }
@@ -41,6 +68,7 @@ void Counter::watch(const Grains& grains, const Walls& walls, const GrainLoops& 
   const double angle = tray_.tilt + pose.angle;
   const auto [sine, cosine] = elementary::sine_cosine(angle);
   const double ox = tray_.origin.x() + pose.displacement.x(), oy = tray_.origin.y() + pose.displacement.y();
+  const double oz = tray_.front + pose.across;
   const PoseRate rate = walls.rate(0, time);
   const Eigen::Vector2d& tray_velocity = rate.velocity;
   const double spin = rate.angular_velocity;
@@ -61,17 +89,20 @@ void Counter::watch(const Grains& grains, const Walls& walls, const GrainLoops& 
     const double along = cosine * (grains.x[i] - ox) + sine * (grains.y[i] - oy);
     const double ux = grains.vx[i] - (tray_velocity.x() - spin * (grains.y[i] - oy));
     const double uy = grains.vy[i] - (tray_velocity.y() + spin * (grains.x[i] - ox));
+    const double across = in_space_ ? grains.z[i] - oz : 0,
+                 speed_across = in_space_ ? grains.vz[i] - rate.across_velocity : 0;
     const double speed_along = cosine * ux + sine * uy, speed_up = cosine * uy - sine * ux;
     // Back along the present velocity to the moment when the centre was `level` high.
     const auto since = [&](double level) { return speed_up < 0 ? (height - level) / speed_up : 0.0; };
     if (!state_.below[i]) {
       state_.below[i] = 1;
-      passage.x = within_period(along - speed_along * since(0));
-      passage.hole = hole_at(passage.x);
+      const Place place = within_period({along - speed_along * since(0), across - speed_across * since(0)});
+      passage.x = place.x, passage.z = place.z;
+      passage.hole = hole_at(place);
       // The edge may lie in the waist of a clump: its centre then passes beside the opening. A disc of it that goes
       // through the floor itself is seen by the walls.
       if (passage.hole == through_the_floor && grains.oriented)
-        passage.hole = hole_beside(passage.x, grains.kind(i).radius);
+        passage.hole = hole_beside(place, grains.kind(i).radius);
     }
     if (height >= -count_below_) continue;
     passage.counted = true;
@@ -80,9 +111,11 @@ void Counter::watch(const Grains& grains, const Walls& walls, const GrainLoops& 
       continue;
     }
     const double ago = since(-count_below_);
-    const double x = passage.hole > 0 ? passage.x : within_period(along - speed_along * ago);
-    events.push_back({time - ago, passage.hole, grains.lot[i], grains.id[i], grains.kind(i).mass, x,
-                      elementary::hypot(grains.vx[i], grains.vy[i])});
+    const Place place = passage.hole > 0 ? Place{passage.x, passage.z}
+                                         : within_period({along - speed_along * ago, across - speed_across * ago});
+    const double in_plane = elementary::hypot(grains.vx[i], grains.vy[i]);
+    events.push_back({time - ago, passage.hole, grains.lot[i], grains.id[i], grains.kind(i).mass, place.x,
+                      in_space_ ? elementary::hypot(in_plane, grains.vz[i]) : in_plane, place.z});
   }
 }
 
@@ -93,10 +126,10 @@ void Counter::remove_flagged(const std::vector<char>& removed) {
   state_.passages.resize(kept), state_.below.resize(kept);
 }
 
-bool is_inside(const Vessel& vessel, const Pose& pose, double x, double y) {
-  const Eigen::Vector2d own = in_vessel_frame(vessel, pose, {x, y});
-  const bool along = vessel.sides == Sides::periodic || (own.x() >= 0 && own.x() <= vessel.length);
-  return along && own.y() >= 0 && own.y() <= vessel.height;
+bool is_inside(const Vessel& vessel, const Pose& pose, const Grains& grains, std::size_t i) {
+  const Eigen::Vector2d own = in_vessel_frame(vessel, pose, {grains.x[i], grains.y[i]});
+  const double across = grains.in_space ? grains.z[i] - vessel.front - pose.across : 0;
+  return own.y() >= 0 && own.y() <= vessel.height && is_between_ends(vessel, grains.in_space, own.x(), across);
 }
 
 }  // namespace vibrosow

@@ -14,7 +14,10 @@ namespace vibrosow {
 class Counter {
  public:
   Counter(const Scene& scene, CounterState& state)
-      : tray_(scene.tray), count_below_(scene.run.count_below), state_(state) {}
+      : tray_(scene.tray),
+        in_space_(scene.space == Space::three_dimensional),
+        count_below_(scene.run.count_below),
+        state_(state) {}
 
   /// Looks at every grain after a step that ended at `time`; new events are appended.
   void watch(const Grains& grains, const Walls& walls, const GrainLoops& loops, double time,
@@ -27,20 +30,27 @@ class Counter {
 
  private:
   static constexpr int through_the_floor = -1;
-  int hole_at(double x) const;
+  /// A place on the floor, in the tray's frame, m; in the plane z is 0.
+  struct Place {
+    double x, z;
+  };
+  int hole_at(const Place& place) const;
+  /// m, from a hole's edge; negative over the hole.
+  double past_edge(const Hole& hole, const Place& place) const;
   std::size_t next_flag(std::size_t from) const;
-  double within_period(double x) const;
-  /// The hole whose nearer edge is no farther from x than `reach` (m), of several the nearest; else through_the_floor.
-  int hole_beside(double x, double reach) const;
+  Place within_period(const Place& place) const;
+  /// The hole whose edge is no farther from a place than `reach` (m), of several the nearest; else through_the_floor.
+  int hole_beside(const Place& place, double reach) const;
 
   const Vessel& tray_;
+  bool in_space_;
   double count_below_;
   CounterState& state_;
   std::vector<char> flags_;  // of those to look at
 };
 
-/// Whether a point of the lab lies inside a vessel, between its ends (a periodic one has none),
-/// above its floor line and below the tops of its end walls.
-bool is_inside(const Vessel& vessel, const Pose& pose, double x, double y);
+/// Whether a grain's centre lies inside a vessel, between its ends (a periodic one has none), above its floor line and
+/// below the tops of its end walls.
+bool is_inside(const Vessel& vessel, const Pose& pose, const Grains& grains, std::size_t i);
 
 }  // namespace vibrosow

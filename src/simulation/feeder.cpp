@@ -5,58 +5,72 @@
 #include <algorithm>
 #include <cmath>
 
+#include "grains/places.hpp"
 #include "grains/size_distribution.hpp"
 #include "scene/seed_lot.hpp"
 #include "simulation/counter.hpp"
+#include "vessel/nearest_on_face.hpp"
 #include "vessel/nearest_point.hpp"
 #include "vessel/vessel_motion.hpp"
 
 namespace vibrosow {
 namespace {
 
-/// Grains of one vessel, in its own frame.
+/// Grains of one vessel, in its own frame; in the plane z is 0.
 struct Inside {
+  bool in_space = false;
   int grains = 0;
-  std::vector<Eigen::Vector2d> at;
+  std::vector<Eigen::Vector3d> at;
   std::vector<double> radius;
   std::vector<char> lies;  // in the heap; otherwise it is falling
 
   /// In a periodic vessel with its images to either side.
-  void add(const Vessel& vessel, const Eigen::Vector2d& own, double own_radius, bool in_heap) {
-    const bool periodic = vessel.sides == Sides::periodic;
-    for (int copy = periodic ? -1 : 0; copy <= (periodic ? 1 : 0); ++copy) {
-      at.emplace_back(own.x() + copy * vessel.length, own.y());
-      radius.push_back(own_radius);
-      lies.push_back(in_heap ? 1 : 0);
-    }
+  void add(const Vessel& vessel, const Eigen::Vector3d& own, double own_radius, bool in_heap) {
+    const int along = vessel.sides == Sides::periodic ? 1 : 0;
+    const int across = in_space && vessel.front_and_back == Sides::periodic ? 1 : 0;
+    for (int i = -along; i <= along; ++i)
+      for (int k = -across; k <= across; ++k) {
+        const double depth = across == 0 ? 0 : *vessel.depth;
+        at.emplace_back(own.x() + i * vessel.length, own.y(), own.z() + k * depth);
+        radius.push_back(own_radius);
+        lies.push_back(in_heap ? 1 : 0);
+      }
   }
 };
+
+Eigen::Vector3d place_of(const Grains& grains, std::size_t i) {
+  return {grains.x[i], grains.y[i], grains.in_space ? grains.z[i] : 0.0};
+}
 
 /// Those whose centre is in the vessel count; others that reach into it, at an outlet or over its edge, are in the way.
 Inside grains_inside(const Vessel& vessel, const Pose& pose, const Grains& grains, const std::vector<char>& touching,
                      double largest_diameter) {
   Inside inside;
+  inside.in_space = grains.in_space;
   for (std::size_t i = 0; i < grains.size(); ++i) {
-    const Eigen::Vector2d own = in_vessel_frame(vessel, pose, {grains.x[i], grains.y[i]});
+    const Eigen::Vector3d own = point_in_vessel(vessel, pose, place_of(grains, i));
     const double reach = grains.kind(i).radius + largest_diameter;
     if (own.x() < -reach || own.x() > vessel.length + reach || own.y() < -reach || own.y() > vessel.height + reach)
       continue;
-    if (is_inside(vessel, pose, grains.x[i], grains.y[i])) ++inside.grains;
+    if (grains.in_space && (own.z() < -reach || own.z() > *vessel.depth + reach)) continue;
+    if (is_inside(vessel, pose, grains, i)) ++inside.grains;
     inside.add(vessel, own, grains.kind(i).radius, touching[i] != 0);
   }
   return inside;
 }
 
-/// Lowest height above the heap at which a grain of `radius` at `x` is clear of all others: between those that are
+/// Lowest height above the heap at which a grain of `radius` at (x, z) is clear of all others: between those that are
 /// still falling if there is room, so that a heap which sinks fast can be fed fast.
-double free_height(const Inside& inside, double x, double radius) {
+double free_height(const Inside& inside, const FloorPlace& place, double radius) {
   constexpr double clearance = 1.01;
   double height = radius;
   std::vector<std::pair<double, double>> falling;  // m, heights taken by grains in the air
   for (std::size_t k = 0; k < inside.at.size(); ++k) {
-    const double reach = clearance * (radius + inside.radius[k]), dx = x - inside.at[k].x();
+    const double reach = clearance * (radius + inside.radius[k]), dx = place.x() - inside.at[k].x();
     if (std::abs(dx) >= reach) continue;
-    const double y = inside.at[k].y(), half = std::sqrt(reach * reach - dx * dx);
+    const double dz = place.y() - inside.at[k].z(), left2 = reach * reach - dx * dx - dz * dz;
+    if (left2 <= 0) continue;
+    const double y = inside.at[k].y(), half = std::sqrt(left2);
     if (inside.lies[k])
       height = std::max(height, y + half);
     else
@@ -78,21 +92,28 @@ std::int64_t arrivals(const Rain& rain, double time) {
   return lasted > 0 ? static_cast<std::int64_t>(std::floor(lasted * rain.rate * (1 + 1e-12))) : 0;
 }
 
+/// The nearest distance of a wall to a place in the lab, squared.
+double distance2(const Walls& walls, std::size_t wall, const Eigen::Vector3d& at, bool in_space) {
+  return in_space ? nearest_on_face(walls.placed_faces()[wall], at).distance2
+                  : nearest_point(walls.placed()[wall], at.x(), at.y()).distance2;
+}
+
 /// Whether a grain at `at` would touch nothing, a periodic tray's images included.
-bool is_clear(const Grains& grains, const Walls& walls, const Eigen::Vector2d& at, double radius) {
+bool is_clear(const Grains& grains, const Walls& walls, const Eigen::Vector3d& at, double radius) {
   constexpr double clearance = 1.01;
   const Vessel& tray = walls.vessels().front();
-  const double period = tray.sides == Sides::periodic ? tray.length : 0;
+  const double along = tray.sides == Sides::periodic ? tray.length : 0;
+  const double across = grains.in_space && tray.front_and_back == Sides::periodic ? *tray.depth : 0;
   for (std::size_t i = 0; i < grains.size(); ++i) {
-    double dx = grains.x[i] - at.x();
-    if (period > 0) dx = std::remainder(dx, period);
-    const double dy = grains.y[i] - at.y(), reach = clearance * (radius + grains.kind(i).radius);
-    if (dx * dx + dy * dy < reach * reach) return false;
+    Eigen::Vector3d apart = place_of(grains, i) - at;
+    if (along > 0) apart.x() = std::remainder(apart.x(), along);
+    if (across > 0) apart.z() = std::remainder(apart.z(), across);
+    const double reach = clearance * (radius + grains.kind(i).radius);
+    if (apart.squaredNorm() < reach * reach) return false;
   }
-  for (std::size_t wall = 0; wall < walls.placed().size(); ++wall) {
-    const NearestPoint nearest = nearest_point(walls.placed()[wall], at.x(), at.y());
-    if (!walls.is_removed(wall) && std::sqrt(nearest.distance2) < radius * (1 - 1e-9)) return false;
-  }
+  for (std::size_t wall = 0; wall < walls.count(); ++wall)
+    if (!walls.is_removed(wall) && std::sqrt(distance2(walls, wall, at, grains.in_space)) < radius * (1 - 1e-9))
+      return false;
   return true;
 }
 
@@ -138,17 +159,18 @@ int Feeder::top_up(Grains& grains, const std::vector<char>& touching, const Wall
       const SeedLot& seeds = model_.scene.lots[static_cast<std::size_t>(lot)];
       const double size = draw_size(seeds, state_.random), angle = draw_angle(seeds, state_.random);
       const double radius = 0.5 * size * seeds.diameter;
-      const double x = state_.random.uniform(radius, vessel.length - radius);
-      const double y = free_height(inside, x, radius);
+      const FloorPlace place = grains.in_space ? random_place(vessel, radius, state_.random)
+                                               : FloorPlace(state_.random.uniform(radius, vessel.length - radius), 0);
+      const double y = free_height(inside, place, radius);
       if (y + radius > vessel.height) {
         ++waiting;
         continue;
       }
-      inside.add(vessel, {x, y}, radius, false);
-      const Eigen::Vector2d lab = in_lab_frame(vessel, pose, {x, y});
-      const Eigen::Vector2d velocity = material_velocity(vessel, pose, rate, lab);
+      const Eigen::Vector3d own(place.x(), y, place.y());
+      inside.add(vessel, own, radius, false);
+      const Eigen::Vector3d at = point_in_lab(vessel, pose, own);
       const GrainKind kind = sized_kind(seeds, *model_.law, model_.kinds[static_cast<std::size_t>(lot)], size);
-      grains.add(lab.x(), lab.y(), velocity.x(), velocity.y(), lot, kind, angle);
+      grains.add(at, point_velocity(vessel, pose, rate, at), lot, kind, angle);
       ++added;
     }
     note_waiting(vessel, waiting, time);
@@ -183,10 +205,12 @@ int Feeder::rain(const Vessel& vessel, Shower& shower, Grains& grains, const Wal
     const double margin = vessel.sides == Sides::walls ? std::min(radius, 0.5 * vessel.length) : 0;
     const double from = std::clamp(rain.from, margin, vessel.length - margin);
     const double to = std::clamp(rain.to, margin, vessel.length - margin);
-    const Eigen::Vector2d at = in_lab_frame(vessel, pose, {shower.random.uniform(from, to), rain.height});
+    const double x = shower.random.uniform(from, to);
+    const double z = grains.in_space ? random_across(vessel, radius, x, shower.random) : 0;
+    const Eigen::Vector3d at = point_in_lab(vessel, pose, {x, rain.height, z});
     if (!is_clear(grains, walls, at, radius)) continue;
     const GrainKind kind = sized_kind(model_.scene.lots[lot], *model_.law, model_.kinds[lot], shower.next_size);
-    grains.add(at.x(), at.y(), 0, 0, shower.next_lot, kind, shower.next_angle);
+    grains.add(at, Eigen::Vector3d::Zero(), shower.next_lot, kind, shower.next_angle);
     shower.next_lot = -1;
     ++shower.arrived;
     ++added;

@@ -222,7 +222,7 @@ void Simulation::wrap() {
   if (tray.sides == Sides::periodic)
     any |= carry_over(state_.grains.x, tray.origin.x() + pose.displacement.x(), tray.length, beyond);
   if (state_.grains.in_space && tray.front_and_back == Sides::periodic)
-    any |= carry_over(state_.grains.z, pose.across, *tray.depth, beyond);
+    any |= carry_over(state_.grains.z, tray.front + pose.across, *tray.depth, beyond);
   if (any) field_.grains_wrapped();
 }
 
@@ -283,7 +283,7 @@ void Simulation::feed(bool top_up, bool rain) {
 void Simulation::note_whether_dry() {
   const Pose pose = field_.walls().poses().front();
   for (std::size_t i = 0; i < state_.grains.size(); ++i)
-    if (!counter_.is_counted(i) && is_inside(model_.scene.tray, pose, state_.grains.x[i], state_.grains.y[i])) {
+    if (!counter_.is_counted(i) && is_inside(model_.scene.tray, pose, state_.grains, i)) {
       state_.run.tray_empty_since = -1;
       return;
     }

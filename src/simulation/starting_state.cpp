@@ -16,12 +16,11 @@ Grains packed_grains(const Model& model, std::uint64_t random_seed, StopRequest 
     const VesselPath path(vessel);
     const PoseRate rate = model.scene.run.start == Start::with_tray ? path.rate(0) : PoseRate{};
     const Pose pose = path.pose(0);
-    for (const PackedGrain& packed : pack(vessel, model.scene.lots, random, stop)) {
-      const Eigen::Vector2d at = in_lab_frame(vessel, pose, {packed.x, packed.y});
-      const Eigen::Vector2d velocity = material_velocity(vessel, pose, rate, at);
+    for (const PackedGrain& packed : pack(vessel, model.scene.lots, model.scene.space, random, stop)) {
+      const Eigen::Vector3d at = point_in_lab(vessel, pose, {packed.x, packed.y, packed.z});
       const std::size_t lot = static_cast<std::size_t>(packed.lot);
       const GrainKind kind = sized_kind(model.scene.lots[lot], *model.law, model.kinds[lot], packed.size);
-      grains.add(at.x(), at.y(), velocity.x(), velocity.y(), packed.lot, kind, packed.angle);
+      grains.add(at, point_velocity(vessel, pose, rate, at), packed.lot, kind, packed.angle);
     }
   }
   return grains;
@@ -74,9 +73,6 @@ SimulationState starting_state(const Model& model, std::uint64_t random_seed, Gr
 }
 
 SimulationState starting_state(const Model& model, std::uint64_t random_seed, StopRequest stop) {
-  if (model.scene.space != Space::plane)
-    throw InputError(
-        "space: seeds can be poured and counted in the plane alone so far; in space they are placed one by one");
   SimulationState state = starting_state(model, random_seed, packed_grains(model, random_seed, stop));
   refuse_overlap(model, state, stop);
   return state;

@@ -45,6 +45,7 @@ struct CounterState {
     bool counted = false;
     int hole = 0;  // passed; 0: none, it fell beside the tray
     double x = 0;  // m, where
+    double z = 0;  // m, in space
   };
   std::vector<Passage> passages;  // by grain
   std::vector<char> below;        // by grain: whether it is under the floor

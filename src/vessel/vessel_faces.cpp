@@ -28,6 +28,18 @@ Face level_plate(const std::string& name, double from_x, double to_x, double fro
   return plate(name, {from_x, 0, from_z}, {0, 0, to_z - from_z}, {to_x - from_x, 0, 0});
 }
 
+/// A line between two points, distance from the axis and height (m), turned all round the upright axis through `foot`.
+Face revolved(const std::string& name, const Vector& foot, const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
+  Face face;
+  face.kind = Face::Kind::revolved;
+  face.name = name;
+  face.origin = foot;
+  face.e1 = Vector::UnitZ(), face.e2 = Vector::UnitX(), face.normal = Vector::UnitY();
+  face.radius_a = a.x(), face.height_a = a.y(), face.radius_b = b.x(), face.height_b = b.y();
+  face.half_angle = std::numbers::pi;
+  return face;
+}
+
 struct Span {
   double from, to;  // m
 
@@ -119,7 +131,8 @@ void add_floor_with_slots(const std::string& name, const Span& x, const Span& z,
 void add_floor(const Vessel& vessel, const Span& z, std::vector<Face>& faces) {
   const std::vector<Hole> holes = with_images(vessel);
   const bool round = std::ranges::any_of(holes, is_round);
-  if (vessel.funnel > 0) throw std::invalid_argument("a floor that slopes needs slots as long as the vessel is deep");
+  if (vessel.funnel > 0)
+    throw std::invalid_argument("a floor that slopes needs slots as long as the vessel is deep, or a round vessel");
   if (round && !std::ranges::all_of(holes, is_round))
     throw std::invalid_argument("round holes and slots cannot be mixed in one floor");
   const Span x = with_periods(vessel.sides, vessel.length);
@@ -129,6 +142,19 @@ void add_floor(const Vessel& vessel, const Span& z, std::vector<Face>& faces) {
   for (const Hole& hole : holes)  // u goes across
     face.holes.push_back({hole.across - z.from, hole.centre - x.from, hole.width / 2});
   faces.push_back(face);
+}
+
+/// A flat floor goes on under the wall to a square, a funnel is a cone round the one hole.
+void add_round_vessel(const Vessel& vessel, std::vector<Face>& faces) {
+  const double radius = vessel.length / 2;
+  const Vector middle(radius, 0, radius);
+  if (vessel.funnel > 0) {
+    const double outlet = vessel.holes.front().width / 2;
+    faces.push_back(revolved(vessel.name + " funnel", middle, {outlet, 0}, {radius, highest_floor(vessel)}));
+  } else {
+    add_floor(vessel, {0, vessel.length}, faces);
+  }
+  faces.push_back(revolved(vessel.name + " wall", middle, {radius, 0}, {radius, vessel.height}));
 }
 
 void add_end_walls(const Vessel& vessel, const Span& z, std::vector<Face>& faces) {
@@ -148,18 +174,17 @@ void add_front_and_back(const Vessel& vessel, std::vector<Face>& faces) {
 
 /// A lid over a hole and over its images.
 void add_gate(const std::string& name, const Hole& hole, std::vector<Face>& faces) {
-  Face face = level_plate(name, along(hole).from, along(hole).to, across(hole).from, across(hole).to);
-  if (is_round(hole)) {
-    face = {};
-    face.kind = Face::Kind::revolved;
-    face.name = name;
-    face.origin = {hole.centre, 0, hole.across};
-    face.e1 = Vector::UnitZ(), face.e2 = Vector::UnitX(), face.normal = Vector::UnitY();
-    face.radius_b = hole.width / 2;
-    face.half_angle = std::numbers::pi;
-  }
+  Face face = is_round(hole) ? revolved(name, {hole.centre, 0, hole.across}, {0, 0}, {hole.width / 2, 0})
+                             : level_plate(name, along(hole).from, along(hole).to, across(hole).from, across(hole).to);
   face.opens_at = hole.open_at;
   faces.push_back(face);
+}
+
+/// Floor, walls and funnel, but for what is drawn out.
+void add_box(const Vessel& vessel, const Span& z, std::vector<Face>& faces) {
+  if (vessel.plan == Plan::round) return add_round_vessel(vessel, faces);
+  if (!like_the_plane(vessel)) add_floor(vessel, z, faces), add_end_walls(vessel, z, faces);
+  add_front_and_back(vessel, faces);
 }
 
 }  // namespace
@@ -167,13 +192,12 @@ void add_gate(const std::string& name, const Hole& hole, std::vector<Face>& face
 std::vector<Face> vessel_faces(const Vessel& vessel) {
   std::vector<Face> faces;
   const Span z = with_periods(vessel.front_and_back, *vessel.depth);
+  if (vessel.box) add_box(vessel, z, faces);
   // What is drawn out: all of the plane's walls where holes are slots from front to back, else pieces alone.
   Vessel drawn = vessel;
-  drawn.box = vessel.box && like_the_plane(vessel);
+  drawn.box = vessel.box && vessel.plan == Plan::rectangle && like_the_plane(vessel);
   for (Hole& hole : drawn.holes) hole.open_at = 0;
-  if (vessel.box && !drawn.box) add_floor(vessel, z, faces), add_end_walls(vessel, z, faces);
   for (const WallSegment& wall : vessel_walls(drawn)) faces.push_back(drawn_out(wall, z));
-  if (vessel.box) add_front_and_back(vessel, faces);
   const std::vector<Hole> holes = with_images(vessel);
   for (std::size_t k = 0; k < holes.size(); ++k)
     if (holes[k].open_at > 0)

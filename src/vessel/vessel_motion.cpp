@@ -103,19 +103,22 @@ struct VesselPath::Curves {
         last(table.times.back()),
         x(curve(table.times, table.x)),
         y(curve(table.times, table.y)),
-        angle(curve(table.times, table.angle)) {}
+        angle(curve(table.times, table.angle)) {
+    if (!table.z.empty()) z.emplace(curve(table.times, table.z));
+  }
 
   Pose pose(double time) const {
     const double t = std::clamp(time, first, last);
-    return {{x(t), y(t)}, angle(t), 0};
+    return {{x(t), y(t)}, angle(t), z ? (*z)(t) : 0};
   }
   PoseRate rate(double time) const {
     if (time <= first || time >= last) return {};
-    return {{x.prime(time), y.prime(time)}, angle.prime(time), 0};
+    return {{x.prime(time), y.prime(time)}, angle.prime(time), z ? z->prime(time) : 0};
   }
 
   double first, last;  // s
   Curve x, y, angle;
+  std::optional<Curve> z;
 };
 
 VesselPath::VesselPath(const Vessel& vessel) : tilt_(vessel.tilt), motion_(vessel.motion) {
@@ -168,18 +171,24 @@ Eigen::Vector2d in_vessel_frame(const Vessel& vessel, const Pose& pose, const Ei
 
 Eigen::Vector3d point_in_lab(const Vessel& vessel, const Pose& pose, const Eigen::Vector3d& own) {
   const Eigen::Vector2d in_plane = in_lab_frame(vessel, pose, Eigen::Vector2d(own.x(), own.y()));
-  return {in_plane.x(), in_plane.y(), pose.across + own.z()};
+  return {in_plane.x(), in_plane.y(), vessel.front + pose.across + own.z()};
 }
 
 Eigen::Vector3d point_in_vessel(const Vessel& vessel, const Pose& pose, const Eigen::Vector3d& lab) {
   const Eigen::Vector2d in_plane = in_vessel_frame(vessel, pose, Eigen::Vector2d(lab.x(), lab.y()));
-  return {in_plane.x(), in_plane.y(), lab.z() - pose.across};
+  return {in_plane.x(), in_plane.y(), lab.z() - pose.across - vessel.front};
 }
 
 Eigen::Vector2d material_velocity(const Vessel& vessel, const Pose& pose, const PoseRate& rate,
                                   const Eigen::Vector2d& lab) {
   if (rate.angular_velocity == 0) return rate.velocity;
   return rate.velocity + rate.angular_velocity * turned_left(lab - vessel.origin - pose.displacement);
+}
+
+Eigen::Vector3d point_velocity(const Vessel& vessel, const Pose& pose, const PoseRate& rate,
+                               const Eigen::Vector3d& lab) {
+  const Eigen::Vector2d in_plane = material_velocity(vessel, pose, rate, Eigen::Vector2d(lab.x(), lab.y()));
+  return {in_plane.x(), in_plane.y(), rate.across_velocity};
 }
 
 namespace {
@@ -218,10 +227,12 @@ MotionBounds sampled_bounds(const TableMotion& table, const Vessel& vessel) {
     for (int part = 1; part <= samples; ++part) {
       const PoseRate now = path.rate(from + part * step);
       const Eigen::Vector2d acceleration = (now.velocity - before.velocity) / step;
+      const double across = std::abs(now.across_velocity),
+                   faster = std::abs(now.across_velocity - before.across_velocity);
       const double spin = std::abs(now.angular_velocity);
       const double turning = radius * (std::abs(now.angular_velocity - before.angular_velocity) / step + spin * spin);
-      most.speed = std::max(most.speed, now.velocity.norm() + spin * radius);
-      most.acceleration = std::max(most.acceleration, acceleration.norm() + turning);
+      most.speed = std::max(most.speed, now.velocity.norm() + across + spin * radius);
+      most.acceleration = std::max(most.acceleration, acceleration.norm() + faster / step + turning);
       most.vertical_acceleration = std::max(most.vertical_acceleration, std::abs(acceleration.y()) + turning);
       before = now;
     }

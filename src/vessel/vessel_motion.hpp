@@ -47,6 +47,10 @@ Eigen::Vector3d point_in_vessel(const Vessel& vessel, const Pose& pose, const Ei
 Eigen::Vector2d material_velocity(const Vessel& vessel, const Pose& pose, const PoseRate& rate,
                                   const Eigen::Vector2d& lab);
 
+/// The same in space.
+Eigen::Vector3d point_velocity(const Vessel& vessel, const Pose& pose, const PoseRate& rate,
+                               const Eigen::Vector3d& lab);
+
 /// Bounds for any point of the vessel's walls, without the ramps' fraction; 0 without motion. A harmonic has 2 pi f A
 /// and (2 pi f)^2 A, a sum the sum of these, rocking the same with Theta times the furthest wall's distance R from the
 /// pivot for A (its centripetal fraction is never the larger one below 1 rad). A table is sampled between its times;

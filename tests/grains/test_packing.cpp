@@ -98,7 +98,7 @@ TEST(Packing, NoPackingOverlaps) {
       for (const auto& lots : {one_lot(), two_lots(), scattered_lots()}) {
         Random random(seed);
         const Vessel v = vessel(packing, 250, packing == Packing::poured ? 0 : 0.02);
-        const std::vector<PackedGrain> packed = pack(v, lots, random);
+        const std::vector<PackedGrain> packed = pack(v, lots, Space::plane, random);
         ASSERT_EQ(packed.size(), 250u);
         EXPECT_LT(deepest_overlap(v, packed, lots), 1e-5 * diameter) << "seed " << seed;
       }
@@ -107,7 +107,7 @@ TEST(Packing, NoPackingOverlaps) {
 TEST(Packing, PouredGrainsRestOnTwoContactsOrTheFloor) {
   Random random(3);
   const Vessel v = vessel(Packing::poured, 300);
-  const std::vector<PackedGrain> packed = pack(v, one_lot(), random);
+  const std::vector<PackedGrain> packed = pack(v, one_lot(), Space::plane, random);
   for (std::size_t i = 0; i < packed.size(); ++i) {
     const double touch = 1e-5 * diameter;
     bool left = packed[i].x <= 0.5 * diameter + touch, right = packed[i].x >= v.length - 0.5 * diameter - touch;
@@ -124,7 +124,7 @@ TEST(Packing, PouredBedIsAsDenseAsRandomDiscsAre) {
   Random random(5);
   Vessel v = vessel(Packing::poured, 2000);
   v.height = 1;
-  const std::vector<PackedGrain> packed = pack(v, one_lot(), random);
+  const std::vector<PackedGrain> packed = pack(v, one_lot(), Space::plane, random);
   double inside = 0;
   const double low = 0.05, high = 0.2;
   for (const PackedGrain& g : packed) inside += g.y > low && g.y < high ? 1 : 0;
@@ -139,7 +139,7 @@ TEST(Packing, PouredIntoAFunnelStaysClearOfItsSlopes) {
   v.funnel = 0.8;
   Random random(2);
   const auto lots = one_lot();
-  const std::vector<PackedGrain> packed = pack(v, lots, random);
+  const std::vector<PackedGrain> packed = pack(v, lots, Space::plane, random);
   EXPECT_LT(deepest_overlap(v, packed, lots), 1e-5 * diameter);
 }
 
@@ -148,7 +148,7 @@ TEST(Packing, CylindersFillATrayThatTheirCirclesWouldNot) {
   v.length = 0.57, v.height = 0.6;
   const std::vector<SeedLot> lots{cylinder()};
   Random random(1);
-  const std::vector<PackedGrain> packed = pack(v, lots, random);
+  const std::vector<PackedGrain> packed = pack(v, lots, Space::plane, random);
   const auto highest =
       std::ranges::max(discs_of(packed, lots), {}, [](const Disc& disc) { return disc.y + disc.radius; });
   EXPECT_LT(highest.y, 0.5);
@@ -170,7 +170,7 @@ TEST(Packing, ClumpsOfAnyShapeAndSizeTouchButDoNotOverlap) {
     for (const auto& lots : {std::vector{cylinder()}, hooks_and_balls()})
       for (std::uint64_t seed = 1; seed <= 5; ++seed) {
         Random random(seed);
-        const std::vector<PackedGrain> packed = pack(v, lots, random);
+        const std::vector<PackedGrain> packed = pack(v, lots, Space::plane, random);
         ASSERT_EQ(packed.size(), 150u);
         const double deepest = deepest_overlap(v, packed, lots);
         EXPECT_LT(deepest, 1e-5 * diameter) << "seed " << seed;
@@ -186,7 +186,7 @@ TEST(Packing, RandomSeedActsAndRepeats) {
   for (const Packing packing : {Packing::poured, Packing::layers, Packing::hexagonal}) {
     const auto first = [&](std::uint64_t seed) {
       Random random(seed);
-      return pack(vessel(packing, 50), one_lot(), random).front().x;
+      return pack(vessel(packing, 50), one_lot(), Space::plane, random).front().x;
     };
     EXPECT_EQ(first(1), first(1));
     EXPECT_NE(first(1), first(2));
@@ -197,7 +197,7 @@ TEST(Packing, EachGrainHasItsOwnSizeAndEachClumpItsAngle) {
   for (const Packing packing : {Packing::poured, Packing::layers, Packing::hexagonal}) {
     Random random(4);
     std::set<double> sizes, angles;
-    for (const PackedGrain& grain : pack(vessel(packing, 200), scattered_lots(), random)) {
+    for (const PackedGrain& grain : pack(vessel(packing, 200), scattered_lots(), Space::plane, random)) {
       if (grain.lot == 0) sizes.insert(grain.size);
       if (grain.lot == 1) angles.insert(grain.angle);
       EXPECT_TRUE(grain.lot == 0 ? grain.angle == 0 : grain.size == 1);
@@ -222,7 +222,7 @@ TEST(Packing, TooMuchForTheVesselIsRefusedByName) {
   Vessel v = vessel(Packing::poured, 3000);
   Random random(1);
   try {
-    pack(v, one_lot(), random);
+    pack(v, one_lot(), Space::plane, random);
     FAIL() << "3000 grains cannot fit";
   } catch (const InputError& error) {
     EXPECT_NE(std::string(error.what()).find("tray.fill.count: 3000"), std::string::npos) << error.what();

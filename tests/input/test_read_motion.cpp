@@ -113,7 +113,8 @@ TEST(ReadMotion, WrongTablesAreRefusedWithLineAndColumn) {
   refused("time_s,x_mm\n0,0\n1,1\n2,0\n1e300,0\n", ":5: time_s: 1e+300 s is out of range, which is up to 1e+06 s");
   refused("time_s,x_mm\n0,0\n1,1\n1,0\n2,0\n", ":4: time_s: 1 is not later than the row before");
   refused("time_s,x_mm\n0,0\n1,a\n2,0\n3,0\n", ":3: x_mm: \"a\" is not a number");
-  refused("time_s,x_m\n0,0\n1,1\n2,0\n3,0\n", ":1: x_m: unknown column; known are time_s, x_mm, y_mm, angle_degree");
+  refused("time_s,x_m\n0,0\n1,1\n2,0\n3,0\n",
+          ":1: x_m: unknown column; known are time_s, x_mm, y_mm, z_mm, angle_degree");
   refused("x_mm,y_mm\n0,0\n1,1\n2,0\n3,0\n", ":1: time_s: is missing");
   refused("time_s\n0\n1\n2\n3\n", ":1: time_s: stands alone");
   refused("time_s,x_mm,x_mm\n0,0,0\n1,1,1\n2,0,0\n3,0,0\n", ":1: x_mm: stands twice");

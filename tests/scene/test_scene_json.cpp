@@ -104,7 +104,7 @@ TEST(SceneJson, EveryChangeHasItsOwnText) {
         s.tray.motion = RockingMotion{{0, 0}, 0.01, 9, 0};
       },
       [](Scene& s) {
-        s.tray.motion = TableMotion{{0, 1, 2, 3}, {0, 0, 0, 0}, {0, 0, 0, 0}, {0, 0, 0, 1}};
+        s.tray.motion = TableMotion{{0, 1, 2, 3}, {0, 0, 0, 0}, {0, 0, 0, 0}, {0, 0, 0, 1}, {}};
       },
       [](Scene& s) { s.tray.motion.reset(); },
       [](Scene& s) { s.hopper->height = 1; },
@@ -368,10 +368,11 @@ RockingMotion any_rocking() {
 
 TableMotion any_table() {
   TableMotion motion;
-  auto& [times, x, y, angle] = motion;
+  auto& [times, x, y, angle, z] = motion;
   times = {-1e300, 0, 4e-324, 1, 1.7e308};
   for (std::vector<double>* list : {&x, &y, &angle})
     for (std::size_t k = 0; k < times.size(); ++k) list->push_back(any_number());
+  if (any_choice()) z = angle;
   return motion;
 }
 
@@ -390,17 +391,18 @@ VesselMotion any_motion() {
 
 Vessel any_vessel() {
   Vessel vessel;
-  auto& [name, origin, length, height, tilt, funnel, depth, holes, pieces, box, sides, front_and_back, fill, rain,
-         motion] = vessel;
+  auto& [name, origin, length, height, tilt, funnel, depth, holes, pieces, box, sides, front_and_back, front, plan,
+         fill, rain, motion] = vessel;
   name = *rc::gen::elementOf(std::vector<std::string>{"", "tray", "hopper"});
   origin = any_point();
-  for (double* number : {&length, &height, &tilt, &funnel}) *number = any_number();
+  for (double* number : {&length, &height, &tilt, &funnel, &front}) *number = any_number();
   depth = maybe(any_number);
   holes = any_list(any_hole);
   pieces = any_list(any_piece);
   box = any_choice();
   sides = any_of_first<Sides>(3);
   front_and_back = any_of_first<Sides>(3);
+  plan = any_of_first<Plan>(2);
   fill = maybe(any_fill);
   rain = maybe(any_rain);
   motion = maybe(any_motion);
@@ -504,7 +506,7 @@ struct Edit {
 TEST(SceneJson, WhatIsWrongIsSaidWithItsPath) {
   Scene scene = example();
   scene.contact.overrides = {{0, -1, {0.1, 1}}};
-  scene.hopper->motion = TableMotion{{0, 1, 2, 3}, {0, 0, 0, 0}, {0, 0, 0, 0}, {0, 0, 0, 1}};
+  scene.hopper->motion = TableMotion{{0, 1, 2, 3}, {0, 0, 0, 0}, {0, 0, 0, 0}, {0, 0, 0, 1}, {}};
   scene.lots[0].sizes = {Kind::table, 0, 0, 0, 0, {0.006, 0.008}, {0.5, 0.5}};
   const std::string text = scene_to_json(scene);
   const std::vector<Edit> edits = {

@@ -1,0 +1,78 @@
+#include "cli/compare_spaces.hpp"
+
+#include <cmath>
+
+#include "cli/commands.hpp"
+#include "cli/console.hpp"
+#include "cli/interrupt.hpp"
+#include "cli/progress.hpp"
+#include "design/evaluate.hpp"
+#include "plan/model.hpp"
+#include "report/terminal_text.hpp"
+#include "scene/spaces.hpp"
+
+namespace vibrosow {
+namespace {
+
+Evaluation run_once(const Scene& scene) {
+  const Model model = prepare_to_run(scene);
+  SimulationOptions options;
+  options.interrupt = &watch_for_interrupt();
+  Progress progress(false, static_cast<double>(model.step.steps), "steps");
+  options.progress = [&progress](double fraction) { progress.update(fraction); };
+  return evaluate(model, options);
+}
+
+/// Of the whole tray; the plane's slice times its slices.
+struct TrayRate {
+  double seeds = 0, mass = 0;  // 1/s, kg/s
+  std::int64_t counted = 0;
+};
+
+TrayRate tray_rate(const Evaluation& evaluation) {
+  const HoleOutflow& all = *find_row(evaluation.outflow, "all", "all");
+  const double slices = evaluation.outflow.depth_factor.value();
+  return {all.seeds_per_s * slices, all.mass_rate * slices, all.grains};
+}
+
+void print_rate(std::string_view space, const TrayRate& rate, const Evaluation& evaluation) {
+  print("  {:<6} {:>9} g/s {:>9} seeds/s of the tray, from {} counted; {} of one core\n", space,
+        to_digits(rate.mass * 1e3, 4), to_digits(rate.seeds, 4), rate.counted, duration_text(evaluation.wall_time));
+  for (const Remark& remark : evaluation.outflow.remarks) print_text(wrapped_beside("         note: ", remark.text));
+}
+
+}  // namespace
+
+void print_space_advice(const Scene& scene) {
+  const bool flat = scene.space == Space::plane;
+  print("{}\n", flat ? "plane: discs in a slice one seed thick" : "space: balls");
+  print_text(wrapped_beside(
+      "  ",
+      flat ? "which layout or frequency sows more, and roughly by how much, is a question for the plane; an absolute "
+             "rate, round holes, or holes narrower than some eight seeds need space = \"3d\" (the one measured "
+             "discharge through a slot: see reports/slot-in-space.md)"
+           : "absolute rates and round holes; for comparing many layouts of slots the plane is some hundred times "
+             "as fast"));
+  print("  check --both runs the two and prints their ratio\n");
+}
+
+int run_in_both_spaces(const Scene& scene) {
+  const Scene plane = in_plane(scene), space = in_space(scene);
+  const Evaluation flat = run_once(plane);
+  if (flat.status == EvaluationStatus::interrupted) return exit_interrupted;
+  const Evaluation deep = run_once(space);
+  if (deep.status == EvaluationStatus::interrupted) return exit_interrupted;
+  for (const Evaluation* one : {&flat, &deep})
+    if (!one->finished()) {
+      complain(one->reason);
+      return exit_stopped_by_guard;
+    }
+  const TrayRate of_slice = tray_rate(flat), of_tray = tray_rate(deep);
+  print("both spaces, one run each, window {:g} to {:g} s\n", deep.outflow.window_from, deep.outflow.window_to);
+  print_rate("plane", of_slice, flat);
+  print_rate("space", of_tray, deep);
+  if (of_tray.counted > 0) print("  plane over space {}\n", to_digits(of_slice.seeds / of_tray.seeds, 3));
+  return exit_done;
+}
+
+}  // namespace vibrosow

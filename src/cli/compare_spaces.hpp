@@ -1,0 +1,13 @@
+#pragma once
+
+#include "scene/scene.hpp"
+
+namespace vibrosow {
+
+/// Says which of plane and space a question to this scene needs.
+void print_space_advice(const Scene& scene);
+
+/// Runs a scene in the plane and in space and prints the rates of both and their ratio; an exit code.
+int run_in_both_spaces(const Scene& scene);
+
+}  // namespace vibrosow

@@ -1,0 +1,89 @@
+#include "grains/places.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "vessel/nearest_on_face.hpp"
+
+namespace vibrosow {
+namespace {
+
+constexpr double infinite = std::numeric_limits<double>::infinity();
+
+double between(double place, double radius, double length, Sides sides) {
+  if (sides == Sides::periodic) return place - length * std::floor(place / length);
+  return std::max(radius, std::min(place, length - radius));
+}
+
+/// Standing still at the lab's zero, with pieces alone or with its box alone.
+Vessel at_zero(const Vessel& vessel, bool box) {
+  Vessel own = vessel;
+  own.origin.setZero(), own.front = 0, own.tilt = 0, own.motion.reset();
+  own.box = box;
+  box ? own.pieces.clear() : own.holes.clear();
+  return own;
+}
+
+bool slopes(const Face& face) {
+  if (face.kind == Face::Kind::revolved) return face.radius_a != face.radius_b && face.height_a != face.height_b;
+  return face.normal.y() != 0 && face.normal.head<3>().cwiseAbs().y() < 1;
+}
+
+}  // namespace
+
+FloorPlace between_ends(const Vessel& vessel, double radius, const FloorPlace& place) {
+  if (vessel.plan == Plan::rectangle)
+    return {between(place.x(), radius, vessel.length, vessel.sides),
+            between(place.y(), radius, *vessel.depth, vessel.front_and_back)};
+  const FloorPlace middle = FloorPlace::Constant(0.5 * vessel.length), arm = place - middle;
+  const double furthest = 0.5 * vessel.length - radius, distance = arm.norm();
+  return distance <= furthest ? place : FloorPlace(middle + furthest / distance * arm);
+}
+
+FloorPlace random_place(const Vessel& vessel, double radius, Random& random) {
+  for (;;) {
+    const double x = random.uniform(radius, vessel.length - radius);
+    const FloorPlace place(x, random.uniform(radius, *vessel.depth - radius));
+    if (between_ends(vessel, radius, place) == place) return place;
+  }
+}
+
+double random_across(const Vessel& vessel, double radius, double x, Random& random) {
+  double margin = vessel.front_and_back == Sides::walls ? std::min(radius, 0.5 * *vessel.depth) : 0;
+  if (vessel.plan == Plan::round) {
+    const double room = 0.5 * vessel.length - radius, aside = x - 0.5 * vessel.length;
+    margin = 0.5 * vessel.length - std::sqrt(std::max(0.0, room * room - aside * aside));
+  }
+  return random.uniform(margin, *vessel.depth - margin);
+}
+
+Obstacles::Obstacles(const Vessel& vessel)
+    : walls_({at_zero(vessel, false)}, Space::three_dimensional),
+      funnel_({at_zero(vessel, true)}, Space::three_dimensional) {
+  for (const PlacedFace& face : walls_.placed_faces()) faces_.push_back(&face);
+  if (vessel.funnel == 0) return;
+  for (const PlacedFace& face : funnel_.placed_faces())
+    if (slopes(*face.own)) faces_.push_back(&face);
+}
+
+double Obstacles::distance(const Eigen::Vector3d& centre) const {
+  double nearest2 = infinite;
+  for (const PlacedFace* face : faces_) nearest2 = std::min(nearest2, nearest_on_face(*face, centre).distance2);
+  return std::sqrt(nearest2);
+}
+
+double Obstacles::touching_height(const FloorPlace& place, double radius, double from, double least) const {
+  if (faces_.empty()) return least;
+  constexpr double tolerance = 1e-3;
+  // As far as it is free, again and again: nothing is nearer than the nearest.
+  double height = from;
+  for (double gap = infinite; height > least; height -= gap) {
+    gap = distance({place.x(), height, place.y()}) - radius;
+    if (height == from && gap < 0) return infinite;
+    if (gap <= tolerance * radius) return height;
+  }
+  return least;
+}
+
+}  // namespace vibrosow

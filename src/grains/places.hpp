@@ -1,0 +1,45 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "grains/random.hpp"
+#include "scene/scene.hpp"
+#include "vessel/walls.hpp"
+
+namespace vibrosow {
+
+/// A place on the floor of a vessel in space, in its own frame: along (x) and across (z), m.
+using FloorPlace = Eigen::Vector2d;
+
+/// The nearest place to `place` where a ball of `radius` is between the vessel's ends; where these are periodic, the
+/// same place within the period.
+FloorPlace between_ends(const Vessel& vessel, double radius, const FloorPlace& place);
+
+/// Uniformly at random where a ball of `radius` is between the vessel's ends.
+FloorPlace random_place(const Vessel& vessel, double radius, Random& random);
+
+/// At random across a vessel, m from its front, where a ball of `radius` at `x` (m) along its floor is between its
+/// ends.
+double random_across(const Vessel& vessel, double radius, double x, Random& random);
+
+/// What stands in the way of seeds in a vessel in space beside its level floor and its upright walls: funnels and
+/// pieces, in the vessel's own frame.
+class Obstacles {
+ public:
+  explicit Obstacles(const Vessel& vessel);
+
+  /// m, from a centre to the nearest of them; infinite where there are none.
+  double distance(const Eigen::Vector3d& centre) const;
+
+  /// Height of the centre of a ball that falls from `from` at `place` when it first touches one, at least `least`; it
+  /// may stop a thousandth of its radius short. Infinite where it would begin inside one.
+  double touching_height(const FloorPlace& place, double radius, double from, double least) const;
+
+ private:
+  Walls walls_;  // the pieces
+  Walls funnel_;
+  std::vector<const PlacedFace*> faces_;
+};
+
+}  // namespace vibrosow

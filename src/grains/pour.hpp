@@ -1,0 +1,24 @@
+#pragma once
+
+#include <vector>
+
+#include "compute/stop_request.hpp"
+#include "grains/packing.hpp"
+#include "grains/random.hpp"
+#include "scene/scene.hpp"
+
+namespace vibrosow {
+
+/// Drops seeds of the lots `order` one by one, see `pack`.
+std::vector<PackedGrain> pour(const Vessel& vessel, const std::vector<SeedLot>& lots, const std::vector<int>& order,
+                              Random& random, StopRequest stop);
+
+/// The same in space: each ball is dropped again a little aside, at random, nearer and nearer, and stays where it comes
+/// lowest, which is where it would roll to; a clump as the ball that holds it. In the vessel's frame.
+std::vector<PackedGrain> pour_in_space(const Vessel& vessel, const std::vector<SeedLot>& lots,
+                                       const std::vector<int>& order, Random& random, StopRequest stop);
+
+/// Throws InputError: the fill rises above the vessel's walls.
+[[noreturn]] void refuse_fill(const Vessel& vessel);
+
+}  // namespace vibrosow

@@ -1,0 +1,184 @@
+#include "input/read_holes.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+
+#include "elementary/functions.hpp"
+#include "input/lengths.hpp"
+
+namespace vibrosow {
+namespace {
+
+constexpr double rounding = 1e-9;  // of the floor's length, forgiven at its ends
+
+std::vector<double> read_widths(Table& table, std::size_t holes, double diameter) {
+  const std::vector<TomlValue> given = table.values_of("width");
+  if (given.empty()) table.fail("width", "is missing; expected a length such as \"16 mm\" or \"3 diameters\"");
+  if (given.size() != 1 && given.size() != holes) {
+    table.fail("width",
+               fmt::format("lists {} widths for {} holes; expected one for all or one each", given.size(), holes));
+  }
+  std::vector<double> widths;
+  for (const TomlValue& value : given) widths.push_back(read_width(table, "width", value, diameter));
+  widths.resize(holes, widths.front());
+  return widths;
+}
+
+struct HoleRow {
+  std::vector<double> centres;  // m
+  std::string placed_by;        // key that answers for a hole in the wrong place
+};
+
+/// `count` holes, evenly spaced about a centre.
+HoleRow read_row(Table& table, double length) {
+  if (table.has("span") && table.has("pitch")) table.fail("pitch", "contradicts span; give one of them");
+  const std::optional<std::int64_t> count = table.whole_number("count", 1, 10000);
+  const std::optional<double> span = table.quantity("span", Dimension::length, shortest, longest);
+  const std::optional<double> pitch_given = table.quantity("pitch", Dimension::length, shortest, longest);
+  const std::optional<double> centre = table.quantity("centre", Dimension::length, 0, longest);
+  if (!count) table.fail("count", "is missing; give count, or at with the holes' centres");
+
+  const double n = static_cast<double>(*count);
+  double pitch = pitch_given.value_or(length / (n + 1));
+  if (span) pitch = *count > 1 ? *span / (n - 1) : 0;
+  HoleRow row;
+  for (int i = 0; i < *count; ++i) {
+    row.centres.push_back(rounded(centre.value_or(length / 2) + (i - (n - 1) / 2) * pitch));
+  }
+  const bool spaced = *count > 1;
+  row.placed_by = spaced && span ? "span" : spaced && pitch_given ? "pitch" : centre ? "centre" : "width";
+  return row;
+}
+
+HoleRow read_positions(Table& table, double length) {
+  if (!table.has("at")) {
+    HoleRow row = read_row(table, length);
+    table.skip("at");
+    return row;
+  }
+  for (const char* key : {"count", "span", "pitch", "centre"}) {
+    table.skip(key);
+    if (table.has(key)) table.fail(key, "contradicts at, which already gives each hole's centre");
+  }
+  return {table.quantities("at", Dimension::length, 0, longest), "at"};
+}
+
+std::vector<double> read_opening_times(Table& table, std::size_t holes) {
+  std::vector<double> times = table.quantities("open_at", Dimension::time, 0, 1e6);
+  if (times.size() > 1 && times.size() != holes) {
+    table.fail("open_at",
+               fmt::format("lists {} times for {} holes; expected one for all or one each", times.size(), holes));
+  }
+  times.resize(holes, times.empty() ? 0.0 : times.front());
+  return times;
+}
+
+/// Where the rows of holes lie across, and how far a slot reaches.
+struct Rows {
+  std::vector<double> across;  // m, from the front
+  double length = 0;           // m, of a slot
+};
+
+std::vector<double> evenly(std::int64_t rows, double depth) {
+  std::vector<double> across;
+  for (std::int64_t k = 0; k < rows; ++k)
+    across.push_back(rounded((static_cast<double>(k) + 0.5) * depth / static_cast<double>(rows)));
+  return across;
+}
+
+Rows read_rows(Table& table, HoleShape shape, double depth) {
+  const std::optional<std::int64_t> rows = table.whole_number("rows", 1, 1000);
+  const std::vector<double> across = table.quantities("across", Dimension::length, 0, longest);
+  if (shape == HoleShape::round) {
+    if (rows && !across.empty()) table.fail("rows", "contradicts across, which already gives each row's place");
+    return {across.empty() ? evenly(rows.value_or(1), depth) : across, 0};
+  }
+  if (across.size() > 1) table.fail("across", "is the length of a slot across, one value; give rows for several rows");
+  const double strip = depth / static_cast<double>(rows.value_or(1));
+  if (across.empty() && rows.value_or(1) > 1) table.fail("across", "is missing; how long are the slots of a row?");
+  if (!across.empty() && across.front() > strip * (1 + rounding))
+    table.fail("across", fmt::format("{} is longer than {}, the depth that a row has", millimetres(across.front()),
+                                     millimetres(strip)));
+  return {evenly(rows.value_or(1), depth), across.empty() ? depth : across.front()};
+}
+
+/// How far (m) two holes are apart; not above zero where they touch.
+double apart(const Hole& a, const Hole& b, Space space) {
+  const double along = std::abs(a.centre - b.centre), across = std::abs(a.across - b.across);
+  if (space == Space::three_dimensional && a.shape == HoleShape::round)
+    return elementary::hypot(along, across) - 0.5 * (a.width + b.width);
+  const double gap = along - 0.5 * (a.width + b.width);
+  return space == Space::plane ? gap : std::max(gap, across - 0.5 * (a.across_length + b.across_length));
+}
+
+bool is_within(const Hole& hole, const Vessel& vessel, Space space) {
+  const double slack = rounding * vessel.length, radius = hole.width / 2;
+  const bool along = hole.centre - radius >= -slack && hole.centre + radius <= vessel.length + slack;
+  if (space == Space::plane) return along;
+  if (vessel.plan == Plan::round) {
+    const double middle = vessel.length / 2;
+    return elementary::hypot(hole.centre - middle, hole.across - middle) + radius <= middle + slack;
+  }
+  const double reach = hole.shape == HoleShape::round ? radius : hole.across_length / 2;
+  return along && hole.across - reach >= -slack && hole.across + reach <= *vessel.depth + slack;
+}
+
+std::string place_of(const Hole& hole, Space space) {
+  const std::string along = millimetres(hole.centre);
+  return space == Space::plane ? along : fmt::format("{}, {} from the front", along, millimetres(hole.across));
+}
+
+double longest_width(const std::vector<Hole>& holes) {
+  return std::ranges::max_element(holes, {}, &Hole::width)->width;
+}
+
+void check_holes(const Table& table, const std::vector<Hole>& holes, const Vessel& vessel, Space space,
+                 const std::string& placed_by) {
+  const bool deep = space == Space::three_dimensional;
+  for (std::size_t i = 0; i < holes.size(); ++i) {
+    const Hole& hole = holes[i];
+    if (!is_within(hole, vessel, space)) {
+      table.fail(placed_by, fmt::format("hole {} at {}, {} wide, is not within the floor, which is {} long{}", i + 1,
+                                        place_of(hole, space), millimetres(hole.width), millimetres(vessel.length),
+                                        deep ? fmt::format(" and {} deep", millimetres(*vessel.depth)) : ""));
+    }
+    const double reach = 0.5 * hole.width + 0.5 * longest_width(holes);
+    for (std::size_t k = i; k-- > 0 && holes[i].centre - holes[k].centre <= reach * (1 + rounding);) {
+      const Hole& before = holes[k];
+      if (apart(before, hole, space) > rounding * vessel.length) continue;
+      table.fail(placed_by, fmt::format("hole {} at {}, {} wide, overlaps or touches hole {} at {}, {} wide", k + 1,
+                                        place_of(before, space), millimetres(before.width), i + 1,
+                                        place_of(hole, space), millimetres(hole.width)));
+    }
+  }
+}
+
+}  // namespace
+
+std::vector<Hole> read_holes(Table table, const Vessel& vessel, Space space, double diameter) {
+  constexpr HoleShape shapes[] = {HoleShape::slot, HoleShape::round};
+  const HoleRow row = read_positions(table, vessel.length);
+  const std::vector<double> widths = read_widths(table, row.centres.size(), diameter);
+  const std::vector<double> open_at = read_opening_times(table, row.centres.size());
+  const HoleShape shape = shapes[table.choice("shape", {"slot", "round"}).value_or(0)];
+  const bool flat = space == Space::plane;
+  Rows rows{{0}, 0};
+  if (flat)
+    table.skip("rows"), table.skip("across");
+  else
+    rows = read_rows(table, shape, *vessel.depth);
+  std::vector<Hole> holes;
+  for (std::size_t i = 0; i < widths.size(); ++i)
+    for (const double across : rows.across)
+      holes.push_back({row.centres[i], widths[i], open_at[i], shape, across, rows.length});
+  std::stable_sort(holes.begin(), holes.end(), [](const Hole& a, const Hole& b) {
+    return std::tie(a.centre, a.across) < std::tie(b.centre, b.across);
+  });
+  check_holes(table, holes, vessel, space, row.placed_by);
+  return holes;
+}
+
+}  // namespace vibrosow

@@ -1,0 +1,171 @@
+// Seeder files of balls in space.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "input/read_scene.hpp"
+#include "scene/input_error.hpp"
+#include "temporary_file.hpp"
+
+namespace vibrosow {
+namespace {
+
+using testing::HasSubstr;
+
+const std::string head = R"(space = "3d"
+[seeds.wheat]
+diameter = "4 mm"
+mass = "30 mg"
+[contact]
+shell_compression = 1e-4
+[run]
+duration = "1 s"
+[tray]
+length = "50 cm"
+height = "12 cm"
+)";
+const std::string whole = head + R"(depth = "6 cm"
+fill = { count = 600 }
+)";
+
+Scene read(const std::string& text) {
+  const TemporaryFolder folder;
+  return read_scene(folder.write("seeder.toml", text));
+}
+
+std::string refusal(const std::string& text) {
+  try {
+    read(text);
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(ReadSpace, ATrayWithRowsOfRoundHoles) {
+  const Scene scene = read(whole + R"(
+[tray.holes]
+shape = "round"
+count = 3
+rows = 2
+width = "8 mm"
+pitch = "10 cm"
+)");
+  EXPECT_EQ(scene.space, Space::three_dimensional);
+  EXPECT_EQ(scene.tray.depth, 0.06);
+  ASSERT_EQ(scene.tray.holes.size(), 6u);
+  const std::vector<std::pair<double, double>> places = {{0.15, 0.015}, {0.15, 0.045}, {0.25, 0.015},
+                                                         {0.25, 0.045}, {0.35, 0.015}, {0.35, 0.045}};
+  for (std::size_t k = 0; k < 6; ++k) {
+    const Hole& hole = scene.tray.holes[k];
+    EXPECT_EQ(hole.shape, HoleShape::round);
+    EXPECT_DOUBLE_EQ(hole.centre, places[k].first);
+    EXPECT_DOUBLE_EQ(hole.across, places[k].second);
+    EXPECT_DOUBLE_EQ(hole.width, 0.008);
+  }
+}
+
+TEST(ReadSpace, RowsWhereTheyAreSaidToBe) {
+  const Scene scene =
+      read(whole + R"(holes = { shape = "round", at = ["10 cm"], across = ["1 cm", "5 cm"], width = "8 mm" })");
+  ASSERT_EQ(scene.tray.holes.size(), 2u);
+  EXPECT_DOUBLE_EQ(scene.tray.holes[0].across, 0.01);
+  EXPECT_DOUBLE_EQ(scene.tray.holes[1].across, 0.05);
+}
+
+TEST(ReadSpace, SlotsReachFromFrontToBackUnlessTheyAreSaidToBeShorter) {
+  const Scene all = read(whole + R"(holes = { at = ["10 cm"], width = "8 mm" })");
+  EXPECT_EQ(all.tray.holes.front().shape, HoleShape::slot);
+  EXPECT_DOUBLE_EQ(all.tray.holes.front().across, 0.03);
+  EXPECT_DOUBLE_EQ(all.tray.holes.front().across_length, 0.06);
+  const Scene some = read(whole + R"(holes = { at = ["10 cm"], width = "8 mm", rows = 2, across = "2 cm" })");
+  ASSERT_EQ(some.tray.holes.size(), 2u);
+  EXPECT_DOUBLE_EQ(some.tray.holes[1].across, 0.045);
+  EXPECT_DOUBLE_EQ(some.tray.holes[1].across_length, 0.02);
+}
+
+TEST(ReadSpace, AHopperTakesTheTraysDepthAndARoundOneItsDiameter) {
+  const std::string hopper = R"(
+[hopper]
+left = "10 cm"
+above = "10 cm"
+length = "5 cm"
+height = "10 cm"
+fill = { count = 100 }
+)";
+  const Scene box = read(whole + hopper);
+  EXPECT_EQ(box.hopper->depth, 0.06);
+  EXPECT_EQ(box.hopper->front, 0);
+  const Scene round = read(whole + hopper + R"(
+plan = "round"
+front = "5 mm"
+funnel = "50 degree"
+holes = { shape = "round", count = 1, width = "2 cm" }
+)");
+  EXPECT_EQ(round.hopper->plan, Plan::round);
+  EXPECT_EQ(round.hopper->depth, 0.05);
+  EXPECT_EQ(round.hopper->front, 0.005);
+  EXPECT_DOUBLE_EQ(round.hopper->holes.front().across, 0.025);
+  const Scene periodic = read(whole + "front_and_back = \"periodic\"\n" + hopper);
+  EXPECT_EQ(periodic.hopper->front_and_back, Sides::periodic);
+}
+
+TEST(ReadSpace, AMotionInAnyDirection) {
+  const Scene scene = read(whole + R"([tray.motion]
+kind = "harmonic"
+direction = [1, 0, 1]
+amplitude = "1 mm"
+frequency = "9 Hz"
+)");
+  const auto& motion = std::get<HarmonicMotion>(*scene.tray.motion);
+  EXPECT_DOUBLE_EQ(motion.direction, 0);
+  EXPECT_DOUBLE_EQ(motion.across, std::atan(1.0));
+}
+
+TEST(ReadSpace, InThePlaneWhatBelongsToSpaceCountsForNothing) {
+  std::string text = whole + R"(front_and_back = "periodic"
+holes = { shape = "round", at = ["10 cm"], rows = 2, width = "8 mm" }
+)";
+  text.replace(text.find("3d"), 2, "plane");
+  const Scene scene = read(text);
+  EXPECT_EQ(scene.space, Space::plane);
+  EXPECT_EQ(scene.tray.holes.size(), 1u);
+  EXPECT_EQ(scene.tray.front_and_back, Sides::walls);
+}
+
+TEST(ReadSpace, WhatCannotBeMeantIsRefused) {
+  EXPECT_THAT(refusal(head + "fill = { count = 600 }\n"), HasSubstr("depth: is missing"));
+  EXPECT_THAT(
+      refusal(whole + R"(holes = { shape = "round", at = ["10 cm"], across = "1 mm", width = "8 mm" })"),
+      HasSubstr("tray.holes.at: hole 1 at 100 mm, 1 mm from the front, 8 mm wide, is not within the floor, which "
+                "is 500 mm long and 60 mm deep"));
+  EXPECT_THAT(refusal(whole + R"(holes = { shape = "round", at = ["10 cm", "10.5 cm"], rows = 2, width = "8 mm" })"),
+              HasSubstr("overlaps or touches"));
+  EXPECT_THAT(
+      refusal(whole + R"(holes = { shape = "round", at = ["10 cm"], rows = 2, across = ["1 cm"], width = "8 mm" })"),
+      HasSubstr("tray.holes.rows: contradicts across"));
+  EXPECT_THAT(refusal(whole + R"(holes = { at = ["10 cm"], rows = 2, width = "8 mm" })"),
+              HasSubstr("tray.holes.across: is missing"));
+  EXPECT_THAT(refusal(whole + R"(holes = { at = ["10 cm"], across = "7 cm", width = "8 mm" })"),
+              HasSubstr("tray.holes.across: 70 mm is longer than 60 mm"));
+  EXPECT_THAT(refusal(whole + "plan = \"round\"\n"), HasSubstr("tray.depth: contradicts length"));
+  EXPECT_THAT(refusal(whole + "funnel = \"40 degree\"\nholes = { shape = \"round\", count = 1, width = \"8 mm\" }\n"),
+              HasSubstr("tray.funnel: needs slots from front to back"));
+  EXPECT_THAT(
+      refusal(whole +
+              "[tray.motion]\nkind = \"harmonic\"\ndirection = [1, 0]\namplitude = \"1 mm\"\nfrequency = \"9 Hz\"\n"),
+      HasSubstr("three numbers"));
+  std::string plane =
+      whole + "[tray.motion]\nkind = \"harmonic\"\ndirection = [0, 0, 1]\namplitude = \"1 mm\"\nfrequency = \"9 Hz\"\n";
+  plane.replace(plane.find("3d"), 2, "plane");
+  EXPECT_THAT(refusal(plane), HasSubstr("tray.motion.direction: a motion across the plane needs space"));
+  EXPECT_THAT(refusal(whole + "holes = { shape = \"square\", count = 1, width = \"8 mm\" }\n"),
+              HasSubstr("tray.holes.shape"));
+  std::string tiny = whole;
+  tiny.replace(tiny.find("6 cm"), 4, "2 cm");
+  EXPECT_THAT(refusal(tiny + "front_and_back = \"periodic\"\n"), HasSubstr("6 diameters"));
+}
+
+}  // namespace
+}  // namespace vibrosow
