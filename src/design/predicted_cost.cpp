@@ -121,7 +121,7 @@ Scene without(Scene scene, const std::string& effect) {
   if (effect == "friction") change_surfaces(contact, [](Surface& s) { s.friction = 0; });
   if (effect == "tangential spring") contact.friction_model = FrictionModel::sliding;
   if (effect == "rotation") contact.rotation = false;
-  if (effect == "rolling") change_surfaces(contact, [](Surface& s) { s.rolling_friction = 0; });
+  if (effect == "rolling") change_surfaces(contact, [](Surface& s) { s.rolling_friction = s.twisting_friction = 0; });
   if (effect == "damping") change_surfaces(contact, [](Surface& s) { s.restitution = 1; }), contact.damping_rate = 0;
   if (effect == "cohesion") change_surfaces(contact, [](Surface& s) { s.cohesion = 0; });
   if (effect == "drag") contact.drag = 0;

@@ -62,6 +62,7 @@ constexpr std::array key_words = {
     KeyWord{"tangential_damping", {}},
     KeyWord{"rolling", {}},
     KeyWord{"rolling_friction", {}},
+    KeyWord{"twisting_friction", {}},
     KeyWord{"rolling_damping", {}},
     // vessels and their holes, fill and motion
     KeyWord{"length", millimetre},

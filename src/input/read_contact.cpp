@@ -218,6 +218,7 @@ Surface read_surface(Table& table, const Surface& otherwise) {
   surface.friction = table.number("friction", 0, 2).value_or(otherwise.friction);
   surface.restitution = table.number("restitution", 0.05, 1).value_or(otherwise.restitution);
   surface.rolling_friction = table.number("rolling_friction", 0, 2).value_or(otherwise.rolling_friction);
+  surface.twisting_friction = table.number("twisting_friction", 0, 2).value_or(otherwise.twisting_friction);
   surface.cohesion = table.quantity("cohesion", Dimension::force, 0, 1e3).value_or(otherwise.cohesion);
   return surface;
 }
@@ -225,7 +226,7 @@ Surface read_surface(Table& table, const Surface& otherwise) {
 /// Without the values that the law's damping and the rolling model rule out: those that a model alone gives.
 Surface effective(Surface surface, const Contact& contact) {
   if (contact.law == Law::hertz_viscous) surface.restitution = 1;
-  if (contact.rolling == Rolling::none) surface.rolling_friction = 0;
+  if (contact.rolling == Rolling::none) surface.rolling_friction = surface.twisting_friction = 0;
   return surface;
 }
 
@@ -270,12 +271,10 @@ void read_friction(Parts& parts, Contact& contact) {
 
 /// A rolling friction of zero asks for nothing, so a study may vary it from zero.
 void refuse_rolling_friction(const Parts& parts) {
-  for (Part& part : parts.all()) {
-    if (part.table.number("rolling_friction", 0, 2).value_or(0) > 0 &&
-        gives(parts, part, "rolling_friction", "rolling")) {
-      part.table.fail("rolling_friction", "needs rolling = \"constant-torque\" or \"spring\" in [contact]");
-    }
-  }
+  for (Part& part : parts.all())
+    for (const char* key : {"rolling_friction", "twisting_friction"})
+      if (part.table.number(key, 0, 2).value_or(0) > 0 && gives(parts, part, key, "rolling"))
+        part.table.fail(key, "needs rolling = \"constant-torque\" or \"spring\" in [contact]");
 }
 
 void check_rolling(const Parts& parts, const Contact& contact) {

@@ -14,6 +14,7 @@ SurfaceParameters parameters_of(const Contact& contact, const Surface& surface, 
           .tangential_damping = contact.tangential_damping,
           .rolling_friction = surface.rolling_friction,
           .rolling_damping = contact.rolling_damping,
+          .twisting_friction = surface.twisting_friction,
           .cohesion = surface.cohesion};
 }
 

@@ -46,10 +46,12 @@ EffectSet effects_of(const Scene& scene, const Surfaces& surfaces, const LawTrai
   effects.drag = contact.drag != 0;
   effects.motion = moves(scene.tray) || (scene.hopper && moves(*scene.hopper));
   effects.tangential_spring = effects.friction && contact.friction_model == FrictionModel::spring;
-  const bool rolls = effects.friction && effects.rotation &&
-                     any_surface(surfaces, [](const Surface& s) { return s.rolling_friction != 0; });
+  const bool in_space = scene.space == Space::three_dimensional;
+  const bool rolls = effects.friction && effects.rotation && any_surface(surfaces, [in_space](const Surface& s) {
+                       return s.rolling_friction != 0 || (in_space && s.twisting_friction != 0);
+                     });
   effects.rolling = rolls ? contact.rolling : Rolling::none;
-  effects.periodic = scene.tray.sides == Sides::periodic;
+  effects.periodic = scene.tray.sides == Sides::periodic || (in_space && scene.tray.front_and_back == Sides::periodic);
   effects.cohesion = any_surface(surfaces, [](const Surface& s) { return s.cohesion != 0; });
   return effects;
 }
@@ -92,6 +94,15 @@ std::vector<EffectReason> explain_effects(const Scene& scene, const EffectSet& e
         text += fmt::format("{}{} moves: {}", text.empty() ? "" : ", ", vessel->name, motion_text(*vessel->motion));
     return text.empty() ? std::string("every vessel stands still") : text;
   };
+  const bool in_space = scene.space == Space::three_dimensional;
+  const char* seed = in_space ? "ball" : "disc";
+  const auto periodic = [&scene, in_space] {
+    const bool along = scene.tray.sides == Sides::periodic;
+    const bool across = in_space && scene.tray.front_and_back == Sides::periodic;
+    if (!along && !across) return std::string("the tray ends at its sides");
+    return fmt::format("tray.{} = \"periodic\"{}", along ? "sides" : "front_and_back",
+                       along && across ? ", and front_and_back" : "");
+  };
   const auto told = [](bool present, const char* yes, const char* no) { return std::string(present ? yes : no); };
   return {
       {"friction", effects.friction, pair("friction", &Surface::friction)},
@@ -105,10 +116,11 @@ std::vector<EffectReason> explain_effects(const Scene& scene, const EffectSet& e
       {"polydisperse", effects.polydisperse,
        told(effects.polydisperse, "grains differ in diameter, mass, shape or material",
             "every grain has the same diameter, mass, shape and material")},
-      {"clumps", effects.clumps, told(effects.clumps, "a seed is several discs", "every seed is one disc")},
+      {"clumps", effects.clumps,
+       effects.clumps ? fmt::format("a seed is several {}s", seed) : fmt::format("every seed is one {}", seed)},
       {"drag", effects.drag, fmt::format("contact.drag = {:.6g} g/s", contact.drag * 1e3)},
       {"motion", effects.motion, moving()},
-      {"periodic", effects.periodic, told(effects.periodic, "tray.sides = \"periodic\"", "the tray ends at its sides")},
+      {"periodic", effects.periodic, periodic()},
   };
 }
 

@@ -90,7 +90,8 @@ double friction_rate(const StepBasis& basis) {
     double most = 0;
     if (!effects.tangential_spring) most = per_surface * largest(surfaces, &SurfaceParameters::friction);
     if (effects.rolling == Rolling::constant_torque)
-      most = std::max(most, per_spin * largest(surfaces, &SurfaceParameters::rolling_friction));
+      for (const auto torque : {&SurfaceParameters::rolling_friction, &SurfaceParameters::twisting_friction})
+        most = std::max(most, per_spin * largest(surfaces, torque));
     return most;
   };
   const double rate_on_wall = rate(basis.contacts.walls) * layers * weight;

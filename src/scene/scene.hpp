@@ -64,10 +64,11 @@ struct SeedLot {
 };
 
 struct Surface {
-  double friction = 0;          // Coulomb coefficient
-  double restitution = 1;       // of a head-on impact, (0, 1]; 1 is elastic
-  double rolling_friction = 0;  // largest rolling torque over normal force and rolling radius
-  double cohesion = 0;          // N, pull of two surfaces that touch
+  double friction = 0;           // Coulomb coefficient
+  double restitution = 1;        // of a head-on impact, (0, 1]; 1 is elastic
+  double rolling_friction = 0;   // largest rolling torque over normal force and rolling radius
+  double cohesion = 0;           // N, pull of two surfaces that touch
+  double twisting_friction = 0;  // in space, the same of a torque about the normal, beside rolling friction
   bool operator==(const Surface&) const = default;
 };
 

@@ -277,6 +277,7 @@ void fields(Io& io, Surface& surface) {
   io.value("restitution", surface.restitution);
   io.used("rolling_friction", surface.rolling_friction, usual.rolling_friction, false);
   io.used("cohesion_n", surface.cohesion, usual.cohesion, false);
+  io.used("twisting_friction", surface.twisting_friction, usual.twisting_friction, false);
 }
 
 template <class Io>

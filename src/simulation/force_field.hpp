@@ -34,6 +34,7 @@ class ForceField {
 
   /// Forces of the walls alone on each grain, where grains and walls are now; nothing moves on by it.
   Forces wall_forces();
+  std::vector<GrainVector> wall_forces_in_space();
 
   /// Which grains touch another one.
   std::vector<char> touching();

@@ -122,4 +122,15 @@ double ForceField::elastic_energy_in_space() {
   return energy + energies.space_wall(surfaces, space_wall_contacts_, model_.contacts, state_.contacts.wall_histories);
 }
 
+std::vector<GrainVector> ForceField::wall_forces_in_space() {
+  const GrainSurfaces surfaces = surfaces_of(state_.grains);
+  ContactStatistics statistics;
+  std::vector<GrainVector> forces(state_.grains.size()), torques(state_.grains.size());
+  space_wall_finder_.find(state_.grains, state_.contacts.walls, walls_.placed_faces(), space_wall_contacts_);
+  space_wall_kernel_(surfaces, motion_in_space(), model_.contacts, {}, state_.contacts.wall_histories,
+                     space_wall_contacts_);
+  vibrosow::add_wall_forces(space_wall_contacts_, model_.kernels->effects.rotation, forces, torques, statistics);
+  return forces;
+}
+
 }  // namespace vibrosow

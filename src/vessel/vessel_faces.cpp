@@ -144,14 +144,15 @@ void add_floor(const Vessel& vessel, const Span& z, std::vector<Face>& faces) {
   faces.push_back(face);
 }
 
-/// A flat floor goes on under the wall to a square, a funnel is a cone round the one hole.
+/// A flat floor goes on under the wall to a square, a funnel is a cone round the one hole. A hole as wide as the vessel
+/// leaves no floor.
 void add_round_vessel(const Vessel& vessel, std::vector<Face>& faces) {
   const double radius = vessel.length / 2;
   const Vector middle(radius, 0, radius);
   if (vessel.funnel > 0) {
     const double outlet = vessel.holes.front().width / 2;
     faces.push_back(revolved(vessel.name + " funnel", middle, {outlet, 0}, {radius, highest_floor(vessel)}));
-  } else {
+  } else if (vessel.holes.empty() || vessel.holes.front().width < vessel.length * (1 - 1e-9)) {
     add_floor(vessel, {0, vessel.length}, faces);
   }
   faces.push_back(revolved(vessel.name + " wall", middle, {radius, 0}, {radius, vessel.height}));

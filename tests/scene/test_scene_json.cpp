@@ -284,8 +284,8 @@ SeedLot any_lot() {
 
 Surface any_surface() {
   Surface surface;
-  auto& [friction, restitution, rolling_friction, cohesion] = surface;
-  for (double* number : {&friction, &restitution, &rolling_friction, &cohesion}) *number = any_number();
+  auto& [friction, restitution, rolling_friction, cohesion, twisting_friction] = surface;
+  for (double* number : {&friction, &restitution, &rolling_friction, &cohesion, &twisting_friction}) *number = any_number();
   return surface;
 }
 
