@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <numeric>
 #include <utility>
 
@@ -158,7 +159,8 @@ struct Broadphase::World {
   void place_vessels(const std::vector<Pose>& poses) {
     for (std::size_t v = 0; v < bodies.size(); ++v) {
       const b2Vec2 position = rest[v] + units(poses[v].displacement - poses.front().displacement);
-      const float angle = static_cast<float>(tilt[v] + poses[v].angle);
+      // Within a turn, whose float is precise enough however often the vessel has turned.
+      const float angle = static_cast<float>(std::remainder(tilt[v] + poses[v].angle, 2 * std::numbers::pi));
       if (bodies[v]->GetPosition() != position || bodies[v]->GetAngle() != angle)
         bodies[v]->SetTransform(position, angle);
     }

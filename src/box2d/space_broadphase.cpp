@@ -12,8 +12,8 @@
 #include "box2d/near_places.hpp"
 #include "box2d/pair_rows.hpp"
 #include "scene/motion.hpp"
-#include "vessel/directions.hpp"
 #include "vessel/vessel_faces.hpp"
+#include "vessel/vessel_motion.hpp"
 
 namespace vibrosow {
 namespace {
@@ -118,14 +118,10 @@ struct WallQuery : b2QueryCallback {
   std::vector<int>& found;
 };
 
-/// Holds a face wherever its vessel is tilted by `angle` (rad), in the lab's directions about the vessel's zero.
-Box box_of(const Face& face, double angle) {
-  const Eigen::Matrix2d turn = rotation(angle);
+/// Holds a face of a vessel as it is turned, in the lab's directions about the vessel's zero.
+Box box_of(const Face& face, const Vessel& vessel, const Pose& pose) {
   Box box;
-  const auto include = [&](Eigen::Vector3d point) {
-    point.head<2>() = turn * point.head<2>();
-    box.include(point);
-  };
+  const auto include = [&](const Eigen::Vector3d& point) { box.include(direction_in_lab(vessel, pose, point)); };
   if (face.kind == Face::Kind::plate) {
     for (const double u : {0.0, face.length_u})
       for (const double v : {0.0, face.length_v}) include(face.origin + u * face.e1 + v * face.e2);
@@ -138,20 +134,14 @@ Box box_of(const Face& face, double angle) {
   return box;
 }
 
-/// The same however it is turned about the axis across.
-Box box_of_turning(const Face& face) {
-  const Box at_rest = box_of(face, 0);
-  const double radius = at_rest.low.head<2>().cwiseAbs().cwiseMax(at_rest.high.head<2>().cwiseAbs()).norm();
-  return {{-radius, -radius, at_rest.low.z()}, {radius, radius, at_rest.high.z()}};
-}
-
 }  // namespace
 
 struct SpaceBroadphase::World {
   struct Wall {
     b2Body* body;
     std::size_t vessel;
-    Box box;  // m, about the vessel's zero
+    Face own;
+    Box box{};  // m, about the vessel's zero
     b2Fixture* fixture = nullptr;
   };
   /// Box2D's tree calls it for every cluster met.
@@ -172,6 +162,7 @@ struct SpaceBroadphase::World {
   };
 
   b2World world{b2Vec2(0, 0)};
+  std::vector<Vessel> vessels;
   std::vector<b2Body*> bodies;        // by vessel
   std::vector<Eigen::Vector2d> rest;  // m, by vessel, its zero in the plan
   std::vector<double> height;         // m, by vessel, its zero
@@ -220,6 +211,18 @@ struct SpaceBroadphase::World {
   Eigen::Vector3d zero_of(std::size_t v) const {
     const Eigen::Vector2d moved = poses[v].displacement - poses.front().displacement;
     return {rest[v].x() + moved.x(), height[v] + moved.y(), rest[v].y() + poses[v].across - poses.front().across};
+  }
+
+  /// Box2D's bodies turn in the plan alone, so faces that turn get new shapes.
+  void turn_walls() {
+    for (std::size_t number = 0; number < walls.size(); ++number) {
+      Wall& wall = walls[number];
+      const std::optional<VesselMotion>& motion = vessels[wall.vessel].motion;
+      if (!wall.fixture || !motion || !turns(*motion)) continue;
+      wall.body->DestroyFixture(wall.fixture);
+      wall.box = box_of(wall.own, vessels[wall.vessel], poses[wall.vessel]);
+      create_fixture(number);
+    }
   }
 
   void place_vessels() {
@@ -348,6 +351,7 @@ struct SpaceBroadphase::World {
 SpaceBroadphase::SpaceBroadphase(const std::vector<Vessel>& vessels, double unit, InstructionSet instructions)
     : world_(std::make_unique<World>(unit, instructions)) {
   World& w = *world_;
+  w.vessels = vessels;
   for (std::size_t v = 0; v < vessels.size(); ++v) {
     const Vessel& vessel = vessels[v];
     b2BodyDef definition;
@@ -355,9 +359,8 @@ SpaceBroadphase::SpaceBroadphase(const std::vector<Vessel>& vessels, double unit
     w.bodies.push_back(w.world.CreateBody(&definition));
     w.rest.emplace_back(vessel.origin.x(), vessel.front);
     w.height.push_back(vessel.origin.y());
-    const bool turning = vessel.motion && turns(*vessel.motion);
     for (const Face& face : vessel_faces(vessel)) {
-      w.walls.push_back({w.bodies.back(), v, turning ? box_of_turning(face) : box_of(face, vessel.tilt)});
+      w.walls.push_back({w.bodies.back(), v, face, box_of(face, vessel, {})});
       w.create_fixture(w.walls.size() - 1);
     }
   }
@@ -380,6 +383,7 @@ void SpaceBroadphase::find(const Grains& grains, const std::vector<Pose>& poses,
   World& w = *world_;
   w.poses = poses;
   w.place_vessels();
+  w.turn_walls();
   w.update_boxes(grains, margin);
   w.find_pairs(ranges, margin, 0, 0, false, pairs);
 

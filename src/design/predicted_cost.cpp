@@ -12,6 +12,7 @@
 #include "plan/effects.hpp"
 #include "plan/model.hpp"
 #include "plan/predicted_grains.hpp"
+#include "scene/motion.hpp"
 #include "simulation/simulation.hpp"
 #include "vessel/vessel_motion.hpp"
 
@@ -100,10 +101,22 @@ TableMotion motion_from(const Vessel& vessel, double from, double span) {
   return motion;
 }
 
+/// The same of one that turns steadily, which no table would tell from one that rocks.
+TurningMotion turning_from(const Vessel& vessel, double from) {
+  TurningMotion motion = std::get<TurningMotion>(*vessel.motion);
+  const Pose pose = vessel_pose(vessel, from);
+  motion.phase = motion.axis == TurningAxis::across ? pose.angle : pose.turn;
+  motion.stop -= from;
+  return motion;
+}
+
 /// The scene as it goes on from `from` (s) for `span` (s), for grains that are where they are then.
 Scene continued(Scene scene, double from, double span) {
   change_vessels(scene, [&](Vessel& vessel) {
-    if (vessel.motion) vessel.motion = motion_from(vessel, from, span);
+    if (turns_steadily(vessel))
+      vessel.motion = turning_from(vessel, from);
+    else if (vessel.motion)
+      vessel.motion = motion_from(vessel, from, span);
   });
   return scene;
 }

@@ -1,5 +1,6 @@
 #include "fields/tray_frame.hpp"
 
+#include "scene/motion.hpp"
 #include "vessel/directions.hpp"
 
 namespace vibrosow {
@@ -9,9 +10,22 @@ Eigen::Matrix2d turned_back(double angle) {
   return angle == 0 ? Eigen::Matrix2d(Eigen::Matrix2d::Identity()) : rotation(-angle);
 }
 
+void put_at_rest(Snapshot& s) {
+  s.tray_x = s.tray_y = s.tray_angle = s.tray_vx = s.tray_vy = s.tray_spin = 0;
+}
+
+bool is_at_rest(const Snapshot& s) {
+  return s.tray_x == 0 && s.tray_y == 0 && s.tray_angle == 0 && s.tray_vx == 0 && s.tray_vy == 0 && s.tray_spin == 0;
+}
+
 }  // namespace
 
 Snapshot in_tray_frame(const Snapshot& lab, const Vessel& tray) {
+  if (turns_steadily(tray) && !is_at_rest(lab)) {
+    Snapshot still = lab;
+    put_at_rest(still);
+    return in_tray_frame(still, tray);
+  }
   const Eigen::Matrix2d now = turned_back(tray.tilt + lab.tray_angle), at_rest = turned_back(tray.tilt);
   const Eigen::Vector2d origin = tray.origin + Eigen::Vector2d(lab.tray_x, lab.tray_y);
   Snapshot own = lab;
@@ -27,7 +41,7 @@ Snapshot in_tray_frame(const Snapshot& lab, const Vessel& tray) {
     own.start_x[i] = start.x(), own.start_y[i] = start.y();
   }
   for (double& angle : own.angle) angle -= tray.tilt + lab.tray_angle;
-  own.tray_x = own.tray_y = own.tray_angle = own.tray_vx = own.tray_vy = own.tray_spin = 0;
+  put_at_rest(own);
   return own;
 }
 

@@ -7,6 +7,7 @@ namespace vibrosow {
 
 /// The snapshot in the tray's own frame: positions from the left end of its floor, x along the floor; velocities
 /// and spins relative to the tray's. Starts are taken as if the tray had been at rest then. The tray itself is at rest.
+/// Of a tray that turns over and over it is the frame of the tray at rest.
 Snapshot in_tray_frame(const Snapshot& lab, const Vessel& tray);
 
 /// Indices of the grains between the tray's end walls, above its floor line and below their tops. `own`: in the tray's

@@ -16,6 +16,11 @@
 namespace vibrosow {
 
 void refuse_fill(const Vessel& vessel) {
+  if (is_drum(vessel))
+    throw InputError(fmt::format(
+        "{}: {} grains do not all lie within the circle of the {}'s pieces; take fewer, or a {} just as long and high "
+        "as its circle",
+        vessel.fill->where.or_key(vessel.name + ".fill.count"), vessel.fill->count, vessel.name, vessel.name));
   throw InputError(
       fmt::format("{}: {} grains rise above the end walls ({}.height = {:.6g} mm); take fewer, or a higher {}",
                   vessel.fill->where.or_key(vessel.name + ".fill.count"), vessel.fill->count, vessel.name,
@@ -38,6 +43,22 @@ bool is_on_a_piece(const std::vector<WallSegment>& walls, const Eigen::Vector2d&
   return std::any_of(walls.begin(), walls.end(), [&](const WallSegment& wall) {
     return wall.is_piece && distance_to_wall(wall, seat) < 0.5 * clear;
   });
+}
+
+/// Whether none of a drum's circles holds a grain of `radius` at `seat`.
+bool is_outside_of_drum(const Vessel& vessel, const Eigen::Vector2d& seat, double radius) {
+  constexpr double slack = 1e-3;  // of the radius
+  return is_drum(vessel) && std::ranges::none_of(vessel.pieces, [&](const WallPiece& piece) {
+           return is_full_circle(piece) && (seat - piece.centre).norm() + (1 - slack) * radius < piece.radius;
+         });
+}
+
+/// Seeds are poured into a drum as if its upper half were not there.
+Vessel without_lid(Vessel vessel) {
+  if (!is_drum(vessel)) return vessel;
+  for (WallPiece& piece : vessel.pieces)
+    if (is_full_circle(piece)) piece.from = std::numbers::pi, piece.to = 2 * std::numbers::pi;
+  return vessel;
 }
 
 /// Places side by side along one direction of a vessel.
@@ -81,7 +102,7 @@ std::vector<PackedGrain> pack_rows(const Vessel& vessel, const std::vector<SeedL
     const bool offset = plan.hexagonal && layer % 2 == 1;
     for (int k = 0; k < row.of_layer(offset) && packed.size() < order.size(); ++k) {
       const double x = row.at(k, offset);
-      if (is_on_a_piece(walls, {x, y}, plan.clear)) continue;
+      if (is_on_a_piece(walls, {x, y}, plan.clear) || is_outside_of_drum(vessel, {x, y}, 0.5 * plan.clear)) continue;
       const double dx = plan.shift * random.uniform(-1, 1), dy = plan.shift * random.uniform(-1, 1);
       const int lot = order[packed.size()];
       const SeedLot& seeds = lots[static_cast<std::size_t>(lot)];
@@ -110,6 +131,7 @@ std::vector<PackedGrain> pack_layers(const Vessel& vessel, const std::vector<See
       const FloorPlace place(along.at(k % in_row, offset), across.at(k / in_row, offset));
       if (between_ends(vessel, 0.5 * plan.clear * (1 - 1e-9), place) != place) continue;
       if (obstacles.distance({place.x(), y, place.y()}) < 0.5 * plan.clear) continue;
+      if (is_outside_of_drum(vessel, {place.x(), y}, 0.5 * plan.clear)) continue;
       const double dx = plan.shift * random.uniform(-1, 1), dy = plan.shift * random.uniform(-1, 1);
       const double dz = plan.shift * random.uniform(-1, 1);
       const int lot = order[packed.size()];
@@ -142,6 +164,17 @@ namespace {
 
 constexpr std::size_t large_bed = 20000;  // grains whose state is more than a core's cache holds
 
+std::vector<PackedGrain> pack_poured(const Vessel& vessel, const std::vector<SeedLot>& lots, Space space,
+                                     const std::vector<int>& order, Random& random, StopRequest stop) {
+  const auto poured = space == Space::plane ? pour : pour_in_space;
+  const std::vector<PackedGrain> grains = poured(without_lid(vessel), lots, order, random, stop);
+  for (const PackedGrain& grain : grains)
+    if (is_outside_of_drum(vessel, {grain.x, grain.y},
+                           0.5 * grain.size * lots[static_cast<std::size_t>(grain.lot)].diameter))
+      refuse_fill(vessel);
+  return grains;
+}
+
 /// Lists a bed column by column instead of row by row, so that neighbours are near each other in memory.
 void order_by_columns(double width, std::vector<PackedGrain>& grains) {
   std::ranges::stable_sort(grains, {}, [width](const PackedGrain& grain) {
@@ -162,7 +195,7 @@ std::vector<PackedGrain> pack(const Vessel& vessel, const std::vector<SeedLot>& 
   if (in_space && diameter > *vessel.depth)
     throw InputError(fmt::format("{}.depth: a grain of {:.6g} mm does not fit in", vessel.name, diameter * 1e3));
   const std::vector<int> order = shuffled_lots(lots, vessel.fill->count, random);
-  std::vector<PackedGrain> grains = poured     ? (in_space ? pour_in_space : pour)(vessel, lots, order, random, stop)
+  std::vector<PackedGrain> grains = poured     ? pack_poured(vessel, lots, space, order, random, stop)
                                     : in_space ? pack_layers(vessel, lots, order, random)
                                                : pack_rows(vessel, lots, order, random);
   constexpr double in_plane = 64, across_columns = 8;  // diameters

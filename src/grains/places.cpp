@@ -22,6 +22,7 @@ Vessel at_zero(const Vessel& vessel, bool box) {
   own.origin.setZero(), own.front = 0, own.tilt = 0, own.motion.reset();
   own.box = box;
   box ? own.pieces.clear() : own.holes.clear();
+  if (!box && own.front_and_back == Sides::walls) own.front_and_back = Sides::open;  // no discs of a drum
   return own;
 }
 

@@ -12,6 +12,7 @@ namespace {
 constexpr ColumnUnit millimetre{Dimension::length, "mm", "mm"};
 constexpr ColumnUnit second{Dimension::time, "s", "s"};
 constexpr ColumnUnit hertz{Dimension::frequency, "Hz", "Hz"};
+constexpr ColumnUnit rpm{Dimension::frequency, "rpm", "rpm"};
 constexpr ColumnUnit gram{Dimension::mass, "g", "g"};
 constexpr ColumnUnit gram_per_second{Dimension::mass_rate, "g_per_s", "g/s"};
 constexpr ColumnUnit millimetre_per_second{Dimension::speed, "mm_per_s", "mm/s"};
@@ -90,6 +91,8 @@ constexpr std::array key_words = {
     KeyWord{"stop_ramp", second},
     KeyWord{"phase", degree},
     KeyWord{"angle", degree},
+    KeyWord{"speed", rpm},
+    KeyWord{"axis", {}},
     KeyWord{"file", {}},
     KeyWord{"box", {}},
     KeyWord{"sides", {}},

@@ -100,6 +100,28 @@ RockingMotion read_rocking(Table& table) {
   return motion;
 }
 
+/// The speed counts turns in time.
+TurningMotion read_turning(Table& table) {
+  TurningMotion motion;
+  const double turns_per_second = table.required_quantity("speed", Dimension::frequency, -1000, 1000);
+  if (!(std::abs(turns_per_second) >= 1e-6))
+    table.fail("speed", "is nothing; expected turns in time such as \"6 rpm\"");
+  motion.angular_velocity = 2 * std::numbers::pi * turns_per_second;
+  motion.axis =
+      table.choice("axis", {"across", "upright"}).value_or(0) == 0 ? TurningAxis::across : TurningAxis::upright;
+  const std::vector<double> pivot = table.quantities("pivot", Dimension::length, -100, 100);
+  if (pivot.size() != 2) {
+    table.fail(
+        "pivot",
+        "expected where the axis passes in the vessel's frame, such as [\"10 cm\", \"10 cm\"]: along and up, of an "
+        "upright axis along and across");
+  }
+  motion.pivot = {pivot[0], pivot[1]};
+  const Course course = read_course(table, 1 / std::abs(turns_per_second));
+  motion.ramp = course.ramp, motion.stop = course.stop, motion.stop_ramp = course.stop_ramp;
+  return motion;
+}
+
 /// A CSV file of positions, column by column.
 class MotionTableReader {
  public:
@@ -185,12 +207,13 @@ TableMotion read_motion_table(const CsvLines& csv) {
 }
 
 VesselMotion read_motion(Table table) {
-  const std::vector<std::string> kinds = {"harmonic", "sum", "rocking", "table"};
+  const std::vector<std::string> kinds = {"harmonic", "sum", "rocking", "table", "turning"};
   const std::optional<std::size_t> kind = table.choice("kind", kinds);
-  if (!kind) table.fail("kind", "is missing; expected \"harmonic\", \"sum\", \"rocking\" or \"table\"");
+  if (!kind) table.fail("kind", "is missing; expected \"harmonic\", \"sum\", \"rocking\", \"turning\" or \"table\"");
   if (*kind == 0) return read_harmonic(table);
   if (*kind == 1) return read_sum(table);
   if (*kind == 2) return read_rocking(table);
+  if (*kind == 4) return read_turning(table);
   const std::string file = table.required_text("file");
   const std::filesystem::path path = table.directory("file") / file;
   if (!std::filesystem::is_regular_file(path)) table.fail("file", fmt::format("there is no file {}", path.string()));

@@ -99,6 +99,20 @@ std::vector<WallPiece> read_line(const Table& table, const std::vector<std::arra
   return pieces;
 }
 
+/// The line turned about an upright axis.
+void read_axis(Table& table, std::vector<WallPiece>& line) {
+  const std::vector<double> about = table.quantities("about", Dimension::length, -longest, longest);
+  if (about.empty()) return;
+  if (about.size() != 2)
+    table.fail("about", "expected where the upright axis passes, along and across, such as [\"10 cm\", \"4 cm\"]");
+  for (WallPiece& piece : line) {
+    if (piece.a.x() < 0 || piece.b.x() < 0)
+      table.fail("line", "beside about, points are [distance from the axis, height]; a distance is not below zero");
+    if (piece.a.x() == 0 && piece.b.x() == 0) table.fail("line", "beside about, a piece of it lies on the axis");
+    piece.about = {about[0], about[1]};
+  }
+}
+
 WallPiece read_arc(Table& table) {
   WallPiece arc;
   const std::vector<double> centre = table.quantities("centre", Dimension::length, -longest, longest);
@@ -123,11 +137,13 @@ std::vector<WallPiece> read_pieces(Table& vessel) {
   std::vector<WallPiece> pieces;
   for (Table& table : vessel.tables("pieces")) {
     if (table.has("line")) {
-      const auto line = read_line(table, table.points("line", Dimension::length, -longest, longest));
+      auto line = read_line(table, table.points("line", Dimension::length, -longest, longest));
+      read_axis(table, line);
       pieces.insert(pieces.end(), line.begin(), line.end());
     } else {
       pieces.push_back(read_arc(table));
       table.skip("line");
+      table.skip("about");
     }
   }
   return pieces;
@@ -238,6 +254,19 @@ void check_funnel(const Table& table, const Vessel& vessel, Space space) {
     table.fail("funnel", "needs slots from front to back, or plan = \"round\" with a round hole in the middle");
 }
 
+/// What goes by a vessel's own left, right and up cannot go with one that turns over and over.
+void check_turning(Table& table, const Vessel& vessel) {
+  if (!turns_steadily(vessel)) return;
+  if (vessel.fill && vessel.fill->keep)
+    table.required_table("fill").fail("keep", "a vessel that turns over and over cannot be topped up");
+  const bool upright = std::get<TurningMotion>(*vessel.motion).axis == TurningAxis::upright;
+  if (!upright && !vessel.holes.empty())
+    table.fail("holes", "a vessel that turns over and over has none; leave gaps between its pieces");
+  if (upright && vessel.front_and_back == Sides::periodic)
+    table.fail("front_and_back",
+               "a vessel that turns about an upright axis cannot be periodic: its ends would not meet");
+}
+
 }  // namespace
 
 Vessel read_vessel(Table table, const std::string& name, const std::vector<SeedLot>& lots, Space space,
@@ -277,6 +306,7 @@ Vessel read_vessel(Table table, const std::string& name, const std::vector<SeedL
                                                : "direction",
                    "a motion across the plane needs space = \"3d\"");
   }
+  check_turning(table, vessel);
   check_periodic(table, vessel, largest_diameter(lots));
   if (space == Space::three_dimensional) check_periodic_across(table, vessel, tray, largest_diameter(lots));
   return vessel;

@@ -1,5 +1,7 @@
 #include "plan/model.hpp"
 
+#include <algorithm>
+
 #include "plan/contact_parameters.hpp"
 #include "plan/effects.hpp"
 #include "plan/touching_kinds.hpp"
@@ -10,8 +12,20 @@ namespace vibrosow {
 
 namespace {
 
-void check_depths(const Model& model) {
-  if (model.scene.space == Space::plane) return;
+/// What only space has cannot be left out in the plane without a word.
+void check_plane(const Vessel& vessel) {
+  const auto* turning = vessel.motion ? std::get_if<TurningMotion>(&*vessel.motion) : nullptr;
+  if (turning && turning->axis == TurningAxis::upright)
+    throw InputError(vessel.name + ".motion.axis: about an upright axis a vessel turns in space alone");
+  if (std::ranges::any_of(vessel.pieces, [](const WallPiece& piece) { return piece.about.has_value(); }))
+    throw InputError(vessel.name + ".pieces: a line is turned about an upright axis in space alone");
+}
+
+void check_vessels(const Model& model) {
+  if (model.scene.space == Space::plane) {
+    std::ranges::for_each(model.vessels, check_plane);
+    return;
+  }
   for (const Vessel& vessel : model.vessels)
     if (!vessel.depth) throw InputError(vessel.name + ".depth: is missing; in space a vessel has one");
 }
@@ -23,7 +37,7 @@ Model prepare(const Scene& scene, const std::optional<EffectSet>& effects) {
   model.scene = scene;
   model.vessels = {scene.tray};
   if (scene.hopper) model.vessels.push_back(*scene.hopper);
-  check_depths(model);
+  check_vessels(model);
   const LawTraits& law = traits_of(scene.contact.law);
   const Surfaces surfaces = meeting_surfaces(scene.contact, scene.lots.size());
   model.law = &law;

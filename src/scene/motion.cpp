@@ -19,6 +19,7 @@ struct Moves {
   bool operator()(const TableMotion& m) const {
     return differs_from_zero(m.x) || differs_from_zero(m.y) || differs_from_zero(m.angle) || differs_from_zero(m.z);
   }
+  bool operator()(const TurningMotion& m) const { return m.angular_velocity != 0; }
 };
 
 struct Text {
@@ -33,6 +34,11 @@ struct Text {
   std::string operator()(const RockingMotion& m) const {
     return fmt::format("{:.6g} degree at {:.6g} Hz about ({:.6g}, {:.6g}) mm", m.angle * 180 / std::numbers::pi,
                        m.frequency, m.pivot.x() * 1e3, m.pivot.y() * 1e3);
+  }
+  std::string operator()(const TurningMotion& m) const {
+    const bool upright = m.axis == TurningAxis::upright;
+    return fmt::format("{:.6g} rpm about {} at ({:.6g}, {:.6g}) mm", m.angular_velocity * 30 / std::numbers::pi,
+                       upright ? "the upright axis" : "the axis across", m.pivot.x() * 1e3, m.pivot.y() * 1e3);
   }
   std::string operator()(const TableMotion& m) const {
     return fmt::format("a table of {} times from {:.6g} to {:.6g} s", m.times.size(), m.times.front(), m.times.back());
@@ -55,7 +61,11 @@ bool moves_across(const VesselMotion& motion) {
 
 bool turns(const VesselMotion& motion) {
   if (const auto* table = std::get_if<TableMotion>(&motion)) return differs_from_zero(table->angle);
-  return std::holds_alternative<RockingMotion>(motion);
+  return std::holds_alternative<RockingMotion>(motion) || std::holds_alternative<TurningMotion>(motion);
+}
+
+bool turns_steadily(const Vessel& vessel) {
+  return vessel.motion && std::holds_alternative<TurningMotion>(*vessel.motion);
 }
 
 std::string motion_text(const VesselMotion& motion) {

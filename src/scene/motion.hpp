@@ -15,6 +15,9 @@ bool turns(const VesselMotion& motion);
 /// Whether the motion may move the vessel across the plane.
 bool moves_across(const VesselMotion& motion);
 
+/// Whether the vessel turns over and over: its own frame then does not say what is left and right, or even up.
+bool turns_steadily(const Vessel& vessel);
+
 /// "10 mm at 9 Hz", for people.
 std::string motion_text(const VesselMotion& motion);
 

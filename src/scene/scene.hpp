@@ -123,12 +123,15 @@ struct Hole {
 
 /// A piece of a vessel's wall beside its box, in the vessel's frame: a straight line from a to b, or, where the radius
 /// is not zero, an arc about `centre`, anticlockwise from the angle `from` to the angle `to` (at most a full turn). A
-/// grain larger than an arc's circle feels only the nearer end of it from within.
+/// grain larger than an arc's circle feels only the nearer end of it from within. In space a piece is drawn out from
+/// front to back, or a line is turned about an upright axis, from which its points' x are distances: a cylinder, a cone
+/// or a disc.
 struct WallPiece {
   Eigen::Vector2d a = Eigen::Vector2d::Zero(), b = Eigen::Vector2d::Zero();  // m
   Eigen::Vector2d centre = Eigen::Vector2d::Zero();                          // m
   double radius = 0;                                                         // m
   double from = 0, to = 0;                                                   // rad, 0 along x, pi/2 up
+  std::optional<Eigen::Vector2d> about{};                                    // m, x and z of that axis
   bool operator==(const WallPiece&) const = default;
 };
 
@@ -191,7 +194,22 @@ struct TableMotion {
   bool operator==(const TableMotion&) const = default;
 };
 
-using VesselMotion = std::variant<HarmonicMotion, SumMotion, RockingMotion, TableMotion>;
+enum class TurningAxis { across, upright };
+
+/// The vessel turns with the angular velocity times s(t), over and over, about an axis of its own frame through the
+/// pivot: across the plane (a drum), x towards y, or in space upright, x towards z.
+struct TurningMotion {
+  Eigen::Vector2d pivot = Eigen::Vector2d::Zero();  // m, in the vessel's frame: x and y, of an upright axis x and z
+  double angular_velocity = 0;                      // rad/s
+  TurningAxis axis = TurningAxis::across;
+  double ramp = 0;       // s
+  double stop = never;   // s
+  double stop_ramp = 0;  // s
+  double phase = 0;      // rad, by which it is turned at time 0
+  bool operator==(const TurningMotion&) const = default;
+};
+
+using VesselMotion = std::variant<HarmonicMotion, SumMotion, RockingMotion, TableMotion, TurningMotion>;
 
 /// Seeds that come one by one at even intervals, the first 1 / rate after `start`, each at a random place, at rest in
 /// the lab. One whose place is taken waits.

@@ -336,6 +336,7 @@ void fields(Io& io, WallPiece& piece) {
   io.used("centre_m", piece.centre, usual.centre, arc);
   io.used("from_rad", piece.from, usual.from, arc);
   io.used("to_rad", piece.to, usual.to, arc);
+  io.optional("about_m", piece.about);
 }
 
 template <class Io>
@@ -356,7 +357,7 @@ void fields(Io& io, Rain& rain) {
   io.time("stop_s", rain.stop);
 }
 
-/// Of a harmonic and of a rocking motion.
+/// Of a harmonic, a rocking and a turning motion.
 template <class Io, class Motion>
 void course(Io& io, Motion& motion) {
   io.value("ramp_s", motion.ramp);
@@ -405,11 +406,21 @@ void fields(Io& io, TableMotion& motion) {
 }
 
 template <class Io>
+void fields(Io& io, TurningMotion& motion) {
+  io.value("pivot_m", motion.pivot);
+  io.value("angular_velocity_rad_per_s", motion.angular_velocity);
+  io.choice("axis", motion.axis, {"across", "upright"});
+  course(io, motion);
+  io.used("phase_rad", motion.phase, 0.0, false);
+}
+
+template <class Io>
 void fields(Io& io, VesselMotion& motion) {
   std::size_t kind = motion.index();
-  io.choice("kind", kind, {"harmonic", "sum", "rocking", "table"});
+  io.choice("kind", kind, {"harmonic", "sum", "rocking", "table", "turning"});
   if (kind != motion.index()) {
-    const std::array<VesselMotion, 4> kinds = {HarmonicMotion{}, SumMotion{}, RockingMotion{}, TableMotion{}};
+    const std::array<VesselMotion, 5> kinds = {HarmonicMotion{}, SumMotion{}, RockingMotion{}, TableMotion{},
+                                               TurningMotion{}};
     motion = kinds.at(kind);
   }
   std::visit([&io](auto& one) { fields(io, one); }, motion);

@@ -54,6 +54,10 @@ void serialize(Archive& archive, TableMotion& m) {
   archive(m.times, m.x, m.y, m.angle, m.z);
 }
 template <class Archive>
+void serialize(Archive& archive, TurningMotion& m) {
+  archive(m.pivot, m.angular_velocity, m.axis, m.ramp, m.stop, m.stop_ramp, m.phase);
+}
+template <class Archive>
 void serialize(Archive& archive, Grains& g) {  // kinds and flags are the model's
   archive(g.x, g.y, g.vx, g.vy, g.omega, g.angle, g.lot, g.id);
   archive(g.z, g.vz, g.omega_x, g.omega_y);

@@ -5,6 +5,7 @@
 #include <cstring>
 
 #include "elementary/functions.hpp"
+#include "vessel/directions.hpp"
 #include "vessel/vessel_motion.hpp"
 
 namespace vibrosow {
@@ -48,6 +49,7 @@ double Counter::past_edge(const Hole& hole, const Place& place) const {
 }
 
 int Counter::hole_at(const Place& place) const {
+  if (line_below_) return 0;
   for (std::size_t k = 0; k < tray_.holes.size(); ++k)
     if (past_edge(tray_.holes[k], place) <= 0) return static_cast<int>(k) + 1;
   return tray_.box && is_between_ends(tray_, in_space_, place.x, place.z) ? through_the_floor : 0;
@@ -64,14 +66,15 @@ int Counter::hole_beside(const Place& place, double reach) const {
 
 void Counter::watch(const Grains& grains, const Walls& walls, const GrainLoops& loops, double time,
                     std::vector<OutflowEvent>& events) {
-  const Pose pose = walls.poses().front();
+  const Pose pose = line_below_.value_or(walls.poses().front());
   const double angle = tray_.tilt + pose.angle;
   const auto [sine, cosine] = elementary::sine_cosine(angle);
   const double ox = tray_.origin.x() + pose.displacement.x(), oy = tray_.origin.y() + pose.displacement.y();
   const double oz = tray_.front + pose.across;
-  const PoseRate rate = walls.rate(0, time);
+  const PoseRate rate = line_below_ ? PoseRate{} : walls.rate(0, time);
   const Eigen::Vector2d& tray_velocity = rate.velocity;
   const double spin = rate.angular_velocity;
+  const Eigen::Vector2d turned = unit_vector(pose.turn);
 
   // Most grains are above the floor and were so before: they are passed over unseen.
   const std::size_t n = grains.size();
@@ -92,11 +95,18 @@ void Counter::watch(const Grains& grains, const Walls& walls, const GrainLoops& 
     const double across = in_space_ ? grains.z[i] - oz : 0,
                  speed_across = in_space_ ? grains.vz[i] - rate.across_velocity : 0;
     const double speed_along = cosine * ux + sine * uy, speed_up = cosine * uy - sine * ux;
+    // Above which place of the floor, which may turn in itself, it was `ago` (s) before.
+    const auto place_before = [&](double ago) {
+      const double x = along - (speed_along + rate.turn_rate * across) * ago;
+      const double z = across - (speed_across - rate.turn_rate * along) * ago;
+      if (pose.turn == 0) return within_period({x, z});
+      return Place{turned.x() * x + turned.y() * z, turned.x() * z - turned.y() * x};
+    };
     // Back along the present velocity to the moment when the centre was `level` high.
     const auto since = [&](double level) { return speed_up < 0 ? (height - level) / speed_up : 0.0; };
     if (!state_.below[i]) {
       state_.below[i] = 1;
-      const Place place = within_period({along - speed_along * since(0), across - speed_across * since(0)});
+      const Place place = place_before(since(0));
       passage.x = place.x, passage.z = place.z;
       passage.hole = hole_at(place);
       // The edge may lie in the waist of a clump: its centre then passes beside the opening. A disc of it that goes
@@ -111,8 +121,7 @@ void Counter::watch(const Grains& grains, const Walls& walls, const GrainLoops& 
       continue;
     }
     const double ago = since(-count_below_);
-    const Place place = passage.hole > 0 ? Place{passage.x, passage.z}
-                                         : within_period({along - speed_along * ago, across - speed_across * ago});
+    const Place place = passage.hole > 0 ? Place{passage.x, passage.z} : place_before(ago);
     const double in_plane = elementary::hypot(grains.vx[i], grains.vy[i]);
     events.push_back({time - ago, passage.hole, grains.lot[i], grains.id[i], grains.kind(i).mass, place.x,
                       in_space_ ? elementary::hypot(in_plane, grains.vz[i]) : in_plane, place.z});
@@ -127,9 +136,9 @@ void Counter::remove_flagged(const std::vector<char>& removed) {
 }
 
 bool is_inside(const Vessel& vessel, const Pose& pose, const Grains& grains, std::size_t i) {
-  const Eigen::Vector2d own = in_vessel_frame(vessel, pose, {grains.x[i], grains.y[i]});
-  const double across = grains.in_space ? grains.z[i] - vessel.front - pose.across : 0;
-  return own.y() >= 0 && own.y() <= vessel.height && is_between_ends(vessel, grains.in_space, own.x(), across);
+  const Eigen::Vector3d own =
+      point_in_vessel(vessel, pose, {grains.x[i], grains.y[i], grains.in_space ? grains.z[i] : 0});
+  return own.y() >= 0 && own.y() <= vessel.height && is_between_ends(vessel, grains.in_space, own.x(), own.z());
 }
 
 }  // namespace vibrosow

@@ -1,22 +1,26 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "compute/grain_loops.hpp"
 #include "simulation/state.hpp"
+#include "vessel/vessel_motion.hpp"
 #include "vessel/walls.hpp"
 
 namespace vibrosow {
 
 /// Watches grains leave. A grain belongs to the hole whose opening its centre passes in the tray's frame; it is counted
 /// when its centre crosses the counting line, `count_below` under the tray's floor and as wide as the world. One that
-/// passes no hole is spilled. Of a clump the centre may pass beside the opening, as far as its circle reaches.
+/// passes no hole is spilled. Of a clump the centre may pass beside the opening, as far as its circle reaches. From a
+/// tray that turns over and over a grain is spilled where it is `count_below` below all that the tray reaches.
 class Counter {
  public:
   Counter(const Scene& scene, CounterState& state)
       : tray_(scene.tray),
         in_space_(scene.space == Space::three_dimensional),
         count_below_(scene.run.count_below),
+        line_below_(line_below(scene.tray)),
         state_(state) {}
 
   /// Looks at every grain after a step that ended at `time`; new events are appended.
@@ -45,6 +49,7 @@ class Counter {
   const Vessel& tray_;
   bool in_space_;
   double count_below_;
+  std::optional<Pose> line_below_;  // of a tray that turns over and over
   CounterState& state_;
   std::vector<char> flags_;  // of those to look at
 };

@@ -182,7 +182,8 @@ int Feeder::rain(Grains& grains, const Walls& walls, double time) {
   int added = 0;
   for (std::size_t v = 0; v < walls.vessels().size(); ++v)
     if (walls.vessels()[v].rain)
-      added += rain(walls.vessels()[v], state_.showers[v], grains, walls, walls.poses()[v], time);
+      added += rain(walls.vessels()[v], state_.showers[v], grains, walls,
+                    steady_frame(walls.vessels()[v], walls.poses()[v]), time);
   return added;
 }
 

@@ -9,6 +9,7 @@
 
 #include "vessel/nearest_on_face.hpp"
 #include "vessel/nearest_point.hpp"
+#include "vessel/vessel_faces.hpp"
 #include "vessel/vessel_walls.hpp"
 
 namespace vibrosow {
@@ -162,7 +163,10 @@ Neighbours::Neighbours(const std::vector<Vessel>& vessels, double largest_diamet
   if (across) images_.push_back({0, *tray.depth});
   if (along && across) images_.push_back({tray.length, *tray.depth}), images_.push_back({tray.length, -*tray.depth});
   wide_boundaries_.resize(images_.size()), old_boundaries_.resize(images_.size());
-  for (const Vessel& vessel : vessels) largest_radius_.push_back(largest_radius(vessel, Eigen::Vector2d::Zero()));
+  for (const Vessel& vessel : vessels) {
+    largest_radius_.push_back(largest_radius(vessel, Eigen::Vector2d::Zero()));
+    largest_radius_in_plan_.push_back(kinds.in_space ? largest_radius_in_plan(vessel, Eigen::Vector2d::Zero()) : 0);
+  }
 }
 
 void Neighbours::note(const Grains& grains, const Walls& walls, Reference& reference) {
@@ -194,7 +198,8 @@ bool Neighbours::moved(const Reference& from, const Grains& grains, const Walls&
     const Pose &now = walls.poses()[v], &then = from.poses[v];
     const Eigen::Vector2d relative_now = now.displacement - first.displacement;
     const Eigen::Vector2d relative_then = then.displacement - from.poses.front().displacement;
-    const double turned = std::abs(now.angle - then.angle) * largest_radius_[v];
+    const double turned = std::abs(now.angle - then.angle) * largest_radius_[v] +
+                          std::abs(now.turn - then.turn) * largest_radius_in_plan_[v];
     const double across = std::abs(now.across - first.across - then.across + from.poses.front().across);
     if ((relative_now - relative_then).norm() + across + turned > limit) return true;
   }

@@ -78,9 +78,10 @@ class Neighbours {
   Execution& execution_;
   std::optional<Broadphase> in_plane_;
   std::optional<SpaceBroadphase> in_space_;
-  std::vector<double> largest_radius_;  // m, by vessel, of its walls about its frame's zero
-  double diameter_;                     // m, of the largest grain
-  double wide_margin_, narrow_margin_;  // m
+  std::vector<double> largest_radius_;          // m, by vessel, of its walls about its frame's zero
+  std::vector<double> largest_radius_in_plan_;  // m, the same about the upright axis, in space
+  double diameter_;                             // m, of the largest grain
+  double wide_margin_, narrow_margin_;          // m
   std::int64_t updates_since_prune_ = 0;
   HistoryKinds kinds_;
   std::vector<Image> images_;

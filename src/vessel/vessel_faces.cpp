@@ -173,6 +173,39 @@ void add_front_and_back(const Vessel& vessel, std::vector<Face>& faces) {
   faces.push_back(plate(vessel.name + " back", {x.from, 0, *vessel.depth}, {0, height, 0}, {x.length(), 0, 0}));
 }
 
+/// A drum's discs; beside circles that are no drum the front and back are missing, as floor and end walls are.
+void add_ends_of_drum(const Vessel& vessel, std::vector<Face>& faces) {
+  if (!is_drum(vessel) || vessel.front_and_back != Sides::walls) return;
+  for (std::size_t k = 0; k < vessel.pieces.size(); ++k) {
+    const WallPiece& circle = vessel.pieces[k];
+    if (!is_full_circle(circle)) continue;
+    for (const double z : {0.0, *vessel.depth}) {
+      Face disc;
+      disc.kind = Face::Kind::revolved;
+      disc.name = vessel.name + " piece " + std::to_string(k + 1) + (z == 0 ? " front" : " back");
+      disc.origin = {circle.centre.x(), circle.centre.y(), z};
+      disc.e1 = Vector::UnitX(), disc.e2 = Vector::UnitY(), disc.normal = Vector::UnitZ();
+      disc.radius_b = circle.radius;
+      disc.half_angle = std::numbers::pi;
+      faces.push_back(disc);
+    }
+  }
+}
+
+/// Pieces turned about upright axes, and where a direction is periodic their images.
+void add_revolved_pieces(const Vessel& vessel, std::vector<Face>& faces) {
+  const int most_x = vessel.sides == Sides::periodic ? 1 : 0, most_z = vessel.front_and_back == Sides::periodic ? 1 : 0;
+  for (std::size_t k = 0; k < vessel.pieces.size(); ++k) {
+    const WallPiece& piece = vessel.pieces[k];
+    if (!piece.about) continue;
+    for (int i = -most_x; i <= most_x; ++i)
+      for (int j = -most_z; j <= most_z; ++j)
+        faces.push_back(revolved(vessel.name + " piece " + std::to_string(k + 1),
+                                 {piece.about->x() + i * vessel.length, 0, piece.about->y() + j * vessel.depth.value()},
+                                 piece.a, piece.b));
+  }
+}
+
 /// A lid over a hole and over its images.
 void add_gate(const std::string& name, const Hole& hole, std::vector<Face>& faces) {
   Face face = is_round(hole) ? revolved(name, {hole.centre, 0, hole.across}, {0, 0}, {hole.width / 2, 0})
@@ -199,11 +232,34 @@ std::vector<Face> vessel_faces(const Vessel& vessel) {
   drawn.box = vessel.box && vessel.plan == Plan::rectangle && like_the_plane(vessel);
   for (Hole& hole : drawn.holes) hole.open_at = 0;
   for (const WallSegment& wall : vessel_walls(drawn)) faces.push_back(drawn_out(wall, z));
+  add_revolved_pieces(vessel, faces);
+  add_ends_of_drum(vessel, faces);
   const std::vector<Hole> holes = with_images(vessel);
   for (std::size_t k = 0; k < holes.size(); ++k)
     if (holes[k].open_at > 0)
       add_gate(vessel.name + " gate " + std::to_string(k % vessel.holes.size() + 1), holes[k], faces);
   return faces;
+}
+
+double largest_radius_in_plan(const Vessel& vessel, const Eigen::Vector2d& about) {
+  double largest = 0;
+  const auto include = [&](const Vector& point) {
+    largest = std::max(largest, (Eigen::Vector2d(point.x(), point.z()) - about).norm());
+  };
+  for (const Face& face : vessel_faces(vessel)) {
+    if (face.kind == Face::Kind::plate) {
+      for (const double u : {0.0, face.length_u})
+        for (const double v : {0.0, face.length_v}) include(face.origin + u * face.e1 + v * face.e2);
+      continue;
+    }
+    for (const auto& [radius, height] :
+         {std::pair(face.radius_a, face.height_a), std::pair(face.radius_b, face.height_b)}) {
+      const Vector middle = face.origin + height * face.normal;
+      const double in_plan = (Eigen::Vector2d(middle.x(), middle.z()) - about).norm();
+      largest = std::max(largest, in_plan + radius);
+    }
+  }
+  return largest;
 }
 
 }  // namespace vibrosow

@@ -8,9 +8,14 @@
 namespace vibrosow {
 
 /// All faces of a vessel in space, in its own frame: floor, end walls, front and back, then its pieces from front to
-/// back, then its gates. The floor is a plate with round holes, or plates between slots; a floor that slopes towards
+/// back, those turned about upright axes, the discs that close a drum's full circles in front and behind, then its
+/// gates. The floor is a plate with round holes, or plates between slots; a floor that slopes towards
 /// slots as long as the vessel is deep is a wedge. Throws std::invalid_argument where a floor slopes towards other
 /// holes, or round holes and slots are mixed.
 std::vector<Face> vessel_faces(const Vessel& vessel);
+
+/// Distance, in m, of the furthest face from the upright axis through x and z of the vessel's frame (of surfaces of
+/// revolution: an upper bound).
+double largest_radius_in_plan(const Vessel& vessel, const Eigen::Vector2d& about);
 
 }  // namespace vibrosow

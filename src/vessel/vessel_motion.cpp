@@ -1,12 +1,15 @@
 #include "vessel/vessel_motion.hpp"
 
 #include <algorithm>
+#include <array>
 #include <boost/math/interpolators/makima.hpp>
 #include <cmath>
 #include <numbers>
 
 #include "elementary/functions.hpp"
+#include "scene/motion.hpp"
 #include "vessel/directions.hpp"
+#include "vessel/vessel_faces.hpp"
 #include "vessel/vessel_walls.hpp"
 
 namespace vibrosow {
@@ -81,6 +84,44 @@ PoseRate rocking_rate(const RockingMotion& m, double tilt, double time) {
   return {-spin * turned_left(rotation(tilt + m.angle * now.size) * m.pivot), spin, 0};
 }
 
+/// The integral of s from 0 to `time`, s. Between its breaks s is a polynomial of degree 6 or less, of which Gauss's
+/// rule with four points is exact.
+double time_at_full_speed(const TurningMotion& m, double time) {
+  constexpr std::array<std::pair<double, double>, 2> places_and_weights = {
+      {{0.3399810435848563, 0.6521451548625461}, {0.8611363115940526, 0.3478548451374538}}};
+  std::array<double, 4> breaks = {m.ramp, m.stop, m.stop + m.stop_ramp, time};
+  std::ranges::sort(breaks);
+  double sum = 0, from = 0;
+  for (const double end : breaks) {
+    const double to = std::min(end, time), middle = 0.5 * (from + to), half = 0.5 * (to - from);
+    if (half <= 0) continue;
+    for (const auto& [place, weight] : places_and_weights)
+      sum += half * weight * (ramp_at(m, middle - half * place).size + ramp_at(m, middle + half * place).size);
+    from = to;
+  }
+  return sum;
+}
+
+double turned_by(const TurningMotion& m, double time) {
+  return m.phase + m.angular_velocity * time_at_full_speed(m, time);
+}
+
+/// As rocking does; about an upright axis the frame's zero moves along and across.
+Pose turning_pose(const TurningMotion& m, double tilt, double time) {
+  const double angle = turned_by(m, time);
+  if (m.axis == TurningAxis::across) return {rotation(tilt) * m.pivot - rotation(tilt + angle) * m.pivot, angle, 0};
+  const Eigen::Vector2d moved = m.pivot - rotation(angle) * m.pivot;
+  return {moved.x() * unit_vector(tilt), 0, moved.y(), angle};
+}
+
+PoseRate turning_rate(const TurningMotion& m, double tilt, double time) {
+  const double spin = m.angular_velocity * ramp_at(m, time).size;
+  const double angle = turned_by(m, time);
+  if (m.axis == TurningAxis::across) return {-spin * turned_left(rotation(tilt + angle) * m.pivot), spin, 0};
+  const Eigen::Vector2d velocity = -spin * turned_left(rotation(angle) * m.pivot);
+  return {velocity.x() * unit_vector(tilt), 0, velocity.y(), spin};
+}
+
 void add(Pose& sum, const Pose& part) {
   sum.displacement += part.displacement, sum.across += part.across;
 }
@@ -131,6 +172,7 @@ Pose VesselPath::pose(double time) const {
   if (curves_) return curves_->pose(time);
   if (const auto* harmonic = std::get_if<HarmonicMotion>(&*motion_)) return harmonic_pose(*harmonic, time);
   if (const auto* rocking = std::get_if<RockingMotion>(&*motion_)) return rocking_pose(*rocking, tilt_, time);
+  if (const auto* turning = std::get_if<TurningMotion>(&*motion_)) return turning_pose(*turning, tilt_, time);
   Pose sum;
   for (const HarmonicMotion& component : std::get<SumMotion>(*motion_).components)
     add(sum, harmonic_pose(component, time));
@@ -142,6 +184,7 @@ PoseRate VesselPath::rate(double time) const {
   if (curves_) return curves_->rate(time);
   if (const auto* harmonic = std::get_if<HarmonicMotion>(&*motion_)) return harmonic_rate(*harmonic, time);
   if (const auto* rocking = std::get_if<RockingMotion>(&*motion_)) return rocking_rate(*rocking, tilt_, time);
+  if (const auto* turning = std::get_if<TurningMotion>(&*motion_)) return turning_rate(*turning, tilt_, time);
   PoseRate sum;
   for (const HarmonicMotion& component : std::get<SumMotion>(*motion_).components)
     add(sum, harmonic_rate(component, time));
@@ -169,14 +212,34 @@ Eigen::Vector2d in_vessel_frame(const Vessel& vessel, const Pose& pose, const Ei
   return rotation(-angle) * moved;
 }
 
+namespace {
+
+/// About the upright axis, x towards z.
+Eigen::Vector3d turned(const Eigen::Vector3d& v, double angle) {
+  if (angle == 0) return v;
+  const Eigen::Vector2d in_plan = rotation(angle) * Eigen::Vector2d(v.x(), v.z());
+  return {in_plan.x(), v.y(), in_plan.y()};
+}
+
+}  // namespace
+
+Eigen::Vector3d direction_in_lab(const Vessel& vessel, const Pose& pose, const Eigen::Vector3d& own) {
+  const Eigen::Vector3d level = turned(own, pose.turn);
+  const double angle = vessel.tilt + pose.angle;
+  if (angle == 0) return level;
+  const Eigen::Vector2d in_plane = rotation(angle) * Eigen::Vector2d(level.x(), level.y());
+  return {in_plane.x(), in_plane.y(), level.z()};
+}
+
 Eigen::Vector3d point_in_lab(const Vessel& vessel, const Pose& pose, const Eigen::Vector3d& own) {
-  const Eigen::Vector2d in_plane = in_lab_frame(vessel, pose, Eigen::Vector2d(own.x(), own.y()));
-  return {in_plane.x(), in_plane.y(), vessel.front + pose.across + own.z()};
+  const Eigen::Vector3d level = turned(own, pose.turn);
+  const Eigen::Vector2d in_plane = in_lab_frame(vessel, pose, Eigen::Vector2d(level.x(), level.y()));
+  return {in_plane.x(), in_plane.y(), vessel.front + pose.across + level.z()};
 }
 
 Eigen::Vector3d point_in_vessel(const Vessel& vessel, const Pose& pose, const Eigen::Vector3d& lab) {
   const Eigen::Vector2d in_plane = in_vessel_frame(vessel, pose, Eigen::Vector2d(lab.x(), lab.y()));
-  return {in_plane.x(), in_plane.y(), lab.z() - pose.across - vessel.front};
+  return turned({in_plane.x(), in_plane.y(), lab.z() - pose.across - vessel.front}, -pose.turn);
 }
 
 Eigen::Vector2d material_velocity(const Vessel& vessel, const Pose& pose, const PoseRate& rate,
@@ -185,10 +248,28 @@ Eigen::Vector2d material_velocity(const Vessel& vessel, const Pose& pose, const 
   return rate.velocity + rate.angular_velocity * turned_left(lab - vessel.origin - pose.displacement);
 }
 
+Pose steady_frame(const Vessel& vessel, const Pose& pose) {
+  return turns_steadily(vessel) ? Pose{} : pose;
+}
+
+std::optional<Pose> line_below(const Vessel& vessel) {
+  const auto* turning = vessel.motion ? std::get_if<TurningMotion>(&*vessel.motion) : nullptr;
+  if (!turning || turning->axis != TurningAxis::across) return std::nullopt;
+  const double axis = (rotation(vessel.tilt) * turning->pivot).y();
+  return Pose{{0, axis - largest_radius(vessel, turning->pivot)}, -vessel.tilt};
+}
+
+Eigen::Vector3d spin_in_space(const Vessel& vessel, const Pose& pose, const PoseRate& rate) {
+  if (rate.turn_rate == 0) return {0, 0, rate.angular_velocity};
+  const Eigen::Vector2d up = turned_left(unit_vector(vessel.tilt + pose.angle));
+  return {-rate.turn_rate * up.x(), -rate.turn_rate * up.y(), rate.angular_velocity};
+}
+
 Eigen::Vector3d point_velocity(const Vessel& vessel, const Pose& pose, const PoseRate& rate,
                                const Eigen::Vector3d& lab) {
-  const Eigen::Vector2d in_plane = material_velocity(vessel, pose, rate, Eigen::Vector2d(lab.x(), lab.y()));
-  return {in_plane.x(), in_plane.y(), rate.across_velocity};
+  const Eigen::Vector3d arm = lab - point_in_lab(vessel, pose, Eigen::Vector3d::Zero());
+  return Eigen::Vector3d(rate.velocity.x(), rate.velocity.y(), rate.across_velocity) +
+         cross(spin_in_space(vessel, pose, rate), arm);
 }
 
 namespace {
@@ -213,6 +294,16 @@ MotionBounds bounds(const SumMotion& sum) {
 MotionBounds bounds(const RockingMotion& m, const Vessel& vessel) {
   const double omega = two_pi * m.frequency, reach = m.angle * largest_radius(vessel, m.pivot);
   return {reach * omega, reach * omega * omega, reach * omega * omega};
+}
+
+MotionBounds bounds(const TurningMotion& m, const Vessel& vessel) {
+  const double omega = std::abs(m.angular_velocity);
+  if (m.axis == TurningAxis::across) {
+    const double reach = largest_radius(vessel, m.pivot);
+    return {reach * omega, reach * omega * omega, reach * omega * omega};
+  }
+  const double reach = largest_radius_in_plan(vessel, m.pivot), acceleration = reach * omega * omega;
+  return {reach * omega, acceleration, acceleration * std::abs(elementary::sin(vessel.tilt))};
 }
 
 /// Velocity is quadratic in time between two times of the table, acceleration linear.
@@ -247,6 +338,7 @@ MotionBounds motion_bounds(const Vessel& vessel) {
   if (const auto* harmonic = std::get_if<HarmonicMotion>(&*vessel.motion)) return bounds(*harmonic);
   if (const auto* sum = std::get_if<SumMotion>(&*vessel.motion)) return bounds(*sum);
   if (const auto* rocking = std::get_if<RockingMotion>(&*vessel.motion)) return bounds(*rocking, vessel);
+  if (const auto* turning = std::get_if<TurningMotion>(&*vessel.motion)) return bounds(*turning, vessel);
   return sampled_bounds(std::get<TableMotion>(*vessel.motion), vessel);
 }
 

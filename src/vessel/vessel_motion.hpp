@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <memory>
+#include <optional>
 
 #include "scene/scene.hpp"
 #include "vessel/pose.hpp"
@@ -13,8 +14,8 @@ namespace vibrosow {
 /// harmonic: the frame moves by A s(t) sin(2 pi f t + phase) along a direction. sum: the sum of such. rocking: it turns
 /// by Theta s(t) sin(2 pi f t) about a pivot that stays where it is at rest. table: positions and angle are
 /// interpolated between the times by piecewise cubics with continuous first derivatives (modified Akima), at rest
-/// before the first and after the last. s grows as 3 p^2 - 2 p^3 during the ramp, p its elapsed part, and from `stop`
-/// falls to zero likewise; then the vessel stands still.
+/// before the first and after the last. turning: about its axis by the integral of omega s(t). s grows as 3 p^2 - 2 p^3
+/// during the ramp, p its elapsed part, and from `stop` falls to zero likewise; then the vessel stands still.
 class VesselPath {
  public:
   explicit VesselPath(const Vessel& vessel);
@@ -39,22 +40,31 @@ PoseRate vessel_velocity(const Vessel& vessel, double time);
 Eigen::Vector2d in_lab_frame(const Vessel& vessel, const Pose& pose, const Eigen::Vector2d& own);
 Eigen::Vector2d in_vessel_frame(const Vessel& vessel, const Pose& pose, const Eigen::Vector2d& lab);
 
-/// The same in space: a vessel turns about the axis across the plane.
+/// The same in space, and a direction.
 Eigen::Vector3d point_in_lab(const Vessel& vessel, const Pose& pose, const Eigen::Vector3d& own);
+Eigen::Vector3d direction_in_lab(const Vessel& vessel, const Pose& pose, const Eigen::Vector3d& own);
 Eigen::Vector3d point_in_vessel(const Vessel& vessel, const Pose& pose, const Eigen::Vector3d& lab);
 
 /// Velocity (m/s, lab) of the vessel's material at the point `lab` (m).
 Eigen::Vector2d material_velocity(const Vessel& vessel, const Pose& pose, const PoseRate& rate,
                                   const Eigen::Vector2d& lab);
 
-/// The same in space.
+/// The same in space, and how the vessel turns, rad/s, lab.
 Eigen::Vector3d point_velocity(const Vessel& vessel, const Pose& pose, const PoseRate& rate,
                                const Eigen::Vector3d& lab);
+Eigen::Vector3d spin_in_space(const Vessel& vessel, const Pose& pose, const PoseRate& rate);
+
+/// The pose by which rain falls and maps are drawn: the vessel's, or where it turns steadily that at rest.
+Pose steady_frame(const Vessel& vessel, const Pose& pose);
+
+/// Of a vessel that turns over and over about the axis across: a level frame whose line y = 0 lies below all that the
+/// vessel reaches.
+std::optional<Pose> line_below(const Vessel& vessel);
 
 /// Bounds for any point of the vessel's walls, without the ramps' fraction; 0 without motion. A harmonic has 2 pi f A
 /// and (2 pi f)^2 A, a sum the sum of these, rocking the same with Theta times the furthest wall's distance R from the
-/// pivot for A (its centripetal fraction is never the larger one below 1 rad). A table is sampled between its times;
-/// there an angle's rate counts with R from the frame's zero.
+/// pivot for A (its centripetal fraction is never the larger one below 1 rad), turning omega R and omega^2 R. A table
+/// is sampled between its times; there an angle's rate counts with R from the frame's zero.
 struct MotionBounds {
   double speed = 0;                  // m/s
   double acceleration = 0;           // m/s2

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "elementary/functions.hpp"
 #include "vessel/directions.hpp"
@@ -177,7 +178,8 @@ std::vector<WallSegment> vessel_walls(const Vessel& vessel) {
   for (int copy = periodic ? -1 : 0; copy <= (periodic ? 1 : 0); ++copy) {
     const double shift = copy * vessel.length;
     for (std::size_t k = 0; k < vessel.pieces.size(); ++k)
-      joiner.add(segment_of(vessel.pieces[k], {shift, 0}, vessel.name + " piece " + std::to_string(k + 1)));
+      if (!vessel.pieces[k].about)
+        joiner.add(segment_of(vessel.pieces[k], {shift, 0}, vessel.name + " piece " + std::to_string(k + 1)));
     for (std::size_t k = 0; k < vessel.holes.size(); ++k)
       if (vessel.holes[k].open_at > 0)
         joiner.add(gate(vessel.holes[k], shift, vessel.name + " gate " + std::to_string(k + 1)));
@@ -199,7 +201,21 @@ double largest_radius(const Vessel& vessel, const Eigen::Vector2d& about) {
     largest = std::max({largest, (wall.a - about).norm(), (wall.b - about).norm()});
     if (wall.radius > 0) largest = std::max(largest, (wall.centre - about).norm() + wall.radius);
   }
+  for (const WallPiece& piece : vessel.pieces) {
+    if (!piece.about) continue;
+    for (const Eigen::Vector2d& end : {piece.a, piece.b})
+      for (const double radius : {-end.x(), end.x()})
+        largest = std::max(largest, (Eigen::Vector2d(piece.about->x() + radius, end.y()) - about).norm());
+  }
   return largest;
+}
+
+bool is_full_circle(const WallPiece& piece) {
+  return piece.radius > 0 && piece.to - piece.from >= 2 * std::numbers::pi * (1 - 1e-9);
+}
+
+bool is_drum(const Vessel& vessel) {
+  return !vessel.box && std::ranges::any_of(vessel.pieces, is_full_circle);
 }
 
 double distance_to_wall(const WallSegment& wall, const Eigen::Vector2d& point) {

@@ -31,7 +31,7 @@ struct WallSegment {
 /// and everything is there three times, shifted by the length to either side, which leaves room for grains that are
 /// beyond a side and not yet carried over to the other.
 ///
-/// A gate lies across each hole that opens later than 0.
+/// A gate lies across each hole that opens later than 0. A piece turned about an upright axis is a wall of space alone.
 std::vector<WallSegment> vessel_walls(const Vessel& vessel);
 
 /// Height of the floor, in m, at its highest point: 0 when flat.
@@ -39,6 +39,11 @@ double highest_floor(const Vessel& vessel);
 
 /// Distance, in m, of the furthest wall from the point `about` of the vessel's frame (of arcs: an upper bound).
 double largest_radius(const Vessel& vessel, const Eigen::Vector2d& about);
+
+bool is_full_circle(const WallPiece& piece);
+
+/// Whether a vessel is closed all round: full circles, without floor and end walls.
+bool is_drum(const Vessel& vessel);
 
 /// Distance, in m, of a point of the vessel's frame from a wall.
 double distance_to_wall(const WallSegment& wall, const Eigen::Vector2d& point);

@@ -92,16 +92,11 @@ void Walls::place_face(std::size_t number, const Pose& pose, const PoseRate& rat
   const Face& own = faces_[number];
   PlacedFace& face = placed_faces_[number];
   face.origin = point_in_lab(vessel, pose, own.origin);
-  face.e1 = own.e1, face.e2 = own.e2, face.normal = own.normal;
-  const double angle = vessel.tilt + pose.angle;
-  if (angle != 0) {
-    const Eigen::Matrix2d turn = rotation(angle);
-    for (Eigen::Vector3d* direction : {&face.e1, &face.e2, &face.normal})
-      direction->head<2>() = turn * direction->head<2>();
-  }
-  const Eigen::Vector2d velocity = material_velocity(vessel, pose, rate, Eigen::Vector2d::Zero());
-  face.velocity = {velocity.x(), velocity.y(), rate.across_velocity};
-  face.spin = {0, 0, rate.angular_velocity};
+  face.e1 = direction_in_lab(vessel, pose, own.e1);
+  face.e2 = direction_in_lab(vessel, pose, own.e2);
+  face.normal = direction_in_lab(vessel, pose, own.normal);
+  face.velocity = point_velocity(vessel, pose, rate, Eigen::Vector3d::Zero());
+  face.spin = spin_in_space(vessel, pose, rate);
 }
 
 void Walls::place(double time) {

@@ -46,5 +46,19 @@ TEST(TrayFrame, AGrainThatTurnsWithTheTrayIsAtRestInIt) {
   EXPECT_NEAR(own.angle[0], 0.2, 1e-15);
 }
 
+TEST(TrayFrame, OfATrayThatTurnsOverAndOverItIsTheFrameAtRest) {
+  Vessel tray = made_up_tray(0.4);
+  tray.origin = {0.1, 0.2}, tray.motion = TurningMotion{{0.2, 0.2}, 3};
+  Snapshot lab;
+  lab.tray_x = 0.4, lab.tray_y = 0.4, lab.tray_angle = 3.1, lab.tray_vx = 0.6, lab.tray_vy = -0.6, lab.tray_spin = 3;
+  put(lab, 0.15, 0.22, 0.5, -0.1);
+  const Snapshot own = in_tray_frame(lab, tray);
+  EXPECT_NEAR(own.x[0], 0.05, 1e-15);
+  EXPECT_NEAR(own.y[0], 0.02, 1e-15);
+  EXPECT_EQ(own.vx[0], 0.5);
+  EXPECT_EQ(own.vy[0], -0.1);
+  EXPECT_EQ(own.tray_angle, 0);
+}
+
 }  // namespace
 }  // namespace vibrosow

@@ -85,6 +85,27 @@ frequency = "3 Hz"
   EXPECT_TRUE(turns(*scene.tray.motion));
 }
 
+TEST(ReadMotion, Turning) {
+  const TemporaryFolder folder;
+  const Scene scene = read(folder, R"(kind = "turning"
+speed = "-6 rpm"
+axis = "upright"
+pivot = ["25 cm", "3 cm"]
+ramp = "1 s"
+stop = "5 s"
+)");
+  const auto& m = std::get<TurningMotion>(*scene.tray.motion);
+  EXPECT_EQ(m.pivot, Eigen::Vector2d(0.25, 0.03));
+  EXPECT_NEAR(m.angular_velocity, -0.2 * std::numbers::pi, 1e-15);
+  EXPECT_EQ(m.axis, TurningAxis::upright);
+  EXPECT_EQ(m.ramp, 1);
+  EXPECT_EQ(m.stop, 5);
+  EXPECT_NEAR(m.stop_ramp, 10, 1e-14) << "one turn";
+  EXPECT_TRUE(turns(*scene.tray.motion));
+  EXPECT_TRUE(turns_steadily(scene.tray));
+  EXPECT_EQ(motion_text(*scene.tray.motion), "-6 rpm about the upright axis at (250, 30) mm");
+}
+
 TEST(ReadMotion, TableBesideTheFileThatNamesIt) {
   const TemporaryFolder folder;
   folder.write("shake.csv", "# measured\ntime_s;y_mm;angle_degree\n0;0;0\n0,1;1,5;1\n0,2;0;0\n0,3;-1;-2\n");

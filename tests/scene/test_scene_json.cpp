@@ -79,6 +79,10 @@ TEST(SceneJson, EveryChangeHasItsOwnText) {
       [](Scene& s) {
         s.tray.pieces.push_back({{0, 0}, {1, 0}});
       },
+      [](Scene& s) {
+        s.tray.pieces.push_back({{0, 0}, {1, 0}});
+        s.tray.pieces.back().about = {1, 1};
+      },
       [](Scene& s) { s.tray.holes[0].open_at = 1; },
       [](Scene& s) {
         s.tray.rain = Rain{200, 0, 0.1, 0.1};
@@ -102,6 +106,12 @@ TEST(SceneJson, EveryChangeHasItsOwnText) {
       },
       [](Scene& s) {
         s.tray.motion = RockingMotion{{0, 0}, 0.01, 9, 0};
+      },
+      [](Scene& s) {
+        s.tray.motion = TurningMotion{{0, 0}, 1};
+      },
+      [](Scene& s) {
+        s.tray.motion = TurningMotion{{0, 0}, 1, TurningAxis::upright};
       },
       [](Scene& s) {
         s.tray.motion = TableMotion{{0, 1, 2, 3}, {0, 0, 0, 0}, {0, 0, 0, 0}, {0, 0, 0, 1}, {}};
@@ -322,7 +332,8 @@ Hole any_hole() {
 
 WallPiece any_piece() {
   WallPiece piece;
-  auto& [a, b, centre, radius, from, to] = piece;
+  auto& [a, b, centre, radius, from, to, about] = piece;
+  about = maybe(any_point);
   for (Eigen::Vector2d* point : {&a, &b, &centre}) *point = any_point();
   for (double* number : {&radius, &from, &to})
     if (any_choice()) *number = any_number();
@@ -376,14 +387,26 @@ TableMotion any_table() {
   return motion;
 }
 
+TurningMotion any_turning() {
+  TurningMotion motion;
+  auto& [pivot, angular_velocity, axis, ramp, stop, stop_ramp, phase] = motion;
+  pivot = any_point();
+  axis = any_of_first<TurningAxis>(2);
+  for (double* number : {&angular_velocity, &ramp, &stop_ramp, &phase}) *number = any_number();
+  stop = any_time();
+  return motion;
+}
+
 VesselMotion any_motion() {
-  switch (*rc::gen::inRange(0, 4)) {
+  switch (*rc::gen::inRange(0, 5)) {
     case 0:
       return any_harmonic();
     case 1:
       return SumMotion{any_list(any_harmonic)};
     case 2:
       return any_rocking();
+    case 3:
+      return any_turning();
     default:
       return any_table();
   }

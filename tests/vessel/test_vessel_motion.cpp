@@ -44,6 +44,7 @@ std::vector<Kind> every_kind() {
   return {{"harmonic", HarmonicMotion{0.7, 0.01, 9, 0.2, 0.4, stop, stop_ramp}},
           {"sum", SumMotion{{{0.7, 0.01, 9, 0.2, 0, stop, stop_ramp}, {1.6, 0.002, 23, 0.2, 1.1, stop, stop_ramp}}}},
           {"rocking", RockingMotion{{0.25, 0.03}, 0.05, 7, 0.2, stop, stop_ramp}},
+          {"turning", TurningMotion{{0.25, 0.03}, 3, TurningAxis::across, 0.2, stop, stop_ramp}},
           {"table", sampled_sine()}};
 }
 
@@ -67,7 +68,8 @@ TEST(Motion, RampsBeginAndEndAtRest) {
     for (const double t : {0.0, 0.7}) {
       EXPECT_EQ(path.rate(t).velocity.norm(), 0) << kind.name;
       EXPECT_EQ(path.rate(t).angular_velocity, 0) << kind.name;
-      if (std::holds_alternative<TableMotion>(kind.motion)) continue;
+      const bool stays_turned = t > 0 && std::holds_alternative<TurningMotion>(kind.motion);
+      if (stays_turned || std::holds_alternative<TableMotion>(kind.motion)) continue;
       EXPECT_EQ(path.pose(t).displacement.norm(), 0) << kind.name;
       EXPECT_EQ(path.pose(t).angle, 0) << kind.name;
     }
@@ -104,6 +106,72 @@ TEST(Motion, RockingLeavesThePivotAndTurnsTheRest) {
     const Eigen::Vector2d own(0.1, 0.02);
     EXPECT_NEAR((in_vessel_frame(vessel, pose, in_lab_frame(vessel, pose, own)) - own).norm(), 0, 1e-15);
   }
+}
+
+TEST(Motion, TurningIsTheIntegralOfItsRampedSpeed) {
+  const double speed = -5;
+  const auto angle = [&](double ramp, double stop, double stop_ramp, double time) {
+    return vessel_pose(moving(TurningMotion{{0.1, 0.2}, speed, TurningAxis::across, ramp, stop, stop_ramp}), time)
+        .angle;
+  };
+  EXPECT_NEAR(angle(0, never, 0, 100), speed * 100, 1e-12 * 500);
+  EXPECT_NEAR(angle(2, never, 0, 1), speed * 2 * (0.125 - 0.03125), 1e-15);  // T (p^3 - p^4 / 2)
+  EXPECT_NEAR(angle(2, never, 0, 7), speed * (7 - 1), 1e-14);
+  EXPECT_NEAR(angle(2, 7, 3, 11), speed * (7 - 1 + 1.5), 1e-14);
+  EXPECT_NEAR(angle(0, 0.5, 0, 11), speed * 0.5, 1e-15) << "stops at once";
+  EXPECT_EQ(angle(2, 7, 3, -1), 0);
+  // One that begins to stop before its ramp has ended, against a sum of its speeds.
+  const VesselPath path(moving(TurningMotion{{0.1, 0.2}, speed, TurningAxis::across, 2, 1, 3}));
+  const int parts = 40000;
+  double sum = 0;
+  for (int k = 0; k < parts; ++k) sum += path.rate(4.0 * (k + 0.5) / parts).angular_velocity * 4.0 / parts;
+  EXPECT_NEAR(path.pose(4).angle, sum, 1e-8);
+  EXPECT_EQ(path.pose(5).angle, path.pose(4).angle);
+}
+
+TEST(Motion, TurningUprightIsRigidAboutItsAxis) {
+  const TurningMotion turning{{0.25, 0.04}, 3, TurningAxis::upright, 0.2, 0.9, 0.3};
+  for (const double tilt : {0.0, 0.1}) {
+    Vessel vessel = moving(turning);
+    vessel.tilt = tilt, vessel.depth = 0.08;
+    const VesselPath path(vessel);
+    const Eigen::Vector3d on_axis(0.25, 0.05, 0.04), at_rest = point_in_lab(vessel, {}, on_axis);
+    for (const double t : {0.1, 0.2, 0.5, 1.0, 1.19, 1.3}) {
+      const double h = 1e-6;
+      const Pose pose = path.pose(t);
+      EXPECT_NEAR((point_in_lab(vessel, pose, on_axis) - at_rest).norm(), 0, 1e-15);
+      for (const Eigen::Vector3d& own : {Eigen::Vector3d(0, 0, 0), Eigen::Vector3d(0.5, 0.1, 0.08)}) {
+        const auto at = [&](double time) { return point_in_lab(vessel, path.pose(time), own); };
+        EXPECT_NEAR((at(t) - at_rest).norm(), (own - on_axis).norm(), 1e-15);
+        EXPECT_NEAR((point_in_vessel(vessel, pose, at(t)) - own).norm(), 0, 1e-15);
+        EXPECT_NEAR((point_velocity(vessel, pose, path.rate(t), at(t)) - (at(t + h) - at(t - h)) / (2 * h)).norm(), 0,
+                    1e-8);
+        EXPECT_LE(point_velocity(vessel, pose, path.rate(t), at(t)).norm(), motion_bounds(vessel).speed * (1 + 1e-12));
+      }
+      EXPECT_NEAR(spin_in_space(vessel, pose, path.rate(t)).norm(), std::abs(path.rate(t).turn_rate), 1e-15);
+    }
+    // x towards z: seen along y its spin is negative.
+    EXPECT_LT(spin_in_space(vessel, path.pose(0.5), path.rate(0.5)).y(), -2.9);
+    EXPECT_GE(motion_bounds(vessel).speed, 3 * 0.25);
+    EXPECT_NEAR(motion_bounds(vessel).vertical_acceleration, std::sin(tilt) * motion_bounds(vessel).acceleration,
+                1e-15);
+  }
+}
+
+TEST(Motion, UnderADrumALineLiesBelowAllThatItReaches) {
+  Vessel vessel = moving(TurningMotion{{0.1, 0.05}, 3});
+  vessel.box = false;
+  WallPiece circle;
+  circle.centre = {0.1, 0.05}, circle.radius = 0.2, circle.to = 2 * std::numbers::pi;
+  vessel.pieces = {circle};
+  const Pose below = line_below(vessel).value();
+  const Eigen::Vector2d axis = in_lab_frame(vessel, {}, {0.1, 0.05});
+  const double height = in_lab_frame(vessel, below, {0.3, 0}).y();
+  EXPECT_NEAR(in_lab_frame(vessel, below, {-0.3, 0}).y(), height, 1e-15) << "level";
+  EXPECT_LE(height, axis.y() - 0.2);
+  EXPECT_GT(height, axis.y() - 0.5);
+  EXPECT_FALSE(line_below(moving(RockingMotion{{0.1, 0}, 0.1, 3})));
+  EXPECT_FALSE(line_below(moving(TurningMotion{{0.1, 0.05}, 3, TurningAxis::upright})));
 }
 
 TEST(Motion, ATableIsMetAtItsTimesAndHeldOutside) {

@@ -1,0 +1,342 @@
+// Vessels that turn steadily: drums in the plane and in space, and upright rotors.
+#include <gmock/gmock.h>
+
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+#include "scene/input_error.hpp"
+#include "simulation/checkpoint.hpp"
+#include "simulation/simulate.hpp"
+#include "support/bench.hpp"
+#include "vessel/vessel_faces.hpp"
+
+namespace vibrosow {
+namespace {
+
+constexpr double pi = std::numbers::pi;
+constexpr double radius = 2e-3, drum_radius = 0.02, depth = 0.012;
+
+/// A drum of circle and discs, its axis at (drum_radius, drum_radius) of its frame.
+Scene drum(Space space, double angular_velocity) {
+  Scene scene;
+  scene.space = space;
+  scene.lots = {{"ball", 2 * radius, 4e-5, Shape::ball, 1}};
+  scene.contact.shell_compression = 1e-4;
+  scene.contact.seed = scene.contact.wall = {0.5, 0.5};
+  scene.contact.friction_model = FrictionModel::spring;
+  scene.tray.name = "tray";
+  scene.tray.length = scene.tray.height = 2 * drum_radius;
+  if (space == Space::three_dimensional) scene.tray.depth = depth;
+  scene.tray.box = false;
+  WallPiece circle;
+  circle.centre = {drum_radius, drum_radius}, circle.radius = drum_radius, circle.to = 2 * pi;
+  scene.tray.pieces = {circle};
+  scene.tray.motion = TurningMotion{circle.centre, angular_velocity, TurningAxis::across, 0.05};
+  scene.run.duration = 2;
+  return scene;
+}
+
+struct Ball {
+  Eigen::Vector3d at, velocity = Eigen::Vector3d::Zero(), spin = Eigen::Vector3d::Zero();
+};
+
+SimulationState start_of(const Model& model, const std::vector<Ball>& balls) {
+  Grains grains = no_grains(model);
+  for (const Ball& ball : balls) {
+    if (grains.in_space)
+      grains.add(ball.at, ball.velocity, 0, grains.kinds.front());
+    else
+      grains.add(ball.at.x(), ball.at.y(), ball.velocity.x(), ball.velocity.y(), 0);
+    if (!grains.rotation) continue;
+    grains.omega.back() = ball.spin.z();
+    if (grains.in_space) grains.omega_x.back() = ball.spin.x(), grains.omega_y.back() = ball.spin.y();
+  }
+  return starting_state(model, 1, std::move(grains));
+}
+
+/// Layers between z = 2 mm and 10 mm, in the middle of the drum.
+std::vector<Ball> heap(double x, double y) {
+  std::vector<Ball> balls;
+  for (int j = 0; j < 4; ++j)
+    for (int i = 0; i < 4; ++i)
+      for (int k = 0; k < 2; ++k)
+        balls.push_back({{x - 0.008 + 0.0045 * i + 1e-4 * j, y - 0.008 + 0.0045 * j, 0.003 + 0.0045 * k + 1e-4 * i}});
+  return balls;
+}
+
+std::vector<double> bits(const Grains& g) {
+  std::vector<double> all;
+  for (const auto* array : {&g.x, &g.y, &g.z, &g.vx, &g.vy, &g.vz, &g.omega, &g.omega_x, &g.omega_y})
+    all.insert(all.end(), array->begin(), array->end());
+  return all;
+}
+
+double distance_from_axis(const Grains& g, std::size_t i) {
+  return std::hypot(g.x[i] - drum_radius, g.y[i] - drum_radius);
+}
+
+class InADrum : public testing::TestWithParam<Space> {
+ protected:
+  /// One ball at the drum's bottom until it stays where it is.
+  static Grains after(const Scene& scene, double time) {
+    const Model model = prepare_to_run(scene);
+    Simulation run(model, start_of(model, {{{drum_radius, radius, depth / 2}}}));
+    EXPECT_TRUE(run.run_until(time));
+    return run.grains();
+  }
+  /// From the bottom, the way the wall goes there.
+  static double climbed(const Grains& g) { return std::atan2(g.x[0] - drum_radius, drum_radius - g.y[0]); }
+};
+INSTANTIATE_TEST_SUITE_P(Turning, InADrum, testing::Values(Space::plane, Space::three_dimensional));
+
+TEST_P(InADrum, ABallRollsOnTheSpotAtTheBottom) {
+  for (const double speed : {3.0, -3.0}) {
+    const Grains g = after(drum(GetParam(), speed), 2);
+    EXPECT_NEAR(climbed(g), 0, 1e-4);
+    EXPECT_NEAR(std::hypot(g.vx[0], g.vy[0]), 0, 1e-5);
+    EXPECT_NEAR(g.omega[0] * radius, speed * drum_radius, 1e-3 * std::abs(speed) * drum_radius);
+  }
+}
+
+TEST_P(InADrum, WithRollingResistanceItClimbsToWhereTheTangentIsItsCoefficient) {
+  Scene scene = drum(GetParam(), 3);
+  scene.contact.rolling = Rolling::spring;
+  scene.contact.wall.rolling_friction = 0.1;
+  const Grains g = after(scene, 2);
+  EXPECT_NEAR(climbed(g), std::atan(0.1), 2e-3);
+  EXPECT_NEAR(g.omega[0] * radius, 3 * drum_radius, 1e-2 * 3 * drum_radius);
+}
+
+TEST_P(InADrum, WhatDoesNotRollSlidesWhereTheTangentIsItsFriction) {
+  Scene scene = drum(GetParam(), 3);
+  scene.contact.rotation = false;
+  EXPECT_NEAR(climbed(after(scene, 2)), std::atan(0.5), 2e-3);
+}
+
+TEST_P(InADrum, FasterThanGravityItGoesRoundWithTheWall) {
+  // omega^2 R = 3 g at the ball's centre, which is started with the wall.
+  const double speed = std::sqrt(3 * standard_gravity / (drum_radius - radius));
+  Scene scene = drum(GetParam(), speed);
+  std::get<TurningMotion>(*scene.tray.motion).ramp = 0;
+  scene.contact.rotation = false, scene.contact.wall.friction = 2;
+  const Model model = prepare_to_run(scene);
+  Simulation run(model, start_of(model, {{{drum_radius, radius, depth / 2}, {speed * (drum_radius - radius), 0, 0}}}));
+  EXPECT_TRUE(run.run_until(pi / speed));  // half a turn: it is at the top
+  EXPECT_NEAR(run.grains().y[0], 2 * drum_radius - radius, 2e-4);
+  EXPECT_NEAR(std::abs(run.grains().x[0] - drum_radius), 0, 0.05 * drum_radius);
+  EXPECT_LT(run.grains().vx[0], -0.9 * speed * (drum_radius - radius));
+}
+
+TEST_P(InADrum, NoSeedIsSpilledHoweverItIsTurned) {
+  // The frame's zero lies below the drum at first, or in its middle: half of the drum is then below the line y = 0.
+  for (const double zero : {0.0, drum_radius}) {
+    Scene scene = drum(GetParam(), 12);
+    scene.tray.pieces[0].centre -= Eigen::Vector2d(zero, zero);
+    scene.tray.origin = {zero, zero};
+    std::get<TurningMotion>(*scene.tray.motion).pivot = scene.tray.pieces[0].centre;
+    scene.run.count_below = 1e-3;
+    const Model model = prepare_to_run(scene);
+    std::vector<Ball> balls = heap(drum_radius, drum_radius);
+    if (GetParam() == Space::plane) std::erase_if(balls, [](const Ball& ball) { return ball.at.z() > 0.005; });
+    Simulation run(model, start_of(model, balls));
+    EXPECT_TRUE(run.run_until(0.7));
+    const vibrosow::Run result = run.result();
+    EXPECT_EQ(result.balance.inside, std::ssize(balls));
+    EXPECT_EQ(result.balance.spilled + result.balance.lost + result.balance.counted, 0);
+    EXPECT_THAT(result.warnings, testing::IsEmpty());
+    for (std::size_t i = 0; i < balls.size(); ++i)
+      EXPECT_LT(distance_from_axis(run.grains(), i), drum_radius - 0.99 * radius);
+  }
+}
+
+TEST_P(InADrum, WhatFallsPastItIsSpilledOnce) {
+  Scene scene = drum(GetParam(), 12);
+  scene.run.count_below = 1e-3;
+  const Model model = prepare_to_run(scene);
+  Simulation run(model, start_of(model, {{{-0.01, 0.03, depth / 2}}, {{drum_radius, radius, depth / 2}}}));
+  EXPECT_TRUE(run.run_until(0.5));
+  EXPECT_EQ(run.result().balance.spilled, 1);
+  EXPECT_EQ(run.result().balance.inside, 1);
+  ASSERT_EQ(run.result().events.size(), 1u);
+  EXPECT_EQ(run.result().events[0].hole, 0);
+}
+
+TEST_P(InADrum, TheDrumsWorkIsAccountedFor) {
+  Scene scene = drum(GetParam(), 12);
+  scene.contact.seed = scene.contact.wall = {1e3, 1};  // nothing is lost where nothing slips
+  scene.contact.tangential_damping = 0;
+  const Model model = with_step(prepare(scene), 1e-6);
+  std::vector<Ball> balls = {{{drum_radius, radius, 0.0030}}, {{drum_radius + 0.005, 0.006, 0.0035}}};
+  Simulation run(model, start_of(model, balls));
+  const double before = kinetic_energy(run.grains()) + potential_energy(run.grains(), model.gravity);
+  EXPECT_TRUE(run.run_until(0.2));
+  const vibrosow::Run result = run.result();
+  ASSERT_GT(std::abs(result.energy.wall_work), 1e-6);
+  const double account = result.energy.kinetic + result.energy.potential + result.energy.elastic - before;
+  EXPECT_NEAR(account, result.energy.wall_work, 0.02 * std::abs(result.energy.wall_work));
+}
+
+TEST_P(InADrum, ACutRunGoesOnToTheSameBits) {
+  const Model model = prepare_to_run(drum(GetParam(), 12));
+  std::vector<Ball> balls = heap(drum_radius, drum_radius);
+  if (GetParam() == Space::plane) std::erase_if(balls, [](const Ball& ball) { return ball.at.z() > 0.005; });
+  Simulation whole(model, start_of(model, balls));
+  whole.run_until(0.05);
+  const std::string saved = save(model, whole.state());
+  whole.run_until(0.1);
+  Simulation resumed(model, restore(model, saved));
+  resumed.run_until(0.1);
+  EXPECT_EQ(bits(resumed.grains()), bits(whole.grains()));
+}
+
+TEST_P(InADrum, ItsListsChangeNoBit) {
+  const Model model = prepare_to_run(drum(GetParam(), 30));
+  std::vector<Ball> balls = heap(drum_radius, drum_radius);
+  if (GetParam() == Space::plane) std::erase_if(balls, [](const Ball& ball) { return ball.at.z() > 0.005; });
+  std::vector<std::vector<double>> ends;
+  for (const NeighbourMargins margins :
+       {NeighbourMargins{}, NeighbourMargins{2, 0.02, 0.5}, NeighbourMargins{4, 3, 4}}) {
+    Simulation run(model, start_of(model, balls), ComputeOptions{.margins = margins});
+    run.run_until(0.2);
+    ends.push_back(bits(run.grains()));
+  }
+  for (const auto& end : ends) EXPECT_EQ(end, ends.front());
+}
+
+TEST_P(InADrum, ItCanNeitherBeginNorEndByHand) {
+  const Model model = prepare_to_run(drum(GetParam(), 12));
+  Simulation run(model, start_of(model, {}));
+  EXPECT_THROW(run.set_motion(0, std::nullopt), std::invalid_argument);
+}
+
+TEST(Turning, ADrumIsFilledWithinItsCircle) {
+  for (const Packing packing : {Packing::poured, Packing::layers, Packing::hexagonal}) {
+    Scene scene = drum(Space::plane, 3);
+    scene.tray.fill = Fill{25, packing};
+    const vibrosow::Run run = simulate(scene);
+    EXPECT_EQ(run.balance.inside, 25);
+    EXPECT_EQ(run.status, RunStatus::finished) << run.stop_reason;
+    scene.tray.fill->count = 100;
+    EXPECT_THROW(simulate(scene), InputError);
+  }
+}
+
+TEST(Turning, RainFallsIntoADrumThatTurns) {
+  Scene scene = drum(Space::plane, 12);
+  scene.tray.rain = Rain{100, 0.015, 0.025, 0.03, 0, 0.2};
+  scene.run.duration = 0.6;
+  const vibrosow::Run run = simulate(scene);
+  EXPECT_EQ(run.balance.put_in, 20);
+  EXPECT_EQ(run.balance.inside, 20);
+}
+
+TEST(Turning, ADrumIsClosedByDiscsOrEndless) {
+  Scene scene = drum(Space::three_dimensional, 12);
+  const auto names = [&] {
+    std::vector<std::string> found;
+    for (const Face& face : vessel_faces(scene.tray)) found.push_back(face.name);
+    return found;
+  };
+  EXPECT_THAT(names(), testing::ElementsAre("tray piece 1", "tray piece 1 front", "tray piece 1 back"));
+  scene.tray.front_and_back = Sides::periodic;
+  EXPECT_THAT(names(), testing::ElementsAre("tray piece 1"));
+  scene.tray.front_and_back = Sides::open;
+  EXPECT_THAT(names(), testing::ElementsAre("tray piece 1"));
+}
+
+TEST(Turning, AnEndlessDrumCarriesItsBallsRound) {
+  Scene scene = drum(Space::three_dimensional, 12);
+  scene.tray.front_and_back = Sides::periodic;
+  scene.tray.depth = 0.024;  // a period needs room
+  const Model model = prepare_to_run(scene);
+  std::vector<Ball> balls = heap(drum_radius, drum_radius);
+  for (std::size_t k = 0; k < balls.size(); ++k) balls[k].velocity.z() = k % 2 == 0 ? 0.3 : -0.3;
+  Simulation run(model, start_of(model, balls));
+  EXPECT_TRUE(run.run_until(0.5));
+  EXPECT_EQ(run.result().balance.inside, std::ssize(balls));
+  for (std::size_t i = 0; i < balls.size(); ++i)
+    EXPECT_LT(distance_from_axis(run.grains(), i), drum_radius - 0.99 * radius);
+}
+
+// About an upright axis: a plate of 5 cm radius with a rim 1 cm high.
+constexpr double plate_radius = 0.05;
+
+Scene rotor(double angular_velocity) {
+  Scene scene = drum(Space::three_dimensional, 0);
+  scene.tray.length = 0.1, scene.tray.height = 0.02, scene.tray.depth = 0.1;
+  const auto turned = [](Eigen::Vector2d a, Eigen::Vector2d b) {
+    WallPiece piece{a, b};
+    piece.about = {plate_radius, plate_radius};
+    return piece;
+  };
+  scene.tray.pieces = {turned({0, 0}, {plate_radius, 0}), turned({plate_radius, 0}, {plate_radius, 0.01})};
+  scene.tray.motion = TurningMotion{{plate_radius, plate_radius}, angular_velocity, TurningAxis::upright};
+  return scene;
+}
+
+/// Carried along with the plate, x towards z, at a distance from its axis.
+Ball on_plate(double from_axis, double angular_velocity) {
+  const double compression = 1e-4 * radius;  // under its own weight
+  return {{plate_radius + from_axis, radius - compression, plate_radius}, {0, 0, angular_velocity * from_axis}};
+}
+
+TEST(Turning, FrictionCarriesABallRoundOnAPlateUpToItsLimit) {
+  // Centripetal omega^2 r against friction 0.5 g, below and above.
+  const double from_axis = 0.03, limit = std::sqrt(0.5 * standard_gravity / from_axis);
+  for (const double part : {0.9, 1.1}) {
+    const double speed = part * limit;
+    Scene scene = rotor(speed);
+    scene.contact.rotation = false;
+    const Model model = prepare_to_run(scene);
+    Simulation run(model, start_of(model, {on_plate(from_axis, speed)}));
+    EXPECT_TRUE(run.run_until(1.0));
+    const double x = run.grains().x[0] - plate_radius, z = run.grains().z[0] - plate_radius;
+    if (part < 1) {
+      EXPECT_NEAR(std::hypot(x, z), from_axis, 1e-2 * from_axis);
+      const double behind = std::remainder(std::atan2(z, x) - speed * 1.0, 2 * pi);
+      EXPECT_NEAR(behind, 0, 0.02);
+    } else {
+      EXPECT_NEAR(std::hypot(x, z), plate_radius - radius, 1e-5) << "thrown to the rim, and carried by it";
+      EXPECT_NEAR(std::hypot(run.grains().vx[0], run.grains().vz[0]), speed * std::hypot(x, z),
+                  0.01 * speed * plate_radius);
+    }
+    EXPECT_EQ(run.result().balance.inside, 1);
+  }
+}
+
+TEST(Turning, ABallThatRollsOnATurntableCirclesWithTwoSeventhsOfItsSpeed) {
+  // Weckesser, Am. J. Phys. 65 (1997) 736: wherever it is set off, its centre goes round a circle with 2/7 omega.
+  const double speed = 20;
+  Scene scene = rotor(speed);
+  scene.contact.wall.friction = 5;
+  const Model model = prepare_to_run(scene);
+  Ball ball = on_plate(0.01, 0);
+  ball.velocity = {0, 0, 0.02};
+  // Rolling without slipping: v + spin x (-r y) is the plate's own velocity there, (0, 0, omega x).
+  const double slip = speed * 0.01 - 0.02;
+  ball.spin = {-slip / radius, 0, 0};
+  Simulation run(model, start_of(model, {ball}));
+  const double period = 2 * pi / (2.0 / 7 * speed);
+  EXPECT_TRUE(run.run_until(period / 2));
+  // Its velocity has turned round by half a turn.
+  EXPECT_NEAR(run.grains().vz[0], -0.02, 4e-4);
+  EXPECT_NEAR(run.grains().vx[0], 0, 4e-4);
+  EXPECT_TRUE(run.run_until(period));
+  EXPECT_NEAR(run.grains().x[0], plate_radius + 0.01, 1e-4);
+  EXPECT_NEAR(run.grains().z[0], plate_radius, 1e-4);
+}
+
+TEST(Turning, AnUprightRotorNeedsSpace) {
+  Scene scene = drum(Space::plane, 3);
+  std::get<TurningMotion>(*scene.tray.motion).axis = TurningAxis::upright;
+  EXPECT_THROW(prepare(scene), InputError);
+  scene.tray.motion.reset();
+  EXPECT_NO_THROW(prepare(scene));
+  scene.tray.pieces.push_back({{0, 0}, {0.01, 0}});
+  scene.tray.pieces.back().about = {0.01, 0.01};
+  EXPECT_THROW(prepare(scene), InputError);
+}
+
+}  // namespace
+}  // namespace vibrosow
