@@ -30,6 +30,8 @@ struct Grain {
   double x, y;    // m
   double vx, vy;  // m/s
   double radius;  // m
+  double z = 0;   // m, across, from the tray's front at rest; 0 in the plane
+  double vz = 0;  // m/s
 };
 
 /// Displacement of the tray: amplitude sin(2 pi frequency t + phase) along a direction, t since the start of the
@@ -39,6 +41,7 @@ struct Harmonic {
   double frequency;      // Hz
   double direction = 0;  // rad, anticlockwise from the floor's
   double phase = 0;      // rad
+  double across = 0;     // rad, in space: from the plane of length and height towards the back
 };
 
 /// A scene in motion, to be watched and driven between its steps.

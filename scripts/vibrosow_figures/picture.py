@@ -10,9 +10,11 @@ import numpy as np
 
 matplotlib.use("Agg")
 from matplotlib import pyplot
+from matplotlib.cm import ScalarMappable
 from matplotlib.collections import EllipseCollection, LineCollection
-from matplotlib.colors import LinearSegmentedColormap
+from matplotlib.colors import LinearSegmentedColormap, Normalize
 
+from . import space
 from .tables import command, number, rows
 
 # Seed-coloured even at rest: the palest tenth of the map is left out.
@@ -38,7 +40,8 @@ def values_and_colours(table, options):
     if options.by == "shear":
         values = np.array([number(row["shear"]) for row in table])
     else:
-        values = np.hypot(*([float(row[name]) for row in table] for name in ("vx_m_per_s", "vy_m_per_s")))
+        parts = [[float(row[name]) for row in table] for name in ("vx_m_per_s", "vy_m_per_s", "vz_m_per_s") if name in table[0]]
+        values = np.linalg.norm(parts, axis=0)
     if np.all(np.isnan(values)):
         sys.exit(f"{options.grains}: no grain has a {options.by}; the first record of a run has no shear")
     return values, SEEDS, (0, options.most or np.nanpercentile(values, 95) or 1)
@@ -94,9 +97,9 @@ def arc(piece):
     return list(zip(x + radius * np.cos(angles), y + radius * np.sin(angles)))
 
 
-def outline(vessel):
-    """Lines of a vessel's walls in its own frame, in mm."""
-    lines = floor(vessel) if vessel["box"] else []
+def outline(vessel, box):
+    """Lines of a vessel's walls in its own frame, in mm, with those of its box or without."""
+    lines = floor(vessel) if box else []
     lines += [arc(piece) if "radius_m" in piece else [piece["from_m"], piece["to_m"]] for piece in vessel["pieces"]]
     return [1e3 * np.array(line) for line in lines]
 
@@ -107,27 +110,74 @@ def turned(line, angle):
 
 
 def displacement(vessel, time):
-    """Of a vessel from where it stands at rest, in mm: of a harmonic motion between its ramps. Zero of all others."""
+    """Of a vessel from where it stands at rest, (x, y, z) in mm: of a harmonic motion between its ramps. Zero of all others."""
     motion = vessel["motion"]
     if not motion or motion["kind"] != "harmonic":
-        return np.zeros(2)
+        return np.zeros(3)
     stop = motion["stop_s"]
     if time < motion["ramp_s"] or (stop is not None and time > stop):
-        return np.zeros(2)
+        return np.zeros(3)
     along = 1e3 * motion["amplitude_m"] * math.sin(2 * math.pi * motion["frequency_hz"] * time + motion["phase_rad"])
-    return along * np.array([math.cos(motion["direction_rad"]), math.sin(motion["direction_rad"])])
+    direction, across = motion["direction_rad"], motion.get("across_rad", 0)
+    return along * np.array([math.cos(across) * math.cos(direction), math.cos(across) * math.sin(direction), math.sin(across)])
 
 
-def walls(scene, time):
+def place_of_hopper(scene, time):
+    """(x, y, z) in mm in the lab's directions, from the tray's zero."""
+    tray, hopper = scene["tray"], scene["hopper"]
+    at_rest = 1e3 * np.array([hopper["left_m"], hopper["above_m"], hopper.get("front_m", 0) - tray.get("front_m", 0)])
+    return at_rest + displacement(hopper, time) - displacement(tray, time)
+
+
+def in_side_view(vessel, cut_at):
+    """The vessel with one hole, as a plane one has it, wherever its floor in space is open: anywhere across, or `cut_at` mm from its
+    front."""
+    spans = []
+    for x, z, half_x, half_z, is_round in map(space.hole_of, vessel["holes"]):
+        off = 0 if cut_at is None else abs(cut_at - z)
+        if off > half_z:
+            continue
+        half = math.sqrt(half_x**2 - off**2) if is_round else half_x
+        spans.append([x - half, x + half])
+    merged = []
+    for low, high in sorted(spans):
+        if merged and low <= merged[-1][1]:
+            merged[-1][1] = max(high, merged[-1][1])
+        else:
+            merged.append([low, high])
+    return vessel | {"holes": [{"centre_m": (low + high) / 2000, "width_m": (high - low) / 1000} for low, high in merged]}
+
+
+def walls(scene, time, view="plane"):
     """Lines of the tray and of the hopper, in the tray's frame, in mm."""
     if not scene:
         return []
     tray, hopper = scene["tray"], scene.get("hopper")
-    lines = outline(tray)
+    middle = 500 * tray["depth_m"] if view == "cut" else None
+    lines = outline(tray if view == "plane" else in_side_view(tray, middle), tray["box"])
     if hopper:
-        place = 1e3 * np.array([hopper["left_m"], hopper["above_m"]]) + displacement(hopper, time) - displacement(tray, time)
-        lines += [turned(turned(line, hopper["tilt_rad"]) + place, -tray["tilt_rad"]) for line in outline(hopper)]
+        place = place_of_hopper(scene, time)
+        if view != "plane":
+            hopper = in_side_view(hopper, None if middle is None else middle - place[2])
+        lines += [turned(turned(line, hopper["tilt_rad"]) + place[:2], -tray["tilt_rad"]) for line in outline(hopper, hopper["box"])]
     return lines
+
+
+def shell(scene, time):
+    """The tray and the hopper in space, in the tray's frame."""
+    if not scene:
+        return space.Shell([], [])
+    tray, hopper = scene["tray"], scene.get("hopper")
+    parts = [space.shell_of(tray, outline)]
+    if hopper:
+        place = place_of_hopper(scene, time)
+
+        def in_tray_frame(points):
+            in_lab = np.column_stack([turned(points[:, :2], hopper["tilt_rad"]), points[:, 2]]) + place
+            return np.column_stack([turned(in_lab[:, :2], -tray["tilt_rad"]), in_lab[:, 2]])
+
+        parts.append(space.shell_of(hopper, outline).moved(in_tray_frame))
+    return space.joined(parts)
 
 
 def time_of(path):
@@ -165,12 +215,67 @@ def add_scale(axes, low, high):
     axes.annotate(f"{length:g} mm", (right - length / 2, up), xytext=(0, 4), textcoords="offset points", ha="center", color=WALL)
 
 
-def draw(table, options):
+def balls(table):
+    """x, y, z, radius in mm, a row a ball."""
+    return np.array([[float(row[name]) for name in ("x_mm", "y_mm", "z_mm", "radius_mm")] for row in table])
+
+
+def parts_to_draw(table, values, scene, options):
+    """(x, y, radius, value) of each disc, what is drawn later above what is drawn before."""
+    if "z_mm" not in table[0]:
+        shapes = clumps(scene)
+        return np.array([(*disc, value) for row, value in zip(table, values) for disc in discs(row, shapes)])
+    x, y, z, radius = balls(table).T
+    if options.view == "side":
+        far_first = np.argsort(-z, kind="stable")
+        return np.column_stack([x, y, radius, values])[far_first]
+    from_cut = z - middle(scene, z)
+    cut = abs(from_cut) < radius
+    return np.column_stack([x, y, np.sqrt(np.maximum(radius**2 - from_cut**2, 0)), values])[cut]
+
+
+def middle(scene, z):
+    """Of the depth, mm."""
+    return 500 * scene["tray"]["depth_m"] if scene else (z.min() + z.max()) / 2
+
+
+def draw_in_space(table, options):
+    """Seen from above and aside."""
     scene = read_scene(options.grains)
     values, colours, limits = values_and_colours(table, options)
-    shapes = clumps(scene)
-    parts = np.array([(*disc, value) for row, value in zip(table, values) for disc in discs(row, shapes)])
-    lines = walls(scene, time_of(options.grains))
+    of_value = ScalarMappable(Normalize(*limits), colours)
+    of_ball = of_value.to_rgba(values)[:, :3]
+    seeds, camera = balls(table), space.Camera(options.turn, options.raised)
+    if options.open:
+        left = (seeds[:, 2] >= middle(scene, seeds[:, 2])) | (seeds[:, 1] < 0)
+        seeds, of_ball = seeds[left], of_ball[left]
+    picture = space.render(seeds, of_ball, shell(scene, time_of(options.grains)), camera, options.width)
+    save_picture(picture, camera.scale / space.FINE, of_value if options.by in LABELS else None, options)
+
+
+def save_picture(picture, scale, of_value, options):
+    """`scale`: picture elements a mm; the value's bar stands below the picture."""
+    tall, wide = picture.shape[:2]
+    band = 0.07 * wide if of_value else 0
+    figure = pyplot.figure(figsize=(wide / 100, (tall + band) / 100), dpi=100)
+    axes = figure.add_axes((0, band / (tall + band), 1, tall / (tall + band)))
+    axes.imshow(picture, interpolation="none", extent=(0, wide / scale, 0, tall / scale), aspect="auto")
+    axes.set(xlim=(0, wide / scale), ylim=(0, tall / scale))
+    axes.set_axis_off()
+    add_scale(axes, (0, 0), (wide / scale, tall / scale))
+    if of_value:
+        bar = figure.add_axes((0.32, 0.7 * band / (tall + band), 0.36, 0.12 * band / (tall + band)))
+        figure.colorbar(of_value, cax=bar, label=LABELS[options.by], orientation="horizontal")
+    figure.savefig(options.picture, dpi=100, facecolor="white")
+
+
+def draw(table, options):
+    if "z_mm" in table[0] and options.view == "space":
+        return draw_in_space(table, options)
+    scene = read_scene(options.grains)
+    values, colours, limits = values_and_colours(table, options)
+    parts = parts_to_draw(table, values, scene, options)
+    lines = walls(scene, time_of(options.grains), options.view if "z_mm" in table[0] else "plane")
     low, high = bounds_of(parts, lines)
     wide, tall = high - low
 
@@ -191,7 +296,10 @@ def draw_bed(options):
     Each grain is coloured by the stripe of height where it started, by its shear strain since the record before, by its speed
     against the tray, or by lot; clumps as their discs. Walls and clumps' shapes are told by run.json, the moment by records.csv
     beside the file. All is in the tray's frame; a hopper is put where it stood when the tray's motion is harmonic, and else
-    where it stands while the tray is at rest."""
+    where it stands while the tray is at rest.
+
+    Balls in space are shown as a camera in front of the tray sees them, turned to its right and raised; from the side, the
+    nearest in front; or cut through the middle of the depth."""
     table = rows(options.grains)
     if not table:
         sys.exit(f"{options.grains}: no grains")
@@ -205,3 +313,8 @@ def add_commands(commands):
     parser.add_argument("--by", choices=["start", "shear", "speed", "lot"], default="start")
     parser.add_argument("--stripe", type=float, metavar="MM", help="height of a stripe of starts; default: a tenth")
     parser.add_argument("--most", type=float, help="value of the darkest colour of shear or speed; default: 95 %% lie below")
+    parser.add_argument("--view", choices=["space", "side", "cut"], default="space", help="of balls in space; default: space")
+    parser.add_argument("--open", action="store_true", help="leave out the seeds over the floor in the front half of the depth")
+    parser.add_argument("--turn", type=float, default=25, metavar="DEGREES", help="of the camera; default: %(default)s")
+    parser.add_argument("--raised", type=float, default=20, metavar="DEGREES", help="of the camera; default: %(default)s")
+    parser.add_argument("--width", type=int, default=1400, metavar="PIXELS", help="of a picture in space; default: %(default)s")

@@ -24,15 +24,19 @@ std::optional<double> flux_asymmetry(const Snapshot& own, const Vessel& tray) {
 }
 
 std::optional<double> surface_asymmetry(const Snapshot& own, const Vessel& tray, double cell) {
-  const auto half = static_cast<std::ptrdiff_t>(std::max(1.0, std::round(0.5 * tray.length / cell)));
-  std::vector<double> top(static_cast<std::size_t>(2 * half), 0.0);
+  const auto parts = [&](double length) { return std::max<std::size_t>(1, std::lround(length / cell)); };
+  const std::size_t half = parts(0.5 * tray.length), rows = own.in_space() ? parts(*tray.depth) : 1;
+  const auto part = [](double at, double length, std::size_t count) {
+    return std::min(static_cast<std::size_t>(at / length * static_cast<double>(count)), count - 1);
+  };
+  std::vector<double> top(2 * half * rows, 0.0);  // all rows of a column, then the next column to the right
   for (const std::size_t i : grains_in_tray(own, tray)) {
-    const auto column = static_cast<std::size_t>(own.x[i] / tray.length * static_cast<double>(2 * half));
-    double& height = top[std::min(column, top.size() - 1)];
+    const std::size_t row = own.in_space() ? part(own.z[i], *tray.depth, rows) : 0;
+    double& height = top[part(own.x[i], tray.length, 2 * half) * rows + row];
     height = std::max(height, own.y[i] + own.radius[i]);
   }
-  return asymmetry(std::accumulate(top.begin(), top.begin() + half, 0.0),
-                   std::accumulate(top.begin() + half, top.end(), 0.0));
+  const auto middle = top.begin() + static_cast<std::ptrdiff_t>(half * rows);
+  return asymmetry(std::accumulate(top.begin(), middle, 0.0), std::accumulate(middle, top.end(), 0.0));
 }
 
 }  // namespace vibrosow

@@ -41,8 +41,8 @@ std::vector<LotInLayer> lot_profile(const Snapshot& own, const Vessel& tray, int
 std::optional<double> segregation_index(const Snapshot& own, const Vessel& tray, int lot) {
   WeightedMean of_lot, of_others, of_all;
   for (const std::size_t i : grains_in_tray(own, tray)) {
-    (own.lot[i] == lot ? of_lot : of_others).add(own.y[i], own.area[i]);
-    of_all.add(own.y[i], own.area[i]);
+    (own.lot[i] == lot ? of_lot : of_others).add(own.y[i], own.extent()[i]);
+    of_all.add(own.y[i], own.extent()[i]);
   }
   if (of_lot.weight == 0 || of_others.weight == 0) return std::nullopt;
   return (of_lot.mean() - of_others.mean()) / of_all.mean();

@@ -11,11 +11,22 @@ Eigen::Matrix2d turned_back(double angle) {
 }
 
 void put_at_rest(Snapshot& s) {
-  s.tray_x = s.tray_y = s.tray_angle = s.tray_vx = s.tray_vy = s.tray_spin = 0;
+  s.tray_x = s.tray_y = s.tray_z = s.tray_angle = s.tray_vx = s.tray_vy = s.tray_vz = s.tray_spin = 0;
 }
 
 bool is_at_rest(const Snapshot& s) {
-  return s.tray_x == 0 && s.tray_y == 0 && s.tray_angle == 0 && s.tray_vx == 0 && s.tray_vy == 0 && s.tray_spin == 0;
+  return s.tray_x == 0 && s.tray_y == 0 && s.tray_z == 0 && s.tray_angle == 0 && s.tray_vx == 0 && s.tray_vy == 0 &&
+         s.tray_vz == 0 && s.tray_spin == 0;
+}
+
+/// The tray turns about the axis across.
+void take_off_what_is_across(Snapshot& own, double front, const Eigen::Matrix2d& now) {
+  for (std::size_t i = 0; i < own.size(); ++i) {
+    own.z[i] -= front + own.tray_z, own.vz[i] -= own.tray_vz;
+    own.start_z[i] -= front;
+    const Eigen::Vector2d spin = now * Eigen::Vector2d(own.omega_x[i], own.omega_y[i]);
+    own.omega_x[i] = spin.x(), own.omega_y[i] = spin.y();
+  }
 }
 
 }  // namespace
@@ -41,14 +52,18 @@ Snapshot in_tray_frame(const Snapshot& lab, const Vessel& tray) {
     own.start_x[i] = start.x(), own.start_y[i] = start.y();
   }
   for (double& angle : own.angle) angle -= tray.tilt + lab.tray_angle;
+  if (lab.in_space()) take_off_what_is_across(own, tray.front, now);
   put_at_rest(own);
   return own;
 }
 
 std::vector<std::size_t> grains_in_tray(const Snapshot& own, const Vessel& tray) {
   std::vector<std::size_t> inside;
+  const auto within = [](double at, double end) { return at >= 0 && at <= end; };
   for (std::size_t i = 0; i < own.size(); ++i)
-    if (own.x[i] >= 0 && own.x[i] <= tray.length && own.y[i] >= 0 && own.y[i] <= tray.height) inside.push_back(i);
+    if (within(own.x[i], tray.length) && within(own.y[i], tray.height) &&
+        (!own.in_space() || within(own.z[i], *tray.depth)))
+      inside.push_back(i);
   return inside;
 }
 

@@ -136,14 +136,16 @@ std::vector<double> read_times(Table& table, double duration) {
   return times;
 }
 
-Record read_record(Table table, double duration, const std::vector<SeedLot>& lots) {
-  table.reject_keys_other_than({"times", "every", "cell"});
+Record read_record(Table table, double duration, const std::vector<SeedLot>& lots, Space space) {
+  table.reject_keys_other_than({"times", "every", "cell", "view"});
   Record record;
   record.times = read_times(table, duration);
   const double diameter = largest_mean_diameter(lots);
   const std::vector<TomlValue> cell = table.values_of("cell");
   if (cell.size() > 1) table.fail("cell", "must be one value");
   record.cell = read_width(table, "cell", cell.empty() ? TomlValue{"2 diameters"} : cell.front(), diameter);
+  const std::size_t view = table.choice("view", {"projection", "slice"}).value_or(0);
+  if (space != Space::plane) record.view = static_cast<MapView>(view);
   return record;
 }
 
@@ -179,7 +181,8 @@ Scene read_scene(const std::filesystem::path& file, const std::vector<Override>&
   if (auto numerics = root.table("numerics")) scene.numerics = read_numerics(*numerics, scene.contact.law);
   if (auto guard = root.table("guard")) scene.guard = read_guard(*guard);
   scene.run = read_run(root.required_table("run"));
-  if (auto record = root.table("record")) scene.record = read_record(*record, scene.run.duration, scene.lots);
+  if (auto record = root.table("record"))
+    scene.record = read_record(*record, scene.run.duration, scene.lots, scene.space);
   root.reject_unknown_keys();
   return scene;
 }

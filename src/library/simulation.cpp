@@ -50,8 +50,10 @@ std::vector<Event> Simulation::events_since(std::size_t first) const {
 std::vector<Grain> Simulation::grains() const {
   const Grains& own = inside_->simulation.grains();
   std::vector<Grain> grains;
-  for (std::size_t i = 0; i < own.size(); ++i)
+  for (std::size_t i = 0; i < own.size(); ++i) {
     grains.push_back({own.id[i], own.lot[i], own.x[i], own.y[i], own.vx[i], own.vy[i], own.kind(i).radius});
+    if (own.in_space) grains.back().z = own.z[i], grains.back().vz = own.vz[i];
+  }
   return grains;
 }
 
@@ -60,14 +62,15 @@ Evaluation Simulation::result() const {
 }
 
 void Simulation::set_motion(const Harmonic& motion) {
-  for (const double value : {motion.amplitude, motion.frequency, motion.direction, motion.phase})
+  for (const double value : {motion.amplitude, motion.frequency, motion.direction, motion.phase, motion.across})
     if (!std::isfinite(value)) throw std::invalid_argument("a motion of numbers that are not finite");
   if (motion.amplitude < 0 || motion.frequency < 0)
     throw std::invalid_argument("a motion of a negative amplitude or frequency");
   inside_->simulation.set_motion(0, HarmonicMotion{.direction = motion.direction,
                                                    .amplitude = motion.amplitude,
                                                    .frequency = motion.frequency,
-                                                   .phase = motion.phase});
+                                                   .phase = motion.phase,
+                                                   .across = motion.across});
 }
 
 void Simulation::open_gate(int hole) {

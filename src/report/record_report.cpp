@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "fields/asymmetry.hpp"
+#include "fields/map_part.hpp"
 #include "fields/motion.hpp"
 #include "fields/packing_fraction.hpp"
 #include "fields/segregation.hpp"
@@ -42,7 +43,8 @@ struct GrainRow {
   Value shear;
 };
 
-Columns<GrainRow> grains_columns() {
+/// In space there are more columns, after those of the plane.
+Columns<GrainRow> grains_columns(Space space) {
   using R = const GrainRow&;
   const auto quantity = [](std::string name, Unit unit, std::string description,
                            std::vector<double> Snapshot::*values) {
@@ -53,55 +55,71 @@ Columns<GrainRow> grains_columns() {
     return place_column<GrainRow>(std::move(name), std::move(description),
                                   [values](R r) { return (r.own->*values)[r.i]; });
   };
-  return {text_column<GrainRow>("id", "number of the grain, in order of insertion, the same in every snapshot",
-                                [](R r) { return r.own->id[r.i]; }),
-          text_column<GrainRow>("lot", "name of its seeds", [](R r) { return lot_name(*r.scene, r.own->lot[r.i]); }),
-          place("x_mm", "place from the tray's left end", &Snapshot::x),
-          place("y_mm", "height over the tray's floor", &Snapshot::y),
-          quantity("vx_m_per_s", metres_per_second, "velocity along the floor", &Snapshot::vx),
-          quantity("vy_m_per_s", metres_per_second, "velocity upwards", &Snapshot::vy),
-          quantity("omega_rad_per_s", radians_per_second, "angular velocity, anticlockwise", &Snapshot::omega),
-          quantity_column<GrainRow>("angle_rad", radians, "how far a clump is turned; empty in a scene without clumps",
-                                    [](R r) { return r.own->angle.empty() ? Value() : Value(r.own->angle[r.i]); }),
-          quantity("radius_mm", millimetres, "radius of the grain, of a clump of the circle that just holds it",
-                   &Snapshot::radius),
-          quantity("start_x_mm", millimetres, "where it was put in", &Snapshot::start_x),
-          quantity("start_y_mm", millimetres, "where it was put in", &Snapshot::start_y),
-          quantity_column<GrainRow>("shear", plain,
-                                    "shear strain about it since the snapshot before; empty where it is undefined",
-                                    [](R r) { return r.shear; })};
+  Columns<GrainRow> columns = {
+      text_column<GrainRow>("id", "number of the grain, in order of insertion, the same in every snapshot",
+                            [](R r) { return r.own->id[r.i]; }),
+      text_column<GrainRow>("lot", "name of its seeds", [](R r) { return lot_name(*r.scene, r.own->lot[r.i]); }),
+      place("x_mm", "place from the tray's left end", &Snapshot::x),
+      place("y_mm", "height over the tray's floor", &Snapshot::y),
+      quantity("vx_m_per_s", metres_per_second, "velocity along the floor", &Snapshot::vx),
+      quantity("vy_m_per_s", metres_per_second, "velocity upwards", &Snapshot::vy),
+      quantity("omega_rad_per_s", radians_per_second, "angular velocity, anticlockwise", &Snapshot::omega),
+      quantity_column<GrainRow>("angle_rad", radians, "how far a clump is turned; empty in a scene without clumps",
+                                [](R r) { return r.own->angle.empty() ? Value() : Value(r.own->angle[r.i]); }),
+      quantity("radius_mm", millimetres, "radius of the grain, of a clump of the circle that just holds it",
+               &Snapshot::radius),
+      quantity("start_x_mm", millimetres, "where it was put in", &Snapshot::start_x),
+      quantity("start_y_mm", millimetres, "where it was put in", &Snapshot::start_y),
+      quantity_column<GrainRow>("shear", plain,
+                                "shear strain about it since the snapshot before; empty where it is undefined",
+                                [](R r) { return r.shear; })};
+  if (space == Space::plane) return columns;
+  append(columns, {place("z_mm", "in space: place from the tray's front", &Snapshot::z),
+                   quantity("vz_m_per_s", metres_per_second, "in space: velocity across, to the back", &Snapshot::vz),
+                   quantity("omega_x_rad_per_s", radians_per_second,
+                            "in space: angular velocity about the floor's length", &Snapshot::omega_x),
+                   quantity("omega_y_rad_per_s", radians_per_second,
+                            "in space: angular velocity about the upright axis", &Snapshot::omega_y),
+                   quantity("start_z_mm", millimetres, "in space: where it was put in", &Snapshot::start_z)});
+  return columns;
 }
 
 struct CellRow {
   Eigen::Vector2d centre;
   double packing;
-  Value change, vx, vy, shear_rate, dilation_rate;
+  Value change, vx, vy, vz, shear_rate, dilation_rate;
 };
 
-Columns<CellRow> fields_columns() {
+/// In space there is one column more, after those of the plane.
+Columns<CellRow> fields_columns(Space space) {
   const auto quantity = [](std::string name, Unit unit, std::string description, Value CellRow::*value) {
     return quantity_column<CellRow>(std::move(name), unit, std::move(description),
                                     [value](const CellRow& r) { return r.*value; });
   };
-  return {quantity_column<CellRow>("x_mm", millimetres, "middle of the cell, from the tray's left end",
-                                   [](const CellRow& r) { return r.centre.x(); }),
-          quantity_column<CellRow>("y_mm", millimetres, "middle of the cell, over the tray's floor",
-                                   [](const CellRow& r) { return r.centre.y(); }),
-          quantity_column<CellRow>("packing_fraction", plain, "share of the cell that grains cover",
-                                   [](const CellRow& r) { return r.packing; }),
-          quantity("packing_change", plain, "its change since the snapshot before", &CellRow::change),
-          quantity("vx_m_per_s", metres_per_second, "mean velocity along the floor", &CellRow::vx),
-          quantity("vy_m_per_s", metres_per_second, "mean velocity upwards", &CellRow::vy),
-          quantity("shear_rate_per_s", per_second, "difference of the principal stretch rates", &CellRow::shear_rate),
-          quantity("dilation_rate_per_s", per_second, "trace of the velocity gradient, above 0 where the bed loosens",
-                   &CellRow::dilation_rate)};
+  Columns<CellRow> columns = {
+      quantity_column<CellRow>("x_mm", millimetres, "middle of the cell, from the tray's left end",
+                               [](const CellRow& r) { return r.centre.x(); }),
+      quantity_column<CellRow>("y_mm", millimetres, "middle of the cell, over the tray's floor",
+                               [](const CellRow& r) { return r.centre.y(); }),
+      quantity_column<CellRow>("packing_fraction", plain, "share of the cell that grains cover, in space fill",
+                               [](const CellRow& r) { return r.packing; }),
+      quantity("packing_change", plain, "its change since the snapshot before", &CellRow::change),
+      quantity("vx_m_per_s", metres_per_second, "mean velocity along the floor", &CellRow::vx),
+      quantity("vy_m_per_s", metres_per_second, "mean velocity upwards", &CellRow::vy),
+      quantity("shear_rate_per_s", per_second, "difference of the principal stretch rates", &CellRow::shear_rate),
+      quantity("dilation_rate_per_s", per_second, "trace of the velocity gradient, above 0 where the bed loosens",
+               &CellRow::dilation_rate)};
+  if (space != Space::plane)
+    columns.push_back(
+        quantity("vz_m_per_s", metres_per_second, "in space: mean velocity across, to the back", &CellRow::vz));
+  return columns;
 }
 
 CellRow cell_row(const Grid& grid, std::size_t k, double packing, Value change,
                  const std::optional<CellMotion>& motion) {
-  CellRow row{grid.centre(k), packing, change, {}, {}, {}, {}};
+  CellRow row{grid.centre(k), packing, change, {}, {}, {}, {}, {}};
   if (packing == 0 || !motion) return row;
-  row.vx = motion->velocity.x(), row.vy = motion->velocity.y();
+  row.vx = motion->velocity.x(), row.vy = motion->velocity.y(), row.vz = motion->velocity.z();
   if (motion->gradient) row.shear_rate = shear(*motion->gradient), row.dilation_rate = dilation(*motion->gradient);
   return row;
 }
@@ -190,7 +208,7 @@ std::string grains_csv(const Scene& scene, const Snapshot& snapshot, const Snaps
   const Snapshot own = in_tray_frame(snapshot, scene.tray);
   std::vector<Value> shear(own.size());
   if (const auto earlier = in_tray_frame(scene, before)) shear = shear_strain(*earlier, own, fit_reach(*earlier));
-  Csv<GrainRow> csv(grains_columns(), format);
+  Csv<GrainRow> csv(grains_columns(scene.space), format);
   for (std::size_t i = 0; i < own.size(); ++i) csv.add({&scene, &own, i, shear[i]});
   return csv.text();
 }
@@ -200,10 +218,12 @@ std::string fields_csv(const Scene& scene, const Snapshot& snapshot, const Snaps
   const Snapshot own = in_tray_frame(snapshot, scene.tray);
   const std::optional<Snapshot> earlier = in_tray_frame(scene, before);
   const Grid grid = earlier ? grid_over({&*earlier, &own}, cell) : grid_over({&own}, cell);
-  const std::vector<double> packing = packing_fraction(own, scene.lots, grid);
-  const std::vector<double> change = earlier ? packing_change(*earlier, own, scene.lots, grid) : std::vector<double>{};
-  const auto motion = cell_motion(own, grid, std::max(fit_reach(own), cell));
-  Csv<CellRow> csv(fields_columns(), format);
+  const MapPart part = map_part(scene);
+  const std::vector<double> packing = packing_fraction(own, scene.lots, grid, part);
+  const std::vector<double> change =
+      earlier ? packing_change(*earlier, own, scene.lots, grid, part) : std::vector<double>{};
+  const auto motion = cell_motion(own, grid, std::max(fit_reach(own), cell), part);
+  Csv<CellRow> csv(fields_columns(scene.space), format);
   for (std::size_t k = 0; k < grid.size(); ++k) {
     if (packing[k] == 0 && (!earlier || change[k] == 0)) continue;
     csv.add(cell_row(grid, k, packing[k], earlier ? Value(change[k]) : Value(), motion[k]));
@@ -250,11 +270,12 @@ std::vector<OutputFile> record_files(const Scene& scene, const Run& run, CsvForm
 }
 
 std::vector<FileText> record_file_texts() {
-  return {file_text("grains_NNN.csv", "of each snapshot: one row per grain, in the tray's frame", grains_columns()),
+  return {file_text("grains_NNN.csv", "of each snapshot: one row per grain, in the tray's frame",
+                    grains_columns(Space::three_dimensional)),
           file_text("fields_NNN.csv",
                     "of each snapshot: one row per cell that holds a part of a grain, in it or in the snapshot before, "
-                    "in the tray's frame",
-                    fields_columns()),
+                    "in the tray's frame; in space of the view that record.view names",
+                    fields_columns(Space::three_dimensional)),
           file_text("records.csv", "one row per snapshot and lot, and per snapshot one of all lots", records_columns()),
           file_text("profile.csv", "one row per snapshot, layer and lot", profile_columns()),
           file_text("flow.csv", "one row per hole and tenth of the run, and per hole one of the whole run",

@@ -6,7 +6,7 @@
 namespace vibrosow {
 
 /// The bed at one moment, in the lab frame; one entry a grain in each array, in order of insertion. Of a clump: its
-/// centre of mass, and the circle about it that just holds it.
+/// centre of mass, and the circle about it that just holds it, in space the ball.
 struct Snapshot {
   double time = 0;                       // s, of the step, not of the record asked for
   double tray_x = 0, tray_y = 0;         // m, displacement of the tray's frame from rest
@@ -20,10 +20,19 @@ struct Snapshot {
   std::vector<int> lot;                  // index in Scene::lots
   std::vector<std::int64_t> id;          // ascending, the same grain's in every snapshot of a run
   std::vector<double> radius, mass;      // m, kg
-  std::vector<double> area;              // m2, of the grain itself, a clump's overlaps counted once
+  std::vector<double> area;              // m2, of the grain itself, a clump's overlaps counted once; empty in space
   std::vector<double> start_x, start_y;  // m, where the grain was put in
+  // In space, empty in the plane:
+  double tray_z = 0, tray_vz = 0;            // m, m/s, across
+  std::vector<double> z{}, vz{};             // m, m/s, across
+  std::vector<double> omega_x{}, omega_y{};  // rad/s; 0 without rotation
+  std::vector<double> start_z{};             // m
+  std::vector<double> volume{};              // m3, of the grain itself
 
   std::size_t size() const { return x.size(); }
+  bool in_space() const { return !z.empty(); }
+  /// What a grain fills: area in the plane, volume in space.
+  const std::vector<double>& extent() const { return in_space() ? volume : area; }
 };
 
 }  // namespace vibrosow

@@ -277,10 +277,15 @@ struct RunPlan {
   bool operator==(const RunPlan&) const = default;
 };
 
+/// What maps of a bed in space show, seen from the front: all of it, or a slice a cell thick in the middle of the
+/// depth.
+enum class MapView { projection, slice };
+
 /// Snapshots of the bed at given times.
 struct Record {
-  std::vector<double> times{};  // s, ascending
-  double cell = 0;              // m, edge of the cells of maps
+  std::vector<double> times{};         // s, ascending
+  double cell = 0;                     // m, edge of the cells of maps
+  MapView view = MapView::projection;  // in space
   bool operator==(const Record&) const = default;
 };
 

@@ -478,6 +478,7 @@ template <class Io>
 void fields(Io& io, Record& record) {
   io.value("times_s", record.times);
   io.value("cell_m", record.cell);
+  io.used_choice("view", record.view, {"projection", "slice"}, MapView::projection);
 }
 
 bool lots_exist(const Scene& scene) {

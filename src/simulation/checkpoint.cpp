@@ -21,6 +21,10 @@ template <class Archive>
 void serialize(Archive& archive, Eigen::Vector2d& v) {
   archive(v.x(), v.y());
 }
+template <class Archive>
+void serialize(Archive& archive, Eigen::Vector3d& v) {
+  archive(v.x(), v.y(), v.z());
+}
 }  // namespace cereal
 
 namespace vibrosow {
@@ -130,6 +134,7 @@ template <class Archive>
 void serialize(Archive& archive, Snapshot& s) {
   archive(s.time, s.tray_x, s.tray_y, s.tray_angle, s.tray_vx, s.tray_vy, s.tray_spin, s.x, s.y, s.vx, s.vy, s.omega,
           s.angle, s.lot, s.id, s.radius, s.mass, s.area, s.start_x, s.start_y);
+  archive(s.tray_z, s.tray_vz, s.z, s.vz, s.omega_x, s.omega_y, s.start_z, s.volume);
 }
 template <class Archive>
 void serialize(Archive& archive, EnergyAccount& e) {

@@ -13,6 +13,16 @@ double circle_area(double radius) {
   return std::numbers::pi * radius * radius;
 }
 
+double ball_volume(double radius) {
+  return 4 * std::numbers::pi / 3 * (radius * radius * radius);
+}
+
+/// An array of an absent effect is empty.
+std::vector<double> or_zeros(std::vector<double> values, std::size_t size) {
+  values.resize(size, 0.0);
+  return values;
+}
+
 }  // namespace
 
 Recorder::Recorder(const Scene& scene, RecorderState& state) : times_(scene.record->times), state_(state) {
@@ -26,7 +36,7 @@ void Recorder::note_new(const Grains& grains) {
     const auto id = static_cast<std::size_t>(grains.id[i]);
     if (id < known) continue;
     state_.start.resize(std::max(state_.start.size(), id + 1));
-    state_.start[id] = {grains.x[i], grains.y[i]};
+    state_.start[id] = {grains.x[i], grains.y[i], grains.in_space ? grains.z[i] : 0.0};
   }
 }
 
@@ -48,8 +58,7 @@ Snapshot Recorder::snapshot(const Grains& grains, const Walls& walls, double tim
   s.tray_vx = rate.velocity.x(), s.tray_vy = rate.velocity.y(), s.tray_spin = rate.angular_velocity;
   s.x = grains.x, s.y = grains.y;
   s.vx = grains.vx, s.vy = grains.vy;
-  s.omega = grains.omega;
-  s.omega.resize(grains.size(), 0.0);
+  s.omega = or_zeros(grains.omega, grains.size());
   s.angle = grains.angle;
   s.lot = grains.lot;
   s.id = grains.id;
@@ -57,10 +66,20 @@ Snapshot Recorder::snapshot(const Grains& grains, const Walls& walls, double tim
     const GrainKind kind = grains.kind(i);
     s.radius.push_back(kind.radius);
     s.mass.push_back(kind.mass);
-    s.area.push_back(filled_[static_cast<std::size_t>(grains.lot[i])] * circle_area(kind.radius));
-    const Eigen::Vector2d& start = state_.start.at(static_cast<std::size_t>(grains.id[i]));
+    const double filled = filled_[static_cast<std::size_t>(grains.lot[i])];
+    if (grains.in_space)
+      s.volume.push_back(filled * ball_volume(kind.radius));
+    else
+      s.area.push_back(filled * circle_area(kind.radius));
+    const Eigen::Vector3d& start = state_.start.at(static_cast<std::size_t>(grains.id[i]));
     s.start_x.push_back(start.x());
     s.start_y.push_back(start.y());
+    if (grains.in_space) s.start_z.push_back(start.z());
+  }
+  if (grains.in_space) {
+    s.tray_z = pose.across, s.tray_vz = rate.across_velocity;
+    s.z = grains.z, s.vz = grains.vz;
+    s.omega_x = or_zeros(grains.omega_x, grains.size()), s.omega_y = or_zeros(grains.omega_y, grains.size());
   }
   return s;
 }

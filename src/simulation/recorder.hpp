@@ -26,7 +26,7 @@ class Recorder {
   Snapshot snapshot(const Grains& grains, const Walls& walls, double time) const;
 
   std::vector<double> times_;
-  std::vector<double> filled_;  // by lot, the grain's area over that of its circle
+  std::vector<double> filled_;  // by lot, the grain's area over that of its circle; in space its volume over its ball's
   RecorderState& state_;
 };
 

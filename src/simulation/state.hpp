@@ -79,7 +79,7 @@ struct GuardState {
 
 struct RecorderState {
   std::uint64_t taken = 0;             // of the record's times
-  std::vector<Eigen::Vector2d> start;  // m, by id: where a grain was put in
+  std::vector<Eigen::Vector3d> start;  // m, by id: where a grain was put in; 0 across in the plane
 };
 
 /// Everything of a run that changes from step to step. Two simulations of the same model and state go on alike, to the

@@ -38,5 +38,17 @@ TEST(SurfaceAsymmetry, ComparesMeanHeightsOfColumns) {
   EXPECT_NEAR(surface_asymmetry(s, tray, 0.1).value(), 0, 1e-12);
 }
 
+TEST(SurfaceAsymmetry, HasColumnsAcrossInSpace) {
+  Vessel deep = tray;
+  deep.depth = 0.2;
+  Snapshot s;
+  // Columns of 0.1 x 0.1 m: tops at 40 and 20 mm left, 40 mm right.
+  put_ball(s, {0.05, 0.038, 0.05}), put_ball(s, {0.15, 0.018, 0.15}), put_ball(s, {0.25, 0.038, 0.2});
+  EXPECT_NEAR(surface_asymmetry(s, deep, 0.2).value(), 0, 1e-12) << "one column across";
+  EXPECT_NEAR(surface_asymmetry(s, deep, 0.1).value(), 20.0 / 100, 1e-12);
+  put_ball(s, {0.35, 0.058, 0.21});  // fallen over the back
+  EXPECT_NEAR(surface_asymmetry(s, deep, 0.1).value(), 20.0 / 100, 1e-12);
+}
+
 }  // namespace
 }  // namespace vibrosow

@@ -53,16 +53,56 @@ TEST(VelocityGradient, FitIsTheLeastSquaresOne) {
   // v_x = 1, 2, 6 and 3 at the corners of a unit square: du/dx = ((2 - 1) + (6 - 3)) / 2, du/dy = ((6 - 2) + (3 - 1))
   // / 2.
   const Points at = {{0, 0}, {1, 0}, {1, 1}, {0, 1}}, v = {{1, 0}, {2, 0}, {6, 0}, {3, 0}};
-  const auto gradient = fit_gradient(at, v, {0, 1, 2, 3});
+  const auto gradient = fit_gradient<2>(at, v, {0, 1, 2, 3});
   ASSERT_TRUE(gradient);
   EXPECT_TRUE(gradient->isApprox(matrix(2, 3, 0, 0), 1e-14));
 }
 
 TEST(VelocityGradient, NeedsThreePointsOffALine) {
   const Points at = {{0, 0}, {1, 0}, {2, 0}, {0, 1}};
-  EXPECT_FALSE(fit_gradient(at, at, {0, 3}));
-  EXPECT_FALSE(fit_gradient(at, at, {0, 1, 2}));
-  EXPECT_TRUE(fit_gradient(at, at, {0, 1, 3}));
+  EXPECT_FALSE(fit_gradient<2>(at, at, {0, 3}));
+  EXPECT_FALSE(fit_gradient<2>(at, at, {0, 1, 2}));
+  EXPECT_TRUE(fit_gradient<2>(at, at, {0, 1, 3}));
+}
+
+TEST(VelocityGradient, NeedsFourPointsOffAPlaneInSpace) {
+  const PointsOf<3> at = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}, {0, 0, 1}};
+  EXPECT_FALSE(fit_gradient<3>(at, at, {0, 1, 4}));
+  EXPECT_FALSE(fit_gradient<3>(at, at, {0, 1, 2, 3}));
+  EXPECT_TRUE(fit_gradient<3>(at, at, {0, 1, 2, 4})->isIdentity(1e-14));
+}
+
+using V3 = Eigen::Vector3d;
+const auto stay_in_space = [](const V3& at) { return at; };
+const auto at_rest_in_space = [](const V3&) { return V3(0, 0, 0); };
+
+TEST(VelocityGradient, OfABedInSpaceIsThatOfItsProjection) {
+  const Eigen::Matrix2d gradient = matrix(1, 4, 0, -2);
+  const Snapshot s = body_centred_bed(11, stay_in_space, [&](const V3& at) -> V3 {
+    const V in_map = gradient * V(at.x(), at.y());
+    return {in_map.x() + 0.3, in_map.y(), 0.5 + 3 * at.x()};
+  });
+  const Grid grid = grid_over({&s}, 6e-3);
+  for (const MapPart& part : {MapPart{0, 60e-3, false}, MapPart{25e-3, 35e-3, true}}) {
+    const auto cells = cell_motion(s, grid, fit_reach(s), part);
+    for (std::size_t k = 0; k < cells.size(); ++k) {
+      ASSERT_TRUE(cells[k] && cells[k]->gradient) << k;
+      EXPECT_TRUE(cells[k]->gradient->isApprox(gradient, 1e-11)) << *cells[k]->gradient;
+      EXPECT_NEAR(shear(*cells[k]->gradient), 5, 1e-10);
+    }
+    const std::size_t middle = grid.index(grid.columns / 2, grid.rows / 2);
+    EXPECT_NEAR(cells[middle]->velocity.z(), 0.5 + 3 * grid.centre(middle).x(), 0.003);
+  }
+}
+
+TEST(CellVelocity, OfASliceIsThatOfTheGrainsInIt) {
+  Snapshot s;
+  put_ball(s, V3(2e-3, 2e-3, 3e-3), V3(1, 0, 2)), put_ball(s, V3(2e-3, 2e-3, 9e-3), V3(3, 0, -2));
+  const Grid grid{.cell = 4e-3, .first_column = 0, .first_row = 0, .columns = 1, .rows = 1};
+  EXPECT_NEAR(cell_motion(s, grid, 6e-3, {0, 12e-3, false})[0]->velocity.x(), 2, 1e-14);
+  EXPECT_NEAR(cell_motion(s, grid, 6e-3, {0, 12e-3, false})[0]->velocity.z(), 0, 1e-14);
+  EXPECT_NEAR(cell_motion(s, grid, 6e-3, {0, 6e-3, true})[0]->velocity.x(), 1, 1e-14);
+  EXPECT_NEAR(cell_motion(s, grid, 6e-3, {0, 6e-3, true})[0]->velocity.z(), 2, 1e-14);
 }
 
 TEST(CellVelocity, HeavyAndNearGrainsCountMore) {
@@ -102,6 +142,30 @@ TEST(ShearStrain, OfKnownDeformations) {
   expect_strain(matrix(1, 0.7, 0, 1), 0.7);
   expect_strain(Eigen::Rotation2Dd(-0.4) * matrix(1, 0.7, 0, 1), 0.7);
   expect_strain(matrix(1.5, 0, 0, 0.8), 0.7);
+}
+
+/// The same in space.
+void expect_strain_in_space(const Eigen::Matrix3d& deformation, double strain) {
+  const Snapshot before = body_centred_bed(6, stay_in_space, at_rest_in_space);
+  const Snapshot after = body_centred_bed(
+      6, [&](const V3& at) -> V3 { return deformation * at + V3(0.1, 0, 0.2); }, at_rest_in_space);
+  for (const auto& one : shear_strain(before, after, fit_reach(before))) {
+    ASSERT_TRUE(one);
+    EXPECT_NEAR(*one, strain, 1e-11);
+  }
+}
+
+TEST(ShearStrain, OfKnownDeformationsInSpace) {
+  const Eigen::Matrix3d none = Eigen::Matrix3d::Identity();
+  const Eigen::Matrix3d turn = Eigen::AngleAxisd(1.2, V3(1, 2, -2).normalized()).toRotationMatrix();
+  Eigen::Matrix3d along_across = none, stretches = none;
+  along_across(0, 2) = 0.7;
+  stretches.diagonal() = V3(1.1, 1.5, 0.8);
+  expect_strain_in_space(turn, 0);
+  expect_strain_in_space(1.3 * none, 0);
+  expect_strain_in_space(along_across, 0.7);
+  expect_strain_in_space(turn * along_across * turn.transpose(), 0.7);
+  expect_strain_in_space(turn * stretches, 0.7);
 }
 
 TEST(ShearStrain, ASlipLineStandsOutBetweenTwoBlocks) {

@@ -4,7 +4,9 @@
 
 #include <rapidcheck/gtest.h>
 #include <cmath>
+#include <limits>
 #include <numbers>
+#include <utility>
 
 #include "fields/made_up_bed.hpp"
 
@@ -98,6 +100,108 @@ TEST(PackingFraction, AClumpIsItsDiscsWithOverlapsCountedOnce) {
   const Grid grid = grid_over({&s}, 1e-3);
   for (const double fraction : packing_fraction(s, {overlapping_pair()}, grid)) in_cells += fraction * 1e-6;
   EXPECT_NEAR(in_cells, 4 * pair_area, 1e-17);
+}
+
+using V3 = Eigen::Vector3d;
+
+TEST(BallInBox, KnownVolumes) {
+  const double far = std::numeric_limits<double>::infinity();
+  EXPECT_NEAR(ball_in_box(2, V3(-3, -3, -3), V3(3, 3, 3)), 32 * pi / 3, 1e-13) << "the whole ball";
+  EXPECT_NEAR(ball_in_box(2, V3(-far, -far, -far), V3(far, far, far)), 32 * pi / 3, 1e-13);
+  EXPECT_NEAR(ball_in_box(2, V3(-0.5, -0.25, -1), V3(0.5, 0.5, 0.5)), 1.125, 1e-13) << "the whole box";
+  EXPECT_NEAR(ball_in_box(1, V3(0, 0, 0), V3(2, 2, 2)), pi / 6, 1e-14) << "an eighth";
+  // A cap of height h is pi h^2 (3 - h) / 3.
+  const double cap = pi * 0.16 * 2.6 / 3;
+  EXPECT_NEAR(ball_in_box(1, V3(0.6, -2, -2), V3(2, 2, 2)), cap, 1e-14);
+  EXPECT_NEAR(ball_in_box(1, V3(-2, 0.6, -2), V3(2, 2, 2)), cap, 1e-14);
+  EXPECT_NEAR(ball_in_box(1, V3(-2, -2, -2), V3(2, 2, -0.6)), cap, 1e-14);
+  EXPECT_NEAR(ball_in_box(1, V3(-2, -2, 0.6), V3(0, 2, 2)), cap / 2, 1e-14) << "half a cap";
+  EXPECT_NEAR(ball_in_box(1, V3(-0.3, -2, -2), V3(0.3, 2, 2)), pi * (0.6 - 2 * 0.027 / 3), 1e-14) << "a disc";
+  EXPECT_EQ(ball_in_box(1, V3(0.6, 0.6, 0.6), V3(2, 2, 2)), 0) << "a corner outside the ball, inside its box";
+  EXPECT_EQ(ball_in_box(1, V3(1, -2, -2), V3(2, 2, 2)), 0) << "it touches";
+}
+
+/// By the midpoint rule over discs.
+double ball_in_box_by_discs(double radius, const V3& low, const V3& high, int discs) {
+  const double from = std::max(low.z(), -radius), to = std::min(high.z(), radius), step = (to - from) / discs;
+  double volume = 0;
+  for (int k = 0; k < discs && step > 0; ++k) {
+    const double z = from + (k + 0.5) * step;
+    volume += step * disc_in_rectangle(std::sqrt(radius * radius - z * z), low.head<2>(), high.head<2>());
+  }
+  return volume;
+}
+
+RC_GTEST_PROP(BallInBox, IsTheSumOfItsDiscsWhicheverAxisTheyAreCutAlong, ()) {
+  const auto any_place = [] { return *rc::gen::inRange(-130, 131) * 1e-2; };
+  V3 low(any_place(), any_place(), any_place()), high(any_place(), any_place(), any_place());
+  for (int axis = 0; axis < 3; ++axis)
+    if (low[axis] > high[axis]) std::swap(low[axis], high[axis]);
+  const double volume = ball_in_box(1, low, high);
+  RC_ASSERT(std::abs(volume - ball_in_box_by_discs(1, low, high, 3000)) < 2e-6);
+  for (int turn = 0; turn < 2; ++turn) {
+    low = V3(low.y(), low.z(), low.x()), high = V3(high.y(), high.z(), high.x());
+    RC_ASSERT(std::abs(ball_in_box(1, low, high) - volume) < 1e-13);
+  }
+}
+
+RC_GTEST_PROP(PackingFraction, CellsSumToTheBallInProjectionAndInSlices, ()) {
+  const auto any_place = [] { return *rc::gen::inRange(-10000, 10000) * 1e-6; };
+  const double radius = *rc::gen::inRange(1, 9000) * 1e-6, cell = *rc::gen::inRange(800, 9000) * 1e-6;
+  Snapshot s;
+  put_ball(s, V3(any_place(), any_place(), any_place()), V3::Zero(), 0, radius);
+  const Grid grid = grid_over({&s}, cell);
+  const auto filled = [&](const MapPart& part) {
+    double volume = 0;
+    for (const double fraction : packing_fraction(s, {}, grid, part)) volume += fraction * cell * cell * part.depth();
+    return volume;
+  };
+  const double rounding = 1e-13 * std::max(radius, cell) * std::max(radius, cell) * std::max(radius, cell);
+  RC_ASSERT(std::abs(filled({-20e-3, 20e-3, false}) - s.volume[0]) < rounding);
+  double sliced = 0;
+  for (int k = -4; k < 4; ++k) sliced += filled({k * 5e-3, (k + 1) * 5e-3, true});
+  RC_ASSERT(std::abs(sliced - s.volume[0]) < 10 * rounding);
+}
+
+TEST(PackingFraction, AProjectionIsTheMeanOverTheDepth) {
+  Snapshot s;
+  put_ball(s, V3(5e-3, 5e-3, 3e-3)), put_ball(s, V3(2.5e-3, 2.5e-3, 19e-3));
+  put_ball(s, V3(5e-3, 5e-3, 25e-3));  // fallen over the back
+  const Grid grid = grid_over({&s}, 5e-3);
+  const auto fraction = packing_fraction(s, {}, grid, {0, 20e-3, false});
+  const double ball = s.volume[0] / (25e-6 * 20e-3);
+  ASSERT_EQ(fraction.size(), 4u);
+  EXPECT_NEAR(fraction[0], 1.25 * ball, 1e-14) << "a ball of which a part is behind the back is whole";
+  for (const std::size_t k : {1u, 2u, 3u}) EXPECT_NEAR(fraction[k], 0.25 * ball, 1e-14);
+}
+
+TEST(MapPart, IsAllOfTheDepthOrACellInItsMiddle) {
+  Scene scene;
+  scene.record = Record{{0}, 5e-3};
+  EXPECT_FALSE(map_part(scene).cut);
+  scene.space = Space::three_dimensional;
+  scene.tray.depth = 0.06;
+  EXPECT_EQ(map_part(scene).front, 0);
+  EXPECT_EQ(map_part(scene).back, 0.06);
+  scene.record->view = MapView::slice;
+  EXPECT_TRUE(map_part(scene).cut);
+  EXPECT_NEAR(map_part(scene).front, 0.0275, 1e-15);
+  EXPECT_NEAR(map_part(scene).depth(), 5e-3, 1e-15);
+  scene.tray.depth = 2e-3;
+  EXPECT_EQ(map_part(scene).depth(), 2e-3) << "no thicker than the tray";
+}
+
+TEST(BedPacking, OfABodyCentredPackingInSpace) {
+  const auto same = [](const V3& at) { return at; };
+  Snapshot s = body_centred_bed(24, same, [](const V3&) { return V3(0, 0, 0); });
+  Vessel tray = made_up_tray(0.12);
+  tray.depth = 0.12;
+  // Two balls a cell of 5 mm; 60 mm are twelve cells along and across, and what remains is part of a layer of 2.5 mm.
+  const double fraction = 2 * s.volume[0] / 125e-9;
+  EXPECT_NEAR(bed_packing(s, {}, tray, 10e-3).value(), fraction, 0.03 * fraction);
+  for (std::size_t i = 0; i < s.size(); ++i)
+    if (s.z[i] < 27e-3 || s.z[i] > 93e-3) s.radius[i] = 1e-6;
+  EXPECT_NEAR(bed_packing(s, {}, tray, 10e-3).value(), fraction, 0.03 * fraction) << "front and back do not count";
 }
 
 TEST(BedPacking, IsThatOfTheMiddleBelowThreeQuarters) {

@@ -70,6 +70,16 @@ TEST(SegregationIndex, AGrainCountsByItsOwnArea) {
   EXPECT_NEAR(segregation_index(s, tray, 1).value(), 2 / 3.5, 1e-12);
 }
 
+TEST(SegregationIndex, ABallCountsByItsVolume) {
+  Vessel deep = tray;
+  deep.depth = 0.06;
+  Snapshot s;
+  put_ball(s, {0.1, 2e-3, 0.01}, {0, 0, 0}, 0), put_ball(s, {0.2, 8e-3, 0.02}, {0, 0, 0}, 1);
+  put_ball(s, {0.3, 2e-3, 0.03}, {0, 0, 0}, 1);
+  s.volume = {1e-9, 1e-9, 2e-9};
+  EXPECT_NEAR(segregation_index(s, deep, 1).value(), 2 / 3.5, 1e-12);
+}
+
 TEST(SegregationIndex, NoneForALotAlone) {
   EXPECT_FALSE(segregation_index(layered([](int, int) { return 0; }), tray, 0));
   EXPECT_FALSE(segregation_index(layered([](int, int) { return 0; }), tray, 1));

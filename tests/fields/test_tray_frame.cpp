@@ -60,5 +60,26 @@ TEST(TrayFrame, OfATrayThatTurnsOverAndOverItIsTheFrameAtRest) {
   EXPECT_EQ(own.tray_angle, 0);
 }
 
+TEST(TrayFrame, TakesOffWhatIsAcrossAndTurnsSpinsWithTheTray) {
+  Vessel tray = made_up_tray(0.4);
+  tray.depth = 0.06;
+  tray.front = -0.1;
+  tray.tilt = std::asin(0.6);
+  Snapshot lab;
+  lab.tray_z = 0.01, lab.tray_vz = -0.2;
+  put_ball(lab, {0, 0, -0.07}, {0, 0, 0.3});
+  put_ball(lab, {0.04 - 0.006, 0.03 + 0.008, -0.07});
+  put_ball(lab, {0.04 - 0.006, 0.03 + 0.008, -0.029});
+  lab.omega_x = {0.8, 0, 0}, lab.omega_y = {0.6, 0, 0};  // about the floor's length
+  const Snapshot own = in_tray_frame(lab, tray);
+  EXPECT_NEAR(own.z[0], 0.02, 1e-15);
+  EXPECT_NEAR(own.vz[0], 0.5, 1e-15);
+  EXPECT_NEAR(own.omega_x[0], 1, 1e-15);
+  EXPECT_NEAR(own.omega_y[0], 0, 1e-15);
+  EXPECT_NEAR(own.start_z[0], 0.03, 1e-15);
+  EXPECT_EQ(own.tray_z, 0);
+  EXPECT_EQ(grains_in_tray(own, tray), (std::vector<std::size_t>{0, 1})) << "the last is behind the back";
+}
+
 }  // namespace
 }  // namespace vibrosow

@@ -43,6 +43,15 @@ std::string refusal(const std::string& text) {
   return "";
 }
 
+TEST(ReadSpace, MapsAreProjectionsOrSlices) {
+  const auto view = [](const std::string& text) { return read(text).record->view; };
+  EXPECT_EQ(view(whole + "[record]\ntimes = '1 s'\n"), MapView::projection);
+  EXPECT_EQ(view(whole + "[record]\ntimes = '1 s'\nview = 'slice'\n"), MapView::slice);
+  EXPECT_THAT(refusal(whole + "[record]\ntimes = '1 s'\nview = 'slce'\n"), HasSubstr("record.view"));
+  const std::string plane = whole.substr(whole.find('\n'));
+  EXPECT_EQ(view(plane + "[record]\ntimes = '1 s'\nview = 'slice'\n"), MapView::projection) << "counts for nothing";
+}
+
 TEST(ReadSpace, ATrayWithRowsOfRoundHoles) {
   const Scene scene = read(whole + R"(
 [tray.holes]

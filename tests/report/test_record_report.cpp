@@ -84,6 +84,52 @@ TEST_F(RecordReport, FieldsHaveTheCellsThatHoldGrains) {
   EXPECT_NE(later.find("\n7.5,2.5,0.502655,0,"), std::string::npos) << later;
 }
 
+/// The same three grains as balls, 6, 10 and 6 mm from the front of a tray that has moved by 1 mm across, and a fourth
+/// behind the first, since it takes four to tell a strain in space.
+class RecordReportInSpace : public RecordReport {
+ protected:
+  void SetUp() override {
+    RecordReport::SetUp();
+    scene.space = Space::three_dimensional;
+    scene.tray.depth = 0.02;
+    for (Snapshot& s : run.snapshots) {
+      s.z = {6e-3, 10e-3, 6e-3};
+      s.x.push_back(7.5e-3), s.y.push_back(2.5e-3), s.z.push_back(14e-3);
+      s.vx.push_back(0), s.vy.push_back(0), s.vz = {0, 0.25, 0, 0};
+      s.omega.push_back(0), s.omega_x = {0, 0, 2, 0}, s.omega_y = {0, 0, 3, 0};
+      s.lot.push_back(0), s.id.push_back(7), s.radius.push_back(2e-3), s.mass.push_back(40e-6);
+      s.area.clear(), s.volume.assign(4, 32e-9 / 3 * std::numbers::pi);
+      s.start_x.push_back(0), s.start_y.push_back(0), s.start_z = {0, 0, 0.01, 0};
+      s.tray_z = 1e-3;
+      for (double& z : s.z) z += 1e-3;
+    }
+    run.snapshots[1].x[3] = 8.5e-3;  // with the tray
+  }
+};
+
+TEST_F(RecordReportInSpace, GrainsHaveColumnsMoreAndFieldsTheirMeanOverTheDepth) {
+  EXPECT_EQ(grains_csv(scene, run.snapshots[1], &run.snapshots[0]),
+            "id,lot,x_mm,y_mm,vx_m_per_s,vy_m_per_s,omega_rad_per_s,angle_rad,radius_mm,start_x_mm,start_y_mm,shear,"
+            "z_mm,vz_m_per_s,omega_x_rad_per_s,omega_y_rad_per_s,start_z_mm\n"
+            "4,wheat,7.5,2.5,0,0,0,,2,0,0,0.5,6,0,0,0,0\n"
+            "5,wheat,12.5,2.5,0,0,0,,2,0,0,0.5,10,0.25,0,0,0\n"
+            "6,weed,10,7.5,0.01,0,1,,2,30,20,0.5,6,0,2,3,10\n"
+            "7,wheat,7.5,2.5,0,0,0,,2,0,0,0.5,14,0,0,0,0\n");
+  // 4 / 3 pi 8 of a cell of 25 mm2 through 20 mm; two balls in the first cell.
+  const std::string text = fields_csv(scene, run.snapshots[0], nullptr);
+  EXPECT_NE(text.find(",dilation_rate_per_s,vz_m_per_s\n7.5,2.5,0.134041,,"), std::string::npos) << text;
+  EXPECT_NE(text.find("\n12.5,2.5,0.0670206,,"), std::string::npos) << text;
+}
+
+TEST_F(RecordReportInSpace, ASliceHasWhatLiesInTheMiddle) {
+  scene.record->view = MapView::slice;
+  // From 7.5 to 12.5 mm: a whole ball, and two caps 0.5 mm high.
+  const std::string text = fields_csv(scene, run.snapshots[0], nullptr);
+  EXPECT_EQ(std::ranges::count(text, '\n'), 4) << text;
+  EXPECT_NE(text.find("\n12.5,2.5,0.268083,,0,0,,,0.25\n"), std::string::npos) << text;
+  EXPECT_NE(text.find("\n7.5,7.5,0.0115192,,"), std::string::npos) << text;
+}
+
 TEST_F(RecordReport, ProfileAndRecordsTellWhereTheLotsLie) {
   run.snapshots.pop_back();
   EXPECT_EQ(profile_csv(scene, run.snapshots),

@@ -179,6 +179,9 @@ TEST(SceneJson, EveryChangeHasItsOwnText) {
       [](Scene& s) {
         s.record = Record{{1, 2}, 0.02};
       },
+      [](Scene& s) {
+        s.record = Record{{1, 2}, 0.02, MapView::slice};
+      },
   };
   std::map<std::string, std::size_t> known{{scene_to_json(example()), changes.size()}};
   for (std::size_t i = 0; i < changes.size(); ++i) {
@@ -456,8 +459,9 @@ Scene any_scene() {
   pause = maybe(any_number);
   record = maybe([] {
     Record one;
-    auto& [times, cell] = one;
+    auto& [times, cell, view] = one;
     times = any_list(any_number), cell = any_number();
+    view = any_of_first<MapView>(2);
     return one;
   });
   return scene;

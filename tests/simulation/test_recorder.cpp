@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "scene/clump_shape.hpp"
+#include "simulation/checkpoint.hpp"
 #include "simulation/simulate.hpp"
 #include "support/bench.hpp"
 #include "vessel/vessel_motion.hpp"
@@ -100,6 +101,42 @@ TEST(Recorder, ClumpsHaveTheirAngleAndTheirOwnArea) {
   // Two discs of 2 mm radius less their lens: 2 r^2 acos(d / 2r) - d / 2 sqrt(4 r^2 - d^2).
   const double lens = 8e-6 * std::acos(0.75) - 1.5e-3 * std::sqrt(7e-6);
   EXPECT_NEAR(start.area[0], 8e-6 * std::numbers::pi - lens, 1e-16);
+}
+
+TEST(Recorder, BallsInSpaceHaveTheirVolumeAndWhatIsAcross) {
+  Bench bench;
+  bench.scene.space = Space::three_dimensional;
+  bench.scene.lots[0].shape = Shape::ball;
+  bench.scene.tray.depth = 0.1;
+  bench.scene.tray.motion = HarmonicMotion{.amplitude = 1e-3, .frequency = 2, .across = 0.5};
+  bench.scene.record = Record{{0, 0.05}, 0.01};
+  const Model model = with_step(prepare(bench.scene), 1e-4);
+  Grains grains = no_grains(model);
+  grains.add(Eigen::Vector3d(0.2, 0.05, 0.03), Eigen::Vector3d(0, 0, 0.4), 0, model.kinds.front());
+  Simulation run(model, starting_state(model, 1, grains));
+  run.run_until(0.02);
+  Simulation resumed(model, restore(model, save(model, run.state())));
+  resumed.run_until(0.05);
+  const std::vector<Snapshot> taken = resumed.result().snapshots;
+  ASSERT_EQ(taken.size(), 2u);
+  const Snapshot& s = taken[1];
+  EXPECT_NEAR(s.z.at(0), 0.05, 1e-12);
+  EXPECT_EQ(s.vz.at(0), 0.4);
+  EXPECT_EQ(s.start_z.at(0), 0.03);
+  EXPECT_EQ(s.omega_x, std::vector<double>{0});
+  EXPECT_NEAR(s.volume.at(0), 4 * std::numbers::pi / 3 * 64e-9, 1e-21);
+  EXPECT_TRUE(s.area.empty());
+  EXPECT_EQ(s.tray_z, vessel_pose(bench.scene.tray, s.time).across);
+  EXPECT_EQ(s.tray_vz, vessel_velocity(bench.scene.tray, s.time).across_velocity);
+  EXPECT_GT(s.tray_z, 1e-4);
+}
+
+TEST(Recorder, InThePlaneWhatIsAcrossIsEmpty) {
+  Bench bench;
+  bench.scene.record = Record{{0}, 0.01};
+  bench.place(0.2, 0.5);
+  const Snapshot s = bench.start(1e-4).result().snapshots.at(0);
+  for (const auto* array : {&s.z, &s.vz, &s.omega_x, &s.omega_y, &s.start_z, &s.volume}) EXPECT_TRUE(array->empty());
 }
 
 TEST(Recorder, AreaOfADiscIsItsCircles) {
