@@ -158,7 +158,10 @@ Grains grains_for(const Model& model, const Grains& grains) {
     if (!effects.rotation) kind.inverse_inertia = 0;
     const Eigen::Vector3d at(grains.x[i], grains.y[i], grains.in_space ? grains.z[i] : 0);
     const Eigen::Vector3d velocity(grains.vx[i], grains.vy[i], grains.in_space ? grains.vz[i] : 0);
-    same.add(at, velocity, grains.lot[i], kind, grains.oriented ? grains.angle[i] : 0);
+    Turn turned;
+    if (grains.oriented && grains.in_space) turned.orientation = grains.orientation(i);
+    if (grains.oriented && !grains.in_space) turned.angle = grains.angle[i];
+    same.add(at, velocity, grains.lot[i], kind, turned);
     if (!effects.rotation || !grains.rotation) continue;
     same.omega[i] = grains.omega[i];
     if (grains.in_space) same.omega_x[i] = grains.omega_x[i], same.omega_y[i] = grains.omega_y[i];

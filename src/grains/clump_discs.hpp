@@ -3,17 +3,18 @@
 #include <vector>
 
 #include "compute/grain_force.hpp"
+#include "compute/space_forces.hpp"
 #include "grains/grains.hpp"
 
 namespace vibrosow {
 
-/// A disc of a clump as a contact sees it: with its clump's whole mass and moment of inertia. `clump` is the whole
-/// seed, `size` its size over its lot's.
+/// A disc of a clump, in space a ball, as a contact sees it: with its clump's whole mass and moment of inertia. `clump`
+/// is the whole seed, `size` its size over its lot's.
 GrainKind kind_of_disc(const GrainKind& clump, const ClumpDisc& disc, double size, const LawTraits& law);
 
-/// The discs of rigid clumps: what the contact kernels and lists see when a grain is several discs. A grain of a lot
-/// that is a single disc is a clump of one. Each disc bears its clump's whole mass and moment of inertia in a contact;
-/// its shell is eps = shell_compression times its own radius thick under that weight.
+/// The discs of rigid clumps, in space balls: what the contact kernels and lists see when a grain is several of them. A
+/// grain of a lot that is a single disc is a clump of one. Each disc bears its clump's whole mass and moment of inertia
+/// in a contact; its shell is eps = shell_compression times its own radius thick under that weight.
 class ClumpDiscs {
  public:
   /// `kinds`: a seed of each lot's diameter.
@@ -22,10 +23,13 @@ class ClumpDiscs {
 
   /// Makes the discs anew for these clumps.
   void rebuild(const Grains& clumps);
-  /// Moves the discs with their clumps: x + R(angle) c, v + omega x c.
+  /// Moves the discs with their clumps: x + R c, v + omega x R c, R by the clump's angle or quaternion.
   void place(const Grains& clumps);
   /// Force and torque about the centres of mass, from those on the discs about their own centres.
   void gather(const Forces& on_discs, Forces& on_clumps) const;
+  /// The same in space, in place of what `on_clumps` held. Without friction the balls have no torques, and the clumps
+  /// those of the forces' arms.
+  void gather(const SpaceForces& on_balls, SpaceForces& on_clumps) const;
 
   const Grains& discs() const { return discs_; }
   /// One flag a disc, from one a clump.
@@ -36,8 +40,12 @@ class ClumpDiscs {
   const LawTraits& law_;
   std::int64_t discs_per_id_;  // numbers kept free for the discs of a clump
   Grains discs_;
-  std::vector<double> own_x_, own_y_;  // m, from the centre of mass, clump not turned
-  std::vector<double> arm_x_, arm_y_;  // m, the same as it lies now
+  void place_in_plane(const Grains& clumps);
+  void place_in_space(const Grains& clumps);
+
+  std::vector<double> own_x_, own_y_, own_z_;  // m, from the centre of mass, clump not turned
+  std::vector<double> arm_x_, arm_y_, arm_z_;  // m, the same as it lies now
+  std::size_t clumps_ = 0;
 };
 
 }  // namespace vibrosow

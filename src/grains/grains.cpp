@@ -1,6 +1,28 @@
 #include "grains/grains.hpp"
 
+#include <algorithm>
+
+#include "elementary/functions.hpp"
+#include "scene/seed_lot.hpp"
+
 namespace vibrosow {
+namespace {
+
+/// Moment of inertia over mass, m2; of a clump in space the smallest.
+double gyration2_of(const SeedLot& lot) {
+  const double radius = 0.5 * lot.diameter;
+  if (is_solid_clump(lot)) return std::min({lot.gyration2_x, lot.gyration2_y, lot.gyration2});
+  if (lot.shape == Shape::clump) return lot.gyration2;
+  return lot.shape == Shape::disc ? 0.5 * radius * radius : 0.4 * radius * radius;
+}
+
+std::array<double, 3> moments_of(const SeedLot& lot) {
+  if (!is_solid_clump(lot)) return {1, 1, 1};
+  const double least = gyration2_of(lot);
+  return {lot.gyration2_x / least, lot.gyration2_y / least, lot.gyration2 / least};
+}
+
+}  // namespace
 
 std::vector<SeedMaterial> seed_materials(const Contact& contact, const std::vector<SeedLot>& lots) {
   std::vector<SeedMaterial> materials;
@@ -18,22 +40,23 @@ std::vector<GrainKind> grain_kinds(const std::vector<SeedLot>& lots, const std::
   std::vector<GrainKind> kinds;
   for (std::size_t l = 0; l < lots.size(); ++l) {
     const SeedLot& lot = lots[l];
-    const double radius = 0.5 * lot.diameter;
-    const double gyration2 = lot.shape == Shape::clump  ? lot.gyration2
-                             : lot.shape == Shape::disc ? 0.5 * radius * radius
-                                                        : 0.4 * radius * radius;
-    const double inertia = lot.mass * gyration2;
-    kinds.push_back({radius, lot.mass, 1 / lot.mass, 1 / inertia, law.compliance(materials[l])});
+    const double inertia = lot.mass * gyration2_of(lot);
+    kinds.push_back(
+        {0.5 * lot.diameter, lot.mass, 1 / lot.mass, 1 / inertia, law.compliance(materials[l]), moments_of(lot)});
   }
   return kinds;
 }
 
 GrainKind sized_kind(const SeedLot& lot, const LawTraits& law, const GrainKind& kind, double size) {
   if (size == 1) return kind;
-  const double growth = lot.shape == Shape::ball ? size * size * size : size * size;
+  const double growth = elementary::pow(size, mass_power(lot));
   const double mass = kind.mass * growth;
-  return {kind.radius * size, mass, 1 / mass, kind.inverse_inertia / (growth * size * size),
-          law.compliance_of_size(kind.compliance, size, growth)};
+  return {kind.radius * size,
+          mass,
+          1 / mass,
+          kind.inverse_inertia / (growth * size * size),
+          law.compliance_of_size(kind.compliance, size, growth),
+          kind.moments};
 }
 
 void Grains::add(double px, double py, double pvx, double pvy, int lot_index) {
@@ -46,7 +69,7 @@ void Grains::add(double px, double py, double pvx, double pvy, int lot_index, co
   vx.push_back(pvx);
   vy.push_back(pvy);
   if (rotation) omega.push_back(0);
-  if (oriented) angle.push_back(turned);
+  if (oriented && !in_space) angle.push_back(turned);
   lot.push_back(lot_index);
   id.push_back(next_id++);
   if (!polydisperse) return;
@@ -59,12 +82,15 @@ void Grains::add(double px, double py, double pvx, double pvy, int lot_index, co
 }
 
 void Grains::add(const Eigen::Vector3d& at, const Eigen::Vector3d& velocity, int lot_index, const GrainKind& own,
-                 double turned) {
-  add(at.x(), at.y(), velocity.x(), velocity.y(), lot_index, own, turned);
+                 const Turn& turned) {
+  add(at.x(), at.y(), velocity.x(), velocity.y(), lot_index, own, turned.angle);
   if (!in_space) return;
   z.push_back(at.z());
   vz.push_back(velocity.z());
   if (rotation) omega_x.push_back(0), omega_y.push_back(0);
+  if (!oriented) return;
+  const Orientation& q = turned.orientation;
+  q_w.push_back(q.w), q_x.push_back(q.x), q_y.push_back(q.y), q_z.push_back(q.z);
 }
 
 void Grains::remove_flagged(const std::vector<char>& remove) {
@@ -75,7 +101,7 @@ void Grains::remove_flagged(const std::vector<char>& remove) {
       if (!remove[i]) array[kept++] = array[i];
     array.resize(kept);
   };
-  keep(z), keep(vz), keep(omega_x), keep(omega_y);
+  keep(z), keep(vz), keep(omega_x), keep(omega_y), keep(q_w), keep(q_x), keep(q_y), keep(q_z);
   keep(x), keep(y), keep(vx), keep(vy), keep(omega), keep(angle), keep(lot), keep(id);
   keep(radius), keep(mass), keep(inverse_mass), keep(inverse_inertia), keep(compliance), keep(curvature);
 }

@@ -1,10 +1,12 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
 
+#include "grains/orientation.hpp"
 #include "laws/law.hpp"
 #include "scene/scene.hpp"
 
@@ -15,8 +17,9 @@ struct GrainKind {
   double radius;           // m; of a clump: of the circle about its centre of mass that just holds it
   double mass;             // kg
   double inverse_mass;     // 1/kg
-  double inverse_inertia;  // 1/(kg m2); 0 without rotation
+  double inverse_inertia;  // 1/(kg m2); 0 without rotation; of a clump in space: of its smallest principal moment
   double compliance;       // m/N of one shell, eps / (m g); with Hertz' law 1/Pa, (1 - nu^2) / E
+  std::array<double, 3> moments{1, 1, 1};  // of a clump in space: its principal moments over the smallest
 };
 
 /// What each lot's seeds are made of: its own values, or the contact's.
@@ -26,20 +29,20 @@ std::vector<SeedMaterial> seed_materials(const Contact& contact, const std::vect
 std::vector<GrainKind> grain_kinds(const std::vector<SeedLot>& lots, const std::vector<SeedMaterial>& materials,
                                    const LawTraits& law);
 
-/// A seed of a lot whose size is `size` times the lot's diameter. Mass grows with the cube of size for a ball and with
-/// its square for a disc or clump, at equal density; under its own weight the shell yields by the same fraction of the
-/// radius.
+/// A seed of a lot whose size is `size` times the lot's diameter. Mass grows with size to its `mass_power`; under its
+/// own weight the shell yields by the same fraction of the radius.
 GrainKind sized_kind(const SeedLot& lot, const LawTraits& law, const GrainKind& kind, double size);
 
 /// State of all grains in the lab frame, structure of arrays. Order is order of insertion and survives removal.
 /// Arrays of an absent effect are empty: `omega` without rotation, the property arrays for equal grains.
 struct Grains {
-  std::vector<double> x, y;              // m
-  std::vector<double> vx, vy;            // m/s
-  std::vector<double> omega;             // rad/s, anticlockwise
-  std::vector<double> z, vz;             // m, m/s: across the plane; of balls in space alone
-  std::vector<double> omega_x, omega_y;  // rad/s; of balls in space alone
-  std::vector<double> angle;             // rad, how far a clump is turned from its lot's shape; only with clumps
+  std::vector<double> x, y;                // m
+  std::vector<double> vx, vy;              // m/s
+  std::vector<double> omega;               // rad/s, anticlockwise
+  std::vector<double> z, vz;               // m, m/s: across the plane; of balls in space alone
+  std::vector<double> omega_x, omega_y;    // rad/s; of balls in space alone
+  std::vector<double> angle;               // rad, how far a clump is turned from its lot's shape; only in the plane
+  std::vector<double> q_w, q_x, q_y, q_z;  // the same of clumps in space: unit quaternions from its own axes
   std::vector<int> lot;
   std::vector<std::int64_t> id;  // order of insertion, from 0
 
@@ -50,7 +53,7 @@ struct Grains {
   std::vector<double> radius, mass, inverse_mass, inverse_inertia, compliance, curvature;  // curvature 1/m
 
   std::int64_t next_id = 0;  // of the next grain that is added
-  bool oriented = false;     // whether angles are kept
+  bool oriented = false;     // whether angles are kept, in space quaternions
   std::vector<int> clump{};  // where these are the discs of clumps: which clump each belongs to; else empty
 
   Grains(std::vector<GrainKind> lot_kinds, bool with_polydisperse, bool with_rotation, bool with_angles = false)
@@ -59,8 +62,12 @@ struct Grains {
   std::size_t size() const { return x.size(); }
   GrainKind kind(std::size_t i) const {
     if (!polydisperse) return kinds.front();
-    return {radius[i], mass[i], inverse_mass[i], inverse_inertia[i], compliance[i]};
+    return {radius[i],          mass[i],       inverse_mass[i],
+            inverse_inertia[i], compliance[i], kinds[static_cast<std::size_t>(lot[i])].moments};
   }
+  Orientation orientation(std::size_t i) const { return {q_w[i], q_x[i], q_y[i], q_z[i]}; }
+  std::array<std::vector<double>*, 4> quaternions() { return {&q_w, &q_x, &q_y, &q_z}; }
+  void set_orientation(std::size_t i, const Orientation& q) { q_w[i] = q.w, q_x[i] = q.x, q_y[i] = q.y, q_z[i] = q.z; }
 
   /// Appends a grain of `lot_index`, of the lot's own kind, and gives it the next id.
   void add(double px, double py, double pvx, double pvy, int lot_index);
@@ -70,7 +77,7 @@ struct Grains {
 
   /// The same at a place (m) and with a velocity (m/s) of the lab, whose z counts in space alone.
   void add(const Eigen::Vector3d& at, const Eigen::Vector3d& velocity, int lot_index, const GrainKind& own,
-           double turned = 0);
+           const Turn& turned = {});
 
   /// Keeps the grains whose flag is 0, in order. `remove` has one flag a grain.
   void remove_flagged(const std::vector<char>& remove);

@@ -106,8 +106,8 @@ std::vector<PackedGrain> pack_rows(const Vessel& vessel, const std::vector<SeedL
       const double dx = plan.shift * random.uniform(-1, 1), dy = plan.shift * random.uniform(-1, 1);
       const int lot = order[packed.size()];
       const SeedLot& seeds = lots[static_cast<std::size_t>(lot)];
-      const double size = draw_size(seeds, random), angle = draw_angle(seeds, random);
-      packed.push_back({x + dx, y + dy, lot, size, angle});
+      const double size = draw_size(seeds, random);
+      packed.push_back({x + dx, y + dy, lot, size, draw_turn(seeds, random)});
     }
     if (y + 0.5 * plan.clear > vessel.height) refuse_fill(vessel);
   }
@@ -135,8 +135,9 @@ std::vector<PackedGrain> pack_layers(const Vessel& vessel, const std::vector<See
       const double dx = plan.shift * random.uniform(-1, 1), dy = plan.shift * random.uniform(-1, 1);
       const double dz = plan.shift * random.uniform(-1, 1);
       const int lot = order[packed.size()];
-      const double size = draw_size(lots[static_cast<std::size_t>(lot)], random);
-      packed.push_back({place.x() + dx, y + dy, lot, size, 0, place.y() + dz});
+      const SeedLot& seeds = lots[static_cast<std::size_t>(lot)];
+      const double size = draw_size(seeds, random);
+      packed.push_back({place.x() + dx, y + dy, lot, size, draw_turn(seeds, random), place.y() + dz});
     }
     if (y + 0.5 * plan.clear > vessel.height) refuse_fill(vessel);
   }

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "compute/stop_request.hpp"
+#include "grains/orientation.hpp"
 #include "grains/random.hpp"
 #include "scene/scene.hpp"
 
@@ -11,9 +12,9 @@ namespace vibrosow {
 struct PackedGrain {
   double x, y;  // m, in the vessel's frame
   int lot;
-  double size = 1;   // of the lot's diameter
-  double angle = 0;  // rad, of a clump
-  double z = 0;      // m, in space
+  double size = 1;  // of the lot's diameter
+  Turn turned{};    // of a clump
+  double z = 0;     // m, in space
 };
 
 /// Places the vessel's fill at rest without overlap, its holes closed. `poured`: each grain drops at a random place and
@@ -21,7 +22,7 @@ struct PackedGrain {
 /// where, of many drops near its first, its centre comes lowest, its discs touching. `layers` and `hexagonal`: rows,
 /// each grain shifted at random by up to the jitter, a clump in the circle that holds it. In space see `pour_in_space`,
 /// and layers are square: one above the other, or as `hexagonal` closest packed. Lots are mixed at random in exact
-/// fractions (largest remainder), sizes and the angles of clumps are drawn. No fill: empty. Throws InputError when the
+/// fractions (largest remainder), sizes and how clumps are turned are drawn. No fill: empty. Throws InputError when the
 /// packing rises above the vessel's end walls, Interrupted where `stop` is set.
 std::vector<PackedGrain> pack(const Vessel& vessel, const std::vector<SeedLot>& lots, Space space, Random& random,
                               StopRequest stop = {});

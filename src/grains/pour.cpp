@@ -264,7 +264,7 @@ std::vector<PackedGrain> pour(const Vessel& vessel, const std::vector<SeedLot>& 
     const TurnedSeed seed(seeds, size, at.angle);
     if (at.y + seed.top > vessel.height) refuse_fill(vessel);
     for (const Heap::Disc& disc : seed.discs) heap.add({at.x + disc.x, at.y + disc.y, disc.radius});
-    packed.push_back({at.x, at.y, lot, size, at.angle});
+    packed.push_back({at.x, at.y, lot, size, {at.angle}});
   }
   return packed;
 }

@@ -127,7 +127,7 @@ std::vector<PackedGrain> pour_in_space(const Vessel& vessel, const std::vector<S
     const Ball ball = lowest.find(0.5 * size * seeds.diameter, random);
     if (!(ball.y + ball.radius <= vessel.height)) refuse_fill(vessel);
     heap.add(ball);
-    packed.push_back({ball.x, ball.y, lot, size, 0, ball.z});
+    packed.push_back({ball.x, ball.y, lot, size, draw_turn(seeds, random), ball.z});
   }
   return packed;
 }

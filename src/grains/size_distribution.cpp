@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <boost/math/tools/toms748_solve.hpp>
+#include <cmath>
 #include <cstdint>
 #include <numbers>
 
@@ -58,6 +59,18 @@ double draw_size(const SeedLot& lot, Random& random) {
 
 double draw_angle(const SeedLot& lot, Random& random) {
   return lot.shape == Shape::clump ? random.uniform(0, 2 * std::numbers::pi) : 0;
+}
+
+Orientation draw_orientation(Random& random) {
+  const double part = random.uniform(), first = std::sqrt(1 - part), second = std::sqrt(part);
+  const auto a = elementary::sine_cosine(random.uniform(0, 2 * std::numbers::pi));
+  const auto b = elementary::sine_cosine(random.uniform(0, 2 * std::numbers::pi));
+  return of_unit_length({second * b.cosine, first * a.sine, first * a.cosine, second * b.sine});
+}
+
+Turn draw_turn(const SeedLot& lot, Random& random) {
+  if (is_solid_clump(lot)) return {0, draw_orientation(random)};
+  return {draw_angle(lot, random)};
 }
 
 }  // namespace vibrosow

@@ -5,10 +5,12 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <string_view>
 
 #include "elementary/functions.hpp"
 #include "input/presets.hpp"
 #include "scene/clump_shape.hpp"
+#include "scene/make_clump.hpp"
 #include "scene/seed_lot.hpp"
 
 namespace vibrosow {
@@ -46,36 +48,64 @@ std::vector<std::string> keys_of_other_shapes(ShapeName shape) {
     case ShapeName::drop:
       return {"diameter", "distance", "discs"};
     case ShapeName::dipole:
-      return {"length", "width", "discs"};
+      return {"length", "width", "thickness", "discs"};
     case ShapeName::discs:
-      return {"diameter", "length", "width", "distance", "sizes"};
+      return {"diameter", "length", "width", "thickness", "distance", "sizes"};
     default:
-      return {"length", "width", "distance", "discs"};
+      return {"length", "width", "thickness", "distance", "discs"};
   }
 }
 
-std::vector<ClumpDisc> read_row(const Table& seeds, ShapeName shape, double length) {
+double read_width(const Table& seeds, double length) {
   const double width = read_length(seeds, "width");
   if (width >= length) {
     seeds.fail("width", fmt::format("{:g} mm is not less than the length, {:g} mm; for a round seed shape = \"ball\"",
                                     width * 1e3, length * 1e3));
   }
+  return width;
+}
+
+[[noreturn]] void fail_slender(const Table& seeds, ShapeName shape, const char* key, double across, double length) {
+  seeds.fail(key, fmt::format("{:g} mm is too slender for {} discs at a length of {:g} mm; the length may be up "
+                              "to {} {}, or give shape = \"discs\"",
+                              across * 1e3, most_row_discs, length * 1e3, shape == ShapeName::elongated ? "5" : "3.9",
+                              std::string_view(key) == "width" ? "widths" : "times that"));
+}
+
+std::vector<ClumpDisc> read_row(const Table& seeds, ShapeName shape, double length) {
+  const double width = read_width(seeds, length);
   const std::vector<ClumpDisc> discs = shape == ShapeName::elongated ? elongated(length, width) : drop(length, width);
-  if (discs.empty()) {
-    seeds.fail("width",
-               fmt::format("{:g} mm is too slender for {} discs at a length of {:g} mm; the length may be up "
-                           "to {} widths, or give shape = \"discs\"",
-                           width * 1e3, most_row_discs, length * 1e3, shape == ShapeName::elongated ? "5" : "3.9"));
-  }
+  if (discs.empty()) fail_slender(seeds, shape, "width", width, length);
   return discs;
 }
 
-std::vector<ClumpDisc> read_discs(Table& seeds) {
+/// In space: a thickness that is not given is the width.
+std::vector<ClumpDisc> read_solid_row(Table& seeds, ShapeName shape, double length) {
+  const double width = read_width(seeds, length);
+  const double thickness = seeds.quantity("thickness", Dimension::length, smallest, largest).value_or(width);
+  if (thickness > width) {
+    seeds.fail("thickness", fmt::format("{:g} mm is more than the width, {:g} mm", thickness * 1e3, width * 1e3));
+  }
+  if (thickness < thinnest * width) {
+    seeds.fail(
+        "thickness",
+        fmt::format("{:g} mm is too thin for {} balls side by side, {:g} mm wide; it may be down to {:g} widths, "
+                    "or give shape = \"discs\"",
+                    thickness * 1e3, most_balls_across, width * 1e3, thinnest));
+  }
+  const std::vector<ClumpDisc> balls =
+      shape == ShapeName::elongated ? elongated_solid(length, width, thickness) : drop_solid(length, width, thickness);
+  if (balls.empty()) fail_slender(seeds, shape, seeds.has("thickness") ? "thickness" : "width", thickness, length);
+  return balls;
+}
+
+std::vector<ClumpDisc> read_discs(Table& seeds, Space space) {
   std::vector<ClumpDisc> discs;
   for (Table& disc : seeds.tables("discs")) {
     const double x = disc.required_quantity("x", Dimension::length, -largest, largest);
     const double y = disc.required_quantity("y", Dimension::length, -largest, largest);
-    discs.push_back({x, y, 0.5 * read_length(disc, "diameter")});
+    const double z = space == Space::plane ? 0 : disc.quantity("z", Dimension::length, -largest, largest).value_or(0);
+    discs.push_back({x, y, 0.5 * read_length(disc, "diameter"), z});
   }
   if (discs.empty()) {
     seeds.fail("discs", "is missing; expected a list such as [{ x = \"0 mm\", y = \"0 mm\", diameter = \"3 mm\" }]");
@@ -83,20 +113,18 @@ std::vector<ClumpDisc> read_discs(Table& seeds) {
   return discs;
 }
 
-void make_clump(SeedLot& lot, const std::vector<ClumpDisc>& discs) {
-  lot.shape = Shape::clump;
-  lot.discs = about_centre_of_mass(discs);
-  lot.gyration2 = plate_of(lot.discs).gyration2;
-  lot.diameter = 2 * holding_radius(lot.discs);
-}
-
 /// `size` (m) is the measure under `size_key`.
-void read_shape(Table& seeds, ShapeName shape, double size, SeedLot& lot) {
+void read_shape(Table& seeds, ShapeName shape, double size, Space space, SeedLot& lot) {
   lot.diameter = size;
   lot.shape = shape == ShapeName::disc ? Shape::disc : Shape::ball;
-  if (shape == ShapeName::elongated || shape == ShapeName::drop) make_clump(lot, read_row(seeds, shape, size));
-  if (shape == ShapeName::dipole) make_clump(lot, dipole(size, read_length(seeds, "distance")));
-  if (shape == ShapeName::discs) make_clump(lot, read_discs(seeds));
+  if (shape == ShapeName::disc && space != Space::plane)
+    seeds.fail("shape", "a disc lies in the plane; in space it is a \"ball\"");
+  if (shape == ShapeName::elongated || shape == ShapeName::drop) {
+    if (space == Space::plane) seeds.skip("thickness");
+    make_clump(lot, space == Space::plane ? read_row(seeds, shape, size) : read_solid_row(seeds, shape, size), space);
+  }
+  if (shape == ShapeName::dipole) make_clump(lot, dipole(size, read_length(seeds, "distance")), space);
+  if (shape == ShapeName::discs) make_clump(lot, read_discs(seeds, space), space);
 }
 
 // Sizes.
@@ -169,11 +197,6 @@ SizeDistribution read_sizes(Table& seeds, const std::string& key) {
   return sizes;
 }
 
-void scale(SizeDistribution& sizes, double factor) {
-  for (double* length : {&sizes.mean, &sizes.deviation, &sizes.least, &sizes.most}) *length *= factor;
-  for (double& diameter : sizes.diameter) diameter *= factor;
-}
-
 // Mass.
 
 double read_mass(Table& seeds, const SeedLot& lot) {
@@ -203,7 +226,7 @@ void reject_thousand_grain_mass(const Table& seeds, const SeedLot& lot) {
 
 }  // namespace
 
-SeedLot read_lot(Table& seeds, const std::string& name) {
+SeedLot read_lot(Table& seeds, const std::string& name, Space space) {
   use_preset(seeds, "crop", "crops");
   SeedLot lot;
   lot.name = name;
@@ -212,7 +235,7 @@ SeedLot read_lot(Table& seeds, const std::string& name) {
   refuse_keys(seeds, "shape", keys_of_other_shapes(shape),
               fmt::format("does not go with shape = \"{}\"", shape_names[static_cast<std::size_t>(shape)]));
   if (shape != ShapeName::discs) lot.sizes = read_sizes(seeds, size_key(shape));
-  read_shape(seeds, shape, lot.sizes.mean, lot);
+  read_shape(seeds, shape, lot.sizes.mean, space, lot);
   if (lot.shape == Shape::clump && lot.sizes.kind != Kind::single) scale(lot.sizes, lot.diameter / lot.sizes.mean);
   if (lot.sizes.kind == Kind::single) lot.sizes = {};
   if (lot.sizes.kind == Kind::uniform || lot.sizes.kind == Kind::table) lot.sizes.mean = 0;  // told by the others

@@ -58,12 +58,12 @@ void check_lot_name(const Table& seeds, const std::string& name) {
   }
 }
 
-std::vector<SeedLot> read_lots(Table seeds) {
+std::vector<SeedLot> read_lots(Table seeds, Space space) {
   std::vector<SeedLot> lots;
   for (const std::string& name : seeds.keys()) {
     check_lot_name(seeds, name);
     Table table = seeds.required_table(name);
-    lots.push_back(read_lot(table, name));
+    lots.push_back(read_lot(table, name, space));
   }
   if (lots.empty()) seeds.fail("", "names no seed lot; expected a table such as [seeds.wheat]");
   read_fractions(seeds, lots);
@@ -161,7 +161,7 @@ Scene read_scene(const std::filesystem::path& file, const std::vector<Override>&
   constexpr Space spaces[] = {Space::plane, Space::three_dimensional};
   scene.space = spaces[root.choice("space", {"plane", "3d"}).value_or(0)];
   Table seeds = root.required_table("seeds");
-  scene.lots = read_lots(seeds);
+  scene.lots = read_lots(seeds, scene.space);
   scene.contact = read_contact(root.required_table("contact"), seeds, scene.lots);
   Table tray = root.required_table("tray");
   scene.tray = read_vessel(tray, "tray", scene.lots, scene.space);

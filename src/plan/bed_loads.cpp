@@ -43,7 +43,7 @@ double deepest_fill(const std::vector<Vessel>& vessels, double diameter, double 
 double load_of_smallest(const std::vector<SeedLot>& lots, const std::vector<SeedSizes>& sizes) {
   double largest = 1;
   for (std::size_t l = 0; l < lots.size(); ++l) {
-    const double pressed = elementary::pow(sizes[l].least, lots[l].shape == Shape::ball ? 2 : 1);
+    const double pressed = elementary::pow(sizes[l].least, mass_power(lots[l]) - 1);
     largest = std::max(largest, sizes[l].mean_mass / lots[l].mass / pressed);
   }
   return largest;

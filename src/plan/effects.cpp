@@ -14,7 +14,8 @@ bool grains_differ(const Scene& scene) {
   return !scene.contact.overrides.empty() ||
          std::any_of(scene.lots.begin(), scene.lots.end(), [&first](const SeedLot& lot) {
            return lot.diameter != first.diameter || lot.mass != first.mass || lot.shape != first.shape ||
-                  lot.gyration2 != first.gyration2 || lot.sizes.kind != SizeDistribution::Kind::single ||
+                  lot.gyration2 != first.gyration2 || lot.gyration2_x != first.gyration2_x ||
+                  lot.gyration2_y != first.gyration2_y || lot.sizes.kind != SizeDistribution::Kind::single ||
                   lot.shell_compression != first.shell_compression || lot.youngs_modulus != first.youngs_modulus ||
                   lot.poisson_ratio != first.poisson_ratio;
          });

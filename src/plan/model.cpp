@@ -1,5 +1,7 @@
 #include "plan/model.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "plan/contact_parameters.hpp"
@@ -30,6 +32,14 @@ void check_vessels(const Model& model) {
     if (!vessel.depth) throw InputError(vessel.name + ".depth: is missing; in space a vessel has one");
 }
 
+/// What a clump has no inertia for cannot turn as it should.
+void check_clumps(const Scene& scene) {
+  for (const SeedLot& lot : scene.lots)
+    if (lot.shape == Shape::clump && is_solid_clump(lot) != (scene.space == Space::three_dimensional))
+      throw InputError(
+          fmt::format("seeds.{}: a clump has three moments of inertia in space and one in the plane", lot.name));
+}
+
 }  // namespace
 
 Model prepare(const Scene& scene, const std::optional<EffectSet>& effects) {
@@ -38,6 +48,7 @@ Model prepare(const Scene& scene, const std::optional<EffectSet>& effects) {
   model.vessels = {scene.tray};
   if (scene.hopper) model.vessels.push_back(*scene.hopper);
   check_vessels(model);
+  check_clumps(scene);
   const LawTraits& law = traits_of(scene.contact.law);
   const Surfaces surfaces = meeting_surfaces(scene.contact, scene.lots.size());
   model.law = &law;

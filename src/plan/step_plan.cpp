@@ -12,6 +12,8 @@
 #include "elementary/functions.hpp"
 #include "grains/clump_discs.hpp"
 #include "scene/clump_shape.hpp"
+#include "scene/seed_lot.hpp"
+#include "scene/space_side_contacts.hpp"
 
 namespace vibrosow {
 namespace {
@@ -72,11 +74,21 @@ FrictionStep friction_step(Integrator integrator) {
   throw std::logic_error("a scheme without a limit for friction");
 }
 
+Eigen::Vector3d gyration2_of(const SeedLot& lot) {
+  return {lot.gyration2_x, lot.gyration2_y, lot.gyration2};
+}
+
 /// m r^2 / I, the largest, of a clump at its furthest point; 0 where nothing turns.
 double spin_factor(const StepBasis& basis) {
   double largest = 0;
-  for (const GrainKind& seed : basis.seeds)
-    largest = std::max(largest, seed.radius * seed.radius * seed.inverse_inertia / seed.inverse_mass);
+  for (std::size_t l = 0; l < basis.seeds.size(); ++l) {
+    const GrainKind& seed = basis.seeds[l];
+    const SeedLot& lot = basis.scene.lots[l];
+    if (seed.inverse_inertia == 0) continue;
+    largest =
+        std::max(largest, is_solid_clump(lot) ? furthest_yield(lot.discs, gyration2_of(lot))
+                                              : seed.radius * seed.radius * seed.inverse_inertia / seed.inverse_mass);
+  }
   return largest;
 }
 
@@ -115,8 +127,10 @@ SideContacts side_contacts_of(const StepBasis& basis, std::size_t lot) {
     weights.push_back(on_wall(basis, kind_of_disc(seed, disc, 1, basis.law)).stiffness);
   const double stiffest = *std::ranges::max_element(weights);
   for (double& weight : weights) weight /= stiffest;
-  SideContacts contacts =
-      side_contacts(discs, weights, basis.scene.lots[lot].gyration2, basis.scene.guard.warn_relative_overlap);
+  const SeedLot& clump = basis.scene.lots[lot];
+  const double depth = basis.scene.guard.warn_relative_overlap;
+  SideContacts contacts = is_solid_clump(clump) ? space_side_contacts(discs, weights, gyration2_of(clump), depth)
+                                                : side_contacts(discs, weights, clump.gyration2, depth);
   if (seed.inverse_inertia == 0) contacts.turning = 0;
   return contacts;
 }

@@ -6,68 +6,28 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
-#include <optional>
 
 #include "elementary/functions.hpp"
+#include "scene/clump_body.hpp"
+#include "scene/free_arcs.hpp"
 
 namespace vibrosow {
 namespace {
 
 constexpr double pi = std::numbers::pi;
 
-struct Arc {
-  double from, to;  // rad, from < to
-};
-
-/// The part of disc i's rim inside disc j, as an arc about `middle`; nothing when the rims do not cross. Of equal discs
-/// the first counts.
-std::optional<Arc> covered_arc(const ClumpDisc& i, const ClumpDisc& j, bool j_is_earlier) {
-  const double dx = j.x - i.x, dy = j.y - i.y, distance = elementary::hypot(dx, dy);
-  if (distance == 0 && i.radius == j.radius) return j_is_earlier ? std::optional(Arc{0, 2 * pi}) : std::nullopt;
-  if (distance + i.radius <= j.radius) return Arc{0, 2 * pi};
-  if (distance >= i.radius + j.radius || distance + j.radius <= i.radius) return std::nullopt;
-  const double cosine = (distance + (i.radius - j.radius) * (i.radius + j.radius) / distance) / (2 * i.radius);
-  const double half = elementary::acos(std::clamp(cosine, -1.0, 1.0)), middle = elementary::atan2(dy, dx);
-  return Arc{middle - half, middle + half};
-}
-
-/// Arcs of disc i's rim that no other disc covers.
-std::vector<Arc> free_arcs(const std::vector<ClumpDisc>& discs, std::size_t i) {
-  std::vector<Arc> covered;
-  for (std::size_t j = 0; j < discs.size(); ++j) {
-    if (j == i) continue;
-    const std::optional<Arc> arc = covered_arc(discs[i], discs[j], j < i);
-    if (!arc) continue;
-    const double turns = std::floor(arc->from / (2 * pi)) * 2 * pi;
-    const double from = arc->from - turns, to = arc->to - turns;
-    covered.push_back({from, std::min(to, 2 * pi)});
-    if (to > 2 * pi) covered.push_back({0, to - 2 * pi});
-  }
-  std::sort(covered.begin(), covered.end(), [](const Arc& a, const Arc& b) { return a.from < b.from; });
-  std::vector<Arc> free;
-  double reached = 0;
-  for (const Arc& arc : covered) {
-    if (arc.from > reached) free.push_back({reached, arc.from});
-    reached = std::max(reached, arc.to);
-  }
-  if (reached < 2 * pi) free.push_back({reached, 2 * pi});
-  return free;
-}
-
-/// Integral over an arc of f(x, y, dx/dt, dy/dt); on quarters the 20-point rule is exact to rounding.
+/// Integral over an arc of f(x, y, dx/dt, dy/dt).
 template <class Integrand>
 double along_arc(const ClumpDisc& disc, const Arc& arc, Integrand f) {
-  const int parts = static_cast<int>(std::ceil((arc.to - arc.from) / (pi / 2)));
-  const double step = (arc.to - arc.from) / parts;
   double sum = 0;
-  for (int part = 0; part < parts; ++part)
+  for (const Arc& part : quarters(arc))
     sum += boost::math::quadrature::gauss<double, 20>::integrate(
         [&](double t) {
           const auto at = elementary::sine_cosine(t);
           const double cosine = disc.radius * at.cosine, sine = disc.radius * at.sine;
           return f(disc.x + cosine, disc.y + sine, -sine, cosine);
         },
-        arc.from + part * step, arc.from + (part + 1) * step);
+        part.from, part.to);
   return sum;
 }
 
@@ -122,34 +82,10 @@ double volume_by_heights(const std::vector<ClumpDisc>& discs) {
   return volume;
 }
 
-/// Of balls on a line parallel to x: between places where another ball becomes the widest, pi (r^2 - (x - c)^2) is
-/// integrated in closed form.
-double volume_of_row(const std::vector<ClumpDisc>& discs) {
-  std::vector<double> places;
-  for (const ClumpDisc& a : discs) {
-    places.insert(places.end(), {a.x - a.radius, a.x + a.radius});
-    for (const ClumpDisc& b : discs)
-      if (b.x > a.x) places.push_back(0.5 * (a.x + b.x + (a.radius - b.radius) * (a.radius + b.radius) / (b.x - a.x)));
-  }
-  std::ranges::sort(places);
-  double volume = 0;
-  for (std::size_t k = 1; k < places.size(); ++k) {
-    const double from = places[k - 1], to = places[k], middle = 0.5 * (from + to);
-    const auto width2 = [middle](const ClumpDisc& disc) {
-      return (disc.radius - (middle - disc.x)) * (disc.radius + (middle - disc.x));
-    };
-    const ClumpDisc widest = *std::ranges::max_element(discs, {}, width2);
-    if (width2(widest) <= 0) continue;
-    const double half = 0.5 * (to - from);
-    volume += 2 * half * pi * (width2(widest) - half * half / 3);
-  }
-  return volume;
-}
-
-/// The row's discs when no valley is too deep.
-bool is_smooth(const std::vector<ClumpDisc>& row, double width) {
+/// Whether no valley between a row's discs is deeper than `valley`, m.
+bool is_smooth(const std::vector<ClumpDisc>& row, double valley) {
   for (std::size_t k = 1; k < row.size(); ++k)
-    if (valley_depth(row[k - 1], row[k]) > deepest_valley * width) return false;
+    if (valley_depth(row[k - 1], row[k]) > valley) return false;
   return true;
 }
 
@@ -157,6 +93,59 @@ bool is_smooth(const std::vector<ClumpDisc>& row, double width) {
 ClumpDisc inscribed_disc(double length, double width, double along) {
   const double a = 0.5 * length, b = 0.5 * width, eccentricity2 = (a - b) * (a + b) / (a * a);
   return {a * eccentricity2 * along, 0, b * std::sqrt(1 - eccentricity2 * along * along)};
+}
+
+std::vector<ClumpDisc> elongated_row(double length, double width, double valley) {
+  for (int count = 3; count <= most_row_discs; count += 2) {
+    std::vector<ClumpDisc> row;
+    for (int k = 0; k < count; ++k) {
+      // Denser towards the ends, where discs are small: the valleys come out about equally deep.
+      const double place = 2.0 * k / (count - 1) - 1;
+      row.push_back(inscribed_disc(length, width, elementary::sin(place * pi / 3) / elementary::sin(pi / 3)));
+    }
+    if (is_smooth(row, valley)) return row;
+  }
+  return {};
+}
+
+std::vector<ClumpDisc> drop_row(double length, double width, double valley) {
+  constexpr double tip = 0.25;  // of the width
+  const double largest = 0.5 * width, smallest = tip * largest;
+  const double last = length - largest - smallest;  // from the first centre
+  for (int count = 3; count <= most_row_discs; ++count) {
+    std::vector<ClumpDisc> row;
+    for (int k = 0; k < count; ++k) {
+      const double radius = largest * elementary::pow(tip, static_cast<double>(k) / (count - 1));
+      row.push_back({last * (largest - radius) / (largest - smallest), 0, radius});
+    }
+    if (is_smooth(row, valley)) return row;
+  }
+  return {};
+}
+
+/// How many balls of diameter `thickness` side by side are `width` wide and smooth enough; 0: too many.
+int balls_across(double width, double thickness) {
+  if (width - thickness <= deepest_valley * width) return 1;
+  for (int count = 2; count <= most_balls_across; ++count) {
+    const ClumpDisc ball{0, 0, 0.5 * thickness}, next{(width - thickness) / (count - 1), 0, 0.5 * thickness};
+    if (valley_depth(ball, next) <= deepest_valley * width) return count;
+  }
+  return 0;
+}
+
+/// `row_of(length, width, valley)` makes the row.
+template <class Row>
+std::vector<ClumpDisc> solid(Row row_of, double length, double width, double thickness) {
+  const int across = balls_across(width, thickness);
+  if (across == 0) return {};
+  if (across == 1) return row_of(length, std::sqrt(width * thickness), deepest_valley * width);
+  std::vector<ClumpDisc> balls;
+  for (const ClumpDisc& ball : row_of(length, thickness, deepest_valley * width))
+    for (int k = 0; k < across; ++k) {
+      const double place = 2.0 * k / (across - 1) - 1;
+      balls.push_back({ball.x, place * ball.radius * (width / thickness - 1), ball.radius});
+    }
+  return balls;
 }
 
 }  // namespace
@@ -183,8 +172,10 @@ Plate plate_of(const std::vector<ClumpDisc>& discs) {
 }
 
 double volume_of_balls(const std::vector<ClumpDisc>& discs) {
+  const bool in_plane = std::ranges::all_of(discs, [&](const ClumpDisc& disc) { return disc.z == discs.front().z; });
+  if (!in_plane) return body_of_balls(discs).volume;
   const bool in_a_row = std::ranges::all_of(discs, [&](const ClumpDisc& disc) { return disc.y == discs.front().y; });
-  return in_a_row ? volume_of_row(discs) : volume_by_heights(discs);
+  return in_a_row ? row_body(discs).volume : volume_by_heights(discs);
 }
 
 std::vector<ClumpDisc> about_centre_of_mass(std::vector<ClumpDisc> discs) {
@@ -195,7 +186,8 @@ std::vector<ClumpDisc> about_centre_of_mass(std::vector<ClumpDisc> discs) {
 
 double holding_radius(const std::vector<ClumpDisc>& discs) {
   double radius = 0;
-  for (const ClumpDisc& disc : discs) radius = std::max(radius, elementary::hypot(disc.x, disc.y) + disc.radius);
+  for (const ClumpDisc& disc : discs)
+    radius = std::max(radius, elementary::hypot(elementary::hypot(disc.x, disc.y), disc.z) + disc.radius);
   return radius;
 }
 
@@ -263,31 +255,19 @@ double valley_depth(const ClumpDisc& a, const ClumpDisc& b) {
 }
 
 std::vector<ClumpDisc> elongated(double length, double width) {
-  for (int count = 3; count <= most_row_discs; count += 2) {
-    std::vector<ClumpDisc> row;
-    for (int k = 0; k < count; ++k) {
-      // Denser towards the ends, where discs are small: the valleys come out about equally deep.
-      const double place = 2.0 * k / (count - 1) - 1;
-      row.push_back(inscribed_disc(length, width, elementary::sin(place * pi / 3) / elementary::sin(pi / 3)));
-    }
-    if (is_smooth(row, width)) return row;
-  }
-  return {};
+  return elongated_row(length, width, deepest_valley * width);
 }
 
 std::vector<ClumpDisc> drop(double length, double width) {
-  constexpr double tip = 0.25;  // of the width
-  const double largest = 0.5 * width, smallest = tip * largest;
-  const double last = length - largest - smallest;  // from the first centre
-  for (int count = 3; count <= most_row_discs; ++count) {
-    std::vector<ClumpDisc> row;
-    for (int k = 0; k < count; ++k) {
-      const double radius = largest * elementary::pow(tip, static_cast<double>(k) / (count - 1));
-      row.push_back({last * (largest - radius) / (largest - smallest), 0, radius});
-    }
-    if (is_smooth(row, width)) return row;
-  }
-  return {};
+  return drop_row(length, width, deepest_valley * width);
+}
+
+std::vector<ClumpDisc> elongated_solid(double length, double width, double thickness) {
+  return solid(elongated_row, length, width, thickness);
+}
+
+std::vector<ClumpDisc> drop_solid(double length, double width, double thickness) {
+  return solid(drop_row, length, width, thickness);
 }
 
 std::vector<ClumpDisc> dipole(double diameter, double distance) {

@@ -27,12 +27,14 @@ class WrittenAt {
   std::string text_;
 };
 
-/// Decides the moment of inertia: m r^2 / 2 for a disc, 2 m r^2 / 5 for a ball, that of a uniform plate for a clump.
+/// Decides the moment of inertia: m r^2 / 2 for a disc, 2 m r^2 / 5 for a ball, for a clump that of a uniform plate, in
+/// space of a uniform body.
 enum class Shape { disc, ball, clump };
 
-/// One disc of a clump, m, from the clump's centre of mass.
+/// One disc of a clump, m, from the clump's centre of mass; in space a ball, and x, y and z along the principal axes.
 struct ClumpDisc {
   double x, y, radius;
+  double z = 0;
   bool operator==(const ClumpDisc&) const = default;
 };
 
@@ -51,12 +53,13 @@ struct SizeDistribution {
 struct SeedLot {
   std::string name;
   double diameter = 0;  // m, mean (before a cut); of a clump: of the circle about its centre of mass that just holds it
-  double mass = 0;      // kg, of a seed of that diameter; others scale with its cube (a disc or clump: its square)
+  double mass = 0;      // kg, of a seed of that diameter; others scale with a power of it (`mass_power`)
   Shape shape = Shape::ball;
   double number_fraction = 1;  // of all seeds; the fractions of a scene sum to 1
   SizeDistribution sizes{};
   std::vector<ClumpDisc> discs{};             // of a clump of that diameter
-  double gyration2 = 0;                       // m2, moment of inertia over mass of such a clump
+  double gyration2 = 0;                       // m2, moment of inertia over mass of such a clump, about z
+  double gyration2_x = 0, gyration2_y = 0;    // m2, about x and y: of a clump in space alone
   std::optional<double> shell_compression{};  // these three: instead of the contact's
   std::optional<double> youngs_modulus{};     // Pa
   std::optional<double> poisson_ratio{};

@@ -249,6 +249,7 @@ template <class Io>
 void fields(Io& io, ClumpDisc& disc) {
   io.value("x_m", disc.x);
   io.value("y_m", disc.y);
+  io.used("z_m", disc.z, 0.0, false);
   io.value("radius_m", disc.radius);
 }
 
@@ -265,6 +266,8 @@ void fields(Io& io, SeedLot& lot) {
   io.used("discs", lot.discs, usual.discs, clump);
   check(io, !clump || !lot.discs.empty(), "discs", "is empty");
   io.used("gyration2_m2", lot.gyration2, usual.gyration2, clump);
+  io.used("gyration2_x_m2", lot.gyration2_x, usual.gyration2_x, false);
+  io.used("gyration2_y_m2", lot.gyration2_y, usual.gyration2_y, false);
   io.optional("shell_compression", lot.shell_compression);
   io.optional("youngs_modulus_pa", lot.youngs_modulus);
   io.optional("poisson_ratio", lot.poisson_ratio);

@@ -47,6 +47,11 @@ UnderlyingNormal underlying_normal(const SizeDistribution& sizes) {
   return {elementary::log(sizes.mean) - 0.5 * variance, std::sqrt(variance)};
 }
 
+void scale(SizeDistribution& sizes, double factor) {
+  for (double* length : {&sizes.mean, &sizes.deviation, &sizes.least, &sizes.most}) *length *= factor;
+  for (double& diameter : sizes.diameter) diameter *= factor;
+}
+
 double least_size(const SeedLot& lot) {
   const SizeDistribution& sizes = lot.sizes;
   if (sizes.kind == Kind::single) return 1;
@@ -79,8 +84,16 @@ double size_moment(const SeedLot& lot, int power) {
   return cut_moment(sizes, lot.diameter, power);
 }
 
+bool is_solid_clump(const SeedLot& lot) {
+  return lot.shape == Shape::clump && lot.gyration2_x > 0 && lot.gyration2_y > 0;
+}
+
+int mass_power(const SeedLot& lot) {
+  return lot.shape == Shape::ball || is_solid_clump(lot) ? 3 : 2;
+}
+
 double mean_mass(const SeedLot& lot) {
-  return lot.mass * size_moment(lot, lot.shape == Shape::ball ? 3 : 2);
+  return lot.mass * size_moment(lot, mass_power(lot));
 }
 
 std::vector<SeedSizes> sizes_of(const std::vector<SeedLot>& lots) {

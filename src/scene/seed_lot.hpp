@@ -14,13 +14,23 @@ struct UnderlyingNormal {
 };
 UnderlyingNormal underlying_normal(const SizeDistribution& sizes);
 
+/// Makes all its diameters `factor` times what they are.
+void scale(SizeDistribution& sizes, double factor);
+
 /// Smallest and largest size of a lot's seeds, and E[size^power] by number, all in multiples of `lot.diameter`; exactly
 /// 1 for a single size. `power` 1 to 3. Of normal and lognormal by Gauss-Kronrod quadrature, to 1e-12.
 double least_size(const SeedLot& lot);
 double most_size(const SeedLot& lot);
 double size_moment(const SeedLot& lot, int power);
 
-/// Mean mass of a lot's seeds, kg: m E[size^3] for balls, m E[size^2] for discs and clumps.
+/// Whether a lot's seeds are clumps of balls in space.
+bool is_solid_clump(const SeedLot& lot);
+
+/// The power of its size with which a seed's mass grows, at equal density: 3 of a ball or a clump of balls, 2 of a disc
+/// or a clump of discs.
+int mass_power(const SeedLot& lot);
+
+/// Mean mass of a lot's seeds, kg: m E[size^mass_power].
 double mean_mass(const SeedLot& lot);
 
 /// The above, of a lot.

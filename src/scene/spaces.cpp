@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "scene/input_error.hpp"
+#include "scene/make_clump.hpp"
 #include "scene/seed_lot.hpp"
 
 namespace vibrosow {
@@ -42,6 +43,16 @@ void draw_out(Vessel& vessel, double depth, double thickness) {
     hole.shape = HoleShape::slot, hole.across = 0.5 * *vessel.depth, hole.across_length = *vessel.depth;
 }
 
+/// Clumps of discs become the clumps of balls with them as sections, and the other way round.
+void change_clumps(Scene& scene) {
+  for (SeedLot& lot : scene.lots) {
+    if (lot.shape != Shape::clump) continue;
+    const double diameter = lot.diameter;
+    make_clump(lot, lot.discs, scene.space);
+    scale(lot.sizes, lot.diameter / diameter);
+  }
+}
+
 }  // namespace
 
 std::optional<double> slices_of_tray(const Scene& scene) {
@@ -53,6 +64,7 @@ Scene in_plane(Scene scene) {
   if (scene.space == Space::plane) return scene;
   scene.space = Space::plane;
   const double thickness = mean_thickness_of_seeds(scene);
+  change_clumps(scene);
   cut(scene.tray, thickness);
   if (scene.hopper) cut(*scene.hopper, thickness);
   return scene;
@@ -63,6 +75,7 @@ Scene in_space(Scene scene) {
   if (!scene.tray.depth) throw InputError("tray.depth: is missing; in space a tray has a depth, from front to back");
   scene.space = Space::three_dimensional;
   const double thickness = mean_thickness_of_seeds(scene), depth = *scene.tray.depth;
+  change_clumps(scene);
   draw_out(scene.tray, depth, thickness);
   if (scene.hopper) draw_out(*scene.hopper, depth, thickness);
   return scene;

@@ -9,12 +9,13 @@ namespace vibrosow {
 std::optional<double> slices_of_tray(const Scene& scene);
 
 /// The slice of a scene in space that the plane simulates: seeds and rain in its share, each row of holes as slots from
-/// front to back, round vessels cut through their middle. A scene of the plane stays as it is.
+/// front to back, round vessels cut through their middle, clumps as their sections across z. A scene of the plane stays
+/// as it is.
 Scene in_plane(Scene scene);
 
 /// The scene in space whose slice a scene of the plane is: as many slices of seeds as the depth takes, slots from front
-/// to back. Throws InputError without `tray.depth`; a hopper without one is as deep as the tray. A scene in space stays
-/// as it is.
+/// to back, clumps of the balls with their discs as sections. Throws InputError without `tray.depth`; a hopper without
+/// one is as deep as the tray. A scene in space stays as it is.
 Scene in_space(Scene scene);
 
 }  // namespace vibrosow

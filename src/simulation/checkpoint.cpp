@@ -64,13 +64,13 @@ void serialize(Archive& archive, TurningMotion& m) {
 template <class Archive>
 void serialize(Archive& archive, Grains& g) {  // kinds and flags are the model's
   archive(g.x, g.y, g.vx, g.vy, g.omega, g.angle, g.lot, g.id);
-  archive(g.z, g.vz, g.omega_x, g.omega_y);
+  archive(g.z, g.vz, g.omega_x, g.omega_y, g.q_w, g.q_x, g.q_y, g.q_z);
   archive(g.radius, g.mass, g.inverse_mass, g.inverse_inertia, g.compliance, g.curvature, g.next_id);
 }
 template <class Archive>
 void serialize(Archive& archive, IntegratorState& s) {
   archive(s.ax, s.ay, s.alpha, s.of_x, s.of_y, s.of_angle, s.wall_power, s.wall_work, s.gross_wall_work);
-  archive(s.az, s.alpha_x, s.alpha_y, s.of_z, s.of_angle_x, s.of_angle_y);
+  archive(s.az, s.alpha_x, s.alpha_y, s.of_z, s.of_angle_x, s.of_angle_y, s.quaternion_rate, s.of_quaternion);
 }
 template <class Archive>
 void serialize(Archive& archive, PairList& list) {
@@ -110,8 +110,12 @@ void serialize(Archive& archive, CounterState& s) {
   archive(s.passages, s.below, s.lost);
 }
 template <class Archive>
+void serialize(Archive& archive, Turn& t) {
+  archive(t.angle, t.orientation.w, t.orientation.x, t.orientation.y, t.orientation.z);
+}
+template <class Archive>
 void serialize(Archive& archive, FeederState::Shower& s) {
-  archive(s.random, s.arrived, s.next_lot, s.next_size, s.next_angle);
+  archive(s.random, s.arrived, s.next_lot, s.next_size, s.next_turn);
 }
 template <class Archive>
 void serialize(Archive& archive, FeederState& s) {
@@ -160,7 +164,7 @@ namespace {
 
 constexpr std::string_view signature = "vibrosow checkpoint\n";
 /// To be raised whenever a state has other fields, or goes on differently.
-constexpr std::uint32_t version = 4;
+constexpr std::uint32_t version = 5;
 
 std::uint32_t checksum(std::string_view bytes) {
   boost::crc_32_type crc;

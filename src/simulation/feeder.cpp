@@ -157,7 +157,8 @@ int Feeder::top_up(Grains& grains, const std::vector<char>& touching, const Wall
     for (int k = 0; k < missing; ++k) {
       const int lot = draw_lot(state_.random);
       const SeedLot& seeds = model_.scene.lots[static_cast<std::size_t>(lot)];
-      const double size = draw_size(seeds, state_.random), angle = draw_angle(seeds, state_.random);
+      const double size = draw_size(seeds, state_.random);
+      const Turn turned = draw_turn(seeds, state_.random);
       const double radius = 0.5 * size * seeds.diameter;
       const FloorPlace place = grains.in_space ? random_place(vessel, radius, state_.random)
                                                : FloorPlace(state_.random.uniform(radius, vessel.length - radius), 0);
@@ -170,7 +171,7 @@ int Feeder::top_up(Grains& grains, const std::vector<char>& touching, const Wall
       inside.add(vessel, own, radius, false);
       const Eigen::Vector3d at = point_in_lab(vessel, pose, own);
       const GrainKind kind = sized_kind(seeds, *model_.law, model_.kinds[static_cast<std::size_t>(lot)], size);
-      grains.add(at, point_velocity(vessel, pose, rate, at), lot, kind, angle);
+      grains.add(at, point_velocity(vessel, pose, rate, at), lot, kind, turned);
       ++added;
     }
     note_waiting(vessel, waiting, time);
@@ -191,7 +192,7 @@ void Feeder::draw_next(Shower& shower) const {
   shower.next_lot = draw_lot(shower.random);
   const SeedLot& seeds = model_.scene.lots[static_cast<std::size_t>(shower.next_lot)];
   shower.next_size = draw_size(seeds, shower.random);
-  shower.next_angle = draw_angle(seeds, shower.random);
+  shower.next_turn = draw_turn(seeds, shower.random);
 }
 
 int Feeder::rain(const Vessel& vessel, Shower& shower, Grains& grains, const Walls& walls, const Pose& pose,
@@ -211,7 +212,7 @@ int Feeder::rain(const Vessel& vessel, Shower& shower, Grains& grains, const Wal
     const Eigen::Vector3d at = point_in_lab(vessel, pose, {x, rain.height, z});
     if (!is_clear(grains, walls, at, radius)) continue;
     const GrainKind kind = sized_kind(model_.scene.lots[lot], *model_.law, model_.kinds[lot], shower.next_size);
-    grains.add(at, Eigen::Vector3d::Zero(), shower.next_lot, kind, shower.next_angle);
+    grains.add(at, Eigen::Vector3d::Zero(), shower.next_lot, kind, shower.next_turn);
     shower.next_lot = -1;
     ++shower.arrived;
     ++added;

@@ -13,9 +13,9 @@ namespace vibrosow {
 /// taken; each waiting grain is tried once each time, at another place.
 ///
 /// Keeps vessels topped up (`fill.keep`): each missing grain is laid just above the heap at a random place, at rest
-/// with its vessel, of a lot drawn by the fractions, its size and a clump's angle drawn too. Where the heap reaches the
-/// vessel's top there is no room, and it waits. Grains of the heap touch others (`touching`, one flag a grain); between
-/// those that are still falling there may be room.
+/// with its vessel, of a lot drawn by the fractions, its size and how a clump is turned drawn too. Where the heap
+/// reaches the vessel's top there is no room, and it waits. Grains of the heap touch others (`touching`, one flag a
+/// grain); between those that are still falling there may be room.
 class Feeder {
  public:
   Feeder(const Model& model, FeederState& state);

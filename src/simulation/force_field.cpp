@@ -123,19 +123,25 @@ void ForceField::evaluate(double time, const HistoryAdvance& advance, ContactSta
   neighbours_.update(discs, walls_, state_.contacts);
   execution_.profile().lap(Phase::neighbours);
   statistics.wall_power = 0;
-  if (discs.in_space) return run_kernels_in_space(advance, statistics);
-  if (!clumps_) return run_kernels(discs, advance, forces_, statistics);
   const std::size_t crossed_before = statistics.crossed.size();
-  run_kernels(discs, advance, disc_forces_, statistics);
-  forces_.assign(state_.grains.size(), {});
-  clumps_->gather(disc_forces_, forces_);
+  if (discs.in_space)
+    run_kernels_in_space(discs, advance, clumps_ ? ball_forces_ : space_forces_, statistics);
+  else
+    run_kernels(discs, advance, clumps_ ? disc_forces_ : forces_, statistics);
+  if (!clumps_) return;
+  if (discs.in_space) {
+    clumps_->gather(ball_forces_, space_forces_);
+  } else {
+    forces_.assign(state_.grains.size(), {});
+    clumps_->gather(disc_forces_, forces_);
+  }
   for (std::size_t k = crossed_before; k < statistics.crossed.size(); ++k)
     statistics.crossed[k] = discs.clump[static_cast<std::size_t>(statistics.crossed[k])];
 }
 
 double ForceField::elastic_energy() {
-  if (state_.grains.in_space) return elastic_energy_in_space();
   const Grains& discs = place_discs();
+  if (discs.in_space) return elastic_energy_in_space(discs);
   const Motion at = motion_of(discs);
   double energy = model_.kernels->energy.pair(surfaces_of(discs), at, state_.contacts.pairs, model_.contacts,
                                               state_.contacts.pair_histories);

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "compute/execution.hpp"
+#include "compute/space_forces.hpp"
 #include "contact/pair_forces.hpp"
 #include "contact/space_wall_contacts.hpp"
 #include "contact/wall_contacts.hpp"
@@ -34,6 +35,7 @@ class ForceField {
 
   /// Forces of the walls alone on each grain, where grains and walls are now; nothing moves on by it.
   Forces wall_forces();
+  /// The same on each ball in space, those of clumps one by one.
   std::vector<GrainVector> wall_forces_in_space();
 
   /// Which grains touch another one.
@@ -53,8 +55,8 @@ class ForceField {
 
   const Forces& forces() const { return forces_; }
   /// The same of balls in space: forces (N) and torques (N m), the latter without rotation empty.
-  const std::vector<GrainVector>& forces_in_space() const { return space_forces_; }
-  const std::vector<GrainVector>& torques_in_space() const { return space_torques_; }
+  const std::vector<GrainVector>& forces_in_space() const { return space_forces_.forces; }
+  const std::vector<GrainVector>& torques_in_space() const { return space_forces_.torques; }
   const Walls& walls() const { return walls_; }
   Neighbours& neighbours() { return neighbours_; }
   const Neighbours& neighbours() const { return neighbours_; }
@@ -68,11 +70,12 @@ class ForceField {
   void add_wall_forces(const Grains& discs, const Motion& at, const HistoryAdvance& advance, Forces& forces,
                        ContactStatistics& statistics);
   void run_kernels(const Grains& discs, const HistoryAdvance& advance, Forces& forces, ContactStatistics& statistics);
-  SpaceMotion motion_in_space() const;
-  SpaceMotion motion_of_image(const Neighbours::Image& image);
-  void run_kernels_in_space(const HistoryAdvance& advance, ContactStatistics& statistics);
-  void set_pair_forces_in_space(const HistoryAdvance& advance, ContactStatistics& statistics);
-  double elastic_energy_in_space();
+  SpaceMotion motion_of_image(const Grains& balls, const Neighbours::Image& image);
+  void run_kernels_in_space(const Grains& balls, const HistoryAdvance& advance, SpaceForces& forces,
+                            ContactStatistics& statistics);
+  void set_pair_forces_in_space(const Grains& balls, const HistoryAdvance& advance, SpaceForces& forces,
+                                ContactStatistics& statistics);
+  double elastic_energy_in_space(const Grains& balls);
 
   const Model& model_;
   SimulationState& state_;
@@ -90,7 +93,7 @@ class ForceField {
   SpaceWallKernel space_wall_kernel_;
   SpaceWallFinder space_wall_finder_;
   SpaceWallContacts space_wall_contacts_;
-  std::vector<GrainVector> space_forces_, space_torques_;
+  SpaceForces space_forces_, ball_forces_;
 
   /// What one thread's range of pairs leaves for the others.
   struct RangeResult {

@@ -5,22 +5,12 @@
 
 namespace vibrosow {
 
-SpaceMotion ForceField::motion_in_space() const {
-  const Grains& g = state_.grains;
+namespace {
+
+SpaceMotion motion_in_space(const Grains& g) {
   return {g.x.data(),       g.y.data(),       g.z.data(),     g.vx.data(), g.vy.data(), g.vz.data(),
           g.omega_x.data(), g.omega_y.data(), g.omega.data(), g.x.data(),  g.z.data()};
 }
-
-SpaceMotion ForceField::motion_of_image(const Neighbours::Image& image) {
-  shifted_x_ = state_.grains.x, shifted_z_ = state_.grains.z;
-  for (double& x : shifted_x_) x += image.x;
-  for (double& z : shifted_z_) z += image.z;
-  SpaceMotion at = motion_in_space();
-  at.row_x = shifted_x_.data(), at.row_z = shifted_z_.data();
-  return at;
-}
-
-namespace {
 
 /// Runs a kernel over the pairs of a range, block by block; what it leaves for others goes to `foreign`.
 void add_pairs(SpacePairKernel kernel, const GrainSurfaces& surfaces, const SpaceMotion& at, const PairList& list,
@@ -38,13 +28,23 @@ void add_pairs(SpacePairKernel kernel, const GrainSurfaces& surfaces, const Spac
 
 }  // namespace
 
+SpaceMotion ForceField::motion_of_image(const Grains& balls, const Neighbours::Image& image) {
+  shifted_x_ = balls.x, shifted_z_ = balls.z;
+  for (double& x : shifted_x_) x += image.x;
+  for (double& z : shifted_z_) z += image.z;
+  SpaceMotion at = motion_in_space(balls);
+  at.row_x = shifted_x_.data(), at.row_z = shifted_z_.data();
+  return at;
+}
+
 /// As in the plane, range by range.
-void ForceField::set_pair_forces_in_space(const HistoryAdvance& advance, ContactStatistics& statistics) {
+void ForceField::set_pair_forces_in_space(const Grains& balls, const HistoryAdvance& advance, SpaceForces& all,
+                                          ContactStatistics& statistics) {
   const PairList& pairs = state_.contacts.pairs;
-  const GrainSurfaces surfaces = surfaces_of(state_.grains);
-  const SpaceMotion at = motion_in_space();
-  const std::size_t ranges = range_results_.size(), grains = state_.grains.size();
-  space_forces_.resize(grains), space_torques_.resize(model_.kernels->effects.rotation ? grains : 0);
+  const GrainSurfaces surfaces = surfaces_of(balls);
+  const SpaceMotion at = motion_in_space(balls);
+  const std::size_t ranges = range_results_.size(), grains = balls.size();
+  all.forces.resize(grains), all.torques.resize(model_.kernels->effects.rotation ? grains : 0);
   const auto first_grain = [&](std::size_t range) {
     if (range == 0 || range == ranges) return range == 0 ? std::size_t{0} : grains;
     return pairs.size() == 0 ? grains : static_cast<std::size_t>(pairs.grain[pairs.size() * range / ranges]);
@@ -59,13 +59,12 @@ void ForceField::set_pair_forces_in_space(const HistoryAdvance& advance, Contact
     RangeResult& own = range_results_[range];
     own.foreign_in_space.clear();
     own.statistics = {};
-    std::fill(space_forces_.begin() + static_cast<std::ptrdiff_t>(from),
-              space_forces_.begin() + static_cast<std::ptrdiff_t>(to), GrainVector{});
-    if (!space_torques_.empty())
-      std::fill(space_torques_.begin() + static_cast<std::ptrdiff_t>(from),
-                space_torques_.begin() + static_cast<std::ptrdiff_t>(to), GrainVector{});
+    for (std::vector<GrainVector>* sums : {&all.forces, &all.torques})
+      if (!sums->empty())
+        std::fill(sums->begin() + static_cast<std::ptrdiff_t>(from), sums->begin() + static_cast<std::ptrdiff_t>(to),
+                  GrainVector{});
     SpacePairResult result;
-    result.forces = space_forces_.data(), result.torques = space_torques_.data();
+    result.forces = all.forces.data(), result.torques = all.torques.data();
     result.first_own = static_cast<int>(from);
     add_pairs(space_pair_kernel_, surfaces, at, pairs, {first_entry(range), first_entry(range + 1)}, model_.contacts,
               advance, state_.contacts.pair_histories, result, own.foreign_in_space, own.statistics);
@@ -76,58 +75,59 @@ void ForceField::set_pair_forces_in_space(const HistoryAdvance& advance, Contact
     statistics.max_relative_overlap = std::max(statistics.max_relative_overlap, own.statistics.max_relative_overlap);
     for (const ForeignSpaceForce& foreign : own.foreign_in_space) {
       const std::size_t i = static_cast<std::size_t>(foreign.grain);
-      GrainVector& force = space_forces_[i];
+      GrainVector& force = all.forces[i];
       force.x += foreign.force[0], force.y += foreign.force[1], force.z += foreign.force[2];
-      if (space_torques_.empty()) continue;
-      GrainVector& torque = space_torques_[i];
+      if (all.torques.empty()) continue;
+      GrainVector& torque = all.torques[i];
       torque.x += foreign.torque[0], torque.y += foreign.torque[1], torque.z += foreign.torque[2];
     }
   }
 }
 
-void ForceField::run_kernels_in_space(const HistoryAdvance& advance, ContactStatistics& statistics) {
-  set_pair_forces_in_space(advance, statistics);
-  const GrainSurfaces surfaces = surfaces_of(state_.grains);
+void ForceField::run_kernels_in_space(const Grains& balls, const HistoryAdvance& advance, SpaceForces& all,
+                                      ContactStatistics& statistics) {
+  set_pair_forces_in_space(balls, advance, all, statistics);
+  const GrainSurfaces surfaces = surfaces_of(balls);
   for (std::size_t k = 0; k < neighbours_.images().size(); ++k) {
     BoundaryContacts& boundary = state_.contacts.boundaries[k];
     SpacePairResult result;
-    result.forces = space_forces_.data(), result.torques = space_torques_.data(), result.first_own = 0;
-    add_pairs(space_pair_kernel_, surfaces, motion_of_image(neighbours_.images()[k]), boundary.pairs,
+    result.forces = all.forces.data(), result.torques = all.torques.data(), result.first_own = 0;
+    add_pairs(space_pair_kernel_, surfaces, motion_of_image(balls, neighbours_.images()[k]), boundary.pairs,
               {0, static_cast<int>(boundary.pairs.size())}, model_.contacts, advance, boundary.histories, result,
               range_results_.front().foreign_in_space, statistics);
   }
   execution_.profile().lap(Phase::pairs);
-  space_wall_finder_.find(state_.grains, state_.contacts.walls, walls_.placed_faces(), space_wall_contacts_);
+  space_wall_finder_.find(balls, state_.contacts.walls, walls_.placed_faces(), space_wall_contacts_);
   space_wall_finder_.watch_crossings(state_.contacts.walls, statistics.crossed);
   if (advance.commit > 0) space_wall_finder_.clear_parted(state_.contacts.wall_histories);
-  add_figures(space_wall_kernel_(surfaces, motion_in_space(), model_.contacts, advance, state_.contacts.wall_histories,
-                                 space_wall_contacts_),
+  add_figures(space_wall_kernel_(surfaces, motion_in_space(balls), model_.contacts, advance,
+                                 state_.contacts.wall_histories, space_wall_contacts_),
               statistics);
-  vibrosow::add_wall_forces(space_wall_contacts_, model_.kernels->effects.rotation, space_forces_, space_torques_,
+  vibrosow::add_wall_forces(space_wall_contacts_, model_.kernels->effects.rotation, all.forces, all.torques,
                             statistics);
   execution_.profile().lap(Phase::walls);
 }
 
-double ForceField::elastic_energy_in_space() {
-  const GrainSurfaces surfaces = surfaces_of(state_.grains);
+double ForceField::elastic_energy_in_space(const Grains& balls) {
+  const GrainSurfaces surfaces = surfaces_of(balls);
   const EnergyKernel& energies = model_.kernels->energy;
-  double energy = energies.space_pair(surfaces, motion_in_space(), state_.contacts.pairs, model_.contacts,
+  double energy = energies.space_pair(surfaces, motion_in_space(balls), state_.contacts.pairs, model_.contacts,
                                       state_.contacts.pair_histories);
   for (std::size_t k = 0; k < neighbours_.images().size(); ++k) {
     const BoundaryContacts& boundary = state_.contacts.boundaries[k];
-    energy += energies.space_pair(surfaces, motion_of_image(neighbours_.images()[k]), boundary.pairs, model_.contacts,
-                                  boundary.histories);
+    energy += energies.space_pair(surfaces, motion_of_image(balls, neighbours_.images()[k]), boundary.pairs,
+                                  model_.contacts, boundary.histories);
   }
-  space_wall_finder_.find(state_.grains, state_.contacts.walls, walls_.placed_faces(), space_wall_contacts_);
+  space_wall_finder_.find(balls, state_.contacts.walls, walls_.placed_faces(), space_wall_contacts_);
   return energy + energies.space_wall(surfaces, space_wall_contacts_, model_.contacts, state_.contacts.wall_histories);
 }
 
 std::vector<GrainVector> ForceField::wall_forces_in_space() {
-  const GrainSurfaces surfaces = surfaces_of(state_.grains);
+  const Grains& balls = place_discs();
   ContactStatistics statistics;
-  std::vector<GrainVector> forces(state_.grains.size()), torques(state_.grains.size());
-  space_wall_finder_.find(state_.grains, state_.contacts.walls, walls_.placed_faces(), space_wall_contacts_);
-  space_wall_kernel_(surfaces, motion_in_space(), model_.contacts, {}, state_.contacts.wall_histories,
+  std::vector<GrainVector> forces(balls.size()), torques(balls.size());
+  space_wall_finder_.find(balls, state_.contacts.walls, walls_.placed_faces(), space_wall_contacts_);
+  space_wall_kernel_(surfaces_of(balls), motion_in_space(balls), model_.contacts, {}, state_.contacts.wall_histories,
                      space_wall_contacts_);
   vibrosow::add_wall_forces(space_wall_contacts_, model_.kernels->effects.rotation, forces, torques, statistics);
   return forces;

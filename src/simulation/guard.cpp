@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "grains/turning_clump.hpp"
+
 namespace vibrosow {
 namespace {
 
@@ -16,12 +18,16 @@ constexpr double energy_warning = 0.05;
 double mechanical_energy(const Grains& grains, std::size_t i, const Eigen::Vector2d& gravity) {
   const GrainKind kind = grains.kind(i);
   double energy = 0.5 * kind.mass * (grains.vx[i] * grains.vx[i] + grains.vy[i] * grains.vy[i]);
-  double spin2 = grains.rotation ? grains.omega[i] * grains.omega[i] : 0;
-  if (grains.in_space) {
-    energy += 0.5 * kind.mass * grains.vz[i] * grains.vz[i];
-    if (grains.rotation) spin2 += grains.omega_x[i] * grains.omega_x[i] + grains.omega_y[i] * grains.omega_y[i];
+  const bool turns = grains.rotation && kind.inverse_inertia > 0;
+  if (grains.in_space) energy += 0.5 * kind.mass * grains.vz[i] * grains.vz[i];
+  if (turns && turn_as_clumps(grains)) {
+    const Eigen::Vector3d spin = spin_of(grains, i);
+    energy += 0.5 * spin.dot(TurningClump(grains, i).momentum_of(spin));
+  } else if (turns) {
+    double spin2 = grains.omega[i] * grains.omega[i];
+    if (grains.in_space) spin2 += grains.omega_x[i] * grains.omega_x[i] + grains.omega_y[i] * grains.omega_y[i];
+    energy += 0.5 * spin2 / kind.inverse_inertia;
   }
-  if (grains.rotation && kind.inverse_inertia > 0) energy += 0.5 * spin2 / kind.inverse_inertia;
   return energy - kind.mass * (gravity.x() * grains.x[i] + gravity.y() * grains.y[i]);
 }
 

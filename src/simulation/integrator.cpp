@@ -2,6 +2,9 @@
 
 #include <cmath>
 
+#include "grains/turning_clump.hpp"
+#include "simulation/clump_rotation.hpp"
+
 namespace vibrosow {
 namespace {
 
@@ -38,8 +41,8 @@ SpaceRates space_rates_of(Integration& s, std::size_t a) {
   Grains& g = s.grains;
   IntegratorState& k = s.kept;
   SpaceRates rates{{&g.vx[a], &g.vy[a], &g.vz[a]}, {}, {&k.ax[a], &k.ay[a], &k.az[a]}, {}};
-  // Without friction nothing turns a ball: there are no torques then.
-  if (!g.rotation || s.field.torques_in_space().empty()) return rates;
+  // Without friction nothing turns a ball: there are no torques then. Clumps turn in their own way.
+  if (!g.rotation || g.oriented || s.field.torques_in_space().empty()) return rates;
   rates.omega[0] = &g.omega_x[a], rates.omega[1] = &g.omega_y[a], rates.omega[2] = &g.omega[a];
   rates.alpha[0] = &k.alpha_x[a], rates.alpha[1] = &k.alpha_y[a], rates.alpha[2] = &k.alpha[a];
   return rates;
@@ -50,12 +53,15 @@ void accelerations_in_space(Integration& s) {
   const std::size_t n = grains.size(), turning = grains.omega.size();
   for (std::vector<double>* a : {&s.kept.ax, &s.kept.ay, &s.kept.az}) a->resize(n);
   for (std::vector<double>* a : {&s.kept.alpha_x, &s.kept.alpha_y, &s.kept.alpha}) a->resize(turning);
+  if (grains.oriented && s.model.scene.numerics.integrator == Integrator::gear5)
+    for (std::vector<double>& rate : s.kept.quaternion_rate) rate.resize(turning);
   s.execution.share(n, [&](std::size_t a, std::size_t b) {
     s.execution.space_loops().accelerate(b - a, space_drive_of(s, a), space_rates_of(s, a));
+    if (turn_as_clumps(grains)) keep_clump_rates(s, a, b);
   });
 }
 
-/// a = F / m + g - (mu / m) v, alpha = T / J, into the arrays of `s`.
+/// a = F / m + g - (mu / m) v, alpha = T / J, of clumps in space T, into the arrays of `s`.
 void accelerations(Integration& s) {
   const Grains& grains = s.grains;
   if (grains.in_space) return accelerations_in_space(s);
@@ -102,9 +108,9 @@ void watch_speed(Integration& s, std::size_t a, std::size_t b) {
   if (s.execution.loops().any_faster(b - a, &s.grains.vx[a], &s.grains.vy[a], s.fastest)) s.too_fast = true;
 }
 
-/// Angles are kept of clumps alone.
+/// Angles are kept of clumps in the plane alone.
 double* angle_or_null(Grains& grains, std::size_t from) {
-  return grains.oriented ? &grains.angle[from] : nullptr;
+  return grains.angle.empty() ? nullptr : &grains.angle[from];
 }
 
 void velocity_verlet(Integration& s) {
@@ -113,10 +119,13 @@ void velocity_verlet(Integration& s) {
   s.execution.share(grains.size(), [&](std::size_t a, std::size_t b) {
     loops.predict(b - a, s.dt, &grains.x[a], &grains.vx[a], &s.kept.ax[a]);
     loops.predict(b - a, s.dt, &grains.y[a], &grains.vy[a], &s.kept.ay[a]);
-    if (grains.rotation) loops.predict(b - a, s.dt, angle_or_null(grains, a), &grains.omega[a], &s.kept.alpha[a]);
+    const bool as_clumps = turn_as_clumps(grains);
+    if (grains.rotation && !as_clumps)
+      loops.predict(b - a, s.dt, angle_or_null(grains, a), &grains.omega[a], &s.kept.alpha[a]);
     if (!grains.in_space) return;
     loops.predict(b - a, s.dt, &grains.z[a], &grains.vz[a], &s.kept.az[a]);
-    if (!grains.rotation) return;
+    if (as_clumps) predict_clump_rotation(s, a, b);
+    if (!grains.rotation || as_clumps) return;
     loops.predict(b - a, s.dt, nullptr, &grains.omega_x[a], &s.kept.alpha_x[a]);
     loops.predict(b - a, s.dt, nullptr, &grains.omega_y[a], &s.kept.alpha_y[a]);
   });
@@ -129,10 +138,16 @@ void velocity_verlet(Integration& s) {
       s.execution.space_loops().correct(b - a, s.dt, space_drive_of(s, a), space_rates_of(s, a));
     else
       loops.correct(b - a, s.dt, drive_of(s, a), rates_of(s, a));
+    if (turn_as_clumps(grains)) correct_clump_rotation(s, a, b);
     watch_speed(s, a, b);
   });
   s.kept.wall_power = s.state.statistics.wall_power;
   add_wall_work(s, 0.5 * s.dt * (power_before + s.kept.wall_power));
+}
+
+void note_orientations(Integration& s) {
+  s.orientation.clear();
+  for (std::size_t i = 0; i < s.grains.size(); ++i) s.orientation.push_back(s.grains.orientation(i));
 }
 
 void rk2_midpoint(Integration& s) {
@@ -141,26 +156,32 @@ void rk2_midpoint(Integration& s) {
   accelerations(s);
   s.x = grains.x, s.y = grains.y, s.vx = grains.vx, s.vy = grains.vy, s.omega = grains.omega, s.angle = grains.angle;
   s.z = grains.z, s.vz = grains.vz, s.omega_x = grains.omega_x, s.omega_y = grains.omega_y;  // in the plane all empty
+  const bool as_clumps = turn_as_clumps(grains);
+  if (as_clumps) note_orientations(s);
   const double half = 0.5 * s.dt;
   add_scaled(grains.x, s.vx, half), add_scaled(grains.y, s.vy, half);
   add_scaled(grains.vx, s.kept.ax, half), add_scaled(grains.vy, s.kept.ay, half);
-  if (grains.rotation) {
-    if (grains.oriented) add_scaled(grains.angle, s.omega, half);
-    add_scaled(grains.omega, s.kept.alpha, half);
-  }
   add_scaled(grains.z, s.vz, half), add_scaled(grains.vz, s.kept.az, half);
-  add_scaled(grains.omega_x, s.kept.alpha_x, half), add_scaled(grains.omega_y, s.kept.alpha_y, half);
+  if (as_clumps) {
+    advance_clump_rotation(s, half, 0, grains.size());
+  } else if (grains.rotation) {
+    add_scaled(grains.angle, s.omega, half);
+    add_scaled(grains.omega, s.kept.alpha, half);
+    add_scaled(grains.omega_x, s.kept.alpha_x, half), add_scaled(grains.omega_y, s.kept.alpha_y, half);
+  }
 
   s.field.evaluate(s.state.time + half, {.trial = half, .commit = s.dt, .present = 1}, s.state.statistics);
   accelerations(s);
   set_sum(grains.x, s.x, grains.vx, s.dt), set_sum(grains.y, s.y, grains.vy, s.dt);
   set_sum(grains.vx, s.vx, s.kept.ax, s.dt), set_sum(grains.vy, s.vy, s.kept.ay, s.dt);
-  if (grains.rotation) {
-    if (grains.oriented) set_sum(grains.angle, s.angle, grains.omega, s.dt);
-    set_sum(grains.omega, s.omega, s.kept.alpha, s.dt);
-  }
   set_sum(grains.z, s.z, grains.vz, s.dt), set_sum(grains.vz, s.vz, s.kept.az, s.dt);
-  set_sum(grains.omega_x, s.omega_x, s.kept.alpha_x, s.dt), set_sum(grains.omega_y, s.omega_y, s.kept.alpha_y, s.dt);
+  if (as_clumps) {
+    advance_clump_rotation(s, s.dt, 0, grains.size());
+  } else if (grains.rotation) {
+    set_sum(grains.angle, s.angle, grains.omega, s.dt);
+    set_sum(grains.omega, s.omega, s.kept.alpha, s.dt);
+    set_sum(grains.omega_x, s.omega_x, s.kept.alpha_x, s.dt), set_sum(grains.omega_y, s.omega_y, s.kept.alpha_y, s.dt);
+  }
   s.execution.share(grains.size(), [&](std::size_t a, std::size_t b) { watch_speed(s, a, b); });
   add_wall_work(s, s.dt * s.state.statistics.wall_power);
 }
@@ -185,6 +206,9 @@ void gear5(Integration& s) {
     if (!g.rotation) return;
     gear_predict(s, nullptr, &g.omega_x[a], s.kept.of_angle_x, a, b);
     gear_predict(s, nullptr, &g.omega_y[a], s.kept.of_angle_y, a, b);
+    if (!g.oriented) return;
+    for (std::size_t k = 0; k < 4; ++k)
+      gear_predict(s, nullptr, g.quaternions()[k]->data() + a, s.kept.of_quaternion[k], a, b);
   });
   s.execution.profile().lap(Phase::integration);
   const double power_before = s.kept.wall_power;
@@ -199,6 +223,12 @@ void gear5(Integration& s) {
       gear_correct(s, nullptr, &g.omega_x[a], s.kept.of_angle_x, s.kept.alpha_x, a, b);
       gear_correct(s, nullptr, &g.omega_y[a], s.kept.of_angle_y, s.kept.alpha_y, a, b);
     }
+    if (turn_as_clumps(g)) {
+      for (std::size_t k = 0; k < 4; ++k)
+        gear_correct(s, nullptr, g.quaternions()[k]->data() + a, s.kept.of_quaternion[k], s.kept.quaternion_rate[k], a,
+                     b);
+      bring_to_unit_length(g, a, b);
+    }
     watch_speed(s, a, b);
   });
   s.kept.wall_power = s.state.statistics.wall_power;
@@ -207,8 +237,7 @@ void gear5(Integration& s) {
 
 /// One step of the classical fourth-order scheme that leaves no trace in the contacts' memory.
 void runge_kutta4(Integration& s, double time, ContactStatistics& statistics) {
-  const Grains start = s.grains;
-  Grains end = s.grains;
+  Grains start = s.grains, end = s.grains;
   const double h = s.dt;
   const auto stage = [&](double at, double weight, double ahead) {
     accelerations_now(s, at, {}, statistics);
@@ -228,6 +257,9 @@ void runge_kutta4(Integration& s, double time, ContactStatistics& statistics) {
     std::vector<double> none;
     move(none, g.omega_x, none, start.omega_x, none, end.omega_x, s.kept.alpha_x);
     move(none, g.omega_y, none, start.omega_y, none, end.omega_y, s.kept.alpha_y);
+    for (std::size_t k = 0; turn_as_clumps(g) && k < 4; ++k)
+      move(none, *g.quaternions()[k], none, *start.quaternions()[k], none, *end.quaternions()[k],
+           s.kept.quaternion_rate[k]);
   };
   stage(time, 1.0 / 6, 0.5), stage(time + 0.5 * h, 1.0 / 3, 0.5), stage(time + 0.5 * h, 1.0 / 3, 1);
   stage(time + h, 1.0 / 6, 1);
@@ -251,11 +283,13 @@ void start_gear(Integration& s) {
   const Grains start = s.grains;
   ContactStatistics aside;  // a look ahead: what it meets has not happened
   std::array<std::vector<double>, 4> ax, ay, alpha, az, alpha_x, alpha_y;
+  std::array<std::array<std::vector<double>, 4>, 4> quaternion_rate;  // of each component its four
   for (std::size_t k = 0; k < 4; ++k) {
     const double time = s.state.time + static_cast<double>(k) * s.dt;
     accelerations_now(s, time, {}, aside);
     ax[k] = s.kept.ax, ay[k] = s.kept.ay, alpha[k] = s.kept.alpha;
     az[k] = s.kept.az, alpha_x[k] = s.kept.alpha_x, alpha_y[k] = s.kept.alpha_y;
+    for (std::size_t q = 0; q < 4; ++q) quaternion_rate[q][k] = s.kept.quaternion_rate[q];
     if (k < 3) runge_kutta4(s, time, aside);
   }
   s.grains = start;
@@ -263,6 +297,7 @@ void start_gear(Integration& s) {
       fit_derivatives(alpha, s.dt, s.kept.of_angle);
   fit_derivatives(az, s.dt, s.kept.of_z);
   fit_derivatives(alpha_x, s.dt, s.kept.of_angle_x), fit_derivatives(alpha_y, s.dt, s.kept.of_angle_y);
+  for (std::size_t q = 0; q < 4; ++q) fit_derivatives(quaternion_rate[q], s.dt, s.kept.of_quaternion[q]);
 }
 
 }  // namespace
@@ -298,21 +333,26 @@ void add_to_integration(Integration& s) {
   };
   extend(s.kept.of_x, s.kept.ax), extend(s.kept.of_y, s.kept.ay), extend(s.kept.of_angle, s.kept.alpha);
   extend(s.kept.of_z, s.kept.az), extend(s.kept.of_angle_x, s.kept.alpha_x), extend(s.kept.of_angle_y, s.kept.alpha_y);
+  for (std::size_t q = 0; q < 4; ++q) extend(s.kept.of_quaternion[q], s.kept.quaternion_rate[q]);
 }
 
 void remove_from_integration(Integration& s, const std::vector<char>& removed) {
   accelerations_now(s, s.state.time, {}, s.state.statistics);
   s.kept.wall_power = s.state.statistics.wall_power;
   if (s.model.scene.numerics.integrator != Integrator::gear5) return;
-  for (HigherDerivatives* higher :
-       {&s.kept.of_x, &s.kept.of_y, &s.kept.of_angle, &s.kept.of_z, &s.kept.of_angle_x, &s.kept.of_angle_y})
-    for (std::vector<double>& q : *higher) {
+  const auto keep = [&removed](HigherDerivatives& higher) {
+    for (std::vector<double>& q : higher) {
       if (q.empty()) continue;
       std::size_t kept = 0;
       for (std::size_t i = 0; i < removed.size(); ++i)
         if (!removed[i]) q[kept++] = q[i];
       q.resize(kept);
     }
+  };
+  for (HigherDerivatives* higher :
+       {&s.kept.of_x, &s.kept.of_y, &s.kept.of_angle, &s.kept.of_z, &s.kept.of_angle_x, &s.kept.of_angle_y})
+    keep(*higher);
+  for (HigherDerivatives& higher : s.kept.of_quaternion) keep(higher);
 }
 
 int evaluations_per_step(Integrator integrator) {

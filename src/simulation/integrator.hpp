@@ -20,15 +20,16 @@ struct Integration {
   double fastest;         // m/s; a step that ends with a faster grain is noted
 
   std::atomic<bool> too_fast = false;  // whether a grain was faster at the end of the last step
-  // The state at the beginning of a step (rk2_midpoint); the second line in space alone.
+  // The state at the beginning of a step (rk2_midpoint); the second line in space alone, the third of clumps there.
   std::vector<double> x{}, y{}, vx{}, vy{}, omega{}, angle{};
   std::vector<double> z{}, vz{}, omega_x{}, omega_y{};
+  std::vector<Orientation> orientation{};
 };
 
 /// One step of a scheme. Velocity Verlet uses predicted velocities v + a dt in the forces, which keeps second order
 /// with damping and drag; RK2 is paper A's midpoint scheme, with the walls at the middle of the step too; gear5 is the
 /// fifth-order predictor-corrector in Nordsieck form for forces that depend on velocity (alpha_0 = 3/16; Gear 1971,
-/// Allen & Tildesley 1987), one evaluation a step.
+/// Allen & Tildesley 1987), one evaluation a step. Clumps in space turn as clump_rotation.hpp has it.
 using StepFunction = void (*)(Integration&);
 StepFunction step_function(Integrator integrator);
 

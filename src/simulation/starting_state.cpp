@@ -20,7 +20,7 @@ Grains packed_grains(const Model& model, std::uint64_t random_seed, StopRequest 
       const Eigen::Vector3d at = point_in_lab(vessel, pose, {packed.x, packed.y, packed.z});
       const std::size_t lot = static_cast<std::size_t>(packed.lot);
       const GrainKind kind = sized_kind(model.scene.lots[lot], *model.law, model.kinds[lot], packed.size);
-      grains.add(at, point_velocity(vessel, pose, rate, at), packed.lot, kind, packed.angle);
+      grains.add(at, point_velocity(vessel, pose, rate, at), packed.lot, kind, packed.turned);
     }
   }
   return grains;

@@ -23,10 +23,13 @@ using HigherDerivatives = std::array<std::vector<double>, 4>;
 
 /// What a scheme keeps from step to step.
 struct IntegratorState {
-  std::vector<double> ax, ay, alpha;               // accelerations at the beginning of the next step
+  // Accelerations at the beginning of the next step; of clumps in space `alpha` is the torque, N m, but for gear5.
+  std::vector<double> ax, ay, alpha;
   HigherDerivatives of_x{}, of_y{}, of_angle{};    // gear5 only
   std::vector<double> az{}, alpha_x{}, alpha_y{};  // the same in space
   HigherDerivatives of_z{}, of_angle_x{}, of_angle_y{};
+  std::array<std::vector<double>, 4> quaternion_rate{};  // 1/s, of clumps in space; this and the next gear5 only
+  std::array<HigherDerivatives, 4> of_quaternion{};
   double wall_power = 0;                      // W, at the beginning of the next step
   double wall_work = 0, gross_wall_work = 0;  // J; sizes summed
 };
@@ -58,7 +61,8 @@ struct FeederState {
     Random random;
     std::int64_t arrived = 0;
     int next_lot = -1;  // of the grain that waits; -1: not drawn
-    double next_size = 1, next_angle = 0;
+    double next_size = 1;
+    Turn next_turn{};
   };
   Random random;
   std::vector<Shower> showers;  // by vessel

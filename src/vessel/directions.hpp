@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 
 #include "elementary/functions.hpp"
+#include "scene/cross_product.hpp"
 
 namespace vibrosow {
 
@@ -16,11 +17,6 @@ inline Eigen::Vector2d unit_vector(double angle) {
 inline Eigen::Matrix2d rotation(double angle) {
   const auto [sine, cosine] = elementary::sine_cosine(angle);
   return Eigen::Matrix2d{{cosine, -sine}, {sine, cosine}};
-}
-
-/// a x b. (Eigen's own comes with rotations that take the C library's sine.)
-inline Eigen::Vector3d cross(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
-  return {a.y() * b.z() - a.z() * b.y(), a.z() * b.x() - a.x() * b.z(), a.x() * b.y() - a.y() * b.x()};
 }
 
 }  // namespace vibrosow

@@ -67,7 +67,7 @@ std::vector<Disc> discs_of(const std::vector<PackedGrain>& packed, const std::ve
   for (std::size_t i = 0; i < packed.size(); ++i) {
     const PackedGrain& grain = packed[i];
     const SeedLot& lot = lots[static_cast<std::size_t>(grain.lot)];
-    const double c = grain.size * std::cos(grain.angle), s = grain.size * std::sin(grain.angle);
+    const double c = grain.size * std::cos(grain.turned.angle), s = grain.size * std::sin(grain.turned.angle);
     if (lot.discs.empty()) discs.push_back({grain.x, grain.y, 0.5 * grain.size * lot.diameter, i});
     for (const ClumpDisc& disc : lot.discs)
       discs.push_back(
@@ -199,8 +199,8 @@ TEST(Packing, EachGrainHasItsOwnSizeAndEachClumpItsAngle) {
     std::set<double> sizes, angles;
     for (const PackedGrain& grain : pack(vessel(packing, 200), scattered_lots(), Space::plane, random)) {
       if (grain.lot == 0) sizes.insert(grain.size);
-      if (grain.lot == 1) angles.insert(grain.angle);
-      EXPECT_TRUE(grain.lot == 0 ? grain.angle == 0 : grain.size == 1);
+      if (grain.lot == 1) angles.insert(grain.turned.angle);
+      EXPECT_TRUE(grain.lot == 0 ? grain.turned.angle == 0 : grain.size == 1);
     }
     EXPECT_EQ(sizes.size(), 140u);
     EXPECT_EQ(angles.size(), 60u);

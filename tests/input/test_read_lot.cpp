@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "input/read_scene.hpp"
+#include "scene/clump_body.hpp"
 #include "scene/clump_shape.hpp"
 #include "scene/input_error.hpp"
 #include "scene/seed_lot.hpp"
@@ -21,10 +22,10 @@ using testing::ThrowsMessage;
 using Kind = SizeDistribution::Kind;
 
 /// The lot with the given lines in its table; every key must be known.
-SeedLot lot_of(const std::string& lines) {
+SeedLot lot_of(const std::string& lines, Space space = Space::plane) {
   const TemporaryFolder folder;
   Table root(Document::read(folder.write("seeder.toml", lines)));
-  const SeedLot lot = read_lot(root, "a");
+  const SeedLot lot = read_lot(root, "a", space);
   root.reject_unknown_keys();
   return lot;
 }
@@ -75,6 +76,67 @@ TEST(ReadLot, AnyDiscsAboutTheirCentreOfMass) {
   EXPECT_NEAR(lot.discs[0].y, 0, 1e-17);
   EXPECT_EQ(lot.discs[0].radius, 1e-3);
   EXPECT_NEAR(lot.diameter, 6e-3, 1e-17);
+}
+
+SeedLot solid_lot_of(const std::string& lines) {
+  return lot_of(lines, Space::three_dimensional);
+}
+
+TEST(ReadLot, InSpaceARoundSeedIsARowOfBalls) {
+  const std::string grain = "shape = 'elongated'\nlength = '7 mm'\nwidth = '3 mm'\n";
+  const SeedLot lot = solid_lot_of(grain + "density = '1300 kg/m3'"), plane = lot_of(grain + "density = '1300 kg/m3'");
+  EXPECT_TRUE(is_solid_clump(lot));
+  EXPECT_NEAR(lot.mass, plane.mass, 1e-12 * plane.mass) << "the plane's density speaks of the same body";
+  EXPECT_NEAR(lot.diameter, 7e-3, 1e-15);
+  ASSERT_EQ(lot.discs.size(), plane.discs.size());
+  for (std::size_t k = 0; k < lot.discs.size(); ++k) EXPECT_NEAR(lot.discs[k].x, plane.discs[k].x, 1e-17);
+  // Near a spheroid's (b^2 + c^2) / 5.
+  EXPECT_NEAR(lot.gyration2_x, 2 * 1.5e-3 * 1.5e-3 / 5, 0.08 * lot.gyration2_x);
+  EXPECT_NEAR(lot.gyration2, (3.5e-3 * 3.5e-3 + 1.5e-3 * 1.5e-3) / 5, 0.08 * lot.gyration2);
+  EXPECT_EQ(lot.gyration2_y, lot.gyration2);
+}
+
+TEST(ReadLot, InSpaceAThicknessMakesASeedFlat) {
+  const std::string seed = "shape = 'drop'\nlength = '12 mm'\nwidth = '6 mm'\nmass = '80 mg'\nthickness = '4 mm'";
+  const SeedLot lot = solid_lot_of(seed);
+  double widest = 0, thickest = 0;
+  for (const ClumpDisc& ball : lot.discs) {
+    widest = std::max(widest, 2 * (std::abs(ball.y) + ball.radius));
+    thickest = std::max(thickest, 2 * (std::abs(ball.z) + ball.radius));
+  }
+  EXPECT_NEAR(widest, 6e-3, 1e-12);
+  EXPECT_NEAR(thickest, 4e-3, 1e-12);
+  EXPECT_LT(lot.gyration2_x, lot.gyration2_y);
+  EXPECT_LT(lot.gyration2_y, lot.gyration2);
+  EXPECT_EQ(lot_of(seed), lot_of("shape = 'drop'\nlength = '12 mm'\nwidth = '6 mm'\nmass = '80 mg'"));
+}
+
+TEST(ReadLot, InSpaceDiscsAreBallsOfAnyPlace) {
+  const std::string balls =
+      "shape = 'discs'\nmass = '30 mg'\n"
+      "discs = [{ x = '0 mm', y = '0 mm', diameter = '3 mm' }, { x = '2 mm', y = '0 mm', diameter = '2 mm' }, "
+      "{ x = '0 mm', y = '2 mm', z = '1 mm', diameter = '2 mm' }]";
+  const SeedLot lot = solid_lot_of(balls);
+  EXPECT_TRUE(is_solid_clump(lot));
+  EXPECT_NEAR(body_of_balls(lot.discs).centre.norm(), 0, 1e-14);
+  EXPECT_THAT([&] { lot_of(balls); }, ThrowsMessage<InputError>(HasSubstr("discs[3].z: unknown key")));
+  const SeedLot dipole = solid_lot_of("shape = 'dipole'\ndiameter = '8 mm'\ndistance = '20 mm'\nmass = '1 g'");
+  EXPECT_NEAR(dipole.gyration2, 0.4 * 16e-6 + 1e-4, 1e-16);
+  EXPECT_NEAR(dipole.gyration2_x, 0.4 * 16e-6, 1e-18);
+}
+
+TEST(ReadLot, InSpaceWhatCannotBeIsSaid) {
+  const std::string grain = "shape = 'elongated'\nlength = '7 mm'\nwidth = '3 mm'\nmass = '30 mg'\n";
+  const auto expect = [](const std::string& lines, const std::string& message) {
+    EXPECT_THAT([&] { solid_lot_of(lines); }, ThrowsMessage<InputError>(HasSubstr(message)));
+  };
+  expect("shape = 'disc'\ndiameter = '3 mm'\nmass = '30 mg'", "shape: a disc lies in the plane");
+  expect(grain + "thickness = '3.1 mm'", "thickness: 3.1 mm is more than the width, 3 mm");
+  expect(grain + "thickness = '0.7 mm'", "thickness: 0.7 mm is too thin for 4 balls side by side, 3 mm wide");
+  expect("shape = 'elongated'\nlength = '20 mm'\nwidth = '3 mm'\nmass = '30 mg'\nthickness = '1 mm'",
+         "thickness: 1 mm is too slender for 11 discs at a length of 20 mm");
+  expect("shape = 'elongated'\nlength = '20 mm'\nwidth = '3 mm'\nmass = '30 mg'", "width: 3 mm is too slender");
+  expect("diameter = '3 mm'\nthickness = '2 mm'\nmass = '30 mg'", "thickness: does not go with shape = \"ball\"");
 }
 
 TEST(ReadLot, MeanOfUniformAndTableIsTheDiameter) {

@@ -3,11 +3,13 @@
 #include <cmath>
 #include <numbers>
 
+#include "grains/size_distribution.hpp"
 #include "plan/model.hpp"
 #include "plan/touching_kinds.hpp"
 #include "scene/input_error.hpp"
 #include "simulation/simulate.hpp"
 #include "support/bench.hpp"
+#include "support/solid_clumps.hpp"
 
 namespace vibrosow {
 namespace {
@@ -129,6 +131,59 @@ TEST(StepPlan, AClumpYieldsMoreAtItsTipAndIsStiffOnItsSide) {
   lot.discs = {{-r, 0, r}, {r, 0, r}};
   EXPECT_NEAR(limit(prepare(scene).step, "the shell's").dt, tip / std::sqrt(5.0 / 3), 1e-9 * tip);
   EXPECT_NEAR(limit(prepare(scene).step, "flat sides").dt, side / std::sqrt(2.0), 1e-9 * side);
+}
+
+TEST(StepPlan, AClumpInSpaceIsNoStifferThanItsArmsMakeIt) {
+  // A dipole of two balls that touch: 2/5 r^2 about its axis and r^2 more across.
+  const double r = 2e-3;
+  const SeedLot lot = solid_lot(dipole(2 * r, 2 * r), 1e-4);
+  SeedLot centred = lot;
+  centred.discs = {{0, 0, r}, {0, 0, r}};
+  Scene scene = clump_scene(lot);
+  scene.contact.seed = scene.contact.wall = {0.3, 0.8};
+  scene.contact.friction_model = FrictionModel::spring;
+  const StepPlan plan = prepare(scene).step;
+  scene.lots = {centred};
+  const StepPlan short_arms = prepare(scene).step;
+  const double tip = 1 + 1 / 1.4;
+  EXPECT_NEAR(limit(plan, "the shell's").dt, limit(short_arms, "the shell's").dt / std::sqrt(tip), 1e-2 * plan.dt);
+  // Both balls of a side turn about the axis: 2 r^2 / (2/5 r^2); one at its furthest point, (1 / sqrt(1.4) +
+  // sqrt(2.5))^2.
+  const double turning = std::pow(1 / std::sqrt(1.4) + std::sqrt(2.5), 2);
+  EXPECT_GT(turning, 5);
+  EXPECT_NEAR(limit(plan, "spin").dt, limit(short_arms, "spin").dt * std::sqrt(5 / turning), 0.05 * plan.dt);
+}
+
+/// Impacts on the floor, tip first and on a flat side, frictionless and elastic: the contact of a clump is the faster
+/// the more its point yields, and never faster than the plan's.
+TEST(StepPlan, NoImpactOfAClumpInSpaceIsFasterThanPlanned) {
+  const SeedLot lot = solid_lot(odd_balls(), 1e-3);
+  Scene scene = clump_scene(lot);
+  const Model planned = prepare(scene);
+  // omega^2 = 8 s k / m is the bed's, k between equal shells being half that on a wall: a wall's contact has 2 s k / m.
+  const double bed = 1 / limit(planned.step, "the shell's").dt;  // half of 2 / omega
+  const double shortest = std::numbers::pi / (bed / 2);
+  Model model = with_step(planned, 1e-7);
+  model.gravity = {0, 0};
+  Random random(3);
+  double least = 1;
+  for (int k = 0; k < 60; ++k) {
+    const Orientation q = draw_orientation(random);
+    double lowest = 0;
+    for (const ClumpDisc& ball : lot.discs)
+      lowest = std::min(lowest, (rotation_matrix(q) * Eigen::Vector3d(ball.x, ball.y, ball.z)).y() - ball.radius);
+    Simulation run(model, start_of(model, {{{0.5, 1e-7 - lowest, 0.5}, {0, -0.01, 0}, {0, 0, 0}, q}}));
+    std::int64_t touched = 0, apart = 0;
+    while (apart < 10 && run.time() < 0.02) {
+      ASSERT_TRUE(run.step());
+      const bool pushed = run.field().forces_in_space()[0].y > 0;
+      touched += pushed, apart = touched > 0 && !pushed ? apart + 1 : 0;
+    }
+    ASSERT_GT(touched, 100);
+    least = std::min(least, static_cast<double>(touched) * 1e-7);
+  }
+  EXPECT_GT(least, shortest);
+  EXPECT_LT(least, 2 * shortest) << "the plan is not far off";
 }
 
 /// A heap of grains, shaken, at the longest step that the plan allows: whatever law, damping and scheme, the numerics

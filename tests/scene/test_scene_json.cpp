@@ -219,8 +219,11 @@ TEST(SceneJson, EveryMeasureOfSizesAndClumpsHasItsOwnText) {
   expect_change(lot, [](SeedLot& l) { l.discs[0].x = 1e-4; });
   expect_change(lot, [](SeedLot& l) { l.discs[1].y = 1e-4; });
   expect_change(lot, [](SeedLot& l) { l.discs[1].radius = 1e-4; });
+  expect_change(lot, [](SeedLot& l) { l.discs[1].z = 1e-4; });
   expect_change(lot, [](SeedLot& l) { l.discs.pop_back(); });
   expect_change(lot, [](SeedLot& l) { l.gyration2 = 1e-6; });
+  expect_change(lot, [](SeedLot& l) { l.gyration2_x = 1e-6; });
+  expect_change(lot, [](SeedLot& l) { l.gyration2_y = 1e-6; });
 }
 
 // Random scenes. Structured bindings: a field that is added does not compile until it is here.
@@ -278,16 +281,19 @@ SizeDistribution any_sizes() {
 
 ClumpDisc any_disc() {
   ClumpDisc disc{};
-  auto& [x, y, radius] = disc;
+  auto& [x, y, radius, z] = disc;
   for (double* number : {&x, &y, &radius}) *number = any_number();
+  z = any_choice() ? any_number() : 0;
   return disc;
 }
 
 SeedLot any_lot() {
   SeedLot lot;
-  auto& [name, diameter, mass, shape, fraction, sizes, discs, gyration2, shell, modulus, ratio] = lot;
+  auto& [name, diameter, mass, shape, fraction, sizes, discs, gyration2, gyration2_x, gyration2_y, shell, modulus,
+         ratio] = lot;
   name = any_text();
   for (double* number : {&diameter, &mass, &fraction, &gyration2}) *number = any_number();
+  for (double* number : {&gyration2_x, &gyration2_y}) *number = any_choice() ? any_number() : 0;
   shape = any_of_first<Shape>(3);
   if (any_choice()) sizes = any_sizes();
   discs = any_list(any_disc, shape == Shape::clump ? 1 : 0);

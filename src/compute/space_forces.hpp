@@ -1,0 +1,14 @@
+#pragma once
+
+#include <vector>
+
+#include "compute/grain_force.hpp"
+
+namespace vibrosow {
+
+/// By grain, in space: forces, N, and torques about the centres, N m, which without rotation are empty.
+struct SpaceForces {
+  std::vector<GrainVector> forces, torques;
+};
+
+}  // namespace vibrosow
