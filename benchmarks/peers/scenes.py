@@ -67,12 +67,12 @@ def textbook_restitution(restitution):
     return math.exp(-math.pi * z / math.sqrt(1 - z * z))
 
 
-def shell_law(mass, radius, compression):
-    """Paper A's shell: m g / 2 eps between grains, m g / eps on walls; restitution 0.5; the tangential spring has 2/7 of the
-    stiffness, its dashpot half the normal one. gamma = dashpot over reduced mass, 1/s, is the same for grains and walls."""
+def shell_law(mass, radius, compression, tangential_ratio=14 / 17):
+    """Paper A's shell: m g / 2 eps between grains, m g / eps on walls; restitution 0.5; the tangential spring has
+    `tangential_ratio` of the stiffness (as Vibrosow's, where nothing is said), its dashpot half the normal one. gamma = dashpot over reduced mass, 1/s, is the same for grains and walls."""
     kn = mass * GRAVITY / (2 * compression * radius)
     gamma = 2 * damping_ratio(0.5) * math.sqrt(kn / (mass / 2))
-    return {'kn': kn, 'kt': 2 / 7 * kn, 'gamma_n': gamma, 'gamma_t': gamma / 2, 'friction': 0.3}
+    return {'kn': kn, 'kt': tangential_ratio * kn, 'gamma_n': gamma, 'gamma_t': gamma / 2, 'friction': 0.3}
 
 
 def hertz_law(youngs_modulus, poisson_ratio, friction):
