@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from contacts import mean_contacts, pictures
-from scenes import textbook_restitution
+from scenes import rolling_spring, textbook_restitution, tsuji_restitution
 
 HERE = Path(__file__).resolve().parent
 # Damping of LAMMPS' gran/hertz/history, proportional to sqrt(overlap): 9.93e7 1/(m s) gives a pair of these grains the
@@ -45,7 +45,7 @@ class Bench:
         """Runs on the one core, without threads; returns what it printed, or fails with it."""
         environment = dict(os.environ, OMP_NUM_THREADS='1', PYTHONPATH=str(HERE / 'yade'), PYTHONDONTWRITEBYTECODE='1')
         done = subprocess.run(['taskset', '-c', str(self.core)] + [str(word) for word in command], cwd=self.work,
-                              env=environment, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+                              env=environment, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, errors="replace")
         if done.returncode != 0:
             raise RuntimeError(f'{" ".join(str(word) for word in command)}\n{done.stdout[-3000:]}')
         return done.stdout
@@ -54,7 +54,7 @@ class Bench:
 @dataclass
 class Start:
     """The grains of a scene as Vibrosow has laid them with a random seed and let them fall, and its step. Without motions (m/s,
-    m/s, rad/s) they start at rest."""
+    m/s, rad/s; in space three of each) they start at rest."""
     places: list
     dt: float
     seed: int = 1
@@ -70,14 +70,16 @@ def run_vibrosow(bench, scene, duration, *options):
 
 
 def start_of(bench, scene, seed=1):
-    """A picture when they have fallen: x and y from the tray's left end; of the channel from the middle of its gate."""
+    """A picture when they have fallen: x, y, in space z, from the tray's left end; of the channel from the middle of its gate."""
     run, _ = run_vibrosow(bench, scene, scene.fallen + 1e-4, '--random-seed', seed, '--set',
                           f'record.times=["{scene.fallen!r} s"]')
-    shift = 0 if scene.is_tray else -run['scene']['tray']['holes'][0]['centre_m']
+    shift = -run['scene']['tray']['holes'][0]['centre_m'] if scene.deck == 'channel' else 0
     with open(bench.work / 'vibrosow' / 'grains_001.csv') as file:
         rows = list(csv.DictReader(file))
-    places = [(float(row['x_mm']) / 1e3 + shift, float(row['y_mm']) / 1e3) for row in rows]
-    motions = [tuple(float(row[name]) for name in ('vx_m_per_s', 'vy_m_per_s', 'omega_rad_per_s')) for row in rows]
+    axes, spins = (('x', 'y', 'z'), ('omega_x', 'omega_y', 'omega')) if scene.depth else (('x', 'y'), ('omega',))
+    places = [tuple(float(row[f'{axis}_mm']) / 1e3 + (shift if axis == 'x' else 0) for axis in axes) for row in rows]
+    names = [f'v{axis}_m_per_s' for axis in axes] + [f'{spin}_rad_per_s' for spin in spins]
+    motions = [tuple(float(row[name]) for name in names) for row in rows]
     return Start(places, run['dt_s'], seed, motions if scene.fallen else ())
 
 
@@ -108,24 +110,30 @@ def vibrosow_as_published(bench, scene, start, window):
 
 def write_atoms(path, scene, start, density, types=1):
     """A data file of spheres: number, type, diameter, density, x, y, z; number, velocity, spin."""
-    places = start.places
-    low, high = min(scene.count_at, -2 * scene.radius) - 0.002, max(y for _, y in places) + 0.3
+    places = [(x, y, *z) if z else (x, y, 0) for x, y, *z in start.places]
+    low = min(scene.count_at, -2 * scene.radius) - 0.002
+    high = max(max(y for _, y, _ in places) + 0.3, max(y for wall in scene.walls for _, y in wall) + 0.01)
     wide = max(max(abs(x) for wall in scene.walls for x, _ in wall), 0) + 0.05
     lines = [scene.name, '', f'{len(places)} atoms', f'{types} atom types', '', f'{-wide} {wide} xlo xhi',
-             f'{low} {high} ylo yhi', f'{-2 * scene.radius} {2 * scene.radius} zlo zhi', '', 'Atoms', '']
-    lines += [f'{k} 1 {2 * scene.radius} {density!r} {x!r} {y!r} 0' for k, (x, y) in enumerate(places, 1)]
+             f'{low} {high} ylo yhi', f'{-2 * scene.radius} {scene.depth + 2 * scene.radius} zlo zhi', '', 'Atoms', '']
+    lines += [f'{k} 1 {2 * scene.radius} {density!r} {x!r} {y!r} {z!r}' for k, (x, y, z) in enumerate(places, 1)]
     if start.motions:
+        motions = start.motions if scene.depth else [(vx, vy, 0, 0, 0, omega) for vx, vy, omega in start.motions]
         lines += ['', 'Velocities', '']
-        lines += [f'{k} {vx!r} {vy!r} 0 0 0 {omega!r}' for k, (vx, vy, omega) in enumerate(start.motions, 1)]
+        lines += [f'{k} {" ".join(map(repr, motion))}' for k, motion in enumerate(motions, 1)]
     path.write_text('\n'.join(lines) + '\n')
 
 
 def write_mesh(path, scene):
-    """The walls as an STL surface, two triangles each, across the whole depth."""
-    deep = 1.9 * scene.radius
+    """The walls as an STL surface, two triangles each, across the whole depth; in space with front and back."""
+    near, far = (0, scene.depth) if scene.depth else (-1.9 * scene.radius, 1.9 * scene.radius)
+    sheets = [((xa, ya, near), (xb, yb, near), (xb, yb, far), (xa, ya, far)) for (xa, ya), (xb, yb) in scene.walls]
+    if scene.depth:
+        xs, ys = zip(*(end for wall in scene.walls for end in wall))
+        corners = ((min(xs), min(ys)), (max(xs), min(ys)), (max(xs), max(ys)), (min(xs), max(ys)))
+        sheets += [tuple((x, y, z) for x, y in corners) for z in (near, far)]
     lines = ['solid walls']
-    for (xa, ya), (xb, yb) in scene.walls:
-        a, b, c, d = (xa, ya, -deep), (xb, yb, -deep), (xb, yb, deep), (xa, ya, deep)
+    for a, b, c, d in sheets:
         for triangle in ((a, b, c), (a, c, d)):
             corners = [f'vertex {x!r} {y!r} {z!r}' for x, y, z in triangle]
             lines += ['facet normal 0 0 0', 'outer loop', *corners, 'endloop', 'endfacet']
@@ -142,33 +150,70 @@ def window_variables(window, skin):
             'sample': window.sample or never, 'skin': skin, 'pictures': 'pictures', 'thermo': max(1, window.steps // 40)}
 
 
-def lammps_laws(scene):
+def lammps_laws(scene, granular=False):
+    """The words that the scene's deck takes its law from."""
     law = scene.law
-    if not scene.is_tray:
+    if scene.deck == 'slot-in-space':
+        return {'pair_coeff': f'* * {granular_hertz(scene, False)}', 'wall': f'granular {granular_hertz(scene, True)}'}
+    if granular:
+        return {'pair_style': 'granular', 'pair_coeff': f'* * {granular_hooke(law, 1)}',
+                'wall': f'granular {granular_hooke(law, 2)}'}
+    if scene.deck == 'channel':
         return {'pair_law': f'{law["kn"]} {law["kt"]} {LAMMPS_HERTZ_DAMPING} NULL {law["friction"]}'}
     form = '{0} {1} {gamma_n} {gamma_t} {friction}'
-    return {'pair_law': form.format(law['kn'], law['kt'], **law), 'wall_law': form.format(2 * law['kn'], 2 * law['kt'], **law)}
+    pair, wall = (form.format(stiffer * law['kn'], stiffer * law['kt'], **law) for stiffer in (1, 2))
+    if scene.deck == 'tray-in-space':
+        return {'pair_style': f'gran/hooke/history {pair} 1 limit_damping', 'pair_coeff': '* *',
+                'wall': f'hooke/history {wall} 1 limit_damping'}
+    return {'pair_law': pair, 'wall_law': wall}
 
 
-def lammps(bench, scene, start, window, skin=None):
+def granular_hooke(law, stiffer):
+    """`gran/hooke/history` in the words of `granular`."""
+    return (f'hooke {stiffer * law["kn"]} {law["gamma_n"]} tangential linear_history {stiffer * law["kt"]} '
+            f'{law["gamma_t"] / law["gamma_n"]} {law["friction"]} damping mass_velocity limit_damping')
+
+
+def granular_hertz(scene, of_wall):
+    """Hertz, Mindlin's spring and, where balls resist rolling, a rolling spring. Stiffnesses are given, not a modulus: from
+    that, those of walls come out 1.3 and 0.61 times what they should be (at Poisson's ratio 0.3)."""
+    law = scene.law
+    restitution = tsuji_restitution(law['wall_restitution' if of_wall else 'restitution'])
+    rolling = 'rolling sds {} {} {rolling}'.format(*rolling_spring(scene, of_wall), **law) if law['rolling'] else ''
+    return (f'hertz {law["kn"]} {restitution} tangential mindlin {law["kt"]} {law["tangential_damping"]} {law["friction"]} '
+            f'{rolling} damping tsuji limit_damping')
+
+
+def lammps_box(scene):
+    """Sizes that decks in space read, and the folder of the decks."""
+    slot_from, slot_to = scene.slot or (0, 0)
+    return {'length': max(x for wall in scene.walls for x, _ in wall), 'depth': scene.depth, 'slot_from': slot_from,
+            'slot_to': slot_to, 'decks': HERE / 'lammps'}
+
+
+def lammps(bench, scene, start, window, skin=None, granular=False):
     write_atoms(bench.work / 'lammps.data', scene, start, ball_density(scene))
     steep = math.radians(67.5)
-    variables = window_variables(window, skin or scene.skin['lammps']) | lammps_laws(scene) | {
+    variables = window_variables(window, skin or scene.skin['lammps']) | lammps_laws(scene, granular) | lammps_box(scene) | {
         'data': 'lammps.data', 'dt': start.dt, 'holes': scene.holes, 'amplitude': scene.amplitude,
         'frequency': scene.frequency, 'half_width': 0.05, 'slope_x': math.sin(steep), 'slope_y': math.cos(steep)}
-    deck = HERE / 'lammps' / ('tray.in' if scene.is_tray else 'channel.in')
-    return molecular(bench, scene, start, window, ['lmp', '-screen', 'none'], deck, variables)
+    return molecular(bench, scene, start, window, ['lmp', '-screen', 'none'], HERE / 'lammps' / f'{scene.deck}.in', variables)
+
+
+def lammps_granular(bench, scene, start, window):
+    """The same law by LAMMPS' newer, general style."""
+    return lammps(bench, scene, start, window, granular=True)
 
 
 def liggghts(bench, scene, start, window):
     write_atoms(bench.work / 'liggghts.data', scene, start, ball_density(scene), types=2)
     write_mesh(bench.work / 'walls.stl', scene)
     variables = window_variables(window, scene.skin['liggghts']) | {
-        key: value for key, value in scene.law.items() if key != 'restitution'} | {
+        key: textbook_restitution(value) if 'restitution' in key else value for key, value in scene.law.items()} | {
             'data': 'liggghts.data', 'dt': start.dt, 'amplitude': scene.amplitude, 'tray': 'walls.stl', 'walls': 'walls.stl',
-            'wall_kn': 2 * scene.law['kn'], 'wall_kt': 2 * scene.law['kt'], 'textbook_restitution': textbook_restitution(0.5),
+            'wall_kn': 2 * scene.law['kn'], 'wall_kt': 2 * scene.law['kt'], 'depth': scene.depth,
             'period': 1 / scene.frequency if scene.frequency else 0}
-    deck = HERE / 'liggghts' / ('tray.in' if scene.is_tray else 'channel.in')
+    deck = HERE / 'liggghts' / f'{"tray" if scene.is_tray else scene.deck}.in'
     # With -screen none it crashes on reading a mesh.
     return molecular(bench, scene, start, window, ['liggghts'], deck, variables)
 
@@ -181,8 +226,8 @@ def molecular(bench, scene, start, window, command, deck, variables):
     result = read_log(log.read_text())
     if window.sample:
         result.contacts = mean_contacts(bench.work / 'pictures', scene, start.dt, window.lead)
-        *_, (_, last) = pictures(bench.work / 'pictures.end') if scene.is_tray else pictures(bench.work / 'pictures')
-        result.out = result.grains - sum(1 for _, y in last if y > scene.count_at)
+        *_, (_, last) = pictures(bench.work / ('pictures.end' if window.rest else 'pictures'))
+        result.out = result.grains - sum(1 for place in last if place[1] > scene.count_at)
     return result
 
 
@@ -237,15 +282,20 @@ def version_of(bench, name):
     question = {'lammps': (['lmp', '-h'], r'- (.*)'),
                 'liggghts': (['liggghts', '-in', '/dev/null', '-log', 'none'], r'PUBLIC ([\d.]+)'),
                 'yade': (['yade', '--version'], r'version: (\S+)')}
-    command, pattern = question[name]
+    command, pattern = question[name.split()[0]]
     return re.search(pattern, bench.output_of(command))[1].strip()
 
 
-PROGRAMS = {'vibrosow': vibrosow, 'lammps': lammps, 'liggghts': liggghts, 'yade': yade, 'box2d 240 Hz': box2d(240),
-            'box2d 1 kHz': box2d(1000), 'box2d 4 kHz': box2d(4000), 'vibrosow as published': vibrosow_as_published}
+PROGRAMS = {'vibrosow': vibrosow, 'lammps': lammps, 'lammps granular': lammps_granular, 'liggghts': liggghts, 'yade': yade,
+            'box2d 240 Hz': box2d(240), 'box2d 1 kHz': box2d(1000), 'box2d 4 kHz': box2d(4000),
+            'vibrosow as published': vibrosow_as_published}
 
 
 def can_run(program, scene):
+    if program == 'lammps granular':
+        return scene.deck == 'tray-in-space'
+    if scene.depth:
+        return program in ('vibrosow', 'lammps', 'liggghts')
     if program.startswith('box2d'):
         return scene.is_tray
     return program != 'vibrosow as published' or not scene.is_tray
