@@ -1,12 +1,14 @@
 // How time and memory grow with a bed: the published tray (48 layers of 8 mm discs, 9 Hz, 1 cm, friction by springs,
-// restitution 0.5, eps = 1e-4 r), as long as the number of grains asks for. CSV on stdout, one row for a number of
-// grains and of threads: 1000 steps to shake in, then as many as are timed.
+// restitution 0.5, eps = 1e-4 r), as long as the number of grains asks for; in space balls in 16 layers, 20 across. CSV
+// on stdout, one row for a number of grains and of threads: 1000 steps to shake in, then as many as are timed.
+//     growth [MOST GRAINS [space]]
 #include <fmt/format.h>
 #include <malloc.h>
 #include <unistd.h>
 
 #include <chrono>
 #include <fstream>
+#include <string_view>
 
 #include "plan/step_plan.hpp"
 #include "simulation/simulation.hpp"
@@ -15,16 +17,17 @@ namespace vibrosow {
 namespace {
 
 constexpr double diameter = 8e-3;
-constexpr int layers = 48;
 
-Scene tray_of(int grains) {
+Scene tray_of(int grains, bool in_space) {
+  const int layers = in_space ? 16 : 48, across = in_space ? 20 : 1;
   Scene scene;
-  scene.lots = {{"grain", diameter, 0.6e-3, Shape::disc, 1.0}};
+  scene.lots = {{"grain", diameter, 0.6e-3, in_space ? Shape::ball : Shape::disc, 1.0}};
+  if (in_space) scene.space = Space::three_dimensional, scene.tray.depth = (across + 0.6) * diameter;
   scene.contact.shell_compression = 1e-4;
   scene.contact.friction_model = FrictionModel::spring;
   scene.contact.seed = scene.contact.wall = {0.3, 0.5};
   scene.tray.name = "tray";
-  scene.tray.length = diameter * (grains / layers + 12);
+  scene.tray.length = diameter * (grains / layers / across + 12);
   scene.tray.height = 2 * layers * diameter;
   scene.tray.fill = Fill{grains, Packing::layers, 1e-3, false};
   scene.tray.motion = HarmonicMotion{0, 0.01, 9, 0};
@@ -45,8 +48,8 @@ double resident_bytes() {
   return pages * static_cast<double>(sysconf(_SC_PAGESIZE));
 }
 
-void print_row(int grains, int threads) {
-  const Scene scene = tray_of(grains);
+void print_row(int grains, int threads, bool in_space) {
+  const Scene scene = tray_of(grains, in_space);
   malloc_trim(0);  // what earlier rows have given back is not to be had for nothing
   const double before = resident_bytes();
   const auto started = std::chrono::steady_clock::now();
@@ -70,7 +73,8 @@ void print_row(int grains, int threads) {
 int main(int argc, char** argv) {
   fmt::print("grains,threads,ns_per_grain_step,bytes_per_grain,start_ns_per_grain,contacts_per_grain_step\n");
   const int most = argc > 1 ? std::atoi(argv[1]) : 1'000'000;
+  const bool in_space = argc > 2 && std::string_view(argv[2]) == "space";
   for (const int grains : {1000, 2400, 5000, 10000, 20000, 50000, 100000, 300000, 1000000})
     for (const int threads : {1, 2})
-      if (grains <= most) vibrosow::print_row(grains, threads);
+      if (grains <= most) vibrosow::print_row(grains, threads, in_space);
 }
