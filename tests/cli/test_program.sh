@@ -104,6 +104,14 @@ expect 2 "slip-speed: .* has none" accuracy wheat-tray --slip-speed "20 mm/s"
 expect 2 "did you mean \"wheat-tray\"" run wheat-trey
 expect 2 "study.toml: this is a study: use vibrosow sweep" run study.toml
 expect 2 "seeder.toml: this is a seeder" sweep seeder.toml
+space=(--set "space=3d" --set "tray.depth=4 cm" --set "tray.fill.count=400" --set "tray.holes.shape=round")
+expect 0 "hole 2 at 80.00 mm, 20.00 mm from the front, 16.00 mm in diameter" check seeder.toml "${space[@]}"
+expect 0 "plane over space [0-9.]+" check seeder.toml --both "${space[@]}"
+expect 0 "^whole tray: [0-9.]+ g/s" run seeder.toml --out in-space "${space[@]}"
+grep -q ",z_mm" in-space/outflow.csv && grep -q "across_mm" in-space/summary.csv || fail "the files of a run in space have no z"
+expect 0 "tray.holes.shape: in the plane a round hole is taken for a slot" check seeder.toml --set "tray.holes.shape=round"
+expect 2 "tray.depth: is missing" run seeder.toml --set "space=3d"
+expect 2 "for one seeder, not for a study" check study.toml --both
 expect 0 "hole 1 at 20.00 mm" check seeder.toml --set "tray.holes.count=" --set 'tray.holes.at=["20 mm"]'
 expect 0 "^vibrosow: warning: tray.holes.width: 3 mm is narrower" check seeder.toml --set "tray.holes.width=3 mm"
 expect 0 "^vibrosow: warning: tray.holes.width: 3 mm is narrower" sweep study.toml --out narrow --set "tray.holes.width=3 mm"
