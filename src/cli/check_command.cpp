@@ -107,10 +107,12 @@ void print_vessel(const Vessel& vessel, Space space) {
   const double mm = 1e3;
   const bool round = space == Space::three_dimensional && vessel.plan == Plan::round;
   const std::string depth = space == Space::plane || round ? "" : fmt::format("{:.1f} mm deep, ", *vessel.depth * mm);
-  print("{}\n  {}floor from ({:.1f}, {:.1f}) mm, {:.1f} mm {}, {}walls {:.1f} mm, {} seeds\n", vessel.name,
-        round ? "round, " : "", vessel.origin.x() * mm, vessel.origin.y() * mm, vessel.length * mm,
-        round ? "in diameter" : "long", space == Space::plane ? "end " : depth, vessel.height * mm,
-        vessel.fill ? vessel.fill->count : 0);
+  print("{}\n", vessel.name);
+  print_text(wrapped_beside(
+      "  ",
+      fmt::format("{}floor from ({:.1f}, {:.1f}) mm, {:.1f} mm {}, {}walls {:.1f} mm, {} seeds", round ? "round, " : "",
+                  vessel.origin.x() * mm, vessel.origin.y() * mm, vessel.length * mm, round ? "in diameter" : "long",
+                  space == Space::plane ? "end " : depth, vessel.height * mm, vessel.fill ? vessel.fill->count : 0)));
   for (std::size_t i = 0; i < vessel.holes.size(); ++i)
     print("  hole {} {}{}\n", i + 1, hole_text(vessel.holes[i], space),
           vessel.holes[i].open_at > 0 ? fmt::format(", opens at {:.6g} s", vessel.holes[i].open_at) : "");

@@ -108,7 +108,8 @@ space=(--set "space=3d" --set "tray.depth=4 cm" --set "tray.fill.count=400" --se
 expect 0 "hole 2 at 80.00 mm, 20.00 mm from the front, 16.00 mm in diameter" check seeder.toml "${space[@]}"
 expect 0 "plane over space [0-9.]+" check seeder.toml --both "${space[@]}"
 expect 0 "^whole tray: [0-9.]+ g/s" run seeder.toml --out in-space "${space[@]}"
-grep -q ",z_mm" in-space/outflow.csv && grep -q "across_mm" in-space/summary.csv || fail "the files of a run in space have no z"
+grep -q ",z_mm" in-space/outflow.csv || fail "outflow.csv of a run in space has no z"
+grep -q "across_mm" in-space/summary.csv || fail "summary.csv of a run in space does not say where holes lie across"
 expect 0 "tray.holes.shape: in the plane a round hole is taken for a slot" check seeder.toml --set "tray.holes.shape=round"
 expect 2 "tray.depth: is missing" run seeder.toml --set "space=3d"
 expect 2 "for one seeder, not for a study" check study.toml --both

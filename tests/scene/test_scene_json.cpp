@@ -304,7 +304,8 @@ SeedLot any_lot() {
 Surface any_surface() {
   Surface surface;
   auto& [friction, restitution, rolling_friction, cohesion, twisting_friction] = surface;
-  for (double* number : {&friction, &restitution, &rolling_friction, &cohesion, &twisting_friction}) *number = any_number();
+  for (double* number : {&friction, &restitution, &rolling_friction, &cohesion, &twisting_friction})
+    *number = any_number();
   return surface;
 }
 
