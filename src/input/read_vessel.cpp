@@ -100,9 +100,11 @@ std::vector<WallPiece> read_line(const Table& table, const std::vector<std::arra
 }
 
 /// The line turned about an upright axis.
-void read_axis(Table& table, std::vector<WallPiece>& line) {
+void read_axis(Table& table, Space space, std::vector<WallPiece>& line) {
   const std::vector<double> about = table.quantities("about", Dimension::length, -longest, longest);
   if (about.empty()) return;
+  if (space == Space::plane)
+    table.fail("about", "a line is turned about an upright axis in space alone: space = \"3d\"");
   if (about.size() != 2)
     table.fail("about", "expected where the upright axis passes, along and across, such as [\"10 cm\", \"4 cm\"]");
   for (WallPiece& piece : line) {
@@ -133,12 +135,12 @@ WallPiece read_arc(Table& table) {
   return arc;
 }
 
-std::vector<WallPiece> read_pieces(Table& vessel) {
+std::vector<WallPiece> read_pieces(Table& vessel, Space space) {
   std::vector<WallPiece> pieces;
   for (Table& table : vessel.tables("pieces")) {
     if (table.has("line")) {
       auto line = read_line(table, table.points("line", Dimension::length, -longest, longest));
-      read_axis(table, line);
+      read_axis(table, space, line);
       pieces.insert(pieces.end(), line.begin(), line.end());
     } else {
       pieces.push_back(read_arc(table));
@@ -255,11 +257,13 @@ void check_funnel(const Table& table, const Vessel& vessel, Space space) {
 }
 
 /// What goes by a vessel's own left, right and up cannot go with one that turns over and over.
-void check_turning(Table& table, const Vessel& vessel) {
+void check_turning(Table& table, const Vessel& vessel, Space space) {
   if (!turns_steadily(vessel)) return;
+  const bool upright = std::get<TurningMotion>(*vessel.motion).axis == TurningAxis::upright;
+  if (upright && space == Space::plane)
+    table.required_table("motion").fail("axis", "about an upright axis a vessel turns in space alone: space = \"3d\"");
   if (vessel.fill && vessel.fill->keep)
     table.required_table("fill").fail("keep", "a vessel that turns over and over cannot be topped up");
-  const bool upright = std::get<TurningMotion>(*vessel.motion).axis == TurningAxis::upright;
   if (!upright && !vessel.holes.empty())
     table.fail("holes", "a vessel that turns over and over has none; leave gaps between its pieces");
   if (upright && vessel.front_and_back == Sides::periodic)
@@ -282,7 +286,7 @@ Vessel read_vessel(Table table, const std::string& name, const std::vector<SeedL
   vessel.tilt = table.quantity("tilt", Dimension::angle, -30 * degree, 30 * degree).value_or(0);
   vessel.funnel = table.quantity("funnel", Dimension::angle, 0.01 * degree, 80 * degree).value_or(0);
   vessel.box = table.boolean("box").value_or(true);
-  vessel.pieces = read_pieces(table);
+  vessel.pieces = read_pieces(table, space);
   if (!vessel.box && vessel.pieces.empty()) table.fail("box", "without floor and end walls a vessel needs pieces");
   if (const auto holes = table.table("holes"))
     vessel.holes = read_holes(*holes, vessel, space, largest_mean_diameter(lots));
@@ -306,7 +310,7 @@ Vessel read_vessel(Table table, const std::string& name, const std::vector<SeedL
                                                : "direction",
                    "a motion across the plane needs space = \"3d\"");
   }
-  check_turning(table, vessel);
+  check_turning(table, vessel, space);
   check_periodic(table, vessel, largest_diameter(lots));
   if (space == Space::three_dimensional) check_periodic_across(table, vessel, tray, largest_diameter(lots));
   return vessel;

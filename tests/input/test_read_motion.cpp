@@ -89,7 +89,6 @@ TEST(ReadMotion, Turning) {
   const TemporaryFolder folder;
   const Scene scene = read(folder, R"(kind = "turning"
 speed = "-6 rpm"
-axis = "upright"
 pivot = ["25 cm", "3 cm"]
 ramp = "1 s"
 stop = "5 s"
@@ -97,13 +96,13 @@ stop = "5 s"
   const auto& m = std::get<TurningMotion>(*scene.tray.motion);
   EXPECT_EQ(m.pivot, Eigen::Vector2d(0.25, 0.03));
   EXPECT_NEAR(m.angular_velocity, -0.2 * std::numbers::pi, 1e-15);
-  EXPECT_EQ(m.axis, TurningAxis::upright);
+  EXPECT_EQ(m.axis, TurningAxis::across);
   EXPECT_EQ(m.ramp, 1);
   EXPECT_EQ(m.stop, 5);
   EXPECT_NEAR(m.stop_ramp, 10, 1e-14) << "one turn";
   EXPECT_TRUE(turns(*scene.tray.motion));
   EXPECT_TRUE(turns_steadily(scene.tray));
-  EXPECT_EQ(motion_text(*scene.tray.motion), "-6 rpm about the upright axis at (250, 30) mm");
+  EXPECT_EQ(motion_text(*scene.tray.motion), "-6 rpm about the axis across at (250, 30) mm");
 }
 
 TEST(ReadMotion, TableBesideTheFileThatNamesIt) {

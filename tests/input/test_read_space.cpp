@@ -75,6 +75,30 @@ pitch = "10 cm"
   }
 }
 
+TEST(ReadSpace, ARotorOfADishAboutAnUprightAxis) {
+  const std::string rotor = whole + R"(box = false
+pieces = [{ line = [["0 cm", "1 cm"], ["3 cm", "1 cm"], ["3 cm", "4 cm"]], about = ["25 cm", "3 cm"] }]
+motion = { kind = "turning", speed = "30 rpm", axis = "upright", pivot = ["25 cm", "3 cm"] }
+)";
+  const Scene scene = read(rotor);
+  ASSERT_EQ(scene.tray.pieces.size(), 2u);
+  EXPECT_EQ(scene.tray.pieces[0].about, Eigen::Vector2d(0.25, 0.03));
+  EXPECT_EQ(scene.tray.pieces[1].a, Eigen::Vector2d(0.03, 0.01));
+  const auto& motion = std::get<TurningMotion>(*scene.tray.motion);
+  EXPECT_EQ(motion.axis, TurningAxis::upright);
+  EXPECT_EQ(motion.pivot, Eigen::Vector2d(0.25, 0.03));
+  const auto refused = [&](const std::string& from, const std::string& to) {
+    std::string text = rotor;
+    text.replace(text.find(from), from.size(), to);
+    return refusal(text);
+  };
+  EXPECT_THAT(refused("about = [\"25 cm\", \"3 cm\"]", "about = [\"25 cm\"]"), HasSubstr("along and across"));
+  EXPECT_THAT(refused("[\"0 cm\", \"1 cm\"]", "[\"-1 cm\", \"1 cm\"]"), HasSubstr("distance from the axis"));
+  EXPECT_THAT(refused("[\"3 cm\", \"1 cm\"]", "[\"0 cm\", \"0 cm\"]"), HasSubstr("lies on the axis"));
+  EXPECT_THAT(refused("box = false", "box = false\nfront_and_back = \"periodic\""), HasSubstr("about an upright axis"));
+  EXPECT_THAT(refused("{ count = 600 }", "{ count = 600, keep = true }"), HasSubstr("cannot be topped up"));
+}
+
 TEST(ReadSpace, RowsWhereTheyAreSaidToBe) {
   const Scene scene =
       read(whole + R"(holes = { shape = "round", at = ["10 cm"], across = ["1 cm", "5 cm"], width = "8 mm" })");
