@@ -16,7 +16,7 @@
 namespace vibrosow {
 
 void refuse_fill(const Vessel& vessel) {
-  if (is_drum(vessel))
+  if (drum_of(vessel) != nullptr)
     throw InputError(fmt::format(
         "{}: {} grains do not all lie within the circle of the {}'s pieces; take fewer, or a {} just as long and high "
         "as its circle",
@@ -45,19 +45,19 @@ bool is_on_a_piece(const std::vector<WallSegment>& walls, const Eigen::Vector2d&
   });
 }
 
-/// Whether none of a drum's circles holds a grain of `radius` at `seat`.
+/// Whether a grain of `radius` at `seat` does not lie within its drum.
 bool is_outside_of_drum(const Vessel& vessel, const Eigen::Vector2d& seat, double radius) {
   constexpr double slack = 1e-3;  // of the radius
-  return is_drum(vessel) && std::ranges::none_of(vessel.pieces, [&](const WallPiece& piece) {
-           return is_full_circle(piece) && (seat - piece.centre).norm() + (1 - slack) * radius < piece.radius;
-         });
+  const WallPiece* drum = drum_of(vessel);
+  return drum != nullptr && (seat - drum->centre).norm() + (1 - slack) * radius >= drum->radius;
 }
 
 /// Seeds are poured into a drum as if its upper half were not there.
 Vessel without_lid(Vessel vessel) {
-  if (!is_drum(vessel)) return vessel;
-  for (WallPiece& piece : vessel.pieces)
-    if (is_full_circle(piece)) piece.from = std::numbers::pi, piece.to = 2 * std::numbers::pi;
+  if (const WallPiece* drum = drum_of(vessel)) {
+    WallPiece& piece = vessel.pieces[static_cast<std::size_t>(drum - vessel.pieces.data())];
+    piece.from = std::numbers::pi, piece.to = 2 * std::numbers::pi;
+  }
   return vessel;
 }
 

@@ -173,22 +173,19 @@ void add_front_and_back(const Vessel& vessel, std::vector<Face>& faces) {
   faces.push_back(plate(vessel.name + " back", {x.from, 0, *vessel.depth}, {0, height, 0}, {x.length(), 0, 0}));
 }
 
-/// A drum's discs; beside circles that are no drum the front and back are missing, as floor and end walls are.
+/// A drum's discs; where the pieces make no drum the front and back are missing, as floor and end walls are.
 void add_ends_of_drum(const Vessel& vessel, std::vector<Face>& faces) {
-  if (!is_drum(vessel) || vessel.front_and_back != Sides::walls) return;
-  for (std::size_t k = 0; k < vessel.pieces.size(); ++k) {
-    const WallPiece& circle = vessel.pieces[k];
-    if (!is_full_circle(circle)) continue;
-    for (const double z : {0.0, *vessel.depth}) {
-      Face disc;
-      disc.kind = Face::Kind::revolved;
-      disc.name = vessel.name + " piece " + std::to_string(k + 1) + (z == 0 ? " front" : " back");
-      disc.origin = {circle.centre.x(), circle.centre.y(), z};
-      disc.e1 = Vector::UnitX(), disc.e2 = Vector::UnitY(), disc.normal = Vector::UnitZ();
-      disc.radius_b = circle.radius;
-      disc.half_angle = std::numbers::pi;
-      faces.push_back(disc);
-    }
+  const WallPiece* circle = drum_of(vessel);
+  if (circle == nullptr || vessel.front_and_back != Sides::walls) return;
+  for (const double z : {0.0, *vessel.depth}) {
+    Face disc;
+    disc.kind = Face::Kind::revolved;
+    disc.name = vessel.name + (z == 0 ? " front" : " back");
+    disc.origin = {circle->centre.x(), circle->centre.y(), z};
+    disc.e1 = Vector::UnitX(), disc.e2 = Vector::UnitY(), disc.normal = Vector::UnitZ();
+    disc.radius_b = circle->radius;
+    disc.half_angle = std::numbers::pi;
+    faces.push_back(disc);
   }
 }
 

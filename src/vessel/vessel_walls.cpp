@@ -214,8 +214,24 @@ bool is_full_circle(const WallPiece& piece) {
   return piece.radius > 0 && piece.to - piece.from >= 2 * std::numbers::pi * (1 - 1e-9);
 }
 
-bool is_drum(const Vessel& vessel) {
-  return !vessel.box && std::ranges::any_of(vessel.pieces, is_full_circle);
+namespace {
+
+/// Distance (m) of the furthest point of a piece, from above.
+double furthest(const WallPiece& piece, const Eigen::Vector2d& from) {
+  if (piece.radius > 0) return (piece.centre - from).norm() + piece.radius;
+  return std::max((piece.a - from).norm(), (piece.b - from).norm());
+}
+
+}  // namespace
+
+const WallPiece* drum_of(const Vessel& vessel) {
+  if (vessel.box) return nullptr;
+  const auto found = std::ranges::find_if(vessel.pieces, [&](const WallPiece& circle) {
+    return is_full_circle(circle) && std::ranges::all_of(vessel.pieces, [&](const WallPiece& other) {
+             return other.about || furthest(other, circle.centre) <= circle.radius * (1 + 1e-9);
+           });
+  });
+  return found == vessel.pieces.end() ? nullptr : &*found;
 }
 
 double distance_to_wall(const WallSegment& wall, const Eigen::Vector2d& point) {

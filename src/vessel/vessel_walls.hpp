@@ -42,8 +42,9 @@ double largest_radius(const Vessel& vessel, const Eigen::Vector2d& about);
 
 bool is_full_circle(const WallPiece& piece);
 
-/// Whether a vessel is closed all round: full circles, without floor and end walls.
-bool is_drum(const Vessel& vessel);
+/// The full circle that a vessel without floor and end walls is closed by all round, all its other pieces lying within
+/// it; none: nullptr.
+const WallPiece* drum_of(const Vessel& vessel);
 
 /// Distance, in m, of a point of the vessel's frame from a wall.
 double distance_to_wall(const WallSegment& wall, const Eigen::Vector2d& point);
