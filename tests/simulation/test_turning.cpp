@@ -340,6 +340,36 @@ TEST(Turning, ABallThatRollsOnATurntableCirclesWithTwoSeventhsOfItsSpeed) {
   EXPECT_NEAR(run.grains().z[0], plate_radius, 1e-4);
 }
 
+TEST(Turning, AHoleCountsWhatItMeetsOnItsWayRound) {
+  // A round vessel with a hole 3 cm from its axis; the ball falls to where the hole comes, and at rest there is none.
+  for (const double speed : {5.0, -5.0, 0.0}) {
+    Scene scene = drum(Space::three_dimensional, 0);
+    scene.tray.box = true, scene.tray.pieces.clear(), scene.tray.plan = Plan::round;
+    scene.tray.length = 0.1, scene.tray.depth = 0.1;
+    Hole hole{0.08, 0.012};
+    hole.shape = HoleShape::round, hole.across = 0.05;
+    scene.tray.holes = {hole};
+    scene.tray.motion = TurningMotion{{0.05, 0.05}, speed, TurningAxis::upright};
+    scene.run.count_below = 0.005;
+    const double height = 0.02, angle = 5 * std::sqrt(2 * height / standard_gravity);
+    const double side = speed < 0 ? -1 : 1;
+    const Model model = prepare_to_run(scene);
+    Simulation run(model,
+                   start_of(model, {{{0.05 + 0.03 * std::cos(angle), height, 0.05 + side * 0.03 * std::sin(angle)}}}));
+    EXPECT_TRUE(run.run_until(0.15));
+    if (speed == 0) {
+      EXPECT_EQ(run.result().balance.inside, 1);
+      continue;
+    }
+    ASSERT_EQ(run.result().events.size(), 1u);
+    EXPECT_EQ(run.result().events[0].hole, 1);
+    EXPECT_NEAR(run.result().events[0].x, 0.08, 1e-4);
+    EXPECT_NEAR(run.result().events[0].z, 0.05, 1e-4);
+    EXPECT_EQ(run.result().balance.counted, 1);
+    EXPECT_EQ(run.result().balance.lost, 0);
+  }
+}
+
 TEST(Turning, AnUprightRotorNeedsSpace) {
   Scene scene = drum(Space::plane, 3);
   std::get<TurningMotion>(*scene.tray.motion).axis = TurningAxis::upright;
