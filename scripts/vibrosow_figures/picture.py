@@ -57,9 +57,9 @@ def read_scene(path):
 
 
 def clumps(scene):
-    """(diameter, discs) in mm of each lot whose grains are clumps."""
+    """(diameter, discs or balls) in mm of each lot whose grains are clumps; of each disc x, y, z and radius."""
     def in_mm(disc):
-        return [1e3 * disc[key] for key in ("x_m", "y_m", "radius_m")]
+        return [1e3 * disc.get(key, 0) for key in ("x_m", "y_m", "z_m", "radius_m")]
 
     return {lot["name"]: (1e3 * lot["diameter_m"], [in_mm(disc) for disc in lot["discs"]])
             for lot in scene.get("lots", []) if "discs" in lot}
@@ -73,7 +73,7 @@ def discs(row, shapes):
     diameter, parts = shapes[row["lot"]]
     angle = float(row["angle_rad"])
     cosine, sine, size = math.cos(angle), math.sin(angle), 2 * radius / diameter
-    return [(x + size * (cosine * a - sine * b), y + size * (sine * a + cosine * b), size * r) for a, b, r in parts]
+    return [(x + size * (cosine * a - sine * b), y + size * (sine * a + cosine * b), size * r) for a, b, _, r in parts]
 
 
 def floor(vessel):
@@ -97,10 +97,17 @@ def arc(piece):
     return list(zip(x + radius * np.cos(angles), y + radius * np.sin(angles)))
 
 
+def turned_about(piece):
+    """Both sides of a piece that is turned about an upright axis."""
+    axis = piece["about_m"][0]
+    return [[(axis + side * x, y) for x, y in (piece["from_m"], piece["to_m"])] for side in (-1, 1)]
+
+
 def outline(vessel, box):
     """Lines of a vessel's walls in its own frame, in mm, with those of its box or without."""
     lines = floor(vessel) if box else []
-    lines += [arc(piece) if "radius_m" in piece else [piece["from_m"], piece["to_m"]] for piece in vessel["pieces"]]
+    for piece in vessel["pieces"]:
+        lines += turned_about(piece) if "about_m" in piece else [arc(piece) if "radius_m" in piece else [piece["from_m"], piece["to_m"]]]
     return [1e3 * np.array(line) for line in lines]
 
 
@@ -215,9 +222,20 @@ def add_scale(axes, low, high):
     axes.annotate(f"{length:g} mm", (right - length / 2, up), xytext=(0, 4), textcoords="offset points", ha="center", color=WALL)
 
 
-def balls(table):
-    """x, y, z, radius in mm, a row a ball."""
-    return np.array([[float(row[name]) for name in ("x_mm", "y_mm", "z_mm", "radius_mm")] for row in table])
+def balls(table, scene):
+    """(x, y, z, radius) in mm, a row a ball, and of each ball the number of its grain."""
+    shapes, rows_of_balls, grain = clumps(scene), [], []
+    for number_of, row in enumerate(table):
+        x, y, z, radius = (float(row[name]) for name in ("x_mm", "y_mm", "z_mm", "radius_mm"))
+        parts = [(x, y, z, radius)]
+        if row["lot"] in shapes:
+            diameter, shape = shapes[row["lot"]]
+            shape = np.array(shape) * (2 * radius / diameter)
+            arms = shape[:, :3] @ space.rotation([float(row[name]) for name in ("q_w", "q_x", "q_y", "q_z")]).T
+            parts = np.column_stack([arms + (x, y, z), shape[:, 3]])
+        rows_of_balls += [tuple(part) for part in parts]
+        grain += [number_of] * len(parts)
+    return np.array(rows_of_balls), np.array(grain)
 
 
 def parts_to_draw(table, values, scene, options):
@@ -225,7 +243,9 @@ def parts_to_draw(table, values, scene, options):
     if "z_mm" not in table[0]:
         shapes = clumps(scene)
         return np.array([(*disc, value) for row, value in zip(table, values) for disc in discs(row, shapes)])
-    x, y, z, radius = balls(table).T
+    seeds, grain = balls(table, scene)
+    x, y, z, radius = seeds.T
+    values = np.asarray(values)[grain]
     if options.view == "side":
         far_first = np.argsort(-z, kind="stable")
         return np.column_stack([x, y, radius, values])[far_first]
@@ -244,8 +264,8 @@ def draw_in_space(table, options):
     scene = read_scene(options.grains)
     values, colours, limits = values_and_colours(table, options)
     of_value = ScalarMappable(Normalize(*limits), colours)
-    of_ball = of_value.to_rgba(values)[:, :3]
-    seeds, camera = balls(table), space.Camera(options.turn, options.raised)
+    seeds, grain = balls(table, scene)
+    of_ball, camera = of_value.to_rgba(values)[grain, :3], space.Camera(options.turn, options.raised)
     if options.open:
         left = (seeds[:, 2] >= middle(scene, seeds[:, 2])) | (seeds[:, 1] < 0)
         seeds, of_ball = seeds[left], of_ball[left]
@@ -266,7 +286,8 @@ def save_picture(picture, scale, of_value, options):
     if of_value:
         bar = figure.add_axes((0.32, 0.7 * band / (tall + band), 0.36, 0.12 * band / (tall + band)))
         figure.colorbar(of_value, cax=bar, label=LABELS[options.by], orientation="horizontal")
-    figure.savefig(options.picture, dpi=100, facecolor="white")
+    small = {"pil_kwargs": {"quality": 90}} if options.picture.endswith(".jpg") else {}
+    figure.savefig(options.picture, dpi=100, facecolor="white", **small)
 
 
 def draw(table, options):
@@ -309,7 +330,7 @@ def draw_bed(options):
 def add_commands(commands):
     parser = command(commands, "draw", draw_bed)
     parser.add_argument("grains", metavar="GRAINS_CSV")
-    parser.add_argument("picture", metavar="PICTURE", help="file to write: .png, .svg or .pdf")
+    parser.add_argument("picture", metavar="PICTURE", help="file to write: .png, .jpg, .svg or .pdf")
     parser.add_argument("--by", choices=["start", "shear", "speed", "lot"], default="start")
     parser.add_argument("--stripe", type=float, metavar="MM", help="height of a stripe of starts; default: a tenth")
     parser.add_argument("--most", type=float, help="value of the darkest colour of shear or speed; default: 95 %% lie below")

@@ -110,10 +110,12 @@ def round_vessel(vessel):
 def shell_of(vessel, lines_of):
     """Of a vessel in its own frame. `lines_of` gives the lines of its side view: with True of all its walls, else of its pieces."""
     depth, length, height = (1e3 * vessel[key] for key in ("depth_m", "length_m", "height_m"))
-    sloped = vessel["funnel_rad"] > 0
-    if vessel["box"] and vessel.get("plan") == "round":
-        return joined([round_vessel(vessel), *drawn_out(lines_of(vessel, False), depth)])
-    parts = drawn_out(lines_of(vessel, vessel["box"] and sloped), depth)
+    sloped, is_round = vessel["funnel_rad"] > 0, vessel.get("plan") == "round"
+    straight = vessel | {"pieces": [piece for piece in vessel["pieces"] if "about_m" not in piece]}
+    parts = [turned_about(piece) for piece in vessel["pieces"] if "about_m" in piece]
+    parts += [drawn_out(line, depth) for line in lines_of(straight, vessel["box"] and sloped and not is_round)]
+    if vessel["box"] and is_round:
+        return joined([round_vessel(vessel), *parts])
     if vessel["box"] and not sloped:
         parts.append(flat_floor(vessel, depth))
         if vessel["sides"] == "walls":
@@ -123,8 +125,25 @@ def shell_of(vessel, lines_of):
     return joined(parts)
 
 
-def drawn_out(lines, depth):
-    return [rectangle((*a, 0), (*(b - a), 0), (0, 0, depth)) for line in lines for a, b in zip(line, line[1:])]
+def drawn_out(line, depth):
+    """From front to back."""
+    front, across = np.column_stack([line, np.zeros(len(line))]), np.array([0, 0, depth])
+    ends = [] if np.allclose(front[0], front[-1]) else [[front[k], front[k] + across] for k in (0, -1)]
+    return Shell([Plate(a, b - a, across) for a, b in zip(front, front[1:])], [front, front + across, *ends])
+
+
+def turned_about(piece):
+    """A line turned about an upright axis."""
+    (x, z), ends = piece["about_m"], [1e3 * np.array(piece[key]) for key in ("from_m", "to_m")]
+    return between_rings(*(circle((1e3 * x, 1e3 * z), radius, height) for radius, height in ends))
+
+
+def rotation(quaternion):
+    """The matrix of a unit quaternion w, x, y, z."""
+    w, x, y, z = quaternion
+    return np.array([[1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)],
+                     [2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)],
+                     [2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)]])
 
 
 class Camera:
@@ -277,7 +296,8 @@ def render(balls, colours, shell, camera, width):
     shadows = Shadows(seen, light, grain)
     everything = np.concatenate([seen, edges])
     near, which = nearest(everything, camera.shape)
-    picture = shaded(near, which, everything, np.concatenate([colours, np.tile(EDGE, (len(edges), 1))]), light, shadows, grain)
+    picture = shaded(near, np.where(which < len(seen), which, -1), seen, colours, light, shadows, grain)
+    picture[which >= len(seen)] = EDGE
     for plate in sorted(shell.plates, key=lambda one: float((camera.see([one.origin]) + camera.see([one.origin + one.along + one.across]))[0, 2])):
         lay_on(picture, near, plate, camera, light, shadows)
     rows, columns = (size // FINE * FINE for size in camera.shape)
