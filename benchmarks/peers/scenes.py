@@ -153,16 +153,16 @@ def tray_in_space():
 
 
 def slot_in_space(rolling, depth=0.04):
-    """The measured slot hopper. Vibrosow's gate opens at 0.5 s; when it has flowed for 0.4 s, all take over."""
+    """The measured slot hopper; Vibrosow's gate opens at 0.1 s; when it has flowed for 0.2 s, all take over."""
     radius, length, height, slot = 3e-3, 0.2, 0.6, (0.08, 0.12)
     mass = 4 / 3 * math.pi * 1592 * radius**3
     walls = (((0, 0), (slot[0], 0)), ((slot[1], 0), (length, 0)), ((0, 0), (0, height)), ((length, 0), (length, height)))
     law = hertz_law(1e7, 0.3, 0.4, restitution=0.85) | {
         'wall_restitution': 0.6, 'tangential_damping': 0.5, 'rolling': rolling, 'rolling_damping': 0.3,
         'rolling_model': 'epsd' if rolling else 'off'}
-    sets = (f'tray.depth={depth!r} m',) + (() if rolling else ('contact.rolling=none', 'contact.rolling_friction='))
+    sets = (f'tray.depth={depth!r} m', 'tray.holes.open_at=0.1 s') + (() if rolling else ('contact.rolling=none', 'contact.rolling_friction='))
     return Scene(name='slot-in-space-rolling' if rolling else 'slot-in-space', deck='slot-in-space', sets=sets,
-                 file='../../seeders/verification/plastic-ball-slot-in-space.toml', lead=0.02, window=0.1, outflow=0, fallen=0.9,
+                 file='../../seeders/verification/plastic-ball-slot-in-space.toml', lead=0.02, window=0.1, outflow=0, fallen=0.3,
                  radius=radius, mass=mass, inertia=0.4 * mass * radius**2, walls=walls, law=law, depth=depth, slot=slot,
                  skin={'lammps': 8e-4, 'liggghts': 8e-4})
 
