@@ -48,9 +48,8 @@ void use_preset(Table& table, const std::string& key, const std::string& kind) {
   Table preset(Document::read(preset_file(table, key, *name, kind), {}, table.files()));
   preset.skip("title");
   if (auto reference = preset.table("reference")) {
-    // Mass is checked against these when presets are tested.
+    // Mass is checked against it when presets are tested.
     reference->quantity("true_density", Dimension::density, 1, 3e4);
-    reference->quantity("thickness", Dimension::length, 5e-5, 1);
   }
   preset.skip("sources");
   table.set_fallback(preset);

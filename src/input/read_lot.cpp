@@ -210,7 +210,7 @@ double read_mass(Table& seeds, const SeedLot& lot) {
     return *mass;
   }
   if (lot.shape == Shape::disc) seeds.fail("density", "gives no mass to a disc, which has no thickness; give mass");
-  if (lot.shape == Shape::clump) return volume_of_balls(lot.discs) * *density;
+  if (lot.shape == Shape::clump) return clump_volume(lot) * *density;
   return std::numbers::pi / 6 * elementary::pow(lot.diameter, 3) * *density;
 }
 

@@ -47,7 +47,7 @@ double least_area(const SeedLot& lot, bool poured) {
 
 /// The same in space, m3: closest packed; of clumps, if poured, their own.
 double least_volume(const SeedLot& lot, bool poured) {
-  if (poured && lot.shape == Shape::clump) return volume_of_balls(lot.discs);
+  if (poured && lot.shape == Shape::clump) return clump_volume(lot);
   return lot.diameter * lot.diameter * lot.diameter / std::numbers::sqrt2;
 }
 

@@ -40,7 +40,7 @@ double mean_volume(const Scene& scene) {
   double volume = 0;
   for (const SeedLot& lot : scene.lots) {
     const double ball = std::numbers::pi / 6 * elementary::pow(lot.diameter, 3);
-    volume += lot.number_fraction * size_moment(lot, 3) * (lot.discs.empty() ? ball : volume_of_balls(lot.discs));
+    volume += lot.number_fraction * size_moment(lot, 3) * (lot.discs.empty() ? ball : clump_volume(lot));
   }
   return volume;
 }

@@ -172,8 +172,6 @@ Plate plate_of(const std::vector<ClumpDisc>& discs) {
 }
 
 double volume_of_balls(const std::vector<ClumpDisc>& discs) {
-  const bool in_plane = std::ranges::all_of(discs, [&](const ClumpDisc& disc) { return disc.z == discs.front().z; });
-  if (!in_plane) return body_of_balls(discs).volume;
   const bool in_a_row = std::ranges::all_of(discs, [&](const ClumpDisc& disc) { return disc.y == discs.front().y; });
   return in_a_row ? row_body(discs).volume : volume_by_heights(discs);
 }

@@ -19,9 +19,10 @@ struct Plate {
 /// Exact to rounding. The discs, at least one and of positive radius, may be apart, contain one another or be equal.
 Plate plate_of(const std::vector<ClumpDisc>& discs);
 
-/// Volume (m3) of the balls whose sections the discs are, overlaps counted once; of a row parallel to x this is the
-/// body of revolution about its axis, in closed form; of others with their centres in one plane the integral over the
-/// height z of the area that the discs of radius sqrt(r^2 - z^2) cover, to 1e-9 of itself; else `body_of_balls`.
+/// Volume (m3) of the balls whose sections the discs are, all centres in one plane, overlaps counted once; of a row
+/// parallel to x this is the body of revolution about its axis, in closed form; of others the integral over the height
+/// z of the area that the discs of radius sqrt(r^2 - z^2) cover, to 1e-9 of itself. Of clumps in space:
+/// `body_of_balls`.
 double volume_of_balls(const std::vector<ClumpDisc>& discs);
 
 /// The discs moved so that the centre of mass of their plate is the origin.

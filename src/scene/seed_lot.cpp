@@ -6,6 +6,7 @@
 #include <limits>
 #include <numbers>
 
+#include "scene/clump_body.hpp"
 #include "scene/clump_shape.hpp"
 
 #include "elementary/functions.hpp"
@@ -103,9 +104,13 @@ std::vector<SeedSizes> sizes_of(const std::vector<SeedLot>& lots) {
   return sizes;
 }
 
+double clump_volume(const SeedLot& lot) {
+  return is_solid_clump(lot) ? body_of_balls(lot.discs).volume : volume_of_balls(lot.discs);
+}
+
 std::optional<double> seed_density(const SeedLot& lot) {
   if (lot.shape == Shape::disc) return std::nullopt;
-  if (lot.shape == Shape::clump) return lot.mass / volume_of_balls(lot.discs);
+  if (lot.shape == Shape::clump) return lot.mass / clump_volume(lot);
   return lot.mass / (std::numbers::pi / 6 * elementary::pow(lot.diameter, 3));
 }
 

@@ -40,8 +40,10 @@ struct SeedSizes {
 };
 std::vector<SeedSizes> sizes_of(const std::vector<SeedLot>& lots);
 
-/// Density of a seed, kg/m3: of a clump as if its discs were balls (volume_of_balls); none of a disc, which has no
-/// thickness.
+/// Volume of a clump of a lot's diameter, m3: of its balls, in the plane as if its discs were balls.
+double clump_volume(const SeedLot& lot);
+
+/// Density of a seed, kg/m3; of a clump by `clump_volume`; none of a disc, which has no thickness.
 std::optional<double> seed_density(const SeedLot& lot);
 
 /// Mean diameter of a lot's seeds across the plane, m: of a clump that of its largest disc, as if it were round about

@@ -76,7 +76,7 @@ double mass_ratio(const toml::table& crop) {
   const double length = quantity(crop["length"], Dimension::length);
   const double width = quantity(crop["width"], Dimension::length);
   const double area = plate_of(shape == "drop" ? drop(length, width) : elongated(length, width)).area;
-  return mass_per_volume / (2.0 / 3 * area * quantity(crop["reference"]["thickness"], Dimension::length));
+  return mass_per_volume / (2.0 / 3 * area * quantity(crop["thickness"], Dimension::length));
 }
 
 TEST(Presets, EveryValueHasASource) {
@@ -113,7 +113,7 @@ TEST(Presets, WheatAtItsGeometricMeanDiameterWouldNotAgree) {
 
 TEST(Presets, WheatAtItsMeasuredLengthWidthAndThicknessWouldNotAgree) {
   EXPECT_NEAR(mass_ratio(toml::parse("shape = 'elongated'\nlength = '7.08 mm'\nwidth = '3.27 mm'\nmass = '29.6 mg'\n"
-                                     "reference = { true_density = '1240 kg/m3', thickness = '2.98 mm' }")),
+                                     "thickness = '2.98 mm'\nreference.true_density = '1240 kg/m3'")),
               29.6 / 41.7, 0.01);
 }
 

@@ -90,8 +90,11 @@ TEST(ReadLot, InSpaceARoundSeedIsARowOfBalls) {
   EXPECT_NEAR(lot.diameter, 7e-3, 1e-15);
   ASSERT_EQ(lot.discs.size(), plane.discs.size());
   for (std::size_t k = 0; k < lot.discs.size(); ++k) EXPECT_NEAR(lot.discs[k].x, plane.discs[k].x, 1e-17);
-  // Near a spheroid's (b^2 + c^2) / 5.
-  EXPECT_NEAR(lot.gyration2_x, 2 * 1.5e-3 * 1.5e-3 / 5, 0.08 * lot.gyration2_x);
+  const RowBody row = row_body(plane.discs);
+  EXPECT_NEAR(lot.gyration2_x, 2 * row.across, 1e-12 * lot.gyration2_x);
+  EXPECT_NEAR(lot.gyration2, row.along + row.across, 1e-12 * lot.gyration2);
+  // A spheroid has (b^2 + c^2) / 5, and no valleys far from its axis.
+  EXPECT_LT(lot.gyration2_x, 2 * 1.5e-3 * 1.5e-3 / 5);
   EXPECT_NEAR(lot.gyration2, (3.5e-3 * 3.5e-3 + 1.5e-3 * 1.5e-3) / 5, 0.08 * lot.gyration2);
   EXPECT_EQ(lot.gyration2_y, lot.gyration2);
 }

@@ -3,7 +3,11 @@
 
 #include <cmath>
 
+#include "grains/size_distribution.hpp"
+#include "grains/turning_clump.hpp"
+#include "scene/cross_product.hpp"
 #include "support/bench.hpp"
+#include "support/solid_clumps.hpp"
 #include "verification/tables.hpp"
 
 namespace vibrosow {
@@ -127,6 +131,71 @@ TEST(Clump, AnImpactOffCentreIsThatOfARigidBody) {
                        spin, restitution, measured, velocity, g.vy[0] + speed, 100 * ((g.vy[0] + speed) / velocity - 1),
                        turn, g.omega[0] - spin, 100 * ((g.omega[0] - spin) / turn - 1));
           }
+}
+
+// The same in space, turned at random: the impulse along n at r changes the velocity by J n / m and the spin by I^-1 (r
+// x n) J, J = (1 + e) u / (1/m + (r x n) I^-1 (r x n)).
+TEST(Clump, AnImpactOfAClumpOfBallsIsThatOfARigidBody) {
+  VerificationReport report(
+      "clump_impact_in_space",
+      "a clump of balls falls on the floor with one ball, frictionless, turned at random; change of "
+      "velocity and spin against the rigid body's",
+      {"law", "clump", "turned", "restitution_asked", "restitution", "velocity_change_theory_m_per_s",
+       "velocity_change_m_per_s", "velocity_deviation_percent", "spin_change_theory_rad_per_s",
+       "spin_deviation_percent"});
+  for (const Law law : {Law::elastic_shell, Law::hertz})
+    for (const bool is_dipole : {true, false})
+      for (const double restitution : {1.0, 0.5}) {
+        Random random(5);
+        for (int turned = 1; turned <= 4; ++turned) {
+          const SeedLot lot = solid_lot(is_dipole ? dipole_discs() : odd_balls(), clump_mass);
+          Scene scene = clump_scene(lot);
+          scene.contact.law = law;
+          scene.contact.shell_compression = 1e-8;
+          scene.contact.youngs_modulus = 1e13;  // stiff enough to turn by nothing during the contact
+          scene.contact.wall.restitution = restitution;
+          constexpr double dt = 5e-10, speed = 0.5;
+          Model model = with_step(prepare(scene), dt);
+          model.gravity = {0, 0};
+          const Orientation q = draw_orientation(random);
+          const Eigen::Matrix3d axes = rotation_matrix(q);
+          double lowest = 1;
+          Eigen::Vector3d arm = Eigen::Vector3d::Zero();  // of the ball that touches
+          for (const ClumpDisc& ball : lot.discs) {
+            const Eigen::Vector3d at = axes * Eigen::Vector3d(ball.x, ball.y, ball.z);
+            if (at.y() - ball.radius < lowest) lowest = at.y() - ball.radius, arm = at;
+          }
+          const Eigen::Vector3d spin(3, -20, 10), up(0, 1, 0);
+          const Eigen::Vector3d inertia = clump_mass * Eigen::Vector3d(lot.gyration2_x, lot.gyration2_y, lot.gyration2);
+          const Eigen::Vector3d lever = cross(arm, up);
+          const Eigen::Vector3d turn = axes * (axes.transpose() * lever).cwiseQuotient(inertia);  // by a unit impulse
+          const double approach = speed - up.dot(cross(spin, arm));
+          ASSERT_GT(approach, 0);
+          Simulation run(model,
+                         start_of(model, {{{0.5, 2.37 * approach * dt - lowest, 0.5}, {0, -speed, 0}, spin, q}}));
+          std::int64_t touched = 0, free_steps = 0;
+          while (free_steps < 10 && run.time() < 1e-3) {
+            ASSERT_TRUE(run.step()) << *run.guard().stop_reason();
+            const bool pushed = run.field().forces_in_space()[0].y > 0;
+            touched += pushed ? 1 : 0;
+            free_steps = touched > 0 && !pushed ? free_steps + 1 : 0;
+          }
+          ASSERT_GT(touched, 100);
+          const Grains& g = run.grains();
+          const Eigen::Vector3d spin_change = spin_of(g, 0) - spin;
+          const double measured = (g.vy[0] + up.dot(cross(spin_of(g, 0), arm))) / approach;
+          const double impulse = (1 + (restitution < 1 ? measured : 1)) * approach / (1 / clump_mass + lever.dot(turn));
+          SCOPED_TRACE(testing::Message() << is_dipole << " " << turned << " " << restitution);
+          EXPECT_NEAR(g.vy[0] + speed, impulse / clump_mass, 0.005 * impulse / clump_mass);
+          const double off = (spin_change - impulse * turn).norm();
+          EXPECT_NEAR(off, 0, 0.005 * impulse * turn.norm());
+          EXPECT_EQ(Eigen::Vector2d(g.vx[0], g.vz[0]), Eigen::Vector2d(0, 0));
+          report.add(law == Law::hertz ? "hertz" : "elastic_shell", is_dipole ? "dipole" : "four balls", turned,
+                     restitution, measured, impulse / clump_mass, g.vy[0] + speed,
+                     100 * ((g.vy[0] + speed) * clump_mass / impulse - 1), impulse * turn.norm(),
+                     100 * off / (impulse * turn.norm()));
+        }
+      }
 }
 
 // A clump of one disc with a ball's moment of inertia is the ball, to the bit.
