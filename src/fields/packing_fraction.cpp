@@ -8,6 +8,7 @@
 
 #include "elementary/functions.hpp"
 #include "fields/tray_frame.hpp"
+#include "grains/orientation.hpp"
 
 namespace vibrosow {
 namespace {
@@ -91,6 +92,18 @@ double covered_of(const CoveringDisc& disc, const Eigen::Vector2d& low, const Ei
   return disc.fraction * ball_in_box(disc.radius, {low.x(), low.y(), front}, {high.x(), high.y(), back});
 }
 
+void add_balls_of_clump(const Snapshot& s, const SeedLot& lot, std::size_t i, std::vector<CoveringDisc>& covering) {
+  const double size = 2 * s.radius[i] / lot.diameter;
+  const Eigen::Matrix3d turn = rotation_matrix({s.q_w[i], s.q_x[i], s.q_y[i], s.q_z[i]});
+  double volume = 0;
+  for (const ClumpDisc& ball : lot.discs) volume += 4 * pi / 3 * elementary::pow(size * ball.radius, 3);
+  for (const ClumpDisc& ball : lot.discs) {
+    const Eigen::Vector3d arm = size * (turn * Eigen::Vector3d(ball.x, ball.y, ball.z));
+    covering.push_back(
+        {s.x[i] + arm.x(), s.y[i] + arm.y(), size * ball.radius, s.volume[i] / volume, s.z[i] + arm.z()});
+  }
+}
+
 }  // namespace
 
 double disc_in_rectangle(double radius, const Eigen::Vector2d& low, const Eigen::Vector2d& high) {
@@ -117,12 +130,13 @@ std::vector<CoveringDisc> covering_discs(const Snapshot& snapshot, const std::ve
   std::vector<CoveringDisc> covering;
   for (std::size_t i = 0; i < snapshot.size(); ++i) {
     const auto lot = static_cast<std::size_t>(snapshot.lot[i]);
-    if (snapshot.in_space()) {
-      covering.push_back({snapshot.x[i], snapshot.y[i], snapshot.radius[i], 1, snapshot.z[i]});
+    if ((snapshot.angle.empty() && snapshot.q_w.empty()) || lots[lot].discs.empty()) {
+      covering.push_back(
+          {snapshot.x[i], snapshot.y[i], snapshot.radius[i], 1, snapshot.in_space() ? snapshot.z[i] : 0});
       continue;
     }
-    if (snapshot.angle.empty() || lots[lot].discs.empty()) {
-      covering.push_back({snapshot.x[i], snapshot.y[i], snapshot.radius[i], 1});
+    if (snapshot.in_space()) {
+      add_balls_of_clump(snapshot, lots[lot], i, covering);
       continue;
     }
     const double size = 2 * snapshot.radius[i] / lots[lot].diameter;

@@ -29,8 +29,8 @@ struct CoveringDisc {
 };
 
 /// All discs of the grains, in space all balls. A clump's discs count with the same fraction each, so that together
-/// they have the clump's area, overlaps counted once: exact for the whole clump, even over it where a line cuts it.
-/// `lots`: the scene's.
+/// they have the clump's area (volume), overlaps counted once: exact for the whole clump, even over it where a line
+/// cuts it. `lots`: the scene's.
 std::vector<CoveringDisc> covering_discs(const Snapshot& snapshot, const std::vector<SeedLot>& lots);
 
 /// Share of each cell's area that grains cover, exact for discs; where two grains overlap their common area counts

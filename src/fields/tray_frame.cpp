@@ -1,5 +1,7 @@
 #include "fields/tray_frame.hpp"
 
+#include "elementary/functions.hpp"
+#include "grains/orientation.hpp"
 #include "scene/motion.hpp"
 #include "vessel/directions.hpp"
 
@@ -29,6 +31,16 @@ void take_off_what_is_across(Snapshot& own, double front, const Eigen::Matrix2d&
   }
 }
 
+/// By an angle (rad) about the axis across.
+void turn_clumps_back(Snapshot& own, double angle) {
+  if (angle == 0) return;
+  const Orientation back{elementary::cos(0.5 * angle), 0, 0, -elementary::sin(0.5 * angle)};
+  for (std::size_t i = 0; i < own.q_w.size(); ++i) {
+    const Orientation q = back * Orientation{own.q_w[i], own.q_x[i], own.q_y[i], own.q_z[i]};
+    own.q_w[i] = q.w, own.q_x[i] = q.x, own.q_y[i] = q.y, own.q_z[i] = q.z;
+  }
+}
+
 }  // namespace
 
 Snapshot in_tray_frame(const Snapshot& lab, const Vessel& tray) {
@@ -52,6 +64,7 @@ Snapshot in_tray_frame(const Snapshot& lab, const Vessel& tray) {
     own.start_x[i] = start.x(), own.start_y[i] = start.y();
   }
   for (double& angle : own.angle) angle -= tray.tilt + lab.tray_angle;
+  turn_clumps_back(own, tray.tilt + lab.tray_angle);
   if (lab.in_space()) take_off_what_is_across(own, tray.front, now);
   put_at_rest(own);
   return own;

@@ -55,6 +55,12 @@ Columns<GrainRow> grains_columns(Space space) {
     return place_column<GrainRow>(std::move(name), std::move(description),
                                   [values](R r) { return (r.own->*values)[r.i]; });
   };
+  const auto quaternion = [](std::string name, std::vector<double> Snapshot::*values) {
+    return quantity_column<GrainRow>(
+        std::move(name), plain,
+        "in space: of the rotation from a clump's own axes to the tray's; empty in a scene without clumps",
+        [values](R r) { return (r.own->*values).empty() ? Value() : Value((r.own->*values)[r.i]); });
+  };
   Columns<GrainRow> columns = {
       text_column<GrainRow>("id", "number of the grain, in order of insertion, the same in every snapshot",
                             [](R r) { return r.own->id[r.i]; }),
@@ -64,9 +70,10 @@ Columns<GrainRow> grains_columns(Space space) {
       quantity("vx_m_per_s", metres_per_second, "velocity along the floor", &Snapshot::vx),
       quantity("vy_m_per_s", metres_per_second, "velocity upwards", &Snapshot::vy),
       quantity("omega_rad_per_s", radians_per_second, "angular velocity, anticlockwise", &Snapshot::omega),
-      quantity_column<GrainRow>("angle_rad", radians, "how far a clump is turned; empty in a scene without clumps",
+      quantity_column<GrainRow>("angle_rad", radians,
+                                "in the plane: how far a clump is turned; empty in a scene without clumps",
                                 [](R r) { return r.own->angle.empty() ? Value() : Value(r.own->angle[r.i]); }),
-      quantity("radius_mm", millimetres, "radius of the grain, of a clump of the circle that just holds it",
+      quantity("radius_mm", millimetres, "radius of the grain, of a clump of the circle or ball that just holds it",
                &Snapshot::radius),
       quantity("start_x_mm", millimetres, "where it was put in", &Snapshot::start_x),
       quantity("start_y_mm", millimetres, "where it was put in", &Snapshot::start_y),
@@ -80,7 +87,9 @@ Columns<GrainRow> grains_columns(Space space) {
                             "in space: angular velocity about the floor's length", &Snapshot::omega_x),
                    quantity("omega_y_rad_per_s", radians_per_second,
                             "in space: angular velocity about the upright axis", &Snapshot::omega_y),
-                   quantity("start_z_mm", millimetres, "in space: where it was put in", &Snapshot::start_z)});
+                   quantity("start_z_mm", millimetres, "in space: where it was put in", &Snapshot::start_z),
+                   quaternion("q_w", &Snapshot::q_w), quaternion("q_x", &Snapshot::q_x),
+                   quaternion("q_y", &Snapshot::q_y), quaternion("q_z", &Snapshot::q_z)});
   return columns;
 }
 

@@ -23,11 +23,12 @@ struct Snapshot {
   std::vector<double> area;              // m2, of the grain itself, a clump's overlaps counted once; empty in space
   std::vector<double> start_x, start_y;  // m, where the grain was put in
   // In space, empty in the plane:
-  double tray_z = 0, tray_vz = 0;            // m, m/s, across
-  std::vector<double> z{}, vz{};             // m, m/s, across
-  std::vector<double> omega_x{}, omega_y{};  // rad/s; 0 without rotation
-  std::vector<double> start_z{};             // m
-  std::vector<double> volume{};              // m3, of the grain itself
+  double tray_z = 0, tray_vz = 0;                  // m, m/s, across
+  std::vector<double> z{}, vz{};                   // m, m/s, across
+  std::vector<double> omega_x{}, omega_y{};        // rad/s; 0 without rotation
+  std::vector<double> q_w{}, q_x{}, q_y{}, q_z{};  // how a clump lies, as Grains has it; empty without clumps
+  std::vector<double> start_z{};                   // m
+  std::vector<double> volume{};                    // m3, of the grain itself
 
   std::size_t size() const { return x.size(); }
   bool in_space() const { return !z.empty(); }

@@ -138,7 +138,7 @@ template <class Archive>
 void serialize(Archive& archive, Snapshot& s) {
   archive(s.time, s.tray_x, s.tray_y, s.tray_angle, s.tray_vx, s.tray_vy, s.tray_spin, s.x, s.y, s.vx, s.vy, s.omega,
           s.angle, s.lot, s.id, s.radius, s.mass, s.area, s.start_x, s.start_y);
-  archive(s.tray_z, s.tray_vz, s.z, s.vz, s.omega_x, s.omega_y, s.start_z, s.volume);
+  archive(s.tray_z, s.tray_vz, s.z, s.vz, s.omega_x, s.omega_y, s.q_w, s.q_x, s.q_y, s.q_z, s.start_z, s.volume);
 }
 template <class Archive>
 void serialize(Archive& archive, EnergyAccount& e) {
@@ -164,7 +164,7 @@ namespace {
 
 constexpr std::string_view signature = "vibrosow checkpoint\n";
 /// To be raised whenever a state has other fields, or goes on differently.
-constexpr std::uint32_t version = 5;
+constexpr std::uint32_t version = 6;
 
 std::uint32_t checksum(std::string_view bytes) {
   boost::crc_32_type crc;

@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <numbers>
 
+#include "scene/clump_body.hpp"
 #include "scene/clump_shape.hpp"
+#include "scene/seed_lot.hpp"
 #include "vessel/vessel_motion.hpp"
 
 namespace vibrosow {
@@ -17,6 +19,14 @@ double ball_volume(double radius) {
   return 4 * std::numbers::pi / 3 * (radius * radius * radius);
 }
 
+/// A lot's grain is so much of its circle, in space of its ball.
+double filled_by(const SeedLot& lot) {
+  if (lot.discs.empty()) return 1;
+  const double radius = 0.5 * lot.diameter;
+  if (is_solid_clump(lot)) return body_of_balls(lot.discs).volume / ball_volume(radius);
+  return plate_of(lot.discs).area / circle_area(radius);
+}
+
 /// An array of an absent effect is empty.
 std::vector<double> or_zeros(std::vector<double> values, std::size_t size) {
   values.resize(size, 0.0);
@@ -26,8 +36,7 @@ std::vector<double> or_zeros(std::vector<double> values, std::size_t size) {
 }  // namespace
 
 Recorder::Recorder(const Scene& scene, RecorderState& state) : times_(scene.record->times), state_(state) {
-  for (const SeedLot& lot : scene.lots)
-    filled_.push_back(lot.discs.empty() ? 1.0 : plate_of(lot.discs).area / circle_area(0.5 * lot.diameter));
+  for (const SeedLot& lot : scene.lots) filled_.push_back(filled_by(lot));
 }
 
 void Recorder::note_new(const Grains& grains) {
@@ -79,6 +88,7 @@ Snapshot Recorder::snapshot(const Grains& grains, const Walls& walls, double tim
   if (grains.in_space) {
     s.tray_z = pose.across, s.tray_vz = rate.across_velocity;
     s.z = grains.z, s.vz = grains.vz;
+    s.q_w = grains.q_w, s.q_x = grains.q_x, s.q_y = grains.q_y, s.q_z = grains.q_z;
     s.omega_x = or_zeros(grains.omega_x, grains.size()), s.omega_y = or_zeros(grains.omega_y, grains.size());
   }
   return s;

@@ -191,6 +191,33 @@ TEST(MapPart, IsAllOfTheDepthOrACellInItsMiddle) {
   EXPECT_EQ(map_part(scene).depth(), 2e-3) << "no thicker than the tray";
 }
 
+TEST(PackingFraction, AClumpInSpaceIsItsBallsWithOverlapsCountedOnce) {
+  SeedLot lot = overlapping_pair();
+  lot.discs[0].z = lot.discs[1].z = 0.5e-3;
+  Snapshot s;
+  put_ball(s, V3(0, 1e-3, 2e-3), V3::Zero(), 0, 6e-3);  // twice the lot's size
+  // Its x axis lies across, its z axis upright: a third of a turn about the diagonal, z to y, y to x, x to z.
+  s.q_w = {0.5}, s.q_x = s.q_y = s.q_z = {-0.5};
+  // Less the lens of two caps of half the overlap's height, pi h^2 (3 r - h) / 3 each.
+  s.volume[0] = 2 * (256e-9 * pi / 3) - 2 * (pi * 4e-6 * 10e-3 / 3);
+  const auto covering = covering_discs(s, {lot});
+  ASSERT_EQ(covering.size(), 2u);
+  double volume = 0;
+  for (const CoveringDisc& ball : covering) {
+    EXPECT_NEAR(ball.x, 0, 1e-18);
+    EXPECT_NEAR(ball.y, 2e-3, 1e-18);
+    EXPECT_EQ(ball.radius, 4e-3);
+    volume += ball.fraction * 4 * pi / 3 * 64e-9;
+  }
+  EXPECT_NEAR(covering[0].z, 0, 1e-18);
+  EXPECT_NEAR(covering[1].z, 4e-3, 1e-18);
+  EXPECT_NEAR(volume, s.volume[0], 1e-20);
+  double in_cells = 0;
+  const Grid grid = grid_over({&s}, 1e-3);
+  for (const double fraction : packing_fraction(s, {lot}, grid, {-5e-3, 10e-3, false})) in_cells += fraction * 15e-9;
+  EXPECT_NEAR(in_cells, s.volume[0], 1e-19);
+}
+
 TEST(BedPacking, OfABodyCentredPackingInSpace) {
   const auto same = [](const V3& at) { return at; };
   Snapshot s = body_centred_bed(24, same, [](const V3&) { return V3(0, 0, 0); });

@@ -60,6 +60,22 @@ TEST(TrayFrame, OfATrayThatTurnsOverAndOverItIsTheFrameAtRest) {
   EXPECT_EQ(own.tray_angle, 0);
 }
 
+TEST(TrayFrame, AClumpInSpaceIsTurnedBackWithTheTray) {
+  Vessel tray = made_up_tray(0.4);
+  tray.depth = 0.06;
+  tray.tilt = 0.2;
+  Snapshot lab;
+  lab.tray_angle = 0.3;
+  put_ball(lab, {0, 0, 0.03});
+  // By 0.7 about the axis across, after half a turn about x.
+  lab.q_w = {0}, lab.q_x = {std::cos(0.35)}, lab.q_y = {std::sin(0.35)}, lab.q_z = {0};
+  const Snapshot own = in_tray_frame(lab, tray);
+  EXPECT_NEAR(own.q_w[0], 0, 1e-15);
+  EXPECT_NEAR(own.q_x[0], std::cos(0.1), 1e-15);
+  EXPECT_NEAR(own.q_y[0], std::sin(0.1), 1e-15);
+  EXPECT_NEAR(own.q_z[0], 0, 1e-15);
+}
+
 TEST(TrayFrame, TakesOffWhatIsAcrossAndTurnsSpinsWithTheTray) {
   Vessel tray = made_up_tray(0.4);
   tray.depth = 0.06;
@@ -78,6 +94,7 @@ TEST(TrayFrame, TakesOffWhatIsAcrossAndTurnsSpinsWithTheTray) {
   EXPECT_NEAR(own.omega_y[0], 0, 1e-15);
   EXPECT_NEAR(own.start_z[0], 0.03, 1e-15);
   EXPECT_EQ(own.tray_z, 0);
+  EXPECT_TRUE(own.q_w.empty());
   EXPECT_EQ(grains_in_tray(own, tray), (std::vector<std::size_t>{0, 1})) << "the last is behind the back";
 }
 

@@ -110,11 +110,13 @@ class RecordReportInSpace : public RecordReport {
 TEST_F(RecordReportInSpace, GrainsHaveColumnsMoreAndFieldsTheirMeanOverTheDepth) {
   EXPECT_EQ(grains_csv(scene, run.snapshots[1], &run.snapshots[0]),
             "id,lot,x_mm,y_mm,vx_m_per_s,vy_m_per_s,omega_rad_per_s,angle_rad,radius_mm,start_x_mm,start_y_mm,shear,"
-            "z_mm,vz_m_per_s,omega_x_rad_per_s,omega_y_rad_per_s,start_z_mm\n"
-            "4,wheat,7.5,2.5,0,0,0,,2,0,0,0.5,6,0,0,0,0\n"
-            "5,wheat,12.5,2.5,0,0,0,,2,0,0,0.5,10,0.25,0,0,0\n"
-            "6,weed,10,7.5,0.01,0,1,,2,30,20,0.5,6,0,2,3,10\n"
-            "7,wheat,7.5,2.5,0,0,0,,2,0,0,0.5,14,0,0,0,0\n");
+            "z_mm,vz_m_per_s,omega_x_rad_per_s,omega_y_rad_per_s,start_z_mm,q_w,q_x,q_y,q_z\n"
+            "4,wheat,7.5,2.5,0,0,0,,2,0,0,0.5,6,0,0,0,0,,,,\n"
+            "5,wheat,12.5,2.5,0,0,0,,2,0,0,0.5,10,0.25,0,0,0,,,,\n"
+            "6,weed,10,7.5,0.01,0,1,,2,30,20,0.5,6,0,2,3,10,,,,\n"
+            "7,wheat,7.5,2.5,0,0,0,,2,0,0,0.5,14,0,0,0,0,,,,\n");
+  for (Snapshot& s : run.snapshots) s.q_w.assign(4, 0.5), s.q_x = s.q_y = s.q_z = s.q_w;
+  EXPECT_NE(grains_csv(scene, run.snapshots[1], nullptr).find("14,0,0,0,0,0.5,0.5,0.5,0.5\n"), std::string::npos);
   // 4 / 3 pi 8 of a cell of 25 mm2 through 20 mm; two balls in the first cell.
   const std::string text = fields_csv(scene, run.snapshots[0], nullptr);
   EXPECT_NE(text.find(",dilation_rate_per_s,vz_m_per_s\n7.5,2.5,0.134041,,"), std::string::npos) << text;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "scene/clump_body.hpp"
 #include "scene/clump_shape.hpp"
 #include "simulation/checkpoint.hpp"
 #include "simulation/simulate.hpp"
@@ -131,12 +132,37 @@ TEST(Recorder, BallsInSpaceHaveTheirVolumeAndWhatIsAcross) {
   EXPECT_GT(s.tray_z, 1e-4);
 }
 
+TEST(Recorder, ClumpsInSpaceHaveTheirQuaternionAndTheirOwnVolume) {
+  Bench bench;
+  bench.scene.space = Space::three_dimensional;
+  bench.scene.tray.depth = 0.1;
+  bench.scene.record = Record{{0}, 0.01};
+  SeedLot& lot = bench.scene.lots[0];
+  lot.shape = Shape::clump;
+  const SolidClump clump = solid_clump({{-1.5e-3, 0, 2e-3}, {1.5e-3, 0, 2e-3}});
+  lot.discs = clump.balls, lot.diameter = 7e-3;
+  lot.gyration2_x = clump.gyration2.x(), lot.gyration2_y = clump.gyration2.y(), lot.gyration2 = clump.gyration2.z();
+  const Model model = with_step(prepare(bench.scene), 1e-4);
+  Grains grains = no_grains(model);
+  grains.add(Eigen::Vector3d(0.2, 0.05, 0.03), Eigen::Vector3d::Zero(), 0, model.kinds.front(),
+             {.orientation = {0.5, 0.5, -0.5, 0.5}});
+  const vibrosow::Run run = Simulation(model, starting_state(model, 1, grains)).result();
+  const Snapshot& s = run.snapshots.at(0);
+  EXPECT_EQ(s.q_w, std::vector<double>{0.5});
+  EXPECT_EQ(s.q_y, std::vector<double>{-0.5});
+  EXPECT_TRUE(s.angle.empty());
+  // Less the lens of two caps 0.5 mm high, pi h^2 (3 r - h) / 3 each.
+  const double pi = std::numbers::pi;
+  EXPECT_NEAR(s.volume.at(0), 64e-9 * pi / 3 - 2 * (pi * 0.25e-6 * 5.5e-3 / 3), 1e-20);
+}
+
 TEST(Recorder, InThePlaneWhatIsAcrossIsEmpty) {
   Bench bench;
   bench.scene.record = Record{{0}, 0.01};
   bench.place(0.2, 0.5);
   const Snapshot s = bench.start(1e-4).result().snapshots.at(0);
-  for (const auto* array : {&s.z, &s.vz, &s.omega_x, &s.omega_y, &s.start_z, &s.volume}) EXPECT_TRUE(array->empty());
+  for (const auto* array : {&s.z, &s.vz, &s.omega_x, &s.omega_y, &s.start_z, &s.volume, &s.q_w})
+    EXPECT_TRUE(array->empty());
 }
 
 TEST(Recorder, AreaOfADiscIsItsCircles) {
