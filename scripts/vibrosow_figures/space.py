@@ -233,7 +233,7 @@ def rods(lines, camera, radius):
     for line in lines:
         seen = camera.see(line)
         for a, b in zip(seen, seen[1:]):
-            steps = max(2, math.ceil(np.linalg.norm(b - a) / (0.5 * radius)))
+            steps = max(2, math.ceil(np.linalg.norm(b - a) / (0.2 * radius)))
             balls.append(a + np.linspace(0, 1, steps)[:, None] * (b - a))
     places = np.concatenate(balls)
     return np.column_stack([places, np.full(len(places), radius)])
