@@ -64,8 +64,8 @@ class Start:
 def run_vibrosow(bench, scene, duration, *options):
     out = bench.work / 'vibrosow'
     sets = [f'run.duration={duration!r} s', *scene.sets]
-    bench.output_of([bench.vibrosow, 'run', HERE / scene.file, '--quiet', '--out', out, *options] +
-                    [word for text in sets for word in ('--set', text)])
+    bench.output_of([bench.vibrosow, 'run', HERE / scene.file, '--quiet', '--out', out] +
+                    [word for text in sets for word in ('--set', text)] + list(options))
     return json.loads((out / 'run.json').read_text()), json.loads((out / 'timing.json').read_text())
 
 

@@ -160,7 +160,7 @@ def slot_in_space(rolling, depth=0.04):
     law = hertz_law(1e7, 0.3, 0.4, restitution=0.85) | {
         'wall_restitution': 0.6, 'tangential_damping': 0.5, 'rolling': rolling, 'rolling_damping': 0.3,
         'rolling_model': 'epsd' if rolling else 'off'}
-    sets = (f'tray.depth={depth!r} m', 'tray.holes.open_at=0.1 s') + (() if rolling else ('contact.rolling=none', 'contact.rolling_friction='))
+    sets = (f'tray.depth={depth!r} m', 'tray.holes.open_at=0.1 s', 'run.measure_from=') + (() if rolling else ('contact.rolling=none', 'contact.rolling_friction='))
     return Scene(name='slot-in-space-rolling' if rolling else 'slot-in-space', deck='slot-in-space', sets=sets,
                  file='../../seeders/verification/plastic-ball-slot-in-space.toml', lead=0.02, window=0.1, outflow=0, fallen=0.3,
                  radius=radius, mass=mass, inertia=0.4 * mass * radius**2, walls=walls, law=law, depth=depth, slot=slot,
