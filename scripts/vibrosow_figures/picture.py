@@ -276,7 +276,7 @@ def draw_in_space(table, options):
 def save_picture(picture, scale, of_value, options):
     """`scale`: picture elements a mm; the value's bar stands below the picture."""
     tall, wide = picture.shape[:2]
-    band = 0.07 * wide if of_value else 0
+    band = max(70, 0.07 * wide) if of_value else 0
     figure = pyplot.figure(figsize=(wide / 100, (tall + band) / 100), dpi=100)
     axes = figure.add_axes((0, band / (tall + band), 1, tall / (tall + band)))
     axes.imshow(picture, interpolation="none", extent=(0, wide / scale, 0, tall / scale), aspect="auto")
