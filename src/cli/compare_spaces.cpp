@@ -49,8 +49,8 @@ void print_space_advice(const Scene& scene) {
   print_text(wrapped_beside(
       "  ",
       flat ? "which layout or frequency sows more, and roughly by how much, is a question for the plane; an absolute "
-             "rate, round holes, or holes narrower than some eight seeds need space = \"3d\" (the one measured "
-             "discharge through a slot: see reports/slot-in-space.md)"
+             "rate, round holes, or holes narrower than some eight seeds need space = \"3d\": through the one "
+             "measured slot the plane is 12 % fast, space 5 %"
            : "absolute rates and round holes; for comparing many layouts of slots the plane is some hundred times "
              "as fast"));
   print("  check --both runs the two and prints their ratio\n");

@@ -24,7 +24,9 @@ std::optional<double> flux_asymmetry(const Snapshot& own, const Vessel& tray) {
 }
 
 std::optional<double> surface_asymmetry(const Snapshot& own, const Vessel& tray, double cell) {
-  const auto parts = [&](double length) { return std::max<std::size_t>(1, std::lround(length / cell)); };
+  const auto parts = [&](double length) {
+    return std::max<std::size_t>(1, static_cast<std::size_t>(std::lround(length / cell)));
+  };
   const std::size_t half = parts(0.5 * tray.length), rows = own.in_space() ? parts(*tray.depth) : 1;
   const auto part = [](double at, double length, std::size_t count) {
     return std::min(static_cast<std::size_t>(at / length * static_cast<double>(count)), count - 1);
