@@ -51,8 +51,7 @@ void print_space_advice(const Scene& scene) {
       flat ? "which layout or frequency sows more, and roughly by how much, is a question for the plane; an absolute "
              "rate, round holes, or holes narrower than some eight seeds need space = \"3d\": through the one "
              "measured slot the plane is 12 % fast, space 5 %"
-           : "absolute rates and round holes; for comparing many layouts of slots the plane is some hundred times "
-             "as fast"));
+           : "absolute rates and round holes; for comparing many layouts of slots the plane is far faster"));
   print("  check --both runs the two and prints their ratio\n");
 }
 

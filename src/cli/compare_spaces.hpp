@@ -7,7 +7,8 @@ namespace vibrosow {
 /// Says which of plane and space a question to this scene needs.
 void print_space_advice(const Scene& scene);
 
-/// Runs a scene in the plane and in space and prints the rates of both and their ratio; an exit code.
+/// Runs a scene in the plane and in space and prints the rates of both and their ratio; an exit code. Throws InputError
+/// without `tray.depth`, or where one of the two cannot be run.
 int run_in_both_spaces(const Scene& scene);
 
 }  // namespace vibrosow

@@ -13,6 +13,7 @@
 #include "scene/clump_shape.hpp"
 #include "scene/motion.hpp"
 #include "scene/seed_lot.hpp"
+#include "scene/spaces.hpp"
 #include "vessel/vessel_walls.hpp"
 
 namespace vibrosow {
@@ -58,8 +59,7 @@ double most_seeds(const Vessel& vessel, const std::vector<SeedLot>& lots, Space 
   for (const SeedLot& lot : lots)
     per_seed += lot.number_fraction * size_moment(lot, flat ? 2 : 3) *
                 (flat ? least_area(lot, poured) : least_volume(lot, poured));
-  const double outline = vessel.plan == Plan::round && !flat ? std::numbers::pi / 4 : 1;
-  return vessel.length * vessel.height * (flat ? 1 : outline * *vessel.depth) / per_seed;
+  return (flat ? vessel.length : floor_area(vessel)) * vessel.height / per_seed;
 }
 
 /// Too crude to promise that a fill fits, but what fails here cannot fit.

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "elementary/functions.hpp"
+#include "scene/spaces.hpp"
 #include "vessel/vessel_motion.hpp"
 
 namespace vibrosow {
@@ -18,8 +18,7 @@ double mean_diameter(const std::vector<SeedLot>& lots, const std::vector<SeedSiz
 
 double seeds_of_a_layer(const Vessel& vessel, double diameter, Space space) {
   if (space == Space::plane) return vessel.length / diameter;
-  const double outline = vessel.plan == Plan::round ? std::numbers::pi / 4 : 1;
-  return outline * vessel.length * *vessel.depth / (diameter * diameter);
+  return floor_area(vessel) / (diameter * diameter);
 }
 
 /// At most: all that rains while the run lasts stays, up to the vessel's height.

@@ -9,6 +9,7 @@
 #include "scene/clump_shape.hpp"
 #include "scene/motion.hpp"
 #include "scene/seed_lot.hpp"
+#include "scene/spaces.hpp"
 
 namespace vibrosow {
 namespace {
@@ -54,8 +55,7 @@ double equal_diameter(const Scene& scene) {
 /// Grains of a bed over an area (m2) of the plane, in space over all of a vessel's depth.
 double grains_over(double area, const Scene& scene, const Vessel& vessel) {
   if (is_flat(scene)) return area * packing_fraction / mean_area(scene);
-  const double outline = vessel.plan == Plan::round ? std::numbers::pi / 4 : 1;
-  return outline * area * *vessel.depth * packing_fraction_in_space / mean_volume(scene);
+  return area / vessel.length * floor_area(vessel) * packing_fraction_in_space / mean_volume(scene);
 }
 
 bool is_shaken(const Vessel& vessel) {

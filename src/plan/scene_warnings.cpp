@@ -9,6 +9,7 @@
 #include "elementary/functions.hpp"
 #include "scene/motion.hpp"
 #include "scene/seed_lot.hpp"
+#include "scene/spaces.hpp"
 
 namespace vibrosow {
 namespace {
@@ -78,7 +79,7 @@ double most_seeds(const Scene& scene, const Vessel& vessel, double height) {
       const double thickness = mean_thickness(lot);
       return thickness * thickness * thickness / std::numbers::sqrt2;
     });
-    return vessel.length * *vessel.depth * height / volume;
+    return floor_area(vessel) * height / volume;
   }
   const double area = mean_over_seeds(scene, [](const SeedLot& lot) {
     const double thickness = mean_thickness(lot);

@@ -55,6 +55,11 @@ void change_clumps(Scene& scene) {
 
 }  // namespace
 
+double floor_area(const Vessel& vessel) {
+  const double part = vessel.plan == Plan::round ? std::numbers::pi / 4 : 1;
+  return part * vessel.length * *vessel.depth;
+}
+
 std::optional<double> slices_of_tray(const Scene& scene) {
   if (!scene.tray.depth) return std::nullopt;
   return *scene.tray.depth / mean_thickness_of_seeds(scene);

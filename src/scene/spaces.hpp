@@ -4,6 +4,9 @@
 
 namespace vibrosow {
 
+/// Area of a vessel's floor in space, m2, holes included. The vessel has a depth.
+double floor_area(const Vessel& vessel);
+
 /// How many slices one seed thick a tray holds: its depth over the seeds' mean thickness, by number; none without a
 /// depth.
 std::optional<double> slices_of_tray(const Scene& scene);

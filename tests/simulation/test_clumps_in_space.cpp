@@ -10,8 +10,8 @@
 #include "grains/size_distribution.hpp"
 #include "grains/turning_clump.hpp"
 #include "scene/input_error.hpp"
-#include "simulation/checkpoint.hpp"
 #include "support/bench.hpp"
+#include "support/same_bits.hpp"
 #include "support/solid_clumps.hpp"
 
 namespace vibrosow {
@@ -254,14 +254,6 @@ SeedLot dipole_lot() {
   return solid_lot(dipole(4e-3, 5e-3), 8e-5);
 }
 
-std::vector<double> bits(const Grains& g) {
-  std::vector<double> all;
-  for (const auto* array :
-       {&g.x, &g.y, &g.z, &g.vx, &g.vy, &g.vz, &g.omega, &g.omega_x, &g.omega_y, &g.q_w, &g.q_x, &g.q_y, &g.q_z})
-    all.insert(all.end(), array->begin(), array->end());
-  return all;
-}
-
 vibrosow::Run settled(const SeedLot& lot, Integrator scheme, double time) {
   Scene scene = heap_scene(lot);
   scene.contact.seed.restitution = scene.contact.wall.restitution = 0.3;
@@ -315,14 +307,7 @@ TEST(ClumpsInSpace, ACutRunGoesOnToTheSameBits) {
       scene.tray.sides = scene.tray.front_and_back = sides;
       scene.tray.motion = HarmonicMotion{.direction = 0.3, .amplitude = 2e-3, .frequency = 15, .across = 0.5};
       const Model model = prepare_to_run(scene);
-      Simulation whole(model, start_of(model, heap_of(dipole_lot(), 4, 3, 4)));
-      whole.run_until(0.02);
-      const std::string saved = save(model, whole.state());
-      whole.run_until(0.04);
-      Simulation resumed(model, restore(model, saved));
-      resumed.run_until(0.04);
-      EXPECT_EQ(bits(resumed.grains()), bits(whole.grains()));
-      EXPECT_GT(whole.result().force_evaluations, 100);
+      expect_a_cut_run_goes_on(model, start_of(model, heap_of(dipole_lot(), 4, 3, 4)), 0.02, 0.04, 100);
     }
 }
 

@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "scene/input_error.hpp"
-#include "simulation/checkpoint.hpp"
 #include "simulation/simulation.hpp"
 #include "support/bench.hpp"
+#include "support/same_bits.hpp"
 
 namespace vibrosow {
 namespace {
@@ -59,13 +59,6 @@ std::vector<Ball> heap(int along, int up, int across) {
             {{0.003 + 0.0045 * i + 0.0011 * (j % 3), 0.003 + 0.0045 * j, 0.003 + 0.0045 * k + 0.0007 * (j % 2)},
              {0.02 * (i % 2), 0, 0.03 * (k % 3)}});
   return balls;
-}
-
-std::vector<double> bits(const Grains& g) {
-  std::vector<double> all;
-  for (const auto* array : {&g.x, &g.y, &g.z, &g.vx, &g.vy, &g.vz, &g.omega, &g.omega_x, &g.omega_y})
-    all.insert(all.end(), array->begin(), array->end());
-  return all;
 }
 
 class EveryScheme : public testing::TestWithParam<Integrator> {};
@@ -167,13 +160,7 @@ TEST(Space, ACutRunGoesOnToTheSameBits) {
       scene.tray.sides = scene.tray.front_and_back = sides;
       scene.tray.motion = HarmonicMotion{.direction = 0.3, .amplitude = 2e-3, .frequency = 15, .across = 0.5};
       const Model model = prepare_to_run(scene);
-      Simulation whole(model, start_of(model, heap(5, 4, 5)));
-      whole.run_until(0.02);
-      const std::string saved = save(model, whole.state());
-      whole.run_until(0.04);
-      Simulation resumed(model, restore(model, saved));
-      resumed.run_until(0.04);
-      EXPECT_EQ(bits(resumed.grains()), bits(whole.grains()));
+      expect_a_cut_run_goes_on(model, start_of(model, heap(5, 4, 5)), 0.02, 0.04, 100);
     }
 }
 

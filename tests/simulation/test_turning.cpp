@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "scene/input_error.hpp"
-#include "simulation/checkpoint.hpp"
 #include "simulation/simulate.hpp"
 #include "support/bench.hpp"
+#include "support/same_bits.hpp"
 #include "vessel/vessel_faces.hpp"
 
 namespace vibrosow {
@@ -63,13 +63,6 @@ std::vector<Ball> heap(double x, double y) {
       for (int k = 0; k < 2; ++k)
         balls.push_back({{x - 0.008 + 0.0045 * i + 1e-4 * j, y - 0.008 + 0.0045 * j, 0.003 + 0.0045 * k + 1e-4 * i}});
   return balls;
-}
-
-std::vector<double> bits(const Grains& g) {
-  std::vector<double> all;
-  for (const auto* array : {&g.x, &g.y, &g.z, &g.vx, &g.vy, &g.vz, &g.omega, &g.omega_x, &g.omega_y})
-    all.insert(all.end(), array->begin(), array->end());
-  return all;
 }
 
 double distance_from_axis(const Grains& g, std::size_t i) {
@@ -191,13 +184,7 @@ TEST_P(InADrum, ACutRunGoesOnToTheSameBits) {
   const Model model = prepare_to_run(drum(GetParam(), 12));
   std::vector<Ball> balls = heap(drum_radius, drum_radius);
   if (GetParam() == Space::plane) std::erase_if(balls, [](const Ball& ball) { return ball.at.z() > 0.005; });
-  Simulation whole(model, start_of(model, balls));
-  whole.run_until(0.05);
-  const std::string saved = save(model, whole.state());
-  whole.run_until(0.1);
-  Simulation resumed(model, restore(model, saved));
-  resumed.run_until(0.1);
-  EXPECT_EQ(bits(resumed.grains()), bits(whole.grains()));
+  expect_a_cut_run_goes_on(model, start_of(model, balls), 0.05, 0.1, 100);
 }
 
 TEST_P(InADrum, ItsListsChangeNoBit) {
