@@ -1,5 +1,4 @@
 """Rates of a silo through slots of several widths, and slopes of measured and simulated discharge curves."""
-import csv
 import math
 import re
 import sys
@@ -9,7 +8,7 @@ from scipy.optimize import curve_fit
 from scipy.stats import linregress
 from scipy.stats import t as student
 
-from .tables import command, mean_and_half_width, rows
+from .tables import command, mean_and_half_width, rows, write_table
 
 GRAVITY = 9.81  # m/s2
 
@@ -52,11 +51,6 @@ def slot_of(name):
     """Width in diameters that a layout's name gives; None: it is not to be fitted."""
     named = re.fullmatch(r"([0-9.]+) d", name)
     return float(named[1]) if named else None
-
-
-def write_table(path, header, lines):
-    with open(path, "w", newline="", encoding="utf-8") as file:
-        csv.writer(file, lineterminator="\n").writerows([header.split(","), *lines])
 
 
 def write_fits(path, flowing, unit):

@@ -18,6 +18,12 @@ def rows(path):
         sys.exit(f"scripts/figures: {path}: {fault.strerror}")
 
 
+def write_table(path, header, lines):
+    """`header`: the columns' names, with commas between them."""
+    with open(path, "w", newline="", encoding="utf-8") as file:
+        csv.writer(file, lineterminator="\n").writerows([header.split(","), *lines])
+
+
 def number(text):
     """An empty cell is not a number."""
     return float(text) if text else math.nan
