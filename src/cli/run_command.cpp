@@ -48,14 +48,22 @@ std::string figure_text(double value) {
 }
 
 void print_holes(const Outflow& outflow) {
+  const auto millimetres = [](const std::optional<double>& at) {
+    return at ? fmt::format("{:.1f}", *at * 1e3) : std::string();
+  };
+  const bool rows_of_holes = std::ranges::any_of(
+      outflow.holes, [&](const HoleOutflow& row) { return row.across && row.across != outflow.holes.front().across; });
   std::size_t width = 3;  // of the names of lots
   for (const HoleOutflow& row : outflow.holes) width = std::max(width, row.lot.size());
-  print("{:>6}  {:<{}} {:>12} {:>8} {:>9} {:>9} {:>9}\n", "hole", "lot", width, "position mm", "seeds", "seeds/s",
-        "g/s", "pause s");
-  for (const HoleOutflow& row : outflow.holes)
-    print("{:>6}  {:<{}} {:>12} {:>8} {:>9} {:>9} {:>9}\n", row.hole, row.lot, width,
-          row.centre ? fmt::format("{:.1f}", *row.centre * 1e3) : "", row.grains, figure_text(row.seeds_per_s),
-          figure_text(row.mass_rate * 1e3), figure_text(row.longest_pause));
+  print("{:>6}  {:<{}} {:>12}", "hole", "lot", width, "position mm");
+  if (rows_of_holes) print(" {:>9}", "across mm");
+  print(" {:>8} {:>9} {:>9} {:>9}\n", "seeds", "seeds/s", "g/s", "pause s");
+  for (const HoleOutflow& row : outflow.holes) {
+    print("{:>6}  {:<{}} {:>12}", row.hole, row.lot, width, millimetres(row.centre));
+    if (rows_of_holes) print(" {:>9}", millimetres(row.across));
+    print(" {:>8} {:>9} {:>9} {:>9}\n", row.grains, figure_text(row.seeds_per_s), figure_text(row.mass_rate * 1e3),
+          figure_text(row.longest_pause));
+  }
 }
 
 void print_summary(const Scene& scene, const Run& run, const Outflow& outflow) {

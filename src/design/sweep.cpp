@@ -68,7 +68,7 @@ std::vector<HoleFigures> hole_figures(const std::vector<Evaluation>& replicates)
     HoleFigures figures;
     figures.hole = row.hole;
     figures.lot = row.lot;
-    figures.centre = row.centre;
+    figures.centre = row.centre, figures.across = row.across;
     figures.width = row.width;
     figures.seeds_per_s = mean_of_row(replicates, row.hole, row.lot, &HoleOutflow::seeds_per_s);
     figures.mass_rate = mean_of_row(replicates, row.hole, row.lot, &HoleOutflow::mass_rate);

@@ -22,7 +22,7 @@ enum class LayoutStatus { ok, invalid, stopped, interrupted };
 /// One hole and lot, over the finished replicates.
 struct HoleFigures {
   std::string hole, lot;
-  std::optional<double> centre, width;  // m
+  std::optional<double> centre, across, width;  // m; `across` in space alone
   std::optional<MeanWithInterval> seeds_per_s;
   std::optional<MeanWithInterval> mass_rate;      // kg/s
   std::optional<MeanWithInterval> longest_pause;  // s

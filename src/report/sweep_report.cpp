@@ -136,7 +136,7 @@ void add_measured_columns(Columns<Row>& columns, const std::string& name, const 
   });
 }
 
-Columns<HoleRow> sweep_holes_columns() {
+Columns<HoleRow> sweep_holes_columns(bool with_across) {
   using R = const HoleRow&;
   Columns<HoleRow> columns = layout_columns<HoleRow>();
   append(columns,
@@ -146,9 +146,9 @@ Columns<HoleRow> sweep_holes_columns() {
                                    [](R r) { return r.hole->centre; }),
           quantity_column<HoleRow>("width_mm", millimetres, "of the hole", [](R r) { return r.hole->width; }),
           replicates_column<HoleRow>()});
-  add_mean_columns(columns, "rate_g_per_s", grams_per_second, "mass flow, of the plane slice",
+  add_mean_columns(columns, "rate_g_per_s", grams_per_second, "mass flow, of the plane slice or in space of the tray",
                    [](R r) { return r.hole->mass_rate; });
-  add_mean_columns(columns, "seeds_per_s", per_second, "seeds, of the plane slice",
+  add_mean_columns(columns, "seeds_per_s", per_second, "seeds, of the plane slice or in space of the tray",
                    [](R r) { return r.hole->seeds_per_s; });
   add_mean_columns(columns, "longest_pause_s", seconds, "longest time in the window without a seed",
                    [](R r) { return r.hole->longest_pause; });
@@ -157,6 +157,10 @@ Columns<HoleRow> sweep_holes_columns() {
   columns.push_back(quantity_column<HoleRow>("difference_percent", Unit{"%", 1},
                                              "simulated, scaled, less measured, of measured",
                                              [](R r) { return r.hole->difference_percent; }));
+  if (with_across)
+    columns.push_back(quantity_column<HoleRow>("across_mm", millimetres,
+                                               "in space: middle of the hole, from the tray's front",
+                                               [](R r) { return r.hole->across; }));
   return columns;
 }
 
@@ -301,9 +305,12 @@ std::string sweep_csv(const StudyResult& result, CsvFormat format) {
 }
 
 std::string sweep_holes_csv(const StudyResult& result, CsvFormat format) {
-  Csv<HoleRow> csv(sweep_holes_columns(), format);
+  std::vector<HoleRow> holes;
   for (const LayoutRow& row : layout_rows(result))
-    for (const HoleFigures& hole : row.of().holes) csv.add({row, &hole});
+    for (const HoleFigures& hole : row.of().holes) holes.push_back({row, &hole});
+  const bool with_across = std::ranges::any_of(holes, [](const HoleRow& row) { return row.hole->across.has_value(); });
+  Csv<HoleRow> csv(sweep_holes_columns(with_across), format);
+  for (const HoleRow& hole : holes) csv.add(hole);
   return csv.text();
 }
 
@@ -352,7 +359,7 @@ std::vector<FileText> sweep_file_texts() {
           file_text("sweep_holes.csv",
                     "one row per layout, hole and lot, per hole one of all lots where there are several, then the same "
                     "of all holes",
-                    sweep_holes_columns()),
+                    sweep_holes_columns(true)),
           file_text("sweep_runs.csv", "one row per layout and random seed", sweep_runs_columns()),
           file_text("timing.json", "what the sweep took on this machine", timing_keys()),
           file_text("sweep_records.csv",
