@@ -9,6 +9,7 @@
 #include "grains/places.hpp"
 #include "grains/pour.hpp"
 #include "grains/size_distribution.hpp"
+#include "grains/turned_discs.hpp"
 #include "scene/input_error.hpp"
 #include "scene/seed_lot.hpp"
 #include "vessel/vessel_walls.hpp"
@@ -170,9 +171,8 @@ std::vector<PackedGrain> pack_poured(const Vessel& vessel, const std::vector<See
   const auto poured = space == Space::plane ? pour : pour_in_space;
   const std::vector<PackedGrain> grains = poured(without_lid(vessel), lots, order, random, stop);
   for (const PackedGrain& grain : grains)
-    if (is_outside_of_drum(vessel, {grain.x, grain.y},
-                           0.5 * grain.size * lots[static_cast<std::size_t>(grain.lot)].diameter))
-      refuse_fill(vessel);
+    for (const ClumpDisc& disc : turned_discs(lots[static_cast<std::size_t>(grain.lot)], grain.size, grain.turned))
+      if (is_outside_of_drum(vessel, {grain.x + disc.x, grain.y + disc.y}, disc.radius)) refuse_fill(vessel);
   return grains;
 }
 

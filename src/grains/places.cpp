@@ -11,9 +11,33 @@ namespace {
 
 constexpr double infinite = std::numeric_limits<double>::infinity();
 
-double between(double place, double radius, double length, Sides sides) {
-  if (sides == Sides::periodic) return place - length * std::floor(place / length);
-  return std::max(radius, std::min(place, length - radius));
+double within_period(double place, double length, Sides sides) {
+  return sides == Sides::periodic ? place - length * std::floor(place / length) : place;
+}
+
+/// Of a seed that reaches so far either way, m.
+double between(double place, double backwards, double forwards, double length, Sides sides) {
+  if (sides == Sides::periodic) return within_period(place, length, sides);
+  return std::max(backwards, std::min(place, length - forwards));
+}
+
+FloorPlace on_floor(const ClumpDisc& ball) {
+  return {ball.x, ball.z};
+}
+
+/// The largest part of the way from the middle of a round vessel along `arm` that leaves every ball in it; all of them
+/// are where the clump lies in the middle.
+double part_of_way(const std::vector<ClumpDisc>& balls, const FloorPlace& arm, double vessel_radius) {
+  double part = 1;
+  for (const ClumpDisc& ball : balls) {
+    const FloorPlace own = on_floor(ball);
+    const double furthest = vessel_radius - ball.radius;
+    if ((arm + own).norm() <= furthest) continue;
+    const double along = arm.dot(own), arm2 = arm.squaredNorm();
+    const double room2 = std::max(0.0, furthest * furthest - own.squaredNorm());
+    part = std::min(part, (std::sqrt(along * along + arm2 * room2) - along) / arm2);
+  }
+  return part;
 }
 
 /// Standing still at the lab's zero, with pieces alone or with its box alone.
@@ -35,11 +59,32 @@ bool slopes(const Face& face) {
 
 FloorPlace between_ends(const Vessel& vessel, double radius, const FloorPlace& place) {
   if (vessel.plan == Plan::rectangle)
-    return {between(place.x(), radius, vessel.length, vessel.sides),
-            between(place.y(), radius, *vessel.depth, vessel.front_and_back)};
+    return {between(place.x(), radius, radius, vessel.length, vessel.sides),
+            between(place.y(), radius, radius, *vessel.depth, vessel.front_and_back)};
   const FloorPlace middle = FloorPlace::Constant(0.5 * vessel.length), arm = place - middle;
   const double furthest = 0.5 * vessel.length - radius, distance = arm.norm();
   return distance <= furthest ? place : FloorPlace(middle + furthest / distance * arm);
+}
+
+FloorPlace between_ends(const Vessel& vessel, const std::vector<ClumpDisc>& balls, const FloorPlace& place) {
+  if (balls.size() == 1) return between_ends(vessel, balls.front().radius, place);
+  if (vessel.plan == Plan::round) {
+    const FloorPlace middle = FloorPlace::Constant(0.5 * vessel.length), arm = place - middle;
+    const double part = part_of_way(balls, arm, 0.5 * vessel.length);
+    return part == 1 ? place : FloorPlace(middle + part * arm);
+  }
+  FloorPlace backwards = FloorPlace::Zero(), forwards = FloorPlace::Zero();
+  for (const ClumpDisc& ball : balls) {
+    backwards = backwards.cwiseMax(FloorPlace::Constant(ball.radius) - on_floor(ball));
+    forwards = forwards.cwiseMax(FloorPlace::Constant(ball.radius) + on_floor(ball));
+  }
+  return {between(place.x(), backwards.x(), forwards.x(), vessel.length, vessel.sides),
+          between(place.y(), backwards.y(), forwards.y(), *vessel.depth, vessel.front_and_back)};
+}
+
+FloorPlace within_period(const Vessel& vessel, const FloorPlace& place) {
+  return {within_period(place.x(), vessel.length, vessel.sides),
+          within_period(place.y(), *vessel.depth, vessel.front_and_back)};
 }
 
 FloorPlace random_place(const Vessel& vessel, double radius, Random& random) {

@@ -16,6 +16,13 @@ using FloorPlace = Eigen::Vector2d;
 /// same place within the period.
 FloorPlace between_ends(const Vessel& vessel, double radius, const FloorPlace& place);
 
+/// The same of a clump whose `balls` (m, from its centre) are held by a ball that fits into the vessel; in a round one
+/// it is the nearest place on the way to the middle.
+FloorPlace between_ends(const Vessel& vessel, const std::vector<ClumpDisc>& balls, const FloorPlace& place);
+
+/// The same place within the period of periodic ends; of others the place itself.
+FloorPlace within_period(const Vessel& vessel, const FloorPlace& place);
+
 /// Uniformly at random where a ball of `radius` is between the vessel's ends.
 FloorPlace random_place(const Vessel& vessel, double radius, Random& random);
 

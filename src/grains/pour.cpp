@@ -5,8 +5,8 @@
 #include <limits>
 #include <numbers>
 
-#include "elementary/functions.hpp"
 #include "grains/size_distribution.hpp"
+#include "grains/turned_discs.hpp"
 #include "scene/seed_lot.hpp"
 #include "vessel/directions.hpp"
 #include "vessel/vessel_walls.hpp"
@@ -184,29 +184,21 @@ void add_slopes(Heap& heap, const Vessel& vessel, double smallest_radius) {
 
 /// A seed as it is turned: its discs, from its centre, and how far they reach.
 struct TurnedSeed {
-  std::vector<Heap::Disc> discs;
+  std::vector<ClumpDisc> discs;
   double left = 0, right = 0, top = 0;  // m
 
-  TurnedSeed(const SeedLot& lot, double size, double angle) {
-    const auto [sine, cosine] = elementary::sine_cosine(angle);
-    discs.reserve(lot.discs.size());
-    if (lot.discs.empty()) add({0, 0, 0.5 * size * lot.diameter});
-    for (const ClumpDisc& disc : lot.discs)
-      add({size * (cosine * disc.x - sine * disc.y), size * (sine * disc.x + cosine * disc.y), size * disc.radius});
-  }
-
- private:
-  void add(const Heap::Disc& disc) {
-    discs.push_back(disc);
-    left = std::max(left, disc.radius - disc.x), right = std::max(right, disc.radius + disc.x);
-    top = std::max(top, disc.radius + disc.y);
+  TurnedSeed(const SeedLot& lot, double size, double angle) : discs(turned_discs(lot, size, {angle})) {
+    for (const ClumpDisc& disc : discs) {
+      left = std::max(left, disc.radius - disc.x), right = std::max(right, disc.radius + disc.x);
+      top = std::max(top, disc.radius + disc.y);
+    }
   }
 };
 
 /// Height of a seed's centre when, dropped at `x`, its first disc touches; or some height from `limit` to that one.
 double touching_height(const Heap& heap, const TurnedSeed& seed, double x, double limit) {
   double height = 0;
-  for (const Heap::Disc& disc : seed.discs) {
+  for (const ClumpDisc& disc : seed.discs) {
     if (height >= limit) break;
     const double least = std::max(disc.radius, height + disc.y);  // the floor, and what other discs touch
     height = std::max(height, heap.touching_height(x + disc.x, disc.radius, least) - disc.y);
@@ -238,14 +230,6 @@ Place drop_and_search(const Heap& heap, double length, const SeedLot& lot, doubl
   return lowest;
 }
 
-double largest_disc(const std::vector<SeedLot>& lots) {
-  double largest = 0;
-  for (const SeedLot& lot : lots)
-    for (const Heap::Disc& disc : TurnedSeed(lot, most_size(lot), 0).discs)
-      largest = std::max(largest, 2 * disc.radius);
-  return largest;
-}
-
 }  // namespace
 
 std::vector<PackedGrain> pour(const Vessel& vessel, const std::vector<SeedLot>& lots, const std::vector<int>& order,
@@ -263,7 +247,7 @@ std::vector<PackedGrain> pour(const Vessel& vessel, const std::vector<SeedLot>& 
                                          : drop_and_search(heap, vessel.length, seeds, size, x, angle, random);
     const TurnedSeed seed(seeds, size, at.angle);
     if (at.y + seed.top > vessel.height) refuse_fill(vessel);
-    for (const Heap::Disc& disc : seed.discs) heap.add({at.x + disc.x, at.y + disc.y, disc.radius});
+    for (const ClumpDisc& disc : seed.discs) heap.add({at.x + disc.x, at.y + disc.y, disc.radius});
     packed.push_back({at.x, at.y, lot, size, {at.angle}});
   }
   return packed;

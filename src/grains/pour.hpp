@@ -14,7 +14,7 @@ std::vector<PackedGrain> pour(const Vessel& vessel, const std::vector<SeedLot>& 
                               Random& random, StopRequest stop);
 
 /// The same in space: each ball is dropped again a little aside, at random, nearer and nearer, and stays where it comes
-/// lowest, which is where it would roll to; a clump as the ball that holds it. In the vessel's frame.
+/// lowest, which is where it would roll to; a clump so too, turned a little each time. In the vessel's frame.
 std::vector<PackedGrain> pour_in_space(const Vessel& vessel, const std::vector<SeedLot>& lots,
                                        const std::vector<int>& order, Random& random, StopRequest stop);
 

@@ -1,110 +1,82 @@
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <utility>
 
+#include "grains/heap_in_space.hpp"
 #include "grains/places.hpp"
 #include "grains/pour.hpp"
 #include "grains/size_distribution.hpp"
+#include "grains/turned_discs.hpp"
 #include "scene/seed_lot.hpp"
 
 namespace vibrosow {
 namespace {
 
-struct Ball {
-  double x, y, z, radius;  // m
+/// How a seed lies, or might: the height of its centre (m) and its balls, from there.
+struct Lying {
+  FloorPlace place;
+  double height;
+  Turn turned;
+  std::vector<ClumpDisc> balls;
+
+  FloorPlace place_of(const ClumpDisc& ball, const Vessel& vessel) const {
+    return within_period(vessel, place + FloorPlace(ball.x, ball.z));
+  }
 };
 
-/// Balls that lie, in columns at least as wide as the largest of them.
-class HeapInSpace {
- public:
-  HeapInSpace(const Vessel& vessel, double largest)
-      : largest_(largest), x_(vessel.length, largest, vessel.sides), z_(*vessel.depth, largest, vessel.front_and_back) {
-    columns_.resize(x_.count * z_.count);
-  }
-
-  void add(const Ball& ball) {
-    std::vector<std::vector<Ball>>& column = columns_[x_.at(ball.x) * z_.count + z_.at(ball.z)];
-    const std::size_t row = static_cast<std::size_t>(std::max(ball.y, 0.0) / largest_);
-    if (column.size() <= row) column.resize(row + 1);
-    column[row].push_back(ball);
-  }
-
-  /// Height of the centre of a ball that falls at `place` when it first touches another; at least `least`.
-  double touching_height(const FloorPlace& place, double radius, double least) const {
-    x_.for_each_near(place.x(), [&](std::size_t i) {
-      z_.for_each_near(place.y(), [&](std::size_t k) {
-        const std::vector<std::vector<Ball>>& column = columns_[i * z_.count + k];
-        for (std::size_t row = column.size(); row-- > 0 && (static_cast<double>(row) + 2) * largest_ > least;)
-          for (const Ball& ball : column[row]) least = std::max(least, touching_height(ball, place, radius));
-      });
-    });
-    return least;
-  }
-
- private:
-  /// The columns along one direction.
-  struct Direction {
-    std::size_t count;
-    double width, length;  // m
-    bool periodic;
-
-    Direction(double whole, double largest, Sides sides)
-        : count(std::max<std::size_t>(1, static_cast<std::size_t>(whole / largest))),
-          width(whole / static_cast<double>(count)),
-          length(whole),
-          periodic(sides == Sides::periodic) {}
-
-    std::size_t at(double place) const {
-      return std::min(static_cast<std::size_t>(std::max(place, 0.0) / width), count - 1);
-    }
-    double apart(double a, double b) const { return periodic ? std::remainder(a - b, length) : a - b; }
-    /// The column of a place and those beside it, each once.
-    template <class Visit>
-    void for_each_near(double place, Visit visit) const {
-      const std::size_t middle = at(place);
-      visit(middle);
-      if (middle > 0 || (periodic && count > 2)) visit(middle > 0 ? middle - 1 : count - 1);
-      if (middle + 1 < count || (periodic && count > 2)) visit(middle + 1 < count ? middle + 1 : 0);
-    }
-  };
-
-  double touching_height(const Ball& ball, const FloorPlace& place, double radius) const {
-    const double dx = x_.apart(place.x(), ball.x), dz = z_.apart(place.y(), ball.z), reach = radius + ball.radius;
-    const double left2 = reach * reach - dx * dx - dz * dz;
-    return left2 > 0 ? ball.y + std::sqrt(left2) : 0;
-  }
-
-  double largest_;  // m, diameter
-  Direction x_, z_;
-  std::vector<std::vector<std::vector<Ball>>> columns_;  // [column][row] -> balls
-};
-
-/// The lowest place that is found near where a ball is dropped. A ball that rolls goes downhill all the way too.
+/// The lowest place that is found near where a seed is dropped. One that rolls or tips goes downhill all the way too.
 class LowestPlace {
  public:
   LowestPlace(const Vessel& vessel, const HeapInSpace& heap, const Obstacles& obstacles)
       : vessel_(vessel), heap_(heap), obstacles_(obstacles) {}
 
-  Ball find(double radius, Random& random) const {
-    constexpr double first = 1, last = 1e-3;          // step, in radii
-    constexpr double growth = 1.6, shrinkage = 0.85;  // after a step down, after one that fails
-    FloorPlace lowest = random_place(vessel_, radius, random);
-    double height = height_at(lowest, radius);
+  Lying find(const SeedLot& seeds, double size, Random& random) const {
+    constexpr double first = 1, growth = 1.6;  // step, in radii, and after one down
+    const double radius = 0.5 * size * seeds.diameter;
+    const bool turns = is_solid_clump(seeds);
+    // After a step that fails, and the last. A clump has five directions to search, a ball two.
+    const auto [shrinkage, last] = turns ? std::pair(0.97, 1e-2) : std::pair(0.85, 1e-3);
+    Lying lowest{random_place(vessel_, radius, random), 0, draw_turn(seeds, random), {}};
+    lowest.balls = turned_discs(seeds, size, lowest.turned);
+    lowest.height = height_of(lowest, std::numeric_limits<double>::infinity());
+    Lying next = lowest;
     for (double step = first; step > last;) {
       const double aside = step * radius * random.uniform(-1, 1);
-      const FloorPlace next =
-          between_ends(vessel_, radius, lowest + FloorPlace(aside, step * radius * random.uniform(-1, 1)));
-      const double there = height_at(next, radius);
-      const bool lower = there < height;
-      if (lower) lowest = next, height = there;
+      next.place = lowest.place + FloorPlace(aside, step * radius * random.uniform(-1, 1));
+      if (turns) next.turned.orientation = tilted(lowest.turned.orientation, step, random);
+      if (turns) next.balls = turned_discs(seeds, size, next.turned);
+      next.place = between_ends(vessel_, next.balls, next.place);
+      next.height = height_of(next, lowest.height);
+      const bool lower = next.height < lowest.height;
+      if (lower) std::swap(lowest, next);
       step = lower ? std::min(first, growth * step) : shrinkage * step;
     }
-    return {lowest.x(), height, lowest.y(), radius};
+    return lowest;
   }
 
  private:
-  double height_at(const FloorPlace& place, double radius) const {
-    const double on_heap = heap_.touching_height(place, radius, radius);
-    return obstacles_.touching_height(place, radius, std::max(on_heap, vessel_.height - radius), on_heap);
+  /// Turned on about any axis, by up to 120 degrees at a `step` of 1.
+  static Orientation tilted(const Orientation& orientation, double step, Random& random) {
+    const double a = step * random.uniform(-1, 1), b = step * random.uniform(-1, 1), c = step * random.uniform(-1, 1);
+    return of_unit_length(Orientation{1, a, b, c} * orientation);
+  }
+
+  /// Height at which the first ball of a seed that is dropped touches; or some height from `limit` to that one.
+  double height_of(const Lying& seed, double limit) const {
+    double height = 0;
+    for (const ClumpDisc& ball : seed.balls) {
+      if (height >= limit) return height;
+      const double least = std::max(ball.radius, height + ball.y);  // the floor, and what other balls touch
+      height = std::max(height, heap_.touching_height(seed.place_of(ball, vessel_), ball.radius, least) - ball.y);
+    }
+    for (const ClumpDisc& ball : seed.balls) {
+      if (height >= limit) return height;
+      const FloorPlace place = seed.place_of(ball, vessel_);
+      const double least = height + ball.y, from = std::max(least, vessel_.height - ball.radius);
+      height = std::max(height, obstacles_.touching_height(place, ball.radius, from, least) - ball.y);
+    }
+    return height;
   }
 
   const Vessel& vessel_;
@@ -116,7 +88,7 @@ class LowestPlace {
 
 std::vector<PackedGrain> pour_in_space(const Vessel& vessel, const std::vector<SeedLot>& lots,
                                        const std::vector<int>& order, Random& random, StopRequest stop) {
-  HeapInSpace heap(vessel, largest_diameter(lots));
+  HeapInSpace heap(vessel, largest_disc(lots));
   const Obstacles obstacles(vessel);
   const LowestPlace lowest(vessel, heap, obstacles);
   std::vector<PackedGrain> packed;
@@ -124,10 +96,13 @@ std::vector<PackedGrain> pour_in_space(const Vessel& vessel, const std::vector<S
     stop.throw_if_set();
     const SeedLot& seeds = lots[static_cast<std::size_t>(lot)];
     const double size = draw_size(seeds, random);
-    const Ball ball = lowest.find(0.5 * size * seeds.diameter, random);
-    if (!(ball.y + ball.radius <= vessel.height)) refuse_fill(vessel);
-    heap.add(ball);
-    packed.push_back({ball.x, ball.y, lot, size, draw_turn(seeds, random), ball.z});
+    const Lying seed = lowest.find(seeds, size, random);
+    for (const ClumpDisc& ball : seed.balls) {
+      if (!(seed.height + ball.y + ball.radius <= vessel.height)) refuse_fill(vessel);
+      const FloorPlace place = seed.place_of(ball, vessel);
+      heap.add({place.x(), seed.height + ball.y, place.y()}, ball.radius);
+    }
+    packed.push_back({seed.place.x(), seed.height, lot, size, seed.turned, seed.place.y()});
   }
   return packed;
 }

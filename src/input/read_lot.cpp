@@ -99,6 +99,20 @@ std::vector<ClumpDisc> read_solid_row(Table& seeds, ShapeName shape, double leng
   return balls;
 }
 
+/// What touched both balls would be held as stiffly as by two, and the step is planned for those that stand out.
+void refuse_hidden_balls(const Table& seeds, const std::vector<ClumpDisc>& balls) {
+  constexpr double slack = 1e-9;  // of the outer radius
+  for (std::size_t inner = 0; inner < balls.size(); ++inner)
+    for (std::size_t outer = 0; outer < balls.size(); ++outer) {
+      const ClumpDisc &a = balls[inner], &b = balls[outer];
+      const double apart = std::sqrt((a.x - b.x) * (a.x - b.x) + (a.y - b.y) * (a.y - b.y) + (a.z - b.z) * (a.z - b.z));
+      const bool first_of_equals = a.radius == b.radius && inner < outer;  // the second is named
+      if (inner == outer || first_of_equals || apart + a.radius > b.radius * (1 + slack)) continue;
+      seeds.fail("discs", fmt::format("ball {} lies within ball {}, where it adds nothing to the shape; leave it out",
+                                      inner + 1, outer + 1));
+    }
+}
+
 std::vector<ClumpDisc> read_discs(Table& seeds, Space space) {
   std::vector<ClumpDisc> discs;
   for (Table& disc : seeds.tables("discs")) {
@@ -110,6 +124,7 @@ std::vector<ClumpDisc> read_discs(Table& seeds, Space space) {
   if (discs.empty()) {
     seeds.fail("discs", "is missing; expected a list such as [{ x = \"0 mm\", y = \"0 mm\", diameter = \"3 mm\" }]");
   }
+  if (space == Space::three_dimensional) refuse_hidden_balls(seeds, discs);
   return discs;
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <numeric>
 #include <set>
 
@@ -180,6 +181,16 @@ TEST(Packing, ClumpsOfAnyShapeAndSizeTouchButDoNotOverlap) {
           EXPECT_NEAR(disc.x, 0.5 * v.length, 0.5 * v.length - disc.radius + 1e-5 * diameter) << "between the ends";
         }
       }
+}
+
+TEST(Packing, ClumpsArePouredIntoADrumUpToItsWall) {
+  Vessel drum = vessel(Packing::poured, 20);
+  drum.height = drum.length, drum.box = false;
+  drum.pieces = {{.centre = {0.05, 0.05}, .radius = 0.05, .from = 0, .to = 2 * std::numbers::pi}};
+  for (const auto& lots : {std::vector{cylinder()}, hooks_and_balls()}) {
+    Random random(1);
+    EXPECT_LT(deepest_overlap(drum, pack(drum, lots, Space::plane, random), lots), 1e-5 * diameter);
+  }
 }
 
 TEST(Packing, RandomSeedActsAndRepeats) {

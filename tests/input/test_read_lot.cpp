@@ -140,6 +140,14 @@ TEST(ReadLot, InSpaceWhatCannotBeIsSaid) {
          "thickness: 1 mm is too slender for 11 discs at a length of 20 mm");
   expect("shape = 'elongated'\nlength = '20 mm'\nwidth = '3 mm'\nmass = '30 mg'", "width: 3 mm is too slender");
   expect("diameter = '3 mm'\nthickness = '2 mm'\nmass = '30 mg'", "thickness: does not go with shape = \"ball\"");
+  const auto beside = [](const std::string& other) {
+    return "shape = 'discs'\nmass = '30 mg'\ndiscs = [{ x = '1 mm', y = '0 mm', diameter = '3 mm' }, " + other + "]";
+  };
+  for (const char* within :
+       {"{ x = '1 mm', y = '0 mm', diameter = '3 mm' }", "{ x = '2 mm', y = '0 mm', diameter = '1 mm' }"})
+    expect(beside(within), ":3: discs: ball 2 lies within ball 1");
+  expect(beside("{ x = '1 mm', y = '1 mm', z = '1 mm', diameter = '6 mm' }"), ":3: discs: ball 1 lies within ball 2");
+  EXPECT_NO_THROW(solid_lot_of(beside("{ x = '1 mm', y = '0 mm', z = '1 mm', diameter = '2 mm' }")));
 }
 
 TEST(ReadLot, MeanOfUniformAndTableIsTheDiameter) {

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "input/read_scene.hpp"
 #include "simulation/simulation.hpp"
 
 namespace vibrosow {
@@ -83,6 +84,16 @@ TEST(BedInSpace, PouredBallsLieLooselyAndShakenOnesDenser) {
   EXPECT_LT(shaken.packing_fraction, 0.66);
   RecordProperty("poured", std::to_string(poured.packing_fraction) + " " + std::to_string(poured.coordination_number));
   RecordProperty("shaken", std::to_string(shaken.packing_fraction) + " " + std::to_string(shaken.coordination_number));
+}
+
+TEST(BedInSpace, TheWheatTrayStartsWithGrainsInPlaceOfBalls) {
+  const auto height_of_tray = [](const std::vector<Override>& changes) {
+    const Simulation run(prepare_to_run(read_scene(data_directory() / "seeders" / "wheat-tray-3d.toml", changes)), 1);
+    const std::vector<double>& y = run.grains().y;
+    EXPECT_EQ(y.size(), 9400u + 2400u);
+    return *std::max_element(y.begin(), y.begin() + 9400);
+  };
+  EXPECT_LT(height_of_tray({parse_override("seeds.wheat.crop=wheat-grain")}), 1.25 * height_of_tray({}));
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include "scene/clump_shape.hpp"
 #include "simulation/simulate.hpp"
 #include "support/bench.hpp"
+#include "support/solid_clumps.hpp"
 
 namespace vibrosow {
 namespace {
@@ -47,6 +48,30 @@ TEST(StartingState, ABedOfClumpsBarelySettles) {
     EXPECT_LT(poured, 1.25 * height_of(run.grains()));
     EXPECT_GT(poured, height_of(run.grains()));
   }
+}
+
+/// Wheat grains in a box in space.
+Scene bed_of_wheat(int count) {
+  Scene scene = clump_scene(wheat_grains(), 0.025);
+  scene.contact.shell_compression = 1e-3;
+  scene.contact.seed = scene.contact.wall = {0.3, 0.5};
+  scene.contact.friction_model = FrictionModel::spring;
+  scene.tray.height = 0.1;
+  scene.tray.fill = Fill{count, Packing::poured, 1e-3, false};
+  scene.run.duration = 0.2;
+  return scene;
+}
+
+TEST(StartingState, ABedOfClumpsInSpaceBarelySettles) {
+  Simulation run(prepare(bed_of_wheat(250)), 1);
+  const double poured = height_of(run.grains());
+  ASSERT_TRUE(run.step());
+  EXPECT_LT(run.result().max_relative_overlap, 1e-3) << "nothing overlaps at the start";
+  EXPECT_TRUE(run.run_until(0.2)) << *run.guard().stop_reason();
+  EXPECT_EQ(run.result().status, RunStatus::finished);
+  EXPECT_LT(run.result().energy.kinetic, 1e-3 * run.result().energy.potential) << "settled";
+  EXPECT_LT(poured, 1.1 * height_of(run.grains()));
+  EXPECT_GT(poured, height_of(run.grains()));
 }
 
 }  // namespace

@@ -2,23 +2,10 @@
 
 #include <vector>
 
-#include "scene/clump_shape.hpp"
-#include "scene/make_clump.hpp"
 #include "simulation/simulation.hpp"
+#include "support/solid_lots.hpp"
 
 namespace vibrosow {
-
-/// Clumps of these balls (m), from their centre of mass along their principal axes.
-inline SeedLot solid_lot(const std::vector<ClumpDisc>& balls, double mass) {
-  SeedLot lot{"clump", 0, mass, Shape::clump, 1};
-  make_clump(lot, balls, Space::three_dimensional);
-  return lot;
-}
-
-/// Four unlike balls, no two principal moments alike.
-inline std::vector<ClumpDisc> odd_balls() {
-  return {{0, 0, 5e-3}, {6e-3, 1e-3, 3e-3}, {-3e-3, 5e-3, 2e-3, 1e-3}, {0, 2e-3, 3e-3, 4e-3}};
-}
 
 /// A box of 1 m, or of another edge (m), with these clumps alone.
 inline Scene clump_scene(const SeedLot& lot, double edge = 1) {

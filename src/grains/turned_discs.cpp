@@ -1,0 +1,36 @@
+#include "grains/turned_discs.hpp"
+
+#include <algorithm>
+
+#include "elementary/functions.hpp"
+#include "scene/seed_lot.hpp"
+
+namespace vibrosow {
+
+std::vector<ClumpDisc> turned_discs(const SeedLot& lot, double size, const Turn& turned) {
+  if (lot.discs.empty()) return {{0, 0, 0.5 * size * lot.diameter}};
+  std::vector<ClumpDisc> discs;
+  discs.reserve(lot.discs.size());
+  if (is_solid_clump(lot)) {
+    const Eigen::Matrix3d axes = rotation_matrix(turned.orientation);
+    for (const ClumpDisc& ball : lot.discs) {
+      const Eigen::Vector3d arm = size * (axes * Eigen::Vector3d(ball.x, ball.y, ball.z));
+      discs.push_back({arm.x(), arm.y(), size * ball.radius, arm.z()});
+    }
+    return discs;
+  }
+  const auto [sine, cosine] = elementary::sine_cosine(turned.angle);
+  for (const ClumpDisc& disc : lot.discs)
+    discs.push_back(
+        {size * (cosine * disc.x - sine * disc.y), size * (sine * disc.x + cosine * disc.y), size * disc.radius});
+  return discs;
+}
+
+double largest_disc(const std::vector<SeedLot>& lots) {
+  double largest = 0;
+  for (const SeedLot& lot : lots)
+    for (const ClumpDisc& disc : turned_discs(lot, most_size(lot), {})) largest = std::max(largest, 2 * disc.radius);
+  return largest;
+}
+
+}  // namespace vibrosow

@@ -1,0 +1,17 @@
+#pragma once
+
+#include <vector>
+
+#include "grains/orientation.hpp"
+#include "scene/scene.hpp"
+
+namespace vibrosow {
+
+/// The discs of a seed of `size` (of its lot's diameter) as it is turned, m from its centre; in space its balls. Of a
+/// seed that is no clump, itself.
+std::vector<ClumpDisc> turned_discs(const SeedLot& lot, double size, const Turn& turned);
+
+/// Diameter of the largest disc, in space ball, that there can be, alone or in a clump, m.
+double largest_disc(const std::vector<SeedLot>& lots);
+
+}  // namespace vibrosow
