@@ -91,7 +91,7 @@ std::optional<Evenness> evenness(const std::vector<Counts>& counts) {
   result.raw_cv = std::sqrt(squares / degrees) / mean;
   result.counting_cv = 1 / std::sqrt(mean);
   result.low = cv_of(noncentrality_at(0.975, x, degrees, scatter));
-  result.high = cv_of(noncentrality_at(0.025, x, degrees, scatter));
+  result.high = std::max(cv_of(noncentrality_at(0.025, x, degrees, scatter)), result.raw_cv);
   if (result.low > 0) result.cv = cv_of(std::max(0.0, x - degrees * std::max(1.0, scatter.phi)));
   return result;
 }

@@ -22,7 +22,8 @@ struct Evenness {
 /// squared with H - 1 degrees of freedom and noncentrality M (H - 1) cv^2, which gives the interval without any
 /// assumption of large numbers. Where replicates scatter more than counting (Pearson's chi squared of the table of
 /// holes and replicates over its degrees of freedom, phi > 1), X / phi is noncentral F instead. Seeds that come more
-/// regularly than by chance make the interval wider than it need be, never narrower.
+/// regularly than by chance make the interval wider than it need be, never narrower: came they like clockwork, the raw
+/// CV would be that of the rates, so `high` is not below it.
 std::optional<Evenness> evenness(const std::vector<std::vector<std::int64_t>>& counts);
 
 }  // namespace vibrosow

@@ -36,6 +36,12 @@ TEST(Evenness, BelowWhatTheSeedsResolveIsNotNoughtButABound) {
   EXPECT_TRUE(evenness({{20000, 21000, 19000}})->cv);
 }
 
+TEST(Evenness, SeedsMoreRegularThanByChanceBoundItByTheirRawCv) {
+  const auto even = evenness({{33, 33, 31, 34, 35, 35}});  // far more alike than independent seeds would be
+  EXPECT_FALSE(even->cv);
+  EXPECT_DOUBLE_EQ(even->high, even->raw_cv);
+}
+
 TEST(Evenness, ReplicatesAreSummedHoleByHole) {
   const auto one = evenness({{300, 200, 250}}), three = evenness({{100, 67, 83}, {101, 66, 84}, {99, 67, 83}});
   EXPECT_DOUBLE_EQ(one->raw_cv, three->raw_cv);
