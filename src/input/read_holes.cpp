@@ -99,6 +99,7 @@ Rows read_rows(Table& table, HoleShape shape, double depth) {
   if (across.size() > 1) table.fail("across", "is the length of a slot across, one value; give rows for several rows");
   const double strip = depth / static_cast<double>(rows.value_or(1));
   if (across.empty() && rows.value_or(1) > 1) table.fail("across", "is missing; how long are the slots of a row?");
+  if (!across.empty() && across.front() == 0) table.fail("across", "is the length of a slot, which is not nothing");
   if (!across.empty() && across.front() > strip * (1 + rounding))
     table.fail("across", fmt::format("{} is longer than {}, the depth that a row has", millimetres(across.front()),
                                      millimetres(strip)));

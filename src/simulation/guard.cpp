@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "grains/turning_clump.hpp"
 
@@ -88,7 +89,9 @@ void Guard::watch_energy(const Integration& s, EnergyAccount& account) {
   account.elastic = s.field.elastic_energy();
   account.wall_work = s.kept.wall_work;
   const double moving = account.kinetic + account.elastic;
-  if (!std::isfinite(moving + account.potential)) {
+  // Places along and up are in the potential energy, those across in none.
+  const double across = std::accumulate(s.grains.z.begin(), s.grains.z.end(), 0.0);
+  if (!std::isfinite(moving + account.potential + across)) {
     stop(fmt::format("a grain's state is not a number at {:.4g} s", s.state.time));
     return;
   }

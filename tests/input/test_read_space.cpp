@@ -167,6 +167,27 @@ holes = { shape = "round", at = ["10 cm"], rows = 2, width = "8 mm" }
   EXPECT_EQ(scene.tray.front_and_back, Sides::walls);
 }
 
+TEST(ReadSpace, NothingNegativeHugeAndNoNumberAreRefusedByTheirKey) {
+  for (const std::string length : {"0 cm", "-1 cm", "1e9 m", "1e300 m", "nan cm", "inf cm"}) {
+    SCOPED_TRACE(length);
+    const auto refused = [&](const std::string& text, const std::string& key) {
+      std::string file = text;
+      file.replace(file.find("LENGTH"), 6, length);
+      EXPECT_THAT(refusal(file), HasSubstr(key));
+    };
+    refused(head + "depth = 'LENGTH'\nfill = { count = 600 }\n", "tray.depth");
+    refused(whole + "holes = { shape = 'round', count = 2, width = 'LENGTH' }\n", "tray.holes.width");
+    refused(whole + "holes = { at = '10 cm', width = '8 mm', across = 'LENGTH' }\n", "tray.holes.across");
+    if (length != "0 cm")
+      refused(whole + "holes = { shape = 'round', at = '10 cm', width = '8 mm', across = 'LENGTH' }\n", "tray.holes");
+  }
+  for (const std::string number : {"-1", "1e300", "nan", "inf"}) {
+    std::string text = whole;
+    text.replace(text.find("[run]"), 5, "twisting_friction = " + number + "\n[run]");
+    EXPECT_THAT(refusal(text), HasSubstr("twisting_friction")) << number;
+  }
+}
+
 TEST(ReadSpace, WhatCannotBeMeantIsRefused) {
   EXPECT_THAT(refusal(head + "fill = { count = 600 }\n"), HasSubstr("depth: is missing"));
   EXPECT_THAT(

@@ -1,10 +1,14 @@
 #pragma once
 
+#include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <cmath>
 #include <optional>
 #include <stdexcept>
+#include <string>
 #include <utility>
 
+#include "grains/turning_clump.hpp"
 #include "scene/clump_shape.hpp"
 #include "simulation/simulation.hpp"
 
@@ -19,7 +23,40 @@ inline Model with_step(const Model& model, double dt) {
   return other;
 }
 
-/// A bench for tests: a few grains placed by hand in a wide box, with or without gravity.
+inline constexpr Space both_spaces[] = {Space::plane, Space::three_dimensional};
+
+/// Names the instances of a test that is made for both spaces.
+inline constexpr auto named_by_space = [](const auto& info) -> std::string {
+  return info.param == Space::plane ? "plane" : "space";
+};
+
+// A grain's place, velocity and spin, whichever space it is in.
+inline Eigen::Vector3d place_of(const Grains& g, std::size_t i) {
+  return {g.x[i], g.y[i], g.in_space ? g.z[i] : 0};
+}
+inline Eigen::Vector3d velocity_of(const Grains& g, std::size_t i) {
+  return {g.vx[i], g.vy[i], g.in_space ? g.vz[i] : 0};
+}
+inline Eigen::Vector3d turning_of(const Grains& g, std::size_t i) {
+  if (!g.rotation) return Eigen::Vector3d::Zero();
+  return g.in_space ? spin_of(g, i) : Eigen::Vector3d(0, 0, g.omega[i]);
+}
+inline void set_turning(Grains& g, std::size_t i, const Eigen::Vector3d& spin) {
+  if (!g.rotation) return;
+  if (g.in_space)
+    set_spin(g, i, spin);
+  else
+    g.omega[i] = spin.z();
+}
+
+/// N, of its contacts.
+inline Eigen::Vector3d force_on(const Simulation& run, std::size_t i) {
+  if (!run.grains().in_space) return {run.field().forces()[i].fx, run.field().forces()[i].fy, 0};
+  const GrainVector& force = run.field().forces_in_space()[i];
+  return {force.x, force.y, force.z};
+}
+
+/// A bench for tests: a few grains placed by hand in a wide box, with or without gravity. In space they are balls.
 ///
 ///     Bench bench;
 ///     bench.scene.contact.seed.restitution = 0.5;
@@ -34,9 +71,11 @@ class Bench {
   Scene scene;
   Eigen::Vector2d gravity{0, 0};
 
-  Bench() {
+  explicit Bench(Space space = Space::plane) {
     scene.title = "bench";
-    scene.lots = {{"grain", 2 * radius, mass, Shape::disc, 1.0}};
+    scene.space = space;
+    if (space == Space::three_dimensional) scene.tray.depth = 1;
+    scene.lots = {{"grain", 2 * radius, mass, space == Space::plane ? Shape::disc : Shape::ball, 1.0}};
     scene.contact.shell_compression = 1e-4;
     scene.tray.name = "tray";
     scene.tray.length = 1;
@@ -45,9 +84,17 @@ class Bench {
   }
 
   /// A grain at a place of the lab (m) with a velocity (m/s) and spin (rad/s); a clump turned by `angle` (rad). The box
-  /// spans 0..1 m in x and y.
+  /// spans 0..1 m in x and y, and in space in z, of which it is in the middle.
   Bench& place(double x, double y, double vx = 0, double vy = 0, double omega = 0, int lot = 0, double angle = 0) {
-    placed_.push_back({x, y, vx, vy, omega, angle, lot});
+    placed_.push_back({{x, y, 0.5}, {vx, vy, 0}, {0, 0, omega}, {angle, {}}, lot});
+    return *this;
+  }
+
+  /// The same anywhere in space; in the plane x and y count, and the spin about z.
+  Bench& place(const Eigen::Vector3d& at, const Eigen::Vector3d& velocity = Eigen::Vector3d::Zero(),
+               const Eigen::Vector3d& spin = Eigen::Vector3d::Zero(), int lot = 0,
+               const Orientation& orientation = {}) {
+    placed_.push_back({at, velocity, spin, {0, orientation}, lot});
     return *this;
   }
 
@@ -75,10 +122,10 @@ class Bench {
   Simulation& start(double dt, std::optional<EffectSet> effects = std::nullopt, NeighbourMargins margins = {}) {
     Model model = with_step(prepare(scene, effects), dt);
     model.gravity = gravity;
-    Grains grains(model.kinds, model.effects.polydisperse, model.effects.rotation, model.effects.clumps);
+    Grains grains = no_grains(model);
     for (const Placed& p : placed_) {
-      grains.add(p.x, p.y, p.vx, p.vy, p.lot, grains.kinds[static_cast<std::size_t>(p.lot)], p.angle);
-      if (model.effects.rotation) grains.omega.back() = p.omega;
+      grains.add(p.at, p.velocity, p.lot, grains.kinds[static_cast<std::size_t>(p.lot)], p.turned);
+      set_turning(grains, grains.size() - 1, p.spin);
     }
     simulation_ = std::make_unique<Simulation>(model, starting_state(model, 1, std::move(grains)),
                                                ComputeOptions{.margins = margins});
@@ -92,7 +139,8 @@ class Bench {
 
  private:
   struct Placed {
-    double x, y, vx, vy, omega, angle;
+    Eigen::Vector3d at, velocity, spin;
+    Turn turned;
     int lot;
   };
   std::vector<Placed> placed_;
@@ -110,10 +158,19 @@ struct HertzImpact {
         duration(2 * std::sqrt(Bench::pi) * std::tgamma(1.4) / std::tgamma(0.9) * overlap / speed) {}
 };
 
+/// A wall where a grain hits it: a point of it (m), and unit vectors out of it and along it, in whose plane the impact
+/// is.
+struct HitWall {
+  Eigen::Vector3d point{0.5, 0, 0.5}, normal{0, 1, 0}, along{1, 0, 0};
+
+  Eigen::Vector3d across() const { return along.cross(normal); }  // the axis about which the grain is turned
+};
+
 /// What an impact left behind and how it went. The force counts as ended where it fell to zero, by linear
 /// interpolation between steps.
 struct ImpactResult {
-  double vx, vy, omega;   // of the grain that hit, afterwards
+  double vx, vy, omega;   // of the grain that hit, afterwards: along the wall, out of it, about the axis across
+  double aside;           // m/s, what of its velocity, and of its spin times its radius, is not in the impact's plane
   double other_vx;        // of the grain that was hit
   double peak_force;      // N, normal to the touching surfaces
   double peak_overlap;    // m
@@ -124,7 +181,8 @@ struct ImpactResult {
 /// Runs from before the touch to `after` steps past the parting. `overlap(run)` may be negative; `force(run)` is the
 /// repulsion on grain 0.
 template <class Overlap, class Force>
-ImpactResult run_impact(Simulation& run, double dt, Overlap overlap, Force force, std::int64_t most_steps = 2000000) {
+ImpactResult run_impact(Simulation& run, double dt, const HitWall& axes, Overlap overlap, Force force,
+                        std::int64_t most_steps = 2000000) {
   ImpactResult result{};
   double touched = -1, parted = -1, ended = -1, overlap_before = overlap(run), force_before = 0;
   const auto crossing = [&](double before, double now) { return run.time() - dt * now / (now - before); };
@@ -139,34 +197,39 @@ ImpactResult run_impact(Simulation& run, double dt, Overlap overlap, Force force
     overlap_before = d, force_before = f;
   }
   const Grains& g = run.grains();
-  result.vx = g.vx[0], result.vy = g.vy[0];
-  result.omega = g.rotation ? g.omega[0] : 0;
-  result.other_vx = g.size() > 1 ? g.vx[1] : 0;
+  const Eigen::Vector3d velocity = velocity_of(g, 0), spin = turning_of(g, 0), across = axes.across();
+  result.vx = velocity.dot(axes.along), result.vy = velocity.dot(axes.normal), result.omega = spin.dot(across);
+  result.aside = std::hypot(velocity.dot(across), g.kind(0).radius * spin.cross(across).norm());
+  result.other_vx = g.size() > 1 ? velocity_of(g, 1).dot(axes.along) : 0;
   result.duration = parted - touched;
   result.force_duration = ended - touched;
   return result;
 }
 
-/// A grain of lot 0 comes down on the floor with these velocities (m/s) and spin (rad/s). It starts `phase` steps
-/// above.
+/// A grain of lot 0 comes down on a wall with these velocities (m/s) and spin (rad/s). It starts `phase` steps above.
 inline ImpactResult wall_impact(Bench& bench, double down, double along, double dt, double spin = 0,
-                                double phase = 2.37) {
+                                double phase = 2.37, const HitWall& wall = {}) {
   const double r = 0.5 * bench.scene.lots[0].diameter;
-  bench.place(0.5, r + phase * down * dt, along, -down, spin);
+  bench.place(wall.point + (r + phase * down * dt) * wall.normal, along * wall.along - down * wall.normal,
+              spin * wall.across());
   Simulation& run = bench.start(dt);
   return run_impact(
-      run, dt, [r](const Simulation& s) { return r - s.grains().y[0]; },
-      [](const Simulation& s) { return s.field().forces()[0].fy; });
+      run, dt, wall, [&](const Simulation& s) { return r - wall.normal.dot(place_of(s.grains(), 0) - wall.point); },
+      [&](const Simulation& s) { return wall.normal.dot(force_on(s, 0)); });
 }
 
-/// Grain 0 (lot 0) flies at `speed` (m/s) along x into grain 1 (of `lot`), which is at rest.
-inline ImpactResult head_on_impact(Bench& bench, double speed, int lot, double dt, double phase = 2.37) {
+/// Grain 0 (lot 0) flies at `speed` (m/s) in a direction, along x, into grain 1 (of `lot`), which is at rest.
+inline ImpactResult head_on_impact(Bench& bench, double speed, int lot, double dt, double phase = 2.37,
+                                   const Eigen::Vector3d& direction = Eigen::Vector3d::UnitX()) {
   const double reach = 0.5 * (bench.scene.lots[0].diameter + bench.scene.lots[static_cast<std::size_t>(lot)].diameter);
-  bench.place(0.5, 0.5, speed).place(0.5 + reach + phase * speed * dt, 0.5, 0, 0, 0, lot);
+  const Eigen::Vector3d middle(0.5, 0.5, 0.5), nowhere = Eigen::Vector3d::Zero();
+  bench.place(middle, speed * direction)
+      .place(middle + reach * direction + (phase * speed * dt) * direction, nowhere, nowhere, lot);
   Simulation& run = bench.start(dt);
   return run_impact(
-      run, dt, [reach](const Simulation& s) { return reach - (s.grains().x[1] - s.grains().x[0]); },
-      [](const Simulation& s) { return -s.field().forces()[0].fx; });
+      run, dt, {middle, direction.unitOrthogonal(), direction},
+      [&](const Simulation& s) { return reach - direction.dot(place_of(s.grains(), 1) - place_of(s.grains(), 0)); },
+      [&](const Simulation& s) { return -direction.dot(force_on(s, 0)); });
 }
 
 }  // namespace vibrosow

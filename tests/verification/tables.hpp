@@ -7,6 +7,7 @@
 
 #include "input/source_files.hpp"
 #include "report/csv.hpp"
+#include "scene/scene.hpp"
 #include "support/report_file.hpp"
 
 namespace vibrosow {
@@ -29,6 +30,11 @@ class DataTable {
  private:
   CsvLines csv_;
 };
+
+/// The name of what the same test reports in one space or the other.
+inline std::string report_in(Space space, const std::string& name) {
+  return space == Space::plane ? name : name + "_in_space";
+}
 
 /// A report for plotting: written as NAME.csv into the directory that VIBROSOW_REPORTS names, or not at all.
 class VerificationReport {

@@ -1,11 +1,18 @@
-// What must not matter: left and right, the unit of mass, where the lab's origin is, which grain has which number.
+// What must not matter, in the plane and in space: left and right, front and back, which way the lab's axes point, the
+// unit of mass, where the lab's origin is, which grain has which number.
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <map>
+#include <numbers>
+#include <optional>
 
 #include "scene/clump_shape.hpp"
+#include "scene/make_clump.hpp"
 #include "support/bench.hpp"
+#include "support/same_bits.hpp"
 #include "verification/tables.hpp"
 
 namespace vibrosow {
@@ -29,16 +36,37 @@ std::vector<Case> cases() {
           {"clumps spring", Law::elastic_shell, FrictionModel::spring, Rolling::none, true}};
 }
 
-Scene scene_of(const Case& c) {
+/// Four unlike balls: no mirror image of such a clump is the clump turned.
+std::vector<ClumpDisc> one_handed() {
+  return {{0, 0, 4e-3}, {4e-3, 1e-3, 2.5e-3}, {-2e-3, 4e-3, 2e-3, 1e-3}, {0, 2e-3, 2.5e-3, 3e-3}};
+}
+
+HarmonicMotion& motion_of(Scene& scene) {
+  return std::get<HarmonicMotion>(*scene.tray.motion);
+}
+
+/// In space the floor is smaller, so that as many grains lie in layers, and oblong, so that along and across differ.
+/// The walls' distances from x = 0 and z = 0 stay between two powers of two while the tray swings: opposite walls are
+/// then rounded alike.
+void put_in_space(Scene& scene, const Case& c, Plan plan) {
+  scene.space = Space::three_dimensional;
+  scene.lots[1].shape = Shape::ball;
+  if (c.rolling != Rolling::none) scene.contact.seed.twisting_friction = scene.contact.wall.twisting_friction = 0.05;
+  Vessel& tray = scene.tray;
+  tray.plan = plan;
+  tray.length = plan == Plan::round ? 0.03125 : 0.046875, tray.depth = plan == Plan::round ? 0.03125 : 0.0234375;
+  tray.origin.x() = -0.5 * tray.length, tray.front = -0.5 * *tray.depth;
+  tray.holes = {
+      {.centre = 0.5 * tray.length, .width = 0.01171875, .shape = HoleShape::round, .across = 0.5 * *tray.depth}};
+  tray.height = 0.2;
+  // It sets out from rest: poured balls touch the walls to within a last bit, which must not decide on a hard push.
+  motion_of(scene).across = 0.5, motion_of(scene).ramp = 0.02;
+}
+
+Scene scene_of(const Case& c, Space space, Plan plan = Plan::rectangle) {
   Scene scene;
   scene.lots = {{"big", 8e-3, 6e-4, Shape::ball, 0.6}, {"small", 5e-3, 1.5e-4, Shape::disc, 0.4}};
-  if (c.clumps) {
-    SeedLot& lot = scene.lots[0];
-    lot.shape = Shape::clump;
-    lot.discs = dipole(5e-3, 3e-3);
-    lot.diameter = 2 * holding_radius(lot.discs);
-    lot.gyration2 = plate_of(lot.discs).gyration2;
-  }
+  if (c.clumps) make_clump(scene.lots[0], space == Space::plane ? dipole(5e-3, 3e-3) : one_handed(), space);
   Contact& contact = scene.contact;
   contact.law = c.law;
   contact.shell_compression = 1e-3;
@@ -57,6 +85,7 @@ Scene scene_of(const Case& c) {
   scene.tray.fill = Fill{60, Packing::poured, 1e-3, false};
   scene.tray.motion = HarmonicMotion{0, 4e-3, 12, 0};
   scene.run.duration = 1;
+  if (space == Space::three_dimensional) put_in_space(scene, c, plan);
   return scene;
 }
 
@@ -66,8 +95,9 @@ Scene without_cohesion(Scene scene) {
   return scene;
 }
 
-Grains run_from(const Scene& scene, const Grains& start) {
-  const Model model = with_step(prepare(scene), 1e-5);
+Grains run_from(const Scene& scene, const Grains& start, const Eigen::Vector2d& up = Eigen::Vector2d::UnitY()) {
+  Model model = with_step(prepare(scene), 1e-5);
+  model.gravity = -standard_gravity * up;
   Simulation run(model, starting_state(model, 1, start));
   run.steps(5000);  // 0.05 s
   EXPECT_FALSE(run.guard().stop_reason()) << *run.guard().stop_reason();
@@ -79,62 +109,172 @@ Grains start_of(const Scene& scene) {
   return starting_state(prepare(scene), 11).grains;
 }
 
-double largest_difference(const Grains& a, const Grains& b, double shift_x = 0, double mirror = 1) {
-  double largest = 0;
-  for (std::size_t i = 0; i < a.size(); ++i)
-    largest = std::max({largest, std::abs(mirror * b.x[i] - shift_x - a.x[i]), std::abs(b.y[i] - a.y[i])});
-  return largest;
-}
+/// The lab seen in other axes: what was at p is at axes p + shift. Where they are a mirror's, clumps change into mirror
+/// images of themselves: `own` is the mirror of their own axes, and what is left of `axes` turns them.
+struct View {
+  std::string name;
+  std::function<Scene(Scene)> scene;
+  Eigen::Matrix3d axes = Eigen::Matrix3d::Identity(), own = Eigen::Matrix3d::Identity();
+  Eigen::Vector3d shift = Eigen::Vector3d::Zero();  // m
+  Plan plan = Plan::rectangle;                      // of the tray that is looked at
 
-class Invariance : public testing::Test {
- protected:
-  static void SetUpTestSuite() {
-    report_.emplace("invariances", "largest difference of any grain's place after 0.05 s in a shaken tray of 60 grains",
-                    std::vector<std::string>{"change", "case", "largest_difference_m"});
+  Grains of(Grains g) const {
+    const double handed = own.determinant();  // spins and turns are the other way round in a mirror
+    const Eigen::Matrix3d turn = axes * own;
+    const Eigen::Quaterniond q(turn);
+    for (std::size_t i = 0; i < g.size(); ++i) {
+      const Eigen::Vector3d at = axes * place_of(g, i) + shift, velocity = axes * velocity_of(g, i);
+      set_turning(g, i, handed * (axes * turning_of(g, i)));
+      g.x[i] = at.x(), g.y[i] = at.y(), g.vx[i] = velocity.x(), g.vy[i] = velocity.y();
+      if (g.in_space) g.z[i] = at.z(), g.vz[i] = velocity.z();
+      if (!g.oriented) continue;
+      if (!g.in_space) {
+        g.angle[i] = handed * g.angle[i] + std::atan2(turn(1, 0), turn(0, 0));
+        continue;
+      }
+      const Orientation was = g.orientation(i);
+      const Eigen::Vector3d mirrored = handed * (own * Eigen::Vector3d(was.x, was.y, was.z));
+      g.set_orientation(
+          i, Orientation{q.w(), q.x(), q.y(), q.z()} * Orientation{was.w, mirrored.x(), mirrored.y(), mirrored.z()});
+    }
+    return g;
   }
-  static void TearDownTestSuite() { report_.reset(); }
-  static void tell(const std::string& change, const std::string& name, double difference) {
-    report_->add(change, name, difference);
+  /// Of any grain's place along any axis, m.
+  double largest_difference(const Grains& seen_straight, const Grains& seen_so) const {
+    double largest = 0;
+    for (std::size_t i = 0; i < seen_straight.size(); ++i)
+      largest = std::max(
+          largest,
+          (axes.transpose() * (place_of(seen_so, i) - shift) - place_of(seen_straight, i)).cwiseAbs().maxCoeff());
+    return largest;
   }
-
- private:
-  static inline std::optional<VerificationReport> report_;
 };
 
-/// The scene as a mirror at x = 0 shows it, and its grains.
-Scene mirror(Scene scene) {
-  if (scene.tray.motion) std::get<HarmonicMotion>(*scene.tray.motion).amplitude *= -1;
+Scene mirrored_along(Scene scene) {
+  motion_of(scene).amplitude *= -1, motion_of(scene).across *= -1;
   for (SeedLot& lot : scene.lots)
     for (ClumpDisc& disc : lot.discs) disc.x = -disc.x;
   return scene;
 }
-Grains mirror(Grains grains) {
-  for (std::vector<double>* array : {&grains.x, &grains.vx, &grains.omega, &grains.angle})
-    for (double& value : *array) value = -value;
-  return grains;
+Scene mirrored_across(Scene scene) {
+  motion_of(scene).across *= -1;
+  for (SeedLot& lot : scene.lots)
+    for (ClumpDisc& disc : lot.discs) disc.z = -disc.z;
+  return scene;
 }
 
-TEST_F(Invariance, UnderAMirror) {
-  for (const Case& c : cases()) {
-    SCOPED_TRACE(c.name);
-    const Scene scene = scene_of(c);
-    const Grains start = start_of(scene);
-    const Grains a = run_from(scene, start), b = run_from(mirror(scene), mirror(start));
-    tell("mirror about x = 0", c.name, largest_difference(a, b, 0, -1));
-    ASSERT_EQ(a.size(), b.size());
-    for (std::size_t i = 0; i < a.size(); ++i) {
-      ASSERT_EQ(b.x[i], -a.x[i]) << i;
-      ASSERT_EQ(b.y[i], a.y[i]) << i;
-      ASSERT_EQ(b.vx[i], -a.vx[i]) << i;
-      ASSERT_EQ(b.omega[i], -a.omega[i]) << i;
+std::vector<View> mirrors(Space space) {
+  const Eigen::Matrix3d along = Eigen::Vector3d(-1, 1, 1).asDiagonal(), across = Eigen::Vector3d(1, 1, -1).asDiagonal();
+  std::vector<View> views = {{"mirror about x = 0", mirrored_along, along, along}};
+  if (space == Space::three_dimensional) views.push_back({"mirror about z = 0", mirrored_across, across, across});
+  return views;
+}
+
+constexpr double tilt = 0.4, turn = 0.7;  // rad
+
+/// The tray leans and everything with it, the weight as well.
+Scene leaning(Scene scene) {
+  scene.tray.tilt = tilt;
+  scene.tray.origin = Eigen::Rotation2Dd(tilt) * scene.tray.origin;
+  motion_of(scene).direction += tilt;
+  return scene;
+}
+/// Along and across change places, which is a mirror too.
+Scene with_x_and_z_swapped(Scene scene) {
+  Vessel& tray = scene.tray;
+  std::swap(tray.length, *tray.depth), std::swap(tray.origin.x(), tray.front);
+  for (Hole& hole : tray.holes) std::swap(hole.centre, hole.across);
+  motion_of(scene).across = std::numbers::pi / 2 - motion_of(scene).across;
+  for (SeedLot& lot : scene.lots)
+    for (ClumpDisc& disc : lot.discs) disc.x = -disc.x;
+  return scene;
+}
+/// A round tray about its own axis, which is the lab's.
+Scene turned_upright(Scene scene) {
+  motion_of(scene).across += turn;
+  return scene;
+}
+
+std::vector<View> turns(Space space) {
+  const Eigen::Matrix3d lean = Eigen::AngleAxisd(tilt, Eigen::Vector3d::UnitZ()).toRotationMatrix();
+  std::vector<View> views = {{"leaning by 0.4 rad, with its weight", leaning, lean}};
+  Eigen::Matrix3d swap;
+  swap << 0, 0, 1, 0, 1, 0, 1, 0, 0;
+  const Eigen::Matrix3d mirror = Eigen::Vector3d(-1, 1, 1).asDiagonal();
+  if (space == Space::three_dimensional) views.push_back({"x and z swapped", with_x_and_z_swapped, swap, mirror});
+  return views;
+}
+
+View upright_turn() {
+  View view{"a round tray turned by 0.7 rad", turned_upright};
+  view.axes = Eigen::AngleAxisd(-turn, Eigen::Vector3d::UnitY()).toRotationMatrix();
+  view.plan = Plan::round;
+  return view;
+}
+
+View shift(Space space) {
+  View view{"shift by 0.3 m", nullptr};
+  view.shift.x() = 0.3;
+  if (space == Space::three_dimensional)
+    view.name = "shift by 0.5 m along, 0.25 m up and 2 m across", view.shift = {0.5, 0.25, 2};
+  view.scene = [by = view.shift](Scene scene) {
+    scene.tray.origin += by.head<2>(), scene.tray.front += by.z();
+    return scene;
+  };
+  return view;
+}
+
+class Invariance : public testing::TestWithParam<Space> {
+ protected:
+  static void SetUpTestSuite() {
+    for (const Space space : both_spaces)
+      reports_[space].emplace(report_in(space, "invariances"),
+                              "largest difference of any grain's place after 0.05 s in a shaken tray of 60 grains",
+                              std::vector<std::string>{"change", "case", "largest_difference_m"});
+  }
+  static void TearDownTestSuite() { reports_.clear(); }
+  static void tell(const std::string& change, const std::string& name, double difference) {
+    reports_[GetParam()]->add(change, name, difference);
+  }
+
+  /// What differs where rounding does, which chaos lets grow: 1e-15 m at first, some 1e-10 m after 0.05 s.
+  static void expect_nearly_the_same(const std::vector<View>& views) {
+    for (const Case& c : cases()) {
+      const Scene scene = without_cohesion(scene_of(c, GetParam(), views.front().plan));
+      const Grains start = start_of(scene), straight = run_from(scene, start);
+      for (const View& view : views) {
+        const Eigen::Vector3d up = view.axes * Eigen::Vector3d::UnitY();
+        const Grains so = run_from(view.scene(scene), view.of(start), up.head<2>());
+        ASSERT_EQ(so.size(), straight.size());
+        const double difference = view.largest_difference(straight, so);
+        EXPECT_LT(difference, 1e-10) << view.name << ": " << c.name;
+        tell(view.name, c.name, difference);
+      }
     }
   }
+
+ private:
+  static inline std::map<Space, std::optional<VerificationReport>> reports_;
+};
+INSTANTIATE_TEST_SUITE_P(Spaces, Invariance, testing::ValuesIn(both_spaces), named_by_space);
+
+TEST_P(Invariance, UnderAMirror) {
+  for (const View& view : mirrors(GetParam()))
+    for (const Case& c : cases()) {
+      SCOPED_TRACE(view.name + ": " + c.name);
+      Scene scene = scene_of(c, GetParam());
+      if (GetParam() == Space::three_dimensional) scene.tray.holes.clear();  // a face counts from one of its corners
+      const Grains start = start_of(scene);
+      const Grains a = run_from(scene, start), b = run_from(view.scene(scene), view.of(start));
+      tell(view.name, c.name, view.largest_difference(a, b));
+      EXPECT_EQ(bits(view.of(a)), bits(b));
+    }
 }
 
-TEST_F(Invariance, UnderTwiceTheMass) {
+TEST_P(Invariance, UnderTwiceTheMass) {
   for (const Case& c : cases()) {
     SCOPED_TRACE(c.name);
-    const Scene scene = scene_of(c);
+    const Scene scene = scene_of(c, GetParam());
     Scene doubled = scene;
     for (SeedLot& lot : doubled.lots) lot.mass *= 2;
     doubled.contact.drag *= 2;
@@ -142,46 +282,47 @@ TEST_F(Invariance, UnderTwiceTheMass) {
     doubled.contact.seed.cohesion *= 2;
     doubled.contact.wall.cohesion *= 2;
     const Grains a = run_from(scene, start_of(scene)), b = run_from(doubled, start_of(doubled));
-    tell("all masses twice, with drag, modulus and cohesion", c.name, largest_difference(a, b));
-    ASSERT_EQ(a.size(), b.size());
-    for (std::size_t i = 0; i < a.size(); ++i) {
-      ASSERT_EQ(b.x[i], a.x[i]) << i;
-      ASSERT_EQ(b.y[i], a.y[i]) << i;
-      ASSERT_EQ(b.vx[i], a.vx[i]) << i;
-      ASSERT_EQ(b.omega[i], a.omega[i]) << i;
-    }
+    tell("all masses twice, with drag, modulus and cohesion", c.name, View{}.largest_difference(a, b));
+    EXPECT_EQ(bits(a), bits(b));
   }
 }
 
-TEST_F(Invariance, UnderAShift) {
-  for (const Case& c : cases()) {
-    const Scene scene = without_cohesion(scene_of(c));
-    const double shift = 0.3;
-    Scene shifted = scene;
-    shifted.tray.origin.x() += shift;
-    const Grains start = start_of(scene);
-    Grains other = start;
-    for (double& x : other.x) x += shift;
-    const double difference = largest_difference(run_from(scene, start), run_from(shifted, other), shift);
-    EXPECT_LT(difference, 1e-10) << c.name;
-    tell("shift by 0.3 m", c.name, difference);
-  }
+TEST_P(Invariance, UnderAShift) {
+  expect_nearly_the_same({shift(GetParam())});
 }
 
-TEST_F(Invariance, UnderOtherNumbers) {
+TEST_P(Invariance, UnderATurn) {
+  expect_nearly_the_same(turns(GetParam()));
+  if (GetParam() == Space::three_dimensional) expect_nearly_the_same({upright_turn()});
+}
+
+// Places on a face, and so its edges and the rims of its holes, are counted from one of its corners, and rounded.
+TEST_P(Invariance, UnderAMirrorWithEdges) {
+  std::vector<View> views = mirrors(GetParam());
+  for (View& view : views) view.name += ", with holes";
+  expect_nearly_the_same(views);
+}
+
+Grains numbered_backwards(const Grains& g) {
+  Grains other = g;
+  other.remove_flagged(std::vector<char>(g.size(), 1));
+  for (std::size_t k = g.size(); k-- > 0;) {
+    Turn turned;
+    if (g.oriented && g.in_space) turned.orientation = g.orientation(k);
+    if (g.oriented && !g.in_space) turned.angle = g.angle[k];
+    other.add(place_of(g, k), velocity_of(g, k), g.lot[k], g.kind(k), turned);
+    set_turning(other, other.size() - 1, turning_of(g, k));
+  }
+  return other;
+}
+
+TEST_P(Invariance, UnderOtherNumbers) {
   for (const Case& c : cases()) {
-    const Scene scene = without_cohesion(scene_of(c));
+    const Scene scene = without_cohesion(scene_of(c, GetParam()));
     const Grains start = start_of(scene);
-    Grains other(start.kinds, start.polydisperse, start.rotation, start.oriented);
-    for (std::size_t k = start.size(); k-- > 0;)
-      other.add(start.x[k], start.y[k], start.vx[k], start.vy[k], start.lot[k], start.kind(k),
-                start.oriented ? start.angle[k] : 0);
-    const Grains a = run_from(scene, start), b = run_from(scene, other);
-    double difference = 0;
-    for (std::size_t i = 0; i < a.size(); ++i) {
-      const std::size_t j = a.size() - 1 - i;
-      difference = std::max({difference, std::abs(a.x[i] - b.x[j]), std::abs(a.y[i] - b.y[j])});
-    }
+    const Grains a = run_from(scene, start);
+    const Grains b = numbered_backwards(run_from(scene, numbered_backwards(start)));
+    const double difference = View{}.largest_difference(a, b);
     EXPECT_LT(difference, 1e-10) << c.name;
     tell("numbered backwards", c.name, difference);
   }
