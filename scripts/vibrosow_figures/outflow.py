@@ -13,14 +13,20 @@ from .tables import command, mean_and_half_width, rows, write_table
 GRAVITY = 9.81  # m/s2
 
 
+def weights_of(by_slot, slots):
+    """Scatter of the logarithms of each run's slot; none, so that all runs count alike, where five runs of a slot do not tell it."""
+    if any(len(by_slot[at]) < 5 for at in slots):
+        return None
+    return np.concatenate([np.full(len(by_slot[at]), np.std(np.log(by_slot[at]), ddof=1)) for at in slots])
+
+
 def fit(by_slot, slots, unit):
     """(C, k, p) and the half widths of their intervals; rates in `unit` (1/s)."""
     widths = np.concatenate([np.full(len(by_slot[at]), at) for at in slots])
     logs = np.concatenate([np.log(np.array(by_slot[at]) / unit) for at in slots])
-    scatter = np.concatenate([np.full(len(by_slot[at]), np.std(np.log(by_slot[at]), ddof=1)) for at in slots])
     bounds = ((-np.inf, -3, 0), (np.inf, slots[0] - 0.05, 5))
     (log_c, k, p), covariance = curve_fit(lambda width, log_c, k, p: log_c + p * np.log(width - k), widths, logs, p0=(0, 1, 1.5),
-                                          sigma=scatter, bounds=bounds, xtol=1e-12, ftol=1e-12)
+                                          sigma=weights_of(by_slot, slots), bounds=bounds, xtol=1e-12, ftol=1e-12)
     half = student.ppf(0.975, len(logs) - 3) * np.sqrt(np.diag(covariance))
     c = math.exp(log_c)
     return (c, k, p), (c * half[0], half[1], half[2])
@@ -55,7 +61,7 @@ def slot_of(name):
 
 def write_fits(path, flowing, unit):
     """Fits of each range of slots; returns the rates that the widest range's fit has."""
-    by_slot = {slot_of(name): rates for name, rates in flowing.items() if slot_of(name) and len(rates) > 1}
+    by_slot = {slot_of(name): rates for name, rates in flowing.items() if slot_of(name) and rates}
     fitted, lines = {}, []
     if len(by_slot) < 3:
         return fitted
@@ -86,8 +92,8 @@ def fit_outflow(options):
     Layouts that are called "5 d", "7 d", .. are fitted, if there are three or more: fit.csv, of each range of four neighbouring
     slots or more (of three, if that is all), the widest first. A run that ends with no more grains than its fill has none
     between floor and counter: it has clogged, is left out and counted. Least squares of the logarithms of all other runs, each
-    with the inverse of the variance among its slot's runs as weight: runs of a narrow slot scatter three times as much as those
-    of a wide one. Intervals (95 %) from the fit's covariance and Student's t."""
+    with the inverse of the variance among its slot's runs as weight, where every slot has five: runs of a narrow slot scatter three
+    times as much as those of a wide one. Intervals (95 %) from the fit's covariance and Student's t."""
     folder = options.reports[0]
     unit = math.sqrt(GRAVITY / (options.diameter_mm * 1e-3))
     flowing, clogged = {}, {}
