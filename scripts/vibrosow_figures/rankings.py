@@ -11,9 +11,11 @@ from .tables import command, rows, write_table
 
 
 def logs_of_rates(folder):
-    """Logarithms of every run's rate of the tray (g/s), a list per layout."""
+    """Logarithms of every run's rate of the tray (g/s), a list per layout. Ends the program where a run has none."""
     found = {}
     for run in rows(f"{folder}/sweep_runs.csv"):
+        if not run["tray_rate_g_per_s"] or float(run["tray_rate_g_per_s"]) <= 0:
+            raise SystemExit(f"{folder}/sweep_runs.csv: layout {run['layout']} has a run without a rate of the tray")
         found.setdefault(run["layout"], []).append(math.log(float(run["tray_rate_g_per_s"])))
     return found
 
@@ -51,7 +53,7 @@ def counted(what, pairs, space, plane):
 def compare_rankings(options):
     """Compares how two sweeps of the same layouts, SPACE and PLANE, rank them by the tray's rate.
 
-    Writes into OUT spaces.csv, both rates of every layout, their ratio and ranks, and rankings.csv: of the pairs of layouts, all and those
+    Writes into OUT spaces.csv, both rates of every layout (geometric means of the runs), their ratio and ranks, and rankings.csv: of the pairs of layouts, all and those
     that differ in one key alone, how many differ beyond chance (95 %) in space, and in which order the plane has those: the same, none
     beyond chance, the other way round; and how many differ in the plane alone. The last column of its first row is Kendall's tau."""
     varied, conditions = conditions_of(rows(f"{options.space}/sweep.csv"))
@@ -72,11 +74,9 @@ def compare_rankings(options):
     pairs = list(combinations(names, 2))
     tau = kendalltau(*ranks).statistic
     counts = [[*counted("all", pairs, space, plane), f"{tau:.2f}"]]
-    for key, column in zip(varied, zip(*conditions.values())):
-        place = varied.index(key)
+    for place, key in enumerate(varied):
         alone = [(a, b) for a, b in pairs if all((x != y) == (at == place) for at, (x, y) in enumerate(zip(conditions[a], conditions[b])))]
-        if len(set(column)) > 1:
-            counts.append([*counted(key, alone, space, plane), ""])
+        counts.append([*counted(key, alone, space, plane), ""])
     write_table(f"{options.out}/rankings.csv", "pairs_differ_in,pairs,differ_in_space,same_in_plane,alike_in_plane,reversed_in_plane,"
                 "differ_in_plane_alone,kendall_tau", counts)
 
