@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <memory>
+#include <numeric>
 
 #include "cli/commands.hpp"
 #include "cli/common_options.hpp"
@@ -10,6 +11,8 @@
 #include "cli/progress.hpp"
 #include "cli/threads.hpp"
 #include "design/accuracy.hpp"
+#include "design/predicted_cost.hpp"
+#include "design/promise.hpp"
 #include "input/input_file.hpp"
 #include "input/read_scene.hpp"
 #include "laws/law.hpp"
@@ -30,7 +33,17 @@ struct AccuracyOptions {
   std::vector<double> steps_per_contact, shell_compressions;
   std::vector<std::string> youngs_moduli, slip_speeds;
   int replicates = 5;
+  std::string within, budget;
+
+  bool promises() const { return !within.empty() || !budget.empty(); }
+  bool names_levels() const {
+    return !(integrators.empty() && steps_per_contact.empty() && shell_compressions.empty() && youngs_moduli.empty() &&
+             slip_speeds.empty());
+  }
 };
+
+constexpr double least_percent = 0.01, most_percent = 50;
+constexpr double least_budget = 1, most_budget = 1e7;  // s
 
 /// CLI::Range takes nan.
 CLI::Validator number_within(double least, double most) {
@@ -90,30 +103,131 @@ AccuracyGrid grid_of(const AccuracyOptions& options, const Scene& scene) {
   return grid;
 }
 
-int run_accuracy(const AccuracyOptions& options) {
-  const InputFile file = input_file(options.common.file, FileKind::seeder);
-  const Scene scene = read_scene(file.path, options.common.overrides(), file.files);
-  print_warnings(scene_warnings(scene));
+AccuracyDesign design_of(const AccuracyOptions& options, const Scene& scene) {
   const AccuracyGrid grid = grid_of(options, scene);
+  return options.names_levels() ? full_design(grid) : thrifty_design(grid);
+}
+
+/// A budget of so many jobs.
+PromiseGoal goal_of(const AccuracyOptions& options, int jobs) {
+  PromiseGoal goal;
+  if (!options.within.empty())
+    goal.within_percent = 100 * quantities("--within", {options.within}, Dimension::fraction, least_percent / 100,
+                                           most_percent / 100, "0.01 % to 50 %")
+                                    .front();
+  if (!options.budget.empty())
+    goal.cpu_time =
+        jobs *
+        quantities("--budget", {options.budget}, Dimension::time, least_budget, most_budget, "1 s to 1e+07 s").front();
+  return goal;
+}
+
+/// Whether the flow goes on for as long as one likes: seeds are put in again, at one rate or up to one number.
+bool is_fed_for_ever(const Scene& scene) {
+  const auto fed = [](const Vessel& vessel) {
+    return (vessel.fill && vessel.fill->keep) || (vessel.rain && vessel.rain->stop == never);
+  };
+  return fed(scene.tray) || (scene.hopper && fed(*scene.hopper));
+}
+
+/// The scene's own scheme alone: others cost more for what they bring, which the table of `accuracy` shows.
+PromiseChoices choices_of(const Scene& scene) {
+  AccuracyGrid grid = default_accuracy_grid(scene);
+  grid.integrators = {scene.numerics.integrator};
+  PromiseChoices choices{.design = thrifty_design(grid),
+                         .lead = scene.run.measure_from,
+                         .window = scene.run.duration - scene.run.measure_from};
+  if (is_fed_for_ever(scene)) choices.windows = {1, 2, 4};
+  return choices;
+}
+
+/// Says so where a round of pilots would use the budget up, by the time that a run of the scene takes.
+void refuse_small_budget(const PromiseGoal& goal, const PromiseChoices& choices, const Scene& scene, int jobs) {
+  if (!goal.cpu_time) return;
+  const Model model = prepare(scene);
+  const double own_steps = model.step.contact_duration / model.step.dt;
+  const double run = predict_cost(scene).seconds();
+  double pilots = 0;
+  for (std::size_t i = 0; i < choices.design.settings.size(); ++i) {
+    AccuracySetting setting = choices.design.settings[i];
+    if (choices.design.runs[i] == 0) continue;
+    scene_with(scene, setting);
+    pilots += choices.design.runs[i] * run * setting.steps_per_contact / own_steps * model.step.contact_duration /
+              setting.contact_duration;
+  }
+  if (pilots > *goal.cpu_time)
+    throw InputError(fmt::format("--budget: the pilots alone would take some {}", duration_text(pilots / jobs)));
+}
+
+/// Runs settings with a progress line of their own for each stage.
+RunSettings with_progress(SettingRunner& runner, bool quiet) {
+  return [&runner, quiet](const std::vector<SettingRuns>& wanted) {
+    double runs = 0;
+    for (const SettingRuns& of : wanted) runs += of.runs;
+    Progress progress(quiet, runs, "runs");
+    runner.set_progress([&](const ManyRunsProgress& done) { progress.update(done.fraction_done); });
+    std::vector<AccuracyRun> made = runner.run(wanted);
+    runner.set_progress({});
+    return made;
+  };
+}
+
+SweepOptions sweep_options_of(const AccuracyOptions& options, int jobs, const std::atomic<bool>& interrupt) {
+  SweepOptions sweep_options;
+  sweep_options.first_random_seed = options.common.random_seed;
+  sweep_options.runs.jobs = jobs;
+  sweep_options.runs.interrupt = &interrupt;
+  return sweep_options;
+}
+
+/// The scene that a command is about, with its warnings printed.
+Scene scene_of(const AccuracyOptions& options) {
+  const InputFile file = input_file(options.common.file, FileKind::seeder);
+  Scene scene = read_scene(file.path, options.common.overrides(), file.files);
+  print_warnings(scene_warnings(scene));
+  return scene;
+}
+
+int run_table(const AccuracyOptions& options) {
+  const Scene scene = scene_of(options);
+  const AccuracyDesign design = design_of(options, scene);
   const OutputFolder folder = options.common.output_folder("accuracy", accuracy_file_texts(), "-accuracy");
   const int jobs = threads_to_be_had(options.common.jobs);
   const std::atomic<bool>& interrupt = watch_for_interrupt();
-  const auto settings = static_cast<double>(settings_of(grid).size());
   AccuracyResult result;
-  double wall_time = 0;
+  AccuracyTiming timing{.jobs = jobs};
   {
-    Progress progress(options.common.quiet, settings * options.replicates, "runs");
-    SweepOptions sweep_options;
-    sweep_options.first_random_seed = options.common.random_seed;
-    sweep_options.runs.jobs = jobs;
-    sweep_options.runs.interrupt = &interrupt;
+    const double runs = std::accumulate(design.runs.begin(), design.runs.end(), 0.0);
+    Progress progress(options.common.quiet, runs * options.replicates, "runs");
+    SweepOptions sweep_options = sweep_options_of(options, jobs, interrupt);
     sweep_options.runs.progress = [&](const ManyRunsProgress& done) { progress.update(done.fraction_done); };
-    result = measure_accuracy(scene, grid, options.replicates, run_model, sweep_options);
-    wall_time = progress.seconds();
+    result = measure_accuracy(scene, design, options.replicates, run_model, sweep_options);
+    timing.wall_time = progress.seconds();
   }
   write_then_print(
-      options.common.quiet, [&] { folder.write(accuracy_files(result, wall_time, jobs, options.common.csv)); },
+      options.common.quiet, [&] { folder.write(accuracy_files(result, timing, options.common.csv)); },
       [&] { print("{}\n{}\n{}", wrapped(scene.title), accuracy_table(result), wrapped(accuracy_sentence(result))); });
+  if (!options.common.quiet) print("reports: {}\n", folder.path().string());
+  return interrupt ? exit_interrupted : exit_done;
+}
+
+int run_promise(const AccuracyOptions& options) {
+  if (options.names_levels())
+    throw InputError("--within and --budget choose the setting themselves: name no levels of it");
+  const int jobs = threads_to_be_had(options.common.jobs);
+  const PromiseGoal goal = goal_of(options, jobs);
+  const Scene scene = scene_of(options);
+  PromiseChoices choices = choices_of(scene);
+  const OutputFolder folder = options.common.output_folder("accuracy", accuracy_file_texts(), "-accuracy");
+  refuse_small_budget(goal, choices, scene, jobs);
+  const std::atomic<bool>& interrupt = watch_for_interrupt();
+  SettingRunner runner(scene, choices.design.settings, run_model, sweep_options_of(options, jobs, interrupt));
+  const Progress clock(true, 0, "");
+  const Promise made = promise(choices, goal, with_progress(runner, options.common.quiet));
+  const AccuracyTiming timing{.wall_time = clock.seconds(), .jobs = jobs};
+  write_then_print(
+      options.common.quiet, [&] { folder.write(promise_files(made, goal, timing, options.common.csv)); },
+      [&] { print("{}\n{}", wrapped(scene.title), promise_text(made, goal)); });
   if (!options.common.quiet) print("reports: {}\n", folder.path().string());
   return interrupt ? exit_interrupted : exit_done;
 }
@@ -129,31 +243,46 @@ void add_accuracy_command(CLI::App& app, int& exit_code) {
       ->delimiter(',')
       ->type_name("NAME")
       ->check(CLI::IsMember(integrator_names()));
-  command->add_option("--steps-per-contact", options->steps_per_contact, "default 10,20,40")
+  command
+      ->add_option("--steps-per-contact", options->steps_per_contact,
+                   "default: the seeder's and twice as many; also as few as are safe")
       ->delimiter(',')
       ->type_name("N")
       ->check(number_within(1, 1e4));
   command
       ->add_option("--shell-compression", options->shell_compressions,
-                   "default: the seeder's, times 1, 10 and 100, up to 0.05")
+                   "default: the seeder's over 10, itself, and up to 100 times that")
       ->delimiter(',')
       ->type_name("EPS/R")
       ->check(number_within(1e-9, 0.5));
   command
       ->add_option("--youngs-modulus", options->youngs_moduli,
-                   "with units: \"50 MPa\"; default with Hertz' law: the seeder's, over 1, 10 and 100")
+                   "with units: \"50 MPa\"; default with Hertz' law: the seeder's times 10, itself, and down to a "
+                   "hundredth")
       ->delimiter(',')
       ->type_name("E");
   command
-      ->add_option("--slip-speed", options->slip_speeds,
-                   "with units: \"20 mm/s\"; default: the seeder's, times 1 and 5, where its friction is sliding")
+      ->add_option(
+          "--slip-speed", options->slip_speeds,
+          "with units: \"20 mm/s\"; default: half the seeder's and four times that, where its friction is sliding")
       ->delimiter(',')
       ->type_name("SPEED");
-  command->add_option("--replicates", options->replicates, "runs of each setting")
+  command->add_option("--replicates", options->replicates, "runs of each setting; without levels, rounds of a design")
       ->type_name("N")
       ->check(CLI::Range(1, 1000))
       ->capture_default_str();
-  command->callback([options, &exit_code] { exit_code = run_accuracy(*options); });
+  CLI::Option* within =
+      command
+          ->add_option("--within", options->within,
+                       "instead: choose a setting and run it, so that the rate errs by at most that: \"3 %\"")
+          ->type_name("PERCENT");
+  command
+      ->add_option("--budget", options->budget,
+                   "instead: the smallest error to be had for that time of all jobs: \"2 min\"")
+      ->type_name("TIME")
+      ->excludes(within);
+  command->callback(
+      [options, &exit_code] { exit_code = options->promises() ? run_promise(*options) : run_table(*options); });
 }
 
 }  // namespace vibrosow

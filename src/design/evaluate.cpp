@@ -1,5 +1,6 @@
 #include "design/evaluate.hpp"
 
+#include "design/cpu_time.hpp"
 #include "scene/input_error.hpp"
 
 namespace vibrosow {
@@ -48,7 +49,12 @@ Evaluation evaluate(const Model& model, const SimulationOptions& options, const 
   };
   if (const auto too_long = step_refused(model.scene.numerics, model.step)) return refused(*too_long);
   try {
-    return reduced(model.scene, simulator(model, options), curves);
+    const double begin = cpu_time();
+    const Run run = simulator(model, options);
+    const double used = cpu_time() - begin;
+    Evaluation evaluation = reduced(model.scene, run, curves);
+    evaluation.cpu_time = used;
+    return evaluation;
   } catch (const InputError& error) {
     return refused(error.what());
   }

@@ -40,7 +40,7 @@ enum class EvaluationStatus {
 };
 
 /// What is kept of one run of a scene: all that studies ask for, in SI, and nothing large. Depends on the scene and the
-/// random seed alone, but for `wall_time`.
+/// random seed alone, but for the two times.
 struct Evaluation {
   std::uint64_t random_seed = 1;
   EvaluationStatus status = EvaluationStatus::not_begun;
@@ -58,6 +58,7 @@ struct Evaluation {
   std::vector<RecordFigures> records{};  // of each record that was reached
   std::vector<Curve> curves{};           // those wanted, in their order
   double wall_time = 0;                  // s, of this machine
+  double cpu_time = 0;                   // s, of the thread that ran it
 
   bool finished() const { return status == EvaluationStatus::finished; }
   /// Whether there was a run, so that the figures mean something.

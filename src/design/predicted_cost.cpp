@@ -1,13 +1,12 @@
 #include "design/predicted_cost.hpp"
 
-#include <time.h>
-
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <memory>
 #include <type_traits>
 
+#include "design/cpu_time.hpp"
 #include "outflow/statistics.hpp"
 #include "plan/effects.hpp"
 #include "plan/model.hpp"
@@ -24,13 +23,6 @@ constexpr double phase_cpu_time = 0.6;  // s, at most, of each
 constexpr int rounds = 12;
 constexpr double round_cpu_time = 5e-3;  // s
 constexpr std::int64_t steps_between_looks = 8;
-
-/// CPU time of the calling thread, s: other programs on the machine do not count.
-double cpu_time() {
-  timespec now{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
-}
 
 /// CPU time and grain-steps that went into a stretch of a simulation.
 struct Stretch {

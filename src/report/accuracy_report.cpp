@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <nlohmann/json.hpp>
+
 #include "report/columns.hpp"
 #include "report/json_keys.hpp"
 #include "report/terminal_text.hpp"
@@ -17,34 +19,36 @@ constexpr double megapascal = 1e6;              // Pa
 using R = const AccuracyRow&;
 using Value = std::optional<double>;
 
-/// The first columns of both files.
-Columns<AccuracyRow> setting_columns() {
+/// None where a part of a setting is absent, which is 0.
+Value present(double value) {
+  return value > 0 ? Value(value) : Value();
+}
+
+/// The first columns of every file; `setting_of` gives a row's setting.
+template <class Row, class SettingOf>
+Columns<Row> setting_columns(SettingOf setting_of) {
   return {
-      text_column<AccuracyRow>("integrator", "scheme", [](R r) { return integrator_name(r.setting.integrator); }),
-      quantity_column<AccuracyRow>("dt_s", seconds, "time step", [](R r) { return r.setting.dt; }),
-      quantity_column<AccuracyRow>("steps_per_contact", plain, "contact duration over the time step",
-                                   [](R r) { return r.setting.steps_per_contact; }),
-      quantity_column<AccuracyRow>("shell_compression", plain, "eps / r; empty where the law has no shell",
-                                   [](R r) {
-                                     const double compression = r.setting.shell_compression;
-                                     return compression > 0 ? Value(compression) : Value();
-                                   }),
-      quantity_column<AccuracyRow>("youngs_modulus_MPa", megapascals, "empty where the law has a shell",
-                                   [](R r) {
-                                     const double modulus = r.setting.youngs_modulus;
-                                     return modulus > 0 ? Value(modulus) : Value();
-                                   }),
-      quantity_column<AccuracyRow>("slip_speed_mm_per_s", millimetres_per_second,
-                                   "slip speed of friction; empty where friction has none, as a spring has", [](R r) {
-                                     const double slip_speed = r.setting.slip_speed;
-                                     return slip_speed > 0 ? Value(slip_speed) : Value();
-                                   })};
+      text_column<Row>("integrator", "scheme", [=](const Row& r) { return integrator_name(setting_of(r).integrator); }),
+      quantity_column<Row>("dt_s", seconds, "time step", [=](const Row& r) { return setting_of(r).dt; }),
+      quantity_column<Row>("steps_per_contact", plain, "contact duration over the time step",
+                           [=](const Row& r) { return setting_of(r).steps_per_contact; }),
+      quantity_column<Row>("shell_compression", plain, "eps / r; empty where the law has no shell",
+                           [=](const Row& r) { return present(setting_of(r).shell_compression); }),
+      quantity_column<Row>("youngs_modulus_MPa", megapascals, "empty where the law has a shell",
+                           [=](const Row& r) { return present(setting_of(r).youngs_modulus); }),
+      quantity_column<Row>("slip_speed_mm_per_s", millimetres_per_second,
+                           "slip speed of friction; empty where friction has none, as a spring has",
+                           [=](const Row& r) { return present(setting_of(r).slip_speed); })};
+}
+
+Columns<AccuracyRow> row_setting_columns() {
+  return setting_columns<AccuracyRow>([](R r) -> const AccuracySetting& { return r.setting; });
 }
 
 Columns<AccuracyRow> accuracy_columns() {
   const Figure& rate = figure_named("rate_g_per_s");
   const Unit unit{rate.unit, rate.unit_size};
-  Columns<AccuracyRow> columns = setting_columns();
+  Columns<AccuracyRow> columns = row_setting_columns();
   append(columns,
          {text_column<AccuracyRow>("replicates", "runs that finished, of which the figures are",
                                    [](R r) { return r.replicates; }),
@@ -56,6 +60,13 @@ Columns<AccuracyRow> accuracy_columns() {
                                        [](R r) { return r.error_percent; }),
           quantity_column<AccuracyRow>("error_ci95", Unit{"%", 1}, "half width of its 95 % interval, of both rates",
                                        [](R r) { return r.error_ci95; }),
+          quantity_column<AccuracyRow>("fitted_error_percent", Unit{"%", 1},
+                                       "error against the limit of step 0 and rigid grains, by the main effects of all "
+                                       "runs",
+                                       [](R r) { return r.fitted ? Value(r.fitted->percent) : Value(); }),
+          quantity_column<AccuracyRow>("fitted_error_band95", Unit{"%", 1},
+                                       "half width of its 95 % band, for all settings at once",
+                                       [](R r) { return r.fitted ? Value(r.fitted->band) : Value(); }),
           quantity_column<AccuracyRow>("grain_steps", plain, "grains times steps, mean of a run",
                                        [](R r) { return r.mass_rate ? Value(r.grain_steps) : Value(); }),
           quantity_column<AccuracyRow>("cost_ratio", plain,
@@ -70,44 +81,126 @@ Columns<AccuracyRow> accuracy_columns() {
   return columns;
 }
 
-bool timed(const AccuracyRow& row) {
-  return row.mass_rate && row.wall_time > 0;
+/// A run and its setting.
+struct RunRow {
+  const AccuracyRun* run;
+  const AccuracySetting* setting;
+};
+
+Columns<RunRow> run_columns() {
+  using Row = const RunRow&;
+  Columns<RunRow> columns = setting_columns<RunRow>([](Row r) -> const AccuracySetting& { return *r.setting; });
+  append(columns,
+         {quantity_column<RunRow>("window", plain, "length of the measuring window over the seeder's",
+                                  [](Row r) { return r.run->window; }),
+          text_column<RunRow>("random_seed", "of the run", [](Row r) { return r.run->random_seed; }),
+          quantity_column<RunRow>("rate_g_per_s", grams_per_second, "mass flow through all holes in the window",
+                                  [](Row r) { return r.run->mass_rate; }),
+          quantity_column<RunRow>("grain_steps", plain, "grains times steps",
+                                  [](Row r) { return present(r.run->grain_steps); }),
+          text_column<RunRow>("reason", "why there is no rate", [](Row r) { return r.run->refused; })});
+  return columns;
 }
 
-/// `reference`: wall time of the reference, s.
+/// A line of the account of errors.
+struct ErrorRow {
+  std::string source, from, to;
+  double percent;
+  Value band{};
+};
+
+std::string softness_text(const AccuracySetting& setting) {
+  return setting.shell_compression > 0 ? fmt::format("eps/r {:.3g}", setting.shell_compression)
+                                       : fmt::format("E {:.4g} MPa", setting.youngs_modulus / megapascal);
+}
+
+ErrorRow row_of(const MainEffect& effect) {
+  const auto row = [&](const char* source, const std::string& from, const std::string& to) {
+    return ErrorRow{source, from, to, effect.error.percent, effect.error.band};
+  };
+  const auto slip_speed = [](const AccuracySetting& s) {
+    return fmt::format("{:.4g} mm/s", s.slip_speed / millimetre_per_second);
+  };
+  const auto steps = [](const AccuracySetting& s) { return fmt::format("{:.4g} a contact", s.steps_per_contact); };
+  switch (effect.source) {
+    case ErrorSource::softness:
+      return row("softness", softness_text(effect.from), softness_text(effect.to));
+    case ErrorSource::slip_speed:
+      return row("slip speed", slip_speed(effect.from), slip_speed(effect.to));
+    case ErrorSource::step:
+      return row(fmt::format("step, {}", integrator_name(effect.from.integrator)).c_str(), steps(effect.from),
+                 steps(effect.to));
+    case ErrorSource::scheme:
+      break;
+  }
+  return row(fmt::format("scheme, {:.4g} steps", effect.to.steps_per_contact).c_str(),
+             integrator_name(effect.from.integrator), integrator_name(effect.to.integrator));
+}
+
+std::vector<ErrorRow> error_rows(const AccuracyResult& result) {
+  std::vector<ErrorRow> rows;
+  if (!result.fit) return rows;
+  for (const MainEffect& effect : result.fit->effects()) rows.push_back(row_of(effect));
+  rows.push_back({"chance of one run", "", "", result.fit->scatter_percent()});
+  return rows;
+}
+
+Columns<ErrorRow> error_columns() {
+  using Row = const ErrorRow&;
+  return {text_column<ErrorRow>("source", "what was varied; chance: standard deviation of one run",
+                                [](Row r) { return r.source; }),
+          text_column<ErrorRow>("from", "finest level", [](Row r) { return r.from; }),
+          text_column<ErrorRow>("to", "coarsest level", [](Row r) { return r.to; }),
+          quantity_column<ErrorRow>("rate_change_percent", Unit{"%", 1},
+                                    "what that does to the rate, of the limit's, by the main effects of all runs",
+                                    [](Row r) { return r.percent; }),
+          quantity_column<ErrorRow>("rate_change_ci95", Unit{"%", 1}, "half width of its 95 % interval",
+                                    [](Row r) { return r.band; })};
+}
+
+bool timed(const AccuracyRow& row) {
+  return row.mass_rate && row.cpu_time > 0;
+}
+
+/// `reference`: CPU time of the reference, s.
 Columns<AccuracyRow> timing_columns(double reference) {
-  Columns<AccuracyRow> columns = setting_columns();
+  Columns<AccuracyRow> columns = row_setting_columns();
   append(columns,
-         {quantity_column<AccuracyRow>("wall_s", seconds, "wall time of this machine, mean of a run",
-                                       [](R r) { return timed(r) ? Value(r.wall_time) : Value(); }),
-          quantity_column<AccuracyRow>("grain_steps_per_s", per_second, "grains times steps in a second of wall time",
-                                       [](R r) { return timed(r) ? Value(r.grain_steps / r.wall_time) : Value(); }),
-          quantity_column<AccuracyRow>("wall_ratio", plain, "wall time over the reference's", [reference](R r) {
-            return timed(r) && reference > 0 ? Value(r.wall_time / reference) : Value();
+         {quantity_column<AccuracyRow>("cpu_s", seconds, "CPU time of a run on this machine, mean",
+                                       [](R r) { return timed(r) ? Value(r.cpu_time) : Value(); }),
+          quantity_column<AccuracyRow>("grain_steps_per_s", per_second, "grains times steps in a second of it",
+                                       [](R r) { return timed(r) ? Value(r.grain_steps / r.cpu_time) : Value(); }),
+          quantity_column<AccuracyRow>("cpu_ratio", plain, "CPU time over the reference's", [reference](R r) {
+            return timed(r) && reference > 0 ? Value(r.cpu_time / reference) : Value();
           })});
   return columns;
 }
 
-struct AccuracyTiming {
-  double wall_time;  // s, from beginning to end
-  int jobs;
+struct CommandTiming {
+  AccuracyTiming command;
   double run_time = 0, grain_steps = 0;
 };
 
-JsonKeys<AccuracyTiming> timing_keys() {
-  using T = const AccuracyTiming&;
-  return {{"wall_s", "s", "wall time of the command", [](T t) { return t.wall_time; }},
-          {"jobs", "", "runs side by side", [](T t) { return t.jobs; }},
-          {"run_wall_s", "s", "wall times of the runs, summed", [](T t) { return t.run_time; }},
+JsonKeys<CommandTiming> timing_keys() {
+  using T = const CommandTiming&;
+  return {{"wall_s", "s", "wall time of the command", [](T t) { return t.command.wall_time; }},
+          {"jobs", "", "runs side by side", [](T t) { return t.command.jobs; }},
+          {"run_cpu_s", "s", "CPU times of the runs, summed", [](T t) { return t.run_time; }},
           {"grain_steps", "", "grains times steps, summed", [](T t) { return t.grain_steps; }},
           {"grain_steps_per_s", "1/s", "these in a second of the command's wall time",
-           [](T t) { return t.wall_time > 0 ? t.grain_steps / t.wall_time : 0; }}};
+           [](T t) { return t.command.wall_time > 0 ? t.grain_steps / t.command.wall_time : 0; }}};
 }
 
 /// "-0.4 +- 1.6 %".
-std::string error_text(const AccuracyRow& row) {
-  const std::string error = fmt::format("{:+.2f}", *row.error_percent);
-  return row.error_ci95 ? fmt::format("{} +- {:.2f} %", error, *row.error_ci95) : error + " %";
+std::string error_text(double percent, const Value& band) {
+  return band ? fmt::format("{:+.2f} +- {:.2f} %", percent, *band) : fmt::format("{:+.2f} %", percent);
+}
+
+/// Against the limit, or without a fit against the reference.
+std::string error_text(const AccuracyRow& row, bool reference) {
+  if (row.fitted) return error_text(row.fitted->percent, row.fitted->band);
+  if (reference) return "reference";
+  return row.error_percent ? error_text(*row.error_percent, row.error_ci95) : "";
 }
 
 std::string setting_text(const AccuracySetting& setting) {
@@ -118,11 +211,6 @@ std::string setting_text(const AccuracySetting& setting) {
       setting.slip_speed > 0 ? fmt::format(", slip speed {:g} mm/s", setting.slip_speed / millimetre_per_second) : "";
   return fmt::format("{}, {:g} steps a contact, {}{}", integrator_name(setting.integrator), setting.steps_per_contact,
                      softness, slip_speed);
-}
-
-std::string setting_and_error(const AccuracyRow& row) {
-  return fmt::format("{} (error {}, at {:.3g} of its cost)", setting_text(row.setting), error_text(row),
-                     row.cost_ratio.value_or(1));
 }
 
 std::string setting_columns_text(const AccuracySetting& setting) {
@@ -136,15 +224,121 @@ std::string setting_columns_text(const AccuracySetting& setting) {
 std::string row_text(const AccuracyRow& row, bool reference) {
   const std::string setting = setting_columns_text(row.setting);
   if (!row.mass_rate) return wrapped_beside(setting, row.refused);
-  const std::string error = reference ? "reference" : (row.error_percent ? error_text(row) : "");
   const std::string cost = row.cost_ratio ? fmt::format("{:.3g}", *row.cost_ratio) : "";
-  return fmt::format("{}{:>10.5g} {:>19} {:>8}{}\n", setting, row.mass_rate->mean / gram, error, cost,
-                     row.on_front ? " *" : "");
+  return fmt::format("{}{:>10.5g} {:>19} {:>8}{}\n", setting, row.mass_rate->mean / gram, error_text(row, reference),
+                     cost, row.on_front ? " *" : "");
 }
 
-std::string unresolved_text(const AccuracyRow& row, const std::optional<int>& replicates) {
-  return fmt::format("Whether {} is within 1 % these replicates do not tell; {}.", setting_and_error(row),
-                     replicates ? fmt::format("about {} would", *replicates) : "no affordable number would");
+/// For a terminal.
+std::string errors_text(const AccuracyResult& result) {
+  if (!result.fit) return "";
+  const MeanWithInterval& limit = result.fit->limit();
+  std::string text = wrapped(fmt::format(
+      "Errors by source, 95 %, of the limit of step 0 and rigid grains, {:.5g} +- {:.2g} g/s:", limit.mean / gram,
+      *limit.half_width_95 / gram));
+  for (const ErrorRow& row : error_rows(result))
+    text += fmt::format("  {:<21} {:>15} {} {:<15} {}\n", row.source, row.from, row.to.empty() ? "  " : "to", row.to,
+                        row.band ? error_text(row.percent, row.band) : fmt::format("{:.2f} %", row.percent));
+  if (!result.fit->fits())
+    text += wrapped(fmt::format(
+        "These main effects do not account for the runs (so large a lack of fit has probability {:.2g}): parts of a "
+        "setting act on each other, and the limit is not shown to have been reached. The bands allow for it.",
+        *result.fit->lack_of_fit()));
+  return text;
+}
+
+std::string share(double percent) {
+  return fmt::format("{:.2f} %", percent);
+}
+
+std::string goal_text(const PromiseGoal& goal) {
+  return goal.within_percent ? fmt::format("within {:g} %", *goal.within_percent)
+                             : fmt::format("for {:g} s of CPU time", *goal.cpu_time);
+}
+
+std::string offer_text(const Promise& promise, const Offer& offer) {
+  const std::string window = offer.window == 1 ? "" : fmt::format(" over {:g} times the window", offer.window);
+  return fmt::format("{} {}{} of {}: it errs by {} at most{}, the mean of the runs by {} of chance, together {}",
+                     offer.replicates, offer.replicates == 1 ? "run" : "runs", window,
+                     setting_text(promise.settings[offer.setting]), share(offer.bias.bound()),
+                     fmt::format(" ({:+.2f} +- {:.2f} %)", offer.bias.percent, offer.bias.band),
+                     share(offer.half_width_percent), share(offer.error_bound()));
+}
+
+std::string cost_text(const Promise& promise) {
+  const Offer& offer = *promise.offer;
+  std::string text = fmt::format(
+      "Cost: {} pilots {:.3g} s of CPU time, {} more runs {:.3g} s (predicted {:.3g} s). Another layout with this "
+      "setting: "
+      "{:.3g} s",
+      promise.pilots, promise.pilot_cpu_time, offer.to_run, promise.answer_cpu_time, offer.cpu_time_to_run(),
+      offer.cpu_time);
+  if (promise.finest && promise.finest->setting != offer.setting)
+    text += fmt::format("; with the finest: {} runs, {:.3g} s", promise.finest->replicates, promise.finest->cpu_time);
+  return text + ".";
+}
+
+struct PromiseSource {
+  const Promise* promise;
+  const PromiseGoal* goal;
+  const Offer* offer() const { return promise->offer ? &*promise->offer : nullptr; }
+};
+
+/// Null without an offer.
+template <class Get>
+auto of_offer(Get get) {
+  return [get](const PromiseSource& s) -> nlohmann::ordered_json {
+    if (!s.offer()) return nullptr;
+    return get(*s.promise, *s.offer());
+  };
+}
+
+JsonKeys<PromiseSource> promise_keys() {
+  using S = const PromiseSource&;
+  using P = const Promise&;
+  using O = const Offer&;
+  using Json = nlohmann::ordered_json;
+  const auto or_null = [](const Value& value) { return value ? Json(*value) : Json(nullptr); };
+  const auto setting = [](P p, O o) -> const AccuracySetting& { return p.settings[o.setting]; };
+  return {
+      {"goal.within_percent", "%", "wanted error; null with a budget",
+       [=](S s) { return or_null(s.goal->within_percent); }},
+      {"goal.cpu_s", "s", "CPU time to be spent; null without a budget",
+       [=](S s) { return or_null(s.goal->cpu_time); }},
+      {"pilots", "", "runs made to choose by", [](S s) { return s.promise->pilots; }},
+      {"refused", "", "why nothing is promised; empty where something is", [](S s) { return s.promise->refused; }},
+      {"integrator", "", "scheme chosen",
+       of_offer([=](P p, O o) { return integrator_name(setting(p, o).integrator); })},
+      {"steps_per_contact", "", "contact duration over the time step",
+       of_offer([=](P p, O o) { return setting(p, o).steps_per_contact; })},
+      {"dt_s", "s", "time step", of_offer([=](P p, O o) { return setting(p, o).dt; })},
+      {"shell_compression", "", "eps / r; null where the law has no shell",
+       of_offer([=](P p, O o) { return or_null(present(setting(p, o).shell_compression)); })},
+      {"youngs_modulus_MPa", "MPa", "null where the law has a shell", of_offer([=](P p, O o) {
+         const Value modulus = present(setting(p, o).youngs_modulus);
+         return modulus ? Json(*modulus / megapascal) : Json(nullptr);
+       })},
+      {"slip_speed_mm_per_s", "mm/s", "slip speed of friction; null where friction has none", of_offer([=](P p, O o) {
+         const Value speed = present(setting(p, o).slip_speed);
+         return speed ? Json(*speed / millimetre_per_second) : Json(nullptr);
+       })},
+      {"window", "", "length of the measuring window over the seeder's", of_offer([](P, O o) { return o.window; })},
+      {"replicates", "", "runs whose mean is the answer, pilots of this setting included",
+       of_offer([](P, O o) { return o.replicates; })},
+      {"rate_g_per_s", "g/s", "their mean rate; null where a run of it failed",
+       [](S s) { return s.promise->mass_rate ? Json(s.promise->mass_rate->mean / gram) : Json(nullptr); }},
+      {"bias_percent", "%", "error of the setting against the limit, fitted",
+       of_offer([](P, O o) { return o.bias.percent; })},
+      {"bias_bound_percent", "%", "what its size is below at 95 %, for all settings at once",
+       of_offer([](P, O o) { return o.bias.bound(); })},
+      {"half_width_percent", "%", "half width of the mean's 95 % interval",
+       of_offer([](P, O o) { return o.half_width_percent; })},
+      {"error_bound_percent", "%", "the sum of the two before: what is promised",
+       of_offer([](P, O o) { return o.error_bound(); })}};
+}
+
+AccuracyResult result_of(const Promise& promise) {
+  return accuracy_of(promise.settings, std::vector<std::string>(promise.settings.size()), promise.runs);
 }
 
 }  // namespace
@@ -153,8 +347,18 @@ std::string accuracy_csv(const AccuracyResult& result, CsvFormat format) {
   return csv_of(accuracy_columns(), result.rows, format);
 }
 
+std::string accuracy_runs_csv(const AccuracyResult& result, CsvFormat format) {
+  Csv<RunRow> csv(run_columns(), format);
+  for (const AccuracyRun& run : result.runs) csv.add({&run, &result.rows[run.setting].setting});
+  return csv.text();
+}
+
+std::string accuracy_errors_csv(const AccuracyResult& result, CsvFormat format) {
+  return csv_of(error_columns(), error_rows(result), format);
+}
+
 std::string accuracy_timing_csv(const AccuracyResult& result, CsvFormat format) {
-  return csv_of(timing_columns(result.rows[result.reference].wall_time), result.rows, format);
+  return csv_of(timing_columns(result.rows[result.reference].cpu_time), result.rows, format);
 }
 
 std::string accuracy_table(const AccuracyResult& result) {
@@ -170,9 +374,12 @@ std::string accuracy_table(const AccuracyResult& result) {
     text += row_text(row, i == result.reference);
   }
   return text + '\n' +
-         wrapped(
-             "cost: grain-steps times force evaluations a step, of the finest setting's; *: no other setting costs "
-             "no more and errs less");
+         wrapped(fmt::format("error: {}; cost: grain-steps times force evaluations a step, of the finest setting's; *: "
+                             "errs less, beyond "
+                             "chance, than all that cost less",
+                             result.fit ? "of the rate against the limit, with a band for all settings at once"
+                                        : "of the rate against the finest setting's")) +
+         '\n' + errors_text(result);
 }
 
 std::string accuracy_sentence(const AccuracyResult& result) {
@@ -183,33 +390,80 @@ std::string accuracy_sentence(const AccuracyResult& result) {
                        reference.refused);
   if (!reference.error_percent)
     return fmt::format("Nothing flows at the finest setting ({}), so there is nothing to compare with.", finest);
-  const Recommendation recommended = recommend(result, 1.0);
-  std::string text;
-  if (recommended.setting)
-    text = fmt::format("The cheapest setting shown to be within 1 % of the finest ({}) is {}.", finest,
-                       setting_and_error(result.rows[*recommended.setting]));
+  if (!result.fit) return "Too few runs to tell the errors apart: more replicates would.";
+  std::string text = fmt::format("The finest setting ({}) is within {} of the limit (95 %).", finest,
+                                 share(reference.fitted->bound()));
+  if (const auto cheapest = cheapest_within(result, 1.0))
+    return fmt::format("{} The cheapest setting shown to be within 1 % is {} (error {}, at {:.3g} of its cost).", text,
+                       setting_text(result.rows[*cheapest].setting), error_text(result.rows[*cheapest], false),
+                       result.rows[*cheapest].cost_ratio.value_or(1));
+  return text + " None is shown to be within 1 %: more replicates would narrow the bands.";
+}
+
+std::string promise_text(const Promise& promise, const PromiseGoal& goal) {
+  if (!promise.offer) {
+    const std::string text = fmt::format("A rate {} cannot be promised: {} ({} pilots, {:.3g} s of CPU time).",
+                                         goal_text(goal), promise.refused, promise.pilots, promise.pilot_cpu_time);
+    if (!promise.least) return wrapped(text);
+    return wrapped(
+        fmt::format("{} The most that as much time again would buy: {}.", text, offer_text(promise, *promise.least)));
+  }
+  std::string text = wrapped(fmt::format("A rate {}: {}.", goal_text(goal), offer_text(promise, *promise.offer)));
+  if (!promise.fit->fits()) text += wrapped("The pilots do not follow their main effects: the bands allow for it.");
+  if (promise.mass_rate)
+    text += wrapped(fmt::format("The rate is {:.5g} g/s, at most {} from that of step 0 and rigid grains (95 %).",
+                                promise.mass_rate->mean / gram, share(promise.offer->error_bound())));
   else
-    text = fmt::format("No cheaper setting is shown to be within 1 % of the finest ({}).", finest);
-  if (!recommended.unresolved) return text;
-  return fmt::format("{} {}", text, unresolved_text(result.rows[*recommended.unresolved], recommended.replicates));
+    text += wrapped(fmt::format("There is no rate: {}.", promise.refused));
+  return text + wrapped(cost_text(promise));
+}
+
+std::string promised_numerics(const Promise& promise, const PromiseGoal& goal) {
+  const AccuracySetting& setting = promise.settings[promise.offer->setting];
+  std::string text = fmt::format("# A rate {}: the mean of {} runs errs by at most {} (95 %).\n[contact]\n",
+                                 goal_text(goal), promise.offer->replicates, share(promise.offer->error_bound()));
+  if (setting.shell_compression > 0)
+    text += fmt::format("shell_compression = {:.4g}\n", setting.shell_compression);
+  else
+    text += fmt::format("youngs_modulus = \"{:.4g} MPa\"\n", setting.youngs_modulus / megapascal);
+  if (setting.slip_speed > 0)
+    text += fmt::format("slip_speed = \"{:.4g} mm/s\"\n", setting.slip_speed / millimetre_per_second);
+  return text + fmt::format("[numerics]\nintegrator = \"{}\"\nsteps_per_contact = {:.4g}\n",
+                            integrator_name(setting.integrator), setting.steps_per_contact);
 }
 
 std::vector<FileText> accuracy_file_texts() {
   return {
       file_text("accuracy.csv", "one row per setting; one that gave no rate has its cells empty", accuracy_columns()),
+      file_text("accuracy_runs.csv", "one row per run", run_columns()),
+      file_text("accuracy_errors.csv",
+                "one row per part of a setting that was varied, and one of chance; none where the runs were too few",
+                error_columns()),
       file_text("accuracy_timing.csv", "one row per setting: what it took on this machine", timing_columns(0)),
-      file_text("timing.json", "what the command took on this machine", timing_keys())};
+      file_text("timing.json", "what the command took on this machine", timing_keys()),
+      file_text("promise.json", "with --within or --budget: what was chosen and what it may err by", promise_keys()),
+      {"numerics.toml", "with --within or --budget: the keys of a seeder that set it so", {}}};
 }
 
-std::vector<OutputFile> accuracy_files(const AccuracyResult& result, double wall_time, int jobs, CsvFormat format) {
-  AccuracyTiming timing{wall_time, jobs};
-  for (const AccuracyRow& row : result.rows) {
-    timing.grain_steps += row.grain_steps * row.replicates;
-    timing.run_time += row.wall_time * row.replicates;
+std::vector<OutputFile> accuracy_files(const AccuracyResult& result, const AccuracyTiming& timing, CsvFormat format) {
+  CommandTiming sums{timing};
+  for (const AccuracyRun& run : result.runs) {
+    sums.grain_steps += run.grain_steps;
+    sums.run_time += run.cpu_time;
   }
   return {{"accuracy.csv", accuracy_csv(result, format)},
+          {"accuracy_runs.csv", accuracy_runs_csv(result, format)},
+          {"accuracy_errors.csv", accuracy_errors_csv(result, format)},
           {"accuracy_timing.csv", accuracy_timing_csv(result, format)},
-          {"timing.json", json_of(timing_keys(), timing)}};
+          {"timing.json", json_of(timing_keys(), sums)}};
+}
+
+std::vector<OutputFile> promise_files(const Promise& promise, const PromiseGoal& goal, const AccuracyTiming& timing,
+                                      CsvFormat format) {
+  std::vector<OutputFile> files = accuracy_files(result_of(promise), timing, format);
+  files.push_back({"promise.json", json_of(promise_keys(), PromiseSource{&promise, &goal})});
+  if (promise.offer) files.push_back({"numerics.toml", promised_numerics(promise, goal)});
+  return files;
 }
 
 }  // namespace vibrosow

@@ -3,6 +3,7 @@
 #include <string>
 
 #include "design/accuracy.hpp"
+#include "design/promise.hpp"
 #include "report/columns.hpp"
 #include "report/output_folder.hpp"
 
@@ -11,20 +12,44 @@ namespace vibrosow {
 /// One row per setting; a setting that gave no rate has its cells empty.
 std::string accuracy_csv(const AccuracyResult& result, CsvFormat format = {});
 
-/// Wall times of this machine, mean of a setting's runs.
+/// One row per run, in the order in which they were begun.
+std::string accuracy_runs_csv(const AccuracyResult& result, CsvFormat format = {});
+
+/// One row per part of a setting that was varied, and one of chance; the header alone without a fit.
+std::string accuracy_errors_csv(const AccuracyResult& result, CsvFormat format = {});
+
+/// CPU times of this machine, mean of a setting's runs.
 std::string accuracy_timing_csv(const AccuracyResult& result, CsvFormat format = {});
 
-/// The same rows for a terminal, scheme by scheme, with the reason where a setting gave no rate.
+/// The settings for a terminal, scheme by scheme, with the reason where a setting gave no rate; then the errors by
+/// their sources.
 std::string accuracy_table(const AccuracyResult& result);
 
-/// What 1 % of outflow costs: the cheapest setting whose |error| and interval together make up at most 1 %, and the
-/// cheaper one, if any, of which the replicates do not tell.
+/// How near the finest setting is to the limit, and what 1 % of outflow costs: the cheapest setting whose fitted error
+/// and band together make up at most 1 %.
 std::string accuracy_sentence(const AccuracyResult& result);
+
+/// What was promised and at what cost, or why nothing was; paragraphs.
+std::string promise_text(const Promise& promise, const PromiseGoal& goal);
+
+/// The keys of a seeder that set it to an offer's setting, as TOML.
+std::string promised_numerics(const Promise& promise, const PromiseGoal& goal);
 
 /// What the files of the command hold.
 std::vector<FileText> accuracy_file_texts();
 
-/// Its files: accuracy.csv, accuracy_timing.csv and timing.json. `wall_time`: s, from beginning to end.
-std::vector<OutputFile> accuracy_files(const AccuracyResult& result, double wall_time, int jobs, CsvFormat format = {});
+/// What the command took.
+struct AccuracyTiming {
+  double wall_time = 0;  // s, from beginning to end
+  int jobs = 1;
+};
+
+/// accuracy.csv, accuracy_runs.csv, accuracy_errors.csv, accuracy_timing.csv and timing.json.
+std::vector<OutputFile> accuracy_files(const AccuracyResult& result, const AccuracyTiming& timing,
+                                       CsvFormat format = {});
+
+/// The same of a promise's runs, promise.json and, where there is an offer, numerics.toml.
+std::vector<OutputFile> promise_files(const Promise& promise, const PromiseGoal& goal, const AccuracyTiming& timing,
+                                      CsvFormat format = {});
 
 }  // namespace vibrosow

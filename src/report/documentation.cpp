@@ -20,8 +20,8 @@ the mean `X` over replicates (Student's t); it is empty for a single run.
 
 std::string described(const FileText& file) {
   const bool csv = file.name.ends_with(".csv");
-  std::string text = fmt::format("\n### `{}`\n\n{}.\n\n| {} | unit | meaning |\n|---|---|---|\n", file.name,
-                                 file.description, csv ? "column" : "key");
+  std::string text = fmt::format("\n### `{}`\n\n{}.\n", file.name, file.description);
+  if (!file.columns.empty()) text += fmt::format("\n| {} | unit | meaning |\n|---|---|---|\n", csv ? "column" : "key");
   for (const ColumnText& column : file.columns)
     text += fmt::format("| `{}` | {} | {} |\n", column.name, column.unit, column.description);
   return text;

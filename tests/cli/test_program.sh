@@ -99,7 +99,7 @@ expect 0 "^between holes: .*CV [0-9.]+ %" run wheat-tray --out shipped "${short[
 expect 0 "span 420 mm, count 5, frequency 9 Hz" sweep wheat-holes --out shipped-sweep "${short[@]}" --set replicates=2 --set "vary.tray.motion.frequency=[\"9 Hz\"]" \
   --set "vary.tray.holes.count=[1, 5]"
 expect 0 "^velocity-verlet" accuracy wheat-tray --out shipped-accuracy "${short[@]}" \
-  --integrator velocity-verlet --steps-per-contact 10,20 --replicates 2
+  --integrator velocity-verlet --steps-per-contact 20,40 --shell-compression 3e-4 --replicates 2
 expect 2 "slip-speed: .* has none" accuracy wheat-tray --slip-speed "20 mm/s"
 expect 2 "did you mean \"wheat-tray\"" run wheat-trey
 expect 2 "study.toml: this is a study: use vibrosow sweep" run study.toml
@@ -164,6 +164,16 @@ expect 0 "cost" accuracy seeder.toml --out accuracy --integrator velocity-verlet
   --shell-compression 1e-3 --slip-speed "20 mm/s" --replicates 2
 have accuracy/accuracy.csv accuracy/accuracy_timing.csv accuracy/timing.json
 [ "$(wc -l <accuracy/accuracy.csv)" -eq 3 ] || fail "accuracy.csv has not two rows"
+[ "$(wc -l <accuracy/accuracy_runs.csv)" -eq 3 ] || fail "accuracy_runs.csv has not two rows"
+expect 0 "A rate within 50 %: " accuracy seeder.toml --within "50 %" --out promise
+have promise/promise.json promise/numerics.toml promise/accuracy_errors.csv
+grep -q "^steps_per_contact = " promise/numerics.toml || fail "numerics.toml sets no step"
+expect 0 "cannot be promised" accuracy seeder.toml --within "0.01 %" --out promise
+[ -e promise/numerics.toml ] && fail "an impossible promise leaves keys"
+expect 2 "within: \"0 %\" is out of range" accuracy seeder.toml --within "0 %"
+expect 2 "within: .*3.*percent|within: .*\"3\"" accuracy seeder.toml --within 3
+expect 2 "budget excludes --within|within excludes --budget" accuracy seeder.toml --within "3 %" --budget "1 min"
+expect 2 "choose the setting themselves" accuracy seeder.toml --within "3 %" --steps-per-contact 20
 
 # A file may grow to 512 bytes only: as on a full disk.
 printed=$(bash -c 'trap "" XFSZ; ulimit -f 1; exec "$0" run seeder.toml --out full --quiet --set "run.duration=0.3 s"' "$program" 2>&1)

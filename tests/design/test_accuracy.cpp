@@ -90,78 +90,80 @@ TEST(Accuracy, TiesDoNotStandOnTheFront) {
   EXPECT_FALSE(result.rows[6].on_front);  // 0.05 % better, 0.14 % by chance
 }
 
-TEST(Accuracy, RecommendsOnlyWhatTheIntervalLeavesWithinTheTarget) {
-  const std::vector<AccuracyRow> rows = {row(verlet, 40, 1e-4, 1.000, 1000, 0.002),
-                                         row(verlet, 20, 1e-4, 1.005, 500, 0.002),
-                                         row(verlet, 10, 1e-4, 1.008, 250, 0.004)};
-  const AccuracyResult result = compared(rows);
-  const Recommendation recommended = recommend(result, 1.0);
-  EXPECT_EQ(recommended.setting, 1u);
-  EXPECT_EQ(recommended.unresolved, 2u);  // 0.8 +- 0.45 %
-  EXPECT_THAT(accuracy_sentence(result),
-              testing::AllOf(testing::HasSubstr("20 steps a contact"), testing::HasSubstr("at 0.5 of its cost"),
-                             testing::HasSubstr("Whether velocity-verlet, 10 steps a contact")));
-  EXPECT_EQ(recommend(result, 5.0).setting, 2u);
-  EXPECT_EQ(recommend(result, 5.0).unresolved, std::nullopt);
-}
-
-TEST(Accuracy, MeanWithinTheTargetIsNoRecommendationWhereTheIntervalIsWide) {
-  // The error is 0.41 +- 12.14 %.
-  const AccuracyResult result =
-      compared({row(verlet, 40, 1e-4, 1.0, 1000, 0.0858), row(verlet, 20, 1e-3, 1.0041, 100, 0.0858)});
-  const Recommendation recommended = recommend(result, 1.0);
-  EXPECT_EQ(recommended.setting, std::nullopt);
-  EXPECT_EQ(recommended.unresolved, 1u);
-  // t(0.975, n - 1) / sqrt(n) is to fall from t(0.975, 4) / sqrt(5), 1.2417, by 0.59 / 12.16: with t = 1.96, n = 1055.
-  EXPECT_NEAR(*recommended.replicates, 1055, 15);
-  EXPECT_THAT(accuracy_sentence(result), testing::StartsWith("No cheaper setting is shown to be within 1 %"));
-}
-
-TEST(Accuracy, OneReplicateRecommendsNothing) {
-  AccuracyResult result = made_up();
-  for (AccuracyRow& one : result.rows) one.mass_rate->half_width_95.reset(), one.error_ci95.reset();
-  compare_with_finest(result);
-  EXPECT_EQ(recommend(result, 1.0).setting, std::nullopt);
-  EXPECT_EQ(recommend(result, 1.0).replicates, std::nullopt);
-}
-
-TEST(Accuracy, NothingCheaperIsWithin) {
-  const AccuracyResult result =
-      compared({row(verlet, 40, 1e-4, 1.0, 1000, 0.001), row(verlet, 20, 1e-3, 0.9, 100, 0.001),
-                row(Integrator::rk2_midpoint, 40, 1e-4, 1.0001, 1000, 0.001)});
-  EXPECT_EQ(recommend(result, 1.0).setting, std::nullopt);  // the midpoint rule costs twice the reference
-  EXPECT_EQ(recommend(result, 1.0).unresolved, std::nullopt);
-}
-
-TEST(Accuracy, SlipSpeedIsLeftOutWhereFrictionHasNone) {
+TEST(Accuracy, SlipSpeedIsLeftOutOfTheTableWhereFrictionHasNone) {
   const StudyFiles files;
-  const Override spring = parse_override("contact.friction_model=spring");
-  const Override smooth = parse_override("contact.friction=0");
-  const std::vector<Override> rolling = {spring, parse_override("contact.rolling=constant-torque"),
-                                         parse_override("contact.rolling_friction=0.1")};
-  EXPECT_THAT(default_accuracy_grid(scene_of(files, {spring})).slip_speeds, testing::IsEmpty());
-  EXPECT_THAT(default_accuracy_grid(scene_of(files, {smooth})).slip_speeds, testing::IsEmpty());
-  EXPECT_THAT(default_accuracy_grid(scene_of(files, rolling)).slip_speeds, testing::ElementsAre(0.02, 0.1));
-
-  const Scene scene = scene_of(files, {spring});
+  const Scene scene = scene_of(files, {parse_override("contact.friction_model=spring")});
   AccuracyGrid grid = default_accuracy_grid(scene);
   grid.integrators = {verlet};
   grid.steps_per_contact = {20, 40};
   grid.shell_compressions = {1e-4};
-  const AccuracyResult result = measure_accuracy(scene, grid, 2, quick_run, one_job());
+  const AccuracyResult result = measure_accuracy(scene, full_design(grid), 2, quick_run, one_job());
   ASSERT_EQ(result.rows.size(), 2u);
   EXPECT_THAT(accuracy_table(result), testing::Not(testing::HasSubstr("slip")));
   EXPECT_THAT(accuracy_sentence(result), testing::Not(testing::HasSubstr("slip")));
   EXPECT_THAT(accuracy_csv(result), testing::HasSubstr(",20,0.0001,,,2,"));
 }
 
+TEST(Accuracy, EveryRunIsListedWithARandomSeedOfItsOwn) {
+  const StudyFiles files;
+  const Scene scene = scene_of(files);
+  AccuracyGrid grid = default_accuracy_grid(scene);
+  grid.integrators = {verlet};
+  grid.steps_per_contact = {20, 40};
+  grid.shell_compressions = {1e-4};
+  grid.slip_speeds = {0.02};
+  SweepOptions options = one_job();
+  options.first_random_seed = 7;
+  const AccuracyResult result = measure_accuracy(scene, full_design(grid), 2, quick_run, options);
+  std::vector<std::uint64_t> seeds;
+  std::vector<std::size_t> settings;
+  for (const AccuracyRun& run : result.runs) seeds.push_back(run.random_seed), settings.push_back(run.setting);
+  EXPECT_THAT(seeds, testing::ElementsAre(7, 8, 9, 10));
+  EXPECT_THAT(settings, testing::ElementsAre(0, 1, 0, 1));  // in turn
+  const std::string csv = accuracy_runs_csv(result);
+  EXPECT_EQ(std::ranges::count(csv, '\n'), 5);
+  EXPECT_EQ(
+      csv.substr(0, csv.find('\n')),
+      "integrator,dt_s,steps_per_contact,shell_compression,youngs_modulus_MPa,slip_speed_mm_per_s,window,random_seed,"
+      "rate_g_per_s,grain_steps,reason");
+}
+
+TEST(Accuracy, RunsOutsideTheModelHaveNoRate) {
+  const StudyFiles files;
+  const Scene scene = scene_of(files);
+  AccuracyGrid grid = default_accuracy_grid(scene);
+  grid.integrators = {verlet};
+  grid.steps_per_contact = {20};
+  grid.shell_compressions = {1e-4, 1e-3};
+  grid.slip_speeds = {0.02};
+  const Simulator soft_is_outside = [](const Model& model, const SimulationOptions& simulation) {
+    vibrosow::Run run = quick_run(model, simulation);
+    run.outside_the_model = model.scene.contact.shell_compression > 5e-4;
+    return run;
+  };
+  const AccuracyResult result = measure_accuracy(scene, full_design(grid), 2, soft_is_outside, one_job());
+  EXPECT_TRUE(result.rows[0].mass_rate);
+  EXPECT_FALSE(result.rows[1].mass_rate);
+  EXPECT_EQ(result.rows[1].refused, "outside the model");
+  EXPECT_FALSE(result.rows[1].on_front);
+}
+
+TEST(Accuracy, RecommendsTheCheapestWhoseFittedErrorAndBandStayWithin) {
+  AccuracyResult result = made_up();
+  const RateError errors[] = {{0.1, 0.3}, {0.4, 0.5}, {0.3, 0.4}, {-3, 0.5}, {0.7, 0.5}};
+  for (std::size_t i = 0; i < result.rows.size(); ++i) result.rows[i].fitted = errors[i];
+  EXPECT_EQ(cheapest_within(result, 1.0), 1u);
+  EXPECT_EQ(cheapest_within(result, 3.5), 3u);
+  EXPECT_EQ(cheapest_within(result, 1.2), 4u);
+  EXPECT_EQ(cheapest_within(result, 0.3), std::nullopt);
+}
+
 TEST(Accuracy, TableFitsATerminal) {
   AccuracyResult result = made_up();
   for (AccuracyRow& one : result.rows) one.setting.slip_speed = 0.02;
   AccuracyRow& wide = result.rows[1];
-  wide.setting = {Integrator::velocity_verlet, 1234.5, 1.23456e-5, 0, 0.0123456, 1.234e-05};
-  wide.mass_rate->mean = 1.23456e-05, wide.error_percent = -123.45, wide.error_ci95 = 123.45,
-  wide.cost_ratio = 1.234e-05;
+  wide.setting = {Integrator::velocity_verlet, 1234.5, 1.23456e-5, 0, 0.0123456, 0, 0, 1.234e-05};
+  wide.mass_rate->mean = 1.23456e-05, wide.fitted = RateError{-123.45, 123.45}, wide.cost_ratio = 1.234e-05;
   AccuracyRow& refused = result.rows[2];
   refused.mass_rate.reset();
   refused.refused = "too long, at most 1.234e-05 s: the shell's vibration with the damping of its dashpots (Verlet)";
@@ -185,7 +187,7 @@ TEST(Accuracy, InterruptedBeforeTheFinestSettingGivesNoErrors) {
     if (++begun == 3) interrupt = true, run.status = RunStatus::interrupted;
     return run;
   };
-  const AccuracyResult result = measure_accuracy(scene_of(files), grid, 2, third_is_interrupted, options);
+  const AccuracyResult result = measure_accuracy(scene_of(files), full_design(grid), 2, third_is_interrupted, options);
   ASSERT_TRUE(result.rows.front().mass_rate);
   for (const AccuracyRow& one : result.rows) {
     EXPECT_FALSE(one.error_percent);
@@ -224,9 +226,7 @@ duration = "4 s"
   const Scene scene = scene_of(files);
   AccuracyGrid grid = default_accuracy_grid(scene);
   EXPECT_TRUE(grid.shell_compressions.empty());
-  EXPECT_THAT(grid.youngs_moduli, testing::ElementsAre(5e8, 5e7, 5e6));
-  AccuracySetting soft = settings_of(grid)[4];  // 10 steps a contact, second slip speed aside: the softest
-  EXPECT_EQ(soft.youngs_modulus, 5e6);
+  AccuracySetting soft{.youngs_modulus = 5e6};
   const Scene softened = scene_with(scene, soft);
   EXPECT_EQ(softened.contact.youngs_modulus, 5e6);
   EXPECT_DOUBLE_EQ(*softened.lots[1].youngs_modulus, 1e6);
@@ -235,7 +235,8 @@ duration = "4 s"
   grid.integrators = {verlet};
   grid.steps_per_contact = {40};
   grid.slip_speeds = {0.1};
-  const AccuracyResult result = measure_accuracy(scene, grid, 1, quick_run, one_job());
+  grid.youngs_moduli = {5e8, 5e7, 5e6};
+  const AccuracyResult result = measure_accuracy(scene, full_design(grid), 1, quick_run, one_job());
   ASSERT_EQ(result.rows.size(), 3u);
   EXPECT_EQ(result.reference, 0u);
   EXPECT_THAT(accuracy_table(result),
@@ -255,7 +256,7 @@ TEST(Accuracy, RunsEachSettingAsAskedAndListsTheRefused) {
     EXPECT_NEAR(model.step.contact_duration / *model.scene.numerics.dt, 40, 1e-9);
     return quick_run(model, simulation);
   };
-  const AccuracyResult result = measure_accuracy(scene, grid, 2, checked, one_job());
+  const AccuracyResult result = measure_accuracy(scene, full_design(grid), 2, checked, one_job());
   ASSERT_EQ(result.rows.size(), 4u);
   EXPECT_FALSE(result.rows[0].mass_rate);
   EXPECT_THAT(result.rows[0].refused, testing::HasSubstr("at most"));
@@ -264,7 +265,8 @@ TEST(Accuracy, RunsEachSettingAsAskedAndListsTheRefused) {
   const std::string csv = accuracy_csv(result);
   EXPECT_EQ(csv.substr(0, csv.find('\n')),
             "integrator,dt_s,steps_per_contact,shell_compression,youngs_modulus_MPa,slip_speed_mm_per_s,replicates,"
-            "rate_g_per_s,rate_ci95,error_percent,error_ci95,grain_steps,cost_ratio,on_front");
+            "rate_g_per_s,rate_ci95,error_percent,error_ci95,fitted_error_percent,fitted_error_band95,grain_steps,cost_"
+            "ratio,on_front");
 }
 
 }  // namespace
