@@ -111,7 +111,7 @@ def vibrosow_as_published(bench, scene, start, window):
 def write_atoms(path, scene, start, density, types=1):
     """A data file of spheres: number, type, diameter, density, x, y, z; number, velocity, spin."""
     places = [(x, y, *z) if z else (x, y, 0) for x, y, *z in start.places]
-    low = min(scene.count_at, -2 * scene.radius) - 0.002
+    low = min(scene.count_at, -2 * scene.radius, *(y for _, y, _ in places)) - 0.002  # what has crossed the line is not taken out at once
     high = max(max(y for _, y, _ in places) + 0.3, max(y for wall in scene.walls for _, y in wall) + 0.01)
     wide = max(max(abs(x) for wall in scene.walls for x, _ in wall), 0) + 0.05
     lines = [scene.name, '', f'{len(places)} atoms', f'{types} atom types', '', f'{-wide} {wide} xlo xhi',

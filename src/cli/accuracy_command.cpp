@@ -17,6 +17,7 @@
 #include "input/read_scene.hpp"
 #include "laws/law.hpp"
 #include "plan/scene_warnings.hpp"
+#include "plan/softness.hpp"
 #include "report/accuracy_report.hpp"
 #include "report/terminal_text.hpp"
 #include "scene/input_error.hpp"
@@ -180,12 +181,12 @@ SweepOptions sweep_options_of(const AccuracyOptions& options, int jobs, const st
   return sweep_options;
 }
 
-/// The scene that a command is about, with its warnings printed.
+/// The scene that a command is about, its accuracy level written out, with its warnings printed.
 Scene scene_of(const AccuracyOptions& options) {
   const InputFile file = input_file(options.common.file, FileKind::seeder);
-  Scene scene = read_scene(file.path, options.common.overrides(), file.files);
+  const Scene scene = read_scene(file.path, options.common.overrides(), file.files);
   print_warnings(scene_warnings(scene));
-  return scene;
+  return at_its_accuracy(scene);
 }
 
 int run_table(const AccuracyOptions& options) {

@@ -17,6 +17,7 @@
 #include "plan/effects.hpp"
 #include "plan/model.hpp"
 #include "plan/scene_warnings.hpp"
+#include "plan/softness.hpp"
 #include "report/terminal_text.hpp"
 #include "scene/input_error.hpp"
 #include "scene/integrator_names.hpp"
@@ -31,6 +32,12 @@ std::string friction_text(const Model& model) {
                      model.scene.contact.slip_speed * 1e3);
 }
 
+std::string softness_text(const Model& model) {
+  const double softness = softness_of(model.scene);
+  return model.law->material == LawMaterial::shell ? fmt::format("shell compression {:.3g}", softness)
+                                                   : fmt::format("Young's modulus {:.4g} MPa", 1e-6 / softness);
+}
+
 /// The laws by which contacts push, rub and roll, and the scheme that moves the seeds.
 void print_model(const Model& model) {
   const auto line = [](std::string_view what, const std::string& text) {
@@ -43,6 +50,7 @@ void print_model(const Model& model) {
     line("rolling", model.effects.rolling == Rolling::spring ? "spring: a rolling spring up to its limit"
                                                              : "constant torque: a torque against rolling");
   line("scheme", integrator_name(model.scene.numerics.integrator));
+  line("softness", softness_text(model));
 }
 
 void print_effects(const Model& model, const CostBreakdown& cost) {

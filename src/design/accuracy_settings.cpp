@@ -7,6 +7,7 @@
 #include <map>
 
 #include "laws/law.hpp"
+#include "plan/softness.hpp"
 #include "scene/input_error.hpp"
 
 namespace vibrosow {
@@ -15,38 +16,8 @@ namespace {
 constexpr double most_softened = 100, most_stiffened = 10;
 const double half_a_decade = std::sqrt(10);
 
-/// A value of `contact` that lots may have of their own: the contact's, or, where all have, the first lot's.
-double general_value(const Scene& scene, double Contact::*general, std::optional<double> SeedLot::*own) {
-  const bool all_their_own =
-      std::ranges::all_of(scene.lots, [own](const SeedLot& lot) { return (lot.*own).has_value(); });
-  return all_their_own ? *(scene.lots.front().*own) : scene.contact.*general;
-}
-
 bool has_shell(const Scene& scene) {
   return traits_of(scene.contact.law).material == LawMaterial::shell;
-}
-
-/// Shell compression, or one over Young's modulus.
-double softness_of(const Scene& scene) {
-  return has_shell(scene) ? general_value(scene, &Contact::shell_compression, &SeedLot::shell_compression)
-                          : 1 / general_value(scene, &Contact::youngs_modulus, &SeedLot::youngs_modulus);
-}
-
-void scale(std::optional<double>& value, double factor) {
-  if (value) *value *= factor;
-}
-
-void set_softness(Scene& scene, const AccuracySetting& setting) {
-  if (has_shell(scene)) {
-    const double factor = setting.shell_compression / softness_of(scene);
-    for (SeedLot& lot : scene.lots) scale(lot.shell_compression, factor);
-    scene.contact.shell_compression = setting.shell_compression;
-    return;
-  }
-  const double factor = setting.youngs_modulus * softness_of(scene);
-  for (SeedLot& lot : scene.lots) scale(lot.youngs_modulus, factor);
-  scale(scene.contact.wall_youngs_modulus, factor);
-  scene.contact.youngs_modulus = setting.youngs_modulus;
 }
 
 /// The scene's own setting, so many times as soft.
@@ -58,20 +29,15 @@ AccuracySetting softened(const Scene& scene, double times) {
   return setting;
 }
 
-Model softened_model(const Scene& scene, double times) {
+Scene softened_scene(const Scene& scene, double times) {
   AccuracySetting setting = softened(scene, times);
-  return prepare(scene_with(scene, setting));
-}
-
-bool within_the_guard(const Scene& scene, double times) {
-  const PredictedOverlap overlap = softened_model(scene, times).overlap;
-  return std::max(overlap.overlap_at_rest, overlap.overlap_at_impact) <= scene.guard.warn_relative_overlap;
+  return scene_with(scene, setting);
 }
 
 /// Softness over the scene's, from stiff to soft.
 std::vector<double> softness_factors(const Scene& scene) {
   double softest = most_softened;
-  while (softest > 1.5 && !within_the_guard(scene, softest)) softest /= half_a_decade;
+  while (softest > 1.5 && !is_predicted_sound(softened_scene(scene, softest))) softest /= half_a_decade;
   if (softest < 1.5) return {1 / most_stiffened, 1 / half_a_decade, 1};
   if (softest < most_stiffened) return {1 / most_stiffened, 1, softest};
   return {1 / most_stiffened, 1, std::sqrt(softest), softest};
@@ -89,7 +55,7 @@ double fewest_safe_steps(const Scene& scene, const AccuracyGrid& grid, const std
     for (const double times : factors) {
       Scene changed = scene;
       changed.numerics.integrator = integrator;
-      const StepPlan plan = softened_model(changed, times).step;
+      const StepPlan plan = prepare(softened_scene(changed, times)).step;
       fewest = std::max(fewest, std::ceil(plan.contact_duration / plan.longest_safe - 1e-9));
     }
   return fewest;
@@ -202,7 +168,7 @@ AccuracyDesign thrifty_design(const AccuracyGrid& grid) {
 
 Scene scene_with(const Scene& scene, AccuracySetting& setting) {
   Scene changed = scene;
-  set_softness(changed, setting);
+  set_softness(changed, has_shell(scene) ? setting.shell_compression : 1 / setting.youngs_modulus);
   if (setting.slip_speed > 0) changed.contact.slip_speed = setting.slip_speed;
   changed.numerics.integrator = setting.integrator;
   changed.numerics.steps_per_contact = setting.steps_per_contact;

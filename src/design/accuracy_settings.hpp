@@ -42,10 +42,10 @@ struct AccuracyDesign {
 };
 
 /// Levels around the scene's own setting. Softness: ten times as stiff as the scene, the scene's, and up to two softer
-/// ones, the softest at most a hundred times as soft and within the guard's warning limit by the predicted overlap
-/// (where nothing softer is, one between stiffest and scene). Steps a contact: the scene's own and twice as many; and
-/// as few as are safe at all of these, where the scene's are half as many again. Slip speed, where friction or
-/// rolling's torque has one: half and four times the scene's. Integrators: velocity Verlet and the midpoint rule.
+/// ones, the softest at most a hundred times as soft and predicted sound (where nothing softer is, one between stiffest
+/// and scene). Steps a contact: the scene's own and twice as many; and as few as are safe at all of these, where the
+/// scene's are half as many again. Slip speed, where friction or rolling's torque has one: half and four times the
+/// scene's. Integrators: velocity Verlet and the midpoint rule.
 AccuracyGrid default_accuracy_grid(const Scene& scene);
 
 /// Every combination once, integrator slowest, slip speed fastest.

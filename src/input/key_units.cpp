@@ -75,6 +75,7 @@ constexpr std::array key_words = {
     KeyWord{"plan", {}},
     KeyWord{"front_and_back", {}},
     KeyWord{"space", {}},
+    KeyWord{"accuracy", {}},
     KeyWord{"tilt", degree},
     KeyWord{"funnel", degree},
     KeyWord{"left", millimetre},

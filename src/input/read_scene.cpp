@@ -11,6 +11,7 @@
 #include "input/read_lot.hpp"
 #include "input/read_vessel.hpp"
 #include "input/table.hpp"
+#include "scene/accuracy_level.hpp"
 #include "scene/integrator_names.hpp"
 #include "scene/printable.hpp"
 #include "scene/seed_lot.hpp"
@@ -70,8 +71,30 @@ std::vector<SeedLot> read_lots(Table seeds, Space space) {
   return lots;
 }
 
-Numerics read_numerics(Table table, Law law) {
+/// A level by its name, or the cheapest whose error is known to be within a fraction.
+AccuracyLevel read_accuracy(Table& root) {
+  const std::optional<std::string> text = root.text("accuracy");
+  if (!text) return AccuracyLevel::as_written;
+  for (const AccuracyLevelValues& level : accuracy_levels)
+    if (*text == level.name) return level.level;
+  if (!text->ends_with('%')) {
+    root.fail(
+        "accuracy",
+        fmt::format("\"{}\" is neither \"draft\", \"design\" nor \"reference\", nor an error such as \"3 %\"", *text));
+  }
+  const double percent = 100 * *root.quantity("accuracy", Dimension::fraction, 0, 1);
+  for (const AccuracyLevelValues& level : accuracy_levels)
+    if (level.error_percent <= percent) return level.level;
+  root.fail("accuracy",
+            fmt::format("{} is less than any level is known to err by, {:g} %; `vibrosow accuracy --within` "
+                        "finds out for one seeder",
+                        *text, accuracy_levels.back().error_percent));
+}
+
+Numerics read_numerics(Table table, Law law, AccuracyLevel accuracy) {
   Numerics numerics;
+  for (const char* key : {"dt", "steps_per_contact"})
+    if (accuracy != AccuracyLevel::as_written && table.has(key)) table.fail(key, "contradicts accuracy, which sets it");
   numerics.integrator = static_cast<Integrator>(table.choice("integrator", integrator_names()).value_or(0));
   numerics.dt = table.quantity("dt", Dimension::time, 1e-12, 10);
   if (numerics.dt) numerics.where = table.where("dt");
@@ -155,7 +178,7 @@ Scene read_scene(const std::filesystem::path& file, const std::vector<Override>&
                  const std::shared_ptr<SourceFiles>& files) {
   Table root(Document::read(file, overrides, files));
   root.reject_keys_other_than(
-      {"title", "space", "seeds", "contact", "tray", "hopper", "numerics", "guard", "run", "record"});
+      {"title", "space", "accuracy", "seeds", "contact", "tray", "hopper", "numerics", "guard", "run", "record"});
   Scene scene;
   scene.title = printable(root.text("title").value_or(file.stem().string()));
   constexpr Space spaces[] = {Space::plane, Space::three_dimensional};
@@ -178,7 +201,9 @@ Scene read_scene(const std::filesystem::path& file, const std::vector<Override>&
   if (!gives_seeds(scene.tray) && !(scene.hopper && gives_seeds(*scene.hopper))) {
     tray.fail("fill", "is missing, no hopper has one, and no rain falls: there is nothing to sow");
   }
-  if (auto numerics = root.table("numerics")) scene.numerics = read_numerics(*numerics, scene.contact.law);
+  const AccuracyLevel accuracy = read_accuracy(root);
+  if (auto numerics = root.table("numerics")) scene.numerics = read_numerics(*numerics, scene.contact.law, accuracy);
+  scene.numerics.accuracy = accuracy;
   if (auto guard = root.table("guard")) scene.guard = read_guard(*guard);
   scene.run = read_run(root.required_table("run"));
   if (auto record = root.table("record"))

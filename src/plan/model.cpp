@@ -6,6 +6,7 @@
 
 #include "plan/contact_parameters.hpp"
 #include "plan/effects.hpp"
+#include "plan/softness.hpp"
 #include "plan/touching_kinds.hpp"
 #include "scene/input_error.hpp"
 #include "scene/seed_lot.hpp"
@@ -42,7 +43,8 @@ void check_clumps(const Scene& scene) {
 
 }  // namespace
 
-Model prepare(const Scene& scene, const std::optional<EffectSet>& effects) {
+Model prepare(const Scene& written, const std::optional<EffectSet>& effects) {
+  const Scene scene = at_its_accuracy(written);
   Model model{};
   model.scene = scene;
   model.vessels = {scene.tray};

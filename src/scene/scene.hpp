@@ -252,7 +252,11 @@ struct Vessel {
 
 enum class Integrator { velocity_verlet, rk2_midpoint, gear5 };
 
+/// Softness and step that a scene is run with: its own, or those of a level (scene/accuracy_level.hpp).
+enum class AccuracyLevel { as_written, draft, design, reference };
+
 struct Numerics {
+  AccuracyLevel accuracy = AccuracyLevel::as_written;
   Integrator integrator = Integrator::velocity_verlet;
   double steps_per_contact = 20;
   std::optional<double> dt;              // s; instead of steps_per_contact

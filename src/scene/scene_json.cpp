@@ -10,6 +10,7 @@
 #include <stdexcept>
 #include <type_traits>
 
+#include "scene/accuracy_level.hpp"
 #include "scene/input_error.hpp"
 #include "scene/integrator_names.hpp"
 
@@ -454,6 +455,7 @@ void fields(Io& io, Vessel& vessel) {
 template <class Io>
 void fields(Io& io, Numerics& numerics) {
   const Numerics usual;
+  io.used_choice("accuracy", numerics.accuracy, accuracy_level_names(), AccuracyLevel::as_written);
   io.choice("integrator", numerics.integrator, integrator_names());
   io.optional("dt_s", numerics.dt);
   io.used("steps_per_contact", numerics.steps_per_contact, usual.steps_per_contact, !numerics.dt);

@@ -169,6 +169,14 @@ TEST(ReadScene, DefaultsAreNeutral) {
   EXPECT_EQ(scene.run.count_below, 0.02);
 }
 
+TEST(ReadScene, AccuracyIsALevelAndContradictsAStep) {
+  EXPECT_EQ(read(small_example).numerics.accuracy, AccuracyLevel::as_written);
+  EXPECT_EQ(read(small_example, {"accuracy=draft"}).numerics.accuracy, AccuracyLevel::draft);
+  EXPECT_EQ(read(small_example, {"accuracy=100 %"}).numerics.accuracy, AccuracyLevel::draft);
+  for (const char* step : {"numerics.dt=1e-5 s", "numerics.steps_per_contact=30"})
+    EXPECT_THROW(read(small_example, {"accuracy=design", step}), InputError);
+}
+
 TEST(ReadScene, OverridesAct) {
   const Scene scene = read(small_example, {"tray.motion.kind=harmonic", "tray.motion.amplitude=5 mm",
                                            "tray.motion.frequency=12 Hz", "contact.friction=0.25"});

@@ -121,6 +121,7 @@ TEST(SceneJson, EveryChangeHasItsOwnText) {
       [](Scene& s) { s.hopper.reset(); },
       [](Scene& s) { s.numerics.integrator = Integrator::rk2_midpoint; },
       [](Scene& s) { s.numerics.steps_per_contact = 7; },
+      [](Scene& s) { s.numerics.accuracy = AccuracyLevel::design; },
       [](Scene& s) { s.numerics.dt = 1e-5; },
       [](Scene& s) { s.numerics.allow_long_step = true; },
       [](Scene& s) { s.guard.warn_relative_overlap = 0.1; },

@@ -1,0 +1,95 @@
+#include "plan/softness.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "elementary/functions.hpp"
+#include "laws/law.hpp"
+#include "plan/model.hpp"
+#include "scene/accuracy_level.hpp"
+
+namespace vibrosow {
+namespace {
+
+const double half_a_decade = std::sqrt(10);
+constexpr int most_halvings = 12;
+
+/// A value of `contact` that lots may have of their own.
+double general_value(const Scene& scene, double Contact::*general, std::optional<double> SeedLot::*own) {
+  const bool all_their_own =
+      std::ranges::all_of(scene.lots, [own](const SeedLot& lot) { return (lot.*own).has_value(); });
+  return all_their_own ? *(scene.lots.front().*own) : scene.contact.*general;
+}
+
+bool has_shell(const Scene& scene) {
+  return traits_of(scene.contact.law).material == LawMaterial::shell;
+}
+
+void scale(std::optional<double>& value, double factor) {
+  if (value) *value *= factor;
+}
+
+/// How much softer makes the shortest contact last so many times as long: it goes with the root of the shell
+/// compression, and with the modulus to the power -2/5 (Hertz).
+double softness_for(const Scene& scene, double times_as_long) {
+  return has_shell(scene) ? times_as_long * times_as_long : elementary::pow(times_as_long, 2.5);
+}
+
+/// Contact duration of a shell of that compression, s: pi sqrt(eps / g) for eps = (eps / r) r.
+double duration_of_shell(double shell_compression, double radius) {
+  return std::numbers::pi * std::sqrt(shell_compression * radius / standard_gravity);
+}
+
+double softness_at(const Scene& scene, const AccuracyLevelValues& level) {
+  const double written = softness_of(scene);
+  if (has_shell(scene)) return level.shell_compression;
+  const Model model = prepare(scene);
+  const double wanted = duration_of_shell(level.shell_compression, model.smallest_radius);
+  return std::max(written, written * softness_for(scene, wanted / model.step.contact_duration));
+}
+
+}  // namespace
+
+double softness_of(const Scene& scene) {
+  return has_shell(scene) ? general_value(scene, &Contact::shell_compression, &SeedLot::shell_compression)
+                          : 1 / general_value(scene, &Contact::youngs_modulus, &SeedLot::youngs_modulus);
+}
+
+void set_softness(Scene& scene, double softness) {
+  const double factor = softness / softness_of(scene);
+  if (has_shell(scene)) {
+    for (SeedLot& lot : scene.lots) scale(lot.shell_compression, factor);
+    scene.contact.shell_compression = softness;
+    return;
+  }
+  for (SeedLot& lot : scene.lots) scale(lot.youngs_modulus, 1 / factor);
+  scale(scene.contact.wall_youngs_modulus, 1 / factor);
+  scene.contact.youngs_modulus = 1 / softness;
+}
+
+bool is_predicted_sound(const Scene& scene) {
+  const PredictedOverlap overlap = prepare(scene).overlap;
+  const GuardLimits& guard = scene.guard;
+  return std::max(overlap.overlap_at_rest, overlap.overlap_at_impact) <=
+         std::sqrt(guard.warn_relative_overlap * guard.stop_relative_overlap);
+}
+
+Scene at_its_accuracy(const Scene& scene) {
+  if (scene.numerics.accuracy == AccuracyLevel::as_written) return scene;
+  const AccuracyLevelValues& level =
+      *std::ranges::find(accuracy_levels, scene.numerics.accuracy, &AccuracyLevelValues::level);
+  Scene changed = scene;
+  changed.numerics.accuracy = AccuracyLevel::as_written;
+  changed.numerics.steps_per_contact = level.steps_per_contact;
+  const double stiffest = has_shell(scene) ? 0 : softness_of(changed);
+  double softness = softness_at(changed, level);
+  set_softness(changed, softness);
+  for (int i = 0; i < most_halvings && softness > stiffest && !is_predicted_sound(changed); ++i) {
+    softness = std::max(softness / half_a_decade, stiffest);
+    set_softness(changed, softness);
+  }
+  return changed;
+}
+
+}  // namespace vibrosow

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include "scene/scene.hpp"
+
+namespace vibrosow {
+
+/// What a level sets, and what its rates were found to err by.
+struct AccuracyLevelValues {
+  AccuracyLevel level;
+  const char* name;          // what a seeder says
+  double shell_compression;  // eps / r; with Hertz' law contacts last as long as such a shell's
+  double steps_per_contact;
+  double error_percent;  // largest |error| of the shipped scenes' rates (reports/accuracy-levels)
+};
+
+/// From the cheapest to the most accurate.
+inline constexpr std::array<AccuracyLevelValues, 3> accuracy_levels{
+    {{AccuracyLevel::draft, "draft", 3e-4, 20, 100},
+     {AccuracyLevel::design, "design", 3e-5, 20, 100},
+     {AccuracyLevel::reference, "reference", 3e-6, 40, 100}}};
+
+/// As JSON calls them, in the order of the enumeration.
+inline const std::vector<std::string>& accuracy_level_names() {
+  static const std::vector<std::string> names{"as-written", "draft", "design", "reference"};
+  return names;
+}
+
+}  // namespace vibrosow

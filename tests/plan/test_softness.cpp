@@ -1,0 +1,92 @@
+#include "plan/softness.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "plan/model.hpp"
+#include "scene/accuracy_level.hpp"
+
+namespace vibrosow {
+namespace {
+
+/// A tray of balls of 4 mm that hardly moves, so that no overlap bounds a level's softness.
+Scene tray(Law law) {
+  Scene scene;
+  scene.lots = {SeedLot{.name = "wheat", .diameter = 4e-3, .mass = 40e-6}};
+  scene.contact.law = law;
+  scene.contact.shell_compression = 1e-4;
+  scene.contact.youngs_modulus = 5e8;
+  scene.tray.name = "tray";
+  scene.tray.length = 0.5;
+  scene.tray.height = 0.1;
+  scene.tray.fill = Fill{.count = 100};
+  scene.run.duration = 1;
+  return scene;
+}
+
+Scene at(Scene scene, AccuracyLevel level) {
+  scene.numerics.accuracy = level;
+  return at_its_accuracy(scene);
+}
+
+TEST(Softness, WithoutALevelTheSceneStaysAsWritten) {
+  EXPECT_EQ(at_its_accuracy(tray(Law::elastic_shell)), tray(Law::elastic_shell));
+}
+
+TEST(Softness, ALevelSetsShellAndSteps) {
+  for (const AccuracyLevelValues& level : accuracy_levels) {
+    const Scene scene = at(tray(Law::elastic_shell), level.level);
+    EXPECT_EQ(scene.numerics.accuracy, AccuracyLevel::as_written);
+    EXPECT_LE(scene.contact.shell_compression, level.shell_compression * (1 + 1e-12));
+    EXPECT_EQ(scene.numerics.steps_per_contact, level.steps_per_contact);
+    EXPECT_TRUE(is_predicted_sound(scene));
+  }
+  EXPECT_DOUBLE_EQ(at(tray(Law::elastic_shell), AccuracyLevel::reference).contact.shell_compression, 3e-6);
+}
+
+TEST(Softness, HertzContactsLastAsLongAsTheLevelsShell) {
+  const Scene shell = at(tray(Law::elastic_shell), AccuracyLevel::design),
+              hertz = at(tray(Law::hertz), AccuracyLevel::design);
+  ASSERT_DOUBLE_EQ(shell.contact.shell_compression, 3e-5);
+  EXPECT_NEAR(prepare(hertz).step.contact_duration / prepare(shell).step.contact_duration, 1,
+              0.45);  // of a wall: m, not m / 2
+  EXPECT_LT(hertz.contact.youngs_modulus, 5e8);
+}
+
+TEST(Softness, HertzIsNeverStifferThanItsMaterial) {
+  Scene soft = tray(Law::hertz);
+  soft.contact.youngs_modulus = 1e5;
+  EXPECT_DOUBLE_EQ(at(soft, AccuracyLevel::reference).contact.youngs_modulus, 1e5);
+}
+
+TEST(Softness, HardShakingStiffensALevel) {
+  Scene scene = tray(Law::elastic_shell);
+  scene.tray.motion = HarmonicMotion{.direction = 0, .amplitude = 0.03, .frequency = 20};
+  const Scene draft = at(scene, AccuracyLevel::draft);
+  EXPECT_LT(draft.contact.shell_compression, 3e-4);
+  EXPECT_TRUE(is_predicted_sound(draft));
+}
+
+TEST(Softness, LotsAndWallsWithTheirOwnAreSoftenedAlike) {
+  Scene scene = tray(Law::hertz);
+  scene.lots[0].number_fraction = 0.5;
+  scene.lots.push_back(
+      SeedLot{.name = "weed", .diameter = 4e-3, .mass = 40e-6, .number_fraction = 0.5, .youngs_modulus = 1e8});
+  scene.contact.wall_youngs_modulus = 2e9;
+  set_softness(scene, softness_of(scene) * 10);
+  EXPECT_DOUBLE_EQ(scene.contact.youngs_modulus, 5e7);
+  EXPECT_DOUBLE_EQ(*scene.lots[1].youngs_modulus, 1e7);
+  EXPECT_DOUBLE_EQ(*scene.contact.wall_youngs_modulus, 2e8);
+}
+
+TEST(Softness, AModelIsThatOfItsLevel) {
+  Scene scene = tray(Law::elastic_shell);
+  scene.numerics.accuracy = AccuracyLevel::reference;
+  const Model model = prepare(scene);
+  EXPECT_DOUBLE_EQ(model.scene.contact.shell_compression, 3e-6);
+  EXPECT_NEAR(model.step.contact_duration / model.step.dt, 40, 1e-9);
+}
+
+}  // namespace
+}  // namespace vibrosow
