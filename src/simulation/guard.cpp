@@ -103,7 +103,8 @@ void Guard::watch_energy(const Integration& s, EnergyAccount& account) {
   }
   if (only_falls <= state_.lowest) {
     state_.lowest = only_falls;
-    state_.in_play = std::max(state_.in_play, moving);
+    // What coheres holds less than nothing.
+    state_.in_play = std::max(state_.in_play, account.kinetic + std::abs(account.elastic));
   }
   account.made_by_numerics = std::max(account.made_by_numerics, only_falls - state_.lowest);
   const double fallen = std::max(0.0, state_.first_potential + account.inserted - account.removed - account.potential);

@@ -8,6 +8,7 @@
 #include "simulation/simulate.hpp"
 #include "support/bench.hpp"
 #include "vessel/vessel_motion.hpp"
+#include "vessel/vessel_walls.hpp"
 
 namespace vibrosow {
 namespace {
@@ -71,6 +72,87 @@ TEST(Counter, PassesInTheTraysFrame) {
   EXPECT_NEAR(run.result().events[0].x, 0.5, 1e-4);
 }
 
+TEST(Counter, AnEventHasItsOwnGrainsMass) {
+  Bench bench;
+  bench.gravity = {0, -standard_gravity};
+  bench.scene.lots = {{"light", 6e-3, 2e-4, Shape::ball, 0.5}, {"heavy", 6e-3, 5e-4, Shape::ball, 0.5}};
+  bench.scene.lots[1].sizes = {SizeDistribution::Kind::uniform, 6e-3, 0, 5e-3, 7e-3, {}, {}};
+  bench.scene.tray.holes = {{0.3, 0.2}};
+  bench.place(0.25, 0.05, 0, 0, 0, 0).place(0.35, 0.06, 0, 0, 0, 1);
+  Simulation& run = bench.start(1e-4);
+  run.grains().mass[1] = 4e-4;  // one of the smaller of its lot
+  run.steps(3000);
+  ASSERT_EQ(run.result().events.size(), 2u);
+  EXPECT_EQ(run.result().events[0].mass, 2e-4);
+  EXPECT_EQ(run.result().events[1].mass, 4e-4);
+}
+
+/// The time, between two, at which a function that falls is nothing.
+template <class Function>
+double time_of_zero(double from, double to, Function function) {
+  for (int k = 0; k < 100; ++k) {
+    const double middle = 0.5 * (from + to);
+    (function(middle) > 0 ? from : to) = middle;
+  }
+  return from;
+}
+
+// Between two steps a grain goes on with its speed in the tray's frame: how far it is off is of second order.
+TEST(Counter, PlaceAndTimeAreThoseBetweenTwoSteps) {
+  constexpr double quarter = std::numbers::pi / 2;
+  const HarmonicMotion along{0, 0.05, 2, 0, 0.3}, up{quarter, 0.05, 2, 0, 0.3};
+  HarmonicMotion across = along;
+  across.across = quarter;
+  struct Case {
+    Space space;
+    VesselMotion motion;
+  };
+  for (const Case& c : {Case{Space::plane, along}, Case{Space::plane, up},
+                        Case{Space::plane, RockingMotion{{0.2, 0}, 0.1, 2}}, Case{Space::three_dimensional, across},
+                        Case{Space::three_dimensional, TurningMotion{{0.5, 0.5}, 1, TurningAxis::upright}}}) {
+    Bench bench(c.space);
+    bench.scene.tray.motion = c.motion;
+    bench.scene.tray.holes = {{.centre = 0.45, .width = 0.3}};
+    if (c.space == Space::three_dimensional)
+      bench.scene.tray.holes[0].across = 0.5, bench.scene.tray.holes[0].across_length = 0.3;
+    const Eigen::Vector3d from(0.4, 0.05, 0.45), velocity(0.2, -1, 0.1);
+    bench.place(from, velocity);
+    Simulation& run = bench.start(1e-3);
+    while (run.result().events.empty()) ASSERT_TRUE(run.step() && run.time() < 1);
+    const Vessel& tray = bench.scene.tray;
+    const auto own = [&](double time) {
+      const Eigen::Vector3d at = from + time * (c.space == Space::plane ? Eigen::Vector3d(0.2, -1, 0) : velocity);
+      return point_in_vessel(tray, vessel_pose(tray, time), at);
+    };
+    const double passed = time_of_zero(0, 0.2, [&](double time) { return own(time).y(); });
+    const double counted = time_of_zero(0, 0.2, [&](double time) { return own(time).y() + 0.02; });
+    const OutflowEvent event = run.result().events[0];
+    EXPECT_EQ(event.hole, 1);
+    EXPECT_NEAR(event.x, own(passed).x(), 1e-5) << c.motion.index();
+    if (c.space == Space::three_dimensional) {
+      EXPECT_NEAR(event.z, own(passed).z(), 1e-5) << c.motion.index();
+    }
+    EXPECT_NEAR(event.time, counted, 1e-5) << c.motion.index();
+  }
+}
+
+TEST(Counter, AGrainThrownBackUpBelongsToTheHoleItLeavesThroughAtLast) {
+  Bench bench;
+  bench.scene.tray.holes = {{0.3, 0.1}, {0.6, 0.1}};
+  bench.place(0.3, 0.005, 0, -1);
+  Simulation& run = bench.start(1e-4);
+  run.steps(100);  // 5 mm below the floor
+  ASSERT_LT(run.grains().y[0], 0);
+  run.grains().vy[0] = 1;
+  run.steps(200);
+  ASSERT_GT(run.grains().y[0], 0.01);
+  run.grains().x[0] = 0.6, run.grains().vy[0] = -1;
+  run.steps(500);
+  ASSERT_EQ(run.result().events.size(), 1u);
+  EXPECT_EQ(run.result().events[0].hole, 2);
+  EXPECT_NEAR(run.result().events[0].x, 0.6, 1e-12);
+}
+
 TEST(Counter, BesideTheTrayIsSpilled) {
   Bench bench;
   bench.gravity = {0, -standard_gravity};
@@ -103,6 +185,43 @@ TEST(Counter, AGrainThroughAWallIsLostNotCounted) {
   run.steps(2000);
   EXPECT_EQ(run.result().balance.lost, 1);
   EXPECT_EQ(run.result().balance.counted, 0);
+  expect_balanced(run.result().balance);
+}
+
+class LostGrain : public testing::TestWithParam<Space> {};
+INSTANTIATE_TEST_SUITE_P(Counter, LostGrain, testing::ValuesIn(both_spaces), named_by_space);
+
+// So soft and so fast that its overlap goes from 0.8 radii on one side of the floor to 0.8 on the other.
+TEST_P(LostGrain, ThroughAWallStopsTheRun) {
+  Bench bench(GetParam());
+  bench.scene.contact.shell_compression = 10;
+  bench.scene.guard.stop_relative_overlap = 0.95;
+  constexpr double dt = 1e-4, stride = 0.4 * Bench::radius;
+  bench.place(0.5, 0.2 * Bench::radius + 3 * stride, 0, -stride / dt);
+  Simulation& run = bench.start(dt);
+  run.steps(20);
+  ASSERT_TRUE(run.guard().stop_reason());
+  EXPECT_NE(run.guard().stop_reason()->find("1 grain went through a wall"), std::string::npos)
+      << *run.guard().stop_reason();
+  EXPECT_EQ(run.result().status, RunStatus::stopped_by_guard);
+  EXPECT_EQ(run.result().balance.lost, 1);
+  expect_balanced(run.result().balance);
+}
+
+TEST(Counter, AGrainThatComesThroughTheFloorWithoutAWallStopsTheRun) {
+  Bench bench;
+  bench.gravity = {0, -standard_gravity};
+  bench.place(0.5, 2 * Bench::radius);
+  Simulation& run = bench.start(1e-4);
+  const std::vector<WallSegment> walls = vessel_walls(bench.scene.tray);
+  for (std::size_t w = 0; w < walls.size(); ++w)
+    if (walls[w].name.find("floor") != std::string::npos)
+      run.field().neighbours().broadphase().remove_wall(static_cast<int>(w));
+  run.field().neighbours().start_afresh();
+  run.steps(3000);
+  ASSERT_TRUE(run.guard().stop_reason());
+  EXPECT_NE(run.guard().stop_reason()->find("1 grain went through a wall"), std::string::npos);
+  EXPECT_EQ(run.result().balance.lost, 1);
   expect_balanced(run.result().balance);
 }
 

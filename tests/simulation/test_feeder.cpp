@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <set>
 
@@ -10,6 +11,7 @@
 #include "scene/clump_shape.hpp"
 #include "scene/seed_lot.hpp"
 #include "simulation/simulation.hpp"
+#include "support/bench.hpp"
 
 namespace vibrosow {
 namespace {
@@ -67,7 +69,7 @@ struct Fed {
   explicit Fed(const Scene& scene)
       : model(prepare(scene)),
         state(starting_state(model, 1, none(model))),
-        walls(model.vessels),
+        walls(model.vessels, model.scene.space),
         feeder(model, state.feeder) {
     walls.place(0);
   }
@@ -114,6 +116,44 @@ TEST(Feeder, SaysThatItFallsBehind) {
   scene.tray.height = 8e-3;  // room for two layers of 300 balls' six
   EXPECT_THAT(warning(), testing::StartsWith("tray.fill.keep falls behind: "));
   EXPECT_THAT(warning(), testing::HasSubstr(" of 300 seeds missing at 0.5 s"));
+}
+
+TEST(Feeder, LaysSeedsDownAsTheirVesselMoves) {
+  for (const Space space : {Space::plane, Space::three_dimensional})
+    for (const VesselMotion& motion :
+         {VesselMotion(HarmonicMotion{0.4, 0.02, 5}), VesselMotion(RockingMotion{{0.05, 0}, 0.05, 5})}) {
+      Scene scene = kept_full(scattered_balls());
+      scene.space = space;
+      if (space == Space::three_dimensional) scene.tray.depth = 0.1;
+      scene.tray.motion = motion;
+      Fed fed(scene);
+      constexpr double time = 0.02;
+      fed.walls.place(time);
+      ASSERT_EQ(fed.feeder.top_up(fed.state.grains, {}, fed.walls, time), 300);
+      const Pose pose = fed.walls.pose(0, time);
+      const PoseRate rate = fed.walls.rate(0, time);
+      const Grains& g = fed.state.grains;
+      double fastest = 0;
+      for (std::size_t i = 0; i < g.size(); ++i) {
+        const Eigen::Vector3d expected = point_velocity(scene.tray, pose, rate, place_of(g, i));
+        EXPECT_LT((velocity_of(g, i) - expected).norm(), 1e-12);
+        fastest = std::max(fastest, expected.norm());
+      }
+      EXPECT_GT(fastest, 0.1);
+    }
+}
+
+TEST(Feeder, DrawsLotsByTheirShares) {
+  Scene scene = kept_full(scattered_balls());
+  SeedLot other = scattered_balls();
+  other.name = "b";
+  scene.lots[0].number_fraction = 0.7, other.number_fraction = 0.3;
+  scene.lots.push_back(other);
+  scene.tray.fill->count = 2000, scene.tray.height = 10;
+  Fed fed(scene);
+  ASSERT_EQ(fed.feeder.top_up(fed.state.grains, {}, fed.walls, 0), 2000);
+  const auto of_first = std::ranges::count(fed.state.grains.lot, 0);
+  EXPECT_NEAR(static_cast<double>(of_first) / 2000, 0.7, 4 * std::sqrt(0.7 * 0.3 / 2000));
 }
 
 TEST(Feeder, LaysNothingIntoAGrainThatReachesInThroughAnOutlet) {

@@ -6,6 +6,7 @@
 
 #include "simulation/simulate.hpp"
 #include "support/bench.hpp"
+#include "support/same_bits.hpp"
 
 namespace vibrosow {
 namespace {
@@ -110,6 +111,64 @@ TEST(PeriodicSides, SeamPairsAreThoseOfBruteForce) {
     met += all.size();
   }
   EXPECT_GT(met, 500u);
+}
+
+class PeriodicPairs : public testing::TestWithParam<Space> {};
+INSTANTIATE_TEST_SUITE_P(Spaces, PeriodicPairs, testing::ValuesIn(both_spaces), named_by_space);
+
+// Two that touch across the seam, along, across and over a corner, as deep as they would within the tray.
+TEST_P(PeriodicPairs, PushAsHardAsTwoSideBySide) {
+  const bool in_space = GetParam() == Space::three_dimensional;
+  std::vector<Eigen::Vector3d> directions = {{1, 0, 0}, {1, 0.3, 0}, {-1, 0.3, 0}};
+  if (in_space)
+    directions.insert(directions.end(), {{0, 0.2, 1}, {0, 0, -1}, {1, 0, 1}, {1, 0.1, -1}, {-1, 0, 1}, {-1, 0, -1}});
+  for (Eigen::Vector3d direction : directions) {
+    direction.normalize();
+    Bench bench(GetParam());
+    bench.scene.tray.sides = bench.scene.tray.front_and_back = Sides::periodic;
+    const double overlap = 1e-5, apart = 2 * Bench::radius - overlap;
+    Eigen::Vector3d at = Eigen::Vector3d::Constant(0.5), other;
+    for (const int axis : {0, 2})
+      if (direction[axis] != 0) at[axis] = direction[axis] > 0 ? 1 - 0.3 * Bench::radius : 0.3 * Bench::radius;
+    other = at + apart * direction;
+    for (const int axis : {0, 2}) other[axis] -= std::floor(other[axis]);
+    bench.place(at).place(other);
+    Simulation& run = bench.start(1e-9);
+    const double stiffness = 0.5 * Bench::mass * standard_gravity / (1e-4 * Bench::radius);
+    EXPECT_LT((force_on(run, 0) + stiffness * overlap * direction).norm(), 1e-6 * stiffness * overlap) << direction;
+    EXPECT_LT((force_on(run, 0) + force_on(run, 1)).norm(), 1e-12 * stiffness * overlap) << direction;
+    EXPECT_NEAR(run.field().elastic_energy(), 0.5 * stiffness * overlap * overlap,
+                1e-6 * stiffness * overlap * overlap);
+    EXPECT_EQ(run.field().touching(), (std::vector<char>{1, 1}));
+  }
+}
+
+// Whichever of a list's renewals and carryings over a contact goes through, it keeps its memory.
+TEST_P(PeriodicPairs, RememberThroughEveryRenewalOfTheLists) {
+  Scene scene = slice();
+  scene.contact.friction_model = FrictionModel::spring, scene.contact.rolling = Rolling::spring;
+  scene.contact.seed.rolling_friction = scene.contact.wall.rolling_friction = 0.1;
+  if (GetParam() == Space::three_dimensional) {
+    scene.space = Space::three_dimensional;
+    scene.tray.length = 0.04, scene.tray.depth = 0.04, scene.tray.front_and_back = Sides::periodic;
+    scene.tray.motion =
+        HarmonicMotion{.direction = 0.6, .amplitude = 4e-3, .frequency = 12, .ramp = 0.1, .across = 0.5};
+  }
+  bool remembered = false;
+  const auto run = [&](NeighbourMargins margins) {
+    auto simulation =
+        std::make_unique<Simulation>(with_step(prepare(scene), 5e-5), 3, ComputeOptions{.margins = margins});
+    simulation->watch(1e-3, [&](Simulation& now) {
+      for (const BoundaryContacts& boundary : now.state().contacts.boundaries)
+        for (std::size_t k = 0; k < boundary.pairs.size(); ++k) remembered |= boundary.histories.has_history(k);
+    });
+    simulation->steps(4000);
+    return simulation;
+  };
+  const auto usual = run({}), other = run({0.3, 0.02, 0.3});
+  EXPECT_TRUE(remembered);
+  EXPECT_NE(other->field().neighbours().prunes(), usual->field().neighbours().prunes());
+  EXPECT_EQ(bits(other->grains()), bits(usual->grains()));
 }
 
 TEST(PeriodicSides, WithoutAPeriodThereIsNoSeam) {

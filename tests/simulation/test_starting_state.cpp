@@ -69,5 +69,22 @@ TEST(StartingState, ABedOfClumpsInSpaceBarelySettles) {
   expect_barely_settles(bed_of_wheat(250), 1, 1.1);
 }
 
+TEST(StartingState, SeedsSetOutAtRestOrWithTheirVessel) {
+  for (const Space space : both_spaces)
+    for (const Start start : {Start::at_rest, Start::with_tray}) {
+      Scene scene = Bench(space).scene;
+      scene.tray.length = 0.1;
+      if (space == Space::three_dimensional) scene.tray.depth = 0.1;
+      scene.tray.fill = Fill{20, Packing::layers, 0, false};
+      scene.tray.motion = RockingMotion{{0, 0}, 0.1, 5};
+      scene.run.start = start;
+      const Grains g = starting_state(prepare(scene), 1).grains;
+      ASSERT_EQ(g.size(), 20u);
+      const double spin = start == Start::with_tray ? 0.1 * 2 * Bench::pi * 5 : 0;
+      for (std::size_t i = 0; i < g.size(); ++i)
+        EXPECT_LT((velocity_of(g, i) - spin * Eigen::Vector3d(-g.y[i], g.x[i], 0)).norm(), 1e-12);
+    }
+}
+
 }  // namespace
 }  // namespace vibrosow

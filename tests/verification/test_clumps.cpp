@@ -198,6 +198,37 @@ TEST(Clump, AnImpactOfAClumpOfBallsIsThatOfARigidBody) {
       }
 }
 
+// A disc of a clump yields by eps of its own radius under the weight of the whole clump; so does a smaller clump's.
+TEST(Clump, EachDiscHasTheStiffnessOfItsOwnRadius) {
+  for (const Space space : both_spaces)
+    for (const double size : {1.0, 0.5}) {
+      const SeedLot lot = [&] {
+        if (space == Space::three_dimensional) return solid_lot(odd_discs(), clump_mass);
+        return bench_of(odd_discs()).scene.lots[0];
+      }();
+      Scene scene = clump_scene(lot);
+      scene.space = space;
+      SeedLot& own = scene.lots[0];
+      own.sizes = {SizeDistribution::Kind::uniform, own.diameter, 0, 0.5 * own.diameter, own.diameter, {}, {}};
+      Model model = with_step(prepare(scene), 1e-9);
+      model.gravity = {0, 0};
+      for (const ClumpDisc& disc : lot.discs) {
+        // Turned so that this disc is the lowest, it alone touches the floor.
+        const Eigen::Vector3d arm(disc.x, disc.y, disc.z);
+        const Eigen::Quaterniond turn = Eigen::Quaterniond::FromTwoVectors(arm, -Eigen::Vector3d::UnitY());
+        const double radius = size * disc.radius, overlap = 1e-6;
+        Grains grains = no_grains(model);
+        grains.add(Eigen::Vector3d(0.5, size * arm.norm() + radius - overlap, 0.5), Eigen::Vector3d::Zero(), 0,
+                   sized_kind(own, *model.law, model.kinds[0], size),
+                   {-Bench::pi / 2 - std::atan2(disc.y, disc.x), {turn.w(), turn.x(), turn.y(), turn.z()}});
+        Simulation run(model, starting_state(model, 1, grains));
+        const double mass = grains.kind(0).mass, expected = mass * standard_gravity / (1e-4 * radius) * overlap;
+        EXPECT_NEAR(force_on(run, 0).y(), expected, 1e-6 * expected) << radius;
+        EXPECT_EQ(run.statistics().contacts, 1);
+      }
+    }
+}
+
 // A clump of one disc with a ball's moment of inertia is the ball, to the bit.
 TEST(Clump, OfOneDiscIsABall) {
   for (const Law law : {Law::elastic_shell, Law::hertz})

@@ -236,6 +236,51 @@ TEST(Motion, AGrainLyingOnARockingFloorFeelsTheFloorsOwnVelocity) {
       << "against a floor at rest it is damped";
 }
 
+/// A wall and how a grain stands at it: a point of it and the direction out of it, in the vessel's frame.
+struct Standing {
+  Eigen::Vector3d point, out;
+};
+
+/// A grain that goes along with a vessel's material is pushed as by a vessel at rest: neither damped nor rubbed.
+void expect_pushed_as_at_rest(Space space, const VesselMotion& motion, const Standing& standing) {
+  Bench bench(space);
+  bench.scene.contact.seed = bench.scene.contact.wall = {0.4, 0.5};
+  bench.scene.contact.slip_speed = 1e-3;
+  Vessel& tray = bench.scene.tray;
+  tray.origin = {0.3, 0.7}, tray.front = 0.2, tray.motion = motion;
+  tray.pieces = {{{0.2, 0.6}, {0.8, 0.6}}};  // a shelf
+  const double overlap = 1e-6, stiffness = Bench::mass * standard_gravity / (1e-4 * Bench::radius);
+  const VesselPath path(tray);
+  const Pose pose = path.pose(0);
+  const PoseRate rate = path.rate(0);
+  const Eigen::Vector3d at = point_in_lab(tray, pose, standing.point + (Bench::radius - overlap) * standing.out);
+  const Eigen::Vector3d velocity = point_velocity(tray, pose, rate, at), spin = spin_in_space(tray, pose, rate);
+  const Eigen::Vector3d expected = stiffness * overlap * direction_in_lab(tray, pose, standing.out);
+  bench.place(at, velocity, spin);
+  EXPECT_LT((force_on(bench.start(1e-9), 0) - expected).norm(), 1e-6 * expected.norm());
+  tray.motion.reset();
+  EXPECT_GT((force_on(bench.start(1e-9), 0) - expected).norm(), 0.1 * expected.norm()) << "as against one at rest";
+}
+
+TEST(Motion, AGrainThatGoesAlongWithAnyWallOfATurningVesselIsPushedAsAtRest) {
+  const Eigen::Vector3d right(1, 0, 0), up(0, 1, 0), back(0, 0, 1);
+  for (const Space space : both_spaces) {
+    std::vector<Standing> walls = {{{0.7, 0, 0.6}, up},
+                                   {{0.4, 0.6, 0.3}, up},
+                                   {{0.4, 0.6, 0.3}, -up},
+                                   {{0, 0.8, 0.4}, right},
+                                   {{1, 0.3, 0.4}, -right}};
+    if (space == Space::three_dimensional) walls.insert(walls.end(), {{{0.7, 0.3, 0}, back}, {{0.3, 0.8, 1}, -back}});
+    for (std::size_t k = 0; k < walls.size(); ++k) {
+      SCOPED_TRACE(testing::Message() << (space == Space::plane ? "plane" : "space") << ", wall " << k);
+      expect_pushed_as_at_rest(space, RockingMotion{{0.1, -0.2}, 0.05, 5}, walls[k]);
+      expect_pushed_as_at_rest(space, TurningMotion{{0.1, -0.2}, 2}, walls[k]);
+      if (space == Space::three_dimensional)
+        expect_pushed_as_at_rest(space, TurningMotion{{0.1, -0.2}, 2, TurningAxis::upright}, walls[k]);
+    }
+  }
+}
+
 TEST(Motion, WorkOfARockingFloorIsAccountedFor) {
   Bench bench;
   bench.gravity = {0, -standard_gravity};
