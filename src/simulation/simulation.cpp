@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "scene/motion.hpp"
+#include "vessel/nearest_on_face.hpp"
 #include "vessel/nearest_point.hpp"
 #include "vessel/vessel_motion.hpp"
 
@@ -139,14 +140,23 @@ void Simulation::open_gate(const std::string& vessel, int hole) {
   if (!field_.walls().is_removed(wall)) open_walls({wall});
 }
 
+namespace {
+
+/// Of a grain's centre to a wall, m2.
+double distance2(const Walls& walls, std::size_t wall, const Grains& grains, std::size_t i) {
+  if (!grains.in_space) return nearest_point(walls.placed()[wall], grains.x[i], grains.y[i]).distance2;
+  return nearest_on_face(walls.placed_faces()[wall], {grains.x[i], grains.y[i], grains.z[i]}).distance2;
+}
+
+}  // namespace
+
 bool Simulation::close_gate(const std::string& vessel, int hole) {
   const std::size_t wall = gate_of(vessel, hole);
   if (!field_.walls().is_removed(wall)) return true;
   field_.restore_wall(wall);
-  const PlacedWall& placed = field_.walls().placed()[wall];
   for (std::size_t i = 0; i < state_.grains.size(); ++i) {
     const double radius = state_.grains.kind(i).radius;
-    if (nearest_point(placed, state_.grains.x[i], state_.grains.y[i]).distance2 >= radius * radius) continue;
+    if (distance2(field_.walls(), wall, state_.grains, i) >= radius * radius) continue;
     field_.remove_wall(wall);
     return false;
   }
