@@ -60,7 +60,7 @@ double largest(const std::vector<SurfaceParameters>& surfaces, double SurfacePar
 /// dt lambda of friction below its slip speed, lambda = nu F_n / (v_s m_t).
 struct FrictionStep {
   double longest;  // from the eigenvalues of a step: beyond it, what should slow down grows
-  double wanted;   // that a chosen step keeps to
+  double wanted;   // that a chosen step keeps to: a grain bears on several others at once, and their rates add up
 };
 FrictionStep friction_step(Integrator integrator) {
   switch (integrator) {
@@ -69,7 +69,7 @@ FrictionStep friction_step(Integrator integrator) {
     case Integrator::rk2_midpoint:
       return {2, 0.5};
     case Integrator::gear5:
-      return {0.16, 0.08};
+      return {0.16, 0.04};
   }
   throw std::logic_error("a scheme without a limit for friction");
 }
