@@ -3,7 +3,7 @@
 #include <cmath>
 #include <functional>
 
-#include "stability/hard_cases.hpp"
+#include "stability/bounds.hpp"
 
 namespace vibrosow {
 namespace {
@@ -21,9 +21,7 @@ INSTANTIATE_TEST_SUITE_P(Stability, UnsoftenedHertz, testing::ValuesIn(settings_
 
 /// Laws that keep the energy of an impact.
 std::vector<Setting> elastic_settings() {
-  std::vector<Setting> all = settings_where([](const Setting& setting) { return setting.law != Law::hertz_viscous; });
-  all.push_back({Space::plane, Integrator::rk2_midpoint});
-  return all;
+  return settings_where([](const Setting& setting) { return setting.law != Law::hertz_viscous; });
 }
 class ElasticImpact : public testing::TestWithParam<Setting> {};
 INSTANTIATE_TEST_SUITE_P(Stability, ElasticImpact, testing::ValuesIn(elastic_settings()), named_by_setting);
@@ -41,12 +39,6 @@ double mean_gain(const Setting& setting, int at_once = 1) {
 double largest_change(const Setting& setting, int at_once) {
   const double kink = 0.23 * at_once * z * z;
   return setting.scheme == Integrator::rk2_midpoint ? kink + mean_gain(setting, at_once) : kink;
-}
-
-/// How long a grain touches a wall that it hits at `speed`, s.
-double contact_time(const Setting& setting, const Bench& bench, double speed) {
-  if (setting.law == Law::elastic_shell) return bench.contact_time();
-  return 2.943275 * setting.overlap_on_wall(bench.scene, speed) / speed;
 }
 
 struct Changes {
@@ -136,9 +128,10 @@ std::vector<Target> targets(Space space) {
 TEST_P(ElasticImpact, OnEdgesAndInCornersKeepsItsEnergy) {
   for (const Target& target : targets(GetParam().space)) {
     SCOPED_TRACE(target.name);
-    const Changes changes = throw_at(GetParam(), target, GetParam().in_space() ? 80 : 400);
-    EXPECT_LE(changes.largest, largest_change(GetParam(), target.at_once));
-    EXPECT_LE(std::abs(changes.mean), mean_gain(GetParam(), target.at_once));
+    const Changes changes = throw_at(GetParam(), target, GetParam().in_space() ? 80 : 200);
+    const Bounds bounds("elastic impact: " + target.name, GetParam(), GetParam().bench().scene.contact);
+    bounds.at_most("relative change of energy", changes.largest, largest_change(GetParam(), target.at_once));
+    bounds.at_most("its mean, either way", std::abs(changes.mean), mean_gain(GetParam(), target.at_once));
   }
 }
 
@@ -186,8 +179,9 @@ TEST_P(ElasticImpact, OfAGasDriftsAsItsImpactsDo) {
   const double bound = 2.0 / grains * (error.mean * impacts + 3 * error.scatter * std::sqrt(impacts));
   const double drift = std::log(total_energy(run, bench.gravity) / before);
   EXPECT_GT(impacts, 20 * grains);
-  EXPECT_LT(std::abs(drift), bound);
-  EXPECT_EQ(run.result().balance.inside, grains);
+  const Bounds bounds("elastic gas", GetParam(), bench.scene.contact);
+  bounds.at_most("drift of its log energy, either way", std::abs(drift), bound);
+  bounds.just("grains inside", static_cast<double>(run.result().balance.inside), grains);
 }
 
 Eigen::Vector3d centre_of_mass(const Grains& g) {
@@ -198,7 +192,7 @@ Eigen::Vector3d centre_of_mass(const Grains& g) {
 
 /// Grains that overlap at the start, the guard told to bear it: what they fly apart with is no more than what their
 /// springs held, and what they were pushed by they push.
-void expect_to_part(Bench& bench, double dt) {
+void expect_to_part(const std::string& name, const Setting& setting, Bench& bench, double dt) {
   bench.scene.guard.stop_relative_overlap = 100;
   bench.scene.contact.seed = {0.3, 0.5};
   Simulation& run = bench.start(dt);
@@ -211,13 +205,15 @@ void expect_to_part(Bench& bench, double dt) {
     most = std::max(most, kinetic_energy(run.grains()));
   }
   EXPECT_GT(stored, 0);
-  EXPECT_LT(most, stored);
-  EXPECT_GT(most, 0.05 * stored);
+  const Bounds bounds(name, setting, bench.scene.contact);
+  bounds.at_most("largest kinetic energy", most, stored, "J");
+  bounds.at_least("largest kinetic energy", most, 0.05 * stored, "J");
   const Grains& g = run.grains();
-  EXPECT_LT((centre_of_mass(g) - centre).norm(), 1e-12);
+  bounds.at_most("way of the centre of mass", (centre_of_mass(g) - centre).norm(), 1e-12, "m");
+  double nearest = 1;
   for (std::size_t i = 0; i < g.size(); ++i)
-    for (std::size_t j = 0; j < i; ++j)
-      EXPECT_GT((place_of(g, i) - place_of(g, j)).norm(), 2 * Bench::radius) << i << " and " << j;
+    for (std::size_t j = 0; j < i; ++j) nearest = std::min(nearest, (place_of(g, i) - place_of(g, j)).norm());
+  bounds.at_least("distance of the nearest two", nearest, 2 * Bench::radius, "m");
 }
 
 /// A fiftieth of the time in which grains fly apart that overlap by `overlap`.
@@ -230,7 +226,7 @@ double parting_step(const Setting& setting, const Bench& bench, double overlap) 
 TEST_P(HardImpact, CoincidentCentresPart) {
   Bench bench = GetParam().bench();
   bench.place(0.5, 0.5).place(0.5, 0.5);
-  expect_to_part(bench, parting_step(GetParam(), bench, 2 * Bench::radius));
+  expect_to_part("coincident centres, borne", GetParam(), bench, parting_step(GetParam(), bench, 2 * Bench::radius));
 }
 
 TEST_P(HardImpact, AnOverlappingStartIsRelaxedWithoutAnExplosion) {
@@ -238,7 +234,8 @@ TEST_P(HardImpact, AnOverlappingStartIsRelaxedWithoutAnExplosion) {
   const double apart = 1.6 * Bench::radius;
   for (int k = 0; k < (GetParam().in_space() ? 27 : 9); ++k)
     bench.place({0.5 + apart * (k % 3), 0.5 + apart * (k / 3 % 3), 0.5 + apart * (k / 9)});
-  expect_to_part(bench, parting_step(GetParam(), bench, 0.4 * Bench::radius));
+  expect_to_part("overlapping start that was asked for", GetParam(), bench,
+                 parting_step(GetParam(), bench, 0.4 * Bench::radius));
 }
 
 TEST_P(HardImpact, CoincidentCentresStopAnOrdinaryRun) {
@@ -246,7 +243,8 @@ TEST_P(HardImpact, CoincidentCentresStopAnOrdinaryRun) {
   bench.place(0.5, 0.5).place(0.5, 0.5);
   Simulation& run = bench.start(parting_step(GetParam(), bench, 2 * Bench::radius));
   EXPECT_FALSE(run.step());
-  EXPECT_NE(run.guard().stop_reason()->find("relative overlap"), std::string::npos);
+  Bounds("coincident centres in an ordinary run", GetParam(), bench.scene.contact)
+      .stopped(run.guard().stop_reason(), "relative overlap", run.result().balance);
 }
 
 /// A wall that a grain flies at, where from and which way.
@@ -277,9 +275,9 @@ TEST_P(HardImpact, AGrainThatCouldCrossAWallInOneStepIsStoppedNotLost) {
       bench.place(shot.from, speed * shot.direction);
       Simulation& run = bench.start(1e-4);
       run.steps(10);
-      ASSERT_TRUE(run.guard().stop_reason());
-      EXPECT_EQ(run.result().balance.lost, 0);
-      EXPECT_EQ(run.result().balance.inside, 1);
+      const Bounds bounds("grain fast enough to cross a wall in one step", GetParam(), bench.scene.contact);
+      bounds.stopped(run.guard().stop_reason(), "", run.result().balance);
+      bounds.just("grains inside", static_cast<double>(run.result().balance.inside), 1);
     }
 }
 
@@ -302,9 +300,10 @@ TEST_P(HardImpact, ADeepHitOnAWallIsStoppedBeforeTheCentreIsThrough) {
     Simulation& run = bench.start(1e-5);
     const double side = side_of(shot, shot.from);
     run.steps(10000);
-    ASSERT_TRUE(run.guard().stop_reason());
-    EXPECT_GT(side_of(shot, place_of(run.grains(), 0)) * side, 0);
-    EXPECT_EQ(run.result().balance.lost, 0);
+    const Bounds bounds("deep hit on a wall", GetParam(), bench.scene.contact);
+    bounds.stopped(run.guard().stop_reason(), "relative overlap", run.result().balance);
+    bounds.at_least("centre before the wall, of its radius",
+                    side_of(shot, place_of(run.grains(), 0)) * std::copysign(1, side) / Bench::radius, 0);
   }
 }
 
@@ -319,7 +318,8 @@ TEST_P(UnsoftenedHertz, NeitherGainsEnergyNorSinksIn) {
   bench.scene.contact.seed = bench.scene.contact.wall = {0.47, 0.5};
   bench.scene.contact.friction_model = FrictionModel::spring;
   bench.scene.tray.length = 0.07, bench.scene.tray.depth = 0.07;
-  for (int k = 0; k < 27; ++k)
+  const int balls = GetParam().in_space() ? 27 : 9;
+  for (int k = 0; k < balls; ++k)
     bench.place({0.0115 + 0.0235 * (k % 3), 0.0115 + 0.0235 * (k / 3 % 3), 0.0115 + 0.0235 * (k / 9)},
                 {2 * std::sin(1.7 * k), -2 * std::cos(2.3 * k), 2 * std::sin(2.9 * k + 1)});
   const double ball_mass = bench.scene.lots[0].mass, fastest = 2 * std::sqrt(3);
@@ -329,10 +329,11 @@ TEST_P(UnsoftenedHertz, NeitherGainsEnergyNorSinksIn) {
   const double before = total_energy(run, bench.gravity);
   run.steps(10000);
   ASSERT_FALSE(run.guard().stop_reason()) << *run.guard().stop_reason();
-  EXPECT_GT(run.statistics().contacts, 27 * 50);
-  EXPECT_LT(total_energy(run, bench.gravity), 0.9 * before);
-  EXPECT_LT(run.result().energy.made_by_numerics, 0.001 * before);
-  EXPECT_LT(run.result().max_relative_overlap, on_wall.overlap / ball_radius);
+  EXPECT_GT(run.statistics().contacts, balls * 50);
+  const Bounds bounds("unsoftened Hertz, 5e10 Pa", GetParam(), bench.scene.contact);
+  bounds.at_most("energy at the end", total_energy(run, bench.gravity), 0.9 * before, "J");
+  bounds.at_most(made_by_numerics, run.result().energy.made_by_numerics, 0.001 * before, "J");
+  bounds.at_most("largest relative overlap", run.result().max_relative_overlap, on_wall.overlap / ball_radius);
 }
 
 /// A ball that falls on a hole smaller than itself is pushed by the nearest point of its rim, which jumps to the other
@@ -360,10 +361,11 @@ TEST_P(HardImpactInSpace, ABallOnAHoleSmallerThanItselfComesToRestOverIt) {
   const double overlap = GetParam().overlap_at_rest(bench.scene, r / rigid);
   const double height = std::sqrt((r - overlap) * (r - overlap) - hole_radius * hole_radius);
   const double push = standard_gravity * hole_radius / rigid;  // m/s2, towards the middle
-  EXPECT_LT(std::sqrt(squares / looked), 2 * push * 2 * dt);
-  EXPECT_LT(furthest, overlap);
-  EXPECT_LT(highest, rigid);
-  EXPECT_GT(lowest, height - (rigid - height));
+  const Bounds bounds("ball at rest on a round hole smaller than itself", GetParam(), bench.scene.contact);
+  bounds.at_most("speed", std::sqrt(squares / looked), 2 * push * 2 * dt, "m/s");
+  bounds.at_most("way from the middle", furthest, overlap, "m");
+  bounds.at_most("height", highest, rigid, "m");
+  bounds.at_least("height", lowest, height - (rigid - height), "m");
 }
 
 TEST_P(HardImpact, WhatIsNotANumberStopsTheRun) {
@@ -378,7 +380,8 @@ TEST_P(HardImpact, WhatIsNotANumberStopsTheRun) {
       Simulation& run = bench.start(1e-5);
       (run.grains().*array)[0] = std::nan("");
       run.steps(200);
-      EXPECT_TRUE(run.guard().stop_reason()) << "at " << height << " m";
+      Bounds("state that is not a number", GetParam(), bench.scene.contact)
+          .stopped(run.guard().stop_reason(), "not a number", run.result().balance);
     }
 }
 
