@@ -39,6 +39,13 @@ struct EnergyAccount {                             // J
   double made_by_numerics = 0;                     // largest rise of what must only fall
 };
 
+/// What the guard let pass.
+struct LetPass {
+  std::int64_t deep_steps = 0;       // steps with a relative overlap beyond the warning limit
+  std::int64_t strides = 0;          // steps in which a grain could have passed a wall unseen
+  std::int64_t energy_accounts = 0;  // accounts, one in 100 steps, with energy made by the numerics worth a word
+};
+
 enum class RunStatus { finished, stopped_by_guard, interrupted };
 
 /// What one simulation gives. Holds nothing that depends on a clock but the last two.
@@ -47,8 +54,8 @@ struct Run {
   std::string stop_reason;            // of the guard
   std::string end_reason;             // why it ended before its duration, though sound; else empty
   std::vector<std::string> warnings;  // of the guard
-  bool outside_the_model =
-      false;  // overlap beyond the guard's warning limit with the stop raised, or a long step insisted on
+  // A long step insisted on; or limits of the guard raised, and the usual ones passed; or grains lost through walls.
+  bool outside_the_model = false;
   std::uint64_t random_seed = 1;
   double dt = 0;  // s
   std::int64_t steps = 0;
@@ -56,8 +63,9 @@ struct Run {
   std::int64_t grain_steps = 0;
   std::int64_t force_evaluations = 0;  // of grain contacts
   std::int64_t slip_speed_raised = 0;  // of these, where sliding friction's slip speed was raised in a hard impact
-  double max_relative_overlap = 0;     // a grain's share of the overlap over its radius, the largest of the run
-  double tray_empty_since = -1;        // s, when the last grain left the tray; negative: it never ran dry
+  LetPass let_pass;
+  double max_relative_overlap = 0;  // a grain's share of the overlap over its radius, the largest of the run
+  double tray_empty_since = -1;     // s, when the last grain left the tray; negative: it never ran dry
   EnergyAccount energy;
   Balance balance;
   std::vector<OutflowEvent> events;       // by time

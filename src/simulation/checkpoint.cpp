@@ -107,7 +107,7 @@ void serialize(Archive& archive, CounterState::Passage& p) {
 }
 template <class Archive>
 void serialize(Archive& archive, CounterState& s) {
-  archive(s.passages, s.below, s.lost);
+  archive(s.passages, s.below);
 }
 template <class Archive>
 void serialize(Archive& archive, Turn& t) {
@@ -123,7 +123,8 @@ void serialize(Archive& archive, FeederState& s) {
 }
 template <class Archive>
 void serialize(Archive& archive, GuardState& s) {
-  archive(s.max_relative_overlap, s.warned_at, s.warned_of_stride, s.warned_of_energy, s.stop_reason, s.warnings);
+  archive(s.max_relative_overlap, s.let_pass.deep_steps, s.let_pass.strides, s.let_pass.energy_accounts);
+  archive(s.deep_since, s.strides_since, s.energy_since, s.most_made, s.stop_reason);
   archive(s.has_energy, s.lowest, s.in_play, s.first_potential);
 }
 template <class Archive>
@@ -164,7 +165,7 @@ namespace {
 
 constexpr std::string_view signature = "vibrosow checkpoint\n";
 /// To be raised whenever a state has other fields, or goes on differently.
-constexpr std::uint32_t version = 6;
+constexpr std::uint32_t version = 7;
 
 std::uint32_t checksum(std::string_view bytes) {
   boost::crc_32_type crc;

@@ -66,6 +66,7 @@ int Counter::hole_beside(const Place& place, double reach) const {
 
 void Counter::watch(const Grains& grains, const Walls& walls, const GrainLoops& loops, double time,
                     std::vector<OutflowEvent>& events) {
+  lost_now_.clear();
   const Pose pose = line_below_.value_or(walls.poses().front());
   const double angle = tray_.tilt + pose.angle;
   const auto [sine, cosine] = elementary::sine_cosine(angle);
@@ -114,10 +115,10 @@ void Counter::watch(const Grains& grains, const Walls& walls, const GrainLoops& 
       if (passage.hole == through_the_floor && grains.oriented)
         passage.hole = hole_beside(place, grains.kind(i).radius);
     }
-    if (height >= -count_below_) continue;
+    if (!(height < -count_below_)) continue;  // nor what is not a number: that is the guard's
     passage.counted = true;
     if (passage.hole == through_the_floor) {
-      ++state_.lost;
+      lost_now_.push_back(static_cast<int>(i));
       continue;
     }
     const double ago = since(-count_below_);

@@ -30,7 +30,8 @@ class Counter {
   void add_grain() { state_.passages.push_back({}), state_.below.push_back(0); }
   void remove_flagged(const std::vector<char>& removed);
   bool is_counted(std::size_t i) const { return state_.passages[i].counted; }  // or spilled, or lost
-  std::int64_t lost() const { return state_.lost; }
+  /// Grains that the last look found to have come through the floor beside its holes.
+  const std::vector<int>& lost_now() const { return lost_now_; }
 
  private:
   static constexpr int through_the_floor = -1;
@@ -52,6 +53,7 @@ class Counter {
   std::optional<Pose> line_below_;  // of a tray that turns over and over
   CounterState& state_;
   std::vector<char> flags_;  // of those to look at
+  std::vector<int> lost_now_;
 };
 
 /// Whether a grain's centre lies inside a vessel, between its ends (a periodic one has none), above its floor line and

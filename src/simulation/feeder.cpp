@@ -9,8 +9,6 @@
 #include "grains/size_distribution.hpp"
 #include "scene/seed_lot.hpp"
 #include "simulation/counter.hpp"
-#include "vessel/nearest_on_face.hpp"
-#include "vessel/nearest_point.hpp"
 #include "vessel/vessel_motion.hpp"
 
 namespace vibrosow {
@@ -92,12 +90,6 @@ std::int64_t arrivals(const Rain& rain, double time) {
   return lasted > 0 ? static_cast<std::int64_t>(std::floor(lasted * rain.rate * (1 + 1e-12))) : 0;
 }
 
-/// The nearest distance of a wall to a place in the lab, squared.
-double distance2(const Walls& walls, std::size_t wall, const Eigen::Vector3d& at, bool in_space) {
-  return in_space ? nearest_on_face(walls.placed_faces()[wall], at).distance2
-                  : nearest_point(walls.placed()[wall], at.x(), at.y()).distance2;
-}
-
 /// Whether a grain at `at` would touch nothing, a periodic tray's images included.
 bool is_clear(const Grains& grains, const Walls& walls, const Eigen::Vector3d& at, double radius) {
   constexpr double clearance = 1.01;
@@ -112,8 +104,7 @@ bool is_clear(const Grains& grains, const Walls& walls, const Eigen::Vector3d& a
     if (apart.squaredNorm() < reach * reach) return false;
   }
   for (std::size_t wall = 0; wall < walls.count(); ++wall)
-    if (!walls.is_removed(wall) && std::sqrt(distance2(walls, wall, at, grains.in_space)) < radius * (1 - 1e-9))
-      return false;
+    if (!walls.is_removed(wall) && std::sqrt(walls.distance2(wall, at)) < radius * (1 - 1e-9)) return false;
   return true;
 }
 

@@ -167,6 +167,46 @@ Forces ForceField::wall_forces() {
   return forces;
 }
 
+DeepestContact ForceField::deepest_contact() {
+  const Grains& discs = place_discs();
+  const auto grain_of = [&](int k) { return clumps_ ? discs.clump[static_cast<std::size_t>(k)] : k; };
+  DeepestContact deepest;
+  const auto look = [&](int i, int j, double overlap, const GrainKind& one, double compliance, double curvature,
+                        double inverse_mass) {
+    const double relative = overlap * one.compliance / (one.compliance + compliance) / one.radius;
+    if (relative <= deepest.relative_overlap && deepest.grain >= 0) return;
+    deepest = {grain_of(i),
+               j < 0 ? j : grain_of(j),
+               relative,
+               overlap,
+               model_.law->stiffness(one.compliance, compliance, 1 / one.radius, curvature),
+               one.inverse_mass + inverse_mass};
+  };
+  const auto look_at_pairs = [&](const PairList& pairs, const Neighbours::Image& shift) {
+    for (std::size_t k = 0; k < pairs.size(); ++k) {
+      const int i = pairs.grain[k], j = pairs.partner[k];
+      const std::size_t a = static_cast<std::size_t>(i), b = static_cast<std::size_t>(j);
+      const GrainKind one = discs.kind(a), other = discs.kind(b);
+      const double dx = discs.x[b] - (discs.x[a] + shift.x), dy = discs.y[b] - discs.y[a];
+      const double dz = discs.in_space ? discs.z[b] - (discs.z[a] + shift.z) : 0;
+      const double overlap = one.radius + other.radius - std::sqrt(dx * dx + dy * dy + dz * dz);
+      look(i, j, overlap, one, other.compliance, 1 / other.radius, other.inverse_mass);
+      look(j, i, overlap, other, one.compliance, 1 / one.radius, one.inverse_mass);
+    }
+  };
+  look_at_pairs(state_.contacts.pairs, {0, 0});
+  for (std::size_t k = 0; k < neighbours_.images().size(); ++k)
+    look_at_pairs(state_.contacts.boundaries[k].pairs, neighbours_.images()[k]);
+  for (const WallCandidate& near : state_.contacts.walls) {
+    const std::size_t i = static_cast<std::size_t>(near.grain);
+    const GrainKind kind = discs.kind(i);
+    const double apart = std::sqrt(walls_.distance2(static_cast<std::size_t>(near.wall),
+                                                    {discs.x[i], discs.y[i], discs.in_space ? discs.z[i] : 0}));
+    look(near.grain, -1, kind.radius - apart, kind, model_.contacts.wall_compliance, 0, 0);
+  }
+  return deepest;
+}
+
 std::vector<char> ForceField::touching() {
   std::vector<char> touches(state_.grains.size(), 0);
   const Grains& discs = place_discs();

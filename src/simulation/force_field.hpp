@@ -15,6 +15,16 @@
 
 namespace vibrosow {
 
+/// Of all contacts the one with the largest relative overlap: which grain, against which other; -1: a wall, or, of the
+/// grain, none at all.
+struct DeepestContact {
+  int grain = -1, partner = -1;
+  double relative_overlap = 0;  // overlap c_i / (c_i + c_j) / r_i, compliances c
+  double overlap = 0;           // m
+  double stiffness = 0;         // of the law, of these two
+  double inverse_mass = 0;      // 1/kg, of both
+};
+
 /// Contact forces on all grains of a state at a time: walls are placed, neighbours brought up to date, the chosen
 /// kernels run. Where grains are clumps, lists and kernels see their discs, and the forces are gathered.
 class ForceField {
@@ -37,6 +47,8 @@ class ForceField {
   Forces wall_forces();
   /// The same on each ball in space, those of clumps one by one.
   std::vector<GrainVector> wall_forces_in_space();
+
+  DeepestContact deepest_contact();
 
   /// Which grains touch another one.
   std::vector<char> touching();

@@ -27,22 +27,27 @@ class Guard {
  public:
   Guard(const Model& model, GuardState& state);
 
-  /// After each step; cheap.
+  /// After each step; cheap. Takes the step's largest overlap out of the statistics.
   void watch_step(const Integration& s);
   /// Now and then; takes the account of energy.
   void watch_energy(const Integration& s, EnergyAccount& account);
-  /// A grain's centre went through a wall.
-  void wall_crossed(std::size_t grains, double time);
+  /// The centres of these went through a wall.
+  void watch_lost(const Integration& s, const std::vector<int>& grains);
 
   const std::optional<std::string>& stop_reason() const { return state_.stop_reason; }
   std::vector<std::string> warnings() const;
   double max_relative_overlap() const { return state_.max_relative_overlap; }
+  /// Whether the run is one that the usual limits forbid.
   bool outside_the_model() const;
 
  private:
   void stop(std::string reason);
-  void watch_stride(double time);
+  void watch_overlap(const Integration& s, double overlap);
+  void watch_stride(const Integration& s);
+  std::string stiff_enough(double relative_overlap, int lot) const;
+  std::string shorter_step(double dt) const;
 
+  const Model& model_;
   const GuardLimits& limits_;
   const LawTraits& law_;
   bool insisted_on_step_;

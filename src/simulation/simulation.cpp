@@ -8,8 +8,6 @@
 #include <utility>
 
 #include "scene/motion.hpp"
-#include "vessel/nearest_on_face.hpp"
-#include "vessel/nearest_point.hpp"
 #include "vessel/vessel_motion.hpp"
 
 namespace vibrosow {
@@ -93,8 +91,9 @@ bool Simulation::step() {
   if (is_due(steps_per_look_)) wrap(), note_whether_dry(), end_after_pause();
   const bool top_up = feeder_.feeds() && is_due(steps_per_feed_), rain = feeder_.rains() && is_due(steps_per_look_);
   if (top_up || rain) feed(top_up, rain);
-  if (is_due(steps_per_energy_account)) guard_.watch_energy(s_, run.energy);
+  if (is_due(steps_per_energy_account) || at_end()) guard_.watch_energy(s_, run.energy);
   profile.lap(Phase::housekeeping);
+  if (state_.guard.stop_reason) return false;  // before anything of it is recorded
   if (recorder_ && recorder_->is_due(state_.time))
     recorder_->record(state_.grains, field_.walls(), state_.time, run.snapshots);
   profile.lap(Phase::recording);
@@ -140,23 +139,14 @@ void Simulation::open_gate(const std::string& vessel, int hole) {
   if (!field_.walls().is_removed(wall)) open_walls({wall});
 }
 
-namespace {
-
-/// Of a grain's centre to a wall, m2.
-double distance2(const Walls& walls, std::size_t wall, const Grains& grains, std::size_t i) {
-  if (!grains.in_space) return nearest_point(walls.placed()[wall], grains.x[i], grains.y[i]).distance2;
-  return nearest_on_face(walls.placed_faces()[wall], {grains.x[i], grains.y[i], grains.z[i]}).distance2;
-}
-
-}  // namespace
-
 bool Simulation::close_gate(const std::string& vessel, int hole) {
   const std::size_t wall = gate_of(vessel, hole);
   if (!field_.walls().is_removed(wall)) return true;
   field_.restore_wall(wall);
   for (std::size_t i = 0; i < state_.grains.size(); ++i) {
-    const double radius = state_.grains.kind(i).radius;
-    if (distance2(field_.walls(), wall, state_.grains, i) >= radius * radius) continue;
+    const Grains& g = state_.grains;
+    const double radius = g.kind(i).radius;
+    if (field_.walls().distance2(wall, {g.x[i], g.y[i], g.in_space ? g.z[i] : 0}) >= radius * radius) continue;
     field_.remove_wall(wall);
     return false;
   }
@@ -172,16 +162,15 @@ void Simulation::steps(std::int64_t count) {
 
 void Simulation::count() {
   const std::size_t before = state_.run.events.size();
-  const std::int64_t lost_before = counter_.lost();
   counter_.watch(state_.grains, field_.walls(), execution_.loops(), state_.time, state_.run.events);
-  if (counter_.lost() > lost_before) note_lost(counter_.lost() - lost_before);
+  if (!counter_.lost_now().empty()) note_lost(counter_.lost_now());
   for (std::size_t k = before; k < state_.run.events.size(); ++k)
     ++(state_.run.events[k].hole > 0 ? state_.run.balance.counted : state_.run.balance.spilled);
 }
 
-void Simulation::note_lost(std::int64_t grains) {
-  state_.run.balance.lost += grains;
-  guard_.wall_crossed(static_cast<std::size_t>(grains), state_.time);
+void Simulation::note_lost(const std::vector<int>& grains) {
+  state_.run.balance.lost += std::ssize(grains);
+  guard_.watch_lost(s_, grains);
 }
 
 /// Takes out grains that went through a wall, and counted ones that touch nothing.
@@ -194,13 +183,13 @@ void Simulation::take_out() {
     for (std::size_t i = 0; i < state_.grains.size(); ++i)
       if (touches[i]) removed[i] = 0;
   }
-  std::int64_t lost = 0;
+  std::vector<int> lost;
   for (int i : state_.statistics.crossed) {
     const std::size_t k = static_cast<std::size_t>(i);
-    if (!removed[k] && !counter_.is_counted(k)) removed[k] = 1, ++lost;
+    if (!removed[k] && !counter_.is_counted(k)) removed[k] = 1, lost.push_back(i);
   }
   state_.statistics.crossed.clear();
-  if (lost > 0) note_lost(lost);
+  if (!lost.empty()) note_lost(lost);
   if (std::find(removed.begin(), removed.end(), 1) != removed.end()) take_out_flagged(removed);
 }
 
@@ -318,7 +307,8 @@ Run Simulation::result() const {
   }
   run.warnings = guard_.warnings();
   if (!feeder_.warning().empty()) run.warnings.push_back(feeder_.warning());
-  run.outside_the_model = guard_.outside_the_model();
+  run.outside_the_model = guard_.outside_the_model() || run.balance.lost > 0;
+  run.let_pass = state_.guard.let_pass;
   run.steps = state_.step;
   run.end_time = state_.time;
   run.force_evaluations = state_.statistics.contacts;

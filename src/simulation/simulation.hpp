@@ -82,7 +82,7 @@ class Simulation {
   void count();
   void take_out();
   void wrap();
-  void note_lost(std::int64_t grains);
+  void note_lost(const std::vector<int>& grains);
   void open_due_gates();
   void open_walls(const std::vector<std::size_t>& walls);
   void find_next_gate();

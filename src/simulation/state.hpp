@@ -52,7 +52,6 @@ struct CounterState {
   };
   std::vector<Passage> passages;  // by grain
   std::vector<char> below;        // by grain: whether it is under the floor
-  std::int64_t lost = 0;          // came through the floor beside its holes
 };
 
 struct FeederState {
@@ -71,10 +70,11 @@ struct FeederState {
 
 struct GuardState {
   double max_relative_overlap = 0;
-  double warned_at = -1;  // s, when the relative overlap first passed the warning limit
-  bool warned_of_stride = false, warned_of_energy = false;
+  LetPass let_pass{};
+  // When there was first something to let pass (s): a deep contact, a stride, energy made by the numerics.
+  double deep_since = -1, strides_since = -1, energy_since = -1;
+  double most_made = 0;  // energy made by the numerics, the largest fraction of that in play
   std::optional<std::string> stop_reason;
-  std::vector<std::string> warnings;
   bool has_energy = false;
   double lowest = 0;   // J, of what can only fall
   double in_play = 0;  // J, largest kinetic + elastic energy up to then

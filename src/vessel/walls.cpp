@@ -4,6 +4,8 @@
 
 #include "elementary/functions.hpp"
 #include "vessel/directions.hpp"
+#include "vessel/nearest_on_face.hpp"
+#include "vessel/nearest_point.hpp"
 #include "vessel/vessel_faces.hpp"
 
 namespace vibrosow {
@@ -55,6 +57,11 @@ Pose Walls::pose(std::size_t vessel, double time) const {
   Pose pose = paths_[vessel].pose(time);
   pose.displacement += shifts_[vessel];
   return pose;
+}
+
+double Walls::distance2(std::size_t wall, const Eigen::Vector3d& at) const {
+  return placed_faces_.empty() ? nearest_point(placed_[wall], at.x(), at.y()).distance2
+                               : nearest_on_face(placed_faces_[wall], at).distance2;
 }
 
 std::optional<std::size_t> Walls::find(const std::string& name) const {

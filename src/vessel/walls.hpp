@@ -41,6 +41,9 @@ class Walls {
   Pose pose(std::size_t vessel, double time) const;
   PoseRate rate(std::size_t vessel, double time) const { return paths_[vessel].rate(time); }
 
+  /// From a wall to a place in the lab, m2.
+  double distance2(std::size_t wall, const Eigen::Vector3d& at) const;
+
   /// The wall of this name ("tray gate 1"), where there is one.
   std::optional<std::size_t> find(const std::string& name) const;
   const std::vector<Vessel>& vessels() const { return vessels_; }
