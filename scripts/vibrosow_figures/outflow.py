@@ -8,7 +8,7 @@ from scipy.optimize import curve_fit
 from scipy.stats import linregress
 from scipy.stats import t as student
 
-from .tables import command, mean_and_half_width, rows, write_table
+from .tables import command, mean_and_half_width, rows, runs_within_the_model, write_table
 
 GRAVITY = 9.81  # m/s2
 
@@ -44,7 +44,7 @@ def read_runs(folder, fill, flowing, clogged):
     if fill is None and "tray.fill.count" not in layouts[0]:
         sys.exit(f"{folder}/sweep.csv: no column tray.fill.count; --fill is needed")
     filled = {r["layout"]: int(r.get("tray.fill.count", fill)) for r in layouts}
-    for r in rows(f"{folder}/sweep_runs.csv"):
+    for r in runs_within_the_model(folder):
         rates = flowing.setdefault(r["name"], [])
         clogged.setdefault(r["name"], 0)
         if int(r["inside"]) > filled[r["layout"]]:

@@ -7,13 +7,13 @@ from scipy.stats import kendalltau, rankdata
 from scipy.stats import t as student
 
 from .bench import conditions_of
-from .tables import command, rows, write_table
+from .tables import command, rows, runs_within_the_model, write_table
 
 
 def logs_of_rates(folder):
     """Logarithms of every run's rate of the tray (g/s), a list per layout. Ends the program where a run has none."""
     found = {}
-    for run in rows(f"{folder}/sweep_runs.csv"):
+    for run in runs_within_the_model(folder):
         if not run["tray_rate_g_per_s"] or float(run["tray_rate_g_per_s"]) <= 0:
             raise SystemExit(f"{folder}/sweep_runs.csv: layout {run['layout']} has a run without a rate of the tray")
         found.setdefault(run["layout"], []).append(math.log(float(run["tray_rate_g_per_s"])))

@@ -18,6 +18,15 @@ def rows(path):
         sys.exit(f"scripts/figures: {path}: {fault.strerror}")
 
 
+def runs_within_the_model(folder):
+    """The rows of a sweep's runs. Ends the program where one of them left the model: nothing is decided by those."""
+    runs = rows(f"{folder}/sweep_runs.csv")
+    outside = [run["layout"] for run in runs if run["outside_the_model"] == "yes"]
+    if outside:
+        sys.exit(f"scripts/figures: {folder}/sweep_runs.csv: layout {outside[0]} has a run outside the model")
+    return runs
+
+
 def write_table(path, header, lines):
     """`header`: the columns' names, with commas between them."""
     with open(path, "w", newline="", encoding="utf-8") as file:

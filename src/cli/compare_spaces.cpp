@@ -70,7 +70,10 @@ int run_in_both_spaces(const Scene& scene) {
   print("both spaces, one run each, window {:g} to {:g} s\n", deep.outflow.window_from, deep.outflow.window_to);
   print_rate("plane", of_slice, flat);
   print_rate("space", of_tray, deep);
-  if (of_tray.counted > 0) print("  plane over space {}\n", to_digits(of_slice.seeds / of_tray.seeds, 3));
+  if (flat.outside_the_model || deep.outside_the_model)
+    print("  outside the model: no ratio of it\n");
+  else if (of_tray.counted > 0)
+    print("  plane over space {}\n", to_digits(of_slice.seeds / of_tray.seeds, 3));
   return exit_done;
 }
 

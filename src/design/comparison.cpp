@@ -196,6 +196,7 @@ void compare_with_measured(StudyResult& result) {
   const bool curve = is_curve(part.table.quantity);
   std::vector<Pairing> pairings;
   for (const MeasuredMatch& match : part.matches) {
+    if (result.layouts[match.layout].status == LayoutStatus::outside_the_model) continue;
     Pairing pairing = pair_up(result, match);
     if (pairing.times.size() < pairing.series->times.size())
       add_remark(result.layouts[match.layout], "measured times after the end of the run are left out");

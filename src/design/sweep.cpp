@@ -131,6 +131,8 @@ void set_status(LayoutResult& result, const std::vector<Evaluation>& replicates)
     result.status = LayoutStatus::interrupted;
     result.reason = fmt::format("{} of {} runs finished", result.replicates, replicates.size());
   } else {
+    if (std::ranges::any_of(replicates, &Evaluation::outside_the_model))
+      result.status = LayoutStatus::outside_the_model;
     result.reason = remarks_on(replicates);
   }
 }

@@ -17,7 +17,8 @@ struct SweepOptions {
   ManyRunsOptions runs;
 };
 
-enum class LayoutStatus { ok, invalid, stopped, interrupted };
+/// Of a layout of which a run left the model the figures are told, and nothing is decided by them.
+enum class LayoutStatus { ok, outside_the_model, invalid, stopped, interrupted };
 
 /// One hole and lot, over the finished replicates.
 struct HoleFigures {
@@ -41,10 +42,10 @@ struct BedFigures {
 
 struct LayoutResult {
   LayoutStatus status = LayoutStatus::ok;
-  std::string reason;  // of a status other than ok; of ok, what to know: "outside the model", "ran dry in 2 of 5 runs"
-  std::vector<std::string> warnings;               // what in its scene can hardly be meant
-  int replicates = 0;                              // finished
-  FigureMeans figures;                             // over the finished replicates
+  std::string reason;                 // of a status other than ok; else what to know: "ran dry in 2 of 5 runs"
+  std::vector<std::string> warnings;  // what in its scene can hardly be meant
+  int replicates = 0;                 // finished
+  FigureMeans figures;                // over the finished replicates
   std::optional<MeanWithInterval> misfit_percent;  // of the mean outflow; interval from the misfits of the replicates
   std::vector<HoleFigures> holes;
   std::vector<BedFigures> bed{};  // empty without a record

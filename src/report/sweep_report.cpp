@@ -16,6 +16,8 @@ std::string status_name(LayoutStatus status) {
   switch (status) {
     case LayoutStatus::ok:
       return "ok";
+    case LayoutStatus::outside_the_model:
+      return "outside the model";
     case LayoutStatus::invalid:
       return "invalid";
     case LayoutStatus::stopped:
@@ -92,10 +94,12 @@ std::string reason_and_warnings(const LayoutResult& layout) {
 Columns<LayoutRow> sweep_columns(const std::vector<std::string>& keys) {
   using R = const LayoutRow&;
   Columns<LayoutRow> columns = layout_columns<LayoutRow>();
-  columns.push_back(text_column<LayoutRow>("status", "ok, invalid, stopped (by the guard) or interrupted",
+  columns.push_back(text_column<LayoutRow>("status",
+                                           "ok, outside the model (of a run at least: nothing is to be decided by it), "
+                                           "invalid, stopped (by the guard) or interrupted",
                                            [](R r) { return status_name(r.of().status); }));
   columns.push_back(text_column<LayoutRow>(
-      "reason", "why it is not ok; of ok, what to know about its runs; and what in its scene can hardly be meant",
+      "reason", "why it is not ok; else what to know about its runs; and what in its scene can hardly be meant",
       [](R r) { return reason_and_warnings(r.of()); }));
   for (const std::string& key : keys)
     columns.push_back(

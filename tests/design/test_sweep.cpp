@@ -99,6 +99,31 @@ TEST(Sweep, GuardAndRefusalGiveAStatusAndAReason) {
   EXPECT_EQ(result.layouts[2].replicates, 2);
 }
 
+TEST(Sweep, ALayoutOutsideTheModelDecidesNothing) {
+  const StudyFiles files;
+  files.write("bench.csv", "tray.holes.count,hole,seeds_per_s\n3,1,12\n3,2,22\n5,1,12\n5,2,22\n");
+  const auto study_file = files.study("replicates = 3\n[measured]\nfile = \"bench.csv\"\nscale = \"free\"\n");
+  const Study study = read_study(study_file);
+  const Simulator soft = [](const Model& model, const SimulationOptions& options) {
+    vibrosow::Run run = quick_run(model, options);
+    run.outside_the_model = model.scene.tray.holes.size() == 5 && options.random_seed == 2;
+    return run;
+  };
+  const StudyResult result = sweep(study, soft, with_jobs(1));
+  ASSERT_EQ(result.layouts.size(), 2u);
+  const LayoutResult &within = result.layouts[0], &outside = result.layouts[1];
+  EXPECT_EQ(within.status, LayoutStatus::ok);
+  EXPECT_TRUE(within.misfit_percent);
+  EXPECT_EQ(outside.status, LayoutStatus::outside_the_model);
+  EXPECT_THAT(outside.reason, HasSubstr("outside the model in 1 of 3 runs"));
+  EXPECT_THAT(sweep_csv(result), HasSubstr(",outside the model,"));
+  EXPECT_FALSE(outside.misfit_percent);
+  for (const ComparisonRow& row : result.comparison->rows) EXPECT_EQ(row.layout, 0u);
+  files.write("bench.csv", "tray.holes.count,hole,seeds_per_s\n3,1,12\n3,2,22\n");
+  const StudyResult alone = sweep(read_study(study_file), quick_run, with_jobs(1));
+  EXPECT_EQ(*result.comparison->scale, *alone.comparison->scale) << "nor does it fit the scale";
+}
+
 TEST(Sweep, SharedSceneIsRunOnceAndListedUnderEach) {
   const StudyFiles files;
   const Study study = read_study(
