@@ -229,6 +229,17 @@ TEST(Packing, LotsComeInExactShares) {
   EXPECT_EQ(std::accumulate(counts.begin(), counts.end(), 0), 100);
 }
 
+TEST(Packing, LotsComeMixed) {
+  const std::vector<SeedLot> halves{{"a", diameter, 4e-5, Shape::ball, 0.5}, {"b", diameter, 4e-5, Shape::ball, 0.5}};
+  for (const Packing packing : {Packing::poured, Packing::layers}) {
+    Random random(1);
+    double height[2] = {0, 0};
+    for (const PackedGrain& grain : pack(vessel(packing, 400), halves, Space::plane, random))
+      height[grain.lot] += grain.y / 200;
+    EXPECT_NEAR(height[0] / height[1], 1, 0.2);
+  }
+}
+
 TEST(Packing, TooMuchForTheVesselIsRefusedByName) {
   Vessel v = vessel(Packing::poured, 3000);
   Random random(1);

@@ -4,9 +4,13 @@
 #include <cmath>
 #include <random>
 
+#include "contact/space_wall_contacts.hpp"
+#include "contact/wall_contacts.hpp"
 #include "plan/model.hpp"
 #include "support/bench.hpp"
+#include "vessel/nearest_on_face.hpp"
 #include "vessel/vessel_walls.hpp"
+#include "vessel/walls.hpp"
 
 namespace vibrosow {
 namespace {
@@ -73,6 +77,30 @@ TEST(Wall, AJointOfTwoPiecesPushesOnce) {
   Simulation& run = bench.start(1e-9);
   const double stiffness = Bench::mass * standard_gravity / (1e-4 * Bench::radius);
   EXPECT_NEAR(run.field().forces()[0].fy, stiffness * overlap, 1e-6 * stiffness * overlap);
+}
+
+TEST(Wall, ACentreOnItIsPushedBackToTheSideItCameFrom) {
+  Bench bench(Space::plane), in_space(Space::three_dimensional);
+  for (const double side : {1.0, -1.0}) {
+    bench.scene.tray.holes.clear();
+    Grains grains(prepare(bench.scene).kinds, false, false);
+    grains.add(0.5, 0, 0, 0, 0);
+    WallContacts contacts;
+    WallContactFinder().find(grains, {{0, 0, side}}, {{0, 0, 1, 0, 0, 1, 0, 0}}, contacts);  // above is left: positive
+    ASSERT_EQ(contacts.count, 1);
+    EXPECT_EQ(contacts.normal_y[0], -side) << "towards the wall";
+    Grains balls(prepare(in_space.scene).kinds, false, false);
+    balls.in_space = true;
+    balls.add({0.5, 0, 0.5}, Eigen::Vector3d::Zero(), 0, balls.kinds.front());
+    const Walls walls({in_space.scene.tray}, Space::three_dimensional);
+    const int floor = static_cast<int>(walls.find("tray floor 1").value());
+    SpaceWallContacts touched;
+    SpaceWallFinder().find(balls, {{0, floor, side}}, walls.placed_faces(), touched);
+    ASSERT_EQ(touched.count, 1);
+    EXPECT_EQ(std::abs(touched.normal.y[0]), 1);
+    const double above = nearest_on_face(walls.placed_faces()[static_cast<std::size_t>(floor)], {0.5, 0.1, 0.5}).side;
+    EXPECT_EQ(touched.normal.y[0], above * side > 0 ? -1 : 1) << "towards the face";
+  }
 }
 
 TEST(Wall, AVertexIsDroppedWhereAnAdjacentFaceIsTouched) {

@@ -133,6 +133,7 @@ TEST(Counter, PlaceAndTimeAreThoseBetweenTwoSteps) {
       EXPECT_NEAR(event.z, own(passed).z(), 1e-5) << c.motion.index();
     }
     EXPECT_NEAR(event.time, counted, 1e-5) << c.motion.index();
+    EXPECT_NEAR(event.speed, c.space == Space::plane ? std::hypot(0.2, 1) : velocity.norm(), 1e-12);
   }
 }
 
@@ -206,6 +207,20 @@ TEST_P(LostGrain, ThroughAWallStopsTheRun) {
   EXPECT_EQ(run.result().status, RunStatus::stopped_by_guard);
   EXPECT_EQ(run.result().balance.lost, 1);
   expect_balanced(run.result().balance);
+}
+
+TEST(Counter, OfSeveralClumpsTheOneThatWentThroughAWallIsLost) {
+  Bench bench;
+  bench.scene.lots.clear();
+  bench.add_clump(dipole(2 * Bench::radius, 2.2 * Bench::radius), Bench::mass);
+  bench.scene.contact.shell_compression = 10;
+  bench.scene.guard.stop_relative_overlap = 100;
+  constexpr double dt = 1e-4, stride = 0.4 * Bench::radius;
+  bench.place(0.2, 0.5).place(0.5, 0.2 * Bench::radius + 3 * stride, 0, -stride / dt).place(0.8, 0.5);
+  Simulation& run = bench.start(dt);
+  run.steps(20);
+  EXPECT_EQ(run.result().balance.lost, 1);
+  EXPECT_EQ(run.grains().id, (std::vector<std::int64_t>{0, 2}));
 }
 
 TEST(Counter, AGrainThatComesThroughTheFloorWithoutAWallStopsTheRun) {

@@ -82,6 +82,21 @@ TEST(Rain, ComesAtRestInTheLabWithinItsRangeAndOverlapsNothing) {
   EXPECT_EQ(run.result().balance.put_in, static_cast<std::int64_t>(seen));
 }
 
+TEST(Rain, FallsAsFreelyUnderEveryScheme) {
+  for (const Integrator integrator : {Integrator::velocity_verlet, Integrator::rk2_midpoint, Integrator::gear5}) {
+    Scene scene = wet();
+    scene.numerics.integrator = integrator;
+    scene.tray.rain = Rain{100, 0.1, 0.1, 0.09, 0, 0.015};  // one, at 10 ms
+    Simulation run(with_step(prepare(scene), 2e-5), 1);
+    while (run.grains().size() == 0) ASSERT_TRUE(run.step());
+    const double came = run.time();
+    while (run.time() < came + 0.1) ASSERT_TRUE(run.step());
+    const double fell = run.time() - came;
+    EXPECT_NEAR(run.grains().vy[0], -standard_gravity * fell, 1e-10);
+    EXPECT_NEAR(run.grains().y[0], 0.09 - 0.5 * standard_gravity * fell * fell, 1e-10);
+  }
+}
+
 TEST(Rain, HasARandomStreamOfItsOwn) {
   const auto places = [](std::uint64_t random_seed) {
     const Scene scene = wet();

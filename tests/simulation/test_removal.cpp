@@ -59,6 +59,42 @@ TEST_P(Removal, LeavesTheOthersWhatTheyRemember) {
   }
 }
 
+/// No gravity; past the counting line before 5 ms, when what was counted is taken out, and then every 5 ms.
+Bench& falling_through(Bench& bench) {
+  Hole hole{.centre = 0.3, .width = 0.04};
+  if (bench.scene.space == Space::three_dimensional) hole.shape = HoleShape::round, hole.across = 0.5;
+  bench.scene.tray.holes = {hole};
+  bench.scene.contact.shell_compression = 1e-2;  // contacts of 6.3 ms
+  return bench;
+}
+
+TEST_P(Removal, WaitsUntilWhatFellTogetherHasParted) {
+  Bench bench(GetParam());
+  const double beside = Bench::radius + 0.1 * 1e-3;
+  falling_through(bench).place(0.3 - beside, 0.001, 0.1, -10).place(0.3 + beside, 0.001, -0.1, -10);
+  Simulation& run = bench.start(1e-5);
+  const double energy = kinetic_energy(run.grains());
+  while (run.time() < 7e-3) ASSERT_TRUE(run.step());
+  EXPECT_EQ(run.result().balance.counted, 2);
+  EXPECT_EQ(run.grains().size(), 2u) << "they still push each other";
+  while (run.time() < 0.011) ASSERT_TRUE(run.step());
+  EXPECT_EQ(run.grains().size(), 0u);
+  EXPECT_NEAR(run.result().energy.removed, energy, 1e-4 * energy);
+}
+
+TEST_P(Removal, TakesWhatAWallHoldsOutOfTheAccountToo) {
+  Bench bench(GetParam());
+  bench.scene.tray.pieces = {{{0.2, -0.03}, {0.4, -0.03}}};  // under the hole
+  const double speed = 0.2, touch = 3e-3;                    // m/s, s: it stands nearly still when it is taken out
+  falling_through(bench).place(0.3, -0.03 + Bench::radius + speed * touch, 0, -speed);
+  bench.scene.run.count_below = 0.01;
+  Simulation& run = bench.start(1e-5);
+  const double energy = kinetic_energy(run.grains());
+  while (run.grains().size() == 1) ASSERT_TRUE(run.step() && run.time() < 1);
+  EXPECT_NEAR(run.time(), 5e-3, 1e-4);
+  EXPECT_NEAR(run.result().energy.removed, energy, 1e-3 * energy) << "most of it in the wall's contact";
+}
+
 double energy_of(Simulation& run, const Eigen::Vector2d& gravity) {
   return kinetic_energy(run.grains()) + potential_energy(run.grains(), gravity) + run.field().elastic_energy();
 }

@@ -241,10 +241,19 @@ struct Standing {
   Eigen::Vector3d point, out;
 };
 
-/// A grain that goes along with a vessel's material is pushed as by a vessel at rest: neither damped nor rubbed.
+Eigen::Vector3d torque_on(const Simulation& run, std::size_t i) {
+  if (!run.grains().in_space) return {0, 0, run.field().forces()[i].torque};
+  const GrainVector& torque = run.field().torques_in_space()[i];
+  return {torque.x, torque.y, torque.z};
+}
+
+/// A grain that goes along with a vessel's material is pushed as by a vessel at rest: neither damped nor rubbed
+/// nor turned.
 void expect_pushed_as_at_rest(Space space, const VesselMotion& motion, const Standing& standing) {
   Bench bench(space);
-  bench.scene.contact.seed = bench.scene.contact.wall = {0.4, 0.5};
+  bench.scene.contact.seed = bench.scene.contact.wall = {
+      .friction = 0.4, .restitution = 0.5, .rolling_friction = 0.1, .twisting_friction = 0.1};
+  bench.scene.contact.rolling = Rolling::constant_torque;
   bench.scene.contact.slip_speed = 1e-3;
   Vessel& tray = bench.scene.tray;
   tray.origin = {0.3, 0.7}, tray.front = 0.2, tray.motion = motion;
@@ -258,6 +267,7 @@ void expect_pushed_as_at_rest(Space space, const VesselMotion& motion, const Sta
   const Eigen::Vector3d expected = stiffness * overlap * direction_in_lab(tray, pose, standing.out);
   bench.place(at, velocity, spin);
   EXPECT_LT((force_on(bench.start(1e-9), 0) - expected).norm(), 1e-6 * expected.norm());
+  EXPECT_LT(torque_on(bench.start(1e-9), 0).norm(), 1e-6 * Bench::radius * expected.norm());
   tray.motion.reset();
   EXPECT_GT((force_on(bench.start(1e-9), 0) - expected).norm(), 0.1 * expected.norm()) << "as against one at rest";
 }
