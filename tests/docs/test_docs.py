@@ -2,6 +2,7 @@
 """What the documents name exists: files, reports, commands and their options; and the front page is short.
 
     tests/docs/test_docs.py VIBROSOW"""
+import csv
 import re
 import shlex
 import subprocess
@@ -80,6 +81,20 @@ def check_seeder_of_front_page(program, text):
         expect(checked.returncode == 0, f"README.md: its seeder is refused: {checked.stderr}")
 
 
+def check_accuracy_levels():
+    """What the program says of its levels is what was measured, and what scripts/figures gathers is what it sets."""
+    source = (ROOT / "src/scene/accuracy_level.hpp").read_text(encoding="utf-8")
+    figures = (ROOT / "scripts/vibrosow_figures/accuracy.py").read_text(encoding="utf-8")
+    with open(ROOT / "reports/accuracy-levels/levels.csv", newline="", encoding="utf-8") as file:
+        measured = list(csv.DictReader(file))
+    levels = re.findall(r'"(\w+)", (\S+), (\d+), ([\d.]+)}', source)
+    expect(len(levels) == 3, "accuracy_level.hpp: not three levels")
+    for name, compression, steps, error in levels:
+        expect(f'("{name}", {compression}, {steps})' in figures, f"scripts/figures: another level {name}")
+        bounds = [float(row["error_bound_percent"]) for row in measured if row["level"] == name]
+        expect(bounds and max(bounds) <= float(error) < max(bounds) + 0.1, f"accuracy_level.hpp: {name} errs by {max(bounds)} %, not {error} %")
+
+
 def main():
     program = str(Path(sys.argv[1]).resolve())
     for path in DOCUMENTS:
@@ -91,6 +106,7 @@ def main():
         check_reports(path, text)
         for words in commands_in(text):
             check_command(program, path.name, words)
+    check_accuracy_levels()
     front = (ROOT / "README.md").read_text(encoding="utf-8")
     check_seeder_of_front_page(program, front)
     expect(len(front.split()) <= 800, f"README.md has {len(front.split())} words, more than 800")

@@ -452,7 +452,8 @@ Scene any_scene() {
   contact = any_contact(static_cast<int>(lots.size()));
   tray = any_vessel();
   hopper = maybe(any_vessel);
-  auto& [integrator, steps, dt, impact_speed, allow_long_step, where] = numerics;
+  auto& [accuracy, integrator, steps, dt, impact_speed, allow_long_step, where] = numerics;
+  accuracy = any_of_first<AccuracyLevel>(4);
   integrator = any_of_first<Integrator>(3);
   if (any_choice()) steps = any_number();
   dt = maybe(any_number);

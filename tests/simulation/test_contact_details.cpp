@@ -108,7 +108,7 @@ TEST_P(ContactDetails, TheRelativeOverlapIsThatOfTheDeeperShell) {
   const double overlap = 1e-5;
   // 1 / c = eps r / (m g): the small heavy one yields by a quarter of what the other does, over half of its radius.
   bench.place(0.5, 0.5).place(0.5 + 1.5 * r - overlap, 0.5, 0, 0, 0, 1);
-  EXPECT_NEAR(bench.start(1e-9).statistics().max_relative_overlap, 0.8 * overlap / r, 1e-6 * overlap / r);
+  EXPECT_NEAR(bench.start(1e-9).guard().max_relative_overlap(), 0.8 * overlap / r, 1e-6 * overlap / r);
 }
 
 /// Balls that press each other and the floor, and slide.
