@@ -127,30 +127,37 @@ void Simulation::set_motion(std::size_t vessel, const std::optional<VesselMotion
   field_.set_motion(vessel, motion, at - field_.walls().pose(vessel, state_.time).displacement);
 }
 
-/// The gate's wall, there or not.
-std::size_t Simulation::gate_of(const std::string& vessel, int hole) const {
-  const auto wall = field_.walls().find(fmt::format("{} gate {}", vessel, hole));
-  if (!wall) throw std::invalid_argument(fmt::format("hole {} of the {} has no gate", hole, vessel));
-  return *wall;
+/// The gate's walls, there or not.
+std::vector<std::size_t> Simulation::gate_of(const std::string& vessel, int hole) const {
+  const std::vector<std::size_t> walls = field_.walls().named(fmt::format("{} gate {}", vessel, hole));
+  if (walls.empty()) throw std::invalid_argument(fmt::format("hole {} of the {} has no gate", hole, vessel));
+  return walls;
 }
 
 void Simulation::open_gate(const std::string& vessel, int hole) {
-  const std::size_t wall = gate_of(vessel, hole);
-  if (!field_.walls().is_removed(wall)) open_walls({wall});
+  const std::vector<std::size_t> walls = gate_of(vessel, hole);
+  if (!field_.walls().is_removed(walls.front())) open_walls(walls);
+}
+
+/// Whether no grain is in a wall's way.
+bool Simulation::is_free(std::size_t wall) const {
+  const Grains& g = state_.grains;
+  for (std::size_t i = 0; i < g.size(); ++i) {
+    const double radius = g.kind(i).radius;
+    if (field_.walls().distance2(wall, {g.x[i], g.y[i], g.in_space ? g.z[i] : 0}) < radius * radius) return false;
+  }
+  return true;
 }
 
 bool Simulation::close_gate(const std::string& vessel, int hole) {
-  const std::size_t wall = gate_of(vessel, hole);
-  if (!field_.walls().is_removed(wall)) return true;
-  field_.restore_wall(wall);
-  for (std::size_t i = 0; i < state_.grains.size(); ++i) {
-    const Grains& g = state_.grains;
-    const double radius = g.kind(i).radius;
-    if (field_.walls().distance2(wall, {g.x[i], g.y[i], g.in_space ? g.z[i] : 0}) >= radius * radius) continue;
-    field_.remove_wall(wall);
+  const std::vector<std::size_t> walls = gate_of(vessel, hole);
+  if (!field_.walls().is_removed(walls.front())) return true;
+  for (const std::size_t wall : walls) field_.restore_wall(wall);
+  if (!std::ranges::all_of(walls, [this](std::size_t wall) { return is_free(wall); })) {
+    for (const std::size_t wall : walls) field_.remove_wall(wall);
     return false;
   }
-  state_.vessels.closed_by_hand[wall] = 1;
+  for (const std::size_t wall : walls) state_.vessels.closed_by_hand[wall] = 1;
   start_integration(s_);
   return true;
 }

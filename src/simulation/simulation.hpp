@@ -86,7 +86,8 @@ class Simulation {
   void open_due_gates();
   void open_walls(const std::vector<std::size_t>& walls);
   void find_next_gate();
-  std::size_t gate_of(const std::string& vessel, int hole) const;
+  std::vector<std::size_t> gate_of(const std::string& vessel, int hole) const;
+  bool is_free(std::size_t wall) const;
   void feed(bool top_up, bool rain);
   void note_whether_dry();
   void end_after_pause();

@@ -64,10 +64,11 @@ double Walls::distance2(std::size_t wall, const Eigen::Vector3d& at) const {
                                : nearest_on_face(placed_faces_[wall], at).distance2;
 }
 
-std::optional<std::size_t> Walls::find(const std::string& name) const {
-  const auto found = std::ranges::find(about_, name, &About::name);
-  if (found == about_.end()) return std::nullopt;
-  return static_cast<std::size_t>(found - about_.begin());
+std::vector<std::size_t> Walls::named(const std::string& name) const {
+  std::vector<std::size_t> walls;
+  for (std::size_t wall = 0; wall < about_.size(); ++wall)
+    if (about_[wall].name == name) walls.push_back(wall);
+  return walls;
 }
 
 void Walls::place_arc(PlacedWall& wall, const AtRest& rest, const Vessel& vessel, const Pose& pose) const {

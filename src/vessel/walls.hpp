@@ -44,8 +44,8 @@ class Walls {
   /// From a wall to a place in the lab, m2.
   double distance2(std::size_t wall, const Eigen::Vector3d& at) const;
 
-  /// The wall of this name ("tray gate 1"), where there is one.
-  std::optional<std::size_t> find(const std::string& name) const;
+  /// The walls of this name ("tray gate 1"): in a periodic vessel one in each of its copies.
+  std::vector<std::size_t> named(const std::string& name) const;
   const std::vector<Vessel>& vessels() const { return vessels_; }
 
  private:

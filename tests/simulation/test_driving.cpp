@@ -37,6 +37,28 @@ TEST(Driving, AGateOpensAndClosesFromOutside) {
   EXPECT_THROW(run.open_gate("tray", 2), std::invalid_argument);
 }
 
+TEST(Driving, InAPeriodicTrayAGateOpensAndClosesInAllItsPeriods) {
+  for (const Space space : both_spaces) {
+    Scene scene = gated_box();
+    scene.space = space, scene.tray.sides = Sides::periodic;
+    scene.lots[0].shape = Shape::ball;
+    if (space == Space::three_dimensional) {
+      scene.tray.depth = 0.05;
+      scene.tray.holes[0].across = 0.025, scene.tray.holes[0].across_length = 0.04;
+    }
+    Simulation run(with_step(prepare(scene), 5e-5), 1);
+    run.open_gate("tray", 1);
+    ASSERT_TRUE(run.run_until(0.15));
+    EXPECT_GT(run.events_since(0).size(), 3u);
+    while (!run.close_gate("tray", 1)) ASSERT_TRUE(run.step());
+    ASSERT_TRUE(run.run_until(run.time() + 0.15));
+    const std::size_t shut = run.events_since(0).size();
+    ASSERT_TRUE(run.run_until(run.time() + 0.1));
+    EXPECT_EQ(run.events_since(0).size(), shut);
+    EXPECT_EQ(run.result().balance.lost, 0);
+  }
+}
+
 TEST(Driving, AMotionGoesOnFromWhereTheVesselIs) {
   Scene scene = gated_box();
   scene.tray.motion = HarmonicMotion{0, 5e-3, 9, 0};

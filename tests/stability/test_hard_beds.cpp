@@ -260,7 +260,7 @@ TEST_P(HardBed, WhoseWallIsTakenAway) {
   const auto potential = [&] { return potential_energy(run.grains(), bench.gravity); };
   run.run_until(0.05);
   ASSERT_FALSE(run.guard().stop_reason()) << *run.guard().stop_reason();
-  run.field().remove_wall(*run.field().walls().find("tray piece 1"));
+  run.field().remove_wall(run.field().walls().named("tray piece 1").front());
   const double before = total_energy(run, bench.gravity), at_first = potential();
   double most = 0, fallen = 0;
   while (run.time() < 0.4 && run.step())
