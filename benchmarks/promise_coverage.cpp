@@ -1,13 +1,14 @@
 // How many promises of `vibrosow accuracy --within` are kept when their runs are drawn, with replacement, from runs
-// that were really made: FILE is an accuracy_runs.csv of a full grid of settings of one scene, LIMIT its rate in g/s at
-// the limit.
-//   promise_coverage FILE LIMIT COUNT PERCENT...
-// CSV: goal, promises asked for, made, kept, mean bound and mean |error| of those made.
+// that were really made: each FILE is an accuracy_runs.csv of a full grid of settings of one scene. The limit is that
+// of the fit of all its runs; few runs of a setting have a mean of their own that is no main effect, so this is harder
+// than real promises are.
+//   promise_coverage COUNT PERCENT FILE...
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <string>
@@ -16,6 +17,7 @@
 #include "design/promise.hpp"
 #include "grains/random.hpp"
 #include "input/csv_lines.hpp"
+#include "scene/input_error.hpp"
 #include "scene/integrator_names.hpp"
 
 namespace {
@@ -84,7 +86,12 @@ AccuracyDesign design_of(const Bank& bank) {
   return design;
 }
 
-void print_coverage(const Bank& bank, double limit, int count, double percent) {
+void print_coverage(const std::string& file, int count, double percent) {
+  const Bank bank = read_bank(file);
+  std::vector<AccuracyRun> all;
+  for (const std::vector<AccuracyRun>& runs : bank.runs) all.insert(all.end(), runs.begin(), runs.end());
+  const std::optional<ErrorFit> fit = ErrorFit::of(bank.settings, all);
+  if (!fit) throw InputError(file + ": too few runs");
   const PromiseChoices choices{.design = design_of(bank)};
   int made = 0, kept = 0;
   double bounds = 0, errors = 0;
@@ -98,25 +105,28 @@ void print_coverage(const Bank& bank, double limit, int count, double percent) {
       return drawn;
     });
     if (!promised.mass_rate) continue;
-    const double error = 100 * std::abs(promised.mass_rate->mean / limit - 1);
+    const double error = 100 * std::abs(promised.mass_rate->mean / fit->limit().mean - 1);
     ++made;
     kept += error <= percent;
     bounds += promised.offer->error_bound();
     errors += error;
   }
-  fmt::print("{:g},{},{},{},{:.3g},{:.3g}\n", percent, count, made, kept, made ? bounds / made : 0,
-             made ? errors / made : 0);
+  fmt::print("{},{:g},{},{},{},{:.3g},{:.3g}\n", std::filesystem::path(file).parent_path().filename().string(), percent,
+             count, made, kept, made ? bounds / made : 0, made ? errors / made : 0);
 }
 
 }  // namespace
 
 int main(int count, char** arguments) {
-  if (count < 5) {
-    fmt::print(stderr, "usage: promise_coverage FILE LIMIT_G_PER_S COUNT PERCENT...\n");
+  if (count < 4) {
+    fmt::print(stderr, "usage: promise_coverage COUNT PERCENT FILE...\n");
     return 2;
   }
-  const Bank bank = read_bank(arguments[1]);
-  fmt::print("within_percent,asked,made,kept,mean_bound_percent,mean_error_percent\n");
-  for (int i = 4; i < count; ++i)
-    print_coverage(bank, 1e-3 * number(arguments[2]), std::atoi(arguments[3]), number(arguments[i]));
+  fmt::print("scene,within_percent,asked,made,kept,mean_bound_percent,mean_error_percent\n");
+  try {
+    for (int i = 3; i < count; ++i) print_coverage(arguments[i], std::atoi(arguments[1]), number(arguments[2]));
+  } catch (const InputError& error) {
+    fmt::print(stderr, "promise_coverage: {}\n", error.what());
+    return 2;
+  }
 }

@@ -44,7 +44,7 @@ def softness_of(row):
 def work_precision(options):
     """Draws a folder of `vibrosow accuracy` as OUT (SVG or PNG): the error of every setting against the limit of step 0 and rigid grains,
     with its 95 % band, over the CPU time of a run, both logarithmic. Lines join the steps of one scheme at one softness; the front is
-    what bounds its error most tightly for its time; the dashed line is the chance of one run."""
+    what bounds its error most tightly for its time; the dashed line is the chance of one run. Beside a line: its softness."""
     matplotlib.rcParams["svg.hashsalt"] = "vibrosow"  # the same names in every SVG
     settings, chance = settings_of(options.folder), chance_of_a_run(options.folder)
     least = options.least
@@ -59,13 +59,16 @@ def work_precision(options):
             axes.errorbar([row["cpu_s"] for row in line], heights, yerr=bars, color=colour, marker=marker, markersize=5, linewidth=1,
                           capsize=2, elinewidth=0.8, label=name if series == min((softness_of(r), r["slip_speed_mm_per_s"]) for r in own) else None)
             last = max(line, key=lambda row: row["cpu_s"])
-            axes.annotate(softness_of(last), (last["cpu_s"], max(last["error"], least)), textcoords="offset points", xytext=(6, 3), fontsize=7,
+            axes.annotate(f"{float(softness_of(last)):.2g}", (last["cpu_s"], max(last["error"], least)), textcoords="offset points", xytext=(6, 3), fontsize=7,
                           color=colour)
     front = front_of(settings)
     axes.plot([row["cpu_s"] for row in front], [row["error"] + row["band"] for row in front], color="#444", linewidth=1.2, linestyle=":",
-              label="front: |error| and band")
+              label="front of |error| and band together")
     axes.axhline(chance, color="#888", linewidth=1, linestyle="--", label=f"chance of one run, {chance:.2g} %")
     axes.set(xscale="log", yscale="log", xlabel="CPU time of a run, s", ylabel="error of the rate, %", title=options.title)
+    axes.margins(x=0.12)
+    for axis in (axes.xaxis, axes.yaxis):
+        axis.set_major_formatter("{x:g}")
     axes.grid(True, which="both", linewidth=0.3)
     axes.legend(fontsize=8)
     figure.savefig(options.out, metadata={"Date": None} if options.out.endswith(".svg") else None, dpi=150)

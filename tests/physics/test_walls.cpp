@@ -93,7 +93,7 @@ TEST(Wall, ACentreOnItIsPushedBackToTheSideItCameFrom) {
     balls.in_space = true;
     balls.add({0.5, 0, 0.5}, Eigen::Vector3d::Zero(), 0, balls.kinds.front());
     const Walls walls({in_space.scene.tray}, Space::three_dimensional);
-    const int floor = static_cast<int>(walls.find("tray floor 1").value());
+    const int floor = static_cast<int>(walls.named("tray floor 1").front());
     SpaceWallContacts touched;
     SpaceWallFinder().find(balls, {{0, floor, side}}, walls.placed_faces(), touched);
     ASSERT_EQ(touched.count, 1);
