@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <stdexcept>
 
 #include "laws/restitution.hpp"
 #include "support/bench.hpp"
@@ -29,7 +30,7 @@ Impact head_on(Bench& bench, double speed, int second_lot, double dt) {
   double touched_at = -1, parted_at = -1;
   double before = -gap;
   while (parted_at < 0 && run.time() < 0.1) {
-    run.step();
+    if (!run.step()) throw std::runtime_error(*run.guard().stop_reason());
     const double overlap = r0 + r1 - (run.grains().x[1] - run.grains().x[0]);
     // Linear interpolation of the moments of touch and parting.
     if (before <= 0 && overlap > 0) touched_at = run.time() - dt * overlap / (overlap - before);

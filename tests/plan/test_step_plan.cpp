@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "grains/size_distribution.hpp"
+#include "laws/restitution.hpp"
 #include "plan/model.hpp"
 #include "plan/touching_kinds.hpp"
 #include "scene/input_error.hpp"
@@ -46,6 +47,40 @@ TEST(StepPlan, LimitsAreThoseOfTheEquations) {
   // Friction in the bed: lambda = nu F_n 6 / (m v_s), 38 layers on the lowest pair.
   const double rate = 0.3 * 38 * standard_gravity * 6 / 0.02;
   EXPECT_NEAR(limit(prepare(scene).step, "friction").dt, 1 / rate, 1e-9);
+}
+
+TEST(StepPlan, DampingShortensTheStepOfEveryScheme) {
+  Scene scene = published();
+  scene.contact.seed = scene.contact.wall = {0, 0.2};
+  const double omega = std::sqrt(3 * standard_gravity / (0.01 * Bench::radius));
+  const double zeta = std::sqrt(3.0) * linear_damping_ratio(0.2);  // the bed's, of the pair's
+  scene.numerics.integrator = Integrator::velocity_verlet;
+  const double verlet = (std::sqrt(1 + 4 * zeta * zeta) - 2 * zeta) / omega;  // half of what is stable
+  EXPECT_NEAR(limit(prepare(scene).step, "Verlet").dt, verlet, 1e-9 * verlet);
+  scene.numerics.integrator = Integrator::rk2_midpoint;
+  const double midpoint = (std::sqrt(1 + zeta * zeta) - zeta) / omega;
+  EXPECT_NEAR(limit(prepare(scene).step, "RK2").dt, midpoint, 1e-9 * midpoint);
+  scene.numerics.integrator = Integrator::gear5;
+  EXPECT_NEAR(limit(prepare(scene).step, "Gear").dt, 0.081 / zeta / omega, 1e-9 / omega);
+  scene.contact.seed = scene.contact.wall = {0, 1};
+  EXPECT_NEAR(limit(prepare(scene).step, "Gear").dt, 0.327 / omega, 1e-9 / omega);
+}
+
+TEST(StepPlan, SpinsOnSpringsVibrateAtTheirFrequency) {
+  // All discs turning alike: omega^2 = 2 x rho k / m, x = 6 m r^2 / I = 12, k = m g / (2 eps); a step takes 3/4 of 2.
+  Scene scene = published();
+  scene.contact.friction_model = FrictionModel::spring;
+  scene.numerics.integrator = Integrator::velocity_verlet;
+  const double omega = std::sqrt(12 * 14.0 / 17 * standard_gravity / (0.01 * Bench::radius));
+  EXPECT_NEAR(limit(prepare(scene).step, "spin").dt, 1.5 / omega, 1e-9 / omega);
+}
+
+TEST(PredictedOverlap, OfABedShakenUpGoesWithItsWeight) {
+  Scene scene = published();
+  const double at_rest = prepare(scene).overlap.overlap_at_rest;
+  scene.tray.motion = HarmonicMotion{std::numbers::pi / 2, 0.01, 9, 0};
+  const double acceleration = 0.01 * std::pow(2 * std::numbers::pi * 9, 2);
+  EXPECT_NEAR(prepare(scene).overlap.overlap_at_rest / at_rest, 1 + acceleration / standard_gravity, 1e-9);
 }
 
 TEST(StepPlan, SmallestSeedOfALotSetsTheStep) {
@@ -214,6 +249,29 @@ TEST(StepPlan, EverySchemeIsSoundAtItsLongestSafeStep) {
               << ", restitution " << restitution << ", model " << static_cast<int>(model);
           EXPECT_EQ(run.balance.inside, 60);
         }
+}
+
+/// What laws foretell, from their own force: by energy, by its inverse, by a difference.
+TEST(Laws, ForetellImpactsAndRest) {
+  const double stiffness[] = {1.5e4, 2e6}, mass = 3e-4, speed = 0.7, force = 0.02;  // N/m and N/m^(3/2)
+  const double powers[] = {1, 1.5};
+  for (const Law law : {Law::elastic_shell, Law::hertz, Law::hertz_viscous}) {
+    const LawTraits& traits = traits_of(law);
+    const bool shell = law == Law::elastic_shell;
+    const double k = stiffness[shell ? 0 : 1], power = powers[shell ? 0 : 1];
+    const double deepest = std::pow((power + 1) * 0.5 * mass * speed * speed / k, 1 / (power + 1));
+    EXPECT_NEAR(traits.impact_overlap(k, 1 / mass, speed), deepest, 1e-9 * deepest);
+    const double duration = shell ? std::numbers::pi * std::sqrt(mass / k) : HertzImpact(mass, k, speed).duration;
+    EXPECT_NEAR(traits.impact_duration(k, 1 / mass, speed), duration, 1e-6 * duration);
+    const double rest = traits.static_overlap(k, force), h = 1e-4 * rest;
+    EXPECT_NEAR(k * std::pow(rest, power), force, 1e-9 * force);
+    const double slope = k * (std::pow(rest + h, power) - std::pow(rest - h, power)) / (2 * h);
+    EXPECT_NEAR(traits.slope(k, rest), slope, 1e-6 * slope);
+    EXPECT_NEAR(traits.slope_over_secant, slope * rest / force, 1e-6);
+    // A dashpot c on a pair that vibrates: c / (2 m omega).
+    const SurfaceParameters surface{.damping_ratio = 0.3, .damping_rate = 400};
+    EXPECT_NEAR(traits.damping_ratio(surface, 5000), law == Law::hertz_viscous ? 400.0 / (2 * 5000) : 0.3, 1e-12);
+  }
 }
 
 TEST(TouchingKinds, OneSizeTheSmallestAndTheLargestAtEqualDensity) {

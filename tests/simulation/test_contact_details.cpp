@@ -54,6 +54,25 @@ TEST_P(ContactDetails, AnElasticCohesiveImpactKeepsItsEnergy) {
   EXPECT_GT(0.1 * deepest, 0.1 * before) << "what coheres counts";
 }
 
+TEST_P(ContactDetails, AGrainThatSwingsOnItsTangentialSpringKeepsItsEnergy) {
+  Bench bench(GetParam());
+  bench.gravity = {0, -standard_gravity};
+  bench.scene.contact.wall.friction = 0.5;
+  bench.scene.contact.friction_model = FrictionModel::spring;
+  const double stiffness = 14.0 / 17 * wall_stiffness, omega = std::sqrt(stiffness * (1 + per_inertia()) / Bench::mass);
+  const double push = 0.05 * Bench::mass * standard_gravity / stiffness * omega;  // a tenth of what friction holds
+  bench.place(0.5, r - 1e-4 * r, push, 0);
+  Simulation& run = bench.start(2 * Bench::pi / omega / 100);
+  const auto energy = [&] {
+    return kinetic_energy(run.grains()) + potential_energy(run.grains(), bench.gravity) + run.field().elastic_energy();
+  };
+  const double before = energy(), swing = 0.5 * Bench::mass * push * push / (1 + per_inertia());
+  for (int step = 0; step < 1000; ++step) {
+    ASSERT_TRUE(run.step());
+    ASSERT_NEAR(energy(), before, 0.02 * swing);
+  }
+}
+
 TEST_P(ContactDetails, AConstantRollingTorqueIsLinearBelowTheSlipSpeed) {
   for (const bool on_wall : {true, false}) {
     Bench bench(GetParam());
@@ -182,6 +201,17 @@ TEST_P(ContactDetails, ARunWhoseStopWasRaisedIsMarkedWhereItNeededThat) {
       EXPECT_EQ(run.result().outside_the_model, stop > 0.5 && speed > 1);
       EXPECT_EQ(run.result().max_relative_overlap > 0.05, speed > 1);
     }
+}
+
+TEST_P(ContactDetails, AnElasticWallYieldsBesideTheGrain) {
+  Bench bench(GetParam());
+  bench.hertz_ball(1e7, 0.3, 1000, r);
+  bench.scene.contact.wall_youngs_modulus = 3e6, bench.scene.contact.wall_poisson_ratio = 0.4;
+  const double overlap = 1e-5;
+  bench.place(0.5, r - overlap);
+  const double modulus = 1 / ((1 - 0.09) / 1e7 + (1 - 0.16) / 3e6);
+  const double expected = 4.0 / 3 * modulus * std::sqrt(r) * std::pow(overlap, 1.5);
+  EXPECT_NEAR(force_on(bench.start(1e-9), 0).y(), expected, 1e-9 * expected);
 }
 
 TEST(Sizes, BallsOfHertzPressByTheirOwnRadius) {

@@ -206,6 +206,44 @@ TEST_P(ListsAtTheirMargin, MissNoWallThatTurnsTowardsAGrain) {
     expect_felt_from_the_first_touch(scene, {0.985, Bench::radius, 0.5}, Eigen::Vector3d::UnitY(), gap);
 }
 
+/// Whatever comes to touch a wall, far from where that stood at rest, is pushed at once.
+void expect_pushed_far_from_rest(Bench& bench) {
+  Simulation& run = bench.start(1e-5);
+  bool met = false;
+  while (run.time() < 0.15) {
+    ASSERT_TRUE(run.step()) << *run.guard().stop_reason();
+    if (distance_to_walls(run, 0) >= Bench::radius) continue;
+    met = true;
+    ASSERT_GT(force_on(run, 0).norm(), 0) << "at " << run.time() << " s";
+  }
+  EXPECT_TRUE(met);
+}
+
+TEST_P(ListsAtTheirMargin, FindAWallWhereverItsVesselHasGone) {
+  Bench rocking(GetParam());
+  rocking.scene.tray.motion = RockingMotion{{0, 0}, 0.2, speed / (0.2 * 2 * std::numbers::pi)};
+  rocking.place(0.9, 0.09);  // the floor comes there when it has turned by 0.1 rad
+  expect_pushed_far_from_rest(rocking);
+  // A grain that goes along with the tray, in whose frame lists are kept, meets a hopper's wall that stands still.
+  const HarmonicMotion stroke{0, 0.3, 0.5};
+  for (const int axis : {axis_x, axis_z}) {
+    if (axis == axis_z && GetParam() == Space::plane) continue;
+    Bench moved_past(GetParam());
+    HarmonicMotion motion = stroke;
+    if (axis == axis_z) motion.across = 0.5 * std::numbers::pi;
+    moved_past.scene.tray.motion = motion;
+    Vessel hopper;
+    hopper.name = "hopper", hopper.origin = {0, 1.5}, hopper.length = hopper.height = 0.3;
+    if (GetParam() == Space::three_dimensional) hopper.depth = 0.3;
+    moved_past.scene.hopper = hopper;
+    Eigen::Vector3d at(0.15, 1.6, 0.15);
+    at[axis] = 0.3 - Bench::radius - 0.07;
+    const double fastest = 2 * std::numbers::pi * stroke.frequency * stroke.amplitude;
+    moved_past.place(at, fastest * Eigen::Vector3d::Unit(axis));
+    expect_pushed_far_from_rest(moved_past);
+  }
+}
+
 TEST(ListsInSpace, MissNoWallThatTurnsAboutAnUprightAxis) {
   Scene scene = Bench(Space::three_dimensional).scene;
   scene.tray.depth = 0.05;

@@ -10,11 +10,12 @@ namespace vibrosow {
 namespace {
 
 /// Impacts on the floor and in the air, unlike each other, that last from 2 to 8 ms and remember how they went; if
-/// asked for, with a grain of a lower number that falls through a hole meanwhile and is taken out after 5 ms.
+/// asked for, with two grains of lower numbers that fall through a hole side by side meanwhile, past a wall, and are
+/// taken out after 5 ms.
 struct Impacts {
   Bench bench;
 
-  Impacts(Space space, Integrator integrator, bool with_a_leaver) : bench(space) {
+  Impacts(Space space, Integrator integrator, bool with_leavers) : bench(space) {
     Contact& contact = bench.scene.contact;
     contact.shell_compression = 1e-2;
     contact.seed = contact.wall = {.friction = 0.5, .restitution = 1, .rolling_friction = 0.2};
@@ -24,7 +25,8 @@ struct Impacts {
     Hole hole{.centre = 0.3, .width = 0.04};
     if (space == Space::three_dimensional) hole.shape = HoleShape::round, hole.across = 0.5;
     bench.scene.tray.holes = {hole};
-    if (with_a_leaver) bench.place(0.3, 0.001, 0, -5);
+    bench.scene.tray.pieces = {{{0.313, -0.01}, {0.313, -0.2}}};
+    if (with_leavers) bench.place(0.3, 0.001, 0, -5).place(0.3085, 0.001, 0, -5);
     constexpr double r = Bench::radius, until = 2e-3;  // s, before the touch
     const std::array<double, 3> slide = {0.3, -0.1, 0.05}, spin = {20, 60, -30};
     for (std::size_t k = 0; k < 3; ++k)
@@ -45,9 +47,12 @@ TEST_P(Removal, LeavesTheOthersWhatTheyRemember) {
     Impacts undisturbed(GetParam(), integrator, false), left(GetParam(), integrator, true);
     constexpr double dt = 1e-5, removed_at = 5e-3;
     Simulation &alone = undisturbed.bench.start(dt), &with = left.bench.start(dt);
-    while (with.time() < removed_at - 0.5 * dt) ASSERT_TRUE(with.step() && alone.step());
-    ASSERT_EQ(with.grains().size(), alone.grains().size()) << "it has been taken out";
-    ASSERT_EQ(with.result().balance.counted, 1);
+    while (with.time() < removed_at - 1.5 * dt) ASSERT_TRUE(with.step() && alone.step());
+    EXPECT_LT(with.state().contacts.walls.front().grain, 2) << "near the wall that they pass";
+    EXPECT_LT(with.state().contacts.pairs.grain.front(), 2) << "and near each other";
+    ASSERT_TRUE(with.step() && alone.step());
+    ASSERT_EQ(with.grains().size(), alone.grains().size()) << "they have been taken out";
+    ASSERT_EQ(with.result().balance.counted, 2);
     ASSERT_GT(alone.field().elastic_energy(), 0) << "in the midst of the impacts";
     while (with.time() < 0.012) ASSERT_TRUE(with.step() && alone.step());
     ASSERT_EQ(alone.field().elastic_energy(), 0) << "after them";

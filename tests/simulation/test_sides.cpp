@@ -171,6 +171,36 @@ TEST_P(PeriodicPairs, RememberThroughEveryRenewalOfTheLists) {
   EXPECT_EQ(bits(other->grains()), bits(usual->grains()));
 }
 
+// An oblique impact that lasts while both are carried over the seam leaves them as one in the middle of the tray does.
+TEST_P(PeriodicPairs, KeepTheirSpringsAcrossTheSeam) {
+  for (const int axis : {0, 2})
+    for (const double speed : {3.0, -3.0}) {
+      if (axis == 2 && GetParam() == Space::plane) continue;
+      const auto after = [&](double place) {
+        Bench bench(GetParam());
+        bench.scene.tray.sides = bench.scene.tray.front_and_back = Sides::periodic;
+        Contact& contact = bench.scene.contact;
+        contact.shell_compression = 1e-2;  // it lasts 6 ms
+        contact.seed = {.friction = 0.5, .restitution = 0.8, .rolling_friction = 0.2};
+        contact.friction_model = FrictionModel::spring, contact.rolling = Rolling::spring;
+        const Eigen::Vector3d along = Eigen::Vector3d::Unit(axis), across(0, 0.2, 0);
+        Eigen::Vector3d at(0.5, 0.5, 0.5);
+        at[axis] = place;
+        const Eigen::Vector3d arm = (Bench::radius + 1e-5) * along, spin(7, 11, 30);
+        bench.place(at - arm, (speed + 0.1) * along + across, spin).place(at + arm, speed * along, -spin);
+        Simulation& run = bench.start(1e-5);
+        while (run.time() < 0.012) EXPECT_TRUE(run.step());
+        EXPECT_EQ(run.field().elastic_energy(), 0);
+        std::vector<Eigen::Vector3d> moves;
+        for (const std::size_t i : {0u, 1u})
+          moves.push_back(velocity_of(run.grains(), i)), moves.push_back(Bench::radius * turning_of(run.grains(), i));
+        return moves;
+      };
+      const auto within = after(0.5), over = after(speed > 0 ? 0.995 : 0.005);
+      for (std::size_t k = 0; k < within.size(); ++k) EXPECT_LT((within[k] - over[k]).norm(), 1e-9) << axis << speed;
+    }
+}
+
 TEST(PeriodicSides, WithoutAPeriodThereIsNoSeam) {
   Bench bench;
   bench.place(0.5, 0.5);

@@ -10,7 +10,7 @@
 namespace vibrosow {
 namespace {
 
-constexpr double friction_arm = 0.03;                                                          // of the rolling radius
+constexpr double rolling = 0.03, twisting = 0.02;  // coefficients, of the rolling radius
 constexpr double weight = Bench::mass * standard_gravity, compression = 1e-4 * Bench::radius;  // N, m
 constexpr double stiffness_on_wall = weight / compression;                                     // N/m
 
@@ -32,31 +32,32 @@ double about_contact(Space space) {
 }
 
 /// 9/4 k (mu_r R)^2 (Ai et al. 2011).
-double spring(double normal_stiffness, double rolling_radius) {
-  const double arm = friction_arm * rolling_radius;
+double spring(double coefficient, double normal_stiffness, double rolling_radius) {
+  const double arm = coefficient * rolling_radius;
   return 2.25 * normal_stiffness * arm * arm;
 }
 
 std::vector<Swing> swings() {
   constexpr double r = Bench::radius, arm = r - compression;
-  const double on_wall = spring(stiffness_on_wall, r), of_pair = spring(0.5 * stiffness_on_wall, 0.5 * r);
+  const auto on_wall = [](double coefficient) { return spring(coefficient, stiffness_on_wall, r); };
+  const auto of_pair = [](double coefficient) { return spring(coefficient, 0.5 * stiffness_on_wall, 0.5 * r); };
   std::vector<Swing> all;
   // Rolls on the floor: to the left where it turns anticlockwise; in space towards the front.
   all.push_back({"rolling on a floor", Space::plane,
                  [=](Bench& bench, double spin) { bench.place(0.5, arm, -spin * arm, 0, spin); },
-                 [](const Grains& g) { return g.omega[0]; }, on_wall, about_contact(Space::plane),
+                 [](const Grains& g) { return g.omega[0]; }, on_wall(rolling), about_contact(Space::plane),
                  about_contact(Space::plane)});
   all.push_back({"rolling across a floor", Space::three_dimensional,
                  [=](Bench& bench, double spin) {
                    bench.place({0.5, arm, 0.5}, {0, 0, spin * arm}, {spin, 0, 0});
                  },
-                 [](const Grains& g) { return g.omega_x[0]; }, on_wall, about_contact(Space::three_dimensional),
-                 about_contact(Space::three_dimensional)});
+                 [](const Grains& g) { return g.omega_x[0]; }, on_wall(rolling),
+                 about_contact(Space::three_dimensional), about_contact(Space::three_dimensional)});
   all.push_back({"twisting on a floor", Space::three_dimensional,
                  [=](Bench& bench, double spin) {
                    bench.place({0.5, arm, 0.5}, Eigen::Vector3d::Zero(), {0, spin, 0});
                  },
-                 [](const Grains& g) { return g.omega_y[0]; }, on_wall, inertia_of(Space::three_dimensional),
+                 [](const Grains& g) { return g.omega_y[0]; }, on_wall(twisting), inertia_of(Space::three_dimensional),
                  inertia_of(Space::three_dimensional)});
   // Two that cohere and turn against each other on the spot: the angle between them grows by twice the spin.
   for (const Space space : both_spaces)
@@ -65,15 +66,15 @@ std::vector<Swing> swings() {
                      bench.place({0.5, 0.5, 0.5}, Eigen::Vector3d::Zero(), {0, 0, spin})
                          .place({0.5 + 2 * r - compression, 0.5, 0.5}, Eigen::Vector3d::Zero(), {0, 0, -spin});
                    },
-                   [](const Grains& g) { return g.omega[0]; }, of_pair, 0.5 * inertia_of(space),
+                   [](const Grains& g) { return g.omega[0]; }, of_pair(rolling), 0.5 * inertia_of(space),
                    0.5 * about_contact(space)});
   all.push_back({"twisting on each other", Space::three_dimensional,
                  [=](Bench& bench, double spin) {
                    bench.place({0.5, 0.5, 0.5}, Eigen::Vector3d::Zero(), {spin, 0, 0})
                        .place({0.5 + 2 * r - compression, 0.5, 0.5}, Eigen::Vector3d::Zero(), {-spin, 0, 0});
                  },
-                 [](const Grains& g) { return g.omega_x[0]; }, of_pair, 0.5 * inertia_of(Space::three_dimensional),
-                 0.5 * inertia_of(Space::three_dimensional)});
+                 [](const Grains& g) { return g.omega_x[0]; }, of_pair(twisting),
+                 0.5 * inertia_of(Space::three_dimensional), 0.5 * inertia_of(Space::three_dimensional)});
   return all;
 }
 
@@ -91,13 +92,14 @@ Swung swung(const Swing& swing, double damping, double later_at) {
   if (alone) bench.gravity = {0, -standard_gravity};
   contact.seed = contact.wall = {.friction = 1,
                                  .restitution = 1,
-                                 .rolling_friction = friction_arm,
+                                 .rolling_friction = rolling,
                                  .cohesion = alone ? 0 : 0.5 * weight,
-                                 .twisting_friction = friction_arm};
+                                 .twisting_friction = twisting};
   contact.friction_model = FrictionModel::spring, contact.rolling = Rolling::spring;
   contact.rolling_damping = damping;
   const double omega = std::sqrt(swing.stiffness / swing.inertia);
-  const double largest_torque = friction_arm * Bench::radius * weight * (alone ? 1 : 0.25);  // N m
+  const double coefficient = swing.name.find("twisting") != std::string::npos ? twisting : rolling;
+  const double largest_torque = coefficient * Bench::radius * weight * (alone ? 1 : 0.25);  // N m
   const double spin = 0.3 * largest_torque / swing.stiffness * omega / (alone ? 1 : 2), dt = 1e-5;
   swing.place(bench, spin);
   Simulation& run = bench.start(dt);

@@ -173,6 +173,14 @@ TEST(TangentialSpring, NeverMakesEnergy) {
   }
 }
 
+// Where the limit has fallen below what the spring held, the shortened spring counts beside the dashpot.
+TEST(TangentialSpring, HoldsNoMoreThanItsLimitBesideTheDashpot) {
+  const double stiffness = 100, limit = 1, dashpot = 2, speed = -0.1;
+  double displacement = 0.03;
+  EXPECT_DOUBLE_EQ(spring_friction(stiffness, dashpot, limit, speed, displacement), limit + dashpot * speed);
+  EXPECT_DOUBLE_EQ(displacement, limit / stiffness);
+}
+
 // After the parting nothing is remembered, and the next impact is what a first one would be.
 TEST(TangentialSpring, ForgetsAtSeparation) {
   const auto first_impact = [](double vx, double vy, double omega) {
