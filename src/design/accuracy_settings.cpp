@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <map>
 
 #include "laws/law.hpp"
@@ -20,12 +21,18 @@ bool has_shell(const Scene& scene) {
   return traits_of(scene.contact.law).material == LawMaterial::shell;
 }
 
+/// To three digits, so that what a report says of a setting is all there is to it.
+double rounded(double value) {
+  return std::strtod(fmt::format("{:.3g}", value).c_str(), nullptr);
+}
+
 /// The scene's own setting, so many times as soft.
 AccuracySetting softened(const Scene& scene, double times) {
   AccuracySetting setting;
   setting.integrator = scene.numerics.integrator;
+  const double own_value = has_shell(scene) ? softness_of(scene) : 1 / softness_of(scene);
   (has_shell(scene) ? setting.shell_compression : setting.youngs_modulus) =
-      has_shell(scene) ? softness_of(scene) * times : 1 / softness_of(scene) / times;
+      times == 1 ? own_value : rounded(has_shell(scene) ? own_value * times : own_value / times);
   return setting;
 }
 
