@@ -268,11 +268,11 @@ std::string offer_text(const Promise& promise, const Offer& offer) {
 std::string cost_text(const Promise& promise) {
   const Offer& offer = *promise.offer;
   std::string text = fmt::format(
-      "Cost: {} pilots {:.3g} s of CPU time, {} more runs {:.3g} s (predicted {:.3g} s). Another layout with this "
+      "Cost: {} pilots {:.3g} s of CPU time, {} more {} {:.3g} s (predicted {:.3g} s). Another layout with this "
       "setting: "
       "{:.3g} s",
-      promise.pilots, promise.pilot_cpu_time, offer.to_run, promise.answer_cpu_time, offer.cpu_time_to_run(),
-      offer.cpu_time);
+      promise.pilots, promise.pilot_cpu_time, offer.to_run, offer.to_run == 1 ? "run" : "runs", promise.answer_cpu_time,
+      offer.cpu_time_to_run(), offer.cpu_time);
   if (promise.finest && promise.finest->setting != offer.setting)
     text += fmt::format("; with the finest: {} runs, {:.3g} s", promise.finest->replicates, promise.finest->cpu_time);
   return text + ".";
