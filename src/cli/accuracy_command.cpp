@@ -135,7 +135,7 @@ bool is_fed_for_ever(const Scene& scene) {
 PromiseChoices choices_of(const Scene& scene) {
   AccuracyGrid grid = default_accuracy_grid(scene);
   grid.integrators = {scene.numerics.integrator};
-  PromiseChoices choices{.design = thrifty_design(grid),
+  PromiseChoices choices{.design = runnable(scene, thrifty_design(grid)),
                          .lead = scene.run.measure_from,
                          .window = scene.run.duration - scene.run.measure_from};
   if (is_fed_for_ever(scene)) choices.windows = {1, 2, 4};
@@ -246,7 +246,7 @@ void add_accuracy_command(CLI::App& app, int& exit_code) {
       ->check(CLI::IsMember(integrator_names()));
   command
       ->add_option("--steps-per-contact", options->steps_per_contact,
-                   "default: the seeder's and twice as many; also as few as are safe")
+                   "default: the seeder's, twice and four times as many; also as few as are safe")
       ->delimiter(',')
       ->type_name("N")
       ->check(number_within(1, 1e4));
@@ -268,20 +268,24 @@ void add_accuracy_command(CLI::App& app, int& exit_code) {
           "with units: \"20 mm/s\"; default: half the seeder's and four times that, where its friction is sliding")
       ->delimiter(',')
       ->type_name("SPEED");
-  command->add_option("--replicates", options->replicates, "runs of each setting; without levels, rounds of a design")
-      ->type_name("N")
-      ->check(CLI::Range(1, 1000))
-      ->capture_default_str();
+  CLI::Option* replicates =
+      command
+          ->add_option("--replicates", options->replicates, "runs of each setting; without levels, rounds of a design")
+          ->type_name("N")
+          ->check(CLI::Range(1, 1000))
+          ->capture_default_str();
   CLI::Option* within =
       command
           ->add_option("--within", options->within,
                        "instead: choose a setting and run it, so that the rate errs by at most that: \"3 %\"")
-          ->type_name("PERCENT");
+          ->type_name("PERCENT")
+          ->excludes(replicates);
   command
       ->add_option("--budget", options->budget,
                    "instead: the smallest error to be had for that time of all jobs: \"2 min\"")
       ->type_name("TIME")
-      ->excludes(within);
+      ->excludes(within)
+      ->excludes(replicates);
   command->callback(
       [options, &exit_code] { exit_code = options->promises() ? run_promise(*options) : run_table(*options); });
 }

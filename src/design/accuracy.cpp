@@ -2,15 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <tuple>
-
-#include "simulation/integrator.hpp"
 
 namespace vibrosow {
 namespace {
 
 double cost_of(const AccuracyRow& row) {
-  return row.grain_steps * evaluations_per_step(row.setting.integrator);
+  return work_of(row.setting, row.grain_steps);
 }
 
 /// What one setting's runs gave.
@@ -34,17 +31,11 @@ void take_runs(AccuracyRow& row, const std::vector<AccuracyRun>& runs, std::size
   row.mass_rate = mean_with_interval(rates);
 }
 
-/// The one that is finer compares as less.
-auto coarseness(const AccuracyRow& row) {
-  const AccuracySetting& setting = row.setting;
-  return std::tuple(setting.shell_compression, -setting.youngs_modulus, setting.slip_speed,
-                    setting.integrator != Integrator::velocity_verlet, -setting.steps_per_contact);
-}
-
 std::size_t finest(const std::vector<AccuracyRow>& rows) {
   std::size_t best = 0;
   for (std::size_t i = 1; i < rows.size(); ++i)
-    if (!rows[i].too_long && (rows[best].too_long || coarseness(rows[i]) < coarseness(rows[best]))) best = i;
+    if (!rows[i].too_long && (rows[best].too_long || coarseness(rows[i].setting) < coarseness(rows[best].setting)))
+      best = i;
   return best;
 }
 

@@ -10,6 +10,7 @@
 #include "laws/law.hpp"
 #include "plan/softness.hpp"
 #include "scene/input_error.hpp"
+#include "simulation/integrator.hpp"
 
 namespace vibrosow {
 namespace {
@@ -103,6 +104,11 @@ std::vector<double> slip_speeds_of(const AccuracyGrid& grid) {
   return grid.slip_speeds.empty() ? std::vector<double>{0} : grid.slip_speeds;
 }
 
+std::optional<std::string> too_long(const Model& model) {
+  if (!step_refused(model.scene.numerics, model.step)) return std::nullopt;
+  return fmt::format("too long, at most {:.3g} s: {}", model.step.longest_safe, model.step.bound_by);
+}
+
 void take_rate(AccuracyRun& run, const HoleOutflow& all) {
   run.mass_rate = all.mass_rate;
   run.seeds = static_cast<double>(all.grains);
@@ -173,6 +179,33 @@ AccuracyDesign thrifty_design(const AccuracyGrid& grid) {
   return design;
 }
 
+std::tuple<double, double, double, bool, double> coarseness(const AccuracySetting& setting) {
+  return {setting.shell_compression, -setting.youngs_modulus, setting.slip_speed,
+          setting.integrator != Integrator::velocity_verlet, -setting.steps_per_contact};
+}
+
+double work_of(const AccuracySetting& setting, double grain_steps) {
+  return grain_steps * evaluations_per_step(setting.integrator);
+}
+
+std::vector<SettingRuns> runs_of(const std::vector<int>& counts) {
+  std::vector<SettingRuns> wanted;
+  for (std::size_t i = 0; i < counts.size(); ++i)
+    if (counts[i] > 0) wanted.push_back({i, counts[i]});
+  return wanted;
+}
+
+AccuracyDesign runnable(const Scene& scene, const AccuracyDesign& design) {
+  AccuracyDesign kept;
+  for (std::size_t i = 0; i < design.settings.size(); ++i) {
+    AccuracySetting setting = design.settings[i];
+    if (too_long(prepare(scene_with(scene, setting)))) continue;
+    kept.settings.push_back(setting);
+    kept.runs.push_back(design.runs[i]);
+  }
+  return kept;
+}
+
 Scene scene_with(const Scene& scene, AccuracySetting& setting) {
   Scene changed = scene;
   set_softness(changed, has_shell(scene) ? setting.shell_compression : 1 / setting.youngs_modulus);
@@ -192,11 +225,9 @@ SettingRunner::SettingRunner(const Scene& scene, std::vector<AccuracySetting>& s
     : simulator_(std::move(simulator)), options_(std::move(options)), next_seed_(options_.first_random_seed) {
   for (AccuracySetting& setting : settings) {
     models_.push_back(prepare(scene_with(scene, setting)));
-    const StepPlan& plan = models_.back().step;
-    refused_.emplace_back();
-    if (step_refused(models_.back().scene.numerics, plan))
-      refused_.back() = fmt::format("too long, at most {:.3g} s: {}", plan.longest_safe, plan.bound_by);
+    refused_.push_back(too_long(models_.back()));
   }
+  if (settings.empty()) throw InputError("no setting can be run");
   if (std::ranges::all_of(refused_, [](const auto& reason) { return reason.has_value(); }))
     throw InputError(fmt::format("no setting can be run: {}", *refused_.front()));
 }

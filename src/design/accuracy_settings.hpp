@@ -4,6 +4,7 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include "design/sweep.hpp"
@@ -25,6 +26,10 @@ struct AccuracySetting {
   double overlap_at_rest = 0;   // of the lowest pair, over the radius
   double dt = 0;                // s, contact duration / steps per contact
 };
+
+/// Compares as less for the finer of two settings: the stiffer, then the one of smaller slip speed, then velocity
+/// Verlet, then the one with more steps a contact.
+std::tuple<double, double, double, bool, double> coarseness(const AccuracySetting& setting);
 
 /// Levels of each part of a setting.
 struct AccuracyGrid {
@@ -56,6 +61,9 @@ AccuracyDesign full_design(const AccuracyGrid& grid);
 /// throughout, others at the softest two levels alone. Slip speeds take turns.
 AccuracyDesign thrifty_design(const AccuracyGrid& grid);
 
+/// The design without the settings whose step is too long for the scene.
+AccuracyDesign runnable(const Scene& scene, const AccuracyDesign& design);
+
 /// The scene with a setting: its step is written down as `numerics.dt`, so that it is run as asked. Lots and walls with
 /// a softness of their own are softened alike.
 Scene scene_with(const Scene& scene, AccuracySetting& setting);
@@ -66,6 +74,9 @@ struct SettingRuns {
   int runs;
   double window = 1;
 };
+
+/// So many runs of each setting, over the scene's window; none of those with 0.
+std::vector<SettingRuns> runs_of(const std::vector<int>& counts);
 
 /// Why a run that was cut short has no rate.
 inline constexpr const char* interrupted_run = "interrupted";
@@ -82,10 +93,13 @@ struct AccuracyRun {
   double cpu_time = 0;  // s, of this machine
 };
 
+/// What a run costs wherever it is made: grain-steps times force evaluations a step.
+double work_of(const AccuracySetting& setting, double grain_steps);
+
 /// Settings of a scene, ready to be run. Every run has a random seed of its own, so that runs are independent.
 class SettingRunner {
  public:
-  /// Derives every setting's model and completes the settings. Throws InputError when none can be run.
+  /// Derives every setting's model and completes the settings. Throws InputError when none can be run or there is none.
   SettingRunner(const Scene& scene, std::vector<AccuracySetting>& settings, Simulator simulator, SweepOptions options);
 
   /// Why a setting is not run: its step is too long.

@@ -6,6 +6,7 @@
 #include <boost/math/distributions/fisher_f.hpp>
 #include <boost/math/distributions/normal.hpp>
 #include <cmath>
+#include <iterator>
 #include <map>
 #include <set>
 
@@ -58,11 +59,34 @@ double scatter_of_counting(const std::vector<AccuracyRun>& runs) {
   return of_a_seed / std::sqrt(12);
 }
 
-template <class Part>
-std::size_t levels_of(const std::vector<AccuracySetting>& settings, Part part) {
-  std::set<double> levels;
-  for (const AccuracySetting& setting : settings) levels.insert(setting.*part);
-  return levels.size();
+/// A sum of squares and its degrees of freedom.
+struct Squares {
+  double sum = 0;
+  int freedom = 0;
+};
+
+/// Of the residuals of equal runs about their mean.
+Squares about_their_means(const std::vector<AccuracyRun>& runs, const Eigen::VectorXd& residuals) {
+  std::map<std::pair<std::size_t, double>, std::vector<double>> equal;
+  for (std::size_t i = 0; i < runs.size(); ++i)
+    equal[{runs[i].setting, runs[i].window}].push_back(residuals[static_cast<Eigen::Index>(i)]);
+  Squares squares;
+  for (const auto& [setting, members] : equal) {
+    double mean = 0;
+    for (const double member : members) mean += member;
+    mean /= static_cast<double>(members.size());
+    for (const double member : members) squares.sum += square(member - mean);
+    squares.freedom += static_cast<int>(members.size()) - 1;
+  }
+  return squares;
+}
+
+AccuracySetting with_softness_of(const AccuracySetting& softness, const AccuracySetting& base) {
+  AccuracySetting setting = softness;
+  setting.integrator = base.integrator;
+  setting.steps_per_contact = base.steps_per_contact;
+  setting.slip_speed = base.slip_speed;
+  return setting;
 }
 
 }  // namespace
@@ -87,9 +111,15 @@ Eigen::VectorXd ErrorFit::terms_of(const AccuracySetting& setting) const {
   return values;
 }
 
-void ErrorFit::choose_terms(const std::vector<AccuracySetting>& observed) {
+void ErrorFit::choose_terms(const std::vector<AccuracyRun>& runs) {
+  std::vector<AccuracySetting> observed;
+  std::set<double> softnesses;
+  for (const AccuracyRun& run : runs) {
+    observed.push_back(settings_[run.setting]);
+    softnesses.insert(observed.back().contact_duration);
+  }
   std::vector<Term> wanted = {{.source = ErrorSource::softness}};
-  if (levels_of(observed, &AccuracySetting::contact_duration) >= softnesses_for_two_terms)
+  if (softnesses.size() >= softnesses_for_two_terms)
     wanted.push_back({.source = ErrorSource::softness, .overlap = true});
   wanted.push_back({.source = ErrorSource::slip_speed});
   for (const Integrator integrator : {Integrator::velocity_verlet, Integrator::rk2_midpoint, Integrator::gear5})
@@ -113,64 +143,56 @@ void ErrorFit::choose_terms(const std::vector<AccuracySetting>& observed) {
 
 std::optional<ErrorFit> ErrorFit::of(const std::vector<AccuracySetting>& settings,
                                      const std::vector<AccuracyRun>& runs) {
+  std::vector<AccuracyRun> observed;
+  std::ranges::copy_if(runs, std::back_inserter(observed),
+                       [](const AccuracyRun& run) { return run.mass_rate.has_value(); });
   ErrorFit fit;
   fit.settings_ = settings;
-  std::vector<AccuracySetting> observed;
-  std::vector<double> rates, weights;
-  std::map<std::pair<std::size_t, double>, std::vector<std::size_t>> equal;
-  for (const AccuracyRun& run : runs) {
-    if (!run.mass_rate) continue;
-    equal[{run.setting, run.window}].push_back(rates.size());
-    observed.push_back(settings[run.setting]);
-    rates.push_back(*run.mass_rate);
-    weights.push_back(run.window);  // a longer window scatters less, by its root
-  }
   fit.choose_terms(observed);
-  const auto count = static_cast<Eigen::Index>(rates.size()), terms = 1 + static_cast<Eigen::Index>(fit.terms_.size());
-  if (count < terms + 2) return std::nullopt;
-
-  Eigen::MatrixXd design(count, terms);
-  Eigen::VectorXd values(count);
-  for (Eigen::Index i = 0; i < count; ++i) {
-    const auto run = static_cast<std::size_t>(i);
-    const double weight = std::sqrt(weights[run]);
-    design.row(i) = weight * fit.terms_of(observed[run]).transpose();
-    design(i, 0) = weight;
-    values[i] = weight * rates[run];
-  }
-  fit.coefficients_ = design.colPivHouseholderQr().solve(values);
-  fit.covariance_ = (design.transpose() * design).ldlt().solve(Eigen::MatrixXd::Identity(terms, terms));
-  const Eigen::VectorXd residuals = values - design * fit.coefficients_;
-  const double squares = residuals.squaredNorm();
-  fit.degrees_of_freedom_ = fit.spread_freedom_ = static_cast<int>(count - terms);
-  fit.scatter_ = fit.spread_ = std::sqrt(squares / fit.degrees_of_freedom_);
+  const auto terms = 1 + static_cast<Eigen::Index>(fit.terms_.size());
+  if (static_cast<Eigen::Index>(observed.size()) < terms + 2) return std::nullopt;
+  const Eigen::VectorXd residuals = fit.solve(observed);
   if (!(fit.coefficients_[0] > 0)) return std::nullopt;
-  const double least_scatter = scatter_of_counting(runs);
-
-  double equal_squares = 0;
-  for (const auto& [setting, members] : equal) {
-    double mean = 0;
-    for (const std::size_t i : members) mean += residuals[static_cast<Eigen::Index>(i)];
-    mean /= static_cast<double>(members.size());
-    for (const std::size_t i : members) equal_squares += square(residuals[static_cast<Eigen::Index>(i)] - mean);
-  }
-  const int equal_freedom = static_cast<int>(rates.size() - equal.size());
-  const int lack_freedom = fit.degrees_of_freedom_ - equal_freedom;
-  if (equal_freedom >= enough_equal_runs && lack_freedom > 0 && equal_squares > 0) {
-    const double lack = std::max(0.0, squares - equal_squares) / lack_freedom, chance = equal_squares / equal_freedom;
-    fit.lack_of_fit_ =
-        boost::math::cdf(boost::math::complement(boost::math::fisher_f(lack_freedom, equal_freedom), lack / chance));
-    if (!fit.fits()) {
-      fit.scatter_ = std::sqrt(chance), fit.degrees_of_freedom_ = equal_freedom;
-      fit.spread_ = std::sqrt(lack), fit.spread_freedom_ = lack_freedom;
-    }
-  }
-  fit.scatter_ = std::max(fit.scatter_, least_scatter);
-  fit.spread_ = std::max(fit.spread_, least_scatter);
+  fit.judge(observed, residuals);
   fit.limit_ = {fit.coefficients_[0],
                 student_t_95(fit.spread_freedom_) * fit.spread_ * std::sqrt(fit.covariance_(0, 0))};
   fit.simultaneous_ = fit.simultaneous_factor();
   return fit;
+}
+
+Eigen::VectorXd ErrorFit::solve(const std::vector<AccuracyRun>& runs) {
+  const auto count = static_cast<Eigen::Index>(runs.size()), terms = 1 + static_cast<Eigen::Index>(terms_.size());
+  Eigen::MatrixXd design(count, terms);
+  Eigen::VectorXd values(count);
+  for (Eigen::Index i = 0; i < count; ++i) {
+    const AccuracyRun& run = runs[static_cast<std::size_t>(i)];
+    const double weight = std::sqrt(run.window);  // a longer window scatters less, by its root
+    design.row(i) = weight * row_of(run.setting).transpose();
+    values[i] = weight * *run.mass_rate;
+  }
+  coefficients_ = design.colPivHouseholderQr().solve(values);
+  covariance_ = (design.transpose() * design).ldlt().solve(Eigen::MatrixXd::Identity(terms, terms));
+  return values - design * coefficients_;
+}
+
+void ErrorFit::judge(const std::vector<AccuracyRun>& runs, const Eigen::VectorXd& residuals) {
+  const double squares = residuals.squaredNorm();
+  degrees_of_freedom_ = spread_freedom_ = static_cast<int>(residuals.size() - coefficients_.size());
+  scatter_ = spread_ = std::sqrt(squares / degrees_of_freedom_);
+  const Squares equal = about_their_means(runs, residuals);
+  const int lack_freedom = degrees_of_freedom_ - equal.freedom;
+  if (equal.freedom >= enough_equal_runs && lack_freedom > 0 && equal.sum > 0) {
+    const double lack = std::max(0.0, squares - equal.sum) / lack_freedom, chance = equal.sum / equal.freedom;
+    lack_of_fit_ =
+        boost::math::cdf(boost::math::complement(boost::math::fisher_f(lack_freedom, equal.freedom), lack / chance));
+    if (!fits()) {
+      scatter_ = std::sqrt(chance), degrees_of_freedom_ = equal.freedom;
+      spread_ = std::sqrt(lack), spread_freedom_ = lack_freedom;
+    }
+  }
+  const double least_scatter = scatter_of_counting(runs);
+  scatter_ = std::max(scatter_, least_scatter);
+  spread_ = std::max(spread_, least_scatter);
 }
 
 /// Of the error over the limit, by the coefficients.
@@ -224,50 +246,43 @@ double ErrorFit::simultaneous_factor() const {
 }
 
 std::vector<MainEffect> ErrorFit::effects() const {
-  const double factor = student_t_95(spread_freedom_);
-  std::vector<MainEffect> effects;
-  const auto add = [&](ErrorSource source, const AccuracySetting& from, const AccuracySetting& to) {
-    const Eigen::VectorXd difference = terms_of(to) - terms_of(from);
-    if (difference.norm() > 0) effects.push_back({source, from, to, error_of(difference, factor)});
+  const auto extremes = [this](double AccuracySetting::*part) {
+    const auto [least, most] = std::ranges::minmax_element(settings_, {}, part);
+    return std::pair(*least, *most);
   };
-  const auto by = [](auto part) {
-    return [part](const AccuracySetting& a, const AccuracySetting& b) { return a.*part < b.*part; };
-  };
-  const auto [stiff, soft] = std::ranges::minmax_element(settings_, by(&AccuracySetting::contact_duration));
-  const auto [slow, fast] = std::ranges::minmax_element(settings_, by(&AccuracySetting::slip_speed));
-  const auto [few, many] = std::ranges::minmax_element(settings_, by(&AccuracySetting::steps_per_contact));
+  const auto [stiff, soft] = extremes(&AccuracySetting::contact_duration);
+  const auto [slow, fast] = extremes(&AccuracySetting::slip_speed);
+  const auto [few, many] = extremes(&AccuracySetting::steps_per_contact);
   const AccuracySetting base = settings_.front();
-  const auto varied = [&](ErrorSource source) {
-    return std::ranges::any_of(terms_, [source](const Term& term) { return term.source == source; });
-  };
-  if (varied(ErrorSource::softness)) {
-    AccuracySetting from = *stiff, to = *soft;
-    for (AccuracySetting* one : {&from, &to})
-      one->integrator = base.integrator, one->steps_per_contact = base.steps_per_contact,
-      one->slip_speed = base.slip_speed;
-    add(ErrorSource::softness, from, to);
-  }
-  if (varied(ErrorSource::slip_speed)) {
+  std::vector<MainEffect> effects;
+  std::optional<AccuracySetting> first_scheme;
+  for (const Term& term : terms_) {
     AccuracySetting from = base, to = base;
-    from.slip_speed = slow->slip_speed, to.slip_speed = fast->slip_speed;
-    add(ErrorSource::slip_speed, from, to);
+    switch (term.source) {
+      case ErrorSource::softness:
+        if (term.overlap) continue;  // is in the effect of the other term
+        from = with_softness_of(stiff, base), to = with_softness_of(soft, base);
+        break;
+      case ErrorSource::slip_speed:
+        from.slip_speed = slow.slip_speed, to.slip_speed = fast.slip_speed;
+        break;
+      case ErrorSource::step:
+      case ErrorSource::scheme:
+        from.integrator = to.integrator = term.integrator;
+        from.steps_per_contact = many.steps_per_contact, to.steps_per_contact = few.steps_per_contact;
+        if (first_scheme)
+          effects.push_back(effect(ErrorSource::scheme, *first_scheme, to));
+        else
+          first_scheme = to;
+    }
+    effects.push_back(effect(term.source, from, to));
   }
-  std::vector<Integrator> schemes;
-  for (const Term& term : terms_)
-    if (term.source == ErrorSource::step) schemes.push_back(term.integrator);
-  for (const Integrator scheme : schemes) {
-    AccuracySetting from = base, to = base;
-    from.integrator = to.integrator = scheme;
-    from.steps_per_contact = many->steps_per_contact, to.steps_per_contact = few->steps_per_contact;
-    add(ErrorSource::step, from, to);
-  }
-  for (std::size_t k = 1; k < schemes.size(); ++k) {
-    AccuracySetting from = base, to = base;
-    from.integrator = schemes.front(), to.integrator = schemes[k];
-    from.steps_per_contact = to.steps_per_contact = few->steps_per_contact;
-    add(ErrorSource::scheme, from, to);
-  }
+  std::ranges::stable_sort(effects, {}, &MainEffect::source);
   return effects;
+}
+
+MainEffect ErrorFit::effect(ErrorSource source, const AccuracySetting& from, const AccuracySetting& to) const {
+  return {source, from, to, error_of(terms_of(to) - terms_of(from), student_t_95(spread_freedom_))};
 }
 
 }  // namespace vibrosow

@@ -74,7 +74,12 @@ class ErrorFit {
   Eigen::VectorXd terms_of(const AccuracySetting& setting) const;
   RateError error_of(const Eigen::VectorXd& terms, double factor) const;
   Eigen::VectorXd gradient_of(const Eigen::VectorXd& terms) const;
-  void choose_terms(const std::vector<AccuracySetting>& observed);
+  void choose_terms(const std::vector<AccuracyRun>& runs);
+  /// Coefficients and covariance; returns the residuals.
+  Eigen::VectorXd solve(const std::vector<AccuracyRun>& runs);
+  /// Scatter of a run and lack of fit.
+  void judge(const std::vector<AccuracyRun>& runs, const Eigen::VectorXd& residuals);
+  MainEffect effect(ErrorSource source, const AccuracySetting& from, const AccuracySetting& to) const;
   double simultaneous_factor() const;
 
   std::vector<AccuracySetting> settings_;

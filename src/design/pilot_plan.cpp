@@ -75,15 +75,15 @@ class Path {
 
 }  // namespace
 
-std::vector<int> plan_pilots(const PilotBasis& basis, const PilotGoal& goal) {
+std::vector<int> plan_pilots(const PilotBasis& basis, const PromiseGoal& goal) {
   PilotPlan best{nothing, std::vector<int>(basis.costs.size(), 0)};
   for (std::size_t setting = 0; setting < basis.costs.size(); ++setting) {
     if (!(basis.costs[setting] > 0)) continue;
     Path path(basis, setting);
     for (int pilots = 0; pilots <= most_pilots; ++pilots) {
-      const double badness = goal.budget ? path.error_for(*goal.budget) : path.cost_within(*goal.within_percent);
+      const double badness = goal.cpu_time ? path.error_for(*goal.cpu_time) : path.cost_within(*goal.within_percent);
       if (badness < best.badness) best = {badness, path.pilots()};
-      if (path.spent() > (goal.budget ? *goal.budget : best.badness)) break;
+      if (path.spent() > (goal.cpu_time ? *goal.cpu_time : best.badness)) break;
       path.add_one();
     }
   }

@@ -2,19 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <tuple>
+#include <stdexcept>
 
-#include "design/pilot_plan.hpp"
 #include "simulation/integrator.hpp"
 
 namespace vibrosow {
 namespace {
 
 constexpr int most_replicates = 2000;
-
-double work_of(const AccuracySetting& setting, const AccuracyRun& run) {
-  return run.grain_steps * evaluations_per_step(setting.integrator);
-}
 
 double cpu_time_of(const std::vector<AccuracyRun>& runs) {
   double sum = 0;
@@ -50,7 +45,7 @@ class Chooser {
     for (const AccuracyRun& run : promise_.runs) {
       const AccuracySetting& ran = promise_.settings[run.setting];
       if (!run.mass_rate || !same_softness(ran, wanted)) continue;
-      const Cost cost{work_of(ran, run), run.cpu_time};
+      const Cost cost{work_of(ran, run.grain_steps), run.cpu_time};
       if (run.setting == setting) own.add(cost, 1), ++own_runs;
       other.add(cost, evaluations_per_second(wanted) / evaluations_per_second(ran)), ++other_runs;
     }
@@ -145,32 +140,17 @@ std::vector<SettingRuns> more_pilots(const Chooser& chooser, const PromiseGoal& 
     basis.costs.push_back(cost ? (goal.cpu_time ? cost->cpu_time : cost->work) : 0);
     basis.made.push_back(chooser.pilots_of(i, 1));
   }
-  PilotGoal wanted{.within_percent = goal.within_percent};
-  if (goal.cpu_time) wanted.budget = *goal.cpu_time - made.pilot_cpu_time;
-  const std::vector<int> plan = plan_pilots(basis, wanted);
-  std::vector<SettingRuns> runs;
-  for (std::size_t i = 0; i < plan.size(); ++i)
-    if (plan[i] > 0) runs.push_back({i, plan[i]});
-  return runs;
+  PromiseGoal left = goal;
+  if (left.cpu_time) *left.cpu_time -= made.pilot_cpu_time;
+  return runs_of(plan_pilots(basis, left));
 }
 
-/// The stiffest, of smallest slip speed, with the most steps a contact, of the first integrator.
 std::size_t finest(const std::vector<AccuracySetting>& settings) {
-  const auto coarseness = [](const AccuracySetting& setting) {
-    return std::tuple(setting.contact_duration, setting.slip_speed, setting.integrator, -setting.steps_per_contact);
-  };
   return static_cast<std::size_t>(std::ranges::min_element(settings, {}, coarseness) - settings.begin());
 }
 
 void add(std::vector<AccuracyRun>& runs, const std::vector<AccuracyRun>& more) {
   runs.insert(runs.end(), more.begin(), more.end());
-}
-
-std::vector<SettingRuns> first_pilots(const AccuracyDesign& design) {
-  std::vector<SettingRuns> wanted;
-  for (std::size_t i = 0; i < design.settings.size(); ++i)
-    if (design.runs[i] > 0) wanted.push_back({i, design.runs[i]});
-  return wanted;
 }
 
 /// Whether some run was cut short, so that nothing may be concluded.
@@ -187,10 +167,12 @@ void make_pilots(Promise& made, const std::vector<SettingRuns>& pilots, const Ru
 
 }  // namespace
 
-Promise promise(PromiseChoices choices, const PromiseGoal& goal, const RunSettings& run) {
+Promise promise(const PromiseChoices& choices, const PromiseGoal& goal, const RunSettings& run) {
+  if (goal.within_percent.has_value() == goal.cpu_time.has_value())
+    throw std::invalid_argument("a promise has an error or a CPU time as its goal");
   Promise made;
   made.settings = choices.design.settings;
-  make_pilots(made, first_pilots(choices.design), run);
+  make_pilots(made, runs_of(choices.design.runs), run);
   const Chooser chooser(choices, made);
   if (made.fit)
     if (const std::vector<SettingRuns> more = more_pilots(chooser, goal, made); !more.empty())

@@ -7,15 +7,10 @@
 
 #include "design/accuracy_settings.hpp"
 #include "design/error_fit.hpp"
+#include "design/pilot_plan.hpp"
 #include "outflow/statistics.hpp"
 
 namespace vibrosow {
-
-/// What is wanted of a rate: one of the two.
-struct PromiseGoal {
-  std::optional<double> within_percent{};  // of the limit of step 0 and rigid grains, at 95 %, for the least work
-  std::optional<double> cpu_time{};        // s, of all runs: the smallest error to be had for it
-};
 
 /// What a promise chooses among.
 struct PromiseChoices {
@@ -62,7 +57,8 @@ using RunSettings = std::function<std::vector<AccuracyRun>(const std::vector<Set
 /// two-stage rule: n is fixed before the runs are made), the one within the goal whose runs would be the least work
 /// if made afresh, as they are for every further layout. The finest setting is
 /// one of them, and a setting's own pilots count among its runs. Work is counted in grain-steps, so no clock decides;
-/// only a goal of CPU time asks one. Interrupted or refused runs leave the promise without an offer.
-Promise promise(PromiseChoices choices, const PromiseGoal& goal, const RunSettings& run);
+/// only a goal of CPU time asks one. Interrupted or refused runs leave the promise without an offer. Throws
+/// std::invalid_argument unless the goal is one of the two.
+Promise promise(const PromiseChoices& choices, const PromiseGoal& goal, const RunSettings& run);
 
 }  // namespace vibrosow

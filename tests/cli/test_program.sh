@@ -173,6 +173,7 @@ expect 0 "cannot be promised" accuracy seeder.toml --within "0.01 %" --out promi
 expect 2 "within: \"0 %\" is out of range" accuracy seeder.toml --within "0 %"
 expect 2 "within: .*3.*percent|within: .*\"3\"" accuracy seeder.toml --within 3
 expect 2 "budget excludes --within|within excludes --budget" accuracy seeder.toml --within "3 %" --budget "1 min"
+expect 2 "replicates excludes --within|within excludes --replicates" accuracy seeder.toml --within "3 %" --replicates 7
 expect 2 "choose the setting themselves" accuracy seeder.toml --within "3 %" --steps-per-contact 20
 
 # A file may grow to 512 bytes only: as on a full disk.

@@ -84,9 +84,8 @@ inline AccuracyDesign made_up_design(const std::vector<double>& slip_speeds = {}
 
 /// Rounds of a design.
 inline std::vector<SettingRuns> rounds_of(const AccuracyDesign& design, int rounds) {
-  std::vector<SettingRuns> wanted;
-  for (std::size_t i = 0; i < design.settings.size(); ++i)
-    if (design.runs[i] > 0) wanted.push_back({i, rounds * design.runs[i]});
+  std::vector<SettingRuns> wanted = runs_of(design.runs);
+  for (SettingRuns& of : wanted) of.runs *= rounds;
   return wanted;
 }
 

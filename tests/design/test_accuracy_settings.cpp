@@ -86,6 +86,18 @@ TEST(AccuracySettings, ThriftyDesignRunsEveryLevelAndTheFinestSetting) {
             1);
 }
 
+TEST(AccuracySettings, OnlyWhatCanBeRunIsLeftOfADesign) {
+  const StudyFiles files;
+  const Scene scene = scene_of(files);
+  AccuracyGrid grid = default_accuracy_grid(scene);
+  grid.integrators = {Integrator::velocity_verlet};
+  grid.steps_per_contact = {2, 40};
+  const AccuracyDesign design = runnable(scene, full_design(grid));
+  ASSERT_EQ(design.settings.size(), full_design(grid).settings.size() / 2);
+  EXPECT_EQ(design.runs.size(), design.settings.size());
+  for (const AccuracySetting& setting : design.settings) EXPECT_EQ(setting.steps_per_contact, 40);
+}
+
 TEST(AccuracySettings, ALongerWindowBeginsWithTheScenes) {
   const StudyFiles files;
   const Scene scene = scene_of(files);

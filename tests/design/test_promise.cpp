@@ -142,6 +142,11 @@ TEST(Promise, ClockDoesNotChooseWhereAnErrorIsWanted) {
   EXPECT_EQ(chosen(1), chosen(1000));
 }
 
+TEST(Promise, AGoalIsOneOfTheTwo) {
+  EXPECT_THROW(promise_of({}, {}), std::invalid_argument);
+  EXPECT_THROW(promise_of({}, {.within_percent = 3, .cpu_time = 100}), std::invalid_argument);
+}
+
 TEST(Promise, WritesTheKeysOfASeeder) {
   const PromiseGoal goal{.within_percent = 3};
   const Promise made = promise_of({}, goal);
