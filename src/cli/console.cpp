@@ -6,7 +6,12 @@
 #include <cerrno>
 #include <csignal>
 #include <cstdio>
+#include <cstdlib>
 #include <cstring>
+#include <new>
+#include <string_view>
+
+#include "cli/commands.hpp"
 
 namespace vibrosow {
 namespace {
@@ -24,6 +29,14 @@ void make_streams_safe() {
   std::signal(SIGXFSZ, SIG_IGN);
   for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
     if (fcntl(stream, F_GETFD) < 0) open("/dev/null", O_RDWR);  // takes the lowest free number
+}
+
+void end_when_memory_runs_out() {
+  std::set_new_handler([] {
+    constexpr std::string_view line = "vibrosow: out of memory: the scene has more grains than this machine holds\n";
+    [[maybe_unused]] const auto written = write(STDERR_FILENO, line.data(), line.size());
+    std::_Exit(exit_wrong_input);
+  });
 }
 
 void print_text(const std::string& text) {

@@ -12,6 +12,11 @@ namespace vibrosow {
 /// a closed stream. A file over the size limit is a failed write, told as one.
 void make_streams_safe();
 
+/// From now on the program ends with one line and the exit code of wrong input when memory runs out. At once, since
+/// libraries take a failed allocation for something else: a stream then holds half of what was written to it, a TOML
+/// reader calls a number no number. Reports on the disk stay what they were.
+void end_when_memory_runs_out();
+
 /// Prints on standard output. Never throws: a reader that has gone away is no error, what else cannot be printed is
 /// kept for `output_error`.
 void print_text(const std::string& text);

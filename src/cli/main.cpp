@@ -1,5 +1,4 @@
 #include <memory>
-#include <new>
 #include <system_error>
 
 #include "cli/commands.hpp"
@@ -7,9 +6,10 @@
 #include "cli/help_text.hpp"
 #include "scene/input_error.hpp"
 
-int main(int argument_count, char** arguments) {
-  using namespace vibrosow;
-  make_streams_safe();
+namespace vibrosow {
+namespace {
+
+int run_program(int argument_count, char** arguments) {
   CLI::App app("Vibrosow designs vibrating-tray seeders: it simulates every seed and counts what leaves each hole.",
                "vibrosow");
   app.formatter(std::make_shared<HelpText>());
@@ -24,17 +24,28 @@ int main(int argument_count, char** arguments) {
   add_columns_command(app, exit_code);
   try {
     app.parse(argument_count, arguments);  // runs the chosen command
-    const auto not_printed = output_error();
-    if (!not_printed) return exit_code;
-    complain("standard output: " + *not_printed);
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? exit_done : exit_wrong_input;  // --help and --version are "errors" of exit code 0
+  }
+  const auto not_printed = output_error();
+  if (!not_printed) return exit_code;
+  complain("standard output: " + *not_printed);
+  return exit_wrong_input;
+}
+
+}  // namespace
+}  // namespace vibrosow
+
+int main(int argument_count, char** arguments) {
+  using namespace vibrosow;
+  make_streams_safe();
+  end_when_memory_runs_out();
+  try {
+    return run_program(argument_count, arguments);
   } catch (const InputError& error) {
     complain(error.what());
   } catch (const std::system_error& error) {  // of the file system
     complain(error.what());
-  } catch (const std::bad_alloc&) {
-    complain("out of memory: the scene has more grains than this machine holds");
   }
   return exit_wrong_input;
 }

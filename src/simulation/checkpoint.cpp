@@ -15,8 +15,42 @@
 #include "scene/input_error.hpp"
 #include "scene/scene_json.hpp"
 
+namespace vibrosow {
+/// What a checkpoint's fields are read from.
+struct BodyArchive : cereal::PortableBinaryInputArchive {
+  explicit BodyArchive(std::istringstream& in) : PortableBinaryInputArchive(in), stream(in) {}
+  std::istringstream& stream;
+};
+}  // namespace vibrosow
+
 // cereal finds these by the types' namespaces. Each lists every field of its type: what is missing here is lost.
 namespace cereal {
+
+/// How many elements follow; never more than there are bytes left, so that a damaged size asks for no memory.
+inline std::size_t load_size(PortableBinaryInputArchive& archive, std::size_t bytes_of_one) {
+  size_type size = 0;
+  archive(make_size_tag(size));
+  const std::streamsize left = static_cast<vibrosow::BodyArchive&>(archive).stream.rdbuf()->in_avail();
+  if (left < 0 || size > static_cast<size_type>(left) / bytes_of_one) throw Exception("a size beyond the end");
+  return static_cast<std::size_t>(size);
+}
+
+// In the place of cereal's own, which believe any size.
+template <class T>
+std::enable_if_t<std::is_arithmetic_v<T>> load(PortableBinaryInputArchive& archive, std::vector<T>& values) {
+  values.resize(load_size(archive, sizeof(T)));
+  archive(binary_data(values.data(), values.size() * sizeof(T)));
+}
+template <class T>
+std::enable_if_t<!std::is_arithmetic_v<T>> load(PortableBinaryInputArchive& archive, std::vector<T>& values) {
+  values.resize(load_size(archive, 1));
+  for (T& value : values) archive(value);
+}
+inline void load(PortableBinaryInputArchive& archive, std::string& text) {
+  text.resize(load_size(archive, 1));
+  archive(binary_data(text.data(), text.size()));
+}
+
 template <class Archive>
 void serialize(Archive& archive, Eigen::Vector2d& v) {
   archive(v.x(), v.y());
@@ -220,7 +254,7 @@ SimulationState restore(const Model& model, std::string_view bytes) {
       refuse(fmt::format("it is of version {}, and this program reads {}", header.version, version));
     const auto body_at = static_cast<std::size_t>(in.tellg());
     if (checksum(bytes.substr(signature.size() + body_at)) != header.checksum) refuse("it is damaged");
-    cereal::PortableBinaryInputArchive archive(in);
+    BodyArchive archive(in);
     std::string scene;
     double dt = 0;
     archive(scene, dt);
