@@ -79,7 +79,8 @@ def start_of(bench, scene, seed=1):
     axes, spins = (('x', 'y', 'z'), ('omega_x', 'omega_y', 'omega')) if scene.depth else (('x', 'y'), ('omega',))
     places = [tuple(float(row[f'{axis}_mm']) / 1e3 + (shift if axis == 'x' else 0) for axis in axes) for row in rows]
     names = [f'v{axis}_m_per_s' for axis in axes] + [f'{spin}_rad_per_s' for spin in spins]
-    motions = [tuple(float(row[name]) for name in names) for row in rows]
+    tray = scene.velocity(scene.fallen)  # a picture's velocities are against the tray
+    motions = [(float(row[names[0]]) + tray, *(float(row[name]) for name in names[1:])) for row in rows]
     return Start(places, run['dt_s'], seed, motions if scene.fallen else ())
 
 

@@ -54,6 +54,9 @@ class Scene:
     def displacement(self, time):
         return self.amplitude * math.sin(2 * math.pi * self.frequency * time)
 
+    def velocity(self, time):
+        return self.amplitude * 2 * math.pi * self.frequency * math.cos(2 * math.pi * self.frequency * time)
+
 
 def damping_ratio(restitution):
     """Of a spring and dashpot whose force never pulls: e = exp(-z (pi - 2 asin z) / sqrt(1 - z^2))."""

@@ -33,7 +33,7 @@ struct AccuracyOptions {
   std::vector<std::string> integrators;
   std::vector<double> steps_per_contact, shell_compressions;
   std::vector<std::string> youngs_moduli, slip_speeds;
-  int replicates = 5;
+  int replicates = 5, depth = 0;
   std::string within, budget;
 
   bool promises() const { return !within.empty() || !budget.empty(); }
@@ -205,6 +205,13 @@ int run_table(const AccuracyOptions& options) {
     result = measure_accuracy(scene, design, options.replicates, run_model, sweep_options);
     timing.wall_time = progress.seconds();
   }
+  if (options.depth > 0) {
+    Progress progress(options.common.quiet, 2.0 * options.depth, "runs");
+    SweepOptions sweep_options = sweep_options_of(options, jobs, interrupt);
+    sweep_options.runs.progress = [&](const ManyRunsProgress& done) { progress.update(done.fraction_done); };
+    result.depth = measure_depth_error(scene, options.depth, run_model, sweep_options);
+    timing.wall_time += progress.seconds();
+  }
   write_then_print(
       options.common.quiet, [&] { folder.write(accuracy_files(result, timing, options.common.csv)); },
       [&] { print("{}\n{}\n{}", wrapped(scene.title), accuracy_table(result), wrapped(accuracy_sentence(result))); });
@@ -274,18 +281,26 @@ void add_accuracy_command(CLI::App& app, int& exit_code) {
           ->type_name("N")
           ->check(CLI::Range(1, 1000))
           ->capture_default_str();
+  CLI::Option* depth =
+      command
+          ->add_option("--depth", options->depth,
+                       "runs of the tray as a plane and as many in space besides: the error of the missing depth")
+          ->type_name("N")
+          ->check(CLI::Range(2, 1000));
   CLI::Option* within =
       command
           ->add_option("--within", options->within,
                        "instead: choose a setting and run it, so that the rate errs by at most that: \"3 %\"")
           ->type_name("PERCENT")
-          ->excludes(replicates);
+          ->excludes(replicates)
+          ->excludes(depth);
   command
       ->add_option("--budget", options->budget,
                    "instead: the smallest error to be had for that time of all jobs: \"2 min\"")
       ->type_name("TIME")
       ->excludes(within)
-      ->excludes(replicates);
+      ->excludes(replicates)
+      ->excludes(depth);
   command->callback(
       [options, &exit_code] { exit_code = options->promises() ? run_promise(*options) : run_table(*options); });
 }

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "design/accuracy_settings.hpp"
+#include "design/depth_error.hpp"
 #include "design/error_fit.hpp"
 #include "outflow/statistics.hpp"
 
@@ -28,10 +29,11 @@ struct AccuracyRow {
 };
 
 struct AccuracyResult {
-  std::vector<AccuracyRow> rows;  // of the settings that were to be run, in the order of the design
-  std::vector<AccuracyRun> runs;  // their setting: index in `rows`
-  std::size_t reference = 0;      // index of the finest setting whose step is not too long; it may have no rate
-  std::optional<ErrorFit> fit;    // none: too few runs
+  std::vector<AccuracyRow> rows;      // of the settings that were to be run, in the order of the design
+  std::vector<AccuracyRun> runs;      // their setting: index in `rows`
+  std::size_t reference = 0;          // index of the finest setting whose step is not too long; it may have no rate
+  std::optional<ErrorFit> fit;        // none: too few runs
+  std::optional<DepthError> depth{};  // where it was asked for
 };
 
 /// Runs a design so many rounds and fits it. A setting whose step is too long is not run. Throws InputError when no

@@ -139,23 +139,30 @@ ErrorRow row_of(const MainEffect& effect) {
 
 std::vector<ErrorRow> error_rows(const AccuracyResult& result) {
   std::vector<ErrorRow> rows;
-  if (!result.fit) return rows;
-  for (const MainEffect& effect : result.fit->effects()) rows.push_back(row_of(effect));
-  rows.push_back({"chance of one run", "", "", result.fit->scatter_percent()});
+  if (result.fit) {
+    for (const MainEffect& effect : result.fit->effects()) rows.push_back(row_of(effect));
+    rows.push_back({"chance of one run", "", "", result.fit->scatter_percent()});
+  }
+  if (result.depth) rows.push_back({"depth", "space", "plane", result.depth->error.percent, result.depth->error.band});
   return rows;
 }
 
 Columns<ErrorRow> error_columns() {
   using Row = const ErrorRow&;
-  return {text_column<ErrorRow>("source", "what was varied; chance: standard deviation of one run",
-                                [](Row r) { return r.source; }),
-          text_column<ErrorRow>("from", "finest level", [](Row r) { return r.from; }),
-          text_column<ErrorRow>("to", "coarsest level", [](Row r) { return r.to; }),
-          quantity_column<ErrorRow>("rate_change_percent", Unit{"%", 1},
-                                    "what that does to the rate, of the limit's, by the main effects of all runs",
-                                    [](Row r) { return r.percent; }),
-          quantity_column<ErrorRow>("rate_change_ci95", Unit{"%", 1}, "half width of its 95 % interval",
-                                    [](Row r) { return r.band; })};
+  return {
+      text_column<ErrorRow>("source",
+                            "what was varied; chance: standard deviation of one run; depth: a plane in the place of "
+                            "the tray, at the seeder's own setting",
+                            [](Row r) { return r.source; }),
+      text_column<ErrorRow>("from", "finest level", [](Row r) { return r.from; }),
+      text_column<ErrorRow>("to", "coarsest level", [](Row r) { return r.to; }),
+      quantity_column<ErrorRow>(
+          "rate_change_percent", Unit{"%", 1},
+          "what that does to the rate, of the limit's, by the main effects of all runs; of depth: "
+          "of the rate in space",
+          [](Row r) { return r.percent; }),
+      quantity_column<ErrorRow>("rate_change_ci95", Unit{"%", 1}, "half width of its 95 % interval",
+                                [](Row r) { return r.band; })};
 }
 
 bool timed(const AccuracyRow& row) {
@@ -231,15 +238,21 @@ std::string row_text(const AccuracyRow& row, bool reference) {
 
 /// For a terminal.
 std::string errors_text(const AccuracyResult& result) {
-  if (!result.fit) return "";
-  const MeanWithInterval& limit = result.fit->limit();
-  std::string text = wrapped(fmt::format(
-      "Errors by source, 95 %, of the limit of step 0 and rigid grains, {:.5g} +- {:.2g} g/s:", limit.mean / gram,
-      *limit.half_width_95 / gram));
+  std::string text;
+  if (result.fit) {
+    const MeanWithInterval& limit = result.fit->limit();
+    text += wrapped(fmt::format(
+        "Errors by source, 95 %, of the limit of step 0 and rigid grains, {:.5g} +- {:.2g} g/s:", limit.mean / gram,
+        *limit.half_width_95 / gram));
+  }
   for (const ErrorRow& row : error_rows(result))
     text += fmt::format("  {:<21} {:>15} {} {:<15} {}\n", row.source, row.from, row.to.empty() ? "  " : "to", row.to,
                         row.band ? error_text(row.percent, row.band) : fmt::format("{:.2f} %", row.percent));
-  if (!result.fit->fits())
+  if (result.depth)
+    text += wrapped(fmt::format("The tray sows {:.5g} +- {:.2g} g/s as a plane, {:.5g} +- {:.2g} g/s in space.",
+                                result.depth->plane.mean / gram, *result.depth->plane.half_width_95 / gram,
+                                result.depth->space.mean / gram, *result.depth->space.half_width_95 / gram));
+  if (result.fit && !result.fit->fits())
     text += wrapped(fmt::format(
         "These main effects do not account for the runs (so large a lack of fit has probability {:.2g}): parts of a "
         "setting act on each other, and the limit is not shown to have been reached. The bands allow for it.",

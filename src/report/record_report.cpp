@@ -67,7 +67,7 @@ Columns<GrainRow> grains_columns(Space space) {
       text_column<GrainRow>("lot", "name of its seeds", [](R r) { return lot_name(*r.scene, r.own->lot[r.i]); }),
       place("x_mm", "place from the tray's left end", &Snapshot::x),
       place("y_mm", "height over the tray's floor", &Snapshot::y),
-      quantity("vx_m_per_s", metres_per_second, "velocity along the floor", &Snapshot::vx),
+      quantity("vx_m_per_s", metres_per_second, "velocity along the floor, against the tray", &Snapshot::vx),
       quantity("vy_m_per_s", metres_per_second, "velocity upwards", &Snapshot::vy),
       quantity("omega_rad_per_s", radians_per_second, "angular velocity, anticlockwise", &Snapshot::omega),
       quantity_column<GrainRow>("angle_rad", radians,

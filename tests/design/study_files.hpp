@@ -46,6 +46,7 @@ measure_from = "2 s"
     std::ofstream(path) << content;
     return path;
   }
+  std::filesystem::path seeder() const { return directory_ / "seeder.toml"; }
   std::filesystem::path study(const std::string& content) const {
     return write("study.toml", "base = \"seeder.toml\"\n" + content);
   }

@@ -1,0 +1,64 @@
+#include "design/depth_error.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <stdexcept>
+
+#include "input/read_scene.hpp"
+#include "scene/input_error.hpp"
+#include "study_files.hpp"
+
+namespace vibrosow {
+namespace {
+
+SweepOptions one_job() {
+  SweepOptions options;
+  options.runs.jobs = 1;
+  return options;
+}
+
+/// In space twelve times what the plane's slice sows; the tray has fifteen slices.
+Run slow_in_space(const Model& model, const SimulationOptions& options) {
+  Run run = quick_run(model, options);
+  if (model.scene.space == Space::plane) return run;
+  const std::vector<OutflowEvent> once = run.events;
+  for (int times = 1; times < 12; ++times) run.events.insert(run.events.end(), once.begin(), once.end());
+  std::ranges::stable_sort(run.events, {}, &OutflowEvent::time);
+  return run;
+}
+
+TEST(DepthError, IsThePlanesTrayAgainstTheTrayInSpace) {
+  const StudyFiles files;
+  const Scene scene = read_scene(files.seeder());
+  const auto found = measure_depth_error(scene, 3, slow_in_space, one_job());
+  ASSERT_TRUE(found);
+  // 63, 66 and 69 seeds of 40 mg in 2 s, by random seed; Student's t of two degrees of freedom is 4.3027.
+  const double slice = 33 * 40e-6, relative = 4.3027 * 3 / std::sqrt(3.0) / 66;
+  EXPECT_NEAR(found->plane.mean, 15 * slice, 1e-9);
+  EXPECT_NEAR(found->space.mean, 12 * slice, 1e-9);
+  EXPECT_NEAR(found->error.percent, 25, 1e-9);
+  EXPECT_NEAR(found->error.band, 125 * std::sqrt(2.0) * relative, 1e-3);
+}
+
+TEST(DepthError, NoneOfRunsOutsideTheModel) {
+  const StudyFiles files;
+  const Scene scene = read_scene(files.seeder());
+  const Simulator outside = [](const Model& model, const SimulationOptions& options) {
+    vibrosow::Run run = slow_in_space(model, options);
+    run.outside_the_model = model.scene.space == Space::three_dimensional;
+    return run;
+  };
+  EXPECT_FALSE(measure_depth_error(scene, 2, outside, one_job()));
+}
+
+TEST(DepthError, NeedsADepthAndTwoRuns) {
+  const StudyFiles files;
+  Scene scene = read_scene(files.seeder());
+  EXPECT_THROW(measure_depth_error(scene, 1, slow_in_space, one_job()), std::invalid_argument);
+  scene.tray.depth.reset();
+  EXPECT_THROW(measure_depth_error(scene, 2, slow_in_space, one_job()), InputError);
+}
+
+}  // namespace
+}  // namespace vibrosow
