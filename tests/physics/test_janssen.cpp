@@ -8,6 +8,7 @@
 #include <cmath>
 #include <map>
 #include <numbers>
+#include <stdexcept>
 
 #include "input/read_scene.hpp"
 #include "plan/step_plan.hpp"
@@ -92,7 +93,7 @@ std::vector<Column> measured_columns(const Silo& silo, int widths) {
     for (int look = 0; look < looks; ++look) {
       const double at = silo.from + (silo.to - silo.from) * (look + 0.5) / looks;
       while (run.time() < at)
-        if (!run.step()) ADD_FAILURE() << *run.guard().stop_reason();
+        if (!run.step()) throw std::runtime_error(*run.guard().stop_reason());
       add_look(run, column);
     }
     columns.push_back(column);

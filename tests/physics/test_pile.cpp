@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <stdexcept>
 
 #include "input/read_scene.hpp"
 #include "plan/step_plan.hpp"
@@ -58,7 +59,7 @@ Grains after(const Scene& scene, Grains grains, double duration) {
   const Model model = prepare(scene);
   Simulation run(model, starting_state(model, 1, std::move(grains)));
   while (run.time() < duration)
-    if (!run.step()) ADD_FAILURE() << *run.guard().stop_reason();
+    if (!run.step()) throw std::runtime_error(*run.guard().stop_reason());
   return run.grains();
 }
 

@@ -60,7 +60,8 @@ Changes throw_at(const Setting& setting, const Target& target, int throws) {
     target.aim(bench, static_cast<double>(k) / throws);
     Simulation& run = bench.start(contact_time(setting, bench, target.speed) / 20);
     const double before = total_energy(run, bench.gravity);
-    while (run.statistics().contacts == 0 && run.time() < 1) run.step();
+    while (run.statistics().contacts == 0 && run.time() < 1 && run.step()) {
+    }
     EXPECT_GT(run.statistics().contacts, 0);
     for (std::int64_t seen = -1; seen != run.statistics().contacts;) {
       seen = run.statistics().contacts;
