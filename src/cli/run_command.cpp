@@ -27,6 +27,7 @@
 #include "scene/input_error.hpp"
 #include "simulation/checkpoint.hpp"
 #include "simulation/simulate.hpp"
+#include "storage/atomic_file.hpp"
 #include "units/quantity.hpp"
 
 namespace vibrosow {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <filesystem>
 #include <memory>
 #include <numeric>
 
@@ -11,11 +12,13 @@
 #include "cli/interrupt.hpp"
 #include "cli/progress.hpp"
 #include "cli/threads.hpp"
+#include "design/kept_runs.hpp"
 #include "design/sweep.hpp"
 #include "input/input_file.hpp"
 #include "input/key_units.hpp"
 #include "report/sweep_report.hpp"
 #include "report/terminal_text.hpp"
+#include "scene/input_error.hpp"
 #include "simulation/simulate.hpp"
 
 namespace vibrosow {
@@ -137,11 +140,33 @@ int exit_code_of(const StudyResult& result, bool interrupted) {
   return exit_wrong_input;
 }
 
-int run_sweep(const CommonOptions& options) {
+struct SweepCommandOptions {
+  CommonOptions common;
+  std::vector<std::string> reuse;  // folders of other sweeps
+};
+
+/// Where a sweep keeps its runs.
+std::filesystem::path cases_of(const std::filesystem::path& folder) {
+  return folder / "cases";
+}
+
+KeptRuns kept_runs(const OutputFolder& folder, const std::vector<std::string>& reuse) {
+  std::vector<std::filesystem::path> others;
+  for (const std::string& other : reuse) {
+    others.push_back(cases_of(other));
+    if (!std::filesystem::is_directory(others.back()))
+      throw InputError(fmt::format("--reuse: {} holds no runs of a sweep", other));
+  }
+  return {cases_of(folder.path()), others};
+}
+
+int run_sweep(const SweepCommandOptions& sweep_command) {
+  const CommonOptions& options = sweep_command.common;
   const InputFile file = input_file(options.file, FileKind::study);
   const Study study = read_study(file.path, options.overrides(), file.files);
   print_warnings(study_warnings(study));
   const OutputFolder folder = options.output_folder("sweep", sweep_file_texts());
+  KeptRuns kept = kept_runs(folder, sweep_command.reuse);
   const int jobs = threads_to_be_had(options.jobs);
   const std::atomic<bool>& interrupt = watch_for_interrupt();
   StudyResult result;
@@ -153,23 +178,28 @@ int run_sweep(const CommonOptions& options) {
     sweep_options.runs.jobs = jobs;
     sweep_options.runs.interrupt = &interrupt;
     sweep_options.runs.progress = [&](const ManyRunsProgress& done) { progress.update(done.fraction_done); };
-    result = sweep(study, run_model, sweep_options);
+    result = sweep(study, kept.around(run_model), sweep_options);
     wall_time = progress.seconds();
   }
   write_then_print(
       options.quiet, [&] { folder.write(sweep_files(result, wall_time, jobs, options.csv)); },
       [&] { print_table(result); });
+  if (!options.quiet && kept.taken() > 0) print("{} of the runs were there from before\n", kept.taken());
   if (!options.quiet) print("reports: {}\n", folder.path().string());
+  if (!kept.not_kept().empty()) complain("warning: runs are not kept: " + kept.not_kept());
   return exit_code_of(result, interrupt);
 }
 
 }  // namespace
 
 void add_sweep_command(CLI::App& app, int& exit_code) {
-  auto options = std::make_shared<CommonOptions>();
+  auto options = std::make_shared<SweepCommandOptions>();
   CLI::App* command =
       app.add_subcommand("sweep", "simulate every layout of a study, against measured outflow where it names some");
-  add_common_options(*command, *options, "study file (.toml)");
+  add_common_options(*command, options->common, "study file (.toml)");
+  command->add_option("--reuse", options->reuse, "folders of other sweeps: runs that are there are not made again")
+      ->delimiter(',')
+      ->type_name("FOLDER");
   command->callback([options, &exit_code] { exit_code = run_sweep(*options); });
 }
 

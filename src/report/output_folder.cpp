@@ -20,6 +20,7 @@
 #include <nlohmann/json.hpp>
 
 #include "scene/input_error.hpp"
+#include "storage/atomic_file.hpp"
 
 namespace vibrosow {
 namespace {
@@ -29,44 +30,8 @@ using Names = std::set<std::string>;
 
 constexpr const char* list_name = "files.json";
 
-[[noreturn]] void fail(const fs::path& path, const std::string& reason) {
-  throw InputError(fmt::format("{}: cannot be written: {}", path.string(), reason));
-}
-
 [[noreturn]] void refuse(const fs::path& path, const std::string& reason) {
   throw InputError(fmt::format("{} {}; choose another --out, or remove it", path.string(), reason));
-}
-
-/// 0, or the errno of what failed. A full disk may show only at fsync.
-int write_all(int descriptor, std::string_view content) {
-  while (!content.empty()) {
-    const ssize_t written = write(descriptor, content.data(), content.size());
-    if (written < 0 && errno == EINTR) continue;
-    if (written < 0) return errno;
-    content.remove_prefix(static_cast<std::size_t>(written));
-  }
-  return fsync(descriptor) == 0 ? 0 : errno;
-}
-
-/// A new file with this content on the disk. Errors name `as`, the path that the file will have.
-void write_new_file(const fs::path& path, std::string_view content, const fs::path& as) {
-  const int descriptor = open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
-  if (descriptor < 0) fail(as, std::strerror(errno));
-  const int error = write_all(descriptor, content);
-  const int close_error = close(descriptor) == 0 ? 0 : errno;
-  if (error || close_error) fail(as, std::strerror(error ? error : close_error));
-}
-
-/// Brings what a directory lists down to the disk. Some file systems know no such thing: then nothing is to be done.
-void sync_directory(const fs::path& directory) {
-  const int descriptor = open(directory.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-  if (descriptor < 0) return;
-  fsync(descriptor);
-  close(descriptor);
-}
-
-void move_file(const fs::path& from, const fs::path& to) {
-  if (rename(from.c_str(), to.c_str()) != 0) fail(to, std::strerror(errno));
 }
 
 /// A directory that is removed again with all that is in it.
@@ -75,7 +40,7 @@ class TemporaryDirectory {
   explicit TemporaryDirectory(fs::path path) : path_(std::move(path)) {
     std::error_code error;
     fs::remove_all(path_, error);  // of a process that had this number
-    if (mkdir(path_.c_str(), 0777) != 0) fail(path_, std::strerror(errno));
+    if (mkdir(path_.c_str(), 0777) != 0) cannot_write(path_, std::strerror(errno));
   }
   TemporaryDirectory(const TemporaryDirectory&) = delete;
   TemporaryDirectory& operator=(const TemporaryDirectory&) = delete;
@@ -192,7 +157,7 @@ OutputFolder::OutputFolder(fs::path folder, std::string command, const std::vect
 void OutputFolder::write(const std::vector<OutputFile>& files) const {
   std::error_code error;
   fs::create_directories(folder_, error);
-  if (error) fail(folder_, error.message());
+  if (error) cannot_write(folder_, error.message());
   std::vector<std::string> names;
   for (const OutputFile& file : files) names.push_back(file.name);
   const FileList former = former_set(folder_, command_, names);
@@ -205,19 +170,6 @@ void OutputFolder::write(const std::vector<OutputFile>& files) const {
   sync_directory(fresh.path());
   if (!holds_only(folder, former) || !exchange(fresh.path(), folder))
     move_in_one_by_one(fresh.path(), folder, former, list);
-}
-
-void write_file_atomically(const fs::path& path, const std::string& content) {
-  const fs::path directory = path.has_parent_path() ? path.parent_path() : fs::path(".");
-  const fs::path temporary = directory / fmt::format(".{}.{}", path.filename().string(), getpid());
-  try {
-    write_new_file(temporary, content, path);
-    move_file(temporary, path);
-  } catch (const InputError&) {
-    unlink(temporary.c_str());
-    throw;
-  }
-  sync_directory(directory);
 }
 
 }  // namespace vibrosow

@@ -38,8 +38,4 @@ class OutputFolder {
   std::string command_;
 };
 
-/// Writes one file: under a temporary name, down to the disk, then renamed. Throws InputError "PATH: cannot be written:
-/// REASON"; then a file that was there is as it was.
-void write_file_atomically(const std::filesystem::path& path, const std::string& content);
-
 }  // namespace vibrosow

@@ -293,7 +293,7 @@ JsonKeys<SweepTiming> timing_keys() {
   using T = const SweepTiming&;
   return {{"wall_s", "s", "wall time of the sweep", [](T t) { return t.wall_time; }},
           {"jobs", "", "runs side by side", [](T t) { return t.jobs; }},
-          {"runs", "", "runs that were begun", [](T t) { return t.runs; }},
+          {"runs", "", "runs that were begun; not those kept from before", [](T t) { return t.runs; }},
           {"run_wall_s", "s", "wall times of the runs, summed", [](T t) { return t.run_time; }},
           {"grain_steps", "", "grains times steps, summed", [](T t) { return t.grain_steps; }},
           {"grain_steps_per_s", "1/s", "these in a second of the sweep's wall time",
@@ -350,7 +350,7 @@ std::string sweep_timing_json(const StudyResult& result, double wall_time, int j
   SweepTiming timing{wall_time, jobs};
   for (const auto& replicates : result.runs)
     for (const Evaluation& run : replicates) {
-      if (!run.was_run()) continue;
+      if (!run.was_run() || !(run.wall_time > 0)) continue;  // one kept from before has taken no time
       ++timing.runs;
       timing.grain_steps += static_cast<double>(run.grain_steps);
       timing.run_time += run.wall_time;

@@ -3,53 +3,18 @@
 #include <fmt/format.h>
 
 #include <boost/crc.hpp>
-#include <cereal/archives/portable_binary.hpp>
 #include <cereal/types/array.hpp>
 #include <cereal/types/optional.hpp>
-#include <cereal/types/string.hpp>
 #include <cereal/types/variant.hpp>
-#include <cereal/types/vector.hpp>
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "result/archive.hpp"
 #include "scene/input_error.hpp"
 #include "scene/scene_json.hpp"
 
-namespace vibrosow {
-/// What a checkpoint's fields are read from.
-struct BodyArchive : cereal::PortableBinaryInputArchive {
-  explicit BodyArchive(std::istringstream& in) : PortableBinaryInputArchive(in), stream(in) {}
-  std::istringstream& stream;
-};
-}  // namespace vibrosow
-
 // cereal finds these by the types' namespaces. Each lists every field of its type: what is missing here is lost.
 namespace cereal {
-
-/// How many elements follow; never more than there are bytes left, so that a damaged size asks for no memory.
-inline std::size_t load_size(PortableBinaryInputArchive& archive, std::size_t bytes_of_one) {
-  size_type size = 0;
-  archive(make_size_tag(size));
-  const std::streamsize left = static_cast<vibrosow::BodyArchive&>(archive).stream.rdbuf()->in_avail();
-  if (left < 0 || size > static_cast<size_type>(left) / bytes_of_one) throw Exception("a size beyond the end");
-  return static_cast<std::size_t>(size);
-}
-
-// In the place of cereal's own, which believe any size.
-template <class T>
-std::enable_if_t<std::is_arithmetic_v<T>> load(PortableBinaryInputArchive& archive, std::vector<T>& values) {
-  values.resize(load_size(archive, sizeof(T)));
-  archive(binary_data(values.data(), values.size() * sizeof(T)));
-}
-template <class T>
-std::enable_if_t<!std::is_arithmetic_v<T>> load(PortableBinaryInputArchive& archive, std::vector<T>& values) {
-  values.resize(load_size(archive, 1));
-  for (T& value : values) archive(value);
-}
-inline void load(PortableBinaryInputArchive& archive, std::string& text) {
-  text.resize(load_size(archive, 1));
-  archive(binary_data(text.data(), text.size()));
-}
 
 template <class Archive>
 void serialize(Archive& archive, Eigen::Vector2d& v) {
@@ -165,24 +130,6 @@ template <class Archive>
 void serialize(Archive& archive, RecorderState& s) {
   archive(s.taken, s.start);
 }
-template <class Archive>
-void serialize(Archive& archive, OutflowEvent& e) {
-  archive(e.time, e.hole, e.lot, e.grain, e.mass, e.x, e.speed, e.z);
-}
-template <class Archive>
-void serialize(Archive& archive, Snapshot& s) {
-  archive(s.time, s.tray_x, s.tray_y, s.tray_angle, s.tray_vx, s.tray_vy, s.tray_spin, s.x, s.y, s.vx, s.vy, s.omega,
-          s.angle, s.lot, s.id, s.radius, s.mass, s.area, s.start_x, s.start_y);
-  archive(s.tray_z, s.tray_vz, s.z, s.vz, s.omega_x, s.omega_y, s.q_w, s.q_x, s.q_y, s.q_z, s.start_z, s.volume);
-}
-template <class Archive>
-void serialize(Archive& archive, EnergyAccount& e) {
-  archive(e.kinetic, e.potential, e.elastic, e.wall_work, e.inserted, e.removed, e.made_by_numerics);
-}
-template <class Archive>
-void serialize(Archive& archive, Balance& b) {
-  archive(b.put_in, b.inside, b.counted, b.spilled, b.lost);
-}
 /// What a running simulation has put into its Run; the rest is filled in by `Simulation::result`.
 template <class Archive>
 void serialize(Archive& archive, Run& r) {
@@ -254,7 +201,7 @@ SimulationState restore(const Model& model, std::string_view bytes) {
       refuse(fmt::format("it is of version {}, and this program reads {}", header.version, version));
     const auto body_at = static_cast<std::size_t>(in.tellg());
     if (checksum(bytes.substr(signature.size() + body_at)) != header.checksum) refuse("it is damaged");
-    BodyArchive archive(in);
+    InputArchive archive(in);
     std::string scene;
     double dt = 0;
     archive(scene, dt);
@@ -266,6 +213,8 @@ SimulationState restore(const Model& model, std::string_view bytes) {
     return state;
   } catch (const cereal::Exception&) {
     refuse("it ends too early");
+  } catch (const nlohmann::json::exception&) {  // of the scene
+    refuse("it is damaged");
   }
 }
 

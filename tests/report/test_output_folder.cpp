@@ -14,6 +14,7 @@
 #include <set>
 
 #include "scene/input_error.hpp"
+#include "storage/atomic_file.hpp"
 
 namespace vibrosow {
 namespace {

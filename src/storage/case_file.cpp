@@ -1,0 +1,115 @@
+#include "storage/case_file.hpp"
+
+#include <fmt/format.h>
+#include <xxhash.h>
+#include <zstd.h>
+
+#include <cereal/types/string.hpp>
+#include <memory>
+#include <sstream>
+
+#include "result/archive.hpp"
+#include "result/results_version.hpp"
+#include "scene/input_error.hpp"
+#include "scene/scene_json.hpp"
+
+namespace vibrosow {
+
+template <class Archive>
+void serialize(Archive& archive, LetPass& l) {
+  archive(l.deep_steps, l.strides, l.energy_accounts);
+}
+/// A run but for its times. (A checkpoint has another form of a Run, so this one has a type of its own.)
+struct WholeRun {
+  Run& run;
+};
+template <class Archive>
+void serialize(Archive& archive, WholeRun& whole) {
+  Run& r = whole.run;
+  archive(r.status, r.stop_reason, r.end_reason, r.warnings, r.outside_the_model, r.random_seed, r.dt, r.steps,
+          r.end_time, r.grain_steps, r.force_evaluations, r.slip_speed_raised, r.let_pass, r.max_relative_overlap,
+          r.tray_empty_since, r.energy, r.balance, r.events, r.snapshots);
+}
+
+namespace {
+
+/// Then come the hash of what follows it and a line's end.
+constexpr std::string_view signature = "vibrosow case 1 ";
+constexpr std::size_t hash_digits = 16;
+constexpr int compression_level = 3;
+constexpr unsigned long long most_bytes = 1ull << 34;  // of an uncompressed case
+
+[[noreturn]] void refuse(const std::string& reason) {
+  throw InputError("the case does not fit: " + reason);
+}
+
+using Compressor = std::unique_ptr<ZSTD_CCtx, decltype(&ZSTD_freeCCtx)>;
+
+std::string compressed(const std::string& text) {
+  const Compressor compressor(ZSTD_createCCtx(), &ZSTD_freeCCtx);
+  ZSTD_CCtx_setParameter(compressor.get(), ZSTD_c_compressionLevel, compression_level);
+  std::string bytes(ZSTD_compressBound(text.size()), '\0');
+  const std::size_t size = ZSTD_compress2(compressor.get(), bytes.data(), bytes.size(), text.data(), text.size());
+  if (ZSTD_isError(size)) throw InputError(fmt::format("a run cannot be compressed: {}", ZSTD_getErrorName(size)));
+  bytes.resize(size);
+  return bytes;
+}
+
+std::string hash_line(std::string_view bytes) {
+  return fmt::format("{:0{}x}\n", XXH3_64bits(bytes.data(), bytes.size()), hash_digits);
+}
+
+std::string decompressed(std::string_view bytes) {
+  const unsigned long long size = ZSTD_getFrameContentSize(bytes.data(), bytes.size());
+  if (size == ZSTD_CONTENTSIZE_UNKNOWN || size == ZSTD_CONTENTSIZE_ERROR || size > most_bytes) refuse("it is damaged");
+  std::string text(size, '\0');
+  const std::size_t found = ZSTD_decompress(text.data(), text.size(), bytes.data(), bytes.size());
+  if (ZSTD_isError(found) || found != size) refuse("it is damaged");
+  return text;
+}
+
+}  // namespace
+
+std::string case_identity(const Scene& scene, std::uint64_t random_seed) {
+  return fmt::format(R"({{"results_version":{},"random_seed":{},"scene":{}}})", results_version, random_seed,
+                     scene_to_json(scene));
+}
+
+std::string case_name(std::string_view identity) {
+  const XXH128_hash_t hash = XXH3_128bits(identity.data(), identity.size());
+  return fmt::format("{:016x}{:016x}", hash.high64, hash.low64);
+}
+
+std::string case_bytes(std::string_view identity, const Run& run) {
+  std::ostringstream text;
+  {
+    cereal::PortableBinaryOutputArchive archive(text);
+    Run copy = run;
+    WholeRun whole{copy};
+    archive(std::string(identity), whole);
+  }
+  const std::string content = compressed(text.str());
+  return std::string(signature) + hash_line(content) + content;
+}
+
+Run case_run(std::string_view bytes, std::string_view identity) {
+  if (!bytes.starts_with(signature)) refuse("it is no case of Vibrosow");
+  bytes.remove_prefix(signature.size());
+  const std::string_view line = bytes.substr(0, hash_digits + 1), content = bytes.substr(line.size());
+  if (line != hash_line(content)) refuse("it is damaged");
+  std::istringstream text(decompressed(content));
+  try {
+    InputArchive archive(text);
+    std::string of;
+    archive(of);
+    if (of != identity) refuse("it is of another scene, random seed or version of the results");
+    Run run;
+    WholeRun whole{run};
+    archive(whole);
+    return run;
+  } catch (const cereal::Exception&) {
+    refuse("it ends too early");
+  }
+}
+
+}  // namespace vibrosow

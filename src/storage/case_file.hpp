@@ -1,0 +1,25 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+#include "result/run.hpp"
+#include "scene/scene.hpp"
+
+namespace vibrosow {
+
+/// What a run is of, as one line of JSON: the version of the results, the random seed and the canonical scene.
+std::string case_identity(const Scene& scene, std::uint64_t random_seed);
+
+/// The name of its file: 32 hexadecimal digits, the 128-bit XXH3 of the identity.
+std::string case_name(std::string_view identity);
+
+/// A run with its identity as bytes, compressed and with a checksum. Holds nothing of clocks and hosts.
+std::string case_bytes(std::string_view identity, const Run& run);
+
+/// The run of such bytes; its times are 0. Throws InputError with the reason where they are no case, are damaged, or
+/// are of another identity.
+Run case_run(std::string_view bytes, std::string_view identity);
+
+}  // namespace vibrosow
