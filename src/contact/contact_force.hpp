@@ -68,7 +68,7 @@ struct NormalForce {
   double repulsion;  // N
 };
 template <class Law, class Effects>
-inline NormalForce normal_force(double overlap, double approach, const PairConstants& pair) {
+[[gnu::always_inline]] inline NormalForce normal_force(double overlap, double approach, const PairConstants& pair) {
   const double secant = Law::secant(pair.stiffness, overlap);
   double repulsion = secant * overlap, dashpot = 0;
   if constexpr (Effects::damping) {

@@ -90,7 +90,7 @@ struct SpaceSliding {
   Vector3 force;
   double raised;
 };
-inline SpaceSliding sliding_friction(double limit, const Vector3& speed, double inverse_slip_speed, double steepest) {
+[[gnu::always_inline]] inline SpaceSliding sliding_friction(double limit, const Vector3& speed, double inverse_slip_speed, double steepest) {
   const double size = length(speed);
   // The plane's limit min(1, |W| / v_s) over |W|.
   const double usual = limit * std::min(inverse_slip_speed, 1 / std::max(size, 1e-300));
@@ -99,7 +99,7 @@ inline SpaceSliding sliding_friction(double limit, const Vector3& speed, double 
 }
 
 /// As in the plane; at slip the displacement is shortened without changing its direction.
-inline Vector3 spring_friction(double stiffness, double dashpot, double limit, const Vector3& speed,
+[[gnu::always_inline]] inline Vector3 spring_friction(double stiffness, double dashpot, double limit, const Vector3& speed,
                                Vector3& displacement) {
   const Vector3 elastic = stiffness * displacement;
   const auto within = [limit](const Vector3& force) {
@@ -118,7 +118,7 @@ inline double either(double a, double b) {
 }
 
 /// Torque (N m) of model C against twisting, with an arm of its own; moves the history on.
-inline double twisting_torque(const SpaceTouch& touch, const PairConstants& pair, const SurfaceParameters& surface,
+[[gnu::always_inline]] inline double twisting_torque(const SpaceTouch& touch, const PairConstants& pair, const SurfaceParameters& surface,
                               const NormalForce& normal, const HistoryAdvance& advance, SpaceHistory& history) {
   const double arm = surface.twisting_friction * pair.rolling_radius;
   const double stiffness = 2.25 * normal.secant * arm * arm;
@@ -133,7 +133,7 @@ inline double twisting_torque(const SpaceTouch& touch, const PairConstants& pair
 /// Force of one contact in space, of the same laws as in the plane. `history` goes in as it was stored and comes out as
 /// it is to be stored.
 template <class Law, class Effects>
-inline SpaceContactForce space_contact_force(const SpaceTouch& touch, const PairConstants& pair,
+[[gnu::always_inline]] inline SpaceContactForce space_contact_force(const SpaceTouch& touch, const PairConstants& pair,
                                              const SurfaceParameters& surface, const HistoryAdvance& advance,
                                              SpaceHistory& history) {
   const NormalForce normal = normal_force<Law, Effects>(touch.overlap, touch.approach, pair);
