@@ -62,6 +62,10 @@ void add_common_options(CLI::App& command, CommonOptions& options, const std::st
       ->check(CLI::Range(1, 4096))
       ->capture_default_str();
   command.add_flag("--quiet", options.quiet, "no progress and no table");
+  add_csv_option(command, options);
+}
+
+void add_csv_option(CLI::App& command, CommonOptions& options) {
   command
       .add_option_function<std::string>(
           "--csv",

@@ -31,6 +31,9 @@ struct CommonOptions {
 /// Adds the file and --set.
 void add_input_options(CLI::App& command, CommonOptions& options, const std::string& file_help);
 
+/// Adds --csv.
+void add_csv_option(CLI::App& command, CommonOptions& options);
+
 /// Adds --out, --random-seed, --jobs and --quiet too.
 void add_common_options(CLI::App& command, CommonOptions& options, const std::string& file_help);
 

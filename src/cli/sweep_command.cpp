@@ -20,6 +20,8 @@
 #include "report/terminal_text.hpp"
 #include "scene/input_error.hpp"
 #include "simulation/simulate.hpp"
+#include "storage/case_file.hpp"
+#include "storage/sweep_plan.hpp"
 
 namespace vibrosow {
 namespace {
@@ -145,11 +147,6 @@ struct SweepCommandOptions {
   std::vector<std::string> reuse;  // folders of other sweeps
 };
 
-/// Where a sweep keeps its runs.
-std::filesystem::path cases_of(const std::filesystem::path& folder) {
-  return folder / "cases";
-}
-
 KeptRuns kept_runs(const OutputFolder& folder, const std::vector<std::string>& reuse) {
   std::vector<std::filesystem::path> others;
   for (const std::string& other : reuse) {
@@ -160,12 +157,30 @@ KeptRuns kept_runs(const OutputFolder& folder, const std::vector<std::string>& r
   return {cases_of(folder.path()), others};
 }
 
-int run_sweep(const SweepCommandOptions& sweep_command) {
+SweepPlan plan_of(const CommonOptions& options, const InputFile& file, const Study& study) {
+  SweepPlan plan{std::filesystem::absolute(file.path).string(), options.sets, options.random_seed, {}};
+  for (const Scene& scene : study.scenes)
+    for (int i = 0; i < study.replicates; ++i)
+      plan.runs.push_back(case_name(case_identity(scene, options.random_seed + static_cast<std::uint64_t>(i))));
+  return plan;
+}
+
+/// In the place of the simulator: makes no run.
+Run no_run(const Model&, const SimulationOptions& options) {
+  Run run;
+  run.status = RunStatus::interrupted;
+  run.random_seed = options.random_seed;
+  return run;
+}
+
+/// Makes the reports of a study; runs that are not kept come from `simulator`.
+int run_sweep(const SweepCommandOptions& sweep_command, const Simulator& simulator) {
   const CommonOptions& options = sweep_command.common;
   const InputFile file = input_file(options.file, FileKind::study);
   const Study study = read_study(file.path, options.overrides(), file.files);
   print_warnings(study_warnings(study));
   const OutputFolder folder = options.output_folder("sweep", sweep_file_texts());
+  write_plan(folder.path(), plan_of(options, file, study));
   KeptRuns kept = kept_runs(folder, sweep_command.reuse);
   const int jobs = threads_to_be_had(options.jobs);
   const std::atomic<bool>& interrupt = watch_for_interrupt();
@@ -178,7 +193,7 @@ int run_sweep(const SweepCommandOptions& sweep_command) {
     sweep_options.runs.jobs = jobs;
     sweep_options.runs.interrupt = &interrupt;
     sweep_options.runs.progress = [&](const ManyRunsProgress& done) { progress.update(done.fraction_done); };
-    result = sweep(study, kept.around(run_model), sweep_options);
+    result = sweep(study, kept.around(simulator), sweep_options);
     wall_time = progress.seconds();
   }
   write_then_print(
@@ -200,7 +215,21 @@ void add_sweep_command(CLI::App& app, int& exit_code) {
   command->add_option("--reuse", options->reuse, "folders of other sweeps: runs that are there are not made again")
       ->delimiter(',')
       ->type_name("FOLDER");
-  command->callback([options, &exit_code] { exit_code = run_sweep(*options); });
+  command->callback([options, &exit_code] { exit_code = run_sweep(*options, run_model); });
+}
+
+void add_export_command(CLI::App& app, int& exit_code) {
+  auto options = std::make_shared<SweepCommandOptions>();
+  CLI::App* command =
+      app.add_subcommand("export", "make a sweep's reports of the runs that are kept, simulating nothing");
+  command->add_option("FOLDER", options->common.out, "of the sweep")->required();
+  add_csv_option(*command, options->common);
+  command->callback([options, &exit_code] {
+    CommonOptions& common = options->common;
+    const SweepPlan plan = read_plan(common.out);
+    common.file = plan.study, common.sets = plan.sets, common.random_seed = plan.random_seed;
+    exit_code = run_sweep(*options, no_run);
+  });
 }
 
 }  // namespace vibrosow

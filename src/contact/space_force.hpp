@@ -90,7 +90,8 @@ struct SpaceSliding {
   Vector3 force;
   double raised;
 };
-[[gnu::always_inline]] inline SpaceSliding sliding_friction(double limit, const Vector3& speed, double inverse_slip_speed, double steepest) {
+[[gnu::always_inline]] inline SpaceSliding sliding_friction(double limit, const Vector3& speed,
+                                                            double inverse_slip_speed, double steepest) {
   const double size = length(speed);
   // The plane's limit min(1, |W| / v_s) over |W|.
   const double usual = limit * std::min(inverse_slip_speed, 1 / std::max(size, 1e-300));
@@ -99,8 +100,8 @@ struct SpaceSliding {
 }
 
 /// As in the plane; at slip the displacement is shortened without changing its direction.
-[[gnu::always_inline]] inline Vector3 spring_friction(double stiffness, double dashpot, double limit, const Vector3& speed,
-                               Vector3& displacement) {
+[[gnu::always_inline]] inline Vector3 spring_friction(double stiffness, double dashpot, double limit,
+                                                      const Vector3& speed, Vector3& displacement) {
   const Vector3 elastic = stiffness * displacement;
   const auto within = [limit](const Vector3& force) {
     const double size = length(force);
@@ -118,8 +119,9 @@ inline double either(double a, double b) {
 }
 
 /// Torque (N m) of model C against twisting, with an arm of its own; moves the history on.
-[[gnu::always_inline]] inline double twisting_torque(const SpaceTouch& touch, const PairConstants& pair, const SurfaceParameters& surface,
-                              const NormalForce& normal, const HistoryAdvance& advance, SpaceHistory& history) {
+[[gnu::always_inline]] inline double twisting_torque(const SpaceTouch& touch, const PairConstants& pair,
+                                                     const SurfaceParameters& surface, const NormalForce& normal,
+                                                     const HistoryAdvance& advance, SpaceHistory& history) {
   const double arm = surface.twisting_friction * pair.rolling_radius;
   const double stiffness = 2.25 * normal.secant * arm * arm;
   const double critical = 2 * std::sqrt(pair.twisting_inertia * stiffness);
@@ -134,8 +136,9 @@ inline double either(double a, double b) {
 /// it is to be stored.
 template <class Law, class Effects>
 [[gnu::always_inline]] inline SpaceContactForce space_contact_force(const SpaceTouch& touch, const PairConstants& pair,
-                                             const SurfaceParameters& surface, const HistoryAdvance& advance,
-                                             SpaceHistory& history) {
+                                                                    const SurfaceParameters& surface,
+                                                                    const HistoryAdvance& advance,
+                                                                    SpaceHistory& history) {
   const NormalForce normal = normal_force<Law, Effects>(touch.overlap, touch.approach, pair);
   SpaceContactForce force{normal.repulsion, {}, {}, 0};
   if constexpr (Effects::cohesion) force.normal -= surface.cohesion;

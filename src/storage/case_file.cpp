@@ -92,7 +92,7 @@ std::string case_bytes(std::string_view identity, const Run& run) {
   return std::string(signature) + hash_line(content) + content;
 }
 
-Run case_run(std::string_view bytes, std::string_view identity) {
+Case read_case(std::string_view bytes) {
   if (!bytes.starts_with(signature)) refuse("it is no case of Vibrosow");
   bytes.remove_prefix(signature.size());
   const std::string_view line = bytes.substr(0, hash_digits + 1), content = bytes.substr(line.size());
@@ -100,13 +100,10 @@ Run case_run(std::string_view bytes, std::string_view identity) {
   std::istringstream text(decompressed(content));
   try {
     InputArchive archive(text);
-    std::string of;
-    archive(of);
-    if (of != identity) refuse("it is of another scene, random seed or version of the results");
-    Run run;
-    WholeRun whole{run};
-    archive(whole);
-    return run;
+    Case read;
+    WholeRun whole{read.run};
+    archive(read.identity, whole);
+    return read;
   } catch (const cereal::Exception&) {
     refuse("it ends too early");
   }

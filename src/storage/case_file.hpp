@@ -18,8 +18,13 @@ std::string case_name(std::string_view identity);
 /// A run with its identity as bytes, compressed and with a checksum. Holds nothing of clocks and hosts.
 std::string case_bytes(std::string_view identity, const Run& run);
 
-/// The run of such bytes; its times are 0. Throws InputError with the reason where they are no case, are damaged, or
-/// are of another identity.
-Run case_run(std::string_view bytes, std::string_view identity);
+/// A run and what it is of.
+struct Case {
+  std::string identity;
+  Run run;  // its times are 0
+};
+
+/// What such bytes hold. Throws InputError with the reason where they are no case or are damaged.
+Case read_case(std::string_view bytes);
 
 }  // namespace vibrosow

@@ -4,8 +4,10 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
+#include <vector>
 
-#include "result/run.hpp"
+#include "storage/case_file.hpp"
 
 namespace vibrosow {
 
@@ -23,10 +25,14 @@ class CaseFolder {
   /// Throws InputError "PATH: cannot be written: REASON".
   void keep(std::string_view identity, const Run& run) const;
 
-  const std::filesystem::path& path() const { return path_; }
+  /// What lies under a name; none where nothing does, or it cannot be read, is damaged or belongs to another name.
+  std::optional<Case> named(const std::string& name) const;
+
+  /// Names of all cases here, sound or not, in order.
+  std::vector<std::string> names() const;
 
  private:
-  std::filesystem::path file_of(std::string_view identity) const;
+  std::filesystem::path file_of(const std::string& name) const;
 
   std::filesystem::path path_;
 };

@@ -66,7 +66,7 @@ grep -q '"neighbours"' profiled/timing.json || fail "timing.json has no shares"
 expect 0 "wheat" presets crops
 expect 0 "wheat-steel +Wheat on steel" presets contacts
 expect 0 "wheat-holes" presets
-for command in run sweep accuracy check presets columns; do expect 0 "^Usage: vibrosow $command" $command --help; done
+for command in run sweep status export verify accuracy check presets columns; do expect 0 "^Usage: vibrosow $command" $command --help; done
 expect 0 "wheat-tray +Wheat tray" presets seeders
 "$program" presets seeders | awk '/^seeders to start from/ { start = NR } /paper-a-fig3 / { paper = paper ? paper : NR }
   /^  silo / { silo = NR } END { exit !(start && start < paper && paper < silo) }' || fail "presets: seeders do not come first"
@@ -144,6 +144,26 @@ for file in sweep.csv sweep_holes.csv sweep_runs.csv; do
   have one-job/$file
   cmp -s one-job/$file two-jobs/$file || fail "$file depends on --jobs"
 done
+
+# Runs are kept: nothing is simulated twice, and their folder can be looked at.
+expect 0 "([0-9]+) of the runs were there from before" sweep study.toml --out one-job
+expect 0 "of the runs were there from before" sweep study.toml --out reusing --reuse two-jobs
+cmp -s reusing/sweep_runs.csv one-job/sweep_runs.csv || fail "sweep_runs.csv depends on where runs come from"
+expect 2 "reuse: out/nowhere holds no runs of a sweep" sweep study.toml --out reusing --reuse out/nowhere
+expect 0 "^([0-9]+) of \1 runs are there, 0 are missing" status one-job
+expect 0 "^[0-9]+ runs, 0 damaged" verify one-job
+a_case=$(find one-job/cases -name '*.case' | sort | head -n 1)
+cp one-job/sweep.csv whole.csv
+truncate -s 200 "$a_case"
+expect 2 "damaged: $(basename "$a_case" .case)" verify one-job
+expect 0 " 1 are missing" status one-job
+expect 0 "of [0-9]+ runs finished" export one-job
+cmp -s one-job/sweep.csv whole.csv && fail "an export of what is missing is whole"
+expect 0 "reports: one-job" sweep study.toml --out one-job
+cmp -s one-job/sweep.csv whole.csv || fail "a run made again is another"
+expect 0 "reports: one-job" export one-job
+cmp -s one-job/sweep.csv whole.csv || fail "an export differs from the sweep"
+expect 2 "no cases/plan.json" status set
 
 # A folder belongs to one command; a second run replaces its set, whole.
 "$program" run seeder.toml --quiet --out set --set 'record={ times = ["0 s", "0.1 s"], cell = "1 cm" }' || fail "no record"

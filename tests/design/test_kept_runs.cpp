@@ -83,6 +83,17 @@ TEST_F(KeptRunsOf, ADamagedRunIsMadeAgainAndMended) {
   EXPECT_EQ(made_, 2);
 }
 
+TEST_F(KeptRunsOf, ARunUnderAnotherName) {
+  KeptRuns kept(folder("a"), {});
+  run(kept, 1);
+  run(kept, 2);
+  const std::vector<fs::path> files = cases("a");
+  ASSERT_EQ(files.size(), 2u);
+  fs::copy_file(files[0], files[1], fs::copy_options::overwrite_existing);
+  run(kept, 1), run(kept, 2);
+  EXPECT_EQ(made_, 3) << "is that of its own name alone";
+}
+
 TEST_F(KeptRunsOf, ARunThatCannotBeWrittenIsGivenAndSaid) {
   files_.write("a", "no folder");
   KeptRuns kept(folder("a"), {});
