@@ -5,6 +5,7 @@
 #include <boost/crc.hpp>
 #include <cstdint>
 
+#include "fuzz/edits.hpp"
 #include "fuzz/try_bytes.hpp"
 #include "scene/input_error.hpp"
 #include "simulation/checkpoint.hpp"
@@ -46,27 +47,6 @@ std::string good_checkpoint(const Model& model) {
   Simulation simulation(model, 1);
   while (simulation.time() < 0.05) simulation.steps(100);
   return save(model, simulation.state());
-}
-
-std::string edited(std::string checkpoint, const std::string& edits) {
-  const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(edits[i]); };
-  for (std::size_t i = 0; i + 4 <= edits.size() && !checkpoint.empty(); i += 4) {
-    const std::size_t place = (byte(i) + 256u * byte(i + 1)) % checkpoint.size();
-    switch (byte(i + 2) % 4) {
-      case 0:
-        checkpoint[place] = edits[i + 3];
-        break;
-      case 1:
-        checkpoint.erase(place, 1u + byte(i + 3));
-        break;
-      case 2:
-        checkpoint.insert(place, 1u + byte(i + 3) % 16, edits[i + 3]);
-        break;
-      default:
-        checkpoint.resize(place);
-    }
-  }
-  return checkpoint;
 }
 
 void restore_or_refuse(const Model& model, const std::string& bytes) {
