@@ -16,6 +16,7 @@
 #include "design/sweep.hpp"
 #include "input/input_file.hpp"
 #include "input/key_units.hpp"
+#include "plan/softness.hpp"
 #include "report/sweep_report.hpp"
 #include "report/terminal_text.hpp"
 #include "scene/input_error.hpp"
@@ -159,9 +160,11 @@ KeptRuns kept_runs(const OutputFolder& folder, const std::vector<std::string>& r
 
 SweepPlan plan_of(const CommonOptions& options, const InputFile& file, const Study& study) {
   SweepPlan plan{std::filesystem::absolute(file.path).string(), options.sets, options.random_seed, {}};
-  for (const Scene& scene : study.scenes)
+  for (const Scene& written : study.scenes) {
+    const Scene scene = at_its_accuracy(written);  // as it is run
     for (int i = 0; i < study.replicates; ++i)
       plan.runs.push_back(case_name(case_identity(scene, options.random_seed + static_cast<std::uint64_t>(i))));
+  }
   return plan;
 }
 

@@ -164,6 +164,8 @@ cmp -s one-job/sweep.csv whole.csv || fail "a run made again is another"
 expect 0 "reports: one-job" export one-job
 cmp -s one-job/sweep.csv whole.csv || fail "an export differs from the sweep"
 expect 2 "no cases/plan.json" status set
+"$program" sweep study.toml --out drafts --set accuracy=draft --quiet || fail "no drafts"
+expect 0 " 0 are missing" status drafts
 
 # A folder belongs to one command; a second run replaces its set, whole.
 "$program" run seeder.toml --quiet --out set --set 'record={ times = ["0 s", "0.1 s"], cell = "1 cm" }' || fail "no record"
