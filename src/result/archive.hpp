@@ -31,7 +31,7 @@ inline std::size_t load_size(PortableBinaryInputArchive& archive, std::size_t by
   return static_cast<std::size_t>(size);
 }
 
-// In the place of cereal's own, which believe any size.
+// In the place of cereal's own, which believe any size, and any byte to be a bool.
 template <class T>
 std::enable_if_t<std::is_arithmetic_v<T>> load(PortableBinaryInputArchive& archive, std::vector<T>& values) {
   values.resize(load_size(archive, sizeof(T)));
@@ -41,6 +41,11 @@ template <class T>
 std::enable_if_t<!std::is_arithmetic_v<T>> load(PortableBinaryInputArchive& archive, std::vector<T>& values) {
   values.resize(load_size(archive, 1));
   for (T& value : values) archive(value);
+}
+inline void load(PortableBinaryInputArchive& archive, bool& value) {
+  unsigned char byte = 0;
+  archive(byte);
+  value = byte != 0;
 }
 inline void load(PortableBinaryInputArchive& archive, std::string& text) {
   text.resize(load_size(archive, 1));

@@ -37,7 +37,6 @@ namespace {
 constexpr std::string_view signature = "vibrosow case 1 ";
 constexpr std::size_t hash_digits = 16;
 constexpr int compression_level = 3;
-constexpr unsigned long long most_bytes = 1ull << 34;  // of an uncompressed case
 
 [[noreturn]] void refuse(const std::string& reason) {
   throw InputError("the case does not fit: " + reason);
@@ -59,12 +58,20 @@ std::string hash_line(std::string_view bytes) {
   return fmt::format("{:0{}x}\n", XXH3_64bits(bytes.data(), bytes.size()), hash_digits);
 }
 
+/// Piece by piece, so that a damaged size asks for no memory.
 std::string decompressed(std::string_view bytes) {
-  const unsigned long long size = ZSTD_getFrameContentSize(bytes.data(), bytes.size());
-  if (size == ZSTD_CONTENTSIZE_UNKNOWN || size == ZSTD_CONTENTSIZE_ERROR || size > most_bytes) refuse("it is damaged");
-  std::string text(size, '\0');
-  const std::size_t found = ZSTD_decompress(text.data(), text.size(), bytes.data(), bytes.size());
-  if (ZSTD_isError(found) || found != size) refuse("it is damaged");
+  const std::unique_ptr<ZSTD_DCtx, decltype(&ZSTD_freeDCtx)> decompressor(ZSTD_createDCtx(), &ZSTD_freeDCtx);
+  std::string text, piece(ZSTD_DStreamOutSize(), '\0');
+  ZSTD_inBuffer in{bytes.data(), bytes.size(), 0};
+  std::size_t left = 1;
+  for (bool full = false; left != 0 && (full || in.pos < in.size);) {
+    ZSTD_outBuffer out{piece.data(), piece.size(), 0};
+    left = ZSTD_decompressStream(decompressor.get(), &out, &in);
+    if (ZSTD_isError(left)) refuse("it is damaged");
+    text.append(piece, 0, out.pos);
+    full = out.pos == out.size;
+  }
+  if (left != 0 || in.pos != in.size) refuse("it is damaged");
   return text;
 }
 
