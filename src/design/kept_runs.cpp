@@ -6,7 +6,7 @@
 namespace vibrosow {
 
 KeptRuns::KeptRuns(const std::filesystem::path& own, const std::vector<std::filesystem::path>& others)
-    : own_(own), folders_{own_} {
+    : folders_{CaseFolder(own)} {
   for (const std::filesystem::path& other : others) folders_.emplace_back(other);
 }
 
@@ -31,7 +31,7 @@ Run KeptRuns::run(const Simulator& simulator, const Model& model, const Simulati
 
 void KeptRuns::keep(const std::string& identity, const Run& run) {
   try {
-    own_.keep(identity, run);
+    folders_.front().keep(identity, run);
   } catch (const InputError& error) {
     const std::lock_guard lock(mutex_);
     if (not_kept_.empty()) not_kept_ = error.what();

@@ -31,8 +31,7 @@ class KeptRuns {
   void keep(const std::string& identity, const Run& run);
   Run run(const Simulator& simulator, const Model& model, const SimulationOptions& options);
 
-  CaseFolder own_;
-  std::vector<CaseFolder> folders_;  // to look into, one's own first
+  std::vector<CaseFolder> folders_;  // one's own first
   std::atomic<std::int64_t> taken_ = 0;
   mutable std::mutex mutex_;
   std::string not_kept_;
