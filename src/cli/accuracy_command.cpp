@@ -165,7 +165,7 @@ RunSettings with_progress(SettingRunner& runner, bool quiet) {
   return [&runner, quiet](const std::vector<SettingRuns>& wanted) {
     double runs = 0;
     for (const SettingRuns& of : wanted) runs += of.runs;
-    Progress progress(quiet, runs, "runs");
+    Progress progress(text_unless(quiet), runs, "runs");
     runner.set_progress([&](const ManyRunsProgress& done) { progress.update(done.fraction_done); });
     std::vector<AccuracyRun> made = runner.run(wanted);
     runner.set_progress({});
@@ -199,14 +199,14 @@ int run_table(const AccuracyOptions& options) {
   AccuracyTiming timing{.jobs = jobs};
   {
     const double runs = std::accumulate(design.runs.begin(), design.runs.end(), 0.0);
-    Progress progress(options.common.quiet, runs * options.replicates, "runs");
+    Progress progress(text_unless(options.common.quiet), runs * options.replicates, "runs");
     SweepOptions sweep_options = sweep_options_of(options, jobs, interrupt);
     sweep_options.runs.progress = [&](const ManyRunsProgress& done) { progress.update(done.fraction_done); };
     result = measure_accuracy(scene, design, options.replicates, run_model, sweep_options);
     timing.wall_time = progress.seconds();
   }
   if (options.depth > 0) {
-    Progress progress(options.common.quiet, 2.0 * options.depth, "runs");
+    Progress progress(text_unless(options.common.quiet), 2.0 * options.depth, "runs");
     SweepOptions sweep_options = sweep_options_of(options, jobs, interrupt);
     sweep_options.runs.progress = [&](const ManyRunsProgress& done) { progress.update(done.fraction_done); };
     result.depth = measure_depth_error(scene, options.depth, run_model, sweep_options);
@@ -230,7 +230,7 @@ int run_promise(const AccuracyOptions& options) {
   refuse_small_budget(goal, choices, scene, jobs);
   const std::atomic<bool>& interrupt = watch_for_interrupt();
   SettingRunner runner(scene, choices.design.settings, run_model, sweep_options_of(options, jobs, interrupt));
-  const Progress clock(true, 0, "");
+  const Progress clock(ProgressStyle::none, 0, "");
   const Promise made = promise(choices, goal, with_progress(runner, options.common.quiet));
   const AccuracyTiming timing{.wall_time = clock.seconds(), .jobs = jobs};
   write_then_print(

@@ -158,13 +158,18 @@ std::string measured_header(const Study& study) {
   return header + "hole,lot,repeat,caught_g,duration_s,note";
 }
 
+std::string replicates_text(const Replicates& replicates) {
+  return replicates.interval ? fmt::format("{} to {}", replicates.first(), replicates.most)
+                             : std::to_string(replicates.number);
+}
+
 int check_study(const InputFile& file, const CheckOptions& options) {
   if (options.both) throw InputError("--both: is for one seeder, not for a study");
   const Study study = read_study(file.path, options.overrides(), file.files);
   print_warnings(study_warnings(study));
   print_text(wrapped(study.title));
   print_text(wrapped(fmt::format("{} layouts, {} different scenes, {} runs of each: some {} of one core in all",
-                                 study.layouts.size(), study.scenes.size(), study.replicates,
+                                 study.layouts.size(), study.scenes.size(), replicates_text(study.replicates),
                                  duration_text(predict_seconds(study)))));
   for (const Layout& layout : study.layouts)
     if (!layout.scene)

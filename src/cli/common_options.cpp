@@ -9,6 +9,9 @@
 #include <system_error>
 #include <thread>
 
+#include "scene/input_error.hpp"
+#include "units/quantity.hpp"
+
 namespace vibrosow {
 namespace {
 
@@ -53,16 +56,20 @@ void add_common_options(CLI::App& command, CommonOptions& options, const std::st
   options.jobs = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
   command.add_option("--out", options.out, "directory for the reports; default out/ and the file's name")
       ->type_name("DIR");
-  command.add_option("--random-seed", options.random_seed, "random seed, of replicates the first")
-      ->type_name("N")
-      ->check(whole_number)
-      ->capture_default_str();
+  add_random_seed_option(command, options);
   command.add_option("--jobs", options.jobs, "runs side by side; a single run takes one core")
       ->type_name("N")
       ->check(CLI::Range(1, 4096))
       ->capture_default_str();
   command.add_flag("--quiet", options.quiet, "no progress and no table");
   add_csv_option(command, options);
+}
+
+void add_random_seed_option(CLI::App& command, CommonOptions& options) {
+  command.add_option("--random-seed", options.random_seed, "random seed, of replicates the first")
+      ->type_name("N")
+      ->check(whole_number)
+      ->capture_default_str();
 }
 
 void add_csv_option(CLI::App& command, CommonOptions& options) {
@@ -74,6 +81,15 @@ void add_csv_option(CLI::App& command, CommonOptions& options) {
       ->type_name("FORMAT")
       ->check(CLI::IsMember({"comma", "semicolon"}))
       ->default_str("comma");
+}
+
+double time_option(const std::string& option, const std::string& text) {
+  try {
+    if (const double time = parse_quantity(text, Dimension::time); time > 0) return time;
+  } catch (const UnitError& error) {
+    throw InputError(fmt::format("{}: {}", option, error.what()));
+  }
+  throw InputError(fmt::format("{}: \"{}\" is no time to wait", option, text));
 }
 
 void print_warnings(const std::vector<std::string>& warnings) {

@@ -31,11 +31,17 @@ struct CommonOptions {
 /// Adds the file and --set.
 void add_input_options(CLI::App& command, CommonOptions& options, const std::string& file_help);
 
+/// Adds --random-seed.
+void add_random_seed_option(CLI::App& command, CommonOptions& options);
+
 /// Adds --csv.
 void add_csv_option(CLI::App& command, CommonOptions& options);
 
 /// Adds --out, --random-seed, --jobs and --quiet too.
 void add_common_options(CLI::App& command, CommonOptions& options, const std::string& file_help);
+
+/// A time in s that an option was given. Throws InputError where it is none or not above 0.
+double time_option(const std::string& option, const std::string& text);
 
 /// Each on stderr.
 void print_warnings(const std::vector<std::string>& warnings);

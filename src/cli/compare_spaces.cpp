@@ -18,7 +18,7 @@ Evaluation run_once(const Scene& scene) {
   const Model model = prepare_to_run(scene);
   SimulationOptions options;
   options.interrupt = &watch_for_interrupt();
-  Progress progress(false, static_cast<double>(model.step.steps), "steps");
+  Progress progress(ProgressStyle::text, static_cast<double>(model.step.steps), "steps");
   options.progress = [&progress](double fraction) { progress.update(fraction); };
   return evaluate(model, options);
 }

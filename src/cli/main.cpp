@@ -18,9 +18,12 @@ int run_program(int argument_count, char** arguments) {
   int exit_code = exit_done;
   add_run_command(app, exit_code);
   add_sweep_command(app, exit_code);
+  add_work_command(app, exit_code);
+  add_submit_command(app, exit_code);
   add_status_command(app, exit_code);
   add_export_command(app, exit_code);
   add_verify_command(app, exit_code);
+  add_pack_command(app, exit_code);
   add_accuracy_command(app, exit_code);
   add_check_command(app, exit_code);
   add_presets_command(app, exit_code);

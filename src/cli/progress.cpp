@@ -11,6 +11,7 @@ namespace {
 
 constexpr double redraw_every = 0.2;  // s
 constexpr double line_every = 5;      // s
+constexpr double event_every = 1;     // s
 
 /// "12 runs/min", "84000 steps/s".
 std::string rate_text(double per_second, const std::string& unit) {
@@ -27,8 +28,8 @@ std::string duration_text(double seconds) {
   return fmt::format("{} h {:02} min", whole / 3600, whole / 60 % 60);
 }
 
-Progress::Progress(bool quiet, double unit_count, std::string unit)
-    : quiet_(quiet), terminal_(isatty(STDERR_FILENO) == 1), unit_count_(unit_count), unit_(std::move(unit)) {}
+Progress::Progress(ProgressStyle style, double unit_count, std::string unit)
+    : style_(style), terminal_(isatty(STDERR_FILENO) == 1), unit_count_(unit_count), unit_(std::move(unit)) {}
 
 Progress::~Progress() {
   if (drawn_ && terminal_) std::fputs("\r\033[K", stderr);  // leaves a clean line for the table
@@ -38,30 +39,53 @@ double Progress::seconds() const {
   return std::chrono::duration<double>(Clock::now() - begin_).count();
 }
 
+/// Not above 0: not known yet.
+double Progress::seconds_left(double fraction_done) const {
+  const double done_now = fraction_done - began_at_;
+  return done_now > 0 ? seconds() * (1 - fraction_done) / done_now : -1;
+}
+
 std::string Progress::line(double fraction_done) const {
-  const double passed = seconds();
-  std::string text = fmt::format("{:3.0f} %  {} passed", 100 * fraction_done, duration_text(passed));
-  if (fraction_done > 0 && passed > 0)
-    text += fmt::format(", {}, {} left", rate_text(unit_count_ * fraction_done / passed, unit_),
-                        duration_text(passed * (1 - fraction_done) / fraction_done));
+  const double passed = seconds(), left = seconds_left(fraction_done);
+  std::string text = fmt::format("{:3.0f} %, {} passed", 100 * fraction_done, duration_text(passed));
+  if (left >= 0 && passed > 0)
+    text += fmt::format(", {}, {} left", rate_text(unit_count_ * (fraction_done - began_at_) / passed, unit_),
+                        duration_text(left));
   return text;
 }
 
+bool Progress::is_due() const {
+  const bool redrawn = terminal_ && style_ == ProgressStyle::text;
+  const double every = redrawn ? redraw_every : style_ == ProgressStyle::json ? event_every : line_every;
+  return std::chrono::duration<double>(Clock::now() - last_).count() >= every;
+}
+
 void Progress::update(double fraction_done) {
-  if (quiet_) return;
-  const auto now = Clock::now();
-  if (std::chrono::duration<double>(now - last_).count() < (terminal_ ? redraw_every : line_every)) return;
-  last_ = now;
-  drawn_ = true;
-  if (!terminal_) {
-    std::fputs((line(fraction_done) + "\n").c_str(), stderr);
+  if (style_ == ProgressStyle::none || !is_due()) return;
+  last_ = Clock::now();
+  if (style_ == ProgressStyle::json) {
+    const double left = seconds_left(fraction_done);
+    tell("progress", fmt::format(R"("fraction":{:.4f},"passed_s":{:.1f},"left_s":{})", fraction_done, seconds(),
+                                 left >= 0 ? fmt::format("{:.1f}", left) : "null"));
     return;
   }
-  constexpr int width = 24;
+  const std::string remark = remark_ ? remark_() : "";
+  const std::string text = line(fraction_done) + (remark.empty() ? "" : "; ") + remark;
+  if (!terminal_) {
+    std::fputs((text + "\n").c_str(), stderr);
+    return;
+  }
+  drawn_ = true;
+  constexpr int width = 10;
   const auto filled = static_cast<std::size_t>(std::clamp(fraction_done, 0.0, 1.0) * width);
   const std::string bar = std::string(filled, '#') + std::string(width - filled, '.');
-  std::fputs(fmt::format("\r\033[K[{}] {}", bar, line(fraction_done)).c_str(), stderr);
+  std::fputs(fmt::format("\r\033[K[{}] {}", bar, text).c_str(), stderr);
   std::fflush(stderr);
+}
+
+void Progress::tell(const std::string& event, const std::string& fields) const {
+  if (style_ != ProgressStyle::json) return;
+  std::fputs(fmt::format("{{\"event\":\"{}\"{}{}}}\n", event, fields.empty() ? "" : ",", fields).c_str(), stderr);
 }
 
 }  // namespace vibrosow

@@ -28,7 +28,6 @@
 #include "simulation/checkpoint.hpp"
 #include "simulation/simulate.hpp"
 #include "storage/atomic_file.hpp"
-#include "units/quantity.hpp"
 
 namespace vibrosow {
 namespace {
@@ -138,16 +137,6 @@ class CheckpointFile {
   std::filesystem::path path_;
 };
 
-double checkpoint_interval(const std::string& text) {
-  if (text.empty()) return 0;
-  try {
-    if (const double interval = parse_quantity(text, Dimension::time); interval > 0) return interval;
-  } catch (const UnitError& error) {
-    throw InputError(fmt::format("--checkpoint-every: {}", error.what()));
-  }
-  throw InputError(fmt::format("--checkpoint-every: \"{}\" is no time to wait", text));
-}
-
 int run_scene(const RunOptions& options) {
   const InputFile file = input_file(options.file, FileKind::seeder);
   const Scene read = read_scene(file.path, options.overrides(), file.files);
@@ -162,13 +151,14 @@ int run_scene(const RunOptions& options) {
   simulation.profile = options.profile;
   simulation.interrupt = &watch_for_interrupt();
   const CheckpointFile checkpoint(folder.path());
-  simulation.checkpoint_every = checkpoint_interval(options.checkpoint_every);
-  if (simulation.checkpoint_every > 0)
+  if (!options.checkpoint_every.empty()) {
+    simulation.checkpoint_every = time_option("--checkpoint-every", options.checkpoint_every);
     simulation.on_checkpoint = [&](const SimulationState& state) { checkpoint.write(model, state); };
+  }
   if (options.resume) simulation.from = checkpoint.read(model, options.random_seed);
   Run run;
   {
-    Progress progress(options.quiet, static_cast<double>(model.step.steps), "steps");
+    Progress progress(text_unless(options.quiet), static_cast<double>(model.step.steps), "steps");
     simulation.progress = [&](double fraction) { progress.update(fraction); };
     run = run_model(model, simulation);
   }

@@ -1,34 +1,86 @@
 #include <fmt/format.h>
 
+#include <chrono>
+#include <ctime>
+#include <iomanip>
 #include <map>
 #include <memory>
+#include <optional>
+#include <sstream>
 #include <string>
 
 #include "cli/commands.hpp"
 #include "cli/console.hpp"
+#include "cli/progress.hpp"
 #include "report/terminal_text.hpp"
 #include "storage/case_folder.hpp"
-#include "storage/sweep_plan.hpp"
+#include "storage/run_notes.hpp"
+#include "storage/study_plan.hpp"
 
 namespace vibrosow {
 namespace {
 
-/// How far a sweep is, and what the guard stopped.
-void print_status(const std::string& folder) {
-  const SweepPlan plan = read_plan(folder);
-  const CaseFolder cases(cases_of(folder));
+struct Status {
   std::size_t kept = 0;
-  std::map<std::string, int> stopped;  // by reason
-  for (const std::string& name : plan.runs) {
-    const auto one = cases.named(name);
-    if (!one) continue;
-    ++kept;
-    if (one->run.status == RunStatus::stopped_by_guard) ++stopped[one->run.stop_reason];
+  double cost_left = 0;                              // grain-steps of what is missing
+  std::map<std::string, const PlannedRun*> missing;  // by name
+  std::map<std::string, int> failed;                 // by what happened
+};
+
+Status status_of(const StudyPlan& plan, const CaseFolder& cases) {
+  Status status;
+  for (const PlannedRun& run : plan.runs) {
+    const std::optional<Case> one = cases.named(run.name);
+    if (!one) {
+      status.missing[run.name] = &run;
+      status.cost_left += run.grain_steps;
+      continue;
+    }
+    ++status.kept;
+    if (one->run.status == RunStatus::stopped_by_guard)
+      ++status.failed["stopped by the guard: " + one->run.stop_reason];
+    if (one->run.status == RunStatus::refused) ++status.failed["could not begin: " + one->run.stop_reason];
   }
-  print("{}\n{} of {} runs are there, {} are missing\n", plan.study, kept, plan.runs.size(), plan.runs.size() - kept);
-  for (const auto& [reason, runs] : stopped)
-    print_text(wrapped_beside(fmt::format("  {} stopped by the guard: ", runs), reason));
-  if (kept < plan.runs.size()) print_text("the same sweep again makes those that are missing\n");
+  return status;
+}
+
+/// s by this machine's clock, since a time that a note gives.
+double seconds_since(const std::string& time) {
+  std::tm parts{};
+  std::istringstream(time) >> std::get_time(&parts, "%Y-%m-%dT%H:%M:%SZ");
+  return std::difftime(std::time(nullptr), timegm(&parts));
+}
+
+/// Prints the runs under way and gives the grain-steps a second that they make together.
+double print_under_way(const std::vector<RunNote>& notes, const Status& status) {
+  double rate = 0;
+  for (const RunNote& note : notes) {
+    const auto run = status.missing.find(note.run);
+    if (run == status.missing.end()) continue;
+    print_text(wrapped(
+        fmt::format("layout {}, random seed {}: {:.0f} % done, by process {} of {} since {}", run->second->layout,
+                    run->second->random_seed, 100 * note.fraction, note.process, note.host, note.since),
+        2));
+    if (const double passed = seconds_since(note.since); passed > 0 && note.from_fraction >= 0)
+      rate += (note.fraction - note.from_fraction) * run->second->grain_steps / passed;
+  }
+  return rate;
+}
+
+/// How far a sweep is, and what has failed.
+void print_status(const std::string& folder) {
+  const StudyPlan plan = read_plan(folder);
+  const Status status = status_of(plan, CaseFolder(cases_of(folder)));
+  print("{}\n{} of {} runs are there, {} are missing\n", plan.study, status.kept, plan.runs.size(),
+        status.missing.size());
+  const double rate = print_under_way(RunNotes(cases_of(folder) / "running").all(), status);
+  for (const auto& [what, runs] : status.failed) print_text(wrapped(fmt::format("{} {}", runs, what), 2));
+  if (!status.failed.empty()) print_text("with --retry the same sweep makes those anew\n");
+  if (status.missing.empty()) return;
+  if (rate > 0)
+    print("{} left, at the speed of what is under way\n", duration_text(status.cost_left / rate));
+  else
+    print_text("the same sweep again makes those that are missing\n");
 }
 
 }  // namespace

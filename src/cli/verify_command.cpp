@@ -1,36 +1,67 @@
+#include <algorithm>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "cli/commands.hpp"
 #include "cli/console.hpp"
+#include "cli/make_runs.hpp"
+#include "design/planned_study.hpp"
 #include "storage/case_folder.hpp"
-#include "storage/sweep_plan.hpp"
+#include "storage/study_plan.hpp"
 
 namespace vibrosow {
 namespace {
 
-/// Looks at every kept run; an exit code.
+/// Names of kept runs that are damaged.
+std::vector<std::string> damaged_in(const CaseFolder& cases) {
+  std::vector<std::string> damaged;
+  for (const std::string& name : cases.names())
+    if (!cases.named(name)) damaged.push_back(name);
+  return damaged;
+}
+
+/// Looks at every kept run and makes those that are damaged anew; an exit code.
 int verify(const std::string& folder) {
-  read_plan(folder);
+  const StudyPlan plan = read_plan(folder);
   const CaseFolder cases(cases_of(folder));
-  std::size_t damaged = 0;
-  const std::vector<std::string> names = cases.names();
-  for (const std::string& name : names) {
-    if (cases.named(name)) continue;
-    ++damaged;
+  const std::vector<std::string> damaged = damaged_in(cases);
+  print("{} runs, {} damaged\n", cases.names().size(), damaged.size());
+  if (damaged.empty()) return exit_done;
+  std::vector<std::size_t> again;
+  for (const std::string& name : damaged) {
     print("damaged: {}\n", name);
+    cases.remove(name);
+    const auto run = std::ranges::find(plan.runs, name, &PlannedRun::name);
+    if (run != plan.runs.end()) again.push_back(static_cast<std::size_t>(run - plan.runs.begin()));
   }
-  print("{} runs, {} damaged{}\n", names.size(), damaged, damaged ? "; the same sweep again makes these anew" : "");
-  return damaged ? exit_wrong_input : exit_done;
+  const PlannedStudy planned = study_of_plan(plan);
+  StudyRuns runs(cases_of(folder));
+  const Made made = make_runs(runs, wanted_runs(planned, again), {}, 1, true);
+  print("{} made again; {} belong to no run of the plan and were taken away\n", made.making.made,
+        damaged.size() - again.size());
+  return made.making.interrupted > 0 ? exit_interrupted : exit_done;
 }
 
 }  // namespace
 
 void add_verify_command(CLI::App& app, int& exit_code) {
   auto folder = std::make_shared<std::string>();
-  CLI::App* command = app.add_subcommand("verify", "read every run that a sweep has kept: is any damaged?");
+  CLI::App* command =
+      app.add_subcommand("verify", "read every run that a sweep has kept, and make those that are damaged again");
   command->add_option("FOLDER", *folder, "of the sweep")->required();
   command->callback([folder, &exit_code] { exit_code = verify(*folder); });
+}
+
+void add_pack_command(CLI::App& app, int& exit_code) {
+  auto folder = std::make_shared<std::string>();
+  CLI::App* command = app.add_subcommand("pack", "move a sweep's kept runs into few large files");
+  command->add_option("FOLDER", *folder, "of the sweep")->required();
+  command->callback([folder, &exit_code] {
+    current_plan(*folder);
+    print("{} runs packed\n", CaseFolder(cases_of(*folder)).pack());
+    exit_code = exit_done;
+  });
 }
 
 }  // namespace vibrosow

@@ -12,6 +12,8 @@ EvaluationStatus status_of(const Run& run) {
       return EvaluationStatus::finished;
     case RunStatus::stopped_by_guard:
       return EvaluationStatus::stopped;
+    case RunStatus::refused:
+      return EvaluationStatus::refused;
     case RunStatus::interrupted:
       break;
   }
@@ -52,6 +54,8 @@ Evaluation evaluate(const Model& model, const SimulationOptions& options, const 
     const double begin = cpu_time();
     const Run run = simulator(model, options);
     const double used = cpu_time() - begin;
+    if (run.status == RunStatus::refused) return refused(run.stop_reason);
+    if (run.status == RunStatus::interrupted && run.steps == 0) return {.random_seed = options.random_seed};
     Evaluation evaluation = reduced(model.scene, run, curves);
     evaluation.cpu_time = used;
     return evaluation;

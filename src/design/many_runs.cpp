@@ -1,12 +1,9 @@
 #include "design/many_runs.hpp"
 
-#include <oneapi/tbb/global_control.h>
-#include <oneapi/tbb/info.h>
-#include <oneapi/tbb/parallel_for.h>
-#include <oneapi/tbb/task_arena.h>
-
 #include <atomic>
 #include <mutex>
+
+#include "design/side_by_side.hpp"
 
 namespace vibrosow {
 namespace {
@@ -63,16 +60,13 @@ std::vector<Evaluation> run_jobs(const std::vector<Job>& jobs, const Simulator& 
     progress.finish(index);
   };
 
-  const int wide = options.jobs > 0 ? options.jobs : tbb::info::default_concurrency();
-  const tbb::global_control threads(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(wide));
   // Each worker takes the next job in order: an interrupted sweep has finished its first layouts, not parts of all. The
   // counter also hands jobs and results over in a way that the thread sanitiser can see; it cannot see into TBB.
   std::atomic<std::size_t> next;
   next.store(0, std::memory_order_release);
-  const auto work = [&](int) {
+  side_by_side(options.jobs, [&] {
     for (std::size_t job = next.fetch_add(1); job < jobs.size(); job = next.fetch_add(1)) run_one(job);
-  };
-  tbb::task_arena(wide).execute([&] { tbb::parallel_for(0, wide, work, tbb::simple_partitioner()); });
+  });
   next.load(std::memory_order_acquire);
   return results;
 }

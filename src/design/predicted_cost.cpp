@@ -239,7 +239,7 @@ double predict_seconds(const Study& study) {
   for (std::size_t k = 0; k < scenes; ++k) {
     if (k % stride == 0) cost = predict_cost(study.scenes[k]);
     cost.grain_steps = predicted_grain_steps(study.scenes[k], prepare(study.scenes[k]).step.dt);
-    seconds += cost.seconds() * study.replicates;
+    seconds += cost.seconds() * study.replicates.first();
   }
   return seconds;
 }

@@ -173,8 +173,7 @@ std::vector<NamedDesign> read_designs(Table& study) {
 /// The file that a key names, relative to the file that holds the key.
 std::filesystem::path named_file(Table& table, const std::string& key) {
   const std::filesystem::path file = (table.directory() / table.required_text(key)).lexically_normal();
-  std::error_code none;
-  if (!std::filesystem::is_regular_file(file, none)) table.fail(key, fmt::format("there is no file {}", file.string()));
+  if (!table.files()->has(file)) table.fail(key, fmt::format("there is no file {}", file.string()));
   return file;
 }
 
@@ -354,6 +353,24 @@ std::vector<std::string> study_warnings(const Study& study) {
   return warnings;
 }
 
+namespace {
+
+/// A number, or { interval = "2 %", most = 40 }.
+Replicates read_replicates(Table& study) {
+  Replicates replicates;
+  if (!study.is_table("replicates")) {
+    replicates.number = static_cast<int>(study.whole_number("replicates", 1, most_replicates).value_or(5));
+    return replicates;
+  }
+  auto table = study.table("replicates");
+  replicates.interval = table->required_quantity("interval", Dimension::fraction, 1e-4, 0.5);
+  replicates.most = static_cast<int>(
+      table->whole_number("most", Replicates::least_by_interval, most_replicates).value_or(replicates.most));
+  return replicates;
+}
+
+}  // namespace
+
 Study read_study(const std::filesystem::path& file, const std::vector<Override>& overrides,
                  const std::shared_ptr<SourceFiles>& files) {
   Changes of_study, of_seeder;
@@ -363,7 +380,7 @@ Study read_study(const std::filesystem::path& file, const std::vector<Override>&
   Study study;
   study.title = printable(table.text("title").value_or(file.stem().string()));
   study.base = named_file(table, "base");
-  study.replicates = static_cast<int>(table.whole_number("replicates", 1, most_replicates).value_or(5));
+  study.replicates = read_replicates(table);
   auto set = table.table("set");
   auto vary = table.table("vary");
   const Changes fixed = set ? read_changes(*set) : Changes{};

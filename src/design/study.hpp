@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "design/replicates.hpp"
 #include "input/measured.hpp"
 #include "input/override.hpp"
 #include "input/source_files.hpp"
@@ -49,7 +50,7 @@ struct MeasuredPart {
 struct Study {
   std::string title;
   std::filesystem::path base;  // of the seeder file
-  int replicates = 5;
+  Replicates replicates;
   std::vector<std::string> keys;  // that tell the layouts apart, in the order of the study
   std::vector<Layout> layouts;
   std::vector<Scene> scenes;  // each different scene once, in the order of the layouts

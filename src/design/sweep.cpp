@@ -14,21 +14,42 @@
 namespace vibrosow {
 namespace {
 
+int replicates_of(const Study& study, const SweepOptions& options, std::size_t scene) {
+  return options.replicates.empty() ? study.replicates.first() : options.replicates.at(scene);
+}
+
 std::vector<std::vector<Evaluation>> run_scenes(const Study& study, const Simulator& simulator,
                                                 const SweepOptions& options) {
   std::vector<Model> models;
   for (const Scene& scene : study.scenes) models.push_back(prepare(scene));
   std::vector<Job> jobs;
   for (std::size_t scene = 0; scene < models.size(); ++scene)
-    for (int i = 0; i < study.replicates; ++i)
+    for (int i = 0; i < replicates_of(study, options, scene); ++i)
       jobs.push_back(
           {&models[scene], options.first_random_seed + static_cast<std::uint64_t>(i), measured_curves(study, scene)});
   std::vector<Evaluation> results = run_jobs(jobs, simulator, options.runs);
 
   std::vector<std::vector<Evaluation>> runs(study.scenes.size());
-  for (std::size_t job = 0; job < jobs.size(); ++job)
-    runs[job / static_cast<std::size_t>(study.replicates)].push_back(std::move(results[job]));
+  std::size_t job = 0;
+  for (std::size_t scene = 0; scene < runs.size(); ++scene)
+    for (int i = 0; i < replicates_of(study, options, scene); ++i) runs[scene].push_back(std::move(results[job++]));
   return runs;
+}
+
+/// Where replicates are by need: those that are needed, whoever made more.
+void leave_out_more_than_enough(const Study& study, std::vector<Evaluation>& replicates) {
+  if (!study.replicates.interval) return;
+  if (const auto enough = enough_runs(rates_of(replicates), study.replicates))
+    replicates.resize(static_cast<std::size_t>(*enough));
+}
+
+/// The runs of which figures are made.
+std::vector<Evaluation> that_count(const Study& study, const std::vector<Evaluation>& replicates) {
+  if (!study.replicates.interval) return replicates;
+  std::vector<Evaluation> flowed;
+  for (const Evaluation& one : replicates)
+    if (!one.finished() || one.end_reason.empty()) flowed.push_back(one);
+  return flowed;
 }
 
 /// Mean of a figure over the finished replicates that have it.
@@ -137,6 +158,23 @@ void set_status(LayoutResult& result, const std::vector<Evaluation>& replicates)
   }
 }
 
+/// Of replicates by need: runs that clogged, and what to know about the interval.
+void add_remarks_on_need(const Study& study, const std::vector<Evaluation>& replicates, LayoutResult& result) {
+  const auto add = [&](const std::string& remark) { result.reason += (result.reason.empty() ? "" : "; ") + remark; };
+  const std::vector<std::optional<double>> rates = rates_of(replicates);
+  if (const auto clogged = std::ranges::count_if(
+          replicates, [](const Evaluation& one) { return one.finished() && !one.end_reason.empty(); });
+      clogged > 0)
+    add(fmt::format("clogged in {} of {} runs, which are left out", clogged, replicates.size()));
+  std::vector<double> flowed;
+  for (const auto& rate : rates)
+    if (rate) flowed.push_back(*rate);
+  if (!enough_runs(rates, study.replicates))
+    add(fmt::format("after {} runs the rate's interval is still wider than {:.3g} %", replicates.size(),
+                    100 * *study.replicates.interval));
+  if (look_skewed(flowed)) add("the runs scatter to one side: the interval holds less often than 95 times in 100");
+}
+
 LayoutResult result_of(const Study& study, const Layout& layout, const std::vector<std::vector<Evaluation>>& runs) {
   LayoutResult result;
   if (!layout.scene) {
@@ -144,8 +182,10 @@ LayoutResult result_of(const Study& study, const Layout& layout, const std::vect
     result.reason = layout.invalid;
     return result;
   }
-  const std::vector<Evaluation>& replicates = runs[*layout.scene];
+  const std::vector<Evaluation> replicates = that_count(study, runs[*layout.scene]);
   set_status(result, replicates);
+  const bool was_run = result.status == LayoutStatus::ok || result.status == LayoutStatus::outside_the_model;
+  if (study.replicates.interval && was_run) add_remarks_on_need(study, runs[*layout.scene], result);
   result.figures = figures_of(replicates);
   result.holes = hole_figures(replicates);
   const Scene& scene = study.scenes[*layout.scene];
@@ -157,10 +197,21 @@ LayoutResult result_of(const Study& study, const Layout& layout, const std::vect
 
 }  // namespace
 
+std::vector<std::optional<double>> rates_of(const std::vector<Evaluation>& replicates) {
+  std::vector<std::optional<double>> rates;
+  for (const Evaluation& one : replicates) {
+    const HoleOutflow* const all =
+        one.finished() && one.end_reason.empty() ? find_row(one.outflow, "all", "all") : nullptr;
+    rates.push_back(all && std::isfinite(all->mass_rate) ? std::optional(all->mass_rate) : std::nullopt);
+  }
+  return rates;
+}
+
 StudyResult sweep(const Study& study, const Simulator& simulator, const SweepOptions& options) {
   StudyResult result;
   result.study = study;
   result.runs = run_scenes(study, simulator, options);
+  for (std::vector<Evaluation>& replicates : result.runs) leave_out_more_than_enough(study, replicates);
   for (const Layout& layout : study.layouts) result.layouts.push_back(result_of(study, layout, result.runs));
   if (study.measured) compare_with_measured(result);
   return result;

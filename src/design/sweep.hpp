@@ -14,6 +14,7 @@ namespace vibrosow {
 
 struct SweepOptions {
   std::uint64_t first_random_seed = 1;  // replicates use this one and those that follow
+  std::vector<int> replicates{};        // of each of Study::scenes; empty: what the study begins with
   ManyRunsOptions runs;
 };
 
@@ -68,12 +69,16 @@ struct Comparison {
 
 struct StudyResult {
   Study study;
-  std::vector<std::vector<Evaluation>> runs;  // of each of Study::scenes, by random seed
+  std::vector<std::vector<Evaluation>> runs;  // of each of Study::scenes, by random seed; those that count
   std::vector<LayoutResult> layouts;          // of each of Study::layouts
   std::optional<Comparison> comparison;
 };
 
-/// Runs every scene of a study with every random seed. The result depends on the study and the first random seed alone,
+/// Mass rates (kg/s) of runs, as `enough_runs` takes them: none of a run that stopped flowing or did not finish.
+std::vector<std::optional<double>> rates_of(const std::vector<Evaluation>& replicates);
+
+/// Runs every scene of a study with every random seed. Where replicates are by need, runs beyond those needed are left
+/// out, and figures are of the runs that flowed. The result depends on the study and the first random seed alone,
 /// not on the number of threads. An interrupted sweep keeps what was finished.
 StudyResult sweep(const Study& study, const Simulator& simulator, const SweepOptions& options);
 

@@ -22,7 +22,7 @@ bool is_curve(MeasuredQuantity quantity);
 std::string_view column_of(MeasuredQuantity quantity);
 
 /// An SI value in the unit of that column.
-double to_column_unit(MeasuredQuantity quantity, double si_value);
+double to_column_unit(MeasuredQuantity quantity, double value);
 
 /// One condition of a measurement: a full key and its value in the unit of the key's column.
 struct Condition {

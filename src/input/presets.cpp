@@ -28,7 +28,7 @@ std::vector<std::string> shipped(const fs::path& directory) {
 fs::path preset_file(const Table& table, const std::string& key, const std::string& name, const std::string& kind) {
   if (name.ends_with(".toml")) {
     const fs::path file = table.directory(key) / name;
-    if (!fs::is_regular_file(file)) table.fail(key, fmt::format("there is no file {}", file.string()));
+    if (!table.files()->has(file)) table.fail(key, fmt::format("there is no file {}", file.string()));
     return file;
   }
   const fs::path directory = data_directory() / "models" / kind;

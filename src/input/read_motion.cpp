@@ -216,7 +216,7 @@ VesselMotion read_motion(Table table) {
   if (*kind == 4) return read_turning(table);
   const std::string file = table.required_text("file");
   const std::filesystem::path path = table.directory("file") / file;
-  if (!std::filesystem::is_regular_file(path)) table.fail("file", fmt::format("there is no file {}", path.string()));
+  if (!table.files()->has(path)) table.fail("file", fmt::format("there is no file {}", path.string()));
   return read_motion_table(table.files()->csv(path));
 }
 

@@ -12,8 +12,14 @@
 
 namespace vibrosow {
 
-std::string SourceFiles::read(const std::filesystem::path& file) {
-  ++reads_;
+namespace {
+
+std::string key_of(const std::filesystem::path& file) {
+  std::error_code none;
+  return std::filesystem::absolute(file, none).lexically_normal().string();
+}
+
+std::string text_on_disk(const std::filesystem::path& file) {
   const auto fail = [&](const std::string& reason) { throw InputError(file.string() + ": " + reason); };
   std::error_code error;
   const auto kind = std::filesystem::status(file, error).type();
@@ -31,10 +37,24 @@ std::string SourceFiles::read(const std::filesystem::path& file) {
   return text;
 }
 
+}  // namespace
+
+const std::string& SourceFiles::read(const std::filesystem::path& file) {
+  ++reads_;
+  const std::string key = key_of(file);
+  const auto frozen = frozen_.find(key);
+  return texts_[key] = frozen != frozen_.end() ? frozen->second : text_on_disk(file);
+}
+
+bool SourceFiles::has(const std::filesystem::path& file) const {
+  std::error_code none;
+  return frozen_.contains(key_of(file)) || std::filesystem::is_regular_file(file, none);
+}
+
 const TomlTable& SourceFiles::toml(const std::filesystem::path& file) {
   const auto known = toml_.find(file);
   if (known != toml_.end()) return known->second;
-  const std::string text = read(file);
+  const std::string& text = read(file);
   try {
     return toml_.emplace(file, parse_toml(text)).first->second;
   } catch (const TomlError& error) {

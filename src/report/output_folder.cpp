@@ -37,10 +37,15 @@ constexpr const char* list_name = "files.json";
 /// A directory that is removed again with all that is in it.
 class TemporaryDirectory {
  public:
-  explicit TemporaryDirectory(fs::path path) : path_(std::move(path)) {
-    std::error_code error;
-    fs::remove_all(path_, error);  // of a process that had this number
-    if (mkdir(path_.c_str(), 0777) != 0) cannot_write(path_, std::strerror(errno));
+  /// In a directory, named after a file there.
+  TemporaryDirectory(const fs::path& directory, const std::string& stem) {
+    constexpr int tries = 5;  // a network file system may repeat a mkdir that it has done, and report that it is there
+    for (int k = 0; k < tries; ++k) {
+      path_ = directory / temporary_name(stem);
+      if (mkdir(path_.c_str(), 0777) == 0) return;
+      if (errno != EEXIST) break;
+    }
+    cannot_write(path_, std::strerror(errno));
   }
   TemporaryDirectory(const TemporaryDirectory&) = delete;
   TemporaryDirectory& operator=(const TemporaryDirectory&) = delete;
@@ -138,8 +143,7 @@ void move_in_one_by_one(const fs::path& fresh, const fs::path& folder, const Fil
 /// Where the new set is made: beside the folder, or within it where one may not write beside it.
 fs::path place_for_fresh(const fs::path& folder) {
   const fs::path beside = folder.parent_path();
-  const std::string name = fmt::format(".{}.{}", folder.filename().string(), getpid());
-  return access(beside.c_str(), W_OK | X_OK) == 0 ? beside / name : folder / name;
+  return access(beside.c_str(), W_OK | X_OK) == 0 ? beside : folder;
 }
 
 }  // namespace
@@ -164,7 +168,7 @@ void OutputFolder::write(const std::vector<OutputFile>& files) const {
   const FileList list{command_, {names.begin(), names.end()}};
 
   const fs::path folder = fs::canonical(folder_);
-  const TemporaryDirectory fresh(place_for_fresh(folder));
+  const TemporaryDirectory fresh(place_for_fresh(folder), folder.filename().string());
   for (const OutputFile& file : files) write_new_file(fresh.path() / file.name, file.content, folder_ / file.name);
   write_new_file(fresh.path() / list_name, text_of(list, true), folder_ / list_name);
   sync_directory(fresh.path());

@@ -15,9 +15,9 @@ struct OutputFile {
 /// run of the command replaces the set whole, files that it has no more included. What no list names is foreign and
 /// never touched.
 ///
-/// How whole: the set is written and brought down to the disk in a folder beside this one (".NAME.PID"). Where the
-/// folder holds nothing but a former set, the new one takes its place in a single rename, so at any moment, a loss of
-/// power included, there is one set or the other. Where it holds foreign files as well, or cannot be exchanged (the
+/// How whole: the set is written and brought down to the disk in a folder beside this one (".NAME." and digits). Where
+/// the folder holds nothing but a former set, the new one takes its place in a single rename, so at any moment, a loss
+/// of power included, there is one set or the other. Where it holds foreign files as well, or cannot be exchanged (the
 /// working directory, a mount point, a file system without such a rename), the files are moved in one after the other;
 /// files.json says `"complete": false` until the last one is there.
 class OutputFolder {

@@ -99,6 +99,8 @@ std::string_view name_of(RunStatus status) {
       return "stopped by the guard";
     case RunStatus::interrupted:
       return "interrupted";
+    case RunStatus::refused:
+      return "refused";
   }
   return "";
 }

@@ -33,6 +33,7 @@ std::string run_status(EvaluationStatus status) {
     case EvaluationStatus::refused:
       return "invalid";
     case EvaluationStatus::not_begun:
+      return "missing";
     case EvaluationStatus::interrupted:
       return "interrupted";
     case EvaluationStatus::stopped:
@@ -236,7 +237,7 @@ Columns<RunRow> sweep_runs_columns() {
   append(
       columns,
       {text_column<RunRow>("random_seed", "of the run", [](R r) { return r.run->random_seed; }),
-       text_column<RunRow>("status", "ok, invalid, stopped (by the guard) or interrupted",
+       text_column<RunRow>("status", "ok, invalid (it could not begin), stopped (by the guard), interrupted or missing",
                            [](R r) { return run_status(r.run->status); }),
        run_column("put_in", plain, "seeds put in: inside + counted + spilled + lost",
                   [](One one) { return one.balance.put_in; }),
@@ -281,19 +282,11 @@ Columns<MeasuredRow> comparison_columns() {
   return columns;
 }
 
-/// What the sweep took, summed over its runs.
-struct SweepTiming {
-  double wall_time;  // s, from beginning to end
-  int jobs;
-  int runs = 0;
-  double run_time = 0, grain_steps = 0;
-};
-
 JsonKeys<SweepTiming> timing_keys() {
   using T = const SweepTiming&;
   return {{"wall_s", "s", "wall time of the sweep", [](T t) { return t.wall_time; }},
           {"jobs", "", "runs side by side", [](T t) { return t.jobs; }},
-          {"runs", "", "runs that were begun; not those kept from before", [](T t) { return t.runs; }},
+          {"runs", "", "runs that were made; not those kept from before", [](T t) { return t.runs; }},
           {"run_wall_s", "s", "wall times of the runs, summed", [](T t) { return t.run_time; }},
           {"grain_steps", "", "grains times steps, summed", [](T t) { return t.grain_steps; }},
           {"grain_steps_per_s", "1/s", "these in a second of the sweep's wall time",
@@ -346,15 +339,7 @@ std::string comparison_csv(const StudyResult& result, CsvFormat format) {
   return csv.text();
 }
 
-std::string sweep_timing_json(const StudyResult& result, double wall_time, int jobs) {
-  SweepTiming timing{wall_time, jobs};
-  for (const auto& replicates : result.runs)
-    for (const Evaluation& run : replicates) {
-      if (!run.was_run() || !(run.wall_time > 0)) continue;  // one kept from before has taken no time
-      ++timing.runs;
-      timing.grain_steps += static_cast<double>(run.grain_steps);
-      timing.run_time += run.wall_time;
-    }
+std::string sweep_timing_json(const SweepTiming& timing) {
   return json_of(timing_keys(), timing);
 }
 
@@ -373,11 +358,11 @@ std::vector<FileText> sweep_file_texts() {
                     comparison_columns())};
 }
 
-std::vector<OutputFile> sweep_files(const StudyResult& result, double wall_time, int jobs, CsvFormat format) {
+std::vector<OutputFile> sweep_files(const StudyResult& result, const SweepTiming& timing, CsvFormat format) {
   std::vector<OutputFile> files = {{"sweep.csv", sweep_csv(result, format)},
                                    {"sweep_holes.csv", sweep_holes_csv(result, format)},
                                    {"sweep_runs.csv", sweep_runs_csv(result, format)},
-                                   {"timing.json", sweep_timing_json(result, wall_time, jobs)}};
+                                   {"timing.json", sweep_timing_json(timing)}};
   const auto records = [](const LayoutResult& one) { return !one.bed.empty(); };
   if (std::ranges::any_of(result.layouts, records))
     files.push_back({"sweep_records.csv", sweep_records_csv(result, format)});

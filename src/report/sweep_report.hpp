@@ -8,6 +8,15 @@
 
 namespace vibrosow {
 
+/// What the runs of a sweep took on this machine.
+struct SweepTiming {
+  double wall_time = 0;    // s, from beginning to end
+  int jobs = 1;            // runs side by side
+  std::int64_t runs = 0;   // that were made now
+  double run_time = 0;     // s, their wall times, summed
+  double grain_steps = 0;  // theirs, summed
+};
+
 /// One row per layout: what tells it apart, and each figure with its 95 % half width. Percent are percent.
 std::string sweep_csv(const StudyResult& result, CsvFormat format = {});
 
@@ -24,14 +33,13 @@ std::string sweep_records_csv(const StudyResult& result, CsvFormat format = {});
 /// One row per layout and measured value. Simulated values are scaled, in the unit of the measured column.
 std::string comparison_csv(const StudyResult& result, CsvFormat format = {});
 
-/// What the sweep took on this machine. `wall_time`: s, from beginning to end.
-std::string sweep_timing_json(const StudyResult& result, double wall_time, int jobs);
+std::string sweep_timing_json(const SweepTiming& timing);
 
 /// What the files of a sweep hold; the keys that a study varies stand as one column KEY.
 std::vector<FileText> sweep_file_texts();
 
 /// Its files: sweep.csv, sweep_holes.csv, sweep_runs.csv, timing.json, with a record sweep_records.csv and, with
 /// measured outflow, comparison.csv.
-std::vector<OutputFile> sweep_files(const StudyResult& result, double wall_time, int jobs, CsvFormat format = {});
+std::vector<OutputFile> sweep_files(const StudyResult& result, const SweepTiming& timing, CsvFormat format = {});
 
 }  // namespace vibrosow

@@ -46,12 +46,17 @@ struct LetPass {
   std::int64_t energy_accounts = 0;  // accounts, one in 100 steps, with energy made by the numerics worth a word
 };
 
-enum class RunStatus { finished, stopped_by_guard, interrupted };
+enum class RunStatus {
+  finished,
+  stopped_by_guard,
+  interrupted,
+  refused,  // it could not begin: a fill that does not fit, a step that is too long; nothing else is set
+};
 
 /// What one simulation gives. Holds nothing that depends on a clock but the last two.
 struct Run {
   RunStatus status = RunStatus::finished;
-  std::string stop_reason;            // of the guard
+  std::string stop_reason;            // of the guard; or why it is refused
   std::string end_reason;             // why it ended before its duration, though sound; else empty
   std::vector<std::string> warnings;  // of the guard
   // A long step insisted on; or limits of the guard raised, and the usual ones passed; or grains lost through walls.

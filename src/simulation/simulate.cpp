@@ -39,6 +39,7 @@ Run run_to_end(Simulation& simulation, const SimulationOptions& options) {
     if (++steps < steps_between_looks && grain_steps < grain_steps_between_looks) continue;
     steps = grain_steps = 0;
     interrupted = StopRequest(options.interrupt).is_set();
+    if (!interrupted && options.checkpoint_now && options.checkpoint_now()) checkpoint(simulation);
     if (options.progress)
       options.progress(static_cast<double>(simulation.state().step) / static_cast<double>(model.step.steps));
   }

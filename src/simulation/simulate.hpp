@@ -22,6 +22,7 @@ struct SimulationOptions {
 
   std::optional<SimulationState> from{};                        // to go on from; none: the scene's start
   double checkpoint_every = 0;                                  // s, simulated; 0: never
+  std::function<bool()> checkpoint_now{};                       // asked now and then
   std::function<void(const SimulationState&)> on_checkpoint{};  // then, and where the run is interrupted
 };
 

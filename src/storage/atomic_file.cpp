@@ -7,6 +7,8 @@
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
+#include <random>
+#include <system_error>
 
 #include "scene/input_error.hpp"
 
@@ -29,7 +31,7 @@ int write_all(int descriptor, std::string_view content) {
 }  // namespace
 
 void cannot_write(const fs::path& path, const std::string& reason) {
-  throw InputError(fmt::format("{}: cannot be written: {}", path.string(), reason));
+  throw CannotWrite(fmt::format("{}: cannot be written: {}", path.string(), reason));
 }
 
 void write_new_file(const fs::path& path, std::string_view content, const fs::path& as) {
@@ -47,13 +49,29 @@ void sync_directory(const fs::path& directory) {
   close(descriptor);
 }
 
+std::string temporary_name(const std::string& stem) {
+  std::random_device device;  // names of files alone: no result depends on it
+  return fmt::format(".{}.{:08x}{:08x}", stem, device(), device());
+}
+
+std::vector<fs::path> entries_of(const fs::path& directory) {
+  std::vector<fs::path> entries;
+  std::error_code error;
+  for (fs::directory_iterator entry(directory, error), end; !error && entry != end; entry.increment(error))
+    entries.push_back(entry->path());
+  return entries;
+}
+
 void move_file(const fs::path& from, const fs::path& to) {
-  if (rename(from.c_str(), to.c_str()) != 0) cannot_write(to, std::strerror(errno));
+  if (rename(from.c_str(), to.c_str()) == 0) return;
+  const int reason = errno;
+  std::error_code none;
+  if (fs::exists(from, none) || !fs::exists(to, none)) cannot_write(to, std::strerror(reason));
 }
 
 void write_file_atomically(const fs::path& path, std::string_view content) {
   const fs::path directory = path.has_parent_path() ? path.parent_path() : fs::path(".");
-  const fs::path temporary = directory / fmt::format(".{}.{}", path.filename().string(), getpid());
+  const fs::path temporary = directory / temporary_name(path.filename().string());
   try {
     write_new_file(temporary, content, path);
     move_file(temporary, path);

@@ -33,8 +33,9 @@ void serialize(Archive& archive, WholeRun& whole) {
 
 namespace {
 
-/// Then come the hash of what follows it and a line's end.
-constexpr std::string_view signature = "vibrosow case 1 ";
+/// Then come the hash of the content, a blank, the hash of all that follows it and a line's end; and the content,
+/// compressed.
+constexpr std::string_view signature = "vibrosow case 2 ";
 constexpr std::size_t hash_digits = 16;
 constexpr int compression_level = 3;
 
@@ -54,9 +55,21 @@ std::string compressed(const std::string& text) {
   return bytes;
 }
 
-std::string hash_line(std::string_view bytes) {
-  return fmt::format("{:0{}x}\n", XXH3_64bits(bytes.data(), bytes.size()), hash_digits);
+std::string hash_of(std::string_view bytes) {
+  return fmt::format("{:0{}x}", XXH3_64bits(bytes.data(), bytes.size()), hash_digits);
 }
+
+/// The first line, and what it says of the rest.
+std::string head(const std::string& content_hash, std::string_view compressed) {
+  XXH3_state_t* const state = XXH3_createState();
+  XXH3_64bits_reset(state);
+  XXH3_64bits_update(state, content_hash.data(), content_hash.size());
+  XXH3_64bits_update(state, compressed.data(), compressed.size());
+  const XXH64_hash_t hash = XXH3_64bits_digest(state);
+  XXH3_freeState(state);
+  return fmt::format("{}{} {:0{}x}\n", signature, content_hash, hash, hash_digits);
+}
+constexpr std::size_t head_size = signature.size() + 2 * hash_digits + 2;
 
 /// Piece by piece, so that a damaged size asks for no memory.
 std::string decompressed(std::string_view bytes) {
@@ -78,8 +91,10 @@ std::string decompressed(std::string_view bytes) {
 }  // namespace
 
 std::string case_identity(const Scene& scene, std::uint64_t random_seed) {
+  Scene untitled = scene;
+  untitled.title.clear();
   return fmt::format(R"({{"results_version":{},"random_seed":{},"scene":{}}})", results_version, random_seed,
-                     scene_to_json(scene));
+                     scene_to_json(untitled));
 }
 
 std::string case_name(std::string_view identity) {
@@ -95,16 +110,23 @@ std::string case_bytes(std::string_view identity, const Run& run) {
     WholeRun whole{copy};
     archive(std::string(identity), whole);
   }
-  const std::string content = compressed(text.str());
-  return std::string(signature) + hash_line(content) + content;
+  const std::string content = text.str(), small = compressed(content);
+  return head(hash_of(content), small) + small;
+}
+
+std::string content_of_case(std::string_view bytes) {
+  if (bytes.size() < head_size) return "";
+  const std::string content_hash(bytes.substr(signature.size(), hash_digits));
+  return bytes.substr(0, head_size) == head(content_hash, bytes.substr(head_size)) ? content_hash : "";
 }
 
 Case read_case(std::string_view bytes) {
-  if (!bytes.starts_with(signature)) refuse("it is no case of Vibrosow");
-  bytes.remove_prefix(signature.size());
-  const std::string_view line = bytes.substr(0, hash_digits + 1), content = bytes.substr(line.size());
-  if (line != hash_line(content)) refuse("it is damaged");
-  std::istringstream text(decompressed(content));
+  if (!bytes.starts_with(signature)) refuse("it is no case of this version of Vibrosow");
+  const std::string content_hash = content_of_case(bytes);
+  if (content_hash.empty()) refuse("it is damaged");
+  const std::string content = decompressed(bytes.substr(head_size));
+  if (hash_of(content) != content_hash) refuse("it is damaged");
+  std::istringstream text(content);
   try {
     InputArchive archive(text);
     Case read;

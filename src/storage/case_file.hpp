@@ -9,7 +9,8 @@
 
 namespace vibrosow {
 
-/// What a run is of, as one line of JSON: the version of the results, the random seed and the canonical scene.
+/// What a run is of, as one line of JSON: the version of the results, the random seed and the canonical scene
+/// without its title.
 std::string case_identity(const Scene& scene, std::uint64_t random_seed);
 
 /// The name of its file: 32 hexadecimal digits, the 128-bit XXH3 of the identity.
@@ -26,5 +27,9 @@ struct Case {
 
 /// What such bytes hold. Throws InputError with the reason where they are no case or are damaged.
 Case read_case(std::string_view bytes);
+
+/// Hash of what such bytes hold, whatever compressed them; 16 hexadecimal digits, empty where they are no case or are
+/// damaged. Quick: nothing is decompressed.
+std::string content_of_case(std::string_view bytes);
 
 }  // namespace vibrosow

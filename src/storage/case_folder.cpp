@@ -1,8 +1,11 @@
 #include "storage/case_folder.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <fstream>
 #include <iterator>
+#include <map>
 #include <system_error>
 
 #include "scene/input_error.hpp"
@@ -13,11 +16,31 @@ namespace {
 
 namespace fs = std::filesystem;
 constexpr const char* extension = ".case";
+constexpr std::size_t name_digits = 32;
+constexpr std::size_t most_in_a_segment = 4096, most_bytes_of_a_segment = std::size_t{1} << 26;
 
 }  // namespace
 
 fs::path CaseFolder::file_of(const std::string& name) const {
   return path_ / name.substr(0, 2) / (name + extension);
+}
+
+std::string CaseFolder::loose_bytes(const std::string& name) const {
+  std::ifstream file(file_of(name), std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+/// The first sound copy: loose, or in a segment known, or in one that has come since.
+std::string CaseFolder::sound_bytes(const std::string& name) const {
+  std::string bytes = loose_bytes(name);
+  if (!content_of_case(bytes).empty()) return bytes;
+  const std::lock_guard lock(mutex_);
+  for (int look = 0; look < 2; ++look) {
+    for (std::string& copy : segments_.bytes_of(name))
+      if (!content_of_case(copy).empty()) return std::move(copy);
+    segments_.refresh();
+  }
+  return "";
 }
 
 std::optional<Run> CaseFolder::find(std::string_view identity) const {
@@ -27,10 +50,9 @@ std::optional<Run> CaseFolder::find(std::string_view identity) const {
 }
 
 std::optional<Case> CaseFolder::named(const std::string& name) const {
-  std::ifstream file(file_of(name), std::ios::binary);
-  if (!file) return std::nullopt;
-  const std::string bytes(std::istreambuf_iterator<char>(file), {});
   try {
+    const std::string bytes = sound_bytes(name);
+    if (bytes.empty()) return std::nullopt;
     Case read = read_case(bytes);
     if (case_name(read.identity) == name) return read;
   } catch (const InputError&) {
@@ -38,21 +60,74 @@ std::optional<Case> CaseFolder::named(const std::string& name) const {
   return std::nullopt;
 }
 
-std::vector<std::string> CaseFolder::names() const {
+bool CaseFolder::has(const std::string& name) const {
+  return !sound_bytes(name).empty();
+}
+
+void CaseFolder::remove(const std::string& name) const {
+  std::error_code none;
+  fs::remove(file_of(name), none);
+}
+
+std::vector<std::string> CaseFolder::loose_names() const {
   std::vector<std::string> names;
-  std::error_code error;
-  for (const auto& entry : fs::recursive_directory_iterator(path_, error))
-    if (entry.path().extension() == extension) names.push_back(entry.path().stem().string());
+  for (const fs::path& folder : entries_of(path_)) {
+    if (folder.filename().string().size() != 2) continue;
+    for (const fs::path& file : entries_of(folder))
+      if (file.extension() == extension && file.stem().string().size() == name_digits)
+        names.push_back(file.stem().string());
+  }
   std::ranges::sort(names);
   return names;
 }
 
+std::vector<std::string> CaseFolder::names() const {
+  std::vector<std::string> names = loose_names();
+  {
+    const std::lock_guard lock(mutex_);
+    segments_.refresh();
+    std::ranges::copy(segments_.names(), std::back_inserter(names));
+  }
+  std::ranges::sort(names);
+  names.erase(std::ranges::unique(names).begin(), names.end());
+  return names;
+}
+
 void CaseFolder::keep(std::string_view identity, const Run& run) const {
-  const fs::path file = file_of(case_name(identity));
+  const std::string name = case_name(identity), bytes = case_bytes(identity, run), there = sound_bytes(name);
+  const fs::path file = file_of(name);
+  if (!there.empty()) {
+    if (content_of_case(there) == content_of_case(bytes)) return;
+    if (const std::optional<Case> other = named(name); other && other->identity == identity)
+      throw InputError(fmt::format(
+          "{}: holds another run of the same scene and random seed: the programs that made them do not agree",
+          file.string()));
+  }
   std::error_code error;
   fs::create_directories(file.parent_path(), error);
   if (error) cannot_write(file, error.message());
-  write_file_atomically(file, case_bytes(identity, run));
+  write_file_atomically(file, bytes);
+}
+
+std::size_t CaseFolder::pack() const {
+  std::size_t packed = 0, bytes = 0;
+  std::map<std::string, std::string> segment;
+  const auto write = [&] {
+    if (segment.empty()) return;
+    segments_.write(segment);
+    for (const auto& [name, content] : segment) remove(name);
+    packed += segment.size();
+    segment.clear(), bytes = 0;
+  };
+  for (const std::string& name : loose_names()) {
+    std::string content = loose_bytes(name);
+    if (content_of_case(content).empty()) continue;
+    bytes += content.size();
+    segment.emplace(name, std::move(content));
+    if (segment.size() == most_in_a_segment || bytes >= most_bytes_of_a_segment) write();
+  }
+  write();
+  return packed;
 }
 
 }  // namespace vibrosow

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
+#include <mutex>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -8,33 +10,50 @@
 #include <vector>
 
 #include "storage/case_file.hpp"
+#include "storage/segments.hpp"
 
 namespace vibrosow {
 
 /// Runs on the disk, each in a file of its own named by what it is of ("3f/3f0a..b2.case"), written under a temporary
-/// name and renamed. So any number of processes may read and write one folder, without locks: a run that two of them
-/// make is the same file.
+/// name and renamed, until they are packed into segments. So any number of processes may read and write one folder,
+/// without locks: a run that two of them make is the same file. For several threads at a time.
 class CaseFolder {
  public:
-  explicit CaseFolder(std::filesystem::path path) : path_(std::move(path)) {}
+  explicit CaseFolder(std::filesystem::path path) : path_(std::move(path)), segments_(path_ / "segments") {}
 
   /// The run of an identity (`case_identity`); none where it is not there, or cannot be read or is damaged: then it is
   /// to be made again, which mends it.
   std::optional<Run> find(std::string_view identity) const;
 
-  /// Throws InputError "PATH: cannot be written: REASON".
+  /// Throws InputError "PATH: cannot be written: REASON", or where another run of this identity is there: two programs
+  /// do not agree then.
   void keep(std::string_view identity, const Run& run) const;
 
   /// What lies under a name; none where nothing does, or it cannot be read, is damaged or belongs to another name.
   std::optional<Case> named(const std::string& name) const;
 
+  /// Whether a sound case lies under a name; quicker than `named`, though one in the place of another is not noticed.
+  bool has(const std::string& name) const;
+
+  /// Takes a case away where it lies in a file of its own.
+  void remove(const std::string& name) const;
+
   /// Names of all cases here, sound or not, in order.
   std::vector<std::string> names() const;
 
+  /// Moves all sound cases that have a file of their own into segments and gives their number. They are deleted only
+  /// after the segment is on the disk. Throws InputError where it cannot be written.
+  std::size_t pack() const;
+
  private:
   std::filesystem::path file_of(const std::string& name) const;
+  std::vector<std::string> loose_names() const;
+  std::string loose_bytes(const std::string& name) const;
+  std::string sound_bytes(const std::string& name) const;
 
   std::filesystem::path path_;
+  mutable std::mutex mutex_;
+  mutable Segments segments_;
 };
 
 }  // namespace vibrosow

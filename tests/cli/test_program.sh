@@ -66,7 +66,7 @@ grep -q '"neighbours"' profiled/timing.json || fail "timing.json has no shares"
 expect 0 "wheat" presets crops
 expect 0 "wheat-steel +Wheat on steel" presets contacts
 expect 0 "wheat-holes" presets
-for command in run sweep status export verify accuracy check presets columns; do expect 0 "^Usage: vibrosow $command" $command --help; done
+for command in run sweep work submit status export verify pack accuracy check presets columns; do expect 0 "^Usage: vibrosow $command" $command --help; done
 expect 0 "wheat-tray +Wheat tray" presets seeders
 "$program" presets seeders | awk '/^seeders to start from/ { start = NR } /paper-a-fig3 / { paper = paper ? paper : NR }
   /^  silo / { silo = NR } END { exit !(start && start < paper && paper < silo) }' || fail "presets: seeders do not come first"
@@ -155,15 +155,48 @@ expect 0 "^[0-9]+ runs, 0 damaged" verify one-job
 a_case=$(find one-job/cases -name '*.case' | sort | head -n 1)
 cp one-job/sweep.csv whole.csv
 truncate -s 200 "$a_case"
-expect 2 "damaged: $(basename "$a_case" .case)" verify one-job
+expect 0 "damaged: $(basename "$a_case" .case)" verify one-job
+expect 0 " 0 are missing" status one-job
+rm "$a_case"
 expect 0 " 1 are missing" status one-job
-expect 0 "of [0-9]+ runs finished" export one-job
+expect 2 "1 of [0-9]+ runs are missing" export one-job --complete
+expect 0 "warning: runs are missing" export one-job
+grep -q ",missing," one-job/sweep_runs.csv || fail "a missing run is not said to be missing"
 cmp -s one-job/sweep.csv whole.csv && fail "an export of what is missing is whole"
 expect 0 "reports: one-job" sweep study.toml --out one-job
 cmp -s one-job/sweep.csv whole.csv || fail "a run made again is another"
 expect 0 "reports: one-job" export one-job
 cmp -s one-job/sweep.csv whole.csv || fail "an export differs from the sweep"
-expect 2 "no cases/plan.json" status set
+expect 2 "no cases/plan:" status set
+
+# Shares of a plan, on one folder or packed.
+expect 0 "^bundle 2/3: 0 runs made" work one-job --bundle 2/3
+expect 2 "bundle: \"4/3\" is no share" work one-job --bundle 4/3
+expect 2 "there is no plan nowhere" work one-job --plan nowhere
+expect 0 "^[0-9]+ runs packed" pack one-job
+[ -z "$(find one-job/cases -name '*.case')" ] || fail "packed runs have files of their own"
+expect 0 "reports: one-job" export one-job --complete
+cmp -s one-job/sweep.csv whole.csv || fail "packed runs make other reports"
+a_run=$(basename "$a_case" .case)
+expect 0 "reports: of-a-run" export one-job --run "$a_run" --out of-a-run
+for file in run.json summary.csv outflow.csv; do have of-a-run/$file; done
+expect 2 "its plan has no run nowhere" export one-job --run nowhere --out of-none
+expect 0 '"event":"end"' sweep study.toml --out one-job --progress json
+printf '%s\n' 'base = "seeder.toml"' 'replicates = { interval = "50 %", most = 12 }' > by-need.toml
+expect 0 "reports: by-need" sweep by-need.toml --out by-need
+[ "$(find by-need/cases -name '*.case' | wc -l)" -ge 10 ] || fail "fewer than ten runs by need"
+
+# Slurm's scripts; a study moved away afterwards is still the same.
+expect 0 "#SBATCH --array=1-2%1" submit study.toml --out submitted --time "1 h" --bundles 2 --array-limit 1 --dry-run
+expect 0 "exec .* work .*submitted" submit submitted --time "1 h" --bundles 2 --dry-run
+expect 2 "less than 2 min" submit submitted --time "1 min"
+cp study.toml moved-study.toml
+expect 0 "SBATCH" submit moved-study.toml --out moved --time "1 h" --bundles 2 --dry-run
+rm moved-study.toml
+expect 0 "^bundle 1/2" work moved --bundle 1/2
+expect 0 "^bundle 2/2" work moved --bundle 2/2
+expect 0 "reports: moved" export moved --complete
+cmp -s moved/sweep.csv whole.csv || fail "shares make other reports than a sweep"
 "$program" sweep study.toml --out drafts --set accuracy=draft --quiet || fail "no drafts"
 expect 0 " 0 are missing" status drafts
 

@@ -68,7 +68,7 @@ tray.holes.count = [3, 5]
 )"));
   EXPECT_THAT(study.keys, ElementsAre("tray.holes.span", "tray.holes.count"));
   ASSERT_EQ(study.layouts.size(), 4u);
-  EXPECT_EQ(study.replicates, 5);
+  EXPECT_EQ(study.replicates.number, 5);
   std::vector<std::string> seen;
   for (Layout layout : study.layouts)
     seen.push_back(layout.values["tray.holes.span"] + "/" + layout.values["tray.holes.count"]);
@@ -139,7 +139,7 @@ TEST(Study, OverridesReachTheStudyOrItsSeeders) {
   const StudyFiles files;
   const auto path = files.study("[vary]\ncontact.friction = [0.1, 0.2]\n");
   const Study study = read_study(path, {parse_override("replicates=7"), parse_override("tray.holes.count=5")});
-  EXPECT_EQ(study.replicates, 7);
+  EXPECT_EQ(study.replicates.number, 7);
   EXPECT_EQ(study.scenes[0].tray.holes.size(), 5u);
 }
 

@@ -14,7 +14,8 @@
 namespace vibrosow {
 namespace {
 
-constexpr std::size_t hash_at = 16, content_at = hash_at + 17;  // after "vibrosow case 1 ", and its line
+constexpr std::size_t hash_at = 16, hash_size = 16,
+                      content_at = hash_at + 2 * hash_size + 2;  // after "vibrosow case 2 "
 
 std::string good_case() {
   Scene scene;
@@ -26,12 +27,18 @@ std::string good_case() {
   return case_bytes(case_identity(scene, 1), run);
 }
 
+std::string hash_of(const std::string& bytes) {
+  char digits[hash_size + 1];
+  std::snprintf(digits, sizeof digits, "%016llx",
+                static_cast<unsigned long long>(XXH3_64bits(bytes.data(), bytes.size())));
+  return digits;
+}
+
+/// With the right hash of the compressed bytes, which is also of the content's hash.
 std::string with_right_hash(std::string file) {
   if (file.size() < content_at) return file;
-  char line[18];
-  std::snprintf(line, sizeof line, "%016llx\n",
-                static_cast<unsigned long long>(XXH3_64bits(file.data() + content_at, file.size() - content_at)));
-  return file.replace(hash_at, 17, line, 17);
+  const std::string hash = hash_of(file.substr(hash_at, hash_size) + file.substr(content_at));
+  return file.replace(hash_at + hash_size + 1, hash_size, hash);
 }
 
 std::string content_of(const std::string& file) {
@@ -45,7 +52,7 @@ std::string content_of(const std::string& file) {
 std::string file_of(const std::string& good, const std::string& content) {
   std::string bytes(ZSTD_compressBound(content.size()), '\0');
   bytes.resize(ZSTD_compress(bytes.data(), bytes.size(), content.data(), content.size(), 1));
-  return with_right_hash(good.substr(0, content_at) + bytes);
+  return with_right_hash(good.substr(0, content_at).replace(hash_at, hash_size, hash_of(content)) + bytes);
 }
 
 void read_or_refuse(const std::string& file) {

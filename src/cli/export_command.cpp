@@ -1,0 +1,85 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <memory>
+#include <string>
+
+#include "cli/commands.hpp"
+#include "cli/common_options.hpp"
+#include "cli/console.hpp"
+#include "cli/report_study.hpp"
+#include "design/planned_study.hpp"
+#include "input/wording.hpp"
+#include "outflow/outflow.hpp"
+#include "plan/effects.hpp"
+#include "plan/model.hpp"
+#include "report/run_report.hpp"
+#include "scene/input_error.hpp"
+#include "storage/case_folder.hpp"
+#include "storage/study_plan.hpp"
+
+namespace vibrosow {
+namespace {
+
+struct ExportOptions {
+  CommonOptions common;
+  bool complete = false;
+  std::string run;
+};
+
+/// The reports of one kept run, as `run` makes them.
+int export_run(const ExportOptions& command) {
+  const CommonOptions& options = command.common;
+  const PlannedStudy planned = study_of_plan(read_plan(options.file));
+  const std::vector<PlannedRun>& runs = planned.plan.runs;
+  const auto run = std::ranges::find(runs, command.run, &PlannedRun::name);
+  if (run == runs.end())
+    throw InputError(fmt::format("{}: its plan has no run {}", options.file, shortened(command.run)));
+  const std::optional<Case> found = CaseFolder(cases_of(options.file)).named(command.run);
+  if (!found) throw InputError(fmt::format("{}: run {} is not kept", options.file, command.run));
+  const std::size_t index = static_cast<std::size_t>(run - runs.begin());
+  const Model model = prepare(*wanted_runs(planned, {index}).front().scene);
+  const OutputFolder folder = options.output_folder("run", run_file_texts());
+  const Outflow outflow = measure_outflow(model.scene, found->run);
+  folder.write(run_files(model.scene, found->run, outflow, effect_names(model.effects), options.csv));
+  print("reports: {}\n", folder.path().string());
+  return exit_done;
+}
+
+int export_study(ExportOptions command) {
+  CommonOptions& options = command.common;
+  if (command.run.empty() != options.out.empty()) throw InputError("--run and --out go together");
+  if (!command.run.empty()) return export_run(command);
+  options.out = options.file;
+  const PlannedStudy planned = study_of_plan(read_plan(options.file));
+  StudyRuns runs(cases_of(options.file));
+  if (command.complete) {
+    const CaseFolder cases(cases_of(options.file));
+    const auto missing = std::ranges::count_if(planned.plan.runs, [&](const PlannedRun& run) { return !cases.has(run.name); });
+    if (missing > 0)
+      throw InputError(fmt::format("{}: {} of {} runs are missing", options.file, missing, planned.plan.runs.size()));
+  }
+  const OutputFolder folder = options.output_folder("sweep", sweep_file_texts());
+  const int exit_code = report_study(planned, runs, folder, {.jobs = options.jobs}, options);
+  print("reports: {}\n", folder.path().string());
+  if (exit_code != exit_interrupted) return exit_code;
+  complain("warning: runs are missing");
+  return exit_done;
+}
+
+}  // namespace
+
+void add_export_command(CLI::App& app, int& exit_code) {
+  auto options = std::make_shared<ExportOptions>();
+  CLI::App* command =
+      app.add_subcommand("export", "make a sweep's reports of the runs that are kept, simulating nothing");
+  command->add_option("FOLDER", options->common.file, "of the sweep")->required();
+  command->add_flag("--complete", options->complete, "write nothing, with exit code 2, while runs are missing");
+  command->add_option("--run", options->run, "name of a kept run (cases/plans): its reports alone, as run makes them")
+      ->type_name("NAME");
+  command->add_option("--out", options->common.out, "directory for the reports of --run")->type_name("DIR");
+  add_csv_option(*command, options->common);
+  command->callback([options, &exit_code] { exit_code = export_study(*options); });
+}
+
+}  // namespace vibrosow

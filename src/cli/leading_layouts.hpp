@@ -1,0 +1,24 @@
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "design/study_runs.hpp"
+#include "outflow/outflow.hpp"
+
+namespace vibrosow {
+
+/// The two most even layouts of a study while its runs come in: where holes differ least from one another.
+class LeadingLayouts {
+ public:
+  void add(const WantedRun& wanted, const Run& run);
+
+  /// "layout 3: raw CV 4.1 +- 0.6 %, 5: 4.9 +- 0.8 %"; empty before any has two runs.
+  std::string text() const;
+
+ private:
+  std::map<int, std::vector<Outflow>> runs_;  // by layout
+};
+
+}  // namespace vibrosow

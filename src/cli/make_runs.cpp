@@ -1,0 +1,113 @@
+#include "cli/make_runs.hpp"
+
+#include <fmt/format.h>
+
+#include <atomic>
+#include <chrono>
+#include <string_view>
+#include <thread>
+
+#include "cli/common_options.hpp"
+#include "cli/interrupt.hpp"
+#include "cli/leading_layouts.hpp"
+#include "cli/progress.hpp"
+#include "cli/threads.hpp"
+
+namespace vibrosow {
+namespace {
+
+/// Sets a flag when a signal to stop has come, or the time is over.
+class Deadline {
+ public:
+  /// `limit`: s; 0: none.
+  explicit Deadline(double limit) : signal_(watch_for_interrupt()) {
+    if (limit > 0) watch_ = std::jthread([this, limit](const std::stop_token& ended) { wait(ended, limit); });
+  }
+
+  /// The signal itself where there is no limit.
+  const std::atomic<bool>& flag() const { return watch_.joinable() ? over_ : signal_; }
+
+ private:
+  void wait(const std::stop_token& ended, double limit) {
+    const auto until = std::chrono::steady_clock::now() + std::chrono::duration<double>(limit);
+    while (!ended.stop_requested() && !signal_ && std::chrono::steady_clock::now() < until)
+      std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    if (!ended.stop_requested()) over_ = true;
+  }
+
+  const std::atomic<bool>& signal_;
+  std::atomic<bool> over_ = false;
+  std::jthread watch_;
+};
+
+std::string_view status_text(RunStatus status) {
+  switch (status) {
+    case RunStatus::finished:
+      return "finished";
+    case RunStatus::stopped_by_guard:
+      return "stopped";
+    case RunStatus::refused:
+      return "refused";
+    case RunStatus::interrupted:
+      break;
+  }
+  return "interrupted";
+}
+
+std::string event_fields(const WantedRun& wanted, const Run& run) {
+  return fmt::format(R"("case":"{}","layout":{},"random_seed":{},"status":"{}","seeds":{},"wall_s":{:.3f})", wanted.name,
+                     wanted.layout, wanted.random_seed, status_text(run.status), run.balance.counted, run.wall_time);
+}
+
+}  // namespace
+
+void add_making_flags(CLI::App& command, MakingFlags& flags) {
+  command
+      .add_option("--save-every", flags.save_every, "by the clock: runs under way are saved, to go on from there")
+      ->type_name("TIME")
+      ->capture_default_str();
+  command.add_flag("--retry", flags.retry, "make runs anew that could not begin or were stopped by the guard");
+  command
+      .add_option_function<std::string>(
+          "--progress", [&flags](const std::string& style) { flags.json_progress = style == "json"; },
+          "text, or json: a line of JSON per event on standard error")
+      ->type_name("STYLE")
+      ->check(CLI::IsMember({"text", "json"}))
+      ->default_str("text");
+}
+
+void Made::add(const Made& round) {
+  making.made += round.making.made;
+  making.interrupted = round.making.interrupted;  // what was there is the same, and what was made before
+  timing.wall_time += round.timing.wall_time;
+  timing.runs += round.timing.runs;
+  timing.run_time += round.timing.run_time;
+  timing.grain_steps += round.timing.grain_steps;
+}
+
+Made make_runs(StudyRuns& runs, const std::vector<WantedRun>& wanted, const MakingFlags& flags, int jobs, bool quiet) {
+  MakingOptions making;
+  making.jobs = threads_to_be_had(jobs);
+  making.retry = flags.retry;
+  making.save_every = time_option("--save-every", flags.save_every);
+  const Deadline deadline(flags.time_limit.empty() ? 0 : time_option("--time-limit", flags.time_limit));
+  making.interrupt = &deadline.flag();
+  LeadingLayouts leading;
+  Progress progress(flags.json_progress ? ProgressStyle::json : text_unless(quiet), static_cast<double>(wanted.size()),
+                    "runs");
+  progress.show_also([&] { return leading.text(); });
+  progress.tell("begin", fmt::format(R"("runs":{})", wanted.size()));
+  making.progress = [&](double fraction) { progress.update(fraction); };
+  making.on_made = [&](const WantedRun& run, const Run& made) {
+    leading.add(run, made);
+    progress.tell("run", event_fields(run, made));
+  };
+  Made made;
+  made.making = runs.make(wanted, run_model, making);
+  progress.tell("end", fmt::format(R"("made":{},"there":{},"left":{})", made.making.made, made.making.there,
+                                   made.making.interrupted));
+  made.timing = {progress.seconds(), making.jobs, made.making.made, made.making.run_time, made.making.grain_steps};
+  return made;
+}
+
+}  // namespace vibrosow

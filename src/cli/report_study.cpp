@@ -1,0 +1,46 @@
+#include "cli/report_study.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "cli/commands.hpp"
+#include "cli/console.hpp"
+#include "cli/sweep_table.hpp"
+#include "design/sweep.hpp"
+
+namespace vibrosow {
+namespace {
+
+int exit_code_of(const StudyResult& result, bool interrupted) {
+  if (interrupted) return exit_interrupted;
+  const auto stopped = std::ranges::find(result.layouts, LayoutStatus::stopped, &LayoutResult::status);
+  if (stopped != result.layouts.end()) {
+    complain(fmt::format("the guard stopped layout {}: {}", stopped - result.layouts.begin() + 1, stopped->reason));
+    return exit_stopped_by_guard;
+  }
+  const bool all_invalid =
+      std::ranges::all_of(result.layouts, [](const LayoutResult& one) { return one.status == LayoutStatus::invalid; });
+  if (!all_invalid) return exit_done;
+  complain("no layout could be simulated: " + result.layouts.front().reason);
+  return exit_wrong_input;
+}
+
+}  // namespace
+
+int report_study(const PlannedStudy& planned, const StudyRuns& runs, const OutputFolder& folder, const SweepTiming& timing,
+                 const CommonOptions& options) {
+  SweepOptions reading;
+  reading.first_random_seed = planned.plan.random_seed;
+  reading.replicates = replicates_in(planned);
+  reading.runs.jobs = timing.jobs;
+  const StudyResult result = sweep(planned.study, runs.kept(), reading);
+  write_then_print(
+      options.quiet, [&] { folder.write(sweep_files(result, timing, options.csv)); }, [&] { print_sweep_table(result); });
+  const bool whole = std::ranges::none_of(result.layouts, [](const LayoutResult& one) {
+    return one.status == LayoutStatus::interrupted;
+  });
+  return exit_code_of(result, !whole);
+}
+
+}  // namespace vibrosow

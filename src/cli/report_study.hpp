@@ -1,0 +1,13 @@
+#pragma once
+
+#include "cli/common_options.hpp"
+#include "design/planned_study.hpp"
+#include "report/sweep_report.hpp"
+
+namespace vibrosow {
+
+/// Makes a study's reports of the runs that are kept, and prints its table; an exit code.
+int report_study(const PlannedStudy& planned, const StudyRuns& runs, const OutputFolder& folder,
+                 const SweepTiming& timing, const CommonOptions& options);
+
+}  // namespace vibrosow

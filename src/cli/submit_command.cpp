@@ -1,0 +1,163 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <system_error>
+
+#include "cli/commands.hpp"
+#include "cli/common_options.hpp"
+#include "cli/console.hpp"
+#include "cli/slurm.hpp"
+#include "design/planned_study.hpp"
+#include "design/predicted_cost.hpp"
+#include "input/input_file.hpp"
+#include "report/sweep_report.hpp"
+#include "scene/input_error.hpp"
+#include "storage/atomic_file.hpp"
+#include "storage/study_plan.hpp"
+
+namespace vibrosow {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct SubmitOptions {
+  CommonOptions common;
+  std::string time, partition;
+  std::size_t bundles = 0;  // 0: by predicted cost
+  int array_limit = 0;      // 0: none
+  bool dry_run = false;
+};
+
+/// A plan in its folder.
+struct Frozen {
+  PlannedStudy planned;
+  fs::path folder;   // absolute
+  std::string name;  // of the plan
+};
+
+Frozen freeze(const SubmitOptions& options) {
+  const CommonOptions& common = options.common;
+  if (fs::is_directory(common.file)) {
+    if (!common.sets.empty() || !common.out.empty())
+      throw InputError("--set and --out go with a study, not with the folder of one that is begun");
+    return {study_of_plan(read_plan(common.file)), fs::canonical(common.file), current_plan(common.file)};
+  }
+  const InputFile file = input_file(common.file, FileKind::study);
+  PlannedStudy planned = plan_study(file.path, common.sets, common.random_seed, file.files);
+  print_warnings(study_warnings(planned.study));
+  const OutputFolder folder = common.output_folder("sweep", sweep_file_texts());
+  std::string name = freeze_plan(folder.path(), planned.plan);
+  return {std::move(planned), fs::canonical(folder.path()), std::move(name)};
+}
+
+/// How long before its end (s) a job of `time` (s) is told to save what it is at.
+double margin_of(double time) {
+  return std::min(180.0, time / 8);
+}
+
+/// As many that each takes 10 to 60 minutes, well within a job's time.
+std::size_t bundles_of(const SubmitOptions& options, const PlannedStudy& planned, double time) {
+  const std::size_t most = planned.plan.runs.size();
+  if (options.bundles > 0) return std::min(options.bundles, most);
+  const double target = std::min(std::clamp(0.6 * time, 600.0, 3600.0), time - margin_of(time));
+  const double bundles = std::ceil(predict_seconds(planned.study) / target);
+  return static_cast<std::size_t>(std::clamp(bundles, 1.0, static_cast<double>(most)));
+}
+
+std::string directive(const std::string& option) {
+  return "#SBATCH " + option + "\n";
+}
+
+/// A file's name as Slurm reads it in a directive.
+std::string without_patterns(const std::string& path) {
+  std::string text;
+  for (const char letter : path) text += letter == '%' ? "%%" : std::string(1, letter);
+  return text;
+}
+
+/// What both scripts begin with.
+std::string script_head(const SubmitOptions& options, const Frozen& frozen, const std::string& job,
+                        const std::string& log) {
+  std::string text = "#!/bin/bash\n";
+  text += directive(fmt::format("--job-name={}", job));
+  text += directive(fmt::format("--output=\"{}/{}\"", without_patterns((cases_of(frozen.folder) / "logs").string()), log));
+  text += directive("--open-mode=append");
+  text += directive("--ntasks=1") + directive("--cpus-per-task=1");
+  if (!options.partition.empty()) text += directive("--partition=" + options.partition);
+  return text;
+}
+
+std::string program() {
+  return shell_quoted(fs::read_symlink("/proc/self/exe").string());
+}
+
+std::string array_script(const SubmitOptions& options, const Frozen& frozen, std::size_t bundles, double time) {
+  const double margin = margin_of(time);
+  std::string text = script_head(options, frozen, "vibrosow", "%A_%a.out");
+  text += directive(fmt::format("--array=1-{}{}", bundles,
+                                options.array_limit > 0 ? fmt::format("%{}", options.array_limit) : ""));
+  text += directive(fmt::format("--time={:.0f}", std::ceil(time / 60)));
+  text += directive(fmt::format("--signal=B:TERM@{:.0f}", margin));
+  text += directive("--requeue");
+  return text + fmt::format(
+                    "exec {} work {} --plan {} --bundle \"$SLURM_ARRAY_TASK_ID/{}\" --time-limit \"{:.0f} s\" "
+                    "--requeue\n",
+                    program(), shell_quoted(frozen.folder.string()), frozen.name, bundles, time - margin);
+}
+
+std::string export_script(const SubmitOptions& options, const Frozen& frozen) {
+  return script_head(options, frozen, "vibrosow-export", "%j.out") +
+         fmt::format("exec {} export {} --complete\n", program(), shell_quoted(frozen.folder.string()));
+}
+
+int submit(const SubmitOptions& options) {
+  const double time = time_option("--time", options.time);
+  if (time < 120) throw InputError("--time: a job of less than 2 min is over before Slurm can warn it");
+  const Frozen frozen = freeze(options);
+  const std::size_t bundles = bundles_of(options, frozen.planned, time);
+  const std::string array = array_script(options, frozen, bundles, time), after = export_script(options, frozen);
+  if (options.dry_run) {
+    print("{}\n{}", array, after);
+    return exit_done;
+  }
+  const fs::path scripts = plan_path(frozen.folder, frozen.name);
+  const std::string array_file = scripts.string() + ".sbatch", after_file = scripts.string() + ".export.sbatch";
+  std::error_code error;
+  fs::create_directories(cases_of(frozen.folder) / "logs", error);
+  if (error) cannot_write(cases_of(frozen.folder) / "logs", error.message());
+  write_file_atomically(array_file, array);
+  write_file_atomically(after_file, after);
+  const std::string job = submit_to_slurm(array_file, {});
+  const std::string export_job = submit_to_slurm(after_file, {"--dependency=afterany:" + job});
+  print("job {}: {} bundles of {} runs; job {} makes the reports\n", job, bundles, frozen.planned.plan.runs.size(),
+        export_job);
+  print("vibrosow status {}\n", frozen.folder.string());
+  return exit_done;
+}
+
+}  // namespace
+
+void add_submit_command(CLI::App& app, int& exit_code) {
+  auto options = std::make_shared<SubmitOptions>();
+  CLI::App* command = app.add_subcommand("submit", "hand a sweep over to Slurm, in bundles; then its reports");
+  add_input_options(*command, options->common, "study file (.toml), or the folder of one that is begun");
+  command->add_option("--out", options->common.out, "directory for the reports; default out/ and the file's name")
+      ->type_name("DIR");
+  add_random_seed_option(*command, options->common);
+  command->add_option("--time", options->time, "limit of a job, such as \"1 h\"")->type_name("TIME")->required();
+  command->add_option("--bundles", options->bundles, "jobs of the array; default: each of 10 to 60 minutes")
+      ->type_name("N")
+      ->check(CLI::Range(1, 100000));
+  command->add_option("--partition", options->partition, "of Slurm")->type_name("NAME");
+  command->add_option("--array-limit", options->array_limit, "jobs at a time")
+      ->type_name("N")
+      ->check(CLI::Range(1, 100000));
+  command->add_flag("--dry-run", options->dry_run, "print the scripts and submit nothing");
+  command->callback([options, &exit_code] { exit_code = submit(*options); });
+}
+
+}  // namespace vibrosow

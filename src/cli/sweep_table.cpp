@@ -1,0 +1,122 @@
+#include "cli/sweep_table.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <numeric>
+
+#include "cli/console.hpp"
+#include "input/key_units.hpp"
+#include "report/sweep_report.hpp"
+#include "report/terminal_text.hpp"
+
+namespace vibrosow {
+namespace {
+
+std::string with_interval(const std::optional<MeanWithInterval>& value, double unit) {
+  if (!value) return "";
+  const std::string mean = to_digits(value->mean / unit, 4);
+  return value->half_width_95 ? fmt::format("{} +- {}", mean, to_digits(*value->half_width_95 / unit, 2)) : mean;
+}
+
+std::string mean_text(const FigureMeans& figures, std::string_view name) {
+  const Figure& figure = figure_named(name);
+  return with_interval(figures[figure], figure.unit_size);
+}
+
+/// "12.1 (9.3-16)", or "< 6.2" where the seeds do not resolve it.
+std::string evenness_text(const FigureMeans& figures) {
+  const auto text = [&](std::string_view name) {
+    const Figure& figure = figure_named(name);
+    return figures[figure] ? to_digits(figures[figure]->mean / figure.unit_size, 2) : "";
+  };
+  const std::string high = text("evenness_cv_percent_high"), cv = mean_text(figures, "evenness_cv_percent");
+  if (high.empty()) return "";
+  if (cv.empty()) return fmt::format("< {}", high);
+  return fmt::format("{} ({}-{})", to_digits(figures["evenness_cv_percent"]->mean * 100, 3),
+                     text("evenness_cv_percent_low"), high);
+}
+
+/// A value of a layout as a person writes it: "9 Hz".
+std::string with_unit(const std::string& key, const std::string& value) {
+  const auto unit = column_unit(key);
+  return unit && csv_text_or_number(value).is_number ? fmt::format("{} {}", value, unit->unit) : value;
+}
+
+std::string described(const Study& study, const Layout& layout) {
+  std::string text = layout.name;
+  for (const std::string& key : study.keys) {
+    const auto value = layout.values.find(key);
+    if (value == layout.values.end() || !layout.name.empty()) continue;
+    text += fmt::format("{}{} {}", text.empty() ? "" : ", ", key.substr(key.rfind('.') + 1),
+                        with_unit(key, value->second));
+  }
+  return text;
+}
+
+/// What the table shows of a layout, but for its name; each column is as wide as its longest cell.
+using Cells = std::array<std::string, 4>;
+const Cells heads = {"g/s", "seeds/s", "raw CV", "CV, %"};
+
+Cells cells_of(const FigureMeans& figures) {
+  return {mean_text(figures, "rate_g_per_s"), mean_text(figures, "seeds_per_s"), mean_text(figures, "raw_cv_percent"),
+          evenness_text(figures)};
+}
+
+/// A line of the table: a name longer than what the cells leave has lines of its own.
+std::string line_of(const std::string& number, const std::string& name, const Cells& cells,
+                    const std::array<std::size_t, 4>& widths) {
+  const std::string label = fmt::format("{:>3} ", number);
+  const std::size_t room =
+      terminal_columns - label.size() - std::accumulate(widths.begin(), widths.end(), widths.size());
+  const bool fits = name.size() <= room;
+  std::string text = fits ? label : wrapped_beside(label, name) + std::string(label.size(), ' ');
+  text += fmt::format("{:<{}}", fits ? name : "", room);
+  for (std::size_t k = 0; k < cells.size(); ++k) text += fmt::format(" {:>{}}", cells[k], widths[k]);
+  return text + '\n';
+}
+
+void print_remarks(const LayoutResult& of) {
+  const FigureMeans& figures = of.figures;
+  if (figures["tray_rate_g_per_s"])
+    print_text(wrapped(fmt::format("tray, times {}: {} g/s, {} g/min, {} seeds/s", mean_text(figures, "depth_factor"),
+                                   mean_text(figures, "tray_rate_g_per_s"), mean_text(figures, "tray_rate_g_per_min"),
+                                   mean_text(figures, "tray_seeds_per_s")),
+                       4));
+  if (of.misfit_percent) print("    misfit {} %\n", with_interval(of.misfit_percent, 1));
+  if (!of.reason.empty()) print_text(wrapped(of.reason, 4));
+}
+
+void print_layouts(const StudyResult& result) {
+  std::vector<Cells> rows;
+  std::array<std::size_t, 4> widths{};
+  for (const LayoutResult& layout : result.layouts) rows.push_back(cells_of(layout.figures));
+  for (std::size_t k = 0; k < widths.size(); ++k) {
+    widths[k] = heads[k].size();
+    for (const Cells& row : rows) widths[k] = std::max(widths[k], row[k].size());
+  }
+  print_text(line_of("", "layout", heads, widths));
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    print_text(line_of(std::to_string(i + 1), described(result.study, result.study.layouts[i]), rows[i], widths));
+    print_remarks(result.layouts[i]);
+  }
+}
+
+}  // namespace
+
+void print_sweep_table(const StudyResult& result) {
+  print("{}\n", wrapped(result.study.title));
+  print_layouts(result);
+  const bool uneven = std::ranges::any_of(
+      result.layouts, [](const LayoutResult& one) { return one.figures["raw_cv_percent"].has_value(); });
+  if (uneven)
+    print("\n{}", wrapped("CV between the holes, %: raw, and without what counting alone gives, with its 95 % "
+                          "interval; \"<\": below what this many seeds resolve"));
+  if (!result.comparison) return;
+  if (result.study.measured->scale == MeasuredScale::free && result.comparison->scale)
+    print("\nscale fitted to the measured outflow: {:.4g}\n", *result.comparison->scale);
+  if (result.comparison->misfit_percent) print("misfit over all rows: {:.3g} %\n", *result.comparison->misfit_percent);
+}
+
+}  // namespace vibrosow

@@ -1,0 +1,78 @@
+#include <fmt/format.h>
+
+#include <charconv>
+#include <memory>
+#include <string>
+#include <utility>
+
+#include "cli/commands.hpp"
+#include "cli/common_options.hpp"
+#include "cli/console.hpp"
+#include "cli/make_runs.hpp"
+#include "cli/slurm.hpp"
+#include "design/planned_study.hpp"
+#include "input/wording.hpp"
+#include "scene/input_error.hpp"
+#include "storage/study_plan.hpp"
+
+namespace vibrosow {
+namespace {
+
+struct WorkOptions {
+  std::string folder, plan, bundle = "1/1";
+  MakingFlags making;
+  int jobs = 1;
+  bool quiet = false, requeue = false;
+};
+
+/// "17/200".
+std::pair<std::size_t, std::size_t> bundle_numbers(const std::string& text) {
+  std::size_t number = 0, bundles = 0;
+  const char *const begin = text.data(), *const end = begin + text.size();
+  const auto [slash, none] = std::from_chars(begin, end, number);
+  if (none == std::errc{} && slash != end && *slash == '/') {
+    const auto [last, error] = std::from_chars(slash + 1, end, bundles);
+    if (error == std::errc{} && last == end && 1 <= number && number <= bundles && bundles <= 1000000)
+      return {number, bundles};
+  }
+  throw InputError(fmt::format("--bundle: \"{}\" is no share such as 17/200", shortened(text)));
+}
+
+int work(const WorkOptions& options) {
+  const auto [number, bundles] = bundle_numbers(options.bundle);
+  const PlannedStudy planned = study_of_plan(read_plan(options.folder, options.plan));
+  StudyRuns runs(cases_of(options.folder));
+  const Made made = make_runs(runs, wanted_runs(planned, bundle_of(planned.plan, number, bundles)), options.making,
+                              options.jobs, options.quiet);
+  const Making& making = made.making;
+  if (!options.quiet)
+    print("bundle {}/{}: {} runs made, {} were there, {} left\n", number, bundles, making.made, making.there,
+          making.interrupted);
+  if (!runs.not_kept().empty()) throw InputError("runs are not kept: " + runs.not_kept());
+  if (making.interrupted == 0) return exit_done;
+  if (options.requeue) requeue_in_slurm();
+  return exit_interrupted;
+}
+
+}  // namespace
+
+void add_work_command(CLI::App& app, int& exit_code) {
+  auto options = std::make_shared<WorkOptions>();
+  CLI::App* command = app.add_subcommand("work", "make the runs of a sweep's plan, or a share of them; no reports");
+  command->add_option("FOLDER", options->folder, "of the sweep")->required();
+  command->add_option("--bundle", options->bundle, "the share: 17/200 is the 17th of 200 that cost the same")
+      ->type_name("K/N");
+  command->add_option("--plan", options->plan, "an older plan of the folder, by its name")->type_name("NAME");
+  command->add_option("--time-limit", options->making.time_limit, "by the clock; runs under way are then saved")
+      ->type_name("TIME");
+  command->add_option("--jobs", options->jobs, "runs side by side")
+      ->type_name("N")
+      ->check(CLI::Range(1, 4096))
+      ->capture_default_str();
+  add_making_flags(*command, options->making);
+  command->add_flag("--requeue", options->requeue, "under Slurm: queue this job again while its share is unfinished");
+  command->add_flag("--quiet", options->quiet, "no progress and no summary");
+  command->callback([options, &exit_code] { exit_code = work(*options); });
+}
+
+}  // namespace vibrosow

@@ -1,0 +1,107 @@
+#include "design/planned_study.hpp"
+
+#include <fmt/format.h>
+
+#include <numeric>
+
+#include "design/sweep.hpp"
+#include "input/override.hpp"
+#include "plan/model.hpp"
+#include "plan/predicted_grains.hpp"
+#include "scene/input_error.hpp"
+#include "storage/case_file.hpp"
+
+namespace vibrosow {
+namespace {
+
+Study study_in(const std::filesystem::path& file, const std::vector<std::string>& sets,
+               const std::shared_ptr<SourceFiles>& files) {
+  std::vector<Override> overrides;
+  for (const std::string& set : sets) overrides.push_back(parse_override(set));
+  return read_study(file, overrides, files);
+}
+
+/// By layout, then random seed; a scene that several layouts share once, under the first.
+std::vector<PlannedRun> runs_of(const Study& study, std::uint64_t first_random_seed,
+                                const std::vector<int>& replicates) {
+  std::vector<PlannedRun> runs;
+  std::vector<bool> planned(study.scenes.size());
+  for (const Layout& layout : study.layouts) {
+    if (!layout.scene || planned[*layout.scene]) continue;
+    planned[*layout.scene] = true;
+    const Model model = prepare(study.scenes[*layout.scene]);  // at its accuracy: as it is run
+    const double cost = predicted_grain_steps(model.scene, model.step.dt);
+    for (int i = 0; i < replicates[*layout.scene]; ++i) {
+      const std::uint64_t seed = first_random_seed + static_cast<std::uint64_t>(i);
+      runs.push_back({case_name(case_identity(model.scene, seed)), layout.number, seed, cost});
+    }
+  }
+  return runs;
+}
+
+}  // namespace
+
+PlannedStudy plan_study(const std::filesystem::path& file, const std::vector<std::string>& sets,
+                        std::uint64_t first_random_seed, const std::shared_ptr<SourceFiles>& files) {
+  PlannedStudy planned{study_in(file, sets, files), {}};
+  planned.plan = {std::filesystem::absolute(file).lexically_normal().string(), sets, first_random_seed, files->texts(),
+                  runs_of(planned.study, first_random_seed,
+                          std::vector<int>(planned.study.scenes.size(), planned.study.replicates.first()))};
+  return planned;
+}
+
+std::vector<int> replicates_in(const PlannedStudy& planned) {
+  std::vector<int> replicates(planned.study.scenes.size());
+  for (const PlannedRun& run : planned.plan.runs)
+    if (const auto index = static_cast<std::size_t>(run.layout) - 1; index < planned.study.layouts.size())
+      if (const auto scene = planned.study.layouts[index].scene) ++replicates[*scene];
+  return replicates;
+}
+
+std::optional<PlannedStudy> next_round(const PlannedStudy& planned, const Simulator& kept, int jobs) {
+  if (!planned.study.replicates.interval) return std::nullopt;
+  SweepOptions options;
+  options.first_random_seed = planned.plan.random_seed;
+  options.replicates = replicates_in(planned);
+  options.runs.jobs = jobs;
+  const StudyResult result = sweep(planned.study, kept, options);
+  std::vector<int> replicates = options.replicates;
+  for (std::size_t scene = 0; scene < replicates.size(); ++scene)
+    if (static_cast<int>(result.runs[scene].size()) == replicates[scene])  // else some were more than enough
+      replicates[scene] = runs_to_go_to(rates_of(result.runs[scene]), planned.study.replicates);
+  if (replicates == options.replicates) return std::nullopt;
+  PlannedStudy next = planned;
+  next.plan.runs = runs_of(planned.study, planned.plan.random_seed, replicates);
+  return next;
+}
+
+PlannedStudy study_of_plan(const StudyPlan& plan) {
+  const auto files = std::make_shared<SourceFiles>(plan.files);
+  PlannedStudy again{study_in(plan.study, plan.sets, files), plan};
+  const std::vector<PlannedRun> runs = runs_of(again.study, plan.random_seed, replicates_in(again));
+  const bool same = std::ranges::equal(runs, plan.runs, {}, &PlannedRun::name, &PlannedRun::name);
+  if (!same)
+    throw InputError(fmt::format(
+        "{}: the plan was made by another version of the program, or of the models shipped with it; sweep or submit it "
+        "again, which makes a new plan",
+        plan.study));
+  return again;
+}
+
+std::vector<WantedRun> wanted_runs(const PlannedStudy& planned, const std::vector<std::size_t>& which) {
+  std::vector<WantedRun> wanted;
+  for (const std::size_t k : which) {
+    const PlannedRun& run = planned.plan.runs[k];
+    const Layout& layout = planned.study.layouts[static_cast<std::size_t>(run.layout) - 1];
+    wanted.push_back({&planned.study.scenes[layout.scene.value()], run.random_seed, run.name, run.grain_steps, run.layout});
+  }
+  return wanted;
+}
+
+std::vector<WantedRun> wanted_runs(const PlannedStudy& planned) {
+  std::vector<std::size_t> all(planned.plan.runs.size());
+  std::iota(all.begin(), all.end(), std::size_t{0});
+  return wanted_runs(planned, all);
+}
+
+}  // namespace vibrosow

@@ -1,0 +1,293 @@
+#include "design/study_runs.hpp"
+
+#include <algorithm>
+#include <deque>
+#include <fstream>
+#include <iterator>
+#include <set>
+#include <thread>
+
+#include "design/side_by_side.hpp"
+#include "plan/softness.hpp"
+#include "scene/input_error.hpp"
+#include "simulation/checkpoint.hpp"
+#include "storage/atomic_file.hpp"
+#include "storage/case_file.hpp"
+
+namespace vibrosow {
+namespace {
+
+namespace fs = std::filesystem;
+using Clock = std::chrono::steady_clock;
+constexpr std::chrono::milliseconds look_again_after(200);
+
+bool has_failed(const Run& run) {
+  return run.status == RunStatus::refused || run.status == RunStatus::stopped_by_guard;
+}
+
+Run refused(std::uint64_t random_seed, const std::string& reason) {
+  Run run;
+  run.status = RunStatus::refused;
+  run.random_seed = random_seed;
+  run.stop_reason = reason;
+  return run;
+}
+
+/// True once in each interval of the clock.
+class Alarm {
+ public:
+  explicit Alarm(double every) : every_(every) {}
+  bool rings() {
+    if (std::chrono::duration<double>(Clock::now() - last_).count() < every_) return false;
+    last_ = Clock::now();
+    return true;
+  }
+
+ private:
+  double every_;  // s
+  Clock::time_point last_ = Clock::now();
+};
+
+/// Takes a note away, whatever ends the work on its run.
+class Released {
+ public:
+  Released(RunNotes& notes, const std::string& run) : notes_(notes), run_(run) {}
+  ~Released() { notes_.release(run_); }
+  Released(const Released&) = delete;
+  Released& operator=(const Released&) = delete;
+
+ private:
+  RunNotes& notes_;
+  const std::string& run_;
+};
+
+/// The latest checkpoint that can be read and fits. Others are left alone until the run has ended: another machine may
+/// read what this one cannot.
+std::optional<SimulationState> state_to_go_on_from(const CheckpointFolder& checkpoints, const std::string& run,
+                                                   const Model& model, std::uint64_t random_seed) {
+  for (const fs::path& path : checkpoints.of(run)) {
+    std::ifstream file(path, std::ios::binary);
+    const std::string bytes(std::istreambuf_iterator<char>(file), {});
+    try {
+      SimulationState state = restore(model, bytes);
+      if (state.run.random_seed == random_seed) return state;
+    } catch (const InputError&) {
+    }
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+/// What is still to be done, and how far it is. Runs that others are making come again after all the rest.
+class StudyRuns::Queue {
+ public:
+  Queue(const std::vector<WantedRun>& wanted, const MakingOptions& options) : options_(options) {
+    for (const WantedRun& run : wanted) {
+      waiting_.push_back(&run);
+      cost_ += run.grain_steps;
+    }
+    making_.interrupted = static_cast<std::int64_t>(wanted.size());
+  }
+
+  bool is_interrupted() const { return failure_.load() || (options_.interrupt && options_.interrupt->load()); }
+
+  const WantedRun* next() {
+    const std::lock_guard lock(mutex_);
+    if (waiting_.empty()) return nullptr;
+    const WantedRun* const run = waiting_.front();
+    waiting_.pop_front();
+    return run;
+  }
+
+  /// Puts a run behind all others; false when it has been there before.
+  bool put_off(const WantedRun& run) {
+    const std::lock_guard lock(mutex_);
+    waiting_.push_back(&run);
+    return put_off_.insert(&run).second;
+  }
+
+  void set_fraction(const WantedRun& run, double fraction) {
+    const std::lock_guard lock(mutex_);
+    double& known = fractions_[&run];
+    done_ += (fraction - known) * run.grain_steps;
+    known = fraction;
+    if (options_.progress) options_.progress(cost_ > 0 ? done_ / cost_ : 1);
+  }
+
+  void ended(const WantedRun& wanted) {
+    set_fraction(wanted, 1);
+    const std::lock_guard lock(mutex_);
+    --making_.interrupted;
+    ++making_.there;
+  }
+
+  void ended(const WantedRun& wanted, const Run& run) {
+    set_fraction(wanted, 1);
+    const std::lock_guard lock(mutex_);
+    --making_.interrupted;
+    ++making_.made;
+    making_.run_time += run.wall_time;
+    making_.grain_steps += static_cast<double>(run.grain_steps);
+    if (options_.on_made) options_.on_made(wanted, run);
+  }
+
+  /// Ends the others' work too.
+  void fail(std::exception_ptr reason) {
+    const std::lock_guard lock(mutex_);
+    if (!reason_) reason_ = std::move(reason);
+    failure_ = true;
+  }
+
+  Making result() const {
+    const std::lock_guard lock(mutex_);
+    if (reason_) std::rethrow_exception(reason_);
+    return making_;
+  }
+
+ private:
+  const MakingOptions& options_;
+  mutable std::mutex mutex_;
+  std::deque<const WantedRun*> waiting_;
+  std::set<const WantedRun*> put_off_;
+  std::map<const WantedRun*, double> fractions_;
+  double cost_ = 0, done_ = 0;
+  Making making_;
+  std::atomic<bool> failure_ = false;
+  std::exception_ptr reason_;
+};
+
+StudyRuns::StudyRuns(const fs::path& own, const std::vector<fs::path>& others, std::chrono::duration<double> patience)
+    : notes_(own / "running", patience), checkpoints_(own / "checkpoints") {
+  folders_.emplace_back(own);
+  for (const fs::path& other : others) folders_.emplace_back(other);
+}
+
+Making StudyRuns::make(const std::vector<WantedRun>& wanted, const Simulator& simulator, const MakingOptions& options) {
+  Queue queue(wanted, options);
+  side_by_side(options.jobs, [&] {
+    while (const WantedRun* run = queue.is_interrupted() ? nullptr : queue.next()) {
+      try {
+        if (!attempt(*run, simulator, options, queue) && !queue.put_off(*run))
+          std::this_thread::sleep_for(look_again_after);
+      } catch (...) {
+        queue.fail(std::current_exception());
+      }
+    }
+  });
+  keep_waiting();
+  return queue.result();
+}
+
+/// False where another process is making it.
+bool StudyRuns::attempt(const WantedRun& wanted, const Simulator& simulator, const MakingOptions& options,
+                        Queue& queue) {
+  if (is_there(wanted, options.retry)) {
+    queue.ended(wanted);
+    return true;
+  }
+  if (!notes_.claim(wanted.name)) return false;
+  const Released released(notes_, wanted.name);
+  if (is_there(wanted, options.retry)) {  // made by another in between
+    queue.ended(wanted);
+    return true;
+  }
+  const Run run = run_on(wanted, simulator, options, queue);
+  if (run.status == RunStatus::interrupted) return true;
+  keep(case_identity(at_its_accuracy(*wanted.scene), wanted.random_seed), run);
+  checkpoints_.remove(wanted.name);
+  queue.ended(wanted, run);
+  return true;
+}
+
+bool StudyRuns::is_there(const WantedRun& wanted, bool retry) {
+  CaseFolder& own = folders_.front();
+  if (own.has(wanted.name)) {
+    if (!retry) return true;
+    const std::optional<Case> kept = own.named(wanted.name);
+    if (kept && !has_failed(kept->run)) return true;
+    own.remove(wanted.name);
+  }
+  for (auto other = std::next(folders_.begin()); other != folders_.end(); ++other) {
+    const std::optional<Case> kept = other->named(wanted.name);
+    if (!kept || (retry && has_failed(kept->run))) continue;
+    keep(kept->identity, kept->run);
+    return true;
+  }
+  return false;
+}
+
+Run StudyRuns::run_on(const WantedRun& wanted, const Simulator& simulator, const MakingOptions& options, Queue& queue) {
+  try {
+    const Model model = prepare_to_run(*wanted.scene);
+    SimulationOptions simulation;
+    simulation.random_seed = wanted.random_seed;
+    simulation.interrupt = options.interrupt;
+    simulation.from = state_to_go_on_from(checkpoints_, wanted.name, model, wanted.random_seed);
+    simulation.progress = [&](double fraction) {
+      notes_.beat(wanted.name, fraction);
+      queue.set_fraction(wanted, fraction);
+    };
+    Alarm alarm(options.save_every);
+    simulation.checkpoint_now = [&] { return alarm.rings(); };
+    simulation.on_checkpoint = [&](const SimulationState& state) {
+      try {
+        checkpoints_.keep(wanted.name, state.step, save(model, state));
+      } catch (const InputError& error) {
+        note_not_kept(error.what());
+      }
+    };
+    return simulator(model, simulation);
+  } catch (const InputError& error) {
+    return refused(wanted.random_seed, error.what());
+  }
+}
+
+void StudyRuns::note_not_kept(const std::string& reason) {
+  const std::lock_guard lock(mutex_);
+  if (not_kept_.empty()) not_kept_ = reason;
+}
+
+void StudyRuns::keep(const std::string& identity, const Run& run) {
+  try {
+    folders_.front().keep(identity, run);
+    keep_waiting();
+  } catch (const CannotWrite& error) {
+    note_not_kept(error.what());
+    const std::lock_guard lock(mutex_);
+    waiting_[identity] = run;
+  }
+}
+
+/// What could not be written is tried again.
+void StudyRuns::keep_waiting() {
+  const std::lock_guard lock(mutex_);
+  try {
+    while (!waiting_.empty()) {
+      folders_.front().keep(waiting_.begin()->first, waiting_.begin()->second);
+      waiting_.erase(waiting_.begin());
+    }
+    not_kept_.clear();
+  } catch (const CannotWrite&) {
+  }
+}
+
+Simulator StudyRuns::kept() const {
+  return [this](const Model& model, const SimulationOptions& options) {
+    const std::string identity = case_identity(model.scene, options.random_seed);
+    if (std::optional<Run> run = folders_.front().find(identity)) return std::move(*run);
+    const std::lock_guard lock(mutex_);
+    if (const auto waiting = waiting_.find(identity); waiting != waiting_.end()) return waiting->second;
+    Run none;
+    none.status = RunStatus::interrupted;
+    none.random_seed = options.random_seed;
+    return none;
+  };
+}
+
+std::string StudyRuns::not_kept() const {
+  const std::lock_guard lock(mutex_);
+  return not_kept_;
+}
+
+}  // namespace vibrosow

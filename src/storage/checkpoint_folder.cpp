@@ -1,0 +1,50 @@
+#include "storage/checkpoint_folder.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <system_error>
+
+#include "storage/atomic_file.hpp"
+
+namespace vibrosow {
+
+namespace fs = std::filesystem;
+
+CheckpointFolder::Steps CheckpointFolder::steps_of(const std::string& run) const {
+  Steps steps;
+  for (const fs::path& file : entries_of(path_)) {
+    const std::string name = file.filename().string();
+    if (!name.starts_with(run + ".") || file.extension() != ".checkpoint") continue;
+    std::int64_t step = 0;
+    const char* digits = name.data() + run.size() + 1;
+    std::from_chars(digits, name.data() + name.size(), step);
+    steps.emplace_back(step, file);
+  }
+  std::ranges::sort(steps, std::greater{});
+  return steps;
+}
+
+void CheckpointFolder::keep(const std::string& run, std::int64_t step, std::string_view bytes) const {
+  std::error_code error;
+  const fs::path file = path_ / fmt::format("{}.{}.checkpoint", run, step);
+  fs::create_directories(path_, error);
+  if (error) cannot_write(file, error.message());
+  write_file_atomically(file, bytes);
+  for (const auto& [other, path] : steps_of(run))
+    if (other < step) fs::remove(path, error);
+}
+
+std::vector<fs::path> CheckpointFolder::of(const std::string& run) const {
+  std::vector<fs::path> paths;
+  for (const auto& [step, path] : steps_of(run)) paths.push_back(path);
+  return paths;
+}
+
+void CheckpointFolder::remove(const std::string& run) const {
+  std::error_code none;
+  for (const fs::path& path : of(run)) fs::remove(path, none);
+}
+
+}  // namespace vibrosow

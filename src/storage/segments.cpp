@@ -1,0 +1,121 @@
+#include "storage/segments.hpp"
+
+#include <fmt/format.h>
+#include <xxhash.h>
+
+#include <algorithm>
+#include <bit>
+#include <charconv>
+#include <cstring>
+#include <fstream>
+#include <optional>
+#include <system_error>
+
+#include "storage/atomic_file.hpp"
+
+namespace vibrosow {
+namespace {
+
+namespace fs = std::filesystem;
+constexpr std::string_view signature = "vibrosow segment 1 ";
+constexpr std::size_t hash_digits = 16, head_size = signature.size() + hash_digits + 1, bytes_of_place = 32;
+
+std::uint64_t number_of(std::string_view digits) {
+  std::uint64_t number = 0;
+  std::from_chars(digits.data(), digits.data() + digits.size(), number, 16);
+  return number;
+}
+
+void add_number(std::string& bytes, std::uint64_t number) {
+  for (int k = 0; k < 8; ++k) bytes += static_cast<char>(number >> (8 * k) & 0xff);  // the same on every machine
+}
+
+std::uint64_t number_at(const std::string& bytes, std::size_t at) {
+  std::uint64_t number = 0;
+  for (std::size_t k = 8; k-- > 0;) number = number << 8 | static_cast<unsigned char>(bytes[at + k]);
+  return number;
+}
+
+std::string head_of(const std::string& numbers) {
+  return fmt::format("{}{:0{}x}\n", signature, XXH3_64bits(numbers.data(), numbers.size()), hash_digits);
+}
+
+/// The numbers of a segment, the count of its cases before; none where it is damaged.
+std::optional<std::string> numbers_of(const fs::path& file) {
+  std::error_code error;
+  const std::uint64_t size = fs::file_size(file, error);
+  std::ifstream in(file, std::ios::binary);
+  std::string head(head_size, '\0'), numbers(8, '\0');
+  if (error || !in.read(head.data(), head_size) || !in.read(numbers.data(), 8)) return std::nullopt;
+  const std::uint64_t count = number_at(numbers, 0);
+  if (count > size / bytes_of_place) return std::nullopt;
+  numbers.resize(8 + count * bytes_of_place);
+  if (!in.read(numbers.data() + 8, static_cast<std::streamsize>(numbers.size() - 8))) return std::nullopt;
+  if (head != head_of(numbers)) return std::nullopt;
+  return numbers;
+}
+
+}  // namespace
+
+void Segments::read(const fs::path& file) {
+  const auto segment = static_cast<std::uint32_t>(files_.size());
+  files_.push_back(file);
+  const std::optional<std::string> numbers = numbers_of(file);
+  if (!numbers) return;
+  for (std::size_t at = 8; at < numbers->size(); at += bytes_of_place)
+    places_.push_back({{number_at(*numbers, at), number_at(*numbers, at + 8)},
+                       number_at(*numbers, at + 16),
+                       number_at(*numbers, at + 24),
+                       segment});
+}
+
+void Segments::refresh() {
+  std::vector<fs::path> fresh;
+  for (const fs::path& file : entries_of(folder_))
+    if (file.extension() == ".segment" && std::ranges::find(files_, file) == files_.end()) fresh.push_back(file);
+  if (fresh.empty()) return;
+  std::ranges::sort(fresh);
+  for (const fs::path& file : fresh) read(file);
+  std::ranges::sort(places_);
+}
+
+std::vector<std::string> Segments::bytes_of(const std::string& name) const {
+  const Key key = {number_of(name.substr(0, 16)), number_of(name.substr(16))};
+  std::vector<std::string> copies;
+  for (const Place& place : std::ranges::equal_range(places_, key, {}, &Place::key)) {
+    std::ifstream in(files_[place.segment], std::ios::binary);
+    std::error_code error;
+    if (place.at + place.size > fs::file_size(files_[place.segment], error) || error) continue;
+    std::string bytes(place.size, '\0');
+    in.seekg(static_cast<std::streamoff>(place.at));
+    if (in.read(bytes.data(), static_cast<std::streamsize>(bytes.size()))) copies.push_back(std::move(bytes));
+  }
+  return copies;
+}
+
+std::vector<std::string> Segments::names() const {
+  std::vector<std::string> names;
+  for (const Place& place : places_) names.push_back(fmt::format("{:016x}{:016x}", place.key[0], place.key[1]));
+  return names;
+}
+
+void Segments::write(const std::map<std::string, std::string>& cases) const {
+  std::string numbers, content, all_names;
+  add_number(numbers, cases.size());
+  std::uint64_t at = head_size + 8 + cases.size() * bytes_of_place;
+  for (const auto& [name, bytes] : cases) {
+    for (const std::uint64_t number : {number_of(name.substr(0, 16)), number_of(name.substr(16)), at, std::uint64_t{bytes.size()}})
+      add_number(numbers, number);
+    at += bytes.size();
+    content += bytes;
+    all_names += name;
+  }
+  const XXH128_hash_t hash = XXH3_128bits(all_names.data(), all_names.size());
+  const fs::path file = folder_ / fmt::format("{:016x}{:016x}.segment", hash.high64, hash.low64);
+  std::error_code error;
+  fs::create_directories(folder_, error);
+  if (error) cannot_write(file, error.message());
+  write_file_atomically(file, head_of(numbers) + numbers + content);
+}
+
+}  // namespace vibrosow

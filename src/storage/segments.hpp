@@ -1,0 +1,47 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace vibrosow {
+
+/// Many cases in one file: a line "vibrosow segment 1 HASH", the number of cases, then for each its name, place and
+/// size, then their bytes one after the other. The hash is of the numbers; each case has its own. The file's name is
+/// the hash of its names. Written whole or not at all, never changed.
+class Segments {
+ public:
+  explicit Segments(std::filesystem::path folder) : folder_(std::move(folder)) {}
+
+  /// Looks for segments that have come since. Not for several threads at a time.
+  void refresh();
+
+  /// Every copy of a case, in the order of the segments' names; empty where there is none.
+  std::vector<std::string> bytes_of(const std::string& name) const;
+
+  /// Names of all cases in them, in order.
+  std::vector<std::string> names() const;
+
+  /// Writes one segment of these cases, by name, down to the disk. Throws InputError where that fails.
+  void write(const std::map<std::string, std::string>& cases) const;
+
+ private:
+  using Key = std::array<std::uint64_t, 2>;  // the name's 32 digits
+  struct Place {
+    Key key;
+    std::uint64_t at, size;  // bytes of the segment
+    std::uint32_t segment;   // index in files_
+    auto operator<=>(const Place&) const = default;
+  };
+
+  void read(const std::filesystem::path& file);
+
+  std::filesystem::path folder_;
+  std::vector<std::filesystem::path> files_;  // sound and others
+  std::vector<Place> places_;                 // in order
+};
+
+}  // namespace vibrosow

@@ -1,0 +1,49 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace vibrosow {
+
+/// One run of a study: a layout's scene with a random seed.
+struct PlannedRun {
+  std::string name;  // of its case
+  int layout = 0;    // number of the first layout with this scene
+  std::uint64_t random_seed = 1;
+  double grain_steps = 0;  // foreseen: what it costs
+};
+
+/// A study as it was when it was begun, files and all, with the runs that it takes. Never changed once it is written.
+struct StudyPlan {
+  std::string study;                         // absolute path of the study file
+  std::vector<std::string> sets;             // KEY=VALUE of the command line
+  std::uint64_t random_seed = 1;             // the first
+  std::map<std::string, std::string> files;  // by absolute path: what was read
+  std::vector<PlannedRun> runs;              // by layout, then random seed
+};
+
+/// Where a sweep's folder has its runs and its plans.
+std::filesystem::path cases_of(const std::filesystem::path& folder);
+
+/// Writes a plan into a sweep's folder, named by its hash, and makes it the current one; gives its name. Throws
+/// InputError where it cannot be written.
+std::string freeze_plan(const std::filesystem::path& folder, const StudyPlan& plan);
+
+/// The plan of a name, the current one where that is empty. Throws InputError where the folder has no such plan, or
+/// it is damaged.
+StudyPlan read_plan(const std::filesystem::path& folder, std::string name = "");
+
+/// The file of a plan, without its extension.
+std::filesystem::path plan_path(const std::filesystem::path& folder, const std::string& name);
+
+/// Name of the current plan. Throws InputError where the folder has none.
+std::string current_plan(const std::filesystem::path& folder);
+
+/// Which of the runs make up the `number`th (1..) of `bundles` shares, in order: all shares cost the same as nearly as
+/// dealing the dearest run first, always to the share that has least, gives it. By the plan alone.
+std::vector<std::size_t> bundle_of(const StudyPlan& plan, std::size_t number, std::size_t bundles);
+
+}  // namespace vibrosow
