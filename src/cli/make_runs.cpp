@@ -8,6 +8,7 @@
 #include <thread>
 
 #include "cli/common_options.hpp"
+#include "cli/console.hpp"
 #include "cli/interrupt.hpp"
 #include "cli/leading_layouts.hpp"
 #include "cli/progress.hpp"
@@ -97,6 +98,9 @@ Made make_runs(StudyRuns& runs, const std::vector<WantedRun>& wanted, const Maki
                     "runs");
   progress.show_also([&] { return leading.text(); });
   progress.tell("begin", fmt::format(R"("runs":{})", wanted.size()));
+  making.on_not_kept = [](const std::string& reason) {
+    complain(fmt::format("warning: {}; no further run is begun until there is room", reason));
+  };
   making.progress = [&](double fraction) { progress.update(fraction); };
   making.on_made = [&](const WantedRun& run, const Run& made) {
     leading.add(run, made);

@@ -167,6 +167,7 @@ Making StudyRuns::make(const std::vector<WantedRun>& wanted, const Simulator& si
   Queue queue(wanted, options);
   side_by_side(options.jobs, [&] {
     while (const WantedRun* run = queue.is_interrupted() ? nullptr : queue.next()) {
+      if (!has_room(options, queue)) return;
       try {
         if (!attempt(*run, simulator, options, queue) && !queue.put_off(*run))
           std::this_thread::sleep_for(look_again_after);
@@ -177,6 +178,22 @@ Making StudyRuns::make(const std::vector<WantedRun>& wanted, const Simulator& si
   });
   keep_waiting();
   return queue.result();
+}
+
+/// Waits until all that was made could be written; false where it takes too long, or the work is interrupted.
+bool StudyRuns::has_room(const MakingOptions& options, const Queue& queue) {
+  const auto begin = Clock::now();
+  bool told = false;
+  while (!queue.is_interrupted()) {
+    keep_waiting();
+    const std::string reason = not_kept();
+    if (reason.empty()) return true;
+    if (!told && options.on_not_kept) options.on_not_kept(reason);
+    told = true;
+    if (std::chrono::duration<double>(Clock::now() - begin).count() >= options.wait_for_room) return false;
+    std::this_thread::sleep_for(look_again_after);
+  }
+  return false;
 }
 
 /// False where another process is making it.
@@ -233,8 +250,7 @@ Run StudyRuns::run_on(const WantedRun& wanted, const Simulator& simulator, const
     simulation.on_checkpoint = [&](const SimulationState& state) {
       try {
         checkpoints_.keep(wanted.name, state.step, save(model, state));
-      } catch (const InputError& error) {
-        note_not_kept(error.what());
+      } catch (const InputError&) {  // it goes on, and is saved the next time or kept at its end
       }
     };
     return simulator(model, simulation);
@@ -243,19 +259,14 @@ Run StudyRuns::run_on(const WantedRun& wanted, const Simulator& simulator, const
   }
 }
 
-void StudyRuns::note_not_kept(const std::string& reason) {
-  const std::lock_guard lock(mutex_);
-  if (not_kept_.empty()) not_kept_ = reason;
-}
-
 void StudyRuns::keep(const std::string& identity, const Run& run) {
   try {
     folders_.front().keep(identity, run);
     keep_waiting();
   } catch (const CannotWrite& error) {
-    note_not_kept(error.what());
     const std::lock_guard lock(mutex_);
     waiting_[identity] = run;
+    not_kept_ = error.what();
   }
 }
 

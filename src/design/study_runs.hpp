@@ -33,8 +33,10 @@ struct MakingOptions {
   const std::atomic<bool>* interrupt = nullptr;  // true saves the runs under way and begins no other
   double save_every = 300;                       // s of the clock, between checkpoints of a run under way
   bool retry = false;                            // runs that were refused, or stopped by the guard, are made anew
-  std::function<void(double fraction_done)> progress{};              // of all cost; called by one thread at a time
-  std::function<void(const WantedRun&, const Run&)> on_made{};       // likewise, of every run that was made here
+  double wait_for_room = 600;                    // s of the clock: how long a full disk is waited for
+  std::function<void(const std::string&)> on_not_kept{};        // why runs wait to be written; once for each wait
+  std::function<void(double fraction_done)> progress{};         // of all cost; called by one thread at a time
+  std::function<void(const WantedRun&, const Run&)> on_made{};  // likewise, of every run that was made here
 };
 
 /// What came of making runs.
@@ -62,8 +64,8 @@ class StudyRuns {
   /// In the place of a simulator: gives the run that is kept; an interrupted one where there is none.
   Simulator kept() const;
 
-  /// Why the first run that could not be written could not; empty where all could. Such runs are in memory alone, and
-  /// are tried again whenever another is kept.
+  /// Why the first run that could not be written could not; empty where all could. Such runs are in memory alone and
+  /// tried again; no other is begun meanwhile.
   std::string not_kept() const;
 
  private:
@@ -74,7 +76,7 @@ class StudyRuns {
   Run run_on(const WantedRun& wanted, const Simulator& simulator, const MakingOptions& options, Queue& queue);
   void keep(const std::string& identity, const Run& run);
   void keep_waiting();
-  void note_not_kept(const std::string& reason);
+  bool has_room(const MakingOptions& options, const Queue& queue);
 
   std::deque<CaseFolder> folders_;  // one's own first
   RunNotes notes_;

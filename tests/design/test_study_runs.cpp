@@ -128,8 +128,12 @@ TEST_F(StudyRunsOf, ARunThatCannotBeWrittenIsInMemoryUntilItCan) {
   make(runs, {1});
   EXPECT_EQ(kept(runs, 1).status, RunStatus::finished);
   EXPECT_THAT(runs.not_kept(), testing::HasSubstr("cannot be written"));
-  fs::remove(folder("a"));
-  make(runs, {2});
+  MakingOptions options;
+  options.jobs = 1, options.wait_for_room = 0;
+  EXPECT_EQ(runs.make(wanted({2}), simulator_, options).interrupted, 1) << "no other is begun";
+  options.wait_for_room = 600;
+  options.on_not_kept = [&](const std::string&) { fs::remove(folder("a")); };  // then there is room
+  EXPECT_EQ(runs.make(wanted({2}), simulator_, options).made, 1);
   EXPECT_EQ(runs.not_kept(), "");
   EXPECT_EQ(cases("a").size(), 2u);
 }
