@@ -34,9 +34,11 @@ int report_study(const PlannedStudy& planned, const StudyRuns& runs, const Outpu
   reading.first_random_seed = planned.plan.random_seed;
   reading.replicates = replicates_in(planned);
   reading.runs.jobs = timing.jobs;
+  SweepRunsCsv runs_csv(planned.study, options.csv);
+  reading.on_runs = [&](std::size_t scene, const std::vector<Evaluation>& of_scene) { runs_csv.add(scene, of_scene); };
   const StudyResult result = sweep(planned.study, runs.kept(), reading);
   write_then_print(
-      options.quiet, [&] { folder.write(sweep_files(result, timing, options.csv)); }, [&] { print_sweep_table(result); });
+      options.quiet, [&] { folder.write(sweep_files(result, runs_csv, timing, options.csv)); }, [&] { print_sweep_table(result); });
   const bool whole = std::ranges::none_of(result.layouts, [](const LayoutResult& one) {
     return one.status == LayoutStatus::interrupted;
   });

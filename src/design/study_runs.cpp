@@ -177,6 +177,8 @@ Making StudyRuns::make(const std::vector<WantedRun>& wanted, const Simulator& si
     }
   });
   keep_waiting();
+  for (const std::string& run : checkpoints_.runs())  // of runs that another has ended meanwhile
+    if (folders_.front().has(run)) checkpoints_.remove(run);
   return queue.result();
 }
 

@@ -18,21 +18,29 @@ int replicates_of(const Study& study, const SweepOptions& options, std::size_t s
   return options.replicates.empty() ? study.replicates.first() : options.replicates.at(scene);
 }
 
+/// Scenes that are run at a time: all, so that no core waits for another; where runs are dropped, some thousand runs.
+std::size_t scenes_at_a_time(const Study& study, const SweepOptions& options) {
+  constexpr std::size_t runs = 4096;
+  if (!options.on_runs || study.measured) return study.scenes.size();
+  return std::max<std::size_t>(1, runs / static_cast<std::size_t>(std::max(1, study.replicates.first())));
+}
+
+/// Those of scenes from one to before another.
 std::vector<std::vector<Evaluation>> run_scenes(const Study& study, const Simulator& simulator,
-                                                const SweepOptions& options) {
+                                                const SweepOptions& options, std::size_t from, std::size_t to) {
   std::vector<Model> models;
-  for (const Scene& scene : study.scenes) models.push_back(prepare(scene));
+  for (std::size_t scene = from; scene < to; ++scene) models.push_back(prepare(study.scenes[scene]));
   std::vector<Job> jobs;
-  for (std::size_t scene = 0; scene < models.size(); ++scene)
+  for (std::size_t scene = from; scene < to; ++scene)
     for (int i = 0; i < replicates_of(study, options, scene); ++i)
-      jobs.push_back(
-          {&models[scene], options.first_random_seed + static_cast<std::uint64_t>(i), measured_curves(study, scene)});
+      jobs.push_back({&models[scene - from], options.first_random_seed + static_cast<std::uint64_t>(i),
+                      measured_curves(study, scene)});
   std::vector<Evaluation> results = run_jobs(jobs, simulator, options.runs);
 
-  std::vector<std::vector<Evaluation>> runs(study.scenes.size());
+  std::vector<std::vector<Evaluation>> runs(to - from);
   std::size_t job = 0;
-  for (std::size_t scene = 0; scene < runs.size(); ++scene)
-    for (int i = 0; i < replicates_of(study, options, scene); ++i) runs[scene].push_back(std::move(results[job++]));
+  for (std::size_t scene = from; scene < to; ++scene)
+    for (int i = 0; i < replicates_of(study, options, scene); ++i) runs[scene - from].push_back(std::move(results[job++]));
   return runs;
 }
 
@@ -175,20 +183,21 @@ void add_remarks_on_need(const Study& study, const std::vector<Evaluation>& repl
   if (look_skewed(flowed)) add("the runs scatter to one side: the interval holds less often than 95 times in 100");
 }
 
-LayoutResult result_of(const Study& study, const Layout& layout, const std::vector<std::vector<Evaluation>>& runs) {
+LayoutResult invalid_result(const Layout& layout) {
   LayoutResult result;
-  if (!layout.scene) {
-    result.status = LayoutStatus::invalid;
-    result.reason = layout.invalid;
-    return result;
-  }
-  const std::vector<Evaluation> replicates = that_count(study, runs[*layout.scene]);
+  result.status = LayoutStatus::invalid;
+  result.reason = layout.invalid;
+  return result;
+}
+
+LayoutResult result_of(const Study& study, const Scene& scene, const std::vector<Evaluation>& runs) {
+  LayoutResult result;
+  const std::vector<Evaluation> replicates = that_count(study, runs);
   set_status(result, replicates);
   const bool was_run = result.status == LayoutStatus::ok || result.status == LayoutStatus::outside_the_model;
-  if (study.replicates.interval && was_run) add_remarks_on_need(study, runs[*layout.scene], result);
+  if (study.replicates.interval && was_run) add_remarks_on_need(study, runs, result);
   result.figures = figures_of(replicates);
   result.holes = hole_figures(replicates);
-  const Scene& scene = study.scenes[*layout.scene];
   result.warnings = scene_warnings(scene);
   for (std::size_t record = 0; scene.record && record < scene.record->times.size(); ++record)
     result.bed.push_back(bed_figures(scene, record, replicates));
@@ -210,9 +219,22 @@ std::vector<std::optional<double>> rates_of(const std::vector<Evaluation>& repli
 StudyResult sweep(const Study& study, const Simulator& simulator, const SweepOptions& options) {
   StudyResult result;
   result.study = study;
-  result.runs = run_scenes(study, simulator, options);
-  for (std::vector<Evaluation>& replicates : result.runs) leave_out_more_than_enough(study, replicates);
-  for (const Layout& layout : study.layouts) result.layouts.push_back(result_of(study, layout, result.runs));
+  result.runs.resize(study.scenes.size());
+  std::vector<LayoutResult> of_scenes;
+  const std::size_t at_a_time = scenes_at_a_time(study, options);
+  for (std::size_t from = 0; from < study.scenes.size(); from += at_a_time) {
+    const std::size_t to = std::min(from + at_a_time, study.scenes.size());
+    std::vector<std::vector<Evaluation>> runs = run_scenes(study, simulator, options, from, to);
+    for (std::size_t scene = from; scene < to; ++scene) {
+      std::vector<Evaluation>& replicates = runs[scene - from];
+      leave_out_more_than_enough(study, replicates);
+      of_scenes.push_back(result_of(study, study.scenes[scene], replicates));
+      if (options.on_runs) options.on_runs(scene, replicates);
+      if (!options.on_runs || study.measured) result.runs[scene] = std::move(replicates);
+    }
+  }
+  for (const Layout& layout : study.layouts)
+    result.layouts.push_back(layout.scene ? of_scenes[*layout.scene] : invalid_result(layout));
   if (study.measured) compare_with_measured(result);
   return result;
 }

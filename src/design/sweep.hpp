@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -15,6 +16,9 @@ namespace vibrosow {
 struct SweepOptions {
   std::uint64_t first_random_seed = 1;  // replicates use this one and those that follow
   std::vector<int> replicates{};        // of each of Study::scenes; empty: what the study begins with
+  /// Given the runs that count of each scene, in order, when they are there. They are dropped then, unless measured
+  /// outflow is to be compared with them, so that memory does not grow with their number.
+  std::function<void(std::size_t scene, const std::vector<Evaluation>&)> on_runs{};
   ManyRunsOptions runs;
 };
 
@@ -69,7 +73,7 @@ struct Comparison {
 
 struct StudyResult {
   Study study;
-  std::vector<std::vector<Evaluation>> runs;  // of each of Study::scenes, by random seed; those that count
+  std::vector<std::vector<Evaluation>> runs;  // of each of Study::scenes, by random seed; those that count, if kept
   std::vector<LayoutResult> layouts;          // of each of Study::layouts
   std::optional<Comparison> comparison;
 };

@@ -34,7 +34,8 @@ constexpr const char* list_name = "files.json";
   throw InputError(fmt::format("{} {}; choose another --out, or remove it", path.string(), reason));
 }
 
-/// A directory that is removed again with all that is in it.
+/// A directory that is removed again with the files in it that are named; not with what else there is, since it may by
+/// then be what was somebody's folder.
 class TemporaryDirectory {
  public:
   /// In a directory, named after a file there.
@@ -51,12 +52,15 @@ class TemporaryDirectory {
   TemporaryDirectory& operator=(const TemporaryDirectory&) = delete;
   ~TemporaryDirectory() {
     std::error_code error;
-    fs::remove_all(path_, error);
+    for (const std::string& name : names_) fs::remove(path_ / name, error);
+    fs::remove(path_, error);
   }
   const fs::path& path() const { return path_; }
+  void name(const std::string& file) { names_.insert(file); }
 
  private:
   fs::path path_;
+  Names names_;
 };
 
 /// What files.json says.
@@ -148,8 +152,9 @@ fs::path place_for_fresh(const fs::path& folder) {
 
 }  // namespace
 
-OutputFolder::OutputFolder(fs::path folder, std::string command, const std::vector<std::string>& files)
-    : folder_(std::move(folder)), command_(std::move(command)) {
+OutputFolder::OutputFolder(fs::path folder, std::string command, const std::vector<std::string>& files,
+                           bool holds_more)
+    : folder_(std::move(folder)), command_(std::move(command)), holds_more_(holds_more) {
   std::error_code error;
   fs::create_directories(folder_, error);
   if (error) throw InputError(fmt::format("{}: cannot be made: {}", folder_.string(), error.message()));
@@ -168,11 +173,14 @@ void OutputFolder::write(const std::vector<OutputFile>& files) const {
   const FileList list{command_, {names.begin(), names.end()}};
 
   const fs::path folder = fs::canonical(folder_);
-  const TemporaryDirectory fresh(place_for_fresh(folder), folder.filename().string());
+  TemporaryDirectory fresh(place_for_fresh(folder), folder.filename().string());
+  for (const FileList& set : {former, list})
+    for (const std::string& name : set.files) fresh.name(name);
+  fresh.name(list_name);
   for (const OutputFile& file : files) write_new_file(fresh.path() / file.name, file.content, folder_ / file.name);
   write_new_file(fresh.path() / list_name, text_of(list, true), folder_ / list_name);
   sync_directory(fresh.path());
-  if (!holds_only(folder, former) || !exchange(fresh.path(), folder))
+  if (holds_more_ || !holds_only(folder, former) || !exchange(fresh.path(), folder))
     move_in_one_by_one(fresh.path(), folder, former, list);
 }
 

@@ -25,7 +25,9 @@ class OutputFolder {
   /// Makes the folder now and looks whether `files` (names, of which * stands for any digits) may be written there, so
   /// that a long simulation does not end at a folder that cannot be used. Throws InputError: it cannot be made or
   /// written into, it belongs to another command, or a file of such a name is foreign.
-  OutputFolder(std::filesystem::path folder, std::string command, const std::vector<std::string>& files);
+  /// `holds_more`: there is always something else in it, which a late listing of a network file system may hide.
+  OutputFolder(std::filesystem::path folder, std::string command, const std::vector<std::string>& files,
+               bool holds_more = false);
 
   /// Replaces the set. Throws InputError "PATH: cannot be written: REASON" or for what the constructor refuses; the
   /// former set is then as it was (but where files are moved one by one and that fails halfway).
@@ -36,6 +38,7 @@ class OutputFolder {
  private:
   std::filesystem::path folder_;
   std::string command_;
+  bool holds_more_;
 };
 
 }  // namespace vibrosow

@@ -44,16 +44,9 @@ std::string run_status(EvaluationStatus status) {
   return "";
 }
 
-/// The first layout with the same scene.
-int first_with_scene(const Study& study, std::size_t scene) {
-  for (const Layout& layout : study.layouts)
-    if (layout.scene == scene) return layout.number;
-  return 0;
-}
-
-std::string run_note(const Study& study, const Layout& layout, const Evaluation& run) {
+/// `first`: number of the first layout with the same scene.
+std::string run_note(int first, const Layout& layout, const Evaluation& run) {
   std::string note = run.was_run() ? run.outflow.note() : run.reason;
-  const int first = first_with_scene(study, *layout.scene);
   if (first != layout.number) note += fmt::format("{}same run as of layout {}", note.empty() ? "" : "; ", first);
   return note;
 }
@@ -201,7 +194,7 @@ Columns<BedRow> sweep_records_columns() {
 
 /// A run under one of the layouts that share its scene.
 struct RunRow {
-  const StudyResult* result;
+  int first;  // number of the first of them
   const Layout* of_layout;
   const Evaluation* run;
   const Layout& layout() const { return *of_layout; }
@@ -258,7 +251,7 @@ Columns<RunRow> sweep_runs_columns() {
        run_column("dt_s", seconds, "time step", [](One one) { return one.dt; }),
        run_column("grain_steps", plain, "grains times steps", [](One one) { return one.grain_steps; }),
        text_column<RunRow>("note", "what to know about the run; empty when all is well",
-                           [](R r) { return run_note(r.result->study, r.layout(), *r.run); })});
+                           [](R r) { return run_note(r.first, r.layout(), *r.run); })});
   return columns;
 }
 
@@ -323,13 +316,29 @@ std::string sweep_records_csv(const StudyResult& result, CsvFormat format) {
   return csv.text();
 }
 
-std::string sweep_runs_csv(const StudyResult& result, CsvFormat format) {
-  Csv<RunRow> csv(sweep_runs_columns(), format);
-  for (const Layout& layout : result.study.layouts) {
-    if (!layout.scene) continue;
-    for (const Evaluation& run : result.runs[*layout.scene]) csv.add({&result, &layout, &run});
+SweepRunsCsv::SweepRunsCsv(const Study& study, CsvFormat format)
+    : study_(study),
+      format_(format),
+      layouts_(study.scenes.size()),
+      head_(Csv<RunRow>(sweep_runs_columns(), format).text()),
+      rows_(study.layouts.size()) {
+  for (std::size_t k = 0; k < study.layouts.size(); ++k)
+    if (study.layouts[k].scene) layouts_[*study.layouts[k].scene].push_back(k);
+}
+
+void SweepRunsCsv::add(std::size_t scene, const std::vector<Evaluation>& runs) {
+  for (const std::size_t layout : layouts_.at(scene)) {
+    Csv<RunRow> csv(sweep_runs_columns(), format_);
+    for (const Evaluation& run : runs)
+      csv.add({study_.layouts[layouts_[scene].front()].number, &study_.layouts[layout], &run});
+    rows_[layout] = csv.text().substr(head_.size());
   }
-  return csv.text();
+}
+
+std::string SweepRunsCsv::text() const {
+  std::string text = head_;
+  for (const std::string& rows : rows_) text += rows;
+  return text;
 }
 
 std::string comparison_csv(const StudyResult& result, CsvFormat format) {
@@ -358,10 +367,11 @@ std::vector<FileText> sweep_file_texts() {
                     comparison_columns())};
 }
 
-std::vector<OutputFile> sweep_files(const StudyResult& result, const SweepTiming& timing, CsvFormat format) {
+std::vector<OutputFile> sweep_files(const StudyResult& result, const SweepRunsCsv& runs, const SweepTiming& timing,
+                                    CsvFormat format) {
   std::vector<OutputFile> files = {{"sweep.csv", sweep_csv(result, format)},
                                    {"sweep_holes.csv", sweep_holes_csv(result, format)},
-                                   {"sweep_runs.csv", sweep_runs_csv(result, format)},
+                                   {"sweep_runs.csv", runs.text()},
                                    {"timing.json", sweep_timing_json(timing)}};
   const auto records = [](const LayoutResult& one) { return !one.bed.empty(); };
   if (std::ranges::any_of(result.layouts, records))

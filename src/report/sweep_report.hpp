@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "design/sweep.hpp"
 #include "report/columns.hpp"
@@ -23,8 +24,21 @@ std::string sweep_csv(const StudyResult& result, CsvFormat format = {});
 /// One row per layout, hole and lot. `measured` is in the unit of the measured table's quantity.
 std::string sweep_holes_csv(const StudyResult& result, CsvFormat format = {});
 
-/// One row per layout and random seed; a scene shared by several layouts is listed under each and says so.
-std::string sweep_runs_csv(const StudyResult& result, CsvFormat format = {});
+/// sweep_runs.csv, made scene by scene (`SweepOptions::on_runs`): one row per layout and random seed; a scene shared by
+/// several layouts is listed under each and says so. Of a study that outlives it.
+class SweepRunsCsv {
+ public:
+  explicit SweepRunsCsv(const Study& study, CsvFormat format = {});
+  void add(std::size_t scene, const std::vector<Evaluation>& runs);
+  std::string text() const;
+
+ private:
+  const Study& study_;
+  CsvFormat format_;
+  std::vector<std::vector<std::size_t>> layouts_;  // of each scene
+  std::string head_;
+  std::vector<std::string> rows_;  // of each layout
+};
 
 /// One row per layout, record time and lot, of layouts that record: packing fraction of the bed's inside with its
 /// change since the first record, where the lot is "all"; the lot's segregation index.
@@ -40,6 +54,7 @@ std::vector<FileText> sweep_file_texts();
 
 /// Its files: sweep.csv, sweep_holes.csv, sweep_runs.csv, timing.json, with a record sweep_records.csv and, with
 /// measured outflow, comparison.csv.
-std::vector<OutputFile> sweep_files(const StudyResult& result, const SweepTiming& timing, CsvFormat format = {});
+std::vector<OutputFile> sweep_files(const StudyResult& result, const SweepRunsCsv& runs, const SweepTiming& timing,
+                                    CsvFormat format = {});
 
 }  // namespace vibrosow

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <set>
 #include <system_error>
 
 #include "storage/atomic_file.hpp"
@@ -40,6 +41,13 @@ std::vector<fs::path> CheckpointFolder::of(const std::string& run) const {
   std::vector<fs::path> paths;
   for (const auto& [step, path] : steps_of(run)) paths.push_back(path);
   return paths;
+}
+
+std::vector<std::string> CheckpointFolder::runs() const {
+  std::set<std::string> runs;
+  for (const fs::path& file : entries_of(path_))
+    if (file.extension() == ".checkpoint") runs.insert(file.stem().stem().string());
+  return {runs.begin(), runs.end()};
 }
 
 void CheckpointFolder::remove(const std::string& run) const {

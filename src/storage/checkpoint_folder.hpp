@@ -23,6 +23,9 @@ class CheckpointFolder {
 
   void remove(const std::string& run) const;
 
+  /// Names of all runs that have any.
+  std::vector<std::string> runs() const;
+
  private:
   using Steps = std::vector<std::pair<std::int64_t, std::filesystem::path>>;
   Steps steps_of(const std::string& run) const;

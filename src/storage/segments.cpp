@@ -80,6 +80,7 @@ void Segments::refresh() {
 }
 
 std::vector<std::string> Segments::bytes_of(const std::string& name) const {
+  if (name.size() != 32) return {};
   const Key key = {number_of(name.substr(0, 16)), number_of(name.substr(16))};
   std::vector<std::string> copies;
   for (const Place& place : std::ranges::equal_range(places_, key, {}, &Place::key)) {

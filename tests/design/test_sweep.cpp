@@ -13,6 +13,13 @@
 namespace vibrosow {
 namespace {
 
+std::string sweep_runs_csv(const StudyResult& result) {
+  SweepRunsCsv csv(result.study);
+  for (std::size_t scene = 0; scene < result.runs.size(); ++scene) csv.add(scene, result.runs[scene]);
+  return csv.text();
+}
+
+
 using testing::HasSubstr;
 
 SweepOptions with_jobs(int jobs) {
@@ -235,6 +242,21 @@ TEST(SweepReport, ColumnsAreTheDocumentedOnes) {
             "evenness_cv_percent,evenness_cv_percent_low,evenness_cv_percent_high,instability_cv_percent,"
             "instability_cv_percent_ci95,longest_pause_s,longest_pause_s_ci95,spilled_percent,spilled_percent_ci95,"
             "misfit_percent,misfit_percent_ci95");
+}
+
+TEST(Sweep, RunsThatAreDroppedGiveTheSameReports) {
+  const StudyFiles files;
+  const Study study = read_study(files.study("replicates = 900\n[vary]\n\"tray.holes.width\" = [\"14 mm\", \"15 mm\", \"16 mm\", "
+                                             "\"14 mm\", \"13 mm\", \"12 mm\"]\n"));
+  const StudyResult kept = sweep(study, quick_run, {});
+  SweepOptions options;
+  SweepRunsCsv runs(study);
+  options.on_runs = [&](std::size_t scene, const std::vector<Evaluation>& of_scene) { runs.add(scene, of_scene); };
+  const StudyResult dropped = sweep(study, quick_run, options);
+  EXPECT_TRUE(dropped.runs.back().empty());
+  EXPECT_EQ(runs.text(), sweep_runs_csv(kept));
+  EXPECT_EQ(sweep_csv(dropped), sweep_csv(kept));
+  EXPECT_EQ(sweep_holes_csv(dropped), sweep_holes_csv(kept));
 }
 
 }  // namespace
