@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <numeric>
 
 #include "design/sweep.hpp"
@@ -21,22 +22,48 @@ Study study_in(const std::filesystem::path& file, const std::vector<std::string>
   return read_study(file, overrides, files);
 }
 
-/// By layout, then random seed; a scene that several layouts share once, under the first.
+/// Calls `visit(layout, model)` once for each scene of a study, by the first layout that has it.
+template <class Visit>
+void for_each_scene(const Study& study, Visit visit) {
+  std::vector<bool> visited(study.scenes.size());
+  for (const Layout& layout : study.layouts) {
+    if (!layout.scene || visited[*layout.scene]) continue;
+    visited[*layout.scene] = true;
+    visit(layout, prepare(study.scenes[*layout.scene]));  // at its accuracy: as it is run
+  }
+}
+
+/// Names of the runs of a scene.
+std::vector<std::string> names_of_runs(const Scene& scene, std::uint64_t first_random_seed, int replicates) {
+  const std::string json = untitled_json(scene);
+  std::vector<std::string> names;
+  for (int i = 0; i < replicates; ++i)
+    names.push_back(case_name(case_identity(json, first_random_seed + static_cast<std::uint64_t>(i))));
+  return names;
+}
+
+/// By layout, then random seed.
 std::vector<PlannedRun> runs_of(const Study& study, std::uint64_t first_random_seed,
                                 const std::vector<int>& replicates) {
   std::vector<PlannedRun> runs;
-  std::vector<bool> planned(study.scenes.size());
-  for (const Layout& layout : study.layouts) {
-    if (!layout.scene || planned[*layout.scene]) continue;
-    planned[*layout.scene] = true;
-    const Model model = prepare(study.scenes[*layout.scene]);  // at its accuracy: as it is run
+  for_each_scene(study, [&](const Layout& layout, const Model& model) {
     const double cost = predicted_grain_steps(model.scene, model.step.dt);
-    for (int i = 0; i < replicates[*layout.scene]; ++i) {
-      const std::uint64_t seed = first_random_seed + static_cast<std::uint64_t>(i);
-      runs.push_back({case_name(case_identity(model.scene, seed)), layout.number, seed, cost});
-    }
-  }
+    std::uint64_t seed = first_random_seed;
+    for (std::string& name : names_of_runs(model.scene, first_random_seed, replicates[*layout.scene]))
+      runs.push_back({std::move(name), layout.number, seed++, cost});
+  });
   return runs;
+}
+
+/// Whether the runs of a plan are what this program makes of its study.
+bool is_of_this_program(const PlannedStudy& planned) {
+  const std::vector<int> replicates = replicates_in(planned);
+  std::vector<std::string> names;
+  for_each_scene(planned.study, [&](const Layout& layout, const Model& model) {
+    for (std::string& name : names_of_runs(model.scene, planned.plan.random_seed, replicates[*layout.scene]))
+      names.push_back(std::move(name));
+  });
+  return std::ranges::equal(names, planned.plan.runs, {}, {}, &PlannedRun::name);
 }
 
 }  // namespace
@@ -78,9 +105,7 @@ std::optional<PlannedStudy> next_round(const PlannedStudy& planned, const Simula
 PlannedStudy study_of_plan(const StudyPlan& plan) {
   const auto files = std::make_shared<SourceFiles>(plan.files);
   PlannedStudy again{study_in(plan.study, plan.sets, files), plan};
-  const std::vector<PlannedRun> runs = runs_of(again.study, plan.random_seed, replicates_in(again));
-  const bool same = std::ranges::equal(runs, plan.runs, {}, &PlannedRun::name, &PlannedRun::name);
-  if (!same)
+  if (!is_of_this_program(again))
     throw InputError(fmt::format(
         "{}: the plan was made by another version of the program, or of the models shipped with it; sweep or submit it "
         "again, which makes a new plan",

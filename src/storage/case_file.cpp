@@ -90,11 +90,19 @@ std::string decompressed(std::string_view bytes) {
 
 }  // namespace
 
-std::string case_identity(const Scene& scene, std::uint64_t random_seed) {
+std::string untitled_json(const Scene& scene) {
   Scene untitled = scene;
   untitled.title.clear();
+  return scene_to_json(untitled);
+}
+
+std::string case_identity(const Scene& scene, std::uint64_t random_seed) {
+  return case_identity(untitled_json(scene), random_seed);
+}
+
+std::string case_identity(const std::string& untitled_json, std::uint64_t random_seed) {
   return fmt::format(R"({{"results_version":{},"random_seed":{},"scene":{}}})", results_version, random_seed,
-                     scene_to_json(untitled));
+                     untitled_json);
 }
 
 std::string case_name(std::string_view identity) {

@@ -13,6 +13,10 @@ namespace vibrosow {
 /// without its title.
 std::string case_identity(const Scene& scene, std::uint64_t random_seed);
 
+/// The same of a scene's `untitled_json`, for many random seeds.
+std::string case_identity(const std::string& untitled_json, std::uint64_t random_seed);
+std::string untitled_json(const Scene& scene);
+
 /// The name of its file: 32 hexadecimal digits, the 128-bit XXH3 of the identity.
 std::string case_name(std::string_view identity);
 
