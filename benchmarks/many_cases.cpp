@@ -1,5 +1,5 @@
-// Fills a sweep's folder with made-up runs, as many as a study has: what a study of that size costs beside its simulation.
-// Usage: many_cases STUDY FOLDER [SEEDS_A_RUN]
+// Fills a sweep's folder with made-up runs, as many as a study has: what a study of that size costs beside its
+// simulation. Usage: many_cases STUDY FOLDER [SEEDS_A_RUN]
 
 #include <fmt/format.h>
 
@@ -27,7 +27,8 @@ Run made_up(const Model& model, const SimulationOptions& options, int seeds) {
   for (int k = 0; k < seeds; ++k) {
     time += 2 * number() * scene.run.duration / seeds;
     const int hole = 1 + static_cast<int>(random() % scene.tray.holes.size());
-    run.events.push_back({std::min(time, scene.run.duration), hole, 0, k, scene.lots[0].mass, number() * 0.1, number()});
+    run.events.push_back(
+        {std::min(time, scene.run.duration), hole, 0, k, scene.lots[0].mass, number() * 0.1, number()});
   }
   run.balance.put_in = run.balance.counted = seeds;
   return run;
@@ -48,9 +49,10 @@ int fill(const std::string& study, const std::string& folder, int seeds) {
   for (std::size_t from = 0; from < wanted.size(); from += at_a_time) {
     const auto first = wanted.begin() + static_cast<std::ptrdiff_t>(from);
     const auto count = std::min(at_a_time, wanted.size() - from);
-    runs.make({first, first + static_cast<std::ptrdiff_t>(count)},
-              [&](const Model& model, const SimulationOptions& simulation) { return made_up(model, simulation, seeds); },
-              options);
+    runs.make(
+        {first, first + static_cast<std::ptrdiff_t>(count)},
+        [&](const Model& model, const SimulationOptions& simulation) { return made_up(model, simulation, seeds); },
+        options);
     if (wanted.size() > 2 * at_a_time) cases.pack();
   }
   std::cout << fmt::format("{},{:.3g},{:.3g}\n", wanted.size(), planning, seconds() - planning);

@@ -69,11 +69,11 @@ void print_family(const Family& family, const Replicates& wanted, int layouts, s
     even += !skewed, covered_of_even += !skewed && holds;
     made += rounds.made, used += rounds.used;
   }
-  std::cout << fmt::format("{},{:g},{},{},{},{:.1f},{:.1f},{:.1f},{:.1f},{:.1f},{:.1f},{:.2f}\n", family.name,
-                           100 * *wanted.interval, wanted.most, layouts, reached, used / layouts, made / layouts,
-                           100.0 * covered / layouts, 196 * std::sqrt(covered * (1 - 1.0 * covered / layouts)) / layouts,
-                           100.0 * called_skewed / layouts, even ? 100.0 * covered_of_even / even : 0,
-                           made / layouts / wanted.most);
+  std::cout << fmt::format(
+      "{},{:g},{},{},{},{:.1f},{:.1f},{:.1f},{:.1f},{:.1f},{:.1f},{:.2f}\n", family.name, 100 * *wanted.interval,
+      wanted.most, layouts, reached, used / layouts, made / layouts, 100.0 * covered / layouts,
+      196 * std::sqrt(covered * (1 - 1.0 * covered / layouts)) / layouts, 100.0 * called_skewed / layouts,
+      even ? 100.0 * covered_of_even / even : 0, made / layouts / wanted.most);
 }
 
 }  // namespace
@@ -83,10 +83,11 @@ int main(int count, char** words) {
   std::mt19937_64 random(1);
   std::cout << "family,interval_percent,most,layouts,reached,runs_used,runs_made,coverage_percent,coverage_ci95,"
                "called_skewed_percent,coverage_of_others_percent,runs_over_most\n";
-  for (const Family& family : {Family{"normal CV 3 %", 0.03, 0, 0}, Family{"normal CV 6 %", 0.06, 0, 0},
-                               Family{"log-normal sigma 0.1", 0, 0.1, 0}, Family{"log-normal sigma 0.5", 0, 0.5, 0},
-                               Family{"log-normal sigma 1", 0, 1, 0}, Family{"normal CV 3 % one in ten clogs", 0.03, 0, 0.1},
-                               Family{"normal CV 3 % one in three clogs", 0.03, 0, 0.33}})
+  for (const Family& family :
+       {Family{"normal CV 3 %", 0.03, 0, 0}, Family{"normal CV 6 %", 0.06, 0, 0},
+        Family{"log-normal sigma 0.1", 0, 0.1, 0}, Family{"log-normal sigma 0.5", 0, 0.5, 0},
+        Family{"log-normal sigma 1", 0, 1, 0}, Family{"normal CV 3 % one in ten clogs", 0.03, 0, 0.1},
+        Family{"normal CV 3 % one in three clogs", 0.03, 0, 0.33}})
     for (const double interval : {0.02, 0.05}) {
       const double scale = family.skewed >= 0.5 ? 5 : 1;  // such scatter is narrowed to 10 and 25 % at best
       print_family(family, Replicates{.interval = scale * interval, .most = 100}, layouts, random);

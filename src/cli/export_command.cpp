@@ -55,7 +55,8 @@ int export_study(ExportOptions command) {
   StudyRuns runs(cases_of(options.file));
   if (command.complete) {
     const CaseFolder cases(cases_of(options.file));
-    const auto missing = std::ranges::count_if(planned.plan.runs, [&](const PlannedRun& run) { return !cases.has(run.name); });
+    const auto missing =
+        std::ranges::count_if(planned.plan.runs, [&](const PlannedRun& run) { return !cases.has(run.name); });
     if (missing > 0)
       throw InputError(fmt::format("{}: {} of {} runs are missing", options.file, missing, planned.plan.runs.size()));
   }

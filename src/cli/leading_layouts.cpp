@@ -29,7 +29,7 @@ std::string LeadingLayouts::text() const {
   std::string text;
   for (const Even& even : known) {
     const bool first = text.empty();
-    text += fmt::format("{}{}: {} +- {}", first ? "raw CV of layout " : ", ", even.layout, to_digits(even.raw_cv.mean, 2),
+    text += fmt::format("{}{}: {} +- {}", first ? "CV of layout " : ", ", even.layout, to_digits(even.raw_cv.mean, 2),
                         to_digits(even.raw_cv.half_width_95.value(), 2));
     if (!first) break;
   }

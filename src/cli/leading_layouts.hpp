@@ -14,7 +14,7 @@ class LeadingLayouts {
  public:
   void add(const WantedRun& wanted, const Run& run);
 
-  /// "layout 3: raw CV 4.1 +- 0.6 %, 5: 4.9 +- 0.8 %"; empty before any has two runs.
+  /// "CV of layout 3: 4.1 +- 0.6, 5: 4.9 +- 0.8 %", raw; empty before any has two runs.
   std::string text() const;
 
  private:

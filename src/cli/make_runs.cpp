@@ -56,15 +56,15 @@ std::string_view status_text(RunStatus status) {
 }
 
 std::string event_fields(const WantedRun& wanted, const Run& run) {
-  return fmt::format(R"("case":"{}","layout":{},"random_seed":{},"status":"{}","seeds":{},"wall_s":{:.3f})", wanted.name,
-                     wanted.layout, wanted.random_seed, status_text(run.status), run.balance.counted, run.wall_time);
+  return fmt::format(R"("case":"{}","layout":{},"random_seed":{},"status":"{}","seeds":{},"wall_s":{:.3f})",
+                     wanted.name, wanted.layout, wanted.random_seed, status_text(run.status), run.balance.counted,
+                     run.wall_time);
 }
 
 }  // namespace
 
 void add_making_flags(CLI::App& command, MakingFlags& flags) {
-  command
-      .add_option("--save-every", flags.save_every, "by the clock: runs under way are saved, to go on from there")
+  command.add_option("--save-every", flags.save_every, "by the clock: runs under way are saved, to go on from there")
       ->type_name("TIME")
       ->capture_default_str();
   command.add_flag("--retry", flags.retry, "make runs anew that could not begin or were stopped by the guard");

@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cstdio>
 
+#include "report/terminal_text.hpp"
+
 namespace vibrosow {
 namespace {
 
@@ -47,7 +49,8 @@ double Progress::seconds_left(double fraction_done) const {
 
 std::string Progress::line(double fraction_done) const {
   const double passed = seconds(), left = seconds_left(fraction_done);
-  std::string text = fmt::format("{:3.0f} %, {} passed", 100 * fraction_done, duration_text(passed));
+  std::string text = fmt::format("{:3.0f} %", 100 * fraction_done);
+  if (!terminal_ || left < 0) text += fmt::format(", {} passed", duration_text(passed));
   if (left >= 0 && passed > 0)
     text += fmt::format(", {}, {} left", rate_text(unit_count_ * (fraction_done - began_at_) / passed, unit_),
                         duration_text(left));
@@ -79,7 +82,8 @@ void Progress::update(double fraction_done) {
   constexpr int width = 10;
   const auto filled = static_cast<std::size_t>(std::clamp(fraction_done, 0.0, 1.0) * width);
   const std::string bar = std::string(filled, '#') + std::string(width - filled, '.');
-  std::fputs(fmt::format("\r\033[K[{}] {}", bar, text).c_str(), stderr);
+  const std::string drawn = fmt::format("[{}] {}", bar, text).substr(0, terminal_columns - 1);  // one line, whatever
+  std::fputs(fmt::format("\r\033[K{}", drawn).c_str(), stderr);
   std::fflush(stderr);
 }
 

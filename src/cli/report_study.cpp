@@ -28,8 +28,8 @@ int exit_code_of(const StudyResult& result, bool interrupted) {
 
 }  // namespace
 
-int report_study(const PlannedStudy& planned, const StudyRuns& runs, const OutputFolder& folder, const SweepTiming& timing,
-                 const CommonOptions& options) {
+int report_study(const PlannedStudy& planned, const StudyRuns& runs, const OutputFolder& folder,
+                 const SweepTiming& timing, const CommonOptions& options) {
   SweepOptions reading;
   reading.first_random_seed = planned.plan.random_seed;
   reading.replicates = replicates_in(planned);
@@ -38,10 +38,10 @@ int report_study(const PlannedStudy& planned, const StudyRuns& runs, const Outpu
   reading.on_runs = [&](std::size_t scene, const std::vector<Evaluation>& of_scene) { runs_csv.add(scene, of_scene); };
   const StudyResult result = sweep(planned.study, runs.kept(), reading);
   write_then_print(
-      options.quiet, [&] { folder.write(sweep_files(result, runs_csv, timing, options.csv)); }, [&] { print_sweep_table(result); });
-  const bool whole = std::ranges::none_of(result.layouts, [](const LayoutResult& one) {
-    return one.status == LayoutStatus::interrupted;
-  });
+      options.quiet, [&] { folder.write(sweep_files(result, runs_csv, timing, options.csv)); },
+      [&] { print_sweep_table(result); });
+  const bool whole = std::ranges::none_of(
+      result.layouts, [](const LayoutResult& one) { return one.status == LayoutStatus::interrupted; });
   return exit_code_of(result, !whole);
 }
 

@@ -4,12 +4,14 @@
 #include <cmath>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <system_error>
 
 #include "cli/commands.hpp"
 #include "cli/common_options.hpp"
 #include "cli/console.hpp"
+#include "cli/report_study.hpp"
 #include "cli/slurm.hpp"
 #include "design/planned_study.hpp"
 #include "design/predicted_cost.hpp"
@@ -29,7 +31,7 @@ struct SubmitOptions {
   std::string time, partition;
   std::size_t bundles = 0;  // 0: by predicted cost
   int array_limit = 0;      // 0: none
-  bool dry_run = false;
+  bool dry_run = false, rounds = false;
 };
 
 /// A plan in its folder.
@@ -84,7 +86,8 @@ std::string script_head(const SubmitOptions& options, const Frozen& frozen, cons
                         const std::string& log) {
   std::string text = "#!/bin/bash\n";
   text += directive(fmt::format("--job-name={}", job));
-  text += directive(fmt::format("--output=\"{}/{}\"", without_patterns((cases_of(frozen.folder) / "logs").string()), log));
+  text +=
+      directive(fmt::format("--output=\"{}/{}\"", without_patterns((cases_of(frozen.folder) / "logs").string()), log));
   text += directive("--open-mode=append");
   text += directive("--ntasks=1") + directive("--cpus-per-task=1");
   if (!options.partition.empty()) text += directive("--partition=" + options.partition);
@@ -98,8 +101,8 @@ std::string program() {
 std::string array_script(const SubmitOptions& options, const Frozen& frozen, std::size_t bundles, double time) {
   const double margin = margin_of(time);
   std::string text = script_head(options, frozen, "vibrosow", "%A_%a.out");
-  text += directive(fmt::format("--array=1-{}{}", bundles,
-                                options.array_limit > 0 ? fmt::format("%{}", options.array_limit) : ""));
+  text += directive(
+      fmt::format("--array=1-{}{}", bundles, options.array_limit > 0 ? fmt::format("%{}", options.array_limit) : ""));
   text += directive(fmt::format("--time={:.0f}", std::ceil(time / 60)));
   text += directive(fmt::format("--signal=B:TERM@{:.0f}", margin));
   text += directive("--requeue");
@@ -114,25 +117,68 @@ std::string export_script(const SubmitOptions& options, const Frozen& frozen) {
          fmt::format("exec {} export {} --complete\n", program(), shell_quoted(frozen.folder.string()));
 }
 
+/// A job that lasts as long as the study: it submits an array a round, waits for it and decides about the next.
+std::string controller_script(const SubmitOptions& options, const Frozen& frozen) {
+  std::string words;
+  if (!options.partition.empty()) words += " --partition " + shell_quoted(options.partition);
+  if (options.array_limit > 0) words += fmt::format(" --array-limit {}", options.array_limit);
+  if (options.bundles > 0) words += fmt::format(" --bundles {}", options.bundles);
+  return script_head(options, frozen, "vibrosow-rounds", "%j.out") +
+         fmt::format("exec {} submit {} --time {} --rounds{}\n", program(), shell_quoted(frozen.folder.string()),
+                     shell_quoted(options.time), words);
+}
+
+/// Writes a plan's script and gives its name.
+std::string write_script(const Frozen& frozen, const std::string& kind, const std::string& script) {
+  std::error_code error;
+  fs::create_directories(cases_of(frozen.folder) / "logs", error);
+  if (error) cannot_write(cases_of(frozen.folder) / "logs", error.message());
+  const std::string file = plan_path(frozen.folder, frozen.name).string() + kind;
+  write_file_atomically(file, script);
+  return file;
+}
+
+/// The controller's work: rounds until nothing more is needed, then the reports.
+int submit_rounds(const SubmitOptions& options, double time) {
+  Frozen frozen = freeze(options);
+  StudyRuns runs(cases_of(frozen.folder));
+  while (true) {
+    const std::size_t bundles = bundles_of(options, frozen.planned, time);
+    submit_to_slurm(write_script(frozen, ".sbatch", array_script(options, frozen, bundles, time)), {"--wait"});
+    std::optional<PlannedStudy> next = next_round(frozen.planned, runs.kept(), 1);
+    if (!next) break;
+    frozen.planned = std::move(*next);
+    frozen.name = freeze_plan(frozen.folder, frozen.planned.plan);
+    print("the next round has {} runs\n", frozen.planned.plan.runs.size());
+  }
+  CommonOptions reports = options.common;
+  reports.out = frozen.folder.string();
+  return report_study(frozen.planned, runs, reports.output_folder("sweep", sweep_file_texts()), {}, reports);
+}
+
 int submit(const SubmitOptions& options) {
   const double time = time_option("--time", options.time);
   if (time < 120) throw InputError("--time: a job of less than 2 min is over before Slurm can warn it");
+  if (options.rounds) return submit_rounds(options, time);
   const Frozen frozen = freeze(options);
+  if (frozen.planned.study.replicates.interval) {
+    const std::string script = controller_script(options, frozen);
+    if (options.dry_run)
+      print_text(script);
+    else
+      print("job {} submits an array a round\nvibrosow status {}\n",
+            submit_to_slurm(write_script(frozen, ".rounds.sbatch", script), {}), frozen.folder.string());
+    return exit_done;
+  }
   const std::size_t bundles = bundles_of(options, frozen.planned, time);
   const std::string array = array_script(options, frozen, bundles, time), after = export_script(options, frozen);
   if (options.dry_run) {
     print("{}\n{}", array, after);
     return exit_done;
   }
-  const fs::path scripts = plan_path(frozen.folder, frozen.name);
-  const std::string array_file = scripts.string() + ".sbatch", after_file = scripts.string() + ".export.sbatch";
-  std::error_code error;
-  fs::create_directories(cases_of(frozen.folder) / "logs", error);
-  if (error) cannot_write(cases_of(frozen.folder) / "logs", error.message());
-  write_file_atomically(array_file, array);
-  write_file_atomically(after_file, after);
-  const std::string job = submit_to_slurm(array_file, {});
-  const std::string export_job = submit_to_slurm(after_file, {"--dependency=afterany:" + job});
+  const std::string job = submit_to_slurm(write_script(frozen, ".sbatch", array), {});
+  const std::string export_job =
+      submit_to_slurm(write_script(frozen, ".export.sbatch", after), {"--dependency=afterany:" + job});
   print("job {}: {} bundles of {} runs; job {} makes the reports\n", job, bundles, frozen.planned.plan.runs.size(),
         export_job);
   print("vibrosow status {}\n", frozen.folder.string());
@@ -156,6 +202,8 @@ void add_submit_command(CLI::App& app, int& exit_code) {
   command->add_option("--array-limit", options->array_limit, "jobs at a time")
       ->type_name("N")
       ->check(CLI::Range(1, 100000));
+  command->add_flag("--rounds", options->rounds, "submit round after round and wait, for replicates by need")
+      ->group("");
   command->add_flag("--dry-run", options->dry_run, "print the scripts and submit nothing");
   command->callback([options, &exit_code] { exit_code = submit(*options); });
 }

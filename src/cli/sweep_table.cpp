@@ -49,8 +49,8 @@ std::string described(const Study& study, const Layout& layout) {
   for (const std::string& key : study.keys) {
     const auto value = layout.values.find(key);
     if (value == layout.values.end() || !layout.name.empty()) continue;
-    text += fmt::format("{}{} {}", text.empty() ? "" : ", ", key.substr(key.rfind('.') + 1),
-                        with_unit(key, value->second));
+    text +=
+        fmt::format("{}{} {}", text.empty() ? "" : ", ", key.substr(key.rfind('.') + 1), with_unit(key, value->second));
   }
   return text;
 }

@@ -118,7 +118,8 @@ std::vector<WantedRun> wanted_runs(const PlannedStudy& planned, const std::vecto
   for (const std::size_t k : which) {
     const PlannedRun& run = planned.plan.runs[k];
     const Layout& layout = planned.study.layouts[static_cast<std::size_t>(run.layout) - 1];
-    wanted.push_back({&planned.study.scenes[layout.scene.value()], run.random_seed, run.name, run.grain_steps, run.layout});
+    wanted.push_back(
+        {&planned.study.scenes[layout.scene.value()], run.random_seed, run.name, run.grain_steps, run.layout});
   }
   return wanted;
 }

@@ -29,7 +29,8 @@ std::optional<int> enough_runs(const std::vector<std::optional<double>>& rates, 
   std::vector<double> flowed;
   for (std::size_t n = 0; n < rates.size(); ++n) {
     if (rates[n]) flowed.push_back(*rates[n]);
-    if (static_cast<int>(flowed.size()) >= Replicates::least_by_interval && relative_half_width(flowed) <= *wanted.interval)
+    if (static_cast<int>(flowed.size()) >= Replicates::least_by_interval &&
+        relative_half_width(flowed) <= *wanted.interval)
       return static_cast<int>(n) + 1;
   }
   return std::nullopt;
@@ -54,7 +55,8 @@ bool look_skewed(const std::vector<double>& values) {
     cubes += from_mean * from_mean * from_mean;
   }
   if (!(squares > 0)) return false;
-  const double skewness = std::sqrt(n * (n - 1)) / (n - 2) * (cubes / n) / std::sqrt(squares / n * squares / n * squares / n);
+  const double skewness =
+      std::sqrt(n * (n - 1)) / (n - 2) * (cubes / n) / std::sqrt(squares / n * squares / n * squares / n);
   const double standard_error = std::sqrt(6 * n * (n - 1) / ((n - 2) * (n + 1) * (n + 3)));
   return std::abs(skewness) > 2 * standard_error;
 }

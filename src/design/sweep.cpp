@@ -40,7 +40,8 @@ std::vector<std::vector<Evaluation>> run_scenes(const Study& study, const Simula
   std::vector<std::vector<Evaluation>> runs(to - from);
   std::size_t job = 0;
   for (std::size_t scene = from; scene < to; ++scene)
-    for (int i = 0; i < replicates_of(study, options, scene); ++i) runs[scene - from].push_back(std::move(results[job++]));
+    for (int i = 0; i < replicates_of(study, options, scene); ++i)
+      runs[scene - from].push_back(std::move(results[job++]));
   return runs;
 }
 

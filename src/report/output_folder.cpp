@@ -152,8 +152,7 @@ fs::path place_for_fresh(const fs::path& folder) {
 
 }  // namespace
 
-OutputFolder::OutputFolder(fs::path folder, std::string command, const std::vector<std::string>& files,
-                           bool holds_more)
+OutputFolder::OutputFolder(fs::path folder, std::string command, const std::vector<std::string>& files, bool holds_more)
     : folder_(std::move(folder)), command_(std::move(command)), holds_more_(holds_more) {
   std::error_code error;
   fs::create_directories(folder_, error);

@@ -99,7 +99,10 @@ bool RunNotes::claim(const std::string& run) {
   std::error_code none;
   fs::create_directories(folder_, none);
   const auto now = std::chrono::system_clock::to_time_t(std::chrono::system_clock::now());
-  Own own{{run, host_name(), getpid(), fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(now)), 0, -1}, temporary_name(""), 0, Clock::now()};
+  Own own{{run, host_name(), getpid(), fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(now)), 0, -1},
+          temporary_name(""),
+          0,
+          Clock::now()};
   if (!is_first(own)) {
     if (!is_abandoned(run)) return false;
     write(own);
@@ -159,8 +162,8 @@ std::vector<RunNote> RunNotes::all() const {
     if (name.starts_with('.') || is_of_the_dead(text)) continue;
     try {
       const auto json = nlohmann::json::parse(text);
-      notes.push_back({name, json.at("host"), json.at("pid"), json.at("since"),
-                       json.at("fraction"), json.at("from_fraction")});
+      notes.push_back(
+          {name, json.at("host"), json.at("pid"), json.at("since"), json.at("fraction"), json.at("from_fraction")});
     } catch (const nlohmann::json::exception&) {
     }
   }

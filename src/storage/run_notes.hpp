@@ -11,11 +11,11 @@ namespace vibrosow {
 
 /// That a run is under way, as a small file that says where.
 struct RunNote {
-  std::string run;          // name of its case
-  std::string host;         // name of the machine
-  int process = 0;          // there
-  std::string since;        // by that machine's clock, UTC
-  double fraction = 0;      // of the run that is done
+  std::string run;           // name of its case
+  std::string host;          // name of the machine
+  int process = 0;           // there
+  std::string since;         // by that machine's clock, UTC
+  double fraction = 0;       // of the run that is done
   double from_fraction = 0;  // of it that was done before, when it was taken up again
 };
 

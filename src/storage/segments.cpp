@@ -105,7 +105,8 @@ void Segments::write(const std::map<std::string, std::string>& cases) const {
   add_number(numbers, cases.size());
   std::uint64_t at = head_size + 8 + cases.size() * bytes_of_place;
   for (const auto& [name, bytes] : cases) {
-    for (const std::uint64_t number : {number_of(name.substr(0, 16)), number_of(name.substr(16)), at, std::uint64_t{bytes.size()}})
+    for (const std::uint64_t number :
+         {number_of(name.substr(0, 16)), number_of(name.substr(16)), at, std::uint64_t{bytes.size()}})
       add_number(numbers, number);
     at += bytes.size();
     content += bytes;

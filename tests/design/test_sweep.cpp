@@ -19,7 +19,6 @@ std::string sweep_runs_csv(const StudyResult& result) {
   return csv.text();
 }
 
-
 using testing::HasSubstr;
 
 SweepOptions with_jobs(int jobs) {
@@ -246,8 +245,9 @@ TEST(SweepReport, ColumnsAreTheDocumentedOnes) {
 
 TEST(Sweep, RunsThatAreDroppedGiveTheSameReports) {
   const StudyFiles files;
-  const Study study = read_study(files.study("replicates = 900\n[vary]\n\"tray.holes.width\" = [\"14 mm\", \"15 mm\", \"16 mm\", "
-                                             "\"14 mm\", \"13 mm\", \"12 mm\"]\n"));
+  const Study study =
+      read_study(files.study("replicates = 900\n[vary]\n\"tray.holes.width\" = [\"14 mm\", \"15 mm\", \"16 mm\", "
+                             "\"14 mm\", \"13 mm\", \"12 mm\"]\n"));
   const StudyResult kept = sweep(study, quick_run, {});
   SweepOptions options;
   SweepRunsCsv runs(study);
