@@ -1,11 +1,12 @@
 // How often the interval of replicates by need holds the true mean, and how many runs it takes, over made-up layouts
 // whose rates are normal, skewed (log-normal), or clog at times: CSV.
-// Usage: replicates_rule [LAYOUTS]
+// Usage: replicates_rule LAYOUTS FILE.csv
 
 #include <fmt/format.h>
 
 #include <cmath>
 #include <cstdlib>
+#include <fstream>
 #include <iostream>
 #include <random>
 #include <string>
@@ -53,7 +54,8 @@ Rounds rounds_of(const std::vector<std::optional<double>>& rates, const Replicat
   return {made, enough.value_or(made), enough.has_value()};
 }
 
-void print_family(const Family& family, const Replicates& wanted, int layouts, std::mt19937_64& random) {
+void write_family(std::ostream& out, const Family& family, const Replicates& wanted, int layouts,
+                  std::mt19937_64& random) {
   int covered = 0, reached = 0, called_skewed = 0, covered_of_even = 0, even = 0;
   double made = 0, used = 0;
   for (int layout = 0; layout < layouts; ++layout) {
@@ -69,20 +71,25 @@ void print_family(const Family& family, const Replicates& wanted, int layouts, s
     even += !skewed, covered_of_even += !skewed && holds;
     made += rounds.made, used += rounds.used;
   }
-  std::cout << fmt::format(
-      "{},{:g},{},{},{},{:.1f},{:.1f},{:.1f},{:.1f},{:.1f},{:.1f},{:.2f}\n", family.name, 100 * *wanted.interval,
-      wanted.most, layouts, reached, used / layouts, made / layouts, 100.0 * covered / layouts,
-      196 * std::sqrt(covered * (1 - 1.0 * covered / layouts)) / layouts, 100.0 * called_skewed / layouts,
-      even ? 100.0 * covered_of_even / even : 0, made / layouts / wanted.most);
+  out << fmt::format("{},{:g},{},{},{},{:.1f},{:.1f},{:.1f},{:.1f},{:.1f},{:.1f},{:.2f}\n", family.name,
+                     100 * *wanted.interval, wanted.most, layouts, reached, used / layouts, made / layouts,
+                     100.0 * covered / layouts, 196 * std::sqrt(covered * (1 - 1.0 * covered / layouts)) / layouts,
+                     100.0 * called_skewed / layouts, even ? 100.0 * covered_of_even / even : 0,
+                     made / layouts / wanted.most);
 }
 
 }  // namespace
 
 int main(int count, char** words) {
-  const int layouts = count > 1 ? std::atoi(words[1]) : 1000;
+  if (count != 3) {
+    std::cerr << "usage: replicates_rule LAYOUTS FILE.csv\n";
+    return 2;
+  }
+  const int layouts = std::atoi(words[1]);
+  std::ofstream out(words[2]);
   std::mt19937_64 random(1);
-  std::cout << "family,interval_percent,most,layouts,reached,runs_used,runs_made,coverage_percent,coverage_ci95,"
-               "called_skewed_percent,coverage_of_others_percent,runs_over_most\n";
+  out << "family,interval_percent,most,layouts,reached,runs_used,runs_made,coverage_percent,coverage_ci95,"
+         "called_skewed_percent,coverage_of_others_percent,runs_over_most\n";
   for (const Family& family :
        {Family{"normal CV 3 %", 0.03, 0, 0}, Family{"normal CV 6 %", 0.06, 0, 0},
         Family{"log-normal sigma 0.1", 0, 0.1, 0}, Family{"log-normal sigma 0.5", 0, 0.5, 0},
@@ -90,6 +97,6 @@ int main(int count, char** words) {
         Family{"normal CV 3 % one in three clogs", 0.03, 0, 0.33}})
     for (const double interval : {0.02, 0.05}) {
       const double scale = family.skewed >= 0.5 ? 5 : 1;  // such scatter is narrowed to 10 and 25 % at best
-      print_family(family, Replicates{.interval = scale * interval, .most = 100}, layouts, random);
+      write_family(out, family, Replicates{.interval = scale * interval, .most = 100}, layouts, random);
     }
 }
