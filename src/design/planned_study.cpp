@@ -42,12 +42,13 @@ std::vector<std::string> names_of_runs(const Scene& scene, std::uint64_t first_r
   return names;
 }
 
-/// By layout, then random seed.
-std::vector<PlannedRun> runs_of(const Study& study, std::uint64_t first_random_seed,
-                                const std::vector<int>& replicates) {
+/// By layout, then random seed; what each costs by `cost_of`.
+template <class CostOf>
+std::vector<PlannedRun> runs_of(const Study& study, std::uint64_t first_random_seed, const std::vector<int>& replicates,
+                                CostOf cost_of) {
   std::vector<PlannedRun> runs;
   for_each_scene(study, [&](const Layout& layout, const Model& model) {
-    const double cost = predicted_grain_steps(model.scene, model.step.dt);
+    const double cost = cost_of(model);
     std::uint64_t seed = first_random_seed;
     for (std::string& name : names_of_runs(model.scene, first_random_seed, replicates[*layout.scene]))
       runs.push_back({std::move(name), layout.number, seed++, cost});
@@ -55,15 +56,19 @@ std::vector<PlannedRun> runs_of(const Study& study, std::uint64_t first_random_s
   return runs;
 }
 
-/// Whether the runs of a plan are what this program makes of its study.
+std::vector<PlannedRun> runs_of(const Study& study, std::uint64_t first_random_seed,
+                                const std::vector<int>& replicates) {
+  return runs_of(study, first_random_seed, replicates,
+                 [](const Model& model) { return predicted_grain_steps(model.scene, model.step.dt); });
+}
+
+/// Whether the runs of a plan are what this program makes of its study, whatever they cost.
 bool is_of_this_program(const PlannedStudy& planned) {
-  const std::vector<int> replicates = replicates_in(planned);
-  std::vector<std::string> names;
-  for_each_scene(planned.study, [&](const Layout& layout, const Model& model) {
-    for (std::string& name : names_of_runs(model.scene, planned.plan.random_seed, replicates[*layout.scene]))
-      names.push_back(std::move(name));
+  const auto runs =
+      runs_of(planned.study, planned.plan.random_seed, replicates_in(planned), [](const Model&) { return 0.0; });
+  return std::ranges::equal(runs, planned.plan.runs, [](const PlannedRun& a, const PlannedRun& b) {
+    return a.name == b.name && a.layout == b.layout && a.random_seed == b.random_seed;
   });
-  return std::ranges::equal(names, planned.plan.runs, {}, {}, &PlannedRun::name);
 }
 
 }  // namespace

@@ -86,7 +86,8 @@ std::vector<std::string> Segments::bytes_of(const std::string& name) const {
   for (const Place& place : std::ranges::equal_range(places_, key, {}, &Place::key)) {
     std::ifstream in(files_[place.segment], std::ios::binary);
     std::error_code error;
-    if (place.at + place.size > fs::file_size(files_[place.segment], error) || error) continue;
+    const std::uint64_t file_size = fs::file_size(files_[place.segment], error);
+    if (error || place.size > file_size || place.at > file_size - place.size) continue;
     std::string bytes(place.size, '\0');
     in.seekg(static_cast<std::streamoff>(place.at));
     if (in.read(bytes.data(), static_cast<std::streamsize>(bytes.size()))) copies.push_back(std::move(bytes));
