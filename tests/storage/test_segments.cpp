@@ -27,7 +27,8 @@ class SegmentFolder : public testing::Test {
   }
 
   TemporaryFolder folder_;
-  const std::map<std::string, std::string> cases_ = {{name(1), "first"}, {name(2), ""}, {name(3), std::string("a\0b", 3)}};
+  const std::map<std::string, std::string> cases_ = {
+      {name(1), "first"}, {name(2), ""}, {name(3), std::string("a\0b", 3)}};
 };
 
 TEST_F(SegmentFolder, GivesBackWhatWasWritten) {
