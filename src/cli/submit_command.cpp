@@ -74,6 +74,11 @@ std::string directive(const std::string& option) {
   return "#SBATCH " + option + "\n";
 }
 
+/// In whole minutes.
+std::string time_directive(double time) {
+  return directive(fmt::format("--time={:.0f}", std::ceil(time / 60)));
+}
+
 /// A file's name as Slurm reads it in a directive.
 std::string without_patterns(const std::string& path) {
   std::string text;
@@ -103,7 +108,7 @@ std::string array_script(const SubmitOptions& options, const Frozen& frozen, std
   std::string text = script_head(options, frozen, "vibrosow", "%A_%a.out");
   text += directive(
       fmt::format("--array=1-{}{}", bundles, options.array_limit > 0 ? fmt::format("%{}", options.array_limit) : ""));
-  text += directive(fmt::format("--time={:.0f}", std::ceil(time / 60)));
+  text += time_directive(time);
   text += directive(fmt::format("--signal=B:TERM@{:.0f}", margin));
   text += directive("--requeue");
   return text + fmt::format(
@@ -112,8 +117,8 @@ std::string array_script(const SubmitOptions& options, const Frozen& frozen, std
                     program(), shell_quoted(frozen.folder.string()), frozen.name, bundles, time - margin);
 }
 
-std::string export_script(const SubmitOptions& options, const Frozen& frozen) {
-  return script_head(options, frozen, "vibrosow-export", "%j.out") +
+std::string export_script(const SubmitOptions& options, const Frozen& frozen, double time) {
+  return script_head(options, frozen, "vibrosow-export", "%j.out") + time_directive(time) +
          fmt::format("exec {} export {} --complete\n", program(), shell_quoted(frozen.folder.string()));
 }
 
@@ -171,7 +176,7 @@ int submit(const SubmitOptions& options) {
     return exit_done;
   }
   const std::size_t bundles = bundles_of(options, frozen.planned, time);
-  const std::string array = array_script(options, frozen, bundles, time), after = export_script(options, frozen);
+  const std::string array = array_script(options, frozen, bundles, time), after = export_script(options, frozen, time);
   if (options.dry_run) {
     print("{}\n{}", array, after);
     return exit_done;

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <charconv>
+#include <csignal>
 #include <memory>
 #include <string>
 #include <utility>
@@ -50,7 +51,11 @@ int work(const WorkOptions& options) {
           making.interrupted);
   if (!runs.not_kept().empty()) throw InputError("runs are not kept: " + runs.not_kept());
   if (making.interrupted == 0) return exit_done;
-  if (options.requeue) requeue_in_slurm();
+  if (options.requeue) {
+    std::signal(SIGTERM, SIG_IGN);  // Slurm sends it as soon as the job is taken back
+    output_error();                 // what was printed is out before
+    requeue_in_slurm();
+  }
   return exit_interrupted;
 }
 
