@@ -90,7 +90,7 @@ bool RunNotes::is_abandoned(const std::string& run) {
   if (is_of_the_dead(text)) return true;
   const std::lock_guard lock(mutex_);
   const auto now = Clock::now();
-  Seen& seen = seen_.try_emplace(run, text, now).first->second;
+  Seen& seen = seen_.try_emplace(run, Seen{text, now}).first->second;
   if (seen.text != text) seen = {text, now};
   return now - seen.since >= patience_;
 }

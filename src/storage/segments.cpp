@@ -83,7 +83,8 @@ std::vector<std::string> Segments::bytes_of(const std::string& name) const {
   if (name.size() != 32) return {};
   const Key key = {number_of(name.substr(0, 16)), number_of(name.substr(16))};
   std::vector<std::string> copies;
-  for (const Place& place : std::ranges::equal_range(places_, key, {}, &Place::key)) {
+  for (auto it = std::ranges::lower_bound(places_, key, {}, &Place::key); it != places_.end() && it->key == key; ++it) {
+    const Place& place = *it;
     std::ifstream in(files_[place.segment], std::ios::binary);
     std::error_code error;
     const std::uint64_t file_size = fs::file_size(files_[place.segment], error);

@@ -89,7 +89,8 @@ fs::path plan_path(const fs::path& folder, const std::string& name) {
 }
 
 std::string freeze_plan(const fs::path& folder, const StudyPlan& plan) {
-  const std::string text = text_of(plan), name = name_of(text);
+  const std::string text = text_of(plan);
+  std::string name = name_of(text);
   const fs::path file = plan_path(folder, name + ".json");
   std::error_code error;
   fs::create_directories(file.parent_path(), error);
