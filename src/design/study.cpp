@@ -42,7 +42,7 @@ Quantity quantity_of(const std::string& key, const TomlValue& value) {
   const auto* text = value.get<std::string>();
   if (typed == nullptr && text == nullptr)
     throw std::invalid_argument(fmt::format("{} is not a number", toml_text(value)));
-  const Quantity quantity = typed != nullptr ? *typed : split_quantity(*text);
+  Quantity quantity = typed != nullptr ? *typed : split_quantity(*text);
   if (!column_unit(key) && !quantity.unit.empty())
     throw std::invalid_argument(fmt::format("{}: a plain number is expected", toml_text(value)));
   return quantity;
@@ -172,7 +172,7 @@ std::vector<NamedDesign> read_designs(Table& study) {
 
 /// The file that a key names, relative to the file that holds the key.
 std::filesystem::path named_file(Table& table, const std::string& key) {
-  const std::filesystem::path file = (table.directory() / table.required_text(key)).lexically_normal();
+  std::filesystem::path file = (table.directory() / table.required_text(key)).lexically_normal();
   if (!table.files()->has(file)) table.fail(key, fmt::format("there is no file {}", file.string()));
   return file;
 }

@@ -4,6 +4,7 @@
 
 #include "design/planned_study.hpp"
 #include "design/sweep.hpp"
+#include "scene/input_error.hpp"
 #include "study_files.hpp"
 
 namespace vibrosow {
@@ -108,6 +109,13 @@ TEST_F(ByNeed, APlanOfALaterRoundIsReadBack) {
   SweepOptions all;
   all.replicates = {25};
   EXPECT_NE(sweep(study.study, simulator_, all).layouts[0].reason.find("still wider than 0.1 %"), std::string::npos);
+}
+
+TEST_F(ByNeed, WhatCannotBeMeantIsRefused) {
+  for (const char* wrong : {"{ most = 20 }", R"({ interval = "2 %", most = 9 })", R"({ interval = "0 %" })",
+                            R"({ interval = "2 mm" })", R"({ interval = "2 %", least = 5 })", "0"})
+    EXPECT_THROW(planned(wrong), InputError) << wrong;
+  EXPECT_EQ(planned(R"({ interval = "2 %" })").study.replicates.most, 40);
 }
 
 TEST_F(ByNeed, AFixedNumberIsOneRound) {
