@@ -41,9 +41,8 @@ int fill(const std::string& study, const std::string& folder, int seeds) {
   freeze_plan(folder, planned.plan);
   const double planning = seconds();
   StudyRuns runs(cases_of(folder));
-  const CaseFolder cases(cases_of(folder));
   const std::vector<WantedRun> wanted = wanted_runs(planned);
-  constexpr std::size_t at_a_time = 40960;  // packed as they come, so that a million of them take no million files
+  constexpr std::size_t at_a_time = 40960;  // as a bundle; its runs are packed at its end
   MakingOptions options;
   options.jobs = 1;
   for (std::size_t from = 0; from < wanted.size(); from += at_a_time) {
@@ -53,7 +52,6 @@ int fill(const std::string& study, const std::string& folder, int seeds) {
         {first, first + static_cast<std::ptrdiff_t>(count)},
         [&](const Model& model, const SimulationOptions& simulation) { return made_up(model, simulation, seeds); },
         options);
-    if (wanted.size() > 2 * at_a_time) cases.pack();
   }
   std::cout << fmt::format("{},{:.3g},{:.3g}\n", wanted.size(), planning, seconds() - planning);
   return 0;

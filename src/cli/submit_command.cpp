@@ -138,7 +138,7 @@ std::string write_script(const Frozen& frozen, const std::string& kind, const st
   std::error_code error;
   fs::create_directories(cases_of(frozen.folder) / "logs", error);
   if (error) cannot_write(cases_of(frozen.folder) / "logs", error.message());
-  const std::string file = plan_path(frozen.folder, frozen.name).string() + kind;
+  std::string file = plan_path(frozen.folder, frozen.name).string() + kind;
   write_file_atomically(file, script);
   return file;
 }

@@ -179,6 +179,10 @@ Making StudyRuns::make(const std::vector<WantedRun>& wanted, const Simulator& si
   keep_waiting();
   for (const std::string& run : checkpoints_.runs())  // of runs that another has ended meanwhile
     if (folders_.front().has(run)) checkpoints_.remove(run);
+  try {
+    folders_.front().pack(CaseFolder::full_segment);
+  } catch (const CannotWrite&) {  // they stay files of their own
+  }
   return queue.result();
 }
 

@@ -17,7 +17,7 @@ namespace {
 namespace fs = std::filesystem;
 constexpr const char* extension = ".case";
 constexpr std::size_t name_digits = 32;
-constexpr std::size_t most_in_a_segment = 4096, most_bytes_of_a_segment = std::size_t{1} << 26;
+constexpr std::size_t most_bytes_of_a_segment = std::size_t{1} << 26;
 
 }  // namespace
 
@@ -109,7 +109,9 @@ void CaseFolder::keep(std::string_view identity, const Run& run) const {
   write_file_atomically(file, bytes);
 }
 
-std::size_t CaseFolder::pack() const {
+std::size_t CaseFolder::pack(std::size_t at_least) const {
+  const std::vector<std::string> names = loose_names();
+  if (names.size() < at_least) return 0;
   std::size_t packed = 0, bytes = 0;
   std::map<std::string, std::string> segment;
   const auto write = [&] {
@@ -119,12 +121,12 @@ std::size_t CaseFolder::pack() const {
     packed += segment.size();
     segment.clear(), bytes = 0;
   };
-  for (const std::string& name : loose_names()) {
+  for (const std::string& name : names) {
     std::string content = loose_bytes(name);
     if (content_of_case(content).empty()) continue;
     bytes += content.size();
     segment.emplace(name, std::move(content));
-    if (segment.size() == most_in_a_segment || bytes >= most_bytes_of_a_segment) write();
+    if (segment.size() == full_segment || bytes >= most_bytes_of_a_segment) write();
   }
   write();
   return packed;

@@ -41,9 +41,12 @@ class CaseFolder {
   /// Names of all cases here, sound or not, in order.
   std::vector<std::string> names() const;
 
-  /// Moves all sound cases that have a file of their own into segments and gives their number. They are deleted only
-  /// after the segment is on the disk. Throws InputError where it cannot be written.
-  std::size_t pack() const;
+  /// How many cases make a segment full.
+  static constexpr std::size_t full_segment = 4096;
+
+  /// Moves all sound cases that have a file of their own, where there are as many as `at_least`, into segments and
+  /// gives their number. They are deleted only after the segment is on the disk. Throws CannotWrite.
+  std::size_t pack(std::size_t at_least = 1) const;
 
  private:
   std::filesystem::path file_of(const std::string& name) const;

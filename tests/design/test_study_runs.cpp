@@ -213,7 +213,8 @@ TEST_F(StudyRunsOf, ADamagedCheckpointIsLeftOut) {
 TEST_F(StudyRunsOf, PackedRunsAreFoundAndMended) {
   StudyRuns runs(folder("a"));
   make(runs, {1, 2, 3});
-  EXPECT_EQ(CaseFolder(folder("a")).pack(), 3u);
+  EXPECT_EQ(CaseFolder(folder("a")).pack(4), 0u);
+  EXPECT_EQ(CaseFolder(folder("a")).pack(3), 3u);
   EXPECT_TRUE(cases("a").empty());
   EXPECT_EQ(make(runs, {1, 2, 3, 4}).made, 1) << "also by who looked before they were packed";
   const CaseFolder fresh(folder("a"));
