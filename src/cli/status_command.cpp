@@ -1,6 +1,6 @@
 #include <fmt/format.h>
 
-#include <chrono>
+#include <algorithm>
 #include <ctime>
 #include <iomanip>
 #include <map>
@@ -14,6 +14,7 @@
 #include "cli/progress.hpp"
 #include "report/terminal_text.hpp"
 #include "storage/case_folder.hpp"
+#include "storage/checkpoint_folder.hpp"
 #include "storage/run_notes.hpp"
 #include "storage/study_plan.hpp"
 
@@ -74,6 +75,9 @@ void print_status(const std::string& folder) {
   print("{}\n{} of {} runs are there, {} are missing\n", plan.study, status.kept, plan.runs.size(),
         status.missing.size());
   const double rate = print_under_way(RunNotes(cases_of(folder) / "running").all(), status);
+  const auto saved = std::ranges::count_if(CheckpointFolder(cases_of(folder) / "checkpoints").runs(),
+                                           [&](const std::string& run) { return status.missing.contains(run); });
+  if (saved > 0) print("{} of these saved part of the way\n", saved);
   for (const auto& [what, runs] : status.failed) print_text(wrapped(fmt::format("{} {}", runs, what), 2));
   if (!status.failed.empty()) print_text("with --retry the same sweep makes those anew\n");
   if (status.missing.empty()) return;
