@@ -4,13 +4,16 @@
 
 #include <algorithm>
 
-#include "outflow/figures.hpp"
+#include "outflow/outflow.hpp"
+#include "outflow/statistics.hpp"
 #include "report/terminal_text.hpp"
 
 namespace vibrosow {
 
 void LeadingLayouts::add(const WantedRun& wanted, const Run& run) {
-  if (run.status == RunStatus::finished) runs_[wanted.layout].push_back(measure_outflow(*wanted.scene, run));
+  if (run.status != RunStatus::finished) return;
+  if (const auto evenness = measure_outflow(*wanted.scene, run).evenness)
+    raw_cvs_[wanted.layout].push_back(100 * evenness->raw_cv);
 }
 
 std::string LeadingLayouts::text() const {
@@ -19,12 +22,8 @@ std::string LeadingLayouts::text() const {
     MeanWithInterval raw_cv;  // %
   };
   std::vector<Even> known;
-  for (const auto& [layout, outflows] : runs_) {
-    std::vector<double> values;
-    for (const Outflow& outflow : outflows)
-      if (outflow.evenness) values.push_back(100 * outflow.evenness->raw_cv);
+  for (const auto& [layout, values] : raw_cvs_)
     if (values.size() >= 2) known.push_back({layout, mean_with_interval(values)});
-  }
   std::ranges::stable_sort(known, {}, [](const Even& even) { return even.raw_cv.mean; });
   std::string text;
   for (const Even& even : known) {

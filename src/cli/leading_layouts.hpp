@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "design/study_runs.hpp"
-#include "outflow/outflow.hpp"
 
 namespace vibrosow {
 
@@ -18,7 +17,7 @@ class LeadingLayouts {
   std::string text() const;
 
  private:
-  std::map<int, std::vector<Outflow>> runs_;  // by layout
+  std::map<int, std::vector<double>> raw_cvs_;  // %, of each run, by layout
 };
 
 }  // namespace vibrosow

@@ -44,8 +44,9 @@ class CaseFolder {
   /// How many cases make a segment full.
   static constexpr std::size_t full_segment = 4096;
 
-  /// Moves all sound cases that have a file of their own, where there are as many as `at_least`, into segments and
-  /// gives their number. They are deleted only after the segment is on the disk. Throws CannotWrite.
+  /// Moves all sound cases of finished runs that have a file of their own (those that failed may be made anew), where
+  /// there are as many as `at_least`, into segments and gives their number. They are deleted only after the segment is
+  /// on the disk. Throws CannotWrite.
   std::size_t pack(std::size_t at_least = 1) const;
 
  private:

@@ -89,6 +89,7 @@ TEST_F(StudyRunsOf, KeepsWhatFailedButNothingInterrupted) {
   make(runs, {1});
   EXPECT_EQ(make(runs, {1}).made, 0);
   EXPECT_EQ(kept(runs, 1).status, RunStatus::stopped_by_guard);
+  EXPECT_EQ(CaseFolder(folder("a")).pack(), 0u) << "it may be made anew";
   status_ = RunStatus::finished;
   EXPECT_EQ(make(runs, {1}, true).made, 1) << "is to be tried again";
   EXPECT_EQ(kept(runs, 1).status, RunStatus::finished);
