@@ -24,7 +24,8 @@ namespace {
 
 constexpr std::int64_t most_replicates = 1000;
 
-const std::vector<std::string> study_words = {"title", "base", "replicates", "proposals", "set", "vary", "measured", "layout"};
+const std::vector<std::string> study_words = {"title", "base", "replicates", "proposals",
+                                              "set",   "vary", "measured",   "layout"};
 
 struct NamedDesign {
   std::string name;
