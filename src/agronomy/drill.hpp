@@ -15,7 +15,7 @@ struct Drill {
   int rows_per_hole = 1;         // neighbouring rows that share what a hole gives, taken as equal parts
   std::optional<double> reference_spacing{};  // m, of seeds in a row; none: the row's own mean
   SpacingLimits limits{};
-  double cv_limit = 0.05;                     // between rows, up to which a setting is one to sow with
+  double cv_limit = 0.05;  // between rows, up to which a setting is one to sow with
   bool operator==(const Drill&) const = default;
 
   /// How many rows have a stream of seeds of their own: those that share a hole have one between them.

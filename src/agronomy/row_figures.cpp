@@ -125,8 +125,7 @@ constexpr std::array table = {
               "tray.depth); all: the rows together",
               [](Row r) { return r.mass_rate; }},
     RowFigure{"seeds_per_s", "1/s", 1, "likewise, seeds", [](Row r) { return r.seeds_per_s; }},
-    RowFigure{"kg_per_ha", "kg/ha", kilogram_per_hectare,
-              "that over row spacing and speed; all: of the whole width",
+    RowFigure{"kg_per_ha", "kg/ha", kilogram_per_hectare, "that over row spacing and speed; all: of the whole width",
               [](Row r) { return r.kg_per_m2; }},
     RowFigure{"seeds_per_m2", "1/m2", 1, "likewise, seeds", [](Row r) { return r.seeds_per_m2; }},
     RowFigure{"instability_cv_percent", "%", percent,
@@ -134,10 +133,11 @@ constexpr std::array table = {
               [](Row r) { return r.instability_cv; }},
     RowFigure{"instability_counting_percent", "%", percent, "what counting so many independent seeds gives alone",
               [](Row r) { return r.instability_counting_cv; }},
-    RowFigure{"longest_pause_s", "s", 1,
-              "longest time in the window without a seed from its holes, in the plane of the slice; all: the longest of "
-              "any row",
-              [](Row r) { return r.longest_pause; }},
+    RowFigure{
+        "longest_pause_s", "s", 1,
+        "longest time in the window without a seed from its holes, in the plane of the slice; all: the longest of "
+        "any row",
+        [](Row r) { return r.longest_pause; }},
     RowFigure{"multiples_percent", "%", percent,
               "spacings up to 0.5 of the reference (ISO 7256-1; drill.multiples_below; ISOBUS DDI 419, there in ppm), "
               "at the hole, not in the furrow",
@@ -166,10 +166,11 @@ constexpr std::array table = {
     RowFigure{"spacing_cv_percent", "%", percent,
               "coefficient of variation of all spacings (ISOBUS DDI 423); a Poisson stream's is 100",
               [](Row r) { return r.spacing ? r.spacing->cv : Value(); }},
-    RowFigure{"mass_cv_percent", "%", percent,
-              "all: coefficient of variation between rows of what they weigh, as ISO 7256-2 takes it; rows that share a "
-              "hole count once",
-              [](Row r) { return r.between ? r.between->mass_cv : Value(); }, true},
+    RowFigure{
+        "mass_cv_percent", "%", percent,
+        "all: coefficient of variation between rows of what they weigh, as ISO 7256-2 takes it; rows that share a "
+        "hole count once",
+        [](Row r) { return r.between ? r.between->mass_cv : Value(); }, true},
     RowFigure{"raw_cv_percent", "%", percent, "all: the same of their seeds, all replicates together",
               [](Row r) { return of_evenness(r, [](const Evenness& e) { return e.raw_cv; }); }, true},
     RowFigure{"counting_cv_percent", "%", percent, "all: what counting so many independent seeds gives alone",

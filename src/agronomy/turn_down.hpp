@@ -22,10 +22,10 @@ enum class Proof {
 
 /// How far a tray is turned down by its drive.
 struct TurnDown {
-  double ratio;                   // largest over smallest rate
-  double from, to;                // values of the settings between which it sows, in SI
-  double least_rate, most_rate;   // kg/s
-  int settings;                   // that were tried there
+  double ratio;                  // largest over smallest rate
+  double from, to;               // values of the settings between which it sows, in SI
+  double least_rate, most_rate;  // kg/s
+  int settings;                  // that were tried there
 };
 
 /// The largest ratio of rates among settings that follow each other without one between them at which the tray clogs,

@@ -52,14 +52,15 @@ std::string setting_text(const std::string& key, double value) {
 
 std::string turn_down_text(const TradeLine& line, double cv_limit) {
   if (!line.not_excluded)
-    return fmt::format("no turn-down: at no setting do all runs flow with a CV between rows of {:.3g} %", 100 * cv_limit);
+    return fmt::format("no turn-down: at no setting do all runs flow with a CV between rows of {:.3g} %",
+                       100 * cv_limit);
   const auto range = [&](const TurnDown& of) {
-    return fmt::format("{:.3g} to 1, {} to {}", of.ratio, setting_text(line.key, of.from), setting_text(line.key, of.to));
+    return fmt::format("{:.3g} to 1, {} to {}", of.ratio, setting_text(line.key, of.from),
+                       setting_text(line.key, of.to));
   };
-  return fmt::format("turn-down {} where the CV between rows may be within {:.3g} %; {}", range(*line.not_excluded),
-                     100 * cv_limit,
-                     line.shown ? fmt::format("where it is shown to be: {}", range(*line.shown))
-                                : "it is shown to be at no setting");
+  return fmt::format(
+      "turn-down {} where the CV between rows may be within {:.3g} %; {}", range(*line.not_excluded), 100 * cv_limit,
+      line.shown ? fmt::format("where it is shown to be: {}", range(*line.shown)) : "it is shown to be at no setting");
 }
 
 std::string slope_text(const SlopeSensitivity& slope) {
@@ -77,7 +78,7 @@ std::string drill_sentence(const Drill& drill) {
                      drill.pace.row_spacing * 1e3, drill.pace.speed / kilometre_per_hour,
                      drill.rows_per_hole > 1 ? fmt::format("{} rows share a hole, in equal parts", drill.rows_per_hole)
                      : drill.rows() == static_cast<int>(drill.hole_to_row.size()) ? "each hole feeds a row"
-                                                                                 : "several holes feed a row");
+                                                                                  : "several holes feed a row");
 }
 
 void print_drill(const DrillFigures& figures) {

@@ -12,9 +12,9 @@ namespace vibrosow {
 /// Layouts of a study that differ in one key alone, and what they tell of a drive or a slope.
 struct TradeLine {
   std::string key;
-  std::vector<std::size_t> layouts;              // indices in Study::layouts, in the order of the study
+  std::vector<std::size_t> layouts;                 // indices in Study::layouts, in the order of the study
   std::optional<TurnDown> shown{}, not_excluded{};  // where the key drives the tray
-  std::optional<SlopeSensitivity> slope{};        // where it is the tilt
+  std::optional<SlopeSensitivity> slope{};          // where it is the tilt
 };
 
 /// One for each such set of at least two layouts of a seeder with a drill: along the frequency and the amplitude of the

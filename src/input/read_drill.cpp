@@ -53,8 +53,8 @@ Drill read_drill(Table table, std::size_t holes) {
   limits.multiples_below = table.number("multiples_below", 1e-3, 1).value_or(limits.multiples_below);
   limits.skips_above = table.number("skips_above", 1, 100).value_or(limits.skips_above);
   if (limits.skips_above <= limits.multiples_below)
-    table.fail("skips_above", fmt::format("{:g} is not above multiples_below, {:g}", limits.skips_above,
-                                          limits.multiples_below));
+    table.fail("skips_above",
+               fmt::format("{:g} is not above multiples_below, {:g}", limits.skips_above, limits.multiples_below));
   drill.cv_limit = table.quantity("cv_limit", Dimension::fraction, 1e-4, 10).value_or(drill.cv_limit);
   return drill;
 }

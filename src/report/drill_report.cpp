@@ -35,8 +35,7 @@ Columns<RowFigures> rows_columns() {
   for (const RowFigure& figure : row_figures())
     columns.push_back(quantity_column<RowFigures>(std::string(figure.name), Unit{figure.unit, figure.unit_size},
                                                   std::string(figure.description), figure.of));
-  columns.push_back(
-      text_column<RowFigures>("note", note_text, [](R r) { return spacings_note(r.without_spacing); }));
+  columns.push_back(text_column<RowFigures>("note", note_text, [](R r) { return spacings_note(r.without_spacing); }));
   return columns;
 }
 
@@ -55,9 +54,8 @@ Columns<MeansRow> sweep_rows_columns() {
     const std::string name(figure.name), description(figure.description);
     const auto mean = [&figure](R r) -> const std::optional<MeanWithInterval>& { return (*r.row)[figure.name]; };
     if (figure.pooled)
-      columns.push_back(quantity_column<MeansRow>(name, unit, description, [mean](R r) {
-        return mean(r) ? std::optional(mean(r)->mean) : std::nullopt;
-      }));
+      columns.push_back(quantity_column<MeansRow>(
+          name, unit, description, [mean](R r) { return mean(r) ? std::optional(mean(r)->mean) : std::nullopt; }));
     else
       add_mean_columns(columns, name, unit, description, mean);
   }
@@ -87,62 +85,57 @@ template <class Which>
 void add_turn_down(Columns<TradeRow>& columns, const std::string& prefix, const std::string& meaning, Which which) {
   using R = const TradeRow&;
   using T = const TurnDown&;
-  append(columns, {quantity_column<TradeRow>(prefix, plain, meaning,
-                                             [which](R r) {
-                                               return of_turn_down(which(r), [](T t) { return t.ratio; });
-                                             }),
-                   quantity_column<TradeRow>(prefix + "_from", plain, "the least such setting, in the unit of the key",
-                                             [which](R r) {
-                                               return of_turn_down(which(r), [&](T t) {
-                                                 return to_column_unit(r.line->key, t.from);
-                                               });
-                                             }),
-                   quantity_column<TradeRow>(prefix + "_to", plain, "the largest",
-                                             [which](R r) {
-                                               return of_turn_down(which(r), [&](T t) {
-                                                 return to_column_unit(r.line->key, t.to);
-                                               });
-                                             }),
-                   quantity_column<TradeRow>(prefix + "_least_rate_g_per_s", grams_per_second,
-                                             "the smallest rate there, of the plane slice or in space of the tray",
-                                             [which](R r) {
-                                               return of_turn_down(which(r), [](T t) { return t.least_rate; });
-                                             }),
-                   quantity_column<TradeRow>(prefix + "_most_rate_g_per_s", grams_per_second, "the largest rate there",
-                                             [which](R r) {
-                                               return of_turn_down(which(r), [](T t) { return t.most_rate; });
-                                             })});
+  append(
+      columns,
+      {quantity_column<TradeRow>(prefix, plain, meaning,
+                                 [which](R r) { return of_turn_down(which(r), [](T t) { return t.ratio; }); }),
+       quantity_column<TradeRow>(
+           prefix + "_from", plain, "the least such setting, in the unit of the key",
+           [which](R r) { return of_turn_down(which(r), [&](T t) { return to_column_unit(r.line->key, t.from); }); }),
+       quantity_column<TradeRow>(
+           prefix + "_to", plain, "the largest",
+           [which](R r) { return of_turn_down(which(r), [&](T t) { return to_column_unit(r.line->key, t.to); }); }),
+       quantity_column<TradeRow>(prefix + "_least_rate_g_per_s", grams_per_second,
+                                 "the smallest rate there, of the plane slice or in space of the tray",
+                                 [which](R r) { return of_turn_down(which(r), [](T t) { return t.least_rate; }); }),
+       quantity_column<TradeRow>(prefix + "_most_rate_g_per_s", grams_per_second, "the largest rate there",
+                                 [which](R r) { return of_turn_down(which(r), [](T t) { return t.most_rate; }); })});
 }
 
 Columns<TradeRow> trade_columns(const std::vector<std::string>& keys) {
   using R = const TradeRow&;
   Columns<TradeRow> columns = {
-      text_column<TradeRow>("along", "the key in which its layouts differ", [](R r) { return condition_column(r.line->key); }),
+      text_column<TradeRow>("along", "the key in which its layouts differ",
+                            [](R r) { return condition_column(r.line->key); }),
       text_column<TradeRow>("layouts", "their numbers", layouts_text),
       text_column<TradeRow>("name", "of their [[layout]]; empty without", [](R r) { return r.layout().name; })};
   for (const std::string& key : keys)
-    columns.push_back({{condition_column(key), "", "their value of this key; empty for the one in which they differ"},
-                       [key](R r) {
-                         const auto value = r.layout().values.find(key);
-                         if (key == r.line->key || value == r.layout().values.end()) return CsvField();
-                         return csv_text_or_number(value->second);
-                       }});
-  add_turn_down(columns, "turn_down",
-                "largest over smallest rate between settings that all flow to the end and whose CV between rows may be "
-                "within drill.cv_limit; empty where none may",
-                [](R r) -> const auto& { return r.line->not_excluded; });
-  add_turn_down(columns, "turn_down_shown", "the same of settings whose CV is shown to be: its whole 95 % interval is",
-                [](R r) -> const auto& { return r.line->shown; });
+    columns.push_back(
+        {{condition_column(key), "", "their value of this key; empty for the one in which they differ"}, [key](R r) {
+           const auto value = r.layout().values.find(key);
+           if (key == r.line->key || value == r.layout().values.end()) return CsvField();
+           return csv_text_or_number(value->second);
+         }});
+  add_turn_down(
+      columns, "turn_down",
+      "largest over smallest rate between settings that all flow to the end and whose CV between rows may be "
+      "within drill.cv_limit; empty where none may",
+      [](R r) -> const auto& { return r.line->not_excluded; });
+  add_turn_down(
+      columns, "turn_down_shown", "the same of settings whose CV is shown to be: its whole 95 % interval is",
+      [](R r) -> const auto& { return r.line->shown; });
   append(columns,
-         {quantity_column<TradeRow>("slope_percent_per_degree", percent_per_degree,
-                                    "change of the rate with the tray's tilt, of that on level ground: least squares",
-                                    [](R r) { return r.line->slope ? std::optional(r.line->slope->change) : std::nullopt; }),
+         {quantity_column<TradeRow>(
+              "slope_percent_per_degree", percent_per_degree,
+              "change of the rate with the tray's tilt, of that on level ground: least squares",
+              [](R r) { return r.line->slope ? std::optional(r.line->slope->change) : std::nullopt; }),
           quantity_column<TradeRow>("slope_percent_per_degree_ci95", percent_per_degree,
                                     "half width of its 95 % interval, from those of the rates alone",
                                     [](R r) { return r.line->slope ? r.line->slope->half_width : std::nullopt; }),
-          quantity_column<TradeRow>("off_line_percent", percent,
-                                    "largest distance of a rate from that line, of the rate on level ground; empty for two",
-                                    [](R r) { return r.line->slope ? r.line->slope->off_line : std::nullopt; })});
+          quantity_column<TradeRow>(
+              "off_line_percent", percent,
+              "largest distance of a rate from that line, of the rate on level ground; empty for two",
+              [](R r) { return r.line->slope ? r.line->slope->off_line : std::nullopt; })});
   return columns;
 }
 
@@ -178,7 +171,8 @@ std::string sweep_rows_csv(const StudyResult& result, CsvFormat format) {
 }
 
 FileText sweep_rows_file_text() {
-  return file_text("sweep_rows.csv", "of a study whose seeder has a drill: one row per layout and drill row, and one of all",
+  return file_text("sweep_rows.csv",
+                   "of a study whose seeder has a drill: one row per layout and drill row, and one of all",
                    sweep_rows_columns());
 }
 

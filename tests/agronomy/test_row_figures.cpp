@@ -66,8 +66,8 @@ TEST(RowFigures, SpacingsAreSpeedTimesTime) {
   vibrosow::Run run = made_up_run(scene);
   for (const double time : {3.0, 3.1, 3.2, 3.22, 3.4}) add_grain(run, time, 1);  // 200, 200, 40, 360 mm; mean 200
   for (const double time : {5.0, 6.0}) add_grain(run, time, 2);
-  add_grain(run, 1.9, 2);   // before the window
-  add_grain(run, 5.5, 0);   // spilled
+  add_grain(run, 1.9, 2);  // before the window
+  add_grain(run, 5.5, 0);  // spilled
   std::ranges::stable_sort(run.events, {}, &OutflowEvent::time);
   const DrillFigures figures = figures_of(scene, run, a_hole_a_row(2));
   const SpacingFigures& row = *figures.rows[0].spacing;

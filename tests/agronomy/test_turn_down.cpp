@@ -29,8 +29,8 @@ TEST(TurnDown, IsTheLargestOverTheSmallestRateThatWillDo) {
 }
 
 TEST(TurnDown, DoesNotReachAcrossASettingThatWillNot) {
-  const std::vector<Setting> settings = {
-      {5, 1e-3}, {7, 1.5e-3}, {9, 0.1e-3, true, 0.2, 0.3}, {11, 3e-3}, {13, 4e-3}, {15, 9e-3}};
+  const std::vector<Setting> settings = {{5, 1e-3},  {7, 1.5e-3}, {9, 0.1e-3, true, 0.2, 0.3},
+                                         {11, 3e-3}, {13, 4e-3},  {15, 9e-3}};
   const auto found = turn_down(settings, limit, Proof::shown);
   EXPECT_DOUBLE_EQ(found->ratio, 3);
   EXPECT_EQ(found->from, 11);
@@ -48,8 +48,8 @@ TEST(TurnDown, OfASingleSettingIsOneAndOfNoneNothing) {
 TEST(SlopeSensitivity, IsTheLineOverTheRateOnLevelGround) {
   constexpr double degree = std::numbers::pi / 180;
   // 2 g/s on level ground, 3 % more a degree.
-  const auto exact = slope_sensitivity(
-      {{-10 * degree, 1.4e-3, 0.1e-3}, {0, 2e-3, 0.1e-3}, {10 * degree, 2.6e-3, 0.1e-3}});
+  const auto exact =
+      slope_sensitivity({{-10 * degree, 1.4e-3, 0.1e-3}, {0, 2e-3, 0.1e-3}, {10 * degree, 2.6e-3, 0.1e-3}});
   ASSERT_TRUE(exact);
   EXPECT_NEAR(exact->change * degree, 0.03, 1e-12);
   EXPECT_NEAR(exact->off_line.value(), 0, 1e-12);

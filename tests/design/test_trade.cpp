@@ -102,7 +102,8 @@ TEST(Trade, RowsAndTradeAreFilesOfAStudyWithADrillAlone) {
     return found;
   };
   EXPECT_THAT(names(bare), Not(testing::Contains("sweep_rows.csv")));
-  const StudyResult sown = swept(with_drill(files, "[vary]\ntray.motion.frequency = [\"7 Hz\", \"9 Hz\"]\n"), by_frequency);
+  const StudyResult sown =
+      swept(with_drill(files, "[vary]\ntray.motion.frequency = [\"7 Hz\", \"9 Hz\"]\n"), by_frequency);
   EXPECT_THAT(names(sown), testing::IsSupersetOf({"sweep_rows.csv", "trade.csv"}));
 }
 

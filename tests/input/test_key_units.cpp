@@ -39,6 +39,10 @@ TEST(KeyUnits, AColumnLeadsBackToItsKey) {
                                 "run.count_below",
                                 "tray.holes.count",
                                 "seeds.pea.mass",
+                                "seeds.pea.thousand_grain_weight",
+                                "seeds.pea.bulk_density",
+                                "seeds.pea.angle_of_repose",
+                                "seeds.pea.moisture",
                                 "contact.damping_rate",
                                 "contact.drag",
                                 "contact.cohesion",
@@ -71,6 +75,8 @@ TEST(KeyUnits, ValuesAreConvertedToTheColumn) {
   EXPECT_DOUBLE_EQ(to_column_unit("tray.holes.width", 0.016), 16);
   EXPECT_DOUBLE_EQ(to_column_unit("tray.tilt", std::numbers::pi / 2), 90);
   EXPECT_DOUBLE_EQ(to_column_unit("contact.drag", 3e-3), 3);
+  EXPECT_DOUBLE_EQ(to_column_unit("seeds.wheat.thousand_grain_weight", 0.045), 45);
+  EXPECT_DOUBLE_EQ(to_column_unit("seeds.wheat.angle_of_repose", std::numbers::pi / 6), 30);
   EXPECT_DOUBLE_EQ(to_column_unit("seeds.wheat.mass_fraction", 0.7), 70);
   EXPECT_DOUBLE_EQ(to_column_unit("contact.youngs_modulus", 5e10), 5e4);
   EXPECT_DOUBLE_EQ(to_column_unit("contact.damping_rate", 2.1e4), 2.1e4);

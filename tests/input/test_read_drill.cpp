@@ -62,7 +62,8 @@ reference_spacing = "5 cm"
 multiples_below = 0.4
 skips_above = 1.6
 cv_limit = "10 %"
-)").drill;
+)")
+                           .drill;
   EXPECT_DOUBLE_EQ(*drill.reference_spacing, 0.05);
   EXPECT_EQ(drill.limits, (SpacingLimits{.multiples_below = 0.4, .skips_above = 1.6}));
   EXPECT_DOUBLE_EQ(drill.cv_limit, 0.1);

@@ -413,11 +413,12 @@ TEST(SceneErrors, ShellOfALotUnderHertz) {
                   HasSubstr("seeder.toml:4: seeds.wheat.shell_compression: belongs to the elastic shell")));
 }
 
-INSTANTIATE_TEST_SUITE_P(CannotBeMeant, SceneError,
-                         testing::Values(Case{3, "mass = '40 g'", 3, "seeds.wheat.mass",
-                                              "it looks like the mass of a thousand seeds, and a seed's is 40 mg"},
-                                         Case{8, "+depth = '3.9 mm'", 9, "tray.depth",
-                                              "3.9 mm is less than one seed of wheat, which is 4 mm thick"}));
+INSTANTIATE_TEST_SUITE_P(
+    CannotBeMeant, SceneError,
+    testing::Values(Case{3, "mass = '40 g'", 3, "seeds.wheat.mass",
+                         "it looks like the mass of a thousand seeds: give thousand_grain_weight = \"40 g\""},
+                    Case{8, "+depth = '3.9 mm'", 9, "tray.depth",
+                         "3.9 mm is less than one seed of wheat, which is 4 mm thick"}));
 
 TEST(SceneErrors, APairGivenTwice) {
   std::vector<std::string> lines = base;
