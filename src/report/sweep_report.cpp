@@ -8,6 +8,7 @@
 #include "input/key_units.hpp"
 #include "report/columns.hpp"
 #include "report/json_keys.hpp"
+#include "report/layout_columns.hpp"
 
 namespace vibrosow {
 namespace {
@@ -65,14 +66,6 @@ std::vector<LayoutRow> layout_rows(const StudyResult& result) {
   return rows;
 }
 
-/// The first columns of every file; a `Row` has its layout().
-template <class Row>
-Columns<Row> layout_columns() {
-  return {text_column<Row>("layout", "number of the layout, in the order of the study",
-                           [](const Row& r) { return r.layout().number; }),
-          text_column<Row>("name", "of its [[layout]]; empty without", [](const Row& r) { return r.layout().name; })};
-}
-
 template <class Row>
 Column<Row> replicates_column() {
   return text_column<Row>("replicates", "runs that finished, of which the figures are",
@@ -95,13 +88,7 @@ Columns<LayoutRow> sweep_columns(const std::vector<std::string>& keys) {
   columns.push_back(text_column<LayoutRow>(
       "reason", "why it is not ok; else what to know about its runs; and what in its scene can hardly be meant",
       [](R r) { return reason_and_warnings(r.of()); }));
-  for (const std::string& key : keys)
-    columns.push_back(
-        {{condition_column(key), "", "value of this key of the seeder file, in the unit that its column names"},
-         [key](R r) {
-           const auto value = r.layout().values.find(key);
-           return value == r.layout().values.end() ? CsvField() : csv_text_or_number(value->second);
-         }});
+  append(columns, key_columns<LayoutRow>(keys));
   columns.push_back(replicates_column<LayoutRow>());
   add_figure_columns(
       columns, [](R r) -> const auto& { return r.of().figures; });
