@@ -69,13 +69,7 @@ Columns<LayoutRow> sweep_columns(const std::vector<std::string>& keys) {
   columns.push_back(text_column<LayoutRow>(
       "reason", "why it is not ok; else what to know about its runs; and what in its scene can hardly be meant",
       [](R r) { return reason_and_warnings(r.of()); }));
-  for (const std::string& key : keys)
-    columns.push_back(
-        {{condition_column(key), "", "value of this key of the seeder file, in the unit that its column names"},
-         [key](R r) {
-           const auto value = r.layout().values.find(key);
-           return value == r.layout().values.end() ? CsvField() : csv_text_or_number(value->second);
-         }});
+  append(columns, key_columns<LayoutRow>(keys));
   columns.push_back(replicates_column<LayoutRow>());
   add_figure_columns(
       columns, [](R r) -> const auto& { return r.of().figures; });
