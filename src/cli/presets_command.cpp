@@ -3,11 +3,13 @@
 #include <algorithm>
 #include <filesystem>
 #include <memory>
+#include <numbers>
 #include <utility>
 
 #include "cli/commands.hpp"
 #include "cli/console.hpp"
 #include "input/document.hpp"
+#include "input/read_crop.hpp"
 #include "input/read_scene.hpp"
 #include "input/table.hpp"
 #include "report/terminal_text.hpp"
@@ -27,15 +29,23 @@ void print_entry(const std::filesystem::path& file, const std::string& text) {
   print_text(wrapped_beside(fmt::format("  {:<24} ", file.stem().string()), text));
 }
 
+std::string size_text(const Crop& crop) {
+  if (crop.length == crop.thickness) return fmt::format("{:.3g} mm", crop.length * 1e3);
+  return fmt::format("{:.3g} x {:.3g} x {:.3g} mm", crop.length * 1e3, crop.width * 1e3, crop.thickness * 1e3);
+}
+
+std::string crop_text(const Crop& crop) {
+  std::string text =
+      fmt::format("{}: {} of {}, {:.4g} g a thousand", crop.title, crop.shape, size_text(crop), crop.mass * 1e6);
+  if (crop.bulk.bulk_density) text += fmt::format(", {:.3g} kg/m3 poured", *crop.bulk.bulk_density);
+  if (crop.bulk.angle_of_repose)
+    text += fmt::format(", repose {:.3g} degree", *crop.bulk.angle_of_repose * 180 / std::numbers::pi);
+  return text;
+}
+
 void print_crops(const std::filesystem::path& data) {
   print("crops (seeds.NAME.crop = \"...\"), in {}\n", (data / "models/crops").string());
-  for (const auto& file : toml_files(data / "models/crops")) {
-    Table crop(Document::read(file));
-    std::string values;
-    for (const std::string key : {"diameter", "length", "width", "mass"})
-      if (const auto value = crop.text(key)) values += fmt::format("{}{} {}", values.empty() ? "" : ", ", key, *value);
-    print_entry(file, values);
-  }
+  for (const auto& file : toml_files(data / "models/crops")) print_entry(file, crop_text(read_crop(file)));
 }
 
 void print_titles(const std::filesystem::path& directory) {

@@ -7,18 +7,12 @@
 #include <numeric>
 
 #include "cli/console.hpp"
-#include "input/key_units.hpp"
-#include "report/sweep_report.hpp"
+#include "cli/drill_table.hpp"
+#include "cli/layout_text.hpp"
 #include "report/terminal_text.hpp"
 
 namespace vibrosow {
 namespace {
-
-std::string with_interval(const std::optional<MeanWithInterval>& value, double unit) {
-  if (!value) return "";
-  const std::string mean = to_digits(value->mean / unit, 4);
-  return value->half_width_95 ? fmt::format("{} +- {}", mean, to_digits(*value->half_width_95 / unit, 2)) : mean;
-}
 
 std::string mean_text(const FigureMeans& figures, std::string_view name) {
   const Figure& figure = figure_named(name);
@@ -36,23 +30,6 @@ std::string evenness_text(const FigureMeans& figures) {
   if (cv.empty()) return fmt::format("< {}", high);
   return fmt::format("{} ({}-{})", to_digits(figures["evenness_cv_percent"]->mean * 100, 3),
                      text("evenness_cv_percent_low"), high);
-}
-
-/// A value of a layout as a person writes it: "9 Hz".
-std::string with_unit(const std::string& key, const std::string& value) {
-  const auto unit = column_unit(key);
-  return unit && csv_text_or_number(value).is_number ? fmt::format("{} {}", value, unit->unit) : value;
-}
-
-std::string described(const Study& study, const Layout& layout) {
-  std::string text = layout.name;
-  for (const std::string& key : study.keys) {
-    const auto value = layout.values.find(key);
-    if (value == layout.values.end() || !layout.name.empty()) continue;
-    text +=
-        fmt::format("{}{} {}", text.empty() ? "" : ", ", key.substr(key.rfind('.') + 1), with_unit(key, value->second));
-  }
-  return text;
 }
 
 /// What the table shows of a layout, but for its name; each column is as wide as its longest cell.
@@ -85,6 +62,7 @@ void print_remarks(const LayoutResult& of) {
                                    mean_text(figures, "tray_seeds_per_s")),
                        4));
   if (of.misfit_percent) print("    misfit {} %\n", with_interval(of.misfit_percent, 1));
+  if (!of.rows.empty()) print_text(wrapped(sown_sentence(of.rows), 4));
   if (!of.reason.empty()) print_text(wrapped(of.reason, 4));
 }
 
@@ -113,6 +91,7 @@ void print_sweep_table(const StudyResult& result) {
   if (uneven)
     print("\n{}", wrapped("CV between the holes, %: raw, and without what counting alone gives, with its 95 % "
                           "interval; \"<\": below what this many seeds resolve"));
+  print_trade(result);
   if (!result.comparison) return;
   if (result.study.measured->scale == MeasuredScale::free && result.comparison->scale)
     print("\nscale fitted to the measured outflow: {:.4g}\n", *result.comparison->scale);

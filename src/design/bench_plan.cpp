@@ -11,7 +11,7 @@
 #include "plan/model.hpp"
 #include "scene/input_error.hpp"
 #include "surrogate/gaussian_process.hpp"
-#include "surrogate/point_sets.hpp"
+#include "surrogate/sobol_points.hpp"
 
 namespace vibrosow {
 namespace {

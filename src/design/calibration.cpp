@@ -281,7 +281,7 @@ class Fit {
       result_.fitted_values += static_cast<int>(one.values.size());
       observed.push_back(std::move(one));
     }
-    result_.posterior = posterior(observed, static_cast<Index>(task_.keys.size()), choices_.points);
+    result_.posterior = posterior_sample(observed, static_cast<Index>(task_.keys.size()), choices_.points);
     const int freedom = result_.fitted_values - (result_.posterior.shifts.size() > 0 ? 1 : 0);
     if (freedom > 0)
       result_.misfit_probability =
@@ -296,7 +296,7 @@ class Fit {
   }
 
   void describe() {
-    const Posterior& known = result_.posterior;
+    const PosteriorSample& known = result_.posterior;
     std::vector<VectorXd> columns;
     for (std::size_t k = 0; k < task_.keys.size(); ++k) {
       const VectorXd parts = known.points.col(static_cast<Index>(k));
@@ -322,7 +322,7 @@ class Fit {
 
   /// Points of equal weight: every 1/512 of all weight, the one it falls on.
   Drawn drawn_points() const {
-    const Posterior& known = result_.posterior;
+    const PosteriorSample& known = result_.posterior;
     const auto count = static_cast<Index>(points_predicted);
     Drawn drawn{MatrixXd(count, known.points.cols()), VectorXd::Zero(count)};
     double below = 0;

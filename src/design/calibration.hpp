@@ -9,7 +9,7 @@
 
 #include "design/calibration_design.hpp"
 #include "design/evaluate.hpp"
-#include "surrogate/posterior.hpp"
+#include "surrogate/posterior_sample.hpp"
 
 namespace vibrosow {
 
@@ -72,7 +72,7 @@ struct Calibration {
   std::optional<FittedValue> depth_factor;  // where it is fitted: what a plane slice's rates are multiplied by
   std::vector<FittedPair> correlations;     // of every pair
   std::vector<PredictedValue> predictions;  // by series, then time
-  Posterior posterior;
+  PosteriorSample posterior;
   double noise = 0;          // of one measured rate, relative; of curves of a simulated one, a fraction of the most
   std::string noise_source;  // where it is from
   int fitted_values = 0;     // numbers in the likelihood; a curve's are its principal components

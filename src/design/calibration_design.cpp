@@ -4,11 +4,11 @@
 
 #include <algorithm>
 
+#include "design/latin_hypercube.hpp"
 #include "input/read_scene.hpp"
 #include "plan/softness.hpp"
 #include "scene/input_error.hpp"
 #include "storage/case_file.hpp"
-#include "surrogate/point_sets.hpp"
 
 namespace vibrosow {
 namespace {
@@ -98,9 +98,12 @@ CalibrationDesign design_calibration(const CalibrationTask& task, const std::sha
   design.conditions = conditions_of(task.measured.table);
   const auto [different, repeated] = counts_for(task, design.conditions.size());
   const auto dimensions = static_cast<Eigen::Index>(task.keys.size());
-  const Eigen::MatrixXd points = latin_hypercube(different, dimensions, task.random_seed);
   design.points.resize(different + repeated, dimensions);
-  design.points << points, points.topRows(repeated);
+  const auto cube = latin_hypercube(static_cast<std::size_t>(different), task.keys.size(), task.random_seed);
+  for (Eigen::Index point = 0; point < different; ++point)
+    design.points.row(point) =
+        Eigen::Map<const Eigen::RowVectorXd>(cube[static_cast<std::size_t>(point)].data(), dimensions);
+  design.points.bottomRows(repeated) = design.points.topRows(repeated);
   std::uint64_t seed = task.random_seed;
   for (Eigen::Index point = 0; point < design.points.rows(); ++point)
     for (std::size_t condition = 0; condition < design.conditions.size(); ++condition)

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "agronomy/drill.hpp"
 #include "design/replicates.hpp"
 #include "input/measured.hpp"
 #include "input/override.hpp"
@@ -24,6 +25,7 @@ struct Layout {
   std::vector<Override> overrides;   // what makes it out of the base
   std::optional<std::size_t> scene;  // index in Study::scenes; none: it cannot be built
   std::string invalid;               // why it cannot
+  std::optional<Drill> drill;        // what its outflow is to sow, where the seeder says it
 };
 
 /// How simulated outflow is made comparable with measured.
@@ -67,10 +69,5 @@ Study read_study(const std::filesystem::path& file, const std::vector<Override>&
 
 /// What `scene_warnings` says of the scenes of a study, each sentence once, with the layouts that it is about.
 std::vector<std::string> study_warnings(const Study& study);
-
-/// Values of {from, to, step}, both ends included, in the unit of `from`. Throws std::invalid_argument or UnitError
-/// with what is wrong: a step of zero or the wrong sign, one that does not hit `to`, a unit that does not fit the key.
-std::vector<TomlValue> range_values(const std::string& key, const TomlValue& from, const TomlValue& to,
-                                    const TomlValue& step);
 
 }  // namespace vibrosow

@@ -26,18 +26,16 @@ std::vector<std::string> shipped(const fs::path& directory) {
 }
 
 fs::path preset_file(const Table& table, const std::string& key, const std::string& name, const std::string& kind) {
-  if (name.ends_with(".toml")) {
-    const fs::path file = table.directory(key) / name;
-    if (!table.files()->has(file)) table.fail(key, fmt::format("there is no file {}", file.string()));
-    return file;
+  if (!name.ends_with(".toml")) {
+    try {
+      return shipped_preset(name, kind);
+    } catch (const InputError& error) {
+      table.fail(key, error.what());
+    }
   }
-  const fs::path directory = data_directory() / "models" / kind;
-  const std::vector<std::string> names = shipped(directory);
-  if (std::find(names.begin(), names.end(), name) == names.end()) {
-    table.fail(key, fmt::format("\"{}\" is not shipped; there are {}, or give a path ending in .toml{}", name,
-                                fmt::join(names, ", "), did_you_mean(name, names)));
-  }
-  return directory / (name + ".toml");
+  const fs::path file = table.directory(key) / name;
+  if (!table.files()->has(file)) table.fail(key, fmt::format("there is no file {}", file.string()));
+  return file;
 }
 
 }  // namespace
@@ -47,12 +45,24 @@ void use_preset(Table& table, const std::string& key, const std::string& kind) {
   if (!name) return;
   Table preset(Document::read(preset_file(table, key, *name, kind), {}, table.files()));
   preset.skip("title");
-  if (auto reference = preset.table("reference")) {
-    // Mass is checked against it when presets are tested.
-    reference->quantity("true_density", Dimension::density, 1, 3e4);
-  }
+  read_true_density(preset);
   preset.skip("sources");
   table.set_fallback(preset);
+}
+
+std::optional<double> read_true_density(Table& preset) {
+  auto reference = preset.table("reference");
+  return reference ? reference->quantity("true_density", Dimension::density, 1, 3e4) : std::nullopt;
+}
+
+fs::path shipped_preset(const std::string& name, const std::string& kind) {
+  const fs::path directory = data_directory() / "models" / kind;
+  const std::vector<std::string> names = shipped(directory);
+  if (std::find(names.begin(), names.end(), name) == names.end()) {
+    throw InputError(fmt::format("\"{}\" is not shipped; there are {}, or give a path ending in .toml{}", name,
+                                 fmt::join(names, ", "), did_you_mean(name, names)));
+  }
+  return directory / (name + ".toml");
 }
 
 fs::path data_directory() {

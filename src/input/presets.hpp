@@ -1,5 +1,7 @@
 #pragma once
 
+#include <filesystem>
+#include <optional>
 #include <string>
 
 #include "input/table.hpp"
@@ -10,5 +12,12 @@ namespace vibrosow {
 /// models/`kind`/NAME.toml, or a path ending in .toml relative to the file that names it. Throws InputError
 /// with the shipped names when there is none.
 void use_preset(Table& table, const std::string& key, const std::string& kind);
+
+/// The file models/`kind`/NAME.toml. Throws InputError with the shipped names when there is none.
+std::filesystem::path shipped_preset(const std::string& name, const std::string& kind);
+
+/// Density of a preset's seeds themselves, kg/m3: reference.true_density. It changes no scene; a crop's mass is checked
+/// against it.
+std::optional<double> read_true_density(Table& preset);
 
 }  // namespace vibrosow

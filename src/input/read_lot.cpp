@@ -214,32 +214,56 @@ SizeDistribution read_sizes(Table& seeds, const std::string& key) {
 
 // Mass.
 
-double read_mass(Table& seeds, const SeedLot& lot) {
-  if (seeds.has_here("mass") && seeds.has_here("density")) seeds.fail("density", "contradicts mass; give one of them");
-  const std::optional<double> mass = seeds.quantity("mass", Dimension::mass, 1e-12, 1e3);
-  const std::optional<double> density = seeds.quantity("density", Dimension::density, 1, 3e4);
-  const bool by_density = seeds.has_here("density") || (density && !mass);
-  if (!by_density) {
-    if (!mass) seeds.fail("mass", "is missing; give a seed's mass, or its density");
-    if (density && !seeds.has_here("mass")) seeds.fail("density", "contradicts mass; give one of them");
-    return *mass;
+/// Tell a seed's mass; one of them does.
+const std::vector<std::string> mass_keys = {"mass", "thousand_grain_weight", "density"};
+
+/// The key that tells the mass: the one written here, else the preset's.
+std::string mass_key(const Table& seeds) {
+  for (const bool here : {true, false}) {
+    std::vector<std::string> written;
+    for (const std::string& key : mass_keys)
+      if (here ? seeds.has_here(key) : seeds.has(key)) written.push_back(key);
+    if (written.size() > 1) seeds.fail(written[1], fmt::format("contradicts {}; give one of them", written[0]));
+    if (!written.empty()) return written[0];
   }
+  seeds.fail("mass", "is missing; give a seed's mass, or its density, or its thousand_grain_weight");
+}
+
+double read_mass(Table& seeds, const SeedLot& lot) {
+  for (const std::string& key : mass_keys) seeds.skip(key);
+  const std::string key = mass_key(seeds);
+  if (key == "mass") return seeds.required_quantity(key, Dimension::mass, 1e-12, 1e3);
+  if (key == "thousand_grain_weight") return read_thousand_grain_weight(seeds);
+  const double density = seeds.required_quantity(key, Dimension::density, 1, 3e4);
   if (lot.shape == Shape::disc) seeds.fail("density", "gives no mass to a disc, which has no thickness; give mass");
-  if (lot.shape == Shape::clump) return clump_volume(lot) * *density;
-  return std::numbers::pi / 6 * elementary::pow(lot.diameter, 3) * *density;
+  if (lot.shape == Shape::clump) return clump_volume(lot) * density;
+  return std::numbers::pi / 6 * elementary::pow(lot.diameter, 3) * density;
 }
 
 /// Catalogues state the mass of a thousand seeds.
 void reject_thousand_grain_mass(const Table& seeds, const SeedLot& lot) {
+  if (mass_key(seeds) != "mass") return;
   const std::optional<double> density = seed_density(lot);
   if (!density || *density < 200e3 || *density > 3000e3) return;
   seeds.fail("mass",
              fmt::format("{:.3g} g in a seed this small is a density of {:.3g} kg/m3; it looks like the mass of "
-                         "a thousand seeds, and a seed's is {:.3g} mg",
+                         "a thousand seeds: give thousand_grain_weight = \"{:.3g} g\"",
                          lot.mass * 1e3, *density, lot.mass * 1e3));
 }
 
 }  // namespace
+
+double read_thousand_grain_weight(Table& seeds) {
+  const double grams = seeds.required_quantity("thousand_grain_weight", Dimension::mass, 1e-6, 1e3) * 1e3;
+  return grams / 1e6;  // the same number as that many milligrams
+}
+
+BulkProperties read_bulk_properties(Table& seeds) {
+  constexpr double degree = std::numbers::pi / 180;
+  return {seeds.quantity("bulk_density", Dimension::density, 1, 3e4),
+          seeds.quantity("angle_of_repose", Dimension::angle, 1 * degree, 89 * degree),
+          seeds.quantity("moisture", Dimension::fraction, 0, 1)};
+}
 
 SeedLot read_lot(Table& seeds, const std::string& name, Space space) {
   use_preset(seeds, "crop", "crops");
@@ -256,6 +280,7 @@ SeedLot read_lot(Table& seeds, const std::string& name, Space space) {
   if (lot.sizes.kind == Kind::uniform || lot.sizes.kind == Kind::table) lot.sizes.mean = 0;  // told by the others
   lot.mass = read_mass(seeds, lot);
   reject_thousand_grain_mass(seeds, lot);
+  read_bulk_properties(seeds);  // they are known and in range, and change no scene
   return lot;
 }
 

@@ -162,7 +162,7 @@ Columns<PointRow> run_columns(const std::vector<KeyRange>& keys) {
 
 /// Points of equal weight.
 std::vector<PointRow> sample(const CalibrationSource& source) {
-  const Posterior& known = source.calibration.posterior;
+  const PosteriorSample& known = source.calibration.posterior;
   std::vector<PointRow> rows;
   double below = 0;
   for (Eigen::Index i = 0; i < known.weights.size() && rows.size() < sample_rows; ++i) {

@@ -9,7 +9,7 @@
 #include <stdexcept>
 #include <vector>
 
-#include "surrogate/point_sets.hpp"
+#include "surrogate/sobol_points.hpp"
 
 namespace vibrosow {
 namespace {

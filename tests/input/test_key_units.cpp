@@ -29,6 +29,8 @@ TEST(KeyUnits, ColumnsCarryOneUnitForEachKey) {
   EXPECT_EQ(condition_column("hopper.rain.rate"), "hopper.rain.rate_per_s");
   EXPECT_EQ(condition_column("tray.rain.start"), "tray.rain.start_s");
   EXPECT_EQ(condition_column("run.start"), "run.start") << "a name";
+  EXPECT_EQ(condition_column("drill.speed"), "drill.speed_km_per_h");
+  EXPECT_EQ(condition_column("tray.motion.speed"), "tray.motion.speed_rpm");
   EXPECT_EQ(condition_column("contact.shell_compression"), "contact.shell_compression");
 }
 
@@ -37,6 +39,10 @@ TEST(KeyUnits, AColumnLeadsBackToItsKey) {
                                 "run.count_below",
                                 "tray.holes.count",
                                 "seeds.pea.mass",
+                                "seeds.pea.thousand_grain_weight",
+                                "seeds.pea.bulk_density",
+                                "seeds.pea.angle_of_repose",
+                                "seeds.pea.moisture",
                                 "contact.damping_rate",
                                 "contact.drag",
                                 "contact.cohesion",
@@ -54,6 +60,9 @@ TEST(KeyUnits, AColumnLeadsBackToItsKey) {
                                 "record.cell",
                                 "tray.rain.start",
                                 "tray.rain.rate",
+                                "drill.speed",
+                                "drill.row_spacing",
+                                "drill.cv_limit",
                                 "tray.motion.angle"})
     EXPECT_EQ(key_of_column(condition_column(key)), key);
   EXPECT_FALSE(key_of_column("tray.motion.frequency"));
@@ -66,6 +75,8 @@ TEST(KeyUnits, ValuesAreConvertedToTheColumn) {
   EXPECT_DOUBLE_EQ(to_column_unit("tray.holes.width", 0.016), 16);
   EXPECT_DOUBLE_EQ(to_column_unit("tray.tilt", std::numbers::pi / 2), 90);
   EXPECT_DOUBLE_EQ(to_column_unit("contact.drag", 3e-3), 3);
+  EXPECT_DOUBLE_EQ(to_column_unit("seeds.wheat.thousand_grain_weight", 0.045), 45);
+  EXPECT_DOUBLE_EQ(to_column_unit("seeds.wheat.angle_of_repose", std::numbers::pi / 6), 30);
   EXPECT_DOUBLE_EQ(to_column_unit("seeds.wheat.mass_fraction", 0.7), 70);
   EXPECT_DOUBLE_EQ(to_column_unit("contact.youngs_modulus", 5e10), 5e4);
   EXPECT_DOUBLE_EQ(to_column_unit("contact.damping_rate", 2.1e4), 2.1e4);

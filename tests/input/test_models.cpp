@@ -12,6 +12,7 @@
 
 #include <toml++/toml.h>
 
+#include "input/read_crop.hpp"
 #include "input/read_scene.hpp"
 #include "scene/clump_shape.hpp"
 #include "units/quantity.hpp"
@@ -68,8 +69,8 @@ double mass_ratio(const toml::table& crop) {
   const auto quantity = [&](const toml::node_view<const toml::node>& node, Dimension dimension) {
     return parse_quantity(node.value_or(std::string()), dimension);
   };
-  const double mass_per_volume =
-      quantity(crop["mass"], Dimension::mass) / quantity(crop["reference"]["true_density"], Dimension::density);
+  const double mass_per_volume = quantity(crop["thousand_grain_weight"], Dimension::mass) / 1e3 /
+                                 quantity(crop["reference"]["true_density"], Dimension::density);
   const std::string shape = crop["shape"].value_or(std::string("ball"));
   if (shape == "ball")
     return mass_per_volume / (std::numbers::pi / 6 * std::pow(quantity(crop["diameter"], Dimension::length), 3));
@@ -81,7 +82,7 @@ double mass_ratio(const toml::table& crop) {
 
 TEST(Presets, EveryValueHasASource) {
   const std::vector<fs::path> files = toml_files(data_directory() / "models");
-  ASSERT_GE(files.size(), 7u);
+  ASSERT_GE(files.size(), 25u);
   for (const fs::path& file : files)
     for (const std::string& fault : source_faults(toml::parse_file(file.string())))
       ADD_FAILURE() << file << ": " << fault;
@@ -102,23 +103,47 @@ TEST(Presets, FaultsInSourcesAreFound) {
 
 TEST(Presets, MassAgreesWithVolumeAndTrueDensity) {
   const std::vector<fs::path> crops = toml_files(data_directory() / "models" / "crops");
-  ASSERT_GE(crops.size(), 6u);
+  ASSERT_GE(crops.size(), 15u);
   for (const fs::path& file : crops) EXPECT_NEAR(mass_ratio(toml::parse_file(file.string())), 1, 0.02) << file;
 }
 
+TEST(Presets, CropsReadAsCropsAndPackAsBedsDo) {
+  for (const fs::path& file : toml_files(data_directory() / "models" / "crops")) {
+    const Crop crop = read_crop(file);
+    EXPECT_FALSE(crop.title.empty()) << file;
+    EXPECT_GE(crop.length, crop.width) << file;
+    EXPECT_GE(crop.width, crop.thickness) << file;
+    EXPECT_EQ(crop.sources.count("shape"), 1u) << file;
+    ASSERT_TRUE(crop.true_density) << file;
+    if (!crop.bulk.bulk_density) continue;
+    const double packing = *crop.bulk.bulk_density / *crop.true_density;
+    EXPECT_TRUE(packing > 0.35 && packing < 0.74) << file << ": " << packing;
+  }
+}
+
+TEST(Presets, EveryContactModelSaysHowItPushesAndRubs) {
+  for (const fs::path& file : toml_files(data_directory() / "models" / "contacts")) {
+    const std::string model = "contact.model=" + file.stem().string();
+    EXPECT_NO_THROW(read_scene(data_directory() / "seeders" / "wheat-tray.toml", {parse_override(model)})) << file;
+  }
+}
+
 TEST(Presets, WheatAtItsGeometricMeanDiameterWouldNotAgree) {
-  EXPECT_NEAR(mass_ratio(toml::parse("diameter = '4.26 mm'\nmass = '29.6 mg'\nreference.true_density = '1240 kg/m3'")),
+  EXPECT_NEAR(mass_ratio(toml::parse(
+                  "diameter = '4.26 mm'\nthousand_grain_weight = '29.6 g'\nreference.true_density = '1240 kg/m3'")),
               731.0 / 1240, 0.01);
 }
 
 TEST(Presets, WheatAtItsMeasuredLengthWidthAndThicknessWouldNotAgree) {
-  EXPECT_NEAR(mass_ratio(toml::parse("shape = 'elongated'\nlength = '7.08 mm'\nwidth = '3.27 mm'\nmass = '29.6 mg'\n"
-                                     "thickness = '2.98 mm'\nreference.true_density = '1240 kg/m3'")),
+  EXPECT_NEAR(mass_ratio(toml::parse(
+                  "shape = 'elongated'\nlength = '7.08 mm'\nwidth = '3.27 mm'\nthousand_grain_weight = '29.6 g'\n"
+                  "thickness = '2.98 mm'\nreference.true_density = '1240 kg/m3'")),
               29.6 / 41.7, 0.01);
 }
 
 TEST(Presets, ElongatedAndDropCropsReadAsClumps) {
-  for (const auto& [crop, length] : {std::pair("wheat-grain", 6.32e-3), {"barley-grain", 9.13e-3}}) {
+  for (const auto& [crop, length] :
+       {std::pair("wheat-grain", 6.32e-3), {"barley-grain", 9.13e-3}, {"oats", 10e-3}, {"rice", 10.1e-3}}) {
     const Scene scene = read_scene(data_directory() / "seeders" / "wheat-tray.toml",
                                    {parse_override(std::string("seeds.wheat.crop=") + crop),
                                     parse_override("hopper.fill.count=50"), parse_override("tray.fill.count=50")});
@@ -140,7 +165,7 @@ TEST(Seeders, EveryShippedOneReads) {
     Scene scene;
     ASSERT_NO_THROW(scene = read_scene(file)) << file;
     EXPECT_FALSE(scene.title.empty()) << file;
-    EXPECT_TRUE(scene.tray.fill || (scene.hopper && scene.hopper->fill)) << file;
+    EXPECT_TRUE(scene.tray.fill || scene.tray.rain || (scene.hopper && scene.hopper->fill)) << file;
     EXPECT_TRUE(!scene.tray.holes.empty() || scene.record) << file << ": nothing to count and nothing to see";
   }
 }

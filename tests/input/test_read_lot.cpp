@@ -67,6 +67,28 @@ TEST(ReadLot, DensityGivesAClumpTheMassOfItsBalls) {
   EXPECT_NEAR(grain.mass, 0.85 * spheroid, 0.01 * spheroid) << "the valleys between the discs are empty";
 }
 
+TEST(ReadLot, AThousandGrainWeightIsAThousandMasses) {
+  EXPECT_EQ(lot_of("diameter = '3 mm'\nthousand_grain_weight = '44.48 g'").mass,
+            lot_of("diameter = '3 mm'\nmass = '44.48 mg'").mass)
+      << "to the last bit, so that runs of a crop keep theirs";
+  EXPECT_DOUBLE_EQ(lot_of("diameter = '3 mm'\nthousand_grain_weight = '0.045 kg'").mass, 45e-6);
+  EXPECT_THAT([] { lot_of("diameter = '3 mm'\nmass = '30 mg'\nthousand_grain_weight = '30 g'"); },
+              ThrowsMessage<InputError>(HasSubstr("thousand_grain_weight: contradicts mass")));
+}
+
+TEST(ReadLot, ASeedersMassWinsOverItsCropsThousandGrainWeight) {
+  EXPECT_DOUBLE_EQ(lot_of("crop = 'wheat'").mass, 29.6e-6);
+  EXPECT_DOUBLE_EQ(lot_of("crop = 'wheat'\nmass = '40 mg'").mass, 40e-6);
+  EXPECT_DOUBLE_EQ(lot_of("crop = 'wheat'\nthousand_grain_weight = '50 g'").mass, 50e-6);
+  EXPECT_NEAR(lot_of("crop = 'wheat'\ndensity = '1000 kg/m3'").mass, 23.8e-6, 0.1e-6);
+}
+
+TEST(ReadLot, BulkPropertiesChangeNoSeed) {
+  const SeedLot lot = lot_of("diameter = '3 mm'\nmass = '20 mg'");
+  EXPECT_EQ(lot, lot_of("diameter = '3 mm'\nmass = '20 mg'\nbulk_density = '700 kg/m3'\nangle_of_repose = '25 degree'\n"
+                        "moisture = '9 %'"));
+}
+
 TEST(ReadLot, AnyDiscsAboutTheirCentreOfMass) {
   const SeedLot lot = lot_of(
       "shape = 'discs'\nmass = '30 mg'\n"

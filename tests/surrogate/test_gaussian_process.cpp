@@ -9,7 +9,8 @@
 #include <stdexcept>
 
 #include "grains/random.hpp"
-#include "surrogate/point_sets.hpp"
+#include "surrogate/hypercube.hpp"
+#include "surrogate/sobol_points.hpp"
 
 namespace vibrosow {
 namespace {
@@ -30,7 +31,7 @@ struct Sample {
 /// The true function with normal noise, at points of which none matters along the last dimension.
 Sample sample(Index count, double noise, std::uint64_t random_seed = 1) {
   Random random(random_seed);
-  Sample made{latin_hypercube(count, 3, random_seed), VectorXd(count)};
+  Sample made{hypercube(count, 3, random_seed), VectorXd(count)};
   const boost::math::normal normal;
   for (Index i = 0; i < count; ++i)
     made.values(i) =
@@ -117,7 +118,7 @@ TEST(GaussianProcess, KnowsHowFarItErrsFromFewValuesToo) {
 }
 
 TEST(GaussianProcess, TakesAPlaneForAPlane) {
-  const MatrixXd points = latin_hypercube(15, 2, 1);
+  const MatrixXd points = hypercube(15, 2, 1);
   const VectorXd values = 3 + 2 * points.col(0).array() - points.col(1).array();
   const GaussianPrediction prediction = GaussianProcess(points, values).at(MatrixXd::Constant(1, 2, 0.9));
   EXPECT_NEAR(prediction.mean(0), 3.9, 1e-6);
@@ -126,15 +127,15 @@ TEST(GaussianProcess, TakesAPlaneForAPlane) {
 
 TEST(GaussianProcess, TakesValuesThatAreAllTheSame) {
   const GaussianPrediction prediction =
-      GaussianProcess(latin_hypercube(10, 2, 1), VectorXd::Constant(10, 5)).at(MatrixXd::Constant(1, 2, 0.5));
+      GaussianProcess(hypercube(10, 2, 1), VectorXd::Constant(10, 5)).at(MatrixXd::Constant(1, 2, 0.5));
   EXPECT_NEAR(prediction.mean(0), 5, 1e-9);
 }
 
 TEST(GaussianProcess, RefusesTooFewValuesAndSuchAsAreNone) {
-  EXPECT_THROW(GaussianProcess(latin_hypercube(5, 2, 1), VectorXd::Zero(5)), std::invalid_argument);
+  EXPECT_THROW(GaussianProcess(hypercube(5, 2, 1), VectorXd::Zero(5)), std::invalid_argument);
   VectorXd values = VectorXd::Zero(9);
   values(3) = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_THROW(GaussianProcess(latin_hypercube(9, 2, 1), values), std::invalid_argument);
+  EXPECT_THROW(GaussianProcess(hypercube(9, 2, 1), values), std::invalid_argument);
 }
 
 }  // namespace
