@@ -93,7 +93,7 @@ std::optional<Flow> flow_of(const CalibrationDesign& design, std::size_t conditi
 }
 
 /// Slopes of the surrogate along the keys at each point, one a row; a last column of ones for an unknown factor.
-MatrixXd slopes(const GaussianProcess& surrogate, const MatrixXd& points, bool with_factor) {
+MatrixXd slopes_of(const GaussianProcess& surrogate, const MatrixXd& points, bool with_factor) {
   MatrixXd result = MatrixXd::Ones(points.rows(), points.cols() + (with_factor ? 1 : 0));
   for (Index d = 0; d < points.cols(); ++d) {
     MatrixXd up = points, down = points;
@@ -149,6 +149,41 @@ double catch_time(const std::vector<Flow>& flows) {
   return time >= 5 ? 5 * std::floor(time / 5) : std::max(1.0, std::floor(time));
 }
 
+/// Of one candidate at the points averaged over; none where too little flows to tell.
+using Slopes = std::optional<MatrixXd>;
+
+/// Fills in what the runs of a candidate say.
+Slopes look_at(BenchCandidate& candidate, const Flow& flow, const MatrixXd& points, const BenchPlan& plan,
+               double noise) {
+  if (flow.log_rates.size() < points.cols() + 4) return std::nullopt;
+  const GaussianProcess surrogate(flow.points, flow.log_rates);
+  const double flow_chance = surrogate.noise() * flow.window / plan.catch_time;
+  candidate.mass_rate = std::exp(surrogate.at(points).mean.mean());
+  candidate.chance = std::sqrt(flow_chance + noise * noise);
+  return slopes_of(surrogate, points, !plan.whole_rates);
+}
+
+/// Of all readings of a candidate.
+double weight_of(const BenchPlan& plan, std::size_t candidate) {
+  const double chance = plan.candidates[candidate].chance;
+  return plan.repeats / (chance * chance);
+}
+
+/// The candidate, of those without a place, that adds most to the information.
+std::size_t most_telling(const BenchPlan& plan, const std::vector<Slopes>& slopes, const Information& information) {
+  std::optional<std::size_t> best;
+  double most = 0;
+  for (std::size_t c = 0; c < slopes.size(); ++c) {
+    if (!slopes[c] || plan.candidates[c].place) continue;
+    Information with = information;
+    with.add(*slopes[c], weight_of(plan, c));
+    const double determinant = with.log_determinant();
+    if (best && determinant <= most) continue;
+    best = c, most = determinant;
+  }
+  return best.value();
+}
+
 }  // namespace
 
 int BenchPlan::readings() const {
@@ -190,7 +225,6 @@ MeasuredTable bench_candidates(const std::vector<KeyRange>& settings) {
 std::optional<BenchPlan> plan_bench(const CalibrationTask& task, const CalibrationDesign& design,
                                     const BenchLimits& limits, const Simulator& kept) {
   const auto keys = static_cast<Index>(task.keys.size());
-  const bool with_factor = task.measured.scale == MeasuredScale::free;
   std::vector<Flow> flows;
   for (std::size_t condition = 0; condition < design.conditions.size(); ++condition) {
     std::optional<Flow> flow = flow_of(design, condition, kept);
@@ -198,24 +232,16 @@ std::optional<BenchPlan> plan_bench(const CalibrationTask& task, const Calibrati
     flows.push_back(std::move(*flow));
   }
   BenchPlan plan;
-  plan.whole_rates = !with_factor;
+  plan.whole_rates = task.measured.scale != MeasuredScale::free;
   plan.catch_time = catch_time(flows);
   const MatrixXd points = sobol_points(points_averaged, keys);
-  std::vector<MatrixXd> rows(flows.size());
+  std::vector<Slopes> slopes;
+  int usable = 0;
   for (std::size_t c = 0; c < flows.size(); ++c) {
-    BenchCandidate candidate;
-    candidate.conditions = design.conditions[c];
-    if (flows[c].log_rates.size() >= keys + 4) {
-      const GaussianProcess surrogate(flows[c].points, flows[c].log_rates);
-      const double flow_chance = surrogate.noise() * flows[c].window / plan.catch_time;
-      candidate.mass_rate = std::exp(surrogate.at(points).mean.mean());
-      candidate.chance = std::sqrt(flow_chance + limits.noise * limits.noise);
-      rows[c] = slopes(surrogate, points, with_factor);
-    }
-    plan.candidates.push_back(std::move(candidate));
+    plan.candidates.push_back({.conditions = design.conditions[c]});
+    slopes.push_back(look_at(plan.candidates.back(), flows[c], points, plan, limits.noise));
+    if (slopes.back()) ++usable;
   }
-  const auto usable = static_cast<int>(
-      std::ranges::count_if(rows, [](const MatrixXd& of_candidate) { return of_candidate.rows() > 0; }));
   if (usable == 0) throw InputError(fmt::format("{}: nothing flows under any of the settings", task.seeder.string()));
   const int readings = static_cast<int>(limits.time / (plan.catch_time + limits.handling));
   plan.repeats = readings / usual_repeats > static_cast<int>(keys) ? usual_repeats : least_repeats;
@@ -223,20 +249,11 @@ std::optional<BenchPlan> plan_bench(const CalibrationTask& task, const Calibrati
   if (wanted < 1)
     throw InputError(fmt::format("--time: {:g} min are too short for {} readings of {:g} s", limits.time / 60,
                                  least_repeats, plan.catch_time));
-  Information information(keys, with_factor);
+  Information information(keys, !plan.whole_rates);
   for (int place = 1; place <= wanted; ++place) {
-    std::optional<std::size_t> best;
-    double most = 0;
-    for (std::size_t c = 0; c < rows.size(); ++c) {
-      if (rows[c].rows() == 0 || plan.candidates[c].place) continue;
-      Information with = information;
-      with.add(rows[c], plan.repeats / (plan.candidates[c].chance * plan.candidates[c].chance));
-      const double determinant = with.log_determinant();
-      if (best && determinant <= most) continue;
-      best = c, most = determinant;
-    }
-    plan.candidates[*best].place = place;
-    information.add(rows[*best], plan.repeats / (plan.candidates[*best].chance * plan.candidates[*best].chance));
+    const std::size_t best = most_telling(plan, slopes, information);
+    plan.candidates[best].place = place;
+    information.add(*slopes[best], weight_of(plan, best));
   }
   for (Index k = 0; k < keys; ++k) plan.contraction.push_back(information.contraction(k));
   return plan;

@@ -315,33 +315,8 @@ class Fit {
         result_.correlations.push_back({a, b, weighted_correlation(columns[a], columns[b], known.weights)});
   }
 
-  struct Drawn {
-    MatrixXd points;
-    VectorXd shifts;
-  };
-
-  /// Points of equal weight: every 1/512 of all weight, the one it falls on.
-  Drawn drawn_points() const {
-    const PosteriorSample& known = result_.posterior;
-    const auto count = static_cast<Index>(points_predicted);
-    Drawn drawn{MatrixXd(count, known.points.cols()), VectorXd::Zero(count)};
-    double below = 0;
-    Index row = 0;
-    for (Index i = 0; i < known.weights.size() && row < count; ++i) {
-      below += known.weights(i);
-      while (row < count && (static_cast<double>(row) + 0.5) / static_cast<double>(count) <= below) {
-        drawn.points.row(row) = known.points.row(i);
-        if (known.shifts.size() > 0) drawn.shifts(row) = known.shifts(i);
-        ++row;
-      }
-    }
-    drawn.points.conservativeResize(row, Eigen::NoChange);
-    drawn.shifts.conservativeResize(row);
-    return drawn;
-  }
-
   void predict() {
-    const Drawn drawn = drawn_points();
+    const std::vector<Index> drawn = points_of_equal_weight(result_.posterior.weights, points_predicted);
     for (const Part& part : parts_) predict(part, drawn);
     std::ranges::stable_sort(result_.predictions, {}, [](const PredictedValue& value) {
       return std::pair(value.series, value.time.value_or(0));
@@ -350,20 +325,18 @@ class Fit {
     result_.held_out_rms = rms(true);
   }
 
-  void predict(const Part& part, const Drawn& drawn) {
-    const auto scores = static_cast<Index>(part.surrogates.size());
-    MatrixXd means(drawn.points.rows(), scores);
-    VectorXd variances = chance_of_measured(part).diagonal();
-    const MatrixXd chance = chance_of_measured(part);
-    for (Index k = 0; k < scores; ++k) {
-      const GaussianPrediction prediction = part.surrogates[static_cast<std::size_t>(k)].at(drawn.points);
+  void predict(const Part& part, const std::vector<Index>& drawn) {
+    const PosteriorSample& known = result_.posterior;
+    const MatrixXd points = known.points(drawn, Eigen::all);
+    MatrixXd means(points.rows(), static_cast<Index>(part.surrogates.size()));
+    MatrixXd covariance = chance_of_measured(part);
+    for (Index k = 0; k < means.cols(); ++k) {
+      const GaussianPrediction prediction = part.surrogates[static_cast<std::size_t>(k)].at(points);
       means.col(k) = prediction.mean;
-      variances(k) = prediction.variance.mean();
+      covariance(k, k) += prediction.variance.mean();
     }
     MatrixXd values = (means * part.basis.transpose()).rowwise() + part.centre.transpose();
-    values.colwise() += drawn.shifts;
-    MatrixXd covariance = chance;
-    covariance.diagonal() += variances;
+    if (known.shifts.size() > 0) values.colwise() += VectorXd(known.shifts(drawn));
     for (std::size_t v = 0; v < part.values.size(); ++v) {
       const auto at = static_cast<Index>(v);
       const double mean = values.col(at).mean();

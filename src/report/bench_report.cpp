@@ -58,9 +58,10 @@ Columns<BenchCandidate> candidate_columns(const std::vector<std::string>& keys) 
   append(columns,
          {text_column<BenchCandidate>("place", "in the order in which it was chosen; empty: it was not",
                                       [](Row r) { return r.place ? fmt::format("{}", *r.place) : std::string(); }),
-          quantity_column<BenchCandidate>("rate_g_per_s", grams_per_second,
-                                          "expected, median over what is not known; of the plane slice in the plane",
-                                          [](Row r) { return r.mass_rate; }),
+          quantity_column<BenchCandidate>(
+              "rate_g_per_s", grams_per_second,
+              "expected, geometric mean over what is not known; of the plane slice in the plane",
+              [](Row r) { return r.mass_rate; }),
           quantity_column<BenchCandidate>("chance_percent", percent, "standard deviation of one reading",
                                           [](Row r) { return r.chance; })});
   return columns;
@@ -116,19 +117,20 @@ std::string escaped(const std::string& text) {
 }
 
 constexpr const char* page_style =
-    "@page { size: A4; margin: 15mm } body { font: 10pt sans-serif } table { border-collapse: collapse; width: 100% } "
-    "th, td { border: 1px solid black; padding: 1.2mm; text-align: right } td.write { width: 35mm }";
+    "@page { size: A4; margin: 15mm } body { font: 10pt sans-serif } h1 { font-size: 15pt } "
+    "table { border-collapse: collapse; width: 100% } tr { break-inside: avoid } "
+    "th, td { border: 1px solid black; padding: 1.2mm 2mm; text-align: right } td.write { width: 35mm } "
+    ".line { display: inline-block; width: 45mm; border-bottom: 1px solid black; margin-right: 6mm }";
 
-std::string page(const BenchSource& source) {
-  const std::vector<std::string>& keys = source.task.measured.table.condition_keys;
-  std::string text = fmt::format(
-      "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><title>Bench "
-      "sheet</title>\n<style>{}</style></head>"
-      "<body>\n<h1>Bench sheet: {}</h1>\n",
-      page_style, escaped(source.task.seeder.stem().string()));
+/// What a person needs to do before the table.
+std::string instructions(const BenchSource& source) {
+  std::string text = "<p>";
+  for (const char* field : {"Date", "Seed lot", "Thousand-grain weight"})
+    text += fmt::format("{} <span class=\"line\"></span>\n", field);
   text += fmt::format(
-      "<p>{} readings of {:g} s, about {:.0f} minutes with {:g} s for setting, filling and weighing. Use the seed that "
-      "will be sown, and a balance that shows 0.1 g.</p>\n<ol>\n",
+      "</p>\n<p>{} readings of {:g} s, about {:.0f} minutes with {:g} s for setting, filling and weighing. Use the "
+      "seed "
+      "that will be sown, and a balance that shows 0.1 g.</p>\n<ol>\n",
       source.plan.readings(), source.plan.catch_time, minutes(source), source.limits.handling);
   for (const char* step :
        {"Fill as the tray is filled in work, the same for every reading.",
@@ -137,12 +139,16 @@ std::string page(const BenchSource& source) {
         "Write the grams here and into bench.csv. Go through the rows in order: the repeats are settings made anew.",
         "A reading that went wrong (an empty tray, a clogged hole) is taken again, or its row is deleted."})
     text += fmt::format("<li>{}</li>\n", step);
-  text += "</ol>\n<table><tr><th>no.</th>";
-  for (const std::string& key : keys) {
+  return text + "</ol>\n";
+}
+
+std::string reading_table(const BenchSource& source) {
+  std::string text = "<table><thead><tr><th>no.</th>";
+  for (const std::string& key : source.task.measured.table.condition_keys) {
     const auto unit = column_unit(key);
     text += fmt::format("<th>{}{}</th>", escaped(key), unit ? fmt::format("<br>{}", unit->unit) : "");
   }
-  text += "<th>repeat</th><th>time<br>s</th><th>caught<br>g</th></tr>\n";
+  text += "<th>repeat</th><th>time<br>s</th><th>caught<br>g</th></tr></thead>\n";
   int number = 0;
   for (const Reading& reading : readings(source)) {
     text += fmt::format("<tr><td>{}</td>", ++number);
@@ -151,7 +157,16 @@ std::string page(const BenchSource& source) {
     text +=
         fmt::format("<td>{}</td><td>{:g}</td><td class=\"write\"></td></tr>\n", reading.repeat, source.plan.catch_time);
   }
-  return text + fmt::format("</table>\n<p>{}</p>\n<p>Then: vibrosow calibrate {} bench.csv</p>\n</body></html>\n",
+  return text + "</table>\n";
+}
+
+std::string page(const BenchSource& source) {
+  std::string text = fmt::format(
+      "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><title>Bench sheet</title>\n<style>{}</style>"
+      "</head><body>\n<h1>Bench sheet: {}</h1>\n",
+      page_style, escaped(source.task.seeder.stem().string()));
+  text += instructions(source) + reading_table(source);
+  return text + fmt::format("<p>{}</p>\n<p>Then: vibrosow calibrate {} bench.csv</p>\n</body></html>\n",
                             escaped(expectation(source)), escaped(source.task.seeder.filename().string()));
 }
 

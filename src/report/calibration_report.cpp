@@ -160,17 +160,12 @@ Columns<PointRow> run_columns(const std::vector<KeyRange>& keys) {
   return columns;
 }
 
-/// Points of equal weight.
 std::vector<PointRow> sample(const CalibrationSource& source) {
   const PosteriorSample& known = source.calibration.posterior;
   std::vector<PointRow> rows;
-  double below = 0;
-  for (Eigen::Index i = 0; i < known.weights.size() && rows.size() < sample_rows; ++i) {
-    below += known.weights(i);
-    while (rows.size() < sample_rows && (static_cast<double>(rows.size()) + 0.5) / sample_rows <= below)
-      rows.push_back({&source, known.points.row(i).transpose(),
-                      known.shifts.size() > 0 ? std::optional(std::exp(known.shifts(i))) : std::nullopt});
-  }
+  for (const Eigen::Index i : points_of_equal_weight(known.weights, sample_rows))
+    rows.push_back({&source, known.points.row(i).transpose(),
+                    known.shifts.size() > 0 ? std::optional(std::exp(known.shifts(i))) : std::nullopt});
   return rows;
 }
 

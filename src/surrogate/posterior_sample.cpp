@@ -169,4 +169,16 @@ double weighted_quantile(const VectorXd& values, const VectorXd& weights, double
   return last_value;
 }
 
+std::vector<Index> points_of_equal_weight(const VectorXd& weights, std::size_t count) {
+  std::vector<Index> points;
+  Index point = 0;
+  double below = weights(0);  // weight of the points up to this one
+  for (std::size_t k = 0; k < count; ++k) {
+    const double part = (static_cast<double>(k) + 0.5) / static_cast<double>(count);
+    while (below < part && point + 1 < weights.size()) below += weights(++point);
+    points.push_back(point);
+  }
+  return points;
+}
+
 }  // namespace vibrosow

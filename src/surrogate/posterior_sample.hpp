@@ -30,7 +30,8 @@ struct PosteriorSample {
 /// the values' likelihood, in which the surrogates' own uncertainty counts, and over the shift the integral. Points
 /// that weigh little make way: the box that holds the others is filled anew until a tenth of `count` points is
 /// effective. Throws std::invalid_argument for no values.
-PosteriorSample posterior_sample(const std::vector<ObservedValues>& observed, Eigen::Index dimensions, Eigen::Index count = 16384);
+PosteriorSample posterior_sample(const std::vector<ObservedValues>& observed, Eigen::Index dimensions,
+                                 Eigen::Index count = 16384);
 
 /// Of one of the columns of a sample.
 double weighted_mean(const Eigen::VectorXd& values, const Eigen::VectorXd& weights);
@@ -38,5 +39,9 @@ double weighted_deviation(const Eigen::VectorXd& values, const Eigen::VectorXd& 
 double weighted_correlation(const Eigen::VectorXd& a, const Eigen::VectorXd& b, const Eigen::VectorXd& weights);
 /// The value that `part` (0..1) of all weight lies below.
 double weighted_quantile(const Eigen::VectorXd& values, const Eigen::VectorXd& weights, double part);
+
+/// Indices of `count` points of equal weight, rising, heavy points several times: those on which every 1/count of all
+/// weight falls.
+std::vector<Eigen::Index> points_of_equal_weight(const Eigen::VectorXd& weights, std::size_t count);
 
 }  // namespace vibrosow

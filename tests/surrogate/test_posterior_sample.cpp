@@ -5,6 +5,7 @@
 #include <Eigen/LU>
 #include <cmath>
 #include <stdexcept>
+#include <vector>
 
 #include "surrogate/hypercube.hpp"
 
@@ -79,6 +80,11 @@ TEST(PosteriorSample, SaysWhereNoPointFits) {
 
 TEST(PosteriorSample, NeedsAValue) {
   EXPECT_THROW(posterior_sample({}, 2), std::invalid_argument);
+}
+
+TEST(PointsOfEqualWeight, TakesHeavyPointsOften) {
+  const VectorXd weights = (VectorXd(4) << 0.5, 0, 0.25, 0.25).finished();
+  EXPECT_EQ(points_of_equal_weight(weights, 4), (std::vector<Eigen::Index>{0, 0, 2, 3}));
 }
 
 TEST(WeightedQuantile, LiesBetweenValuesByTheirWeights) {
