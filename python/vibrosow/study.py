@@ -56,8 +56,8 @@ class Study:
         runs = self._folder.table("sweep_runs.csv")
         if self.plan is None:
             return runs
-        columns = self.plan["runs"]
-        cases = {(layout, seed): case for layout, seed, case in zip(columns["layout"], columns["random_seed"], columns["case"])}
+        cases = {(group["layout"], group["random_seed"] + k): case
+                 for group in self.plan["runs"] for k, case in enumerate(group["cases"].split())}
         alike = runs.note.str.extract(r"same run as of layout (\d+)$")[0].astype(float)  # the plan has the first of these
         return runs.assign(case=[cases.get(run, "") for run in zip(alike.fillna(runs.layout), runs.random_seed)])
 

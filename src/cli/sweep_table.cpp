@@ -7,18 +7,11 @@
 #include <numeric>
 
 #include "cli/console.hpp"
-#include "input/key_units.hpp"
-#include "report/sweep_report.hpp"
+#include "cli/layout_text.hpp"
 #include "report/terminal_text.hpp"
 
 namespace vibrosow {
 namespace {
-
-std::string with_interval(const std::optional<MeanWithInterval>& value, double unit) {
-  if (!value) return "";
-  const std::string mean = to_digits(value->mean / unit, 4);
-  return value->half_width_95 ? fmt::format("{} +- {}", mean, to_digits(*value->half_width_95 / unit, 2)) : mean;
-}
 
 std::string mean_text(const FigureMeans& figures, std::string_view name) {
   const Figure& figure = figure_named(name);
@@ -36,23 +29,6 @@ std::string evenness_text(const FigureMeans& figures) {
   if (cv.empty()) return fmt::format("< {}", high);
   return fmt::format("{} ({}-{})", to_digits(figures["evenness_cv_percent"]->mean * 100, 3),
                      text("evenness_cv_percent_low"), high);
-}
-
-/// A value of a layout as a person writes it: "9 Hz".
-std::string with_unit(const std::string& key, const std::string& value) {
-  const auto unit = column_unit(key);
-  return unit && csv_text_or_number(value).is_number ? fmt::format("{} {}", value, unit->unit) : value;
-}
-
-std::string described(const Study& study, const Layout& layout) {
-  std::string text = layout.name;
-  for (const std::string& key : study.keys) {
-    const auto value = layout.values.find(key);
-    if (value == layout.values.end() || !layout.name.empty()) continue;
-    text +=
-        fmt::format("{}{} {}", text.empty() ? "" : ", ", key.substr(key.rfind('.') + 1), with_unit(key, value->second));
-  }
-  return text;
 }
 
 /// What the table shows of a layout, but for its name; each column is as wide as its longest cell.

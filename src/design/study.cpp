@@ -8,6 +8,7 @@
 #include <set>
 #include <system_error>
 
+#include "design/study_grid.hpp"
 #include "input/key_units.hpp"
 #include "input/read_scene.hpp"
 #include "input/table.hpp"
@@ -21,46 +22,15 @@
 namespace vibrosow {
 namespace {
 
-constexpr std::size_t most_layouts = 100000;
 constexpr std::int64_t most_replicates = 1000;
 
-const std::vector<std::string> study_words = {"title", "base", "replicates", "set", "vary", "measured", "layout"};
-
-/// Changes that one point of the grid, or one named design, makes.
-using Changes = std::vector<Override>;
+const std::vector<std::string> study_words = {"title", "base", "replicates", "proposals",
+                                              "set",   "vary", "measured",   "layout"};
 
 struct NamedDesign {
   std::string name;
   Changes changes;
 };
-
-/// A value of a range: with the unit of the key's column, or a plain number.
-Quantity quantity_of(const std::string& key, const TomlValue& value) {
-  if (const auto* whole = value.get<std::int64_t>()) return {static_cast<double>(*whole), ""};
-  if (const auto* number = value.get<double>()) return {*number, ""};
-  const auto* typed = value.get<Quantity>();
-  const auto* text = value.get<std::string>();
-  if (typed == nullptr && text == nullptr)
-    throw std::invalid_argument(fmt::format("{} is not a number", toml_text(value)));
-  Quantity quantity = typed != nullptr ? *typed : split_quantity(*text);
-  if (!column_unit(key) && !quantity.unit.empty())
-    throw std::invalid_argument(fmt::format("{}: a plain number is expected", toml_text(value)));
-  return quantity;
-}
-
-/// In SI, or the plain number of a key without a unit.
-double value_of(const std::string& key, const Quantity& quantity) {
-  const auto unit = column_unit(key);
-  return unit ? in_si(quantity, unit->dimension) : quantity.number;
-}
-
-/// To twelve digits: 0.1 + 2 * 0.1 is 0.3.
-double rounded(double value) {
-  if (value == 0) return 0;
-  const int places = 11 - static_cast<int>(std::floor(std::log10(std::abs(value))));
-  const double unit = std::pow(10.0, std::abs(places));
-  return places > 0 ? std::round(value * unit) / unit : std::round(value / unit) * unit;
-}
 
 std::string printed(const std::string& key, const TomlValue& value) {
   if (const auto* list = value.get<TomlValue::List>()) {
@@ -84,23 +54,6 @@ std::string printed_value(const Override& change) {
   return change.value ? printed(change.key, *change.value) : "unset";
 }
 
-/// The values of one varied key: a list, one value, or a table { from, to, step }.
-std::vector<TomlValue> values_of(const Override& varied) {
-  if (const auto* list = varied.value->get<TomlValue::List>()) return *list;
-  const auto* range = varied.value->get<TomlTable>();
-  if (range == nullptr) return {*varied.value};
-  for (const TomlEntry& entry : range->entries)
-    if (entry.key != "from" && entry.key != "to" && entry.key != "step")
-      throw std::invalid_argument(fmt::format("a range has from, to and step, not \"{}\"", entry.key));
-  const auto end = [&](std::string_view word) {
-    const TomlEntry* entry = range->find(word);
-    if (entry == nullptr)
-      throw std::invalid_argument(fmt::format("a range needs from, to and step; {} is missing", word));
-    return entry->value;
-  };
-  return range_values(varied.key, end("from"), end("to"), end("step"));
-}
-
 /// What a [set] or [[layout]] table changes: first the keys that `unset` lists are taken out, then its own are laid
 /// over.
 Changes read_changes(Table& table, const std::set<std::string>& not_keys = {}) {
@@ -110,34 +63,6 @@ Changes read_changes(Table& table, const std::set<std::string>& not_keys = {}) {
   for (const Override& change : table.dotted_values())
     if (change.key != "unset" && !not_keys.contains(change.key)) changes.push_back(change);
   return changes;
-}
-
-/// The full grid, first key slowest.
-std::vector<Changes> read_grid(Table& vary) {
-  std::vector<Changes> grid{{}};
-  for (const Override& varied : vary.dotted_values()) {
-    std::vector<TomlValue> values;
-    try {
-      values = values_of(varied);
-    } catch (const std::invalid_argument& error) {
-      vary.fail(varied.key, error.what());
-    } catch (const UnitError& error) {
-      vary.fail(varied.key, error.what());
-    }
-    if (values.empty()) vary.fail(varied.key, "an empty list; at least one value is needed");
-    if (grid.size() * values.size() > most_layouts)
-      vary.fail(varied.key, fmt::format("the grid has more than {} layouts", most_layouts));
-    std::vector<Changes> longer;
-    longer.reserve(grid.size() * values.size());
-    for (const Changes& point : grid) {
-      for (const TomlValue& value : values) {
-        longer.push_back(point);
-        longer.back().push_back({varied.key, value, varied.where});
-      }
-    }
-    grid = std::move(longer);
-  }
-  return grid;
 }
 
 Changes conditions_of(const MeasuredSeries& series) {
@@ -305,35 +230,6 @@ bool is_study_key(const Override& change) {
 
 }  // namespace
 
-std::vector<TomlValue> range_values(const std::string& key, const TomlValue& from, const TomlValue& to,
-                                    const TomlValue& step) {
-  const Quantity start = quantity_of(key, from);
-  const double first = value_of(key, start), last = value_of(key, quantity_of(key, to));
-  const double by = value_of(key, quantity_of(key, step));
-  if (!std::isfinite(first) || !std::isfinite(last) || !std::isfinite(by))
-    throw std::invalid_argument("a range is of finite numbers");
-  const double steps = (last - first) / by;
-  if (by == 0 || steps < 0) throw std::invalid_argument("the range's step does not lead from its start to its end");
-  if (steps > static_cast<double>(most_layouts))
-    throw std::invalid_argument(fmt::format("the range has more than {} values", most_layouts));
-  if (std::abs(steps - std::round(steps)) > 1e-6)
-    throw std::invalid_argument(
-        fmt::format("a step of {} from {} does not end at {}", toml_text(step), toml_text(from), toml_text(to)));
-
-  const auto unit = column_unit(key);
-  const double size = unit ? unit_size(start.unit, unit->dimension) : 1;
-  std::vector<TomlValue> values;
-  for (int i = 0; i <= static_cast<int>(std::round(steps)); ++i) {
-    const double number = rounded(start.number + i * by / size);
-    if (unit) {
-      values.push_back({Quantity{number, start.unit}});
-    } else {
-      values.push_back(value_of_column(key, "", number));
-    }
-  }
-  return values;
-}
-
 std::vector<std::string> study_warnings(const Study& study) {
   std::vector<std::pair<std::string, std::vector<int>>> told;  // and by which layouts, in their order
   for (const Layout& layout : study.layouts) {
@@ -383,12 +279,14 @@ Study read_study(const std::filesystem::path& file, const std::vector<Override>&
   study.replicates = read_replicates(table);
   auto set = table.table("set");
   auto vary = table.table("vary");
+  const auto proposals = table.whole_number("proposals", 1, most_layouts);
+  if (proposals && !vary) table.fail("proposals", "these are points of the space that [vary] spans, which is missing");
   const Changes fixed = set ? read_changes(*set) : Changes{};
   const std::vector<NamedDesign> designs = read_designs(table);
   study.measured = read_measured_part(table);
   std::vector<Changes> grid{{}};
   if (vary) {
-    grid = read_grid(*vary);
+    grid = proposals ? read_proposals(*vary, static_cast<std::size_t>(*proposals)) : read_grid(*vary);
   } else if (study.measured) {
     grid = measured_grid(study.measured->table);
   }

@@ -68,9 +68,4 @@ Study read_study(const std::filesystem::path& file, const std::vector<Override>&
 /// What `scene_warnings` says of the scenes of a study, each sentence once, with the layouts that it is about.
 std::vector<std::string> study_warnings(const Study& study);
 
-/// Values of {from, to, step}, both ends included, in the unit of `from`. Throws std::invalid_argument or UnitError
-/// with what is wrong: a step of zero or the wrong sign, one that does not hit `to`, a unit that does not fit the key.
-std::vector<TomlValue> range_values(const std::string& key, const TomlValue& from, const TomlValue& to,
-                                    const TomlValue& step);
-
 }  // namespace vibrosow

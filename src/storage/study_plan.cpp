@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 #include <numeric>
 #include <queue>
+#include <sstream>
 #include <system_error>
 
 #include "scene/input_error.hpp"
@@ -44,11 +45,35 @@ std::string bytes_of(const nlohmann::json& json) {
   return {bytes.begin(), bytes.end()};
 }
 
-template <class Get>
-Json column(const std::vector<PlannedRun>& runs, Get get) {
-  Json values = Json::array();
-  for (const PlannedRun& run : runs) values.push_back(get(run));
-  return values;
+/// Whether a run stands in a plan right behind another: of the same layout, at the same cost, by the next random seed.
+bool continues(const PlannedRun& run, const PlannedRun& before) {
+  return run.layout == before.layout && run.grain_steps == before.grain_steps &&
+         run.random_seed == before.random_seed + 1;
+}
+
+/// Runs that follow one another, in groups: their names as one text, since a plan may have a million of them.
+Json groups_of(const std::vector<PlannedRun>& runs) {
+  Json groups = Json::array();
+  for (std::size_t from = 0, to = 0; from < runs.size(); from = to) {
+    std::string names;
+    do names += (names.empty() ? "" : " ") + runs[to++].name;
+    while (to < runs.size() && continues(runs[to], runs[to - 1]));
+    groups.push_back({{"layout", runs[from].layout},
+                      {"random_seed", runs[from].random_seed},
+                      {"grain_steps", runs[from].grain_steps},
+                      {"cases", std::move(names)}});
+  }
+  return groups;
+}
+
+std::vector<PlannedRun> runs_in(const nlohmann::json& groups) {
+  std::vector<PlannedRun> runs;
+  for (const auto& group : groups) {
+    PlannedRun run{{}, group.at("layout"), group.at("random_seed"), group.at("grain_steps")};
+    std::istringstream names(group.at("cases").get<std::string>());
+    for (; names >> run.name; ++run.random_seed) runs.push_back(run);
+  }
+  return runs;
 }
 
 std::string text_of(const StudyPlan& plan) {
@@ -58,11 +83,7 @@ std::string text_of(const StudyPlan& plan) {
                      {"set", plan.sets},
                      {"random_seed", plan.random_seed},
                      {"files", files},
-                     {"runs",
-                      {{"case", column(plan.runs, [](const PlannedRun& run) { return run.name; })},
-                       {"layout", column(plan.runs, [](const PlannedRun& run) { return run.layout; })},
-                       {"random_seed", column(plan.runs, [](const PlannedRun& run) { return run.random_seed; })},
-                       {"grain_steps", column(plan.runs, [](const PlannedRun& run) { return run.grain_steps; })}}}};
+                     {"runs", groups_of(plan.runs)}};
   return json.dump(1) + '\n';
 }
 
@@ -70,11 +91,7 @@ StudyPlan plan_in(const std::string& text) {
   const auto json = nlohmann::json::parse(text);
   StudyPlan plan{json.at("study"), json.at("set"), json.at("random_seed"), {}, {}};
   for (const auto& [path, content] : json.at("files").items()) plan.files[path] = bytes_of(content);
-  const auto& runs = json.at("runs");
-  const std::size_t count = runs.at("case").size();
-  for (std::size_t k = 0; k < count; ++k)
-    plan.runs.push_back(
-        {runs.at("case").at(k), runs.at("layout").at(k), runs.at("random_seed").at(k), runs.at("grain_steps").at(k)});
+  plan.runs = runs_in(json.at("runs"));
   return plan;
 }
 

@@ -5,6 +5,11 @@
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
 
+#include <map>
+#include <set>
+#include <tuple>
+
+#include "design/study_grid.hpp"
 #include "input/input_file.hpp"
 #include "scene/input_error.hpp"
 #include "study_files.hpp"
@@ -14,6 +19,7 @@ namespace {
 
 using testing::ElementsAre;
 using testing::HasSubstr;
+using testing::Pair;
 using testing::ThrowsMessage;
 
 std::vector<std::string> range(const std::string& key, const std::string& from, const std::string& to,
@@ -75,6 +81,49 @@ tray.holes.count = [3, 5]
   EXPECT_THAT(seen, ElementsAre("300/3", "300/5", "360/3", "360/5"));
   EXPECT_EQ(study.scenes[1].tray.holes.size(), 5u);
   EXPECT_DOUBLE_EQ(study.scenes[1].tray.holes.back().centre - study.scenes[1].tray.holes.front().centre, 0.30);
+}
+
+TEST(Study, ProposalsFillTheSpaceThatVarySpans) {
+  const StudyFiles files;
+  const Study study = read_study(files.study(R"(proposals = 12
+[vary]
+tray.holes.count = { from = 2, to = 5 }
+tray.holes.width = { from = "10 mm", to = "1.6 cm" }
+tray.fill.packing = ["layers", "hexagonal"]
+contact.friction = { from = 0.2, to = 0.5 }
+)"));
+  ASSERT_EQ(study.layouts.size(), 12u);
+  std::map<std::string, int> counts, packings;
+  std::multiset<double> widths, frictions;
+  for (Layout layout : study.layouts) {
+    ++counts[layout.values["tray.holes.count"]];
+    ++packings[layout.values["tray.fill.packing"]];
+    widths.insert(std::stod(layout.values["tray.holes.width"]));
+    frictions.insert(std::stod(layout.values["contact.friction"]));
+  }
+  EXPECT_THAT(counts, ElementsAre(Pair("2", 3), Pair("3", 3), Pair("4", 3), Pair("5", 3)));
+  EXPECT_THAT(packings, ElementsAre(Pair("hexagonal", 6), Pair("layers", 6)));
+  for (const auto& [values, from, part] : {std::tuple{widths, 10.0, 0.5}, std::tuple{frictions, 0.2, 0.025}}) {
+    double start = from;  // of the part of the range in which the next value lies, rounded to four digits
+    for (const double value : values) {
+      EXPECT_GE(value, start - 0.01 * part);
+      EXPECT_LE(value, start + 1.01 * part);
+      start += part;
+    }
+  }
+}
+
+TEST(Study, ProposalsNeedASpaceAndRangesThatLeadUp) {
+  const StudyFiles files;
+  const auto says = [&](const std::string& study, const std::string& what) {
+    const auto path = files.study(study);
+    EXPECT_THAT([&] { read_study(path); }, ThrowsMessage<InputError>(HasSubstr(what))) << study;
+  };
+  says("proposals = 12\n", "study.toml:2: proposals");
+  says("proposals = 0\n[vary]\ncontact.friction = [0.1]\n", "study.toml:2: proposals");
+  says("proposals = 3\n[vary]\ncontact.friction = { from = 0.3, to = 0.2 }\n", "study.toml:4: vary.contact.friction");
+  says("proposals = 3\n[vary]\ntray.holes.width = { from = 1, to = 2 }\n", "study.toml:4: vary.tray.holes.width");
+  says("[vary]\ncontact.friction = { from = 0.2, to = 0.3 }\n", "step is missing");
 }
 
 TEST(Study, SameHolesFromDifferentKeysAreOneScene) {

@@ -1,0 +1,37 @@
+#include "cli/layout_text.hpp"
+
+#include <fmt/format.h>
+
+#include "input/key_units.hpp"
+#include "report/csv.hpp"
+#include "report/terminal_text.hpp"
+
+namespace vibrosow {
+namespace {
+
+/// A value of a layout as a person writes it: "9 Hz".
+std::string with_unit(const std::string& key, const std::string& value) {
+  const auto unit = column_unit(key);
+  return unit && csv_text_or_number(value).is_number ? fmt::format("{} {}", value, unit->unit) : value;
+}
+
+}  // namespace
+
+std::string described(const Study& study, const Layout& layout) {
+  std::string text = layout.name;
+  for (const std::string& key : study.keys) {
+    const auto value = layout.values.find(key);
+    if (value == layout.values.end() || !layout.name.empty()) continue;
+    text +=
+        fmt::format("{}{} {}", text.empty() ? "" : ", ", key.substr(key.rfind('.') + 1), with_unit(key, value->second));
+  }
+  return text;
+}
+
+std::string with_interval(const std::optional<MeanWithInterval>& value, double unit) {
+  if (!value) return "";
+  const std::string mean = to_digits(value->mean / unit, 4);
+  return value->half_width_95 ? fmt::format("{} +- {}", mean, to_digits(*value->half_width_95 / unit, 2)) : mean;
+}
+
+}  // namespace vibrosow

@@ -1,0 +1,166 @@
+#include "selection/guaranteed.hpp"
+
+#include <gtest/gtest.h>
+
+#include <stdexcept>
+
+#include "selection/made_up_systems.hpp"
+
+namespace vibrosow {
+namespace {
+
+Question question_of(std::size_t systems) {
+  Question question;
+  question.systems = systems;
+  question.margin = 0.05;
+  return question;
+}
+
+TEST(Guaranteed, IsRightAsOftenAsItSaysAmongNearTies) {
+  int right = 0;
+  constexpr int tries = 200;
+  constexpr std::size_t systems = 10;
+  for (std::uint64_t i = 0; i < tries; ++i) {
+    Guaranteed procedure(question_of(systems));
+    lead(procedure, systems, MadeUpSystems(slippage(systems), i));
+    const Decision decision = procedure.decision();
+    right += decision.is_sure && decision.best == systems / 2;
+  }
+  EXPECT_GE(right, 0.95 * tries - 6);
+}
+
+TEST(Guaranteed, LeavesWhatIsPlainlyWorseAfterTheFirstObservations) {
+  MadeUpSystems systems({{1.0}, {2.0}, {1.02}, {3.0}}, 5);
+  Guaranteed procedure(question_of(4));
+  const std::vector<int> runs = lead(procedure, 4, std::ref(systems));
+  EXPECT_EQ(runs[1], Guaranteed::first_observations);
+  EXPECT_EQ(runs[3], Guaranteed::first_observations);
+  EXPECT_GT(runs[0], Guaranteed::first_observations);
+  EXPECT_EQ(runs[0], runs[2]);
+  const Decision decision = procedure.decision();
+  ASSERT_TRUE(decision.is_sure);
+  EXPECT_EQ(decision.standings[1], Standing::worse);
+  EXPECT_EQ(decision.standings[3], Standing::worse);
+  EXPECT_EQ(decision.standings[*decision.best], Standing::best);
+  EXPECT_EQ(decision.standings[*decision.best == 0 ? 2 : 0], Standing::not_shown_worse);
+}
+
+TEST(Guaranteed, ConstraintsAreMetByWhatIsTaken) {
+  int right = 0;
+  constexpr int tries = 100;
+  for (std::uint64_t i = 0; i < tries; ++i) {
+    Question question = question_of(6);
+    question.band = Band{0.95, 1.05};
+    question.clogging_limit = 0.05;
+    MadeUpSystems systems({{1.0, 0.1, 0.4}, {1.0, 0.1, 0, 1.2}, {1.2}, {1.2, 0.1, 0.4}, {1.3}, {1.0, 0.1, 0, 0.8}}, i);
+    Guaranteed procedure(question);
+    lead(procedure, 6, std::ref(systems));
+    const Decision decision = procedure.decision();
+    right += decision.is_sure && decision.best == 2u;
+    if (i > 0) continue;
+    EXPECT_EQ(decision.standings[0], Standing::clogs);
+    EXPECT_EQ(decision.standings[1], Standing::misses_the_rate);
+    EXPECT_EQ(decision.standings[5], Standing::misses_the_rate);
+  }
+  EXPECT_GE(right, 0.95 * tries - 4);
+}
+
+TEST(Guaranteed, WhatRestsGoesOnWhenTheOneBeforeItFails) {
+  Question question = question_of(2);
+  question.clogging_limit = 0.05;
+  MadeUpSystems systems({{1.0, 0.02}, {2.0, 0.02}}, 1);
+  // The better one flows at first and clogs later.
+  const Observe observe = [&](std::size_t system, int number) {
+    Observation one = systems(system, number);
+    if (system == 0 && number >= 20) one.end = RunEnd::clogged;
+    return one;
+  };
+  Guaranteed procedure(question);
+  const std::vector<int> runs = lead(procedure, 2, observe);
+  EXPECT_LT(runs[0], 40);
+  EXPECT_GT(runs[1], 100);  // as many clean runs as the limit takes
+  EXPECT_EQ(procedure.decision().best, 1u);
+  EXPECT_EQ(procedure.decision().standings[0], Standing::clogs);
+}
+
+TEST(Guaranteed, SaysThatNoneMeetsTheConstraints) {
+  Question question = question_of(3);
+  question.band = Band{1.95, 2.05};
+  MadeUpSystems systems({{1.0}, {1.1}, {1.2}}, 1);
+  Guaranteed procedure(question);
+  lead(procedure, 3, std::ref(systems));
+  EXPECT_TRUE(procedure.decision().is_sure);
+  EXPECT_FALSE(procedure.decision().best);
+}
+
+TEST(Guaranteed, SaysWhatItCannotResolve) {
+  Question question = question_of(2);
+  question.margin = 0.001;
+  question.most = 40;
+  MadeUpSystems systems({{1.0}, {1.0}}, 1);
+  Guaranteed procedure(question);
+  const std::vector<int> runs = lead(procedure, 2, std::ref(systems));
+  EXPECT_EQ(runs, (std::vector<int>{40, 40}));
+  const Decision decision = procedure.decision();
+  EXPECT_FALSE(decision.is_sure);
+  EXPECT_EQ(decision.standings, (std::vector<Standing>{Standing::undecided, Standing::undecided}));
+}
+
+TEST(Guaranteed, AMeanOfZeroHasNoShares) {
+  MadeUpSystems systems({{0, 0}, {1}}, 1);
+  Guaranteed procedure(question_of(2));
+  lead(procedure, 2, std::ref(systems));
+  EXPECT_FALSE(procedure.decision().has_margin);
+  EXPECT_FALSE(procedure.decision().is_sure);
+}
+
+TEST(Guaranteed, AFailedSystemIsOut) {
+  MadeUpSystems systems({{1.0}, {2.0}, {3.0}}, 1);
+  const Observe observe = [&](std::size_t system, int number) {
+    Observation one = systems(system, number);
+    if (system == 0) one.end = RunEnd::failed;
+    return one;
+  };
+  Guaranteed procedure(question_of(3));
+  lead(procedure, 3, observe);
+  EXPECT_EQ(procedure.decision().best, 1u);
+  EXPECT_EQ(procedure.decision().standings[0], Standing::failed);
+}
+
+TEST(Guaranteed, OneThatNeverFlowsIsOutThoughNoLimitIsSet) {
+  MadeUpSystems systems({{1.0, 0.1, 1.0}, {2.0}, {3.0}}, 1);
+  Guaranteed procedure(question_of(3));
+  const std::vector<int> runs = lead(procedure, 3, std::ref(systems));
+  EXPECT_EQ(runs[0], Guaranteed::first_observations);
+  EXPECT_EQ(procedure.decision().best, 1u);
+  EXPECT_EQ(procedure.decision().standings[0], Standing::clogs);
+}
+
+TEST(Guaranteed, OrderAndInterruptionsDoNotShow) {
+  Question question = question_of(10);
+  question.clogging_limit = 0.1;
+  MadeUpSystems systems(slippage(10), 3);
+  Guaranteed at_once(question), backwards(question), again(question);
+  const std::vector<int> runs = lead(at_once, 10, std::ref(systems));
+  EXPECT_EQ(lead(backwards, 10, std::ref(systems), 100000, true), runs);
+  lead(again, 10, std::ref(systems), 7);  // interrupted; a new one is led again through what is kept
+  Guaranteed resumed(question);
+  EXPECT_EQ(lead(resumed, 10, std::ref(systems)), runs);
+  EXPECT_EQ(resumed.decision().best, at_once.decision().best);
+  EXPECT_EQ(backwards.decision().standings, at_once.decision().standings);
+}
+
+TEST(Guaranteed, AsksForABatchAtLeast) {
+  Question question = question_of(2);
+  question.batch = 6;
+  MadeUpSystems systems({{1.0}, {1.01}}, 3);
+  Guaranteed procedure(question);
+  EXPECT_EQ(lead(procedure, 2, std::ref(systems), 2), (std::vector<int>{13, 13}));
+}
+
+TEST(Guaranteed, RefusesASingleSystem) {
+  EXPECT_THROW(Guaranteed(question_of(1)), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace vibrosow

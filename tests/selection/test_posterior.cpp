@@ -1,0 +1,135 @@
+#include "selection/posterior.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <stdexcept>
+
+#include "selection/guaranteed.hpp"
+#include "selection/made_up_systems.hpp"
+
+namespace vibrosow {
+namespace {
+
+Question question_of(std::size_t systems) {
+  Question question;
+  question.systems = systems;
+  question.margin = 0.05;
+  return question;
+}
+
+std::vector<MadeUpSystem> random_means(std::size_t systems, std::uint64_t seed) {
+  MadeUpChance chance(seed + 5000);
+  std::vector<MadeUpSystem> made;
+  for (std::size_t i = 0; i < systems; ++i) made.push_back({1.5 + 0.2 * chance.normal()});
+  return made;
+}
+
+TEST(VariancePrior, FindsWhatVariancesWereDrawnFrom) {
+  MadeUpChance chance(1);
+  const auto of_normal = [&](double deviation, int count) {
+    Moments moments;
+    for (int i = 0; i < count; ++i) moments.add(deviation * chance.normal());
+    return moments.variance();
+  };
+  std::vector<double> equal, unequal;
+  for (int i = 0; i < 3000; ++i) {
+    equal.push_back(of_normal(3, 5));
+    // Scaled inverse chi squared with 8 degrees of freedom about 4: 4 over the mean square of 8 numbers.
+    double squares = 0;
+    for (int k = 0; k < 8; ++k) squares += std::pow(chance.normal(), 2);
+    unequal.push_back(of_normal(std::sqrt(4 * 8 / squares), 5));
+  }
+  EXPECT_GT(variance_prior(equal, 4).degrees_of_freedom, 100);
+  EXPECT_NEAR(variance_prior(equal, 4).variance, 9, 0.5);
+  EXPECT_NEAR(variance_prior(unequal, 4).degrees_of_freedom, 8, 1.5);
+  EXPECT_NEAR(variance_prior(unequal, 4).variance, 4, 0.3);
+  EXPECT_EQ(variance_prior({1, 2, 0, 0}, 4).degrees_of_freedom, 0);
+}
+
+TEST(Posterior, IsRightAmongRandomMeansByFewRuns) {
+  int right = 0;
+  double runs = 0, of_guaranteed = 0;
+  constexpr int tries = 100;
+  constexpr std::size_t systems = 20;
+  for (std::uint64_t i = 0; i < tries; ++i) {
+    const std::vector<MadeUpSystem> made = random_means(systems, i);
+    double least = 100;
+    for (const MadeUpSystem& one : made) least = std::min(least, one.mean);
+    MadeUpSystems observe(made, i);
+    Posterior procedure(question_of(systems));
+    runs += sum(lead(procedure, systems, std::ref(observe)));
+    const Decision decision = procedure.decision();
+    right += decision.is_sure && made[decision.best.value()].mean <= 1.05 * least;
+    Guaranteed other(question_of(systems));
+    of_guaranteed += sum(lead(other, systems, std::ref(observe)));
+  }
+  EXPECT_GE(right, 0.95 * tries - 4);
+  EXPECT_LT(runs, of_guaranteed / 2);
+}
+
+TEST(Posterior, ConstraintsAreMetByWhatIsTaken) {
+  int right = 0;
+  constexpr int tries = 50;
+  for (std::uint64_t i = 0; i < tries; ++i) {
+    Question question = question_of(6);
+    question.band = Band{0.95, 1.05};
+    question.clogging_limit = 0.05;
+    MadeUpSystems systems({{1.0, 0.1, 0.4}, {1.0, 0.1, 0, 1.2}, {1.2}, {1.2, 0.1, 0.4}, {1.5}, {1.0, 0.1, 0, 0.8}}, i);
+    Posterior procedure(question);
+    lead(procedure, 6, std::ref(systems));
+    const Decision decision = procedure.decision();
+    right += decision.is_sure && decision.best == 2u;
+    EXPECT_EQ(decision.standings[1], Standing::misses_the_rate);
+    EXPECT_NE(decision.standings[0], Standing::best);
+  }
+  EXPECT_GE(right, 0.95 * tries - 3);
+}
+
+TEST(Posterior, SaysThatNoneMeetsTheConstraints) {
+  Question question = question_of(3);
+  question.clogging_limit = 0.05;
+  MadeUpSystems systems({{1.0, 0.1, 0.8}, {1.1, 0.1, 0.9}, {1.2, 0.1, 1}}, 1);
+  Posterior procedure(question);
+  lead(procedure, 3, std::ref(systems));
+  EXPECT_TRUE(procedure.decision().is_sure);
+  EXPECT_FALSE(procedure.decision().best);
+}
+
+TEST(Posterior, SaysWhatItCannotResolve) {
+  Question question = question_of(2);
+  question.margin = 0.001;
+  question.most = 40;
+  const Observe equal = [](std::size_t, int number) {
+    return Observation{RunEnd::flowed, number % 2 == 0 ? 0.9 : 1.1, 1};
+  };
+  Posterior procedure(question);
+  EXPECT_EQ(lead(procedure, 2, equal), (std::vector<int>{40, 40}));
+  EXPECT_FALSE(procedure.decision().is_sure);
+}
+
+TEST(Posterior, EqualValuesWithoutScatterAreDecided) {
+  MadeUpSystems systems({{1.0, 0}, {1.0, 0}, {2.0, 0}}, 1);
+  Posterior procedure(question_of(3));
+  lead(procedure, 3, std::ref(systems));
+  EXPECT_TRUE(procedure.decision().is_sure);
+  EXPECT_EQ(procedure.decision().best, 0u);
+}
+
+TEST(Posterior, OrderAndInterruptionsDoNotShow) {
+  MadeUpSystems systems(slippage(10), 3);
+  Posterior at_once(question_of(10)), backwards(question_of(10)), again(question_of(10));
+  const std::vector<int> runs = lead(at_once, 10, std::ref(systems));
+  EXPECT_EQ(lead(backwards, 10, std::ref(systems), 100000, true), runs);
+  lead(again, 10, std::ref(systems), 3);
+  Posterior resumed(question_of(10));
+  EXPECT_EQ(lead(resumed, 10, std::ref(systems)), runs);
+  EXPECT_EQ(resumed.decision().standings, at_once.decision().standings);
+}
+
+TEST(Posterior, RefusesASingleSystem) {
+  EXPECT_THROW(Posterior(question_of(1)), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace vibrosow
