@@ -51,7 +51,8 @@ struct Between {
 
 Between between(const std::vector<double>& axis, double value, const char* what) {
   if (!(value >= axis.front() && value <= axis.back()))
-    throw std::out_of_range(fmt::format("{} {:g} is outside the atlas, {:g} to {:g}", what, value, axis.front(), axis.back()));
+    throw std::out_of_range(
+        fmt::format("{} {:g} is outside the atlas, {:g} to {:g}", what, value, axis.front(), axis.back()));
   const auto above = static_cast<std::size_t>(std::ranges::upper_bound(axis, value) - axis.begin());
   const std::size_t upper = std::min(above, axis.size() - 1), lower = upper == 0 ? 0 : upper - 1;
   const double share = upper == lower ? 0 : (value - axis[lower]) / (axis[upper] - axis[lower]);
@@ -190,7 +191,8 @@ std::vector<AtlasPoint> read_atlas_points(const std::filesystem::path& file) {
       const std::string& field = row.fields[places[c]];
       const auto number = csv_number(field, lines.decimal_comma);
       if (!number)
-        throw InputError(fmt::format("{}:{}: {}: \"{}\" is not a number", lines.file, row.line, columns[c].name, field));
+        throw InputError(
+            fmt::format("{}:{}: {}: \"{}\" is not a number", lines.file, row.line, columns[c].name, field));
       columns[c].set(point, *number);
     }
   }
@@ -198,7 +200,8 @@ std::vector<AtlasPoint> read_atlas_points(const std::filesystem::path& file) {
 }
 
 PlaneToSpace plane_to_space(const ReposeAtlas& plane, const std::vector<AtlasPoint>& space) {
-  if (space.size() < 3) throw InputError(fmt::format("atlas: {} materials in space; at least 3 are needed", space.size()));
+  if (space.size() < 3)
+    throw InputError(fmt::format("atlas: {} materials in space; at least 3 are needed", space.size()));
   std::vector<double> offsets, packings, discharges;
   for (const AtlasPoint& ball : space) {
     const AtlasFigures flat = plane.at(ball.aspect_ratio, ball.friction, ball.rolling_friction);

@@ -29,8 +29,9 @@ double log_likelihood(const AtlasFigures& plane, const PlaneToSpace& to_space, c
   if (measured.packing) {
     const double factor = to_space.packing_factor.mean;
     const double expected = plane.packing.mean * factor;
-    sum += log_normal(*measured.packing - expected, square(measured.packing_error) + square(plane.packing.error * factor) +
-                                                        square(expected * packing_error_in_space(to_space)));
+    sum +=
+        log_normal(*measured.packing - expected, square(measured.packing_error) + square(plane.packing.error * factor) +
+                                                     square(expected * packing_error_in_space(to_space)));
   }
   return sum;
 }

@@ -46,8 +46,7 @@ ReposeFigures repose_figures(const Scene& scene, const Run& run) {
   figures.packing = bed_packing(filled, scene.lots, scene.tray, 2 * diameter);
   if (!figures.angle || !figures.packing) return figures;
   const double depth = filled.in_space() ? *scene.tray.depth : 1;
-  const double unit =
-      *figures.packing * depth * std::sqrt(standard_gravity) * std::pow(scene.tray.holes[0].width, 1.5);
+  const double unit = *figures.packing * depth * std::sqrt(standard_gravity) * std::pow(scene.tray.holes[0].width, 1.5);
   if (const auto rate = free_rate(run.events, filled)) figures.discharge = *rate / unit;
   return figures;
 }

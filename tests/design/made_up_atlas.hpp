@@ -6,8 +6,8 @@
 
 namespace vibrosow {
 
-/// An atlas of the functions that are given, of friction, rolling friction and aspect ratio, on a grid of 0.1 to 1, 0 to
-/// 0.3 and 1 to 2; each point of 4 runs that scatter by the given deviations.
+/// An atlas of the functions that are given, of friction, rolling friction and aspect ratio, on a grid of 0.1 to 1, 0
+/// to 0.3 and 1 to 2; each point of 4 runs that scatter by the given deviations.
 template <class Angle, class Packing>
 ReposeAtlas made_up_atlas(Angle angle, Packing packing, double angle_scatter = 0.02, double packing_scatter = 0.004) {
   std::vector<AtlasPoint> points;

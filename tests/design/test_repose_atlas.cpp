@@ -45,7 +45,8 @@ TEST(ReposeAtlas, GapsAndLonelyRunsAreNamed) {
   std::vector<AtlasPoint> points = linear_atlas().points();
   points[5].runs = 1;
   EXPECT_THAT([&] { ReposeAtlas atlas(points); },
-              ThrowsMessage<InputError>(AllOf(HasSubstr("friction 0.1"), HasSubstr("rolling friction 0.25"), HasSubstr("less than two runs"))));
+              ThrowsMessage<InputError>(AllOf(HasSubstr("friction 0.1"), HasSubstr("rolling friction 0.25"),
+                                              HasSubstr("less than two runs"))));
   points.erase(points.begin() + 5);
   EXPECT_THAT([&] { ReposeAtlas atlas(points); }, ThrowsMessage<InputError>(HasSubstr("is missing")));
 }
@@ -95,9 +96,17 @@ TEST(ReposeAtlas, WrongFilesAreNamed) {
 TEST(PlaneToSpace, IsTheMeanDifferenceAndItsScatter) {
   const ReposeAtlas plane = linear_atlas();
   std::vector<AtlasPoint> space;
-  for (const auto& [friction, offset, factor] : {std::tuple(0.2, -0.02, 0.70), {0.5, -0.04, 0.71}, {0.8, -0.06, 0.72}}) {
+  for (const auto& [friction, offset, factor] :
+       {std::tuple(0.2, -0.02, 0.70), {0.5, -0.04, 0.71}, {0.8, -0.06, 0.72}}) {
     const AtlasFigures flat = plane.at(1, friction, 0.1);
-    space.push_back({1, friction, 0.1, 4, 0, {flat.angle.mean + offset, 0.01}, {flat.packing.mean * factor, 0.01}, {0.7 * 0.8, 0.01}});
+    space.push_back({1,
+                     friction,
+                     0.1,
+                     4,
+                     0,
+                     {flat.angle.mean + offset, 0.01},
+                     {flat.packing.mean * factor, 0.01},
+                     {0.7 * 0.8, 0.01}});
   }
   const PlaneToSpace to_space = plane_to_space(plane, space);
   EXPECT_EQ(to_space.materials, 3);
@@ -107,6 +116,27 @@ TEST(PlaneToSpace, IsTheMeanDifferenceAndItsScatter) {
   EXPECT_NEAR(to_space.discharge_factor.mean, 0.8, 1e-12);
   space.pop_back();
   EXPECT_THROW(plane_to_space(plane, space), InputError);
+}
+
+TEST(ShippedAtlas, CoversItsRangeWithTwoThousandRuns) {
+  const ShippedAtlas shipped = shipped_atlas();
+  int runs = 0;
+  for (const AtlasPoint& point : shipped.atlas.points()) runs += point.runs + point.clogged;
+  EXPECT_GE(runs, 2000);
+  EXPECT_EQ(shipped.atlas.aspect_ratios(), (std::vector<double>{1, 1.5, 2.2}));
+  EXPECT_EQ(shipped.atlas.frictions().front(), 0.1);
+  EXPECT_EQ(shipped.atlas.frictions().back(), 1);
+  EXPECT_EQ(shipped.atlas.rolling_frictions().back(), 0.3);
+  EXPECT_GE(shipped.to_space.materials, 4);
+}
+
+TEST(ShippedAtlas, RougherSeedsStandSteeperAndLieLooser) {
+  const ReposeAtlas atlas = shipped_atlas().atlas;
+  for (const double aspect : atlas.aspect_ratios()) {
+    const AtlasFigures smooth = atlas.at(aspect, 0.1, 0), rough = atlas.at(aspect, 1, 0.3);
+    EXPECT_GT(rough.angle.mean - smooth.angle.mean, 4 * (rough.angle.error + smooth.angle.error)) << aspect;
+    EXPECT_GT(smooth.packing.mean - rough.packing.mean, 4 * (rough.packing.error + smooth.packing.error)) << aspect;
+  }
 }
 
 }  // namespace

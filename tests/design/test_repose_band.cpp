@@ -70,9 +70,9 @@ TEST(ReposeBand, NineteenOfTwentyBandsHoldWhatWasMeasured) {
     const double packing = 0.7 * plane.packing.mean;
     const double packing_error =
         std::hypot(0.01, 0.7 * plane.packing.error, packing * packing_error_in_space(atlas.to_space));
-    const ReposeBand band = repose_band(atlas, 1,
-                                        {plane.angle.mean - 0.05 + angle_error * normal(random), 0.02,
-                                         packing + packing_error * normal(random), 0.01});
+    const ReposeBand band = repose_band(
+        atlas, 1,
+        {plane.angle.mean - 0.05 + angle_error * normal(random), 0.02, packing + packing_error * normal(random), 0.01});
     friction_held += friction >= band.friction.low && friction <= band.friction.high;
     rolling_held += rolling >= band.rolling_friction.low && rolling <= band.rolling_friction.high;
   }

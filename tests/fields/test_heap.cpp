@@ -44,7 +44,8 @@ std::vector<SeedLot> balls() {
 
 TEST(Heap, TheAngleOfMadeUpHeapsIsFound) {
   for (const double angle : {15.0, 25.0, 40.0})
-    EXPECT_NEAR(drained_angle(heaps(angle * degree, angle * degree), balls(), box_with_slot(), 4e-3).value() / degree, angle, 0.7);
+    EXPECT_NEAR(drained_angle(heaps(angle * degree, angle * degree), balls(), box_with_slot(), 4e-3).value() / degree,
+                angle, 0.7);
 }
 
 TEST(Heap, UnequalHeapsCountTheSame) {
