@@ -32,11 +32,11 @@ using namespace vibrosow;
 
 constexpr std::size_t layouts = 60;
 constexpr double margin = 0.05, confidence = 0.95;
-constexpr double scatter = 0.1;                             // standard deviation of a run, over the best's mean
-constexpr double middle = 1.5, spread = 0.2;                // of random means, which are normal: the best is near 1
-constexpr double clogging_limit = 0.05, often = 0.3;        // every third layout clogs so often
-constexpr Band band{0.95, 1.05};                            // of rates, which scatter by
-constexpr double rate_scatter = 0.03, missed_by = 0.08;     // every third layout's rate is so far from 1
+constexpr double scatter = 0.1;                          // standard deviation of a run, over the best's mean
+constexpr double middle = 1.5, spread = 0.2;             // of random means, which are normal: the best is near 1
+constexpr double clogging_limit = 0.05, often = 0.3;     // every third layout clogs so often
+constexpr Band band{0.95, 1.05};                         // of rates, which scatter by
+constexpr double rate_scatter = 0.03, missed_by = 0.08;  // every third layout's rate is so far from 1
 constexpr int first_of_rinott = 10, most = 2000;
 
 class Random {
@@ -51,9 +51,9 @@ class Random {
 
 struct Family {
   std::string name;
-  bool slippage;          // all others are worse than the best by the margin; else means are random
-  bool unequal = false;   // deviations from half to twice as large
-  double skewed = 0;      // sigma of a shifted log-normal; 0: normal
+  bool slippage;         // all others are worse than the best by the margin; else means are random
+  bool unequal = false;  // deviations from half to twice as large
+  double skewed = 0;     // sigma of a shifted log-normal; 0: normal
   bool clogs = false, misses = false;
 };
 
@@ -116,8 +116,7 @@ Outcome decide(Procedure& procedure, Problem& problem) {
   std::vector<int> have(layouts, 0);
   for (std::vector<int> wanted = procedure.wanted(); wanted != have; wanted = procedure.wanted())
     for (std::size_t i = 0; i < layouts; ++i)
-      for (; have[i] < wanted[i]; ++have[i])
-        procedure.take(i, problem.run(i, static_cast<std::size_t>(have[i])));
+      for (; have[i] < wanted[i]; ++have[i]) procedure.take(i, problem.run(i, static_cast<std::size_t>(have[i])));
   double runs = 0;
   for (const int of : have) runs += of;
   const Decision decision = procedure.decision();
@@ -152,9 +151,7 @@ void see(Seen& seen, Problem& problem, std::size_t layout, double flowing) {
 std::optional<std::size_t> least_of(const std::vector<Seen>& seen) {
   std::optional<std::size_t> least;
   for (std::size_t i = 0; i < layouts; ++i)
-    if (seen[i].seems_allowed() &&
-        (!least || seen[i].goal.mean() < seen[*least].goal.mean()))
-      least = i;
+    if (seen[i].seems_allowed() && (!least || seen[i].goal.mean() < seen[*least].goal.mean())) least = i;
   return least;
 }
 
@@ -247,9 +244,9 @@ int main(int count, char** words) {
   out << "family,rule,problems,right_percent,right_low,right_high,runs,runs_over_rinott,runs_over_smallest_equal\n";
   const double h = rinott_h(layouts, first_of_rinott, confidence);
   for (const bool slippage : {false, true})
-    for (const Family& kind : {Family{"equal", slippage}, Family{"unequal", slippage, true},
-                               Family{"skewed", slippage, false, 0.8}, Family{"clogs", slippage, false, 0, true},
-                               Family{"rates", slippage, false, 0, false, true}}) {
+    for (const Family& kind :
+         {Family{"equal", slippage}, Family{"unequal", slippage, true}, Family{"skewed", slippage, false, 0.8},
+          Family{"clogs", slippage, false, 0, true}, Family{"rates", slippage, false, 0, false, true}}) {
       Family family = kind;
       family.name = (slippage ? "slippage " : "random ") + kind.name;
       write_family(out, family, problems, h);

@@ -49,7 +49,7 @@ def mean_and_half_width(values):
 def command(commands, name, act):
     """A subcommand that `act` carries out and whose docstring explains; its first paragraph is the summary."""
     text = inspect.cleandoc(act.__doc__)
-    summary = " ".join(text.split("\n\n")[0].split())
+    summary = " ".join(text.split("\n\n")[0].split()).replace("%", "%%")
     parser = commands.add_parser(name, help=summary, description=text, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.set_defaults(act=act)
     return parser

@@ -16,6 +16,7 @@ int run_program(int argument_count, char** arguments) {
   app.set_version_flag("--version", "vibrosow " VIBROSOW_VERSION);
   app.require_subcommand(1);
   int exit_code = exit_done;
+  add_plan_command(app, exit_code);
   add_run_command(app, exit_code);
   add_sweep_command(app, exit_code);
   add_work_command(app, exit_code);

@@ -175,8 +175,8 @@ Decision Guaranteed::decision() const {
     const bool is_compared = system.place == Place::behind || (system.place == Place::contending && rests(i));
     if (is_compared && decision.best && decision.best != i)
       standing = is_surely_above(system.goals, systems_[*decision.best].goals, error) ? Standing::worse
-                 : system.place == Place::behind                       ? Standing::not_shown_worse
-                                                                       : Standing::undecided;
+                 : system.place == Place::behind                                      ? Standing::not_shown_worse
+                                                                                      : Standing::undecided;
     decision.standings.push_back(standing);
   }
   return decision;

@@ -9,16 +9,17 @@
 
 namespace vibrosow {
 
-/// KN, the fully sequential procedure of Kim & Nelson (2001), ACM TOMACS 11(3), doi 10.1145/502109.502111, with c = 1 and the
-/// variances of the differences of its first observations; constraints are tested on the way (Andradottir & Kim 2010,
-/// Naval Research Logistics 57(5); Batur & Kim 2010, ACM TOMACS 20(3), doi 10.1145/1842713.1842716). A system that is
-/// behind one of which it is not known yet whether it meets the constraints rests, and goes on should that one fail them
-/// (Healey, Andradottir & Kim 2013, European Journal of Operational Research 224(2)).
+/// KN, the fully sequential procedure of Kim & Nelson (2001), ACM TOMACS 11(3), doi 10.1145/502109.502111, with c = 1
+/// and the variances of the differences of its first observations; constraints are tested on the way (Andradottir & Kim
+/// 2010, Naval Research Logistics 57(5); Batur & Kim 2010, ACM TOMACS 20(3), doi 10.1145/1842713.1842716). A system
+/// that is behind one of which it is not known yet whether it meets the constraints rests, and goes on should that one
+/// fail them (Healey, Andradottir & Kim 2013, European Journal of Operational Research 224(2)).
 ///
 /// What is proven, for normal observations: where every other system that meets the constraints is worse than the best
 /// by the margin or more, the best is chosen with at least the confidence asked for. That it is, with that confidence,
-/// within the margin of the best where others are nearer is seen in experiments and not proven (Eckman & Henderson 2021, ACM TOMACS 31(2)).
-/// The margin is a share of the least mean after the first observations: a number that the proof takes as given.
+/// within the margin of the best where others are nearer is seen in experiments and not proven (Eckman & Henderson
+/// 2021, ACM TOMACS 31(2)). The margin is a share of the least mean after the first observations: a number that the
+/// proof takes as given.
 ///
 /// Of the error, a fifth is for the constraints where there are any: half of that for systems that fail them and are
 /// taken, shared out among systems and constraints, half for the best being left out.

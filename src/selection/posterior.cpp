@@ -73,10 +73,11 @@ Posterior::Known Posterior::known(const Moments& moments, const VariancePrior& p
   if (moments.count() == 0) return known;
   const double own = moments.count() - 1.0;
   known.degrees_of_freedom = own + prior.degrees_of_freedom;
-  known.variance = std::isinf(prior.degrees_of_freedom) ? prior.variance
-                   : known.degrees_of_freedom > 0
-                       ? (own * moments.variance() + prior.degrees_of_freedom * prior.variance) / known.degrees_of_freedom
-                       : 0;
+  known.variance =
+      std::isinf(prior.degrees_of_freedom) ? prior.variance
+      : known.degrees_of_freedom > 0
+          ? (own * moments.variance() + prior.degrees_of_freedom * prior.variance) / known.degrees_of_freedom
+          : 0;
   return known;
 }
 

@@ -9,21 +9,23 @@
 namespace vibrosow {
 
 /// What many variances of equally many values say of variances in general: scaled inverse chi squared, fitted by the
-/// moments of their logarithms (Smyth 2004, Statistical Applications in Genetics and Molecular Biology 3(1), section 6.2).
+/// moments of their logarithms (Smyth 2004, Statistical Applications in Genetics and Molecular Biology 3(1),
+/// section 6.2).
 struct VariancePrior {
   double degrees_of_freedom = 0;  // 0: nothing is known; infinite: all are equal
   double variance = 0;
 };
 
-/// `degrees_of_freedom`: of each of the variances. Variances of zero are left out; nothing is known by fewer than three.
+/// `degrees_of_freedom`: of each of the variances. Variances of zero are left out; nothing is known by fewer than
+/// three.
 VariancePrior variance_prior(const std::vector<double>& variances, double degrees_of_freedom);
 
 /// A posterior rule: normal observations, no prior knowledge of means, variances by `variance_prior` of the first
 /// observations. It stops when the best is within the margin of every other with the confidence asked for, by the
 /// product of the posterior probabilities of the pairs (PGS_Slep of Branke, Chick & Schmidt 2007, Management Science
 /// 53(12); Welch's degrees of freedom), each system weighted with the probability that it meets
-/// the constraints: Jeffreys' beta for clogging, Student's t for the rate. Observations go to the best or to the other of
-/// which that product suffers most (top two, Russo 2020, Operations Research 68(6)).
+/// the constraints: Jeffreys' beta for clogging, Student's t for the rate. Observations go to the best or to the other
+/// of which that product suffers most (top two, Russo 2020, Operations Research 68(6)).
 ///
 /// There is no guarantee: where many means lie a margin apart from the best it is wrong more often than the confidence
 /// says (reports/selection).

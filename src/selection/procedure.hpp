@@ -28,12 +28,12 @@ struct Band {
 /// Which of several systems has the least mean goal, among those that meet the constraints.
 struct Question {
   std::size_t systems = 0;
-  double margin = 0.02;                     // below which a difference does not matter, over the best's mean
-  double confidence = 0.95;                 // of a correct decision
-  std::optional<Band> band{};               // of the mean rate
-  std::optional<double> clogging_limit{};   // the share of runs that may clog, below 1; none: any, but not each
-  int most = 400;                           // observations of a system, at which it is given up
-  int batch = 4;                            // observations asked for at once, at least: they can be made side by side
+  double margin = 0.02;                    // below which a difference does not matter, over the best's mean
+  double confidence = 0.95;                // of a correct decision
+  std::optional<Band> band{};              // of the mean rate
+  std::optional<double> clogging_limit{};  // the share of runs that may clog, below 1; none: any, but not each
+  int most = 400;                          // observations of a system, at which it is given up
+  int batch = 4;                           // observations asked for at once, at least: they can be made side by side
 };
 
 enum class Standing {

@@ -7,11 +7,12 @@
 
 namespace vibrosow {
 
-/// On which side of zero a mean lies, by observations that come one by one and are normal with unknown variance: a random
-/// walk between the sides of a triangle, the test of Kim & Nelson (2001), ACM TOMACS 11(3), doi 10.1145/502109.502111,
-/// section 4, with c = 1. With S^2 of the first n0 observations, the sum of r of them has left the triangle when it is
-/// at least max(0, (h^2 S^2 / delta^2 - r) delta / 2) from zero, h^2 = 2 eta (n0 - 1), eta = ((2 error)^(-2/(n0-1)) - 1)
-/// / 2. A mean that is `tolerance` or more from zero is put on the wrong side with at most the probability `error`.
+/// On which side of zero a mean lies, by observations that come one by one and are normal with unknown variance: a
+/// random walk between the sides of a triangle, the test of Kim & Nelson (2001), ACM TOMACS 11(3),
+/// doi 10.1145/502109.502111, section 4, with c = 1. With S^2 of the first n0 observations, the sum of r of them has
+/// left the triangle when it is at least max(0, (h^2 S^2 / delta^2 - r) delta / 2) from zero, h^2 = 2 eta (n0 - 1), eta
+/// = ((2 error)^(-2/(n0-1)) - 1) / 2. A mean that is `tolerance` or more from zero is put on the wrong side with at
+/// most the probability `error`.
 class SideTest {
  public:
   enum class Side { open, below, above };
@@ -47,9 +48,9 @@ class BandTest {
   SideTest at_low_, at_high_;
 };
 
-/// Whether something happens in less than a share of all trials: Wald's sequential test of a binomial (1945), of `limit`
-/// against a tenth of it. A probability of `limit` or more is called less with at most the probability `error_less`, one
-/// of a tenth of it or below is called too much with at most `error_much`.
+/// Whether something happens in less than a share of all trials: Wald's sequential test of a binomial (1945), of
+/// `limit` against a tenth of it. A probability of `limit` or more is called less with at most the probability
+/// `error_less`, one of a tenth of it or below is called too much with at most `error_much`.
 class ShareTest {
  public:
   enum class Verdict { open, less, much };
@@ -65,10 +66,10 @@ class ShareTest {
   Verdict verdict_ = Verdict::open;
 };
 
-/// Whether one system's mean is above another's, by the observations in which both have a value, looked at after 10, 20,
-/// 40, .. of them: Student's t of the differences at the k-th look leaves `error` / 2^k, so that equal means are called
-/// unequal with at most the probability `error` however long they are looked at. For normal differences. `values` and
-/// `of_other`: by observation, not a number where there is none.
+/// Whether one system's mean is above another's, by the observations in which both have a value, looked at after 10,
+/// 20, 40, .. of them: Student's t of the differences at the k-th look leaves `error` / 2^k, so that equal means are
+/// called unequal with at most the probability `error` however long they are looked at. For normal differences.
+/// `values` and `of_other`: by observation, not a number where there is none.
 bool is_surely_above(const std::vector<double>& values, const std::vector<double>& of_other, double error);
 
 }  // namespace vibrosow

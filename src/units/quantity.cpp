@@ -33,6 +33,8 @@ const DimensionFacts& facts(Dimension dimension) {
   static constexpr DimensionFacts force{"N", "a force such as \"0.2 mN\""};
   static constexpr DimensionFacts pressure{"Pa", "a pressure such as \"5e4 MPa\""};
   static constexpr DimensionFacts rate{"1/s", "a rate such as \"2.1e4 1/s\""};
+  static constexpr DimensionFacts mass_per_area{"kg/m2", "a mass per area such as \"180 kg/ha\""};
+  static constexpr DimensionFacts number_per_area{"1/m2", "a number per area such as \"280 1/m2\""};
   static constexpr DimensionFacts fraction{"1", "a fraction in % such as \"70 %\""};
   switch (dimension) {
     case Dimension::length:
@@ -57,6 +59,10 @@ const DimensionFacts& facts(Dimension dimension) {
       return pressure;
     case Dimension::rate:
       return rate;
+    case Dimension::mass_per_area:
+      return mass_per_area;
+    case Dimension::number_per_area:
+      return number_per_area;
     case Dimension::fraction:
       break;
   }
@@ -168,6 +174,10 @@ bool names_the_dimension(std::string_view unit, Dimension dimension) {
       return unit == "%";
     case Dimension::rate:
       return is_one_of(unit, {"1/s", "1/ms"});
+    case Dimension::number_per_area:
+      return is_one_of(unit, {"1/m2", "1/ha"});
+    case Dimension::mass_per_area:
+      return is_one_of(unit, {"kg/ha", "g/ha", "kg/m2", "g/m2"});
     default:
       return unit != "d";  // a day to udunits2, a diameter to most who would write it here
   }
@@ -194,7 +204,8 @@ std::string shown(std::string_view text) {
 }
 
 UnitSize find_unit(const std::string& unit, Dimension dimension) {
-  const bool reciprocal = dimension == Dimension::rate && names_the_dimension(unit, dimension);
+  const bool of_a_number = dimension == Dimension::rate || dimension == Dimension::number_per_area;
+  const bool reciprocal = of_a_number && names_the_dimension(unit, dimension);
   if (!reciprocal && !is_plain_unit(unit)) {
     throw UnitError(fmt::format("\"{}\" is not a plain unit", shown(unit)));
   }

@@ -9,18 +9,20 @@ namespace vibrosow {
 
 /// What a quantity measures. Each has one SI unit, in which `parse_quantity` answers.
 enum class Dimension {
-  length,     // m
-  time,       // s
-  frequency,  // Hz; rpm is 1/60 Hz; rad/s is refused
-  mass,       // kg
-  mass_rate,  // kg/s
-  speed,      // m/s
-  angle,      // rad
-  density,    // kg/m3
-  fraction,   // 1; "70 %" is 0.7
-  force,      // N
-  pressure,   // Pa, also an elastic modulus
-  rate,       // 1/s, of decay or growth: no turns, no cycles, so Hz is refused
+  length,           // m
+  time,             // s
+  frequency,        // Hz; rpm is 1/60 Hz; rad/s is refused
+  mass,             // kg
+  mass_rate,        // kg/s
+  speed,            // m/s
+  angle,            // rad
+  density,          // kg/m3
+  fraction,         // 1; "70 %" is 0.7
+  force,            // N
+  pressure,         // Pa, also an elastic modulus
+  rate,             // 1/s, of decay or growth: no turns, no cycles, so Hz is refused
+  mass_per_area,    // kg/m2; "180 kg/ha" is 0.018
+  number_per_area,  // 1/m2, of seeds or plants; also 1/ha
 };
 
 /// A quantity that cannot be read; the message names the text, and what would be right.

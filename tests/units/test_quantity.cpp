@@ -45,11 +45,15 @@ TEST(Quantity, DecimalUnitsAreExact) {
   EXPECT_EQ(parse_quantity("3 N/mm2", Dimension::pressure), 3e6);
   EXPECT_EQ(parse_quantity("2.1e4 1/s", Dimension::rate), 2.1e4);
   EXPECT_EQ(parse_quantity("21 1/ms", Dimension::rate), 21000);
+  EXPECT_EQ(parse_quantity("180 kg/ha", Dimension::mass_per_area), 0.018);
+  EXPECT_EQ(parse_quantity("280 1/m2", Dimension::number_per_area), 280);
 }
 
 TEST(Quantity, OtherUnits) {
   EXPECT_DOUBLE_EQ(parse_quantity("36 km/h", Dimension::speed), 10);
   EXPECT_EQ(parse_quantity("2 min", Dimension::time), 120);
+  EXPECT_DOUBLE_EQ(parse_quantity("18 g/m2", Dimension::mass_per_area), 0.018);
+  EXPECT_DOUBLE_EQ(parse_quantity("2.8e6 1/ha", Dimension::number_per_area), 280);
   EXPECT_DOUBLE_EQ(parse_quantity("90 degree", Dimension::angle), std::numbers::pi / 2);
   EXPECT_EQ(parse_quantity("90 deg", Dimension::angle), parse_quantity("90 degree", Dimension::angle));
   EXPECT_EQ(parse_quantity("1.5 rad", Dimension::angle), 1.5);
@@ -139,7 +143,12 @@ INSTANTIATE_TEST_SUITE_P(
                     Wrong{"3 rpm", Dimension::rate, wrong_unit}, Wrong{"3 rad/s", Dimension::rate, wrong_unit},
                     Wrong{"3 s", Dimension::rate, wrong_unit}, Wrong{"3 1/m", Dimension::rate, not_plain},
                     Wrong{"3 1/s", Dimension::length, not_plain}, Wrong{"3 1/s2", Dimension::rate, not_plain},
-                    Wrong{"3 /s", Dimension::rate, not_plain}, Wrong{"1/s", Dimension::rate, not_plain}));
+                    Wrong{"3 /s", Dimension::rate, not_plain}, Wrong{"1/s", Dimension::rate, not_plain},
+                    Wrong{"3 kg/m3", Dimension::mass_per_area, wrong_unit},
+                    Wrong{"3 kg", Dimension::mass_per_area, wrong_unit},
+                    Wrong{"3 1/m", Dimension::number_per_area, not_plain},
+                    Wrong{"3 1/m2", Dimension::mass_per_area, not_plain},
+                    Wrong{"3 kg/ha", Dimension::number_per_area, wrong_unit}));
 
 TEST(Quantity, AnyLengthOfTextIsReadOrRefusedInAShortMessage) {
   constexpr std::size_t length = 200'000;
@@ -202,9 +211,10 @@ TEST(Quantity, UnitDatabaseThatIsNotThereIsToldAsSuch) {
 }
 
 TEST(Quantity, EveryDimensionReadsItsOwnExample) {
-  for (const Dimension dimension : {Dimension::length, Dimension::time, Dimension::frequency, Dimension::mass,
-                                    Dimension::mass_rate, Dimension::speed, Dimension::angle, Dimension::density,
-                                    Dimension::fraction, Dimension::force, Dimension::pressure, Dimension::rate}) {
+  for (const Dimension dimension :
+       {Dimension::length, Dimension::time, Dimension::frequency, Dimension::mass, Dimension::mass_rate,
+        Dimension::speed, Dimension::angle, Dimension::density, Dimension::fraction, Dimension::force,
+        Dimension::pressure, Dimension::rate, Dimension::mass_per_area, Dimension::number_per_area}) {
     const std::string text(expected(dimension));
     const auto open = text.find('"');
     const std::string example = text.substr(open + 1, text.rfind('"') - open - 1);

@@ -1,0 +1,102 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "agronomy/hole_table.hpp"
+#include "agronomy/sowing_rate.hpp"
+#include "scene/scene.hpp"
+
+namespace vibrosow {
+
+/// What the table of one hole asks of seeds.
+struct PlannedSeed {
+  double diameter = 0;  // m, of the ball of its volume
+  double mass = 0;      // kg
+  double aspect = 1;    // how many times it is as long as wide; its thickness counts through the volume alone
+};
+
+/// Of a lot in space; of seeds of several sizes the mean by volume and mass.
+PlannedSeed planned_seed(const SeedLot& lot);
+
+/// The lot with its seeds made heavier or lighter (kg) at equal density and shape. Throws InputError where it has
+/// sizes.
+SeedLot of_mass(SeedLot lot, double mass);
+
+struct SowingTask {
+  PlannedSeed seed;
+  double sowing_rate = 0;  // kg/m2
+  RowPace pace;
+  double row_mass_rate() const { return row_rate(sowing_rate, pace); }                // kg/s
+  double row_seed_rate() const { return seeds_of_mass(row_mass_rate(), seed.mass); }  // 1/s
+  double seeds_per_area() const { return seeds_of_mass(sowing_rate, seed.mass); }     // 1/m2
+};
+
+/// What a shaker can be set to, Hz.
+struct ShakerLimits {
+  double least_frequency = 3, most_frequency = 25;
+};
+
+/// How wide a hole is over the seed's d, from the widest. 4 to 5 d is where a still hole's flow of balls begins to go
+/// on without end (Pacheco-Martinez, van Gerner, Ruiz-Suarez 2008, Phys. Rev. E 77:021303); shaking keeps narrower ones
+/// open.
+enum class HoleClass { rarely_clogs, kept_open, clogs };
+inline constexpr double rarely_clogs_from = 5, kept_open_from = 3;  // d
+HoleClass hole_class(double width_over_d);
+
+/// Speeds (m/s) that a drill should reach by frequency alone.
+inline constexpr Span working_speeds{6 * kilometre_per_hour, 10 * kilometre_per_hour};
+
+/// So many holes feed so many rows.
+struct HolesForRows {
+  int holes = 1, rows = 1;
+};
+
+struct PlannedLayout {
+  HolesForRows feed;
+  double width = 0;  // m, of a hole
+  double width_over_d = 0;
+  double depth_over_d = 0;  // of the bed
+  double frequency = 0;     // Hz
+  double amplitude = 0;     // m
+  double peak_speed = 0;    // of the tray, over sqrt(g d)
+  HoleEstimate estimate;
+  double interpolation = 0;    // half width of the 95 % band of its errors, over the outflow
+  Span speeds;                 // m/s, at which the same sowing rate can be kept by frequency alone
+  bool more_by_faster = true;  // shaking; else slower shaking sows more
+  HoleClass risk() const { return hole_class(width_over_d); }
+  bool reaches_working_speeds() const {
+    return speeds.holds(working_speeds.least) && speeds.holds(working_speeds.most);
+  }
+};
+
+/// Of the same rate by other means than those tried; none where the table does not tell.
+struct NearestChange {
+  /// The narrowest hole of a class and how many rows it would have to feed at least.
+  struct WiderHole {
+    double width = 0;  // m
+    int rows = 0;
+  };
+  std::optional<WiderHole> kept_open, rarely_clogs;
+  double least_share = 0;  // of what is needed, the least and the most that any layout tried gives
+  double most_share = 0;
+};
+
+struct SowingPlan {
+  SowingTask task;
+  std::vector<PlannedLayout> layouts;  // the best first
+  NearestChange change;
+  double amplitude_over_d = 0;  // of the tray, in the table
+  double softness = 0;          // what the softness of the table's seeds may do to the rate, over it
+  /// Of a layout's rate, over it: chance and interpolation as independent, and softness. Within the model alone.
+  double uncertainty(const PlannedLayout& layout) const;
+};
+
+/// All layouts that give the rate: one hole for 4, 3, 2 rows or one, 2 or 3 holes a row; widths in steps of 0.5 mm; the
+/// shallowest and the deepest bed of the table; the amplitude that the table has in seeds, to 0.1 mm; every frequency
+/// within the shaker's limits that gives the rate. Ranked by the hole's class, then the share of holes that stood
+/// still, then whether working speeds are reached, then by how far the rate can be turned up and down. Throws
+/// InputError for seeds of an aspect that the table has not.
+SowingPlan plan_sowing(const SowingTask& task, const HoleTable& table, const ShakerLimits& limits = {});
+
+}  // namespace vibrosow

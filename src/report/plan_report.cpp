@@ -1,0 +1,364 @@
+#include "report/plan_report.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <numbers>
+#include <stdexcept>
+
+#include "agronomy/sowing_rate.hpp"
+#include "input/toml_value.hpp"
+#include "report/terminal_text.hpp"
+
+namespace vibrosow {
+namespace {
+
+constexpr double gram = 1e-3, milligram = 1e-6;  // kg
+constexpr double millimetre = 1e-3;              // m
+constexpr Unit kilometres_per_hour{"km/h", kilometre_per_hour}, hertz{"Hz", 1};
+constexpr std::size_t most_rows = 12;  // of the table on a screen
+
+/// What the table of one hole was simulated with: seeders/one-hole.toml, which a test compares.
+constexpr struct {
+  double shell_compression = 1e-4, friction = 0.45, wall_friction = 0.35, restitution = 0.5;
+  double section = 16, height = 20;  // d
+  double packing = 0.6;              // by which the number of seeds is called a depth
+} table_model;
+
+/// A layout and its plan.
+struct LayoutRow {
+  const SowingPlan* plan;
+  const PlannedLayout* layout;
+  std::size_t rank;
+};
+
+std::string_view class_name(HoleClass risk) {
+  switch (risk) {
+    case HoleClass::rarely_clogs:
+      return "rarely clogs";
+    case HoleClass::kept_open:
+      return "kept open by the shaking";
+    case HoleClass::clogs:
+      return "clogs";
+  }
+  return "";
+}
+
+Columns<LayoutRow> plan_columns() {
+  using R = const LayoutRow&;
+  return {
+      text_column<LayoutRow>("rank", "1 is the best", [](R r) { return r.rank; }),
+      text_column<LayoutRow>("holes", "so many holes feed so many rows: the holes",
+                             [](R r) { return r.layout->feed.holes; }),
+      text_column<LayoutRow>("rows", "the rows", [](R r) { return r.layout->feed.rows; }),
+      quantity_column<LayoutRow>("width_mm", millimetres, "of a round hole", [](R r) { return r.layout->width; }),
+      quantity_column<LayoutRow>("width_over_seed", plain, "over the diameter of the ball of a seed's volume",
+                                 [](R r) { return r.layout->width_over_d; }),
+      text_column<LayoutRow>(
+          "risk",
+          "of clogging, by width_over_seed: rarely clogs (5 and more), kept open by the shaking (3 to 5), clogs",
+          [](R r) { return std::string(class_name(r.layout->risk())); }),
+      quantity_column<LayoutRow>(
+          "stood_still_percent", percent,
+          "share of the simulated holes that once let nothing through for 10 sqrt(d / g), the largest "
+          "of the table's places around",
+          [](R r) { return r.layout->estimate.stood_still; }),
+      quantity_column<LayoutRow>("bed_mm", millimetres, "depth of the bed",
+                                 [](R r) { return r.layout->depth_over_d * r.plan->task.seed.diameter; }),
+      quantity_column<LayoutRow>("frequency_Hz", hertz, "to set", [](R r) { return r.layout->frequency; }),
+      quantity_column<LayoutRow>("amplitude_mm", millimetres, "half the stroke, to set",
+                                 [](R r) { return r.layout->amplitude; }),
+      quantity_column<LayoutRow>("hole_seeds_per_s", per_second, "of one hole",
+                                 [](R r) {
+                                   const HolesForRows& feed = r.layout->feed;
+                                   return r.plan->task.row_seed_rate() * feed.rows / feed.holes;
+                                 }),
+      quantity_column<LayoutRow>(
+          "rate_error_percent", percent,
+          "half width of the 95 % band of the rate within the model: chance and interpolation, and "
+          "the softness of the table's seeds",
+          [](R r) { return r.plan->uncertainty(*r.layout); }),
+      quantity_column<LayoutRow>("least_speed_km_per_h", kilometres_per_hour,
+                                 "the slowest drill that frequency alone keeps at the sowing rate",
+                                 [](R r) { return r.layout->speeds.least; }),
+      quantity_column<LayoutRow>("most_speed_km_per_h", kilometres_per_hour, "the fastest",
+                                 [](R r) { return r.layout->speeds.most; }),
+      text_column<LayoutRow>("more_by", "faster or slower: which shaking sows more",
+                             [](R r) { return std::string(r.layout->more_by_faster ? "faster" : "slower"); }),
+      quantity_column<LayoutRow>(
+          "dispersion", plain,
+          "of the counts of a hole: variance over mean, 1 for seeds that come at random; the largest "
+          "of the places around",
+          [](R r) { return r.layout->estimate.dispersion; }),
+      text_column<LayoutRow>("measured", "whether anything of it was ever measured",
+                             [](R) { return std::string("no"); }),
+  };
+}
+
+std::string speed_text(double speed) {
+  return to_digits(speed / kilometre_per_hour, 3);
+}
+
+/// sqrt(d / g), s
+double unit_of_time(const SowingPlan& plan) {
+  return std::sqrt(plan.task.seed.diameter / standard_gravity);
+}
+
+std::string percent_text(double fraction) {
+  return to_digits(fraction * 100, 2);
+}
+
+std::string feed_text(const HolesForRows& feed) {
+  const std::string holes = feed.holes == 1 ? "one hole" : fmt::format("{} holes", feed.holes);
+  return feed.rows == 1 ? holes + " a row" : fmt::format("{} for {} rows", holes, feed.rows);
+}
+
+// The need.
+
+std::string seed_text(const PlanSource& source) {
+  const PlannedSeed& seed = source.plan.task.seed;
+  return fmt::format("{}: seeds of {} mg, as large as balls of {} mm{}", source.crop,
+                     to_digits(seed.mass / milligram, 4), to_digits(seed.diameter / millimetre, 3),
+                     seed.aspect > 1 ? fmt::format(", {} times as long as wide", to_digits(seed.aspect, 3)) : "");
+}
+
+std::string rate_text(const PlanSource& source) {
+  const SowingTask& task = source.plan.task;
+  std::string text = fmt::format("{} kg/ha, {} seeds/m2", to_digits(task.sowing_rate / kilogram_per_hectare, 3),
+                                 to_digits(task.seeds_per_area(), 3));
+  if (source.plants)
+    text += fmt::format(" for {} plants/m2 at an establishment of {} %", to_digits(*source.plants, 3),
+                        percent_text(*source.establishment));
+  return text;
+}
+
+std::string need_text(const PlanSource& source) {
+  const SowingTask& task = source.plan.task;
+  const double seeds = task.row_seed_rate();
+  std::string text = seed_text(source) + '\n' + rate_text(source) + '\n';
+  text += fmt::format("a row, every {} cm at {} km/h: {} g/s, {} seeds/s, one every {} mm\n",
+                      to_digits(task.pace.row_spacing * 100, 3), speed_text(task.pace.speed),
+                      to_digits(task.row_mass_rate() / gram, 3), to_digits(seeds, 2 + (seeds >= 100)),
+                      to_digits(mean_spacing(seeds, task.pace.speed) / millimetre, 3));
+  if (source.rows)
+    text += fmt::format("{} rows: {} g/s, {} seeds/s\n", *source.rows,
+                        to_digits(*source.rows * task.row_mass_rate() / gram, 3), to_digits(*source.rows * seeds, 3));
+  return text;
+}
+
+// The risk.
+
+/// Of all layouts with one hole a row, the widest hole over the seed.
+std::optional<double> widest_of_one_a_row(const SowingPlan& plan) {
+  std::optional<double> widest;
+  for (const PlannedLayout& layout : plan.layouts)
+    if (layout.feed.holes == 1 && layout.feed.rows == 1) widest = std::max(widest.value_or(0), layout.width_over_d);
+  return widest;
+}
+
+std::string wider_text(const SowingPlan& plan, const std::optional<NearestChange::WiderHole>& hole) {
+  constexpr int rows_tried = 4;
+  if (!hole || hole->rows <= rows_tried) return "";
+  return fmt::format("a hole of {:g} mm, {} seeds wide, would have to feed at least {} rows", hole->width / millimetre,
+                     to_digits(hole->width / plan.task.seed.diameter, 2), hole->rows);
+}
+
+std::string change_text(const SowingPlan& plan) {
+  const bool needs_open = plan.layouts.empty() || plan.layouts.front().risk() == HoleClass::clogs;
+  const std::string open = needs_open ? wider_text(plan, plan.change.kept_open) : "";
+  const std::string wide = wider_text(plan, plan.change.rarely_clogs);
+  if (open.empty() && wide.empty()) return "";
+  return fmt::format(
+      "The nearest change: {}{}{}, with a divider below it; or a precision tray, which shakes a single layer "
+      "forward and which this table does not cover.",
+      open, open.empty() || wide.empty() ? "" : ", ", wide);
+}
+
+std::string none_text(const SowingPlan& plan) {
+  const NearestChange& change = plan.change;
+  if (change.most_share <= 0)
+    return "None of these does: within the shaker's limits the table has no frequency for such seeds.";
+  if (change.least_share > 1)
+    return fmt::format(
+        "None of these does: the least that any gives, one narrow hole for four rows, is {} times too much. {}",
+        to_digits(change.least_share, 2), change_text(plan));
+  if (change.most_share < 1)
+    return fmt::format(
+        "None of these does: the most that any gives, three wide holes a row, is {} % of what is needed. "
+        "The nearest change: {} such holes a row, or a slower drill.",
+        percent_text(change.most_share), static_cast<int>(std::ceil(3 / change.most_share)));
+  return "None of these does: between steps of 0.5 mm no width gives the rate.";
+}
+
+std::string risk_text(const SowingPlan& plan) {
+  if (plan.layouts.empty()) return none_text(plan);
+  const PlannedLayout& best = plan.layouts.front();
+  std::string text =
+      fmt::format("The best is {}, {} seeds wide: ", feed_text(best.feed), to_digits(best.width_over_d, 2));
+  if (best.risk() == HoleClass::rarely_clogs) text += "such a hole rarely clogs.";
+  if (best.risk() == HoleClass::kept_open)
+    text +=
+        "still it would clog, and the shaking keeps it open; a straw or a cluster stops it sooner than a wider one.";
+  if (best.risk() == HoleClass::clogs)
+    text =
+        fmt::format("None of these stays clear of clogging: the best, {}, is {} seeds wide, and holes under {:g} clog.",
+                    feed_text(best.feed), to_digits(best.width_over_d, 2), kept_open_from);
+  if (const auto one = widest_of_one_a_row(plan); one && *one < kept_open_from)
+    text += fmt::format(" One hole a row would be at most {} seeds wide.", to_digits(*one, 2));
+  const std::string change = best.risk() == HoleClass::rarely_clogs ? "" : change_text(plan);
+  return change.empty() ? text : text + " " + change;
+}
+
+// The layouts.
+
+/// The best of each feed and bed, in the order of the plan.
+std::vector<const PlannedLayout*> shown_layouts(const SowingPlan& plan) {
+  std::vector<const PlannedLayout*> shown;
+  for (const PlannedLayout& layout : plan.layouts) {
+    const auto alike = [&](const PlannedLayout* other) {
+      return other->feed.holes == layout.feed.holes && other->feed.rows == layout.feed.rows &&
+             other->depth_over_d == layout.depth_over_d;
+    };
+    if (std::ranges::none_of(shown, alike) && shown.size() < most_rows) shown.push_back(&layout);
+  }
+  return shown;
+}
+
+std::string table_text(const SowingPlan& plan) {
+  std::string text = fmt::format("{:>5} {:>6} {:>6} {:>6} {:>6} {:>6} {:>14} {:>6} {:>7}  {}\n", "holes", "hole",
+                                 "hole /", "bed", "freq.", "ampl.", "speeds", "rate", "stood", "more");
+  text += fmt::format("{:>5} {:>6} {:>6} {:>6} {:>6} {:>6} {:>14} {:>6} {:>7}  {}\n", ":rows", "mm", "seed", "mm", "Hz",
+                      "mm", "km/h", "+- %", "still %", "by");
+  for (const PlannedLayout* layout : shown_layouts(plan))
+    text += fmt::format("{:>5} {:>6.1f} {:>6.2f} {:>6.1f} {:>6.2f} {:>6.1f} {:>14} {:>6} {:>7}  {}\n",
+                        fmt::format("{}:{}", layout->feed.holes, layout->feed.rows), layout->width / millimetre,
+                        layout->width_over_d, layout->depth_over_d * plan.task.seed.diameter / millimetre,
+                        layout->frequency, layout->amplitude / millimetre,
+                        fmt::format("{} to {}{}", speed_text(layout->speeds.least), speed_text(layout->speeds.most),
+                                    layout->reaches_working_speeds() ? "*" : " "),
+                        percent_text(plan.uncertainty(*layout)), percent_text(layout->estimate.stood_still),
+                        layout->more_by_faster ? "faster" : "slower");
+  text += '\n';
+  if (std::ranges::none_of(plan.layouts, &PlannedLayout::reaches_working_speeds))
+    text += wrapped(fmt::format(
+                "None keeps the sowing rate from {} to {} km/h by frequency alone: the holes' width meters, a "
+                "slide over them, not the shaker.",
+                speed_text(working_speeds.least), speed_text(working_speeds.most))) +
+            '\n';
+  return text +
+         wrapped(fmt::format(
+             "{} layouts give the rate; of each number of holes and depth of bed the best, the best first. speeds: "
+             "which "
+             "frequency alone keeps at the sowing rate, * all of {} to {} km/h; stood still: share of the simulated "
+             "holes that once let nothing through for {} s; more by: which shaking sows more",
+             plan.layouts.size(), speed_text(working_speeds.least), speed_text(working_speeds.most),
+             to_digits(long_pause * unit_of_time(plan), 2)));
+}
+
+// How far to trust it.
+
+/// What is said of the best layout.
+std::string certainty_text(const SowingPlan& plan) {
+  const PlannedLayout& best = plan.layouts.front();
+  return fmt::format(
+      "How sure: the rate of the best layout is known to +- {} % within the model (95 %: chance {}, "
+      "interpolation {}, softness of the seeds {}). Its holes were watched for {} s in all, so clogs that are "
+      "rarer were not seen. ",
+      percent_text(plan.uncertainty(best)), percent_text(best.estimate.chance), percent_text(best.interpolation),
+      percent_text(plan.softness), to_digits(best.estimate.watched * unit_of_time(plan), 2));
+}
+
+std::string trust_text(const SowingPlan& plan) {
+  return (plan.layouts.empty() ? "How sure: " : certainty_text(plan)) +
+         fmt::format(
+             "Nothing of this was ever measured. It is simulated: one round hole in a level tray that is shaken along "
+             "by {:g} seeds to each side, friction {:g} ({:g} on the tray), restitution {:g}, dry seeds of one size, "
+             "nothing between them. Even drill charts miss the real rate by 25 to 50 % (MSU P3112): weigh what comes "
+             "in a minute before sowing, and correct the frequency.",
+             plan.amplitude_over_d, table_model.friction, table_model.wall_friction, table_model.restitution);
+}
+
+// The seeder.
+
+/// A length as a seeder has it.
+std::string in_millimetres(double length) {
+  return fmt::format("\"{:.6g} mm\"", length / millimetre);
+}
+
+/// The lot: the crop by name, or written out where its seeds were made heavier or lighter.
+std::string lot_text(const PlanSource& source) {
+  const bool is_file = source.crop.ends_with(".toml");
+  const std::string crop = is_file ? std::filesystem::absolute(source.crop).lexically_normal().string() : source.crop;
+  std::string text = "[seeds.seed]\n";
+  if (!source.own_mass) return text + fmt::format("crop = {}\n", toml_text({crop}));
+  text += fmt::format("mass = \"{:.6g} mg\"\n", source.lot.mass / milligram);
+  if (source.lot.shape == Shape::ball)
+    return text + fmt::format("shape = \"ball\"\ndiameter = {}\n", in_millimetres(source.lot.diameter));
+  text += "shape = \"discs\"\ndiscs = [\n";
+  for (const ClumpDisc& disc : source.lot.discs)
+    text += fmt::format("  {{ x = {}, y = {}, z = {}, diameter = {} }},\n", in_millimetres(disc.x),
+                        in_millimetres(disc.y), in_millimetres(disc.z), in_millimetres(2 * disc.radius));
+  return text + "]\n";
+}
+
+}  // namespace
+
+std::string plan_text(const PlanSource& source) {
+  const SowingPlan& plan = source.plan;
+  std::string text = need_text(source) + '\n' + wrapped(risk_text(plan)) + '\n';
+  if (!plan.layouts.empty()) text += table_text(plan) + '\n';
+  return text + wrapped(trust_text(plan));
+}
+
+std::string plan_csv(const SowingPlan& plan, CsvFormat format) {
+  Csv<LayoutRow> csv(plan_columns(), format);
+  for (std::size_t i = 0; i < plan.layouts.size(); ++i) csv.add({&plan, &plan.layouts[i], i + 1});
+  return csv.text();
+}
+
+std::string planned_seeder(const PlanSource& source) {
+  const SowingPlan& plan = source.plan;
+  if (plan.layouts.empty()) throw std::invalid_argument("a plan without a layout has no seeder");
+  const PlannedLayout& best = plan.layouts.front();
+  const double d = plan.task.seed.diameter, time = unit_of_time(plan);
+  const double section = table_model.section * table_model.section;
+  const double count = best.depth_over_d * table_model.packing * section / (std::numbers::pi / 6);
+  const HolesForRows& feed = best.feed;
+  std::string text = fmt::format(
+      "# One hole of the best layout of a plan ({}) in an endless tray. It should give {} seeds/s;\n"
+      "# nothing of it was ever measured. Contacts are those of the table that the plan was looked up in.\n"
+      "title = {}\nspace = \"3d\"\n\n",
+      feed_text(feed), to_digits(plan.task.row_seed_rate() * feed.rows / feed.holes, 3),
+      toml_text({fmt::format("One hole, {} kg/ha", to_digits(plan.task.sowing_rate / kilogram_per_hectare, 3))}));
+  text += lot_text(source);
+  text += fmt::format(
+      "\n[contact]\nlaw = \"elastic-shell\"\nshell_compression = {:g}\nfriction = {:g}\nrestitution = {:g}\n"
+      "friction_model = \"spring\"\nwall = {{ friction = {:g}, restitution = {:g} }}\n",
+      table_model.shell_compression, table_model.friction, table_model.restitution, table_model.wall_friction,
+      table_model.restitution);
+  text += fmt::format(
+      "\n[tray]\nlength = {0}\ndepth = {0}\nheight = {1}\nsides = \"periodic\"\nfront_and_back = \"periodic\"\n"
+      "fill = {{ count = {2:.0f}, packing = \"poured\", keep = true }}\n",
+      in_millimetres(table_model.section * d), in_millimetres(table_model.height * d), count);
+  text += fmt::format("\n[tray.holes]\nshape = \"round\"\ncount = 1\nwidth = {}\n", in_millimetres(best.width));
+  text += fmt::format(
+      "\n[tray.motion]\nkind = \"harmonic\"\ndirection = \"0 degree\"\namplitude = {}\nfrequency = \"{:.6g} Hz\"\n"
+      "ramp = \"{:.3g} s\"\n",
+      in_millimetres(best.amplitude), best.frequency, 5 * time);
+  return text + fmt::format("\n[run]\nduration = \"{:.3g} s\"\nmeasure_from = \"{:.3g} s\"\n", 100 * time, 14 * time);
+}
+
+std::vector<FileText> plan_file_texts() {
+  return {file_text("plan.csv", "one row per layout that gives the rate, the best first", plan_columns()),
+          {"seeder.toml", "one hole of the best layout in an endless tray, to simulate; none without a layout", {}}};
+}
+
+std::vector<OutputFile> plan_files(const PlanSource& source, CsvFormat format) {
+  std::vector<OutputFile> files = {{"plan.csv", plan_csv(source.plan, format)}};
+  if (!source.plan.layouts.empty()) files.push_back({"seeder.toml", planned_seeder(source)});
+  return files;
+}
+
+}  // namespace vibrosow

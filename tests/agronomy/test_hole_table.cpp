@@ -1,0 +1,165 @@
+#include "agronomy/hole_table.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "support/made_up_hole_table.hpp"
+
+namespace vibrosow {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::ThrowsMessage;
+
+HoleTable table_of(std::vector<HoleRecord> records) {
+  return HoleTable(std::move(records));
+}
+
+TEST(HoleTable, IsExactAtItsOwnPlaces) {
+  const HoleTable table(made_up_records());
+  for (const HoleRecord& record : made_up_records()) {
+    const auto found = table.at(record.at);
+    ASSERT_TRUE(found);
+    EXPECT_NEAR(found->outflow, record.outflow, 1e-12 * record.outflow)
+        << record.at.aspect << ' ' << record.at.width << ' ' << record.at.peak_speed;
+    EXPECT_NEAR(found->chance, 0.05, 1e-12);
+    EXPECT_EQ(found->stood_still, record.at.aspect == 1 ? record.stood_still : 0);
+  }
+}
+
+TEST(HoleTable, OfBeverloosFormMissesNothingBetweenWidths) {
+  const HoleTable table(made_up_records());
+  const HoleConditions between{1, 4.4, 1.4, 6};
+  EXPECT_NEAR(table.at(between)->outflow, made_up_outflow(between), 1e-12);
+}
+
+TEST(HoleTable, GrowsWithTheWidth) {
+  const HoleTable table(made_up_records());
+  double before = 0;
+  for (double width = 2; width <= 6.5; width += 0.01) {
+    const double outflow = table.at({1, width, 1.9, 4})->outflow;
+    EXPECT_GT(outflow, before) << width;
+    before = outflow;
+  }
+}
+
+TEST(HoleTable, LongerSeedsComeByAFactorBetweenTheShapes) {
+  const HoleTable table(made_up_records());
+  // Half way, the mean of the logarithms of 1 and 1/2.
+  EXPECT_NEAR(table.at({1.5, 3.5, 1.4, 6})->outflow, made_up_outflow({1, 3.5, 1.4, 6}) * std::sqrt(0.5), 1e-9);
+}
+
+TEST(HoleTable, SaysNothingOutside) {
+  const HoleTable table(made_up_records());
+  EXPECT_FALSE(table.at({1, 1.99, 1.4, 6}));
+  EXPECT_FALSE(table.at({1, 6.51, 1.4, 6}));
+  EXPECT_FALSE(table.at({1, 3, 0.69, 6}));
+  EXPECT_FALSE(table.at({1, 3, 3.81, 6}));
+  EXPECT_FALSE(table.at({1, 3, 1.4, 2.9}));
+  EXPECT_FALSE(table.at({1, 3, 1.4, 6.1}));
+  EXPECT_FALSE(table.at({0.9, 3, 1.4, 6}));
+  EXPECT_FALSE(table.at({2.1, 3, 1.4, 6}));
+  EXPECT_FALSE(table.at({1.2, 2.2, 1.4, 6})) << "balls have it, longer seeds have not";
+  EXPECT_TRUE(table.at({1, 2.2, 1.4, 6}));
+}
+
+TEST(HoleTable, TellsWhereItReaches) {
+  const HoleTable table(made_up_records());
+  EXPECT_EQ(table.aspects().most, 2);
+  EXPECT_EQ(table.widths(1).least, 2);
+  EXPECT_EQ(table.widths(1.5).least, 2.5);
+  EXPECT_EQ(table.widths(1.5).most, 5);
+  EXPECT_EQ(table.peak_speeds(2).most, 3);
+  EXPECT_EQ(table.depths(2).least, 3);
+  EXPECT_THAT(table.speed_steps(1), ElementsAre(0.7, 1.4, 2.4, 3.8));
+  EXPECT_THAT(table.speed_steps(1.5), ElementsAre(0.7, 1.4, 2.4, 3.0));
+  EXPECT_EQ(table.amplitude(), 2);
+  EXPECT_THROW(table.widths(3), std::invalid_argument);
+}
+
+TEST(HoleTable, TakesTheWorstOfThePlacesAround) {
+  std::vector<HoleRecord> records = made_up_records();
+  for (HoleRecord& record : records)
+    if (record.at.aspect == 1 && record.at.width == 3 && record.at.peak_speed == 1.4 && record.at.depth == 6) {
+      record.half_width_95 = 0.3 * record.outflow;
+      record.stood_still = 0.5;
+      record.watched = 7;
+    }
+  const HoleTable table(records);
+  const auto beside = table.at({1, 3.1, 1.5, 5});
+  EXPECT_NEAR(beside->chance, 0.3, 1e-12);
+  EXPECT_EQ(beside->stood_still, 0.5);
+  EXPECT_EQ(beside->watched, 7);
+  EXPECT_EQ(table.at({1, 4.1, 1.5, 5})->stood_still, 0);
+}
+
+TEST(HoleTable, LeavingPlacesOutTellsItsError) {
+  std::vector<HoleRecord> records;
+  for (const double depth : {3.0, 6.0})
+    for (const double width : {2.0, 3.0, 4.0, 5.0, 6.0})
+      for (const double speed : {1.0, 2.0, 4.0}) {
+        HoleRecord record = made_up_record({1, width, speed, depth});
+        record.outflow = std::pow(width, 2.5);  // which the interpolation is made for
+        records.push_back(record);
+      }
+  for (const double width : {2.5, 3.5, 4.5, 5.5})
+    EXPECT_NEAR(HoleTable(records).interpolation_error(1, width), 0, 1e-12);
+  for (HoleRecord& record : records)
+    if (record.at.width == 3 && record.at.peak_speed == 2) record.outflow *= std::exp(0.1);
+  const HoleTable bent(records);
+  // At 2.5: along widths, of the places at 3, one speed of three misses 0.1; along speeds, of those at 2 and 3, one of
+  // two.
+  EXPECT_NEAR(bent.interpolation_error(1, 2.5), 1.96 / 4 * std::sqrt(0.01 / 3 + 0.01 / 2), 1e-4);
+  EXPECT_NEAR(bent.interpolation_error(1, 5.5), 0, 1e-12) << "far from it";
+}
+
+TEST(HoleTable, MissesABendByLessThanItsError) {
+  // Linear between places of a law that bends: within the band nearly everywhere, and not by a band that is far too
+  // wide.
+  const HoleTable table(made_up_records());
+  int within = 0, all = 0;
+  double worst = 0;
+  for (double width = 2.1; width < 6.5; width += 0.37)
+    for (double speed = 0.75; speed < 3.8; speed *= 1.09) {
+      const HoleConditions at{1, width, speed, 6};
+      const double missed = std::abs(std::log(table.at(at)->outflow / made_up_outflow(at)));
+      const double allowed = table.interpolation_error(1, width);
+      ++all;
+      within += missed <= allowed ? 1 : 0;
+      worst = std::max(worst, missed / allowed);
+    }
+  EXPECT_GE(within, 0.95 * all);
+  EXPECT_GT(worst, 0.3);
+}
+
+TEST(HoleTable, RefusesWhatIsNoTable) {
+  std::vector<HoleRecord> records = made_up_records();
+  const auto refused = [](const std::string& message) {
+    return ThrowsMessage<std::invalid_argument>(HasSubstr(message));
+  };
+  EXPECT_THAT([] { table_of({}); }, refused("no balls"));
+  std::vector<HoleRecord> holed = records;
+  holed.erase(holed.begin() + 3);
+  EXPECT_THAT([&] { table_of(holed); }, refused("47 of the 48 combinations"));
+  std::vector<HoleRecord> doubled = records;
+  doubled.push_back(records.front());
+  EXPECT_THAT([&] { table_of(doubled); }, refused("same conditions"));
+  std::vector<HoleRecord> empty = records;
+  empty.front().outflow = 0;
+  EXPECT_THAT([&] { table_of(empty); }, refused("not positive"));
+  std::vector<HoleRecord> shaken = records;
+  shaken.front().amplitude = 3;
+  EXPECT_THAT([&] { table_of(shaken); }, refused("amplitudes"));
+  std::vector<HoleRecord> wide = records;
+  for (HoleRecord& record : wide)
+    if (record.at.aspect == 2 && record.at.width == 5) record.at.width = 7;
+  EXPECT_THAT([&] { table_of(wide); }, refused("outside those of balls"));
+}
+
+}  // namespace
+}  // namespace vibrosow

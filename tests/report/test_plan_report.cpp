@@ -1,0 +1,131 @@
+#include "report/plan_report.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include "input/read_scene.hpp"
+#include "support/made_up_hole_table.hpp"
+
+namespace vibrosow {
+namespace {
+
+using testing::HasSubstr;
+using testing::Not;
+
+/// Balls of 4 mm and 40 mg.
+PlanSource source_of(double seeds_per_s) {
+  PlanSource source;
+  source.crop = "balls";
+  source.lot.name = "balls";
+  source.lot.diameter = 4e-3;
+  source.lot.mass = 40e-6;
+  source.own_mass = true;
+  SowingTask task;
+  task.seed = planned_seed(source.lot);
+  task.pace = {0.25, 8 * kilometre_per_hour};
+  task.sowing_rate = seeds_per_s * task.seed.mass / (task.pace.row_spacing * task.pace.speed);
+  source.plan = plan_sowing(task, HoleTable(made_up_records()));
+  return source;
+}
+
+std::string unwrapped(std::string text) {
+  for (char& c : text)
+    if (c == '\n') c = ' ';
+  return text;
+}
+
+class AnyPlan : public testing::TestWithParam<double> {};
+
+TEST_P(AnyPlan, SaysThatNothingWasMeasuredAndFitsATerminal) {
+  const std::string text = plan_text(source_of(GetParam()));
+  EXPECT_THAT(unwrapped(text), HasSubstr("Nothing of this was ever measured"));
+  EXPECT_THAT(unwrapped(text), HasSubstr("drill charts miss the real rate by 25 to 50 %"));
+  std::istringstream lines(text);
+  for (std::string line; std::getline(lines, line);) EXPECT_LE(line.size(), 80U) << line;
+}
+
+INSTANTIATE_TEST_SUITE_P(Rates, AnyPlan, testing::Values(0.5, 10, 43, 100, 300, 1000, 3000, 1e5));
+
+TEST(PlanText, LeadsWithTheRisk) {
+  const std::string narrow = unwrapped(plan_text(source_of(5)));
+  EXPECT_THAT(narrow, HasSubstr("None of these stays clear of clogging"));
+  EXPECT_THAT(narrow, HasSubstr("precision tray"));
+  EXPECT_LT(narrow.find("None of these"), narrow.find("1:4"));
+  const std::string wide = unwrapped(plan_text(source_of(1000)));
+  EXPECT_THAT(wide, HasSubstr("such a hole rarely clogs"));
+  EXPECT_THAT(wide, HasSubstr("is known to +- "));
+}
+
+TEST(PlanText, NoneOfTheseDoes) {
+  EXPECT_THAT(unwrapped(plan_text(source_of(0.5))), HasSubstr("None of these does: the least"));
+  const std::string most = unwrapped(plan_text(source_of(1e5)));
+  EXPECT_THAT(most, HasSubstr("None of these does: the most"));
+  EXPECT_THAT(most, HasSubstr("such holes a row"));
+  EXPECT_THAT(most, Not(HasSubstr("known to +-")));
+}
+
+TEST(PlanCsv, OneRowPerLayoutEachWithItsErrorAndThatItWasNotMeasured) {
+  const PlanSource source = source_of(100);
+  std::istringstream csv(plan_csv(source.plan));
+  std::string line;
+  std::getline(csv, line);
+  EXPECT_THAT(line, HasSubstr("rate_error_percent"));
+  std::size_t rows = 0;
+  while (std::getline(csv, line)) {
+    EXPECT_TRUE(line.ends_with(",no")) << line;
+    EXPECT_TRUE(line.starts_with(std::to_string(++rows) + ",")) << line;
+  }
+  EXPECT_EQ(rows, source.plan.layouts.size());
+}
+
+/// The seeder of a plan, read back.
+Scene planned_scene(const PlanSource& source) {
+  const std::filesystem::path file = std::filesystem::path(testing::TempDir()) / "planned-seeder.toml";
+  std::ofstream(file) << planned_seeder(source);
+  return read_scene(file);
+}
+
+TEST(PlannedSeeder, IsThatOfTheTableWithTheLayoutsHole) {
+  const PlanSource source = source_of(100);
+  const PlannedLayout& best = source.plan.layouts.front();
+  const Scene scene = planned_scene(source), of_table = read_scene(data_directory() / "seeders" / "one-hole.toml");
+  EXPECT_EQ(scene.contact, of_table.contact);
+  EXPECT_EQ(scene.space, of_table.space);
+  EXPECT_EQ(scene.tray.sides, of_table.tray.sides);
+  EXPECT_EQ(scene.tray.front_and_back, of_table.tray.front_and_back);
+  EXPECT_NEAR(scene.tray.length, of_table.tray.length, 1e-9) << "its seed is of 4 mm, too";
+  EXPECT_NEAR(*scene.tray.depth, *of_table.tray.depth, 1e-9);
+  EXPECT_NEAR(scene.tray.fill->count, of_table.tray.fill->count * best.depth_over_d / 6, 1);
+  ASSERT_EQ(scene.tray.holes.size(), 1U);
+  EXPECT_NEAR(scene.tray.holes[0].width, best.width, 1e-9);
+  EXPECT_EQ(scene.tray.holes[0].shape, HoleShape::round);
+  const auto& motion = std::get<HarmonicMotion>(*scene.tray.motion);
+  EXPECT_NEAR(motion.frequency, best.frequency, 1e-4);
+  EXPECT_NEAR(motion.amplitude, best.amplitude, 1e-9);
+  EXPECT_NEAR(scene.lots[0].mass, 40e-6, 1e-12);
+}
+
+TEST(PlannedSeeder, OfSeedsMadeHeavierIsWrittenOut) {
+  PlanSource source = source_of(100);
+  source.lot.shape = Shape::clump;
+  source.lot.discs = {{-1e-3, 0, 1.5e-3, 0}, {1e-3, 0, 1.5e-3, 0}};
+  const Scene scene = planned_scene(source);
+  EXPECT_EQ(scene.lots[0].shape, Shape::clump);
+  EXPECT_EQ(scene.lots[0].discs.size(), 2U);
+  EXPECT_NEAR(scene.lots[0].mass, 40e-6, 1e-12);
+}
+
+TEST(PlannedSeeder, OfAShippedCropNamesIt) {
+  PlanSource source = source_of(100);
+  source.crop = "pea";
+  source.own_mass = false;
+  EXPECT_THAT(planned_seeder(source), HasSubstr("crop = \"pea\""));
+  EXPECT_NEAR(planned_scene(source).lots[0].diameter, 6.83e-3, 1e-9);
+}
+
+}  // namespace
+}  // namespace vibrosow
