@@ -7,6 +7,7 @@
 #include "cli/common_options.hpp"
 #include "cli/compare_spaces.hpp"
 #include "cli/console.hpp"
+#include "cli/drill_table.hpp"
 #include "cli/progress.hpp"
 #include "design/predicted_cost.hpp"
 #include "design/study.hpp"
@@ -133,13 +134,15 @@ struct CheckOptions : CommonOptions {
 };
 
 int check_seeder(const InputFile& file, const CheckOptions& options) {
-  const Model model = prepare(read_scene(file.path, options.overrides(), file.files));
+  const auto [read, drill] = read_seeder(file.path, options.overrides(), file.files);
+  const Model model = prepare(read);
   const Scene& scene = model.scene;
   print_warnings(scene_warnings(scene));
   const StepPlan& plan = model.step;
   print_text(wrapped(scene.title));
   print_vessel(scene.tray, scene.space);
   if (scene.hopper) print_vessel(*scene.hopper, scene.space);
+  if (drill) print_text(wrapped(drill_sentence(*drill)));
   print_space_advice(scene);
   print_model(model);
   const CostBreakdown cost = break_down_cost(scene);

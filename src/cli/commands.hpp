@@ -10,6 +10,7 @@ enum ExitCode { exit_done = 0, exit_wrong_input = 2, exit_stopped_by_guard = 3, 
 // Each adds its subcommand, whose callback does the work and sets `exit_code`.
 void add_run_command(CLI::App& app, int& exit_code);
 void add_sweep_command(CLI::App& app, int& exit_code);
+void add_decide_command(CLI::App& app, int& exit_code);
 void add_accuracy_command(CLI::App& app, int& exit_code);
 void add_work_command(CLI::App& app, int& exit_code);
 void add_submit_command(CLI::App& app, int& exit_code);

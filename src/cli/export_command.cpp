@@ -4,6 +4,7 @@
 #include <memory>
 #include <string>
 
+#include "agronomy/row_figures.hpp"
 #include "cli/commands.hpp"
 #include "cli/common_options.hpp"
 #include "cli/console.hpp"
@@ -38,10 +39,13 @@ int export_run(const ExportOptions& command) {
   const std::optional<Case> found = CaseFolder(cases_of(options.file)).named(command.run);
   if (!found) throw InputError(fmt::format("{}: run {} is not kept", options.file, command.run));
   const std::size_t index = static_cast<std::size_t>(run - runs.begin());
+  const Layout& layout = planned.study.layouts.at(static_cast<std::size_t>(run->layout) - 1);
   const Model model = prepare(*wanted_runs(planned, {index}).front().scene);
   const OutputFolder folder = options.output_folder("run", run_file_texts());
   const Outflow outflow = measure_outflow(model.scene, found->run);
-  folder.write(run_files(model.scene, found->run, outflow, effect_names(model.effects), options.csv));
+  std::optional<DrillFigures> sown;
+  if (layout.drill) sown = drill_figures(model.scene, found->run, outflow, *layout.drill);
+  folder.write(run_files(model.scene, found->run, outflow, effect_names(model.effects), options.csv, sown));
   print("reports: {}\n", folder.path().string());
   return exit_done;
 }

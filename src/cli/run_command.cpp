@@ -9,9 +9,11 @@
 #include <optional>
 #include <system_error>
 
+#include "agronomy/row_figures.hpp"
 #include "cli/commands.hpp"
 #include "cli/common_options.hpp"
 #include "cli/console.hpp"
+#include "cli/drill_table.hpp"
 #include "cli/interrupt.hpp"
 #include "cli/progress.hpp"
 #include "cli/threads.hpp"
@@ -31,16 +33,6 @@
 
 namespace vibrosow {
 namespace {
-
-std::string evenness_sentence(const Evenness& even) {
-  const std::string parts =
-      fmt::format("raw CV {:.3g} %, of which counting alone {:.3g} %", 100 * even.raw_cv, 100 * even.counting_cv);
-  if (!even.cv)
-    return fmt::format("between holes: {}; so few seeds show no difference, which may be up to {:.3g} %", parts,
-                       100 * even.high);
-  return fmt::format("between holes: CV {:.3g} %, 95 % interval {:.3g} to {:.3g} % ({})", 100 * *even.cv,
-                     100 * even.low, 100 * even.high, parts);
-}
 
 /// A run that ended before its measuring window has no rates.
 std::string figure_text(double value) {
@@ -77,7 +69,7 @@ void print_summary(const Scene& scene, const Run& run, const Outflow& outflow) {
                                    in_space ? "" : fmt::format(", {:.4g} times the slice", *depth),
                                    figure_text(all.mass_rate * 1e3 * *depth), figure_text(all.mass_rate * 6e4 * *depth),
                                    figure_text(all.seeds_per_s * *depth))));
-  if (outflow.evenness) print_text("\n" + wrapped(evenness_sentence(*outflow.evenness)));
+  if (outflow.evenness) print_text("\n" + wrapped(evenness_sentence(*outflow.evenness, "holes")));
   const Balance& balance = run.balance;
   print("\nwindow {:g} to {:g} s\nput in {} = inside {} + counted {} + spilled {} + lost {}\n", outflow.window_from,
         outflow.window_to, balance.put_in, balance.inside, balance.counted, balance.spilled, balance.lost);
@@ -139,7 +131,7 @@ class CheckpointFile {
 
 int run_scene(const RunOptions& options) {
   const InputFile file = input_file(options.file, FileKind::seeder);
-  const Scene read = read_scene(file.path, options.overrides(), file.files);
+  const auto [read, drill] = read_seeder(file.path, options.overrides(), file.files);
   const std::vector<std::string> warnings = scene_warnings(read);
   print_warnings(warnings);
   const Model model = prepare_to_run(read);
@@ -163,12 +155,16 @@ int run_scene(const RunOptions& options) {
     run = run_model(model, simulation);
   }
   const Outflow outflow = measure_outflow(scene, run);
+  std::optional<DrillFigures> sown;
+  if (drill) sown = drill_figures(scene, run, outflow, *drill);
   const std::vector<std::string> warnings_of_run = run.warnings;
   run.warnings.insert(run.warnings.begin(), warnings.begin(), warnings.end());
   write_then_print(
-      options.quiet, [&] { folder.write(run_files(scene, run, outflow, effect_names(model.effects), options.csv)); },
+      options.quiet,
+      [&] { folder.write(run_files(scene, run, outflow, effect_names(model.effects), options.csv, sown)); },
       [&] {
         print_summary(scene, run, outflow);
+        if (sown) print_drill(*sown);
         if (run.phase_times) print_profile(run);
       });
   if (run.status == RunStatus::finished) checkpoint.remove();

@@ -11,9 +11,9 @@
 #include "cli/console.hpp"
 #include "cli/make_runs.hpp"
 #include "cli/report_study.hpp"
+#include "cli/reused_cases.hpp"
 #include "design/planned_study.hpp"
 #include "input/input_file.hpp"
-#include "scene/input_error.hpp"
 #include "storage/study_plan.hpp"
 
 namespace vibrosow {
@@ -24,16 +24,6 @@ struct SweepCommandOptions {
   MakingFlags making;
   std::vector<std::string> reuse;  // folders of other sweeps
 };
-
-std::vector<std::filesystem::path> cases_to_reuse(const std::vector<std::string>& folders) {
-  std::vector<std::filesystem::path> cases;
-  for (const std::string& folder : folders) {
-    cases.push_back(cases_of(folder));
-    if (!std::filesystem::is_directory(cases.back()))
-      throw InputError(fmt::format("--reuse: {} holds no runs of a sweep", folder));
-  }
-  return cases;
-}
 
 /// Round by round where replicates are by need; `planned` is then the last round.
 Made make_all_runs(PlannedStudy& planned, StudyRuns& runs, const std::filesystem::path& folder,
@@ -74,9 +64,7 @@ void add_sweep_command(CLI::App& app, int& exit_code) {
       app.add_subcommand("sweep", "simulate every layout of a study, against measured outflow where it names some");
   add_common_options(*command, options->common, "study file (.toml)");
   add_making_flags(*command, options->making);
-  command->add_option("--reuse", options->reuse, "folders of other sweeps: runs that are there are not made again")
-      ->delimiter(',')
-      ->type_name("FOLDER");
+  add_reuse_option(*command, options->reuse);
   command->callback([options, &exit_code] { exit_code = run_sweep(*options); });
 }
 

@@ -7,6 +7,7 @@
 #include <numeric>
 
 #include "cli/console.hpp"
+#include "cli/drill_table.hpp"
 #include "cli/layout_text.hpp"
 #include "report/terminal_text.hpp"
 
@@ -61,6 +62,7 @@ void print_remarks(const LayoutResult& of) {
                                    mean_text(figures, "tray_seeds_per_s")),
                        4));
   if (of.misfit_percent) print("    misfit {} %\n", with_interval(of.misfit_percent, 1));
+  if (!of.rows.empty()) print_text(wrapped(sown_sentence(of.rows), 4));
   if (!of.reason.empty()) print_text(wrapped(of.reason, 4));
 }
 
@@ -89,6 +91,7 @@ void print_sweep_table(const StudyResult& result) {
   if (uneven)
     print("\n{}", wrapped("CV between the holes, %: raw, and without what counting alone gives, with its 95 % "
                           "interval; \"<\": below what this many seeds resolve"));
+  print_trade(result);
   if (!result.comparison) return;
   if (result.study.measured->scale == MeasuredScale::free && result.comparison->scale)
     print("\nscale fitted to the measured outflow: {:.4g}\n", *result.comparison->scale);

@@ -22,7 +22,8 @@ EvaluationStatus status_of(const Run& run) {
 
 }  // namespace
 
-Evaluation reduced(const Scene& scene, const Run& run, const std::vector<CurveRequest>& wanted) {
+Evaluation reduced(const Scene& scene, const Run& run, const std::vector<CurveRequest>& wanted,
+                   const std::vector<Drill>& drills) {
   Evaluation evaluation{.random_seed = run.random_seed,
                         .status = status_of(run),
                         .reason = run.stop_reason,
@@ -41,11 +42,12 @@ Evaluation reduced(const Scene& scene, const Run& run, const std::vector<CurveRe
   for (const CurveRequest& request : wanted)
     evaluation.curves.push_back(
         {request, discharge_curve(scene, run, request.times, request.kind, request.hole, request.lot)});
+  for (const Drill& drill : drills) evaluation.drills.push_back(drill_figures(scene, run, evaluation.outflow, drill));
   return evaluation;
 }
 
 Evaluation evaluate(const Model& model, const SimulationOptions& options, const std::vector<CurveRequest>& curves,
-                    const Simulator& simulator) {
+                    const Simulator& simulator, const std::vector<Drill>& drills) {
   const auto refused = [&](const std::string& reason) {
     return Evaluation{.random_seed = options.random_seed, .status = EvaluationStatus::refused, .reason = reason};
   };
@@ -56,7 +58,7 @@ Evaluation evaluate(const Model& model, const SimulationOptions& options, const 
     const double used = cpu_time() - begin;
     if (run.status == RunStatus::refused) return refused(run.stop_reason);
     if (run.status == RunStatus::interrupted && run.steps == 0) return {.random_seed = options.random_seed};
-    Evaluation evaluation = reduced(model.scene, run, curves);
+    Evaluation evaluation = reduced(model.scene, run, curves, drills);
     evaluation.cpu_time = used;
     return evaluation;
   } catch (const InputError& error) {

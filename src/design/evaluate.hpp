@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "agronomy/row_figures.hpp"
 #include "fields/record_figures.hpp"
 #include "outflow/discharge.hpp"
 #include "outflow/outflow.hpp"
@@ -57,6 +58,7 @@ struct Evaluation {
   Outflow outflow{};
   std::vector<RecordFigures> records{};  // of each record that was reached
   std::vector<Curve> curves{};           // those wanted, in their order
+  std::vector<DrillFigures> drills{};    // likewise
   double wall_time = 0;                  // s, of this machine
   double cpu_time = 0;                   // s, of the thread that ran it
 
@@ -67,12 +69,13 @@ struct Evaluation {
 
 /// What is kept of a run of `scene` that has ended, or is cut short here. Throws std::invalid_argument as `evaluate`
 /// does.
-Evaluation reduced(const Scene& scene, const Run& run, const std::vector<CurveRequest>& wanted = {});
+Evaluation reduced(const Scene& scene, const Run& run, const std::vector<CurveRequest>& wanted = {},
+                   const std::vector<Drill>& drills = {});
 
 /// Runs a scene's model once and reduces what comes of it. A step that is too long and not insisted on, or a
 /// simulator's InputError, makes a `refused` evaluation. Throws std::invalid_argument for a curve of a hole or lot that
-/// the scene has not.
+/// the scene has not, or a drill of another number of holes.
 Evaluation evaluate(const Model& model, const SimulationOptions& options, const std::vector<CurveRequest>& curves = {},
-                    const Simulator& simulator = run_model);
+                    const Simulator& simulator = run_model, const std::vector<Drill>& drills = {});
 
 }  // namespace vibrosow

@@ -56,7 +56,7 @@ std::vector<Evaluation> run_jobs(const std::vector<Job>& jobs, const Simulator& 
     simulation.random_seed = jobs[index].random_seed;
     simulation.interrupt = options.interrupt;
     simulation.progress = [&progress, index](double fraction) { progress.set_fraction(index, fraction); };
-    results[index] = evaluate(*jobs[index].model, simulation, jobs[index].curves, simulator);
+    results[index] = evaluate(*jobs[index].model, simulation, jobs[index].curves, simulator, jobs[index].drills);
     progress.finish(index);
   };
 

@@ -13,6 +13,7 @@ struct Job {
   const Model* model;
   std::uint64_t random_seed;
   std::vector<CurveRequest> curves{};
+  std::vector<Drill> drills{};
 };
 
 struct ManyRunsProgress {

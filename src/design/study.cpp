@@ -154,11 +154,12 @@ class Scenes {
     std::map<std::string, std::size_t> known;
     for (Layout& layout : study_.layouts) {
       try {
-        const Scene scene = read_scene(study_.base, layout.overrides, files_);
+        const auto [scene, drill] = read_seeder(study_.base, layout.overrides, files_);
         prepare_to_run(scene);
         const auto [place, is_new] = known.try_emplace(scene_to_json(untitled(scene)), study_.scenes.size());
         if (is_new) study_.scenes.push_back(scene);
         layout.scene = place->second;
+        layout.drill = drill;
       } catch (const InputError& error) {
         layout.invalid = error.what();
       }

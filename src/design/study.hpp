@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "agronomy/drill.hpp"
 #include "design/replicates.hpp"
 #include "input/measured.hpp"
 #include "input/override.hpp"
@@ -24,6 +25,7 @@ struct Layout {
   std::vector<Override> overrides;   // what makes it out of the base
   std::optional<std::size_t> scene;  // index in Study::scenes; none: it cannot be built
   std::string invalid;               // why it cannot
+  std::optional<Drill> drill;        // what its outflow is to sow, where the seeder says it
 };
 
 /// How simulated outflow is made comparable with measured.

@@ -25,16 +25,28 @@ std::size_t scenes_at_a_time(const Study& study, const SweepOptions& options) {
   return std::max<std::size_t>(1, runs / static_cast<std::size_t>(std::max(1, study.replicates.first())));
 }
 
+/// Of each scene the drills of its layouts, each different one once.
+std::vector<std::vector<Drill>> drills_of_scenes(const Study& study) {
+  std::vector<std::vector<Drill>> drills(study.scenes.size());
+  for (const Layout& layout : study.layouts) {
+    if (!layout.scene || !layout.drill) continue;
+    std::vector<Drill>& of_scene = drills[*layout.scene];
+    if (std::ranges::find(of_scene, *layout.drill) == of_scene.end()) of_scene.push_back(*layout.drill);
+  }
+  return drills;
+}
+
 /// Those of scenes from one to before another.
-std::vector<std::vector<Evaluation>> run_scenes(const Study& study, const Simulator& simulator,
-                                                const SweepOptions& options, std::size_t from, std::size_t to) {
+std::vector<std::vector<Evaluation>> run_scenes(const Study& study, const std::vector<std::vector<Drill>>& drills,
+                                                const Simulator& simulator, const SweepOptions& options,
+                                                std::size_t from, std::size_t to) {
   std::vector<Model> models;
   for (std::size_t scene = from; scene < to; ++scene) models.push_back(prepare(study.scenes[scene]));
   std::vector<Job> jobs;
   for (std::size_t scene = from; scene < to; ++scene)
     for (int i = 0; i < replicates_of(study, options, scene); ++i)
       jobs.push_back({&models[scene - from], options.first_random_seed + static_cast<std::uint64_t>(i),
-                      measured_curves(study, scene)});
+                      measured_curves(study, scene), drills[scene]});
   std::vector<Evaluation> results = run_jobs(jobs, simulator, options.runs);
 
   std::vector<std::vector<Evaluation>> runs(to - from);
@@ -108,6 +120,18 @@ std::vector<HoleFigures> hole_figures(const std::vector<Evaluation>& replicates)
   return holes;
 }
 
+/// One for each drill of the scene.
+std::vector<std::vector<RowMeans>> rows_of_drills(const std::vector<Evaluation>& replicates, std::size_t drills) {
+  std::vector<std::vector<RowMeans>> rows;
+  for (std::size_t drill = 0; drill < drills; ++drill) {
+    std::vector<const DrillFigures*> finished;
+    for (const Evaluation& one : replicates)
+      if (one.finished()) finished.push_back(&one.drills.at(drill));
+    rows.push_back(row_means(finished));
+  }
+  return rows;
+}
+
 BedFigures bed_figures(const Scene& scene, std::size_t record, const std::vector<Evaluation>& replicates) {
   using Value = std::optional<double>;
   const auto reached = [record](const Evaluation& one) { return record < one.records.size(); };
@@ -171,10 +195,8 @@ void set_status(LayoutResult& result, const std::vector<Evaluation>& replicates)
 void add_remarks_on_need(const Study& study, const std::vector<Evaluation>& replicates, LayoutResult& result) {
   const auto add = [&](const std::string& remark) { result.reason += (result.reason.empty() ? "" : "; ") + remark; };
   const std::vector<std::optional<double>> rates = rates_of(replicates);
-  if (const auto clogged = std::ranges::count_if(
-          replicates, [](const Evaluation& one) { return one.finished() && !one.end_reason.empty(); });
-      clogged > 0)
-    add(fmt::format("clogged in {} of {} runs, which are left out", clogged, replicates.size()));
+  if (result.stopped_flowing > 0)
+    add(fmt::format("clogged in {} of {} runs, which are left out", result.stopped_flowing, replicates.size()));
   std::vector<double> flowed;
   for (const auto& rate : rates)
     if (rate) flowed.push_back(*rate);
@@ -191,10 +213,19 @@ LayoutResult invalid_result(const Layout& layout) {
   return result;
 }
 
-LayoutResult result_of(const Study& study, const Scene& scene, const std::vector<Evaluation>& runs) {
+/// What came of a scene, and of each of its drills the rows.
+struct SceneResult {
+  LayoutResult of_all_layouts;
+  std::vector<std::vector<RowMeans>> rows;
+};
+
+SceneResult result_of(const Study& study, const Scene& scene, const std::vector<Evaluation>& runs,
+                      const std::vector<Drill>& drills) {
   LayoutResult result;
   const std::vector<Evaluation> replicates = that_count(study, runs);
   set_status(result, replicates);
+  result.stopped_flowing = static_cast<int>(
+      std::ranges::count_if(runs, [](const Evaluation& one) { return one.finished() && !one.end_reason.empty(); }));
   const bool was_run = result.status == LayoutStatus::ok || result.status == LayoutStatus::outside_the_model;
   if (study.replicates.interval && was_run) add_remarks_on_need(study, runs, result);
   result.figures = figures_of(replicates);
@@ -202,6 +233,13 @@ LayoutResult result_of(const Study& study, const Scene& scene, const std::vector
   result.warnings = scene_warnings(scene);
   for (std::size_t record = 0; scene.record && record < scene.record->times.size(); ++record)
     result.bed.push_back(bed_figures(scene, record, replicates));
+  return {std::move(result), rows_of_drills(replicates, drills.size())};
+}
+
+LayoutResult result_of(const Layout& layout, const SceneResult& of_scene, const std::vector<Drill>& drills) {
+  LayoutResult result = of_scene.of_all_layouts;
+  if (layout.drill)
+    result.rows = of_scene.rows.at(static_cast<std::size_t>(std::ranges::find(drills, *layout.drill) - drills.begin()));
   return result;
 }
 
@@ -221,21 +259,23 @@ StudyResult sweep(const Study& study, const Simulator& simulator, const SweepOpt
   StudyResult result;
   result.study = study;
   result.runs.resize(study.scenes.size());
-  std::vector<LayoutResult> of_scenes;
+  const std::vector<std::vector<Drill>> drills = drills_of_scenes(study);
+  std::vector<SceneResult> of_scenes;
   const std::size_t at_a_time = scenes_at_a_time(study, options);
   for (std::size_t from = 0; from < study.scenes.size(); from += at_a_time) {
     const std::size_t to = std::min(from + at_a_time, study.scenes.size());
-    std::vector<std::vector<Evaluation>> runs = run_scenes(study, simulator, options, from, to);
+    std::vector<std::vector<Evaluation>> runs = run_scenes(study, drills, simulator, options, from, to);
     for (std::size_t scene = from; scene < to; ++scene) {
       std::vector<Evaluation>& replicates = runs[scene - from];
       leave_out_more_than_enough(study, replicates);
-      of_scenes.push_back(result_of(study, study.scenes[scene], replicates));
+      of_scenes.push_back(result_of(study, study.scenes[scene], replicates, drills[scene]));
       if (options.on_runs) options.on_runs(scene, replicates);
       if (!options.on_runs || study.measured) result.runs[scene] = std::move(replicates);
     }
   }
   for (const Layout& layout : study.layouts)
-    result.layouts.push_back(layout.scene ? of_scenes[*layout.scene] : invalid_result(layout));
+    result.layouts.push_back(layout.scene ? result_of(layout, of_scenes[*layout.scene], drills[*layout.scene])
+                                          : invalid_result(layout));
   if (study.measured) compare_with_measured(result);
   return result;
 }

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "agronomy/row_figures.hpp"
 #include "design/many_runs.hpp"
 #include "design/study.hpp"
 #include "outflow/figures.hpp"
@@ -50,10 +51,12 @@ struct LayoutResult {
   std::string reason;                 // of a status other than ok; else what to know: "ran dry in 2 of 5 runs"
   std::vector<std::string> warnings;  // what in its scene can hardly be meant
   int replicates = 0;                 // finished
+  int stopped_flowing = 0;            // of all runs, also those that are left out: ended by a pause
   FigureMeans figures;                // over the finished replicates
   std::optional<MeanWithInterval> misfit_percent;  // of the mean outflow; interval from the misfits of the replicates
   std::vector<HoleFigures> holes;
   std::vector<BedFigures> bed{};  // empty without a record
+  std::vector<RowMeans> rows{};   // by row, then all; empty without a drill
 };
 
 /// A measured value beside the simulated one, scaled; SI.

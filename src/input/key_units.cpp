@@ -17,6 +17,7 @@ constexpr ColumnUnit gram{Dimension::mass, "g", "g"};
 constexpr ColumnUnit gram_per_second{Dimension::mass_rate, "g_per_s", "g/s"};
 constexpr ColumnUnit millimetre_per_second{Dimension::speed, "mm_per_s", "mm/s"};
 constexpr ColumnUnit metre_per_second{Dimension::speed, "m_per_s", "m/s"};
+constexpr ColumnUnit kilometre_per_hour{Dimension::speed, "km_per_h", "km/h"};
 constexpr ColumnUnit millinewton{Dimension::force, "mN", "mN"};
 constexpr ColumnUnit megapascal{Dimension::pressure, "MPa", "MPa"};
 constexpr ColumnUnit per_second{Dimension::rate, "per_s", "1/s"};
@@ -102,6 +103,7 @@ constexpr std::array key_words = {
     KeyWord{"stop_ramp", second},
     KeyWord{"phase", degree},
     KeyWord{"angle", degree},
+    KeyWord{"drill.speed", kilometre_per_hour},  // before a motion's speed
     KeyWord{"speed", rpm},
     KeyWord{"axis", {}},
     KeyWord{"file", {}},
@@ -129,6 +131,14 @@ constexpr std::array key_words = {
     KeyWord{"times", second},
     KeyWord{"every", second},
     KeyWord{"cell", millimetre},
+    // drill
+    KeyWord{"row_spacing", millimetre},
+    KeyWord{"rows_per_hole", {}},
+    KeyWord{"hole_to_row", {}},
+    KeyWord{"reference_spacing", millimetre},
+    KeyWord{"multiples_below", {}},
+    KeyWord{"skips_above", {}},
+    KeyWord{"cv_limit", percent},
 };
 
 const KeyWord* find_word(std::string_view key) {

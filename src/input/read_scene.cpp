@@ -8,6 +8,7 @@
 #include "input/lengths.hpp"
 #include "input/presets.hpp"
 #include "input/read_contact.hpp"
+#include "input/read_drill.hpp"
 #include "input/read_lot.hpp"
 #include "input/read_vessel.hpp"
 #include "input/table.hpp"
@@ -174,12 +175,13 @@ Record read_record(Table table, double duration, const std::vector<SeedLot>& lot
 
 }  // namespace
 
-Scene read_scene(const std::filesystem::path& file, const std::vector<Override>& overrides,
-                 const std::shared_ptr<SourceFiles>& files) {
+Seeder read_seeder(const std::filesystem::path& file, const std::vector<Override>& overrides,
+                   const std::shared_ptr<SourceFiles>& files) {
   Table root(Document::read(file, overrides, files));
-  root.reject_keys_other_than(
-      {"title", "space", "accuracy", "seeds", "contact", "tray", "hopper", "numerics", "guard", "run", "record"});
-  Scene scene;
+  root.reject_keys_other_than({"title", "space", "accuracy", "seeds", "contact", "tray", "hopper", "numerics", "guard",
+                               "run", "record", "drill"});
+  Seeder seeder;
+  Scene& scene = seeder.scene;
   scene.title = printable(root.text("title").value_or(file.stem().string()));
   constexpr Space spaces[] = {Space::plane, Space::three_dimensional};
   scene.space = spaces[root.choice("space", {"plane", "3d"}).value_or(0)];
@@ -208,8 +210,14 @@ Scene read_scene(const std::filesystem::path& file, const std::vector<Override>&
   scene.run = read_run(root.required_table("run"));
   if (auto record = root.table("record"))
     scene.record = read_record(*record, scene.run.duration, scene.lots, scene.space);
+  if (auto drill = root.table("drill")) seeder.drill = read_drill(*drill, scene.tray.holes.size());
   root.reject_unknown_keys();
-  return scene;
+  return seeder;
+}
+
+Scene read_scene(const std::filesystem::path& file, const std::vector<Override>& overrides,
+                 const std::shared_ptr<SourceFiles>& files) {
+  return read_seeder(file, overrides, files).scene;
 }
 
 }  // namespace vibrosow

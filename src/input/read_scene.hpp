@@ -2,19 +2,31 @@
 
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <vector>
 
+#include "agronomy/drill.hpp"
 #include "input/override.hpp"
 #include "input/source_files.hpp"
 #include "scene/scene.hpp"
 
 namespace vibrosow {
 
+/// What a seeder file says: the scene of its runs, and what its outflow is to sow.
+struct Seeder {
+  Scene scene;
+  std::optional<Drill> drill{};
+};
+
 /// Reads and validates a seeder file. `overrides` replace, add or take out keys before it is read. Crops and contact
 /// models are looked for by name in `data_directory()`, or as paths relative to the file that names them. Throws
 /// InputError on anything wrong: unreadable file, TOML syntax, unknown key (with the nearest known one), missing unit,
 /// wrong dimension, value out of range, contradicting keys, a hole off the floor or overlapping another. Every file is
 /// read through `files`, so that many scenes on one base read it once.
+Seeder read_seeder(const std::filesystem::path& file, const std::vector<Override>& overrides = {},
+                   const std::shared_ptr<SourceFiles>& files = std::make_shared<SourceFiles>());
+
+/// Its scene; a [drill] is read, and refused where it is wrong.
 Scene read_scene(const std::filesystem::path& file, const std::vector<Override>& overrides = {},
                  const std::shared_ptr<SourceFiles>& files = std::make_shared<SourceFiles>());
 

@@ -92,14 +92,10 @@ std::vector<std::int64_t> grains_of_holes(const Scene& scene, const std::vector<
   return grains;
 }
 
-std::optional<double> instability(const std::vector<OutflowEvent>& events, const Window& window) {
-  if (window.empty() || events.size() < 2) return std::nullopt;
-  std::vector<double> grains(instability_windows, 0.0);
-  for (const OutflowEvent& event : events) {
-    const double part = (event.time - window.from) / window.length() * instability_windows;
-    grains[static_cast<std::size_t>(std::clamp(static_cast<int>(part), 0, instability_windows - 1))] += 1;
-  }
-  return coefficient_of_variation(grains);
+std::vector<double> times_of(const std::vector<OutflowEvent>& events) {
+  std::vector<double> times;
+  for (const OutflowEvent& event : events) times.push_back(event.time);
+  return times;
 }
 
 std::optional<double> depth_factor(const Scene& scene) {
@@ -154,6 +150,16 @@ std::vector<Remark> remarks_on(const Scene& scene, const Run& run, const Window&
 
 }  // namespace
 
+std::optional<double> instability_cv(const std::vector<double>& times, double from, double to) {
+  if (to <= from || times.size() < 2) return std::nullopt;
+  std::vector<double> grains(instability_windows, 0.0);
+  for (const double time : times) {
+    const double part = (time - from) / (to - from) * instability_windows;
+    grains[static_cast<std::size_t>(std::clamp(static_cast<int>(part), 0, instability_windows - 1))] += 1;
+  }
+  return coefficient_of_variation(grains);
+}
+
 std::string Outflow::note() const {
   std::vector<std::string_view> texts;
   for (const Remark& remark : remarks) texts.push_back(remark.text);
@@ -170,7 +176,7 @@ Outflow measure_outflow(const Scene& scene, const Run& run) {
   outflow.holes = measure_rows(scene, events, window);
   outflow.grains_of_hole = grains_of_holes(scene, events);
   outflow.evenness = evenness({outflow.grains_of_hole});
-  outflow.instability_cv = instability(events, window);
+  outflow.instability_cv = instability_cv(times_of(events), window.from, window.to);
   const std::int64_t left = run.balance.counted + run.balance.spilled;
   if (left > 0) outflow.spilled_fraction = static_cast<double>(run.balance.spilled) / static_cast<double>(left);
   outflow.depth_factor = depth_factor(scene);

@@ -51,6 +51,10 @@ struct Outflow {
 /// Into how many equal parts the measuring window is cut for the instability.
 inline constexpr int instability_windows = 10;
 
+/// Coefficient of variation of seeds that come at these times (s) over equal parts of the window from `from` to `to`
+/// (s), in which they all lie; none for an empty window or fewer than two seeds.
+std::optional<double> instability_cv(const std::vector<double>& times, double from, double to);
+
 /// What the events of a run say about its holes. Mean diameter of the slice: by number, over all lots.
 Outflow measure_outflow(const Scene& scene, const Run& run);
 

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "report/accuracy_report.hpp"
+#include "report/decision_report.hpp"
 #include "report/plan_report.hpp"
 #include "report/run_report.hpp"
 #include "report/sweep_report.hpp"
@@ -39,6 +40,7 @@ std::string chapter(const std::string& command, const std::string& does, const s
 std::string output_documentation() {
   return introduction + chapter("run", "one run of a seeder", run_file_texts()) +
          chapter("sweep", "every layout of a study", sweep_file_texts()) +
+         chapter("decide", "the best layout of a study", decision_file_texts()) +
          chapter("accuracy", "what accuracy costs in time", accuracy_file_texts()) +
          chapter("plan", "layouts that sow a crop at a rate", plan_file_texts());
 }

@@ -6,6 +6,7 @@
 #include <iterator>
 
 #include "report/columns.hpp"
+#include "report/drill_report.hpp"
 #include "report/json_keys.hpp"
 #include "report/record_report.hpp"
 #include "scene/scene_json.hpp"
@@ -241,16 +242,19 @@ std::vector<FileText> run_file_texts() {
       file_text("run.json", "what the run was and how it went", run_keys()),
       file_text("timing.json", "what the run took on this machine", timing_keys(true))};
   std::ranges::move(record_file_texts(), std::back_inserter(texts));
+  texts.push_back(rows_file_text());
   return texts;
 }
 
 std::vector<OutputFile> run_files(const Scene& scene, const Run& run, const Outflow& outflow,
-                                  const std::vector<std::string>& effects, CsvFormat format) {
+                                  const std::vector<std::string>& effects, CsvFormat format,
+                                  const std::optional<DrillFigures>& drill) {
   std::vector<OutputFile> files = {{"outflow.csv", outflow_csv(scene, run, format)},
                                    {"summary.csv", summary_csv(outflow, format)},
                                    {"run.json", run_json(scene, run, outflow, effects)},
                                    {"timing.json", timing_json(run)}};
   std::ranges::move(record_files(scene, run, format), std::back_inserter(files));
+  if (drill) files.push_back({"rows.csv", rows_csv(*drill, format)});
   return files;
 }
 

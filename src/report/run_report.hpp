@@ -1,8 +1,10 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "agronomy/row_figures.hpp"
 #include "outflow/outflow.hpp"
 #include "report/columns.hpp"
 #include "report/output_folder.hpp"
@@ -29,8 +31,9 @@ std::string timing_json(const Run& run);
 /// What the files of a run hold.
 std::vector<FileText> run_file_texts();
 
-/// Its files: outflow.csv, summary.csv, run.json, timing.json and those of a record.
+/// Its files: outflow.csv, summary.csv, run.json, timing.json, those of a record and, with a drill, rows.csv.
 std::vector<OutputFile> run_files(const Scene& scene, const Run& run, const Outflow& outflow,
-                                  const std::vector<std::string>& effects, CsvFormat format = {});
+                                  const std::vector<std::string>& effects, CsvFormat format = {},
+                                  const std::optional<DrillFigures>& drill = {});
 
 }  // namespace vibrosow

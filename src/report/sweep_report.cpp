@@ -7,7 +7,9 @@
 
 #include "input/key_units.hpp"
 #include "report/columns.hpp"
+#include "report/drill_report.hpp"
 #include "report/json_keys.hpp"
+#include "report/layout_columns.hpp"
 
 namespace vibrosow {
 namespace {
@@ -51,34 +53,6 @@ std::string run_note(int first, const Layout& layout, const Evaluation& run) {
   return note;
 }
 
-/// A layout of a study with what came of it.
-struct LayoutRow {
-  const StudyResult* result;
-  std::size_t index;
-  const Layout& layout() const { return result->study.layouts[index]; }
-  const LayoutResult& of() const { return result->layouts[index]; }
-};
-
-std::vector<LayoutRow> layout_rows(const StudyResult& result) {
-  std::vector<LayoutRow> rows;
-  for (std::size_t i = 0; i < result.layouts.size(); ++i) rows.push_back({&result, i});
-  return rows;
-}
-
-/// The first columns of every file; a `Row` has its layout().
-template <class Row>
-Columns<Row> layout_columns() {
-  return {text_column<Row>("layout", "number of the layout, in the order of the study",
-                           [](const Row& r) { return r.layout().number; }),
-          text_column<Row>("name", "of its [[layout]]; empty without", [](const Row& r) { return r.layout().name; })};
-}
-
-template <class Row>
-Column<Row> replicates_column() {
-  return text_column<Row>("replicates", "runs that finished, of which the figures are",
-                          [](const Row& r) { return r.of().replicates; });
-}
-
 std::string reason_and_warnings(const LayoutResult& layout) {
   std::string text = layout.reason;
   for (const std::string& warning : layout.warnings) text += (text.empty() ? "" : "; ") + warning;
@@ -95,13 +69,7 @@ Columns<LayoutRow> sweep_columns(const std::vector<std::string>& keys) {
   columns.push_back(text_column<LayoutRow>(
       "reason", "why it is not ok; else what to know about its runs; and what in its scene can hardly be meant",
       [](R r) { return reason_and_warnings(r.of()); }));
-  for (const std::string& key : keys)
-    columns.push_back(
-        {{condition_column(key), "", "value of this key of the seeder file, in the unit that its column names"},
-         [key](R r) {
-           const auto value = r.layout().values.find(key);
-           return value == r.layout().values.end() ? CsvField() : csv_text_or_number(value->second);
-         }});
+  append(columns, key_columns<LayoutRow>(keys));
   columns.push_back(replicates_column<LayoutRow>());
   add_figure_columns(
       columns, [](R r) -> const auto& { return r.of().figures; });
@@ -364,7 +332,9 @@ std::vector<FileText> sweep_file_texts() {
                     "of a study whose seeder has a record: one row per layout, snapshot and lot, and one of all lots",
                     sweep_records_columns()),
           file_text("comparison.csv", "of a study with measured outflow: one row per layout and measured value",
-                    comparison_columns())};
+                    comparison_columns()),
+          sweep_rows_file_text(),
+          trade_file_text()};
 }
 
 std::vector<OutputFile> sweep_files(const StudyResult& result, const SweepRunsCsv& runs, const SweepTiming& timing,
@@ -377,6 +347,10 @@ std::vector<OutputFile> sweep_files(const StudyResult& result, const SweepRunsCs
   if (std::ranges::any_of(result.layouts, records))
     files.push_back({"sweep_records.csv", sweep_records_csv(result, format)});
   if (result.comparison) files.push_back({"comparison.csv", comparison_csv(result, format)});
+  const auto sows = [](const LayoutResult& one) { return !one.rows.empty(); };
+  if (std::ranges::any_of(result.layouts, sows)) files.push_back({"sweep_rows.csv", sweep_rows_csv(result, format)});
+  const std::vector<TradeLine> lines = trade_lines(result);
+  if (!lines.empty()) files.push_back({"trade.csv", trade_csv(result, lines, format)});
   return files;
 }
 

@@ -52,8 +52,8 @@ std::string sweep_timing_json(const SweepTiming& timing);
 /// What the files of a sweep hold; the keys that a study varies stand as one column KEY.
 std::vector<FileText> sweep_file_texts();
 
-/// Its files: sweep.csv, sweep_holes.csv, sweep_runs.csv, timing.json, with a record sweep_records.csv and, with
-/// measured outflow, comparison.csv.
+/// Its files: sweep.csv, sweep_holes.csv, sweep_runs.csv, timing.json, with a record sweep_records.csv, with measured
+/// outflow comparison.csv, and with a drill sweep_rows.csv and, where it is varied what they follow, trade.csv.
 std::vector<OutputFile> sweep_files(const StudyResult& result, const SweepRunsCsv& runs, const SweepTiming& timing,
                                     CsvFormat format = {});
 

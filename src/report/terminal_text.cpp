@@ -35,4 +35,14 @@ std::string to_digits(double value, int digits) {
   return fmt::format("{:.0f}", std::strtod(text.c_str(), nullptr));
 }
 
+std::string evenness_sentence(const Evenness& even, std::string_view between) {
+  const std::string parts =
+      fmt::format("raw CV {:.3g} %, of which counting alone {:.3g} %", 100 * even.raw_cv, 100 * even.counting_cv);
+  if (!even.cv)
+    return fmt::format("between {}: {}; so few seeds show no difference, which may be up to {:.3g} %", between, parts,
+                       100 * even.high);
+  return fmt::format("between {}: CV {:.3g} %, 95 % interval {:.3g} to {:.3g} % ({})", between, 100 * *even.cv,
+                     100 * even.low, 100 * even.high, parts);
+}
+
 }  // namespace vibrosow

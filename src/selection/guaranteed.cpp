@@ -17,11 +17,14 @@ Guaranteed::Guaranteed(const Question& question) : question_(question), systems_
   const auto others = static_cast<double>(question_.systems - 1);
   const int constraints = (question_.band ? 1 : 0) + (question_.clogging_limit ? 1 : 0);
   selection_error_ = (constraints > 0 ? 1 - share_of_constraints : 1) * error / others;
-  const double left_out = share_of_constraints * error / 2 / std::max(constraints, 1);
-  const double taken = left_out / static_cast<double>(question_.systems);
+  error_of_left_out_ = share_of_constraints * error / 2 / std::max(constraints, 1);
+  error_of_taken_ = error_of_left_out_ / static_cast<double>(question_.systems);
   for (System& system : systems_) {
-    if (question_.band) system.rate.emplace(question_.band->low, question_.band->high, first_observations, taken);
-    if (question_.clogging_limit) system.clogging.emplace(*question_.clogging_limit, taken, left_out);
+    if (question_.band)
+      system.rate.emplace(question_.band->low, question_.band->high, first_observations, error_of_taken_,
+                          error_of_left_out_);
+    if (question_.clogging_limit)
+      system.clogging.emplace(*question_.clogging_limit, error_of_taken_, error_of_left_out_);
   }
   pairs_.assign(question_.systems * (question_.systems - 1) / 2, Pair{SideTest(first_observations, selection_error_)});
 }
@@ -156,6 +159,13 @@ std::vector<int> Guaranteed::wanted() {
   const bool decided = all.empty() || (all.size() == 1 && is_feasible(systems_[all.front()]));
   if (!decided) more_of(awake(), counts);
   return counts;
+}
+
+int Guaranteed::least_observations() const {
+  return question_.clogging_limit
+             ? std::max(first_observations,
+                        ShareTest(*question_.clogging_limit, error_of_taken_, error_of_left_out_).least_trials())
+             : first_observations;
 }
 
 Decision Guaranteed::decision() const {

@@ -32,6 +32,7 @@ class Guaranteed : public Procedure {
 
   std::vector<int> wanted() override;
   void take(std::size_t system, const Observation& observation) override;
+  int least_observations() const override;
   Decision decision() const override;
 
  private:
@@ -64,7 +65,9 @@ class Guaranteed : public Procedure {
   const Pair& pair(std::size_t lower, std::size_t higher) const;
 
   Question question_;
-  double selection_error_;  // of a pair
+  double selection_error_;    // of a pair
+  double error_of_left_out_;  // of a constraint: that the best is called wrong by it
+  double error_of_taken_;     // of a system and a constraint: that it is called right by it
   std::optional<double> margin_;
   std::vector<System> systems_;
   std::vector<Pair> pairs_;

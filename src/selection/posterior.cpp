@@ -218,6 +218,14 @@ std::vector<int> Posterior::wanted() {
   return counts;
 }
 
+int Posterior::least_observations() const {
+  System system;
+  for (system.observations = first_observations;
+       question_.clogging_limit && clogging_of(system) < question_.confidence;)
+    ++system.observations;
+  return system.observations;
+}
+
 Decision Posterior::decision() const {
   Decision decision;
   const Belief belief = this->belief();

@@ -31,13 +31,14 @@ VariancePrior variance_prior(const std::vector<double>& variances, double degree
 /// says (reports/selection).
 class Posterior : public Procedure {
  public:
-  static constexpr int first_observations = 4;
+  static constexpr int first_observations = 3;
 
   /// Throws std::invalid_argument for fewer than two systems.
   explicit Posterior(const Question& question);
 
   std::vector<int> wanted() override;
   void take(std::size_t system, const Observation& observation) override;
+  int least_observations() const override;
   Decision decision() const override;
 
  private:

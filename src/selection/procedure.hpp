@@ -70,6 +70,9 @@ class Procedure {
   /// The next observation of a system; the systems in any order.
   virtual void take(std::size_t system, const Observation& observation) = 0;
 
+  /// How many the best needs at least, whatever comes of them.
+  virtual int least_observations() const = 0;
+
   /// By what was taken until the last `wanted`.
   virtual Decision decision() const = 0;
 };

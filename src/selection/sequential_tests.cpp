@@ -32,23 +32,38 @@ void SideTest::add(double value, double tolerance) {
     side_ = sum_ < 0 ? Side::below : Side::above;
 }
 
-BandTest::BandTest(double low, double high, int first_observations, double error)
+void LookTest::add(double value) {
+  if (is_above_) return;
+  moments_.add(value);
+  if (moments_.count() < look_) return;
+  look_ *= 2;
+  error_ /= 2;
+  const double t = boost::math::quantile(complement(boost::math::students_t(moments_.count() - 1.0), error_));
+  is_above_ = moments_.mean() > t * std::sqrt(moments_.variance() / moments_.count());
+}
+
+BandTest::BandTest(double low, double high, int first_observations, double error_inside, double error_outside)
     : low_(low),
       high_(high),
       tolerance_(tolerance_share * (high - low) / 2),
-      at_low_(first_observations, error),
-      at_high_(first_observations, error) {
+      at_low_(first_observations, std::min(error_inside, error_outside / 4)),
+      at_high_(first_observations, std::min(error_inside, error_outside / 4)),
+      below_(error_outside / 4),
+      above_(error_outside / 4) {
   if (!(low < high)) throw std::invalid_argument("a band has a width");
 }
 
 void BandTest::add(double value) {
   at_low_.add(value - (low_ + tolerance_), tolerance_);
   at_high_.add(value - (high_ - tolerance_), tolerance_);
+  below_.add(low_ - value);
+  above_.add(value - high_);
 }
 
 BandTest::Verdict BandTest::verdict() const {
   using Side = SideTest::Side;
-  if (at_low_.side() == Side::below || at_high_.side() == Side::above) return Verdict::outside;
+  const bool is_off = at_low_.side() == Side::below || at_high_.side() == Side::above;
+  if (is_off || below_.is_above() || above_.is_above()) return Verdict::outside;
   const bool inside = at_low_.side() == Side::above && at_high_.side() == Side::below;
   return inside ? Verdict::inside : Verdict::open;
 }
@@ -68,21 +83,15 @@ void ShareTest::add(bool happened) {
   if (-log_ratio_ >= enough_for_much_) verdict_ = Verdict::much;
 }
 
+int ShareTest::least_trials() const {
+  return static_cast<int>(std::ceil(enough_for_less_ / by_none_));
+}
+
 bool is_surely_above(const std::vector<double>& values, const std::vector<double>& of_other, double error) {
-  constexpr int first_look = 10;
-  Moments moments;
-  int look = first_look;
-  for (std::size_t i = 0; i < std::min(values.size(), of_other.size()); ++i) {
-    const double difference = values[i] - of_other[i];
-    if (std::isnan(difference)) continue;
-    moments.add(difference);
-    if (moments.count() < look) continue;
-    look *= 2;
-    error /= 2;
-    const double t = boost::math::quantile(complement(boost::math::students_t(moments.count() - 1.0), error));
-    if (moments.mean() > t * std::sqrt(moments.variance() / moments.count())) return true;
-  }
-  return false;
+  LookTest test(error);
+  for (std::size_t i = 0; i < std::min(values.size(), of_other.size()); ++i)
+    if (const double difference = values[i] - of_other[i]; !std::isnan(difference)) test.add(difference);
+  return test.is_above();
 }
 
 }  // namespace vibrosow

@@ -32,20 +32,38 @@ class SideTest {
   Side side_ = Side::open;
 };
 
+/// Whether a mean is above zero, looked at after 10, 20, 40, .. observations: Student's t at the k-th look leaves
+/// `error` / 2^k, so that a mean of zero or below is called above with at most the probability `error` however long it
+/// is looked at. For normal observations; by no scale but their own.
+class LookTest {
+ public:
+  explicit LookTest(double error) : error_(error) {}
+  void add(double value);
+  bool is_above() const { return is_above_; }
+
+ private:
+  double error_;
+  int look_ = 10;
+  Moments moments_;
+  bool is_above_ = false;
+};
+
 /// Whether a mean lies in a band, by a test at either end. The tests' zeros lie a fifth of the band's half width inside
 /// of its ends and that is their tolerance: a mean outside of the band is called inside with at most the probability
-/// `error`, and so is one of its inner three fifths called outside, at either end. (Andradottir & Kim 2010, Naval
-/// Research Logistics 57(5), with the zone of tolerance laid inside of the band.)
+/// `error_inside`, one of its inner three fifths is called outside with at most `error_outside`. (Andradottir & Kim
+/// 2010, Naval Research Logistics 57(5), with the zone of tolerance laid inside of the band.) What is far off is told
+/// by looks, with half of `error_outside`: a small tolerance makes the triangle long, however far off a mean is.
 class BandTest {
  public:
   enum class Verdict { open, inside, outside };
-  BandTest(double low, double high, int first_observations, double error);
+  BandTest(double low, double high, int first_observations, double error_inside, double error_outside);
   void add(double value);
   Verdict verdict() const;
 
  private:
   double low_, high_, tolerance_;
   SideTest at_low_, at_high_;
+  LookTest below_, above_;
 };
 
 /// Whether something happens in less than a share of all trials: Wald's sequential test of a binomial (1945), of
@@ -58,6 +76,8 @@ class ShareTest {
   ShareTest(double limit, double error_less, double error_much);
   void add(bool happened);
   Verdict verdict() const { return verdict_; }
+  /// After how many trials in which it did not happen the verdict is `less`.
+  int least_trials() const;
 
  private:
   double by_event_, by_none_;  // what a trial adds to the logarithm of the likelihoods' ratio
@@ -66,10 +86,8 @@ class ShareTest {
   Verdict verdict_ = Verdict::open;
 };
 
-/// Whether one system's mean is above another's, by the observations in which both have a value, looked at after 10,
-/// 20, 40, .. of them: Student's t of the differences at the k-th look leaves `error` / 2^k, so that equal means are
-/// called unequal with at most the probability `error` however long they are looked at. For normal differences.
-/// `values` and `of_other`: by observation, not a number where there is none.
+/// Whether one system's mean is above another's, by looks at the differences of the observations in which both have a
+/// value. `values` and `of_other`: by observation, not a number where there is none.
 bool is_surely_above(const std::vector<double>& values, const std::vector<double>& of_other, double error);
 
 }  // namespace vibrosow

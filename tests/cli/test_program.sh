@@ -66,7 +66,7 @@ grep -q '"neighbours"' profiled/timing.json || fail "timing.json has no shares"
 expect 0 "wheat" presets crops
 expect 0 "wheat-steel +Wheat on steel" presets contacts
 expect 0 "wheat-holes" presets
-for command in run sweep work submit status export verify pack accuracy plan new check presets columns; do expect 0 "^Usage: vibrosow $command" $command --help; done
+for command in run sweep decide work submit status export verify pack accuracy plan new check presets columns; do expect 0 "^Usage: vibrosow $command" $command --help; done
 expect 0 "wheat-tray +Wheat tray" presets seeders
 "$program" presets seeders | awk '/^seeders to start from/ { start = NR } /paper-a-fig3 / { paper = paper ? paper : NR }
   /^  silo / { silo = NR } END { exit !(start && start < paper && paper < silo) }' || fail "presets: seeders do not come first"
@@ -307,6 +307,50 @@ for signal in INT TERM HUP; do
   rm -r long
 done
 set +m
+
+# Decisions: the same for any number of jobs, killed or not; what cannot be decided is told before anything is written.
+cat >noisy.toml <<'END'
+title = "Noisy trays"
+base = "seeder.toml"
+[set]
+tray.depth = "4 cm"
+tray.fill = { count = 60 }
+tray.motion = { kind = "harmonic", frequency = "15 Hz", amplitude = "4 mm" }
+run.duration = "0.2 s"
+[vary]
+tray.holes.width = ["12 mm", "16 mm", "20 mm"]
+END
+decide=(--goal rate --within "5 %" --confidence "90 %")
+expect 0 "The best:" decide noisy.toml "${decide[@]}" --jobs 1 --out decided
+have decided/decision.csv decided/decision.json
+expect 0 "Cost: [0-9]+ runs, .* grain-steps; a grid" decide noisy.toml "${decide[@]}" --jobs 2 --out decided-by-two
+cmp -s decided/decision.csv decided-by-two/decision.csv || fail "a decision depends on the number of jobs"
+expect 0 "are there, 0 are missing" status decided
+"$program" decide noisy.toml "${decide[@]}" --jobs 1 --out killed --quiet 2>messages &
+sleep 0.3
+{ kill -KILL $! && wait $!; } 2>messages
+expect 0 "The best:" decide noisy.toml "${decide[@]}" --jobs 1 --out killed
+cmp -s decided/decision.csv killed/decision.csv || fail "a killed decision goes on to another"
+expect 0 "Clogging is not tested" decide noisy.toml "${decide[@]}" --procedure posterior --out posterior --reuse decided
+expect 0 "No layout meets the rate" decide noisy.toml "${decide[@]}" --rate "1 seeds/s +- 5 %" --out no-rate --reuse decided
+expect 0 "Drafts: .*pilot" decide noisy.toml "${decide[@]}" --set contact.shell_compression=1e-4 --drafts --out with-drafts
+expect 2 "as soft as drafts" decide noisy.toml "${decide[@]}" --drafts --out not-there
+expect 2 "none of evenness, instability" decide noisy.toml --goal evennes --out not-there
+expect 2 "says not how far" decide noisy.toml --goal rate --rate "43 seeds/s" --out not-there
+expect 2 "plane without tray.depth" decide study.toml --goal rate --rate "43 seeds/s +- 5 %" --out not-there
+expect 2 "within: \"60 %\" is out of range" decide noisy.toml --goal rate --within "60 %" --out not-there
+expect 2 "confidence: .*unit" decide noisy.toml --goal rate --confidence 95 --out not-there
+expect 2 "5 cannot decide" decide noisy.toml --goal rate --most 5 --out not-there
+expect 2 "this is a seeder" decide seeder.toml --goal rate --out not-there
+[ -e not-there ] && fail "a decision that cannot be made left a folder"
+expect 2 "holds the reports of vibrosow sweep, not of decide" decide noisy.toml --goal rate --out one-job
+"$program" decide long.toml --goal rate --jobs 1 --quiet --out long &
+pid=$!
+sleep 1.5
+kill -TERM $pid
+wait $pid
+[ $? -eq 130 ] || fail "an interrupted decision does not end with 130"
+grep -q '"interrupted": true' long/decision.json || fail "an interrupted decision does not say so"
 
 [ $failures -eq 0 ] && echo "all checks hold"
 exit $((failures > 0))

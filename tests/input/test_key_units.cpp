@@ -29,6 +29,8 @@ TEST(KeyUnits, ColumnsCarryOneUnitForEachKey) {
   EXPECT_EQ(condition_column("hopper.rain.rate"), "hopper.rain.rate_per_s");
   EXPECT_EQ(condition_column("tray.rain.start"), "tray.rain.start_s");
   EXPECT_EQ(condition_column("run.start"), "run.start") << "a name";
+  EXPECT_EQ(condition_column("drill.speed"), "drill.speed_km_per_h");
+  EXPECT_EQ(condition_column("tray.motion.speed"), "tray.motion.speed_rpm");
   EXPECT_EQ(condition_column("contact.shell_compression"), "contact.shell_compression");
 }
 
@@ -58,6 +60,9 @@ TEST(KeyUnits, AColumnLeadsBackToItsKey) {
                                 "record.cell",
                                 "tray.rain.start",
                                 "tray.rain.rate",
+                                "drill.speed",
+                                "drill.row_spacing",
+                                "drill.cv_limit",
                                 "tray.motion.angle"})
     EXPECT_EQ(key_of_column(condition_column(key)), key);
   EXPECT_FALSE(key_of_column("tray.motion.frequency"));

@@ -114,6 +114,32 @@ INSTANTIATE_TEST_SUITE_P(
         Case{22, "[numeric]", 22, "numeric", "did you mean \"numerics\"?"}));
 
 INSTANTIATE_TEST_SUITE_P(
+    Drill, SceneError,
+    testing::Values(
+        Case{25, "duration = '10 s'\n[drill]\nspeed = '8 km/h'", 26, "drill.row_spacing", "is missing"},
+        Case{25, "duration = '10 s'\n[drill]\nrow_spacing = '15 cm'", 26, "drill.speed", "is missing"},
+        Case{25, "duration = '10 s'\n[drill]\nrow_spacing = '15 cm'\nspeed = '0 km/h'", 28, "drill.speed",
+             "out of range"},
+        Case{25, "duration = '10 s'\n[drill]\nrow_spaceing = '15 cm'\nspeed = '8 km/h'", 27, "drill.row_spaceing",
+             "did you mean \"row_spacing\"?"},
+        Case{25, "duration = '10 s'\n[drill]\nrow_spacing = '15 cm'\nspeed = '8 km/h'\nrows_per_hole = 0", 29,
+             "drill.rows_per_hole", "a whole number from 1 to 1000"},
+        Case{25,
+             "duration = '10 s'\n[drill]\nrow_spacing = '15 cm'\nspeed = '8 km/h'\nrows_per_hole = 2\nhole_to_row = "
+             "[1, 2, 3, 4, 5]",
+             29, "drill.rows_per_hole", "contradicts hole_to_row"},
+        Case{25, "duration = '10 s'\n[drill]\nrow_spacing = '15 cm'\nspeed = '8 km/h'\nhole_to_row = [1, 2, 3]", 29,
+             "drill.hole_to_row", "lists 3 rows for the tray's 5 holes"},
+        Case{25, "duration = '10 s'\n[drill]\nrow_spacing = '15 cm'\nspeed = '8 km/h'\nhole_to_row = [1, 2, 4, 4, 5]",
+             29, "drill.hole_to_row", "no hole feeds row 3, of 5 rows"},
+        Case{25, "duration = '10 s'\n[drill]\nrow_spacing = '15 cm'\nspeed = '8 km/h'\nhole_to_row = [1, 2, 2.5, 4, 5]",
+             29, "drill.hole_to_row", "2.5 is no row"},
+        Case{
+            25,
+            "duration = '10 s'\n[drill]\nrow_spacing = '15 cm'\nspeed = '8 km/h'\nmultiples_below = 1\nskips_above = 1",
+            30, "drill.skips_above", "is not above multiples_below"}));
+
+INSTANTIATE_TEST_SUITE_P(
     Missing, SceneError,
     testing::Values(
         Case{2, "", 1, "seeds.wheat.diameter", "is missing"}, Case{3, "", 1, "seeds.wheat.mass", "is missing"},

@@ -1,7 +1,9 @@
 #include "report/plan_report.hpp"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <filesystem>
 #include <fstream>
@@ -84,9 +86,12 @@ TEST(PlanCsv, OneRowPerLayoutEachWithItsErrorAndThatItWasNotMeasured) {
 
 /// The seeder of a plan, read back.
 Scene planned_scene(const PlanSource& source) {
-  const std::filesystem::path file = std::filesystem::path(testing::TempDir()) / "planned-seeder.toml";
+  const std::filesystem::path file =
+      std::filesystem::path(testing::TempDir()) / fmt::format("planned-seeder-{}.toml", getpid());
   std::ofstream(file) << planned_seeder(source);
-  return read_scene(file);
+  const Scene scene = read_scene(file);
+  std::filesystem::remove(file);
+  return scene;
 }
 
 TEST(PlannedSeeder, IsThatOfTheTableWithTheLayoutsHole) {

@@ -56,7 +56,7 @@ TEST(SideTest, RefusesWhatCannotBeMeant) {
 
 BandTest::Verdict verdict_on(double rate, std::uint64_t seed) {
   MadeUpChance chance(seed);
-  BandTest test(0.95, 1.05, 10, 0.025);
+  BandTest test(0.95, 1.05, 10, 0.025, 0.1);
   while (test.verdict() == BandTest::Verdict::open) test.add(rate + 0.02 * chance.normal());
   return test.verdict();
 }
@@ -71,7 +71,16 @@ TEST(BandTest, KnowsInsideFromOutside) {
     wrong += verdict_on(0.95, i) != BandTest::Verdict::outside;
   }
   EXPECT_LE(wrong, 4 * 0.025 * tries + 15);
-  EXPECT_THROW(BandTest(1, 1, 10, 0.025), std::invalid_argument);
+  EXPECT_THROW(BandTest(1, 1, 10, 0.025, 0.025), std::invalid_argument);
+}
+
+TEST(BandTest, WhatIsFarOffIsToldByTheFirstLook) {
+  MadeUpChance chance(1);
+  BandTest test(0.95, 1.05, 10, 0.001, 0.01);
+  int count = 0;
+  for (; test.verdict() == BandTest::Verdict::open; ++count) test.add(2000 + 100 * chance.normal());
+  EXPECT_EQ(count, 10);
+  EXPECT_EQ(test.verdict(), BandTest::Verdict::outside);
 }
 
 TEST(ShareTest, CountsCleanTrials) {

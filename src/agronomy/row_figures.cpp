@@ -1,0 +1,270 @@
+#include "agronomy/row_figures.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <iterator>
+#include <numeric>
+#include <stdexcept>
+#include <string>
+
+#include "outflow/flow.hpp"
+
+namespace vibrosow {
+namespace {
+
+using Value = std::optional<double>;
+
+constexpr double gram = 1e-3;  // kg
+constexpr double percent = 1e-2, millimetre = 1e-3;
+
+/// What the holes of a row, or of several that share them, gave in the window.
+struct Stream {
+  std::vector<int> holes;
+  std::vector<double> times;  // s
+  double mass = 0;            // kg
+};
+
+std::vector<Stream> streams_of(const Run& run, const Outflow& outflow, const Drill& drill) {
+  std::vector<Stream> streams(static_cast<std::size_t>(drill.streams()));
+  for (std::size_t hole = 0; hole < drill.hole_to_row.size(); ++hole)
+    streams.at(drill.stream_of(hole)).holes.push_back(static_cast<int>(hole) + 1);
+  for (const OutflowEvent& event : run.events) {
+    if (event.hole < 1 || event.time < outflow.window_from || event.time > outflow.window_to) continue;
+    Stream& stream = streams[drill.stream_of(static_cast<std::size_t>(event.hole - 1))];
+    stream.times.push_back(event.time);
+    stream.mass += event.mass;
+  }
+  return streams;
+}
+
+Stream together(const std::vector<Stream>& streams) {
+  Stream all;
+  for (const Stream& one : streams) {
+    all.holes.insert(all.holes.end(), one.holes.begin(), one.holes.end());
+    all.times.insert(all.times.end(), one.times.begin(), one.times.end());
+    all.mass += one.mass;
+  }
+  std::ranges::sort(all.holes);
+  std::ranges::sort(all.times);
+  return all;
+}
+
+double longest_pause(const std::vector<double>& times, double from, double to) {
+  double longest = 0;
+  for (const Pause& pause : pauses(times, from, to, 0)) longest = std::max(longest, pause.length());
+  return longest;
+}
+
+/// `rows`: that get this in equal parts; `shown`: of these, whose rates are told together.
+RowFigures figures_of(const Stream& stream, const Outflow& outflow, const Drill& drill, int rows, int shown) {
+  RowFigures figures;
+  figures.holes = stream.holes;
+  figures.seeds = static_cast<std::int64_t>(stream.times.size());
+  const double length = outflow.window_to - outflow.window_from;
+  if (length <= 0) return figures;
+  if (outflow.depth_factor) {
+    const double of_a_row = *outflow.depth_factor / length / rows;
+    const double mass_rate = stream.mass * of_a_row, seeds_per_s = static_cast<double>(figures.seeds) * of_a_row;
+    figures.mass_rate = mass_rate * shown, figures.seeds_per_s = seeds_per_s * shown;
+    figures.kg_per_m2 = sowing_rate(mass_rate, drill.pace);
+    figures.seeds_per_m2 = sowing_rate(seeds_per_s, drill.pace);
+  }
+  figures.instability_cv = instability_cv(stream.times, outflow.window_from, outflow.window_to);
+  if (figures.instability_cv)
+    figures.instability_counting_cv = std::sqrt(instability_windows / static_cast<double>(figures.seeds));
+  figures.longest_pause = longest_pause(stream.times, outflow.window_from, outflow.window_to);
+  return figures;
+}
+
+NoSpacings why_no_spacings(const Scene& scene, const Drill& drill) {
+  if (scene.space == Space::plane) return NoSpacings::plane_slice;
+  return drill.rows_per_hole > 1 ? NoSpacings::shared_hole : NoSpacings::none;
+}
+
+void add_spacings(RowFigures& figures, const std::vector<Spacing>& spacings, const Drill& drill, NoSpacings why) {
+  figures.without_spacing = why;
+  if (why != NoSpacings::none) return;
+  figures.spacing = spacing_figures(spacings, drill.limits);
+  if (!figures.spacing) {
+    figures.without_spacing = NoSpacings::few_seeds;
+    return;
+  }
+  const double reference = figures.spacing->reference / figures.spacing->mean;
+  figures.poisson_multiples = poisson_multiples(drill.limits, reference);
+  figures.poisson_skips = poisson_skips(drill.limits, reference);
+}
+
+BetweenRows between_rows(const std::vector<Stream>& streams) {
+  BetweenRows between;
+  for (const Stream& one : streams) {
+    between.seeds.push_back(static_cast<std::int64_t>(one.times.size()));
+    between.mass.push_back(one.mass);
+  }
+  between.evenness = evenness({between.seeds});
+  between.mass_cv = coefficient_of_variation(between.mass);
+  return between;
+}
+
+template <class Get>
+Value of_spacing(const RowFigures& row, Get get) {
+  return row.spacing ? Value(get(*row.spacing)) : Value();
+}
+
+template <class Get>
+Value of_evenness(const RowFigures& row, Get get) {
+  return row.between && row.between->evenness ? Value(get(*row.between->evenness)) : Value();
+}
+
+using Row = const RowFigures&;
+using Spaced = const SpacingFigures&;
+
+constexpr std::array table = {
+    RowFigure{"rate_g_per_min", "g/min", gram / 60,
+              "what the row gets, of the whole tray (in the plane the slice's times the depth factor; empty without "
+              "tray.depth); all: the rows together",
+              [](Row r) { return r.mass_rate; }},
+    RowFigure{"seeds_per_s", "1/s", 1, "likewise, seeds", [](Row r) { return r.seeds_per_s; }},
+    RowFigure{"kg_per_ha", "kg/ha", kilogram_per_hectare, "that over row spacing and speed; all: of the whole width",
+              [](Row r) { return r.kg_per_m2; }},
+    RowFigure{"seeds_per_m2", "1/m2", 1, "likewise, seeds", [](Row r) { return r.seeds_per_m2; }},
+    RowFigure{"instability_cv_percent", "%", percent,
+              "coefficient of variation of its seeds over ten equal parts of the window, in the plane of the slice's",
+              [](Row r) { return r.instability_cv; }},
+    RowFigure{"instability_counting_percent", "%", percent, "what counting so many independent seeds gives alone",
+              [](Row r) { return r.instability_counting_cv; }},
+    RowFigure{
+        "longest_pause_s", "s", 1,
+        "longest time in the window without a seed from its holes, in the plane of the slice; all: the longest of "
+        "any row",
+        [](Row r) { return r.longest_pause; }},
+    RowFigure{"multiples_percent", "%", percent,
+              "spacings up to 0.5 of the reference (ISO 7256-1; drill.multiples_below; ISOBUS DDI 419, there in ppm), "
+              "at the hole, not in the furrow",
+              [](Row r) { return of_spacing(r, [](Spaced s) { return s.multiples; }); }},
+    RowFigure{"poisson_multiples_percent", "%", percent,
+              "what seeds that come independently of each other would have: 39 beside their mean",
+              [](Row r) { return r.poisson_multiples; }},
+    RowFigure{"skips_percent", "%", percent,
+              "spacings beyond 1.5 of the reference (ISO 7256-1; drill.skips_above; ISOBUS DDI 417), at the hole, not "
+              "in the furrow",
+              [](Row r) { return of_spacing(r, [](Spaced s) { return s.skips; }); }},
+    RowFigure{"poisson_skips_percent", "%", percent,
+              "what seeds that come independently of each other would have: 22 beside their mean",
+              [](Row r) { return r.poisson_skips; }},
+    RowFigure{"singulation_percent", "%", percent,
+              "the other spacings: quality of feed (ISO 7256-1; ISOBUS DDI 415), at the hole, not in the furrow",
+              [](Row r) { return of_spacing(r, [](Spaced s) { return s.singles; }); }},
+    RowFigure{"precision_percent", "%", percent,
+              "standard deviation of these others over the reference (Kachman and Smith 1995)",
+              [](Row r) { return r.spacing ? r.spacing->precision : Value(); }},
+    RowFigure{"reference_spacing_mm", "mm", millimetre, "drill.reference_spacing, or else the row's mean spacing",
+              [](Row r) { return of_spacing(r, [](Spaced s) { return s.reference; }); }},
+    RowFigure{"spacing_deviation_mm", "mm", millimetre,
+              "mean distance of a spacing from the reference, without sign (ISOBUS DDI 421)",
+              [](Row r) { return of_spacing(r, [](Spaced s) { return s.deviation; }); }},
+    RowFigure{"spacing_cv_percent", "%", percent,
+              "coefficient of variation of all spacings (ISOBUS DDI 423); a Poisson stream's is 100",
+              [](Row r) { return r.spacing ? r.spacing->cv : Value(); }},
+    RowFigure{
+        "mass_cv_percent", "%", percent,
+        "all: coefficient of variation between rows of what they weigh, as ISO 7256-2 takes it; rows that share a "
+        "hole count once",
+        [](Row r) { return r.between ? r.between->mass_cv : Value(); }, true},
+    RowFigure{"raw_cv_percent", "%", percent, "all: the same of their seeds, all replicates together",
+              [](Row r) { return of_evenness(r, [](const Evenness& e) { return e.raw_cv; }); }, true},
+    RowFigure{"counting_cv_percent", "%", percent, "all: what counting so many independent seeds gives alone",
+              [](Row r) { return of_evenness(r, [](const Evenness& e) { return e.counting_cv; }); }, true},
+    RowFigure{"evenness_cv_percent", "%", percent,
+              "all: coefficient of variation of the rows' rates, chance taken out; empty: below what this many seeds "
+              "resolve",
+              [](Row r) { return of_evenness(r, [](const Evenness& e) { return e.cv; }); }, true},
+    RowFigure{"evenness_cv_percent_low", "%", percent, "all: lower end of its 95 % interval (noncentral chi squared)",
+              [](Row r) { return of_evenness(r, [](const Evenness& e) { return e.low; }); }, true},
+    RowFigure{"evenness_cv_percent_high", "%", percent, "all: upper end: what the seeds resolve where it is empty",
+              [](Row r) { return of_evenness(r, [](const Evenness& e) { return e.high; }); }, true},
+};
+
+/// The first replicate with what the streams of all gave.
+RowFigures pooled(const std::vector<const RowFigures*>& replicates) {
+  RowFigures all = *replicates.front();
+  if (!all.between) return all;
+  std::vector<std::vector<std::int64_t>> counts;
+  std::vector<double> mass(all.between->mass.size(), 0.0);
+  for (const RowFigures* one : replicates) {
+    counts.push_back(one->between->seeds);
+    for (std::size_t k = 0; k < mass.size(); ++k) mass[k] += one->between->mass[k];
+  }
+  all.between->evenness = evenness(counts);
+  all.between->mass_cv = coefficient_of_variation(mass);
+  return all;
+}
+
+RowMeans means_of(const std::vector<const RowFigures*>& replicates) {
+  const RowFigures& first = *replicates.front();
+  const RowFigures all = pooled(replicates);
+  RowMeans means{first.row, first.holes, first.without_spacing, {}};
+  for (const RowFigure& figure : table) {
+    std::vector<double> values;
+    for (const RowFigures* one : figure.pooled ? std::vector{&all} : replicates) {
+      const Value value = figure.of(*one);
+      if (value && std::isfinite(*value)) values.push_back(*value);
+    }
+    means.means.push_back(values.empty() ? std::nullopt : std::optional(mean_with_interval(values)));
+  }
+  return means;
+}
+
+}  // namespace
+
+DrillFigures drill_figures(const Scene& scene, const Run& run, const Outflow& outflow, const Drill& drill) {
+  if (drill.hole_to_row.size() != scene.tray.holes.size())
+    throw std::invalid_argument("the drill is of a tray with another number of holes");
+  const std::vector<Stream> streams = streams_of(run, outflow, drill);
+  const NoSpacings why = why_no_spacings(scene, drill);
+  DrillFigures result{drill, {}};
+  std::vector<Spacing> spacings;
+  for (const Stream& stream : streams) {
+    const std::vector<Spacing> of_row = spacings_of(stream.times, drill.pace.speed, drill.reference_spacing);
+    spacings.insert(spacings.end(), of_row.begin(), of_row.end());
+    RowFigures figures = figures_of(stream, outflow, drill, drill.rows_per_hole, 1);
+    add_spacings(figures, of_row, drill, why);
+    for (int k = 0; k < drill.rows_per_hole; ++k) {
+      figures.row = static_cast<int>(result.rows.size()) + 1;
+      result.rows.push_back(figures);
+    }
+  }
+  RowFigures all = figures_of(together(streams), outflow, drill, drill.rows(), drill.rows());
+  add_spacings(all, spacings, drill, why);
+  for (const RowFigures& row : result.rows)
+    if (all.longest_pause) all.longest_pause = std::max(*all.longest_pause, row.longest_pause.value_or(0));
+  all.between = between_rows(streams);
+  result.rows.push_back(std::move(all));
+  return result;
+}
+
+std::span<const RowFigure> row_figures() {
+  return table;
+}
+
+const RowFigure& row_figure_named(std::string_view name) {
+  const auto found = std::ranges::find(table, name, &RowFigure::name);
+  if (found == table.end()) throw std::invalid_argument("there is no figure of a row named " + std::string(name));
+  return *found;
+}
+
+const std::optional<MeanWithInterval>& RowMeans::operator[](std::string_view name) const {
+  return means.at(static_cast<std::size_t>(&row_figure_named(name) - table.data()));
+}
+
+std::vector<RowMeans> row_means(const std::vector<const DrillFigures*>& replicates) {
+  std::vector<RowMeans> rows;
+  for (std::size_t row = 0; !replicates.empty() && row < replicates.front()->rows.size(); ++row) {
+    std::vector<const RowFigures*> of_row;
+    for (const DrillFigures* one : replicates) of_row.push_back(&one->rows.at(row));
+    rows.push_back(means_of(of_row));
+  }
+  return rows;
+}
+
+}  // namespace vibrosow

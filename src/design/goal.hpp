@@ -1,0 +1,39 @@
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "outflow/figures.hpp"
+#include "scene/scene.hpp"
+
+namespace vibrosow {
+
+/// What layouts are compared by: a figure of each single run, of which the mean over runs is to be the least, or the
+/// most.
+struct Goal {
+  std::string_view name;    // what a user says: "evenness"
+  std::string_view figure;  // its name
+  bool is_most;
+  std::string_view description;
+  /// SI, turned so that less is better; none where the run has no such figure.
+  std::optional<double> of(const Outflow& outflow) const;
+};
+
+std::span<const Goal> goals();
+
+/// Throws InputError with the list for a name that is none.
+const Goal& goal_named(std::string_view name);
+
+/// A rate of the whole tray that is wanted, within a band.
+struct WantedRate {
+  std::string_view figure;   // tray_seeds_per_s or tray_rate_g_per_s
+  double low = 0, high = 0;  // SI
+  std::optional<double> of(const Outflow& outflow) const;
+};
+
+/// Reads "43 seeds/s +- 5 %", "0.19 g/s +- 0.01 g/s", "12 g/min +- 5 %". Throws InputError with what would be right.
+WantedRate read_wanted_rate(const std::string& text);
+
+}  // namespace vibrosow

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "design/decide.hpp"
+#include "design/draft_screen.hpp"
+#include "report/columns.hpp"
+#include "report/output_folder.hpp"
+
+namespace vibrosow {
+
+/// What stands in the files of a decision.
+struct DecisionReport {
+  DecisionResult result;
+  std::optional<DraftFindings> drafts;
+};
+
+/// "best", "not shown to be worse", "worse", ..
+std::string standing_text(const DecisionReport& report, const Layout& layout);
+
+/// One row per layout.
+std::string decision_csv(const DecisionReport& report, CsvFormat format = {});
+
+/// The answer and what it cost.
+std::string decision_json(const DecisionReport& report);
+
+std::vector<FileText> decision_file_texts();
+
+/// decision.csv and decision.json.
+std::vector<OutputFile> decision_files(const DecisionReport& report, CsvFormat format = {});
+
+}  // namespace vibrosow

@@ -1,0 +1,168 @@
+#include "agronomy/row_figures.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "outflow/made_up_run.hpp"
+
+namespace vibrosow {
+namespace {
+
+/// A tray in space with so many holes, measured from 2 s to 10 s.
+Scene tray_in_space(int holes) {
+  Scene scene = made_up_scene(holes);
+  scene.space = Space::three_dimensional;
+  scene.tray.depth = 0.06;
+  return scene;
+}
+
+Drill a_hole_a_row(int holes) {
+  Drill drill{.pace = {.row_spacing = 0.25, .speed = 2}, .hole_to_row = {}};
+  for (int hole = 1; hole <= holes; ++hole) drill.hole_to_row.push_back(hole);
+  return drill;
+}
+
+/// Hole by hole so many seeds of 40 mg, evenly over the window, the last at its end.
+Run evenly(const Scene& scene, const std::vector<int>& seeds) {
+  Run run = made_up_run(scene);
+  for (std::size_t hole = 0; hole < seeds.size(); ++hole)
+    for (int i = 1; i <= seeds[hole]; ++i) add_grain(run, 2 + 8.0 * i / seeds[hole], static_cast<int>(hole) + 1);
+  std::ranges::stable_sort(run.events, {}, &OutflowEvent::time);
+  return run;
+}
+
+DrillFigures figures_of(const Scene& scene, const Run& run, const Drill& drill) {
+  return drill_figures(scene, run, measure_outflow(scene, run), drill);
+}
+
+TEST(RowFigures, RatesOfARowAndOfTheGround) {
+  const Scene scene = tray_in_space(2);
+  const DrillFigures figures = figures_of(scene, evenly(scene, {80, 160}), a_hole_a_row(2));
+  ASSERT_EQ(figures.rows.size(), 3u);
+  // 80 seeds of 40 mg in 8 s: 10 seeds/s, 0.4 g/s; over 0.25 m and 2 m/s 20 seeds and 0.8 g to the square metre.
+  EXPECT_DOUBLE_EQ(*figures.rows[0].seeds_per_s, 10);
+  EXPECT_NEAR(*figures.rows[0].mass_rate, 0.4e-3, 1e-15);
+  EXPECT_DOUBLE_EQ(*figures.rows[0].seeds_per_m2, 20);
+  EXPECT_NEAR(*figures.rows[0].kg_per_m2 / kilogram_per_hectare, 8, 1e-9);
+  EXPECT_NEAR(*figures.rows[0].longest_pause, 0.1, 1e-12);
+  EXPECT_DOUBLE_EQ(*figures.rows[1].seeds_per_s, 20);
+  // All: rates together, over both rows' ground.
+  EXPECT_EQ(figures.all().row, 0);
+  EXPECT_DOUBLE_EQ(*figures.all().seeds_per_s, 30);
+  EXPECT_DOUBLE_EQ(*figures.all().seeds_per_m2, 30);
+  EXPECT_EQ(figures.all().holes, (std::vector<int>{1, 2}));
+  EXPECT_NEAR(*figures.all().longest_pause, 0.1, 1e-12);
+  // Between 80 and 160: sqrt(2) 40 over 120.
+  EXPECT_NEAR(figures.all().between->evenness->raw_cv, std::sqrt(2.0) / 3, 1e-12);
+  EXPECT_NEAR(*figures.all().between->mass_cv, std::sqrt(2.0) / 3, 1e-12);
+  EXPECT_NEAR(figures.all().between->evenness->counting_cv, 1 / std::sqrt(120), 1e-12);
+}
+
+TEST(RowFigures, SpacingsAreSpeedTimesTime) {
+  const Scene scene = tray_in_space(2);
+  vibrosow::Run run = made_up_run(scene);
+  for (const double time : {3.0, 3.1, 3.2, 3.22, 3.4}) add_grain(run, time, 1);  // 200, 200, 40, 360 mm; mean 200
+  for (const double time : {5.0, 6.0}) add_grain(run, time, 2);
+  add_grain(run, 1.9, 2);  // before the window
+  add_grain(run, 5.5, 0);  // spilled
+  std::ranges::stable_sort(run.events, {}, &OutflowEvent::time);
+  const DrillFigures figures = figures_of(scene, run, a_hole_a_row(2));
+  const SpacingFigures& row = *figures.rows[0].spacing;
+  EXPECT_EQ(row.spacings, 4);
+  EXPECT_NEAR(row.reference, 0.2, 1e-9);
+  EXPECT_DOUBLE_EQ(row.multiples, 0.25);
+  EXPECT_DOUBLE_EQ(row.skips, 0.25);
+  EXPECT_EQ(figures.rows[1].spacing->spacings, 1);
+  EXPECT_NEAR(figures.rows[1].spacing->mean, 2, 1e-9);
+  EXPECT_EQ(figures.all().spacing->spacings, 5);  // each beside its own row's mean
+  EXPECT_DOUBLE_EQ(figures.all().spacing->skips, 0.2);
+  EXPECT_NEAR(*figures.rows[0].poisson_multiples, 1 - std::exp(-0.5), 1e-12);
+  EXPECT_NEAR(*figures.rows[0].poisson_skips, std::exp(-1.5), 1e-12);
+}
+
+TEST(RowFigures, RowsMayShareAHoleInEqualParts) {
+  const Scene scene = tray_in_space(2);
+  Drill drill = a_hole_a_row(2);
+  drill.rows_per_hole = 4;
+  drill.hole_to_row = {1, 5};
+  const DrillFigures figures = figures_of(scene, evenly(scene, {80, 160}), drill);
+  ASSERT_EQ(figures.rows.size(), 9u);
+  EXPECT_EQ(figures.rows[3].row, 4);
+  EXPECT_EQ(figures.rows[3].holes, std::vector<int>{1});
+  EXPECT_EQ(figures.rows[4].holes, std::vector<int>{2});
+  EXPECT_DOUBLE_EQ(*figures.rows[3].seeds_per_s, 2.5);
+  EXPECT_DOUBLE_EQ(*figures.rows[4].seeds_per_s, 5);
+  EXPECT_DOUBLE_EQ(*figures.all().seeds_per_s, 30);
+  EXPECT_DOUBLE_EQ(*figures.all().seeds_per_m2, 30 / (8 * 0.25 * 2));
+  EXPECT_NEAR(figures.all().between->evenness->raw_cv, std::sqrt(2.0) / 3, 1e-12);
+  EXPECT_FALSE(figures.rows[0].spacing);
+  EXPECT_EQ(figures.rows[0].without_spacing, NoSpacings::shared_hole);
+}
+
+TEST(RowFigures, SeveralHolesMayFeedARow) {
+  const Scene scene = tray_in_space(3);
+  Drill drill = a_hole_a_row(3);
+  drill.hole_to_row = {2, 1, 2};
+  const DrillFigures figures = figures_of(scene, evenly(scene, {80, 160, 80}), drill);
+  ASSERT_EQ(figures.rows.size(), 3u);
+  EXPECT_EQ(figures.rows[0].holes, std::vector<int>{2});
+  EXPECT_EQ(figures.rows[1].holes, (std::vector<int>{1, 3}));
+  EXPECT_DOUBLE_EQ(*figures.rows[0].seeds_per_s, 20);
+  EXPECT_DOUBLE_EQ(*figures.rows[1].seeds_per_s, 20);
+  EXPECT_EQ(figures.all().between->evenness->raw_cv, 0);
+  // Two seeds at a time: every other spacing is nothing.
+  EXPECT_NEAR(figures.rows[1].spacing->multiples, 80.0 / 159, 1e-12);
+}
+
+TEST(RowFigures, OfASliceAreTheTraysAndHaveNoSpacings) {
+  Scene scene = made_up_scene(2);
+  const vibrosow::Run run = evenly(scene, {80, 160});
+  const DrillFigures bare = figures_of(scene, run, a_hole_a_row(2));
+  EXPECT_FALSE(bare.rows[0].mass_rate);
+  EXPECT_FALSE(bare.rows[0].seeds_per_m2);
+  EXPECT_TRUE(bare.all().between->evenness);
+  scene.tray.depth = 0.06;  // 15 slices of 4 mm
+  const DrillFigures tray = figures_of(scene, run, a_hole_a_row(2));
+  EXPECT_DOUBLE_EQ(*tray.rows[0].seeds_per_s, 150);
+  EXPECT_FALSE(tray.rows[0].spacing);
+  EXPECT_EQ(tray.rows[0].without_spacing, NoSpacings::plane_slice);
+}
+
+TEST(RowFigures, NothingIsKnownOfARunThatEndedBeforeTheWindow) {
+  const Scene scene = tray_in_space(2);
+  vibrosow::Run run = made_up_run(scene);
+  run.status = RunStatus::interrupted;
+  run.end_time = 1;
+  const DrillFigures figures = figures_of(scene, run, a_hole_a_row(2));
+  for (const RowFigure& figure : row_figures())
+    for (const RowFigures& row : figures.rows) EXPECT_FALSE(figure.of(row)) << figure.name;
+}
+
+TEST(RowFigures, RefuseADrillOfAnotherTray) {
+  const Scene scene = tray_in_space(2);
+  EXPECT_THROW(figures_of(scene, made_up_run(scene), a_hole_a_row(3)), std::invalid_argument);
+}
+
+TEST(RowMeans, AreOverTheReplicatesAndBetweenRowsOfAllTogether) {
+  const Scene scene = tray_in_space(2);
+  const DrillFigures a = figures_of(scene, evenly(scene, {80, 160}), a_hole_a_row(2));
+  const DrillFigures b = figures_of(scene, evenly(scene, {160, 80}), a_hole_a_row(2));
+  const std::vector<RowMeans> rows = row_means({&a, &b});
+  ASSERT_EQ(rows.size(), 3u);
+  EXPECT_EQ(rows[0].row, 1);
+  EXPECT_DOUBLE_EQ(rows[0]["seeds_per_s"]->mean, 15);
+  EXPECT_TRUE(rows[0]["seeds_per_s"]->half_width_95);
+  EXPECT_DOUBLE_EQ(rows[2]["seeds_per_s"]->mean, 30);
+  EXPECT_DOUBLE_EQ(rows[2]["raw_cv_percent"]->mean, 0);  // 240 and 240
+  EXPECT_FALSE(rows[2]["raw_cv_percent"]->half_width_95);
+  EXPECT_DOUBLE_EQ(rows[2]["mass_cv_percent"]->mean, 0);
+  EXPECT_FALSE(rows[0]["raw_cv_percent"]);
+  EXPECT_TRUE(row_means({}).empty());
+  EXPECT_THROW(rows[0]["kg"], std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace vibrosow
