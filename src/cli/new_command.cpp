@@ -38,11 +38,13 @@ double quantity_of(const char* option, const std::string& text, Dimension dimens
     throw InputError(fmt::format("{}: {}", option, error.what()));
   }
   if (!(value >= least && value <= most))
-    throw InputError(fmt::format("{}: {} is out of range, {} to {}", option, shortened(text), shown(least, dimension), shown(most, dimension)));
+    throw InputError(fmt::format("{}: {} is out of range, {} to {}", option, shortened(text), shown(least, dimension),
+                                 shown(most, dimension)));
   return value;
 }
 
-std::optional<double> if_given(const char* option, const std::string& text, Dimension dimension, double least, double most) {
+std::optional<double> if_given(const char* option, const std::string& text, Dimension dimension, double least,
+                               double most) {
   if (text.empty()) return std::nullopt;
   return quantity_of(option, text, dimension, least, most);
 }
@@ -59,7 +61,8 @@ NewCrop crop_of(const NewOptions& options) {
   crop.mass = quantity_of("--tkw", options.tkw, Dimension::mass, 1e-6, 1e3) / 1e3;
   crop.length = quantity_of("--length", options.length, Dimension::length, smallest, largest);
   crop.width = if_given("--width", options.width, Dimension::length, smallest, largest).value_or(crop.length);
-  crop.thickness = if_given("--thickness", options.thickness, Dimension::length, smallest, largest).value_or(crop.width);
+  crop.thickness =
+      if_given("--thickness", options.thickness, Dimension::length, smallest, largest).value_or(crop.width);
   crop.thickness_assumed = options.thickness.empty();
   crop.bulk_density = if_given("--bulk-density", options.bulk_density, Dimension::density, 1, 3e4);
   crop.angle_of_repose = if_given("--repose", options.repose, Dimension::angle, 1 * degree, 89 * degree);
@@ -82,7 +85,8 @@ bool holds_just_this(const NewFile& file) {
 void refuse_to_overwrite(const std::vector<NewFile>& files) {
   for (const NewFile& file : files)
     if (fs::exists(file.path) && !holds_just_this(file))
-      throw InputError(fmt::format("{}: is there already and says something else; give another --crop or --out", file.path.string()));
+      throw InputError(fmt::format("{}: is there already and says something else; give another --crop or --out",
+                                   file.path.string()));
 }
 
 void write(const std::vector<NewFile>& files) {
@@ -105,7 +109,8 @@ int make_crop(const NewOptions& options) {
   write(files);
   print_text(crop_table(crop, estimated, atlas.to_space));
   print("{}\n{}\n", files[0].path.string(), files[1].path.string());
-  print_text(wrapped(fmt::format("in a seeder beside them: seeds.NAME.crop = \"{0}.toml\", contact.model = \"{0}-contact.toml\"", crop.name)));
+  print_text(wrapped(fmt::format(
+      "in a seeder beside them: seeds.NAME.crop = \"{0}.toml\", contact.model = \"{0}-contact.toml\"", crop.name)));
   return exit_done;
 }
 

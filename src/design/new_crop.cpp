@@ -12,7 +12,7 @@ namespace vibrosow {
 namespace {
 
 constexpr double degree = std::numbers::pi / 180;
-constexpr double round_enough = 1.1;  // aspect ratio up to which a seed is taken for a ball
+constexpr double round_enough = 1.1;                        // aspect ratio up to which a seed is taken for a ball
 constexpr double densest_balls = 0.74, loosest_bed = 0.35;  // packing fractions between which a dry bed of seeds lies
 
 void require_order(const NewCrop& crop) {
@@ -28,9 +28,10 @@ double aspect_ratio_in(const NewCrop& crop, const ReposeAtlas& atlas) {
   if (ratio < round_enough) return 1;
   const double most = atlas.aspect_ratios().back();
   if (ratio > most)
-    throw InputError(fmt::format("--length: {:g} mm is {:.3g} times the seed's width and thickness (their geometric mean); "
-                                 "the atlas goes up to {:g} times",
-                                 crop.length * 1e3, ratio, most));
+    throw InputError(
+        fmt::format("--length: {:g} mm is {:.3g} times the seed's width and thickness (their geometric mean); "
+                    "the atlas goes up to {:g} times",
+                    crop.length * 1e3, ratio, most));
   return ratio;
 }
 
@@ -42,12 +43,13 @@ double joint(double a, double b) {
 void require_reachable(double angle, const Reachable& range, const ShippedAtlas& atlas, double aspect_ratio) {
   const double slack = 2 * joint(assumed_angle_error, angle_error_in_space(atlas.to_space));
   if (angle >= range.least_angle - slack && angle <= range.most_angle + slack) return;
-  throw InputError(fmt::format(
-      "--repose: {:.3g} degree: at an aspect ratio of {:.3g} the atlas' materials stand at {:.3g} to {:.3g} degree, good to {:.2g}; "
-      "{}",
-      angle / degree, aspect_ratio, range.least_angle / degree, range.most_angle / degree, slack / degree,
-      angle > range.most_angle ? "hairs, hooked hulls or moisture that make seeds stick are not in it"
-                               : "friction below its least is not in it"));
+  throw InputError(
+      fmt::format("--repose: {:.3g} degree: at an aspect ratio of {:.3g} the atlas' materials stand at {:.3g} to "
+                  "{:.3g} degree, good to {:.2g}; "
+                  "{}",
+                  angle / degree, aspect_ratio, range.least_angle / degree, range.most_angle / degree, slack / degree,
+                  angle > range.most_angle ? "hairs, hooked hulls or moisture that make seeds stick are not in it"
+                                           : "friction below its least is not in it"));
 }
 
 /// The bulk density as a packing fraction, where it can be true.
@@ -56,23 +58,25 @@ void take_packing(const NewCrop& crop, const ShippedAtlas& atlas, CropEstimate& 
   const double packing = *crop.bulk_density / estimate.seed_density;
   estimate.packing = packing;
   const double error = assumed_packing_error * packing;
-  const std::string seed = fmt::format(
-      "{:.3g} kg/m3 poured is {:.2f} of the {:.4g} kg/m3 that the seed's mass and size make", *crop.bulk_density, packing,
-      estimate.seed_density);
+  const std::string seed =
+      fmt::format("{:.3g} kg/m3 poured is {:.2f} of the {:.4g} kg/m3 that the seed's mass and size make",
+                  *crop.bulk_density, packing, estimate.seed_density);
   if (packing > densest_balls || packing < loosest_bed) {
     estimate.doubts.push_back(
-        fmt::format("{}, where dry seeds lie between {:g} and {:g}: the weight, a size or the bulk density is not right{}; the bulk "
+        fmt::format("{}, where dry seeds lie between {:g} and {:g}: the weight, a size or the bulk density is not "
+                    "right{}; the bulk "
                     "density is left out of the band",
                     seed, loosest_bed, densest_balls,
-                    packing > densest_balls ? ", or the seed is thicker than that" : ", or the seed is narrower (--width, --thickness)"));
+                    packing > densest_balls ? ", or the seed is thicker than that"
+                                            : ", or the seed is narrower (--width, --thickness)"));
     return;
   }
   const double slack = 2 * joint(error, packing_error_in_space(atlas.to_space) * packing);
   const Reachable& range = estimate.reachable;
   if (packing < range.least_packing - slack || packing > range.most_packing + slack) {
-    estimate.doubts.push_back(fmt::format(
-        "{}, and the atlas' materials lie at {:.2f} to {:.2f}: the bulk density is left out of the band", seed,
-        range.least_packing, range.most_packing));
+    estimate.doubts.push_back(
+        fmt::format("{}, and the atlas' materials lie at {:.2f} to {:.2f}: the bulk density is left out of the band",
+                    seed, range.least_packing, range.most_packing));
     return;
   }
   estimate.used.packing = packing;
@@ -96,9 +100,9 @@ CropEstimate estimate(const NewCrop& crop, const ShippedAtlas& atlas) {
   estimate.aspect_ratio = aspect_ratio_in(crop, atlas.atlas);
   estimate.seed_density = crop.mass / (std::numbers::pi / 6 * crop.length * crop.width * crop.thickness);
   if (estimate.seed_density < 100 || estimate.seed_density > 5000)
-    throw InputError(fmt::format(
-        "--tkw: {:.4g} g a thousand in seeds of that size is a density of {:.3g} kg/m3, which no seed has", crop.mass * 1e6,
-        estimate.seed_density));
+    throw InputError(
+        fmt::format("--tkw: {:.4g} g a thousand in seeds of that size is a density of {:.3g} kg/m3, which no seed has",
+                    crop.mass * 1e6, estimate.seed_density));
   estimate.reachable = reachable(atlas, estimate.aspect_ratio);
   if (crop.angle_of_repose) {
     require_reachable(*crop.angle_of_repose, estimate.reachable, atlas, estimate.aspect_ratio);
@@ -108,11 +112,13 @@ CropEstimate estimate(const NewCrop& crop, const ShippedAtlas& atlas) {
   take_packing(crop, atlas, estimate);
   estimate.band = repose_band(atlas, estimate.aspect_ratio, estimate.used);
   estimate.angle_of_means =
-      atlas.atlas.at(estimate.aspect_ratio, estimate.band.friction.mean, estimate.band.rolling_friction.mean).angle.mean +
+      atlas.atlas.at(estimate.aspect_ratio, estimate.band.friction.mean, estimate.band.rolling_friction.mean)
+          .angle.mean +
       atlas.to_space.angle_offset.mean;
   estimate.shell_compression = stiff_enough(0.5 * crop.thickness);
   if (!estimate.is_ball())
-    estimate.doubts.push_back("what the plane's atlas leaves out was found with balls alone, and is taken to hold for this shape");
+    estimate.doubts.push_back(
+        "what the plane's atlas leaves out was found with balls alone, and is taken to hold for this shape");
   return estimate;
 }
 

@@ -14,8 +14,8 @@ namespace vibrosow {
 namespace {
 
 constexpr double degree = std::numbers::pi / 180;
-constexpr double little_learnt = 0.3;    // contraction
-constexpr double hardly_apart = 0.7;     // correlation
+constexpr double little_learnt = 0.3;  // contraction
+constexpr double hardly_apart = 0.7;   // correlation
 constexpr const char* measured = "measured by the user";
 
 /// Keys with their values as TOML, and where each value comes from.
@@ -57,10 +57,11 @@ std::string evidence(const NewCrop& crop, const CropEstimate& estimate) {
 
 std::string band_source(const ParameterBand& band, const std::string& evidence) {
   if (evidence.empty())
-    return fmt::format("assumed: middle of the atlas of repose, {:.2g} to {:.2g}, since neither repose nor bulk density says more",
-                       band.low, band.high);
-  return fmt::format("mean of {:.2g} to {:.2g} (95 %) by the atlas of repose from {}, {:.0f} % narrower than before", band.low, band.high,
-                     evidence, 100 * std::max(0.0, band.contraction));
+    return fmt::format(
+        "assumed: middle of the atlas of repose, {:.2g} to {:.2g}, since neither repose nor bulk density says more",
+        band.low, band.high);
+  return fmt::format("mean of {:.2g} to {:.2g} (95 %) by the atlas of repose from {}, {:.0f} % narrower than before",
+                     band.low, band.high, evidence, 100 * std::max(0.0, band.contraction));
 }
 
 std::string band_line(std::string_view name, const ParameterBand& band) {
@@ -71,11 +72,13 @@ std::string band_line(std::string_view name, const ParameterBand& band) {
 std::string undetermined(const CropEstimate& estimate) {
   std::string names;
   if (estimate.band.friction.contraction < little_learnt) names = "friction";
-  if (estimate.band.rolling_friction.contraction < little_learnt) names += names.empty() ? "rolling friction" : " and rolling friction";
+  if (estimate.band.rolling_friction.contraction < little_learnt)
+    names += names.empty() ? "rolling friction" : " and rolling friction";
   if (names.empty()) return "not determined: restitution, stiffness and the friction on the tray, which are assumed";
-  return fmt::format("not determined: {} (little narrower than before anything was measured); restitution, stiffness and the "
-                     "friction on the tray, which are assumed",
-                     names);
+  return fmt::format(
+      "not determined: {} (little narrower than before anything was measured); restitution, stiffness and the "
+      "friction on the tray, which are assumed",
+      names);
 }
 
 /// "2.1 x 2 x 1.9 mm"
@@ -105,15 +108,18 @@ std::string crop_toml(const NewCrop& crop, const CropEstimate& estimate) {
   } else {
     keys.add("length", quantity(crop.length * mm, "mm"), measured);
     keys.add("width", quantity(crop.width * mm, "mm"), measured);
-    keys.add("thickness", quantity(crop.thickness * mm, "mm"), crop.thickness_assumed ? "assumed: as thick as wide" : measured);
+    keys.add("thickness", quantity(crop.thickness * mm, "mm"),
+             crop.thickness_assumed ? "assumed: as thick as wide" : measured);
   }
   keys.add("thousand_grain_weight", quantity(crop.mass * 1e6, "g"), measured);
   keys.add("shape", estimate.is_ball() ? "\"ball\"" : "\"elongated\"",
-           estimate.is_ball() ? "assumed: a ball, less than 1.1 times as long as thick" : "assumed: an ellipse seen from the side");
+           estimate.is_ball() ? "assumed: a ball, less than 1.1 times as long as thick"
+                              : "assumed: an ellipse seen from the side");
   if (crop.bulk_density) keys.add("bulk_density", quantity(*crop.bulk_density, "kg/m3"), measured);
   if (crop.angle_of_repose) keys.add("angle_of_repose", quantity(*crop.angle_of_repose / degree, "degree"), measured);
   if (crop.moisture) keys.add("moisture", quantity(*crop.moisture * 100, "%"), measured);
-  keys.add("true_density", quantity(estimate.seed_density, "kg/m3"), "computed: mass over the volume of an ellipsoid of these sizes", "reference");
+  keys.add("true_density", quantity(estimate.seed_density, "kg/m3"),
+           "computed: mass over the volume of an ellipsoid of these sizes", "reference");
   return keys.text("Made by vibrosow new.", crop.name);
 }
 
@@ -124,7 +130,8 @@ std::string contact_toml(const NewCrop& crop, const CropEstimate& estimate) {
   SourcedKeys keys;
   keys.add("law", "\"elastic-shell\"", "assumed: the law of the atlas of repose");
   keys.add("shell_compression", number(estimate.shell_compression),
-           "assumed: keeps a shell under 5 % of the radius at twice the speed of a tray of 9 Hz and 1 cm (0.0025 g r / V^2)");
+           "assumed: keeps a shell under 5 % of the radius at twice the speed of a tray of 9 Hz and 1 cm (0.0025 g r / "
+           "V^2)");
   keys.add("friction", number(band.friction.mean), band_source(band.friction, from));
   keys.add("restitution", "0.5", "assumed: the atlas' value; repose does not tell it");
   keys.add("friction_model", "\"spring\"", "assumed: as the atlas");
@@ -150,14 +157,16 @@ std::string crop_table(const NewCrop& crop, const CropEstimate& estimate, const 
   text += wrapped(fmt::format("with both means it would stand at {:.3g} degree", estimate.angle_of_means / degree));
   text += wrapped(undetermined(estimate));
   if (std::abs(band.correlation) > hardly_apart)
-    text += wrapped(fmt::format("friction and rolling friction cannot be told apart (correlation {:.2f}): more of one and less of the "
-                                "other gives the same heap",
-                                band.correlation));
-  text += wrapped(fmt::format("the atlas' materials of this shape stand at {:.0f} to {:.0f} degree and lie at {:.2f} to {:.2f}; it is of the "
-                              "plane: {:+.1f} +- {:.1f} degree to space, from {} materials; your angle is taken as good to {:.1f} degree",
-                              estimate.reachable.least_angle / degree, estimate.reachable.most_angle / degree,
-                              estimate.reachable.least_packing, estimate.reachable.most_packing, to_space.angle_offset.mean / degree,
-                              angle_error_in_space(to_space) / degree, to_space.materials, assumed_angle_error / degree));
+    text += wrapped(fmt::format(
+        "friction and rolling friction cannot be told apart (correlation {:.2f}): more of one and less of the "
+        "other gives the same heap",
+        band.correlation));
+  text += wrapped(fmt::format(
+      "the atlas' materials of this shape stand at {:.0f} to {:.0f} degree and lie at {:.2f} to {:.2f}; it is of the "
+      "plane: {:+.1f} +- {:.1f} degree to space, from {} materials; your angle is taken as good to {:.1f} degree",
+      estimate.reachable.least_angle / degree, estimate.reachable.most_angle / degree, estimate.reachable.least_packing,
+      estimate.reachable.most_packing, to_space.angle_offset.mean / degree, angle_error_in_space(to_space) / degree,
+      to_space.materials, assumed_angle_error / degree));
   for (const std::string& doubt : estimate.doubts) text += wrapped_beside("  doubtful: ", doubt);
   return text;
 }

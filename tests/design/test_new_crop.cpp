@@ -74,18 +74,21 @@ TEST(NewCrop, ABulkDensityThatCannotBeIsSaidAndLeftOut) {
 TEST(NewCrop, WhatTheAtlasDoesNotReachIsRefused) {
   NewCrop crop = balls();
   crop.angle_of_repose = 57 * degree;
-  EXPECT_THAT([&] { estimate(crop, plain_atlas()); }, ThrowsMessage<InputError>(AllOf(HasSubstr("--repose: 57 degree"), HasSubstr("stick"))));
+  EXPECT_THAT([&] { estimate(crop, plain_atlas()); },
+              ThrowsMessage<InputError>(AllOf(HasSubstr("--repose: 57 degree"), HasSubstr("stick"))));
   crop.angle_of_repose = 5 * degree;
   EXPECT_THAT([&] { estimate(crop, plain_atlas()); }, ThrowsMessage<InputError>(HasSubstr("--repose: 5 degree")));
   crop = balls();
   crop.length = 5e-3;
-  EXPECT_THAT([&] { estimate(crop, plain_atlas()); }, ThrowsMessage<InputError>(AllOf(HasSubstr("--length"), HasSubstr("up to 2 times"))));
+  EXPECT_THAT([&] { estimate(crop, plain_atlas()); },
+              ThrowsMessage<InputError>(AllOf(HasSubstr("--length"), HasSubstr("up to 2 times"))));
 }
 
 TEST(NewCrop, SizesOutOfOrderAndImpossibleWeightsAreRefused) {
   NewCrop crop = balls();
   crop.width = 3e-3;
-  EXPECT_THAT([&] { estimate(crop, plain_atlas()); }, ThrowsMessage<InputError>(HasSubstr("--width: 3 mm is more than the length")));
+  EXPECT_THAT([&] { estimate(crop, plain_atlas()); },
+              ThrowsMessage<InputError>(HasSubstr("--width: 3 mm is more than the length")));
   crop = balls();
   crop.thickness = 2.5e-3;
   EXPECT_THAT([&] { estimate(crop, plain_atlas()); }, ThrowsMessage<InputError>(HasSubstr("--thickness")));

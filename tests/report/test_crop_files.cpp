@@ -41,7 +41,8 @@ TEST(CropFiles, AreReadBackAsTheCropThatWasMeasured) {
   EXPECT_DOUBLE_EQ(read.bulk.bulk_density.value(), 690);
   EXPECT_NEAR(read.bulk.angle_of_repose.value(), 25 * degree, 1e-9);
   EXPECT_NEAR(read.bulk.moisture.value(), 0.09, 1e-12);
-  for (const char* key : {"length", "width", "thickness", "thousand_grain_weight", "bulk_density", "angle_of_repose", "moisture"})
+  for (const char* key :
+       {"length", "width", "thickness", "thousand_grain_weight", "bulk_density", "angle_of_repose", "moisture"})
     EXPECT_EQ(read.sources.at(key), "measured by the user") << key;
   EXPECT_THAT(read.sources.at("reference.true_density"), HasSubstr("computed"));
 }
@@ -54,7 +55,8 @@ TEST(CropFiles, RunInASeederThatNamesThem) {
   folder.write("mine-contact.toml", contact_toml(crop, known));
   const Scene scene = read_scene(folder.write(
       "seeder.toml",
-      "space = '3d'\n[seeds.a]\ncrop = 'mine.toml'\n[contact]\nmodel = 'mine-contact.toml'\n[tray]\nlength = '10 cm'\ndepth = '5 cm'\n"
+      "space = '3d'\n[seeds.a]\ncrop = 'mine.toml'\n[contact]\nmodel = 'mine-contact.toml'\n[tray]\nlength = '10 "
+      "cm'\ndepth = '5 cm'\n"
       "height = '5 cm'\nfill = { count = 50 }\n[tray.holes]\ncount = 1\nwidth = '2 cm'\n[run]\nduration = '1 s'"));
   EXPECT_NEAR(scene.contact.seed.friction, known.band.friction.mean, 1e-3);
   EXPECT_NEAR(scene.contact.seed.rolling_friction, known.band.rolling_friction.mean, 1e-3);
@@ -71,7 +73,8 @@ TEST(CropFiles, ContactSaysWhatIsFromTheAtlasAndWhatIsAssumed) {
   EXPECT_THAT(measured, HasSubstr("\"wall.friction\" = \"assumed: as seed on seed; measure it on the tray's sheet\""));
   crop.angle_of_repose.reset();
   crop.bulk_density.reset();
-  EXPECT_THAT(contact_toml(crop, estimate(crop, plain_atlas())), HasSubstr("friction = \"assumed: middle of the atlas"));
+  EXPECT_THAT(contact_toml(crop, estimate(crop, plain_atlas())),
+              HasSubstr("friction = \"assumed: middle of the atlas"));
 }
 
 TEST(CropFiles, TheTableSaysWhatWasNotLearnt) {
