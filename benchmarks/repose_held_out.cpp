@@ -10,51 +10,23 @@
 #include <vector>
 
 #include "design/new_crop.hpp"
-#include "design/planned_study.hpp"
-#include "design/repose_band.hpp"
-#include "scene/input_error.hpp"
-#include "storage/case_file.hpp"
-#include "storage/case_folder.hpp"
+#include "repose_runs.hpp"
 
 namespace {
 
 using namespace vibrosow;
-
-/// A material in space and the figures of its runs.
-struct Material {
-  AtlasPoint point;
-  std::vector<ReposeFigures> runs;
-};
-
-std::vector<Material> materials_of(const std::string& study, const std::string& folder) {
-  const PlannedStudy planned = plan_study(study, {}, 1);
-  const CaseFolder cases(cases_of(folder));
-  const std::vector<int> replicates = replicates_in(planned);
-  std::vector<Material> materials;
-  for (std::size_t s = 0; s < planned.study.scenes.size(); ++s) {
-    const Scene& scene = planned.study.scenes[s];
-    Material& material = materials.emplace_back();
-    for (int seed = 1; seed <= replicates[s]; ++seed) {
-      const auto run = cases.find(case_identity(scene, static_cast<std::uint64_t>(seed)));
-      if (!run || run->status != RunStatus::finished) throw InputError(folder + ": a run is missing or failed");
-      material.runs.push_back(repose_figures(scene, *run));
-    }
-    material.point = atlas_point(scene, material.runs);
-  }
-  return materials;
-}
 
 std::string held(double truth, const ParameterBand& band) {
   return fmt::format("{:g},{:.3g},{:.3g},{:.3g},{}", truth, band.mean, band.low, band.high,
                      truth >= band.low && truth <= band.high ? 1 : 0);
 }
 
-void print_material(const ReposeAtlas& atlas, const std::vector<Material>& materials, std::size_t one) {
+void print_material(const ReposeAtlas& atlas, const std::vector<ReposeMaterial>& materials, std::size_t one) {
   std::vector<AtlasPoint> others;
   for (std::size_t k = 0; k < materials.size(); ++k)
-    if (k != one) others.push_back(materials[k].point);
+    if (k != one) others.push_back(atlas_point(materials[k].scene, materials[k].runs));
   const ShippedAtlas without{atlas, plane_to_space(atlas, others)};
-  const AtlasPoint& truth = materials[one].point;
+  const AtlasPoint truth = atlas_point(materials[one].scene, materials[one].runs);
   for (std::size_t k = 0; k < materials[one].runs.size(); ++k) {
     const ReposeFigures& run = materials[one].runs[k];
     if (!run.angle) continue;
@@ -74,7 +46,7 @@ int main(int argc, char** argv) {
     return 2;
   }
   try {
-    const std::vector<Material> materials = materials_of(argv[1], argv[2]);
+    const std::vector<ReposeMaterial> materials = kept_materials(argv[1], argv[2]);
     const ReposeAtlas atlas = shipped_atlas().atlas;
     std::cout << "random_seed,angle_degree,packing,friction,friction_mean,friction_low,friction_high,friction_held,"
                  "rolling_friction,rolling_mean,rolling_low,rolling_high,rolling_held\n";

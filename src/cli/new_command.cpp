@@ -13,12 +13,15 @@
 
 #include "cli/commands.hpp"
 #include "cli/console.hpp"
+#include "cli/make_runs.hpp"
 #include "design/new_crop.hpp"
+#include "design/refine_crop.hpp"
 #include "input/wording.hpp"
 #include "report/crop_files.hpp"
 #include "report/terminal_text.hpp"
 #include "scene/input_error.hpp"
 #include "storage/atomic_file.hpp"
+#include "storage/case_file.hpp"
 #include "units/quantity.hpp"
 
 namespace vibrosow {
@@ -28,6 +31,8 @@ namespace fs = std::filesystem;
 
 struct NewOptions {
   std::string crop, tkw, length, width, thickness, bulk_density, repose, moisture, out = ".";
+  int refine = 0;  // runs; 0: none
+  int jobs = 1;
 };
 
 double quantity_of(const char* option, const std::string& text, Dimension dimension, double least, double most) {
@@ -90,7 +95,6 @@ void refuse_to_overwrite(const std::vector<NewFile>& files) {
 }
 
 void write(const std::vector<NewFile>& files) {
-  refuse_to_overwrite(files);
   for (const NewFile& file : files) {
     std::error_code failed;
     fs::create_directories(file.path.parent_path(), failed);
@@ -99,15 +103,36 @@ void write(const std::vector<NewFile>& files) {
   }
 }
 
+std::vector<NewFile> files_of(const NewCrop& crop, const CropEstimate& estimate, const fs::path& folder) {
+  return {{folder / (crop.name + ".toml"), crop_toml(crop, estimate)},
+          {folder / (crop.name + "-contact.toml"), contact_toml(crop, estimate)}};
+}
+
+/// Makes the runs, or goes on with them; false where that is interrupted.
+bool refine(const NewOptions& options, const NewCrop& crop, const CropEstimate& estimate, ShippedAtlas& atlas) {
+  const std::vector<RefiningRun> refining = refining_runs(crop, estimate, atlas, options.refine);
+  std::vector<WantedRun> wanted;
+  for (const RefiningRun& run : refining)
+    wanted.push_back({&run.scene, run.random_seed, case_name(case_identity(run.scene, run.random_seed))});
+  StudyRuns runs(fs::path(options.out) / (crop.name + "-runs"));
+  const Made made = make_runs(runs, wanted, MakingFlags{}, options.jobs, false);
+  if (made.making.interrupted > 0) return false;
+  atlas.to_space = refined_to_space(atlas.atlas, refining, runs.kept());
+  return true;
+}
+
 int make_crop(const NewOptions& options) {
   const NewCrop crop = crop_of(options);
-  const ShippedAtlas atlas = shipped_atlas();
-  const CropEstimate estimated = estimate(crop, atlas);
-  const fs::path folder = options.out;
-  const std::vector<NewFile> files = {{folder / (crop.name + ".toml"), crop_toml(crop, estimated)},
-                                      {folder / (crop.name + "-contact.toml"), contact_toml(crop, estimated)}};
+  ShippedAtlas atlas = shipped_atlas();
+  CropEstimate estimated = estimate(crop, atlas);
+  refuse_to_overwrite(files_of(crop, estimated, options.out));
+  if (options.refine > 0) {
+    if (!refine(options, crop, estimated, atlas)) return exit_interrupted;
+    estimated = estimate(crop, atlas);
+  }
+  const std::vector<NewFile> files = files_of(crop, estimated, options.out);
   write(files);
-  print_text(crop_table(crop, estimated, atlas.to_space));
+  print_text(crop_table(crop, estimated, atlas));
   print("{}\n{}\n", files[0].path.string(), files[1].path.string());
   print_text(wrapped(fmt::format(
       "in a seeder beside them: seeds.NAME.crop = \"{0}.toml\", contact.model = \"{0}-contact.toml\"", crop.name)));
@@ -131,6 +156,14 @@ void add_new_command(CLI::App& app, int& exit_code) {
   add("--repose", options->repose, "angle of the heap that stays when a box drains, \"25 degree\"");
   add("--moisture", options->moisture, "share of the wet mass, \"9 %\"; kept for the record");
   command->add_option("--out", options->out, "folder for its two files; default: this one")->type_name("DIR");
+  command
+      ->add_option("--refine", options->refine,
+                   "runs in space of its own shape, each of some minutes, that narrow the band; default: none")
+      ->type_name("RUNS")
+      ->check(CLI::Range(3, 1000));
+  command->add_option("--jobs", options->jobs, "of those runs side by side; default 1")
+      ->type_name("N")
+      ->check(CLI::Range(1, 4096));
   command->callback([options, &exit_code] { exit_code = make_crop(*options); });
 }
 

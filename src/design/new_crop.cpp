@@ -13,6 +13,7 @@ namespace {
 
 constexpr double degree = std::numbers::pi / 180;
 constexpr double round_enough = 1.1;                        // aspect ratio up to which a seed is taken for a ball
+constexpr double most_slender = 5;                          // that a row of balls can be
 constexpr double densest_balls = 0.74, loosest_bed = 0.35;  // packing fractions between which a dry bed of seeds lies
 
 void require_order(const NewCrop& crop) {
@@ -23,16 +24,27 @@ void require_order(const NewCrop& crop) {
   if (crop.thickness > crop.width) refuse("--thickness", crop.thickness, "width", crop.width);
 }
 
-double aspect_ratio_in(const NewCrop& crop, const ReposeAtlas& atlas) {
+/// 1 for what is taken for a ball.
+double aspect_ratio_of(const NewCrop& crop) {
   const double ratio = crop.length / std::sqrt(crop.width * crop.thickness);
   if (ratio < round_enough) return 1;
-  const double most = atlas.aspect_ratios().back();
-  if (ratio > most)
+  if (ratio > most_slender)
     throw InputError(
         fmt::format("--length: {:g} mm is {:.3g} times the seed's width and thickness (their geometric mean); "
-                    "the atlas goes up to {:g} times",
-                    crop.length * 1e3, ratio, most));
+                    "seeds may be up to {:g} times as long",
+                    crop.length * 1e3, ratio, most_slender));
   return ratio;
+}
+
+/// Longer seeds than the atlas has are taken for its longest.
+double in_atlas(double aspect_ratio, const ReposeAtlas& atlas, std::vector<std::string>& doubts) {
+  const double most = atlas.aspect_ratios().back();
+  if (aspect_ratio <= most) return aspect_ratio;
+  doubts.push_back(
+      fmt::format("the seed is {:.3g} times as long as thick and the atlas goes up to {:g} times: how it rubs is that "
+                  "of shorter seeds that stand and lie so",
+                  aspect_ratio, most));
+  return most;
 }
 
 double joint(double a, double b) {
@@ -97,26 +109,28 @@ double stiff_enough(double radius) {
 CropEstimate estimate(const NewCrop& crop, const ShippedAtlas& atlas) {
   require_order(crop);
   CropEstimate estimate;
-  estimate.aspect_ratio = aspect_ratio_in(crop, atlas.atlas);
+  estimate.aspect_ratio = aspect_ratio_of(crop);
+  estimate.aspect_ratio_in_atlas = in_atlas(estimate.aspect_ratio, atlas.atlas, estimate.doubts);
   estimate.seed_density = crop.mass / (std::numbers::pi / 6 * crop.length * crop.width * crop.thickness);
   if (estimate.seed_density < 100 || estimate.seed_density > 5000)
     throw InputError(
         fmt::format("--tkw: {:.4g} g a thousand in seeds of that size is a density of {:.3g} kg/m3, which no seed has",
                     crop.mass * 1e6, estimate.seed_density));
-  estimate.reachable = reachable(atlas, estimate.aspect_ratio);
+  estimate.reachable = reachable(atlas, estimate.aspect_ratio_in_atlas);
   if (crop.angle_of_repose) {
-    require_reachable(*crop.angle_of_repose, estimate.reachable, atlas, estimate.aspect_ratio);
+    require_reachable(*crop.angle_of_repose, estimate.reachable, atlas, estimate.aspect_ratio_in_atlas);
     estimate.used.angle = crop.angle_of_repose;
     estimate.used.angle_error = assumed_angle_error;
   }
   take_packing(crop, atlas, estimate);
-  estimate.band = repose_band(atlas, estimate.aspect_ratio, estimate.used);
+  estimate.band = repose_band(atlas, estimate.aspect_ratio_in_atlas, estimate.used);
+  if (atlas.to_space.of_the_crop) estimate.own_runs = atlas.to_space.materials;
   estimate.angle_of_means =
-      atlas.atlas.at(estimate.aspect_ratio, estimate.band.friction.mean, estimate.band.rolling_friction.mean)
+      atlas.atlas.at(estimate.aspect_ratio_in_atlas, estimate.band.friction.mean, estimate.band.rolling_friction.mean)
           .angle.mean +
       atlas.to_space.angle_offset.mean;
   estimate.shell_compression = stiff_enough(0.5 * crop.thickness);
-  if (!estimate.is_ball())
+  if (!estimate.is_ball() && estimate.own_runs == 0)
     estimate.doubts.push_back(
         "what the plane's atlas leaves out was found with balls alone, and is taken to hold for this shape");
   return estimate;

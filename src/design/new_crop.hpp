@@ -25,20 +25,22 @@ inline constexpr double assumed_packing_error = 0.06;   // share: a volume from 
 
 /// What the atlas makes of it.
 struct CropEstimate {
-  double aspect_ratio = 1;          // length over the geometric mean of width and thickness; 1: taken for a ball
-  double seed_density = 0;          // kg/m3, as an ellipsoid
-  std::optional<double> packing{};  // bulk density over seed density
-  MeasuredBulk used{};              // what the band is from
+  double aspect_ratio = 1;           // length over the geometric mean of width and thickness; 1: taken for a ball
+  double aspect_ratio_in_atlas = 1;  // the same, or the largest there
+  double seed_density = 0;           // kg/m3, as an ellipsoid
+  std::optional<double> packing{};   // bulk density over seed density
+  MeasuredBulk used{};               // what the band is from
   Reachable reachable{};
   ReposeBand band{};
+  int own_runs = 0;                   // of the crop itself, that refined it
   double angle_of_means = 0;          // rad, at which the atlas stands in space with both parameters at their means
   double shell_compression = 0;       // as in the shipped contact models, for a tray of 9 Hz and 1 cm
   std::vector<std::string> doubts{};  // sentences
   bool is_ball() const { return aspect_ratio == 1; }
 };
 
-/// Throws InputError "--OPTION: .." for sizes out of order, an aspect ratio that the atlas does not reach, and an angle
-/// that none of its materials comes near.
+/// Throws InputError "--OPTION: .." for sizes out of order, a seed more than five times as long as thick, a density
+/// that no seed has, and an angle that no material of the atlas comes near.
 CropEstimate estimate(const NewCrop& crop, const ShippedAtlas& atlas);
 
 }  // namespace vibrosow

@@ -130,6 +130,12 @@ ReposeAtlas::ReposeAtlas(std::vector<AtlasPoint> points)
       }
 }
 
+int ReposeAtlas::runs() const {
+  int runs = 0;
+  for (const AtlasPoint& point : points_) runs += point.runs + point.clogged;
+  return runs;
+}
+
 AtlasFigures ReposeAtlas::at(double aspect_ratio, double friction, double rolling_friction) const {
   const Between a = between(aspect_ratios_, aspect_ratio, "aspect ratio");
   const Between f = between(frictions_, friction, "friction");
@@ -210,7 +216,7 @@ PlaneToSpace plane_to_space(const ReposeAtlas& plane, const std::vector<AtlasPoi
     discharges.push_back(ball.discharge.mean / flat.discharge.mean);
   }
   return {mean_and_scatter(offsets), mean_and_scatter(packings), mean_and_scatter(discharges),
-          static_cast<int>(space.size())};
+          static_cast<int>(space.size()), false};
 }
 
 ShippedAtlas shipped_atlas() {

@@ -46,6 +46,7 @@ class ReposeAtlas {
   const std::vector<double>& frictions() const { return frictions_; }
   const std::vector<double>& rolling_frictions() const { return rolling_frictions_; }
   const std::vector<AtlasPoint>& points() const { return points_; }
+  int runs() const;  // of all points, those that clogged too
 
  private:
   std::vector<double> aspect_ratios_, frictions_, rolling_frictions_;
@@ -66,6 +67,7 @@ struct PlaneToSpace {
   MeanAndScatter angle_offset;  // rad
   MeanAndScatter packing_factor, discharge_factor;
   int materials = 0;
+  bool of_the_crop = false;  // found with a crop's own shape around its own band, not with balls all over the atlas
 };
 
 /// From points in space, each at friction and rolling friction within the atlas, at least three. Throws InputError for

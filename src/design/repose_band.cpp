@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <vector>
 
 namespace vibrosow {
@@ -73,6 +74,50 @@ ParameterBand band(const std::vector<double>& values, const std::vector<double>&
           1 - known.deviation / moments(values, prior).deviation};
 }
 
+/// Weights of equal cells, together 1.
+struct Posterior {
+  std::vector<double> frictions, rollings;   // middles of cells
+  std::vector<std::vector<double>> weights;  // [friction][rolling]
+
+  std::vector<double> of_friction() const {
+    std::vector<double> sums;
+    for (const auto& row : weights) sums.push_back(std::accumulate(row.begin(), row.end(), 0.0));
+    return sums;
+  }
+};
+
+Posterior posterior_of(const ShippedAtlas& atlas, double aspect_ratio, const MeasuredBulk& measured) {
+  Posterior posterior{middles(atlas.atlas.frictions()), middles(atlas.atlas.rolling_frictions()), {}};
+  double largest = -std::numeric_limits<double>::infinity();
+  for (const double friction : posterior.frictions) {
+    std::vector<double>& row = posterior.weights.emplace_back();
+    for (const double rolling : posterior.rollings) {
+      row.push_back(log_likelihood(atlas.atlas.at(aspect_ratio, friction, rolling), atlas.to_space, measured));
+      largest = std::max(largest, row.back());
+    }
+  }
+  double total = 0;
+  for (auto& row : posterior.weights)
+    for (double& weight : row) total += weight = std::exp(weight - largest);
+  for (auto& row : posterior.weights)
+    for (double& weight : row) weight /= total;
+  return posterior;
+}
+
+/// A number's binary digits mirrored at the point, in (0, 1): van der Corput's sequence.
+double mirrored(int number) {
+  double value = 0;
+  for (double place = 0.5; number > 0; number /= 2, place /= 2) value += place * (number % 2);
+  return value;
+}
+
+/// The cell that a value lies in.
+std::size_t cell_of(const std::vector<double>& middles, double value) {
+  const double cell = middles[1] - middles[0];
+  const auto at = static_cast<std::size_t>(std::max(0.0, (value - middles[0]) / cell + 0.5));
+  return std::min(at, middles.size() - 1);
+}
+
 }  // namespace
 
 double angle_error_in_space(const PlaneToSpace& to_space) {
@@ -100,27 +145,34 @@ Reachable reachable(const ShippedAtlas& atlas, double aspect_ratio) {
 }
 
 ReposeBand repose_band(const ShippedAtlas& atlas, double aspect_ratio, const MeasuredBulk& measured) {
-  const std::vector<double> frictions = middles(atlas.atlas.frictions());
-  const std::vector<double> rollings = middles(atlas.atlas.rolling_frictions());
-  std::vector<double> logs;
-  for (const double friction : frictions)
-    for (const double rolling : rollings)
-      logs.push_back(log_likelihood(atlas.atlas.at(aspect_ratio, friction, rolling), atlas.to_space, measured));
-  const double largest = *std::ranges::max_element(logs);
-  double total = 0;
-  for (double& value : logs) total += value = std::exp(value - largest);
-  std::vector<double> of_friction(cells, 0), of_rolling(cells, 0);
+  const Posterior posterior = posterior_of(atlas, aspect_ratio, measured);
+  const std::vector<double>&frictions = posterior.frictions, &rollings = posterior.rollings;
+  std::vector<double> of_rolling(cells, 0);
   double product = 0;
   for (std::size_t i = 0; i < cells; ++i)
     for (std::size_t j = 0; j < cells; ++j) {
-      const double weight = logs[i * cells + j] / total;
-      of_friction[i] += weight;
-      of_rolling[j] += weight;
-      product += weight * frictions[i] * rollings[j];
+      of_rolling[j] += posterior.weights[i][j];
+      product += posterior.weights[i][j] * frictions[i] * rollings[j];
     }
+  const std::vector<double> of_friction = posterior.of_friction();
   const Moments friction = moments(frictions, of_friction), rolling = moments(rollings, of_rolling);
   const double correlation = (product - friction.mean * rolling.mean) / (friction.deviation * rolling.deviation);
   return {band(frictions, of_friction), band(rollings, of_rolling), correlation};
+}
+
+std::vector<Rubbing> materials_of_band(const ShippedAtlas& atlas, double aspect_ratio, const MeasuredBulk& measured,
+                                       int count) {
+  const Posterior posterior = posterior_of(atlas, aspect_ratio, measured);
+  const std::vector<double> of_friction = posterior.of_friction();
+  std::vector<Rubbing> materials;
+  for (int k = 0; k < count; ++k) {
+    const double friction = quantile(posterior.frictions, of_friction, (k + 0.5) / count);
+    std::vector<double> of_rolling = posterior.weights[cell_of(posterior.frictions, friction)];
+    const double sum = std::accumulate(of_rolling.begin(), of_rolling.end(), 0.0);
+    for (double& weight : of_rolling) weight /= sum;
+    materials.push_back({friction, quantile(posterior.rollings, of_rolling, mirrored(k + 1))});
+  }
+  return materials;
 }
 
 }  // namespace vibrosow

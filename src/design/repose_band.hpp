@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <vector>
 
 #include "design/repose_atlas.hpp"
 
@@ -41,5 +42,15 @@ double packing_error_in_space(const PlaneToSpace& to_space);  // share of the pa
 /// prior and normal errors: of the measurement, of the atlas' mean over random seeds, and from the plane to space.
 /// Nothing measured gives the prior back. Throws std::out_of_range for an aspect ratio outside the atlas.
 ReposeBand repose_band(const ShippedAtlas& atlas, double aspect_ratio, const MeasuredBulk& measured);
+
+/// Friction and rolling friction of a material.
+struct Rubbing {
+  double friction, rolling_friction;
+};
+
+/// So many materials spread evenly over what the measurements leave open: Hammersley's points, carried to the posterior
+/// by its quantiles (Rosenblatt 1952). Throws as `repose_band`.
+std::vector<Rubbing> materials_of_band(const ShippedAtlas& atlas, double aspect_ratio, const MeasuredBulk& measured,
+                                       int count);
 
 }  // namespace vibrosow

@@ -55,13 +55,14 @@ std::string evidence(const NewCrop& crop, const CropEstimate& estimate) {
   return text;
 }
 
-std::string band_source(const ParameterBand& band, const std::string& evidence) {
+std::string band_source(const ParameterBand& band, const std::string& evidence, int own_runs) {
   if (evidence.empty())
     return fmt::format(
         "assumed: middle of the atlas of repose, {:.2g} to {:.2g}, since neither repose nor bulk density says more",
         band.low, band.high);
-  return fmt::format("mean of {:.2g} to {:.2g} (95 %) by the atlas of repose from {}, {:.0f} % narrower than before",
-                     band.low, band.high, evidence, 100 * std::max(0.0, band.contraction));
+  const std::string refined = own_runs > 0 ? fmt::format(", refined by {} runs of this crop in space", own_runs) : "";
+  return fmt::format("mean of {:.2g} to {:.2g} (95 %) by the atlas of repose from {}, {:.0f} % narrower than before{}",
+                     band.low, band.high, evidence, 100 * std::max(0.0, band.contraction), refined);
 }
 
 std::string band_line(std::string_view name, const ParameterBand& band) {
@@ -89,6 +90,13 @@ std::string sizes_text(const NewCrop& crop) {
 /// Diameter of the ball of the same volume, m.
 double ball_diameter(const NewCrop& crop) {
   return std::cbrt(crop.length * crop.width * crop.thickness);
+}
+
+/// "+1.2 +- 0.8 degree from the plane to space, by 4 materials of balls"
+std::string to_space_text(const PlaneToSpace& to_space) {
+  return fmt::format("{:+.1f} +- {:.1f} degree from the plane to space, by {} {}", to_space.angle_offset.mean / degree,
+                     angle_error_in_space(to_space) / degree, to_space.materials,
+                     to_space.of_the_crop ? "runs of this crop" : "materials of balls");
 }
 
 std::string shape_text(const NewCrop& crop, const CropEstimate& estimate) {
@@ -132,18 +140,21 @@ std::string contact_toml(const NewCrop& crop, const CropEstimate& estimate) {
   keys.add("shell_compression", number(estimate.shell_compression),
            "assumed: keeps a shell under 5 % of the radius at twice the speed of a tray of 9 Hz and 1 cm (0.0025 g r / "
            "V^2)");
-  keys.add("friction", number(band.friction.mean), band_source(band.friction, from));
+  keys.add("friction", number(band.friction.mean), band_source(band.friction, from, estimate.own_runs));
   keys.add("restitution", "0.5", "assumed: the atlas' value; repose does not tell it");
   keys.add("friction_model", "\"spring\"", "assumed: as the atlas");
   keys.add("rolling", "\"spring\"", "assumed: as the atlas");
-  keys.add("rolling_friction", number(band.rolling_friction.mean), band_source(band.rolling_friction, from));
+  keys.add("rolling_friction", number(band.rolling_friction.mean),
+           band_source(band.rolling_friction, from, estimate.own_runs));
   keys.add("friction", number(band.friction.mean), "assumed: as seed on seed; measure it on the tray's sheet", "wall");
   keys.add("restitution", "0.5", "assumed: as seed on seed", "wall");
   keys.add("rolling_friction", number(band.rolling_friction.mean), "assumed: as seed on seed", "wall");
-  return keys.text("Made by vibrosow new.", crop.name + " on itself and on a tray");
+  std::string comment = "Made by vibrosow new.";
+  for (const std::string& doubt : estimate.doubts) comment += "\n# Doubtful: " + doubt;
+  return keys.text(comment, crop.name + " on itself and on a tray");
 }
 
-std::string crop_table(const NewCrop& crop, const CropEstimate& estimate, const PlaneToSpace& to_space) {
+std::string crop_table(const NewCrop& crop, const CropEstimate& estimate, const ShippedAtlas& atlas) {
   const ReposeBand& band = estimate.band;
   const std::string packed =
       estimate.packing ? fmt::format(", poured at a packing fraction of {:.2f}", *estimate.packing) : "";
@@ -161,12 +172,12 @@ std::string crop_table(const NewCrop& crop, const CropEstimate& estimate, const 
         "friction and rolling friction cannot be told apart (correlation {:.2f}): more of one and less of the "
         "other gives the same heap",
         band.correlation));
-  text += wrapped(fmt::format(
-      "the atlas' materials of this shape stand at {:.0f} to {:.0f} degree and lie at {:.2f} to {:.2f}; it is of the "
-      "plane: {:+.1f} +- {:.1f} degree to space, from {} materials; your angle is taken as good to {:.1f} degree",
-      estimate.reachable.least_angle / degree, estimate.reachable.most_angle / degree, estimate.reachable.least_packing,
-      estimate.reachable.most_packing, to_space.angle_offset.mean / degree, angle_error_in_space(to_space) / degree,
-      to_space.materials, assumed_angle_error / degree));
+  const Reachable& range = estimate.reachable;
+  text += wrapped(
+      fmt::format("the atlas, {} runs: its materials of this shape stand at {:.0f} to {:.0f} degree and lie "
+                  "at {:.2f} to {:.2f}; {}; your angle is taken as good to {:.1f} degree",
+                  atlas.atlas.runs(), range.least_angle / degree, range.most_angle / degree, range.least_packing,
+                  range.most_packing, to_space_text(atlas.to_space), assumed_angle_error / degree));
   for (const std::string& doubt : estimate.doubts) text += wrapped_beside("  doubtful: ", doubt);
   return text;
 }

@@ -13,6 +13,6 @@ std::string crop_toml(const NewCrop& crop, const CropEstimate& estimate);
 std::string contact_toml(const NewCrop& crop, const CropEstimate& estimate);
 
 /// What was learnt and what was not, for a terminal.
-std::string crop_table(const NewCrop& crop, const CropEstimate& estimate, const PlaneToSpace& to_space);
+std::string crop_table(const NewCrop& crop, const CropEstimate& estimate, const ShippedAtlas& atlas);
 
 }  // namespace vibrosow

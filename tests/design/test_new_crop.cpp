@@ -79,9 +79,22 @@ TEST(NewCrop, WhatTheAtlasDoesNotReachIsRefused) {
   crop.angle_of_repose = 5 * degree;
   EXPECT_THAT([&] { estimate(crop, plain_atlas()); }, ThrowsMessage<InputError>(HasSubstr("--repose: 5 degree")));
   crop = balls();
-  crop.length = 5e-3;
+  crop.length = 11e-3;
   EXPECT_THAT([&] { estimate(crop, plain_atlas()); },
-              ThrowsMessage<InputError>(AllOf(HasSubstr("--length"), HasSubstr("up to 2 times"))));
+              ThrowsMessage<InputError>(AllOf(HasSubstr("--length"), HasSubstr("up to 5 times"))));
+}
+
+TEST(NewCrop, LongerSeedsThanTheAtlasHasAreTakenForItsLongestAndDoubted) {
+  NewCrop crop = balls();
+  crop.length = 6e-3;
+  crop.angle_of_repose = 25 * degree;
+  const CropEstimate known = estimate(crop, plain_atlas());
+  EXPECT_NEAR(known.aspect_ratio, 3, 1e-12);
+  EXPECT_EQ(known.aspect_ratio_in_atlas, 2);
+  ASSERT_EQ(known.doubts.size(), 2u);
+  EXPECT_THAT(known.doubts[0], HasSubstr("3 times as long as thick and the atlas goes up to 2"));
+  crop.length = 4e-3;
+  EXPECT_EQ(known.band.friction.mean, estimate(crop, plain_atlas()).band.friction.mean);
 }
 
 TEST(NewCrop, SizesOutOfOrderAndImpossibleWeightsAreRefused) {

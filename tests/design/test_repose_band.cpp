@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <stdexcept>
@@ -95,6 +96,29 @@ TEST(ReposeBand, WhatIsReachableIsTheAtlasInSpace) {
   EXPECT_NEAR(range.least_packing, 0.7 * 0.78, 1e-12);
   EXPECT_NEAR(range.most_packing, 0.7 * 0.852, 1e-12);
   EXPECT_THROW(reachable(plain_atlas(), 2.5), std::out_of_range);
+}
+
+TEST(ReposeBand, MaterialsSpreadOverIt) {
+  const MeasuredBulk measured{0.42, 0.02, {}, 0};
+  const ReposeBand band = repose_band(plain_atlas(), 1, measured);
+  constexpr int count = 64;
+  const std::vector<Rubbing> materials = materials_of_band(plain_atlas(), 1, measured, count);
+  ASSERT_EQ(materials.size(), std::size_t(count));
+  double friction = 0, rolling = 0, off = 0;
+  for (const auto& [f, r] : materials) {
+    friction += f / count;
+    rolling += r / count;
+    off = std::max(off, std::abs(plain_atlas().atlas.at(1, f, r).angle.mean - 0.05 - 0.42));
+  }
+  EXPECT_NEAR(friction, band.friction.mean, 0.01);
+  EXPECT_NEAR(rolling, band.rolling_friction.mean, 0.01);
+  EXPECT_LT(off, 3.5 * 0.02) << "none stands far from what was measured";
+  for (const auto& [f, r] : materials_of_band(plain_atlas(), 1, {}, count)) {
+    EXPECT_GT(f, 0.1);
+    EXPECT_LT(f, 1);
+    EXPECT_GT(r, 0);
+    EXPECT_LT(r, 0.3);
+  }
 }
 
 }  // namespace

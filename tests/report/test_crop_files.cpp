@@ -66,6 +66,15 @@ TEST(CropFiles, RunInASeederThatNamesThem) {
   EXPECT_EQ(scene.lots[0].shape, Shape::clump);
 }
 
+TEST(CropFiles, SayWhereRunsOfTheCropRefinedThem) {
+  ShippedAtlas atlas = plain_atlas();
+  atlas.to_space.of_the_crop = true;
+  const CropEstimate known = estimate(oblong(), atlas);
+  EXPECT_THAT(contact_toml(oblong(), known), HasSubstr("refined by 4 runs of this crop in space"));
+  EXPECT_THAT(crop_table(oblong(), known, atlas), HasSubstr("by 4 runs of\nthis crop"));
+  EXPECT_THAT(crop_table(oblong(), known, atlas), Not(HasSubstr("balls alone")));
+}
+
 TEST(CropFiles, ContactSaysWhatIsFromTheAtlasAndWhatIsAssumed) {
   NewCrop crop = oblong();
   const std::string measured = contact_toml(crop, estimate(crop, plain_atlas()));
@@ -81,10 +90,12 @@ TEST(CropFiles, TheTableSaysWhatWasNotLearnt) {
   NewCrop crop = oblong();
   crop.bulk_density.reset();
   const CropEstimate known = estimate(crop, plain_atlas());
-  const std::string table = crop_table(crop, known, plain_atlas().to_space);
+  const std::string table = crop_table(crop, known, plain_atlas());
   EXPECT_THAT(table, HasSubstr("not determined"));
   EXPECT_THAT(table, HasSubstr("doubtful: "));
+  EXPECT_THAT(table, HasSubstr("the atlas, 840 runs"));
   EXPECT_THAT(table, HasSubstr("-2.9 +-"));
+  EXPECT_THAT(contact_toml(crop, known), HasSubstr("\n# Doubtful: what the plane's atlas leaves out"));
   std::istringstream lines(table);
   for (std::string line; std::getline(lines, line);) EXPECT_LE(line.size(), 80u) << line;
 }
