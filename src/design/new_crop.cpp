@@ -125,8 +125,9 @@ CropEstimate estimate(const NewCrop& crop, const ShippedAtlas& atlas) {
   take_packing(crop, atlas, estimate);
   estimate.band = repose_band(atlas, estimate.aspect_ratio_in_atlas, estimate.used);
   if (atlas.to_space.of_the_crop) estimate.own_runs = atlas.to_space.materials;
-  estimate.angle_of_means =
-      atlas.atlas.at(estimate.aspect_ratio_in_atlas, estimate.band.friction.mean, estimate.band.rolling_friction.mean)
+  estimate.fitting_angle =
+      atlas.atlas
+          .at(estimate.aspect_ratio_in_atlas, estimate.band.fitting.friction, estimate.band.fitting.rolling_friction)
           .angle.mean +
       atlas.to_space.angle_offset.mean;
   estimate.shell_compression = stiff_enough(0.5 * crop.thickness);

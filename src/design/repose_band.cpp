@@ -9,30 +9,35 @@
 namespace vibrosow {
 namespace {
 
-constexpr int cells = 150;  // along each parameter
+constexpr int cells = 151;  // along each parameter
 
 double square(double value) {
   return value * value;
 }
 
-/// -1/2 of the squared distance in standard deviations, and their logarithm.
-double log_normal(double distance, double variance) {
-  return -0.5 * (distance * distance / variance + std::log(variance));
-}
+/// How far measured figures are from a material's: squared distances in standard deviations, and the logarithm of the
+/// variances, summed.
+struct Misfit {
+  double distance2 = 0, log_variance = 0;
 
-double log_likelihood(const AtlasFigures& plane, const PlaneToSpace& to_space, const MeasuredBulk& measured) {
-  double sum = 0;
+  void add(double distance, double variance) {
+    distance2 += distance * distance / variance;
+    log_variance += std::log(variance);
+  }
+};
+
+Misfit misfit(const AtlasFigures& plane, const PlaneToSpace& to_space, const MeasuredBulk& measured) {
+  Misfit sum;
   if (measured.angle) {
     const double expected = plane.angle.mean + to_space.angle_offset.mean;
-    sum += log_normal(*measured.angle - expected, square(measured.angle_error) + square(plane.angle.error) +
-                                                      square(angle_error_in_space(to_space)));
+    sum.add(*measured.angle - expected,
+            square(measured.angle_error) + square(plane.angle.error) + square(angle_error_in_space(to_space)));
   }
   if (measured.packing) {
     const double factor = to_space.packing_factor.mean;
     const double expected = plane.packing.mean * factor;
-    sum +=
-        log_normal(*measured.packing - expected, square(measured.packing_error) + square(plane.packing.error * factor) +
-                                                     square(expected * packing_error_in_space(to_space)));
+    sum.add(*measured.packing - expected, square(measured.packing_error) + square(plane.packing.error * factor) +
+                                              square(expected * packing_error_in_space(to_space)));
   }
   return sum;
 }
@@ -76,8 +81,9 @@ ParameterBand band(const std::vector<double>& values, const std::vector<double>&
 
 /// Weights of equal cells, together 1.
 struct Posterior {
-  std::vector<double> frictions, rollings;   // middles of cells
-  std::vector<std::vector<double>> weights;  // [friction][rolling]
+  std::vector<double> frictions, rollings;      // middles of cells
+  std::vector<std::vector<double>> weights;     // [friction][rolling]
+  std::vector<std::vector<double>> distances2;  // `Misfit`'s, likewise
 
   std::vector<double> of_friction() const {
     std::vector<double> sums;
@@ -87,12 +93,15 @@ struct Posterior {
 };
 
 Posterior posterior_of(const ShippedAtlas& atlas, double aspect_ratio, const MeasuredBulk& measured) {
-  Posterior posterior{middles(atlas.atlas.frictions()), middles(atlas.atlas.rolling_frictions()), {}};
+  Posterior posterior{middles(atlas.atlas.frictions()), middles(atlas.atlas.rolling_frictions()), {}, {}};
   double largest = -std::numeric_limits<double>::infinity();
   for (const double friction : posterior.frictions) {
     std::vector<double>& row = posterior.weights.emplace_back();
+    std::vector<double>& distances2 = posterior.distances2.emplace_back();
     for (const double rolling : posterior.rollings) {
-      row.push_back(log_likelihood(atlas.atlas.at(aspect_ratio, friction, rolling), atlas.to_space, measured));
+      const Misfit off = misfit(atlas.atlas.at(aspect_ratio, friction, rolling), atlas.to_space, measured);
+      distances2.push_back(off.distance2);
+      row.push_back(-0.5 * (off.distance2 + off.log_variance));
       largest = std::max(largest, row.back());
     }
   }
@@ -102,6 +111,25 @@ Posterior posterior_of(const ShippedAtlas& atlas, double aspect_ratio, const Mea
   for (auto& row : posterior.weights)
     for (double& weight : row) weight /= total;
   return posterior;
+}
+
+/// The means themselves need not fit, where what fits is a bent band.
+Rubbing nearest_fitting(const Posterior& posterior, const Moments& friction, const Moments& rolling) {
+  constexpr double as_good = 0.04;  // 0.2 standard deviations of what was measured, squared
+  double least_misfit = std::numeric_limits<double>::infinity();
+  for (const auto& row : posterior.distances2) least_misfit = std::min(least_misfit, *std::ranges::min_element(row));
+  Rubbing best{};
+  double nearest = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < cells; ++i)
+    for (std::size_t j = 0; j < cells; ++j) {
+      const double f = posterior.frictions[i], r = posterior.rollings[j];
+      const double distance2 =
+          square((f - friction.mean) / friction.deviation) + square((r - rolling.mean) / rolling.deviation);
+      if (posterior.distances2[i][j] > least_misfit + as_good || distance2 >= nearest) continue;
+      nearest = distance2;
+      best = {f, r};
+    }
+  return best;
 }
 
 /// A number's binary digits mirrored at the point, in (0, 1): van der Corput's sequence.
@@ -157,7 +185,8 @@ ReposeBand repose_band(const ShippedAtlas& atlas, double aspect_ratio, const Mea
   const std::vector<double> of_friction = posterior.of_friction();
   const Moments friction = moments(frictions, of_friction), rolling = moments(rollings, of_rolling);
   const double correlation = (product - friction.mean * rolling.mean) / (friction.deviation * rolling.deviation);
-  return {band(frictions, of_friction), band(rollings, of_rolling), correlation};
+  return {band(frictions, of_friction), band(rollings, of_rolling), correlation,
+          nearest_fitting(posterior, friction, rolling)};
 }
 
 std::vector<Rubbing> materials_of_band(const ShippedAtlas& atlas, double aspect_ratio, const MeasuredBulk& measured,

@@ -21,9 +21,15 @@ struct ParameterBand {
   double contraction;      // 1 - deviation / the prior's: 0 where nothing was learnt, 1 where all is known
 };
 
+/// Friction and rolling friction of a material.
+struct Rubbing {
+  double friction, rolling_friction;
+};
+
 struct ReposeBand {
   ParameterBand friction, rolling_friction;
   double correlation;  // between the two
+  Rubbing fitting{};   // of the materials that stand and lie as measured, the nearest to both means
 };
 
 /// Of a material of that aspect ratio in space, over all of the atlas: what could have been measured.
@@ -42,11 +48,6 @@ double packing_error_in_space(const PlaneToSpace& to_space);  // share of the pa
 /// prior and normal errors: of the measurement, of the atlas' mean over random seeds, and from the plane to space.
 /// Nothing measured gives the prior back. Throws std::out_of_range for an aspect ratio outside the atlas.
 ReposeBand repose_band(const ShippedAtlas& atlas, double aspect_ratio, const MeasuredBulk& measured);
-
-/// Friction and rolling friction of a material.
-struct Rubbing {
-  double friction, rolling_friction;
-};
 
 /// So many materials spread evenly over what the measurements leave open: Hammersley's points, carried to the posterior
 /// by its quantiles (Rosenblatt 1952). Throws as `repose_band`.

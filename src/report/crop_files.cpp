@@ -61,12 +61,12 @@ std::string band_source(const ParameterBand& band, const std::string& evidence, 
         "assumed: middle of the atlas of repose, {:.2g} to {:.2g}, since neither repose nor bulk density says more",
         band.low, band.high);
   const std::string refined = own_runs > 0 ? fmt::format(", refined by {} runs of this crop in space", own_runs) : "";
-  return fmt::format("mean of {:.2g} to {:.2g} (95 %) by the atlas of repose from {}, {:.0f} % narrower than before{}",
+  return fmt::format("out of {:.2g} to {:.2g} (95 %) by the atlas of repose from {}, {:.0f} % narrower than before{}",
                      band.low, band.high, evidence, 100 * std::max(0.0, band.contraction), refined);
 }
 
-std::string band_line(std::string_view name, const ParameterBand& band) {
-  return fmt::format("  {:<18} {:>6.2f}   {:>4.2f} to {:<4.2f}   {:>6.0f} %\n", name, band.mean, band.low, band.high,
+std::string band_line(std::string_view name, double taken, const ParameterBand& band) {
+  return fmt::format("  {:<18} {:>6.2f}   {:>4.2f} to {:<4.2f}   {:>6.0f} %\n", name, taken, band.low, band.high,
                      100 * std::max(0.0, band.contraction));
 }
 
@@ -140,15 +140,16 @@ std::string contact_toml(const NewCrop& crop, const CropEstimate& estimate) {
   keys.add("shell_compression", number(estimate.shell_compression),
            "assumed: keeps a shell under 5 % of the radius at twice the speed of a tray of 9 Hz and 1 cm (0.0025 g r / "
            "V^2)");
-  keys.add("friction", number(band.friction.mean), band_source(band.friction, from, estimate.own_runs));
+  keys.add("friction", number(band.fitting.friction), band_source(band.friction, from, estimate.own_runs));
   keys.add("restitution", "0.5", "assumed: the atlas' value; repose does not tell it");
   keys.add("friction_model", "\"spring\"", "assumed: as the atlas");
   keys.add("rolling", "\"spring\"", "assumed: as the atlas");
-  keys.add("rolling_friction", number(band.rolling_friction.mean),
+  keys.add("rolling_friction", number(band.fitting.rolling_friction),
            band_source(band.rolling_friction, from, estimate.own_runs));
-  keys.add("friction", number(band.friction.mean), "assumed: as seed on seed; measure it on the tray's sheet", "wall");
+  keys.add("friction", number(band.fitting.friction), "assumed: as seed on seed; measure it on the tray's sheet",
+           "wall");
   keys.add("restitution", "0.5", "assumed: as seed on seed", "wall");
-  keys.add("rolling_friction", number(band.rolling_friction.mean), "assumed: as seed on seed", "wall");
+  keys.add("rolling_friction", number(band.fitting.rolling_friction), "assumed: as seed on seed", "wall");
   std::string comment = "Made by vibrosow new.";
   for (const std::string& doubt : estimate.doubts) comment += "\n# Doubtful: " + doubt;
   return keys.text(comment, crop.name + " on itself and on a tray");
@@ -163,9 +164,10 @@ std::string crop_table(const NewCrop& crop, const CropEstimate& estimate, const 
   const std::string from = evidence(crop, estimate);
   text += wrapped(from.empty() ? "nothing that counts says how it rubs: the band is all of the atlas"
                                : fmt::format("how it rubs, from {}:", from));
-  text += fmt::format("  {:<18} {:>6}   {:<12}   {:>8}\n", "", "mean", "95 % band", "narrower");
-  text += band_line("friction", band.friction) + band_line("rolling friction", band.rolling_friction);
-  text += wrapped(fmt::format("with both means it would stand at {:.3g} degree", estimate.angle_of_means / degree));
+  text += fmt::format("  {:<18} {:>6}   {:<12}   {:>8}\n", "", "taken", "95 % band", "narrower");
+  text += band_line("friction", band.fitting.friction, band.friction) +
+          band_line("rolling friction", band.fitting.rolling_friction, band.rolling_friction);
+  text += wrapped(fmt::format("with what is taken it stands at {:.3g} degree", estimate.fitting_angle / degree));
   text += wrapped(undetermined(estimate));
   if (std::abs(band.correlation) > hardly_apart)
     text += wrapped(fmt::format(

@@ -46,6 +46,22 @@ TEST(ReposeBand, OneAngleCannotTellFrictionFromRolling) {
   EXPECT_NEAR(both.friction.mean, 0.5, 0.1);
 }
 
+TEST(ReposeBand, WhatFitsStandsAsMeasuredAmidTheBand) {
+  const ShippedAtlas atlas = plain_atlas();
+  const double angle = atlas.atlas.at(1, 0.15, 0.03).angle.mean - 0.05;  // near the corner, where the means do not fit
+  const ReposeBand band = repose_band(atlas, 1, {angle, 0.02, {}, 0});
+  const auto off = [&](double friction, double rolling) {
+    return std::abs(atlas.atlas.at(1, friction, rolling).angle.mean - 0.05 - angle);
+  };
+  EXPECT_GT(off(band.friction.mean, band.rolling_friction.mean), 0.01);
+  EXPECT_LT(off(band.fitting.friction, band.fitting.rolling_friction), 0.006);
+  EXPECT_GT(band.fitting.friction, band.friction.low);
+  EXPECT_GT(band.fitting.rolling_friction, band.rolling_friction.low);
+  const ReposeBand nothing = repose_band(atlas, 1, {});
+  EXPECT_NEAR(nothing.fitting.friction, 0.55, 1e-9);
+  EXPECT_NEAR(nothing.fitting.rolling_friction, 0.15, 1e-9);
+}
+
 TEST(ReposeBand, LargerErrorsWidenIt) {
   ShippedAtlas atlas = plain_atlas();
   const MeasuredBulk measured{0.42, 0.02, {}, 0};

@@ -58,8 +58,8 @@ TEST(CropFiles, RunInASeederThatNamesThem) {
       "space = '3d'\n[seeds.a]\ncrop = 'mine.toml'\n[contact]\nmodel = 'mine-contact.toml'\n[tray]\nlength = '10 "
       "cm'\ndepth = '5 cm'\n"
       "height = '5 cm'\nfill = { count = 50 }\n[tray.holes]\ncount = 1\nwidth = '2 cm'\n[run]\nduration = '1 s'"));
-  EXPECT_NEAR(scene.contact.seed.friction, known.band.friction.mean, 1e-3);
-  EXPECT_NEAR(scene.contact.seed.rolling_friction, known.band.rolling_friction.mean, 1e-3);
+  EXPECT_NEAR(scene.contact.seed.friction, known.band.fitting.friction, 1e-3);
+  EXPECT_NEAR(scene.contact.seed.rolling_friction, known.band.fitting.rolling_friction, 1e-3);
   EXPECT_EQ(scene.contact.rolling, Rolling::spring);
   EXPECT_EQ(scene.contact.wall.friction, scene.contact.seed.friction);
   EXPECT_EQ(scene.contact.seed.restitution, 0.5);
