@@ -115,7 +115,7 @@ Posterior posterior_of(const ShippedAtlas& atlas, double aspect_ratio, const Mea
 
 /// The means themselves need not fit, where what fits is a bent band.
 Rubbing nearest_fitting(const Posterior& posterior, const Moments& friction, const Moments& rolling) {
-  constexpr double as_good = 0.04;  // 0.2 standard deviations of what was measured, squared
+  constexpr double as_good = 0.01;  // 0.1 standard deviations of what was measured, squared
   double least_misfit = std::numeric_limits<double>::infinity();
   for (const auto& row : posterior.distances2) least_misfit = std::min(least_misfit, *std::ranges::min_element(row));
   Rubbing best{};
