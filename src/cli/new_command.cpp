@@ -127,7 +127,10 @@ int make_crop(const NewOptions& options) {
   CropEstimate estimated = estimate(crop, atlas);
   refuse_to_overwrite(files_of(crop, estimated, options.out));
   if (options.refine > 0) {
-    if (!refine(options, crop, estimated, atlas)) return exit_interrupted;
+    if (!refine(options, crop, estimated, atlas)) {
+      complain("interrupted: the same command goes on from here");
+      return exit_interrupted;
+    }
     estimated = estimate(crop, atlas);
   }
   const std::vector<NewFile> files = files_of(crop, estimated, options.out);

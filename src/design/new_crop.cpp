@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "scene/clump_shape.hpp"
 #include "scene/input_error.hpp"
 
 namespace vibrosow {
@@ -13,7 +14,6 @@ namespace {
 
 constexpr double degree = std::numbers::pi / 180;
 constexpr double round_enough = 1.1;                        // aspect ratio up to which a seed is taken for a ball
-constexpr double most_slender = 5;                          // that a row of balls can be
 constexpr double densest_balls = 0.74, loosest_bed = 0.35;  // packing fractions between which a dry bed of seeds lies
 
 void require_order(const NewCrop& crop) {
@@ -28,11 +28,13 @@ void require_order(const NewCrop& crop) {
 double aspect_ratio_of(const NewCrop& crop) {
   const double ratio = crop.length / std::sqrt(crop.width * crop.thickness);
   if (ratio < round_enough) return 1;
-  if (ratio > most_slender)
-    throw InputError(
-        fmt::format("--length: {:g} mm is {:.3g} times the seed's width and thickness (their geometric mean); "
-                    "seeds may be up to {:g} times as long",
-                    crop.length * 1e3, ratio, most_slender));
+  const auto refuse = [&](const char* option, const char* why) {
+    throw InputError(fmt::format("{}: a seed of {:g} x {:g} x {:g} mm {}", option, crop.length * 1e3, crop.width * 1e3,
+                                 crop.thickness * 1e3, why));
+  };
+  if (crop.width == crop.length) refuse("--width", "is flat and round; give a width that is a little less");
+  if (elongated_solid(crop.length, crop.width, crop.thickness).empty())
+    refuse("--length", "is too slender, or too thin, to be made of balls");
   return ratio;
 }
 

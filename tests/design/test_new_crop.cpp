@@ -81,7 +81,11 @@ TEST(NewCrop, WhatTheAtlasDoesNotReachIsRefused) {
   crop = balls();
   crop.length = 11e-3;
   EXPECT_THAT([&] { estimate(crop, plain_atlas()); },
-              ThrowsMessage<InputError>(AllOf(HasSubstr("--length"), HasSubstr("up to 5 times"))));
+              ThrowsMessage<InputError>(HasSubstr("--length: a seed of 11 x 2 x 2 mm is too slender")));
+  crop.length = 5e-3, crop.width = 4e-3, crop.thickness = 0.9e-3;
+  EXPECT_THAT([&] { estimate(crop, plain_atlas()); }, ThrowsMessage<InputError>(HasSubstr("too thin")));
+  crop.width = 5e-3, crop.thickness = 3e-3;
+  EXPECT_THAT([&] { estimate(crop, plain_atlas()); }, ThrowsMessage<InputError>(HasSubstr("--width")));
 }
 
 TEST(NewCrop, LongerSeedsThanTheAtlasHasAreTakenForItsLongestAndDoubted) {
