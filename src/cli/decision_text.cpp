@@ -77,6 +77,9 @@ std::string undecided_text(const DecisionReport& report) {
     return wrapped(fmt::format(
         "Undecided: the least {} is 0, and so is any share of it: --within cannot tell layouts apart by this goal.",
         result.options.goal->name));
+  if (result.is_interrupted && result.cost.runs == 0)
+    return wrapped(
+        "Interrupted in the first round of runs: the same command goes on from here. No layout is ruled out.");
   if (result.is_interrupted) return wrapped("Interrupted: the same command goes on from here. So far not ruled out:");
   return wrapped(
       fmt::format("Undecided: after {} runs of a layout (--most) these cannot be told apart, or it is not "
@@ -86,7 +89,8 @@ std::string undecided_text(const DecisionReport& report) {
 
 std::string answer_text(const DecisionReport& report) {
   const DecisionResult& result = report.result;
-  if (!result.is_sure) return undecided_text(report) + layouts_that_are(report, "undecided");
+  if (!result.is_sure)
+    return undecided_text(report) + (result.cost.runs == 0 ? "" : layouts_that_are(report, "undecided"));
   if (!result.best)
     return wrapped(constraints_text(result).empty() ? std::string("No layout can be compared.")
                                                     : fmt::format("No layout {}: with a {}.", constraints_text(result),

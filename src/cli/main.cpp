@@ -1,13 +1,27 @@
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <memory>
+#include <string>
 #include <system_error>
+#include <vector>
 
 #include "cli/commands.hpp"
 #include "cli/console.hpp"
 #include "cli/help_text.hpp"
+#include "input/wording.hpp"
 #include "scene/input_error.hpp"
 
 namespace vibrosow {
 namespace {
+
+/// Of a misspelled one the library only says that a command is required.
+void require_command(const CLI::App& app, const std::string& first) {
+  std::vector<std::string> names;
+  for (const CLI::App* command : app.get_subcommands({})) names.push_back(command->get_name());
+  if (first.starts_with('-') || std::ranges::find(names, first) != names.end()) return;
+  throw InputError(fmt::format("there is no command \"{}\"{}", shortened(first), did_you_mean(first, names)));
+}
 
 int run_program(int argument_count, char** arguments) {
   CLI::App app("Vibrosow designs vibrating-tray seeders: it simulates every seed and counts what leaves each hole.",
@@ -29,9 +43,11 @@ int run_program(int argument_count, char** arguments) {
   add_accuracy_command(app, exit_code);
   add_bench_sheet_command(app, exit_code);
   add_calibrate_command(app, exit_code);
+  add_new_command(app, exit_code);
   add_check_command(app, exit_code);
   add_presets_command(app, exit_code);
   add_columns_command(app, exit_code);
+  if (argument_count > 1) require_command(app, arguments[1]);
   try {
     app.parse(argument_count, arguments);  // runs the chosen command
   } catch (const CLI::ParseError& error) {

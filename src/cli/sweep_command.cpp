@@ -51,6 +51,7 @@ int run_sweep(const SweepCommandOptions& command) {
   const Made made = make_all_runs(planned, runs, folder.path(), command);
   const int exit_code = report_study(planned, runs, folder, made.timing, options);
   if (!options.quiet && made.making.there > 0) print("{} of the runs were there from before\n", made.making.there);
+  if (!options.quiet && exit_code == exit_interrupted) print("interrupted: the same command goes on from here\n");
   if (!options.quiet) print("reports: {}\n", folder.path().string());
   if (!runs.not_kept().empty()) complain("warning: runs are not kept: " + runs.not_kept());
   return exit_code;
