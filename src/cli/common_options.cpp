@@ -39,7 +39,8 @@ OutputFolder CommonOptions::output_folder(const std::string& command, const std:
     if (const auto number = names.back().find("NNN"); number != std::string::npos) names.back().replace(number, 3, "*");
   }
   const std::string stem = std::filesystem::path(file).stem().string() + suffix;
-  const bool has_cases = command == "sweep" || command == "decide";
+  const bool has_cases =
+      command == "sweep" || command == "decide" || command == "bench-sheet" || command == "calibrate";
   return {out.empty() ? std::filesystem::path("out") / stem : std::filesystem::path(out), command, names, has_cases};
 }
 

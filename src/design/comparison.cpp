@@ -45,16 +45,6 @@ double curve_zero(const MeasuredPart& part, const Scene& scene) {
   return part.time_zero.value_or(first != scene.tray.holes.end() ? first->open_at : 0);
 }
 
-/// The times of the run at which a measured curve's are: those within the run, and last its zero, from which it counts.
-CurveRequest curve_request(const MeasuredPart& part, const MeasuredSeries& series, const Scene& scene) {
-  CurveRequest request{discharge_of(part.table.quantity), series.hole, series.lot, {}};
-  const double zero = curve_zero(part, scene);
-  for (const double time : series.times)
-    if (time + zero <= scene.run.duration) request.times.push_back(time + zero);
-  request.times.push_back(zero);
-  return request;
-}
-
 double simulated_rate(const Evaluation& replicate, MeasuredQuantity quantity, const MeasuredSeries& series) {
   const HoleOutflow* row = find_row(replicate.outflow, series.hole, series.lot);
   if (!row) throw std::logic_error("a measured hole that the layout has not");
@@ -88,9 +78,7 @@ Pairing pair_up(const StudyResult& result, const MeasuredMatch& match) {
   for (std::size_t i = 0; i < values; ++i) pairing.measured.push_back(pairing.series->values[i].mean);
   for (const Evaluation& replicate : result.runs[scene]) {
     if (!replicate.finished()) continue;
-    pairing.simulated.push_back(
-        curve ? simulated_curve(replicate, request)
-              : std::vector<double>{simulated_rate(replicate, part.table.quantity, *pairing.series)});
+    pairing.simulated.push_back(simulated_values(replicate, part, *pairing.series, result.study.scenes[scene]));
     if (part.scale == MeasuredScale::depth) pairing.depth_factor = replicate.outflow.depth_factor.value();
   }
   return pairing;
@@ -180,6 +168,21 @@ void add_remark(LayoutResult& layout, const std::string& remark) {
 }
 
 }  // namespace
+
+CurveRequest curve_request(const MeasuredPart& part, const MeasuredSeries& series, const Scene& scene) {
+  CurveRequest request{discharge_of(part.table.quantity), series.hole, series.lot, {}};
+  const double zero = curve_zero(part, scene);
+  for (const double time : series.times)
+    if (time + zero <= scene.run.duration) request.times.push_back(time + zero);
+  request.times.push_back(zero);
+  return request;
+}
+
+std::vector<double> simulated_values(const Evaluation& run, const MeasuredPart& part, const MeasuredSeries& series,
+                                     const Scene& scene) {
+  if (is_curve(part.table.quantity)) return simulated_curve(run, curve_request(part, series, scene));
+  return {simulated_rate(run, part.table.quantity, series)};
+}
 
 std::vector<CurveRequest> measured_curves(const Study& study, std::size_t scene) {
   std::vector<CurveRequest> requests;

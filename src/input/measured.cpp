@@ -213,6 +213,7 @@ class Reader {
     for (const auto& [time, values] : one.values_at) {
       if (is_curve(quantity_->quantity)) series.times.push_back(time);
       series.values.push_back(mean_with_interval(values));
+      series.repeats.push_back(static_cast<int>(values.size()));
       largest = std::max(largest, series.values.back().mean);
     }
     if (largest == 0)

@@ -42,6 +42,7 @@ struct MeasuredSeries {
   std::string lot = "all";
   std::vector<double> times;             // s, rising, of a curve; empty for a rate
   std::vector<MeanWithInterval> values;  // one for each time; a single one for a rate
+  std::vector<int> repeats;              // of each value, over which it is the mean
   std::string where;                     // "FILE:LINE" of its first row
 };
 

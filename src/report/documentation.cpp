@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include "report/accuracy_report.hpp"
+#include "report/bench_report.hpp"
+#include "report/calibration_report.hpp"
 #include "report/decision_report.hpp"
 #include "report/plan_report.hpp"
 #include "report/run_report.hpp"
@@ -42,7 +44,9 @@ std::string output_documentation() {
          chapter("sweep", "every layout of a study", sweep_file_texts()) +
          chapter("decide", "the best layout of a study", decision_file_texts()) +
          chapter("accuracy", "what accuracy costs in time", accuracy_file_texts()) +
-         chapter("plan", "layouts that sow a crop at a rate", plan_file_texts());
+         chapter("plan", "layouts that sow a crop at a rate", plan_file_texts()) +
+         chapter("bench-sheet", "what to measure", bench_file_texts()) +
+         chapter("calibrate", "contacts fitted to measured outflow", calibration_file_texts());
 }
 
 }  // namespace vibrosow

@@ -1,0 +1,123 @@
+#include "input/named_columns.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <optional>
+#include <string_view>
+
+#include "input/key_units.hpp"
+#include "input/wording.hpp"
+#include "scene/input_error.hpp"
+#include "units/quantity.hpp"
+
+namespace vibrosow {
+namespace {
+
+/// A name without a unit, what it may measure, and the column that states it.
+struct Quantities {
+  std::string_view name;
+  Dimension dimension;
+  std::string_view unit;
+  std::string_view column;
+};
+
+constexpr std::array quantities = {
+    Quantities{"rate", Dimension::mass_rate, "g/s", "rate_g_per_s"},
+    Quantities{"rate", Dimension::rate, "1/s", "seeds_per_s"},
+    Quantities{"caught", Dimension::mass, "g", "caught_g"},
+    Quantities{"mass", Dimension::mass, "g", "mass_g"},
+    Quantities{"discharged", Dimension::fraction, "%", "discharged_percent"},
+    Quantities{"duration", Dimension::time, "s", "duration_s"},
+    Quantities{"time", Dimension::time, "s", "time_s"},
+};
+
+/// How a column is read: its new name, and what its numbers are multiplied by.
+struct Reading {
+  std::string column;
+  double factor = 1;
+};
+
+/// What stands in brackets at the end of a header; empty without.
+std::string unit_in(const std::string& header) {
+  if (header.empty() || (header.back() != ']' && header.back() != ')')) return "";
+  const auto open = header.rfind(header.back() == ']' ? '[' : '(');
+  return open == std::string::npos ? "" : header.substr(open + 1, header.size() - open - 2);
+}
+
+std::optional<double> factor_of(const std::string& unit, Dimension dimension, std::string_view wanted) {
+  try {
+    return unit_size(unit, dimension) / unit_size(wanted, dimension);
+  } catch (const UnitError&) {
+    return std::nullopt;
+  }
+}
+
+Reading reading_of(const ColumnName& name, const std::string& where) {
+  const std::string unit = unit_in(name.column);
+  std::string wanted;
+  for (const Quantities& quantity : quantities) {
+    if (quantity.name != name.name) continue;
+    if (const auto factor = factor_of(unit, quantity.dimension, quantity.unit))
+      return {std::string(quantity.column), *factor};
+    wanted += fmt::format("{}{}", wanted.empty() ? "" : " or ", expected(quantity.dimension));
+  }
+  if (const auto key_unit = column_unit(name.name)) {
+    if (const auto factor = factor_of(unit, key_unit->dimension, key_unit->unit))
+      return {condition_column(name.name), *factor};
+    wanted = expected(key_unit->dimension);
+  }
+  if (wanted.empty()) return {name.name};  // a column of `read_measured`, or one that it refuses
+  throw InputError(fmt::format("{}: {}: {}; expected {}, with its unit in brackets at the end of the header", where,
+                               name.column, unit.empty() ? "states no unit" : fmt::format("is in \"{}\"", unit),
+                               wanted));
+}
+
+void convert(CsvLines& csv, std::size_t column, double factor) {
+  if (factor == 1) return;
+  for (CsvLines::Row& row : csv.rows) {
+    const auto number = csv_number(row.fields[column], csv.decimal_comma);
+    if (!number) continue;  // `read_measured` tells it as it stands
+    std::string text = fmt::format("{}", *number * factor);
+    if (csv.decimal_comma) std::ranges::replace(text, '.', ',');
+    row.fields[column] = std::move(text);
+  }
+}
+
+void remove(CsvLines& csv, std::size_t column) {
+  const auto at = static_cast<std::ptrdiff_t>(column);
+  csv.header.fields.erase(csv.header.fields.begin() + at);
+  for (CsvLines::Row& row : csv.rows) row.fields.erase(row.fields.begin() + at);
+}
+
+}  // namespace
+
+ColumnName parse_column_name(const std::string& column_is_name) {
+  const auto equals = column_is_name.rfind('=');
+  if (equals == std::string::npos || equals == 0)
+    throw InputError(
+        fmt::format("--column {}: expected COLUMN=NAME such as \"Menge [g/min]=rate\"", shortened(column_is_name)));
+  return {column_is_name.substr(0, equals), column_is_name.substr(equals + 1)};
+}
+
+CsvLines with_named_columns(CsvLines csv, const std::vector<ColumnName>& names) {
+  const std::string where = fmt::format("{}:{}", csv.file, csv.header.line);
+  for (const ColumnName& name : names) {
+    const auto found = std::ranges::find(csv.header.fields, name.column);
+    if (found == csv.header.fields.end())
+      throw InputError(fmt::format("{}: {}: there is no such column{}", where, name.column,
+                                   did_you_mean(name.column, csv.header.fields)));
+    const auto column = static_cast<std::size_t>(found - csv.header.fields.begin());
+    if (name.name.empty()) {
+      remove(csv, column);
+      continue;
+    }
+    Reading reading = reading_of(name, where);
+    convert(csv, column, reading.factor);
+    csv.header.fields[column] = std::move(reading.column);
+  }
+  return csv;
+}
+
+}  // namespace vibrosow

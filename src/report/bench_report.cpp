@@ -1,0 +1,203 @@
+#include "report/bench_report.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "input/key_units.hpp"
+#include "report/terminal_text.hpp"
+
+namespace vibrosow {
+namespace {
+
+constexpr double worth_naming = 0.2;  // of a contraction
+
+/// A reading to be taken.
+struct Reading {
+  const BenchSource* source;
+  const BenchCandidate* candidate;
+  int repeat;
+};
+
+/// Round by round: what setting something again is worth shows between the repeats.
+std::vector<Reading> readings(const BenchSource& source) {
+  std::vector<Reading> result;
+  for (int repeat = 1; repeat <= source.plan.repeats; ++repeat)
+    for (const BenchCandidate* candidate : source.plan.chosen()) result.push_back({&source, candidate, repeat});
+  return result;
+}
+
+template <class Row, class Get>
+Columns<Row> condition_columns(const std::vector<std::string>& keys, Get candidate_of) {
+  Columns<Row> columns;
+  for (std::size_t k = 0; k < keys.size(); ++k) {
+    const auto unit = column_unit(keys[k]);
+    columns.push_back(
+        {{condition_column(keys[k]), unit ? std::string(unit->unit) : "", "to be set"},
+         [k, candidate_of](const Row& row) { return CsvField(candidate_of(row).conditions[k].text, true); }});
+  }
+  return columns;
+}
+
+Columns<Reading> reading_columns(const std::vector<std::string>& keys) {
+  Columns<Reading> columns =
+      condition_columns<Reading>(keys, [](const Reading& r) -> const BenchCandidate& { return *r.candidate; });
+  append(columns, {text_column<Reading>("repeat", "of the condition, 1..", [](const Reading& r) { return r.repeat; }),
+                   quantity_column<Reading>("duration_s", seconds, "for which seeds are caught",
+                                            [](const Reading& r) { return r.source->plan.catch_time; }),
+                   text_column<Reading>("caught_g", "to be filled in: mass caught in that time, of all holes, in g",
+                                        [](const Reading&) { return std::string(); })});
+  return columns;
+}
+
+Columns<BenchCandidate> candidate_columns(const std::vector<std::string>& keys) {
+  using Row = const BenchCandidate&;
+  Columns<BenchCandidate> columns = condition_columns<BenchCandidate>(keys, [](Row r) -> Row { return r; });
+  append(columns,
+         {text_column<BenchCandidate>("place", "in the order in which it was chosen; empty: it was not",
+                                      [](Row r) { return r.place ? fmt::format("{}", *r.place) : std::string(); }),
+          quantity_column<BenchCandidate>(
+              "rate_g_per_s", grams_per_second,
+              "expected, geometric mean over what is not known; of the plane slice in the plane",
+              [](Row r) { return r.mass_rate; }),
+          quantity_column<BenchCandidate>("chance_percent", percent, "standard deviation of one reading",
+                                          [](Row r) { return r.chance; })});
+  return columns;
+}
+
+std::string setting_text(const BenchCandidate& candidate) {
+  std::vector<std::string> parts;
+  for (const Condition& condition : candidate.conditions) {
+    const auto unit = column_unit(condition.key);
+    parts.push_back(fmt::format("{}{}", condition.text, unit ? fmt::format(" {}", unit->unit) : ""));
+  }
+  return fmt::format("{}", fmt::join(parts, ", "));
+}
+
+std::string expectation(const BenchSource& source) {
+  std::vector<std::string> told, untold;
+  for (std::size_t k = 0; k < source.task.keys.size(); ++k) {
+    const double contraction = source.plan.contraction[k];
+    const std::string& key = source.task.keys[k].key;
+    if (contraction >= worth_naming)
+      told.push_back(fmt::format("{} ({:.0f} %)", key, 100 * contraction));
+    else
+      untold.push_back(key);
+  }
+  std::string text = told.empty() ? "These readings would tell little of any of the fitted numbers."
+                                  : fmt::format("Expected to narrow what is known of {}.", fmt::join(told, ", "));
+  if (!untold.empty() && !told.empty()) text += fmt::format(" They would tell little of {}.", fmt::join(untold, ", "));
+  return text;
+}
+
+double minutes(const BenchSource& source) {
+  return source.plan.readings() * (source.plan.catch_time + source.limits.handling) / 60;
+}
+
+std::string escaped(const std::string& text) {
+  std::string result;
+  for (const char c : text) {
+    switch (c) {
+      case '&':
+        result += "&amp;";
+        break;
+      case '<':
+        result += "&lt;";
+        break;
+      case '>':
+        result += "&gt;";
+        break;
+      default:
+        result += c;
+    }
+  }
+  return result;
+}
+
+constexpr const char* page_style =
+    "@page { size: A4; margin: 15mm } body { font: 10pt sans-serif } h1 { font-size: 15pt } "
+    "table { border-collapse: collapse; width: 100% } tr { break-inside: avoid } "
+    "th, td { border: 1px solid black; padding: 1.2mm 2mm; text-align: right } td.write { width: 35mm } "
+    ".line { display: inline-block; width: 45mm; border-bottom: 1px solid black; margin-right: 6mm }";
+
+/// What a person needs to do before the table.
+std::string instructions(const BenchSource& source) {
+  std::string text = "<p>";
+  for (const char* field : {"Date", "Seed lot", "Thousand-grain weight"})
+    text += fmt::format("{} <span class=\"line\"></span>\n", field);
+  text += fmt::format(
+      "</p>\n<p>{} readings of {:g} s, about {:.0f} minutes with {:g} s for setting, filling and weighing. Use the "
+      "seed "
+      "that will be sown, and a balance that shows 0.1 g.</p>\n<ol>\n",
+      source.plan.readings(), source.plan.catch_time, minutes(source), source.limits.handling);
+  for (const char* step :
+       {"Fill as the tray is filled in work, the same for every reading.",
+        "Set what the row says. Let it run until the flow is even, three seconds at least.",
+        "Catch what leaves all holes for the time stated, and weigh it.",
+        "Write the grams here and into bench.csv. Go through the rows in order: the repeats are settings made anew.",
+        "A reading that went wrong (an empty tray, a clogged hole) is taken again, or its row is deleted."})
+    text += fmt::format("<li>{}</li>\n", step);
+  return text + "</ol>\n";
+}
+
+std::string reading_table(const BenchSource& source) {
+  std::string text = "<table><thead><tr><th>no.</th>";
+  for (const std::string& key : source.task.measured.table.condition_keys) {
+    const auto unit = column_unit(key);
+    text += fmt::format("<th>{}{}</th>", escaped(key), unit ? fmt::format("<br>{}", unit->unit) : "");
+  }
+  text += "<th>repeat</th><th>time<br>s</th><th>caught<br>g</th></tr></thead>\n";
+  int number = 0;
+  for (const Reading& reading : readings(source)) {
+    text += fmt::format("<tr><td>{}</td>", ++number);
+    for (const Condition& condition : reading.candidate->conditions)
+      text += fmt::format("<td>{}</td>", escaped(condition.text));
+    text +=
+        fmt::format("<td>{}</td><td>{:g}</td><td class=\"write\"></td></tr>\n", reading.repeat, source.plan.catch_time);
+  }
+  return text + "</table>\n";
+}
+
+std::string page(const BenchSource& source) {
+  std::string text = fmt::format(
+      "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><title>Bench sheet</title>\n<style>{}</style>"
+      "</head><body>\n<h1>Bench sheet: {}</h1>\n",
+      page_style, escaped(source.task.seeder.stem().string()));
+  text += instructions(source) + reading_table(source);
+  return text + fmt::format("<p>{}</p>\n<p>Then: vibrosow calibrate {} bench.csv</p>\n</body></html>\n",
+                            escaped(expectation(source)), escaped(source.task.seeder.filename().string()));
+}
+
+}  // namespace
+
+std::string bench_table(const BenchSource& source) {
+  std::vector<std::string> names;
+  for (const std::string& key : source.task.measured.table.condition_keys) names.push_back(key);
+  std::string text =
+      wrapped(fmt::format("{} readings of {:g} s, each condition {} times: {:.0f} minutes", source.plan.readings(),
+                          source.plan.catch_time, source.plan.repeats, minutes(source)));
+  text += wrapped(fmt::format("to set ({}):", fmt::join(names, ", ")));
+  for (const BenchCandidate* candidate : source.plan.chosen())
+    text += fmt::format("  {:<40} a reading is off by {:.2g} %\n", setting_text(*candidate), 100 * candidate->chance);
+  return text + wrapped(expectation(source));
+}
+
+std::vector<FileText> bench_file_texts() {
+  const std::vector<std::string> any{"KEY"};
+  return {
+      {"bench-sheet.html", "a page to print: what to set, how long to run, what to weigh", {}},
+      file_text("bench.csv", "one row per reading to be taken; filled in, `vibrosow calibrate` reads it",
+                reading_columns(any)),
+      file_text("bench_candidates.csv", "one row per combination of settings that was tried", candidate_columns(any))};
+}
+
+std::vector<OutputFile> bench_files(const BenchSource& source, CsvFormat format) {
+  const std::vector<std::string>& keys = source.task.measured.table.condition_keys;
+  return {{"bench-sheet.html", page(source)},
+          {"bench.csv", csv_of(reading_columns(keys), readings(source), format)},
+          {"bench_candidates.csv", csv_of(candidate_columns(keys), source.plan.candidates, format)}};
+}
+
+}  // namespace vibrosow

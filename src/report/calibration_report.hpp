@@ -1,0 +1,33 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "design/calibration.hpp"
+#include "report/columns.hpp"
+#include "report/output_folder.hpp"
+
+namespace vibrosow {
+
+/// A calibration with what it is of.
+struct CalibrationSource {
+  const CalibrationTask& task;
+  const CalibrationDesign& design;
+  const std::vector<ReducedRun>& runs;
+  const Calibration& calibration;
+};
+
+/// The fitted values for a terminal, what was predicted of what was held out, and what is doubtful.
+std::string calibration_table(const CalibrationSource& source);
+
+/// What is doubtful about it, each a sentence; none where all is well.
+std::vector<std::string> calibration_doubts(const CalibrationSource& source);
+
+std::vector<FileText> calibration_file_texts();
+
+/// Its files: calibration.csv, prediction.csv, posterior.csv, calibration_runs.csv and contact.toml, the seeder's
+/// contact with the means of the fitted values.
+std::vector<OutputFile> calibration_files(const CalibrationSource& source, const Contact& fitted,
+                                          CsvFormat format = {});
+
+}  // namespace vibrosow

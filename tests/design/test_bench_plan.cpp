@@ -1,0 +1,91 @@
+#include "design/bench_plan.hpp"
+
+#include <gtest/gtest.h>
+
+#include <boost/math/distributions/normal.hpp>
+#include <cmath>
+
+#include "grains/random.hpp"
+#include "scene/input_error.hpp"
+#include "study_files.hpp"
+
+namespace vibrosow {
+namespace {
+
+/// Seeds that leave in the window: through holes of 12 mm friction decides, of 20 mm nothing does.
+Run made_up_run(const Model& model, const SimulationOptions& options) {
+  Random random(options.random_seed);
+  const double chance = quantile(boost::math::normal(), 1e-9 + (1 - 2e-9) * random.uniform());
+  const double width = model.scene.tray.holes.front().width;
+  const double minds = (0.020 - width) / 0.008;
+  const auto seeds = std::llround(400 * std::exp(-minds * model.scene.contact.seed.friction) * (1 + 0.01 * chance));
+  Run run;
+  run.random_seed = options.random_seed;
+  run.dt = 1e-3, run.steps = 4000, run.end_time = 4;
+  for (std::int64_t i = 0; i < seeds; ++i)
+    run.events.push_back({2 + 2 * (static_cast<double>(i) + 0.5) / static_cast<double>(seeds), 1, 0, i,
+                          model.scene.lots[0].mass, 0.1, 0.5});
+  run.balance.put_in = run.balance.counted = seeds;
+  return run;
+}
+
+class BenchPlanOf : public testing::Test {
+ protected:
+  BenchPlanOf() {
+    task_.seeder = files_.seeder();
+    task_.overrides = {parse_override("tray.holes.count=1"), parse_override("tray.fill.keep=true")};
+    task_.keys = {parse_fitted_key("contact.friction=0.1..0.8"), parse_fitted_key("contact.restitution=0.2..0.9")};
+    task_.measured.table = bench_candidates({parse_setting("tray.holes.width=12 mm..20 mm")});
+  }
+  BenchPlan plan(const BenchLimits& limits, MeasuredScale scale = MeasuredScale::none) {
+    task_.measured.scale = scale;
+    const CalibrationDesign design = design_calibration(task_, std::make_shared<SourceFiles>());
+    return *plan_bench(task_, design, limits, made_up_run);
+  }
+  StudyFiles files_;
+  CalibrationTask task_;
+};
+
+TEST_F(BenchPlanOf, TakesFirstWhatTellsMost) {
+  const BenchPlan all = plan({});
+  ASSERT_EQ(all.candidates.size(), 3U);
+  EXPECT_EQ(all.candidates[0].place, 1);
+  EXPECT_GT(all.contraction[0], 0.9);
+  EXPECT_LT(all.contraction[1], 0.2);
+  EXPECT_EQ(all.repeats, 3);
+}
+
+/// With an unknown factor one condition alone tells nothing: the two that differ most do.
+TEST_F(BenchPlanOf, NeedsTwoConditionsForARateUpToAFactor) {
+  BenchLimits limits;
+  limits.time = 4 * (limits.handling + 15);  // four readings
+  const BenchPlan two = plan(limits, MeasuredScale::free);
+  ASSERT_EQ(two.chosen().size(), 2U);
+  EXPECT_TRUE(two.candidates[0].place);
+  EXPECT_TRUE(two.candidates[2].place);
+  EXPECT_EQ(two.repeats, 2);
+}
+
+TEST_F(BenchPlanOf, StaysWithinItsTime) {
+  for (const double minutes : {5.0, 10.0, 30.0}) {
+    BenchLimits limits;
+    limits.time = 60 * minutes;
+    const BenchPlan planned = plan(limits);
+    EXPECT_LE(planned.readings() * (planned.catch_time + limits.handling), limits.time);
+  }
+  BenchLimits limits;
+  limits.time = 60;
+  EXPECT_THROW(plan(limits), InputError);
+}
+
+TEST(BenchCandidates, AreSettableNumbers) {
+  const MeasuredTable table = bench_candidates(
+      {parse_setting("tray.motion.frequency=6.7512 Hz..11.251 Hz"), parse_setting("tray.motion.amplitude=3 mm..5 mm")});
+  ASSERT_EQ(table.series.size(), 9U);
+  EXPECT_EQ(table.series[0].conditions[0].text, "6.75");
+  EXPECT_EQ(table.series[4].conditions[0].text, "9");
+  EXPECT_EQ(table.series[5].conditions[1].text, "5");
+}
+
+}  // namespace
+}  // namespace vibrosow
