@@ -41,9 +41,9 @@ int run_program(int argument_count, char** arguments) {
   add_verify_command(app, exit_code);
   add_pack_command(app, exit_code);
   add_accuracy_command(app, exit_code);
+  add_new_command(app, exit_code);
   add_bench_sheet_command(app, exit_code);
   add_calibrate_command(app, exit_code);
-  add_new_command(app, exit_code);
   add_check_command(app, exit_code);
   add_presets_command(app, exit_code);
   add_columns_command(app, exit_code);
