@@ -8,6 +8,7 @@
 #include "input/key_units.hpp"
 #include "input/read_scene.hpp"
 #include "input/wording.hpp"
+#include "laws/law.hpp"
 #include "scene/input_error.hpp"
 #include "units/quantity.hpp"
 
@@ -100,23 +101,23 @@ std::vector<KeyRange> usual_fitted_keys(const std::filesystem::path& seeder, con
                                         const std::shared_ptr<SourceFiles>& files) {
   const Trials trials(seeder, overrides, files);
   const Scene scene = trials.scene();
-  const bool viscous = scene.contact.law == Law::hertz_viscous;
+  const LawTraits& law = traits_of(scene.contact.law);
   std::vector<KeyRange> keys;
   const auto add = [&](const std::string& key, double low, double high) {
     if (!trials.is_set(key)) keys.push_back({key, low, high, is_stiffness(key)});
   };
   add("contact.friction", 0.1, 0.9);
   if (trials.with("contact.friction", 0.123).contact.wall == scene.contact.wall) add("contact.wall.friction", 0.1, 0.9);
-  if (!viscous) {
+  if (law.damping == LawDamping::restitution) {
     add("contact.restitution", 0.2, 0.9);
     if (trials.with("contact.restitution", 0.123).contact.wall == scene.contact.wall)
       add("contact.wall.restitution", 0.2, 0.9);
   }
   if (scene.contact.rolling != Rolling::none) add("contact.rolling_friction", 0, 0.3);
   if (scene.numerics.accuracy != AccuracyLevel::as_written) return keys;
-  const bool shell = scene.contact.law == Law::elastic_shell;
-  const std::string key = shell ? "contact.shell_compression" : "contact.youngs_modulus";
-  const double own = shell ? scene.contact.shell_compression : to_column_unit(key, scene.contact.youngs_modulus);
+  const std::string key(law.stiffness_key());
+  const double own = law.material == LawMaterial::shell ? scene.contact.shell_compression
+                                                        : to_column_unit(key, scene.contact.youngs_modulus);
   if (own > 0) add(key, own / stiffness_factor, own * stiffness_factor);
   return keys;
 }

@@ -4,6 +4,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "laws/law.hpp"
+
 namespace vibrosow {
 namespace {
 
@@ -19,7 +21,7 @@ std::string quantity(double value, double unit, const char* name) {
 /// Keys that seeds and walls have.
 std::string surface_keys(const Surface& surface, const Contact& contact) {
   std::string text = fmt::format("friction = {}\n", surface.friction);
-  if (contact.law != Law::hertz_viscous) text += fmt::format("restitution = {}\n", surface.restitution);
+  if (traits_of(contact.law).damping == LawDamping::restitution) text += fmt::format("restitution = {}\n", surface.restitution);
   if (contact.rolling != Rolling::none) {
     text += fmt::format("rolling_friction = {}\n", surface.rolling_friction);
     text += fmt::format("twisting_friction = {}\n", surface.twisting_friction);
@@ -28,11 +30,13 @@ std::string surface_keys(const Surface& surface, const Contact& contact) {
 }
 
 std::string law_keys(const Contact& contact) {
-  if (contact.law == Law::elastic_shell)
-    return fmt::format("law = \"elastic-shell\"\nshell_compression = {}\n", contact.shell_compression);
-  std::string text = fmt::format("law = \"hertz\"\nyoungs_modulus = {}\npoisson_ratio = {}\n",
-                                 quantity(contact.youngs_modulus, 1e6, "MPa"), contact.poisson_ratio);
-  if (contact.law == Law::hertz_viscous)
+  const LawTraits& law = traits_of(contact.law);
+  std::string text = fmt::format("law = {}\n", quoted(std::string(law.name)));
+  text += law.material == LawMaterial::shell
+              ? fmt::format("shell_compression = {}\n", contact.shell_compression)
+              : fmt::format("youngs_modulus = {}\npoisson_ratio = {}\n", quantity(contact.youngs_modulus, 1e6, "MPa"),
+                            contact.poisson_ratio);
+  if (law.damping == LawDamping::rate)
     text += fmt::format("damping_rate = {}\n", quantity(contact.damping_rate, 1, "1/s"));
   return text;
 }
