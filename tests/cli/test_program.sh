@@ -367,7 +367,7 @@ tray.holes.width = { from = "12 mm", to = "20 mm" }
 tray.motion.frequency = { from = "10 Hz", to = "20 Hz" }
 END
 printf 'base = "seeder.toml"\n' >study-of-one.toml
-optimise=(--goals rate,power --runs 24 --clogging "100 %")
+optimise=(--goals "rate,power" --runs 24 --clogging "100 %")
 expect 0 "Cost: [0-9]+ layouts, [0-9]+ runs" optimise space.toml "${optimise[@]}" --jobs 1 --out front
 have front/pareto.csv front/optimise.json front/front.toml
 "$program" optimise space.toml "${optimise[@]}" --jobs 2 --out killed-front --quiet 2>messages &
