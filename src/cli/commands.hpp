@@ -11,6 +11,7 @@ enum ExitCode { exit_done = 0, exit_wrong_input = 2, exit_stopped_by_guard = 3, 
 void add_run_command(CLI::App& app, int& exit_code);
 void add_sweep_command(CLI::App& app, int& exit_code);
 void add_decide_command(CLI::App& app, int& exit_code);
+void add_optimise_command(CLI::App& app, int& exit_code);
 void add_accuracy_command(CLI::App& app, int& exit_code);
 void add_bench_sheet_command(CLI::App& app, int& exit_code);
 void add_calibrate_command(CLI::App& app, int& exit_code);

@@ -39,8 +39,8 @@ OutputFolder CommonOptions::output_folder(const std::string& command, const std:
     if (const auto number = names.back().find("NNN"); number != std::string::npos) names.back().replace(number, 3, "*");
   }
   const std::string stem = std::filesystem::path(file).stem().string() + suffix;
-  const bool has_cases =
-      command == "sweep" || command == "decide" || command == "bench-sheet" || command == "calibrate";
+  const bool has_cases = command == "sweep" || command == "decide" || command == "optimise" ||
+                         command == "bench-sheet" || command == "calibrate";
   return {out.empty() ? std::filesystem::path("out") / stem : std::filesystem::path(out), command, names, has_cases};
 }
 
@@ -92,6 +92,18 @@ double time_option(const std::string& option, const std::string& text) {
     throw InputError(fmt::format("{}: {}", option, error.what()));
   }
   throw InputError(fmt::format("{}: \"{}\" is no time to wait", option, text));
+}
+
+double share_option(const std::string& option, const std::string& text, double least, double most, const char* range) {
+  double share = 0;
+  try {
+    share = parse_quantity(text, Dimension::fraction);
+  } catch (const UnitError& error) {
+    throw InputError(fmt::format("{}: {}", option, error.what()));
+  }
+  if (!(share >= least && share <= most))
+    throw InputError(fmt::format("{}: \"{}\" is out of range, which is from {}", option, text, range));
+  return share;
 }
 
 void print_warnings(const std::vector<std::string>& warnings) {

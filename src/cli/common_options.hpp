@@ -43,6 +43,9 @@ void add_common_options(CLI::App& command, CommonOptions& options, const std::st
 /// A time in s that an option was given. Throws InputError where it is none or not above 0.
 double time_option(const std::string& option, const std::string& text);
 
+/// A share between two, which `range` states. Throws InputError.
+double share_option(const std::string& option, const std::string& text, double least, double most, const char* range);
+
 /// Each on stderr.
 void print_warnings(const std::vector<std::string>& warnings);
 

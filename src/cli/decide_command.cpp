@@ -16,9 +16,7 @@
 #include "design/planned_study.hpp"
 #include "input/input_file.hpp"
 #include "report/decision_report.hpp"
-#include "scene/input_error.hpp"
 #include "storage/study_plan.hpp"
-#include "units/quantity.hpp"
 
 namespace vibrosow {
 namespace {
@@ -34,19 +32,6 @@ struct DecideCommandOptions {
   bool drafts = false;
 };
 
-/// A share between two, which `range` states.
-double share_option(const char* option, const std::string& text, double least, double most, const char* range) {
-  double share = 0;
-  try {
-    share = parse_quantity(text, Dimension::fraction);
-  } catch (const UnitError& error) {
-    throw InputError(fmt::format("{}: {}", option, error.what()));
-  }
-  if (!(share >= least && share <= most))
-    throw InputError(fmt::format("{}: \"{}\" is out of range, which is from {}", option, text, range));
-  return share;
-}
-
 DecideOptions options_of(const DecideCommandOptions& command) {
   DecideOptions options;
   options.goal = &goal_named(command.goal);
@@ -59,31 +44,6 @@ DecideOptions options_of(const DecideCommandOptions& command) {
   options.first_random_seed = command.common.random_seed;
   return options;
 }
-
-/// Where the runs of all rounds are made.
-class Maker {
- public:
-  Maker(const DecideCommandOptions& command, StudyRuns& runs) : command_(command), runs_(runs) {}
-
-  /// Leads what asks for runs round by round to its end; false where that is interrupted.
-  template <class Asking, class AfterRound>
-  bool lead(Asking& asking, AfterRound after_round) {
-    for (auto wanted = asking.wanted(); !wanted.empty();) {
-      const CommonOptions& options = command_.common;
-      made_.add(make_runs(runs_, wanted, command_.making, options.jobs, options.quiet));
-      if (made_.making.interrupted > 0 || !asking.take(runs_.kept(), options.jobs)) return false;
-      wanted = asking.wanted();
-      after_round();
-    }
-    return true;
-  }
-  std::int64_t made() const { return made_.making.made; }
-
- private:
-  const DecideCommandOptions& command_;
-  StudyRuns& runs_;
-  Made made_;
-};
 
 /// Tells of each layout that drops out while runs are made.
 class LayoutsLeft {
@@ -109,11 +69,11 @@ struct Asked {
 
 DecisionReport decide(PlannedStudy& planned, Asked& asked, const DecideCommandOptions& command, StudyRuns& runs,
                       const OutputFolder& folder) {
-  Maker maker(command, runs);
+  RoundsOfRuns rounds(runs, command.making, command.common.jobs, command.common.quiet);
   DecisionReport report;
   bool is_whole = true;
   if (asked.drafts) {
-    is_whole = maker.lead(*asked.drafts, [] {});
+    is_whole = rounds.lead(*asked.drafts, [] {});
     report.drafts = asked.drafts->findings();
   }
   StudyDecision decision(planned.study, asked.options,
@@ -125,7 +85,7 @@ DecisionReport decide(PlannedStudy& planned, Asked& asked, const DecideCommandOp
   decision.wanted();
   freeze();
   LayoutsLeft left;
-  is_whole = is_whole && maker.lead(decision, [&] { left.tell(decision, maker.made(), command.common.quiet); });
+  is_whole = is_whole && rounds.lead(decision, [&] { left.tell(decision, rounds.made(), command.common.quiet); });
   freeze();
   report.result = decision.result();
   report.result.is_interrupted = !is_whole;

@@ -34,6 +34,7 @@ int run_program(int argument_count, char** arguments) {
   add_run_command(app, exit_code);
   add_sweep_command(app, exit_code);
   add_decide_command(app, exit_code);
+  add_optimise_command(app, exit_code);
   add_work_command(app, exit_code);
   add_submit_command(app, exit_code);
   add_status_command(app, exit_code);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -29,5 +30,32 @@ struct Made {
 
 /// Makes runs with progress on standard error. A signal to stop, or the time limit, saves those under way.
 Made make_runs(StudyRuns& runs, const std::vector<WantedRun>& wanted, const MakingFlags& flags, int jobs, bool quiet);
+
+/// Makes the runs of what asks for them round by round.
+class RoundsOfRuns {
+ public:
+  RoundsOfRuns(StudyRuns& runs, const MakingFlags& flags, int jobs, bool quiet)
+      : runs_(runs), flags_(flags), jobs_(jobs), quiet_(quiet) {}
+
+  /// To its end; false where that is interrupted.
+  template <class Asking, class AfterRound>
+  bool lead(Asking& asking, AfterRound after_round) {
+    for (auto wanted = asking.wanted(); !wanted.empty();) {
+      made_.add(make_runs(runs_, wanted, flags_, jobs_, quiet_));
+      if (made_.making.interrupted > 0 || !asking.take(runs_.kept(), jobs_)) return false;
+      wanted = asking.wanted();
+      after_round();
+    }
+    return true;
+  }
+  std::int64_t made() const { return made_.making.made; }
+
+ private:
+  StudyRuns& runs_;
+  MakingFlags flags_;
+  int jobs_;
+  bool quiet_;
+  Made made_;
+};
 
 }  // namespace vibrosow

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <set>
 #include <system_error>
 
@@ -164,7 +165,6 @@ class Scenes {
         layout.invalid = error.what();
       }
     }
-    if (study_.scenes.empty()) throw InputError(study_.layouts.front().invalid);
   }
 
   /// Conditions fit a layout when, laid over it, they change nothing; so a condition that the study does not name means
@@ -266,10 +266,11 @@ Replicates read_replicates(Table& study) {
   return replicates;
 }
 
-}  // namespace
+/// What points a [vary] stands for.
+using GridOf = std::function<std::vector<Changes>(Table& study, Table& vary, std::optional<std::int64_t> proposals)>;
 
-Study read_study(const std::filesystem::path& file, const std::vector<Override>& overrides,
-                 const std::shared_ptr<SourceFiles>& files) {
+Study read_study_with(const std::filesystem::path& file, const std::vector<Override>& overrides,
+                      const std::shared_ptr<SourceFiles>& files, const GridOf& grid_of) {
   Changes of_study, of_seeder;
   for (const Override& change : overrides) (is_study_key(change) ? of_study : of_seeder).push_back(change);
 
@@ -287,7 +288,7 @@ Study read_study(const std::filesystem::path& file, const std::vector<Override>&
   study.measured = read_measured_part(table);
   std::vector<Changes> grid{{}};
   if (vary) {
-    grid = proposals ? read_proposals(*vary, static_cast<std::size_t>(*proposals)) : read_grid(*vary);
+    grid = grid_of(table, *vary, proposals);
   } else if (study.measured) {
     grid = measured_grid(study.measured->table);
   }
@@ -314,8 +315,44 @@ Study read_study(const std::filesystem::path& file, const std::vector<Override>&
   add_keys(study.keys, grid.front());
   Scenes scenes(study, files);
   scenes.resolve();
-  if (study.measured) match_measured(study, scenes);
+  if (study.measured && !study.scenes.empty()) match_measured(study, scenes);
   return study;
+}
+
+}  // namespace
+
+Study read_study(const std::filesystem::path& file, const std::vector<Override>& overrides,
+                 const std::shared_ptr<SourceFiles>& files) {
+  Study study = read_study_with(file, overrides, files, [](Table&, Table& vary, std::optional<std::int64_t> proposals) {
+    return proposals ? read_proposals(vary, static_cast<std::size_t>(*proposals)) : read_grid(vary);
+  });
+  if (study.scenes.empty()) throw InputError(study.layouts.front().invalid);
+  return study;
+}
+
+StudySpace read_study_space(const std::filesystem::path& file, const std::vector<Override>& overrides,
+                            const std::shared_ptr<SourceFiles>& files) {
+  StudySpace space;
+  read_study_with(file, overrides, files, [&](Table& study, Table& vary, std::optional<std::int64_t> proposals) {
+    if (study.has("layout")) study.fail("layout", "the space is that of [vary] alone; vary keys in place of designs");
+    const VariedSpace varied(vary);
+    space.values = varied.values();
+    if (proposals) space.proposals = static_cast<std::size_t>(*proposals);
+    return std::vector<Changes>{varied.at(std::vector<double>(varied.axes(), 0.5))};
+  });
+  if (space.values.empty())
+    throw InputError(fmt::format("{}: there is no [vary] to look for layouts in", file.string()));
+  return space;
+}
+
+Study read_study_at(const std::filesystem::path& file, const std::vector<Override>& overrides,
+                    const std::shared_ptr<SourceFiles>& files, const std::vector<std::vector<double>>& points) {
+  return read_study_with(file, overrides, files, [&](Table&, Table& vary, std::optional<std::int64_t>) {
+    const VariedSpace varied(vary);
+    std::vector<Changes> grid;
+    for (const std::vector<double>& point : points) grid.push_back(varied.at(point));
+    return grid;
+  });
 }
 
 }  // namespace vibrosow

@@ -67,6 +67,21 @@ struct Study {
 Study read_study(const std::filesystem::path& file, const std::vector<Override>& overrides = {},
                  const std::shared_ptr<SourceFiles>& files = std::make_shared<SourceFiles>());
 
+/// How many values each key of a study's [vary] has (VariedSpace), and how many `proposals` it asks for.
+struct StudySpace {
+  std::vector<std::size_t> values;
+  std::optional<std::size_t> proposals;
+};
+
+/// Throws InputError as `read_study` does, and where there is no [vary], or there are named designs beside it.
+StudySpace read_study_space(const std::filesystem::path& file, const std::vector<Override>& overrides,
+                            const std::shared_ptr<SourceFiles>& files);
+
+/// The study whose layouts are at these points of its space, in place of its grid or proposals. Other than of
+/// `read_study`, no layout need be valid.
+Study read_study_at(const std::filesystem::path& file, const std::vector<Override>& overrides,
+                    const std::shared_ptr<SourceFiles>& files, const std::vector<std::vector<double>>& points);
+
 /// What `scene_warnings` says of the scenes of a study, each sentence once, with the layouts that it is about.
 std::vector<std::string> study_warnings(const Study& study);
 

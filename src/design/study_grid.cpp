@@ -69,6 +69,8 @@ class Spread {
     if (values_.empty() && !from_) throw std::invalid_argument("an empty list; at least one value is needed");
   }
 
+  std::size_t values() const { return from_ ? VariedSpace::parts_of_a_continuum : values_.size(); }
+
   TomlValue at(double share) const {
     if (!from_) return values_[static_cast<std::size_t>(share * static_cast<double>(values_.size()))];
     constexpr int digits = 4;  // as a drawing has them
@@ -173,18 +175,25 @@ std::vector<Changes> read_grid(Table& vary) {
   return grid;
 }
 
-std::vector<Changes> read_proposals(Table& vary, std::size_t points) {
-  const std::vector<Override> keys = vary.dotted_values();
-  std::vector<Spread> spreads;
-  for (const Override& varied : keys)
-    spreads.push_back(of_key(vary, varied, [](const Override& key) { return Spread(key); }));
-  std::vector<Changes> proposals;
-  for (const std::vector<double>& point : latin_hypercube(points, keys.size())) {
-    Changes changes;
-    for (std::size_t k = 0; k < keys.size(); ++k)
-      changes.push_back({keys[k].key, spreads[k].at(point[k]), keys[k].where});
-    proposals.push_back(std::move(changes));
+VariedSpace::VariedSpace(Table& vary) : keys_(vary.dotted_values()) {
+  for (const Override& varied : keys_) {
+    const Spread spread = of_key(vary, varied, [](const Override& key) { return Spread(key); });
+    values_.push_back(spread.values());
+    value_at_.emplace_back([spread](double share) { return spread.at(share); });
   }
+}
+
+Changes VariedSpace::at(const std::vector<double>& point) const {
+  Changes changes;
+  for (std::size_t k = 0; k < keys_.size(); ++k)
+    changes.push_back({keys_[k].key, value_at_[k](point.at(k)), keys_[k].where});
+  return changes;
+}
+
+std::vector<Changes> read_proposals(Table& vary, std::size_t points) {
+  const VariedSpace space(vary);
+  std::vector<Changes> proposals;
+  for (const std::vector<double>& point : latin_hypercube(points, space.axes())) proposals.push_back(space.at(point));
   return proposals;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -29,6 +30,28 @@ std::vector<TomlValue> range_values(const std::string& key, const TomlValue& fro
 
 /// The full grid of a [vary] table, first key slowest. Throws InputError.
 std::vector<Changes> read_grid(Table& vary);
+
+/// The space that a [vary] table spans, one axis a key: a list or a range with a step has its values, a range of whole
+/// numbers each of them, any other range without a step a continuum.
+class VariedSpace {
+ public:
+  /// How many values a continuum counts for.
+  static constexpr std::size_t parts_of_a_continuum = 1000;
+
+  /// Throws InputError.
+  explicit VariedSpace(Table& vary);
+
+  std::size_t axes() const { return keys_.size(); }
+  /// How many values each axis has.
+  const std::vector<std::size_t>& values() const { return values_; }
+  /// `point`: of each axis the share of the way through its values, in [0, 1).
+  Changes at(const std::vector<double>& point) const;
+
+ private:
+  std::vector<Override> keys_;
+  std::vector<std::function<TomlValue(double share)>> value_at_;
+  std::vector<std::size_t> values_;
+};
 
 /// Points of the space that a [vary] table spans, a Latin hypercube: each key's values, or equal parts of a range
 /// without a step, come equally often. The same file gives the same points. Throws InputError.

@@ -21,7 +21,8 @@ std::string quantity(double value, double unit, const char* name) {
 /// Keys that seeds and walls have.
 std::string surface_keys(const Surface& surface, const Contact& contact) {
   std::string text = fmt::format("friction = {}\n", surface.friction);
-  if (traits_of(contact.law).damping == LawDamping::restitution) text += fmt::format("restitution = {}\n", surface.restitution);
+  if (traits_of(contact.law).damping == LawDamping::restitution)
+    text += fmt::format("restitution = {}\n", surface.restitution);
   if (contact.rolling != Rolling::none) {
     text += fmt::format("rolling_friction = {}\n", surface.rolling_friction);
     text += fmt::format("twisting_friction = {}\n", surface.twisting_friction);

@@ -6,6 +6,7 @@
 #include "report/bench_report.hpp"
 #include "report/calibration_report.hpp"
 #include "report/decision_report.hpp"
+#include "report/front_report.hpp"
 #include "report/plan_report.hpp"
 #include "report/run_report.hpp"
 #include "report/sweep_report.hpp"
@@ -43,6 +44,7 @@ std::string output_documentation() {
   return introduction + chapter("run", "one run of a seeder", run_file_texts()) +
          chapter("sweep", "every layout of a study", sweep_file_texts()) +
          chapter("decide", "the best layout of a study", decision_file_texts()) +
+         chapter("optimise", "the layouts of a space that no other is better than", optimise_file_texts()) +
          chapter("accuracy", "what accuracy costs in time", accuracy_file_texts()) +
          chapter("plan", "layouts that sow a crop at a rate", plan_file_texts()) +
          chapter("bench-sheet", "what to measure", bench_file_texts()) +

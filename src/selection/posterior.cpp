@@ -2,57 +2,15 @@
 
 #include <algorithm>
 #include <boost/math/distributions/beta.hpp>
-#include <boost/math/distributions/normal.hpp>
-#include <boost/math/distributions/students_t.hpp>
-#include <boost/math/special_functions/digamma.hpp>
-#include <boost/math/special_functions/polygamma.hpp>
-#include <boost/math/special_functions/trigamma.hpp>
 #include <cmath>
-#include <limits>
 #include <stdexcept>
 
 namespace vibrosow {
 namespace {
 
-constexpr double endless = std::numeric_limits<double>::infinity();
 constexpr double hardly_feasible = 0.1;  // a system of less than this probability is no candidate
 
-/// Smyth 2004, appendix: Newton's method on 1 / trigamma, which is nearly linear.
-double inverse_trigamma(double wanted) {
-  if (wanted > 1e7) return 1 / std::sqrt(wanted);
-  if (wanted < 1e-6) return 1 / wanted;
-  double x = 0.5 + 1 / wanted;
-  for (int i = 0; i < 50; ++i) {
-    const double trigamma = boost::math::trigamma(x);
-    const double step = trigamma * (1 - trigamma / wanted) / boost::math::polygamma(2, x);
-    x += step;
-    if (-step < 1e-10 * x) break;
-  }
-  return x;
-}
-
-/// Student's t, which is normal without end.
-double probability_below(double t, double degrees_of_freedom) {
-  constexpr double nearly_normal = 1e6;
-  if (degrees_of_freedom > nearly_normal) return cdf(boost::math::normal(), t);
-  return cdf(boost::math::students_t(degrees_of_freedom), t);
-}
-
 }  // namespace
-
-VariancePrior variance_prior(const std::vector<double>& variances, double degrees_of_freedom) {
-  using boost::math::digamma;
-  using boost::math::trigamma;
-  const double half = degrees_of_freedom / 2;
-  Moments logarithms;
-  for (const double variance : variances)
-    if (variance > 0) logarithms.add(std::log(variance) - digamma(half) + std::log(half));
-  if (logarithms.count() < 3) return {};
-  const double beyond_chance = logarithms.variance() - trigamma(half);
-  if (beyond_chance <= 0) return {endless, std::exp(logarithms.mean())};
-  const double half_prior = inverse_trigamma(beyond_chance);
-  return {2 * half_prior, std::exp(logarithms.mean() + digamma(half_prior) - std::log(half_prior))};
-}
 
 Posterior::Posterior(const Question& question) : question_(question), systems_(question.systems) {
   if (question_.systems < 2) throw std::invalid_argument("a decision is between two systems at least");
@@ -68,19 +26,6 @@ void Posterior::take(std::size_t index, const Observation& observation) {
   system.rate.add(observation.rate);
 }
 
-Posterior::Known Posterior::known(const Moments& moments, const VariancePrior& prior) {
-  Known known{moments.mean(), 0, 0, static_cast<double>(moments.count())};
-  if (moments.count() == 0) return known;
-  const double own = moments.count() - 1.0;
-  known.degrees_of_freedom = own + prior.degrees_of_freedom;
-  known.variance =
-      std::isinf(prior.degrees_of_freedom) ? prior.variance
-      : known.degrees_of_freedom > 0
-          ? (own * moments.variance() + prior.degrees_of_freedom * prior.variance) / known.degrees_of_freedom
-          : 0;
-  return known;
-}
-
 /// Probability that few enough runs clog (Jeffreys).
 double Posterior::clogging_of(const System& system) const {
   if (!question_.clogging_limit) return system.goal.count() > 0 ? 1 : 0;
@@ -91,7 +36,7 @@ double Posterior::clogging_of(const System& system) const {
 /// Probability that the rate is in the band.
 double Posterior::rate_in_band(const System& system) const {
   if (!question_.band) return 1;
-  const Known rate = known(system.rate, rate_prior_);
+  const KnownMean rate = known_mean(system.rate, rate_prior_);
   const auto [low, high] = *question_.band;
   if (rate.count == 0 || rate.degrees_of_freedom == 0) return 0.5;
   const double error = std::sqrt(rate.error_squared());
@@ -123,7 +68,7 @@ void Posterior::set_priors() {
 Posterior::Belief Posterior::belief() const {
   Belief belief;
   for (const System& system : systems_) {
-    belief.goals.push_back(known(system.goal, goal_prior_));
+    belief.goals.push_back(known_mean(system.goal, goal_prior_));
     belief.feasible.push_back(feasibility(system));
   }
   belief.best = best_of(belief);
@@ -142,12 +87,12 @@ std::optional<std::size_t> Posterior::best_of(const Belief& belief) const {
 }
 
 /// Probability that the mean of `better` is at most `margin` above that of `other`.
-double Posterior::probability_within(const Known& better, const Known& other, double margin) {
+double Posterior::probability_within(const KnownMean& better, const KnownMean& other, double margin) {
   if (better.count == 0 || other.count == 0) return 0;
   const double a = better.error_squared(), b = other.error_squared(), ahead = other.mean - better.mean + margin;
   if (!(a + b > 0)) return ahead > 0 ? 1 : ahead < 0 ? 0 : 0.5;
-  const double degrees = (a + b) * (a + b) / (a * a / better.degrees_of_freedom + b * b / other.degrees_of_freedom);
-  return degrees > 0 ? probability_below(ahead / std::sqrt(a + b), degrees) : 0.5;  // Welch's degrees of freedom
+  const double degrees = degrees_of_difference(better, other);
+  return degrees > 0 ? probability_below(ahead / std::sqrt(a + b), degrees) : 0.5;
 }
 
 /// How sure it is that a system does not stand against the decision: that the best meets the constraints, that another
@@ -175,9 +120,9 @@ bool Posterior::is_sure(const std::vector<double>& factors) const {
 std::size_t Posterior::one_of_two(const Belief& belief, std::size_t other, const std::vector<int>& wanted) const {
   if (!belief.best || other == *belief.best || !may_go_on(*belief.best, wanted)) return other;
   if (!may_go_on(other, wanted)) return *belief.best;
-  const Known &ours = belief.goals[*belief.best], &theirs = belief.goals[other];
+  const KnownMean &ours = belief.goals[*belief.best], &theirs = belief.goals[other];
   if (theirs.count == 0 || theirs.mean < ours.mean) return other;  // whether it meets the constraints is in question
-  const auto gain = [](const Known& of) { return of.error_squared() / (of.count + 1); };
+  const auto gain = [](const KnownMean& of) { return of.error_squared() / (of.count + 1); };
   return gain(ours) > gain(theirs) ? *belief.best : other;
 }
 

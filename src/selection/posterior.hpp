@@ -3,22 +3,11 @@
 #include <optional>
 #include <vector>
 
+#include "selection/known_mean.hpp"
 #include "selection/moments.hpp"
 #include "selection/procedure.hpp"
 
 namespace vibrosow {
-
-/// What many variances of equally many values say of variances in general: scaled inverse chi squared, fitted by the
-/// moments of their logarithms (Smyth 2004, Statistical Applications in Genetics and Molecular Biology 3(1),
-/// section 6.2).
-struct VariancePrior {
-  double degrees_of_freedom = 0;  // 0: nothing is known; infinite: all are equal
-  double variance = 0;
-};
-
-/// `degrees_of_freedom`: of each of the variances. Variances of zero are left out; nothing is known by fewer than
-/// three.
-VariancePrior variance_prior(const std::vector<double>& variances, double degrees_of_freedom);
 
 /// A posterior rule: normal observations, no prior knowledge of means, variances by `variance_prior` of the first
 /// observations. It stops when the best is within the margin of every other with the confidence asked for, by the
@@ -47,21 +36,14 @@ class Posterior : public Procedure {
     Moments goal{}, rate{};
     bool failed = false;
   };
-  /// A mean as it is known.
-  struct Known {
-    double mean = 0, variance = 0, degrees_of_freedom = 0;  // of one observation; infinite: it is known
-    double count = 0;                                       // observations, those that are on their way included
-    double error_squared() const { return variance / count; }
-  };
   struct Belief {
-    std::vector<Known> goals{};
+    std::vector<KnownMean> goals{};  // observations on their way count already
     std::vector<double> feasible{};  // probability that it meets the constraints
     std::optional<std::size_t> best{};
     double margin = 0;
   };
 
-  static Known known(const Moments& moments, const VariancePrior& prior);
-  static double probability_within(const Known& better, const Known& other, double margin);
+  static double probability_within(const KnownMean& better, const KnownMean& other, double margin);
   double clogging_of(const System& system) const;
   double rate_in_band(const System& system) const;
   double feasibility(const System& system) const;

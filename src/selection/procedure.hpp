@@ -23,6 +23,8 @@ struct Observation {
 /// Where a mean is wanted, both ends included.
 struct Band {
   double low, high;
+  /// How far a mean lies outside, over the half width, or over the end where that is the only one.
+  double outside_by(double mean) const;
 };
 
 /// Which of several systems has the least mean goal, among those that meet the constraints.

@@ -66,7 +66,7 @@ grep -q '"neighbours"' profiled/timing.json || fail "timing.json has no shares"
 expect 0 "wheat" presets crops
 expect 0 "wheat-steel +Wheat on steel" presets contacts
 expect 0 "wheat-holes" presets
-for command in run sweep decide work submit status export verify pack accuracy plan new check presets columns; do expect 0 "^Usage: vibrosow $command" $command --help; done
+for command in run sweep decide optimise calibrate bench-sheet work submit status export verify pack accuracy plan new check presets columns; do expect 0 "^Usage: vibrosow $command" $command --help; done
 expect 0 "wheat-tray +Wheat tray" presets seeders
 "$program" presets seeders | awk '/^seeders to start from/ { start = NR } /paper-a-fig3 / { paper = paper ? paper : NR }
   /^  silo / { silo = NR } END { exit !(start && start < paper && paper < silo) }' || fail "presets: seeders do not come first"
@@ -351,6 +351,36 @@ kill -TERM $pid
 wait $pid
 [ $? -eq 130 ] || fail "an interrupted decision does not end with 130"
 grep -q '"interrupted": true' long/decision.json || fail "an interrupted decision does not say so"
+
+# Fronts: likewise, and they are studies.
+cat >space.toml <<'END'
+title = "Noisy space"
+base = "seeder.toml"
+proposals = 4
+[set]
+tray.depth = "4 cm"
+tray.fill = { count = 60 }
+tray.motion = { kind = "harmonic", frequency = "15 Hz", amplitude = "4 mm" }
+run.duration = "0.2 s"
+[vary]
+tray.holes.width = { from = "12 mm", to = "20 mm" }
+tray.motion.frequency = { from = "10 Hz", to = "20 Hz" }
+END
+printf 'base = "seeder.toml"\n' >study-of-one.toml
+optimise=(--goals "rate,power" --runs 24 --clogging "100 %")
+expect 0 "Cost: [0-9]+ layouts, [0-9]+ runs" optimise space.toml "${optimise[@]}" --jobs 1 --out front
+have front/pareto.csv front/optimise.json front/front.toml
+"$program" optimise space.toml "${optimise[@]}" --jobs 2 --out killed-front --quiet 2>messages &
+sleep 0.3
+{ kill -KILL $! && wait $!; } 2>messages
+expect 0 "decide killed-front/front.toml" optimise space.toml "${optimise[@]}" --jobs 2 --out killed-front
+cmp -s front/pareto.csv killed-front/pareto.csv || fail "a killed search goes on to another front, or depends on the number of jobs"
+expect 0 "layout" sweep front/front.toml --reuse front --set replicates=2 --out swept-front
+expect 2 "none of evenness, instability" optimise space.toml --goals evennes --out no-front
+expect 2 "rate_error needs the rate" optimise space.toml --goals rate_error,power --out no-front
+expect 2 "no \[vary\]" optimise study-of-one.toml --goals rate,power --out no-front
+expect 2 "do not take" optimise space.toml --goals frequency_sensitivity,power --runs 8 --out no-front
+[ -e no-front ] && fail "a search that cannot begin left a folder"
 
 [ $failures -eq 0 ] && echo "all checks hold"
 exit $((failures > 0))

@@ -1,0 +1,89 @@
+#include "cli/optimise_text.hpp"
+
+#include <fmt/format.h>
+
+#include <map>
+
+#include "cli/layout_text.hpp"
+#include "report/front_report.hpp"
+#include "report/terminal_text.hpp"
+
+namespace vibrosow {
+namespace {
+
+std::string with_unit(const std::optional<MeanWithInterval>& value, std::string_view unit, double size) {
+  const std::string text = value ? with_interval(value, size) : "unknown";
+  return unit.empty() ? text : fmt::format("{} {}", text, unit);
+}
+
+/// "evenness 8.2 +- 0.4 %, power 1.4 W/kg, 43.2 +- 0.5 seeds/s of the tray, 12 runs"
+std::string figures_text(const OptimiseResult& result, const FrontLayout& of) {
+  std::string text;
+  for (std::size_t g = 0; g < of.goals.size(); ++g) {
+    const FrontGoal& goal = *result.options.goals[g];
+    text += fmt::format("{} {}, ", goal.name, with_unit(of.goals[g], goal.unit, goal.unit_size));
+  }
+  if (const auto& rate = result.options.rate) {
+    const Figure& figure = figure_named(rate->figure);
+    const std::string_view unit = rate->figure == "tray_seeds_per_s" ? "seeds/s" : figure.unit;
+    text += fmt::format("{} of the tray, ", with_unit(of.rate, unit, figure.unit_size));
+  }
+  return text + fmt::format("{} runs{}", of.runs, of.clogged > 0 ? fmt::format(", {} clogged", of.clogged) : "");
+}
+
+/// The layouts of a standing that lead.
+std::string leading_text(const OptimiseResult& result, FrontStanding standing) {
+  std::string text;
+  for (std::size_t i = 0; i < result.layouts.size(); ++i) {
+    const FrontLayout& of = result.layouts[i];
+    if (of.standing != standing || !leads(of)) continue;
+    const Layout& layout = result.study.layouts[i];
+    const std::string label = fmt::format("{:>5}  ", layout.number);
+    text += wrapped_beside(label, described(result.study, layout)) + wrapped(figures_text(result, of), label.size());
+  }
+  return text;
+}
+
+/// "dominated: 38; may be on the front: 12"
+std::string rest_text(const OptimiseResult& result) {
+  std::map<std::string, int> counts;
+  for (std::size_t i = 0; i < result.layouts.size(); ++i)
+    if (!leads(result.layouts[i])) ++counts[standing_text(result, i)];
+  std::string text;
+  for (const auto& [standing, count] : counts)
+    text += fmt::format("{}{}: {}", text.empty() ? "" : "; ", standing, count);
+  return text.empty() ? "" : wrapped(fmt::format("Of the other layouts that were tried, {} (pareto.csv).", text));
+}
+
+std::string promise_text(const OptimiseResult& result) {
+  const std::string alone =
+      result.options.goals.size() > 1
+          ? ""
+          : " Of a single goal `vibrosow decide` finds the best of given layouts with a guarantee.";
+  return wrapped(
+      fmt::format("\"On the front\" and \"dominated\" are among the layouts that were tried, each with a confidence of "
+                  "{:g} %, and no proof, since runs went where earlier ones led. That no better layout is in the space "
+                  "is not promised.{}",
+                  100 * result.options.confidence, alone));
+}
+
+}  // namespace
+
+std::string optimise_text(const OptimiseResult& result, const std::string& folder) {
+  std::string text = result.study.title.empty() ? "" : wrapped(result.study.title) + "\n";
+  if (result.is_interrupted) text += wrapped("Interrupted: the same command goes on from here. So far:");
+  const std::string sure = leading_text(result, FrontStanding::on_front);
+  const std::string unsure = leading_text(result, FrontStanding::may_be_on_front);
+  if (!sure.empty()) text += fmt::format("On the front:\n{}", sure);
+  if (!unsure.empty()) text += fmt::format("First by their means, and may be on the front:\n{}", unsure);
+  if (sure.empty() && unsure.empty()) text += wrapped("No layout meets the constraints by its means.");
+  text += fmt::format("\n{}{}", rest_text(result), promise_text(result));
+  text += wrapped(fmt::format("Cost: {} layouts, {} runs, {:.3g} grain-steps.", result.layouts.size(),
+                              static_cast<long long>(result.cost.runs), result.cost.grain_steps));
+  if (sure.empty() && unsure.empty()) return text;
+  return text +
+         fmt::format("To decide among these by one goal:\n  vibrosow decide {0}/front.toml --goal GOAL --reuse {0}\n",
+                     folder);
+}
+
+}  // namespace vibrosow

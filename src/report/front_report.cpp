@@ -1,0 +1,202 @@
+#include "report/front_report.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+
+#include "input/toml_value.hpp"
+#include "report/json_keys.hpp"
+#include "report/layout_columns.hpp"
+
+namespace vibrosow {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+struct FrontRow {
+  const OptimiseResult* result;
+  std::size_t index;
+  const Layout& layout() const { return result->study.layouts[index]; }
+  const FrontLayout& of() const { return result->layouts[index]; }
+  /// None where the goal was not asked for, or no run flowed.
+  std::optional<MeanWithInterval> goal(const FrontGoal& goal) const {
+    const auto found = std::ranges::find(result->options.goals, &goal);
+    return found == result->options.goals.end()
+               ? std::nullopt
+               : of().goals[static_cast<std::size_t>(found - result->options.goals.begin())];
+  }
+};
+
+const Figure& figure_of_rate(const OptimiseOptions& options) {
+  return figure_named(options.rate ? options.rate->figure : "rate_g_per_s");
+}
+
+Columns<FrontRow> pareto_columns(const std::vector<std::string>& keys, const std::vector<const FrontGoal*>& goals) {
+  using R = const FrontRow&;
+  Columns<FrontRow> columns = {
+      text_column<FrontRow>("layout", "number of the layout, in the order in which they were tried",
+                            [](R r) { return r.layout().number; }),
+      text_column<FrontRow>(
+          "standing",
+          "on the front; may be on the front; dominated; misses the rate; spills; clogs; failed (it cannot be run, has "
+          "no such goal, or left the model); invalid; each with the confidence asked for",
+          [](R r) { return standing_text(*r.result, r.index); }),
+      text_column<FrontRow>("first_by_means",
+                            "1: by its means it meets the constraints, and no other that does has better means",
+                            [](R r) { return r.of().is_first_by_means ? 1 : 0; }),
+      text_column<FrontRow>("reason", "why it failed or is invalid",
+                            [](R r) { return r.layout().scene ? r.of().reason : r.layout().invalid; })};
+  append(columns, key_columns<FrontRow>(keys));
+  append(columns, {text_column<FrontRow>("runs", "of the layout as it is", [](R r) { return r.of().runs; }),
+                   text_column<FrontRow>("clogged", "of these, runs that clogged; the means are of the others",
+                                         [](R r) { return r.of().clogged; })});
+  for (const FrontGoal* goal : goals)
+    add_mean_columns(columns, std::string(goal->column), Unit{goal->unit, goal->unit_size},
+                     fmt::format("goal {} (empty where not asked for), {}", goal->name, goal->description),
+                     [goal](R r) { return r.goal(*goal); });
+  add_mean_columns(columns, "rate", plain,
+                   "rate in the unit of optimise.json's rate.figure: of the tray where one is asked for, else "
+                   "rate_g_per_s of sweep.csv",
+                   [](R r) {
+                     std::optional<MeanWithInterval> value = r.of().rate;
+                     if (!value) return value;
+                     const double unit = figure_of_rate(r.result->options).unit_size;
+                     value->mean /= unit;
+                     if (value->half_width_95) *value->half_width_95 /= unit;
+                     return value;
+                   });
+  return columns;
+}
+
+std::vector<const FrontGoal*> all_goals() {
+  std::vector<const FrontGoal*> all;
+  for (const FrontGoal& goal : front_goals()) all.push_back(&goal);
+  return all;
+}
+
+JsonKeys<OptimiseResult> optimise_keys() {
+  using S = const OptimiseResult&;
+  const auto of_rate = [](auto get) {
+    return [get](S s) {
+      return s.options.rate ? Json(get(*s.options.rate) / figure_named(s.options.rate->figure).unit_size) : Json();
+    };
+  };
+  const auto count = [](FrontStanding standing) {
+    return [standing](S s) { return Json(std::ranges::count(s.layouts, standing, &FrontLayout::standing)); };
+  };
+  return {
+      {"goals", "", "what layouts are compared by",
+       [](S s) {
+         Json names = Json::array();
+         for (const FrontGoal* goal : s.options.goals) names.push_back(goal->name);
+         return names;
+       }},
+      {"interrupted", "", "whether runs are missing: the same command goes on",
+       [](S s) { return Json(s.is_interrupted); }},
+      {"confidence_percent", "%", "of each standing", [](S s) { return Json(100 * s.options.confidence); }},
+      {"rate.figure", "", "of pareto.csv's rate", [](S s) { return Json(figure_of_rate(s.options).name); }},
+      {"rate.low", "", "lower end of the band, in its unit; null: none is asked for",
+       of_rate([](const WantedRate& rate) { return rate.low; })},
+      {"rate.high", "", "upper end", of_rate([](const WantedRate& rate) { return rate.high; })},
+      {"clogging_limit_percent", "%", "share of runs that may clog",
+       [](S s) { return Json(100 * s.options.clogging_limit); }},
+      {"spilled_limit_percent", "%", "of seeds that may leave over the rim; null: none is asked for",
+       [](S s) { return s.options.spilled_limit ? Json(100 * *s.options.spilled_limit) : Json(); }},
+      {"layouts", "", "that were tried", [](S s) { return Json(s.layouts.size()); }},
+      {"on_the_front", "", "of these", count(FrontStanding::on_front)},
+      {"may_be_on_the_front", "", "of these", count(FrontStanding::may_be_on_front)},
+      {"dominated", "", "of these", count(FrontStanding::dominated)},
+      {"runs", "", "that were asked for at most", [](S s) { return Json(s.options.runs); }},
+      {"cost.runs", "", "that it took, variants included",
+       [](S s) { return Json(static_cast<std::int64_t>(s.cost.runs)); }},
+      {"cost.grain_steps", "", "of these", [](S s) { return Json(s.cost.grain_steps); }},
+  };
+}
+
+/// "key = value" lines, those that are taken out first.
+std::string changes_text(const std::vector<Override>& changes) {
+  std::string lines, unset;
+  for (const Override& change : changes)
+    if (change.value)
+      lines += fmt::format("{} = {}\n", change.key, toml_text(*change.value));
+    else
+      unset += fmt::format("{}{}", unset.empty() ? "" : ", ", toml_text({change.key}));
+  return (unset.empty() ? "" : fmt::format("unset = [ {} ]\n", unset)) + lines;
+}
+
+}  // namespace
+
+std::string standing_text(const OptimiseResult& result, std::size_t layout) {
+  if (!result.study.layouts[layout].scene) return "invalid";
+  const FrontLayout& of = result.layouts[layout];
+  switch (of.standing) {
+    case FrontStanding::on_front:
+      return "on the front";
+    case FrontStanding::may_be_on_front:
+      return "may be on the front";
+    case FrontStanding::dominated:
+      return "dominated";
+    case FrontStanding::misses_a_band:
+      return result.options.rate ? result.options.spilled_limit ? "misses the rate or spills" : "misses the rate"
+                                 : "spills";
+    case FrontStanding::clogs:
+      return "clogs";
+    case FrontStanding::failed:
+      break;
+  }
+  return "failed";
+}
+
+bool leads(const FrontLayout& layout) {
+  return layout.standing == FrontStanding::on_front || layout.is_first_by_means;
+}
+
+std::string pareto_csv(const OptimiseResult& result, CsvFormat format) {
+  std::vector<FrontRow> rows;
+  for (std::size_t i = 0; i < result.layouts.size(); ++i) rows.push_back({&result, i});
+  return csv_of(pareto_columns(result.study.keys, result.options.goals), rows, format);
+}
+
+std::string optimise_json(const OptimiseResult& result) {
+  return json_of(optimise_keys(), result);
+}
+
+std::string front_study(const OptimiseResult& result, const std::filesystem::path& folder) {
+  namespace fs = std::filesystem;
+  const Study& study = result.study;
+  const auto is_varied = [&](const Override& change) {
+    return std::ranges::find(study.keys, change.key) != study.keys.end();
+  };
+  std::vector<Override> fixed = study.layouts.front().overrides;
+  std::erase_if(fixed, is_varied);
+  const std::string base = fs::absolute(study.base).lexically_relative(fs::absolute(folder)).generic_string();
+  std::string text = fmt::format(
+      "# Written by vibrosow optimise: the layouts on the front, and those that are first by their means.\n"
+      "title = {}\nbase = {}\n",
+      toml_text({study.title}), toml_text({base}));
+  if (!fixed.empty()) text += "\n[set]\n" + changes_text(fixed);
+  for (std::size_t i = 0; i < study.layouts.size(); ++i) {
+    if (!leads(result.layouts[i])) continue;
+    std::vector<Override> own = study.layouts[i].overrides;
+    std::erase_if(own, [&](const Override& change) { return !is_varied(change); });
+    text += fmt::format("\n[[layout]]\nname = \"layout {}\"\n{}", study.layouts[i].number, changes_text(own));
+  }
+  return text;
+}
+
+std::vector<FileText> optimise_file_texts() {
+  return {file_text("pareto.csv", "one row per layout that was tried", pareto_columns({"KEY"}, all_goals())),
+          file_text("optimise.json", "what was asked, how many layouts stand where, and what it cost", optimise_keys()),
+          {"front.toml", "a study of the layouts on the front and those that are first by their means", {}}};
+}
+
+std::vector<OutputFile> optimise_files(const OptimiseResult& result, const std::filesystem::path& folder,
+                                       CsvFormat format) {
+  return {{"pareto.csv", pareto_csv(result, format)},
+          {"optimise.json", optimise_json(result)},
+          {"front.toml", front_study(result, folder)}};
+}
+
+}  // namespace vibrosow
