@@ -50,6 +50,14 @@ CalibrationTask task_of(const BenchSheetOptions& command, const InputFile& seede
   return task;
 }
 
+/// With the same keys and changes as this page was made for.
+std::string calibrate_command(const BenchSheetOptions& command) {
+  std::string text = fmt::format("vibrosow calibrate {} bench.csv", command.common.file);
+  for (const std::string& fit : command.fits) text += fmt::format(" --fit \"{}\"", fit);
+  for (const std::string& set : command.common.sets) text += fmt::format(" --set \"{}\"", set);
+  return text;
+}
+
 int run_bench_sheet(const BenchSheetOptions& command) {
   const CommonOptions& options = command.common;
   BenchLimits limits;
@@ -68,7 +76,7 @@ int run_bench_sheet(const BenchSheetOptions& command) {
   }
   const std::optional<BenchPlan> plan = plan_bench(task, design, limits, runs.kept());
   if (!plan) throw InputError(fmt::format("{}: runs are missing", folder.path().string()));
-  const BenchSource source{task, limits, *plan};
+  const BenchSource source{task, limits, *plan, calibrate_command(command)};
   write_then_print(
       options.quiet, [&] { folder.write(bench_files(source, options.csv)); }, [&] { print_text(bench_table(source)); });
   if (!options.quiet) print("reports: {}\n", folder.path().string());

@@ -122,6 +122,15 @@ constexpr const char* page_style =
     "th, td { border: 1px solid black; padding: 1.2mm 2mm; text-align: right } td.write { width: 35mm } "
     ".line { display: inline-block; width: 45mm; border-bottom: 1px solid black; margin-right: 6mm }";
 
+constexpr double shortest_by_hand = 5;  // s; a hand with a stopwatch errs by some tenths
+constexpr const char* too_short =
+    "So short a catch cannot be timed by hand to 2 %: time it by a switch, or have the seeder keep its tray filled up "
+    "(a hopper with fill.keep), which allows longer ones.";
+
+bool is_caught_by_hand(const BenchSource& source) {
+  return source.plan.catch_time >= shortest_by_hand;
+}
+
 /// What a person needs to do before the table.
 std::string instructions(const BenchSource& source) {
   std::string text = "<p>";
@@ -129,9 +138,9 @@ std::string instructions(const BenchSource& source) {
     text += fmt::format("{} <span class=\"line\"></span>\n", field);
   text += fmt::format(
       "</p>\n<p>{} readings of {:g} s, about {:.0f} minutes with {:g} s for setting, filling and weighing. Use the "
-      "seed "
-      "that will be sown, and a balance that shows 0.1 g.</p>\n<ol>\n",
-      source.plan.readings(), source.plan.catch_time, minutes(source), source.limits.handling);
+      "seed that will be sown, and a balance that shows 0.1 g.</p>\n{}<ol>\n",
+      source.plan.readings(), source.plan.catch_time, minutes(source), source.limits.handling,
+      is_caught_by_hand(source) ? "" : fmt::format("<p><strong>{}</strong></p>\n", too_short));
   for (const char* step :
        {"Fill as the tray is filled in work, the same for every reading.",
         "Set what the row says. Let it run until the flow is even, three seconds at least.",
@@ -166,8 +175,8 @@ std::string page(const BenchSource& source) {
       "</head><body>\n<h1>Bench sheet: {}</h1>\n",
       page_style, escaped(source.task.seeder.stem().string()));
   text += instructions(source) + reading_table(source);
-  return text + fmt::format("<p>{}</p>\n<p>Then: vibrosow calibrate {} bench.csv</p>\n</body></html>\n",
-                            escaped(expectation(source)), escaped(source.task.seeder.filename().string()));
+  return text + fmt::format("<p>{}</p>\n<p>Then: <code>{}</code></p>\n</body></html>\n", escaped(expectation(source)),
+                            escaped(source.command));
 }
 
 }  // namespace
@@ -181,7 +190,9 @@ std::string bench_table(const BenchSource& source) {
   text += wrapped(fmt::format("to set ({}):", fmt::join(names, ", ")));
   for (const BenchCandidate* candidate : source.plan.chosen())
     text += fmt::format("  {:<40} a reading is off by {:.2g} %\n", setting_text(*candidate), 100 * candidate->chance);
-  return text + wrapped(expectation(source));
+  text += wrapped(expectation(source));
+  if (!is_caught_by_hand(source)) text += wrapped(too_short);
+  return text + wrapped(fmt::format("then: {}", source.command));
 }
 
 std::vector<FileText> bench_file_texts() {

@@ -14,6 +14,7 @@ struct BenchSource {
   const CalibrationTask& task;
   const BenchLimits& limits;
   const BenchPlan& plan;
+  std::string command;  // that reads the table when it is filled in
 };
 
 /// The plan for a terminal: what to set, and what it is expected to tell.
