@@ -39,7 +39,7 @@ class SmoothFit {
   Shape shape_;
   std::size_t shaped_for_ = 0;  // values
   std::vector<SeenValue> seen_;
-  double middle_ = 0, spread_ = 1;  // mean and variance of the values
+  double middle_ = 0, spread_ = 1;                                        // mean and variance of the values
   Eigen::LLT<Eigen::MatrixXd> factors_{Eigen::MatrixXd::Identity(1, 1)};  // an empty one cannot be copied
   Eigen::VectorXd weights_;
 };
