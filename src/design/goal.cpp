@@ -69,6 +69,10 @@ std::optional<double> WantedRate::of(const Outflow& outflow) const {
   return finite(figure_named(figure).of(outflow));
 }
 
+const Figure& rate_figure(const std::optional<WantedRate>& wanted) {
+  return figure_named(wanted ? wanted->figure : "rate_g_per_s");
+}
+
 WantedRate read_wanted_rate(const std::string& text) {
   const auto wrong = [&](const std::string& why) {
     return InputError(

@@ -37,7 +37,7 @@ const Figure& figure_of_goal(const DecideOptions& options) {
 }
 
 const Figure& figure_of_rate(const DecideOptions& options) {
-  return figure_named(options.rate ? options.rate->figure : "rate_g_per_s");
+  return rate_figure(options.rate);
 }
 
 Columns<DecisionRow> decision_columns(const std::vector<std::string>& keys) {

@@ -29,10 +29,6 @@ struct FrontRow {
   }
 };
 
-const Figure& figure_of_rate(const OptimiseOptions& options) {
-  return figure_named(options.rate ? options.rate->figure : "rate_g_per_s");
-}
-
 Columns<FrontRow> pareto_columns(const std::vector<std::string>& keys, const std::vector<const FrontGoal*>& goals) {
   using R = const FrontRow&;
   Columns<FrontRow> columns = {
@@ -62,7 +58,7 @@ Columns<FrontRow> pareto_columns(const std::vector<std::string>& keys, const std
                    [](R r) {
                      std::optional<MeanWithInterval> value = r.of().rate;
                      if (!value) return value;
-                     const double unit = figure_of_rate(r.result->options).unit_size;
+                     const double unit = rate_figure(r.result->options.rate).unit_size;
                      value->mean /= unit;
                      if (value->half_width_95) *value->half_width_95 /= unit;
                      return value;
@@ -96,7 +92,7 @@ JsonKeys<OptimiseResult> optimise_keys() {
       {"interrupted", "", "whether runs are missing: the same command goes on",
        [](S s) { return Json(s.is_interrupted); }},
       {"confidence_percent", "%", "of each standing", [](S s) { return Json(100 * s.options.confidence); }},
-      {"rate.figure", "", "of pareto.csv's rate", [](S s) { return Json(figure_of_rate(s.options).name); }},
+      {"rate.figure", "", "of pareto.csv's rate", [](S s) { return Json(rate_figure(s.options.rate).name); }},
       {"rate.low", "", "lower end of the band, in its unit; null: none is asked for",
        of_rate([](const WantedRate& rate) { return rate.low; })},
       {"rate.high", "", "upper end", of_rate([](const WantedRate& rate) { return rate.high; })},

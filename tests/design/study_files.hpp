@@ -15,8 +15,18 @@ namespace vibrosow {
 /// A directory of its own with a small seeder, seeder.toml, gone at the end of the test.
 class StudyFiles {
  public:
-  StudyFiles() : directory_(make_directory()) {
-    write("seeder.toml", R"([seeds.wheat]
+  StudyFiles() : directory_(make_directory()) { write("seeder.toml", seeder_text()); }
+  ~StudyFiles() { std::filesystem::remove_all(directory_); }
+  StudyFiles(const StudyFiles&) = delete;
+  StudyFiles& operator=(const StudyFiles&) = delete;
+
+  std::filesystem::path write(const std::string& name, const std::string& content) const {
+    const auto path = directory_ / name;
+    std::ofstream(path) << content;
+    return path;
+  }
+  static std::string seeder_text() {
+    return R"([seeds.wheat]
 diameter = "4 mm"
 mass = "40 mg"
 [contact]
@@ -35,16 +45,7 @@ span = "36 cm"
 [run]
 duration = "4 s"
 measure_from = "2 s"
-)");
-  }
-  ~StudyFiles() { std::filesystem::remove_all(directory_); }
-  StudyFiles(const StudyFiles&) = delete;
-  StudyFiles& operator=(const StudyFiles&) = delete;
-
-  std::filesystem::path write(const std::string& name, const std::string& content) const {
-    const auto path = directory_ / name;
-    std::ofstream(path) << content;
-    return path;
+)";
   }
   std::filesystem::path seeder() const { return directory_ / "seeder.toml"; }
   std::filesystem::path study(const std::string& content) const {

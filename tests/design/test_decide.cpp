@@ -3,12 +3,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <atomic>
 #include <cmath>
 #include <limits>
 
 #include "design/draft_screen.hpp"
 #include "grains/random.hpp"
+#include "killed_rounds.hpp"
 #include "report/decision_report.hpp"
 #include "scene/input_error.hpp"
 #include "study_files.hpp"
@@ -110,34 +110,9 @@ TEST(Decide, GoesOnFromTheRunsThatAreKept) {
   StudyDecision undisturbed(study, options);
   const std::string csv = decision_csv(lead(undisturbed, loud_run));
 
-  const std::filesystem::path folder = files.seeder().parent_path() / "cases";
-  std::atomic<bool> interrupt = false;
-  std::atomic<int> begun = 0;
-  MakingOptions making;
-  making.jobs = 1;
-  making.interrupt = &interrupt;
-  const Simulator killed = [&](const Model& model, const SimulationOptions& simulation) {
-    vibrosow::Run run = loud_run(model, simulation);
-    if (++begun == 37) interrupt = true, run.status = RunStatus::interrupted;
-    return run;
-  };
-  {
-    StudyRuns runs(folder);
-    StudyDecision decision(study, options);
-    for (auto wanted = decision.wanted(); !wanted.empty(); wanted = decision.wanted()) {
-      runs.make(wanted, killed, making);
-      if (!decision.take(runs.kept(), 1)) break;
-    }
-    EXPECT_FALSE(decision.result().is_sure);
-  }
-  interrupt = false;
-  std::int64_t made = 0;
-  StudyRuns runs(folder);
   StudyDecision decision(study, options);
-  for (auto wanted = decision.wanted(); !wanted.empty(); wanted = decision.wanted()) {
-    made += runs.make(wanted, loud_run, making).made;
-    ASSERT_TRUE(decision.take(runs.kept(), 1));
-  }
+  const std::int64_t made =
+      lead_through_a_kill(files.seeder().parent_path() / "cases", StudyDecision(study, options), decision, loud_run);
   EXPECT_EQ(decision_csv({decision.result(), {}}), csv);
   EXPECT_EQ(static_cast<double>(made), decision.result().cost.runs - 36);
   EXPECT_EQ(static_cast<double>(decision.plan().size()), decision.result().cost.runs);

@@ -3,11 +3,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <atomic>
 #include <cmath>
 #include <numbers>
 
 #include "grains/random.hpp"
+#include "killed_rounds.hpp"
 #include "report/front_report.hpp"
 #include "scene/input_error.hpp"
 #include "study_files.hpp"
@@ -110,34 +110,10 @@ TEST_F(Optimise, ItsFrontIsAStudyOfTheSameScenes) {
 TEST_F(Optimise, KilledItGoesOnToTheSameForAnyJobs) {
   StudyOptimisation undisturbed(space(), options({"rate", "power"}));
   const std::string csv = pareto_csv(lead(undisturbed, 2));
-  const std::filesystem::path folder = files_.seeder().parent_path() / "cases";
-  std::atomic<bool> interrupt = false;
-  std::atomic<int> begun = 0;
-  MakingOptions making;
-  making.jobs = 1;
-  making.interrupt = &interrupt;
-  const Simulator killed = [&](const Model& model, const SimulationOptions& simulation) {
-    vibrosow::Run run = noisy_run(model, simulation);
-    if (++begun == 37) interrupt = true, run.status = RunStatus::interrupted;
-    return run;
-  };
-  {
-    StudyRuns runs(folder);
-    StudyOptimisation optimisation(space(), options({"rate", "power"}));
-    for (auto wanted = optimisation.wanted(); !wanted.empty(); wanted = optimisation.wanted()) {
-      runs.make(wanted, killed, making);
-      if (!optimisation.take(runs.kept(), 1)) break;
-    }
-    EXPECT_LT(optimisation.result().cost.runs, 80);
-  }
-  interrupt = false;
-  std::int64_t made = 0;
-  StudyRuns runs(folder);
   StudyOptimisation optimisation(space(), options({"rate", "power"}));
-  for (auto wanted = optimisation.wanted(); !wanted.empty(); wanted = optimisation.wanted()) {
-    made += runs.make(wanted, noisy_run, making).made;
-    ASSERT_TRUE(optimisation.take(runs.kept(), 1));
-  }
+  const std::int64_t made =
+      lead_through_a_kill(files_.seeder().parent_path() / "cases",
+                          StudyOptimisation(space(), options({"rate", "power"})), optimisation, noisy_run);
   EXPECT_EQ(pareto_csv(optimisation.result()), csv);
   EXPECT_EQ(static_cast<double>(made), optimisation.result().cost.runs - 36);
 }

@@ -16,38 +16,16 @@ namespace {
 using testing::HasSubstr;
 using testing::Not;
 
-constexpr const char* drill = R"([drill]
-row_spacing = "15 cm"
-speed = "7.2 km/h"
-)";
-
 /// The small seeder with a motion and a drill.
 Study with_drill(const StudyFiles& files, const std::string& study) {
-  files.write("sown.toml", R"(title = "Sown"
-[seeds.wheat]
-diameter = "4 mm"
-mass = "40 mg"
-[contact]
-shell_compression = 1e-3
-friction = 0.3
-restitution = 0.5
-[tray]
-length = "50 cm"
-height = "12 cm"
-depth = "6 cm"
-fill = { count = 40, packing = "layers" }
-[tray.holes]
-count = 3
-width = "16 mm"
-span = "36 cm"
-[tray.motion]
+  files.write("sown.toml", "title = \"Sown\"\n" + files.seeder_text() + R"([tray.motion]
 kind = "harmonic"
 amplitude = "1 cm"
 frequency = "9 Hz"
-[run]
-duration = "4 s"
-measure_from = "2 s"
-)" + std::string(drill));
+[drill]
+row_spacing = "15 cm"
+speed = "7.2 km/h"
+)");
   return read_study(files.write("study.toml", "base = \"sown.toml\"\nreplicates = 3\n" + study));
 }
 
