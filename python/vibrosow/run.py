@@ -6,6 +6,7 @@ from functools import cached_property
 import pandas
 
 from .folder import Folder, read_json, share_of_tray
+from .recording import Recording
 
 
 def seconds(time):
@@ -34,6 +35,12 @@ class Run:
     records = cached_property(lambda self: self._folder.table("records.csv"))  # this and the next two: None without [record]
     profile = cached_property(lambda self: self._folder.table("profile.csv"))
     flow = cached_property(lambda self: self._folder.table("flow.csv"))
+
+    @cached_property
+    def recording(self):
+        """Its grains frame by frame, a Recording; None where `vibrosow run` was not asked for a page (--html)."""
+        page = self.folder / "report.html"
+        return Recording(page) if page.exists() else None
 
     def snapshot(self, number, what="grains"):
         """Every grain (or what="fields": every cell) of a snapshot, by its number in `snapshots`. KeyError for another number."""

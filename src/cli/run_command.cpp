@@ -18,12 +18,15 @@
 #include "cli/progress.hpp"
 #include "cli/threads.hpp"
 #include "input/input_file.hpp"
+#include "input/presets.hpp"
 #include "input/read_scene.hpp"
 #include "outflow/outflow.hpp"
 #include "plan/effects.hpp"
 #include "plan/model.hpp"
 #include "plan/scene_warnings.hpp"
+#include "recording/recording.hpp"
 #include "report/output_folder.hpp"
+#include "report/run_page.hpp"
 #include "report/run_report.hpp"
 #include "report/terminal_text.hpp"
 #include "scene/input_error.hpp"
@@ -91,6 +94,7 @@ struct RunOptions : CommonOptions {
   bool profile = false;
   std::string checkpoint_every;
   bool resume = false;
+  bool html = false;
 };
 
 /// A run's checkpoint lies beside its folder, "out/wheat-tray.checkpoint", until the run is finished.
@@ -136,6 +140,7 @@ int run_scene(const RunOptions& options) {
   print_warnings(warnings);
   const Model model = prepare_to_run(read);
   const Scene& scene = model.scene;
+  const std::string page_template = options.html ? shipped_page("report.html") : std::string();
   const OutputFolder folder = options.output_folder("run", run_file_texts());
   SimulationOptions simulation;
   simulation.random_seed = options.random_seed;
@@ -148,6 +153,11 @@ int run_scene(const RunOptions& options) {
     simulation.on_checkpoint = [&](const SimulationState& state) { checkpoint.write(model, state); };
   }
   if (options.resume) simulation.from = checkpoint.read(model, options.random_seed);
+  Recording recording(model);
+  if (options.html) {
+    simulation.look_every = frame_interval(model);
+    simulation.on_look = [&](const Simulation& now) { recording.add(now); };
+  }
   Run run;
   {
     Progress progress(text_unless(options.quiet), static_cast<double>(model.step.steps), "steps");
@@ -159,9 +169,11 @@ int run_scene(const RunOptions& options) {
   if (drill) sown = drill_figures(scene, run, outflow, *drill);
   const std::vector<std::string> warnings_of_run = run.warnings;
   run.warnings.insert(run.warnings.begin(), warnings.begin(), warnings.end());
+  std::vector<OutputFile> files = run_files(scene, run, outflow, effect_names(model.effects), options.csv, sown);
+  if (options.html)
+    files.push_back({"report.html", run_page(page_template, {model, run, outflow, sown, recording.file()})});
   write_then_print(
-      options.quiet,
-      [&] { folder.write(run_files(scene, run, outflow, effect_names(model.effects), options.csv, sown)); },
+      options.quiet, [&] { folder.write(files); },
       [&] {
         print_summary(scene, run, outflow);
         if (sown) print_drill(*sown);
@@ -194,6 +206,7 @@ void add_run_command(CLI::App& app, int& exit_code) {
       ->type_name("TIME");
   command->add_flag("--resume", options->resume,
                     "go on from the checkpoint, to the same bytes as if never interrupted");
+  command->add_flag("--html", options->html, "a page to look at as well, report.html, with the seeds in motion");
   command->callback([options, &exit_code] { exit_code = run_scene(*options); });
 }
 

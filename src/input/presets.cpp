@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <fstream>
+#include <iterator>
 
 #include "input/read_scene.hpp"
 #include "input/wording.hpp"
@@ -63,6 +65,16 @@ fs::path shipped_preset(const std::string& name, const std::string& kind) {
                                  fmt::join(names, ", "), did_you_mean(name, names)));
   }
   return directory / (name + ".toml");
+}
+
+std::string shipped_page(const std::string& name) {
+  const fs::path data = data_directory();
+  for (const fs::path& folder : {data / "pages", data / "build" / "web"}) {
+    std::ifstream file(folder / name, std::ios::binary);
+    if (file) return {std::istreambuf_iterator<char>(file), {}};
+  }
+  throw InputError(fmt::format("this program was built without its pages: there is no {} in {}; scripts/web makes it",
+                               name, (data / "pages").string()));
 }
 
 fs::path data_directory() {

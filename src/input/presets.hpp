@@ -16,6 +16,10 @@ void use_preset(Table& table, const std::string& key, const std::string& kind);
 /// The file models/`kind`/NAME.toml. Throws InputError with the shipped names when there is none.
 std::filesystem::path shipped_preset(const std::string& name, const std::string& kind);
 
+/// The content of a page that reports are made of: NAME of pages/ in the shipped data, or of build/web/ in the source
+/// tree, where scripts/web makes it. Throws InputError where there is none.
+std::string shipped_page(const std::string& name);
+
 /// Density of a preset's seeds themselves, kg/m3: reference.true_density. It changes no scene; a crop's mass is checked
 /// against it.
 std::optional<double> read_true_density(Table& preset);

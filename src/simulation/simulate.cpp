@@ -29,6 +29,7 @@ Run run_to_end(Simulation& simulation, const SimulationOptions& options) {
   const Model& model = simulation.model();
   const auto checkpoint = [&](const Simulation& now) { options.on_checkpoint(now.state()); };
   if (options.on_checkpoint && options.checkpoint_every > 0) simulation.watch(options.checkpoint_every, checkpoint);
+  if (options.on_look) options.on_look(simulation), simulation.watch(options.look_every, options.on_look);
   const double measure_from = model.scene.run.measure_from;
   bool interrupted = false;
   Clock::time_point measuring = Clock::now();
@@ -43,6 +44,7 @@ Run run_to_end(Simulation& simulation, const SimulationOptions& options) {
     if (options.progress)
       options.progress(static_cast<double>(simulation.state().step) / static_cast<double>(model.step.steps));
   }
+  if (options.on_look) options.on_look(simulation);
   if (interrupted && options.on_checkpoint) checkpoint(simulation);
   Run run = simulation.result();
   if (interrupted) run.status = RunStatus::interrupted;

@@ -12,6 +12,8 @@
 
 namespace vibrosow {
 
+class Simulation;
+
 struct SimulationOptions {
   std::uint64_t random_seed = 1;
   int threads = 1;                               // that share the run's loops; the result is the same for any number
@@ -19,6 +21,9 @@ struct SimulationOptions {
   const std::atomic<bool>* interrupt = nullptr;  // looked at now and then, also while the fill is packed and the first
                                                  // neighbours are sought; true ends the run as interrupted
   std::function<void(double fraction_done)> progress{};  // called now and then with 0..1, in the simulating thread
+
+  double look_every = 0;                             // s, simulated
+  std::function<void(const Simulation&)> on_look{};  // at the beginning, then as often, and at the end
 
   std::optional<SimulationState> from{};                        // to go on from; none: the scene's start
   double checkpoint_every = 0;                                  // s, simulated; 0: never

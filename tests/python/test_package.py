@@ -301,6 +301,58 @@ class Refusals(Case):
                 vibrosow.open_study(folder).layouts
 
 
+class Recordings(Case):
+    """The page of a run, made of a template that is nothing but its two places."""
+    TEMPLATE = ('<script id="report-data" type="application/json">@REPORT_DATA@</script>\n'
+                '<script id="recording" type="text/plain">@RECORDING@</script>')
+
+    def page_of(self, *words):
+        """The folder of a run with its page."""
+        data = self.folder / "data"
+        (data / "pages").mkdir(parents=True)
+        for shipped in ("models", "seeders"):
+            (data / shipped).symlink_to(ROOT / shipped)
+        (data / "pages/report.html").write_text(self.TEMPLATE, encoding="utf-8")
+        with mock.patch.dict(os.environ, VIBROSOW_DATA=str(data)):
+            run_program("run", ROOT / "seeders/wheat-tray.toml", "--html", "--set", "run.duration=0.3 s", "--set", "run.measure_from=0.1 s",
+                        "--set", "record.times=[\"0.1 s\", \"0.3 s\"]", "--quiet", "--out", self.folder / "run", *words)
+        return self.folder / "run"
+
+    def test_the_last_frame_is_the_last_snapshot(self):
+        run = vibrosow.open_run(self.page_of())
+        frames = list(run.recording)
+        self.assertEqual(len(frames), len(run.recording))
+        self.assertEqual((frames[0].time_s, frames[-1].time_s), (0, run.info["end_time_s"]))
+        last, snapshot = frames[-1], run.snapshot(2).set_index("id")
+        self.assertEqual(list(last.grains.index), list(snapshot.index))
+        tray = last.vessels.loc["tray"]
+        for name in ("x", "y"):
+            off = last.grains[f"{name}_m"] - tray[f"{name}_m"] - 1e-3 * snapshot[f"{name}_mm"]
+            self.assertLess(off.abs().max(), 0.501 * run.recording.unit_m)
+        self.assertTrue((1e3 * last.grains.radius_m - snapshot.radius_mm).abs().max() < 1e-4)
+
+    def test_a_page_counts_as_the_summary_does(self):
+        folder = self.page_of()
+        data = json.loads(re.search(r'application/json">(.*?)</script>', (folder / "report.html").read_text(encoding="utf-8"))[1])
+        run = vibrosow.open_run(folder)
+        summary = run.summary.set_index("hole").grains.drop("all")
+        self.assertEqual({str(hole["hole"]): hole["counted"] for hole in data["holes"]}, summary.to_dict())
+        self.assertEqual(sum(hole["counted_all"] for hole in data["holes"]), run.info["balance"]["counted"])
+        self.assertEqual(len(data["events"]["time_s"]), len(run.events))
+
+    def test_a_title_ends_no_script(self):
+        page = self.page_of("--set", "title=</script><img src=x onerror=alert(1)>") / "report.html"
+        text = page.read_text(encoding="utf-8")
+        self.assertEqual(text.count("</script>"), 2)
+        self.assertIn("\\u003c/script>\\u003cimg", text)
+
+    def test_without_a_page_there_is_none(self):
+        self.assertIsNone(vibrosow.open_run(work / "run-comma").recording)
+        (self.folder / "report.html").write_text(self.TEMPLATE.replace("@RECORDING@", ""), encoding="utf-8")
+        with self.assertRaises(vibrosow.NotAReport):
+            vibrosow.Recording(self.folder / "report.html")
+
+
 class Bins(Case):
     def test_every_seed_is_in_its_bin_and_hole(self):
         table = made_run(self.folder / "made", [(0, 1), (0.0999, 2), (0.1, 2), (0.15, 10), (0.2, "spilled"), (0.25, 1)]).outflow("0.1 s")
