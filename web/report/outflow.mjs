@@ -3,7 +3,8 @@ import { Chart } from './chart.mjs';
 import { listColour, listColours } from './colours.mjs';
 import { Counters } from './counters.mjs';
 import { element, section, table } from './dom.mjs';
-import { duration, list, number } from './format.mjs';
+import { number } from './format.mjs';
+import { outflowSentence } from './outflow_sentence.mjs';
 import { onTheme, theme, themeColour } from './theme.mjs';
 
 const points = 400;
@@ -11,7 +12,7 @@ const dashes = [[], [6, 4], [2, 3], [10, 4, 2, 4]];
 
 function holeTable({ hole_table: { columns, rows } }) {
   const used = columns.map((_, k) => k).filter((k) => k === 0 || rows.some((row) => row[k]));
-  return table('Outflow per hole', used.map((k) => columns[k]), rows.map((row) => used.map((k) => row[k])));
+  return table('Table of the outflow per hole', used.map((k) => columns[k]), rows.map((row) => used.map((k) => row[k])));
 }
 
 function cumulative(data) {
@@ -76,21 +77,6 @@ function legend(data) {
   onTheme(fill);
   fill();
   return frame;
-}
-
-// What the chart shows, from the data: rates over the window, the longest pause and where.
-export function outflowSentence(data) {
-  const [from, to] = data.window_s;
-  const rated = data.holes.filter((hole) => Number.isFinite(hole.rate));
-  if (rated.length === 0) return 'No hole has let out anything in the measured time.';
-  const most = rated.reduce((a, b) => (b.rate > a.rate ? b : a)), least = rated.reduce((a, b) => (b.rate < a.rate ? b : a));
-  const rate = (hole) => `${number(hole.rate)} ${data.rate_unit}`;
-  const rates = rated.length === 1 ? `hole ${most.hole} let out ${rate(most)}` : `hole ${most.hole} let out most, ${rate(most)}, and hole ${least.hole} least, ${rate(least)}`;
-  const paused = rated.filter((hole) => Number.isFinite(hole.longest_pause_s));
-  const longest = paused.length ? paused.reduce((a, b) => (b.longest_pause_s > a.longest_pause_s ? b : a)) : null;
-  const where = longest && rated.length > 1 ? `, at ${list(paused.filter((hole) => hole.longest_pause_s === longest.longest_pause_s).map((hole) => `hole ${hole.hole}`))}` : '';
-  const pause = longest ? `; the longest time without a seed was ${duration(longest.longest_pause_s)}${where}` : '';
-  return `From ${number(from)} to ${number(to)} s ${rates}${pause}.`;
 }
 
 export function outflowSection(data, player) {

@@ -68,6 +68,7 @@ class Replay {
     this.view.look(name);
     this.canvas.classList.toggle('turnable', name === 'turnable');
     this.canvas.tabIndex = name === 'turnable' ? 0 : -1;
+    if (this.colouring) this.showLegend();
     this.stage.fit();
   }
 
@@ -115,7 +116,8 @@ class Replay {
     const parts = legend.kind === 'names'
       ? legend.names.map((name, k) => element('span', { class: 'legend-item' }, swatch(colours[k]), name))
       : [element('span', {}, legend.note), element('span', { class: 'legend-scale' }, legend.low, element('span', { class: 'ramp' }, colours.map((colour) => swatch(colour))), legend.high)];
-    this.legend.replaceChildren(...parts, element('span', { class: 'legend-note' }, 'Under the holes: seeds so far'));
+    const counted = (this.view.name ?? 'side') === 'side';
+    this.legend.replaceChildren(...parts, ...(counted ? [element('span', { class: 'legend-note' }, 'Under the holes: seeds so far')] : []));
   }
 
   countsNow() {
