@@ -3,7 +3,7 @@ import assert from 'node:assert/strict';
 import { mkdtempSync, readFileSync, rmSync, statSync, writeFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import path from 'node:path';
-import test, { after, before } from 'node:test';
+import test, { after, before, describe } from 'node:test';
 import * as in_ from './browser.mjs';
 import { fillTemplate, madeUpRun } from './made_up_run.mjs';
 
@@ -40,61 +40,69 @@ test('the template is small and keeps the licence of what is in it', () => {
 });
 
 for (const space of ['plane', 'three_dimensional']) {
-  const run = madeUpRun(space);
+  describe(space, () => {
+    const run = madeUpRun(space);
+    let page;
 
-  test(`${space}: play moves on, and the counters end at the run's counts`, () => withPage(run, {}, async (page) => {
-    const last = Number(await page.getAttribute('#replay-frame', 'max'));
-    await in_.scrubTo(page, last - 8);
-    const before_ = await in_.shownCounts(page);
-    await page.getByRole('button', { name: 'Play' }).click();
-    await in_.waitForFrame(page, last);
-    await page.getByRole('button', { name: 'Play' }).waitFor();
-    assert.deepEqual(await in_.shownCounts(page), new Map(run.data.holes.map((hole) => [hole.hole, hole.counted_all])));
-    assert.notDeepEqual(before_, await in_.shownCounts(page));
-  }));
+    before(async () => { page = await in_.openPage(browser, write(space, run)); });
+    after(() => assert.deepEqual(page.complaints, []));
 
-  test(`${space}: scrubbing shows other grains, and counts until then`, () => withPage(run, {}, async (page) => {
-    await in_.scrubTo(page, 5);
-    const early = await in_.pictureOf(page);
-    await in_.scrubTo(page, 30);
-    assert.notEqual(await in_.pictureOf(page), early);
-    const time = (30 * run.data.end_time_s) / Number(await page.getAttribute('#replay-frame', 'max'));
-    const until = run.data.holes.map(({ hole }) => [hole, run.data.events.time_s.filter((when, k) => run.data.events.hole[k] === hole && when <= time).length]);
-    assert.deepEqual(await in_.shownCounts(page), new Map(until));
-  }));
-
-  test(`${space}: the keyboard steps and plays`, () => withPage(run, {}, async (page) => {
-    await in_.scrubTo(page, 10);
-    await page.keyboard.press('ArrowRight');
-    await in_.waitForFrame(page, 11);
-    await page.keyboard.press('ArrowLeft');
-    await page.keyboard.press('ArrowLeft');
-    await in_.waitForFrame(page, 9);
-    await page.keyboard.press('Space');
-    await page.waitForFunction(() => Number(document.querySelector('#replay-canvas').dataset.frame) > 10);
-    await page.keyboard.press('Space');
-    await page.getByRole('button', { name: 'Play' }).waitFor();
-  }));
-
-  test(`${space}: every colouring paints differently and says what it means`, () => withPage(run, {}, async (page) => {
-    const seen = new Set([await in_.pictureOf(page)]);
-    for (const [name, words] of [['Speed', 'm/s'], ['Start', 'mm']]) {
-      await page.getByRole('radio', { name }).check();
-      await page.locator('#replay-legend', { hasText: words }).waitFor();
-      await page.waitForTimeout(150);
-      seen.add(await in_.pictureOf(page));
-    }
-    assert.equal(seen.size, 3);
-    await page.getByRole('radio', { name: 'Lot' }).check();
-    await page.locator('#replay-legend', { hasText: run.data.lots[1].name }).waitFor();
-  }));
-
-  test(`${space}: accessible in light and dark, and no wider than a phone`, async () => {
-    for (const colorScheme of ['light', 'dark']) await withPage(run, { colorScheme, bypass: true }, in_.assertAccessible);
-    await withPage(run, { viewport: { width: 390, height: 844 }, bypass: true }, async (page) => {
-      await in_.assertNoSidewaysScrolling(page);
-      await in_.assertAccessible(page);
+    test("play moves on, and the counters end at the run's counts", async () => {
+      const last = Number(await page.getAttribute('#replay-frame', 'max'));
+      await in_.scrubTo(page, last - 8);
+      const before_ = await in_.shownCounts(page);
+      await page.getByRole('button', { name: 'Play' }).click();
+      await in_.waitForFrame(page, last);
+      await page.getByRole('button', { name: 'Play' }).waitFor();
+      assert.deepEqual(await in_.shownCounts(page), new Map(run.data.holes.map((hole) => [hole.hole, hole.counted_all])));
+      assert.notDeepEqual(before_, await in_.shownCounts(page));
     });
+
+    test('scrubbing shows other grains, and counts until then', async () => {
+      await in_.scrubTo(page, 5);
+      const early = await in_.pictureOf(page);
+      await in_.scrubTo(page, 30);
+      assert.notEqual(await in_.pictureOf(page), early);
+      const time = (30 * run.data.end_time_s) / Number(await page.getAttribute('#replay-frame', 'max'));
+      const until = run.data.holes.map(({ hole }) => [hole, run.data.events.time_s.filter((when, k) => run.data.events.hole[k] === hole && when <= time).length]);
+      assert.deepEqual(await in_.shownCounts(page), new Map(until));
+    });
+
+    test('the keyboard steps and plays', async () => {
+      await in_.scrubTo(page, 10);
+      await page.keyboard.press('ArrowRight');
+      await in_.waitForFrame(page, 11);
+      await page.keyboard.press('ArrowLeft');
+      await page.keyboard.press('ArrowLeft');
+      await in_.waitForFrame(page, 9);
+      await page.keyboard.press('Space');
+      await page.waitForFunction(() => Number(document.querySelector('#replay-canvas').dataset.frame) > 10);
+      await page.keyboard.press('Space');
+      await page.getByRole('button', { name: 'Play' }).waitFor();
+    });
+
+    test('every colouring paints differently and says what it means', async () => {
+      await in_.scrubTo(page, 20);
+      const seen = new Set([await in_.pictureOf(page)]);
+      for (const [name, words] of [['Speed', 'm/s'], ['Start', 'mm']]) {
+        await page.getByRole('radio', { name }).check();
+        await page.locator('#replay-legend', { hasText: words }).waitFor();
+        await page.waitForTimeout(150);
+        seen.add(await in_.pictureOf(page));
+      }
+      assert.equal(seen.size, 3);
+      await page.getByRole('radio', { name: 'Lot' }).check();
+      await page.locator('#replay-legend', { hasText: run.data.lots[1].name }).waitFor();
+    });
+
+    test('accessible in light and dark, and no wider than a phone', () => withPage(run, { bypass: true }, async (open) => {
+      await in_.assertAccessible(open);
+      await open.emulateMedia({ colorScheme: 'dark' });
+      await open.waitForSelector('html[data-theme="dark"]');
+      await open.setViewportSize({ width: 390, height: 844 });
+      await in_.assertAccessible(open);
+      await in_.assertNoSidewaysScrolling(open);
+    }));
   });
 }
 
