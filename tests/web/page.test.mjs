@@ -1,0 +1,168 @@
+// The page of made-up runs, in a browser.
+import assert from 'node:assert/strict';
+import { mkdtempSync, readFileSync, rmSync, statSync, writeFileSync } from 'node:fs';
+import { tmpdir } from 'node:os';
+import path from 'node:path';
+import test, { after, before, describe } from 'node:test';
+import * as in_ from './browser.mjs';
+import { fillTemplate, madeUpRun } from './made_up_run.mjs';
+
+const hostile = '</script><img src=x onerror=alert(1)>';
+const folder = mkdtempSync(path.join(tmpdir(), 'vibrosow-page-'));
+const template = readFileSync(in_.template, 'utf8');
+let browser;
+
+before(async () => { browser = await in_.startBrowser(); });
+after(async () => {
+  await browser?.close();
+  rmSync(folder, { recursive: true });
+});
+
+function write(name, run) {
+  const file = path.join(folder, `${name}.html`);
+  writeFileSync(file, fillTemplate(template, run));
+  return file;
+}
+
+async function withPage(run, options, check) {
+  const page = await in_.openPage(browser, write('run', run), options);
+  try {
+    await check(page);
+    assert.deepEqual(page.complaints, []);
+  } finally {
+    await page.context().close();
+  }
+}
+
+test('the template is small and keeps the licence of what is in it', () => {
+  assert.ok(statSync(in_.template).size < 250e3);
+  assert.match(template, /uplot 1\.6\.32[\s\S]*MIT License[\s\S]*Leon Sorokin/);
+});
+
+for (const space of ['plane', 'three_dimensional']) {
+  describe(space, () => {
+    const run = madeUpRun(space);
+    let page;
+
+    before(async () => { page = await in_.openPage(browser, write(space, run)); });
+    after(() => assert.deepEqual(page.complaints, []));
+
+    test("play moves on, and the counters end at the run's counts", async () => {
+      const last = Number(await page.getAttribute('#replay-frame', 'max'));
+      await in_.scrubTo(page, last - 8);
+      const before_ = await in_.shownCounts(page);
+      await page.getByRole('button', { name: 'Play' }).click();
+      await in_.waitForFrame(page, last);
+      await page.getByRole('button', { name: 'Play' }).waitFor();
+      assert.deepEqual(await in_.shownCounts(page), new Map(run.data.holes.map((hole) => [hole.hole, hole.counted_all])));
+      assert.notDeepEqual(before_, await in_.shownCounts(page));
+    });
+
+    test('scrubbing shows other grains, and counts until then', async () => {
+      await in_.scrubTo(page, 5);
+      const early = await in_.pictureOf(page);
+      await in_.scrubTo(page, 30);
+      assert.notEqual(await in_.pictureOf(page), early);
+      const time = (30 * run.data.end_time_s) / Number(await page.getAttribute('#replay-frame', 'max'));
+      const until = run.data.holes.map(({ hole }) => [hole, run.data.events.time_s.filter((when, k) => run.data.events.hole[k] === hole && when <= time).length]);
+      assert.deepEqual(await in_.shownCounts(page), new Map(until));
+    });
+
+    test('the keyboard steps and plays', async () => {
+      await in_.scrubTo(page, 10);
+      await page.keyboard.press('ArrowRight');
+      await in_.waitForFrame(page, 11);
+      await page.keyboard.press('ArrowLeft');
+      await page.keyboard.press('ArrowLeft');
+      await in_.waitForFrame(page, 9);
+      await page.keyboard.press('Space');
+      await page.waitForFunction(() => Number(document.querySelector('#replay-canvas').dataset.frame) > 10);
+      await page.keyboard.press('Space');
+      await page.getByRole('button', { name: 'Play' }).waitFor();
+    });
+
+    test('every colouring paints differently and says what it means', async () => {
+      await in_.scrubTo(page, 20);
+      const seen = new Set([await in_.pictureOf(page)]);
+      for (const [name, words] of [['Speed', 'm/s'], ['Start', 'mm']]) {
+        await page.getByRole('radio', { name }).check();
+        await page.locator('#replay-legend', { hasText: words }).waitFor();
+        await page.waitForTimeout(150);
+        seen.add(await in_.pictureOf(page));
+      }
+      assert.equal(seen.size, 3);
+      await page.getByRole('radio', { name: 'Lot' }).check();
+      await page.locator('#replay-legend', { hasText: run.data.lots[1].name }).waitFor();
+    });
+
+    test('accessible in light and dark, and no wider than a phone', () => withPage(run, { bypass: true }, async (open) => {
+      await in_.assertAccessible(open);
+      await open.emulateMedia({ colorScheme: 'dark' });
+      await open.waitForSelector('html[data-theme="dark"]');
+      await open.setViewportSize({ width: 390, height: 844 });
+      await in_.assertAccessible(open);
+      await in_.assertNoSidewaysScrolling(open);
+    }));
+  });
+}
+
+test('a tray held still looks otherwise than one that shakes', () => withPage(madeUpRun('plane'), {}, async (page) => {
+  await in_.scrubTo(page, 13);
+  const shaking = await in_.pictureOf(page);
+  await page.getByRole('checkbox', { name: 'Hold the tray still' }).check();
+  await page.waitForTimeout(150);
+  assert.notEqual(await in_.pictureOf(page), shaking);
+}));
+
+test('a run in space turns by keys and by dragging', () => withPage(madeUpRun('three_dimensional'), {}, async (page) => {
+  await page.getByRole('radio', { name: 'Turnable' }).check();
+  await page.waitForTimeout(150);
+  const pictures = new Set([await in_.pictureOf(page)]);
+  const frame = await in_.shownFrame(page);
+  await page.locator('#replay-canvas').focus();
+  await page.keyboard.press('ArrowLeft');
+  pictures.add(await in_.pictureOf(page));
+  assert.equal(await in_.shownFrame(page), frame);
+  const box = await page.locator('#replay-canvas').boundingBox();
+  await page.mouse.move(box.x + 100, box.y + 100);
+  await page.mouse.down();
+  await page.mouse.move(box.x + 160, box.y + 120);
+  await page.mouse.up();
+  pictures.add(await in_.pictureOf(page));
+  assert.equal(pictures.size, 3);
+}));
+
+test('a press on the chart moves the replay', () => withPage(madeUpRun('plane'), {}, async (page) => {
+  const over = page.locator('#outflow .u-over');
+  await over.scrollIntoViewIfNeeded();
+  const box = await over.boundingBox();
+  await page.mouse.click(box.x + 0.75 * box.width, box.y + 40);
+  await page.waitForFunction(() => Math.abs(Number(document.querySelector('#replay-canvas').dataset.frame) - 75) <= 1);
+}));
+
+test('hostile names stay text', () => withPage(madeUpRun('plane', { title: hostile, lots: [hostile, `${hostile}2`] }), {}, async (page) => {
+  assert.equal(await page.locator('h1').textContent(), hostile);
+  assert.match(await page.locator('#replay-legend').textContent(), /onerror=alert\(1\)>2/);
+  assert.equal(await page.locator('td', { hasText: hostile }).count(), 3);
+  assert.equal(await page.locator('img').count(), 0);
+}));
+
+test('the scene is there to read and to save', () => withPage(madeUpRun('plane'), {}, async (page) => {
+  await page.getByText('The whole scene').click();
+  const [download] = await Promise.all([page.waitForEvent('download'), page.getByText('Save the scene').click()]);
+  const saved = JSON.parse(readFileSync(await download.path(), 'utf8'));
+  assert.deepEqual(saved, madeUpRun('plane').data.scene);
+}));
+
+test('without a recording the page says how to get one', () => withPage({ ...madeUpRun('plane'), recording: null }, {}, async (page) => {
+  assert.match(await page.locator('#replay').textContent(), /kept no recording.*--html/);
+  assert.equal(await page.locator('#outflow tbody tr').count(), 3);
+}));
+
+test('a recording that is cut off is said, and the rest is shown', () => {
+  const run = madeUpRun('plane');
+  return withPage({ ...run, recording: run.recording.subarray(0, run.recording.length - 9) }, {}, async (page) => {
+    assert.match(await page.locator('#replay .doubt').textContent(), /cannot be replayed: it ends early/);
+    assert.equal(await page.locator('#outflow tbody tr').count(), 3);
+  });
+});

@@ -1,0 +1,78 @@
+// Numbers, scales, counters and places, without a browser.
+import assert from 'node:assert/strict';
+import test from 'node:test';
+import { layerScale, listColour, mix, speedScale } from '../../web/report/colours.mjs';
+import { Counters } from '../../web/report/counters.mjs';
+import { duration, list, niceAbove, number } from '../../web/report/format.mjs';
+import { floorAt, toLab, toOwn } from '../../web/report/geometry.mjs';
+import { outflowSentence } from '../../web/report/outflow_sentence.mjs';
+import { readPageData } from '../../web/report/page_data.mjs';
+import { frameAt } from '../../web/report/player.mjs';
+
+test('numbers have three digits and no exponent', () => {
+  assert.deepEqual([0, 1, 20.345, 1234.5, 0.00123456, -0.5, 1e-7, 99.96].map((value) => number(value)), ['0', '1', '20.3', '1235', '0.00123', '-0.5', '0.0000001', '100']);
+  assert.equal(number(1.23456, 5), '1.2346');
+  assert.deepEqual([null, undefined, NaN, Infinity].map((value) => number(value)), ['–', '–', '–', '–']);
+});
+
+test('durations change to milliseconds', () => {
+  assert.deepEqual([0.024, 0.5, 3, 0, null].map(duration), ['24 ms', '0.5 s', '3 s', '0 s', '–']);
+});
+
+test('lists and ends of scales', () => {
+  assert.deepEqual([[], ['a'], ['a', 'b'], ['a', 'b', 'c']].map(list), ['', 'a', 'a and b', 'a, b and c']);
+  assert.deepEqual([0.31, 1, 1.01, 7, 0].map(niceAbove).map((value) => value.toPrecision(3)), ['0.500', '1.00', '2.00', '10.0', '1.00']);
+});
+
+const lightness = (colour) => [1, 3, 5].reduce((sum, k, i) => sum + parseInt(colour.slice(k, k + 2), 16) * [0.299, 0.587, 0.114][i], 0);
+
+test('scales grow lighter step by step, in both themes', () => {
+  for (const scale of [speedScale, layerScale]) {
+    for (const theme of ['light', 'dark']) {
+      const steps = scale(10, theme).map(lightness);
+      assert.equal(steps.length, 10);
+      steps.slice(1).forEach((step, k) => assert.ok(step > steps[k], `${scale.name} ${theme} ${k}`));
+    }
+  }
+  assert.equal(mix('#000000', '#ffffff', 0.5), '#808080');
+  assert.notEqual(listColour(0, 'light'), listColour(1, 'light'));
+});
+
+test('counters count a moment with what happens in it', () => {
+  const counters = new Counters({ time_s: [0.1, 0.2, 0.2, 0.3], hole: [1, 2, 1, 0] }, [{ hole: 1 }, { hole: 2 }]);
+  assert.deepEqual([0, 0.1, 0.2, Infinity].map((time) => counters.until(1, time)), [0, 1, 2, 2]);
+  assert.equal(counters.until(0, Infinity), 1);
+  assert.equal(counters.until(7, Infinity), 0);
+});
+
+test('the frame of a time', () => {
+  assert.deepEqual([-1, 0, 0.49, 0.5, 9].map((time) => frameAt([0, 0.5, 1], time)), [0, 0, 0, 1, 2]);
+});
+
+test('vessel to lab and back', () => {
+  const pose = { x: 0.1, y: -0.02, z: 0, angle: Math.PI / 2 };
+  const [x, y] = toLab(pose, 10, 0);
+  assert.ok(Math.abs(x - 100) < 1e-9 && Math.abs(y + 10) < 1e-9);
+  const [a, b] = toOwn(pose, x, y);
+  assert.ok(Math.abs(a - 10) < 1e-9 && Math.abs(b) < 1e-9);
+});
+
+test('the floor at a hole is where a line ends at its rim', () => {
+  const vessel = { lines: [{ points_mm: [[0, 3], [40, 2.5]] }, { points_mm: [[60, 2], [100, 1]] }] };
+  assert.equal(floorAt(vessel, { x_mm: 50, half_x_mm: 10 }), 2);
+  assert.equal(floorAt(vessel, { x_mm: 50, half_x_mm: 5 }), 0);
+});
+
+test('the sentence under the chart', () => {
+  const hole = (number_, rate, pause) => ({ hole: number_, rate, longest_pause_s: pause });
+  const data = (holes) => ({ window_s: [1, 4], rate_unit: 'seeds/s', holes });
+  assert.equal(outflowSentence(data([hole(1, 10, 0.02), hole(2, 12, 0.5)])),
+    'From 1 to 4 s hole 2 let out most, 12 seeds/s, and hole 1 least, 10 seeds/s; the longest time without a seed was 0.5 s, at hole 2.');
+  assert.equal(outflowSentence(data([hole(1, 10, null)])), 'From 1 to 4 s hole 1 let out 10 seeds/s.');
+  assert.equal(outflowSentence(data([])), 'No hole has let out anything in the measured time.');
+});
+
+test('what is missing or null in the data is empty', () => {
+  const data = readPageData('{"title": "a", "remarks": null, "drill": null, "end_time_s": 3}');
+  assert.deepEqual([data.title, data.remarks, data.drill, data.window_s], ['a', [], null, [0, 3]]);
+});

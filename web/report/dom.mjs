@@ -1,0 +1,54 @@
+// Elements made without markup: whatever a file says can only become text.
+
+const svgNamespace = 'http://www.w3.org/2000/svg';
+
+function fill(node, attributes, children) {
+  for (const [name, value] of Object.entries(attributes)) {
+    if (name.startsWith('on')) node.addEventListener(name.slice(2), value);
+    else if (value === true) node.setAttribute(name, '');
+    else if (value !== false && value !== null && value !== undefined) node.setAttribute(name, String(value));
+  }
+  node.append(...children.flat(Infinity).filter((child) => child !== null && child !== undefined));
+  return node;
+}
+
+/** `attributes` whose names begin with "on" are listeners; children are elements or texts, null is left out. */
+export function element(tag, attributes = {}, ...children) {
+  return fill(document.createElement(tag), attributes, children);
+}
+
+/** A picture on a button, 24 units wide; `paths` are SVG path data. */
+export function icon(...paths) {
+  const svg = fill(document.createElementNS(svgNamespace, 'svg'), { viewBox: '0 0 24 24', 'aria-hidden': 'true', focusable: 'false' }, []);
+  svg.append(...paths.map((d) => fill(document.createElementNS(svgNamespace, 'path'), { d }, [])));
+  return svg;
+}
+
+let choices = 0;
+
+/** One choice of few, side by side: radio buttons under a name. `options`: [{ value, text, name (said aloud) }]. */
+export function choice(title, options, chosen, change) {
+  const group = `choice-${++choices}`;
+  const buttons = options.map(({ value, text, name }, k) => element('label', {},
+    element('input', { type: 'radio', name: group, value: k, checked: value === chosen, 'aria-label': name ?? null, onchange: () => change(value) }),
+    element('span', {}, text)));
+  return element('fieldset', { class: 'choice' }, element('legend', {}, title), element('div', { class: 'choice-row' }, buttons));
+}
+
+/** A section of the page with its heading. */
+export function section(id, title, ...children) {
+  return element('section', { id, 'aria-labelledby': `${id}-title` }, element('h2', { id: `${id}-title` }, title), ...children);
+}
+
+/** A table that scrolls by itself where it is too wide; `columns`: [{ name, unit }], `rows`: texts. */
+export function table(caption, columns, rows) {
+  const numeric = columns.map((_, k) => k > 0 && rows.every((row) => !row[k] || Number.isFinite(Number(row[k]))));
+  const align = (k) => (numeric[k] ? 'number' : null);
+  const head = columns.map(({ name, unit }, k) => element('th', { scope: 'col', class: align(k) }, name,
+    unit ? element('span', { class: 'unit' }, ` ${unit}`) : null));
+  const body = rows.map((row) => element('tr', {}, row.map((cell, k) => (k === 0
+    ? element('th', { scope: 'row', class: align(k) }, cell ?? '')
+    : element('td', { class: align(k) }, cell ?? '')))));
+  return element('div', { class: 'table-frame', tabindex: '0', role: 'region', 'aria-label': caption },
+    element('table', {}, element('caption', { class: 'unseen' }, caption), element('thead', {}, element('tr', {}, head)), element('tbody', {}, body)));
+}

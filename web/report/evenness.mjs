@@ -1,0 +1,31 @@
+// How alike the holes are, and the rows of a drill: bars with their intervals.
+import { intervalBars } from './chart.mjs';
+import { element, section } from './dom.mjs';
+import { number } from './format.mjs';
+
+function meanOf(bars) {
+  const values = bars.map((bar) => bar.value).filter(Number.isFinite);
+  return values.reduce((sum, value) => sum + value, 0) / values.length;
+}
+
+function barSection(id, title, bars, unit, bar, sentence) {
+  const mean = meanOf(bars);
+  const whiskers = bars.some((one) => typeof one.low === 'number') ? 'Whiskers: 95 % intervals. ' : '';
+  const chart = intervalBars(`${title}: ${bars.map((one) => `${bar} ${one.label} ${number(one.value)}`).join(', ')} ${unit}`, bars, unit, bar, mean);
+  return section(id, title, element('figure', { class: 'card' }, chart.frame,
+    element('figcaption', {}, sentence ? `${sentence} ` : '', element('span', { class: 'muted' }, `${whiskers}Dashed: the mean, ${number(mean)} ${unit}.`))));
+}
+
+/** null where the data say nothing of evenness. */
+export function evennessSection(data) {
+  if (!data.evenness || data.holes.length === 0) return null;
+  const bars = data.holes.map((hole) => ({ label: String(hole.hole), value: hole.rate, low: hole.rate_low, high: hole.rate_high }));
+  return barSection('evenness', 'Evenness', bars, data.rate_unit, 'hole', data.evenness.sentence);
+}
+
+/** null of a run without a drill. */
+export function rowsSection(data) {
+  if (!data.drill?.rows?.length) return null;
+  const bars = data.drill.rows.map((row) => ({ label: String(row.row), value: row.kg_per_ha, low: row.low, high: row.high }));
+  return barSection('rows', 'Rows of the drill', bars, 'kg/ha', 'row', data.drill.sentence);
+}

@@ -1,0 +1,33 @@
+// Numbers as people read them: three significant digits unless told, never an exponent, and a space before the unit.
+
+/** `value` to `digits` significant digits; "–" for what is not a number. */
+export function number(value, digits = 3) {
+  if (value === null || value === undefined || !Number.isFinite(value)) return '–';
+  if (value === 0) return '0';
+  const decimals = Math.max(0, digits - 1 - Math.floor(Math.log10(Math.abs(value))));
+  const text = value.toFixed(Math.min(decimals, 12));
+  return text.includes('.') ? text.replace(/\.?0+$/, '') : text;
+}
+
+/** Seconds, in milliseconds when they are fewer than a tenth. */
+export function duration(seconds) {
+  if (seconds === null || seconds === undefined || !Number.isFinite(seconds)) return '–';
+  return Math.abs(seconds) < 0.1 && seconds !== 0 ? `${number(seconds * 1000)} ms` : `${number(seconds)} s`;
+}
+
+/** A moment of the replay, always with two decimals, so that it does not jump about while it runs. */
+export function clock(seconds) {
+  return `${seconds.toFixed(2)} s`;
+}
+
+/** "1, 2 and 3" */
+export function list(words) {
+  return words.length < 2 ? words.join('') : `${words.slice(0, -1).join(', ')} and ${words[words.length - 1]}`;
+}
+
+/** The next of 1, 2, 5, 10, 20 ... that is not below `value`; for the ends of scales. */
+export function niceAbove(value) {
+  if (!(value > 0)) return 1;
+  const power = 10 ** Math.floor(Math.log10(value));
+  return [1, 2, 5, 10].map((step) => step * power).find((step) => step >= value * (1 - 1e-9));
+}

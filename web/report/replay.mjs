@@ -1,0 +1,209 @@
+// The replay's section: the canvas, its controls and its legend.
+import { colourings } from './colouring.mjs';
+import { Counters } from './counters.mjs';
+import { choice, element, icon, section } from './dom.mjs';
+import { clock } from './format.mjs';
+import { labBox, meanPose } from './geometry.mjs';
+import { PlaneView } from './plane_view.mjs';
+import { SpaceView } from './space_view.mjs';
+import { Stage } from './stage.mjs';
+import { onTheme, theme, themeColour } from './theme.mjs';
+
+const speeds = [[0.125, '1/8', 'an eighth'], [0.25, '1/4', 'a quarter'], [0.5, '1/2', 'a half'], [1, '1×', 'as fast as it was']];
+const views = [['side', 'Side'], ['above', 'From above'], ['turnable', 'Turnable']];
+const turnedByKey = { ArrowLeft: [-0.1, 0], ArrowRight: [0.1, 0], ArrowUp: [0, 0.1], ArrowDown: [0, -0.1] };
+const pictures = {
+  play: ['M7 4.5v15l12-7.5z'],
+  pause: ['M6 5h4v14H6z', 'M14 5h4v14h-4z'],
+  back: ['M5 5h3v14H5z', 'M19 5v14l-9-7z'],
+  forward: ['M16 5h3v14h-3z', 'M5 5v14l9-7z'],
+};
+
+class Replay {
+  constructor(data, recording, player) {
+    Object.assign(this, { data, recording, player, still: false });
+    const tray = Math.max(0, recording.vessels.indexOf('tray'));
+    const View = recording.fields.includes('z') ? SpaceView : PlaneView;
+    this.view = new View(data, recording, labBox(data.vessels, recording), meanPose(recording, tray));
+    this.counters = new Counters(data.events, data.holes);
+    this.ways = colourings(recording, data);
+    this.build();
+    this.stage = new Stage(this.canvas, (width) => this.view.height(width), () => this.show());
+    player.onChange(() => this.show());
+    onTheme(() => this.repaint());
+    this.colourBy(this.ways[0]);
+  }
+
+  build() {
+    const inSpace = this.view instanceof SpaceView;
+    this.canvas = element('canvas', { id: 'replay-canvas', role: 'img', 'aria-label': 'The grains of the run' });
+    this.legend = element('p', { class: 'legend', id: 'replay-legend' });
+    this.clock = element('output', { class: 'clock', id: 'replay-time', for: 'replay-frame' });
+    this.range = element('input', { type: 'range', id: 'replay-frame', min: 0, max: this.player.last, step: 1, value: 0, 'aria-label': 'Time of the replay',
+      oninput: () => { this.player.pause(); this.player.show(Number(this.range.value)); } });
+    this.playButton = this.button('play', 'Play', () => this.player.toggle());
+    this.playButton.classList.add('primary');
+    const controls = element('div', { class: 'controls' },
+      element('div', { class: 'controls-time' }, this.playButton, this.button('back', 'One frame back', () => this.player.step(-1)),
+        this.button('forward', 'One frame forward', () => this.player.step(1)), this.range, this.clock),
+      element('div', { class: 'controls-choices' },
+        choice('Speed', speeds.map(([value, text, name]) => ({ value, text, name })), 1, (value) => this.player.setSpeed(value)),
+        inSpace ? choice('View', views.map(([value, text]) => ({ value, text })), 'side', (value) => this.look(value)) : null,
+        choice('Colour', this.ways.map((way) => ({ value: way, text: way.text })), this.ways[0], (way) => this.colourBy(way)),
+        this.data.vessels.some((vessel) => vessel.name === 'tray') ? this.stillSwitch() : null));
+    this.figure = element('div', { class: 'replay card' }, element('div', { class: 'stage' }, this.canvas), this.legend, controls);
+    if (inSpace) this.makeTurnable();
+  }
+
+  button(picture, name, act) {
+    return element('button', { type: 'button', class: 'round', 'aria-label': name, title: name, onclick: act }, icon(...pictures[picture]));
+  }
+
+  stillSwitch() {
+    const box = element('input', { type: 'checkbox', onchange: () => { this.still = box.checked; this.show(); } });
+    return element('label', { class: 'switch' }, box, element('span', {}, 'Hold the tray still'));
+  }
+
+  look(name) {
+    this.view.look(name);
+    this.canvas.classList.toggle('turnable', name === 'turnable');
+    this.canvas.tabIndex = name === 'turnable' ? 0 : -1;
+    if (this.colouring) this.showLegend();
+    this.stage.fit();
+  }
+
+  makeTurnable() {
+    this.view.look('side');
+    let from = null;
+    this.canvas.addEventListener('pointerdown', (event) => {
+      if (this.view.fixed) return;
+      from = [event.clientX, event.clientY];
+      this.canvas.setPointerCapture(event.pointerId);
+    });
+    this.canvas.addEventListener('pointermove', (event) => {
+      if (!from) return;
+      this.turn((event.clientX - from[0]) * 0.008, (event.clientY - from[1]) * 0.008);
+      from = [event.clientX, event.clientY];
+    });
+    for (const end of ['pointerup', 'pointercancel']) this.canvas.addEventListener(end, () => { from = null; });
+    this.canvas.addEventListener('keydown', (event) => {
+      const by = turnedByKey[event.key];
+      if (this.view.fixed || !by) return;
+      event.preventDefault();
+      event.stopPropagation();
+      this.turn(...by);
+    });
+  }
+
+  turn(yaw, pitch) {
+    this.view.turn(yaw, pitch);
+    this.paint();
+  }
+
+  async colourBy(way) {
+    this.wanted = way;
+    const made = await way.make();
+    if (this.wanted !== way) return;
+    this.colouring = made;
+    this.showLegend();
+    this.show();
+  }
+
+  showLegend() {
+    const { legend } = this.colouring;
+    const colours = this.colouring.colours(theme());
+    const swatch = (colour, name) => element('span', { class: 'swatch', style: `background:${colour}` }, name ?? null);
+    const parts = legend.kind === 'names'
+      ? legend.names.map((name, k) => element('span', { class: 'legend-item' }, swatch(colours[k]), name))
+      : [element('span', {}, legend.note), element('span', { class: 'legend-scale' }, legend.low, element('span', { class: 'ramp' }, colours.map((colour) => swatch(colour))), legend.high)];
+    const counted = (this.view.name ?? 'side') === 'side';
+    this.legend.replaceChildren(...parts, ...(counted ? [element('span', { class: 'legend-note' }, 'Under the holes: seeds so far')] : []));
+  }
+
+  countsNow() {
+    const until = this.player.index === this.player.last ? Infinity : this.player.time;
+    return new Map(this.data.holes.map((hole) => [hole.hole, this.counters.until(hole.hole, until)]));
+  }
+
+  /** Brings controls and picture to the player's frame. */
+  async show() {
+    const { player } = this;
+    this.range.value = player.index;
+    this.range.style.setProperty('--done', `${(100 * player.index) / Math.max(1, player.last)}%`);
+    this.range.setAttribute('aria-valuetext', clock(player.time));
+    this.clock.textContent = clock(player.time);
+    this.showPlaying();
+    const asked = player.index;
+    if (!this.colouring || !this.stage?.width) return;
+    const colouring = this.colouring;
+    const frame = await this.recording.frame(asked);
+    const bins = await colouring.of(frame, asked);
+    if (asked !== player.index && !player.playing) return;
+    this.shown = { frame, bins, index: asked, time: this.recording.times[asked], counts: this.countsNow(), colouring };
+    this.paint();
+  }
+
+  showPlaying() {
+    const name = this.player.playing ? 'Pause' : 'Play';
+    if (this.playButton.title === name) return;
+    this.playButton.title = name;
+    this.playButton.setAttribute('aria-label', name);
+    this.playButton.replaceChildren(icon(...pictures[name.toLowerCase()]));
+  }
+
+  paint() {
+    if (!this.shown || !this.stage?.width) return;
+    const { shown } = this;
+    this.view.draw(this.stage, { ...shown, still: this.still, colours: shown.colouring.colours(theme()), ink: inks() });
+    this.canvas.dataset.counts = JSON.stringify([...shown.counts]);
+    this.canvas.dataset.frame = shown.index;
+    this.canvas.setAttribute('aria-label', this.said());
+  }
+
+  repaint() {
+    if (!this.colouring) return;
+    this.showLegend();
+    this.paint();
+  }
+
+  said() {
+    const { shown } = this;
+    const counts = [...shown.counts].map(([hole, count]) => `hole ${hole}: ${count}`).join(', ');
+    const how = this.view.fixed === false ? '. Arrow keys turn it' : '';
+    return `${shown.frame.ids.length} grains at ${clock(shown.time)}. Seeds so far, ${counts}${how}.`;
+  }
+}
+
+function inks() {
+  const names = { ink: 'ink', wall: 'wall', halo: 'halo', accent: 'accent', depth: 'depth' };
+  const inks = Object.fromEntries(Object.entries(names).map(([key, name]) => [key, themeColour(name)]));
+  return { ...inks, font: `600 13px ${themeColour('font')}` };
+}
+
+function startKeys(player) {
+  addEventListener('keydown', (event) => {
+    if (event.ctrlKey || event.altKey || event.metaKey) return;
+    const target = event.target.closest?.('input, button, a, summary, select, textarea') ?? null;
+    const kind = target?.type ?? (target ? 'other' : 'none');
+    if (event.key === ' ' && ['none', 'range', 'radio'].includes(kind)) {
+      event.preventDefault();
+      player.toggle();
+    }
+    const by = { ArrowLeft: -1, ArrowRight: 1 }[event.key];
+    if (by && !['range', 'radio', 'text'].includes(kind) && !event.target.closest?.('.table-frame, pre')) {
+      event.preventDefault();
+      player.step(by);
+    }
+  });
+}
+
+/** The section; without a recording, what to do to get one. `problem`: why a recording that is there cannot be shown. */
+export function replaySection(data, recording, player, problem) {
+  if (problem) return section('replay', 'Replay', element('p', { class: 'doubt' }, `The recording in this page cannot be replayed: ${problem}.`));
+  if (!recording) {
+    return section('replay', 'Replay', element('p', {}, 'This run kept no recording; ', element('code', {}, 'vibrosow run FILE --html'), ' keeps one and shows it here.'));
+  }
+  const replay = new Replay(data, recording, player);
+  startKeys(player);
+  return section('replay', 'Replay', replay.figure);
+}

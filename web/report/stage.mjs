@@ -1,0 +1,26 @@
+// The canvas of the replay: as sharp as the screen, as wide as its place, and as high as the view asks for.
+
+export class Stage {
+  constructor(canvas, heightOf, changed) {
+    this.canvas = canvas;
+    this.context = canvas.getContext('2d');
+    this.heightOf = heightOf;
+    this.changed = changed;
+    new ResizeObserver(() => this.fit()).observe(canvas.parentElement);
+  }
+
+  /** Sets the bitmap to the place on the page; what was drawn is gone. */
+  fit() {
+    const width = this.canvas.parentElement.clientWidth;
+    if (width === 0) return;
+    const height = Math.round(this.heightOf(width));
+    const ratio = Math.max(1, window.devicePixelRatio || 1);
+    this.width = width;
+    this.height = height;
+    this.canvas.width = Math.round(width * ratio);
+    this.canvas.height = Math.round(height * ratio);
+    this.canvas.style.aspectRatio = `${width} / ${height}`;
+    this.context.setTransform(ratio, 0, 0, ratio, 0, 0);
+    this.changed();
+  }
+}
