@@ -1,5 +1,7 @@
 #include "cli/common_options.hpp"
 
+#include "input/presets.hpp"
+
 #include "cli/console.hpp"
 
 #include <fmt/format.h>
@@ -72,6 +74,14 @@ void add_random_seed_option(CLI::App& command, CommonOptions& options) {
       ->type_name("N")
       ->check(whole_number)
       ->capture_default_str();
+}
+
+std::string CommonOptions::page_template() const {
+  return html ? shipped_page("report.html") : std::string();
+}
+
+void add_html_option(CLI::App& command, CommonOptions& options) {
+  command.add_flag("--html", options.html, "a page to look at as well: report.html, for any browser, offline");
 }
 
 void add_csv_option(CLI::App& command, CommonOptions& options) {

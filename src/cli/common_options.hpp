@@ -20,12 +20,15 @@ struct CommonOptions {
   std::uint64_t random_seed = 1;
   int jobs = 1;
   bool quiet = false;
+  bool html = false;
   CsvFormat csv;
 
   std::vector<Override> overrides() const;
   /// Where the reports go, in the name of this command: --out, or out/ and the file's name with `suffix`.
   OutputFolder output_folder(const std::string& command, const std::vector<FileText>& files,
                              const std::string& suffix = "") const;
+  /// The template of report.html; empty without --html. Throws InputError where the program has none.
+  std::string page_template() const;
 };
 
 /// Adds the file and --set.
@@ -36,6 +39,9 @@ void add_random_seed_option(CLI::App& command, CommonOptions& options);
 
 /// Adds --csv.
 void add_csv_option(CLI::App& command, CommonOptions& options);
+
+/// Adds --html.
+void add_html_option(CLI::App& command, CommonOptions& options);
 
 /// Adds --out, --random-seed, --jobs and --quiet too.
 void add_common_options(CLI::App& command, CommonOptions& options, const std::string& file_help);

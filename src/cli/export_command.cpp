@@ -14,6 +14,7 @@
 #include "outflow/outflow.hpp"
 #include "plan/effects.hpp"
 #include "plan/model.hpp"
+#include "report/run_page.hpp"
 #include "report/run_report.hpp"
 #include "scene/input_error.hpp"
 #include "storage/case_folder.hpp"
@@ -41,11 +42,17 @@ int export_run(const ExportOptions& command) {
   const std::size_t index = static_cast<std::size_t>(run - runs.begin());
   const Layout& layout = planned.study.layouts.at(static_cast<std::size_t>(run->layout) - 1);
   const Model model = prepare(*wanted_runs(planned, {index}).front().scene);
+  const std::string page_template = options.page_template();
   const OutputFolder folder = options.output_folder("run", run_file_texts());
   const Outflow outflow = measure_outflow(model.scene, found->run);
   std::optional<DrillFigures> sown;
   if (layout.drill) sown = drill_figures(model.scene, found->run, outflow, *layout.drill);
-  folder.write(run_files(model.scene, found->run, outflow, effect_names(model.effects), options.csv, sown));
+  std::vector<OutputFile> files =
+      run_files(model.scene, found->run, outflow, effect_names(model.effects), options.csv, sown);
+  const std::string no_recording;
+  if (options.html)
+    files.push_back({"report.html", run_page(page_template, {model, found->run, outflow, sown, no_recording})});
+  folder.write(files);
   print("reports: {}\n", folder.path().string());
   return exit_done;
 }
@@ -64,8 +71,9 @@ int export_study(ExportOptions command) {
     if (missing > 0)
       throw InputError(fmt::format("{}: {} of {} runs are missing", options.file, missing, planned.plan.runs.size()));
   }
+  const std::string page_template = options.page_template();
   const OutputFolder folder = options.output_folder("sweep", sweep_file_texts());
-  const int exit_code = report_study(planned, runs, folder, {.jobs = options.jobs}, options);
+  const int exit_code = report_study(planned, runs, folder, {.jobs = options.jobs}, options, page_template);
   print("reports: {}\n", folder.path().string());
   if (exit_code != exit_interrupted) return exit_code;
   complain("warning: runs are missing");
@@ -84,6 +92,7 @@ void add_export_command(CLI::App& app, int& exit_code) {
       ->type_name("NAME");
   command->add_option("--out", options->common.out, "directory for the reports of --run")->type_name("DIR");
   add_csv_option(*command, options->common);
+  add_html_option(*command, options->common);
   command->callback([options, &exit_code] { exit_code = export_study(*options); });
 }
 

@@ -8,6 +8,7 @@
 #include "cli/console.hpp"
 #include "cli/sweep_table.hpp"
 #include "design/sweep.hpp"
+#include "report/sweep_page.hpp"
 
 namespace vibrosow {
 namespace {
@@ -29,7 +30,7 @@ int exit_code_of(const StudyResult& result, bool interrupted) {
 }  // namespace
 
 int report_study(const PlannedStudy& planned, const StudyRuns& runs, const OutputFolder& folder,
-                 const SweepTiming& timing, const CommonOptions& options) {
+                 const SweepTiming& timing, const CommonOptions& options, const std::string& page_template) {
   SweepOptions reading;
   reading.first_random_seed = planned.plan.random_seed;
   reading.replicates = replicates_in(planned);
@@ -37,9 +38,10 @@ int report_study(const PlannedStudy& planned, const StudyRuns& runs, const Outpu
   SweepRunsCsv runs_csv(planned.study, options.csv);
   reading.on_runs = [&](std::size_t scene, const std::vector<Evaluation>& of_scene) { runs_csv.add(scene, of_scene); };
   const StudyResult result = sweep(planned.study, runs.kept(), reading);
+  std::vector<OutputFile> files = sweep_files(result, runs_csv, timing, options.csv);
+  if (!page_template.empty()) files.push_back({"report.html", sweep_page(page_template, result)});
   write_then_print(
-      options.quiet, [&] { folder.write(sweep_files(result, runs_csv, timing, options.csv)); },
-      [&] { print_sweep_table(result); });
+      options.quiet, [&] { folder.write(files); }, [&] { print_sweep_table(result); });
   const bool whole = std::ranges::none_of(
       result.layouts, [](const LayoutResult& one) { return one.status == LayoutStatus::interrupted; });
   return exit_code_of(result, !whole);

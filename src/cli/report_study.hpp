@@ -6,8 +6,9 @@
 
 namespace vibrosow {
 
-/// Makes a study's reports of the runs that are kept, and prints its table; an exit code.
+/// Makes a study's reports of the runs that are kept, and prints its table; an exit code. With a
+/// `page_template`, its page too.
 int report_study(const PlannedStudy& planned, const StudyRuns& runs, const OutputFolder& folder,
-                 const SweepTiming& timing, const CommonOptions& options);
+                 const SweepTiming& timing, const CommonOptions& options, const std::string& page_template);
 
 }  // namespace vibrosow

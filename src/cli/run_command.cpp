@@ -18,7 +18,6 @@
 #include "cli/progress.hpp"
 #include "cli/threads.hpp"
 #include "input/input_file.hpp"
-#include "input/presets.hpp"
 #include "input/read_scene.hpp"
 #include "outflow/outflow.hpp"
 #include "plan/effects.hpp"
@@ -94,7 +93,6 @@ struct RunOptions : CommonOptions {
   bool profile = false;
   std::string checkpoint_every;
   bool resume = false;
-  bool html = false;
 };
 
 /// A run's checkpoint lies beside its folder, "out/wheat-tray.checkpoint", until the run is finished.
@@ -140,7 +138,7 @@ int run_scene(const RunOptions& options) {
   print_warnings(warnings);
   const Model model = prepare_to_run(read);
   const Scene& scene = model.scene;
-  const std::string page_template = options.html ? shipped_page("report.html") : std::string();
+  const std::string page_template = options.page_template();
   const OutputFolder folder = options.output_folder("run", run_file_texts());
   SimulationOptions simulation;
   simulation.random_seed = options.random_seed;
@@ -206,7 +204,7 @@ void add_run_command(CLI::App& app, int& exit_code) {
       ->type_name("TIME");
   command->add_flag("--resume", options->resume,
                     "go on from the checkpoint, to the same bytes as if never interrupted");
-  command->add_flag("--html", options->html, "a page to look at as well, report.html, with the seeds in motion");
+  add_html_option(*command, *options);
   command->callback([options, &exit_code] { exit_code = run_scene(*options); });
 }
 

@@ -158,7 +158,8 @@ int submit_rounds(const SubmitOptions& options, double time) {
   }
   CommonOptions reports = options.common;
   reports.out = frozen.folder.string();
-  return report_study(frozen.planned, runs, reports.output_folder("sweep", sweep_file_texts()), {}, reports);
+  return report_study(frozen.planned, runs, reports.output_folder("sweep", sweep_file_texts()), {}, reports,
+                      std::string());
 }
 
 int submit(const SubmitOptions& options) {

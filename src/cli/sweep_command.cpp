@@ -46,10 +46,11 @@ int run_sweep(const SweepCommandOptions& command) {
   const InputFile file = input_file(options.file, FileKind::study);
   PlannedStudy planned = plan_study(file.path, options.sets, options.random_seed, file.files);
   print_warnings(study_warnings(planned.study));
+  const std::string page_template = options.page_template();
   const OutputFolder folder = options.output_folder("sweep", sweep_file_texts());
   StudyRuns runs(cases_of(folder.path()), cases_to_reuse(command.reuse));
   const Made made = make_all_runs(planned, runs, folder.path(), command);
-  const int exit_code = report_study(planned, runs, folder, made.timing, options);
+  const int exit_code = report_study(planned, runs, folder, made.timing, options, page_template);
   if (!options.quiet && made.making.there > 0) print("{} of the runs were there from before\n", made.making.there);
   if (!options.quiet && exit_code == exit_interrupted) print("interrupted: the same command goes on from here\n");
   if (!options.quiet) print("reports: {}\n", folder.path().string());
@@ -64,6 +65,7 @@ void add_sweep_command(CLI::App& app, int& exit_code) {
   CLI::App* command =
       app.add_subcommand("sweep", "simulate every layout of a study, against measured outflow where it names some");
   add_common_options(*command, options->common, "study file (.toml)");
+  add_html_option(*command, options->common);
   add_making_flags(*command, options->making);
   add_reuse_option(*command, options->reuse);
   command->callback([options, &exit_code] { exit_code = run_sweep(*options); });

@@ -84,7 +84,7 @@ std::vector<std::string> fields_of(const Scene& scene) {
 
 Recording::Recording(const Model& model) : vessels_(model.vessels), fields_(fields_of(model.scene)) {
   for (const std::string& field : fields_)
-    units_.push_back(field.size() == 1    ? 2 * model.smallest_radius / counts_per_diameter
+    units_.push_back(field.size() == 1  ? 2 * model.smallest_radius / counts_per_diameter
                      : field == "angle" ? 2 * std::numbers::pi / counts_per_turn
                                         : 1 / counts_per_one);
 }
@@ -153,8 +153,9 @@ void Recording::add_places(const Grains& grains) {
     Known& known = known_.at(grains.id[i]);
     for (std::size_t f = 0; f < fields_.size(); ++f) {
       const std::int32_t now = in_counts(value_of(grains, fields_[f], i), units_[f]);
-      const std::int32_t expected =
-          known.frames == 0 ? 0 : known.frames == 1 ? known.last[f] : 2 * known.last[f] - known.before[f];
+      const std::int32_t expected = known.frames == 0   ? 0
+                                    : known.frames == 1 ? known.last[f]
+                                                        : 2 * known.last[f] - known.before[f];
       residuals[f].push_back(zigzag(now - expected));
       known.before[f] = std::exchange(known.last[f], now);
     }

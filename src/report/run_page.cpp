@@ -3,22 +3,17 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <boost/archive/iterators/base64_from_binary.hpp>
-#include <boost/archive/iterators/transform_width.hpp>
 #include <boost/math/distributions/chi_squared.hpp>
 #include <cmath>
 #include <nlohmann/json.hpp>
-#include <numbers>
-#include <stdexcept>
 #include <utility>
 
 #include "plan/effects.hpp"
 #include "plan/softness.hpp"
+#include "report/page.hpp"
 #include "report/terminal_text.hpp"
 #include "scene/integrator_names.hpp"
 #include "scene/scene_json.hpp"
-#include "scene/spaces.hpp"
-#include "vessel/vessel_walls.hpp"
 
 namespace vibrosow {
 namespace {
@@ -45,73 +40,6 @@ std::pair<double, double> counting_interval(std::int64_t count) {
     return boost::math::quantile(boost::math::chi_squared(degrees), below) / 2;
   };
   return {count > 0 ? bound(2 * n, 0.025) : 0, bound(2 * n + 2, 0.975)};
-}
-
-Json lots(const Scene& scene) {
-  Json all = Json::array();
-  for (const SeedLot& lot : scene.lots) {
-    Json one = {{"name", lot.name}, {"diameter_mm", in_mm(lot.diameter)}};
-    for (const ClumpDisc& disc : lot.discs)
-      one["discs"].push_back({{"x_mm", in_mm(disc.x)},
-                              {"y_mm", in_mm(disc.y)},
-                              {"z_mm", in_mm(disc.z)},
-                              {"radius_mm", in_mm(disc.radius)}});
-    all.push_back(std::move(one));
-  }
-  return all;
-}
-
-/// A straight wall, or an arc in pieces of some 4 degrees.
-Json line(const WallSegment& wall) {
-  Json points = Json::array();
-  const auto add = [&](const Eigen::Vector2d& at) { points.push_back({in_mm(at.x()), in_mm(at.y())}); };
-  if (wall.radius > 0) {
-    const int pieces = 1 + static_cast<int>((wall.to - wall.from) / (std::numbers::pi / 45));
-    for (int k = 0; k <= pieces; ++k) {
-      const double angle = wall.from + (wall.to - wall.from) * k / pieces;
-      add(wall.centre + wall.radius * Eigen::Vector2d(std::cos(angle), std::sin(angle)));
-    }
-  } else {
-    add(wall.a), add(wall.b);
-  }
-  Json result = {{"points_mm", std::move(points)}};
-  if (wall.opens_at > 0) result["opens_at_s"] = wall.opens_at;
-  return result;
-}
-
-Json holes_of(const Vessel& vessel) {
-  Json holes = Json::array();
-  for (std::size_t i = 0; i < vessel.holes.size(); ++i) {
-    const Hole& hole = vessel.holes[i];
-    const bool is_round = hole.shape == HoleShape::round;
-    holes.push_back({{"number", i + 1},
-                     {"x_mm", in_mm(hole.centre)},
-                     {"z_mm", in_mm(hole.across)},
-                     {"half_x_mm", in_mm(hole.width / 2)},
-                     {"half_z_mm", in_mm((is_round ? hole.width : hole.across_length) / 2)},
-                     {"round", is_round}});
-  }
-  return holes;
-}
-
-/// `from_the_side`: what the plane sees of it.
-Json vessel(const Vessel& whole, Vessel from_the_side) {
-  if (from_the_side.sides == Sides::periodic) from_the_side.sides = Sides::open;  // drawn once, without its copies
-  Json result = {{"name", whole.name},
-                 {"length_mm", in_mm(whole.length)},
-                 {"height_mm", in_mm(whole.height)},
-                 {"depth_mm", whole.depth ? Json(in_mm(*whole.depth)) : Json(nullptr)},
-                 {"lines", Json::array()},
-                 {"holes", holes_of(whole)}};
-  for (const WallSegment& wall : vessel_walls(from_the_side)) result["lines"].push_back(line(wall));
-  return result;
-}
-
-Json vessels(const Scene& scene) {
-  const Scene slice = in_plane(scene);
-  Json all = Json::array({vessel(scene.tray, slice.tray)});
-  if (scene.hopper) all.push_back(vessel(*scene.hopper, *slice.hopper));
-  return all;
 }
 
 Json holes(const RunPage& page) {
@@ -162,10 +90,10 @@ std::string headline(const RunPage& page) {
   const std::size_t holes = scene.tray.holes.size();
   const bool slice = scene.space == Space::plane;
   const double factor = outflow.depth_factor.value_or(1);
-  std::string text =
-      fmt::format("{} let{} out {} g/s, {} seeds/s, between {:g} and {:g} s", holes == 1 ? "One hole" : fmt::format("{} holes", holes),
-                  holes == 1 ? "s" : "", figure_text(all.mass_rate * 1e3 * factor),
-                  figure_text(all.seeds_per_s * factor), outflow.window_from, outflow.window_to);
+  std::string text = fmt::format("{} let{} out {} g/s, {} seeds/s, between {:g} and {:g} s",
+                                 holes == 1 ? "One hole" : fmt::format("{} holes", holes), holes == 1 ? "s" : "",
+                                 figure_text(all.mass_rate * 1e3 * factor), figure_text(all.seeds_per_s * factor),
+                                 outflow.window_from, outflow.window_to);
   if (slice && outflow.depth_factor)
     text += fmt::format(": of the whole tray, {:.4g} times the slice that was simulated", factor);
   else if (slice)
@@ -175,9 +103,9 @@ std::string headline(const RunPage& page) {
 
 std::string guard_sentence(const Run& run, const GuardLimits& limits) {
   if (run.status == RunStatus::stopped_by_guard) return fmt::format("The guard stopped the run: {}.", run.stop_reason);
-  const std::string seen = fmt::format(
-      "The deepest contact pressed a grain by {:.2g} % of its radius (warned from {:g} %)",
-      100 * run.max_relative_overlap, 100 * limits.warn_relative_overlap);
+  const std::string seen =
+      fmt::format("The deepest contact pressed a grain by {:.2g} % of its radius (warned from {:g} %)",
+                  100 * run.max_relative_overlap, 100 * limits.warn_relative_overlap);
   return run.outside_the_model ? seen + "; the run lies outside the model: nothing is to be decided by it."
                                : seen + "; nothing was lost and the numerics made no energy worth a word.";
 }
@@ -218,28 +146,15 @@ Json drill(const std::optional<DrillFigures>& figures) {
                       {"low", nullptr},
                       {"high", nullptr}});
   const RowFigures& all = figures->all();
-  return {{"rows", std::move(rows)},
-          {"sentence", all.kg_per_m2 ? fmt::format("All rows together sow {} kg/ha.", to_digits(1e4 * *all.kg_per_m2, 4))
-                                     : std::string("Without tray.depth there is no rate per area.")}};
+  return {
+      {"rows", std::move(rows)},
+      {"sentence", all.kg_per_m2 ? fmt::format("All rows together sow {} kg/ha.", to_digits(1e4 * *all.kg_per_m2, 4))
+                                 : std::string("Without tray.depth there is no rate per area.")}};
 }
 
 std::string_view status_name(RunStatus status) {
   if (status == RunStatus::finished) return "finished";
   return status == RunStatus::stopped_by_guard ? "stopped_by_guard" : "interrupted";
-}
-
-std::string base64(const std::string& bytes) {
-  using namespace boost::archive::iterators;
-  using Encoded = base64_from_binary<transform_width<std::string::const_iterator, 6, 8>>;
-  std::string text(Encoded(bytes.begin()), Encoded(bytes.end()));
-  text.append((3 - bytes.size() % 3) % 3, '=');
-  return text;
-}
-
-void fill(std::string& page, const std::string& place, const std::string& content) {
-  const std::size_t at = page.find(place);
-  if (at == std::string::npos) throw std::invalid_argument("the page's template has no place " + place);
-  page.replace(at, place.size(), content);
 }
 
 }  // namespace
@@ -259,31 +174,24 @@ std::string run_page_data(const RunPage& page) {
       {"status", status_name(page.run.status)},
       {"end_time_s", page.run.end_time},
       {"window_s", {page.outflow.window_from, page.outflow.window_to}},
-      {"lots", lots(scene)},
-      {"vessels", vessels(scene)},
+      {"lots", page_lots(scene)},
+      {"vessels", page_vessels(scene)},
       {"holes", holes(page)},
       {"rate_unit", "seeds/s"},
       {"hole_table", hole_table(page)},
-      {"evenness", page.outflow.evenness
-                       ? Json{{"sentence", evenness_sentence(*page.outflow.evenness, "holes")}}
-                       : Json(nullptr)},
+      {"evenness",
+       page.outflow.evenness ? Json{{"sentence", evenness_sentence(*page.outflow.evenness, "holes")}} : Json(nullptr)},
       {"events", events(page.run)},
       {"effects", effects(page.model)},
       {"guard", guard_sentence(page.run, scene.guard)},
       {"settings", settings(page)},
       {"drill", drill(page.drill)},
       {"scene", Json::parse(scene_to_json(scene))}};
-  const std::string text = data.dump(-1, ' ', false, Json::error_handler_t::replace);
-  std::string safe;
-  for (const char c : text) c == '<' ? safe.append("\\u003c") : safe.append(1, c);
-  return safe;
+  return page_text(data);
 }
 
 std::string run_page(const std::string& page_template, const RunPage& page) {
-  std::string html = page_template;
-  fill(html, "@RECORDING@", base64(page.recording));
-  fill(html, "@REPORT_DATA@", run_page_data(page));
-  return html;
+  return filled_page(page_template, run_page_data(page), page.recording);
 }
 
 FileText run_page_text() {

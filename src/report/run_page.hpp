@@ -20,11 +20,10 @@ struct RunPage {
   const std::string& recording;  // file of a Recording; empty: nothing to replay
 };
 
-/// The page's numbers and texts as JSON that holds no "<", so that nothing in it can end the script that it stands in.
+/// The page's numbers and texts (page_text).
 std::string run_page_data(const RunPage& page);
 
-/// report.html: `page_template` (shipped_page) with the data and the recording in their places. Throws
-/// std::invalid_argument for a template without them.
+/// report.html of a run (filled_page).
 std::string run_page(const std::string& page_template, const RunPage& page);
 
 /// What the file holds.

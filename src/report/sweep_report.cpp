@@ -10,25 +10,10 @@
 #include "report/drill_report.hpp"
 #include "report/json_keys.hpp"
 #include "report/layout_columns.hpp"
+#include "report/sweep_page.hpp"
 
 namespace vibrosow {
 namespace {
-
-std::string status_name(LayoutStatus status) {
-  switch (status) {
-    case LayoutStatus::ok:
-      return "ok";
-    case LayoutStatus::outside_the_model:
-      return "outside the model";
-    case LayoutStatus::invalid:
-      return "invalid";
-    case LayoutStatus::stopped:
-      return "stopped";
-    case LayoutStatus::interrupted:
-      return "interrupted";
-  }
-  return "";
-}
 
 std::string run_status(EvaluationStatus status) {
   switch (status) {
@@ -53,22 +38,16 @@ std::string run_note(int first, const Layout& layout, const Evaluation& run) {
   return note;
 }
 
-std::string reason_and_warnings(const LayoutResult& layout) {
-  std::string text = layout.reason;
-  for (const std::string& warning : layout.warnings) text += (text.empty() ? "" : "; ") + warning;
-  return text;
-}
-
 Columns<LayoutRow> sweep_columns(const std::vector<std::string>& keys) {
   using R = const LayoutRow&;
   Columns<LayoutRow> columns = layout_columns<LayoutRow>();
   columns.push_back(text_column<LayoutRow>("status",
                                            "ok, outside the model (of a run at least: nothing is to be decided by it), "
                                            "invalid, stopped (by the guard) or interrupted",
-                                           [](R r) { return status_name(r.of().status); }));
+                                           [](R r) { return layout_status(r.of().status); }));
   columns.push_back(text_column<LayoutRow>(
       "reason", "why it is not ok; else what to know about its runs; and what in its scene can hardly be meant",
-      [](R r) { return reason_and_warnings(r.of()); }));
+      [](R r) { return layout_note(r.of()); }));
   append(columns, key_columns<LayoutRow>(keys));
   columns.push_back(replicates_column<LayoutRow>());
   add_figure_columns(
@@ -258,6 +237,28 @@ JsonKeys<SweepTiming> timing_keys() {
 
 }  // namespace
 
+std::string layout_status(LayoutStatus status) {
+  switch (status) {
+    case LayoutStatus::ok:
+      return "ok";
+    case LayoutStatus::outside_the_model:
+      return "outside the model";
+    case LayoutStatus::invalid:
+      return "invalid";
+    case LayoutStatus::stopped:
+      return "stopped";
+    case LayoutStatus::interrupted:
+      return "interrupted";
+  }
+  return "";
+}
+
+std::string layout_note(const LayoutResult& layout) {
+  std::string text = layout.reason;
+  for (const std::string& warning : layout.warnings) text += (text.empty() ? "" : "; ") + warning;
+  return text;
+}
+
 std::string sweep_csv(const StudyResult& result, CsvFormat format) {
   return csv_of(sweep_columns(result.study.keys), layout_rows(result), format);
 }
@@ -334,7 +335,8 @@ std::vector<FileText> sweep_file_texts() {
           file_text("comparison.csv", "of a study with measured outflow: one row per layout and measured value",
                     comparison_columns()),
           sweep_rows_file_text(),
-          trade_file_text()};
+          trade_file_text(),
+          sweep_page_text()};
 }
 
 std::vector<OutputFile> sweep_files(const StudyResult& result, const SweepRunsCsv& runs, const SweepTiming& timing,

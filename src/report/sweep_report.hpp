@@ -18,6 +18,12 @@ struct SweepTiming {
   double grain_steps = 0;  // theirs, summed
 };
 
+/// "ok", "outside the model", "invalid", "stopped" or "interrupted".
+std::string layout_status(LayoutStatus status);
+
+/// Why a layout is not ok; else what to know about its runs; and what in its scene can hardly be meant.
+std::string layout_note(const LayoutResult& layout);
+
 /// One row per layout: what tells it apart, and each figure with its 95 % half width. Percent are percent.
 std::string sweep_csv(const StudyResult& result, CsvFormat format = {});
 

@@ -1,0 +1,120 @@
+#include "report/page.hpp"
+
+#include <boost/archive/iterators/base64_from_binary.hpp>
+#include <boost/archive/iterators/transform_width.hpp>
+#include <cmath>
+#include <numbers>
+#include <stdexcept>
+
+#include "scene/spaces.hpp"
+#include "vessel/vessel_walls.hpp"
+
+namespace vibrosow {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+double in_mm(double metres) {
+  return 1e3 * metres;
+}
+
+/// A straight wall, or an arc in pieces of some 4 degrees.
+Json line(const WallSegment& wall) {
+  Json points = Json::array();
+  const auto add = [&](const Eigen::Vector2d& at) { points.push_back({in_mm(at.x()), in_mm(at.y())}); };
+  if (wall.radius > 0) {
+    const int pieces = 1 + static_cast<int>((wall.to - wall.from) / (std::numbers::pi / 45));
+    for (int k = 0; k <= pieces; ++k) {
+      const double angle = wall.from + (wall.to - wall.from) * k / pieces;
+      add(wall.centre + wall.radius * Eigen::Vector2d(std::cos(angle), std::sin(angle)));
+    }
+  } else {
+    add(wall.a), add(wall.b);
+  }
+  Json result = {{"points_mm", std::move(points)}};
+  if (wall.opens_at > 0) result["opens_at_s"] = wall.opens_at;
+  return result;
+}
+
+Json holes_of(const Vessel& vessel) {
+  Json holes = Json::array();
+  for (std::size_t i = 0; i < vessel.holes.size(); ++i) {
+    const Hole& hole = vessel.holes[i];
+    const bool is_round = hole.shape == HoleShape::round;
+    holes.push_back({{"number", i + 1},
+                     {"x_mm", in_mm(hole.centre)},
+                     {"z_mm", in_mm(hole.across)},
+                     {"half_x_mm", in_mm(hole.width / 2)},
+                     {"half_z_mm", in_mm((is_round ? hole.width : hole.across_length) / 2)},
+                     {"round", is_round}});
+  }
+  return holes;
+}
+
+/// `from_the_side`: what the plane sees of it.
+Json vessel(const Vessel& whole, Vessel from_the_side) {
+  if (from_the_side.sides == Sides::periodic) from_the_side.sides = Sides::open;  // drawn once, without its copies
+  Json result = {{"name", whole.name},
+                 {"at_mm", {in_mm(whole.origin.x()), in_mm(whole.origin.y()), in_mm(whole.front)}},  // at rest
+                 {"tilt_rad", whole.tilt},
+                 {"length_mm", in_mm(whole.length)},
+                 {"height_mm", in_mm(whole.height)},
+                 {"depth_mm", whole.depth ? Json(in_mm(*whole.depth)) : Json(nullptr)},
+                 {"lines", Json::array()},
+                 {"holes", holes_of(whole)}};
+  for (const WallSegment& wall : vessel_walls(from_the_side)) result["lines"].push_back(line(wall));
+  return result;
+}
+
+std::string base64(const std::string& bytes) {
+  using namespace boost::archive::iterators;
+  using Encoded = base64_from_binary<transform_width<std::string::const_iterator, 6, 8>>;
+  std::string text(Encoded(bytes.begin()), Encoded(bytes.end()));
+  text.append((3 - bytes.size() % 3) % 3, '=');
+  return text;
+}
+
+void fill(std::string& page, const std::string& place, const std::string& content) {
+  const std::size_t at = page.find(place);
+  if (at == std::string::npos) throw std::invalid_argument("the page's template has no place " + place);
+  page.replace(at, place.size(), content);
+}
+
+}  // namespace
+
+nlohmann::ordered_json page_lots(const Scene& scene) {
+  Json all = Json::array();
+  for (const SeedLot& lot : scene.lots) {
+    Json one = {{"name", lot.name}, {"diameter_mm", in_mm(lot.diameter)}};
+    for (const ClumpDisc& disc : lot.discs)
+      one["discs"].push_back({{"x_mm", in_mm(disc.x)},
+                              {"y_mm", in_mm(disc.y)},
+                              {"z_mm", in_mm(disc.z)},
+                              {"radius_mm", in_mm(disc.radius)}});
+    all.push_back(std::move(one));
+  }
+  return all;
+}
+
+nlohmann::ordered_json page_vessels(const Scene& scene) {
+  const Scene slice = in_plane(scene);
+  Json all = Json::array({vessel(scene.tray, slice.tray)});
+  if (scene.hopper) all.push_back(vessel(*scene.hopper, *slice.hopper));
+  return all;
+}
+
+std::string page_text(const Json& data) {
+  const std::string text = data.dump(-1, ' ', false, Json::error_handler_t::replace);
+  std::string safe;
+  for (const char c : text) c == '<' ? safe.append("\\u003c") : safe.append(1, c);
+  return safe;
+}
+
+std::string filled_page(const std::string& page_template, const std::string& data, const std::string& recording) {
+  std::string html = page_template;
+  fill(html, "@RECORDING@", base64(recording));
+  fill(html, "@REPORT_DATA@", data);
+  return html;
+}
+
+}  // namespace vibrosow

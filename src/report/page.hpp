@@ -1,0 +1,21 @@
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "scene/scene.hpp"
+
+namespace vibrosow {
+
+/// A scene's lots, and its vessels as they are seen from the side, in space with the holes of their floors; mm.
+nlohmann::ordered_json page_lots(const Scene& scene);
+nlohmann::ordered_json page_vessels(const Scene& scene);
+
+/// JSON in one line that holds no "<", so that nothing in it can end the script that it stands in.
+std::string page_text(const nlohmann::ordered_json& data);
+
+/// A page: `page_template` (shipped_page) with the data (page_text) and, unless it is empty, the file of a Recording in
+/// their places. Throws std::invalid_argument for a template without them.
+std::string filled_page(const std::string& page_template, const std::string& data, const std::string& recording = {});
+
+}  // namespace vibrosow

@@ -1,0 +1,124 @@
+#include "report/sweep_page.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "report/layout_columns.hpp"
+#include "report/page.hpp"
+#include "report/sweep_report.hpp"
+#include "report/terminal_text.hpp"
+
+namespace vibrosow {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json number(double value, double unit) {
+  return std::isfinite(value) ? Json(value / unit) : Json(nullptr);
+}
+
+/// {mean, half width of its 95 % interval}, in `unit`; null where there is none.
+Json interval(const std::optional<MeanWithInterval>& value, double unit) {
+  if (!value) return nullptr;
+  return {{"mean", number(value->mean, unit)},
+          {"half_width", value->half_width_95 ? number(*value->half_width_95, unit) : Json(nullptr)}};
+}
+
+/// Those that any layout has; pooled ones have no interval.
+std::vector<const Figure*> figures_of(const StudyResult& result) {
+  std::vector<const Figure*> known;
+  for (const Figure& figure : figures())
+    if (std::ranges::any_of(result.layouts, [&](const LayoutResult& one) { return one.figures[figure].has_value(); }))
+      known.push_back(&figure);
+  return known;
+}
+
+Json holes(const LayoutResult& layout) {
+  Json all = Json::array();
+  for (const HoleFigures& hole : layout.holes)
+    if (hole.hole != "all")
+      all.push_back({{"hole", hole.hole},
+                     {"lot", hole.lot},
+                     {"seeds_per_s", interval(hole.seeds_per_s, 1)},
+                     {"g_per_s", interval(hole.mass_rate, 1e-3)},
+                     {"longest_pause_s", interval(hole.longest_pause, 1)}});
+  return all;
+}
+
+Json layout(const StudyResult& result, const LayoutRow& row, const std::vector<const Figure*>& known) {
+  const Study& study = result.study;
+  Json values = Json::array();
+  for (const std::string& key : study.keys) {
+    const auto value = row.layout().values.find(key);
+    values.push_back(value == row.layout().values.end() ? "" : value->second);
+  }
+  Json means = Json::object();
+  for (const Figure* figure : known) means[std::string(figure->name)] = interval(row.of().figures[*figure], figure->unit_size);
+  return {{"number", row.layout().number},
+          {"name", row.layout().name},
+          {"values", std::move(values)},
+          {"status", layout_status(row.of().status)},
+          {"note", layout_note(row.of())},
+          {"replicates", row.of().replicates},
+          {"means", std::move(means)},
+          {"misfit_percent", interval(row.of().misfit_percent, 1)},
+          {"holes", holes(row.of())},
+          {"vessels", row.layout().scene ? page_vessels(study.scenes[*row.layout().scene]) : Json::array()}};
+}
+
+std::string headline(const StudyResult& result) {
+  const auto of_status = [&](LayoutStatus status) { return std::ranges::count(result.layouts, status, &LayoutResult::status); };
+  std::string text = fmt::format("{} layout{}", result.layouts.size(), result.layouts.size() == 1 ? "" : "s");
+  const Figure& rate = figure_named("rate_g_per_s");
+  std::optional<double> least, most;
+  for (const LayoutResult& one : result.layouts)
+    if (one.status == LayoutStatus::ok && one.figures[rate]) {
+      const double value = one.figures[rate]->mean / rate.unit_size;
+      least = std::min(value, least.value_or(value)), most = std::max(value, most.value_or(value));
+    }
+  if (most) text += fmt::format(" let out {} to {} g/s", to_digits(*least, 4), to_digits(*most, 4));
+  text += '.';
+  for (const auto& [status, words] : {std::pair(LayoutStatus::invalid, "cannot be built"),
+                                      std::pair(LayoutStatus::stopped, "were stopped by the guard"),
+                                      std::pair(LayoutStatus::outside_the_model, "lie outside the model"),
+                                      std::pair(LayoutStatus::interrupted, "have runs that are missing")})
+    if (of_status(status) > 0) text += fmt::format(" {} {}.", of_status(status), words);
+  return text;
+}
+
+}  // namespace
+
+std::string sweep_page_data(const StudyResult& result) {
+  const std::vector<const Figure*> known = figures_of(result);
+  Json figure_texts = Json::array(), layouts = Json::array(), keys = Json::array();
+  for (const Figure* figure : known)
+    figure_texts.push_back({{"name", figure->name},
+                            {"heading", figure->heading},
+                            {"unit", figure->unit},
+                            {"description", figure->description},
+                            {"has_interval", !figure->pooled}});
+  for (const std::string& key : result.study.keys) keys.push_back(condition_column(key));
+  for (const LayoutRow& row : layout_rows(result)) layouts.push_back(layout(result, row, known));
+  const bool plane = std::ranges::all_of(result.study.scenes, [](const Scene& scene) { return scene.space == Space::plane; });
+  return page_text({{"kind", "sweep"},
+                    {"program", {{"name", "vibrosow"}, {"version", VIBROSOW_VERSION}}},
+                    {"title", result.study.title},
+                    {"space", plane ? "plane" : "three_dimensional"},
+                    {"headline", headline(result)},
+                    {"keys", std::move(keys)},
+                    {"figures", std::move(figure_texts)},
+                    {"layouts", std::move(layouts)}});
+}
+
+std::string sweep_page(const std::string& page_template, const StudyResult& result) {
+  return filled_page(page_template, sweep_page_data(result));
+}
+
+FileText sweep_page_text() {
+  return {"report.html", "with --html: the layouts to look at in any browser, each drawn, with its figures", {}};
+}
+
+}  // namespace vibrosow
