@@ -59,17 +59,38 @@ Json holes(const RunPage& page) {
   return all;
 }
 
+/// In the plane rates are of the slice; with a depth the whole tray's stand beside them.
 Json hole_table(const RunPage& page) {
-  Json rows = Json::array();
-  for (const HoleOutflow& row : page.outflow.holes)
-    rows.push_back({row.hole, row.lot, row.centre ? fmt::format("{:.1f}", in_mm(*row.centre)) : std::string(),
-                    fmt::format("{}", row.grains), figure_text(row.seeds_per_s), figure_text(row.mass_rate * 1e3),
-                    figure_text(row.longest_pause)});
-  const auto column = [](std::string_view name, std::string_view unit) { return Json{{"name", name}, {"unit", unit}}; };
-  return {{"columns",
-           {column("hole", ""), column("seeds of", ""), column("position", "mm"), column("seeds", ""),
-            column("rate", "seeds/s"), column("rate", "g/s"), column("longest pause", "s")}},
-          {"rows", std::move(rows)}};
+  const bool slice = page.model.scene.space == Space::plane;
+  const bool of_tray = slice && page.outflow.depth_factor;
+  const std::string rate = slice ? "rate of the slice" : "rate";
+  Json columns = Json::array(), rows = Json::array();
+  const auto column = [&](const std::string& name, std::string_view unit) {
+    columns.push_back({{"name", name}, {"unit", unit}});
+  };
+  column("hole", ""), column("seeds of", ""), column("position", "mm"), column("seeds", "");
+  column(rate, "seeds/s"), column(rate, "g/s");
+  if (of_tray) column("of the tray", "g/s");
+  column("longest pause", "s");
+  for (const HoleOutflow& row : page.outflow.holes) {
+    Json cells = {row.hole,
+                  row.lot,
+                  row.centre ? fmt::format("{:.1f}", in_mm(*row.centre)) : std::string(),
+                  fmt::format("{}", row.grains),
+                  figure_text(row.seeds_per_s),
+                  figure_text(row.mass_rate * 1e3)};
+    if (of_tray) cells.push_back(figure_text(row.mass_rate * 1e3 * *page.outflow.depth_factor));
+    cells.push_back(figure_text(row.longest_pause));
+    rows.push_back(std::move(cells));
+  }
+  return {{"columns", std::move(columns)}, {"rows", std::move(rows)}};
+}
+
+/// "Between holes: ..."
+std::string evenness_text(const Evenness& evenness) {
+  std::string text = evenness_sentence(evenness, "holes") + '.';
+  text.front() = 'B';
+  return text;
 }
 
 Json events(const Run& run) {
@@ -179,8 +200,7 @@ std::string run_page_data(const RunPage& page) {
       {"holes", holes(page)},
       {"rate_unit", "seeds/s"},
       {"hole_table", hole_table(page)},
-      {"evenness",
-       page.outflow.evenness ? Json{{"sentence", evenness_sentence(*page.outflow.evenness, "holes")}} : Json(nullptr)},
+      {"evenness", page.outflow.evenness ? Json{{"sentence", evenness_text(*page.outflow.evenness)}} : Json(nullptr)},
       {"events", events(page.run)},
       {"effects", effects(page.model)},
       {"guard", guard_sentence(page.run, scene.guard)},

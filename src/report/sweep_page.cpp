@@ -56,7 +56,8 @@ Json layout(const StudyResult& result, const LayoutRow& row, const std::vector<c
     values.push_back(value == row.layout().values.end() ? "" : value->second);
   }
   Json means = Json::object();
-  for (const Figure* figure : known) means[std::string(figure->name)] = interval(row.of().figures[*figure], figure->unit_size);
+  for (const Figure* figure : known)
+    means[std::string(figure->name)] = interval(row.of().figures[*figure], figure->unit_size);
   return {{"number", row.layout().number},
           {"name", row.layout().name},
           {"values", std::move(values)},
@@ -70,7 +71,9 @@ Json layout(const StudyResult& result, const LayoutRow& row, const std::vector<c
 }
 
 std::string headline(const StudyResult& result) {
-  const auto of_status = [&](LayoutStatus status) { return std::ranges::count(result.layouts, status, &LayoutResult::status); };
+  const auto of_status = [&](LayoutStatus status) {
+    return std::ranges::count(result.layouts, status, &LayoutResult::status);
+  };
   std::string text = fmt::format("{} layout{}", result.layouts.size(), result.layouts.size() == 1 ? "" : "s");
   const Figure& rate = figure_named("rate_g_per_s");
   std::optional<double> least, most;
@@ -102,7 +105,8 @@ std::string sweep_page_data(const StudyResult& result) {
                             {"has_interval", !figure->pooled}});
   for (const std::string& key : result.study.keys) keys.push_back(condition_column(key));
   for (const LayoutRow& row : layout_rows(result)) layouts.push_back(layout(result, row, known));
-  const bool plane = std::ranges::all_of(result.study.scenes, [](const Scene& scene) { return scene.space == Space::plane; });
+  const bool plane =
+      std::ranges::all_of(result.study.scenes, [](const Scene& scene) { return scene.space == Space::plane; });
   return page_text({{"kind", "sweep"},
                     {"program", {{"name", "vibrosow"}, {"version", VIBROSOW_VERSION}}},
                     {"title", result.study.title},
