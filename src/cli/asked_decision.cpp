@@ -24,12 +24,9 @@ DecideOptions options_of(const DecideQuestion& question, std::uint64_t first_ran
 
 /// What a plan keeps of it, what is not said included.
 std::vector<std::string> words_of(const DecideQuestion& question) {
-  std::vector<std::string> words = {std::string(AskedDecision::command),
-                                    "--goal=" + question.goal,
-                                    "--clogging=" + question.clogging,
-                                    "--within=" + question.within,
-                                    "--confidence=" + question.confidence,
-                                    "--procedure=" + question.procedure,
+  std::vector<std::string> words = {std::string(AskedDecision::command),    "--goal=" + question.goal,
+                                    "--clogging=" + question.clogging,      "--within=" + question.within,
+                                    "--confidence=" + question.confidence,  "--procedure=" + question.procedure,
                                     fmt::format("--most={}", question.most)};
   if (!question.rate.empty()) words.push_back("--rate=" + question.rate);
   if (question.drafts) words.push_back("--drafts");
@@ -119,8 +116,7 @@ bool AskedDecision::lead_drafts(RoundsOfRuns& rounds) {
 
 bool AskedDecision::lead(RoundsOfRuns& rounds) {
   const bool has_drafts = lead_drafts(rounds);
-  StudyDecision decision(planned_.study, options_,
-                         report_.drafts ? report_.drafts->taking_part : std::vector<bool>());
+  StudyDecision decision(planned_.study, options_, report_.drafts ? report_.drafts->taking_part : std::vector<bool>());
   decision.wanted();
   LayoutsLeft left;
   const bool is_whole = has_drafts && rounds.lead(decision, [&] { left.tell(decision, rounds); });

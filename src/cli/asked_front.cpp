@@ -28,9 +28,10 @@ OptimiseOptions options_of(const OptimiseQuestion& question, std::uint64_t first
 
 /// What a plan keeps of it, what is not said included.
 std::vector<std::string> words_of(const OptimiseQuestion& question) {
-  std::vector<std::string> words = {
-      std::string(AskedFront::command), fmt::format("--goals={}", fmt::join(question.goals, ",")),
-      fmt::format("--runs={}", question.runs), "--clogging=" + question.clogging, "--confidence=" + question.confidence};
+  std::vector<std::string> words = {std::string(AskedFront::command),
+                                    fmt::format("--goals={}", fmt::join(question.goals, ",")),
+                                    fmt::format("--runs={}", question.runs), "--clogging=" + question.clogging,
+                                    "--confidence=" + question.confidence};
   if (!question.rate.empty()) words.push_back("--rate=" + question.rate);
   if (!question.spilled.empty()) words.push_back("--spilled=" + question.spilled);
   return words;

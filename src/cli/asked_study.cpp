@@ -38,8 +38,8 @@ void read_asked(const StudyPlan& plan, CLI::App& app) {
   try {
     app.parse(words);
   } catch (const CLI::ParseError& error) {
-    throw InputError(fmt::format("{}: its plan was made by another version of the program: {}", plan.study,
-                                 error.what()));
+    throw InputError(
+        fmt::format("{}: its plan was made by another version of the program: {}", plan.study, error.what()));
   }
 }
 
