@@ -27,7 +27,7 @@ std::string whole_number(const std::string& text) {
 
 }  // namespace
 
-std::vector<Override> CommonOptions::overrides() const {
+std::vector<Override> overrides_of(const std::vector<std::string>& sets) {
   std::vector<Override> result;
   for (const std::string& set : sets) result.push_back(parse_override(set));
   return result;

@@ -12,6 +12,9 @@
 
 namespace vibrosow {
 
+/// Of KEY=VALUE each. Throws InputError.
+std::vector<Override> overrides_of(const std::vector<std::string>& sets);
+
 /// What every command that simulates takes.
 struct CommonOptions {
   std::string file;
@@ -23,7 +26,7 @@ struct CommonOptions {
   bool html = false;
   CsvFormat csv;
 
-  std::vector<Override> overrides() const;
+  std::vector<Override> overrides() const { return overrides_of(sets); }
   /// Where the reports go, in the name of this command: --out, or out/ and the file's name with `suffix`.
   OutputFolder output_folder(const std::string& command, const std::vector<FileText>& files,
                              const std::string& suffix = "") const;

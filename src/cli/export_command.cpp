@@ -5,6 +5,7 @@
 #include <string>
 
 #include "agronomy/row_figures.hpp"
+#include "cli/asked_study.hpp"
 #include "cli/commands.hpp"
 #include "cli/common_options.hpp"
 #include "cli/console.hpp"
@@ -57,24 +58,42 @@ int export_run(const ExportOptions& command) {
   return exit_done;
 }
 
+/// Throws InputError where one is.
+void check_that_none_is_missing(const std::string& folder, const std::vector<PlannedRun>& runs) {
+  const CaseFolder cases(cases_of(folder));
+  const auto missing = std::ranges::count_if(runs, [&](const PlannedRun& run) { return !cases.has(run.name); });
+  if (missing > 0) throw InputError(fmt::format("{}: {} of {} runs are missing", folder, missing, runs.size()));
+}
+
+int export_sweep(const StudyPlan& plan, const ExportOptions& command) {
+  const CommonOptions& options = command.common;
+  const PlannedStudy planned = study_of_plan(plan);
+  StudyRuns runs(cases_of(options.file));
+  if (command.complete) check_that_none_is_missing(options.file, plan.runs);
+  const std::string page_template = options.page_template();
+  const OutputFolder folder = options.output_folder("sweep", sweep_file_texts());
+  return report_study(planned, runs, folder, {.jobs = options.jobs}, options, page_template);
+}
+
+int export_asked(AskedStudy& asked, const ExportOptions& command) {
+  const CommonOptions& options = command.common;
+  StudyRuns runs(cases_of(options.file));
+  RoundsOfRuns rounds(runs, std::nullopt, options.jobs, true);
+  asked.lead(rounds);
+  if (command.complete) check_that_none_is_missing(options.file, asked.asked_for());
+  return asked.report(asked.folder(options), options);
+}
+
 int export_study(ExportOptions command) {
   CommonOptions& options = command.common;
   if (command.run.empty() != options.out.empty()) throw InputError("--run and --out go together");
   if (!command.run.empty()) return export_run(command);
   options.out = options.file;
-  const PlannedStudy planned = study_of_plan(read_plan(options.file));
-  StudyRuns runs(cases_of(options.file));
-  if (command.complete) {
-    const CaseFolder cases(cases_of(options.file));
-    const auto missing =
-        std::ranges::count_if(planned.plan.runs, [&](const PlannedRun& run) { return !cases.has(run.name); });
-    if (missing > 0)
-      throw InputError(fmt::format("{}: {} of {} runs are missing", options.file, missing, planned.plan.runs.size()));
-  }
-  const std::string page_template = options.page_template();
-  const OutputFolder folder = options.output_folder("sweep", sweep_file_texts());
-  const int exit_code = report_study(planned, runs, folder, {.jobs = options.jobs}, options, page_template);
-  print("reports: {}\n", folder.path().string());
+  const StudyPlan plan = read_plan(options.file);
+  const auto asked = asked_study(plan);
+  if (asked && options.html) throw InputError("--html: only runs and sweeps have a page so far");
+  const int exit_code = asked ? export_asked(*asked, command) : export_sweep(plan, command);
+  print("reports: {}\n", options.out);
   if (exit_code != exit_interrupted) return exit_code;
   complain("warning: runs are missing");
   return exit_done;
@@ -85,8 +104,8 @@ int export_study(ExportOptions command) {
 void add_export_command(CLI::App& app, int& exit_code) {
   auto options = std::make_shared<ExportOptions>();
   CLI::App* command =
-      app.add_subcommand("export", "make a sweep's reports of the runs that are kept, simulating nothing");
-  command->add_option("FOLDER", options->common.file, "of the sweep")->required();
+      app.add_subcommand("export", "make a study's reports of the runs that are kept, simulating nothing");
+  command->add_option("FOLDER", options->common.file, "of a sweep, decide or optimise")->required();
   command->add_flag("--complete", options->complete, "write nothing, with exit code 2, while runs are missing");
   command->add_option("--run", options->run, "name of a kept run (cases/plans): its reports alone, as run makes them")
       ->type_name("NAME");

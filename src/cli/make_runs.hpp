@@ -2,6 +2,7 @@
 
 #include <CLI/CLI.hpp>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -34,14 +35,15 @@ Made make_runs(StudyRuns& runs, const std::vector<WantedRun>& wanted, const Maki
 /// Makes the runs of what asks for them round by round.
 class RoundsOfRuns {
  public:
-  RoundsOfRuns(StudyRuns& runs, const MakingFlags& flags, int jobs, bool quiet)
+  /// Without `flags` none is made: what is not kept is missing.
+  RoundsOfRuns(StudyRuns& runs, const std::optional<MakingFlags>& flags, int jobs, bool quiet)
       : runs_(runs), flags_(flags), jobs_(jobs), quiet_(quiet) {}
 
-  /// To its end; false where that is interrupted.
+  /// To its end; false where that is interrupted, or runs are missing.
   template <class Asking, class AfterRound>
   bool lead(Asking& asking, AfterRound after_round) {
     for (auto wanted = asking.wanted(); !wanted.empty();) {
-      made_.add(make_runs(runs_, wanted, flags_, jobs_, quiet_));
+      if (flags_) made_.add(make_runs(runs_, wanted, *flags_, jobs_, quiet_));
       if (made_.making.interrupted > 0 || !asking.take(runs_.kept(), jobs_)) return false;
       wanted = asking.wanted();
       after_round();
@@ -49,10 +51,11 @@ class RoundsOfRuns {
     return true;
   }
   std::int64_t made() const { return made_.making.made; }
+  bool quiet() const { return quiet_; }
 
  private:
   StudyRuns& runs_;
-  MakingFlags flags_;
+  std::optional<MakingFlags> flags_;
   int jobs_;
   bool quiet_;
   Made made_;

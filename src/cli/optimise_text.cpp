@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cstdint>
 #include <map>
 
 #include "cli/layout_text.hpp"
@@ -80,10 +82,11 @@ std::string optimise_text(const OptimiseResult& result, const std::string& folde
   text += fmt::format("\n{}{}", rest_text(result), promise_text(result));
   text += wrapped(fmt::format("Cost: {} layouts, {} runs, {:.3g} grain-steps.", result.layouts.size(),
                               static_cast<long long>(result.cost.runs), result.cost.grain_steps));
-  if (sure.empty() && unsure.empty()) return text;
-  return text +
-         fmt::format("To decide among these by one goal:\n  vibrosow decide {0}/front.toml --goal GOAL --reuse {0}\n",
-                     folder);
+  if (std::ranges::count_if(result.layouts, leads) < 2) return text;
+  const std::uint64_t random_seed = result.options.first_random_seed;  // else it would take none of the runs
+  return text + fmt::format(
+                    "To decide among these by one goal:\n  vibrosow decide {0}/front.toml --goal GOAL --reuse {0}{1}\n",
+                    folder, random_seed == 1 ? "" : fmt::format(" --random-seed {}", random_seed));
 }
 
 }  // namespace vibrosow

@@ -9,6 +9,7 @@
 #include <sstream>
 #include <string>
 
+#include "cli/asked_study.hpp"
 #include "cli/commands.hpp"
 #include "cli/console.hpp"
 #include "cli/progress.hpp"
@@ -28,9 +29,9 @@ struct Status {
   std::map<std::string, int> failed;                 // by what happened
 };
 
-Status status_of(const StudyPlan& plan, const CaseFolder& cases) {
+Status status_of(const std::vector<PlannedRun>& runs, const CaseFolder& cases) {
   Status status;
-  for (const PlannedRun& run : plan.runs) {
+  for (const PlannedRun& run : runs) {
     const std::optional<Case> one = cases.named(run.name);
     if (!one) {
       status.missing[run.name] = &run;
@@ -68,31 +69,43 @@ double print_under_way(const std::vector<RunNote>& notes, const Status& status) 
   return rate;
 }
 
-/// How far a sweep is, and what has failed.
+/// Leaves in a plan the runs that have been asked for so far, and says whether more may follow.
+std::string follow(StudyPlan& plan, AskedStudy& asked, const std::string& folder) {
+  StudyRuns runs(cases_of(folder));
+  RoundsOfRuns rounds(runs, std::nullopt, 1, true);
+  const bool has_ended = asked.lead(rounds);
+  plan.runs = asked.asked_for();
+  return has_ended ? fmt::format("vibrosow {} has ended\n", plan.asked.front())
+                   : fmt::format("vibrosow {} has asked for these so far; more may follow\n", plan.asked.front());
+}
+
+/// How far a study is, and what has failed.
 void print_status(const std::string& folder) {
-  const StudyPlan plan = read_plan(folder);
-  const Status status = status_of(plan, CaseFolder(cases_of(folder)));
-  print("{}\n{} of {} runs are there, {} are missing\n", plan.study, status.kept, plan.runs.size(),
-        status.missing.size());
+  StudyPlan plan = read_plan(folder);
+  const auto asked = asked_study(plan);
+  const std::string so_far = asked ? follow(plan, *asked, folder) : "";
+  const Status status = status_of(plan.runs, CaseFolder(cases_of(folder)));
+  print("{}\n{} of {} runs are there, {} are missing\n{}", plan.study, status.kept, plan.runs.size(),
+        status.missing.size(), so_far);
   const double rate = print_under_way(RunNotes(cases_of(folder) / "running").all(), status);
   const auto saved = std::ranges::count_if(CheckpointFolder(cases_of(folder) / "checkpoints").runs(),
                                            [&](const std::string& run) { return status.missing.contains(run); });
   if (saved > 0) print("{} of these saved part of the way\n", saved);
   for (const auto& [what, runs] : status.failed) print_text(wrapped(fmt::format("{} {}", runs, what), 2));
-  if (!status.failed.empty()) print_text("with --retry the same sweep makes those anew\n");
+  if (!status.failed.empty()) print_text("with --retry the same command makes those anew\n");
   if (status.missing.empty()) return;
   if (rate > 0)
     print("{} left, at the speed of what is under way\n", duration_text(status.cost_left / rate));
   else
-    print_text("the same sweep again makes those that are missing\n");
+    print_text("the same command again makes those that are missing\n");
 }
 
 }  // namespace
 
 void add_status_command(CLI::App& app, int& exit_code) {
   auto folder = std::make_shared<std::string>();
-  CLI::App* command = app.add_subcommand("status", "how far a sweep is");
-  command->add_option("FOLDER", *folder, "of the sweep")->required();
+  CLI::App* command = app.add_subcommand("status", "how far a study is");
+  command->add_option("FOLDER", *folder, "of a sweep, decide or optimise")->required();
   command->callback([folder, &exit_code] {
     print_status(*folder);
     exit_code = exit_done;

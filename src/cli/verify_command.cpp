@@ -28,14 +28,14 @@ int verify(const std::string& folder) {
   const std::vector<std::string> damaged = damaged_in(cases);
   print("{} runs, {} damaged\n", cases.names().size(), damaged.size());
   if (damaged.empty()) return exit_done;
+  for (const std::string& name : damaged) print("damaged: {}\n", name);
+  const PlannedStudy planned = study_of_plan(plan);
   std::vector<std::size_t> again;
   for (const std::string& name : damaged) {
-    print("damaged: {}\n", name);
     cases.remove(name);
     const auto run = std::ranges::find(plan.runs, name, &PlannedRun::name);
     if (run != plan.runs.end()) again.push_back(static_cast<std::size_t>(run - plan.runs.begin()));
   }
-  const PlannedStudy planned = study_of_plan(plan);
   StudyRuns runs(cases_of(folder));
   const Made made = make_runs(runs, wanted_runs(planned, again), {}, 1, true);
   print("{} made again; {} belong to no run of the plan and were taken away\n", made.making.made,

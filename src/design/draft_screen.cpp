@@ -60,6 +60,12 @@ bool DraftScreen::take(const Simulator& kept, int jobs) {
   return as_drafts_.take(draft_counts_, kept, jobs) && own_.take(own_counts_, kept, jobs);
 }
 
+std::vector<PlannedRun> DraftScreen::plan() const {
+  std::vector<PlannedRun> plan = as_drafts_.plan(draft_counts_), others = own_.plan(own_counts_);
+  plan.insert(plan.end(), others.begin(), others.end());
+  return plan;
+}
+
 std::optional<double> DraftScreen::mean_of(const SceneRuns& of, std::size_t scene) const {
   Moments moments;
   for (const Evaluation& run : of.runs()[scene]) {

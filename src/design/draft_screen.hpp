@@ -38,6 +38,8 @@ class DraftScreen {
   std::vector<WantedRun> wanted();
   bool take(const Simulator& kept, int jobs);
   DraftFindings findings() const;
+  /// The runs asked for so far: the drafts', then the pilots' other ones.
+  std::vector<PlannedRun> plan() const;
 
  private:
   struct Line {

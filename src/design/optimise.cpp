@@ -243,6 +243,16 @@ FrontLayout StudyOptimisation::layout_result(std::size_t layout, FrontStanding s
   return result;
 }
 
+std::vector<PlannedRun> StudyOptimisation::plan() const {
+  std::vector<PlannedRun> all;
+  for (const auto& generation : generations_)
+    for (const SceneRuns& runs : generation->runs) {
+      const std::vector<PlannedRun> plan = runs.plan(generation->counts);
+      all.insert(all.end(), plan.begin(), plan.end());
+    }
+  return all;
+}
+
 OptimiseResult StudyOptimisation::result() const {
   OptimiseResult result;
   result.options = options_;

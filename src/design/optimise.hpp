@@ -71,6 +71,8 @@ class StudyOptimisation {
   bool take(const Simulator& kept, int jobs);
 
   OptimiseResult result() const;
+  /// The runs asked for so far, by round and variant.
+  std::vector<PlannedRun> plan() const;
   /// How many layouts were tried.
   std::size_t tried() const { return places_.size(); }
   const std::vector<std::string>& warnings() const { return warnings_; }

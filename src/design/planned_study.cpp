@@ -108,6 +108,10 @@ std::optional<PlannedStudy> next_round(const PlannedStudy& planned, const Simula
 }
 
 PlannedStudy study_of_plan(const StudyPlan& plan) {
+  if (!plan.asked.empty() && plan.asked.front() == "optimise")
+    throw InputError(fmt::format(
+        "{}: vibrosow optimise chooses its layouts as it goes; only the same command again makes their runs",
+        plan.study));
   const auto files = std::make_shared<SourceFiles>(plan.files);
   PlannedStudy again{study_in(plan.study, plan.sets, files), plan};
   if (!is_of_this_program(again))

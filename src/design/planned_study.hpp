@@ -32,7 +32,8 @@ std::vector<int> replicates_in(const PlannedStudy& planned);
 std::optional<PlannedStudy> next_round(const PlannedStudy& planned, const Simulator& kept, int jobs);
 
 /// The study of a plan as it was, whatever has become of its files. Throws InputError where this version of the
-/// program, or the models that are shipped with it, make another study of them.
+/// program, or the models that are shipped with it, make another study of them, or where the plan is of a search, which
+/// has no fixed layouts.
 PlannedStudy study_of_plan(const StudyPlan& plan);
 
 /// Of a study, those runs of its plan whose indices are given.

@@ -185,14 +185,17 @@ std::string front_study(const OptimiseResult& result, const std::filesystem::pat
 std::vector<FileText> optimise_file_texts() {
   return {file_text("pareto.csv", "one row per layout that was tried", pareto_columns({"KEY"}, all_goals())),
           file_text("optimise.json", "what was asked, how many layouts stand where, and what it cost", optimise_keys()),
-          {"front.toml", "a study of the layouts on the front and those that are first by their means", {}}};
+          {"front.toml",
+           "a study of the layouts on the front and those that are first by their means, where there are any",
+           {}}};
 }
 
 std::vector<OutputFile> optimise_files(const OptimiseResult& result, const std::filesystem::path& folder,
                                        CsvFormat format) {
-  return {{"pareto.csv", pareto_csv(result, format)},
-          {"optimise.json", optimise_json(result)},
-          {"front.toml", front_study(result, folder)}};
+  std::vector<OutputFile> files = {{"pareto.csv", pareto_csv(result, format)},
+                                   {"optimise.json", optimise_json(result)}};
+  if (std::ranges::any_of(result.layouts, leads)) files.push_back({"front.toml", front_study(result, folder)});
+  return files;
 }
 
 }  // namespace vibrosow

@@ -27,7 +27,7 @@ std::string front_study(const OptimiseResult& result, const std::filesystem::pat
 
 std::vector<FileText> optimise_file_texts();
 
-/// pareto.csv, optimise.json and front.toml.
+/// pareto.csv, optimise.json and, where a layout leads, front.toml.
 std::vector<OutputFile> optimise_files(const OptimiseResult& result, const std::filesystem::path& folder,
                                        CsvFormat format = {});
 

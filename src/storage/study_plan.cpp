@@ -79,17 +79,19 @@ std::vector<PlannedRun> runs_in(const nlohmann::json& groups) {
 std::string text_of(const StudyPlan& plan) {
   Json files = Json::object();
   for (const auto& [path, text] : plan.files) files[path] = text_or_bytes(text);
-  const Json json = {{"study", plan.study},
-                     {"set", plan.sets},
-                     {"random_seed", plan.random_seed},
-                     {"files", files},
-                     {"runs", groups_of(plan.runs)}};
+  Json json = {{"study", plan.study},
+               {"set", plan.sets},
+               {"random_seed", plan.random_seed},
+               {"files", files},
+               {"runs", groups_of(plan.runs)}};
+  if (!plan.asked.empty()) json["asked"] = plan.asked;
   return json.dump(1) + '\n';
 }
 
 StudyPlan plan_in(const std::string& text) {
   const auto json = nlohmann::json::parse(text);
   StudyPlan plan{json.at("study"), json.at("set"), json.at("random_seed"), {}, {}};
+  if (json.contains("asked")) plan.asked = json.at("asked").get<std::vector<std::string>>();
   for (const auto& [path, content] : json.at("files").items()) plan.files[path] = bytes_of(content);
   plan.runs = runs_in(json.at("runs"));
   return plan;

@@ -23,6 +23,7 @@ struct StudyPlan {
   std::uint64_t random_seed = 1;             // the first
   std::map<std::string, std::string> files;  // by absolute path: what was read
   std::vector<PlannedRun> runs;              // by layout, then random seed
+  std::vector<std::string> asked{};  // of a decision or a search: the command, and its options with their values
 };
 
 /// Where a sweep's folder has its runs and its plans.

@@ -1,0 +1,137 @@
+#include "cli/asked_decision.hpp"
+
+#include <fmt/format.h>
+
+#include "cli/commands.hpp"
+#include "cli/console.hpp"
+#include "cli/decision_text.hpp"
+
+namespace vibrosow {
+namespace {
+
+DecideOptions options_of(const DecideQuestion& question, std::uint64_t first_random_seed) {
+  DecideOptions options;
+  options.goal = &goal_named(question.goal);
+  if (!question.rate.empty()) options.rate = read_wanted_rate(question.rate);
+  options.clogging_limit = share_option("--clogging", question.clogging, 0.001, 1, "0.1 % to 100 %");
+  options.margin = share_option("--within", question.within, 0.0001, 0.5, "0.01 % to 50 %");
+  options.confidence = share_option("--confidence", question.confidence, 0.6, 0.9999, "60 % to 99.99 %");
+  options.rule = question.procedure == "posterior" ? SelectionRule::posterior : SelectionRule::guaranteed;
+  options.most = question.most;
+  options.first_random_seed = first_random_seed;
+  return options;
+}
+
+/// What a plan keeps of it, what is not said included.
+std::vector<std::string> words_of(const DecideQuestion& question) {
+  std::vector<std::string> words = {std::string(AskedDecision::command),    "--goal=" + question.goal,
+                                    "--clogging=" + question.clogging,      "--within=" + question.within,
+                                    "--confidence=" + question.confidence,  "--procedure=" + question.procedure,
+                                    fmt::format("--most={}", question.most)};
+  if (!question.rate.empty()) words.push_back("--rate=" + question.rate);
+  if (question.drafts) words.push_back("--drafts");
+  return words;
+}
+
+DecideQuestion question_in(const StudyPlan& plan) {
+  CLI::App app;
+  DecideQuestion question;
+  add_question_options(app, question);
+  read_asked(plan, app);
+  return question;
+}
+
+std::string names_of_goals() {
+  std::string names;
+  for (const Goal& goal : goals()) names += fmt::format("{}{}", names.empty() ? "" : ", ", goal.name);
+  return names;
+}
+
+/// Tells of each layout that drops out while runs are made.
+class LayoutsLeft {
+ public:
+  void tell(const StudyDecision& decision, const RoundsOfRuns& rounds) {
+    const std::size_t left = decision.left();
+    if (!rounds.quiet() && rounds.made() > told_at_ && left != left_)
+      complain(fmt::format("after {} new runs: {} layouts left", rounds.made(), left));
+    left_ = left;
+    told_at_ = rounds.made();
+  }
+
+ private:
+  std::size_t left_ = 0;
+  std::int64_t told_at_ = 0;
+};
+
+}  // namespace
+
+void add_question_options(CLI::App& command, DecideQuestion& question) {
+  command.add_option("--goal", question.goal, "what makes a layout good: " + names_of_goals())
+      ->type_name("GOAL")
+      ->required();
+  command.add_option("--rate", question.rate, "wanted of the tray: \"43 seeds/s +- 5 %\", \"12 g/min +- 5 %\"")
+      ->type_name("RATE");
+  command.add_option("--clogging", question.clogging, "share of runs that a layout must clog less often than")
+      ->type_name("SHARE")
+      ->capture_default_str();
+  command.add_option("--within", question.within, "a difference that does not matter, over the best's mean")
+      ->type_name("SHARE")
+      ->capture_default_str();
+  command.add_option("--confidence", question.confidence, "of a right decision")
+      ->type_name("SHARE")
+      ->capture_default_str();
+  command.add_option("--procedure", question.procedure, "guaranteed, or posterior: fewer runs and no guarantee")
+      ->type_name("NAME")
+      ->check(CLI::IsMember({"guaranteed", "posterior"}))
+      ->capture_default_str();
+  command.add_option("--most", question.most, "runs of a layout, at which it is given up")
+      ->type_name("N")
+      ->check(CLI::Range(2, 1000000))
+      ->capture_default_str();
+  command.add_flag("--drafts", question.drafts,
+                   "let quick runs rule layouts out, if they are shown to be like the others");
+}
+
+AskedDecision::AskedDecision(PlannedStudy planned, const DecideQuestion& question)
+    : planned_(std::move(planned)), options_(options_of(question, planned_.plan.random_seed)) {
+  StudyDecision decision(planned_.study, options_);
+  if (question.drafts) drafts_.emplace(planned_.study, options_);
+  decision.wanted();
+  planned_.plan.runs = decision.plan();
+  planned_.plan.asked = words_of(question);
+}
+
+AskedDecision::AskedDecision(const StudyPlan& plan) : AskedDecision(study_of_plan(plan), question_in(plan)) {}
+
+OutputFolder AskedDecision::folder(const CommonOptions& options) const {
+  return options.output_folder(std::string(command), decision_file_texts());
+}
+
+bool AskedDecision::lead_drafts(RoundsOfRuns& rounds) {
+  if (!drafts_) return true;
+  const bool is_whole = rounds.lead(*drafts_, [] {});
+  report_.drafts = drafts_->findings();
+  return is_whole;
+}
+
+bool AskedDecision::lead(RoundsOfRuns& rounds) {
+  const bool has_drafts = lead_drafts(rounds);
+  StudyDecision decision(planned_.study, options_, report_.drafts ? report_.drafts->taking_part : std::vector<bool>());
+  decision.wanted();
+  LayoutsLeft left;
+  const bool is_whole = has_drafts && rounds.lead(decision, [&] { left.tell(decision, rounds); });
+  planned_.plan.runs = decision.plan();
+  asked_for_ = has_drafts ? decision.plan() : drafts_->plan();
+  report_.result = decision.result();
+  report_.result.is_interrupted = !is_whole;
+  return is_whole;
+}
+
+int AskedDecision::report(const OutputFolder& folder, const CommonOptions& options) const {
+  write_then_print(
+      options.quiet, [&] { folder.write(decision_files(report_, options.csv)); },
+      [&] { print("{}", decision_text(report_)); });
+  return report_.result.is_interrupted ? exit_interrupted : exit_done;
+}
+
+}  // namespace vibrosow

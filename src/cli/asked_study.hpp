@@ -1,0 +1,49 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "cli/common_options.hpp"
+#include "cli/make_runs.hpp"
+#include "storage/study_plan.hpp"
+
+namespace vibrosow {
+
+/// A study that is asked something, whose runs follow from the runs before them: a decision or a search. Its plan keeps
+/// what is asked; all else follows from the runs that are kept.
+class AskedStudy {
+ public:
+  virtual ~AskedStudy() = default;
+  AskedStudy() = default;
+  AskedStudy(const AskedStudy&) = delete;
+  AskedStudy& operator=(const AskedStudy&) = delete;
+
+  /// What can hardly be meant in its scenes.
+  virtual std::vector<std::string> warnings() const = 0;
+  /// Where its reports go. Throws InputError where those of another command are there.
+  virtual OutputFolder folder(const CommonOptions& options) const = 0;
+  /// What is asked, the files as they were read, and runs that it takes in any case.
+  virtual const StudyPlan& plan() const = 0;
+  /// Through its rounds to its end; false where runs are missing.
+  virtual bool lead(RoundsOfRuns& rounds) = 0;
+  /// The runs that it has asked for so far.
+  virtual std::vector<PlannedRun> asked_for() const = 0;
+  /// Writes the reports of where it is, and prints its answer; an exit code.
+  virtual int report(const OutputFolder& folder, const CommonOptions& options) const = 0;
+};
+
+/// The decision or search of a plan; null for a sweep's. Throws InputError where this version of the program, or the
+/// models that are shipped with it, make other runs of it.
+std::unique_ptr<AskedStudy> asked_study(const StudyPlan& plan);
+
+/// Makes its runs and its reports; an exit code.
+int answer(AskedStudy& asked, const CommonOptions& options, const MakingFlags& making,
+           const std::vector<std::string>& reuse);
+
+/// Reads what a plan keeps of a command line into what the options of `app` are bound to. Throws InputError for what it
+/// does not know.
+void read_asked(const StudyPlan& plan, CLI::App& app);
+
+}  // namespace vibrosow
