@@ -5,6 +5,7 @@
 #include "cli/commands.hpp"
 #include "cli/console.hpp"
 #include "cli/decision_text.hpp"
+#include "cli/report_study.hpp"
 
 namespace vibrosow {
 namespace {
@@ -131,7 +132,11 @@ int AskedDecision::report(const OutputFolder& folder, const CommonOptions& optio
   write_then_print(
       options.quiet, [&] { folder.write(decision_files(report_, options.csv)); },
       [&] { print("{}", decision_text(report_)); });
-  return report_.result.is_interrupted ? exit_interrupted : exit_done;
+  if (report_.result.is_interrupted) return exit_interrupted;
+  for (const Layout& layout : report_.result.study.layouts)
+    if (layout.scene && !report_.result.scenes[*layout.scene].stopped.empty())
+      return stopped_by_guard(layout.number, report_.result.scenes[*layout.scene].stopped);
+  return exit_done;
 }
 
 }  // namespace vibrosow

@@ -7,6 +7,7 @@
 #include "cli/commands.hpp"
 #include "cli/console.hpp"
 #include "cli/optimise_text.hpp"
+#include "cli/report_study.hpp"
 #include "report/front_report.hpp"
 #include "scene/input_error.hpp"
 
@@ -116,7 +117,11 @@ int AskedFront::report(const OutputFolder& folder, const CommonOptions& options)
   write_then_print(
       options.quiet, [&] { folder.write(optimise_files(result, folder.path(), options.csv)); },
       [&] { print("{}", optimise_text(result, folder.path().string())); });
-  return result.is_interrupted ? exit_interrupted : exit_done;
+  if (result.is_interrupted) return exit_interrupted;
+  for (std::size_t i = 0; i < result.layouts.size(); ++i)
+    if (!result.layouts[i].stopped.empty())
+      return stopped_by_guard(result.study.layouts[i].number, result.layouts[i].stopped);
+  return exit_done;
 }
 
 }  // namespace vibrosow

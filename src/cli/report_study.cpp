@@ -16,10 +16,8 @@ namespace {
 int exit_code_of(const StudyResult& result, bool interrupted) {
   if (interrupted) return exit_interrupted;
   const auto stopped = std::ranges::find(result.layouts, LayoutStatus::stopped, &LayoutResult::status);
-  if (stopped != result.layouts.end()) {
-    complain(fmt::format("the guard stopped layout {}: {}", stopped - result.layouts.begin() + 1, stopped->reason));
-    return exit_stopped_by_guard;
-  }
+  if (stopped != result.layouts.end())
+    return stopped_by_guard(static_cast<int>(stopped - result.layouts.begin()) + 1, stopped->reason);
   const bool all_invalid =
       std::ranges::all_of(result.layouts, [](const LayoutResult& one) { return one.status == LayoutStatus::invalid; });
   if (!all_invalid) return exit_done;
@@ -28,6 +26,11 @@ int exit_code_of(const StudyResult& result, bool interrupted) {
 }
 
 }  // namespace
+
+int stopped_by_guard(int layout, const std::string& reason) {
+  complain(fmt::format("the guard stopped layout {}: {}", layout, reason));
+  return exit_stopped_by_guard;
+}
 
 int report_study(const PlannedStudy& planned, const StudyRuns& runs, const OutputFolder& folder,
                  const SweepTiming& timing, const CommonOptions& options, const std::string& page_template) {

@@ -1,10 +1,15 @@
 #pragma once
 
+#include <string>
+
 #include "cli/common_options.hpp"
 #include "design/planned_study.hpp"
 #include "report/sweep_report.hpp"
 
 namespace vibrosow {
+
+/// Says which layout the guard stopped, and why; an exit code.
+int stopped_by_guard(int layout, const std::string& reason);
 
 /// Makes a study's reports of the runs that are kept, and prints its table; an exit code. With a
 /// `page_template`, its page too.

@@ -56,6 +56,11 @@ bool has_clogged(const Evaluation& run) {
   return run.finished() && (!run.end_reason.empty() || !all || all->grains == 0);
 }
 
+std::string first_stop(const std::vector<Evaluation>& runs) {
+  const auto stopped = std::ranges::find(runs, EvaluationStatus::stopped, &Evaluation::status);
+  return stopped == runs.end() ? "" : fmt::format("random seed {}: {}", stopped->random_seed, stopped->reason);
+}
+
 std::optional<double> mean_correlation(const std::vector<std::vector<double>>& values) {
   Moments over_pairs;
   for (std::size_t i = 0; i < values.size(); ++i)
@@ -132,6 +137,7 @@ std::size_t StudyDecision::left() const {
 SceneDecision StudyDecision::figures_of(std::size_t scene) const {
   SceneDecision figures;
   figures.reason = failures_[scene];
+  figures.stopped = first_stop(runs_.runs()[scene]);
   std::vector<double> goal_values, rates;
   const auto rate_of = [&](const Outflow& outflow) {
     return options_.rate ? options_.rate->of(outflow) : figure_named("rate_g_per_s").of(outflow);

@@ -30,7 +30,8 @@ struct DecideOptions {
 /// What is known of a scene when the decision is there.
 struct SceneDecision {
   Standing standing = Standing::undecided;
-  std::string reason;  // why it failed
+  std::string reason;   // why it failed
+  std::string stopped;  // `first_stop` of its runs
   bool is_screened_out = false;
   int runs = 0, clogged = 0;
   std::optional<MeanWithInterval> goal, rate;  // SI, over the runs that flowed; the goal as its figure is
@@ -57,6 +58,9 @@ struct DecisionResult {
 
 /// Whether a run clogged: it ended for want of outflow (run.end_after_pause), or no seed came in its window.
 bool has_clogged(const Evaluation& run);
+
+/// Of the first of some runs that the guard stopped, the random seed and why; empty without one.
+std::string first_stop(const std::vector<Evaluation>& runs);
 
 /// Which layout of a study is best, by runs that are asked for round by round. What is asked for and decided depends on
 /// the study, the options and the runs alone: led through the runs that are kept, it goes on where it was.

@@ -219,6 +219,8 @@ FrontLayout StudyOptimisation::layout_result(std::size_t layout, FrontStanding s
   result.reason = place.failure;
   result.goals.resize(options_.goals.size());
   if (!place.scene) return result;
+  for (const SceneRuns& runs : generations_[place.generation]->runs)
+    if (result.stopped.empty()) result.stopped = first_stop(runs.runs()[*place.scene]);
   result.runs = search_->front().observations(layout);
   result.clogged = search_->front().clogged(layout);
   const std::vector<KnownMean> known = search_->front().known(layout);

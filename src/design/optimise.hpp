@@ -32,6 +32,7 @@ struct FrontLayout {
   FrontStanding standing = FrontStanding::failed;
   bool is_first_by_means = false;  // meets the constraints by its means, and no other such has better means
   std::string reason;              // why it failed
+  std::string stopped;             // `first_stop` of its runs, variants' included
   int runs = 0, clogged = 0;       // without those of variants
   std::vector<std::optional<MeanWithInterval>> goals;  // SI, as their figures are, with shared variances
   std::optional<MeanWithInterval>
