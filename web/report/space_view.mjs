@@ -260,7 +260,7 @@ function spriteSheet(colours, depth) {
       const light = context.createRadialGradient(x - 0.35 * r, y - 0.4 * r, 0.05 * r, x, y, r);
       light.addColorStop(0, mix(own, '#ffffff', 0.45));
       light.addColorStop(0.45, own);
-      light.addColorStop(1, mix(own, '#000000', 0.45));
+      light.addColorStop(1, mix(own, '#000000', 0.32));
       context.fillStyle = light;
       context.beginPath();
       context.arc(x, y, r, 0, 2 * Math.PI);
