@@ -3,7 +3,7 @@ import assert from 'node:assert/strict';
 import test from 'node:test';
 import { layerScale, listColour, mix, speedScale } from '../../web/report/colours.mjs';
 import { Counters } from '../../web/report/counters.mjs';
-import { duration, list, niceAbove, number } from '../../web/report/format.mjs';
+import { duration, list, niceAbove, number, sentence } from '../../web/report/format.mjs';
 import { floorAt, toLab, toOwn } from '../../web/report/geometry.mjs';
 import { outflowSentence } from '../../web/report/outflow_sentence.mjs';
 import { readPageData } from '../../web/report/page_data.mjs';
@@ -17,6 +17,10 @@ test('numbers have three digits and no exponent', () => {
 
 test('durations change to milliseconds', () => {
   assert.deepEqual([0.024, 0.5, 3, 0, null].map(duration), ['24 ms', '0.5 s', '3 s', '0 s', '–']);
+});
+
+test('sentences begin and end as such', () => {
+  assert.deepEqual(['', 'ab 2', 'Ab.', 'why?'].map(sentence), ['', 'Ab 2.', 'Ab.', 'Why?']);
 });
 
 test('lists and ends of scales', () => {

@@ -1,19 +1,19 @@
 // How alike the holes are, and the rows of a drill: bars with their intervals.
 import { intervalBars } from './chart.mjs';
 import { element, section } from './dom.mjs';
-import { number } from './format.mjs';
+import { number, sentence } from './format.mjs';
 
 function meanOf(bars) {
   const values = bars.map((bar) => bar.value).filter(Number.isFinite);
   return values.reduce((sum, value) => sum + value, 0) / values.length;
 }
 
-function barSection(id, title, bars, unit, bar, sentence) {
+function barSection(id, title, bars, unit, bar, said) {
   const mean = meanOf(bars);
   const whiskers = bars.some((one) => typeof one.low === 'number') ? 'Whiskers: 95 % intervals. ' : '';
   const chart = intervalBars(`${title}: ${bars.map((one) => `${bar} ${one.label} ${number(one.value)}`).join(', ')} ${unit}`, bars, unit, bar, mean);
   return section(id, title, element('figure', { class: 'card' }, chart.frame,
-    element('figcaption', {}, sentence ? `${sentence} ` : '', element('span', { class: 'muted' }, `${whiskers}Dashed: the mean, ${number(mean)} ${unit}.`))));
+    element('figcaption', {}, said ? `${sentence(said)} ` : '', element('span', { class: 'muted' }, `${whiskers}Dashed: the mean, ${number(mean)} ${unit}.`))));
 }
 
 /** null where the data say nothing of evenness. */

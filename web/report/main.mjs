@@ -2,6 +2,7 @@
 import { effectsSection, guardSection, settingsSection } from './account.mjs';
 import { element } from './dom.mjs';
 import { evennessSection, rowsSection } from './evenness.mjs';
+import { sentence } from './format.mjs';
 import { outflowSection } from './outflow.mjs';
 import { bytesOfBase64, readPageData } from './page_data.mjs';
 import { Player } from './player.mjs';
@@ -25,9 +26,9 @@ function head(data) {
   return [
     element('div', { class: 'topline' }, element('p', { class: 'kicker' }, `Run ${space}`), themeSwitch()),
     element('h1', {}, data.title || 'A run'),
-    element('p', { class: 'headline' }, data.headline),
-    data.drill?.sentence ? element('p', { class: 'headline' }, data.drill.sentence) : null,
-    remarks.length ? element('ul', { class: 'remarks', 'aria-label': 'What to know about this result' }, remarks.map((remark) => element('li', {}, remark))) : null,
+    element('p', { class: 'headline' }, sentence(data.headline)),
+    data.drill?.sentence ? element('p', { class: 'headline' }, sentence(data.drill.sentence)) : null,
+    remarks.length ? element('ul', { class: 'remarks', 'aria-label': 'What to know about this result' }, remarks.map((remark) => element('li', {}, sentence(remark)))) : null,
   ].filter(Boolean);
 }
 

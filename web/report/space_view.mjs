@@ -11,7 +11,7 @@ const depthSteps = 4096;
 export const cameras = {
   side: { yaw: 0, pitch: 0 },
   above: { yaw: 0, pitch: Math.PI / 2 },
-  turnable: { yaw: -0.6, pitch: 0.45 },
+  turnable: { yaw: -0.4, pitch: 0.4 },
 };
 
 export class SpaceView {
@@ -42,11 +42,12 @@ export class SpaceView {
     this.camera.pitch = Math.min(Math.PI / 2, Math.max(-Math.PI / 2, this.camera.pitch + pitch));
   }
 
-  // Half the width and height, mm, that the view needs; of a turnable one, turned any way about its upright.
+  // Half the width and height, mm, that the view needs; of a turnable one, turned any way about its upright and looked at
+  // a little from above.
   reach() {
     const [w, h, d] = [this.box.right - this.box.left, this.box.high - this.box.low, this.box.back - this.box.front].map((length) => length / 2);
     if (this.fixed) return this.camera.pitch > 1 ? [w, d] : [w, h];
-    return [Math.hypot(w, d), 0.9 * h + 0.45 * Math.hypot(w, d)];
+    return [Math.hypot(w, d), 0.9 * h + 0.22 * Math.hypot(w, d)];
   }
 
   height(width) {
@@ -260,7 +261,7 @@ function spriteSheet(colours, depth) {
       const light = context.createRadialGradient(x - 0.35 * r, y - 0.4 * r, 0.05 * r, x, y, r);
       light.addColorStop(0, mix(own, '#ffffff', 0.45));
       light.addColorStop(0.45, own);
-      light.addColorStop(1, mix(own, '#000000', 0.45));
+      light.addColorStop(1, mix(own, '#000000', 0.32));
       context.fillStyle = light;
       context.beginPath();
       context.arc(x, y, r, 0, 2 * Math.PI);
