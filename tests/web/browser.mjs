@@ -9,14 +9,18 @@ const axe = require.resolve('axe-core/axe.min.js');
 
 export const template = fileURLToPath(new URL('../../build/web/report.html', import.meta.url));
 
+const patience = 300_000; // ms, after which a page hangs: no slow machine decides a test
+
 export function startBrowser() {
-  return chromium.launch({ executablePath: process.env.CHROMIUM ?? '/usr/bin/chromium', args: process.getuid() === 0 ? ['--no-sandbox'] : [] });
+  const args = ['--disable-gpu', '--disable-quic', ...(process.getuid() === 0 ? ['--no-sandbox'] : [])];
+  return chromium.launch({ executablePath: process.env.CHROMIUM ?? '/usr/bin/chromium', args, timeout: patience });
 }
 
 /** Opens a file; `page.complaints` gathers errors of the console, requests that are not of files, and dialogs. */
 export async function openPage(browser, file, options = {}) {
   const { bypass = false, ...looks } = options;
   const context = await browser.newContext({ viewport: { width: 1280, height: 800 }, bypassCSP: bypass, ...looks });
+  context.setDefaultTimeout(patience);
   const page = await context.newPage();
   page.complaints = [];
   page.on('console', (message) => { if (['error', 'warning'].includes(message.type())) page.complaints.push(message.text()); });
@@ -59,6 +63,12 @@ export async function scrubToEnd(page) {
 /** The canvas as a picture; equal texts are equal pictures. */
 export function pictureOf(page) {
   return page.$eval('#replay-canvas', (canvas) => canvas.toDataURL());
+}
+
+/** The canvas once it is another picture than `before`. */
+export async function nextPicture(page, before) {
+  await page.waitForFunction((old) => document.querySelector('#replay-canvas').toDataURL() !== old, before);
+  return pictureOf(page);
 }
 
 /** The page must have been opened with bypass: axe is a script of its own. */
