@@ -72,7 +72,7 @@ void Segments::read(const fs::path& file) {
 void Segments::refresh() {
   std::vector<fs::path> fresh;
   for (const fs::path& file : entries_of(folder_))
-    if (file.extension() == ".segment" && std::ranges::find(files_, file) == files_.end()) fresh.push_back(file);
+    if (file.extension() == ".segment" && known_.insert(file.filename().string()).second) fresh.push_back(file);
   if (fresh.empty()) return;
   std::ranges::sort(fresh);
   for (const fs::path& file : fresh) read(file);

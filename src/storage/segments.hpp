@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <map>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -41,6 +42,7 @@ class Segments {
 
   std::filesystem::path folder_;
   std::vector<std::filesystem::path> files_;  // sound and others
+  std::set<std::string> known_;               // their names: a folder of many segments is looked through for each miss
   std::vector<Place> places_;                 // in order
 };
 
