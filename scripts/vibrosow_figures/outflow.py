@@ -120,7 +120,32 @@ def outflow_slope(options):
     write_table(f"{options.reports}/slope.csv", "layout,from_s,to_s,measured_per_s,simulated_per_s,difference_percent", lines)
 
 
+# Of the measured slot hopper, mm: (number, volume in mm3). Sizes and numbers: the demos of projectchrono/DEM-Engine.
+BALLS = (14000, math.pi / 6 * 6**3)
+CYLINDERS = {"plastic, 4 x 8 mm": (22000, math.pi * 2**2 * 8), "wood, 4 x 8.5 mm": (20000, math.pi * 2**2 * 8.5)}
+SLOT_MM, MEASURED_PERCENT_PER_S = 40, 19.1
+
+
+def cylinders_from_balls(options):
+    """What the measured slot hopper would let through of cylinders, if they flowed as its balls do: percent of their mass a second.
+
+    A slot lets through C n (D - k d)^(3/2) of solid volume (Beverloo, Leniger & van de Velde 1961), with d of the ball of a cylinder's volume and
+    the balls' own C and packing fraction n, k 1.2 to 1.6. Friction and shape are not in it: more of either flows more slowly."""
+    def diameter(volume):
+        return (6 * volume / math.pi) ** (1 / 3)
+
+    count, volume = BALLS
+    table = []
+    for name, (number, own) in CYLINDERS.items():
+        rates = [MEASURED_PERCENT_PER_S * count * volume / (number * own)
+                 * ((SLOT_MM - k * diameter(own)) / (SLOT_MM - k * diameter(volume))) ** 1.5 for k in (1.2, 1.4, 1.6)]
+        table.append([name, f"{diameter(own):.3g}", *(f"{rate:.3g}" for rate in (rates[1], min(rates), max(rates)))])
+    write_table(options.table, "cylinders,ball_of_their_volume_mm,percent_per_s,percent_per_s_low,percent_per_s_high", table)
+
+
 def add_commands(commands):
+    parser = command(commands, "cylinders-from-balls", cylinders_from_balls)
+    parser.add_argument("table", metavar="CSV")
     parser = command(commands, "fit-outflow", fit_outflow)
     parser.add_argument("--diameter-mm", type=float, required=True, help="d, mean diameter of the grains")
     parser.add_argument("--fill", type=int, help="grains that the silo is kept at, where the studies do not vary it")

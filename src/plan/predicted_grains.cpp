@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 #include <vector>
 
 #include "elementary/functions.hpp"
@@ -84,6 +85,28 @@ double funnel_factor(const Vessel& vessel) {
              : 1;
 }
 
+/// What a vessel's holes let through, worked out once for all times.
+class HoleRates {
+ public:
+  HoleRates(const Scene& scene, const Vessel& vessel) : funnel_(funnel_factor(vessel)) {
+    if (!vessel.box) return;
+    const double diameter = equal_diameter(scene);
+    for (const Hole& hole : vessel.holes) holes_.push_back({hole.open_at, passing(hole, scene, vessel, diameter)});
+  }
+
+  /// Grains a second.
+  double at(double time) const {
+    double rate = 0;
+    for (const auto& [open_at, own] : holes_)
+      if (open_at <= time) rate += own;
+    return rate * funnel_;
+  }
+
+ private:
+  std::vector<std::pair<double, double>> holes_;  // when each opens (s), and grains a second
+  double funnel_;
+};
+
 double heap_slope(const Scene& scene) {
   return std::min(steepest_heap, scene.contact.seed.friction);
 }
@@ -113,11 +136,13 @@ double resting(const Scene& scene, const Vessel& vessel) {
 /// The grains of one vessel as a run goes on.
 struct Store {
   const Vessel* vessel;
+  HoleRates rates;
   double grains = 0, resting = 0;
   bool kept = false;
 
   Store(const Scene& scene, const Vessel& of)
       : vessel(&of),
+        rates(scene, of),
         grains(of.fill ? of.fill->count : 0),
         resting(vibrosow::resting(scene, of)),
         kept(of.fill && of.fill->keep) {}
@@ -127,9 +152,9 @@ struct Store {
     return vessel->rain->rate * std::max(0.0, std::min(to, vessel->rain->stop) - std::max(from, vessel->rain->start));
   }
   /// What leaves in a time `step` (s), at most `room` grains.
-  double let_out(const Scene& scene, double time, double step, double room) {
+  double let_out(double time, double step, double room) {
     const double most = kept ? room : std::min(room, std::max(0.0, grains - resting));
-    const double out = std::min(predicted_outflow(scene, *vessel, time) * step, most);
+    const double out = std::min(rates.at(time) * step, most);
     if (!kept) grains -= out;
     return out;
   }
@@ -149,12 +174,7 @@ double room_under_hopper(const Scene& scene) {
 }  // namespace
 
 double predicted_outflow(const Scene& scene, const Vessel& vessel, double time) {
-  if (!vessel.box) return 0;
-  const double diameter = equal_diameter(scene);
-  double rate = 0;
-  for (const Hole& hole : vessel.holes)
-    if (hole.open_at <= time) rate += passing(hole, scene, vessel, diameter);
-  return rate * funnel_factor(vessel);
+  return HoleRates(scene, vessel).at(time);
 }
 
 double predicted_grain_steps(const Scene& scene, double dt) {
@@ -167,10 +187,10 @@ double predicted_grain_steps(const Scene& scene, double dt) {
   for (int part = 0; part < parts_of_a_run; ++part) {
     const double time = part * step;
     grain_seconds += step * (tray.grains + (hopper ? hopper->grains : 0));
-    const double out = tray.let_out(scene, time, step, 1e300);
+    const double out = tray.let_out(time, step, 1e300);
     if (hopper) {
       hopper->grains += hopper->rain(time, time + step);
-      tray.grains += hopper->let_out(scene, time, step, std::max(0.0, room - tray.grains));
+      tray.grains += hopper->let_out(time, step, std::max(0.0, room - tray.grains));
     }
     tray.grains += tray.rain(time, time + step);
     since_outflow = out > 0 ? 0 : since_outflow + step;
