@@ -68,7 +68,7 @@ export function layoutSection(data, figures, chosen) {
     title.textContent = layout.name ? `Layout ${layout.number}: ${layout.name}` : `Layout ${layout.number}`;
     about.replaceChildren(...[doubt ? element('p', { class: 'doubt' }, doubt) : null, layoutDrawing(layout, boxes), settings(data, layout)].filter(Boolean));
     bars.show(layout);
-    const runs = layout.replicates === 1 ? 'From one run: no intervals.' : `Means of ${layout.replicates} runs, ± half the 95 % interval.`;
+    const runs = layout.replicates === 1 ? 'From one run: no intervals.' : `Means of ${layout.replicates} runs, ± half the width of the 95 % interval; what has no ± is of all runs together.`;
     numbers.replaceChildren(element('h3', {}, 'Figures'), layout.replicates ? element('p', { class: 'muted' }, runs) : '', figureList(layout, figures));
     frame.scrollTop = 0;
     if (byReader && getComputedStyle(frame).position !== 'sticky') frame.scrollIntoView({ block: 'start' });

@@ -62,11 +62,11 @@ class RankedChart {
     const best = this.leastFirst ? 'least' : 'most';
     this.legend.replaceChildren(...[
       first ? point('first', `the ${best}`) : null,
-      has('alike') ? point('alike', `not told apart from it: the 95 % intervals overlap (this is no test)`) : null,
-      has('apart') ? point('apart', 'told apart from it') : null,
+      has('alike') ? point('alike', 'not told apart from it: the 95 % intervals overlap (this is no test)') : null,
+      has('apart') ? point('apart', 'the intervals do not overlap') : null,
       has('not ok') ? point('not-ok', 'not ok, and not compared') : null,
       first && first.low !== null ? element('span', { class: 'legend-item' }, element('span', { class: 'swatch window' }), 'interval of the first') : null,
-      scale.cut ? element('span', {}, `Intervals that reach the right edge go on beyond it.`) : null,
+      scale.cut ? element('span', {}, 'Intervals that reach the right edge go on beyond it.') : null,
       this.figure.has_interval || this.figure.with_ends ? null : element('span', {}, 'All runs of a layout together give this figure: it has no interval.'),
     ].filter(Boolean));
   }

@@ -26,7 +26,7 @@ class Scatter {
     this.sentence, element('figure', { class: 'card' }, this.place,
       element('figcaption', {}, element('p', { class: 'legend' },
         element('span', { class: 'legend-item' }, element('span', { class: 'stroke front-stroke' }), 'layouts that no other beats in both'),
-        element('span', {}, 'Thin crosses: 95 % intervals of the chosen layout. Hollow: not ok.')))));
+        element('span', {}, 'Cross: 95 % intervals of the chosen layout. Hollow: not ok.')))));
     new ResizeObserver(() => { if (this.place.clientWidth !== this.width) this.draw(); }).observe(this.place);
     chosen.onChange(() => this.mark());
   }
@@ -44,11 +44,12 @@ class Scatter {
     this.inside = { left: margin.left, right, top: margin.top, bottom };
     this.points = points.sort((a, b) => a.x.value - b.x.value || a.y.value - b.y.value);
     this.circles = this.points.map((point) => this.circle(point));
-    this.cross = shape('path', { class: 'cross', d: '' });
+    this.cross = shape('path', { class: 'cross' });
+    this.ring = shape('circle', { class: 'ring', r: 8, 'aria-hidden': 'true' });
     const line = front.length > 1 ? shape('polyline', { class: 'front', points: front.map(({ x, y }) => `${this.x(x.value)},${this.y(y.value)}`).join(' ') }) : null;
     this.place.replaceChildren(shape('svg', { width: this.width, height, role: 'group', 'aria-label': `${titleOf(figureY)} against ${titleOf(figureX)}: a point for every layout; arrow keys go from one to the next`,
       onclick: (event) => this.press(event), onkeydown: (event) => this.key(event) },
-    this.grid(scaleX, scaleY), line, this.cross, this.circles));
+    this.grid(scaleX, scaleY), line, this.cross, this.circles, this.ring));
     this.mark();
   }
 
@@ -96,9 +97,11 @@ class Scatter {
     this.circles.forEach((circle, k) => {
       circle.setAttribute('aria-pressed', String(k === at));
       circle.setAttribute('tabindex', k === Math.max(0, at) ? 0 : -1);
-      circle.setAttribute('r', k === at ? 8 : 5);
     });
     this.cross.setAttribute('d', at < 0 ? '' : this.crossOf(this.points[at]));
+    this.ring.setAttribute('visibility', at < 0 ? 'hidden' : 'visible');
+    if (at < 0) return;
+    for (const place of ['cx', 'cy']) this.ring.setAttribute(place, this.circles[at].getAttribute(place));
   }
 
   crossOf({ x, y }) {
