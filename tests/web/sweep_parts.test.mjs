@@ -38,6 +38,8 @@ test("a pooled figure's interval comes from its ends; what is not resolved lies 
   assert.equal(textOf(valueOf(means(null, 0, 4.2), figures[0])), 'below 4.2');
   assert.equal(valueOf({ means: {} }, figures[0]), null);
   assert.equal(textOf(null), '–');
+  const ends = { layouts: [], figures: data.figures.filter(({ name }) => name !== 'evenness_cv_percent') };
+  assert.deepEqual(figuresOf(ends).map(({ name, with_ends }) => [name, with_ends]), [['evenness_cv_percent', true], ['rate_g_per_s', false]]);
 });
 
 test('layouts in order, and which overlap the first', () => {

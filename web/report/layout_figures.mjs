@@ -9,11 +9,18 @@ const misfit = {
 // Of these a tray should have little; of all others much.
 const wantedLow = /(^|_)(cv|pause|spilled|misfit)(_|$)/;
 
-/** Those to choose from. The ends of a pooled figure's interval belong to it: they are not figures of their own. */
+/**
+ * Those to choose from. The ends of a pooled figure's interval belong to it: they are not figures of their own, and stand
+ * for it where no layout's value is resolved.
+ */
 export function figuresOf(data) {
   const names = new Set(data.figures.map((figure) => figure.name));
-  const isEnd = ({ name }) => /_(low|high)$/.test(name) && names.has(name.replace(/_(low|high)$/, ''));
-  const own = data.figures.filter((figure) => !isEnd(figure)).map((figure) => ({ ...figure, with_ends: names.has(`${figure.name}_high`) }));
+  const own = data.figures.flatMap((figure) => {
+    const [, of, end] = /^(.*)_(low|high)$/.exec(figure.name) ?? [];
+    if (!end || !names.has(`${of}_low`) || !names.has(`${of}_high`)) return [{ ...figure, with_ends: names.has(`${figure.name}_high`) }];
+    if (end === 'low' || names.has(of)) return [];
+    return [{ ...figure, name: of, description: 'too small to be resolved in any layout', with_ends: true }];
+  });
   const known = data.layouts.some((layout) => layout.misfit_percent) ? [...own, misfit] : own;
   return known.map((figure) => ({ ...figure, words: wordsOf(figure.name).words, wanted_low: wantedLow.test(figure.name) }));
 }

@@ -3,15 +3,15 @@ import { element, listChoice } from './dom.mjs';
 import { intervalTrack, scaleOf, trackAxis } from './interval_track.mjs';
 import { boxesOf, layoutDrawing } from './layout_drawing.mjs';
 import { textOf, textWithUnit, titleOf, valueOf } from './layout_figures.mjs';
-import { keyWords, withUnit } from './layout_words.mjs';
+import { keyWords, sentenceWithNote, withUnit } from './layout_words.mjs';
 
 const ofHoles = [
   { name: 'seeds_per_s', words: 'seeds', unit: '1/s' }, { name: 'g_per_s', words: 'rate', unit: 'g/s' },
   { name: 'longest_pause_s', words: 'longest pause', unit: 's' },
 ];
 const statusWords = {
-  'outside the model': 'It lies outside the model: nothing is to be decided by it.', invalid: 'It cannot be built.',
-  stopped: 'The guard stopped a run of it.', interrupted: 'Runs of it are missing.',
+  'outside the model': 'It lies outside the model, so nothing is to be decided by it', invalid: 'It cannot be built',
+  stopped: 'The guard stopped a run of it', interrupted: 'Runs of it are missing',
 };
 
 function settings(data, layout) {
@@ -64,7 +64,7 @@ export function layoutSection(data, figures, chosen) {
   chosen.onChange((byReader) => {
     const { layout } = chosen;
     if (!layout) return;
-    const doubt = [statusWords[layout.status], layout.note].filter(Boolean).join(' ');
+    const doubt = statusWords[layout.status] ? sentenceWithNote(statusWords[layout.status], layout.note) : layout.note;
     title.textContent = layout.name ? `Layout ${layout.number}: ${layout.name}` : `Layout ${layout.number}`;
     about.replaceChildren(...[doubt ? element('p', { class: 'doubt' }, doubt) : null, layoutDrawing(layout, boxes), settings(data, layout)].filter(Boolean));
     bars.show(layout);

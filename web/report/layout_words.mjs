@@ -33,6 +33,11 @@ export function withUnit(value, unit) {
   return `${value}${unit && unit !== '°' ? ' ' : ''}${unit}`;
 }
 
+/** "Layout 7 cannot be built: hole 3 lies beyond the rim." */
+export function sentenceWithNote(what, note) {
+  return note ? `${what}: ${note.replace(/\.$/, '')}.` : `${what}.`;
+}
+
 /** A layout's own name, else its values: "5 · 300 mm · 9 Hz". */
 export function layoutName(data, layout) {
   const words = keyWords(data.keys);

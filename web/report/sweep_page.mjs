@@ -4,6 +4,7 @@ import { ChosenLayout } from './chosen_layout.mjs';
 import { figuresOf } from './layout_figures.mjs';
 import { layoutSection } from './layout_section.mjs';
 import { layoutTableSection } from './layout_table.mjs';
+import { sentenceWithNote } from './layout_words.mjs';
 import { rankingSection } from './ranked_chart.mjs';
 import { ranked } from './ranking.mjs';
 import { scatterSection } from './scatter.mjs';
@@ -32,7 +33,7 @@ export function doubtsOf(data) {
     const [{ status, note }] = layouts;
     const [one, many] = words[status] ?? [`is ${status}`, `are ${status}`];
     const what = layouts.length === 1 ? `Layout ${layouts[0].number} ${one}` : `Layouts ${numbersOf(layouts)} ${many}`;
-    return note ? `${what}: ${note.replace(/\.$/, '')}.` : `${what}.`;
+    return sentenceWithNote(what, note);
   });
   if (sentences.length <= doubtsShown) return sentences;
   const rest = [...reasons.values()].slice(doubtsShown).flat().length;
