@@ -1,4 +1,4 @@
-// Builds report.html, the template of a run's page, as one file: script and style inlined, and two markers left for the
+// Builds report.html, the template of the pages of a run and a sweep, as one file: script and style inlined, and two markers left for the
 // program to fill. Usage: node build.mjs [FOLDER]; default build/web of the repository.
 import { createHash } from 'node:crypto';
 import { mkdir, readFile, writeFile } from 'node:fs/promises';

@@ -18,7 +18,7 @@ export function startBrowser() {
 
 /** Opens a file; `page.complaints` gathers errors of the console, requests that are not of files, and dialogs. */
 export async function openPage(browser, file, options = {}) {
-  const { bypass = false, ...looks } = options;
+  const { bypass = false, hash = '', ...looks } = options;
   const context = await browser.newContext({ viewport: { width: 1280, height: 800 }, bypassCSP: bypass, ...looks });
   context.setDefaultTimeout(patience);
   const page = await context.newPage();
@@ -27,9 +27,9 @@ export async function openPage(browser, file, options = {}) {
   page.on('pageerror', (error) => page.complaints.push(String(error)));
   page.on('request', (request) => { if (!/^(file|blob|data):/.test(request.url())) page.complaints.push(request.url()); });
   page.on('dialog', (dialog) => { page.complaints.push(`dialog: ${dialog.message()}`); dialog.dismiss(); });
-  await page.goto(pathToFileURL(file).href);
+  await page.goto(`${pathToFileURL(file).href}${hash}`);
   await page.waitForSelector('html[data-ready]');
-  await page.waitForSelector('#replay-canvas[data-frame], #replay code, #replay .doubt', { state: 'attached' });
+  await page.waitForSelector('#replay-canvas[data-frame], #replay code, #replay .doubt, #layout', { state: 'attached' });
   return page;
 }
 

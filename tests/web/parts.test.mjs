@@ -3,7 +3,7 @@ import assert from 'node:assert/strict';
 import test from 'node:test';
 import { layerScale, listColour, mix, speedScale } from '../../web/report/colours.mjs';
 import { Counters } from '../../web/report/counters.mjs';
-import { duration, list, niceAbove, number, sentence } from '../../web/report/format.mjs';
+import { axisScale, duration, list, niceAbove, number, plusMinus, sentence } from '../../web/report/format.mjs';
 import { floorAt, toLab, toOwn } from '../../web/report/geometry.mjs';
 import { outflowSentence } from '../../web/report/outflow_sentence.mjs';
 import { readPageData } from '../../web/report/page_data.mjs';
@@ -13,6 +13,17 @@ test('numbers have three digits and no exponent', () => {
   assert.deepEqual([0, 1, 20.345, 1234.5, 0.00123456, -0.5, 1e-7, 99.96].map((value) => number(value)), ['0', '1', '20.3', '1235', '0.00123', '-0.5', '0.0000001', '100']);
   assert.equal(number(1.23456, 5), '1.2346');
   assert.deepEqual([null, undefined, NaN, Infinity].map((value) => number(value)), ['–', '–', '–', '–']);
+});
+
+test('an interval tells how many decimals its mean has', () => {
+  assert.deepEqual([[19.24, 3.76], [20.65, 25.39], [180, 254.1], [11.322, 0.0402], [20.128, 0], [0.017929, NaN]].map(([mean, half]) => plusMinus(mean, half)),
+    ['19.2 ± 3.8', '21 ± 25', '180 ± 254', '11.322 ± 0.040', '20.13 ± 0', '0.01793']);
+});
+
+test('scales have round steps and hold their ends', () => {
+  assert.deepEqual(axisScale(0, 47).ticks, [0, 10, 20, 30, 40, 50]);
+  assert.deepEqual(axisScale(11.3, 20.6).ticks, [10, 12, 14, 16, 18, 20, 22]);
+  assert.deepEqual(axisScale(0, 0).ticks.length, 2);
 });
 
 test('durations change to milliseconds', () => {
@@ -79,4 +90,7 @@ test('the sentence under the chart', () => {
 test('what is missing or null in the data is empty', () => {
   const data = readPageData('{"title": "a", "remarks": null, "drill": null, "end_time_s": 3}');
   assert.deepEqual([data.title, data.remarks, data.drill, data.window_s], ['a', [], null, [0, 3]]);
+  const sweep = readPageData('{"kind": "sweep", "layouts": [{"number": 3, "means": null}]}');
+  assert.deepEqual([sweep.keys, sweep.layouts[0].means, sweep.layouts[0].vessels], [[], {}, []]);
+  assert.throws(() => readPageData('{"kind": "letter"}'), /of the kind "letter"/);
 });

@@ -1,18 +1,20 @@
-// The page of a run by the program itself: VIBROSOW=path node --test tests/web/program.test.mjs
+// The pages of a run and of a sweep by the program itself: VIBROSOW=path node --test tests/web/program.test.mjs
 import assert from 'node:assert/strict';
 import { execFileSync } from 'node:child_process';
 import { mkdtempSync, readFileSync, rmSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import path from 'node:path';
 import test from 'node:test';
+import { fileURLToPath } from 'node:url';
+import { list } from '../../web/report/format.mjs';
 import * as in_ from './browser.mjs';
 
 const program = process.env.VIBROSOW;
 
-function whyNot() {
+function whyNot(command) {
   if (!program) return 'VIBROSOW names no program';
-  const help = execFileSync(program, ['run', '--help'], { encoding: 'utf8' });
-  return help.includes('--html') ? false : `${program} run has no --html`;
+  const help = execFileSync(program, [command, '--help'], { encoding: 'utf8' });
+  return help.includes('--html') ? false : `${program} ${command} has no --html`;
 }
 
 // Columns of a CSV of the program, whose fields have no quotes here.
@@ -27,7 +29,7 @@ function countsOf(file) {
   return counts;
 }
 
-test('a run of the program', { skip: whyNot() }, async () => {
+test('a run of the program', { skip: whyNot('run') }, async () => {
   const out = mkdtempSync(path.join(tmpdir(), 'vibrosow-run-'));
   const browser = await in_.startBrowser();
   try {
@@ -50,6 +52,35 @@ test('a run of the program', { skip: whyNot() }, async () => {
     const phone = await in_.openPage(browser, file, { viewport: { width: 390, height: 844 }, colorScheme: 'dark', bypass: true });
     await in_.assertAccessible(phone);
     await in_.assertNoSidewaysScrolling(phone);
+  } finally {
+    await browser.close();
+    rmSync(out, { recursive: true });
+  }
+});
+
+test('a sweep of the program', { skip: whyNot('sweep') }, async () => {
+  const out = mkdtempSync(path.join(tmpdir(), 'vibrosow-sweep-'));
+  const browser = await in_.startBrowser();
+  try {
+    const study = fileURLToPath(new URL('../../seeders/studies/wheat-demo.toml', import.meta.url));
+    execFileSync(program, ['sweep', study, '--set', 'run.duration=0.4 s', '--set', 'run.measure_from=0.2 s', '--html', '--quiet', '--out', out]);
+    const file = path.join(out, 'report.html');
+    const layouts = rowsOf(path.join(out, 'sweep.csv'));
+    const holes = rowsOf(path.join(out, 'sweep_holes.csv'));
+    const most = layouts.reduce((best, row) => (Number(row.rate_g_per_s) > Number(best.rate_g_per_s) ? row : best));
+    const page = await in_.openPage(browser, file, { viewport: { width: 390, height: 844 }, bypass: true });
+    assert.equal(await page.locator('#ranking .ranks button').first().getAttribute('data-layout'), most.layout);
+    assert.equal(await page.locator('#layouts tbody tr').count(), layouts.length);
+    for (const { layout } of layouts) {
+      await page.getByRole('button', { name: `Show layout ${layout}`, exact: true }).click();
+      await page.getByRole('heading', { name: `Layout ${layout}`, exact: true }).waitFor();
+      const own = holes.filter((row) => row.layout === layout && row.hole !== 'all');
+      assert.equal(await page.locator('#layout .hole-bars .track').count(), own.length, `layout ${layout}`);
+      assert.equal(await page.locator('#layout .drawing').getAttribute('aria-label'), `Layout ${layout} from the side, to scale: holes ${list(own.map((row) => row.hole))}`);
+    }
+    await in_.assertAccessible(page);
+    await in_.assertNoSidewaysScrolling(page);
+    assert.deepEqual(page.complaints, []);
   } finally {
     await browser.close();
     rmSync(out, { recursive: true });

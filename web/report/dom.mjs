@@ -17,11 +17,14 @@ export function element(tag, attributes = {}, ...children) {
   return fill(document.createElement(tag), attributes, children);
 }
 
+/** The same of SVG. */
+export function shape(tag, attributes = {}, ...children) {
+  return fill(document.createElementNS(svgNamespace, tag), attributes, children);
+}
+
 /** A picture on a button, 24 units wide; `paths` are SVG path data. */
 export function icon(...paths) {
-  const svg = fill(document.createElementNS(svgNamespace, 'svg'), { viewBox: '0 0 24 24', 'aria-hidden': 'true', focusable: 'false' }, []);
-  svg.append(...paths.map((d) => fill(document.createElementNS(svgNamespace, 'path'), { d }, [])));
-  return svg;
+  return shape('svg', { viewBox: '0 0 24 24', 'aria-hidden': 'true', focusable: 'false' }, paths.map((d) => shape('path', { d })));
 }
 
 let choices = 0;
@@ -33,6 +36,13 @@ export function choice(title, options, chosen, change) {
     element('input', { type: 'radio', name: group, value: k, checked: value === chosen, 'aria-label': name ?? null, onchange: () => change(value) }),
     element('span', {}, text)));
   return element('fieldset', { class: 'choice' }, element('legend', {}, title), element('div', { class: 'choice-row' }, buttons));
+}
+
+/** One choice of many, in a list that opens. `options`: [{ value, text }]. */
+export function listChoice(title, options, chosen, change) {
+  const list = element('select', { 'aria-label': title, onchange: () => change(options[list.selectedIndex].value) },
+    options.map(({ value, text }) => element('option', { selected: value === chosen }, text)));
+  return element('label', { class: 'list-choice' }, element('span', {}, title), list);
 }
 
 /** A section of the page with its heading. */

@@ -10,7 +10,7 @@ function meanOf(bars) {
 
 function barSection(id, title, bars, unit, bar, said) {
   const mean = meanOf(bars);
-  const whiskers = bars.some((one) => typeof one.low === 'number') ? 'Whiskers: 95 % intervals. ' : '';
+  const whiskers = bars.some((one) => typeof one.low === 'number') ? 'Whiskers: 95 % intervals, by counting alone. ' : '';
   const chart = intervalBars(`${title}: ${bars.map((one) => `${bar} ${one.label} ${number(one.value)}`).join(', ')} ${unit}`, bars, unit, bar, mean);
   return section(id, title, element('figure', { class: 'card' }, chart.frame,
     element('figcaption', {}, said ? `${sentence(said)} ` : '', element('span', { class: 'muted' }, `${whiskers}Dashed: the mean, ${number(mean)} ${unit}.`))));

@@ -37,3 +37,19 @@ export function niceAbove(value) {
   const power = 10 ** Math.floor(Math.log10(value));
   return [1, 2, 5, 10].map((step) => step * power).find((step) => step >= value * (1 - 1e-9));
 }
+
+/** "19.2 ± 3.8": the interval's half width to two digits and the mean to the same decimals; without one, the mean alone. */
+export function plusMinus(mean, halfWidth) {
+  if (!Number.isFinite(halfWidth)) return number(mean, 4);
+  if (halfWidth <= 0) return `${number(mean, 4)} ± 0`;
+  const decimals = Math.min(12, Math.max(0, 1 - Math.floor(Math.log10(halfWidth))));
+  return `${mean.toFixed(decimals)} ± ${halfWidth.toFixed(decimals)}`;
+}
+
+/** Round steps that cover low to high, about `count` of them: { low, high, step, ticks }. */
+export function axisScale(low, high, count = 5) {
+  const step = niceAbove((high - low) / count || Math.abs(high) / count || 1);
+  const first = Math.floor(low / step + 1e-9), last = Math.max(first + 1, Math.ceil(high / step - 1e-9));
+  const ticks = Array.from({ length: last - first + 1 }, (_, k) => Number(((first + k) * step).toPrecision(12)));
+  return { low: ticks[0], high: ticks[ticks.length - 1], step, ticks };
+}

@@ -1,16 +1,12 @@
-// The page of a run: reads what the program wrote into it and lays it out.
-import { effectsSection, guardSection, settingsSection } from './account.mjs';
+// The page of a run or of a sweep: reads what the program wrote into it and lays it out.
 import { element } from './dom.mjs';
-import { evennessSection, rowsSection } from './evenness.mjs';
 import { sentence } from './format.mjs';
-import { outflowSection } from './outflow.mjs';
-import { bytesOfBase64, readPageData } from './page_data.mjs';
-import { Player } from './player.mjs';
-import { openRecording } from './recording.mjs';
-import { replaySection } from './replay.mjs';
+import { readPageData } from './page_data.mjs';
+import { runPage } from './run_page.mjs';
+import { sweepPage } from './sweep_page.mjs';
 import { onTheme, startTheme, theme, toggleTheme } from './theme.mjs';
 
-const endings = { stopped_by_guard: 'Stopped by the guard', interrupted: 'Interrupted' };
+const pages = { run: runPage, sweep: sweepPage };
 
 function themeSwitch() {
   const button = element('button', { type: 'button', class: 'quiet', onclick: toggleTheme });
@@ -20,48 +16,32 @@ function themeSwitch() {
   return button;
 }
 
-function head(data) {
-  const space = data.space === 'plane' ? 'in the plane' : 'in space';
-  const remarks = [...(endings[data.status] ? [`${endings[data.status]} at ${data.end_time_s} s.`] : []), ...data.remarks];
+function head({ kicker, title, headlines, remarks }) {
   return [
-    element('div', { class: 'topline' }, element('p', { class: 'kicker' }, `Run ${space}`), themeSwitch()),
-    element('h1', {}, data.title || 'A run'),
-    element('p', { class: 'headline' }, sentence(data.headline)),
-    data.drill?.sentence ? element('p', { class: 'headline' }, sentence(data.drill.sentence)) : null,
+    element('div', { class: 'topline' }, element('p', { class: 'kicker' }, kicker), themeSwitch()),
+    element('h1', {}, title),
+    ...headlines.filter(Boolean).map((text) => element('p', { class: 'headline' }, sentence(text))),
     remarks.length ? element('ul', { class: 'remarks', 'aria-label': 'What to know about this result' }, remarks.map((remark) => element('li', {}, sentence(remark)))) : null,
   ].filter(Boolean);
 }
 
-function foot(data) {
-  const { name = 'vibrosow', version = '' } = data.program;
-  return element('p', {}, `Written by ${name} ${version}. The whole run is in this file: it opens without a network.`);
-}
-
-async function recordingOf(text) {
-  try {
-    return { recording: await openRecording(bytesOfBase64(text)), problem: null };
-  } catch (error) {
-    return { recording: null, problem: error.message };
-  }
+function foot({ name = 'vibrosow', version = '' }, whole) {
+  return element('p', {}, `Written by ${name} ${version}. ${whole} is in this file: it opens without a network.`);
 }
 
 async function show() {
   startTheme();
   const data = readPageData(document.getElementById('report-data').textContent);
-  document.title = `${data.title || 'A run'} – Vibrosow`;
-  document.getElementById('head').replaceChildren(...head(data));
-  document.getElementById('foot').replaceChildren(foot(data));
-  const { recording, problem } = await recordingOf(document.getElementById('recording').textContent);
-  const player = recording ? new Player(recording.times) : null;
-  player?.showTime(data.window_s[0]);
-  document.getElementById('page').replaceChildren(...[
-    replaySection(data, recording, player, problem), outflowSection(data, player), evennessSection(data), rowsSection(data),
-    effectsSection(data), guardSection(data), settingsSection(data),
-  ].filter(Boolean));
+  const page = pages[data.kind](data);
+  document.documentElement.dataset.kind = data.kind;
+  document.title = `${page.title} – Vibrosow`;
+  document.getElementById('head').replaceChildren(...head(page));
+  document.getElementById('foot').replaceChildren(foot(data.program, page.whole));
+  document.getElementById('page').replaceChildren(...(await page.sections()));
   document.documentElement.dataset.ready = 'true';
 }
 
 show().catch((error) => {
-  document.getElementById('page').replaceChildren(element('p', { class: 'doubt' }, `This page cannot show its run: ${error.message}.`));
+  document.getElementById('page').replaceChildren(element('p', { class: 'doubt' }, `This page cannot show what is in it: ${error.message}.`));
   throw error;
 });

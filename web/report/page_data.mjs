@@ -1,19 +1,30 @@
 // What the program wrote into the page. Missing parts become empty ones, so that the rest is shown all the same.
 
-const empty = {
-  kind: 'run', program: {}, title: '', space: 'plane', headline: '', remarks: [], status: 'finished', end_time_s: 0,
-  window_s: null, lots: [], vessels: [], holes: [], rate_unit: 'seeds/s', hole_table: { columns: [], rows: [] }, evenness: null,
-  events: { time_s: [], hole: [], lot: [] }, effects: [], guard: '', settings: [], drill: null, scene: {},
+const empty = { program: {}, title: '', space: 'plane', headline: '' };
+
+const emptyOf = {
+  run: {
+    kind: 'run', remarks: [], status: 'finished', end_time_s: 0, window_s: null, lots: [], vessels: [], holes: [], rate_unit: 'seeds/s',
+    hole_table: { columns: [], rows: [] }, evenness: null, events: { time_s: [], hole: [], lot: [] }, effects: [], guard: '', settings: [],
+    drill: null, scene: {},
+  },
+  sweep: { keys: [], figures: [], layouts: [] },
 };
 
-/** `text`: the JSON of one run. Throws a SyntaxError for what is not JSON. */
+const emptyLayout = { name: '', values: [], status: 'ok', note: '', replicates: 0, means: {}, misfit_percent: null, holes: [], vessels: [] };
+
+function filled(given, ...defaults) {
+  return Object.assign({}, ...defaults, Object.fromEntries(Object.entries(given).filter(([, value]) => value !== null)));
+}
+
+/** `text`: the JSON of one run or one sweep. Throws a SyntaxError for what is not JSON, an Error for another kind. */
 export function readPageData(text) {
   const given = JSON.parse(text);
-  const data = { ...empty };
-  for (const [key, value] of Object.entries(given)) {
-    if (value !== null) data[key] = value;
-  }
-  data.window_s = data.window_s ?? [0, data.end_time_s];
+  const kind = given.kind ?? 'run';
+  if (!Object.hasOwn(emptyOf, kind)) throw new Error(`its data are of the kind "${kind}", which this page does not know`);
+  const data = filled(given, empty, emptyOf[kind]);
+  if (kind === 'run') data.window_s = data.window_s ?? [0, data.end_time_s];
+  else data.layouts = data.layouts.map((layout) => filled(layout, emptyLayout));
   return data;
 }
 

@@ -1,0 +1,206 @@
+// The page of made-up sweeps, in a browser.
+import assert from 'node:assert/strict';
+import { mkdtempSync, readFileSync, rmSync, statSync, writeFileSync } from 'node:fs';
+import { tmpdir } from 'node:os';
+import path from 'node:path';
+import test, { after, before } from 'node:test';
+import * as in_ from './browser.mjs';
+import { fillTemplate } from './made_up_run.mjs';
+import { madeUpSweep } from './made_up_sweep.mjs';
+
+const hostile = '</script><img src=x onerror=alert(1)>';
+const folder = mkdtempSync(path.join(tmpdir(), 'vibrosow-sweep-page-'));
+const template = readFileSync(in_.template, 'utf8');
+const plane = madeUpSweep('plane');
+let browser, page;
+
+function write(name, sweep) {
+  const file = path.join(folder, `${name}.html`);
+  writeFileSync(file, fillTemplate(template, sweep));
+  return file;
+}
+
+async function withPage(sweep, options, check) {
+  const open = await in_.openPage(browser, write('sweep', sweep), options);
+  try {
+    await check(open);
+    assert.deepEqual(open.complaints, []);
+  } finally {
+    await open.context().close();
+  }
+}
+
+function numbersIn(open, selector) {
+  return open.$$eval(selector, (nodes) => nodes.map((node) => Number(node.dataset.layout)));
+}
+
+function rateOf(number) {
+  return plane.data.layouts[number - 1].means.rate_g_per_s;
+}
+
+function isOk(number) {
+  return plane.data.layouts[number - 1].status === 'ok';
+}
+
+async function assertShown(open, number) {
+  await open.getByRole('heading', { name: `Layout ${number}`, exact: true }).waitFor();
+  const layout = plane.data.layouts[number - 1];
+  const label = await open.locator('#layout .drawing').first().getAttribute('aria-label');
+  assert.ok(label.startsWith(`Layout ${number} from the side`), label);
+  assert.deepEqual(await open.locator('#layout .drawing text').allTextContents(), [...layout.holes.map(({ hole }) => hole), '50 mm']);
+  assert.equal(await open.locator('#layout .hole-bars .track').count(), layout.holes.length);
+}
+
+before(async () => {
+  browser = await in_.startBrowser();
+  page = await in_.openPage(browser, write('plane', plane));
+});
+after(async () => {
+  assert.deepEqual(page.complaints, []);
+  await browser?.close();
+  rmSync(folder, { recursive: true });
+});
+
+test('the layouts stand in the order of the rate, those that are not ok last and not compared', async () => {
+  await page.getByRole('button', { name: 'Show all 39' }).click();
+  const shown = await numbersIn(page, '#ranking .ranks button');
+  assert.equal(shown.length, 39);
+  assert.deepEqual(shown.map(isOk), [...Array(36).fill(true), ...Array(3).fill(false)]);
+  for (const part of [shown.slice(0, 36), shown.slice(36)]) part.slice(1).forEach((number, k) => assert.ok(rateOf(number).mean <= rateOf(part[k]).mean));
+  const low = ({ mean, half_width }) => mean - half_width, high = ({ mean, half_width }) => mean + half_width;
+  const alike = shown.slice(1, 36).filter((number) => high(rateOf(number)) >= low(rateOf(shown[0])));
+  assert.ok(alike.length > 0);
+  assert.deepEqual(await numbersIn(page, '#ranking .ranks .alike'), alike);
+  assert.match(await page.locator('#ranking-sentence').textContent(), new RegExp(`^By rate layout ${shown[0]} .* ${alike.length} others are not told apart from it`));
+  await page.getByRole('button', { name: 'Show the first 30' }).click();
+  assert.equal((await numbersIn(page, '#ranking .ranks button')).length, 30);
+});
+
+test('least first, and another figure', async () => {
+  await page.getByRole('radio', { name: 'Least first' }).check();
+  const least = plane.data.layouts.filter(({ status }) => status === 'ok').reduce((a, b) => (b.means.rate_g_per_s.mean < a.means.rate_g_per_s.mean ? b : a));
+  assert.equal((await numbersIn(page, '#ranking .ranks button'))[0], least.number);
+  await page.getByRole('combobox', { name: 'Figure', exact: true }).selectOption('evenness CV, %');
+  assert.equal(await page.getByRole('radio', { name: 'Least first' }).isChecked(), true);
+  assert.match(await page.locator('#ranking .ranks button').first().textContent(), /below 5/);
+  await page.getByRole('combobox', { name: 'Figure', exact: true }).selectOption('rate, g/s');
+  assert.equal(await page.getByRole('radio', { name: 'Most first' }).isChecked(), true);
+});
+
+test('a press on a row, on a point, and the enter key choose a layout; the address keeps it', async () => {
+  await page.locator('#layouts tr[data-layout="7"] td').first().click();
+  await assertShown(page, 7);
+  assert.match(page.url(), /#layout=7$/);
+  await page.locator('#ranking .ranks button').nth(2).click();
+  await assertShown(page, (await numbersIn(page, '#ranking .ranks button'))[2]);
+  await page.getByRole('button', { name: 'Show layout 12', exact: true }).focus();
+  await page.keyboard.press('Enter');
+  await assertShown(page, 12);
+  assert.deepEqual(await numbersIn(page, '#layouts tr[data-chosen]'), [12]);
+  await page.goBack();
+  await page.waitForFunction(() => !/Layout 12$/.test(document.querySelector('#layout-title').textContent));
+});
+
+test("a layout's figures and its drawing are those of the data", async () => {
+  await page.getByRole('button', { name: 'Show layout 8', exact: true }).click();
+  await assertShown(page, 8);
+  const { means } = plane.data.layouts[7];
+  const values = await page.locator('#layout .figures .value').allTextContents();
+  assert.equal(values[0], `${means.rate_g_per_s.mean.toFixed(2)} ± ${means.rate_g_per_s.half_width.toFixed(2)} g/s`);
+  assert.equal(values.length, 4);
+  const eight = await page.locator('#layout .drawing').innerHTML();
+  await page.getByRole('button', { name: 'Show layout 9', exact: true }).click();
+  await assertShown(page, 9);
+  assert.notEqual(await page.locator('#layout .drawing').innerHTML(), eight);
+  assert.match(await page.locator('#layout .doubt').textContent(), /guard stopped.*the energy grew by 31 %/);
+  await page.getByRole('button', { name: 'Show layout 4', exact: true }).click();
+  await page.getByText('there is nothing to draw').waitFor();
+});
+
+test('a heading sorts, by the mouse and by the keyboard', async () => {
+  const rates = async () => (await numbersIn(page, '#layouts tbody tr')).filter((number) => rateOf(number)).map((number) => rateOf(number).mean);
+  const heading = page.locator('#layouts th button[data-column="rate_g_per_s"]');
+  await heading.click();
+  const rising = await rates();
+  assert.deepEqual(rising, [...rising].sort((a, b) => a - b));
+  assert.equal((await numbersIn(page, '#layouts tbody tr')).pop(), 4);
+  await page.keyboard.press('Enter');
+  assert.deepEqual(await rates(), [...rising].reverse());
+  assert.equal((await numbersIn(page, '#layouts tbody tr')).pop(), 4);
+  assert.equal(await page.locator('#layouts th[aria-sort="descending"]').textContent(), 'rate g/s ▼');
+});
+
+test('figures come into the table and leave it', async () => {
+  await page.getByText('Figures in the table').click();
+  await page.getByRole('checkbox', { name: 'seeds, 1/s' }).check();
+  await page.getByRole('columnheader', { name: 'seeds' }).waitFor();
+  await page.getByRole('checkbox', { name: 'rate, g/s' }).uncheck();
+  assert.equal(await page.getByRole('columnheader', { name: 'rate' }).count(), 0);
+});
+
+test('the points of two figures: the mouse and the keyboard choose', async () => {
+  assert.equal(await page.locator('#trade circle[role]').count(), 39);
+  assert.match(await page.locator('#trade-sentence').textContent(), /^For a high rate and a low evenness CV, no layout beats .*1 layout has no value/);
+  const point = page.locator('#trade circle[data-layout="11"]');
+  await point.scrollIntoViewIfNeeded();
+  const box = await point.boundingBox();
+  await page.mouse.click(box.x + box.width / 2, box.y + box.height / 2);
+  await assertShown(page, 11);
+  await point.focus();
+  await page.keyboard.press('ArrowRight');
+  const next = await page.evaluate(() => Number(document.activeElement.dataset.layout));
+  assert.notEqual(next, 11);
+  await page.keyboard.press('Enter');
+  await assertShown(page, next);
+  await page.getByRole('combobox', { name: 'Up', exact: true }).selectOption('longest pause, s');
+  assert.match(await page.locator('#trade-sentence').textContent(), /low longest pause/);
+});
+
+test('the address opens with its layout, and a foreign one with the first of the order', async () => {
+  await withPage(plane, { hash: '#layout=21' }, (open) => assertShown(open, 21));
+  await withPage(plane, { hash: '#layout=999' }, async (open) => assertShown(open, (await numbersIn(open, '#ranking .ranks button'))[0]));
+});
+
+test('in space a layout is drawn from above too, holes round or slots', () => withPage(madeUpSweep('three_dimensional'), { hash: '#layout=5', bypass: true }, async (open) => {
+  const { holes } = madeUpSweep('three_dimensional').data.layouts[4].vessels[0];
+  assert.equal(await open.locator('#layout .drawing').count(), 2);
+  const corners = await open.$$eval('#layout .drawing .hole', (paths) => paths.map((path) => path.getAttribute('d').split('L').length));
+  assert.deepEqual(corners, holes.map(({ round }) => (round ? 48 : 4)));
+  await in_.assertAccessible(open);
+  await open.emulateMedia({ colorScheme: 'dark' });
+  await open.waitForSelector('html[data-theme="dark"]');
+  await open.setViewportSize({ width: 390, height: 844 });
+  await in_.assertAccessible(open);
+  await in_.assertNoSidewaysScrolling(open);
+  await open.getByRole('button', { name: 'Show layout 6', exact: true }).click();
+  await open.getByRole('heading', { name: 'Layout 6', exact: true }).waitFor();
+  await open.waitForFunction(() => Math.abs(document.querySelector('#layout').getBoundingClientRect().top - 12) < 5);
+}));
+
+test('300 layouts: less than 10 MB, and quick enough', () => withPage(madeUpSweep('plane', 300), {}, async (open) => {
+  assert.ok(statSync(path.join(folder, 'sweep.html')).size < 10e6);
+  assert.equal(await open.locator('#ranking .ranks button').count(), 30);
+  assert.equal(await open.locator('#layouts tbody tr').count(), 300);
+  const took = await open.evaluate(() => {
+    const begin = performance.now();
+    [...document.querySelectorAll('#ranking button')].find((button) => /^Show all/.test(button.textContent)).click();
+    document.querySelector('#layouts th button').click();
+    document.body.getBoundingClientRect();
+    return performance.now() - begin;
+  });
+  assert.equal(await open.locator('#ranking .ranks button').count(), 299);
+  assert.ok(took < 2000, `${took} ms`);
+}));
+
+test('hostile names stay text', () => withPage(madeUpSweep('plane', 6, { title: hostile, layout: hostile }), {}, async (open) => {
+  assert.equal(await open.locator('h1').textContent(), hostile);
+  assert.equal(await open.locator('#layouts td', { hasText: hostile }).count(), 6);
+  assert.match(await open.locator('#layout-title').textContent(), /onerror=alert\(1\)>$/);
+  assert.equal(await open.locator('img').count(), 0);
+}));
+
+test('a sweep without figures still shows its table', () => withPage({ data: { ...plane.data, figures: [], layouts: plane.data.layouts.slice(0, 2).map((layout) => ({ ...layout, means: {} })) }, recording: null }, {}, async (open) => {
+  assert.equal(await open.locator('#layouts tbody tr').count(), 2);
+  assert.equal(await open.locator('#ranking').count(), 0);
+  await open.getByText('It has no figures.').waitFor();
+}));

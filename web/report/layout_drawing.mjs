@@ -1,0 +1,130 @@
+// A layout drawn to scale: from the side, and in space from above too. All layouts of a page are drawn to one scale.
+import { element, shape } from './dom.mjs';
+import { list, niceAbove } from './format.mjs';
+import { floorAt, toLab } from './geometry.mjs';
+
+const rims = 48;  // corners of a round hole
+
+function poseOf({ at_mm: at = [0, 0, 0], tilt_rad: tilt = 0 }) {
+  return { x: at[0] / 1000, y: at[1] / 1000, angle: tilt ?? 0 };
+}
+
+function fromTheSide(vessel) {
+  const pose = poseOf(vessel);
+  return (vessel.lines ?? []).map((line) => ({ points: line.points_mm.map(([x, y]) => toLab(pose, x, y)), opens: typeof line.opens_at_s === 'number' }));
+}
+
+function fromAbove(vessel, corners) {
+  const pose = poseOf(vessel);
+  return corners.map(([x, z, y = 0]) => [toLab(pose, x, y)[0], z + (vessel.at_mm?.[2] ?? 0)]);
+}
+
+function outlineAbove(vessel) {
+  const { length_mm: length, depth_mm: depth } = vessel;
+  return fromAbove(vessel, [[0, 0], [length, 0], [length, depth], [0, depth]]);
+}
+
+function holeAbove(vessel, hole) {
+  const corners = hole.round
+    ? Array.from({ length: rims }, (_, k) => [Math.cos((2 * Math.PI * k) / rims), Math.sin((2 * Math.PI * k) / rims)])
+    : [[-1, -1], [1, -1], [1, 1], [-1, 1]];
+  const floor = floorAt(vessel, hole);
+  return fromAbove(vessel, corners.map(([a, b]) => [hole.x_mm + a * hole.half_x_mm, hole.z_mm + b * hole.half_z_mm, floor]));
+}
+
+function boxOf(points) {
+  return points.reduce(([left, low, right, high], [x, y]) => [Math.min(left, x), Math.min(low, y), Math.max(right, x), Math.max(high, y)], [Infinity, Infinity, -Infinity, -Infinity]);
+}
+
+function textSize([left, , right]) {
+  return 0.034 * (right - left);
+}
+
+function trayOf(vessels) {
+  return vessels.find((vessel) => vessel.name === 'tray') ?? vessels[0];
+}
+
+/**
+ * What every drawing of the page has to hold: { side, above }, boxes [left, low, right, high] in mm, null where nothing is
+ * drawn, and the lines of numbers under the holes.
+ */
+export function boxesOf(data) {
+  const vessels = data.layouts.flatMap((layout) => layout.vessels);
+  const side = boxOf(vessels.flatMap((vessel) => fromTheSide(vessel).flatMap((line) => line.points)));
+  const deep = data.space === 'plane' ? [] : vessels.filter((vessel) => Number.isFinite(vessel.depth_mm));
+  const above = boxOf(deep.flatMap(outlineAbove));
+  const lines = Math.max(0, ...data.layouts.flatMap((layout) => holeLabels(layout, textSize(side)).map(({ line }) => line + 1)));
+  return { lines, side: Number.isFinite(side[0]) ? side : null, above: Number.isFinite(above[0]) ? above : null };
+}
+
+function path(points, closed = false) {
+  return `M${points.map(([x, y]) => `${x.toFixed(3)} ${(-y).toFixed(3)}`).join('L')}${closed ? 'Z' : ''}`;
+}
+
+// Numbers under the holes, [{ x, y, text, line }], in as many lines as they need to stay apart. Holes of one place along
+// the tray share a label.
+function holeLabels(layout, size) {
+  const tray = trayOf(layout.vessels);
+  const places = new Map();
+  for (const hole of tray?.holes ?? []) {
+    const [x, y] = toLab(poseOf(tray), hole.x_mm, floorAt(tray, hole));
+    const place = x.toFixed(1);
+    if (!places.has(place)) places.set(place, { x, y, numbers: [] });
+    places.get(place).numbers.push(hole.number);
+  }
+  const ends = [];
+  return [...places.values()].sort((a, b) => a.x - b.x).map(({ x, y, numbers }) => {
+    const text = numbers.join(', ');
+    const half = 0.32 * size * text.length + 0.2 * size;
+    let line = 0;
+    while (ends[line] !== undefined && ends[line] > x - half) ++line;
+    ends[line] = x + half;
+    return { x, y, text, line };
+  });
+}
+
+function scaleBar(left, low, width, size) {
+  const length = niceAbove(width / 8);
+  return shape('g', { class: 'scale-bar' }, shape('path', { d: `M${left} ${-low}h${length}` }),
+    shape('text', { x: left + length + 0.5 * size, y: -low + 0.35 * size, 'font-size': size }, `${length} mm`));
+}
+
+function picture(name, [left, low, right, high], below, parts) {
+  const edge = 0.02 * (right - left);
+  const view = [left - edge, -high - edge, right - left + 2 * edge, high - low + 2 * edge + below];
+  return shape('svg', { class: 'drawing', viewBox: view.map((value) => value.toFixed(2)).join(' '), role: 'img', 'aria-label': name }, parts);
+}
+
+function sideView(layout, box, labelLines) {
+  const [left, low, right] = box;
+  const size = textSize(box);
+  const lines = layout.vessels.flatMap(fromTheSide).map(({ points, opens }) => shape('path', { class: opens ? 'wall gate' : 'wall', d: path(points) }));
+  const numbers = (trayOf(layout.vessels)?.holes ?? []).map((hole) => hole.number);
+  const name = `Layout ${layout.number} from the side, to scale: ${numbers.length === 1 ? 'hole' : 'holes'} ${list(numbers.map(String))}`;
+  const labels = holeLabels(layout, size).map(({ x, y, text, line }) => shape('text', { x, y: -y + (1.2 + 1.1 * line) * size, 'font-size': size, 'text-anchor': 'middle' }, text));
+  const below = (1.4 + 1.1 * labelLines) * size;
+  return picture(name, box, below + 0.6 * size, [...lines, ...labels, scaleBar(left, low - below, right - left, 0.85 * size)]);
+}
+
+function aboveView(layout, box) {
+  const deep = layout.vessels.filter((vessel) => Number.isFinite(vessel.depth_mm));
+  const tray = trayOf(deep);
+  if (!tray) return null;
+  const size = textSize(box);
+  const parts = deep.map((vessel) => shape('path', { class: vessel === tray ? 'wall' : 'wall over', d: path(outlineAbove(vessel), true) }));
+  const holes = tray.holes.map((hole) => shape('path', { class: 'hole', d: path(holeAbove(tray, hole), true) }));
+  const labels = tray.holes.map((hole) => {
+    const [[x, z]] = fromAbove(tray, [[hole.x_mm, hole.z_mm - hole.half_z_mm]]);
+    return shape('text', { x, y: -z + size, 'font-size': 0.9 * size, 'text-anchor': 'middle' }, String(hole.number));
+  });
+  return picture(`Layout ${layout.number} from above, to scale; the front is below`, box, 0.5 * size, [...parts, ...holes, ...labels]);
+}
+
+/** The drawings of a layout; a sentence where it has nothing to draw. */
+export function layoutDrawing(layout, boxes) {
+  if (layout.vessels.length === 0 || !boxes.side) return element('p', { class: 'muted' }, 'This layout cannot be built, so there is nothing to draw.');
+  const above = boxes.above ? aboveView(layout, boxes.above) : null;
+  const dashed = layout.vessels.some((vessel) => fromTheSide(vessel).some((line) => line.opens)) ? ' Dashed: gates, which open.' : '';
+  return element('figure', { class: 'drawings' }, sideView(layout, boxes.side, boxes.lines), above,
+    element('figcaption', { class: 'muted' }, `${above ? 'From the side and from above' : 'From the side'}, to scale, with the numbers of the holes.${dashed}${above ? ' Thin: the hopper above the tray.' : ''}`));
+}

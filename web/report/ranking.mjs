@@ -1,0 +1,48 @@
+// Layouts in the order of a figure, and which of them the intervals do not tell apart from the first.
+import { textWithUnit, valueOf } from './layout_figures.mjs';
+import { layoutInSentence } from './layout_words.mjs';
+
+function overlap(a, b) {
+  if (a.low === null || a.high === null || b.low === null || b.high === null) return null;
+  return a.low <= b.high && b.low <= a.high;
+}
+
+/**
+ * [{ layout, value, told }] of the layouts that have the figure: those that are ok first, in its order; layouts of the same
+ * value by number. `told`: "first", "alike" (its interval overlaps that of the first), "apart", "no interval"; "not ok" of
+ * the others, which are not compared.
+ */
+export function ranked(layouts, figure, leastFirst) {
+  const sign = leastFirst ? 1 : -1;
+  const rows = layouts.map((layout) => ({ layout, value: valueOf(layout, figure) })).filter((row) => row.value)
+    .sort((a, b) => (a.layout.status !== 'ok') - (b.layout.status !== 'ok') || sign * (a.value.value - b.value.value) || a.layout.number - b.layout.number);
+  const first = rows[0]?.layout.status === 'ok' ? rows[0] : null;
+  const toldOf = (row) => {
+    if (row.layout.status !== 'ok') return 'not ok';
+    if (row === first) return 'first';
+    const same = overlap(row.value, first.value);
+    return same === null ? 'no interval' : same ? 'alike' : 'apart';
+  };
+  return rows.map((row) => ({ ...row, told: toldOf(row) }));
+}
+
+function alikeWords(count) {
+  if (count === 0) return 'no other interval overlaps its own';
+  return count === 1 ? '1 other is not told apart from it' : `${count} others are not told apart from it`;
+}
+
+/** Who is first, and how many are not told apart from it. */
+export function rankingSentence(data, rows, figure, leastFirst) {
+  const first = rows.find((row) => row.told === 'first');
+  const without = data.layouts.length - rows.length;
+  const missing = without === 0 ? '' : ` ${without} layout${without === 1 ? ' has' : 's have'} no value of it.`;
+  if (!first) return `No layout that is ok has a value of ${figure.words}.`;
+  const compared = rows.filter((row) => row.told !== 'not ok');
+  const alike = rows.filter((row) => row.told === 'alike').length;
+  const unknown = rows.filter((row) => row.told === 'no interval').length;
+  const lead = `By ${figure.words} ${layoutInSentence(data, first.layout)} has the ${leastFirst ? 'least' : 'most'}: ${textWithUnit(first.value, figure)}`;
+  if (compared.length === 1) return `${lead}; there is none to compare it with.${missing}`;
+  if (unknown === compared.length - 1) return `${lead}; without intervals nothing says which layouts differ from it.${missing}`;
+  const some = unknown === 0 ? '' : `, and ${unknown} ${unknown === 1 ? 'has' : 'have'} no interval`;
+  return `${lead}; ${alikeWords(alike)}${some}.${missing}`;
+}

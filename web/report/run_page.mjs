@@ -1,0 +1,40 @@
+// The page of a run, part by part.
+import { effectsSection, guardSection, settingsSection } from './account.mjs';
+import { evennessSection, rowsSection } from './evenness.mjs';
+import { outflowSection } from './outflow.mjs';
+import { bytesOfBase64 } from './page_data.mjs';
+import { Player } from './player.mjs';
+import { openRecording } from './recording.mjs';
+import { replaySection } from './replay.mjs';
+
+const endings = { stopped_by_guard: 'Stopped by the guard', interrupted: 'Interrupted' };
+
+async function recordingOf(text) {
+  try {
+    return { recording: await openRecording(bytesOfBase64(text)), problem: null };
+  } catch (error) {
+    return { recording: null, problem: error.message };
+  }
+}
+
+async function sections(data) {
+  const { recording, problem } = await recordingOf(document.getElementById('recording').textContent);
+  const player = recording ? new Player(recording.times) : null;
+  player?.showTime(data.window_s[0]);
+  return [
+    replaySection(data, recording, player, problem), outflowSection(data, player), evennessSection(data), rowsSection(data),
+    effectsSection(data), guardSection(data), settingsSection(data),
+  ].filter(Boolean);
+}
+
+/** What main.mjs lays out of a run. */
+export function runPage(data) {
+  return {
+    kicker: `Run ${data.space === 'plane' ? 'in the plane' : 'in space'}`,
+    title: data.title || 'A run',
+    headlines: [data.headline, data.drill?.sentence],
+    remarks: [...(endings[data.status] ? [`${endings[data.status]} at ${data.end_time_s} s.`] : []), ...data.remarks],
+    whole: 'The whole run',
+    sections: () => sections(data),
+  };
+}

@@ -1,0 +1,124 @@
+// Two figures of the layouts against each other, each layout a point to press.
+import { element, listChoice, section, shape } from './dom.mjs';
+import { axisScale, number } from './format.mjs';
+import { textWithUnit, titleOf } from './layout_figures.mjs';
+import { layoutName } from './layout_words.mjs';
+import { pointsOf, tradeSentence, unbeaten } from './trade.mjs';
+
+const height = 380;  // px
+const margin = { left: 58, right: 16, top: 14, bottom: 46 };
+const reach = 24;    // px, from a press to the point that is meant
+const steps = { ArrowLeft: -1, ArrowDown: -1, ArrowRight: 1, ArrowUp: 1 };
+
+function scaleOf(values) {
+  const highest = Math.max(...values, 0), least = Math.min(...values);
+  return axisScale(least > 0.5 * highest ? least : 0, highest || 1);
+}
+
+class Scatter {
+  constructor(data, figures, [figureX, figureY], chosen) {
+    Object.assign(this, { data, chosen, figureX, figureY });
+    const options = figures.map((one) => ({ value: one, text: titleOf(one) }));
+    this.place = element('div', { class: 'scatter' });
+    this.sentence = element('p', { id: 'trade-sentence', class: 'lead', 'aria-live': 'polite' });
+    this.frame = element('div', {}, element('div', { class: 'choices' },
+      listChoice('Across', options, figureX, (one) => { this.figureX = one; this.draw(); }), listChoice('Up', options, figureY, (one) => { this.figureY = one; this.draw(); })),
+    this.sentence, element('figure', { class: 'card' }, this.place,
+      element('figcaption', {}, element('p', { class: 'legend' },
+        element('span', { class: 'legend-item' }, element('span', { class: 'stroke front-stroke' }), 'layouts that no other beats in both'),
+        element('span', {}, 'Cross: 95 % intervals of the chosen layout. Hollow: not ok.')))));
+    new ResizeObserver(() => { if (this.place.clientWidth !== this.width) this.draw(); }).observe(this.place);
+    chosen.onChange(() => this.mark());
+  }
+
+  draw() {
+    const { data, figureX, figureY } = this;
+    this.width = this.place.clientWidth;
+    const points = pointsOf(data.layouts, figureX, figureY);
+    const front = unbeaten(points, figureX, figureY);
+    this.sentence.textContent = tradeSentence(data, points, front, figureX, figureY);
+    const [scaleX, scaleY] = [scaleOf(points.map(({ x }) => x.value)), scaleOf(points.map(({ y }) => y.value))];
+    const right = this.width - margin.right, bottom = height - margin.bottom;
+    this.x = (value) => margin.left + ((value - scaleX.low) / (scaleX.high - scaleX.low)) * (right - margin.left);
+    this.y = (value) => bottom - ((value - scaleY.low) / (scaleY.high - scaleY.low)) * (bottom - margin.top);
+    this.inside = { left: margin.left, right, top: margin.top, bottom };
+    this.points = points.sort((a, b) => a.x.value - b.x.value || a.y.value - b.y.value);
+    this.circles = this.points.map((point) => this.circle(point));
+    this.cross = shape('path', { class: 'cross' });
+    this.ring = shape('circle', { class: 'ring', r: 8, 'aria-hidden': 'true' });
+    const line = front.length > 1 ? shape('polyline', { class: 'front', points: front.map(({ x, y }) => `${this.x(x.value)},${this.y(y.value)}`).join(' ') }) : null;
+    this.place.replaceChildren(shape('svg', { width: this.width, height, role: 'group', 'aria-label': `${titleOf(figureY)} against ${titleOf(figureX)}: a point for every layout; arrow keys go from one to the next`,
+      onclick: (event) => this.press(event), onkeydown: (event) => this.key(event) },
+    this.grid(scaleX, scaleY), line, this.cross, this.circles, this.ring));
+    this.mark();
+  }
+
+  grid(scaleX, scaleY) {
+    const { left, right, top, bottom } = this.inside;
+    const text = (attributes, words) => shape('text', attributes, words);
+    return shape('g', { class: 'grid', 'aria-hidden': 'true' },
+      scaleX.ticks.map((tick) => [shape('path', { d: `M${this.x(tick)} ${top}V${bottom}` }), text({ x: this.x(tick), y: bottom + 18, 'text-anchor': 'middle' }, number(tick))]),
+      scaleY.ticks.map((tick) => [shape('path', { d: `M${left} ${this.y(tick)}H${right}` }), text({ x: left - 8, y: this.y(tick) + 4, 'text-anchor': 'end' }, number(tick))]),
+      text({ x: (left + right) / 2, y: height - 8, 'text-anchor': 'middle' }, titleOf(this.figureX)),
+      text({ transform: `translate(14 ${(top + bottom) / 2}) rotate(-90)`, 'text-anchor': 'middle' }, titleOf(this.figureY)));
+  }
+
+  circle({ layout, x, y }) {
+    const name = `Layout ${layout.number}, ${layoutName(this.data, layout)}: ${this.figureX.words} ${textWithUnit(x, this.figureX)}, ${this.figureY.words} ${textWithUnit(y, this.figureY)}`;
+    return shape('circle', { cx: this.x(x.value), cy: this.y(y.value), r: 5, role: 'button', tabindex: -1, 'data-layout': layout.number,
+      class: layout.status === 'ok' ? 'ok' : 'not-ok', 'aria-label': name }, shape('title', {}, name));
+  }
+
+  press(event) {
+    const box = this.place.getBoundingClientRect();
+    const far = ({ x, y }) => Math.hypot(this.x(x.value) - (event.clientX - box.left), this.y(y.value) - (event.clientY - box.top));
+    const nearest = this.points.reduce((best, point) => (best && far(best) <= far(point) ? best : point), null);
+    if (nearest && far(nearest) <= reach) this.chosen.choose(nearest.layout.number);
+  }
+
+  key(event) {
+    const at = this.circles.indexOf(event.target);
+    const by = steps[event.key];
+    if (at < 0 || (!by && !['Enter', ' '].includes(event.key))) return;
+    event.preventDefault();
+    if (by) this.focusOn(Math.min(this.circles.length - 1, Math.max(0, at + by)));
+    else this.chosen.choose(this.points[at].layout.number);
+  }
+
+  focusOn(at) {
+    this.circles.forEach((circle, k) => circle.setAttribute('tabindex', k === at ? 0 : -1));
+    this.circles[at].focus();
+  }
+
+  // The tab key comes to the chosen point, else to the first.
+  mark() {
+    if (!this.circles) return;
+    const at = this.points.findIndex(({ layout }) => layout.number === this.chosen.number);
+    this.circles.forEach((circle, k) => {
+      circle.setAttribute('aria-pressed', String(k === at));
+      circle.setAttribute('tabindex', k === Math.max(0, at) ? 0 : -1);
+    });
+    this.cross.setAttribute('d', at < 0 ? '' : this.crossOf(this.points[at]));
+    this.ring.setAttribute('visibility', at < 0 ? 'hidden' : 'visible');
+    if (at < 0) return;
+    for (const place of ['cx', 'cy']) this.ring.setAttribute(place, this.circles[at].getAttribute(place));
+  }
+
+  crossOf({ x, y }) {
+    const { left, right, top, bottom } = this.inside;
+    const [cx, cy] = [this.x(x.value), this.y(y.value)];
+    const within = (value, low, high) => Math.min(high, Math.max(low, value));
+    const across = x.low === null || x.high === null ? '' : `M${within(this.x(x.low), left, right)} ${cy}H${within(this.x(x.high), left, right)}`;
+    return across + (y.low === null || y.high === null ? '' : `M${cx} ${within(this.y(y.low), top, bottom)}V${within(this.y(y.high), top, bottom)}`);
+  }
+}
+
+/** null where there are not two figures to compare. */
+export function scatterSection(data, figures, chosen) {
+  if (figures.length < 2) return null;
+  const named = (name) => figures.find((figure) => figure.name === name);
+  const has = (figure) => figure && pointsOf(data.layouts, figure, figure).length > 1;
+  const across = [named('rate_g_per_s'), figures[0]].find(Boolean);
+  const up = ['evenness_cv_percent', 'raw_cv_percent', 'instability_cv_percent'].map(named).find(has) ?? figures.find((figure) => figure !== across);
+  return section('trade', 'One figure against another', new Scatter(data, figures, [across, up], chosen).frame);
+}
