@@ -86,13 +86,6 @@ Json hole_table(const RunPage& page) {
   return {{"columns", std::move(columns)}, {"rows", std::move(rows)}};
 }
 
-/// "Between holes: ..."
-std::string evenness_text(const Evenness& evenness) {
-  std::string text = evenness_sentence(evenness, "holes") + '.';
-  text.front() = 'B';
-  return text;
-}
-
 Json events(const Run& run) {
   Json times = Json::array(), of_hole = Json::array(), of_lot = Json::array();
   for (const OutflowEvent& event : run.events) {
@@ -200,7 +193,8 @@ std::string run_page_data(const RunPage& page) {
       {"holes", holes(page)},
       {"rate_unit", "seeds/s"},
       {"hole_table", hole_table(page)},
-      {"evenness", page.outflow.evenness ? Json{{"sentence", evenness_text(*page.outflow.evenness)}} : Json(nullptr)},
+      {"evenness",
+       page.outflow.evenness ? Json{{"sentence", evenness_sentence(*page.outflow.evenness, "holes")}} : Json(nullptr)},
       {"events", events(page.run)},
       {"effects", effects(page.model)},
       {"guard", guard_sentence(page.run, scene.guard)},

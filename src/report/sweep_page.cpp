@@ -82,7 +82,7 @@ std::string headline(const StudyResult& result) {
       const double value = one.figures[rate]->mean / rate.unit_size;
       least = std::min(value, least.value_or(value)), most = std::max(value, most.value_or(value));
     }
-  if (most) text += fmt::format(" let out {} to {} g/s", to_digits(*least, 4), to_digits(*most, 4));
+  if (most) text += fmt::format(" let out {} to {} g/s", to_digits(*least, 3), to_digits(*most, 3));
   text += '.';
   for (const auto& [status, words] : {std::pair(LayoutStatus::invalid, "cannot be built"),
                                       std::pair(LayoutStatus::stopped, "were stopped by the guard"),
