@@ -59,16 +59,16 @@ std::string packed(const std::string& bytes) {
   return result;
 }
 
-/// A grain's field, in SI.
-double value_of(const Grains& grains, const std::string& field, std::size_t i) {
-  if (field == "x") return grains.x[i];
-  if (field == "y") return grains.y[i];
-  if (field == "z") return grains.z[i];
-  if (field == "angle") return grains.angle[i];
-  if (field == "qw") return grains.q_w[i];
-  if (field == "qx") return grains.q_x[i];
-  if (field == "qy") return grains.q_y[i];
-  return grains.q_z[i];
+/// A field of all grains, in SI.
+const std::vector<double>& values_of(const Grains& grains, const std::string& field) {
+  if (field == "x") return grains.x;
+  if (field == "y") return grains.y;
+  if (field == "z") return grains.z;
+  if (field == "angle") return grains.angle;
+  if (field == "qw") return grains.q_w;
+  if (field == "qx") return grains.q_x;
+  if (field == "qy") return grains.q_y;
+  return grains.q_z;
 }
 
 bool has_clumps(const Scene& scene) {
@@ -155,10 +155,12 @@ void Recording::add_changes(const Grains& grains) {
 /// What is left of each coordinate where the grain was expected to go on as between the two frames before.
 void Recording::add_places(const Grains& grains) {
   std::vector<std::vector<std::uint32_t>> residuals(fields_.size());
+  std::vector<const std::vector<double>*> values;
+  for (const std::string& field : fields_) values.push_back(&values_of(grains, field));
   for (std::size_t i = 0; i < grains.size(); ++i) {
     Known& known = known_.at(grains.id[i]);
     for (std::size_t f = 0; f < fields_.size(); ++f) {
-      const std::int32_t now = in_counts(value_of(grains, fields_[f], i), units_[f]);
+      const std::int32_t now = in_counts((*values[f])[i], units_[f]);
       const std::int32_t expected = known.frames == 0   ? 0
                                     : known.frames == 1 ? known.last[f]
                                                         : 2 * known.last[f] - known.before[f];
@@ -167,7 +169,7 @@ void Recording::add_places(const Grains& grains) {
     }
     ++known.frames;
   }
-  for (const std::vector<std::uint32_t>& values : residuals) append_planes(block_, values);
+  for (const std::vector<std::uint32_t>& of_field : residuals) append_planes(block_, of_field);
 }
 
 void Recording::close_block() {

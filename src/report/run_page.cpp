@@ -115,13 +115,18 @@ std::string headline(const RunPage& page) {
   return text + '.';
 }
 
+/// What the guard saw; its warnings stand among the remarks.
 std::string guard_sentence(const Run& run, const GuardLimits& limits) {
   if (run.status == RunStatus::stopped_by_guard) return fmt::format("The guard stopped the run: {}.", run.stop_reason);
-  const std::string seen =
-      fmt::format("The deepest contact pressed a grain by {:.2g} % of its radius (warned from {:g} %)",
-                  100 * run.max_relative_overlap, 100 * limits.warn_relative_overlap);
-  return run.outside_the_model ? seen + "; the run lies outside the model: nothing is to be decided by it."
-                               : seen + "; nothing was lost and the numerics made no energy worth a word.";
+  std::string text = fmt::format("The deepest contact pressed a grain by {:.2g} % of its radius (warned from {:g} %)",
+                                 100 * run.max_relative_overlap, 100 * limits.warn_relative_overlap);
+  if (run.balance.lost > 0) text += fmt::format("; {} seeds went through walls", run.balance.lost);
+  if (run.let_pass.energy_accounts > 0)
+    text += fmt::format("; the numerics made energy in {} accounts of it", run.let_pass.energy_accounts);
+  if (run.let_pass.strides > 0)
+    text += fmt::format("; in {} steps a seed could have passed a wall unseen", run.let_pass.strides);
+  if (run.outside_the_model) return text + "; the run lies outside the model: nothing is to be decided by it.";
+  return text + '.';
 }
 
 Json settings(const RunPage& page) {
