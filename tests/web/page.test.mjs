@@ -1,38 +1,10 @@
 // The page of made-up runs, in a browser.
 import assert from 'node:assert/strict';
-import { mkdtempSync, readFileSync, rmSync, statSync, writeFileSync } from 'node:fs';
-import { tmpdir } from 'node:os';
-import path from 'node:path';
+import { readFileSync, statSync } from 'node:fs';
 import test, { after, before, describe } from 'node:test';
 import * as in_ from './browser.mjs';
-import { fillTemplate, madeUpRun } from './made_up_run.mjs';
-
-const hostile = '</script><img src=x onerror=alert(1)>';
-const folder = mkdtempSync(path.join(tmpdir(), 'vibrosow-page-'));
-const template = readFileSync(in_.template, 'utf8');
-let browser;
-
-before(async () => { browser = await in_.startBrowser(); });
-after(async () => {
-  await browser?.close();
-  rmSync(folder, { recursive: true });
-});
-
-function write(name, run) {
-  const file = path.join(folder, `${name}.html`);
-  writeFileSync(file, fillTemplate(template, run));
-  return file;
-}
-
-async function withPage(run, options, check) {
-  const page = await in_.openPage(browser, write('run', run), options);
-  try {
-    await check(page);
-    assert.deepEqual(page.complaints, []);
-  } finally {
-    await page.context().close();
-  }
-}
+import { hostile, openMade, template, withPage } from './made_up_pages.mjs';
+import { madeUpRun } from './made_up_run.mjs';
 
 test('the template is small and keeps the licence of what is in it', () => {
   assert.ok(statSync(in_.template).size < 250e3);
@@ -44,7 +16,7 @@ for (const space of ['plane', 'three_dimensional']) {
     const run = madeUpRun(space);
     let page;
 
-    before(async () => { page = await in_.openPage(browser, write(space, run)); });
+    before(async () => { page = await openMade(run); });
     after(() => assert.deepEqual(page.complaints, []));
 
     test("play moves on, and the counters end at the run's counts", async () => {

@@ -1,34 +1,13 @@
 // The page of made-up sweeps, in a browser.
 import assert from 'node:assert/strict';
-import { mkdtempSync, readFileSync, rmSync, statSync, writeFileSync } from 'node:fs';
-import { tmpdir } from 'node:os';
-import path from 'node:path';
-import test, { after, before } from 'node:test';
+import { statSync } from 'node:fs';
+import test from 'node:test';
 import * as in_ from './browser.mjs';
-import { fillTemplate } from './made_up_run.mjs';
+import { fileOf, hostile, openMade, withPage } from './made_up_pages.mjs';
 import { madeUpSweep } from './made_up_sweep.mjs';
 
-const hostile = '</script><img src=x onerror=alert(1)>';
-const folder = mkdtempSync(path.join(tmpdir(), 'vibrosow-sweep-page-'));
-const template = readFileSync(in_.template, 'utf8');
 const plane = madeUpSweep('plane');
-let browser, page;
-
-function write(name, sweep) {
-  const file = path.join(folder, `${name}.html`);
-  writeFileSync(file, fillTemplate(template, sweep));
-  return file;
-}
-
-async function withPage(sweep, options, check) {
-  const open = await in_.openPage(browser, write('sweep', sweep), options);
-  try {
-    await check(open);
-    assert.deepEqual(open.complaints, []);
-  } finally {
-    await open.context().close();
-  }
-}
+const page = await openMade(plane);
 
 function numbersIn(open, selector) {
   return open.$$eval(selector, (nodes) => nodes.map((node) => Number(node.dataset.layout)));
@@ -51,15 +30,6 @@ async function assertShown(open, number) {
   assert.equal(await open.locator('#layout .hole-bars .track').count(), layout.holes.length);
 }
 
-before(async () => {
-  browser = await in_.startBrowser();
-  page = await in_.openPage(browser, write('plane', plane));
-});
-after(async () => {
-  assert.deepEqual(page.complaints, []);
-  await browser?.close();
-  rmSync(folder, { recursive: true });
-});
 
 test('the layouts stand in the order of the rate, those that are not ok last and not compared', async () => {
   await page.getByRole('button', { name: 'Show all 39' }).click();
@@ -178,7 +148,7 @@ test('in space a layout is drawn from above too, holes round or slots', () => wi
 }));
 
 test('300 layouts: less than 10 MB, thirty shown first, and all when asked for', () => withPage(madeUpSweep('plane', 300), {}, async (open) => {
-  assert.ok(statSync(path.join(folder, 'sweep.html')).size < 10e6);
+  assert.ok(statSync(fileOf(madeUpSweep('plane', 300))).size < 10e6);
   assert.equal(await open.locator('#ranking .ranks button').count(), 30);
   assert.equal(await open.locator('#layouts tbody tr').count(), 300);
   await open.locator('#ranking button', { hasText: /^Show all/ }).click();
@@ -197,3 +167,5 @@ test('a sweep without figures still shows its table', () => withPage({ data: { .
   assert.equal(await open.locator('#ranking').count(), 0);
   await open.getByText('It has no figures.').waitFor();
 }));
+
+test('nothing of all that was complained of', () => assert.deepEqual(page.complaints, []));
