@@ -46,6 +46,7 @@ int run_program(int argument_count, char** arguments) {
   add_bench_sheet_command(app, exit_code);
   add_calibrate_command(app, exit_code);
   add_check_command(app, exit_code);
+  add_studio_command(app, exit_code);
   add_presets_command(app, exit_code);
   add_columns_command(app, exit_code);
   if (argument_count > 1) require_command(app, arguments[1]);

@@ -22,6 +22,7 @@ struct PairBlock {
   double dx[size + spare], dy[size + spare];              // m, from the grain to its partner
   alignas(64) double fx[size], fy[size];                  // N, on the partner; the opposite on the grain
   alignas(64) double torque[size], partner_torque[size];  // N m, with its sign changed on the grain
+  alignas(64) double relative_overlap[size];
 
   int whole_vectors() const { return (touching + spare - 1) & -spare; }
 };
@@ -103,6 +104,15 @@ void store_block(const BlockHistories& block_histories, const int* entry, int fi
     keep(block_histories.roll, histories.roll), keep(block_histories.roll_speed, histories.roll_speed);
 }
 
+/// In a loop of its own: with it, clang leaves the loop over the contacts scalar.
+inline double max_relative_overlap(const PairBlock& block) {
+  double most = 0;
+#pragma omp simd reduction(max : most)
+  for (int k = 0; k < block.whole_vectors(); ++k)
+    most = block.relative_overlap[k] > most ? block.relative_overlap[k] : most;
+  return most;
+}
+
 template <class Law, class Effects>
 [[gnu::flatten]] LawFigures forces_of_touching(const PairProperties<Law, Effects>& properties, const Motion& at,
                                                int first_entry, const ContactParameters& parameters,
@@ -113,8 +123,8 @@ template <class Law, class Effects>
   const double *vx = at.vx, *vy = at.vy, *omega = at.omega;
   const int whole = block.whole_vectors();
   const int touching = block.touching;
-  double max_relative_overlap = 0, slip_raised = 0;
-#pragma omp simd reduction(max : max_relative_overlap) reduction(+ : slip_raised)
+  double slip_raised = 0;
+#pragma omp simd reduction(+ : slip_raised)
   for (int k = 0; k < whole; ++k) {
     const std::size_t e = static_cast<std::size_t>(first_entry + block.entry[k]);
     const std::size_t i = static_cast<std::size_t>(block.grain[k]), j = static_cast<std::size_t>(block.partner[k]);
@@ -125,8 +135,7 @@ template <class Law, class Effects>
     const double per_distance = 1 / distance;
     const double nx = distance > 0 ? dx * per_distance : 1, ny = distance > 0 ? dy * per_distance : 0;
     const double overlap = pair.reach - distance;
-    const double relative_overlap = overlap * pair.relative_per_overlap;
-    max_relative_overlap = relative_overlap > max_relative_overlap ? relative_overlap : max_relative_overlap;
+    block.relative_overlap[k] = overlap * pair.relative_per_overlap;
 
     Touch touch{overlap, 0, 0, 0};
     [[maybe_unused]] double arm_i = 0, arm_j = 0;
@@ -158,7 +167,7 @@ template <class Law, class Effects>
     if constexpr (regularised<Effects>) slip_raised += k < touching ? force.slip_raised : 0;
     block.fx[k] = fx, block.fy[k] = fy, block.torque[k] = -torque, block.partner_torque[k] = partner_torque;
   }
-  return {max_relative_overlap, slip_raised};
+  return {max_relative_overlap(block), slip_raised};
 }
 
 /// Adds the forces of a block to its grains, four contacts at a time. The spare number of a sum takes up whichever

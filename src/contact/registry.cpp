@@ -42,8 +42,10 @@ std::array<VectorKernels, instruction_sets.size()> kernels_at(std::size_t index)
 }
 
 template <Law law>
-std::array<SpaceVectorKernels, instruction_sets.size()> space_kernels_at(std::size_t index) {
-#ifdef VIBROSOW_X86_KERNELS
+std::array<SpaceVectorKernels, instruction_sets.size()> space_kernels_at([[maybe_unused]] std::size_t index) {
+#if defined(VIBROSOW_PLANE_ALONE)  // of a program that simulates nothing in space, and is to be small
+  return {};
+#elif defined(VIBROSOW_X86_KERNELS)
   return {generic::space_law_kernels<law>()[index], avx2::space_law_kernels<law>()[index],
           avx512::space_law_kernels<law>()[index]};
 #else

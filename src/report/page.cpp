@@ -117,4 +117,10 @@ std::string filled_page(const std::string& page_template, const std::string& dat
   return html;
 }
 
+std::string filled_studio(const std::string& page_template, const std::string& data) {
+  std::string html = page_template;
+  fill(html, "@STUDIO_DATA@", data);
+  return html;
+}
+
 }  // namespace vibrosow

@@ -18,4 +18,7 @@ std::string page_text(const nlohmann::ordered_json& data);
 /// their places. Throws std::invalid_argument for a template without them.
 std::string filled_page(const std::string& page_template, const std::string& data, const std::string& recording = {});
 
+/// The studio's, of its own template.
+std::string filled_studio(const std::string& page_template, const std::string& data);
+
 }  // namespace vibrosow

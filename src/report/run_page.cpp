@@ -86,6 +86,11 @@ Json hole_table(const RunPage& page) {
   return {{"columns", std::move(columns)}, {"rows", std::move(rows)}};
 }
 
+Json evenness(const std::optional<Evenness>& even) {
+  if (!even) return nullptr;
+  return {{"sentence", evenness_sentence(*even, "holes")}, {"cv_percent", even->cv ? Json(100 * *even->cv) : Json(nullptr)}};
+}
+
 Json events(const Run& run) {
   Json times = Json::array(), of_hole = Json::array(), of_lot = Json::array();
   for (const OutflowEvent& event : run.events) {
@@ -198,8 +203,7 @@ std::string run_page_data(const RunPage& page) {
       {"holes", holes(page)},
       {"rate_unit", "seeds/s"},
       {"hole_table", hole_table(page)},
-      {"evenness",
-       page.outflow.evenness ? Json{{"sentence", evenness_sentence(*page.outflow.evenness, "holes")}} : Json(nullptr)},
+      {"evenness", evenness(page.outflow.evenness)},
       {"events", events(page.run)},
       {"effects", effects(page.model)},
       {"guard", guard_sentence(page.run, scene.guard)},

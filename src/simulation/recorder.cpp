@@ -51,7 +51,8 @@ void Recorder::note_new(const Grains& grains) {
 
 bool Recorder::is_due(double time) const {
   // The last step may end a rounding error short of the run's duration, as in plan_step.
-  return state_.taken < times_.size() && time >= times_[state_.taken] * (1 - 1e-12);
+  const auto next = static_cast<std::size_t>(state_.taken);
+  return next < times_.size() && time >= times_[next] * (1 - 1e-12);
 }
 
 void Recorder::record(const Grains& grains, const Walls& walls, double time, std::vector<Snapshot>& snapshots) {

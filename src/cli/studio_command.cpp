@@ -1,0 +1,114 @@
+#include <fmt/format.h>
+#include <spawn.h>
+#include <sys/wait.h>
+
+#include <algorithm>
+#include <array>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <memory>
+
+#include "cli/commands.hpp"
+#include "cli/console.hpp"
+#include "input/document.hpp"
+#include "input/input_file.hpp"
+#include "input/presets.hpp"
+#include "input/read_scene.hpp"
+#include "input/table.hpp"
+#include "report/output_folder.hpp"
+#include "report/studio_page.hpp"
+#include "scene/input_error.hpp"
+
+namespace vibrosow {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::vector<fs::path> toml_files(const fs::path& directory) {
+  std::vector<fs::path> files;
+  for (const auto& entry : fs::directory_iterator(directory))
+    if (entry.path().extension() == ".toml") files.push_back(entry.path());
+  std::ranges::sort(files);
+  return files;
+}
+
+std::string text_of(const fs::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  if (!stream) throw InputError(fmt::format("{}: cannot be read", file.string()));
+  return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+StudioSeeder studio_seeder(const fs::path& file) {
+  return {file.stem().string(), text_of(file), read_scene(file)};
+}
+
+/// Those with a contact model of their own name, in the first shipped seeder's place.
+std::vector<StudioCrop> studio_crops(const fs::path& data, const fs::path& seeder) {
+  std::vector<StudioCrop> crops;
+  for (const fs::path& file : toml_files(data / "models/crops")) {
+    const std::string name = file.stem().string(), model = name + "-steel";
+    if (!fs::exists(data / "models/contacts" / (model + ".toml"))) continue;
+    const Scene scene = read_scene(seeder, {parse_override(fmt::format("seeds={{{0}={{crop=\"{0}\"}}}}", name)),
+                                            parse_override(fmt::format("contact={{model=\"{}\"}}", model))});
+    crops.push_back({name, Table(Document::read(file)).text("title").value_or(name), model, scene});
+  }
+  return crops;
+}
+
+StudioPage studio_of(const std::string& asked) {
+  const fs::path data = data_directory();
+  StudioPage page;
+  page.crops = studio_crops(data, data / "seeders/wheat-tray.toml");
+  for (const char* room : {"seeders", "seeders/papers"})
+    for (const fs::path& file : toml_files(data / room)) page.seeders.push_back(studio_seeder(file));
+  page.opened = "wheat-tray";
+  if (asked.empty()) return page;
+  const fs::path file = input_file(asked, FileKind::seeder).path;
+  StudioSeeder wanted = studio_seeder(file);
+  page.opened = wanted.name;
+  const auto shipped = std::ranges::find(page.seeders, wanted.name, &StudioSeeder::name);
+  wanted.own = shipped == page.seeders.end() || wanted.text != shipped->text;
+  if (shipped == page.seeders.end())
+    page.seeders.insert(page.seeders.begin(), std::move(wanted));
+  else
+    *shipped = std::move(wanted);
+  return page;
+}
+
+/// Shows a file in the desktop's browser. False where there is no desktop.
+bool open_in_browser(const fs::path& file) {
+  if (!std::getenv("DISPLAY") && !std::getenv("WAYLAND_DISPLAY")) return false;
+  std::string opener = "xdg-open", path = fs::absolute(file).string();
+  const std::array<char*, 3> arguments = {opener.data(), path.data(), nullptr};
+  pid_t child = 0;
+  if (posix_spawnp(&child, opener.c_str(), nullptr, nullptr, arguments.data(), environ) != 0) return false;
+  int status = 0;
+  return waitpid(child, &status, 0) == child && status == 0;
+}
+
+int run_studio(const std::string& asked, const std::string& out) {
+  const StudioPage page = studio_of(asked);
+  const std::string html = studio_page(shipped_page("studio.html"), page);
+  const OutputFolder folder(out, "studio", {studio_page_text().name});
+  folder.write({{studio_page_text().name, html}});
+  const fs::path file = folder.path() / studio_page_text().name;
+  print("studio: {}\n", file.string());
+  if (!open_in_browser(file)) print("open it in a browser\n");
+  return exit_done;
+}
+
+}  // namespace
+
+void add_studio_command(CLI::App& app, int& exit_code) {
+  auto asked = std::make_shared<std::string>();
+  auto out = std::make_shared<std::string>("out/studio");
+  CLI::App* command =
+      app.add_subcommand("studio", "a page that simulates: move holes, set frequency and amplitude, watch it sow");
+  command->add_option("SEEDER", *asked, "shown first: a seeder's file, or the name of a shipped one; wheat-tray without");
+  command->add_option("--out", *out, "directory for the page")->type_name("DIR")->capture_default_str();
+  command->callback([asked, out, &exit_code] { exit_code = run_studio(*asked, *out); });
+}
+
+}  // namespace vibrosow
