@@ -30,6 +30,12 @@ export function themeColour(name) {
   return getComputedStyle(document.documentElement).getPropertyValue(`--${name}`).trim();
 }
 
+/** The colours that a canvas is drawn with, and the font of its numbers. */
+export function inks() {
+  const colours = Object.fromEntries(['ink', 'wall', 'halo', 'accent', 'depth'].map((name) => [name, themeColour(name)]));
+  return { ...colours, font: `600 13px ${themeColour('font')}` };
+}
+
 function print(begins) {
   printing = begins;
   apply();
