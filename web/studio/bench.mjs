@@ -185,6 +185,7 @@ export class Bench {
     this.closed = true;
     clearTimeout(this.opening);
     this.course?.close();
+    this.view.close();
     this.frame.remove();
   }
 }

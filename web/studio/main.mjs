@@ -31,8 +31,7 @@ class Studio {
       element('div', { class: 'topline' }, element('p', { class: 'kicker' }, 'Studio'), element('div', { class: 'actions' }, this.compareButton, this.share.button, themeSwitch())),
       this.share.frame,
       element('h1', {}, 'Move a hole and watch it sow'),
-      element('p', { class: 'headline' }, 'Choose a seeder, drag its holes, change how it shakes: every seed is simulated here, in this page.'),
-      element('p', { class: 'plain' }, plainWords), this.notice,
+      element('p', { class: 'plain' }, 'Every seed is simulated here, in this page. ', element('b', {}, plainWords)), this.notice,
     ];
   }
 

@@ -35,7 +35,7 @@ export class OutflowPanel {
     this.bars = element('ul', { class: 'hole-bars' });
     this.figures = element('dl', { class: 'figures' });
     this.remarks = element('ul', { class: 'remarks', 'aria-label': 'What to know about this layout' });
-    this.frame = element('section', { class: 'panel outflow', 'aria-label': 'Outflow of the holes' }, element('h3', {}, 'Outflow'), this.window, this.bars, this.figures, this.remarks);
+    this.frame = element('div', { role: 'group', class: 'panel outflow', 'aria-label': 'Outflow of the holes' }, element('h3', {}, 'Outflow'), this.window, this.bars, this.figures, this.remarks);
   }
 
   /** `state`: of the course. Before a scene is prepared there is nothing to say. */
@@ -50,7 +50,7 @@ export class OutflowPanel {
   /** Draws the bars on a scale that holds those of all layouts of the page. */
   showBeside(outcomes) {
     const scale = scaleOf(outcomes.flatMap(valuesOf).map(({ value }) => value));
-    if (this.drawn?.outcome === this.outcome && this.drawn.high === scale.high) return;
+    if (this.drawn && this.drawn.outcome === this.outcome && this.drawn.high === scale.high) return;
     this.drawn = { outcome: this.outcome, high: scale.high };
     this.bars.replaceChildren(...barsOf(this.outcome, scale));
   }

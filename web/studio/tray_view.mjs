@@ -12,7 +12,7 @@ import { liveColourings } from './live_colouring.mjs';
 import { LiveRecording, restPose, swings } from './live_recording.mjs';
 
 const strip = 46;      // px below the picture, where the handles are
-const tallest = 0.6;   // of the window, so that picture and handles are on it together
+const tallest = 0.55;  // of the window, so that picture and handles are on it together
 const shortest = 240;  // px
 
 export class TrayView {
@@ -29,7 +29,7 @@ export class TrayView {
       element('label', { class: 'switch' }, still, element('span', {}, 'Hold the tray still')),
     ];
     this.stage = new Stage(this.canvas, (width) => Math.min(this.view?.height(width) ?? shortest, Math.max(shortest, tallest * innerHeight)), () => this.showAll());
-    onTheme(() => this.repaint());
+    this.leaveTheme = onTheme(() => this.repaint());
   }
 
   /** Takes another prepared scene. */
@@ -101,6 +101,11 @@ export class TrayView {
     this.handles.show(layout.holes, layout.holes.map((_, k) => reachOf(layout, k)), {
       placeOf: (mm) => view.project(...toLab(pose, mm, 0), false), scale: view.scale, length: layout.seeder.scene.tray.length_m * 1000, height: stage.height + strip,
     });
+  }
+
+  close() {
+    this.leaveTheme();
+    cancelAnimationFrame(this.due);
   }
 
   showAll() {
