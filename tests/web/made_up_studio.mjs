@@ -2,7 +2,10 @@
 import { fileURLToPath } from 'node:url';
 import { makePage } from '../../web/make_page.mjs';
 
-const contact = { law: 'elastic-shell', shell_compression: 3e-5, seed: { friction: 0.45, restitution: 0.5 }, wall: { friction: 0.36, restitution: 0.5 }, drag_kg_per_s: 0, rotation: true, friction_arm: 'contact-point' };
+const contact = {
+  law: 'elastic-shell', shell_compression: 3e-5, seed: { friction: 0.45, restitution: 0.5 }, wall: { friction: 0.36, restitution: 0.5 }, drag_kg_per_s: 0,
+  rotation: true, friction_arm: 'contact-point',
+};
 const wheatLot = { name: 'wheat', diameter_m: 0.00357, mass_kg: 2.96e-5, shape: 'ball', number_fraction: 1 };
 const soybeanLot = { name: 'soybean', diameter_m: 0.00714, mass_kg: 2.3e-4, shape: 'ball', number_fraction: 1 };
 const guard = { warn_relative_overlap: 0.05, stop_relative_overlap: 0.5, energy_tolerance: 0.2 };

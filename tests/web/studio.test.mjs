@@ -47,6 +47,11 @@ async function countsAtTheEnd(place) {
   }));
 }
 
+test('the template is small and keeps the licence of what is in it', () => {
+  assert.ok(template.length < 250e3);
+  assert.match(template, /smol-toml 1\.9\.1[\s\S]*Redistribution and use in source and binary forms/);
+});
+
 test('it opens playing, counts at the holes, and says plainly what it is', () => withStudio({}, async (page) => {
   const place = bench(page);
   await page.waitForFunction(() => JSON.parse(document.querySelector('canvas').dataset.counts ?? '[0]')[0] > 3);

@@ -27,7 +27,8 @@ export class Share {
       history.replaceState(null, '', await fragmentOf(layouts));
       this.field.value = location.href;
       this.field.hidden = false;
-      this.said.textContent = await copied(location.href) ? 'Copied. Whoever opens the link sees these layouts and the same counts.' : 'Copy the link from the field: this browser does not let the page do it.';
+      this.said.textContent = await copied(location.href)
+        ? 'Copied. Whoever opens the link sees these layouts and the same counts.' : 'Copy the link from the field: this browser does not let the page do it.';
     } catch (error) {
       this.field.hidden = true;
       this.said.textContent = sentence(`There is no link: ${error.message}`);
