@@ -15,6 +15,15 @@ async function bundle(entry, options) {
   return { text: result.outputFiles[0].text.trim(), inputs: Object.keys(result.metafile.inputs) };
 }
 
+// A module imported as "FILE?text" is put in as the text of its bundle: what a worker is made of.
+const asText = {
+  name: 'text',
+  setup({ onResolve, onLoad }) {
+    onResolve({ filter: /\?text$/ }, ({ path: file, resolveDir }) => ({ path: path.resolve(resolveDir, file.replace(/\?text$/, '')), namespace: 'text' }));
+    onLoad({ filter: /./, namespace: 'text' }, async ({ path: file }) => ({ contents: (await bundle(path.relative(here, file), { format: 'iife' })).text, loader: 'text' }));
+  },
+};
+
 // The licence texts of the packages that went in, as their authors wrote them.
 async function licences(inputs) {
   const packages = new Set(inputs.map((file) => /^node_modules\/((?:@[^/]+\/)?[^/]+)\//.exec(file)?.[1]).filter(Boolean));
@@ -41,7 +50,7 @@ function place(page, name, mark, text) {
  */
 export async function makePage(name, { parts = [], markers = [], plugins = [] }) {
   const [script, style, page] = await Promise.all([
-    bundle(`${name}/main.mjs`, { format: 'iife', plugins }), bundle(`${name}/style.css`, {}), readFile(path.join(here, name, 'page.html'), 'utf8'),
+    bundle(`${name}/main.mjs`, { format: 'iife', plugins: [asText, ...plugins] }), bundle(`${name}/style.css`, {}), readFile(path.join(here, name, 'page.html'), 'utf8'),
   ]);
   const code = (await licences([...script.inputs, ...style.inputs])) + script.text;
   if (/<\/script|<!--/i.test(code) || /<\/style/i.test(style.text)) throw new Error(`${name}: the script or the style would end its own element`);

@@ -107,9 +107,9 @@ class Simulator {
       const rate = counted / span;
       return span > 0
         ? { hole: k + 1, counted, counted_all: count, seeds_per_s: rate, low: Math.max(0, rate - error), high: rate + error, longest_pause_s: 0.1 }
-        : { hole: k + 1, counted: 0, counted_all: count, seeds_per_s: null, low: null, high: null, longest_pause_s: null };
+        : { hole: k + 1, counted: 0, counted_all: count, seeds_per_s: 0, low: 0, high: 1, longest_pause_s: null };
     });
-    const total = span > 0 ? holes.reduce((sum, hole) => sum + hole.seeds_per_s, 0) : null;
+    const total = span > 0 ? holes.reduce((sum, hole) => sum + hole.seeds_per_s, 0) : 0;
     const mean = total / holes.length;
     const cv = 100 * Math.sqrt(holes.reduce((sum, hole) => sum + (hole.seeds_per_s - mean) ** 2, 0) / Math.max(1, holes.length - 1)) / mean;
     return {

@@ -38,6 +38,12 @@ const status = (place, ...wanted) => place.and(place.page().locator(wanted.map((
 const opened = (place) => status(place, 'ready', 'playing', 'paused', 'ended');
 const valueText = (place, k) => handle(place, k).getAttribute('aria-valuetext');
 
+function withLateMeasuring() {
+  const data = madeUpStudio();
+  Object.assign(data.seeders[0].scene.run, { duration_s: 40, measure_from_s: 30 });
+  return data;
+}
+
 async function countsAtTheEnd(place) {
   await opened(place);
   await place.getByRole('button', { name: 'To the end' }).evaluate((button) => button.click());  // which does nothing where it has ended
@@ -71,6 +77,15 @@ test('it opens playing, counts at the holes, and says plainly what it is', () =>
   await place.getByRole('button', { name: 'Restart' }).click();
   await page.waitForFunction(() => Number(document.querySelector('canvas').dataset.time) < 1);
 }));
+
+test('before the measuring begins nothing is said of rates', () => withStudio({}, async (page) => {
+  const place = bench(page);
+  await place.getByRole('button', { name: 'Pause' }).click();
+  await place.getByText(/warned from 5 %/).waitFor();  // an outcome is there
+  assert.equal(await place.locator('.hole-bars .track').count(), 0);
+  assert.equal(await place.getByText('seeds/s').count(), 0);
+  await place.getByText('Measuring begins at 30 s.').waitFor();
+}, withLateMeasuring()));
 
 test('a hole is dragged, and the simulation starts again with it', () => withStudio({}, async (page) => {
   const place = bench(page);

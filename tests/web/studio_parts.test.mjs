@@ -240,7 +240,7 @@ describe('the course', () => {
   async function started() {
     const told = [];
     const simulator = await startSimulator();
-    return { simulator, told, course: new Course(simulator, (state) => told.push(state.status)) };
+    return { simulator, told, course: new Course(async () => simulator, (state) => told.push(state.status)) };
   }
 
   test('the last of several scenes is the one that is open', async () => {
@@ -269,6 +269,28 @@ describe('the course', () => {
     const { outcome } = course.state;
     await asked;
     assert.deepEqual([course.state.status, course.state.outcome], ['changed', outcome]);
+  });
+
+  test('a simulator that fails is replaced when the next scene is opened', async () => {
+    const { course, simulator } = await started();
+    let starts = 0;
+    course.start = async () => {
+      ++starts;
+      return simulator;
+    };
+    simulator.play = ({ onFail }) => onFail(new Error('out of memory'));
+    simulator.outcome = () => Promise.reject(new Error('out of memory'));
+    await course.open(wheat.scene, 1);
+    assert.deepEqual([course.state.status, course.state.problem], ['failed', 'out of memory']);
+    await course.open(wheat.scene);
+    assert.deepEqual([course.state.status, course.state.problem, starts], ['ready', '', 2]);
+  });
+
+  test('a simulator that cannot be started says why', async () => {
+    const { course } = await started();
+    course.start = () => Promise.reject(new Error('this browser has no WebAssembly'));
+    await course.open(wheat.scene);
+    assert.deepEqual([course.state.status, course.state.problem], ['failed', 'this browser has no WebAssembly']);
   });
 
   test('a scene that is refused or too much says why', async () => {

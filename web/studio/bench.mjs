@@ -8,7 +8,7 @@ import { holeWords } from './handles.mjs';
 import { HoleControls } from './hole_controls.mjs';
 import { addHole, layoutOf, moveHole, removeHole, widenHole } from './layout.mjs';
 import { MotionControls } from './motion_controls.mjs';
-import { OutflowPanel } from './outflow_panel.mjs';
+import { measured, OutflowPanel } from './outflow_panel.mjs';
 import { saveText } from './save.mjs';
 import { keptSentence, sceneOf } from './scene_edit.mjs';
 import { fileName, seederFile } from './seeder_file.mjs';
@@ -30,11 +30,10 @@ export class Bench {
     this.motion = new MotionControls(edit);
     this.outflow = new OutflowPanel();
     this.transport = new Transport({ toggle: () => this.toggle(), restart: () => this.restart(), toTheEnd: () => this.toTheEnd() });
+    this.course = new Course(startSimulator, (state) => this.showState(state));
     this.build();
     this.showLayout();
-    this.transport.show({ status: 'opening' });
-    this.tellProblem('');
-    this.start();
+    this.open();
   }
 
   build() {
@@ -50,22 +49,10 @@ export class Bench {
       element('div', { class: 'panels' }, this.outflow.frame, this.holes.frame, this.motion.frame), this.status);
   }
 
-  async start() {
-    try {
-      const simulator = await startSimulator();
-      if (this.closed) simulator.close();
-      else this.course = new Course(simulator, (state) => this.showState(state));
-    } catch (error) {
-      this.transport.show({ status: 'failed' });
-      this.tellProblem(error.message);
-    }
-    if (this.course) this.open();
-  }
-
-  /** Of the layout shown, as far as it has run; null before that. */
+  /** Of the layout shown, as far as it has been measured; null before that. */
   get outcome() {
-    const state = this.course?.state;
-    return state && ['playing', 'paused', 'ended'].includes(state.status) ? state.outcome : null;
+    const { state } = this.course;
+    return ['playing', 'paused', 'ended'].includes(state.status) ? measured(state) : null;
   }
 
   open() {
@@ -78,8 +65,8 @@ export class Bench {
     this.layout = layout;
     if (moved) this.showLayout();
     clearTimeout(this.opening);
-    if (moved && this.course?.state.status !== 'changed') this.course?.leave();
-    if (ended && this.course) this.opening = setTimeout(() => this.open(), settling);
+    if (moved && this.course.state.status !== 'changed') this.course.leave();
+    if (ended) this.opening = setTimeout(() => this.open(), settling);
     if (moved) this.told('layout');
   }
 
@@ -182,9 +169,8 @@ export class Bench {
   }
 
   close() {
-    this.closed = true;
     clearTimeout(this.opening);
-    this.course?.close();
+    this.course.close();
     this.view.close();
     this.frame.remove();
   }

@@ -11,8 +11,9 @@ const nothing = { prepared: null, frame: null, outcome: null, problem: '' };
  * "ended", "changed" (the scene shown is no longer the one that ran), or "failed", and then `problem` says why.
  */
 export class Course {
-  constructor(simulator, changed) {
-    Object.assign(this, { simulator, changed, opened: 0, queue: Promise.resolve(), state: { ...nothing, status: 'changed' } });
+  /** `start()` promises a simulator; it is asked when the first scene is opened, and again where a simulator has failed. */
+  constructor(start, changed) {
+    Object.assign(this, { start, changed, simulator: null, opened: 0, queue: Promise.resolve(), state: { ...nothing, status: 'opening' } });
   }
 
   tell(news) {
@@ -33,6 +34,9 @@ export class Course {
 
   async prepare(turn, scene, pace) {
     try {
+      this.simulator ??= await this.start();
+      if (this.closed) this.drop();
+      if (turn !== this.opened) return;
       const prepared = await this.simulator.open(JSON.stringify(scene));
       if (turn !== this.opened) return;
       const problem = tooLong(prepared);
@@ -56,14 +60,17 @@ export class Course {
     const turn = this.opened;
     const current = (act) => (news) => { if (turn === this.opened) act(news); };
     this.rest();
+    this.asking = setInterval(() => this.ask(turn), outcomeEvery);
+    this.tell({ status: 'playing' });
     this.simulator.play({
       pace,
       onFrame: current((frame) => this.tell({ frame })),
       onEnd: current((outcome) => this.end({ status: 'ended', outcome })),
-      onFail: current((error) => this.end({ status: 'failed', problem: error.message ?? String(error) })),
+      onFail: current((error) => {
+        this.drop();
+        this.end({ status: 'failed', problem: error.message });
+      }),
     });
-    this.asking = setInterval(() => this.ask(turn), outcomeEvery);
-    this.tell({ status: 'playing' });
   }
 
   pause() {
@@ -84,13 +91,19 @@ export class Course {
   }
 
   async ask(turn) {
-    const outcome = await this.simulator.outcome();
-    if (turn === this.opened && ['playing', 'paused'].includes(this.state.status)) this.tell({ outcome });
+    const outcome = await this.simulator.outcome().catch(() => null);  // a simulator that fails says so itself
+    if (outcome && turn === this.opened && ['playing', 'paused'].includes(this.state.status)) this.tell({ outcome });
+  }
+
+  drop() {
+    this.simulator?.close();
+    this.simulator = null;
   }
 
   close() {
+    this.closed = true;
     ++this.opened;
     this.rest();
-    this.simulator.close();
+    this.drop();
   }
 }

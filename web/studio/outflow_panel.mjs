@@ -5,6 +5,11 @@ import { intervalTrack, scaleOf, trackAxis } from '../report/interval_track.mjs'
 
 const rated = (hole) => Number.isFinite(hole.seeds_per_s);
 
+/** The outcome of a course's state once something has been measured; null before that. */
+export function measured({ prepared, outcome }) {
+  return outcome && outcome.end_time_s > prepared.measure_from_s ? outcome : null;
+}
+
 function valuesOf(outcome) {
   return (outcome?.holes ?? []).filter(rated).map((hole) => ({ hole, value: { value: hole.seeds_per_s, low: hole.low ?? null, high: hole.high ?? null, below: false } }));
 }
@@ -20,6 +25,11 @@ function barsOf(outcome, scale) {
 
 function figure(term, value, words) {
   return element('div', {}, element('dt', {}, term), element('dd', { class: 'value' }, value), words ? element('dd', { class: 'muted' }, words) : null);
+}
+
+// Nothing where so few seeds show no difference: the sentence says so.
+function cvText({ cv_percent: cv }) {
+  return Number.isFinite(cv) ? `CV ${number(cv)} %` : '';
 }
 
 function windowWords({ prepared, frame, outcome }) {
@@ -50,16 +60,17 @@ export class OutflowPanel {
   /** Draws the bars on a scale that holds those of all layouts of the page. */
   showBeside(outcomes) {
     const scale = scaleOf(outcomes.flatMap(valuesOf).map(({ value }) => value));
-    if (this.drawn && this.drawn.outcome === this.outcome && this.drawn.high === scale.high) return;
-    this.drawn = { outcome: this.outcome, high: scale.high };
-    this.bars.replaceChildren(...barsOf(this.outcome, scale));
+    if (this.drawn && this.drawn.rates === this.rates && this.drawn.high === scale.high) return;
+    this.drawn = { rates: this.rates, high: scale.high };
+    this.bars.replaceChildren(...barsOf(this.rates, scale));
   }
 
-  fill({ prepared, outcome }) {
-    const any = valuesOf(outcome).length > 0;
+  fill(state) {
+    const { prepared, outcome } = state;
+    const rates = this.rates = measured(state);
     this.figures.replaceChildren(...[
-      any ? figure('All holes', `${number(outcome.total_seeds_per_s)} seeds/s`) : null,
-      outcome?.evenness ? figure('Evenness', `CV ${number(outcome.evenness.cv_percent)} %`, sentence(outcome.evenness.sentence)) : null,
+      rates && prepared.holes ? figure('All holes', `${number(rates.total_seeds_per_s)} seeds/s`) : null,
+      rates?.evenness ? figure('Evenness', cvText(rates.evenness), sentence(rates.evenness.sentence)) : null,
       outcome?.guard ? figure('Guard', '', sentence(outcome.guard)) : null,
     ].filter(Boolean));
     const doubts = [endings[outcome?.status], ...new Set([...prepared.remarks, ...(outcome?.remarks ?? [])])].filter(Boolean);

@@ -11,6 +11,7 @@ import { reachOf } from './layout.mjs';
 import { liveColourings } from './live_colouring.mjs';
 import { LiveRecording, restPose, swings } from './live_recording.mjs';
 
+const below = 0.085;   // of the picture's width is shown under the tray
 const strip = 46;      // px below the picture, where the handles are
 const tallest = 0.55;  // of the window, so that picture and handles are on it together
 const shortest = 240;  // px
@@ -37,7 +38,7 @@ export class TrayView {
     const vessels = prepared.vessels;
     this.recording = new LiveRecording(vessels);
     this.tray = vessels.find((vessel) => vessel.name === 'tray') ?? vessels[0];
-    const view = new PlaneView({ vessels, lots: prepared.lots }, this.recording, labBox(vessels, swings(vessels, scene)), restPose(this.tray));
+    const view = new PlaneView({ vessels, lots: prepared.lots }, this.recording, labBox(vessels, swings(vessels, scene)), restPose(this.tray), below);
     Object.assign(this, { prepared, motion, view, frame: null });
     this.colouring = this.way.make(prepared, motion);
     this.showLegend();
