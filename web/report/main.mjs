@@ -4,17 +4,10 @@ import { sentence } from './format.mjs';
 import { readPageData } from './page_data.mjs';
 import { runPage } from './run_page.mjs';
 import { sweepPage } from './sweep_page.mjs';
-import { onTheme, startTheme, theme, toggleTheme } from './theme.mjs';
+import { startTheme } from './theme.mjs';
+import { themeSwitch } from './theme_switch.mjs';
 
 const pages = { run: runPage, sweep: sweepPage };
-
-function themeSwitch() {
-  const button = element('button', { type: 'button', class: 'quiet', onclick: toggleTheme });
-  const name = () => { button.textContent = theme() === 'dark' ? 'Light' : 'Dark'; };
-  onTheme(name);
-  name();
-  return button;
-}
 
 function head({ kicker, title, headlines, remarks }) {
   return [

@@ -2,12 +2,13 @@
 import { floorAt, toLab, toOwn } from './geometry.mjs';
 import { drawHoleLabels } from './hole_labels.mjs';
 
-const below = 0.13;        // of the width is shown under the tray, where seeds fall
+const usualBelow = 0.13;   // of the width is shown under the tray, where seeds fall
+const countsAt = 0.039;    // of the width under the holes
 const margin = 14;         // px
 const drawnRadius = 0.95;  // of the real one, so that seeds that touch are told apart
 
 export class PlaneView {
-  constructor(data, recording, box, rest) {
+  constructor(data, recording, box, rest, below = usualBelow) {
     this.data = data;
     this.recording = recording;
     this.rest = rest;  // the tray's mean pose
@@ -90,7 +91,7 @@ export class PlaneView {
     const holes = tray?.holes ?? [];
     const labels = holes.map((hole) => {
       const [x, y] = this.project(...toLab(this.rest, hole.x_mm, floorAt(tray, hole)), false);
-      return { x, y: y + 0.3 * below * this.scale * (this.box.right - this.box.left), text: String(counts.get(hole.number) ?? 0) };
+      return { x, y: y + countsAt * this.scale * (this.box.right - this.box.left), text: String(counts.get(hole.number) ?? 0) };
     });
     drawHoleLabels(context, labels, { ink: ink.ink, halo: ink.halo }, ink.font);
   }

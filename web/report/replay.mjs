@@ -1,23 +1,19 @@
 // The replay's section: the canvas, its controls and its legend.
 import { colourings } from './colouring.mjs';
 import { Counters } from './counters.mjs';
-import { choice, element, icon, section } from './dom.mjs';
+import { choice, element, section } from './dom.mjs';
 import { clock } from './format.mjs';
 import { labBox, meanPose } from './geometry.mjs';
+import { legendParts } from './legend.mjs';
 import { PlaneView } from './plane_view.mjs';
+import { nameButton, roundButton } from './round_button.mjs';
 import { SpaceView } from './space_view.mjs';
 import { Stage } from './stage.mjs';
-import { onTheme, theme, themeColour } from './theme.mjs';
+import { inks, onTheme, theme } from './theme.mjs';
 
 const speeds = [[0.125, '1/8', 'an eighth'], [0.25, '1/4', 'a quarter'], [0.5, '1/2', 'a half'], [1, '1×', 'as fast as it was']];
 const views = [['side', 'Side'], ['above', 'From above'], ['turnable', 'Turnable']];
 const turnedByKey = { ArrowLeft: [-0.1, 0], ArrowRight: [0.1, 0], ArrowUp: [0, 0.1], ArrowDown: [0, -0.1] };
-const pictures = {
-  play: ['M7 4.5v15l12-7.5z'],
-  pause: ['M6 5h4v14H6z', 'M14 5h4v14h-4z'],
-  back: ['M5 5h3v14H5z', 'M19 5v14l-9-7z'],
-  forward: ['M16 5h3v14h-3z', 'M5 5v14l9-7z'],
-};
 
 class Replay {
   constructor(data, recording, player) {
@@ -41,11 +37,11 @@ class Replay {
     this.clock = element('output', { class: 'clock', id: 'replay-time', for: 'replay-frame' });
     this.range = element('input', { type: 'range', id: 'replay-frame', min: 0, max: this.player.last, step: 1, value: 0, 'aria-label': 'Time of the replay',
       oninput: () => { this.player.pause(); this.player.show(Number(this.range.value)); } });
-    this.playButton = this.button('play', 'Play', () => this.player.toggle());
+    this.playButton = roundButton('play', 'Play', () => this.player.toggle());
     this.playButton.classList.add('primary');
     const controls = element('div', { class: 'controls' },
-      element('div', { class: 'controls-time' }, this.playButton, this.button('back', 'One frame back', () => this.player.step(-1)),
-        this.button('forward', 'One frame forward', () => this.player.step(1)), this.range, this.clock),
+      element('div', { class: 'controls-time' }, this.playButton, roundButton('back', 'One frame back', () => this.player.step(-1)),
+        roundButton('forward', 'One frame forward', () => this.player.step(1)), this.range, this.clock),
       element('div', { class: 'controls-choices' },
         choice('Speed', speeds.map(([value, text, name]) => ({ value, text, name })), 1, (value) => this.player.setSpeed(value)),
         inSpace ? choice('View', views.map(([value, text]) => ({ value, text })), 'side', (value) => this.look(value)) : null,
@@ -53,10 +49,6 @@ class Replay {
         this.data.vessels.some((vessel) => vessel.name === 'tray') ? this.stillSwitch() : null));
     this.figure = element('div', { class: 'replay card' }, element('div', { class: 'stage' }, this.canvas), this.legend, controls);
     if (inSpace) this.makeTurnable();
-  }
-
-  button(picture, name, act) {
-    return element('button', { type: 'button', class: 'round', 'aria-label': name, title: name, onclick: act }, icon(...pictures[picture]));
   }
 
   stillSwitch() {
@@ -112,10 +104,7 @@ class Replay {
   showLegend() {
     const { legend } = this.colouring;
     const colours = this.colouring.colours(theme());
-    const swatch = (colour, name) => element('span', { class: 'swatch', style: `background:${colour}` }, name ?? null);
-    const parts = legend.kind === 'names'
-      ? legend.names.map((name, k) => element('span', { class: 'legend-item' }, swatch(colours[k]), name))
-      : [element('span', {}, legend.note), element('span', { class: 'legend-scale' }, legend.low, element('span', { class: 'ramp' }, colours.map((colour) => swatch(colour))), legend.high)];
+    const parts = legendParts(legend, colours);
     const counted = (this.view.name ?? 'side') === 'side';
     this.legend.replaceChildren(...parts, ...(counted ? [element('span', { class: 'legend-note' }, 'Under the holes: seeds so far')] : []));
   }
@@ -145,10 +134,7 @@ class Replay {
 
   showPlaying() {
     const name = this.player.playing ? 'Pause' : 'Play';
-    if (this.playButton.title === name) return;
-    this.playButton.title = name;
-    this.playButton.setAttribute('aria-label', name);
-    this.playButton.replaceChildren(icon(...pictures[name.toLowerCase()]));
+    nameButton(this.playButton, name.toLowerCase(), name);
   }
 
   paint() {
@@ -172,12 +158,6 @@ class Replay {
     const how = this.view.fixed === false ? '. Arrow keys turn it' : '';
     return `${shown.frame.ids.length} grains at ${clock(shown.time)}. Seeds so far, ${counts}${how}.`;
   }
-}
-
-function inks() {
-  const names = { ink: 'ink', wall: 'wall', halo: 'halo', accent: 'accent', depth: 'depth' };
-  const inks = Object.fromEntries(Object.entries(names).map(([key, name]) => [key, themeColour(name)]));
-  return { ...inks, font: `600 13px ${themeColour('font')}` };
 }
 
 function startKeys(player) {

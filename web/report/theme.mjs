@@ -2,13 +2,14 @@
 
 const listeners = new Set();
 const dark = matchMedia('(prefers-color-scheme: dark)');
+let systemIsDark = dark.matches;  // asked once: a query that is asked while it changes tells no listener (seen in Chromium)
 let chosen = null;
 let printing = false;
 
 /** "light" or "dark" */
 export function theme() {
   if (printing) return 'light';
-  return chosen ?? (dark.matches ? 'dark' : 'light');
+  return chosen ?? (systemIsDark ? 'dark' : 'light');
 }
 
 function apply() {
@@ -21,13 +22,21 @@ export function toggleTheme() {
   apply();
 }
 
+/** Returns what ends it. */
 export function onTheme(listener) {
   listeners.add(listener);
+  return () => listeners.delete(listener);
 }
 
 /** A colour of the style sheet, such as "ink". */
 export function themeColour(name) {
   return getComputedStyle(document.documentElement).getPropertyValue(`--${name}`).trim();
+}
+
+/** The colours that a canvas is drawn with, and the font of its numbers. */
+export function inks() {
+  const colours = Object.fromEntries(['ink', 'wall', 'halo', 'accent', 'depth'].map((name) => [name, themeColour(name)]));
+  return { ...colours, font: `600 13px ${themeColour('font')}` };
 }
 
 function print(begins) {
@@ -36,7 +45,10 @@ function print(begins) {
 }
 
 export function startTheme() {
-  dark.addEventListener('change', apply);
+  dark.addEventListener('change', ({ matches }) => {
+    systemIsDark = matches;
+    apply();
+  });
   addEventListener('beforeprint', () => print(true));
   addEventListener('afterprint', () => print(false));
   apply();

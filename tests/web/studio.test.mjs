@@ -1,0 +1,275 @@
+// The studio in a browser, with a simulator that is made up.
+import assert from 'node:assert/strict';
+import { mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
+import { createRequire } from 'node:module';
+import { tmpdir } from 'node:os';
+import path from 'node:path';
+import test, { after } from 'node:test';
+import { deflateRawSync } from 'node:zlib';
+import * as in_ from './browser.mjs';
+import { fillStudio, madeUpStudio, studioTemplate, whyNotInSpace } from './made_up_studio.mjs';
+
+const { parse } = createRequire(new URL('../../web/package.json', import.meta.url))('smol-toml');
+const hostile = '</script><img src=x onerror=alert(1)>';
+const template = await studioTemplate();
+const folder = mkdtempSync(path.join(tmpdir(), 'vibrosow-studio-'));
+const file = path.join(folder, 'studio.html');
+const browser = await in_.startBrowser();
+
+after(async () => {
+  await browser.close();
+  rmSync(folder, { recursive: true });
+});
+
+async function withStudio(options, check, data = madeUpStudio()) {
+  writeFileSync(file, fillStudio(template, data));
+  const page = await in_.openPage(browser, file, options);
+  try {
+    await check(page);
+    assert.deepEqual(page.complaints, []);
+  } finally {
+    await page.context().close();
+  }
+}
+
+const bench = (page, name = 'A') => page.getByRole('region', { name: `Layout ${name}`, exact: true });
+const handle = (place, k) => place.getByRole('slider', { name: `Hole ${k}`, exact: true });
+const status = (place, ...wanted) => place.and(place.page().locator(wanted.map((one) => `[data-status="${one}"]`).join(','))).waitFor();
+const opened = (place) => status(place, 'ready', 'playing', 'paused', 'ended');
+const valueText = (place, k) => handle(place, k).getAttribute('aria-valuetext');
+
+function withLateMeasuring() {
+  const data = madeUpStudio();
+  Object.assign(data.seeders[0].scene.run, { duration_s: 40, measure_from_s: 30 });
+  return data;
+}
+
+async function countsAtTheEnd(place) {
+  await opened(place);
+  await place.getByRole('button', { name: 'To the end' }).evaluate((button) => button.click());  // which does nothing where it has ended
+  await status(place, 'ended');
+  return place.locator('canvas').evaluate((canvas) => new Promise((painted) => {
+    requestAnimationFrame(() => requestAnimationFrame(() => painted(canvas.dataset.counts)));
+  }));
+}
+
+test('the template is small and keeps the licence of what is in it', () => {
+  assert.ok(template.length < 250e3);
+  assert.match(template, /smol-toml 1\.9\.1[\s\S]*Redistribution and use in source and binary forms/);
+});
+
+test('it opens playing, counts at the holes, and says plainly what it is', () => withStudio({}, async (page) => {
+  const place = bench(page);
+  await page.waitForFunction(() => JSON.parse(document.querySelector('canvas').dataset.counts ?? '[0]')[0] > 3);
+  assert.match(await page.locator('#head').textContent(), /A slice one seed thick, in the plane: compare layouts by it; it is no sowing rate\./);
+  await place.getByText('1 of real time').waitFor();
+  await place.getByText(/^Measured from 1 to/).waitFor();
+  await place.getByText('The holes differ by more than chance.').waitFor();
+  assert.equal(await place.locator('.hole-bars .track').count(), 5);
+  assert.doesNotMatch(await page.locator('body').innerText(), /kg\/ha|g\/min/);
+  await place.getByRole('button', { name: 'Pause' }).click();
+  await status(place, 'paused');
+  const time = await place.locator('canvas').getAttribute('data-time');
+  await place.getByRole('button', { name: 'Play' }).click();
+  await page.waitForFunction((then) => document.querySelector('canvas').dataset.time > then, time);
+  assert.match(await countsAtTheEnd(place), /^\[\d+,\d+,\d+,\d+,\d+\]$/);
+  await place.getByText('4.00 s of 4 s').waitFor();
+  await place.getByRole('button', { name: 'Restart' }).click();
+  await page.waitForFunction(() => Number(document.querySelector('canvas').dataset.time) < 1);
+}));
+
+test('before the measuring begins nothing is said of rates', () => withStudio({}, async (page) => {
+  const place = bench(page);
+  await place.getByRole('button', { name: 'Pause' }).click();
+  await place.getByText(/warned from 5 %/).waitFor();  // an outcome is there
+  assert.equal(await place.locator('.hole-bars .track').count(), 0);
+  assert.equal(await place.getByText('seeds/s').count(), 0);
+  await place.getByText('Measuring begins at 30 s.').waitFor();
+}, withLateMeasuring()));
+
+test('a hole is dragged, and the simulation starts again with it', () => withStudio({}, async (page) => {
+  const place = bench(page);
+  const before = await countsAtTheEnd(place);
+  await page.locator('.rail').scrollIntoViewIfNeeded();
+  const box = await handle(place, 2).boundingBox();
+  const [x, y] = [box.x + box.width / 2, box.y + box.height - 20];
+  await page.mouse.move(x, y);
+  await page.mouse.down();
+  await page.mouse.move(x + 15, y, { steps: 3 });
+  await page.mouse.move(x + 30, y, { steps: 3 });
+  await status(place, 'changed');
+  await page.waitForTimeout(400);  // held still for longer than a gesture takes to settle
+  await status(place, 'changed');
+  await page.mouse.up();
+  await opened(place);
+  const scale = await page.evaluate(() => document.querySelector('.rail').clientWidth / 500);
+  const mm = Math.round(160 + 30 / scale);
+  assert.equal(await valueText(place, 2), `hole 2 at ${mm} mm, 12 mm wide`);
+  assert.equal(await place.getByRole('spinbutton', { name: 'Place of hole 2 in mm' }).inputValue(), String(mm));
+  await status(place, 'ended');  // as fast as it can, as before
+  assert.notEqual(await place.locator('canvas').getAttribute('data-counts'), before);
+}));
+
+test('a press on a handle that does not move it changes nothing', () => withStudio({}, async (page) => {
+  const place = bench(page);
+  await countsAtTheEnd(place);
+  await handle(place, 3).click();
+  await page.waitForTimeout(300);
+  await status(place, 'ended');
+}));
+
+test('keys move, widen and remove a hole, and a button adds one', () => withStudio({}, async (page) => {
+  const place = bench(page);
+  await handle(place, 2).focus();
+  for (const [key, text] of [
+    ['ArrowRight', 'hole 2 at 161 mm, 12 mm wide'], ['Shift+ArrowRight', 'hole 2 at 171 mm, 12 mm wide'], ['ArrowLeft', 'hole 2 at 170 mm, 12 mm wide'],
+    ['+', 'hole 2 at 170 mm, 12.5 mm wide'], ['-', 'hole 2 at 170 mm, 12 mm wide'], ['-', 'hole 2 at 170 mm, 11.5 mm wide'], ['End', 'hole 2 at 237.2 mm, 11.5 mm wide'],
+  ]) {
+    await page.keyboard.press(key);
+    assert.equal(await valueText(place, 2), text);
+  }
+  await page.keyboard.press('Delete');
+  assert.equal(await place.locator('.handle').count(), 4);
+  assert.equal(await page.evaluate(() => document.activeElement.getAttribute('aria-valuetext')), 'hole 2 at 250 mm, 12 mm wide');
+  await place.getByRole('button', { name: 'Add a hole' }).click();
+  assert.equal(await page.evaluate(() => document.activeElement.getAttribute('aria-valuetext')), 'hole 2 at 160 mm, 12 mm wide');
+  await place.getByRole('button', { name: 'Remove hole 5' }).click();
+  assert.equal(await place.locator('.handle').count(), 4);
+  assert.equal(JSON.parse(await countsAtTheEnd(place)).length, 4);
+}));
+
+test('numbers are entered, and what is too much is held back', () => withStudio({}, async (page) => {
+  const place = bench(page);
+  const enter = async (name, value) => {
+    const field = place.getByRole('spinbutton', { name });
+    await field.fill(value);
+    await field.press('Enter');
+    return field.inputValue();
+  };
+  assert.equal(await enter('Place of hole 1 in mm', '65.5'), '65.5');
+  assert.equal(await enter('Place of hole 1 in mm', '400'), '147');
+  assert.equal(await enter('Width of hole 5 in mm', '400'), '140');
+  assert.equal(await place.getByRole('spinbutton', { name: 'Width of all in mm' }).getAttribute('placeholder'), 'various');
+  assert.equal(await enter('Width of all in mm', '11'), '11');
+  assert.equal(await enter('Number of holes', '3'), '3');
+  assert.equal(await enter('Frequency in Hz', '11.5'), '11.5');
+  assert.equal(await enter('Amplitude in mm', '99'), '30');
+  const slider = place.getByRole('slider', { name: 'Direction, °' });
+  await slider.focus();
+  await slider.press('ArrowRight');
+  assert.equal(await place.getByRole('spinbutton', { name: 'Direction in °' }).inputValue(), '1');
+  assert.deepEqual(await Promise.all([1, 2, 3].map((k) => valueText(place, k))), ['hole 1 at 147 mm, 11 mm wide', 'hole 2 at 288.5 mm, 11 mm wide', 'hole 3 at 430 mm, 11 mm wide']);
+}));
+
+test('what the program refuses is said, and mended by a change', () => withStudio({}, async (page) => {
+  const place = bench(page);
+  const width = place.getByRole('spinbutton', { name: 'Width of hole 1 in mm' });
+  await width.fill('70');
+  await width.press('Enter');
+  await place.getByRole('alert').filter({ hasText: 'as wide as this made-up simulator goes.' }).waitFor();
+  assert.ok(await place.getByRole('button', { name: 'Play' }).isDisabled());
+  await width.fill('12');
+  await width.press('Enter');
+  await opened(place);
+  await place.getByRole('alert').waitFor({ state: 'hidden' });
+}));
+
+test('another seeder brings its own controls, another crop its seeds', () => withStudio({}, async (page) => {
+  const place = bench(page);
+  await place.getByRole('combobox', { name: 'Crop' }).selectOption('Soybean');
+  await place.getByText('140 seeds in the tray instead of 560').waitFor();
+  await place.locator('.legend', { hasText: 'soybean' }).waitFor();
+  await place.getByRole('radio', { name: 'Draft' }).check();
+  await place.getByText('Draft: softer seeds').waitFor();
+  await place.getByRole('combobox', { name: 'Seeder' }).selectOption('Two lots that rock');
+  assert.equal(await place.getByRole('slider', { name: 'Frequency, Hz' }).count(), 0);
+  assert.equal(await place.getByRole('combobox', { name: 'Crop' }).locator('option:checked').textContent(), 'its own seeds');
+  await place.locator('.legend', { hasText: 'stone' }).waitFor();
+  assert.equal(await place.locator('.handle').count(), 2);
+}));
+
+test('seeders in space are listed with what keeps them from running', () => withStudio({}, async (page) => {
+  const options = bench(page).getByRole('combobox', { name: 'Seeder' }).locator('optgroup');
+  assert.deepEqual(await options.evaluateAll((groups) => groups.map((group) => [group.label, group.disabled])), [['In space: shown as recorded runs', true]]);
+  await page.getByText('Seeders that are not simulated here').click();
+  await page.getByText(whyNotInSpace).waitFor();
+}));
+
+test('a program that opens a seeder in space is told so', () => withStudio({}, async (page) => {
+  assert.match(await page.locator('#head [role=alert]').textContent(), /^Wheat tray in space is not simulated in this page\. A tray in space takes/);
+}, { ...madeUpStudio(), opened: 'wheat-tray-3d' }));
+
+test('two layouts are compared, and a link brings both back with their counts', () => withStudio({}, async (page) => {
+  await handle(bench(page), 1).press('Shift+ArrowLeft');
+  await page.getByRole('button', { name: 'Compare with a second layout' }).click();
+  const [a, b] = [bench(page, 'A'), bench(page, 'B')];
+  assert.equal(await valueText(b, 1), 'hole 1 at 60 mm, 12 mm wide');
+  await handle(b, 3).press('+');
+  await b.getByRole('combobox', { name: 'Crop' }).selectOption('Soybean');
+  const counts = [await countsAtTheEnd(a), await countsAtTheEnd(b)];
+  assert.notEqual(counts[0], counts[1]);
+  await page.getByText(/^B lets out .* as A|than A, .* its holes differ/).waitFor();
+  assert.equal(await page.locator('#comparison tbody tr').count(), 3);
+  const address = page.url();
+  await page.getByRole('button', { name: 'Share a link' }).click();
+  const link = await page.getByRole('textbox', { name: 'Link to what is on this page' }).inputValue();
+  assert.match(link, /#s=[A-Za-z0-9_-]+$/);
+  assert.notEqual(page.url(), address);
+  await page.goto('about:blank');
+  await page.goto(link);
+  await page.waitForSelector('html[data-ready]');
+  assert.deepEqual([await countsAtTheEnd(a), await countsAtTheEnd(b)], counts);
+  assert.equal(await valueText(b, 3), 'hole 3 at 250 mm, 12.5 mm wide');
+  await handle(b, 3).press('-');
+  await page.getByRole('textbox', { name: 'Link to what is on this page' }).waitFor({ state: 'hidden' });
+  await page.getByRole('button', { name: 'Remove layout B' }).click();
+  assert.equal(await b.count(), 0);
+  await page.locator('#comparison').waitFor({ state: 'hidden' });
+}));
+
+test('the seeder file is saved with what was changed', () => withStudio({}, async (page) => {
+  await handle(bench(page), 2).press('Shift+ArrowRight');
+  const [download] = await Promise.all([page.waitForEvent('download'), page.getByRole('button', { name: 'Save the seeder file' }).click()]);
+  assert.equal(download.suggestedFilename(), 'wheat-tray.toml');
+  const text = readFileSync(await download.path(), 'utf8');
+  assert.match(text, /^# From the studio: the seeder wheat-tray/);
+  assert.deepEqual(parse(text).tray.holes.at, ['70 mm', '170 mm', '250 mm', '340 mm', '430 mm']);
+}));
+
+test('hostile names stay text', () => withStudio({}, async (page) => {
+  await page.locator('.legend', { hasText: hostile }).waitFor();
+  assert.equal(await bench(page).getByRole('combobox', { name: 'Seeder' }).locator('option:checked').textContent(), hostile);
+  assert.equal(await page.locator('img').count(), 0);
+}, madeUpStudio({ title: hostile, lot: hostile })));
+
+for (const [what, hash, said] of [
+  ['is no link', '#s=<img src=x onerror=alert(1)>', /cut off or changed/],
+  ['holds something unknown', `#s=${deflateRawSync(JSON.stringify({ layouts: [], [hostile]: 1 })).toString('base64url')}`, /something unknown about the page/],
+  ['unpacks without end', `#s=${deflateRawSync(Buffer.alloc(2e7)).toString('base64url')}`, /more than 256 KB/],
+]) {
+  test(`a link that ${what} does nothing but be said`, () => withStudio({ hash }, async (page) => {
+    assert.match(await page.locator('#head [role=alert]').textContent(), said);
+    assert.equal(await page.locator('img').count(), 0);
+    await opened(bench(page));
+    assert.equal(await valueText(bench(page), 2), 'hole 2 at 160 mm, 12 mm wide');
+  }));
+}
+
+test('who wants little motion starts it by hand', () => withStudio({ reducedMotion: 'reduce' }, async (page) => {
+  await status(bench(page), 'ready');
+  await bench(page).getByRole('button', { name: 'Play' }).click();
+  await status(bench(page), 'playing', 'ended');
+}));
+
+test('accessible in light and dark, and no wider than a phone', () => withStudio({ bypass: true }, async (page) => {
+  await bench(page).getByText('The holes differ').waitFor();
+  await in_.assertAccessible(page);
+  await page.emulateMedia({ colorScheme: 'dark' });
+  await page.waitForSelector('html[data-theme="dark"]');
+  await page.setViewportSize({ width: 390, height: 844 });
+  await page.getByRole('button', { name: 'Compare with a second layout' }).click();
+  await page.getByRole('button', { name: 'Share a link' }).click();
+  await bench(page, 'B').getByText('The holes differ').waitFor();
+  await in_.assertAccessible(page);
+  await in_.assertNoSidewaysScrolling(page);
+}));

@@ -1,0 +1,177 @@
+// One tray on the page: a layout, its simulation, and the controls of both.
+import { startSimulator } from '../core/simulator.mjs';
+import { element } from '../report/dom.mjs';
+import { clock, sentence } from '../report/format.mjs';
+import { choicesOf } from './choices.mjs';
+import { Course } from './course.mjs';
+import { holeWords } from './handles.mjs';
+import { HoleControls } from './hole_controls.mjs';
+import { addHole, layoutOf, moveHole, removeHole, widenHole } from './layout.mjs';
+import { MotionControls } from './motion_controls.mjs';
+import { measured, OutflowPanel } from './outflow_panel.mjs';
+import { saveText } from './save.mjs';
+import { keptSentence, sceneOf } from './scene_edit.mjs';
+import { fileName, seederFile } from './seeder_file.mjs';
+import { asFastAsItCan, realTime, Transport } from './transport.mjs';
+import { TrayView } from './tray_view.mjs';
+
+const settling = 250;  // ms after a gesture, before its layout is simulated
+const still = matchMedia('(prefers-reduced-motion: reduce)');
+
+export class Bench {
+  /** `name`: "A" or "B"; `told("layout")` is called when its layout has changed, `told("state")` when its simulation has moved on. */
+  constructor(data, name, layout, told) {
+    Object.assign(this, { data, name, layout, told });
+    this.pace = still.matches ? undefined : realTime;  // undefined: waits at the start
+    const remove = (k) => this.remove(k);
+    const edit = (changed, ended) => this.change(changed, ended);
+    this.view = new TrayView({ remove, move: (k, mm, ended) => edit(moveHole(this.layout, k, mm), ended), widen: (k, by) => this.widen(k, by) });
+    this.holes = new HoleControls({ change: edit, remove, add: () => this.add() });
+    this.motion = new MotionControls(edit);
+    this.outflow = new OutflowPanel();
+    this.transport = new Transport({ toggle: () => this.toggle(), restart: () => this.restart(), toTheEnd: () => this.toTheEnd() });
+    this.course = new Course(startSimulator, (state) => this.showState(state));
+    this.build();
+    this.showLayout();
+    this.open();
+  }
+
+  build() {
+    this.choices = element('div', { class: 'bench-choices' });
+    this.kept = element('p', { class: 'hint' });
+    this.problem = element('p', { class: 'doubt', role: 'alert' });
+    this.status = element('p', { class: 'unseen', role: 'status' });
+    this.title = element('h2', { id: `layout-${this.name}` }, `Layout ${this.name}`);
+    const save = element('button', { type: 'button', class: 'quiet', onclick: () => this.save() }, 'Save the seeder file');
+    const controls = element('div', { class: 'controls' }, this.transport.frame, element('div', { class: 'controls-choices' }, this.view.choices, save));
+    this.frame = element('section', { class: 'bench', 'aria-labelledby': `layout-${this.name}` }, this.title, this.choices, this.kept, this.problem,
+      element('div', { class: 'replay card' }, this.view.place, this.view.legend, controls),
+      element('div', { class: 'panels' }, this.outflow.frame, this.holes.frame, this.motion.frame), this.status);
+  }
+
+  /** Of the layout shown, as far as it has been measured; null before that. */
+  get outcome() {
+    const { state } = this.course;
+    return ['playing', 'paused', 'ended'].includes(state.status) ? measured(state) : null;
+  }
+
+  open() {
+    this.course.open(sceneOf(this.layout, this.data.crops), this.pace);
+  }
+
+  /** Takes another layout. It is simulated once the gesture that makes it has ended. */
+  change(layout, ended = true) {
+    const moved = layout !== this.layout;
+    this.layout = layout;
+    if (moved) this.showLayout();
+    clearTimeout(this.opening);
+    if (moved && this.course.state.status !== 'changed') this.course.leave();
+    if (ended) this.opening = setTimeout(() => this.open(), settling);
+    if (moved) this.told('layout');
+  }
+
+  showLayout() {
+    const { layout, data } = this;
+    this.showChoices();
+    this.kept.textContent = keptSentence(layout, data.crops);
+    this.kept.hidden = !this.kept.textContent;
+    this.holes.show(layout);
+    this.motion.show(layout);
+    this.view.showHoles(layout);
+  }
+
+  // The lists are made again only where what they show has changed, so that the focus stays where it is.
+  showChoices() {
+    const { seeder, crop, accuracy } = this.layout;
+    const now = [seeder, crop, accuracy];
+    if (this.chosen?.every((one, k) => one === now[k])) return;
+    const focused = [...this.choices.querySelectorAll('select, input')].indexOf(document.activeElement);
+    this.chosen = now;
+    this.choices.replaceChildren(...choicesOf(this.data, this.layout, {
+      seeder: (one) => this.change(layoutOf(one)), crop: (name) => this.change({ ...this.layout, crop: name }), accuracy: (name) => this.change({ ...this.layout, accuracy: name }),
+    }));
+    if (focused >= 0) this.choices.querySelectorAll('select, input')[focused]?.focus();
+  }
+
+  showState(state) {
+    if (state.prepared && state.prepared !== this.prepared) {
+      this.prepared = state.prepared;
+      this.view.open(state.prepared, sceneOf(this.layout, this.data.crops), this.layout.motion);
+      this.view.showHoles(this.layout);
+    }
+    if (state.frame && state.prepared === this.prepared) this.view.show(state.frame);
+    this.transport.show(state);
+    this.outflow.show(state);
+    this.tellProblem(state.problem);
+    if (state.status !== this.lastStatus) this.say(state);
+    this.lastStatus = state.status;
+    this.frame.dataset.status = state.status;
+    this.told('state');
+  }
+
+  say({ status, frame }) {
+    if (status === 'changed') this.status.textContent = `Layout ${this.name} has changed; the simulation starts again.`;
+    if (status === 'ended') this.status.textContent = `Layout ${this.name} has run to ${clock(frame.time_s)}.`;
+  }
+
+  tellProblem(problem) {
+    this.problem.textContent = sentence(problem);
+    this.problem.hidden = !problem;
+  }
+
+  widen(k, by) {
+    this.change(widenHole(this.layout, k, this.layout.holes[k].width_m * 1000 + by));
+  }
+
+  add() {
+    const more = addHole(this.layout);
+    if (!more) return;
+    this.change(more.layout);
+    this.view.handles.focus(more.added);
+    this.status.textContent = `Added ${holeWords(more.layout.holes[more.added], more.added)}.`;
+  }
+
+  remove(k) {
+    const fewer = removeHole(this.layout, k);
+    if (fewer === this.layout) return;
+    this.change(fewer);
+    this.view.handles.focus(k);
+    this.status.textContent = `Removed hole ${k + 1}.`;
+  }
+
+  toggle() {
+    const { course } = this;
+    if (course.state.status === 'playing') {
+      this.pace = undefined;
+      course.pause();
+    } else {
+      this.pace = realTime;
+      if (course.state.status === 'ended') this.open();
+      else course.play(this.pace);
+    }
+  }
+
+  restart() {
+    this.open();
+  }
+
+  toTheEnd() {
+    this.pace = asFastAsItCan;
+    this.course.play(this.pace);
+  }
+
+  save() {
+    try {
+      saveText(seederFile(this.layout, this.data.crops), fileName(this.layout), 'application/toml');
+    } catch (error) {
+      this.tellProblem(`The seeder file cannot be written: ${error.message}`);
+    }
+  }
+
+  close() {
+    clearTimeout(this.opening);
+    this.course.close();
+    this.view.close();
+    this.frame.remove();
+  }
+}

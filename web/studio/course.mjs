@@ -1,0 +1,109 @@
+// The course of a simulation: one scene at a time, from its start. Whatever is told of a scene that is no longer the one shown is
+// dropped.
+import { tooLarge, tooLong } from './limits.mjs';
+
+const outcomeEvery = 1000;  // ms
+
+const nothing = { prepared: null, frame: null, outcome: null, problem: '' };
+
+/**
+ * `state`: { status, prepared, frame, outcome, problem }. The status is "opening", "ready" (at the start), "playing", "paused",
+ * "ended", "changed" (the scene shown is no longer the one that ran), or "failed", and then `problem` says why.
+ */
+export class Course {
+  /** `start()` promises a simulator; it is asked when the first scene is opened, and again where a simulator has failed. */
+  constructor(start, changed) {
+    Object.assign(this, { start, changed, simulator: null, opened: 0, queue: Promise.resolve(), state: { ...nothing, status: 'opening' } });
+  }
+
+  tell(news) {
+    this.state = { ...this.state, ...news };
+    this.changed(this.state);
+  }
+
+  /** Opens a scene, an object, and plays it at `pace` where that is given. One that comes meanwhile takes its place. */
+  open(scene, pace) {
+    const turn = ++this.opened;
+    this.rest();
+    const problem = tooLarge(scene);
+    if (problem) this.tell({ status: 'failed', problem });
+    else this.tell({ status: 'opening', problem: '' });
+    this.queue = this.queue.then(() => (problem || turn !== this.opened ? null : this.prepare(turn, scene, pace)));
+    return this.queue;
+  }
+
+  async prepare(turn, scene, pace) {
+    try {
+      this.simulator ??= await this.start();
+      if (this.closed) this.drop();
+      if (turn !== this.opened) return;
+      const prepared = await this.simulator.open(JSON.stringify(scene));
+      if (turn !== this.opened) return;
+      const problem = tooLong(prepared);
+      this.tell({ prepared, frame: prepared.frame, outcome: null, problem, status: problem ? 'failed' : 'ready' });
+      if (!problem && pace !== undefined) this.play(pace);
+    } catch (error) {
+      if (turn === this.opened) this.tell({ status: 'failed', problem: error.message });
+    }
+  }
+
+  /** The scene on the page is another than the one that ran: it rests until the next is opened. */
+  leave() {
+    ++this.opened;
+    this.rest();
+    this.tell({ status: 'changed' });
+  }
+
+  /** `pace`: simulated seconds a second at most; null: as fast as it can. */
+  play(pace) {
+    if (!['ready', 'paused', 'playing'].includes(this.state.status)) return;
+    const turn = this.opened;
+    const current = (act) => (news) => { if (turn === this.opened) act(news); };
+    this.rest();
+    this.asking = setInterval(() => this.ask(turn), outcomeEvery);
+    this.tell({ status: 'playing' });
+    this.simulator.play({
+      pace,
+      onFrame: current((frame) => this.tell({ frame })),
+      onEnd: current((outcome) => this.end({ status: 'ended', outcome })),
+      onFail: current((error) => {
+        this.drop();
+        this.end({ status: 'failed', problem: error.message });
+      }),
+    });
+  }
+
+  pause() {
+    if (this.state.status !== 'playing') return;
+    this.rest();
+    this.tell({ status: 'paused' });
+    this.ask(this.opened);
+  }
+
+  end(news) {
+    clearInterval(this.asking);
+    this.tell(news);
+  }
+
+  rest() {
+    clearInterval(this.asking);
+    if (this.state.status === 'playing') this.simulator.pause();
+  }
+
+  async ask(turn) {
+    const outcome = await this.simulator.outcome().catch(() => null);  // a simulator that fails says so itself
+    if (outcome && turn === this.opened && ['playing', 'paused'].includes(this.state.status)) this.tell({ outcome });
+  }
+
+  drop() {
+    this.simulator?.close();
+    this.simulator = null;
+  }
+
+  close() {
+    this.closed = true;
+    ++this.opened;
+    this.rest();
+    this.drop();
+  }
+}
