@@ -13,7 +13,7 @@ const folder = path.resolve(process.argv[2] ?? path.join(built, 'web'));
 
 // The simulator as base64 of its gzip; nothing where it has not been built, which the page then says.
 async function moduleText(name) {
-  const file = path.join(built, 'wasm', `simulator-${name}.wasm`);
+  const file = path.join(built, 'wasm', 'web', 'core', `simulator-${name}.wasm`);
   return existsSync(file) ? gzipSync(await readFile(file), { level: 9 }).toString('base64') : '';
 }
 
