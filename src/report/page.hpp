@@ -18,4 +18,7 @@ std::string page_text(const nlohmann::ordered_json& data);
 /// their places. Throws std::invalid_argument for a template without them.
 std::string filled_page(const std::string& page_template, const std::string& data, const std::string& recording = {});
 
+/// The file of the Recording in a page; empty where it holds none.
+std::string recording_of_page(const std::string& page);
+
 }  // namespace vibrosow
