@@ -43,7 +43,8 @@ std::vector<double> wanted_times(const DrawOptions& options, double duration) {
       throw InputError(fmt::format("{}: {}", option, error.what()));
     }
     if (!(value >= 0 && value <= duration))
-      throw InputError(fmt::format("{}: \"{}\" is not within the run, which is from 0 to {:g} s", option, text, duration));
+      throw InputError(
+          fmt::format("{}: \"{}\" is not within the run, which is from 0 to {:g} s", option, text, duration));
     return value;
   };
   if (!options.film) return {options.at.empty() ? duration : time("--at", options.at)};
@@ -157,7 +158,8 @@ void add_draw_command(CLI::App& app, int& exit_code) {
   text("--from", options->from, "TIME", "of a film; default 0");
   text("--to", options->to, "TIME", "of a film; default the run's end");
   text("--every", options->every, "TIME", "between a film's frames; below \"20 ms\" it goes slower than the run");
-  text("--out", options->common.out, "FILE", ".png or .svg, of a film .gif; default the seeder's name and .png or .gif");
+  text("--out", options->common.out, "FILE",
+       ".png or .svg, of a film .gif; default the seeder's name and .png or .gif");
   command
       ->add_option_function<std::string>(
           "--colour",
@@ -170,7 +172,8 @@ void add_draw_command(CLI::App& app, int& exit_code) {
       ->type_name("BY")
       ->check(CLI::IsMember({"lot", "speed", "force"}))
       ->default_str("lot");
-  command->add_flag("--chains", options->picture.force_chains, "draw contacts, the wider the larger their normal force");
+  command->add_flag("--chains", options->picture.force_chains,
+                    "draw contacts, the wider the larger their normal force");
   command->add_option("--width", options->picture.width, "of the picture, pixels")
       ->type_name("N")
       ->check(CLI::Range(160, 8000))

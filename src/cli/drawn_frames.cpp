@@ -47,8 +47,8 @@ class ReportTable {
   }
   double number(std::size_t row, const std::string& column) const {
     if (const auto value = csv_number(text(row, column), csv_.decimal_comma)) return *value;
-    throw InputError(fmt::format("{}:{}: {}: \"{}\" is no number", csv_.file, csv_.rows[row].line, column,
-                                 text(row, column)));
+    throw InputError(
+        fmt::format("{}:{}: {}: \"{}\" is no number", csv_.file, csv_.rows[row].line, column, text(row, column)));
   }
 
  private:
@@ -136,9 +136,10 @@ KeptFrames kept_frames(const fs::path& folder, const Scene& scene) {
   }
   if (fs::exists(folder / "records.csv")) frames = snapshots_in(folder, scene);
   if (!frames.empty()) return {std::move(frames), true};
-  throw InputError(fmt::format("{}: keeps no frame of its run: it was made without --html and has no [record]; draw its "
-                               "seeder instead",
-                               folder.string()));
+  throw InputError(
+      fmt::format("{}: keeps no frame of its run: it was made without --html and has no [record]; draw its "
+                  "seeder instead",
+                  folder.string()));
 }
 
 std::vector<Frame> nearest_frames(std::vector<Frame> frames, const std::vector<double>& times) {

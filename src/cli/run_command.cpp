@@ -107,7 +107,8 @@ class RecordedFrames {
     const char* option = options.vtk ? "--vtk" : "--xyz";
     if (!scene.record) throw InputError(fmt::format("{}: the seeder has no [record], which says when", option));
     if (options.resume)
-      throw InputError(fmt::format("{}: a checkpoint keeps no contacts of earlier snapshots; leave out --resume", option));
+      throw InputError(
+          fmt::format("{}: a checkpoint keeps no contacts of earlier snapshots; leave out --resume", option));
   }
   bool wanted() const { return options_.vtk || options_.xyz; }
 

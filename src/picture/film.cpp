@@ -24,7 +24,8 @@ void check(int result) {
 }
 
 int append_bytes(GifFileType* gif, const GifByteType* bytes, int count) {
-  static_cast<std::string*>(gif->UserData)->append(reinterpret_cast<const char*>(bytes), static_cast<std::size_t>(count));
+  static_cast<std::string*>(gif->UserData)
+      ->append(reinterpret_cast<const char*>(bytes), static_cast<std::size_t>(count));
   return count;
 }
 
@@ -39,7 +40,8 @@ struct Film::Encoder {
   GifFileType* gif = nullptr;
 
   GifByteType nearest(const std::uint8_t* pixel) {
-    const std::uint32_t colour = pixel[0] | static_cast<std::uint32_t>(pixel[1]) << 8 | static_cast<std::uint32_t>(pixel[2]) << 16;
+    const std::uint32_t colour =
+        pixel[0] | static_cast<std::uint32_t>(pixel[1]) << 8 | static_cast<std::uint32_t>(pixel[2]) << 16;
     const auto [place, is_new] = known.try_emplace(colour);
     if (!is_new) return place->second;
     int least = std::numeric_limits<int>::max();
@@ -53,7 +55,7 @@ struct Film::Encoder {
 
   void begin() {
     const std::unique_ptr<ColorMapObject, decltype(&GifFreeMapObject)> map(GifMakeMapObject(colours, palette.data()),
-                                                                          &GifFreeMapObject);
+                                                                           &GifFreeMapObject);
     if (!map) throw std::bad_alloc();
     EGifSetGifVersion(gif, true);
     check(EGifPutScreenDesc(gif, width, height, 8, 0, map.get()));
@@ -94,7 +96,8 @@ void Film::add(const Pixels& picture, int hundredths) {
     now[k] = e.nearest(picture.data() + 4 * k);
     shown[k] = !e.last.empty() && e.last[k] == now[k] ? GifByteType{unchanged} : now[k];
   }
-  const GraphicsControlBlock control{DISPOSE_DO_NOT, false, hundredths, e.last.empty() ? NO_TRANSPARENT_COLOR : unchanged};
+  const GraphicsControlBlock control{DISPOSE_DO_NOT, false, hundredths,
+                                     e.last.empty() ? NO_TRANSPARENT_COLOR : unchanged};
   GifByteType extension[4];
   const auto size = static_cast<int>(EGifGCBToExtension(&control, extension));
   check(EGifPutExtension(e.gif, GRAPHICS_EXT_FUNC_CODE, size, extension));

@@ -39,7 +39,8 @@ double norm(const std::array<double, 3>& v) {
 /// The value that a share of all lie below; 0 of none.
 double quantile(std::vector<double> values, double share) {
   if (values.empty()) return 0;
-  const auto place = values.begin() + static_cast<std::ptrdiff_t>(std::ceil(share * static_cast<double>(values.size() - 1)));
+  const auto place =
+      values.begin() + static_cast<std::ptrdiff_t>(std::ceil(share * static_cast<double>(values.size() - 1)));
   std::nth_element(values.begin(), place, values.end());
   return *place;
 }
@@ -116,7 +117,8 @@ std::vector<double> Picture::values_of(const Frame& frame) const {
   const Snapshot& bed = frame.bed;
   std::vector<double> values(bed.size(), 0.0);
   if (options_.colour_by == ColourBy::speed) {
-    for (std::size_t i = 0; i < bed.size(); ++i) values[i] = norm({bed.vx[i], bed.vy[i], bed.in_space() ? bed.vz[i] : 0});
+    for (std::size_t i = 0; i < bed.size(); ++i)
+      values[i] = norm({bed.vx[i], bed.vy[i], bed.in_space() ? bed.vz[i] : 0});
     return values;
   }
   const auto add = [&](std::int64_t id, double force) {
@@ -174,7 +176,8 @@ void Picture::draw_grains(cairo_t* to, const Frame& frame) const {
   const Snapshot& bed = frame.bed;
   std::vector<std::size_t> order(bed.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
-  if (bed.in_space()) std::ranges::stable_sort(order, [&](std::size_t a, std::size_t b) { return bed.z[a] > bed.z[b]; });
+  if (bed.in_space())
+    std::ranges::stable_sort(order, [&](std::size_t a, std::size_t b) { return bed.z[a] > bed.z[b]; });
   const std::vector<double> values = values_of(frame);
   for (const std::size_t i : order) {
     const Colour colour = colour_of(frame, i, values);
@@ -185,7 +188,8 @@ void Picture::draw_grains(cairo_t* to, const Frame& frame) const {
   }
 }
 
-/// As wide as the root of the force, so that a hard impact leaves the others visible; the mean force a tenth of a letter.
+/// As wide as the root of the force, so that a hard impact leaves the others visible; the mean force a tenth of a
+/// letter.
 void Picture::draw_chains(cairo_t* to, const Frame& frame) const {
   if (mean_force_ == 0) return;
   set_colour(to, force_red);
@@ -301,7 +305,7 @@ std::string Picture::png(const Frame& frame) const {
 std::string Picture::svg(const Frame& frame) const {
   std::string bytes;
   const Canvas surface(cairo_svg_surface_create_for_stream(append_bytes, &bytes, options_.width, height_),
-                        &cairo_surface_destroy);
+                       &cairo_surface_destroy);
   cairo_svg_surface_set_document_unit(surface.get(), CAIRO_SVG_UNIT_PX);
   {
     const Context context(cairo_create(surface.get()), &cairo_destroy);
@@ -317,7 +321,8 @@ std::vector<Colour> Picture::film_colours() const {
   std::vector<Colour> inks = {ink};
   constexpr int steps = 16;
   if (options_.colour_by == ColourBy::lot)
-    for (std::size_t lot = 0; lot < std::min<std::size_t>(7, scene_.lots.size()); ++lot) inks.push_back(lot_colour(lot));
+    for (std::size_t lot = 0; lot < std::min<std::size_t>(7, scene_.lots.size()); ++lot)
+      inks.push_back(lot_colour(lot));
   else
     for (int k = 0; k < steps; ++k) inks.push_back(ramp_colour((k + 0.5) / steps));
   std::vector<Colour> colours = {paper};
@@ -342,7 +347,8 @@ std::string Picture::gif(const std::vector<Frame>& frames) const {
     cairo_surface_flush(surface.get());
     const unsigned char* data = cairo_image_surface_get_data(surface.get());  // rows of 4 bytes a pixel have no gaps
     if (k + 1 < frames.size()) shown = std::max(least, hundredths(k + 1) - hundredths(k));
-    film.add(Pixels(data, data + std::size_t{4} * static_cast<std::size_t>(options_.width * height_)), static_cast<int>(shown));
+    film.add(Pixels(data, data + std::size_t{4} * static_cast<std::size_t>(options_.width * height_)),
+             static_cast<int>(shown));
   }
   return film.file();
 }

@@ -70,12 +70,12 @@ class Picture {
   PictureOptions options_;
   std::vector<Vessel> vessels_;
   std::vector<Line> lines_;
-  double letter_;                      // pixels, height of the words
-  double scale_ = 1;                   // pixels a metre
-  Eigen::Vector2d zero_;               // pixels, of the lab's zero
-  int height_ = 0;                     // pixels
-  double most_ = 0;                    // m/s or N, where the colours end
-  double mean_force_ = 0, widest_ = 0; // N
+  double letter_;                       // pixels, height of the words
+  double scale_ = 1;                    // pixels a metre
+  Eigen::Vector2d zero_;                // pixels, of the lab's zero
+  int height_ = 0;                      // pixels
+  double most_ = 0;                     // m/s or N, where the colours end
+  double mean_force_ = 0, widest_ = 0;  // N
 };
 
 }  // namespace vibrosow

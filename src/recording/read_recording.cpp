@@ -74,13 +74,13 @@ struct Known {
 
 std::vector<double>& field_of(Snapshot& bed, const std::string& name) {
   const std::array<std::pair<const char*, std::vector<double>*>, 8> fields{{{"x", &bed.x},
-                                                                          {"y", &bed.y},
-                                                                          {"z", &bed.z},
-                                                                          {"angle", &bed.angle},
-                                                                          {"qw", &bed.q_w},
-                                                                          {"qx", &bed.q_x},
-                                                                          {"qy", &bed.q_y},
-                                                                          {"qz", &bed.q_z}}};
+                                                                            {"y", &bed.y},
+                                                                            {"z", &bed.z},
+                                                                            {"angle", &bed.angle},
+                                                                            {"qw", &bed.q_w},
+                                                                            {"qx", &bed.q_x},
+                                                                            {"qy", &bed.q_y},
+                                                                            {"qz", &bed.q_z}}};
   for (const auto& [known, values] : fields)
     if (name == known) return *values;
   damaged();

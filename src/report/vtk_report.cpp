@@ -59,8 +59,9 @@ class Arrays {
     for (const Value& value : values) append(bytes, value);
     constexpr bool scalar = std::is_arithmetic_v<Value>;
     constexpr std::size_t components = scalar ? 1 : sizeof(Value) / sizeof(double);
-    text_ += fmt::format(R"(        <DataArray type="{}" Name="{}" NumberOfComponents="{}" format="binary">{}</DataArray>)",
-                         std::is_same_v<Value, std::int64_t> ? "Int64" : "Float64", name, components, encoded(bytes));
+    text_ +=
+        fmt::format(R"(        <DataArray type="{}" Name="{}" NumberOfComponents="{}" format="binary">{}</DataArray>)",
+                    std::is_same_v<Value, std::int64_t> ? "Int64" : "Float64", name, components, encoded(bytes));
     text_ += '\n';
   }
   const std::string& text() const { return text_; }
@@ -107,7 +108,8 @@ std::string poly_data(std::string_view kind, const std::vector<std::int64_t>& si
                      of_points.text(), of_cells.text(), places.text(), kind, cells(sizes));
 }
 
-std::vector<Vector> as_vectors(const std::vector<double>& x, const std::vector<double>& y, const std::vector<double>& z) {
+std::vector<Vector> as_vectors(const std::vector<double>& x, const std::vector<double>& y,
+                               const std::vector<double>& z) {
   std::vector<Vector> vectors;
   for (std::size_t i = 0; i < x.size(); ++i) vectors.push_back({x[i], y[i], z.empty() ? 0 : z[i]});
   return vectors;
@@ -135,8 +137,8 @@ std::string grains(const Scene& scene, const Frame& frame) {
   of_points.add("radius", bed.radius);
   of_points.add("velocity", as_vectors(bed.vx, bed.vy, bed.vz));
   const std::vector<double> none(bed.size(), 0.0);
-  of_points.add("angular_velocity", bed.in_space() ? as_vectors(bed.omega_x, bed.omega_y, bed.omega)
-                                                   : as_vectors(none, none, bed.omega));
+  of_points.add("angular_velocity",
+                bed.in_space() ? as_vectors(bed.omega_x, bed.omega_y, bed.omega) : as_vectors(none, none, bed.omega));
   of_points.add("orientation", orientations(bed));
   of_points.add("force", contact_forces(frame));
   of_points.add("place_in_tray", as_vectors(own.x, own.y, own.z));
@@ -204,9 +206,12 @@ std::string file_name(std::string_view what, std::size_t k) {
 }
 
 std::string series(std::string_view what, const std::vector<Frame>& frames) {
-  std::string text = "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"1.0\" byte_order=\"LittleEndian\">\n  <Collection>\n";
+  std::string text =
+      "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"1.0\" byte_order=\"LittleEndian\">\n  "
+      "<Collection>\n";
   for (std::size_t k = 0; k < frames.size(); ++k)
-    text += fmt::format("    <DataSet timestep=\"{}\" part=\"0\" file=\"{}\"/>\n", frames[k].bed.time, file_name(what, k));
+    text +=
+        fmt::format("    <DataSet timestep=\"{}\" part=\"0\" file=\"{}\"/>\n", frames[k].bed.time, file_name(what, k));
   return text + "  </Collection>\n</VTKFile>\n";
 }
 
@@ -238,30 +243,31 @@ std::vector<OutputFile> vtk_files(const Scene& scene, const std::vector<Frame>& 
 }
 
 std::vector<FileText> vtk_file_texts() {
-  return {{"grains.pvd", "with --vtk: the series of grains_NNN.vtp, for ParaView", {}},
-          {"grains_NNN.vtp",
-           "with --vtk, of each snapshot: its grains as points",
-           {{"id", "", "as in grains_NNN.csv"},
-            {"lot", "", "its seeds' number in the seeder, from 0"},
-            {"radius", "m", "as there"},
-            {"velocity", "m/s", "in the lab"},
-            {"angular_velocity", "rad/s", "in the lab"},
-            {"orientation", "", "quaternion w, x, y, z from a clump's own axes to the lab's"},
-            {"force", "N", "of all its contacts"},
-            {"place_in_tray", "m", "in the tray's frame, as in grains_NNN.csv; the points themselves are in the lab"}}},
-          {"contacts.pvd", "with --vtk: the series of contacts_NNN.vtp", {}},
-          {"contacts_NNN.vtp",
-           "with --vtk, of each snapshot: its contacts as lines from centre to centre or to the wall, of clumps from those "
-           "of the discs or balls that touch",
-           {{"grain", "", "id of the grain"},
-            {"partner", "", "id of the other; -1: a wall"},
-            {"normal_force", "N", "on the grain"},
-            {"tangential_force", "N", "on the grain"},
-            {"overlap", "m", "of the two"}}},
-          {"vessels.pvd", "with --vtk: the series of vessels_NNN.vtp", {}},
-          {"vessels_NNN.vtp",
-           "with --vtk, of each snapshot: the vessels' walls as lines, in space their edges and rims",
-           {{"vessel", "", "0: the tray, 1: the hopper"}}}};
+  return {
+      {"grains.pvd", "with --vtk: the series of grains_NNN.vtp, for ParaView", {}},
+      {"grains_NNN.vtp",
+       "with --vtk, of each snapshot: its grains as points",
+       {{"id", "", "as in grains_NNN.csv"},
+        {"lot", "", "its seeds' number in the seeder, from 0"},
+        {"radius", "m", "as there"},
+        {"velocity", "m/s", "in the lab"},
+        {"angular_velocity", "rad/s", "in the lab"},
+        {"orientation", "", "quaternion w, x, y, z from a clump's own axes to the lab's"},
+        {"force", "N", "of all its contacts"},
+        {"place_in_tray", "m", "in the tray's frame, as in grains_NNN.csv; the points themselves are in the lab"}}},
+      {"contacts.pvd", "with --vtk: the series of contacts_NNN.vtp", {}},
+      {"contacts_NNN.vtp",
+       "with --vtk, of each snapshot: its contacts as lines from centre to centre or to the wall, of clumps from those "
+       "of the discs or balls that touch",
+       {{"grain", "", "id of the grain"},
+        {"partner", "", "id of the other; -1: a wall"},
+        {"normal_force", "N", "on the grain"},
+        {"tangential_force", "N", "on the grain"},
+        {"overlap", "m", "of the two"}}},
+      {"vessels.pvd", "with --vtk: the series of vessels_NNN.vtp", {}},
+      {"vessels_NNN.vtp",
+       "with --vtk, of each snapshot: the vessels' walls as lines, in space their edges and rims",
+       {{"vessel", "", "0: the tray, 1: the hopper"}}}};
 }
 
 }  // namespace vibrosow

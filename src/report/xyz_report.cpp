@@ -64,10 +64,10 @@ std::string grains_xyz(const Scene& scene, const std::vector<Frame>& frames) {
         bed.size(), size.x(), size.y(), size.z(), box.least.x(), box.least.y(), box.least.z(),
         periodic(scene.tray.sides), periodic(scene.tray.front_and_back), bed.time);
     for (std::size_t i = 0; i < bed.size(); ++i)
-      text += fmt::format("{} {} {} {} {} {} {} {} {} {} {} {}\n",
-                          scene.lots.at(static_cast<std::size_t>(bed.lot[i])).name, bed.x[i], bed.y[i],
-                          bed.in_space() ? bed.z[i] : 0, bed.radius[i], bed.vx[i], bed.vy[i],
-                          bed.in_space() ? bed.vz[i] : 0, forces[i][0], forces[i][1], forces[i][2], bed.id[i]);
+      text +=
+          fmt::format("{} {} {} {} {} {} {} {} {} {} {} {}\n", scene.lots.at(static_cast<std::size_t>(bed.lot[i])).name,
+                      bed.x[i], bed.y[i], bed.in_space() ? bed.z[i] : 0, bed.radius[i], bed.vx[i], bed.vy[i],
+                      bed.in_space() ? bed.vz[i] : 0, forces[i][0], forces[i][1], forces[i][2], bed.id[i]);
   }
   return text;
 }

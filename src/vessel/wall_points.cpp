@@ -1,8 +1,8 @@
 #include "vessel/wall_points.hpp"
 
-#include <algorithm>
-#include <cmath>
 #include <numbers>
+
+#include "elementary/functions.hpp"
 
 namespace vibrosow {
 namespace {
@@ -13,13 +13,14 @@ using Line = std::vector<Eigen::Vector3d>;
 constexpr double between_points = pi / 45;
 
 /// About `centre`, from the angle `from` to `to` (rad) from e1 towards e2.
-Line arc(const Eigen::Vector3d& centre, const Eigen::Vector3d& e1, const Eigen::Vector3d& e2, double radius, double from,
-         double to) {
+Line arc(const Eigen::Vector3d& centre, const Eigen::Vector3d& e1, const Eigen::Vector3d& e2, double radius,
+         double from, double to) {
   const int pieces = 1 + static_cast<int>((to - from) / between_points);
   Line points;
   for (int k = 0; k <= pieces; ++k) {
     const double angle = from + (to - from) * k / pieces;
-    points.push_back(centre + radius * (std::cos(angle) * e1 + std::sin(angle) * e2));
+    const auto [sine, cosine] = elementary::sine_cosine(angle);
+    points.push_back(centre + radius * (cosine * e1 + sine * e2));
   }
   return points;
 }

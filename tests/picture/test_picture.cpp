@@ -99,7 +99,8 @@ class Pictures : public testing::Test {
  protected:
   void SetUp() override {
     scene.title = "a tray";
-    scene.lots = {{.name = "wheat", .diameter = 20e-3, .mass = 1e-3}, {.name = "weed", .diameter = 10e-3, .mass = 1e-3}};
+    scene.lots = {{.name = "wheat", .diameter = 20e-3, .mass = 1e-3},
+                  {.name = "weed", .diameter = 10e-3, .mass = 1e-3}};
     scene.tray.name = "tray";
     scene.tray.length = 0.2, scene.tray.height = 0.1;
     frame.bed = {.time = 1.25,
@@ -131,7 +132,8 @@ TEST_F(Pictures, DiscsHaveTheirAreaOnTheTraysScale) {
   for (const std::size_t lot : {0u, 1u}) {
     const double radius = scale * frame.bed.radius[lot] - rim;
     const double swatch = 0.85 * letter * 0.85 * letter;  // of the key
-    EXPECT_NEAR(static_cast<double>(image.count(lot_colour(lot))), std::numbers::pi * radius * radius + swatch, 8 * radius);
+    EXPECT_NEAR(static_cast<double>(image.count(lot_colour(lot))), std::numbers::pi * radius * radius + swatch,
+                8 * radius);
   }
 }
 

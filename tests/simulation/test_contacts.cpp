@@ -72,7 +72,8 @@ struct Case {
 };
 class ContactsOf : public testing::TestWithParam<Case> {};
 INSTANTIATE_TEST_SUITE_P(Contacts, ContactsOf,
-                         testing::Values(Case{Space::plane, Sides::walls, false}, Case{Space::plane, Sides::periodic, false},
+                         testing::Values(Case{Space::plane, Sides::walls, false},
+                                         Case{Space::plane, Sides::periodic, false},
                                          Case{Space::plane, Sides::walls, true},
                                          Case{Space::three_dimensional, Sides::walls, false},
                                          Case{Space::three_dimensional, Sides::periodic, false},
