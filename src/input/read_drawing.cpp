@@ -83,16 +83,18 @@ std::vector<WallPiece> read_drawing(Table& table) {
     if (!drawing.unit && !unit)
       table.fail("unit", "is missing, and the drawing's $INSUNITS does not say it; such as \"mm\"");
     if (drawing.unit && unit && *drawing.unit != *unit)
-      table.fail("unit", fmt::format("contradicts the drawing, whose $INSUNITS says {} a unit", millimetres(*drawing.unit)));
+      table.fail("unit",
+                 fmt::format("contradicts the drawing, whose $INSUNITS says {} a unit", millimetres(*drawing.unit)));
     for (const WallPiece& piece : drawing.pieces)
       pieces.push_back(moved(piece, scale * (unit ? *unit : *drawing.unit), zero));
   }
-  join_ends(pieces);
-  std::erase_if(pieces, [](const WallPiece& piece) { return piece.radius == 0 && (piece.b - piece.a).norm() < shortest; });
-  if (pieces.empty()) table.fail("file", fmt::format("{} draws no line", path.string()));
   if (pieces.size() > most_pieces)
     table.fail("file", fmt::format("{} draws {} pieces, more than {}; a larger tolerance makes fewer", path.string(),
                                    pieces.size(), most_pieces));
+  join_ends(pieces);
+  std::erase_if(pieces,
+                [](const WallPiece& piece) { return piece.radius == 0 && (piece.b - piece.a).norm() < shortest; });
+  if (pieces.empty()) table.fail("file", fmt::format("{} draws no line", path.string()));
   if (!std::ranges::all_of(pieces, is_finite_and_near))
     table.fail("file", fmt::format("{} draws something further than {:g} m away, or a circle of less than {:g} um",
                                    path.string(), longest, 1e6 * shortest));

@@ -12,8 +12,8 @@ namespace vibrosow {
 /// A vessel's pieces out of a drawing: `file`, a .dxf or .svg beside the file that names it; `unit`, how long one unit
 /// of the drawing is, where it does not say so itself; `scale`, a factor; `at`, where its zero lies in the vessel;
 /// `tolerance` of what is drawn as lines. Ends of lines that lie within a micrometre of another end are put onto it,
-/// lines shorter than that are left out. Throws InputError for a drawing that cannot be read, with its line, and for keys
-/// as elsewhere.
+/// lines shorter than that are left out. Throws InputError for a drawing that cannot be read, with its line, and for
+/// keys as elsewhere.
 std::vector<WallPiece> read_drawing(Table& table);
 
 /// The lines and arcs of a DXF file's entities LINE, LWPOLYLINE, ARC and CIRCLE, in its own units; words and measures

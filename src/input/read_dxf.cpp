@@ -29,7 +29,8 @@ struct Group {
 std::string_view trimmed(std::string_view text) {
   constexpr std::string_view blank = " \t\r";
   const std::size_t from = text.find_first_not_of(blank);
-  return from == std::string_view::npos ? std::string_view() : text.substr(from, text.find_last_not_of(blank) - from + 1);
+  return from == std::string_view::npos ? std::string_view()
+                                        : text.substr(from, text.find_last_not_of(blank) - from + 1);
 }
 
 std::optional<double> number_of(std::string_view text) {
@@ -157,7 +158,8 @@ class Dxf {
     } else if (entity.name == "ARC" || entity.name == "CIRCLE") {
       pieces.push_back(arc(entity));
     } else {
-      fail(entity.line, fmt::format("{} cannot be read; LINE, LWPOLYLINE, ARC and CIRCLE can (explode it)", entity.name));
+      fail(entity.line,
+           fmt::format("{} cannot be read; LINE, LWPOLYLINE, ARC and CIRCLE can (explode it)", entity.name));
     }
   }
 
@@ -170,7 +172,8 @@ class Dxf {
     if (entity.name == "CIRCLE") return piece;
     piece.from = required(entity, 50) * degree, piece.to = required(entity, 51) * degree;
     constexpr double most = 100 * 2 * std::numbers::pi;
-    if (!(std::abs(piece.from) <= most && std::abs(piece.to) <= most)) fail(entity.line, "ARC: its angles are no angles");
+    if (!(std::abs(piece.from) <= most && std::abs(piece.to) <= most))
+      fail(entity.line, "ARC: its angles are no angles");
     while (piece.to <= piece.from) piece.to += 2 * std::numbers::pi;
     while (piece.to - piece.from > 2 * std::numbers::pi * (1 + 1e-12)) piece.to -= 2 * std::numbers::pi;
     return piece;

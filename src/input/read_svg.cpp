@@ -28,8 +28,8 @@ struct Affine {
 
   Point operator()(const Point& p) const { return {a * p.x() + c * p.y() + e, b * p.x() + d * p.y() + f}; }
   Affine then_inner(const Affine& i) const {
-    return {a * i.a + c * i.b, b * i.a + d * i.b, a * i.c + c * i.d, b * i.c + d * i.d, a * i.e + c * i.f + e,
-            b * i.e + d * i.f + f};
+    return {a * i.a + c * i.b, b * i.a + d * i.b,     a * i.c + c * i.d,
+            b * i.c + d * i.d, a * i.e + c * i.f + e, b * i.e + d * i.f + f};
   }
   double turning() const { return a * d - b * c; }
   /// Circles stay circles.
@@ -163,8 +163,8 @@ class Svg {
     return {unit, 0, 0, -unit, -unit * x, unit * (y + height)};
   }
 
-  double unit_of(const Element& root, const std::optional<double>& wide, const std::optional<double>& high, double width,
-                 double height) const {
+  double unit_of(const Element& root, const std::optional<double>& wide, const std::optional<double>& high,
+                 double width, double height) const {
     std::optional<double> own;
     if (high && height > 0) own = *high / height;
     if (wide && width > 0) own = *wide / width;
@@ -286,7 +286,8 @@ class Svg {
     const double longest_axis = std::sqrt(all.a * all.a + all.b * all.b + all.c * all.c + all.d * all.d);
     const double step = 2 * elementary::acos(1 - std::min(1.0, scale_.tolerance / longest_axis));
     const int count = 1 + static_cast<int>(std::min(1e5, std::abs(by) / step));
-    for (int k = 0; k < count; ++k) pieces_.push_back(line_piece(at(from + by * k / count), at(from + by * (k + 1) / count)));
+    for (int k = 0; k < count; ++k)
+      pieces_.push_back(line_piece(at(from + by * k / count), at(from + by * (k + 1) / count)));
   }
 
   /// SVG 1.1, F.6.5: the centre of an arc of which the ends are known.
@@ -365,11 +366,21 @@ class Svg {
       pen.control = control;
     };
     switch (kind) {
-      case 'M': pen.at = pen.begin = point(); break;
-      case 'L': line_to(point()); break;
-      case 'H': line_to({next() + (relative ? pen.at.x() : 0), pen.at.y()}); break;
-      case 'V': line_to({pen.at.x(), next() + (relative ? pen.at.y() : 0)}); break;
-      case 'Z': line_to(pen.begin); break;
+      case 'M':
+        pen.at = pen.begin = point();
+        break;
+      case 'L':
+        line_to(point());
+        break;
+      case 'H':
+        line_to({next() + (relative ? pen.at.x() : 0), pen.at.y()});
+        break;
+      case 'V':
+        line_to({pen.at.x(), next() + (relative ? pen.at.y() : 0)});
+        break;
+      case 'Z':
+        line_to(pen.begin);
+        break;
       case 'C':
       case 'S': {
         const Point b = kind == 'C' ? point() : mirrored("CS");
@@ -392,7 +403,8 @@ class Svg {
         pen.at = to;
         break;
       }
-      default: fail(element, fmt::format("d: there is no command {}", command));
+      default:
+        fail(element, fmt::format("d: there is no command {}", command));
     }
     pen.last = kind;
   }
