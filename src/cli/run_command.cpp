@@ -28,6 +28,8 @@
 #include "report/run_page.hpp"
 #include "report/run_report.hpp"
 #include "report/terminal_text.hpp"
+#include "report/vtk_report.hpp"
+#include "report/xyz_report.hpp"
 #include "scene/input_error.hpp"
 #include "simulation/checkpoint.hpp"
 #include "simulation/simulate.hpp"
@@ -93,6 +95,38 @@ struct RunOptions : CommonOptions {
   bool profile = false;
   std::string checkpoint_every;
   bool resume = false;
+  bool vtk = false, xyz = false;
+};
+
+/// The snapshots of a run with their contacts, which the run itself does not keep.
+class RecordedFrames {
+ public:
+  /// Throws InputError where they cannot be had.
+  RecordedFrames(const RunOptions& options, const Scene& scene) : options_(options) {
+    if (!wanted()) return;
+    const char* option = options.vtk ? "--vtk" : "--xyz";
+    if (!scene.record) throw InputError(fmt::format("{}: the seeder has no [record], which says when", option));
+    if (options.resume)
+      throw InputError(
+          fmt::format("{}: a checkpoint keeps no contacts of earlier snapshots; leave out --resume", option));
+  }
+  bool wanted() const { return options_.vtk || options_.xyz; }
+
+  void note(Simulation& now) { contacts_.resize(now.state().run.snapshots.size(), now.field().contacts()); }
+
+  std::vector<OutputFile> files(const Scene& scene, const std::vector<Snapshot>& snapshots) const {
+    if (!wanted()) return {};
+    std::vector<Frame> frames;
+    for (std::size_t k = 0; k < snapshots.size(); ++k) frames.push_back({snapshots[k], contacts_[k]});
+    std::vector<OutputFile> files;
+    if (options_.vtk) files = vtk_files(scene, frames);
+    if (options_.xyz) files.push_back({"grains.xyz", grains_xyz(scene, frames)});
+    return files;
+  }
+
+ private:
+  const RunOptions& options_;
+  std::vector<std::vector<GrainContact>> contacts_;  // by snapshot
 };
 
 /// A run's checkpoint lies beside its folder, "out/wheat-tray.checkpoint", until the run is finished.
@@ -139,6 +173,7 @@ int run_scene(const RunOptions& options) {
   const Model model = prepare_to_run(read);
   const Scene& scene = model.scene;
   const std::string page_template = options.page_template();
+  RecordedFrames recorded(options, scene);
   const OutputFolder folder = options.output_folder("run", run_file_texts());
   SimulationOptions simulation;
   simulation.random_seed = options.random_seed;
@@ -151,6 +186,7 @@ int run_scene(const RunOptions& options) {
     simulation.on_checkpoint = [&](const SimulationState& state) { checkpoint.write(model, state); };
   }
   if (options.resume) simulation.from = checkpoint.read(model, options.random_seed);
+  if (recorded.wanted()) simulation.on_record = [&](Simulation& now) { recorded.note(now); };
   Recording recording(model);
   if (options.html) {
     simulation.look_every = frame_interval(model);
@@ -170,6 +206,7 @@ int run_scene(const RunOptions& options) {
   std::vector<OutputFile> files = run_files(scene, run, outflow, effect_names(model.effects), options.csv, sown);
   if (options.html)
     files.push_back({"report.html", run_page(page_template, {model, run, outflow, sown, recording.file()})});
+  std::ranges::move(recorded.files(scene, run.snapshots), std::back_inserter(files));
   write_then_print(
       options.quiet, [&] { folder.write(files); },
       [&] {
@@ -205,6 +242,8 @@ void add_run_command(CLI::App& app, int& exit_code) {
   command->add_flag("--resume", options->resume,
                     "go on from the checkpoint, to the same bytes as if never interrupted");
   add_html_option(*command, *options);
+  command->add_flag("--vtk", options->vtk, "snapshots of [record] for ParaView as well: grains.pvd, contacts.pvd, ..");
+  command->add_flag("--xyz", options->xyz, "snapshots of [record] for OVITO as well: grains.xyz");
   command->callback([options, &exit_code] { exit_code = run_scene(*options); });
 }
 

@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "input/lengths.hpp"
+#include "input/read_drawing.hpp"
 #include "input/read_holes.hpp"
 #include "input/read_motion.hpp"
 #include "input/wording.hpp"
@@ -135,9 +136,23 @@ WallPiece read_arc(Table& table) {
   return arc;
 }
 
+/// A list of pieces, or one table for a single drawing.
+std::vector<Table> tables_of_pieces(Table& vessel) {
+  if (!vessel.is_table("pieces")) return vessel.tables("pieces");
+  const Table table = *vessel.table("pieces");
+  if (!table.has("file")) table.fail("file", "is missing; expected a drawing, or a list of lines and arcs");
+  return {table};
+}
+
 std::vector<WallPiece> read_pieces(Table& vessel, Space space) {
   std::vector<WallPiece> pieces;
-  for (Table& table : vessel.tables("pieces")) {
+  for (Table& table : tables_of_pieces(vessel)) {
+    if (table.has("file")) {
+      const std::vector<WallPiece> drawn = read_drawing(table);
+      pieces.insert(pieces.end(), drawn.begin(), drawn.end());
+      continue;
+    }
+    for (const char* key : {"file", "unit", "scale", "at", "tolerance"}) table.skip(key);
     if (table.has("line")) {
       auto line = read_line(table, table.points("line", Dimension::length, -longest, longest));
       read_axis(table, space, line);

@@ -62,6 +62,11 @@ const TomlTable& SourceFiles::toml(const std::filesystem::path& file) {
   }
 }
 
+const std::string& SourceFiles::text(const std::filesystem::path& file) {
+  const auto known = texts_.find(key_of(file));
+  return known != texts_.end() ? known->second : read(file);
+}
+
 const CsvLines& SourceFiles::csv(const std::filesystem::path& file) {
   const auto known = csv_.find(file);
   if (known != csv_.end()) return known->second;

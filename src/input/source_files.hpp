@@ -20,6 +20,7 @@ class SourceFiles {
   /// Throw InputError "FILE: .." or "FILE:LINE: .." when the file is not there, cannot be read or is not valid.
   const TomlTable& toml(const std::filesystem::path& file);
   const CsvLines& csv(const std::filesystem::path& file);
+  const std::string& text(const std::filesystem::path& file);
 
   /// Whether there is such a plain file.
   bool has(const std::filesystem::path& file) const;

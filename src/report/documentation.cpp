@@ -24,9 +24,9 @@ the mean `X` over replicates (Student's t); it is empty for a single run.
 )";
 
 std::string described(const FileText& file) {
-  const bool csv = file.name.ends_with(".csv");
+  const bool json = file.name.ends_with(".json");
   std::string text = fmt::format("\n### `{}`\n\n{}.\n", file.name, file.description);
-  if (!file.columns.empty()) text += fmt::format("\n| {} | unit | meaning |\n|---|---|---|\n", csv ? "column" : "key");
+  if (!file.columns.empty()) text += fmt::format("\n| {} | unit | meaning |\n|---|---|---|\n", json ? "key" : "column");
   for (const ColumnText& column : file.columns)
     text += fmt::format("| `{}` | {} | {} |\n", column.name, column.unit, column.description);
   return text;

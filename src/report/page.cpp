@@ -1,13 +1,11 @@
 #include "report/page.hpp"
 
-#include <boost/archive/iterators/base64_from_binary.hpp>
-#include <boost/archive/iterators/transform_width.hpp>
-#include <cmath>
-#include <numbers>
 #include <stdexcept>
 
+#include "report/base64.hpp"
 #include "scene/spaces.hpp"
 #include "vessel/vessel_walls.hpp"
+#include "vessel/wall_points.hpp"
 
 namespace vibrosow {
 namespace {
@@ -18,19 +16,9 @@ double in_mm(double metres) {
   return 1e3 * metres;
 }
 
-/// A straight wall, or an arc in pieces of some 4 degrees.
 Json line(const WallSegment& wall) {
   Json points = Json::array();
-  const auto add = [&](const Eigen::Vector2d& at) { points.push_back({in_mm(at.x()), in_mm(at.y())}); };
-  if (wall.radius > 0) {
-    const int pieces = 1 + static_cast<int>((wall.to - wall.from) / (std::numbers::pi / 45));
-    for (int k = 0; k <= pieces; ++k) {
-      const double angle = wall.from + (wall.to - wall.from) * k / pieces;
-      add(wall.centre + wall.radius * Eigen::Vector2d(std::cos(angle), std::sin(angle)));
-    }
-  } else {
-    add(wall.a), add(wall.b);
-  }
+  for (const Eigen::Vector2d& at : wall_points(wall)) points.push_back({in_mm(at.x()), in_mm(at.y())});
   Json result = {{"points_mm", std::move(points)}};
   if (wall.opens_at > 0) result["opens_at_s"] = wall.opens_at;
   return result;
@@ -52,8 +40,7 @@ Json holes_of(const Vessel& vessel) {
 }
 
 /// `from_the_side`: what the plane sees of it.
-Json vessel(const Vessel& whole, Vessel from_the_side) {
-  if (from_the_side.sides == Sides::periodic) from_the_side.sides = Sides::open;  // drawn once, without its copies
+Json vessel(const Vessel& whole, const Vessel& from_the_side) {
   Json result = {{"name", whole.name},
                  {"at_mm", {in_mm(whole.origin.x()), in_mm(whole.origin.y()), in_mm(whole.front)}},  // at rest
                  {"tilt_rad", whole.tilt},
@@ -62,16 +49,8 @@ Json vessel(const Vessel& whole, Vessel from_the_side) {
                  {"depth_mm", whole.depth ? Json(in_mm(*whole.depth)) : Json(nullptr)},
                  {"lines", Json::array()},
                  {"holes", holes_of(whole)}};
-  for (const WallSegment& wall : vessel_walls(from_the_side)) result["lines"].push_back(line(wall));
+  for (const WallSegment& wall : vessel_walls(drawn_once(from_the_side))) result["lines"].push_back(line(wall));
   return result;
-}
-
-std::string base64(const std::string& bytes) {
-  using namespace boost::archive::iterators;
-  using Encoded = base64_from_binary<transform_width<std::string::const_iterator, 6, 8>>;
-  std::string text(Encoded(bytes.begin()), Encoded(bytes.end()));
-  text.append((3 - bytes.size() % 3) % 3, '=');
-  return text;
 }
 
 void fill(std::string& page, const std::string& place, const std::string& content) {
@@ -121,6 +100,14 @@ std::string filled_studio(const std::string& page_template, const std::string& d
   std::string html = page_template;
   fill(html, "@STUDIO_DATA@", data);
   return html;
+}
+
+std::string recording_of_page(const std::string& page) {
+  const std::size_t element = page.find("<script id=\"recording\"");
+  const std::size_t from = page.find('>', element), to = page.find('<', from);
+  if (element == std::string::npos || to == std::string::npos) return {};
+  const std::string text = page.substr(from + 1, to - from - 1);
+  return from_base64(text).value_or("");
 }
 
 }  // namespace vibrosow

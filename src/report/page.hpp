@@ -21,4 +21,7 @@ std::string filled_page(const std::string& page_template, const std::string& dat
 /// The studio's, of its own template.
 std::string filled_studio(const std::string& page_template, const std::string& data);
 
+/// The file of the Recording in a page; empty where it holds none.
+std::string recording_of_page(const std::string& page);
+
 }  // namespace vibrosow

@@ -10,6 +10,8 @@
 #include "report/json_keys.hpp"
 #include "report/record_report.hpp"
 #include "report/run_page.hpp"
+#include "report/vtk_report.hpp"
+#include "report/xyz_report.hpp"
 #include "scene/scene_json.hpp"
 #include "units/quantity.hpp"
 
@@ -245,6 +247,8 @@ std::vector<FileText> run_file_texts() {
   std::ranges::move(record_file_texts(), std::back_inserter(texts));
   texts.push_back(rows_file_text());
   texts.push_back(run_page_text());
+  std::ranges::move(vtk_file_texts(), std::back_inserter(texts));
+  texts.push_back(xyz_file_text());
   return texts;
 }
 

@@ -9,6 +9,7 @@
 #include "contact/space_wall_contacts.hpp"
 #include "contact/wall_contacts.hpp"
 #include "grains/clump_discs.hpp"
+#include "result/frame.hpp"
 #include "simulation/neighbours.hpp"
 #include "simulation/state.hpp"
 #include "vessel/walls.hpp"
@@ -50,6 +51,9 @@ class ForceField {
 
   DeepestContact deepest_contact();
 
+  /// All contacts, with the forces in them where grains and walls are now; nothing moves on by it.
+  std::vector<GrainContact> contacts();
+
   /// Which grains touch another one.
   std::vector<char> touching();
 
@@ -82,12 +86,20 @@ class ForceField {
   void add_wall_forces(const Grains& discs, const Motion& at, const HistoryAdvance& advance, Forces& forces,
                        ContactStatistics& statistics);
   void run_kernels(const Grains& discs, const HistoryAdvance& advance, Forces& forces, ContactStatistics& statistics);
+  SpaceMotion motion_in_space(const Grains& balls) const;
   SpaceMotion motion_of_image(const Grains& balls, const Neighbours::Image& image);
   void run_kernels_in_space(const Grains& balls, const HistoryAdvance& advance, SpaceForces& forces,
                             ContactStatistics& statistics);
   void set_pair_forces_in_space(const Grains& balls, const HistoryAdvance& advance, SpaceForces& forces,
                                 ContactStatistics& statistics);
   double elastic_energy_in_space(const Grains& balls);
+  Eigen::Vector3d force_of_pair(const Grains& discs, const PairList& pairs, ContactHistories& histories, std::size_t k,
+                                const Neighbours::Image& image);
+  void add_contacts(const Grains& discs, const PairList& pairs, ContactHistories& histories,
+                    const Neighbours::Image& image, std::vector<GrainContact>& contacts);
+  void add_wall_contacts(const Grains& discs, std::vector<GrainContact>& contacts);
+  void add_face_contacts(const Grains& balls, std::vector<GrainContact>& contacts);
+  std::int64_t id_of_disc(const Grains& discs, std::size_t i) const;
 
   const Model& model_;
   SimulationState& state_;

@@ -7,11 +7,6 @@ namespace vibrosow {
 
 namespace {
 
-SpaceMotion motion_in_space(const Grains& g) {
-  return {g.x.data(),       g.y.data(),       g.z.data(),     g.vx.data(), g.vy.data(), g.vz.data(),
-          g.omega_x.data(), g.omega_y.data(), g.omega.data(), g.x.data(),  g.z.data()};
-}
-
 /// Runs a kernel over the pairs of a range, block by block; what it leaves for others goes to `foreign`.
 void add_pairs(SpacePairKernel kernel, const GrainSurfaces& surfaces, const SpaceMotion& at, const PairList& list,
                PairRange range, const ContactParameters& parameters, const HistoryAdvance& advance,
@@ -27,6 +22,11 @@ void add_pairs(SpacePairKernel kernel, const GrainSurfaces& surfaces, const Spac
 }
 
 }  // namespace
+
+SpaceMotion ForceField::motion_in_space(const Grains& g) const {
+  return {g.x.data(),       g.y.data(),       g.z.data(),     g.vx.data(), g.vy.data(), g.vz.data(),
+          g.omega_x.data(), g.omega_y.data(), g.omega.data(), g.x.data(),  g.z.data()};
+}
 
 SpaceMotion ForceField::motion_of_image(const Grains& balls, const Neighbours::Image& image) {
   shifted_x_ = balls.x, shifted_z_ = balls.z;

@@ -35,6 +35,33 @@ std::vector<double> or_zeros(std::vector<double> values, std::size_t size) {
 
 }  // namespace
 
+Snapshot snapshot_of(const Grains& grains, const Walls& walls, double time) {
+  const Pose pose = walls.pose(0, time);
+  const PoseRate rate = walls.rate(0, time);
+  Snapshot s;
+  s.time = time;
+  s.tray_x = pose.displacement.x(), s.tray_y = pose.displacement.y(), s.tray_angle = pose.angle;
+  s.tray_vx = rate.velocity.x(), s.tray_vy = rate.velocity.y(), s.tray_spin = rate.angular_velocity;
+  s.x = grains.x, s.y = grains.y;
+  s.vx = grains.vx, s.vy = grains.vy;
+  s.omega = or_zeros(grains.omega, grains.size());
+  s.angle = grains.angle;
+  s.lot = grains.lot;
+  s.id = grains.id;
+  for (std::size_t i = 0; i < grains.size(); ++i) {
+    const GrainKind kind = grains.kind(i);
+    s.radius.push_back(kind.radius);
+    s.mass.push_back(kind.mass);
+  }
+  if (grains.in_space) {
+    s.tray_z = pose.across, s.tray_vz = rate.across_velocity;
+    s.z = grains.z, s.vz = grains.vz;
+    s.q_w = grains.q_w, s.q_x = grains.q_x, s.q_y = grains.q_y, s.q_z = grains.q_z;
+    s.omega_x = or_zeros(grains.omega_x, grains.size()), s.omega_y = or_zeros(grains.omega_y, grains.size());
+  }
+  return s;
+}
+
 Recorder::Recorder(const Scene& scene, RecorderState& state) : times_(scene.record->times), state_(state) {
   for (const SeedLot& lot : scene.lots) filled_.push_back(filled_by(lot));
 }
@@ -60,37 +87,17 @@ void Recorder::record(const Grains& grains, const Walls& walls, double time, std
 }
 
 Snapshot Recorder::snapshot(const Grains& grains, const Walls& walls, double time) const {
-  const Pose pose = walls.pose(0, time);
-  const PoseRate rate = walls.rate(0, time);
-  Snapshot s;
-  s.time = time;
-  s.tray_x = pose.displacement.x(), s.tray_y = pose.displacement.y(), s.tray_angle = pose.angle;
-  s.tray_vx = rate.velocity.x(), s.tray_vy = rate.velocity.y(), s.tray_spin = rate.angular_velocity;
-  s.x = grains.x, s.y = grains.y;
-  s.vx = grains.vx, s.vy = grains.vy;
-  s.omega = or_zeros(grains.omega, grains.size());
-  s.angle = grains.angle;
-  s.lot = grains.lot;
-  s.id = grains.id;
+  Snapshot s = snapshot_of(grains, walls, time);
   for (std::size_t i = 0; i < grains.size(); ++i) {
-    const GrainKind kind = grains.kind(i);
-    s.radius.push_back(kind.radius);
-    s.mass.push_back(kind.mass);
     const double filled = filled_[static_cast<std::size_t>(grains.lot[i])];
     if (grains.in_space)
-      s.volume.push_back(filled * ball_volume(kind.radius));
+      s.volume.push_back(filled * ball_volume(s.radius[i]));
     else
-      s.area.push_back(filled * circle_area(kind.radius));
+      s.area.push_back(filled * circle_area(s.radius[i]));
     const Eigen::Vector3d& start = state_.start.at(static_cast<std::size_t>(grains.id[i]));
     s.start_x.push_back(start.x());
     s.start_y.push_back(start.y());
     if (grains.in_space) s.start_z.push_back(start.z());
-  }
-  if (grains.in_space) {
-    s.tray_z = pose.across, s.tray_vz = rate.across_velocity;
-    s.z = grains.z, s.vz = grains.vz;
-    s.q_w = grains.q_w, s.q_x = grains.q_x, s.q_y = grains.q_y, s.q_z = grains.q_z;
-    s.omega_x = or_zeros(grains.omega_x, grains.size()), s.omega_y = or_zeros(grains.omega_y, grains.size());
   }
   return s;
 }

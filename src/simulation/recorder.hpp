@@ -8,6 +8,9 @@
 
 namespace vibrosow {
 
+/// The bed as it is now, without the arrays that say where grains were put in and what they fill.
+Snapshot snapshot_of(const Grains& grains, const Walls& walls, double time);
+
 /// Takes a snapshot at the first step that ends at or after each record time; a record at time 0 is the start. A scene
 /// without a record has no recorder.
 class Recorder {

@@ -30,11 +30,19 @@ Run run_to_end(Simulation& simulation, const SimulationOptions& options) {
   const auto checkpoint = [&](const Simulation& now) { options.on_checkpoint(now.state()); };
   if (options.on_checkpoint && options.checkpoint_every > 0) simulation.watch(options.checkpoint_every, checkpoint);
   if (options.on_look) options.on_look(simulation), simulation.watch(options.look_every, options.on_look);
+  std::size_t recorded = 0;
+  const auto look_at_records = [&] {
+    const std::size_t snapshots = simulation.state().run.snapshots.size();
+    if (snapshots > recorded && options.on_record) options.on_record(simulation);
+    recorded = snapshots;
+  };
+  look_at_records();
   const double measure_from = model.scene.run.measure_from;
   bool interrupted = false;
   Clock::time_point measuring = Clock::now();
   std::int64_t steps = 0, grain_steps = 0;  // since the last look
   while (!simulation.at_end() && !interrupted && simulation.step()) {
+    look_at_records();
     if (simulation.time() <= measure_from) measuring = Clock::now();
     grain_steps += static_cast<std::int64_t>(simulation.grains().size());
     if (++steps < steps_between_looks && grain_steps < grain_steps_between_looks) continue;
@@ -44,6 +52,7 @@ Run run_to_end(Simulation& simulation, const SimulationOptions& options) {
     if (options.progress)
       options.progress(static_cast<double>(simulation.state().step) / static_cast<double>(model.step.steps));
   }
+  look_at_records();  // of a step that ended the run
   if (options.on_look) options.on_look(simulation);
   if (interrupted && options.on_checkpoint) checkpoint(simulation);
   Run run = simulation.result();

@@ -24,6 +24,7 @@ struct SimulationOptions {
 
   double look_every = 0;                             // s, simulated
   std::function<void(const Simulation&)> on_look{};  // at the beginning, then as often, and at the end
+  std::function<void(Simulation&)> on_record{};      // where snapshots were just taken
 
   std::optional<SimulationState> from{};                        // to go on from; none: the scene's start
   double checkpoint_every = 0;                                  // s, simulated; 0: never

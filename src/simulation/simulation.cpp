@@ -306,6 +306,10 @@ void Simulation::end_after_pause() {
                                       *model_.scene.run.end_after_pause, state_.grains.size());
 }
 
+Frame Simulation::frame() {
+  return {snapshot_of(state_.grains, field_.walls(), state_.time), field_.contacts()};
+}
+
 Run Simulation::result() const {
   Run run = state_.run;
   if (guard_.stop_reason()) {

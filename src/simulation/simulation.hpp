@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "plan/model.hpp"
+#include "result/frame.hpp"
 #include "simulation/counter.hpp"
 #include "simulation/feeder.hpp"
 #include "simulation/guard.hpp"
@@ -64,6 +65,9 @@ class Simulation {
 
   /// What has come of it so far.
   Run result() const;
+
+  /// The bed and its contacts as they are now.
+  Frame frame();
 
   /// For tests and tools that look deeper, or change what they should not.
   Grains& grains() { return state_.grains; }

@@ -9,6 +9,8 @@
 #include <nlohmann/json.hpp>
 #include <numbers>
 
+#include "recording/read_recording.hpp"
+#include "scene/input_error.hpp"
 #include "support/bench.hpp"
 
 namespace vibrosow {
@@ -184,6 +186,48 @@ TEST(Recording, AClumpsAngleIsKept) {
   for (std::size_t i = 0; i < run.grains().size(); ++i)
     EXPECT_NEAR(static_cast<double>(read.frames[0].counts[2][i]) * 2 * std::numbers::pi / 1024, run.grains().angle[i],
                 1.001 * std::numbers::pi / 1024);
+}
+
+TEST_P(OfBothSpaces, IsReadBackAsItsFormatSays) {
+  const Model model = with_step(prepare(open_box(GetParam())), 5e-5);
+  Simulation run(model, 1);
+  Recording recording(model);
+  run.watch(0.002, [&](const Simulation& now) { recording.add(now); });
+  while (!run.at_end()) ASSERT_TRUE(run.step());
+  const Reader told(recording.file());
+  std::size_t k = 0;
+  read_recording(recording.file(), [&](const Snapshot& bed) {
+    const auto& frame = told.frames.at(k++);
+    EXPECT_EQ(bed.time, frame.time);
+    ASSERT_EQ(bed.id, frame.id);
+    EXPECT_EQ(bed.in_space(), GetParam() == Space::three_dimensional);
+    for (std::size_t i = 0; i < bed.size(); ++i) {
+      EXPECT_DOUBLE_EQ(bed.y[i], static_cast<double>(frame.counts[1][i]) * told.header["unit_m"].get<double>());
+      EXPECT_EQ(bed.radius[i], told.entered.at(bed.id[i]).radius);
+    }
+  });
+  EXPECT_EQ(k, told.frames.size());
+}
+
+TEST(Recording, ADamagedFileIsAnErrorOrRead) {
+  const Model model = with_step(prepare(open_box(Space::plane)), 5e-5);
+  Simulation run(model, 1);
+  Recording recording(model);
+  run.watch(0.01, [&](const Simulation& now) { recording.add(now); });
+  ASSERT_TRUE(run.run_until(0.1));
+  const std::string file = recording.file();
+  const auto nothing = [](const Snapshot&) {};
+  EXPECT_NO_THROW(read_recording(file, nothing));
+  for (std::size_t size = 0; size < file.size(); size += 7)
+    EXPECT_THROW(read_recording(file.substr(0, size), nothing), InputError) << size;
+  for (std::size_t place = 0; place < file.size(); place += 3) {
+    std::string other = file;
+    other[place] = static_cast<char>(other[place] ^ 0x20);
+    try {
+      read_recording(other, nothing);
+    } catch (const InputError&) {
+    }
+  }
 }
 
 TEST(Recording, TwentyToFiveHundredFramesByTheNumberOfGrains) {

@@ -1,0 +1,186 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <memory>
+
+#include "cli/commands.hpp"
+#include "cli/common_options.hpp"
+#include "cli/console.hpp"
+#include "cli/drawn_frames.hpp"
+#include "cli/interrupt.hpp"
+#include "cli/progress.hpp"
+#include "compute/stop_request.hpp"
+#include "input/input_file.hpp"
+#include "input/read_scene.hpp"
+#include "picture/picture.hpp"
+#include "plan/model.hpp"
+#include "scene/input_error.hpp"
+#include "simulation/simulation.hpp"
+#include "storage/atomic_file.hpp"
+#include "units/quantity.hpp"
+
+namespace vibrosow {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct DrawOptions {
+  CommonOptions common;
+  std::string at, from, to, every = "0.05 s";
+  bool film = false;
+  PictureOptions picture;
+};
+
+/// The times of the frames that are wanted, s. Throws InputError.
+std::vector<double> wanted_times(const DrawOptions& options, double duration) {
+  const auto time = [&](const char* option, const std::string& text) {
+    double value = 0;
+    try {
+      value = parse_quantity(text, Dimension::time);
+    } catch (const UnitError& error) {
+      throw InputError(fmt::format("{}: {}", option, error.what()));
+    }
+    if (!(value >= 0 && value <= duration))
+      throw InputError(
+          fmt::format("{}: \"{}\" is not within the run, which is from 0 to {:g} s", option, text, duration));
+    return value;
+  };
+  if (!options.film) return {options.at.empty() ? duration : time("--at", options.at)};
+  const double from = options.from.empty() ? 0 : time("--from", options.from);
+  const double to = options.to.empty() ? duration : time("--to", options.to);
+  const double every = time_option("--every", options.every);
+  if (from > to) throw InputError("--from: is after --to");
+  constexpr double most = 2000;
+  const double frames = std::floor((to - from) / every * (1 + 1e-12)) + 1;
+  if (frames > most) throw InputError(fmt::format("--every: {:g} frames are more than {:g}", frames, most));
+  std::vector<double> times;
+  for (int k = 0; k < static_cast<int>(frames); ++k) times.push_back(std::min(to, from + k * every));
+  return times;
+}
+
+/// Where the picture goes; its name's end says what it is.
+fs::path picture_path(const DrawOptions& options) {
+  const fs::path named = fs::path(options.common.file).lexically_normal();
+  const fs::path stem = named.has_filename() ? named.stem() : named.parent_path().stem();
+  if (options.common.out.empty()) return stem.string() + (options.film ? ".gif" : ".png");
+  const fs::path path = options.common.out;
+  const std::string end = path.extension().string();
+  if (options.film ? end != ".gif" : end != ".png" && end != ".svg")
+    throw InputError(fmt::format("--out: \"{}\" does not end in {}", path.string(),
+                                 options.film ? ".gif, which --gif makes" : ".png or .svg; a .gif is made with --gif"));
+  return path;
+}
+
+struct Drawn {
+  Scene scene;
+  std::vector<Frame> frames;  // as far as it came
+  int exit_code = exit_done;
+};
+
+/// Runs to each of the times.
+Drawn simulated(const DrawOptions& options) {
+  const InputFile file = input_file(options.common.file, FileKind::seeder);
+  const Model model = prepare_to_run(read_seeder(file.path, options.common.overrides(), file.files).scene);
+  const std::vector<double> times = wanted_times(options, model.scene.run.duration);
+  Drawn drawn{model.scene, {}};
+  const StopRequest stop(&watch_for_interrupt());
+  Progress progress(text_unless(options.common.quiet), times.back(), "s");
+  try {
+    Simulation simulation(model, starting_state(model, options.common.random_seed, stop), {.stop = stop});
+    constexpr double between_looks = 1e-3;  // s
+    for (const double time : times) {
+      while (simulation.time() < time && !simulation.at_end()) {
+        if (stop.is_set()) return {model.scene, {}, exit_interrupted};
+        if (!simulation.run_until(std::min(time, simulation.time() + between_looks))) {
+          complain(fmt::format("the run ended at {:g} s: {}", simulation.time(),
+                               simulation.state().guard.stop_reason.value_or(simulation.state().run.end_reason)));
+          drawn.exit_code = simulation.state().guard.stop_reason ? exit_stopped_by_guard : exit_done;
+          drawn.frames.push_back(simulation.frame());
+          return drawn;
+        }
+        if (times.back() > 0) progress.update(simulation.time() / times.back());
+      }
+      drawn.frames.push_back(simulation.frame());
+    }
+  } catch (const Interrupted&) {
+    drawn.exit_code = exit_interrupted;
+  }
+  return drawn;
+}
+
+/// What a run's folder keeps.
+Drawn kept(const DrawOptions& options) {
+  const fs::path folder = options.common.file;
+  if (!options.common.sets.empty()) throw InputError("--set: goes with a seeder, not with the folder of a run");
+  const PictureOptions& picture = options.picture;
+  if (picture.force_chains || picture.colour_by == ColourBy::force)
+    throw InputError(fmt::format("{}: a run's folder keeps no forces; draw its seeder instead", folder.string()));
+  const Scene scene = scene_of_run(folder);
+  const std::vector<double> times = wanted_times(options, scene.run.duration);
+  KeptFrames all = kept_frames(folder, scene);
+  if (picture.colour_by == ColourBy::speed && !all.have_speeds)
+    throw InputError(fmt::format("{}: its page keeps no speeds; draw its seeder instead", folder.string()));
+  return {scene, nearest_frames(std::move(all.frames), times)};
+}
+
+int draw(const DrawOptions& options) {
+  if (options.film ? !options.at.empty() : !options.from.empty() || !options.to.empty())
+    throw InputError("--at is for a picture, --from and --to are for a film: --gif");
+  const fs::path path = picture_path(options);
+  const Drawn drawn = is_run_folder(options.common.file) ? kept(options) : simulated(options);
+  if (drawn.frames.empty()) return drawn.exit_code;
+  const Picture picture(drawn.scene, drawn.frames, options.picture);
+  const Frame& last = drawn.frames.back();
+  write_file_atomically(path, options.film                 ? picture.gif(drawn.frames)
+                              : path.extension() == ".svg" ? picture.svg(last)
+                                                           : picture.png(last));
+  if (!options.common.quiet)
+    print("{}: {}\n", path.string(),
+          options.film ? fmt::format("{} frames from {:.3f} to {:.3f} s", drawn.frames.size(),
+                                     drawn.frames.front().bed.time, last.bed.time)
+                       : fmt::format("the run at {:.3f} s", last.bed.time));
+  return drawn.exit_code;
+}
+
+}  // namespace
+
+void add_draw_command(CLI::App& app, int& exit_code) {
+  auto options = std::make_shared<DrawOptions>();
+  CLI::App* command = app.add_subcommand("draw", "a picture of a run at one time, or a film of it");
+  const auto text = [command](const char* name, std::string& value, const char* type, const char* help) {
+    command->add_option(name, value, help)->type_name(type);
+  };
+  add_input_options(*command, options->common, "seeder file (.toml), run up to that time; or the folder of a run");
+  text("--at", options->at, "TIME", "of the run; default its end. Of a folder the nearest frame that it keeps");
+  command->add_flag("--gif", options->film, "a film instead");
+  text("--from", options->from, "TIME", "of a film; default 0");
+  text("--to", options->to, "TIME", "of a film; default the run's end");
+  text("--every", options->every, "TIME", "between a film's frames; below \"20 ms\" it goes slower than the run");
+  text("--out", options->common.out, "FILE",
+       ".png or .svg, of a film .gif; default the seeder's name and .png or .gif");
+  command
+      ->add_option_function<std::string>(
+          "--colour",
+          [options](const std::string& name) {
+            options->picture.colour_by = name == "speed"   ? ColourBy::speed
+                                         : name == "force" ? ColourBy::force
+                                                           : ColourBy::lot;
+          },
+          "of the seeds: by lot, speed in the lab, or the sum of the normal forces on a seed")
+      ->type_name("BY")
+      ->check(CLI::IsMember({"lot", "speed", "force"}))
+      ->default_str("lot");
+  command->add_flag("--chains", options->picture.force_chains,
+                    "draw contacts, the wider the larger their normal force");
+  command->add_option("--width", options->picture.width, "of the picture, pixels")
+      ->type_name("N")
+      ->check(CLI::Range(160, 8000))
+      ->capture_default_str();
+  add_random_seed_option(*command, options->common);
+  command->add_flag("--quiet", options->common.quiet, "no progress and no line about the picture");
+  command->callback([options, &exit_code] { exit_code = draw(*options); });
+}
+
+}  // namespace vibrosow

@@ -1,0 +1,181 @@
+#include "recording/read_recording.hpp"
+
+#include <zlib.h>
+
+#include <array>
+#include <bit>
+#include <cstring>
+#include <nlohmann/json.hpp>
+#include <utility>
+
+#include "scene/input_error.hpp"
+
+namespace vibrosow {
+namespace {
+
+using Json = nlohmann::json;
+
+constexpr std::size_t head_size = 12, piece = std::size_t{1} << 20;
+
+[[noreturn]] void damaged() {
+  throw InputError("the recording is damaged");
+}
+
+std::string unpacked(const std::string& packed) {
+  z_stream stream{};
+  if (inflateInit(&stream) != Z_OK) throw std::bad_alloc();
+  stream.next_in = reinterpret_cast<z_const Bytef*>(const_cast<char*>(packed.data()));
+  stream.avail_in = static_cast<uInt>(packed.size());
+  std::string bytes;
+  int status = Z_OK;
+  while (status == Z_OK) {
+    bytes.resize(stream.total_out + piece);
+    stream.next_out = reinterpret_cast<Bytef*>(bytes.data() + stream.total_out);
+    stream.avail_out = static_cast<uInt>(piece);
+    status = inflate(&stream, Z_NO_FLUSH);
+  }
+  bytes.resize(stream.total_out);
+  inflateEnd(&stream);
+  if (status != Z_STREAM_END) damaged();
+  return bytes;
+}
+
+/// Takes numbers off the front of a text.
+class Bytes {
+ public:
+  explicit Bytes(std::string bytes) : bytes_(std::move(bytes)) {}
+
+  template <class Value>
+  Value take() {
+    static_assert(std::endian::native == std::endian::little);
+    Value value;
+    std::memcpy(&value, some(sizeof value), sizeof value);
+    return value;
+  }
+  /// The next `count` bytes.
+  const char* some(std::size_t count) {
+    if (count > bytes_.size() - at_) damaged();
+    return bytes_.data() + std::exchange(at_, at_ + count);
+  }
+
+ private:
+  std::string bytes_;
+  std::size_t at_ = 0;
+};
+
+/// A grain of the list, with its places in counts of this frame and of the one before.
+struct Known {
+  std::int64_t id;
+  int lot;
+  double radius;
+  std::array<std::int32_t, 7> last{}, before{};
+  int frames = 0;  // of this block
+};
+
+std::vector<double>& field_of(Snapshot& bed, const std::string& name) {
+  const std::array<std::pair<const char*, std::vector<double>*>, 8> fields{{{"x", &bed.x},
+                                                                            {"y", &bed.y},
+                                                                            {"z", &bed.z},
+                                                                            {"angle", &bed.angle},
+                                                                            {"qw", &bed.q_w},
+                                                                            {"qx", &bed.q_x},
+                                                                            {"qy", &bed.q_y},
+                                                                            {"qz", &bed.q_z}}};
+  for (const auto& [known, values] : fields)
+    if (name == known) return *values;
+  damaged();
+}
+
+class Block {
+ public:
+  Block(std::string bytes, const Json& header)
+      : bytes_(std::move(bytes)),
+        vessels_(header.at("vessels").size()),
+        fields_(header.at("fields").get<std::vector<std::string>>()),
+        units_(header.at("field_units").get<std::vector<double>>()) {
+    if (units_.size() != fields_.size() || fields_.size() > Known{}.last.size()) damaged();
+  }
+
+  Snapshot next() {
+    Snapshot bed;
+    bed.time = bytes_.take<double>();
+    bytes_.some(vessels_ * 4 * sizeof(double));
+    take_changes();
+    for (const Known& grain : grains_)
+      bed.id.push_back(grain.id), bed.lot.push_back(grain.lot), bed.radius.push_back(grain.radius);
+    for (std::size_t f = 0; f < fields_.size(); ++f) take_places(f, field_of(bed, fields_[f]));
+    for (Known& grain : grains_) ++grain.frames;
+    return bed;
+  }
+
+ private:
+  void take_changes() {
+    const auto leaving = bytes_.take<std::uint32_t>(), entering = bytes_.take<std::uint32_t>(),
+               present = bytes_.take<std::uint32_t>();
+    std::vector<Known> staying;
+    std::size_t from = 0;
+    const auto keep_up_to = [&](std::size_t end) {
+      if (end < from || end > grains_.size()) damaged();
+      staying.insert(staying.end(), grains_.begin() + static_cast<std::ptrdiff_t>(from),
+                     grains_.begin() + static_cast<std::ptrdiff_t>(end));
+    };
+    for (std::uint32_t k = 0; k < leaving; ++k) {
+      const auto place = bytes_.take<std::uint32_t>();
+      keep_up_to(place);
+      from = place + std::size_t{1};
+    }
+    if (from <= grains_.size()) keep_up_to(grains_.size());
+    grains_ = std::move(staying);
+    for (std::uint32_t k = 0; k < entering; ++k) {
+      Known grain{bytes_.take<std::uint32_t>(), bytes_.take<std::uint16_t>(), bytes_.take<float>()};
+      bytes_.some(3 * sizeof(float));  // where it was first
+      grains_.push_back(grain);
+    }
+    if (grains_.size() != present) damaged();
+  }
+
+  void take_places(std::size_t field, std::vector<double>& places) {
+    const std::size_t count = grains_.size();
+    const auto* planes = reinterpret_cast<const unsigned char*>(bytes_.some(4 * count));
+    for (std::size_t i = 0; i < count; ++i) {
+      std::uint32_t coded = 0;
+      for (std::size_t k = 0; k < 4; ++k) coded |= static_cast<std::uint32_t>(planes[k * count + i]) << (8 * k);
+      Known& grain = grains_[i];
+      const std::uint32_t last = static_cast<std::uint32_t>(grain.last[field]);
+      const std::uint32_t expected =
+          grain.frames > 1 ? 2 * last - static_cast<std::uint32_t>(grain.before[field]) : last;
+      // Unsigned, since a damaged file's numbers may overflow.
+      const auto now = static_cast<std::int32_t>(expected + ((coded >> 1) ^ (0U - (coded & 1U))));
+      grain.before[field] = std::exchange(grain.last[field], now);
+      places.push_back(now * units_[field]);
+    }
+  }
+
+  Bytes bytes_;
+  std::size_t vessels_;
+  std::vector<std::string> fields_;
+  std::vector<double> units_;
+  std::vector<Known> grains_;
+};
+
+}  // namespace
+
+void read_recording(const std::string& file, const std::function<void(const Snapshot&)>& look) {
+  if (file.size() < head_size || !file.starts_with("VBSWREC1")) throw InputError("this is no recording");
+  try {
+    Bytes bytes(file.substr(8));
+    const auto length = bytes.take<std::uint32_t>();
+    const Json header = Json::parse(std::string(bytes.some(length), length));
+    const std::size_t blocks = head_size + length;
+    for (const Json& block : header.at("blocks")) {
+      const std::size_t offset = block.at("offset"), size = block.at("bytes");
+      if (offset > file.size() - blocks) damaged();
+      Block frames(unpacked(file.substr(blocks + offset, size)), header);
+      for (int k = 0; k < block.at("frames").get<int>(); ++k) look(frames.next());
+    }
+  } catch (const Json::exception&) {
+    damaged();
+  }
+}
+
+}  // namespace vibrosow

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "scene/scene.hpp"
+#include "vessel/face.hpp"
+#include "vessel/vessel_walls.hpp"
+
+namespace vibrosow {
+
+// Walls as those see them who draw them, m, in the vessel's own frame.
+
+/// The ends of a straight wall, of an arc points every 4 degrees or closer.
+std::vector<Eigen::Vector2d> wall_points(const WallSegment& wall);
+
+/// Lines that show a face: its edges and its holes' rims; of a surface of revolution its two rims and eight lines
+/// between them.
+std::vector<std::vector<Eigen::Vector3d>> face_lines(const Face& face);
+
+/// The vessel without the copies of its walls that a periodic one has beside it.
+Vessel drawn_once(Vessel vessel);
+
+}  // namespace vibrosow

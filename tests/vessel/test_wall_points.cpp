@@ -1,0 +1,57 @@
+#include "vessel/wall_points.hpp"
+
+#include <gtest/gtest.h>
+
+#include <numbers>
+
+namespace vibrosow {
+namespace {
+
+using std::numbers::pi;
+
+TEST(WallPoints, OfAnArcLieOnItFourDegreesApart) {
+  WallSegment wall{{0, 0}, {0, 0}, 0, 1, "arc"};
+  wall.centre = {0.1, 0.2}, wall.radius = 0.05, wall.from = 0.5 * pi, wall.to = 1.5 * pi;
+  const auto points = wall_points(wall);
+  ASSERT_EQ(points.size(), 46u + 1);
+  EXPECT_LT((points.front() - Eigen::Vector2d(0.1, 0.25)).norm(), 1e-15);
+  EXPECT_LT((points.back() - Eigen::Vector2d(0.1, 0.15)).norm(), 1e-15);
+  for (const Eigen::Vector2d& at : points) EXPECT_NEAR((at - wall.centre).norm(), 0.05, 1e-15);
+  EXPECT_EQ(wall_points({{0, 0}, {1, 2}, 0, 1, "line"}), (std::vector<Eigen::Vector2d>{{0, 0}, {1, 2}}));
+}
+
+TEST(FaceLines, OfAPlateAreItsEdgesAndTheRimsOfItsHoles) {
+  Face plate{.name = "floor", .origin = {0, 0, 1}};
+  plate.length_u = 2, plate.length_v = 1, plate.holes = {{0.5, 0.5, 0.1}};
+  const auto lines = face_lines(plate);
+  ASSERT_EQ(lines.size(), 2u);
+  EXPECT_EQ(lines[0].front(), lines[0].back());
+  EXPECT_EQ(lines[0][2], Eigen::Vector3d(2, 1, 1));
+  for (const Eigen::Vector3d& at : lines[1]) EXPECT_NEAR((at - Eigen::Vector3d(0.5, 0.5, 1)).norm(), 0.1, 1e-15);
+}
+
+TEST(FaceLines, OfASurfaceOfRevolutionAreItsRimsAndLinesBetweenThem) {
+  Face cone{.kind = Face::Kind::revolved, .name = "cone"};
+  cone.radius_a = 0.1, cone.height_a = 0, cone.radius_b = 0.3, cone.height_b = 0.5, cone.half_angle = pi;
+  const auto lines = face_lines(cone);
+  ASSERT_EQ(lines.size(), 10u);
+  for (const Eigen::Vector3d& at : lines[1]) {
+    EXPECT_NEAR(at.head<2>().norm(), 0.3, 1e-15);
+    EXPECT_EQ(at.z(), 0.5);
+  }
+  for (std::size_t k = 2; k < lines.size(); ++k) {
+    ASSERT_EQ(lines[k].size(), 2u);
+    EXPECT_LT((lines[k][0].head<2>().normalized() - lines[k][1].head<2>().normalized()).norm(), 1e-12) << "straight down";
+  }
+}
+
+TEST(DrawnOnce, APeriodicVesselHasNoCopiesBesideIt) {
+  Vessel vessel;
+  vessel.name = "tray", vessel.length = 1, vessel.height = 1, vessel.sides = Sides::periodic;
+  vessel.holes = {{0.5, 0.1}};
+  EXPECT_EQ(vessel_walls(vessel).size(), 4u);
+  EXPECT_EQ(vessel_walls(drawn_once(vessel)).size(), 2u);
+}
+
+}  // namespace
+}  // namespace vibrosow
