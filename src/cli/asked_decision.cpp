@@ -6,6 +6,7 @@
 #include "cli/console.hpp"
 #include "cli/decision_text.hpp"
 #include "cli/report_study.hpp"
+#include "report/decision_page.hpp"
 
 namespace vibrosow {
 namespace {
@@ -128,9 +129,15 @@ bool AskedDecision::lead(RoundsOfRuns& rounds) {
   return is_whole;
 }
 
-int AskedDecision::report(const OutputFolder& folder, const CommonOptions& options) const {
+std::string AskedDecision::page(const std::string& page_template, const SweepTiming& timing) const {
+  return decision_page(page_template, report_, timing);
+}
+
+int AskedDecision::report(const OutputFolder& folder, const CommonOptions& options, const std::string& page) const {
+  std::vector<OutputFile> files = decision_files(report_, options.csv);
+  if (!page.empty()) files.push_back({"report.html", page});
   write_then_print(
-      options.quiet, [&] { folder.write(decision_files(report_, options.csv)); },
+      options.quiet, [&] { folder.write(files); },
       [&] { print("{}", decision_text(report_)); });
   if (report_.result.is_interrupted) return exit_interrupted;
   for (const Layout& layout : report_.result.study.layouts)
