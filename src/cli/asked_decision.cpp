@@ -137,8 +137,7 @@ int AskedDecision::report(const OutputFolder& folder, const CommonOptions& optio
   std::vector<OutputFile> files = decision_files(report_, options.csv);
   if (!page.empty()) files.push_back({"report.html", page});
   write_then_print(
-      options.quiet, [&] { folder.write(files); },
-      [&] { print("{}", decision_text(report_)); });
+      options.quiet, [&] { folder.write(files); }, [&] { print("{}", decision_text(report_)); });
   if (report_.result.is_interrupted) return exit_interrupted;
   for (const Layout& layout : report_.result.study.layouts)
     if (layout.scene && !report_.result.scenes[*layout.scene].stopped.empty())

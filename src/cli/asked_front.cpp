@@ -127,8 +127,7 @@ int AskedFront::report(const OutputFolder& folder, const CommonOptions& options,
   std::vector<OutputFile> files = optimise_files(result, folder.path(), options.csv);
   if (!page.empty()) files.push_back({"report.html", page});
   write_then_print(
-      options.quiet, [&] { folder.write(files); },
-      [&] { print("{}", optimise_text(result, folder.path().string())); });
+      options.quiet, [&] { folder.write(files); }, [&] { print("{}", optimise_text(result, folder.path().string())); });
   if (result.is_interrupted) return exit_interrupted;
   for (std::size_t i = 0; i < result.layouts.size(); ++i)
     if (!result.layouts[i].stopped.empty())

@@ -78,8 +78,7 @@ std::string decision_text(const DecisionReport& report) {
   const DecisionResult& result = report.result;
   std::string text = result.study.title.empty() ? "" : wrapped(result.study.title) + "\n";
   text += answer_text(report) + rest_text(report) + failures_text(report) + "\n";
-  if (!result.tests_clogging && result.options.clogging_limit < 1)
-    text += wrapped(clogging_untested_sentence());
+  if (!result.tests_clogging && result.options.clogging_limit < 1) text += wrapped(clogging_untested_sentence());
   if (report.drafts) text += wrapped(drafts_sentence(*report.drafts));
   const std::string correlation = correlation_sentence(result);
   return text + wrapped(cost_sentence(result)) + (correlation.empty() ? "" : wrapped(correlation));

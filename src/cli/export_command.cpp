@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iterator>
 #include <memory>
 #include <string>
 
@@ -15,6 +16,8 @@
 #include "outflow/outflow.hpp"
 #include "plan/effects.hpp"
 #include "plan/model.hpp"
+#include "report/page.hpp"
+#include "report/run_page.hpp"
 #include "report/run_report.hpp"
 #include "scene/input_error.hpp"
 #include "storage/case_folder.hpp"
@@ -46,7 +49,10 @@ int export_run(const ExportOptions& command) {
   const Outflow outflow = measure_outflow(model.scene, found->run);
   std::optional<DrillFigures> sown;
   if (layout.drill) sown = drill_figures(model.scene, found->run, outflow, *layout.drill);
-  folder.write(run_files(model.scene, found->run, outflow, effect_names(model.effects), options.csv, sown));
+  std::vector<OutputFile> files =
+      run_files(model.scene, found->run, outflow, effect_names(model.effects), options.csv, sown);
+  std::ranges::move(page_files("", run_page_data({model, found->run, outflow, sown})), std::back_inserter(files));
+  folder.write(files);
   print("reports: {}\n", folder.path().string());
   return exit_done;
 }

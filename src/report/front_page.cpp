@@ -28,7 +28,10 @@ std::string words_of(std::string_view name) {
 std::string goals_text(const OptimiseOptions& options) {
   std::string text;
   for (std::size_t g = 0; g < options.goals.size(); ++g)
-    text += fmt::format("{}{}", g == 0 ? "" : g + 1 == options.goals.size() ? " and " : ", ",
+    text += fmt::format("{}{}",
+                        g == 0                          ? ""
+                        : g + 1 == options.goals.size() ? " and "
+                                                        : ", ",
                         words_of(options.goals[g]->name));
   return text;
 }

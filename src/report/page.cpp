@@ -1,7 +1,11 @@
 #include "report/page.hpp"
 
 #include <boost/archive/iterators/base64_from_binary.hpp>
+#include <boost/archive/iterators/binary_from_base64.hpp>
 #include <boost/archive/iterators/transform_width.hpp>
+
+#include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <numbers>
 #include <stdexcept>
@@ -74,6 +78,17 @@ std::string base64(const std::string& bytes) {
   return text;
 }
 
+/// What `base64` made of bytes.
+std::string bytes_of(std::string text) {
+  using namespace boost::archive::iterators;
+  using Decoded = transform_width<binary_from_base64<std::string::const_iterator>, 8, 6>;
+  const std::size_t padding = text.size() - std::min(text.size(), text.find_last_not_of('=') + 1);
+  std::replace(text.begin(), text.end(), '=', 'A');
+  std::string bytes(Decoded(text.cbegin()), Decoded(text.cend()));
+  bytes.resize(bytes.size() - padding);
+  return bytes;
+}
+
 void fill(std::string& page, const std::string& place, const std::string& content) {
   const std::size_t at = page.find(place);
   if (at == std::string::npos) throw std::invalid_argument("the page's template has no place " + place);
@@ -115,6 +130,29 @@ std::string filled_page(const std::string& page_template, const std::string& dat
   fill(html, "@RECORDING@", base64(recording));
   fill(html, "@REPORT_DATA@", data);
   return html;
+}
+
+std::string recording_in(const std::string& page) {
+  const std::string begin = "<script id=\"recording\" type=\"text/plain\">";
+  const std::size_t at = page.rfind(begin);
+  if (at == std::string::npos) return "";
+  const std::size_t from = at + begin.size(), to = page.find('<', from);
+  const std::string text = page.substr(from, to - from);
+  const bool is_base64 = text.size() % 4 == 0 && std::ranges::all_of(text, [](unsigned char c) {
+                           return std::isalnum(c) || c == '+' || c == '/' || c == '=';
+                         });
+  return is_base64 ? bytes_of(text) : "";
+}
+
+std::vector<OutputFile> page_files(const std::string& page_template, const std::string& data,
+                                   const std::string& recording) {
+  std::vector<OutputFile> files = {{page_data_name, data + '\n'}};
+  if (!page_template.empty()) files.push_back({"report.html", filled_page(page_template, data, recording)});
+  return files;
+}
+
+FileText page_data_text() {
+  return {page_data_name, "what report.html shows; `vibrosow report` makes the page of it", {}};
 }
 
 }  // namespace vibrosow

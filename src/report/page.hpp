@@ -2,7 +2,10 @@
 
 #include <nlohmann/json.hpp>
 #include <string>
+#include <vector>
 
+#include "report/columns.hpp"
+#include "report/output_folder.hpp"
 #include "scene/scene.hpp"
 
 namespace vibrosow {
@@ -17,5 +20,18 @@ std::string page_text(const nlohmann::ordered_json& data);
 /// A page: `page_template` (shipped_page) with the data (page_text) and, unless it is empty, the file of a Recording in
 /// their places. Throws std::invalid_argument for a template without them.
 std::string filled_page(const std::string& page_template, const std::string& data, const std::string& recording = {});
+
+/// The file of the Recording that a page was filled with; empty without one.
+std::string recording_in(const std::string& page);
+
+/// What a page shows, kept beside the reports that could not be made again without simulating.
+inline constexpr const char* page_data_name = "report.json";
+
+/// report.json and, unless `page_template` is empty, report.html.
+std::vector<OutputFile> page_files(const std::string& page_template, const std::string& data,
+                                   const std::string& recording = {});
+
+/// What report.json holds.
+FileText page_data_text();
 
 }  // namespace vibrosow

@@ -105,8 +105,7 @@ TEST_F(DecisionPage, TimeIsOfRunsThatWereMadeNow) {
 
 TEST_F(DecisionPage, TheDataEndNoScript) {
   EXPECT_EQ(decision_page_data(report_, timing_).find('<'), std::string::npos);
-  EXPECT_EQ(decision_page("@REPORT_DATA@ @RECORDING@", report_, timing_),
-            decision_page_data(report_, timing_) + " ");
+  EXPECT_EQ(decision_page("@REPORT_DATA@ @RECORDING@", report_, timing_), decision_page_data(report_, timing_) + " ");
 }
 
 }  // namespace

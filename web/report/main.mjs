@@ -1,4 +1,6 @@
 // A page: reads what the program wrote into it and lays it out.
+import { accuracyPage } from './accuracy_page.mjs';
+import { calibrationPage } from './calibration_page.mjs';
 import { decisionPage } from './decision_page.mjs';
 import { element } from './dom.mjs';
 import { sentence } from './format.mjs';
@@ -8,7 +10,7 @@ import { runPage } from './run_page.mjs';
 import { sweepPage } from './sweep_page.mjs';
 import { onTheme, startTheme, theme, toggleTheme } from './theme.mjs';
 
-const pages = { run: runPage, sweep: sweepPage, decision: decisionPage, front: frontPage };
+const pages = { run: runPage, sweep: sweepPage, decision: decisionPage, front: frontPage, accuracy: accuracyPage, calibration: calibrationPage };
 
 function themeSwitch() {
   const button = element('button', { type: 'button', class: 'quiet', onclick: toggleTheme });

@@ -10,6 +10,8 @@ const emptyOf = {
   },
   sweep: { keys: [], figures: [], layouts: [] },
   decision: { doubts: [], asked: [], cost: [], keys: [], figures: [], layouts: [] },
+  accuracy: { headlines: [], doubts: [], against: 'the finest setting', within_percent: 1, levels: [], errors: [] },
+  calibration: { doubts: [], quantity: '', of_curves: false, parameters: [], pairs: [], series: [], account: [] },
   front: { doubts: [], asked: [], cost: [], keys: [], figures: [], layouts: [] },
 };
 
