@@ -117,8 +117,7 @@ int report(CommonOptions& options) {
   const std::string page_template = options.page_template();
   if (!std::filesystem::is_directory(options.file)) throw InputError(fmt::format("{}: is no folder", options.file));
   const auto data = content_of(std::filesystem::path(options.file) / page_data_name);
-  const int exit_code =
-      data ? page_of_data(*data, options, page_template) : page_of_study(options, page_template);
+  const int exit_code = data ? page_of_data(*data, options, page_template) : page_of_study(options, page_template);
   if (exit_code == exit_done && !options.quiet) print("{}/report.html\n", options.file);
   return exit_code;
 }
@@ -128,9 +127,7 @@ int report(CommonOptions& options) {
 void add_report_command(CLI::App& app, int& exit_code) {
   auto options = std::make_shared<CommonOptions>();
   CLI::App* command = app.add_subcommand("report", "make the page, report.html, of a folder that is computed already");
-  command
-      ->add_option("FOLDER", options->file, "of run, sweep, decide, optimise, accuracy or calibrate")
-      ->required();
+  command->add_option("FOLDER", options->file, "of run, sweep, decide, optimise, accuracy or calibrate")->required();
   command->add_flag("--quiet", options->quiet, "no progress");
   command->callback([options, &exit_code] { exit_code = report(*options); });
 }

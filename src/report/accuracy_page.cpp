@@ -16,8 +16,8 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr double gram = 1e-3;              // kg
-constexpr double recommended_within = 1;   // %, as accuracy_sentence has it
+constexpr double gram = 1e-3;             // kg
+constexpr double recommended_within = 1;  // %, as accuracy_sentence has it
 
 /// {percent, band} against the limit, or without a fit against the finest setting; null where there is none.
 Json error_of(const AccuracyRow& row) {
@@ -58,7 +58,8 @@ Json errors(const AccuracyResult& result) {
 Json doubts(const Scene& scene, const AccuracyResult& result) {
   Json all = Json::array();
   if (result.fit && !result.fit->fits()) all.push_back(misfit_sentence(*result.fit));
-  if (!result.fit) all.push_back("Errors are against the finest setting, which errs too: the runs were too few for more.");
+  if (!result.fit)
+    all.push_back("Errors are against the finest setting, which errs too: the runs were too few for more.");
   if (scene.space == Space::plane && !result.depth)
     all.push_back("That the tray is run as a plane is an error of its own, which is not in these (--depth).");
   return all;

@@ -86,8 +86,10 @@ Json series(const CalibrationSource& source) {
   const auto stated = [&](double si) { return to_column_unit(table.quantity, si); };
   Json all = Json::array();
   for (const MeasuredSeries& one : table.series)
-    all.push_back(
-        {{"conditions", conditions_text(one.conditions)}, {"hole", one.hole}, {"lot", one.lot}, {"values", Json::array()}});
+    all.push_back({{"conditions", conditions_text(one.conditions)},
+                   {"hole", one.hole},
+                   {"lot", one.lot},
+                   {"values", Json::array()}});
   for (const PredictedValue& value : source.calibration.predictions)
     all[value.series]["values"].push_back({{"time_s", or_null(value.time)},
                                            {"held_out", value.held_out},

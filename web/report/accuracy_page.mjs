@@ -114,7 +114,7 @@ function errorsSentence(errors) {
 
 function errorsSection(data) {
   if (data.errors.length === 0) return null;
-  const rows = data.errors.map(({ source, from, to, percent, band }) => [source, from, to, plusMinus(percent, band ?? NaN)]);
+  const rows = data.errors.map(({ source, from, to, percent, band }) => [source, from, to, band === null ? number(percent) : plusMinus(percent, band)]);
   return section('errors', 'Where errors come from', element('p', { class: 'lead' }, errorsSentence(data.errors)),
     table('Table of the sources of errors', [{ name: 'source' }, { name: 'from' }, { name: 'to' }, { name: 'change of the rate', unit: '%' }], rows));
 }

@@ -24,12 +24,12 @@ function parameterRow({ name, unit, prior_low, prior_high, mean, low, high, cont
   const apart = not_told_apart_from ? `not told apart from ${not_told_apart_from.replaceAll(';', ', ')}` : '';
   return element('li', {}, element('span', {}, name, element('span', { class: 'rank-note' }, [prior_low === null ? 'no range' : '', apart].filter(Boolean).join('; '))),
     element('span', { class: 'parameter-track' }, intervalTrack(scale, { value: mean, low, high, below: false }), trackAxis({ ...scale, ticks })),
-    element('span', { class: 'number' }, withUnit(text(mean), unit), element('span', { class: 'rank-note' }, `${text(low)} to ${text(high)}; ${Math.round(contraction_percent)} % narrower`)));
+    element('span', { class: 'number' }, withUnit(text(mean), unit), element('span', { class: 'rank-note' }, `${text(low)} to ${text(high)}${prior_low === null ? '' : `; ${Math.round(contraction_percent)} % narrower`}`)));
 }
 
 function parametersSentence(parameters) {
-  const known = [...parameters].sort((a, b) => b.contraction_percent - a.contraction_percent);
-  if (known.length === 0) return 'Nothing was fitted.';
+  const known = parameters.filter(({ prior_low: from }) => from !== null).sort((a, b) => b.contraction_percent - a.contraction_percent);
+  if (known.length === 0) return 'No value with a range was fitted.';
   const [most] = known, least = known[known.length - 1];
   const lead = `The table says most of ${most.name}, whose spread is ${Math.round(most.contraction_percent)} % below that of its range`;
   return known.length === 1 ? `${lead}.` : `${lead}, and least of ${least.name} (${Math.round(least.contraction_percent)} %).`;
@@ -67,7 +67,8 @@ function curveChart(name, values, quantity) {
 // A point for every measured rate, with the interval of its prediction; on the diagonal the two agree.
 function rateChart(name, values, quantity) {
   const title = titleOf(wordsOf(quantity));
-  const top = 1.05 * Math.max(...values.flatMap(({ measured, high }) => [measured, high]));
+  const top = 1.05 * Math.max(...values.flatMap(({ measured, high }) => [measured, high])), least = Math.min(...values.flatMap(({ measured, low }) => [measured, low]));
+  const bottom = least > 0.5 * top ? 0.95 * least : 0;
   const sorted = [...values].sort((a, b) => a.measured - b.measured);
   const draw = (plot) => {
     const { ctx } = plot, px = devicePixelRatio;
@@ -77,7 +78,7 @@ function rateChart(name, values, quantity) {
     ctx.strokeStyle = themeColour('edge');
     ctx.setLineDash([5 * px, 4 * px]);
     ctx.beginPath();
-    ctx.moveTo(...at(0, 0));
+    ctx.moveTo(...at(bottom, bottom));
     ctx.lineTo(...at(top, top));
     ctx.stroke();
     ctx.setLineDash([]);
@@ -96,7 +97,7 @@ function rateChart(name, values, quantity) {
     ctx.restore();
   };
   return new Chart(name, (axis) => ({
-    scales: { x: { time: false, range: [0, top] }, y: { range: [0, top] } }, cursor: { show: false }, axes: [axis(`measured ${title}`), axis(`predicted ${title}`, { size: 62 })],
+    scales: { x: { time: false, range: [bottom, top] }, y: { range: [bottom, top] } }, cursor: { show: false }, axes: [axis(`measured ${title}`), axis(`predicted ${title}`, { size: 62 })],
     series: [{}, { paths: () => null, points: { show: false } }], hooks: { draw: [draw] },
   }), [sorted.map(({ measured }) => measured), sorted.map(({ predicted }) => predicted)], 380);
 }
@@ -114,7 +115,7 @@ function residualChart(name, residuals, ofCurves) {
   };
   return new Chart(name, (axis) => ({
     scales: { x: { time: false, ...(ofCurves ? {} : { range: [0, residuals.length + 1] }) } }, cursor: { show: false },
-    axes: [axis(ofCurves ? 'time, s' : 'measured value, in the order of the table'), axis('difference, %', { size: 62 })],
+    axes: [ofCurves ? axis('time, s') : axis('measured value, in the order of the table', { incrs: [1, 2, 5, 10, 20, 50, 100, 200, 500, 1000] }), axis('difference, %', { size: 62 })],
     series: [{}, line('line', { width: 1 }), line('line', { width: 1 }), dots('ink')],
     bands: [{ series: [2, 1], fill: themeColour('line') }], hooks: { drawClear: [shade] },
   }), columns, 220);
@@ -156,7 +157,7 @@ function pairChart({ a, b, points }) {
 function pairsSection({ pairs }) {
   if (pairs.length === 0) return null;
   const joined = pairs.filter(({ told_apart: one }) => !one);
-  const lead = joined.length === 0 ? 'All fitted values are told apart from each other.' : `${joined.length} of ${pairs.length} pairs ${joined.length === 1 ? 'is' : 'are'} not told apart: only together do they say something.`;
+  const lead = joined.length === 0 ? 'No two of them are so correlated that the table could not tell them apart.' : `${joined.length} of ${pairs.length} pairs ${joined.length === 1 ? 'is' : 'are'} not told apart: only together do they say something.`;
   return section('pairs', 'Which values trade for each other', element('p', { class: 'lead' }, lead),
     joined.map((pair) => element('figure', { class: 'card pair' }, pairChart(pair), element('figcaption', {}, `${pair.a} and ${pair.b}: correlation ${pair.correlation.toFixed(2)}.`))),
     table('Table of correlations', [{ name: 'value' }, { name: 'with' }, { name: 'correlation' }], pairs.map(({ a, b, correlation }) => [a, b, correlation.toFixed(2)])));
