@@ -126,6 +126,9 @@ bool AskedDecision::lead(RoundsOfRuns& rounds) {
   asked_for_ = has_drafts ? decision.plan() : drafts_->plan();
   report_.result = decision.result();
   report_.result.is_interrupted = !is_whole;
+  if (!is_whole) report_.result.is_sure = false;
+  if (report_.result.cost.runs == 0)  // a procedure that has seen nothing knows nothing of any layout
+    for (SceneDecision& scene : report_.result.scenes) scene.standing = Standing::undecided;
   return is_whole;
 }
 

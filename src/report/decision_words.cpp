@@ -43,12 +43,12 @@ std::string weakness_sentence() {
 }
 
 std::string undecided_sentence(const DecisionResult& result) {
+  if (result.is_interrupted && result.cost.runs == 0)
+    return "Interrupted in the first round of runs: the same command goes on from here. No layout is ruled out.";
   if (!result.has_margin)
     return fmt::format(
         "Undecided: the least {} is 0, and so is any share of it: --within cannot tell layouts apart by this goal.",
         result.options.goal->name);
-  if (result.is_interrupted && result.cost.runs == 0)
-    return "Interrupted in the first round of runs: the same command goes on from here. No layout is ruled out.";
   if (result.is_interrupted) return "Interrupted: the same command goes on from here. So far not ruled out:";
   return fmt::format(
       "Undecided: after {} runs of a layout (--most) these cannot be told apart, or it is not known whether they meet "
