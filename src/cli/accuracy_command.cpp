@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iterator>
 #include <memory>
 #include <numeric>
 
@@ -18,7 +19,9 @@
 #include "laws/law.hpp"
 #include "plan/scene_warnings.hpp"
 #include "plan/softness.hpp"
+#include "report/accuracy_page.hpp"
 #include "report/accuracy_report.hpp"
+#include "report/page.hpp"
 #include "report/terminal_text.hpp"
 #include "scene/input_error.hpp"
 #include "scene/integrator_names.hpp"
@@ -192,6 +195,7 @@ Scene scene_of(const AccuracyOptions& options) {
 int run_table(const AccuracyOptions& options) {
   const Scene scene = scene_of(options);
   const AccuracyDesign design = design_of(options, scene);
+  const std::string page_template = options.common.page_template();
   const OutputFolder folder = options.common.output_folder("accuracy", accuracy_file_texts(), "-accuracy");
   const int jobs = threads_to_be_had(options.common.jobs);
   const std::atomic<bool>& interrupt = watch_for_interrupt();
@@ -212,8 +216,10 @@ int run_table(const AccuracyOptions& options) {
     result.depth = measure_depth_error(scene, options.depth, run_model, sweep_options);
     timing.wall_time += progress.seconds();
   }
+  std::vector<OutputFile> files = accuracy_files(result, timing, options.common.csv);
+  std::ranges::move(page_files(page_template, accuracy_page_data(scene, result)), std::back_inserter(files));
   write_then_print(
-      options.common.quiet, [&] { folder.write(accuracy_files(result, timing, options.common.csv)); },
+      options.common.quiet, [&] { folder.write(files); },
       [&] { print("{}\n{}\n{}", wrapped(scene.title), accuracy_table(result), wrapped(accuracy_sentence(result))); });
   if (!options.common.quiet) print("reports: {}\n", folder.path().string());
   return interrupt ? exit_interrupted : exit_done;
@@ -226,6 +232,7 @@ int run_promise(const AccuracyOptions& options) {
   const PromiseGoal goal = goal_of(options, jobs);
   const Scene scene = scene_of(options);
   PromiseChoices choices = choices_of(scene);
+  const std::string page_template = options.common.page_template();
   const OutputFolder folder = options.common.output_folder("accuracy", accuracy_file_texts(), "-accuracy");
   refuse_small_budget(goal, choices, scene, jobs);
   const std::atomic<bool>& interrupt = watch_for_interrupt();
@@ -233,8 +240,10 @@ int run_promise(const AccuracyOptions& options) {
   const Progress clock(ProgressStyle::none, 0, "");
   const Promise made = promise(choices, goal, with_progress(runner, options.common.quiet));
   const AccuracyTiming timing{.wall_time = clock.seconds(), .jobs = jobs};
+  std::vector<OutputFile> files = promise_files(made, goal, timing, options.common.csv);
+  std::ranges::move(page_files(page_template, accuracy_page_data(scene, made, goal)), std::back_inserter(files));
   write_then_print(
-      options.common.quiet, [&] { folder.write(promise_files(made, goal, timing, options.common.csv)); },
+      options.common.quiet, [&] { folder.write(files); },
       [&] { print("{}\n{}", wrapped(scene.title), promise_text(made, goal)); });
   if (!options.common.quiet) print("reports: {}\n", folder.path().string());
   return interrupt ? exit_interrupted : exit_done;
@@ -246,6 +255,7 @@ void add_accuracy_command(CLI::App& app, int& exit_code) {
   auto options = std::make_shared<AccuracyOptions>();
   CLI::App* command = app.add_subcommand("accuracy", "what accuracy costs in time, on a seeder of yours");
   add_common_options(*command, options->common, "seeder file (.toml)");
+  add_html_option(*command, options->common);
   command
       ->add_option("--integrator", options->integrators, "velocity-verlet, rk2-midpoint, gear5; default the first two")
       ->delimiter(',')

@@ -6,6 +6,7 @@
 #include "cli/console.hpp"
 #include "cli/decision_text.hpp"
 #include "cli/report_study.hpp"
+#include "report/decision_page.hpp"
 
 namespace vibrosow {
 namespace {
@@ -125,13 +126,21 @@ bool AskedDecision::lead(RoundsOfRuns& rounds) {
   asked_for_ = has_drafts ? decision.plan() : drafts_->plan();
   report_.result = decision.result();
   report_.result.is_interrupted = !is_whole;
+  if (!is_whole) report_.result.is_sure = false;
+  if (report_.result.cost.runs == 0)  // a procedure that has seen nothing knows nothing of any layout
+    for (SceneDecision& scene : report_.result.scenes) scene.standing = Standing::undecided;
   return is_whole;
 }
 
-int AskedDecision::report(const OutputFolder& folder, const CommonOptions& options) const {
+std::string AskedDecision::page(const std::string& page_template, const SweepTiming& timing) const {
+  return decision_page(page_template, report_, timing);
+}
+
+int AskedDecision::report(const OutputFolder& folder, const CommonOptions& options, const std::string& page) const {
+  std::vector<OutputFile> files = decision_files(report_, options.csv);
+  if (!page.empty()) files.push_back({"report.html", page});
   write_then_print(
-      options.quiet, [&] { folder.write(decision_files(report_, options.csv)); },
-      [&] { print("{}", decision_text(report_)); });
+      options.quiet, [&] { folder.write(files); }, [&] { print("{}", decision_text(report_)); });
   if (report_.result.is_interrupted) return exit_interrupted;
   for (const Layout& layout : report_.result.study.layouts)
     if (layout.scene && !report_.result.scenes[*layout.scene].stopped.empty())

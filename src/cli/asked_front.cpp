@@ -8,6 +8,7 @@
 #include "cli/console.hpp"
 #include "cli/optimise_text.hpp"
 #include "cli/report_study.hpp"
+#include "report/front_page.hpp"
 #include "report/front_report.hpp"
 #include "scene/input_error.hpp"
 
@@ -111,12 +112,22 @@ bool AskedFront::lead(RoundsOfRuns& rounds) {
   return !is_interrupted_;
 }
 
-int AskedFront::report(const OutputFolder& folder, const CommonOptions& options) const {
+OptimiseResult AskedFront::result() const {
   OptimiseResult result = search_.result();
   result.is_interrupted = is_interrupted_;
+  return result;
+}
+
+std::string AskedFront::page(const std::string& page_template, const SweepTiming& timing) const {
+  return front_page(page_template, result(), timing);
+}
+
+int AskedFront::report(const OutputFolder& folder, const CommonOptions& options, const std::string& page) const {
+  const OptimiseResult result = this->result();
+  std::vector<OutputFile> files = optimise_files(result, folder.path(), options.csv);
+  if (!page.empty()) files.push_back({"report.html", page});
   write_then_print(
-      options.quiet, [&] { folder.write(optimise_files(result, folder.path(), options.csv)); },
-      [&] { print("{}", optimise_text(result, folder.path().string())); });
+      options.quiet, [&] { folder.write(files); }, [&] { print("{}", optimise_text(result, folder.path().string())); });
   if (result.is_interrupted) return exit_interrupted;
   for (std::size_t i = 0; i < result.layouts.size(); ++i)
     if (!result.layouts[i].stopped.empty())

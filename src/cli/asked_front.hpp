@@ -37,9 +37,12 @@ class AskedFront : public AskedStudy {
   const StudyPlan& plan() const override { return plan_; }
   bool lead(RoundsOfRuns& rounds) override;
   std::vector<PlannedRun> asked_for() const override { return search_.plan(); }
-  int report(const OutputFolder& folder, const CommonOptions& options) const override;
+  std::string page(const std::string& page_template, const SweepTiming& timing) const override;
+  int report(const OutputFolder& folder, const CommonOptions& options, const std::string& page) const override;
 
  private:
+  OptimiseResult result() const;
+
   std::shared_ptr<SourceFiles> files_;
   StudyOptimisation search_;
   StudyPlan plan_;

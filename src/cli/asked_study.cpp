@@ -20,13 +20,15 @@ std::unique_ptr<AskedStudy> asked_study(const StudyPlan& plan) {
 int answer(AskedStudy& asked, const CommonOptions& options, const MakingFlags& making,
            const std::vector<std::string>& reuse) {
   print_warnings(asked.warnings());
+  const std::string page_template = options.page_template();
   const OutputFolder folder = asked.folder(options);
   StudyRuns runs(cases_of(folder.path()), cases_to_reuse(reuse));
   RoundsOfRuns rounds(runs, making, options.jobs, options.quiet);
   freeze_plan(folder.path(), asked.plan());
   asked.lead(rounds);
   freeze_plan(folder.path(), asked.plan());
-  const int exit_code = asked.report(folder, options);
+  const std::string page = page_template.empty() ? "" : asked.page(page_template, rounds.timing());
+  const int exit_code = asked.report(folder, options, page);
   if (!options.quiet) print("reports: {}\n", folder.path().string());
   if (!runs.not_kept().empty()) complain("warning: runs are not kept: " + runs.not_kept());
   return exit_code;

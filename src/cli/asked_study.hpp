@@ -30,8 +30,10 @@ class AskedStudy {
   virtual bool lead(RoundsOfRuns& rounds) = 0;
   /// The runs that it has asked for so far.
   virtual std::vector<PlannedRun> asked_for() const = 0;
-  /// Writes the reports of where it is, and prints its answer; an exit code.
-  virtual int report(const OutputFolder& folder, const CommonOptions& options) const = 0;
+  /// report.html of where it is. `timing`: of the runs that were made for it just now.
+  virtual std::string page(const std::string& page_template, const SweepTiming& timing) const = 0;
+  /// Writes the reports of where it is, with a `page` unless that is empty, and prints its answer; an exit code.
+  virtual int report(const OutputFolder& folder, const CommonOptions& options, const std::string& page) const = 0;
 };
 
 /// The decision or search of a plan; null for a sweep's. Throws InputError where this version of the program, or the

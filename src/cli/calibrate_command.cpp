@@ -1,7 +1,9 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
 #include <filesystem>
+#include <iterator>
 #include <memory>
 #include <optional>
 #include <string>
@@ -15,7 +17,9 @@
 #include "input/input_file.hpp"
 #include "input/named_columns.hpp"
 #include "input/read_scene.hpp"
+#include "report/calibration_page.hpp"
 #include "report/calibration_report.hpp"
+#include "report/page.hpp"
 #include "report/terminal_text.hpp"
 #include "scene/input_error.hpp"
 #include "storage/study_plan.hpp"
@@ -107,6 +111,7 @@ int run_calibrate(const CalibrateOptions& command) {
   const CalibrationTask task = task_of(command, file);
   const CalibrationChoices choices{hold_out_of(command, task.measured.table), noise_of(command.noise)};
   const CalibrationDesign design = design_calibration(task, file.files);
+  const std::string page_template = options.page_template();
   const OutputFolder folder = options.output_folder("calibrate", calibration_file_texts(), "-calibration");
   StudyRuns runs(cases_of(folder.path()));
   const Made made = make_runs(runs, wanted_runs(design), command.making, options.jobs, options.quiet);
@@ -119,10 +124,11 @@ int run_calibrate(const CalibrateOptions& command) {
   if (!reduced) throw InputError(fmt::format("{}: runs are missing", folder.path().string()));
   const Calibration calibration = calibrate(task, design, choices, *reduced);
   const CalibrationSource source{task, design, *reduced, calibration};
+  std::vector<OutputFile> files = calibration_files(source, fitted_contact(task, calibration, file.files), options.csv);
+  std::ranges::move(page_files(page_template, calibration_page_data(source, middle_scene(task, file.files))),
+                    std::back_inserter(files));
   write_then_print(
-      options.quiet,
-      [&] { folder.write(calibration_files(source, fitted_contact(task, calibration, file.files), options.csv)); },
-      [&] { print_text(calibration_table(source)); });
+      options.quiet, [&] { folder.write(files); }, [&] { print_text(calibration_table(source)); });
   for (const std::string& doubt : calibration_doubts(source)) complain("note: " + doubt);
   if (!options.quiet) print("reports: {}\n", folder.path().string());
   return exit_done;
@@ -169,6 +175,7 @@ void add_calibrate_command(CLI::App& app, int& exit_code) {
   add_common_options(*command, options->common, "seeder file (.toml)");
   command->add_option("TABLE", options->table, "measured outflow (.csv)")->required();
   add_fit_options(*command, *options);
+  add_html_option(*command, options->common);
   add_making_flags(*command, options->making);
   command->callback([options, &exit_code] { exit_code = run_calibrate(*options); });
 }

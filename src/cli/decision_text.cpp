@@ -5,15 +5,12 @@
 #include <algorithm>
 #include <map>
 
-#include "cli/layout_text.hpp"
+#include "report/decision_words.hpp"
+#include "report/layout_text.hpp"
 #include "report/terminal_text.hpp"
 
 namespace vibrosow {
 namespace {
-
-std::string percent_text(double fraction) {
-  return to_digits(100 * fraction, 4) + " %";
-}
 
 std::string in_figure(const std::optional<MeanWithInterval>& value, std::string_view name) {
   const Figure& figure = figure_named(name);
@@ -42,61 +39,15 @@ std::string layouts_that_are(const DecisionReport& report, const std::string& st
   return text;
 }
 
-std::string constraints_text(const DecisionResult& result) {
-  std::string text;
-  if (result.options.rate) text = "meets the rate";
-  if (result.tests_clogging)
-    text += fmt::format("{}clogs in fewer than {} of runs", text.empty() ? "" : " and ",
-                        percent_text(result.options.clogging_limit));
-  return text;
-}
-
-/// "confidence of 95 %"
-std::string sureness_text(const DecideOptions& options) {
-  return fmt::format("{} of {}", options.rule == SelectionRule::posterior ? "posterior probability" : "confidence",
-                     percent_text(options.confidence));
-}
-
-std::string promise_text(const DecisionResult& result) {
-  const DecideOptions& options = result.options;
-  const std::string met = constraints_text(result);
-  const std::string among = met.empty() ? "No other" : fmt::format("It {}; no other that does so", met);
-  const std::string weakness =
-      options.rule == SelectionRule::guaranteed
-          ? ""
-          : " That is no guarantee: among layouts that all lie about that far behind the best this rule is wrong "
-            "clearly "
-            "more often (docs/DECIDING.md). For a guarantee: --procedure guaranteed, which goes on from these runs.";
-  return wrapped(fmt::format("{} is better by more than {}: with a {}.{}", among, percent_text(options.margin),
-                             sureness_text(options), weakness));
-}
-
-std::string undecided_text(const DecisionReport& report) {
-  const DecisionResult& result = report.result;
-  if (!result.has_margin)
-    return wrapped(fmt::format(
-        "Undecided: the least {} is 0, and so is any share of it: --within cannot tell layouts apart by this goal.",
-        result.options.goal->name));
-  if (result.is_interrupted && result.cost.runs == 0)
-    return wrapped(
-        "Interrupted in the first round of runs: the same command goes on from here. No layout is ruled out.");
-  if (result.is_interrupted) return wrapped("Interrupted: the same command goes on from here. So far not ruled out:");
-  return wrapped(
-      fmt::format("Undecided: after {} runs of a layout (--most) these cannot be told apart, or it is not "
-                  "known whether they meet the constraints:",
-                  result.options.most));
-}
-
 std::string answer_text(const DecisionReport& report) {
   const DecisionResult& result = report.result;
   if (!result.is_sure)
-    return undecided_text(report) + (result.cost.runs == 0 ? "" : layouts_that_are(report, "undecided"));
-  if (!result.best)
-    return wrapped(constraints_text(result).empty() ? std::string("No layout can be compared.")
-                                                    : fmt::format("No layout {}: with a {}.", constraints_text(result),
-                                                                  sureness_text(result.options)));
+    return wrapped(undecided_sentence(result)) + (result.cost.runs == 0 ? "" : layouts_that_are(report, "undecided"));
+  if (!result.best) return wrapped(no_best_sentence(result));
+  std::string promise = promise_sentence(result);
+  if (!is_guaranteed(result)) promise += ' ' + weakness_sentence();
   const std::string others = layouts_that_are(report, "not shown to be worse");
-  return fmt::format("The best:\n{}{}{}{}", layouts_that_are(report, "best"), promise_text(result),
+  return fmt::format("The best:\n{}{}{}{}", layouts_that_are(report, "best"), wrapped(promise),
                      others.empty() ? "" : "\nLeft behind, but not shown to be worse:\n", others);
 }
 
@@ -121,50 +72,16 @@ std::string failures_text(const DecisionReport& report) {
   return text;
 }
 
-std::string cost_text(const DecisionResult& result) {
-  std::string text = fmt::format("Cost: {} runs, {:.3g} grain-steps", static_cast<long long>(result.cost.runs),
-                                 result.cost.grain_steps);
-  if (result.equal_grid)
-    text += fmt::format(
-        "; a grid that is run without looking (Rinott's procedure) takes {} runs, {:.3g} grain-steps "
-        "for the same confidence",
-        static_cast<long long>(result.equal_grid->runs), result.equal_grid->grain_steps);
-  return wrapped(text + ".");
-}
-
-std::string correlation_text(const DecisionResult& result) {
-  if (!result.correlation) return "";
-  return wrapped(fmt::format(
-      "Runs of different layouts under one random seed correlate by {:.2f}{}.", *result.correlation,
-      *result.correlation < DraftScreen::least_correlation
-          ? fmt::format("; below {:g} nothing is claimed of common random numbers", DraftScreen::least_correlation)
-          : ": differences are surer than each value"));
-}
-
-std::string drafts_text(const DraftFindings& drafts) {
-  if (!drafts.correlation)
-    return wrapped(fmt::format("Drafts: only {} of the pilot layouts have the goal both ways; they decide nothing.",
-                               drafts.pilots));
-  const auto ruled_out = std::ranges::count(drafts.taking_part, false);
-  const std::string so =
-      drafts.screens ? fmt::format("{} layouts are ruled out by them, which the confidence does not cover", ruled_out)
-                     : fmt::format("below {:g} they decide nothing", DraftScreen::least_correlation);
-  return wrapped(fmt::format(
-      "Drafts: means of {} pilot layouts correlate by {:.2f} with those at the study's accuracy; "
-      "{}. They took {} runs, {:.3g} grain-steps.",
-      drafts.pilots, *drafts.correlation, so, static_cast<long long>(drafts.cost.runs), drafts.cost.grain_steps));
-}
-
 }  // namespace
 
 std::string decision_text(const DecisionReport& report) {
   const DecisionResult& result = report.result;
   std::string text = result.study.title.empty() ? "" : wrapped(result.study.title) + "\n";
   text += answer_text(report) + rest_text(report) + failures_text(report) + "\n";
-  if (!result.tests_clogging && result.options.clogging_limit < 1)
-    text += wrapped("Clogging is not tested: no layout has run.end_after_pause.");
-  if (report.drafts) text += drafts_text(*report.drafts);
-  return text + cost_text(result) + correlation_text(result);
+  if (!result.tests_clogging && result.options.clogging_limit < 1) text += wrapped(clogging_untested_sentence());
+  if (report.drafts) text += wrapped(drafts_sentence(*report.drafts));
+  const std::string correlation = correlation_sentence(result);
+  return text + wrapped(cost_sentence(result)) + (correlation.empty() ? "" : wrapped(correlation));
 }
 
 }  // namespace vibrosow

@@ -130,7 +130,7 @@ KeptFrames kept_frames(const fs::path& folder, const Scene& scene) {
   const fs::path page = folder / "report.html";
   std::vector<Frame> frames;
   if (fs::exists(page)) {
-    const std::string recording = recording_of_page(text_of(page));
+    const std::string recording = recording_in(text_of(page));
     if (!recording.empty()) read_recording(recording, [&](const Snapshot& bed) { frames.push_back({bed}); });
     if (!frames.empty()) return {std::move(frames), false};
   }

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iterator>
 #include <memory>
 #include <string>
 
@@ -15,6 +16,7 @@
 #include "outflow/outflow.hpp"
 #include "plan/effects.hpp"
 #include "plan/model.hpp"
+#include "report/page.hpp"
 #include "report/run_page.hpp"
 #include "report/run_report.hpp"
 #include "scene/input_error.hpp"
@@ -43,16 +45,13 @@ int export_run(const ExportOptions& command) {
   const std::size_t index = static_cast<std::size_t>(run - runs.begin());
   const Layout& layout = planned.study.layouts.at(static_cast<std::size_t>(run->layout) - 1);
   const Model model = prepare(*wanted_runs(planned, {index}).front().scene);
-  const std::string page_template = options.page_template();
   const OutputFolder folder = options.output_folder("run", run_file_texts());
   const Outflow outflow = measure_outflow(model.scene, found->run);
   std::optional<DrillFigures> sown;
   if (layout.drill) sown = drill_figures(model.scene, found->run, outflow, *layout.drill);
   std::vector<OutputFile> files =
       run_files(model.scene, found->run, outflow, effect_names(model.effects), options.csv, sown);
-  const std::string no_recording;
-  if (options.html)
-    files.push_back({"report.html", run_page(page_template, {model, found->run, outflow, sown, no_recording})});
+  std::ranges::move(page_files("", run_page_data({model, found->run, outflow, sown})), std::back_inserter(files));
   folder.write(files);
   print("reports: {}\n", folder.path().string());
   return exit_done;
@@ -70,9 +69,8 @@ int export_sweep(const StudyPlan& plan, const ExportOptions& command) {
   const PlannedStudy planned = study_of_plan(plan);
   StudyRuns runs(cases_of(options.file));
   if (command.complete) check_that_none_is_missing(options.file, plan.runs);
-  const std::string page_template = options.page_template();
   const OutputFolder folder = options.output_folder("sweep", sweep_file_texts());
-  return report_study(planned, runs, folder, {.jobs = options.jobs}, options, page_template);
+  return report_study(planned, runs, folder, {.jobs = options.jobs}, options, "");
 }
 
 int export_asked(AskedStudy& asked, const ExportOptions& command) {
@@ -81,7 +79,7 @@ int export_asked(AskedStudy& asked, const ExportOptions& command) {
   RoundsOfRuns rounds(runs, std::nullopt, options.jobs, true);
   asked.lead(rounds);
   if (command.complete) check_that_none_is_missing(options.file, asked.asked_for());
-  return asked.report(asked.folder(options), options);
+  return asked.report(asked.folder(options), options, "");
 }
 
 int export_study(ExportOptions command) {
@@ -91,7 +89,6 @@ int export_study(ExportOptions command) {
   options.out = options.file;
   const StudyPlan plan = read_plan(options.file);
   const auto asked = asked_study(plan);
-  if (asked && options.html) throw InputError("--html: only runs and sweeps have a page so far");
   const int exit_code = asked ? export_asked(*asked, command) : export_sweep(plan, command);
   print("reports: {}\n", options.out);
   if (exit_code != exit_interrupted) return exit_code;
@@ -111,7 +108,6 @@ void add_export_command(CLI::App& app, int& exit_code) {
       ->type_name("NAME");
   command->add_option("--out", options->common.out, "directory for the reports of --run")->type_name("DIR");
   add_csv_option(*command, options->common);
-  add_html_option(*command, options->common);
   command->callback([options, &exit_code] { exit_code = export_study(*options); });
 }
 

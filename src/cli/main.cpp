@@ -38,6 +38,7 @@ int run_program(int argument_count, char** arguments) {
   add_work_command(app, exit_code);
   add_submit_command(app, exit_code);
   add_status_command(app, exit_code);
+  add_report_command(app, exit_code);
   add_export_command(app, exit_code);
   add_draw_command(app, exit_code);
   add_verify_command(app, exit_code);

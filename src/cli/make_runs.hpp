@@ -37,7 +37,9 @@ class RoundsOfRuns {
  public:
   /// Without `flags` none is made: what is not kept is missing.
   RoundsOfRuns(StudyRuns& runs, const std::optional<MakingFlags>& flags, int jobs, bool quiet)
-      : runs_(runs), flags_(flags), jobs_(jobs), quiet_(quiet) {}
+      : runs_(runs), flags_(flags), jobs_(jobs), quiet_(quiet) {
+    made_.timing.jobs = jobs;
+  }
 
   /// To its end; false where that is interrupted, or runs are missing.
   template <class Asking, class AfterRound>
@@ -51,6 +53,7 @@ class RoundsOfRuns {
     return true;
   }
   std::int64_t made() const { return made_.making.made; }
+  const SweepTiming& timing() const { return made_.timing; }
   bool quiet() const { return quiet_; }
 
  private:

@@ -32,6 +32,7 @@ void add_optimise_command(CLI::App& app, int& exit_code) {
       "optimise", "look in the space of a study for layouts that no other is better than in several goals");
   add_common_options(*command, options->common, "study file (.toml)");
   add_question_options(*command, options->question);
+  add_html_option(*command, options->common);
   add_making_flags(*command, options->making);
   add_reuse_option(*command, options->reuse);
   command->callback([options, &exit_code] { exit_code = run_optimise(*options); });

@@ -6,8 +6,8 @@
 #include <cstdint>
 #include <map>
 
-#include "cli/layout_text.hpp"
 #include "report/front_report.hpp"
+#include "report/layout_text.hpp"
 #include "report/terminal_text.hpp"
 
 namespace vibrosow {
@@ -57,18 +57,6 @@ std::string rest_text(const OptimiseResult& result) {
   return text.empty() ? "" : wrapped(fmt::format("Of the other layouts that were tried, {} (pareto.csv).", text));
 }
 
-std::string promise_text(const OptimiseResult& result) {
-  const std::string alone =
-      result.options.goals.size() > 1
-          ? ""
-          : " Of a single goal `vibrosow decide` finds the best of given layouts with a guarantee.";
-  return wrapped(
-      fmt::format("\"On the front\" and \"dominated\" are among the layouts that were tried, each with a confidence of "
-                  "{:g} %, and no proof, since runs went where earlier ones led. That no better layout is in the space "
-                  "is not promised.{}",
-                  100 * result.options.confidence, alone));
-}
-
 }  // namespace
 
 std::string optimise_text(const OptimiseResult& result, const std::string& folder) {
@@ -79,9 +67,8 @@ std::string optimise_text(const OptimiseResult& result, const std::string& folde
   if (!sure.empty()) text += fmt::format("On the front:\n{}", sure);
   if (!unsure.empty()) text += fmt::format("First by their means, and may be on the front:\n{}", unsure);
   if (sure.empty() && unsure.empty()) text += wrapped("No layout meets the constraints by its means.");
-  text += fmt::format("\n{}{}", rest_text(result), promise_text(result));
-  text += wrapped(fmt::format("Cost: {} layouts, {} runs, {:.3g} grain-steps.", result.layouts.size(),
-                              static_cast<long long>(result.cost.runs), result.cost.grain_steps));
+  text += fmt::format("\n{}{}", rest_text(result), wrapped(front_promise(result)));
+  text += wrapped(front_cost(result));
   if (std::ranges::count_if(result.layouts, leads) < 2) return text;
   const std::uint64_t random_seed = result.options.first_random_seed;  // else it would take none of the runs
   return text + fmt::format(

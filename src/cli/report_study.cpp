@@ -32,15 +32,22 @@ int stopped_by_guard(int layout, const std::string& reason) {
   return exit_stopped_by_guard;
 }
 
-int report_study(const PlannedStudy& planned, const StudyRuns& runs, const OutputFolder& folder,
-                 const SweepTiming& timing, const CommonOptions& options, const std::string& page_template) {
+StudyResult result_of_kept(const PlannedStudy& planned, const StudyRuns& runs, int jobs,
+                           const std::function<void(std::size_t, const std::vector<Evaluation>&)>& on_runs) {
   SweepOptions reading;
   reading.first_random_seed = planned.plan.random_seed;
   reading.replicates = replicates_in(planned);
-  reading.runs.jobs = timing.jobs;
+  reading.runs.jobs = jobs;
+  reading.on_runs = on_runs;
+  return sweep(planned.study, runs.kept(), reading);
+}
+
+int report_study(const PlannedStudy& planned, const StudyRuns& runs, const OutputFolder& folder,
+                 const SweepTiming& timing, const CommonOptions& options, const std::string& page_template) {
   SweepRunsCsv runs_csv(planned.study, options.csv);
-  reading.on_runs = [&](std::size_t scene, const std::vector<Evaluation>& of_scene) { runs_csv.add(scene, of_scene); };
-  const StudyResult result = sweep(planned.study, runs.kept(), reading);
+  const StudyResult result = result_of_kept(
+      planned, runs, timing.jobs,
+      [&](std::size_t scene, const std::vector<Evaluation>& of_scene) { runs_csv.add(scene, of_scene); });
   std::vector<OutputFile> files = sweep_files(result, runs_csv, timing, options.csv);
   if (!page_template.empty()) files.push_back({"report.html", sweep_page(page_template, result)});
   write_then_print(

@@ -1,15 +1,22 @@
 #pragma once
 
+#include <functional>
 #include <string>
+#include <vector>
 
 #include "cli/common_options.hpp"
 #include "design/planned_study.hpp"
+#include "design/sweep.hpp"
 #include "report/sweep_report.hpp"
 
 namespace vibrosow {
 
 /// Says which layout the guard stopped, and why; an exit code.
 int stopped_by_guard(int layout, const std::string& reason);
+
+/// A sweep by the runs that are kept.
+StudyResult result_of_kept(const PlannedStudy& planned, const StudyRuns& runs, int jobs,
+                           const std::function<void(std::size_t, const std::vector<Evaluation>&)>& on_runs = {});
 
 /// Makes a study's reports of the runs that are kept, and prints its table; an exit code. With a
 /// `page_template`, its page too.

@@ -25,6 +25,7 @@
 #include "plan/scene_warnings.hpp"
 #include "recording/recording.hpp"
 #include "report/output_folder.hpp"
+#include "report/page.hpp"
 #include "report/run_page.hpp"
 #include "report/run_report.hpp"
 #include "report/terminal_text.hpp"
@@ -204,8 +205,8 @@ int run_scene(const RunOptions& options) {
   const std::vector<std::string> warnings_of_run = run.warnings;
   run.warnings.insert(run.warnings.begin(), warnings.begin(), warnings.end());
   std::vector<OutputFile> files = run_files(scene, run, outflow, effect_names(model.effects), options.csv, sown);
-  if (options.html)
-    files.push_back({"report.html", run_page(page_template, {model, run, outflow, sown, recording.file()})});
+  std::ranges::move(page_files(page_template, run_page_data({model, run, outflow, sown}), recording.file()),
+                    std::back_inserter(files));
   std::ranges::move(recorded.files(scene, run.snapshots), std::back_inserter(files));
   write_then_print(
       options.quiet, [&] { folder.write(files); },

@@ -8,7 +8,7 @@
 
 #include "cli/console.hpp"
 #include "cli/drill_table.hpp"
-#include "cli/layout_text.hpp"
+#include "report/layout_text.hpp"
 #include "report/terminal_text.hpp"
 
 namespace vibrosow {

@@ -4,8 +4,10 @@
 
 #include <nlohmann/json.hpp>
 
+#include "report/accuracy_page.hpp"
 #include "report/columns.hpp"
 #include "report/json_keys.hpp"
+#include "report/page.hpp"
 #include "report/terminal_text.hpp"
 #include "scene/integrator_names.hpp"
 
@@ -102,13 +104,6 @@ Columns<RunRow> run_columns() {
   return columns;
 }
 
-/// A line of the account of errors.
-struct ErrorRow {
-  std::string source, from, to;
-  double percent;
-  Value band{};
-};
-
 std::string softness_text(const AccuracySetting& setting) {
   return setting.shell_compression > 0 ? fmt::format("eps/r {:.3g}", setting.shell_compression)
                                        : fmt::format("E {:.4g} MPa", setting.youngs_modulus / megapascal);
@@ -135,16 +130,6 @@ ErrorRow row_of(const MainEffect& effect) {
   }
   return row(fmt::format("scheme, {:.4g} steps", effect.to.steps_per_contact).c_str(),
              integrator_name(effect.from.integrator), integrator_name(effect.to.integrator));
-}
-
-std::vector<ErrorRow> error_rows(const AccuracyResult& result) {
-  std::vector<ErrorRow> rows;
-  if (result.fit) {
-    for (const MainEffect& effect : result.fit->effects()) rows.push_back(row_of(effect));
-    rows.push_back({"chance of one run", "", "", result.fit->scatter_percent()});
-  }
-  if (result.depth) rows.push_back({"depth", "space", "plane", result.depth->error.percent, result.depth->error.band});
-  return rows;
 }
 
 Columns<ErrorRow> error_columns() {
@@ -210,16 +195,6 @@ std::string error_text(const AccuracyRow& row, bool reference) {
   return row.error_percent ? error_text(*row.error_percent, row.error_ci95) : "";
 }
 
-std::string setting_text(const AccuracySetting& setting) {
-  const std::string softness = setting.shell_compression > 0
-                                   ? fmt::format("shell compression {:g}", setting.shell_compression)
-                                   : fmt::format("Young's modulus {:g} MPa", setting.youngs_modulus / megapascal);
-  const std::string slip_speed =
-      setting.slip_speed > 0 ? fmt::format(", slip speed {:g} mm/s", setting.slip_speed / millimetre_per_second) : "";
-  return fmt::format("{}, {:g} steps a contact, {}{}", integrator_name(setting.integrator), setting.steps_per_contact,
-                     softness, slip_speed);
-}
-
 std::string setting_columns_text(const AccuracySetting& setting) {
   const double softness = setting.youngs_modulus > 0 ? setting.youngs_modulus / megapascal : setting.shell_compression;
   const std::string slip_speed =
@@ -252,11 +227,7 @@ std::string errors_text(const AccuracyResult& result) {
     text += wrapped(fmt::format("The tray sows {:.5g} +- {:.2g} g/s as a plane, {:.5g} +- {:.2g} g/s in space.",
                                 result.depth->plane.mean / gram, *result.depth->plane.half_width_95 / gram,
                                 result.depth->space.mean / gram, *result.depth->space.half_width_95 / gram));
-  if (result.fit && !result.fit->fits())
-    text += wrapped(fmt::format(
-        "These main effects do not account for the runs (so large a lack of fit has probability {:.2g}): parts of a "
-        "setting act on each other, and the limit is not shown to have been reached. The bands allow for it.",
-        *result.fit->lack_of_fit()));
+  if (result.fit && !result.fit->fits()) text += wrapped(misfit_sentence(*result.fit));
   return text;
 }
 
@@ -350,10 +321,6 @@ JsonKeys<PromiseSource> promise_keys() {
        of_offer([](P, O o) { return o.error_bound(); })}};
 }
 
-AccuracyResult result_of(const Promise& promise) {
-  return accuracy_of(promise.settings, std::vector<std::string>(promise.settings.size()), promise.runs);
-}
-
 }  // namespace
 
 std::string accuracy_csv(const AccuracyResult& result, CsvFormat format) {
@@ -413,22 +380,61 @@ std::string accuracy_sentence(const AccuracyResult& result) {
   return text + " None is shown to be within 1 %: more replicates would narrow the bands.";
 }
 
-std::string promise_text(const Promise& promise, const PromiseGoal& goal) {
-  if (!promise.offer) {
-    const std::string text = fmt::format("A rate {} cannot be promised: {} ({} pilots, {:.3g} s of CPU time).",
-                                         goal_text(goal), promise.refused, promise.pilots, promise.pilot_cpu_time);
-    if (!promise.least) return wrapped(text);
-    return wrapped(
-        fmt::format("{} The most that as much time again would buy: {}.", text, offer_text(promise, *promise.least)));
+std::string setting_text(const AccuracySetting& setting) {
+  const std::string softness = setting.shell_compression > 0
+                                   ? fmt::format("shell compression {:g}", setting.shell_compression)
+                                   : fmt::format("Young's modulus {:g} MPa", setting.youngs_modulus / megapascal);
+  const std::string slip_speed =
+      setting.slip_speed > 0 ? fmt::format(", slip speed {:g} mm/s", setting.slip_speed / millimetre_per_second) : "";
+  return fmt::format("{}, {:g} steps a contact, {}{}", integrator_name(setting.integrator), setting.steps_per_contact,
+                     softness, slip_speed);
+}
+
+std::string misfit_sentence(const ErrorFit& fit) {
+  if (fit.fits()) return "";
+  return fmt::format(
+      "These main effects do not account for the runs (so large a lack of fit has probability {:.2g}): parts of a "
+      "setting act on each other, and the limit is not shown to have been reached. The bands allow for it.",
+      *fit.lack_of_fit());
+}
+
+std::vector<ErrorRow> error_rows(const AccuracyResult& result) {
+  std::vector<ErrorRow> rows;
+  if (result.fit) {
+    for (const MainEffect& effect : result.fit->effects()) rows.push_back(row_of(effect));
+    rows.push_back({"chance of one run", "", "", result.fit->scatter_percent()});
   }
-  std::string text = wrapped(fmt::format("A rate {}: {}.", goal_text(goal), offer_text(promise, *promise.offer)));
-  if (!promise.fit->fits()) text += wrapped("The pilots do not follow their main effects: the bands allow for it.");
+  if (result.depth) rows.push_back({"depth", "space", "plane", result.depth->error.percent, result.depth->error.band});
+  return rows;
+}
+
+AccuracyResult result_of(const Promise& promise) {
+  return accuracy_of(promise.settings, std::vector<std::string>(promise.settings.size()), promise.runs);
+}
+
+std::vector<std::string> promise_paragraphs(const Promise& promise, const PromiseGoal& goal) {
+  if (!promise.offer) {
+    std::string text = fmt::format("A rate {} cannot be promised: {} ({} pilots, {:.3g} s of CPU time).",
+                                   goal_text(goal), promise.refused, promise.pilots, promise.pilot_cpu_time);
+    if (promise.least)
+      text += fmt::format(" The most that as much time again would buy: {}.", offer_text(promise, *promise.least));
+    return {text};
+  }
+  std::vector<std::string> all = {fmt::format("A rate {}: {}.", goal_text(goal), offer_text(promise, *promise.offer))};
+  if (!promise.fit->fits()) all.push_back("The pilots do not follow their main effects: the bands allow for it.");
   if (promise.mass_rate)
-    text += wrapped(fmt::format("The rate is {:.5g} g/s, at most {} from that of step 0 and rigid grains (95 %).",
-                                promise.mass_rate->mean / gram, share(promise.offer->error_bound())));
+    all.push_back(fmt::format("The rate is {:.5g} g/s, at most {} from that of step 0 and rigid grains (95 %).",
+                              promise.mass_rate->mean / gram, share(promise.offer->error_bound())));
   else
-    text += wrapped(fmt::format("There is no rate: {}.", promise.refused));
-  return text + wrapped(cost_text(promise));
+    all.push_back(fmt::format("There is no rate: {}.", promise.refused));
+  all.push_back(cost_text(promise));
+  return all;
+}
+
+std::string promise_text(const Promise& promise, const PromiseGoal& goal) {
+  std::string text;
+  for (const std::string& paragraph : promise_paragraphs(promise, goal)) text += wrapped(paragraph);
+  return text;
 }
 
 std::string promised_numerics(const Promise& promise, const PromiseGoal& goal) {
@@ -454,6 +460,8 @@ std::vector<FileText> accuracy_file_texts() {
                 error_columns()),
       file_text("accuracy_timing.csv", "one row per setting: what it took on this machine", timing_columns(0)),
       file_text("timing.json", "what the command took on this machine", timing_keys()),
+      page_data_text(),
+      accuracy_page_text(),
       file_text("promise.json", "with --within or --budget: what was chosen and what it may err by", promise_keys()),
       {"numerics.toml", "with --within or --budget: the keys of a seeder that set it so", {}}};
 }

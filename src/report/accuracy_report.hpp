@@ -1,6 +1,8 @@
 #pragma once
 
+#include <optional>
 #include <string>
+#include <vector>
 
 #include "design/accuracy.hpp"
 #include "design/promise.hpp"
@@ -29,7 +31,29 @@ std::string accuracy_table(const AccuracyResult& result);
 /// and band together make up at most 1 %.
 std::string accuracy_sentence(const AccuracyResult& result);
 
-/// What was promised and at what cost, or why nothing was; paragraphs.
+/// "velocity-verlet, 20 steps a contact, shell compression 0.001"
+std::string setting_text(const AccuracySetting& setting);
+
+/// That the errors of a fit are not to be taken at their word, where its main effects do not account for the runs;
+/// empty where they do.
+std::string misfit_sentence(const ErrorFit& fit);
+
+/// A line of the account of errors: what changing a part of a setting, from its finest level to its coarsest, does to
+/// the rate, percent.
+struct ErrorRow {
+  std::string source, from, to;
+  double percent;
+  std::optional<double> band{};  // half width of its 95 % interval
+};
+std::vector<ErrorRow> error_rows(const AccuracyResult& result);
+
+/// Settings, fit and runs of a promise, as a table has them.
+AccuracyResult result_of(const Promise& promise);
+
+/// What was promised and at what cost, or why nothing was; a paragraph each.
+std::vector<std::string> promise_paragraphs(const Promise& promise, const PromiseGoal& goal);
+
+/// The same for a terminal.
 std::string promise_text(const Promise& promise, const PromiseGoal& goal);
 
 /// The keys of a seeder that set it to an offer's setting, as TOML.

@@ -8,7 +8,9 @@
 #include <optional>
 
 #include "input/key_units.hpp"
+#include "report/calibration_page.hpp"
 #include "report/contact_model.hpp"
+#include "report/page.hpp"
 #include "report/terminal_text.hpp"
 
 namespace vibrosow {
@@ -20,37 +22,12 @@ constexpr double little_contraction = 0.2;
 constexpr double unlikely_misfit = 0.01;
 constexpr const char* depth_factor = "depth_factor";
 
-/// A fitted key, or the depth factor, with what is known of it.
-struct ValueRow {
-  std::string name, unit;
-  std::optional<double> low, high;  // of the prior
-  FittedValue value;
-  std::string confused_with;
-};
-
-std::string name_of(const CalibrationSource& source, std::size_t index) {
-  return index < source.task.keys.size() ? source.task.keys[index].key : depth_factor;
-}
-
 std::string confused_with(const CalibrationSource& source, std::size_t index) {
   std::vector<std::string> names;
   for (const FittedPair& pair : source.calibration.correlations)
     if ((pair.a == index || pair.b == index) && std::abs(pair.correlation) > not_told_apart)
-      names.push_back(name_of(source, pair.a == index ? pair.b : pair.a));
+      names.push_back(fitted_name(source, pair.a == index ? pair.b : pair.a));
   return fmt::format("{}", fmt::join(names, ";"));
-}
-
-std::vector<ValueRow> value_rows(const CalibrationSource& source) {
-  std::vector<ValueRow> rows;
-  for (std::size_t k = 0; k < source.task.keys.size(); ++k) {
-    const KeyRange& key = source.task.keys[k];
-    const auto unit = column_unit(key.key);
-    rows.push_back({key.key, unit ? std::string(unit->unit) : "", key.low, key.high, source.calibration.values[k],
-                    confused_with(source, k)});
-  }
-  if (const auto& factor = source.calibration.depth_factor)
-    rows.push_back({depth_factor, "", {}, {}, *factor, confused_with(source, source.task.keys.size())});
-  return rows;
 }
 
 Columns<ValueRow> value_columns() {
@@ -79,16 +56,6 @@ struct PredictionRow {
   const MeasuredSeries& series() const { return table->series[value->series]; }
   double stated(double si) const { return to_column_unit(table->quantity, si); }
 };
-
-std::string conditions_text(const std::vector<Condition>& conditions) {
-  std::vector<std::string> parts;
-  for (const Condition& condition : conditions) {
-    const auto unit = column_unit(condition.key);
-    parts.push_back(
-        fmt::format("{} = {}{}", condition.key, condition.text, unit ? fmt::format(" {}", unit->unit) : ""));
-  }
-  return fmt::format("{}", fmt::join(parts, "; "));
-}
 
 Columns<PredictionRow> prediction_columns() {
   using Row = const PredictionRow&;
@@ -212,6 +179,33 @@ std::vector<std::pair<std::string, std::string>> sources(const CalibrationSource
 
 }  // namespace
 
+std::string fitted_name(const CalibrationSource& source, std::size_t index) {
+  return index < source.task.keys.size() ? source.task.keys[index].key : depth_factor;
+}
+
+std::vector<ValueRow> value_rows(const CalibrationSource& source) {
+  std::vector<ValueRow> rows;
+  for (std::size_t k = 0; k < source.task.keys.size(); ++k) {
+    const KeyRange& key = source.task.keys[k];
+    const auto unit = column_unit(key.key);
+    rows.push_back({key.key, unit ? std::string(unit->unit) : "", key.low, key.high, source.calibration.values[k],
+                    confused_with(source, k)});
+  }
+  if (const auto& factor = source.calibration.depth_factor)
+    rows.push_back({depth_factor, "", {}, {}, *factor, confused_with(source, source.task.keys.size())});
+  return rows;
+}
+
+std::string conditions_text(const std::vector<Condition>& conditions) {
+  std::vector<std::string> parts;
+  for (const Condition& condition : conditions) {
+    const auto unit = column_unit(condition.key);
+    parts.push_back(
+        fmt::format("{} = {}{}", condition.key, condition.text, unit ? fmt::format(" {}", unit->unit) : ""));
+  }
+  return fmt::format("{}", fmt::join(parts, "; "));
+}
+
 std::string calibration_table(const CalibrationSource& source) {
   const Calibration& of = source.calibration;
   std::string text =
@@ -236,7 +230,7 @@ std::vector<std::string> calibration_doubts(const CalibrationSource& source) {
   for (const FittedPair& pair : of.correlations)
     if (std::abs(pair.correlation) > not_told_apart)
       doubts.push_back(fmt::format("{} and {} cannot be told apart by this table (correlation {:.2f})",
-                                   name_of(source, pair.a), name_of(source, pair.b), pair.correlation));
+                                   fitted_name(source, pair.a), fitted_name(source, pair.b), pair.correlation));
   std::vector<std::string> unknown;
   for (std::size_t k = 0; k < source.task.keys.size(); ++k)
     if (of.values[k].contraction < little_contraction) unknown.push_back(source.task.keys[k].key);
@@ -258,6 +252,8 @@ std::vector<std::string> calibration_doubts(const CalibrationSource& source) {
 std::vector<FileText> calibration_file_texts() {
   const std::vector<KeyRange> any{KeyRange{.key = "KEY"}};
   return {
+      page_data_text(),
+      calibration_page_text(),
       file_text("calibration.csv", "one row per fitted number", value_columns()),
       file_text("prediction.csv", "one row per measured value: what the fitted model says of it", prediction_columns()),
       file_text("posterior.csv", "points of equal weight from what is known of the fitted keys, one a row",

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstddef>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -16,6 +18,21 @@ struct CalibrationSource {
   const std::vector<ReducedRun>& runs;
   const Calibration& calibration;
 };
+
+/// A fitted key, or the depth factor, with what is known of it.
+struct ValueRow {
+  std::string name, unit;
+  std::optional<double> low, high;  // of the prior
+  FittedValue value;
+  std::string confused_with;
+};
+std::vector<ValueRow> value_rows(const CalibrationSource& source);
+
+/// The name of the key, or the depth factor, that a FittedPair means.
+std::string fitted_name(const CalibrationSource& source, std::size_t index);
+
+/// "tray.motion.frequency = 9 Hz; tray.holes.count = 5"
+std::string conditions_text(const std::vector<Condition>& conditions);
 
 /// The fitted values for a terminal, what was predicted of what was held out, and what is doubtful.
 std::string calibration_table(const CalibrationSource& source);

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 
+#include "report/decision_page.hpp"
 #include "report/json_keys.hpp"
 #include "report/layout_columns.hpp"
 
@@ -161,7 +162,8 @@ std::string decision_json(const DecisionReport& report) {
 
 std::vector<FileText> decision_file_texts() {
   return {file_text("decision.csv", "one row per layout", decision_columns({"KEY"})),
-          file_text("decision.json", "the answer, what was asked and what it cost", decision_keys())};
+          file_text("decision.json", "the answer, what was asked and what it cost", decision_keys()),
+          decision_page_text()};
 }
 
 std::vector<OutputFile> decision_files(const DecisionReport& report, CsvFormat format) {

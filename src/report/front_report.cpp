@@ -7,6 +7,7 @@
 #include <cstdint>
 
 #include "input/toml_value.hpp"
+#include "report/front_page.hpp"
 #include "report/json_keys.hpp"
 #include "report/layout_columns.hpp"
 
@@ -149,6 +150,22 @@ bool leads(const FrontLayout& layout) {
   return layout.standing == FrontStanding::on_front || layout.is_first_by_means;
 }
 
+std::string front_promise(const OptimiseResult& result) {
+  const std::string alone =
+      result.options.goals.size() > 1
+          ? ""
+          : " Of a single goal `vibrosow decide` finds the best of given layouts with a guarantee.";
+  return fmt::format(
+      "\"On the front\" and \"dominated\" are among the layouts that were tried, each with a confidence of {:g} %, and "
+      "no proof, since runs went where earlier ones led. That no better layout is in the space is not promised.{}",
+      100 * result.options.confidence, alone);
+}
+
+std::string front_cost(const OptimiseResult& result) {
+  return fmt::format("Cost: {} layouts, {} runs, {:.3g} grain-steps.", result.layouts.size(),
+                     static_cast<long long>(result.cost.runs), result.cost.grain_steps);
+}
+
 std::string pareto_csv(const OptimiseResult& result, CsvFormat format) {
   std::vector<FrontRow> rows;
   for (std::size_t i = 0; i < result.layouts.size(); ++i) rows.push_back({&result, i});
@@ -187,7 +204,8 @@ std::vector<FileText> optimise_file_texts() {
           file_text("optimise.json", "what was asked, how many layouts stand where, and what it cost", optimise_keys()),
           {"front.toml",
            "a study of the layouts on the front and those that are first by their means, where there are any",
-           {}}};
+           {}},
+          front_page_text()};
 }
 
 std::vector<OutputFile> optimise_files(const OptimiseResult& result, const std::filesystem::path& folder,

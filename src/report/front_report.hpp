@@ -16,6 +16,12 @@ std::string standing_text(const OptimiseResult& result, std::size_t layout);
 /// Whether it stands in front.toml: it is on the front, or it is first by its means.
 bool leads(const FrontLayout& layout);
 
+/// What the standings promise and what they do not; a paragraph.
+std::string front_promise(const OptimiseResult& result);
+
+/// Layouts, runs and grain-steps; a sentence.
+std::string front_cost(const OptimiseResult& result);
+
 /// One row per layout.
 std::string pareto_csv(const OptimiseResult& result, CsvFormat format = {});
 

@@ -162,6 +162,15 @@ OutputFolder::OutputFolder(fs::path folder, std::string command, const std::vect
   former_set(folder_, command_, files);
 }
 
+/// Named before it is there, so that it is never taken for a foreign file.
+void OutputFolder::add(const OutputFile& file) const {
+  FileList list = former_set(folder_, command_, {file.name});
+  list.files.insert(file.name);
+  write_file_atomically(folder_ / list_name, text_of(list, false));
+  write_file_atomically(folder_ / file.name, file.content);
+  write_file_atomically(folder_ / list_name, text_of(list, true));
+}
+
 void OutputFolder::write(const std::vector<OutputFile>& files) const {
   std::error_code error;
   fs::create_directories(folder_, error);

@@ -33,6 +33,9 @@ class OutputFolder {
   /// former set is then as it was (but where files are moved one by one and that fails halfway).
   void write(const std::vector<OutputFile>& files) const;
 
+  /// Adds a file to the set that is there, or replaces it in that. Throws as `write` does.
+  void add(const OutputFile& file) const;
+
   const std::filesystem::path& path() const { return folder_; }
 
  private:

@@ -102,12 +102,23 @@ std::string filled_studio(const std::string& page_template, const std::string& d
   return html;
 }
 
-std::string recording_of_page(const std::string& page) {
-  const std::size_t element = page.find("<script id=\"recording\"");
-  const std::size_t from = page.find('>', element), to = page.find('<', from);
-  if (element == std::string::npos || to == std::string::npos) return {};
-  const std::string text = page.substr(from + 1, to - from - 1);
-  return from_base64(text).value_or("");
+std::string recording_in(const std::string& page) {
+  const std::string begin = "<script id=\"recording\" type=\"text/plain\">";
+  const std::size_t at = page.rfind(begin);
+  if (at == std::string::npos) return "";
+  const std::size_t from = at + begin.size();
+  return from_base64(page.substr(from, page.find('<', from) - from)).value_or("");
+}
+
+std::vector<OutputFile> page_files(const std::string& page_template, const std::string& data,
+                                   const std::string& recording) {
+  std::vector<OutputFile> files = {{page_data_name, data + '\n'}};
+  if (!page_template.empty()) files.push_back({"report.html", filled_page(page_template, data, recording)});
+  return files;
+}
+
+FileText page_data_text() {
+  return {page_data_name, "what report.html shows; `vibrosow report` makes the page of it", {}};
 }
 
 }  // namespace vibrosow

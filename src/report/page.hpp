@@ -2,7 +2,10 @@
 
 #include <nlohmann/json.hpp>
 #include <string>
+#include <vector>
 
+#include "report/columns.hpp"
+#include "report/output_folder.hpp"
 #include "scene/scene.hpp"
 
 namespace vibrosow {
@@ -21,7 +24,17 @@ std::string filled_page(const std::string& page_template, const std::string& dat
 /// The studio's, of its own template.
 std::string filled_studio(const std::string& page_template, const std::string& data);
 
-/// The file of the Recording in a page; empty where it holds none.
-std::string recording_of_page(const std::string& page);
+/// The file of the Recording that a page was filled with; empty without one.
+std::string recording_in(const std::string& page);
+
+/// What a page shows, kept beside the reports that could not be made again without simulating.
+inline constexpr const char* page_data_name = "report.json";
+
+/// report.json and, unless `page_template` is empty, report.html.
+std::vector<OutputFile> page_files(const std::string& page_template, const std::string& data,
+                                   const std::string& recording = {});
+
+/// What report.json holds.
+FileText page_data_text();
 
 }  // namespace vibrosow

@@ -91,16 +91,6 @@ Json evenness(const std::optional<Evenness>& even) {
   return {{"sentence", evenness_sentence(*even, "holes")}, {"cv_percent", even->cv ? Json(100 * *even->cv) : Json(nullptr)}};
 }
 
-Json events(const Run& run) {
-  Json times = Json::array(), of_hole = Json::array(), of_lot = Json::array();
-  for (const OutflowEvent& event : run.events) {
-    times.push_back(std::round(event.time * 1e5) / 1e5);
-    of_hole.push_back(event.hole);
-    of_lot.push_back(event.lot);
-  }
-  return {{"time_s", std::move(times)}, {"hole", std::move(of_hole)}, {"lot", std::move(of_lot)}};
-}
-
 std::string headline(const RunPage& page) {
   const Scene& scene = page.model.scene;
   const Outflow& outflow = page.outflow;
@@ -183,6 +173,16 @@ std::string_view status_name(RunStatus status) {
 
 }  // namespace
 
+Json page_events(const Run& run) {
+  Json times = Json::array(), of_hole = Json::array(), of_lot = Json::array();
+  for (const OutflowEvent& event : run.events) {
+    times.push_back(std::round(event.time * 1e5) / 1e5);
+    of_hole.push_back(event.hole);
+    of_lot.push_back(event.lot);
+  }
+  return {{"time_s", std::move(times)}, {"hole", std::move(of_hole)}, {"lot", std::move(of_lot)}};
+}
+
 std::string run_page_data(const RunPage& page) {
   const Scene& scene = page.model.scene;
   Json remarks = Json::array();
@@ -196,6 +196,7 @@ std::string run_page_data(const RunPage& page) {
       {"headline", headline(page)},
       {"remarks", std::move(remarks)},
       {"status", status_name(page.run.status)},
+      {"random_seed", page.run.random_seed},
       {"end_time_s", page.run.end_time},
       {"window_s", {page.outflow.window_from, page.outflow.window_to}},
       {"lots", page_lots(scene)},
@@ -204,17 +205,13 @@ std::string run_page_data(const RunPage& page) {
       {"rate_unit", "seeds/s"},
       {"hole_table", hole_table(page)},
       {"evenness", evenness(page.outflow.evenness)},
-      {"events", events(page.run)},
+      {"events", page_events(page.run)},
       {"effects", effects(page.model)},
       {"guard", guard_sentence(page.run, scene.guard)},
       {"settings", settings(page)},
       {"drill", drill(page.drill)},
       {"scene", Json::parse(scene_to_json(scene))}};
   return page_text(data);
-}
-
-std::string run_page(const std::string& page_template, const RunPage& page) {
-  return filled_page(page_template, run_page_data(page), page.recording);
 }
 
 FileText run_page_text() {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 
@@ -17,14 +18,13 @@ struct RunPage {
   const Run& run;
   const Outflow& outflow;
   const std::optional<DrillFigures>& drill;
-  const std::string& recording;  // file of a Recording; empty: nothing to replay
 };
 
 /// The page's numbers and texts (page_text).
 std::string run_page_data(const RunPage& page);
 
-/// report.html of a run (filled_page).
-std::string run_page(const std::string& page_template, const RunPage& page);
+/// Every seed that left, as the page's numbers have it.
+nlohmann::ordered_json page_events(const Run& run);
 
 /// What the file holds.
 FileText run_page_text();

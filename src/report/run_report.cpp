@@ -8,6 +8,7 @@
 #include "report/columns.hpp"
 #include "report/drill_report.hpp"
 #include "report/json_keys.hpp"
+#include "report/page.hpp"
 #include "report/record_report.hpp"
 #include "report/run_page.hpp"
 #include "report/vtk_report.hpp"
@@ -246,6 +247,7 @@ std::vector<FileText> run_file_texts() {
       file_text("timing.json", "what the run took on this machine", timing_keys(true))};
   std::ranges::move(record_file_texts(), std::back_inserter(texts));
   texts.push_back(rows_file_text());
+  texts.push_back(page_data_text());
   texts.push_back(run_page_text());
   std::ranges::move(vtk_file_texts(), std::back_inserter(texts));
   texts.push_back(xyz_file_text());

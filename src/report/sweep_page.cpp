@@ -3,11 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "report/layout_columns.hpp"
 #include "report/page.hpp"
+#include "report/study_page.hpp"
 #include "report/sweep_report.hpp"
 #include "report/terminal_text.hpp"
 
@@ -15,17 +15,6 @@ namespace vibrosow {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-Json number(double value, double unit) {
-  return std::isfinite(value) ? Json(value / unit) : Json(nullptr);
-}
-
-/// {mean, half width of its 95 % interval}, in `unit`; null where there is none.
-Json interval(const std::optional<MeanWithInterval>& value, double unit) {
-  if (!value) return nullptr;
-  return {{"mean", number(value->mean, unit)},
-          {"half_width", value->half_width_95 ? number(*value->half_width_95, unit) : Json(nullptr)}};
-}
 
 /// Those that any layout has; pooled ones have no interval.
 std::vector<const Figure*> figures_of(const StudyResult& result) {
@@ -42,32 +31,24 @@ Json holes(const LayoutResult& layout) {
     if (hole.hole != "all")
       all.push_back({{"hole", hole.hole},
                      {"lot", hole.lot},
-                     {"seeds_per_s", interval(hole.seeds_per_s, 1)},
-                     {"g_per_s", interval(hole.mass_rate, 1e-3)},
-                     {"longest_pause_s", interval(hole.longest_pause, 1)}});
+                     {"seeds_per_s", page_interval(hole.seeds_per_s, 1)},
+                     {"g_per_s", page_interval(hole.mass_rate, 1e-3)},
+                     {"longest_pause_s", page_interval(hole.longest_pause, 1)}});
   return all;
 }
 
 Json layout(const StudyResult& result, const LayoutRow& row, const std::vector<const Figure*>& known) {
-  const Study& study = result.study;
-  Json values = Json::array();
-  for (const std::string& key : study.keys) {
-    const auto value = row.layout().values.find(key);
-    values.push_back(value == row.layout().values.end() ? "" : value->second);
-  }
   Json means = Json::object();
   for (const Figure* figure : known)
-    means[std::string(figure->name)] = interval(row.of().figures[*figure], figure->unit_size);
-  return {{"number", row.layout().number},
-          {"name", row.layout().name},
-          {"values", std::move(values)},
-          {"status", layout_status(row.of().status)},
-          {"note", layout_note(row.of())},
-          {"replicates", row.of().replicates},
-          {"means", std::move(means)},
-          {"misfit_percent", interval(row.of().misfit_percent, 1)},
-          {"holes", holes(row.of())},
-          {"vessels", row.layout().scene ? page_vessels(study.scenes[*row.layout().scene]) : Json::array()}};
+    means[std::string(figure->name)] = page_interval(row.of().figures[*figure], figure->unit_size);
+  Json one = page_layout(result.study, row.layout());
+  one.update({{"status", layout_status(row.of().status)},
+              {"note", layout_note(row.of())},
+              {"replicates", row.of().replicates},
+              {"means", std::move(means)},
+              {"misfit_percent", page_interval(row.of().misfit_percent, 1)},
+              {"holes", holes(row.of())}});
+  return one;
 }
 
 std::string headline(const StudyResult& result) {
@@ -96,25 +77,12 @@ std::string headline(const StudyResult& result) {
 
 std::string sweep_page_data(const StudyResult& result) {
   const std::vector<const Figure*> known = figures_of(result);
-  Json figure_texts = Json::array(), layouts = Json::array(), keys = Json::array();
-  for (const Figure* figure : known)
-    figure_texts.push_back({{"name", figure->name},
-                            {"heading", figure->heading},
-                            {"unit", figure->unit},
-                            {"description", figure->description},
-                            {"has_interval", !figure->pooled}});
-  for (const std::string& key : result.study.keys) keys.push_back(condition_column(key));
+  Json figure_texts = Json::array(), layouts = Json::array();
+  for (const Figure* figure : known) figure_texts.push_back(page_figure(*figure));
   for (const LayoutRow& row : layout_rows(result)) layouts.push_back(layout(result, row, known));
-  const bool plane =
-      std::ranges::all_of(result.study.scenes, [](const Scene& scene) { return scene.space == Space::plane; });
-  return page_text({{"kind", "sweep"},
-                    {"program", {{"name", "vibrosow"}, {"version", VIBROSOW_VERSION}}},
-                    {"title", result.study.title},
-                    {"space", plane ? "plane" : "three_dimensional"},
-                    {"headline", headline(result)},
-                    {"keys", std::move(keys)},
-                    {"figures", std::move(figure_texts)},
-                    {"layouts", std::move(layouts)}});
+  Json data = page_of_study("sweep", result.study);
+  data.update({{"headline", headline(result)}, {"figures", std::move(figure_texts)}, {"layouts", std::move(layouts)}});
+  return page_text(data);
 }
 
 std::string sweep_page(const std::string& page_template, const StudyResult& result) {

@@ -66,7 +66,7 @@ grep -q '"neighbours"' profiled/timing.json || fail "timing.json has no shares"
 expect 0 "wheat" presets crops
 expect 0 "wheat-steel +Wheat on steel" presets contacts
 expect 0 "wheat-holes" presets
-for command in run sweep decide optimise calibrate bench-sheet work submit status export verify pack accuracy plan new check presets columns; do expect 0 "^Usage: vibrosow $command" $command --help; done
+for command in run sweep decide optimise calibrate bench-sheet work submit status report export verify pack accuracy plan new check presets columns; do expect 0 "^Usage: vibrosow $command" $command --help; done
 expect 0 "wheat-tray +Wheat tray" presets seeders
 "$program" presets seeders | awk '/^seeders to start from/ { start = NR } /paper-a-fig3 / { paper = paper ? paper : NR }
   /^  silo / { silo = NR } END { exit !(start && start < paper && paper < silo) }' || fail "presets: seeders do not come first"

@@ -2,6 +2,11 @@
 
 #include <gmock/gmock.h>
 
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "report/calibration_page.hpp"
+
 namespace vibrosow {
 namespace {
 
@@ -68,6 +73,61 @@ TEST_F(CalibrationReport, SaysWhatWasLearnedInEightyColumns) {
   EXPECT_THAT(table, HasSubstr("depth_factor"));
   EXPECT_THAT(table, HasSubstr("predicted to 2 % (RMS)"));
   for (std::size_t at = 0; at < table.size(); at = table.find('\n', at) + 1) EXPECT_LE(table.find('\n', at) - at, 80U);
+}
+
+class CalibrationPage : public CalibrationReport {
+ protected:
+  CalibrationPage() {
+    task_.measured.table.quantity = MeasuredQuantity::mass_rate;
+    task_.measured.table.series.resize(2);
+    task_.measured.table.series[1].hole = "2";
+    calibration_.predictions = {
+        {.series = 1, .time = {}, .held_out = true, .measured = 0.012, .predicted = 0.01, .low = 0.009, .high = 0.011}};
+    calibration_.posterior.weights = Eigen::VectorXd::Ones(1);
+    calibration_.posterior.shifts = Eigen::VectorXd::Constant(1, std::log(20.0));
+    calibration_.fitted_rms = 0.01;
+  }
+  nlohmann::json data() const { return nlohmann::json::parse(calibration_page_data(source(), Scene{})); }
+};
+
+TEST_F(CalibrationPage, SaysTheValuesAndHowWellTheHeldOutOnesArePredicted) {
+  EXPECT_EQ(
+      data()["headline"],
+      "Fitted to table.csv: contact.friction 0.4 (0.3 to 0.5), contact.restitution 0.5 (0.3 to 0.8), depth_factor "
+      "20 (18 to 22). What was held out is predicted to 2 % (RMS).");
+  EXPECT_EQ(data()["doubts"].size(), doubts().size());
+  calibration_.held_out_rms = std::nullopt;
+  EXPECT_THAT(data()["headline"].get<std::string>(), testing::EndsWith("(18 to 22)."));
+}
+
+TEST_F(CalibrationPage, ParametersHaveTheirRangeAndTheFactorHasNone) {
+  const auto parameters = data()["parameters"];
+  ASSERT_EQ(parameters.size(), 3U);
+  EXPECT_EQ(parameters[0]["prior_high"], 0.8);
+  EXPECT_EQ(parameters[0]["contraction_percent"], 60.0);
+  EXPECT_TRUE(parameters[2]["prior_low"].is_null());
+}
+
+TEST_F(CalibrationPage, PairsThatAreNotToldApartBringTheirPoints) {
+  EXPECT_TRUE(data()["pairs"][1]["points"].empty());
+  calibration_.correlations[1].correlation = -0.9;
+  const auto pair = data()["pairs"][1];
+  EXPECT_EQ(pair["b"], "depth_factor");
+  EXPECT_EQ(pair["told_apart"], false);
+  ASSERT_FALSE(pair["points"].empty());
+  EXPECT_NEAR(pair["points"][0][0].get<double>(), 0.45, 1e-9);  // the middle of 0.1 to 0.8
+  EXPECT_NEAR(pair["points"][0][1].get<double>(), 20, 1e-9);
+}
+
+TEST_F(CalibrationPage, MeasuredValuesStandWithTheirSeriesInTheTablesUnit) {
+  const auto series = data()["series"];
+  ASSERT_EQ(series.size(), 2U);
+  EXPECT_TRUE(series[0]["values"].empty());
+  const auto value = series[1]["values"][0];
+  EXPECT_NEAR(value["measured"].get<double>(), 12, 1e-9);  // g/s
+  EXPECT_EQ(value["held_out"], true);
+  EXPECT_TRUE(value["time_s"].is_null());
+  EXPECT_EQ(data()["quantity"], "rate_g_per_s");
 }
 
 }  // namespace

@@ -165,5 +165,25 @@ TEST_F(OutputFolders, ASingleFileIsReplacedWhole) {
   EXPECT_EQ(names_in(parent_), Names{"a.csv"});
 }
 
+TEST_F(OutputFolders, AFileIsAddedToTheSetThatIsThere) {
+  write({{"a.csv", "a"}, {"report.html", "old"}});
+  const OutputFolder folder(folder_, "run", {"report.html"});
+  folder.add({"report.html", "new"});
+  folder.add({"more.txt", "more"});
+  EXPECT_EQ(content(folder_ / "a.csv"), "a");
+  EXPECT_EQ(content(folder_ / "report.html"), "new");
+  EXPECT_THAT(content(folder_ / "files.json"), HasSubstr("\"complete\": true"));
+  write({{"a.csv", "b"}});  // what was added belongs to the set, and goes with it
+  EXPECT_EQ(names_in(folder_), (Names{"a.csv", "files.json"}));
+}
+
+TEST_F(OutputFolders, NothingIsAddedInThePlaceOfAForeignFile) {
+  write({{"a.csv", "a"}});
+  std::ofstream(folder_ / "report.html") << "mine";
+  const OutputFolder folder(folder_, "run", {});
+  EXPECT_THAT(message_of([&] { folder.add({"report.html", "new"}); }), HasSubstr("would be overwritten"));
+  EXPECT_EQ(content(folder_ / "report.html"), "mine");
+}
+
 }  // namespace
 }  // namespace vibrosow

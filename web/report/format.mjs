@@ -25,10 +25,11 @@ export function list(words) {
   return words.length < 2 ? words.join('') : `${words.slice(0, -1).join(', ')} and ${words[words.length - 1]}`;
 }
 
-/** `text` with a capital first and an end; empty stays empty. */
+/** `text` with a capital first, unless that is a key such as contact.friction, and an end; empty stays empty. */
 export function sentence(text) {
   if (!text) return '';
-  return text[0].toUpperCase() + text.slice(1) + (/[.!?]$/.test(text) ? '' : '.');
+  const first = /^[a-z_]+\.[a-z_]/.test(text) ? text[0] : text[0].toUpperCase();
+  return first + text.slice(1) + (/[.!?]$/.test(text) ? '' : '.');
 }
 
 /** The next of 1, 2, 5, 10, 20 ... that is not below `value`; for the ends of scales. */

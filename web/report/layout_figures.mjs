@@ -22,7 +22,7 @@ export function figuresOf(data) {
     return [{ ...figure, name: of, description: 'too small to be resolved in any layout', with_ends: true }];
   });
   const known = data.layouts.some((layout) => layout.misfit_percent) ? [...own, misfit] : own;
-  return known.map((figure) => ({ ...figure, words: wordsOf(figure.name).words, wanted_low: wantedLow.test(figure.name) }));
+  return known.map((figure) => ({ ...figure, words: figure.words ?? wordsOf(figure.name).words, wanted_low: figure.wanted ? figure.wanted === 'low' : wantedLow.test(figure.name) }));
 }
 
 /** As { words, unit }: "rate, g/s" */

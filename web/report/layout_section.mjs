@@ -1,5 +1,6 @@
 // The chosen layout: drawn, with all its figures and its holes.
 import { element, listChoice } from './dom.mjs';
+import { sentence } from './format.mjs';
 import { intervalTrack, scaleOf, trackAxis } from './interval_track.mjs';
 import { boxesOf, layoutDrawing } from './layout_drawing.mjs';
 import { textOf, textWithUnit, titleOf, valueOf } from './layout_figures.mjs';
@@ -11,7 +12,8 @@ const ofHoles = [
 ];
 const statusWords = {
   'outside the model': 'It lies outside the model, so nothing is to be decided by it', invalid: 'It cannot be built',
-  stopped: 'The guard stopped a run of it', interrupted: 'Runs of it are missing',
+  stopped: 'The guard stopped a run of it', interrupted: 'Runs of it are missing', failed: 'It failed', clogs: 'It clogs', spills: 'It spills',
+  'misses the rate': 'It misses the rate', 'misses the rate or spills': 'It misses the rate or spills', 'ruled out by drafts': 'Drafts ruled it out',
 };
 
 function settings(data, layout) {
@@ -66,7 +68,7 @@ export function layoutSection(data, figures, chosen) {
     if (!layout) return;
     const doubt = statusWords[layout.status] ? sentenceWithNote(statusWords[layout.status], layout.note) : layout.note;
     title.textContent = layout.name ? `Layout ${layout.number}: ${layout.name}` : `Layout ${layout.number}`;
-    about.replaceChildren(...[doubt ? element('p', { class: 'doubt' }, doubt) : null, layoutDrawing(layout, boxes), settings(data, layout)].filter(Boolean));
+    about.replaceChildren(...[doubt ? element('p', { class: 'doubt' }, doubt) : null, layout.standing && layout.status === 'ok' ? element('p', { class: 'standing' }, sentence(layout.standing)) : null, layoutDrawing(layout, boxes), settings(data, layout)].filter(Boolean));
     bars.show(layout);
     const runs = layout.replicates === 1 ? 'From one run: no intervals.' : `Means of ${layout.replicates} runs, ± half the width of the 95 % interval; what has no ± is of all runs together.`;
     numbers.replaceChildren(element('h3', {}, 'Figures'), layout.replicates ? element('p', { class: 'muted' }, runs) : '', figureList(layout, figures));

@@ -20,7 +20,7 @@ function compare(a, b, sign) {
 class LayoutTable {
   constructor(data, figures, chosen) {
     Object.assign(this, { data, figures, chosen, sort: 'number', sign: 1 });
-    this.wanted = new Set(figures.filter((figure) => shownAtFirst.includes(figure.name)));
+    this.wanted = new Set(figures.filter((figure) => data.kind !== 'sweep' || shownAtFirst.includes(figure.name)));
     this.table = element('table', { class: 'layouts' });
     const boxes = figures.map((figure) => element('label', { class: 'switch' },
       element('input', { type: 'checkbox', checked: this.wanted.has(figure), onchange: (event) => this.want(figure, event.target.checked) }), element('span', {}, titleOf(figure))));
@@ -44,7 +44,8 @@ class LayoutTable {
       { id: 'number', name: 'layout', of: (layout) => layout.number },
       ...(has((layout) => layout.name) ? [{ id: 'name', name: 'name', of: (layout) => layout.name }] : []),
       ...keyWords(data.keys).map(({ words, unit }, k) => ({ id: `key-${k}`, name: words, unit, of: (layout) => asNumber(layout.values[k] ?? '') })),
-      { id: 'status', name: 'status', of: (layout) => layout.status },
+      { id: 'status', name: 'status', of: (layout) => layout.standing ?? layout.status },
+      ...(has((layout) => layout.replicates !== data.layouts[0].replicates) ? [{ id: 'replicates', name: 'runs', of: (layout) => layout.replicates }] : []),
       ...this.figures.filter((figure) => this.wanted.has(figure)).map((figure) => ({
         id: figure.name, name: figure.words, unit: figure.unit, isFigure: true,
         of: (layout) => valueOf(layout, figure)?.value ?? null, text: (layout) => textOf(valueOf(layout, figure)),

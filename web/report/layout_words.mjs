@@ -2,7 +2,7 @@
 
 // How the program ends the names of columns that have a unit (src/input/key_units.cpp), longest first.
 const units = [
-  ['kg_per_m3', 'kg/m³'], ['g_per_min', 'g/min'], ['mm_per_s', 'mm/s'], ['km_per_h', 'km/h'], ['g_per_s', 'g/s'], ['m_per_s', 'm/s'],
+  ['kg_per_m3', 'kg/m³'], ['W_per_kg', 'W/kg'], ['g_per_min', 'g/min'], ['mm_per_s', 'mm/s'], ['km_per_h', 'km/h'], ['g_per_s', 'g/s'], ['m_per_s', 'm/s'],
   ['percent', '%'], ['degree', '°'], ['per_s', '1/s'], ['rpm', 'rpm'], ['MPa', 'MPa'], ['mN', 'mN'], ['mm', 'mm'], ['Hz', 'Hz'],
   ['g', 'g'], ['s', 's'],
 ];

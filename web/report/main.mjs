@@ -1,13 +1,17 @@
-// The page of a run or of a sweep: reads what the program wrote into it and lays it out.
+// A page: reads what the program wrote into it and lays it out.
+import { accuracyPage } from './accuracy_page.mjs';
+import { calibrationPage } from './calibration_page.mjs';
+import { decisionPage } from './decision_page.mjs';
 import { element } from './dom.mjs';
 import { sentence } from './format.mjs';
+import { frontPage } from './front_page.mjs';
 import { readPageData } from './page_data.mjs';
 import { runPage } from './run_page.mjs';
 import { sweepPage } from './sweep_page.mjs';
 import { startTheme } from './theme.mjs';
 import { themeSwitch } from './theme_switch.mjs';
 
-const pages = { run: runPage, sweep: sweepPage };
+const pages = { run: runPage, sweep: sweepPage, decision: decisionPage, front: frontPage, accuracy: accuracyPage, calibration: calibrationPage };
 
 function head({ kicker, title, headlines, remarks }) {
   return [
@@ -26,7 +30,7 @@ async function show() {
   startTheme();
   const data = readPageData(document.getElementById('report-data').textContent);
   const page = pages[data.kind](data);
-  document.documentElement.dataset.kind = data.kind;
+  document.documentElement.toggleAttribute('data-beside', Boolean(page.beside));
   document.title = `${page.title} – Vibrosow`;
   document.getElementById('head').replaceChildren(...head(page));
   document.getElementById('foot').replaceChildren(foot(data.program, page.whole));

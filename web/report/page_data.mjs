@@ -9,6 +9,10 @@ const emptyOf = {
     drill: null, scene: {},
   },
   sweep: { keys: [], figures: [], layouts: [] },
+  decision: { doubts: [], asked: [], cost: [], keys: [], figures: [], layouts: [] },
+  accuracy: { headlines: [], doubts: [], against: 'the finest setting', within_percent: 1, levels: [], errors: [] },
+  calibration: { doubts: [], quantity: '', of_curves: false, parameters: [], pairs: [], series: [], account: [] },
+  front: { doubts: [], asked: [], cost: [], keys: [], figures: [], layouts: [] },
 };
 
 const emptyLayout = { name: '', values: [], status: 'ok', note: '', replicates: 0, means: {}, misfit_percent: null, holes: [], vessels: [] };
@@ -17,14 +21,14 @@ function filled(given, ...defaults) {
   return Object.assign({}, ...defaults, Object.fromEntries(Object.entries(given).filter(([, value]) => value !== null)));
 }
 
-/** `text`: the JSON of one run or one sweep. Throws a SyntaxError for what is not JSON, an Error for another kind. */
+/** `text`: the JSON of one page. Throws a SyntaxError for what is not JSON, an Error for another kind. */
 export function readPageData(text) {
   const given = JSON.parse(text);
   const kind = given.kind ?? 'run';
   if (!Object.hasOwn(emptyOf, kind)) throw new Error(`its data are of the kind "${kind}", which this page does not know`);
   const data = filled(given, empty, emptyOf[kind]);
   if (kind === 'run') data.window_s = data.window_s ?? [0, data.end_time_s];
-  else data.layouts = data.layouts.map((layout) => filled(layout, emptyLayout));
+  if (data.layouts) data.layouts = data.layouts.map((layout) => filled(layout, emptyLayout));
   return data;
 }
 

@@ -4,9 +4,9 @@ import { intervalTrack, scaleOf, trackAxis } from './interval_track.mjs';
 import { textOf, titleOf } from './layout_figures.mjs';
 import { keyWords, layoutName } from './layout_words.mjs';
 import { ranked, rankingSentence } from './ranking.mjs';
+import { toldWords } from './told_words.mjs';
 
 const shownAtFirst = 30;
-const said = { alike: 'not told apart', apart: '', 'no interval': 'no interval' };
 
 class RankedChart {
   constructor(data, figures, figure, chosen) {
@@ -39,6 +39,7 @@ class RankedChart {
     const first = rows.find((row) => row.told === 'first')?.value ?? null;
     const shown = this.all ? rows : rows.slice(0, shownAtFirst);
     const words = keyWords(data.keys);
+    this.words = toldWords(data, figure, this.leastFirst);
     this.sentence.textContent = rankingSentence(data, rows, figure, this.leastFirst);
     this.head.replaceChildren(element('span', {}, words.map((key) => key.words).join(' · ')), trackAxis(scale), element('span', { class: 'number' }, titleOf(figure)));
     this.list.replaceChildren(...shown.map((row) => this.row(row, scale, first)));
@@ -49,7 +50,7 @@ class RankedChart {
   }
 
   row({ layout, value, told }, scale, first) {
-    const note = told === 'first' ? (this.leastFirst ? 'least' : 'most') : (said[told] ?? layout.status);
+    const note = this.words.note({ layout, told });
     return element('li', {}, element('button', { type: 'button', class: `rank ${told.replace(' ', '-')}`, 'data-layout': layout.number, onclick: () => this.chosen.choose(layout.number) },
       element('span', { class: 'rank-name', title: layoutName(this.data, layout) }, element('b', {}, `${layout.number} `), layoutName(this.data, layout)),
       intervalTrack(scale, value, { band: first }),
@@ -58,14 +59,13 @@ class RankedChart {
 
   showLegend(rows, scale, first) {
     const has = (told) => rows.some((row) => row.told === told);
-    const point = (told, text) => element('span', { class: `legend-item rank ${told}` }, element('span', { class: 'point' }), text);
-    const best = this.leastFirst ? 'least' : 'most';
+    const point = (told) => element('span', { class: `legend-item rank ${told}` }, element('span', { class: 'point' }), this.words[told]);
     this.legend.replaceChildren(...[
-      first ? point('first', `the ${best}`) : null,
-      has('alike') ? point('alike', 'not told apart from it: the 95 % intervals overlap (this is no test)') : null,
-      has('apart') ? point('apart', 'the intervals do not overlap') : null,
-      has('not ok') ? point('not-ok', 'not ok, and not compared') : null,
-      first && first.low !== null ? element('span', { class: 'legend-item' }, element('span', { class: 'swatch window' }), 'interval of the first') : null,
+      first ? point('first') : null,
+      has('alike') ? point('alike') : null,
+      has('apart') ? point('apart') : null,
+      has('not ok') ? point('not-ok') : null,
+      first && first.low !== null ? element('span', { class: 'legend-item' }, element('span', { class: 'swatch window' }), this.words.band) : null,
       scale.cut ? element('span', {}, 'Intervals that reach the right edge go on beyond it.') : null,
       this.figure.has_interval || this.figure.with_ends ? null : element('span', {}, 'All runs of a layout together give this figure: it has no interval.'),
     ].filter(Boolean));

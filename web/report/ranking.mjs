@@ -1,6 +1,8 @@
 // Layouts in the order of a figure, and which of them the intervals do not tell apart from the first.
+import { list } from './format.mjs';
 import { textWithUnit, valueOf } from './layout_figures.mjs';
 import { layoutInSentence } from './layout_words.mjs';
+import { toldByDecision } from './told_words.mjs';
 
 function overlap(a, b) {
   if (a.low === null || a.high === null || b.low === null || b.high === null) return null;
@@ -10,7 +12,7 @@ function overlap(a, b) {
 /**
  * [{ layout, value, told }] of the layouts that have the figure: those that are ok first, in its order; layouts of the same
  * value by number. `told`: "first", "alike" (its interval overlaps that of the first), "apart", "no interval"; "not ok" of
- * the others, which are not compared.
+ * the others, which are not compared. Where the figure is what a decision was made by, `told` is what the decision found.
  */
 export function ranked(layouts, figure, leastFirst) {
   const sign = leastFirst ? 1 : -1;
@@ -19,6 +21,7 @@ export function ranked(layouts, figure, leastFirst) {
   const first = rows[0]?.layout.status === 'ok' ? rows[0] : null;
   const toldOf = (row) => {
     if (row.layout.status !== 'ok') return 'not ok';
+    if (figure.judged) return toldByDecision(row.layout);
     if (row === first) return 'first';
     const same = overlap(row.value, first.value);
     return same === null ? 'no interval' : same ? 'alike' : 'apart';
@@ -31,8 +34,22 @@ function alikeWords(count) {
   return count === 1 ? '1 other is not told apart from it' : `${count} others are not told apart from it`;
 }
 
+/** Who is best, and how many are not shown to be worse, worse, or not compared. */
+function decisionSentence(data, rows, figure) {
+  const best = rows.find((row) => row.told === 'first');
+  const of = (standing) => data.layouts.filter((layout) => layout.standing === standing).length;
+  const are = (count, one, many) => `${count} ${count === 1 ? one : many}`;
+  const rest = [
+    [of('undecided'), 'may still be the best', 'may still be the best'], [of('not shown to be worse'), 'is not shown to be worse', 'are not shown to be worse'],
+    [of('worse'), 'is worse', 'are worse'], [data.layouts.filter(({ status }) => status !== 'ok').length, 'is not compared', 'are not compared'],
+  ].filter(([count]) => count > 0).map((words) => are(...words));
+  const lead = best ? `By ${figure.words} ${layoutInSentence(data, best.layout)} is the best: ${textWithUnit(best.value, figure)}` : `By ${figure.words} no layout is known to be the best`;
+  return `${lead}${rest.length ? `; of the ${best ? 'others' : 'layouts'} ${list(rest)}` : ''}.`;
+}
+
 /** Who is first, and how many are not told apart from it. */
 export function rankingSentence(data, rows, figure, leastFirst) {
+  if (figure.judged) return decisionSentence(data, rows, figure);
   const first = rows.find((row) => row.told === 'first');
   const without = data.layouts.length - rows.length;
   const missing = without === 0 ? '' : ` ${without} layout${without === 1 ? ' has' : 's have'} no value of it.`;

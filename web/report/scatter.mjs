@@ -16,8 +16,8 @@ function scaleOf(values) {
 }
 
 class Scatter {
-  constructor(data, figures, [figureX, figureY], chosen) {
-    Object.assign(this, { data, chosen, figureX, figureY });
+  constructor(data, figures, [figureX, figureY], chosen, look) {
+    Object.assign(this, { data, chosen, figureX, figureY, look });
     const options = figures.map((one) => ({ value: one, text: titleOf(one) }));
     this.place = element('div', { class: 'scatter' });
     this.sentence = element('p', { id: 'trade-sentence', class: 'lead', 'aria-live': 'polite' });
@@ -25,8 +25,7 @@ class Scatter {
       listChoice('Across', options, figureX, (one) => { this.figureX = one; this.draw(); }), listChoice('Up', options, figureY, (one) => { this.figureY = one; this.draw(); })),
     this.sentence, element('figure', { class: 'card' }, this.place,
       element('figcaption', {}, element('p', { class: 'legend' },
-        element('span', { class: 'legend-item' }, element('span', { class: 'stroke front-stroke' }), 'layouts that no other beats in both'),
-        element('span', {}, 'Cross: 95 % intervals of the chosen layout. Hollow: not ok.')))));
+        element('span', { class: 'legend-item' }, element('span', { class: 'stroke front-stroke' }), 'layouts that no other beats in both'), look.legend()))));
     new ResizeObserver(() => { if (this.place.clientWidth !== this.width) this.draw(); }).observe(this.place);
     chosen.onChange(() => this.mark());
   }
@@ -47,9 +46,10 @@ class Scatter {
     this.cross = shape('path', { class: 'cross' });
     this.ring = shape('circle', { class: 'ring', r: 8, 'aria-hidden': 'true' });
     const line = front.length > 1 ? shape('polyline', { class: 'front', points: front.map(({ x, y }) => `${this.x(x.value)},${this.y(y.value)}`).join(' ') }) : null;
+    const crosses = this.points.filter(({ layout }) => this.look.withIntervals(layout)).map((point) => shape('path', { class: 'cross', d: this.crossOf(point) }));
     this.place.replaceChildren(shape('svg', { width: this.width, height, role: 'group', 'aria-label': `${titleOf(figureY)} against ${titleOf(figureX)}: a point for every layout; arrow keys go from one to the next`,
       onclick: (event) => this.press(event), onkeydown: (event) => this.key(event) },
-    this.grid(scaleX, scaleY), line, this.cross, this.circles, this.ring));
+    this.grid(scaleX, scaleY), line, crosses, this.cross, this.circles, this.ring));
     this.mark();
   }
 
@@ -66,7 +66,7 @@ class Scatter {
   circle({ layout, x, y }) {
     const name = `Layout ${layout.number}, ${layoutName(this.data, layout)}: ${this.figureX.words} ${textWithUnit(x, this.figureX)}, ${this.figureY.words} ${textWithUnit(y, this.figureY)}`;
     return shape('circle', { cx: this.x(x.value), cy: this.y(y.value), r: 5, role: 'button', tabindex: -1, 'data-layout': layout.number,
-      class: layout.status === 'ok' ? 'ok' : 'not-ok', 'aria-label': name }, shape('title', {}, name));
+      class: this.look.classOf(layout), 'aria-label': name }, shape('title', {}, name));
   }
 
   press(event) {
@@ -113,6 +113,19 @@ class Scatter {
   }
 }
 
+const plainLook = {
+  classOf: ({ status }) => (status === 'ok' ? 'ok' : 'not-ok'), withIntervals: () => false,
+  legend: () => element('span', {}, 'Cross: 95 % intervals of the chosen layout. Hollow: not ok.'),
+};
+
+/**
+ * The two figures to begin with are the first two of `axes`. `look`: { classOf(layout), withIntervals(layout), legend() }, the
+ * last what stands beside the line's own words.
+ */
+export function scatterOf(title, data, figures, axes, chosen, look) {
+  return section('trade', title, new Scatter(data, figures, axes, chosen, look).frame);
+}
+
 /** null where there are not two figures to compare. */
 export function scatterSection(data, figures, chosen) {
   if (figures.length < 2) return null;
@@ -120,5 +133,5 @@ export function scatterSection(data, figures, chosen) {
   const has = (figure) => figure && pointsOf(data.layouts, figure, figure).length > 1;
   const across = [named('rate_g_per_s'), figures[0]].find(Boolean);
   const up = ['evenness_cv_percent', 'raw_cv_percent', 'instability_cv_percent'].map(named).find(has) ?? figures.find((figure) => figure !== across);
-  return section('trade', 'One figure against another', new Scatter(data, figures, [across, up], chosen).frame);
+  return scatterOf('One figure against another', data, figures, [across, up], chosen, plainLook);
 }

@@ -14,6 +14,7 @@ const numbersShown = 12;
 const words = {
   'outside the model': ['lies outside the model', 'lie outside the model'], invalid: ['cannot be built', 'cannot be built'],
   stopped: ['was stopped by the guard', 'were stopped by the guard'], interrupted: ['has runs that are missing', 'have runs that are missing'],
+  failed: ['failed', 'failed'],
 };
 
 function numbersOf(layouts) {
@@ -60,6 +61,7 @@ export function sweepPage(data) {
     headlines: [data.headline],
     remarks: doubtsOf(data),
     whole: 'Every layout',
+    beside: true,
     sections: async () => sections(data),
   };
 }

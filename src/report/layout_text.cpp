@@ -1,4 +1,4 @@
-#include "cli/layout_text.hpp"
+#include "report/layout_text.hpp"
 
 #include <fmt/format.h>
 
@@ -28,10 +28,11 @@ std::string described(const Study& study, const Layout& layout) {
   return text;
 }
 
-std::string with_interval(const std::optional<MeanWithInterval>& value, double unit) {
+std::string with_interval(const std::optional<MeanWithInterval>& value, double unit, std::string_view plus_minus) {
   if (!value) return "";
   const std::string mean = to_digits(value->mean / unit, 4);
-  return value->half_width_95 ? fmt::format("{} +- {}", mean, to_digits(*value->half_width_95 / unit, 2)) : mean;
+  return value->half_width_95 ? fmt::format("{} {} {}", mean, plus_minus, to_digits(*value->half_width_95 / unit, 2))
+                              : mean;
 }
 
 }  // namespace vibrosow

@@ -1,0 +1,103 @@
+#include "report/decision_words.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "report/terminal_text.hpp"
+
+namespace vibrosow {
+
+std::string percent_text(double fraction) {
+  return to_digits(100 * fraction, 4) + " %";
+}
+
+std::string constraints_text(const DecisionResult& result) {
+  std::string text;
+  if (result.options.rate) text = "meets the rate";
+  if (result.tests_clogging)
+    text += fmt::format("{}clogs in fewer than {} of runs", text.empty() ? "" : " and ",
+                        percent_text(result.options.clogging_limit));
+  return text;
+}
+
+std::string sureness_text(const DecideOptions& options) {
+  return fmt::format("{} of {}", options.rule == SelectionRule::posterior ? "posterior probability" : "confidence",
+                     percent_text(options.confidence));
+}
+
+std::string promise_sentence(const DecisionResult& result) {
+  const std::string met = constraints_text(result);
+  const std::string among = met.empty() ? "No other" : fmt::format("It {}; no other that does so", met);
+  return fmt::format("{} is better by more than {}: with a {}.", among, percent_text(result.options.margin),
+                     sureness_text(result.options));
+}
+
+bool is_guaranteed(const DecisionResult& result) {
+  return result.options.rule == SelectionRule::guaranteed;
+}
+
+std::string weakness_sentence() {
+  return "That is no guarantee: among layouts that all lie about that far behind the best this rule is wrong clearly "
+         "more often (docs/DECIDING.md). For a guarantee: --procedure guaranteed, which goes on from these runs.";
+}
+
+std::string undecided_sentence(const DecisionResult& result) {
+  if (result.is_interrupted && result.cost.runs == 0)
+    return "Interrupted in the first round of runs: the same command goes on from here. No layout is ruled out.";
+  if (!result.has_margin)
+    return fmt::format(
+        "Undecided: the least {} is 0, and so is any share of it: --within cannot tell layouts apart by this goal.",
+        result.options.goal->name);
+  if (result.is_interrupted) return "Interrupted: the same command goes on from here. So far not ruled out:";
+  return fmt::format(
+      "Undecided: after {} runs of a layout (--most) these cannot be told apart, or it is not known whether they meet "
+      "the constraints:",
+      result.options.most);
+}
+
+std::string no_best_sentence(const DecisionResult& result) {
+  const std::string constraints = constraints_text(result);
+  if (constraints.empty()) return "No layout can be compared.";
+  return fmt::format("No layout {}: with a {}.", constraints, sureness_text(result.options));
+}
+
+std::string cost_sentence(const DecisionResult& result) {
+  std::string text = fmt::format("Cost: {} runs, {:.3g} grain-steps", static_cast<long long>(result.cost.runs),
+                                 result.cost.grain_steps);
+  if (result.equal_grid)
+    text += fmt::format(
+        "; a grid that is run without looking (Rinott's procedure) takes {} runs, {:.3g} grain-steps "
+        "for the same confidence",
+        static_cast<long long>(result.equal_grid->runs), result.equal_grid->grain_steps);
+  return text + ".";
+}
+
+std::string correlation_sentence(const DecisionResult& result) {
+  if (!result.correlation) return "";
+  return fmt::format(
+      "Runs of different layouts under one random seed correlate by {:.2f}{}.", *result.correlation,
+      *result.correlation < DraftScreen::least_correlation
+          ? fmt::format("; below {:g} nothing is claimed of common random numbers", DraftScreen::least_correlation)
+          : ": differences are surer than each value");
+}
+
+std::string drafts_sentence(const DraftFindings& drafts) {
+  if (!drafts.correlation)
+    return fmt::format("Drafts: only {} of the pilot layouts have the goal both ways; they decide nothing.",
+                       drafts.pilots);
+  const auto ruled_out = std::ranges::count(drafts.taking_part, false);
+  const std::string so =
+      drafts.screens ? fmt::format("{} layouts are ruled out by them, which the confidence does not cover", ruled_out)
+                     : fmt::format("below {:g} they decide nothing", DraftScreen::least_correlation);
+  return fmt::format(
+      "Drafts: means of {} pilot layouts correlate by {:.2f} with those at the study's accuracy; {}. They took {} "
+      "runs, {:.3g} grain-steps.",
+      drafts.pilots, *drafts.correlation, so, static_cast<long long>(drafts.cost.runs), drafts.cost.grain_steps);
+}
+
+std::string clogging_untested_sentence() {
+  return "Clogging is not tested: no layout has run.end_after_pause.";
+}
+
+}  // namespace vibrosow

@@ -1,0 +1,20 @@
+#pragma once
+
+#include <string>
+
+#include "design/optimise.hpp"
+#include "report/columns.hpp"
+#include "report/sweep_report.hpp"
+
+namespace vibrosow {
+
+/// The page's numbers and texts (page_text): what was asked, the layouts with their standings, and how each is built.
+std::string front_page_data(const OptimiseResult& result, const SweepTiming& timing);
+
+/// report.html of a search for a front (filled_page). `timing`: of the runs that were made for it just now.
+std::string front_page(const std::string& page_template, const OptimiseResult& result, const SweepTiming& timing);
+
+/// What the file holds.
+FileText front_page_text();
+
+}  // namespace vibrosow

@@ -1,0 +1,105 @@
+#include "report/accuracy_page.hpp"
+
+#include <gmock/gmock.h>
+
+#include <nlohmann/json.hpp>
+
+namespace vibrosow {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::StartsWith;
+
+AccuracySetting setting_of(double steps, double softness) {
+  return {.steps_per_contact = steps,
+          .shell_compression = softness,
+          .contact_duration = 1e-4,
+          .overlap_at_rest = softness,
+          .dt = 1e-4 / steps};
+}
+
+/// Three settings, of which the last is too long a step; rates in kg/s.
+class AccuracyPage : public testing::Test {
+ protected:
+  static AccuracyRun run_of(std::size_t setting, std::uint64_t seed, double rate, double steps) {
+    AccuracyRun run;
+    run.setting = setting;
+    run.random_seed = seed;
+    run.mass_rate = rate;
+    run.grain_steps = steps;
+    run.cpu_time = steps / 1e7;
+    return run;
+  }
+  AccuracyResult result(int replicates) const {
+    std::vector<AccuracyRun> runs;
+    for (int r = 0; r < replicates; ++r) {
+      const auto seed = static_cast<std::uint64_t>(r + 1);
+      runs.push_back(run_of(0, seed, 0.0100 + 1e-6 * r, 4e7));
+      runs.push_back(run_of(1, seed, 0.0108 + 1e-6 * (r % 3), 1e7));
+    }
+    return accuracy_of({setting_of(40, 1e-4), setting_of(20, 1e-4), setting_of(4, 1e-4)},
+                       {"", "", "the step is too long"}, runs);
+  }
+  nlohmann::json data(int replicates) const {
+    return nlohmann::json::parse(accuracy_page_data(scene_, result(replicates)));
+  }
+  std::vector<nlohmann::json> of_levels(const nlohmann::json& data, const std::string& key) const {
+    std::vector<nlohmann::json> values;
+    for (const nlohmann::json& level : data["levels"]) values.push_back(level[key]);
+    return values;
+  }
+  Scene scene_;
+};
+
+TEST_F(AccuracyPage, EverySettingHasItsErrorItsTimeAndWhyItHasNone) {
+  const auto page = data(4);
+  EXPECT_THAT(of_levels(page, "number"), ElementsAre(1, 2, 3));
+  EXPECT_THAT(of_levels(page, "cpu_s"), ElementsAre(4.0, 1.0, nullptr));
+  EXPECT_THAT(of_levels(page, "finest"), ElementsAre(true, false, false));
+  EXPECT_THAT(of_levels(page, "note"), ElementsAre("", "", "the step is too long"));
+  EXPECT_NEAR(page["levels"][1]["rate_g_per_s"]["mean"].get<double>(), 10.8, 0.01);
+  EXPECT_TRUE(page["levels"][2]["error"].is_null());
+  EXPECT_EQ(page["within_percent"], 1.0);
+}
+
+TEST_F(AccuracyPage, ErrorsAreAgainstTheLimitWhereRunsSuffice) {
+  const auto page = data(4);
+  const AccuracyResult of = result(4);
+  ASSERT_TRUE(of.fit);
+  EXPECT_THAT(page["against"].get<std::string>(), StartsWith("the limit"));
+  EXPECT_EQ(page["levels"][1]["error"]["percent"], of.rows[1].fitted->percent);
+  EXPECT_EQ(page["levels"][1]["error"]["band"], of.rows[1].fitted->band);
+  EXPECT_FALSE(page["errors"].empty());
+}
+
+TEST_F(AccuracyPage, ErrorsAreAgainstTheFinestWhereTheyDoNotWhichIsADoubt) {
+  const auto page = data(1);
+  EXPECT_EQ(page["against"], "the finest setting");
+  EXPECT_NEAR(page["levels"][1]["error"]["percent"].get<double>(), 8, 0.1);
+  EXPECT_TRUE(page["errors"].empty());
+  EXPECT_THAT(page["doubts"][0].get<std::string>(), HasSubstr("too few"));
+}
+
+TEST_F(AccuracyPage, APlaneIsADoubtUntilItsErrorIsKnown) {
+  const auto is_said = [](const nlohmann::json& page) { return page["doubts"].dump().find("--depth") != std::string::npos; };
+  EXPECT_TRUE(is_said(data(4)));
+  scene_.space = Space::three_dimensional;
+  EXPECT_FALSE(is_said(data(4)));
+}
+
+TEST_F(AccuracyPage, APromiseThatCannotBeKeptSaysWhy) {
+  Promise promise;
+  promise.settings = {setting_of(40, 1e-4)};
+  promise.runs = {run_of(0, 1, 0.01, 4e7)};
+  promise.refused = "too few pilots";
+  PromiseGoal goal;
+  goal.within_percent = 3;
+  const auto page = nlohmann::json::parse(accuracy_page_data(scene_, promise, goal));
+  EXPECT_THAT(page["headlines"][0].get<std::string>(), HasSubstr("within 3 % cannot be promised: too few pilots"));
+  EXPECT_EQ(page["within_percent"], 3.0);
+  EXPECT_EQ(page["levels"][0]["chosen"], false);
+}
+
+}  // namespace
+}  // namespace vibrosow

@@ -1,0 +1,112 @@
+#include "report/decision_page.hpp"
+
+#include "page_data.hpp"
+
+namespace vibrosow {
+namespace {
+
+using testing::Contains;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::Not;
+
+/// Layout 2 is the best of three trays by the most flow; layout 1 misses the rate.
+class DecisionPage : public testing::Test {
+ protected:
+  DecisionPage() {
+    DecisionResult& result = report_.result;
+    result.study = three_trays();
+    result.options.goal = &goal_named("rate");
+    result.options.rate = WantedRate{"tray_rate_g_per_s", 0.01, 0.02};
+    result.scenes.resize(2);
+    SceneDecision &missing = result.scenes[0], &best = result.scenes[1];
+    missing.standing = Standing::misses_the_rate;
+    missing.runs = 4;
+    missing.goal = MeanWithInterval{0.003, 0.0002};
+    best.standing = Standing::best;
+    best.runs = 8;
+    best.clogged = 2;
+    best.goal = MeanWithInterval{0.002, 0.0001};
+    best.rate = MeanWithInterval{0.015, 0.001};
+    result.best = 1;
+    result.is_sure = true;
+    result.tests_clogging = true;
+    result.cost = {12, 3e6};
+  }
+  nlohmann::json data() const { return nlohmann::json::parse(decision_page_data(report_, timing_)); }
+
+  DecisionReport report_;
+  SweepTiming timing_;
+};
+
+TEST_F(DecisionPage, SaysTheAnswerWithItsIntervalsAndWhatIsPromised) {
+  EXPECT_EQ(data()["headline"],
+            "Layout 2 (frequency 8 Hz) is the best: rate 2 ± 0.1 g/s, 15 ± 1 g/s of the tray, clogged in 2 of 8 runs. "
+            "It meets the rate and clogs in fewer than 5 % of runs; no other that does so is better by more than 2 %: "
+            "with a confidence of 95 %.");
+  EXPECT_TRUE(data()["doubts"].empty());
+}
+
+TEST_F(DecisionPage, ThePosteriorRuleIsCalledWeak) {
+  report_.result.options.rule = SelectionRule::posterior;
+  EXPECT_THAT(data()["headline"].get<std::string>(), HasSubstr("posterior probability of 95 %"));
+  EXPECT_THAT(data()["doubts"][0].get<std::string>(), HasSubstr("That is no guarantee"));
+  report_.result.is_sure = false;  // then there is no answer to doubt
+  EXPECT_TRUE(data()["doubts"].empty());
+}
+
+TEST_F(DecisionPage, NamesThoseThatAreLeftWhereItIsUndecided) {
+  DecisionResult& result = report_.result;
+  result.is_sure = false;
+  result.best = std::nullopt;
+  for (SceneDecision& scene : result.scenes) scene.standing = Standing::undecided;
+  EXPECT_THAT(data()["headline"].get<std::string>(), HasSubstr("these cannot be told apart"));
+  EXPECT_THAT(data()["headline"].get<std::string>(), HasSubstr("constraints: 1, 2."));
+  result.is_interrupted = true;
+  EXPECT_THAT(data()["headline"].get<std::string>(), HasSubstr("the same command goes on"));
+}
+
+TEST_F(DecisionPage, SaysWhereNoLayoutMeetsTheConstraints) {
+  report_.result.best = std::nullopt;
+  EXPECT_EQ(data()["headline"],
+            "No layout meets the rate and clogs in fewer than 5 % of runs: with a confidence of 95 %.");
+}
+
+TEST_F(DecisionPage, LayoutsStandAsTheDecisionFoundThem) {
+  EXPECT_THAT(of_layouts(data(), "standing"), ElementsAre("misses the rate", "best", "invalid"));
+  EXPECT_THAT(of_layouts(data(), "status"), ElementsAre("misses the rate", "ok", "invalid"));
+  const auto layouts = data()["layouts"];
+  EXPECT_EQ(layouts[2]["note"], "hole 3 lies beyond the rim");
+  EXPECT_TRUE(layouts[2]["vessels"].empty());
+  EXPECT_EQ(layouts[1]["replicates"], 8);
+  EXPECT_EQ(layouts[1]["means"]["rate_g_per_s"], nlohmann::json({{"mean", 2.0}, {"half_width", 0.1}}));
+  EXPECT_EQ(layouts[1]["means"]["clogged_percent"]["mean"], 25.0);
+  EXPECT_TRUE(layouts[0]["means"]["tray_rate_g_per_s"].is_null());
+}
+
+TEST_F(DecisionPage, TheGoalIsTheFigureThatIsJudged) {
+  const auto figures = data()["figures"];
+  ASSERT_EQ(figures.size(), 3U);
+  EXPECT_EQ(figures[0]["name"], "rate_g_per_s");
+  EXPECT_EQ(figures[0]["wanted"], "high");
+  EXPECT_EQ(figures[0]["judged"], true);
+  EXPECT_FALSE(figures[1].contains("judged"));
+  report_.result.options.rate = std::nullopt;  // the rate shown is then the goal itself
+  EXPECT_EQ(data()["figures"].size(), 2U);
+}
+
+TEST_F(DecisionPage, TimeIsOfRunsThatWereMadeNow) {
+  const auto about_time = HasSubstr("of this command");
+  EXPECT_THAT(data()["cost"].get<std::vector<std::string>>(), Not(Contains(about_time)));
+  timing_ = {.wall_time = 31.25, .jobs = 2, .runs = 12};
+  EXPECT_THAT(data()["cost"].get<std::vector<std::string>>(),
+              Contains("The 12 runs of this command took 31.2 s, up to 2 side by side."));
+}
+
+TEST_F(DecisionPage, TheDataEndNoScript) {
+  EXPECT_EQ(decision_page_data(report_, timing_).find('<'), std::string::npos);
+  EXPECT_EQ(decision_page("@REPORT_DATA@ @RECORDING@", report_, timing_), decision_page_data(report_, timing_) + " ");
+}
+
+}  // namespace
+}  // namespace vibrosow

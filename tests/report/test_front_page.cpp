@@ -1,0 +1,76 @@
+#include "report/front_page.hpp"
+
+#include "page_data.hpp"
+
+namespace vibrosow {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+/// Layout 1 is on the front of pause and power, layout 2 may be.
+class FrontPage : public testing::Test {
+ protected:
+  FrontPage() {
+    result_.study = three_trays();
+    result_.options.goals = read_front_goals({"pause", "power"});
+    result_.layouts.resize(3);
+    FrontLayout &sure = result_.layouts[0], &unsure = result_.layouts[1];
+    sure.standing = FrontStanding::on_front;
+    sure.is_first_by_means = true;
+    sure.runs = 4;
+    sure.clogged = 1;
+    sure.goals = {MeanWithInterval{0.2, 0.05}, MeanWithInterval{3, std::nullopt}};
+    unsure.standing = FrontStanding::may_be_on_front;
+    unsure.runs = 2;
+    unsure.goals = {MeanWithInterval{0.1, 0.2}, MeanWithInterval{4, std::nullopt}};
+    unsure.rate = MeanWithInterval{0.002, 0.0001};
+    result_.cost = {6, 2e6};
+  }
+  nlohmann::json data() const { return nlohmann::json::parse(front_page_data(result_, {})); }
+  std::string headline() const { return data()["headline"]; }
+
+  OptimiseResult result_;
+};
+
+TEST_F(FrontPage, SaysHowManyAreOnTheFront) {
+  EXPECT_EQ(headline(), "1 layout is on the front of pause and power, of 3 that were tried; 1 more may be.");
+  result_.layouts[1].standing = FrontStanding::dominated;
+  EXPECT_EQ(headline(), "1 layout is on the front of pause and power, of 3 that were tried.");
+  result_.layouts[0].standing = FrontStanding::may_be_on_front;
+  EXPECT_EQ(headline(), "1 layout may be on the front of pause and power, of 3 that were tried; none is shown to be.");
+  result_.layouts[0].standing = FrontStanding::clogs;
+  EXPECT_EQ(headline(), "No layout of 3 that were tried is known to meet the constraints.");
+}
+
+TEST_F(FrontPage, DoubtsAreWhatIsNotPromisedAndThatItWasInterrupted) {
+  ASSERT_EQ(data()["doubts"].size(), 1U);
+  EXPECT_THAT(data()["doubts"][0].get<std::string>(), HasSubstr("is not promised"));
+  result_.is_interrupted = true;
+  EXPECT_THAT(data()["doubts"][0].get<std::string>(), HasSubstr("Interrupted"));
+}
+
+TEST_F(FrontPage, LayoutsHaveTheirGoalsInTheirUnits) {
+  EXPECT_THAT(of_layouts(data(), "standing"), ElementsAre("on the front", "may be on the front", "invalid"));
+  EXPECT_THAT(of_layouts(data(), "status"), ElementsAre("ok", "ok", "invalid"));
+  EXPECT_THAT(of_layouts(data(), "first_by_means"), ElementsAre(true, false, false));
+  const auto layouts = data()["layouts"];
+  EXPECT_EQ(layouts[0]["means"]["longest_pause_s"], nlohmann::json({{"mean", 0.2}, {"half_width", 0.05}}));
+  EXPECT_TRUE(layouts[0]["means"]["power_W_per_kg"]["half_width"].is_null());
+  EXPECT_EQ(layouts[0]["means"]["clogged_percent"]["mean"], 25.0);
+  EXPECT_EQ(layouts[1]["means"]["rate_g_per_s"]["mean"], 2.0);
+  EXPECT_FALSE(layouts[2].contains("means"));
+}
+
+TEST_F(FrontPage, GoalsAreMarkedAndSayWhatIsWanted) {
+  result_.options.goals = read_front_goals({"rate", "power"});
+  const auto figures = data()["figures"];
+  ASSERT_EQ(figures.size(), 3U);  // the rate is a goal, and stands there once
+  EXPECT_EQ(figures[0]["wanted"], "high");
+  EXPECT_EQ(figures[1]["wanted"], "low");
+  EXPECT_EQ(figures[1]["goal"], true);
+  EXPECT_FALSE(figures[2].contains("goal"));
+}
+
+}  // namespace
+}  // namespace vibrosow

@@ -1,0 +1,81 @@
+// The pages of made-up decisions and searches, in a browser.
+import assert from 'node:assert/strict';
+import test from 'node:test';
+import * as in_ from './browser.mjs';
+import { hostile, withPage } from './made_up_pages.mjs';
+import { madeUpDecision, madeUpFront } from './made_up_studies.mjs';
+
+function numbersIn(open, selector) {
+  return open.$$eval(selector, (nodes) => nodes.map((node) => Number(node.dataset.layout)));
+}
+
+function numbersOf({ data }, standing) {
+  return data.layouts.filter((layout) => layout.standing === standing).map(({ number }) => number);
+}
+
+const sorted = (numbers) => [...numbers].sort((a, b) => a - b);
+
+async function assertReadsWell(open) {
+  await in_.assertAccessible(open);
+  await open.emulateMedia({ colorScheme: 'dark' });
+  await open.waitForSelector('html[data-theme="dark"]');
+  await open.setViewportSize({ width: 390, height: 844 });
+  await in_.assertAccessible(open);
+  await in_.assertNoSidewaysScrolling(open);
+}
+
+test('a decision: the answer, its doubts, and the layouts as they stand', () => withPage(madeUpDecision('plane'), { bypass: true }, async (open) => {
+  const made = madeUpDecision('plane');
+  assert.equal(await open.locator('.headline').textContent(), made.data.headline);
+  assert.match(await open.locator('.remarks').textContent(), /That is no guarantee.*Layout 4 failed: hole 3 lies beyond the rim/);
+  assert.deepEqual(await numbersIn(open, '#ranking .ranks .first'), [11]);
+  assert.deepEqual(sorted(await numbersIn(open, '#ranking .ranks .alike')), numbersOf(made, 'not shown to be worse'));
+  assert.deepEqual(sorted(await numbersIn(open, '#ranking .ranks .apart')), numbersOf(made, 'worse'));
+  assert.match(await open.locator('#ranking-sentence').textContent(),
+    /^By rate layout 11 .* is the best: .* g\/s; of the others \d+ (is|are) not shown to be worse, \d+ are worse and \d+ are not compared\.$/);
+  await open.getByRole('heading', { name: 'Layout 11', exact: true }).waitFor();
+  assert.equal(await open.locator('#layout .standing').textContent(), 'Best.');
+  assert.match(await open.locator('#question').textContent(), /confidence of 95 %.*Cost: 120 runs.*took 31.2 s/);
+  await assertReadsWell(open);
+}));
+
+test('a decision by another figure: by its own intervals', () => withPage(madeUpDecision('plane'), {}, async (open) => {
+  await open.getByRole('combobox', { name: 'Figure', exact: true }).selectOption('clogged, %');
+  assert.match(await open.locator('#ranking-sentence').textContent(), /has the least: 0 %; without intervals nothing says/);
+}));
+
+test('an undecided one names no best', () => withPage(madeUpDecision('plane', { isSure: false }), {}, async (open) => {
+  assert.equal(await open.locator('#ranking .ranks .first').count(), 0);
+  assert.match(await open.locator('#ranking-sentence').textContent(), /^By rate no layout is known to be the best; of the layouts \d+ may still be the best and \d+ are not compared\.$/);
+  assert.match(await open.locator('#ranking .legend').textContent(), /undecided/);
+}));
+
+test('a front: the points as they stand, with the intervals of those that lead', () => withPage(madeUpFront('three_dimensional'), { bypass: true }, async (open) => {
+  const made = madeUpFront('three_dimensional');
+  for (const [name, standing] of [['on-front', 'on the front'], ['may-be', 'may be on the front'], ['dominated', 'dominated']]) {
+    assert.deepEqual(sorted(await numbersIn(open, `#trade circle.${name}`)), numbersOf(made, standing), standing);
+  }
+  assert.equal(await open.locator('#trade .cross').count(), numbersOf(made, 'on the front').length + 1);
+  assert.match(await open.locator('#trade-sentence').textContent(), /^For a high rate and a low power, no layout beats /);
+  const point = open.locator('#trade circle.dominated').first();
+  const number = Number(await point.getAttribute('data-layout'));
+  await point.focus();
+  await open.keyboard.press('Enter');
+  await open.getByRole('heading', { name: `Layout ${number}`, exact: true }).waitFor();
+  assert.equal(await open.locator('#layout .standing').textContent(), 'Dominated.');
+  assert.equal(await open.locator('#layout .drawing').count(), 2);
+  await assertReadsWell(open);
+}));
+
+test('a search by one goal ranks by it', () => withPage(madeUpFront('plane', { goals: 1 }), {}, async (open) => {
+  assert.equal(await open.locator('#trade').count(), 0);
+  assert.match(await open.locator('#ranking-sentence').textContent(), /^By rate layout \d+ .* has the most/);
+}));
+
+for (const [name, make] of [['decision', madeUpDecision], ['front', madeUpFront]]) {
+  test(`hostile names in a ${name} stay text`, () => withPage(make('plane', { title: hostile, layout: hostile }), {}, async (open) => {
+    assert.equal(await open.locator('h1').textContent(), hostile);
+    assert.match(await open.locator('#layout-title').textContent(), /onerror=alert\(1\)>$/);
+    assert.equal(await open.locator('img').count(), 0);
+  }));
+}

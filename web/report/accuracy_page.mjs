@@ -1,0 +1,133 @@
+// The page of an accuracy study: the recommendation, error against cost, every setting, and where the errors come from.
+import { Chart } from './chart.mjs';
+import { listColour } from './colours.mjs';
+import { element, section, table } from './dom.mjs';
+import { number, plusMinus, sentence } from './format.mjs';
+import { decades, pointsOf, precisionSentence } from './precision.mjs';
+import { onTheme, theme, themeColour } from './theme.mjs';
+
+const least = 0.003;  // %, where the axis of errors begins: less is no difference that anybody could measure
+const logScale = (range) => ({ distr: 3, range: () => range, time: false });
+
+function schemesOf(levels) {
+  return [...new Set(levels.map(({ scheme }) => scheme))];
+}
+
+// Each setting a numbered point, with the interval of its error; a line at what is wanted.
+function drawPoints(plot, data, points, schemes) {
+  const { ctx, bbox } = plot, px = devicePixelRatio;
+  const at = (value) => plot.valToPos(Math.max(value, plot.scales.y.min), 'y', true);
+  ctx.save();
+  ctx.beginPath();
+  ctx.rect(bbox.left, bbox.top - 8 * px, bbox.width, bbox.height + 8 * px);
+  ctx.clip();
+  ctx.setLineDash([5 * px, 4 * px]);
+  ctx.strokeStyle = themeColour('edge');
+  ctx.beginPath();
+  ctx.moveTo(bbox.left, at(data.within_percent));
+  ctx.lineTo(bbox.left + bbox.width, at(data.within_percent));
+  ctx.stroke();
+  ctx.setLineDash([]);
+  ctx.font = `${11 * px}px ${themeColour('font')}`;
+  ctx.textAlign = 'left';
+  ctx.textBaseline = 'middle';
+  for (const { level, size, low, high } of points) {
+    const x = plot.valToPos(level.cpu_s, 'x', true), y = at(size);
+    ctx.strokeStyle = ctx.fillStyle = listColour(schemes.indexOf(level.scheme), theme());
+    ctx.lineWidth = 1.5 * px;
+    if (high !== null) {
+      ctx.beginPath();
+      ctx.moveTo(x, at(low));
+      ctx.lineTo(x, at(high));
+      ctx.moveTo(x - 4 * px, at(high));
+      ctx.lineTo(x + 4 * px, at(high));
+      if (low > plot.scales.y.min) { ctx.moveTo(x - 4 * px, at(low)); ctx.lineTo(x + 4 * px, at(low)); }
+      ctx.stroke();
+    }
+    ctx.beginPath();
+    ctx.arc(x, y, (level.chosen ? 7 : 4.5) * px, 0, 2 * Math.PI);
+    ctx.fill();
+    if (level.chosen) { ctx.strokeStyle = themeColour('ink'); ctx.lineWidth = 2 * px; ctx.stroke(); }
+    ctx.fillStyle = themeColour('ink');
+    ctx.fillText(String(level.number), x + 9 * px, y);
+  }
+  ctx.restore();
+}
+
+function precisionChart(data, points) {
+  const schemes = schemesOf(data.levels);
+  const times = decades(points.map(({ level }) => level.cpu_s));
+  const sizes = decades([...points.flatMap(({ size, high }) => [Math.max(size, least), high ?? size]), data.within_percent]);
+  const chart = new Chart(`Error of the rate against the time of a run, both on logarithmic axes: ${precisionSentence(data, points)}`, (axis) => ({
+    scales: { x: logScale(times), y: logScale(sizes) },
+    cursor: { show: false },
+    axes: [axis('CPU time of a run on this machine, s', { values: (_, splits) => splits.map((value) => (Math.log10(value) % 1 === 0 ? number(value) : '')) }),
+      axis('error of the rate, %', { size: 62, values: (_, splits) => splits.map((value) => (Math.abs(Math.log10(value) % 1) < 1e-9 ? number(value) : '')) })],
+    series: [{}, { paths: () => null, points: { show: false } }],
+    hooks: { draw: [(plot) => drawPoints(plot, data, points, schemes)] },
+  }), [points.map(({ level }) => level.cpu_s), points.map(({ size }) => Math.max(size, least))], 380);
+  return chart.frame;
+}
+
+function legend(data, points) {
+  const frame = element('p', { class: 'legend' });
+  const fill = () => frame.replaceChildren(...[
+    ...schemesOf(data.levels).map((scheme, k) => element('span', { class: 'legend-item' }, element('span', { class: 'swatch', style: `background:${listColour(k, theme())}` }), scheme)),
+    points.some(({ level }) => level.chosen) ? element('span', { class: 'legend-item' }, element('span', { class: 'dot chosen-dot' }), 'recommended') : null,
+    element('span', {}, `Lines: 95 % bands; those that reach the bottom hold 0. Dashed: ${number(data.within_percent)} %. Numbers: as in the table.`),
+  ].filter(Boolean));
+  onTheme(fill);
+  fill();
+  return frame;
+}
+
+function precisionSection(data) {
+  const points = [...pointsOf(data.levels)].sort((a, b) => a.level.cpu_s - b.level.cpu_s);
+  const said = element('p', { id: 'precision-sentence', class: 'lead' }, precisionSentence(data, points));
+  if (points.length === 0) return section('precision', 'Error against cost', said);
+  return section('precision', 'Error against cost', said, element('figure', { class: 'card' }, precisionChart(data, points), element('figcaption', {}, legend(data, points))));
+}
+
+function markOf(level) {
+  return [level.chosen ? 'recommended' : '', level.finest ? 'finest' : '', level.on_front && !level.chosen ? 'no cheaper one errs less' : '', level.note].filter(Boolean).join('; ');
+}
+
+function levelsSection(data) {
+  const columns = [
+    { name: 'setting' }, { name: 'what it is' }, { name: 'remark' }, { name: 'error', unit: '%' }, { name: 'CPU time', unit: 's' }, { name: 'rate', unit: 'g/s' }, { name: 'runs' },
+    { name: 'cost of the finest' }, { name: 'step', unit: 'µs' },
+  ];
+  const rows = data.levels.map((level) => [
+    String(level.number), level.name, markOf(level), level.error ? plusMinus(level.error.percent, level.error.band ?? NaN) : '', level.cpu_s ? number(level.cpu_s) : '',
+    level.rate_g_per_s ? plusMinus(level.rate_g_per_s.mean, level.rate_g_per_s.half_width ?? NaN) : '', String(level.runs), level.cost_ratio ? number(level.cost_ratio) : '', number(1e6 * level.dt_s),
+  ]);
+  return section('levels', 'Settings', element('p', { class: 'muted' }, `Errors are against ${data.against}.`), table('Table of the settings', columns, rows));
+}
+
+function errorsSentence(errors) {
+  const known = errors.filter(({ band }) => band !== null);
+  const largest = known.reduce((most, one) => (most && Math.abs(most.percent) >= Math.abs(one.percent) ? most : one), null);
+  if (!largest) return 'The runs were too few to tell the sources of errors apart.';
+  const sure = Math.abs(largest.percent) > largest.band ? '' : ', which may be chance';
+  return `Most is done by ${largest.source}: ${plusMinus(largest.percent, largest.band)} % from its finest to its coarsest level${sure}.`;
+}
+
+function errorsSection(data) {
+  if (data.errors.length === 0) return null;
+  const rows = data.errors.map(({ source, from, to, percent, band }) => [source, from, to, band === null ? number(percent) : plusMinus(percent, band)]);
+  return section('errors', 'Where errors come from', element('p', { class: 'lead' }, errorsSentence(data.errors)),
+    table('Table of the sources of errors', [{ name: 'source' }, { name: 'from' }, { name: 'to' }, { name: 'change of the rate', unit: '%' }], rows));
+}
+
+/** What main.mjs lays out of an accuracy study. */
+export function accuracyPage(data) {
+  const refused = data.levels.filter(({ rate_g_per_s }) => !rate_g_per_s).map(({ number: n }) => n);
+  return {
+    kicker: `Accuracy ${data.space === 'plane' ? 'in the plane' : 'in space'}`,
+    title: data.title || 'What accuracy costs',
+    headlines: data.headlines,
+    remarks: [...data.doubts, ...(refused.length ? [sentence(`${refused.length === 1 ? 'Setting' : 'Settings'} ${refused.join(', ')} gave no rate; the table says why`)] : [])],
+    whole: 'Every setting',
+    sections: async () => [precisionSection(data), levelsSection(data), errorsSection(data)].filter(Boolean),
+  };
+}
