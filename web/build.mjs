@@ -1,5 +1,5 @@
-// Builds the templates of the pages that the program writes, one file each, with markers left for the program to fill: report.html, of
-// a run and a sweep, and studio.html. Usage: node build.mjs [FOLDER]; default build/web of the repository.
+// Builds the templates of the pages that the program writes, one file each, with markers left for the program to fill: report.html, the same
+// with the simulator, of a run in the plane, and studio.html. Usage: node build.mjs [FOLDER]; default build/web of the repository.
 import { existsSync } from 'node:fs';
 import { mkdir, readFile, writeFile } from 'node:fs/promises';
 import path from 'node:path';
@@ -23,6 +23,9 @@ async function write(file, html) {
 }
 
 await mkdir(folder, { recursive: true });
-await write('report.html', await makePage('report', { markers: ['@REPORT_DATA@', '@RECORDING@'] }));
-const parts = [['@SIMULATOR_SIMD@', await moduleText('simd')], ['@SIMULATOR_SCALAR@', await moduleText('scalar')]];
+const simd = await moduleText('simd');
+const filled = { markers: ['@REPORT_DATA@', '@RECORDING@'] };
+await write('report.html', await makePage('report', { ...filled, parts: [['@SIMULATOR_SIMD@', '']] }));
+await write('report-with-simulator.html', await makePage('report', { ...filled, parts: [['@SIMULATOR_SIMD@', simd]] }));
+const parts = [['@SIMULATOR_SIMD@', simd], ['@SIMULATOR_SCALAR@', await moduleText('scalar')]];
 await write('studio.html', await makePage('studio', { markers: ['@STUDIO_DATA@'], parts }));

@@ -76,8 +76,8 @@ void add_random_seed_option(CLI::App& command, CommonOptions& options) {
       ->capture_default_str();
 }
 
-std::string CommonOptions::page_template() const {
-  return html ? shipped_page("report.html") : std::string();
+std::string CommonOptions::page_template(bool with_simulator) const {
+  return html ? shipped_page(with_simulator ? "report-with-simulator.html" : "report.html") : std::string();
 }
 
 void add_html_option(CLI::App& command, CommonOptions& options) {

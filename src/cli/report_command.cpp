@@ -80,14 +80,15 @@ OutputFolder folder_of(const std::string& kind, const CommonOptions& options) {
 }
 
 /// The page of what report.json holds; an exit code.
-int page_of_data(const std::string& text, const CommonOptions& options, const std::string& page_template) {
+int page_of_data(const std::string& text, const CommonOptions& options) {
   try {
     const Json data = Json::parse(text);
     const std::string kind = data.at("kind");
     const OutputFolder folder = folder_of(kind, options);
     const auto recording = kind == "run" ? recording_of_run(data, options) : std::string();
     if (!recording) return exit_interrupted;
-    folder.add({"report.html", filled_page(page_template, page_text(data), *recording)});
+    const bool with_simulator = kind == "run" && data.at("space") == "plane";
+    folder.add({"report.html", filled_page(options.page_template(with_simulator), page_text(data), *recording)});
     return exit_done;
   } catch (const Json::exception& error) {
     throw InputError(fmt::format("{}/{}: was not written by vibrosow: {}", options.file, page_data_name, error.what()));
@@ -114,10 +115,9 @@ int page_of_study(const CommonOptions& options, const std::string& page_template
 int report(CommonOptions& options) {
   options.out = options.file;
   options.html = true;
-  const std::string page_template = options.page_template();
   if (!std::filesystem::is_directory(options.file)) throw InputError(fmt::format("{}: is no folder", options.file));
   const auto data = content_of(std::filesystem::path(options.file) / page_data_name);
-  const int exit_code = data ? page_of_data(*data, options, page_template) : page_of_study(options, page_template);
+  const int exit_code = data ? page_of_data(*data, options) : page_of_study(options, options.page_template());
   if (exit_code == exit_done && !options.quiet) print("{}/report.html\n", options.file);
   return exit_code;
 }

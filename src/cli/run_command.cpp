@@ -173,7 +173,7 @@ int run_scene(const RunOptions& options) {
   print_warnings(warnings);
   const Model model = prepare_to_run(read);
   const Scene& scene = model.scene;
-  const std::string page_template = options.page_template();
+  const std::string page_template = options.page_template(scene.space == Space::plane);
   RecordedFrames recorded(options, scene);
   const OutputFolder folder = options.output_folder("run", run_file_texts());
   SimulationOptions simulation;

@@ -1,7 +1,7 @@
 // The pages of a run and of a sweep by the program itself: VIBROSOW=path node --test tests/web/program.test.mjs
 import assert from 'node:assert/strict';
 import { execFileSync } from 'node:child_process';
-import { mkdtempSync, readFileSync, rmSync } from 'node:fs';
+import { mkdtempSync, readFileSync, rmSync, statSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import path from 'node:path';
 import test from 'node:test';
@@ -47,6 +47,12 @@ test('a run of the program', { skip: whyNot('run') }, async () => {
     for (const row of summary) {
       assert.equal(counts.get(Number(row.hole)), Number(row.grains), `hole ${row.hole}`);
       assert.equal(counts.get(Number(row.hole)), left.get(row.hole) ?? 0, `hole ${row.hole}`);
+    }
+    assert.ok(statSync(file).size <= 5e6, `${statSync(file).size} bytes`);
+    if (await page.locator('#rerun').count() > 0) { // where the pages were built with the simulator
+      await page.getByRole('button', { name: 'Run it again' }).click();
+      const all = [...counts.values()].reduce((sum, count) => sum + count, 0);
+      await page.getByText(`The same ${all} seeds left by the same holes as in the file.`).waitFor();
     }
     assert.deepEqual(page.complaints, []);
     const phone = await in_.openPage(browser, file, { viewport: { width: 390, height: 844 }, colorScheme: 'dark', bypass: true });

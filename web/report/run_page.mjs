@@ -6,6 +6,7 @@ import { bytesOfBase64 } from './page_data.mjs';
 import { Player } from './player.mjs';
 import { openRecording } from './recording.mjs';
 import { replaySection } from './replay.mjs';
+import { rerunSection } from './rerun.mjs';
 
 const endings = { stopped_by_guard: 'Stopped by the guard', interrupted: 'Interrupted' };
 
@@ -23,7 +24,7 @@ async function sections(data) {
   player?.showTime(data.window_s[0]);
   return [
     replaySection(data, recording, player, problem), outflowSection(data, player), evennessSection(data), rowsSection(data),
-    effectsSection(data), guardSection(data), settingsSection(data),
+    effectsSection(data), guardSection(data), rerunSection(data), settingsSection(data),
   ].filter(Boolean);
 }
 
