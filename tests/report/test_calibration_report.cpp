@@ -80,7 +80,7 @@ class CalibrationPage : public CalibrationReport {
   CalibrationPage() {
     task_.measured.table.quantity = MeasuredQuantity::mass_rate;
     task_.measured.table.series.resize(2);
-    task_.measured.table.series[1].hole = "2";
+    task_.measured.table.series[1].hole = std::string("2");
     calibration_.predictions = {
         {.series = 1, .time = {}, .held_out = true, .measured = 0.012, .predicted = 0.01, .low = 0.009, .high = 0.011}};
     calibration_.posterior.weights = Eigen::VectorXd::Ones(1);
