@@ -30,7 +30,7 @@ add_library(box2d::box2d ALIAS box2d)
 # Of SLEEF only the doubles in plain C, each file compiled as its own build does: functions that are the same in all
 # builds come from both passes.
 set(sleef ${VIBROSOW_WEB_SOURCES}/sleef/src)
-set(made ${CMAKE_BINARY_DIR}/sleef)
+set(made ${CMAKE_BINARY_DIR}/made-for-sleef)  # not "sleef", which find_library would take for the library
 file(MAKE_DIRECTORY ${made})
 file(WRITE ${made}/sleef-config.h "")
 find_program(HOST_CC NAMES cc gcc clang REQUIRED)

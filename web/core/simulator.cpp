@@ -132,8 +132,7 @@ EMSCRIPTEN_KEEPALIVE const char* outcome() {
     const Run run = simulation->result();
     const Outflow outflow = measure_outflow(simulation->model().scene, run);
     const std::optional<DrillFigures> drill;
-    const std::string recording;
-    return run_page_data({simulation->model(), run, outflow, drill, recording});
+    return run_page_data({simulation->model(), run, outflow, drill});
   });
 }
 }
