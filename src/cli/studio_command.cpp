@@ -106,7 +106,8 @@ void add_studio_command(CLI::App& app, int& exit_code) {
   auto out = std::make_shared<std::string>("out/studio");
   CLI::App* command =
       app.add_subcommand("studio", "a page that simulates: move holes, set frequency and amplitude, watch it sow");
-  command->add_option("SEEDER", *asked, "shown first: a seeder's file, or the name of a shipped one; wheat-tray without");
+  command->add_option("SEEDER", *asked,
+                      "shown first: a seeder's file, or the name of a shipped one; wheat-tray without");
   command->add_option("--out", *out, "directory for the page")->type_name("DIR")->capture_default_str();
   command->callback([asked, out, &exit_code] { exit_code = run_studio(*asked, *out); });
 }

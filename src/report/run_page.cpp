@@ -88,7 +88,8 @@ Json hole_table(const RunPage& page) {
 
 Json evenness(const std::optional<Evenness>& even) {
   if (!even) return nullptr;
-  return {{"sentence", evenness_sentence(*even, "holes")}, {"cv_percent", even->cv ? Json(100 * *even->cv) : Json(nullptr)}};
+  return {{"sentence", evenness_sentence(*even, "holes")},
+          {"cv_percent", even->cv ? Json(100 * *even->cv) : Json(nullptr)}};
 }
 
 std::string headline(const RunPage& page) {
@@ -188,29 +189,28 @@ std::string run_page_data(const RunPage& page) {
   Json remarks = Json::array();
   for (const std::string& warning : page.run.warnings) remarks.push_back(warning);
   for (const Remark& remark : page.outflow.remarks) remarks.push_back(remark.text);
-  const Json data = {
-      {"kind", "run"},
-      {"program", {{"name", "vibrosow"}, {"version", VIBROSOW_VERSION}}},
-      {"title", scene.title},
-      {"space", scene.space == Space::plane ? "plane" : "three_dimensional"},
-      {"headline", headline(page)},
-      {"remarks", std::move(remarks)},
-      {"status", status_name(page.run.status)},
-      {"random_seed", page.run.random_seed},
-      {"end_time_s", page.run.end_time},
-      {"window_s", {page.outflow.window_from, page.outflow.window_to}},
-      {"lots", page_lots(scene)},
-      {"vessels", page_vessels(scene)},
-      {"holes", holes(page)},
-      {"rate_unit", "seeds/s"},
-      {"hole_table", hole_table(page)},
-      {"evenness", evenness(page.outflow.evenness)},
-      {"events", page_events(page.run)},
-      {"effects", effects(page.model)},
-      {"guard", guard_sentence(page.run, scene.guard)},
-      {"settings", settings(page)},
-      {"drill", drill(page.drill)},
-      {"scene", Json::parse(scene_to_json(scene))}};
+  const Json data = {{"kind", "run"},
+                     {"program", {{"name", "vibrosow"}, {"version", VIBROSOW_VERSION}}},
+                     {"title", scene.title},
+                     {"space", scene.space == Space::plane ? "plane" : "three_dimensional"},
+                     {"headline", headline(page)},
+                     {"remarks", std::move(remarks)},
+                     {"status", status_name(page.run.status)},
+                     {"random_seed", page.run.random_seed},
+                     {"end_time_s", page.run.end_time},
+                     {"window_s", {page.outflow.window_from, page.outflow.window_to}},
+                     {"lots", page_lots(scene)},
+                     {"vessels", page_vessels(scene)},
+                     {"holes", holes(page)},
+                     {"rate_unit", "seeds/s"},
+                     {"hole_table", hole_table(page)},
+                     {"evenness", evenness(page.outflow.evenness)},
+                     {"events", page_events(page.run)},
+                     {"effects", effects(page.model)},
+                     {"guard", guard_sentence(page.run, scene.guard)},
+                     {"settings", settings(page)},
+                     {"drill", drill(page.drill)},
+                     {"scene", Json::parse(scene_to_json(scene))}};
   return page_text(data);
 }
 

@@ -82,7 +82,9 @@ TEST_F(AccuracyPage, ErrorsAreAgainstTheFinestWhereTheyDoNotWhichIsADoubt) {
 }
 
 TEST_F(AccuracyPage, APlaneIsADoubtUntilItsErrorIsKnown) {
-  const auto is_said = [](const nlohmann::json& page) { return page["doubts"].dump().find("--depth") != std::string::npos; };
+  const auto is_said = [](const nlohmann::json& page) {
+    return page["doubts"].dump().find("--depth") != std::string::npos;
+  };
   EXPECT_TRUE(is_said(data(4)));
   scene_.space = Space::three_dimensional;
   EXPECT_FALSE(is_said(data(4)));

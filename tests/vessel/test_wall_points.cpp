@@ -41,7 +41,8 @@ TEST(FaceLines, OfASurfaceOfRevolutionAreItsRimsAndLinesBetweenThem) {
   }
   for (std::size_t k = 2; k < lines.size(); ++k) {
     ASSERT_EQ(lines[k].size(), 2u);
-    EXPECT_LT((lines[k][0].head<2>().normalized() - lines[k][1].head<2>().normalized()).norm(), 1e-12) << "straight down";
+    EXPECT_LT((lines[k][0].head<2>().normalized() - lines[k][1].head<2>().normalized()).norm(), 1e-12)
+        << "straight down";
   }
 }
 

@@ -1,5 +1,5 @@
-// What a page's worker calls: one simulation in the plane at a time. Texts are JSON; a text or an array that is returned stays
-// until the next call of the same function.
+// What a page's worker calls: one simulation in the plane at a time. Texts are JSON; a text or an array that is
+// returned stays until the next call of the same function.
 #include <emscripten/emscripten.h>
 
 #include <algorithm>
@@ -47,16 +47,11 @@ Json state() {
 
 Json opened() {
   const Model& model = simulation->model();
-  return {{"grains", simulation->grains().size()},
-          {"holes", model.scene.tray.holes.size()},
-          {"duration_s", model.scene.run.duration},
-          {"measure_from_s", model.scene.run.measure_from},
-          {"time_step_s", model.step.dt},
-          {"steps", model.step.steps},
-          {"remarks", scene_warnings(model.scene)},
-          {"lots", page_lots(model.scene)},
-          {"vessels", page_vessels(model.scene)},
-          {"state", state()}};
+  return {{"grains", simulation->grains().size()},  {"holes", model.scene.tray.holes.size()},
+          {"duration_s", model.scene.run.duration}, {"measure_from_s", model.scene.run.measure_from},
+          {"time_step_s", model.step.dt},           {"steps", model.step.steps},
+          {"remarks", scene_warnings(model.scene)}, {"lots", page_lots(model.scene)},
+          {"vessels", page_vessels(model.scene)},   {"state", state()}};
 }
 
 /// The text of what `make` gives; {"error": ..} where it throws.
@@ -74,7 +69,8 @@ const char* text_of(std::string& kept, Make make) {
 
 extern "C" {
 
-/// Begins anew with a scene (canonical JSON). Its "error" says why not: a scene that cannot be read or run, or is in space.
+/// Begins anew with a scene (canonical JSON). Its "error" says why not: a scene that cannot be read or run, or is in
+/// space.
 EMSCRIPTEN_KEEPALIVE const char* open_scene(const char* json, unsigned random_seed) {
   static std::string text;
   return text_of(text, [&] {
