@@ -312,7 +312,7 @@ class Recordings(Case):
         (data / "pages").mkdir(parents=True)
         for shipped in ("models", "seeders"):
             (data / shipped).symlink_to(ROOT / shipped)
-        (data / "pages/report.html").write_text(self.TEMPLATE, encoding="utf-8")
+        (data / "pages/report-with-simulator.html").write_text(self.TEMPLATE, encoding="utf-8")
         with mock.patch.dict(os.environ, VIBROSOW_DATA=str(data)):
             run_program("run", ROOT / "seeders/wheat-tray.toml", "--html", "--set", "run.duration=0.3 s", "--set", "run.measure_from=0.1 s",
                         "--set", "record.times=[\"0.1 s\", \"0.3 s\"]", "--quiet", "--out", self.folder / "run", *words)
