@@ -116,6 +116,7 @@ test('a layout made in the page, saved and run by the program, lets out the same
     execFileSync(program, ['run', saved, '--quiet', '--out', path.join(folder, 'out')]);
     assert.deepEqual(countsOf(path.join(folder, 'out', 'outflow.csv'), counts.length), counts);
     await page.getByRole('button', { name: 'Share a link' }).click();
+    await page.waitForFunction(() => document.querySelector('.link-field').value !== '');
     const link = await page.getByRole('textbox', { name: 'Link to what is on this page' }).inputValue();
     await page.goto('about:blank');
     await page.goto(link);

@@ -19,7 +19,7 @@ export function rerunSection(data) {
   if (data.space !== 'plane' || data.status === 'interrupted' || !hasSimulator()) return null;
   const said = element('p', { 'aria-live': 'polite' });
   const course = element('progress', { max: 1, value: 0, 'aria-label': 'How far the run in the page is', hidden: true });
-  const button = element('button', { type: 'button' });
+  const button = element('button', { type: 'button', class: 'quiet' });
   let simulator = null;
 
   function rest(text) {
