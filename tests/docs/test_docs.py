@@ -12,7 +12,7 @@ import tomllib
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
-DOCUMENTS = [path for pattern in ("*.md", "docs/*.md", "seeders/*.md", "reports/*.md", "benchmarks/peers/*.md", "python/*.md") for path in ROOT.glob(pattern)]
+DOCUMENTS = [path for pattern in ("*.md", "docs/*.md", "seeders/*.md", "reports/*.md", "reports/*/*.md", "benchmarks/peers/*.md", "python/*.md") for path in ROOT.glob(pattern)]
 HISTORY = ["CHANGELOG.md"]  # names what is gone
 ROOMS = "seeders|scripts|reports|models|docs|tests|benchmarks|examples|src|include|python"
 failures = []

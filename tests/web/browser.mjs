@@ -29,7 +29,7 @@ export async function openPage(browser, file, options = {}) {
   page.on('dialog', (dialog) => { page.complaints.push(`dialog: ${dialog.message()}`); dialog.dismiss(); });
   await page.goto(`${pathToFileURL(file).href}${hash}`);
   await page.waitForSelector('html[data-ready]');
-  await page.waitForSelector('#replay-canvas[data-frame], #replay code, #replay .doubt, .bench, main:not(:has(#replay)) > section', { state: 'attached' });
+  await page.waitForSelector('#replay-canvas[data-frame], #replay code, #replay .doubt, .bench, main:not(:has(#replay)) > :is(section, h1)', { state: 'attached' });
   return page;
 }
 

@@ -136,3 +136,11 @@ test('a recording that is cut off is said, and the rest is shown', () => {
     assert.equal(await page.locator('#outflow tbody tr').count(), 3);
   });
 });
+
+test('a remark that the guard and the outflow both make is shown once', () => {
+  const run = madeUpRun('plane');
+  run.data.remarks = ['the overlap passed 0.05', 'the overlap passed 0.05', 'another'];
+  return withPage(run, {}, async (open) => {
+    assert.deepEqual(await open.locator('.remarks li').allTextContents(), ['The overlap passed 0.05.', 'Another.']);
+  });
+});

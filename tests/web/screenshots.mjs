@@ -1,0 +1,106 @@
+// Pictures of the pages that the program writes, to be looked at (reports/pages).
+// Usage: node tests/web/screenshots.mjs FOLDER, which holds NAME/report.html of each report below and studio/studio.html.
+import path from 'node:path';
+import * as in_ from './browser.mjs';
+
+const reports = ['run', 'run-in-space', 'sweep', 'decision', 'front', 'accuracy', 'calibration'];
+const jpeg = { type: 'jpeg', quality: 77, animations: 'disabled' };
+const desktop = { width: 1280, height: 800 };
+const phone = { width: 390, height: 844 };
+const paper = { width: 720, height: 1018 };  // of A4 at 96 dpi, what is left within margins
+// What is shown of a page: the first screens on a desktop and a phone, one screen in the dark, one sheet of paper.
+const kinds = {
+  desktop: { looks: {}, tallest: 2000 },
+  phone: { looks: { viewport: phone }, tallest: 2 * phone.height },
+  dark: { looks: { colorScheme: 'dark' }, tallest: desktop.height },
+  print: { looks: { viewport: paper }, tallest: paper.height },
+};
+
+async function shoot(page, file, tallest) {
+  const { width } = page.viewportSize();
+  const height = await page.evaluate(() => document.documentElement.scrollHeight);
+  await page.screenshot({ ...jpeg, path: file, fullPage: true, clip: { x: 0, y: 0, width, height: Math.min(height, tallest) } });
+}
+
+// As a browser does before it prints: the page turns light and draws anew.
+async function turnToPaper(page) {
+  await page.emulateMedia({ media: 'print' });
+  await page.evaluate(() => dispatchEvent(new Event('beforeprint')));
+}
+
+async function settled(page) {
+  await page.evaluate(() => new Promise((painted) => { requestAnimationFrame(() => requestAnimationFrame(painted)); }));
+}
+
+async function scrubToTheMiddle(page) {
+  if ((await page.locator('#replay-frame').count()) === 0) return;
+  await in_.scrubTo(page, Math.round(Number(await page.getAttribute('#replay-frame', 'max')) / 2));
+}
+
+async function withPage(browser, file, looks, act) {
+  const page = await in_.openPage(browser, file, looks);
+  try {
+    await act(page);
+    if (page.complaints.length > 0) throw new Error(`${file}: ${page.complaints.join('; ')}`);
+  } finally {
+    await page.context().close();
+  }
+}
+
+async function shootReport(browser, folder, name) {
+  for (const [kind, { looks, tallest }] of Object.entries(kinds)) {
+    await withPage(browser, path.join(folder, name, 'report.html'), looks, async (page) => {
+      await scrubToTheMiddle(page);
+      if (kind === 'print') await turnToPaper(page);
+      await settled(page);
+      await shoot(page, path.join(folder, `${name}-${kind}.jpg`), tallest);
+    });
+  }
+}
+
+const bench = (page, name) => page.getByRole('region', { name: `Layout ${name}`, exact: true });
+
+async function toTheEnd(place) {
+  await place.and(place.page().locator(['ready', 'playing', 'paused', 'ended'].map((status) => `[data-status="${status}"]`).join(','))).waitFor();
+  await place.getByRole('button', { name: 'To the end' }).evaluate((button) => button.click());
+  await place.and(place.page().locator('[data-status="ended"]')).waitFor();
+}
+
+async function shootStudio(browser, folder) {
+  const file = path.join(folder, 'studio', 'studio.html');
+  const to = (name) => path.join(folder, `studio-${name}.jpg`);
+  await withPage(browser, file, {}, async (page) => {
+    await page.getByRole('radio', { name: 'Draft' }).check();
+    await page.waitForFunction(() => Number(document.querySelector('.bench canvas').dataset.time) > 1.6);
+    await shoot(page, to('playing'), 1500);
+    await toTheEnd(bench(page, 'A'));
+    await settled(page);
+    await shoot(page, to('ended'), 1500);
+    await page.getByRole('button', { name: 'Compare with a second layout' }).click();
+    const moved = bench(page, 'B').getByRole('spinbutton', { name: 'Place of hole 2 in mm' });
+    await moved.fill('190');
+    await moved.press('Enter');
+    await toTheEnd(bench(page, 'A'));
+    await toTheEnd(bench(page, 'B'));
+    await settled(page);
+    await shoot(page, to('comparing'), 1700);
+  });
+  for (const kind of ['phone', 'dark', 'print']) {
+    await withPage(browser, file, kinds[kind].looks, async (page) => {
+      await page.getByRole('radio', { name: 'Draft' }).check();
+      await toTheEnd(bench(page, 'A'));
+      if (kind === 'print') await turnToPaper(page);
+      await settled(page);
+      await shoot(page, to(kind), kinds[kind].tallest);
+    });
+  }
+}
+
+const folder = path.resolve(process.argv[2]);
+const browser = await in_.startBrowser();
+try {
+  for (const name of reports) await shootReport(browser, folder, name);
+  await shootStudio(browser, folder);
+} finally {
+  await browser.close();
+}
