@@ -212,6 +212,7 @@ test('two layouts are compared, and a link brings both back with their counts', 
   assert.equal(await page.locator('#comparison tbody tr').count(), 3);
   const address = page.url();
   await page.getByRole('button', { name: 'Share a link' }).click();
+  await page.waitForFunction(() => document.querySelector('.link-field').value !== '');
   const link = await page.getByRole('textbox', { name: 'Link to what is on this page' }).inputValue();
   assert.match(link, /#s=[A-Za-z0-9_-]+$/);
   assert.notEqual(page.url(), address);
