@@ -28,7 +28,7 @@ function shortScene(seeder) {
   scene.run.measure_from_s = 0;
   scene.numerics.allow_long_step = true; // as some papers' own steps are
   delete scene.record;
-  return { space, text: JSON.stringify(scene) };
+  return { scene, space, text: JSON.stringify(scene) };
 }
 
 function outcome(command, args, input) {
@@ -48,6 +48,41 @@ test('the module of browsers without vectors has none', { skip: notBuilt }, () =
   const features = execFileSync('wasm-opt', ['--mvp-features', '--enable-exception-handling', '--enable-sign-ext', '--enable-bulk-memory', '--enable-mutable-globals',
     '--enable-nontrapping-float-to-int', '--enable-reference-types', path.join(wasm, 'web', 'core', 'simulator-scalar.wasm'), '-o', '/dev/null'], { stdio: 'pipe' });
   assert.ok(features);
+});
+
+// The module without a worker: its exports, a function that hands it a text, and one that reads its answers.
+async function loaded() {
+  const bytes = readFileSync(path.join(wasm, 'web', 'core', 'simulator-scalar.wasm'));
+  const none = () => 0;
+  const system = { clock_time_get: none, environ_sizes_get: none, environ_get: none, proc_exit: none };
+  const { instance: { exports: core } } = await WebAssembly.instantiate(bytes, { wasi_snapshot_preview1: system, env: { emscripten_notify_memory_growth: none } });
+  core._initialize();
+  const memory = () => new Uint8Array(core.memory.buffer);
+  const answer = (address) => JSON.parse(new TextDecoder().decode(memory().subarray(address, memory().indexOf(0, address))));
+  const open = (text) => {
+    const packed = new TextEncoder().encode(`${text}\0`), address = core.malloc(packed.length);
+    memory().set(packed, address);
+    return answer(core.open_scene(address, 1));
+  };
+  return { core, open, answer };
+}
+
+test('rates of a run that goes on are of the time so far', { skip: notNative }, async () => {
+  const { scene } = shortScene('seeders/wheat-tray.toml');
+  const { core, open, answer } = await loaded();
+  open(JSON.stringify({ ...scene, run: { ...scene.run, duration_s: 0.4, measure_from_s: 0.1 } }));
+  core.advance(0.2, 1e9);
+  const { window_s: window, holes } = answer(core.outcome());
+  assert.ok(Math.abs(window[1] - 0.2) < 1e-3, `until ${window[1]} s`);
+  for (const { counted, rate } of holes) assert.ok(Math.abs(rate - counted / (window[1] - window[0])) < 1e-9);
+  while (!core.advance(1, 1e9));
+  assert.deepEqual(answer(core.outcome()).window_s, [0.1, 0.4]);
+});
+
+test('a scene that cannot be read or is in space is refused with a sentence', { skip: notNative }, async () => {
+  const { open } = await loaded();
+  assert.match(open('{"title": 1}').error, /scene\.title/);
+  assert.match(open(shortScene('seeders/pea-tray-3d.toml').text).error, /plane alone/);
 });
 
 for (const seeder of seeders()) {

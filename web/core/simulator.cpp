@@ -125,7 +125,9 @@ EMSCRIPTEN_KEEPALIVE const float* grains_now() {
 EMSCRIPTEN_KEEPALIVE const char* outcome() {
   static std::string text;
   return text_of(text, [] {
-    const Run run = simulation->result();
+    Run run = simulation->result();
+    const bool goes_on = run.status == RunStatus::finished && run.end_reason.empty() && !simulation->at_end();
+    if (goes_on) run.status = RunStatus::interrupted;  // so that rates are of the time so far
     const Outflow outflow = measure_outflow(simulation->model().scene, run);
     const std::optional<DrillFigures> drill;
     return run_page_data({simulation->model(), run, outflow, drill});
