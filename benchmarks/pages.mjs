@@ -1,7 +1,7 @@
 #!/usr/bin/env node
 // How quickly the pages open and the studio sows, in a headless Chromium on this machine, as CSV. Needs build/web (scripts/web).
 //
-//     node benchmarks/pages.mjs VIBROSOW > reports/pages/speed.csv
+//     node benchmarks/pages.mjs VIBROSOW > reports/performance/pages.csv
 import { execFileSync } from 'node:child_process';
 import { mkdtempSync, rmSync, statSync } from 'node:fs';
 import { tmpdir } from 'node:os';
