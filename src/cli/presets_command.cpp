@@ -1,6 +1,5 @@
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <filesystem>
 #include <memory>
 #include <numbers>
@@ -9,6 +8,7 @@
 #include "cli/commands.hpp"
 #include "cli/console.hpp"
 #include "input/document.hpp"
+#include "input/presets.hpp"
 #include "input/read_crop.hpp"
 #include "input/read_scene.hpp"
 #include "input/table.hpp"
@@ -16,14 +16,6 @@
 
 namespace vibrosow {
 namespace {
-
-std::vector<std::filesystem::path> toml_files(const std::filesystem::path& directory) {
-  std::vector<std::filesystem::path> files;
-  for (const auto& entry : std::filesystem::directory_iterator(directory))
-    if (entry.path().extension() == ".toml") files.push_back(entry.path());
-  std::ranges::sort(files);
-  return files;
-}
 
 void print_entry(const std::filesystem::path& file, const std::string& text) {
   print_text(wrapped_beside(fmt::format("  {:<24} ", file.stem().string()), text));

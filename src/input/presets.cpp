@@ -20,10 +20,7 @@ namespace fs = std::filesystem;
 std::vector<std::string> shipped(const fs::path& directory) {
   std::vector<std::string> names;
   if (!fs::is_directory(directory)) return names;
-  for (const auto& entry : fs::directory_iterator(directory)) {
-    if (entry.path().extension() == ".toml") names.push_back(entry.path().stem().string());
-  }
-  std::sort(names.begin(), names.end());
+  for (const fs::path& file : toml_files(directory)) names.push_back(file.stem().string());
   return names;
 }
 
@@ -41,6 +38,14 @@ fs::path preset_file(const Table& table, const std::string& key, const std::stri
 }
 
 }  // namespace
+
+std::vector<fs::path> toml_files(const fs::path& directory) {
+  std::vector<fs::path> files;
+  for (const auto& entry : fs::directory_iterator(directory))
+    if (entry.path().extension() == ".toml") files.push_back(entry.path());
+  std::ranges::sort(files);
+  return files;
+}
 
 void use_preset(Table& table, const std::string& key, const std::string& kind) {
   const std::optional<std::string> name = table.text(key);

@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "input/table.hpp"
 
@@ -15,6 +16,10 @@ void use_preset(Table& table, const std::string& key, const std::string& kind);
 
 /// The file models/`kind`/NAME.toml. Throws InputError with the shipped names when there is none.
 std::filesystem::path shipped_preset(const std::string& name, const std::string& kind);
+
+/// The files of a folder that end in .toml, by name. Throws std::filesystem::filesystem_error where there is no such
+/// folder.
+std::vector<std::filesystem::path> toml_files(const std::filesystem::path& directory);
 
 /// The content of a page that reports are made of: NAME of pages/ in the shipped data, or of build/web/ in the source
 /// tree, where scripts/web makes it. Throws InputError where there is none.
