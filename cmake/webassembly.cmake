@@ -48,6 +48,7 @@ target_include_directories(sleef PRIVATE ${sleef}/common)
 target_compile_options(sleef PRIVATE -w)
 set(SLEEF sleef)
 
-# For what comes after.
-add_compile_options($<$<COMPILE_LANGUAGE:CXX>:-include${CMAKE_CURRENT_LIST_DIR}/ranges_for_webassembly.hpp>
+# For what comes after. Any browser that knows exceptions of WebAssembly also copies and fills memory in one instruction.
+add_compile_options($<$<COMPILE_LANGUAGE:CXX>:-mbulk-memory>
+                    $<$<COMPILE_LANGUAGE:CXX>:-include${CMAKE_CURRENT_LIST_DIR}/ranges_for_webassembly.hpp>
                     $<$<COMPILE_LANGUAGE:CXX>:-isystem${headers}>)
