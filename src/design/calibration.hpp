@@ -7,8 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "design/calibration_design.hpp"
-#include "design/evaluate.hpp"
+#include "design/calibration_runs.hpp"
 #include "surrogate/posterior_sample.hpp"
 
 namespace vibrosow {
@@ -50,22 +49,6 @@ struct FittedPair {
   std::size_t a, b;
   double correlation;
 };
-
-/// What is kept of one run of a design.
-struct ReducedRun {
-  std::string reason;          // why it counts for nothing; empty where it counts
-  std::vector<double> values;  // of the series of its condition, in their order, SI and unscaled but for --scale depth:
-                               // rates, or curves
-};
-
-/// Of every run of a design, in its order. Runs that failed, passed nothing or clogged count for nothing. None where
-/// one is missing. `kept`: gives the runs.
-std::optional<std::vector<ReducedRun>> reduced_runs(const CalibrationTask& task, const CalibrationDesign& design,
-                                                    const Simulator& kept);
-
-/// Gives a reason to runs whose curve stands still from a time on after which the median run under the same condition
-/// still has more than a tenth of its end to go.
-void leave_out_clogged(const CalibrationTask& task, const CalibrationDesign& design, std::vector<ReducedRun>& runs);
 
 struct Calibration {
   std::vector<FittedValue> values;          // of CalibrationTask::keys, in the unit of the key's column
