@@ -56,20 +56,24 @@ std::vector<std::string> fields_of(const Scene& scene) {
   return fields;
 }
 
-double planned_frames(const Model& model) {
-  const bool in_space = model.scene.space == Space::three_dimensional;
-  const double most_coordinates = in_space ? 4e6 : 2.5e6;
+double mean_grains(const Model& model) {
   const auto steps = static_cast<double>(model.step.steps);
-  const double grains = std::max(1.0, predicted_grain_steps(model.scene, model.step.dt) / steps);
-  const double fields = static_cast<double>(fields_of(model.scene).size());
-  return std::clamp(most_coordinates / (grains * fields), 20.0, 500.0);
+  return std::max(1.0, predicted_grain_steps(model.scene, model.step.dt) / steps);
 }
 
-/// Of how many frames one has its contacts kept; there is a frame more than the intervals, and rounding to whole steps
-/// may give another.
+double planned_frames(const Model& model) {
+  const bool in_space = model.scene.space == Space::three_dimensional;
+  const double most_coordinates = in_space ? 3e6 : 2.5e6;
+  const double fields = static_cast<double>(fields_of(model.scene).size());
+  return std::clamp(most_coordinates / (mean_grains(model) * fields), 20.0, 500.0);
+}
+
+/// Of how many frames one has its contacts kept: some 4 bytes a grain. There is a frame more than the intervals, and
+/// rounding to whole steps may give another.
 int frames_per_contacts(const Model& model) {
-  constexpr double most = 50;
-  return static_cast<int>(std::ceil((planned_frames(model) + 2) / most));
+  const double most_grains = model.scene.space == Space::three_dimensional ? 2.3e5 : 1.5e5;
+  const double most_frames = std::clamp(most_grains / mean_grains(model), 5.0, 50.0);
+  return static_cast<int>(std::ceil((planned_frames(model) + 2) / most_frames));
 }
 
 /// The scene with the cells of its maps: those of its [record], else of one and a half of the largest seeds.
