@@ -62,8 +62,7 @@ double mean_grains(const Model& model) {
 }
 
 double planned_frames(const Model& model) {
-  const bool in_space = model.scene.space == Space::three_dimensional;
-  const double most_coordinates = in_space ? 3e6 : 2.5e6;
+  constexpr double most_coordinates = 2.5e6;
   const double fields = static_cast<double>(fields_of(model.scene).size());
   return std::clamp(most_coordinates / (mean_grains(model) * fields), 20.0, 500.0);
 }

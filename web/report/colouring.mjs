@@ -109,7 +109,7 @@ async function byForce(recording) {
   const bin = (sum) => Math.min(forceSteps - 1, Math.max(0, Math.floor((forceSteps * Math.log10(sum / low)) / forceDecades)));
   return {
     name: 'force', text: 'Force', bins: forceSteps, colours: (theme) => speedScale(forceSteps, theme),
-    legend: { kind: 'scale', low: `${force(low)} and less`, high: `${force(top)} and more`, note: 'sum of the normal forces of a seed’s contacts, by powers of ten' },
+    legend: { kind: 'scale', low: `${force(low)} and less`, high: `${force(top)} and more`, note: 'sum of a seed’s normal forces, log scale' },
     of: async (_, index) => Uint8Array.from(await forcesOn(recording, index), (sum) => (sum > 0 ? bin(sum) : 0)),
   };
 }

@@ -10,6 +10,7 @@ import { inks, onTheme, theme } from './theme.mjs';
 const margin = 12;       // px
 const arrowEvery = 26;   // px, at least
 const steps = 20;        // of a colour scale
+const faint = 0.12;      // cells that seeds fill to less fade away
 
 // The tray's part that a map shows, mm: all its length, and its height as far as seeds were, and a little more.
 function partOf(map, tray) {
@@ -46,8 +47,10 @@ class MapView {
       if (!(value > 0)) return;
       const [x, y] = this.at((k % map.columns) * map.cell * 1000, (Math.floor(k / map.columns) + 1) * map.cell * 1000);
       context.fillStyle = colours[Math.min(steps - 1, Math.floor((value / top) * steps))];
-      context.fillRect(x, y, side + 0.4, side + 0.4);  // no seams
+      context.globalAlpha = Math.min(1, map.packing[k] / faint);
+      context.fillRect(x, y, side, side);
     });
+    context.globalAlpha = 1;
   }
 
   // The mean velocity of some cells together: an arrow, as long as it is fast.
