@@ -2,8 +2,9 @@
 import base64
 import json
 import re
+import struct
 import zlib
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from pathlib import Path
 
@@ -21,6 +22,7 @@ class Frame:
     time_s: float
     vessels: pandas.DataFrame  # by name: x_m, y_m, z_m of the frame's zero and angle_rad; own point p lies at (x, y) + R(angle) p
     grains: pandas.DataFrame  # by id: lot (its number), radius_m, x_m, y_m, with clumps angle_rad; in space z_m, with clumps qw .. qz
+    contacts: pandas.DataFrame | None = None  # of frames that keep them: grain and partner (ids), force_N, the normal one; of a wall, or across a periodic boundary, partner -1 and the place x_m, y_m, in space z_m
 
 
 class Recording:
@@ -41,9 +43,46 @@ class Recording:
         return self.header["frames"]
 
     def __iter__(self):
-        for block in self.header["blocks"]:
-            packed = self._blocks[block["offset"]:block["offset"] + block["bytes"]]
-            yield from self._frames(zlib.decompress(packed), block["frames"])
+        contacts = {entry["frame"]: entry for entry in self.header.get("contacts", [])}
+        frames = (frame for block in self.header["blocks"] for frame in self._frames(self._unpacked(block), block["frames"]))
+        for number, frame in enumerate(frames):
+            yield replace(frame, contacts=self._contacts(self._unpacked(contacts[number]), frame.grains)) if number in contacts else frame
+
+    @cached_property
+    def map(self):
+        """Means over the measuring window by cell, in the tray's frame: x_m, y_m of its middle, packing_fraction, vx_m_per_s and
+        vy_m_per_s (empty where no seed was). None of a run that ended before its window."""
+        head = self.header.get("map")
+        if head is None:
+            return None
+        packing, vx, vy = numpy.frombuffer(self._unpacked(head), "<f4").reshape(3, -1)
+        row, column = numpy.divmod(numpy.arange(packing.size), head["columns"])
+        return pandas.DataFrame({"x_m": (column + 0.5) * head["cell_m"], "y_m": (row + 0.5) * head["cell_m"], "packing_fraction": packing,
+                                 "vx_m_per_s": vx, "vy_m_per_s": vy})
+
+    def _unpacked(self, entry):
+        return zlib.decompress(self._blocks[entry["offset"]:entry["offset"] + entry["bytes"]])
+
+    def _contacts(self, data, grains):
+        axes = [axis for axis in self.header["fields"] if len(axis) == 1]
+        largest, pairs, touches = struct.unpack_from("<dII", data)
+        first = 16 + 9 * pairs
+
+        def numbers(at, count):
+            return numpy.frombuffer(data, "u1", 4 * count, at).reshape(4, count).T.astype("<u4") @ [1, 1 << 8, 1 << 16, 1 << 24]
+
+        def forces(at, count):
+            return largest * 10 ** (-numpy.frombuffer(data, "u1", count, at) / 64)
+
+        grain, touched = numpy.cumsum(numbers(16, pairs)), numpy.cumsum(numbers(first, touches))
+        ids = grains.index.to_numpy().astype("<i8")
+        of_two = pandas.DataFrame({"grain": ids[grain], "partner": ids[grain + numbers(16 + 4 * pairs, pairs)],
+                                   "force_N": forces(16 + 8 * pairs, pairs)})
+        alone = pandas.DataFrame({"grain": ids[touched], "partner": -1, "force_N": forces(first + (4 + len(axes)) * touches, touches)})
+        arms = numpy.frombuffer(data, "i1", len(axes) * touches, first + 4 * touches).reshape(len(axes), touches)
+        for axis, arm in zip(axes, arms):
+            alone[f"{axis}_m"] = grains[f"{axis}_m"].to_numpy()[touched] + arm / 100 * grains["radius_m"].to_numpy()[touched]
+        return pandas.concat([of_two, alone], ignore_index=True)
 
     def _frames(self, data, count):
         at = 0

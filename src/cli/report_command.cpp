@@ -49,8 +49,7 @@ std::string recording_of_rerun(const Json& data, const CommonOptions& options) {
   SimulationOptions simulation;
   simulation.random_seed = data.at("random_seed").get<std::uint64_t>();
   simulation.interrupt = &watch_for_interrupt();
-  simulation.look_every = frame_interval(model);
-  simulation.on_look = [&](const Simulation& now) { recording.add(now); };
+  simulation.looks = recording.looks();
   Progress progress(text_unless(options.quiet), static_cast<double>(model.step.steps), "steps");
   simulation.progress = [&](double fraction) { progress.update(fraction); };
   const Run run = run_model(model, simulation);

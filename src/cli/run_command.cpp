@@ -189,10 +189,7 @@ int run_scene(const RunOptions& options) {
   if (options.resume) simulation.from = checkpoint.read(model, options.random_seed);
   if (recorded.wanted()) simulation.on_record = [&](Simulation& now) { recorded.note(now); };
   Recording recording(model);
-  if (options.html) {
-    simulation.look_every = frame_interval(model);
-    simulation.on_look = [&](const Simulation& now) { recording.add(now); };
-  }
+  if (options.html) simulation.looks = recording.looks();
   Run run;
   {
     Progress progress(text_unless(options.quiet), static_cast<double>(model.step.steps), "steps");

@@ -163,14 +163,21 @@ class Block {
 void read_recording(const std::string& file, const std::function<void(const Snapshot&)>& look) {
   if (file.size() < head_size || !file.starts_with("VBSWREC1")) throw InputError("this is no recording");
   try {
-    Bytes bytes(file.substr(8));
-    const auto length = bytes.take<std::uint32_t>();
-    const Json header = Json::parse(std::string(bytes.some(length), length));
+    std::uint32_t length = 0;
+    std::memcpy(&length, file.data() + head_size - sizeof length, sizeof length);
+    if (length > file.size() - head_size) damaged();
+    const Json header = Json::parse(file.substr(head_size, length));
     const std::size_t blocks = head_size + length;
+    const auto check_whole = [&](const Json& part) {
+      const std::size_t offset = part.at("offset"), size = part.at("bytes");
+      if (offset > file.size() - blocks || size > file.size() - blocks - offset) damaged();
+    };
+    for (const Json& contacts : header.value("contacts", Json::array())) check_whole(contacts);
+    if (header.contains("map")) check_whole(header["map"]);
     for (const Json& block : header.at("blocks")) {
-      const std::size_t offset = block.at("offset"), size = block.at("bytes");
-      if (offset > file.size() - blocks) damaged();
-      Block frames(unpacked(file.substr(blocks + offset, size)), header);
+      check_whole(block);
+      const std::size_t from = blocks + block.at("offset").get<std::size_t>(), size = block.at("bytes");
+      Block frames(unpacked(file.substr(from, size)), header);
       for (int k = 0; k < block.at("frames").get<int>(); ++k) look(frames.next());
     }
   } catch (const Json::exception&) {

@@ -1,30 +1,22 @@
 #include "recording/recording.hpp"
 
-#include <zlib.h>
-
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <limits>
-#include <new>
 #include <nlohmann/json.hpp>
 #include <numbers>
 #include <utility>
 
+#include "fields/tray_frame.hpp"
 #include "plan/predicted_grains.hpp"
+#include "recording/bytes.hpp"
+#include "recording/contact_bytes.hpp"
 
 namespace vibrosow {
 namespace {
 
 constexpr int frames_per_block = 250;
 constexpr double counts_per_diameter = 200, counts_per_turn = 1024, counts_per_one = 500;
-
-template <class Value>
-void append(std::string& bytes, Value value) {
-  static_assert(std::endian::native == std::endian::little);
-  const auto as_bytes = std::bit_cast<std::array<char, sizeof(Value)>>(value);
-  bytes.append(as_bytes.data(), as_bytes.size());
-}
 
 std::int32_t in_counts(double value, double unit) {
   constexpr double most = std::numeric_limits<std::int32_t>::max() / 4;  // so that no prediction overflows
@@ -35,28 +27,6 @@ std::int32_t in_counts(double value, double unit) {
 /// Small numbers of either sign become small ones: 0, -1, 1, -2, ..
 std::uint32_t zigzag(std::int32_t value) {
   return (static_cast<std::uint32_t>(value) << 1) ^ static_cast<std::uint32_t>(value >> 31);
-}
-
-/// The lowest bytes of all values, then the next: the higher ones are nearly all 0, which packs to next to nothing.
-void append_planes(std::string& bytes, const std::vector<std::uint32_t>& values) {
-  for (int shift = 0; shift < 32; shift += 8)
-    for (const std::uint32_t value : values) bytes.push_back(static_cast<char>(value >> shift & 0xff));
-}
-
-std::string packed(const std::string& bytes) {
-  z_stream stream{};
-  // "Filtered": for small numbers that scatter, of which little repeats.
-  if (deflateInit2(&stream, Z_BEST_COMPRESSION, Z_DEFLATED, MAX_WBITS, MAX_MEM_LEVEL, Z_FILTERED) != Z_OK)
-    throw std::bad_alloc();
-  std::string result(deflateBound(&stream, static_cast<uLong>(bytes.size())), '\0');
-  stream.next_in = reinterpret_cast<z_const Bytef*>(const_cast<char*>(bytes.data()));
-  stream.avail_in = static_cast<uInt>(bytes.size());
-  stream.next_out = reinterpret_cast<Bytef*>(result.data());
-  stream.avail_out = static_cast<uInt>(result.size());
-  deflate(&stream, Z_FINISH);  // whole at once: there is room
-  result.resize(stream.total_out);
-  deflateEnd(&stream);
-  return result;
 }
 
 /// A field of all grains, in SI.
@@ -86,22 +56,68 @@ std::vector<std::string> fields_of(const Scene& scene) {
   return fields;
 }
 
+double mean_grains(const Model& model) {
+  const auto steps = static_cast<double>(model.step.steps);
+  return std::max(1.0, predicted_grain_steps(model.scene, model.step.dt) / steps);
+}
+
+double planned_frames(const Model& model) {
+  constexpr double most_coordinates = 2.5e6;
+  const double fields = static_cast<double>(fields_of(model.scene).size());
+  return std::clamp(most_coordinates / (mean_grains(model) * fields), 20.0, 500.0);
+}
+
+/// Of how many frames one has its contacts kept: some 4 bytes a grain. There is a frame more than the intervals, and
+/// rounding to whole steps may give another.
+int frames_per_contacts(const Model& model) {
+  const double most_grains = model.scene.space == Space::three_dimensional ? 2.3e5 : 1.5e5;
+  const double most_frames = std::clamp(most_grains / mean_grains(model), 5.0, 50.0);
+  return static_cast<int>(std::ceil((planned_frames(model) + 2) / most_frames));
+}
+
+/// The scene with the cells of its maps: those of its [record], else of one and a half of the largest seeds.
+Scene with_map(Scene scene) {
+  if (scene.record) return scene;
+  double diameter = 0;
+  for (const SeedLot& lot : scene.lots) diameter = std::max(diameter, lot.diameter);
+  scene.record = Record{{}, 1.5 * diameter, MapView::projection};
+  return scene;
+}
+
+double map_interval(const Scene& scene) {
+  constexpr double looks = 211;  // a prime, so that shaking is met in many of its phases
+  return std::max(scene.run.duration - scene.run.measure_from, 0.0) / looks;
+}
+
 }  // namespace
 
-Recording::Recording(const Model& model) : vessels_(model.vessels), fields_(fields_of(model.scene)) {
+Recording::Recording(const Model& model)
+    : vessels_(model.vessels),
+      fields_(fields_of(model.scene)),
+      frame_interval_(frame_interval(model)),
+      frames_per_contacts_(frames_per_contacts(model)),
+      map_scene_(with_map(model.scene)),
+      extents_(map_scene_.lots),
+      map_(map_scene_) {
   for (const std::string& field : fields_)
     units_.push_back(field.size() == 1  ? 2 * model.smallest_radius / counts_per_diameter
                      : field == "angle" ? 2 * std::numbers::pi / counts_per_turn
                                         : 1 / counts_per_one);
 }
 
-void Recording::add(const Simulation& simulation) {
+std::vector<Look> Recording::looks() {
+  return {{frame_interval_, [this](Simulation& now) { add(now); }},
+          {map_interval(map_scene_), [this](Simulation& now) { add_to_map(now); }}};
+}
+
+void Recording::add(Simulation& simulation) {
   if (simulation.time() == time_) return;
   time_ = simulation.time();
   append(block_, time_);
   add_vessels(simulation);
   add_changes(simulation.grains());
   add_places(simulation.grains());
+  if (frames_ % frames_per_contacts_ == 0) add_contacts(simulation);
   ++frames_;
   if (++frames_in_block_ == frames_per_block) close_block();
 }
@@ -172,6 +188,22 @@ void Recording::add_places(const Grains& grains) {
   for (const std::vector<std::uint32_t>& of_field : residuals) append_planes(block_, of_field);
 }
 
+void Recording::add_contacts(Simulation& simulation) {
+  const std::string bytes = packed(contact_bytes(simulation));
+  contacts_.push_back({frames_, packed_contacts_.size(), bytes.size()});
+  packed_contacts_ += bytes;
+}
+
+void Recording::add_to_map(Simulation& simulation) {
+  const double time = simulation.time();
+  if (time < map_scene_.run.measure_from || time == map_time_) return;
+  map_time_ = time;
+  Snapshot bed = snapshot_of(simulation.grains(), simulation.field().walls(), time);
+  extents_.add_to(bed);
+  bed.start_x = bed.x, bed.start_y = bed.y, bed.start_z = bed.z;
+  map_.add(in_tray_frame(bed, map_scene_.tray));
+}
+
 void Recording::close_block() {
   const std::string bytes = packed(block_);
   blocks_.push_back({frames_in_block_, packed_.size(), bytes.size()});
@@ -188,7 +220,7 @@ std::string Recording::file() const {
     whole.close_block();
     return whole.file();
   }
-  nlohmann::ordered_json header = {{"version", 1},
+  nlohmann::ordered_json header = {{"version", 2},
                                    {"frames", frames_},
                                    {"frames_per_block", frames_per_block},
                                    {"unit_m", units_.front()},
@@ -196,24 +228,50 @@ std::string Recording::file() const {
                                    {"field_units", units_},
                                    {"vessels", nlohmann::ordered_json::array()},
                                    {"grains", first_seen_.size()},
-                                   {"blocks", nlohmann::ordered_json::array()}};
+                                   {"blocks", nlohmann::ordered_json::array()},
+                                   {"contacts", nlohmann::ordered_json::array()}};
   for (const Vessel& vessel : vessels_) header["vessels"].push_back(vessel.name);
   for (const Block& block : blocks_)
     header["blocks"].push_back({{"frames", block.frames}, {"offset", block.offset}, {"bytes", block.bytes}});
+  std::size_t end = packed_.size();
+  for (const FrameContacts& contacts : contacts_)
+    header["contacts"].push_back(
+        {{"frame", contacts.frame}, {"offset", end + contacts.offset}, {"bytes", contacts.bytes}});
+  end += packed_contacts_.size();
+  const std::string map = map_bytes();
+  if (!map.empty()) header["map"] = map_header(end, map.size());
   const std::string text = header.dump();
   std::string file = "VBSWREC1";
   append(file, static_cast<std::uint32_t>(text.size()));
-  return file + text + packed_;
+  return file + text + packed_ + packed_contacts_ + map;
+}
+
+/// Empty without a look in the measuring window, or of a tray that stayed empty.
+std::string Recording::map_bytes() const {
+  const MeanMap map = map_.mean();
+  if (map.grid.size() == 0) return "";
+  std::string bytes;
+  for (const std::vector<double>* values : {&map.packing, &map.vx, &map.vy})
+    for (const double value : *values) append(bytes, static_cast<float>(value));
+  return packed(bytes);
+}
+
+nlohmann::ordered_json Recording::map_header(std::size_t offset, std::size_t bytes) const {
+  const MeanMap map = map_.mean();
+  const bool slice = map_scene_.space != Space::plane && map_scene_.record->view == MapView::slice;
+  return {{"cell_m", map.grid.cell},
+          {"columns", map.grid.columns},
+          {"rows", map.grid.rows},
+          {"view", slice ? "slice" : "projection"},
+          {"looks", map.looks},
+          {"from_s", map.from},
+          {"to_s", map.to},
+          {"offset", offset},
+          {"bytes", bytes}};
 }
 
 double frame_interval(const Model& model) {
-  const bool in_space = model.scene.space == Space::three_dimensional;
-  const double most_coordinates = in_space ? 4e6 : 2.5e6;
-  const auto steps = static_cast<double>(model.step.steps);
-  const double grains = std::max(1.0, predicted_grain_steps(model.scene, model.step.dt) / steps);
-  const double fields = static_cast<double>(fields_of(model.scene).size());
-  const double frames = std::clamp(most_coordinates / (grains * fields), 20.0, 500.0);
-  return model.scene.run.duration / frames;
+  return model.scene.run.duration / planned_frames(model);
 }
 
 }  // namespace vibrosow

@@ -2,22 +2,31 @@
 
 #include <array>
 #include <cstdint>
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <unordered_map>
 #include <vector>
 
+#include "fields/mean_map.hpp"
+#include "simulation/simulate.hpp"
 #include "simulation/simulation.hpp"
 
 namespace vibrosow {
 
 /// A run to be looked at: where its grains and vessels are, frame by frame, rounded to a two-hundredth of the smallest
-/// seed and packed to a byte or so a coordinate. docs/RECORDING.md has the format.
+/// seed and packed to a byte or so a coordinate; in at most 50 frames its contacts with their forces; and packing and
+/// velocity by cell, in the mean over the measuring window. docs/RECORDING.md has the format.
 class Recording {
  public:
   explicit Recording(const Model& model);
 
+  /// What a run does for it (SimulationOptions::looks); they are called while the recording lives.
+  std::vector<Look> looks();
+
   /// Appends the grains and vessels as they are now; a second frame of one time is left out.
-  void add(const Simulation& simulation);
+  void add(Simulation& simulation);
+  /// Adds the bed as it is now to the means; what is before the measuring window is left out.
+  void add_to_map(Simulation& simulation);
 
   /// The recording so far as a file.
   std::string file() const;
@@ -33,10 +42,18 @@ class Recording {
     std::size_t offset, bytes;
   };
 
+  struct FrameContacts {
+    int frame;
+    std::size_t offset, bytes;
+  };
+
   void add_vessels(const Simulation& simulation);
   void add_changes(const Grains& grains);
   void add_places(const Grains& grains);
+  void add_contacts(Simulation& simulation);
   void close_block();
+  std::string map_bytes() const;
+  nlohmann::ordered_json map_header(std::size_t offset, std::size_t bytes) const;
 
   std::vector<Vessel> vessels_;
   std::vector<std::string> fields_;
@@ -49,6 +66,14 @@ class Recording {
   std::string block_;   // frames of the block that is open
   std::string packed_;  // blocks that are closed
   std::vector<Block> blocks_;
+  double frame_interval_;  // s
+  int frames_per_contacts_;
+  std::string packed_contacts_;
+  std::vector<FrameContacts> contacts_;
+  Scene map_scene_;  // with a [record]
+  GrainExtents extents_;
+  MeanMapSum map_;
+  double map_time_ = -1;  // s, of the last look
 };
 
 /// How often a run is looked at, s: as often as keeps its recording to some megabytes, 500 frames at most.

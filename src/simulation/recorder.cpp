@@ -62,9 +62,22 @@ Snapshot snapshot_of(const Grains& grains, const Walls& walls, double time) {
   return s;
 }
 
-Recorder::Recorder(const Scene& scene, RecorderState& state) : times_(scene.record->times), state_(state) {
-  for (const SeedLot& lot : scene.lots) filled_.push_back(filled_by(lot));
+GrainExtents::GrainExtents(const std::vector<SeedLot>& lots) {
+  for (const SeedLot& lot : lots) filled_.push_back(filled_by(lot));
 }
+
+void GrainExtents::add_to(Snapshot& s) const {
+  for (std::size_t i = 0; i < s.size(); ++i) {
+    const double filled = filled_[static_cast<std::size_t>(s.lot[i])];
+    if (s.in_space())
+      s.volume.push_back(filled * ball_volume(s.radius[i]));
+    else
+      s.area.push_back(filled * circle_area(s.radius[i]));
+  }
+}
+
+Recorder::Recorder(const Scene& scene, RecorderState& state)
+    : times_(scene.record->times), extents_(scene.lots), state_(state) {}
 
 void Recorder::note_new(const Grains& grains) {
   const std::size_t known = state_.start.size();
@@ -88,12 +101,8 @@ void Recorder::record(const Grains& grains, const Walls& walls, double time, std
 
 Snapshot Recorder::snapshot(const Grains& grains, const Walls& walls, double time) const {
   Snapshot s = snapshot_of(grains, walls, time);
+  extents_.add_to(s);
   for (std::size_t i = 0; i < grains.size(); ++i) {
-    const double filled = filled_[static_cast<std::size_t>(grains.lot[i])];
-    if (grains.in_space)
-      s.volume.push_back(filled * ball_volume(s.radius[i]));
-    else
-      s.area.push_back(filled * circle_area(s.radius[i]));
     const Eigen::Vector3d& start = state_.start.at(static_cast<std::size_t>(grains.id[i]));
     s.start_x.push_back(start.x());
     s.start_y.push_back(start.y());

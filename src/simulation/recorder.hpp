@@ -11,6 +11,17 @@ namespace vibrosow {
 /// The bed as it is now, without the arrays that say where grains were put in and what they fill.
 Snapshot snapshot_of(const Grains& grains, const Walls& walls, double time);
 
+/// What grains of a scene's lots fill.
+class GrainExtents {
+ public:
+  explicit GrainExtents(const std::vector<SeedLot>& lots);
+  /// Sets a snapshot's areas, in space its volumes.
+  void add_to(Snapshot& snapshot) const;
+
+ private:
+  std::vector<double> filled_;  // by lot, the grain's area over that of its circle; in space its volume over its ball's
+};
+
 /// Takes a snapshot at the first step that ends at or after each record time; a record at time 0 is the start. A scene
 /// without a record has no recorder.
 class Recorder {
@@ -29,7 +40,7 @@ class Recorder {
   Snapshot snapshot(const Grains& grains, const Walls& walls, double time) const;
 
   std::vector<double> times_;
-  std::vector<double> filled_;  // by lot, the grain's area over that of its circle; in space its volume over its ball's
+  GrainExtents extents_;
   RecorderState& state_;
 };
 

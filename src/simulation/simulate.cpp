@@ -29,7 +29,7 @@ Run run_to_end(Simulation& simulation, const SimulationOptions& options) {
   const Model& model = simulation.model();
   const auto checkpoint = [&](const Simulation& now) { options.on_checkpoint(now.state()); };
   if (options.on_checkpoint && options.checkpoint_every > 0) simulation.watch(options.checkpoint_every, checkpoint);
-  if (options.on_look) options.on_look(simulation), simulation.watch(options.look_every, options.on_look);
+  for (const Look& look : options.looks) look.look(simulation), simulation.watch(look.every, look.look);
   std::size_t recorded = 0;
   const auto look_at_records = [&] {
     const std::size_t snapshots = simulation.state().run.snapshots.size();
@@ -53,7 +53,7 @@ Run run_to_end(Simulation& simulation, const SimulationOptions& options) {
       options.progress(static_cast<double>(simulation.state().step) / static_cast<double>(model.step.steps));
   }
   look_at_records();  // of a step that ended the run
-  if (options.on_look) options.on_look(simulation);
+  for (const Look& look : options.looks) look.look(simulation);
   if (interrupted && options.on_checkpoint) checkpoint(simulation);
   Run run = simulation.result();
   if (interrupted) run.status = RunStatus::interrupted;

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <functional>
 #include <optional>
+#include <vector>
 
 #include "plan/model.hpp"
 #include "result/run.hpp"
@@ -14,6 +15,12 @@ namespace vibrosow {
 
 class Simulation;
 
+/// Called at a run's beginning, then every so often (s, simulated), and at its end.
+struct Look {
+  double every;
+  std::function<void(Simulation&)> look;
+};
+
 struct SimulationOptions {
   std::uint64_t random_seed = 1;
   int threads = 1;                               // that share the run's loops; the result is the same for any number
@@ -22,9 +29,8 @@ struct SimulationOptions {
                                                  // neighbours are sought; true ends the run as interrupted
   std::function<void(double fraction_done)> progress{};  // called now and then with 0..1, in the simulating thread
 
-  double look_every = 0;                             // s, simulated
-  std::function<void(const Simulation&)> on_look{};  // at the beginning, then as often, and at the end
-  std::function<void(Simulation&)> on_record{};      // where snapshots were just taken
+  std::vector<Look> looks{};                     // none of them changes the run
+  std::function<void(Simulation&)> on_record{};  // where snapshots were just taken
 
   std::optional<SimulationState> from{};                        // to go on from; none: the scene's start
   double checkpoint_every = 0;                                  // s, simulated; 0: never

@@ -331,6 +331,36 @@ class Recordings(Case):
             self.assertLess(off.abs().max(), 0.501 * run.recording.unit_m)
         self.assertTrue((1e3 * last.grains.radius_m - snapshot.radius_mm).abs().max() < 1e-4)
 
+    def test_contacts_are_where_grains_touch(self):
+        recording = vibrosow.open_run(self.page_of()).recording
+        frames = [frame for frame in recording if frame.contacts is not None]
+        self.assertTrue(20 < len(frames) <= 50)
+        pairs = touches = 0
+        for frame in frames:
+            grains, contacts = frame.grains, frame.contacts
+            self.assertTrue((contacts.force_N >= 0).all())
+            two = contacts[contacts.partner >= 0]
+            one, other = grains.loc[two.grain], grains.loc[two.partner]
+            apart = ((one.x_m.values - other.x_m.values)**2 + (one.y_m.values - other.y_m.values)**2)**0.5
+            self.assertTrue((apart < one.radius_m.values + other.radius_m.values + 2 * recording.unit_m).all())
+            alone = contacts[contacts.partner < 0]
+            own = grains.loc[alone.grain]
+            reach = ((alone.x_m.values - own.x_m.values)**2 + (alone.y_m.values - own.y_m.values)**2)**0.5 / own.radius_m.values
+            self.assertTrue(((reach > 0.9) & (reach < 1.01)).all())
+            pairs, touches = pairs + len(two), touches + len(alone)
+        self.assertTrue(pairs > 1000 and touches > 100, (pairs, touches))
+
+    def test_the_map_is_of_the_bed(self):
+        recording = vibrosow.open_run(self.page_of()).recording
+        cells, head = recording.map, recording.header["map"]
+        self.assertEqual(len(cells), head["columns"] * head["rows"])
+        self.assertTrue(0.1 <= head["from_s"] < head["to_s"] <= 0.3 + 1e-4)
+        self.assertTrue(0.7 < cells.packing_fraction.max() < 1)
+        self.assertTrue((cells.packing_fraction == 0).equals(cells.vx_m_per_s.isna()))
+        in_cells = (cells.packing_fraction * head["cell_m"]**2).sum()
+        last = list(recording)[-1].grains
+        self.assertLess(abs(in_cells / (math.pi * last.radius_m**2).sum() - 1), 0.2)
+
     def test_a_page_counts_as_the_summary_does(self):
         folder = self.page_of()
         data = json.loads(re.search(r'application/json">(.*?)</script>', (folder / "report.html").read_text(encoding="utf-8"))[1])

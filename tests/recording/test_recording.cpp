@@ -3,12 +3,15 @@
 #include <gtest/gtest.h>
 #include <zlib.h>
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstring>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <numbers>
 
+#include "fields/tray_frame.hpp"
 #include "recording/read_recording.hpp"
 #include "scene/input_error.hpp"
 #include "support/bench.hpp"
@@ -27,7 +30,9 @@ class Reader {
     std::memcpy(&size, file.data() + 8, 4);
     header = Json::parse(file.substr(12, size));
     for (const Json& block : header["blocks"])
-      read_block(file.substr(12 + size + block["offset"].get<std::size_t>(), block["bytes"]), block["frames"]);
+      read_block(part(file, block), block["frames"]);
+    for (const Json& one : header["contacts"]) read_contacts(part(file, one), one["frame"]);
+    if (header.contains("map")) read_map(part(file, header["map"]));
   }
 
   struct Frame {
@@ -41,8 +46,24 @@ class Reader {
     float radius;
     std::array<float, 3> start;
   };
+  struct Pair {
+    std::uint32_t grain, partner;
+    double force;
+  };
+  struct Touch {
+    std::uint32_t grain;
+    std::vector<int> place;
+    double force;
+  };
+  struct Contacts {
+    double largest;
+    std::vector<Pair> pairs;
+    std::vector<Touch> touches;
+  };
   Json header;
   std::vector<Frame> frames;
+  std::map<int, Contacts> contacts;                    // by frame
+  std::vector<float> packing, vx, vy;                  // of the map
   std::map<std::int64_t, Entered> entered;
 
  private:
@@ -54,13 +75,63 @@ class Reader {
     return value;
   }
 
-  void read_block(const std::string& packed, int count) {
+  std::string part(const std::string& file, const Json& entry) const {
+    std::uint32_t size = 0;
+    std::memcpy(&size, file.data() + 8, 4);
+    return file.substr(12 + size + entry["offset"].get<std::size_t>(), entry["bytes"]);
+  }
+
+  std::size_t unpack(const std::string& packed) {
     bytes_.assign(100000000, '\0');
     uLongf size = bytes_.size();
-    ASSERT_EQ(uncompress(reinterpret_cast<Bytef*>(bytes_.data()), &size, reinterpret_cast<const Bytef*>(packed.data()),
+    EXPECT_EQ(uncompress(reinterpret_cast<Bytef*>(bytes_.data()), &size, reinterpret_cast<const Bytef*>(packed.data()),
                          packed.size()),
               Z_OK);
     at_ = 0;
+    return size;
+  }
+
+  std::vector<std::uint32_t> take_planes(std::uint32_t count) {
+    std::vector<std::uint32_t> values(count, 0);
+    for (std::uint32_t plane = 0; plane < 4; ++plane)
+      for (std::uint32_t& value : values) value |= std::uint32_t(take<std::uint8_t>()) << (8 * plane);
+    return values;
+  }
+
+  void read_contacts(const std::string& packed, int frame) {
+    const std::size_t size = unpack(packed);
+    Contacts& now = contacts[frame];
+    now.largest = take<double>();
+    now.pairs.resize(take<std::uint32_t>()), now.touches.resize(take<std::uint32_t>());
+    const auto pairs = static_cast<std::uint32_t>(now.pairs.size()),
+               touches = static_cast<std::uint32_t>(now.touches.size());
+    const auto force = [&] { return now.largest * std::pow(10, -take<std::uint8_t>() / 64.0); };
+    const auto grains = take_planes(pairs), beyond = take_planes(pairs);
+    for (std::size_t k = 0; k < pairs; ++k) {
+      now.pairs[k].grain = grains[k] + (k > 0 ? now.pairs[k - 1].grain : 0);
+      now.pairs[k].partner = now.pairs[k].grain + beyond[k];
+      now.pairs[k].force = force();
+    }
+    const auto touched = take_planes(touches);
+    for (std::size_t k = 0; k < touches; ++k)
+      now.touches[k].grain = touched[k] + (k > 0 ? now.touches[k - 1].grain : 0);
+    const bool in_space = std::find(header["fields"].begin(), header["fields"].end(), "z") != header["fields"].end();
+    for (int axis = 0; axis < (in_space ? 3 : 2); ++axis)
+      for (Touch& touch : now.touches) touch.place.push_back(take<std::int8_t>());
+    for (Touch& touch : now.touches) touch.force = force();
+    EXPECT_EQ(at_, size);
+  }
+
+  void read_map(const std::string& packed) {
+    const std::size_t size = unpack(packed);
+    const std::size_t cells = header["map"]["columns"].get<std::size_t>() * header["map"]["rows"].get<std::size_t>();
+    for (std::vector<float>* values : {&packing, &vx, &vy})
+      for (std::size_t k = 0; k < cells; ++k) values->push_back(take<float>());
+    EXPECT_EQ(at_, size);
+  }
+
+  void read_block(const std::string& packed, int count) {
+    const std::size_t size = unpack(packed);
     std::map<std::int64_t, std::vector<std::vector<std::int64_t>>> past;  // of each grain in this block, by frame
     std::vector<std::int64_t> ids;
     for (int k = 0; k < count; ++k) {
@@ -138,7 +209,7 @@ TEST_P(OfBothSpaces, EveryFrameIsTheBedToHalfACount) {
   std::vector<Grains> beds;
   std::vector<double> times;
   std::vector<Pose> poses;
-  const auto look = [&](const Simulation& now) {
+  const auto look = [&](Simulation& now) {
     recording.add(now);
     beds.push_back(now.grains());
     times.push_back(now.time());
@@ -173,6 +244,129 @@ TEST_P(OfBothSpaces, EveryFrameIsTheBedToHalfACount) {
         << "said again in every block";
 }
 
+TEST_P(OfBothSpaces, EveryContactIsKeptWithItsForce) {
+  const Model model = with_step(prepare(open_box(GetParam())), 5e-5);
+  Simulation run(model, 1);
+  Recording recording(model);
+  std::vector<std::vector<GrainContact>> contacts;
+  std::vector<Grains> beds;
+  run.watch(0.002, [&](Simulation& now) {
+    contacts.push_back(now.field().contacts());
+    beds.push_back(now.grains());
+    recording.add(now);
+  });
+  while (!run.at_end()) ASSERT_TRUE(run.step());
+  const Reader read(recording.file());
+  EXPECT_GT(read.contacts.size(), 20u);
+  EXPECT_LE(read.contacts.size(), 50u);
+  std::size_t pairs = 0, touches = 0;
+  for (const auto& [frame, kept] : read.contacts) {
+    const auto& all = contacts.at(static_cast<std::size_t>(frame));
+    const Grains& bed = beds.at(static_cast<std::size_t>(frame));
+    ASSERT_EQ(kept.pairs.size() + kept.touches.size(), all.size());
+    std::multimap<std::pair<std::int64_t, std::int64_t>, double> of_two;
+    std::multimap<std::int64_t, const GrainContact*> alone;
+    const auto size = [](const GrainContact& c) {
+      return std::hypot(c.normal_force[0], c.normal_force[1], c.normal_force[2]);
+    };
+    for (const GrainContact& c : all) {
+      if (c.partner < 0)
+        alone.emplace(c.grain, &c);
+      else
+        of_two.emplace(std::minmax(c.grain, c.partner), size(c));
+    }
+    const double error = std::pow(10, 1.001 / 128), least = kept.largest * std::pow(10, -255.0 / 64);
+    for (const Reader::Pair& pair : kept.pairs) {
+      const auto found = of_two.find({bed.id.at(pair.grain), bed.id.at(pair.partner)});
+      ASSERT_NE(found, of_two.end());
+      EXPECT_LE(found->second, pair.force * error);
+      EXPECT_TRUE(pair.force <= least * error || found->second >= pair.force / error);
+      of_two.erase(found);
+    }
+    for (const Reader::Touch& touch : kept.touches) {  // a grain in a corner touches two walls
+      const auto [from, to] = alone.equal_range(bed.id.at(touch.grain));
+      const Eigen::Vector3d centre = place_of(bed, touch.grain);
+      const double radius = bed.kind(touch.grain).radius;
+      const auto is_it = [&](const auto& one) {
+        double furthest = 0;
+        for (std::size_t axis = 0; axis < touch.place.size(); ++axis)
+          furthest = std::max(furthest, std::abs(centre[static_cast<Eigen::Index>(axis)] + 0.01 * touch.place[axis] * radius -
+                                                 one.second->to[axis]));
+        return furthest < 0.00501 * radius && size(*one.second) <= touch.force * error;
+      };
+      const auto found = std::find_if(from, to, is_it);
+      ASSERT_NE(found, to);
+      alone.erase(found);
+    }
+    pairs += kept.pairs.size(), touches += kept.touches.size();
+  }
+  EXPECT_GT(pairs, 50u);
+  EXPECT_GT(touches, 50u);
+}
+
+TEST(Recording, AContactAcrossAPeriodicBoundaryIsOneOfEachGrainAlone) {
+  Bench bench;
+  bench.scene.tray.length = 0.1, bench.scene.tray.height = 0.1, bench.scene.tray.sides = Sides::periodic;
+  const double overlap = 1e-5;
+  bench.place(Bench::radius - overlap, 0.05).place(0.1 - Bench::radius + overlap, 0.05);
+  Simulation& run = bench.start(1e-5);
+  Recording recording(run.model());
+  recording.add(run);
+  const Reader read(recording.file());
+  const Reader::Contacts& contacts = read.contacts.at(0);
+  EXPECT_TRUE(contacts.pairs.empty());
+  ASSERT_EQ(contacts.touches.size(), 2u);
+  EXPECT_EQ(contacts.touches[0].place, (std::vector<int>{-100, 0}));
+  EXPECT_EQ(contacts.touches[1].place, (std::vector<int>{100, 0}));
+  EXPECT_GT(contacts.touches[0].force, 0);
+}
+
+TEST_P(OfBothSpaces, ARunThatIsRecordedIsTheSame) {
+  const Model model = with_step(prepare(open_box(GetParam())), 5e-5);
+  Simulation alone(model, 1), watched(model, 1);
+  Recording recording(model);
+  for (const Look& look : recording.looks()) look.look(watched), watched.watch(look.every, look.look);
+  while (!alone.at_end()) ASSERT_TRUE(alone.step() && watched.step());
+  EXPECT_EQ(alone.grains().id, watched.grains().id);
+  EXPECT_EQ(alone.grains().x, watched.grains().x);
+  EXPECT_EQ(alone.grains().y, watched.grains().y);
+  EXPECT_EQ(alone.grains().z, watched.grains().z);
+  EXPECT_EQ(alone.grains().omega, watched.grains().omega);
+  EXPECT_GT(Reader(recording.file()).contacts.size(), 20u);
+}
+
+TEST_P(OfBothSpaces, TheMapIsTheMeanOfTheMeasuringWindow) {
+  Scene scene = open_box(GetParam());
+  scene.run.measure_from = 0.3;
+  const Model model = with_step(prepare(scene), 5e-5);
+  Simulation run(model, 1);
+  Recording recording(model);
+  EXPECT_FALSE(Reader(recording.file()).header.contains("map"));
+  scene.record = Record{{}, 1.5 * scene.lots[0].diameter, MapView::projection};
+  MeanMapSum sum(scene);
+  const GrainExtents extents(scene.lots);
+  for (const Look& look : recording.looks()) run.watch(look.every, look.look);
+  run.watch(recording.looks()[1].every, [&](Simulation& now) {
+    if (now.time() < 0.3) return;
+    Snapshot bed = now.frame().bed;
+    extents.add_to(bed);
+    bed.start_x = bed.x, bed.start_y = bed.y, bed.start_z = bed.z;
+    sum.add(in_tray_frame(bed, scene.tray));
+  });
+  while (!run.at_end()) ASSERT_TRUE(run.step());
+  const Reader read(recording.file());
+  const MeanMap map = sum.mean();
+  EXPECT_EQ(read.header["map"]["looks"], map.looks);
+  EXPECT_NEAR(map.looks, 211, 25);  // of whole steps
+  EXPECT_GE(read.header["map"]["from_s"].get<double>(), 0.3);
+  EXPECT_DOUBLE_EQ(read.header["map"]["cell_m"].get<double>(), scene.record->cell);
+  ASSERT_EQ(read.packing.size(), map.grid.size());
+  for (std::size_t k = 0; k < read.packing.size(); ++k) {
+    EXPECT_EQ(read.packing[k], static_cast<float>(map.packing[k]));
+    EXPECT_TRUE(read.vy[k] == static_cast<float>(map.vy[k]) || (std::isnan(read.vy[k]) && map.packing[k] == 0));
+  }
+}
+
 TEST(Recording, AClumpsAngleIsKept) {
   Scene scene = open_box(Space::plane);
   scene.lots = {Bench().add_clump({{-2e-3, 0, 3e-3}, {2e-3, 0, 3e-3}}, Bench::mass).scene.lots.back()};
@@ -192,7 +386,7 @@ TEST_P(OfBothSpaces, IsReadBackAsItsFormatSays) {
   const Model model = with_step(prepare(open_box(GetParam())), 5e-5);
   Simulation run(model, 1);
   Recording recording(model);
-  run.watch(0.002, [&](const Simulation& now) { recording.add(now); });
+  run.watch(0.002, [&](Simulation& now) { recording.add(now); });
   while (!run.at_end()) ASSERT_TRUE(run.step());
   const Reader told(recording.file());
   std::size_t k = 0;
@@ -213,7 +407,7 @@ TEST(Recording, ADamagedFileIsAnErrorOrRead) {
   const Model model = with_step(prepare(open_box(Space::plane)), 5e-5);
   Simulation run(model, 1);
   Recording recording(model);
-  run.watch(0.01, [&](const Simulation& now) { recording.add(now); });
+  run.watch(0.01, [&](Simulation& now) { recording.add(now); });
   ASSERT_TRUE(run.run_until(0.1));
   const std::string file = recording.file();
   const auto nothing = [](const Snapshot&) {};

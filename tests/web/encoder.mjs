@@ -59,8 +59,31 @@ function putFrame(bytes, { time, poses, grains }, list, history, fields) {
   return now;
 }
 
-/** `frames`: [{ time, poses: [[x, y, z, angle]], grains: [{ id, lot, radius, start, values: counts of each field }] }]. */
-export function encodeRecording({ frames, fields, units, vessels, perBlock }) {
+function differences(places) {
+  return places.map((place, k) => place - (k ? places[k - 1] : 0));
+}
+
+// `pairs`: [grain, partner, force code] and `touches`: [grain, place of each axis in 1/100, force code], grains as places in the list.
+function contactBytes({ largest, pairs, touches }, axes) {
+  const bytes = new Bytes();
+  bytes.double(largest);
+  [pairs.length, touches.length].forEach((count) => bytes.word(count));
+  bytes.parts.push(planes(differences(pairs.map(([grain]) => grain))), planes(pairs.map(([grain, partner]) => partner - grain)),
+    Buffer.from(pairs.map(([, , force]) => force)), planes(differences(touches.map(([grain]) => grain))));
+  for (let axis = 0; axis < axes; ++axis) bytes.parts.push(Buffer.from(Int8Array.from(touches, ([, place]) => place[axis]).buffer));
+  bytes.parts.push(Buffer.from(touches.map(([, , force]) => force)));
+  return bytes.all();
+}
+
+function mapBytes({ packing, vx, vy }) {
+  const bytes = new Bytes();
+  [packing, vx, vy].flat().forEach((value) => bytes.float(value));
+  return bytes.all();
+}
+
+/** `frames`: [{ time, poses: [[x, y, z, angle]], grains: [{ id, lot, radius, start, values: counts of each field }], contacts }], the last of
+ *  some; `map`: { cell_m, columns, rows, view, looks, from_s, to_s, packing, vx, vy } or none. */
+export function encodeRecording({ frames, fields, units, vessels, perBlock, map, version = 2 }) {
   const blocks = [];
   for (let from = 0; from < frames.length; from += perBlock) {
     const bytes = new Bytes();
@@ -75,9 +98,20 @@ export function encodeRecording({ frames, fields, units, vessels, perBlock }) {
     offset += block.bytes.length;
     return entry;
   });
+  const add = (bytes) => {
+    const stream = deflateSync(bytes);
+    const entry = { offset, bytes: stream.length };
+    blocks.push({ bytes: stream });
+    offset += stream.length;
+    return entry;
+  };
+  const axes = fields.includes('z') ? 3 : 2;
+  const contacts = frames.flatMap((frame, k) => (frame.contacts ? [{ frame: k, ...add(contactBytes(frame.contacts, axes)) }] : []));
+  const { packing, vx, vy, ...head } = map ?? {};
+  const mapEntry = map ? { ...head, ...add(mapBytes(map)) } : undefined;
   const grains = 1 + Math.max(-1, ...frames.flatMap((frame) => frame.grains.map((grain) => grain.id)));
   const header = Buffer.from(JSON.stringify({
-    version: 1, frames: frames.length, frames_per_block: perBlock, unit_m: units[0], fields, field_units: units, vessels, grains, blocks: index,
+    version, frames: frames.length, frames_per_block: perBlock, unit_m: units[0], fields, field_units: units, vessels, grains, blocks: index, ...(version > 1 ? { contacts, map: mapEntry } : {}),
   }));
   const length = Buffer.alloc(4);
   length.writeUInt32LE(header.length);

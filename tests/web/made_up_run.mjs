@@ -71,6 +71,36 @@ function frameOf(all, time, tray, inSpace) {
   return { time, poses, grains };
 }
 
+// Each waiting seed on the one below it, as heavy as what lies above; those of the lowest row on the floor.
+function contactsOf({ grains }, all) {
+  const rows = new Map(grains.map((grain, k) => [all[grain.id].place.map((value) => value.toFixed(4)).join(), k]));
+  const contacts = { largest: 0.05, pairs: [], touches: [] };
+  grains.forEach((grain, k) => {
+    const { place: [x, y, z] } = all[grain.id];
+    const below = rows.get([x, y - 0.005, z].map((value) => value.toFixed(4)).join());
+    const force = Math.round(64 * Math.log10(6 / (6 - Math.min(5, Math.floor(y / 0.005))))) + (grain.id % 7) * 8;
+    if (below !== undefined) contacts.pairs.push([Math.min(k, below), Math.max(k, below), force]);
+    else if (y < 0.005) contacts.touches.push([k, [0, -100, 0], force]);
+  });
+  contacts.pairs.sort(([a, b], [c, d]) => a - c || b - d);
+  return contacts;
+}
+
+// Denser below, and moving to the holes, fastest at the second.
+function mapOf(tray) {
+  const cell = 0.0066;
+  const columns = Math.ceil(tray.length / cell), rows = 4;
+  const cells = Array.from({ length: columns * rows }, (_, k) => {
+    const [x, y] = [((k % columns) + 0.5) * cell, (Math.floor(k / columns) + 0.5) * cell];
+    const hole = tray.holes.reduce((best, at) => (Math.abs(at - x) < Math.abs(best - x) ? at : best));
+    const speed = (hole === tray.holes[1] ? 0.2 : 0.12) * Math.exp(-((x - hole) ** 2 + y * y) / (2 * 0.02 ** 2));
+    const apart = Math.hypot(hole - x, y);
+    return [0.8 - 6 * y - speed, (speed * (hole - x)) / apart, (-speed * y) / apart];
+  });
+  return { cell_m: cell, columns, rows, view: 'projection', looks: 211, from_s: window[0], to_s: window[1],
+    packing: cells.map(([share]) => share), vx: cells.map(([, x]) => x), vy: cells.map(([, , y]) => y) };
+}
+
 function vesselsOf(tray, inSpace) {
   const mm = (metres) => Math.round(metres * 1e6) / 1000;
   const rims = [0, ...tray.holes.flatMap((x) => [x - tray.half, x + tray.half]), tray.length].map(mm);
@@ -99,15 +129,19 @@ function holeFigures(events, count) {
   });
 }
 
-/** data and recording of a run; `names` may replace texts: { title, lots }. */
+/** data and recording of a run; `names` may replace texts: { title, lots }, and { version } of the recording: 1 has no forces. */
 export function madeUpRun(space, names = {}) {
   const inSpace = space === 'three_dimensional';
   const tray = inSpace ? trays.space : trays.plane;
   const all = seeds(tray, inSpace);
   const events = all.filter((seed) => seed.through <= duration).map((seed) => ({ time: seed.through, hole: seed.hole + 1, lot: seed.lot })).sort((a, b) => a.time - b.time);
   const times = Array.from({ length: inSpace ? 41 : 101 }, (_, k, all_ = inSpace ? 40 : 100) => (k * duration) / all_);
+  const frames = times.map((time, k) => {
+    const frame = frameOf(all, time, tray, inSpace);
+    return k % 4 === 0 ? { ...frame, contacts: contactsOf(frame, all) } : frame;
+  });
   const recording = encodeRecording({
-    frames: times.map((time) => frameOf(all, time, tray, inSpace)), perBlock: 25, vessels: ['tray', 'hopper'],
+    frames, map: mapOf(tray), version: names.version, perBlock: 25, vessels: ['tray', 'hopper'],
     fields: inSpace ? ['x', 'y', 'z', 'qw', 'qx', 'qy', 'qz'] : ['x', 'y', 'angle'],
     units: inSpace ? [unit, unit, unit, ...Array(4).fill(quaternionUnit)] : [unit, unit, angleUnit],
   });

@@ -67,6 +67,41 @@ for (const space of ['plane', 'three_dimensional']) {
       await page.locator('#replay-legend', { hasText: run.data.lots[1].name }).waitFor();
     });
 
+    test('forces colour the seeds and draw chains, of the nearest moment that has them', async () => {
+      await in_.scrubTo(page, 20);
+      const plain = await in_.pictureOf(page);
+      await page.getByRole('checkbox', { name: 'Force chains' }).check();
+      const chained = await in_.nextPicture(page, plain);
+      await page.locator('#replay-forces', { hasText: /^Forces and seeds now: \d+ contacts, .* mN in the mean, .* mN at most/ }).waitFor();
+      await page.getByRole('radio', { name: 'Force' }).check();
+      await page.locator('#replay-legend', { hasText: 'sum of a seed’s normal forces' }).waitFor();
+      const coloured = await in_.nextPicture(page, chained);
+      await in_.scrubTo(page, 21);
+      const later = await in_.pictureOf(page);
+      const frames = Number(await page.getAttribute('#replay-frame', 'max'));
+      const time = ((20 * run.data.end_time_s) / frames).toFixed(2);
+      await page.locator('#replay-forces', { hasText: `at ${time} s, the nearest moment` }).waitFor();
+      assert.match(await page.getAttribute('#replay-canvas', 'aria-label'), /contacts, .* in the mean/);
+      await page.getByRole('checkbox', { name: 'Force chains' }).uncheck();
+      await in_.nextPicture(page, later);
+      await page.getByRole('radio', { name: 'Lot' }).check();
+      await page.locator('#replay-forces').waitFor({ state: 'hidden' });
+      await in_.scrubTo(page, 20);
+      assert.equal(await in_.pictureOf(page), plain);
+    });
+
+    test('maps of packing and velocity are drawn and said', async () => {
+      assert.match(await page.locator('#map-packing figcaption').textContent(), /^Densest, 0\.7\d*, \d.* from the left end and 3\.3 mm over the floor; /);
+      assert.match(await page.locator('#map-velocity figcaption').textContent(), /^Fastest, 0\.\d+ m\/s .*, at hole 2; /);
+      assert.match(await page.locator('#maps .lead').textContent(), /211 looks from 0\.5 to 2 s/);
+      for (const id of ['map-packing', 'map-velocity']) {
+        const canvas = page.locator(`#${id} canvas`);
+        assert.match(await canvas.getAttribute('aria-label'), /^(Packing|Velocity)\. /);
+        const painted = await canvas.evaluate((one) => new Set(new Uint32Array(one.getContext('2d').getImageData(0, 0, one.width, one.height).data.buffer)).size);
+        assert.ok(painted > 10, `${id} has ${painted} colours`);
+      }
+    });
+
     test('accessible in light and dark, and no wider than a phone', () => withPage(run, { bypass: true }, async (open) => {
       await in_.assertAccessible(open);
       await open.emulateMedia({ colorScheme: 'dark' });
@@ -84,6 +119,16 @@ test('a tray held still looks otherwise than one that shakes', () => withPage(ma
   await page.getByRole('checkbox', { name: 'Hold the tray still' }).check();
   await in_.nextPicture(page, shaking);
 }));
+
+test('a recording without forces and maps offers none', () => {
+  const run = madeUpRun('plane', { version: 1 });
+  return withPage(run, {}, async (page) => {
+    assert.equal(await page.getByRole('checkbox', { name: 'Force chains' }).count(), 0);
+    assert.equal(await page.getByRole('radio', { name: 'Force' }).count(), 0);
+    assert.equal(await page.locator('#maps').count(), 0);
+    assert.deepEqual(page.complaints, []);
+  });
+});
 
 test('a run in space turns by keys and by dragging', () => withPage(madeUpRun('three_dimensional'), {}, async (page) => {
   const fromTheSide = await in_.pictureOf(page);

@@ -3,8 +3,9 @@ import assert from 'node:assert/strict';
 import test from 'node:test';
 import { layerScale, listColour, mix, speedScale } from '../../web/report/colours.mjs';
 import { Counters } from '../../web/report/counters.mjs';
-import { axisScale, duration, list, niceAbove, number, plusMinus, sentence } from '../../web/report/format.mjs';
+import { axisScale, duration, force, list, niceAbove, number, plusMinus, sentence } from '../../web/report/format.mjs';
 import { floorAt, toLab, toOwn } from '../../web/report/geometry.mjs';
+import { mapSentence, packingSentence, velocitySentence } from '../../web/report/map_sentences.mjs';
 import { outflowSentence } from '../../web/report/outflow_sentence.mjs';
 import { readPageData } from '../../web/report/page_data.mjs';
 import { frameAt } from '../../web/report/player.mjs';
@@ -85,6 +86,23 @@ test('the sentence under the chart', () => {
     'From 1 to 4 s hole 2 let out most, 12 seeds/s, and hole 1 least, 10 seeds/s; the longest time without a seed was 0.5 s, at hole 2.');
   assert.equal(outflowSentence(data([hole(1, 10, null)])), 'From 1 to 4 s hole 1 let out 10 seeds/s.');
   assert.equal(outflowSentence(data([])), 'No hole has let out anything in the measured time.');
+});
+
+test('forces have the unit that suits them', () => {
+  assert.deepEqual([0, 2.5, 0.0123, 4e-5, 3e-8].map(force), ['0 N', '2.5 N', '12.3 mN', '40 µN', '30 nN']);
+});
+
+test('sentences of maps', () => {
+  const tray = { holes: [{ number: 1, x_mm: 5, half_x_mm: 2 }, { number: 2, x_mm: 5, half_x_mm: 2 }, { number: 3, x_mm: 55, half_x_mm: 2 }] };
+  const map = { cell: 0.01, columns: 6, rows: 2, looks: 211, from: 1, to: 3, view: 'slice',
+    packing: [0.4, 0.6, 0.8, 0.6, 0.6, 0.04, 0, 0, 0.2, 0, 0, 0], vx: [0.01, 0, 0.02, 0, 0, 9, NaN, NaN, 0.02, NaN, NaN, NaN], vy: [-0.2, 0, 0, 0, 0, 9, NaN, NaN, 0, NaN, NaN, NaN] };
+  assert.equal(packingSentence(map, tray), 'Densest, 0.8, 25 mm from the left end and 5 mm over the floor; 0.6 in the mean of the cells that are at least half as dense.');
+  assert.equal(velocitySentence(map, tray), 'Fastest, 0.2 m/s down, at holes 1 and 2; cells that seeds fill to less than 0.05 are left out.');
+  assert.equal(mapSentence(map, 'three_dimensional'),
+    'The mean of 211 looks from 1 to 3 s, in the tray’s own frame, in cells of 10 mm, of a slice through the middle of the depth.');
+  const empty = { ...map, packing: map.packing.map(() => 0) };
+  assert.equal(packingSentence(empty, tray), 'The tray was empty.');
+  assert.match(velocitySentence(empty, tray), /^No cell/);
 });
 
 test('what is missing or null in the data is empty', () => {

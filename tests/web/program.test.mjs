@@ -29,6 +29,21 @@ function countsOf(file) {
   return counts;
 }
 
+// Where the run ends, with its forces, and its maps.
+async function forcesAndMapsAreShown(page) {
+  const plain = await in_.pictureOf(page);
+  await page.getByRole('radio', { name: 'Force' }).check();
+  await page.getByRole('checkbox', { name: 'Force chains' }).check();
+  await page.locator('#replay-forces', { hasText: /^Forces and seeds .*: [1-9]\d* contacts, [\d.]+ [mµ]?N in the mean/ }).waitFor();
+  await in_.nextPicture(page, plain);
+  const said = await page.locator('#map-packing figcaption').textContent();
+  const densest = Number(/^Densest, ([\d.]+), /.exec(said)[1]);
+  assert.ok(densest > 0.5 && densest < 0.95, said);
+  assert.match(await page.locator('#map-velocity figcaption').textContent(), /^Fastest, [\d.]+ m\/s (down|up|to the (left|right)), (at holes? \d|\d)/);
+  await page.getByRole('checkbox', { name: 'Force chains' }).uncheck();
+  await page.getByRole('radio', { name: 'Lot' }).check();
+}
+
 test('a run of the program', { skip: whyNot('run') }, async () => {
   const out = mkdtempSync(path.join(tmpdir(), 'vibrosow-run-'));
   const browser = await in_.startBrowser();
@@ -49,6 +64,7 @@ test('a run of the program', { skip: whyNot('run') }, async () => {
       assert.equal(counts.get(Number(row.hole)), left.get(row.hole) ?? 0, `hole ${row.hole}`);
     }
     assert.ok(statSync(file).size <= 5e6, `${statSync(file).size} bytes`);
+    await forcesAndMapsAreShown(page);
     if (await page.locator('#rerun').count() > 0) { // where the pages were built with the simulator
       await page.getByRole('button', { name: 'Run it again' }).click();
       const all = [...counts.values()].reduce((sum, count) => sum + count, 0);
@@ -58,6 +74,33 @@ test('a run of the program', { skip: whyNot('run') }, async () => {
     const phone = await in_.openPage(browser, file, { viewport: { width: 390, height: 844 }, colorScheme: 'dark', bypass: true });
     await in_.assertAccessible(phone);
     await in_.assertNoSidewaysScrolling(phone);
+  } finally {
+    await browser.close();
+    rmSync(out, { recursive: true });
+  }
+});
+
+// A recording in space holds some 2.5 million coordinates and the contacts of 230 000 seeds, however many seeds there are and however long they
+// run. What a coordinate costs depends on how far seeds move from frame to frame. So this is a shipped seeder whose frames that budget limits, at its own
+// length and motion, and only its seeds are softer, by which they move hardly otherwise and a step is three times as long.
+test('a run of the program in space', { skip: whyNot('run') }, async () => {
+  const out = mkdtempSync(path.join(tmpdir(), 'vibrosow-space-'));
+  const browser = await in_.startBrowser();
+  try {
+    execFileSync(program, ['run', 'rapeseed-six-holes', '--set', 'contact.shell_compression=5e-4', '--html', '--quiet', '--out', out]);
+    const file = path.join(out, 'report.html');
+    assert.ok(statSync(file).size <= 7e6, `${statSync(file).size} bytes`);
+    const page = await in_.openPage(browser, file, { bypass: true });
+    const last = await in_.scrubToEnd(page);
+    assert.ok(last < 400, `${last} frames: the budget does not limit them`);
+    const recorded = await page.$eval('#recording', (script) => script.textContent.length * 3 / 4);
+    assert.ok(recorded <= 4e6, `${recorded} bytes of recording`);
+    const counts = await in_.shownCounts(page);
+    const left = countsOf(path.join(out, 'outflow.csv'));
+    for (const [hole, count] of counts) assert.equal(count, left.get(String(hole)) ?? 0, `hole ${hole}`);
+    await forcesAndMapsAreShown(page);
+    await in_.assertAccessible(page);
+    assert.deepEqual(page.complaints, []);
   } finally {
     await browser.close();
     rmSync(out, { recursive: true });

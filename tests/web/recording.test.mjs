@@ -1,6 +1,7 @@
 // The reader of recordings against an encoder of its own.
 import assert from 'node:assert/strict';
 import test from 'node:test';
+import { decodeContacts, forceOfGrains } from '../../web/report/contacts.mjs';
 import { openRecording, RecordingError } from '../../web/report/recording.mjs';
 import { encodeRecording } from './encoder.mjs';
 
@@ -63,4 +64,45 @@ test('what is not a recording, or is cut off, is refused', async () => {
   await assert.rejects(openRecording(Buffer.from('VBSWREC9 and more')), RecordingError);
   await assert.rejects(openRecording(bytes.subarray(0, bytes.length - 1)), RecordingError);
   await assert.rejects(openRecording(bytes.subarray(0, 20)), RecordingError);
+});
+
+const contacts = { largest: 2, pairs: [[0, 1, 0], [0, 3, 64], [1, 2, 255]], touches: [[2, [-100, 50], 128], [3, [0, -127], 1]] };
+
+function withContacts() {
+  return frames().map((frame, k) => (k === 0 || k === 3 ? { ...frame, contacts } : frame));
+}
+
+test('contacts come back with their forces and places', async () => {
+  const recording = await openRecording(encoded(3, withContacts()));
+  assert.deepEqual(recording.forceFrames, [0, 3]);
+  const read = await recording.contacts(3);
+  assert.deepEqual([[...read.grain], [...read.partner], [...read.touched]], [[0, 0, 1], [1, 3, 2], [2, 3]]);
+  [2, 0.2, 2 * 10 ** (-255 / 64)].forEach((force, k) => assert.ok(Math.abs(read.force[k] / force - 1) < 1e-12));
+  assert.deepEqual(read.place.map((places) => [...places]), [[-1, 0], [0.5, -1.27]]);
+  const sums = forceOfGrains(read, 4);
+  const expected = [2.2, 2 + read.force[2], read.force[2] + 0.02, 0.2 + read.touch[1]];
+  expected.forEach((sum, k) => assert.ok(Math.abs(sums[k] - sum) < 1e-12, `grain ${k}`));
+});
+
+test('the nearest frame with forces', async () => {
+  const recording = await openRecording(encoded(3, withContacts()));
+  assert.deepEqual([0, 1, 2, 3, 6].map((frame) => recording.nearestForces(frame)), [0, 0, 3, 3, 3]);
+  assert.equal((await openRecording(encoded(3))).nearestForces(2), null);
+});
+
+test('contacts that are cut off or of grains that are not there are refused', async () => {
+  const bad = frames();
+  bad[4].contacts = contacts;  // a frame without grains
+  await assert.rejects((await openRecording(encoded(3, bad))).contacts(4), /not there/);
+  assert.throws(() => decodeContacts(new Uint8Array(17), 4, false), /cut off/);
+});
+
+test('maps come back, and a recording of the first version has none', async () => {
+  const map = { cell_m: 0.006, columns: 2, rows: 1, view: 'projection', looks: 7, from_s: 1, to_s: 2, packing: [0.5, 0], vx: [0.25, NaN], vy: [-0.5, NaN] };
+  const options = { frames: frames(), fields, units: [1e-5, 1e-5, 1e-3], vessels: ['tray', 'hopper'], perBlock: 3 };
+  const read = await (await openRecording(encodeRecording({ ...options, map }))).map();
+  assert.deepEqual([[...read.packing], [...read.vx], [...read.vy]], [map.packing, map.vx, map.vy]);
+  assert.deepEqual([read.cell, read.columns, read.looks, read.to], [0.006, 2, 7, 2]);
+  const first = await openRecording(encodeRecording({ ...options, version: 1 }));
+  assert.deepEqual([first.forceFrames, await first.map()], [[], null]);
 });

@@ -1,10 +1,13 @@
-// What colours a grain: its lot, its speed against the tray, or the layer that it started in.
+// What colours a grain: its lot, its speed against the tray, the layer that it started in, or the forces on it.
 import { layerScale, listColour, speedScale } from './colours.mjs';
-import { niceAbove, number } from './format.mjs';
+import { forceOfGrains } from './contacts.mjs';
+import { force, niceAbove, number } from './format.mjs';
 import { toOwn } from './geometry.mjs';
 
 const speedSteps = 16;
 const layers = 10;
+const forceSteps = 15;
+const forceDecades = 3;
 
 function byLot(recording, data) {
   return {
@@ -84,7 +87,34 @@ async function bySpeed(recording) {
   };
 }
 
-/** Ways to colour: [{ name, text, make }]; `make` promises { bins, colours(theme), legend, of(frame, index) }. */
+async function forcesOn(recording, frame) {
+  const [contacts, { ids }] = await Promise.all([recording.contacts(frame), recording.frame(frame)]);
+  return forceOfGrains(contacts, ids.length);
+}
+
+// The end of the scale: what 99 of 100 grains of some frames do not pass, rounded up.
+async function topForce(recording) {
+  const kept = recording.forceFrames;
+  const seen = [];
+  const samples = Math.min(8, kept.length);
+  for (let k = 1; k <= samples; ++k) {
+    seen.push(...(await forcesOn(recording, kept[Math.floor((k * (kept.length - 1)) / samples)])).filter((sum) => sum > 0));
+  }
+  seen.sort((a, b) => a - b);
+  return niceAbove(seen[Math.floor(0.99 * (seen.length - 1))] ?? 0);
+}
+
+async function byForce(recording) {
+  const top = await topForce(recording), low = top / 10 ** forceDecades;
+  const bin = (sum) => Math.min(forceSteps - 1, Math.max(0, Math.floor((forceSteps * Math.log10(sum / low)) / forceDecades)));
+  return {
+    name: 'force', text: 'Force', bins: forceSteps, colours: (theme) => speedScale(forceSteps, theme),
+    legend: { kind: 'scale', low: `${force(low)} and less`, high: `${force(top)} and more`, note: 'sum of a seed’s normal forces, log scale' },
+    of: async (_, index) => Uint8Array.from(await forcesOn(recording, index), (sum) => (sum > 0 ? bin(sum) : 0)),
+  };
+}
+
+/** Ways to colour: [{ name, text, make, ofForces }], the last where forces are kept; `make` promises { bins, colours(theme), legend, of(frame, index) }. One `ofForces` colours the frames of forceFrames alone. */
 export function colourings(recording, data) {
   const made = new Map();
   const once = (name, make) => () => made.get(name) ?? made.set(name, make()).get(name);
@@ -92,5 +122,6 @@ export function colourings(recording, data) {
     { name: 'lot', text: 'Lot', make: once('lot', async () => byLot(recording, data)) },
     { name: 'speed', text: 'Speed', make: once('speed', () => bySpeed(recording)) },
     { name: 'start', text: 'Start', make: once('start', async () => byStart(recording)) },
+    ...(recording.forceFrames.length ? [{ name: 'force', text: 'Force', ofForces: true, make: once('force', () => byForce(recording)) }] : []),
   ];
 }

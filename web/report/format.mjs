@@ -15,6 +15,13 @@ export function duration(seconds) {
   return Math.abs(seconds) < 0.1 && seconds !== 0 ? `${number(seconds * 1000)} ms` : `${number(seconds)} s`;
 }
 
+/** Newtons, or a thousandth or millionth of them. */
+export function force(newtons) {
+  if (newtons === 0) return '0 N';
+  const [unit, factor] = [['N', 1], ['mN', 1e3], ['µN', 1e6]].find(([, times]) => newtons * times >= 1) ?? ['nN', 1e9];
+  return `${number(newtons * factor)} ${unit}`;
+}
+
 /** A moment of the replay, always with two decimals, so that it does not jump about while it runs. */
 export function clock(seconds) {
   return `${seconds.toFixed(2)} s`;

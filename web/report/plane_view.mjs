@@ -1,4 +1,5 @@
 // The replay of a run in the plane: discs and clumps to scale, vessels' outlines, counts under the holes.
+import { drawChains, meanRadius } from './chains.mjs';
 import { floorAt, toLab, toOwn } from './geometry.mjs';
 import { drawHoleLabels } from './hole_labels.mjs';
 
@@ -6,6 +7,7 @@ const usualBelow = 0.13;   // of the width is shown under the tray, where seeds 
 const countsAt = 0.039;    // of the width under the holes
 const margin = 14;         // px
 const drawnRadius = 0.95;  // of the real one, so that seeds that touch are told apart
+const faded = 0.45;        // of seeds under force chains
 
 export class PlaneView {
   constructor(data, recording, box, rest, below = usualBelow) {
@@ -42,11 +44,12 @@ export class PlaneView {
     context.clearRect(0, 0, width, height);
     this.place(width, height);
     this.drawGrains(context, shown);
+    if (shown.chains) this.drawChains(context, shown);
     this.drawVessels(context, shown);
     this.drawCounts(context, shown);
   }
 
-  drawGrains(context, { frame, index, bins, colours, still }) {
+  drawGrains(context, { frame, index, bins, colours, still, chains }) {
     const { recording } = this;
     const pose = recording.pose(index, this.tray);
     const [mm, mmOfY, turn] = [recording.units[0] * 1000, recording.units[1] * 1000, recording.units[2]];
@@ -61,10 +64,19 @@ export class PlaneView {
       if (!shape) addDisc(path, x, y, radius);
       else addClump(path, shape, x, y, radius, (recording.fields[2] === 'angle' ? frame.values[2][k] * turn : 0) + turned);
     }
+    context.save();
+    context.globalAlpha = chains ? faded : 1;
     paths.forEach((path, k) => {
       context.fillStyle = colours[k];
       context.fill(path);
     });
+    context.restore();
+  }
+
+  drawChains(context, { chains, index, ink, still }) {
+    const pose = this.recording.pose(index, this.tray);
+    const radius = meanRadius(this.recording) * this.scale;
+    drawChains(context, chains, { colour: ink.chain, radius, project: (x, y) => this.project(x, y, still, pose) });
   }
 
   drawVessels(context, { index, time, ink, still }) {

@@ -1,10 +1,13 @@
 // Reads a recording of a run, VBSWREC1: quantised places of all grains, each frame as what differs from a straight
-// course of the frames before. Little-endian throughout; blocks of frames are zlib streams that stand by themselves.
+// course of the frames before; of some frames the contacts; and maps. Little-endian throughout; blocks of frames, contacts
+// of a frame and maps are zlib streams that stand by themselves.
+import { decodeContacts } from './contacts.mjs';
 
 const magic = 'VBSWREC1';
 const bytesOfPose = 4 * 8;
 const bytesOfEntering = 4 + 2 + 4 + 3 * 4;
 const valuesKept = 24e6;  // of decoded frames, 100 MB
+const contactsKept = 8;   // frames
 
 export class RecordingError extends Error {}
 
@@ -20,7 +23,7 @@ function readHeader(bytes) {
   const end = magic.length + 4 + length;
   if (end > bytes.length) throw new RecordingError('its header is cut off');
   const header = JSON.parse(new TextDecoder().decode(bytes.subarray(magic.length + 4, end)));
-  if (header.version !== 1) throw new RecordingError(`its version is ${header.version}; this page reads version 1`);
+  if (![1, 2].includes(header.version)) throw new RecordingError(`its version is ${header.version}; this page reads versions 1 and 2`);
   return { header, end };
 }
 
@@ -114,12 +117,13 @@ class Recording {
     this.lots = new Uint16Array(header.grains);                               // of each id, as the next two
     this.radii = new Float32Array(header.grains);                             // m; 0 of an id that never enters
     this.starts = new Float32Array(3 * header.grains);                        // m
+    this.forceFrames = (header.contacts ?? []).map(({ frame }) => frame);      // ascending
+    this.keptContacts = new Map();
     this.blockFrom = [];
     this.kept = new Map();                                                    // decoded blocks, the latest used last
   }
 
-  inflated(block) {
-    const { offset, bytes } = this.header.blocks[block];
+  inflated({ offset, bytes }) {
     const from = this.start + offset;
     if (from + bytes > this.bytes.length) throw new RecordingError('it ends early');
     return inflate(this.bytes.subarray(from, from + bytes));
@@ -130,7 +134,7 @@ class Recording {
     let frame = 0;
     for (let block = 0; block < this.header.blocks.length; ++block) {
       this.blockFrom.push(frame);
-      walkFrames(await this.inflated(block), this.header.blocks[block].frames, this.vessels.length, this.fields.length, (head) => this.note(frame++, head));
+      walkFrames(await this.inflated(this.header.blocks[block]), this.header.blocks[block].frames, this.vessels.length, this.fields.length, (head) => this.note(frame++, head));
     }
     if (frame !== this.frames) throw new RecordingError(`it has ${frame} frames and says ${this.frames}`);
   }
@@ -164,7 +168,7 @@ class Recording {
     }
     const frames = this.header.blocks[index].frames;
     const kept = { values: 0 };
-    kept.decoded = this.inflated(index).then((bytes) => {
+    kept.decoded = this.inflated(this.header.blocks[index]).then((bytes) => {
       const decoded = decodeBlock(bytes, frames, this.vessels.length, this.fields.length);
       kept.values = decoded.reduce((sum, frame) => sum + frame.ids.length * (this.fields.length + 1), 0);
       this.forgetOld();
@@ -187,6 +191,36 @@ class Recording {
   async frame(index) {
     const block = this.blockOf(index);
     return (await this.block(block))[index - this.blockFrom[block]];
+  }
+
+  /** The frame nearest to a frame, in time, of those whose contacts are kept; null where none is. */
+  nearestForces(index) {
+    const far = (frame) => Math.abs(this.times[frame] - this.times[index]);
+    return this.forceFrames.reduce((best, frame) => (best === null || far(frame) < far(best) ? frame : best), null);
+  }
+
+  /** The contacts of one of forceFrames, as decodeContacts has them. */
+  contacts(index) {
+    if (!this.keptContacts.has(index)) {
+      const entry = this.header.contacts[this.forceFrames.indexOf(index)];
+      const grains = this.frame(index).then((frame) => frame.ids.length);
+      this.keptContacts.set(index, Promise.all([this.inflated(entry), grains])
+        .then(([bytes, count]) => decodeContacts(bytes, count, this.fields.includes('z'))));
+      if (this.keptContacts.size > contactsKept) this.keptContacts.delete(this.keptContacts.keys().next().value);
+    }
+    return this.keptContacts.get(index);
+  }
+
+  /** Packing fraction and velocity (m/s) by cell, rows from the floor; null where the run kept none. */
+  async map() {
+    const head = this.header.map;
+    if (!head) return null;
+    const bytes = await this.inflated(head);
+    const cells = head.columns * head.rows;
+    if (bytes.length !== 3 * 4 * cells) throw new RecordingError('its maps are cut off');
+    const view = new DataView(bytes.buffer, bytes.byteOffset, bytes.byteLength);
+    const [packing, vx, vy] = [0, 1, 2].map((k) => Float32Array.from({ length: cells }, (_, cell) => view.getFloat32(4 * (k * cells + cell), true)));
+    return { cell: head.cell_m, columns: head.columns, rows: head.rows, view: head.view, looks: head.looks, from: head.from_s, to: head.to_s, packing, vx, vy };
   }
 
   /** Where a vessel was in a frame: x, y, z in m and angle in rad. */

@@ -1,8 +1,9 @@
 // The replay's section: the canvas, its controls and its legend.
+import { chainsOf } from './chains.mjs';
 import { colourings } from './colouring.mjs';
 import { Counters } from './counters.mjs';
 import { choice, element, section } from './dom.mjs';
-import { clock } from './format.mjs';
+import { clock, force } from './format.mjs';
 import { labBox, meanPose } from './geometry.mjs';
 import { legendParts } from './legend.mjs';
 import { PlaneView } from './plane_view.mjs';
@@ -17,7 +18,7 @@ const turnedByKey = { ArrowLeft: [-0.1, 0], ArrowRight: [0.1, 0], ArrowUp: [0, 0
 
 class Replay {
   constructor(data, recording, player) {
-    Object.assign(this, { data, recording, player, still: false });
+    Object.assign(this, { data, recording, player, still: false, chained: false });
     const tray = Math.max(0, recording.vessels.indexOf('tray'));
     const View = recording.fields.includes('z') ? SpaceView : PlaneView;
     this.view = new View(data, recording, labBox(data.vessels, recording), meanPose(recording, tray));
@@ -34,6 +35,7 @@ class Replay {
     const inSpace = this.view instanceof SpaceView;
     this.canvas = element('canvas', { id: 'replay-canvas', role: 'img', 'aria-label': 'The grains of the run' });
     this.legend = element('p', { class: 'legend', id: 'replay-legend' });
+    this.forceNote = element('p', { class: 'legend', id: 'replay-forces', hidden: true });
     this.clock = element('output', { class: 'clock', id: 'replay-time', for: 'replay-frame' });
     this.range = element('input', { type: 'range', id: 'replay-frame', min: 0, max: this.player.last, step: 1, value: 0, 'aria-label': 'Time of the replay',
       oninput: () => { this.player.pause(); this.player.show(Number(this.range.value)); } });
@@ -46,14 +48,20 @@ class Replay {
         choice('Speed', speeds.map(([value, text, name]) => ({ value, text, name })), 1, (value) => this.player.setSpeed(value)),
         inSpace ? choice('View', views.map(([value, text]) => ({ value, text })), 'side', (value) => this.look(value)) : null,
         choice('Colour', this.ways.map((way) => ({ value: way, text: way.text })), this.ways[0], (way) => this.colourBy(way)),
-        this.data.vessels.some((vessel) => vessel.name === 'tray') ? this.stillSwitch() : null));
-    this.figure = element('div', { class: 'replay card' }, element('div', { class: 'stage' }, this.canvas), this.legend, controls);
+        this.data.vessels.some((vessel) => vessel.name === 'tray') ? this.stillSwitch() : null,
+        this.recording.forceFrames.length ? this.chainSwitch() : null));
+    this.figure = element('div', { class: 'replay card' }, element('div', { class: 'stage' }, this.canvas), this.legend, this.forceNote, controls);
     if (inSpace) this.makeTurnable();
   }
 
   stillSwitch() {
     const box = element('input', { type: 'checkbox', onchange: () => { this.still = box.checked; this.show(); } });
     return element('label', { class: 'switch' }, box, element('span', {}, 'Hold the tray still'));
+  }
+
+  chainSwitch() {
+    const box = element('input', { type: 'checkbox', onchange: () => { this.chained = box.checked; this.show(); } });
+    return element('label', { class: 'switch' }, box, element('span', {}, 'Force chains'));
   }
 
   look(name) {
@@ -97,6 +105,7 @@ class Replay {
     const made = await way.make();
     if (this.wanted !== way) return;
     this.colouring = made;
+    this.ofForces = way.ofForces === true;
     this.showLegend();
     this.show();
   }
@@ -124,12 +133,31 @@ class Replay {
     this.showPlaying();
     const asked = player.index;
     if (!this.colouring || !this.stage?.width) return;
-    const colouring = this.colouring;
-    const frame = await this.recording.frame(asked);
-    const bins = await colouring.of(frame, asked);
+    this.shown = await this.picture(asked);
     if (asked !== player.index && !player.playing) return;
-    this.shown = { frame, bins, index: asked, time: this.recording.times[asked], counts: this.countsNow(), colouring };
     this.paint();
+  }
+
+  // What is drawn of a frame: where forces are asked for, of the nearest that has them.
+  async picture(asked) {
+    const { recording, colouring } = this;
+    const chained = this.chained, forces = chained || this.ofForces;
+    const index = forces ? recording.nearestForces(asked) : asked;
+    const frame = await recording.frame(index);
+    const bins = await colouring.of(frame, index);
+    const chains = forces ? chainsOf(await recording.contacts(index), frame, recording) : null;
+    const counts = this.countsNow();
+    return { asked, index, frame, bins, time: recording.times[index], counts, colouring, forces: chains, chains: chained ? chains : null };
+  }
+
+  // How large the forces are, and of which moment.
+  showForces({ forces, time, asked }) {
+    this.forceNote.hidden = !forces;
+    if (!forces) return;
+    const when = time === this.recording.times[asked] ? 'now' : `at ${clock(time)}, the nearest moment whose forces are kept`;
+    const size = forces.count ? `${forces.count} contacts, ${force(forces.mean)} in the mean, ${force(forces.largest)} at most` : 'no contacts';
+    const left = forces === this.shown.chains && this.view.leastChain > 0 ? '; lines are of those above the mean' : '';
+    this.forceNote.textContent = `Forces and seeds ${when}: ${size}${left}.`;
   }
 
   showPlaying() {
@@ -140,9 +168,10 @@ class Replay {
   paint() {
     if (!this.shown || !this.stage?.width) return;
     const { shown } = this;
+    this.showForces(shown);
     this.view.draw(this.stage, { ...shown, still: this.still, colours: shown.colouring.colours(theme()), ink: inks() });
     this.canvas.dataset.counts = JSON.stringify([...shown.counts]);
-    this.canvas.dataset.frame = shown.index;
+    this.canvas.dataset.frame = shown.asked;
     this.canvas.setAttribute('aria-label', this.said());
   }
 
@@ -156,7 +185,8 @@ class Replay {
     const { shown } = this;
     const counts = [...shown.counts].map(([hole, count]) => `hole ${hole}: ${count}`).join(', ');
     const how = this.view.fixed === false ? '. Arrow keys turn it' : '';
-    return `${shown.frame.ids.length} grains at ${clock(shown.time)}. Seeds so far, ${counts}${how}.`;
+    const forces = shown.forces ? ` ${this.forceNote.textContent}` : '';
+    return `${shown.frame.ids.length} grains at ${clock(shown.time)}.${forces} Seeds so far, ${counts}${how}.`;
   }
 }
 

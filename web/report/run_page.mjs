@@ -2,6 +2,7 @@
 import { effectsSection, guardSection, settingsSection } from './account.mjs';
 import { evennessSection, rowsSection } from './evenness.mjs';
 import { outflowSection } from './outflow.mjs';
+import { mapsSection } from './maps.mjs';
 import { bytesOfBase64 } from './page_data.mjs';
 import { Player } from './player.mjs';
 import { openRecording } from './recording.mjs';
@@ -12,18 +13,19 @@ const endings = { stopped_by_guard: 'Stopped by the guard', interrupted: 'Interr
 
 async function recordingOf(text) {
   try {
-    return { recording: await openRecording(bytesOfBase64(text)), problem: null };
+    const recording = await openRecording(bytesOfBase64(text));
+    return { recording, map: (await recording?.map()) ?? null, problem: null };
   } catch (error) {
-    return { recording: null, problem: error.message };
+    return { recording: null, map: null, problem: error.message };
   }
 }
 
 async function sections(data) {
-  const { recording, problem } = await recordingOf(document.getElementById('recording').textContent);
+  const { recording, map, problem } = await recordingOf(document.getElementById('recording').textContent);
   const player = recording ? new Player(recording.times) : null;
   player?.showTime(data.window_s[0]);
   return [
-    replaySection(data, recording, player, problem), outflowSection(data, player), evennessSection(data), rowsSection(data),
+    replaySection(data, recording, player, problem), outflowSection(data, player), mapsSection(data, map), evennessSection(data), rowsSection(data),
     effectsSection(data), guardSection(data), rerunSection(data), settingsSection(data),
   ].filter(Boolean);
 }

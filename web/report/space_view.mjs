@@ -1,4 +1,5 @@
 // The replay of a run in space: balls, shaded, from the side, from above, or turned as one likes; without perspective.
+import { drawChains, meanRadius } from './chains.mjs';
 import { floorAt, toLab, toOwn } from './geometry.mjs';
 import { mix } from './colours.mjs';
 import { drawHoleLabels } from './hole_labels.mjs';
@@ -7,6 +8,7 @@ const margin = 16;  // px
 const shades = 6;   // of a colour, from the back to the front
 const spriteSize = 48;
 const depthSteps = 4096;
+const faded = 0.3;  // of seeds before force chains
 
 export const cameras = {
   side: { yaw: 0, pitch: 0 },
@@ -26,6 +28,7 @@ export class SpaceView {
     this.shapes = data.lots.map(ballsOf);
     this.camera = { ...cameras.side };
     this.fixed = true;
+    this.leastChain = 1;  // of the mean force: through the whole depth all contacts would hide each other
     this.sprites = new Map();
   }
 
@@ -86,7 +89,10 @@ export class SpaceView {
     const faint = { ...shown, alpha: 0.9 };
     this.drawVessels(context, faint);
     this.drawHoles(context, faint);
+    context.globalAlpha = shown.chains ? faded : 1;
     this.drawGrains(context, shown);
+    context.globalAlpha = 1;
+    if (shown.chains) this.drawChains(context, shown);
     this.drawVessels(context, { ...shown, alpha: 0.35 });
     if (this.name === 'above') this.drawHoles(context, shown);
     if (this.name === 'side') this.drawCounts(context, shown);
@@ -103,6 +109,12 @@ export class SpaceView {
       const radius = balls.radius[k];
       context.drawImage(sheet, spriteSize * balls.bin[k], spriteSize * shade, spriteSize, spriteSize, balls.x[k] - radius, balls.y[k] - radius, 2 * radius, 2 * radius);
     }
+  }
+
+  drawChains(context, shown) {
+    const pose = this.recording.pose(shown.index, this.tray);
+    const radius = meanRadius(this.recording) * this.scale;
+    drawChains(context, shown.chains, { colour: shown.ink.chain, radius, least: this.leastChain, project: (x, y, z) => this.inView(x, y, z, shown, pose) });
   }
 
   // All balls of all grains on the screen.

@@ -1,0 +1,56 @@
+#include "fields/mean_map.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "fields/motion.hpp"
+#include "fields/packing_fraction.hpp"
+
+namespace vibrosow {
+namespace {
+
+Grid grid_of(const Vessel& tray, double cell) {
+  Grid grid;
+  grid.cell = cell;
+  grid.columns = static_cast<std::int64_t>(std::ceil(tray.length / cell));
+  grid.rows = static_cast<std::int64_t>(std::ceil(tray.height / cell));
+  return grid;
+}
+
+}  // namespace
+
+MeanMapSum::MeanMapSum(const Scene& scene)
+    : lots_(scene.lots),
+      part_(map_part(scene)),
+      grid_(grid_of(scene.tray, scene.record->cell)),
+      packing_(grid_.size(), 0.0),
+      moved_x_(packing_),
+      moved_y_(packing_) {}
+
+void MeanMapSum::add(const Snapshot& own) {
+  const std::vector<double> packing = packing_fraction(own, lots_, grid_, part_);
+  const auto motion = cell_motion(own, grid_, std::max(fit_reach(own), grid_.cell), part_);
+  for (std::size_t k = 0; k < packing.size(); ++k) {
+    packing_[k] += packing[k];
+    if (!motion[k]) continue;
+    moved_x_[k] += packing[k] * motion[k]->velocity.x(), moved_y_[k] += packing[k] * motion[k]->velocity.y();
+  }
+  if (looks_++ == 0) from_ = own.time;
+  to_ = own.time;
+}
+
+MeanMap MeanMapSum::mean() const {
+  MeanMap map{grid_, {}, {}, {}, looks_, from_, to_};
+  std::size_t end = packing_.size();
+  while (end > 0 && packing_[end - 1] == 0) --end;
+  map.grid.rows = (static_cast<std::int64_t>(end) + grid_.columns - 1) / grid_.columns;
+  for (std::size_t k = 0; k < map.grid.size(); ++k) {
+    const double held = packing_[k], none = std::numeric_limits<double>::quiet_NaN();
+    map.packing.push_back(held / looks_);
+    map.vx.push_back(held > 0 ? moved_x_[k] / held : none), map.vy.push_back(held > 0 ? moved_y_[k] / held : none);
+  }
+  return map;
+}
+
+}  // namespace vibrosow

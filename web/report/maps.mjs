@@ -1,0 +1,137 @@
+// Maps of where the bed is dense and how it flows, in the mean over the measured time, in the tray's own frame.
+import { layerScale, speedScale } from './colours.mjs';
+import { element, section } from './dom.mjs';
+import { niceAbove, number } from './format.mjs';
+import { legendParts } from './legend.mjs';
+import { emptyShare, mapSentence, packingSentence, speeds, velocitySentence } from './map_sentences.mjs';
+import { Stage } from './stage.mjs';
+import { inks, onTheme, theme } from './theme.mjs';
+
+const margin = 12;       // px
+const arrowEvery = 26;   // px, at least
+const steps = 20;        // of a colour scale
+const faint = 0.12;      // cells that seeds fill to less fade away
+
+// The tray's part that a map shows, mm: all its length, and its height as far as seeds were, and a little more.
+function partOf(map, tray) {
+  const ys = (tray?.lines ?? []).flatMap(({ points_mm: points }) => points.map(([, y]) => y));
+  const cell = map.cell * 1000;
+  return { right: Math.max(tray?.length_mm ?? 0, map.columns * cell), low: Math.min(0, ...ys), high: (map.rows + 1) * cell };
+}
+
+class MapView {
+  constructor(map, tray, { values, top, scale, arrows }) {
+    Object.assign(this, { map, tray, values, top, scale, arrows, part: partOf(map, tray) });
+  }
+
+  height(width) {
+    const { right, low, high } = this.part;
+    return ((width - 2 * margin) / right) * (high - low) + 2 * margin;
+  }
+
+  draw({ context, width, height }) {
+    const { right, high } = this.part;
+    context.clearRect(0, 0, width, height);
+    this.pixels = (width - 2 * margin) / right;
+    this.at = (x, y) => [margin + this.pixels * x, margin + this.pixels * (high - y)];
+    this.drawCells(context);
+    if (this.arrows) this.drawArrows(context);
+    this.drawTray(context);
+  }
+
+  drawCells(context) {
+    const { map, values, top } = this;
+    const colours = this.scale(steps, theme());
+    const side = map.cell * 1000 * this.pixels;
+    values.forEach((value, k) => {
+      if (!(value > 0)) return;
+      const [x, y] = this.at((k % map.columns) * map.cell * 1000, (Math.floor(k / map.columns) + 1) * map.cell * 1000);
+      context.fillStyle = colours[Math.min(steps - 1, Math.floor((value / top) * steps))];
+      context.globalAlpha = Math.min(1, map.packing[k] / faint);
+      context.fillRect(x, y, side, side);
+    });
+    context.globalAlpha = 1;
+  }
+
+  // The mean velocity of some cells together: an arrow, as long as it is fast.
+  drawArrows(context) {
+    const { map } = this;
+    const cells = Math.max(1, Math.ceil(arrowEvery / (map.cell * 1000 * this.pixels)));
+    for (let row = 0; row < map.rows; row += cells) {
+      for (let column = 0; column < map.columns; column += cells) this.drawArrow(context, row, column, cells);
+    }
+  }
+
+  drawArrow(context, firstRow, firstColumn, cells) {
+    const { map } = this;
+    let [weight, vx, vy, x, y] = [0, 0, 0, 0, 0];
+    for (let row = firstRow; row < Math.min(map.rows, firstRow + cells); ++row) {
+      for (let column = firstColumn; column < Math.min(map.columns, firstColumn + cells); ++column) {
+        const k = row * map.columns + column;
+        if (map.packing[k] < emptyShare) continue;
+        const share = map.packing[k];
+        weight += share;
+        vx += share * map.vx[k], vy += share * map.vy[k];
+        x += share * (column + 0.5), y += share * (row + 0.5);
+      }
+    }
+    const speed = Math.hypot(vx, vy) / weight;
+    if (!(speed > 0.02 * this.top)) return;
+    const length = arrowEvery * (0.35 + 0.5 * Math.min(1, speed / this.top));
+    const [cos, sin] = [vx / weight / speed, -vy / weight / speed];
+    const [cx, cy] = this.at((x / weight) * map.cell * 1000, (y / weight) * map.cell * 1000);
+    const place = (along, aside) => [cx + cos * along - sin * aside, cy + sin * along + cos * aside];
+    const ends = [[place(-length / 2, 0), place(length / 2, 0)], [place(length / 2 - 4.5, -3.2), place(length / 2, 0), place(length / 2 - 4.5, 3.2)]];
+    const ink = inks();
+    for (const [colour, thick] of [[ink.halo, 3.4], [ink.ink, 1.4]]) {
+      context.strokeStyle = colour;
+      context.lineWidth = thick;
+      context.lineCap = context.lineJoin = 'round';
+      context.beginPath();
+      for (const line of ends) line.forEach(([px, py], k) => (k ? context.lineTo(px, py) : context.moveTo(px, py)));
+      context.stroke();
+    }
+  }
+
+  drawTray(context) {
+    context.strokeStyle = inks().wall;
+    context.lineWidth = 2;
+    context.lineCap = context.lineJoin = 'round';
+    for (const line of this.tray?.lines ?? []) {
+      if (typeof line.opens_at_s === 'number') continue;
+      context.beginPath();
+      for (const [x, y] of line.points_mm) context.lineTo(...this.at(x, y));
+      context.stroke();
+    }
+  }
+}
+
+function mapFigure(id, title, sentence, view, legend) {
+  const canvas = element('canvas', { role: 'img', 'aria-label': `${title}. ${sentence}` });
+  const key = element('p', { class: 'legend' });
+  const figure = element('figure', { class: 'card map', id }, element('h3', {}, title), element('div', { class: 'stage' }, canvas), key, element('figcaption', {}, sentence));
+  const stage = new Stage(canvas, (width) => view.height(width), () => view.draw(stage));
+  const paint = () => {
+    key.replaceChildren(...legendParts(legend, view.scale(steps, theme())));
+    if (stage.width) view.draw(stage);
+  };
+  onTheme(paint);
+  paint();
+  return figure;
+}
+
+/** The section of a recording's map; null of a run that kept none. */
+export function mapsSection(data, map) {
+  if (!map) return null;
+  const tray = data.vessels.find((vessel) => vessel.name === 'tray') ?? data.vessels[0];
+  const inSpace = data.space !== 'plane';
+  const speed = speeds(map);
+  const dense = Math.max(0.1, Math.ceil(Math.max(...map.packing) * 10 - 1e-6) / 10), fast = niceAbove(Math.max(0, ...speed.filter((value) => !Number.isNaN(value))));
+  const fills = inSpace ? 'part of a cell’s volume that seeds fill' : 'part of a cell’s area that seeds cover';
+  return section('maps', 'Where the bed is dense, and how it flows', element('p', { class: 'lead' }, mapSentence(map, data.space)),
+    element('div', { class: 'maps' },
+      mapFigure('map-packing', 'Packing', packingSentence(map, tray), new MapView(map, tray, { values: map.packing, top: dense, scale: layerScale }),
+        { kind: 'scale', low: '0', high: number(dense), note: fills }),
+      mapFigure('map-velocity', 'Velocity', velocitySentence(map, tray), new MapView(map, tray, { values: speed, top: fast, scale: speedScale, arrows: true }),
+        { kind: 'scale', low: '0', high: `${number(fast)} m/s`, note: 'mean velocity against the tray; arrows point where it goes' })));
+}
