@@ -160,8 +160,9 @@ class Replay {
   }
 }
 
-function startKeys(player) {
-  addEventListener('keydown', (event) => {
+// `place`: where keys are heard, the window or one element.
+function startKeys(player, place) {
+  place.addEventListener('keydown', (event) => {
     if (event.ctrlKey || event.altKey || event.metaKey) return;
     const target = event.target.closest?.('input, button, a, summary, select, textarea') ?? null;
     const kind = target?.type ?? (target ? 'other' : 'none');
@@ -177,6 +178,13 @@ function startKeys(player) {
   });
 }
 
+/** The replay as a part of another section, whose keys are heard in it alone. */
+export function replayFigure(data, recording, player) {
+  const { figure } = new Replay(data, recording, player);
+  startKeys(player, figure);
+  return figure;
+}
+
 /** The section; without a recording, what to do to get one. `problem`: why a recording that is there cannot be shown. */
 export function replaySection(data, recording, player, problem) {
   if (problem) return section('replay', 'Replay', element('p', { class: 'doubt' }, `The recording in this page cannot be replayed: ${problem}.`));
@@ -184,6 +192,6 @@ export function replaySection(data, recording, player, problem) {
     return section('replay', 'Replay', element('p', {}, 'This run kept no recording; ', element('code', {}, 'vibrosow run FILE --html'), ' keeps one and shows it here.'));
   }
   const replay = new Replay(data, recording, player);
-  startKeys(player);
+  startKeys(player, window);
   return section('replay', 'Replay', replay.figure);
 }
