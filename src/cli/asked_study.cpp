@@ -8,6 +8,7 @@
 #include "cli/console.hpp"
 #include "cli/make_replays.hpp"
 #include "cli/reused_cases.hpp"
+#include "report/page.hpp"
 #include "scene/input_error.hpp"
 
 namespace vibrosow {
@@ -29,7 +30,8 @@ int answer(AskedStudy& asked, const CommonOptions& options, const MakingFlags& m
   const bool with_replays = asked.lead(rounds) && options.replays > 0;
   freeze_plan(folder.path(), asked.plan());
   const bool with_page = !page_template.empty() && !with_replays;
-  const int exit_code = asked.report(folder, options, with_page ? asked.page(page_template, rounds.timing()) : "");
+  const int exit_code =
+      asked.report(folder, options, with_page ? filled_page(page_template, asked.page_data(rounds.timing(), {})) : "");
   const int of_page =
       with_replays ? add_page_with_replays(asked, folder, runs, options, page_template, rounds.timing()) : exit_done;
   if (!options.quiet) print("reports: {}\n", folder.path().string());
@@ -39,8 +41,9 @@ int answer(AskedStudy& asked, const CommonOptions& options, const MakingFlags& m
 
 int add_page_with_replays(const AskedStudy& asked, const OutputFolder& folder, const StudyRuns& runs,
                           const CommonOptions& options, const std::string& page_template, const SweepTiming& timing) {
-  return add_page_with_replays(folder, asked.best_to_replay(options.replays), runs.kept(), options,
-                               [&](const Replays& replays) { return asked.page(page_template, timing, replays); });
+  return add_page_with_replays(
+      folder, asked.best_to_replay(options.replays), runs.kept(), options,
+      [&](const Replays& replays) { return filled_page(page_template, asked.page_data(timing, replays)); });
 }
 
 void read_asked(const StudyPlan& plan, CLI::App& app) {

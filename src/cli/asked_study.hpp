@@ -33,9 +33,8 @@ class AskedStudy {
   virtual std::vector<PlannedRun> asked_for() const = 0;
   /// Runs of its best layouts, at most so many, in the order of its page.
   virtual std::vector<WantedReplay> best_to_replay(std::size_t most) const = 0;
-  /// report.html of where it is. `timing`: of the runs that were made for it just now.
-  virtual std::string page(const std::string& page_template, const SweepTiming& timing,
-                           const Replays& replays = {}) const = 0;
+  /// What the page of where it is shows (page_text). `timing`: of the runs that were made for it just now.
+  virtual std::string page_data(const SweepTiming& timing, const Replays& replays) const = 0;
   /// Writes the reports of where it is, with a `page` unless that is empty, and prints its answer; an exit code.
   virtual int report(const OutputFolder& folder, const CommonOptions& options, const std::string& page) const = 0;
 };
@@ -48,7 +47,7 @@ std::unique_ptr<AskedStudy> asked_study(const StudyPlan& plan);
 int answer(AskedStudy& asked, const CommonOptions& options, const MakingFlags& making,
            const std::vector<std::string>& reuse);
 
-/// Adds its page with the replays that the options ask for (add_page_with_replays). `timing`: as of AskedStudy::page.
+/// Adds its page with the replays that the options ask for (add_page_with_replays). `timing`: as of page_data.
 int add_page_with_replays(const AskedStudy& asked, const OutputFolder& folder, const StudyRuns& runs,
                           const CommonOptions& options, const std::string& page_template, const SweepTiming& timing);
 

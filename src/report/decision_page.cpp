@@ -189,11 +189,6 @@ std::string decision_page_data(const DecisionReport& report, const SweepTiming& 
   return page_text(data);
 }
 
-std::string decision_page(const std::string& page_template, const DecisionReport& report, const SweepTiming& timing,
-                          const Replays& replays) {
-  return filled_page(page_template, decision_page_data(report, timing, replays));
-}
-
 FileText decision_page_text() {
   return {"report.html", "with --html: the answer and the layouts to look at in any browser, each drawn", {}};
 }

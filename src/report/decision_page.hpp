@@ -16,12 +16,8 @@ namespace vibrosow {
 std::vector<WantedReplay> best_to_replay(const DecisionReport& report, std::size_t most);
 
 /// The page's numbers and texts (page_text): the answer, what was asked, the layouts with their standings, and how each
-/// is built.
+/// is built. `timing`: of the runs that were made for it just now.
 std::string decision_page_data(const DecisionReport& report, const SweepTiming& timing, const Replays& replays = {});
-
-/// report.html of a decision (filled_page). `timing`: of the runs that were made for it just now.
-std::string decision_page(const std::string& page_template, const DecisionReport& report, const SweepTiming& timing,
-                          const Replays& replays = {});
 
 /// What the file holds.
 FileText decision_page_text();

@@ -159,11 +159,6 @@ std::string front_page_data(const OptimiseResult& result, const SweepTiming& tim
   return page_text(data);
 }
 
-std::string front_page(const std::string& page_template, const OptimiseResult& result, const SweepTiming& timing,
-                       const Replays& replays) {
-  return filled_page(page_template, front_page_data(result, timing, replays));
-}
-
 FileText front_page_text() {
   return {"report.html", "with --html: the front and the layouts to look at in any browser, each drawn", {}};
 }

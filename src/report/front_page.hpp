@@ -15,11 +15,8 @@ namespace vibrosow {
 std::vector<WantedReplay> best_to_replay(const OptimiseResult& result, std::size_t most);
 
 /// The page's numbers and texts (page_text): what was asked, the layouts with their standings, and how each is built.
+/// `timing`: of the runs that were made for it just now.
 std::string front_page_data(const OptimiseResult& result, const SweepTiming& timing, const Replays& replays = {});
-
-/// report.html of a search for a front (filled_page). `timing`: of the runs that were made for it just now.
-std::string front_page(const std::string& page_template, const OptimiseResult& result, const SweepTiming& timing,
-                       const Replays& replays = {});
 
 /// What the file holds.
 FileText front_page_text();

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "input/key_units.hpp"
+#include "report/layout_text.hpp"
 #include "report/page.hpp"
 #include "report/terminal_text.hpp"
 
@@ -53,6 +54,7 @@ Json page_layout(const Study& study, const Layout& layout, std::uint64_t first_r
   }
   Json one = {{"number", layout.number},
               {"name", layout.name},
+              {"described", described(study, layout)},
               {"values", std::move(values)},
               {"vessels", layout.scene ? page_vessels(study.scenes[*layout.scene]) : Json::array()}};
   if (layout.scene) one["command"] = run_command_of(study, layout, first_random_seed);

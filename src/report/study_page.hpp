@@ -25,8 +25,8 @@ nlohmann::ordered_json page_of_study(std::string_view kind, const Study& study);
 /// What is told of a figure of sweep.csv.
 nlohmann::ordered_json page_figure(const Figure& figure);
 
-/// Number, name, values of the keys, vessels, the command that runs it alone, and its replay if there is one; the rest
-/// is added.
+/// Number, name, what it is in words, values of the keys, vessels, the command that runs it alone, and its replay if
+/// there is one; the rest is added.
 nlohmann::ordered_json page_layout(const Study& study, const Layout& layout, std::uint64_t first_random_seed,
                                    const Replays& replays);
 

@@ -36,7 +36,11 @@ class Replay {
     this.legend = element('p', { class: 'legend', id: 'replay-legend' });
     this.clock = element('output', { class: 'clock', id: 'replay-time', for: 'replay-frame' });
     this.range = element('input', { type: 'range', id: 'replay-frame', min: 0, max: this.player.last, step: 1, value: 0, 'aria-label': 'Time of the replay',
-      oninput: () => { this.player.pause(); this.player.show(Number(this.range.value)); } });
+      oninput: () => {
+        const index = Number(this.range.value);  // before it follows the player
+        this.player.pause();
+        this.player.show(index);
+      } });
     this.playButton = roundButton('play', 'Play', () => this.player.toggle());
     this.playButton.classList.add('primary');
     const controls = element('div', { class: 'controls' },
