@@ -65,7 +65,7 @@ class Scale {
     else
       std::ranges::copy_if(values, std::back_inserter(shown), [&](double value) { return can_show(value); });
     if (shown.empty()) shown = {is_logarithmic_ ? 1.0 : 0.0, is_logarithmic_ ? 10.0 : 1.0};
-    const auto [low, high] = std::ranges::minmax(shown);
+    const double low = std::ranges::min(shown), high = std::ranges::max(shown);
     ticks_ = is_logarithmic_ ? logarithmic_ticks(low, high) : linear_ticks(low, high);
     if (axis.range && !is_logarithmic_) {  // as it was asked for
       ticks_.low = low, ticks_.high = high;
