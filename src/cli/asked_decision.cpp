@@ -132,8 +132,12 @@ bool AskedDecision::lead(RoundsOfRuns& rounds) {
   return is_whole;
 }
 
-std::string AskedDecision::page(const std::string& page_template, const SweepTiming& timing) const {
-  return decision_page(page_template, report_, timing);
+std::vector<WantedReplay> AskedDecision::best_to_replay(std::size_t most) const {
+  return vibrosow::best_to_replay(report_, most);
+}
+
+std::string AskedDecision::page_data(const SweepTiming& timing, const Replays& replays) const {
+  return decision_page_data(report_, timing, replays);
 }
 
 int AskedDecision::report(const OutputFolder& folder, const CommonOptions& options, const std::string& page) const {

@@ -118,8 +118,12 @@ OptimiseResult AskedFront::result() const {
   return result;
 }
 
-std::string AskedFront::page(const std::string& page_template, const SweepTiming& timing) const {
-  return front_page(page_template, result(), timing);
+std::vector<WantedReplay> AskedFront::best_to_replay(std::size_t most) const {
+  return vibrosow::best_to_replay(result(), most);
+}
+
+std::string AskedFront::page_data(const SweepTiming& timing, const Replays& replays) const {
+  return front_page_data(result(), timing, replays);
 }
 
 int AskedFront::report(const OutputFolder& folder, const CommonOptions& options, const std::string& page) const {

@@ -37,7 +37,8 @@ class AskedFront : public AskedStudy {
   const StudyPlan& plan() const override { return plan_; }
   bool lead(RoundsOfRuns& rounds) override;
   std::vector<PlannedRun> asked_for() const override { return search_.plan(); }
-  std::string page(const std::string& page_template, const SweepTiming& timing) const override;
+  std::vector<WantedReplay> best_to_replay(std::size_t most) const override;
+  std::string page_data(const SweepTiming& timing, const Replays& replays) const override;
   int report(const OutputFolder& folder, const CommonOptions& options, const std::string& page) const override;
 
  private:

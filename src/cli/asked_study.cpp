@@ -6,7 +6,9 @@
 #include "cli/asked_front.hpp"
 #include "cli/commands.hpp"
 #include "cli/console.hpp"
+#include "cli/make_replays.hpp"
 #include "cli/reused_cases.hpp"
+#include "report/page.hpp"
 #include "scene/input_error.hpp"
 
 namespace vibrosow {
@@ -25,13 +27,23 @@ int answer(AskedStudy& asked, const CommonOptions& options, const MakingFlags& m
   StudyRuns runs(cases_of(folder.path()), cases_to_reuse(reuse));
   RoundsOfRuns rounds(runs, making, options.jobs, options.quiet);
   freeze_plan(folder.path(), asked.plan());
-  asked.lead(rounds);
+  const bool with_replays = asked.lead(rounds) && options.replays > 0;
   freeze_plan(folder.path(), asked.plan());
-  const std::string page = page_template.empty() ? "" : asked.page(page_template, rounds.timing());
-  const int exit_code = asked.report(folder, options, page);
+  const bool with_page = !page_template.empty() && !with_replays;
+  const int exit_code =
+      asked.report(folder, options, with_page ? filled_page(page_template, asked.page_data(rounds.timing(), {})) : "");
+  const int of_page =
+      with_replays ? add_page_with_replays(asked, folder, runs, options, page_template, rounds.timing()) : exit_done;
   if (!options.quiet) print("reports: {}\n", folder.path().string());
   if (!runs.not_kept().empty()) complain("warning: runs are not kept: " + runs.not_kept());
-  return exit_code;
+  return of_page == exit_done ? exit_code : of_page;
+}
+
+int add_page_with_replays(const AskedStudy& asked, const OutputFolder& folder, const StudyRuns& runs,
+                          const CommonOptions& options, const std::string& page_template, const SweepTiming& timing) {
+  return add_page_with_replays(
+      folder, asked.best_to_replay(options.replays), runs.kept(), options,
+      [&](const Replays& replays) { return filled_page(page_template, asked.page_data(timing, replays)); });
 }
 
 void read_asked(const StudyPlan& plan, CLI::App& app) {

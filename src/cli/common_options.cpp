@@ -57,16 +57,20 @@ void add_input_options(CLI::App& command, CommonOptions& options, const std::str
 
 void add_common_options(CLI::App& command, CommonOptions& options, const std::string& file_help) {
   add_input_options(command, options, file_help);
-  options.jobs = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
   command.add_option("--out", options.out, "directory for the reports; default out/ and the file's name")
       ->type_name("DIR");
   add_random_seed_option(command, options);
+  add_jobs_option(command, options);
+  command.add_flag("--quiet", options.quiet, "no progress and no table");
+  add_csv_option(command, options);
+}
+
+void add_jobs_option(CLI::App& command, CommonOptions& options) {
+  options.jobs = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
   command.add_option("--jobs", options.jobs, "runs side by side; a single run takes one core")
       ->type_name("N")
       ->check(CLI::Range(1, 4096))
       ->capture_default_str();
-  command.add_flag("--quiet", options.quiet, "no progress and no table");
-  add_csv_option(command, options);
 }
 
 void add_random_seed_option(CLI::App& command, CommonOptions& options) {
@@ -77,11 +81,22 @@ void add_random_seed_option(CLI::App& command, CommonOptions& options) {
 }
 
 std::string CommonOptions::page_template(bool with_simulator) const {
+  if (replays > 0 && !html) throw InputError("--replays: goes with --html, whose page they are in");
   return html ? shipped_page(with_simulator ? "report-with-simulator.html" : "report.html") : std::string();
 }
 
 void add_html_option(CLI::App& command, CommonOptions& options) {
   command.add_flag("--html", options.html, "a page to look at as well: report.html, for any browser, offline");
+}
+
+void add_replays_option(CLI::App& command, CommonOptions& options) {
+  command
+      .add_option(
+          "--replays", options.replays,
+          "of the N best layouts, in the page: a run of each is made again to be recorded, which takes its time")
+      ->type_name("N")
+      ->check(CLI::Range(0, 1000))
+      ->capture_default_str();
 }
 
 void add_csv_option(CLI::App& command, CommonOptions& options) {

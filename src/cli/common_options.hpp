@@ -1,6 +1,7 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <string>
@@ -24,6 +25,7 @@ struct CommonOptions {
   int jobs = 1;
   bool quiet = false;
   bool html = false;
+  std::size_t replays = 0;  // in the page of a study
   CsvFormat csv;
 
   std::vector<Override> overrides() const { return overrides_of(sets); }
@@ -38,6 +40,9 @@ struct CommonOptions {
 /// Adds the file and --set.
 void add_input_options(CLI::App& command, CommonOptions& options, const std::string& file_help);
 
+/// Adds --jobs.
+void add_jobs_option(CLI::App& command, CommonOptions& options);
+
 /// Adds --random-seed.
 void add_random_seed_option(CLI::App& command, CommonOptions& options);
 
@@ -46,6 +51,9 @@ void add_csv_option(CLI::App& command, CommonOptions& options);
 
 /// Adds --html.
 void add_html_option(CLI::App& command, CommonOptions& options);
+
+/// Adds --replays.
+void add_replays_option(CLI::App& command, CommonOptions& options);
 
 /// Adds --out, --random-seed, --jobs and --quiet too.
 void add_common_options(CLI::App& command, CommonOptions& options, const std::string& file_help);

@@ -8,12 +8,14 @@
 #include "cli/commands.hpp"
 #include "cli/common_options.hpp"
 #include "cli/console.hpp"
+#include "cli/drawn_chart.hpp"
 #include "cli/drawn_frames.hpp"
 #include "cli/interrupt.hpp"
 #include "cli/progress.hpp"
 #include "compute/stop_request.hpp"
 #include "input/input_file.hpp"
 #include "input/read_scene.hpp"
+#include "picture/chart.hpp"
 #include "picture/picture.hpp"
 #include "plan/model.hpp"
 #include "scene/input_error.hpp"
@@ -29,6 +31,7 @@ namespace fs = std::filesystem;
 struct DrawOptions {
   CommonOptions common;
   std::string at, from, to, every = "0.05 s";
+  std::string chart;  // empty: a picture or a film
   bool film = false;
   PictureOptions picture;
 };
@@ -64,7 +67,8 @@ std::vector<double> wanted_times(const DrawOptions& options, double duration) {
 fs::path picture_path(const DrawOptions& options) {
   const fs::path named = fs::path(options.common.file).lexically_normal();
   const fs::path stem = named.has_filename() ? named.stem() : named.parent_path().stem();
-  if (options.common.out.empty()) return stem.string() + (options.film ? ".gif" : ".png");
+  const std::string of_chart = options.chart.empty() ? "" : "-" + options.chart;
+  if (options.common.out.empty()) return stem.string() + of_chart + (options.film ? ".gif" : ".png");
   const fs::path path = options.common.out;
   const std::string end = path.extension().string();
   if (options.film ? end != ".gif" : end != ".png" && end != ".svg")
@@ -125,7 +129,24 @@ Drawn kept(const DrawOptions& options) {
   return {scene, nearest_frames(std::move(all.frames), times)};
 }
 
+int draw_chart(const DrawOptions& options) {
+  const bool has_more = options.film || !options.at.empty() || !options.from.empty() || !options.to.empty() ||
+                        !options.common.sets.empty() || options.picture.force_chains ||
+                        options.picture.colour_by != ColourBy::lot;
+  if (has_more) throw InputError("--chart: goes with --out, --width and --jobs alone");
+  const std::string& folder = options.common.file;
+  if (!fs::is_directory(folder))
+    throw InputError(fmt::format("{}: is no folder; --chart draws what the folder of run or of a study holds", folder));
+  const fs::path path = picture_path(options);
+  const Chart chart = drawn_chart(folder, options.chart, options.common.jobs);
+  const int width = options.picture.width;
+  write_file_atomically(path, path.extension() == ".svg" ? chart_svg(chart, width) : chart_png(chart, width));
+  if (!options.common.quiet) print("{}: {}\n", path.string(), options.chart);
+  return exit_done;
+}
+
 int draw(const DrawOptions& options) {
+  if (!options.chart.empty()) return draw_chart(options);
   if (options.film ? !options.at.empty() : !options.from.empty() || !options.to.empty())
     throw InputError("--at is for a picture, --from and --to are for a film: --gif");
   const fs::path path = picture_path(options);
@@ -148,7 +169,8 @@ int draw(const DrawOptions& options) {
 
 void add_draw_command(CLI::App& app, int& exit_code) {
   auto options = std::make_shared<DrawOptions>();
-  CLI::App* command = app.add_subcommand("draw", "a picture of a run at one time, or a film of it");
+  CLI::App* command =
+      app.add_subcommand("draw", "a picture of a run at one time, a film of it, or a chart of what a folder holds");
   const auto text = [command](const char* name, std::string& value, const char* type, const char* help) {
     command->add_option(name, value, help)->type_name(type);
   };
@@ -157,6 +179,9 @@ void add_draw_command(CLI::App& app, int& exit_code) {
   command->add_flag("--gif", options->film, "a film instead");
   text("--from", options->from, "TIME", "of a film; default 0");
   text("--to", options->to, "TIME", "of a film; default the run's end");
+  text("--chart", options->chart, "NAME",
+       "of a folder: outflow (of run), ranking (of sweep, decide, optimise), front (of optimise), precision (of "
+       "accuracy), fit (of calibrate)");
   text("--every", options->every, "TIME", "between a film's frames; below \"20 ms\" it goes slower than the run");
   text("--out", options->common.out, "FILE",
        ".png or .svg, of a film .gif; default the seeder's name and .png or .gif");
@@ -179,6 +204,7 @@ void add_draw_command(CLI::App& app, int& exit_code) {
       ->check(CLI::Range(160, 8000))
       ->capture_default_str();
   add_random_seed_option(*command, options->common);
+  add_jobs_option(*command, options->common);
   command->add_flag("--quiet", options->common.quiet, "no progress and no line about the picture");
   command->callback([options, &exit_code] { exit_code = draw(*options); });
 }

@@ -33,6 +33,7 @@ void add_optimise_command(CLI::App& app, int& exit_code) {
   add_common_options(*command, options->common, "study file (.toml)");
   add_question_options(*command, options->question);
   add_html_option(*command, options->common);
+  add_replays_option(*command, options->common);
   add_making_flags(*command, options->making);
   add_reuse_option(*command, options->reuse);
   command->callback([options, &exit_code] { exit_code = run_optimise(*options); });

@@ -23,7 +23,6 @@
 #include "report/page.hpp"
 #include "report/run_page.hpp"
 #include "report/run_report.hpp"
-#include "report/sweep_page.hpp"
 #include "scene/input_error.hpp"
 #include "scene/scene_json.hpp"
 #include "simulation/simulate.hpp"
@@ -83,6 +82,9 @@ int page_of_data(const std::string& text, const CommonOptions& options) {
   try {
     const Json data = Json::parse(text);
     const std::string kind = data.at("kind");
+    if (options.replays > 0)
+      throw InputError(fmt::format(
+          "--replays: goes with the folder of sweep, decide or optimise; {} is of another kind", options.file));
     const OutputFolder folder = folder_of(kind, options);
     const auto recording = kind == "run" ? recording_of_run(data, options) : std::string();
     if (!recording) return exit_interrupted;
@@ -102,13 +104,12 @@ int page_of_study(const CommonOptions& options, const std::string& page_template
     const OutputFolder folder = asked->folder(options);
     RoundsOfRuns rounds(runs, std::nullopt, options.jobs, true);
     if (!asked->lead(rounds)) complain("warning: runs are missing");
-    folder.add({"report.html", asked->page(page_template, {})});
-    return exit_done;
+    return add_page_with_replays(*asked, folder, runs, options, page_template, {});
   }
   const PlannedStudy planned = study_of_plan(plan);
   const OutputFolder folder = options.output_folder("sweep", sweep_file_texts());
-  folder.add({"report.html", sweep_page(page_template, result_of_kept(planned, runs, options.jobs))});
-  return exit_done;
+  const StudyResult result = result_of_kept(planned, runs, options.jobs);
+  return add_sweep_page_with_replays(planned, runs, folder, result, options, page_template);
 }
 
 int report(CommonOptions& options) {
@@ -127,6 +128,8 @@ void add_report_command(CLI::App& app, int& exit_code) {
   auto options = std::make_shared<CommonOptions>();
   CLI::App* command = app.add_subcommand("report", "make the page, report.html, of a folder that is computed already");
   command->add_option("FOLDER", options->file, "of run, sweep, decide, optimise, accuracy or calibrate")->required();
+  add_replays_option(*command, *options);
+  add_jobs_option(*command, *options);
   command->add_flag("--quiet", options->quiet, "no progress");
   command->callback([options, &exit_code] { exit_code = report(*options); });
 }

@@ -6,6 +6,7 @@
 
 #include "cli/commands.hpp"
 #include "cli/console.hpp"
+#include "cli/make_replays.hpp"
 #include "cli/sweep_table.hpp"
 #include "design/sweep.hpp"
 #include "report/sweep_page.hpp"
@@ -42,6 +43,15 @@ StudyResult result_of_kept(const PlannedStudy& planned, const StudyRuns& runs, i
   return sweep(planned.study, runs.kept(), reading);
 }
 
+int add_sweep_page_with_replays(const PlannedStudy& planned, const StudyRuns& runs, const OutputFolder& folder,
+                                const StudyResult& result, const CommonOptions& options,
+                                const std::string& page_template) {
+  const std::uint64_t first = planned.plan.random_seed;
+  return add_page_with_replays(
+      folder, best_to_replay(result, first, options.replays), runs.kept(), options,
+      [&](const Replays& replays) { return sweep_page(page_template, result, first, replays); });
+}
+
 int report_study(const PlannedStudy& planned, const StudyRuns& runs, const OutputFolder& folder,
                  const SweepTiming& timing, const CommonOptions& options, const std::string& page_template) {
   SweepRunsCsv runs_csv(planned.study, options.csv);
@@ -49,12 +59,16 @@ int report_study(const PlannedStudy& planned, const StudyRuns& runs, const Outpu
       planned, runs, timing.jobs,
       [&](std::size_t scene, const std::vector<Evaluation>& of_scene) { runs_csv.add(scene, of_scene); });
   std::vector<OutputFile> files = sweep_files(result, runs_csv, timing, options.csv);
-  if (!page_template.empty()) files.push_back({"report.html", sweep_page(page_template, result)});
-  write_then_print(
-      options.quiet, [&] { folder.write(files); }, [&] { print_sweep_table(result); });
   const bool whole = std::ranges::none_of(
       result.layouts, [](const LayoutResult& one) { return one.status == LayoutStatus::interrupted; });
-  return exit_code_of(result, !whole);
+  const bool with_replays = options.replays > 0 && whole;
+  if (!page_template.empty() && !with_replays)
+    files.push_back({"report.html", sweep_page(page_template, result, planned.plan.random_seed)});
+  write_then_print(
+      options.quiet, [&] { folder.write(files); }, [&] { print_sweep_table(result); });
+  const int of_page =
+      with_replays ? add_sweep_page_with_replays(planned, runs, folder, result, options, page_template) : exit_done;
+  return of_page == exit_done ? exit_code_of(result, !whole) : of_page;
 }
 
 }  // namespace vibrosow

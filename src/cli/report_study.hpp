@@ -18,8 +18,13 @@ int stopped_by_guard(int layout, const std::string& reason);
 StudyResult result_of_kept(const PlannedStudy& planned, const StudyRuns& runs, int jobs,
                            const std::function<void(std::size_t, const std::vector<Evaluation>&)>& on_runs = {});
 
+/// Adds a sweep's page with the replays that the options ask for (add_page_with_replays).
+int add_sweep_page_with_replays(const PlannedStudy& planned, const StudyRuns& runs, const OutputFolder& folder,
+                                const StudyResult& result, const CommonOptions& options,
+                                const std::string& page_template);
+
 /// Makes a study's reports of the runs that are kept, and prints its table; an exit code. With a
-/// `page_template`, its page too.
+/// `page_template`, its page too, with the replays that the options ask for.
 int report_study(const PlannedStudy& planned, const StudyRuns& runs, const OutputFolder& folder,
                  const SweepTiming& timing, const CommonOptions& options, const std::string& page_template);
 

@@ -66,6 +66,7 @@ void add_sweep_command(CLI::App& app, int& exit_code) {
       app.add_subcommand("sweep", "simulate every layout of a study, against measured outflow where it names some");
   add_common_options(*command, options->common, "study file (.toml)");
   add_html_option(*command, options->common);
+  add_replays_option(*command, options->common);
   add_making_flags(*command, options->making);
   add_reuse_option(*command, options->reuse);
   command->callback([options, &exit_code] { exit_code = run_sweep(*options); });

@@ -12,7 +12,7 @@ namespace vibrosow {
 struct MeanMap {
   Grid grid;
   std::vector<double> packing;  // mean share of the cell, as in packing_fraction
-  std::vector<double> vx, vy;   // m/s, as in cell_motion, each look weighed by its packing; NaN of a cell without grains
+  std::vector<double> vx, vy;  // m/s, as in cell_motion, each look weighed by its packing; NaN of a cell without grains
   int looks = 0;
   double from = 0, to = 0;  // s, the first look and the last
 };

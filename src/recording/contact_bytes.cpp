@@ -103,7 +103,9 @@ class Contacts {
     if (along_ > 0) arm.x() -= along_ * std::round(arm.x() / along_);
     if (across_ > 0) arm.z() -= across_ * std::round(arm.z() / across_);
     arm *= places_per_radius / grains_.kind(i).radius;
-    const auto coded = [](double part) { return static_cast<std::int8_t>(std::clamp(std::round(part), -127.0, 127.0)); };
+    const auto coded = [](double part) {
+      return static_cast<std::int8_t>(std::clamp(std::round(part), -127.0, 127.0));
+    };
     return {coded(arm.x()), coded(arm.y()), coded(arm.z())};
   }
 

@@ -259,14 +259,10 @@ std::string Recording::map_bytes() const {
 nlohmann::ordered_json Recording::map_header(std::size_t offset, std::size_t bytes) const {
   const MeanMap map = map_.mean();
   const bool slice = map_scene_.space != Space::plane && map_scene_.record->view == MapView::slice;
-  return {{"cell_m", map.grid.cell},
-          {"columns", map.grid.columns},
-          {"rows", map.grid.rows},
-          {"view", slice ? "slice" : "projection"},
-          {"looks", map.looks},
-          {"from_s", map.from},
-          {"to_s", map.to},
-          {"offset", offset},
+  return {{"cell_m", map.grid.cell}, {"columns", map.grid.columns},
+          {"rows", map.grid.rows},   {"view", slice ? "slice" : "projection"},
+          {"looks", map.looks},      {"from_s", map.from},
+          {"to_s", map.to},          {"offset", offset},
           {"bytes", bytes}};
 }
 

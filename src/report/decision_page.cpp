@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
+#include <utility>
 
 #include "report/decision_words.hpp"
 #include "report/layout_text.hpp"
@@ -131,9 +133,9 @@ Json figures_of(const DecideOptions& options) {
   return all;
 }
 
-Json layout(const DecisionReport& report, const Layout& layout) {
+Json layout(const DecisionReport& report, const Layout& layout, const Replays& replays) {
   const DecisionResult& result = report.result;
-  Json one = page_layout(result.study, layout);
+  Json one = page_layout(result.study, layout, result.options.first_random_seed, replays);
   one["status"] = status_of(report, layout);
   one["standing"] = standing_text(report, layout);
   if (!layout.scene) {
@@ -152,10 +154,30 @@ Json layout(const DecisionReport& report, const Layout& layout) {
 
 }  // namespace
 
-std::string decision_page_data(const DecisionReport& report, const SweepTiming& timing) {
+std::vector<WantedReplay> best_to_replay(const DecisionReport& report, std::size_t most) {
+  const DecisionResult& result = report.result;
+  const auto scene_of = [&](const Layout* layout) -> const SceneDecision& { return result.scenes[*layout->scene]; };
+  std::vector<const Layout*> layouts;
+  for (const Layout& one : result.study.layouts) {
+    const std::string standing = standing_text(report, one);
+    if (standing == "best" || standing == "not shown to be worse" || standing == "undecided") layouts.push_back(&one);
+  }
+  std::erase_if(layouts, [&](const Layout* one) { return !scene_of(one).goal; });
+  const double sign = result.options.goal->is_most ? -1 : 1;
+  std::ranges::stable_sort(layouts, {}, [&](const Layout* one) {
+    return std::pair(one->scene != result.best, sign * scene_of(one).goal->mean);
+  });
+  layouts.resize(std::min(most, layouts.size()));
+  std::vector<WantedReplay> wanted;
+  for (const Layout* one : layouts)
+    wanted.push_back({one->number, result.study.scenes[*one->scene], result.options.first_random_seed});
+  return wanted;
+}
+
+std::string decision_page_data(const DecisionReport& report, const SweepTiming& timing, const Replays& replays) {
   const DecisionResult& result = report.result;
   Json layouts = Json::array();
-  for (const Layout& one : result.study.layouts) layouts.push_back(layout(report, one));
+  for (const Layout& one : result.study.layouts) layouts.push_back(layout(report, one, replays));
   Json data = page_of_study("decision", result.study);
   data.update({{"headline", headline(report)},
                {"doubts", doubts(report)},
@@ -165,10 +187,6 @@ std::string decision_page_data(const DecisionReport& report, const SweepTiming& 
                {"figures", figures_of(result.options)},
                {"layouts", std::move(layouts)}});
   return page_text(data);
-}
-
-std::string decision_page(const std::string& page_template, const DecisionReport& report, const SweepTiming& timing) {
-  return filled_page(page_template, decision_page_data(report, timing));
 }
 
 FileText decision_page_text() {

@@ -115,11 +115,11 @@ std::string status_of(const OptimiseResult& result, std::size_t layout) {
   return standing;
 }
 
-Json layout(const OptimiseResult& result, std::size_t index) {
+Json layout(const OptimiseResult& result, std::size_t index, const Replays& replays) {
   const Layout& layout = result.study.layouts[index];
   const FrontLayout& of = result.layouts[index];
   const OptimiseOptions& options = result.options;
-  Json one = page_layout(result.study, layout);
+  Json one = page_layout(result.study, layout, options.first_random_seed, replays);
   one["status"] = status_of(result, index);
   one["standing"] = standing_text(result, index);
   one["first_by_means"] = of.is_first_by_means;
@@ -136,9 +136,19 @@ Json layout(const OptimiseResult& result, std::size_t index) {
 
 }  // namespace
 
-std::string front_page_data(const OptimiseResult& result, const SweepTiming& timing) {
+std::vector<WantedReplay> best_to_replay(const OptimiseResult& result, std::size_t most) {
+  std::vector<WantedReplay> wanted;
+  for (std::size_t i = 0; i < result.layouts.size() && wanted.size() < most; ++i) {
+    const Layout& one = result.study.layouts[i];
+    if (leads(result.layouts[i]))
+      wanted.push_back({one.number, result.study.scenes[*one.scene], result.options.first_random_seed});
+  }
+  return wanted;
+}
+
+std::string front_page_data(const OptimiseResult& result, const SweepTiming& timing, const Replays& replays) {
   Json layouts = Json::array();
-  for (std::size_t i = 0; i < result.layouts.size(); ++i) layouts.push_back(layout(result, i));
+  for (std::size_t i = 0; i < result.layouts.size(); ++i) layouts.push_back(layout(result, i, replays));
   Json data = page_of_study("front", result.study);
   data.update({{"headline", headline(result)},
                {"doubts", doubts(result)},
@@ -147,10 +157,6 @@ std::string front_page_data(const OptimiseResult& result, const SweepTiming& tim
                {"figures", figures_of(result.options)},
                {"layouts", std::move(layouts)}});
   return page_text(data);
-}
-
-std::string front_page(const std::string& page_template, const OptimiseResult& result, const SweepTiming& timing) {
-  return filled_page(page_template, front_page_data(result, timing));
 }
 
 FileText front_page_text() {

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "input/key_units.hpp"
+#include "report/layout_text.hpp"
 #include "report/page.hpp"
 #include "report/terminal_text.hpp"
 
@@ -45,16 +46,20 @@ Json page_figure(const Figure& figure) {
           {"has_interval", !figure.pooled}};
 }
 
-Json page_layout(const Study& study, const Layout& layout) {
+Json page_layout(const Study& study, const Layout& layout, std::uint64_t first_random_seed, const Replays& replays) {
   Json values = Json::array();
   for (const std::string& key : study.keys) {
     const auto value = layout.values.find(key);
     values.push_back(value == layout.values.end() ? "" : value->second);
   }
-  return {{"number", layout.number},
-          {"name", layout.name},
-          {"values", std::move(values)},
-          {"vessels", layout.scene ? page_vessels(study.scenes[*layout.scene]) : Json::array()}};
+  Json one = {{"number", layout.number},
+              {"name", layout.name},
+              {"described", described(study, layout)},
+              {"values", std::move(values)},
+              {"vessels", layout.scene ? page_vessels(study.scenes[*layout.scene]) : Json::array()}};
+  if (layout.scene) one["command"] = run_command_of(study, layout, first_random_seed);
+  if (const auto replay = replays.find(layout.number); replay != replays.end()) one["replay"] = replay->second;
+  return one;
 }
 
 std::string page_timing(const SweepTiming& timing) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
@@ -8,6 +9,7 @@
 #include "design/study.hpp"
 #include "outflow/figures.hpp"
 #include "outflow/statistics.hpp"
+#include "report/replay.hpp"
 #include "report/sweep_report.hpp"
 
 namespace vibrosow {
@@ -23,8 +25,10 @@ nlohmann::ordered_json page_of_study(std::string_view kind, const Study& study);
 /// What is told of a figure of sweep.csv.
 nlohmann::ordered_json page_figure(const Figure& figure);
 
-/// Number, name, values of the keys, and vessels; the rest is added.
-nlohmann::ordered_json page_layout(const Study& study, const Layout& layout);
+/// Number, name, what it is in words, values of the keys, vessels, the command that runs it alone, and its replay if
+/// there is one; the rest is added.
+nlohmann::ordered_json page_layout(const Study& study, const Layout& layout, std::uint64_t first_random_seed,
+                                   const Replays& replays);
 
 /// "The 120 runs of this command took 31 s on 2 cores."; empty where it made none.
 std::string page_timing(const SweepTiming& timing);

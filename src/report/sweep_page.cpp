@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <functional>
 #include <nlohmann/json.hpp>
 
 #include "report/layout_columns.hpp"
@@ -37,11 +38,10 @@ Json holes(const LayoutResult& layout) {
   return all;
 }
 
-Json layout(const StudyResult& result, const LayoutRow& row, const std::vector<const Figure*>& known) {
+Json layout(Json one, const LayoutRow& row, const std::vector<const Figure*>& known) {
   Json means = Json::object();
   for (const Figure* figure : known)
     means[std::string(figure->name)] = page_interval(row.of().figures[*figure], figure->unit_size);
-  Json one = page_layout(result.study, row.layout());
   one.update({{"status", layout_status(row.of().status)},
               {"note", layout_note(row.of())},
               {"replicates", row.of().replicates},
@@ -75,18 +75,33 @@ std::string headline(const StudyResult& result) {
 
 }  // namespace
 
-std::string sweep_page_data(const StudyResult& result) {
+std::vector<WantedReplay> best_to_replay(const StudyResult& result, std::uint64_t first_random_seed, std::size_t most) {
+  const Figure& rate = figure_named("rate_g_per_s");
+  std::vector<LayoutRow> rows = layout_rows(result);
+  std::erase_if(rows,
+                [&](const LayoutRow& row) { return row.of().status != LayoutStatus::ok || !row.of().figures[rate]; });
+  std::ranges::stable_sort(rows, std::greater(), [&](const LayoutRow& row) { return row.of().figures[rate]->mean; });
+  rows.resize(std::min(most, rows.size()));
+  std::vector<WantedReplay> wanted;
+  for (const LayoutRow& row : rows)
+    wanted.push_back({row.layout().number, result.study.scenes[*row.layout().scene], first_random_seed});
+  return wanted;
+}
+
+std::string sweep_page_data(const StudyResult& result, std::uint64_t first_random_seed, const Replays& replays) {
   const std::vector<const Figure*> known = figures_of(result);
   Json figure_texts = Json::array(), layouts = Json::array();
   for (const Figure* figure : known) figure_texts.push_back(page_figure(*figure));
-  for (const LayoutRow& row : layout_rows(result)) layouts.push_back(layout(result, row, known));
+  for (const LayoutRow& row : layout_rows(result))
+    layouts.push_back(layout(page_layout(result.study, row.layout(), first_random_seed, replays), row, known));
   Json data = page_of_study("sweep", result.study);
   data.update({{"headline", headline(result)}, {"figures", std::move(figure_texts)}, {"layouts", std::move(layouts)}});
   return page_text(data);
 }
 
-std::string sweep_page(const std::string& page_template, const StudyResult& result) {
-  return filled_page(page_template, sweep_page_data(result));
+std::string sweep_page(const std::string& page_template, const StudyResult& result, std::uint64_t first_random_seed,
+                       const Replays& replays) {
+  return filled_page(page_template, sweep_page_data(result, first_random_seed, replays));
 }
 
 FileText sweep_page_text() {

@@ -7,9 +7,9 @@
 
 namespace vibrosow {
 
-/// Several values of a run together, such as a curve's, over the unit cube: their principal components, those that make up
-/// 99.9 % of the runs' differences but six at most, each with a Gaussian process through its scores. A single value is its
-/// own score.
+/// Several values of a run together, such as a curve's, over the unit cube: their principal components, those that make
+/// up 99.9 % of the runs' differences but six at most, each with a Gaussian process through its scores. A single value
+/// is its own score.
 struct CurveSurrogate {
   Eigen::VectorXd centre;               // mean of the runs
   Eigen::MatrixXd basis;                // a component a column, orthonormal

@@ -29,8 +29,7 @@ class Reader {
     std::uint32_t size = 0;
     std::memcpy(&size, file.data() + 8, 4);
     header = Json::parse(file.substr(12, size));
-    for (const Json& block : header["blocks"])
-      read_block(part(file, block), block["frames"]);
+    for (const Json& block : header["blocks"]) read_block(part(file, block), block["frames"]);
     for (const Json& one : header["contacts"]) read_contacts(part(file, one), one["frame"]);
     if (header.contains("map")) read_map(part(file, header["map"]));
   }
@@ -62,8 +61,8 @@ class Reader {
   };
   Json header;
   std::vector<Frame> frames;
-  std::map<int, Contacts> contacts;                    // by frame
-  std::vector<float> packing, vx, vy;                  // of the map
+  std::map<int, Contacts> contacts;    // by frame
+  std::vector<float> packing, vx, vy;  // of the map
   std::map<std::int64_t, Entered> entered;
 
  private:
@@ -290,8 +289,8 @@ TEST_P(OfBothSpaces, EveryContactIsKeptWithItsForce) {
       const auto is_it = [&](const auto& one) {
         double furthest = 0;
         for (std::size_t axis = 0; axis < touch.place.size(); ++axis)
-          furthest = std::max(furthest, std::abs(centre[static_cast<Eigen::Index>(axis)] + 0.01 * touch.place[axis] * radius -
-                                                 one.second->to[axis]));
+          furthest = std::max(furthest, std::abs(centre[static_cast<Eigen::Index>(axis)] +
+                                                 0.01 * touch.place[axis] * radius - one.second->to[axis]));
         return furthest < 0.00501 * radius && size(*one.second) <= touch.force * error;
       };
       const auto found = std::find_if(from, to, is_it);

@@ -105,7 +105,21 @@ TEST_F(DecisionPage, TimeIsOfRunsThatWereMadeNow) {
 
 TEST_F(DecisionPage, TheDataEndNoScript) {
   EXPECT_EQ(decision_page_data(report_, timing_).find('<'), std::string::npos);
-  EXPECT_EQ(decision_page("@REPORT_DATA@ @RECORDING@", report_, timing_), decision_page_data(report_, timing_) + " ");
+}
+
+TEST_F(DecisionPage, ReplaysAreOfTheBestAndOfThoseNotShownToBeWorse) {
+  const auto numbers = [&](std::size_t most) {
+    std::vector<int> all;
+    for (const WantedReplay& one : best_to_replay(report_, most)) all.push_back(one.layout);
+    return all;
+  };
+  EXPECT_THAT(numbers(5), ElementsAre(2));
+  report_.result.scenes[0].standing = Standing::not_shown_worse;
+  EXPECT_THAT(numbers(5), ElementsAre(2, 1));  // the best first, though its mean is less
+  EXPECT_THAT(numbers(1), ElementsAre(2));
+  report_.result.best = std::nullopt;
+  for (SceneDecision& scene : report_.result.scenes) scene.standing = Standing::undecided;
+  EXPECT_THAT(numbers(5), ElementsAre(1, 2));  // the most flow first
 }
 
 }  // namespace

@@ -62,6 +62,18 @@ TEST_F(FrontPage, LayoutsHaveTheirGoalsInTheirUnits) {
   EXPECT_FALSE(layouts[2].contains("means"));
 }
 
+TEST_F(FrontPage, ReplaysAreOfThoseThatLead) {
+  const auto numbers = [&](std::size_t most) {
+    std::vector<int> all;
+    for (const WantedReplay& one : best_to_replay(result_, most)) all.push_back(one.layout);
+    return all;
+  };
+  EXPECT_THAT(numbers(5), ElementsAre(1));
+  result_.layouts[1].is_first_by_means = true;
+  EXPECT_THAT(numbers(5), ElementsAre(1, 2));
+  EXPECT_THAT(numbers(1), ElementsAre(1));
+}
+
 TEST_F(FrontPage, GoalsAreMarkedAndSayWhatIsWanted) {
   result_.options.goals = read_front_goals({"rate", "power"});
   const auto figures = data()["figures"];

@@ -1,4 +1,6 @@
 // Sweeps made up for tests of the page: trays with more or fewer holes, shaken faster or slower.
+import { madeUpRun } from './made_up_run.mjs';
+
 const program = { name: 'vibrosow', version: '0.2.0' };
 const length = 300, height = 60, depth = 60;  // mm, of the tray
 const half = 6;                               // mm, of a hole
@@ -51,9 +53,18 @@ function layoutOf(number, inSpace, name) {
   };
 }
 
-/** data and (no) recording of a sweep; `names`: { title, layout } may replace texts. */
-export function madeUpSweep(space, count = 40, names = {}) {
-  const layouts = Array.from({ length: count }, (_, k) => layoutOf(k + 1, space !== 'plane', names.layout ?? ''));
+// The layout as that of a made-up run, and its replay; `lots` may replace their names.
+function withReplay(layout, space, lots) {
+  const { data, recording } = madeUpRun(space, { lots });
+  const { lots: all, holes, events, end_time_s, window_s: [from], vessels } = data;
+  return { ...layout, vessels, replay: { random_seed: 7, end_time_s, measure_from_s: from, lots: all, holes: holes.map(({ hole, counted_all }) => ({ hole, counted_all })), events, recording: recording.toString('base64') } };
+}
+
+/** data and (no) recording of a sweep; `names`: { title, layout, command, lots } may replace texts; `replayed`: numbers of layouts. */
+export function madeUpSweep(space, count = 40, names = {}, replayed = []) {
+  const layouts = Array.from({ length: count }, (_, k) => layoutOf(k + 1, space !== 'plane', names.layout ?? ''))
+    .map((layout) => (replayed.includes(layout.number) ? withReplay(layout, space, names.lots) : layout))
+    .map((layout) => (layout.status === 'invalid' ? layout : { ...layout, command: names.command ?? `vibrosow run 'tray.toml' --set 'tray.holes.count=${layout.values[0]}' --html` }));
   const data = {
     kind: 'sweep', program, title: names.title ?? 'Made-up trays: how many holes, how fast', space, headline: `${count} layouts let out 9 to 31 g/s.`,
     keys: ['tray.holes.count', 'tray.motion.frequency_Hz', 'tray.tilt_degree'], figures, layouts,

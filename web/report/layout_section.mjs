@@ -4,6 +4,7 @@ import { sentence } from './format.mjs';
 import { intervalTrack, scaleOf, trackAxis } from './interval_track.mjs';
 import { boxesOf, layoutDrawing } from './layout_drawing.mjs';
 import { textOf, textWithUnit, titleOf, valueOf } from './layout_figures.mjs';
+import { LayoutReplays } from './layout_replay.mjs';
 import { keyWords, sentenceWithNote, withUnit } from './layout_words.mjs';
 
 const ofHoles = [
@@ -59,16 +60,18 @@ class HoleBars {
 export function layoutSection(data, figures, chosen) {
   const boxes = boxesOf(data);
   const bars = new HoleBars();
+  const replays = new LayoutReplays();
   const title = element('h2', { id: 'layout-title', 'aria-live': 'polite' });
   const about = element('div', {});
   const numbers = element('div', {});
-  const frame = element('section', { id: 'layout', tabindex: '0', 'aria-labelledby': 'layout-title' }, title, about, bars.frame, numbers);
+  const frame = element('section', { id: 'layout', tabindex: '0', 'aria-labelledby': 'layout-title' }, title, about, replays.frame, bars.frame, numbers);
   chosen.onChange((byReader) => {
     const { layout } = chosen;
     if (!layout) return;
     const doubt = statusWords[layout.status] ? sentenceWithNote(statusWords[layout.status], layout.note) : layout.note;
     title.textContent = layout.name ? `Layout ${layout.number}: ${layout.name}` : `Layout ${layout.number}`;
     about.replaceChildren(...[doubt ? element('p', { class: 'doubt' }, doubt) : null, layout.standing && layout.status === 'ok' ? element('p', { class: 'standing' }, sentence(layout.standing)) : null, layoutDrawing(layout, boxes), settings(data, layout)].filter(Boolean));
+    replays.show(layout);
     bars.show(layout);
     const runs = layout.replicates === 1 ? 'From one run: no intervals.' : `Means of ${layout.replicates} runs, ± half the width of the 95 % interval; what has no ± is of all runs together.`;
     numbers.replaceChildren(element('h3', {}, 'Figures'), layout.replicates ? element('p', { class: 'muted' }, runs) : '', figureList(layout, figures));

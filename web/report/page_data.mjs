@@ -15,7 +15,7 @@ const emptyOf = {
   front: { doubts: [], asked: [], cost: [], keys: [], figures: [], layouts: [] },
 };
 
-const emptyLayout = { name: '', values: [], status: 'ok', note: '', replicates: 0, means: {}, misfit_percent: null, holes: [], vessels: [] };
+const emptyLayout = { name: '', values: [], status: 'ok', note: '', replicates: 0, means: {}, misfit_percent: null, holes: [], vessels: [], command: '', replay: null };
 
 function filled(given, ...defaults) {
   return Object.assign({}, ...defaults, Object.fromEntries(Object.entries(given).filter(([, value]) => value !== null)));

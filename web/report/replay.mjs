@@ -38,7 +38,11 @@ class Replay {
     this.forceNote = element('p', { class: 'legend', id: 'replay-forces', hidden: true });
     this.clock = element('output', { class: 'clock', id: 'replay-time', for: 'replay-frame' });
     this.range = element('input', { type: 'range', id: 'replay-frame', min: 0, max: this.player.last, step: 1, value: 0, 'aria-label': 'Time of the replay',
-      oninput: () => { this.player.pause(); this.player.show(Number(this.range.value)); } });
+      oninput: () => {
+        const index = Number(this.range.value);  // before it follows the player
+        this.player.pause();
+        this.player.show(index);
+      } });
     this.playButton = roundButton('play', 'Play', () => this.player.toggle());
     this.playButton.classList.add('primary');
     const controls = element('div', { class: 'controls' },
@@ -190,8 +194,9 @@ class Replay {
   }
 }
 
-function startKeys(player) {
-  addEventListener('keydown', (event) => {
+// `place`: where keys are heard, the window or one element.
+function startKeys(player, place) {
+  place.addEventListener('keydown', (event) => {
     if (event.ctrlKey || event.altKey || event.metaKey) return;
     const target = event.target.closest?.('input, button, a, summary, select, textarea') ?? null;
     const kind = target?.type ?? (target ? 'other' : 'none');
@@ -207,6 +212,13 @@ function startKeys(player) {
   });
 }
 
+/** The replay as a part of another section, whose keys are heard in it alone. */
+export function replayFigure(data, recording, player) {
+  const { figure } = new Replay(data, recording, player);
+  startKeys(player, figure);
+  return figure;
+}
+
 /** The section; without a recording, what to do to get one. `problem`: why a recording that is there cannot be shown. */
 export function replaySection(data, recording, player, problem) {
   if (problem) return section('replay', 'Replay', element('p', { class: 'doubt' }, `The recording in this page cannot be replayed: ${problem}.`));
@@ -214,6 +226,6 @@ export function replaySection(data, recording, player, problem) {
     return section('replay', 'Replay', element('p', {}, 'This run kept no recording; ', element('code', {}, 'vibrosow run FILE --html'), ' keeps one and shows it here.'));
   }
   const replay = new Replay(data, recording, player);
-  startKeys(player);
+  startKeys(player, window);
   return section('replay', 'Replay', replay.figure);
 }
