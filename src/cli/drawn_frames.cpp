@@ -96,8 +96,12 @@ Snapshot snapshot_in(const fs::path& file, const Scene& scene, double time) {
   return bed;
 }
 
+/// None where the run ended before the first.
 std::vector<Frame> snapshots_in(const fs::path& folder, const Scene& scene) {
-  const ReportTable records(folder / "records.csv");
+  const fs::path list = folder / "records.csv";
+  const bool has_rows = fs::exists(list) && std::ranges::count(text_of(list), '\n') > 1;
+  if (!has_rows) return {};
+  const ReportTable records(list);
   std::vector<Frame> frames;
   for (std::size_t row = 0; row < records.rows(); ++row) {
     if (records.text(row, "lot") != "all") continue;
@@ -134,11 +138,11 @@ KeptFrames kept_frames(const fs::path& folder, const Scene& scene) {
     if (!recording.empty()) read_recording(recording, [&](const Snapshot& bed) { frames.push_back({bed}); });
     if (!frames.empty()) return {std::move(frames), false};
   }
-  if (fs::exists(folder / "records.csv")) frames = snapshots_in(folder, scene);
+  frames = snapshots_in(folder, scene);
   if (!frames.empty()) return {std::move(frames), true};
   throw InputError(
-      fmt::format("{}: keeps no frame of its run: it was made without --html and has no [record]; draw its "
-                  "seeder instead",
+      fmt::format("{}: keeps no frame of its run, which was made without --html and has no [record], or ended before its first; "
+                  "draw its seeder instead",
                   folder.string()));
 }
 
