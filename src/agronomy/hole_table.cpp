@@ -202,20 +202,25 @@ std::optional<HoleEstimate> HoleTable::at(const HoleConditions& conditions) cons
   return estimate;
 }
 
+/// The first and the last of an axis' places to be looked at: those around a value; where they are to have neighbours
+/// on both sides, the nearest that have.
+std::pair<std::size_t, std::size_t> HoleTable::range_around(const std::vector<double>& steps, double value,
+                                                            bool inner) {
+  const std::size_t lower = lower_neighbour(steps, value), last = steps.size() - 1;
+  if (!inner || last < 2) return {lower, lower + 1};
+  return {std::clamp<std::size_t>(lower, 1, last - 1), std::clamp<std::size_t>(lower + 1, 1, last - 1)};
+}
+
 /// Of each place with a neighbour on either side of an axis, by how much these two miss the outflow's logarithm: places
-/// of the widths around this one; where none of them has neighbours, those of the nearest widths that have.
-std::vector<double> HoleTable::left_out(const Grid& grid, std::size_t axis, double width) {
+/// of the widths and speeds around these.
+std::vector<double> HoleTable::left_out(const Grid& grid, std::size_t axis, double width, double peak_speed) {
   const std::vector<double>& steps = grid.axes[axis];
-  const std::size_t lower = lower_neighbour(grid.axes[0], width), last = grid.axes[0].size() - 1;
-  std::size_t first_width = lower, last_width = lower + 1;
-  if (axis == 0 && last > 1) {
-    first_width = std::clamp<std::size_t>(first_width, 1, last - 1);
-    last_width = std::clamp<std::size_t>(last_width, 1, last - 1);
-  }
+  const auto [first_width, last_width] = range_around(grid.axes[0], width, axis == 0);
+  const auto [first_speed, last_speed] = range_around(grid.axes[1], peak_speed, axis == 1);
   std::vector<double> errors;
   std::array<std::size_t, 3> at{};
   for (at[0] = first_width; at[0] <= last_width; ++at[0])
-    for (at[1] = 0; at[1] < grid.axes[1].size(); ++at[1])
+    for (at[1] = first_speed; at[1] <= last_speed; ++at[1])
       for (at[2] = 0; at[2] < grid.axes[2].size(); ++at[2]) {
         const std::size_t k = at[axis];
         if (k == 0 || k + 1 == steps.size()) continue;
@@ -245,11 +250,11 @@ std::vector<double> HoleTable::shapes_left_out() const {
   return errors;
 }
 
-double HoleTable::interpolation_error(double aspect, double width) const {
+double HoleTable::interpolation_error(double aspect, double width, double peak_speed) const {
   const std::vector<Share> shapes = shapes_around(aspect);
   double sum = 0;
   const auto add = [&](const Grid& grid) {
-    for (const std::size_t axis : {0U, 1U}) sum += mean_square(left_out(grid, axis, width));
+    for (const std::size_t axis : {0U, 1U}) sum += mean_square(left_out(grid, axis, width, peak_speed));
   };
   add(grids_.front());
   for (const Share& shape : shapes)

@@ -3,6 +3,7 @@
 #include <array>
 #include <cstddef>
 #include <optional>
+#include <utility>
 #include <vector>
 
 namespace vibrosow {
@@ -74,13 +75,13 @@ class HoleTable {
   /// None outside the table.
   std::optional<HoleEstimate> at(const HoleConditions& conditions) const;
 
-  /// Half width, over the outflow, of the band that holds 95 % of the interpolation's errors for holes of this width:
-  /// 1.96 times the root mean square of what is missed, summed over widths, speeds, for longer seeds those of the
-  /// factor, and between two shapes the aspect, as independent. What is missed is told by leaving places out, those of
-  /// the two widths around: each is foretold from its two neighbours, and a quarter of the difference counts, since a
-  /// bend f'' is missed by f'' h^2 / 2 across two gaps h and by f'' h^2 / 8 at most within one. An axis of two places
-  /// tells nothing.
-  double interpolation_error(double aspect, double width) const;
+  /// Half width, over the outflow, of the band that holds 95 % of the interpolation's errors for holes of this width
+  /// and speed: 1.96 times the root mean square of what is missed, summed over widths, speeds, for longer seeds those
+  /// of the factor, and between two shapes the aspect, as independent. What is missed is told by leaving places out,
+  /// those of the two widths and speeds around: each is foretold from its two neighbours, and a quarter of the
+  /// difference counts, since a bend f'' is missed by f'' h^2 / 2 across two gaps h and by f'' h^2 / 8 at most within
+  /// one. An axis of two places tells nothing.
+  double interpolation_error(double aspect, double width, double peak_speed) const;
 
  private:
   struct Grid {
@@ -105,7 +106,8 @@ class HoleTable {
   void allow_for(const Grid& grid, const std::vector<Share>& places, HoleEstimate& estimate) const;
   static std::vector<Share> places_around(const Grid& grid, const HoleConditions& conditions);
   static double value(const Grid& grid, const std::vector<Share>& places);
-  static std::vector<double> left_out(const Grid& grid, std::size_t axis, double width);
+  static std::vector<double> left_out(const Grid& grid, std::size_t axis, double width, double peak_speed);
+  static std::pair<std::size_t, std::size_t> range_around(const std::vector<double>& steps, double value, bool inner);
   std::vector<double> shapes_left_out() const;
 
   std::vector<HoleRecord> records_;

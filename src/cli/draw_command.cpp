@@ -120,7 +120,9 @@ Drawn kept(const DrawOptions& options) {
   if (!options.common.sets.empty()) throw InputError("--set: goes with a seeder, not with the folder of a run");
   const PictureOptions& picture = options.picture;
   if (picture.force_chains || picture.colour_by == ColourBy::force)
-    throw InputError(fmt::format("{}: forces are not read from a run's folder, whose page keeps them rounded; draw its seeder instead", folder.string()));
+    throw InputError(fmt::format(
+        "{}: forces are not read from a run's folder, whose page keeps them rounded; draw its seeder instead",
+        folder.string()));
   const Scene scene = scene_of_run(folder);
   const std::vector<double> times = wanted_times(options, scene.run.duration);
   KeptFrames all = kept_frames(folder, scene);

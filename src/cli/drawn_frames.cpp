@@ -140,10 +140,10 @@ KeptFrames kept_frames(const fs::path& folder, const Scene& scene) {
   }
   frames = snapshots_in(folder, scene);
   if (!frames.empty()) return {std::move(frames), true};
-  throw InputError(
-      fmt::format("{}: keeps no frame of its run, which was made without --html and has no [record], or ended before its first; "
-                  "draw its seeder instead",
-                  folder.string()));
+  throw InputError(fmt::format(
+      "{}: keeps no frame of its run, which was made without --html and has no [record], or ended before its first; "
+      "draw its seeder instead",
+      folder.string()));
 }
 
 std::vector<Frame> nearest_frames(std::vector<Frame> frames, const std::vector<double>& times) {

@@ -137,7 +137,7 @@ class Search {
       layout.frequency = frequency_of(layout.peak_speed);
       layout.amplitude = amplitude_;
       layout.estimate = estimate(layout.width_over_d, depth, layout.peak_speed);
-      layout.interpolation = table_.interpolation_error(task_.seed.aspect, layout.width_over_d);
+      layout.interpolation = table_.interpolation_error(task_.seed.aspect, layout.width_over_d, layout.peak_speed);
       layout.more_by_faster = rises;
       layout.speeds = speeds_kept(given, k, wanted);
       found.push_back(layout);

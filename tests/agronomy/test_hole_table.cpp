@@ -108,14 +108,14 @@ TEST(HoleTable, LeavingPlacesOutTellsItsError) {
         records.push_back(record);
       }
   for (const double width : {2.5, 3.5, 4.5, 5.5})
-    EXPECT_NEAR(HoleTable(records).interpolation_error(1, width), 0, 1e-12);
+    EXPECT_NEAR(HoleTable(records).interpolation_error(1, width, 1.5), 0, 1e-12);
   for (HoleRecord& record : records)
     if (record.at.width == 3 && record.at.peak_speed == 2) record.outflow *= std::exp(0.1);
   const HoleTable bent(records);
-  // At 2.5: along widths, of the places at 3, one speed of three misses 0.1; along speeds, of those at 2 and 3, one of
-  // two.
-  EXPECT_NEAR(bent.interpolation_error(1, 2.5), 1.96 / 4 * std::sqrt(0.01 / 3 + 0.01 / 2), 1e-4);
-  EXPECT_NEAR(bent.interpolation_error(1, 5.5), 0, 1e-12) << "far from it";
+  // At 2.5: along widths, of the places at 3, one speed of the two around misses 0.1; along speeds, of those at 2 and
+  // 3, one of two.
+  EXPECT_NEAR(bent.interpolation_error(1, 2.5, 1.5), 1.96 / 4 * std::sqrt(0.01 / 2 + 0.01 / 2), 1e-4);
+  EXPECT_NEAR(bent.interpolation_error(1, 5.5, 1.5), 0, 1e-12) << "far from it";
 }
 
 TEST(HoleTable, MissesABendByLessThanItsError) {
@@ -128,7 +128,7 @@ TEST(HoleTable, MissesABendByLessThanItsError) {
     for (double speed = 0.75; speed < 3.8; speed *= 1.09) {
       const HoleConditions at{1, width, speed, 6};
       const double missed = std::abs(std::log(table.at(at)->outflow / made_up_outflow(at)));
-      const double allowed = table.interpolation_error(1, width);
+      const double allowed = table.interpolation_error(1, width, speed);
       ++all;
       within += missed <= allowed ? 1 : 0;
       worst = std::max(worst, missed / allowed);

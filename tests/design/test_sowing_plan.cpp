@@ -139,8 +139,10 @@ TEST(SowingPlan, RowsThatAWideHoleWouldHaveToFeed) {
 TEST(SowingPlan, IsSureToChanceAndInterpolationAndSoftness) {
   const SowingPlan plan = plan_sowing(task_of(100), table());
   const PlannedLayout& best = plan.layouts.front();
-  EXPECT_NEAR(plan.uncertainty(best),
-              std::hypot(best.estimate.chance, table().interpolation_error(1, best.width_over_d)) + 0.088, 1e-12);
+  EXPECT_NEAR(
+      plan.uncertainty(best),
+      std::hypot(best.estimate.chance, table().interpolation_error(1, best.width_over_d, best.peak_speed)) + 0.088,
+      1e-12);
   EXPECT_GT(plan.uncertainty(best), plan.softness);
 }
 

@@ -83,12 +83,14 @@ TEST(ShippedHoleTable, IsWholeAndItsOutflowGrowsWithTheWidth) {
           before = outflow;
         }
       }
-    for (const double width : {widths.least, 0.5 * (widths.least + widths.most), widths.most}) {
-      const double error = table.interpolation_error(aspect, width);
-      std::cout << "interpolation, aspect " << aspect << ", width " << width << ": +- " << 100 * error << " % (95 %)\n";
-      EXPECT_GT(error, 0);
-      EXPECT_LT(error, 0.5) << "an answer with such an error is none";
-    }
+    for (const double width : {widths.least, 0.5 * (widths.least + widths.most), widths.most})
+      for (const double speed : {1.0, 1.8, 2.9}) {
+        const double error = table.interpolation_error(aspect, width, speed);
+        std::cout << "interpolation, aspect " << aspect << ", width " << width << ", speed " << speed << ": +- "
+                  << 100 * error << " % (95 %)\n";
+        EXPECT_GT(error, 0);
+        EXPECT_LT(error, 0.5) << "an answer with such an error is none";
+      }
   }
 }
 
@@ -100,7 +102,7 @@ TEST(ShippedHoleTable, SaysWhatRunsBetweenItsPlacesGive) {
     const auto said = table.at(run.at);
     ASSERT_TRUE(said);
     const double missed = std::log(said->outflow / run.outflow);
-    const double interpolation = table.interpolation_error(run.at.aspect, run.at.width);
+    const double interpolation = table.interpolation_error(run.at.aspect, run.at.width, run.at.peak_speed);
     const double allowed = std::hypot(interpolation, said->chance, run.half_width_95 / run.outflow);
     std::cout << "width " << run.at.width << ", speed " << run.at.peak_speed << ": missed by " << 100 * missed
               << " %, allowed " << 100 * allowed << " %\n";
