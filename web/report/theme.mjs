@@ -1,7 +1,7 @@
 // Light or dark: as the system has it until the reader says otherwise; light on paper.
 
 const listeners = new Set();
-const dark = matchMedia('(prefers-color-scheme: dark)');
+const dark = globalThis.matchMedia?.('(prefers-color-scheme: dark)') ?? { matches: false };  // no window: a test of the page's parts
 let systemIsDark = dark.matches;  // asked once: a query that is asked while it changes tells no listener (seen in Chromium)
 let chosen = null;
 let printing = false;
