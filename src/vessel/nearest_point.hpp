@@ -31,6 +31,7 @@ inline NearestPoint nearest_on_arc(const PlacedWall& wall, double x, double y) {
   return {dx, dy, dx * dx + dy * dy, vertex, side};
 }
 
+/// Inlined by force: clang leaves a call of it in the loop over wall candidates.
 [[gnu::always_inline]] inline NearestPoint nearest_point(const PlacedWall& wall, double x, double y) {
   if (wall.radius > 0) return nearest_on_arc(wall, x, y);
   const double ex = wall.bx - wall.ax, ey = wall.by - wall.ay;
