@@ -7,6 +7,8 @@
 #include <new>
 #include <numbers>
 
+#include "picture/escaped_text.hpp"
+
 namespace vibrosow {
 namespace {
 
@@ -116,26 +118,6 @@ class PngPen : public Pen {
   Sheet sheet_;
 };
 
-/// Text of an XML document. Characters that such a document must not hold stand as a sign for them.
-std::string as_xml(const std::string& text) {
-  std::string safe;
-  for (const char c : text) {
-    if (c == '<')
-      safe += "&lt;";
-    else if (c == '>')
-      safe += "&gt;";
-    else if (c == '&')
-      safe += "&amp;";
-    else if (c == '"')
-      safe += "&quot;";
-    else if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f)
-      safe += "\xEF\xBF\xBD";
-    else
-      safe += c;
-  }
-  return safe;
-}
-
 std::string hex(const Colour& colour) {
   const auto part = [](double of_one) { return std::lround(255 * of_one); };
   return fmt::format("#{:02x}{:02x}{:02x}", part(colour.red), part(colour.green), part(colour.blue));
@@ -147,7 +129,7 @@ class SvgPen : public Pen {
     text_ = fmt::format(
         "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0}\" height=\"{1}\" viewBox=\"0 0 {0} {1}\" role=\"img\" "
         "font-family=\"DejaVu Sans, Verdana, sans-serif\">\n<title>{2}</title>\n<desc>{3}</desc>\n",
-        width, height, as_xml(title), as_xml(description));
+        width, height, escaped_text(title), escaped_text(description));
     rectangle(0, 0, width, height, paper);
   }
 
@@ -174,9 +156,9 @@ class SvgPen : public Pen {
     const std::string place = lettering.is_upright
                                   ? fmt::format("transform=\"translate({:.2f} {:.2f}) rotate(-90)\"", x, y)
                                   : fmt::format("x=\"{:.2f}\" y=\"{:.2f}\"", x, y);
-    text_ +=
-        fmt::format("<text {} font-size=\"{:.2f}\" text-anchor=\"{}\" fill=\"{}\"{}>{}</text>\n", place, lettering.size,
-                    anchor, hex(lettering.colour), lettering.is_bold ? " font-weight=\"bold\"" : "", as_xml(text));
+    text_ += fmt::format("<text {} font-size=\"{:.2f}\" text-anchor=\"{}\" fill=\"{}\"{}>{}</text>\n", place,
+                         lettering.size, anchor, hex(lettering.colour),
+                         lettering.is_bold ? " font-weight=\"bold\"" : "", escaped_text(text));
   }
 
   std::string file() override { return text_ + "</svg>\n"; }

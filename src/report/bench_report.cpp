@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "input/key_units.hpp"
+#include "picture/escaped_text.hpp"
 #include "report/terminal_text.hpp"
 
 namespace vibrosow {
@@ -96,26 +97,6 @@ double minutes(const BenchSource& source) {
   return source.plan.readings() * (source.plan.catch_time + source.limits.handling) / 60;
 }
 
-std::string escaped(const std::string& text) {
-  std::string result;
-  for (const char c : text) {
-    switch (c) {
-      case '&':
-        result += "&amp;";
-        break;
-      case '<':
-        result += "&lt;";
-        break;
-      case '>':
-        result += "&gt;";
-        break;
-      default:
-        result += c;
-    }
-  }
-  return result;
-}
-
 constexpr const char* page_style =
     "@page { size: A4; margin: 15mm } body { font: 10pt sans-serif } h1 { font-size: 15pt } "
     "table { border-collapse: collapse; width: 100% } tr { break-inside: avoid } "
@@ -155,14 +136,14 @@ std::string reading_table(const BenchSource& source) {
   std::string text = "<table><thead><tr><th>no.</th>";
   for (const std::string& key : source.task.measured.table.condition_keys) {
     const auto unit = column_unit(key);
-    text += fmt::format("<th>{}{}</th>", escaped(key), unit ? fmt::format("<br>{}", unit->unit) : "");
+    text += fmt::format("<th>{}{}</th>", escaped_text(key), unit ? fmt::format("<br>{}", unit->unit) : "");
   }
   text += "<th>repeat</th><th>time<br>s</th><th>caught<br>g</th></tr></thead>\n";
   int number = 0;
   for (const Reading& reading : readings(source)) {
     text += fmt::format("<tr><td>{}</td>", ++number);
     for (const Condition& condition : reading.candidate->conditions)
-      text += fmt::format("<td>{}</td>", escaped(condition.text));
+      text += fmt::format("<td>{}</td>", escaped_text(condition.text));
     text +=
         fmt::format("<td>{}</td><td>{:g}</td><td class=\"write\"></td></tr>\n", reading.repeat, source.plan.catch_time);
   }
@@ -173,10 +154,10 @@ std::string page(const BenchSource& source) {
   std::string text = fmt::format(
       "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><title>Bench sheet</title>\n<style>{}</style>"
       "</head><body>\n<h1>Bench sheet: {}</h1>\n",
-      page_style, escaped(source.task.seeder.stem().string()));
+      page_style, escaped_text(source.task.seeder.stem().string()));
   text += instructions(source) + reading_table(source);
-  return text + fmt::format("<p>{}</p>\n<p>Then: <code>{}</code></p>\n</body></html>\n", escaped(expectation(source)),
-                            escaped(source.command));
+  return text + fmt::format("<p>{}</p>\n<p>Then: <code>{}</code></p>\n</body></html>\n",
+                            escaped_text(expectation(source)), escaped_text(source.command));
 }
 
 }  // namespace
