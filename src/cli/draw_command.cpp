@@ -69,7 +69,7 @@ fs::path picture_path(const DrawOptions& options) {
   const fs::path stem = named.has_filename() ? named.stem() : named.parent_path().stem();
   const std::string of_chart = options.chart.empty() ? "" : "-" + options.chart;
   if (options.common.out.empty()) return stem.string() + of_chart + (options.film ? ".gif" : ".png");
-  const fs::path path = options.common.out;
+  fs::path path = options.common.out;
   const std::string end = path.extension().string();
   if (options.film ? end != ".gif" : end != ".png" && end != ".svg")
     throw InputError(fmt::format("--out: \"{}\" does not end in {}", path.string(),

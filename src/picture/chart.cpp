@@ -6,6 +6,8 @@
 #include <cmath>
 #include <functional>
 #include <memory>
+#include <numeric>
+#include <utility>
 
 #include "picture/pen.hpp"
 #include "picture/ticks.hpp"
@@ -54,9 +56,8 @@ class Scale {
  public:
   Scale(const ChartAxis& axis, const std::vector<double>& values) : is_logarithmic_(axis.is_logarithmic) {
     if (!axis.rows.empty()) {
-      const auto rows = static_cast<double>(axis.rows.size());
-      ticks_ = {rows - 0.5, -0.5, {}};
-      for (double k = 0; k < rows; ++k) ticks_.at.push_back(k);
+      ticks_ = {static_cast<double>(axis.rows.size()) - 0.5, -0.5, std::vector<double>(axis.rows.size())};
+      std::iota(ticks_.at.begin(), ticks_.at.end(), 0.0);
       return;
     }
     std::vector<double> shown;

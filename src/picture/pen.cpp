@@ -130,7 +130,7 @@ class SvgPen : public Pen {
         "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0}\" height=\"{1}\" viewBox=\"0 0 {0} {1}\" role=\"img\" "
         "font-family=\"DejaVu Sans, Verdana, sans-serif\">\n<title>{2}</title>\n<desc>{3}</desc>\n",
         width, height, escaped_text(title), escaped_text(description));
-    rectangle(0, 0, width, height, paper);
+    SvgPen::rectangle(0, 0, width, height, paper);
   }
 
   void line(const Points& points, const Stroke& stroke) override {

@@ -7,7 +7,7 @@
 #include "result/frame.hpp"
 #include "scene/scene.hpp"
 
-struct _cairo;
+struct _cairo;  // NOLINT(bugprone-reserved-identifier): cairo's own name
 
 namespace vibrosow {
 

@@ -41,7 +41,8 @@ TEST(HoleTable, OfBeverloosFormMissesNothingBetweenWidths) {
 TEST(HoleTable, GrowsWithTheWidth) {
   const HoleTable table(made_up_records());
   double before = 0;
-  for (double width = 2; width <= 6.5; width += 0.01) {
+  for (int k = 0; k <= 450; ++k) {
+    const double width = 2 + 0.01 * k;
     const double outflow = table.at({1, width, 1.9, 4})->outflow;
     EXPECT_GT(outflow, before) << width;
     before = outflow;
@@ -124,8 +125,9 @@ TEST(HoleTable, MissesABendByLessThanItsError) {
   const HoleTable table(made_up_records());
   int within = 0, all = 0;
   double worst = 0;
-  for (double width = 2.1; width < 6.5; width += 0.37)
-    for (double speed = 0.75; speed < 3.8; speed *= 1.09) {
+  for (int of_width = 0; of_width < 12; ++of_width)
+    for (int of_speed = 0; of_speed < 19; ++of_speed) {
+      const double width = 2.1 + 0.37 * of_width, speed = 0.75 * std::pow(1.09, of_speed);
       const HoleConditions at{1, width, speed, 6};
       const double missed = std::abs(std::log(table.at(at)->outflow / made_up_outflow(at)));
       const double allowed = table.interpolation_error(1, width, speed);

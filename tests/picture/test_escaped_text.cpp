@@ -11,7 +11,10 @@ TEST(EscapedText, IsNoMarkup) {
 }
 
 TEST(EscapedText, HasASignForCharactersThatADocumentMustNotHold) {
-  EXPECT_EQ(escaped_text("a\x01" "b\x7f"), "a\xEF\xBF\xBD" "b\xEF\xBF\xBD");
+  EXPECT_EQ(escaped_text("a\x01"
+                         "b\x7f"),
+            "a\xEF\xBF\xBD"
+            "b\xEF\xBF\xBD");
 }
 
 }  // namespace
