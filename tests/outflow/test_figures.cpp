@@ -48,15 +48,29 @@ TEST(Figures, OfTheTrayAreTheSlicesTimesItsDepthFactor) {
   EXPECT_NEAR(*per_minute.of(outflow) / per_minute.unit_size, 15 * 0.04 * 60, 1e-9);
 }
 
-TEST(Figures, OfEvennessAreOfTheSeedsOfAllReplicates) {
+/// Means over two runs of 300 seeds each, of which so many fall through the first of two holes.
+FigureMeans means_of_splits(int first_of_one, int first_of_other) {
   const Scene scene = made_up_scene(2);
   vibrosow::Run one = made_up_run(scene), other = made_up_run(scene);
-  for (int i = 0; i < 300; ++i) add_grain(one, 3, i < 100 ? 1 : 2), add_grain(other, 3, i < 120 ? 1 : 2);
+  for (int i = 0; i < 300; ++i)
+    add_grain(one, 3, i < first_of_one ? 1 : 2), add_grain(other, 3, i < first_of_other ? 1 : 2);
   const Outflow first = measure_outflow(scene, one), second = measure_outflow(scene, other);
-  const FigureMeans means({&first, &second});
-  EXPECT_NEAR(means["raw_cv_percent"]->mean, std::sqrt(2.0) * 80 / 300, 1e-12);  // 220 and 380
+  return FigureMeans({&first, &second});
+}
+
+TEST(Figures, OfEvennessAreOfTheSeedsOfAllReplicates) {
+  const FigureMeans means = means_of_splits(100, 104);
+  EXPECT_NEAR(means["raw_cv_percent"]->mean, std::sqrt(2.0) * 96 / 300, 1e-12);  // 204 and 396
   EXPECT_FALSE(means["raw_cv_percent"]->half_width_95);
+  ASSERT_TRUE(means["evenness_cv_percent"]);
   EXPECT_LT(means["evenness_cv_percent_low"]->mean, means["evenness_cv_percent"]->mean);
+}
+
+TEST(Figures, UnevennessThatReplicatesDoNotShareHasNoValue) {
+  const FigureMeans means = means_of_splits(100, 120);
+  EXPECT_NEAR(means["raw_cv_percent"]->mean, std::sqrt(2.0) * 80 / 300, 1e-12);  // 220 and 380
+  EXPECT_FALSE(means["evenness_cv_percent"]);
+  EXPECT_EQ(means["evenness_cv_percent_low"]->mean, 0);
 }
 
 }  // namespace
