@@ -100,7 +100,7 @@ int main(int argc, char** argv) {
     for (int k = 1; k + 1 < argc; k += 2)
       for (ReposeMaterial& material : kept_materials(argv[k], argv[k + 1])) materials.push_back(std::move(material));
     std::map<double, Tally> tallies;
-    for (const std::size_t first : {0, 1}) {
+    for (const std::size_t first : {0U, 1U}) {
       const ShippedAtlas atlas{ReposeAtlas(half(materials, first)), in_the_plane};
       for (const AtlasPoint& other : half(materials, 1 - first)) ask(atlas, other, tallies[other.aspect_ratio]);
     }

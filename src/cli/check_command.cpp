@@ -103,7 +103,7 @@ void print_overlap(const Model& model) {
 
 std::string hole_text(const Hole& hole, Space space) {
   const double mm = 1e3;
-  const std::string plane = fmt::format("at {:.2f} mm, {:.2f} mm wide", hole.centre * mm, hole.width * mm);
+  std::string plane = fmt::format("at {:.2f} mm, {:.2f} mm wide", hole.centre * mm, hole.width * mm);
   if (space == Space::plane) return plane;
   if (hole.shape == HoleShape::round)
     return fmt::format("at {:.2f} mm, {:.2f} mm from the front, {:.2f} mm in diameter", hole.centre * mm,

@@ -47,7 +47,10 @@ void part(PairRange range, const unsigned char* touches, ContactHistories& histo
     touched[k] = touches[k];
   }
   const int forgotten = compress(parted, count, Kept<int>{places.data(), place});
-  for (int k = 0; k < forgotten; ++k) forget(static_cast<std::size_t>(range.from + place[k]));
+  for (int k = 0; k < forgotten; ++k) {
+    const int entry = range.from + place[k];
+    forget(static_cast<std::size_t>(entry));
+  }
 }
 
 /// Repeats the last contact up to a whole number of vectors: what is worked out for it there counts for nothing.
@@ -126,7 +129,8 @@ template <class Law, class Effects>
   double slip_raised = 0;
 #pragma omp simd reduction(+ : slip_raised)
   for (int k = 0; k < whole; ++k) {
-    const std::size_t e = static_cast<std::size_t>(first_entry + block.entry[k]);
+    const int entry = first_entry + block.entry[k];
+    const std::size_t e = static_cast<std::size_t>(entry);
     const std::size_t i = static_cast<std::size_t>(block.grain[k]), j = static_cast<std::size_t>(block.partner[k]);
     const PairConstants& pair = properties.pair(i, j);
     const double dx = block.dx[k], dy = block.dy[k];

@@ -38,8 +38,7 @@ std::vector<double> axis(const std::vector<AtlasPoint>& points, double AtlasPoin
   std::vector<double> values;
   for (const AtlasPoint& point : points) values.push_back(point.*coordinate);
   std::ranges::sort(values);
-  const auto repeated = std::ranges::unique(values);
-  values.erase(repeated.begin(), repeated.end());
+  values.erase(std::unique(values.begin(), values.end()), values.end());
   return values;
 }
 
@@ -110,7 +109,7 @@ std::size_t index_of(const CsvLines& lines, const char* name) {
 
 }  // namespace
 
-ReposeAtlas::ReposeAtlas(std::vector<AtlasPoint> points)
+ReposeAtlas::ReposeAtlas(const std::vector<AtlasPoint>& points)
     : aspect_ratios_(axis(points, &AtlasPoint::aspect_ratio)),
       frictions_(axis(points, &AtlasPoint::friction)),
       rolling_frictions_(axis(points, &AtlasPoint::rolling_friction)) {

@@ -37,7 +37,7 @@ struct AtlasFigures {
 class ReposeAtlas {
  public:
   /// Throws InputError, naming the point, where the grid has gaps or a point less than two runs that drained.
-  explicit ReposeAtlas(std::vector<AtlasPoint> points);
+  explicit ReposeAtlas(const std::vector<AtlasPoint>& points);
 
   /// Throws std::out_of_range outside the grid.
   AtlasFigures at(double aspect_ratio, double friction, double rolling_friction) const;

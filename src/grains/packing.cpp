@@ -169,7 +169,7 @@ constexpr std::size_t large_bed = 20000;  // grains whose state is more than a c
 std::vector<PackedGrain> pack_poured(const Vessel& vessel, const std::vector<SeedLot>& lots, Space space,
                                      const std::vector<int>& order, Random& random, StopRequest stop) {
   const auto poured = space == Space::plane ? pour : pour_in_space;
-  const std::vector<PackedGrain> grains = poured(without_lid(vessel), lots, order, random, stop);
+  std::vector<PackedGrain> grains = poured(without_lid(vessel), lots, order, random, stop);
   for (const PackedGrain& grain : grains)
     for (const ClumpDisc& disc : turned_discs(lots[static_cast<std::size_t>(grain.lot)], grain.size, grain.turned))
       if (is_outside_of_drum(vessel, {grain.x + disc.x, grain.y + disc.y}, disc.radius)) refuse_fill(vessel);

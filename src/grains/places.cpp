@@ -90,7 +90,7 @@ FloorPlace within_period(const Vessel& vessel, const FloorPlace& place) {
 FloorPlace random_place(const Vessel& vessel, double radius, Random& random) {
   for (;;) {
     const double x = random.uniform(radius, vessel.length - radius);
-    const FloorPlace place(x, random.uniform(radius, *vessel.depth - radius));
+    FloorPlace place(x, random.uniform(radius, *vessel.depth - radius));
     if (between_ends(vessel, radius, place) == place) return place;
   }
 }

@@ -52,7 +52,7 @@ InputFile input_file(const std::string& name, std::optional<FileKind> wanted) {
   std::error_code none;
   const bool shipped = is_plain_name(name) && !fs::exists(name, none);
   const fs::path path = shipped ? shipped_file(name, wanted.value_or(FileKind::seeder), files) : fs::path(name);
-  const InputFile file{path, kind_of(path, files), files};
+  InputFile file{path, kind_of(path, files), files};
   if (!wanted || file.kind == *wanted) return file;
   throw InputError(
       *wanted == FileKind::seeder

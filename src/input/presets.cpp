@@ -32,7 +32,7 @@ fs::path preset_file(const Table& table, const std::string& key, const std::stri
       table.fail(key, error.what());
     }
   }
-  const fs::path file = table.directory(key) / name;
+  fs::path file = table.directory(key) / name;
   if (!table.files()->has(file)) table.fail(key, fmt::format("there is no file {}", file.string()));
   return file;
 }
@@ -90,7 +90,7 @@ fs::path data_directory() {
   }
   std::error_code no_proc;
   const fs::path program = fs::read_symlink("/proc/self/exe", no_proc);
-  const fs::path installed = program.parent_path().parent_path() / "share" / "vibrosow";
+  fs::path installed = program.parent_path().parent_path() / "share" / "vibrosow";
   if (!no_proc && holds_models(installed)) return installed;
   for (const char* directory : {VIBROSOW_SOURCE_DIR, VIBROSOW_INSTALLED_DATA})  // the second: of other programs
     if (holds_models(directory)) return directory;

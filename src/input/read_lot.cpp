@@ -74,7 +74,7 @@ double read_width(const Table& seeds, double length) {
 
 std::vector<ClumpDisc> read_row(const Table& seeds, ShapeName shape, double length) {
   const double width = read_width(seeds, length);
-  const std::vector<ClumpDisc> discs = shape == ShapeName::elongated ? elongated(length, width) : drop(length, width);
+  std::vector<ClumpDisc> discs = shape == ShapeName::elongated ? elongated(length, width) : drop(length, width);
   if (discs.empty()) fail_slender(seeds, shape, "width", width, length);
   return discs;
 }
@@ -93,7 +93,7 @@ std::vector<ClumpDisc> read_solid_row(Table& seeds, ShapeName shape, double leng
                     "or give shape = \"discs\"",
                     thickness * 1e3, most_balls_across, width * 1e3, thinnest));
   }
-  const std::vector<ClumpDisc> balls =
+  std::vector<ClumpDisc> balls =
       shape == ShapeName::elongated ? elongated_solid(length, width, thickness) : drop_solid(length, width, thickness);
   if (balls.empty()) fail_slender(seeds, shape, seeds.has("thickness") ? "thickness" : "width", thickness, length);
   return balls;

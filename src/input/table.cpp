@@ -141,7 +141,7 @@ struct Table::State {
   }
 };
 
-Table::Table(std::shared_ptr<const Document> document)
+Table::Table(const std::shared_ptr<const Document>& document)
     : state_(std::make_shared<State>(document, &document->root(), "")) {}
 
 Table::Table(std::shared_ptr<State> state) : state_(std::move(state)) {}

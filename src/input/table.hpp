@@ -20,7 +20,7 @@ namespace vibrosow {
 /// messages. Copies share what is known.
 class Table {
  public:
-  explicit Table(std::shared_ptr<const Document> document);  // the root table
+  explicit Table(const std::shared_ptr<const Document>& document);  // the root table
 
   /// Before any key is read.
   void set_fallback(const Table& preset);

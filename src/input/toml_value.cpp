@@ -107,7 +107,7 @@ std::optional<std::string> missing_quote(std::string_view line) {
       at = end;
     }
     if (c != '=' && c != '[' && c != ',') continue;
-    if (const auto advice = unquoted(line.substr(at + 1))) return advice;
+    if (auto advice = unquoted(line.substr(at + 1))) return advice;
   }
   return std::nullopt;
 }

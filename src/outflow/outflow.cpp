@@ -124,7 +124,7 @@ std::optional<Remark> drained(const Scene& scene, const Run& run, const Window& 
 
 std::vector<Remark> remarks_on(const Scene& scene, const Run& run, const Window& window, std::size_t counted) {
   std::vector<Remark> remarks;
-  const auto add = [&](std::string kind, const std::string& text = "") {
+  const auto add = [&](const std::string& kind, const std::string& text = "") {
     remarks.push_back({kind, text.empty() ? kind : text});
   };
   if (run.outside_the_model) add("outside the model");

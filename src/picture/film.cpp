@@ -102,7 +102,8 @@ void Film::add(const Pixels& picture, int hundredths) {
   const auto size = static_cast<int>(EGifGCBToExtension(&control, extension));
   check(EGifPutExtension(e.gif, GRAPHICS_EXT_FUNC_CODE, size, extension));
   check(EGifPutImageDesc(e.gif, 0, 0, e.width, e.height, false, nullptr));
-  for (int row = 0; row < e.height; ++row) check(EGifPutLine(e.gif, shown.data() + row * e.width, e.width));
+  for (int row = 0; row < e.height; ++row)
+    check(EGifPutLine(e.gif, shown.data() + std::ptrdiff_t{row} * e.width, e.width));
   e.last = std::move(now);
 }
 

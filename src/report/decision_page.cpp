@@ -106,7 +106,7 @@ Json cost(const DecisionReport& report, const SweepTiming& timing) {
 
 /// "ok" of those that are compared by the goal, and what they failed at of the others.
 std::string status_of(const DecisionReport& report, const Layout& layout) {
-  const std::string standing = standing_text(report, layout);
+  std::string standing = standing_text(report, layout);
   for (const char* compared : {"best", "not shown to be worse", "worse", "undecided"})
     if (standing == compared) return "ok";
   return standing;

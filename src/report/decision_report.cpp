@@ -50,8 +50,10 @@ Columns<DecisionRow> decision_columns(const std::vector<std::string>& keys) {
       "fifth of the band); clogs; ruled out by drafts; failed (it cannot be run, has no such goal, or left the model); "
       "invalid; undecided",
       [](R r) { return standing_text(*r.report, r.layout()); }));
-  columns.push_back(text_column<DecisionRow>("reason", "why it failed or is invalid",
-                                             [](R r) { return r.of() ? r.of()->reason : r.layout().invalid; }));
+  columns.push_back(text_column<DecisionRow>("reason", "why it failed or is invalid", [](R r) {
+    const SceneDecision* of = r.of();
+    return of ? of->reason : r.layout().invalid;
+  }));
   append(columns, key_columns<DecisionRow>(keys));
   append(columns, {text_column<DecisionRow>("runs", "after which it was decided, so far those that were made",
                                             [](R r) { return r.of() ? r.of()->runs : 0; }),

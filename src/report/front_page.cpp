@@ -109,7 +109,7 @@ Json figures_of(const OptimiseOptions& options) {
 
 /// "ok" of those that are compared by the goals, and what they failed at of the others.
 std::string status_of(const OptimiseResult& result, std::size_t layout) {
-  const std::string standing = standing_text(result, layout);
+  std::string standing = standing_text(result, layout);
   for (const char* compared : {"on the front", "may be on the front", "dominated"})
     if (standing == compared) return "ok";
   return standing;

@@ -26,7 +26,7 @@ std::string quoted(const std::string& text) {
 std::string set_text(const Override& change) {
   if (!change.value) return change.key + '=';
   if (const auto* text = change.value->get<std::string>()) {
-    const std::string plain = fmt::format("{}={}", change.key, *text);
+    std::string plain = fmt::format("{}={}", change.key, *text);
     const Override read = parse_override(plain);
     if (read.value && read.value->get<std::string>() && *read.value->get<std::string>() == *text) return plain;
   }

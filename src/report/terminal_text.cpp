@@ -30,7 +30,7 @@ std::string wrapped_beside(std::string_view label, std::string_view text) {
 
 std::string to_digits(double value, int digits) {
   constexpr double readable = 1e6;
-  const std::string text = fmt::format("{:.{}g}", value, digits);
+  std::string text = fmt::format("{:.{}g}", value, digits);
   if (text.find("e+") == std::string::npos || std::abs(value) >= readable) return text;
   return fmt::format("{:.0f}", std::strtod(text.c_str(), nullptr));
 }

@@ -4,6 +4,7 @@
 #include <zlib.h>
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 #include <new>
@@ -50,6 +51,11 @@ std::string encoded(const std::string& bytes) {
   return base64(head) + base64(block);
 }
 
+template <class Value>
+constexpr std::size_t components_of = 1;
+template <std::size_t count>
+constexpr std::size_t components_of<std::array<double, count>> = count;
+
 /// The arrays of one part of a file: its points, its data, its cells.
 class Arrays {
  public:
@@ -57,11 +63,9 @@ class Arrays {
   void add(std::string_view name, const std::vector<Value>& values) {
     std::string bytes;
     for (const Value& value : values) append(bytes, value);
-    constexpr bool scalar = std::is_arithmetic_v<Value>;
-    constexpr std::size_t components = scalar ? 1 : sizeof(Value) / sizeof(double);
-    text_ +=
-        fmt::format(R"(        <DataArray type="{}" Name="{}" NumberOfComponents="{}" format="binary">{}</DataArray>)",
-                    std::is_same_v<Value, std::int64_t> ? "Int64" : "Float64", name, components, encoded(bytes));
+    text_ += fmt::format(
+        R"(        <DataArray type="{}" Name="{}" NumberOfComponents="{}" format="binary">{}</DataArray>)",
+        std::is_same_v<Value, std::int64_t> ? "Int64" : "Float64", name, components_of<Value>, encoded(bytes));
     text_ += '\n';
   }
   const std::string& text() const { return text_; }

@@ -25,7 +25,7 @@ std::int64_t steps_in(double interval, double dt) {
 
 }  // namespace
 
-Simulation::Simulation(Model model, std::uint64_t random_seed, const ComputeOptions& options)
+Simulation::Simulation(const Model& model, std::uint64_t random_seed, const ComputeOptions& options)
     : Simulation(model, starting_state(model, random_seed), options) {}
 
 Simulation::Simulation(Model model, SimulationState state, const ComputeOptions& options)
@@ -129,7 +129,7 @@ void Simulation::set_motion(std::size_t vessel, const std::optional<VesselMotion
 
 /// The gate's walls, there or not.
 std::vector<std::size_t> Simulation::gate_of(const std::string& vessel, int hole) const {
-  const std::vector<std::size_t> walls = field_.walls().named(fmt::format("{} gate {}", vessel, hole));
+  std::vector<std::size_t> walls = field_.walls().named(fmt::format("{} gate {}", vessel, hole));
   if (walls.empty()) throw std::invalid_argument(fmt::format("hole {} of the {} has no gate", hole, vessel));
   return walls;
 }

@@ -30,7 +30,7 @@ struct ComputeOptions {
 class Simulation {
  public:
   /// From a model's start, or from a state that was saved. Throws as `starting_state` does.
-  Simulation(Model model, std::uint64_t random_seed, const ComputeOptions& options = {});
+  Simulation(const Model& model, std::uint64_t random_seed, const ComputeOptions& options = {});
   Simulation(Model model, SimulationState state, const ComputeOptions& options = {});
   Simulation(const Simulation&) = delete;
   Simulation& operator=(const Simulation&) = delete;

@@ -98,7 +98,7 @@ std::vector<std::string> CaseFolder::names() const {
     std::ranges::copy(segments_.names(), std::back_inserter(names));
   }
   std::ranges::sort(names);
-  names.erase(std::ranges::unique(names).begin(), names.end());
+  names.erase(std::unique(names.begin(), names.end()), names.end());
   return names;
 }
 

@@ -206,7 +206,7 @@ Eigen::Vector2d in_lab_frame(const Vessel& vessel, const Pose& pose, const Eigen
 }
 
 Eigen::Vector2d in_vessel_frame(const Vessel& vessel, const Pose& pose, const Eigen::Vector2d& lab) {
-  const Eigen::Vector2d moved = lab - vessel.origin - pose.displacement;
+  Eigen::Vector2d moved = lab - vessel.origin - pose.displacement;
   const double angle = vessel.tilt + pose.angle;
   if (angle == 0) return moved;
   return rotation(-angle) * moved;
@@ -224,7 +224,7 @@ Eigen::Vector3d turned(const Eigen::Vector3d& v, double angle) {
 }  // namespace
 
 Eigen::Vector3d direction_in_lab(const Vessel& vessel, const Pose& pose, const Eigen::Vector3d& own) {
-  const Eigen::Vector3d level = turned(own, pose.turn);
+  Eigen::Vector3d level = turned(own, pose.turn);
   const double angle = vessel.tilt + pose.angle;
   if (angle == 0) return level;
   const Eigen::Vector2d in_plane = rotation(angle) * Eigen::Vector2d(level.x(), level.y());

@@ -21,7 +21,7 @@ class StudyFiles {
   StudyFiles& operator=(const StudyFiles&) = delete;
 
   std::filesystem::path write(const std::string& name, const std::string& content) const {
-    const auto path = directory_ / name;
+    auto path = directory_ / name;
     std::ofstream(path) << content;
     return path;
   }

@@ -13,7 +13,6 @@
 namespace vibrosow {
 namespace {
 
-using testing::HasSubstr;
 using testing::Not;
 
 /// The small seeder with a motion and a drill.

@@ -103,6 +103,7 @@ void* operator new[](size_t size, std::align_val_t alignment) {
 
 extern "C" {
 
+// NOLINTNEXTLINE(bugprone-reserved-identifier): stands before libc's own.
 int __libc_start_main(Main main, int count, char** arguments, void (*init)(), void (*fini)(), void (*linker)(),
                       void* stack) {
   using Start = int (*)(Main, int, char**, void (*)(), void (*)(), void (*)(), void*);

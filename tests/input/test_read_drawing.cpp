@@ -229,21 +229,24 @@ TEST(GarbledDrawings, AreReadOrRefused) {
       "<svg width='10mm' viewBox='0 0 10 5'><g transform='rotate(30)'><path d='M1 2C3 4 5 6 7 8s1 1 2 2Q1 2 3 4T5 6A3 "
       "2 "
       "10 0 1 4 4z'/><circle r='3'/></g></svg>";
-  const auto try_both = [](const std::string& text, bool is_dxf) {
+  const auto pieces_in = [](const std::string& text, bool is_dxf) {
+    return is_dxf ? read_dxf(text, "a").pieces.size() : read_svg(text, "a", {1e-3, 1, 1e-5}).size();
+  };
+  const auto try_to_read = [&](const std::string& text, bool is_dxf) {
     try {
-      is_dxf ? read_dxf(text, "a").pieces.size() : read_svg(text, "a", {1e-3, 1, 1e-5}).size();
+      EXPECT_LT(pieces_in(text, is_dxf), 1000U);
     } catch (const InputError&) {
     }
   };
   for (const bool is_dxf : {true, false}) {
     const std::string& whole = is_dxf ? drawn : vector;
-    EXPECT_NO_THROW(is_dxf ? read_dxf(whole, "a").pieces.size() : read_svg(whole, "a", {1e-3, 1, 1e-5}).size());
+    EXPECT_GT(pieces_in(whole, is_dxf), 0U);
     for (std::size_t at = 0; at < whole.size(); ++at) {
-      try_both(whole.substr(0, at), is_dxf);
+      try_to_read(whole.substr(0, at), is_dxf);
       for (const char other : {'9', 'e', '-', '\n', '\0', '\xff'}) {
         std::string changed = whole;
         changed[at] = other;
-        try_both(changed, is_dxf);
+        try_to_read(changed, is_dxf);
       }
     }
   }

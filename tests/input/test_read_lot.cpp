@@ -25,7 +25,7 @@ using Kind = SizeDistribution::Kind;
 SeedLot lot_of(const std::string& lines, Space space = Space::plane) {
   const TemporaryFolder folder;
   Table root(Document::read(folder.write("seeder.toml", lines)));
-  const SeedLot lot = read_lot(root, "a", space);
+  SeedLot lot = read_lot(root, "a", space);
   root.reject_unknown_keys();
   return lot;
 }

@@ -295,8 +295,8 @@ TEST(ReadScene, MixtureByMassIsConvertedToNumbers) {
 TEST(ReadScene, MixtureByMassCountsTheMeanMassOfAllSizes) {
   // Balls of 6 to 10 mm: E[d^3] = 8^3 (1 + (1/4)^2) mm^3, so a seed weighs 0.31875 g on average.
   const Scene scene =
-      read(small_example, {"seeds.pea={ mass = '0.3 g', mass_fraction = '75 %', sizes = { distribution = "
-                           "'uniform', least = '6 mm', most = '10 mm' } }",
+      read(small_example, {("seeds.pea={ mass = '0.3 g', mass_fraction = '75 %', sizes = { distribution = "
+                            "'uniform', least = '6 mm', most = '10 mm' } }"),
                            "seeds.rape.diameter=2 mm", "seeds.rape.mass=0.1 g", "seeds.rape.mass_fraction=25 %",
                            "tray.holes={ count = 1, width = '2 diameters' }"});
   const double peas = 0.75 / 0.31875, rapes = 0.25 / 0.1;

@@ -54,8 +54,8 @@ Image read_png(const std::string& bytes) {
   EXPECT_EQ(cairo_surface_status(surface), CAIRO_STATUS_SUCCESS);
   Image image{cairo_image_surface_get_width(surface), cairo_image_surface_get_height(surface), {}};
   const unsigned char* data = cairo_image_surface_get_data(surface);
-  for (int k = 0; k < image.width * image.height; ++k)
-    image.pixels.push_back({data[4 * k + 2], data[4 * k + 1], data[4 * k]});
+  const std::size_t count = static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height);
+  for (std::size_t k = 0; k < count; ++k) image.pixels.push_back({data[4 * k + 2], data[4 * k + 1], data[4 * k]});
   cairo_surface_destroy(surface);
   return image;
 }
@@ -70,7 +70,7 @@ std::vector<FilmFrame> read_gif(const std::string& bytes) {
   const InputFunc read = [](GifFileType* gif, GifByteType* to, int length) {
     Source& s = *static_cast<Source*>(gif->UserData);
     const std::size_t count = std::min(static_cast<std::size_t>(length), s.bytes->size() - s.at);
-    std::memcpy(to, s.bytes->data() + s.at, count);
+    std::copy_n(s.bytes->data() + s.at, count, to);
     s.at += count;
     return static_cast<int>(count);
   };
@@ -79,7 +79,7 @@ std::vector<FilmFrame> read_gif(const std::string& bytes) {
   EXPECT_EQ(DGifSlurp(gif), GIF_OK);
   std::vector<FilmFrame> frames;
   Image shown{gif->SWidth, gif->SHeight, {}};
-  shown.pixels.resize(static_cast<std::size_t>(gif->SWidth * gif->SHeight));
+  shown.pixels.resize(static_cast<std::size_t>(gif->SWidth) * static_cast<std::size_t>(gif->SHeight));
   for (int k = 0; k < gif->ImageCount; ++k) {
     GraphicsControlBlock control;
     EXPECT_EQ(DGifSavedExtensionToGCB(gif, k, &control), GIF_OK);

@@ -155,7 +155,8 @@ class Reader {
         for (std::uint32_t i = 0; i < present; ++i) {
           std::uint32_t coded = 0;
           for (std::uint32_t plane = 0; plane < 4; ++plane)
-            coded |= std::uint32_t(static_cast<unsigned char>(bytes_[at_ + plane * present + i])) << (8 * plane);
+            coded |= std::uint32_t(static_cast<unsigned char>(bytes_[at_ + std::size_t{plane} * present + i]))
+                     << (8 * plane);
           const auto& seen = past[ids[i]];
           const std::size_t n = seen.size();
           const std::int64_t expected = n == 0 ? 0 : n == 1 ? seen[0][f] : 2 * seen[n - 1][f] - seen[n - 2][f];

@@ -34,7 +34,7 @@ class AccuracyPage : public testing::Test {
   AccuracyResult result(int replicates) const {
     std::vector<AccuracyRun> runs;
     for (int r = 0; r < replicates; ++r) {
-      const auto seed = static_cast<std::uint64_t>(r + 1);
+      const auto seed = static_cast<std::uint64_t>(r) + 1;
       runs.push_back(run_of(0, seed, 0.0100 + 1e-6 * r, 4e7));
       runs.push_back(run_of(1, seed, 0.0108 + 1e-6 * (r % 3), 1e7));
     }

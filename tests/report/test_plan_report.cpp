@@ -89,7 +89,7 @@ Scene planned_scene(const PlanSource& source) {
   const std::filesystem::path file =
       std::filesystem::path(testing::TempDir()) / fmt::format("planned-seeder-{}.toml", getpid());
   std::ofstream(file) << planned_seeder(source);
-  const Scene scene = read_scene(file);
+  Scene scene = read_scene(file);
   std::filesystem::remove(file);
   return scene;
 }

@@ -261,7 +261,7 @@ vibrosow::Run settled(const SeedLot& lot, Integrator scheme, double time) {
   const Model model = prepare_to_run(scene);
   Simulation run(model, start_of(model, heap_of(lot, 3, 2, 3)));
   EXPECT_TRUE(run.run_until(time));
-  const vibrosow::Run result = run.result();
+  vibrosow::Run result = run.result();
   EXPECT_EQ(result.balance.inside, 18);
   EXPECT_EQ(result.balance.lost, 0);
   EXPECT_THAT(result.warnings, testing::IsEmpty());

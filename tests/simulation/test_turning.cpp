@@ -268,7 +268,7 @@ constexpr double plate_radius = 0.05;
 Scene rotor(double angular_velocity) {
   Scene scene = drum(Space::three_dimensional, 0);
   scene.tray.length = 0.1, scene.tray.height = 0.02, scene.tray.depth = 0.1;
-  const auto turned = [](Eigen::Vector2d a, Eigen::Vector2d b) {
+  const auto turned = [](const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
     WallPiece piece{a, b};
     piece.about = {plate_radius, plate_radius};
     return piece;

@@ -625,7 +625,7 @@ int gethostname(char* name, size_t size) {
   utsname system;
   uname(&system);
   if (strlen(system.nodename) >= size) return failed(ENAMETOOLONG);
-  strcpy(name, system.nodename);
+  memcpy(name, system.nodename, strlen(system.nodename) + 1);
   return 0;
 }
 
