@@ -60,14 +60,11 @@ std::vector<Evaluation> run_jobs(const std::vector<Job>& jobs, const Simulator& 
     progress.finish(index);
   };
 
-  // Each worker takes the next job in order: an interrupted sweep has finished its first layouts, not parts of all. The
-  // counter also hands jobs and results over in a way that the thread sanitiser can see; it cannot see into TBB.
-  std::atomic<std::size_t> next;
-  next.store(0, std::memory_order_release);
+  // Each worker takes the next job in order: an interrupted sweep has finished its first layouts, not parts of all.
+  std::atomic<std::size_t> next = 0;
   side_by_side(options.jobs, [&] {
     for (std::size_t job = next.fetch_add(1); job < jobs.size(); job = next.fetch_add(1)) run_one(job);
   });
-  next.load(std::memory_order_acquire);
   return results;
 }
 
