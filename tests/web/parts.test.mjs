@@ -4,7 +4,7 @@ import test from 'node:test';
 import { layerScale, listColour, mix, speedScale } from '../../web/report/colours.mjs';
 import { Counters } from '../../web/report/counters.mjs';
 import { axisScale, duration, force, list, niceAbove, number, plusMinus, sentence } from '../../web/report/format.mjs';
-import { floorAt, toLab, toOwn } from '../../web/report/geometry.mjs';
+import { floorAt, toLab, toOwn, wallsSeenFrom } from '../../web/report/geometry.mjs';
 import { mapSentence, packingSentence, velocitySentence } from '../../web/report/map_sentences.mjs';
 import { outflowSentence } from '../../web/report/outflow_sentence.mjs';
 import { readPageData } from '../../web/report/page_data.mjs';
@@ -100,9 +100,18 @@ test('sentences of maps', () => {
   assert.equal(velocitySentence(map, tray), 'Fastest, 0.2 m/s down, at holes 1 and 2; cells that seeds fill to less than 0.05 are left out.');
   assert.equal(mapSentence(map, 'three_dimensional'),
     'The mean of 211 looks from 1 to 3 s, in the tray’s own frame, in cells of 10 mm, of a slice through the middle of the depth.');
+  assert.match(mapSentence(map, 'plane', [{ name: 'hopper' }]), /cells of 10 mm\. The hopper is drawn where it stands while nothing shakes\.$/);
   const empty = { ...map, packing: map.packing.map(() => 0) };
   assert.equal(packingSentence(empty, tray), 'The tray was empty.');
   assert.match(velocitySentence(empty, tray), /^No cell/);
+});
+
+test('the walls of a hopper in the frame of a tray that leans', () => {
+  const tray = { at_mm: [100, 20, 0], tilt_rad: Math.PI / 2 };
+  const hopper = { at_mm: [100, 50, 0], lines: [{ points_mm: [[0, 0], [10, 0]] }, { points_mm: [[0, 0], [0, 5]], opens_at_s: 1 }] };
+  const walls = wallsSeenFrom(tray, hopper).map((wall) => wall.map((point) => point.map(Math.round)));
+  assert.deepEqual(walls, [[[30, 0], [30, -10]]]);
+  assert.deepEqual(wallsSeenFrom({}, {}), []);
 });
 
 test('what is missing or null in the data is empty', () => {

@@ -13,6 +13,17 @@ export function toOwn(pose, x, y) {
   return [cos * dx + sin * dy, cos * dy - sin * dx];
 }
 
+/** The pose of a vessel that rests. */
+export function restPose({ at_mm: at = [0, 0, 0], tilt_rad: tilt = 0 }) {
+  return { x: at[0] / 1000, y: at[1] / 1000, angle: tilt ?? 0 };
+}
+
+/** The walls of `vessel` in the frame of `other`, both at rest; without those of gates, which open. */
+export function wallsSeenFrom(other, vessel) {
+  const walls = (vessel.lines ?? []).filter((line) => typeof line.opens_at_s !== 'number').map((line) => line.points_mm);
+  return walls.map((points) => points.map(([x, y]) => toOwn(restPose(other), ...toLab(restPose(vessel), x, y))));
+}
+
 /** The mean pose of a vessel over all frames: the place that it shakes about. */
 export function meanPose(recording, vessel) {
   const mean = { x: 0, y: 0, z: 0, angle: 0 };

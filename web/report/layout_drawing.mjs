@@ -1,21 +1,17 @@
 // A layout drawn to scale: from the side, and in space from above too. All layouts of a page are drawn to one scale.
 import { element, shape } from './dom.mjs';
 import { list, niceAbove } from './format.mjs';
-import { floorAt, toLab } from './geometry.mjs';
+import { floorAt, restPose, toLab } from './geometry.mjs';
 
 const rims = 48;  // corners of a round hole
 
-function poseOf({ at_mm: at = [0, 0, 0], tilt_rad: tilt = 0 }) {
-  return { x: at[0] / 1000, y: at[1] / 1000, angle: tilt ?? 0 };
-}
-
 function fromTheSide(vessel) {
-  const pose = poseOf(vessel);
+  const pose = restPose(vessel);
   return (vessel.lines ?? []).map((line) => ({ points: line.points_mm.map(([x, y]) => toLab(pose, x, y)), opens: typeof line.opens_at_s === 'number' }));
 }
 
 function fromAbove(vessel, corners) {
-  const pose = poseOf(vessel);
+  const pose = restPose(vessel);
   return corners.map(([x, z, y = 0]) => [toLab(pose, x, y)[0], z + (vessel.at_mm?.[2] ?? 0)]);
 }
 
@@ -67,7 +63,7 @@ function holeLabels(layout, size) {
   const tray = trayOf(layout.vessels);
   const places = new Map();
   for (const hole of tray?.holes ?? []) {
-    const [x, y] = toLab(poseOf(tray), hole.x_mm, floorAt(tray, hole));
+    const [x, y] = toLab(restPose(tray), hole.x_mm, floorAt(tray, hole));
     const place = x.toFixed(1);
     if (!places.has(place)) places.set(place, { x, y, numbers: [] });
     places.get(place).numbers.push(hole.number);

@@ -2,6 +2,7 @@
 import { layerScale, speedScale } from './colours.mjs';
 import { element, section } from './dom.mjs';
 import { niceAbove, number } from './format.mjs';
+import { wallsSeenFrom } from './geometry.mjs';
 import { legendParts } from './legend.mjs';
 import { emptyShare, mapSentence, packingSentence, speeds, velocitySentence } from './map_sentences.mjs';
 import { Stage } from './stage.mjs';
@@ -19,9 +20,16 @@ function partOf(map, tray) {
   return { right: Math.max(tray?.length_mm ?? 0, map.columns * cell), low: Math.min(0, ...ys), high: (map.rows + 1) * cell };
 }
 
+// The other vessels of which something stands in that part.
+function besideTray(map, [tray, ...others]) {
+  const { high } = partOf(map, tray);
+  return others.filter((vessel) => wallsSeenFrom(tray, vessel).some((wall) => wall.some(([, y]) => y < high)));
+}
+
 class MapView {
-  constructor(map, tray, { values, top, scale, arrows }) {
-    Object.assign(this, { map, tray, values, top, scale, arrows, part: partOf(map, tray) });
+  constructor(map, vessels, { values, top, scale, arrows }) {
+    const [tray] = vessels;
+    Object.assign(this, { map, values, top, scale, arrows, part: partOf(map, tray), walls: vessels.flatMap((vessel) => wallsSeenFrom(tray, vessel)) });
   }
 
   height(width) {
@@ -36,7 +44,7 @@ class MapView {
     this.at = (x, y) => [margin + this.pixels * x, margin + this.pixels * (high - y)];
     this.drawCells(context);
     if (this.arrows) this.drawArrows(context);
-    this.drawTray(context);
+    this.drawWalls(context);
   }
 
   drawCells(context) {
@@ -93,14 +101,13 @@ class MapView {
     }
   }
 
-  drawTray(context) {
+  drawWalls(context) {
     context.strokeStyle = inks().wall;
     context.lineWidth = 2;
     context.lineCap = context.lineJoin = 'round';
-    for (const line of this.tray?.lines ?? []) {
-      if (typeof line.opens_at_s === 'number') continue;
+    for (const wall of this.walls) {
       context.beginPath();
-      for (const [x, y] of line.points_mm) context.lineTo(...this.at(x, y));
+      for (const [x, y] of wall) context.lineTo(...this.at(x, y));
       context.stroke();
     }
   }
@@ -123,15 +130,15 @@ function mapFigure(id, title, sentence, view, legend) {
 /** The section of a recording's map; null of a run that kept none. */
 export function mapsSection(data, map) {
   if (!map) return null;
-  const tray = data.vessels.find((vessel) => vessel.name === 'tray') ?? data.vessels[0];
+  const [tray] = data.vessels;
   const inSpace = data.space !== 'plane';
   const speed = speeds(map);
   const dense = Math.max(0.1, Math.ceil(Math.max(...map.packing) * 10 - 1e-6) / 10), fast = niceAbove(Math.max(0, ...speed.filter((value) => !Number.isNaN(value))));
   const fills = inSpace ? 'part of a cell’s volume that seeds fill' : 'part of a cell’s area that seeds cover';
-  return section('maps', 'Where the bed is dense, and how it flows', element('p', { class: 'lead' }, mapSentence(map, data.space)),
+  return section('maps', 'Where the bed is dense, and how it flows', element('p', { class: 'lead' }, mapSentence(map, data.space, besideTray(map, data.vessels))),
     element('div', { class: 'maps' },
-      mapFigure('map-packing', 'Packing', packingSentence(map, tray), new MapView(map, tray, { values: map.packing, top: dense, scale: layerScale }),
+      mapFigure('map-packing', 'Packing', packingSentence(map, tray), new MapView(map, data.vessels, { values: map.packing, top: dense, scale: layerScale }),
         { kind: 'scale', low: '0', high: number(dense), note: fills }),
-      mapFigure('map-velocity', 'Velocity', velocitySentence(map, tray), new MapView(map, tray, { values: speed, top: fast, scale: speedScale, arrows: true }),
+      mapFigure('map-velocity', 'Velocity', velocitySentence(map, tray), new MapView(map, data.vessels, { values: speed, top: fast, scale: speedScale, arrows: true }),
         { kind: 'scale', low: '0', high: `${number(fast)} m/s`, note: 'mean velocity against the tray; arrows point where it goes' })));
 }
