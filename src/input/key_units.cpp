@@ -178,9 +178,9 @@ std::vector<std::string> columns_beside(const std::string& column) {
   return columns;
 }
 
-double to_column_unit(std::string_view key, double si_value) {
+double to_column_unit(std::string_view key, double value_in_si) {
   const auto unit = column_unit(key);
-  return unit ? si_value / unit_size(unit->unit, unit->dimension) : si_value;
+  return unit ? value_in_si / unit_size(unit->unit, unit->dimension) : value_in_si;
 }
 
 TomlValue value_of_column(std::string_view key, std::string_view text, std::optional<double> number) {

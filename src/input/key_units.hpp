@@ -33,7 +33,7 @@ std::optional<std::string> key_of_column(const std::string& column);
 std::vector<std::string> columns_beside(const std::string& column);
 
 /// An SI value in the unit of the key's column; unchanged where the column has no unit.
-double to_column_unit(std::string_view key, double si_value);
+double to_column_unit(std::string_view key, double value_in_si);
 
 /// A value in the column's unit as a file would have it: 9 of a frequency is 9 Hz; a whole number, a number, true,
 /// false or a text where the column has no unit. `number`: what `text` is, if it is one.

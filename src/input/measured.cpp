@@ -253,8 +253,8 @@ std::string_view column_of(MeasuredQuantity quantity) {
   return "";
 }
 
-double to_column_unit(MeasuredQuantity quantity, double si_value) {
-  return si_value / unit_of(quantity);
+double to_column_unit(MeasuredQuantity quantity, double value_in_si) {
+  return value_in_si / unit_of(quantity);
 }
 
 Override override_of(const Condition& condition, const std::string& where) {
