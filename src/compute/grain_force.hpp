@@ -21,10 +21,15 @@ struct ForeignForce {
   double fx, fy, torque;  // N, N m
 };
 
-/// Force or torque on one ball in space, N or N m; four numbers as above.
+/// Place, velocity, spin, force or torque of one ball in space, m, m/s, rad/s, N or N m; four numbers as above.
 struct alignas(32) GrainVector {
   double x, y, z;
   double spare;
+};
+
+/// Of one ball, side by side.
+struct alignas(64) BallMotion {
+  GrainVector velocity, spin;
 };
 
 /// As ForeignForce, in space.

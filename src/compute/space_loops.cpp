@@ -4,49 +4,89 @@
 #include <type_traits>
 
 #include "compute/compress.hpp"
+#include "compute/four.hpp"
 
 namespace vibrosow::inline VIBROSOW_ISA {
 namespace {
 
-/// Calls `take(v, a, now)` for one velocity of each ball, its old rate and that by which it is driven now.
+/// `row(i)` is where the vector of ball i goes.
+template <class Row>
+[[gnu::always_inline]] inline void to_rows(std::size_t n, const Coordinates& of, Row row) {
+  const auto four = [](const double* array) -> const FourAnywhere& {
+    return *reinterpret_cast<const FourAnywhere*>(array);
+  };
+  std::size_t i = 0;
+  for (; i + 4 <= n; i += 4) {
+    Four rows[4]{four(of.x + i), four(of.y + i), four(of.z + i), {}};
+    transpose(rows);
+    for (std::size_t k = 0; k < 4; ++k) *reinterpret_cast<Four*>(row(i + k)) = rows[k];
+  }
+  for (; i < n; ++i) *row(i) = {of.x[i], of.y[i], of.z[i], 0};
+}
+
+void places_to_rows(std::size_t n, const Coordinates& places, GrainVector* rows) {
+  to_rows(n, places, [rows](std::size_t i) { return rows + i; });
+}
+
+void motions_to_rows(std::size_t n, const Coordinates& velocity, const Coordinates& spin, BallMotion* rows) {
+  to_rows(n, velocity, [rows](std::size_t i) { return &rows[i].velocity; });
+  if (spin.x) to_rows(n, spin, [rows](std::size_t i) { return &rows[i].spin; });
+}
+
+/// Calls `take(v, a, now)` for the velocities of four balls or of one, their old rates and those by which they are
+/// driven now.
 template <bool polydisperse, bool drags, class Take>
-[[gnu::always_inline]] inline void for_each_rate(std::size_t n, const double* force, PerGrain per, double gravity,
-                                                 double drag, double* v, double* a, Take take) {
-  const double* each = per.each;
-  const double same = per.same;
-#pragma omp simd
-  for (std::size_t i = 0; i < n; ++i) {
-    const double per_mass = polydisperse ? each[i] : same;
-    double now = force[4 * i] * per_mass + gravity;
-    if constexpr (drags) now -= drag * per_mass * v[i];
-    take(v[i], a[i], now);
+[[gnu::always_inline]] inline void for_each_rate(std::size_t n, const GrainVector* force, PerGrain per,
+                                                 const double (&gravity)[3], double drag, double* const (&v)[3],
+                                                 double* const (&a)[3], Take take) {
+  const auto drive = [&](const auto& pushes, const auto& per_mass, auto& velocity, auto& rate, int axis) {
+    auto now = pushes * per_mass + gravity[axis];
+    if constexpr (drags) now -= drag * per_mass * velocity;
+    take(velocity, rate, now);
+  };
+  std::size_t i = 0;
+  for (; i + 4 <= n; i += 4) {
+    Four rows[4];
+    for (std::size_t k = 0; k < 4; ++k) rows[k] = *reinterpret_cast<const Four*>(force + i + k);
+    transpose(rows);
+    Four per_mass = Four{} + per.same;
+    if constexpr (polydisperse) per_mass = *reinterpret_cast<const FourAnywhere*>(per.each + i);
+    for (int axis = 0; axis < 3; ++axis) {
+      FourAnywhere& velocities = *reinterpret_cast<FourAnywhere*>(v[axis] + i);
+      FourAnywhere& rates = *reinterpret_cast<FourAnywhere*>(a[axis] + i);
+      Four velocity = velocities, rate = rates;
+      drive(rows[axis], per_mass, velocity, rate, axis);
+      velocities = velocity, rates = rate;
+    }
+  }
+  for (; i < n; ++i) {
+    const double pushes[3] = {force[i].x, force[i].y, force[i].z};
+    const double per_mass = polydisperse ? per.each[i] : per.same;
+    for (int axis = 0; axis < 3; ++axis) drive(pushes[axis], per_mass, v[axis][i], a[axis][i], axis);
   }
 }
 
 template <class Take>
 [[gnu::always_inline]] inline void drive_all(std::size_t n, const SpaceDrive& drive, const SpaceRates& rates,
                                              Take take) {
-  const auto one = [&](const double* force, PerGrain per, double gravity, double drag, double* v, double* a) {
+  const auto one = [&](const GrainVector* force, PerGrain per, const double(&gravity)[3], double drag,
+                       double* const(&v)[3], double* const(&a)[3]) {
     const auto with = [&](auto polydisperse) {
       drag == 0 ? for_each_rate<polydisperse, false>(n, force, per, gravity, drag, v, a, take)
                 : for_each_rate<polydisperse, true>(n, force, per, gravity, drag, v, a, take);
     };
     per.each ? with(std::true_type()) : with(std::false_type());
   };
-  const double gravity[3] = {drive.gravity_x, drive.gravity_y, drive.gravity_z};
-  for (int axis = 0; axis < 3; ++axis)
-    one(&drive.force->x + axis, drive.per_mass, gravity[axis], drive.drag, rates.v[axis], rates.a[axis]);
-  if (!rates.omega[0]) return;
-  for (int axis = 0; axis < 3; ++axis)
-    one(&drive.torque->x + axis, drive.per_inertia, 0, 0, rates.omega[axis], rates.alpha[axis]);
+  one(drive.force, drive.per_mass, {drive.gravity_x, drive.gravity_y, drive.gravity_z}, drive.drag, rates.v, rates.a);
+  if (rates.omega[0]) one(drive.torque, drive.per_inertia, {0, 0, 0}, 0, rates.omega, rates.alpha);
 }
 
 void accelerate(std::size_t n, const SpaceDrive& drive, const SpaceRates& rates) {
-  drive_all(n, drive, rates, [](double /*v*/, double& a, double now) { a = now; });
+  drive_all(n, drive, rates, [](auto& /*v*/, auto& a, const auto& now) { a = now; });
 }
 
 void correct(std::size_t n, double dt, const SpaceDrive& drive, const SpaceRates& rates) {
-  drive_all(n, drive, rates, [half = 0.5 * dt](double& v, double& a, double now) {
+  drive_all(n, drive, rates, [half = 0.5 * dt](auto& v, auto& a, const auto& now) {
     v += half * (now - a);
     a = now;
   });
@@ -111,6 +151,7 @@ std::size_t near_pairs(std::size_t n, const int* grain, const int* partner, cons
 }  // namespace
 
 extern const SpaceLoops loops_in_space;
-const SpaceLoops loops_in_space{accelerate, correct, any_moved, any_faster, near_pairs};
+const SpaceLoops loops_in_space{places_to_rows, motions_to_rows, accelerate, correct,
+                                any_moved,      any_faster,      near_pairs};
 
 }  // namespace vibrosow::inline VIBROSOW_ISA

@@ -20,14 +20,17 @@ struct SpaceRates {
   double *v[3], *omega[3], *a[3], *alpha[3];
 };
 
-/// Coordinates x, y, z.
+/// Coordinates x, y, z: m, or of velocities and spins m/s and rad/s.
 struct Coordinates {
-  const double *x, *y, *z;  // m
+  const double *x, *y, *z;
 };
 
 /// Loops over all balls in space, compiled for one instruction set, beside those of GrainLoops that know nothing of
 /// dimensions.
 struct SpaceLoops {
+  /// Places, or velocities and spins, of which x, y and z lie apart, side by side. Without rotation `spin` is null.
+  void (*places_to_rows)(std::size_t n, const Coordinates& places, GrainVector* rows);
+  void (*motions_to_rows)(std::size_t n, const Coordinates& velocity, const Coordinates& spin, BallMotion* rows);
   /// As in GrainLoops.
   void (*accelerate)(std::size_t n, const SpaceDrive& drive, const SpaceRates& rates);
   void (*correct)(std::size_t n, double dt, const SpaceDrive& drive, const SpaceRates& rates);

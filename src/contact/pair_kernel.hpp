@@ -4,12 +4,10 @@
 #include <cmath>
 
 #include "compute/compress.hpp"
+#include "compute/four.hpp"
 #include "contact/pair_properties.hpp"
 
 namespace vibrosow::inline VIBROSOW_ISA {
-
-/// Four numbers that are added at once, whatever else their place in block_histories is called.
-using Four [[gnu::vector_size(32), gnu::may_alias]] = double;
 
 /// The touching ones among up to `size` pairs, in the order of the list: of each array the first `touching` places, and
 /// more for whole vectors.

@@ -47,8 +47,10 @@ class PairProperties {
  public:
   PairProperties(const GrainSurfaces& grains, const ContactParameters& parameters)
       : grains_(grains), parameters_(parameters) {
-    if constexpr (!Effects::polydisperse)
-      equal_ = pair_constants<Law, Effects>(surface(0), surface(0), parameters.pair(0, 0), parameters);
+    if constexpr (!Effects::polydisperse) {
+      equal_surface_ = parameters.pair(0, 0);
+      equal_ = pair_constants<Law, Effects>(surface(0), surface(0), equal_surface_, parameters);
+    }
   }
 
   double reach(std::size_t i, std::size_t j) const {
@@ -61,7 +63,7 @@ class PairProperties {
   }
   const SurfaceParameters& between(std::size_t i, std::size_t j) const {
     if constexpr (Effects::polydisperse) return parameters_.pair(grains_.lot[i], grains_.lot[j]);
-    return parameters_.pairs.front();
+    return equal_surface_;
   }
   /// A value for polydisperse grains, a reference for equal ones.
   decltype(auto) pair(std::size_t i, std::size_t j) const {
@@ -82,6 +84,7 @@ class PairProperties {
   const GrainSurfaces grains_;
   const ContactParameters& parameters_;
   PairConstants equal_;
+  SurfaceParameters equal_surface_;  // a copy: for all the compiler knows, storing a force could change the original
 };
 
 }  // namespace vibrosow::inline VIBROSOW_ISA

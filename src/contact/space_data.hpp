@@ -10,10 +10,11 @@
 
 namespace vibrosow {
 
-/// Where and how fast the balls are when forces are wanted. `row_x` and `row_z` stand for `x` and `z` of the first
-/// grain of each pair, as `row_x` of Motion does.
+/// Where and how fast the balls are when forces are wanted: what a pair needs of a ball lies side by side, to be
+/// fetched at once. `row_place` stands for `place` of the first grain of each pair, as `row_x` of Motion does.
 struct SpaceMotion {
-  const double *x, *y, *z, *vx, *vy, *vz, *omega_x, *omega_y, *omega_z, *row_x, *row_z;
+  const GrainVector *place, *row_place;
+  const BallMotion* motion;
 };
 
 /// Where the forces of a block of pairs go.

@@ -33,7 +33,8 @@ double space_pair_energy(const GrainSurfaces& grains, const SpaceMotion& at, con
   double energy = 0;
   for (std::size_t k = 0; k < list.size(); ++k) {
     const std::size_t i = static_cast<std::size_t>(list.grain[k]), j = static_cast<std::size_t>(list.partner[k]);
-    const Vector3 apart{at.x[j] - at.row_x[i], at.y[j] - at.y[i], at.z[j] - at.row_z[i]};
+    const GrainVector &from = at.row_place[i], &to = at.place[j];
+    const Vector3 apart{to.x - from.x, to.y - from.y, to.z - from.z};
     const double overlap = properties.reach(i, j) - length(apart);
     if (overlap > 0)
       energy += space_contact_energy<Law, Effects>(overlap, properties.pair(i, j), properties.between(i, j),

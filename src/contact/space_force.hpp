@@ -103,11 +103,8 @@ struct SpaceSliding {
 [[gnu::always_inline]] inline Vector3 spring_friction(double stiffness, double dashpot, double limit,
                                                       const Vector3& speed, Vector3& displacement) {
   const Vector3 elastic = stiffness * displacement;
-  const auto within = [limit](const Vector3& force) {
-    const double size = length(force);
-    return size > limit ? limit / size : 1.0;
-  };
-  const double held = stiffness > 0 ? within(elastic) : 0.0;
+  const auto within = [limit](const Vector3& force) { return std::min(1.0, limit / length(force)); };
+  const double held = within(elastic) * (stiffness > 0 ? 1.0 : 0.0);
   displacement = held * displacement;
   const Vector3 both = held * elastic + dashpot * speed;
   return within(both) * both;

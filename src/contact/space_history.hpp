@@ -1,6 +1,7 @@
 #pragma once
 
-#include "contact/pair_block.hpp"
+#include "compute/four.hpp"
+#include "contact/space_data.hpp"
 #include "contact/space_force.hpp"
 
 namespace vibrosow::inline VIBROSOW_ISA {
@@ -48,7 +49,7 @@ inline void clear_record(ContactHistories& histories, std::size_t entry) {
 /// Records of the contacts of a block, number by number.
 struct SpaceBlockHistories {
   static constexpr std::size_t longest = HistoryKinds{true, true, true}.record_length();
-  double numbers[longest][pair_block_size];
+  alignas(64) double numbers[longest][pair_block_size];
 
   template <class Effects>
   SpaceHistory get(std::size_t k) const {
@@ -70,30 +71,60 @@ struct SpaceBlockHistories {
   }
 };
 
-/// Fetches the records of the first `count` contacts of a block, from their entries of the list after `first`: side by
-/// side, where vector instructions find them.
+/// Calls `take(n)` for each four numbers of a record from number n on (at least four, if any); the last four may
+/// overlap those before.
+template <class Effects, class Take>
+[[gnu::always_inline]] inline void for_each_four(Take take) {
+  constexpr std::size_t length = RecordOf<Effects>::length;
+  for (std::size_t n = 0; n + 4 <= length; n += 4) take(n);
+  if constexpr (length > 4 && length % 4 != 0) take(length - 4);
+}
+
+/// Fetches the records of the first `count` contacts of a block, from their entries of the list after `first`: number
+/// by number, where vector instructions find them.
 template <class Effects>
 void load_block(const ContactHistories& histories, const int* entry, int first, int count,
                 SpaceBlockHistories& of_block) {
   if constexpr (!keeps_history<Effects>) return;
-  constexpr std::size_t length = RecordOf<Effects>::length;
   const double* records = histories.records.data();
-  for (int k = 0; k < count; ++k) {
-    const double* record = records + static_cast<std::size_t>(first + entry[k]) * length;
-    for (std::size_t n = 0; n < length; ++n) of_block.numbers[n][k] = record[n];
+  const auto record = [=](int k) {
+    return records + static_cast<std::size_t>(first + entry[k]) * RecordOf<Effects>::length;
+  };
+  int k = 0;
+  for (; k + 4 <= count; k += 4) {
+    const double* const of[4]{record(k), record(k + 1), record(k + 2), record(k + 3)};
+    for_each_four<Effects>([&](std::size_t n) {
+      Four four[4];
+      for (int c = 0; c < 4; ++c) four[c] = *reinterpret_cast<const FourAnywhere*>(of[c] + n);
+      transpose(four);
+      for (std::size_t m = 0; m < 4; ++m) *reinterpret_cast<Four*>(&of_block.numbers[n + m][k]) = four[m];
+    });
   }
+  for (; k < count; ++k)
+    for (std::size_t n = 0; n < RecordOf<Effects>::length; ++n) of_block.numbers[n][k] = record(k)[n];
 }
 
 /// Stores the records of the first `count` contacts of a block, at their entries of the list after `first`.
 template <class Effects>
 void store_block(const SpaceBlockHistories& of_block, const int* entry, int first, int count,
                  ContactHistories& histories) {
-  constexpr std::size_t length = RecordOf<Effects>::length;
+  if constexpr (!keeps_history<Effects>) return;
   double* records = histories.records.data();
-  for (int k = 0; k < count; ++k) {
-    double* record = records + static_cast<std::size_t>(first + entry[k]) * length;
-    for (std::size_t n = 0; n < length; ++n) record[n] = of_block.numbers[n][k];
+  const auto record = [=](int k) {
+    return records + static_cast<std::size_t>(first + entry[k]) * RecordOf<Effects>::length;
+  };
+  int k = 0;
+  for (; k + 4 <= count; k += 4) {
+    double* const of[4]{record(k), record(k + 1), record(k + 2), record(k + 3)};
+    for_each_four<Effects>([&](std::size_t n) {
+      Four four[4];
+      for (std::size_t m = 0; m < 4; ++m) four[m] = *reinterpret_cast<const Four*>(&of_block.numbers[n + m][k]);
+      transpose(four);
+      for (int c = 0; c < 4; ++c) *reinterpret_cast<FourAnywhere*>(of[c] + n) = four[c];
+    });
   }
+  for (; k < count; ++k)
+    for (std::size_t n = 0; n < RecordOf<Effects>::length; ++n) record(k)[n] = of_block.numbers[n][k];
 }
 
 }  // namespace vibrosow::inline VIBROSOW_ISA

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "contact/pair_kernel.hpp"
+#include "contact/space_columns.hpp"
 #include "contact/space_data.hpp"
 #include "contact/space_force.hpp"
 #include "contact/space_history.hpp"
@@ -17,6 +18,8 @@ struct SpaceBlock {
   int entry[size + spare];  // of the list, counted from the range's first
   int grain[size + spare], partner[size + spare];
   double dx[size + spare], dy[size + spare], dz[size + spare];           // m, from the grain to its partner
+  SpaceColumns velocity;                                                 // m/s, of the grain less its partner's
+  SpaceColumns spin, partner_spin;                                       // rad/s
   alignas(64) double fx[size], fy[size], fz[size];                       // N, on the grain; the opposite on its partner
   alignas(64) double torque_x[size], torque_y[size], torque_z[size];     // N m, on the grain
   alignas(64) double partner_x[size], partner_y[size], partner_z[size];  // N m, on the partner
@@ -32,27 +35,40 @@ inline void fill_up(SpaceBlock& block) {
   }
 }
 
+/// Fetches what the contacts of a block need to know of how their balls move.
+template <class Effects>
+void fetch_motion(const BallMotion* motion, SpaceBlock& block) {
+  const int count = block.whole_vectors();
+  if constexpr (Effects::damping || Effects::friction)
+    fetch(count, block.velocity, [&](int k, Four& row) {
+      row = as_four(motion[block.grain[k]].velocity) - as_four(motion[block.partner[k]].velocity);
+    });
+  if constexpr (Effects::rotation) {
+    fetch(count, block.spin, [&](int k, Four& row) { row = as_four(motion[block.grain[k]].spin); });
+    fetch(count, block.partner_spin, [&](int k, Four& row) { row = as_four(motion[block.partner[k]].spin); });
+  }
+}
+
 template <class Law, class Effects>
 void find_touching(const PairProperties<Law, Effects>& properties, const SpaceMotion& at, const PairList& list,
                    PairRange range, bool leaves_trace, ContactHistories& histories, SpaceBlock& block) {
-  const double *x = at.x, *y = at.y, *z = at.z, *row_x = at.row_x, *row_z = at.row_z;
   const int *grain = list.grain.data() + range.from, *partner = list.partner.data() + range.from;
   const int count = range.to - range.from;
   unsigned char touches[SpaceBlock::size + SpaceBlock::spare];
-  double all_dx[SpaceBlock::size], all_dy[SpaceBlock::size], all_dz[SpaceBlock::size];
+  SpaceColumns apart;
+  fetch(count, apart, [&](int k, Four& row) { row = as_four(at.place[partner[k]]) - as_four(at.row_place[grain[k]]); });
 #pragma omp simd
   for (int k = 0; k < count; ++k) {
     const std::size_t i = static_cast<std::size_t>(grain[k]), j = static_cast<std::size_t>(partner[k]);
-    const double dx = x[j] - row_x[i], dy = y[j] - y[i], dz = z[j] - row_z[i], reach = properties.reach(i, j);
-    all_dx[k] = dx, all_dy[k] = dy, all_dz[k] = dz;
+    const double dx = apart.x[k], dy = apart.y[k], dz = apart.z[k], reach = properties.reach(i, j);
     touches[k] = dx * dx + dy * dy + dz * dz < reach * reach ? 1 : 0;
   }
   if constexpr (keeps_history<Effects>)
     if (leaves_trace)
       part(range, touches, histories, [&](std::size_t entry) { clear_record<Effects>(histories, entry); });
   block.touching = compress(touches, count, Kept<int>{places.data(), block.entry}, Kept<int>{grain, block.grain},
-                            Kept<int>{partner, block.partner}, Kept<double>{all_dx, block.dx},
-                            Kept<double>{all_dy, block.dy}, Kept<double>{all_dz, block.dz});
+                            Kept<int>{partner, block.partner}, Kept<double>{apart.x, block.dx},
+                            Kept<double>{apart.y, block.dy}, Kept<double>{apart.z, block.dz});
   fill_up(block);
 }
 
@@ -60,7 +76,6 @@ void find_touching(const PairProperties<Law, Effects>& properties, const SpaceMo
 template <class Law, class Effects>
 struct SpacePairWork {
   const PairProperties<Law, Effects>& properties;
-  const SpaceMotion m;
   const double shortening;
   const HistoryAdvance advance;
   SpaceBlock& block;
@@ -81,15 +96,14 @@ struct SpacePairWork {
     touch.overlap = pair.reach - distance;
     [[maybe_unused]] double arm_i = 0, arm_j = 0;
     if constexpr (Effects::damping || Effects::friction) {
-      const Vector3 u{m.vx[i] - m.vx[j], m.vy[i] - m.vy[j], m.vz[i] - m.vz[j]};
+      const Vector3 u = block.velocity[k];
       touch.approach = dot(u, touch.n);
       if constexpr (Effects::friction) touch.sliding = u - touch.approach * touch.n;
     }
     if constexpr (Effects::rotation) {
       arm_i = properties.radius(i) - shortening * touch.overlap * pair.overlap_fraction_i;
       arm_j = properties.radius(j) - shortening * touch.overlap * pair.overlap_fraction_j;
-      set_turning<Effects>({m.omega_x[i], m.omega_y[i], m.omega_z[i]}, {m.omega_x[j], m.omega_y[j], m.omega_z[j]},
-                           arm_i, arm_j, touch);
+      set_turning<Effects>(block.spin[k], block.partner_spin[k], arm_i, arm_j, touch);
     }
     SpaceHistory history = block_histories.template get<Effects>(static_cast<std::size_t>(k));
     const SpaceContactForce force =
@@ -125,13 +139,8 @@ template <class Law, class Effects>
 /// Three columns of four contacts each as four vectors, the fourth number of each 0.
 inline void as_rows(const double* x, const double* y, const double* z, Four (&rows)[4]) {
   const auto four = [](const double* array) -> const Four& { return *reinterpret_cast<const Four*>(array); };
-  const Four zero{};
-  const Four xy02 = __builtin_shufflevector(four(x), four(y), 0, 4, 2, 6);
-  const Four xy13 = __builtin_shufflevector(four(x), four(y), 1, 5, 3, 7);
-  const Four z02 = __builtin_shufflevector(four(z), zero, 0, 4, 2, 6);
-  const Four z13 = __builtin_shufflevector(four(z), zero, 1, 5, 3, 7);
-  rows[0] = __builtin_shufflevector(xy02, z02, 0, 1, 4, 5), rows[1] = __builtin_shufflevector(xy13, z13, 0, 1, 4, 5);
-  rows[2] = __builtin_shufflevector(xy02, z02, 2, 3, 6, 7), rows[3] = __builtin_shufflevector(xy13, z13, 2, 3, 6, 7);
+  rows[0] = four(x), rows[1] = four(y), rows[2] = four(z), rows[3] = Four{};
+  transpose(rows);
 }
 
 /// Adds the forces of a block to its grains, contact by contact in the order of the list.
@@ -172,10 +181,11 @@ template <class Law, class Effects>
   const bool leaves_trace = advance.commit > 0;
   SpaceBlock block;
   find_touching<Law, Effects>(properties, at, list, range, leaves_trace, histories, block);
+  fetch_motion<Effects>(at.motion, block);
   SpaceBlockHistories block_histories;
   load_block<Effects>(histories, block.entry, range.from, block.whole_vectors(), block_histories);
   result.figures =
-      forces_of_touching<Law, Effects>({properties, at, parameters.arm_shortening, advance, block, block_histories});
+      forces_of_touching<Law, Effects>({properties, parameters.arm_shortening, advance, block, block_histories});
   if (keeps_history<Effects> && leaves_trace)
     store_block<Effects>(block_histories, block.entry, range.from, block.touching, histories);
   add_block<Effects::rotation>(block, result);

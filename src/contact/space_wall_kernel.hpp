@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "contact/space_columns.hpp"
 #include "contact/space_data.hpp"
 #include "contact/space_force.hpp"
 #include "contact/space_history.hpp"
@@ -27,11 +28,11 @@ struct ColumnsTo {
 template <class Law, class Effects>
 struct SpaceWallWork {
   const WallProperties<Law, Effects>& properties;
-  const SpaceMotion m;
   const double shortening;
   const HistoryAdvance advance;
   const int* grain;
   const double* distances;
+  const SpaceColumns &velocity, &spin;
   const ColumnsFrom normal, wall_velocity, wall_spin;
   const ColumnsTo forces, torques;
   SpaceBlockHistories& block_histories;
@@ -45,13 +46,13 @@ struct SpaceWallWork {
     touch.overlap = properties.radius(i) - distances[k];
     [[maybe_unused]] double arm = 0;
     if constexpr (Effects::damping || Effects::friction) {
-      const Vector3 u = Vector3{m.vx[i], m.vy[i], m.vz[i]} - wall_velocity[k];
+      const Vector3 u = velocity[k] - wall_velocity[k];
       touch.approach = dot(u, touch.n);
       if constexpr (Effects::friction) touch.sliding = u - touch.approach * touch.n;
     }
     if constexpr (Effects::rotation) {
       arm = properties.radius(i) - shortening * touch.overlap * pair.overlap_fraction_i;
-      set_turning<Effects>({m.omega_x[i], m.omega_y[i], m.omega_z[i]}, wall_spin[k], arm, 0, touch);
+      set_turning<Effects>(spin[k], wall_spin[k], arm, 0, touch);
     }
     SpaceHistory history = block_histories.template get<Effects>(static_cast<std::size_t>(k));
     const SpaceContactForce force =
@@ -83,17 +84,23 @@ template <class Law, class Effects>
                                               ContactHistories& histories, SpaceWallContacts& contacts) {
   const WallProperties<Law, Effects> properties(grains, parameters);
   SpaceBlockHistories block_histories;
+  SpaceColumns velocity, spin;
   LawFigures figures;
   for (int from = 0; from < contacts.count; from += pair_block_size) {
     const int count = contacts.count - from < pair_block_size ? contacts.count - from : pair_block_size;
-    const int* candidate = contacts.candidate.data() + from;
+    const int *candidate = contacts.candidate.data() + from, *grain = contacts.grain.data() + from;
+    if constexpr (Effects::damping || Effects::friction)
+      fetch(count, velocity, [&](int k, Four& row) { row = as_four(at.motion[grain[k]].velocity); });
+    if constexpr (Effects::rotation)
+      fetch(count, spin, [&](int k, Four& row) { row = as_four(at.motion[grain[k]].spin); });
     load_block<Effects>(histories, candidate, 0, count, block_histories);
     const LawFigures here = forces_of_walls<Law, Effects>({properties,
-                                                           at,
                                                            parameters.arm_shortening,
                                                            advance,
-                                                           contacts.grain.data() + from,
+                                                           grain,
                                                            contacts.distance.data() + from,
+                                                           velocity,
+                                                           spin,
                                                            {contacts.normal, from},
                                                            {contacts.wall_velocity, from},
                                                            {contacts.wall_spin, from},

@@ -10,7 +10,10 @@ class WallProperties {
  public:
   WallProperties(const GrainSurfaces& grains, const ContactParameters& parameters)
       : grains_(grains), parameters_(parameters) {
-    if constexpr (!Effects::polydisperse) equal_ = constants(grains.equal, parameters.walls.front());
+    if constexpr (!Effects::polydisperse) {
+      equal_surface_ = parameters.walls.front();
+      equal_ = constants(grains.equal, equal_surface_);
+    }
   }
 
   double radius(std::size_t i) const {
@@ -19,7 +22,7 @@ class WallProperties {
   }
   const SurfaceParameters& surface(std::size_t i) const {
     if constexpr (Effects::polydisperse) return parameters_.wall(grains_.lot[i]);
-    return parameters_.walls.front();
+    return equal_surface_;
   }
   /// A value for polydisperse grains, a reference for equal ones.
   decltype(auto) pair(std::size_t i) const {
@@ -39,6 +42,7 @@ class WallProperties {
   const GrainSurfaces grains_;
   const ContactParameters& parameters_;
   PairConstants equal_;
+  SurfaceParameters equal_surface_;  // a copy, as that of pairs
 };
 
 }  // namespace vibrosow::inline VIBROSOW_ISA

@@ -86,15 +86,17 @@ class ForceField {
   void add_wall_forces(const Grains& discs, const Motion& at, const HistoryAdvance& advance, Forces& forces,
                        ContactStatistics& statistics);
   void run_kernels(const Grains& discs, const HistoryAdvance& advance, Forces& forces, ContactStatistics& statistics);
-  SpaceMotion motion_in_space(const Grains& balls) const;
-  SpaceMotion motion_of_image(const Grains& balls, const Neighbours::Image& image);
+  SpaceMotion motion_in_space(const Grains& balls);
+  SpaceMotion motion_of_image(const SpaceMotion& at, const Neighbours::Image& image);
   void run_kernels_in_space(const Grains& balls, const HistoryAdvance& advance, SpaceForces& forces,
                             ContactStatistics& statistics);
-  void set_pair_forces_in_space(const Grains& balls, const HistoryAdvance& advance, SpaceForces& forces,
-                                ContactStatistics& statistics);
+  void set_pair_forces_in_space(const Grains& balls, const SpaceMotion& at, const HistoryAdvance& advance,
+                                SpaceForces& forces, ContactStatistics& statistics);
   double elastic_energy_in_space(const Grains& balls);
-  Eigen::Vector3d force_of_pair(const Grains& discs, const PairList& pairs, ContactHistories& histories, std::size_t k,
-                                const Neighbours::Image& image);
+  Eigen::Vector3d force_of_pair(const Grains& discs, const Motion& at, const PairList& pairs,
+                                ContactHistories& histories, std::size_t k);
+  Eigen::Vector3d force_of_pair_in_space(const Grains& balls, const SpaceMotion& at, const PairList& pairs,
+                                         ContactHistories& histories, std::size_t k);
   void add_contacts(const Grains& discs, const PairList& pairs, ContactHistories& histories,
                     const Neighbours::Image& image, std::vector<GrainContact>& contacts);
   void add_wall_contacts(const Grains& discs, std::vector<GrainContact>& contacts);
@@ -126,7 +128,9 @@ class ForceField {
     ContactStatistics statistics;
   };
   std::vector<RangeResult> range_results_;
-  std::vector<double> shifted_x_, shifted_z_;  // m, across periodic boundaries
+  std::vector<double> shifted_x_;                     // m, across the periodic boundary
+  std::vector<GrainVector> places_, shifted_places_;  // the same of balls in space
+  std::vector<BallMotion> motions_;
 };
 
 }  // namespace vibrosow

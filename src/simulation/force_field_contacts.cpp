@@ -32,39 +32,48 @@ Vector direction(const Vector& apart) {
 }  // namespace
 
 /// The kernels work out the forces, of one pair at a time: what its grain then has is this contact's.
-Eigen::Vector3d ForceField::force_of_pair(const Grains& discs, const PairList& pairs, ContactHistories& histories,
-                                          std::size_t k, const Neighbours::Image& image) {
+Eigen::Vector3d ForceField::force_of_pair_in_space(const Grains& balls, const SpaceMotion& at, const PairList& pairs,
+                                                   ContactHistories& histories, std::size_t k) {
   const int entry = static_cast<int>(k);
   const std::size_t i = static_cast<std::size_t>(pairs.grain[k]), j = static_cast<std::size_t>(pairs.partner[k]);
-  const bool across = image.x != 0 || image.z != 0;
-  if (discs.in_space) {
-    ball_forces_.forces.resize(discs.size()), ball_forces_.torques.resize(discs.size());
-    for (const std::size_t n : {i, j}) ball_forces_.forces[n] = ball_forces_.torques[n] = {};
-    SpacePairResult result;
-    result.forces = ball_forces_.forces.data(), result.torques = ball_forces_.torques.data(), result.first_own = 0;
-    space_pair_kernel_(surfaces_of(discs), across ? motion_of_image(discs, image) : motion_in_space(discs), pairs,
-                       {entry, entry + 1}, model_.contacts, {}, histories, result);
-    const GrainVector& force = ball_forces_.forces[i];
-    return {force.x, force.y, force.z};
-  }
+  ball_forces_.forces.resize(balls.size()), ball_forces_.torques.resize(balls.size());
+  for (const std::size_t n : {i, j}) ball_forces_.forces[n] = ball_forces_.torques[n] = {};
+  SpacePairResult result;
+  result.forces = ball_forces_.forces.data(), result.torques = ball_forces_.torques.data(), result.first_own = 0;
+  space_pair_kernel_(surfaces_of(balls), at, pairs, {entry, entry + 1}, model_.contacts, {}, histories, result);
+  const GrainVector& force = ball_forces_.forces[i];
+  return {force.x, force.y, force.z};
+}
+
+Eigen::Vector3d ForceField::force_of_pair(const Grains& discs, const Motion& at, const PairList& pairs,
+                                          ContactHistories& histories, std::size_t k) {
+  const int entry = static_cast<int>(k);
+  const std::size_t i = static_cast<std::size_t>(pairs.grain[k]), j = static_cast<std::size_t>(pairs.partner[k]);
   disc_forces_.resize(discs.size());
   disc_forces_[i] = disc_forces_[j] = {};
   PairResult result;
   result.forces = disc_forces_.data(), result.first_own = 0;
-  pair_kernel_(surfaces_of(discs), across ? across_boundary(discs, image.x) : motion_of(discs), pairs,
-               {entry, entry + 1}, model_.contacts, {}, histories, result);
+  pair_kernel_(surfaces_of(discs), at, pairs, {entry, entry + 1}, model_.contacts, {}, histories, result);
   return {disc_forces_[i].fx, disc_forces_[i].fy, 0};
 }
 
 void ForceField::add_contacts(const Grains& discs, const PairList& pairs, ContactHistories& histories,
                               const Neighbours::Image& image, std::vector<GrainContact>& contacts) {
+  const bool across = image.x != 0 || image.z != 0, in_space = discs.in_space;
+  SpaceMotion at_in_space{};
+  if (in_space) at_in_space = motion_in_space(discs);
+  if (in_space && across) at_in_space = motion_of_image(at_in_space, image);
+  Motion at{};
+  if (!in_space) at = across ? across_boundary(discs, image.x) : motion_of(discs);
   for (std::size_t k = 0; k < pairs.size(); ++k) {
     const std::size_t i = static_cast<std::size_t>(pairs.grain[k]), j = static_cast<std::size_t>(pairs.partner[k]);
     const Vector to = place_of(discs, j), from = place_of(discs, i) + Vector(image.x, 0, image.z);
     const double overlap = discs.kind(i).radius + discs.kind(j).radius - (to - from).norm();
     if (!(overlap > 0)) continue;
-    contacts.push_back(contact_of(id_of_disc(discs, i), id_of_disc(discs, j), from, to, direction(to - from),
-                                  force_of_pair(discs, pairs, histories, k, image), overlap));
+    const Vector force = in_space ? force_of_pair_in_space(discs, at_in_space, pairs, histories, k)
+                                  : force_of_pair(discs, at, pairs, histories, k);
+    contacts.push_back(
+        contact_of(id_of_disc(discs, i), id_of_disc(discs, j), from, to, direction(to - from), force, overlap));
   }
 }
 

@@ -23,26 +23,30 @@ void add_pairs(SpacePairKernel kernel, const GrainSurfaces& surfaces, const Spac
 
 }  // namespace
 
-SpaceMotion ForceField::motion_in_space(const Grains& g) const {
-  return {g.x.data(),       g.y.data(),       g.z.data(),     g.vx.data(), g.vy.data(), g.vz.data(),
-          g.omega_x.data(), g.omega_y.data(), g.omega.data(), g.x.data(),  g.z.data()};
+/// What it points at is right until it is asked for again.
+SpaceMotion ForceField::motion_in_space(const Grains& balls) {
+  places_.resize(balls.size()), motions_.resize(balls.size());
+  const bool turn = !balls.omega.empty();
+  execution_.share(balls.size(), [&](std::size_t a, std::size_t b) {
+    const SpaceLoops& loops = execution_.space_loops();
+    loops.places_to_rows(b - a, {&balls.x[a], &balls.y[a], &balls.z[a]}, &places_[a]);
+    const Coordinates spin = turn ? Coordinates{&balls.omega_x[a], &balls.omega_y[a], &balls.omega[a]} : Coordinates{};
+    loops.motions_to_rows(b - a, {&balls.vx[a], &balls.vy[a], &balls.vz[a]}, spin, &motions_[a]);
+  });
+  return {places_.data(), places_.data(), motions_.data()};
 }
 
-SpaceMotion ForceField::motion_of_image(const Grains& balls, const Neighbours::Image& image) {
-  shifted_x_ = balls.x, shifted_z_ = balls.z;
-  for (double& x : shifted_x_) x += image.x;
-  for (double& z : shifted_z_) z += image.z;
-  SpaceMotion at = motion_in_space(balls);
-  at.row_x = shifted_x_.data(), at.row_z = shifted_z_.data();
-  return at;
+SpaceMotion ForceField::motion_of_image(const SpaceMotion& at, const Neighbours::Image& image) {
+  shifted_places_ = places_;
+  for (GrainVector& place : shifted_places_) place.x += image.x, place.z += image.z;
+  return {at.place, shifted_places_.data(), at.motion};
 }
 
 /// As in the plane, range by range.
-void ForceField::set_pair_forces_in_space(const Grains& balls, const HistoryAdvance& advance, SpaceForces& all,
-                                          ContactStatistics& statistics) {
+void ForceField::set_pair_forces_in_space(const Grains& balls, const SpaceMotion& at, const HistoryAdvance& advance,
+                                          SpaceForces& all, ContactStatistics& statistics) {
   const PairList& pairs = state_.contacts.pairs;
   const GrainSurfaces surfaces = surfaces_of(balls);
-  const SpaceMotion at = motion_in_space(balls);
   const std::size_t ranges = range_results_.size(), grains = balls.size();
   all.forces.resize(grains), all.torques.resize(model_.kernels->effects.rotation ? grains : 0);
   const auto first_grain = [&](std::size_t range) {
@@ -86,13 +90,14 @@ void ForceField::set_pair_forces_in_space(const Grains& balls, const HistoryAdva
 
 void ForceField::run_kernels_in_space(const Grains& balls, const HistoryAdvance& advance, SpaceForces& all,
                                       ContactStatistics& statistics) {
-  set_pair_forces_in_space(balls, advance, all, statistics);
+  const SpaceMotion at = motion_in_space(balls);
+  set_pair_forces_in_space(balls, at, advance, all, statistics);
   const GrainSurfaces surfaces = surfaces_of(balls);
   for (std::size_t k = 0; k < neighbours_.images().size(); ++k) {
     BoundaryContacts& boundary = state_.contacts.boundaries[k];
     SpacePairResult result;
     result.forces = all.forces.data(), result.torques = all.torques.data(), result.first_own = 0;
-    add_pairs(space_pair_kernel_, surfaces, motion_of_image(balls, neighbours_.images()[k]), boundary.pairs,
+    add_pairs(space_pair_kernel_, surfaces, motion_of_image(at, neighbours_.images()[k]), boundary.pairs,
               {0, static_cast<int>(boundary.pairs.size())}, model_.contacts, advance, boundary.histories, result,
               range_results_.front().foreign_in_space, statistics);
   }
@@ -100,9 +105,9 @@ void ForceField::run_kernels_in_space(const Grains& balls, const HistoryAdvance&
   space_wall_finder_.find(balls, state_.contacts.walls, walls_.placed_faces(), space_wall_contacts_);
   space_wall_finder_.watch_crossings(state_.contacts.walls, statistics.crossed);
   if (advance.commit > 0) space_wall_finder_.clear_parted(state_.contacts.wall_histories);
-  add_figures(space_wall_kernel_(surfaces, motion_in_space(balls), model_.contacts, advance,
-                                 state_.contacts.wall_histories, space_wall_contacts_),
-              statistics);
+  add_figures(
+      space_wall_kernel_(surfaces, at, model_.contacts, advance, state_.contacts.wall_histories, space_wall_contacts_),
+      statistics);
   vibrosow::add_wall_forces(space_wall_contacts_, model_.kernels->effects.rotation, all.forces, all.torques,
                             statistics);
   execution_.profile().lap(Phase::walls);
@@ -111,11 +116,12 @@ void ForceField::run_kernels_in_space(const Grains& balls, const HistoryAdvance&
 double ForceField::elastic_energy_in_space(const Grains& balls) {
   const GrainSurfaces surfaces = surfaces_of(balls);
   const EnergyKernel& energies = model_.kernels->energy;
-  double energy = energies.space_pair(surfaces, motion_in_space(balls), state_.contacts.pairs, model_.contacts,
-                                      state_.contacts.pair_histories);
+  const SpaceMotion at = motion_in_space(balls);
+  double energy =
+      energies.space_pair(surfaces, at, state_.contacts.pairs, model_.contacts, state_.contacts.pair_histories);
   for (std::size_t k = 0; k < neighbours_.images().size(); ++k) {
     const BoundaryContacts& boundary = state_.contacts.boundaries[k];
-    energy += energies.space_pair(surfaces, motion_of_image(balls, neighbours_.images()[k]), boundary.pairs,
+    energy += energies.space_pair(surfaces, motion_of_image(at, neighbours_.images()[k]), boundary.pairs,
                                   model_.contacts, boundary.histories);
   }
   space_wall_finder_.find(balls, state_.contacts.walls, walls_.placed_faces(), space_wall_contacts_);

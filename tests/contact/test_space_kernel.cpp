@@ -85,19 +85,14 @@ class Contact2 {
     return loads;
   }
   Loads space(const Balls& b, const HistoryAdvance& advance) {
-    const auto columns = [&b](auto of) {
-      std::array<std::array<double, 2>, 3> made{};
-      for (std::size_t axis = 0; axis < 3; ++axis)
-        made[axis] = {of(b[0])[static_cast<int>(axis)], of(b[1])[static_cast<int>(axis)]};
-      return made;
-    };
-    const auto x = columns([](const Ball&p) { return p.x; }), v = columns([](const Ball&p) { return p.v; });
-    const auto omega = columns([](const Ball& p) { return p.omega; });
+    const auto row = [](const Eigen::Vector3d& a) { return GrainVector{a.x(), a.y(), a.z(), 0}; };
+    const std::array<GrainVector, 2> places{row(b[0].x), row(b[1].x)};
+    const std::array<BallMotion, 2> motions{BallMotion{row(b[0].v), row(b[0].omega)},
+                                            BallMotion{row(b[1].v), row(b[1].omega)}};
     std::array<GrainVector, 2> forces{}, torques{};
     SpacePairResult result;
     result.forces = forces.data(), result.torques = torques.data(), result.first_own = 0;
-    const SpaceMotion at{x[0].data(),     x[1].data(),     x[2].data(),     v[0].data(), v[1].data(), v[2].data(),
-                         omega[0].data(), omega[1].data(), omega[2].data(), x[0].data(), x[2].data()};
+    const SpaceMotion at{places.data(), places.data(), motions.data()};
     kernels_.in_space[set_].pair(grains_, at, list_, {0, 1}, parameters_, advance, histories_, result);
     Loads loads;
     for (std::size_t k = 0; k < 2; ++k)
