@@ -20,16 +20,17 @@ def weights_of(by_slot, slots):
     return np.concatenate([np.full(len(by_slot[at]), np.std(np.log(by_slot[at]), ddof=1)) for at in slots])
 
 
-def fit(by_slot, slots, unit):
-    """(C, k, p) and the half widths of their intervals; rates in `unit` (1/s)."""
+def fit(by_slot, slots, unit, exponent=None):
+    """(C, k, p) and the half widths of their intervals; rates in `unit` (1/s). An exponent that is given has no interval."""
     widths = np.concatenate([np.full(len(by_slot[at]), at) for at in slots])
     logs = np.concatenate([np.log(np.array(by_slot[at]) / unit) for at in slots])
-    bounds = ((-np.inf, -3, 0), (np.inf, slots[0] - 0.05, 5))
-    (log_c, k, p), covariance = curve_fit(lambda width, log_c, k, p: log_c + p * np.log(width - k), widths, logs, p0=(0, 1, 1.5),
-                                          sigma=weights_of(by_slot, slots), bounds=bounds, xtol=1e-12, ftol=1e-12)
-    half = student.ppf(0.975, len(logs) - 3) * np.sqrt(np.diag(covariance))
-    c = math.exp(log_c)
-    return (c, k, p), (c * half[0], half[1], half[2])
+    free = 2 if exponent else 3
+    bounds = ((-np.inf, -3, 0)[:free], (np.inf, slots[0] - 0.05, 5)[:free])
+    found, covariance = curve_fit(lambda width, log_c, k, p=exponent: log_c + p * np.log(width - k), widths, logs, p0=(0, 1, 1.5)[:free],
+                                  sigma=weights_of(by_slot, slots), bounds=bounds, xtol=1e-12, ftol=1e-12)
+    half = student.ppf(0.975, len(logs) - free) * np.sqrt(np.diag(covariance))
+    c = math.exp(found[0])
+    return (c, found[1], exponent or found[2]), (c * half[0], half[1], 0 if exponent else half[2])
 
 
 def ranges(values, least):
@@ -59,14 +60,16 @@ def slot_of(name):
     return float(named[1]) if named else None
 
 
-def write_fits(path, flowing, unit):
-    """Fits of each range of slots; returns the rates that the widest range's fit has."""
+def write_fits(path, flowing, unit, exponent):
+    """Fits of each range of slots, and of the widest with the exponent given, if any; returns the rates that the widest range's
+    fit has."""
     by_slot = {slot_of(name): rates for name, rates in flowing.items() if slot_of(name) and rates}
     fitted, lines = {}, []
     if len(by_slot) < 3:
         return fitted
-    for slots in ranges(sorted(by_slot), min(4, len(by_slot))):
-        values, halves = fit(by_slot, slots, unit)
+    widest = sorted(by_slot)
+    for slots, p in [*((slots, None) for slots in ranges(widest, min(4, len(by_slot)))), *([(widest, exponent)] if exponent else [])]:
+        values, halves = fit(by_slot, slots, unit, p)
         cells = [f"{number:.4f}" for pair in zip(values, halves) for number in pair]
         lines.append([f"{slots[0]:g}-{slots[-1]:g} d", sum(len(by_slot[at]) for at in slots), *cells])
         c, k, p = values
@@ -90,7 +93,7 @@ def fit_outflow(options):
     This is Beverloo's form; p is 3/2 in a plane where grains fall freely from an arch as wide as the slot.
     REPORTS: a folder made by `vibrosow sweep`, and folders with more runs. Writes rates.csv, every layout's rate, into the first.
     Layouts that are called "5 d", "7 d", .. are fitted, if there are three or more: fit.csv, of each range of four neighbouring
-    slots or more (of three, if that is all), the widest first. A run that ends with no more grains than its fill has none
+    slots or more (of three, if that is all), the widest first; with --exponent P also all of them with p = P, whose interval is then 0. A run that ends with no more grains than its fill has none
     between floor and counter: it has clogged, is left out and counted. Least squares of the logarithms of all other runs, each
     with the inverse of the variance among its slot's runs as weight, where every slot has five: runs of a narrow slot scatter three
     times as much as those of a wide one. Intervals (95 %) from the fit's covariance and Student's t."""
@@ -99,7 +102,7 @@ def fit_outflow(options):
     flowing, clogged = {}, {}
     for more in options.reports:
         read_runs(more, options.fill, flowing, clogged)
-    fitted = write_fits(f"{folder}/fit.csv", flowing, unit)
+    fitted = write_fits(f"{folder}/fit.csv", flowing, unit, options.exponent)
     write_table(f"{folder}/rates.csv", "name,runs,clogged,seeds_per_s,ci95_percent,fitted_seeds_per_s,difference_percent",
                 [[name, len(rates), clogged[name], *rate_cells(rates, fitted.get(slot_of(name)))] for name, rates in flowing.items()])
 
@@ -148,6 +151,7 @@ def add_commands(commands):
     parser.add_argument("table", metavar="CSV")
     parser = command(commands, "fit-outflow", fit_outflow)
     parser.add_argument("--diameter-mm", type=float, required=True, help="d, mean diameter of the grains")
+    parser.add_argument("--exponent", type=float, help="also a fit with this p held fast")
     parser.add_argument("--fill", type=int, help="grains that the silo is kept at, where the studies do not vary it")
     parser.add_argument("reports", nargs="+", metavar="REPORTS")
     parser = command(commands, "outflow-slope", outflow_slope)

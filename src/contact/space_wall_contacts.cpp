@@ -45,17 +45,19 @@ void make_room(std::size_t most, SpaceWallContacts& contacts) {
 }  // namespace
 
 void SpaceWallFinder::find(const Grains& grains, const std::vector<WallCandidate>& candidates,
-                           const std::vector<PlacedFace>& faces, SpaceWallContacts& contacts) {
+                           const std::vector<PlacedFace>& faces, Execution& execution, SpaceWallContacts& contacts) {
   const std::size_t count = candidates.size();
   make_room(count, contacts);
   contacts.count = 0;
-  nearest_.resize(count), touches_.resize(count), near_.resize(count + 1);
+  nearest_.resize(count), touches_.assign(count, 0), near_.resize(count + 1);
+  execution.share(count, [&](std::size_t a, std::size_t b) {
+    for (std::size_t c = a; c < b; ++c)
+      nearest_[c] = nearest_on_face(faces[static_cast<std::size_t>(candidates[c].wall)],
+                                    centre_of(grains, static_cast<std::size_t>(candidates[c].grain)));
+  });
   std::size_t near = 0;
   for (std::size_t c = 0; c < count; ++c) {
-    const std::size_t i = static_cast<std::size_t>(candidates[c].grain);
-    const double radius = radius_of(grains, i);
-    nearest_[c] = nearest_on_face(faces[static_cast<std::size_t>(candidates[c].wall)], centre_of(grains, i));
-    touches_[c] = 0;
+    const double radius = radius_of(grains, static_cast<std::size_t>(candidates[c].grain));
     near_[near] = c;
     near += nearest_[c].distance2 < radius * radius ? 1 : 0;
   }

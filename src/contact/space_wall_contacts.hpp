@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "compute/execution.hpp"
 #include "contact/contact_history.hpp"
 #include "contact/contact_list.hpp"
 #include "contact/kernels.hpp"
@@ -18,7 +19,7 @@ class SpaceWallFinder {
  public:
   /// Sets `contacts`; `candidates` sorted by grain.
   void find(const Grains& grains, const std::vector<WallCandidate>& candidates, const std::vector<PlacedFace>& faces,
-            SpaceWallContacts& contacts);
+            Execution& execution, SpaceWallContacts& contacts);
 
   /// For the candidates of the last `find`: a side follows the ball while it is beyond the face's edges or over a hole;
   /// a change of side over the face is a crossing, noted in `crossed` (numbers of grains).

@@ -92,7 +92,7 @@ void ForceField::add_wall_contacts(const Grains& discs, std::vector<GrainContact
 }
 
 void ForceField::add_face_contacts(const Grains& balls, std::vector<GrainContact>& contacts) {
-  space_wall_finder_.find(balls, state_.contacts.walls, walls_.placed_faces(), space_wall_contacts_);
+  space_wall_finder_.find(balls, state_.contacts.walls, walls_.placed_faces(), execution_, space_wall_contacts_);
   space_wall_kernel_(surfaces_of(balls), motion_in_space(balls), model_.contacts, {}, state_.contacts.wall_histories,
                      space_wall_contacts_);
   const SpaceWallContacts& w = space_wall_contacts_;

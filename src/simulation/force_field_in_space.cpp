@@ -102,7 +102,7 @@ void ForceField::run_kernels_in_space(const Grains& balls, const HistoryAdvance&
               range_results_.front().foreign_in_space, statistics);
   }
   execution_.profile().lap(Phase::pairs);
-  space_wall_finder_.find(balls, state_.contacts.walls, walls_.placed_faces(), space_wall_contacts_);
+  space_wall_finder_.find(balls, state_.contacts.walls, walls_.placed_faces(), execution_, space_wall_contacts_);
   space_wall_finder_.watch_crossings(state_.contacts.walls, statistics.crossed);
   if (advance.commit > 0) space_wall_finder_.clear_parted(state_.contacts.wall_histories);
   add_figures(
@@ -124,7 +124,7 @@ double ForceField::elastic_energy_in_space(const Grains& balls) {
     energy += energies.space_pair(surfaces, motion_of_image(at, neighbours_.images()[k]), boundary.pairs,
                                   model_.contacts, boundary.histories);
   }
-  space_wall_finder_.find(balls, state_.contacts.walls, walls_.placed_faces(), space_wall_contacts_);
+  space_wall_finder_.find(balls, state_.contacts.walls, walls_.placed_faces(), execution_, space_wall_contacts_);
   return energy + energies.space_wall(surfaces, space_wall_contacts_, model_.contacts, state_.contacts.wall_histories);
 }
 
@@ -132,7 +132,7 @@ std::vector<GrainVector> ForceField::wall_forces_in_space() {
   const Grains& balls = place_discs();
   ContactStatistics statistics;
   std::vector<GrainVector> forces(balls.size()), torques(balls.size());
-  space_wall_finder_.find(balls, state_.contacts.walls, walls_.placed_faces(), space_wall_contacts_);
+  space_wall_finder_.find(balls, state_.contacts.walls, walls_.placed_faces(), execution_, space_wall_contacts_);
   space_wall_kernel_(surfaces_of(balls), motion_in_space(balls), model_.contacts, {}, state_.contacts.wall_histories,
                      space_wall_contacts_);
   vibrosow::add_wall_forces(space_wall_contacts_, model_.kernels->effects.rotation, forces, torques, statistics);

@@ -103,6 +103,19 @@ void carry_over(const std::vector<ActivePair>& active, const PairList& list, Con
   }
 }
 
+/// Nothing touches at the entries [from, to).
+void forget(ContactHistories& histories, std::size_t from, std::size_t to) {
+  const auto clear = [](auto& array, std::size_t begin, std::size_t end) {
+    if (!array.empty())
+      std::fill(array.begin() + static_cast<std::ptrdiff_t>(begin), array.begin() + static_cast<std::ptrdiff_t>(end), 0);
+  };
+  for (std::vector<double>* column : {&histories.slip, &histories.slip_speed, &histories.roll, &histories.roll_speed})
+    clear(*column, from, to);
+  const std::size_t length = histories.kinds.record_length();
+  clear(histories.records, from * length, to * length);
+  clear(histories.touched, from, to);
+}
+
 void drop_pairs_within_clumps(const std::vector<int>& clump, PairList& list) {
   std::size_t kept = 0;
   for (std::size_t k = 0; k < list.size(); ++k) {
@@ -308,8 +321,8 @@ void Neighbours::prune(const Grains& grains, const Walls& walls, ContactState& c
 
 void Neighbours::carry_histories_over(ContactState& contacts) {
   const auto begin = [this](const PairList& list, ContactHistories& histories) {
-    histories.clear();
     histories.resize(list.size(), kinds_);
+    execution_.share(list.size(), [&](std::size_t from, std::size_t to) { forget(histories, from, to); });
   };
   begin(contacts.pairs, contacts.pair_histories);
   for (BoundaryContacts& boundary : contacts.boundaries) begin(boundary.pairs, boundary.histories);

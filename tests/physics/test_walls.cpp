@@ -95,7 +95,8 @@ TEST(Wall, ACentreOnItIsPushedBackToTheSideItCameFrom) {
     const Walls walls({in_space.scene.tray}, Space::three_dimensional);
     const int floor = static_cast<int>(walls.named("tray floor 1").front());
     SpaceWallContacts touched;
-    SpaceWallFinder().find(balls, {{0, floor, side}}, walls.placed_faces(), touched);
+    Execution execution;
+    SpaceWallFinder().find(balls, {{0, floor, side}}, walls.placed_faces(), execution, touched);
     ASSERT_EQ(touched.count, 1);
     EXPECT_EQ(std::abs(touched.normal.y[0]), 1);
     const double above = nearest_on_face(walls.placed_faces()[static_cast<std::size_t>(floor)], {0.5, 0.1, 0.5}).side;
