@@ -1,6 +1,6 @@
 // The worker that simulates: one scene at a time, in the WebAssembly module (simulator.cpp). Bundled into the page as text.
 
-const frameEvery = 33, slice = 12; // ms of the clock, a slice at most
+const frameEvery = 29, slice = 12; // ms of the clock, a slice at most; with posting and drawing a picture takes some 8 ms more
 const fieldsOfGrain = 6;
 
 let core = null; // the module's exports
