@@ -88,7 +88,8 @@ void load_block(const ContactHistories& histories, const int* entry, int first, 
   if constexpr (!keeps_history<Effects>) return;
   const double* records = histories.records.data();
   const auto record = [=](int k) {
-    return records + static_cast<std::size_t>(first + entry[k]) * RecordOf<Effects>::length;
+    const int of_list = first + entry[k];
+    return records + static_cast<std::size_t>(of_list) * RecordOf<Effects>::length;
   };
   int k = 0;
   for (; k + 4 <= count; k += 4) {
@@ -111,7 +112,8 @@ void store_block(const SpaceBlockHistories& of_block, const int* entry, int firs
   if constexpr (!keeps_history<Effects>) return;
   double* records = histories.records.data();
   const auto record = [=](int k) {
-    return records + static_cast<std::size_t>(first + entry[k]) * RecordOf<Effects>::length;
+    const int of_list = first + entry[k];
+    return records + static_cast<std::size_t>(of_list) * RecordOf<Effects>::length;
   };
   int k = 0;
   for (; k + 4 <= count; k += 4) {
