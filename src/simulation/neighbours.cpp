@@ -107,7 +107,8 @@ void carry_over(const std::vector<ActivePair>& active, const PairList& list, Con
 void forget(ContactHistories& histories, std::size_t from, std::size_t to) {
   const auto clear = [](auto& array, std::size_t begin, std::size_t end) {
     if (!array.empty())
-      std::fill(array.begin() + static_cast<std::ptrdiff_t>(begin), array.begin() + static_cast<std::ptrdiff_t>(end), 0);
+      std::fill(array.begin() + static_cast<std::ptrdiff_t>(begin), array.begin() + static_cast<std::ptrdiff_t>(end),
+                0);
   };
   for (std::vector<double>* column : {&histories.slip, &histories.slip_speed, &histories.roll, &histories.roll_speed})
     clear(*column, from, to);
