@@ -52,11 +52,12 @@ test('the module of browsers without vectors has none', { skip: notBuilt }, () =
   assert.throws(() => read('simd'));
 });
 
-// The module without a worker: its exports, a function that hands it a text, and one that reads its answers.
-async function loaded() {
+// The module without a worker: its exports, a function that hands it a text, and one that reads its answers. `clock()`: ms.
+async function loaded(clock = () => 0) {
   const bytes = readFileSync(path.join(wasm, 'web', 'core', 'simulator-scalar.wasm'));
   const none = () => 0;
-  const system = { clock_time_get: none, environ_sizes_get: none, environ_get: none, proc_exit: none };
+  const tell = (id, precision, at) => { new DataView(core.memory.buffer).setBigUint64(at, BigInt(clock() * 1e6), true); return 0; };
+  const system = { clock_time_get: tell, environ_sizes_get: none, environ_get: none, proc_exit: none };
   const { instance: { exports: core } } = await WebAssembly.instantiate(bytes, { wasi_snapshot_preview1: system, env: { emscripten_notify_memory_growth: none } });
   core._initialize();
   const memory = () => new Uint8Array(core.memory.buffer);
@@ -68,6 +69,18 @@ async function loaded() {
   };
   return { core, open, answer };
 }
+
+test('a slice ends in time, whatever the clock says', { skip: notNative }, async () => {
+  const { text } = shortScene('seeders/wheat-tray.toml');
+  for (const sinceStart of [0, 2 ** 31 / 1e6 - 2, 2 ** 32 / 1e6 - 2, 2 ** 31 - 2, 1e11]) { // ms: where 32 bits of ns, us or ms are full
+    let now = Math.round(sinceStart), looks = 0;
+    const { core, open } = await loaded(() => { ++looks; return now++; });
+    open(text);
+    looks = 0;
+    assert.equal(core.advance(Infinity, 5), 0);
+    assert.ok(looks <= 7, `${looks} looks at a clock that began at ${sinceStart} ms`);
+  }
+});
 
 test('rates of a run that goes on are of the time so far', { skip: notNative }, async () => {
   const { scene } = shortScene('seeders/wheat-tray.toml');

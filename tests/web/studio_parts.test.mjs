@@ -3,6 +3,7 @@ import assert from 'node:assert/strict';
 import { createRequire } from 'node:module';
 import test, { describe } from 'node:test';
 import { deflateRawSync } from 'node:zlib';
+import { Pace } from '../../web/core/pace.mjs';
 import { comparisonOf, comparisonSentence } from '../../web/studio/comparison.mjs';
 import { Course } from '../../web/studio/course.mjs';
 import * as layouts from '../../web/studio/layout.mjs';
@@ -28,6 +29,46 @@ describe('quantities', () => {
     assert.deepEqual([metresOf(12.3), 0.1 + 0.2, 1 / 12].map(lengthText), ['12.3 mm', '0.30000000000000004 m', '0.08333333333333333 m']);
     assert.deepEqual([radiansOf(17.3), 0.3].map(angleText), ['17.3 degree', '0.3 rad']);
     assert.equal(radiansOf(17.3), 17.3 * (Math.PI / 180));
+  });
+});
+
+// A simulator that makes `speed` simulated seconds a second, in slices of at most 12 ms with 1 ms between them: how far it has come by each
+// `mark` (ms), and how often it has waited. It is held up from one time to another, where `held` says so.
+function simulated(pace, speed, marks, held = [Infinity, 0]) {
+  const run = new Pace(pace, 0, 0), reached = [];
+  let now = 0, time = 0, waits = 0;
+  for (const mark of marks) {
+    while (now < mark) {
+      if (now >= held[0] && now < held[1]) now = held[1];
+      const due = run.due(now), slice = Math.min(12, ((due - time) / speed) * 1e3);
+      time = slice < 12 ? due : time + (slice * speed) / 1e3;
+      now += slice + 1;
+      run.forgive(now, time);
+      if (time < due) continue;
+      ++waits;
+      now += 4;
+    }
+    reached.push(time);
+  }
+  return { reached, waits };
+}
+
+describe('the pace of a simulation', () => {
+  test('what is faster than real time keeps to it', () => {
+    const { reached: [half, one], waits } = simulated(1, 3, [500, 1000]);
+    assert.ok(Math.abs(half - 0.5) < 0.02 && Math.abs(one - 1) < 0.02 && waits > 50, `${half} ${one} ${waits}`);
+  });
+  test('what is slower does not wait', () => {
+    const { reached: [one], waits } = simulated(1, 0.5, [1000]);
+    assert.ok(one > 0.45 && waits <= 3, `${one} ${waits}`);  // at the start little is due yet
+  });
+  test('what was held up catches up with a tenth of a second of it, no more', () => {
+    const { reached: [one] } = simulated(1, 3, [2000], [500, 1300]);
+    assert.ok(one > 1.25 && one < 1.33, `${one}`);
+  });
+  test('as fast as it can never waits', () => {
+    const { reached: [one], waits } = simulated(null, 3, [1000]);
+    assert.ok(one > 2.7 && waits === 0, `${one} ${waits}`);
   });
 });
 

@@ -3,6 +3,7 @@
 #include <emscripten/emscripten.h>
 
 #include <algorithm>
+#include <chrono>
 #include <exception>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -85,14 +86,15 @@ EMSCRIPTEN_KEEPALIVE const char* open_scene(const char* json, unsigned random_se
 /// Steps until `until` (s), the end, or for about so many milliseconds. 1: the run has ended; 0: it has not.
 EMSCRIPTEN_KEEPALIVE int advance(double until, double milliseconds) {
   constexpr std::int64_t grain_steps_between_looks = 20000;  // some millisecond
-  const double from = emscripten_get_now();
+  // emscripten_get_now() counts in 32 bits of microseconds here, which are full after 2.1 s.
+  const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double, std::milli>(milliseconds);
   std::int64_t grain_steps = 0;
   while (simulation->time() < until) {
     if (simulation->at_end() || !simulation->step()) return 1;
     grain_steps += static_cast<std::int64_t>(simulation->grains().size());
     if (grain_steps < grain_steps_between_looks) continue;
     grain_steps = 0;
-    if (emscripten_get_now() - from >= milliseconds) break;
+    if (std::chrono::steady_clock::now() >= end) break;
   }
   return simulation->at_end() ? 1 : 0;
 }

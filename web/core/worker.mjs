@@ -1,10 +1,11 @@
 // The worker that simulates: one scene at a time, in the WebAssembly module (simulator.cpp). Bundled into the page as text.
+import { Pace } from './pace.mjs';
 
 const frameEvery = 29, slice = 12; // ms of the clock, a slice at most; with posting and drawing a picture takes some 8 ms more
 const fieldsOfGrain = 6;
 
 let core = null; // the module's exports
-let running = null; // { id, pace, timer, wall, simulated, since: [[wall, simulated], ..], shown }
+let running = null; // { id, pace, timer, since: [[wall, simulated], ..], shown }
 
 function memoryView() {
   return new DataView(core.memory.buffer);
@@ -80,20 +81,20 @@ function pause() {
 
 function step(run) {
   const now = performance.now();
-  const due = run.pace === null ? Infinity : run.simulated + (run.pace * (now - run.wall)) / 1e3;
+  const due = run.pace.due(now);
   const ended = core.advance(due, Math.max(1, Math.min(slice, run.shown + frameEvery - now))) === 1;
   const after = performance.now();
   const state = parsed(core.state_now());
   run.since.push([after, state.time_s]);
   while (run.since.length > 2 && after - run.since[0][0] > 1000) run.since.shift();
-  if (run.pace !== null && state.time_s < due) { run.wall = after; run.simulated = state.time_s; } // too slow: no catching up later
+  run.pace.forgive(after, state.time_s);
   if (ended || after - run.shown >= frameEvery) {
     run.shown = after;
     const shown = frame(state);
     postMessage({ kind: ended ? 'ended' : 'frame', run: run.id, frame: shown, outcome: ended ? parsed(core.outcome()) : null }, buffersOf(shown));
   }
   if (ended) pause();
-  else if (run.pace !== null && state.time_s >= due) run.timer = setTimeout(guarded, 4, run);
+  else if (state.time_s >= due) run.timer = setTimeout(guarded, 4, run);
   else nextSlice.postMessage(run.id);
 }
 
@@ -119,7 +120,7 @@ const answers = {
 const orders = {
   play({ pace, run }) {
     pause();
-    running = { id: run, pace, wall: performance.now(), simulated: parsed(core.state_now()).time_s, since: [], shown: 0, timer: 0 };
+    running = { id: run, pace: new Pace(pace, performance.now(), parsed(core.state_now()).time_s), since: [], shown: 0, timer: 0 };
     guarded(running);
   },
   pause,
