@@ -3,8 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 
+#include "elementary/functions.hpp"
 #include "input/key_units.hpp"
 #include "input/read_scene.hpp"
 #include "input/wording.hpp"
@@ -79,7 +79,7 @@ KeyRange parse_range(const std::string& option, const std::string& key_is_range)
 }  // namespace
 
 double KeyRange::at(double part) const {
-  return logarithmic ? low * std::pow(high / low, part) : low + (high - low) * part;
+  return logarithmic ? low * elementary::pow(high / low, part) : low + (high - low) * part;
 }
 
 Override KeyRange::override_at(double part) const {
