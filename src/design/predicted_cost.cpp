@@ -20,6 +20,7 @@ namespace {
 
 constexpr double phase = 0.1;           // s, simulated, to settle and to be timed
 constexpr double phase_cpu_time = 0.6;  // s, at most, of each
+constexpr double enough_of_rain = 0.8;  // of the run's mean number of grains
 constexpr int rounds = 12;
 constexpr double round_cpu_time = 5e-3;  // s
 constexpr std::int64_t steps_between_looks = 8;
@@ -169,14 +170,23 @@ struct TimedBed {
   PredictedCost cost;
 };
 
+/// `steps` steps, and where it rains as many more as bring `grains` grains, while phase_cpu_time lasts.
+void settle(Simulation& simulation, std::int64_t steps, double grains) {
+  const Scene& scene = simulation.model().scene;
+  const bool rains = scene.tray.rain || (scene.hopper && scene.hopper->rain);
+  double left = phase_cpu_time;
+  do left -= advance(simulation, steps, left).seconds;
+  while (rains && left > 0 && !simulation.at_end() && static_cast<double>(simulation.grains().size()) < grains);
+}
+
 TimedBed time_bed(const Model& model) {
   const StepPlan& plan = model.step;
   TimedBed bed{in_full_motion(model.scene), std::min(plan.dt, plan.longest_safe), nullptr, {}};
   bed.simulation = std::make_unique<Simulation>(model_of(bed.scene, bed.dt), 1);
-  const auto steps = static_cast<std::int64_t>(phase / bed.dt) + 1;
-  advance(*bed.simulation, steps, phase_cpu_time);
-  bed.cost.ns_per_grain_step = advance(*bed.simulation, steps, phase_cpu_time).ns_per_grain_step();
   bed.cost.grain_steps = predicted_grain_steps(model.scene, plan.dt);
+  const auto steps = static_cast<std::int64_t>(phase / bed.dt) + 1;
+  settle(*bed.simulation, steps, enough_of_rain * bed.cost.grain_steps / static_cast<double>(plan.steps));
+  bed.cost.ns_per_grain_step = advance(*bed.simulation, steps, phase_cpu_time).ns_per_grain_step();
   return bed;
 }
 

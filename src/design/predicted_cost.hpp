@@ -25,8 +25,8 @@ struct PredictedCost {
 };
 
 /// Runs the scene's own bed, shaken from the start and with its gates open, by the CPU clock of the calling thread: 0.1
-/// s, or 0.6 s of CPU time, to settle, and as long again to be timed. The step is at most the longest safe one.
-/// Throws InputError where the fill does not fit.
+/// s, or 0.6 s of CPU time, to settle, longer where most of the bed has to rain in first, and as long again to be
+/// timed. The step is at most the longest safe one. Throws InputError where the fill does not fit.
 PredictedCost predict_cost(const Scene& scene);
 
 /// The same, and from where the timed bed got to what each effect adds: beds that go on from there with all effects and

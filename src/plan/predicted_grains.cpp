@@ -11,6 +11,7 @@
 #include "scene/motion.hpp"
 #include "scene/seed_lot.hpp"
 #include "scene/spaces.hpp"
+#include "vessel/vessel_motion.hpp"
 
 namespace vibrosow {
 namespace {
@@ -21,6 +22,8 @@ constexpr double steepest_heap = 0.35;  // tangent; piles of discs stand at 17 t
 constexpr double shaken_heap = 0.13;    // tangent, under the wheat and pea trays' hoppers
 constexpr double packing_fraction = 0.82, packing_fraction_in_space = 0.6;  // of a poured bed
 constexpr double round_constant = 0.58, slot_constant = 1.03;               // Beverloo's, of the bulk in space
+constexpr double carried =
+    0.55;  // of its peak speed is that of seeds on a shaken floor: 0.45 and 0.7 in reports/relations
 constexpr int parts_of_a_run = 2000;
 
 /// Mean area of a grain in the plane, m2.
@@ -133,11 +136,31 @@ double resting(const Scene& scene, const Vessel& vessel) {
   return grains_over(area, scene, vessel);
 }
 
+double distance_to_holes(const Vessel& vessel, double x) {
+  double nearest = vessel.length;
+  for (const Hole& hole : vessel.holes)
+    nearest = std::min(nearest, std::max(0.0, std::abs(x - hole.centre) - 0.5 * hole.width));
+  return nearest;
+}
+
+/// How long rain is under way until it is over a hole, s: it falls, and is carried along a floor that is shaken.
+double time_to_holes(const Vessel& vessel) {
+  if (!vessel.rain || vessel.holes.empty()) return 0;
+  const Rain& rain = *vessel.rain;
+  const double fall = std::sqrt(2 * std::max(0.0, rain.height) / standard_gravity);
+  if (!is_shaken(vessel)) return fall;
+  constexpr int places = 100;
+  double distance = 0;
+  for (int k = 0; k < places; ++k)
+    distance += distance_to_holes(vessel, rain.from + (k + 0.5) / places * (rain.to - rain.from)) / places;
+  return fall + distance / (carried * motion_bounds(vessel).speed);
+}
+
 /// The grains of one vessel as a run goes on.
 struct Store {
   const Vessel* vessel;
   HoleRates rates;
-  double grains = 0, resting = 0;
+  double grains = 0, resting = 0, under_way;  // the last: s, of rain
   bool kept = false;
 
   Store(const Scene& scene, const Vessel& of)
@@ -145,6 +168,7 @@ struct Store {
         rates(scene, of),
         grains(of.fill ? of.fill->count : 0),
         resting(vibrosow::resting(scene, of)),
+        under_way(time_to_holes(of)),
         kept(of.fill && of.fill->keep) {}
 
   double rain(double from, double to) const {
@@ -153,7 +177,8 @@ struct Store {
   }
   /// What leaves in a time `step` (s), at most `room` grains.
   double let_out(double time, double step, double room) {
-    const double most = kept ? room : std::min(room, std::max(0.0, grains - resting));
+    const double staying = resting + rain(time - under_way, time);
+    const double most = kept ? room : std::min(room, std::max(0.0, grains - staying));
     const double out = std::min(rates.at(time) * step, most);
     if (!kept) grains -= out;
     return out;

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <numbers>
 
 namespace vibrosow {
@@ -84,6 +85,19 @@ TEST(PredictedGrains, RainAddsUpWhileItFalls) {
   scene.tray.rain = Rain{.rate = 100, .from = 0, .to = 0.2, .height = 0.4, .start = 2, .stop = 6};
   // 400 grains, 4 s in coming and then 4 s there.
   EXPECT_NEAR(grain_seconds(scene), 400 * 2 + 400 * 4, 5);
+}
+
+TEST(PredictedGrains, RainTakesItsTimeToAHole) {
+  Scene scene = bin(0.04);
+  scene.tray.fill.reset();
+  scene.tray.holes.front().centre = 0.18;
+  scene.tray.rain = Rain{.rate = 100, .from = 0.02, .to = 0.04, .height = 0.05};
+  scene.tray.motion = HarmonicMotion{0.5, 0.01, 10, 0};
+  // 13 cm to the hole at 0.55 of 2 pi 10 Hz 1 cm, after a fall of 5 cm.
+  const double way = 0.13 / (0.55 * 0.6283) + std::sqrt(2 * 0.05 / standard_gravity);
+  EXPECT_NEAR(grain_seconds(scene), 100 * way * (10 - 0.5 * way), 0.01 * 1000 * way);
+  scene.tray.motion.reset();  // what does not move rests on the floor
+  EXPECT_GT(grain_seconds(scene), 2 * 100 * way * 10);
 }
 
 TEST(PredictedGrains, AKeptHopperHeapsTheTrayUpToItself) {
