@@ -56,7 +56,8 @@ int main(int count, char** arguments) {
     return 2;
   }
   fmt::print(
-      "seeder,duration_s,run_s,predicted_grain_steps,grain_steps,ratio,predicted_ns,ns,predicted_s,cpu_s,ratio\n");
+      "seeder,duration_s,run_s,predicted_grain_steps,grain_steps,grain_steps_ratio,predicted_ns,ns,predicted_s,cpu_s,"
+      "time_ratio\n");
   try {
     for (int k = 2; k < count; ++k) vibrosow::compare(arguments[k], std::atof(arguments[1]));
   } catch (const vibrosow::InputError& error) {
