@@ -62,7 +62,7 @@ test('it opens playing, counts at the holes, and says plainly what it is', () =>
   const place = bench(page);
   await page.waitForFunction(() => JSON.parse(document.querySelector('canvas').dataset.counts ?? '[0]')[0] > 3);
   assert.match(await page.locator('#head').textContent(), /A slice one seed thick, in the plane: compare layouts by it; it is no sowing rate\./);
-  await place.getByText('1 of real time').waitFor();
+  await place.getByText('In real time').waitFor();
   await place.getByText(/^Measured from 1 to/).waitFor();
   await place.getByText('The holes differ by more than chance.').waitFor();
   assert.equal(await place.locator('.hole-bars .track').count(), 5);

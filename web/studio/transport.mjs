@@ -8,7 +8,8 @@ export const asFastAsItCan = null;
 
 function speedWords({ speed_ratio: ratio }) {
   if (!(ratio > 0)) return 'Running';
-  return ratio < 1.05 ? `${number(ratio, 2)} of real time` : `${number(ratio, 2)} times real time`;
+  if (Math.abs(ratio - 1) < 0.05) return 'In real time';
+  return ratio < 1 ? `${number(ratio, 2)} of real time` : `${number(ratio, 2)} times real time`;
 }
 
 const words = {
