@@ -35,7 +35,9 @@ double space_pair_energy(const GrainSurfaces& grains, const SpaceMotion& at, con
     const std::size_t i = static_cast<std::size_t>(list.grain[k]), j = static_cast<std::size_t>(list.partner[k]);
     const GrainVector &from = at.row_place[i], &to = at.place[j];
     const Vector3 apart{to.x - from.x, to.y - from.y, to.z - from.z};
-    const double overlap = properties.reach(i, j) - length(apart);
+    const double reach = properties.reach(i, j), distance2 = dot(apart, apart);
+    if (distance2 >= reach * reach) continue;  // most: then the root is not less than reach, by IEEE's rounding
+    const double overlap = reach - std::sqrt(distance2);
     if (overlap > 0)
       energy += space_contact_energy<Law, Effects>(overlap, properties.pair(i, j), properties.between(i, j),
                                                    load_history<Effects>(histories.records.data(), k));
