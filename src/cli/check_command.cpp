@@ -34,7 +34,7 @@ std::string friction_text(const Model& model) {
 }
 
 std::string softness_text(const Model& model) {
-  const double softness = softness_of(model.scene);
+  const double softness = softness_of(model.scene, *model.law);
   return model.law->material == LawMaterial::shell ? fmt::format("shell compression {:.3g}", softness)
                                                    : fmt::format("Young's modulus {:.4g} MPa", 1e-6 / softness);
 }

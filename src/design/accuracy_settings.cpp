@@ -31,7 +31,8 @@ double rounded(double value) {
 AccuracySetting softened(const Scene& scene, double times) {
   AccuracySetting setting;
   setting.integrator = scene.numerics.integrator;
-  const double own_value = has_shell(scene) ? softness_of(scene) : 1 / softness_of(scene);
+  const double softness = softness_of(scene, traits_of(scene.contact.law));
+  const double own_value = has_shell(scene) ? softness : 1 / softness;
   (has_shell(scene) ? setting.shell_compression : setting.youngs_modulus) =
       times == 1 ? own_value : rounded(has_shell(scene) ? own_value * times : own_value / times);
   return setting;
@@ -208,7 +209,8 @@ AccuracyDesign runnable(const Scene& scene, const AccuracyDesign& design) {
 
 Scene scene_with(const Scene& scene, AccuracySetting& setting) {
   Scene changed = scene;
-  set_softness(changed, has_shell(scene) ? setting.shell_compression : 1 / setting.youngs_modulus);
+  set_softness(changed, traits_of(scene.contact.law),
+               has_shell(scene) ? setting.shell_compression : 1 / setting.youngs_modulus);
   if (setting.slip_speed > 0) changed.contact.slip_speed = setting.slip_speed;
   changed.numerics.integrator = setting.integrator;
   changed.numerics.steps_per_contact = setting.steps_per_contact;

@@ -6,6 +6,7 @@
 #include <boost/math/distributions/students_t.hpp>
 #include <cmath>
 
+#include "laws/law.hpp"
 #include "plan/softness.hpp"
 #include "scene/input_error.hpp"
 #include "selection/moments.hpp"
@@ -20,7 +21,8 @@ std::vector<Scene> drafts_of(const Study& study) {
     draft.numerics.accuracy = AccuracyLevel::draft;
     draft.numerics.dt.reset();
     draft.numerics.allow_long_step = false;
-    if (softness_of(at_its_accuracy(draft)) <= softness_of(at_its_accuracy(scene)))
+    const LawTraits& law = traits_of(scene.contact.law);
+    if (softness_of(at_its_accuracy(draft), law) <= softness_of(at_its_accuracy(scene), law))
       throw InputError(fmt::format("--drafts: {}: its layouts are as soft as drafts already", study.title));
     drafts.push_back(std::move(draft));
   }

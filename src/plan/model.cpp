@@ -1,84 +1,13 @@
 #include "plan/model.hpp"
 
-#include <fmt/format.h>
-
-#include <algorithm>
-
-#include "plan/contact_parameters.hpp"
-#include "plan/effects.hpp"
+#include "plan/model_as_written.hpp"
 #include "plan/softness.hpp"
-#include "plan/touching_kinds.hpp"
 #include "scene/input_error.hpp"
-#include "scene/seed_lot.hpp"
 
 namespace vibrosow {
 
-namespace {
-
-/// What only space has cannot be left out in the plane without a word.
-void check_plane(const Vessel& vessel) {
-  const auto* turning = vessel.motion ? std::get_if<TurningMotion>(&*vessel.motion) : nullptr;
-  if (turning && turning->axis == TurningAxis::upright)
-    throw InputError(vessel.name + ".motion.axis: about an upright axis a vessel turns in space alone");
-  if (std::ranges::any_of(vessel.pieces, [](const WallPiece& piece) { return piece.about.has_value(); }))
-    throw InputError(vessel.name + ".pieces: a line is turned about an upright axis in space alone");
-}
-
-void check_vessels(const Model& model) {
-  if (model.scene.space == Space::plane) {
-    std::ranges::for_each(model.vessels, check_plane);
-    return;
-  }
-  for (const Vessel& vessel : model.vessels)
-    if (!vessel.depth) throw InputError(vessel.name + ".depth: is missing; in space a vessel has one");
-}
-
-/// What a clump has no inertia for cannot turn as it should.
-void check_clumps(const Scene& scene) {
-  for (const SeedLot& lot : scene.lots)
-    if (lot.shape == Shape::clump && is_solid_clump(lot) != (scene.space == Space::three_dimensional))
-      throw InputError(
-          fmt::format("seeds.{}: a clump has three moments of inertia in space and one in the plane", lot.name));
-}
-
-}  // namespace
-
-Model prepare(const Scene& written, const std::optional<EffectSet>& effects) {
-  const Scene scene = at_its_accuracy(written);
-  Model model{};
-  model.scene = scene;
-  model.vessels = {scene.tray};
-  if (scene.hopper) model.vessels.push_back(*scene.hopper);
-  check_vessels(model);
-  check_clumps(scene);
-  const LawTraits& law = traits_of(scene.contact.law);
-  const Surfaces surfaces = meeting_surfaces(scene.contact, scene.lots.size());
-  model.law = &law;
-  model.effects = effects ? *effects : effects_of(scene, surfaces, law);
-  model.kernels = &kernels_for(scene.contact.law, model.effects);
-  const std::vector<SeedSizes> sizes = sizes_of(scene.lots);
-  model.smallest_radius = smallest_radius(scene.lots);
-  model.largest_diameter = largest_diameter(scene.lots);
-  const std::vector<SeedMaterial> materials = seed_materials(scene.contact, scene.lots);
-  model.kinds = grain_kinds(scene.lots, materials, law);
-  if (!model.effects.rotation || !scene.contact.rotation)
-    for (GrainKind& kind : model.kinds) kind.inverse_inertia = 0;
-  const std::vector<GrainKind> touching = touching_kinds(scene.lots, sizes, model.kinds, law);
-  model.contacts = contact_parameters(scene.contact, surfaces, materials, law);
-  model.loads = bed_loads(scene.lots, sizes, model.vessels, scene.run, scene.space);
-  const StepBasis basis{.scene = model.scene,
-                        .effects = model.effects,
-                        .contacts = model.contacts,
-                        .law = law,
-                        .seeds = model.kinds,
-                        .touching = touching,
-                        .loads = model.loads,
-                        .smallest_radius = model.smallest_radius};
-  model.step = plan_step(basis);
-  model.contacts.steepest_sliding = model.step.steepest_sliding;
-  model.contacts.steepest_rolling = model.step.steepest_rolling;
-  model.overlap = predict_overlap(basis);
-  return model;
+Model prepare(const Scene& scene, const std::optional<EffectSet>& effects) {
+  return model_as_written(at_its_accuracy(scene), effects);
 }
 
 Model prepare_to_run(const Scene& scene) {

@@ -4,9 +4,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "elementary/functions.hpp"
 #include "laws/law.hpp"
-#include "plan/model.hpp"
+#include "plan/model_as_written.hpp"
 #include "scene/accuracy_level.hpp"
 
 namespace vibrosow {
@@ -22,8 +21,8 @@ double general_value(const Scene& scene, double Contact::*general, std::optional
   return all_their_own ? *(scene.lots.front().*own) : scene.contact.*general;
 }
 
-bool has_shell(const Scene& scene) {
-  return traits_of(scene.contact.law).material == LawMaterial::shell;
+bool has_shell(const LawTraits& law) {
+  return law.material == LawMaterial::shell;
 }
 
 void scale(std::optional<double>& value, double factor) {
@@ -32,8 +31,9 @@ void scale(std::optional<double>& value, double factor) {
 
 /// How much softer makes the shortest contact last so many times as long: it goes with the root of the shell
 /// compression, and with the modulus to the power -2/5 (Hertz).
-double softness_for(const Scene& scene, double times_as_long) {
-  return has_shell(scene) ? times_as_long * times_as_long : elementary::pow(times_as_long, 2.5);
+double softness_for(const LawTraits& law, double times_as_long) {
+  const double square = times_as_long * times_as_long;
+  return has_shell(law) ? square : square * std::sqrt(times_as_long);
 }
 
 /// Contact duration of a shell of that compression, s: pi sqrt(eps / g) for eps = (eps / r) r.
@@ -41,24 +41,24 @@ double duration_of_shell(double shell_compression, double radius) {
   return std::numbers::pi * std::sqrt(shell_compression * radius / standard_gravity);
 }
 
-double softness_at(const Scene& scene, const AccuracyLevelValues& level) {
-  const double written = softness_of(scene);
-  if (has_shell(scene)) return level.shell_compression;
-  const Model model = prepare(scene);
+/// Of a level, for the scene of that model.
+double softness_at(const AccuracyLevelValues& level, const Model& model) {
+  if (has_shell(*model.law)) return level.shell_compression;
+  const double written = softness_of(model.scene, *model.law);
   const double wanted = duration_of_shell(level.shell_compression, model.smallest_radius);
-  return std::max(written, written * softness_for(scene, wanted / model.step.contact_duration));
+  return std::max(written, written * softness_for(*model.law, wanted / model.step.contact_duration));
 }
 
 }  // namespace
 
-double softness_of(const Scene& scene) {
-  return has_shell(scene) ? general_value(scene, &Contact::shell_compression, &SeedLot::shell_compression)
-                          : 1 / general_value(scene, &Contact::youngs_modulus, &SeedLot::youngs_modulus);
+double softness_of(const Scene& scene, const LawTraits& law) {
+  return has_shell(law) ? general_value(scene, &Contact::shell_compression, &SeedLot::shell_compression)
+                        : 1 / general_value(scene, &Contact::youngs_modulus, &SeedLot::youngs_modulus);
 }
 
-void set_softness(Scene& scene, double softness) {
-  const double factor = softness / softness_of(scene);
-  if (has_shell(scene)) {
+void set_softness(Scene& scene, const LawTraits& law, double softness) {
+  const double factor = softness / softness_of(scene, law);
+  if (has_shell(law)) {
     for (SeedLot& lot : scene.lots) scale(lot.shell_compression, factor);
     scene.contact.shell_compression = softness;
     return;
@@ -69,7 +69,7 @@ void set_softness(Scene& scene, double softness) {
 }
 
 bool is_predicted_sound(const Scene& scene) {
-  const PredictedOverlap overlap = prepare(scene).overlap;
+  const PredictedOverlap overlap = model_as_written(scene).overlap;
   const GuardLimits& guard = scene.guard;
   return std::max(overlap.overlap_at_rest, overlap.overlap_at_impact) <=
          std::sqrt(guard.warn_relative_overlap * guard.stop_relative_overlap);
@@ -82,12 +82,13 @@ Scene at_its_accuracy(const Scene& scene) {
   Scene changed = scene;
   changed.numerics.accuracy = AccuracyLevel::as_written;
   changed.numerics.steps_per_contact = level.steps_per_contact;
-  const double stiffest = has_shell(scene) ? 0 : softness_of(changed);
-  double softness = softness_at(changed, level);
-  set_softness(changed, softness);
+  const Model model = model_as_written(changed);
+  const double stiffest = has_shell(*model.law) ? 0 : softness_of(changed, *model.law);
+  double softness = softness_at(level, model);
+  set_softness(changed, *model.law, softness);
   for (int i = 0; i < most_halvings && softness > stiffest && !is_predicted_sound(changed); ++i) {
     softness = std::max(softness / half_a_decade, stiffest);
-    set_softness(changed, softness);
+    set_softness(changed, *model.law, softness);
   }
   return changed;
 }

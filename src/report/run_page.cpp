@@ -133,8 +133,9 @@ Json settings(const RunPage& page) {
   };
   add("contact law", std::string(model.law->name));
   add(model.law->material == LawMaterial::shell ? "shell compression" : "Young's modulus",
-      model.law->material == LawMaterial::shell ? fmt::format("{:.3g}", softness_of(model.scene))
-                                                : fmt::format("{:.4g} MPa", 1e-6 / softness_of(model.scene)));
+      model.law->material == LawMaterial::shell
+          ? fmt::format("{:.3g}", softness_of(model.scene, *model.law))
+          : fmt::format("{:.4g} MPa", 1e-6 / softness_of(model.scene, *model.law)));
   add("scheme", integrator_name(model.scene.numerics.integrator));
   add("time step", fmt::format("{:.3g} us", 1e6 * page.run.dt));
   add("steps", fmt::format("{}", page.run.steps));

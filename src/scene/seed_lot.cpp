@@ -16,6 +16,11 @@ namespace {
 
 using Kind = SizeDistribution::Kind;
 
+/// (x / unit)^power
+double share_in_moment(double x, double unit, int power) {
+  return elementary::pow(x / unit, power);
+}
+
 /// E[(x / unit)^power] of a normal or lognormal cut at its least and most.
 double cut_moment(const SizeDistribution& sizes, double unit, int power) {
   constexpr double far = 12;         // deviations from the mean; beyond lies no weight that a double could hold
@@ -31,8 +36,7 @@ double cut_moment(const SizeDistribution& sizes, double unit, int power) {
     return boost::math::quadrature::gauss_kronrod<double, 31>::integrate(
         [&](double z) {
           const double x = normal.mean + normal.deviation * z;
-          return elementary::exp(-0.5 * z * z) *
-                 elementary::pow((logarithmic ? elementary::exp(x) : x) / unit, exponent);
+          return elementary::exp(-0.5 * z * z) * share_in_moment(logarithmic ? elementary::exp(x) : x, unit, exponent);
         },
         from, to, halvings, tolerance);
   };
@@ -70,16 +74,16 @@ double most_size(const SeedLot& lot) {
 double size_moment(const SeedLot& lot, int power) {
   const SizeDistribution& sizes = lot.sizes;
   if (sizes.kind == Kind::single) return 1;
-  const double least = least_size(lot), most = most_size(lot);
   if (sizes.kind == Kind::table) {
     double moment = 0;
     for (std::size_t k = 0; k < sizes.diameter.size(); ++k)
-      moment += sizes.fraction[k] * elementary::pow(sizes.diameter[k] / lot.diameter, power);
+      moment += sizes.fraction[k] * share_in_moment(sizes.diameter[k], lot.diameter, power);
     return moment;
   }
   if (sizes.kind == Kind::uniform) {
     double moment = 0;  // (b^(n+1) - a^(n+1)) / ((n + 1) (b - a)), divided out
-    for (int k = 0; k <= power; ++k) moment += elementary::pow(least, k) * elementary::pow(most, power - k);
+    for (int k = 0; k <= power; ++k)
+      moment += share_in_moment(sizes.least, lot.diameter, k) * share_in_moment(sizes.most, lot.diameter, power - k);
     return moment / (power + 1);
   }
   return cut_moment(sizes, lot.diameter, power);

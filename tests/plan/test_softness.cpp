@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "laws/law.hpp"
 #include "plan/model.hpp"
 #include "scene/accuracy_level.hpp"
 
@@ -73,7 +74,8 @@ TEST(Softness, LotsAndWallsWithTheirOwnAreSoftenedAlike) {
   scene.lots.push_back(
       SeedLot{.name = "weed", .diameter = 4e-3, .mass = 40e-6, .number_fraction = 0.5, .youngs_modulus = 1e8});
   scene.contact.wall_youngs_modulus = 2e9;
-  set_softness(scene, softness_of(scene) * 10);
+  const LawTraits& law = traits_of(scene.contact.law);
+  set_softness(scene, law, softness_of(scene, law) * 10);
   EXPECT_DOUBLE_EQ(scene.contact.youngs_modulus, 5e7);
   EXPECT_DOUBLE_EQ(*scene.lots[1].youngs_modulus, 1e7);
   EXPECT_DOUBLE_EQ(*scene.contact.wall_youngs_modulus, 2e8);
