@@ -7,8 +7,14 @@ namespace vibrosow::inline VIBROSOW_ISA {
 /// Four numbers that vector instructions load and add at once, whatever their places in memory are called.
 using Four [[gnu::vector_size(32), gnu::may_alias]] = double;
 
-/// Four numbers from anywhere.
-using FourAnywhere [[gnu::vector_size(32), gnu::may_alias, gnu::aligned(8)]] = double;
+/// From and to any place: compilers do not agree on types of vectors that are less aligned than long.
+inline void load(Four& four, const double* from) {
+  __builtin_memcpy(&four, from, sizeof four);
+}
+
+inline void store(const Four& four, double* to) {
+  __builtin_memcpy(to, &four, sizeof four);
+}
 
 /// Row n becomes column n.
 inline void transpose(Four (&rows)[4]) {

@@ -12,12 +12,10 @@ namespace {
 /// `row(i)` is where the vector of ball i goes.
 template <class Row>
 [[gnu::always_inline]] inline void to_rows(std::size_t n, const Coordinates& of, Row row) {
-  const auto four = [](const double* array) -> const FourAnywhere& {
-    return *reinterpret_cast<const FourAnywhere*>(array);
-  };
   std::size_t i = 0;
   for (; i + 4 <= n; i += 4) {
-    Four rows[4]{four(of.x + i), four(of.y + i), four(of.z + i), {}};
+    Four rows[4]{};
+    load(rows[0], of.x + i), load(rows[1], of.y + i), load(rows[2], of.z + i);
     transpose(rows);
     for (std::size_t k = 0; k < 4; ++k) *reinterpret_cast<Four*>(row(i + k)) = rows[k];
   }
@@ -50,13 +48,12 @@ template <bool polydisperse, bool drags, class Take>
     for (std::size_t k = 0; k < 4; ++k) rows[k] = *reinterpret_cast<const Four*>(force + i + k);
     transpose(rows);
     Four per_mass = Four{} + per.same;
-    if constexpr (polydisperse) per_mass = *reinterpret_cast<const FourAnywhere*>(per.each + i);
+    if constexpr (polydisperse) load(per_mass, per.each + i);
     for (int axis = 0; axis < 3; ++axis) {
-      FourAnywhere& velocities = *reinterpret_cast<FourAnywhere*>(v[axis] + i);
-      FourAnywhere& rates = *reinterpret_cast<FourAnywhere*>(a[axis] + i);
-      Four velocity = velocities, rate = rates;
+      Four velocity, rate;
+      load(velocity, v[axis] + i), load(rate, a[axis] + i);
       drive(rows[axis], per_mass, velocity, rate, axis);
-      velocities = velocity, rates = rate;
+      store(velocity, v[axis] + i), store(rate, a[axis] + i);
     }
   }
   for (; i < n; ++i) {

@@ -96,7 +96,7 @@ void load_block(const ContactHistories& histories, const int* entry, int first, 
     const double* const of[4]{record(k), record(k + 1), record(k + 2), record(k + 3)};
     for_each_four<Effects>([&](std::size_t n) {
       Four four[4];
-      for (int c = 0; c < 4; ++c) four[c] = *reinterpret_cast<const FourAnywhere*>(of[c] + n);
+      for (int c = 0; c < 4; ++c) load(four[c], of[c] + n);
       transpose(four);
       for (std::size_t m = 0; m < 4; ++m) *reinterpret_cast<Four*>(&of_block.numbers[n + m][k]) = four[m];
     });
@@ -122,7 +122,7 @@ void store_block(const SpaceBlockHistories& of_block, const int* entry, int firs
       Four four[4];
       for (std::size_t m = 0; m < 4; ++m) four[m] = *reinterpret_cast<const Four*>(&of_block.numbers[n + m][k]);
       transpose(four);
-      for (int c = 0; c < 4; ++c) *reinterpret_cast<FourAnywhere*>(of[c] + n) = four[c];
+      for (int c = 0; c < 4; ++c) store(four[c], of[c] + n);
     });
   }
   for (; k < count; ++k)
