@@ -130,7 +130,11 @@ EMSCRIPTEN_KEEPALIVE const char* outcome() {
     Run run = simulation->result();
     const bool goes_on = run.status == RunStatus::finished && run.end_reason.empty() && !simulation->at_end();
     if (goes_on) run.status = RunStatus::interrupted;  // so that rates are of the time so far
-    const Outflow outflow = measure_outflow(simulation->model().scene, run);
+    Outflow outflow = measure_outflow(simulation->model().scene, run);
+    if (goes_on)
+      std::erase_if(outflow.remarks, [](const Remark& remark) {
+        return remark.kind == "interrupted" || remark.kind == "ended before the measuring window";
+      });
     const std::optional<DrillFigures> drill;
     return run_page_data({simulation->model(), run, outflow, drill});
   });
