@@ -2,7 +2,7 @@
 // dropped.
 import { tooLarge, tooLong } from './limits.mjs';
 
-const outcomeEvery = 1000;  // ms
+const outcomeEvery = 500;  // ms
 
 const nothing = { prepared: null, frame: null, outcome: null, problem: '' };
 

@@ -5,9 +5,12 @@ import { intervalTrack, scaleOf, trackAxis } from '../report/interval_track.mjs'
 
 const rated = (hole) => Number.isFinite(hole.seeds_per_s);
 
+const leastWindow = 0.1; // s, of which rates are shown, unless the run has ended
+
 /** The outcome of a course's state once something has been measured; null before that. */
-export function measured({ prepared, outcome }) {
-  return outcome && outcome.end_time_s > prepared.measure_from_s ? outcome : null;
+export function measured({ status, prepared, outcome }) {
+  const window = outcome ? outcome.end_time_s - prepared.measure_from_s : 0;
+  return window > (status === 'ended' ? 0 : leastWindow) ? outcome : null;
 }
 
 function valuesOf(outcome) {
@@ -32,9 +35,10 @@ function cvText({ cv_percent: cv }) {
   return Number.isFinite(cv) ? `CV ${number(cv)} %` : '';
 }
 
-function windowWords({ prepared, frame, outcome }) {
-  const from = prepared.measure_from_s, until = outcome?.end_time_s ?? frame.time_s;
-  return until > from ? `Measured from ${number(from)} to ${number(until)} s.` : `Measuring begins at ${number(from)} s.`;
+function windowWords(state) {
+  const from = state.prepared.measure_from_s, until = measured(state)?.end_time_s;
+  if (until) return `Measured from ${number(from)} to ${number(until)} s.`;
+  return state.frame.time_s > from ? 'Measuring has begun.' : `Measuring begins at ${number(from)} s.`;
 }
 
 const endings = { stopped_by_guard: 'The guard stopped this run' };
