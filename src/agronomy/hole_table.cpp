@@ -173,15 +173,33 @@ double HoleTable::value(const Grid& grid, const std::vector<Share>& places) {
   return sum;
 }
 
-/// Makes all but the outflow itself that of the worst of the places.
+/// Makes what was seen of the holes that of the worst of the places.
 void HoleTable::allow_for(const Grid& grid, const std::vector<Share>& places, HoleEstimate& estimate) const {
   for (const Share& place : places) {
     const HoleRecord& record = records_[grid.records[place.index]];
-    estimate.chance = std::max(estimate.chance, record.half_width_95 / record.outflow);
     estimate.stood_still = std::max(estimate.stood_still, record.stood_still);
     estimate.watched = std::min(estimate.watched, record.watched);
     if (record.dispersion) estimate.dispersion = std::max(estimate.dispersion.value_or(0), *record.dispersion);
   }
+}
+
+/// Adds, of each record, by how much the logarithm of what balls let through grows with that of its outflow, times
+/// `weight`.
+void HoleTable::add_balls(const std::vector<Share>& places, double weight, std::vector<double>& slopes) const {
+  const Grid& balls = grids_.front();
+  const double sum = value(balls, places);
+  for (const Share& place : places)
+    slopes[balls.records[place.index]] += weight * place.weight * balls.values[place.index] / sum;
+}
+
+/// Half width over the outflow, of records that err independently.
+double HoleTable::chance(const std::vector<double>& slopes) const {
+  double sum = 0;
+  for (std::size_t i = 0; i < records_.size(); ++i) {
+    const double part = slopes[i] * records_[i].half_width_95 / records_[i].outflow;
+    sum += part * part;
+  }
+  return std::sqrt(sum);
 }
 
 std::optional<HoleEstimate> HoleTable::at(const HoleConditions& conditions) const {
@@ -190,15 +208,25 @@ std::optional<HoleEstimate> HoleTable::at(const HoleConditions& conditions) cons
   if (shapes.empty() || of_balls.empty()) return std::nullopt;
   HoleEstimate estimate;
   estimate.watched = std::numeric_limits<double>::infinity();
+  std::vector<double> slopes(records_.size(), 0.0);
+  add_balls(of_balls, 1, slopes);
   double factor = 0;
   for (const Share& shape : shapes) {
     const Grid& grid = grids_[shape.index];
     const std::vector<Share> places = places_around(grid, conditions);
     if (places.empty()) return std::nullopt;
     allow_for(grid, places, estimate);
-    if (!grid.of_balls) factor += shape.weight * value(grid, places);
+    if (grid.of_balls) continue;
+    factor += shape.weight * value(grid, places);
+    for (const Share& place : places) {
+      const std::size_t record = grid.records[place.index];
+      const double weight = shape.weight * place.weight;
+      slopes[record] += weight;
+      add_balls(places_around(grids_.front(), records_[record].at), -weight, slopes);
+    }
   }
   estimate.outflow = std::pow(value(grids_.front(), of_balls), beverloo) * std::exp(factor);
+  estimate.chance = chance(slopes);
   return estimate;
 }
 
@@ -235,19 +263,31 @@ std::vector<double> HoleTable::left_out(const Grid& grid, std::size_t axis, doub
 }
 
 /// The same of the factors of each shape between two others, at its own places as far as these have them.
-std::vector<double> HoleTable::shapes_left_out() const {
+std::vector<double> HoleTable::shapes_left_out(double width, double peak_speed) const {
   std::vector<double> errors;
-  for (std::size_t shape = 1; shape + 1 < shapes_.size(); ++shape)
-    for (std::size_t place = 0; place < grids_[shape].values.size(); ++place) {
-      const HoleConditions& at = records_[grids_[shape].records[place]].at;
-      const std::vector<Share> after = places_around(grids_[shape + 1], at);
-      const std::vector<Share> before = shape > 1 ? places_around(grids_[shape - 1], at) : std::vector<Share>();
-      if (after.empty() || (shape > 1 && before.empty())) continue;
-      const double way = (shapes_[shape] - shapes_[shape - 1]) / (shapes_[shape + 1] - shapes_[shape - 1]);
-      const double below = shape > 1 ? value(grids_[shape - 1], before) : 0;  // balls let through what balls do
-      errors.push_back((1 - way) * below + way * value(grids_[shape + 1], after) - grids_[shape].values[place]);
+  for (std::size_t shape = 1; shape + 1 < shapes_.size(); ++shape) {
+    const Grid &below = grids_[shape - 1], &own = grids_[shape], &above = grids_[shape + 1];
+    const double way = (shapes_[shape] - shapes_[shape - 1]) / (shapes_[shape + 1] - shapes_[shape - 1]);
+    for (const std::size_t place : places_beside(own, width, peak_speed)) {
+      const HoleConditions& at = records_[own.records[place]].at;
+      const std::vector<Share> before = places_around(below, at), after = places_around(above, at);
+      if (before.empty() || after.empty()) continue;
+      const double factor = below.of_balls ? 0 : value(below, before);  // balls let through what balls do
+      errors.push_back((1 - way) * factor + way * value(above, after) - own.values[place]);
     }
+  }
   return errors;
+}
+
+/// Of both widths and both speeds between which these lie, or are nearest to, in beds of every depth.
+std::vector<std::size_t> HoleTable::places_beside(const Grid& grid, double width, double peak_speed) {
+  const auto [first_width, last_width] = range_around(grid.axes[0], width, false);
+  const auto [first_speed, last_speed] = range_around(grid.axes[1], peak_speed, false);
+  std::vector<std::size_t> places;
+  for (std::size_t w = first_width; w <= last_width; ++w)
+    for (std::size_t v = first_speed; v <= last_speed; ++v)
+      for (std::size_t depth = 0; depth < grid.axes[2].size(); ++depth) places.push_back(grid.place({w, v, depth}));
+  return places;
 }
 
 double HoleTable::interpolation_error(double aspect, double width, double peak_speed) const {
@@ -259,7 +299,7 @@ double HoleTable::interpolation_error(double aspect, double width, double peak_s
   add(grids_.front());
   for (const Share& shape : shapes)
     if (!grids_[shape.index].of_balls) add(grids_[shape.index]);
-  if (shapes.size() > 1) sum += mean_square(shapes_left_out());
+  if (shapes.size() > 1) sum += mean_square(shapes_left_out(width, peak_speed));
   constexpr double normal_95 = 1.959964, within_a_gap = 0.25;
   return normal_95 * within_a_gap * std::sqrt(sum);
 }

@@ -40,10 +40,10 @@ struct Span {
   bool holds(double value) const { return value >= least && value <= most; }
 };
 
-/// An outflow between the table's places; the rest is of the worst of the places around.
+/// An outflow between the table's places; what was seen of the holes is of the worst of the places around.
 struct HoleEstimate {
   double outflow = 0;                // seeds of a hole in sqrt(d / g)
-  double chance = 0;                 // half width of the 95 % interval over the outflow
+  double chance = 0;                 // half width of its 95 % interval over it, from those of the places around
   double stood_still = 0;            // share of the holes
   double watched = 0;                // of all holes together, sqrt(d / g)
   std::optional<double> dispersion;  // of a hole's counts
@@ -103,12 +103,15 @@ class HoleTable {
   double factor(const HoleRecord& record) const;
   std::vector<Share> shapes_around(double aspect) const;
   Span span(double aspect, std::size_t axis) const;
+  void add_balls(const std::vector<Share>& places, double weight, std::vector<double>& slopes) const;
+  double chance(const std::vector<double>& slopes) const;
   void allow_for(const Grid& grid, const std::vector<Share>& places, HoleEstimate& estimate) const;
   static std::vector<Share> places_around(const Grid& grid, const HoleConditions& conditions);
   static double value(const Grid& grid, const std::vector<Share>& places);
   static std::vector<double> left_out(const Grid& grid, std::size_t axis, double width, double peak_speed);
   static std::pair<std::size_t, std::size_t> range_around(const std::vector<double>& steps, double value, bool inner);
-  std::vector<double> shapes_left_out() const;
+  std::vector<double> shapes_left_out(double width, double peak_speed) const;
+  static std::vector<std::size_t> places_beside(const Grid& grid, double width, double peak_speed);
 
   std::vector<HoleRecord> records_;
   std::vector<double> shapes_;  // aspects, ascending; the first is that of balls

@@ -236,6 +236,8 @@ SowingPlan plan_sowing(const SowingTask& task, const HoleTable& table, const Sha
   plan.change = search.change();
   plan.amplitude_over_d = table.amplitude();
   plan.softness = accuracy_levels.front().error_percent / 100;  // of the softest level, softer than the table's seeds
+  plan.too_uncertain = std::erase_if(
+      plan.layouts, [&](const PlannedLayout& layout) { return plan.uncertainty(layout) > most_uncertain; });
   std::ranges::sort(plan.layouts, {}, [&](const PlannedLayout& layout) {
     return std::tuple(layout.risk(), layout.estimate.stood_still, !layout.reaches_working_speeds(),
                       -reserve(layout, task.pace.speed), layout.feed.holes, -layout.feed.rows, layout.width,

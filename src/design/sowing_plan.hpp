@@ -82,9 +82,13 @@ struct NearestChange {
   double most_share = 0;
 };
 
+/// Where the band of a layout's rate reaches further, over the rate, the table does not know it.
+inline constexpr double most_uncertain = 0.5;
+
 struct SowingPlan {
   SowingTask task;
   std::vector<PlannedLayout> layouts;  // the best first
+  std::size_t too_uncertain = 0;       // more that should give the rate, left out: beyond `most_uncertain`
   NearestChange change;
   double amplitude_over_d = 0;  // of the tray, in the table
   double softness = 0;          // what the softness of the table's seeds may do to the rate, over it
@@ -95,8 +99,8 @@ struct SowingPlan {
 /// All layouts that give the rate: one hole for 4, 3, 2 rows or one, 2 or 3 holes a row; widths in steps of 0.5 mm; the
 /// shallowest and the deepest bed of the table; the amplitude that the table has in seeds, to 0.1 mm; every frequency
 /// within the shaker's limits that gives the rate. Ranked by the hole's class, then the share of holes that stood
-/// still, then whether working speeds are reached, then by how far the rate can be turned up and down. Throws
-/// InputError for seeds of an aspect that the table has not.
+/// still, then whether working speeds are reached, then by how far the rate can be turned up and down. Those whose rate
+/// is not known to `most_uncertain` are left out. Throws InputError for seeds of an aspect that the table has not.
 SowingPlan plan_sowing(const SowingTask& task, const HoleTable& table, const ShakerLimits& limits = {});
 
 }  // namespace vibrosow

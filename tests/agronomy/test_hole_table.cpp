@@ -87,16 +87,37 @@ TEST(HoleTable, TakesTheWorstOfThePlacesAround) {
   std::vector<HoleRecord> records = made_up_records();
   for (HoleRecord& record : records)
     if (record.at.aspect == 1 && record.at.width == 3 && record.at.peak_speed == 1.4 && record.at.depth == 6) {
-      record.half_width_95 = 0.3 * record.outflow;
       record.stood_still = 0.5;
       record.watched = 7;
     }
   const HoleTable table(records);
   const auto beside = table.at({1, 3.1, 1.5, 5});
-  EXPECT_NEAR(beside->chance, 0.3, 1e-12);
   EXPECT_EQ(beside->stood_still, 0.5);
   EXPECT_EQ(beside->watched, 7);
   EXPECT_EQ(table.at({1, 4.1, 1.5, 5})->stood_still, 0);
+}
+
+/// What another half width of one record after the other would do to the outflow looked up.
+double chance_by_trying(const HoleConditions& at) {
+  const std::vector<HoleRecord> records = made_up_records();
+  constexpr double little = 1e-6;
+  const double told = table_of(records).at(at)->outflow;
+  double sum = 0;
+  for (std::size_t i = 0; i < records.size(); ++i) {
+    std::vector<HoleRecord> changed = records;
+    changed[i].outflow *= 1 + little;
+    const double slope = (table_of(changed).at(at)->outflow / told - 1) / little;
+    sum += std::pow(slope * records[i].half_width_95 / records[i].outflow, 2);
+  }
+  return std::sqrt(sum);
+}
+
+TEST(HoleTable, ItsChanceIsThatOfThePlacesAround) {
+  const HoleTable table(made_up_records());
+  for (const HoleConditions& at : {HoleConditions{1, 3.1, 1.5, 5}, HoleConditions{2, 3.5, 1.4, 6},
+                                   HoleConditions{2, 4.1, 2.2, 4}, HoleConditions{1.3, 4.1, 2.2, 4}})
+    EXPECT_NEAR(table.at(at)->chance, chance_by_trying(at), 1e-6) << at.aspect << ' ' << at.width;
+  EXPECT_LT(table.at({1, 3.1, 1.5, 5})->chance, 0.05) << "a mean of several";
 }
 
 TEST(HoleTable, LeavingPlacesOutTellsItsError) {
@@ -117,6 +138,25 @@ TEST(HoleTable, LeavingPlacesOutTellsItsError) {
   // 3, one of two.
   EXPECT_NEAR(bent.interpolation_error(1, 2.5, 1.5), 1.96 / 4 * std::sqrt(0.01 / 2 + 0.01 / 2), 1e-4);
   EXPECT_NEAR(bent.interpolation_error(1, 5.5, 1.5), 0, 1e-12) << "far from it";
+}
+
+TEST(HoleTable, LeavingShapesOutTellsItsErrorWhereItIs) {
+  std::vector<HoleRecord> records;
+  for (const double depth : {3.0, 6.0})
+    for (const double width : {2.0, 3.0, 4.0})
+      for (const double speed : {1.0, 2.0, 4.0})
+        for (const double aspect : {1.0, 2.0, 3.0}) {
+          HoleRecord record = made_up_record({aspect, width, speed, depth});
+          record.outflow = std::pow(width, 2.5) * std::exp(-aspect);
+          records.push_back(record);
+        }
+  EXPECT_NEAR(HoleTable(records).interpolation_error(2.5, 2.5, 1.5), 0, 1e-12);
+  // Where they are slow, longer seeds flow otherwise, along no other axis than the shape.
+  for (HoleRecord& record : records)
+    if (record.at.aspect == 2 && record.at.peak_speed == 1) record.outflow *= std::exp(0.1);
+  const HoleTable bent(records);
+  EXPECT_NEAR(bent.interpolation_error(2.5, 2.5, 3), 1.96 / 4 * 0.05, 1e-4) << "far from it: the speeds' bend alone";
+  EXPECT_NEAR(bent.interpolation_error(2.5, 2.5, 1.5), 1.96 / 4 * std::sqrt(0.0025 + 0.01 / 2), 1e-4);
 }
 
 TEST(HoleTable, MissesABendByLessThanItsError) {

@@ -146,6 +146,20 @@ TEST(SowingPlan, IsSureToChanceAndInterpolationAndSoftness) {
   EXPECT_GT(plan.uncertainty(best), plan.softness);
 }
 
+TEST(SowingPlan, WhatTheTableHardlyKnowsIsLeftOut) {
+  std::vector<HoleRecord> records = made_up_records();
+  for (HoleRecord& record : records)
+    if (record.at.width >= 5) record.half_width_95 = 0.6 * record.outflow;
+  const SowingPlan known = plan_sowing(task_of(300), table());
+  const SowingPlan plan = plan_sowing(task_of(300), HoleTable(records));
+  EXPECT_EQ(known.too_uncertain, 0U);
+  EXPECT_GT(plan.too_uncertain, 0U);
+  EXPECT_EQ(plan.layouts.size() + plan.too_uncertain, known.layouts.size());
+  for (const PlannedLayout& layout : plan.layouts) {
+    EXPECT_LE(plan.uncertainty(layout), most_uncertain);
+  }
+}
+
 TEST(SowingPlan, SeedsThatTheTableHasNot) {
   SowingTask task = task_of(100);
   task.seed.aspect = 2.7;
