@@ -181,7 +181,7 @@ std::string none_text(const SowingPlan& plan) {
   if (plan.too_uncertain > 0)
     return fmt::format(
         "None of these is known to give the rate: of the {} that should, each is unsure by more than {} %. The table "
-        "knows seeds so long too little at such holes and frequencies.",
+        "knows such seeds too little at such holes and frequencies.",
         plan.too_uncertain, percent_text(most_uncertain));
   if (change.most_share <= 0)
     return "None of these does: within the shaker's limits the table has no frequency for such seeds.";
@@ -255,8 +255,7 @@ std::string table_text(const SowingPlan& plan) {
   return text + wrapped(fmt::format(
                     "{} the rate{}; of each number of holes and depth of bed the best, the best first. speeds: "
                     "which frequency alone keeps at the sowing rate, * all of {} to {} km/h; stood still: share of the "
-                    "simulated "
-                    "holes that once let nothing through for {} s; more by: which shaking sows more",
+                    "simulated holes that once let nothing through for {} s; more by: which shaking sows more",
                     plan.layouts.size() == 1 ? "One layout gives" : fmt::format("{} layouts give", plan.layouts.size()),
                     plan.too_uncertain > 0 ? fmt::format(", {} more are left out, being unsure by more than {} %",
                                                          plan.too_uncertain, percent_text(most_uncertain))

@@ -97,7 +97,7 @@ TEST(HoleTable, TakesTheWorstOfThePlacesAround) {
   EXPECT_EQ(table.at({1, 4.1, 1.5, 5})->stood_still, 0);
 }
 
-/// What another half width of one record after the other would do to the outflow looked up.
+/// By slopes found by changing the outflow of one record after the other.
 double chance_by_trying(const HoleConditions& at) {
   const std::vector<HoleRecord> records = made_up_records();
   constexpr double little = 1e-6;

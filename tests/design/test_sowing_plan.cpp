@@ -155,9 +155,7 @@ TEST(SowingPlan, WhatTheTableHardlyKnowsIsLeftOut) {
   EXPECT_EQ(known.too_uncertain, 0U);
   EXPECT_GT(plan.too_uncertain, 0U);
   EXPECT_EQ(plan.layouts.size() + plan.too_uncertain, known.layouts.size());
-  for (const PlannedLayout& layout : plan.layouts) {
-    EXPECT_LE(plan.uncertainty(layout), most_uncertain);
-  }
+  for (const PlannedLayout& layout : plan.layouts) EXPECT_LE(plan.uncertainty(layout), most_uncertain);
 }
 
 TEST(SowingPlan, SeedsThatTheTableHasNot) {

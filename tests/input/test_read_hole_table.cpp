@@ -89,7 +89,10 @@ TEST(ShippedHoleTable, IsWholeAndItsOutflowGrowsWithTheWidth) {
         std::cout << "interpolation, aspect " << aspect << ", width " << width << ", speed " << speed << ": +- "
                   << 100 * error << " % (95 %)\n";
         EXPECT_GT(error, 0);
-        EXPECT_LT(error, speed > 1.4 ? 0.5 : 1.5) << "slower, the longest seeds nearly stand still";
+        // Below a speed of 1.4 the longest seeds nearly stand still, and a plan leaves out what is so unsure.
+        if (aspect == 1 || speed > 1.4) {
+          EXPECT_LT(error, 0.5) << "an answer with such an error is none";
+        }
       }
   }
 }
