@@ -121,7 +121,7 @@ Observation StudyDecision::observed(std::size_t scene, const Evaluation& run) {
   if (run.outside_the_model) return failed("outside the model");
   if (has_clogged(run)) return {RunEnd::clogged};
   const auto goal = options_.goal->of(run.outflow);
-  if (!goal) return failed(fmt::format("it has no {}", options_.goal->figure));
+  if (!goal) return failed(std::string(options_.goal->if_none));
   const auto rate = options_.rate ? options_.rate->of(run.outflow) : std::optional(0.0);
   if (!rate) return failed(fmt::format("it has no {}", options_.rate->figure));
   return {RunEnd::flowed, *goal, *rate};

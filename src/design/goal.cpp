@@ -14,11 +14,13 @@ namespace vibrosow {
 namespace {
 
 constexpr std::array table = {
-    Goal{"evenness", "raw_cv_percent", false, "raw coefficient of variation between the holes of one run, least"},
-    Goal{"instability", "instability_cv_percent", false, "of the whole outflow over ten parts of the window, least"},
-    Goal{"pause", "longest_pause_s", false, "longest time without a seed, least"},
-    Goal{"rate", "rate_g_per_s", true, "mass flow, most"},
-    Goal{"spilled", "spilled_percent", false, "seeds that left over the rim, least"},
+    Goal{"evenness", "raw_cv_percent", false, "raw coefficient of variation between the holes of one run, least",
+         "one hole has no evenness"},
+    Goal{"instability", "instability_cv_percent", false, "of the whole outflow over ten parts of the window, least",
+         "it has no instability"},
+    Goal{"pause", "longest_pause_s", false, "longest time without a seed, least", "it has no pause"},
+    Goal{"rate", "rate_g_per_s", true, "mass flow, most", "it has no rate"},
+    Goal{"spilled", "spilled_percent", false, "seeds that left over the rim, least", "nothing left it"},
 };
 
 std::optional<double> finite(const std::optional<double>& value) {

@@ -17,6 +17,7 @@ struct Goal {
   std::string_view figure;  // its name
   bool is_most;
   std::string_view description;
+  std::string_view if_none;  // said of a run without the figure
   /// SI, turned so that less is better; none where the run has no such figure.
   std::optional<double> of(const Outflow& outflow) const;
 };

@@ -157,7 +157,7 @@ TEST(Decide, FailuresInvalidAndEqualLayoutsAreSaid) {
   };
   StudyDecision decision(study, options);
   const std::string csv = decision_csv(lead(decision, stopped));
-  EXPECT_THAT(csv, HasSubstr("\n1,,failed,random seed 1: it has no raw_cv_percent,"));
+  EXPECT_THAT(csv, HasSubstr("\n1,,failed,random seed 1: one hole has no evenness,"));
   EXPECT_THAT(csv, HasSubstr("\n7,,failed,random seed 1: too deep,"));
   EXPECT_THAT(csv, HasSubstr("\n8,,invalid,"));
 }
