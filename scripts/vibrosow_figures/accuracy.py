@@ -1,5 +1,10 @@
 """What accuracy costs, drawn as the field of ODE solvers draws it."""
+import json
+import math
+from pathlib import Path
+
 import matplotlib
+import numpy as np
 
 matplotlib.use("Agg")
 from matplotlib import pyplot
@@ -51,6 +56,7 @@ def work_precision(options):
     figure, axes = pyplot.subplots(figsize=(7.2, 5), layout="constrained")
     for scheme, (colour, marker, name) in SCHEMES.items():
         own = [row for row in settings if row["integrator"] == scheme]
+        labelled = set()  # lines of one softness and several slip speeds lie on each other
         for series in sorted({(softness_of(row), row["slip_speed_mm_per_s"]) for row in own}):
             line = [row for row in own if (softness_of(row), row["slip_speed_mm_per_s"]) == series]
             heights = [max(row["error"], least) for row in line]
@@ -59,6 +65,9 @@ def work_precision(options):
             axes.errorbar([row["cpu_s"] for row in line], heights, yerr=bars, color=colour, marker=marker, markersize=5, linewidth=1,
                           capsize=2, elinewidth=0.8, label=name if series == min((softness_of(r), r["slip_speed_mm_per_s"]) for r in own) else None)
             last = max(line, key=lambda row: row["cpu_s"])
+            if softness_of(last) in labelled:
+                continue
+            labelled.add(softness_of(last))
             axes.annotate(f"{float(softness_of(last)):.2g}", (last["cpu_s"], max(last["error"], least)), textcoords="offset points", xytext=(6, 3), fontsize=7,
                           color=colour)
     front = front_of(settings)
@@ -103,6 +112,73 @@ def accuracy_levels(options):
     write_table("levels.csv", "scene,level,rate_g_per_s,error_percent,error_band95,error_bound_percent,cpu_s,cpu_over_reference", lines)
 
 
+def softest(limit, terms, within):
+    """The least shell compression at which the error of a rate limit + terms[0] sqrt(c) + terms[1] c passes so many percent; infinite: none."""
+    compressions = np.geomspace(1e-7, 1e-1, 1201)
+    errors = 100 * np.abs(terms[0] * np.sqrt(compressions) + terms[1] * compressions) / limit
+    return compressions[np.argmax(errors > within)] if (errors > within).any() else math.inf
+
+
+def softening(options):
+    """How far the seeds of one scene can be softened: from all velocity Verlet runs of several FOLDERs of `vibrosow accuracy`.
+
+    Writes softening.csv: the shell compression at which the rate is off by --within percent, with its 95 % interval, and how much less time a run
+    takes there than at --own. Least squares of rate = limit + a sqrt(compression) + b compression + c / steps per contact, each run weighted by the
+    length of its window; the interval is that of 10 000 draws of the coefficients."""
+    runs = [row for folder in options.folders for row in rows(f"{folder}/accuracy_runs.csv")
+            if row["integrator"] == "velocity-verlet" and row["rate_g_per_s"] and not row["reason"]]
+    compression, steps, window, rate = (np.array([float(row[key]) for row in runs])
+                                        for key in ("shell_compression", "steps_per_contact", "window", "rate_g_per_s"))
+    columns = np.column_stack([np.ones(len(runs)), np.sqrt(compression), compression, 1 / steps])
+    inverse = np.linalg.inv(columns.T @ (window[:, None] * columns))
+    fit = inverse @ columns.T @ (window * rate)
+    variance = np.sum(window * (rate - columns @ fit) ** 2) / (len(runs) - len(fit))
+    draws = np.random.default_rng(1).multivariate_normal(fit, variance * inverse, 10000)
+    found = softest(fit[0], fit[1:3], options.within)
+    low, high = np.quantile([softest(draw[0], draw[1:3], options.within) for draw in draws], [0.025, 0.975], method="nearest")
+    write_table("softening.csv", "within_percent,shell_compression,low95,high95,runs,times_as_fast_as_own,times_as_fast_low95",
+                [[f"{options.within:g}", f"{found:.2g}", f"{low:.2g}", f"{high:.2g}", len(runs), f"{math.sqrt(found / options.own):.2g}",
+                  f"{math.sqrt(low / options.own):.2g}"]])
+
+
+PROMISES = ("scene,within_percent,random_seed,integrator,steps_per_contact,shell_compression,youngs_modulus_MPa,pilots,replicates,rate_g_per_s,"
+            "promised_within_percent,error_percent,truth_half_width_percent,kept,cpu_s,refused")
+
+
+def truth_of(folder):
+    """Mean rate and half width of its 95 % interval, %, of a sweep of one layout."""
+    (row,) = rows(f"{folder}/sweep.csv")
+    return float(row["rate_g_per_s"]), 100 * float(row["rate_g_per_s_ci95"]) / float(row["rate_g_per_s"])
+
+
+def promise_row(folder, truth, half_width):
+    """A row of promises.csv, but for the scene: what the promise in `folder` says, and what it errs by against `truth`."""
+    made = json.loads((folder / "promise.json").read_text(encoding="utf-8"))
+    timing = json.loads((folder / "timing.json").read_text(encoding="utf-8"))
+    seed = rows(folder / "accuracy_runs.csv")[0]["random_seed"]
+    chosen = [made[key] for key in ("integrator", "steps_per_contact", "shell_compression", "youngs_modulus_MPa", "pilots", "replicates")]
+    row = [f"{made['goal']['within_percent']:g}", seed, *chosen]
+    if made["refused"] or made["rate_g_per_s"] is None:
+        return [*row, "", "", "", f"{half_width:.2f}", "", f"{timing['run_cpu_s']:.3g}", made["refused"]]
+    error = 100 * (made["rate_g_per_s"] / truth - 1)
+    kept = "yes" if abs(error) <= made["goal"]["within_percent"] else "no"
+    return [*row, f"{made['rate_g_per_s']:.6g}", f"{made['error_bound_percent']:.2f}", f"{error:.2f}", f"{half_width:.2f}", kept, f"{timing['run_cpu_s']:.3g}", ""]
+
+
+def promises(options):
+    """Holds promises of `vibrosow accuracy --within` against the truth. Each FOLDER is of one scene: `truth` in it is a sweep of its finest
+    setting, every other folder a promise.
+
+    Writes promises.csv: what was chosen, its error against the truth, whose own half width is beside it, and whether it is within the error
+    that was asked for."""
+    lines = []
+    for scene in map(Path, options.folders):
+        truth, half_width = truth_of(scene / "truth")
+        folders = sorted(path for path in scene.iterdir() if path.is_dir() and path.name != "truth")
+        lines += [[scene.name, *promise_row(folder, truth, half_width)] for folder in folders]
+    write_table("promises.csv", PROMISES, lines)
+
+
 def add_commands(commands):
     draw = command(commands, "work-precision", work_precision)
     draw.add_argument("folder", metavar="FOLDER")
@@ -112,3 +188,11 @@ def add_commands(commands):
 
     levels = command(commands, "accuracy-levels", accuracy_levels)
     levels.add_argument("folders", metavar="FOLDER", nargs="+")
+
+    kept = command(commands, "promises", promises)
+    kept.add_argument("folders", metavar="FOLDER", nargs="+")
+
+    soft = command(commands, "softening", softening)
+    soft.add_argument("folders", metavar="FOLDER", nargs="+")
+    soft.add_argument("--within", type=float, default=3, help="%%; default: %(default)s")
+    soft.add_argument("--own", type=float, required=True, metavar="EPS/R", help="shell compression to compare times with")
