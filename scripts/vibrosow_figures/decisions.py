@@ -54,8 +54,9 @@ def decision_costs(options):
     """What decisions cost: DECISION folders of `vibrosow decide` over one study, a SWEEP of the same study, and what a full grid would cost.
 
     Writes costs.csv: a row per way with its runs, grain-steps, hours of a core at the speed of TIMING (timing.json of a run of
-    the study's seeder), decisions per hour of two cores, and the layout that it calls best, with its mean goal. The full grid is
-    not run: it is what Rinott's procedure takes for the confidence of the last decision, by the variances of its first runs."""
+    the study's seeder), decisions per hour of two cores, and the layout that it calls best, with its mean goal. Two full grids are
+    not run: the smallest of GRID (what benchmarks/decision_grid prints) that names the last decision's layout as surely as it is, and
+    what Rinott's procedure takes for that confidence whatever the means, by the variances of the decision's first runs."""
     speed = json_of(options.timing)["grain_steps_per_s"]
 
     def line(way, runs, grain_steps, chosen):
@@ -72,9 +73,13 @@ def decision_costs(options):
     best = least_of_sweep(options.sweep, last.answer)
     chosen = [best["layout"], best["name"], best[last.answer["goal.figure"]], ""] if best else [""] * 4
     lines.append(line("sweep", runs, runs * each, chosen))
+    grid = rows(options.grid)[-1]
+    if float(grid["right_percent"]) >= float(grid["confidence_percent"]):
+        lines.append(line(f"full grid of {grid['replicates']} replicates, drawn from runs kept", float(grid["runs"]), float(grid["grain_steps"]),
+                          [*last.chosen()[:2], "", grid["right_percent"]]))
     if last.answer["equal_grid.runs"] is not None:
         confidence = f"{last.answer['confidence_percent']:g}"
-        lines.append(line("full grid, not run", last.answer["equal_grid.runs"], last.answer["equal_grid.grain_steps"], ["", "", "", confidence]))
+        lines.append(line("full grid by Rinott, reckoned", last.answer["equal_grid.runs"], last.answer["equal_grid.grain_steps"], ["", "", "", confidence]))
     write_table("costs.csv", COSTS, lines)
 
 
@@ -99,6 +104,7 @@ def decision_finalists(options):
 def add_commands(commands):
     parser = command(commands, "decision-costs", decision_costs)
     parser.add_argument("timing", metavar="TIMING")
+    parser.add_argument("grid", metavar="GRID")
     parser.add_argument("sweep", metavar="SWEEP")
     parser.add_argument("decisions", nargs="+", metavar="DECISION")
     parser = command(commands, "decision-finalists", decision_finalists)
