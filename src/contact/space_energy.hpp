@@ -1,10 +1,9 @@
 #pragma once
 
-#include <cmath>
-
 #include "contact/pair_properties.hpp"
 #include "contact/space_data.hpp"
 #include "contact/space_history.hpp"
+#include "contact/touching_pairs.hpp"
 #include "contact/wall_properties.hpp"
 
 namespace vibrosow::inline VIBROSOW_ISA {
@@ -30,18 +29,22 @@ template <class Law, class Effects>
 double space_pair_energy(const GrainSurfaces& grains, const SpaceMotion& at, const PairList& list,
                          const ContactParameters& parameters, const ContactHistories& histories) {
   const PairProperties<Law, Effects> properties(grains, parameters);
+  const auto grain = [&](std::size_t k) { return static_cast<std::size_t>(list.grain[k]); };
+  const auto partner = [&](std::size_t k) { return static_cast<std::size_t>(list.partner[k]); };
   double energy = 0;
-  for (std::size_t k = 0; k < list.size(); ++k) {
-    const std::size_t i = static_cast<std::size_t>(list.grain[k]), j = static_cast<std::size_t>(list.partner[k]);
-    const GrainVector &from = at.row_place[i], &to = at.place[j];
-    const Vector3 apart{to.x - from.x, to.y - from.y, to.z - from.z};
-    const double reach = properties.reach(i, j), distance2 = dot(apart, apart);
-    if (distance2 >= reach * reach) continue;  // most: then the root is not less than reach, by IEEE's rounding
-    const double overlap = reach - std::sqrt(distance2);
-    if (overlap > 0)
-      energy += space_contact_energy<Law, Effects>(overlap, properties.pair(i, j), properties.between(i, j),
-                                                   load_history<Effects>(histories.records.data(), k));
-  }
+  for_each_touching(
+      list.size(),
+      [&](std::size_t k) {
+        const std::size_t i = grain(k), j = partner(k);
+        const GrainVector &from = at.row_place[i], &to = at.place[j];
+        const Vector3 apart{to.x - from.x, to.y - from.y, to.z - from.z};
+        return PairReach{properties.reach(i, j), dot(apart, apart)};
+      },
+      [&](std::size_t k, double overlap) {
+        const std::size_t i = grain(k), j = partner(k);
+        energy += space_contact_energy<Law, Effects>(overlap, properties.pair(i, j), properties.between(i, j),
+                                                     load_history<Effects>(histories.records.data(), k));
+      });
   return energy;
 }
 

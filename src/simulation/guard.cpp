@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <utility>
 
 #include "elementary/functions.hpp"
@@ -18,32 +17,55 @@ constexpr double energy_warning = 0.05;
 
 }  // namespace
 
-double mechanical_energy(const Grains& grains, std::size_t i, const Eigen::Vector2d& gravity) {
-  const GrainKind kind = grains.kind(i);
-  double energy = 0.5 * kind.mass * (grains.vx[i] * grains.vx[i] + grains.vy[i] * grains.vy[i]);
-  const bool turns = grains.rotation && kind.inverse_inertia > 0;
-  if (grains.in_space) energy += 0.5 * kind.mass * grains.vz[i] * grains.vz[i];
-  if (turns && turn_as_clumps(grains)) {
+namespace {
+
+double mass_of(const Grains& grains, std::size_t i) {
+  return grains.polydisperse ? grains.mass[i] : grains.kinds.front().mass;
+}
+
+double energy_of_travel(const Grains& grains, std::size_t i) {
+  const double mass = mass_of(grains, i);
+  double energy = 0.5 * mass * (grains.vx[i] * grains.vx[i] + grains.vy[i] * grains.vy[i]);
+  if (grains.in_space) energy += 0.5 * mass * grains.vz[i] * grains.vz[i];
+  return energy;
+}
+
+/// `as_clump`: turn_as_clumps. Handed down, so that the loop over balls calls nothing.
+double energy_of_turning(const Grains& grains, std::size_t i, bool as_clump) {
+  if (!grains.rotation) return 0;
+  const double inverse_inertia = grains.polydisperse ? grains.inverse_inertia[i] : grains.kinds.front().inverse_inertia;
+  if (inverse_inertia <= 0) return 0;
+  if (as_clump) {
     const Eigen::Vector3d spin = spin_of(grains, i);
-    energy += 0.5 * spin.dot(TurningClump(grains, i).momentum_of(spin));
-  } else if (turns) {
-    double spin2 = grains.omega[i] * grains.omega[i];
-    if (grains.in_space) spin2 += grains.omega_x[i] * grains.omega_x[i] + grains.omega_y[i] * grains.omega_y[i];
-    energy += 0.5 * spin2 / kind.inverse_inertia;
+    return 0.5 * spin.dot(TurningClump(grains, i).momentum_of(spin));
   }
-  return energy - kind.mass * (gravity.x() * grains.x[i] + gravity.y() * grains.y[i]);
+  double spin2 = grains.omega[i] * grains.omega[i];
+  if (grains.in_space) spin2 += grains.omega_x[i] * grains.omega_x[i] + grains.omega_y[i] * grains.omega_y[i];
+  return 0.5 * spin2 / inverse_inertia;
+}
+
+double energy_of_height(const Grains& grains, std::size_t i, const Eigen::Vector2d& gravity) {
+  return -(mass_of(grains, i) * (gravity.x() * grains.x[i] + gravity.y() * grains.y[i]));
+}
+
+}  // namespace
+
+double mechanical_energy(const Grains& grains, std::size_t i, const Eigen::Vector2d& gravity) {
+  return energy_of_travel(grains, i) + energy_of_turning(grains, i, turn_as_clumps(grains)) +
+         energy_of_height(grains, i, gravity);
 }
 
 double kinetic_energy(const Grains& grains) {
+  const bool as_clumps = turn_as_clumps(grains);
   double energy = 0;
-  for (std::size_t i = 0; i < grains.size(); ++i) energy += mechanical_energy(grains, i, Eigen::Vector2d::Zero());
+  for (std::size_t i = 0; i < grains.size(); ++i)
+    energy += energy_of_travel(grains, i) + energy_of_turning(grains, i, as_clumps);
   return energy;
 }
 
 double potential_energy(const Grains& grains, const Eigen::Vector2d& gravity) {
   double energy = 0;
-  for (std::size_t i = 0; i < grains.size(); ++i)
-    energy -= grains.kind(i).mass * (gravity.x() * grains.x[i] + gravity.y() * grains.y[i]);
+  for (std::size_t i = 0; i < grains.size(); ++i) energy += energy_of_height(grains, i, gravity);
   return energy;
 }
 
@@ -188,8 +210,8 @@ void Guard::watch_energy(const Integration& s, EnergyAccount& account) {
   account.wall_work = s.kept.wall_work;
   const double moving = account.kinetic + account.elastic;
   // Places along and up are in the potential energy, those across in none.
-  const double across = std::accumulate(s.grains.z.begin(), s.grains.z.end(), 0.0);
-  if (!std::isfinite(moving + account.potential + across)) {
+  const bool across = std::ranges::all_of(s.grains.z, [](double z) { return std::isfinite(z); });
+  if (!std::isfinite(moving + account.potential) || !across) {
     stop(fmt::format("the state of {} is not a number at {:.4g} s: {}", told(s, worst(s.grains)), s.state.time,
                      shorter_step(0.5 * s.dt)));
     return;
