@@ -98,9 +98,11 @@ def arc(piece):
 
 
 def turned_about(piece):
-    """Both sides of a piece that is turned about an upright axis."""
-    axis = piece["about_m"][0]
-    return [[(axis + side * x, y) for x, y in (piece["from_m"], piece["to_m"])] for side in (-1, 1)]
+    """Both sides of a piece that is turned about an axis, upright or along."""
+    axis, ends = piece["about_m"][0], (piece["from_m"], piece["to_m"])
+    if piece.get("axis") == "along":
+        return [[(x, axis + side * radius) for radius, x in ends] for side in (-1, 1)]
+    return [[(axis + side * radius, y) for radius, y in ends] for side in (-1, 1)]
 
 
 def outline(vessel, box):

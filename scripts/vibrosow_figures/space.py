@@ -133,9 +133,10 @@ def drawn_out(line, depth):
 
 
 def turned_about(piece):
-    """A line turned about an upright axis."""
-    (x, z), ends = piece["about_m"], [1e3 * np.array(piece[key]) for key in ("from_m", "to_m")]
-    return between_rings(*(circle((1e3 * x, 1e3 * z), radius, height) for radius, height in ends))
+    """A line turned about an axis, upright or along."""
+    (aside, z), ends = piece["about_m"], [1e3 * np.array(piece[key]) for key in ("from_m", "to_m")]
+    rings = [circle((1e3 * aside, 1e3 * z), radius, place) for radius, place in ends]
+    return between_rings(*(ring[:, [1, 0, 2]] if piece.get("axis") == "along" else ring for ring in rings))
 
 
 def rotation(quaternion):

@@ -100,19 +100,23 @@ std::vector<WallPiece> read_line(const Table& table, const std::vector<std::arra
   return pieces;
 }
 
-/// The line turned about an upright axis.
+/// The line turned about an axis.
 void read_axis(Table& table, Space space, std::vector<WallPiece>& line) {
   const std::vector<double> about = table.quantities("about", Dimension::length, -longest, longest);
-  if (about.empty()) return;
-  if (space == Space::plane)
-    table.fail("about", "a line is turned about an upright axis in space alone: space = \"3d\"");
+  if (about.empty()) return table.skip("axis");
+  if (space == Space::plane) table.fail("about", "a line is turned about an axis in space alone: space = \"3d\"");
+  const bool upright = table.choice("axis", {"upright", "along"}).value_or(0) == 0;
   if (about.size() != 2)
-    table.fail("about", "expected where the upright axis passes, along and across, such as [\"10 cm\", \"4 cm\"]");
+    table.fail("about", fmt::format("expected where the axis passes, {} and across, such as [\"10 cm\", \"4 cm\"]",
+                                    upright ? "along" : "up"));
   for (WallPiece& piece : line) {
     if (piece.a.x() < 0 || piece.b.x() < 0)
-      table.fail("line", "beside about, points are [distance from the axis, height]; a distance is not below zero");
+      table.fail("line",
+                 fmt::format("beside about, points are [distance from the axis, {}]; a distance is not below zero",
+                             upright ? "height" : "place along"));
     if (piece.a.x() == 0 && piece.b.x() == 0) table.fail("line", "beside about, a piece of it lies on the axis");
     piece.about = {about[0], about[1]};
+    piece.axis = upright ? PieceAxis::upright : PieceAxis::along;
   }
 }
 
@@ -159,8 +163,7 @@ std::vector<WallPiece> read_pieces(Table& vessel, Space space) {
       pieces.insert(pieces.end(), line.begin(), line.end());
     } else {
       pieces.push_back(read_arc(table));
-      table.skip("line");
-      table.skip("about");
+      for (const char* key : {"line", "about", "axis"}) table.skip(key);
     }
   }
   return pieces;

@@ -19,7 +19,7 @@ void check_plane(const Vessel& vessel) {
   if (turning && turning->axis == TurningAxis::upright)
     throw InputError(vessel.name + ".motion.axis: about an upright axis a vessel turns in space alone");
   if (std::ranges::any_of(vessel.pieces, [](const WallPiece& piece) { return piece.about.has_value(); }))
-    throw InputError(vessel.name + ".pieces: a line is turned about an upright axis in space alone");
+    throw InputError(vessel.name + ".pieces: a line is turned about an axis in space alone");
 }
 
 void check_vessels(const Model& model) {

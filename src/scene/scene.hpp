@@ -124,17 +124,20 @@ struct Hole {
   bool operator==(const Hole&) const = default;
 };
 
+enum class PieceAxis { upright, along };
+
 /// A piece of a vessel's wall beside its box, in the vessel's frame: a straight line from a to b, or, where the radius
 /// is not zero, an arc about `centre`, anticlockwise from the angle `from` to the angle `to` (at most a full turn). A
 /// grain larger than an arc's circle feels only the nearer end of it from within. In space a piece is drawn out from
-/// front to back, or a line is turned about an upright axis, from which its points' x are distances: a cylinder, a cone
-/// or a disc.
+/// front to back, or a line is turned about an axis that is upright or lies along x, and then its points are (distance
+/// from the axis, place along it): a cylinder, a cone or a disc.
 struct WallPiece {
   Eigen::Vector2d a = Eigen::Vector2d::Zero(), b = Eigen::Vector2d::Zero();  // m
   Eigen::Vector2d centre = Eigen::Vector2d::Zero();                          // m
   double radius = 0;                                                         // m
   double from = 0, to = 0;                                                   // rad, 0 along x, pi/2 up
-  std::optional<Eigen::Vector2d> about{};                                    // m, x and z of that axis
+  std::optional<Eigen::Vector2d> about{};  // m, where that axis passes: x and z of an upright one, else y and z
+  PieceAxis axis = PieceAxis::upright;
   bool operator==(const WallPiece&) const = default;
 };
 

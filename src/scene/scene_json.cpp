@@ -341,6 +341,7 @@ void fields(Io& io, WallPiece& piece) {
   io.used("from_rad", piece.from, usual.from, arc);
   io.used("to_rad", piece.to, usual.to, arc);
   io.optional("about_m", piece.about);
+  io.used_choice("axis", piece.axis, {"upright", "along"}, usual.axis);
 }
 
 template <class Io>

@@ -28,13 +28,18 @@ Face level_plate(const std::string& name, double from_x, double to_x, double fro
   return plate(name, {from_x, 0, from_z}, {0, 0, to_z - from_z}, {to_x - from_x, 0, 0});
 }
 
-/// A line between two points, distance from the axis and height (m), turned all round the upright axis through `foot`.
-Face revolved(const std::string& name, const Vector& foot, const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
+/// A line between two points, distance from the axis and place along it (m), turned all round the axis that passes
+/// through `foot`.
+Face revolved(const std::string& name, PieceAxis axis, const Vector& foot, const Eigen::Vector2d& a,
+              const Eigen::Vector2d& b) {
   Face face;
   face.kind = Face::Kind::revolved;
   face.name = name;
   face.origin = foot;
-  face.e1 = Vector::UnitZ(), face.e2 = Vector::UnitX(), face.normal = Vector::UnitY();
+  if (axis == PieceAxis::upright)
+    face.e1 = Vector::UnitZ(), face.e2 = Vector::UnitX(), face.normal = Vector::UnitY();
+  else
+    face.e1 = Vector::UnitY(), face.e2 = Vector::UnitZ(), face.normal = Vector::UnitX();
   face.radius_a = a.x(), face.height_a = a.y(), face.radius_b = b.x(), face.height_b = b.y();
   face.half_angle = std::numbers::pi;
   return face;
@@ -151,11 +156,12 @@ void add_round_vessel(const Vessel& vessel, std::vector<Face>& faces) {
   const Vector middle(radius, 0, radius);
   if (vessel.funnel > 0) {
     const double outlet = vessel.holes.front().width / 2;
-    faces.push_back(revolved(vessel.name + " funnel", middle, {outlet, 0}, {radius, highest_floor(vessel)}));
+    faces.push_back(
+        revolved(vessel.name + " funnel", PieceAxis::upright, middle, {outlet, 0}, {radius, highest_floor(vessel)}));
   } else if (vessel.holes.empty() || vessel.holes.front().width < vessel.length * (1 - 1e-9)) {
     add_floor(vessel, {0, vessel.length}, faces);
   }
-  faces.push_back(revolved(vessel.name + " wall", middle, {radius, 0}, {radius, vessel.height}));
+  faces.push_back(revolved(vessel.name + " wall", PieceAxis::upright, middle, {radius, 0}, {radius, vessel.height}));
 }
 
 void add_end_walls(const Vessel& vessel, const Span& z, std::vector<Face>& faces) {
@@ -189,7 +195,13 @@ void add_ends_of_drum(const Vessel& vessel, std::vector<Face>& faces) {
   }
 }
 
-/// Pieces turned about upright axes, and where a direction is periodic their images.
+/// Where the axis of such a piece passes, in the vessel's frame.
+Vector foot_of(const WallPiece& piece) {
+  return piece.axis == PieceAxis::upright ? Vector(piece.about->x(), 0, piece.about->y())
+                                          : Vector(0, piece.about->x(), piece.about->y());
+}
+
+/// Pieces turned about axes, and where a direction is periodic their images.
 void add_revolved_pieces(const Vessel& vessel, std::vector<Face>& faces) {
   const int most_x = vessel.sides == Sides::periodic ? 1 : 0, most_z = vessel.front_and_back == Sides::periodic ? 1 : 0;
   for (std::size_t k = 0; k < vessel.pieces.size(); ++k) {
@@ -197,16 +209,17 @@ void add_revolved_pieces(const Vessel& vessel, std::vector<Face>& faces) {
     if (!piece.about) continue;
     for (int i = -most_x; i <= most_x; ++i)
       for (int j = -most_z; j <= most_z; ++j)
-        faces.push_back(revolved(vessel.name + " piece " + std::to_string(k + 1),
-                                 {piece.about->x() + i * vessel.length, 0, piece.about->y() + j * vessel.depth.value()},
-                                 piece.a, piece.b));
+        faces.push_back(revolved(vessel.name + " piece " + std::to_string(k + 1), piece.axis,
+                                 foot_of(piece) + Vector(i * vessel.length, 0, j * vessel.depth.value()), piece.a,
+                                 piece.b));
   }
 }
 
 /// A lid over a hole and over its images.
 void add_gate(const std::string& name, const Hole& hole, std::vector<Face>& faces) {
-  Face face = is_round(hole) ? revolved(name, {hole.centre, 0, hole.across}, {0, 0}, {hole.width / 2, 0})
-                             : level_plate(name, along(hole).from, along(hole).to, across(hole).from, across(hole).to);
+  Face face = is_round(hole)
+                  ? revolved(name, PieceAxis::upright, {hole.centre, 0, hole.across}, {0, 0}, {hole.width / 2, 0})
+                  : level_plate(name, along(hole).from, along(hole).to, across(hole).from, across(hole).to);
   face.opens_at = hole.open_at;
   faces.push_back(face);
 }

@@ -204,8 +204,12 @@ double largest_radius(const Vessel& vessel, const Eigen::Vector2d& about) {
   for (const WallPiece& piece : vessel.pieces) {
     if (!piece.about) continue;
     for (const Eigen::Vector2d& end : {piece.a, piece.b})
-      for (const double radius : {-end.x(), end.x()})
-        largest = std::max(largest, (Eigen::Vector2d(piece.about->x() + radius, end.y()) - about).norm());
+      for (const double radius : {-end.x(), end.x()}) {
+        const double aside = piece.about->x() + radius;
+        const Eigen::Vector2d rim =
+            piece.axis == PieceAxis::upright ? Eigen::Vector2d(aside, end.y()) : Eigen::Vector2d(end.y(), aside);
+        largest = std::max(largest, (rim - about).norm());
+      }
   }
   return largest;
 }

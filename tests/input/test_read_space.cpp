@@ -99,6 +99,26 @@ motion = { kind = "turning", speed = "30 rpm", axis = "upright", pivot = ["25 cm
   EXPECT_THAT(refused("{ count = 600 }", "{ count = 600, keep = true }"), HasSubstr("cannot be topped up"));
 }
 
+TEST(ReadSpace, ARodAboutAnAxisAlong) {
+  const std::string rod = whole + R"(
+pieces = [{ line = [["1 cm", "5 cm"], ["1 cm", "45 cm"]], about = ["6 cm", "3 cm"], axis = "along" }]
+)";
+  const Scene scene = read(rod);
+  ASSERT_EQ(scene.tray.pieces.size(), 1u);
+  EXPECT_EQ(scene.tray.pieces[0].axis, PieceAxis::along);
+  EXPECT_EQ(scene.tray.pieces[0].about, Eigen::Vector2d(0.06, 0.03));
+  EXPECT_EQ(scene.tray.pieces[0].b, Eigen::Vector2d(0.01, 0.45));
+  const auto refused = [&](const std::string& from, const std::string& to) {
+    std::string text = rod;
+    text.replace(text.find(from), from.size(), to);
+    return refusal(text);
+  };
+  EXPECT_THAT(refused("about = [\"6 cm\", \"3 cm\"]", "about = [\"6 cm\"]"), HasSubstr("up and across"));
+  EXPECT_THAT(refused("[\"1 cm\", \"5 cm\"]", "[\"-1 cm\", \"5 cm\"]"),
+              HasSubstr("distance from the axis, place along"));
+  EXPECT_THAT(refused("\"along\"", "\"across\""), HasSubstr("is not one of upright, along"));
+}
+
 TEST(ReadSpace, RowsWhereTheyAreSaidToBe) {
   const Scene scene =
       read(whole + R"(holes = { shape = "round", at = ["10 cm"], across = ["1 cm", "5 cm"], width = "8 mm" })");

@@ -83,6 +83,11 @@ TEST(SceneJson, EveryChangeHasItsOwnText) {
         s.tray.pieces.push_back({{0, 0}, {1, 0}});
         s.tray.pieces.back().about = {1, 1};
       },
+      [](Scene& s) {
+        s.tray.pieces.push_back({{0, 0}, {1, 0}});
+        s.tray.pieces.back().about = {1, 1};
+        s.tray.pieces.back().axis = PieceAxis::along;
+      },
       [](Scene& s) { s.tray.holes[0].open_at = 1; },
       [](Scene& s) {
         s.tray.rain = Rain{200, 0, 0.1, 0.1};
@@ -343,8 +348,9 @@ Hole any_hole() {
 
 WallPiece any_piece() {
   WallPiece piece;
-  auto& [a, b, centre, radius, from, to, about] = piece;
+  auto& [a, b, centre, radius, from, to, about, axis] = piece;
   about = maybe(any_point);
+  axis = any_of_first<PieceAxis>(2);
   for (Eigen::Vector2d* point : {&a, &b, &centre}) *point = any_point();
   for (double* number : {&radius, &from, &to})
     if (any_choice()) *number = any_number();

@@ -259,11 +259,13 @@ std::vector<Shot> shots(Space space) {
   if (space == Space::plane) return all;
   const WallPiece cone{.a = {0.1, 0.2}, .b = {0.4, 0.6}, .about = Eigen::Vector2d(0.5, 0.5)};
   const WallPiece cylinder{.a = {0.2, 0.2}, .b = {0.2, 0.6}, .about = Eigen::Vector2d(0.5, 0.5)};
+  const WallPiece rod{.a = {0.2, 0.2}, .b = {0.2, 0.6}, .about = Eigen::Vector2d(0.5, 0.5), .axis = PieceAxis::along};
   all.push_back({"front", {0.5, 0.5, 0.02}, {0, 0, -1}});
   all.push_back({"edge of floor and front", {0.5, 0.02, 0.02}, Eigen::Vector3d(0, -1, -1).normalized()});
   all.push_back({"corner", {0.02, 0.02, 0.02}, Eigen::Vector3d(-1, -1, -1).normalized()});
   all.push_back({"cone", {0.6, 0.4, 0.6}, Eigen::Vector3d(0.8, -0.6, 0), {cone}});
   all.push_back({"cylinder from outside", {0.5, 0.4, 0.72}, {0, 0, -1}, {cylinder}});
+  all.push_back({"rod along", {0.4, 0.72, 0.5}, {0, -1, 0}, {rod}});
   return all;
 }
 
@@ -286,6 +288,7 @@ TEST_P(HardImpact, AGrainThatCouldCrossAWallInOneStepIsStoppedNotLost) {
 double side_of(const Shot& shot, const Eigen::Vector3d& at) {
   if (shot.name == "floor") return at.y();
   if (shot.name == "front") return at.z();
+  if (shot.name == "rod along") return std::hypot(at.y() - 0.5, at.z() - 0.5) - 0.2;
   const double rho = std::hypot(at.x() - 0.5, at.z() - 0.5);
   return shot.name == "cone" ? 0.8 * (0.1 - rho) + 0.6 * (at.y() - 0.2) : rho - 0.2;
 }

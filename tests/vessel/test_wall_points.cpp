@@ -2,7 +2,12 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <numbers>
+
+#include "vessel/vessel_faces.hpp"
+#include "vessel/vessel_walls.hpp"
 
 namespace vibrosow {
 namespace {
@@ -43,6 +48,26 @@ TEST(FaceLines, OfASurfaceOfRevolutionAreItsRimsAndLinesBetweenThem) {
     ASSERT_EQ(lines[k].size(), 2u);
     EXPECT_LT((lines[k][0].head<2>().normalized() - lines[k][1].head<2>().normalized()).norm(), 1e-12)
         << "straight down";
+  }
+}
+
+TEST(LargestRadius, IsThatOfTheFurthestPointOfAPieceAboutEitherAxis) {
+  for (const PieceAxis axis : {PieceAxis::upright, PieceAxis::along}) {
+    Vessel vessel;
+    vessel.name = "tray", vessel.length = 1, vessel.height = 0.1, vessel.depth = 1, vessel.box = false;
+    vessel.front_and_back = Sides::open;
+    vessel.pieces = {{.a = {0.1, 0.2}, .b = {0.3, 0.7}, .about = Eigen::Vector2d(0.6, 0.5), .axis = axis}};
+    double furthest = 0, furthest_in_plan = 0;
+    for (const Face& face : vessel_faces(vessel))
+      for (const auto& line : face_lines(face))
+        for (const Eigen::Vector3d& at : line) {
+          furthest = std::max(furthest, at.head<2>().norm());
+          furthest_in_plan = std::max(furthest_in_plan, std::hypot(at.x(), at.z()));
+        }
+    const double radius = largest_radius(vessel, Eigen::Vector2d::Zero());
+    EXPECT_NEAR(radius, furthest, 1e-3);
+    EXPECT_GE(radius, furthest * (1 - 1e-12));
+    EXPECT_GE(largest_radius_in_plan(vessel, Eigen::Vector2d::Zero()), furthest_in_plan * (1 - 1e-12));
   }
 }
 
