@@ -143,13 +143,13 @@ void Guaranteed::more_of(const std::vector<std::size_t>& systems, std::vector<in
 std::vector<int> Guaranteed::wanted() {
   std::vector<int> counts;
   for (const System& system : systems_) counts.push_back(static_cast<int>(system.goals.size()));
-  const int first = std::min(first_observations, question_.most);
-  if (std::ranges::any_of(systems_, [&](const System& system) {
-        return system.place != Place::failed && static_cast<int>(system.goals.size()) < first;
-      })) {
+  // One of each before the others: what fails takes no more.
+  for (const int each : {1, std::min(first_observations, question_.most)}) {
+    const auto lacks = [&](std::size_t i) { return systems_[i].place != Place::failed && counts[i] < each; };
+    bool asks = false;
     for (std::size_t i = 0; i < counts.size(); ++i)
-      if (systems_[i].place != Place::failed) counts[i] = std::max(counts[i], first);
-    return counts;
+      if (lacks(i)) counts[i] = each, asks = true;
+    if (asks) return counts;
   }
   judge_constraints();
   set_margin();

@@ -114,7 +114,7 @@ TEST(Guaranteed, AMeanOfZeroHasNoShares) {
   EXPECT_FALSE(procedure.decision().is_sure);
 }
 
-TEST(Guaranteed, AFailedSystemIsOut) {
+TEST(Guaranteed, AFailedSystemIsOutAfterOneObservation) {
   MadeUpSystems systems({{1.0}, {2.0}, {3.0}}, 1);
   const Observe observe = [&](std::size_t system, int number) {
     Observation one = systems(system, number);
@@ -122,7 +122,8 @@ TEST(Guaranteed, AFailedSystemIsOut) {
     return one;
   };
   Guaranteed procedure(question_of(3));
-  lead(procedure, 3, observe);
+  const std::vector<int> runs = lead(procedure, 3, observe);
+  EXPECT_EQ(runs, (std::vector<int>{1, 10, 10}));
   EXPECT_EQ(procedure.decision().best, 1u);
   EXPECT_EQ(procedure.decision().standings[0], Standing::failed);
 }
@@ -155,7 +156,7 @@ TEST(Guaranteed, AsksForABatchAtLeast) {
   question.batch = 6;
   MadeUpSystems systems({{1.0}, {1.01}}, 3);
   Guaranteed procedure(question);
-  EXPECT_EQ(lead(procedure, 2, std::ref(systems), 2), (std::vector<int>{13, 13}));
+  EXPECT_EQ(lead(procedure, 2, std::ref(systems), 3), (std::vector<int>{13, 13}));
 }
 
 TEST(Guaranteed, RefusesASingleSystem) {
