@@ -70,9 +70,9 @@ TEST(Rod, ABallOutsideItsEndsMeetsItsRimAlone) {
   rod.axis = PieceAxis::along;
   bench.scene.tray.pieces = {rod};
   const double overlap = 1e-6, aside = Bench::radius - overlap;
-  bench.place({0.4, rod_height + rod_radius + aside, 0.5});        // on its back
-  bench.place({0.2 - aside, rod_height + rod_radius, 0.5});        // beyond its left end, beside the rim
-  bench.place({0.6 + 2 * Bench::radius, rod_height, 0.5});         // beyond its right end, where nothing is
+  bench.place({0.4, rod_height + rod_radius + aside, 0.5});                    // on its back
+  bench.place({0.2 - aside, rod_height + rod_radius, 0.5});                    // beyond its left end, beside the rim
+  bench.place({0.6 + 2 * Bench::radius, rod_height, 0.5});                     // beyond its right end, where nothing is
   bench.place({0.5, rod_height, 0.5 - rod_radius + Bench::radius - overlap});  // within, at its front
   const Simulation& run = bench.start(1e-9);
   const std::vector<GrainVector> forces = run.field().forces_in_space();
