@@ -1,6 +1,6 @@
 // What a full grid, equally many runs of every layout, takes to name the layout that a decision named as surely as it
 // did: grids are drawn, with replacement, from the runs that are kept. CSV: grids of more and more runs, up to the
-// first that is as sure. Usage: decision_grid STUDY DECISION.json FOLDER...
+// first that is as sure. Usage: decision_grid STUDY DECISION.json FIRST_RANDOM_SEED FOLDER...
 
 #include <fmt/format.h>
 
@@ -58,20 +58,21 @@ Asked read_asked(const std::string& file) {
           json.at("best")};
 }
 
-/// Runs of a scene by random seed, up to the first that no folder has; none where one has no such figure.
-KeptLayout kept_layout(const Layout& layout, const Scene& scene, const std::deque<CaseFolder>& folders,
-                       const Asked& asked) {
+/// Runs of a scene from a random seed on, up to the first that no folder has; none where one has no such figure.
+KeptLayout kept_layout(const Layout& layout, const Scene& scene, std::uint64_t random_seed,
+                       const std::deque<CaseFolder>& folders, const Asked& asked) {
   KeptLayout kept{layout.number, {}};
-  for (std::uint64_t seed = 1;; ++seed) {
+  for (;; ++random_seed) {
     std::optional<Run> run;
     for (const CaseFolder& folder : folders)
-      if (!run) run = folder.find(case_identity(scene, seed));
+      if (!run) run = folder.find(case_identity(scene, random_seed));
     if (!run) return kept;
     const Evaluation evaluation = reduced(scene, *run);
     const auto goal = asked.goal->of(evaluation.outflow), rate = asked.rate.of(evaluation.outflow);
     if (!goal || !rate || !evaluation.finished() || evaluation.outside_the_model) return {layout.number, {}};
     kept.runs.push_back({*goal, *rate});
-    kept.grain_steps += (static_cast<double>(evaluation.grain_steps) - kept.grain_steps) / static_cast<double>(seed);
+    kept.grain_steps +=
+        (static_cast<double>(evaluation.grain_steps) - kept.grain_steps) / static_cast<double>(kept.runs.size());
   }
 }
 
@@ -101,15 +102,16 @@ double right_percent(const std::vector<KeptLayout>& layouts, const Asked& asked,
   return 100.0 * right / drawn_grids;
 }
 
-void print_grids(const std::string& study_file, const std::string& decision, const std::vector<std::string>& paths) {
+void print_grids(const std::string& study_file, const std::string& decision, std::uint64_t first_random_seed,
+                 const std::vector<std::string>& paths) {
   const Asked asked = read_asked(decision);
-  const Study study = plan_study(study_file, {}, 1).study;
+  const Study study = plan_study(study_file, {}, first_random_seed).study;
   std::deque<CaseFolder> folders;
   for (const std::string& path : paths) folders.emplace_back(cases_of(path));
   std::vector<KeptLayout> layouts;
   for (const Layout& layout : study.layouts) {
     if (!layout.scene) continue;
-    KeptLayout kept = kept_layout(layout, study.scenes[*layout.scene], folders, asked);
+    KeptLayout kept = kept_layout(layout, study.scenes[*layout.scene], first_random_seed, folders, asked);
     if (!kept.runs.empty()) layouts.push_back(std::move(kept));
   }
   double grain_steps = 0;  // of one run of each
@@ -126,12 +128,12 @@ void print_grids(const std::string& study_file, const std::string& decision, con
 }  // namespace
 
 int main(int argc, char** argv) {
-  if (argc < 4) {
-    std::cerr << "usage: decision_grid STUDY DECISION.json FOLDER...\n";
+  if (argc < 5) {
+    std::cerr << "usage: decision_grid STUDY DECISION.json FIRST_RANDOM_SEED FOLDER...\n";
     return 2;
   }
   try {
-    print_grids(argv[1], argv[2], {argv + 3, argv + argc});
+    print_grids(argv[1], argv[2], std::stoull(argv[3]), {argv + 4, argv + argc});
   } catch (const std::exception& error) {
     std::cerr << error.what() << '\n';
     return 1;
