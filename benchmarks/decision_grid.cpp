@@ -1,6 +1,6 @@
 // What a full grid, equally many runs of every layout, takes to name the layout that a decision named as surely as it
 // did: grids are drawn, with replacement, from the runs that are kept. CSV: grids of more and more runs, up to the
-// first that is as sure. Usage: decision_grid STUDY DECISION.json FIRST_RANDOM_SEED FOLDER...
+// first that is as sure. Usage: decision_grid STUDY DECISION.json FOLDER...
 
 #include <fmt/format.h>
 
@@ -32,7 +32,8 @@ struct Asked {
   const Goal* goal;
   WantedRate rate;
   double confidence_percent;
-  int answer;  // number of a layout
+  int answer;                 // number of a layout
+  std::uint64_t random_seed;  // of the first run of each
 };
 
 /// What is compared of one run.
@@ -55,14 +56,15 @@ Asked read_asked(const std::string& file) {
   return {&goal_named(json.at("goal").at("name").get<std::string>()),
           {rate.name, end_of_band("low"), end_of_band("high")},
           json.at("confidence_percent"),
-          json.at("best")};
+          json.at("best"),
+          json.at("random_seed")};
 }
 
-/// Runs of a scene from a random seed on, up to the first that no folder has; none where one has no such figure.
-KeptLayout kept_layout(const Layout& layout, const Scene& scene, std::uint64_t random_seed,
-                       const std::deque<CaseFolder>& folders, const Asked& asked) {
+/// Runs of a scene by random seed, up to the first that no folder has; none where one has no such figure.
+KeptLayout kept_layout(const Layout& layout, const Scene& scene, const std::deque<CaseFolder>& folders,
+                       const Asked& asked) {
   KeptLayout kept{layout.number, {}};
-  for (;; ++random_seed) {
+  for (std::uint64_t random_seed = asked.random_seed;; ++random_seed) {
     std::optional<Run> run;
     for (const CaseFolder& folder : folders)
       if (!run) run = folder.find(case_identity(scene, random_seed));
@@ -102,16 +104,15 @@ double right_percent(const std::vector<KeptLayout>& layouts, const Asked& asked,
   return 100.0 * right / drawn_grids;
 }
 
-void print_grids(const std::string& study_file, const std::string& decision, std::uint64_t first_random_seed,
-                 const std::vector<std::string>& paths) {
+void print_grids(const std::string& study_file, const std::string& decision, const std::vector<std::string>& paths) {
   const Asked asked = read_asked(decision);
-  const Study study = plan_study(study_file, {}, first_random_seed).study;
+  const Study study = plan_study(study_file, {}, asked.random_seed).study;
   std::deque<CaseFolder> folders;
   for (const std::string& path : paths) folders.emplace_back(cases_of(path));
   std::vector<KeptLayout> layouts;
   for (const Layout& layout : study.layouts) {
     if (!layout.scene) continue;
-    KeptLayout kept = kept_layout(layout, study.scenes[*layout.scene], first_random_seed, folders, asked);
+    KeptLayout kept = kept_layout(layout, study.scenes[*layout.scene], folders, asked);
     if (!kept.runs.empty()) layouts.push_back(std::move(kept));
   }
   double grain_steps = 0;  // of one run of each
@@ -128,12 +129,12 @@ void print_grids(const std::string& study_file, const std::string& decision, std
 }  // namespace
 
 int main(int argc, char** argv) {
-  if (argc < 5) {
-    std::cerr << "usage: decision_grid STUDY DECISION.json FIRST_RANDOM_SEED FOLDER...\n";
+  if (argc < 4) {
+    std::cerr << "usage: decision_grid STUDY DECISION.json FOLDER...\n";
     return 2;
   }
   try {
-    print_grids(argv[1], argv[2], std::stoull(argv[3]), {argv + 4, argv + argc});
+    print_grids(argv[1], argv[2], {argv + 3, argv + argc});
   } catch (const std::exception& error) {
     std::cerr << error.what() << '\n';
     return 1;

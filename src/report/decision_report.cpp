@@ -101,6 +101,8 @@ JsonKeys<DecisionReport> decision_keys() {
       {"confidence_percent", "%", "that was asked for", [](S s) { return Json(100 * s.result.options.confidence); }},
       {"margin_percent", "%", "of the best's mean, below which a difference does not matter",
        [](S s) { return Json(100 * s.result.options.margin); }},
+      {"random_seed", "", "of the first run of each layout; those of the others follow it",
+       [](S s) { return Json(s.result.options.first_random_seed); }},
       {"goal.name", "", "what layouts are compared by", [](S s) { return Json(s.result.options.goal->name); }},
       {"goal.figure", "", "the figure of a run that it is, as in sweep.csv",
        [](S s) { return Json(s.result.options.goal->figure); }},
