@@ -103,7 +103,10 @@ std::vector<WallPiece> read_line(const Table& table, const std::vector<std::arra
 /// The line turned about an axis.
 void read_axis(Table& table, Space space, std::vector<WallPiece>& line) {
   const std::vector<double> about = table.quantities("about", Dimension::length, -longest, longest);
-  if (about.empty()) return table.skip("axis");
+  if (about.empty()) {
+    if (table.has("axis")) table.fail("axis", "is of a line that is turned; expected about beside it");
+    return table.skip("axis");
+  }
   if (space == Space::plane) table.fail("about", "a line is turned about an axis in space alone: space = \"3d\"");
   const bool upright = table.choice("axis", {"upright", "along"}).value_or(0) == 0;
   if (about.size() != 2)
@@ -163,6 +166,8 @@ std::vector<WallPiece> read_pieces(Table& vessel, Space space) {
       pieces.insert(pieces.end(), line.begin(), line.end());
     } else {
       pieces.push_back(read_arc(table));
+      for (const char* key : {"about", "axis"})
+        if (table.has(key)) table.fail(key, "is of a line that is turned; an arc is drawn out from front to back");
       for (const char* key : {"line", "about", "axis"}) table.skip(key);
     }
   }

@@ -117,6 +117,9 @@ pieces = [{ line = [["1 cm", "5 cm"], ["1 cm", "45 cm"]], about = ["6 cm", "3 cm
   EXPECT_THAT(refused("[\"1 cm\", \"5 cm\"]", "[\"-1 cm\", \"5 cm\"]"),
               HasSubstr("distance from the axis, place along"));
   EXPECT_THAT(refused("\"along\"", "\"across\""), HasSubstr("is not one of upright, along"));
+  EXPECT_THAT(refused("about = [\"6 cm\", \"3 cm\"], ", ""), HasSubstr("expected about beside it"));
+  const std::string line = "line = [[\"1 cm\", \"5 cm\"], [\"1 cm\", \"45 cm\"]]";
+  EXPECT_THAT(refused(line, "centre = [\"6 cm\", \"6 cm\"], radius = \"1 cm\""), HasSubstr("an arc is drawn out"));
 }
 
 TEST(ReadSpace, RowsWhereTheyAreSaidToBe) {
