@@ -145,9 +145,8 @@ PromiseChoices choices_of(const Scene& scene) {
   return choices;
 }
 
-/// Says so where a round of pilots would use the budget up, by the time that a run of the scene takes.
-void refuse_small_budget(const PromiseGoal& goal, const PromiseChoices& choices, const Scene& scene, int jobs) {
-  if (!goal.cpu_time) return;
+/// CPU time, s, of the first round, by the time that a run of the scene takes.
+double foreseen_for_pilots(const PromiseChoices& choices, const Scene& scene) {
   const Model model = prepare(scene);
   const double own_steps = model.step.contact_duration / model.step.dt;
   const double run = predict_cost(scene).seconds();
@@ -159,7 +158,11 @@ void refuse_small_budget(const PromiseGoal& goal, const PromiseChoices& choices,
     pilots += choices.design.runs[i] * run * setting.steps_per_contact / own_steps * model.step.contact_duration /
               setting.contact_duration;
   }
-  if (pilots > *goal.cpu_time)
+  return pilots;
+}
+
+void refuse_small_budget(const PromiseGoal& goal, double pilots, int jobs) {
+  if (goal.cpu_time && pilots > *goal.cpu_time)
     throw InputError(fmt::format("--budget: the pilots alone would take some {}", duration_text(pilots / jobs)));
 }
 
@@ -234,11 +237,18 @@ int run_promise(const AccuracyOptions& options) {
   PromiseChoices choices = choices_of(scene);
   const std::string page_template = options.common.page_template();
   const OutputFolder folder = options.common.output_folder("accuracy", accuracy_file_texts(), "-accuracy");
-  refuse_small_budget(goal, choices, scene, jobs);
+  const double foreseen = foreseen_for_pilots(choices, scene);
+  refuse_small_budget(goal, foreseen, jobs);
+  const auto tell = [&](const std::string& what, double cpu_time) {
+    if (!options.common.quiet) complain(fmt::format("{}: some {}", what, duration_text(cpu_time / jobs)));
+  };
+  tell("a first round of pilots", foreseen);
   const std::atomic<bool>& interrupt = watch_for_interrupt();
   SettingRunner runner(scene, choices.design.settings, run_model, sweep_options_of(options, jobs, interrupt));
   const Progress clock(ProgressStyle::none, 0, "");
-  const Promise made = promise(choices, goal, with_progress(runner, options.common.quiet));
+  const Promise made = promise(
+      choices, goal, with_progress(runner, options.common.quiet),
+      [&](int runs, double cpu_time) { tell(fmt::format("{} run{} more", runs, runs == 1 ? "" : "s"), cpu_time); });
   const AccuracyTiming timing{.wall_time = clock.seconds(), .jobs = jobs};
   std::vector<OutputFile> files = promise_files(made, goal, timing, options.common.csv);
   std::ranges::move(page_files(page_template, accuracy_page_data(scene, made, goal)), std::back_inserter(files));

@@ -145,6 +145,17 @@ std::vector<SettingRuns> more_pilots(const Chooser& chooser, const PromiseGoal& 
   return runs_of(plan_pilots(basis, left));
 }
 
+void tell_cost_of_pilots(const Chooser& chooser, const std::vector<SettingRuns>& pilots, const TellCost& tell) {
+  if (!tell || pilots.empty()) return;
+  int runs = 0;
+  double cpu_time = 0;
+  for (const SettingRuns& of : pilots) {
+    runs += of.runs;
+    if (const std::optional<Cost> one = chooser.cost_of_run(of.setting)) cpu_time += of.runs * one->cpu_time;
+  }
+  tell(runs, cpu_time);
+}
+
 std::size_t finest(const std::vector<AccuracySetting>& settings) {
   return static_cast<std::size_t>(std::ranges::min_element(settings, {}, coarseness) - settings.begin());
 }
@@ -167,7 +178,7 @@ void make_pilots(Promise& made, const std::vector<SettingRuns>& pilots, const Ru
 
 }  // namespace
 
-Promise promise(const PromiseChoices& choices, const PromiseGoal& goal, const RunSettings& run) {
+Promise promise(const PromiseChoices& choices, const PromiseGoal& goal, const RunSettings& run, const TellCost& tell) {
   if (goal.within_percent.has_value() == goal.cpu_time.has_value())
     throw std::invalid_argument("a promise has an error or a CPU time as its goal");
   Promise made;
@@ -175,8 +186,10 @@ Promise promise(const PromiseChoices& choices, const PromiseGoal& goal, const Ru
   make_pilots(made, runs_of(choices.design.runs), run);
   const Chooser chooser(choices, made);
   if (made.fit)
-    if (const std::vector<SettingRuns> more = more_pilots(chooser, goal, made); !more.empty())
+    if (const std::vector<SettingRuns> more = more_pilots(chooser, goal, made); !more.empty()) {
+      tell_cost_of_pilots(chooser, more, tell);
       make_pilots(made, more, run);
+    }
   if (!made.fit) {
     made.refused = interrupted(made.runs) ? interrupted_run : "too few of the pilots have a rate";
     return made;
@@ -190,6 +203,7 @@ Promise promise(const PromiseChoices& choices, const PromiseGoal& goal, const Ru
     return made;
   }
   if (made.offer->to_run > 0) {
+    if (tell) tell(made.offer->to_run, made.offer->cpu_time_to_run());
     const std::vector<AccuracyRun> answer = run({{made.offer->setting, made.offer->to_run, made.offer->window}});
     made.answer_cpu_time = cpu_time_of(answer);
     add(made.runs, answer);

@@ -51,6 +51,9 @@ struct Promise {
 /// Makes the wanted runs, as SettingRunner::run does.
 using RunSettings = std::function<std::vector<AccuracyRun>(const std::vector<SettingRuns>&)>;
 
+/// Told before each stage but the first: how many runs it takes, and their CPU time, s, as the pilots foretell it.
+using TellCost = std::function<void(int runs, double cpu_time)>;
+
 /// In three stages. A round of pilots, of which main effects and scatter are fitted. As many more pilots as make the
 /// whole cheapest (plan_pilots). Then, of all settings, windows and numbers of runs whose |bias| is bounded by its
 /// upper 95 % bound, simultaneous over the settings, plus a half width of t s / sqrt(n) with the pilots' s (Stein's
@@ -59,6 +62,7 @@ using RunSettings = std::function<std::vector<AccuracyRun>(const std::vector<Set
 /// one of them, and a setting's own pilots count among its runs. Work is counted in grain-steps, so no clock decides;
 /// only a goal of CPU time asks one. Interrupted or refused runs leave the promise without an offer. Throws
 /// std::invalid_argument unless the goal is one of the two.
-Promise promise(const PromiseChoices& choices, const PromiseGoal& goal, const RunSettings& run);
+Promise promise(const PromiseChoices& choices, const PromiseGoal& goal, const RunSettings& run,
+                const TellCost& tell = {});
 
 }  // namespace vibrosow

@@ -127,6 +127,28 @@ TEST(Promise, InterruptedPilotsPromiseNothing) {
   EXPECT_EQ(made.refused, interrupted_run);
 }
 
+TEST(Promise, TellsWhatEachStageCostsBeforeItIsRun) {
+  const PromiseChoices from = choices();
+  MadeUpRuns runs({});
+  std::vector<int> told, made_runs;
+  std::vector<double> foretold, taken;
+  const Promise made = promise(
+      from, {.within_percent = 3},
+      [&](const std::vector<SettingRuns>& wanted) {
+        const std::vector<AccuracyRun> stage = runs.run(from.design.settings, wanted);
+        made_runs.push_back(static_cast<int>(stage.size()));
+        taken.push_back(0);
+        for (const AccuracyRun& run : stage) taken.back() += run.cpu_time;
+        EXPECT_EQ(told.size() + 1, made_runs.size()) << "not before it";
+        return stage;
+      },
+      [&](int count, double cpu_time) { told.push_back(count), foretold.push_back(cpu_time); });
+  ASSERT_TRUE(made.mass_rate);
+  ASSERT_GE(told.size(), 1u);
+  EXPECT_EQ(told, std::vector<int>(made_runs.begin() + 1, made_runs.end()));
+  for (std::size_t k = 0; k < told.size(); ++k) EXPECT_NEAR(foretold[k], taken[k + 1], 0.02 * taken[k + 1]);
+}
+
 TEST(Promise, ClockDoesNotChooseWhereAnErrorIsWanted) {
   const PromiseChoices from = choices();
   const auto chosen = [&](double slow) {
