@@ -210,8 +210,8 @@ void Guard::watch_energy(const Integration& s, EnergyAccount& account) {
   account.wall_work = s.kept.wall_work;
   const double moving = account.kinetic + account.elastic;
   // Places along and up are in the potential energy, those across in none.
-  const bool across = std::ranges::all_of(s.grains.z, [](double z) { return std::isfinite(z); });
-  if (!std::isfinite(moving + account.potential) || !across) {
+  const bool finite_across = std::ranges::all_of(s.grains.z, [](double z) { return std::isfinite(z); });
+  if (!std::isfinite(moving + account.potential) || !finite_across) {
     stop(fmt::format("the state of {} is not a number at {:.4g} s: {}", told(s, worst(s.grains)), s.state.time,
                      shorter_step(0.5 * s.dt)));
     return;
