@@ -87,15 +87,15 @@ LEVELS = (("draft", 3e-4, 20), ("design", 3e-5, 20), ("reference", 3e-6, 40))  #
 
 
 def level_rows(folder):
-    """Of a folder of `vibrosow accuracy` that ran velocity Verlet at the levels' softness and steps: level, row, CPU time of a run (s)."""
+    """Of a folder of `vibrosow accuracy` that ran velocity Verlet at the levels' softness and steps: level, row, CPU time of a run (s). Where
+    so few steps are not safe, as 20 of balls whose springs turn them, a level takes more, and so does its row."""
     table = list(zip(rows(f"{folder}/accuracy.csv"), rows(f"{folder}/accuracy_timing.csv")))
     for level, compression, steps in LEVELS:
-        for row, timing in table:
-            if float(row["shell_compression"] or 0) == compression and float(row["steps_per_contact"]) == steps and row["fitted_error_percent"]:
-                yield level, row, float(timing["cpu_s"])
-                break
-        else:
+        found = [(float(row["steps_per_contact"]), row, float(timing["cpu_s"])) for row, timing in table
+                 if float(row["shell_compression"] or 0) == compression and float(row["steps_per_contact"]) >= steps and timing["cpu_s"]]
+        if not found:
             raise SystemExit(f"{folder}/accuracy.csv: no fitted error at {level}: shell compression {compression:g}, {steps} steps a contact")
+        yield level, *min(found, key=lambda one: one[0])[1:]
 
 
 def accuracy_levels(options):
@@ -107,9 +107,9 @@ def accuracy_levels(options):
         reference = found[-1][2]
         for level, row, seconds in found:
             error, band = float(row["fitted_error_percent"]), float(row["fitted_error_band95"])
-            lines.append([folder, level, row["rate_g_per_s"], f"{error:.2f}", f"{band:.2f}", f"{abs(error) + band:.2f}", f"{seconds:.3g}",
+            lines.append([folder, level, f"{float(row['steps_per_contact']):g}", row["rate_g_per_s"], f"{error:.2f}", f"{band:.2f}", f"{abs(error) + band:.2f}", f"{seconds:.3g}",
                           f"{seconds / reference:.3g}"])
-    write_table("levels.csv", "scene,level,rate_g_per_s,error_percent,error_band95,error_bound_percent,cpu_s,cpu_over_reference", lines)
+    write_table("levels.csv", "scene,level,steps_per_contact,rate_g_per_s,error_percent,error_band95,error_bound_percent,cpu_s,cpu_over_reference", lines)
 
 
 def softest(limit, terms, within):

@@ -14,7 +14,7 @@ struct AccuracyLevelValues {
   const char* name;          // what a seeder says
   double shell_compression;  // eps / r; with Hertz' law contacts last as long as such a shell's
   double steps_per_contact;
-  double error_percent;  // at 95 %, of the worst of three trays: reports/accuracy-levels, rounded up
+  double error_percent;  // at 95 %, of the worst of six seeders: reports/accuracy-levels, rounded up
 };
 
 /// From the cheapest to the most accurate.
