@@ -9,18 +9,14 @@ template <class Law, class Effects>
 double pair_energy(const GrainSurfaces& grains, const Motion& at, const PairList& list,
                    const ContactParameters& parameters, const ContactHistories& histories) {
   const PairProperties<Law, Effects> properties(grains, parameters);
-  const auto grain = [&](std::size_t k) { return static_cast<std::size_t>(list.grain[k]); };
-  const auto partner = [&](std::size_t k) { return static_cast<std::size_t>(list.partner[k]); };
   double energy = 0;
   for_each_touching(
-      list.size(),
-      [&](std::size_t k) {
-        const std::size_t i = grain(k), j = partner(k);
+      list,
+      [&](std::size_t i, std::size_t j) {
         const double dx = at.x[j] - at.row_x[i], dy = at.y[j] - at.y[i];
         return PairReach{properties.reach(i, j), dx * dx + dy * dy};
       },
-      [&](std::size_t k, double overlap) {
-        const std::size_t i = grain(k), j = partner(k);
+      [&](std::size_t k, std::size_t i, std::size_t j, double overlap) {
         energy += contact_energy<Law, Effects>(overlap, properties.pair(i, j), properties.between(i, j),
                                                load_history<Effects>(histories, k));
       });

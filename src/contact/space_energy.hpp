@@ -29,19 +29,15 @@ template <class Law, class Effects>
 double space_pair_energy(const GrainSurfaces& grains, const SpaceMotion& at, const PairList& list,
                          const ContactParameters& parameters, const ContactHistories& histories) {
   const PairProperties<Law, Effects> properties(grains, parameters);
-  const auto grain = [&](std::size_t k) { return static_cast<std::size_t>(list.grain[k]); };
-  const auto partner = [&](std::size_t k) { return static_cast<std::size_t>(list.partner[k]); };
   double energy = 0;
   for_each_touching(
-      list.size(),
-      [&](std::size_t k) {
-        const std::size_t i = grain(k), j = partner(k);
+      list,
+      [&](std::size_t i, std::size_t j) {
         const GrainVector &from = at.row_place[i], &to = at.place[j];
         const Vector3 apart{to.x - from.x, to.y - from.y, to.z - from.z};
         return PairReach{properties.reach(i, j), dot(apart, apart)};
       },
-      [&](std::size_t k, double overlap) {
-        const std::size_t i = grain(k), j = partner(k);
+      [&](std::size_t k, std::size_t i, std::size_t j, double overlap) {
         energy += space_contact_energy<Law, Effects>(overlap, properties.pair(i, j), properties.between(i, j),
                                                      load_history<Effects>(histories.records.data(), k));
       });
