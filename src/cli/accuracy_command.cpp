@@ -14,6 +14,7 @@
 #include "design/accuracy.hpp"
 #include "design/predicted_cost.hpp"
 #include "design/promise.hpp"
+#include "design/study_runs.hpp"
 #include "input/input_file.hpp"
 #include "input/read_scene.hpp"
 #include "laws/law.hpp"
@@ -26,6 +27,7 @@
 #include "scene/input_error.hpp"
 #include "scene/integrator_names.hpp"
 #include "simulation/simulate.hpp"
+#include "storage/study_plan.hpp"
 #include "units/quantity.hpp"
 
 namespace vibrosow {
@@ -195,6 +197,14 @@ Scene scene_of(const AccuracyOptions& options) {
   return at_its_accuracy(scene);
 }
 
+int ended(const AccuracyOptions& options, const OutputFolder& folder, const StudyRuns& runs, bool interrupted) {
+  if (!options.common.quiet && interrupted && options.budget.empty())
+    print("interrupted: the same command goes on from here\n");
+  if (!options.common.quiet) print("reports: {}\n", folder.path().string());
+  if (!runs.not_kept().empty()) complain("warning: runs are not kept: " + runs.not_kept());
+  return interrupted ? exit_interrupted : exit_done;
+}
+
 int run_table(const AccuracyOptions& options) {
   const Scene scene = scene_of(options);
   const AccuracyDesign design = design_of(options, scene);
@@ -202,6 +212,8 @@ int run_table(const AccuracyOptions& options) {
   const OutputFolder folder = options.common.output_folder("accuracy", accuracy_file_texts(), "-accuracy");
   const int jobs = threads_to_be_had(options.common.jobs);
   const std::atomic<bool>& interrupt = watch_for_interrupt();
+  StudyRuns runs(cases_of(folder.path()));
+  const Simulator simulator = runs.keeping(run_model);
   AccuracyResult result;
   AccuracyTiming timing{.jobs = jobs};
   {
@@ -209,14 +221,14 @@ int run_table(const AccuracyOptions& options) {
     Progress progress(text_unless(options.common.quiet), runs * options.replicates, "runs");
     SweepOptions sweep_options = sweep_options_of(options, jobs, interrupt);
     sweep_options.runs.progress = [&](const ManyRunsProgress& done) { progress.update(done.fraction_done); };
-    result = measure_accuracy(scene, design, options.replicates, run_model, sweep_options);
+    result = measure_accuracy(scene, design, options.replicates, simulator, sweep_options);
     timing.wall_time = progress.seconds();
   }
   if (options.depth > 0) {
     Progress progress(text_unless(options.common.quiet), 2.0 * options.depth, "runs");
     SweepOptions sweep_options = sweep_options_of(options, jobs, interrupt);
     sweep_options.runs.progress = [&](const ManyRunsProgress& done) { progress.update(done.fraction_done); };
-    result.depth = measure_depth_error(scene, options.depth, run_model, sweep_options);
+    result.depth = measure_depth_error(scene, options.depth, simulator, sweep_options);
     timing.wall_time += progress.seconds();
   }
   std::vector<OutputFile> files = accuracy_files(result, timing, options.common.csv);
@@ -224,8 +236,7 @@ int run_table(const AccuracyOptions& options) {
   write_then_print(
       options.common.quiet, [&] { folder.write(files); },
       [&] { print("{}\n{}\n{}", wrapped(scene.title), accuracy_table(result), wrapped(accuracy_sentence(result))); });
-  if (!options.common.quiet) print("reports: {}\n", folder.path().string());
-  return interrupt ? exit_interrupted : exit_done;
+  return ended(options, folder, runs, interrupt);
 }
 
 int run_promise(const AccuracyOptions& options) {
@@ -240,11 +251,15 @@ int run_promise(const AccuracyOptions& options) {
   const double foreseen = foreseen_for_pilots(choices, scene);
   refuse_small_budget(goal, foreseen, jobs);
   const auto tell = [&](const std::string& what, double cpu_time) {
-    if (!options.common.quiet) complain(fmt::format("{}: some {}", what, duration_text(cpu_time / jobs)));
+    if (options.common.quiet) return;
+    complain(cpu_time > 0 ? fmt::format("{}: some {}", what, duration_text(cpu_time / jobs)) : what);
   };
   tell("a first round of pilots", foreseen);
   const std::atomic<bool>& interrupt = watch_for_interrupt();
-  SettingRunner runner(scene, choices.design.settings, run_model, sweep_options_of(options, jobs, interrupt));
+  StudyRuns runs(cases_of(folder.path()));
+  // What a budget buys is measured by runs that are made now.
+  const Simulator simulator = goal.cpu_time ? Simulator(run_model) : runs.keeping(run_model);
+  SettingRunner runner(scene, choices.design.settings, simulator, sweep_options_of(options, jobs, interrupt));
   const Progress clock(ProgressStyle::none, 0, "");
   const Promise made = promise(
       choices, goal, with_progress(runner, options.common.quiet),
@@ -255,8 +270,7 @@ int run_promise(const AccuracyOptions& options) {
   write_then_print(
       options.common.quiet, [&] { folder.write(files); },
       [&] { print("{}\n{}", wrapped(scene.title), promise_text(made, goal)); });
-  if (!options.common.quiet) print("reports: {}\n", folder.path().string());
-  return interrupt ? exit_interrupted : exit_done;
+  return ended(options, folder, runs, interrupt);
 }
 
 }  // namespace

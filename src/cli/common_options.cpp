@@ -42,7 +42,7 @@ OutputFolder CommonOptions::output_folder(const std::string& command, const std:
   }
   const std::string stem = std::filesystem::path(file).stem().string() + suffix;
   const bool has_cases = command == "sweep" || command == "decide" || command == "optimise" ||
-                         command == "bench-sheet" || command == "calibrate";
+                         command == "bench-sheet" || command == "calibrate" || command == "accuracy";
   return {out.empty() ? std::filesystem::path("out") / stem : std::filesystem::path(out), command, names, has_cases};
 }
 

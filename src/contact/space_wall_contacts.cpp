@@ -44,17 +44,16 @@ void make_room(std::size_t most, SpaceWallContacts& contacts) {
 
 }  // namespace
 
-void SpaceWallFinder::find(const Grains& grains, const std::vector<WallCandidate>& candidates,
-                           const std::vector<PlacedFace>& faces, Execution& execution, SpaceWallContacts& contacts) {
+void SpaceWallFinder::find(const Grains& grains, std::span<const WallCandidate> candidates, std::size_t first,
+                           const std::vector<PlacedFace>& faces, SpaceWallContacts& contacts) {
   const std::size_t count = candidates.size();
   make_room(count, contacts);
   contacts.count = 0;
+  first_ = first;
   nearest_.resize(count), touches_.assign(count, 0), near_.resize(count + 1);
-  execution.share(count, [&](std::size_t a, std::size_t b) {
-    for (std::size_t c = a; c < b; ++c)
-      nearest_[c] = nearest_on_face(faces[static_cast<std::size_t>(candidates[c].wall)],
-                                    centre_of(grains, static_cast<std::size_t>(candidates[c].grain)));
-  });
+  for (std::size_t c = 0; c < count; ++c)
+    nearest_[c] = nearest_on_face(faces[static_cast<std::size_t>(candidates[c].wall)],
+                                  centre_of(grains, static_cast<std::size_t>(candidates[c].grain)));
   std::size_t near = 0;
   for (std::size_t c = 0; c < count; ++c) {
     const double radius = radius_of(grains, static_cast<std::size_t>(candidates[c].grain));
@@ -67,7 +66,7 @@ void SpaceWallFinder::find(const Grains& grains, const std::vector<WallCandidate
     const Eigen::Vector3d centre = centre_of(grains, i);
     const auto touch = [&](std::size_t c) {
       touches_[c] = 1;
-      add(candidates[c], c, nearest_[c], faces[static_cast<std::size_t>(candidates[c].wall)], centre, contacts);
+      add(candidates[c], first + c, nearest_[c], faces[static_cast<std::size_t>(candidates[c].wall)], centre, contacts);
     };
     if (to == from + 1)
       touch(near_[from]);
@@ -79,7 +78,7 @@ void SpaceWallFinder::find(const Grains& grains, const std::vector<WallCandidate
 /// Faces touched inside first, then each other point that is on none of what pushes already.
 template <class Touch>
 void SpaceWallFinder::touch_each_point_once(const std::vector<PlacedFace>& faces,
-                                            const std::vector<WallCandidate>& candidates, const Eigen::Vector3d& centre,
+                                            std::span<const WallCandidate> candidates, const Eigen::Vector3d& centre,
                                             double radius, std::size_t from, std::size_t to, Touch touch) {
   constexpr double same_place = 1e-9;  // of the radius
   pushing_.clear();
@@ -103,7 +102,7 @@ void SpaceWallFinder::touch_each_point_once(const std::vector<PlacedFace>& faces
   }
 }
 
-void SpaceWallFinder::watch_crossings(std::vector<WallCandidate>& candidates, std::vector<int>& crossed) const {
+void SpaceWallFinder::watch_crossings(std::span<WallCandidate> candidates, std::vector<int>& crossed) const {
   for (std::size_t c = 0; c < candidates.size(); ++c) {
     if (!nearest_[c].inside)
       candidates[c].side = nearest_[c].side;
@@ -113,14 +112,15 @@ void SpaceWallFinder::watch_crossings(std::vector<WallCandidate>& candidates, st
 }
 
 void SpaceWallFinder::clear_parted(ContactHistories& histories) const {
-  for (std::size_t c = 0; c < histories.touched.size(); ++c) {
-    if (histories.touched[c] && !touches_[c]) histories.forget(c);
-    histories.touched[c] = touches_[c];
+  if (histories.touched.empty()) return;
+  for (std::size_t c = 0; c < touches_.size(); ++c) {
+    if (histories.touched[first_ + c] && !touches_[c]) histories.forget(first_ + c);
+    histories.touched[first_ + c] = touches_[c];
   }
 }
 
 void add_wall_forces(const SpaceWallContacts& contacts, bool rotation, std::vector<GrainVector>& forces,
-                     std::vector<GrainVector>& torques, ContactStatistics& statistics) {
+                     std::vector<GrainVector>& torques) {
   const std::size_t count = static_cast<std::size_t>(contacts.count);
   const auto add_up = [](const VectorColumns& columns, std::size_t k, GrainVector& sum) {
     sum.x += columns.x[k], sum.y += columns.y[k], sum.z += columns.z[k];
@@ -131,14 +131,16 @@ void add_wall_forces(const SpaceWallContacts& contacts, bool rotation, std::vect
     for (; k < count && contacts.grain[k] == static_cast<int>(i); ++k) {
       add_up(contacts.force, k, force);
       if (rotation) add_up(contacts.torque, k, torque);
-      const VectorColumns& v = contacts.wall_velocity;
-      statistics.wall_power +=
-          contacts.force.x[k] * v.x[k] + contacts.force.y[k] * v.y[k] + contacts.force.z[k] * v.z[k];
     }
     forces[i].x += force.x, forces[i].y += force.y, forces[i].z += force.z;
     if (rotation) torques[i].x += torque.x, torques[i].y += torque.y, torques[i].z += torque.z;
   }
-  statistics.contacts += contacts.count;
+}
+
+void add_wall_power(const SpaceWallContacts& contacts, double& power) {
+  const VectorColumns &f = contacts.force, &v = contacts.wall_velocity;
+  for (std::size_t k = 0; k < static_cast<std::size_t>(contacts.count); ++k)
+    power += f.x[k] * v.x[k] + f.y[k] * v.y[k] + f.z[k] * v.z[k];
 }
 
 }  // namespace vibrosow

@@ -1,8 +1,8 @@
 #pragma once
 
+#include <span>
 #include <vector>
 
-#include "compute/execution.hpp"
 #include "contact/contact_history.hpp"
 #include "contact/contact_list.hpp"
 #include "contact/kernels.hpp"
@@ -14,35 +14,39 @@ namespace vibrosow {
 
 /// Looks through the candidates for balls that touch faces. A ball is pushed by every face whose inside it touches, and
 /// by an edge, a rim or a corner only where that point is on no face that pushes it already, and once where several
-/// faces share it.
+/// faces share it. Candidates lie sorted by grain; ranges of them that part no grain's may be looked through side by
+/// side, each by a finder of its own.
 class SpaceWallFinder {
  public:
-  /// Sets `contacts`; `candidates` sorted by grain.
-  void find(const Grains& grains, const std::vector<WallCandidate>& candidates, const std::vector<PlacedFace>& faces,
-            Execution& execution, SpaceWallContacts& contacts);
+  /// Sets `contacts`, whose candidates are numbered from `first`.
+  void find(const Grains& grains, std::span<const WallCandidate> candidates, std::size_t first,
+            const std::vector<PlacedFace>& faces, SpaceWallContacts& contacts);
 
   /// For the candidates of the last `find`: a side follows the ball while it is beyond the face's edges or over a hole;
   /// a change of side over the face is a crossing, noted in `crossed` (numbers of grains).
-  void watch_crossings(std::vector<WallCandidate>& candidates, std::vector<int>& crossed) const;
+  void watch_crossings(std::span<WallCandidate> candidates, std::vector<int>& crossed) const;
 
   /// Candidates of the last `find` that touched before and do not now have no history.
   void clear_parted(ContactHistories& histories) const;
 
  private:
   template <class Touch>
-  void touch_each_point_once(const std::vector<PlacedFace>& faces, const std::vector<WallCandidate>& candidates,
+  void touch_each_point_once(const std::vector<PlacedFace>& faces, std::span<const WallCandidate> candidates,
                              const Eigen::Vector3d& centre, double radius, std::size_t from, std::size_t to,
                              Touch touch);
 
-  std::vector<NearestOnFace> nearest_;  // by candidate
-  std::vector<unsigned char> touches_;  // by candidate
+  std::size_t first_ = 0;
+  std::vector<NearestOnFace> nearest_;  // by candidate of the range
+  std::vector<unsigned char> touches_;  // likewise
   std::vector<std::size_t> near_;       // candidates nearer than a radius; places to spare
   std::vector<std::size_t> pushing_;    // candidates of one ball that push it
 };
 
-/// Adds the forces of contacts to their balls, those of one ball added up among themselves first; and what the walls do
-/// by their motion.
+/// Adds the forces of contacts to their balls, those of one ball added up among themselves first.
 void add_wall_forces(const SpaceWallContacts& contacts, bool rotation, std::vector<GrainVector>& forces,
-                     std::vector<GrainVector>& torques, ContactStatistics& statistics);
+                     std::vector<GrainVector>& torques);
+
+/// Adds what the walls do by their motion, W, contact by contact.
+void add_wall_power(const SpaceWallContacts& contacts, double& power);
 
 }  // namespace vibrosow

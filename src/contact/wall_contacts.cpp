@@ -39,11 +39,12 @@ void make_room(std::size_t most, WallContacts& contacts) {
 
 }  // namespace
 
-void WallContactFinder::find(const Grains& grains, const std::vector<WallCandidate>& candidates,
+void WallContactFinder::find(const Grains& grains, std::span<const WallCandidate> candidates, std::size_t first,
                              const std::vector<PlacedWall>& walls, WallContacts& contacts) {
   const std::size_t count = candidates.size();
   make_room(count, contacts);
   contacts.count = 0;
+  first_ = first;
   nearest_.resize(count), touches_.resize(count), near_.resize(count + 1);
   std::size_t near = 0;
   for (std::size_t c = 0; c < count; ++c) {
@@ -57,8 +58,8 @@ void WallContactFinder::find(const Grains& grains, const std::vector<WallCandida
   const auto touch = [&](std::size_t c) {
     const std::size_t i = static_cast<std::size_t>(candidates[c].grain);
     touches_[c] = 1;
-    add(candidates[c], c, nearest_[c], walls[static_cast<std::size_t>(candidates[c].wall)], grains.x[i], grains.y[i],
-        contacts);
+    add(candidates[c], first + c, nearest_[c], walls[static_cast<std::size_t>(candidates[c].wall)], grains.x[i],
+        grains.y[i], contacts);
   };
   for (std::size_t from = 0, to = 0; from < near; from = to) {
     while (to < near && candidates[near_[to]].grain == candidates[near_[from]].grain) ++to;
@@ -71,7 +72,7 @@ void WallContactFinder::find(const Grains& grains, const std::vector<WallCandida
 
 /// Faces first, then each end point once and only where no touched face ends in it.
 template <class Touch>
-void WallContactFinder::touch_each_point_once(const std::vector<WallCandidate>& candidates,
+void WallContactFinder::touch_each_point_once(std::span<const WallCandidate> candidates,
                                               const std::vector<PlacedWall>& walls, std::size_t from, std::size_t to,
                                               Touch touch) {
   covered_.clear();
@@ -90,7 +91,7 @@ void WallContactFinder::touch_each_point_once(const std::vector<WallCandidate>& 
   }
 }
 
-void WallContactFinder::watch_crossings(std::vector<WallCandidate>& candidates, std::vector<int>& crossed) const {
+void WallContactFinder::watch_crossings(std::span<WallCandidate> candidates, std::vector<int>& crossed) const {
   for (std::size_t c = 0; c < candidates.size(); ++c) {
     if (nearest_[c].vertex >= 0)
       candidates[c].side = nearest_[c].side;
@@ -99,7 +100,7 @@ void WallContactFinder::watch_crossings(std::vector<WallCandidate>& candidates, 
   }
 }
 
-void add_wall_forces(const WallContacts& contacts, bool rotation, Forces& forces, ContactStatistics& statistics) {
+void add_wall_forces(const WallContacts& contacts, bool rotation, Forces& forces) {
   const std::size_t count = static_cast<std::size_t>(contacts.count);
   for (std::size_t k = 0; k < count;) {
     const std::size_t i = static_cast<std::size_t>(contacts.grain[k]);
@@ -107,18 +108,22 @@ void add_wall_forces(const WallContacts& contacts, bool rotation, Forces& forces
     for (; k < count && contacts.grain[k] == static_cast<int>(i); ++k) {
       sum_x -= contacts.fx[k], sum_y -= contacts.fy[k];
       if (rotation) sum_torque += contacts.torque[k];
-      statistics.wall_power -= contacts.fx[k] * contacts.wall_vx[k] + contacts.fy[k] * contacts.wall_vy[k];
     }
     forces[i].fx += sum_x, forces[i].fy += sum_y;
     if (rotation) forces[i].torque += sum_torque;
   }
-  statistics.contacts += contacts.count;
+}
+
+void add_wall_power(const WallContacts& contacts, double& power) {
+  for (std::size_t k = 0; k < static_cast<std::size_t>(contacts.count); ++k)
+    power -= contacts.fx[k] * contacts.wall_vx[k] + contacts.fy[k] * contacts.wall_vy[k];
 }
 
 void WallContactFinder::clear_parted(ContactHistories& histories) const {
-  for (std::size_t c = 0; c < histories.touched.size(); ++c) {
-    if (histories.touched[c] && !touches_[c]) histories.forget(c);
-    histories.touched[c] = touches_[c];
+  if (histories.touched.empty()) return;
+  for (std::size_t c = 0; c < touches_.size(); ++c) {
+    if (histories.touched[first_ + c] && !touches_[c]) histories.forget(first_ + c);
+    histories.touched[first_ + c] = touches_[c];
   }
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "contact/contact_history.hpp"
@@ -11,33 +12,38 @@
 namespace vibrosow {
 
 /// Looks through the candidates for grains that touch walls. A grain that touches a wall's face and an end point of the
-/// same wall is pushed by the face alone, and once by an end point that two walls share.
+/// same wall is pushed by the face alone, and once by an end point that two walls share. Candidates lie sorted by
+/// grain; ranges of them that part no grain's may be looked through side by side, each by a finder of its own.
 class WallContactFinder {
  public:
-  /// Sets `contacts`; `candidates` sorted by grain.
-  void find(const Grains& grains, const std::vector<WallCandidate>& candidates, const std::vector<PlacedWall>& walls,
-            WallContacts& contacts);
+  /// Sets `contacts`, whose candidates are numbered from `first`.
+  void find(const Grains& grains, std::span<const WallCandidate> candidates, std::size_t first,
+            const std::vector<PlacedWall>& walls, WallContacts& contacts);
 
   /// For the candidates of the last `find`: a side follows the grain while it is beyond the wall's ends; a change of
   /// side beside the wall is a crossing, noted in `crossed` (numbers of grains).
-  void watch_crossings(std::vector<WallCandidate>& candidates, std::vector<int>& crossed) const;
+  void watch_crossings(std::span<WallCandidate> candidates, std::vector<int>& crossed) const;
 
   /// Candidates of the last `find` that touched before and do not now have no history.
   void clear_parted(ContactHistories& histories) const;
 
  private:
   template <class Touch>
-  void touch_each_point_once(const std::vector<WallCandidate>& candidates, const std::vector<PlacedWall>& walls,
+  void touch_each_point_once(std::span<const WallCandidate> candidates, const std::vector<PlacedWall>& walls,
                              std::size_t from, std::size_t to, Touch touch);
 
-  std::vector<NearestPoint> nearest_;   // by candidate
-  std::vector<unsigned char> touches_;  // by candidate
+  std::size_t first_ = 0;
+  std::vector<NearestPoint> nearest_;   // by candidate of the range
+  std::vector<unsigned char> touches_;  // likewise
   std::vector<std::size_t> near_;       // candidates nearer than a radius; places to spare
   std::vector<int> covered_;            // end points of one grain
 };
 
 /// Adds the forces of contacts to their grains, those of one grain added up among themselves first, so that two walls
-/// add up alike in either order; and what the walls do by their motion.
-void add_wall_forces(const WallContacts& contacts, bool rotation, Forces& forces, ContactStatistics& statistics);
+/// add up alike in either order.
+void add_wall_forces(const WallContacts& contacts, bool rotation, Forces& forces);
+
+/// Adds what the walls do by their motion, W, contact by contact.
+void add_wall_power(const WallContacts& contacts, double& power);
 
 }  // namespace vibrosow

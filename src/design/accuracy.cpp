@@ -13,6 +13,7 @@ double cost_of(const AccuracyRow& row) {
 /// What one setting's runs gave.
 void take_runs(AccuracyRow& row, const std::vector<AccuracyRun>& runs, std::size_t setting) {
   std::vector<double> rates;
+  double made = 0;
   for (const AccuracyRun& run : runs) {
     if (run.setting != setting) continue;
     if (!run.mass_rate) {
@@ -22,12 +23,13 @@ void take_runs(AccuracyRow& row, const std::vector<AccuracyRun>& runs, std::size
     rates.push_back(*run.mass_rate);
     row.grain_steps += run.grain_steps;
     row.cpu_time += run.cpu_time;
+    made += run.made();
   }
   if (rates.empty()) return;
   const double count = static_cast<double>(rates.size());
   row.replicates = static_cast<int>(rates.size());
   row.grain_steps /= count;
-  row.cpu_time /= count;
+  row.cpu_time /= std::max(1.0, made);
   row.mass_rate = mean_with_interval(rates);
 }
 

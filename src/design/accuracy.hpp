@@ -25,7 +25,7 @@ struct AccuracyRow {
   double grain_steps = 0;            // mean of the runs
   std::optional<double> cost_ratio;  // grain-steps times force evaluations a step, over the reference's
   bool on_front = false;             // errs less, beyond chance, than every cheaper setting on the front
-  double cpu_time = 0;               // s, mean of the runs; of this machine
+  double cpu_time = 0;               // s, mean of the runs made now; of this machine; 0: all were kept from before
 };
 
 struct AccuracyResult {

@@ -122,7 +122,7 @@ AccuracyRun taken(const SettingRuns& of, const Evaluation& result) {
     return run;
   }
   run.grain_steps = static_cast<double>(result.grain_steps);
-  run.cpu_time = result.cpu_time;
+  if (result.wall_time > 0) run.cpu_time = result.cpu_time;
   if (result.outside_the_model)
     run.refused = "outside the model";
   else

@@ -90,7 +90,8 @@ struct AccuracyRun {
   std::optional<double> mass_rate{};  // kg/s, all holes and lots, of the plane slice or in space of the tray
   double seeds = 0;                   // of which the rate is made
   double grain_steps = 0;
-  double cpu_time = 0;  // s, of this machine
+  double cpu_time = 0;  // s, of this machine; 0: it was kept from before
+  bool made() const { return cpu_time > 0; }
 };
 
 /// What a run costs wherever it is made: grain-steps times force evaluations a step.

@@ -17,6 +17,12 @@ double cpu_time_of(const std::vector<AccuracyRun>& runs) {
   return sum;
 }
 
+double work_of(const Promise& promise) {
+  double sum = 0;
+  for (const AccuracyRun& run : promise.runs) sum += work_of(promise.settings[run.setting], run.grain_steps);
+  return sum;
+}
+
 bool same_softness(const AccuracySetting& a, const AccuracySetting& b) {
   return a.shell_compression == b.shell_compression && a.youngs_modulus == b.youngs_modulus;
 }
@@ -27,8 +33,24 @@ double evaluations_per_second(const AccuracySetting& setting) {
 
 struct Cost {
   double work = 0, cpu_time = 0;  // as an offer's
-  void add(const Cost& more, double times) { work += times * more.work, cpu_time += times * more.cpu_time; }
-  Cost over(int runs) const { return {work / runs, cpu_time / runs}; }
+};
+
+/// Of several runs; CPU time is known of those made now alone.
+class MeanCost {
+ public:
+  void add(double work, double cpu_time, double times) {
+    sum_.work += times * work, sum_.cpu_time += times * cpu_time;
+    ++runs_;
+    timed_ += cpu_time > 0;
+  }
+  std::optional<Cost> mean() const {
+    if (runs_ == 0) return std::nullopt;
+    return Cost{sum_.work / runs_, sum_.cpu_time / std::max(1, timed_)};
+  }
+
+ private:
+  Cost sum_;
+  int runs_ = 0, timed_ = 0;
 };
 
 /// Choosing among settings by the fit of the pilots.
@@ -40,17 +62,15 @@ class Chooser {
   /// none where none of these has a rate.
   std::optional<Cost> cost_of_run(std::size_t setting) const {
     const AccuracySetting& wanted = promise_.settings[setting];
-    Cost own, other;
-    int own_runs = 0, other_runs = 0;
+    MeanCost own, other;
     for (const AccuracyRun& run : promise_.runs) {
       const AccuracySetting& ran = promise_.settings[run.setting];
       if (!run.mass_rate || !same_softness(ran, wanted)) continue;
-      const Cost cost{work_of(ran, run.grain_steps), run.cpu_time};
-      if (run.setting == setting) own.add(cost, 1), ++own_runs;
-      other.add(cost, evaluations_per_second(wanted) / evaluations_per_second(ran)), ++other_runs;
+      const double work = work_of(ran, run.grain_steps);
+      if (run.setting == setting) own.add(work, run.cpu_time, 1);
+      other.add(work, run.cpu_time, evaluations_per_second(wanted) / evaluations_per_second(ran));
     }
-    if (own_runs > 0) return own.over(own_runs);
-    return other_runs > 0 ? std::optional(other.over(other_runs)) : std::nullopt;
+    return own.mean() ? own.mean() : other.mean();
   }
 
   int pilots_of(std::size_t setting, double window) const {
@@ -85,12 +105,12 @@ class Chooser {
     return with_replicates(*offer, static_cast<int>(needed));
   }
 
-  /// As many replicates as `seconds` of CPU time allow.
-  std::optional<Offer> affordable(std::size_t setting, double window, double seconds) const {
+  /// As many replicates as `budget` allows, of work or of CPU time.
+  std::optional<Offer> affordable(std::size_t setting, double window, double Offer::*cost, double budget) const {
     const std::optional<Offer> offer = single(setting, window);
     if (!offer) return std::nullopt;
     const int made = pilots_of(setting, window);
-    const double more = std::clamp(std::floor(seconds / offer->cpu_time), 0.0, double(most_replicates));
+    const double more = std::clamp(std::floor(budget / *offer.*cost), 0.0, double(most_replicates));
     if (made + more < 1) return std::nullopt;
     return with_replicates(*offer, made + static_cast<int>(more));
   }
@@ -128,7 +148,9 @@ std::optional<Offer> best_offer(const Chooser& chooser, const PromiseGoal& goal,
     return chooser.best([&](std::size_t s, double w) { return chooser.within(s, w, *goal.within_percent); },
                         [](const Offer& offer) { return offer.work; });
   return chooser.best(
-      [&](std::size_t s, double w) { return chooser.affordable(s, w, *goal.cpu_time - cpu_time_spent); },
+      [&](std::size_t s, double w) {
+        return chooser.affordable(s, w, &Offer::cpu_time, *goal.cpu_time - cpu_time_spent);
+      },
       [](const Offer& offer) { return offer.error_bound(); });
 }
 
@@ -197,7 +219,8 @@ Promise promise(const PromiseChoices& choices, const PromiseGoal& goal, const Ru
   made.offer = best_offer(chooser, goal, made.pilot_cpu_time);
   if (goal.within_percent) made.finest = chooser.within(finest(made.settings), 1, *goal.within_percent);
   if (!made.offer) {
-    made.least = chooser.best([&](std::size_t s, double w) { return chooser.affordable(s, w, made.pilot_cpu_time); },
+    const double spent = work_of(made);
+    made.least = chooser.best([&](std::size_t s, double w) { return chooser.affordable(s, w, &Offer::work, spent); },
                               [](const Offer& offer) { return offer.error_bound(); });
     made.refused = goal.within_percent ? "no setting is known well enough" : "the pilots used it up";
     return made;

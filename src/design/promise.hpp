@@ -29,7 +29,7 @@ struct Offer {
   RateError bias{};               // systematic error, its band simultaneous over the settings
   double half_width_percent = 0;  // of the mean's 95 % interval
   double work = 0;                // grain-steps times force evaluations a step, predicted for all replicates
-  double cpu_time = 0;            // s, the same, on this machine
+  double cpu_time = 0;            // s, the same, on this machine; 0 where no run of it was made now
   double cpu_time_to_run() const { return cpu_time * to_run / replicates; }
   double error_bound() const { return bias.bound() + half_width_percent; }
 };
@@ -60,8 +60,8 @@ using TellCost = std::function<void(int runs, double cpu_time)>;
 /// two-stage rule: n is fixed before the runs are made), the one within the goal whose runs would be the least work
 /// if made afresh, as they are for every further layout. The finest setting is
 /// one of them, and a setting's own pilots count among its runs. Work is counted in grain-steps, so no clock decides;
-/// only a goal of CPU time asks one. Interrupted or refused runs leave the promise without an offer. Throws
-/// std::invalid_argument unless the goal is one of the two.
+/// only a goal of CPU time asks one, and wants every run made now. Interrupted or refused runs leave the promise
+/// without an offer. Throws std::invalid_argument unless the goal is one of the two.
 Promise promise(const PromiseChoices& choices, const PromiseGoal& goal, const RunSettings& run,
                 const TellCost& tell = {});
 

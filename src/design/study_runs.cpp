@@ -289,16 +289,30 @@ void StudyRuns::keep_waiting() {
   }
 }
 
+std::optional<Run> StudyRuns::find(const std::string& identity) const {
+  if (std::optional<Run> run = folders_.front().find(identity)) return run;
+  const std::lock_guard lock(mutex_);
+  const auto waiting = waiting_.find(identity);
+  return waiting == waiting_.end() ? std::nullopt : std::optional(waiting->second);
+}
+
 Simulator StudyRuns::kept() const {
   return [this](const Model& model, const SimulationOptions& options) {
-    const std::string identity = case_identity(model.scene, options.random_seed);
-    if (std::optional<Run> run = folders_.front().find(identity)) return std::move(*run);
-    const std::lock_guard lock(mutex_);
-    if (const auto waiting = waiting_.find(identity); waiting != waiting_.end()) return waiting->second;
+    if (std::optional<Run> run = find(case_identity(model.scene, options.random_seed))) return std::move(*run);
     Run none;
     none.status = RunStatus::interrupted;
     none.random_seed = options.random_seed;
     return none;
+  };
+}
+
+Simulator StudyRuns::keeping(Simulator simulator) {
+  return [this, simulator = std::move(simulator)](const Model& model, const SimulationOptions& options) {
+    const std::string identity = case_identity(model.scene, options.random_seed);
+    if (std::optional<Run> run = find(identity)) return std::move(*run);
+    Run run = simulator(model, options);
+    if (run.status != RunStatus::interrupted) keep(identity, run);
+    return run;
   };
 }
 

@@ -64,6 +64,10 @@ class StudyRuns {
   /// In the place of a simulator: gives the run that is kept; an interrupted one where there is none.
   Simulator kept() const;
 
+  /// A simulator that gives the run that is kept or, where there is none, makes it by another and keeps it: for runs
+  /// whose number is small and that are wanted one by one. What is interrupted is not kept. For several threads.
+  Simulator keeping(Simulator simulator);
+
   /// Why the first run that could not be written could not; empty where all could. Such runs are in memory alone and
   /// tried again; no other is begun meanwhile.
   std::string not_kept() const;
@@ -73,6 +77,7 @@ class StudyRuns {
 
   bool attempt(const WantedRun& wanted, const Simulator& simulator, const MakingOptions& options, Queue& queue);
   bool is_there(const WantedRun& wanted, bool retry);
+  std::optional<Run> find(const std::string& identity) const;
   Run run_on(const WantedRun& wanted, const Simulator& simulator, const MakingOptions& options, Queue& queue);
   void keep(const std::string& identity, const Run& run);
   void keep_waiting();

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "report/accuracy_page.hpp"
@@ -158,7 +159,7 @@ bool timed(const AccuracyRow& row) {
 Columns<AccuracyRow> timing_columns(double reference) {
   Columns<AccuracyRow> columns = row_setting_columns();
   append(columns,
-         {quantity_column<AccuracyRow>("cpu_s", seconds, "CPU time of a run on this machine, mean",
+         {quantity_column<AccuracyRow>("cpu_s", seconds, "CPU time of a run on this machine, mean of those made now",
                                        [](R r) { return timed(r) ? Value(r.cpu_time) : Value(); }),
           quantity_column<AccuracyRow>("grain_steps_per_s", per_second, "grains times steps in a second of it",
                                        [](R r) { return timed(r) ? Value(r.grain_steps / r.cpu_time) : Value(); }),
@@ -177,8 +178,8 @@ JsonKeys<CommandTiming> timing_keys() {
   using T = const CommandTiming&;
   return {{"wall_s", "s", "wall time of the command", [](T t) { return t.command.wall_time; }},
           {"jobs", "", "runs side by side", [](T t) { return t.command.jobs; }},
-          {"run_cpu_s", "s", "CPU times of the runs, summed", [](T t) { return t.run_time; }},
-          {"grain_steps", "", "grains times steps, summed", [](T t) { return t.grain_steps; }},
+          {"run_cpu_s", "s", "CPU times of the runs that it made, summed", [](T t) { return t.run_time; }},
+          {"grain_steps", "", "grains times steps of these, summed", [](T t) { return t.grain_steps; }},
           {"grain_steps_per_s", "1/s", "these in a second of the command's wall time",
            [](T t) { return t.command.wall_time > 0 ? t.grain_steps / t.command.wall_time : 0; }}};
 }
@@ -251,6 +252,10 @@ std::string offer_text(const Promise& promise, const Offer& offer) {
 
 std::string cost_text(const Promise& promise) {
   const Offer& offer = *promise.offer;
+  if (const auto kept =
+          std::ranges::count_if(promise.runs, [](const AccuracyRun& run) { return run.mass_rate && !run.made(); }))
+    return fmt::format("{} of the {} runs were there from before; the others took {:.3g} s of CPU time.", kept,
+                       promise.runs.size(), promise.pilot_cpu_time + promise.answer_cpu_time);
   std::string text = fmt::format(
       "Cost: {} pilots {:.3g} s of CPU time, {} more {} {:.3g} s (predicted {:.3g} s). Another layout with this "
       "setting: "
@@ -469,6 +474,7 @@ std::vector<FileText> accuracy_file_texts() {
 std::vector<OutputFile> accuracy_files(const AccuracyResult& result, const AccuracyTiming& timing, CsvFormat format) {
   CommandTiming sums{timing};
   for (const AccuracyRun& run : result.runs) {
+    if (!run.made()) continue;
     sums.grain_steps += run.grain_steps;
     sums.run_time += run.cpu_time;
   }

@@ -18,7 +18,7 @@ ForceField::ForceField(const Model& model, SimulationState& state, NeighbourMarg
       wall_kernel_(model.kernels->vectors[static_cast<std::size_t>(execution.instructions())].wall),
       space_pair_kernel_(model.kernels->in_space[static_cast<std::size_t>(execution.instructions())].pair),
       space_wall_kernel_(model.kernels->in_space[static_cast<std::size_t>(execution.instructions())].wall),
-      range_results_(static_cast<std::size_t>(execution.threads())) {
+      ranges_(static_cast<std::size_t>(execution.threads())) {
   if (model.effects.clumps) clumps_.emplace(model.scene.lots, model.kinds, *model.law, model.effects.rotation);
   for (std::size_t v = 0; v < model.vessels.size(); ++v)
     walls_.set_motion(v, state.vessels.motion[v], state.vessels.shift[v]);
@@ -57,7 +57,7 @@ void ForceField::set_pair_forces(const Grains& discs, const Motion& at, const Hi
   const PairList& pairs = state_.contacts.pairs;
   ContactHistories& histories = state_.contacts.pair_histories;
   const GrainSurfaces surfaces = surfaces_of(discs);
-  const std::size_t ranges = range_results_.size();
+  const std::size_t ranges = ranges_.size();
   const int grains = static_cast<int>(discs.size());
   forces.resize(discs.size());
   const auto first_grain = [&](std::size_t range) {
@@ -70,14 +70,14 @@ void ForceField::set_pair_forces(const Grains& discs, const Motion& at, const Hi
   };
   execution_.for_each_range([&](int k) {
     const std::size_t range = static_cast<std::size_t>(k);
-    RangeResult& result = range_results_[range];
+    RangeWork& result = ranges_[range];
     result.foreign.clear();
     result.statistics = {};
     add_pair_forces(pair_kernel_, surfaces, at, pairs, {first_entry(range), first_entry(range + 1)}, model_.contacts,
                     advance, histories, {first_grain(range), first_grain(range + 1)}, forces, result.foreign,
                     result.statistics);
   });
-  for (const RangeResult& result : range_results_) {
+  for (const RangeWork& result : ranges_) {
     statistics.contacts += result.statistics.contacts;
     statistics.slip_raised += result.statistics.slip_raised;
     statistics.max_relative_overlap = std::max(statistics.max_relative_overlap, result.statistics.max_relative_overlap);
@@ -97,23 +97,59 @@ void ForceField::run_kernels(const Grains& discs, const HistoryAdvance& advance,
     BoundaryContacts& boundary = state_.contacts.boundaries[k];
     add_pair_forces(pair_kernel_, surfaces_of(discs), across_boundary(discs, neighbours_.images()[k].x), boundary.pairs,
                     {0, static_cast<int>(boundary.pairs.size())}, model_.contacts, advance, boundary.histories, {0, 0},
-                    forces, range_results_.front().foreign, statistics);
+                    forces, ranges_.front().foreign, statistics);
   }
   execution_.profile().lap(Phase::pairs);
-  wall_finder_.find(discs, state_.contacts.walls, walls_.placed(), wall_contacts_);
-  wall_finder_.watch_crossings(state_.contacts.walls, statistics.crossed);
-  if (advance.commit > 0) wall_finder_.clear_parted(state_.contacts.wall_histories);
   add_wall_forces(discs, at, advance, forces, statistics);
   execution_.profile().lap(Phase::walls);
 }
 
-/// Of the contacts found last.
+ForceField::WallRange ForceField::wall_range(std::size_t range) {
+  std::vector<WallCandidate>& all = state_.contacts.walls;
+  const auto first_of = [&](std::size_t k) {
+    std::size_t first = all.size() * k / ranges_.size();
+    while (first > 0 && first < all.size() && all[first].grain == all[first - 1].grain) ++first;
+    return first;
+  };
+  const std::size_t from = first_of(range);
+  return {from, {all.data() + from, first_of(range + 1) - from}};
+}
+
+/// Range by range: what is a sum is added up contact by contact elsewhere, as one thread would.
+void ForceField::add_up_walls(ContactStatistics& statistics) const {
+  for (const RangeWork& own : ranges_) {
+    statistics.contacts += own.statistics.contacts;
+    statistics.slip_raised += own.statistics.slip_raised;
+    statistics.max_relative_overlap = std::max(statistics.max_relative_overlap, own.statistics.max_relative_overlap);
+    statistics.crossed.insert(statistics.crossed.end(), own.statistics.crossed.begin(), own.statistics.crossed.end());
+  }
+}
+
+/// A grain's walls are all in one range, so its forces are added up alike for any number of ranges.
 void ForceField::add_wall_forces(const Grains& discs, const Motion& at, const HistoryAdvance& advance, Forces& forces,
                                  ContactStatistics& statistics) {
-  add_figures(
-      wall_kernel_(surfaces_of(discs), at, model_.contacts, advance, state_.contacts.wall_histories, wall_contacts_),
-      statistics);
-  vibrosow::add_wall_forces(wall_contacts_, model_.kernels->effects.rotation, forces, statistics);
+  ContactHistories& histories = state_.contacts.wall_histories;
+  const GrainSurfaces surfaces = surfaces_of(discs);
+  execution_.for_each_range([&](int k) {
+    const auto [first, candidates] = wall_range(static_cast<std::size_t>(k));
+    RangeWork& own = ranges_[static_cast<std::size_t>(k)];
+    own.statistics = {};
+    own.wall_finder.find(discs, candidates, first, walls_.placed(), own.walls);
+    own.wall_finder.watch_crossings(candidates, own.statistics.crossed);
+    if (advance.commit > 0) own.wall_finder.clear_parted(histories);
+    add_figures(wall_kernel_(surfaces, at, model_.contacts, advance, histories, own.walls), own.statistics);
+    vibrosow::add_wall_forces(own.walls, model_.kernels->effects.rotation, forces);
+    own.statistics.contacts = own.walls.count;
+  });
+  add_up_walls(statistics);
+  for (const RangeWork& own : ranges_) add_wall_power(own.walls, statistics.wall_power);
+}
+
+/// All of them in one range.
+WallContacts& ForceField::find_wall_contacts(const Grains& discs) {
+  RangeWork& only = ranges_.front();
+  only.wall_finder.find(discs, state_.contacts.walls, 0, walls_.placed(), only.walls);
+  return only.walls;
 }
 
 void ForceField::evaluate(double time, const HistoryAdvance& advance, ContactStatistics& statistics) {
@@ -150,17 +186,16 @@ double ForceField::elastic_energy() {
     energy += model_.kernels->energy.pair(surfaces_of(discs), across_boundary(discs, neighbours_.images()[k].x),
                                           boundary.pairs, model_.contacts, boundary.histories);
   }
-  wall_finder_.find(discs, state_.contacts.walls, walls_.placed(), wall_contacts_);
-  return energy + model_.kernels->energy.wall(surfaces_of(discs), wall_contacts_, model_.contacts,
+  return energy + model_.kernels->energy.wall(surfaces_of(discs), find_wall_contacts(discs), model_.contacts,
                                               state_.contacts.wall_histories);
 }
 
 Forces ForceField::wall_forces() {
   const Grains& discs = place_discs();
-  ContactStatistics statistics;
   Forces on_discs(discs.size());
-  wall_finder_.find(discs, state_.contacts.walls, walls_.placed(), wall_contacts_);
-  add_wall_forces(discs, motion_of(discs), {}, on_discs, statistics);
+  WallContacts& touching = find_wall_contacts(discs);
+  wall_kernel_(surfaces_of(discs), motion_of(discs), model_.contacts, {}, state_.contacts.wall_histories, touching);
+  vibrosow::add_wall_forces(touching, model_.kernels->effects.rotation, on_discs);
   if (!clumps_) return on_discs;
   Forces forces(state_.grains.size());
   clumps_->gather(on_discs, forces);

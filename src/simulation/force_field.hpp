@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "compute/execution.hpp"
@@ -85,6 +86,7 @@ class ForceField {
   Motion across_boundary(const Grains& discs, double period);
   void add_wall_forces(const Grains& discs, const Motion& at, const HistoryAdvance& advance, Forces& forces,
                        ContactStatistics& statistics);
+  WallContacts& find_wall_contacts(const Grains& discs);
   void run_kernels(const Grains& discs, const HistoryAdvance& advance, Forces& forces, ContactStatistics& statistics);
   SpaceMotion motion_in_space(const Grains& balls);
   SpaceMotion motion_of_image(const SpaceMotion& at, const Neighbours::Image& image);
@@ -92,6 +94,9 @@ class ForceField {
                             ContactStatistics& statistics);
   void set_pair_forces_in_space(const Grains& balls, const SpaceMotion& at, const HistoryAdvance& advance,
                                 SpaceForces& forces, ContactStatistics& statistics);
+  void add_wall_forces_in_space(const Grains& balls, const SpaceMotion& at, const HistoryAdvance& advance,
+                                SpaceForces& forces, ContactStatistics& statistics);
+  SpaceWallContacts& find_wall_contacts_in_space(const Grains& balls);
   double elastic_energy_in_space(const Grains& balls);
   Eigen::Vector3d force_of_pair(const Grains& discs, const Motion& at, const PairList& pairs,
                                 ContactHistories& histories, std::size_t k);
@@ -110,24 +115,32 @@ class ForceField {
   Neighbours neighbours_;
   PairKernel pair_kernel_;
   WallKernel wall_kernel_;
-  WallContactFinder wall_finder_;
-  WallContacts wall_contacts_;
   std::optional<ClumpDiscs> clumps_;
   bool clumps_are_current_ = false;
   Forces forces_, disc_forces_;
   SpacePairKernel space_pair_kernel_;
   SpaceWallKernel space_wall_kernel_;
-  SpaceWallFinder space_wall_finder_;
-  SpaceWallContacts space_wall_contacts_;
   SpaceForces space_forces_, ball_forces_;
 
-  /// What one thread's range of pairs leaves for the others.
-  struct RangeResult {
+  /// With what one thread works on its range of pairs or of wall candidates, and what it leaves for the others.
+  struct RangeWork {
     std::vector<ForeignForce> foreign;
     std::vector<ForeignSpaceForce> foreign_in_space;
     ContactStatistics statistics;
+    WallContactFinder wall_finder;
+    WallContacts walls;
+    SpaceWallFinder space_wall_finder;
+    SpaceWallContacts space_walls;
   };
-  std::vector<RangeResult> range_results_;
+  /// Of wall candidates, with its place among them; a grain's are all in one range.
+  struct WallRange {
+    std::size_t first;
+    std::span<WallCandidate> candidates;
+  };
+  WallRange wall_range(std::size_t range);
+  void add_up_walls(ContactStatistics& statistics) const;
+
+  std::vector<RangeWork> ranges_;
   std::vector<double> shifted_x_;                     // m, across the periodic boundary
   std::vector<GrainVector> places_, shifted_places_;  // the same of balls in space
   std::vector<BallMotion> motions_;

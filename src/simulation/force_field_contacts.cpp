@@ -78,10 +78,8 @@ void ForceField::add_contacts(const Grains& discs, const PairList& pairs, Contac
 }
 
 void ForceField::add_wall_contacts(const Grains& discs, std::vector<GrainContact>& contacts) {
-  wall_finder_.find(discs, state_.contacts.walls, walls_.placed(), wall_contacts_);
-  wall_kernel_(surfaces_of(discs), motion_of(discs), model_.contacts, {}, state_.contacts.wall_histories,
-               wall_contacts_);
-  const WallContacts& w = wall_contacts_;
+  WallContacts& w = find_wall_contacts(discs);
+  wall_kernel_(surfaces_of(discs), motion_of(discs), model_.contacts, {}, state_.contacts.wall_histories, w);
   for (std::size_t k = 0; k < static_cast<std::size_t>(w.count); ++k) {
     const std::size_t i = static_cast<std::size_t>(w.grain[k]);
     const Vector from = place_of(discs, i), apart(w.dx[k], w.dy[k], 0);
@@ -92,10 +90,9 @@ void ForceField::add_wall_contacts(const Grains& discs, std::vector<GrainContact
 }
 
 void ForceField::add_face_contacts(const Grains& balls, std::vector<GrainContact>& contacts) {
-  space_wall_finder_.find(balls, state_.contacts.walls, walls_.placed_faces(), execution_, space_wall_contacts_);
+  SpaceWallContacts& w = find_wall_contacts_in_space(balls);
   space_wall_kernel_(surfaces_of(balls), motion_in_space(balls), model_.contacts, {}, state_.contacts.wall_histories,
-                     space_wall_contacts_);
-  const SpaceWallContacts& w = space_wall_contacts_;
+                     w);
   for (std::size_t k = 0; k < static_cast<std::size_t>(w.count); ++k) {
     const std::size_t i = static_cast<std::size_t>(w.grain[k]);
     const Vector from = place_of(balls, i), normal(w.normal.x[k], w.normal.y[k], w.normal.z[k]);

@@ -47,7 +47,7 @@ void ForceField::set_pair_forces_in_space(const Grains& balls, const SpaceMotion
                                           SpaceForces& all, ContactStatistics& statistics) {
   const PairList& pairs = state_.contacts.pairs;
   const GrainSurfaces surfaces = surfaces_of(balls);
-  const std::size_t ranges = range_results_.size(), grains = balls.size();
+  const std::size_t ranges = ranges_.size(), grains = balls.size();
   all.forces.resize(grains), all.torques.resize(model_.kernels->effects.rotation ? grains : 0);
   const auto first_grain = [&](std::size_t range) {
     if (range == 0 || range == ranges) return range == 0 ? std::size_t{0} : grains;
@@ -60,7 +60,7 @@ void ForceField::set_pair_forces_in_space(const Grains& balls, const SpaceMotion
   };
   execution_.for_each_range([&](int k) {
     const std::size_t range = static_cast<std::size_t>(k), from = first_grain(range), to = first_grain(range + 1);
-    RangeResult& own = range_results_[range];
+    RangeWork& own = ranges_[range];
     own.foreign_in_space.clear();
     own.statistics = {};
     for (std::vector<GrainVector>* sums : {&all.forces, &all.torques})
@@ -73,7 +73,7 @@ void ForceField::set_pair_forces_in_space(const Grains& balls, const SpaceMotion
     add_pairs(space_pair_kernel_, surfaces, at, pairs, {first_entry(range), first_entry(range + 1)}, model_.contacts,
               advance, state_.contacts.pair_histories, result, own.foreign_in_space, own.statistics);
   });
-  for (const RangeResult& own : range_results_) {
+  for (const RangeWork& own : ranges_) {
     statistics.contacts += own.statistics.contacts;
     statistics.slip_raised += own.statistics.slip_raised;
     statistics.max_relative_overlap = std::max(statistics.max_relative_overlap, own.statistics.max_relative_overlap);
@@ -99,18 +99,38 @@ void ForceField::run_kernels_in_space(const Grains& balls, const HistoryAdvance&
     result.forces = all.forces.data(), result.torques = all.torques.data(), result.first_own = 0;
     add_pairs(space_pair_kernel_, surfaces, motion_of_image(at, neighbours_.images()[k]), boundary.pairs,
               {0, static_cast<int>(boundary.pairs.size())}, model_.contacts, advance, boundary.histories, result,
-              range_results_.front().foreign_in_space, statistics);
+              ranges_.front().foreign_in_space, statistics);
   }
   execution_.profile().lap(Phase::pairs);
-  space_wall_finder_.find(balls, state_.contacts.walls, walls_.placed_faces(), execution_, space_wall_contacts_);
-  space_wall_finder_.watch_crossings(state_.contacts.walls, statistics.crossed);
-  if (advance.commit > 0) space_wall_finder_.clear_parted(state_.contacts.wall_histories);
-  add_figures(
-      space_wall_kernel_(surfaces, at, model_.contacts, advance, state_.contacts.wall_histories, space_wall_contacts_),
-      statistics);
-  vibrosow::add_wall_forces(space_wall_contacts_, model_.kernels->effects.rotation, all.forces, all.torques,
-                            statistics);
+  add_wall_forces_in_space(balls, at, advance, all, statistics);
   execution_.profile().lap(Phase::walls);
+}
+
+/// As in the plane.
+void ForceField::add_wall_forces_in_space(const Grains& balls, const SpaceMotion& at, const HistoryAdvance& advance,
+                                          SpaceForces& all, ContactStatistics& statistics) {
+  ContactHistories& histories = state_.contacts.wall_histories;
+  const GrainSurfaces surfaces = surfaces_of(balls);
+  execution_.for_each_range([&](int k) {
+    const auto [first, candidates] = wall_range(static_cast<std::size_t>(k));
+    RangeWork& own = ranges_[static_cast<std::size_t>(k)];
+    own.statistics = {};
+    own.space_wall_finder.find(balls, candidates, first, walls_.placed_faces(), own.space_walls);
+    own.space_wall_finder.watch_crossings(candidates, own.statistics.crossed);
+    if (advance.commit > 0) own.space_wall_finder.clear_parted(histories);
+    add_figures(space_wall_kernel_(surfaces, at, model_.contacts, advance, histories, own.space_walls), own.statistics);
+    vibrosow::add_wall_forces(own.space_walls, model_.kernels->effects.rotation, all.forces, all.torques);
+    own.statistics.contacts = own.space_walls.count;
+  });
+  add_up_walls(statistics);
+  for (const RangeWork& own : ranges_) add_wall_power(own.space_walls, statistics.wall_power);
+}
+
+/// All of them in one range.
+SpaceWallContacts& ForceField::find_wall_contacts_in_space(const Grains& balls) {
+  RangeWork& only = ranges_.front();
+  only.space_wall_finder.find(balls, state_.contacts.walls, 0, walls_.placed_faces(), only.space_walls);
+  return only.space_walls;
 }
 
 double ForceField::elastic_energy_in_space(const Grains& balls) {
@@ -124,18 +144,17 @@ double ForceField::elastic_energy_in_space(const Grains& balls) {
     energy += energies.space_pair(surfaces, motion_of_image(at, neighbours_.images()[k]), boundary.pairs,
                                   model_.contacts, boundary.histories);
   }
-  space_wall_finder_.find(balls, state_.contacts.walls, walls_.placed_faces(), execution_, space_wall_contacts_);
-  return energy + energies.space_wall(surfaces, space_wall_contacts_, model_.contacts, state_.contacts.wall_histories);
+  return energy + energies.space_wall(surfaces, find_wall_contacts_in_space(balls), model_.contacts,
+                                      state_.contacts.wall_histories);
 }
 
 std::vector<GrainVector> ForceField::wall_forces_in_space() {
   const Grains& balls = place_discs();
-  ContactStatistics statistics;
   std::vector<GrainVector> forces(balls.size()), torques(balls.size());
-  space_wall_finder_.find(balls, state_.contacts.walls, walls_.placed_faces(), execution_, space_wall_contacts_);
+  SpaceWallContacts& touching = find_wall_contacts_in_space(balls);
   space_wall_kernel_(surfaces_of(balls), motion_in_space(balls), model_.contacts, {}, state_.contacts.wall_histories,
-                     space_wall_contacts_);
-  vibrosow::add_wall_forces(space_wall_contacts_, model_.kernels->effects.rotation, forces, torques, statistics);
+                     touching);
+  vibrosow::add_wall_forces(touching, model_.kernels->effects.rotation, forces, torques);
   return forces;
 }
 

@@ -31,9 +31,7 @@ std::vector<Eigen::Vector3d> pushed_by(const Vessel& vessel, const Eigen::Vector
   std::vector<WallCandidate> candidates;
   for (std::size_t wall = 0; wall < walls.count(); ++wall) candidates.push_back({0, static_cast<int>(wall), 1});
   SpaceWallContacts contacts;
-  Execution execution;
-  SpaceWallFinder finder;
-  finder.find(grains, candidates, walls.placed_faces(), execution, contacts);
+  SpaceWallFinder().find(grains, candidates, 0, walls.placed_faces(), contacts);
   std::vector<Eigen::Vector3d> normals;
   for (std::size_t k = 0; k < static_cast<std::size_t>(contacts.count); ++k)
     normals.emplace_back(contacts.normal.x[k], contacts.normal.y[k], contacts.normal.z[k]);

@@ -1,7 +1,10 @@
 #include "design/promise.hpp"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+
+#include <functional>
 
 #include "made_up_rates.hpp"
 #include "report/accuracy_report.hpp"
@@ -162,6 +165,60 @@ TEST(Promise, ClockDoesNotChooseWhereAnErrorIsWanted) {
     return std::tuple(made.offer->setting, made.offer->replicates, made.pilots);
   };
   EXPECT_EQ(chosen(1), chosen(1000));
+}
+
+/// A promise of which some runs were kept from before, by their numbers.
+Promise promise_from_kept(const std::function<bool(std::size_t)>& kept, const PromiseGoal& goal) {
+  const PromiseChoices from = choices();
+  MadeUpRuns runs({});
+  std::size_t count = 0;
+  return promise(from, goal, [&](const std::vector<SettingRuns>& wanted) {
+    std::vector<AccuracyRun> stage = runs.run(from.design.settings, wanted);
+    for (AccuracyRun& run : stage)
+      if (kept(count++)) run.cpu_time = 0;
+    return stage;
+  });
+}
+bool kept_none(std::size_t) {
+  return false;
+}
+bool kept_all(std::size_t) {
+  return true;
+}
+bool kept_every_other(std::size_t run) {
+  return run % 2 == 0;
+}
+
+TEST(Promise, RunsThatWereKeptChangeNothingButTheTimeTaken) {
+  const PromiseGoal goal{.within_percent = 3};
+  const Promise whole = promise_from_kept(kept_none, goal);
+  ASSERT_TRUE(whole.mass_rate);
+  const std::size_t count = whole.runs.size();
+  for (const auto& [which, kept] : {std::pair(&kept_every_other, (count + 1) / 2), std::pair(&kept_all, count)}) {
+    const Promise made = promise_from_kept(which, goal);
+    ASSERT_TRUE(made.mass_rate);
+    EXPECT_EQ(made.mass_rate->mean, whole.mass_rate->mean);
+    EXPECT_EQ(made.offer->setting, whole.offer->setting);
+    EXPECT_EQ(made.runs.size(), whole.runs.size());
+    EXPECT_THAT(promise_text(made, goal), testing::HasSubstr(fmt::format("{} of the {} runs", kept, count)));
+  }
+  EXPECT_EQ(promise_text(whole, goal).find("from before"), std::string::npos);
+}
+
+TEST(Promise, WhatCannotBeHadIsTheSameOfRunsThatWereKept) {
+  const PromiseGoal goal{.within_percent = 0.02};
+  const Promise whole = promise_from_kept(kept_none, goal), kept = promise_from_kept(kept_all, goal);
+  ASSERT_TRUE(whole.least && kept.least);
+  EXPECT_EQ(kept.least->setting, whole.least->setting);
+  EXPECT_EQ(kept.least->replicates, whole.least->replicates);
+}
+
+TEST(Promise, CpuTimeIsThatOfRunsThatWereMade) {
+  const Promise whole = promise_from_kept(kept_none, {.within_percent = 3}),
+                half = promise_from_kept(kept_every_other, {.within_percent = 3});
+  ASSERT_TRUE(whole.offer && half.offer);
+  EXPECT_LT(half.pilot_cpu_time, whole.pilot_cpu_time);
+  EXPECT_NEAR(half.offer->cpu_time, whole.offer->cpu_time, 1e-9 * whole.offer->cpu_time);
 }
 
 TEST(Promise, AGoalIsOneOfTheTwo) {

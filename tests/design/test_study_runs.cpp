@@ -39,6 +39,7 @@ class StudyRunsOf : public testing::Test {
   fs::path folder(const std::string& name) const { return files_.seeder().parent_path() / name; }
   std::vector<fs::path> cases(const std::string& name) const {
     std::vector<fs::path> found;
+    if (!fs::exists(folder(name))) return found;
     for (const auto& entry : fs::recursive_directory_iterator(folder(name)))
       if (entry.path().extension() == ".case") found.push_back(entry.path());
     std::ranges::sort(found);
@@ -94,6 +95,27 @@ TEST_F(StudyRunsOf, KeepsWhatFailedButNothingInterrupted) {
   EXPECT_EQ(make(runs, {1}, true).made, 1) << "is to be tried again";
   EXPECT_EQ(kept(runs, 1).status, RunStatus::finished);
   EXPECT_EQ(make(runs, {1}, true).made, 0);
+}
+
+TEST_F(StudyRunsOf, ASimulatorThatKeepsMakesNoRunTwice) {
+  SimulationOptions options;
+  options.random_seed = 3;
+  StudyRuns runs(folder("a"));
+  status_ = RunStatus::interrupted;
+  runs.keeping(simulator_)(model_, options);
+  EXPECT_TRUE(cases("a").empty());
+  status_ = RunStatus::finished;
+  const vibrosow::Run made = runs.keeping(simulator_)(model_, options);
+  EXPECT_EQ(made_, 2);
+  StudyRuns again(folder("a"));
+  const vibrosow::Run kept = again.keeping(simulator_)(model_, options);
+  EXPECT_EQ(made_, 2);
+  ASSERT_FALSE(made.events.empty());
+  EXPECT_EQ(kept.events.back().time, made.events.back().time);
+  EXPECT_EQ(kept.wall_time, 0) << "tells a run that was kept";
+  options.random_seed = 4;
+  EXPECT_EQ(again.keeping(simulator_)(model_, options).random_seed, 4u);
+  EXPECT_EQ(made_, 3);
 }
 
 TEST_F(StudyRunsOf, WhatCannotBeginIsKeptWithItsReason) {
