@@ -146,7 +146,9 @@ PROMISES = ("scene,within_percent,random_seed,integrator,steps_per_contact,shell
 
 
 def truth_of(folder):
-    """Mean rate and half width of its 95 % interval, %, of a sweep of one layout."""
+    """Mean rate and half width of its 95 % interval, %, of a sweep of one layout; None where there is none."""
+    if not folder.is_dir():
+        return None, None
     (row,) = rows(f"{folder}/sweep.csv")
     return float(row["rate_g_per_s"]), 100 * float(row["rate_g_per_s_ci95"]) / float(row["rate_g_per_s"])
 
@@ -158,16 +160,17 @@ def promise_row(folder, truth, half_width):
     seed = rows(folder / "accuracy_runs.csv")[0]["random_seed"]
     chosen = [made[key] for key in ("integrator", "steps_per_contact", "shell_compression", "youngs_modulus_MPa", "pilots", "replicates")]
     row = [f"{made['goal']['within_percent']:g}", seed, *chosen]
+    known = "" if truth is None else f"{half_width:.2f}"
     if made["refused"] or made["rate_g_per_s"] is None:
-        return [*row, "", "", "", f"{half_width:.2f}", "", f"{timing['run_cpu_s']:.3g}", made["refused"]]
+        return [*row, "", "", "", known, "", f"{timing['run_cpu_s']:.3g}", made["refused"]]
     error = 100 * (made["rate_g_per_s"] / truth - 1)
     kept = "yes" if abs(error) <= made["goal"]["within_percent"] else "no"
-    return [*row, f"{made['rate_g_per_s']:.6g}", f"{made['error_bound_percent']:.2f}", f"{error:.2f}", f"{half_width:.2f}", kept, f"{timing['run_cpu_s']:.3g}", ""]
+    return [*row, f"{made['rate_g_per_s']:.6g}", f"{made['error_bound_percent']:.2f}", f"{error:.2f}", known, kept, f"{timing['run_cpu_s']:.3g}", ""]
 
 
 def promises(options):
     """Holds promises of `vibrosow accuracy --within` against the truth. Each FOLDER is of one scene: `truth` in it is a sweep of its finest
-    setting, every other folder a promise.
+    setting, without which it may hold promises that were refused alone, every other folder a promise.
 
     Writes promises.csv: what was chosen, its error against the truth, whose own half width is beside it, and whether it is within the error
     that was asked for."""

@@ -58,6 +58,7 @@ Json errors(const AccuracyResult& result) {
 Json doubts(const Scene& scene, const AccuracyResult& result) {
   Json all = Json::array();
   if (result.fit && !result.fit->fits()) all.push_back(misfit_sentence(*result.fit));
+  for (const std::string& doubt : odd_runs_sentences(result.runs)) all.push_back(doubt);
   if (!result.fit)
     all.push_back("Errors are against the finest setting, which errs too: the runs were too few for more.");
   if (scene.space == Space::plane && !result.depth)

@@ -229,6 +229,7 @@ std::string errors_text(const AccuracyResult& result) {
                                 result.depth->plane.mean / gram, *result.depth->plane.half_width_95 / gram,
                                 result.depth->space.mean / gram, *result.depth->space.half_width_95 / gram));
   if (result.fit && !result.fit->fits()) text += wrapped(misfit_sentence(*result.fit));
+  for (const std::string& doubt : odd_runs_sentences(result.runs)) text += wrapped(doubt);
   return text;
 }
 
@@ -403,6 +404,32 @@ std::string misfit_sentence(const ErrorFit& fit) {
       *fit.lack_of_fit());
 }
 
+std::vector<std::string> odd_runs_sentences(const std::vector<AccuracyRun>& runs) {
+  constexpr double share = 0.5;  // of the median, below which a run is of another kind
+  std::vector<std::string> all;
+  std::vector<double> rates;
+  const std::string* reason = nullptr;
+  for (const AccuracyRun& run : runs) {
+    if (run.mass_rate)
+      rates.push_back(*run.mass_rate);
+    else if (!reason)
+      reason = &run.refused;
+  }
+  if (reason)
+    all.push_back(fmt::format("{} of the {} runs {} no rate: {}.", runs.size() - rates.size(), runs.size(),
+                              runs.size() - rates.size() == 1 ? "has" : "have", *reason));
+  if (rates.empty()) return all;
+  std::ranges::sort(rates);
+  const double median = rates[rates.size() / 2];
+  const auto few = std::ranges::lower_bound(rates, share * median) - rates.begin();
+  if (few > 0)
+    all.push_back(
+        fmt::format("{} of the {} runs with a rate passed less than half of what the median run did ({:.4g} "
+                    "g/s), as where an outlet clogs: their mean is of two kinds of run.",
+                    few, rates.size(), median / gram));
+  return all;
+}
+
 std::vector<ErrorRow> error_rows(const AccuracyResult& result) {
   std::vector<ErrorRow> rows;
   if (result.fit) {
@@ -439,6 +466,7 @@ std::vector<std::string> promise_paragraphs(const Promise& promise, const Promis
 std::string promise_text(const Promise& promise, const PromiseGoal& goal) {
   std::string text;
   for (const std::string& paragraph : promise_paragraphs(promise, goal)) text += wrapped(paragraph);
+  for (const std::string& doubt : odd_runs_sentences(promise.runs)) text += wrapped(doubt);
   return text;
 }
 

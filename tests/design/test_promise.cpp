@@ -213,6 +213,25 @@ TEST(Promise, WhatCannotBeHadIsTheSameOfRunsThatWereKept) {
   EXPECT_EQ(kept.least->replicates, whole.least->replicates);
 }
 
+TEST(Promise, SaysWhichOfItsRunsAreOdd) {
+  std::vector<AccuracyRun> runs(5);
+  for (std::size_t i = 0; i < runs.size(); ++i) runs[i].mass_rate = 2.0 + 0.1 * static_cast<double>(i);
+  EXPECT_THAT(odd_runs_sentences(runs), testing::IsEmpty());
+  runs[1].mass_rate = 0.04, runs[3].mass_rate.reset(), runs[3].refused = "it does not fit";
+  EXPECT_THAT(odd_runs_sentences(runs),
+              testing::ElementsAre("1 of the 5 runs has no rate: it does not fit.",
+                                   testing::StartsWith("1 of the 4 runs with a rate passed less than half")));
+  const PromiseChoices from = choices();
+  MadeUpRuns made_up({});
+  const PromiseGoal goal{.within_percent = 3};
+  const Promise made = promise(from, goal, [&](const std::vector<SettingRuns>& wanted) {
+    std::vector<AccuracyRun> some = made_up.run(from.design.settings, wanted);
+    some.front().mass_rate = *some.front().mass_rate / 50;
+    return some;
+  });
+  EXPECT_THAT(promise_text(made, goal), testing::HasSubstr("clogs"));
+}
+
 TEST(Promise, CpuTimeIsThatOfRunsThatWereMade) {
   const Promise whole = promise_from_kept(kept_none, {.within_percent = 3}),
                 half = promise_from_kept(kept_every_other, {.within_percent = 3});
