@@ -7,6 +7,7 @@
 #include <boost/numeric/odeint.hpp>
 #include <cmath>
 
+#include "grains/clump_discs.hpp"
 #include "grains/size_distribution.hpp"
 #include "grains/turning_clump.hpp"
 #include "scene/input_error.hpp"
@@ -21,6 +22,57 @@ constexpr Integrator every_scheme[] = {Integrator::velocity_verlet, Integrator::
 
 Eigen::Vector3d angular_momentum(const Grains& g, std::size_t i) {
   return TurningClump(g, i).momentum_of(spin_of(g, i));
+}
+
+// What contacts see of a clump.
+
+/// Its discs, in space balls, when it has moved on freely for `time`.
+Grains discs_after(double time, Grains clump, ClumpDiscs& discs) {
+  clump.x[0] += time * clump.vx[0], clump.y[0] += time * clump.vy[0];
+  if (clump.in_space) {
+    clump.z[0] += time * clump.vz[0];
+    const Eigen::Vector3d spin = spin_of(clump, 0), half = 0.5 * time * spin;
+    const Eigen::Vector3d axis = std::sin(half.norm()) * spin.normalized() * (time < 0 ? -1 : 1);
+    clump.set_orientation(0, Orientation{std::cos(half.norm()), axis.x(), axis.y(), axis.z()} * clump.orientation(0));
+  } else {
+    clump.angle[0] += time * clump.omega[0];
+  }
+  discs.place(clump);
+  return discs.discs();
+}
+
+void expect_speeds_of_places(const Model& model, const Grains& clump) {
+  ClumpDiscs discs(model.scene.lots, model.kinds, *model.law, true);
+  discs.rebuild(clump);
+  constexpr double dt = 1e-6, tolerance = 1e-7;  // s, m/s
+  const Grains now = discs_after(0, clump, discs), before = discs_after(-dt, clump, discs),
+               after = discs_after(dt, clump, discs);
+  ASSERT_EQ(now.size(), 2u);
+  for (std::size_t k = 0; k < now.size(); ++k) {
+    EXPECT_NEAR(now.vx[k], (after.x[k] - before.x[k]) / (2 * dt), tolerance);
+    EXPECT_NEAR(now.vy[k], (after.y[k] - before.y[k]) / (2 * dt), tolerance);
+    if (clump.in_space) {
+      EXPECT_NEAR(now.vz[k], (after.z[k] - before.z[k]) / (2 * dt), tolerance);
+    }
+  }
+}
+
+TEST(ClumpsInSpace, DiscsAreAsFastAsTheirPlacesMove) {
+  Scene scene = clump_scene(solid_lot({{-1e-3, 0.4e-3, 1e-3, 0.3e-3}, {1.2e-3, 0, 0.8e-3, -0.5e-3}}, 1e-3));
+  scene.contact.seed.friction = 0.3;
+  const Model in_space = prepare(scene);
+  const PlacedClump turned{{0.5, 0.5, 0.5}, {0.1, -0.2, 0.3}, {20, -30, 25}, {0.8, 0.3, -0.4, 0.2}};
+  expect_speeds_of_places(in_space, start_of(in_space, {turned}).grains);
+
+  scene.space = Space::plane;
+  scene.tray.depth.reset();
+  scene.lots[0] = {"clump", 0, 1e-3, Shape::clump, 1};
+  make_clump(scene.lots[0], {{-1e-3, 0.4e-3, 1e-3}, {1.2e-3, 0, 0.8e-3}}, Space::plane);
+  const Model in_plane = prepare(scene);
+  Grains clump = no_grains(in_plane);
+  clump.add(0.5, 0.5, 0.1, -0.2, 0);
+  clump.omega[0] = 25, clump.angle[0] = 0.7;
+  expect_speeds_of_places(in_plane, clump);
 }
 
 // A clump that nothing touches.

@@ -175,6 +175,25 @@ TEST(Space, AShakenTrayCarriesItsBallsAcross) {
   EXPECT_GT(run.grains().z[0], 0.0132);  // a ball that rolls follows by 2/7
 }
 
+TEST(Space, TwistingBrakesABallThatSpinsOnTheSpot) {
+  constexpr double twisting = 0.02, spin = 20, until = 0.05;  // rad/s, s
+  for (const Rolling kind : {Rolling::constant_torque, Rolling::spring}) {
+    Scene scene = box(Space::three_dimensional);
+    scene.contact.rolling = kind;
+    scene.contact.wall.twisting_friction = twisting;
+    scene.contact.slip_speed = 1e-4;
+    const Model model = prepare_to_run(scene);
+    SimulationState state = start_of(model, {{{0.015, radius * (1 - scene.contact.shell_compression), 0.013}, {}}});
+    state.grains.omega_y[0] = spin;
+    Simulation run(model, std::move(state));
+    run.run_until(until);
+    // The torque mu r m g against the inertia 2/5 m r^2.
+    const double braked = 2.5 * twisting * standard_gravity / radius * run.time();
+    EXPECT_NEAR(run.grains().omega_y[0], spin - braked, 0.005 * braked);
+    EXPECT_NEAR(run.grains().x[0], 0.015, 1e-9);
+  }
+}
+
 TEST(Space, AVesselWithoutADepthIsRefused) {
   Scene scene = box(Space::three_dimensional);
   scene.tray.depth.reset();
