@@ -26,10 +26,8 @@ void SideTest::add(double value, double tolerance) {
   if (moments_.count() < first_) return;
   if (moments_.count() == first_) variance_ = moments_.variance();
   const double away = (h_squared_ * variance_ / (tolerance * tolerance) - moments_.count()) * tolerance / 2;
-  if (away <= 0)
-    side_ = sum_ > 0 ? Side::above : Side::below;  // the triangle's tip: no difference that matters
-  else if (std::abs(sum_) >= away)
-    side_ = sum_ < 0 ? Side::below : Side::above;
+  // Beyond the triangle's tip there is no difference that matters.
+  if (std::abs(sum_) >= away) side_ = sum_ > 0 ? Side::above : Side::below;
 }
 
 void LookTest::add(double value) {
