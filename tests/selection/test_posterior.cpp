@@ -25,6 +25,19 @@ std::vector<MadeUpSystem> random_means(std::size_t systems, std::uint64_t seed) 
   return made;
 }
 
+TEST(KnownMean, ItsVarianceIsTheOwnAndTheOthersByTheirDegreesOfFreedom) {
+  Moments three;
+  for (const double value : {1.0, 2.0, 6.0}) three.add(value);  // mean 3, variance 7
+  const KnownMean known = known_mean(three, {6, 3});
+  EXPECT_DOUBLE_EQ(known.mean, 3);
+  EXPECT_DOUBLE_EQ(known.degrees_of_freedom, 8);
+  EXPECT_DOUBLE_EQ(known.variance, (2 * 7.0 + 6 * 3.0) / 8);
+  EXPECT_DOUBLE_EQ(known.error_squared(), 4.0 / 3);
+  const KnownMean alone = known_mean(three, {});
+  EXPECT_DOUBLE_EQ(alone.degrees_of_freedom, 2);
+  EXPECT_DOUBLE_EQ(alone.variance, 7);
+}
+
 TEST(VariancePrior, FindsWhatVariancesWereDrawnFrom) {
   MadeUpChance chance(1);
   const auto of_normal = [&](double deviation, int count) {
