@@ -49,39 +49,49 @@ Motion ForceField::across_boundary(const Grains& discs, double period) {
   return at;
 }
 
+ForceField::PairShare ForceField::pair_share(std::size_t range, std::size_t grains) const {
+  const PairList& pairs = state_.contacts.pairs;
+  const std::size_t ranges = ranges_.size();
+  const auto first_grain = [&](std::size_t k) {
+    if (k == 0) return 0;
+    return k == ranges || pairs.size() == 0 ? static_cast<int>(grains) : pairs.grain[pairs.size() * k / ranges];
+  };
+  const auto first_entry = [&](std::size_t k) {
+    if (k == ranges) return static_cast<int>(pairs.size());
+    return static_cast<int>(std::ranges::lower_bound(pairs.grain, first_grain(k)) - pairs.grain.begin());
+  };
+  return {{first_grain(range), first_grain(range + 1)}, {first_entry(range), first_entry(range + 1)}};
+}
+
+/// Range by range: what is a sum of fractions is added up contact by contact elsewhere, as one thread would.
+void ForceField::add_up_ranges(ContactStatistics& statistics) const {
+  for (const RangeWork& own : ranges_) {
+    statistics.contacts += own.statistics.contacts;
+    statistics.slip_raised += own.statistics.slip_raised;
+    statistics.max_relative_overlap = std::max(statistics.max_relative_overlap, own.statistics.max_relative_overlap);
+    statistics.crossed.insert(statistics.crossed.end(), own.statistics.crossed.begin(), own.statistics.crossed.end());
+  }
+}
+
 /// Each thread takes the rows of a range of grains, whose forces it begins with zero. What they do to grains of earlier
 /// ranges is added afterwards, range by range: a grain's own row first, then the later rows in order, as one thread
 /// would.
 void ForceField::set_pair_forces(const Grains& discs, const Motion& at, const HistoryAdvance& advance, Forces& forces,
                                  ContactStatistics& statistics) {
-  const PairList& pairs = state_.contacts.pairs;
-  ContactHistories& histories = state_.contacts.pair_histories;
   const GrainSurfaces surfaces = surfaces_of(discs);
-  const std::size_t ranges = ranges_.size();
-  const int grains = static_cast<int>(discs.size());
   forces.resize(discs.size());
-  const auto first_grain = [&](std::size_t range) {
-    if (range == 0 || range == ranges) return range == 0 ? 0 : grains;
-    return pairs.size() == 0 ? grains : pairs.grain[pairs.size() * range / ranges];
-  };
-  const auto first_entry = [&](std::size_t range) {
-    if (range == ranges) return static_cast<int>(pairs.size());
-    return static_cast<int>(std::ranges::lower_bound(pairs.grain, first_grain(range)) - pairs.grain.begin());
-  };
   execution_.for_each_range([&](int k) {
     const std::size_t range = static_cast<std::size_t>(k);
-    RangeWork& result = ranges_[range];
-    result.foreign.clear();
-    result.statistics = {};
-    add_pair_forces(pair_kernel_, surfaces, at, pairs, {first_entry(range), first_entry(range + 1)}, model_.contacts,
-                    advance, histories, {first_grain(range), first_grain(range + 1)}, forces, result.foreign,
-                    result.statistics);
+    const PairShare share = pair_share(range, discs.size());
+    RangeWork& own = ranges_[range];
+    own.foreign.clear();
+    own.statistics = {};
+    add_pair_forces(pair_kernel_, surfaces, at, state_.contacts.pairs, share.entries, model_.contacts, advance,
+                    state_.contacts.pair_histories, share.grains, forces, own.foreign, own.statistics);
   });
-  for (const RangeWork& result : ranges_) {
-    statistics.contacts += result.statistics.contacts;
-    statistics.slip_raised += result.statistics.slip_raised;
-    statistics.max_relative_overlap = std::max(statistics.max_relative_overlap, result.statistics.max_relative_overlap);
-    for (const ForeignForce& force : result.foreign) {
+  add_up_ranges(statistics);
+  for (const RangeWork& own : ranges_) {
+    for (const ForeignForce& force : own.foreign) {
       GrainForce& sum = forces[static_cast<std::size_t>(force.grain)];
       sum.fx += force.fx, sum.fy += force.fy, sum.torque += force.torque;
     }
@@ -100,7 +110,10 @@ void ForceField::run_kernels(const Grains& discs, const HistoryAdvance& advance,
                     forces, ranges_.front().foreign, statistics);
   }
   execution_.profile().lap(Phase::pairs);
-  add_wall_forces(discs, at, advance, forces, statistics);
+  const auto add = [&](const WallContacts& touching) {
+    add_wall_forces(touching, model_.kernels->effects.rotation, forces);
+  };
+  add_walls(&RangeWork::walls, discs, walls_.placed(), wall_kernel_, at, advance, add, statistics);
   execution_.profile().lap(Phase::walls);
 }
 
@@ -115,41 +128,11 @@ ForceField::WallRange ForceField::wall_range(std::size_t range) {
   return {from, {all.data() + from, first_of(range + 1) - from}};
 }
 
-/// Range by range: what is a sum is added up contact by contact elsewhere, as one thread would.
-void ForceField::add_up_walls(ContactStatistics& statistics) const {
-  for (const RangeWork& own : ranges_) {
-    statistics.contacts += own.statistics.contacts;
-    statistics.slip_raised += own.statistics.slip_raised;
-    statistics.max_relative_overlap = std::max(statistics.max_relative_overlap, own.statistics.max_relative_overlap);
-    statistics.crossed.insert(statistics.crossed.end(), own.statistics.crossed.begin(), own.statistics.crossed.end());
-  }
-}
-
-/// A grain's walls are all in one range, so its forces are added up alike for any number of ranges.
-void ForceField::add_wall_forces(const Grains& discs, const Motion& at, const HistoryAdvance& advance, Forces& forces,
-                                 ContactStatistics& statistics) {
-  ContactHistories& histories = state_.contacts.wall_histories;
-  const GrainSurfaces surfaces = surfaces_of(discs);
-  execution_.for_each_range([&](int k) {
-    const auto [first, candidates] = wall_range(static_cast<std::size_t>(k));
-    RangeWork& own = ranges_[static_cast<std::size_t>(k)];
-    own.statistics = {};
-    own.wall_finder.find(discs, candidates, first, walls_.placed(), own.walls);
-    own.wall_finder.watch_crossings(candidates, own.statistics.crossed);
-    if (advance.commit > 0) own.wall_finder.clear_parted(histories);
-    add_figures(wall_kernel_(surfaces, at, model_.contacts, advance, histories, own.walls), own.statistics);
-    vibrosow::add_wall_forces(own.walls, model_.kernels->effects.rotation, forces);
-    own.statistics.contacts = own.walls.count;
-  });
-  add_up_walls(statistics);
-  for (const RangeWork& own : ranges_) add_wall_power(own.walls, statistics.wall_power);
-}
-
 /// All of them in one range.
 WallContacts& ForceField::find_wall_contacts(const Grains& discs) {
   RangeWork& only = ranges_.front();
-  only.wall_finder.find(discs, state_.contacts.walls, 0, walls_.placed(), only.walls);
-  return only.walls;
+  only.walls.finder.find(discs, state_.contacts.walls, 0, walls_.placed(), only.walls.contacts);
+  return only.walls.contacts;
 }
 
 void ForceField::evaluate(double time, const HistoryAdvance& advance, ContactStatistics& statistics) {
@@ -195,7 +178,7 @@ Forces ForceField::wall_forces() {
   Forces on_discs(discs.size());
   WallContacts& touching = find_wall_contacts(discs);
   wall_kernel_(surfaces_of(discs), motion_of(discs), model_.contacts, {}, state_.contacts.wall_histories, touching);
-  vibrosow::add_wall_forces(touching, model_.kernels->effects.rotation, on_discs);
+  add_wall_forces(touching, model_.kernels->effects.rotation, on_discs);
   if (!clumps_) return on_discs;
   Forces forces(state_.grains.size());
   clumps_->gather(on_discs, forces);

@@ -84,8 +84,6 @@ class ForceField {
                        ContactStatistics& statistics);
   Motion motion_of(const Grains& discs) const;
   Motion across_boundary(const Grains& discs, double period);
-  void add_wall_forces(const Grains& discs, const Motion& at, const HistoryAdvance& advance, Forces& forces,
-                       ContactStatistics& statistics);
   WallContacts& find_wall_contacts(const Grains& discs);
   void run_kernels(const Grains& discs, const HistoryAdvance& advance, Forces& forces, ContactStatistics& statistics);
   SpaceMotion motion_in_space(const Grains& balls);
@@ -93,8 +91,6 @@ class ForceField {
   void run_kernels_in_space(const Grains& balls, const HistoryAdvance& advance, SpaceForces& forces,
                             ContactStatistics& statistics);
   void set_pair_forces_in_space(const Grains& balls, const SpaceMotion& at, const HistoryAdvance& advance,
-                                SpaceForces& forces, ContactStatistics& statistics);
-  void add_wall_forces_in_space(const Grains& balls, const SpaceMotion& at, const HistoryAdvance& advance,
                                 SpaceForces& forces, ContactStatistics& statistics);
   SpaceWallContacts& find_wall_contacts_in_space(const Grains& balls);
   double elastic_energy_in_space(const Grains& balls);
@@ -122,28 +118,63 @@ class ForceField {
   SpaceWallKernel space_wall_kernel_;
   SpaceForces space_forces_, ball_forces_;
 
+  template <class Finder, class Contacts>
+  struct WallWork {
+    Finder finder;
+    Contacts contacts;
+  };
   /// With what one thread works on its range of pairs or of wall candidates, and what it leaves for the others.
   struct RangeWork {
     std::vector<ForeignForce> foreign;
     std::vector<ForeignSpaceForce> foreign_in_space;
     ContactStatistics statistics;
-    WallContactFinder wall_finder;
-    WallContacts walls;
-    SpaceWallFinder space_wall_finder;
-    SpaceWallContacts space_walls;
+    WallWork<WallContactFinder, WallContacts> walls;
+    WallWork<SpaceWallFinder, SpaceWallContacts> space_walls;
   };
+  /// A thread's grains, and the entries of the list that are theirs.
+  struct PairShare {
+    GrainRange grains;
+    PairRange entries;
+  };
+  PairShare pair_share(std::size_t range, std::size_t grains) const;
   /// Of wall candidates, with its place among them; a grain's are all in one range.
   struct WallRange {
     std::size_t first;
     std::span<WallCandidate> candidates;
   };
   WallRange wall_range(std::size_t range);
-  void add_up_walls(ContactStatistics& statistics) const;
+  void add_up_ranges(ContactStatistics& statistics) const;
+  template <class Work, class Placed, class Kernel, class At, class Add>
+  void add_walls(Work RangeWork::*work, const Grains& grains, const Placed& walls, Kernel kernel, const At& at,
+                 const HistoryAdvance& advance, const Add& add_forces, ContactStatistics& statistics);
 
   std::vector<RangeWork> ranges_;
   std::vector<double> shifted_x_;                     // m, across the periodic boundary
   std::vector<GrainVector> places_, shifted_places_;  // the same of balls in space
   std::vector<BallMotion> motions_;
 };
+
+/// A grain's walls are all in one range, so its forces are added up alike for any number of ranges.
+template <class Work, class Placed, class Kernel, class At, class Add>
+void ForceField::add_walls(Work RangeWork::*work, const Grains& grains, const Placed& walls, Kernel kernel,
+                           const At& at, const HistoryAdvance& advance, const Add& add_forces,
+                           ContactStatistics& statistics) {
+  ContactHistories& histories = state_.contacts.wall_histories;
+  const GrainSurfaces surfaces = surfaces_of(grains);
+  execution_.for_each_range([&](int k) {
+    const auto [first, candidates] = wall_range(static_cast<std::size_t>(k));
+    RangeWork& own = ranges_[static_cast<std::size_t>(k)];
+    auto& [finder, contacts] = own.*work;
+    own.statistics = {};
+    finder.find(grains, candidates, first, walls, contacts);
+    finder.watch_crossings(candidates, own.statistics.crossed);
+    if (advance.commit > 0) finder.clear_parted(histories);
+    add_figures(kernel(surfaces, at, model_.contacts, advance, histories, contacts), own.statistics);
+    add_forces(contacts);
+    own.statistics.contacts = contacts.count;
+  });
+  add_up_ranges(statistics);
+  for (const RangeWork& own : ranges_) add_wall_power((own.*work).contacts, statistics.wall_power);
+}
 
 }  // namespace vibrosow

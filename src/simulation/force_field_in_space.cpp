@@ -45,38 +45,24 @@ SpaceMotion ForceField::motion_of_image(const SpaceMotion& at, const Neighbours:
 /// As in the plane, range by range.
 void ForceField::set_pair_forces_in_space(const Grains& balls, const SpaceMotion& at, const HistoryAdvance& advance,
                                           SpaceForces& all, ContactStatistics& statistics) {
-  const PairList& pairs = state_.contacts.pairs;
   const GrainSurfaces surfaces = surfaces_of(balls);
-  const std::size_t ranges = ranges_.size(), grains = balls.size();
-  all.forces.resize(grains), all.torques.resize(model_.kernels->effects.rotation ? grains : 0);
-  const auto first_grain = [&](std::size_t range) {
-    if (range == 0 || range == ranges) return range == 0 ? std::size_t{0} : grains;
-    return pairs.size() == 0 ? grains : static_cast<std::size_t>(pairs.grain[pairs.size() * range / ranges]);
-  };
-  const auto first_entry = [&](std::size_t range) {
-    if (range == ranges) return static_cast<int>(pairs.size());
-    return static_cast<int>(std::ranges::lower_bound(pairs.grain, static_cast<int>(first_grain(range))) -
-                            pairs.grain.begin());
-  };
+  all.forces.resize(balls.size()), all.torques.resize(model_.kernels->effects.rotation ? balls.size() : 0);
   execution_.for_each_range([&](int k) {
-    const std::size_t range = static_cast<std::size_t>(k), from = first_grain(range), to = first_grain(range + 1);
+    const std::size_t range = static_cast<std::size_t>(k);
+    const auto [own_grains, entries] = pair_share(range, balls.size());
     RangeWork& own = ranges_[range];
     own.foreign_in_space.clear();
     own.statistics = {};
     for (std::vector<GrainVector>* sums : {&all.forces, &all.torques})
-      if (!sums->empty())
-        std::fill(sums->begin() + static_cast<std::ptrdiff_t>(from), sums->begin() + static_cast<std::ptrdiff_t>(to),
-                  GrainVector{});
+      if (!sums->empty()) std::fill(sums->begin() + own_grains.from, sums->begin() + own_grains.to, GrainVector{});
     SpacePairResult result;
     result.forces = all.forces.data(), result.torques = all.torques.data();
-    result.first_own = static_cast<int>(from);
-    add_pairs(space_pair_kernel_, surfaces, at, pairs, {first_entry(range), first_entry(range + 1)}, model_.contacts,
-              advance, state_.contacts.pair_histories, result, own.foreign_in_space, own.statistics);
+    result.first_own = own_grains.from;
+    add_pairs(space_pair_kernel_, surfaces, at, state_.contacts.pairs, entries, model_.contacts, advance,
+              state_.contacts.pair_histories, result, own.foreign_in_space, own.statistics);
   });
+  add_up_ranges(statistics);
   for (const RangeWork& own : ranges_) {
-    statistics.contacts += own.statistics.contacts;
-    statistics.slip_raised += own.statistics.slip_raised;
-    statistics.max_relative_overlap = std::max(statistics.max_relative_overlap, own.statistics.max_relative_overlap);
     for (const ForeignSpaceForce& foreign : own.foreign_in_space) {
       const std::size_t i = static_cast<std::size_t>(foreign.grain);
       GrainVector& force = all.forces[i];
@@ -102,35 +88,18 @@ void ForceField::run_kernels_in_space(const Grains& balls, const HistoryAdvance&
               ranges_.front().foreign_in_space, statistics);
   }
   execution_.profile().lap(Phase::pairs);
-  add_wall_forces_in_space(balls, at, advance, all, statistics);
+  const auto add = [&](const SpaceWallContacts& touching) {
+    add_wall_forces(touching, model_.kernels->effects.rotation, all.forces, all.torques);
+  };
+  add_walls(&RangeWork::space_walls, balls, walls_.placed_faces(), space_wall_kernel_, at, advance, add, statistics);
   execution_.profile().lap(Phase::walls);
-}
-
-/// As in the plane.
-void ForceField::add_wall_forces_in_space(const Grains& balls, const SpaceMotion& at, const HistoryAdvance& advance,
-                                          SpaceForces& all, ContactStatistics& statistics) {
-  ContactHistories& histories = state_.contacts.wall_histories;
-  const GrainSurfaces surfaces = surfaces_of(balls);
-  execution_.for_each_range([&](int k) {
-    const auto [first, candidates] = wall_range(static_cast<std::size_t>(k));
-    RangeWork& own = ranges_[static_cast<std::size_t>(k)];
-    own.statistics = {};
-    own.space_wall_finder.find(balls, candidates, first, walls_.placed_faces(), own.space_walls);
-    own.space_wall_finder.watch_crossings(candidates, own.statistics.crossed);
-    if (advance.commit > 0) own.space_wall_finder.clear_parted(histories);
-    add_figures(space_wall_kernel_(surfaces, at, model_.contacts, advance, histories, own.space_walls), own.statistics);
-    vibrosow::add_wall_forces(own.space_walls, model_.kernels->effects.rotation, all.forces, all.torques);
-    own.statistics.contacts = own.space_walls.count;
-  });
-  add_up_walls(statistics);
-  for (const RangeWork& own : ranges_) add_wall_power(own.space_walls, statistics.wall_power);
 }
 
 /// All of them in one range.
 SpaceWallContacts& ForceField::find_wall_contacts_in_space(const Grains& balls) {
   RangeWork& only = ranges_.front();
-  only.space_wall_finder.find(balls, state_.contacts.walls, 0, walls_.placed_faces(), only.space_walls);
-  return only.space_walls;
+  only.space_walls.finder.find(balls, state_.contacts.walls, 0, walls_.placed_faces(), only.space_walls.contacts);
+  return only.space_walls.contacts;
 }
 
 double ForceField::elastic_energy_in_space(const Grains& balls) {
@@ -154,7 +123,7 @@ std::vector<GrainVector> ForceField::wall_forces_in_space() {
   SpaceWallContacts& touching = find_wall_contacts_in_space(balls);
   space_wall_kernel_(surfaces_of(balls), motion_in_space(balls), model_.contacts, {}, state_.contacts.wall_histories,
                      touching);
-  vibrosow::add_wall_forces(touching, model_.kernels->effects.rotation, forces, torques);
+  add_wall_forces(touching, model_.kernels->effects.rotation, forces, torques);
   return forces;
 }
 
