@@ -33,6 +33,7 @@ struct Evaluation {
   bool finished = false;
   std::string reason;                 // why it was refused or stopped by the guard, or ended early
   std::vector<std::string> warnings;  // of the guard
+  bool outside_the_model = false;     // it went on past the guard's usual limits: nothing is to be decided by it
   double end_time = 0;                // s
   Balance balance;
   std::vector<HoleOutflow> holes;  // by hole and lot, the last row of all; empty where refused

@@ -27,6 +27,7 @@
 #include "scene/input_error.hpp"
 #include "scene/integrator_names.hpp"
 #include "simulation/simulate.hpp"
+#include "storage/case_folder.hpp"
 #include "storage/study_plan.hpp"
 #include "units/quantity.hpp"
 
@@ -254,7 +255,8 @@ int run_promise(const AccuracyOptions& options) {
     if (options.common.quiet) return;
     complain(cpu_time > 0 ? fmt::format("{}: some {}", what, duration_text(cpu_time / jobs)) : what);
   };
-  tell("a first round of pilots", foreseen);
+  const bool goes_on = !goal.cpu_time && !CaseFolder(cases_of(folder.path())).names().empty();
+  tell(goes_on ? "a first round of pilots, but for those that are kept" : "a first round of pilots", foreseen);
   const std::atomic<bool>& interrupt = watch_for_interrupt();
   StudyRuns runs(cases_of(folder.path()));
   // What a budget buys is measured by runs that are made now.

@@ -73,7 +73,7 @@ std::optional<Flow> flow_of(const CalibrationDesign& design, std::size_t conditi
     if (evaluation.status == EvaluationStatus::not_begun || evaluation.status == EvaluationStatus::interrupted)
       return std::nullopt;
     const HoleOutflow* all = find_row(evaluation.outflow, "all", "all");
-    if (!evaluation.finished() || all == nullptr || !(all->mass_rate > 0)) continue;
+    if (!evaluation.is_sound() || all == nullptr || !(all->mass_rate > 0)) continue;
     points.push_back(run.point);
     rates.push_back(all->mass_rate);
     seeds += all->seeds_per_s * depth_of(evaluation);

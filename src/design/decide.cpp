@@ -145,7 +145,7 @@ SceneDecision StudyDecision::figures_of(std::size_t scene) const {
   for (const Evaluation& run : runs_.runs()[scene]) {
     ++figures.runs;
     figures.clogged += has_clogged(run);
-    if (!run.finished() || has_clogged(run)) continue;
+    if (!run.is_sound() || has_clogged(run)) continue;
     if (const auto goal = options_.goal->of(run.outflow))
       goal_values.push_back(options_.goal->is_most ? -*goal : *goal);
     if (const auto rate = rate_of(run.outflow)) rates.push_back(*rate);
@@ -161,7 +161,7 @@ std::vector<std::vector<double>> StudyDecision::goals_by_run() const {
   for (const std::size_t scene : systems_) {
     values.emplace_back();
     for (const Evaluation& run : runs_.runs()[scene]) {
-      const bool flowed = run.finished() && !has_clogged(run);
+      const bool flowed = run.is_sound() && !has_clogged(run);
       values.back().push_back(flowed ? options_.goal->of(run.outflow).value_or(none) : none);
     }
   }

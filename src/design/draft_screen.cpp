@@ -71,7 +71,7 @@ std::vector<PlannedRun> DraftScreen::plan() const {
 std::optional<double> DraftScreen::mean_of(const SceneRuns& of, std::size_t scene) const {
   Moments moments;
   for (const Evaluation& run : of.runs()[scene]) {
-    if (!run.finished()) return std::nullopt;
+    if (!run.is_sound()) return std::nullopt;
     if (has_clogged(run)) continue;
     const auto goal = options_.goal->of(run.outflow);
     if (!goal) return std::nullopt;

@@ -63,6 +63,8 @@ struct Evaluation {
   double cpu_time = 0;                   // s, of the thread that ran it
 
   bool finished() const { return status == EvaluationStatus::finished; }
+  /// Whether something may be decided by it.
+  bool is_sound() const { return finished() && !outside_the_model; }
   /// Whether there was a run, so that the figures mean something.
   bool was_run() const { return status != EvaluationStatus::not_begun && status != EvaluationStatus::refused; }
 };

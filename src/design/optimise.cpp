@@ -239,7 +239,7 @@ FrontLayout StudyOptimisation::layout_result(std::size_t layout, FrontStanding s
   }
   std::vector<double> rates;
   for (std::size_t r = 0; r < static_cast<std::size_t>(result.runs); ++r)
-    if (const Evaluation& run = evaluation(Variant::as_it_is, place, r); run.finished() && !has_clogged(run))
+    if (const Evaluation& run = evaluation(Variant::as_it_is, place, r); run.is_sound() && !has_clogged(run))
       rates.push_back(rate_as(Variant::as_it_is, place, r));
   if (!rates.empty()) result.rate = mean_with_interval(rates);
   return result;

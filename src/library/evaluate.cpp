@@ -20,6 +20,7 @@ Evaluation converted(const vibrosow::Evaluation& own) {
   Evaluation evaluation{.finished = own.finished(),
                         .reason = reason_of(own),
                         .warnings = own.warnings,
+                        .outside_the_model = own.outside_the_model,
                         .end_time = own.end_time,
                         .balance = converted(own.balance),
                         .holes = {},

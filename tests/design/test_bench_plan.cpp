@@ -37,10 +37,11 @@ class BenchPlanOf : public testing::Test {
     task_.keys = {parse_fitted_key("contact.friction=0.1..0.8"), parse_fitted_key("contact.restitution=0.2..0.9")};
     task_.measured.table = bench_candidates({parse_setting("tray.holes.width=12 mm..20 mm")});
   }
-  BenchPlan plan(const BenchLimits& limits, MeasuredScale scale = MeasuredScale::none) {
+  BenchPlan plan(const BenchLimits& limits, MeasuredScale scale = MeasuredScale::none,
+                 const Simulator& simulator = made_up_run) {
     task_.measured.scale = scale;
     const CalibrationDesign design = design_calibration(task_, std::make_shared<SourceFiles>());
-    return *plan_bench(task_, design, limits, made_up_run);
+    return *plan_bench(task_, design, limits, simulator);
   }
   StudyFiles files_;
   CalibrationTask task_;
@@ -53,6 +54,17 @@ TEST_F(BenchPlanOf, TakesFirstWhatTellsMost) {
   EXPECT_GT(all.contraction[0], 0.9);
   EXPECT_LT(all.contraction[1], 0.2);
   EXPECT_EQ(all.repeats, 3);
+}
+
+TEST_F(BenchPlanOf, LeavesRunsOutsideTheModelOut) {
+  const auto quarter_outside = [](const Model& model, const SimulationOptions& options) {
+    vibrosow::Run run = made_up_run(model, options);
+    run.outside_the_model = model.scene.contact.seed.friction > 0.6;
+    if (run.outside_the_model) run.events.resize(run.events.size() / 4);
+    return run;
+  };
+  const double sound = plan({}).candidates[0].mass_rate;
+  EXPECT_NEAR(plan({}, MeasuredScale::none, quarter_outside).candidates[0].mass_rate, sound, 0.1 * sound);
 }
 
 /// With an unknown factor one condition alone tells nothing: the two that differ most do.

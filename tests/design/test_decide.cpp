@@ -162,6 +162,35 @@ TEST(Decide, FailuresInvalidAndEqualLayoutsAreSaid) {
   EXPECT_THAT(csv, HasSubstr("\n8,,invalid,"));
 }
 
+/// The widest gives most, but by runs that nothing is to be decided by.
+TEST(Decide, NothingByRunsOutsideTheModel) {
+  const StudyFiles files;
+  const Study study = widths(files);
+  const Simulator third_of_the_widest = [](const Model& model, const SimulationOptions& options) {
+    vibrosow::Run run = noisy_run(model, options);
+    run.outside_the_model = model.scene.tray.holes[0].width > 0.0135 && options.random_seed % 3 == 0;
+    return run;
+  };
+  for (const SelectionRule rule : {SelectionRule::guaranteed, SelectionRule::posterior}) {
+    DecideOptions options = most_flow();
+    options.rule = rule;
+    StudyDecision decision(study, options);
+    const DecisionReport report = lead(decision, third_of_the_widest);
+    EXPECT_EQ(report.result.best, 1u);
+    EXPECT_EQ(report.result.scenes[2].standing, Standing::failed);
+    EXPECT_THAT(decision_csv(report), HasSubstr("\n3,,failed,random seed 3: outside the model,"));
+  }
+  const Simulator whole_of_the_widest = [](const Model& model, const SimulationOptions& options) {
+    vibrosow::Run run = noisy_run(model, options);
+    run.outside_the_model = model.scene.tray.holes[0].width > 0.0135;
+    return run;
+  };
+  StudyDecision decision(study, most_flow());
+  const DecisionResult result = lead(decision, whole_of_the_widest).result;
+  EXPECT_FALSE(result.scenes[2].goal);
+  EXPECT_FALSE(result.scenes[2].rate);
+}
+
 TEST(Decide, RefusesWhatCannotBeDecided) {
   const StudyFiles files;
   const Study alone = read_study(files.study("title = \"alone\"\n"));
@@ -238,6 +267,19 @@ TEST_F(Drafts, ThatAreNotDecideNothing) {
   EXPECT_FALSE(findings.screens);
   EXPECT_EQ(findings.cost.runs, DraftScreen::pilots * DraftScreen::runs);
   EXPECT_THAT(findings.taking_part, testing::Each(true));
+}
+
+TEST_F(Drafts, OutsideTheModelRuleNothingOut) {
+  const Study all = study();
+  DraftScreen screen(all, most_flow());
+  const DraftFindings findings = findings_of(screen, [](const Model& model, const SimulationOptions& options) {
+    vibrosow::Run run = run_of(model, options, (is_draft(model) ? 0.9 : 1.0) * mean_seeds(model.scene), 4);
+    run.outside_the_model = is_draft(model) && model.scene.tray.holes[0].width < 0.0105;
+    return run;
+  });
+  EXPECT_TRUE(findings.screens);
+  EXPECT_TRUE(findings.taking_part[0]);
+  EXPECT_FALSE(findings.taking_part[1]);
 }
 
 TEST_F(Drafts, OfDraftsAreRefused) {
