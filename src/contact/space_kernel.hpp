@@ -24,7 +24,8 @@ struct SpaceBlock {
   alignas(64) double torque_x[size], torque_y[size], torque_z[size];     // N m, on the grain
   alignas(64) double partner_x[size], partner_y[size], partner_z[size];  // N m, on the partner
 
-  int whole_vectors() const { return (touching + spare - 1) & -spare; }
+  /// Of eight, the longest vectors that there are.
+  int whole_vectors() const { return (touching + 7) & -8; }
 };
 
 inline void fill_up(SpaceBlock& block) {
