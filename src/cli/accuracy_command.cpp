@@ -253,7 +253,8 @@ int run_promise(const AccuracyOptions& options) {
   refuse_small_budget(goal, foreseen, jobs);
   const auto tell = [&](const std::string& what, double cpu_time) {
     if (options.common.quiet) return;
-    complain(cpu_time > 0 ? fmt::format("{}: some {}", what, duration_text(cpu_time / jobs)) : what);
+    const bool worth_telling = cpu_time / jobs >= 0.5;  // s; less is told as 0
+    complain(worth_telling ? fmt::format("{}: some {}", what, duration_text(cpu_time / jobs)) : what);
   };
   const bool goes_on = !goal.cpu_time && !CaseFolder(cases_of(folder.path())).names().empty();
   tell(goes_on ? "a first round of pilots, but for those that are kept" : "a first round of pilots", foreseen);

@@ -191,6 +191,12 @@ bool interrupted(const std::vector<AccuracyRun>& runs) {
   return std::ranges::any_of(runs, [](const AccuracyRun& run) { return run.refused == interrupted_run; });
 }
 
+std::string why_no_fit(const std::vector<AccuracyRun>& pilots) {
+  if (interrupted(pilots)) return interrupted_run;
+  const auto stood_still = [](const AccuracyRun& run) { return run.mass_rate == 0.0; };
+  return std::ranges::all_of(pilots, stood_still) ? "nothing flows" : "too few of the pilots have a rate";
+}
+
 void make_pilots(Promise& made, const std::vector<SettingRuns>& pilots, const RunSettings& run) {
   add(made.runs, run(pilots));
   made.pilots = made.runs.size();
@@ -213,7 +219,7 @@ Promise promise(const PromiseChoices& choices, const PromiseGoal& goal, const Ru
       make_pilots(made, more, run);
     }
   if (!made.fit) {
-    made.refused = interrupted(made.runs) ? interrupted_run : "too few of the pilots have a rate";
+    made.refused = why_no_fit(made.runs);
     return made;
   }
   made.offer = best_offer(chooser, goal, made.pilot_cpu_time);

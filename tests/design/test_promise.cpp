@@ -130,6 +130,21 @@ TEST(Promise, InterruptedPilotsPromiseNothing) {
   EXPECT_EQ(made.refused, interrupted_run);
 }
 
+TEST(Promise, SaysWhenNothingFlows) {
+  MadeUpRuns tray({});
+  const auto run = [&](const std::vector<SettingRuns>& wanted, auto change) {
+    std::vector<AccuracyRun> runs = tray.run(choices().design.settings, wanted);
+    for (AccuracyRun& one : runs) change(one);
+    return runs;
+  };
+  const auto refused = [&](auto change) {
+    return promise(choices(), {.within_percent = 3}, [&](const auto& wanted) { return run(wanted, change); }).refused;
+  };
+  EXPECT_EQ(refused([](AccuracyRun& one) { one.mass_rate = 0; }), "nothing flows");
+  EXPECT_EQ(refused([](AccuracyRun& one) { one.mass_rate.reset(), one.refused = "too deep"; }),
+            "too few of the pilots have a rate");
+}
+
 TEST(Promise, TellsWhatEachStageCostsBeforeItIsRun) {
   const PromiseChoices from = choices();
   MadeUpRuns runs({});
