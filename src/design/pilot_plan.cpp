@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 namespace vibrosow {
 namespace {
@@ -28,9 +29,8 @@ class Path {
   double spent() const { return spent_; }
   const std::vector<int>& pilots() const { return pilots_; }
 
-  double bias_bound() const {
-    return std::abs(basis_.fit.error(setting_).percent) + basis_.fit.band_with(setting_, covariance_);
-  }
+  double band() const { return basis_.fit.band_with(setting_, covariance_); }
+  double bias_bound() const { return std::abs(basis_.fit.error(setting_).percent) + band(); }
 
   /// Cost of all runs that bring the error below `percent`; infinite where none do.
   double cost_within(double percent) const {
@@ -73,6 +73,17 @@ class Path {
   double spent_ = 0;
 };
 
+/// Whether a setting might be shown to be within `percent` were its error as small as its band allows.
+bool may_be_within(const PilotBasis& basis, std::size_t setting, double percent) {
+  if (!(basis.costs[setting] > 0)) return false;
+  const RateError error = basis.fit.error(setting);
+  const double least = std::max(0.0, std::abs(error.percent) - error.band);
+  Path path(basis, setting);
+  for (int pilots = 0; pilots < most_pilots; ++pilots) path.add_one();
+  const double left = percent - least - path.band();
+  return left > 0 && std::pow(basis.half_width_of_run / left, 2) <= most_replicates;
+}
+
 }  // namespace
 
 std::vector<int> plan_pilots(const PilotBasis& basis, const PromiseGoal& goal) {
@@ -88,6 +99,17 @@ std::vector<int> plan_pilots(const PilotBasis& basis, const PromiseGoal& goal) {
     }
   }
   return best.pilots;
+}
+
+std::vector<int> plan_further_pilots(const PilotBasis& basis, double percent, double spent) {
+  std::optional<std::size_t> best;
+  const auto size = [&](std::size_t setting) { return std::abs(basis.fit.error(setting).percent); };
+  for (std::size_t setting = 0; setting < basis.costs.size(); ++setting)
+    if (may_be_within(basis, setting, percent) && (!best || size(setting) < size(*best))) best = setting;
+  if (!best) return std::vector<int>(basis.costs.size(), 0);
+  Path path(basis, *best);
+  for (int pilots = 0; pilots < most_pilots && path.spent() < spent; ++pilots) path.add_one();
+  return path.pilots();
 }
 
 }  // namespace vibrosow

@@ -9,7 +9,7 @@
 namespace vibrosow {
 namespace {
 
-constexpr int most_replicates = 2000;
+constexpr int most_further_rounds = 5;  // each takes as long as all before it
 
 double cpu_time_of(const std::vector<AccuracyRun>& runs) {
   double sum = 0;
@@ -155,16 +155,27 @@ std::optional<Offer> best_offer(const Chooser& chooser, const PromiseGoal& goal,
 }
 
 /// Costs in the goal's own measure: work, or s of CPU time.
-std::vector<SettingRuns> more_pilots(const Chooser& chooser, const PromiseGoal& goal, const Promise& made) {
+PilotBasis basis_of(const Chooser& chooser, const PromiseGoal& goal, const Promise& made) {
   PilotBasis basis{.fit = *made.fit, .half_width_of_run = chooser.half_width_of_run()};
   for (std::size_t i = 0; i < made.settings.size(); ++i) {
     const std::optional<Cost> cost = chooser.cost_of_run(i);
     basis.costs.push_back(cost ? (goal.cpu_time ? cost->cpu_time : cost->work) : 0);
     basis.made.push_back(chooser.pilots_of(i, 1));
   }
+  return basis;
+}
+
+std::vector<SettingRuns> more_pilots(const Chooser& chooser, const PromiseGoal& goal, const Promise& made) {
   PromiseGoal left = goal;
   if (left.cpu_time) *left.cpu_time -= made.pilot_cpu_time;
-  return runs_of(plan_pilots(basis, left));
+  return runs_of(plan_pilots(basis_of(chooser, goal, made), left));
+}
+
+/// Where no setting is within a goal of an error: what leads there as it looks now, or else tells whether any may be.
+std::vector<SettingRuns> further_pilots(const Chooser& chooser, const PromiseGoal& goal, const Promise& made) {
+  const std::vector<SettingRuns> planned = more_pilots(chooser, goal, made);
+  if (!planned.empty()) return planned;
+  return runs_of(plan_further_pilots(basis_of(chooser, goal, made), *goal.within_percent, work_of(made)));
 }
 
 void tell_cost_of_pilots(const Chooser& chooser, const std::vector<SettingRuns>& pilots, const TellCost& tell) {
@@ -213,16 +224,22 @@ Promise promise(const PromiseChoices& choices, const PromiseGoal& goal, const Ru
   made.settings = choices.design.settings;
   make_pilots(made, runs_of(choices.design.runs), run);
   const Chooser chooser(choices, made);
-  if (made.fit)
-    if (const std::vector<SettingRuns> more = more_pilots(chooser, goal, made); !more.empty()) {
-      tell_cost_of_pilots(chooser, more, tell);
-      make_pilots(made, more, run);
-    }
+  const auto make_more = [&](const std::vector<SettingRuns>& more) {
+    if (more.empty()) return false;
+    tell_cost_of_pilots(chooser, more, tell);
+    make_pilots(made, more, run);
+    return made.fit.has_value();
+  };
+  if (made.fit) make_more(more_pilots(chooser, goal, made));
+  if (made.fit) made.offer = best_offer(chooser, goal, made.pilot_cpu_time);
+  for (int round = 0; made.fit && !made.offer && goal.within_percent && round < most_further_rounds; ++round) {
+    if (!make_more(further_pilots(chooser, goal, made))) break;
+    made.offer = best_offer(chooser, goal, made.pilot_cpu_time);
+  }
   if (!made.fit) {
     made.refused = why_no_fit(made.runs);
     return made;
   }
-  made.offer = best_offer(chooser, goal, made.pilot_cpu_time);
   if (goal.within_percent) made.finest = chooser.within(finest(made.settings), 1, *goal.within_percent);
   if (!made.offer) {
     const double spent = work_of(made);

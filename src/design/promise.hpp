@@ -38,7 +38,6 @@ struct Promise {
   std::vector<AccuracySetting> settings;
   std::vector<AccuracyRun> runs;                   // pilots first
   std::size_t pilots = 0;                          // how many of the runs
-  int rounds = 0;                                  // of pilots
   std::optional<ErrorFit> fit;                     // of the pilots
   std::optional<Offer> offer;                      // what was chosen and run
   std::optional<Offer> least;                      // where nothing was chosen: the smallest error within reach
@@ -55,13 +54,14 @@ using RunSettings = std::function<std::vector<AccuracyRun>(const std::vector<Set
 using TellCost = std::function<void(int runs, double cpu_time)>;
 
 /// In three stages. A round of pilots, of which main effects and scatter are fitted. As many more pilots as make the
-/// whole cheapest (plan_pilots). Then, of all settings, windows and numbers of runs whose |bias| is bounded by its
-/// upper 95 % bound, simultaneous over the settings, plus a half width of t s / sqrt(n) with the pilots' s (Stein's
-/// two-stage rule: n is fixed before the runs are made), the one within the goal whose runs would be the least work
-/// if made afresh, as they are for every further layout. The finest setting is
-/// one of them, and a setting's own pilots count among its runs. Work is counted in grain-steps, so no clock decides;
-/// only a goal of CPU time asks one, and wants every run made now. Interrupted or refused runs leave the promise
-/// without an offer. Throws std::invalid_argument unless the goal is one of the two.
+/// whole cheapest (plan_pilots); where no setting is within the goal by then and some may yet be, the pilots are
+/// doubled (plan_further_pilots) and that is planned anew, five times at most. Then, of all settings, windows and
+/// numbers of runs whose |bias| is bounded by its upper 95 % bound, simultaneous over the settings, plus a half width
+/// of t s / sqrt(n) with the pilots' s (Stein's two-stage rule: n is fixed before the runs are made), the one within
+/// the goal whose runs would be the least work if made afresh, as they are for every further layout. The finest setting
+/// is one of them, and a setting's own pilots count among its runs. Work is counted in grain-steps, so no clock
+/// decides; only a goal of CPU time asks one, and wants every run made now. Interrupted or refused runs leave the
+/// promise without an offer. Throws std::invalid_argument unless the goal is one of the two.
 Promise promise(const PromiseChoices& choices, const PromiseGoal& goal, const RunSettings& run,
                 const TellCost& tell = {});
 

@@ -53,6 +53,29 @@ TEST(Promise, AtLeast95PercentAreKept) {
   }
 }
 
+/// By so few and so scattered pilots every setting often looks as if it erred by more than is wanted.
+TEST(Promise, GoesOnWhereTheFirstPilotsCannotTell) {
+  const Kept count = promises_kept({.by_softness = 2, .by_step = 0.2, .scatter = 3}, 1, choices());
+  EXPECT_GE(count.kept, 0.95 * count.made) << count.made;
+  EXPECT_GE(count.made, trays * 9 / 10);
+}
+
+/// What the finest setting is far beyond, and what chance would take thousands of runs to tell, is given up at once.
+TEST(Promise, TakesNoFurtherPilotsForWhatIsOutOfReach) {
+  const auto rounds = [](const MadeUpTray& tray, double percent) {
+    MadeUpRuns runs(tray);
+    int count = 0;
+    const Promise made = promise(choices(), {.within_percent = percent}, [&](const std::vector<SettingRuns>& wanted) {
+      ++count;
+      return runs.run(choices().design.settings, wanted);
+    });
+    EXPECT_FALSE(made.offer);
+    return count;
+  };
+  EXPECT_EQ(rounds({.by_softness = 60, .by_step = 60, .scatter = 0.1}, 0.02), 1);
+  EXPECT_EQ(rounds({.by_softness = 1, .scatter = 40}, 1), 1);
+}
+
 TEST(Promise, InteractionsOfSoftAndCoarseBreakNoPromises) {
   const Kept count = promises_kept({.by_interaction = 4}, 3, choices());
   EXPECT_GE(count.kept, 0.95 * count.made) << count.made;
