@@ -202,10 +202,23 @@ Bare bare_of(const Model& model, const GrainKind& kind) {
           model.step.dt};
 }
 
-/// A state with both kernels, each with histories and sums of its own.
-class Plane {
+/// A state, and what both kernels are given of it.
+class Given {
+ protected:
+  Given(const Model& model, const SimulationState& state) : model_(model), state_(state) {}
+
+  const Model& model_;
+  const SimulationState& state_;
+  const Grains& grains_ = state_.grains;
+  const PairList& list_ = state_.contacts.pairs;
+  const Bare constants_ = bare_of(model_, grains_.kinds.front());
+  const HistoryAdvance advance_{.trial = constants_.dt, .commit = constants_.dt, .present = 0.5};
+};
+
+/// Both kernels on it, each with histories and sums of its own.
+class Plane : Given {
  public:
-  Plane(const Model& model, const SimulationState& state) : model_(model), state_(state) {}
+  Plane(const Model& model, const SimulationState& state) : Given(model, state) {}
 
   long ours() {
     ContactStatistics statistics;
@@ -228,12 +241,6 @@ class Plane {
   }
 
  private:
-  const Model& model_;
-  const SimulationState& state_;
-  const Grains& grains_ = state_.grains;
-  const PairList& list_ = state_.contacts.pairs;
-  const Bare constants_ = bare_of(model_, grains_.kinds.front());
-  const HistoryAdvance advance_{.trial = constants_.dt, .commit = constants_.dt, .present = 0.5};
   const Motion at_{grains_.x.data(),  grains_.y.data(),     grains_.vx.data(),
                    grains_.vy.data(), grains_.omega.data(), grains_.x.data()};
   const PairKernel kernel_ = model_.kernels->vectors[static_cast<std::size_t>(best_instruction_set())].pair;
@@ -243,9 +250,9 @@ class Plane {
 };
 
 /// The same in space.
-class InSpace {
+class InSpace : Given {
  public:
-  InSpace(const Model& model, const SimulationState& state) : model_(model), state_(state) {
+  InSpace(const Model& model, const SimulationState& state) : Given(model, state) {
     for (std::size_t i = 0; i < grains_.size(); ++i) {
       places_.push_back({grains_.x[i], grains_.y[i], grains_.z[i], 0});
       motions_.push_back({{grains_.vx[i], grains_.vy[i], grains_.vz[i], 0},
@@ -282,12 +289,6 @@ class InSpace {
   }
 
  private:
-  const Model& model_;
-  const SimulationState& state_;
-  const Grains& grains_ = state_.grains;
-  const PairList& list_ = state_.contacts.pairs;
-  const Bare constants_ = bare_of(model_, grains_.kinds.front());
-  const HistoryAdvance advance_{.trial = constants_.dt, .commit = constants_.dt, .present = 0.5};
   const SpacePairKernel kernel_ = model_.kernels->in_space[static_cast<std::size_t>(best_instruction_set())].pair;
   std::vector<GrainVector> places_;
   std::vector<BallMotion> motions_;

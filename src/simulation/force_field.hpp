@@ -118,6 +118,7 @@ class ForceField {
   SpaceWallKernel space_wall_kernel_;
   SpaceForces space_forces_, ball_forces_;
 
+  /// A finder of contacts with walls, and those that it found.
   template <class Finder, class Contacts>
   struct WallWork {
     Finder finder;
