@@ -111,7 +111,7 @@ struct Three {
   return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
 
-/// The same in space: springs and normals of all pairs lie side by side, nine numbers each.
+/// The same in space: springs and normals of all pairs, touching or not, lie side by side, nine numbers each.
 long bare_kernel_in_space(const Bare& c, const Grains& g, const PairList& list, std::vector<double>& records,
                           SpaceForces& sums) {
   constexpr int block = 256;
@@ -260,6 +260,10 @@ class InSpace : Given {
     }
     sums_.forces.resize(grains_.size()), sums_.torques.resize(grains_.size());
     bare_sums_ = sums_;
+    const std::size_t length = histories_.kinds.record_length();
+    bare_records_.resize(length * list_.size());
+    for (std::size_t k = 0; k < list_.size(); ++k)
+      if (histories_.has_history(k)) std::copy_n(histories_.record(k), length, &bare_records_[length * k]);
   }
 
   long ours() {
@@ -294,7 +298,7 @@ class InSpace : Given {
   std::vector<BallMotion> motions_;
   SpacePairResult result_;
   ContactHistories histories_ = state_.contacts.pair_histories;
-  std::vector<double> bare_records_ = histories_.records;
+  std::vector<double> bare_records_;
   SpaceForces sums_, bare_sums_;
 };
 

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
+#include <utility>
 #include <vector>
 
 namespace vibrosow {
@@ -24,39 +26,62 @@ struct HistoryKinds {
 };
 
 /// Histories of touching contacts, one entry a candidate of a list; all zero where nothing touches. In the plane a
-/// column for each number, empty where its effect is absent; in space a record for each candidate, seen from the pair's
-/// first grain.
+/// column for each number, empty where its effect is absent; in space a record for each candidate that touches, seen
+/// from the pair's first grain. Those of a block of candidates lie side by side at the block's first places once a step
+/// has stored them, as most candidates touch nothing: records between them would be fetched for nothing.
 struct ContactHistories {
+  static constexpr int no_record = -1;
+
   std::vector<double> slip, slip_speed, roll, roll_speed;
-  std::vector<double> records;         // HistoryKinds::record_length() numbers each
+  std::vector<double> records;         // HistoryKinds::record_length() numbers each, with room for one a candidate
+  std::vector<int> place;              // of a candidate's record among these, or no_record: then all is zero
   std::vector<unsigned char> touched;  // 1 where there may be a history
   HistoryKinds kinds;                  // which of these are filled; set by `resize`
 
   bool has_history(std::size_t k) const {
     return (!slip.empty() && (slip[k] != 0 || slip_speed[k] != 0)) ||
-           (!roll.empty() && (roll[k] != 0 || roll_speed[k] != 0)) || (!records.empty() && touched[k]);
+           (!roll.empty() && (roll[k] != 0 || roll_speed[k] != 0)) || (!place.empty() && place[k] != no_record);
   }
 
   void clear() {
     for (std::vector<double>* column : {&slip, &slip_speed, &roll, &roll_speed, &records}) column->clear();
+    place.clear();
     touched.clear();
   }
 
+  /// Those that are new have no history.
   void resize(std::size_t candidates, HistoryKinds of) {
     kinds = of;
     const bool columns = !of.in_space;
     slip.resize(columns && of.slip ? candidates : 0), slip_speed.resize(slip.size());
     roll.resize(columns && of.roll ? candidates : 0), roll_speed.resize(roll.size());
     records.resize(candidates * of.record_length());
+    place.resize(of.in_space && of.any() ? candidates : 0, no_record);
     touched.resize(of.any() ? candidates : 0);
   }
 
-  /// Entry `k` becomes entry `from_entry` of `from`, which has the same kinds, and counts as touched.
+  /// The record of entry `k`, which has one.
+  double* record(std::size_t k) { return records.data() + static_cast<std::size_t>(place[k]) * kinds.record_length(); }
+  const double* record(std::size_t k) const {
+    return records.data() + static_cast<std::size_t>(place[k]) * kinds.record_length();
+  }
+
+  /// Every entry that has been touched has its record at its own place.
+  void place_by_entry() {
+    place.assign(kinds.in_space ? touched.size() : 0, no_record);
+    for (std::size_t k = 0; k < place.size(); ++k)
+      if (touched[k]) place[k] = static_cast<int>(k);
+  }
+
+  /// Entry `k` becomes entry `from_entry` of `from`, which has the same kinds, and counts as touched. Not of these
+  /// histories: the record at `k` may be another entry's.
   void copy_entry(std::size_t k, const ContactHistories& from, std::size_t from_entry) {
     if (!slip.empty()) slip[k] = from.slip[from_entry], slip_speed[k] = from.slip_speed[from_entry];
     if (!roll.empty()) roll[k] = from.roll[from_entry], roll_speed[k] = from.roll_speed[from_entry];
-    const std::size_t length = kinds.record_length();
-    for (std::size_t n = 0; n < length; ++n) records[k * length + n] = from.records[from_entry * length + n];
+    if (!place.empty()) {
+      place[k] = from.place[from_entry] == no_record ? no_record : static_cast<int>(k);
+      if (place[k] != no_record) std::copy_n(from.record(from_entry), kinds.record_length(), record(k));
+    }
     if (!touched.empty()) touched[k] = 1;
   }
 
@@ -64,15 +89,15 @@ struct ContactHistories {
   void forget(std::size_t k) {
     if (!slip.empty()) slip[k] = slip_speed[k] = 0;
     if (!roll.empty()) roll[k] = roll_speed[k] = 0;
-    const std::size_t length = kinds.record_length();
-    for (std::size_t n = 0; n < length; ++n) records[k * length + n] = 0;
+    if (!place.empty()) place[k] = no_record;
   }
 
   /// Keeps these entries alone, ascending; the histories then match a list shortened the same way.
   void keep_entries(const std::vector<std::size_t>& kept) {
-    const HistoryKinds before = kinds;
-    for (std::size_t k = 0; k < kept.size(); ++k) copy_entry(k, *this, kept[k]);
-    resize(kept.size(), before);
+    const ContactHistories before = std::move(*this);
+    *this = {};
+    resize(kept.size(), before.kinds);
+    for (std::size_t k = 0; k < kept.size(); ++k) copy_entry(k, before, kept[k]);
   }
 };
 

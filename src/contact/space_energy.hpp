@@ -39,7 +39,7 @@ double space_pair_energy(const GrainSurfaces& grains, const SpaceMotion& at, con
       },
       [&](std::size_t k, std::size_t i, std::size_t j, double overlap) {
         energy += space_contact_energy<Law, Effects>(overlap, properties.pair(i, j), properties.between(i, j),
-                                                     load_history<Effects>(histories.records.data(), k));
+                                                     load_record<Effects>(histories, k));
       });
   return energy;
 }
@@ -51,8 +51,7 @@ double space_wall_energy(const GrainSurfaces& grains, const SpaceWallContacts& c
   double energy = 0;
   for (std::size_t k = 0; k < static_cast<std::size_t>(contacts.count); ++k) {
     const std::size_t i = static_cast<std::size_t>(contacts.grain[k]);
-    const SpaceHistory history =
-        load_history<Effects>(histories.records.data(), static_cast<std::size_t>(contacts.candidate[k]));
+    const SpaceHistory history = load_record<Effects>(histories, static_cast<std::size_t>(contacts.candidate[k]));
     energy += space_contact_energy<Law, Effects>(properties.radius(i) - contacts.distance[k], properties.pair(i),
                                                  properties.surface(i), history);
   }

@@ -34,16 +34,30 @@ inline SpaceHistory history_from(At at) {
   return history;
 }
 
+/// Records by entries of a list, zeros where an entry has none.
 template <class Effects>
-inline SpaceHistory load_history(const double* records, std::size_t entry) {
-  const double* record = records + entry * RecordOf<Effects>::length;
-  return history_from<Effects>([record](std::size_t n) { return record[n]; });
-}
+class RecordsRead {
+ public:
+  explicit RecordsRead(const ContactHistories& histories)
+      : records_(histories.records.data()), place_(histories.place.data()) {}
+  const double* operator[](int entry) const {
+    const int place = place_[entry];
+    return place == ContactHistories::no_record
+               ? zeros_
+               : records_ + static_cast<std::size_t>(place) * RecordOf<Effects>::length;
+  }
+
+ private:
+  static constexpr double zeros_[HistoryKinds{true, true, true}.record_length()] = {};
+  const double* records_;
+  const int* place_;
+};
 
 template <class Effects>
-inline void clear_record(ContactHistories& histories, std::size_t entry) {
-  double* record = histories.records.data() + entry * RecordOf<Effects>::length;
-  for (std::size_t n = 0; n < RecordOf<Effects>::length; ++n) record[n] = 0;
+inline SpaceHistory load_record(const ContactHistories& histories, std::size_t entry) {
+  if constexpr (!keeps_history<Effects>) return {};
+  const double* record = RecordsRead<Effects>(histories)[static_cast<int>(entry)];
+  return history_from<Effects>([record](std::size_t n) { return record[n]; });
 }
 
 /// Records of the contacts of a block, number by number.
@@ -80,17 +94,24 @@ template <class Effects, class Take>
   if constexpr (length > 4 && length % 4 != 0) take(length - 4);
 }
 
+/// Asks for `count` records from the place `first` on ahead of their use, where a block's lie.
+template <class Effects>
+void await_records(const ContactHistories& histories, int first, int count) {
+  if constexpr (!keeps_history<Effects>) return;
+  constexpr std::size_t cache_line = 8;
+  const double* records = histories.records.data() + static_cast<std::size_t>(first) * RecordOf<Effects>::length;
+  const std::size_t numbers = static_cast<std::size_t>(count) * RecordOf<Effects>::length;
+  for (std::size_t n = 0; n < numbers; n += cache_line) __builtin_prefetch(records + n);
+}
+
 /// Fetches the records of the first `count` contacts of a block, from their entries of the list after `first`: number
 /// by number, where vector instructions find them.
 template <class Effects>
 void load_block(const ContactHistories& histories, const int* entry, int first, int count,
                 SpaceBlockHistories& of_block) {
   if constexpr (!keeps_history<Effects>) return;
-  const double* records = histories.records.data();
-  const auto record = [=](int k) {
-    const int of_list = first + entry[k];
-    return records + static_cast<std::size_t>(of_list) * RecordOf<Effects>::length;
-  };
+  const RecordsRead<Effects> records(histories);
+  const auto record = [=](int k) { return records[first + entry[k]]; };
   int k = 0;
   for (; k + 4 <= count; k += 4) {
     const double* const of[4]{record(k), record(k + 1), record(k + 2), record(k + 3)};
@@ -105,16 +126,16 @@ void load_block(const ContactHistories& histories, const int* entry, int first, 
     for (std::size_t n = 0; n < RecordOf<Effects>::length; ++n) of_block.numbers[n][k] = record(k)[n];
 }
 
-/// Stores the records of the first `count` contacts of a block, at their entries of the list after `first`.
-template <class Effects>
-void store_block(const SpaceBlockHistories& of_block, const int* entry, int first, int count,
+/// Stores the records of the first `count` contacts of a block, whose entries of the list are those after `first`, at
+/// the places `place(k)`.
+template <class Effects, class Place>
+void store_block(const SpaceBlockHistories& of_block, const int* entry, int first, int count, Place place,
                  ContactHistories& histories) {
   if constexpr (!keeps_history<Effects>) return;
   double* records = histories.records.data();
-  const auto record = [=](int k) {
-    const int of_list = first + entry[k];
-    return records + static_cast<std::size_t>(of_list) * RecordOf<Effects>::length;
-  };
+  const auto record = [=](int k) { return records + static_cast<std::size_t>(place(k)) * RecordOf<Effects>::length; };
+  int* place_of_entry = histories.place.data() + first;
+  for (int c = 0; c < count; ++c) place_of_entry[entry[c]] = place(c);
   int k = 0;
   for (; k + 4 <= count; k += 4) {
     double* const of[4]{record(k), record(k + 1), record(k + 2), record(k + 3)};

@@ -50,6 +50,17 @@ void fetch_motion(const BallMotion* motion, SpaceBlock& block) {
   }
 }
 
+/// Marks the pairs of a range that touch; those that do not have no history.
+inline void part_in_space(PairRange range, const unsigned char* touches, ContactHistories& histories) {
+  unsigned char* touched = histories.touched.data() + range.from;
+  int* place = histories.place.data() + range.from;
+#pragma omp simd
+  for (int k = 0; k < range.to - range.from; ++k) {
+    touched[k] = touches[k];
+    place[k] = touches[k] != 0 ? place[k] : ContactHistories::no_record;
+  }
+}
+
 template <class Law, class Effects>
 void find_touching(const PairProperties<Law, Effects>& properties, const SpaceMotion& at, const PairList& list,
                    PairRange range, bool leaves_trace, ContactHistories& histories, SpaceBlock& block) {
@@ -65,8 +76,7 @@ void find_touching(const PairProperties<Law, Effects>& properties, const SpaceMo
     touches[k] = dx * dx + dy * dy + dz * dz < reach * reach ? 1 : 0;
   }
   if constexpr (keeps_history<Effects>)
-    if (leaves_trace)
-      part(range, touches, histories, [&](std::size_t entry) { clear_record<Effects>(histories, entry); });
+    if (leaves_trace) part_in_space(range, touches, histories);
   block.touching = compress(touches, count, Kept<int>{places.data(), block.entry}, Kept<int>{grain, block.grain},
                             Kept<int>{partner, block.partner}, Kept<double>{apart.x, block.dx},
                             Kept<double>{apart.y, block.dy}, Kept<double>{apart.z, block.dz});
@@ -182,13 +192,15 @@ template <class Law, class Effects>
   const bool leaves_trace = advance.commit > 0;
   SpaceBlock block;
   find_touching<Law, Effects>(properties, at, list, range, leaves_trace, histories, block);
+  await_records<Effects>(histories, range.from, block.touching);
   fetch_motion<Effects>(at.motion, block);
   SpaceBlockHistories block_histories;
   load_block<Effects>(histories, block.entry, range.from, block.whole_vectors(), block_histories);
   result.figures =
       forces_of_touching<Law, Effects>({properties, parameters.arm_shortening, advance, block, block_histories});
   if (keeps_history<Effects> && leaves_trace)
-    store_block<Effects>(block_histories, block.entry, range.from, block.touching, histories);
+    store_block<Effects>(
+        block_histories, block.entry, range.from, block.touching, [&](int k) { return range.from + k; }, histories);
   add_block<Effects::rotation>(block, result);
   result.contacts = block.touching;
 }

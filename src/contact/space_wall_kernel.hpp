@@ -111,7 +111,8 @@ template <class Law, class Effects>
     figures.max_relative_overlap = std::max(figures.max_relative_overlap, here.max_relative_overlap);
     figures.slip_raised += here.slip_raised;
     if (keeps_history<Effects> && advance.commit > 0)
-      store_block<Effects>(block_histories, candidate, 0, count, histories);
+      store_block<Effects>(
+          block_histories, candidate, 0, count, [candidate](int k) { return candidate[k]; }, histories);
   }
   return figures;
 }

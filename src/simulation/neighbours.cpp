@@ -24,16 +24,15 @@ void keep_unflagged(std::vector<double>& array, const std::vector<char>& removed
 
 void renumber(PairList& list, ContactHistories& histories, const std::vector<char>& removed,
               const std::vector<int>& new_index) {
-  const bool have_history = !histories.touched.empty();
-  std::size_t kept = 0;
+  std::vector<std::size_t> kept;
   for (std::size_t k = 0; k < list.size(); ++k) {
     const std::size_t i = static_cast<std::size_t>(list.grain[k]), j = static_cast<std::size_t>(list.partner[k]);
     if (removed[i] || removed[j]) continue;
-    if (have_history) histories.copy_entry(kept, histories, k);
-    list.grain[kept] = new_index[i], list.partner[kept++] = new_index[j];
+    list.grain[kept.size()] = new_index[i], list.partner[kept.size()] = new_index[j];
+    kept.push_back(k);
   }
-  list.grain.resize(kept), list.partner.resize(kept);
-  if (have_history) histories.resize(kept, histories.kinds);
+  list.grain.resize(kept.size()), list.partner.resize(kept.size());
+  if (!histories.touched.empty()) histories.keep_entries(kept);
 }
 
 /// Keeps the candidates of a list for which `keep` is true, with their histories.
@@ -87,8 +86,9 @@ std::vector<ActivePair> active_pairs(const PairList& pairs, const ContactHistori
 void reverse(ContactHistories& histories, std::size_t k) {
   const std::size_t length = histories.kinds.record_length(),
                     scalars = histories.kinds.roll ? 2 : 0;  // twist, its speed
-  for (std::size_t n = 0; n + scalars < length; ++n)
-    histories.records[k * length + n] = -histories.records[k * length + n];
+  if (length == 0 || histories.place[k] == ContactHistories::no_record) return;
+  double* record = histories.record(k);
+  for (std::size_t n = 0; n + scalars < length; ++n) record[n] = -record[n];
 }
 
 void carry_over(const std::vector<ActivePair>& active, const PairList& list, ContactHistories& histories) {
@@ -105,15 +105,14 @@ void carry_over(const std::vector<ActivePair>& active, const PairList& list, Con
 
 /// Nothing touches at the entries [from, to).
 void forget(ContactHistories& histories, std::size_t from, std::size_t to) {
-  const auto clear = [](auto& array, std::size_t begin, std::size_t end) {
+  const auto clear = [](auto& array, std::size_t begin, std::size_t end, int value = 0) {
     if (!array.empty())
       std::fill(array.begin() + static_cast<std::ptrdiff_t>(begin), array.begin() + static_cast<std::ptrdiff_t>(end),
-                0);
+                value);
   };
   for (std::vector<double>* column : {&histories.slip, &histories.slip_speed, &histories.roll, &histories.roll_speed})
     clear(*column, from, to);
-  const std::size_t length = histories.kinds.record_length();
-  clear(histories.records, from * length, to * length);
+  clear(histories.place, from, to, ContactHistories::no_record);
   clear(histories.touched, from, to);
 }
 

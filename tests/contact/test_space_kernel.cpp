@@ -3,10 +3,12 @@
 #include <rapidcheck/gtest.h>
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
 #include <utility>
+#include <vector>
 
 #include "contact/kernels.hpp"
 #include "laws/law.hpp"
@@ -249,6 +251,64 @@ TEST(SpaceKernel, ASpringCarriedRoundATiltedAxisErrsBySecondOrder) {
   const double coarse = error_after_turning(axis, 0.02, 100), fine = error_after_turning(axis, 0.01, 200);
   EXPECT_LT(coarse, 1e-3);
   EXPECT_NEAR(std::log2(coarse / fine), 2, 0.1);
+}
+
+/// Entries of a list one by one, and in blocks: each a pair of balls, of which now these and now those touch.
+class ManyContacts {
+ public:
+  ManyContacts(int pairs, int entries_at_once)
+      : entries_at_once_(entries_at_once), places_(2 * pairs), motions_(2 * pairs) {
+    for (int k = 0; k < pairs; ++k) list_.add(2 * k + 1, 2 * k);
+    histories_.resize(list_.size(), {true, true, true});
+  }
+
+  void evaluate(int step) {
+    const HistoryAdvance advance{.trial = 1e-5, .commit = 1e-5, .present = 0.5};
+    const int pairs = static_cast<int>(list_.size());
+    for (int k = 0; k < pairs; ++k) {
+      const bool touches = (7 * k + 3 * step * step) % 5 < 2;
+      const double apart = 2 * radius + (touches ? -1e-6 : 1e-6), spin = 3 + 0.1 * k + step;
+      places_[2 * k] = {0.1 * k, 0, 0, 0}, places_[2 * k + 1] = {0.1 * k + 0.8 * apart, 0.6 * apart, 0, 0};
+      motions_[2 * k] = {{0.2, -0.01 * k, 0.1 * step, 0}, {spin, 2, -spin, 0}};
+      motions_[2 * k + 1] = {{-0.1, 0.3, 0.02 * k, 0}, {-1, 0.5 * spin, 4, 0}};
+    }
+    std::vector<GrainVector> forces(places_.size()), torques(places_.size());
+    SpacePairResult result;
+    result.forces = forces.data(), result.torques = torques.data(), result.first_own = 0;
+    const SpaceMotion at{places_.data(), places_.data(), motions_.data()};
+    for (int from = 0; from < pairs; from += entries_at_once_)
+      kernels_.in_space[0].pair(grains_, at, list_, {from, std::min(from + entries_at_once_, pairs)}, parameters_,
+                                advance, histories_, result);
+  }
+
+  std::vector<double> history(std::size_t k) const {
+    if (!histories_.has_history(k)) return {};
+    return {histories_.record(k), histories_.record(k) + histories_.kinds.record_length()};
+  }
+
+ private:
+  const KernelSet& kernels_ = kernels_for(Law::hertz, with_friction(true, Rolling::spring));
+  const ContactParameters parameters_ = parameters(0.4);
+  const GrainSurfaces grains_ = surfaces_of_balls(Law::hertz);
+  int entries_at_once_;
+  PairList list_;
+  ContactHistories histories_;
+  std::vector<GrainVector> places_;
+  std::vector<BallMotion> motions_;
+};
+
+TEST(SpaceKernel, EachPairOfABlockKeepsItsOwnHistory) {
+  constexpr int pairs = 2 * pair_block_size + 77;
+  ManyContacts alone(pairs, 1), in_blocks(pairs, pair_block_size);
+  for (int step = 0; step < 6; ++step) {
+    alone.evaluate(step), in_blocks.evaluate(step);
+    std::size_t touching = 0;
+    for (std::size_t k = 0; k < pairs; ++k) {
+      ASSERT_EQ(in_blocks.history(k), alone.history(k)) << "pair " << k << " in step " << step;
+      touching += alone.history(k).empty() ? 0 : 1;
+    }
+    EXPECT_NEAR(static_cast<double>(touching), 0.4 * pairs, 2);
+  }
 }
 
 }  // namespace

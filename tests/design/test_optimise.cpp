@@ -158,6 +158,23 @@ TEST_F(Optimise, LayoutsThatCannotBeBuiltAreSaid) {
   EXPECT_THAT(csv, HasSubstr(",dominated,"));
 }
 
+/// A layout that failed shows no rate of runs that nothing is to be decided by.
+TEST_F(Optimise, ShowsNoRateOfRunsOutsideTheModel) {
+  const Simulator outside_where_wide = [](const Model& model, const SimulationOptions& options) {
+    vibrosow::Run run = noisy_run(model, options);
+    run.outside_the_model = model.scene.tray.holes[0].width > 0.0135;
+    return run;
+  };
+  StudyOptimisation optimisation(three_widths(), options({"rate", "power"}));
+  const OptimiseResult result = lead(optimisation, 1, outside_where_wide);
+  for (std::size_t i = 0; i < result.layouts.size(); ++i) {
+    const auto scene = result.study.layouts[i].scene;
+    const bool sound = scene && result.study.scenes[*scene].tray.holes[0].width < 0.0135;
+    EXPECT_EQ(result.layouts[i].standing == FrontStanding::failed, !sound) << i;
+    EXPECT_EQ(result.layouts[i].rate.has_value(), sound) << i;
+  }
+}
+
 TEST_F(Optimise, PowerIsOfHarmonicMotion) {
   Scene scene;
   scene.tray.motion = HarmonicMotion{.amplitude = 0.01, .frequency = 9};

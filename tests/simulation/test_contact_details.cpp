@@ -139,9 +139,12 @@ void set_sliding(Bench& bench) {
 
 std::vector<double> memory_of(const ContactState& contacts) {
   std::vector<double> all;
-  for (const ContactHistories* h : {&contacts.pair_histories, &contacts.wall_histories})
-    for (const std::vector<double>* column : {&h->slip, &h->slip_speed, &h->roll, &h->roll_speed, &h->records})
+  for (const ContactHistories* h : {&contacts.pair_histories, &contacts.wall_histories}) {
+    for (const std::vector<double>* column : {&h->slip, &h->slip_speed, &h->roll, &h->roll_speed})
       all.insert(all.end(), column->begin(), column->end());
+    for (std::size_t k = 0; k < h->place.size(); ++k)
+      if (h->has_history(k)) all.insert(all.end(), h->record(k), h->record(k) + h->kinds.record_length());
+  }
   return all;
 }
 
