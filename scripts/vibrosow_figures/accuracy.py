@@ -8,6 +8,7 @@ import numpy as np
 
 matplotlib.use("Agg")
 from matplotlib import pyplot
+from matplotlib.ticker import LogLocator, NullFormatter
 
 from .tables import command, rows, write_table
 
@@ -77,7 +78,9 @@ def work_precision(options):
     axes.set(xscale="log", yscale="log", xlabel="CPU time of a run, s", ylabel="error of the rate, %", title=options.title)
     axes.margins(x=0.12)
     for axis in (axes.xaxis, axes.yaxis):
+        axis.set_major_locator(LogLocator(subs=(1, 2, 5)))
         axis.set_major_formatter("{x:g}")
+        axis.set_minor_formatter(NullFormatter())
     axes.grid(True, which="both", linewidth=0.3)
     axes.legend(fontsize=8)
     figure.savefig(options.out, metadata={"Date": None} if options.out.endswith(".svg") else None, dpi=150)
