@@ -27,8 +27,9 @@ struct HistoryKinds {
 
 /// Histories of touching contacts, one entry a candidate of a list; all zero where nothing touches. In the plane a
 /// column for each number, empty where its effect is absent; in space a record for each candidate that touches, seen
-/// from the pair's first grain. Those of a block of candidates lie side by side at the block's first places once a step
-/// has stored them, as most candidates touch nothing: records between them would be fetched for nothing.
+/// from the pair's first grain. Most candidates touch nothing, and a kernel that stores the records of a block of them
+/// puts these side by side at the block's first places. No other block's lie there, as blocks are the same until the
+/// list is made anew or shortened, which puts each record at its own candidate's place.
 struct ContactHistories {
   static constexpr int no_record = -1;
 
@@ -66,15 +67,15 @@ struct ContactHistories {
     return records.data() + static_cast<std::size_t>(place[k]) * kinds.record_length();
   }
 
-  /// Every entry that has been touched has its record at its own place.
+  /// Every entry that has been touched has its record at its own place: of histories that were kept so.
   void place_by_entry() {
     place.assign(kinds.in_space ? touched.size() : 0, no_record);
     for (std::size_t k = 0; k < place.size(); ++k)
       if (touched[k]) place[k] = static_cast<int>(k);
   }
 
-  /// Entry `k` becomes entry `from_entry` of `from`, which has the same kinds, and counts as touched. Not of these
-  /// histories: the record at `k` may be another entry's.
+  /// Entry `k` becomes entry `from_entry` of `from`, which has the same kinds, and counts as touched. `from` must be
+  /// other histories: of these the record at place `k` may be another entry's.
   void copy_entry(std::size_t k, const ContactHistories& from, std::size_t from_entry) {
     if (!slip.empty()) slip[k] = from.slip[from_entry], slip_speed[k] = from.slip_speed[from_entry];
     if (!roll.empty()) roll[k] = from.roll[from_entry], roll_speed[k] = from.roll_speed[from_entry];
