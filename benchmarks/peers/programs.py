@@ -4,7 +4,9 @@ import json
 import math
 import os
 import re
+import resource
 import subprocess
+import time
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -19,8 +21,8 @@ LAMMPS_HERTZ_DAMPING = 9.93e7
 
 @dataclass
 class Result:
-    """Of the timed window: wall time of the loop alone, grains present summed over steps; touching contacts a step and grains
-    out at the scene's `outflow` where they were looked at."""
+    """Of the timed window: wall time of the loop alone, and the share of it for which the program had its core; grains present
+    summed over steps; touching contacts a step and grains out at the scene's `outflow` where they were looked at."""
     wall: float
     grain_steps: float
     grains: int = 0
@@ -28,10 +30,12 @@ class Result:
     steps: int = 0
     contacts: float = math.nan
     out: int = 0
+    share: float = 1
 
     @property
     def speed(self):
-        return self.grain_steps / self.wall / 1e6
+        """Million grain-steps a second of processor time."""
+        return self.grain_steps / (self.wall * self.share) / 1e6
 
 
 class Bench:
@@ -40,15 +44,23 @@ class Bench:
     def __init__(self, vibrosow, box2d, core, work):
         self.vibrosow, self.box2d, self.core, self.work = Path(vibrosow).resolve(), box2d, core, Path(work)
         self.before = {}  # of each scene and its start: what Vibrosow counts up to the timed window
+        self.share = 1.0  # of its core that the last command had
 
     def output_of(self, command):
         """Runs on the one core, without threads; returns what it printed, or fails with it."""
         environment = dict(os.environ, OMP_NUM_THREADS='1', PYTHONPATH=str(HERE / 'yade'), PYTHONDONTWRITEBYTECODE='1')
+        began, before = time.monotonic(), children_time()
         done = subprocess.run(['taskset', '-c', str(self.core)] + [str(word) for word in command], cwd=self.work,
                               env=environment, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, errors="replace")
         if done.returncode != 0:
             raise RuntimeError(f'{" ".join(str(word) for word in command)}\n{done.stdout[-3000:]}')
+        self.share = min(1.0, (children_time() - before) / (time.monotonic() - began))
         return done.stdout
+
+
+def children_time():
+    used = resource.getrusage(resource.RUSAGE_CHILDREN)
+    return used.ru_utime + used.ru_stime
 
 
 @dataclass

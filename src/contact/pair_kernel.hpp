@@ -17,10 +17,12 @@ struct PairBlock {
   int touching;
   int entry[size + spare];  // of the list, counted from the range's first
   int grain[size + spare], partner[size + spare];
-  double dx[size + spare], dy[size + spare];              // m, from the grain to its partner
-  alignas(64) double fx[size], fy[size];                  // N, on the partner; the opposite on the grain
-  alignas(64) double torque[size], partner_torque[size];  // N m, with its sign changed on the grain
-  alignas(64) double relative_overlap[size];
+  double dx[size + spare], dy[size + spare];  // m, from the grain to its partner
+  // N, on the partner; the opposite on the grain
+  alignas(64) double fx[pair_block_room], fy[pair_block_room];
+  // N m, with its sign changed on the grain
+  alignas(64) double torque[pair_block_room], partner_torque[pair_block_room];
+  alignas(64) double relative_overlap[pair_block_room];
 
   int whole_vectors() const { return (touching + spare - 1) & -spare; }
 };
@@ -88,7 +90,7 @@ void find_touching(const PairProperties<Law, Effects>& properties, const Motion&
 
 /// Histories of the contacts of a block.
 struct BlockHistories {
-  double slip[pair_block_size], slip_speed[pair_block_size], roll[pair_block_size], roll_speed[pair_block_size];
+  double slip[pair_block_room], slip_speed[pair_block_room], roll[pair_block_room], roll_speed[pair_block_room];
 };
 
 /// Stores the histories of the first `count` contacts of a block, at their entries of the list after `first`.

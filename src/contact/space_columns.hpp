@@ -8,9 +8,10 @@ namespace vibrosow::inline VIBROSOW_ISA {
 
 /// A vector of each contact of a block.
 struct SpaceColumns {
-  alignas(64) double x[pair_block_size], y[pair_block_size], z[pair_block_size];
+  alignas(64) double x[pair_block_room], y[pair_block_room], z[pair_block_room];
 
   [[gnu::always_inline]] Vector3 operator[](int k) const { return {x[k], y[k], z[k]}; }
+  [[gnu::always_inline]] void set(int k, const Vector3& a) { x[k] = a.x, y[k] = a.y, z[k] = a.z; }
 };
 
 inline const Four& as_four(const GrainVector& vector) {

@@ -63,7 +63,7 @@ inline SpaceHistory load_record(const ContactHistories& histories, std::size_t e
 /// Records of the contacts of a block, number by number.
 struct SpaceBlockHistories {
   static constexpr std::size_t longest = HistoryKinds{true, true, true}.record_length();
-  alignas(64) double numbers[longest][pair_block_size];
+  alignas(64) double numbers[longest][pair_block_room];
 
   template <class Effects>
   SpaceHistory get(std::size_t k) const {

@@ -17,12 +17,11 @@ struct SpaceBlock {
   int touching;
   int entry[size + spare];  // of the list, counted from the range's first
   int grain[size + spare], partner[size + spare];
-  double dx[size + spare], dy[size + spare], dz[size + spare];           // m, from the grain to its partner
-  SpaceColumns velocity;                                                 // m/s, of the grain less its partner's
-  SpaceColumns spin, partner_spin;                                       // rad/s
-  alignas(64) double fx[size], fy[size], fz[size];                       // N, on the grain; the opposite on its partner
-  alignas(64) double torque_x[size], torque_y[size], torque_z[size];     // N m, on the grain
-  alignas(64) double partner_x[size], partner_y[size], partner_z[size];  // N m, on the partner
+  double dx[size + spare], dy[size + spare], dz[size + spare];  // m, from the grain to its partner
+  SpaceColumns velocity;                                        // m/s, of the grain less its partner's
+  SpaceColumns spin, partner_spin;                              // rad/s
+  SpaceColumns force;                                           // N, on the grain; the opposite on its partner
+  SpaceColumns torque, partner_torque;                          // N m, on the grain, on its partner
 
   /// Of eight, the longest vectors that there are.
   int whole_vectors() const { return (touching + 7) & -8; }
@@ -121,12 +120,11 @@ struct SpacePairWork {
         space_contact_force<Law, Effects>(touch, pair, properties.between(i, j), advance, history);
     block_histories.template set<Effects>(static_cast<std::size_t>(k), history);
     const Vector3 on_grain = force.tangential - force.normal * touch.n;
-    block.fx[k] = on_grain.x, block.fy[k] = on_grain.y, block.fz[k] = on_grain.z;
+    block.force.set(k, on_grain);
     if constexpr (Effects::rotation) {
       const Vector3 lever = cross(touch.n, force.tangential);
       const Vector3 own = arm_i * lever + force.resistance, other = arm_j * lever - force.resistance;
-      block.torque_x[k] = own.x, block.torque_y[k] = own.y, block.torque_z[k] = own.z;
-      block.partner_x[k] = other.x, block.partner_y[k] = other.y, block.partner_z[k] = other.z;
+      block.torque.set(k, own), block.partner_torque.set(k, other);
     }
     return {touch.overlap * pair.relative_per_overlap, force.slip_raised};
   }
@@ -147,10 +145,10 @@ template <class Law, class Effects>
   return {max_relative_overlap, slip_raised};
 }
 
-/// Three columns of four contacts each as four vectors, the fourth number of each 0.
-inline void as_rows(const double* x, const double* y, const double* z, Four (&rows)[4]) {
-  const auto four = [](const double* array) -> const Four& { return *reinterpret_cast<const Four*>(array); };
-  rows[0] = four(x), rows[1] = four(y), rows[2] = four(z), rows[3] = Four{};
+/// The vectors of four contacts from `from` on, the fourth number of each 0.
+inline void as_rows(const SpaceColumns& columns, int from, Four (&rows)[4]) {
+  const auto four = [from](const double* array) -> const Four& { return *reinterpret_cast<const Four*>(array + from); };
+  rows[0] = four(columns.x), rows[1] = four(columns.y), rows[2] = four(columns.z), rows[3] = Four{};
   transpose(rows);
 }
 
@@ -161,10 +159,10 @@ void add_block(const SpaceBlock& block, SpacePairResult& result) {
   result.foreign_count = 0;
   for (int from = 0; from < block.touching; from += 4) {
     Four force[4], own[4], other[4];
-    as_rows(block.fx + from, block.fy + from, block.fz + from, force);
+    as_rows(block.force, from, force);
     if constexpr (rotation) {
-      as_rows(block.torque_x + from, block.torque_y + from, block.torque_z + from, own);
-      as_rows(block.partner_x + from, block.partner_y + from, block.partner_z + from, other);
+      as_rows(block.torque, from, own);
+      as_rows(block.partner_torque, from, other);
     }
     const int count = block.touching - from < 4 ? block.touching - from : 4;
     for (int k = 0; k < count; ++k) {

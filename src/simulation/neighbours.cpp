@@ -233,8 +233,8 @@ void Neighbours::update(const Grains& grains, const Walls& walls, ContactState& 
 /// pruned; T grows as m, so that both are least together where they are alike: m^2 = P m_before / (c T_before). Counted
 /// in updates, not in seconds: a run's lists are the same wherever it runs.
 void Neighbours::choose_narrow_margin() {
-  constexpr double prune_per_candidate_cost = 12;  // P / c, in diameters; measured on shaken trays
-  constexpr double least = 0.02, most = 0.35;      // diameters
+  constexpr double prune_per_candidate_cost = 6;  // P / c, in diameters; measured on shaken trays and slot hoppers
+  constexpr double least = 0.02, most = 0.35;     // diameters
   if (updates_since_prune_ > 1) {
     const double before = narrow_margin_ / diameter_;
     const double best = std::sqrt(prune_per_candidate_cost * before / static_cast<double>(updates_since_prune_));
