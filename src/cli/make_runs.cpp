@@ -101,7 +101,10 @@ Made make_runs(StudyRuns& runs, const std::vector<WantedRun>& wanted, const Maki
   making.on_not_kept = [](const std::string& reason) {
     complain(fmt::format("warning: {}; no further run is begun until there is room", reason));
   };
-  making.progress = [&](double fraction) { progress.update(fraction); };
+  making.progress = [&](double done, double there) {
+    progress.begin_at(there);
+    progress.update(done);
+  };
   making.on_made = [&](const WantedRun& run, const Run& made) {
     leading.add(run, made);
     progress.tell("run", event_fields(run, made));

@@ -34,6 +34,9 @@ Made make_all_runs(PlannedStudy& planned, StudyRuns& runs, const std::filesystem
   while (made.making.interrupted == 0) {
     std::optional<PlannedStudy> next = next_round(planned, runs.kept(), options.jobs);
     if (!next) break;
+    const std::size_t more = next->plan.runs.size() - planned.plan.runs.size();
+    if (!options.quiet && !command.making.json_progress)
+      complain(fmt::format("{} run{} more, for the interval that is wanted", more, more == 1 ? "" : "s"));
     planned = std::move(*next);
     freeze_plan(folder, planned.plan);
     made.add(make_runs(runs, wanted_runs(planned), command.making, options.jobs, options.quiet));

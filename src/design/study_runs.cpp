@@ -112,10 +112,14 @@ class StudyRuns::Queue {
     double& known = fractions_[&run];
     done_ += (fraction - known) * run.grain_steps;
     known = fraction;
-    if (options_.progress) options_.progress(cost_ > 0 ? done_ / cost_ : 1);
+    if (options_.progress) cost_ > 0 ? options_.progress(done_ / cost_, there_ / cost_) : options_.progress(1, 1);
   }
 
-  void ended(const WantedRun& wanted) {
+  void was_there(const WantedRun& wanted) {
+    {
+      const std::lock_guard lock(mutex_);
+      there_ += wanted.grain_steps;
+    }
     set_fraction(wanted, 1);
     const std::lock_guard lock(mutex_);
     --making_.interrupted;
@@ -151,7 +155,7 @@ class StudyRuns::Queue {
   std::deque<const WantedRun*> waiting_;
   std::set<const WantedRun*> put_off_;
   std::map<const WantedRun*, double> fractions_;
-  double cost_ = 0, done_ = 0;
+  double cost_ = 0, done_ = 0, there_ = 0;
   Making making_;
   std::atomic<bool> failure_ = false;
   std::exception_ptr reason_;
@@ -206,13 +210,13 @@ bool StudyRuns::has_room(const MakingOptions& options, const Queue& queue) {
 bool StudyRuns::attempt(const WantedRun& wanted, const Simulator& simulator, const MakingOptions& options,
                         Queue& queue) {
   if (is_there(wanted, options.retry)) {
-    queue.ended(wanted);
+    queue.was_there(wanted);
     return true;
   }
   if (!notes_.claim(wanted.name)) return false;
   const Released released(notes_, wanted.name);
   if (is_there(wanted, options.retry)) {  // made by another in between
-    queue.ended(wanted);
+    queue.was_there(wanted);
     return true;
   }
   const Run run = run_on(wanted, simulator, options, queue);

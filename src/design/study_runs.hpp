@@ -34,8 +34,9 @@ struct MakingOptions {
   double save_every = 300;                       // s of the clock, between checkpoints of a run under way
   bool retry = false;                            // runs that were refused, or stopped by the guard, are made anew
   double wait_for_room = 600;                    // s of the clock: how long a full disk is waited for
-  std::function<void(const std::string&)> on_not_kept{};        // why runs wait to be written; once for each wait
-  std::function<void(double fraction_done)> progress{};         // of all cost; called by one thread at a time
+  std::function<void(const std::string&)> on_not_kept{};  // why runs wait to be written; once for each wait
+  /// Of all cost, and how much of that was there already; called by one thread at a time.
+  std::function<void(double fraction_done, double fraction_there)> progress{};
   std::function<void(const WantedRun&, const Run&)> on_made{};  // likewise, of every run that was made here
 };
 

@@ -72,6 +72,18 @@ TEST_F(StudyRunsOf, MakesNoRunTwice) {
   EXPECT_EQ(kept(again, 1).events.back().time, before.events.back().time);
 }
 
+TEST_F(StudyRunsOf, WhatWasThereIsNoMeasureOfWhatIsLeft) {
+  StudyRuns runs(folder("a"));
+  make(runs, {1, 2});
+  std::vector<std::pair<double, double>> told;
+  MakingOptions options;
+  options.jobs = 1;
+  options.progress = [&](double done, double there) { told.emplace_back(done, there); };
+  runs.make(wanted({1, 2, 3, 4}), simulator_, options);
+  const std::vector<std::pair<double, double>> wanted_to_hear{{0.25, 0.25}, {0.5, 0.5}, {0.75, 0.5}, {1, 0.5}};
+  EXPECT_EQ(told, wanted_to_hear);
+}
+
 TEST_F(StudyRunsOf, TakesWhatOtherSweepsMadeAndKeepsItToo) {
   StudyRuns other(folder("other"));
   make(other, {1});
@@ -205,7 +217,7 @@ TEST_F(StudyRunsOf, AnInterruptedRunGoesOnFromWhereItWas) {
   MakingOptions options;
   options.jobs = 1, options.save_every = 1e9;
   options.interrupt = &interrupt;
-  options.progress = [&](double fraction) { interrupt = interrupt || fraction > 0.3; };
+  options.progress = [&](double fraction, double) { interrupt = interrupt || fraction > 0.3; };
   std::int64_t begun_at = -1;
   simulator_ = [&](const Model& model, const SimulationOptions& simulation) {
     begun_at = simulation.from ? simulation.from->step : 0;
