@@ -55,7 +55,7 @@ struct Motion {
 struct PairRange {
   int from, to;
 };
-/// Of these one in five to seven touches: what is worked out for nothing at the end of a last vector counts little.
+/// Of these one in three to seven touches: so many that what the last vector works out for nothing counts little.
 inline constexpr int pair_block_size = 1024;
 /// Numbers in a column of a block: a cache line more, or all columns would compete for the same few lines.
 inline constexpr int pair_block_room = pair_block_size + 8;

@@ -119,11 +119,10 @@ class StudyRuns::Queue {
     {
       const std::lock_guard lock(mutex_);
       there_ += wanted.grain_steps;
+      --making_.interrupted;
+      ++making_.there;
     }
     set_fraction(wanted, 1);
-    const std::lock_guard lock(mutex_);
-    --making_.interrupted;
-    ++making_.there;
   }
 
   void ended(const WantedRun& wanted, const Run& run) {
