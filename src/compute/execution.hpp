@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <functional>
 
+#include "compute/clump_loops.hpp"
 #include "compute/grain_loops.hpp"
 #include "compute/profile.hpp"
 #include "compute/space_loops.hpp"
@@ -22,12 +23,14 @@ class Execution {
       : instructions_(instructions),
         loops_(grain_loops(instructions)),
         loops_in_space_(vibrosow::space_loops(instructions)),
+        loops_of_clumps_(vibrosow::clump_loops(instructions)),
         team_(threads),
         stop_(stop) {}
 
   InstructionSet instructions() const { return instructions_; }
   const GrainLoops& loops() const { return loops_; }
   const SpaceLoops& space_loops() const { return loops_in_space_; }
+  const ClumpLoops& clump_loops() const { return loops_of_clumps_; }
   int threads() const { return team_.size(); }
   Profile& profile() { return profile_; }
   const Profile& profile() const { return profile_; }
@@ -60,6 +63,7 @@ class Execution {
   InstructionSet instructions_;
   const GrainLoops& loops_;
   const SpaceLoops& loops_in_space_;
+  const ClumpLoops& loops_of_clumps_;
   ThreadTeam team_;
   Profile profile_;
   StopRequest stop_;

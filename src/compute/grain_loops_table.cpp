@@ -1,22 +1,26 @@
 #include <stdexcept>
 
+#include "compute/clump_loops.hpp"
 #include "compute/grain_loops.hpp"
 #include "compute/space_loops.hpp"
 
 namespace vibrosow {
 
-// Defined in grain_loops.cpp and space_loops.cpp, compiled for each.
+// Defined in grain_loops.cpp, space_loops.cpp and clump_loops.cpp, compiled for each.
 inline namespace generic {
 extern const GrainLoops loops;
 extern const SpaceLoops loops_in_space;
+extern const ClumpLoops loops_of_clumps;
 }  // namespace generic
 namespace avx2 {
 extern const GrainLoops loops;
 extern const SpaceLoops loops_in_space;
+extern const ClumpLoops loops_of_clumps;
 }  // namespace avx2
 namespace avx512 {
 extern const GrainLoops loops;
 extern const SpaceLoops loops_in_space;
+extern const ClumpLoops loops_of_clumps;
 }  // namespace avx512
 
 const GrainLoops& grain_loops(InstructionSet set) {
@@ -35,6 +39,15 @@ const SpaceLoops& space_loops(InstructionSet set) {
   if (set == InstructionSet::avx512) return avx512::loops_in_space;
 #endif
   return generic::loops_in_space;
+}
+
+const ClumpLoops& clump_loops(InstructionSet set) {
+  if (!is_available(set)) throw std::logic_error("these vector instructions are not available");
+#ifdef VIBROSOW_X86_KERNELS
+  if (set == InstructionSet::avx2) return avx2::loops_of_clumps;
+  if (set == InstructionSet::avx512) return avx512::loops_of_clumps;
+#endif
+  return generic::loops_of_clumps;
 }
 
 }  // namespace vibrosow

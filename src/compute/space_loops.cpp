@@ -5,30 +5,18 @@
 
 #include "compute/compress.hpp"
 #include "compute/four.hpp"
+#include "compute/rows.hpp"
 
 namespace vibrosow::inline VIBROSOW_ISA {
 namespace {
 
-/// `row(i)` is where the vector of ball i goes.
-template <class Row>
-[[gnu::always_inline]] inline void to_rows(std::size_t n, const Coordinates& of, Row row) {
-  std::size_t i = 0;
-  for (; i + 4 <= n; i += 4) {
-    Four rows[4]{};
-    load(rows[0], of.x + i), load(rows[1], of.y + i), load(rows[2], of.z + i);
-    transpose(rows);
-    for (std::size_t k = 0; k < 4; ++k) *reinterpret_cast<Four*>(row(i + k)) = rows[k];
-  }
-  for (; i < n; ++i) *row(i) = {of.x[i], of.y[i], of.z[i], 0};
-}
-
 void places_to_rows(std::size_t n, const Coordinates& places, GrainVector* rows) {
-  to_rows(n, places, [rows](std::size_t i) { return rows + i; });
+  to_rows(n, places.x, places.y, places.z, [rows](std::size_t i) { return rows + i; });
 }
 
 void motions_to_rows(std::size_t n, const Coordinates& velocity, const Coordinates& spin, BallMotion* rows) {
-  to_rows(n, velocity, [rows](std::size_t i) { return &rows[i].velocity; });
-  if (spin.x) to_rows(n, spin, [rows](std::size_t i) { return &rows[i].spin; });
+  to_rows(n, velocity.x, velocity.y, velocity.z, [rows](std::size_t i) { return &rows[i].velocity; });
+  if (spin.x) to_rows(n, spin.x, spin.y, spin.z, [rows](std::size_t i) { return &rows[i].spin; });
 }
 
 /// Calls `take(v, a, now)` for the velocities of four balls or of one, their old rates and those by which they are

@@ -1,8 +1,8 @@
 #pragma once
 
 #include "compute/four.hpp"
+#include "compute/vector3.hpp"
 #include "contact/space_data.hpp"
-#include "contact/vector3.hpp"
 
 namespace vibrosow::inline VIBROSOW_ISA {
 

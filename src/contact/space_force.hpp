@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "compute/vector3.hpp"
 #include "contact/contact_force.hpp"
-#include "contact/vector3.hpp"
 
 namespace vibrosow::inline VIBROSOW_ISA {
 

@@ -3,8 +3,6 @@
 #include <algorithm>
 
 #include "elementary/functions.hpp"
-#include "grains/turning_clump.hpp"
-#include "scene/cross_product.hpp"
 
 namespace vibrosow {
 
@@ -25,13 +23,13 @@ ClumpDiscs::ClumpDiscs(const std::vector<SeedLot>& lots, const std::vector<Grain
 void ClumpDiscs::rebuild(const Grains& clumps) {
   discs_ = Grains(discs_.kinds, true, discs_.rotation);
   discs_.in_space = clumps.in_space;
-  clumps_ = clumps.size();
-  own_x_.clear(), own_y_.clear(), own_z_.clear();
+  own_x_.clear(), own_y_.clear(), own_z_.clear(), first_.clear();
   for (std::size_t i = 0; i < clumps.size(); ++i) {
     const SeedLot& lot = lots_[static_cast<std::size_t>(clumps.lot[i])];
     const GrainKind clump = clumps.kind(i);
     const double size = 2 * clump.radius / lot.diameter;
     std::int64_t id = clumps.id[i] * discs_per_id_;
+    first_.push_back(discs_.size());
     const auto add = [&](const ClumpDisc& disc) {
       const GrainKind kind = kind_of_disc(clump, disc, size, law_);
       discs_.add(Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero(), clumps.lot[i], kind);
@@ -42,11 +40,14 @@ void ClumpDiscs::rebuild(const Grains& clumps) {
     if (lot.discs.empty()) add({0, 0, 0.5 * lot.diameter});
     for (const ClumpDisc& disc : lot.discs) add(disc);
   }
-  arm_x_ = own_x_, arm_y_ = own_y_, arm_z_ = own_z_;
+  first_.push_back(discs_.size());
+  arm_x_ = own_x_, arm_y_ = own_y_;
+  if (!discs_.in_space) return;
+  arms_.resize(discs_.size()), places_.resize(discs_.size()), motions_.resize(discs_.size());
 }
 
-void ClumpDiscs::place(const Grains& clumps) {
-  discs_.in_space ? place_in_space(clumps) : place_in_plane(clumps);
+void ClumpDiscs::place(const Grains& clumps, Execution& execution) {
+  discs_.in_space ? place_in_space(clumps, execution) : place_in_plane(clumps);
 }
 
 void ClumpDiscs::place_in_plane(const Grains& clumps) {
@@ -65,22 +66,19 @@ void ClumpDiscs::place_in_plane(const Grains& clumps) {
   }
 }
 
-void ClumpDiscs::place_in_space(const Grains& clumps) {
-  Eigen::Matrix3d axes;
-  Eigen::Vector3d spin = Eigen::Vector3d::Zero();
-  for (std::size_t k = 0; k < discs_.size(); ++k) {
-    const std::size_t i = static_cast<std::size_t>(discs_.clump[k]);
-    if (k == 0 || discs_.clump[k - 1] != discs_.clump[k]) {
-      axes = rotation_matrix(clumps.orientation(i));
-      if (clumps.rotation) spin = spin_of(clumps, i);
-    }
-    const Eigen::Vector3d arm = axes * Eigen::Vector3d(own_x_[k], own_y_[k], own_z_[k]), turning = cross(spin, arm);
-    arm_x_[k] = arm.x(), arm_y_[k] = arm.y(), arm_z_[k] = arm.z();
-    discs_.x[k] = clumps.x[i] + arm.x(), discs_.vx[k] = clumps.vx[i] + turning.x();
-    discs_.y[k] = clumps.y[i] + arm.y(), discs_.vy[k] = clumps.vy[i] + turning.y();
-    discs_.z[k] = clumps.z[i] + arm.z(), discs_.vz[k] = clumps.vz[i] + turning.z();
-    if (discs_.rotation) set_spin(discs_, k, spin);
-  }
+void ClumpDiscs::place_in_space(const Grains& clumps, Execution& execution) {
+  const bool turns = clumps.rotation;
+  const ClumpMotion motion{.place = {clumps.x.data(), clumps.y.data(), clumps.z.data()},
+                           .velocity = {clumps.vx.data(), clumps.vy.data(), clumps.vz.data()},
+                           .quaternion = {clumps.q_w.data(), clumps.q_x.data(), clumps.q_y.data(), clumps.q_z.data()},
+                           .spin = {turns ? clumps.omega_x.data() : nullptr, turns ? clumps.omega_y.data() : nullptr,
+                                    turns ? clumps.omega.data() : nullptr}};
+  const ClumpBalls balls{first_.data(), own_x_.data(), own_y_.data(), own_z_.data()};
+  const PlacedBalls placed{arms_.data(),    places_.data(),  motions_.data(),
+                           discs_.x.data(), discs_.y.data(), discs_.z.data()};
+  execution.share(clumps.size(), [&](std::size_t from, std::size_t to) {
+    execution.clump_loops().place(from, to, motion, balls, placed);
+  });
 }
 
 void ClumpDiscs::gather(const Forces& on_discs, Forces& on_clumps) const {
@@ -92,21 +90,15 @@ void ClumpDiscs::gather(const Forces& on_discs, Forces& on_clumps) const {
   }
 }
 
-void ClumpDiscs::gather(const SpaceForces& on_balls, SpaceForces& on_clumps) const {
-  on_clumps.forces.assign(clumps_, {}), on_clumps.torques.assign(discs_.rotation ? clumps_ : 0, {});
-  for (std::size_t k = 0; k < discs_.size(); ++k) {
-    const std::size_t i = static_cast<std::size_t>(discs_.clump[k]);
-    const GrainVector& f = on_balls.forces[k];
-    GrainVector& force = on_clumps.forces[i];
-    force.x += f.x, force.y += f.y, force.z += f.z;
-    if (!discs_.rotation) continue;
-    const Eigen::Vector3d turning = cross({arm_x_[k], arm_y_[k], arm_z_[k]}, {f.x, f.y, f.z});
-    GrainVector& torque = on_clumps.torques[i];
-    torque.x += turning.x(), torque.y += turning.y(), torque.z += turning.z();
-    if (on_balls.torques.empty()) continue;
-    const GrainVector& own = on_balls.torques[k];
-    torque.x += own.x, torque.y += own.y, torque.z += own.z;
-  }
+void ClumpDiscs::gather(const SpaceForces& on_balls, SpaceForces& on_clumps, Execution& execution) const {
+  const std::size_t clumps = first_.size() - 1;
+  on_clumps.forces.resize(clumps), on_clumps.torques.resize(discs_.rotation ? clumps : 0);
+  const auto or_null = [](auto& rows) { return rows.empty() ? nullptr : rows.data(); };
+  const ClumpForces forces{on_balls.forces.data(), or_null(on_balls.torques), on_clumps.forces.data(),
+                           or_null(on_clumps.torques)};
+  execution.share(clumps, [&](std::size_t from, std::size_t to) {
+    execution.clump_loops().gather(from, to, first_.data(), arms_.data(), forces);
+  });
 }
 
 std::vector<char> ClumpDiscs::flags_of_discs(const std::vector<char>& of_clumps) const {

@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "compute/execution.hpp"
 #include "compute/grain_force.hpp"
 #include "compute/space_forces.hpp"
 #include "grains/grains.hpp"
@@ -24,14 +25,18 @@ class ClumpDiscs {
   /// Makes the discs anew for these clumps.
   void rebuild(const Grains& clumps);
   /// Moves the discs with their clumps: x + R c, v + omega x R c, R by the clump's angle or quaternion.
-  void place(const Grains& clumps);
+  void place(const Grains& clumps, Execution& execution);
   /// Force and torque about the centres of mass, from those on the discs about their own centres.
   void gather(const Forces& on_discs, Forces& on_clumps) const;
   /// The same in space, in place of what `on_clumps` held. Without friction the balls have no torques, and the clumps
   /// those of the forces' arms.
-  void gather(const SpaceForces& on_balls, SpaceForces& on_clumps) const;
+  void gather(const SpaceForces& on_balls, SpaceForces& on_clumps, Execution& execution) const;
 
+  /// In space their velocities and spins stand in `motions` alone.
   const Grains& discs() const { return discs_; }
+  /// Of balls in space.
+  const std::vector<GrainVector>& places() const { return places_; }
+  const std::vector<BallMotion>& motions() const { return motions_; }
   /// One flag a disc, from one a clump.
   std::vector<char> flags_of_discs(const std::vector<char>& of_clumps) const;
 
@@ -41,11 +46,13 @@ class ClumpDiscs {
   std::int64_t discs_per_id_;  // numbers kept free for the discs of a clump
   Grains discs_;
   void place_in_plane(const Grains& clumps);
-  void place_in_space(const Grains& clumps);
+  void place_in_space(const Grains& clumps, Execution& execution);
 
   std::vector<double> own_x_, own_y_, own_z_;  // m, from the centre of mass, clump not turned
-  std::vector<double> arm_x_, arm_y_, arm_z_;  // m, the same as it lies now
-  std::size_t clumps_ = 0;
+  std::vector<double> arm_x_, arm_y_;          // m, the same as it lies now, in the plane
+  std::vector<GrainVector> arms_, places_;     // m, in space
+  std::vector<BallMotion> motions_;
+  std::vector<std::size_t> first_;  // of each clump's discs; behind the last clump, how many there are
 };
 
 }  // namespace vibrosow

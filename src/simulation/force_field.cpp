@@ -33,7 +33,7 @@ const Grains& ForceField::place_discs() {
   if (!clumps_) return grains;
   if (!clumps_are_current_) clumps_->rebuild(grains);
   clumps_are_current_ = true;
-  clumps_->place(grains);
+  clumps_->place(grains, execution_);
   return clumps_->discs();
 }
 
@@ -149,7 +149,7 @@ void ForceField::evaluate(double time, const HistoryAdvance& advance, ContactSta
     run_kernels(discs, advance, clumps_ ? disc_forces_ : forces_, statistics);
   if (!clumps_) return;
   if (discs.in_space) {
-    clumps_->gather(ball_forces_, space_forces_);
+    clumps_->gather(ball_forces_, space_forces_, execution_);
   } else {
     forces_.assign(state_.grains.size(), {});
     clumps_->gather(disc_forces_, forces_);

@@ -25,6 +25,7 @@ void add_pairs(SpacePairKernel kernel, const GrainSurfaces& surfaces, const Spac
 
 /// What it points at is right until it is asked for again.
 SpaceMotion ForceField::motion_in_space(const Grains& balls) {
+  if (clumps_) return {clumps_->places().data(), clumps_->places().data(), clumps_->motions().data()};
   places_.resize(balls.size()), motions_.resize(balls.size());
   const bool turn = !balls.omega.empty();
   execution_.share(balls.size(), [&](std::size_t a, std::size_t b) {
@@ -37,7 +38,7 @@ SpaceMotion ForceField::motion_in_space(const Grains& balls) {
 }
 
 SpaceMotion ForceField::motion_of_image(const SpaceMotion& at, const Neighbours::Image& image) {
-  shifted_places_ = places_;
+  shifted_places_ = clumps_ ? clumps_->places() : places_;
   for (GrainVector& place : shifted_places_) place.x += image.x, place.z += image.z;
   return {at.place, shifted_places_.data(), at.motion};
 }

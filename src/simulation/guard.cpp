@@ -36,8 +36,8 @@ double energy_of_turning(const Grains& grains, std::size_t i, bool as_clump) {
   const double inverse_inertia = grains.polydisperse ? grains.inverse_inertia[i] : grains.kinds.front().inverse_inertia;
   if (inverse_inertia <= 0) return 0;
   if (as_clump) {
-    const Eigen::Vector3d spin = spin_of(grains, i);
-    return 0.5 * spin.dot(TurningClump(grains, i).momentum_of(spin));
+    const Vector3 spin = spin_of(grains, i);
+    return 0.5 * dot(spin, turning_clump(grains, i).momentum_of(spin));
   }
   double spin2 = grains.omega[i] * grains.omega[i];
   if (grains.in_space) spin2 += grains.omega_x[i] * grains.omega_x[i] + grains.omega_y[i] * grains.omega_y[i];

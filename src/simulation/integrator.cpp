@@ -2,7 +2,6 @@
 
 #include <cmath>
 
-#include "grains/turning_clump.hpp"
 #include "simulation/clump_rotation.hpp"
 
 namespace vibrosow {

@@ -1,8 +1,10 @@
 #pragma once
 
+#include <array>
 #include <atomic>
 #include <vector>
 
+#include "grains/turning_clump.hpp"
 #include "simulation/force_field.hpp"
 
 namespace vibrosow {
@@ -24,6 +26,8 @@ struct Integration {
   std::vector<double> x{}, y{}, vx{}, vy{}, omega{}, angle{};
   std::vector<double> z{}, vz{}, omega_x{}, omega_y{};
   std::vector<Orientation> orientation{};
+
+  std::array<std::vector<double>, 3> moments = moments_by_lot(grains);  // of clumps
 };
 
 /// One step of a scheme. Velocity Verlet uses predicted velocities v + a dt in the forces, which keeps second order

@@ -39,12 +39,14 @@ inline Eigen::Vector3d velocity_of(const Grains& g, std::size_t i) {
 }
 inline Eigen::Vector3d turning_of(const Grains& g, std::size_t i) {
   if (!g.rotation) return Eigen::Vector3d::Zero();
-  return g.in_space ? spin_of(g, i) : Eigen::Vector3d(0, 0, g.omega[i]);
+  if (!g.in_space) return {0, 0, g.omega[i]};
+  const Vector3 spin = spin_of(g, i);
+  return {spin.x, spin.y, spin.z};
 }
 inline void set_turning(Grains& g, std::size_t i, const Eigen::Vector3d& spin) {
   if (!g.rotation) return;
   if (g.in_space)
-    set_spin(g, i, spin);
+    set_spin(g, i, {spin.x(), spin.y(), spin.z()});
   else
     g.omega[i] = spin.z();
 }

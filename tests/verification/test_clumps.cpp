@@ -182,8 +182,8 @@ TEST(Clump, AnImpactOfAClumpOfBallsIsThatOfARigidBody) {
           }
           ASSERT_GT(touched, 100);
           const Grains& g = run.grains();
-          const Eigen::Vector3d spin_change = spin_of(g, 0) - spin;
-          const double measured = (g.vy[0] + up.dot(cross(spin_of(g, 0), arm))) / approach;
+          const Eigen::Vector3d spin_change = turning_of(g, 0) - spin;
+          const double measured = (g.vy[0] + up.dot(cross(turning_of(g, 0), arm))) / approach;
           const double impulse = (1 + (restitution < 1 ? measured : 1)) * approach / (1 / clump_mass + lever.dot(turn));
           SCOPED_TRACE(testing::Message() << is_dipole << " " << turned << " " << restitution);
           EXPECT_NEAR(g.vy[0] + speed, impulse / clump_mass, 0.005 * impulse / clump_mass);

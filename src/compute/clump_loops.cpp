@@ -1,0 +1,162 @@
+// Compiled for each instruction set (VIBROSOW_ISA), see src/CMakeLists.txt.
+#include "compute/clump_loops.hpp"
+
+#include "compute/rows.hpp"
+#include "compute/turning_clump.hpp"
+
+namespace vibrosow::inline VIBROSOW_ISA {
+namespace {
+
+/// For loops in vectors: pointers by value, so that the compiler knows that no store changes them.
+struct Turning {
+  explicit Turning(const ClumpTurning& of)
+      : w(of.quaternion[0]), x(of.quaternion[1]), y(of.quaternion[2]), z(of.quaternion[3]),
+        spin_x(of.spin[0]), spin_y(of.spin[1]), spin_z(of.spin[2]),
+        lot(of.lot), inverse_inertia(of.inverse_inertia), moment_x(of.moments[0]), moment_y(of.moments[1]), moment_z(of.moments[2]) {}
+
+  [[gnu::always_inline]] bool turns(std::size_t i) const { return inverse_inertia[i] > 0; }
+  [[gnu::always_inline]] Vector3 spin(std::size_t i) const { return {spin_x[i], spin_y[i], spin_z[i]}; }
+  [[gnu::always_inline]] TurningClump clump(std::size_t i) const {
+    const int own = lot[i];
+    const double per = inverse_inertia[i];
+    return {{w[i], x[i], y[i], z[i]}, {moment_x[own] / per, moment_y[own] / per, moment_z[own] / per}};
+  }
+  // Of those that can turn.
+  [[gnu::always_inline]] void set(std::size_t i, const Orientation& q) const {
+    w[i] = turns(i) ? q.w : w[i], x[i] = turns(i) ? q.x : x[i];
+    y[i] = turns(i) ? q.y : y[i], z[i] = turns(i) ? q.z : z[i];
+  }
+  [[gnu::always_inline]] void set_spin(std::size_t i, const Vector3& spin) const {
+    spin_x[i] = turns(i) ? spin.x : spin_x[i];
+    spin_y[i] = turns(i) ? spin.y : spin_y[i];
+    spin_z[i] = turns(i) ? spin.z : spin_z[i];
+  }
+
+  double *w, *x, *y, *z, *spin_x, *spin_y, *spin_z;
+  const int* lot;
+  const double *inverse_inertia, *moment_x, *moment_y, *moment_z;
+};
+
+// The work on one clump is a function of its own: what is declared within a loop in vectors is kept in memory.
+
+[[gnu::always_inline]] inline void predict_one(const Turning& clumps, std::size_t i, double dt, const Vector3& torque) {
+  TurningClump clump = clumps.clump(i);
+  const Vector3 before = clump.momentum_of(clumps.spin(i)), gain = dt * torque;
+  clump.turn_freely(before + 0.5 * gain, dt);
+  clumps.set(i, clump.orientation());
+  clumps.set_spin(i, clump.spin_of(before + gain));
+}
+
+[[gnu::flatten]] void predict(std::size_t n, double dt, const ClumpTurning& of, const double* const (&torque)[3]) {
+  const Turning clumps(of);
+  const double *torque_x = torque[0], *torque_y = torque[1], *torque_z = torque[2];
+#pragma omp simd
+  for (std::size_t i = 0; i < n; ++i) predict_one(clumps, i, dt, {torque_x[i], torque_y[i], torque_z[i]});
+}
+
+[[gnu::always_inline]] inline void correct_one(const Turning& clumps, std::size_t i, double dt, const double* now,
+                                               double& kept_x, double& kept_y, double& kept_z) {
+  const Vector3 missed{now[0] - kept_x, now[1] - kept_y, now[2] - kept_z};
+  clumps.set_spin(i, clumps.spin(i) + clumps.clump(i).spin_of((0.5 * dt) * missed));
+  kept_x = clumps.turns(i) ? now[0] : kept_x;
+  kept_y = clumps.turns(i) ? now[1] : kept_y;
+  kept_z = clumps.turns(i) ? now[2] : kept_z;
+}
+
+[[gnu::flatten]] void correct(std::size_t n, double dt, const ClumpTurning& of, const GrainVector* torque,
+                              double* const (&kept)[3]) {
+  const Turning clumps(of);
+  double *kept_x = kept[0], *kept_y = kept[1], *kept_z = kept[2];
+  const double* torques = &torque->x;
+#pragma omp simd
+  for (std::size_t i = 0; i < n; ++i) correct_one(clumps, i, dt, torques + 4 * i, kept_x[i], kept_y[i], kept_z[i]);
+}
+
+/// sum += a x b. (By reference: how vectors are returned differs between instruction sets.)
+[[gnu::always_inline]] inline void add_cross_product(Four& sum, const Four& a, const Four& b) {
+  const Four a_from_y = __builtin_shufflevector(a, a, 1, 2, 0, 3), a_from_z = __builtin_shufflevector(a, a, 2, 0, 1, 3),
+             b_from_y = __builtin_shufflevector(b, b, 1, 2, 0, 3), b_from_z = __builtin_shufflevector(b, b, 2, 0, 1, 3);
+  sum += a_from_y * b_from_z - a_from_z * b_from_y;
+}
+
+[[gnu::always_inline]] inline Four& four(GrainVector& row) {
+  return reinterpret_cast<Four&>(row);
+}
+[[gnu::always_inline]] inline const Four& four(const GrainVector& row) {
+  return reinterpret_cast<const Four&>(row);
+}
+
+/// How a few clumps lie and move, each one's numbers side by side.
+constexpr std::size_t at_once = 64;
+struct LyingClump {
+  GrainVector axis_x, axis_y, axis_z, place, velocity, spin;
+};
+
+[[gnu::flatten]] void lie(std::size_t from, std::size_t n, const ClumpMotion& clumps, LyingClump* lying) {
+  double axes[9][at_once];
+  const double *w = clumps.quaternion[0] + from, *x = clumps.quaternion[1] + from, *y = clumps.quaternion[2] + from,
+               *z = clumps.quaternion[3] + from;
+#pragma omp simd
+  for (std::size_t i = 0; i < n; ++i) {
+    const Axes own = axes_of({w[i], x[i], y[i], z[i]});
+    axes[0][i] = own.x.x, axes[1][i] = own.x.y, axes[2][i] = own.x.z;
+    axes[3][i] = own.y.x, axes[4][i] = own.y.y, axes[5][i] = own.y.z;
+    axes[6][i] = own.z.x, axes[7][i] = own.z.y, axes[8][i] = own.z.z;
+  }
+  to_rows(n, axes[0], axes[1], axes[2], [lying](std::size_t i) { return &lying[i].axis_x; });
+  to_rows(n, axes[3], axes[4], axes[5], [lying](std::size_t i) { return &lying[i].axis_y; });
+  to_rows(n, axes[6], axes[7], axes[8], [lying](std::size_t i) { return &lying[i].axis_z; });
+  const auto rows_of = [&](const double* const(&a)[3], auto row) {
+    to_rows(n, a[0] + from, a[1] + from, a[2] + from, row);
+  };
+  rows_of(clumps.place, [lying](std::size_t i) { return &lying[i].place; });
+  rows_of(clumps.velocity, [lying](std::size_t i) { return &lying[i].velocity; });
+  if (clumps.spin[0]) rows_of(clumps.spin, [lying](std::size_t i) { return &lying[i].spin; });
+}
+
+void place_balls(const LyingClump& clump, std::size_t from, std::size_t to, const ClumpBalls& balls,
+                 const PlacedBalls& placed) {
+  const Four axis_x = four(clump.axis_x), axis_y = four(clump.axis_y), axis_z = four(clump.axis_z),
+             place = four(clump.place), velocity = four(clump.velocity), spin = four(clump.spin);
+  for (std::size_t k = from; k < to; ++k) {
+    const Four arm = axis_x * balls.own_x[k] + (axis_y * balls.own_y[k] + axis_z * balls.own_z[k]), at = place + arm;
+    four(placed.arm[k]) = arm, four(placed.place[k]) = at;
+    Four moving = velocity;
+    add_cross_product(moving, spin, arm);
+    four(placed.motion[k].velocity) = moving, four(placed.motion[k].spin) = spin;
+    placed.x[k] = at[0], placed.y[k] = at[1], placed.z[k] = at[2];
+  }
+}
+
+void place(std::size_t from, std::size_t to, const ClumpMotion& clumps, const ClumpBalls& balls,
+           const PlacedBalls& placed) {
+  LyingClump lying[at_once]{};
+  for (; from < to; from += at_once) {
+    const std::size_t n = to - from < at_once ? to - from : at_once;
+    lie(from, n, clumps, lying);
+    for (std::size_t i = 0; i < n; ++i)
+      place_balls(lying[i], balls.first[from + i], balls.first[from + i + 1], balls, placed);
+  }
+}
+
+void gather(std::size_t from, std::size_t to, const std::size_t* first, const GrainVector* arm,
+            const ClumpForces& forces) {
+  for (std::size_t i = from; i < to; ++i) {
+    Four force{}, torque{};
+    for (std::size_t k = first[i]; k < first[i + 1]; ++k) {
+      force += four(forces.on_balls[k]);
+      if (!forces.torque) continue;
+      add_cross_product(torque, four(arm[k]), four(forces.on_balls[k]));
+      if (forces.torques_on_balls) torque += four(forces.torques_on_balls[k]);
+    }
+    four(forces.force[i]) = force;
+    if (forces.torque) four(forces.torque[i]) = torque;
+  }
+}
+
+}  // namespace
+
+extern const ClumpLoops loops_of_clumps;
+const ClumpLoops loops_of_clumps{predict, correct, place, gather};
+
+}  // namespace vibrosow::inline VIBROSOW_ISA
