@@ -10,9 +10,18 @@ namespace {
 /// For loops in vectors: pointers by value, so that the compiler knows that no store changes them.
 struct Turning {
   explicit Turning(const ClumpTurning& of)
-      : w(of.quaternion[0]), x(of.quaternion[1]), y(of.quaternion[2]), z(of.quaternion[3]),
-        spin_x(of.spin[0]), spin_y(of.spin[1]), spin_z(of.spin[2]),
-        lot(of.lot), inverse_inertia(of.inverse_inertia), moment_x(of.moments[0]), moment_y(of.moments[1]), moment_z(of.moments[2]) {}
+      : w(of.quaternion[0]),
+        x(of.quaternion[1]),
+        y(of.quaternion[2]),
+        z(of.quaternion[3]),
+        spin_x(of.spin[0]),
+        spin_y(of.spin[1]),
+        spin_z(of.spin[2]),
+        lot(of.lot),
+        inverse_inertia(of.inverse_inertia),
+        moment_x(of.moments[0]),
+        moment_y(of.moments[1]),
+        moment_z(of.moments[2]) {}
 
   [[gnu::always_inline]] bool turns(std::size_t i) const { return inverse_inertia[i] > 0; }
   [[gnu::always_inline]] Vector3 spin(std::size_t i) const { return {spin_x[i], spin_y[i], spin_z[i]}; }

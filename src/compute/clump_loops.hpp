@@ -42,8 +42,8 @@ struct ClumpForces {
   GrainVector *force, *torque;
 };
 
-/// Loops over clumps in space, compiled for one instruction set; those of `n` clumps begin with the first of all arrays,
-/// others take the clumps [from, to).
+/// Loops over clumps in space, compiled for one instruction set; those of `n` clumps begin with the first of all
+/// arrays, others take the clumps [from, to).
 struct ClumpLoops {
   /// Velocity Verlet: how they lie at the end of a step, by the angular momentum at its middle, and the spins predicted
   /// there. `torque`: at its beginning, N m.
