@@ -4,7 +4,7 @@ import math
 from scipy.stats import t as student
 
 from .bench import conditions_of
-from .tables import command, rows, write_table
+from .tables import command, number, rows, write_table
 
 
 def pooled_half_width(of):
@@ -23,13 +23,15 @@ def pooled_rates(options):
 
     Two runs tell little of their own scatter; many layouts of two runs each tell it well, where it is the same part of the rate in all. Writes
     OUT: of each layout its keys, the hole (or all of them), its place, the rate (g/s) and the half width of its 95 % interval, in percent. Ends
-    the program where layouts have different numbers of runs."""
+    the program where layouts have different numbers of runs, or a hole let nothing through."""
     varied, conditions = conditions_of(rows(f"{options.sweep}/sweep.csv"))
     every = rows(f"{options.sweep}/sweep_holes.csv")
     of_several_lots = {(row["layout"], row["hole"]) for row in every if row["lot"] == "all"}
     of = [row for row in every if row["lot"] == "all" or (row["layout"], row["hole"]) not in of_several_lots]
     if len({row["replicates"] for row in of}) != 1:
         raise SystemExit(f"{options.sweep}/sweep_holes.csv: layouts of different numbers of runs")
+    if any(number(row["rate_g_per_s"]) <= 0 for row in of):
+        raise SystemExit(f"{options.sweep}/sweep_holes.csv: a hole has no rate, and so no scatter relative to it")
     of_holes, of_all = [row for row in of if row["hole"] != "all"], [row for row in of if row["hole"] == "all"]
     lines = []
     for group in (of_all, of_holes):

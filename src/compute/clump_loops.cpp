@@ -7,43 +7,29 @@
 namespace vibrosow::inline VIBROSOW_ISA {
 namespace {
 
-/// For loops in vectors: pointers by value, so that the compiler knows that no store changes them.
+/// For loops in vectors: the pointers by value, so that the compiler knows that no store changes them.
 struct Turning {
-  explicit Turning(const ClumpTurning& of)
-      : w(of.quaternion[0]),
-        x(of.quaternion[1]),
-        y(of.quaternion[2]),
-        z(of.quaternion[3]),
-        spin_x(of.spin[0]),
-        spin_y(of.spin[1]),
-        spin_z(of.spin[2]),
-        lot(of.lot),
-        inverse_inertia(of.inverse_inertia),
-        moment_x(of.moments[0]),
-        moment_y(of.moments[1]),
-        moment_z(of.moments[2]) {}
-
-  [[gnu::always_inline]] bool turns(std::size_t i) const { return inverse_inertia[i] > 0; }
-  [[gnu::always_inline]] Vector3 spin(std::size_t i) const { return {spin_x[i], spin_y[i], spin_z[i]}; }
+  [[gnu::always_inline]] bool turns(std::size_t i) const { return of.inverse_inertia[i] > 0; }
+  [[gnu::always_inline]] Vector3 spin(std::size_t i) const { return {of.spin[0][i], of.spin[1][i], of.spin[2][i]}; }
   [[gnu::always_inline]] TurningClump clump(std::size_t i) const {
-    const int own = lot[i];
-    const double per = inverse_inertia[i];
-    return {{w[i], x[i], y[i], z[i]}, {moment_x[own] / per, moment_y[own] / per, moment_z[own] / per}};
+    const int lot = of.lot[i];
+    const double per = of.inverse_inertia[i];
+    return {{of.quaternion[0][i], of.quaternion[1][i], of.quaternion[2][i], of.quaternion[3][i]},
+            {of.moments[0][lot] / per, of.moments[1][lot] / per, of.moments[2][lot] / per}};
   }
-  // Of those that can turn.
   [[gnu::always_inline]] void set(std::size_t i, const Orientation& q) const {
-    w[i] = turns(i) ? q.w : w[i], x[i] = turns(i) ? q.x : x[i];
-    y[i] = turns(i) ? q.y : y[i], z[i] = turns(i) ? q.z : z[i];
+    set(i, of.quaternion[0], q.w), set(i, of.quaternion[1], q.x);
+    set(i, of.quaternion[2], q.y), set(i, of.quaternion[3], q.z);
   }
   [[gnu::always_inline]] void set_spin(std::size_t i, const Vector3& spin) const {
-    spin_x[i] = turns(i) ? spin.x : spin_x[i];
-    spin_y[i] = turns(i) ? spin.y : spin_y[i];
-    spin_z[i] = turns(i) ? spin.z : spin_z[i];
+    set(i, of.spin[0], spin.x), set(i, of.spin[1], spin.y), set(i, of.spin[2], spin.z);
+  }
+  /// Of one that can turn.
+  [[gnu::always_inline]] void set(std::size_t i, double* values, double now) const {
+    values[i] = turns(i) ? now : values[i];
   }
 
-  double *w, *x, *y, *z, *spin_x, *spin_y, *spin_z;
-  const int* lot;
-  const double *inverse_inertia, *moment_x, *moment_y, *moment_z;
+  const ClumpTurning of;
 };
 
 // The work on one clump is a function of its own: what is declared within a loop in vectors is kept in memory.
@@ -57,7 +43,7 @@ struct Turning {
 }
 
 [[gnu::flatten]] void predict(std::size_t n, double dt, const ClumpTurning& of, const double* const (&torque)[3]) {
-  const Turning clumps(of);
+  const Turning clumps{of};
   const double *torque_x = torque[0], *torque_y = torque[1], *torque_z = torque[2];
 #pragma omp simd
   for (std::size_t i = 0; i < n; ++i) predict_one(clumps, i, dt, {torque_x[i], torque_y[i], torque_z[i]});
@@ -74,7 +60,7 @@ struct Turning {
 
 [[gnu::flatten]] void correct(std::size_t n, double dt, const ClumpTurning& of, const GrainVector* torque,
                               double* const (&kept)[3]) {
-  const Turning clumps(of);
+  const Turning clumps{of};
   double *kept_x = kept[0], *kept_y = kept[1], *kept_z = kept[2];
   const double* torques = &torque->x;
 #pragma omp simd
