@@ -12,15 +12,15 @@ void PairRows::begin(std::size_t grains, int ranges) {
 
 int* PairRows::room(int range, std::size_t most) {
   std::vector<int>& near = near_[static_cast<std::size_t>(range)];
-  used_[static_cast<std::size_t>(range)] = near.size();
-  near.resize(near.size() + most);
-  return near.data() + used_[static_cast<std::size_t>(range)];
+  const std::size_t used = used_[static_cast<std::size_t>(range)], needed = used + most;
+  if (near.size() < needed) near.resize(std::max(needed, 2 * near.size()));  // seldom: it fills what it adds
+  return near.data() + used;
 }
 
 void PairRows::found(int range, int grain, int count) {
-  const std::size_t begin = used_[static_cast<std::size_t>(range)];
-  near_[static_cast<std::size_t>(range)].resize(begin + static_cast<std::size_t>(count));
-  rows_[static_cast<std::size_t>(grain)] = {begin, range, count};
+  std::size_t& used = used_[static_cast<std::size_t>(range)];
+  rows_[static_cast<std::size_t>(grain)] = {used, range, count};
+  used += static_cast<std::size_t>(count);
 }
 
 template <class Use>

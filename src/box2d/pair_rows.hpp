@@ -13,7 +13,7 @@ class PairRows {
   void begin(std::size_t grains, int ranges);
 
   /// Begins the range's work.
-  void begin_range(int range) { near_[static_cast<std::size_t>(range)].clear(); }
+  void begin_range(int range) { used_[static_cast<std::size_t>(range)] = 0; }
   /// Room for `most` numbers; `found` then says of which grain the first `count` of them are near. One after the other.
   int* room(int range, std::size_t most);
   void found(int range, int grain, int count);
@@ -31,7 +31,7 @@ class PairRows {
   template <class Use>
   void for_each_near(const Row& row, Use use) const;
 
-  std::vector<std::vector<int>> near_;  // by range
+  std::vector<std::vector<int>> near_;  // by range, longer than what is used of it
   std::vector<std::size_t> used_;       // by range, of its `near_`
   std::vector<Row> rows_;               // by grain
   std::vector<int> row_end_;            // by grain

@@ -18,9 +18,10 @@
 namespace vibrosow {
 namespace {
 
-constexpr int cluster_size = 8;        // balls
-constexpr double slab_diameters = 2;   // of the largest ball: eight of them fill about a cube
-constexpr double strip_diameters = 2;  // within a slab
+constexpr std::size_t cluster_size = 8;  // balls
+constexpr std::size_t widest = 64;       // numbers in a vector of the widest kind
+constexpr double slab_diameters = 2;     // of the largest ball: eight of them fill about a cube
+constexpr double strip_diameters = 2;    // within a slab
 
 /// A box with sides along the axes, m.
 struct Box {
@@ -98,7 +99,7 @@ struct Around {
   std::vector<int> grain;
   std::vector<double> x, y, z, r;  // m
 
-  void clear() { grain.clear(), x.clear(), y.clear(), z.clear(), r.clear(); }
+  void resize(std::size_t n) { grain.resize(n), x.resize(n), y.resize(n), z.resize(n), r.resize(n); }
   /// Its plan is x and z.
   Places view() const { return {static_cast<int>(grain.size()), grain.data(), x.data(), z.data(), r.data()}; }
 };
@@ -292,20 +293,22 @@ struct SpaceBroadphase::World {
   }
 
   void gather(const std::vector<int>& clusters, Around& around) const {
-    around.clear();
+    around.resize(clusters.size() * cluster_size + widest);
+    std::size_t count = 0;
     for (const int c : clusters) {
       const Cluster& cluster = sorted.clusters[static_cast<std::size_t>(c)];
-      const auto append = [&cluster](auto& array, const auto& all) {
-        array.insert(array.end(), all.begin() + static_cast<std::ptrdiff_t>(cluster.begin),
-                     all.begin() + static_cast<std::ptrdiff_t>(cluster.end));
-      };
-      append(around.grain, sorted.grain);
-      append(around.x, sorted.x), append(around.y, sorted.y), append(around.z, sorted.z), append(around.r, sorted.r);
+      for (std::size_t k = cluster.begin; k < cluster.end; ++k, ++count) {
+        around.grain[count] = sorted.grain[k], around.r[count] = sorted.r[k];
+        around.x[count] = sorted.x[k], around.y[count] = sorted.y[k], around.z[count] = sorted.z[k];
+      }
     }
     // Whole vectors of the widest kind: what is added has no number that any grain looks for.
-    const std::size_t padded = (around.grain.size() + 63) / 64 * 64;
-    around.grain.resize(padded, -1);
-    for (std::vector<double>* array : {&around.x, &around.y, &around.z, &around.r}) array->resize(padded, 0.0);
+    const std::size_t padded = (count + widest - 1) / widest * widest;
+    for (; count < padded; ++count) {
+      around.grain[count] = -1;
+      around.x[count] = around.y[count] = around.z[count] = around.r[count] = 0;
+    }
+    around.resize(padded);
   }
 
   /// All faces whose boxes a cluster's box meets, for each of the cluster's balls.

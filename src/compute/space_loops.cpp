@@ -19,6 +19,49 @@ void motions_to_rows(std::size_t n, const Coordinates& velocity, const Coordinat
   if (spin.x) to_rows(n, spin.x, spin.y, spin.z, [rows](std::size_t i) { return &rows[i].spin; });
 }
 
+template <bool spins>
+[[gnu::always_inline]] inline void predict_all(std::size_t n, double dt, double* const (&places)[3],
+                                               const SpaceRates& rates, const BallRows& rows) {
+  const auto move = [dt, half = 0.5 * dt](auto& x, auto& v, const auto& a) {
+    x += dt * (v + half * a);
+    v += dt * a;
+  };
+  std::size_t i = 0;
+  for (; i + 4 <= n; i += 4) {
+    Four place[4]{}, velocity[4]{}, spin[4]{};
+    for (int axis = 0; axis < 3; ++axis) {
+      Four a;
+      load(place[axis], places[axis] + i), load(velocity[axis], rates.v[axis] + i), load(a, rates.a[axis] + i);
+      move(place[axis], velocity[axis], a);
+      store(place[axis], places[axis] + i), store(velocity[axis], rates.v[axis] + i);
+      if constexpr (spins) {
+        load(spin[axis], rates.omega[axis] + i), load(a, rates.alpha[axis] + i);
+        spin[axis] += dt * a;
+        store(spin[axis], rates.omega[axis] + i);
+      }
+    }
+    transpose(place), transpose(velocity), transpose(spin);
+    for (std::size_t k = 0; k < 4; ++k) {
+      *reinterpret_cast<Four*>(rows.places + i + k) = place[k];
+      *reinterpret_cast<Four*>(&rows.motions[i + k].velocity) = velocity[k];
+      if constexpr (spins) *reinterpret_cast<Four*>(&rows.motions[i + k].spin) = spin[k];
+    }
+  }
+  for (; i < n; ++i) {
+    for (int axis = 0; axis < 3; ++axis) {
+      move(places[axis][i], rates.v[axis][i], rates.a[axis][i]);
+      if constexpr (spins) rates.omega[axis][i] += dt * rates.alpha[axis][i];
+    }
+    rows.places[i] = {places[0][i], places[1][i], places[2][i], 0};
+    rows.motions[i].velocity = {rates.v[0][i], rates.v[1][i], rates.v[2][i], 0};
+    if constexpr (spins) rows.motions[i].spin = {rates.omega[0][i], rates.omega[1][i], rates.omega[2][i], 0};
+  }
+}
+
+void predict(std::size_t n, double dt, double* const (&places)[3], const SpaceRates& rates, const BallRows& rows) {
+  (rates.omega[0] ? predict_all<true> : predict_all<false>)(n, dt, places, rates, rows);
+}
+
 /// Calls `take(v, a, now)` for the velocities of four balls or of one, their old rates and those by which they are
 /// driven now.
 template <bool polydisperse, bool drags, class Take>
@@ -136,7 +179,7 @@ std::size_t near_pairs(std::size_t n, const int* grain, const int* partner, cons
 }  // namespace
 
 extern const SpaceLoops loops_in_space;
-const SpaceLoops loops_in_space{places_to_rows, motions_to_rows, accelerate, correct,
-                                any_moved,      any_faster,      near_pairs};
+const SpaceLoops loops_in_space{places_to_rows, motions_to_rows, predict,    accelerate,
+                                correct,        any_moved,       any_faster, near_pairs};
 
 }  // namespace vibrosow::inline VIBROSOW_ISA

@@ -25,12 +25,20 @@ struct Coordinates {
   const double *x, *y, *z;
 };
 
+/// Where kernels read how balls lie and move: a row a ball.
+struct BallRows {
+  GrainVector* places;
+  BallMotion* motions;
+};
+
 /// Loops over all balls in space, compiled for one instruction set, beside those of GrainLoops that know nothing of
 /// dimensions.
 struct SpaceLoops {
   /// Places, or velocities and spins, of which x, y and z lie apart, side by side. Without rotation `spin` is null.
   void (*places_to_rows)(std::size_t n, const Coordinates& places, GrainVector* rows);
   void (*motions_to_rows)(std::size_t n, const Coordinates& velocity, const Coordinates& spin, BallMotion* rows);
+  /// `predict` of GrainLoops, of places (x, y, z), velocities and spins; what comes out goes to the rows as well.
+  void (*predict)(std::size_t n, double dt, double* const (&places)[3], const SpaceRates& rates, const BallRows& rows);
   /// As in GrainLoops.
   void (*accelerate)(std::size_t n, const SpaceDrive& drive, const SpaceRates& rates);
   void (*correct)(std::size_t n, double dt, const SpaceDrive& drive, const SpaceRates& rates);

@@ -21,7 +21,7 @@ struct SpaceBlock {
   SpaceColumns velocity;                                        // m/s, of the grain less its partner's
   SpaceColumns spin, partner_spin;                              // rad/s
   SpaceColumns force;                                           // N, on the grain; the opposite on its partner
-  SpaceColumns torque, partner_torque;                          // N m, on the grain, on its partner
+  SpaceColumns torque, partner_torque;                          // N m, on the grain, on its partner where it differs
 
   /// Of eight, the longest vectors that there are.
   int whole_vectors() const { return (touching + 7) & -8; }
@@ -82,6 +82,10 @@ void find_touching(const PairProperties<Law, Effects>& properties, const SpaceMo
   fill_up(block);
 }
 
+/// Whether the two balls of every contact feel the same torque: equal ones, that do not resist rolling.
+template <class Effects>
+inline constexpr bool same_torques = !Effects::polydisperse && !Effects::rolls;
+
 /// What the contacts of a block are worked out from, and where to.
 template <class Law, class Effects>
 struct SpacePairWork {
@@ -112,7 +116,9 @@ struct SpacePairWork {
     }
     if constexpr (Effects::rotation) {
       arm_i = properties.radius(i) - shortening * touch.overlap * pair.overlap_fraction_i;
-      arm_j = properties.radius(j) - shortening * touch.overlap * pair.overlap_fraction_j;
+      arm_j = arm_i;
+      if constexpr (Effects::polydisperse)
+        arm_j = properties.radius(j) - shortening * touch.overlap * pair.overlap_fraction_j;
       set_turning<Effects>(block.spin[k], block.partner_spin[k], arm_i, arm_j, touch);
     }
     SpaceHistory history = block_histories.template get<Effects>(static_cast<std::size_t>(k));
@@ -123,8 +129,8 @@ struct SpacePairWork {
     block.force.set(k, on_grain);
     if constexpr (Effects::rotation) {
       const Vector3 lever = cross(touch.n, force.tangential);
-      const Vector3 own = arm_i * lever + force.resistance, other = arm_j * lever - force.resistance;
-      block.torque.set(k, own), block.partner_torque.set(k, other);
+      block.torque.set(k, arm_i * lever + force.resistance);
+      if constexpr (!same_torques<Effects>) block.partner_torque.set(k, arm_j * lever - force.resistance);
     }
     return {touch.overlap * pair.relative_per_overlap, force.slip_raised};
   }
@@ -153,8 +159,9 @@ inline void as_rows(const SpaceColumns& columns, int from, Four (&rows)[4]) {
 }
 
 /// Adds the forces of a block to its grains, contact by contact in the order of the list.
-template <bool rotation>
+template <class Effects>
 void add_block(const SpaceBlock& block, SpacePairResult& result) {
+  constexpr bool rotation = Effects::rotation;
   Four *forces = reinterpret_cast<Four*>(result.forces), *torques = reinterpret_cast<Four*>(result.torques);
   result.foreign_count = 0;
   for (int from = 0; from < block.touching; from += 4) {
@@ -162,7 +169,7 @@ void add_block(const SpaceBlock& block, SpacePairResult& result) {
     as_rows(block.force, from, force);
     if constexpr (rotation) {
       as_rows(block.torque, from, own);
-      as_rows(block.partner_torque, from, other);
+      as_rows(same_torques<Effects> ? block.torque : block.partner_torque, from, other);
     }
     const int count = block.touching - from < 4 ? block.touching - from : 4;
     for (int k = 0; k < count; ++k) {
@@ -199,7 +206,7 @@ template <class Law, class Effects>
   if (keeps_history<Effects> && leaves_trace)
     store_block<Effects>(
         block_histories, block.entry, range.from, block.touching, [&](int k) { return range.from + k; }, histories);
-  add_block<Effects::rotation>(block, result);
+  add_block<Effects>(block, result);
   result.contacts = block.touching;
 }
 

@@ -36,6 +36,10 @@ class ForceField {
   ForceField(const ForceField&) = delete;
   ForceField& operator=(const ForceField&) = delete;
 
+  /// Where the next evaluation, and it alone, reads how balls in space lie and move, if whoever moves them sets it. Not
+  /// of clumps.
+  BallRows rows_to_set();
+
   /// Forces on the grains where they are now, with the vessels where they are at `time`. Statistics are added up, but
   /// for the walls' power, which is this evaluation's. `advance` moves the histories of contacts on.
   void evaluate(double time, const HistoryAdvance& advance) { evaluate(time, advance, state_.statistics); }
@@ -87,6 +91,7 @@ class ForceField {
   WallContacts& find_wall_contacts(const Grains& discs);
   void run_kernels(const Grains& discs, const HistoryAdvance& advance, Forces& forces, ContactStatistics& statistics);
   SpaceMotion motion_in_space(const Grains& balls);
+  void set_rows(const Grains& balls);
   SpaceMotion motion_of_image(const SpaceMotion& at, const Neighbours::Image& image);
   void run_kernels_in_space(const Grains& balls, const HistoryAdvance& advance, SpaceForces& forces,
                             ContactStatistics& statistics);
@@ -153,6 +158,7 @@ class ForceField {
   std::vector<double> shifted_x_;                     // m, across the periodic boundary
   std::vector<GrainVector> places_, shifted_places_;  // the same of balls in space
   std::vector<BallMotion> motions_;
+  bool rows_are_set_ = false;
 };
 
 /// A grain's walls are all in one range, so its forces are added up alike for any number of ranges.

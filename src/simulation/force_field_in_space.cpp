@@ -23,18 +23,29 @@ void add_pairs(SpacePairKernel kernel, const GrainSurfaces& surfaces, const Spac
 
 }  // namespace
 
+BallRows ForceField::rows_to_set() {
+  places_.resize(state_.grains.size()), motions_.resize(state_.grains.size());
+  rows_are_set_ = true;
+  return {places_.data(), motions_.data()};
+}
+
 /// What it points at is right until it is asked for again.
 SpaceMotion ForceField::motion_in_space(const Grains& balls) {
   if (clumps_) return {clumps_->places().data(), clumps_->places().data(), clumps_->motions().data()};
-  places_.resize(balls.size()), motions_.resize(balls.size());
+  if (!rows_are_set_) set_rows(balls);
+  rows_are_set_ = false;
+  return {places_.data(), places_.data(), motions_.data()};
+}
+
+void ForceField::set_rows(const Grains& balls) {
+  const BallRows rows = rows_to_set();
   const bool turn = !balls.omega.empty();
   execution_.share(balls.size(), [&](std::size_t a, std::size_t b) {
     const SpaceLoops& loops = execution_.space_loops();
-    loops.places_to_rows(b - a, {&balls.x[a], &balls.y[a], &balls.z[a]}, &places_[a]);
+    loops.places_to_rows(b - a, {&balls.x[a], &balls.y[a], &balls.z[a]}, rows.places + a);
     const Coordinates spin = turn ? Coordinates{&balls.omega_x[a], &balls.omega_y[a], &balls.omega[a]} : Coordinates{};
-    loops.motions_to_rows(b - a, {&balls.vx[a], &balls.vy[a], &balls.vz[a]}, spin, &motions_[a]);
+    loops.motions_to_rows(b - a, {&balls.vx[a], &balls.vy[a], &balls.vz[a]}, spin, rows.motions + a);
   });
-  return {places_.data(), places_.data(), motions_.data()};
 }
 
 SpaceMotion ForceField::motion_of_image(const SpaceMotion& at, const Neighbours::Image& image) {

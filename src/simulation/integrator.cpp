@@ -40,10 +40,16 @@ SpaceRates space_rates_of(Integration& s, std::size_t a) {
   Grains& g = s.grains;
   IntegratorState& k = s.kept;
   SpaceRates rates{{&g.vx[a], &g.vy[a], &g.vz[a]}, {}, {&k.ax[a], &k.ay[a], &k.az[a]}, {}};
-  // Without friction nothing turns a ball: there are no torques then. Clumps turn in their own way.
-  if (!g.rotation || g.oriented || s.field.torques_in_space().empty()) return rates;
+  if (!g.rotation || g.oriented) return rates;  // clumps turn in their own way
   rates.omega[0] = &g.omega_x[a], rates.omega[1] = &g.omega_y[a], rates.omega[2] = &g.omega[a];
   rates.alpha[0] = &k.alpha_x[a], rates.alpha[1] = &k.alpha_y[a], rates.alpha[2] = &k.alpha[a];
+  return rates;
+}
+
+/// Of those that are driven: without friction nothing turns a ball, and there are no torques.
+SpaceRates driven_in_space(Integration& s, std::size_t a) {
+  SpaceRates rates = space_rates_of(s, a);
+  if (s.field.torques_in_space().empty()) rates.omega[0] = nullptr;
   return rates;
 }
 
@@ -55,7 +61,7 @@ void accelerations_in_space(Integration& s) {
   if (grains.oriented && s.model.scene.numerics.integrator == Integrator::gear5)
     for (std::vector<double>& rate : s.kept.quaternion_rate) rate.resize(turning);
   s.execution.share(n, [&](std::size_t a, std::size_t b) {
-    s.execution.space_loops().accelerate(b - a, space_drive_of(s, a), space_rates_of(s, a));
+    s.execution.space_loops().accelerate(b - a, space_drive_of(s, a), driven_in_space(s, a));
     if (turn_as_clumps(grains)) keep_clump_rates(s, a, b);
   });
 }
@@ -112,31 +118,43 @@ double* angle_or_null(Grains& grains, std::size_t from) {
   return grains.angle.empty() ? nullptr : &grains.angle[from];
 }
 
-void velocity_verlet(Integration& s) {
+/// Places, predicted velocities and spins at the end of a step.
+void predict(Integration& s) {
   Grains& grains = s.grains;
   const GrainLoops& loops = s.execution.loops();
   s.execution.share(grains.size(), [&](std::size_t a, std::size_t b) {
     loops.predict(b - a, s.dt, &grains.x[a], &grains.vx[a], &s.kept.ax[a]);
     loops.predict(b - a, s.dt, &grains.y[a], &grains.vy[a], &s.kept.ay[a]);
-    const bool as_clumps = turn_as_clumps(grains);
-    if (grains.rotation && !as_clumps)
+    if (grains.in_space) loops.predict(b - a, s.dt, &grains.z[a], &grains.vz[a], &s.kept.az[a]);
+    if (turn_as_clumps(grains))
+      predict_clump_rotation(s, a, b);
+    else if (grains.rotation)
       loops.predict(b - a, s.dt, angle_or_null(grains, a), &grains.omega[a], &s.kept.alpha[a]);
-    if (!grains.in_space) return;
-    loops.predict(b - a, s.dt, &grains.z[a], &grains.vz[a], &s.kept.az[a]);
-    if (as_clumps) predict_clump_rotation(s, a, b);
-    if (!grains.rotation || as_clumps) return;
-    loops.predict(b - a, s.dt, nullptr, &grains.omega_x[a], &s.kept.alpha_x[a]);
-    loops.predict(b - a, s.dt, nullptr, &grains.omega_y[a], &s.kept.alpha_y[a]);
   });
+}
+
+/// The same of balls in space, with the rows that kernels read.
+void predict_balls(Integration& s) {
+  Grains& g = s.grains;
+  const BallRows rows = s.field.rows_to_set();
+  s.execution.share(g.size(), [&](std::size_t a, std::size_t b) {
+    s.execution.space_loops().predict(b - a, s.dt, {&g.x[a], &g.y[a], &g.z[a]}, space_rates_of(s, a),
+                                      {rows.places + a, rows.motions + a});
+  });
+}
+
+void velocity_verlet(Integration& s) {
+  Grains& grains = s.grains;
+  grains.in_space && !s.model.effects.clumps ? predict_balls(s) : predict(s);
   s.execution.profile().lap(Phase::integration);
   const double power_before = s.kept.wall_power;
   s.field.evaluate(next_time(s), {.trial = s.dt, .commit = s.dt, .present = 0.5}, s.state.statistics);
 
   s.execution.share(grains.size(), [&](std::size_t a, std::size_t b) {
     if (grains.in_space)
-      s.execution.space_loops().correct(b - a, s.dt, space_drive_of(s, a), space_rates_of(s, a));
+      s.execution.space_loops().correct(b - a, s.dt, space_drive_of(s, a), driven_in_space(s, a));
     else
-      loops.correct(b - a, s.dt, drive_of(s, a), rates_of(s, a));
+      s.execution.loops().correct(b - a, s.dt, drive_of(s, a), rates_of(s, a));
     if (turn_as_clumps(grains)) correct_clump_rotation(s, a, b);
     watch_speed(s, a, b);
   });
