@@ -32,6 +32,17 @@ const GrainLoops& grain_loops(InstructionSet set) {
   return generic::loops;
 }
 
+#ifdef VIBROSOW_PLANE_ALONE  // of a program that simulates nothing in space, and is to be small
+const SpaceLoops& space_loops(InstructionSet) {
+  static constexpr SpaceLoops none{};
+  return none;
+}
+
+const ClumpLoops& clump_loops(InstructionSet) {
+  static constexpr ClumpLoops none{};
+  return none;
+}
+#else
 const SpaceLoops& space_loops(InstructionSet set) {
   if (!is_available(set)) throw std::logic_error("these vector instructions are not available");
 #ifdef VIBROSOW_X86_KERNELS
@@ -49,5 +60,6 @@ const ClumpLoops& clump_loops(InstructionSet set) {
 #endif
   return generic::loops_of_clumps;
 }
+#endif
 
 }  // namespace vibrosow

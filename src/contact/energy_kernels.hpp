@@ -21,11 +21,14 @@ using SpaceWallEnergyKernel = double (*)(const GrainSurfaces&, const SpaceWallCo
 struct EnergyKernel {
   PairEnergyKernel pair;
   WallEnergyKernel wall;
-  SpacePairEnergyKernel space_pair;
-  SpaceWallEnergyKernel space_wall;
+};
+struct SpaceEnergyKernel {
+  SpacePairEnergyKernel pair;
+  SpaceWallEnergyKernel wall;
 };
 
 /// By index of `compiled_effects`.
 using EnergyKernels = std::array<EnergyKernel, compiled_effects.size()>;
+using SpaceEnergyKernels = std::array<SpaceEnergyKernel, compiled_effects.size()>;
 
 }  // namespace vibrosow

@@ -27,9 +27,11 @@ GrainSurfaces surfaces_of(const Grains& grains);
 struct KernelSet {
   Law law;
   EffectChoice effects;
-  std::array<VectorKernels, instruction_sets.size()> vectors;        // null where this program was built without
-  std::array<SpaceVectorKernels, instruction_sets.size()> in_space;  // the same of balls in space
+  std::array<VectorKernels, instruction_sets.size()> vectors;  // null where this program was built without
   EnergyKernel energy;
+  // The same of balls in space.
+  std::array<SpaceVectorKernels, instruction_sets.size()> in_space;
+  SpaceEnergyKernel energy_in_space;
 };
 
 /// The registration table: every compiled combination.

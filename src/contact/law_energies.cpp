@@ -5,7 +5,6 @@
 
 #include "contact/energy_kernels.hpp"
 #include "contact/pair_energy.hpp"
-#include "contact/space_energy.hpp"
 #include "contact/wall_energy.hpp"
 
 namespace vibrosow {
@@ -18,9 +17,7 @@ const EnergyKernels& energy_kernels<Law::VIBROSOW_LAW>() {
   static constexpr EnergyKernels kernels = []<std::size_t... index>(std::index_sequence<index...>) {
     using Formulas = FormulasOf<Law::VIBROSOW_LAW>::Type;
     return EnergyKernels{EnergyKernel{pair_energy<Formulas, PairEffects<compiled_effects[index]>>,
-                                      wall_energy<Formulas, PairEffects<compiled_effects[index]>>,
-                                      space_pair_energy<Formulas, PairEffects<compiled_effects[index]>>,
-                                      space_wall_energy<Formulas, PairEffects<compiled_effects[index]>>}...};
+                                      wall_energy<Formulas, PairEffects<compiled_effects[index]>>}...};
   }
   (std::make_index_sequence<compiled_effects.size()>());
   return kernels;

@@ -27,6 +27,8 @@ const SpaceLawKernels& space_law_kernels();
 
 template <Law law>
 const EnergyKernels& energy_kernels();  // law_energies.cpp, compiled for each law
+template <Law law>
+const SpaceEnergyKernels& space_energy_kernels();  // space_law_energies.cpp, as well
 
 namespace {
 
@@ -41,24 +43,30 @@ std::array<VectorKernels, instruction_sets.size()> kernels_at(std::size_t index)
 #endif
 }
 
-template <Law law>
-std::array<SpaceVectorKernels, instruction_sets.size()> space_kernels_at([[maybe_unused]] std::size_t index) {
-#if defined(VIBROSOW_PLANE_ALONE)  // of a program that simulates nothing in space, and is to be small
-  return {};
-#elif defined(VIBROSOW_X86_KERNELS)
-  return {generic::space_law_kernels<law>()[index], avx2::space_law_kernels<law>()[index],
-          avx512::space_law_kernels<law>()[index]};
+#ifdef VIBROSOW_PLANE_ALONE  // of a program that simulates nothing in space, and is to be small
+template <Law>
+void add_space([[maybe_unused]] KernelSet& set, [[maybe_unused]] std::size_t index) {}
 #else
-  return {generic::space_law_kernels<law>()[index], {}, {}};
+template <Law law>
+void add_space(KernelSet& set, std::size_t index) {
+  set.energy_in_space = space_energy_kernels<law>()[index];
+#ifdef VIBROSOW_X86_KERNELS
+  set.in_space = {generic::space_law_kernels<law>()[index], avx2::space_law_kernels<law>()[index],
+                  avx512::space_law_kernels<law>()[index]};
+#else
+  set.in_space = {generic::space_law_kernels<law>()[index]};
 #endif
 }
+#endif
 
 template <Law law>
 void add_law(Table& table) {
   const EnergyKernels& energies = energy_kernels<law>();
-  for (std::size_t index = 0; index < compiled_effects.size(); ++index)
-    table.push_back(
-        {law, compiled_effects[index], kernels_at<law>(index), space_kernels_at<law>(index), energies[index]});
+  for (std::size_t index = 0; index < compiled_effects.size(); ++index) {
+    KernelSet set{law, compiled_effects[index], kernels_at<law>(index), energies[index], {}, {}};
+    add_space<law>(set, index);
+    table.push_back(set);
+  }
 }
 
 Table build_table() {

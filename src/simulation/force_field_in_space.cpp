@@ -116,17 +116,16 @@ SpaceWallContacts& ForceField::find_wall_contacts_in_space(const Grains& balls) 
 
 double ForceField::elastic_energy_in_space(const Grains& balls) {
   const GrainSurfaces surfaces = surfaces_of(balls);
-  const EnergyKernel& energies = model_.kernels->energy;
+  const SpaceEnergyKernel& energies = model_.kernels->energy_in_space;
   const SpaceMotion at = motion_in_space(balls);
-  double energy =
-      energies.space_pair(surfaces, at, state_.contacts.pairs, model_.contacts, state_.contacts.pair_histories);
+  double energy = energies.pair(surfaces, at, state_.contacts.pairs, model_.contacts, state_.contacts.pair_histories);
   for (std::size_t k = 0; k < neighbours_.images().size(); ++k) {
     const BoundaryContacts& boundary = state_.contacts.boundaries[k];
-    energy += energies.space_pair(surfaces, motion_of_image(at, neighbours_.images()[k]), boundary.pairs,
-                                  model_.contacts, boundary.histories);
+    energy += energies.pair(surfaces, motion_of_image(at, neighbours_.images()[k]), boundary.pairs, model_.contacts,
+                            boundary.histories);
   }
-  return energy + energies.space_wall(surfaces, find_wall_contacts_in_space(balls), model_.contacts,
-                                      state_.contacts.wall_histories);
+  return energy +
+         energies.wall(surfaces, find_wall_contacts_in_space(balls), model_.contacts, state_.contacts.wall_histories);
 }
 
 std::vector<GrainVector> ForceField::wall_forces_in_space() {
