@@ -15,6 +15,14 @@ double radius_of(const Grains& grains, std::size_t i) {
   return grains.polydisperse ? grains.radius[i] : grains.kinds.front().radius;
 }
 
+/// Whether the whole plane of a plate is farther from the ball than its radius, on the side that it came from: then it
+/// neither touches the plate nor has crossed it, whatever holes and edges there are.
+bool is_clear_of(const PlacedFace& face, const Eigen::Vector3d& centre, double radius, double side) {
+  if (face.own->kind != Face::Kind::plate) return false;
+  const double height = (centre - face.origin).dot(face.normal);
+  return height * side > 0 && height * height >= radius * radius;
+}
+
 void put(VectorColumns& columns, std::size_t k, const Eigen::Vector3d& vector) {
   columns.x[k] = vector.x(), columns.y[k] = vector.y(), columns.z[k] = vector.z();
 }
@@ -50,18 +58,20 @@ void SpaceWallFinder::find(const Grains& grains, std::span<const WallCandidate> 
   make_room(count, contacts);
   contacts.count = 0;
   first_ = first;
-  nearest_.resize(count), touches_.assign(count, 0), near_.resize(count + 1);
-  for (std::size_t c = 0; c < count; ++c)
-    nearest_[c] = nearest_on_face(faces[static_cast<std::size_t>(candidates[c].wall)],
-                                  centre_of(grains, static_cast<std::size_t>(candidates[c].grain)));
-  std::size_t near = 0;
+  nearest_.resize(count), touches_.assign(count, 0), close_.clear(), near_.clear();
   for (std::size_t c = 0; c < count; ++c) {
-    const double radius = radius_of(grains, static_cast<std::size_t>(candidates[c].grain));
-    near_[near] = c;
-    near += nearest_[c].distance2 < radius * radius ? 1 : 0;
+    const auto& [grain, wall, side] = candidates[c];
+    const std::size_t i = static_cast<std::size_t>(grain);
+    const PlacedFace& face = faces[static_cast<std::size_t>(wall)];
+    const Eigen::Vector3d centre = centre_of(grains, i);
+    const double radius = radius_of(grains, i);
+    if (is_clear_of(face, centre, radius, side)) continue;
+    close_.push_back(c);
+    nearest_[c] = nearest_on_face(face, centre);
+    if (nearest_[c].distance2 < radius * radius) near_.push_back(c);
   }
-  for (std::size_t from = 0, to = 0; from < near; from = to) {
-    while (to < near && candidates[near_[to]].grain == candidates[near_[from]].grain) ++to;
+  for (std::size_t from = 0, to = 0; from < near_.size(); from = to) {
+    while (to < near_.size() && candidates[near_[to]].grain == candidates[near_[from]].grain) ++to;
     const std::size_t i = static_cast<std::size_t>(candidates[near_[from]].grain);
     const Eigen::Vector3d centre = centre_of(grains, i);
     const auto touch = [&](std::size_t c) {
@@ -103,7 +113,7 @@ void SpaceWallFinder::touch_each_point_once(const std::vector<PlacedFace>& faces
 }
 
 void SpaceWallFinder::watch_crossings(std::span<WallCandidate> candidates, std::vector<int>& crossed) const {
-  for (std::size_t c = 0; c < candidates.size(); ++c) {
+  for (const std::size_t c : close_) {
     if (!nearest_[c].inside)
       candidates[c].side = nearest_[c].side;
     else if (nearest_[c].side * candidates[c].side < 0)

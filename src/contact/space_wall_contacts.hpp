@@ -36,9 +36,10 @@ class SpaceWallFinder {
                              Touch touch);
 
   std::size_t first_ = 0;
-  std::vector<NearestOnFace> nearest_;  // by candidate of the range
-  std::vector<unsigned char> touches_;  // likewise
-  std::vector<std::size_t> near_;       // candidates nearer than a radius; places to spare
+  std::vector<std::size_t> close_;      // candidates that are not clear of a plate's plane
+  std::vector<NearestOnFace> nearest_;  // by candidate of the range, of those that are close
+  std::vector<unsigned char> touches_;  // by candidate
+  std::vector<std::size_t> near_;       // candidates nearer than a radius
   std::vector<std::size_t> pushing_;    // candidates of one ball that push it
 };
 

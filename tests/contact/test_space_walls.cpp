@@ -22,12 +22,17 @@ Vessel tray(std::vector<Hole> holes = {}) {
   return vessel;
 }
 
-/// Normals of all contacts of one ball with a vessel.
-std::vector<Eigen::Vector3d> pushed_by(const Vessel& vessel, const Eigen::Vector3d& centre) {
-  const Walls walls({vessel}, Space::three_dimensional);
+Grains one_ball(const Eigen::Vector3d& centre) {
   Grains grains({{radius, 1e-5, 1e5, 1e10, 1e-3}}, false, true);
   grains.in_space = true;
   grains.add(centre, Eigen::Vector3d::Zero(), 0, grains.kinds.front());
+  return grains;
+}
+
+/// Normals of all contacts of one ball with a vessel.
+std::vector<Eigen::Vector3d> pushed_by(const Vessel& vessel, const Eigen::Vector3d& centre) {
+  const Walls walls({vessel}, Space::three_dimensional);
+  const Grains grains = one_ball(centre);
   std::vector<WallCandidate> candidates;
   for (std::size_t wall = 0; wall < walls.count(); ++wall) candidates.push_back({0, static_cast<int>(wall), 1});
   SpaceWallContacts contacts;
@@ -36,6 +41,34 @@ std::vector<Eigen::Vector3d> pushed_by(const Vessel& vessel, const Eigen::Vector
   for (std::size_t k = 0; k < static_cast<std::size_t>(contacts.count); ++k)
     normals.emplace_back(contacts.normal.x[k], contacts.normal.y[k], contacts.normal.z[k]);
   return normals;
+}
+
+/// How many faces of a vessel one ball is seen to cross that is at these places, one after the other.
+std::size_t crossings(const Vessel& vessel, const std::vector<Eigen::Vector3d>& places) {
+  const Walls walls({vessel}, Space::three_dimensional);
+  std::vector<WallCandidate> candidates;
+  for (std::size_t wall = 0; wall < walls.count(); ++wall)
+    candidates.push_back({0, static_cast<int>(wall), nearest_on_face(walls.placed_faces()[wall], places.front()).side});
+  SpaceWallFinder finder;
+  SpaceWallContacts contacts;
+  std::vector<int> crossed;
+  for (const Eigen::Vector3d& place : places) {
+    finder.find(one_ball(place), candidates, 0, walls.placed_faces(), contacts);
+    finder.watch_crossings(candidates, crossed);
+  }
+  return crossed.size();
+}
+
+TEST(SpaceWalls, ABallIsSeenToCrossAPlateHoweverFarItIs) {
+  const Eigen::Vector3d above(0.03, 0.0025, 0.015);
+  EXPECT_EQ(crossings(tray(), {above, {0.03, 0.0005, 0.015}, above}), 0u);
+  EXPECT_EQ(crossings(tray(), {above, {0.03, -0.0005, 0.015}}), 1u);
+  EXPECT_EQ(crossings(tray(), {above, {0.03, -0.0105, 0.015}}), 1u);
+  // Through a hole, or around the floor, it comes to the other side.
+  const Hole hole{.centre = 0.03, .width = 0.008, .shape = HoleShape::round, .across = 0.015};
+  EXPECT_EQ(crossings(tray({hole}), {above, {0.03, -0.003, 0.015}, {0.04, -0.003, 0.015}}), 0u);
+  EXPECT_EQ(crossings(tray({hole}), {above, {0.03, -0.003, 0.015}, {0.04, -0.003, 0.015}, {0.04, 0.003, 0.015}}), 1u);
+  EXPECT_EQ(crossings(tray(), {{-0.003, -0.003, 0.015}, {-0.003, 0.003, 0.015}, {-0.003, -0.003, 0.015}}), 0u);
 }
 
 TEST(SpaceWalls, AFloorAnEdgeAndACorner) {
