@@ -44,12 +44,6 @@ struct ContactHistories {
            (!roll.empty() && (roll[k] != 0 || roll_speed[k] != 0)) || (!place.empty() && place[k] != no_record);
   }
 
-  void clear() {
-    for (std::vector<double>* column : {&slip, &slip_speed, &roll, &roll_speed, &records}) column->clear();
-    place.clear();
-    touched.clear();
-  }
-
   /// Those that are new have no history.
   void resize(std::size_t candidates, HistoryKinds of) {
     kinds = of;
