@@ -59,7 +59,7 @@ struct ClumpLoops {
                  const ClumpForces& forces);
 };
 
-/// Throws std::logic_error where it is not available.
+/// Throws std::logic_error where it is not available. All null in a program for the plane alone.
 const ClumpLoops& clump_loops(InstructionSet set);
 
 }  // namespace vibrosow

@@ -50,7 +50,7 @@ struct SpaceLoops {
                             double shift_z, PerGrain radius, double margin, int* near_grain, int* near_partner);
 };
 
-/// Throws std::logic_error where it is not available.
+/// Throws std::logic_error where it is not available. All null in a program for the plane alone.
 const SpaceLoops& space_loops(InstructionSet set);
 
 }  // namespace vibrosow
