@@ -106,6 +106,15 @@ def check_relations():
         expect(cells in findings, f"FINDINGS.md: no row {cells}")
 
 
+def check_pictures():
+    """A document shows each picture, or links to it."""
+    linked = {(path.parent / link).resolve() for path in DOCUMENTS
+              for link in re.findall(r"\]\(([^)\s]+)\)", path.read_text(encoding="utf-8"))}
+    for folder in ("reports", "docs", "src"):
+        for picture in sorted(path for path in (ROOT / folder).rglob("*") if path.suffix in (".png", ".jpg", ".gif", ".svg")):
+            expect(picture in linked, f"{picture.relative_to(ROOT)}: no document shows it")
+
+
 def check_citation():
     """CITATION.cff has the fields that its schema (1.2.0) requires, the program's version and licence, and the papers of THEORY.md."""
     text = (ROOT / "CITATION.cff").read_text(encoding="utf-8")
@@ -135,6 +144,7 @@ def main():
     check_accuracy_levels()
     check_relations()
     check_citation()
+    check_pictures()
     front = (ROOT / "README.md").read_text(encoding="utf-8")
     check_seeder_of_front_page(program, front)
     expect(len(front.split()) <= 800, f"README.md has {len(front.split())} words, more than 800")

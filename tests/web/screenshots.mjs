@@ -8,7 +8,7 @@ const jpeg = { type: 'jpeg', quality: 77, animations: 'disabled' };
 const desktop = { width: 1280, height: 800 };
 const phone = { width: 390, height: 844 };
 const paper = { width: 720, height: 1018 };  // of A4 at 96 dpi, what is left within margins
-// What is shown of a page: the first screens on a desktop and a phone, one screen in the dark, one sheet of paper.
+// What is shown of a page: the first screens on a desktop, and of the first page also those on a phone, one screen in the dark, one sheet of paper.
 const kinds = {
   desktop: { looks: {}, tallest: 2000 },
   phone: { looks: { viewport: phone }, tallest: 2 * phone.height },
@@ -48,7 +48,9 @@ async function withPage(browser, file, looks, act) {
 }
 
 async function shootReport(browser, folder, name) {
-  for (const [kind, { looks, tallest }] of Object.entries(kinds)) {
+  const shown = name === reports[0] ? Object.keys(kinds) : ['desktop'];
+  for (const kind of shown) {
+    const { looks, tallest } = kinds[kind];
     await withPage(browser, path.join(folder, name, 'report.html'), looks, async (page) => {
       await scrubToTheMiddle(page);
       if (kind === 'print') await turnToPaper(page);
@@ -85,15 +87,6 @@ async function shootStudio(browser, folder) {
     await settled(page);
     await shoot(page, to('comparing'), 1700);
   });
-  for (const kind of ['phone', 'dark', 'print']) {
-    await withPage(browser, file, kinds[kind].looks, async (page) => {
-      await page.getByRole('radio', { name: 'Draft' }).check();
-      await toTheEnd(bench(page, 'A'));
-      if (kind === 'print') await turnToPaper(page);
-      await settled(page);
-      await shoot(page, to(kind), kinds[kind].tallest);
-    });
-  }
 }
 
 const folder = path.resolve(process.argv[2]);
