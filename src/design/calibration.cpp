@@ -1,11 +1,11 @@
 #include "design/calibration.hpp"
 
 #include <algorithm>
-#include <boost/math/distributions/chi_squared.hpp>
 #include <cmath>
 
 #include <fmt/format.h>
 
+#include "distributions/distributions.hpp"
 #include "outflow/statistics.hpp"
 #include "scene/input_error.hpp"
 #include "surrogate/curve_surrogate.hpp"
@@ -187,8 +187,7 @@ class Fit {
     result_.posterior = posterior_sample(observed, static_cast<Index>(task_.keys.size()), choices_.points);
     const int freedom = result_.fitted_values - (result_.posterior.shifts.size() > 0 ? 1 : 0);
     if (freedom > 0)
-      result_.misfit_probability =
-          cdf(complement(boost::math::chi_squared(freedom), std::max(0.0, result_.posterior.least_misfit)));
+      result_.misfit_probability = chi_squared_above(freedom, std::max(0.0, result_.posterior.least_misfit));
   }
 
   /// Of a quantity given at each point of the posterior.

@@ -3,9 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <boost/math/distributions/students_t.hpp>
 #include <cmath>
 
+#include "distributions/distributions.hpp"
 #include "laws/law.hpp"
 #include "plan/softness.hpp"
 #include "scene/input_error.hpp"
@@ -143,8 +143,7 @@ DraftFindings DraftScreen::findings() const {
   if (!best) return findings;
   std::ranges::sort(known);
   const double others = static_cast<double>(std::max<std::size_t>(2, means.size()) - 1);
-  const double t =
-      quantile(complement(boost::math::students_t(fitted->points - 2.0), (1 - options_.confidence) / others));
+  const double t = students_t_quantile_above(fitted->points - 2.0, (1 - options_.confidence) / others);
   for (std::size_t scene = 0; scene < means.size(); ++scene) {
     if (!means[scene]) continue;  // a draft that says nothing rules nothing out; and two are left at least
     const double behind = *means[scene] - *best;

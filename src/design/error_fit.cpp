@@ -3,13 +3,12 @@
 #include <Eigen/Cholesky>
 #include <Eigen/QR>
 #include <algorithm>
-#include <boost/math/distributions/fisher_f.hpp>
-#include <boost/math/distributions/normal.hpp>
 #include <cmath>
 #include <iterator>
 #include <map>
 #include <set>
 
+#include "distributions/distributions.hpp"
 #include "grains/random.hpp"
 
 namespace vibrosow {
@@ -23,7 +22,7 @@ constexpr std::size_t softnesses_for_two_terms = 4;
 constexpr double smallest_pivot = 1e-6;  // of columns of unit length: what is below adds no column
 
 double normal_draw(Random& random) {
-  return boost::math::quantile(boost::math::normal(), random.uniform() + 0x1p-54);
+  return normal_quantile(random.uniform() + 0x1p-54);
 }
 
 /// The same normal numbers for every fit: a row for each draw, of one more than `most_terms`.
@@ -183,8 +182,7 @@ void ErrorFit::judge(const std::vector<AccuracyRun>& runs, const Eigen::VectorXd
   const int lack_freedom = degrees_of_freedom_ - equal.freedom;
   if (equal.freedom >= enough_equal_runs && lack_freedom > 0 && equal.sum > 0) {
     const double lack = std::max(0.0, squares - equal.sum) / lack_freedom, chance = equal.sum / equal.freedom;
-    lack_of_fit_ =
-        boost::math::cdf(boost::math::complement(boost::math::fisher_f(lack_freedom, equal.freedom), lack / chance));
+    lack_of_fit_ = fisher_f_above(lack_freedom, equal.freedom, lack / chance);
     if (!fits()) {
       scatter_ = std::sqrt(chance), degrees_of_freedom_ = equal.freedom;
       spread_ = std::sqrt(lack), spread_freedom_ = lack_freedom;

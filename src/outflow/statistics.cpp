@@ -1,9 +1,10 @@
 #include "outflow/statistics.hpp"
 
-#include <boost/math/distributions/students_t.hpp>
 #include <cmath>
 #include <limits>
 #include <numeric>
+
+#include "distributions/distributions.hpp"
 
 namespace vibrosow {
 namespace {
@@ -22,7 +23,7 @@ double sample_deviation(const std::vector<double>& values, double mean) {
 }  // namespace
 
 double student_t_95(double degrees_of_freedom) {
-  return boost::math::quantile(boost::math::students_t(degrees_of_freedom), 0.975);
+  return students_t_quantile(degrees_of_freedom, 0.975);
 }
 
 MeanWithInterval mean_with_interval(const std::vector<double>& values) {

@@ -3,11 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <boost/math/distributions/chi_squared.hpp>
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <utility>
 
+#include "distributions/distributions.hpp"
 #include "plan/effects.hpp"
 #include "plan/softness.hpp"
 #include "report/page.hpp"
@@ -36,9 +36,7 @@ double in_mm(double metres) {
 /// 95 % interval of a Poisson count's mean (Garwood 1936).
 std::pair<double, double> counting_interval(std::int64_t count) {
   const auto n = static_cast<double>(count);
-  const auto bound = [](double degrees, double below) {
-    return boost::math::quantile(boost::math::chi_squared(degrees), below) / 2;
-  };
+  const auto bound = [](double degrees, double below) { return chi_squared_quantile(degrees, below) / 2; };
   return {count > 0 ? bound(2 * n, 0.025) : 0, bound(2 * n + 2, 0.975)};
 }
 

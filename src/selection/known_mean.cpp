@@ -1,12 +1,12 @@
 #include "selection/known_mean.hpp"
 
-#include <boost/math/distributions/normal.hpp>
-#include <boost/math/distributions/students_t.hpp>
 #include <boost/math/special_functions/digamma.hpp>
 #include <boost/math/special_functions/polygamma.hpp>
 #include <boost/math/special_functions/trigamma.hpp>
 #include <cmath>
 #include <limits>
+
+#include "distributions/distributions.hpp"
 
 namespace vibrosow {
 namespace {
@@ -58,8 +58,8 @@ KnownMean known_mean(const Moments& moments, const VariancePrior& prior) {
 
 double probability_below(double t, double degrees_of_freedom) {
   constexpr double nearly_normal = 1e6;
-  if (degrees_of_freedom > nearly_normal) return cdf(boost::math::normal(), t);
-  return cdf(boost::math::students_t(degrees_of_freedom), t);
+  if (degrees_of_freedom > nearly_normal) return normal_below(t);
+  return students_t_below(degrees_of_freedom, t);
 }
 
 double degrees_of_difference(const KnownMean& one, const KnownMean& other) {

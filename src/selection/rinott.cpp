@@ -2,13 +2,13 @@
 
 #include <algorithm>
 #include <array>
-#include <boost/math/distributions/chi_squared.hpp>
-#include <boost/math/distributions/normal.hpp>
 #include <boost/math/quadrature/gauss.hpp>
 #include <boost/math/tools/roots.hpp>
 #include <cmath>
 #include <stdexcept>
 #include <vector>
+
+#include "distributions/distributions.hpp"
 
 namespace vibrosow {
 namespace {
@@ -19,26 +19,26 @@ struct Points {
 };
 
 Points points_of(double degrees_of_freedom) {
-  const boost::math::chi_squared law(degrees_of_freedom);
-  const double from = std::sqrt(quantile(law, 1e-14)), to = std::sqrt(quantile(complement(law, 1e-14)));
+  const double from = std::sqrt(chi_squared_quantile(degrees_of_freedom, 1e-14)),
+               to = std::sqrt(chi_squared_quantile_above(degrees_of_freedom, 1e-14));
   using Rule = boost::math::quadrature::gauss<double, 60>;
   Points points;
   for (std::size_t i = 0; i < Rule::abscissa().size(); ++i)
     for (const double sign : {-1.0, 1.0}) {
       const double root = (from + to) / 2 + sign * Rule::abscissa()[i] * (to - from) / 2;
       points.value.push_back(root * root);
-      points.weight.push_back(Rule::weights()[i] * (to - from) / 2 * pdf(law, root * root) * 2 * root);
+      points.weight.push_back(Rule::weights()[i] * (to - from) / 2 *
+                              chi_squared_density(degrees_of_freedom, root * root) * 2 * root);
     }
   return points;
 }
 
 double probability_of_least(const Points& points, std::size_t systems, double nu, double h) {
-  const boost::math::normal normal;
   double whole = 0;
   for (std::size_t y = 0; y < points.value.size(); ++y) {
     double better = 0;
     for (std::size_t x = 0; x < points.value.size(); ++x)
-      better += points.weight[x] * cdf(normal, h / std::sqrt(nu * (1 / points.value[x] + 1 / points.value[y])));
+      better += points.weight[x] * normal_below(h / std::sqrt(nu * (1 / points.value[x] + 1 / points.value[y])));
     whole += points.weight[y] * std::pow(better, static_cast<double>(systems - 1));
   }
   return whole;

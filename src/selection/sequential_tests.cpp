@@ -1,9 +1,10 @@
 #include "selection/sequential_tests.hpp"
 
 #include <algorithm>
-#include <boost/math/distributions/students_t.hpp>
 #include <cmath>
 #include <stdexcept>
+
+#include "distributions/distributions.hpp"
 
 namespace vibrosow {
 namespace {
@@ -36,7 +37,7 @@ void LookTest::add(double value) {
   if (moments_.count() < look_) return;
   look_ *= 2;
   error_ /= 2;
-  const double t = boost::math::quantile(complement(boost::math::students_t(moments_.count() - 1.0), error_));
+  const double t = students_t_quantile_above(moments_.count() - 1.0, error_);
   is_above_ = moments_.mean() > t * std::sqrt(moments_.variance() / moments_.count());
 }
 

@@ -3,12 +3,12 @@
 #include <nlopt.h>
 
 #include <algorithm>
-#include <boost/math/distributions/normal.hpp>
 #include <cmath>
 #include <memory>
 #include <stdexcept>
 #include <vector>
 
+#include "distributions/distributions.hpp"
 #include "surrogate/sobol_points.hpp"
 
 namespace vibrosow {
@@ -175,12 +175,11 @@ std::vector<Candidate> candidates(const MatrixXd& points, const VectorXd& values
   add(best, 0);
   const Index drawn = values.size() < many_values ? 8 : 4;
   const MatrixXd cube = sobol_points(drawn, dimensions + 1);
-  const boost::math::normal normal;
   for (Index i = 0; i < drawn; ++i) {
     Logarithms at = best;
     double half_squares = 0;
     for (std::size_t k = 0; k < at.size(); ++k) {
-      const double deviate = quantile(normal, cube(i, static_cast<Index>(k)));
+      const double deviate = normal_quantile(cube(i, static_cast<Index>(k)));
       const double low = k + 1 < at.size() ? shortest : least_noise, high = k + 1 < at.size() ? longest : most_noise;
       at[k] = std::clamp(at[k] + width(static_cast<Index>(k)) * deviate, std::log(low), std::log(high));
       half_squares += deviate * deviate / 2;

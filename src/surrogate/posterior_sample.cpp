@@ -2,12 +2,12 @@
 
 #include <Eigen/Cholesky>
 #include <algorithm>
-#include <boost/math/distributions/normal.hpp>
 #include <cmath>
 #include <limits>
 #include <numeric>
 #include <stdexcept>
 
+#include "distributions/distributions.hpp"
 #include "surrogate/sobol_points.hpp"
 
 namespace vibrosow {
@@ -126,10 +126,9 @@ PosteriorSample posterior_sample(const std::vector<ObservedValues>& observed, In
     result.effective_points = 1 / result.weights.squaredNorm();
     result.least_misfit = likely.misfits.minCoeff();
     if (shifted) {
-      const boost::math::normal normal;
       result.shifts = likely.shifts;
       for (Index i = 0; i < count; ++i)
-        result.shifts(i) += likely.shift_deviations(i) * quantile(normal, cube(i, dimensions));
+        result.shifts(i) += likely.shift_deviations(i) * normal_quantile(cube(i, dimensions));
     }
     if (result.effective_points >= wanted_share * static_cast<double>(count)) break;
     const Box smaller = box_of_weighty(result.points, likely.logarithms);
