@@ -20,8 +20,10 @@ int places_near_in_space(const Places&, const double*, int, double, double, doub
 
 NearPlaces near_places(InstructionSet set) {
   if (!is_available(set)) throw std::logic_error("these vector instructions are not available");
-#ifdef VIBROSOW_X86_KERNELS
+#ifdef VIBROSOW_AVX2
   if (set == InstructionSet::avx2) return avx2::places_near;
+#endif
+#ifdef VIBROSOW_AVX512
   if (set == InstructionSet::avx512) return avx512::places_near;
 #endif
   return generic::places_near;
@@ -29,8 +31,10 @@ NearPlaces near_places(InstructionSet set) {
 
 NearPlacesInSpace near_places_in_space(InstructionSet set) {
   if (!is_available(set)) throw std::logic_error("these vector instructions are not available");
-#ifdef VIBROSOW_X86_KERNELS
+#ifdef VIBROSOW_AVX2
   if (set == InstructionSet::avx2) return avx2::places_near_in_space;
+#endif
+#ifdef VIBROSOW_AVX512
   if (set == InstructionSet::avx512) return avx512::places_near_in_space;
 #endif
   return generic::places_near_in_space;

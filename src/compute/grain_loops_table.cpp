@@ -6,7 +6,8 @@
 
 namespace vibrosow {
 
-// Defined in grain_loops.cpp, space_loops.cpp and clump_loops.cpp, compiled for each.
+// Defined in grain_loops.cpp, space_loops.cpp and clump_loops.cpp, compiled for each that VIBROSOW_INSTRUCTION_SETS
+// names.
 inline namespace generic {
 extern const GrainLoops loops;
 extern const SpaceLoops loops_in_space;
@@ -25,8 +26,10 @@ extern const ClumpLoops loops_of_clumps;
 
 const GrainLoops& grain_loops(InstructionSet set) {
   if (!is_available(set)) throw std::logic_error("these vector instructions are not available");
-#ifdef VIBROSOW_X86_KERNELS
+#ifdef VIBROSOW_AVX2
   if (set == InstructionSet::avx2) return avx2::loops;
+#endif
+#ifdef VIBROSOW_AVX512
   if (set == InstructionSet::avx512) return avx512::loops;
 #endif
   return generic::loops;
@@ -45,8 +48,10 @@ const ClumpLoops& clump_loops(InstructionSet) {
 #else
 const SpaceLoops& space_loops(InstructionSet set) {
   if (!is_available(set)) throw std::logic_error("these vector instructions are not available");
-#ifdef VIBROSOW_X86_KERNELS
+#ifdef VIBROSOW_AVX2
   if (set == InstructionSet::avx2) return avx2::loops_in_space;
+#endif
+#ifdef VIBROSOW_AVX512
   if (set == InstructionSet::avx512) return avx512::loops_in_space;
 #endif
   return generic::loops_in_space;
@@ -54,8 +59,10 @@ const SpaceLoops& space_loops(InstructionSet set) {
 
 const ClumpLoops& clump_loops(InstructionSet set) {
   if (!is_available(set)) throw std::logic_error("these vector instructions are not available");
-#ifdef VIBROSOW_X86_KERNELS
+#ifdef VIBROSOW_AVX2
   if (set == InstructionSet::avx2) return avx2::loops_of_clumps;
+#endif
+#ifdef VIBROSOW_AVX512
   if (set == InstructionSet::avx512) return avx512::loops_of_clumps;
 #endif
   return generic::loops_of_clumps;

@@ -5,8 +5,10 @@
 namespace vibrosow {
 
 bool is_available(InstructionSet set) {
-#ifdef VIBROSOW_X86_KERNELS
+#ifdef VIBROSOW_AVX2
   if (set == InstructionSet::avx2) return __builtin_cpu_supports("avx2");
+#endif
+#ifdef VIBROSOW_AVX512
   if (set == InstructionSet::avx512)
     return __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&
            __builtin_cpu_supports("avx512vl") && __builtin_cpu_supports("avx512bw");
@@ -25,7 +27,7 @@ std::string_view name_of(InstructionSet set) {
     case InstructionSet::avx512:
       return "AVX-512";
     default:
-#ifdef VIBROSOW_X86_KERNELS
+#ifdef VIBROSOW_X86
       return "SSE2";
 #else
       return "generic";

@@ -34,13 +34,21 @@ namespace {
 
 using Table = std::vector<KernelSet>;
 
+[[maybe_unused]] std::size_t index_of(InstructionSet set) {
+  return static_cast<std::size_t>(set);
+}
+
+/// Those of each instruction set that this program was built with; null for the others.
 template <Law law>
-std::array<VectorKernels, instruction_sets.size()> kernels_at(std::size_t index) {
-#ifdef VIBROSOW_X86_KERNELS
-  return {generic::law_kernels<law>()[index], avx2::law_kernels<law>()[index], avx512::law_kernels<law>()[index]};
-#else
-  return {generic::law_kernels<law>()[index], {}, {}};
+auto kernels_at(std::size_t index) {
+  decltype(KernelSet::vectors) kernels{generic::law_kernels<law>()[index]};
+#ifdef VIBROSOW_AVX2
+  kernels[index_of(InstructionSet::avx2)] = avx2::law_kernels<law>()[index];
 #endif
+#ifdef VIBROSOW_AVX512
+  kernels[index_of(InstructionSet::avx512)] = avx512::law_kernels<law>()[index];
+#endif
+  return kernels;
 }
 
 #ifdef VIBROSOW_PLANE_ALONE  // of a program that simulates nothing in space, and is to be small
@@ -50,11 +58,12 @@ void add_space([[maybe_unused]] KernelSet& set, [[maybe_unused]] std::size_t ind
 template <Law law>
 void add_space(KernelSet& set, std::size_t index) {
   set.energy_in_space = space_energy_kernels<law>()[index];
-#ifdef VIBROSOW_X86_KERNELS
-  set.in_space = {generic::space_law_kernels<law>()[index], avx2::space_law_kernels<law>()[index],
-                  avx512::space_law_kernels<law>()[index]};
-#else
   set.in_space = {generic::space_law_kernels<law>()[index]};
+#ifdef VIBROSOW_AVX2
+  set.in_space[index_of(InstructionSet::avx2)] = avx2::space_law_kernels<law>()[index];
+#endif
+#ifdef VIBROSOW_AVX512
+  set.in_space[index_of(InstructionSet::avx512)] = avx512::space_law_kernels<law>()[index];
 #endif
 }
 #endif
