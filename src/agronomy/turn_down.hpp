@@ -29,8 +29,8 @@ struct TurnDown {
 };
 
 /// The largest ratio of rates among settings that follow each other without one between them at which the tray clogs,
-/// gives nothing or sows too unevenly (`cv_limit`, a fraction). None where no setting will do. Ours: the trade quotes
-/// turn-down as largest over smallest sowing rate and states no limit with it.
+/// gives nothing or sows too unevenly (`cv_limit`, a fraction); of ranges of one ratio the last. None where no setting
+/// will do. Ours: the trade quotes turn-down as largest over smallest sowing rate and states no limit with it.
 std::optional<TurnDown> turn_down(std::vector<Setting> settings, double cv_limit, Proof proof);
 
 /// A tray's rate at a tilt.

@@ -37,6 +37,19 @@ TEST(TurnDown, DoesNotReachAcrossASettingThatWillNot) {
   EXPECT_EQ(found->to, 15);
 }
 
+/// A range goes as far as its last setting, whatever its rate; of ranges that are as large, the last is told.
+TEST(TurnDown, EqualRangesReachToTheLast) {
+  const auto flat = turn_down({{5, 1e-3}, {7, 2e-3}, {9, 1.5e-3}}, limit, Proof::shown);
+  EXPECT_DOUBLE_EQ(flat->ratio, 2);
+  EXPECT_EQ(flat->from, 5);
+  EXPECT_EQ(flat->to, 9);
+  EXPECT_EQ(flat->settings, 3);
+  const auto two = turn_down({{5, 1e-3}, {7, 2e-3}, {9, 1e-3, false}, {11, 2e-3}, {13, 4e-3}}, limit, Proof::shown);
+  EXPECT_EQ(two->from, 11);
+  EXPECT_EQ(two->to, 13);
+  EXPECT_DOUBLE_EQ(two->least_rate, 2e-3);
+}
+
 TEST(TurnDown, OfASingleSettingIsOneAndOfNoneNothing) {
   EXPECT_DOUBLE_EQ(turn_down({{9, 2e-3}}, limit, Proof::shown)->ratio, 1);
   EXPECT_FALSE(turn_down({{9, 2e-3, false}}, limit, Proof::not_excluded));
@@ -59,6 +72,22 @@ TEST(SlopeSensitivity, IsTheLineOverTheRateOnLevelGround) {
   EXPECT_NEAR(bent->change, 0, 1e-12);
   EXPECT_NEAR(bent->off_line.value(), 0.2 / 2.1, 1e-12);
   EXPECT_FALSE(bent->half_width);
+}
+
+/// Uphill alone: the rate on level ground is the line's, not the mean of what was measured.
+TEST(SlopeSensitivity, IsOverTheLineOnLevelGroundWhereNoTiltWasLevel) {
+  const auto uphill = slope_sensitivity({{0.1, 1.8e-3, 1e-4}, {0.2, 1.6e-3, 2e-4}, {0.3, 1.4e-3, 3e-4}});
+  ASSERT_TRUE(uphill);
+  EXPECT_NEAR(uphill->change, -1, 1e-12);  // 2 g/s on level ground, 2 g/s less in a radian
+  // The ends weigh 5 each, the middle nothing.
+  EXPECT_NEAR(uphill->half_width.value(), 5 * std::hypot(1e-4, 3e-4) / 2e-3, 1e-12);
+  EXPECT_NEAR(uphill->off_line.value(), 0, 1e-12);
+}
+
+TEST(SlopeSensitivity, IsOffTheLineBelowItAsAbove) {
+  // The line of 3, 1, 3 g/s is 7/3: the middle lies 4/3 below it, the ends 2/3 above.
+  EXPECT_NEAR(slope_sensitivity({{-0.1, 3e-3, {}}, {0, 1e-3, {}}, {0.1, 3e-3, {}}})->off_line.value(), 4.0 / 7, 1e-12);
+  EXPECT_NEAR(slope_sensitivity({{-0.1, 1e-3, {}}, {0, 3e-3, {}}, {0.1, 1e-3, {}}})->off_line.value(), 4.0 / 5, 1e-12);
 }
 
 TEST(SlopeSensitivity, NeedsTwoTiltsAndARate) {

@@ -67,6 +67,56 @@ TEST_F(BenchPlanOf, LeavesRunsOutsideTheModelOut) {
   EXPECT_NEAR(plan({}, MeasuredScale::none, quarter_outside).candidates[0].mass_rate, sound, 0.1 * sound);
 }
 
+/// Seeds that fall by exp(-slope part) along friction's range, under all widths alike but for their slopes; so many
+/// that their rounding counts for nothing.
+Run exact_run(const Model& model, const SimulationOptions& options) {
+  const double part = (model.scene.contact.seed.friction - 0.1) / 0.7;
+  const double slope = 250 * model.scene.tray.holes.front().width - 2;  // 1, 2 and 3 of 12, 16 and 20 mm
+  const auto seeds = std::llround(2e4 * std::exp(-slope * part));
+  Run run;
+  run.random_seed = options.random_seed;
+  run.dt = 1e-3, run.steps = 4000, run.end_time = 4;
+  for (std::int64_t i = 0; i < seeds; ++i)
+    run.events.push_back({2 + 2 * (static_cast<double>(i) + 0.5) / static_cast<double>(seeds), 1, 0, i,
+                          model.scene.lots[0].mass, 0.1, 0.5});
+  run.balance.put_in = run.balance.counted = seeds;
+  return run;
+}
+
+/// Information adds up: 12 of a flat prior over the range, and of each reading its squared slope over its variance.
+TEST_F(BenchPlanOf, ItsContractionIsThatOfTheReadingsInformation) {
+  task_.keys.resize(1);
+  BenchLimits limits;
+  limits.noise = 0.3;
+  const BenchPlan all = plan(limits, MeasuredScale::none, exact_run);
+  ASSERT_EQ(all.chosen().size(), 3U);
+  ASSERT_EQ(all.repeats, 3);
+  for (const BenchCandidate& one : all.candidates) EXPECT_NEAR(one.chance, 0.3, 1e-3);
+  const double information = 12 + 3 * (1 + 4 + 9) / (0.3 * 0.3);
+  EXPECT_NEAR(all.contraction.at(0), 1 - std::sqrt(12 / information), 2e-3);
+  // With a factor that nobody knows but for three times less or more: 1 / 1.1^2 and what readings and slopes add.
+  const BenchPlan scaled = plan(limits, MeasuredScale::free, exact_run);
+  const double of_factor = 1 / (1.1 * 1.1) + 3 * 3 / 0.09, across = 3 * (1 + 2 + 3) / 0.09;
+  EXPECT_NEAR(scaled.contraction.at(0), 1 - std::sqrt(12 / (information - across * across / of_factor)), 5e-3);
+}
+
+/// A reading scatters by the flow's chance as far as the time in which it is caught is longer than a run's window, and
+/// by its own noise.
+TEST_F(BenchPlanOf, ALongerCatchHasLessChance) {
+  BenchLimits limits;
+  limits.noise = 1e-3;
+  const auto scattered = [](const Model& model, const SimulationOptions& options) {
+    vibrosow::Run run = exact_run(model, options);
+    const double chance = 0.1 * static_cast<double>((7 * options.random_seed) % 5) / 5;  // deviation 0.1 sqrt(2) / 5
+    run.events.resize(static_cast<std::size_t>((1 - chance) * static_cast<double>(run.events.size())));
+    return run;
+  };
+  const BenchPlan all = plan(limits, MeasuredScale::none, scattered);
+  ASSERT_GE(all.catch_time, 10);
+  const double expected = 0.1 * std::sqrt(2.0) / 5 * std::sqrt(2 / all.catch_time);  // the window is of 2 s
+  for (const BenchCandidate& one : all.candidates) EXPECT_NEAR(one.chance, expected, 0.35 * expected);
+}
+
 /// With an unknown factor one condition alone tells nothing: the two that differ most do.
 TEST_F(BenchPlanOf, NeedsTwoConditionsForARateUpToAFactor) {
   BenchLimits limits;

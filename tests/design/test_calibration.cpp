@@ -3,8 +3,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <array>
 #include <boost/math/distributions/normal.hpp>
 #include <cmath>
+#include <functional>
+#include <numbers>
+#include <numeric>
 #include <set>
 
 #include <fmt/format.h>
@@ -13,6 +17,7 @@
 #include "input/csv_lines.hpp"
 #include "scene/input_error.hpp"
 #include "study_files.hpp"
+#include "surrogate/curve_surrogate.hpp"
 
 namespace vibrosow {
 namespace {
@@ -167,6 +172,199 @@ TEST_F(CalibrationOf, ACurveFindsWhatMadeItAndPredictsItsEnd) {
     EXPECT_LT(value.low, value.measured) << *value.time;
     EXPECT_GT(value.high, value.measured) << *value.time;
   }
+}
+
+constexpr double normal_95 = 1.959964;
+
+/// Calibrations of one key, of runs whose values are known to every digit: intervals have closed forms.
+class WidthsOf : public CalibrationOf {
+ protected:
+  /// Values of a run at a part of friction's range, under a condition; the run's place in the design.
+  using Values = std::function<std::vector<double>(double part, std::size_t condition, std::size_t run)>;
+
+  CalibrationTask one_key(const std::string& csv, int runs) const {
+    CalibrationTask of = task(csv);
+    of.keys = {parse_fitted_key("contact.friction=0.1..0.8")};
+    of.measured.time_zero = 2;
+    of.most_runs = runs;
+    return of;
+  }
+  Calibration calibrated_by(const CalibrationTask& of, const CalibrationChoices& choices, const Values& values) {
+    const CalibrationDesign design = design_calibration(of, std::make_shared<SourceFiles>());
+    std::vector<ReducedRun> runs;
+    points_.resize(static_cast<Eigen::Index>(design.runs.size()), 1);
+    for (std::size_t r = 0; r < design.runs.size(); ++r) {
+      const double part = points_(static_cast<Eigen::Index>(r), 0) = design.points(design.runs[r].point, 0);
+      runs.push_back({"", values(part, design.runs[r].condition, r)});
+    }
+    return calibrate(of, design, choices, runs);
+  }
+  /// Half of a fitted key's interval, in parts of its range.
+  static double half_width(const FittedValue& friction_value) {
+    return (friction_value.high - friction_value.low) / 2 / 0.7;
+  }
+  /// Of a predicted rate, in its logarithm.
+  static double half_width(const PredictedValue& rate) { return std::log(rate.high / rate.low) / 2; }
+
+  /// What the scores of such curves, or logarithms of such rates, would be, from the design of the last calibration.
+  CurveSurrogate surrogate_of(const Values& values) const {
+    Eigen::MatrixXd all(points_.rows(), 0);
+    for (Eigen::Index i = 0; i < points_.rows(); ++i) {
+      const std::vector<double> one = values(points_(i, 0), 0, static_cast<std::size_t>(i));
+      all.conservativeResize(Eigen::NoChange, static_cast<Eigen::Index>(one.size()));
+      all.row(i) = Eigen::Map<const Eigen::RowVectorXd>(one.data(), all.cols());
+    }
+    return curve_surrogate(points_, all);
+  }
+  Eigen::MatrixXd points_;  // of the last calibration's runs
+};
+
+constexpr double steep = 2;  // of a logarithm, or of a curve's factor, over the range
+
+/// Chance of a run, without a pattern that a smooth function would follow.
+double made_up_chance(std::size_t run) {
+  return static_cast<double>((7 * run) % 5) - 2;
+}
+
+/// kg
+constexpr std::array rising = {1e-3, 2e-3, 3e-3, 4e-3};
+const double rising_norm = std::sqrt(std::inner_product(rising.begin(), rising.end(), rising.begin(), 0.0));
+
+std::vector<double> rising_by(double factor) {
+  std::vector<double> curve(rising.begin(), rising.end());
+  for (double& value : curve) value *= factor;
+  return curve;
+}
+
+/// A curve of these values, g, measured so many times alike.
+std::string curve_csv(const std::array<double, 4>& values, int repeats) {
+  std::string csv = "time_s,mass_g\n";
+  for (std::size_t v = 0; v < values.size(); ++v)
+    for (int r = 0; r < repeats; ++r) csv += fmt::format("{},{}\n", 0.5 * static_cast<double>(v + 1), values[v]);
+  return csv;
+}
+
+/// log rate = steep (part - 1/2): repeats of deviation s leave s / sqrt(4) / steep open, and a measurement like them
+/// lies as far from the prediction again.
+TEST_F(WidthsOf, RatesAreThoseOfTheMeanOfTheirRepeats) {
+  const Values exact = [](double part, std::size_t, std::size_t) {
+    return std::vector<double>{1e-3 * std::exp(steep * (part - 0.5))};
+  };
+  const Calibration found =
+      calibrated_by(one_key("repeat,rate_g_per_s\n1,0.94\n2,0.98\n3,1.02\n4,1.06\n", 12), {}, exact);
+  const double of_one = std::sqrt(0.008 / 3), of_mean = of_one / 2;
+  EXPECT_NEAR(found.noise, of_one, 1e-9);
+  EXPECT_NEAR(half_width(found.values[0]), normal_95 * of_mean / steep, 0.02 * of_mean);
+  EXPECT_NEAR(found.values[0].contraction, 1 - std::sqrt(12.0) * of_mean / steep, 1e-3);
+  EXPECT_NEAR(half_width(found.predictions[0]), normal_95 * std::sqrt(2.0) * of_mean, 0.1 * of_mean);
+}
+
+TEST_F(WidthsOf, RatesPoolRepeatsByTheirDegreesOfFreedom) {
+  const Values exact = [](double part, std::size_t, std::size_t) {
+    return std::vector<double>{1e-3 * std::exp(steep * (part - 0.5))};
+  };
+  const Calibration found = calibrated_by(
+      one_key("tray.holes.width_mm,rate_g_per_s\n12,0.9\n12,1.1\n16,0.96\n16,1\n16,1\n16,1.04\n20,1\n", 40), {}, exact);
+  EXPECT_NEAR(found.noise, std::sqrt((0.02 + 0.0032) / (1 + 3)), 1e-9);
+}
+
+/// By few and scattered runs what they say of a rate is uncertain itself, by the variance that their fit gives.
+TEST_F(WidthsOf, RatesHoldTheSurrogatesOwnError) {
+  const Values scattered = [](double part, std::size_t, std::size_t run) {
+    return std::vector<double>{1e-3 * std::exp(2 * steep * (part - 0.5) + 0.03 * made_up_chance(run))};
+  };
+  constexpr double noise = 0.005;
+  const Calibration found = calibrated_by(one_key("rate_g_per_s\n1\n", 12), {.noise = noise}, scattered);
+  const CurveSurrogate surrogate = surrogate_of([&](double part, std::size_t c, std::size_t run) {
+    return std::vector<double>{std::log(scattered(part, c, run)[0])};
+  });
+  const auto& known = found.posterior;
+  const GaussianPrediction fit = surrogate.scores[0].at(known.points);
+  const double own = weighted_mean(fit.variance, known.weights);
+  ASSERT_GT(own, 4 * noise * noise);
+  const double slope =
+      weighted_deviation(fit.mean, known.weights) / weighted_deviation(known.points.col(0), known.weights);
+  EXPECT_NEAR(slope, 2 * steep, 0.4);
+  const double deviation = std::sqrt(own + noise * noise);
+  EXPECT_NEAR(half_width(found.values[0]), normal_95 * deviation / slope, 0.1 * deviation / slope);
+  EXPECT_NEAR(half_width(found.predictions[0]), normal_95 * std::sqrt(2.0) * deviation, 0.15 * deviation);
+}
+
+/// The scores of a curve that is measured several times scatter by the chance of a run over their number.
+TEST_F(WidthsOf, CurvesAreThoseOfTheMeanOfTheirRepeats) {
+  const Values scattered = [](double part, std::size_t, std::size_t run) {
+    return rising_by(1 + steep * (part - 0.5) + 0.02 * made_up_chance(run));
+  };
+  for (const int repeats : {1, 4}) {
+    const Calibration found = calibrated_by(one_key(curve_csv({1, 2, 3, 4}, repeats), 60), {}, scattered);
+    const CurveSurrogate surrogate = surrogate_of(scattered);
+    ASSERT_EQ(surrogate.scores.size(), 1U);
+    EXPECT_NEAR(found.noise, std::sqrt(surrogate.chance(0, 0) / 4) / 4e-3, 1e-9) << "of a value, of the largest";
+    const double own = weighted_mean(surrogate.scores[0].at(found.posterior.points).variance, found.posterior.weights);
+    const double deviation = std::sqrt(surrogate.chance(0, 0) / repeats + own);
+    const double part = deviation / (rising_norm * steep);
+    EXPECT_NEAR(half_width(found.values[0]), normal_95 * part, 0.05 * part) << repeats;
+    for (std::size_t v = 0; v < rising.size(); ++v) {
+      const double share = rising[v] / rising_norm, half = (found.predictions[v].high - found.predictions[v].low) / 2;
+      EXPECT_NEAR(half, normal_95 * std::sqrt(2.0) * share * deviation, 0.1 * share * deviation) << repeats << ' ' << v;
+    }
+  }
+}
+
+/// A reading's noise is told as a share of the curve's largest value.
+TEST_F(WidthsOf, CurvesTakeTheNoiseOfTheirSize) {
+  const Values exact = [](double part, std::size_t, std::size_t) { return rising_by(1 + steep * (part - 0.5)); };
+  for (const int repeats : {1, 4}) {
+    const Calibration found = calibrated_by(one_key(curve_csv({1, 2, 3, 4}, repeats), 12), {.noise = 0.05}, exact);
+    const double deviation = 0.05 * 4e-3 / std::sqrt(repeats), part = deviation / (rising_norm * steep);
+    EXPECT_NEAR(half_width(found.values[0]), normal_95 * part, 0.03 * part) << repeats;
+    EXPECT_NEAR((found.predictions[3].high - found.predictions[3].low) / 2,
+                normal_95 * std::sqrt(2.0) * rising[3] / rising_norm * deviation, 0.1 * deviation)
+        << repeats;
+  }
+}
+
+/// What of a measured curve none of the runs follows is noise: of the scores, and of each value beside them.
+TEST_F(WidthsOf, CurvesThatNoRunFollowsAreAsWideAsTheyAreOdd) {
+  const Values exact = [](double part, std::size_t, std::size_t) { return rising_by(1 + steep * (part - 0.5)); };
+  const Calibration found = calibrated_by(one_key(curve_csv({1.2, 1.9, 3, 4}, 1), 12), {}, exact);
+  const double odd = std::sqrt((0.04 + 0.01) / 4) * 1e-3, part = odd / (rising_norm * steep);
+  EXPECT_NEAR(half_width(found.values[0]), normal_95 * part, 0.03 * part);
+  for (std::size_t v = 0; v < rising.size(); ++v) {
+    const double share = rising[v] / rising_norm;
+    EXPECT_NEAR((found.predictions[v].high - found.predictions[v].low) / 2,
+                normal_95 * odd * std::sqrt(1 + 2 * share * share), 0.05 * odd)
+        << v;
+  }
+}
+
+/// Four rates, of slopes 1 to 4, that are known up to a factor: least squares for a slope and a constant.
+TEST_F(WidthsOf, RatesUpToAFactorAreThoseOfALine) {
+  constexpr double noise = 0.02, factor = 17;
+  constexpr std::array off = {1.0, -1.0, -1.0, 1.0};  // of the measured logarithms; across slope and constant
+  std::string csv = "tray.holes.width_mm,rate_g_per_s\n";
+  for (std::size_t k = 0; k < off.size(); ++k)
+    csv += fmt::format("{},{}\n", 12 + 4 * k, factor * std::exp(noise * off[k]));
+  CalibrationTask of = one_key(csv, 48);
+  of.measured.scale = MeasuredScale::free;
+  const Calibration found = calibrated_by(of, {.noise = noise}, [](double part, std::size_t condition, std::size_t) {
+    return std::vector<double>{1e-3 * std::exp(static_cast<double>(condition + 1) * (part - 0.5))};
+  });
+  // Of the squares and sums of 1, 2, 3, 4: [30 10; 10 4], its inverse [4 -10; -10 30] / 20.
+  EXPECT_NEAR(half_width(found.values[0]), normal_95 * noise * std::sqrt(4 / 20.0), 0.02 * noise);
+  ASSERT_TRUE(found.depth_factor);
+  EXPECT_NEAR(std::log(found.depth_factor->low), std::log(factor) - normal_95 * noise * std::sqrt(1.5), 0.05 * noise);
+  EXPECT_NEAR(std::log(found.depth_factor->high), std::log(factor) + normal_95 * noise * std::sqrt(1.5), 0.05 * noise);
+  EXPECT_NEAR(found.correlations.back().correlation, -10 / std::sqrt(120.0), 0.01);
+  for (std::size_t k = 0; k < off.size(); ++k) {
+    const double leverage = 0.25 + std::pow(static_cast<double>(k) - 1.5, 2) / 5;
+    EXPECT_NEAR(half_width(found.predictions[k]), normal_95 * noise * std::sqrt(1 + leverage), 0.1 * noise) << k;
+  }
+  // Chi squared is 4, of three degrees of freedom.
+  EXPECT_NEAR(found.misfit_probability,
+              std::erfc(std::sqrt(2.0)) + 2 * std::sqrt(2 / std::numbers::pi) * std::exp(-2.0), 2e-3);
+  EXPECT_NEAR(*found.fitted_rms, noise, 0.02 * noise);
+  EXPECT_FALSE(found.held_out_rms);
 }
 
 TEST_F(CalibrationOf, RunsThatClogAreLeftOutOfCurves) {

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <boost/math/distributions/students_t.hpp>
 #include <cmath>
 #include <limits>
 
@@ -255,6 +256,44 @@ TEST_F(Drafts, ThatAreLikeTheLayoutsRuleSomeOut) {
   EXPECT_EQ(report.result.best, 20u);
   EXPECT_EQ(report.result.scenes[0].runs, 0);
   EXPECT_THAT(decision_csv(report), HasSubstr("\n1,,ruled out by drafts,"));
+}
+
+/// The line through the pilots' means by the textbook's sums, and what it foretells of two layouts' difference:
+/// Student's t of two degrees of freedom fewer than pilots, its error shared out among the layouts.
+TEST_F(Drafts, RuleOutBeyondThePredictionIntervalOfTheDifference) {
+  const Study all = study();
+  const auto draft_of = [](double width) { return std::round(2e4 * width); };
+  std::size_t out = 0, in = 0;
+  for (const double amplitude : {4.0, 12.0, 18.0, 24.0, 30.0}) {
+    const auto own_of = [&](double width) {
+      return draft_of(width) + amplitude * static_cast<double>((7 * std::lround(1e3 * width)) % 5 - 2);
+    };
+    DraftScreen screen(all, most_flow());
+    const DraftFindings findings = findings_of(screen, [&](const Model& model, const SimulationOptions& options) {
+      const double width = model.scene.tray.holes[0].width;
+      return run_of(model, options, is_draft(model) ? draft_of(width) : own_of(width), 0);
+    });
+    double x = 0, y = 0, xx = 0, xy = 0, yy = 0;
+    for (int pilot = 0; pilot < 12; ++pilot) {
+      const double width = all.scenes[static_cast<std::size_t>(pilot * 20 / 11)].tray.holes[0].width;
+      const double draft = draft_of(width), own = own_of(width);
+      x += draft / 12, y += own / 12, xx += draft * draft, xy += draft * own, yy += own * own;
+    }
+    const double squares = xx - 12 * x * x, slope = (xy - 12 * x * y) / squares;
+    const double unexplained = yy - 12 * y * y - slope * slope * squares;
+    EXPECT_NEAR(findings.correlation.value(), slope * std::sqrt(squares / (yy - 12 * y * y)), 1e-9);
+    ASSERT_TRUE(findings.screens);
+    const double t = quantile(complement(boost::math::students_t(10), 0.05 / 20));
+    const double most = draft_of(all.scenes.back().tray.holes[0].width);
+    for (std::size_t i = 0; i + 2 < all.scenes.size(); ++i) {  // two are left at least
+      const double behind = most - draft_of(all.scenes[i].tray.holes[0].width);
+      const double interval = t * std::sqrt(unexplained / 10 * (2 + behind * behind / squares));
+      EXPECT_EQ(findings.taking_part[i], slope * behind <= interval) << amplitude << ' ' << i;
+      ++(findings.taking_part[i] ? in : out);
+    }
+  }
+  EXPECT_GT(out, 20U);
+  EXPECT_GT(in, 20U);
 }
 
 TEST_F(Drafts, ThatAreNotDecideNothing) {

@@ -8,8 +8,10 @@
 
 #include "grains/random.hpp"
 #include "killed_rounds.hpp"
+#include "outflow/outflow.hpp"
 #include "report/front_report.hpp"
 #include "scene/input_error.hpp"
+#include "selection/known_mean.hpp"
 #include "study_files.hpp"
 
 namespace vibrosow {
@@ -90,6 +92,32 @@ TEST_F(Optimise, FindsWhatRateAndPowerCost) {
     EXPECT_GT(result.layouts[i].goals[0]->half_width_95.value(), 0);
   }
   EXPECT_GE(first, 4);
+}
+
+/// Student's t about each mean, of a variance that is the layout's and what the first runs of all say of it.
+TEST_F(Optimise, IntervalsAreOfTheSharedVariance) {
+  StudyOptimisation optimisation(space(), options({"rate", "power"}, 60));
+  const OptimiseResult result = lead(optimisation);
+  std::vector<Moments> rates;
+  std::vector<double> of_first;
+  for (std::size_t i = 0; i < result.layouts.size(); ++i) {
+    const Model model = prepare(result.study.scenes[result.study.layouts[i].scene.value()]);
+    Moments& of = rates.emplace_back();
+    for (int r = 0; r < result.layouts[i].runs; ++r) {
+      SimulationOptions simulation;
+      simulation.random_seed = 1 + static_cast<std::uint64_t>(r);
+      of.add(find_row(measure_outflow(model.scene, noisy_run(model, simulation)), "all", "all")->mass_rate);
+      if (r + 1 == StudyOptimisation::first_runs) of_first.push_back(of.variance());
+    }
+  }
+  const VariancePrior prior = variance_prior(of_first, StudyOptimisation::first_runs - 1);
+  ASSERT_TRUE(prior.degrees_of_freedom > 0);
+  for (std::size_t i = 0; i < result.layouts.size(); ++i) {
+    const KnownMean known = known_mean(rates[i], prior);
+    const double half = student_t_95(std::min(known.degrees_of_freedom, 1e6)) * std::sqrt(known.variance / known.count);
+    EXPECT_NEAR(result.layouts[i].goals[0]->mean, known.mean, 1e-9 * known.mean) << i;
+    EXPECT_NEAR(result.layouts[i].goals[0]->half_width_95.value(), half, 1e-6 * half) << i;
+  }
 }
 
 TEST_F(Optimise, ItsFrontIsAStudyOfTheSameScenes) {

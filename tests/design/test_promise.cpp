@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <functional>
 
 #include "made_up_rates.hpp"
@@ -103,6 +104,27 @@ TEST(Promise, PilotsOfTheChosenSettingCountAmongItsRuns) {
   for (const AccuracyRun& run : made.runs) runs += run.setting == made.offer->setting;
   EXPECT_EQ(runs, made.offer->replicates);
   EXPECT_LT(made.offer->to_run, made.offer->replicates);
+}
+
+/// t s / sqrt(n) of the pilots' s, a window of so many times the scene's counted as that many; and no more runs than
+/// bring the error within the goal.
+TEST(Promise, ItsHalfWidthIsStudentsOfThePilotsScatter) {
+  PromiseChoices from = choices();
+  from.lead = 9;
+  from.windows = {1, 4};
+  for (const double percent : {1.0, 3.0})
+    for (const double scatter : {1.5, 3.0}) {
+      const Promise made =
+          promise_of({.by_softness = 0.5, .by_step = 0.1, .scatter = scatter}, {.within_percent = percent}, from);
+      ASSERT_TRUE(made.offer && made.mass_rate);
+      const Offer& offer = *made.offer;
+      const double of_run = student_t_95(made.fit->degrees_of_freedom()) * made.fit->scatter_percent();
+      const auto half = [&](int runs) { return of_run / std::sqrt(offer.window * runs); };
+      EXPECT_NEAR(offer.half_width_percent, half(offer.replicates), 1e-9);
+      EXPECT_NEAR(*made.mass_rate->half_width_95, made.fit->limit().mean * half(offer.replicates) / 100, 1e-12);
+      EXPECT_LE(offer.bias.bound() + half(offer.replicates), percent);
+      if (offer.to_run > 0) EXPECT_GT(offer.bias.bound() + half(offer.replicates - 1), percent);
+    }
 }
 
 TEST(Promise, MorePilotsForANarrowGoal) {

@@ -47,6 +47,32 @@ TEST(Replicates, GoOnByTheScatterAndNotBeyondTheMost) {
   EXPECT_EQ(runs_to_go_to(Rates(10, std::nullopt), wanted), 20) << "all clogged";
 }
 
+/// Ten to and fro by 0.02: half width t(0.975, 9) 0.02 sqrt(10 / 9) / sqrt(10) = 0.015081, and its square over the
+/// wanted one's times ten.
+TEST(Replicates, GoOnToWhatTheScatterAsksFor) {
+  const auto next = [](double interval) {
+    return runs_to_go_to(even_rates(10, 0.02), {.interval = interval, .most = 40});
+  };
+  EXPECT_EQ(next(0.0150), 11);  // 10.1
+  EXPECT_EQ(next(0.0136), 13);  // 12.3
+  EXPECT_EQ(next(0.0132), 14);  // 13.05
+  EXPECT_EQ(next(0.0110), 19);  // 18.8
+}
+
+/// G1 of the sample against twice its standard error if it were normal: 1.374 of ten values, 1.024 of twenty.
+TEST(Replicates, LookSkewedBeyondTwoStandardErrors) {
+  const auto looks = [](std::size_t zeros, std::size_t others, double other) {
+    std::vector<double> values(zeros, 0.0);
+    values.insert(values.end(), others, other);
+    values.push_back(1);
+    return look_skewed(values);
+  };
+  EXPECT_TRUE(looks(7, 2, 0.6));    // 1.391
+  EXPECT_FALSE(looks(7, 2, 0.62));  // 1.348
+  EXPECT_TRUE(looks(14, 5, 0.7));   // 1.071
+  EXPECT_FALSE(looks(14, 5, 0.8));  // 0.989
+}
+
 TEST(Replicates, LookSkewed) {
   std::vector<double> even, skewed;
   for (int k = 0; k < 20; ++k) {

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <boost/math/distributions/non_central_chi_squared.hpp>
+#include <boost/math/distributions/non_central_f.hpp>
 #include <cmath>
 #include <random>
 
@@ -46,6 +48,58 @@ TEST(Evenness, ReplicatesAreSummedHoleByHole) {
   const auto one = evenness({{300, 200, 250}}), three = evenness({{100, 67, 83}, {101, 66, 84}, {99, 67, 83}});
   EXPECT_DOUBLE_EQ(one->raw_cv, three->raw_cv);
   EXPECT_DOUBLE_EQ(one->high, three->high);  // they scatter less than by chance: counting is what remains
+}
+
+/// The squared CV of a bound is the noncentrality over the mean count and the degrees of freedom of the holes.
+double noncentrality(double cv, double mean, double holes) {
+  return cv * cv * mean * (holes - 1);
+}
+
+TEST(Evenness, OfOneRunEndsWhereChiSquaredLeavesTwoAndAHalfPercent) {
+  namespace bm = boost::math;
+  const auto uneven = evenness({{800, 1000, 1200}});  // X = 2 * 200^2 / 1000
+  EXPECT_NEAR(cdf(bm::non_central_chi_squared(2, noncentrality(uneven->low, 1000, 3)), 80), 0.975, 1e-6);
+  EXPECT_NEAR(cdf(bm::non_central_chi_squared(2, noncentrality(uneven->high, 1000, 3)), 80), 0.025, 1e-6);
+}
+
+/// Three runs of four holes, of which one gave nothing: (3 - 1) (3 - 1) degrees of freedom of their scatter about the
+/// common split, 90 of 300 seeds a run here, 120 there and 90.
+TEST(Evenness, OfReplicatesEndsWhereFLeavesTwoAndAHalfPercent) {
+  namespace bm = boost::math;
+  const auto found = evenness({{60, 150, 90, 0}, {120, 90, 90, 0}, {90, 120, 90, 0}});
+  constexpr double mean = 900.0 / 4;
+  constexpr double x = (45.0 * 45 + 135.0 * 135 + 45.0 * 45 + 225.0 * 225) / mean;
+  constexpr double scatter = 2 * (30.0 * 30 / 90) + 2 * (30.0 * 30 / 120), phi = scatter / 4;
+  const auto below = [&](double cv) {
+    return cdf(bm::non_central_f(3, 4, noncentrality(cv, mean, 4) / phi), x / phi / 3);
+  };
+  ASSERT_GT(found->low, 0);
+  EXPECT_NEAR(below(found->low), 0.975, 1e-6);
+  EXPECT_NEAR(below(found->high), 0.025, 1e-6);
+  EXPECT_NEAR(found->cv.value(), std::sqrt((x - 3 * phi) / (mean * 3)), 1e-12);
+}
+
+/// Where even holes would give it as often as not, it is not resolved: below the quantile of F, or of chi squared.
+TEST(Evenness, IsResolvedBeyondTheQuantileOfEvenHoles) {
+  // Two holes: X = (difference)^2 / sum, beyond 5.024 of chi squared.
+  EXPECT_FALSE(evenness({{1000 + 50, 1000 - 50}})->cv);  // X = 5
+  EXPECT_TRUE(evenness({{1000 + 51, 1000 - 51}})->cv);   // 5.2
+  // Two replicates, each 18 seeds from the common split: F of one and one degrees of freedom, whose quantile is
+  // 647.789.
+  constexpr std::int64_t off = 18;
+  const auto scattered = [](std::int64_t more) {
+    return evenness({{1000 + more + off, 1000 - more - off}, {1000 + more - off, 1000 - more + off}});
+  };
+  const auto f = [](double more) {
+    const double x = 2 * (2 * more) * (2 * more) / 2000;
+    const double phi = 2.0 * off * off * (1 / (1000 + more) + 1 / (1000 - more));
+    return x / phi;
+  };
+  std::int64_t more = 1;
+  while (more < 700 && f(static_cast<double>(more)) <= 647.789) ++more;
+  ASSERT_LT(more, 700);
+  EXPECT_FALSE(scattered(more - 1)->cv);
+  EXPECT_TRUE(scattered(more)->cv);
 }
 
 TEST(Evenness, NeedsTwoHolesAndASeed) {

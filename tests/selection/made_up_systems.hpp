@@ -1,6 +1,8 @@
 #pragma once
 
+#include <boost/math/distributions/students_t.hpp>
 #include <boost/math/special_functions/erf.hpp>
+#include <cmath>
 #include <cstdint>
 #include <functional>
 #include <numbers>
@@ -73,6 +75,17 @@ inline int sum(const std::vector<int>& counts) {
   int whole = 0;
   for (const int count : counts) whole += count;
   return whole;
+}
+
+/// Six values of a mean and a standard error of it. The first two are equal, and so say nothing of others' variances.
+inline std::vector<double> six_about(double mean, double standard_error) {
+  const double off = standard_error * std::sqrt(6 * 5 / 4.0);  // four times its square over five, over six
+  return {mean, mean, mean + off, mean - off, mean + off, mean - off};
+}
+
+/// Student's t of so many degrees of freedom that leaves `error` above it.
+inline double student_above(double degrees_of_freedom, double error) {
+  return quantile(complement(boost::math::students_t(degrees_of_freedom), error));
 }
 
 /// One system of mean 1, the others worse by 5 %, scattering by 10 %.

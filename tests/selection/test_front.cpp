@@ -3,6 +3,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <array>
+#include <cmath>
+#include <functional>
 #include <limits>
 #include <stdexcept>
 
@@ -118,6 +121,136 @@ TEST(Front, ExactGoalsAndDistances) {
   }
   EXPECT_THAT(front.standings(), ElementsAre(FrontStanding::on_front, FrontStanding::on_front, FrontStanding::dominated,
                                              FrontStanding::dominated));
+}
+
+/// Six observations of each system, which know of their own variance alone: means are a standard error of 1 from the
+/// truth, by five degrees of freedom; differences of two by ten.
+struct KnownSystem {
+  std::vector<double> goals, banded{};
+};
+
+Front front_of_six(FrontQuestion question, const std::vector<KnownSystem>& systems) {
+  question.first = 2;
+  Front front(question);
+  for (std::size_t i = 0; i < systems.size(); ++i) {
+    front.add_system();
+    for (std::size_t r = 0; r < 6; ++r) {
+      FrontObservation one;
+      for (const double mean : systems[i].goals) one.goals.push_back(six_about(mean, 1)[r]);
+      for (const double mean : systems[i].banded) one.banded.push_back(six_about(mean, 1)[r]);
+      front.take(i, one);
+    }
+  }
+  return front;
+}
+
+FrontQuestion goals_of(std::size_t count) {
+  FrontQuestion question;
+  question.goals.resize(count);
+  return question;
+}
+
+/// Of a system, when another figure of it is a hair to either side of where it is just sure.
+constexpr double hair = 1e-3;
+
+/// A mean difference of t standard errors, a hair less and a hair more.
+std::array<FrontStanding, 2> about(double t, const std::function<FrontStanding(double)>& standing_at) {
+  return {standing_at(t - hair), standing_at(t + hair)};
+}
+
+TEST(Front, SharesItsErrorAmongPairsOfWhatDominates) {
+  for (const std::size_t systems : {2U, 3U, 6U}) {
+    const double t = std::sqrt(2.0) * student_above(10, 0.05 / static_cast<double>(systems - 1));
+    const auto standing = [&](double behind) {
+      std::vector<KnownSystem> all(systems, {{1000}});
+      all[0].goals = {0}, all[1].goals = {behind};
+      return front_of_six(goals_of(1), all).standings()[1];
+    };
+    EXPECT_THAT(about(t, standing), ElementsAre(FrontStanding::may_be_on_front, FrontStanding::dominated)) << systems;
+  }
+}
+
+TEST(Front, SharesItsErrorAmongTheGoalsOfWhatIsOnIt) {
+  for (const std::size_t goals : {1U, 2U, 4U}) {
+    const double t = std::sqrt(2.0) * student_above(10, 0.05 / static_cast<double>(goals));
+    const auto standing = [&](double ahead) {
+      std::vector<KnownSystem> two(2, {std::vector<double>(goals, 0)});
+      two[1].goals[0] = ahead;
+      return front_of_six(goals_of(goals), two).standings()[0];
+    };
+    EXPECT_THAT(about(t, standing), ElementsAre(FrontStanding::may_be_on_front, FrontStanding::on_front)) << goals;
+  }
+}
+
+/// The distance from a wanted value has two sides, each of which may be the wrong one.
+TEST(Front, SharesItsErrorAmongTheSidesOfAWantedValue) {
+  FrontQuestion question = goals_of(1);
+  question.goals[0].nearest_to = 10;
+  const auto standing = [&](double ahead) { return front_of_six(question, {{{10}}, {{10 - ahead}}}).standings()[0]; };
+  EXPECT_THAT(about(std::sqrt(2.0) * student_above(10, 0.05 / 2), standing),
+              ElementsAre(FrontStanding::may_be_on_front, FrontStanding::on_front));
+}
+
+TEST(Front, SharesItsErrorAmongTheEndsOfBandsAndClogging) {
+  for (const std::size_t bands : {1U, 3U}) {
+    FrontQuestion question = goals_of(1);
+    question.bands.assign(bands, {-100, 100});
+    const double t = student_above(5, 0.05 / static_cast<double>(2 * bands + 1));
+    for (const double side : {-1.0, 1.0}) {
+      const auto standing = [&](double outside) {
+        KnownSystem one{{0}, std::vector<double>(bands, 0)};
+        one.banded[bands - 1] = side * (100 + outside);
+        return front_of_six(question, {one}).standings()[0];
+      };
+      EXPECT_THAT(about(t, standing), ElementsAre(FrontStanding::may_be_on_front, FrontStanding::misses_a_band))
+          << bands << ' ' << side;
+    }
+  }
+}
+
+/// What is on the front is in each band with the whole confidence.
+TEST(Front, IsInItsBandsByTheWholeError) {
+  FrontQuestion question = goals_of(1);
+  question.bands = {{-100, 100}};
+  for (const double side : {-1.0, 1.0}) {
+    const auto standing = [&](double inside) {
+      return front_of_six(question, {{{0}, {side * (100 - inside)}}}).standings()[0];
+    };
+    EXPECT_THAT(about(student_above(5, 0.05), standing),
+                ElementsAre(FrontStanding::may_be_on_front, FrontStanding::on_front))
+        << side;
+  }
+}
+
+/// Of ten runs nine or more clog by chance in 11 of 1024 cases where half of all do.
+TEST(Front, ClogsByTheBinomialWithItsShareOfTheError) {
+  const auto standing = [&](std::size_t bands, int clogged) {
+    FrontQuestion question = goals_of(1);
+    question.clogging_limit = 0.5;
+    question.bands.assign(bands, {-100, 100});
+    Front front(question);
+    front.add_system();
+    for (int r = 0; r < 10; ++r)
+      front.take(0, r < clogged ? FrontObservation{RunEnd::clogged}
+                                : FrontObservation{RunEnd::flowed, {1}, std::vector<double>(bands, 0)});
+    return front.standings()[0];
+  };
+  EXPECT_EQ(standing(1, 9), FrontStanding::clogs);            // 0.0107 against 0.05 / 3
+  EXPECT_EQ(standing(3, 9), FrontStanding::may_be_on_front);  // against 0.05 / 7
+  EXPECT_EQ(standing(0, 8), FrontStanding::may_be_on_front);  // 56 of 1024
+}
+
+TEST(Front, IsNearlyOnItByOneStandardErrorOfTheDifference) {
+  const auto nearly = [&](double behind) {
+    return front_of_six(goals_of(1), {{{0}}, {{behind}}}).nearly_on_front()[1];
+  };
+  EXPECT_TRUE(nearly(std::sqrt(2.0) - hair));
+  EXPECT_FALSE(nearly(std::sqrt(2.0) + hair));
+  FrontQuestion question = goals_of(1);
+  question.bands = {{-100, 100}};
+  const auto nearly_in = [&](double at) { return front_of_six(question, {{{0}, {at}}}).nearly_on_front()[0]; };
+  EXPECT_TRUE(nearly_in(101 - hair) && nearly_in(-101 + hair));
+  EXPECT_FALSE(nearly_in(101 + hair) || nearly_in(-101 - hair));
 }
 
 TEST(Band, IsOutsideByShares) {

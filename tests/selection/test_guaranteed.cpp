@@ -3,8 +3,10 @@
 #include <gtest/gtest.h>
 
 #include <stdexcept>
+#include <tuple>
 
 #include "selection/made_up_systems.hpp"
+#include "selection/sequential_tests.hpp"
 
 namespace vibrosow {
 namespace {
@@ -27,6 +29,40 @@ TEST(Guaranteed, IsRightAsOftenAsItSaysAmongNearTies) {
     right += decision.is_sure && decision.best == systems / 2;
   }
   EXPECT_GE(right, 0.95 * tries - 6);
+}
+
+TEST(Guaranteed, SharesTheErrorOfItsConstraintsAmongThemAndTheSystems) {
+  Question question = question_of(4);
+  question.clogging_limit = 0.05;
+  // A fifth of 0.05, half of it for what is taken wrongly, of four systems: log 800 / log(0.995 / 0.95) = 144.4
+  EXPECT_EQ(Guaranteed(question).least_observations(), 145);
+  question.band = Band{1, 2};
+  EXPECT_EQ(Guaranteed(question).least_observations(), 160);  // log 1600: 159.4
+  question.clogging_limit.reset();
+  EXPECT_EQ(Guaranteed(question).least_observations(), Guaranteed::first_observations);
+}
+
+/// Systems that differ by the margin, 1, and by 10 to and fro: the observations until the pair's test has ended.
+TEST(Guaranteed, SharesTheRestOfItsErrorAmongPairs) {
+  const Observe observe = [](std::size_t system, int number) {
+    if (system == 0) return Observation{RunEnd::flowed, 20, 1};
+    return Observation{RunEnd::flowed, (system == 1 ? 21.0 : 1000.0) + (number % 2 == 0 ? 10 : -10), 1};
+  };
+  for (const auto& [systems, limit, error] :
+       {std::tuple(2U, false, 0.05), std::tuple(2U, true, 0.04), std::tuple(5U, true, 0.01)}) {
+    Question question = question_of(systems);
+    question.most = 2000;
+    if (limit) question.clogging_limit = 0.05;
+    SideTest test(Guaranteed::first_observations, error);
+    int needed = 0;
+    for (; test.side() == SideTest::Side::open; ++needed)
+      test.add(observe(0, needed).goal - observe(1, needed).goal, question.margin * 20);
+    Guaranteed procedure(question);
+    const std::vector<int> runs = lead(procedure, systems, observe);
+    EXPECT_EQ(runs[0], needed + needed % 2) << systems << ' ' << limit;  // two of each at a time
+    EXPECT_EQ(procedure.decision().best, 0U);
+    EXPECT_TRUE(procedure.decision().is_sure);
+  }
 }
 
 TEST(Guaranteed, LeavesWhatIsPlainlyWorseAfterTheFirstObservations) {

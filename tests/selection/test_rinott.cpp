@@ -4,6 +4,7 @@
 
 #include <boost/math/distributions/normal.hpp>
 #include <cmath>
+#include <numbers>
 #include <stdexcept>
 
 #include "selection/made_up_systems.hpp"
@@ -40,6 +41,19 @@ TEST(Rinott, ConstantGrowsWithSystemsAndFallsWithFirstObservations) {
   EXPECT_LT(rinott_h(10, 20, 0.95), rinott_h(10, 10, 0.95));
   // Without end: known variances, two systems: sqrt(2) z(0.95).
   EXPECT_NEAR(rinott_h(2, 5001, 0.95), std::sqrt(2.0) * 1.644854, 0.002);
+}
+
+TEST(Rinott, ConstantOfTwoByTwoObservationsIsCauchys) {
+  // Each mean is known by one degree of freedom: the difference of two Cauchy numbers is one twice as wide.
+  EXPECT_NEAR(rinott_h(2, 2, 0.95), 2 * std::tan(0.45 * std::numbers::pi), 0.01);
+}
+
+TEST(Rinott, ConstantOfKnownVariancesIsThatOfIndependentPairs) {
+  for (const std::size_t systems : {3U, 10U, 60U}) {
+    const double of_pair = std::pow(0.95, 1 / (static_cast<double>(systems) - 1));
+    EXPECT_NEAR(rinott_h(systems, 20001, 0.95), std::sqrt(2.0) * quantile(boost::math::normal(), of_pair), 0.002)
+        << systems;
+  }
 }
 
 TEST(Rinott, Observations) {

@@ -54,6 +54,24 @@ TEST(SideTest, RefusesWhatCannotBeMeant) {
   EXPECT_THROW(SideTest(10, 0.5), std::invalid_argument);
 }
 
+/// Values by turns one more and one less than a mean: after n of them, an even number, Student's t is the mean times
+/// sqrt(n - 1).
+bool is_above_after(double error, double mean, int count) {
+  LookTest test(error);
+  for (int i = 0; i < count; ++i) test.add(mean + (i % 2 == 0 ? 1 : -1));
+  return test.is_above();
+}
+
+TEST(LookTest, LooksByStudentsTWithHalfOfTheErrorAndThenAQuarter) {
+  const double first = student_above(9, 0.04 / 2) / 3, second = student_above(19, 0.04 / 4) / std::sqrt(19);
+  EXPECT_FALSE(is_above_after(0.04, first - 1e-4, 10));
+  EXPECT_TRUE(is_above_after(0.04, first + 1e-4, 10));
+  ASSERT_LT(second, first);
+  EXPECT_FALSE(is_above_after(0.04, second + 1e-4, 19));
+  EXPECT_FALSE(is_above_after(0.04, second - 1e-4, 20));
+  EXPECT_TRUE(is_above_after(0.04, second + 1e-4, 20));
+}
+
 BandTest::Verdict verdict_on(double rate, std::uint64_t seed) {
   MadeUpChance chance(seed);
   BandTest test(0.95, 1.05, 10, 0.025, 0.1);
@@ -83,12 +101,55 @@ TEST(BandTest, WhatIsFarOffIsToldByTheFirstLook) {
   EXPECT_EQ(test.verdict(), BandTest::Verdict::outside);
 }
 
+/// Of a band from 0 to 10 the tests' zeros lie at 1 and 9. By 2, 4, 5, 5, .. the lower one's sum is 4, 8, 12, 16; with
+/// an error of 1/8 it leaves its triangle, as in the test of SideTest, at (30 - r) / 2: with the fifth.
+TEST(BandTest, HasTheLesserOfTheErrorInsideAndAQuarterOfThatOutside) {
+  const auto observations = [](double error_inside, double error_outside) {
+    BandTest test(0, 10, 2, error_inside, error_outside);
+    int count = 0;
+    for (const double value : {2, 4, 5, 5, 5, 5, 5, 5, 5, 5, 5}) {
+      if (test.verdict() != BandTest::Verdict::open) break;
+      test.add(value);
+      ++count;
+    }
+    EXPECT_EQ(test.verdict(), BandTest::Verdict::inside);
+    return count;
+  };
+  EXPECT_EQ(observations(0.125, 0.9), 5);
+  EXPECT_EQ(observations(0.4, 0.5), 5);
+}
+
+TEST(BandTest, LooksForWhatIsFarOffWithAQuarterOfItsErrorOnEachSide) {
+  const auto verdict = [](double mean) {
+    BandTest test(0, 1e-3, 2, 0.01, 0.1);  // so narrow that its triangle is endless
+    for (int i = 0; i < 10; ++i) test.add(mean + (i % 2 == 0 ? 1 : -1));
+    return test.verdict();
+  };
+  const double far = student_above(9, 0.1 / 4 / 2) / 3;
+  EXPECT_EQ(verdict(-far + 1e-4), BandTest::Verdict::open);
+  EXPECT_EQ(verdict(-far - 1e-4), BandTest::Verdict::outside);
+  EXPECT_EQ(verdict(1e-3 + far - 1e-4), BandTest::Verdict::open);
+  EXPECT_EQ(verdict(1e-3 + far + 1e-4), BandTest::Verdict::outside);
+}
+
 TEST(ShareTest, CountsCleanTrials) {
   ShareTest test(0.05, 0.01, 0.01);
   int clean = 0;
   for (; test.verdict() == ShareTest::Verdict::open; ++clean) test.add(false);
   EXPECT_EQ(clean, 100);  // log 100 / log(0.995 / 0.95) = 99.5
   EXPECT_EQ(test.verdict(), ShareTest::Verdict::less);
+}
+
+TEST(ShareTest, CountsEvents) {
+  const auto events = [](double error_much) {
+    ShareTest test(0.05, 0.01, error_much);
+    int count = 0;
+    for (; test.verdict() == ShareTest::Verdict::open; ++count) test.add(true);
+    EXPECT_EQ(test.verdict(), ShareTest::Verdict::much);
+    return count;
+  };
+  EXPECT_EQ(events(0.011), 2);  // each makes it ten times as likely
+  EXPECT_EQ(events(0.009), 3);
 }
 
 TEST(ShareTest, IsWrongAsRarelyAsItSays) {

@@ -62,6 +62,25 @@ TEST_F(CurveSurrogates, TakesAValueAloneForItsOwnScore) {
   EXPECT_EQ(surrogate.off_components2(VectorXd::Constant(1, 7.0)), 0);
 }
 
+/// Rise and bend scatter together: a run's scores share its chance.
+TEST_F(CurveSurrogates, ScoresOfARunShareItsChance) {
+  for (Index i = 0; i < 40; ++i) {
+    const double chance = 0.05 * static_cast<double>((7 * i) % 5 - 2),
+                 own = 0.02 * static_cast<double>((3 * i) % 7 - 3);
+    values.row(i) = curve(points(i, 0) + chance, points(i, 1) - 4 * chance + own).transpose();
+  }
+  const CurveSurrogate surrogate = curve_surrogate(points, values);
+  ASSERT_EQ(surrogate.scores.size(), 2U);
+  const VectorXd first = surrogate.scores[0].left_out_errors(), second = surrogate.scores[1].left_out_errors();
+  const double correlation = first.dot(second) / (first.norm() * second.norm());
+  EXPECT_GT(std::abs(correlation), 0.3);
+  EXPECT_EQ(surrogate.chance(0, 0), surrogate.scores[0].noise());
+  EXPECT_EQ(surrogate.chance(1, 1), surrogate.scores[1].noise());
+  const double expected = correlation * std::sqrt(surrogate.scores[0].noise() * surrogate.scores[1].noise());
+  EXPECT_NEAR(surrogate.chance(0, 1), expected, 1e-12 * std::abs(expected));
+  EXPECT_EQ(surrogate.chance(1, 0), surrogate.chance(0, 1));
+}
+
 TEST_F(CurveSurrogates, RefusesTooFewRuns) {
   EXPECT_THROW(curve_surrogate(points.topRows(4), values.topRows(4)), std::invalid_argument);
 }

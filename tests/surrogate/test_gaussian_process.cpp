@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/LU>
+#include <Eigen/QR>
 #include <boost/math/distributions/normal.hpp>
 #include <cmath>
 #include <limits>
@@ -136,6 +137,25 @@ TEST(GaussianProcess, TakesValuesThatAreAllTheSame) {
   const GaussianPrediction prediction =
       GaussianProcess(hypercube(10, 2, 1), VectorXd::Constant(10, 5)).at(MatrixXd::Constant(1, 2, 0.5));
   EXPECT_NEAR(prediction.mean(0), 5, 1e-9);
+}
+
+/// A function that one covariance alone explains: values that go up and down, which are noise whatever its length.
+/// Their variance's scale is integrated out, so the residuals' squares count over two degrees of freedom fewer than
+/// they have.
+TEST(GaussianProcess, TakesTheMeanOfAVarianceThatItDoesNotKnow) {
+  constexpr Index count = 12;
+  MatrixXd points(count, 1), trend(count, 2);
+  VectorXd values(count);
+  for (Index i = 0; i < count; ++i) {
+    points(i, 0) = (static_cast<double>(i) + 0.5) / count;
+    trend.row(i) << 1, points(i, 0);
+    values(i) = 3 + 2 * points(i, 0) + (i % 2 == 0 ? 0.1 : -0.1);
+  }
+  const VectorXd residuals = values - trend * trend.colPivHouseholderQr().solve(values);
+  const double expected = residuals.squaredNorm() / (count - 2 - 2);
+  const GaussianProcess process(points, values);
+  EXPECT_NEAR(process.covariance().signal + process.covariance().noise, expected, 0.02 * expected);
+  EXPECT_NEAR(process.noise(), expected, 0.1 * expected);
 }
 
 TEST(GaussianProcess, RefusesTooFewValuesAndSuchAsAreNone) {

@@ -72,6 +72,21 @@ TEST(PosteriorSample, IntegratesOverAShift) {
   EXPECT_NEAR(weighted_deviation(known.shifts, known.weights), 0.04 / std::sqrt(2.0), 0.001);
 }
 
+/// What a surrogate does not know of itself widens what is known by it.
+TEST(PosteriorSample, HoldsTheSurrogatesOwnError) {
+  const MatrixXd points = hypercube(12, 1, 5);
+  VectorXd values = points.col(0);
+  for (Eigen::Index i = 0; i < 12; ++i) values(i) += 0.02 * static_cast<double>((7 * i) % 5 - 2);
+  const GaussianProcess surrogate(points, values);
+  const double middle = surrogate.at(MatrixXd::Constant(1, 1, 0.5)).mean(0);
+  const PosteriorSample known =
+      posterior_sample({{{&surrogate}, VectorXd::Constant(1, middle), MatrixXd::Constant(1, 1, 1e-6)}}, 1);
+  const GaussianPrediction fit = surrogate.at(known.points);
+  const double own = weighted_mean(fit.variance, known.weights);
+  ASSERT_GT(own, 1e-5);
+  EXPECT_NEAR(weighted_deviation(fit.mean, known.weights), std::sqrt(own + 1e-6), 0.1 * std::sqrt(own));
+}
+
 TEST(PosteriorSample, SaysWhereNoPointFits) {
   const GaussianProcess surrogate = plane(0, {1, 0});
   const MatrixXd chance = MatrixXd::Constant(1, 1, 0.01);
@@ -92,6 +107,12 @@ TEST(WeightedQuantile, LiesBetweenValuesByTheirWeights) {
   EXPECT_DOUBLE_EQ(weighted_quantile(values, weights, 0.5), 2.5);
   EXPECT_DOUBLE_EQ(weighted_quantile(values, weights, 0), 1);
   EXPECT_DOUBLE_EQ(weighted_quantile(values, weights, 1), 4);
+}
+
+TEST(WeightedDeviation, IsThatOfTheWeights) {
+  const VectorXd values = (VectorXd(3) << 1, 2, 5).finished(), weights = (VectorXd(3) << 0.5, 0.25, 0.25).finished();
+  EXPECT_DOUBLE_EQ(weighted_mean(values, weights), 2.25);
+  EXPECT_DOUBLE_EQ(weighted_deviation(values, weights), std::sqrt(0.5 * 1.5625 + 0.25 * 0.0625 + 0.25 * 7.5625));
 }
 
 }  // namespace
