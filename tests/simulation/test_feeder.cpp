@@ -143,6 +143,120 @@ TEST(Feeder, LaysSeedsDownAsTheirVesselMoves) {
     }
 }
 
+/// m, between the centres of two seeds, or of one and the other's nearest image in a periodic tray.
+double apart(const Vessel& tray, const Grains& grains, std::size_t i, std::size_t j) {
+  Eigen::Vector3d way = place_of(grains, i) - place_of(grains, j);
+  if (tray.sides == Sides::periodic) way.x() = std::remainder(way.x(), tray.length);
+  if (grains.in_space && tray.front_and_back == Sides::periodic) way.z() = std::remainder(way.z(), *tray.depth);
+  return way.norm();
+}
+
+void expect_clear(const Vessel& tray, const Grains& grains) {
+  for (std::size_t i = 0; i < grains.size(); ++i)
+    for (std::size_t j = 0; j < i; ++j)
+      ASSERT_GE(apart(tray, grains, i, j), grains.kind(i).radius + grains.kind(j).radius) << i << ' ' << j;
+}
+
+/// Whether a seed lies so near to a seam that its image reaches in from the other side.
+bool lies_at_a_seam(double place, double radius, double period) {
+  return place < radius || place > period - radius;
+}
+
+/// A narrow tray in space that goes on to all sides.
+Scene endless() {
+  Scene scene = kept_full(scattered_balls());
+  scene.space = Space::three_dimensional;
+  scene.tray.length = 0.03;
+  scene.tray.depth = 0.02;
+  scene.tray.sides = scene.tray.front_and_back = Sides::periodic;
+  return scene;
+}
+
+TEST(Feeder, LaysNothingIntoImagesAcrossASeam) {
+  const Scene scene = endless();
+  Fed fed(scene);
+  Grains& grains = fed.state.grains;
+  ASSERT_EQ(fed.feeder.top_up(grains, {}, fed.walls, 0), 300);
+  expect_clear(scene.tray, grains);
+  int at_a_side = 0, at_the_front = 0;
+  for (std::size_t i = 0; i < grains.size(); ++i) {
+    at_a_side += lies_at_a_seam(grains.x[i], grains.radius[i], scene.tray.length);
+    at_the_front += lies_at_a_seam(grains.z[i], grains.radius[i], *scene.tray.depth);
+  }
+  EXPECT_GT(at_a_side, 10);
+  EXPECT_GT(at_the_front, 10);
+}
+
+TEST(Feeder, RainsNothingOntoImagesAcrossASeam) {
+  Scene scene = endless();
+  scene.tray.fill.reset();
+  scene.tray.rain = Rain{1e5, 0, scene.tray.length, 0.5};
+  Fed fed(scene);
+  Grains& grains = fed.state.grains;
+  for (int k = 1; k <= 5; ++k) fed.feeder.rain(grains, fed.walls, 0.01 * k);  // a thousand more each time
+  ASSERT_GT(grains.size(), 15U);                                              // as many as have room side by side
+  ASSERT_LT(grains.size(), 60U);
+  expect_clear(scene.tray, grains);
+}
+
+TEST(Feeder, LaysNothingOverTheWalls) {
+  for (const Space space : both_spaces) {
+    Scene scene = kept_full(scattered_balls());
+    scene.space = space;
+    if (space == Space::three_dimensional) scene.tray.length = 0.04, scene.tray.depth = 0.04;
+    scene.tray.height = 12e-3;
+    Fed fed(scene);
+    Grains& grains = fed.state.grains;
+    const int added = fed.feeder.top_up(grains, {}, fed.walls, 0);
+    EXPECT_GT(added, 30);
+    EXPECT_LT(added, 300) << "some have no room";
+    double most = 0;
+    for (std::size_t i = 0; i < grains.size(); ++i) most = std::max(most, grains.y[i] + grains.radius[i]);
+    EXPECT_LE(most, scene.tray.height * (1 + 1e-12));
+    EXPECT_GT(most, scene.tray.height - 2e-3);
+  }
+}
+
+TEST(Feeder, RainsNothingIntoAWall) {
+  for (const Space space : both_spaces) {
+    Scene scene = kept_full(scattered_balls());
+    scene.space = space;
+    if (space == Space::three_dimensional) scene.tray.depth = 0.1;
+    scene.tray.fill.reset();
+    scene.tray.rain = Rain{1e4, 0, scene.tray.length, 1.9e-3};  // over a floor that the larger seeds would reach into
+    Fed fed(scene);
+    Grains& grains = fed.state.grains;
+    for (int k = 1; k <= 20; ++k) {
+      fed.feeder.rain(grains, fed.walls, 1e-2 * k);
+      if (grains.size() > 0) EXPECT_LE(*std::ranges::max_element(grains.radius), 1.9e-3 * (1 + 1e-8));
+    }
+  }
+}
+
+/// A tray of one seed's width, wanted to hold one seed more than it does; the height at which it is laid, in radii.
+double laid_over(const std::vector<double>& heights, bool in_the_heap) {
+  Scene scene = kept_full({"a", 4e-3, 4e-5, Shape::ball, 1});
+  scene.tray.length = 4.2e-3;
+  scene.tray.fill->count = static_cast<int>(heights.size()) + 1;
+  Fed fed(scene);
+  Grains& grains = fed.state.grains;
+  for (const double height : heights) grains.add(2.1e-3, 2e-3 * height, 0, 0, 0);
+  const std::size_t before = grains.size();
+  EXPECT_EQ(fed.feeder.top_up(grains, std::vector<char>(before, in_the_heap ? 1 : 0), fed.walls, 0), 1);
+  expect_clear(scene.tray, grains);
+  return grains.y.back() / 2e-3;
+}
+
+/// A heap that sinks fast is fed fast: not only over what still falls from high above.
+TEST(Feeder, LaysSeedsBetweenThoseThatFallAndOnTheHeap) {
+  EXPECT_NEAR(laid_over({}, false), 1, 1e-9) << "on the floor";
+  EXPECT_NEAR(laid_over({100}, false), 1, 1e-9) << "under one that falls";
+  EXPECT_NEAR(laid_over({100}, true), 102, 0.03) << "on one that lies";
+  EXPECT_NEAR(laid_over({2}, false), 4, 0.03) << "there is no room under it";
+  EXPECT_NEAR(laid_over({5.5, 3}, false), 7.5, 0.03) << "nor between these two, whichever comes first";
+  EXPECT_NEAR(laid_over({9, 3}, false), 5, 0.03) << "but between these";
+}
+
 TEST(Feeder, DrawsLotsByTheirShares) {
   Scene scene = kept_full(scattered_balls());
   SeedLot other = scattered_balls();
