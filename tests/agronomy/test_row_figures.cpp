@@ -49,6 +49,9 @@ TEST(RowFigures, RatesOfARowAndOfTheGround) {
   EXPECT_NEAR(*figures.rows[0].kg_per_m2 / kilogram_per_hectare, 8, 1e-9);
   EXPECT_NEAR(*figures.rows[0].longest_pause, 0.1, 1e-12);
   EXPECT_DOUBLE_EQ(*figures.rows[1].seeds_per_s, 20);
+  // Of ten parts of the window, 8 and 16 seeds each by chance.
+  EXPECT_DOUBLE_EQ(*figures.rows[0].instability_counting_cv, 1 / std::sqrt(8));
+  EXPECT_DOUBLE_EQ(*figures.rows[1].instability_counting_cv, 1 / std::sqrt(16));
   // All: rates together, over both rows' ground.
   EXPECT_EQ(figures.all().row, 0);
   EXPECT_DOUBLE_EQ(*figures.all().seeds_per_s, 30);

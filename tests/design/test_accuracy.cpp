@@ -90,6 +90,18 @@ TEST(Accuracy, TiesDoNotStandOnTheFront) {
   EXPECT_FALSE(result.rows[6].on_front);  // 0.05 % better, 0.14 % by chance
 }
 
+/// Of two rates near 1.01, each known to 0.1 % of itself, a difference of 0.1427 % is chance.
+TEST(Accuracy, ErrsLessByMoreThanBothIntervalsLeaveOpen) {
+  const auto on_front = [](double less) {
+    return compared({row(verlet, 40, 1e-4, 1.00, 1000, 0.001), row(verlet, 20, 1e-4, 1.01, 400, 0.001),
+                     row(verlet, 20, 2e-4, 1.01 - less, 600, 0.001)})
+        .rows[2]
+        .on_front;
+  };
+  EXPECT_FALSE(on_front(0.00142));
+  EXPECT_TRUE(on_front(0.00143));
+}
+
 TEST(Accuracy, SlipSpeedIsLeftOutOfTheTableWhereFrictionHasNone) {
   const StudyFiles files;
   const Scene scene = scene_of(files, {parse_override("contact.friction_model=spring")});

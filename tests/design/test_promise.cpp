@@ -123,7 +123,9 @@ TEST(Promise, ItsHalfWidthIsStudentsOfThePilotsScatter) {
       EXPECT_NEAR(offer.half_width_percent, half(offer.replicates), 1e-9);
       EXPECT_NEAR(*made.mass_rate->half_width_95, made.fit->limit().mean * half(offer.replicates) / 100, 1e-12);
       EXPECT_LE(offer.bias.bound() + half(offer.replicates), percent);
-      if (offer.to_run > 0) EXPECT_GT(offer.bias.bound() + half(offer.replicates - 1), percent);
+      if (offer.to_run > 0) {
+        EXPECT_GT(offer.bias.bound() + half(offer.replicates - 1), percent);
+      }
     }
 }
 

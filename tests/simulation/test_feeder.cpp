@@ -228,7 +228,9 @@ TEST(Feeder, RainsNothingIntoAWall) {
     Grains& grains = fed.state.grains;
     for (int k = 1; k <= 20; ++k) {
       fed.feeder.rain(grains, fed.walls, 1e-2 * k);
-      if (grains.size() > 0) EXPECT_LE(*std::ranges::max_element(grains.radius), 1.9e-3 * (1 + 1e-8));
+      if (grains.size() > 0) {
+        EXPECT_LE(*std::ranges::max_element(grains.radius), 1.9e-3 * (1 + 1e-8));
+      }
     }
   }
 }
