@@ -197,7 +197,9 @@ class WidthsOf : public CalibrationOf {
       const double part = points_(static_cast<Eigen::Index>(r), 0) = design.points(design.runs[r].point, 0);
       runs.push_back({"", values(part, design.runs[r].condition, r)});
     }
-    return calibrate(of, design, choices, runs);
+    CalibrationChoices quick = choices;
+    quick.points = 4096;
+    return calibrate(of, design, quick, runs);
   }
   /// Half of a fitted key's interval, in parts of its range.
   static double half_width(const FittedValue& friction_value) {

@@ -93,14 +93,15 @@ TEST(ErrorFit, BandsHoldAllSettingsAtOnceAndTheLimitsInterval) {
   EXPECT_LT(limit_inside, trays);
 }
 
-AccuracyRun run_of(std::size_t setting, double window, double mass_rate) {
+AccuracyRun accuracy_run(std::size_t setting, double window, double mass_rate) {
   return {.setting = setting, .window = window, .mass_rate = mass_rate};
 }
 
 /// Of one setting nothing but a mean is fitted: the windows are the weights.
 TEST(ErrorFit, LongerWindowsWeighAsTheyAreLong) {
   const std::vector<AccuracySetting> settings = {MadeUpTray::setting(1e-4, 40)};
-  const std::vector<AccuracyRun> runs = {run_of(0, 1, 1), run_of(0, 1, 2), run_of(0, 4, 3), run_of(0, 9, 4)};
+  const std::vector<AccuracyRun> runs = {accuracy_run(0, 1, 1), accuracy_run(0, 1, 2), accuracy_run(0, 4, 3),
+                                         accuracy_run(0, 9, 4)};
   const ErrorFit fit = *ErrorFit::of(settings, runs);
   constexpr double mean = (1 + 2 + 4 * 3 + 9 * 4) / 15.0;
   constexpr double squares =
@@ -124,8 +125,8 @@ class TwoSteps : public testing::Test {
     std::vector<AccuracyRun> runs;
     for (int k = 0; k < each; ++k) {
       const double off = k % 2 == 0 ? apart : -apart;
-      runs.push_back(run_of(0, 1, 1.2 + off));
-      runs.push_back(run_of(1, 1, 1.1 + off));
+      runs.push_back(accuracy_run(0, 1, 1.2 + off));
+      runs.push_back(accuracy_run(1, 1, 1.1 + off));
     }
     return *ErrorFit::of(settings_, runs);
   }
@@ -159,7 +160,7 @@ TEST(ErrorFit, LackOfFitIsFishers) {
   const auto fit_of_bend = [&](double bend) {
     std::vector<AccuracyRun> runs;
     for (std::size_t s = 0; s < 3; ++s)
-      for (const double off : {-0.03, 0.03}) runs.push_back(run_of(s, 1, 1 + (s == 1 ? bend : 0) + off));
+      for (const double off : {-0.03, 0.03}) runs.push_back(accuracy_run(s, 1, 1 + (s == 1 ? bend : 0) + off));
     return *ErrorFit::of(settings, runs);
   };
   // Of 1/4, 1/2, 1 about their mean 7/12: squares 7/24; the middle one, -1/12, keeps 1 - 1/3 - (1/144) / (7/24) = 9/14
