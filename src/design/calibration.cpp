@@ -17,7 +17,7 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr std::size_t points_predicted = 512;
+constexpr std::size_t points_predicted = 2048;
 constexpr double normal_95 = 1.959964;
 
 /// Some values of one measured series that are fitted, or predicted, together.

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <random>
 #include <stdexcept>
 
 #include "distributions/distributions.hpp"
@@ -110,6 +111,16 @@ std::vector<Index> order_of(const VectorXd& values) {
   return order;
 }
 
+/// Indices in an order without a pattern. In their own, Sobol's points fill the same boxes in turn: equal steps through
+/// their weights would fall into step with that, and take a few of the boxes alone.
+std::vector<Index> without_pattern(Index count) {
+  std::vector<Index> order(static_cast<std::size_t>(count));
+  std::iota(order.begin(), order.end(), Index{0});
+  std::mt19937_64 engine;
+  for (std::size_t i = order.size(); i > 1; --i) std::swap(order[i - 1], order[engine() % i]);
+  return order;
+}
+
 }  // namespace
 
 PosteriorSample posterior_sample(const std::vector<ObservedValues>& observed, Index dimensions, Index count) {
@@ -169,14 +180,16 @@ double weighted_quantile(const VectorXd& values, const VectorXd& weights, double
 }
 
 std::vector<Index> points_of_equal_weight(const VectorXd& weights, std::size_t count) {
+  const std::vector<Index> order = without_pattern(weights.size());
   std::vector<Index> points;
-  Index point = 0;
-  double below = weights(0);  // weight of the points up to this one
+  std::size_t place = 0;
+  double below = weights(order.front());  // weight of the points up to this place
   for (std::size_t k = 0; k < count; ++k) {
     const double part = (static_cast<double>(k) + 0.5) / static_cast<double>(count);
-    while (below < part && point + 1 < weights.size()) below += weights(++point);
-    points.push_back(point);
+    while (below < part && place + 1 < order.size()) below += weights(order[++place]);
+    points.push_back(order[place]);
   }
+  std::ranges::sort(points);
   return points;
 }
 

@@ -41,7 +41,7 @@ double weighted_correlation(const Eigen::VectorXd& a, const Eigen::VectorXd& b, 
 double weighted_quantile(const Eigen::VectorXd& values, const Eigen::VectorXd& weights, double part);
 
 /// Indices of `count` points of equal weight, rising, heavy points several times: those on which every 1/count of all
-/// weight falls.
+/// weight falls, taken in an order without a pattern, always the same.
 std::vector<Eigen::Index> points_of_equal_weight(const Eigen::VectorXd& weights, std::size_t count);
 
 }  // namespace vibrosow

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "surrogate/hypercube.hpp"
+#include "surrogate/sobol_points.hpp"
 
 namespace vibrosow {
 namespace {
@@ -100,6 +101,23 @@ TEST(PosteriorSample, NeedsAValue) {
 TEST(PointsOfEqualWeight, TakesHeavyPointsOften) {
   const VectorXd weights = (VectorXd(4) << 0.5, 0, 0.25, 0.25).finished();
   EXPECT_EQ(points_of_equal_weight(weights, 4), (std::vector<Eigen::Index>{0, 0, 2, 3}));
+}
+
+/// Of Sobol's points, which fill boxes of a half, a quarter, .. in turn, as many are taken everywhere as their weights
+/// say.
+TEST(PointsOfEqualWeight, LieAsTheWeightsDoThoughThePointsHaveAPattern) {
+  for (const Eigen::Index all : {1024, 4096, 16384})
+    for (const double deviation : {0.05, 0.08, 0.15}) {
+      const VectorXd places = sobol_points(all, 1).col(0);
+      VectorXd weights = (-0.5 * ((places.array() - 0.5) / deviation).square()).exp();
+      weights /= weights.sum();
+      const std::vector<Eigen::Index> taken = points_of_equal_weight(weights, 512);
+      const VectorXd at = places(taken);
+      EXPECT_NEAR(at.mean(), 0.5, 0.15 * deviation) << all << ' ' << deviation;
+      EXPECT_NEAR(std::sqrt((at.array() - at.mean()).square().mean()), weighted_deviation(places, weights),
+                  0.12 * deviation)
+          << all << ' ' << deviation;
+    }
 }
 
 TEST(WeightedQuantile, LiesBetweenValuesByTheirWeights) {
