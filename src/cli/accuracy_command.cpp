@@ -64,11 +64,11 @@ CLI::Validator number_within(double least, double most) {
 
 /// A list of quantities of one option, each from `least` to `most` (SI), which `range` states.
 std::vector<double> quantities(const char* option, const std::vector<std::string>& texts, Dimension dimension,
-                               double least, double most, const char* range) {
+                               double least, double most, const char* range, std::string_view example = {}) {
   std::vector<double> values;
   for (const std::string& text : texts) {
     try {
-      values.push_back(parse_quantity(text, dimension));
+      values.push_back(parse_quantity(text, dimension, example));
     } catch (const UnitError& error) {
       throw InputError(fmt::format("{}: {}", option, error.what()));
     }
@@ -120,12 +120,12 @@ PromiseGoal goal_of(const AccuracyOptions& options, int jobs) {
   PromiseGoal goal;
   if (!options.within.empty())
     goal.within_percent = 100 * quantities("--within", {options.within}, Dimension::fraction, least_percent / 100,
-                                           most_percent / 100, "0.01 % to 50 %")
+                                           most_percent / 100, "0.01 % to 50 %", "3 %")
                                     .front();
   if (!options.budget.empty())
-    goal.cpu_time =
-        jobs *
-        quantities("--budget", {options.budget}, Dimension::time, least_budget, most_budget, "1 s to 1e+07 s").front();
+    goal.cpu_time = jobs * quantities("--budget", {options.budget}, Dimension::time, least_budget, most_budget,
+                                      "1 s to 1e+07 s", "10 min")
+                               .front();
   return goal;
 }
 

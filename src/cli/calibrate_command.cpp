@@ -71,7 +71,7 @@ HoldOut hold_out_of(const CalibrateOptions& command, const MeasuredTable& table)
 std::optional<double> noise_of(const std::string& text) {
   if (text.empty()) return std::nullopt;
   try {
-    if (const double noise = parse_quantity(text, Dimension::fraction); noise > 0 && noise <= 1) return noise;
+    if (const double noise = parse_quantity(text, Dimension::fraction, "3 %"); noise > 0 && noise <= 1) return noise;
   } catch (const UnitError& error) {
     throw InputError(fmt::format("--noise: {}", error.what()));
   }

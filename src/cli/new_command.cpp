@@ -35,10 +35,11 @@ struct NewOptions {
   int jobs = 1;
 };
 
-double quantity_of(const char* option, const std::string& text, Dimension dimension, double least, double most) {
+double quantity_of(const char* option, const std::string& text, Dimension dimension, double least, double most,
+                   std::string_view example = {}) {
   double value = 0;
   try {
-    value = parse_quantity(text, dimension);
+    value = parse_quantity(text, dimension, example);
   } catch (const UnitError& error) {
     throw InputError(fmt::format("{}: {}", option, error.what()));
   }
@@ -49,9 +50,9 @@ double quantity_of(const char* option, const std::string& text, Dimension dimens
 }
 
 std::optional<double> if_given(const char* option, const std::string& text, Dimension dimension, double least,
-                               double most) {
+                               double most, std::string_view example = {}) {
   if (text.empty()) return std::nullopt;
-  return quantity_of(option, text, dimension, least, most);
+  return quantity_of(option, text, dimension, least, most, example);
 }
 
 NewCrop crop_of(const NewOptions& options) {
@@ -63,15 +64,15 @@ NewCrop crop_of(const NewOptions& options) {
   constexpr double smallest = 5e-5, largest = 1, degree = std::numbers::pi / 180;  // m
   NewCrop crop;
   crop.name = options.crop;
-  crop.mass = quantity_of("--tkw", options.tkw, Dimension::mass, 1e-6, 1e3) / 1e3;
-  crop.length = quantity_of("--length", options.length, Dimension::length, smallest, largest);
-  crop.width = if_given("--width", options.width, Dimension::length, smallest, largest).value_or(crop.length);
+  crop.mass = quantity_of("--tkw", options.tkw, Dimension::seed_mass, 1e-6, 1e3, "45 g") / 1e3;
+  crop.length = quantity_of("--length", options.length, Dimension::length, smallest, largest, "6 mm");
+  crop.width = if_given("--width", options.width, Dimension::length, smallest, largest, "3 mm").value_or(crop.length);
   crop.thickness =
-      if_given("--thickness", options.thickness, Dimension::length, smallest, largest).value_or(crop.width);
+      if_given("--thickness", options.thickness, Dimension::length, smallest, largest, "2 mm").value_or(crop.width);
   crop.thickness_assumed = options.thickness.empty();
-  crop.bulk_density = if_given("--bulk-density", options.bulk_density, Dimension::density, 1, 3e4);
-  crop.angle_of_repose = if_given("--repose", options.repose, Dimension::angle, 1 * degree, 89 * degree);
-  crop.moisture = if_given("--moisture", options.moisture, Dimension::fraction, 0, 1);
+  crop.bulk_density = if_given("--bulk-density", options.bulk_density, Dimension::bulk_density, 1, 3e4);
+  crop.angle_of_repose = if_given("--repose", options.repose, Dimension::angle, 1 * degree, 89 * degree, "25 degree");
+  crop.moisture = if_given("--moisture", options.moisture, Dimension::fraction, 0, 1, "12 %");
   return crop;
 }
 

@@ -25,9 +25,10 @@ struct PlanOptions {
 };
 
 /// A quantity of an option, from `least` to `most` (SI). Throws InputError.
-double quantity(const std::string& option, const std::string& text, Dimension dimension, double least, double most) {
+double quantity(const std::string& option, const std::string& text, Dimension dimension, double least, double most,
+                std::string_view example = {}) {
   try {
-    const double value = parse_quantity(text, dimension);
+    const double value = parse_quantity(text, dimension, example);
     if (value >= least && value <= most) return value;
   } catch (const UnitError& error) {
     throw InputError(fmt::format("{}: {}", option, error.what()));
@@ -36,38 +37,38 @@ double quantity(const std::string& option, const std::string& text, Dimension di
   throw InputError(fmt::format("{}: \"{}\" is out of range; from {:g} to {:g} {}", option, text, least, most, unit));
 }
 
-double number_per_area(const std::string& option, const std::string& text) {
-  return quantity(option, text, Dimension::number_per_area, 0.1, 1e5);
-}
-
 /// Seeds are counted where the unit says so.
-bool is_number_per_area(const std::string& text) {
+bool counts_seeds(const std::string& text) {
   try {
-    return split_quantity(text).unit.starts_with("1/");
+    const std::string unit = split_quantity(text).unit;
+    return is_unit_of(unit, Dimension::seeds_per_area) || is_unit_of(unit, Dimension::plants_per_area);
   } catch (const UnitError&) {
     return false;
   }
 }
+
+constexpr double fewest_per_area = 0.1, most_per_area = 1e5;  // 1/m2
 
 PlanSource source_of(const PlanOptions& options) {
   PlanSource source;
   source.crop = options.crop;
   source.lot = read_crop_lot(options.crop, "--crop");
   if (!options.thousand_grain_weight.empty()) {
-    const double mass = quantity("--tkw", options.thousand_grain_weight, Dimension::mass, 1e-6, 10) / 1000;
+    const double mass = quantity("--tkw", options.thousand_grain_weight, Dimension::seed_mass, 1e-6, 10, "45 g") / 1000;
     source.lot = of_mass(source.lot, mass);
     source.own_mass = true;
   }
   SowingTask& task = source.plan.task;
   task.seed = planned_seed(source.lot);
-  task.pace.row_spacing = quantity("--row-spacing", options.row_spacing, Dimension::length, 0.01, 10);
-  task.pace.speed = quantity("--speed", options.speed, Dimension::speed, 0.01, 20);
+  task.pace.row_spacing = quantity("--row-spacing", options.row_spacing, Dimension::length, 0.01, 10, "15 cm");
+  task.pace.speed = quantity("--speed", options.speed, Dimension::travel_speed, 0.01, 20);
   if (!options.plants.empty()) {
-    source.plants = number_per_area("--plants", options.plants);
-    source.establishment = quantity("--establishment", options.establishment, Dimension::fraction, 0.01, 1);
+    source.plants = quantity("--plants", options.plants, Dimension::plants_per_area, fewest_per_area, most_per_area);
+    source.establishment = quantity("--establishment", options.establishment, Dimension::fraction, 0.01, 1, "85 %");
     task.sowing_rate = mass_of_seeds(seeds_for_plants(*source.plants, *source.establishment), task.seed.mass);
-  } else if (is_number_per_area(options.rate)) {
-    task.sowing_rate = mass_of_seeds(number_per_area("--rate", options.rate), task.seed.mass);
+  } else if (counts_seeds(options.rate)) {
+    task.sowing_rate = mass_of_seeds(
+        quantity("--rate", options.rate, Dimension::seeds_per_area, fewest_per_area, most_per_area), task.seed.mass);
   } else {
     task.sowing_rate = quantity("--rate", options.rate, Dimension::mass_per_area, 1e-6, 1);
   }
@@ -103,8 +104,9 @@ void add_plan_command(CLI::App& app, int& exit_code) {
     return command->add_option(name, value, help)->type_name(kind);
   };
   add("--crop", options->crop, "a shipped crop (vibrosow presets crops) or a path ending in .toml", "CROP")->required();
-  CLI::Option* rate = add("--rate", options->rate, "\"180 kg/ha\", or seeds: \"350 1/m2\"", "RATE");
-  CLI::Option* plants = add("--plants", options->plants, "instead: plants that are to stand, \"280 1/m2\"", "RATE");
+  CLI::Option* rate = add("--rate", options->rate, "\"180 kg/ha\", or seeds: \"350 seeds/m2\"", "RATE");
+  CLI::Option* plants =
+      add("--plants", options->plants, "instead: plants that are to stand, \"280 plants/m2\"", "RATE");
   CLI::Option* establishment =
       add("--establishment", options->establishment, "the part of the seeds that becomes plants, \"85 %\"", "PERCENT");
   rate->excludes(plants);

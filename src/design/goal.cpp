@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 #include "input/wording.hpp"
 #include "scene/input_error.hpp"
@@ -37,10 +38,16 @@ std::string_view trimmed(std::string_view text) {
   return from == std::string_view::npos ? std::string_view() : text.substr(from, to - from + 1);
 }
 
+/// Where "+-", "±" or "+/-" stands, and how many bytes it takes.
+std::pair<std::size_t, std::size_t> find_plus_minus(std::string_view text) {
+  for (const std::string_view sign : {"+-", "\u00b1", "+/-"})
+    if (const auto at = text.find(sign); at != std::string_view::npos) return {at, sign.size()};
+  return {std::string_view::npos, 0};
+}
+
 Rate read_rate(std::string_view text) {
   const Quantity quantity = split_quantity(text);
-  if (quantity.unit == "seeds/s") return {true, quantity.number};
-  if (quantity.unit == "seeds/min") return {true, quantity.number / 60};
+  if (quantity.unit.starts_with("seeds")) return {true, in_si(quantity, Dimension::seed_rate)};
   return {false, in_si(quantity, Dimension::mass_rate)};
 }
 
@@ -82,9 +89,9 @@ WantedRate read_wanted_rate(const std::string& text) {
                     "\"12 g/min +- 5 %\"",
                     shortened(text), why));
   };
-  const auto sign = text.find("+-");
+  const auto [sign, length] = find_plus_minus(text);
   if (sign == std::string::npos) throw wrong(" says not how far from it is near enough");
-  const std::string_view whole = text, of = trimmed(whole.substr(0, sign)), by = trimmed(whole.substr(sign + 2));
+  const std::string_view whole = text, of = trimmed(whole.substr(0, sign)), by = trimmed(whole.substr(sign + length));
   try {
     const Rate rate = read_rate(of);
     Rate off{rate.is_of_seeds, 0};

@@ -21,6 +21,12 @@ struct ColumnUnit {
 /// numbers, names and words that no seeder file knows.
 std::optional<ColumnUnit> column_unit(std::string_view key);
 
+/// An example of a key's value, "8 km/h" of drill.speed; empty where the dimension's own does, or the key has another.
+std::string_view example_at(std::string_view key, Dimension dimension);
+
+/// What a message says is expected of a key: "a speed such as \"8 km/h\"".
+std::string expected_at(std::string_view key, Dimension dimension);
+
 /// The column that carries a key: "tray.motion.frequency_Hz", "tray.holes.count".
 std::string condition_column(const std::string& key);
 

@@ -25,7 +25,7 @@ struct Quantities {
 
 constexpr std::array quantities = {
     Quantities{"rate", Dimension::mass_rate, "g/s", "rate_g_per_s"},
-    Quantities{"rate", Dimension::rate, "1/s", "seeds_per_s"},
+    Quantities{"rate", Dimension::seed_rate, "1/s", "seeds_per_s"},
     Quantities{"caught", Dimension::mass, "g", "caught_g"},
     Quantities{"mass", Dimension::mass, "g", "mass_g"},
     Quantities{"discharged", Dimension::fraction, "%", "discharged_percent"},
@@ -66,7 +66,7 @@ Reading reading_of(const ColumnName& name, const std::string& where) {
   if (const auto key_unit = column_unit(name.name)) {
     if (const auto factor = factor_of(unit, key_unit->dimension, key_unit->unit))
       return {condition_column(name.name), *factor};
-    wanted = expected(key_unit->dimension);
+    wanted = expected_at(name.name, key_unit->dimension);
   }
   if (wanted.empty()) return {name.name};  // a column of `read_measured`, or one that it refuses
   throw InputError(fmt::format("{}: {}: {}; expected {}, with its unit in brackets at the end of the header", where,

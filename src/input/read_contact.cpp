@@ -314,7 +314,7 @@ Contact read_contact(Table table, Table seeds, std::vector<SeedLot>& lots) {
   Contact contact;
   Parts parts = find_parts(table, lots);
   read_law(parts, seeds, lots, contact);
-  contact.drag = table.quantity("drag", Dimension::mass_rate, 0, 1000).value_or(contact.drag);
+  contact.drag = table.quantity("drag", Dimension::drag, 0, 1000).value_or(contact.drag);
   contact.rotation = table.boolean("rotation").value_or(contact.rotation);
   read_rolling(parts, contact);
   read_friction(parts, contact);

@@ -41,7 +41,7 @@ Drill read_drill(Table table, std::size_t holes) {
   if (holes == 0) table.fail("", "the tray has no hole that could feed a row");
   Drill drill;
   drill.pace.row_spacing = table.required_quantity("row_spacing", Dimension::length, 1e-3, 100);
-  drill.pace.speed = table.required_quantity("speed", Dimension::speed, 1e-3, 100);
+  drill.pace.speed = table.required_quantity("speed", Dimension::travel_speed, 1e-3, 100);
   const auto rows_per_hole = table.whole_number("rows_per_hole", 1, most_rows);
   const bool listed = table.has("hole_to_row");
   if (rows_per_hole && listed)

@@ -118,7 +118,11 @@ std::vector<ClumpDisc> read_discs(Table& seeds, Space space) {
   for (Table& disc : seeds.tables("discs")) {
     const double x = disc.required_quantity("x", Dimension::length, -largest, largest);
     const double y = disc.required_quantity("y", Dimension::length, -largest, largest);
-    const double z = space == Space::plane ? 0 : disc.quantity("z", Dimension::length, -largest, largest).value_or(0);
+    double z = 0;
+    if (space == Space::plane)
+      disc.skip("z");
+    else
+      z = disc.quantity("z", Dimension::length, -largest, largest).value_or(0);
     discs.push_back({x, y, 0.5 * read_length(disc, "diameter"), z});
   }
   if (discs.empty()) {
@@ -146,18 +150,32 @@ void read_shape(Table& seeds, ShapeName shape, double size, Space space, SeedLot
 
 using Kind = SizeDistribution::Kind;
 
-void read_table_of_sizes(Table& table, const std::string& list_key, SizeDistribution& sizes) {
+/// Fractions by mass as fractions by number: a seed's mass goes with the power of its size (`mass_power`).
+void count_what_was_weighed(SizeDistribution& sizes, int power) {
+  const double unit = sizes.diameter.front();
+  double sum = 0;
+  for (std::size_t k = 0; k < sizes.fraction.size(); ++k)
+    sum += sizes.fraction[k] /= elementary::pow(sizes.diameter[k] / unit, power);
+  for (double& fraction : sizes.fraction) fraction /= sum;
+}
+
+void read_table_of_sizes(Table& table, const std::string& list_key, int power, SizeDistribution& sizes) {
   sizes.diameter = table.quantities(list_key, Dimension::length, smallest, largest);
-  sizes.fraction = table.quantities("fractions", Dimension::fraction, 1e-9, 1);
+  const auto by_number = table.quantities("fractions", Dimension::fraction, 1e-9, 1);
+  const auto by_mass = table.quantities("mass_fractions", Dimension::fraction, 1e-9, 1);
+  if (!by_number.empty() && !by_mass.empty()) table.fail("mass_fractions", "contradicts fractions; give one of them");
+  const std::string key = by_mass.empty() ? "fractions" : "mass_fractions";
+  sizes.fraction = by_mass.empty() ? by_number : by_mass;
   if (sizes.diameter.empty()) table.fail(list_key, "is missing; expected a list such as [\"3 mm\", \"4 mm\"]");
   if (sizes.fraction.size() != sizes.diameter.size()) {
-    table.fail("fractions", fmt::format("lists {} fractions, by number, for {} {}", sizes.fraction.size(),
-                                        sizes.diameter.size(), list_key));
+    table.fail(key, fmt::format("lists {} fractions, by {}, for {} {}", sizes.fraction.size(),
+                                by_mass.empty() ? "number" : "mass", sizes.diameter.size(), list_key));
   }
   double sum = 0, mean = 0;
   for (const double fraction : sizes.fraction) sum += fraction;
-  if (std::abs(sum - 1) > 1e-6) table.fail("fractions", fmt::format("sum to {:g} %, not to 100 %", sum * 100));
+  if (std::abs(sum - 1) > 1e-6) table.fail(key, fmt::format("sum to {:g} %, not to 100 %", sum * 100));
   for (double& fraction : sizes.fraction) fraction /= sum;
+  if (!by_mass.empty()) count_what_was_weighed(sizes, power);
   for (std::size_t k = 0; k < sizes.fraction.size(); ++k) mean += sizes.fraction[k] * sizes.diameter[k];
   sizes.mean = mean;
 }
@@ -177,8 +195,9 @@ void read_cut(Table& table, SizeDistribution& sizes) {
   if (sizes.most <= sizes.mean) table.fail("most", fmt::format("is not above the mean, {:g} mm", sizes.mean * 1e3));
 }
 
-/// The distribution of the measure `key`, whose mean is that key's where the distribution does not tell it.
-SizeDistribution read_sizes(Table& seeds, const std::string& key) {
+/// The distribution of the measure `key`, whose mean is that key's where the distribution does not tell it. A seed's
+/// mass goes with the `power` of its size.
+SizeDistribution read_sizes(Table& seeds, const std::string& key, int power) {
   SizeDistribution sizes;
   auto table = seeds.table("sizes");
   if (!table) {
@@ -191,7 +210,8 @@ SizeDistribution read_sizes(Table& seeds, const std::string& key) {
   constexpr Kind kinds[] = {Kind::uniform, Kind::normal, Kind::lognormal, Kind::table};
   sizes.kind = kinds[*kind];
   if (sizes.kind == Kind::normal || sizes.kind == Kind::lognormal) {
-    refuse_keys(*table, "distribution", {list_key, "fractions"}, "goes with distribution = \"table\"");
+    refuse_keys(*table, "distribution", {list_key, "fractions", "mass_fractions"},
+                "goes with distribution = \"table\"");
     sizes.mean = read_length(seeds, key);
     sizes.deviation = table->required_quantity("deviation", Dimension::length, 1e-6 * sizes.mean, sizes.mean);
     read_cut(*table, sizes);
@@ -200,10 +220,10 @@ SizeDistribution read_sizes(Table& seeds, const std::string& key) {
   refuse_keys(seeds, "sizes", {key}, "contradicts sizes, whose mean it is; give a normal or lognormal distribution");
   if (sizes.kind == Kind::table) {
     refuse_keys(*table, "distribution", {"deviation", "least", "most"}, "does not go with distribution = \"table\"");
-    read_table_of_sizes(*table, list_key, sizes);
+    read_table_of_sizes(*table, list_key, power, sizes);
     return sizes;
   }
-  refuse_keys(*table, "distribution", {"deviation", list_key, "fractions"},
+  refuse_keys(*table, "distribution", {"deviation", list_key, "fractions", "mass_fractions"},
               "does not go with distribution = \"uniform\", which has least and most");
   sizes.least = read_length(*table, "least");
   sizes.most = read_length(*table, "most");
@@ -232,7 +252,7 @@ std::string mass_key(const Table& seeds) {
 double read_mass(Table& seeds, const SeedLot& lot) {
   for (const std::string& key : mass_keys) seeds.skip(key);
   const std::string key = mass_key(seeds);
-  if (key == "mass") return seeds.required_quantity(key, Dimension::mass, 1e-12, 1e3);
+  if (key == "mass") return seeds.required_quantity(key, Dimension::seed_mass, 1e-12, 1e3);
   if (key == "thousand_grain_weight") return read_thousand_grain_weight(seeds);
   const double density = seeds.required_quantity(key, Dimension::density, 1, 3e4);
   if (lot.shape == Shape::disc) seeds.fail("density", "gives no mass to a disc, which has no thickness; give mass");
@@ -254,13 +274,13 @@ void reject_thousand_grain_mass(const Table& seeds, const SeedLot& lot) {
 }  // namespace
 
 double read_thousand_grain_weight(Table& seeds) {
-  const double grams = seeds.required_quantity("thousand_grain_weight", Dimension::mass, 1e-6, 1e3) * 1e3;
+  const double grams = seeds.required_quantity("thousand_grain_weight", Dimension::seed_mass, 1e-6, 1e3) * 1e3;
   return grams / 1e6;  // the same number as that many milligrams
 }
 
 BulkProperties read_bulk_properties(Table& seeds) {
   constexpr double degree = std::numbers::pi / 180;
-  return {seeds.quantity("bulk_density", Dimension::density, 1, 3e4),
+  return {seeds.quantity("bulk_density", Dimension::bulk_density, 1, 3e4),
           seeds.quantity("angle_of_repose", Dimension::angle, 1 * degree, 89 * degree),
           seeds.quantity("moisture", Dimension::fraction, 0, 1)};
 }
@@ -273,7 +293,8 @@ SeedLot read_lot(Table& seeds, const std::string& name, Space space) {
   const ShapeName shape = chosen ? static_cast<ShapeName>(*chosen) : ShapeName::ball;
   refuse_keys(seeds, "shape", keys_of_other_shapes(shape),
               fmt::format("does not go with shape = \"{}\"", shape_names[static_cast<std::size_t>(shape)]));
-  if (shape != ShapeName::discs) lot.sizes = read_sizes(seeds, size_key(shape));
+  const bool flat_mass = shape == ShapeName::disc || (shape != ShapeName::ball && space == Space::plane);
+  if (shape != ShapeName::discs) lot.sizes = read_sizes(seeds, size_key(shape), flat_mass ? 2 : 3);
   read_shape(seeds, shape, lot.sizes.mean, space, lot);
   if (lot.shape == Shape::clump && lot.sizes.kind != Kind::single) scale(lot.sizes, lot.diameter / lot.sizes.mean);
   if (lot.sizes.kind == Kind::single) lot.sizes = {};

@@ -176,7 +176,7 @@ std::vector<WallPiece> read_pieces(Table& vessel, Space space) {
 
 Rain read_rain(Table table, const Vessel& vessel) {
   Rain rain;
-  rain.rate = table.required_quantity("rate", Dimension::rate, 1e-6, 1e7);
+  rain.rate = table.required_quantity("rate", Dimension::seed_rate, 1e-6, 1e7);
   rain.from = table.quantity("from", Dimension::length, 0, vessel.length).value_or(0);
   rain.to = table.quantity("to", Dimension::length, 0, vessel.length).value_or(vessel.length);
   if (rain.to < rain.from)

@@ -9,6 +9,7 @@
 #include <set>
 #include <tuple>
 
+#include "input/key_units.hpp"
 #include "input/wording.hpp"
 #include "scene/input_error.hpp"
 
@@ -256,14 +257,14 @@ std::vector<double> Table::numbers(const std::string& key, double least, double 
 }
 
 std::optional<double> Table::quantity(const std::string& key, Dimension dimension, double least, double most) {
-  if (is_list(key)) fail(key, fmt::format("must be one value: {}", expected(dimension)));
+  if (is_list(key)) fail(key, fmt::format("must be one value: {}", expected_at(full_key(key), dimension)));
   const std::vector<double> found = quantities(key, dimension, least, most);
   return found.empty() ? std::nullopt : std::optional(found.front());
 }
 
 double Table::required_quantity(const std::string& key, Dimension dimension, double least, double most) {
   const std::optional<double> found = quantity(key, dimension, least, most);
-  if (!found) fail(key, fmt::format("is missing; expected {}", expected(dimension)));
+  if (!found) fail(key, fmt::format("is missing; expected {}", expected_at(full_key(key), dimension)));
   return *found;
 }
 
@@ -272,12 +273,13 @@ namespace {
 double in_si(const Table& table, const std::string& key, const TomlValue& value, Dimension dimension) {
   try {
     if (const auto* quantity = value.get<Quantity>()) return vibrosow::in_si(*quantity, dimension);
-    if (const auto* text = value.get<std::string>()) return parse_quantity(*text, dimension);
+    if (const auto* text = value.get<std::string>())
+      return parse_quantity(*text, dimension, example_at(table.full_key(key), dimension));
   } catch (const UnitError& error) {
     table.fail(key, error.what());
   }
-  table.fail(key, fmt::format("must be a quantity with its unit in quotes, {}, not {}", expected(dimension),
-                              message_text(value)));
+  table.fail(key, fmt::format("must be a quantity with its unit in quotes, {}, not {}",
+                              expected_at(table.full_key(key), dimension), message_text(value)));
 }
 
 double quantity_of(const Table& table, const std::string& key, const TomlValue& given, Dimension dimension,

@@ -8,65 +8,213 @@
 #include <charconv>
 #include <cmath>
 #include <cstdlib>
-#include <initializer_list>
+#include <iterator>
 #include <memory>
 #include <mutex>
+#include <span>
 #include <system_error>
 
 namespace vibrosow {
 namespace {
 
+/// A unit as people write it, after `canonical`, and as udunits2 knows it where that differs.
+struct NamedUnit {
+  std::string_view name, meaning = {};
+};
+using Units = std::span<const NamedUnit>;
+
+// What the trade writes. A US bushel and an international acre in SI, since udunits2 has neither exactly.
+constexpr NamedUnit length_units[] = {{"mm"},   {"cm"},     {"m"},          {"dm"}, {"um"},   {"micron"}, {"in"},
+                                      {"inch"}, {"inches"}, {"\"", "inch"}, {"ft"}, {"foot"}, {"feet"},   {"microns"}};
+constexpr NamedUnit time_units[] = {{"s"},      {"ms"},      {"us"},   {"ns"},     {"sec"},
+                                    {"second"}, {"seconds"}, {"min"},  {"minute"}, {"minutes"},
+                                    {"h"},      {"hr"},      {"hour"}, {"hours"},  {"hrs", "hour"}};
+// udunits2 counts radians in rpm.
+constexpr NamedUnit frequency_units[] = {{"Hz"}, {"kHz"}, {"rpm", "1/min"}, {"1/min"}, {"r/min", "1/min"}};
+constexpr NamedUnit mass_units[] = {{"g"}, {"kg"}, {"mg"}, {"ug"}, {"t"}, {"lb"}, {"lbs", "lb"}, {"oz", "lb/16"}};
+constexpr NamedUnit seed_mass_units[] = {{"g"}, {"mg"}, {"ug"}, {"kg"}};
+constexpr NamedUnit mass_rate_units[] = {{"g/s"},
+                                         {"kg/s"},
+                                         {"mg/s"},
+                                         {"g/min"},
+                                         {"kg/min"},
+                                         {"mg/min"},
+                                         {"g/h"},
+                                         {"kg/h"},
+                                         {"t/h"},
+                                         {"lb/s"},
+                                         {"lb/min"},
+                                         {"lb/h"},
+                                         {"oz/s", "lb/16/s"},
+                                         {"oz/min", "lb/16/min"},
+                                         {"lbs/min", "lb/min"},
+                                         {"lbs/h", "lb/h"}};
+constexpr NamedUnit drag_units[] = {{"g/s"}, {"kg/s"}, {"mg/s"}, {"N*s/m"}, {"mN*s/m"}, {"uN*s/m"}};
+constexpr NamedUnit speed_units[] = {{"mm/s"}, {"cm/s"}, {"m/s"}, {"um/s"}, {"m/min"}, {"in/s"}, {"ft/s"}};
+constexpr NamedUnit travel_speed_units[] = {
+    {"km/h"}, {"kmh", "km/h"}, {"kph", "km/h"}, {"mph", "international_mile/h"}, {"mi/h", "international_mile/h"},
+    {"m/s"},  {"m/min"},       {"ft/min"}};
+constexpr NamedUnit angle_units[] = {{"degree"}, {"degrees"}, {"deg", "degree"}, {"°", "degree"},
+                                     {"rad"},    {"mrad"},    {"radian"},        {"radians"}};
+constexpr NamedUnit density_units[] = {{"kg/m3"}, {"g/cm3"},  {"g/cc", "g/cm3"}, {"kg/dm3"}, {"kg/l"},
+                                       {"g/ml"},  {"mg/mm3"}, {"t/m3"},          {"lb/ft3"}};
+constexpr NamedUnit bulk_density_units[] = {{"kg/m3"},
+                                            {"g/cm3"},
+                                            {"g/cc", "g/cm3"},
+                                            {"kg/dm3"},
+                                            {"kg/l"},
+                                            {"g/l"},
+                                            {"g/ml"},
+                                            {"t/m3"},
+                                            {"kg/hl"},
+                                            {"lb/ft3"},
+                                            {"lb/bu", "lb/(0.03523907016688 m3)"},
+                                            {"lbs/bu", "lb/(0.03523907016688 m3)"}};
+constexpr NamedUnit force_units[] = {{"mN"}, {"N"}, {"uN"}, {"nN"}, {"kN"}};
+constexpr NamedUnit pressure_units[] = {{"MPa"}, {"Pa"}, {"kPa"}, {"GPa"}, {"N/mm2"}, {"N/m2"}, {"bar"}, {"psi"}};
+constexpr NamedUnit rate_units[] = {{"1/s"}, {"1/ms"}, {"1/min"}};
+constexpr NamedUnit seed_rate_units[] = {
+    {"1/s"}, {"1/ms"}, {"1/min"}, {"1/h"}, {"seeds/s", "1/s"}, {"seeds/min", "1/min"}, {"seeds/h", "1/h"}};
+constexpr NamedUnit mass_per_area_units[] = {{"kg/ha"},
+                                             {"g/ha"},
+                                             {"t/ha"},
+                                             {"kg/m2"},
+                                             {"g/m2"},
+                                             {"mg/m2"},
+                                             {"lb/ac", "lb/(4046.8564224 m2)"},
+                                             {"lbs/ac", "lb/(4046.8564224 m2)"},
+                                             {"lb/acre", "lb/(4046.8564224 m2)"},
+                                             {"lbs/acre", "lb/(4046.8564224 m2)"}};
+constexpr NamedUnit seeds_per_area_units[] = {{"seeds/m2", "1/m2"},
+                                              {"1/m2"},
+                                              {"1/ha"},
+                                              {"seeds/ha", "1/ha"},
+                                              {"seeds/ft2", "1/ft2"},
+                                              {"1/ft2"},
+                                              {"seeds/ac", "1/(4046.8564224 m2)"},
+                                              {"1/ac", "1/(4046.8564224 m2)"},
+                                              {"seeds/acre", "1/(4046.8564224 m2)"},
+                                              {"1/acre", "1/(4046.8564224 m2)"}};
+constexpr NamedUnit plants_per_area_units[] = {{"plants/m2", "1/m2"},
+                                               {"1/m2"},
+                                               {"1/ha"},
+                                               {"plants/ha", "1/ha"},
+                                               {"plants/ft2", "1/ft2"},
+                                               {"1/ft2"},
+                                               {"plants/ac", "1/(4046.8564224 m2)"},
+                                               {"1/ac", "1/(4046.8564224 m2)"},
+                                               {"plants/acre", "1/(4046.8564224 m2)"},
+                                               {"1/acre", "1/(4046.8564224 m2)"}};
+constexpr NamedUnit fraction_units[] = {{"%"}, {"percent", "%"}};
+
 struct DimensionFacts {
-  std::string_view si;  // for people and for udunits2
-  std::string_view expected;
+  std::string_view si;             // for people and for udunits2
+  std::string_view kind, example;  // for people
+  Units units;
 };
 
-const DimensionFacts& facts(Dimension dimension) {
-  static constexpr DimensionFacts length{"m", "a length such as \"8 mm\""};
-  static constexpr DimensionFacts time{"s", "a time such as \"10 s\""};
-  static constexpr DimensionFacts frequency{"Hz", "a frequency in Hz, kHz or rpm such as \"9 Hz\""};
-  static constexpr DimensionFacts mass{"kg", "a mass such as \"0.2 g\""};
-  static constexpr DimensionFacts mass_rate{"kg/s", "a mass per time such as \"3 g/s\""};
-  static constexpr DimensionFacts speed{"m/s", "a speed such as \"20 mm/s\""};
-  static constexpr DimensionFacts angle{"rad", "an angle in degree or rad such as \"10 degree\""};
-  static constexpr DimensionFacts density{"kg/m3", "a density such as \"1300 kg/m3\""};
-  static constexpr DimensionFacts force{"N", "a force such as \"0.2 mN\""};
-  static constexpr DimensionFacts pressure{"Pa", "a pressure such as \"5e4 MPa\""};
-  static constexpr DimensionFacts rate{"1/s", "a rate such as \"2.1e4 1/s\""};
-  static constexpr DimensionFacts mass_per_area{"kg/m2", "a mass per area such as \"180 kg/ha\""};
-  static constexpr DimensionFacts number_per_area{"1/m2", "a number per area such as \"280 1/m2\""};
-  static constexpr DimensionFacts fraction{"1", "a fraction in % such as \"70 %\""};
+DimensionFacts facts(Dimension dimension) {
   switch (dimension) {
     case Dimension::length:
-      return length;
+      return {"m", "a length", "8 mm", length_units};
     case Dimension::time:
-      return time;
+      return {"s", "a time", "10 s", time_units};
     case Dimension::frequency:
-      return frequency;
+      return {"Hz", "a frequency in Hz, kHz or rpm", "9 Hz", frequency_units};
     case Dimension::mass:
-      return mass;
+      return {"kg", "a mass", "0.2 g", mass_units};
+    case Dimension::seed_mass:
+      return {"kg", "a mass in g or mg", "45 mg", seed_mass_units};
     case Dimension::mass_rate:
-      return mass_rate;
+      return {"kg/s", "a mass per time", "3 g/s", mass_rate_units};
+    case Dimension::drag:
+      return {"kg/s", "a force per speed", "3 g/s", drag_units};
     case Dimension::speed:
-      return speed;
+      return {"m/s", "a speed", "20 mm/s", speed_units};
+    case Dimension::travel_speed:
+      return {"m/s", "a speed", "8 km/h", travel_speed_units};
     case Dimension::angle:
-      return angle;
+      return {"rad", "an angle in degree or rad", "10 degree", angle_units};
     case Dimension::density:
-      return density;
+      return {"kg/m3", "a density", "1300 kg/m3", density_units};
+    case Dimension::bulk_density:
+      return {"kg/m3", "a bulk density", "780 kg/m3", bulk_density_units};
     case Dimension::force:
-      return force;
+      return {"N", "a force", "0.2 mN", force_units};
     case Dimension::pressure:
-      return pressure;
+      return {"Pa", "a pressure", "5e4 MPa", pressure_units};
     case Dimension::rate:
-      return rate;
+      return {"1/s", "a rate", "2.1e4 1/s", rate_units};
+    case Dimension::seed_rate:
+      return {"1/s", "seeds per time", "200 1/s", seed_rate_units};
     case Dimension::mass_per_area:
-      return mass_per_area;
-    case Dimension::number_per_area:
-      return number_per_area;
+      return {"kg/m2", "a mass per area", "180 kg/ha", mass_per_area_units};
+    case Dimension::seeds_per_area:
+      return {"1/m2", "seeds per area", "350 seeds/m2", seeds_per_area_units};
+    case Dimension::plants_per_area:
+      return {"1/m2", "plants per area", "280 plants/m2", plants_per_area_units};
     case Dimension::fraction:
       break;
   }
-  return fraction;
+  return {"1", "a fraction in %", "70 %", fraction_units};
+}
+
+/// What was likely meant by a unit that a dimension does not take.
+struct Trap {
+  std::string_view unit;
+  Dimension of;
+  std::string_view word;
+};
+
+constexpr std::string_view grains = "is the grain of the imperial system, 64.8 mg; a gram is g";
+constexpr std::string_view not_of_seeds = "is not what seeds are weighed in; write g or mg";
+constexpr std::string_view test_weight =
+    "is of a test weight, of poured seeds with the air between them: that is a bulk_density, and a density is of the "
+    "seed itself";
+constexpr std::string_view bushels = "counts bushels, whose mass differs by the crop; write lb/ac";
+constexpr std::string_view are = "is of an are or a year; write ha or ac";
+constexpr std::string_view cycles = "counts cycles; write 1/s";
+constexpr std::string_view not_seeds = "counts plants, not seeds";
+constexpr std::string_view not_plants = "counts seeds, not plants";
+constexpr Trap traps[] = {
+    {"gr", Dimension::mass, grains},
+    {"gr", Dimension::seed_mass, grains},
+    {"grain", Dimension::mass, grains},
+    {"grain", Dimension::seed_mass, grains},
+    {"grains", Dimension::mass, grains},
+    {"grains", Dimension::seed_mass, grains},
+    {"gr/s", Dimension::mass_rate, grains},
+    {"gr/min", Dimension::mass_rate, grains},
+    {"gr/s", Dimension::drag, grains},
+    {"lb", Dimension::seed_mass, not_of_seeds},
+    {"oz", Dimension::seed_mass, not_of_seeds},
+    {"ton", Dimension::mass, "is 907 kg, 1016 kg or a tonne; write t for 1000 kg"},
+    {"kg/hl", Dimension::density, test_weight},
+    {"lb/bu", Dimension::density, test_weight},
+    {"lbs/bu", Dimension::density, test_weight},
+    {"g/l", Dimension::density, test_weight},
+    {"bu/ac", Dimension::mass_per_area, bushels},
+    {"bu/acre", Dimension::mass_per_area, bushels},
+    {"kg/a", Dimension::mass_per_area, are},
+    {"lb/a", Dimension::mass_per_area, are},
+    {"mPa", Dimension::pressure, "is a thousandth of a pascal; a million is MPa"},
+    {"d", Dimension::time, "is a day; write h"},
+    {"d", Dimension::length, "is a day, or a diameter where diameters are taken"},
+    {"m", Dimension::time, "is a metre; a minute is min"},
+    {"rad/s", Dimension::frequency, "counts radians, 2 pi a turn; write Hz or rpm"},
+    {"1/s", Dimension::frequency, "does not say of what; write Hz"},
+    {"Hz", Dimension::rate, cycles},
+    {"Hz", Dimension::seed_rate, cycles},
+    {"plants/m2", Dimension::seeds_per_area, not_seeds},
+    {"plants/ha", Dimension::seeds_per_area, not_seeds},
+    {"seeds/m2", Dimension::plants_per_area, not_plants},
+    {"seeds/ha", Dimension::plants_per_area, not_plants},
+};
+
+std::string_view word_for(std::string_view unit, Dimension dimension) {
+  const auto found =
+      std::ranges::find_if(traps, [&](const Trap& trap) { return trap.unit == unit && trap.of == dimension; });
+  return found == std::end(traps) ? std::string_view() : found->word;
 }
 
 using Unit = std::unique_ptr<ut_unit, decltype(&ut_free)>;
@@ -117,70 +265,75 @@ class UnitSystem {
   std::unique_ptr<ut_system, decltype(&ut_free_system)> system_{nullptr, ut_free_system};
 };
 
-constexpr std::size_t longest_unit = 60;  // characters; udunits2's parser is not asked about longer ones
-
 bool is_digit(char c) {
   return c >= '0' && c <= '9';
 }
 
-/// Length of the letters (A to Z, a to z, µ) that `text` begins with, in bytes.
-std::size_t letters(std::string_view text) {
-  constexpr std::string_view micro = "µ";
-  std::size_t length = 0;
-  while (length < text.size()) {
-    const char c = text[length];
-    if ((c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z')) {
-      ++length;
-    } else if (text.substr(length).starts_with(micro)) {
-      length += micro.size();
-    } else {
-      break;
+bool is_letter(char c) {
+  return (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z');
+}
+
+void replace_all(std::string& text, std::string_view from, std::string_view to) {
+  for (auto at = text.find(from); at != std::string::npos; at = text.find(from, at + to.size()))
+    text.replace(at, from.size(), to);
+}
+
+/// What other keyboards and word processors write for a minus, a space and a few signs of units.
+void write_plainly(std::string& text) {
+  struct Sign {
+    std::string_view written, plain;
+  };
+  static constexpr Sign signs[] = {{"\u2212", "-"}, {"\u207b", "-"},  {"\u00a0", " "}, {"\u202f", " "}, {"\u2009", " "},
+                                   {"\u00b5", "u"}, {"\u03bc", "u"},  {"\u00ba", "°"}, {"\u02da", "°"}, {"\u00b9", "1"},
+                                   {"\u00b2", "2"}, {"\u00b3", "3"},  {"\u00b7", "*"}, {"\u22c5", "*"}, {"\u2044", "/"},
+                                   {"\u2215", "/"}, {"\u2033", "\""}, {"\u201d", "\""}};
+  for (const Sign& sign : signs) replace_all(text, sign.written, sign.plain);
+}
+
+/// "kg m-3" and "kg*m-3" as "kg/m3".
+std::string with_quotients(const std::string& unit) {
+  std::string result;
+  for (std::size_t at = 0; at < unit.size(); ++at) {
+    const bool joins = unit[at] == ' ' || unit[at] == '*';
+    std::size_t end = at + 1;
+    while (joins && end < unit.size() && is_letter(unit[end])) ++end;
+    if (!joins || end == at + 1 || end + 1 >= unit.size() || unit[end] != '-' || !is_digit(unit[end + 1])) {
+      result += unit[at];
+      continue;
     }
+    result += '/' + unit.substr(at + 1, end - at - 1);
+    if (unit[end + 1] != '1') result += unit[end + 1];
+    at = end + 1;
   }
-  return length;
+  return result;
 }
 
-/// One unit expression: names with an exponent straight after them, joined by / or *. Nothing that udunits2
-/// would calculate with: no leading number, no space, no minus, no offset.
-bool is_plain_unit(std::string_view unit) {
-  if (unit == "%" || unit == "°") return true;
-  if (unit.size() > longest_unit) return false;
-  for (;;) {
-    const std::size_t name = letters(unit);
-    if (name == 0) return false;
-    unit.remove_prefix(name);
-    if (unit.starts_with('^') && (unit.size() < 2 || !is_digit(unit[1]))) return false;
-    if (unit.starts_with('^')) unit.remove_prefix(1);
-    if (!unit.empty() && unit[0] >= '1' && unit[0] <= '9') unit.remove_prefix(1);
-    if (unit.empty()) return true;
-    if (unit[0] != '/' && unit[0] != '*') return false;
-    unit.remove_prefix(1);
-  }
+/// One way of writing a unit out of several: "kg/m^3", "kg / m³" and "kg·m⁻³" are "kg/m3", "kg/L" is "kg/l".
+std::string canonical(std::string unit) {
+  write_plainly(unit);
+  for (std::size_t at = unit.find('^'); at != std::string::npos; at = unit.find('^', at + 1))
+    if (at + 1 < unit.size() && (is_digit(unit[at + 1]) || unit[at + 1] == '-')) unit.erase(at, 1);
+  for (const char* sign : {"/", "*"})
+    for (const std::string& spaced : {std::string(" ") + sign, std::string(sign) + " "})
+      replace_all(unit, spaced, sign);
+  unit = with_quotients(unit);
+  if (unit.ends_with("/L")) unit.back() = 'l';
+  if (unit.ends_with("/hL") || unit.ends_with("/mL")) unit.back() = 'l';
+  return unit;
 }
 
-bool is_one_of(std::string_view unit, std::initializer_list<std::string_view> units) {
-  return std::find(units.begin(), units.end(), unit) != units.end();
+const NamedUnit* named(const std::string& canonical_unit, Dimension dimension) {
+  const Units units = facts(dimension).units;
+  const auto found = std::ranges::find(units, canonical_unit, &NamedUnit::name);
+  return found == units.end() ? nullptr : &*found;
 }
 
-// udunits2 takes an angle for a plain number, so a name decides where an angle could slip in: rad/s is no
-// frequency.
-bool names_the_dimension(std::string_view unit, Dimension dimension) {
-  switch (dimension) {
-    case Dimension::frequency:
-      return is_one_of(unit, {"Hz", "kHz", "rpm"});
-    case Dimension::angle:
-      return is_one_of(unit, {"rad", "mrad", "radian", "radians", "deg", "degree", "degrees", "°"});
-    case Dimension::fraction:
-      return unit == "%";
-    case Dimension::rate:
-      return is_one_of(unit, {"1/s", "1/ms"});
-    case Dimension::number_per_area:
-      return is_one_of(unit, {"1/m2", "1/ha"});
-    case Dimension::mass_per_area:
-      return is_one_of(unit, {"kg/ha", "g/ha", "kg/m2", "g/m2"});
-    default:
-      return unit != "d";  // a day to udunits2, a diameter to most who would write it here
-  }
+/// "hz" is meant as "Hz": the one unit of the dimension that differs by its capitals alone, if there is one.
+std::string_view with_other_capitals(std::string_view unit, Dimension dimension) {
+  const auto small = [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; };
+  for (const NamedUnit& known : facts(dimension).units)
+    if (std::ranges::equal(known.name, unit, {}, small, small)) return known.name;
+  return {};
 }
 
 /// A unit as a fraction of integers where it is one, so that "8 mm" is exactly 8/1000.
@@ -203,21 +356,22 @@ std::string shown(std::string_view text) {
   return text.size() <= longest ? std::string(text) : fmt::format("{}...", text.substr(0, longest));
 }
 
+constexpr std::size_t longest_unit = 60;  // bytes; no unit is longer
+
+[[noreturn]] void refuse_unit(const std::string& unit, Dimension dimension) {
+  const std::string plain = unit.size() <= longest_unit ? canonical(unit) : "";
+  if (const auto word = word_for(plain, dimension); !word.empty())
+    throw UnitError(fmt::format("wrong unit \"{}\": {}", unit, word));
+  if (const auto meant = with_other_capitals(plain, dimension); !meant.empty())
+    throw UnitError(fmt::format("wrong unit \"{}\": capitals count; write {}", unit, meant));
+  throw UnitError(fmt::format("wrong unit \"{}\"", shown(unit)));
+}
+
 UnitSize find_unit(const std::string& unit, Dimension dimension) {
-  const bool of_a_number = dimension == Dimension::rate || dimension == Dimension::number_per_area;
-  const bool reciprocal = of_a_number && names_the_dimension(unit, dimension);
-  if (!reciprocal && !is_plain_unit(unit)) {
-    throw UnitError(fmt::format("\"{}\" is not a plain unit", shown(unit)));
-  }
-  if (unit == "rpm" && dimension == Dimension::frequency) return {1, 60};  // udunits2 counts radians: 0.105/s
-  const double size =
-      names_the_dimension(unit, dimension)
-          ? UnitSystem::instance().size(unit == "deg" ? "degree" : unit, std::string(si_unit(dimension)))
-          : std::nan("");
-  if (!(size > 0)) {
-    throw UnitError(fmt::format("wrong unit \"{}\"", unit));
-  }
-  return exact_size(size);
+  const NamedUnit* known = unit.size() <= longest_unit ? named(canonical(unit), dimension) : nullptr;
+  if (known == nullptr) refuse_unit(unit, dimension);
+  const std::string_view meaning = known->meaning.empty() ? known->name : known->meaning;
+  return exact_size(UnitSystem::instance().size(std::string(meaning), std::string(si_unit(dimension))));
 }
 
 /// A finite number written as in TOML.
@@ -258,11 +412,14 @@ std::size_t number_length(std::string_view text) {
 }
 
 Quantity split_quantity(std::string_view text) {
-  const std::string_view number = text.substr(0, number_length(text));
+  std::string plain(text);
+  write_plainly(plain);
+  const std::string_view number = std::string_view(plain).substr(0, number_length(plain));
   if (number.empty()) throw UnitError("does not start with a number");
-  std::string_view rest = text.substr(number.size());
+  std::string_view rest = std::string_view(plain).substr(number.size());
   reject_decimal_comma(number, rest);
   rest.remove_prefix(std::min(rest.find_first_not_of(' '), rest.size()));
+  rest = rest.substr(0, rest.find_last_not_of(' ') + 1);
   return {parse_number(number), std::string(rest)};
 }
 
@@ -274,20 +431,31 @@ double in_si(const Quantity& quantity, Dimension dimension) {
   return value;
 }
 
-double parse_quantity(std::string_view text, Dimension dimension) {
+double parse_quantity(std::string_view text, Dimension dimension, std::string_view example) {
   try {
     return in_si(split_quantity(text), dimension);
   } catch (const UnitError& error) {
-    throw UnitError(fmt::format("\"{}\": {}; expected {}", shown(text), error.what(), expected(dimension)));
+    throw UnitError(fmt::format("\"{}\": {}; expected {}", shown(text), error.what(), expected(dimension, example)));
   }
+}
+
+bool is_unit_of(const std::string& unit, Dimension dimension) {
+  return unit.size() <= longest_unit && named(canonical(unit), dimension) != nullptr;
+}
+
+std::vector<std::string_view> units_of(Dimension dimension) {
+  std::vector<std::string_view> names;
+  for (const NamedUnit& unit : facts(dimension).units) names.push_back(unit.name);
+  return names;
 }
 
 std::string_view si_unit(Dimension dimension) {
   return facts(dimension).si;
 }
 
-std::string_view expected(Dimension dimension) {
-  return facts(dimension).expected;
+std::string expected(Dimension dimension, std::string_view example) {
+  const DimensionFacts of = facts(dimension);
+  return fmt::format("{} such as \"{}\"", of.kind, example.empty() ? of.example : example);
 }
 
 double unit_size(std::string_view unit, Dimension dimension) {

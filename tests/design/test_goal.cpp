@@ -42,6 +42,8 @@ TEST(WantedRate, ReadsSeedsAndMass) {
   EXPECT_NEAR(mass.low, 0.011 / 60, 1e-12);
   EXPECT_NEAR(mass.high, 0.013 / 60, 1e-12);
   EXPECT_NEAR(read_wanted_rate("60 seeds/min +- 10 %").high, 1.1, 1e-12);
+  for (const char* text : {"43 seeds/s ± 5 %", "43 seeds/s ±5%", "43 seeds/s +/- 5 %"})
+    EXPECT_EQ(read_wanted_rate(text).high, seeds.high) << text;
 }
 
 TEST(WantedRate, RefusesWhatCannotBeMeant) {

@@ -186,6 +186,29 @@ TEST(ReadLot, MeanOfUniformAndTableIsTheDiameter) {
   EXPECT_NEAR(table.sizes.fraction[2], 0.7, 1e-15);
 }
 
+TEST(ReadLot, ASievesTableIsByMass) {
+  // Equal masses of seeds of 2 and 4 mm are eight small ones for a large one.
+  const std::string halves = "distribution = 'table', diameters = ['2 mm', '4 mm'], mass_fractions = ['50 %', '50 %']";
+  const SeedLot balls = lot_of("mass = '30 mg'\nsizes = { " + halves + " }");
+  EXPECT_NEAR(balls.sizes.fraction[0], 8.0 / 9, 1e-15);
+  EXPECT_NEAR(balls.sizes.fraction[1], 1.0 / 9, 1e-15);
+  EXPECT_NEAR(balls.diameter, (8 * 2e-3 + 4e-3) / 9, 1e-15);
+  const SeedLot discs = lot_of("shape = 'disc'\nmass = '30 mg'\nsizes = { " + halves + " }");
+  EXPECT_NEAR(discs.sizes.fraction[0], 0.8, 1e-15);
+  const std::string rows =
+      "shape = 'elongated'\nwidth = '1.5 mm'\nmass = '30 mg'\n"
+      "sizes = { distribution = 'table', lengths = ['2 mm', '4 mm'], mass_fractions = ['50 %', '50 %'] }";
+  EXPECT_NEAR(lot_of(rows).sizes.fraction[0], 0.8, 1e-15);
+  EXPECT_NEAR(lot_of(rows, Space::three_dimensional).sizes.fraction[0], 8.0 / 9, 1e-15);
+  // Back again: what each size weighs is what was asked for.
+  for (const Space space : {Space::plane, Space::three_dimensional}) {
+    const SeedLot lot = lot_of(rows, space);
+    const int power = mass_power(lot);
+    const double small = lot.sizes.fraction[0] * std::pow(lot.sizes.diameter[0] / lot.diameter, power);
+    EXPECT_NEAR(small / size_moment(lot, power), 0.5, 1e-12);
+  }
+}
+
 TEST(ReadLot, NormalAndLognormalAreCutAtThreeDeviations) {
   for (const auto& [name, kind] : {std::pair("normal", Kind::normal), std::pair("lognormal", Kind::lognormal)}) {
     const std::string start = std::string("diameter = '4 mm'\nmass = '30 mg'\nsizes = { distribution = '") + name;
@@ -288,7 +311,16 @@ INSTANTIATE_TEST_SUITE_P(
         Wrong{MEANLESS("distribution = 'table', diameters = ['3 mm', '4 mm'], fractions = ['100 %']"),
               ":2: sizes.fractions", "lists 1 fractions, by number, for 2 diameters"},
         Wrong{MEANLESS("distribution = 'table', diameters = ['3 mm', '4 mm'], fractions = ['90 %', '5 %']"),
-              ":2: sizes.fractions", "sum to 95 %"}));
+              ":2: sizes.fractions", "sum to 95 %"},
+        Wrong{MEANLESS("distribution = 'table', diameters = ['3 mm', '4 mm'], mass_fractions = ['90 %', '5 %']"),
+              ":2: sizes.mass_fractions", "sum to 95 %"},
+        Wrong{MEANLESS("distribution = 'table', diameters = ['3 mm', '4 mm'], mass_fractions = ['100 %']"),
+              ":2: sizes.mass_fractions", "lists 1 fractions, by mass, for 2 diameters"},
+        Wrong{
+            MEANLESS("distribution = 'table', diameters = ['3 mm'], fractions = ['100 %'], mass_fractions = ['100 %']"),
+            ":2: sizes.mass_fractions", "contradicts fractions"},
+        Wrong{MEANLESS("distribution = 'uniform', least = '3 mm', most = '4 mm', mass_fractions = ['100 %']"),
+              ":2: sizes.mass_fractions", "does not go with"}));
 
 }  // namespace
 }  // namespace vibrosow

@@ -46,14 +46,14 @@ TEST(Quantity, DecimalUnitsAreExact) {
   EXPECT_EQ(parse_quantity("2.1e4 1/s", Dimension::rate), 2.1e4);
   EXPECT_EQ(parse_quantity("21 1/ms", Dimension::rate), 21000);
   EXPECT_EQ(parse_quantity("180 kg/ha", Dimension::mass_per_area), 0.018);
-  EXPECT_EQ(parse_quantity("280 1/m2", Dimension::number_per_area), 280);
+  EXPECT_EQ(parse_quantity("280 1/m2", Dimension::seeds_per_area), 280);
 }
 
 TEST(Quantity, OtherUnits) {
-  EXPECT_DOUBLE_EQ(parse_quantity("36 km/h", Dimension::speed), 10);
+  EXPECT_DOUBLE_EQ(parse_quantity("36 km/h", Dimension::travel_speed), 10);
   EXPECT_EQ(parse_quantity("2 min", Dimension::time), 120);
   EXPECT_DOUBLE_EQ(parse_quantity("18 g/m2", Dimension::mass_per_area), 0.018);
-  EXPECT_DOUBLE_EQ(parse_quantity("2.8e6 1/ha", Dimension::number_per_area), 280);
+  EXPECT_DOUBLE_EQ(parse_quantity("2.8e6 1/ha", Dimension::seeds_per_area), 280);
   EXPECT_DOUBLE_EQ(parse_quantity("90 degree", Dimension::angle), std::numbers::pi / 2);
   EXPECT_EQ(parse_quantity("90 deg", Dimension::angle), parse_quantity("90 degree", Dimension::angle));
   EXPECT_EQ(parse_quantity("1.5 rad", Dimension::angle), 1.5);
@@ -64,6 +64,56 @@ TEST(Quantity, OtherUnits) {
 TEST(Quantity, RpmIsTurnsAMinuteNotRadians) {
   EXPECT_EQ(parse_quantity("540 rpm", Dimension::frequency), 9);
   EXPECT_EQ(unit_size("rpm", Dimension::frequency), 1.0 / 60);
+}
+
+TEST(Quantity, TradesHaveTheirOwn) {
+  constexpr double mile = 1609.344, pound = 0.45359237, acre = 4046.8564224, bushel = 0.03523907016688;
+  EXPECT_DOUBLE_EQ(parse_quantity("5 mph", Dimension::travel_speed), 5 * mile / 3600);
+  EXPECT_EQ(parse_quantity("8 kmh", Dimension::travel_speed), parse_quantity("8 km/h", Dimension::travel_speed));
+  EXPECT_NEAR(parse_quantity("160 lb/ac", Dimension::mass_per_area), 160 * pound / acre, 1e-12);
+  EXPECT_NEAR(parse_quantity("160 lbs/acre", Dimension::mass_per_area), 160 * pound / acre, 1e-12);
+  EXPECT_EQ(parse_quantity("0.18 t/ha", Dimension::mass_per_area), 0.018);
+  EXPECT_EQ(parse_quantity("350 seeds/m2", Dimension::seeds_per_area), 350);
+  EXPECT_EQ(parse_quantity("350 1/m²", Dimension::seeds_per_area), 350);
+  EXPECT_DOUBLE_EQ(parse_quantity("1.4e6 seeds/ac", Dimension::seeds_per_area), 1.4e6 / acre);
+  EXPECT_EQ(parse_quantity("280 plants/m²", Dimension::plants_per_area), 280);
+  EXPECT_DOUBLE_EQ(parse_quantity("7.5\"", Dimension::length), 7.5 * 0.0254);
+  EXPECT_DOUBLE_EQ(parse_quantity("7.5 in", Dimension::length), 7.5 * 0.0254);
+  EXPECT_EQ(parse_quantity("76 kg/hl", Dimension::bulk_density), 760);
+  EXPECT_DOUBLE_EQ(parse_quantity("60 lb/bu", Dimension::bulk_density), 60 * pound / bushel);
+  EXPECT_EQ(parse_quantity("43 seeds/min", Dimension::seed_rate), 43.0 / 60);
+}
+
+TEST(Quantity, SignsOfOtherKeyboardsAreReadAsWhatTheyStandFor) {
+  EXPECT_EQ(parse_quantity("250 μm", Dimension::length), 0.00025);                   // Greek mu
+  EXPECT_EQ(parse_quantity("8\u00a0mm", Dimension::length), 0.008);                  // a space that does not break
+  EXPECT_EQ(parse_quantity("8\u202fmm ", Dimension::length), 0.008);                 // a narrow one
+  EXPECT_EQ(parse_quantity("\u22123 mm", Dimension::length), -0.003);                // a minus
+  EXPECT_DOUBLE_EQ(parse_quantity("90 º", Dimension::angle), std::numbers::pi / 2);  // masculine ordinal
+  for (const char* density : {"1592 kg/m³", "1592 kg / m3", "1592 kg·m⁻³", "1592 kg m-3", "1.592 g/cm³", "1.592 kg/L"})
+    EXPECT_EQ(parse_quantity(density, Dimension::density), 1592) << density;
+}
+
+TEST(Quantity, WhatWasMeantIsSaid) {
+  const auto told = [](const char* text, Dimension dimension, std::string_view example = {}) {
+    try {
+      parse_quantity(text, dimension, example);
+    } catch (const UnitError& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  EXPECT_EQ(
+      told("30 gr", Dimension::seed_mass, "45 g"),
+      "\"30 gr\": wrong unit \"gr\": is the grain of the imperial system, 64.8 mg; a gram is g; expected a mass in g "
+      "or mg such as \"45 g\"");
+  for (const char* text : {"76 kg/hl", "76 kg/hL", "60 lb/bu", "760 g/l"})
+    EXPECT_THAT(told(text, Dimension::density), testing::AllOf(HasSubstr("bulk_density"), HasSubstr("1300 kg/m3")));
+  EXPECT_THAT(told("20", Dimension::travel_speed), HasSubstr("\"8 km/h\""));
+  EXPECT_THAT(told("9 hz", Dimension::frequency), HasSubstr("capitals count; write Hz"));
+  EXPECT_THAT(told("5 mPa", Dimension::pressure), HasSubstr("a million is MPa"));
+  EXPECT_THAT(told("3 bu/ac", Dimension::mass_per_area), HasSubstr("write lb/ac"));
+  EXPECT_THAT(told("0,2 g", Dimension::seed_mass), HasSubstr("decimal comma"));
 }
 
 TEST(Quantity, UnitSize) {
@@ -97,24 +147,23 @@ TEST_P(RefusedQuantity, NamesTheTextAndWhatIsExpected) {
 
 constexpr const char* no_number = "does not start with a number";
 constexpr const char* no_unit = "has no unit";
-constexpr const char* not_plain = "is not a plain unit";
 constexpr const char* wrong_unit = "wrong unit";
 
 INSTANTIATE_TEST_SUITE_P(
     UdunitsTraps, RefusedQuantity,
-    testing::Values(Wrong{"8-10 mm", Dimension::length, not_plain},  // -0.08 m to udunits2
-                    Wrong{"24 mm 3", Dimension::length, not_plain},  // 72 mm
-                    Wrong{"1 d", Dimension::length, wrong_unit},     // a day
+    testing::Values(Wrong{"8-10 mm", Dimension::length, wrong_unit},  // -0.08 m to udunits2
+                    Wrong{"24 mm 3", Dimension::length, wrong_unit},  // 72 mm
+                    Wrong{"1 d", Dimension::length, wrong_unit},      // a day
                     Wrong{"1 d", Dimension::time, wrong_unit}, Wrong{"mm", Dimension::length, no_number},  // 1 mm
                     Wrong{"56 rad/s", Dimension::frequency, wrong_unit},                                   // 56 Hz
-                    Wrong{"3 1/s", Dimension::frequency, not_plain},
+                    Wrong{"3 1/s", Dimension::frequency, wrong_unit},
                     Wrong{"5 Hz", Dimension::time, wrong_unit},  // its reciprocal counts as convertible
                     Wrong{"5 s", Dimension::frequency, wrong_unit}, Wrong{"2 s/m", Dimension::speed, wrong_unit},
                     Wrong{"1 rad", Dimension::fraction, wrong_unit}, Wrong{"10 %", Dimension::angle, wrong_unit},
-                    Wrong{"3 m-1", Dimension::length, not_plain}, Wrong{"3 mm @ 2", Dimension::length, not_plain},
-                    Wrong{"3 s since 1970-01-01", Dimension::time, not_plain},
-                    Wrong{"3 m m-1 m", Dimension::length, not_plain}, Wrong{"3 2mm", Dimension::length, not_plain},
-                    Wrong{"3 (mm)", Dimension::length, not_plain}, Wrong{"3 mm ", Dimension::length, not_plain}));
+                    Wrong{"3 m-1", Dimension::length, wrong_unit}, Wrong{"3 mm @ 2", Dimension::length, wrong_unit},
+                    Wrong{"3 s since 1970-01-01", Dimension::time, wrong_unit},
+                    Wrong{"3 m m-1 m", Dimension::length, wrong_unit}, Wrong{"3 2mm", Dimension::length, wrong_unit},
+                    Wrong{"3 (mm)", Dimension::length, wrong_unit}));
 
 INSTANTIATE_TEST_SUITE_P(
     Numbers, RefusedQuantity,
@@ -123,13 +172,13 @@ INSTANTIATE_TEST_SUITE_P(
                     Wrong{"inf mm", Dimension::length, no_number}, Wrong{"-inf mm", Dimension::length, no_number},
                     Wrong{"1e400 mm", Dimension::length, "too large or too small"},
                     Wrong{"1e-400 mm", Dimension::length, "too large or too small"},
-                    Wrong{"1e308 km", Dimension::length, "too large"}, Wrong{".5 mm", Dimension::length, no_number},
-                    Wrong{" 5 mm", Dimension::length, no_number}, Wrong{"5. mm", Dimension::length, not_plain},
-                    Wrong{"05 mm", Dimension::length, not_plain}, Wrong{"0x10 mm", Dimension::length, not_plain},
+                    Wrong{"1e308 kN", Dimension::force, "too large"}, Wrong{".5 mm", Dimension::length, no_number},
+                    Wrong{" 5 mm", Dimension::length, no_number}, Wrong{"5. mm", Dimension::length, wrong_unit},
+                    Wrong{"05 mm", Dimension::length, wrong_unit}, Wrong{"0x10 mm", Dimension::length, wrong_unit},
                     Wrong{"1,5 mm", Dimension::length, "write a decimal point: \"1.5 mm\""},
                     Wrong{"1,500.5 mm", Dimension::length, "decimal comma"},
-                    Wrong{"1, 5 mm", Dimension::length, not_plain}, Wrong{"1_000 mm", Dimension::length, not_plain},
-                    Wrong{"1 000 mm", Dimension::length, not_plain}));
+                    Wrong{"1, 5 mm", Dimension::length, wrong_unit}, Wrong{"1_000 mm", Dimension::length, wrong_unit},
+                    Wrong{"1 000 mm", Dimension::length, wrong_unit}));
 
 INSTANTIATE_TEST_SUITE_P(
     Dimensions, RefusedQuantity,
@@ -141,14 +190,14 @@ INSTANTIATE_TEST_SUITE_P(
                     Wrong{"3 Pa", Dimension::force, wrong_unit}, Wrong{"3 mpa", Dimension::pressure, wrong_unit},
                     Wrong{"3 Hz", Dimension::rate, wrong_unit},  // turns, not radians
                     Wrong{"3 rpm", Dimension::rate, wrong_unit}, Wrong{"3 rad/s", Dimension::rate, wrong_unit},
-                    Wrong{"3 s", Dimension::rate, wrong_unit}, Wrong{"3 1/m", Dimension::rate, not_plain},
-                    Wrong{"3 1/s", Dimension::length, not_plain}, Wrong{"3 1/s2", Dimension::rate, not_plain},
-                    Wrong{"3 /s", Dimension::rate, not_plain}, Wrong{"1/s", Dimension::rate, not_plain},
+                    Wrong{"3 s", Dimension::rate, wrong_unit}, Wrong{"3 1/m", Dimension::rate, wrong_unit},
+                    Wrong{"3 1/s", Dimension::length, wrong_unit}, Wrong{"3 1/s2", Dimension::rate, wrong_unit},
+                    Wrong{"3 /s", Dimension::rate, wrong_unit}, Wrong{"1/s", Dimension::rate, wrong_unit},
                     Wrong{"3 kg/m3", Dimension::mass_per_area, wrong_unit},
                     Wrong{"3 kg", Dimension::mass_per_area, wrong_unit},
-                    Wrong{"3 1/m", Dimension::number_per_area, not_plain},
-                    Wrong{"3 1/m2", Dimension::mass_per_area, not_plain},
-                    Wrong{"3 kg/ha", Dimension::number_per_area, wrong_unit}));
+                    Wrong{"3 1/m", Dimension::seeds_per_area, wrong_unit},
+                    Wrong{"3 1/m2", Dimension::mass_per_area, wrong_unit},
+                    Wrong{"3 kg/ha", Dimension::seeds_per_area, wrong_unit}));
 
 TEST(Quantity, AnyLengthOfTextIsReadOrRefusedInAShortMessage) {
   constexpr std::size_t length = 200'000;
@@ -212,9 +261,12 @@ TEST(Quantity, UnitDatabaseThatIsNotThereIsToldAsSuch) {
 
 TEST(Quantity, EveryDimensionReadsItsOwnExample) {
   for (const Dimension dimension :
-       {Dimension::length, Dimension::time, Dimension::frequency, Dimension::mass, Dimension::mass_rate,
-        Dimension::speed, Dimension::angle, Dimension::density, Dimension::fraction, Dimension::force,
-        Dimension::pressure, Dimension::rate, Dimension::mass_per_area, Dimension::number_per_area}) {
+       {Dimension::length,       Dimension::time,          Dimension::frequency,      Dimension::mass,
+        Dimension::seed_mass,    Dimension::mass_rate,     Dimension::drag,           Dimension::speed,
+        Dimension::travel_speed, Dimension::angle,         Dimension::density,        Dimension::bulk_density,
+        Dimension::fraction,     Dimension::force,         Dimension::pressure,       Dimension::rate,
+        Dimension::seed_rate,    Dimension::mass_per_area, Dimension::seeds_per_area, Dimension::plants_per_area}) {
+    for (const std::string_view unit : units_of(dimension)) EXPECT_GT(unit_size(unit, dimension), 0) << unit;
     const std::string text(expected(dimension));
     const auto open = text.find('"');
     const std::string example = text.substr(open + 1, text.rfind('"') - open - 1);
