@@ -206,8 +206,16 @@ int ended(const AccuracyOptions& options, const OutputFolder& folder, const Stud
   return interrupted ? exit_interrupted : exit_done;
 }
 
+/// For `--depth`. Throws InputError where the seeder cannot be read for one of the two.
+std::optional<BothSpaces> both_spaces_of(const AccuracyOptions& options) {
+  if (options.depth == 0) return std::nullopt;
+  const InputFile file = input_file(options.common.file, FileKind::seeder);
+  return read_in_both_spaces(file.path, options.common.overrides(), file.files);
+}
+
 int run_table(const AccuracyOptions& options) {
   const Scene scene = scene_of(options);
+  const std::optional<BothSpaces> both = both_spaces_of(options);
   const AccuracyDesign design = design_of(options, scene);
   const std::string page_template = options.common.page_template();
   const OutputFolder folder = options.common.output_folder("accuracy", accuracy_file_texts(), "-accuracy");
@@ -229,7 +237,8 @@ int run_table(const AccuracyOptions& options) {
     Progress progress(text_unless(options.common.quiet), 2.0 * options.depth, "runs");
     SweepOptions sweep_options = sweep_options_of(options, jobs, interrupt);
     sweep_options.runs.progress = [&](const ManyRunsProgress& done) { progress.update(done.fraction_done); };
-    result.depth = measure_depth_error(scene, options.depth, simulator, sweep_options);
+    result.depth = measure_depth_error(at_its_accuracy(both->plane), at_its_accuracy(both->space), options.depth,
+                                       simulator, sweep_options);
     timing.wall_time += progress.seconds();
   }
   std::vector<OutputFile> files = accuracy_files(result, timing, options.common.csv);

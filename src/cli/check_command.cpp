@@ -19,9 +19,11 @@
 #include "plan/model.hpp"
 #include "plan/scene_warnings.hpp"
 #include "plan/softness.hpp"
+#include "report/mixture_text.hpp"
 #include "report/terminal_text.hpp"
 #include "scene/input_error.hpp"
 #include "scene/integrator_names.hpp"
+#include "scene/spaces.hpp"
 
 namespace vibrosow {
 namespace {
@@ -129,6 +131,18 @@ void print_vessel(const Vessel& vessel, Space space) {
     print("  rain of {:.6g} seeds/s from {:.1f} mm above its floor\n", vessel.rain->rate, vessel.rain->height * 1e3);
 }
 
+/// How many slices the tray is taken for, and how dense a bed that means.
+void print_slice(const Scene& scene) {
+  const auto slices = slices_of_tray(scene);
+  if (scene.space != Space::plane || !slices) return;
+  const double implied = implied_bulk_density(scene.lots, poured_share);
+  const auto solid = solid_density(scene.lots);
+  print_text(
+      wrapped(fmt::format("the tray is {} slices {:.4g} mm thick: a bed of some {:.3g} kg/m3 when poured{}",
+                          to_digits(*slices, 4), slice_thickness(scene.lots) * 1e3, implied,
+                          solid ? fmt::format(", {:.0f} % of the seeds' own density", 100 * implied / *solid) : "")));
+}
+
 struct CheckOptions : CommonOptions {
   bool both = false;
 };
@@ -142,6 +156,8 @@ int check_seeder(const InputFile& file, const CheckOptions& options) {
   print_text(wrapped(scene.title));
   print_vessel(scene.tray, scene.space);
   if (scene.hopper) print_vessel(*scene.hopper, scene.space);
+  print_text(mixture_text(scene));
+  print_slice(scene);
   if (drill) print_text(wrapped(drill_sentence(*drill)));
   print_space_advice(scene);
   print_model(model);
@@ -151,7 +167,7 @@ int check_seeder(const InputFile& file, const CheckOptions& options) {
   print_overlap(model);
   if (const auto refused = step_refused(scene.numerics, plan)) throw InputError(*refused);
   if (plan.too_long) print("the step is too long and insisted on: every result will be marked \"outside the model\"\n");
-  return options.both ? run_in_both_spaces(scene) : exit_done;
+  return options.both ? run_in_both_spaces(read_in_both_spaces(file.path, options.overrides(), file.files)) : exit_done;
 }
 
 /// The header of a table of measured outflow for this study, ready to fill in.

@@ -9,7 +9,6 @@
 #include "design/evaluate.hpp"
 #include "plan/model.hpp"
 #include "report/terminal_text.hpp"
-#include "scene/spaces.hpp"
 
 namespace vibrosow {
 namespace {
@@ -55,8 +54,8 @@ void print_space_advice(const Scene& scene) {
   print("  check --both runs the two and prints their ratio\n");
 }
 
-int run_in_both_spaces(const Scene& scene) {
-  const Scene plane = in_plane(scene), space = in_space(scene);
+int run_in_both_spaces(const BothSpaces& scenes) {
+  const auto& [plane, space] = scenes;
   const Evaluation flat = run_once(plane);
   if (flat.status == EvaluationStatus::interrupted) return exit_interrupted;
   const Evaluation deep = run_once(space);

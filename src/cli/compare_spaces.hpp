@@ -1,5 +1,6 @@
 #pragma once
 
+#include "input/read_scene.hpp"
 #include "scene/scene.hpp"
 
 namespace vibrosow {
@@ -7,8 +8,8 @@ namespace vibrosow {
 /// Says which of plane and space a question to this scene needs.
 void print_space_advice(const Scene& scene);
 
-/// Runs a scene in the plane and in space and prints the rates of both and their ratio; an exit code. Throws InputError
-/// without `tray.depth`, or where one of the two cannot be run.
-int run_in_both_spaces(const Scene& scene);
+/// Runs a seeder in the plane and in space and prints the rates of both and their ratio; an exit code. Throws
+/// InputError where one of the two cannot be run.
+int run_in_both_spaces(const BothSpaces& scenes);
 
 }  // namespace vibrosow

@@ -24,6 +24,7 @@
 #include "plan/model.hpp"
 #include "plan/scene_warnings.hpp"
 #include "recording/recording.hpp"
+#include "report/mixture_text.hpp"
 #include "report/output_folder.hpp"
 #include "report/page.hpp"
 #include "report/run_page.hpp"
@@ -66,6 +67,7 @@ void print_holes(const Outflow& outflow) {
 void print_summary(const Scene& scene, const Run& run, const Outflow& outflow) {
   print("{}\n", wrapped(scene.title));
   print_holes(outflow);
+  if (const std::string mixture = mixture_text(scene); !mixture.empty()) print_text("\n" + mixture);
   const HoleOutflow& all = *find_row(outflow, "all", "all");
   const bool in_space = scene.space == Space::three_dimensional;
   if (const auto& depth = outflow.depth_factor)

@@ -3,9 +3,6 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "scene/input_error.hpp"
-#include "scene/spaces.hpp"
-
 namespace vibrosow {
 namespace {
 
@@ -22,11 +19,10 @@ std::optional<MeanWithInterval> mean_rate(const std::vector<Evaluation>& runs, s
 
 }  // namespace
 
-std::optional<DepthError> measure_depth_error(const Scene& scene, int replicates, const Simulator& simulator,
-                                              const SweepOptions& options) {
+std::optional<DepthError> measure_depth_error(const Scene& plane_scene, const Scene& space_scene, int replicates,
+                                              const Simulator& simulator, const SweepOptions& options) {
   if (replicates < 2) throw std::invalid_argument("an interval takes two runs");
-  if (!scene.tray.depth) throw InputError("tray.depth: is needed for a tray in space");
-  const Model flat = prepare_to_run(in_plane(scene)), deep = prepare_to_run(in_space(scene));
+  const Model flat = prepare_to_run(plane_scene), deep = prepare_to_run(space_scene);
   std::vector<Job> jobs;
   for (const Model* model : {&flat, &deep})
     for (int k = 0; k < replicates; ++k)

@@ -13,10 +13,10 @@ struct DepthError {
   RateError error;                // plane less space, of space; its band of both intervals, as independent
 };
 
-/// From so many runs of each, of the scene's own numerics. None where a run was cut short or left the model, or nothing
-/// flows in space. Throws InputError without `tray.depth`, where one of the two cannot be run, and
+/// From so many runs of each, of the scenes' own numerics; both have a `tray.depth`. None where a run was cut short or
+/// left the model, or nothing flows in space. Throws InputError where one of the two cannot be run, and
 /// std::invalid_argument for fewer than two runs.
-std::optional<DepthError> measure_depth_error(const Scene& scene, int replicates, const Simulator& simulator,
-                                              const SweepOptions& options);
+std::optional<DepthError> measure_depth_error(const Scene& plane, const Scene& space, int replicates,
+                                              const Simulator& simulator, const SweepOptions& options);
 
 }  // namespace vibrosow

@@ -11,6 +11,7 @@
 #include "grains/size_distribution.hpp"
 #include "grains/turned_discs.hpp"
 #include "scene/input_error.hpp"
+#include "scene/mixture.hpp"
 #include "scene/seed_lot.hpp"
 #include "vessel/vessel_walls.hpp"
 
@@ -144,25 +145,6 @@ std::vector<PackedGrain> pack_layers(const Vessel& vessel, const std::vector<See
   }
   return packed;
 }
-
-}  // namespace
-
-std::vector<int> lot_counts(const std::vector<SeedLot>& lots, int count) {
-  std::vector<int> counts;
-  std::vector<std::pair<double, std::size_t>> remainders;
-  int placed = 0;
-  for (std::size_t lot = 0; lot < lots.size(); ++lot) {
-    const double wanted = lots[lot].number_fraction * count;
-    counts.push_back(static_cast<int>(std::floor(wanted)));
-    placed += counts.back();
-    remainders.emplace_back(std::floor(wanted) - wanted, lot);
-  }
-  std::sort(remainders.begin(), remainders.end());
-  for (std::size_t k = 0; placed < count; ++k, ++placed) ++counts[remainders[k % remainders.size()].second];
-  return counts;
-}
-
-namespace {
 
 constexpr std::size_t large_bed = 20000;  // grains whose state is more than a core's cache holds
 

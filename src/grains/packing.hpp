@@ -27,7 +27,4 @@ struct PackedGrain {
 std::vector<PackedGrain> pack(const Vessel& vessel, const std::vector<SeedLot>& lots, Space space, Random& random,
                               StopRequest stop = {});
 
-/// Number of grains of each lot among `count`, by largest remainder.
-std::vector<int> lot_counts(const std::vector<SeedLot>& lots, int count);
-
 }  // namespace vibrosow

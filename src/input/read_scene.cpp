@@ -14,8 +14,10 @@
 #include "input/table.hpp"
 #include "scene/accuracy_level.hpp"
 #include "scene/integrator_names.hpp"
+#include "scene/mixture.hpp"
 #include "scene/printable.hpp"
 #include "scene/seed_lot.hpp"
+#include "scene/spaces.hpp"
 
 namespace vibrosow {
 namespace {
@@ -175,8 +177,21 @@ Record read_record(Table table, double duration, const std::vector<SeedLot>& lot
 
 }  // namespace
 
-Seeder read_seeder(const std::filesystem::path& file, const std::vector<Override>& overrides,
-                   const std::shared_ptr<SourceFiles>& files) {
+namespace {
+
+/// With file and line, where `prepare` knows but the key.
+void refuse_missing_lot(Table root, const Scene& scene) {
+  const auto missing = missing_lot(scene);
+  if (!missing) return;
+  const bool filled = missing->source == SeedSource::fill;
+  root.required_table(missing->vessel->name)
+      .required_table(filled ? "fill" : "rain")
+      .fail(filled ? "count" : "rate", missing->message);
+}
+
+/// In its own space, or in the one that is wanted.
+Seeder read_seeder_in(std::optional<Space> wanted, const std::filesystem::path& file,
+                      const std::vector<Override>& overrides, const std::shared_ptr<SourceFiles>& files) {
   Table root(Document::read(file, overrides, files));
   root.reject_keys_other_than({"title", "space", "accuracy", "seeds", "contact", "tray", "hopper", "numerics", "guard",
                                "run", "record", "drill"});
@@ -184,14 +199,17 @@ Seeder read_seeder(const std::filesystem::path& file, const std::vector<Override
   Scene& scene = seeder.scene;
   scene.title = printable(root.text("title").value_or(file.stem().string()));
   constexpr Space spaces[] = {Space::plane, Space::three_dimensional};
-  scene.space = spaces[root.choice("space", {"plane", "3d"}).value_or(0)];
+  const Space own = spaces[root.choice("space", {"plane", "3d"}).value_or(0)];
+  scene.space = wanted.value_or(own);
   Table seeds = root.required_table("seeds");
   scene.lots = read_lots(seeds, scene.space);
+  std::optional<double> slice;  // m, where seeds are counted in the other space
+  if (scene.space != own) slice = slice_thickness(read_lots(seeds, Space::plane));
   scene.contact = read_contact(root.required_table("contact"), seeds, scene.lots);
   Table tray = root.required_table("tray");
-  scene.tray = read_vessel(tray, "tray", scene.lots, scene.space);
+  scene.tray = read_vessel(tray, "tray", scene.lots, scene.space, nullptr, slice);
   if (auto hopper = root.table("hopper")) {
-    scene.hopper = read_vessel(*hopper, "hopper", scene.lots, scene.space, &scene.tray);
+    scene.hopper = read_vessel(*hopper, "hopper", scene.lots, scene.space, &scene.tray, slice);
     scene.hopper->origin.x() = hopper->required_quantity("left", Dimension::length, -100, 100);
     if (scene.tray.sides == Sides::periodic &&
         !(scene.hopper->origin.x() >= 0 &&
@@ -212,7 +230,23 @@ Seeder read_seeder(const std::filesystem::path& file, const std::vector<Override
     scene.record = read_record(*record, scene.run.duration, scene.lots, scene.space);
   if (auto drill = root.table("drill")) seeder.drill = read_drill(*drill, scene.tray.holes.size());
   root.reject_unknown_keys();
+  refuse_missing_lot(root, scene);
   return seeder;
+}
+
+}  // namespace
+
+Seeder read_seeder(const std::filesystem::path& file, const std::vector<Override>& overrides,
+                   const std::shared_ptr<SourceFiles>& files) {
+  return read_seeder_in(std::nullopt, file, overrides, files);
+}
+
+BothSpaces read_in_both_spaces(const std::filesystem::path& file, const std::vector<Override>& overrides,
+                               const std::shared_ptr<SourceFiles>& files) {
+  BothSpaces both{read_seeder_in(Space::plane, file, overrides, files).scene,
+                  read_seeder_in(Space::three_dimensional, file, overrides, files).scene};
+  if (!both.plane.tray.depth) both.plane.tray.depth = both.space.tray.depth;  // a round tray's is its length
+  return both;
 }
 
 Scene read_scene(const std::filesystem::path& file, const std::vector<Override>& overrides,

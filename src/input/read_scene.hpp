@@ -26,6 +26,17 @@ struct Seeder {
 Seeder read_seeder(const std::filesystem::path& file, const std::vector<Override>& overrides = {},
                    const std::shared_ptr<SourceFiles>& files = std::make_shared<SourceFiles>());
 
+/// One seeder for both spaces.
+struct BothSpaces {
+  Scene plane, space;
+};
+
+/// A seeder read anew for each space, so that what one of the two does not use is there for the other: a hole's shape,
+/// a round plan, a thickness. Fill and rain are of the space that the file says, and in the other as many as its slices
+/// make of them (`slices_of_vessel`). Throws InputError like `read_seeder`, and where the tray has no depth.
+BothSpaces read_in_both_spaces(const std::filesystem::path& file, const std::vector<Override>& overrides = {},
+                               const std::shared_ptr<SourceFiles>& files = std::make_shared<SourceFiles>());
+
 /// Its scene; a [drill] is read, and refused where it is wrong.
 Scene read_scene(const std::filesystem::path& file, const std::vector<Override>& overrides = {},
                  const std::shared_ptr<SourceFiles>& files = std::make_shared<SourceFiles>());

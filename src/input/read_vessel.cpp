@@ -294,10 +294,21 @@ void check_turning(Table& table, const Vessel& vessel, Space space) {
                "a vessel that turns about an upright axis cannot be periodic: its ends would not meet");
 }
 
+/// How many times as many seeds a vessel takes in `space` as in the other one, in which the file counts them.
+double seeds_of_other_space(Table& table, const Vessel& vessel, const Vessel* tray, Space space, double slice) {
+  Vessel whole = vessel;
+  if (table.choice("plan", {"rectangle", "round"}).value_or(0) == 1)
+    whole.plan = Plan::round, whole.depth = vessel.length;
+  if (!whole.depth && tray != nullptr) whole.depth = tray->depth;
+  if (!whole.depth) table.fail("depth", "is missing; in space a tray has a depth, from front to back");
+  const double slices = slices_of_vessel(whole, slice);
+  return space == Space::plane ? 1 / slices : slices;
+}
+
 }  // namespace
 
 Vessel read_vessel(Table table, const std::string& name, const std::vector<SeedLot>& lots, Space space,
-                   const Vessel* tray) {
+                   const Vessel* tray, std::optional<double> slice) {
   Vessel vessel;
   vessel.name = name;
   vessel.length = table.required_quantity("length", Dimension::length, shortest, longest);
@@ -320,11 +331,11 @@ Vessel read_vessel(Table table, const std::string& name, const std::vector<SeedL
     table.fail("funnel", fmt::format("the floor would rise to {}, as high as the walls or higher ({})",
                                      millimetres(highest_floor(vessel)), millimetres(vessel.height)));
   }
-  if (const auto fill = table.table("fill")) {
-    vessel.fill = read_fill(*fill);
-    check_fill_fits(*fill, vessel, lots, space);
-  }
-  if (const auto rain = table.table("rain")) vessel.rain = read_rain(*rain, vessel);
+  const auto fill = table.table("fill"), rain = table.table("rain");
+  if (fill) vessel.fill = read_fill(*fill);
+  if (rain) vessel.rain = read_rain(*rain, vessel);
+  if (slice) multiply_seeds(vessel, seeds_of_other_space(table, vessel, tray, space, *slice));
+  if (fill) check_fill_fits(*fill, vessel, lots, space);
   if (const auto motion = table.table("motion")) {
     vessel.motion = read_motion(*motion);
     if (space == Space::plane && moves_across(*vessel.motion))

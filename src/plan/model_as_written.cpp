@@ -8,6 +8,7 @@
 #include "plan/effects.hpp"
 #include "plan/touching_kinds.hpp"
 #include "scene/input_error.hpp"
+#include "scene/mixture.hpp"
 #include "scene/seed_lot.hpp"
 
 namespace vibrosow {
@@ -39,6 +40,15 @@ void check_clumps(const Scene& scene) {
           fmt::format("seeds.{}: a clump has three moments of inertia in space and one in the plane", lot.name));
 }
 
+/// A mixture without one of its lots is another mixture.
+void check_lots(const Scene& scene) {
+  const auto missing = missing_lot(scene);
+  if (!missing) return;
+  const std::string key = key_of(*missing->vessel, missing->source);
+  const bool filled = missing->source == SeedSource::fill;
+  throw InputError(fmt::format("{}: {}", filled ? missing->vessel->fill->where.or_key(key) : key, missing->message));
+}
+
 }  // namespace
 
 Model model_as_written(const Scene& scene, const std::optional<EffectSet>& effects) {
@@ -48,6 +58,7 @@ Model model_as_written(const Scene& scene, const std::optional<EffectSet>& effec
   if (scene.hopper) model.vessels.push_back(*scene.hopper);
   check_vessels(model);
   check_clumps(scene);
+  check_lots(scene);
   const LawTraits& law = traits_of(scene.contact.law);
   const Surfaces surfaces = meeting_surfaces(scene.contact, scene.lots.size());
   model.law = &law;

@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "elementary/functions.hpp"
+#include "scene/mixture.hpp"
 #include "scene/motion.hpp"
 #include "scene/seed_lot.hpp"
 #include "scene/spaces.hpp"
@@ -144,7 +145,7 @@ void warn_of_hopper(const Scene& scene, const Vessel& hopper, Warnings& warnings
   }
   if (hopper.holes.empty()) return;
   constexpr double arching = 3, half = 0.5;
-  const double thickness = mean_over_seeds(scene, [](const SeedLot& lot) { return mean_thickness(lot); });
+  const double thickness = slice_thickness(scene.lots);  // by volume: it is the large ones that arch
   const double widest = std::ranges::max_element(hopper.holes, {}, &Hole::width)->width;
   const double fraction = passed(hopper, scene.space, thickness) / passed(scene.tray, scene.space, thickness);
   if (widest < arching * thickness) {
@@ -159,11 +160,48 @@ void warn_of_hopper(const Scene& scene, const Vessel& hopper, Warnings& warnings
   }
 }
 
+/// What whole seeds make of the fractions that were asked for.
+void warn_of_mixture(const Scene& scene, Warnings& warnings) {
+  constexpr double far = 0.05, few = 3;  // of what was asked for; seeds, of which one run in 20 has none
+  for (const LotShare& share : lot_shares(scene)) {
+    const std::string& lot = scene.lots[share.lot].name;
+    const std::string key = key_of(*share.vessel, share.source);
+    if (share.source == SeedSource::rain && share.asked_number > 0 && share.seeds < few)
+      warnings.push_back(
+          fmt::format("{}: the rain brings {:.2g} seeds of {} on average, in some runs none", key, share.seeds, lot));
+    if (share.source == SeedSource::rain || share.seeds < 1) continue;
+    const double off =
+        std::max(std::abs(share.of_number / share.asked_number - 1), std::abs(share.of_mass / share.asked_mass - 1));
+    if (off > far)
+      warnings.push_back(
+          fmt::format("{}: of {} seeds {:.0f} are of {}: {:.3g} % by number instead of {:.3g} %, {:.3g} % by mass "
+                      "instead of {:.3g} "
+                      "%; more seeds come nearer",
+                      key, share.vessel->fill->count, share.seeds, lot, 100 * share.of_number, 100 * share.asked_number,
+                      100 * share.of_mass, 100 * share.asked_mass));
+  }
+}
+
+/// A bed that could not be is a sign that masses and sizes do not go together.
+void warn_of_bulk_density(const Scene& scene, Warnings& warnings) {
+  constexpr double loosest = 0.3, closest = 0.7405;  // of the seeds' own density
+  const std::optional<double> solid = solid_density(scene.lots);
+  if (scene.space != Space::plane || !scene.tray.depth || !solid) return;
+  const double implied = implied_bulk_density(scene.lots, poured_share);
+  if (implied >= loosest * *solid && implied <= closest * *solid) return;
+  warnings.push_back(fmt::format(
+      "tray.depth: slices {} thick make a bed of {:.3g} kg/m3, {:.0f} % of the seeds' own density, where poured seeds "
+      "have {:.0f} to {:.0f} %: rates of the whole tray are wrong by as much",
+      millimetres(slice_thickness(scene.lots)), implied, 100 * implied / *solid, 100 * loosest, 100 * closest));
+}
+
 }  // namespace
 
 std::vector<std::string> scene_warnings(const Scene& scene) {
   Warnings warnings;
   for (const SeedLot& lot : scene.lots) warn_of_density(lot, warnings);
+  warn_of_mixture(scene, warnings);
+  warn_of_bulk_density(scene, warnings);
   warn_of_narrow_holes(scene.tray, scene.lots, warnings);
   warn_of_standing_liquid(scene, warnings);
   warn_of_rain(scene, scene.tray, warnings);

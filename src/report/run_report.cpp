@@ -13,6 +13,7 @@
 #include "report/run_page.hpp"
 #include "report/vtk_report.hpp"
 #include "report/xyz_report.hpp"
+#include "scene/mixture.hpp"
 #include "scene/scene_json.hpp"
 #include "units/quantity.hpp"
 
@@ -136,6 +137,20 @@ JsonKeys<RunSource> figure_keys() {
   return keys;
 }
 
+Json mixture_of(const Scene& scene) {
+  Json mixture = Json::array();
+  for (const LotShare& share : lot_shares(scene))
+    mixture.push_back({{"vessel", share.vessel->name},
+                       {"source", share.source == SeedSource::fill ? "fill" : "rain"},
+                       {"lot", scene.lots[share.lot].name},
+                       {"seeds", share.seeds},
+                       {"percent_by_number", 100 * share.of_number},
+                       {"asked_percent_by_number", 100 * share.asked_number},
+                       {"percent_by_mass", 100 * share.of_mass},
+                       {"asked_percent_by_mass", 100 * share.asked_mass}});
+  return mixture;
+}
+
 JsonKeys<RunSource> run_keys() {
   using S = const RunSource&;
   JsonKeys<RunSource> keys = {
@@ -183,6 +198,10 @@ JsonKeys<RunSource> run_keys() {
        [](S s) { return s.run.balance.counted; }},
       {"balance.spilled", "", "seeds that left over the rim", [](S s) { return s.run.balance.spilled; }},
       {"balance.lost", "", "seeds that went through a wall: an error", [](S s) { return s.run.balance.lost; }},
+      {"mixture", "",
+       "of several lots: what each fill, and rain on average, has of each by number and by mean mass, beside what was "
+       "asked for",
+       [](S s) { return mixture_of(s.scene); }},
       {"outflow.window_s", "s", "begin and end of the measuring window",
        [](S s) {
          return Json{s.outflow.window_from, s.outflow.window_to};

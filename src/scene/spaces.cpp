@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "scene/clump_shape.hpp"
 #include "scene/input_error.hpp"
 #include "scene/make_clump.hpp"
 #include "scene/seed_lot.hpp"
@@ -11,22 +12,22 @@
 namespace vibrosow {
 namespace {
 
-double mean_thickness_of_seeds(const Scene& scene) {
-  double thickness = 0;
-  for (const SeedLot& lot : scene.lots) thickness += lot.number_fraction * mean_thickness(lot);
-  return thickness;
+/// Of the lot alone: its thickness at its diameter, where masses go with a power above that of areas larger seeds count
+/// for more.
+double slice_of_lot(const SeedLot& lot) {
+  const double thickness = mean_thickness(lot) / size_moment(lot, 1);
+  return thickness * (size_moment(lot, mass_power(lot)) / size_moment(lot, 2));
 }
 
-/// `times` as many seeds.
-void multiply_seeds(Vessel& vessel, double times) {
-  if (vessel.fill) vessel.fill->count = std::max(1, static_cast<int>(std::lround(vessel.fill->count * times)));
-  if (vessel.rain) vessel.rain->rate *= times;
+/// Mean area, m2, that a lot's seeds take of a slice.
+double mean_section(const SeedLot& lot) {
+  const double area =
+      lot.shape == Shape::clump ? plate_of(lot.discs).area : std::numbers::pi / 4 * lot.diameter * lot.diameter;
+  return area * size_moment(lot, 2);
 }
 
 void cut(Vessel& vessel, double thickness) {
-  // The middle slice of a round vessel holds more than the mean one.
-  const double share = vessel.plan == Plan::round ? 4 / std::numbers::pi : 1;
-  multiply_seeds(vessel, share * thickness / *vessel.depth);
+  multiply_seeds(vessel, 1 / slices_of_vessel(vessel, thickness));
   std::vector<Hole> row;
   for (Hole hole : vessel.holes) {
     hole.shape = HoleShape::slot, hole.across = hole.across_length = 0;
@@ -36,14 +37,7 @@ void cut(Vessel& vessel, double thickness) {
   vessel.plan = Plan::rectangle, vessel.front_and_back = Sides::walls, vessel.front = 0;
 }
 
-void draw_out(Vessel& vessel, double depth, double thickness) {
-  if (!vessel.depth) vessel.depth = depth;
-  multiply_seeds(vessel, *vessel.depth / thickness);
-  for (Hole& hole : vessel.holes)
-    hole.shape = HoleShape::slot, hole.across = 0.5 * *vessel.depth, hole.across_length = *vessel.depth;
-}
-
-/// Clumps of discs become the clumps of balls with them as sections, and the other way round.
+/// Clumps of balls become those of the discs that are their sections.
 void change_clumps(Scene& scene) {
   for (SeedLot& lot : scene.lots) {
     if (lot.shape != Shape::clump) continue;
@@ -55,6 +49,47 @@ void change_clumps(Scene& scene) {
 
 }  // namespace
 
+double slice_thickness(const std::vector<SeedLot>& lots) {
+  if (lots.size() == 1) return slice_of_lot(lots.front());
+  double volume = 0, area = 0;
+  for (const SeedLot& lot : lots) {
+    const double section = lot.number_fraction * mean_section(lot);
+    area += section;
+    volume += section * slice_of_lot(lot);
+  }
+  return volume / area;
+}
+
+double implied_bulk_density(const std::vector<SeedLot>& lots, double filled) {
+  double mass = 0, area = 0;
+  for (const SeedLot& lot : lots) {
+    mass += lot.number_fraction * mean_mass(lot);
+    area += lot.number_fraction * mean_section(lot);
+  }
+  return filled * mass / (area * slice_thickness(lots));
+}
+
+std::optional<double> solid_density(const std::vector<SeedLot>& lots) {
+  double mass = 0, volume = 0;
+  for (const SeedLot& lot : lots) {
+    const auto density = seed_density(lot);
+    if (!density) return std::nullopt;
+    mass += lot.number_fraction * mean_mass(lot);
+    volume += lot.number_fraction * mean_mass(lot) / *density;
+  }
+  return mass / volume;
+}
+
+double slices_of_vessel(const Vessel& vessel, double thickness) {
+  return floor_area(vessel) / (vessel.length * thickness);
+}
+
+void multiply_seeds(Vessel& vessel, double times) {
+  constexpr double most = 2e9;
+  if (vessel.fill) vessel.fill->count = static_cast<int>(std::clamp(std::round(vessel.fill->count * times), 1.0, most));
+  if (vessel.rain) vessel.rain->rate *= times;
+}
+
 double floor_area(const Vessel& vessel) {
   const double part = vessel.plan == Plan::round ? std::numbers::pi / 4 : 1;
   return part * vessel.length * *vessel.depth;
@@ -62,27 +97,16 @@ double floor_area(const Vessel& vessel) {
 
 std::optional<double> slices_of_tray(const Scene& scene) {
   if (!scene.tray.depth) return std::nullopt;
-  return *scene.tray.depth / mean_thickness_of_seeds(scene);
+  return *scene.tray.depth / slice_thickness(scene.lots);
 }
 
 Scene in_plane(Scene scene) {
   if (scene.space == Space::plane) return scene;
   scene.space = Space::plane;
-  const double thickness = mean_thickness_of_seeds(scene);
+  const double thickness = slice_thickness(scene.lots);
   change_clumps(scene);
   cut(scene.tray, thickness);
   if (scene.hopper) cut(*scene.hopper, thickness);
-  return scene;
-}
-
-Scene in_space(Scene scene) {
-  if (scene.space == Space::three_dimensional) return scene;
-  if (!scene.tray.depth) throw InputError("tray.depth: is missing; in space a tray has a depth, from front to back");
-  scene.space = Space::three_dimensional;
-  const double thickness = mean_thickness_of_seeds(scene), depth = *scene.tray.depth;
-  change_clumps(scene);
-  draw_out(scene.tray, depth, thickness);
-  if (scene.hopper) draw_out(*scene.hopper, depth, thickness);
   return scene;
 }
 

@@ -64,6 +64,15 @@ TEST(RowFigures, RatesOfARowAndOfTheGround) {
   EXPECT_NEAR(figures.all().between->evenness->counting_cv, 1 / std::sqrt(120), 1e-12);
 }
 
+TEST(RowFigures, OfAMixturesSliceAreOfSlicesByVolume) {
+  Scene scene = tray_in_space(1);
+  scene.space = Space::plane;
+  scene.lots[0].diameter = 1e-3, scene.lots[0].number_fraction = 216.0 / 217;
+  scene.lots.push_back({.name = "pea", .diameter = 6e-3, .mass = 8.64e-3, .number_fraction = 1.0 / 217});
+  const DrillFigures figures = figures_of(scene, evenly(scene, {80}), a_hole_a_row(1));
+  EXPECT_NEAR(*figures.rows[0].seeds_per_s, 10 * 0.06 / (12e-3 / 7), 1e-9) << "by number it were 586";
+}
+
 TEST(RowFigures, SpacingsAreSpeedTimesTime) {
   const Scene scene = tray_in_space(2);
   vibrosow::Run run = made_up_run(scene);

@@ -113,6 +113,19 @@ grep -q "across_mm" in-space/summary.csv || fail "summary.csv of a run in space 
 expect 0 "tray.holes.shape: in the plane a round hole is taken for a slot" check seeder.toml --set "tray.holes.shape=round"
 expect 2 "tray.depth: is missing" run seeder.toml --set "space=3d"
 expect 2 "for one seeder, not for a study" check study.toml --both
+# A key of one space is there for the other: a round hole lets less out than a slot from front to back, by --set and by the file, from the
+# plane and from space.
+ratio() { "$program" check seeder.toml --both --set "tray.depth=4 cm" --set "tray.fill.count=$1" --set "space=$2" --set "tray.holes.shape=$3" 2>/dev/null | awk '/plane over space/ { print $4 }'; }
+slot=$(ratio 60 plane slot) round=$(ratio 60 plane round) back=$(ratio 600 3d round)
+awk -v slot="$slot" -v round="$round" -v back="$back" 'BEGIN { exit !(slot > 0 && round > 1.5 * slot && back > 1.5 * slot) }' ||
+  fail "plane over space: $slot of slots, $round of round holes, $back of the same from space"
+# A lot that was asked for is there, or is refused in the same words by all.
+sed 's/^mass = "40 mg"/mass = "40 mg"\nmass_fraction = "50 %"\n[seeds.pea]\ndiameter = "14 mm"\nmass = "1700 mg"\nmass_fraction = "50 %"/' seeder.toml >mixture.toml
+sed 's/"seeder.toml"/"mixture.toml"/' study.toml >mixtures.toml
+fewer=(--set tray.fill.count=16 --set "tray.holes.width=17 mm")
+gone="tray.fill.count: of 16 seeds none is of pea: 2.3 % of the seeds, 50 % of their mass, were asked for; from 44 seeds on there is one"
+for command in "check mixture.toml" "run mixture.toml --out gone" "sweep mixtures.toml --out gone"; do expect 2 "$gone" $command "${fewer[@]}"; done
+expect 2 "^vibrosow: mixture.toml:[0-9]+: tray.fill.count: of 40 seeds none is of pea" check mixture.toml
 expect 0 "hole 1 at 20.00 mm" check seeder.toml --set "tray.holes.count=" --set 'tray.holes.at=["20 mm"]'
 expect 0 "^vibrosow: warning: tray.holes.width: 3 mm is narrower" check seeder.toml --set "tray.holes.width=3 mm"
 expect 0 "^vibrosow: warning: tray.holes.width: 3 mm is narrower" sweep study.toml --out narrow --set "tray.holes.width=3 mm"

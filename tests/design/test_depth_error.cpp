@@ -6,7 +6,6 @@
 #include <stdexcept>
 
 #include "input/read_scene.hpp"
-#include "scene/input_error.hpp"
 #include "study_files.hpp"
 
 namespace vibrosow {
@@ -30,8 +29,8 @@ Run slow_in_space(const Model& model, const SimulationOptions& options) {
 
 TEST(DepthError, IsThePlanesTrayAgainstTheTrayInSpace) {
   const StudyFiles files;
-  const Scene scene = read_scene(files.seeder());
-  const auto found = measure_depth_error(scene, 3, slow_in_space, one_job());
+  const auto [plane, space] = read_in_both_spaces(files.seeder());
+  const auto found = measure_depth_error(plane, space, 3, slow_in_space, one_job());
   ASSERT_TRUE(found);
   // 63, 66 and 69 seeds of 40 mg in 2 s, by random seed; Student's t of two degrees of freedom is 4.3027.
   const double slice = 33 * 40e-6, relative = 4.3027 * 3 / std::sqrt(3.0) / 66;
@@ -43,21 +42,19 @@ TEST(DepthError, IsThePlanesTrayAgainstTheTrayInSpace) {
 
 TEST(DepthError, NoneOfRunsOutsideTheModel) {
   const StudyFiles files;
-  const Scene scene = read_scene(files.seeder());
+  const auto [plane, space] = read_in_both_spaces(files.seeder());
   const Simulator outside = [](const Model& model, const SimulationOptions& options) {
     vibrosow::Run run = slow_in_space(model, options);
     run.outside_the_model = model.scene.space == Space::three_dimensional;
     return run;
   };
-  EXPECT_FALSE(measure_depth_error(scene, 2, outside, one_job()));
+  EXPECT_FALSE(measure_depth_error(plane, space, 2, outside, one_job()));
 }
 
-TEST(DepthError, NeedsADepthAndTwoRuns) {
+TEST(DepthError, NeedsTwoRuns) {
   const StudyFiles files;
-  Scene scene = read_scene(files.seeder());
-  EXPECT_THROW(measure_depth_error(scene, 1, slow_in_space, one_job()), std::invalid_argument);
-  scene.tray.depth.reset();
-  EXPECT_THROW(measure_depth_error(scene, 2, slow_in_space, one_job()), InputError);
+  const auto [plane, space] = read_in_both_spaces(files.seeder());
+  EXPECT_THROW(measure_depth_error(plane, space, 1, slow_in_space, one_job()), std::invalid_argument);
 }
 
 }  // namespace

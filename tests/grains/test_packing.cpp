@@ -220,15 +220,6 @@ TEST(Packing, EachGrainHasItsOwnSizeAndEachClumpItsAngle) {
   }
 }
 
-TEST(Packing, LotsComeInExactShares) {
-  EXPECT_EQ(lot_counts(two_lots(), 714), (std::vector<int>{500, 214}));
-  EXPECT_EQ(lot_counts(one_lot(), 714), (std::vector<int>{714}));
-  const std::vector<SeedLot> thirds{
-      {"a", 1, 1, Shape::ball, 1.0 / 3}, {"b", 1, 1, Shape::ball, 1.0 / 3}, {"c", 1, 1, Shape::ball, 1.0 / 3}};
-  const std::vector<int> counts = lot_counts(thirds, 100);
-  EXPECT_EQ(std::accumulate(counts.begin(), counts.end(), 0), 100);
-}
-
 TEST(Packing, LotsComeMixed) {
   const std::vector<SeedLot> halves{{"a", diameter, 4e-5, Shape::ball, 0.5}, {"b", diameter, 4e-5, Shape::ball, 0.5}};
   for (const Packing packing : {Packing::poured, Packing::layers}) {

@@ -57,14 +57,14 @@ TEST(Rows, OfSeveralLotsComePerLotAndTogether) {
                        {"1", "wheat"}, {"1", "pea"}, {"1", "all"}, {"all", "wheat"}, {"all", "pea"}, {"all", "all"}}));
   EXPECT_DOUBLE_EQ(find_row(outflow, "1", "pea")->mass, 250e-6);
   EXPECT_DOUBLE_EQ(find_row(outflow, "all", "all")->mass, 290e-6);
-  EXPECT_DOUBLE_EQ(*outflow.depth_factor, 0.06 / 5e-3);
+  EXPECT_DOUBLE_EQ(*outflow.depth_factor, 0.06 / ((0.75 * 64 + 0.25 * 512) / (0.75 * 16 + 0.25 * 64) * 1e-3));
 }
 
-TEST(DepthFactor, IsOfTheMeanThickness) {
+TEST(DepthFactor, IsOfTheSlicesThickness) {
   Scene scene = made_up_scene(1);
   scene.tray.depth = 0.06;
   scene.lots[0].sizes = {SizeDistribution::Kind::table, scene.lots[0].diameter, 0, 0, 0, {4e-3, 8e-3}, {0.5, 0.5}};
-  EXPECT_NEAR(*measure_outflow(scene, made_up_run(scene)).depth_factor, 0.06 / 6e-3, 1e-12);
+  EXPECT_NEAR(*measure_outflow(scene, made_up_run(scene)).depth_factor, 0.06 / 7.2e-3, 1e-12) << "the Sauter mean";
   scene.lots[0].sizes = {};
   scene.lots[0].shape = Shape::clump;
   scene.lots[0].discs = {{-1e-3, 0, 1.5e-3}, {1e-3, 0, 1e-3}};

@@ -9,6 +9,7 @@
 namespace vibrosow {
 namespace {
 
+using testing::AllOf;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
@@ -52,6 +53,46 @@ TEST(SceneWarnings, ASoundSceneHasNone) {
   EXPECT_THAT(scene_warnings(scene), IsEmpty());
   scene.tray.rain = Rain{200, 0, 0.5, 0.12};
   EXPECT_THAT(scene_warnings(scene), IsEmpty());
+}
+
+SeedLot ball(const std::string& name, double size, double fraction) {
+  SeedLot lot;
+  lot.name = name, lot.diameter = size, lot.number_fraction = fraction;
+  lot.mass = 1200 * std::numbers::pi / 6 * std::pow(size, 3);
+  return lot;
+}
+
+TEST(SceneWarnings, AMixtureThatIsNotTheOneAskedFor) {
+  Scene scene = sound();
+  scene.lots = {ball("clover", 2e-3, 0.995), ball("pea", 6e-3, 0.005)};
+  scene.tray.fill->count = 500;  // 2.5 peas
+  ASSERT_EQ(scene_warnings(scene).size(), 1u);
+  EXPECT_THAT(scene_warnings(scene)[0],
+              AllOf(StartsWith("tray.fill.count: of 500 seeds 2 are of pea: 0.4 % by number instead of 0.5 %, "),
+                    HasSubstr("by mass instead of 11.9 %")));
+  scene.tray.fill->count = 2000;
+  EXPECT_THAT(scene_warnings(scene), IsEmpty());
+  scene.tray.rain = Rain{.rate = 20, .from = 0, .to = 0.5, .height = 0.12};
+  EXPECT_THAT(scene_warnings(scene), ElementsAre(HasSubstr("the rain brings 1 seeds of pea on average")));
+  scene.tray.rain->rate = 200;
+  EXPECT_THAT(scene_warnings(scene), IsEmpty());
+}
+
+TEST(SceneWarnings, ABedOfTheSlicesThatCannotBe) {
+  Scene scene = sound();
+  scene.tray.depth = 0.06;
+  scene.lots = {ball("clover", 1e-3, 216.0 / 217), ball("pea", 6e-3, 1.0 / 217)};
+  scene.tray.fill->count = 10850;
+  EXPECT_THAT(scene_warnings(scene), IsEmpty());
+  // A seed of one large disc with a long tail of tiny ones is as thick as that nowhere else.
+  scene.lots = {ball("tailed", 1e-3, 1)};
+  scene.lots[0].shape = Shape::clump;
+  scene.lots[0].discs = {{0, 0, 1e-3}};
+  for (int k = 0; k < 40; ++k) scene.lots[0].discs.push_back({1.1e-3 + 3e-4 * k, 0, 2e-4});
+  scene.lots[0].mass = 5e-6;
+  ASSERT_EQ(scene_warnings(scene).size(), 1u);
+  EXPECT_THAT(scene_warnings(scene)[0], AllOf(StartsWith("tray.depth: slices 2 mm thick make a bed of"),
+                                              HasSubstr("% of the seeds' own density")));
 }
 
 TEST(SceneWarnings, DensityThatNoSeedHas) {
