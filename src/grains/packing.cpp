@@ -4,9 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
-#include "grains/places.hpp"
+#include "grains/free_room.hpp"
 #include "grains/pour.hpp"
 #include "grains/size_distribution.hpp"
 #include "grains/turned_discs.hpp"
@@ -41,12 +40,6 @@ std::vector<int> shuffled_lots(const std::vector<SeedLot>& lots, int count, Rand
   return order;
 }
 
-bool is_on_a_piece(const std::vector<WallSegment>& walls, const Eigen::Vector2d& seat, double clear) {
-  return std::any_of(walls.begin(), walls.end(), [&](const WallSegment& wall) {
-    return wall.is_piece && distance_to_wall(wall, seat) < 0.5 * clear;
-  });
-}
-
 /// Whether a grain of `radius` at `seat` does not lie within its drum.
 bool is_outside_of_drum(const Vessel& vessel, const Eigen::Vector2d& seat, double radius) {
   constexpr double slack = 1e-3;  // of the radius
@@ -54,14 +47,23 @@ bool is_outside_of_drum(const Vessel& vessel, const Eigen::Vector2d& seat, doubl
   return drum != nullptr && (seat - drum->centre).norm() + (1 - slack) * radius >= drum->radius;
 }
 
-/// Seeds are poured into a drum as if its upper half were not there.
-Vessel without_lid(Vessel vessel) {
-  if (const WallPiece* drum = drum_of(vessel)) {
-    WallPiece& piece = vessel.pieces[static_cast<std::size_t>(drum - vessel.pieces.data())];
-    piece.from = std::numbers::pi, piece.to = 2 * std::numbers::pi;
+/// Where in a vessel a row may have a place.
+class Seats {
+ public:
+  Seats(const Vessel& vessel, const std::vector<SeedLot>& lots, Space space)
+      : vessel_(vessel), obstacles_(vessel, space), room_(vessel, space, smallest_radius(lots)) {}
+
+  /// Whether a ball of diameter `clear` (m) has room at `seat`.
+  bool take(const Eigen::Vector3d& seat, double clear) const {
+    return obstacles_.distance(seat) >= 0.5 * clear && !is_outside_of_drum(vessel_, seat.head<2>(), 0.5 * clear) &&
+           room_.holds(seat);
   }
-  return vessel;
-}
+
+ private:
+  const Vessel& vessel_;
+  Obstacles obstacles_;
+  FreeRoom room_;
+};
 
 /// Places side by side along one direction of a vessel.
 struct Row {
@@ -97,14 +99,14 @@ std::vector<PackedGrain> pack_rows(const Vessel& vessel, const std::vector<SeedL
   const RowPlan plan(*vessel.fill, lots, 2);
   const Row row(vessel.length, plan.clear);
   if (row.places < 2) refuse_fill(vessel);
-  const std::vector<WallSegment> walls = vessel_walls(vessel);
+  const Seats seats(vessel, lots, Space::plane);
   std::vector<PackedGrain> packed;
   double y = highest_floor(vessel) + 0.5 * plan.clear;
   for (int layer = 0; packed.size() < order.size(); ++layer, y += plan.rise(0.5 * row.spacing)) {
     const bool offset = plan.hexagonal && layer % 2 == 1;
     for (int k = 0; k < row.of_layer(offset) && packed.size() < order.size(); ++k) {
       const double x = row.at(k, offset);
-      if (is_on_a_piece(walls, {x, y}, plan.clear) || is_outside_of_drum(vessel, {x, y}, 0.5 * plan.clear)) continue;
+      if (!seats.take({x, y, 0}, plan.clear)) continue;
       const double dx = plan.shift * random.uniform(-1, 1), dy = plan.shift * random.uniform(-1, 1);
       const int lot = order[packed.size()];
       const SeedLot& seeds = lots[static_cast<std::size_t>(lot)];
@@ -122,7 +124,7 @@ std::vector<PackedGrain> pack_layers(const Vessel& vessel, const std::vector<See
   const RowPlan plan(*vessel.fill, lots, 3);
   const Row along(vessel.length, plan.clear), across(*vessel.depth, plan.clear);
   if (along.places < 2 || across.places < (plan.hexagonal ? 2 : 1)) refuse_fill(vessel);
-  const Obstacles obstacles(vessel);
+  const Seats seats(vessel, lots, Space::three_dimensional);
   const double rise = plan.rise(0.5 * FloorPlace(along.spacing, across.spacing).norm());
   std::vector<PackedGrain> packed;
   double y = 0.5 * plan.clear;
@@ -132,8 +134,7 @@ std::vector<PackedGrain> pack_layers(const Vessel& vessel, const std::vector<See
     for (int k = 0; k < in_layer && packed.size() < order.size(); ++k) {
       const FloorPlace place(along.at(k % in_row, offset), across.at(k / in_row, offset));
       if (between_ends(vessel, 0.5 * plan.clear * (1 - 1e-9), place) != place) continue;
-      if (obstacles.distance({place.x(), y, place.y()}) < 0.5 * plan.clear) continue;
-      if (is_outside_of_drum(vessel, {place.x(), y}, 0.5 * plan.clear)) continue;
+      if (!seats.take({place.x(), y, place.y()}, plan.clear)) continue;
       const double dx = plan.shift * random.uniform(-1, 1), dy = plan.shift * random.uniform(-1, 1);
       const double dz = plan.shift * random.uniform(-1, 1);
       const int lot = order[packed.size()];
@@ -151,7 +152,7 @@ constexpr std::size_t large_bed = 20000;  // grains whose state is more than a c
 std::vector<PackedGrain> pack_poured(const Vessel& vessel, const std::vector<SeedLot>& lots, Space space,
                                      const std::vector<int>& order, Random& random, StopRequest stop) {
   const auto poured = space == Space::plane ? pour : pour_in_space;
-  std::vector<PackedGrain> grains = poured(without_lid(vessel), lots, order, random, stop);
+  std::vector<PackedGrain> grains = poured(vessel, lots, order, random, stop);
   for (const PackedGrain& grain : grains)
     for (const ClumpDisc& disc : turned_discs(lots[static_cast<std::size_t>(grain.lot)], grain.size, grain.turned))
       if (is_outside_of_drum(vessel, {grain.x + disc.x, grain.y + disc.y}, disc.radius)) refuse_fill(vessel);

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
+#include <numbers>
 
 #include "vessel/nearest_on_face.hpp"
 
@@ -104,19 +106,49 @@ double random_across(const Vessel& vessel, double radius, double x, Random& rand
   return random.uniform(margin, *vessel.depth - margin);
 }
 
-Obstacles::Obstacles(const Vessel& vessel)
-    : walls_({at_zero(vessel, false)}, Space::three_dimensional),
-      funnel_({at_zero(vessel, true)}, Space::three_dimensional) {
-  for (const PlacedFace& face : walls_.placed_faces()) faces_.push_back(&face);
+Vessel without_lid(Vessel vessel) {
+  if (const WallPiece* drum = drum_of(vessel)) {
+    WallPiece& piece = vessel.pieces[static_cast<std::size_t>(drum - vessel.pieces.data())];
+    piece.from = std::numbers::pi, piece.to = 2 * std::numbers::pi;
+  }
+  return vessel;
+}
+
+Obstacles::Obstacles(const Vessel& vessel, Space space) {
+  if (space == Space::plane) {
+    std::ranges::copy_if(vessel_walls(vessel), std::back_inserter(segments_), [](const WallSegment& wall) {
+      const Eigen::Vector2d along = wall.b - wall.a;
+      return wall.is_piece || (along.x() != 0 && along.y() != 0);
+    });
+    return;
+  }
+  pieces_.emplace(std::vector{at_zero(vessel, false)}, Space::three_dimensional);
+  for (const PlacedFace& face : pieces_->placed_faces()) faces_.push_back(&face);
   if (vessel.funnel == 0) return;
-  for (const PlacedFace& face : funnel_.placed_faces())
+  funnel_.emplace(std::vector{at_zero(vessel, true)}, Space::three_dimensional);
+  for (const PlacedFace& face : funnel_->placed_faces())
     if (slopes(*face.own)) faces_.push_back(&face);
 }
 
 double Obstacles::distance(const Eigen::Vector3d& centre) const {
-  double nearest2 = infinite;
+  double nearest = infinite, nearest2 = infinite;
+  for (const WallSegment& wall : segments_) nearest = std::min(nearest, distance_to_wall(wall, centre.head<2>()));
   for (const PlacedFace* face : faces_) nearest2 = std::min(nearest2, nearest_on_face(*face, centre).distance2);
-  return std::sqrt(nearest2);
+  return std::min(nearest, std::sqrt(nearest2));
+}
+
+double Obstacles::top() const {
+  double top = 0;
+  for (const WallSegment& wall : segments_)
+    top = std::max({top, wall.a.y(), wall.b.y(), wall.radius > 0 ? wall.centre.y() + wall.radius : 0});
+  for (const PlacedFace* placed : faces_) {
+    const Face& face = *placed->own;
+    const double plate = std::max(0.0, face.length_u * face.e1.y()) + std::max(0.0, face.length_v * face.e2.y());
+    const double axis = std::max(face.height_a * face.normal.y(), face.height_b * face.normal.y());
+    const double aside = std::max(face.radius_a, face.radius_b) * std::hypot(face.e1.y(), face.e2.y());
+    top = std::max(top, face.origin.y() + (face.kind == Face::Kind::plate ? plate : axis + aside));
+  }
+  return top;
 }
 
 double Obstacles::touching_height(const FloorPlace& place, double radius, double from, double least) const {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <optional>
 #include <vector>
 
 #include "grains/random.hpp"
@@ -30,22 +31,30 @@ FloorPlace random_place(const Vessel& vessel, double radius, Random& random);
 /// ends.
 double random_across(const Vessel& vessel, double radius, double x, Random& random);
 
-/// What stands in the way of seeds in a vessel in space beside its level floor and its upright walls: funnels and
-/// pieces, in the vessel's own frame.
+/// Seeds come into a drum as if its upper half were not there; any other vessel is itself.
+Vessel without_lid(Vessel vessel);
+
+/// What stands in the way of seeds in a vessel beside its level floor and its upright walls: funnels and pieces, in the
+/// vessel's own frame; in the plane z counts for nothing.
 class Obstacles {
  public:
-  explicit Obstacles(const Vessel& vessel);
+  Obstacles(const Vessel& vessel, Space space);
+
+  bool none() const { return segments_.empty() && faces_.empty(); }
 
   /// m, from a centre to the nearest of them; infinite where there are none.
   double distance(const Eigen::Vector3d& centre) const;
+
+  /// m, a height that none of them reaches beyond; 0 where there are none.
+  double top() const;
 
   /// Height of the centre of a ball that falls from `from` at `place` when it first touches one, at least `least`; it
   /// may stop a thousandth of its radius short. Infinite where it would begin inside one.
   double touching_height(const FloorPlace& place, double radius, double from, double least) const;
 
  private:
-  Walls walls_;  // the pieces
-  Walls funnel_;
+  std::vector<WallSegment> segments_;     // in the plane
+  std::optional<Walls> pieces_, funnel_;  // in space
   std::vector<const PlacedFace*> faces_;
 };
 

@@ -5,6 +5,7 @@
 #include <limits>
 #include <numbers>
 
+#include "grains/places.hpp"
 #include "grains/size_distribution.hpp"
 #include "grains/turned_discs.hpp"
 #include "scene/seed_lot.hpp"
@@ -168,13 +169,17 @@ std::vector<Eigen::Vector2d> points_along(const WallSegment& wall, double pitch)
 }
 
 /// Fixed points along the sloping walls and the pieces, so close that a grain between two of them stays within 1/800 of
-/// its radius of the wall, and never overlaps it.
+/// its radius of the wall, and never overlaps it. An arc bulges between two points towards a grain outside of it; in a
+/// drum there is none.
 void add_slopes(Heap& heap, const Vessel& vessel, double smallest_radius) {
   const double pitch = 0.1 * smallest_radius;
-  const double inflation = pitch * pitch / (8 * smallest_radius);
-  for (const WallSegment& wall : vessel_walls(vessel)) {
+  const WallPiece* drum = drum_of(vessel);
+  for (const WallSegment& wall : vessel_walls(without_lid(vessel))) {
     const Eigen::Vector2d along = wall.b - wall.a;
     if (!wall.is_piece && (along.x() == 0 || along.y() == 0)) continue;
+    const bool of_drum = drum != nullptr && wall.radius == drum->radius && wall.centre == drum->centre;
+    const double curvature = wall.radius > 0 && !of_drum ? 1 / wall.radius : 0;
+    const double inflation = pitch * pitch / (8 * smallest_radius) + pitch * pitch / 8 * curvature;
     for (const Eigen::Vector2d& p : points_along(wall, pitch)) {
       const bool beside = p.x() < -0.1 * vessel.length || p.x() > 1.1 * vessel.length;
       if (!beside) heap.add({p.x(), p.y(), inflation});

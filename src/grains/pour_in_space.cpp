@@ -3,8 +3,8 @@
 #include <limits>
 #include <utility>
 
+#include "grains/free_room.hpp"
 #include "grains/heap_in_space.hpp"
-#include "grains/places.hpp"
 #include "grains/pour.hpp"
 #include "grains/size_distribution.hpp"
 #include "grains/turned_discs.hpp"
@@ -28,8 +28,11 @@ struct Lying {
 /// The lowest place that is found near where a seed is dropped. One that rolls or tips goes downhill all the way too.
 class LowestPlace {
  public:
-  LowestPlace(const Vessel& vessel, const HeapInSpace& heap, const Obstacles& obstacles)
-      : vessel_(vessel), heap_(heap), obstacles_(obstacles) {}
+  LowestPlace(const Vessel& vessel, const std::vector<SeedLot>& lots, const HeapInSpace& heap)
+      : vessel_(vessel),
+        heap_(heap),
+        obstacles_(without_lid(vessel), Space::three_dimensional),
+        room_(vessel, Space::three_dimensional, smallest_radius(lots)) {}
 
   Lying find(const SeedLot& seeds, double size, Random& random) const {
     constexpr double first = 1, growth = 1.6;  // step, in radii, and after one down
@@ -76,12 +79,18 @@ class LowestPlace {
       const double least = height + ball.y, from = std::max(least, vessel_.height - ball.radius);
       height = std::max(height, obstacles_.touching_height(place, ball.radius, from, least) - ball.y);
     }
+    // What reaches over the top, from where seeds fall, may shelter a place.
+    const ClumpDisc& first = seed.balls.front();
+    const FloorPlace place = seed.place_of(first, vessel_);
+    if (height < limit && obstacles_.top() > vessel_.height && !room_.holds({place.x(), height + first.y, place.y()}))
+      return std::numeric_limits<double>::infinity();
     return height;
   }
 
   const Vessel& vessel_;
   const HeapInSpace& heap_;
-  const Obstacles& obstacles_;
+  Obstacles obstacles_;
+  FreeRoom room_;
 };
 
 }  // namespace
@@ -89,8 +98,7 @@ class LowestPlace {
 std::vector<PackedGrain> pour_in_space(const Vessel& vessel, const std::vector<SeedLot>& lots,
                                        const std::vector<int>& order, Random& random, StopRequest stop) {
   HeapInSpace heap(vessel, largest_disc(lots));
-  const Obstacles obstacles(vessel);
-  const LowestPlace lowest(vessel, heap, obstacles);
+  const LowestPlace lowest(vessel, lots, heap);
   std::vector<PackedGrain> packed;
   for (const int lot : order) {
     stop.throw_if_set();

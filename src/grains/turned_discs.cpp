@@ -26,6 +26,16 @@ std::vector<ClumpDisc> turned_discs(const SeedLot& lot, double size, const Turn&
   return discs;
 }
 
+/// In space first about the upright axis, x towards z, then about the axis across, as `point_in_lab` does.
+Turn turn_in_lab(const Vessel& vessel, const Pose& pose, const Turn& own) {
+  const double angle = vessel.tilt + pose.angle;
+  if (angle == 0 && pose.turn == 0) return own;
+  const auto [sine, cosine] = elementary::sine_cosine(0.5 * angle);
+  const auto [turn_sine, turn_cosine] = elementary::sine_cosine(0.5 * pose.turn);
+  const Orientation about_z{cosine, 0, 0, sine}, about_y{turn_cosine, 0, -turn_sine, 0};
+  return {own.angle + angle, of_unit_length(about_z * (about_y * own.orientation))};
+}
+
 double largest_disc(const std::vector<SeedLot>& lots) {
   double largest = 0;
   for (const SeedLot& lot : lots)

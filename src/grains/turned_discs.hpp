@@ -4,12 +4,16 @@
 
 #include "grains/orientation.hpp"
 #include "scene/scene.hpp"
+#include "vessel/pose.hpp"
 
 namespace vibrosow {
 
 /// The discs of a seed of `size` (of its lot's diameter) as it is turned, m from its centre; in space its balls. Of a
 /// seed that is no clump, itself.
 std::vector<ClumpDisc> turned_discs(const SeedLot& lot, double size, const Turn& turned);
+
+/// How a seed that is turned so in its vessel's frame is turned in the lab.
+Turn turn_in_lab(const Vessel& vessel, const Pose& pose, const Turn& own);
 
 /// Diameter of the largest disc, in space ball, that there can be, alone or in a clump, m.
 double largest_disc(const std::vector<SeedLot>& lots);

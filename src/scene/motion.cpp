@@ -64,6 +64,11 @@ bool turns(const VesselMotion& motion) {
   return std::holds_alternative<RockingMotion>(motion) || std::holds_alternative<TurningMotion>(motion);
 }
 
+bool turns_over(const Vessel& vessel) {
+  const auto* turning = vessel.motion ? std::get_if<TurningMotion>(&*vessel.motion) : nullptr;
+  return turning != nullptr && turning->axis == TurningAxis::across;
+}
+
 bool turns_steadily(const Vessel& vessel) {
   return vessel.motion && std::holds_alternative<TurningMotion>(*vessel.motion);
 }

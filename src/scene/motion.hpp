@@ -18,6 +18,9 @@ bool moves_across(const VesselMotion& motion);
 /// Whether the vessel turns over and over: its own frame then does not say what is left and right, or even up.
 bool turns_steadily(const Vessel& vessel);
 
+/// Whether it does so about the axis across, so that its floor does not stay below.
+bool turns_over(const Vessel& vessel);
+
 /// "10 mm at 9 Hz", for people.
 std::string motion_text(const VesselMotion& motion);
 

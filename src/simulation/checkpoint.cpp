@@ -114,8 +114,12 @@ void serialize(Archive& archive, Turn& t) {
   archive(t.angle, t.orientation.w, t.orientation.x, t.orientation.y, t.orientation.z);
 }
 template <class Archive>
+void serialize(Archive& archive, DrawnSeed& s) {
+  archive(s.lot, s.size, s.turned);
+}
+template <class Archive>
 void serialize(Archive& archive, FeederState::Shower& s) {
-  archive(s.random, s.arrived, s.next_lot, s.next_size, s.next_turn);
+  archive(s.random, s.arrived, s.next);
 }
 template <class Archive>
 void serialize(Archive& archive, FeederState& s) {

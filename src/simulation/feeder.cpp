@@ -7,6 +7,7 @@
 
 #include "grains/places.hpp"
 #include "grains/size_distribution.hpp"
+#include "scene/motion.hpp"
 #include "scene/seed_lot.hpp"
 #include "simulation/counter.hpp"
 #include "vessel/vessel_motion.hpp"
@@ -14,8 +15,17 @@
 namespace vibrosow {
 namespace {
 
+constexpr double wall_slack = 1e-9;  // of a seed's radius: of what lies on a floor
+
+/// The vessel's frame, or of one that turns over and over that at rest: the heap lies where its floor was.
+Pose upright_frame(const Vessel& vessel, const Pose& pose) {
+  return turns_over(vessel) ? Pose{} : pose;
+}
+
+}  // namespace
+
 /// Grains of one vessel, in its own frame; in the plane z is 0.
-struct Inside {
+struct Feeder::Inside {
   bool in_space = false;
   int grains = 0;
   std::vector<Eigen::Vector3d> at;
@@ -36,18 +46,22 @@ struct Inside {
   }
 };
 
+namespace {
+
 Eigen::Vector3d place_of(const Grains& grains, std::size_t i) {
   return {grains.x[i], grains.y[i], grains.in_space ? grains.z[i] : 0.0};
 }
 
+}  // namespace
+
 /// Those whose centre is in the vessel count; others that reach into it, at an outlet or over its edge, are in the way.
-Inside grains_inside(const Vessel& vessel, const Pose& pose, const Grains& grains, const std::vector<char>& touching,
-                     double largest_diameter) {
+Feeder::Inside Feeder::grains_inside(const Vessel& vessel, const Pose& pose, const Grains& grains,
+                                     const std::vector<char>& touching) const {
   Inside inside;
   inside.in_space = grains.in_space;
   for (std::size_t i = 0; i < grains.size(); ++i) {
     const Eigen::Vector3d own = point_in_vessel(vessel, pose, place_of(grains, i));
-    const double reach = grains.kind(i).radius + largest_diameter;
+    const double reach = grains.kind(i).radius + model_.largest_diameter;
     if (own.x() < -reach || own.x() > vessel.length + reach || own.y() < -reach || own.y() > vessel.height + reach)
       continue;
     if (grains.in_space && (own.z() < -reach || own.z() > *vessel.depth + reach)) continue;
@@ -57,28 +71,41 @@ Inside grains_inside(const Vessel& vessel, const Pose& pose, const Grains& grain
   return inside;
 }
 
-/// Lowest height above the heap at which a grain of `radius` at (x, z) is clear of all others: between those that are
-/// still falling if there is room, so that a heap which sinks fast can be fed fast.
-double free_height(const Inside& inside, const FloorPlace& place, double radius) {
-  constexpr double clearance = 1.01;
-  double height = radius;
-  std::vector<std::pair<double, double>> falling;  // m, heights taken by grains in the air
-  for (std::size_t k = 0; k < inside.at.size(); ++k) {
-    const double reach = clearance * (radius + inside.radius[k]), dx = place.x() - inside.at[k].x();
-    if (std::abs(dx) >= reach) continue;
-    const double dz = place.y() - inside.at[k].z(), left2 = reach * reach - dx * dx - dz * dz;
-    if (left2 <= 0) continue;
-    const double y = inside.at[k].y(), half = std::sqrt(left2);
-    if (inside.lies[k])
-      height = std::max(height, y + half);
-    else
-      falling.emplace_back(y - half, y + half);
+namespace {
+
+/// What a ball of `radius` over one place of the floor meets of the grains inside, by height.
+class Column {
+ public:
+  template <class Inside>
+  Column(const Inside& inside, const FloorPlace& place, double radius) : heap_(radius) {
+    constexpr double clearance = 1.01;
+    for (std::size_t k = 0; k < inside.at.size(); ++k) {
+      const double reach = clearance * (radius + inside.radius[k]), dx = place.x() - inside.at[k].x();
+      if (std::abs(dx) >= reach) continue;
+      const double dz = place.y() - inside.at[k].z(), left2 = reach * reach - dx * dx - dz * dz;
+      if (left2 <= 0) continue;
+      const double y = inside.at[k].y(), half = std::sqrt(left2);
+      if (inside.lies[k])
+        heap_ = std::max(heap_, y + half);
+      else
+        falling_.emplace_back(y - half, y + half);
+    }
+    std::sort(falling_.begin(), falling_.end());
   }
-  std::sort(falling.begin(), falling.end());
-  for (const auto& [low, high] : falling)
-    if (low < height) height = std::max(height, high);
-  return height;
-}
+
+  /// Lowest height of its centre above the heap, from `least` on, at which it is clear of all grains: between those
+  /// that are still falling if there is room, so that a heap which sinks fast can be fed fast.
+  double lowest(double least) const {
+    double height = std::max(least, heap_);
+    for (const auto& [low, high] : falling_)
+      if (low < height) height = std::max(height, high);
+    return height;
+  }
+
+ private:
+  double heap_;                                     // m
+  std::vector<std::pair<double, double>> falling_;  // m, heights taken by grains in the air
+};
 
 bool is_kept(const Vessel& vessel) {
   return vessel.fill && vessel.fill->keep;
@@ -90,27 +117,9 @@ std::int64_t arrivals(const Rain& rain, double time) {
   return lasted > 0 ? static_cast<std::int64_t>(std::floor(lasted * rain.rate * (1 + 1e-12))) : 0;
 }
 
-/// Whether a grain at `at` would touch nothing, a periodic tray's images included.
-bool is_clear(const Grains& grains, const Walls& walls, const Eigen::Vector3d& at, double radius) {
-  constexpr double clearance = 1.01;
-  const Vessel& tray = walls.vessels().front();
-  const double along = tray.sides == Sides::periodic ? tray.length : 0;
-  const double across = grains.in_space && tray.front_and_back == Sides::periodic ? *tray.depth : 0;
-  for (std::size_t i = 0; i < grains.size(); ++i) {
-    Eigen::Vector3d apart = place_of(grains, i) - at;
-    if (along > 0) apart.x() = std::remainder(apart.x(), along);
-    if (across > 0) apart.z() = std::remainder(apart.z(), across);
-    const double reach = clearance * (radius + grains.kind(i).radius);
-    if (apart.squaredNorm() < reach * reach) return false;
-  }
-  for (std::size_t wall = 0; wall < walls.count(); ++wall)
-    if (!walls.is_removed(wall) && std::sqrt(walls.distance2(wall, at)) < radius * (1 - 1e-9)) return false;
-  return true;
-}
-
 }  // namespace
 
-Feeder::Feeder(const Model& model, FeederState& state) : model_(model), state_(state) {
+Feeder::Feeder(const Model& model, FeederState& state) : model_(model), state_(state), places_(model) {
   for (const Vessel& vessel : model.vessels) {
     feeds_ = feeds_ || is_kept(vessel);
     rains_ = rains_ || vessel.rain;
@@ -127,6 +136,18 @@ int Feeder::draw_lot(Random& random) const {
   return static_cast<int>(model_.scene.lots.size()) - 1;
 }
 
+DrawnSeed Feeder::draw(Random& random) const {
+  DrawnSeed seed{.lot = draw_lot(random)};
+  const SeedLot& seeds = model_.scene.lots[static_cast<std::size_t>(seed.lot)];
+  seed.size = draw_size(seeds, random);
+  seed.turned = draw_turn(seeds, random);
+  return seed;
+}
+
+double Feeder::radius_of(const DrawnSeed& seed) const {
+  return 0.5 * seed.size * model_.scene.lots[static_cast<std::size_t>(seed.lot)].diameter;
+}
+
 void Feeder::note_waiting(const Vessel& vessel, int waiting, double time) {
   constexpr double noted_fraction = 0.25;
   if (!state_.warning.empty() || waiting <= noted_fraction * vessel.fill->count) return;
@@ -135,34 +156,57 @@ void Feeder::note_waiting(const Vessel& vessel, int waiting, double time) {
       vessel.name, waiting, vessel.fill->count, time);
 }
 
+std::optional<double> Feeder::free_height(const Inside& inside, const FloorPlace& place, double radius, std::size_t v,
+                                          const Walls& walls) const {
+  constexpr double least_rise = 0.01, rise_outside = 0.25;  // of the radius
+  const Vessel& vessel = walls.vessels()[v];
+  const Pose frame = upright_frame(vessel, walls.poses()[v]);
+  const Column column(inside, place, radius);
+  for (double y = column.lowest(0); y + radius <= vessel.height;) {
+    const Eigen::Vector3d at = point_in_lab(vessel, frame, {place.x(), y, place.y()});
+    const double depth = places_.depth_in_walls(at, radius, walls);
+    const bool clear = depth <= wall_slack * radius;
+    if (clear && places_.belong(at, v, walls)) return y;
+    // Nothing nearer is clear of the wall, or beyond the wall that shuts the place off.
+    y = column.lowest(y + (clear ? std::max(-depth, rise_outside * radius) : std::max(depth, least_rise * radius)));
+  }
+  return std::nullopt;
+}
+
+void Feeder::put(const DrawnSeed& seed, const Eigen::Vector3d& at, const Eigen::Vector3d& velocity, std::size_t v,
+                 const Walls& walls, Grains& grains) {
+  const std::size_t lot = static_cast<std::size_t>(seed.lot);
+  grains.add(at, velocity, seed.lot, sized_kind(model_.scene.lots[lot], *model_.law, model_.kinds[lot], seed.size),
+             seed.turned);
+  if (fault_) return;
+  const std::size_t i = grains.size() - 1;
+  if (const auto fault = places_.fault(grains, i, v, walls)) fault_ = placing_fault(model_, grains, i, *fault);
+}
+
 int Feeder::top_up(Grains& grains, const std::vector<char>& touching, const Walls& walls, double time) {
   int added = 0;
   for (std::size_t v = 0; v < walls.vessels().size(); ++v) {
     const Vessel& vessel = walls.vessels()[v];
     if (!is_kept(vessel)) continue;
-    const Pose pose = walls.poses()[v];
+    const Pose pose = walls.poses()[v], frame = upright_frame(vessel, pose);
     const PoseRate rate = walls.rate(v, time);
-    Inside inside = grains_inside(vessel, pose, grains, touching, model_.largest_diameter);
+    Inside inside = grains_inside(vessel, frame, grains, touching);
     const int missing = vessel.fill->count - inside.grains;
     int waiting = 0;
     for (int k = 0; k < missing; ++k) {
-      const int lot = draw_lot(state_.random);
-      const SeedLot& seeds = model_.scene.lots[static_cast<std::size_t>(lot)];
-      const double size = draw_size(seeds, state_.random);
-      const Turn turned = draw_turn(seeds, state_.random);
-      const double radius = 0.5 * size * seeds.diameter;
+      const DrawnSeed seed = draw(state_.random);
+      const double radius = radius_of(seed);
       const FloorPlace place = grains.in_space ? random_place(vessel, radius, state_.random)
                                                : FloorPlace(state_.random.uniform(radius, vessel.length - radius), 0);
-      const double y = free_height(inside, place, radius);
-      if (y + radius > vessel.height) {
+      const std::optional<double> y = free_height(inside, place, radius, v, walls);
+      if (!y) {
         ++waiting;
         continue;
       }
-      const Eigen::Vector3d own(place.x(), y, place.y());
+      const Eigen::Vector3d own(place.x(), *y, place.y());
       inside.add(vessel, own, radius, false);
-      const Eigen::Vector3d at = point_in_lab(vessel, pose, own);
-      const GrainKind kind = sized_kind(seeds, *model_.law, model_.kinds[static_cast<std::size_t>(lot)], size);
-      grains.add(at, point_velocity(vessel, pose, rate, at), lot, kind, turned);
+      const Eigen::Vector3d at = point_in_lab(vessel, frame, own);
+      put(seed, at, point_velocity(vessel, pose, rate, at), v, walls, grains);
       ++added;
     }
     note_waiting(vessel, waiting, time);
@@ -173,42 +217,50 @@ int Feeder::top_up(Grains& grains, const std::vector<char>& touching, const Wall
 int Feeder::rain(Grains& grains, const Walls& walls, double time) {
   int added = 0;
   for (std::size_t v = 0; v < walls.vessels().size(); ++v)
-    if (walls.vessels()[v].rain)
-      added += rain(walls.vessels()[v], state_.showers[v], grains, walls,
-                    steady_frame(walls.vessels()[v], walls.poses()[v]), time);
+    if (walls.vessels()[v].rain) added += rain(v, grains, walls, time);
   return added;
 }
 
-void Feeder::draw_next(Shower& shower) const {
-  shower.next_lot = draw_lot(shower.random);
-  const SeedLot& seeds = model_.scene.lots[static_cast<std::size_t>(shower.next_lot)];
-  shower.next_size = draw_size(seeds, shower.random);
-  shower.next_turn = draw_turn(seeds, shower.random);
-}
-
-int Feeder::rain(const Vessel& vessel, Shower& shower, Grains& grains, const Walls& walls, const Pose& pose,
-                 double time) {
+int Feeder::rain(std::size_t v, Grains& grains, const Walls& walls, double time) {
+  const Vessel& vessel = walls.vessels()[v];
   const Rain& rain = *vessel.rain;
+  const Pose frame = steady_frame(vessel, walls.poses()[v]);
+  FeederState::Shower& shower = state_.showers[v];
   const std::int64_t waiting = arrivals(rain, time) - shower.arrived;
   int added = 0;
   for (std::int64_t k = 0; k < waiting; ++k) {
-    if (shower.next_lot < 0) draw_next(shower);
-    const std::size_t lot = static_cast<std::size_t>(shower.next_lot);
-    const double radius = 0.5 * shower.next_size * model_.scene.lots[lot].diameter;
+    if (!shower.next) shower.next = draw(shower.random);
+    const double radius = radius_of(*shower.next);
     const double margin = vessel.sides == Sides::walls ? std::min(radius, 0.5 * vessel.length) : 0;
     const double from = std::clamp(rain.from, margin, vessel.length - margin);
     const double to = std::clamp(rain.to, margin, vessel.length - margin);
     const double x = shower.random.uniform(from, to);
     const double z = grains.in_space ? random_across(vessel, radius, x, shower.random) : 0;
-    const Eigen::Vector3d at = point_in_lab(vessel, pose, {x, rain.height, z});
-    if (!is_clear(grains, walls, at, radius)) continue;
-    const GrainKind kind = sized_kind(model_.scene.lots[lot], *model_.law, model_.kinds[lot], shower.next_size);
-    grains.add(at, Eigen::Vector3d::Zero(), shower.next_lot, kind, shower.next_turn);
-    shower.next_lot = -1;
+    const Eigen::Vector3d at = point_in_lab(vessel, frame, {x, rain.height, z});
+    const bool clear = places_.is_clear_of_grains(at, radius, grains) &&
+                       places_.depth_in_walls(at, radius, walls) <= wall_slack * radius;
+    if (!clear || !places_.belong(at, v, walls)) continue;
+    put(*shower.next, at, Eigen::Vector3d::Zero(), v, walls, grains);
+    shower.next.reset();
     ++shower.arrived;
     ++added;
   }
   return added;
+}
+
+std::vector<std::string> Feeder::warnings(double time) const {
+  constexpr double noted_fraction = 0.05;
+  std::vector<std::string> warnings;
+  if (!state_.warning.empty()) warnings.push_back(state_.warning);
+  for (std::size_t v = 0; v < state_.showers.size(); ++v) {
+    const std::optional<Rain>& rain = model_.vessels[v].rain;
+    if (!rain) continue;
+    const std::int64_t due = arrivals(*rain, time), waiting = due - state_.showers[v].arrived;
+    if (waiting > 1 && static_cast<double>(waiting) > noted_fraction * static_cast<double>(due))
+      warnings.push_back(fmt::format("{}.rain falls behind: {} of {} seeds still wait at {:.4g} s, for want of room",
+                                     model_.vessels[v].name, waiting, due, time));
+  }
+  return warnings;
 }
 
 }  // namespace vibrosow

@@ -1,21 +1,27 @@
 #pragma once
 
+#include <optional>
 #include <string>
+#include <vector>
 
+#include "grains/places.hpp"
+#include "simulation/seed_places.hpp"
 #include "simulation/state.hpp"
 #include "vessel/walls.hpp"
 
 namespace vibrosow {
 
-/// Puts grains in during a run.
+/// Puts grains in during a run: where it is clear of every grain and wall and belongs to the vessel (`SeedPlaces`), and
+/// only there. Each is looked at once more when it is in (`fault`).
 ///
-/// Rain: see `Rain`; the arrivals up to now, lots drawn by the fractions. Only a place clear of every grain and wall is
-/// taken; each waiting grain is tried once each time, at another place.
+/// Rain: see `Rain`; the arrivals up to now, lots drawn by the fractions. Each waiting grain is tried once each time,
+/// at another place.
 ///
-/// Keeps vessels topped up (`fill.keep`): each missing grain is laid just above the heap at a random place, at rest
-/// with its vessel, of a lot drawn by the fractions, its size and how a clump is turned drawn too. Where the heap
-/// reaches the vessel's top there is no room, and it waits. Grains of the heap touch others (`touching`, one flag a
-/// grain); between those that are still falling there may be room.
+/// Keeps vessels topped up (`fill.keep`): each missing grain is laid above the heap, as low as there is room, at a
+/// random place of the floor, at rest with its vessel, of a lot drawn by the fractions, its size and how a clump is
+/// turned drawn too; a clump takes the room of the circle that holds it. Where there is none below the vessel's top, it
+/// waits. Grains of the heap touch others (`touching`, one flag a grain); between those that are still falling there
+/// may be room.
 class Feeder {
  public:
   Feeder(const Model& model, FeederState& state);
@@ -30,18 +36,31 @@ class Feeder {
   /// Adds what has rained up to `time` (s); returns how many grains were added at the end of `grains`.
   int rain(Grains& grains, const Walls& walls, double time);
 
-  /// That more than a quarter of a fill was missing, and since when; empty if it never was.
-  const std::string& warning() const { return state_.warning; }
+  /// What was wrong with how a grain was put in, of the first that was; none: nothing ever.
+  const std::optional<std::string>& fault() const { return fault_; }
+
+  /// That more than a quarter of a fill was missing, and since when; that more than a twentieth of the rain that was
+  /// due by `time` (s) still waits.
+  std::vector<std::string> warnings(double time) const;
 
  private:
-  using Shower = FeederState::Shower;
-  int rain(const Vessel& vessel, Shower& shower, Grains& grains, const Walls& walls, const Pose& pose, double time);
+  struct Inside;
+  Inside grains_inside(const Vessel& vessel, const Pose& frame, const Grains& grains,
+                       const std::vector<char>& touching) const;
+  std::optional<double> free_height(const Inside& inside, const FloorPlace& place, double radius, std::size_t vessel,
+                                    const Walls& walls) const;
+  int rain(std::size_t vessel, Grains& grains, const Walls& walls, double time);
+  void put(const DrawnSeed& seed, const Eigen::Vector3d& at, const Eigen::Vector3d& velocity, std::size_t vessel,
+           const Walls& walls, Grains& grains);
   int draw_lot(Random& random) const;
-  void draw_next(Shower& shower) const;
+  DrawnSeed draw(Random& random) const;
+  double radius_of(const DrawnSeed& seed) const;
   void note_waiting(const Vessel& vessel, int waiting, double time);
 
   const Model& model_;
   FeederState& state_;
+  SeedPlaces places_;
+  std::optional<std::string> fault_;
   bool feeds_ = false, rains_ = false;
 };
 

@@ -8,6 +8,7 @@
 
 #include "elementary/functions.hpp"
 #include "grains/turning_clump.hpp"
+#include "simulation/seed_places.hpp"
 
 namespace vibrosow {
 namespace {
@@ -71,12 +72,8 @@ double potential_energy(const Grains& grains, const Eigen::Vector2d& gravity) {
 
 namespace {
 
-/// "grain 17 (wheat) at x 12.3 mm, y 4.5 mm"
 std::string told(const Integration& s, std::size_t i) {
-  const Grains& g = s.grains;
-  const std::string& lot = s.model.scene.lots[static_cast<std::size_t>(g.lot[i])].name;
-  const std::string across = g.in_space ? fmt::format(", z {:.4g} mm", 1e3 * g.z[i]) : "";
-  return fmt::format("grain {} ({}) at x {:.4g} mm, y {:.4g} mm{}", g.id[i], lot, 1e3 * g.x[i], 1e3 * g.y[i], across);
+  return grain_text(s.model, s.grains, i);
 }
 
 double speed2(const Grains& g, std::size_t i) {
@@ -180,6 +177,9 @@ void Guard::watch_overlap(const Integration& s, double overlap) {
                                   ? "a wall"
                                   : fmt::format("grain {}", s.grains.id[static_cast<std::size_t>(deepest.partner)]);
     const std::size_t grain = static_cast<std::size_t>(deepest.grain);
+    if (s.state.step == 0)
+      return stop(fmt::format("{} was put {:.3g} of its radius deep into {}, before the first step", told(s, grain),
+                              overlap, other));
     const double whole = std::max(overlap, whole_impact(law_, deepest, speed_into(s, deepest)));
     stop(fmt::format(
         "the relative overlap reached {:.3g} at {:.4g} s (guard.stop_relative_overlap = {:.3g}): {} in {}; {}", overlap,

@@ -31,6 +31,8 @@ class Guard {
   void watch_step(const Integration& s);
   /// Now and then; takes the account of energy.
   void watch_energy(const Integration& s, EnergyAccount& account);
+  /// Stops the run for a reason found elsewhere.
+  void stop(std::string reason);
   /// The centres of these went through a wall.
   void watch_lost(const Integration& s, const std::vector<int>& grains);
 
@@ -41,7 +43,6 @@ class Guard {
   bool outside_the_model() const;
 
  private:
-  void stop(std::string reason);
   void watch_overlap(const Integration& s, double overlap);
   void watch_stride(const Integration& s);
   std::string stiff_enough(double relative_overlap, int lot) const;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <stdexcept>
 #include <utility>
 
@@ -275,6 +276,7 @@ void Simulation::feed(bool top_up, bool rain) {
   int added = 0;
   if (top_up) added += feeder_.top_up(state_.grains, field_.touching(), field_.walls(), state_.time);
   if (rain) added += feeder_.rain(state_.grains, field_.walls(), state_.time);
+  if (feeder_.fault()) guard_.stop(*feeder_.fault());
   if (added == 0) return;
   state_.run.balance.put_in += added;
   for (std::size_t i = state_.grains.size() - static_cast<std::size_t>(added); i < state_.grains.size(); ++i) {
@@ -317,7 +319,7 @@ Run Simulation::result() const {
     run.stop_reason = *guard_.stop_reason();
   }
   run.warnings = guard_.warnings();
-  if (!feeder_.warning().empty()) run.warnings.push_back(feeder_.warning());
+  std::ranges::move(feeder_.warnings(state_.time), std::back_inserter(run.warnings));
   run.outside_the_model = guard_.outside_the_model() || run.balance.lost > 0;
   run.let_pass = state_.guard.let_pass;
   run.steps = state_.step;

@@ -54,14 +54,19 @@ struct CounterState {
   std::vector<char> below;        // by grain: whether it is under the floor
 };
 
+/// A seed that is to be put in, its place apart.
+struct DrawnSeed {
+  int lot = 0;
+  double size = 1;  // of its lot's diameter
+  Turn turned{};    // in the lab
+};
+
 struct FeederState {
   /// The rain into one vessel so far.
   struct Shower {
     Random random;
     std::int64_t arrived = 0;
-    int next_lot = -1;  // of the grain that waits; -1: not drawn
-    double next_size = 1;
-    Turn next_turn{};
+    std::optional<DrawnSeed> next{};  // that waits; none: not drawn
   };
   Random random;
   std::vector<Shower> showers;  // by vessel
@@ -107,8 +112,9 @@ struct SimulationState {
 /// What a model's grains are kept in, with none in it.
 Grains no_grains(const Model& model);
 
-/// A model's fill in place, at rest in the lab or with its vessel. Throws InputError where it does not fit, or grains
-/// overlap at the start by more than the guard's warning allows, or in space; Interrupted where `stop` is set.
+/// A model's fill in place, at rest in the lab or with its vessel. Throws InputError where it does not fit, or two
+/// vessels' fills and walls are in each other's way; Interrupted where `stop` is set. A grain that the program placed
+/// wrongly is the guard's reason to stop before the first step.
 SimulationState starting_state(const Model& model, std::uint64_t random_seed, StopRequest stop = {});
 
 /// The same with grains placed by the caller, whatever they overlap.

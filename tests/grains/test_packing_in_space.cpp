@@ -68,7 +68,7 @@ struct Overlaps {
   double loosest = 1;  // the deepest of the grain where that is least
 
   Overlaps(const Vessel& v, const std::vector<PackedGrain>& grains, const std::vector<SeedLot>& lots) {
-    const Obstacles obstacles(v);
+    const Obstacles obstacles(v, Space::three_dimensional);
     const std::vector<PackedBall> balls = balls_of(grains, lots);
     std::vector<double> of_grain(grains.size(), -1);
     const auto note = [&](const PackedBall& a, double overlap) {

@@ -110,7 +110,8 @@ TEST(Feeder, SaysThatItFallsBehind) {
   const auto warning = [&] {
     Fed fed(scene);
     fed.feeder.top_up(fed.state.grains, {}, fed.walls, 0.5);
-    return fed.feeder.warning();
+    const std::vector<std::string> warnings = fed.feeder.warnings(0.5);
+    return warnings.empty() ? std::string() : warnings.front();
   };
   EXPECT_EQ(warning(), "");
   scene.tray.height = 8e-3;  // room for two layers of 300 balls' six

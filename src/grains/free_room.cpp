@@ -1,0 +1,152 @@
+#include "grains/free_room.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "vessel/vessel_walls.hpp"
+
+namespace vibrosow {
+namespace {
+
+/// Part of a seed's radius that a cell's centre keeps from every wall. Two neighbouring cells half a radius apart then
+/// never lie on two sides of one. Cells lie beside the middle of a passage: one as wide as the seed is always open, one
+/// of three fifths of that is closed.
+constexpr double kept_clear = 0.6;
+
+}  // namespace
+
+FreeRoom::FreeRoom(const Vessel& vessel, Space space, double least_radius)
+    : vessel_(vessel),
+      in_space_(space == Space::three_dimensional),
+      least_radius_(least_radius),
+      obstacles_(without_lid(vessel), space) {
+  top_ = std::max(vessel.height, obstacles_.top() + least_radius);
+}
+
+bool FreeRoom::is_in_plan(const Eigen::Vector3d& centre, double clear) const {
+  if (in_space_ && vessel_.plan == Plan::round) {
+    const double middle = 0.5 * vessel_.length;
+    return Eigen::Vector2d(centre.x() - middle, centre.z() - middle).norm() <= middle - clear;
+  }
+  const auto between = [clear](Sides sides, double at, double length) {
+    const double margin = sides == Sides::walls ? clear : 0;
+    return sides == Sides::periodic || (at >= margin && at <= length - margin);
+  };
+  return between(vessel_.sides, centre.x(), vessel_.length) &&
+         (!in_space_ || between(vessel_.front_and_back, centre.z(), *vessel_.depth));
+}
+
+bool FreeRoom::is_open_above(const Eigen::Vector3d& centre) const {
+  constexpr double slack = 1e-6, least_stride = 0.05;  // of the radius; a seed that slides up along a wall goes on
+  Eigen::Vector3d at = centre;
+  while (at.y() < top_) {
+    const double gap = obstacles_.distance(at) - least_radius_;
+    if (gap < -slack * least_radius_) return false;
+    at.y() += std::max(gap, least_stride * least_radius_);
+  }
+  return true;
+}
+
+bool FreeRoom::holds(const Eigen::Vector3d& centre) const {
+  if (!is_in_plan(centre, 0) || centre.y() < 0) return false;
+  if (const WallPiece* drum = drum_of(vessel_))
+    if ((centre.head<2>() - drum->centre).norm() > drum->radius) return false;
+  return obstacles_.none() || is_open_above(centre) || is_reached(centre);
+}
+
+/// The cells near enough that no wall can lie between.
+bool FreeRoom::is_reached(const Eigen::Vector3d& centre) const {
+  if (!grid_) grid_ = made_grid();
+  const double near = least_radius_ + kept_clear * grid_->radius;
+  const Eigen::Array3i own = (centre.array() / grid_->cell.array()).floor().cast<int>();
+  Eigen::Array3i reach = (near / grid_->cell.array()).ceil().cast<int>();
+  if (!in_space_) reach.z() = 0;
+  for (int k = -reach.z(); k <= reach.z(); ++k)
+    for (int j = -reach.y(); j <= reach.y(); ++j)
+      for (int i = -reach.x(); i <= reach.x(); ++i) {
+        const Eigen::Array3i at = own + Eigen::Array3i(i, j, k), kept = carried_over(at, *grid_);
+        if ((kept < 0).any() || (kept >= grid_->cells).any() || !grid_->reached[grid_->index(kept)]) continue;
+        Eigen::Vector3d apart = grid_->centre(at) - centre;
+        if (!in_space_) apart.z() = 0;
+        if (apart.norm() < near) return true;
+      }
+  return false;
+}
+
+Eigen::Array3i FreeRoom::carried_over(Eigen::Array3i at, const Grid& grid) const {
+  const auto within = [](int k, int cells) { return (k % cells + cells) % cells; };
+  if (vessel_.sides == Sides::periodic) at.x() = within(at.x(), grid.cells.x());
+  if (in_space_ && vessel_.front_and_back == Sides::periodic) at.z() = within(at.z(), grid.cells.z());
+  return at;
+}
+
+/// Looked at by blocks: where the middle of one is far from everything, all of it is free.
+std::vector<char> FreeRoom::free_cells(const Grid& grid) const {
+  constexpr int block = 4;
+  std::vector<char> free(static_cast<std::size_t>(grid.cells.cast<std::int64_t>().prod()), 0);
+  const double clear = kept_clear * grid.radius;
+  const auto distance = [&](Eigen::Vector3d at) {
+    if (!in_space_) at.z() = 0;
+    return obstacles_.distance(at);
+  };
+  for (int k = 0; k < grid.cells.z(); k += block)
+    for (int j = 0; j < grid.cells.y(); j += block)
+      for (int i = 0; i < grid.cells.x(); i += block) {
+        const Eigen::Array3i first(i, j, k), end = (first + block).min(grid.cells);
+        const Eigen::Vector3d middle = 0.5 * (first + end).cast<double>().matrix().cwiseProduct(grid.cell);
+        const Eigen::Vector3d half = 0.5 * (end - first).cast<double>().matrix().cwiseProduct(grid.cell);
+        const bool all_free = distance(middle) >= clear + half.norm();
+        for (int z = k; z < end.z(); ++z)
+          for (int y = j; y < end.y(); ++y)
+            for (int x = i; x < end.x(); ++x) {
+              const Eigen::Array3i at(x, y, z);
+              const Eigen::Vector3d centre = grid.centre(at);
+              const bool inside = is_in_plan(centre, clear) && (!vessel_.box || centre.y() >= clear);
+              free[grid.index(at)] = inside && (all_free || distance(centre) >= clear) ? 1 : 0;
+            }
+      }
+  return free;
+}
+
+void FreeRoom::flood(std::vector<char> free, Grid& grid) const {
+  grid.reached.assign(free.size(), 0);
+  std::vector<Eigen::Array3i> edge;
+  const auto reach = [&](const Eigen::Array3i& at) {
+    const Eigen::Array3i kept = carried_over(at, grid);
+    if ((kept < 0).any() || (kept >= grid.cells).any()) return;
+    const std::size_t cell = grid.index(kept);
+    if (!free[cell] || grid.reached[cell]) return;
+    grid.reached[cell] = 1;
+    edge.push_back(kept);
+  };
+  for (int k = 0; k < grid.cells.z(); ++k)
+    for (int i = 0; i < grid.cells.x(); ++i) reach({i, grid.cells.y() - 1, k});
+  while (!edge.empty()) {
+    const Eigen::Array3i at = edge.back();
+    edge.pop_back();
+    for (int axis = 0; axis < 3; ++axis)
+      for (const int step : {-1, 1}) {
+        Eigen::Array3i next = at;
+        next[axis] += step;
+        reach(next);
+      }
+  }
+}
+
+FreeRoom::Grid FreeRoom::made_grid() const {
+  constexpr double most_cells = 2e7;
+  const double depth = in_space_ ? *vessel_.depth : 0;
+  const double in_plane = vessel_.length * top_;
+  const double least_cell = in_space_ ? std::cbrt(in_plane * depth / most_cells) : std::sqrt(in_plane / most_cells);
+  const double cell = std::max(0.5 * least_radius_, least_cell);
+  Grid grid{.cell = Eigen::Vector3d::Constant(cell), .cells = Eigen::Array3i::Ones(), .radius = 2 * cell};
+  const Eigen::Array3d room(vessel_.length, top_ + grid.radius, depth);
+  grid.cells = (room / cell).ceil().cast<int>().max(1);
+  // Along a period just as many cells as fill it.
+  for (const int axis : {0, 2})
+    if (room[axis] > 0) grid.cell[axis] = room[axis] / grid.cells[axis];
+  flood(free_cells(grid), grid);
+  return grid;
+}
+
+}  // namespace vibrosow

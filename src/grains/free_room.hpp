@@ -1,0 +1,59 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+#include <vector>
+
+#include "grains/places.hpp"
+#include "scene/scene.hpp"
+
+namespace vibrosow {
+
+/// Where the seeds of a vessel may be put, in its own frame: what is connected with its open top by a way that the
+/// smallest seed can go, so nothing beneath a funnel or within a closed box of pieces. The lid of a drum counts as
+/// open. Nothing leads out through holes or open sides, and around again.
+class FreeRoom {
+ public:
+  /// `least_radius` (m): of the smallest seed.
+  FreeRoom(const Vessel& vessel, Space space, double least_radius);
+
+  /// Whether the centre of a seed that touches nothing (m) lies in the room, or above it.
+  bool holds(const Eigen::Vector3d& centre) const;
+
+  /// Whether it does, below the vessel's top.
+  bool holds_below_top(const Eigen::Vector3d& centre) const { return centre.y() <= vessel_.height && holds(centre); }
+
+ private:
+  /// Cells whose centres a seed can reach from the top.
+  struct Grid {
+    Eigen::Vector3d cell;  // m
+    Eigen::Array3i cells;
+    double radius;  // m, of the seed: larger than the smallest where there would be too many cells
+    std::vector<char> reached{};
+
+    std::size_t index(const Eigen::Array3i& at) const {
+      return static_cast<std::size_t>(at.x()) +
+             static_cast<std::size_t>(cells.x()) *
+                 (static_cast<std::size_t>(at.y()) +
+                  static_cast<std::size_t>(cells.y()) * static_cast<std::size_t>(at.z()));
+    }
+    Eigen::Vector3d centre(const Eigen::Array3i& at) const {
+      return (at.cast<double>() + 0.5).matrix().cwiseProduct(cell);
+    }
+  };
+  bool is_in_plan(const Eigen::Vector3d& centre, double clear) const;
+  bool is_open_above(const Eigen::Vector3d& centre) const;
+  bool is_reached(const Eigen::Vector3d& centre) const;
+  std::vector<char> free_cells(const Grid& grid) const;
+  Eigen::Array3i carried_over(Eigen::Array3i at, const Grid& grid) const;
+  void flood(std::vector<char> free, Grid& grid) const;
+  Grid made_grid() const;
+
+  Vessel vessel_;
+  bool in_space_;
+  double least_radius_, top_;
+  Obstacles obstacles_;
+  mutable std::optional<Grid> grid_;  // made when it is first asked for
+};
+
+}  // namespace vibrosow

@@ -1,0 +1,146 @@
+#include "simulation/seed_places.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "grains/turned_discs.hpp"
+#include "scene/motion.hpp"
+#include "scene/seed_lot.hpp"
+#include "vessel/vessel_motion.hpp"
+#include "vessel/vessel_walls.hpp"
+
+namespace vibrosow {
+namespace {
+
+constexpr double most_overlap = 1e-9;  // of a seed's radius, when it is put in
+
+Eigen::Vector3d centre_of(const Grains& grains, std::size_t i) {
+  return {grains.x[i], grains.y[i], grains.in_space ? grains.z[i] : 0.0};
+}
+
+Turn turn_of(const Grains& grains, std::size_t i) {
+  Turn turn;
+  if (!grains.oriented) return turn;
+  if (grains.in_space)
+    turn.orientation = grains.orientation(i);
+  else
+    turn.angle = grains.angle[i];
+  return turn;
+}
+
+Eigen::Vector3d arm(const ClumpDisc& ball) {
+  return {ball.x, ball.y, ball.z};
+}
+
+}  // namespace
+
+SeedPlaces::SeedPlaces(const Model& model) : model_(model) {
+  const double least_radius = smallest_radius(model.scene.lots);
+  for (const Vessel& vessel : model.vessels) rooms_.emplace_back(vessel, model.scene.space, least_radius);
+  const Vessel& tray = model.vessels.front();
+  if (tray.sides == Sides::periodic) along_ = tray.length;
+  if (model.scene.space == Space::three_dimensional && tray.front_and_back == Sides::periodic) across_ = *tray.depth;
+}
+
+Eigen::Vector3d SeedPlaces::own_place(const Eigen::Vector3d& at, std::size_t v, const Walls& walls) const {
+  return point_in_vessel(model_.vessels[v], walls.poses()[v], at);
+}
+
+bool SeedPlaces::is_in_room(const Eigen::Vector3d& at, std::size_t v, const Walls& walls) const {
+  if (rooms_[v].holds(own_place(at, v, walls))) return true;
+  const Vessel& vessel = model_.vessels[v];
+  return turns_over(vessel) && drum_of(vessel) == nullptr && rooms_[v].holds(point_in_vessel(vessel, {}, at));
+}
+
+bool SeedPlaces::belong(const Eigen::Vector3d& at, std::size_t v, const Walls& walls) const {
+  if (!is_in_room(at, v, walls)) return false;
+  for (std::size_t other = v + 1; other < rooms_.size(); ++other)
+    if (rooms_[other].holds_below_top(own_place(at, other, walls))) return false;
+  return true;
+}
+
+double SeedPlaces::depth_in_walls(const Eigen::Vector3d& at, double radius, const Walls& walls) const {
+  double nearest2 = std::numeric_limits<double>::infinity();
+  for (std::size_t wall = 0; wall < walls.count(); ++wall)
+    if (!walls.is_removed(wall)) nearest2 = std::min(nearest2, walls.distance2(wall, at));
+  return radius - std::sqrt(nearest2);
+}
+
+/// From a place to a grain, or the nearest of its images, m.
+Eigen::Vector3d SeedPlaces::apart(const Grains& grains, std::size_t i, const Eigen::Vector3d& at) const {
+  Eigen::Vector3d apart = centre_of(grains, i) - at;
+  if (along_ > 0) apart.x() = std::remainder(apart.x(), along_);
+  if (across_ > 0) apart.z() = std::remainder(apart.z(), across_);
+  return apart;
+}
+
+bool SeedPlaces::is_clear_of_grains(const Eigen::Vector3d& at, double radius, const Grains& grains) const {
+  constexpr double clearance = 1.01;
+  for (std::size_t i = 0; i < grains.size(); ++i) {
+    const double reach = clearance * (radius + grains.kind(i).radius);
+    if (apart(grains, i, at).squaredNorm() < reach * reach) return false;
+  }
+  return true;
+}
+
+std::vector<ClumpDisc> SeedPlaces::balls_of(const Grains& grains, std::size_t i) const {
+  const SeedLot& lot = model_.scene.lots[static_cast<std::size_t>(grains.lot[i])];
+  return turned_discs(lot, 2 * grains.kind(i).radius / lot.diameter, turn_of(grains, i));
+}
+
+std::optional<std::string> SeedPlaces::overlapped_grain(const Grains& grains, std::size_t i) const {
+  const Eigen::Vector3d at = centre_of(grains, i);
+  const double radius = grains.kind(i).radius;
+  const std::vector<ClumpDisc> balls = balls_of(grains, i);
+  for (std::size_t j = 0; j < grains.size(); ++j) {
+    const Eigen::Vector3d between = apart(grains, j, at);
+    if (j == i || between.norm() >= radius + grains.kind(j).radius) continue;
+    for (const ClumpDisc& other : balls_of(grains, j))
+      for (const ClumpDisc& ball : balls) {
+        const double overlap = ball.radius + other.radius - (between + arm(other) - arm(ball)).norm();
+        if (overlap > most_overlap * ball.radius)
+          return fmt::format("lies {:.3g} of its radius deep in grain {}", overlap / ball.radius, grains.id[j]);
+      }
+  }
+  return std::nullopt;
+}
+
+double SeedPlaces::relative_depth_in_walls(const Grains& grains, std::size_t i, const Walls& walls) const {
+  double deepest = -std::numeric_limits<double>::infinity();
+  for (const ClumpDisc& ball : balls_of(grains, i))
+    deepest = std::max(deepest, depth_in_walls(centre_of(grains, i) + arm(ball), ball.radius, walls) / ball.radius);
+  return deepest;
+}
+
+std::optional<std::string> SeedPlaces::fault_among_walls(const Grains& grains, std::size_t i, std::size_t vessel,
+                                                         const Walls& walls) const {
+  const double depth = relative_depth_in_walls(grains, i, walls);
+  if (depth > most_overlap) return fmt::format("lies {:.3g} of its radius deep in a wall", depth);
+  const Eigen::Vector3d at = centre_of(grains, i) + arm(balls_of(grains, i).front());
+  if (!is_in_room(at, vessel, walls))
+    return "lies where no seed comes to from the top of the " + model_.vessels[vessel].name;
+  return std::nullopt;
+}
+
+std::optional<std::string> SeedPlaces::fault(const Grains& grains, std::size_t i, std::size_t vessel,
+                                             const Walls& walls) const {
+  const std::optional<std::string> in_grain = overlapped_grain(grains, i);
+  return in_grain ? in_grain : fault_among_walls(grains, i, vessel, walls);
+}
+
+std::string placing_fault(const Model& model, const Grains& grains, std::size_t i, const std::string& fault) {
+  return fmt::format("{} was put in wrongly: it {}; a fault of how the program places seeds, not of the step",
+                     grain_text(model, grains, i), fault);
+}
+
+std::string grain_text(const Model& model, const Grains& grains, std::size_t i) {
+  const std::string& lot = model.scene.lots[static_cast<std::size_t>(grains.lot[i])].name;
+  const std::string across = grains.in_space ? fmt::format(", z {:.4g} mm", 1e3 * grains.z[i]) : "";
+  return fmt::format("grain {} ({}) at x {:.4g} mm, y {:.4g} mm{}", grains.id[i], lot, 1e3 * grains.x[i],
+                     1e3 * grains.y[i], across);
+}
+
+}  // namespace vibrosow

@@ -1,0 +1,95 @@
+// Where a vessel's seeds can come to from its open top.
+#include "grains/free_room.hpp"
+
+#include <gtest/gtest.h>
+
+#include <numbers>
+
+namespace vibrosow {
+namespace {
+
+constexpr double radius = 2e-3;  // m
+
+class Room : public testing::TestWithParam<Space> {
+ protected:
+  static Vessel box() {
+    Vessel v;
+    v.name = "tray";
+    v.length = 0.1, v.height = 0.06;
+    if (GetParam() == Space::three_dimensional) v.depth = 0.04;
+    return v;
+  }
+  static bool holds(const Vessel& v, double x, double y) {
+    return FreeRoom(v, GetParam(), radius).holds({x, y, v.depth.value_or(0) / 2});
+  }
+};
+INSTANTIATE_TEST_SUITE_P(Spaces, Room, testing::Values(Space::plane, Space::three_dimensional),
+                         [](const auto& info) { return info.param == Space::plane ? "plane" : "space"; });
+
+TEST_P(Room, OfABoxIsTheBox) {
+  EXPECT_TRUE(holds(box(), 0.05, 0.01));
+  EXPECT_TRUE(holds(box(), 0.05, 0.2)) << "over it";
+  EXPECT_FALSE(holds(box(), -0.01, 0.01));
+  EXPECT_FALSE(holds(box(), 0.05, -0.01));
+}
+
+TEST_P(Room, LiesOverTheSlopesOfAFunnel) {
+  Vessel v = box();
+  const double depth = v.depth.value_or(0);
+  v.holes = {{.centre = 0.05, .width = 0.02, .across = depth / 2, .across_length = depth}};
+  v.funnel = std::numbers::pi / 4;
+  EXPECT_TRUE(holds(v, 0.05, 0.003));
+  EXPECT_TRUE(holds(v, 0.01, 0.04));
+  EXPECT_FALSE(holds(v, 0.01, 0.01)) << "beneath";
+  EXPECT_FALSE(holds(v, 0.09, 0.01));
+}
+
+TEST_P(Room, GoesRoundAShelfAndThroughWhatASeedPasses) {
+  Vessel v = box();
+  v.pieces = {{.a = {0, 0.03}, .b = {0.09, 0.03}}};
+  EXPECT_TRUE(holds(v, 0.02, 0.01)) << "by way of a gap of 10 mm";
+  v.pieces[0].b.x() = 0.0977;
+  EXPECT_FALSE(holds(v, 0.02, 0.01)) << "a gap of 2.3 mm, for seeds of 4";
+  v.pieces[0].b.x() = 0.0959;
+  EXPECT_TRUE(holds(v, 0.02, 0.01)) << "a gap of 4.1 mm";
+}
+
+TEST_P(Room, IsNotWithinWhatIsClosed) {
+  Vessel v = box();
+  v.pieces = {{.centre = {0.05, 0.03}, .radius = 0.02, .from = 0, .to = 2 * std::numbers::pi}};
+  EXPECT_FALSE(holds(v, 0.05, 0.03));
+  EXPECT_TRUE(holds(v, 0.05, 0.005));
+  v.pieces[0].to = 1.9 * std::numbers::pi;  // a gap of 6 mm, on the right
+  EXPECT_TRUE(holds(v, 0.05, 0.03));
+}
+
+TEST_P(Room, OfADrumIsReachedAsIfItsUpperHalfWereOpen) {
+  Vessel v = box();
+  v.length = v.height = 0.06, v.box = false;
+  v.pieces = {{.centre = {0.03, 0.03}, .radius = 0.03, .from = 0, .to = 2 * std::numbers::pi},
+              {.centre = {0.03, 0.03}, .radius = 0.01, .from = 0, .to = 2 * std::numbers::pi}};
+  EXPECT_TRUE(holds(v, 0.03, 0.005));
+  EXPECT_TRUE(holds(v, 0.03, 0.055));
+  EXPECT_FALSE(holds(v, 0.03, 0.03)) << "in its shaft";
+  EXPECT_FALSE(holds(v, 0.002, 0.002)) << "in the corner beside it";
+}
+
+TEST_P(Room, ReachesUnderWhatStandsOverTheTop) {
+  Vessel v = box();
+  v.pieces = {{.a = {0.02, 0.05}, .b = {0.05, 0.08}}, {.a = {0.05, 0.08}, .b = {0.08, 0.05}}};
+  EXPECT_TRUE(holds(v, 0.05, 0.055)) << "a roof that is open below";
+  v.pieces.push_back({.a = {0.02, 0.05}, .b = {0.08, 0.05}});
+  EXPECT_FALSE(holds(v, 0.05, 0.06)) << "and one that is not";
+}
+
+TEST_P(Room, GoesOnAcrossPeriodicEnds) {
+  Vessel v = box();
+  v.sides = Sides::periodic;
+  v.pieces = {{.a = {0.03, 0}, .b = {0.03, 0.058}}, {.a = {0.03, 0.058}, .b = {0.1, 0.03}}};
+  EXPECT_TRUE(holds(v, 0.06, 0.01)) << "open to the next image's left part";
+  v.sides = Sides::walls;
+  EXPECT_FALSE(holds(v, 0.06, 0.01));
+}
+
+}  // namespace
+}  // namespace vibrosow
