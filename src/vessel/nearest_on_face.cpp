@@ -33,6 +33,14 @@ const RoundHole* hole_below(const Face& face, const Place& centre) {
   return nullptr;
 }
 
+/// Of a round plate, over none of its holes.
+NearestOnFace nearest_in_outline(const PlacedFace& face, const Place& centre) {
+  const double radius = 0.5 * face.own->length_u;
+  const double du = centre.u - radius, dv = centre.v - radius, distance = std::sqrt(du * du + dv * dv);
+  if (distance < radius) return at(face, centre, {centre.u, centre.v, 0}, true, centre.h);
+  return at(face, centre, {radius + radius * du / distance, radius + radius * dv / distance, 0}, false, centre.h);
+}
+
 NearestOnFace nearest_on_plate(const PlacedFace& face, const Place& centre) {
   const Face& own = *face.own;
   if (const RoundHole* hole = hole_below(own, centre)) {
@@ -41,6 +49,7 @@ NearestOnFace nearest_on_plate(const PlacedFace& face, const Place& centre) {
     const double cu = distance > 0 ? du / distance : 1, cv = distance > 0 ? dv / distance : 0;
     return at(face, centre, {hole->u + hole->radius * cu, hole->v + hole->radius * cv, 0}, false, centre.h);
   }
+  if (own.round) return nearest_in_outline(face, centre);
   const Place point{std::clamp(centre.u, 0.0, own.length_u), std::clamp(centre.v, 0.0, own.length_v), 0};
   const bool inside = centre.u > 0 && centre.u < own.length_u && centre.v > 0 && centre.v < own.length_v;
   return at(face, centre, point, inside, centre.h);

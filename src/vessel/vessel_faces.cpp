@@ -149,8 +149,7 @@ void add_floor(const Vessel& vessel, const Span& z, std::vector<Face>& faces) {
   faces.push_back(face);
 }
 
-/// A flat floor goes on under the wall to a square, a funnel is a cone round the one hole. A hole as wide as the vessel
-/// leaves no floor.
+/// A flat floor ends at the wall, a funnel is a cone round the one hole. A hole as wide as the vessel leaves no floor.
 void add_round_vessel(const Vessel& vessel, std::vector<Face>& faces) {
   const double radius = vessel.length / 2;
   const Vector middle(radius, 0, radius);
@@ -160,6 +159,7 @@ void add_round_vessel(const Vessel& vessel, std::vector<Face>& faces) {
         revolved(vessel.name + " funnel", PieceAxis::upright, middle, {outlet, 0}, {radius, highest_floor(vessel)}));
   } else if (vessel.holes.empty() || vessel.holes.front().width < vessel.length * (1 - 1e-9)) {
     add_floor(vessel, {0, vessel.length}, faces);
+    faces.back().round = true;
   }
   faces.push_back(revolved(vessel.name + " wall", PieceAxis::upright, middle, {radius, 0}, {radius, vessel.height}));
 }

@@ -27,8 +27,10 @@ Line arc(const Eigen::Vector3d& centre, const Eigen::Vector3d& e1, const Eigen::
 
 std::vector<Line> lines_of_plate(const Face& face) {
   const Eigen::Vector3d along = face.length_u * face.e1, up = face.length_v * face.e2;
-  std::vector<Line> lines = {
-      {face.origin, face.origin + along, face.origin + along + up, face.origin + up, face.origin}};
+  const Line outline =
+      face.round ? arc(face.origin + 0.5 * (along + up), face.e1, face.e2, 0.5 * face.length_u, 0, 2 * pi)
+                 : Line{face.origin, face.origin + along, face.origin + along + up, face.origin + up, face.origin};
+  std::vector<Line> lines = {outline};
   for (const RoundHole& hole : face.holes)
     lines.push_back(arc(face.origin + hole.u * face.e1 + hole.v * face.e2, face.e1, face.e2, hole.radius, 0, 2 * pi));
   return lines;

@@ -130,5 +130,17 @@ TEST(SpaceWalls, APeriodicFloorGoesOnWithItsHoles) {
   EXPECT_THAT(pushed_by(vessel, {-0.001, 0.0019, 0.031}), testing::ElementsAre(Eigen::Vector3d(0, -1, 0)));
 }
 
+TEST(SpaceWalls, ARoundVesselsFloorEndsAtItsWall) {
+  Vessel round = tray({{.centre = 0.02, .width = 0.01, .shape = HoleShape::round, .across = 0.03}});
+  round.plan = Plan::round, round.depth = round.length;
+  EXPECT_THAT(pushed_by(round, {0.045, 0.0019, 0.03}), testing::ElementsAre(Eigen::Vector3d(0, -1, 0)));
+  EXPECT_THAT(pushed_by(round, {0.03, 0.0019, 0.0581}),
+              testing::UnorderedElementsAre(Eigen::Vector3d(0, -1, 0), Eigen::Vector3d(0, 0, 1)));
+  EXPECT_THAT(pushed_by(round, {0.02, 0.0005, 0.03}), testing::IsEmpty()) << "over its hole";
+  EXPECT_EQ(pushed_by(round, {0.0235, 0.0005, 0.03}).size(), 1u) << "on the hole's rim";
+  EXPECT_THAT(pushed_by(round, {0.002, 0.0019, 0.002}), testing::IsEmpty()) << "in the corner of a square";
+  EXPECT_EQ(pushed_by(round, {0.03, -0.0005, -0.0015}).size(), 1u) << "floor and wall end in one rim";
+}
+
 }  // namespace
 }  // namespace vibrosow

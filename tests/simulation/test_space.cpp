@@ -214,5 +214,19 @@ TEST(Space, FrictionOneAndHardlyAnyReboundFallSilent) {
   EXPECT_THAT(run.result().warnings, testing::IsEmpty());
 }
 
+TEST(RoundFloor, WhatFallsBesideItIsSpilled) {
+  Bench bench(Space::three_dimensional);
+  bench.scene.tray.plan = Plan::round;
+  bench.scene.tray.holes = {{.centre = 0.3, .width = 0.05, .shape = HoleShape::round, .across = 0.5}};
+  bench.gravity = {0, -standard_gravity};
+  bench.place({0.05, 0.01, 0.05}).place({0.97, 0.01, 0.93}).place({0.15, 0.01, 0.5}).place({0.3, 0.01, 0.5});
+  Simulation& run = bench.start(1e-5);
+  run.steps(20000);
+  const vibrosow::Run result = run.result();
+  EXPECT_EQ(result.balance.spilled, 2) << "where a square would reach beyond the wall";
+  EXPECT_EQ(result.balance.counted, 1) << "through the hole";
+  EXPECT_EQ(result.balance.inside, 1);
+}
+
 }  // namespace
 }  // namespace vibrosow

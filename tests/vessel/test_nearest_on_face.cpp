@@ -46,6 +46,18 @@ Face random_plate() {
   return face;
 }
 
+Face random_round_plate() {
+  Face face;
+  face.round = true;
+  face.length_u = face.length_v = uniform(0.05, 0.2);
+  const double radius = 0.5 * face.length_u;
+  const int holes = *rc::gen::inRange(0, 3);
+  for (int k = 0; k < holes; ++k)
+    face.holes.push_back({radius * (1 + (k == 0 ? -0.5 : 0.5)), radius, uniform(0.1, 0.45) * radius});
+  turn_at_random(face);
+  return face;
+}
+
 Face random_revolved() {
   Face face;
   face.kind = Face::Kind::revolved;
@@ -75,7 +87,8 @@ std::vector<Eigen::Vector3d> points_of(const Face& face, int steps) {
   for (int i = 0; i <= steps; ++i)
     for (int k = 0; k <= steps; ++k) {
       const double u = face.length_u * i / steps, v = face.length_v * k / steps;
-      bool material = true;
+      bool material =
+          !face.round || std::hypot(u - 0.5 * face.length_u, v - 0.5 * face.length_v) <= 0.5 * face.length_u;
       for (const RoundHole& hole : face.holes) material &= std::hypot(u - hole.u, v - hole.v) >= hole.radius;
       if (material) add(u, v, 0);
     }
@@ -84,6 +97,10 @@ std::vector<Eigen::Vector3d> points_of(const Face& face, int steps) {
       const double angle = 2 * std::numbers::pi * k / (4 * steps);
       add(hole.u + hole.radius * std::cos(angle), hole.v + hole.radius * std::sin(angle), 0);
     }
+  for (int k = 0; face.round && k < 8 * steps; ++k) {
+    const double angle = 2 * std::numbers::pi * k / (8 * steps), radius = 0.5 * face.length_u;
+    add(radius * (1 + std::cos(angle)), radius * (1 + std::sin(angle)), 0);
+  }
   return points;
 }
 
@@ -106,6 +123,9 @@ void expect_nearest(const Face& face) {
 
 RC_GTEST_PROP(NearestOnFace, PlatesWithHoles, ()) {
   expect_nearest(random_plate());
+}
+RC_GTEST_PROP(NearestOnFace, RoundPlatesWithHoles, ()) {
+  expect_nearest(random_round_plate());
 }
 RC_GTEST_PROP(NearestOnFace, CylindersConesDiscsAndRings, ()) {
   expect_nearest(random_revolved());

@@ -51,6 +51,24 @@ TEST(FaceLines, OfASurfaceOfRevolutionAreItsRimsAndLinesBetweenThem) {
   }
 }
 
+TEST(FaceLines, OfARoundVesselsFloorAreItsRimAndItsHoles) {
+  Vessel vessel;
+  vessel.name = "tray", vessel.length = 0.2, vessel.height = 0.1, vessel.depth = 0.2, vessel.plan = Plan::round;
+  vessel.holes = {{.centre = 0.06, .width = 0.02, .shape = HoleShape::round, .across = 0.1}};
+  for (const Face& face : vessel_faces(vessel)) {
+    if (face.name != "tray floor 1") continue;
+    const auto lines = face_lines(face);
+    ASSERT_EQ(lines.size(), 2u);
+    for (const Eigen::Vector3d& at : lines[0]) {
+      EXPECT_NEAR(std::hypot(at.x() - 0.1, at.z() - 0.1), 0.1, 1e-15);
+      EXPECT_NEAR(at.y(), 0, 1e-15);
+    }
+    for (const Eigen::Vector3d& at : lines[1]) EXPECT_NEAR(std::hypot(at.x() - 0.06, at.z() - 0.1), 0.01, 1e-15);
+    return;
+  }
+  ADD_FAILURE() << "no floor";
+}
+
 TEST(LargestRadius, IsThatOfTheFurthestPointOfAPieceAboutEitherAxis) {
   for (const PieceAxis axis : {PieceAxis::upright, PieceAxis::along}) {
     Vessel vessel;
