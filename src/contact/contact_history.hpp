@@ -68,8 +68,9 @@ struct ContactHistories {
       if (touched[k]) place[k] = static_cast<int>(k);
   }
 
-  /// Entry `k` becomes entry `from_entry` of `from`, which has the same kinds, and counts as touched. `from` must be
-  /// other histories: of these the record at place `k` may be another entry's.
+  /// Entry `k` becomes entry `from_entry` of `from`, which has the same kinds, and counts as touched. `from` may be
+  /// these histories where each record lies at its own entry's place, as those of walls do; of pairs the record at
+  /// place `k` may be another entry's.
   void copy_entry(std::size_t k, const ContactHistories& from, std::size_t from_entry) {
     if (!slip.empty()) slip[k] = from.slip[from_entry], slip_speed[k] = from.slip_speed[from_entry];
     if (!roll.empty()) roll[k] = from.roll[from_entry], roll_speed[k] = from.roll_speed[from_entry];

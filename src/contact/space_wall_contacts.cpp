@@ -57,8 +57,8 @@ void SpaceWallFinder::find(const Grains& grains, std::span<const WallCandidate> 
   const std::size_t count = candidates.size();
   make_room(count, contacts);
   contacts.count = 0;
-  first_ = first;
-  nearest_.resize(count), touches_.assign(count, 0), close_.clear(), near_.clear();
+  nearest_.resize(count), close_.clear(), near_.clear();
+  touches_.begin(first, count);
   for (std::size_t c = 0; c < count; ++c) {
     const auto& [grain, wall, side] = candidates[c];
     const std::size_t i = static_cast<std::size_t>(grain);
@@ -74,41 +74,24 @@ void SpaceWallFinder::find(const Grains& grains, std::span<const WallCandidate> 
     while (to < near_.size() && candidates[near_[to]].grain == candidates[near_[from]].grain) ++to;
     const std::size_t i = static_cast<std::size_t>(candidates[near_[from]].grain);
     const Eigen::Vector3d centre = centre_of(grains, i);
-    const auto touch = [&](std::size_t c) {
-      touches_[c] = 1;
+    const auto push = [&](std::size_t c) {
       add(candidates[c], first + c, nearest_[c], faces[static_cast<std::size_t>(candidates[c].wall)], centre, contacts);
     };
-    if (to == from + 1)
-      touch(near_[from]);
-    else
-      touch_each_point_once(faces, candidates, centre, radius_of(grains, i), from, to, touch);
-  }
-}
-
-/// Faces touched inside first, then each other point that is on none of what pushes already.
-template <class Touch>
-void SpaceWallFinder::touch_each_point_once(const std::vector<PlacedFace>& faces,
-                                            std::span<const WallCandidate> candidates, const Eigen::Vector3d& centre,
-                                            double radius, std::size_t from, std::size_t to, Touch touch) {
-  constexpr double same_place = 1e-9;  // of the radius
-  pushing_.clear();
-  const auto push = [&](std::size_t c) {
-    pushing_.push_back(c);
-    touch(c);
-  };
-  for (std::size_t k = from; k < to; ++k)
-    if (nearest_[near_[k]].inside) push(near_[k]);
-  for (std::size_t k = from; k < to; ++k) {
-    const std::size_t c = near_[k];
-    if (nearest_[c].inside) continue;
-    const Eigen::Vector3d point = centre + nearest_[c].apart;
-    const bool known = std::ranges::any_of(pushing_, [&](std::size_t other) {
-      const PlacedFace& face = faces[static_cast<std::size_t>(candidates[other].wall)];
-      const double distance2 = nearest_[other].inside ? nearest_on_face(face, point).distance2
-                                                      : (nearest_[other].apart - nearest_[c].apart).squaredNorm();
-      return distance2 <= same_place * same_place * radius * radius;
-    });
-    if (!known) push(c);
+    if (to == from + 1) {
+      touches_.add(near_[from]);
+      push(near_[from]);
+      continue;
+    }
+    touched_.clear();
+    for (std::size_t k = from; k < to; ++k) {
+      const NearestOnFace& nearest = nearest_[near_[k]];
+      touched_.push_back({near_[k], nearest.apart, std::sqrt(nearest.distance2), nearest.inside});
+    }
+    const auto from_wall = [&](std::size_t c, const Eigen::Vector3d& apart) {
+      return nearest_on_face(faces[static_cast<std::size_t>(candidates[c].wall)], centre + apart).distance2;
+    };
+    for (const WallTouches::Touch& one : touches_.choose(touched_, radius_of(grains, i), from_wall))
+      push(one.candidate);
   }
 }
 
@@ -118,14 +101,6 @@ void SpaceWallFinder::watch_crossings(std::span<WallCandidate> candidates, std::
       candidates[c].side = nearest_[c].side;
     else if (nearest_[c].side * candidates[c].side < 0)
       crossed.push_back(candidates[c].grain);
-  }
-}
-
-void SpaceWallFinder::clear_parted(ContactHistories& histories) const {
-  if (histories.touched.empty()) return;
-  for (std::size_t c = 0; c < touches_.size(); ++c) {
-    if (histories.touched[first_ + c] && !touches_[c]) histories.forget(first_ + c);
-    histories.touched[first_ + c] = touches_[c];
   }
 }
 

@@ -3,19 +3,17 @@
 #include <span>
 #include <vector>
 
-#include "contact/contact_history.hpp"
 #include "contact/contact_list.hpp"
 #include "contact/kernels.hpp"
 #include "contact/space_data.hpp"
+#include "contact/wall_touches.hpp"
 #include "grains/grains.hpp"
 #include "vessel/nearest_on_face.hpp"
 
 namespace vibrosow {
 
-/// Looks through the candidates for balls that touch faces. A ball is pushed by every face whose inside it touches, and
-/// by an edge, a rim or a corner only where that point is on no face that pushes it already, and once where several
-/// faces share it. Candidates lie sorted by grain; ranges of them that part no grain's may be looked through side by
-/// side, each by a finder of its own.
+/// Looks through the candidates for balls that touch faces; WallTouches says which of these push. Candidates lie sorted
+/// by grain; ranges of them that part no grain's may be looked through side by side, each by a finder of its own.
 class SpaceWallFinder {
  public:
   /// Sets `contacts`, whose candidates are numbered from `first`.
@@ -26,21 +24,15 @@ class SpaceWallFinder {
   /// a change of side over the face is a crossing, noted in `crossed` (numbers of grains).
   void watch_crossings(std::span<WallCandidate> candidates, std::vector<int>& crossed) const;
 
-  /// Candidates of the last `find` that touched before and do not now have no history.
-  void clear_parted(ContactHistories& histories) const;
+  /// Of the last `find`.
+  const WallTouches& touches() const { return touches_; }
 
  private:
-  template <class Touch>
-  void touch_each_point_once(const std::vector<PlacedFace>& faces, std::span<const WallCandidate> candidates,
-                             const Eigen::Vector3d& centre, double radius, std::size_t from, std::size_t to,
-                             Touch touch);
-
-  std::size_t first_ = 0;
-  std::vector<std::size_t> close_;      // candidates that are not clear of a plate's plane
-  std::vector<NearestOnFace> nearest_;  // by candidate of the range, of those that are close
-  std::vector<unsigned char> touches_;  // by candidate
-  std::vector<std::size_t> near_;       // candidates nearer than a radius
-  std::vector<std::size_t> pushing_;    // candidates of one ball that push it
+  std::vector<std::size_t> close_;           // candidates that are not clear of a plate's plane
+  std::vector<NearestOnFace> nearest_;       // by candidate of the range, of those that are close
+  std::vector<std::size_t> near_;            // candidates nearer than a radius
+  std::vector<WallTouches::Touch> touched_;  // by one ball
+  WallTouches touches_;
 };
 
 /// Adds the forces of contacts to their balls, those of one ball added up among themselves first.

@@ -44,56 +44,47 @@ void WallContactFinder::find(const Grains& grains, std::span<const WallCandidate
   const std::size_t count = candidates.size();
   make_room(count, contacts);
   contacts.count = 0;
-  first_ = first;
-  nearest_.resize(count), touches_.resize(count), near_.resize(count + 1);
+  nearest_.resize(count), near_.resize(count + 1);
+  touches_.begin(first, count);
+  const auto wall_of = [&](std::size_t c) -> const PlacedWall& {
+    return walls[static_cast<std::size_t>(candidates[c].wall)];
+  };
+  const auto radius_of = [&](std::size_t i) {
+    return grains.polydisperse ? grains.radius[i] : grains.kinds.front().radius;
+  };
   std::size_t near = 0;
   for (std::size_t c = 0; c < count; ++c) {
     const std::size_t i = static_cast<std::size_t>(candidates[c].grain);
-    const double radius = grains.polydisperse ? grains.radius[i] : grains.kinds.front().radius;
+    const double radius = radius_of(i);
     nearest_[c] = nearest_point(walls[static_cast<std::size_t>(candidates[c].wall)], grains.x[i], grains.y[i]);
-    touches_[c] = 0;
     near_[near] = c;
     near += nearest_[c].distance2 < radius * radius ? 1 : 0;
   }
-  const auto touch = [&](std::size_t c) {
-    const std::size_t i = static_cast<std::size_t>(candidates[c].grain);
-    touches_[c] = 1;
-    add(candidates[c], first + c, nearest_[c], walls[static_cast<std::size_t>(candidates[c].wall)], grains.x[i],
-        grains.y[i], contacts);
-  };
   for (std::size_t from = 0, to = 0; from < near; from = to) {
     while (to < near && candidates[near_[to]].grain == candidates[near_[from]].grain) ++to;
-    if (to == from + 1)
-      touch(near_[from]);
-    else
-      touch_each_point_once(candidates, walls, from, to, touch);
-  }
-}
-
-/// Faces first, then each end point once and only where no touched face ends in it.
-template <class Touch>
-void WallContactFinder::touch_each_point_once(std::span<const WallCandidate> candidates,
-                                              const std::vector<PlacedWall>& walls, std::size_t from, std::size_t to,
-                                              Touch touch) {
-  covered_.clear();
-  for (std::size_t k = from; k < to; ++k) {
-    const std::size_t c = near_[k];
-    if (nearest_[c].vertex >= 0) continue;
-    const PlacedWall& wall = walls[static_cast<std::size_t>(candidates[c].wall)];
-    covered_.push_back(wall.vertex_a), covered_.push_back(wall.vertex_b);
-    touch(c);
-  }
-  for (std::size_t k = from; k < to; ++k) {
-    const int vertex = nearest_[near_[k]].vertex;
-    if (vertex < 0 || std::ranges::find(covered_, vertex) != covered_.end()) continue;
-    covered_.push_back(vertex);
-    touch(near_[k]);
+    const std::size_t i = static_cast<std::size_t>(candidates[near_[from]].grain);
+    const double x = grains.x[i], y = grains.y[i];
+    const auto push = [&](std::size_t c) { add(candidates[c], first + c, nearest_[c], wall_of(c), x, y, contacts); };
+    if (to == from + 1) {
+      touches_.add(near_[from]);
+      push(near_[from]);
+      continue;
+    }
+    touched_.clear();
+    for (std::size_t k = from; k < to; ++k) {
+      const NearestPoint& nearest = nearest_[near_[k]];
+      touched_.push_back({near_[k], {nearest.dx, nearest.dy, 0}, std::sqrt(nearest.distance2), nearest.inside});
+    }
+    const auto from_wall = [&](std::size_t c, const Eigen::Vector3d& apart) {
+      return nearest_point(wall_of(c), x + apart.x(), y + apart.y()).distance2;
+    };
+    for (const WallTouches::Touch& one : touches_.choose(touched_, radius_of(i), from_wall)) push(one.candidate);
   }
 }
 
 void WallContactFinder::watch_crossings(std::span<WallCandidate> candidates, std::vector<int>& crossed) const {
   for (std::size_t c = 0; c < candidates.size(); ++c) {
-    if (nearest_[c].vertex >= 0)
+    if (!nearest_[c].inside)
       candidates[c].side = nearest_[c].side;
     else if (nearest_[c].side * candidates[c].side < 0)
       crossed.push_back(candidates[c].grain);
@@ -117,14 +108,6 @@ void add_wall_forces(const WallContacts& contacts, bool rotation, Forces& forces
 void add_wall_power(const WallContacts& contacts, double& power) {
   for (std::size_t k = 0; k < static_cast<std::size_t>(contacts.count); ++k)
     power -= contacts.fx[k] * contacts.wall_vx[k] + contacts.fy[k] * contacts.wall_vy[k];
-}
-
-void WallContactFinder::clear_parted(ContactHistories& histories) const {
-  if (histories.touched.empty()) return;
-  for (std::size_t c = 0; c < touches_.size(); ++c) {
-    if (histories.touched[first_ + c] && !touches_[c]) histories.forget(first_ + c);
-    histories.touched[first_ + c] = touches_[c];
-  }
 }
 
 }  // namespace vibrosow

@@ -3,17 +3,17 @@
 #include <span>
 #include <vector>
 
-#include "contact/contact_history.hpp"
 #include "contact/contact_list.hpp"
 #include "contact/kernels.hpp"
+#include "contact/wall_touches.hpp"
 #include "vessel/nearest_point.hpp"
 #include "vessel/placed_wall.hpp"
 
 namespace vibrosow {
 
-/// Looks through the candidates for grains that touch walls. A grain that touches a wall's face and an end point of the
-/// same wall is pushed by the face alone, and once by an end point that two walls share. Candidates lie sorted by
-/// grain; ranges of them that part no grain's may be looked through side by side, each by a finder of its own.
+/// Looks through the candidates for grains that touch walls; WallTouches says which of these push. Candidates lie
+/// sorted by grain; ranges of them that part no grain's may be looked through side by side, each by a finder of its
+/// own.
 class WallContactFinder {
  public:
   /// Sets `contacts`, whose candidates are numbered from `first`.
@@ -24,19 +24,14 @@ class WallContactFinder {
   /// side beside the wall is a crossing, noted in `crossed` (numbers of grains).
   void watch_crossings(std::span<WallCandidate> candidates, std::vector<int>& crossed) const;
 
-  /// Candidates of the last `find` that touched before and do not now have no history.
-  void clear_parted(ContactHistories& histories) const;
+  /// Of the last `find`.
+  const WallTouches& touches() const { return touches_; }
 
  private:
-  template <class Touch>
-  void touch_each_point_once(std::span<const WallCandidate> candidates, const std::vector<PlacedWall>& walls,
-                             std::size_t from, std::size_t to, Touch touch);
-
-  std::size_t first_ = 0;
-  std::vector<NearestPoint> nearest_;   // by candidate of the range
-  std::vector<unsigned char> touches_;  // likewise
-  std::vector<std::size_t> near_;       // candidates nearer than a radius; places to spare
-  std::vector<int> covered_;            // end points of one grain
+  std::vector<NearestPoint> nearest_;        // by candidate of the range
+  std::vector<std::size_t> near_;            // candidates nearer than a radius; places to spare
+  std::vector<WallTouches::Touch> touched_;  // by one grain
+  WallTouches touches_;
 };
 
 /// Adds the forces of contacts to their grains, those of one grain added up among themselves first, so that two walls

@@ -175,8 +175,9 @@ void ForceField::add_walls(Work RangeWork::*work, const Grains& grains, const Pl
     own.statistics = {};
     finder.find(grains, candidates, first, walls, contacts);
     finder.watch_crossings(candidates, own.statistics.crossed);
-    if (advance.commit > 0) finder.clear_parted(histories);
+    if (advance.commit > 0) finder.touches().renew(histories);
     add_figures(kernel(surfaces, at, model_.contacts, advance, histories, contacts), own.statistics);
+    if (advance.commit > 0) finder.touches().share(histories);
     add_forces(contacts);
     own.statistics.contacts = contacts.count;
   });

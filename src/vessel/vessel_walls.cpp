@@ -1,6 +1,7 @@
 #include "vessel/vessel_walls.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -10,28 +11,24 @@
 namespace vibrosow {
 namespace {
 
-/// A chain of wall segments; each vertex after the first closes a segment.
+/// A chain of wall segments; each point after the first closes a segment.
 class Chain {
  public:
   Chain(std::vector<WallSegment>& segments, double shortest) : segments_(segments), shortest_(shortest) {}
 
   /// Starts anew at `point`, joined to nothing.
-  void start(const Eigen::Vector2d& point) {
-    last_ = point;
-    ++vertex_;
-  }
+  void start(const Eigen::Vector2d& point) { last_ = point; }
 
   void line_to(const Eigen::Vector2d& point, const std::string& name) {
     if ((point - last_).norm() <= shortest_) return;
-    segments_.push_back({last_, point, vertex_, vertex_ + 1, name});
-    start(point);
+    segments_.push_back({last_, point, name});
+    last_ = point;
   }
 
  private:
   std::vector<WallSegment>& segments_;
   double shortest_;
   Eigen::Vector2d last_ = Eigen::Vector2d::Zero();
-  int vertex_ = -1;
 };
 
 double left_edge(const Hole& hole) {
@@ -118,42 +115,14 @@ class EndlessFloor {
   Eigen::Vector2d end_ = Eigen::Vector2d::Zero();
 };
 
-/// Gives walls that are added one by one the vertex numbers of the ends they meet.
-class Joiner {
- public:
-  Joiner(std::vector<WallSegment>& segments, double tolerance) : segments_(segments), tolerance_(tolerance) {}
-
-  void add(WallSegment wall) {
-    wall.vertex_a = vertex_at(wall.a);
-    wall.vertex_b = (wall.b - wall.a).norm() <= tolerance_ ? wall.vertex_a : vertex_at(wall.b, wall.vertex_a + 1);
-    segments_.push_back(std::move(wall));
-  }
-
- private:
-  int vertex_at(const Eigen::Vector2d& point, int least = 0) const {
-    int next = least;
-    for (const WallSegment& wall : segments_) {
-      if ((wall.a - point).norm() <= tolerance_) return wall.vertex_a;
-      if ((wall.b - point).norm() <= tolerance_) return wall.vertex_b;
-      next = std::max({next, wall.vertex_a + 1, wall.vertex_b + 1});
-    }
-    return next;
-  }
-
-  std::vector<WallSegment>& segments_;
-  double tolerance_;
-};
-
 Eigen::Vector2d on_arc(const WallPiece& arc, double angle) {
   return arc.centre + arc.radius * unit_vector(angle);
 }
 
 WallSegment segment_of(const WallPiece& piece, const Eigen::Vector2d& shift, const std::string& name) {
-  if (piece.radius == 0) return {piece.a + shift, piece.b + shift, 0, 0, name, true};
+  if (piece.radius == 0) return {piece.a + shift, piece.b + shift, name, true};
   return {on_arc(piece, piece.from) + shift,
           on_arc(piece, piece.to) + shift,
-          0,
-          0,
           name,
           true,
           piece.centre + shift,
@@ -163,7 +132,7 @@ WallSegment segment_of(const WallPiece& piece, const Eigen::Vector2d& shift, con
 }
 
 WallSegment gate(const Hole& hole, double shift, const std::string& name) {
-  WallSegment wall{{left_edge(hole) + shift, 0}, {right_edge(hole) + shift, 0}, 0, 0, name};
+  WallSegment wall{{left_edge(hole) + shift, 0}, {right_edge(hole) + shift, 0}, name};
   wall.opens_at = hole.open_at;
   return wall;
 }
@@ -174,15 +143,14 @@ std::vector<WallSegment> vessel_walls(const Vessel& vessel) {
   std::vector<WallSegment> walls;
   const bool periodic = vessel.sides == Sides::periodic;
   if (vessel.box) periodic ? EndlessFloor(vessel, walls).add() : add_box(vessel, walls);
-  Joiner joiner(walls, shortest(vessel));
   for (int copy = periodic ? -1 : 0; copy <= (periodic ? 1 : 0); ++copy) {
     const double shift = copy * vessel.length;
     for (std::size_t k = 0; k < vessel.pieces.size(); ++k)
       if (!vessel.pieces[k].about)
-        joiner.add(segment_of(vessel.pieces[k], {shift, 0}, vessel.name + " piece " + std::to_string(k + 1)));
+        walls.push_back(segment_of(vessel.pieces[k], {shift, 0}, vessel.name + " piece " + std::to_string(k + 1)));
     for (std::size_t k = 0; k < vessel.holes.size(); ++k)
       if (vessel.holes[k].open_at > 0)
-        joiner.add(gate(vessel.holes[k], shift, vessel.name + " gate " + std::to_string(k + 1)));
+        walls.push_back(gate(vessel.holes[k], shift, vessel.name + " gate " + std::to_string(k + 1)));
   }
   return walls;
 }
@@ -195,22 +163,53 @@ double highest_floor(const Vessel& vessel) {
   return highest;
 }
 
+namespace {
+
+/// The corners of what a piece that is turned about an axis looks like from the front.
+std::array<Eigen::Vector2d, 4> corners_of_turned(const WallPiece& piece) {
+  std::array<Eigen::Vector2d, 4> corners;
+  std::size_t k = 0;
+  for (const Eigen::Vector2d& end : {piece.a, piece.b})
+    for (const double radius : {-end.x(), end.x()}) {
+      const double aside = piece.about->x() + radius;
+      corners[k++] =
+          piece.axis == PieceAxis::upright ? Eigen::Vector2d(aside, end.y()) : Eigen::Vector2d(end.y(), aside);
+    }
+  return corners;
+}
+
+}  // namespace
+
+Extent extent(const std::vector<WallPiece>& pieces) {
+  Extent extent;
+  const auto include = [&](const Eigen::Vector2d& at) {
+    extent.low = extent.low.cwiseMin(at), extent.high = extent.high.cwiseMax(at);
+  };
+  for (const WallPiece& piece : pieces) {
+    if (piece.about) {
+      for (const Eigen::Vector2d& corner : corners_of_turned(piece)) include(corner);
+    } else if (piece.radius == 0) {
+      include(piece.a), include(piece.b);
+    } else {
+      include(on_arc(piece, piece.from)), include(on_arc(piece, piece.to));
+      const double quarter = 0.5 * std::numbers::pi;
+      for (double angle = quarter * std::ceil(piece.from / quarter); angle < piece.to; angle += quarter)
+        include(on_arc(piece, angle));
+    }
+  }
+  return extent;
+}
+
 double largest_radius(const Vessel& vessel, const Eigen::Vector2d& about) {
   double largest = 0;
   for (const WallSegment& wall : vessel_walls(vessel)) {
     largest = std::max({largest, (wall.a - about).norm(), (wall.b - about).norm()});
     if (wall.radius > 0) largest = std::max(largest, (wall.centre - about).norm() + wall.radius);
   }
-  for (const WallPiece& piece : vessel.pieces) {
-    if (!piece.about) continue;
-    for (const Eigen::Vector2d& end : {piece.a, piece.b})
-      for (const double radius : {-end.x(), end.x()}) {
-        const double aside = piece.about->x() + radius;
-        const Eigen::Vector2d rim =
-            piece.axis == PieceAxis::upright ? Eigen::Vector2d(aside, end.y()) : Eigen::Vector2d(end.y(), aside);
-        largest = std::max(largest, (rim - about).norm());
-      }
-  }
+  for (const WallPiece& piece : vessel.pieces)
+    if (piece.about)
+      for (const Eigen::Vector2d& corner : corners_of_turned(piece))
+        largest = std::max(largest, (corner - about).norm());
   return largest;
 }
 

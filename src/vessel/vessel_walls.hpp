@@ -9,10 +9,9 @@
 namespace vibrosow {
 
 /// A piece of a vessel's wall: a straight line from a to b, or where the radius is not zero an arc, anticlockwise from
-/// a to b. Walls that meet at their ends share a vertex number.
+/// a to b.
 struct WallSegment {
-  Eigen::Vector2d a, b;  // m, in the vessel's own frame
-  int vertex_a, vertex_b;
+  Eigen::Vector2d a, b;   // m, in the vessel's own frame
   std::string name;       // "tray left wall", "tray floor 2", "hopper floor 1 falling", "tray piece 3", "tray gate 1"
   bool is_piece = false;  // of Vessel::pieces
   Eigen::Vector2d centre = Eigen::Vector2d::Zero();  // m, of an arc
@@ -33,6 +32,15 @@ struct WallSegment {
 ///
 /// A gate lies across each hole that opens later than 0. A piece turned about an upright axis is a wall of space alone.
 std::vector<WallSegment> vessel_walls(const Vessel& vessel);
+
+/// The rectangle in which pieces lie, m, in their vessel's frame; in space seen from the front.
+struct Extent {
+  Eigen::Vector2d low = Eigen::Vector2d::Constant(1e300), high = Eigen::Vector2d::Constant(-1e300);
+
+  /// Of its longer side.
+  double size() const { return (high - low).maxCoeff(); }
+};
+Extent extent(const std::vector<WallPiece>& pieces);
 
 /// Height of the floor, in m, at its highest point: 0 when flat.
 double highest_floor(const Vessel& vessel);

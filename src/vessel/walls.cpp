@@ -1,7 +1,5 @@
 #include "vessel/walls.hpp"
 
-#include <algorithm>
-
 #include "elementary/functions.hpp"
 #include "vessel/directions.hpp"
 #include "vessel/nearest_on_face.hpp"
@@ -15,9 +13,7 @@ Walls::Walls(std::vector<Vessel> vessels, Space space)
       paths_(vessels_.begin(), vessels_.end()),
       shifts_(vessels_.size(), Eigen::Vector2d::Zero()),
       poses_(vessels_.size()) {
-  int first_vertex = 0;
-  for (std::size_t v = 0; v < vessels_.size(); ++v)
-    space == Space::plane ? add_segments(v, first_vertex) : add_faces(v);
+  for (std::size_t v = 0; v < vessels_.size(); ++v) space == Space::plane ? add_segments(v) : add_faces(v);
   for (std::size_t wall = 0; wall < faces_.size(); ++wall) {
     PlacedFace& placed = placed_faces_.emplace_back();
     placed.own = &faces_[wall];
@@ -27,17 +23,14 @@ Walls::Walls(std::vector<Vessel> vessels, Space space)
   place(0);
 }
 
-void Walls::add_segments(std::size_t v, int& first_vertex) {
+void Walls::add_segments(std::size_t v) {
   const Vessel& vessel = vessels_[v];
-  int vertices = 0;
   for (const WallSegment& wall : vessel_walls(vessel)) {
     about_.push_back({v, wall.name, wall.opens_at});
     at_rest_.push_back({in_lab_frame(vessel, {}, wall.a), in_lab_frame(vessel, {}, wall.b),
                         in_lab_frame(vessel, {}, wall.centre), wall});
-    placed_.push_back({0, 0, 0, 0, first_vertex + wall.vertex_a, first_vertex + wall.vertex_b, 0, 0});
-    vertices = std::max({vertices, wall.vertex_a + 1, wall.vertex_b + 1});
+    placed_.emplace_back();
   }
-  first_vertex += vertices;
 }
 
 void Walls::add_faces(std::size_t v) {

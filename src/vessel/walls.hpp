@@ -59,7 +59,7 @@ class Walls {
     Eigen::Vector2d a, b, centre;  // m, lab
     WallSegment own;               // in the vessel's frame
   };
-  void add_segments(std::size_t vessel, int& first_vertex);
+  void add_segments(std::size_t vessel);
   void add_faces(std::size_t vessel);
   void place_segment(std::size_t wall, const Pose& pose, const PoseRate& rate);
   void place_face(std::size_t wall, const Pose& pose, const PoseRate& rate);
