@@ -148,16 +148,18 @@ struct CheckOptions : CommonOptions {
 };
 
 int check_seeder(const InputFile& file, const CheckOptions& options) {
-  const auto [read, drill] = read_seeder(file.path, options.overrides(), file.files);
+  const auto [read, drill, drawings] = read_seeder(file.path, options.overrides(), file.files);
   const Model model = prepare(read);
   const Scene& scene = model.scene;
   print_warnings(scene_warnings(scene));
+  print_warnings(drawing_warnings(scene, drawings));
   const StepPlan& plan = model.step;
   print_text(wrapped(scene.title));
   print_vessel(scene.tray, scene.space);
   if (scene.hopper) print_vessel(*scene.hopper, scene.space);
   print_text(mixture_text(scene));
   print_slice(scene);
+  for (const Drawing& drawing : drawings) print_text(wrapped(drawing_text(drawing, scene)));
   if (drill) print_text(wrapped(drill_sentence(*drill)));
   print_space_advice(scene);
   print_model(model);

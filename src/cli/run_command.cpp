@@ -170,8 +170,11 @@ class CheckpointFile {
 
 int run_scene(const RunOptions& options) {
   const InputFile file = input_file(options.file, FileKind::seeder);
-  const auto [read, drill] = read_seeder(file.path, options.overrides(), file.files);
-  const std::vector<std::string> warnings = scene_warnings(read);
+  const auto [read, drill, drawings] = read_seeder(file.path, options.overrides(), file.files);
+  std::vector<std::string> warnings = scene_warnings(read);
+  std::ranges::move(drawing_warnings(read, drawings), std::back_inserter(warnings));
+  if (!options.quiet)
+    for (const Drawing& drawing : drawings) print_text(wrapped(drawing_text(drawing, read)));
   print_warnings(warnings);
   const Model model = prepare_to_run(read);
   const Scene& scene = model.scene;

@@ -155,7 +155,7 @@ class Scenes {
     std::map<std::string, std::size_t> known;
     for (Layout& layout : study_.layouts) {
       try {
-        const auto [scene, drill] = read_seeder(study_.base, layout.overrides, files_);
+        const auto [scene, drill, drawings] = read_seeder(study_.base, layout.overrides, files_);
         prepare_to_run(scene);
         const auto [place, is_new] = known.try_emplace(scene_to_json(untitled(scene)), study_.scenes.size());
         if (is_new) study_.scenes.push_back(scene);

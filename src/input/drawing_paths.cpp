@@ -67,4 +67,10 @@ void add_bezier(const Point& a, const Point& b, const Point& c, const Point& d, 
   add(add, a, b, c, d, 12);
 }
 
+std::vector<std::string> Tally::lines() const {
+  std::vector<std::string> lines;
+  for (const auto& [what, count] : counts_) lines.push_back(std::to_string(count) + " " + what);
+  return lines;
+}
+
 }  // namespace vibrosow

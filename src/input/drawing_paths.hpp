@@ -1,6 +1,9 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <map>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include "scene/scene.hpp"
@@ -21,5 +24,16 @@ WallPiece bulge_piece(const Eigen::Vector2d& a, const Eigen::Vector2d& b, double
 /// Lines no further than `tolerance` from the Bezier curve of these four points.
 void add_bezier(const Eigen::Vector2d& a, const Eigen::Vector2d& b, const Eigen::Vector2d& c, const Eigen::Vector2d& d,
                 double tolerance, std::vector<WallPiece>& pieces);
+
+/// Counts what is alike.
+class Tally {
+ public:
+  void add(std::string what) { ++counts_[std::move(what)]; }
+  /// "2 TEXT", in the order of the alphabet.
+  std::vector<std::string> lines() const;
+
+ private:
+  std::map<std::string, int> counts_;
+};
 
 }  // namespace vibrosow

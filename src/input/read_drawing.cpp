@@ -1,13 +1,16 @@
 #include "input/read_drawing.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "elementary/functions.hpp"
 #include "input/lengths.hpp"
 #include "scene/input_error.hpp"
+#include "scene/printable.hpp"
 
 namespace vibrosow {
 namespace {
@@ -61,7 +64,7 @@ std::optional<double> read_unit(Table& table) {
 
 }  // namespace
 
-std::vector<WallPiece> read_drawing(Table& table) {
+Drawing read_drawing(Table& table, Vessel& vessel) {
   const std::filesystem::path path = table.directory("file") / table.required_text("file");
   const std::string end = path.extension().string();
   if (end != ".dxf" && end != ".svg") table.fail("file", fmt::format("{} is neither a .dxf nor a .svg", path.string()));
@@ -74,31 +77,42 @@ std::vector<WallPiece> read_drawing(Table& table) {
   const Point zero = at.empty() ? Point(0, 0) : Point(at[0], at[1]);
   const std::string& text = table.files()->text(path);
 
-  std::vector<WallPiece> pieces;
+  DrawnPieces drawn;
+  double size = 1;
   if (end == ".svg") {
-    for (const WallPiece& piece : read_svg(text, path.string(), {unit, scale, tolerance}))
-      pieces.push_back(moved(piece, 1, zero));
+    drawn = read_svg(text, path.string(), {unit, scale, tolerance});
   } else {
-    const DxfDrawing drawing = read_dxf(text, path.string());
+    DxfDrawing drawing = read_dxf(text, path.string());
     if (!drawing.unit && !unit)
       table.fail("unit", "is missing, and the drawing's $INSUNITS does not say it; such as \"mm\"");
     if (drawing.unit && unit && *drawing.unit != *unit)
       table.fail("unit",
                  fmt::format("contradicts the drawing, whose $INSUNITS says {} a unit", millimetres(*drawing.unit)));
-    for (const WallPiece& piece : drawing.pieces)
-      pieces.push_back(moved(piece, scale * (unit ? *unit : *drawing.unit), zero));
+    size = scale * (unit ? *unit : *drawing.unit);
+    drawn = std::move(drawing);
   }
+  std::vector<WallPiece>& pieces = drawn.pieces;
+  for (WallPiece& piece : pieces) piece = moved(piece, size, zero);
   if (pieces.size() > most_pieces)
     table.fail("file", fmt::format("{} draws {} pieces, more than {}; a larger tolerance makes fewer", path.string(),
                                    pieces.size(), most_pieces));
   join_ends(pieces);
   std::erase_if(pieces,
                 [](const WallPiece& piece) { return piece.radius == 0 && (piece.b - piece.a).norm() < shortest; });
-  if (pieces.empty()) table.fail("file", fmt::format("{} draws no line", path.string()));
+  const std::string left_out =
+      drawn.left_out.empty() ? "" : fmt::format("; left out: {}", fmt::join(drawn.left_out, ", "));
+  if (pieces.empty()) table.fail("file", fmt::format("{} draws no line{}", path.string(), left_out));
   if (!std::ranges::all_of(pieces, is_finite_and_near))
     table.fail("file", fmt::format("{} draws something further than {:g} m away, or a circle of less than {:g} um",
                                    path.string(), longest, 1e6 * shortest));
-  return pieces;
+  Drawing drawing{vessel.name,
+                  printable(path.filename().string()),
+                  vessel.pieces.size(),
+                  pieces.size(),
+                  std::move(drawn.layers),
+                  std::move(drawn.left_out)};
+  vessel.pieces.insert(vessel.pieces.end(), pieces.begin(), pieces.end());
+  return drawing;
 }
 
 }  // namespace vibrosow

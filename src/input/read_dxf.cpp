@@ -1,9 +1,11 @@
 // AutoCAD's exchange format as text: lines in pairs, a group's code and its value.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <map>
 #include <numbers>
 #include <string_view>
 #include <utility>
@@ -12,6 +14,7 @@
 #include "input/drawing_paths.hpp"
 #include "input/read_drawing.hpp"
 #include "scene/input_error.hpp"
+#include "scene/printable.hpp"
 
 namespace vibrosow {
 namespace {
@@ -40,6 +43,11 @@ std::optional<double> number_of(std::string_view text) {
   return whole ? std::optional(value) : std::nullopt;
 }
 
+/// Of flags, whether the first is set.
+bool is_odd(double flags) {
+  return std::fmod(std::abs(flags), 2) == 1;
+}
+
 /// One entity, or a variable of the header: its groups after the one that names it.
 struct Record {
   std::string_view name;
@@ -53,22 +61,26 @@ class Dxf {
 
   DxfDrawing read() {
     if (text_.starts_with("AutoCAD Binary DXF")) fail(1, "is a binary DXF file; save it as text");
-    DxfDrawing drawing;
     bool any = false;
     std::string_view section;
     for (Group group = next(); !(group.code == 0 && group.value == "EOF"); group = next()) {
       if (group.code == 0 && group.value == "SECTION") {
         section = next().value, any = any || section == "ENTITIES";
       } else if (section == "HEADER" && group.code == 9 && group.value == "$INSUNITS") {
-        drawing.unit = unit(next());
+        drawing_.unit = unit(next());
+      } else if (section == "TABLES" && group.code == 0 && group.value == "LAYER") {
+        note_layer(record(group));
       } else if (section == "ENTITIES" && group.code == 0 && group.value != "ENDSEC") {
-        add(record(group), drawing.pieces);
+        entities_.push_back(record(group));
       } else if (group.code == 0 && group.value == "ENDSEC") {
         section = {};
       }
     }
     if (!any) fail(line_, "has no section ENTITIES: it is no drawing");
-    return drawing;
+    // Layers may be told after what lies on them.
+    for (const Record& entity : entities_) add(entity);
+    drawing_.left_out = left_out_.lines();
+    return std::move(drawing_);
   }
 
  private:
@@ -146,17 +158,54 @@ class Dxf {
     fail(group.line, fmt::format("$INSUNITS: {:g} is no unit of a drawing that can be read", code));
   }
 
-  void add(const Record& entity, std::vector<WallPiece>& pieces) const {
-    constexpr std::array beside = {"TEXT", "MTEXT", "DIMENSION", "LEADER", "MULTILEADER", "HATCH", "POINT", "VIEWPORT"};
-    for (const char* name : beside)
-      if (entity.name == name) return;
+  /// Names of layers are alike in capitals and small letters.
+  static std::string layer_key(std::string_view name) {
+    std::string key(name);
+    for (char& c : key)
+      if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+    return key;
+  }
+
+  /// A layer is off where its colour's number is below zero, and frozen where the first of its flags is set.
+  void note_layer(const Record& layer) {
+    const bool off = find(layer, 62).value_or(1) < 0;
+    const bool frozen = is_odd(find(layer, 70).value_or(0));
+    if (off || frozen) hidden_layers_[layer_key(text(layer, 2))] = frozen ? "frozen" : "switched off";
+  }
+
+  static std::string_view text(const Record& record, int code) {
+    for (const Group& group : record.groups)
+      if (group.code == code) return group.value;
+    return "";
+  }
+
+  /// Why nobody sees an entity in the drawing; "": it is seen.
+  std::string hidden(const Record& entity) const {
+    const std::string layer(text(entity, 8));
+    const auto found = hidden_layers_.find(layer_key(layer));
+    if (found != hidden_layers_.end())
+      return fmt::format(" on the layer {}, which is {}", printable(layer), found->second);
+    if (find(entity, 60).value_or(0) == 1) return ", invisible";
+    if (find(entity, 67).value_or(0) == 1) return " of a sheet (paper space)";
+    return "";
+  }
+
+  void add(const Record& entity) {
+    constexpr std::array beside = {"TEXT",   "MTEXT",       "ATTDEF", "TOLERANCE", "DIMENSION",
+                                   "LEADER", "MULTILEADER", "HATCH",  "POINT",     "VIEWPORT"};
+    const std::string why = hidden(entity);
+    if (!why.empty() || std::ranges::find(beside, entity.name) != beside.end())
+      return left_out_.add(printable(entity.name) + why);
     if (find(entity, 230).value_or(1) < 0) fail(entity.line, fmt::format("{}: is drawn from behind", entity.name));
+    const std::string layer = printable(text(entity, 8));
+    std::vector<std::string>& layers = drawing_.layers;
+    if (!layer.empty() && std::ranges::find(layers, layer) == layers.end()) layers.push_back(layer);
     if (entity.name == "LINE") {
-      pieces.push_back(line_piece(point(entity, 10), point(entity, 11)));
+      drawing_.pieces.push_back(line_piece(point(entity, 10), point(entity, 11)));
     } else if (entity.name == "LWPOLYLINE") {
-      add_polyline(entity, pieces);
+      add_polyline(entity, drawing_.pieces);
     } else if (entity.name == "ARC" || entity.name == "CIRCLE") {
-      pieces.push_back(arc(entity));
+      drawing_.pieces.push_back(arc(entity));
     } else {
       fail(entity.line,
            fmt::format("{} cannot be read; LINE, LWPOLYLINE, ARC and CIRCLE can (explode it)", entity.name));
@@ -188,7 +237,7 @@ class Dxf {
     std::vector<Vertex> vertices;
     bool closed = false;
     for (const Group& group : entity.groups) {
-      if (group.code == 70) closed = static_cast<int>(number(group)) % 2 == 1;
+      if (group.code == 70) closed = is_odd(number(group));
       if (group.code == 10) vertices.push_back({{number(group), 0}, 0});
       if ((group.code == 20 || group.code == 42) && vertices.empty()) fail(group.line, "LWPOLYLINE: has no x before");
       if (group.code == 20) vertices.back().at.y() = number(group);
@@ -205,6 +254,10 @@ class Dxf {
   const std::string& file_;
   std::size_t at_ = 0;
   int line_ = 0;  // that was read last
+  DxfDrawing drawing_;
+  std::vector<Record> entities_;
+  std::map<std::string, std::string> hidden_layers_;  // by layer_key, how
+  Tally left_out_;
 };
 
 }  // namespace

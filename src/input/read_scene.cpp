@@ -207,9 +207,9 @@ Seeder read_seeder_in(std::optional<Space> wanted, const std::filesystem::path& 
   if (scene.space != own) slice = slice_thickness(read_lots(seeds, Space::plane));
   scene.contact = read_contact(root.required_table("contact"), seeds, scene.lots);
   Table tray = root.required_table("tray");
-  scene.tray = read_vessel(tray, "tray", scene.lots, scene.space, nullptr, slice);
+  scene.tray = read_vessel(tray, "tray", scene.lots, scene.space, seeder.drawings, nullptr, slice);
   if (auto hopper = root.table("hopper")) {
-    scene.hopper = read_vessel(*hopper, "hopper", scene.lots, scene.space, &scene.tray, slice);
+    scene.hopper = read_vessel(*hopper, "hopper", scene.lots, scene.space, seeder.drawings, &scene.tray, slice);
     scene.hopper->origin.x() = hopper->required_quantity("left", Dimension::length, -100, 100);
     if (scene.tray.sides == Sides::periodic &&
         !(scene.hopper->origin.x() >= 0 &&

@@ -6,16 +6,18 @@
 #include <vector>
 
 #include "agronomy/drill.hpp"
+#include "input/drawing.hpp"
 #include "input/override.hpp"
 #include "input/source_files.hpp"
 #include "scene/scene.hpp"
 
 namespace vibrosow {
 
-/// What a seeder file says: the scene of its runs, and what its outflow is to sow.
+/// What a seeder file says: the scene of its runs, what its outflow is to sow, and which drawings its pieces are from.
 struct Seeder {
   Scene scene;
   std::optional<Drill> drill{};
+  std::vector<Drawing> drawings{};
 };
 
 /// Reads and validates a seeder file. `overrides` replace, add or take out keys before it is read. Crops and contact

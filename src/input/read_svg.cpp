@@ -92,14 +92,14 @@ class Svg {
  public:
   Svg(const std::string& file, const SvgScale& scale) : file_(file), scale_(scale) {}
 
-  std::vector<WallPiece> read(const std::string& text) {
+  DrawnPieces read(const std::string& text) {
     tinyxml2::XMLDocument document;
     if (document.Parse(text.data(), text.size()) != tinyxml2::XML_SUCCESS)
       fail(document.ErrorLineNum(), fmt::format("is no XML: {}", document.ErrorIDToName(document.ErrorID())));
     const tinyxml2::XMLElement* root = document.RootElement();
     if (name_of(*root) != "svg") fail(root->GetLineNum(), "is no SVG drawing");
-    add_children(*root, view(*root));
-    return std::move(pieces_);
+    add_children(*root, view(*root), true);
+    return {std::move(pieces_), {}, left_out_.lines()};
   }
 
  private:
@@ -208,22 +208,71 @@ class Svg {
     fail(element, fmt::format("transform: {} with {} numbers cannot be read", word, n));
   }
 
+  /// A property of the style attribute, else of the attribute of its name.
+  static std::string_view property(const Element& element, std::string_view name) {
+    const auto trimmed = [](std::string_view text) {
+      const std::size_t from = text.find_first_not_of(" \t\r\n");
+      if (from == std::string_view::npos) return std::string_view();
+      return text.substr(from, text.find_last_not_of(" \t\r\n") + 1 - from);
+    };
+    const char* style = element.Attribute("style");
+    for (std::string_view rest = style ? style : ""; !rest.empty();) {
+      const std::size_t end = std::min(rest.find(';'), rest.size());
+      const std::string_view one = rest.substr(0, end);
+      const std::size_t colon = one.find(':');
+      if (colon != std::string_view::npos && trimmed(one.substr(0, colon)) == name) {
+        const std::string_view value = one.substr(colon + 1);
+        return trimmed(value.substr(0, value.find('!')));  // "!important"
+      }
+      rest.remove_prefix(std::min(end + 1, rest.size()));
+    }
+    const char* attribute = element.Attribute(std::string(name).c_str());
+    return attribute ? trimmed(attribute) : std::string_view();
+  }
+
+  /// With all that is in it.
   static bool is_hidden(const Element& element) {
-    const char *display = element.Attribute("display"), *style = element.Attribute("style");
-    return (display && std::string_view(display) == "none") ||
-           (style && std::string_view(style).find("display:none") != std::string_view::npos);
+    if (property(element, "display") == "none") return true;
+    Tokens opacity(property(element, "opacity"));
+    return !opacity.at_end() && opacity.number() == 0.0;
   }
 
-  void add_children(const Element& parent, const Affine& outer) {
-    for (const Element* child = parent.FirstChildElement(); child; child = child->NextSiblingElement())
-      if (!is_hidden(*child)) add(*child, transformed(*child, outer));
+  /// Unlike the above, what is in it may be seen again.
+  static bool is_visible(const Element& element, bool outer) {
+    const std::string_view visibility = property(element, "visibility");
+    return visibility == "visible" || (outer && visibility != "hidden" && visibility != "collapse");
   }
 
-  void add(const Element& element, const Affine& to_m) {
+  static bool is_shape(std::string_view name) {
+    constexpr std::array<std::string_view, 7> shapes = {"path", "line",   "polyline", "polygon",
+                                                        "rect", "circle", "ellipse"};
+    return std::ranges::find(shapes, name) != shapes.end();
+  }
+
+  /// Counts the shapes in what nobody sees.
+  void leave_out(const Element& element) {
+    if (is_shape(name_of(element))) left_out_.add(fmt::format("{}, hidden", name_of(element)));
+    for (const Element* child = element.FirstChildElement(); child; child = child->NextSiblingElement())
+      leave_out(*child);
+  }
+
+  void add_children(const Element& parent, const Affine& outer, bool visible) {
+    for (const Element* child = parent.FirstChildElement(); child; child = child->NextSiblingElement()) {
+      const bool seen = is_visible(*child, visible);
+      const bool nothing_within = name_of(*child) != "g" && name_of(*child) != "a";
+      if (is_hidden(*child) || (!seen && nothing_within))
+        leave_out(*child);
+      else
+        add(*child, transformed(*child, outer), seen);
+    }
+  }
+
+  void add(const Element& element, const Affine& to_m, bool visible) {
     const std::string_view name = name_of(element);
-    for (const std::string_view undrawn : {"use", "text", "image", "svg", "switch", "foreignObject"})
+    if (name == "text" || name == "flowRoot") return left_out_.add(std::string(name));
+    for (const std::string_view undrawn : {"use", "image", "svg", "switch", "foreignObject"})
       if (name == undrawn) fail(element, "cannot be read; turn it into paths");
-    if (name == "g" || name == "a") return add_children(element, to_m);
+    if (name == "g" || name == "a") return add_children(element, to_m, visible);
     if (name == "path") return add_path(element, to_m);
     if (name == "line")
       return add_line({number(element, "x1", 0), number(element, "y1", 0)},
@@ -412,11 +461,12 @@ class Svg {
   const std::string& file_;
   SvgScale scale_;
   std::vector<WallPiece> pieces_;
+  Tally left_out_;
 };
 
 }  // namespace
 
-std::vector<WallPiece> read_svg(const std::string& text, const std::string& file, const SvgScale& scale) {
+DrawnPieces read_svg(const std::string& text, const std::string& file, const SvgScale& scale) {
   return Svg(file, scale).read(text);
 }
 

@@ -151,12 +151,11 @@ std::vector<Table> tables_of_pieces(Table& vessel) {
   return {table};
 }
 
-std::vector<WallPiece> read_pieces(Table& vessel, Space space) {
-  std::vector<WallPiece> pieces;
-  for (Table& table : tables_of_pieces(vessel)) {
+void read_pieces(Table& vessel_table, Space space, Vessel& vessel, std::vector<Drawing>& drawings) {
+  std::vector<WallPiece>& pieces = vessel.pieces;
+  for (Table& table : tables_of_pieces(vessel_table)) {
     if (table.has("file")) {
-      const std::vector<WallPiece> drawn = read_drawing(table);
-      pieces.insert(pieces.end(), drawn.begin(), drawn.end());
+      drawings.push_back(read_drawing(table, vessel));
       continue;
     }
     for (const char* key : {"file", "unit", "scale", "at", "tolerance"}) table.skip(key);
@@ -171,7 +170,6 @@ std::vector<WallPiece> read_pieces(Table& vessel, Space space) {
       for (const char* key : {"line", "about", "axis"}) table.skip(key);
     }
   }
-  return pieces;
 }
 
 Rain read_rain(Table table, const Vessel& vessel) {
@@ -308,7 +306,7 @@ double seeds_of_other_space(Table& table, const Vessel& vessel, const Vessel* tr
 }  // namespace
 
 Vessel read_vessel(Table table, const std::string& name, const std::vector<SeedLot>& lots, Space space,
-                   const Vessel* tray, std::optional<double> slice) {
+                   std::vector<Drawing>& drawings, const Vessel* tray, std::optional<double> slice) {
   Vessel vessel;
   vessel.name = name;
   vessel.length = table.required_quantity("length", Dimension::length, shortest, longest);
@@ -320,7 +318,7 @@ Vessel read_vessel(Table table, const std::string& name, const std::vector<SeedL
   vessel.tilt = table.quantity("tilt", Dimension::angle, -30 * degree, 30 * degree).value_or(0);
   vessel.funnel = table.quantity("funnel", Dimension::angle, 0.01 * degree, 80 * degree).value_or(0);
   vessel.box = table.boolean("box").value_or(true);
-  vessel.pieces = read_pieces(table, space);
+  read_pieces(table, space, vessel, drawings);
   if (!vessel.box && vessel.pieces.empty()) table.fail("box", "without floor and end walls a vessel needs pieces");
   if (const auto holes = table.table("holes"))
     vessel.holes = read_holes(*holes, vessel, space, largest_mean_diameter(lots));

@@ -54,6 +54,42 @@ TEST(Dxf, LinesArcsAndCircles) {
   EXPECT_EQ(read_dxf(dxf("", "1"), "a.dxf").unit, 0.0254);
 }
 
+/// A drawing whose layers have these flags (group 70) and colours (62).
+std::string dxf_with_layers(const std::string& layers, const std::string& entities) {
+  return "0\nSECTION\n2\nHEADER\n9\n$INSUNITS\n70\n4\n0\nENDSEC\n0\nSECTION\n2\nTABLES\n0\nTABLE\n2\nLAYER\n" + layers +
+         "0\nENDTAB\n0\nENDSEC\n0\nSECTION\n2\nENTITIES\n" + entities + "0\nENDSEC\n0\nEOF\n";
+}
+std::string layer(const std::string& name, int flags, int colour) {
+  return fmt::format("0\nLAYER\n2\n{}\n70\n{}\n62\n{}\n", name, flags, colour);
+}
+std::string line_on(const std::string& name, const std::string& groups = "") {
+  return "0\nLINE\n8\n" + name + "\n" + groups + "10\n0\n20\n0\n11\n3\n21\n4\n";
+}
+
+TEST(Dxf, WhatNobodySeesIsNoWall) {
+  const std::string layers =
+      layer("WALL", 0, 7) + layer("Notes", 0, -3) + layer("OLD", 1, 7) + layer("LOCKED", 4, 7) + layer("NEW", 2, 7);
+  const DxfDrawing drawing = read_dxf(
+      dxf_with_layers(layers, line_on("WALL") + line_on("NOTES") + line_on("notes") + line_on("OLD") +
+                                  line_on("LOCKED") + line_on("NEW") + line_on("UNKNOWN") + line_on("WALL", "60\n1\n") +
+                                  line_on("WALL", "67\n1\n") + line_on("WALL", "60\n0\n67\n0\n") +
+                                  "0\nSPLINE\n8\nOLD\n0\nMTEXT\n8\nWALL\n"),
+      "a.dxf");
+  EXPECT_EQ(drawing.pieces.size(), 5u);
+  EXPECT_EQ(drawing.layers, (std::vector<std::string>{"WALL", "LOCKED", "NEW", "UNKNOWN"}));
+  EXPECT_EQ(drawing.left_out,
+            (std::vector<std::string>{
+                "1 LINE of a sheet (paper space)", "1 LINE on the layer NOTES, which is switched off",
+                "1 LINE on the layer OLD, which is frozen", "1 LINE on the layer notes, which is switched off",
+                "1 LINE, invisible", "1 MTEXT", "1 SPLINE on the layer OLD, which is frozen"}));
+}
+
+TEST(Dxf, LayersMayBeToldAfterWhatLiesOnThem) {
+  const std::string entities = "0\nSECTION\n2\nENTITIES\n" + line_on("A") + line_on("B") + "0\nENDSEC\n";
+  const std::string tables = "0\nSECTION\n2\nTABLES\n" + layer("A", 0, -7) + "0\nENDSEC\n";
+  EXPECT_EQ(read_dxf(entities + tables + "0\nEOF\n", "a.dxf").pieces.size(), 1u);
+}
+
 TEST(Dxf, APolylinesBulgesAreArcs) {
   // A slot: two straight sides, closed by half circles of radius 1.
   const DxfDrawing drawing =
@@ -87,9 +123,10 @@ TEST(Dxf, WhatCannotBeReadIsNamedWithItsLine) {
 }
 
 std::vector<WallPiece> svg(const std::string& shapes, const std::string& attributes = "", double tolerance = 1e-6) {
-  return read_svg(
-      fmt::format("<svg width=\"100mm\" height=\"50mm\" viewBox=\"0 0 100 50\" {}>\n{}\n</svg>", attributes, shapes),
-      "a.svg", {std::nullopt, 1, tolerance});
+  return read_svg(fmt::format("<svg width=\"100mm\" height=\"50mm\" viewBox=\"0 0 100 50\" {}>\n{}\n</svg>", attributes,
+                              shapes),
+                  "a.svg", {std::nullopt, 1, tolerance})
+      .pieces;
 }
 
 TEST(Svg, APathsLinesInMillimetresWithYUp) {
@@ -146,11 +183,37 @@ TEST(Svg, ShapesAndWhatIsNotDrawn) {
             0u);
 }
 
+TEST(Svg, WhatNobodySeesIsNoWall) {
+  constexpr const char* line = "<line x2='4' y2='4' {}/>";
+  for (const char* hidden :
+       {"display='none'", "style='display : none'", "style='fill:none;display:none!important'", "visibility='hidden'",
+        "style=\"visibility:collapse\"", "opacity='0'", "style='opacity:0.0'"})
+    EXPECT_EQ(svg(fmt::format(fmt::runtime(line), hidden)).size(), 0u) << hidden;
+  for (const char* seen : {"display='inline'", "style='-inkscape-display:none'", "visibility='visible'",
+                           "opacity='0.5'", "style='display:inline'", "style='opacity:1'", "style='fill-opacity:0'"})
+    EXPECT_EQ(svg(fmt::format(fmt::runtime(line), seen)).size(), 1u) << seen;
+  // What is in a hidden group stays hidden, but for visibility, which each may say anew.
+  EXPECT_EQ(
+      svg("<g visibility='hidden'><line x2='4' y2='4'/><g visibility='visible'><line x2='4' y2='4'/></g></g>").size(),
+      1u);
+  EXPECT_EQ(svg("<g style='display:none'><line x2='4' y2='4' style='display:inline'/></g>").size(), 0u);
+  EXPECT_EQ(svg("<g style='display:none'><use/><text>t</text></g>").size(), 0u);
+}
+
+TEST(Svg, SaysWhatIsLeftOut) {
+  const DrawnPieces drawn = read_svg(
+      "<svg width='10mm' viewBox='0 0 10 5'><text><tspan>a</tspan></text><text>b</text><flowRoot/><path d='M0 0L1 1'/>"
+      "<g style='display:none'><path d='M0 0L1 1'/><rect/><text>c</text></g></svg>",
+      "a.svg", {std::nullopt, 1, 1e-5});
+  EXPECT_EQ(drawn.pieces.size(), 1u);
+  EXPECT_EQ(drawn.left_out, (std::vector<std::string>{"1 flowRoot", "1 path, hidden", "1 rect, hidden", "2 text"}));
+}
+
 TEST(Svg, WhatCannotBeReadIsNamedWithItsLine) {
   const auto error = [](const std::string& shapes) { return error_of([&] { svg(shapes); }); };
   EXPECT_EQ(error("<path d='M1 2 L3'/>"), "a.svg:2: path: d: a number is missing after L");
   EXPECT_EQ(error("<path d='M1 2 X3 4'/>"), "a.svg:2: path: d: there is no command X");
-  EXPECT_EQ(error("<text>hello</text>"), "a.svg:2: text: cannot be read; turn it into paths");
+  EXPECT_EQ(error("<use href='#a'/>"), "a.svg:2: use: cannot be read; turn it into paths");
   EXPECT_EQ(error("<rect width='3' height='2' rx='1'/>"), "a.svg:2: rect: has round corners; turn it into a path");
   EXPECT_EQ(error("<g transform='turn(3)'/>"), "a.svg:2: g: transform: turn with 1 numbers cannot be read");
   EXPECT_TRUE(error("<path").starts_with("a.svg:2: is no XML")) << error("<path");
@@ -210,6 +273,35 @@ TEST_F(Drawings, AreSizedAndPlaced) {
   EXPECT_LT((tray("{ file = \"c.svg\", unit = \"mm\" }").pieces[0].b - Point(0.1, 0.05)).norm(), 1e-15);
 }
 
+TEST_F(Drawings, SayWhatTheyGave) {
+  write("a.dxf",
+        dxf_with_layers(layer("NOTES", 0, -1), line_on("WALL") + line_on("NOTES") + line_on("WALL", "60\n1\n")));
+  write("b.svg", "<svg viewBox='0 0 20 10' height='100mm'><circle cx='10' cy='5' r='2'/><text>t</text></svg>");
+  tray(
+      "[ { file = \"a.dxf\", at = [\"1 cm\", \"2 cm\"] }, { line = [[\"0 m\", \"1 cm\"], [\"1 cm\", \"2 cm\"]] }, "
+      "{ file = \"b.svg\" } ]");
+  const Seeder seeder = read_seeder(folder / "seeder.toml");
+  ASSERT_EQ(seeder.drawings.size(), 2u);
+  EXPECT_EQ(seeder.drawings[1].first, 2u);
+  EXPECT_EQ(
+      drawing_text(seeder.drawings[0], seeder.scene),
+      "drawing a.dxf: 1 piece from (10, 20) to (13, 24) mm, layer WALL; left out: 1 LINE on the layer NOTES, which "
+      "is switched off; 1 LINE, invisible");
+  EXPECT_EQ(drawing_text(seeder.drawings[1], seeder.scene),
+            "drawing b.svg: 1 piece from (80, 30) to (120, 70) mm; left out: 1 text");
+  EXPECT_EQ(drawing_warnings(seeder.scene, seeder.drawings),
+            (std::vector<std::string>{"tray.pieces: a.dxf draws no more than 4 mm, the tray is 200 mm long and 100 mm "
+                                      "high: is its unit right?"}));
+}
+
+TEST_F(Drawings, OfWhichNothingIsSeenAreRefused) {
+  write("a.dxf", dxf_with_layers(layer("NOTES", 0, -1), line_on("NOTES")));
+  EXPECT_EQ(
+      error("{ file = \"a.dxf\" }"),
+      "seeder.toml:10: tray.pieces.file: a.dxf draws no line; left out: 1 LINE on the layer NOTES, which is switched "
+      "off");
+}
+
 TEST_F(Drawings, BelongToWhatASeederWasReadFrom) {
   write("a.dxf", dxf(two_lines));
   tray("{ file = \"a.dxf\" }");
@@ -230,7 +322,7 @@ TEST(GarbledDrawings, AreReadOrRefused) {
       "2 "
       "10 0 1 4 4z'/><circle r='3'/></g></svg>";
   const auto pieces_in = [](const std::string& text, bool is_dxf) {
-    return is_dxf ? read_dxf(text, "a").pieces.size() : read_svg(text, "a", {1e-3, 1, 1e-5}).size();
+    return is_dxf ? read_dxf(text, "a").pieces.size() : read_svg(text, "a", {1e-3, 1, 1e-5}).pieces.size();
   };
   const auto try_to_read = [&](const std::string& text, bool is_dxf) {
     try {
