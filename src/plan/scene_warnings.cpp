@@ -4,9 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <numbers>
 
 #include "elementary/functions.hpp"
+#include "plan/geometry_warnings.hpp"
 #include "scene/mixture.hpp"
 #include "scene/motion.hpp"
 #include "scene/seed_lot.hpp"
@@ -206,6 +208,7 @@ std::vector<std::string> scene_warnings(const Scene& scene) {
   warn_of_standing_liquid(scene, warnings);
   warn_of_rain(scene, scene.tray, warnings);
   if (scene.space == Space::plane) warn_of_round_holes(scene.tray, warnings);
+  std::ranges::move(geometry_warnings(scene), std::back_inserter(warnings));
   if (!scene.hopper) return warnings;
   if (scene.space == Space::plane) warn_of_round_holes(*scene.hopper, warnings);
   warn_of_narrow_holes(*scene.hopper, scene.lots, warnings);

@@ -39,6 +39,7 @@ Scene sound() {
 Vessel hopper(double outlet) {
   Vessel vessel;
   vessel.name = "hopper";
+  vessel.origin = {0.2, 0.13};
   vessel.length = 0.08;
   vessel.height = 0.15;
   vessel.holes = {{0.04, outlet}};
@@ -174,6 +175,128 @@ TEST(SceneWarnings, InThePlaneARoundHoleIsTakenForASlot) {
                                      "from front to back, 4.8 times the area of a round hole")));
   scene.space = Space::three_dimensional;
   EXPECT_THAT(scene_warnings(scene), IsEmpty());
+}
+
+Scene sound_in_space(HoleShape shape = HoleShape::slot) {
+  Scene scene = sound();
+  scene.space = Space::three_dimensional;
+  scene.tray.depth = 0.06;
+  scene.tray.fill->count = 5000;
+  for (Hole& hole : scene.tray.holes)
+    hole.shape = shape, hole.across = 0.03, hole.across_length = shape == HoleShape::slot ? 0.06 : 0;
+  return scene;
+}
+
+WallPiece straight(double ax, double ay, double bx, double by) {
+  WallPiece piece;
+  piece.a = {ax, ay}, piece.b = {bx, by};
+  return piece;
+}
+WallPiece turned(double ra, double ha, double rb, double hb, PieceAxis axis = PieceAxis::upright,
+                 Eigen::Vector2d about = {0.25, 0.03}) {
+  WallPiece piece = straight(ra, ha, rb, hb);
+  piece.about = about, piece.axis = axis;
+  return piece;
+}
+
+std::vector<std::string> warnings_with(Scene scene, std::vector<WallPiece> pieces) {
+  scene.tray.pieces = std::move(pieces);
+  return scene_warnings(scene);
+}
+
+TEST(SceneWarnings, APieceOverAHole) {
+  for (const Scene& scene : {sound(), sound_in_space(), sound_in_space(HoleShape::round)}) {
+    EXPECT_THAT(warnings_with(scene, {straight(0.2, 0, 0.3, 0)}),
+                ElementsAre("tray.pieces: piece 1 covers hole 2: what is drawn across a hole is a wall there"));
+    EXPECT_THAT(warnings_with(scene, {straight(0, 0.001, 0.5, 0.001)}),
+                ElementsAre(HasSubstr("piece 1 covers hole 1, hole 2, hole 3:")));
+    EXPECT_THAT(warnings_with(scene, {straight(0.2, 0.05, 0.3, 0.05), straight(0.247, -1e-4, 0.3, 1e-4)}),
+                ElementsAre(HasSubstr("piece 2 covers hole 2 (75 % of it):")));
+    EXPECT_THAT(warnings_with(scene, {straight(0.25, 0.05, 0.25, -0.01)}),
+                ElementsAre(HasSubstr("hole 2 (stands in it)")));
+    WallPiece arc;
+    arc.centre = {0.25, 0.05}, arc.radius = 0.05, arc.from = 1.1 * std::numbers::pi, arc.to = 1.9 * std::numbers::pi;
+    EXPECT_THAT(warnings_with(scene, {arc}), ElementsAre(HasSubstr("covers hole 2:")));
+    // A roof above, a chute beneath that begins at the edges, a line on the floor up to the edge.
+    EXPECT_THAT(warnings_with(scene, {straight(0.2, 0.01, 0.3, 0.01), straight(0.244, 0, 0.24, -0.015),
+                                      straight(0.256, 0, 0.256, -0.015), straight(0.2, 0, 0.244, 0)}),
+                IsEmpty());
+  }
+}
+
+TEST(SceneWarnings, ATurnedPieceOverAHole) {
+  for (const HoleShape shape : {HoleShape::slot, HoleShape::round}) {
+    const Scene scene = sound_in_space(shape);
+    EXPECT_THAT(warnings_with(scene, {turned(0, 0, 0.1, 0)}), ElementsAre(HasSubstr("covers hole 2:")));
+    EXPECT_THAT(warnings_with(scene, {turned(0, 0, 0.003, 0)}), ElementsAre(HasSubstr("hole 2 (")));
+    EXPECT_THAT(warnings_with(scene, {turned(0.002, 0, 0.002, 0.4, PieceAxis::along, {0, 0.03})}),
+                ElementsAre(HasSubstr("piece 1 covers hole 1 (")));
+    EXPECT_THAT(warnings_with(scene, {turned(0.04, 0.02, 0.1, 0.05),
+                                      turned(0.01, 0.1, 0.01, 0.4, PieceAxis::along, {0.05, 0.03})}),
+                IsEmpty());
+  }
+}
+
+TEST(SceneWarnings, PiecesThatReachBelowTheCountingLine) {
+  Scene scene = sound();
+  EXPECT_THAT(warnings_with(scene, {straight(0.27, 0, 0.27, -0.019)}), IsEmpty());
+  EXPECT_THAT(warnings_with(scene, {straight(0.27, 0, 0.27, -0.019), straight(0.22, 0, 0.22, -0.035)}),
+              ElementsAre(StartsWith(
+                  "tray.pieces: piece 2 reaches 35 mm below the tray's floor, and seeds are counted 20 mm")));
+  scene.run.count_below = 0.05;
+  EXPECT_THAT(warnings_with(scene, {straight(0.22, 0, 0.22, -0.035)}), IsEmpty());
+}
+
+TEST(SceneWarnings, PiecesOfAnotherSize) {
+  EXPECT_THAT(warnings_with(sound(), {straight(0, 0.1, 12.7, 0.1)}),
+              ElementsAre(StartsWith("tray.pieces: reach over 1.27e+04 mm, the tray is 500 mm long")));
+}
+
+class VesselsThatMeet : public testing::TestWithParam<Space> {
+ protected:
+  static Scene over(double above) {
+    Scene scene = GetParam() == Space::plane ? sound() : sound_in_space();
+    scene.hopper = hopper(0.03);
+    scene.hopper->holes[0].across = 0.03, scene.hopper->holes[0].across_length = 0.06;
+    scene.hopper->depth = scene.tray.depth;
+    scene.hopper->fill->count *= GetParam() == Space::plane ? 1 : 10;
+    scene.hopper->origin.y() = above;
+    return scene;
+  }
+};
+INSTANTIATE_TEST_SUITE_P(Both, VesselsThatMeet, testing::Values(Space::plane, Space::three_dimensional),
+                         [](const auto& info) -> std::string {
+                           return info.param == Space::plane ? "plane" : "space";
+                         });
+
+TEST_P(VesselsThatMeet, AreNamed) {
+  const auto met = ElementsAre(StartsWith("hopper: passes through the tray, at "));
+  EXPECT_THAT(scene_warnings(over(0.05)), IsEmpty()) << "within the tray's end walls, clear of them";
+  Scene scene = over(0.05);
+  scene.hopper->origin.x() = -0.005;
+  EXPECT_THAT(scene_warnings(scene), met) << "through the end wall all the time";
+  scene.hopper->origin.x() = 0.005;
+  EXPECT_THAT(scene_warnings(scene), met) << "which reaches it when it swings";
+  scene.hopper->origin.x() = 0.011;
+  EXPECT_THAT(scene_warnings(scene), IsEmpty()) << "which does not";
+  scene.tray.motion = HarmonicMotion{0.5 * std::numbers::pi, 0.01, 9};
+  scene.hopper->origin = {0.2, 0.009};
+  EXPECT_THAT(scene_warnings(scene), met) << "the floor comes up to it";
+  scene.hopper->origin = {0.2, 0.011};
+  EXPECT_THAT(scene_warnings(scene), IsEmpty());
+  scene.tray.motion = HarmonicMotion{0, 0.01, 9};
+  scene.hopper->origin = {0.2, 0};
+  EXPECT_THAT(scene_warnings(scene), IsEmpty()) << "it slides on the floor";
+}
+
+TEST_P(VesselsThatMeet, WithTheirPieces) {
+  Scene scene = over(0.05);
+  scene.tray.pieces = {straight(0.195, 0.01, 0.195, 0.1)};
+  EXPECT_THAT(scene_warnings(scene), ElementsAre(StartsWith("hopper: passes through the tray, at ")));
+  scene.tray.pieces = {straight(0.18, 0.01, 0.18, 0.1)};
+  EXPECT_THAT(scene_warnings(scene), IsEmpty());
+  scene.hopper->pieces = {straight(-0.021, -0.03, -0.021, 0)};
+  EXPECT_THAT(scene_warnings(scene), ElementsAre(HasSubstr("piece 1 and ")));
 }
 
 }  // namespace

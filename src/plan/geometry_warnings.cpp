@@ -1,0 +1,383 @@
+#include "plan/geometry_warnings.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <utility>
+
+#include "elementary/functions.hpp"
+#include "scene/motion.hpp"
+#include "scene/seed_lot.hpp"
+#include "vessel/nearest_on_face.hpp"
+#include "vessel/nearest_point.hpp"
+#include "vessel/vessel_faces.hpp"
+#include "vessel/vessel_motion.hpp"
+#include "vessel/vessel_walls.hpp"
+#include "vessel/wall_points.hpp"
+#include "vessel/walls.hpp"
+
+namespace vibrosow {
+namespace {
+
+using Warnings = std::vector<std::string>;
+
+std::string in_mm(double length) {
+  return fmt::format("{:.3g} mm", length * 1e3);
+}
+
+std::string name_of_piece(const Vessel& vessel, std::size_t k) {
+  return fmt::format("{}.pieces: piece {}", vessel.name, k + 1);
+}
+
+// Pieces over holes.
+
+/// m.
+struct Stretch {
+  double from, to;
+};
+
+/// The part of a straight line that is less than `height` above or below the floor's line, as parts of the line.
+std::optional<Stretch> near_floor(const Eigen::Vector2d& a, const Eigen::Vector2d& b, double height) {
+  const double rise = b.y() - a.y();
+  if (rise == 0) return std::abs(a.y()) < height ? std::optional(Stretch{0, 1}) : std::nullopt;
+  const double one = (-height - a.y()) / rise, other = (height - a.y()) / rise;
+  const Stretch part{std::max(0.0, std::min(one, other)), std::min(1.0, std::max(one, other))};
+  return part.from < part.to ? std::optional(part) : std::nullopt;
+}
+
+/// Over which stretches of the floor a piece that is drawn out lies near it.
+std::vector<Stretch> over_floor(const WallPiece& piece, double height) {
+  WallSegment wall{piece.a, piece.b, ""};
+  wall.centre = piece.centre, wall.radius = piece.radius, wall.from = piece.from, wall.to = piece.to;
+  const std::vector<Eigen::Vector2d> points = wall_points(wall);
+  std::vector<Stretch> stretches;
+  for (std::size_t k = 1; k < points.size(); ++k)
+    if (const auto part = near_floor(points[k - 1], points[k], height)) {
+      const auto [low, high] = std::minmax(points[k - 1].x() + part->from * (points[k].x() - points[k - 1].x()),
+                                           points[k - 1].x() + part->to * (points[k].x() - points[k - 1].x()));
+      stretches.push_back({low, high});
+    }
+  return stretches;
+}
+
+/// How much of a hole a piece covers, as a part of it; 0: it stands in it; nothing: neither.
+using Covered = std::optional<double>;
+
+constexpr double rim = 0.02;  // of a hole's width: what reaches no further in is beside it
+
+Covered covered_by_drawn_out(const WallPiece& piece, const Hole& hole, double height) {
+  const double left = hole.centre - hole.width / 2, right = hole.centre + hole.width / 2, slack = rim * hole.width;
+  std::vector<Stretch> over = over_floor(piece, height);
+  std::ranges::sort(over, {}, &Stretch::from);
+  Covered covered;
+  double reached = left;
+  for (const Stretch& one : over) {
+    if (one.to < left + slack || one.from > right - slack) continue;
+    const double from = std::max(one.from, reached), to = std::min(one.to, right);
+    covered = covered.value_or(0) + std::max(0.0, to - from) / hole.width;
+    reached = std::max(reached, to);
+  }
+  return covered;
+}
+
+/// Whether a piece turned about an axis lies near the floor at a place of it (m).
+bool is_over(const WallPiece& piece, double x, double z, double height) {
+  if (piece.axis == PieceAxis::upright) {
+    const auto part = near_floor(piece.a, piece.b, height);
+    const double away = elementary::hypot(x - piece.about->x(), z - piece.about->y());
+    const double one = piece.a.x() + (part ? part->from : 0) * (piece.b.x() - piece.a.x());
+    const double other = piece.a.x() + (part ? part->to : 0) * (piece.b.x() - piece.a.x());
+    return part && away >= std::min(one, other) && away <= std::max(one, other);
+  }
+  const double along = piece.b.y() - piece.a.y(), part = along == 0 ? 0 : (x - piece.a.y()) / along;
+  if (along == 0 || part < 0 || part > 1) return false;
+  const double radius = piece.a.x() + part * (piece.b.x() - piece.a.x()), aside = z - piece.about->y();
+  if (std::abs(aside) > radius) return false;
+  const double up = std::sqrt(radius * radius - aside * aside);
+  return std::abs(piece.about->x() + up) < height || std::abs(piece.about->x() - up) < height;
+}
+
+/// Places of a hole are looked at on a grid; a thin wall that stands in the hole passes between them and is not seen.
+Covered covered_by_turned(const WallPiece& piece, const Hole& hole, double height) {
+  constexpr int rows = 25;
+  const bool round = hole.shape == HoleShape::round;
+  const double half_z = 0.5 * (round ? hole.width : hole.across_length);
+  int places = 0, under = 0;
+  for (int i = 0; i < rows; ++i)
+    for (int k = 0; k < rows; ++k) {
+      const double u = (2 * i + 1.0) / rows - 1, v = (2 * k + 1.0) / rows - 1;
+      if (round && u * u + v * v > 1) continue;
+      ++places;
+      under += is_over(piece, hole.centre + u * hole.width / 2, hole.across + v * half_z, height) ? 1 : 0;
+    }
+  return under == 0 ? std::nullopt : Covered(static_cast<double>(under) / places);
+}
+
+void warn_of_covered_holes(const Scene& scene, const Vessel& vessel, Warnings& warnings) {
+  // Nothing passes between the floor and what is nearer to it than half a seed.
+  double height = std::numeric_limits<double>::infinity();
+  for (const SeedLot& lot : scene.lots) height = std::min(height, 0.5 * mean_thickness(lot));
+  for (std::size_t k = 0; k < vessel.pieces.size(); ++k) {
+    const WallPiece& piece = vessel.pieces[k];
+    std::string holes;
+    for (std::size_t h = 0; h < vessel.holes.size(); ++h) {
+      const Hole& hole = vessel.holes[h];
+      const Covered covered =
+          piece.about ? covered_by_turned(piece, hole, height) : covered_by_drawn_out(piece, hole, height);
+      if (!covered) continue;
+      holes += fmt::format("{}hole {}", holes.empty() ? "" : ", ", h + 1);
+      if (*covered < 0.995)
+        holes += *covered < 0.005 ? " (stands in it)" : fmt::format(" ({:.0f} % of it)", 100 * *covered);
+    }
+    if (!holes.empty())
+      warnings.push_back(
+          fmt::format("{} covers {}: what is drawn across a hole is a wall there", name_of_piece(vessel, k), holes));
+  }
+}
+
+// Vessels that pass through each other.
+
+using Line = std::vector<Eigen::Vector3d>;
+
+struct Box3 {
+  Eigen::Vector3d low = Eigen::Vector3d::Constant(1e300), high = Eigen::Vector3d::Constant(-1e300);
+
+  void include(const Eigen::Vector3d& point) { low = low.cwiseMin(point), high = high.cwiseMax(point); }
+  bool meets(const Box3& other) const {
+    return (low.array() <= other.high.array()).all() && (high.array() >= other.low.array()).all();
+  }
+};
+
+Box3 box_of(const Line& line) {
+  Box3 box;
+  for (const Eigen::Vector3d& point : line) box.include(point);
+  return box;
+}
+
+/// A vessel's walls in its own frame, as lines to be moved and as surfaces to be met. m.
+class OwnWalls {
+ public:
+  OwnWalls(const Vessel& vessel, Space space)
+      : vessel_(vessel), path_(vessel), walls_({at_rest(vessel)}, space), in_space_(space != Space::plane) {
+    if (in_space_)
+      for (const Face& face : vessel_faces(vessel)) {
+        walls_by_name_.push_back(face.name);
+        for (Line& line : face_lines(face)) add(std::move(line), face.name);
+      }
+    else
+      for (const WallSegment& wall : vessel_walls(vessel)) {
+        walls_by_name_.push_back(wall.name);
+        Line line;
+        for (const Eigen::Vector2d& point : wall_points(wall)) line.emplace_back(point.x(), point.y(), 0);
+        add(std::move(line), wall.name);
+      }
+  }
+
+  struct NamedLine {
+    std::string name;
+    Line points;
+  };
+  const std::vector<NamedLine>& lines() const { return lines_; }
+  const Box3& box() const { return box_; }
+  Pose pose(double time) const { return path_.pose(time); }
+  Eigen::Vector3d to_lab(const Pose& pose, const Eigen::Vector3d& own) const {
+    return point_in_lab(vessel_, pose, own);
+  }
+  Eigen::Vector3d from_lab(const Pose& pose, const Eigen::Vector3d& lab) const {
+    return point_in_vessel(vessel_, pose, lab);
+  }
+
+  /// The wall that a straight way passes through, at least `slack` from the wall's own ends.
+  const std::string* met_between(const Eigen::Vector3d& from, const Eigen::Vector3d& to, double slack) const {
+    for (std::size_t wall = 0; wall < walls_.count(); ++wall)
+      if (passes(wall, from, to, slack)) return &walls_by_name_[wall];
+    return nullptr;
+  }
+
+  bool is_clear(const Eigen::Vector3d& at, double slack) const {
+    for (std::size_t wall = 0; wall < walls_.count(); ++wall)
+      if (is_near(wall, at, slack)) return false;
+    return true;
+  }
+
+ private:
+  /// How a place stands to a wall: on which side, and whether over it and not beyond its ends.
+  struct Seen {
+    double side;
+    bool beside;
+  };
+
+  static Vessel at_rest(Vessel vessel) {
+    vessel.origin = Eigen::Vector2d::Zero(), vessel.tilt = 0, vessel.front = 0;
+    vessel.motion.reset();
+    return vessel;
+  }
+
+  void add(Line line, const std::string& name) {
+    for (const Eigen::Vector3d& point : line) box_.include(point);
+    lines_.push_back({name, std::move(line)});
+  }
+
+  bool is_near(std::size_t wall, const Eigen::Vector3d& at, double slack) const {
+    return walls_.distance2(wall, at) <= slack * slack;
+  }
+
+  Seen seen(std::size_t wall, const Eigen::Vector3d& at) const {
+    if (in_space_) {
+      const NearestOnFace nearest = nearest_on_face(walls_.placed_faces()[wall], at);
+      return {nearest.side, nearest.inside};
+    }
+    const NearestPoint nearest = nearest_point(walls_.placed()[wall], at.x(), at.y());
+    return {nearest.side, nearest.inside};
+  }
+
+  /// Halves the way until it is where it meets the wall's surface.
+  bool passes(std::size_t wall, Eigen::Vector3d begin, Eigen::Vector3d end, double slack) const {
+    const double side = seen(wall, begin).side;
+    if (!(side * seen(wall, end).side < 0) || is_near(wall, begin, slack) || is_near(wall, end, slack)) return false;
+    for (int k = 0; k < 40; ++k) {
+      const Eigen::Vector3d middle = 0.5 * (begin + end);
+      (side * seen(wall, middle).side > 0 ? begin : end) = middle;
+    }
+    for (int axis = 0; axis < (in_space_ ? 3 : 2); ++axis)
+      for (const double shift : {-slack, slack})
+        if (!seen(wall, begin + shift * Eigen::Vector3d::Unit(axis)).beside) return false;
+    return true;
+  }
+
+  const Vessel& vessel_;
+  VesselPath path_;
+  Walls walls_;
+  bool in_space_;
+  std::vector<NamedLine> lines_;
+  std::vector<std::string> walls_by_name_;
+  Box3 box_;
+};
+
+/// Follows the lines of one vessel past the other. What touches without going further than `slack` (m) does not pass.
+class Passage {
+ public:
+  Passage(const OwnWalls& moved, const OwnWalls& other, double slack)
+      : moved_(moved), other_(other), slack_(slack), clear_(moved.lines().size()) {}
+
+  /// "tray floor 1 and hopper right wall", that pass through each other at `time` (s) or have since the last call.
+  std::optional<std::string> at(double time) {
+    const Pose pose = moved_.pose(time), of_other = other_.pose(time);
+    for (std::size_t k = 0; k < moved_.lines().size(); ++k) {
+      const auto& [name, own] = moved_.lines()[k];
+      Line line;
+      for (const Eigen::Vector3d& point : own) line.push_back(other_.from_lab(of_other, moved_.to_lab(pose, point)));
+      const bool first = clear_[k].empty();
+      if (first) clear_[k] = line;
+      Box3 swept = box_of(line);
+      for (const Eigen::Vector3d& point : clear_[k]) swept.include(point);
+      if (!swept.meets(other_.box())) {
+        clear_[k] = line;
+        continue;
+      }
+      const std::string* met = nullptr;
+      for (std::size_t n = 1; n < line.size() && !met; ++n) met = crossed(line[n - 1], line[n]);
+      for (std::size_t n = 0; n < line.size() && !met; ++n) met = other_.met_between(clear_[k][n], line[n], slack_);
+      if (met) return fmt::format("{} and {}", name, *met);
+      for (std::size_t n = 0; n < line.size(); ++n)
+        if (other_.is_clear(line[n], slack_)) clear_[k][n] = line[n];
+    }
+    return std::nullopt;
+  }
+
+ private:
+  /// By the straight line between two of its points, further than `slack` from these.
+  const std::string* crossed(const Eigen::Vector3d& from, const Eigen::Vector3d& to) const {
+    const double length = (to - from).norm();
+    if (length <= 2 * slack_) return nullptr;
+    const Eigen::Vector3d end = slack_ / length * (to - from);
+    return other_.met_between(from + end, to - end, slack_);
+  }
+
+  const OwnWalls &moved_, &other_;
+  double slack_;
+  std::vector<Line> clear_;  // by line, where its points were last that were on no wall
+};
+
+/// Spread evenly over the run, but in step with no motion.
+std::vector<double> times_to_look_at(double duration) {
+  constexpr int count = 100;
+  constexpr double golden = 0.6180339887498949;
+  std::vector<double> times = {0};
+  for (int k = 1; k <= count; ++k) times.push_back(duration * (k * golden - std::floor(k * golden)));
+  std::ranges::sort(times);
+  return times;
+}
+
+void warn_of_vessels_that_meet(const Scene& scene, Warnings& warnings) {
+  if (!scene.hopper) return;
+  double slack = std::numeric_limits<double>::infinity();  // what overlaps by a hundredth of a seed is meant to touch
+  for (const SeedLot& lot : scene.lots) slack = std::min(slack, 0.01 * mean_thickness(lot));
+  const OwnWalls tray(scene.tray, scene.space), hopper(*scene.hopper, scene.space);
+  Passage of_tray(tray, hopper, slack), of_hopper(hopper, tray, slack);
+  const auto is_moved = [](const Vessel& vessel) { return vessel.motion && moves(*vessel.motion); };
+  const bool still = !is_moved(scene.tray) && !is_moved(*scene.hopper);
+  for (const double time : still ? std::vector<double>{0} : times_to_look_at(scene.run.duration)) {
+    std::optional<std::string> met = of_tray.at(time);
+    if (!met) met = of_hopper.at(time);
+    if (!met) continue;
+    warnings.push_back(fmt::format("hopper: passes through the tray, at {:.3g} s {} do", time, *met));
+    return;
+  }
+}
+
+// Where pieces reach to.
+
+void warn_of_large_pieces(const Vessel& vessel, Warnings& warnings) {
+  constexpr double most = 3;
+  if (vessel.pieces.empty()) return;
+  const double size = extent(vessel.pieces).size(), of_vessel = std::max(vessel.length, vessel.height);
+  if (size > most * of_vessel)
+    warnings.push_back(fmt::format("{}.pieces: reach over {}, the {} is {} long and {} high: are their units right?",
+                                   vessel.name, in_mm(size), vessel.name, in_mm(vessel.length), in_mm(vessel.height)));
+}
+
+/// The counting line is the tray's.
+void warn_of_pieces_below(const Scene& scene, const Vessel& vessel, Warnings& warnings) {
+  if (turns_steadily(scene.tray)) return;
+  const Pose of_tray = vessel_pose(scene.tray, 0), pose = vessel_pose(vessel, 0);
+  for (std::size_t k = 0; k < vessel.pieces.size(); ++k) {
+    const WallPiece& piece = vessel.pieces[k];
+    const Extent all = extent({piece});
+    double lowest = std::numeric_limits<double>::infinity();
+    const auto include = [&](const Eigen::Vector2d& own) {
+      lowest = std::min(lowest, in_vessel_frame(scene.tray, of_tray, in_lab_frame(vessel, pose, own)).y());
+    };
+    if (!piece.about && piece.radius == 0)
+      include(piece.a), include(piece.b);
+    else
+      for (const double x : {all.low.x(), all.high.x()}) include({x, all.low.y()}), include({x, all.high.y()});
+    if (!(lowest < -scene.run.count_below)) continue;
+    warnings.push_back(
+        fmt::format("{} reaches {} below the tray's floor, and seeds are counted {} below it (run.count_below): what "
+                    "it does to them "
+                    "further down counts for nothing",
+                    name_of_piece(vessel, k), in_mm(-lowest), in_mm(scene.run.count_below)));
+    return;  // one of a drawing says enough
+  }
+}
+
+}  // namespace
+
+std::vector<std::string> geometry_warnings(const Scene& scene) {
+  Warnings warnings;
+  std::vector<const Vessel*> vessels = {&scene.tray};
+  if (scene.hopper) vessels.push_back(&*scene.hopper);
+  for (const Vessel* vessel : vessels) {
+    warn_of_covered_holes(scene, *vessel, warnings);
+    warn_of_large_pieces(*vessel, warnings);
+    warn_of_pieces_below(scene, *vessel, warnings);
+  }
+  warn_of_vessels_that_meet(scene, warnings);
+  return warnings;
+}
+
+}  // namespace vibrosow
