@@ -1,7 +1,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <memory>
+#include <numbers>
 
 #include "cli/commands.hpp"
 #include "cli/common_options.hpp"
@@ -127,6 +129,12 @@ void print_vessel(const Vessel& vessel, Space space) {
   for (std::size_t i = 0; i < vessel.holes.size(); ++i)
     print("  hole {} {}{}\n", i + 1, hole_text(vessel.holes[i], space),
           vessel.holes[i].open_at > 0 ? fmt::format(", opens at {:.6g} s", vessel.holes[i].open_at) : "");
+  if (vessel.tilt != 0)
+    print_text(wrapped_beside(
+        "  ",
+        fmt::format("tilted by {:.4g} degree, {} end up; its walls, holes and pieces are tilted with it, gravity and "
+                    "the direction of its motion are not: 0 degree is level, 90 degree straight up",
+                    std::abs(vessel.tilt) * 180 / std::numbers::pi, vessel.tilt > 0 ? "right" : "left")));
   if (vessel.rain)
     print("  rain of {:.6g} seeds/s from {:.1f} mm above its floor\n", vessel.rain->rate, vessel.rain->height * 1e3);
 }

@@ -12,8 +12,10 @@
 #include "elementary/functions.hpp"
 #include "grains/clump_discs.hpp"
 #include "scene/clump_shape.hpp"
+#include "scene/motion.hpp"
 #include "scene/seed_lot.hpp"
 #include "scene/space_side_contacts.hpp"
+#include "vessel/vessel_motion.hpp"
 
 namespace vibrosow {
 namespace {
@@ -261,6 +263,37 @@ StepLimit vibration_limit(const StepBasis& basis, const Mode& mode) {
           std::min(stable, elementary::cbrt(8 * growth / (omega * omega * omega * omega)))};
 }
 
+/// Of the fastest component of a motion, s; infinity where nothing moves. Of a table 2 pi times its largest speed over
+/// its largest acceleration, which is the period where it is harmonic.
+double shortest_period(const Vessel& vessel) {
+  constexpr double never_again = std::numeric_limits<double>::infinity();
+  if (!vessel.motion || !moves(*vessel.motion)) return never_again;
+  const auto of_harmonic = [](const HarmonicMotion& m) {
+    return m.amplitude != 0 && m.frequency != 0 ? 1 / std::abs(m.frequency) : never_again;
+  };
+  if (const auto* harmonic = std::get_if<HarmonicMotion>(&*vessel.motion)) return of_harmonic(*harmonic);
+  if (const auto* rocking = std::get_if<RockingMotion>(&*vessel.motion)) return 1 / std::abs(rocking->frequency);
+  if (const auto* turning = std::get_if<TurningMotion>(&*vessel.motion))
+    return 2 * std::numbers::pi / std::abs(turning->angular_velocity);
+  if (const auto* sum = std::get_if<SumMotion>(&*vessel.motion)) {
+    double shortest = never_again;
+    for (const HarmonicMotion& component : sum->components) shortest = std::min(shortest, of_harmonic(component));
+    return shortest;
+  }
+  const MotionBounds bounds = motion_bounds(vessel);
+  return bounds.acceleration > 0 ? 2 * std::numbers::pi * bounds.speed / bounds.acceleration : never_again;
+}
+
+/// Walls move in steps as seeds do: a wall that goes to and fro within a few of them strikes at no speed it ever has.
+void add_limit_of_drive(const Scene& scene, std::vector<StepLimit>& limits) {
+  constexpr double steps_per_period = 20;
+  double shortest = shortest_period(scene.tray);
+  if (scene.hopper) shortest = std::min(shortest, shortest_period(*scene.hopper));
+  if (std::isfinite(shortest))
+    limits.push_back(
+        {fmt::format("{:g} steps in a period of the motion", steps_per_period), shortest / steps_per_period});
+}
+
 }  // namespace
 
 StepPlan plan_step(const StepBasis& basis) {
@@ -283,6 +316,7 @@ StepPlan plan_step(const StepBasis& basis) {
       {"a grain's travel in one step", longest_travel * basis.smallest_radius / basis.loads.grain_speed});
   if (const double drag = basis.scene.contact.drag; drag > 0)
     plan.limits.push_back({"drag", lightest(basis.touching) / drag});
+  add_limit_of_drive(basis.scene, plan.limits);
   const StepLimit& tightest = *std::ranges::min_element(plan.limits, {}, &StepLimit::dt);
   plan.longest_safe = tightest.dt;
   plan.bound_by = tightest.reason;

@@ -136,6 +136,19 @@ expect 0 "^vibrosow: warning: tray.holes.width: 3 mm is narrower" accuracy seede
 expect 0 "^vibrosow: warning: tray.holes.width: 3 mm is narrower" run seeder.toml --out narrow-run --set "tray.holes.width=3 mm"
 grep -q "is narrower" narrow-run/run.json || fail "run.json does not carry the warning"
 
+# A drawing with a line across the first hole and another on a layer that is switched off.
+printf '%s\n' 0 SECTION 2 HEADER 9 '$INSUNITS' 70 4 0 ENDSEC 0 SECTION 2 TABLES 0 LAYER 2 NOTES 70 0 62 -7 0 ENDSEC 0 SECTION 2 ENTITIES \
+  0 LINE 8 WALL 10 20 20 0 11 60 21 0 0 LINE 8 NOTES 10 0 20 30 11 120 21 30 0 ENDSEC 0 EOF >outline.dxf
+drawn=(--set 'tray.pieces={ file = "outline.dxf" }')
+expect 0 "drawing outline.dxf: 1 piece from \(20, 0\) to \(60, 0\) mm, layer WALL; left out:" check seeder.toml "${drawn[@]}"
+expect 0 "^vibrosow: warning: tray.pieces: piece 1 covers hole 1" check seeder.toml "${drawn[@]}"
+expect 0 "drawing outline.dxf: 1 piece" run seeder.toml --out drawn-run "${drawn[@]}"
+grep -q "piece 1 covers hole 1" drawn-run/run.json || fail "run.json does not carry the warning of a covered hole"
+expect 0 "tilted by 5 degree, right end up" check seeder.toml --set "tray.tilt=5 degree"
+fast=(--set "tray.motion.kind=harmonic" --set "tray.motion.direction=0 degree" --set "tray.motion.amplitude=0.1 um" --set "tray.motion.frequency=6 kHz")
+expect 0 "at most 8.333e-06 s: 20 steps in a period of the motion" check seeder.toml "${fast[@]}"
+expect 2 "longest safe step is 8.333e-06 s \(bound by 20 steps in a period of the motion\)" run seeder.toml "${fast[@]}" --set "numerics.dt=50 us"
+
 # No abort, whatever the name of a file, the units' database or the length of a key.
 grep -v title seeder.toml >"$(printf 'caf\xe9.toml')"
 expect 0 "reports: bytes" run "$(printf 'caf\xe9.toml')" --out bytes

@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <initializer_list>
 #include <numbers>
 
 #include "grains/size_distribution.hpp"
@@ -36,6 +37,54 @@ const StepLimit& limit(const StepPlan& plan, const char* part_of_reason) {
 
 TEST(StepPlan, ContactLastsHalfAPeriodOfTheShell) {
   EXPECT_NEAR(prepare(published()).step.contact_duration, 6.34e-3, 0.01e-3);
+}
+
+TEST(StepPlan, ResolvesTheMotionOfEitherVessel) {
+  const auto plan_of = [](const VesselMotion& motion, bool of_hopper) {
+    Scene scene = published();
+    scene.tray.motion.reset();
+    scene.hopper = scene.tray;
+    scene.hopper->name = "hopper", scene.hopper->origin = {0, 1.2};
+    (of_hopper ? *scene.hopper : scene.tray).motion = motion;
+    return prepare(scene).step;
+  };
+  const double speed = 2 * Bench::pi * 6000;
+  TableMotion table;
+  for (int k = 0; k <= 400; ++k) {
+    const double time = k / (40 * 6000.0);
+    table.times.push_back(time), table.x.push_back(1e-6 * std::sin(speed * time)), table.y.push_back(0);
+    table.angle.push_back(0);
+  }
+  SumMotion sum;
+  sum.components = {{0, 0.01, 9}, {1, 1e-6, 6000}, {0, 0, 1e5}};
+  for (const bool of_hopper : {false, true}) {
+    for (const VesselMotion& motion :
+         std::initializer_list<VesselMotion>{HarmonicMotion{0, 1e-6, 6000}, HarmonicMotion{1, 1e-6, 6000, 0.1, 1}, sum,
+                                             RockingMotion{{0, 0}, 1e-6, 6000}, TurningMotion{{0, 0}, -speed}, table}) {
+      const StepPlan plan = plan_of(motion, of_hopper);
+      EXPECT_NEAR(limit(plan, "period").dt * 20 * 6000, 1, std::holds_alternative<TableMotion>(motion) ? 0.02 : 1e-12)
+          << motion.index();
+      EXPECT_LE(plan.dt, limit(plan, "period").dt);
+    }
+    EXPECT_THROW(limit(plan_of(HarmonicMotion{0, 0, 9}, of_hopper), "period"), std::runtime_error) << "nothing moves";
+  }
+}
+
+TEST(StepPlan, ADriveFasterThanTheContactsRulesTheStep) {
+  Scene scene = published();
+  scene.numerics.integrator = Integrator::velocity_verlet;
+  const StepPlan slow = prepare(scene).step;
+  scene.tray.motion = HarmonicMotion{0, 1e-7, 6000, 0};
+  const StepPlan fast = prepare(scene).step;
+  EXPECT_EQ(fast.bound_by, "20 steps in a period of the motion");
+  EXPECT_DOUBLE_EQ(fast.dt, 1.0 / 6000 / 20);
+  EXPECT_GT(slow.dt, 5 * fast.dt);
+  scene.numerics.dt = 1e-4;
+  const StepPlan by_hand = prepare(scene).step;
+  EXPECT_TRUE(by_hand.too_long);
+  EXPECT_TRUE(step_refused(scene.numerics, by_hand));
+  scene.numerics.allow_long_step = true;
+  EXPECT_FALSE(step_refused(scene.numerics, by_hand));
 }
 
 TEST(StepPlan, LimitsAreThoseOfTheEquations) {
