@@ -1,0 +1,509 @@
+#include "scenes/drawn_scene.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "input/read_scene.hpp"
+
+namespace vibrosow {
+namespace {
+
+std::uint64_t mixed(std::uint64_t bits) {  // splitmix64
+  bits += 0x9e3779b97f4a7c15;
+  bits = (bits ^ (bits >> 30)) * 0xbf58476d1ce4e5b9;
+  bits = (bits ^ (bits >> 27)) * 0x94d049bb133111eb;
+  return bits ^ (bits >> 31);
+}
+
+std::string quoted(const std::string& text) {
+  return '"' + text + '"';
+}
+std::string in_unit(double value, const char* unit) {
+  return fmt::format("\"{:.6g} {}\"", value, unit);
+}
+std::string mm(double value) {
+  return in_unit(value, "mm");
+}
+std::string ms(double value) {
+  return in_unit(value, "ms");
+}
+std::string degrees(double value) {
+  return in_unit(value, "degree");
+}
+std::string list(const std::vector<std::string>& values) {
+  return fmt::format("[{}]", fmt::join(values, ", "));
+}
+std::string point(double x, double y) {
+  return list({mm(x), mm(y)});
+}
+
+/// Writes the keys of one seeder. Lengths in mm.
+class SceneWriter {
+ public:
+  explicit SceneWriter(Draw& draw) : draw_(draw), deep_(draw.below("space", 2) == 1) {}
+
+  void write() {
+    if (deep_) set("space", quoted("3d"));
+    write_lots();
+    write_contact();
+    write_tray();
+    if (draw_.one_in("hopper", 3)) write_hopper();
+    write_fill_where_there_is_none();
+    write_run();
+  }
+
+  std::vector<DrawnScene::Key> keys;
+  std::map<std::string, std::string> tables;
+
+ private:
+  /// Of a vessel, as far as others depend on it.
+  struct Shape {
+    std::string name;
+    double length, height, depth;
+    bool box = true, round = false, drum = false, turns = false, periodic = false, periodic_across = false;
+    int holes = 0;
+  };
+
+  void set(const std::string& key, const std::string& value) { keys.emplace_back(key, value); }
+  void set(const std::string& key, double value) { set(key, fmt::format("{:.6g}", value)); }
+
+  // ---- seeds ----
+
+  void write_lots() {
+    lots_ = draw_.below("lots", 3) + 1;
+    for (int k = 0; k < lots_; ++k) write_lot(k);
+    if (lots_ == 1) return;
+    // One lot may be so rare that a small fill has none of it.
+    const bool rare = draw_.one_in("lots.rare", 4);
+    std::vector<double> percent = lots_ == 2 ? std::vector<double>{50, 50} : std::vector<double>{50, 30, 20};
+    if (rare) percent = lots_ == 2 ? std::vector<double>{99.5, 0.5} : std::vector<double>{70, 29.5, 0.5};
+    const char* key = draw_.one_in("lots.by_mass", 2) ? "mass_fraction" : "number_fraction";
+    for (int k = 0; k < lots_; ++k) set(lot(k) + "." + key, in_unit(percent[static_cast<std::size_t>(k)], "%"));
+  }
+
+  static std::string lot(int k) { return fmt::format("seeds.{}", "abc"[k]); }
+
+  void write_lot(int k) {
+    const std::string name = lot(k);
+    const double size = draw_.number(name + ".size", 4, k == 0 ? 5 : 7);
+    const int shape = draw_.below(name + ".shape", 6);
+    const bool row = shape == 1 || shape == 2;
+    if (shape == 1) set(name + ".shape", quoted("elongated"));
+    if (shape == 2) set(name + ".shape", quoted("drop"));
+    if (shape == 3) set(name + ".shape", quoted("dipole"));
+    if (shape == 4) set(name + ".shape", quoted("discs"));
+    const bool disc = shape == 5 && !deep_;
+    if (disc) set(name + ".shape", quoted("disc"));
+    const double length = row ? 1.3 * size : size;
+    if (row) {
+      const double width = draw_.number(name + ".width", 0.65, 0.5) * length;
+      set(name + ".width", mm(width));
+      if (draw_.one_in(name + ".flat", 3)) set(name + ".thickness", mm(0.6 * width));
+    }
+    if (shape == 3) set(name + ".distance", mm(draw_.number(name + ".distance", 0.5, 1.2) * size));
+    if (shape == 4) {
+      // No two of its axes alike, and in space off its plane.
+      std::string discs = fmt::format("{{ x = {}, y = {}, diameter = {} }}, {{ x = {}, y = {}, diameter = {} }}", mm(0),
+                                      mm(0), mm(0.8 * size), mm(0.5 * size), mm(0.1 * size), mm(0.6 * size));
+      if (draw_.one_in(name + ".third", 2))
+        discs += fmt::format(", {{ x = {}, y = {}, {}diameter = {} }}", mm(-0.1 * size), mm(0.45 * size),
+                             deep_ ? fmt::format("z = {}, ", mm(0.2 * size)) : "", mm(0.5 * size));
+      set(name + ".discs", "[" + discs + "]");
+    } else {
+      write_sizes(name, row ? "length" : "diameter", length);
+    }
+    write_mass(name, disc, size);
+    largest_ = std::max(largest_, (shape >= 3 && shape <= 4 ? 2.2 : 1.3) * 1.25 * size);
+  }
+
+  void write_sizes(const std::string& name, const std::string& key, double size) {
+    const int kind = draw_.below(name + ".sizes", 8);
+    if (kind == 0 || kind > 4) return set(name + "." + key, mm(size));
+    if (kind == 1)
+      return set(name + ".sizes", fmt::format("{{ distribution = \"uniform\", least = {}, most = {} }}", mm(0.8 * size),
+                                              mm(1.2 * size)));
+    if (kind == 4)
+      return set(name + ".sizes",
+                 fmt::format("{{ distribution = \"table\", {}s = {}, fractions = [\"25 %\", \"60 %\", \"15 %\"] }}",
+                             key, list({mm(0.8 * size), mm(size), mm(1.2 * size)})));
+    set(name + "." + key, mm(size));
+    set(name + ".sizes", fmt::format("{{ distribution = \"{}\", deviation = {}{} }}",
+                                     kind == 2 ? "normal" : "lognormal", mm(0.07 * size),
+                                     draw_.one_in(name + ".cut", 2)
+                                         ? fmt::format(", least = {}, most = {}", mm(0.9 * size), mm(1.2 * size))
+                                         : ""));
+  }
+
+  void write_mass(const std::string& name, bool disc, double size) {
+    const double mg = 0.6 * size * size * size;
+    const int kind = draw_.below(name + ".mass", 3);
+    if (kind == 1 || (disc && kind == 0)) return set(name + ".mass", in_unit(mg, "mg"));
+    if (kind == 2) return set(name + ".thousand_grain_weight", in_unit(mg, "g"));
+    set(name + ".density", in_unit(draw_.number(name + ".density", 1200, 700), "kg/m3"));
+  }
+
+  // ---- contact ----
+
+  void write_contact() {
+    const int law = draw_.below("contact.law", 4);
+    if (law < 2) {
+      set("contact.shell_compression", draw_.one_in("contact.stiff", 4) ? 3e-4 : 1e-3);
+      if (draw_.one_in("contact.soft_lot", 5)) set(lot(0) + ".shell_compression", 2e-3);
+    } else {
+      set("contact.law", quoted("hertz"));
+      set("contact.youngs_modulus", in_unit(draw_.one_in("contact.stiff", 4) ? 3 : 1, "MPa"));
+      if (draw_.one_in("contact.soft_lot", 5)) set(lot(0) + ".youngs_modulus", in_unit(0.5, "MPa"));
+      if (draw_.one_in("contact.wall.soft", 3)) set("contact.wall.youngs_modulus", in_unit(5, "MPa"));
+    }
+    if (law == 3)
+      set("contact.damping_rate", in_unit(1e3, "1/s"));
+    else
+      set("contact.restitution", draw_.number("contact.restitution", 0.4, 0.9));
+    set("contact.friction", draw_.number("contact.friction", 0.4, 0));
+    if (draw_.one_in("contact.friction_model", 2)) set("contact.friction_model", quoted("spring"));
+    if (draw_.one_in("contact.rotation", 8))
+      set("contact.rotation", "false");
+    else
+      write_rolling();
+    if (draw_.one_in("contact.cohesion", 3)) set("contact.cohesion", in_unit(0.2, "mN"));
+    if (draw_.one_in("contact.drag", 4)) set("contact.drag", in_unit(0.05, "g/s"));
+    if (draw_.one_in("contact.arm", 6)) set("contact.friction_arm", quoted("rim"));
+    if (draw_.one_in("contact.wall", 3)) set("contact.wall.friction", draw_.number("contact.wall.friction", 0.2, 0.7));
+    if (draw_.one_in("contact.pair", 3)) set("contact.a.wall.friction", 0.1);
+  }
+
+  void write_rolling() {
+    const int rolling = draw_.below("contact.rolling", 3);
+    if (rolling == 0) return;
+    set("contact.rolling", quoted(rolling == 1 ? "constant-torque" : "spring"));
+    set("contact.rolling_friction", 0.1);
+    if (draw_.one_in("contact.twisting", 2)) set("contact.twisting_friction", 0.05);
+  }
+
+  // ---- vessels ----
+
+  void write_tray() {
+    Shape tray{"tray", draw_.number("tray.length", 60, 90), draw_.number("tray.height", 40, 60),
+               draw_.number("tray.depth", 25, 40)};
+    tray.drum = draw_.one_in("tray.drum", 10);
+    if (tray.drum) tray.box = false, tray.height = tray.length;
+    if (!tray.drum && draw_.one_in("tray.box", 10)) tray.box = false;
+    tray.round = deep_ && tray.box && draw_.one_in("tray.round", 6);
+    write_sides(tray);
+    write_vessel(tray);
+    write_drill(tray);
+    tray_ = tray;
+  }
+
+  void write_sides(Shape& tray) {
+    if (tray.drum || tray.round) return;
+    const int sides = draw_.below("tray.sides", 5);
+    if (sides == 3) set("tray.sides", quoted("open"));
+    tray.periodic = sides == 4;
+    if (tray.periodic) set("tray.sides", quoted("periodic")), tray.length = std::max(tray.length, 6 * largest_);
+    const int across = draw_.below("tray.front_and_back", 5);
+    if (across == 3) set("tray.front_and_back", quoted("open"));
+    tray.periodic_across = across == 4;
+    if (across == 4) set("tray.front_and_back", quoted("periodic")), tray.depth = std::max(tray.depth, 6 * largest_);
+  }
+
+  void write_hopper() {
+    Shape hopper{"hopper", draw_.number("hopper.length", 30, 45), draw_.number("hopper.height", 30, 60), tray_.depth};
+    hopper.round = deep_ && draw_.one_in("hopper.round", 3);
+    hopper.periodic_across = tray_.periodic_across && !hopper.round;
+    set("hopper.left", mm(draw_.number("hopper.left", 0.5, 1) * (tray_.length - hopper.length)));
+    // Above the tray's walls, within them, or in its bed.
+    const int above = draw_.below("hopper.above", 8);
+    set("hopper.above", mm(above == 7 ? 3 : above > 3 ? 15 : tray_.height + 5));
+    if (deep_ && hopper.round && tray_.depth > hopper.length)
+      set("hopper.front", mm(0.5 * (tray_.depth - hopper.length)));
+    if (deep_ && !hopper.round && !hopper.periodic_across && draw_.one_in("hopper.depth", 3)) {
+      hopper.depth = 0.8 * tray_.depth;
+      set("hopper.depth", mm(hopper.depth));
+      set("hopper.front", mm(0.1 * tray_.depth));
+    }
+    write_vessel(hopper);
+  }
+
+  void write_vessel(Shape& vessel) {
+    const std::string& name = vessel.name;
+    set(name + ".length", mm(vessel.length));
+    set(name + ".height", mm(vessel.height));
+    if (vessel.round) {
+      set(name + ".plan", quoted("round"));
+      vessel.depth = vessel.length;
+    } else if (name == "tray" && (deep_ || draw_.one_in("tray.has_depth", 2))) {
+      set(name + ".depth", mm(vessel.depth));
+    }
+    if (!vessel.box) set(name + ".box", "false");
+    vessel.turns = draw_.one_in(name + (vessel.drum ? ".drum.turns" : ".turns"), vessel.drum ? 2 : 10);
+    if (!vessel.drum && !vessel.periodic && draw_.one_in(name + ".tilt", 4))
+      set(name + ".tilt", degrees(draw_.number(name + ".tilt.angle", 2, -8)));
+    write_holes(vessel);
+    write_pieces(vessel);
+    write_fill(vessel);
+    write_rain(vessel);
+    write_motion(vessel);
+  }
+
+  void write_holes(Shape& vessel) {
+    const std::string& name = vessel.name;
+    const bool hopper = name == "hopper";
+    if (vessel.drum || (vessel.turns && !upright(vessel))) return;
+    vessel.holes = hopper ? 1 : draw_.below(name + ".holes", 3);
+    if (vessel.round) vessel.holes = std::min(vessel.holes, 1);
+    if (vessel.holes == 0) return;
+    const double width = hopper ? draw_.number(name + ".width", 12, 20) : draw_.number(name + ".width", 9, 15);
+    if (draw_.one_in(name + ".at", 3)) {
+      std::vector<std::string> at;
+      for (int k = 0; k < vessel.holes; ++k) at.push_back(mm((k + 1) * vessel.length / (vessel.holes + 1)));
+      set(name + ".holes.at", list(at));
+    } else {
+      set(name + ".holes.count", vessel.holes);
+    }
+    set(name + ".holes.width", mm(width));
+    const bool funnel = draw_.one_in(name + ".funnel", hopper ? 2 : 5) && vessel.box;
+    if (vessel.round || (!funnel && draw_.one_in(name + ".round_holes", 4))) {
+      set(name + ".holes.shape", quoted("round"));
+      if (!vessel.round && draw_.one_in(name + ".rows", 3)) set(name + ".holes.rows", 2);
+    } else if (deep_ && !funnel && draw_.one_in(name + ".short_slots", 4)) {
+      set(name + ".holes.across", mm(0.6 * vessel.depth));
+    }
+    if (funnel) set(name + ".funnel", degrees(draw_.number(name + ".funnel.slope", 20, 45)));
+    if (draw_.one_in(name + ".gate", 4)) set(name + ".holes.open_at", ms(draw_.number(name + ".gate.time", 10, 40)));
+  }
+
+  void write_pieces(const Shape& vessel) {
+    const std::string& name = vessel.name;
+    const double l = vessel.length, h = vessel.height, middle = l / 2;
+    std::vector<std::string> pieces;
+    const auto line = [&](const std::vector<std::string>& points) {
+      pieces.push_back(fmt::format("{{ line = {} }}", list(points)));
+    };
+    const auto arc = [&](double x, double y, double radius, double from, double to) {
+      pieces.push_back(fmt::format("{{ centre = {}, radius = {}, from = {}, to = {} }}", point(x, y), mm(radius),
+                                   degrees(from), degrees(to)));
+    };
+    const auto turned = [&](const std::vector<std::string>& points, double a, double b, const char* axis) {
+      pieces.push_back(fmt::format("{{ line = {}, about = {}, axis = \"{}\" }}", list(points), point(a, b), axis));
+    };
+    if (vessel.drum) {
+      pieces.push_back(fmt::format("{{ centre = {}, radius = {} }}", point(middle, middle), mm(middle)));
+      if (draw_.one_in(name + ".lifter", 2)) line({point(middle, 0.02 * l), point(middle, 0.15 * l)});
+    } else if (!vessel.box) {  // two slopes, a gap between them
+      line({point(0, 0.9 * h), point(0, 0.5 * h), point(middle - 8, 1)});
+      line({point(middle + 8, 1), point(l, 0.5 * h), point(l, 0.9 * h)});
+    }
+    const int kinds = deep_ ? 12 : 10;
+    for (const char* which : {".piece", ".other_piece"}) {
+      const int kind = vessel.drum ? 0 : draw_.below(name + which, 3 * kinds);
+      if (kind == 1) line({point(0, 0.4 * h), point(0.6 * l, 0.25 * h)});                  // a sloping shelf
+      if (kind == 2) line({point(0, 0.5 * h), point(0.4 * l, 2), point(0.4 * l + 1, 2)});  // a drawn slope
+      if (kind == 3) line({point(0.3 * l, 0.1 * h), point(0.3 * l, 0.7 * h)});             // a board
+      if (kind == 4) arc(middle, 0, 0.15 * l, 0, 180);                                     // a hump
+      if (kind == 5) arc(middle, 0.4 * h, 6, 0, 360);                                      // a rod across
+      if (kind == 6) line({point(0, 0), point(l, 0)});                                     // a floor drawn twice
+      if (kind == 7)
+        line({point(middle, 0), point(middle, 0.5 * h)}), line({point(middle, 0.25 * h), point(l, 0.5 * h)});
+      if (kind == 8) line({point(l, 0), point(l, h)});          // an end wall drawn twice
+      if (kind == 9) arc(0.3 * l, 0.3 * h, 0.2 * l, 200, 340);  // a bowl
+      if (kind == 10) turned({point(6, 0), point(6, 0.4 * h)}, middle, vessel.depth / 2, "upright");
+      if (kind == 11) turned({point(4, 0), point(4, l)}, 0.4 * h, vessel.depth / 2, "along");
+    }
+    if (!pieces.empty()) set(name + ".pieces", list(pieces));
+  }
+
+  void write_fill(const Shape& vessel) {
+    const std::string& name = vessel.name;
+    if (!draw_.one_in(name + ".no_fill", 4)) write_fill_of(vessel);
+  }
+
+  void write_fill_of(const Shape& vessel) {
+    const std::string& name = vessel.name;
+    filled_ = true;
+    const int most = static_cast<int>(vessel.length * vessel.height / (1.6 * largest_ * largest_)) * (deep_ ? 2 : 1);
+    int count = 8 + static_cast<int>(draw_.number(name + ".count", 0.2, 0.6) * most);
+    if (draw_.one_in(name + ".too_many", 16)) count = 4 * most;
+    set(name + ".fill.count", count);
+    const int packing = draw_.below(name + ".packing", 4);
+    if (packing < 2) set(name + ".fill.packing", quoted("poured"));
+    if (packing == 2) set(name + ".fill.packing", quoted("layers"));
+    if (packing == 3) set(name + ".fill.packing", quoted("hexagonal"));
+    if (packing > 1 && draw_.one_in(name + ".jitter", 3)) set(name + ".fill.jitter", 0.05);
+    if (!vessel.turns && draw_.one_in(name + ".keep", 3)) set(name + ".fill.keep", "true");
+  }
+
+  void write_rain(const Shape& vessel) {
+    const std::string& name = vessel.name;
+    if (!draw_.one_in(name + ".rain", 4)) return;
+    filled_ = true;
+    set(name + ".rain.rate", in_unit(draw_.number(name + ".rain.rate", 300, 600), "1/s"));
+    if (draw_.one_in(name + ".rain.part", 2)) {
+      set(name + ".rain.from", mm(0.2 * vessel.length));
+      set(name + ".rain.to", mm(0.7 * vessel.length));
+    }
+    if (draw_.one_in(name + ".rain.height", 2))
+      set(name + ".rain.height", mm(draw_.number(name + ".rain.how_high", 0.9, 0.2) * vessel.height));
+    if (draw_.one_in(name + ".rain.start", 4)) set(name + ".rain.start", ms(10));
+    if (draw_.one_in(name + ".rain.stop", 4)) set(name + ".rain.stop", ms(40));
+  }
+
+  void write_fill_where_there_is_none() {
+    if (!filled_) write_fill_of(tray_);
+  }
+
+  // ---- motion ----
+
+  bool upright(const Shape& vessel) { return deep_ && draw_.one_in(vessel.name + ".turns.upright", 2); }
+
+  void write_motion(const Shape& vessel) {
+    const std::string& name = vessel.name;
+    const std::string key = name + ".motion.";
+    if (vessel.turns && !vessel.periodic && !vessel.periodic_across) return write_turning(vessel);
+    const int kind = draw_.below(name + ".motion", 6);
+    if (name == "hopper" && !draw_.one_in("hopper.moves", 3)) return;
+    if (kind == 5) return;
+    if (kind == 0 || (kind == 2 && vessel.periodic)) {
+      set(key + "kind", quoted("harmonic"));
+      write_oscillation(vessel);
+    }
+    if (kind == 1) {
+      set(key + "kind", quoted("sum"));
+      set(key + "components",
+          "[{ amplitude = \"1 mm\", frequency = \"15 Hz\" }, { direction = \"70 degree\", amplitude = "
+          "\"0.5 mm\", frequency = \"23 Hz\", phase = \"30 degree\" }]");
+    }
+    if (kind == 2 && !vessel.periodic) {
+      set(key + "kind", quoted("rocking"));
+      set(key + "pivot", point(draw_.number(key + "pivot", 0.5, 0) * vessel.length, 0));
+      set(key + "angle", degrees(draw_.number(key + "angle", 1, 4)));
+      set(key + "frequency", in_unit(10, "Hz"));
+    }
+    if (kind > 2) return write_table(vessel);
+    if (draw_.one_in(key + "ramp", 3)) set(key + "ramp", ms(20));
+    if (draw_.one_in(key + "stop", 4)) set(key + "stop", ms(30));
+  }
+
+  void write_oscillation(const Shape& vessel) {
+    const std::string key = vessel.name + ".motion.";
+    const int direction = draw_.below(key + "direction", deep_ ? 4 : 3);
+    if (direction == 1) set(key + "direction", degrees(90));
+    if (direction == 2) set(key + "direction", degrees(-30));
+    if (direction == 3) set(key + "direction", "[1, 0.5, 0.3]");
+    set(key + "amplitude", mm(draw_.number(key + "amplitude", 1, 3)));
+    set(key + "frequency", in_unit(draw_.number(key + "frequency", 10, 20), "Hz"));
+    if (draw_.one_in(key + "phase", 3)) set(key + "phase", degrees(60));
+  }
+
+  void write_turning(const Shape& vessel) {
+    const std::string key = vessel.name + ".motion.";
+    set(key + "kind", quoted("turning"));
+    set(key + "speed", in_unit(draw_.number(key + "speed", 60, -90), "rpm"));
+    const bool is_upright = !vessel.drum && upright(vessel);
+    if (is_upright) set(key + "axis", quoted("upright"));
+    set(key + "pivot", point(vessel.length / 2, is_upright ? vessel.depth / 2 : vessel.height / 2));
+    if (draw_.one_in(key + "ramp", 3)) set(key + "ramp", ms(20));
+  }
+
+  /// Begins displaced and, where the vessel may turn, turned.
+  void write_table(const Shape& vessel) {
+    const std::string file = vessel.name + ".csv";
+    const bool turns = !vessel.periodic && draw_.one_in(vessel.name + ".table.turns", 2);
+    const bool across = deep_ && draw_.one_in(vessel.name + ".table.across", 3);
+    const double angle = turns ? draw_.number(vessel.name + ".table.angle", 3, -6) : 0;
+    std::string text = fmt::format("time_s,x_mm,y_mm{}{}\n", turns ? ",angle_degree" : "", across ? ",z_mm" : "");
+    for (int k = 0; k < 6; ++k)
+      text += fmt::format("{:g},{:g},{:g}{}{}\n", 0.01 * k, 1.0 + (k % 2), 0.5 * (k % 3),
+                          turns ? fmt::format(",{:g}", angle * (1 - 0.15 * k)) : "",
+                          across ? fmt::format(",{:g}", 0.4 * k) : "");
+    tables["/drawn/" + file] = text;
+    set(vessel.name + ".motion.kind", quoted("table"));
+    set(vessel.name + ".motion.file", quoted(file));
+  }
+
+  // ---- run ----
+
+  void write_drill(const Shape& tray) {
+    if (tray.holes == 0 || !draw_.one_in("drill", 6)) return;
+    set("drill.row_spacing", in_unit(15, "cm"));
+    set("drill.speed", in_unit(8, "km/h"));
+  }
+
+  void write_run() {
+    set("run.duration", ms(draw_.number("run.duration", 40, 80)));
+    set("run.count_below", mm(draw_.number("run.count_below", 4, 10)));
+    if (draw_.one_in("run.measure_from", 3)) set("run.measure_from", ms(15));
+    if (draw_.one_in("run.start", 3)) set("run.start", quoted("with-tray"));
+    if (draw_.one_in("run.pause", 6)) set("run.end_after_pause", ms(25));
+    if (draw_.one_in("record", 4)) {
+      set("record.every", ms(10));
+      if (draw_.one_in("record.cell", 2)) set("record.cell", quoted("3 diameters"));
+      if (draw_.one_in("record.view", 2)) set("record.view", quoted("slice"));
+    }
+    const int scheme = draw_.below("numerics.integrator", 5);
+    if (scheme == 3) set("numerics.integrator", quoted("rk2-midpoint"));
+    if (scheme == 4) set("numerics.integrator", quoted("gear5"));
+    if (draw_.one_in("numerics.steps", 5)) set("numerics.steps_per_contact", draw_.one_in("numerics.few", 3) ? 3 : 30);
+    if (draw_.one_in("guard", 5)) set("guard.warn_relative_overlap", 0.1);
+  }
+
+  Draw& draw_;
+  bool deep_;
+  int lots_ = 1;
+  double largest_ = 0;  // mm, at least the diameter of the largest seed
+  bool filled_ = false;
+  Shape tray_{};
+};
+
+}  // namespace
+
+int Draw::below(const std::string& name, int n) {
+  if (plain_.contains(name)) return 0;
+  std::uint64_t bits = seed_;
+  for (const char c : name) bits = mixed(bits ^ static_cast<unsigned char>(c));
+  const int chosen = static_cast<int>(bits % static_cast<std::uint64_t>(n));
+  if (chosen != 0 && std::ranges::find(taken_, name) == taken_.end()) taken_.push_back(name);
+  return chosen;
+}
+
+DrawnScene::DrawnScene(std::uint64_t seed, std::set<std::string> plain) : seed_(seed), plain_(std::move(plain)) {
+  Draw draw(seed_, plain_);
+  SceneWriter writer(draw);
+  writer.write();
+  taken_ = draw.taken();
+  keys_ = std::move(writer.keys);
+  tables_ = std::move(writer.tables);
+}
+
+std::string DrawnScene::toml() const {
+  std::string text;
+  for (const Key& key : keys_) text += key.first + " = " + key.second + "\n";
+  return text;
+}
+
+std::shared_ptr<SourceFiles> DrawnScene::files_with(const std::string& text) const {
+  std::map<std::string, std::string> texts = tables_;
+  texts[path()] = text;
+  return std::make_shared<SourceFiles>(std::move(texts));
+}
+
+Scene DrawnScene::read() const {
+  return read_scene(path(), {}, files());
+}
+
+std::vector<DrawnScene> DrawnScene::plainer() const {
+  std::vector<DrawnScene> scenes;
+  const auto without = [&](std::size_t from, std::size_t to) {
+    std::set<std::string> plain = plain_;
+    for (std::size_t k = from; k < to; ++k) plain.insert(taken_[k]);
+    scenes.emplace_back(seed_, std::move(plain));
+  };
+  for (std::size_t many = taken_.size() / 2; many > 0; many /= 2)
+    for (std::size_t from = 0; from < taken_.size(); from += many) without(from, std::min(from + many, taken_.size()));
+  return scenes;
+}
+
+}  // namespace vibrosow

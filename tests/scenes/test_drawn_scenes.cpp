@@ -1,0 +1,567 @@
+// What must hold whatever the scene, on seeders drawn over all features at once. VIBROSOW_SCENES is how many (some
+// dozens without it), VIBROSOW_SCENES_SEED which. What fails is made as plain as it goes and printed as TOML.
+#include <gtest/gtest.h>
+#include <rapidcheck.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <map>
+#include <optional>
+#include <set>
+#include <sstream>
+
+#include "input/read_scene.hpp"
+#include "scene/input_error.hpp"
+#include "scene/motion.hpp"
+#include "scene/scene_json.hpp"
+#include "scene/seed_lot.hpp"
+#include "scenes/drawn_scene.hpp"
+#include "scenes/mirrored.hpp"
+#include "scenes/own_walls.hpp"
+#include "simulation/simulation.hpp"
+#include "support/bench.hpp"
+
+namespace vibrosow {
+
+void showValue(const DrawnScene& drawn, std::ostream& out) {
+  out << '\n' << drawn.toml();
+}
+
+namespace {
+
+std::uint64_t from_environment(const char* name, std::uint64_t otherwise) {
+  const char* text = std::getenv(name);
+  return text != nullptr ? std::strtoull(text, nullptr, 10) : otherwise;
+}
+
+rc::Gen<DrawnScene> any_scene() {
+  return [](const rc::Random& random, int) {
+    rc::Random numbers = random;
+    return rc::shrinkable::shrinkRecur(DrawnScene(numbers.next()),
+                                       [](const DrawnScene& scene) { return rc::seq::fromContainer(scene.plainer()); });
+  };
+}
+
+/// `wrong`: what is wrong with a scene; empty: nothing.
+template <class Wrong>
+void expect_of_drawn_scenes(int cases, Wrong wrong) {
+  rc::detail::TestParams params;
+  params.seed = from_environment("VIBROSOW_SCENES_SEED", 20261127);
+  params.maxSuccess = static_cast<int>(from_environment("VIBROSOW_SCENES", static_cast<std::uint64_t>(cases)));
+  const auto result = rc::detail::checkTestable(
+      [&] {
+        const DrawnScene drawn = *any_scene();
+        const std::string text = wrong(drawn);
+        if (!text.empty()) RC_FAIL(text);
+      },
+      rc::detail::TestMetadata{}, params);
+  std::ostringstream told;
+  rc::detail::printResultMessage(result, told);
+  EXPECT_TRUE(result.template is<rc::detail::SuccessResult>()) << told.str();
+}
+
+/// What is thrown at the user, without the place in the file; empty: nothing.
+template <class Do>
+std::string refusal(Do act) {
+  try {
+    act();
+    return "";
+  } catch (const InputError& error) {
+    const std::string text = error.what();
+    const auto after = text.find(": ");
+    return text.starts_with(DrawnScene::path()) || text.starts_with("--set") ? text.substr(after + 2) : text;
+  }
+}
+
+/// The scene and the state that a run of it begins with; none where it is refused.
+struct Start {
+  Model model;
+  SimulationState state;
+};
+std::optional<Start> start_of(const Scene& scene) {
+  try {
+    Model model = prepare_to_run(scene);
+    SimulationState state = starting_state(model, 1);
+    return Start{std::move(model), std::move(state)};
+  } catch (const InputError&) {
+    return std::nullopt;
+  }
+}
+std::optional<Start> start_of(const DrawnScene& drawn) {
+  std::optional<Scene> scene;
+  try {
+    scene = drawn.read();
+  } catch (const InputError&) {
+    return std::nullopt;
+  }
+  return start_of(*scene);
+}
+
+// ---- reading ----
+
+std::string json_differs(const DrawnScene& drawn) {
+  Scene scene;
+  if (!refusal([&] { scene = drawn.read(); }).empty()) return "";
+  const std::string json = scene_to_json(scene);
+  const Scene again = scene_from_json(json);
+  if (!(again == scene)) return "read back from its JSON it is another scene: " + json;
+  return scene_to_json(again) == json ? "" : "its JSON is not the same when it is written again: " + json;
+}
+
+TEST(DrawnScene, IsTheSameReadBackFromItsJson) {
+  expect_of_drawn_scenes(200, json_differs);
+}
+
+/// What a seeder text with a change from the command line is: a scene, or the words by which it is refused.
+struct Said {
+  std::optional<Scene> scene;
+  std::string refused;
+  bool operator==(const Said&) const = default;
+};
+Said said(const DrawnScene& drawn, const std::string& text, const std::vector<Override>& overrides = {}) {
+  Said what;
+  what.refused = refusal([&] { what.scene = read_scene(DrawnScene::path(), overrides, drawn.files_with(text)); });
+  return what;
+}
+
+std::string text_with(const DrawnScene& drawn, const std::string& key, const std::string& value) {
+  std::string text;
+  for (const DrawnScene::Key& one : drawn.keys()) {
+    if (one.first != key)
+      text += one.first + " = " + one.second + "\n";
+    else if (!value.empty())
+      text += one.first + " = " + value + "\n";
+  }
+  return text;
+}
+
+/// Whether another key stands in the same table, which is then still there without this one.
+bool has_company(const DrawnScene& drawn, const std::string& key) {
+  const std::string table = key.substr(0, key.rfind('.') + 1);
+  return std::ranges::count_if(drawn.keys(), [&](const DrawnScene::Key& one) { return one.first.starts_with(table); }) >
+         1;
+}
+
+/// Of some keys one of three ways; which, is the scene's.
+std::string set_differs(const DrawnScene& drawn) {
+  const Said whole = said(drawn, drawn.toml());
+  for (const auto& [key, value] : drawn.keys()) {
+    if (Draw(drawn.seed(), {}).below(key, 4) > 0) continue;  // a solid clump takes 20 ms to read
+    const std::string without = text_with(drawn, key, "");
+    const Override given = parse_override(key + "=" + value), taken_out = parse_override(key + "=");
+    const auto way = drawn.seed() % 3;
+    if (way == 0 && !(said(drawn, without, {given}) == whole)) return "by --set it is another scene: " + key;
+    if (way == 1 && !(said(drawn, text_with(drawn, key, "\"nothing\""), {given}) == whole))
+      return "by --set over another value it is another scene: " + key;
+    if (way == 2 && has_company(drawn, key) && !(said(drawn, drawn.toml(), {taken_out}) == said(drawn, without)))
+      return "by --set KEY= it is not as if that had not been written: " + key;
+  }
+  return "";
+}
+
+TEST(DrawnScene, IsTheSameBySetAndByTheFile) {
+  expect_of_drawn_scenes(16, set_differs);
+}
+
+// ---- balls, as the test sees them ----
+
+struct OwnBall {
+  std::size_t seed;    // of the grains
+  std::int64_t id;     // of the seed
+  std::size_t part;    // of a clump
+  Eigen::Vector3d at;  // m, lab; in the plane z = 0
+  double radius;       // m
+};
+
+std::vector<OwnBall> balls_of(const Model& model, const Grains& grains) {
+  std::vector<OwnBall> balls;
+  for (std::size_t i = 0; i < grains.size(); ++i) {
+    const SeedLot& lot = model.scene.lots[static_cast<std::size_t>(grains.lot[i])];
+    const double radius = grains.kind(i).radius, size = radius / (0.5 * lot.diameter);
+    const Eigen::Vector3d centre = place_of(grains, i);
+    if (lot.discs.empty()) balls.push_back({i, grains.id[i], 0, centre, radius});
+    Eigen::Matrix3d turned = Eigen::Matrix3d::Identity();
+    if (!lot.discs.empty() && grains.in_space)
+      turned = Eigen::Quaterniond(grains.q_w[i], grains.q_x[i], grains.q_y[i], grains.q_z[i]).toRotationMatrix();
+    else if (!lot.discs.empty())
+      turned = Eigen::AngleAxisd(grains.angle[i], Eigen::Vector3d::UnitZ()).toRotationMatrix();
+    for (std::size_t k = 0; k < lot.discs.size(); ++k) {
+      const ClumpDisc& disc = lot.discs[k];
+      balls.push_back(
+          {i, grains.id[i], k, centre + size * (turned * Eigen::Vector3d(disc.x, disc.y, disc.z)), size * disc.radius});
+    }
+  }
+  return balls;
+}
+
+/// Walls and rooms of a scene's vessels.
+class OwnScene {
+ public:
+  explicit OwnScene(const Model& model) : model_(model), space_(model.scene.space) {
+    for (const Vessel& vessel : model.vessels) {
+      walls_.push_back(own_walls(vessel, space_));
+      paths_.emplace_back(vessel);
+    }
+  }
+
+  std::size_t vessels() const { return model_.vessels.size(); }
+  const std::vector<OwnWall>& walls(std::size_t vessel) const { return walls_[vessel]; }
+  Eigen::Vector3d in_vessel(std::size_t vessel, double time, const Eigen::Vector3d& lab) const {
+    return point_in_vessel(model_.vessels[vessel], paths_[vessel].pose(time), lab);
+  }
+
+  /// What a seed that was just put in overlaps; empty: nothing.
+  std::string overlaps(const std::vector<OwnBall>& balls, std::int64_t first_new, double time) const {
+    for (const OwnBall& ball : balls) {
+      if (ball.id < first_new) continue;
+      for (const OwnBall& other : balls) {
+        if (other.seed == ball.seed) continue;
+        const double deep = ball.radius + other.radius - apart(ball.at - other.at);
+        if (deep > slack * std::min(ball.radius, other.radius)) return told(ball, time, deep, fmt("seed ", other.id));
+      }
+      for (std::size_t v = 0; v < vessels(); ++v) {
+        const Eigen::Vector3d own = in_vessel(v, time, ball.at);
+        for (const OwnWall& wall : walls_[v])
+          if (!(wall.opens_at > 0 && wall.opens_at <= time) && ball.radius - wall.distance(own) > slack * ball.radius)
+            return told(ball, time, ball.radius - wall.distance(own), wall.name);
+      }
+    }
+    return "";
+  }
+
+  /// Whether a seed lies in the room of a vessel. Rain falls into one that turns as if it stood still.
+  bool is_in(std::size_t vessel, double time, const Eigen::Vector3d& lab) {
+    for (std::size_t v = rooms_.size(); v < vessels(); ++v)
+      rooms_.emplace_back(model_.vessels[v], space_, std::max(0.5 * model_.smallest_radius, 1e-3));
+    if (turns_steadily(model_.vessels[vessel]) && time > 0) return true;
+    return rooms_[vessel].contains(in_vessel(vessel, time, lab));
+  }
+
+ private:
+  static constexpr double slack = 1e-9;  // of the radius
+
+  template <class... Parts>
+  static std::string fmt(const Parts&... parts) {
+    std::ostringstream out;
+    (out << ... << parts);
+    return out.str();
+  }
+  static std::string told(const OwnBall& ball, double time, double deep, const std::string& what) {
+    return fmt("seed ", ball.id, ", put in before ", time, " s, overlaps ", what, " by ", deep / ball.radius,
+               " of its radius, at ", ball.at.transpose());
+  }
+  double apart(Eigen::Vector3d between) const {
+    const Vessel& tray = model_.scene.tray;
+    if (tray.sides == Sides::periodic) between.x() = std::remainder(between.x(), tray.length);
+    if (space_ != Space::plane && tray.front_and_back == Sides::periodic)
+      between.z() = std::remainder(between.z(), *tray.depth);
+    return between.norm();
+  }
+
+  const Model& model_;
+  Space space_;
+  std::vector<std::vector<OwnWall>> walls_;
+  std::vector<OwnRoom> rooms_;
+  std::vector<VesselPath> paths_;
+};
+
+/// Where the guard ended a run, and why; empty: it did not.
+std::string told_by(const Simulation& run) {
+  return run.guard().stop_reason() ? " (the guard has since stopped the run: " + *run.guard().stop_reason() + ")" : "";
+}
+
+// ---- what is put in ----
+
+/// The vessel into which the fill's k-th seed went.
+std::size_t vessel_filled(const Scene& scene, std::size_t k) {
+  return scene.tray.fill && k < static_cast<std::size_t>(scene.tray.fill->count) ? 0 : 1;
+}
+
+std::string outside_of_room(OwnScene& own, const Model& model, const Grains& grains, std::int64_t first_new,
+                            double time) {
+  for (std::size_t i = 0; i < grains.size(); ++i) {
+    if (grains.id[i] < first_new) continue;
+    bool inside = false;
+    for (std::size_t v = 0; v < own.vessels(); ++v) {
+      const Vessel& vessel = model.vessels[v];
+      const bool feeds =
+          time > 0 ? vessel.rain || (vessel.fill && vessel.fill->keep) : vessel_filled(model.scene, i) == v;
+      inside |= feeds && own.is_in(v, time, place_of(grains, i));
+    }
+    if (inside) continue;
+    std::ostringstream out;
+    out << "seed " << grains.id[i] << ", put in before " << time << " s, lies outside, at "
+        << place_of(grains, i).transpose();
+    return out.str();
+  }
+  return "";
+}
+
+/// Watches the start and every insertion.
+std::string put_in_wrongly(const DrawnScene& drawn, bool rooms) {
+  std::optional<Start> start = start_of(drawn);
+  if (!start) return "";
+  const Model& model = start->model;
+  OwnScene own(model);
+  std::int64_t seen = 0;
+  std::string wrong;
+  const auto look = [&](const Grains& grains, double time) {
+    if (grains.next_id == seen || !wrong.empty()) return;
+    wrong = rooms ? outside_of_room(own, model, grains, seen, time) : own.overlaps(balls_of(model, grains), seen, time);
+    seen = grains.next_id;
+  };
+  look(start->state.grains, 0);
+  Simulation run(model, std::move(start->state));
+  while (wrong.empty() && !run.at_end() && run.step()) look(run.grains(), run.time());
+  return wrong;
+}
+
+TEST(DrawnScene, WhatIsPutInOverlapsNothing) {
+  expect_of_drawn_scenes(40, [](const DrawnScene& drawn) { return put_in_wrongly(drawn, false); });
+}
+
+TEST(DrawnScene, WhatIsPutInLiesWithinItsVessel) {
+  expect_of_drawn_scenes(40, [](const DrawnScene& drawn) { return put_in_wrongly(drawn, true); });
+}
+
+// ---- what is counted ----
+
+std::string unbalanced(const DrawnScene& drawn) {
+  std::optional<Start> start = start_of(drawn);
+  if (!start) return "";
+  Simulation run(start->model, std::move(start->state));
+  std::string wrong;
+  run.watch(1e-3, [&](Simulation& now) {
+    const vibrosow::Run result = now.result();
+    const Balance& balance = result.balance;
+    std::set<std::int64_t> left;
+    std::int64_t counted = 0, spilled = 0, inside = 0;
+    for (const OutflowEvent& event : result.events) {
+      if (!left.insert(event.grain).second) wrong = "a seed was counted twice";
+      ++(event.hole > 0 ? counted : spilled);
+    }
+    for (const std::int64_t id : now.grains().id) inside += left.contains(id) ? 0 : 1;
+    if (balance.put_in != now.grains().next_id) wrong = "not all that was put in is told";
+    if (balance.counted != counted || balance.spilled != spilled) wrong = "events and balance differ";
+    const std::int64_t gone = balance.put_in - inside - counted - spilled;
+    if (balance.inside + balance.lost != inside + gone || balance.lost < gone) wrong = "seeds are nowhere";
+    if (balance.put_in != balance.inside + balance.counted + balance.spilled + balance.lost)
+      wrong = "put in is not inside + counted + spilled + lost";
+  });
+  while (wrong.empty() && !run.at_end() && run.step()) {
+  }
+  return wrong.empty() ? "" : wrong + told_by(run);
+}
+
+TEST(DrawnScene, AllThatWasPutInIsSomewhere) {
+  expect_of_drawn_scenes(40, unbalanced);
+}
+
+// ---- walls ----
+
+/// Follows every ball from millisecond to millisecond.
+class Followed {
+ public:
+  Followed(const Model& model) : model_(model), own_(model) {}
+
+  /// The first wall that a ball has passed since the look before; empty: none.
+  std::string look(const Grains& grains, double time) {
+    std::string wrong;
+    std::map<std::pair<std::int64_t, std::size_t>, std::vector<Eigen::Vector3d>> now;
+    for (const OwnBall& ball : balls_of(model_, grains)) {
+      std::vector<Eigen::Vector3d>& places = now[{ball.id, ball.part}];
+      for (std::size_t v = 0; v < own_.vessels(); ++v) places.push_back(own_.in_vessel(v, time, ball.at));
+      const auto before = before_.find({ball.id, ball.part});
+      if (before == before_.end()) continue;
+      for (std::size_t v = 0; v < own_.vessels() && wrong.empty(); ++v)
+        wrong = passed(v, before->second[v], places[v], ball, time);
+    }
+    before_ = std::move(now);
+    return wrong;
+  }
+
+ private:
+  std::string passed(std::size_t v, const Eigen::Vector3d& from, const Eigen::Vector3d& to, const OwnBall& ball,
+                     double time) const {
+    const Vessel& tray = model_.scene.tray;
+    const Eigen::Vector3d way = to - from;
+    if (tray.sides == Sides::periodic && std::abs(way.x()) > tray.length / 2) return "";
+    if (grains_in_space() && tray.front_and_back == Sides::periodic && std::abs(way.z()) > *tray.depth / 2) return "";
+    const int pieces = 1 + static_cast<int>(way.norm() / (0.2 * ball.radius));
+    for (const OwnWall& wall : own_.walls(v)) {
+      if (wall.opens_at > 0 && wall.opens_at <= time) continue;
+      for (int k = 0; k <= pieces; ++k)
+        if (wall.distance(from + way * k / pieces) < 0.15 * ball.radius) {
+          std::ostringstream out;
+          out << "seed " << ball.id << " passed " << wall.name << " before " << time << " s, at "
+              << ball.at.transpose();
+          return out.str();
+        }
+    }
+    return "";
+  }
+  bool grains_in_space() const { return model_.scene.space != Space::plane; }
+
+  const Model& model_;
+  OwnScene own_;
+  std::map<std::pair<std::int64_t, std::size_t>, std::vector<Eigen::Vector3d>> before_;
+};
+
+std::string passed_a_wall(const DrawnScene& drawn) {
+  std::optional<Start> start = start_of(drawn);
+  if (!start) return "";
+  Followed followed(start->model);
+  std::string wrong = followed.look(start->state.grains, 0);
+  Simulation run(start->model, std::move(start->state));
+  run.watch(1e-3, [&](Simulation& now) {
+    const std::string text = followed.look(now.grains(), now.time());
+    if (wrong.empty()) wrong = text;
+  });
+  run.run_until(start->model.scene.run.duration);
+  const vibrosow::Run result = run.result();
+  return result.status == RunStatus::finished && result.balance.lost == 0 ? wrong : "";
+}
+
+TEST(DrawnScene, NoSeedOfAFinishedRunHasPassedAWall) {
+  expect_of_drawn_scenes(40, passed_a_wall);
+}
+
+/// Places around a scene's vessels, the same ones for every scene of one size.
+std::vector<Eigen::Vector3d> places_around(const Scene& scene) {
+  Random random(7);
+  std::vector<Eigen::Vector3d> places;
+  for (int k = 0; k < 40; ++k) {
+    const Vessel& vessel = k % 2 && scene.hopper ? *scene.hopper : scene.tray;
+    const double x = vessel.length * random.uniform(-0.2, 1.2), y = vessel.height * random.uniform(-0.2, 1.2);
+    const double z = scene.space == Space::plane ? 0 : vessel.front + *vessel.depth * random.uniform(-0.2, 1.2);
+    places.emplace_back(vessel.origin.x() + x, vessel.origin.y() + y, z);
+  }
+  return places;
+}
+
+std::vector<Vessel> vessels_of(const Scene& scene) {
+  std::vector<Vessel> vessels{scene.tray};
+  if (scene.hopper) vessels.push_back(*scene.hopper);
+  return vessels;
+}
+
+std::string not_the_walls_described(const DrawnScene& drawn) {
+  Scene scene;
+  if (!refusal([&] { scene = drawn.read(); }).empty()) return "";
+  Walls walls(vessels_of(scene), scene.space);
+  for (const double time : {0.0, 0.013}) {
+    walls.place(time);
+    for (const Eigen::Vector3d& at : places_around(scene)) {
+      double theirs = INFINITY, ours = INFINITY;
+      for (std::size_t k = 0; k < walls.count(); ++k) theirs = std::min(theirs, std::sqrt(walls.distance2(k, at)));
+      for (const Vessel& vessel : vessels_of(scene))
+        for (const OwnWall& wall : own_walls(vessel, scene.space))
+          ours = std::min(ours, wall.distance(point_in_vessel(vessel, vessel_pose(vessel, time), at)));
+      if (std::abs(theirs - ours) < 1e-9) continue;
+      std::ostringstream out;
+      out << "at " << time << " s the nearest wall to " << at.transpose() << " is " << theirs << " m away, not "
+          << ours;
+      return out.str();
+    }
+  }
+  return "";
+}
+
+TEST(DrawnScene, HasTheWallsThatItDescribes) {
+  expect_of_drawn_scenes(100, not_the_walls_described);
+}
+
+bool turns_by_table(const Vessel& vessel) {
+  const TableMotion* table = vessel.motion ? std::get_if<TableMotion>(&*vessel.motion) : nullptr;
+  return table != nullptr && std::ranges::any_of(table->angle, [](double angle) { return angle != 0; });
+}
+
+/// From all walls to a place, by length.
+std::vector<double> distances(const Walls& walls, const Eigen::Vector3d& at) {
+  std::vector<double> all;
+  for (std::size_t k = 0; k < walls.count(); ++k) all.push_back(std::sqrt(walls.distance2(k, at)));
+  std::ranges::sort(all);
+  return all;
+}
+
+std::string walls_not_mirrored(const DrawnScene& drawn) {
+  Scene scene;
+  if (!refusal([&] { scene = drawn.read(); }).empty()) return "";
+  Walls walls(vessels_of(scene), scene.space), others(vessels_of(mirrored(scene)), scene.space);
+  if (walls.count() != others.count()) return "the mirrored scene has another number of walls";
+  for (const double time : {0.0, 0.01, 0.03}) {  // times of the tables
+    walls.place(time), others.place(time);
+    for (const Eigen::Vector3d& at : places_around(scene)) {
+      const std::vector<double> here = distances(walls, at), there = distances(others, {-at.x(), at.y(), at.z()});
+      for (std::size_t k = 0; k < here.size(); ++k)
+        if (!(std::abs(here[k] - there[k]) < 1e-9)) {
+          std::ostringstream out;
+          out << "a wall " << here[k] << " m from " << at.transpose() << " at " << time << " s is " << there[k]
+              << " m away in the mirrored scene";
+          return out.str();
+        }
+    }
+  }
+  return "";
+}
+
+TEST(DrawnScene, HasMirroredWallsInItsMirrorImage) {
+  expect_of_drawn_scenes(100, walls_not_mirrored);
+}
+
+/// The scene with nothing but the seeds that it is given, and the step of `model`.
+Scene left_alone(const Model& model) {
+  Scene scene = model.scene;
+  scene.numerics.dt = model.step.dt, scene.numerics.allow_long_step = true;
+  for (Vessel* vessel : {&scene.tray, scene.hopper ? &*scene.hopper : nullptr})
+    if (vessel != nullptr) {
+      vessel->rain.reset();
+      if (vessel->fill) vessel->fill->keep = false;
+    }
+  return scene;
+}
+
+/// Poured seeds touch or do not by a rounding error: now by more than that.
+void stir(Grains& grains) {
+  Random random(3);
+  for (std::size_t i = 0; i < grains.size(); ++i) {
+    const double by = 1e-3 * grains.kind(i).radius;
+    grains.x[i] += random.uniform(-by, by), grains.y[i] += random.uniform(-by, by);
+    if (grains.in_space) grains.z[i] += random.uniform(-by, by);
+    grains.vx[i] += random.uniform(-0.1, 0.1), grains.vy[i] += random.uniform(-0.1, 0.1);
+  }
+}
+
+std::string steps_not_mirrored(const DrawnScene& drawn) {
+  std::optional<Start> start = start_of(drawn);
+  if (!start) return "";
+  const Scene scene = left_alone(start->model), other = mirrored(scene);
+  for (const Vessel& vessel : vessels_of(scene))
+    if (turns_by_table(vessel)) return "";
+  const Model model = prepare(scene), mirror = prepare(other);
+  stir(start->state.grains);
+  Simulation run(model, starting_state(model, 1, start->state.grains));
+  Simulation image(mirror, starting_state(mirror, 1, mirrored(start->state.grains, no_grains(mirror))));
+  for (int step = 0; step < 60; ++step) run.step(), image.step();
+  const Grains &here = run.grains(), &there = image.grains();
+  if (here.size() != there.size()) return "in the mirror image another number of seeds is there";
+  for (std::size_t i = 0; i < here.size(); ++i) {
+    Eigen::Vector3d at = place_of(there, i);
+    at.x() = -at.x();
+    const double apart = (at - place_of(here, i)).norm() / here.kind(i).radius;
+    if (apart < 1e-6) continue;
+    std::ostringstream out;
+    out << "seed " << i << " is " << apart << " radii from its mirror image, at " << place_of(here, i).transpose();
+    return out.str();
+  }
+  return "";
+}
+
+TEST(DrawnScene, StepsMirroredInItsMirrorImage) {
+  expect_of_drawn_scenes(40, steps_not_mirrored);
+}
+
+}  // namespace
+}  // namespace vibrosow
