@@ -4,6 +4,7 @@
 #include <cmath>
 #include <memory>
 #include <numbers>
+#include <optional>
 
 #include "cli/commands.hpp"
 #include "cli/common_options.hpp"
@@ -26,6 +27,7 @@
 #include "scene/input_error.hpp"
 #include "scene/integrator_names.hpp"
 #include "scene/spaces.hpp"
+#include "simulation/state.hpp"
 
 namespace vibrosow {
 namespace {
@@ -151,6 +153,17 @@ void print_slice(const Scene& scene) {
                           solid ? fmt::format(", {:.0f} % of the seeds' own density", 100 * implied / *solid) : "")));
 }
 
+/// What `run` begins with. Throws InputError as that does, but where it is `refused` before the fill is looked at:
+/// none.
+std::optional<SimulationState> start_of_run(const Model& model, bool refused) {
+  try {
+    return starting_state(model, CommonOptions{}.random_seed);
+  } catch (const InputError&) {
+    if (!refused) throw;
+    return std::nullopt;
+  }
+}
+
 struct CheckOptions : CommonOptions {
   bool both = false;
 };
@@ -171,11 +184,18 @@ int check_seeder(const InputFile& file, const CheckOptions& options) {
   if (drill) print_text(wrapped(drill_sentence(*drill)));
   print_space_advice(scene);
   print_model(model);
-  const CostBreakdown cost = break_down_cost(scene);
-  print_effects(model, cost);
-  print_step(plan, cost.whole);
-  print_overlap(model);
-  if (const auto refused = step_refused(scene.numerics, plan)) throw InputError(*refused);
+  const auto refused = step_refused(scene.numerics, plan);
+  if (const auto start = start_of_run(model, refused.has_value())) {
+    const CostBreakdown cost = break_down_cost(model, start->grains);
+    print_effects(model, cost);
+    print_step(plan, cost.whole);
+    print_overlap(model);
+    if (start->guard.stop_reason) {
+      print_warnings({*start->guard.stop_reason});
+      return exit_stopped_by_guard;
+    }
+  }
+  if (refused) throw InputError(*refused);
   if (plan.too_long) print("the step is too long and insisted on: every result will be marked \"outside the model\"\n");
   return options.both ? run_in_both_spaces(read_in_both_spaces(file.path, options.overrides(), file.files)) : exit_done;
 }

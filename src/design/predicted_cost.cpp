@@ -45,12 +45,18 @@ Stretch advance(Simulation& simulation, std::int64_t steps, double most) {
   return stretch;
 }
 
+/// Without its ramp, and from the place where it begins with it.
+void shake_from_the_start(HarmonicMotion& motion) {
+  if (motion.ramp > 0) motion.ramp = motion.phase = 0;
+}
 void shake_from_the_start(VesselMotion& motion) {
   std::visit(
       [](auto& kind) {
         using Kind = std::decay_t<decltype(kind)>;
         if constexpr (std::is_same_v<Kind, SumMotion>) {
-          for (HarmonicMotion& component : kind.components) component.ramp = 0;
+          for (HarmonicMotion& component : kind.components) shake_from_the_start(component);
+        } else if constexpr (std::is_same_v<Kind, HarmonicMotion>) {
+          shake_from_the_start(kind);
         } else if constexpr (!std::is_same_v<Kind, TableMotion>) {
           kind.ramp = 0;
         }
@@ -179,10 +185,11 @@ void settle(Simulation& simulation, std::int64_t steps, double grains) {
   while (rains && left > 0 && !simulation.at_end() && static_cast<double>(simulation.grains().size()) < grains);
 }
 
-TimedBed time_bed(const Model& model) {
+TimedBed time_bed(const Model& model, const Grains& start) {
   const StepPlan& plan = model.step;
   TimedBed bed{in_full_motion(model.scene), std::min(plan.dt, plan.longest_safe), nullptr, {}};
-  bed.simulation = std::make_unique<Simulation>(model_of(bed.scene, bed.dt), 1);
+  const Model moved = model_of(bed.scene, bed.dt);
+  bed.simulation = std::make_unique<Simulation>(moved, starting_state(moved, 1, grains_for(moved, start)));
   bed.cost.grain_steps = predicted_grain_steps(model.scene, plan.dt);
   const auto steps = static_cast<std::int64_t>(phase / bed.dt) + 1;
   settle(*bed.simulation, steps, enough_of_rain * bed.cost.grain_steps / static_cast<double>(plan.steps));
@@ -214,11 +221,12 @@ std::vector<Variant> variants_of(const TimedBed& bed, double span) {
 }  // namespace
 
 PredictedCost predict_cost(const Scene& scene) {
-  return time_bed(prepare(scene)).cost;
+  const Model model = prepare(scene);
+  return time_bed(model, starting_state(model, 1).grains).cost;
 }
 
-CostBreakdown break_down_cost(const Scene& scene) {
-  const TimedBed bed = time_bed(prepare(scene));
+CostBreakdown break_down_cost(const Model& model, const Grains& start) {
+  const TimedBed bed = time_bed(model, start);
   CostBreakdown breakdown{bed.cost, {}};
   const double grains = static_cast<double>(std::max<std::size_t>(1, bed.simulation->grains().size()));
   const auto steps =

@@ -4,6 +4,8 @@
 #include <vector>
 
 #include "design/study.hpp"
+#include "grains/grains.hpp"
+#include "plan/model.hpp"
 #include "scene/scene.hpp"
 
 namespace vibrosow {
@@ -29,14 +31,15 @@ struct PredictedCost {
 /// timed. The step is at most the longest safe one. Throws InputError where the fill does not fit.
 PredictedCost predict_cost(const Scene& scene);
 
-/// The same, and from where the timed bed got to what each effect adds: beds that go on from there with all effects and
-/// with one left out (and with it what needs it) are timed in turn, over 12 rounds of some 5 ms. Of clumps, unequal
-/// grains, motion and periodic sides there is no figure: without them it would be another bed.
+/// The same of a model and the grains that its run begins with, and from where the timed bed got to what each effect
+/// adds: beds that go on from there with all effects and with one left out (and with it what needs it) are timed in
+/// turn, over 12 rounds of some 5 ms. Of clumps, unequal grains, motion and periodic sides there is no figure: without
+/// them it would be another bed.
 struct CostBreakdown {
   PredictedCost whole;
   std::vector<EffectCost> effects;
 };
-CostBreakdown break_down_cost(const Scene& scene);
+CostBreakdown break_down_cost(const Model& model, const Grains& start);
 
 /// CPU time of all runs of a study, s. At most five of its scenes, spread evenly, are timed; the others are thought to
 /// take as long a grain-step as the timed one before them.

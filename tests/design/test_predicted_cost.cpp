@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "input/read_scene.hpp"
+#include "simulation/state.hpp"
 #include "study_files.hpp"
 
 namespace vibrosow {
@@ -29,7 +30,8 @@ TEST(PredictedCost, EveryEffectThatCanBeLeftOutHasAFigure) {
               parse_override("contact.drag=\"0.01 g/s\""), parse_override("tray.motion.kind=\"rocking\""),
               parse_override("tray.motion.pivot=[\"25 cm\", \"0 cm\"]"),
               parse_override("tray.motion.angle=\"2 degree\""), parse_override("tray.motion.frequency=\"9 Hz\"")});
-  const CostBreakdown cost = break_down_cost(scene);
+  const Model model = prepare(scene);
+  const CostBreakdown cost = break_down_cost(model, starting_state(model, 1).grains);
   EXPECT_THAT(names_of(cost.effects), testing::ElementsAre("friction", "tangential spring", "rotation", "rolling",
                                                            "damping", "cohesion", "drag"));
   EXPECT_GT(cost.whole.ns_per_grain_step, 0);
