@@ -484,14 +484,30 @@ std::string DrawnScene::toml() const {
   return text;
 }
 
-std::shared_ptr<SourceFiles> DrawnScene::files_with(const std::string& text) const {
+std::string DrawnScene::told() const {
+  std::string text = "\n" + toml();
+  for (const auto& [file, rows] : tables_) {
+    text += "# " + file + ":\n# ";
+    for (const char c : rows) text += c == '\n' ? std::string("\n# ") : std::string(1, c);
+    text += "\n";
+  }
+  return text;
+}
+
+std::map<std::string, std::string> DrawnScene::texts() const {
   std::map<std::string, std::string> texts = tables_;
-  texts[path()] = text;
-  return std::make_shared<SourceFiles>(std::move(texts));
+  texts[path()] = toml();
+  return texts;
+}
+
+std::shared_ptr<SourceFiles> DrawnScene::files_with(const std::string& text) const {
+  std::map<std::string, std::string> all = texts();
+  all[path()] = text;
+  return std::make_shared<SourceFiles>(std::move(all));
 }
 
 Scene DrawnScene::read() const {
-  return read_scene(path(), {}, files());
+  return read_scene(path(), {}, files_with(toml()));
 }
 
 std::vector<DrawnScene> DrawnScene::plainer() const {

@@ -45,8 +45,10 @@ class DrawnScene {
   std::uint64_t seed() const { return seed_; }
   const std::vector<Key>& keys() const { return keys_; }
   std::string toml() const;
-  /// A folder of the seeder and what it names, which is on no disk.
-  std::shared_ptr<SourceFiles> files() const { return files_with(toml()); }
+  /// The same to be read by people, with the files that it names.
+  std::string told() const;
+  /// The seeder and what it names, by path, in a folder that is on no disk; and that folder with another seeder in it.
+  std::map<std::string, std::string> texts() const;
   std::shared_ptr<SourceFiles> files_with(const std::string& text) const;
   static const char* path() { return "/drawn/scene.toml"; }
 

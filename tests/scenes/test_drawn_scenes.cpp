@@ -26,7 +26,7 @@
 namespace vibrosow {
 
 void showValue(const DrawnScene& drawn, std::ostream& out) {
-  out << '\n' << drawn.toml();
+  out << drawn.told();
 }
 
 namespace {
