@@ -155,6 +155,7 @@ class SceneWriter {
     } else {
       set("contact.law", quoted("hertz"));
       set("contact.youngs_modulus", in_unit(draw_.one_in("contact.stiff", 4) ? 3 : 1, "MPa"));
+      if (draw_.one_in("contact.poisson", 4)) set("contact.poisson_ratio", 0.2);
       if (draw_.one_in("contact.soft_lot", 5)) set(lot(0) + ".youngs_modulus", in_unit(0.5, "MPa"));
       if (draw_.one_in("contact.wall.soft", 3)) set("contact.wall.youngs_modulus", in_unit(5, "MPa"));
     }
@@ -163,7 +164,13 @@ class SceneWriter {
     else
       set("contact.restitution", draw_.number("contact.restitution", 0.4, 0.9));
     set("contact.friction", draw_.number("contact.friction", 0.4, 0));
-    if (draw_.one_in("contact.friction_model", 2)) set("contact.friction_model", quoted("spring"));
+    if (draw_.one_in("contact.friction_model", 2)) {
+      set("contact.friction_model", quoted("spring"));
+      if (draw_.one_in("contact.spring", 3))
+        set("contact.tangential_ratio", 0.5), set("contact.tangential_damping", 0.2);
+    } else if (draw_.one_in("contact.slip", 4)) {
+      set("contact.slip_speed", in_unit(50, "mm/s"));
+    }
     if (draw_.one_in("contact.rotation", 8))
       set("contact.rotation", "false");
     else
@@ -181,6 +188,7 @@ class SceneWriter {
     set("contact.rolling", quoted(rolling == 1 ? "constant-torque" : "spring"));
     set("contact.rolling_friction", 0.1);
     if (draw_.one_in("contact.twisting", 2)) set("contact.twisting_friction", 0.05);
+    if (rolling == 2 && draw_.one_in("contact.rolling_damping", 3)) set("contact.rolling_damping", 0.6);
   }
 
   // ---- vessels ----
@@ -263,6 +271,7 @@ class SceneWriter {
       set(name + ".holes.at", list(at));
     } else {
       set(name + ".holes.count", vessel.holes);
+      if (draw_.one_in(name + ".pitch", 4)) set(name + ".holes.pitch", mm(0.4 * vessel.length));
     }
     set(name + ".holes.width", mm(width));
     const bool funnel = draw_.one_in(name + ".funnel", hopper ? 2 : 5) && vessel.box;
