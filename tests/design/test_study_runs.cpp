@@ -1,5 +1,6 @@
 #include "design/study_runs.hpp"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -8,6 +9,7 @@
 
 #include "design/planned_study.hpp"
 #include "input/read_scene.hpp"
+#include "result/results_version.hpp"
 #include "scene/input_error.hpp"
 #include "simulation/checkpoint.hpp"
 #include "study_files.hpp"
@@ -70,6 +72,25 @@ TEST_F(StudyRunsOf, MakesNoRunTwice) {
   EXPECT_EQ(made_, 3);
   ASSERT_FALSE(before.events.empty());
   EXPECT_EQ(kept(again, 1).events.back().time, before.events.back().time);
+}
+
+TEST_F(StudyRunsOf, ARunOfAnotherVersionIsMadeAgain) {
+  StudyRuns first(folder("a"));
+  make(first, {1});
+  const fs::path kept_case = cases("a").at(0);
+  std::ifstream file(kept_case, std::ios::binary);
+  const Case today = read_case(std::string(std::istreambuf_iterator<char>(file), {}));
+  const std::string of_today = fmt::format(R"("results_version":{},)", results_version);
+  std::string before = today.identity;
+  ASSERT_NE(before.find(of_today), std::string::npos);
+  before.replace(before.find(of_today), of_today.size(), fmt::format(R"("results_version":{},)", results_version - 1));
+  for (const std::string& name : {case_name(before), kept_case.stem().string()}) {  // as it was, and renamed
+    const fs::path old_case = folder("b") / "cases" / name.substr(0, 2) / (name + ".case");
+    fs::create_directories(old_case.parent_path());
+    std::ofstream(old_case, std::ios::binary) << case_bytes(before, today.run);
+  }
+  StudyRuns again(folder("b"));
+  EXPECT_EQ(make(again, {1}).made, 1);
 }
 
 TEST_F(StudyRunsOf, WhatWasThereIsNoMeasureOfWhatIsLeft) {

@@ -9,6 +9,7 @@
 
 #include "grains/turned_discs.hpp"
 #include "scene/input_error.hpp"
+#include "simulation/seed_places.hpp"
 #include "simulation/simulate.hpp"
 #include "support/bench.hpp"
 #include "support/solid_lots.hpp"
@@ -294,6 +295,28 @@ TEST_P(Insertion, FillsInEachOthersWayAreRefused) {
   scene.hopper = hopper_over(scene);
   scene.hopper->origin.y() = 0.01;
   EXPECT_THROW(starting_state(prepare(scene), 1), InputError);
+}
+
+/// What the look at a seed that was put in finds, of one beneath a funnel, in the wall, in another, and rightly placed.
+TEST_P(Insertion, ALookAtASeedFindsWhatIsWrong) {
+  Scene scene = soft(GetParam());
+  const double middle = scene.tray.depth.value_or(0) / 2;
+  scene.tray.holes = {{.centre = 0.04, .width = 0.01, .across = middle, .across_length = 2 * middle}};
+  scene.tray.funnel = 0.7;
+  const Model model = prepare(scene);
+  const SeedPlaces places(model);
+  const Walls walls(model.vessels, scene.space);
+  Grains grains = no_grains(model);
+  const auto fault_at = [&](double x, double y) {
+    grains.add(Eigen::Vector3d(x, y, middle), Eigen::Vector3d::Zero(), 0, grains.kinds.front());
+    return places.fault(grains, grains.size() - 1, 0, walls).value_or("none");
+  };
+  EXPECT_EQ(fault_at(0.04, 0.04), "none");
+  EXPECT_EQ(fault_at(0.044, 0.04), "none") << "just touching";
+  EXPECT_EQ(fault_at(0.0438, 0.0438), "none");
+  EXPECT_THAT(fault_at(0.0407, 0.0365), testing::StartsWith("lies 0."));
+  EXPECT_THAT(fault_at(0.0005, 0.05), testing::MatchesRegex("lies 0.75 of its radius deep in a wall"));
+  EXPECT_THAT(fault_at(0.01, 0.005), testing::StartsWith("lies where no seed comes to from the top of the tray"));
 }
 
 /// A model whose walls do not stand where its fill was put: the run stops before its first step, and says why.
