@@ -56,9 +56,9 @@ std::vector<Stretch> over_floor(const WallPiece& piece, double height) {
   std::vector<Stretch> stretches;
   for (std::size_t k = 1; k < points.size(); ++k)
     if (const auto part = near_floor(points[k - 1], points[k], height)) {
-      const auto [low, high] = std::minmax(points[k - 1].x() + part->from * (points[k].x() - points[k - 1].x()),
-                                           points[k - 1].x() + part->to * (points[k].x() - points[k - 1].x()));
-      stretches.push_back({low, high});
+      const double along = points[k].x() - points[k - 1].x();
+      const double one = points[k - 1].x() + part->from * along, other = points[k - 1].x() + part->to * along;
+      stretches.push_back({std::min(one, other), std::max(one, other)});
     }
   return stretches;
 }
@@ -157,6 +157,30 @@ Box3 box_of(const Line& line) {
   return box;
 }
 
+/// Lines across a plate, but for its holes: vessels as deep as each other meet between their plates' edges.
+std::vector<Line> lines_across(const Face& plate) {
+  constexpr int lines = 3, parts = 16;
+  std::vector<Line> across;
+  const auto is_open = [&](double u, double v) {
+    return std::ranges::any_of(
+        plate.holes, [&](const RoundHole& hole) { return elementary::hypot(u - hole.u, v - hole.v) < hole.radius; });
+  };
+  for (int line = 1; line <= lines; ++line)
+    for (const bool along_u : {true, false}) {
+      const double aside = static_cast<double>(line) / (lines + 1);
+      const int count = plate.holes.empty() ? 1 : parts;
+      for (int k = 0; k < count; ++k) {
+        const auto u = [&](double part) { return plate.length_u * (along_u ? part : aside); };
+        const auto v = [&](double part) { return plate.length_v * (along_u ? aside : part); };
+        const double from = static_cast<double>(k) / count, to = (k + 1.0) / count, middle = 0.5 * (from + to);
+        if (is_open(u(middle), v(middle))) continue;
+        across.push_back({plate.origin + u(from) * plate.e1 + v(from) * plate.e2,
+                          plate.origin + u(to) * plate.e1 + v(to) * plate.e2});
+      }
+    }
+  return across;
+}
+
 /// A vessel's walls in its own frame, as lines to be moved and as surfaces to be met. m.
 class OwnWalls {
  public:
@@ -166,6 +190,8 @@ class OwnWalls {
       for (const Face& face : vessel_faces(vessel)) {
         walls_by_name_.push_back(face.name);
         for (Line& line : face_lines(face)) add(std::move(line), face.name);
+        if (face.kind == Face::Kind::plate && !face.round)
+          for (Line& line : lines_across(face)) add(std::move(line), face.name);
       }
     else
       for (const WallSegment& wall : vessel_walls(vessel)) {

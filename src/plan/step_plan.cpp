@@ -15,7 +15,6 @@
 #include "scene/motion.hpp"
 #include "scene/seed_lot.hpp"
 #include "scene/space_side_contacts.hpp"
-#include "vessel/vessel_motion.hpp"
 
 namespace vibrosow {
 namespace {
@@ -263,10 +262,33 @@ StepLimit vibration_limit(const StepBasis& basis, const Mode& mode) {
           std::min(stable, elementary::cbrt(8 * growth / (omega * omega * omega * omega)))};
 }
 
-/// Of the fastest component of a motion, s; infinity where nothing moves. Of a table 2 pi times its largest speed over
-/// its largest acceleration, which is the period where it is harmonic.
+constexpr double never_again = std::numeric_limits<double>::infinity();  // s
+
+/// The shortest time (s) from one turning point of a table's column to the next. Swings of less than 1 % of all that it
+/// moves through do not count. The first and the last may be parts of a swing: they count as long as a whole one lasts.
+double shortest_swing(const std::vector<double>& times, const std::vector<double>& values) {
+  const auto [low, high] = std::ranges::minmax(values);
+  const double range = high - low, least = 0.01 * range;
+  if (!(range > 0)) return never_again;
+  std::vector<std::size_t> turns = {0};  // the last of them may still move on
+  for (std::size_t k = 1; k < values.size(); ++k) {
+    const double from_last = values[k] - values[turns.back()];
+    if (turns.size() == 1 ? from_last == 0 : from_last * (values[turns.back()] - values[turns[turns.size() - 2]]) > 0)
+      turns.back() = k;
+    else if (std::abs(from_last) > least)
+      turns.push_back(k);
+  }
+  double shortest = never_again;
+  for (std::size_t n = 1; n < turns.size(); ++n) {
+    const double swing = std::abs(values[turns[n]] - values[turns[n - 1]]);
+    const double part = n == 1 || n + 1 == turns.size() ? std::min(2.0, range / swing) : 1;
+    shortest = std::min(shortest, part * (times[turns[n]] - times[turns[n - 1]]));
+  }
+  return shortest;
+}
+
+/// Of the fastest component of a motion, s; infinity where nothing moves. Of a table twice its shortest swing.
 double shortest_period(const Vessel& vessel) {
-  constexpr double never_again = std::numeric_limits<double>::infinity();
   if (!vessel.motion || !moves(*vessel.motion)) return never_again;
   const auto of_harmonic = [](const HarmonicMotion& m) {
     return m.amplitude != 0 && m.frequency != 0 ? 1 / std::abs(m.frequency) : never_again;
@@ -280,8 +302,11 @@ double shortest_period(const Vessel& vessel) {
     for (const HarmonicMotion& component : sum->components) shortest = std::min(shortest, of_harmonic(component));
     return shortest;
   }
-  const MotionBounds bounds = motion_bounds(vessel);
-  return bounds.acceleration > 0 ? 2 * std::numbers::pi * bounds.speed / bounds.acceleration : never_again;
+  const TableMotion& table = std::get<TableMotion>(*vessel.motion);
+  double swing = never_again;
+  for (const std::vector<double>* column : {&table.x, &table.y, &table.angle, &table.z})
+    if (!column->empty()) swing = std::min(swing, shortest_swing(table.times, *column));
+  return 2 * swing;
 }
 
 /// Walls move in steps as seeds do: a wall that goes to and fro within a few of them strikes at no speed it ever has.

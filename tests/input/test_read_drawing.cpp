@@ -298,7 +298,7 @@ TEST_F(Drawings, OfWhichNothingIsSeenAreRefused) {
   write("a.dxf", dxf_with_layers(layer("NOTES", 0, -1), line_on("NOTES")));
   EXPECT_EQ(
       error("{ file = \"a.dxf\" }"),
-      "seeder.toml:10: tray.pieces.file: a.dxf draws no line; left out: 1 LINE on the layer NOTES, which is switched "
+      "seeder.toml:11: tray.pieces.file: a.dxf draws no line; left out: 1 LINE on the layer NOTES, which is switched "
       "off");
 }
 

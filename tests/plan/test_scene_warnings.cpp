@@ -229,7 +229,7 @@ TEST(SceneWarnings, ATurnedPieceOverAHole) {
     const Scene scene = sound_in_space(shape);
     EXPECT_THAT(warnings_with(scene, {turned(0, 0, 0.1, 0)}), ElementsAre(HasSubstr("covers hole 2:")));
     EXPECT_THAT(warnings_with(scene, {turned(0, 0, 0.003, 0)}), ElementsAre(HasSubstr("hole 2 (")));
-    EXPECT_THAT(warnings_with(scene, {turned(0.002, 0, 0.002, 0.4, PieceAxis::along, {0, 0.03})}),
+    EXPECT_THAT(warnings_with(scene, {turned(0.0019, 0, 0.0019, 0.4, PieceAxis::along, {0, 0.03})}),
                 ElementsAre(HasSubstr("piece 1 covers hole 1 (")));
     EXPECT_THAT(warnings_with(scene, {turned(0.04, 0.02, 0.1, 0.05),
                                       turned(0.01, 0.1, 0.01, 0.4, PieceAxis::along, {0.05, 0.03})}),

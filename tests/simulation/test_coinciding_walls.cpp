@@ -148,7 +148,7 @@ std::vector<double> slides_over(const std::vector<WallPiece>& pieces, Space spac
   for (int step = 0; step < 5000 && run.step(); ++step)
     for (const double value : {run.grains().x[0], run.grains().y[0], run.grains().vx[0], run.grains().vy[0]})
       seen.push_back(value);
-  EXPECT_GT(run.grains().x[0], 0.53);
+  EXPECT_GT(run.grains().x[0], 0.502);
   EXPECT_EQ(seen.size(), 20000u);
   return seen;
 }

@@ -15,14 +15,14 @@ namespace {
 using std::numbers::pi;
 
 TEST(WallPoints, OfAnArcLieOnItFourDegreesApart) {
-  WallSegment wall{{0, 0}, {0, 0}, 0, 1, "arc"};
+  WallSegment wall{{0, 0}, {0, 0}, "arc"};
   wall.centre = {0.1, 0.2}, wall.radius = 0.05, wall.from = 0.5 * pi, wall.to = 1.5 * pi;
   const auto points = wall_points(wall);
   ASSERT_EQ(points.size(), 46u + 1);
   EXPECT_LT((points.front() - Eigen::Vector2d(0.1, 0.25)).norm(), 1e-15);
   EXPECT_LT((points.back() - Eigen::Vector2d(0.1, 0.15)).norm(), 1e-15);
   for (const Eigen::Vector2d& at : points) EXPECT_NEAR((at - wall.centre).norm(), 0.05, 1e-15);
-  EXPECT_EQ(wall_points({{0, 0}, {1, 2}, 0, 1, "line"}), (std::vector<Eigen::Vector2d>{{0, 0}, {1, 2}}));
+  EXPECT_EQ(wall_points({{0, 0}, {1, 2}, "line"}), (std::vector<Eigen::Vector2d>{{0, 0}, {1, 2}}));
 }
 
 TEST(FaceLines, OfAPlateAreItsEdgesAndTheRimsOfItsHoles) {
