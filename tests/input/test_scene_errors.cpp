@@ -337,7 +337,7 @@ INSTANTIATE_TEST_SUITE_P(
         Case{5, "law = 'hertz'\nyoungs_modulus = '1 GPa'\ndamping_rate = '-1 1/s'", 7, "contact.damping_rate",
              "out of range, which is from 0 1/s to 1e+09 1/s"},
         Case{5, "law = 'hertz'\nyoungs_modulus = '1 GPa'\ndamping_rate = '9 Hz'", 7, "contact.damping_rate",
-             "wrong unit \"Hz\"; expected a rate such as \"2.1e4 1/s\""},
+             "wrong unit \"Hz\": counts cycles; write 1/s; expected a rate such as \"2.1e4 1/s\""},
         Case{22, "+impact_speed = '0 m/s'", 23, "numerics.impact_speed", "out of range"},
         Case{5, "+cohesion = '-1 mN'", 6, "contact.cohesion", "out of range"},
         Case{5, "+cohesion = '1 mg'", 6, "contact.cohesion", "expected a force such as \"0.2 mN\""},
