@@ -52,12 +52,8 @@ void read_fractions(Table& seeds, std::vector<SeedLot>& lots) {
   for (SeedLot& lot : lots) lot.number_fraction /= total;
 }
 
-/// Lot names stand in CSV files and beside the words "all" and "wall".
 void check_lot_name(const Table& seeds, const std::string& name) {
-  const bool plain = std::all_of(name.begin(), name.end(), [](char c) {
-    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '-';
-  });
-  if (!plain || name.empty() || name == "all" || name == "wall") {
+  if (!is_lot_name(name)) {
     seeds.fail(name, "a lot's name has letters, digits, _ and - only, and is not \"all\" or \"wall\"");
   }
 }

@@ -2,6 +2,7 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 
@@ -10,6 +11,12 @@ namespace {
 
 std::uint32_t byte_at(std::string_view text, std::size_t at) {
   return at < text.size() ? static_cast<unsigned char>(text[at]) : 0;
+}
+
+/// Whether a character stands for nothing but the direction of others, or ends a line (Unicode 15, chapters 23.2, 5.8).
+bool is_unseen(std::uint32_t code) {
+  return code == 0x61c || code == 0x200e || code == 0x200f || (code >= 0x2028 && code <= 0x202e) ||
+         (code >= 0x2066 && code <= 0x2069);
 }
 
 /// Bytes of the UTF-8 character that `text` begins with (Unicode 15, table 3-7); 0: not one, or a control character.
@@ -25,15 +32,16 @@ std::size_t character_length(std::string_view text) {
   }
   constexpr std::uint32_t least[] = {0, 0, 0xa0, 0x800, 0x10000};  // 0x80 to 0x9f are control characters
   const bool surrogate = code >= 0xd800 && code <= 0xdfff;
-  return first >= 0xc0 && first < 0xf8 && code >= least[length] && code <= 0x10ffff && !surrogate ? length : 0;
+  return first >= 0xc0 && first < 0xf8 && code >= least[length] && code <= 0x10ffff && !surrogate && !is_unseen(code)
+             ? length
+             : 0;
 }
 
-}  // namespace
-
-std::string printable(std::string_view text) {
+/// `kept`: control characters that stay.
+std::string shown(std::string_view text, std::string_view kept) {
   std::string result;
   while (!text.empty()) {
-    const std::size_t length = character_length(text);
+    const std::size_t length = kept.find(text[0]) != std::string_view::npos ? 1 : character_length(text);
     if (length > 0) {
       result += text.substr(0, length);
     } else {
@@ -42,6 +50,23 @@ std::string printable(std::string_view text) {
     text.remove_prefix(length > 0 ? length : 1);
   }
   return result;
+}
+
+}  // namespace
+
+std::string printable(std::string_view text) {
+  return shown(text, "");
+}
+
+std::string printable_lines(std::string_view text) {
+  return shown(text, "\n\t");
+}
+
+bool is_lot_name(std::string_view name) {
+  const bool plain = std::ranges::all_of(name, [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '-';
+  });
+  return plain && !name.empty() && name != "all" && name != "wall";
 }
 
 }  // namespace vibrosow
