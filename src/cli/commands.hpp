@@ -4,8 +4,14 @@
 
 namespace vibrosow {
 
-/// What the program ends with (the README's list).
-enum ExitCode { exit_done = 0, exit_wrong_input = 2, exit_stopped_by_guard = 3, exit_interrupted = 130 };
+/// What the program ends with; the help and docs/STUDIES.md list it.
+enum ExitCode {
+  exit_done = 0,
+  exit_wrong_input = 2,
+  exit_stopped_by_guard = 3,
+  exit_defect = 4,
+  exit_interrupted = 130
+};
 
 // Each adds its subcommand, whose callback does the work and sets `exit_code`.
 void add_run_command(CLI::App& app, int& exit_code);

@@ -12,6 +12,7 @@
 #include <string_view>
 
 #include "cli/commands.hpp"
+#include "scene/printable.hpp"
 
 namespace vibrosow {
 namespace {
@@ -39,12 +40,13 @@ void end_when_memory_runs_out() {
   });
 }
 
-void print_text(const std::string& text) {
+void print_text(const std::string& raw) {
+  const std::string text = printable_lines(raw);
   if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size()) note_error();
 }
 
 void complain(const std::string& text) {
-  const std::string line = "vibrosow: " + text + "\n";
+  const std::string line = "vibrosow: " + printable(text) + "\n";
   std::fwrite(line.data(), 1, line.size(), stderr);  // nobody is left to be told of a failure
 }
 

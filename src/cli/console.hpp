@@ -17,15 +17,15 @@ void make_streams_safe();
 /// reader calls a number no number. Reports on the disk stay what they were.
 void end_when_memory_runs_out();
 
-/// Prints on standard output. Never throws: a reader that has gone away is no error, what else cannot be printed is
-/// kept for `output_error`.
+/// Prints on standard output, as `printable_lines`: what was read from a file moves no cursor. Never throws: a reader
+/// that has gone away is no error, what else cannot be printed is kept for `output_error`.
 void print_text(const std::string& text);
 template <class... Arguments>
 void print(fmt::format_string<Arguments...> format, Arguments&&... arguments) {
   print_text(fmt::format(format, std::forward<Arguments>(arguments)...));
 }
 
-/// Prints "vibrosow: TEXT" on standard error. Never throws.
+/// Prints "vibrosow: TEXT" on standard error, one line whatever the text. Never throws.
 void complain(const std::string& text);
 
 /// Brings what was printed out of the program; why it could not be, if so ("No space left on device").

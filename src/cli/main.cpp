@@ -1,7 +1,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstdio>
+#include <exception>
 #include <memory>
+#include <sstream>
 #include <string>
 #include <system_error>
 #include <vector>
@@ -11,6 +14,7 @@
 #include "cli/help_text.hpp"
 #include "input/wording.hpp"
 #include "scene/input_error.hpp"
+#include "scene/printable.hpp"
 
 namespace vibrosow {
 namespace {
@@ -28,6 +32,7 @@ int run_program(int argument_count, char** arguments) {
                "vibrosow");
   app.formatter(std::make_shared<HelpText>());
   app.set_version_flag("--version", "vibrosow " VIBROSOW_VERSION);
+  app.footer("Exit codes: 0 done, 2 wrong input, 3 stopped by the guard, 4 a defect of the program, 130 interrupted.");
   app.require_subcommand(1);
   int exit_code = exit_done;
   add_plan_command(app, exit_code);
@@ -55,7 +60,12 @@ int run_program(int argument_count, char** arguments) {
   try {
     app.parse(argument_count, arguments);  // runs the chosen command
   } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? exit_done : exit_wrong_input;  // --help and --version are "errors" of exit code 0
+    std::ostringstream out, wrong;
+    const int code = app.exit(error, out, wrong);  // --help and --version are "errors" of exit code 0
+    print_text(out.str());
+    std::fputs(printable_lines(wrong.str()).c_str(), stderr);
+    output_error();
+    return code == 0 ? exit_done : exit_wrong_input;
   }
   const auto not_printed = output_error();
   if (!not_printed) return exit_code;
@@ -76,6 +86,12 @@ int main(int argument_count, char** arguments) {
     complain(error.what());
   } catch (const std::system_error& error) {  // of the file system
     complain(error.what());
+  } catch (const std::exception& error) {
+    complain(fmt::format("a defect of the program, please report it with your file: {}", error.what()));
+    return exit_defect;
+  } catch (...) {
+    complain("a defect of the program, please report it with your file");
+    return exit_defect;
   }
   return exit_wrong_input;
 }

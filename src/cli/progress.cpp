@@ -8,6 +8,7 @@
 #include <cstdio>
 
 #include "report/terminal_text.hpp"
+#include "scene/printable.hpp"
 
 namespace vibrosow {
 namespace {
@@ -74,7 +75,7 @@ void Progress::update(double fraction_done) {
     return;
   }
   const std::string remark = remark_ ? remark_() : "";
-  const std::string text = line(fraction_done) + (remark.empty() ? "" : "; ") + remark;
+  const std::string text = line(fraction_done) + (remark.empty() ? "" : "; ") + printable(remark);
   if (!terminal_) {
     std::fputs((text + "\n").c_str(), stderr);
     return;

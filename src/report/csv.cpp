@@ -1,9 +1,11 @@
 #include "report/csv.hpp"
 
 #include <algorithm>
+#include <cctype>
 #include <charconv>
 #include <cmath>
 #include <stdexcept>
+#include <string_view>
 
 #include <csv.h>
 #include <fmt/format.h>
@@ -24,7 +26,27 @@ bool needs_quotes(const std::string& field, char separator) {
          field.front() == '#' || field.front() == ' ' || field.back() == ' ';
 }
 
+/// Whether a text begins with a number behind its sign and goes on, if at all, with letters, digits and signs of a
+/// unit.
+bool is_signed_number(std::string_view text) {
+  text.remove_prefix(1);
+  double number = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+  if (error != std::errc{}) return false;
+  text.remove_prefix(static_cast<std::size_t>(end - text.data()));
+  return std::ranges::all_of(text, [](unsigned char c) {
+    return std::isalnum(c) || c >= 0x80 ||
+           std::string_view(" %/.,^").find(static_cast<char>(c)) != std::string_view::npos;
+  });
+}
+
 }  // namespace
+
+std::string defused(const std::string& text) {
+  if (text.empty() || std::string_view("=+-@\t\r").find(text.front()) == std::string_view::npos) return text;
+  const bool is_number = (text.front() == '-' || text.front() == '+') && is_signed_number(text);
+  return is_number ? text : "'" + text;
+}
 
 CsvField csv_number(double value) {
   if (!std::isfinite(value)) return {};
@@ -59,9 +81,10 @@ void CsvTable::add_row(const std::vector<CsvField>& fields) {
 
 void CsvTable::add_line(const std::vector<CsvField>& fields) {
   for (const CsvField& field : fields) {
+    const std::string text = field.is_number ? field.text : defused(field.text);
     if (&field != &fields.front()) text_ += format_.separator;
     const std::size_t from = text_.size();
-    text_ += needs_quotes(field.text, format_.separator) ? quoted(field.text) : field.text;
+    text_ += needs_quotes(text, format_.separator) ? quoted(text) : text;
     if (field.is_number)
       std::replace(text_.begin() + static_cast<std::ptrdiff_t>(from), text_.end(), '.', format_.decimal);
   }

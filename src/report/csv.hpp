@@ -34,6 +34,10 @@ inline CsvField csv_field(std::integral auto number) {
 /// A text that is a number where it reads as one.
 CsvField csv_text_or_number(std::string text);
 
+/// A text that a spreadsheet would take for a formula, with an apostrophe before it; any other as it is. What reads as
+/// a number, with a unit or without, is none.
+std::string defused(const std::string& text);
+
 /// How a CSV file is written: as programs read it, or as spreadsheets of countries with a decimal comma do.
 struct CsvFormat {
   char separator = ',';
@@ -41,7 +45,8 @@ struct CsvFormat {
 };
 inline constexpr CsvFormat semicolon_csv{';', ','};
 
-/// Separated text (RFC 4180, line ends \n): a header, then rows. Fields are quoted where they need it.
+/// Separated text (RFC 4180, line ends \n): a header, then rows. Fields are quoted where they need it, and texts
+/// `defused`.
 class CsvTable {
  public:
   explicit CsvTable(const std::vector<std::string>& columns, CsvFormat format = {});
