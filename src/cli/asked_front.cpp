@@ -79,18 +79,14 @@ void add_question_options(CLI::App& command, OptimiseQuestion& question) {
 AskedFront::AskedFront(const std::filesystem::path& file, const std::vector<std::string>& sets,
                        std::uint64_t first_random_seed, const std::shared_ptr<SourceFiles>& files,
                        const OptimiseQuestion& question)
-    : files_(files), search_({file, overrides_of(sets), files}, options_of(question, first_random_seed)) {
+    : file_(file), files_(files), search_({file, overrides_of(sets), files}, options_of(question, first_random_seed)) {
   search_.wanted();
-  plan_ = {std::filesystem::absolute(file).lexically_normal().string(),
-           sets,
-           first_random_seed,
-           files_->texts(),
-           search_.plan(),
-           words_of(question)};
+  plan_ = {name_in_plan(file, file),    sets,           first_random_seed,
+           files_->planned_texts(file), search_.plan(), words_of(question)};
 }
 
 AskedFront::AskedFront(const StudyPlan& plan)
-    : AskedFront(plan.study, plan.sets, plan.random_seed, std::make_shared<SourceFiles>(plan.files),
+    : AskedFront(path_of_planned(plan.study), plan.sets, plan.random_seed, SourceFiles::of_plan(plan.files),
                  question_in(plan)) {
   if (!std::ranges::equal(plan.runs, plan_.runs, {}, &PlannedRun::name, &PlannedRun::name))
     throw InputError(
@@ -108,7 +104,7 @@ bool AskedFront::lead(RoundsOfRuns& rounds) {
     if (!rounds.quiet() && rounds.made() > 0)
       complain(fmt::format("after {} new runs: {} layouts tried", rounds.made(), search_.tried()));
   });
-  plan_.files = files_->texts();  // later layouts may have read more of them
+  plan_.files = files_->planned_texts(file_);  // later layouts may have read more of them
   return !is_interrupted_;
 }
 

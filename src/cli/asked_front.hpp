@@ -44,6 +44,7 @@ class AskedFront : public AskedStudy {
  private:
   OptimiseResult result() const;
 
+  std::filesystem::path file_;
   std::shared_ptr<SourceFiles> files_;
   StudyOptimisation search_;
   StudyPlan plan_;

@@ -21,6 +21,7 @@ int run_decide(const DecideCommandOptions& command) {
   const CommonOptions& common = command.common;
   const InputFile file = input_file(common.file, FileKind::study);
   AskedDecision decision(plan_study(file.path, common.sets, common.random_seed, file.files), command.question);
+  print_warnings(warnings_of_files_outside(file));
   return answer(decision, common, command.making, command.reuse);
 }
 

@@ -76,7 +76,7 @@ bool is_of_this_program(const PlannedStudy& planned) {
 PlannedStudy plan_study(const std::filesystem::path& file, const std::vector<std::string>& sets,
                         std::uint64_t first_random_seed, const std::shared_ptr<SourceFiles>& files) {
   PlannedStudy planned{study_in(file, sets, files), {}};
-  planned.plan = {std::filesystem::absolute(file).lexically_normal().string(), sets, first_random_seed, files->texts(),
+  planned.plan = {name_in_plan(file, file), sets, first_random_seed, files->planned_texts(file),
                   runs_of(planned.study, first_random_seed,
                           std::vector<int>(planned.study.scenes.size(), planned.study.replicates.first()))};
   return planned;
@@ -112,8 +112,7 @@ PlannedStudy study_of_plan(const StudyPlan& plan) {
     throw InputError(fmt::format(
         "{}: vibrosow optimise chooses its layouts as it goes; only the same command again makes their runs",
         plan.study));
-  const auto files = std::make_shared<SourceFiles>(plan.files);
-  PlannedStudy again{study_in(plan.study, plan.sets, files), plan};
+  PlannedStudy again{study_in(path_of_planned(plan.study), plan.sets, SourceFiles::of_plan(plan.files)), plan};
   if (!is_of_this_program(again))
     throw InputError(fmt::format(
         "{}: the plan was made by another version of the program, or of the models shipped with it; sweep or submit it "

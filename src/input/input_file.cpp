@@ -37,7 +37,7 @@ fs::path shipped_file(const std::string& name, FileKind wanted, const std::share
   return of_kind != found.end() ? *of_kind : found.front();
 }
 
-bool is_plain_name(const std::string& name) {
+bool is_bare_name(const std::string& name) {
   return !name.empty() && name.find('/') == std::string::npos && fs::path(name).extension() != ".toml";
 }
 
@@ -47,10 +47,18 @@ FileKind kind_of(const fs::path& file, const std::shared_ptr<SourceFiles>& files
   return Table(Document::read(file, {}, files)).has("base") ? FileKind::study : FileKind::seeder;
 }
 
+std::vector<std::string> warnings_of_files_outside(const InputFile& file) {
+  std::vector<fs::path> folders = {file.path.parent_path()};
+  if (file.kind == FileKind::study)
+    if (const auto base = Table(Document::read(file.path, {}, file.files)).text("base"))
+      folders.push_back((file.path.parent_path() / *base).parent_path());
+  return warnings_of_files_outside(*file.files, folders);
+}
+
 InputFile input_file(const std::string& name, std::optional<FileKind> wanted) {
   const auto files = std::make_shared<SourceFiles>();
   std::error_code none;
-  const bool shipped = is_plain_name(name) && !fs::exists(name, none);
+  const bool shipped = is_bare_name(name) && !fs::exists(name, none);
   const fs::path path = shipped ? shipped_file(name, wanted.value_or(FileKind::seeder), files) : fs::path(name);
   InputFile file{path, kind_of(path, files), files};
   if (!wanted || file.kind == *wanted) return file;

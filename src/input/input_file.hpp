@@ -4,6 +4,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "input/source_files.hpp"
 
@@ -26,5 +27,8 @@ struct InputFile {
 /// file. Of a seeder and a study of one name the `wanted` one, without a wish the seeder. Throws InputError when there
 /// is none, with the nearest shipped name, and for a file of the other kind, with the command that takes it.
 InputFile input_file(const std::string& name, std::optional<FileKind> wanted = std::nullopt);
+
+/// `warnings_of_files_outside` of the file's own folder and, of a study, of its seeder's, after all was read.
+std::vector<std::string> warnings_of_files_outside(const InputFile& file);
 
 }  // namespace vibrosow
