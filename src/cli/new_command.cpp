@@ -115,7 +115,7 @@ bool refine(const NewOptions& options, const NewCrop& crop, const CropEstimate& 
   std::vector<WantedRun> wanted;
   for (const RefiningRun& run : refining)
     wanted.push_back({&run.scene, run.random_seed, case_name(case_identity(run.scene, run.random_seed))});
-  StudyRuns runs(fs::path(options.out) / (crop.name + "-runs"));
+  StudyRuns runs(PathInFolder(fs::path(options.out)) / (crop.name + "-runs"));
   const Made made = make_runs(runs, wanted, MakingFlags{}, options.jobs, false);
   if (made.making.interrupted > 0) return false;
   atlas.to_space = refined_to_space(atlas.atlas, refining, runs.kept());

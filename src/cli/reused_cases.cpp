@@ -16,7 +16,7 @@ void add_reuse_option(CLI::App& command, std::vector<std::string>& folders) {
 std::vector<std::filesystem::path> cases_to_reuse(const std::vector<std::string>& folders) {
   std::vector<std::filesystem::path> cases;
   for (const std::string& folder : folders) {
-    cases.push_back(cases_of(folder));
+    cases.push_back(cases_of(folder).path());
     if (!std::filesystem::is_directory(cases.back()))
       throw InputError(fmt::format("--reuse: {} holds no runs of a sweep", folder));
   }

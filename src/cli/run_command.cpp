@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <fstream>
 #include <iterator>
 #include <memory>
 #include <optional>
@@ -137,20 +136,25 @@ class CheckpointFile {
  public:
   explicit CheckpointFile(const std::filesystem::path& folder) : path_(folder) { path_ += ".checkpoint"; }
 
-  void write(const Model& model, const SimulationState& state) const {
-    write_file_atomically(path_, save(model, state));
+  /// What cannot be written is told once: the run goes on, and is saved the next time.
+  void write(const Model& model, const SimulationState& state) {
+    try {
+      write_file_atomically(path_, save(model, state));
+    } catch (const CannotWrite& error) {
+      if (!told_) complain(fmt::format("warning: {}; the run goes on unsaved", error.what()));
+      told_ = true;
+    }
   }
 
   /// What is there to go on from. Throws InputError where it does not fit.
   std::optional<SimulationState> read(const Model& model, std::uint64_t random_seed) const {
-    std::ifstream file(path_, std::ios::binary);
-    if (!file) {
+    const std::optional<std::string> bytes = text_of_file(path_);
+    if (!bytes) {
       complain(fmt::format("there is no {}: the run starts from the beginning", path_.string()));
       return std::nullopt;
     }
-    const std::string bytes(std::istreambuf_iterator<char>(file), {});
     try {
-      SimulationState state = restore(model, bytes);
+      SimulationState state = restore(model, *bytes);
       if (state.run.random_seed == random_seed) return state;
       throw InputError(fmt::format("the checkpoint does not fit: its random seed was {}, and now {} is asked for",
                                    state.run.random_seed, random_seed));
@@ -166,6 +170,7 @@ class CheckpointFile {
 
  private:
   std::filesystem::path path_;
+  bool told_ = false;
 };
 
 int run_scene(const RunOptions& options) {
@@ -176,6 +181,7 @@ int run_scene(const RunOptions& options) {
   if (!options.quiet)
     for (const Drawing& drawing : drawings) print_text(wrapped(drawing_text(drawing, read)));
   print_warnings(warnings);
+  print_warnings(warnings_of_files_outside(file));
   const Model model = prepare_to_run(read);
   const Scene& scene = model.scene;
   const std::string page_template = options.page_template(scene.space == Space::plane);
@@ -186,7 +192,7 @@ int run_scene(const RunOptions& options) {
   simulation.threads = threads_to_be_had(options.threads);
   simulation.profile = options.profile;
   simulation.interrupt = &watch_for_interrupt();
-  const CheckpointFile checkpoint(folder.path());
+  CheckpointFile checkpoint(folder.path());
   if (!options.checkpoint_every.empty()) {
     simulation.checkpoint_every = time_option("--checkpoint-every", options.checkpoint_every);
     simulation.on_checkpoint = [&](const SimulationState& state) { checkpoint.write(model, state); };

@@ -6,7 +6,7 @@
 #include <memory>
 #include <optional>
 #include <string>
-#include <system_error>
+#include <string_view>
 
 #include "cli/commands.hpp"
 #include "cli/common_options.hpp"
@@ -18,6 +18,7 @@
 #include "input/input_file.hpp"
 #include "report/sweep_report.hpp"
 #include "scene/input_error.hpp"
+#include "scene/printable.hpp"
 #include "storage/atomic_file.hpp"
 #include "storage/study_plan.hpp"
 
@@ -41,8 +42,25 @@ struct Frozen {
   std::string name;  // of the plan
 };
 
+/// A script's directives are lines, and Slurm has no way to quote what would end one. Throws InputError.
+void refuse_in_script(const std::string& what, const std::string& text) {
+  const bool fits = std::ranges::none_of(text, [](char letter) {
+    const auto byte = static_cast<unsigned char>(letter);
+    return byte < 0x20 || byte == 0x7f || std::string_view("\"'`\\").find(letter) != std::string_view::npos;
+  });
+  if (!fits)
+    throw InputError(fmt::format(
+        "{} \"{}\": control characters, quotes and backslashes cannot stand in a script for Slurm; rename it", what,
+        printable(text)));
+}
+
 Frozen freeze(const SubmitOptions& options) {
   const CommonOptions& common = options.common;
+  refuse_in_script("the folder", fs::current_path().string());
+  refuse_in_script("the file", common.file);
+  refuse_in_script("--out", common.out);
+  refuse_in_script("--partition", options.partition);
+  refuse_in_script("the program", fs::read_symlink("/proc/self/exe").string());
   if (fs::is_directory(common.file)) {
     if (!common.sets.empty() || !common.out.empty())
       throw InputError("--set and --out go with a study, not with the folder of one that is begun");
@@ -51,6 +69,7 @@ Frozen freeze(const SubmitOptions& options) {
   const InputFile file = input_file(common.file, FileKind::study);
   PlannedStudy planned = plan_study(file.path, common.sets, common.random_seed, file.files);
   print_warnings(study_warnings(planned.study));
+  print_warnings(warnings_of_files_outside(file));
   const OutputFolder folder = common.output_folder("sweep", sweep_file_texts());
   std::string name = freeze_plan(folder.path(), planned.plan);
   return {std::move(planned), fs::canonical(folder.path()), std::move(name)};
@@ -89,10 +108,11 @@ std::string without_patterns(const std::string& path) {
 /// What both scripts begin with.
 std::string script_head(const SubmitOptions& options, const Frozen& frozen, const std::string& job,
                         const std::string& log) {
+  refuse_in_script("the folder", frozen.folder.string());
   std::string text = "#!/bin/bash\n";
   text += directive(fmt::format("--job-name={}", job));
-  text +=
-      directive(fmt::format("--output=\"{}/{}\"", without_patterns((cases_of(frozen.folder) / "logs").string()), log));
+  text += directive(
+      fmt::format("--output=\"{}/{}\"", without_patterns((cases_of(frozen.folder) / "logs").path().string()), log));
   text += directive("--open-mode=append");
   text += directive("--ntasks=1") + directive("--cpus-per-task=1");
   if (!options.partition.empty()) text += directive("--partition=" + options.partition);
@@ -135,12 +155,10 @@ std::string controller_script(const SubmitOptions& options, const Frozen& frozen
 
 /// Writes a plan's script and gives its name.
 std::string write_script(const Frozen& frozen, const std::string& kind, const std::string& script) {
-  std::error_code error;
-  fs::create_directories(cases_of(frozen.folder) / "logs", error);
-  if (error) cannot_write(cases_of(frozen.folder) / "logs", error.message());
-  std::string file = plan_path(frozen.folder, frozen.name).string() + kind;
+  const PathInFolder logs = cases_of(frozen.folder) / "logs", file = plan_file(frozen.folder, frozen.name + kind);
+  make_directories(logs, logs.path());
   write_file_atomically(file, script);
-  return file;
+  return file.path().string();
 }
 
 /// The controller's work: rounds until nothing more is needed, then the reports.

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <deque>
-#include <fstream>
 #include <iterator>
 #include <set>
 #include <thread>
@@ -66,10 +65,8 @@ class Released {
 std::optional<SimulationState> state_to_go_on_from(const CheckpointFolder& checkpoints, const std::string& run,
                                                    const Model& model, std::uint64_t random_seed) {
   for (const fs::path& path : checkpoints.of(run)) {
-    std::ifstream file(path, std::ios::binary);
-    const std::string bytes(std::istreambuf_iterator<char>(file), {});
     try {
-      SimulationState state = restore(model, bytes);
+      SimulationState state = restore(model, text_of_file(path).value_or(""));
       if (state.run.random_seed == random_seed) return state;
     } catch (const InputError&) {
     }
@@ -160,13 +157,22 @@ class StudyRuns::Queue {
   std::exception_ptr reason_;
 };
 
-StudyRuns::StudyRuns(const fs::path& own, const std::vector<fs::path>& others, std::chrono::duration<double> patience)
-    : notes_(own / "running", patience), checkpoints_(own / "checkpoints") {
+StudyRuns::StudyRuns(const PathInFolder& own, const std::vector<fs::path>& others,
+                     std::chrono::duration<double> patience)
+    : own_(own), notes_(own / "running", patience), checkpoints_(own / "checkpoints") {
   folders_.emplace_back(own);
   for (const fs::path& other : others) folders_.emplace_back(other);
 }
 
+/// What processes left that were killed while they wrote.
+void StudyRuns::sweep_what_was_left() const {
+  sweep_temporary_files(own_);
+  for (const fs::path& entry : entries_of(own_.path()))
+    if (std::error_code none; fs::is_directory(entry, none)) sweep_temporary_files(own_ / entry.filename());
+}
+
 Making StudyRuns::make(const std::vector<WantedRun>& wanted, const Simulator& simulator, const MakingOptions& options) {
+  sweep_what_was_left();
   Queue queue(wanted, options);
   side_by_side(options.jobs, [&] {
     while (const WantedRun* run = queue.is_interrupted() ? nullptr : queue.next()) {

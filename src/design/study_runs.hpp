@@ -55,7 +55,7 @@ struct Making {
 class StudyRuns {
  public:
   /// `own`: a sweep's "cases", written into; `others` are only read. `patience`: RunNotes'.
-  StudyRuns(const std::filesystem::path& own, const std::vector<std::filesystem::path>& others = {},
+  StudyRuns(const PathInFolder& own, const std::vector<std::filesystem::path>& others = {},
             std::chrono::duration<double> patience = std::chrono::seconds(30));
 
   /// Returns when every wanted run is there, made by whomever, or when it is interrupted. A scene that cannot be run
@@ -84,6 +84,9 @@ class StudyRuns {
   void keep_waiting();
   bool has_room(const MakingOptions& options, const Queue& queue);
 
+  void sweep_what_was_left() const;
+
+  PathInFolder own_;
   std::deque<CaseFolder> folders_;  // one's own first
   RunNotes notes_;
   CheckpointFolder checkpoints_;

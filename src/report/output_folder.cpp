@@ -8,7 +8,6 @@
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
-#include <fstream>
 #include <optional>
 #include <set>
 #include <string_view>
@@ -19,6 +18,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "scene/checked_json.hpp"
 #include "scene/input_error.hpp"
 #include "storage/atomic_file.hpp"
 
@@ -52,7 +52,7 @@ class TemporaryDirectory {
   TemporaryDirectory& operator=(const TemporaryDirectory&) = delete;
   ~TemporaryDirectory() {
     std::error_code error;
-    for (const std::string& name : names_) fs::remove(path_ / name, error);
+    for (const std::string& name : names_) remove_file(path_ / name);
     fs::remove(path_, error);
   }
   const fs::path& path() const { return path_; }
@@ -74,17 +74,20 @@ std::string text_of(const FileList& list, bool complete) {
   return json.dump(2) + '\n';
 }
 
-/// The list of a folder; none without one. Throws InputError for a files.json that is not ours.
+/// The list of a folder; none without one. Throws InputError for a files.json that is not ours: a name in it that leads
+/// out of the folder would have a file removed there.
 std::optional<FileList> read_list(const fs::path& folder) {
   const fs::path path = folder / list_name;
-  std::ifstream stream(path);
-  if (!stream) return std::nullopt;
+  if (std::error_code none; !fs::exists(path, none)) return std::nullopt;
+  constexpr std::size_t most = std::size_t{1} << 24;  // bytes
   try {
-    const auto json = nlohmann::json::parse(stream);
-    return FileList{json.at("command"), json.at("files")};
+    const auto json = parse_json<nlohmann::json>(text_of_file(path, most).value_or(""));
+    FileList list{json.at("command"), json.at("files")};
+    if (is_plain_name(list.command) && std::ranges::all_of(list.files, is_plain_name)) return list;
   } catch (const nlohmann::json::exception&) {
-    refuse(path, "was not written by vibrosow");
+  } catch (const InputError&) {
   }
+  refuse(path, "was not written by vibrosow");
 }
 
 /// `pattern`: a name in which * stands for digits.
@@ -112,11 +115,11 @@ FileList former_set(const fs::path& folder, const std::string& command, const st
   return former;
 }
 
-/// Whether there is nothing in the folder but this set and its list.
+/// Whether there is nothing in the folder but this set and its list. What is named and no plain file is somebody's.
 bool holds_only(const fs::path& folder, const FileList& list) {
   return std::ranges::all_of(fs::directory_iterator(folder), [&](const fs::directory_entry& entry) {
     const std::string name = entry.path().filename().string();
-    return name == list_name || list.files.contains(name);
+    return (name == list_name || list.files.contains(name)) && entry.symlink_status().type() == fs::file_type::regular;
   });
 }
 
@@ -137,11 +140,26 @@ void move_in_one_by_one(const fs::path& fresh, const fs::path& folder, const Fil
   both.files.insert(former.files.begin(), former.files.end());
   write_file_atomically(folder / list_name, text_of(both, false));
   for (const std::string& name : former.files)
-    if (!list.files.contains(name)) fs::remove(folder / name);
+    if (!list.files.contains(name)) remove_file(folder / name);
   for (const std::string& name : list.files) move_file(fresh / name, folder / name);
   sync_directory(folder);
   move_file(fresh / list_name, folder / list_name);
   sync_directory(folder);
+}
+
+/// Takes away what killed processes left that made a set of this folder, or wrote into it. Of a directory, what a set
+/// may have; it stays where there is more in it.
+void sweep_what_was_left(const fs::path& folder, const Names& names) {
+  for (const fs::path& place : {folder.parent_path(), folder}) {
+    sweep_temporary_files(place);
+    for (const fs::path& entry : entries_of(place)) {
+      std::error_code error;
+      const bool is_set = entry.filename().string().starts_with("." + folder.filename().string() + ".");
+      if (!is_set || !fs::is_directory(fs::symlink_status(entry, error)) || !is_left_behind(entry)) continue;
+      for (const std::string& name : names) remove_file(entry / name);
+      fs::remove(entry, error);
+    }
+  }
 }
 
 /// Where the new set is made: beside the folder, or within it where one may not write beside it.
@@ -182,12 +200,13 @@ void OutputFolder::write(const std::vector<OutputFile>& files) const {
 
   const fs::path folder = fs::canonical(folder_);
   TemporaryDirectory fresh(place_for_fresh(folder), folder.filename().string());
-  for (const FileList& set : {former, list})
-    for (const std::string& name : set.files) fresh.name(name);
-  fresh.name(list_name);
+  Names all = {list_name};
+  for (const FileList& set : {former, list}) all.insert(set.files.begin(), set.files.end());
+  for (const std::string& name : all) fresh.name(name);
   for (const OutputFile& file : files) write_new_file(fresh.path() / file.name, file.content, folder_ / file.name);
   write_new_file(fresh.path() / list_name, text_of(list, true), folder_ / list_name);
   sync_directory(fresh.path());
+  sweep_what_was_left(folder, all);
   if (holds_more_ || !holds_only(folder, former) || !exchange(fresh.path(), folder))
     move_in_one_by_one(fresh.path(), folder, former, list);
 }

@@ -39,8 +39,8 @@ std::enable_if_t<std::is_arithmetic_v<T>> load(PortableBinaryInputArchive& archi
 }
 template <class T>
 std::enable_if_t<!std::is_arithmetic_v<T>> load(PortableBinaryInputArchive& archive, std::vector<T>& values) {
-  values.resize(load_size(archive, 1));
-  for (T& value : values) archive(value);
+  values.clear();  // grows as they are read: a value takes more memory than the bytes that a damaged size is held to
+  for (std::size_t left = load_size(archive, 1); left > 0; --left) archive(values.emplace_back());
 }
 inline void load(PortableBinaryInputArchive& archive, bool& value) {
   unsigned char byte = 0;

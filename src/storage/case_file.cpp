@@ -6,11 +6,15 @@
 
 #include <cereal/types/string.hpp>
 #include <memory>
+#include <nlohmann/json.hpp>
 #include <sstream>
 
 #include "result/archive.hpp"
 #include "result/results_version.hpp"
+#include "result/run_check.hpp"
+#include "scene/checked_json.hpp"
 #include "scene/input_error.hpp"
+#include "scene/printable.hpp"
 #include "scene/scene_json.hpp"
 
 namespace vibrosow {
@@ -71,6 +75,13 @@ std::string head(const std::string& content_hash, std::string_view compressed) {
 }
 constexpr std::size_t head_size = signature.size() + 2 * hash_digits + 2;
 
+/// What so many compressed bytes may become: a run's numbers shrink to a third, a bed at rest to a tenth. Somebody
+/// else's could become the ten thousandfold.
+std::size_t most_of(std::size_t compressed) {
+  constexpr std::size_t at_least = std::size_t{1} << 26, most_times = 50;
+  return at_least + most_times * compressed;
+}
+
 /// Piece by piece, so that a damaged size asks for no memory.
 std::string decompressed(std::string_view bytes) {
   const std::unique_ptr<ZSTD_DCtx, decltype(&ZSTD_freeDCtx)> decompressor(ZSTD_createDCtx(), &ZSTD_freeDCtx);
@@ -80,12 +91,25 @@ std::string decompressed(std::string_view bytes) {
   for (bool full = false; left != 0 && (full || in.pos < in.size);) {
     ZSTD_outBuffer out{piece.data(), piece.size(), 0};
     left = ZSTD_decompressStream(decompressor.get(), &out, &in);
-    if (ZSTD_isError(left)) refuse("it is damaged");
+    if (ZSTD_isError(left) || text.size() + out.pos > most_of(bytes.size())) refuse("it is damaged");
     text.append(piece, 0, out.pos);
     full = out.pos == out.size;
   }
   if (left != 0 || in.pos != in.size) refuse("it is damaged");
   return text;
+}
+
+/// What the scene of an identity says of its runs.
+RunBounds bounds_in(const std::string& identity) {
+  const auto json = parse_json<nlohmann::json>(identity);
+  const auto& scene = json.at("scene");
+  return {scene.at("lots").size(), scene.at("tray").at("holes").size(), scene.at("run").at("duration_s")};
+}
+
+/// Its texts as they may be shown and written.
+void make_printable(Run& run) {
+  for (std::string* text : {&run.stop_reason, &run.end_reason}) *text = printable(*text);
+  for (std::string& warning : run.warnings) warning = printable(warning);
 }
 
 }  // namespace
@@ -140,9 +164,13 @@ Case read_case(std::string_view bytes) {
     Case read;
     WholeRun whole{read.run};
     archive(read.identity, whole);
+    if (!is_possible(read.run, bounds_in(read.identity))) refuse("no run of its scene is such");
+    make_printable(read.run);
     return read;
   } catch (const cereal::Exception&) {
     refuse("it ends too early");
+  } catch (const nlohmann::json::exception&) {
+    refuse("its scene is none");
   }
 }
 

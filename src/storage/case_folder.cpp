@@ -3,10 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <fstream>
 #include <iterator>
 #include <map>
-#include <system_error>
 
 #include "scene/input_error.hpp"
 #include "storage/atomic_file.hpp"
@@ -30,13 +28,12 @@ bool has_finished(const std::string& bytes) {
 
 }  // namespace
 
-fs::path CaseFolder::file_of(const std::string& name) const {
+PathInFolder CaseFolder::file_of(const std::string& name) const {
   return path_ / name.substr(0, 2) / (name + extension);
 }
 
 std::string CaseFolder::loose_bytes(const std::string& name) const {
-  std::ifstream file(file_of(name), std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), {}};
+  return text_of_file(file_of(name).path()).value_or("");
 }
 
 /// The first sound copy: loose, or in a segment known, or in one that has come since.
@@ -74,17 +71,18 @@ bool CaseFolder::has(const std::string& name) const {
 }
 
 void CaseFolder::remove(const std::string& name) const {
-  std::error_code none;
-  fs::remove(file_of(name), none);
+  remove_file(file_of(name));
 }
 
 std::vector<std::string> CaseFolder::loose_names() const {
   std::vector<std::string> names;
-  for (const fs::path& folder : entries_of(path_)) {
-    if (folder.filename().string().size() != 2) continue;
+  for (const fs::path& folder : entries_of(path_.path())) {
+    const std::string first = folder.filename().string();
+    if (!is_hash_name(first, 2) || (path_ / first).link_on_the_way(true)) continue;
     for (const fs::path& file : entries_of(folder))
-      if (file.extension() == extension && file.stem().string().size() == name_digits)
-        names.push_back(file.stem().string());
+      if (const std::string name = file.stem().string();
+          file.extension() == extension && is_hash_name(name, name_digits))
+        names.push_back(name);
   }
   std::ranges::sort(names);
   return names;
@@ -104,17 +102,15 @@ std::vector<std::string> CaseFolder::names() const {
 
 void CaseFolder::keep(std::string_view identity, const Run& run) const {
   const std::string name = case_name(identity), bytes = case_bytes(identity, run), there = sound_bytes(name);
-  const fs::path file = file_of(name);
+  const PathInFolder file = file_of(name);
   if (!there.empty()) {
     if (content_of_case(there) == content_of_case(bytes)) return;
     if (const std::optional<Case> other = named(name); other && other->identity == identity)
       throw InputError(fmt::format(
           "{}: holds another run of the same scene and random seed: the programs that made them do not agree",
-          file.string()));
+          file.path().string()));
   }
-  std::error_code error;
-  fs::create_directories(file.parent_path(), error);
-  if (error) cannot_write(file, error.message());
+  make_directories(path_ / name.substr(0, 2), file.path());
   write_file_atomically(file, bytes);
 }
 

@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "storage/atomic_file.hpp"
 #include "storage/case_file.hpp"
 #include "storage/segments.hpp"
 
@@ -19,7 +20,7 @@ namespace vibrosow {
 /// without locks: a run that two of them make is the same file. For several threads at a time.
 class CaseFolder {
  public:
-  explicit CaseFolder(std::filesystem::path path) : path_(std::move(path)), segments_(path_ / "segments") {}
+  explicit CaseFolder(PathInFolder path) : path_(std::move(path)), segments_(path_ / "segments") {}
 
   /// The run of an identity (`case_identity`); none where it is not there, or cannot be read or is damaged: then it is
   /// to be made again, which mends it.
@@ -38,7 +39,7 @@ class CaseFolder {
   /// Takes a case away where it lies in a file of its own.
   void remove(const std::string& name) const;
 
-  /// Names of all cases here, sound or not, in order.
+  /// Names of all cases here, sound or not, in order; none of directories that are links.
   std::vector<std::string> names() const;
 
   /// How many cases make a segment full.
@@ -50,12 +51,12 @@ class CaseFolder {
   std::size_t pack(std::size_t at_least = 1) const;
 
  private:
-  std::filesystem::path file_of(const std::string& name) const;
+  PathInFolder file_of(const std::string& name) const;
   std::vector<std::string> loose_names() const;
   std::string loose_bytes(const std::string& name) const;
   std::string sound_bytes(const std::string& name) const;
 
-  std::filesystem::path path_;
+  PathInFolder path_;
   mutable std::mutex mutex_;
   mutable Segments segments_;
 };

@@ -15,7 +15,7 @@ namespace fs = std::filesystem;
 
 CheckpointFolder::Steps CheckpointFolder::steps_of(const std::string& run) const {
   Steps steps;
-  for (const fs::path& file : entries_of(path_)) {
+  for (const fs::path& file : entries_of(path_.path())) {
     const std::string name = file.filename().string();
     if (!name.starts_with(run + ".") || file.extension() != ".checkpoint") continue;
     std::int64_t step = 0;
@@ -28,13 +28,11 @@ CheckpointFolder::Steps CheckpointFolder::steps_of(const std::string& run) const
 }
 
 void CheckpointFolder::keep(const std::string& run, std::int64_t step, std::string_view bytes) const {
-  std::error_code error;
-  const fs::path file = path_ / fmt::format("{}.{}.checkpoint", run, step);
-  fs::create_directories(path_, error);
-  if (error) cannot_write(file, error.message());
+  const PathInFolder file = path_ / fmt::format("{}.{}.checkpoint", run, step);
+  make_directories(path_, file.path());
   write_file_atomically(file, bytes);
   for (const auto& [other, path] : steps_of(run))
-    if (other < step) fs::remove(path, error);
+    if (other < step) remove_file(path_ / path.filename());
 }
 
 std::vector<fs::path> CheckpointFolder::of(const std::string& run) const {
@@ -45,14 +43,13 @@ std::vector<fs::path> CheckpointFolder::of(const std::string& run) const {
 
 std::vector<std::string> CheckpointFolder::runs() const {
   std::set<std::string> runs;
-  for (const fs::path& file : entries_of(path_))
+  for (const fs::path& file : entries_of(path_.path()))
     if (file.extension() == ".checkpoint") runs.insert(file.stem().stem().string());
   return {runs.begin(), runs.end()};
 }
 
 void CheckpointFolder::remove(const std::string& run) const {
-  std::error_code none;
-  for (const fs::path& path : of(run)) fs::remove(path, none);
+  for (const fs::path& path : of(run)) remove_file(path_ / path.filename());
 }
 
 }  // namespace vibrosow

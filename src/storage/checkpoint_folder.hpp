@@ -7,13 +7,15 @@
 #include <utility>
 #include <vector>
 
+#include "storage/atomic_file.hpp"
+
 namespace vibrosow {
 
 /// Where runs under way have got to, on the disk: "NAME.STEP.checkpoint", so that no process overwrites what another
 /// has reached. What the bytes mean is the simulation's (`save`, `restore`).
 class CheckpointFolder {
  public:
-  explicit CheckpointFolder(std::filesystem::path path) : path_(std::move(path)) {}
+  explicit CheckpointFolder(PathInFolder path) : path_(std::move(path)) {}
 
   /// Throws InputError where it cannot be written; else earlier ones of the run go.
   void keep(const std::string& run, std::int64_t step, std::string_view bytes) const;
@@ -30,7 +32,7 @@ class CheckpointFolder {
   using Steps = std::vector<std::pair<std::int64_t, std::filesystem::path>>;
   Steps steps_of(const std::string& run) const;
 
-  std::filesystem::path path_;
+  PathInFolder path_;
 };
 
 }  // namespace vibrosow

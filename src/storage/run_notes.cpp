@@ -5,16 +5,18 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <array>
 #include <cerrno>
+#include <climits>
 #include <ctime>
 #include <fstream>
-#include <iterator>
 #include <nlohmann/json.hpp>
 #include <sstream>
 #include <system_error>
 
+#include "scene/checked_json.hpp"
+#include "scene/printable.hpp"
 #include "storage/atomic_file.hpp"
+#include "storage/this_machine.hpp"
 
 namespace vibrosow {
 namespace {
@@ -23,21 +25,10 @@ namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 constexpr std::chrono::seconds beat_every(5);
 
+constexpr std::size_t most_of_a_note = 4096;  // bytes
+
 std::string text_of(const fs::path& file) {
-  std::ifstream in(file);
-  return {std::istreambuf_iterator<char>(in), {}};
-}
-
-std::string host_name() {
-  std::array<char, 256> name{};
-  gethostname(name.data(), name.size() - 1);
-  return name.data();
-}
-
-/// A machine's name and which numbers of processes it means: containers of one machine have numbers of their own.
-std::string place() {
-  std::error_code none;
-  return host_name() + " " + fs::read_symlink("/proc/self/ns/pid", none).string();
+  return text_of_file(file, most_of_a_note).value_or("");
 }
 
 /// When a process was started, in ticks of its machine, so that a number given to another process is not taken for it;
@@ -55,7 +46,7 @@ std::string start_of(int process) {
 }
 
 std::string json_of(const RunNote& note, const std::string& token, long beats) {
-  static const std::string here = place();
+  static const std::string here = place_of_processes();
   return Json{{"host", note.host},
               {"place", here},
               {"pid", note.process},
@@ -69,24 +60,30 @@ std::string json_of(const RunNote& note, const std::string& token, long beats) {
          '\n';
 }
 
+/// Throws InputError where it is none.
+int process_in(const nlohmann::json& note) {
+  return static_cast<int>(whole_number(note.at("pid"), 0, INT_MAX));
+}
+
 /// Whether such a note is of a process of this machine that is no more.
 bool is_of_the_dead(const std::string& text) {
   try {
-    const auto json = nlohmann::json::parse(text);
-    return json.at("place") == place() && start_of(json.at("pid")) != json.at("started");
+    const auto json = parse_json<nlohmann::json>(text);
+    return json.at("place") == place_of_processes() && start_of(process_in(json)) != json.at("started");
   } catch (const nlohmann::json::exception&) {
-    return false;
+  } catch (const InputError&) {
   }
+  return false;
 }
 
 }  // namespace
 
-fs::path RunNotes::file_of(const std::string& run) const {
+PathInFolder RunNotes::file_of(const std::string& run) const {
   return folder_ / run;
 }
 
 bool RunNotes::is_abandoned(const std::string& run) {
-  const std::string text = text_of(file_of(run));
+  const std::string text = text_of(file_of(run).path());
   if (is_of_the_dead(text)) return true;
   const std::lock_guard lock(mutex_);
   const auto now = Clock::now();
@@ -96,8 +93,10 @@ bool RunNotes::is_abandoned(const std::string& run) {
 }
 
 bool RunNotes::claim(const std::string& run) {
-  std::error_code none;
-  fs::create_directories(folder_, none);
+  try {
+    make_directories(folder_, folder_.path());
+  } catch (const CannotWrite&) {  // then nobody knows
+  }
   const auto now = std::chrono::system_clock::to_time_t(std::chrono::system_clock::now());
   Own own{{run, host_name(), getpid(), fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(now)), 0, -1},
           temporary_name(""),
@@ -115,21 +114,22 @@ bool RunNotes::claim(const std::string& run) {
 /// Writes a note where there is none; false where there is one. What fails for another reason is let be: then nobody
 /// knows, and the run is made.
 bool RunNotes::is_first(const Own& own) const {
-  const fs::path file = file_of(own.note.run), temporary = folder_ / temporary_name(own.note.run);
+  const fs::path file = file_of(own.note.run).path();
+  const PathInFolder temporary = folder_ / temporary_name(own.note.run);
   const std::string text = json_of(own.note, own.token, own.beats);
-  std::ofstream(temporary) << text;
-  const bool refused = link(temporary.c_str(), file.c_str()) != 0 && errno == EEXIST;
-  std::error_code none;
-  fs::remove(temporary, none);
+  std::ofstream(temporary.path()) << text;
+  const bool refused = link(temporary.path().c_str(), file.c_str()) != 0 && errno == EEXIST;
+  remove_file(temporary);
   return !refused || text_of(file) == text;  // a network file system may repeat a link that it has made
 }
 
 /// Over a note that is there. Without fsync, and what fails is let be: a lost note costs time alone.
 void RunNotes::write(const Own& own) const {
-  const fs::path temporary = folder_ / temporary_name(own.note.run);
-  std::ofstream(temporary) << json_of(own.note, own.token, own.beats);
+  if (folder_.link_on_the_way(true)) return;
+  const PathInFolder temporary = folder_ / temporary_name(own.note.run);
+  std::ofstream(temporary.path()) << json_of(own.note, own.token, own.beats);
   std::error_code none;
-  fs::rename(temporary, file_of(own.note.run), none);
+  fs::rename(temporary.path(), file_of(own.note.run).path(), none);
 }
 
 void RunNotes::beat(const std::string& run, double fraction) {
@@ -148,8 +148,7 @@ void RunNotes::beat(const std::string& run, double fraction) {
 }
 
 void RunNotes::release(const std::string& run) {
-  std::error_code none;
-  fs::remove(file_of(run), none);
+  remove_file(file_of(run));
   const std::lock_guard lock(mutex_);
   own_.erase(run);
   seen_.erase(run);
@@ -157,14 +156,16 @@ void RunNotes::release(const std::string& run) {
 
 std::vector<RunNote> RunNotes::all() const {
   std::vector<RunNote> notes;
-  for (const fs::path& file : entries_of(folder_)) {
+  for (const fs::path& file : entries_of(folder_.path())) {
     const std::string name = file.filename().string(), text = text_of(file);
     if (name.starts_with('.') || is_of_the_dead(text)) continue;
     try {
-      const auto json = nlohmann::json::parse(text);
-      notes.push_back(
-          {name, json.at("host"), json.at("pid"), json.at("since"), json.at("fraction"), json.at("from_fraction")});
+      const auto json = parse_json<nlohmann::json>(text);
+      notes.push_back({name, printable(json.at("host").get<std::string>()), process_in(json),
+                       printable(json.at("since").get<std::string>()), number_within(json.at("fraction"), 0, 1),
+                       number_within(json.at("from_fraction"), -1, 1)});
     } catch (const nlohmann::json::exception&) {
+    } catch (const InputError&) {
     }
   }
   std::ranges::sort(notes, {}, &RunNote::run);

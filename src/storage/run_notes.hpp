@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "storage/atomic_file.hpp"
+
 namespace vibrosow {
 
 /// That a run is under way, as a small file that says where.
@@ -25,10 +27,11 @@ class RunNotes {
  public:
   /// A note that has not changed for `patience` is of a process that is dead or asleep; so is one of a process of this
   /// machine that is no more. The clock is this process's own, since those of several machines do not agree.
-  explicit RunNotes(std::filesystem::path folder, std::chrono::duration<double> patience = std::chrono::seconds(30))
+  explicit RunNotes(PathInFolder folder, std::chrono::duration<double> patience = std::chrono::seconds(30))
       : folder_(std::move(folder)), patience_(patience) {}
 
-  /// Notes that this process makes the run from now on; false where another does.
+  /// Notes that this process makes the run from now on; false where another does. Throws InputError where a link is on
+  /// the way to the folder.
   bool claim(const std::string& run);
 
   /// To be called often while it runs: says how far it is every few seconds.
@@ -53,12 +56,12 @@ class RunNotes {
     Clock::time_point since;
   };
 
-  std::filesystem::path file_of(const std::string& run) const;
+  PathInFolder file_of(const std::string& run) const;
   bool is_abandoned(const std::string& run);
   bool is_first(const Own& own) const;
   void write(const Own& own) const;
 
-  std::filesystem::path folder_;
+  PathInFolder folder_;
   std::chrono::duration<double> patience_;
   std::mutex mutex_;
   std::map<std::string, Own> own_;

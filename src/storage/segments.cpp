@@ -71,7 +71,7 @@ void Segments::read(const fs::path& file) {
 
 void Segments::refresh() {
   std::vector<fs::path> fresh;
-  for (const fs::path& file : entries_of(folder_))
+  for (const fs::path& file : entries_of(folder_.path()))
     if (file.extension() == ".segment" && known_.insert(file.filename().string()).second) fresh.push_back(file);
   if (fresh.empty()) return;
   std::ranges::sort(fresh);
@@ -115,10 +115,8 @@ void Segments::write(const std::map<std::string, std::string>& cases) const {
     all_names += name;
   }
   const XXH128_hash_t hash = XXH3_128bits(all_names.data(), all_names.size());
-  const fs::path file = folder_ / fmt::format("{:016x}{:016x}.segment", hash.high64, hash.low64);
-  std::error_code error;
-  fs::create_directories(folder_, error);
-  if (error) cannot_write(file, error.message());
+  const PathInFolder file = folder_ / fmt::format("{:016x}{:016x}.segment", hash.high64, hash.low64);
+  make_directories(folder_, file.path());
   write_file_atomically(file, head_of(numbers) + numbers + content);
 }
 

@@ -8,6 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "storage/atomic_file.hpp"
+
 namespace vibrosow {
 
 /// Many cases in one file: a line "vibrosow segment 1 HASH", the number of cases, then for each its name, place and
@@ -15,7 +17,7 @@ namespace vibrosow {
 /// the hash of its names. Written whole or not at all, never changed.
 class Segments {
  public:
-  explicit Segments(std::filesystem::path folder) : folder_(std::move(folder)) {}
+  explicit Segments(PathInFolder folder) : folder_(std::move(folder)) {}
 
   /// Looks for segments that have come since. Not for several threads at a time.
   void refresh();
@@ -40,7 +42,7 @@ class Segments {
 
   void read(const std::filesystem::path& file);
 
-  std::filesystem::path folder_;
+  PathInFolder folder_;
   std::vector<std::filesystem::path> files_;  // sound and others
   std::set<std::string> known_;               // their names: a folder of many segments is looked through for each miss
   std::vector<Place> places_;                 // in order

@@ -4,14 +4,14 @@
 #include <xxhash.h>
 
 #include <algorithm>
-#include <fstream>
-#include <iterator>
+#include <climits>
 #include <nlohmann/json.hpp>
 #include <numeric>
+#include <optional>
 #include <queue>
 #include <sstream>
-#include <system_error>
 
+#include "scene/checked_json.hpp"
 #include "scene/input_error.hpp"
 #include "storage/atomic_file.hpp"
 
@@ -20,8 +20,10 @@ namespace {
 
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
+constexpr std::size_t plan_digits = 16, case_digits = 32;
+constexpr double most_grain_steps = 1e30;
 
-fs::path pointer_of(const fs::path& folder) {
+PathInFolder pointer_of(const fs::path& folder) {
   return cases_of(folder) / "plan";
 }
 
@@ -69,9 +71,15 @@ Json groups_of(const std::vector<PlannedRun>& runs) {
 std::vector<PlannedRun> runs_in(const nlohmann::json& groups) {
   std::vector<PlannedRun> runs;
   for (const auto& group : groups) {
-    PlannedRun run{{}, group.at("layout"), group.at("random_seed"), group.at("grain_steps")};
+    PlannedRun run{{},
+                   static_cast<int>(whole_number(group.at("layout"), 1, INT_MAX)),
+                   seed_number(group.at("random_seed")),
+                   number_within(group.at("grain_steps"), 0, most_grain_steps)};
     std::istringstream names(group.at("cases").get<std::string>());
-    for (; names >> run.name; ++run.random_seed) runs.push_back(run);
+    for (; names >> run.name; ++run.random_seed) {
+      if (!is_hash_name(run.name, case_digits)) throw InputError("a run's name is none of a case");
+      runs.push_back(run);
+    }
   }
   return runs;
 }
@@ -89,8 +97,8 @@ std::string text_of(const StudyPlan& plan) {
 }
 
 StudyPlan plan_in(const std::string& text) {
-  const auto json = nlohmann::json::parse(text);
-  StudyPlan plan{json.at("study"), json.at("set"), json.at("random_seed"), {}, {}};
+  const auto json = parse_json<nlohmann::json>(text);
+  StudyPlan plan{json.at("study"), json.at("set"), seed_number(json.at("random_seed")), {}, {}};
   if (json.contains("asked")) plan.asked = json.at("asked").get<std::vector<std::string>>();
   for (const auto& [path, content] : json.at("files").items()) plan.files[path] = bytes_of(content);
   plan.runs = runs_in(json.at("runs"));
@@ -99,43 +107,47 @@ StudyPlan plan_in(const std::string& text) {
 
 }  // namespace
 
-fs::path cases_of(const fs::path& folder) {
-  return folder / "cases";
+PathInFolder cases_of(const fs::path& folder) {
+  return PathInFolder(folder) / "cases";
 }
 
-fs::path plan_path(const fs::path& folder, const std::string& name) {
+PathInFolder plan_file(const fs::path& folder, const std::string& name) {
   return cases_of(folder) / "plans" / name;
 }
 
 std::string freeze_plan(const fs::path& folder, const StudyPlan& plan) {
   const std::string text = text_of(plan);
   std::string name = name_of(text);
-  const fs::path file = plan_path(folder, name + ".json");
-  std::error_code error;
-  fs::create_directories(file.parent_path(), error);
-  if (error) cannot_write(file, error.message());
-  if (!fs::exists(file, error)) write_file_atomically(file, text);
+  const PathInFolder file = plan_file(folder, name + ".json");
+  make_directories(cases_of(folder) / "plans", file.path());
+  if (text_of_file(file.path()) != text) write_file_atomically(file, text);  // also where it was cut short
   write_file_atomically(pointer_of(folder), name + '\n');
   return name;
 }
 
 std::string current_plan(const fs::path& folder) {
-  std::ifstream pointer(pointer_of(folder));
-  std::string name;
-  if (!std::getline(pointer, name))
+  constexpr std::size_t most = 1000;  // bytes
+  std::string name = text_of_file(pointer_of(folder).path(), most).value_or("");
+  if (name.empty())
     throw InputError(fmt::format("{}: there is no cases/plan: not a folder of a sweep", folder.string()));
+  if (name.ends_with('\n')) name.pop_back();
+  if (!is_hash_name(name, plan_digits))
+    throw InputError(fmt::format("{}: is damaged: it holds no plan's name", pointer_of(folder).path().string()));
   return name;
 }
 
 StudyPlan read_plan(const fs::path& folder, std::string name) {
   if (name.empty()) name = current_plan(folder);
-  const fs::path path = plan_path(folder, name + ".json");
-  std::ifstream file(path);
-  if (!file) throw InputError(fmt::format("{}: there is no plan {}", folder.string(), name));
-  const std::string text(std::istreambuf_iterator<char>(file), {});
+  if (!is_hash_name(name, plan_digits))
+    throw InputError(fmt::format("a plan is named by {} of the digits 0 to 9 and a to f, not by \"{}\"", plan_digits,
+                                 name.substr(0, 2 * plan_digits)));
+  const fs::path path = plan_file(folder, name + ".json").path();
+  const std::optional<std::string> text = text_of_file(path);
+  if (!text) throw InputError(fmt::format("{}: there is no plan {}", folder.string(), name));
   try {
-    if (name_of(text) == name) return plan_in(text);
+    if (name_of(*text) == name) return plan_in(*text);
   } catch (const nlohmann::json::exception&) {
+  } catch (const InputError&) {  // what stands there is no plan's
   }
   throw InputError(fmt::format("{}: is damaged, or was not written by vibrosow", path.string()));
 }

@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "storage/atomic_file.hpp"
+
 namespace vibrosow {
 
 /// One run of a study: a layout's scene with a random seed.
@@ -18,27 +20,27 @@ struct PlannedRun {
 
 /// A study as it was when it was begun, files and all, with the runs that it takes. Never changed once it is written.
 struct StudyPlan {
-  std::string study;                         // absolute path of the study file
+  std::string study;                         // its file's name, as `files` has it
   std::vector<std::string> sets;             // KEY=VALUE of the command line
   std::uint64_t random_seed = 1;             // the first
-  std::map<std::string, std::string> files;  // by absolute path: what was read
+  std::map<std::string, std::string> files;  // what was read, by path from the study's folder, or of what is shipped
   std::vector<PlannedRun> runs;              // by layout, then random seed
   std::vector<std::string> asked{};  // of a decision or a search: the command, and its options with their values
 };
 
 /// Where a sweep's folder has its runs and its plans.
-std::filesystem::path cases_of(const std::filesystem::path& folder);
+PathInFolder cases_of(const std::filesystem::path& folder);
 
 /// Writes a plan into a sweep's folder, named by its hash, and makes it the current one; gives its name. Throws
 /// InputError where it cannot be written.
 std::string freeze_plan(const std::filesystem::path& folder, const StudyPlan& plan);
 
 /// The plan of a name, the current one where that is empty. Throws InputError where the folder has no such plan, or
-/// it is damaged.
+/// it is damaged: cut short, of another hash, or with a name, number or cost that no plan has.
 StudyPlan read_plan(const std::filesystem::path& folder, std::string name = "");
 
-/// The file of a plan, without its extension.
-std::filesystem::path plan_path(const std::filesystem::path& folder, const std::string& name);
+/// A file of a plan: its name with an extension.
+PathInFolder plan_file(const std::filesystem::path& folder, const std::string& name);
 
 /// Name of the current plan. Throws InputError where the folder has none.
 std::string current_plan(const std::filesystem::path& folder);

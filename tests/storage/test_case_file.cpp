@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "scene/input_error.hpp"
 
 namespace vibrosow {
@@ -13,8 +15,17 @@ Scene small_scene() {
   scene.lots = {{"a", 6e-3, 2e-4, Shape::ball, 1}};
   scene.tray.name = "tray";
   scene.tray.length = 0.1, scene.tray.height = 0.1;
-  scene.run.duration = 1;
+  scene.tray.holes.resize(3);
+  scene.run.duration = 10;
   return scene;
+}
+
+Snapshot snapshot_of_three() {
+  Snapshot s;
+  s.time = 0.25, s.x = {1, 2, 3}, s.lot = {0, 0, 0}, s.id = {0, 1, 4};
+  for (std::vector<double>* array : {&s.y, &s.vx, &s.vy, &s.omega, &s.radius, &s.mass, &s.area, &s.start_x, &s.start_y})
+    *array = {0.1, 0.2, 0.3};
+  return s;
 }
 
 /// With something in every field.
@@ -29,9 +40,7 @@ Run made_up_run() {
   run.energy = {1, 2, 3, 4, 5, 6, 7};
   run.balance = {10, 4, 3, 2, 1};
   for (int k = 0; k < 100; ++k) run.events.push_back({0.1 * k, 1 + k % 3, 0, k, 2e-4, 0.01 * k, 1.5, 0.002 * k});
-  Snapshot snapshot;
-  snapshot.time = 0.25, snapshot.x = {1, 2, 3}, snapshot.lot = {0, 0, 0};
-  run.snapshots = {snapshot};
+  run.snapshots = {snapshot_of_three()};
   run.wall_time = 3;
   return run;
 }
@@ -74,6 +83,55 @@ TEST(CaseFile, EveryFlippedBitAndEveryLengthIsNoticed) {
     EXPECT_THROW(read_case(flipped), InputError) << at;
     EXPECT_THROW(read_case(bytes.substr(0, at)), InputError) << at;
   }
+}
+
+std::string message_of(const std::string& bytes) {
+  try {
+    read_case(bytes);
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "no error";
+}
+
+TEST(CaseFile, BehindARightChecksumNoIndexCountOrTimeIsBelieved) {
+  const std::string impossible = "the case does not fit: no run of its scene is such";
+  const auto refused = [&](auto change) {
+    vibrosow::Run run = made_up_run();
+    change(run);
+    EXPECT_EQ(message_of(case_bytes(identity, run)), impossible);
+  };
+  refused([](auto& run) { run.events[3].lot = 1; });
+  refused([](auto& run) { run.events[3].lot = -1; });
+  refused([](auto& run) { run.events[3].hole = 4; });
+  refused([](auto& run) { run.events[3].time = 1e308; });
+  refused([](auto& run) { run.balance.counted = -1; });
+  refused([](auto& run) { run.status = static_cast<RunStatus>(7); });
+  refused([](auto& run) { run.end_time = 1e300; });
+  refused([](auto& run) { run.snapshots[0].lot[2] = 9; });
+  refused([](auto& run) { run.snapshots[0].vy.pop_back(); });
+  refused([](auto& run) { run.snapshots[0].x[0] = std::nan(""); });
+  refused([](auto& run) { run.snapshots[0].radius[0] = 0; });
+  EXPECT_EQ(message_of(case_bytes("no scene", made_up_run())), "the case does not fit: its scene is none");
+}
+
+TEST(CaseFile, ItsTextsAreShownAsTheyMayBe) {
+  vibrosow::Run run = made_up_run();
+  run.stop_reason = "\x1b[31mred", run.warnings = {
+                                       "\xe2\x80\xae"
+                                       "backwards"};
+  const vibrosow::Run read = read_case(case_bytes(identity, run)).run;
+  EXPECT_EQ(read.stop_reason, "\\x1b[31mred");
+  EXPECT_EQ(read.warnings[0], "\\xe2\\x80\\xaebackwards");
+}
+
+/// A few kilobytes that become a gigabyte are given up long before, and what they become is not kept.
+TEST(CaseFile, WhatUnpacksWithoutEndIsRefused) {
+  vibrosow::Run run = made_up_run();
+  run.stop_reason = std::string(std::size_t{1} << 27, 'x');
+  const std::string bytes = case_bytes(identity, run);
+  EXPECT_LT(bytes.size(), 100'000u);
+  EXPECT_EQ(message_of(bytes), "the case does not fit: it is damaged");
 }
 
 TEST(CaseFile, SaysWhatItIsOf) {
