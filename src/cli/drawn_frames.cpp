@@ -4,18 +4,21 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
-#include <iterator>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "grains/orientation.hpp"
 #include "input/csv_lines.hpp"
 #include "recording/read_recording.hpp"
+#include "report/csv.hpp"
 #include "report/page.hpp"
+#include "scene/checked_json.hpp"
 #include "scene/input_error.hpp"
 #include "scene/motion.hpp"
+#include "scene/printable.hpp"
 #include "scene/scene_json.hpp"
+#include "storage/atomic_file.hpp"
 #include "vessel/vessel_motion.hpp"
 
 namespace vibrosow {
@@ -25,9 +28,9 @@ namespace fs = std::filesystem;
 
 /// Throws InputError where there is no such file.
 std::string text_of(const fs::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  if (!file) throw InputError(fmt::format("{}: is missing", path.string()));
-  return {std::istreambuf_iterator<char>(file), {}};
+  std::optional<std::string> text = text_of_file(path);
+  if (!text) throw InputError(fmt::format("{}: is missing", path.string()));
+  return std::move(*text);
 }
 
 /// A table that `run` wrote, by names of columns.
@@ -45,10 +48,12 @@ class ReportTable {
   bool has(std::size_t row, const std::string& column) const {
     return columns_.contains(column) && !text(row, column).empty();
   }
-  double number(std::size_t row, const std::string& column) const {
-    if (const auto value = csv_number(text(row, column), csv_.decimal_comma)) return *value;
-    throw InputError(
-        fmt::format("{}:{}: {}: \"{}\" is no number", csv_.file, csv_.rows[row].line, column, text(row, column)));
+  /// From `least` to `most`, which no run of ours is beyond.
+  double number(std::size_t row, const std::string& column, double least = -1e9, double most = 1e9) const {
+    const auto value = csv_number(text(row, column), csv_.decimal_comma);
+    if (value && *value >= least && *value <= most) return *value;
+    throw InputError(fmt::format("{}:{}: {}: \"{}\" is no number from {:g} to {:g}", csv_.file, csv_.rows[row].line,
+                                 column, text(row, column), least, most));
   }
 
  private:
@@ -57,9 +62,19 @@ class ReportTable {
 };
 
 int lot_named(const Scene& scene, const std::string& name, const fs::path& file) {
-  const auto lot = std::ranges::find(scene.lots, name, &SeedLot::name);
+  const auto lot = std::ranges::find_if(scene.lots, [&](const SeedLot& one) { return defused(one.name) == name; });
   if (lot == scene.lots.end()) throw InputError(fmt::format("{}: run.json knows no lot \"{}\"", file.string(), name));
   return static_cast<int>(lot - scene.lots.begin());
+}
+
+/// Whether a recorded bed has the scene's lots and dimensions.
+bool is_of_scene(const Snapshot& bed, const Scene& scene) {
+  const auto is_lot = [&](int lot) {
+    return static_cast<std::size_t>(lot) < scene.lots.size();
+  };  // unsigned in the file
+  const bool turned = scene.space == Space::plane || bed.q_w.empty() == bed.q_z.empty();
+  return std::ranges::all_of(bed.lot, is_lot) && turned &&
+         (bed.size() == 0 || bed.in_space() == (scene.space != Space::plane));
 }
 
 /// A snapshot's file, whose places are in the tray's frame.
@@ -81,9 +96,9 @@ Snapshot snapshot_in(const fs::path& file, const Scene& scene, double time) {
         (turns_steadily(scene.tray) ? Eigen::Vector2d(0, 0) : material_velocity(scene.tray, pose, rate, at));
     bed.x.push_back(at.x()), bed.y.push_back(at.y());
     bed.vx.push_back(velocity.x()), bed.vy.push_back(velocity.y());
-    bed.id.push_back(static_cast<std::int64_t>(table.number(row, "id")));
+    bed.id.push_back(static_cast<std::int64_t>(table.number(row, "id", 0, 1e15)));
     bed.lot.push_back(lot_named(scene, table.text(row, "lot"), file));
-    bed.radius.push_back(mm * table.number(row, "radius_mm"));
+    bed.radius.push_back(mm * table.number(row, "radius_mm", 1e-6, 1e6));
     if (table.has(row, "angle_rad")) bed.angle.push_back(table.number(row, "angle_rad") + angle);
     if (scene.space == Space::plane) continue;
     bed.z.push_back(mm * table.number(row, "z_mm") + scene.tray.front + pose.across);
@@ -105,8 +120,9 @@ std::vector<Frame> snapshots_in(const fs::path& folder, const Scene& scene) {
   std::vector<Frame> frames;
   for (std::size_t row = 0; row < records.rows(); ++row) {
     if (records.text(row, "lot") != "all") continue;
-    const fs::path file = folder / fmt::format("grains_{:03}.csv", static_cast<int>(records.number(row, "record")));
-    frames.push_back({snapshot_in(file, scene, records.number(row, "time_s"))});
+    const fs::path file =
+        folder / fmt::format("grains_{:03}.csv", static_cast<int>(records.number(row, "record", 1, 1e8)));
+    frames.push_back({snapshot_in(file, scene, records.number(row, "time_s", 0))});
   }
   return frames;
 }
@@ -121,9 +137,9 @@ Scene scene_of_run(const fs::path& folder) {
   const fs::path file = folder / "run.json";
   const std::string text = text_of(file);
   try {
-    const auto json = nlohmann::json::parse(text);
+    const auto json = parse_json<nlohmann::json>(text);
     Scene scene = scene_from_json(json.at("scene").dump());
-    scene.title = json.at("title");
+    scene.title = printable(json.at("title").get<std::string>());
     return scene;
   } catch (const nlohmann::json::exception&) {
     throw InputError(fmt::format("{}: was not written by vibrosow", file.string()));
@@ -135,7 +151,12 @@ KeptFrames kept_frames(const fs::path& folder, const Scene& scene) {
   std::vector<Frame> frames;
   if (fs::exists(page)) {
     const std::string recording = recording_in(text_of(page));
-    if (!recording.empty()) read_recording(recording, [&](const Snapshot& bed) { frames.push_back({bed}); });
+    const auto keep = [&](const Snapshot& bed) {
+      if (!is_of_scene(bed, scene))
+        throw InputError(fmt::format("{}: its recording is of another scene", page.string()));
+      frames.push_back({bed});
+    };
+    if (!recording.empty()) read_recording(recording, keep);
     if (!frames.empty()) return {std::move(frames), false};
   }
   frames = snapshots_in(folder, scene);

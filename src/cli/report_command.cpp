@@ -1,8 +1,6 @@
 #include <fmt/format.h>
 
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -23,9 +21,11 @@
 #include "report/page.hpp"
 #include "report/run_page.hpp"
 #include "report/run_report.hpp"
+#include "scene/checked_json.hpp"
 #include "scene/input_error.hpp"
 #include "scene/scene_json.hpp"
 #include "simulation/simulate.hpp"
+#include "storage/atomic_file.hpp"
 #include "storage/study_plan.hpp"
 
 namespace vibrosow {
@@ -33,20 +33,13 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// None without such a file.
-std::optional<std::string> content_of(const std::filesystem::path& path) {
-  std::ifstream stream(path, std::ios::binary);
-  if (!stream) return std::nullopt;
-  return std::string(std::istreambuf_iterator<char>(stream), {});
-}
-
 /// A run again for its replay; empty where it was interrupted. Throws InputError where it comes out otherwise.
 std::string recording_of_rerun(const Json& data, const CommonOptions& options) {
   const Model model = prepare_to_run(scene_from_json(data.at("scene").dump()));
   complain("the folder keeps no recording: the run is made again for the replay");
   Recording recording(model);
   SimulationOptions simulation;
-  simulation.random_seed = data.at("random_seed").get<std::uint64_t>();
+  simulation.random_seed = seed_number(data.at("random_seed"));
   simulation.interrupt = &watch_for_interrupt();
   simulation.looks = recording.looks();
   Progress progress(text_unless(options.quiet), static_cast<double>(model.step.steps), "steps");
@@ -61,7 +54,7 @@ std::string recording_of_rerun(const Json& data, const CommonOptions& options) {
 
 /// What a run's page replays: of the page that is there, or of the run made again. A run that was cut short has none.
 std::optional<std::string> recording_of_run(const Json& data, const CommonOptions& options) {
-  if (const auto page = content_of(std::filesystem::path(options.file) / "report.html"))
+  if (const auto page = text_of_file(std::filesystem::path(options.file) / "report.html"))
     if (std::string recording = recording_in(*page); !recording.empty()) return recording;
   if (data.at("status") == "interrupted") return "";
   std::string recording = recording_of_rerun(data, options);
@@ -80,7 +73,7 @@ OutputFolder folder_of(const std::string& kind, const CommonOptions& options) {
 /// The page of what report.json holds; an exit code.
 int page_of_data(const std::string& text, const CommonOptions& options) {
   try {
-    const Json data = Json::parse(text);
+    const Json data = parse_json<Json>(text);
     const std::string kind = data.at("kind");
     if (options.replays > 0)
       throw InputError(fmt::format(
@@ -116,7 +109,7 @@ int report(CommonOptions& options) {
   options.out = options.file;
   options.html = true;
   if (!std::filesystem::is_directory(options.file)) throw InputError(fmt::format("{}: is no folder", options.file));
-  const auto data = content_of(std::filesystem::path(options.file) / page_data_name);
+  const auto data = text_of_file(std::filesystem::path(options.file) / page_data_name);
   const int exit_code = data ? page_of_data(*data, options) : page_of_study(options, options.page_template());
   if (exit_code == exit_done && !options.quiet) print("{}/report.html\n", options.file);
   return exit_code;

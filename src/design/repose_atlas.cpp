@@ -70,33 +70,36 @@ void add(AtlasFigure& sum, const AtlasFigure& corner, double weight) {
 
 // As a file.
 
+/// Values reach from `least` to `most`.
 struct Column {
   const char* name;
+  double least, most;
   double (*get)(const AtlasPoint&);
   void (*set)(AtlasPoint&, double);
 };
 
 constexpr std::array columns = {
-    Column{"aspect_ratio", [](const AtlasPoint& p) { return p.aspect_ratio; },
+    Column{"aspect_ratio", 1, 20, [](const AtlasPoint& p) { return p.aspect_ratio; },
            [](AtlasPoint& p, double v) { p.aspect_ratio = v; }},
-    Column{"friction", [](const AtlasPoint& p) { return p.friction; }, [](AtlasPoint& p, double v) { p.friction = v; }},
-    Column{"rolling_friction", [](const AtlasPoint& p) { return p.rolling_friction; },
+    Column{"friction", 0, 2, [](const AtlasPoint& p) { return p.friction; },
+           [](AtlasPoint& p, double v) { p.friction = v; }},
+    Column{"rolling_friction", 0, 2, [](const AtlasPoint& p) { return p.rolling_friction; },
            [](AtlasPoint& p, double v) { p.rolling_friction = v; }},
-    Column{"runs", [](const AtlasPoint& p) { return static_cast<double>(p.runs); },
+    Column{"runs", 0, 1e+06, [](const AtlasPoint& p) { return static_cast<double>(p.runs); },
            [](AtlasPoint& p, double v) { p.runs = static_cast<int>(v); }},
-    Column{"clogged", [](const AtlasPoint& p) { return static_cast<double>(p.clogged); },
+    Column{"clogged", 0, 1e+06, [](const AtlasPoint& p) { return static_cast<double>(p.clogged); },
            [](AtlasPoint& p, double v) { p.clogged = static_cast<int>(v); }},
-    Column{"angle_degree", [](const AtlasPoint& p) { return p.angle.mean / degree; },
+    Column{"angle_degree", 0, 90, [](const AtlasPoint& p) { return p.angle.mean / degree; },
            [](AtlasPoint& p, double v) { p.angle.mean = v * degree; }},
-    Column{"angle_sd_degree", [](const AtlasPoint& p) { return p.angle.scatter / degree; },
+    Column{"angle_sd_degree", 0, 90, [](const AtlasPoint& p) { return p.angle.scatter / degree; },
            [](AtlasPoint& p, double v) { p.angle.scatter = v * degree; }},
-    Column{"packing", [](const AtlasPoint& p) { return p.packing.mean; },
+    Column{"packing", 0.01, 1, [](const AtlasPoint& p) { return p.packing.mean; },
            [](AtlasPoint& p, double v) { p.packing.mean = v; }},
-    Column{"packing_sd", [](const AtlasPoint& p) { return p.packing.scatter; },
+    Column{"packing_sd", 0, 1, [](const AtlasPoint& p) { return p.packing.scatter; },
            [](AtlasPoint& p, double v) { p.packing.scatter = v; }},
-    Column{"discharge", [](const AtlasPoint& p) { return p.discharge.mean; },
+    Column{"discharge", 1e-06, 1e+06, [](const AtlasPoint& p) { return p.discharge.mean; },
            [](AtlasPoint& p, double v) { p.discharge.mean = v; }},
-    Column{"discharge_sd", [](const AtlasPoint& p) { return p.discharge.scatter; },
+    Column{"discharge_sd", 0, 1e+06, [](const AtlasPoint& p) { return p.discharge.scatter; },
            [](AtlasPoint& p, double v) { p.discharge.scatter = v; }},
 };
 
@@ -195,21 +198,34 @@ std::vector<AtlasPoint> read_atlas_points(const std::filesystem::path& file) {
     for (std::size_t c = 0; c < columns.size(); ++c) {
       const std::string& field = row.fields[places[c]];
       const auto number = csv_number(field, lines.decimal_comma);
-      if (!number)
-        throw InputError(
-            fmt::format("{}:{}: {}: \"{}\" is not a number", lines.file, row.line, columns[c].name, field));
+      if (!number || *number < columns[c].least || *number > columns[c].most)
+        throw InputError(fmt::format("{}:{}: {}: \"{}\" is not a number from {:g} to {:g}", lines.file, row.line,
+                                     columns[c].name, field, columns[c].least, columns[c].most));
       columns[c].set(point, *number);
     }
   }
   return points;
 }
 
+namespace {
+
+/// The plane's figures of a material in space. Throws InputError where the atlas does not reach it.
+AtlasFigures beneath(const ReposeAtlas& plane, const AtlasPoint& ball) {
+  try {
+    return plane.at(ball.aspect_ratio, ball.friction, ball.rolling_friction);
+  } catch (const std::out_of_range& fault) {
+    throw InputError(fmt::format("atlas: a material in space: {}", fault.what()));
+  }
+}
+
+}  // namespace
+
 PlaneToSpace plane_to_space(const ReposeAtlas& plane, const std::vector<AtlasPoint>& space) {
   if (space.size() < 3)
     throw InputError(fmt::format("atlas: {} materials in space; at least 3 are needed", space.size()));
   std::vector<double> offsets, packings, discharges;
   for (const AtlasPoint& ball : space) {
-    const AtlasFigures flat = plane.at(ball.aspect_ratio, ball.friction, ball.rolling_friction);
+    const AtlasFigures flat = beneath(plane, ball);
     offsets.push_back(ball.angle.mean - flat.angle.mean);
     packings.push_back(ball.packing.mean / flat.packing.mean);
     discharges.push_back(ball.discharge.mean / flat.discharge.mean);

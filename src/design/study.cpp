@@ -72,15 +72,24 @@ Changes conditions_of(const MeasuredSeries& series) {
   return changes;
 }
 
+/// Of each series, which of a table's different conditions are its own, in the order of their first series.
+std::vector<std::size_t> places_of_conditions(const MeasuredTable& table) {
+  std::map<std::vector<std::string>, std::size_t> known;
+  std::vector<std::size_t> places;
+  for (const MeasuredSeries& series : table.series) {
+    std::vector<std::string> texts;  // of one table's columns
+    for (const Condition& condition : series.conditions) texts.push_back(condition.text);
+    places.push_back(known.try_emplace(std::move(texts), known.size()).first->second);
+  }
+  return places;
+}
+
 /// The conditions under which a table was measured, each once.
 std::vector<Changes> measured_grid(const MeasuredTable& table) {
   std::vector<Changes> grid;
-  std::vector<std::vector<Condition>> seen;
-  for (const MeasuredSeries& series : table.series) {
-    if (std::ranges::find(seen, series.conditions) != seen.end()) continue;
-    seen.push_back(series.conditions);
-    grid.push_back(conditions_of(series));
-  }
+  const std::vector<std::size_t> places = places_of_conditions(table);
+  for (std::size_t k = 0; k < places.size(); ++k)
+    if (places[k] == grid.size()) grid.push_back(conditions_of(table.series[k]));
   return grid;
 }
 
@@ -210,17 +219,39 @@ void check_measurable(const MeasuredPart& part, const MeasuredSeries& series, co
     throw InputError(fmt::format("{}: measured.scale = \"depth\" needs tray.depth", base.string()));
 }
 
-void match_measured(Study& study, const Scenes& scenes) {
-  MeasuredPart& part = *study.measured;
-  for (std::size_t layout = 0; layout < study.layouts.size(); ++layout) {
-    for (std::size_t series = 0; series < part.table.series.size(); ++series) {
-      const MeasuredSeries& measured = part.table.series[series];
-      if (!scenes.fit(study.layouts[layout], measured)) continue;
-      const Scene& scene = study.scenes[*study.layouts[layout].scene];
-      check_measurable(part, measured, scene, layout, study.base);
-      part.matches.push_back({layout, series});
-    }
+/// What fits, by layout and then by series, of layouts that are a table's own conditions under each of some designs:
+/// laid over one layout, the conditions of another make it that one, so scenes tell it without being read anew.
+std::vector<MeasuredMatch> matches_of_own_conditions(const Study& study, std::size_t conditions) {
+  const std::vector<std::size_t> places = places_of_conditions(study.measured->table);
+  std::vector<std::vector<std::size_t>> series_at(conditions);
+  for (std::size_t series = 0; series < places.size(); ++series) series_at[places[series]].push_back(series);
+  std::vector<MeasuredMatch> matches;
+  for (std::size_t first = 0; first < study.layouts.size(); first += conditions) {
+    std::map<std::size_t, std::vector<std::size_t>> series_of;  // by scene
+    for (std::size_t k = 0; k < conditions; ++k)
+      if (const auto scene = study.layouts[first + k].scene)
+        std::ranges::copy(series_at[k], std::back_inserter(series_of[*scene]));
+    for (std::size_t layout = first; layout < first + conditions; ++layout)
+      if (const auto scene = study.layouts[layout].scene)
+        for (const std::size_t series : series_of[*scene]) matches.push_back({layout, series});
   }
+  std::ranges::sort(matches, {}, [](const MeasuredMatch& match) { return std::pair(match.layout, match.series); });
+  return matches;
+}
+
+std::vector<MeasuredMatch> matches_of(const Study& study, const Scenes& scenes) {
+  std::vector<MeasuredMatch> matches;
+  for (std::size_t layout = 0; layout < study.layouts.size(); ++layout)
+    for (std::size_t series = 0; series < study.measured->table.series.size(); ++series)
+      if (scenes.fit(study.layouts[layout], study.measured->table.series[series])) matches.push_back({layout, series});
+  return matches;
+}
+
+void match_measured(Study& study, std::vector<MeasuredMatch> matches) {
+  MeasuredPart& part = *study.measured;
+  part.matches = std::move(matches);
+  for (const auto& [layout, series] : part.matches)
+    check_measurable(part, part.table.series[series], study.scenes[*study.layouts[layout].scene], layout, study.base);
   if (part.matches.empty())
     throw InputError(fmt::format("{}: no row was measured under the conditions of a layout", part.file.string()));
 }
@@ -315,7 +346,8 @@ Study read_study_with(const std::filesystem::path& file, const std::vector<Overr
   add_keys(study.keys, grid.front());
   Scenes scenes(study, files);
   scenes.resolve();
-  if (study.measured && !study.scenes.empty()) match_measured(study, scenes);
+  if (study.measured && !study.scenes.empty())
+    match_measured(study, vary ? matches_of(study, scenes) : matches_of_own_conditions(study, grid.size()));
   return study;
 }
 

@@ -198,13 +198,11 @@ class Reader {
   }
 
   Gathered& gathered(const MeasuredSeries& series, int line) {
-    const auto same = std::ranges::find_if(gathered_, [&](const Gathered& one) {
-      return one.series.conditions == series.conditions && one.series.hole == series.hole &&
-             one.series.lot == series.lot;
-    });
-    if (same != gathered_.end()) return *same;
-    gathered_.push_back({series, line, {}});
-    return gathered_.back();
+    std::vector<std::string> of = {series.hole, series.lot};
+    for (const Condition& condition : series.conditions) of.push_back(condition.text);
+    const auto [known, is_new] = places_.try_emplace(std::move(of), gathered_.size());
+    if (is_new) gathered_.push_back({series, line, {}});
+    return gathered_[known->second];
   }
 
   MeasuredSeries average(const Gathered& one) const {
@@ -229,6 +227,7 @@ class Reader {
   std::size_t value_ = 0;
   std::optional<std::size_t> companion_, hole_, lot_;
   std::vector<Gathered> gathered_;
+  std::map<std::vector<std::string>, std::size_t> places_;  // among these, by hole, lot and conditions
 };
 
 }  // namespace

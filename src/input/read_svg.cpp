@@ -97,6 +97,7 @@ class Svg {
     if (document.Parse(text.data(), text.size()) != tinyxml2::XML_SUCCESS)
       fail(document.ErrorLineNum(), fmt::format("is no XML: {}", document.ErrorIDToName(document.ErrorID())));
     const tinyxml2::XMLElement* root = document.RootElement();
+    if (!root) fail(1, "is no SVG drawing");  // a comment alone
     if (name_of(*root) != "svg") fail(root->GetLineNum(), "is no SVG drawing");
     add_children(*root, view(*root), true);
     return {std::move(pieces_), {}, left_out_.lines()};
@@ -335,6 +336,8 @@ class Svg {
     const double longest_axis = std::sqrt(all.a * all.a + all.b * all.b + all.c * all.c + all.d * all.d);
     const double step = 2 * elementary::acos(1 - std::min(1.0, scale_.tolerance / longest_axis));
     const int count = 1 + static_cast<int>(std::min(1e5, std::abs(by) / step));
+    constexpr std::size_t most = 200'000;  // a vessel has fewer by far, and a short text may ask for any number
+    if (pieces_.size() > most) fail(1, "draws too many pieces; a larger tolerance makes fewer");
     for (int k = 0; k < count; ++k)
       pieces_.push_back(line_piece(at(from + by * k / count), at(from + by * (k + 1) / count)));
   }

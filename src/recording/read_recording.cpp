@@ -4,10 +4,13 @@
 
 #include <array>
 #include <bit>
+#include <cmath>
 #include <cstring>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <utility>
 
+#include "scene/checked_json.hpp"
 #include "scene/input_error.hpp"
 
 namespace vibrosow {
@@ -16,19 +19,23 @@ namespace {
 using Json = nlohmann::json;
 
 constexpr std::size_t head_size = 12, piece = std::size_t{1} << 20;
+constexpr std::size_t most_unpacked = std::size_t{1}
+                                      << 28;   // bytes of all blocks: a recording is of 2.5 million coordinates
+constexpr std::int64_t most_frames = 100'000;  // of all blocks
 
 [[noreturn]] void damaged() {
   throw InputError("the recording is damaged");
 }
 
-std::string unpacked(const std::string& packed) {
+/// Throws InputError where they are no zlib stream, or become more bytes than `most`.
+std::string unpacked(const std::string& packed, std::size_t most) {
   z_stream stream{};
   if (inflateInit(&stream) != Z_OK) throw std::bad_alloc();
   stream.next_in = reinterpret_cast<z_const Bytef*>(const_cast<char*>(packed.data()));
   stream.avail_in = static_cast<uInt>(packed.size());
   std::string bytes;
   int status = Z_OK;
-  while (status == Z_OK) {
+  while (status == Z_OK && stream.total_out <= most) {
     bytes.resize(stream.total_out + piece);
     stream.next_out = reinterpret_cast<Bytef*>(bytes.data() + stream.total_out);
     stream.avail_out = static_cast<uInt>(piece);
@@ -36,7 +43,7 @@ std::string unpacked(const std::string& packed) {
   }
   bytes.resize(stream.total_out);
   inflateEnd(&stream);
-  if (status != Z_STREAM_END) damaged();
+  if (status != Z_STREAM_END || bytes.size() > most) damaged();
   return bytes;
 }
 
@@ -45,6 +52,7 @@ class Bytes {
  public:
   explicit Bytes(std::string bytes) : bytes_(std::move(bytes)) {}
 
+  bool at_end() const { return at_ == bytes_.size(); }
   template <class Value>
   Value take() {
     static_assert(std::endian::native == std::endian::little);
@@ -93,12 +101,17 @@ class Block {
         vessels_(header.at("vessels").size()),
         fields_(header.at("fields").get<std::vector<std::string>>()),
         units_(header.at("field_units").get<std::vector<double>>()) {
-    if (units_.size() != fields_.size() || fields_.size() > Known{}.last.size()) damaged();
+    if (units_.size() != fields_.size() || fields_.size() > Known{}.last.size() || !has_places()) damaged();
+    if (std::set<std::string>(fields_.begin(), fields_.end()).size() != fields_.size()) damaged();
+    constexpr double most_unit = 1e3;
+    for (const double unit : units_)
+      if (!(unit > 0 && unit <= most_unit)) damaged();
   }
 
   Snapshot next() {
     Snapshot bed;
     bed.time = bytes_.take<double>();
+    if (!std::isfinite(bed.time)) damaged();
     bytes_.some(vessels_ * 4 * sizeof(double));
     take_changes();
     for (const Known& grain : grains_)
@@ -108,7 +121,11 @@ class Block {
     return bed;
   }
 
+  bool at_end() const { return bytes_.at_end(); }
+
  private:
+  bool has_places() const { return fields_.size() >= 2 && fields_[0] == "x" && fields_[1] == "y"; }
+
   void take_changes() {
     const auto leaving = bytes_.take<std::uint32_t>(), entering = bytes_.take<std::uint32_t>(),
                present = bytes_.take<std::uint32_t>();
@@ -129,6 +146,7 @@ class Block {
     for (std::uint32_t k = 0; k < entering; ++k) {
       Known grain{bytes_.take<std::uint32_t>(), bytes_.take<std::uint16_t>(), bytes_.take<float>()};
       bytes_.some(3 * sizeof(float));  // where it was first
+      if (!(grain.radius > 0 && std::isfinite(grain.radius))) damaged();
       grains_.push_back(grain);
     }
     if (grains_.size() != present) damaged();
@@ -158,6 +176,11 @@ class Block {
   std::vector<Known> grains_;
 };
 
+/// What the header says of a part of the file.
+std::size_t place_in(const Json& part, const char* key) {
+  return static_cast<std::size_t>(whole_number(part.at(key), 0, INT64_MAX));
+}
+
 }  // namespace
 
 void read_recording(const std::string& file, const std::function<void(const Snapshot&)>& look) {
@@ -166,19 +189,25 @@ void read_recording(const std::string& file, const std::function<void(const Snap
     std::uint32_t length = 0;
     std::memcpy(&length, file.data() + head_size - sizeof length, sizeof length);
     if (length > file.size() - head_size) damaged();
-    const Json header = Json::parse(file.substr(head_size, length));
+    const Json header = parse_json<Json>(file.substr(head_size, length));
     const std::size_t blocks = head_size + length;
     const auto check_whole = [&](const Json& part) {
-      const std::size_t offset = part.at("offset"), size = part.at("bytes");
+      const auto offset = place_in(part, "offset"), size = place_in(part, "bytes");
       if (offset > file.size() - blocks || size > file.size() - blocks - offset) damaged();
     };
     for (const Json& contacts : header.value("contacts", Json::array())) check_whole(contacts);
     if (header.contains("map")) check_whole(header["map"]);
+    std::size_t left = most_unpacked;
+    std::int64_t frames_left = most_frames;
     for (const Json& block : header.at("blocks")) {
       check_whole(block);
-      const std::size_t from = blocks + block.at("offset").get<std::size_t>(), size = block.at("bytes");
-      Block frames(unpacked(file.substr(from, size)), header);
-      for (int k = 0; k < block.at("frames").get<int>(); ++k) look(frames.next());
+      std::string bytes = unpacked(file.substr(blocks + place_in(block, "offset"), place_in(block, "bytes")), left);
+      left -= bytes.size();
+      Block frames(std::move(bytes), header);
+      const std::int64_t count = whole_number(block.at("frames"), 0, frames_left);
+      frames_left -= count;
+      for (std::int64_t k = 0; k < count; ++k) look(frames.next());
+      if (!frames.at_end()) damaged();
     }
   } catch (const Json::exception&) {
     damaged();

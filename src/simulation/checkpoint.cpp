@@ -10,8 +10,10 @@
 #include <sstream>
 
 #include "result/archive.hpp"
+#include "scene/checked_json.hpp"
 #include "scene/input_error.hpp"
 #include "scene/scene_json.hpp"
+#include "simulation/state_check.hpp"
 
 // cereal finds these by the types' namespaces. Each lists every field of its type: what is missing here is lost.
 namespace cereal {
@@ -28,6 +30,15 @@ void serialize(Archive& archive, Eigen::Vector3d& v) {
 
 namespace vibrosow {
 
+/// Whether a text is an engine's: its words, and how many of them are used up, which the library believes.
+inline bool is_engine(const std::string& text) {
+  constexpr std::size_t words = std::mt19937_64::state_size;
+  std::istringstream in(text);
+  std::uint64_t number = 0;
+  std::size_t count = 0;
+  while (count <= words && in >> number) ++count;
+  return count == words + 1 && number <= words && in.eof();
+}
 template <class Archive>
 void save(Archive& archive, const Random& random) {
   std::ostringstream text;
@@ -38,6 +49,7 @@ template <class Archive>
 void load(Archive& archive, Random& random) {
   std::string text;
   archive(text);
+  if (!is_engine(text)) throw cereal::Exception("no state of a random engine");
   std::istringstream(text) >> random.engine();
 }
 template <class Archive>
@@ -165,7 +177,8 @@ std::uint32_t checksum(std::string_view bytes) {
 
 /// The first key in which two canonical scenes differ.
 std::string first_difference(const std::string& saved, const std::string& wanted) {
-  const nlohmann::json difference = nlohmann::json::diff(nlohmann::json::parse(saved), nlohmann::json::parse(wanted));
+  const nlohmann::json difference =
+      nlohmann::json::diff(parse_json<nlohmann::json>(saved), parse_json<nlohmann::json>(wanted));
   return difference.empty() ? "/" : difference.front().at("path").get<std::string>();
 }
 
@@ -213,8 +226,10 @@ SimulationState restore(const Model& model, std::string_view bytes) {
     if (const std::string wanted = scene_to_json(model.scene); scene != wanted)
       refuse(fmt::format("it is of another scene, which differs in {}", first_difference(scene, wanted)));
     if (dt != model.step.dt) refuse(fmt::format("its step was {:g} s, and is now {:g} s", dt, model.step.dt));
-    SimulationState state = starting_state(model, 1, no_grains(model));
+    const SimulationState fresh = starting_state(model, 1, no_grains(model));
+    SimulationState state = fresh;
     archive(state);
+    if (!is_possible(model, fresh, state)) refuse("no run of its scene can be in such a state");
     return state;
   } catch (const cereal::Exception&) {
     refuse("it ends too early");
