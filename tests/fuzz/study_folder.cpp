@@ -1,0 +1,74 @@
+// What a study's folder holds beside its runs. The bytes are edits of a good plan, which gets its right name; of a good
+// segment, with the right hash of its numbers; and a note as they are.
+
+#include <fmt/format.h>
+#include <xxhash.h>
+
+#include "fuzz/edits.hpp"
+#include "fuzz/try_bytes.hpp"
+#include "input/temporary_file.hpp"
+#include "scene/input_error.hpp"
+#include "storage/run_notes.hpp"
+#include "storage/segments.hpp"
+#include "storage/study_plan.hpp"
+
+namespace vibrosow {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string hash_of(std::string_view bytes) {
+  return fmt::format("{:016x}", XXH3_64bits(bytes.data(), bytes.size()));
+}
+
+std::string good_plan(const fs::path& folder) {
+  const std::string name = freeze_plan(
+      folder, {"study.toml", {"a=1"}, 1, {{"study.toml", "base = 1"}}, {{std::string(32, 'a'), 1, 1, 1e6}}});
+  return text_of_file(plan_file(folder, name + ".json").path()).value();
+}
+
+void read_plan_of(const fs::path& folder, const std::string& text) {
+  const std::string name = hash_of(text);
+  const fs::path file = plan_file(folder, name + ".json").path();
+  write_file_atomically(file, text);
+  try {
+    read_plan(folder, name);
+  } catch (const InputError&) {
+  }
+  fs::remove(file);
+}
+
+/// Of the head's line: "vibrosow segment 1 ", the hash, a line's end; the numbers end where the first case begins.
+std::string with_right_hash(std::string segment, std::size_t numbers) {
+  constexpr std::size_t hash_at = 19, numbers_at = hash_at + 17;
+  if (segment.size() < numbers_at + numbers) return segment;
+  return segment.replace(hash_at, 16, hash_of(std::string_view(segment).substr(numbers_at, numbers)));
+}
+
+void read_segment(const fs::path& folder, const std::string& bytes) {
+  fs::remove_all(folder);
+  fs::create_directories(folder);
+  write_file_atomically(folder / "a.segment", bytes);
+  Segments segments(folder);
+  segments.refresh();
+  for (const std::string& name : segments.names()) segments.bytes_of(name);
+}
+
+}  // namespace
+
+void try_bytes(const std::string& bytes) {
+  static const TemporaryFolder folder;
+  static const fs::path root = folder.path("study");
+  static const std::string plan = good_plan(root), segment = [] {
+    Segments(root / "segments").write({{std::string(32, 'a'), "one"}, {std::string(32, 'b'), "another"}});
+    return text_of_file(entries_of(root / "segments").front()).value();
+  }();
+  read_plan_of(root, edited(plan, bytes));
+  constexpr std::size_t numbers = 8 + 2 * 32;
+  read_segment(root / "segments", with_right_hash(edited(segment, bytes), numbers));
+  fs::create_directories(root / "running");
+  write_file_atomically(root / "running" / "a", bytes);
+  RunNotes(root / "running").all();
+}
+
+}  // namespace vibrosow
