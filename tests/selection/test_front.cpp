@@ -123,8 +123,8 @@ TEST(Front, ExactGoalsAndDistances) {
                                              FrontStanding::dominated));
 }
 
-/// Six observations of each system, which know of their own variance alone: means are a standard error of 1 from the
-/// truth, by five degrees of freedom; differences of two by ten.
+/// Six observations of each system, which know of their own variance alone: the standard error of a goal's mean is 1,
+/// of a banded figure's 2, by five degrees of freedom; of a difference ten.
 struct KnownSystem {
   std::vector<double> goals, banded{};
 };
@@ -137,7 +137,7 @@ Front front_of_six(FrontQuestion question, const std::vector<KnownSystem>& syste
     for (std::size_t r = 0; r < 6; ++r) {
       FrontObservation one;
       for (const double mean : systems[i].goals) one.goals.push_back(six_about(mean, 1)[r]);
-      for (const double mean : systems[i].banded) one.banded.push_back(six_about(mean, 1)[r]);
+      for (const double mean : systems[i].banded) one.banded.push_back(six_about(mean, 2)[r]);
       front.take(i, one);
     }
   }
@@ -199,7 +199,7 @@ TEST(Front, SharesItsErrorAmongTheEndsOfBandsAndClogging) {
     for (const double side : {-1.0, 1.0}) {
       const auto standing = [&](double outside) {
         KnownSystem one{{0}, std::vector<double>(bands, 0)};
-        one.banded[bands - 1] = side * (100 + outside);
+        one.banded[bands - 1] = side * (100 + 2 * outside);
         return front_of_six(question, {one}).standings()[0];
       };
       EXPECT_THAT(about(t, standing), ElementsAre(FrontStanding::may_be_on_front, FrontStanding::misses_a_band))
@@ -214,7 +214,7 @@ TEST(Front, IsInItsBandsByTheWholeError) {
   question.bands = {{-100, 100}};
   for (const double side : {-1.0, 1.0}) {
     const auto standing = [&](double inside) {
-      return front_of_six(question, {{{0}, {side * (100 - inside)}}}).standings()[0];
+      return front_of_six(question, {{{0}, {side * (100 - 2 * inside)}}}).standings()[0];
     };
     EXPECT_THAT(about(student_above(5, 0.05), standing),
                 ElementsAre(FrontStanding::may_be_on_front, FrontStanding::on_front))
@@ -241,16 +241,16 @@ TEST(Front, ClogsByTheBinomialWithItsShareOfTheError) {
 }
 
 TEST(Front, IsNearlyOnItByOneStandardErrorOfTheDifference) {
-  const auto nearly = [&](double behind) {
+  const auto nearly = [&](double behind) -> bool {
     return front_of_six(goals_of(1), {{{0}}, {{behind}}}).nearly_on_front()[1];
   };
   EXPECT_TRUE(nearly(std::sqrt(2.0) - hair));
   EXPECT_FALSE(nearly(std::sqrt(2.0) + hair));
   FrontQuestion question = goals_of(1);
   question.bands = {{-100, 100}};
-  const auto nearly_in = [&](double at) { return front_of_six(question, {{{0}, {at}}}).nearly_on_front()[0]; };
-  EXPECT_TRUE(nearly_in(101 - hair) && nearly_in(-101 + hair));
-  EXPECT_FALSE(nearly_in(101 + hair) || nearly_in(-101 - hair));
+  const auto nearly_in = [&](double at) -> bool { return front_of_six(question, {{{0}, {at}}}).nearly_on_front()[0]; };
+  EXPECT_TRUE(nearly_in(102 - hair) && nearly_in(-102 + hair));
+  EXPECT_FALSE(nearly_in(102 + hair) || nearly_in(-102 - hair));
 }
 
 TEST(Band, IsOutsideByShares) {

@@ -95,7 +95,7 @@ Decision decision_of_six(const Question& question, const std::vector<double>& go
   Posterior procedure(question);
   for (std::size_t i = 0; i < goals.size(); ++i)
     for (std::size_t r = 0; r < 6; ++r)
-      procedure.take(i, {RunEnd::flowed, six_about(goals[i], 1)[r], six_about(rates[i], 1)[r]});
+      procedure.take(i, {RunEnd::flowed, six_about(goals[i], 1)[r], six_about(rates[i], 2)[r]});
   return procedure.decision();
 }
 
@@ -128,7 +128,7 @@ TEST(Posterior, MissesTheRateByStudentsT) {
   const double t = student_above(5, 0.1);
   for (const double side : {-1.0, 1.0}) {
     const auto standing = [&](double outside) {
-      return decision_of_six(question, {1, 1}, {950, 950 + side * (50 + outside)}).standings[1];
+      return decision_of_six(question, {1, 1}, {950, 950 + side * (50 + 2 * outside)}).standings[1];
     };
     EXPECT_NE(standing(t - 1e-3), Standing::misses_the_rate) << side;
     EXPECT_EQ(standing(t + 1e-3), Standing::misses_the_rate) << side;

@@ -104,19 +104,21 @@ TEST(BandTest, WhatIsFarOffIsToldByTheFirstLook) {
 /// Of a band from 0 to 10 the tests' zeros lie at 1 and 9. By 2, 4, 5, 5, .. the lower one's sum is 4, 8, 12, 16; with
 /// an error of 1/8 it leaves its triangle, as in the test of SideTest, at (30 - r) / 2: with the fifth.
 TEST(BandTest, HasTheLesserOfTheErrorInsideAndAQuarterOfThatOutside) {
-  const auto observations = [](double error_inside, double error_outside) {
+  const auto observations = [](double error_inside, double error_outside, bool mirrored) {
     BandTest test(0, 10, 2, error_inside, error_outside);
     int count = 0;
     for (const double value : {2, 4, 5, 5, 5, 5, 5, 5, 5, 5, 5}) {
       if (test.verdict() != BandTest::Verdict::open) break;
-      test.add(value);
+      test.add(mirrored ? 10 - value : value);
       ++count;
     }
     EXPECT_EQ(test.verdict(), BandTest::Verdict::inside);
     return count;
   };
-  EXPECT_EQ(observations(0.125, 0.9), 5);
-  EXPECT_EQ(observations(0.4, 0.5), 5);
+  for (const bool mirrored : {false, true}) {
+    EXPECT_EQ(observations(0.125, 0.9, mirrored), 5);
+    EXPECT_EQ(observations(0.4, 0.5, mirrored), 5);
+  }
 }
 
 TEST(BandTest, LooksForWhatIsFarOffWithAQuarterOfItsErrorOnEachSide) {
