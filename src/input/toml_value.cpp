@@ -172,7 +172,7 @@ TomlValue converted(const toml::node& node) {
 
 // To text.
 
-std::string quoted(std::string_view text) {
+std::string in_quotes(std::string_view text) {
   std::string result = "\"";
   for (const char c : text) {
     const auto code = static_cast<unsigned char>(c);
@@ -191,11 +191,11 @@ std::string key_text(const std::string& key) {
   const bool bare = !key.empty() && std::ranges::all_of(key, [](char c) {
     return is_letter(c) || (c >= '0' && c <= '9') || c == '_' || c == '-';
   });
-  return bare ? key : quoted(key);
+  return bare ? key : in_quotes(key);
 }
 
 struct TextOf {
-  std::string operator()(const std::string& text) const { return quoted(text); }
+  std::string operator()(const std::string& text) const { return in_quotes(text); }
   std::string operator()(std::int64_t whole) const { return fmt::format("{}", whole); }
   std::string operator()(double number) const {
     const std::string digits = fmt::format("{}", number);
@@ -203,7 +203,7 @@ struct TextOf {
   }
   std::string operator()(bool flag) const { return flag ? "true" : "false"; }
   std::string operator()(const Quantity& quantity) const {
-    return quoted(fmt::format("{} {}", quantity.number, quantity.unit));
+    return in_quotes(fmt::format("{} {}", quantity.number, quantity.unit));
   }
   std::string operator()(const TomlValue::Date& value) const { return value.text; }
   std::string operator()(const TomlValue::List& list) const {

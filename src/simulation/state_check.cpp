@@ -163,8 +163,9 @@ bool is_counter(const CounterState& c, std::size_t grains, std::size_t holes) {
 
 bool is_feeder(const FeederState& fresh, const FeederState& f, std::size_t lots) {
   return f.showers.size() == fresh.showers.size() && std::ranges::all_of(f.showers, [lots](const auto& one) {
-           return one.arrived >= 0 && is_index(std::int64_t{one.next_lot} + 1, lots + 1) && one.next_size > 0 &&
-                  one.next_size < 1e3;
+           const bool waits = one.next.has_value();
+           return one.arrived >= 0 &&
+                  (!waits || (is_index(one.next->lot, lots) && one.next->size > 0 && one.next->size < 1e3));
          });
 }
 
