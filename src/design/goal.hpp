@@ -37,7 +37,8 @@ struct WantedRate {
 /// The figure that a rate is shown as: of the wanted one, or else rate_g_per_s.
 const Figure& rate_figure(const std::optional<WantedRate>& wanted);
 
-/// Reads "43 seeds/s +- 5 %", "0.19 g/s +- 0.01 g/s", "12 g/min +- 5 %", also with "±". Throws InputError with what would be right.
+/// Reads "43 seeds/s +- 5 %", "0.19 g/s +- 0.01 g/s", "12 g/min +- 5 %", also with "±". Throws InputError with what
+/// would be right.
 WantedRate read_wanted_rate(const std::string& text);
 
 }  // namespace vibrosow

@@ -12,7 +12,8 @@ namespace vibrosow {
 /// - a seed's density outside 100 to 5000 kg/m3;
 /// - a mixture in which a fill misses what was asked for of a lot by more than 5 % of that, by number or by mass, or of
 ///   which rain brings fewer than 3 seeds on average;
-/// - a tray of the plane whose slices mean a bed denser than the closest packing of balls (pi / sqrt(18) of the seeds' own
+/// - a tray of the plane whose slices mean a bed denser than the closest packing of balls (pi / sqrt(18) of the seeds'
+/// own
 ///   density), or looser than any bed of seeds (0.3);
 /// - holes narrower than a seed;
 /// - a tray that stands still, without any friction;

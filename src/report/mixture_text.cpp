@@ -10,7 +10,7 @@
 namespace vibrosow {
 namespace {
 
-std::string percent(double part) {
+std::string in_percent(double part) {
   return to_digits(100 * part, 4) + " %";
 }
 
@@ -30,10 +30,11 @@ std::string mixture_text(const Scene& scene) {
   std::string text;
   for (const LotShare& share : lot_shares(scene)) {
     if (share.lot == 0) text += heading(share);
-    text += wrapped_beside(fmt::format("  {:<{}}  ", scene.lots[share.lot].name, width),
-                           fmt::format("{} seeds, {} by number (asked {}), {} by mass (asked {})",
-                                       to_digits(share.seeds, 6), percent(share.of_number), percent(share.asked_number),
-                                       percent(share.of_mass), percent(share.asked_mass)));
+    text += wrapped_beside(
+        fmt::format("  {:<{}}  ", scene.lots[share.lot].name, width),
+        fmt::format("{} seeds, {} by number (asked {}), {} by mass (asked {})", to_digits(share.seeds, 6),
+                    in_percent(share.of_number), in_percent(share.asked_number), in_percent(share.of_mass),
+                    in_percent(share.asked_mass)));
   }
   return text;
 }
