@@ -335,7 +335,7 @@ TEST(PlannedStudy, ADamagedPlanIsRefused) {
   EXPECT_THROW(read_plan(out), InputError);
   const std::string name = freeze_plan(out, {"study.toml", {}, 1, {{"a.csv", "\xff\n"}}, {{"ab", 1, 1, 5}}});
   EXPECT_EQ(read_plan(out).files.at("a.csv"), "\xff\n");
-  std::ofstream(plan_path(out, name + ".json"), std::ios::app) << " ";
+  std::ofstream(plan_file(out, name + ".json").path(), std::ios::app) << " ";
   EXPECT_THROW(read_plan(out), InputError);
 }
 
