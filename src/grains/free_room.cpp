@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "elementary/functions.hpp"
 #include "vessel/vessel_walls.hpp"
 
 namespace vibrosow {
@@ -137,7 +138,8 @@ FreeRoom::Grid FreeRoom::made_grid() const {
   constexpr double most_cells = 2e7;
   const double depth = in_space_ ? *vessel_.depth : 0;
   const double in_plane = vessel_.length * top_;
-  const double least_cell = in_space_ ? std::cbrt(in_plane * depth / most_cells) : std::sqrt(in_plane / most_cells);
+  const double least_cell =
+      in_space_ ? elementary::pow(in_plane * depth / most_cells, 1.0 / 3) : std::sqrt(in_plane / most_cells);
   const double cell = std::max(0.5 * least_radius_, least_cell);
   Grid grid{.cell = Eigen::Vector3d::Constant(cell), .cells = Eigen::Array3i::Ones(), .radius = 2 * cell};
   const Eigen::Array3d room(vessel_.length, top_ + grid.radius, depth);

@@ -14,7 +14,8 @@ namespace vibrosow {
 /// open. Nothing leads out through holes or open sides, and around again.
 class FreeRoom {
  public:
-  /// `least_radius` (m): of the smallest seed.
+  /// `least_radius` (m): half the least width of the smallest seed (`least_half_width`). A seed that is asked for is
+  /// told by the centre of its thickest disc, which keeps that far from every wall.
   FreeRoom(const Vessel& vessel, Space space, double least_radius);
 
   /// Whether the centre of a seed that touches nothing (m) lies in the room, or above it.

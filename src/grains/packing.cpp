@@ -51,7 +51,7 @@ bool is_outside_of_drum(const Vessel& vessel, const Eigen::Vector2d& seat, doubl
 class Seats {
  public:
   Seats(const Vessel& vessel, const std::vector<SeedLot>& lots, Space space)
-      : vessel_(vessel), obstacles_(vessel, space), room_(vessel, space, smallest_radius(lots)) {}
+      : vessel_(vessel), obstacles_(vessel, space), room_(vessel, space, least_half_width(lots)) {}
 
   /// Whether a ball of diameter `clear` (m) has room at `seat`.
   bool take(const Eigen::Vector3d& seat, double clear) const {

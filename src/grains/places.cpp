@@ -6,6 +6,7 @@
 #include <limits>
 #include <numbers>
 
+#include "elementary/functions.hpp"
 #include "vessel/nearest_on_face.hpp"
 
 namespace vibrosow {
@@ -145,7 +146,7 @@ double Obstacles::top() const {
     const Face& face = *placed->own;
     const double plate = std::max(0.0, face.length_u * face.e1.y()) + std::max(0.0, face.length_v * face.e2.y());
     const double axis = std::max(face.height_a * face.normal.y(), face.height_b * face.normal.y());
-    const double aside = std::max(face.radius_a, face.radius_b) * std::hypot(face.e1.y(), face.e2.y());
+    const double aside = std::max(face.radius_a, face.radius_b) * elementary::hypot(face.e1.y(), face.e2.y());
     top = std::max(top, face.origin.y() + (face.kind == Face::Kind::plate ? plate : axis + aside));
   }
   return top;

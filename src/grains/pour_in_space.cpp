@@ -32,7 +32,7 @@ class LowestPlace {
       : vessel_(vessel),
         heap_(heap),
         obstacles_(without_lid(vessel), Space::three_dimensional),
-        room_(vessel, Space::three_dimensional, smallest_radius(lots)) {}
+        room_(vessel, Space::three_dimensional, least_half_width(lots)) {}
 
   Lying find(const SeedLot& seeds, double size, Random& random) const {
     constexpr double first = 1, growth = 1.6;  // step, in radii, and after one down
@@ -80,9 +80,9 @@ class LowestPlace {
       height = std::max(height, obstacles_.touching_height(place, ball.radius, from, least) - ball.y);
     }
     // What reaches over the top, from where seeds fall, may shelter a place.
-    const ClumpDisc& first = seed.balls.front();
-    const FloorPlace place = seed.place_of(first, vessel_);
-    if (height < limit && obstacles_.top() > vessel_.height && !room_.holds({place.x(), height + first.y, place.y()}))
+    const ClumpDisc& ball = thickest(seed.balls);
+    const FloorPlace place = seed.place_of(ball, vessel_);
+    if (height < limit && obstacles_.top() > vessel_.height && !room_.holds({place.x(), height + ball.y, place.y()}))
       return std::numeric_limits<double>::infinity();
     return height;
   }

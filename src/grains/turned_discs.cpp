@@ -1,6 +1,7 @@
 #include "grains/turned_discs.hpp"
 
 #include <algorithm>
+#include <limits>
 
 #include "elementary/functions.hpp"
 #include "scene/seed_lot.hpp"
@@ -34,6 +35,16 @@ Turn turn_in_lab(const Vessel& vessel, const Pose& pose, const Turn& own) {
   const auto [turn_sine, turn_cosine] = elementary::sine_cosine(0.5 * pose.turn);
   const Orientation about_z{cosine, 0, 0, sine}, about_y{turn_cosine, 0, -turn_sine, 0};
   return {own.angle + angle, of_unit_length(about_z * (about_y * own.orientation))};
+}
+
+const ClumpDisc& thickest(const std::vector<ClumpDisc>& discs) {
+  return *std::ranges::max_element(discs, {}, &ClumpDisc::radius);
+}
+
+double least_half_width(const std::vector<SeedLot>& lots) {
+  double least = std::numeric_limits<double>::infinity();
+  for (const SeedLot& lot : lots) least = std::min(least, thickest(turned_discs(lot, least_size(lot), {})).radius);
+  return least;
 }
 
 double largest_disc(const std::vector<SeedLot>& lots) {

@@ -15,6 +15,13 @@ std::vector<ClumpDisc> turned_discs(const SeedLot& lot, double size, const Turn&
 /// How a seed that is turned so in its vessel's frame is turned in the lab.
 Turn turn_in_lab(const Vessel& vessel, const Pose& pose, const Turn& own);
 
+/// The one of a seed's discs whose centre is furthest within it: the largest, the first of several.
+const ClumpDisc& thickest(const std::vector<ClumpDisc>& discs);
+
+/// Half the least width of the smallest seed there can be, m: the radius of its thickest disc, in space ball. It passes
+/// no narrower gap, however it is turned.
+double least_half_width(const std::vector<SeedLot>& lots);
+
 /// Diameter of the largest disc, in space ball, that there can be, alone or in a clump, m.
 double largest_disc(const std::vector<SeedLot>& lots);
 

@@ -178,8 +178,10 @@ void Guard::watch_overlap(const Integration& s, double overlap) {
                                   : fmt::format("grain {}", s.grains.id[static_cast<std::size_t>(deepest.partner)]);
     const std::size_t grain = static_cast<std::size_t>(deepest.grain);
     if (s.state.step == 0)
-      return stop(fmt::format("{} was put {:.3g} of its radius deep into {}, before the first step", told(s, grain),
-                              overlap, other));
+      return stop(
+          fmt::format("the relative overlap is {:.3g} before the first step (guard.stop_relative_overlap = "
+                      "{:.3g}): {} was put in {}; no step is too long",
+                      overlap, limits_.stop_relative_overlap, told(s, grain), other));
     const double whole = std::max(overlap, whole_impact(law_, deepest, speed_into(s, deepest)));
     stop(fmt::format(
         "the relative overlap reached {:.3g} at {:.4g} s (guard.stop_relative_overlap = {:.3g}): {} in {}; {}", overlap,

@@ -38,7 +38,7 @@ Eigen::Vector3d arm(const ClumpDisc& ball) {
 }  // namespace
 
 SeedPlaces::SeedPlaces(const Model& model) : model_(model) {
-  const double least_radius = smallest_radius(model.scene.lots);
+  const double least_radius = least_half_width(model.scene.lots);
   for (const Vessel& vessel : model.vessels) rooms_.emplace_back(vessel, model.scene.space, least_radius);
   const Vessel& tray = model.vessels.front();
   if (tray.sides == Sides::periodic) along_ = tray.length;
@@ -119,7 +119,7 @@ std::optional<std::string> SeedPlaces::fault_among_walls(const Grains& grains, s
                                                          const Walls& walls) const {
   const double depth = relative_depth_in_walls(grains, i, walls);
   if (depth > most_overlap) return fmt::format("lies {:.3g} of its radius deep in a wall", depth);
-  const Eigen::Vector3d at = centre_of(grains, i) + arm(balls_of(grains, i).front());
+  const Eigen::Vector3d at = centre_of(grains, i) + arm(thickest(balls_of(grains, i)));
   if (!is_in_room(at, vessel, walls))
     return "lies where no seed comes to from the top of the " + model_.vessels[vessel].name;
   return std::nullopt;

@@ -320,7 +320,7 @@ TEST(PlannedStudy, BundlesAreSharesOfEqualCost) {
 TEST(PlannedStudy, KeepsWhatIsAsked) {
   const StudyFiles files;
   const fs::path out = files.seeder().parent_path() / "out";
-  StudyPlan plan{"study.toml", {}, 1, {}, {{"ab", 1, 1, 5}}};
+  StudyPlan plan{"study.toml", {}, 1, {}, {{std::string(32, 'a'), 1, 1, 5}}};
   const std::string of_a_sweep = freeze_plan(out, plan);
   plan.asked = {"optimise", "--rate=43 seeds/s +- 5 %", "--goals=rate,power"};
   const std::string of_a_search = freeze_plan(out, plan);
@@ -333,7 +333,8 @@ TEST(PlannedStudy, ADamagedPlanIsRefused) {
   const StudyFiles files;
   const fs::path out = files.seeder().parent_path() / "out";
   EXPECT_THROW(read_plan(out), InputError);
-  const std::string name = freeze_plan(out, {"study.toml", {}, 1, {{"a.csv", "\xff\n"}}, {{"ab", 1, 1, 5}}});
+  const std::string name =
+      freeze_plan(out, {"study.toml", {}, 1, {{"a.csv", "\xff\n"}}, {{std::string(32, 'a'), 1, 1, 5}}});
   EXPECT_EQ(read_plan(out).files.at("a.csv"), "\xff\n");
   std::ofstream(plan_file(out, name + ".json").path(), std::ios::app) << " ";
   EXPECT_THROW(read_plan(out), InputError);

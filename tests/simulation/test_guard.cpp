@@ -178,7 +178,7 @@ TEST_P(GuardIn, TwoGrainsInEachOtherAreBothNamed) {
   bench.place(0.2, 0.5).place(0.5, 0.5).place(0.503, 0.5);
   Simulation& run = bench.start(1e-5);
   run.step();
-  EXPECT_THAT(run.guard().stop_reason().value_or(""), testing::ContainsRegex("grain [12] .* into grain [12],"));
+  EXPECT_THAT(run.guard().stop_reason().value_or(""), testing::ContainsRegex("grain [12] .* in grain [12];"));
 }
 
 TEST_P(GuardIn, AGrainTooFastForItsStepIsToldWithAStepThatBearsIt) {
