@@ -9,16 +9,24 @@
 namespace vibrosow {
 namespace {
 
-/// Part of a seed's radius that a cell's centre keeps from every wall. Two neighbouring cells half a radius apart then
-/// never lie on two sides of one. Cells lie beside the middle of a passage: one as wide as the seed is always open, one
-/// of three fifths of that is closed.
-constexpr double kept_clear = 0.6;
+bool is_drawn_out(const Vessel& vessel, Space space) {
+  return space == Space::plane ||
+         (vessel.plan == Plan::rectangle &&
+          std::ranges::none_of(vessel.pieces, [](const WallPiece& p) { return p.about.has_value(); }));
+}
 
 }  // namespace
 
+/// Two neighbouring cells, `1 / cells` of the seed's radius apart, never lie on two sides of a wall from which both
+/// keep `kept_clear` of that radius. Cells lie beside the middle of a passage: one as wide as the seed is always open,
+/// one of that part of its width is closed.
 FreeRoom::FreeRoom(const Vessel& vessel, Space space, double least_radius)
     : vessel_(vessel),
       in_space_(space == Space::three_dimensional),
+      drawn_out_(is_drawn_out(vessel, space)),
+      middle_(0.5 * vessel.depth.value_or(0)),
+      cells_in_radius_(drawn_out_ ? 8 : 4),
+      kept_clear_(drawn_out_ ? 0.9 : 0.8),
       least_radius_(least_radius),
       obstacles_(without_lid(vessel), space) {
   top_ = std::max(vessel.height, obstacles_.top() + least_radius);
@@ -58,17 +66,18 @@ bool FreeRoom::holds(const Eigen::Vector3d& centre) const {
 /// The cells near enough that no wall can lie between.
 bool FreeRoom::is_reached(const Eigen::Vector3d& centre) const {
   if (!grid_) grid_ = made_grid();
-  const double near = least_radius_ + kept_clear * grid_->radius;
-  const Eigen::Array3i own = (centre.array() / grid_->cell.array()).floor().cast<int>();
+  const double near = least_radius_ + kept_clear_ * grid_->radius;
+  Eigen::Array3i own = (centre.array() / grid_->cell.array()).floor().cast<int>();
+  if (drawn_out_) own.z() = 0;
   Eigen::Array3i reach = (near / grid_->cell.array()).ceil().cast<int>();
-  if (!in_space_) reach.z() = 0;
+  if (drawn_out_) reach.z() = 0;
   for (int k = -reach.z(); k <= reach.z(); ++k)
     for (int j = -reach.y(); j <= reach.y(); ++j)
       for (int i = -reach.x(); i <= reach.x(); ++i) {
         const Eigen::Array3i at = own + Eigen::Array3i(i, j, k), kept = carried_over(at, *grid_);
         if ((kept < 0).any() || (kept >= grid_->cells).any() || !grid_->reached[grid_->index(kept)]) continue;
         Eigen::Vector3d apart = grid_->centre(at) - centre;
-        if (!in_space_) apart.z() = 0;
+        if (drawn_out_) apart.z() = 0;
         if (apart.norm() < near) return true;
       }
   return false;
@@ -77,7 +86,7 @@ bool FreeRoom::is_reached(const Eigen::Vector3d& centre) const {
 Eigen::Array3i FreeRoom::carried_over(Eigen::Array3i at, const Grid& grid) const {
   const auto within = [](int k, int cells) { return (k % cells + cells) % cells; };
   if (vessel_.sides == Sides::periodic) at.x() = within(at.x(), grid.cells.x());
-  if (in_space_ && vessel_.front_and_back == Sides::periodic) at.z() = within(at.z(), grid.cells.z());
+  if (!drawn_out_ && vessel_.front_and_back == Sides::periodic) at.z() = within(at.z(), grid.cells.z());
   return at;
 }
 
@@ -85,10 +94,10 @@ Eigen::Array3i FreeRoom::carried_over(Eigen::Array3i at, const Grid& grid) const
 std::vector<char> FreeRoom::free_cells(const Grid& grid) const {
   constexpr int block = 4;
   std::vector<char> free(static_cast<std::size_t>(grid.cells.cast<std::int64_t>().prod()), 0);
-  const double clear = kept_clear * grid.radius;
-  const auto distance = [&](Eigen::Vector3d at) {
-    if (!in_space_) at.z() = 0;
-    return obstacles_.distance(at);
+  const double clear = kept_clear_ * grid.radius;
+  const auto in_cut = [&](Eigen::Vector3d at) {
+    if (drawn_out_) at.z() = middle_;
+    return at;
   };
   for (int k = 0; k < grid.cells.z(); k += block)
     for (int j = 0; j < grid.cells.y(); j += block)
@@ -96,14 +105,14 @@ std::vector<char> FreeRoom::free_cells(const Grid& grid) const {
         const Eigen::Array3i first(i, j, k), end = (first + block).min(grid.cells);
         const Eigen::Vector3d middle = 0.5 * (first + end).cast<double>().matrix().cwiseProduct(grid.cell);
         const Eigen::Vector3d half = 0.5 * (end - first).cast<double>().matrix().cwiseProduct(grid.cell);
-        const bool all_free = distance(middle) >= clear + half.norm();
+        const bool all_free = obstacles_.distance(in_cut(middle)) >= clear + half.norm();
         for (int z = k; z < end.z(); ++z)
           for (int y = j; y < end.y(); ++y)
             for (int x = i; x < end.x(); ++x) {
               const Eigen::Array3i at(x, y, z);
-              const Eigen::Vector3d centre = grid.centre(at);
+              const Eigen::Vector3d centre = in_cut(grid.centre(at));
               const bool inside = is_in_plan(centre, clear) && (!vessel_.box || centre.y() >= clear);
-              free[grid.index(at)] = inside && (all_free || distance(centre) >= clear) ? 1 : 0;
+              free[grid.index(at)] = inside && (all_free || obstacles_.distance(centre) >= clear) ? 1 : 0;
             }
       }
   return free;
@@ -136,12 +145,13 @@ void FreeRoom::flood(std::vector<char> free, Grid& grid) const {
 
 FreeRoom::Grid FreeRoom::made_grid() const {
   constexpr double most_cells = 2e7;
-  const double depth = in_space_ ? *vessel_.depth : 0;
+  const double depth = drawn_out_ ? 0 : *vessel_.depth;
   const double in_plane = vessel_.length * top_;
   const double least_cell =
-      in_space_ ? elementary::pow(in_plane * depth / most_cells, 1.0 / 3) : std::sqrt(in_plane / most_cells);
-  const double cell = std::max(0.5 * least_radius_, least_cell);
-  Grid grid{.cell = Eigen::Vector3d::Constant(cell), .cells = Eigen::Array3i::Ones(), .radius = 2 * cell};
+      drawn_out_ ? std::sqrt(in_plane / most_cells) : elementary::pow(in_plane * depth / most_cells, 1.0 / 3);
+  const double cell = std::max(least_radius_ / cells_in_radius_, least_cell);
+  Grid grid{
+      .cell = Eigen::Vector3d::Constant(cell), .cells = Eigen::Array3i::Ones(), .radius = cells_in_radius_ * cell};
   const Eigen::Array3d room(vessel_.length, top_ + grid.radius, depth);
   grid.cells = (room / cell).ceil().cast<int>().max(1);
   // Along a period just as many cells as fill it.

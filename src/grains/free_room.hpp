@@ -25,7 +25,7 @@ class FreeRoom {
   bool holds_below_top(const Eigen::Vector3d& centre) const { return centre.y() <= vessel_.height && holds(centre); }
 
  private:
-  /// Cells whose centres a seed can reach from the top.
+  /// Cells whose centres a seed can reach from the top; one across where all that stands in the vessel is drawn out.
   struct Grid {
     Eigen::Vector3d cell;  // m
     Eigen::Array3i cells;
@@ -52,6 +52,10 @@ class FreeRoom {
 
   Vessel vessel_;
   bool in_space_;
+  bool drawn_out_;       // whether a cut across says all
+  double middle_;        // m, across, of that cut
+  int cells_in_radius_;  // of the grid, in the least radius
+  double kept_clear_;    // part of a seed's radius that a cell's centre keeps from every wall
   double least_radius_, top_;
   Obstacles obstacles_;
   mutable std::optional<Grid> grid_;  // made when it is first asked for

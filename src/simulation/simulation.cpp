@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 #include <stdexcept>
 #include <utility>
 
@@ -319,7 +318,7 @@ Run Simulation::result() const {
     run.stop_reason = *guard_.stop_reason();
   }
   run.warnings = guard_.warnings();
-  std::ranges::move(feeder_.warnings(state_.time), std::back_inserter(run.warnings));
+  for (const std::string& warning : feeder_.warnings(state_.time)) run.warnings.push_back(warning);
   run.outside_the_model = guard_.outside_the_model() || run.balance.lost > 0;
   run.let_pass = state_.guard.let_pass;
   run.steps = state_.step;

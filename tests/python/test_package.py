@@ -118,8 +118,9 @@ class Dialects(Case):
     def test_a_study_is_the_same_in_both(self):
         comma, semicolon = vibrosow.open_study(work / "comma"), vibrosow.open_study(work / "semicolon")
         self.assertIn(";", (work / "semicolon/sweep.csv").read_text(encoding="utf-8").split("\n")[0])
+        # A plan, of which the second is made, names files from the study's folder.
         for table in ("layouts", "holes", "runs"):
-            assert_frame_equal(getattr(comma, table), getattr(semicolon, table))
+            assert_frame_equal(getattr(comma, table).replace(re.escape(f"{work}/"), "", regex=True), getattr(semicolon, table))
 
     def test_a_run_is_the_same_in_both(self):
         comma, semicolon = vibrosow.open_run(work / "run-comma"), vibrosow.open_run(work / "run-semicolon")

@@ -12,6 +12,7 @@
 #include <set>
 #include <sstream>
 
+#include "grains/turned_discs.hpp"
 #include "input/read_scene.hpp"
 #include "scene/input_error.hpp"
 #include "scene/motion.hpp"
@@ -234,7 +235,7 @@ class OwnScene {
   /// Whether a seed lies in the room of a vessel. Rain falls into one that turns as if it stood still.
   bool is_in(std::size_t vessel, double time, const Eigen::Vector3d& lab) {
     for (std::size_t v = rooms_.size(); v < vessels(); ++v)
-      rooms_.emplace_back(model_.vessels[v], space_, std::max(0.5 * model_.smallest_radius, 1e-3));
+      rooms_.emplace_back(model_.vessels[v], space_, 0.8 * least_half_width(model_.scene.lots));
     if (turns_steadily(model_.vessels[vessel]) && time > 0) return true;
     return rooms_[vessel].contains(in_vessel(vessel, time, lab));
   }
