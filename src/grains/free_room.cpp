@@ -9,10 +9,19 @@
 namespace vibrosow {
 namespace {
 
+/// Whether all that stands in a round vessel is turned about its own axis.
+bool is_turned(const Vessel& vessel, Space space) {
+  const Eigen::Vector2d axis = Eigen::Vector2d::Constant(0.5 * vessel.length);
+  return space == Space::three_dimensional && vessel.plan == Plan::round &&
+         std::ranges::all_of(vessel.pieces, [&](const WallPiece& piece) {
+           return piece.about && piece.axis == PieceAxis::upright && *piece.about == axis;
+         });
+}
+
 bool is_drawn_out(const Vessel& vessel, Space space) {
   return space == Space::plane ||
          (vessel.plan == Plan::rectangle &&
-          std::ranges::none_of(vessel.pieces, [](const WallPiece& p) { return p.about.has_value(); }));
+          std::ranges::none_of(vessel.pieces, [](const WallPiece& piece) { return piece.about.has_value(); }));
 }
 
 }  // namespace
@@ -23,10 +32,10 @@ bool is_drawn_out(const Vessel& vessel, Space space) {
 FreeRoom::FreeRoom(const Vessel& vessel, Space space, double least_radius)
     : vessel_(vessel),
       in_space_(space == Space::three_dimensional),
-      drawn_out_(is_drawn_out(vessel, space)),
-      middle_(0.5 * vessel.depth.value_or(0)),
-      cells_in_radius_(drawn_out_ ? 8 : 4),
-      kept_clear_(drawn_out_ ? 0.9 : 0.8),
+      turned_(is_turned(vessel, space)),
+      cut_(turned_ || is_drawn_out(vessel, space)),
+      cells_in_radius_(cut_ ? 8 : 2),
+      kept_clear_(cut_ ? 0.9 : 0.6),
       least_radius_(least_radius),
       obstacles_(without_lid(vessel), space) {
   top_ = std::max(vessel.height, obstacles_.top() + least_radius);
@@ -43,6 +52,14 @@ bool FreeRoom::is_in_plan(const Eigen::Vector3d& centre, double clear) const {
   };
   return between(vessel_.sides, centre.x(), vessel_.length) &&
          (!in_space_ || between(vessel_.front_and_back, centre.z(), *vessel_.depth));
+}
+
+/// Where the centre lies in the cut, if there is one.
+Eigen::Vector3d FreeRoom::in_cut(const Eigen::Vector3d& centre) const {
+  if (!cut_) return centre;
+  const double middle = 0.5 * vessel_.depth.value_or(0);
+  const double aside = turned_ ? elementary::hypot(centre.x() - middle, centre.z() - middle) : centre.x() - middle;
+  return {middle + aside, centre.y(), middle};
 }
 
 bool FreeRoom::is_open_above(const Eigen::Vector3d& centre) const {
@@ -64,20 +81,21 @@ bool FreeRoom::holds(const Eigen::Vector3d& centre) const {
 }
 
 /// The cells near enough that no wall can lie between.
-bool FreeRoom::is_reached(const Eigen::Vector3d& centre) const {
+bool FreeRoom::is_reached(const Eigen::Vector3d& place) const {
   if (!grid_) grid_ = made_grid();
+  const Eigen::Vector3d centre = in_cut(place);
   const double near = least_radius_ + kept_clear_ * grid_->radius;
   Eigen::Array3i own = (centre.array() / grid_->cell.array()).floor().cast<int>();
-  if (drawn_out_) own.z() = 0;
+  if (cut_) own.z() = 0;
   Eigen::Array3i reach = (near / grid_->cell.array()).ceil().cast<int>();
-  if (drawn_out_) reach.z() = 0;
+  if (cut_) reach.z() = 0;
   for (int k = -reach.z(); k <= reach.z(); ++k)
     for (int j = -reach.y(); j <= reach.y(); ++j)
       for (int i = -reach.x(); i <= reach.x(); ++i) {
         const Eigen::Array3i at = own + Eigen::Array3i(i, j, k), kept = carried_over(at, *grid_);
         if ((kept < 0).any() || (kept >= grid_->cells).any() || !grid_->reached[grid_->index(kept)]) continue;
         Eigen::Vector3d apart = grid_->centre(at) - centre;
-        if (drawn_out_) apart.z() = 0;
+        if (cut_) apart.z() = 0;
         if (apart.norm() < near) return true;
       }
   return false;
@@ -86,7 +104,7 @@ bool FreeRoom::is_reached(const Eigen::Vector3d& centre) const {
 Eigen::Array3i FreeRoom::carried_over(Eigen::Array3i at, const Grid& grid) const {
   const auto within = [](int k, int cells) { return (k % cells + cells) % cells; };
   if (vessel_.sides == Sides::periodic) at.x() = within(at.x(), grid.cells.x());
-  if (!drawn_out_ && vessel_.front_and_back == Sides::periodic) at.z() = within(at.z(), grid.cells.z());
+  if (!cut_ && vessel_.front_and_back == Sides::periodic) at.z() = within(at.z(), grid.cells.z());
   return at;
 }
 
@@ -95,10 +113,6 @@ std::vector<char> FreeRoom::free_cells(const Grid& grid) const {
   constexpr int block = 4;
   std::vector<char> free(static_cast<std::size_t>(grid.cells.cast<std::int64_t>().prod()), 0);
   const double clear = kept_clear_ * grid.radius;
-  const auto in_cut = [&](Eigen::Vector3d at) {
-    if (drawn_out_) at.z() = middle_;
-    return at;
-  };
   for (int k = 0; k < grid.cells.z(); k += block)
     for (int j = 0; j < grid.cells.y(); j += block)
       for (int i = 0; i < grid.cells.x(); i += block) {
@@ -145,10 +159,10 @@ void FreeRoom::flood(std::vector<char> free, Grid& grid) const {
 
 FreeRoom::Grid FreeRoom::made_grid() const {
   constexpr double most_cells = 2e7;
-  const double depth = drawn_out_ ? 0 : *vessel_.depth;
+  const double depth = cut_ ? 0 : *vessel_.depth;
   const double in_plane = vessel_.length * top_;
   const double least_cell =
-      drawn_out_ ? std::sqrt(in_plane / most_cells) : elementary::pow(in_plane * depth / most_cells, 1.0 / 3);
+      cut_ ? std::sqrt(in_plane / most_cells) : elementary::pow(in_plane * depth / most_cells, 1.0 / 3);
   const double cell = std::max(least_radius_ / cells_in_radius_, least_cell);
   Grid grid{
       .cell = Eigen::Vector3d::Constant(cell), .cells = Eigen::Array3i::Ones(), .radius = cells_in_radius_ * cell};

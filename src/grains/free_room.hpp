@@ -25,7 +25,7 @@ class FreeRoom {
   bool holds_below_top(const Eigen::Vector3d& centre) const { return centre.y() <= vessel_.height && holds(centre); }
 
  private:
-  /// Cells whose centres a seed can reach from the top; one across where all that stands in the vessel is drawn out.
+  /// Cells whose centres a seed can reach from the top; one across where a cut says all.
   struct Grid {
     Eigen::Vector3d cell;  // m
     Eigen::Array3i cells;
@@ -43,6 +43,7 @@ class FreeRoom {
     }
   };
   bool is_in_plan(const Eigen::Vector3d& centre, double clear) const;
+  Eigen::Vector3d in_cut(const Eigen::Vector3d& centre) const;
   bool is_open_above(const Eigen::Vector3d& centre) const;
   bool is_reached(const Eigen::Vector3d& centre) const;
   std::vector<char> free_cells(const Grid& grid) const;
@@ -52,8 +53,8 @@ class FreeRoom {
 
   Vessel vessel_;
   bool in_space_;
-  bool drawn_out_;       // whether a cut across says all
-  double middle_;        // m, across, of that cut
+  bool turned_;          // whether all is turned about the upright axis of a round vessel
+  bool cut_;             // whether a cut in the middle of the depth says all: of what is turned so, or drawn out
   int cells_in_radius_;  // of the grid, in the least radius
   double kept_clear_;    // part of a seed's radius that a cell's centre keeps from every wall
   double least_radius_, top_;
