@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 #include <numbers>
 
 #include "elementary/functions.hpp"
@@ -208,7 +207,7 @@ std::vector<std::string> scene_warnings(const Scene& scene) {
   warn_of_standing_liquid(scene, warnings);
   warn_of_rain(scene, scene.tray, warnings);
   if (scene.space == Space::plane) warn_of_round_holes(scene.tray, warnings);
-  std::ranges::move(geometry_warnings(scene), std::back_inserter(warnings));
+  for (const std::string& warning : geometry_warnings(scene)) warnings.push_back(warning);
   if (!scene.hopper) return warnings;
   if (scene.space == Space::plane) warn_of_round_holes(*scene.hopper, warnings);
   warn_of_narrow_holes(*scene.hopper, scene.lots, warnings);
