@@ -11,6 +11,7 @@
 #include "grains/turned_discs.hpp"
 #include "scene/input_error.hpp"
 #include "scene/mixture.hpp"
+#include "scene/plane_alone.hpp"
 #include "scene/seed_lot.hpp"
 #include "vessel/vessel_walls.hpp"
 
@@ -151,7 +152,7 @@ constexpr std::size_t large_bed = 20000;  // grains whose state is more than a c
 
 std::vector<PackedGrain> pack_poured(const Vessel& vessel, const std::vector<SeedLot>& lots, Space space,
                                      const std::vector<int>& order, Random& random, StopRequest stop) {
-  const auto poured = space == Space::plane ? pour : pour_in_space;
+  const auto poured = plane_alone || space == Space::plane ? pour : pour_in_space;
   std::vector<PackedGrain> grains = poured(vessel, lots, order, random, stop);
   for (const PackedGrain& grain : grains)
     for (const ClumpDisc& disc : turned_discs(lots[static_cast<std::size_t>(grain.lot)], grain.size, grain.turned))
@@ -179,9 +180,9 @@ std::vector<PackedGrain> pack(const Vessel& vessel, const std::vector<SeedLot>& 
   if (in_space && diameter > *vessel.depth)
     throw InputError(fmt::format("{}.depth: a grain of {:.6g} mm does not fit in", vessel.name, diameter * 1e3));
   const std::vector<int> order = shuffled_lots(lots, vessel.fill->count, random);
-  std::vector<PackedGrain> grains = poured     ? pack_poured(vessel, lots, space, order, random, stop)
-                                    : in_space ? pack_layers(vessel, lots, order, random)
-                                               : pack_rows(vessel, lots, order, random);
+  std::vector<PackedGrain> grains = poured                     ? pack_poured(vessel, lots, space, order, random, stop)
+                                    : !plane_alone && in_space ? pack_layers(vessel, lots, order, random)
+                                                               : pack_rows(vessel, lots, order, random);
   constexpr double in_plane = 64, across_columns = 8;  // diameters
   if (grains.size() > large_bed) order_by_columns((in_space ? across_columns : in_plane) * diameter, grains);
   return grains;

@@ -10,6 +10,7 @@
 
 #include "elementary/functions.hpp"
 #include "scene/motion.hpp"
+#include "scene/plane_alone.hpp"
 #include "scene/seed_lot.hpp"
 #include "vessel/nearest_on_face.hpp"
 #include "vessel/nearest_point.hpp"
@@ -125,8 +126,8 @@ void warn_of_covered_holes(const Scene& scene, const Vessel& vessel, Warnings& w
     std::string holes;
     for (std::size_t h = 0; h < vessel.holes.size(); ++h) {
       const Hole& hole = vessel.holes[h];
-      const Covered covered =
-          piece.about ? covered_by_turned(piece, hole, height) : covered_by_drawn_out(piece, hole, height);
+      const Covered covered = !plane_alone && piece.about ? covered_by_turned(piece, hole, height)
+                                                          : covered_by_drawn_out(piece, hole, height);
       if (!covered) continue;
       holes += fmt::format("{}hole {}", holes.empty() ? "" : ", ", h + 1);
       if (*covered < 0.995)
@@ -186,7 +187,7 @@ class OwnWalls {
  public:
   OwnWalls(const Vessel& vessel, Space space)
       : vessel_(vessel), path_(vessel), walls_({at_rest(vessel)}, space), in_space_(space != Space::plane) {
-    if (in_space_)
+    if (in_space())
       for (const Face& face : vessel_faces(vessel)) {
         walls_by_name_.push_back(face.name);
         for (Line& line : face_lines(face)) add(std::move(line), face.name);
@@ -230,6 +231,7 @@ class OwnWalls {
   }
 
  private:
+  bool in_space() const { return !plane_alone && in_space_; }
   /// How a place stands to a wall: on which side, and whether over it and not beyond its ends.
   struct Seen {
     double side;
@@ -252,7 +254,7 @@ class OwnWalls {
   }
 
   Seen seen(std::size_t wall, const Eigen::Vector3d& at) const {
-    if (in_space_) {
+    if (in_space()) {
       const NearestOnFace nearest = nearest_on_face(walls_.placed_faces()[wall], at);
       return {nearest.side, nearest.inside};
     }
@@ -268,7 +270,7 @@ class OwnWalls {
       const Eigen::Vector3d middle = 0.5 * (begin + end);
       (side * seen(wall, middle).side > 0 ? begin : end) = middle;
     }
-    for (int axis = 0; axis < (in_space_ ? 3 : 2); ++axis)
+    for (int axis = 0; axis < (in_space() ? 3 : 2); ++axis)
       for (const double shift : {-slack, slack})
         if (!seen(wall, begin + shift * Eigen::Vector3d::Unit(axis)).beside) return false;
     return true;
