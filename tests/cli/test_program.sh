@@ -142,6 +142,7 @@ expect 0 "^vibrosow: warning: tray.holes.width: 3 mm is narrower" run seeder.tom
 grep -q "is narrower" narrow-run/run.json || fail "run.json does not carry the warning"
 
 # A drawing with a line across the first hole and another on a layer that is switched off.
+# shellcheck disable=SC2016  # $INSUNITS is a name of the drawing
 printf '%s\n' 0 SECTION 2 HEADER 9 '$INSUNITS' 70 4 0 ENDSEC 0 SECTION 2 TABLES 0 LAYER 2 NOTES 70 0 62 -7 0 ENDSEC 0 SECTION 2 ENTITIES \
   0 LINE 8 WALL 10 20 20 0 11 60 21 0 0 LINE 8 NOTES 10 0 20 30 11 120 21 30 0 ENDSEC 0 EOF >outline.dxf
 drawn=(--set 'tray.pieces={ file = "outline.dxf" }')
