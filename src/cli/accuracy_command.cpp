@@ -198,6 +198,11 @@ Scene scene_of(const AccuracyOptions& options) {
   return at_its_accuracy(scene);
 }
 
+void add_page(std::vector<OutputFile>& files, const std::string& page_template, const std::string& data) {
+  const auto times = std::ranges::find(files, page_times_name, &OutputFile::name);
+  std::ranges::move(timed_page_files(page_template, data, times->content), std::back_inserter(files));
+}
+
 int ended(const AccuracyOptions& options, const OutputFolder& folder, const StudyRuns& runs, bool interrupted) {
   if (!options.common.quiet && interrupted && options.budget.empty())
     print("interrupted: the same command goes on from here\n");
@@ -242,7 +247,7 @@ int run_table(const AccuracyOptions& options) {
     timing.wall_time += progress.seconds();
   }
   std::vector<OutputFile> files = accuracy_files(result, timing, options.common.csv);
-  std::ranges::move(page_files(page_template, accuracy_page_data(scene, result)), std::back_inserter(files));
+  add_page(files, page_template, accuracy_page_data(scene, result));
   write_then_print(
       options.common.quiet, [&] { folder.write(files); },
       [&] { print("{}\n{}\n{}", wrapped(scene.title), accuracy_table(result), wrapped(accuracy_sentence(result))); });
@@ -278,7 +283,7 @@ int run_promise(const AccuracyOptions& options) {
       [&](int runs, double cpu_time) { tell(fmt::format("{} run{} more", runs, runs == 1 ? "" : "s"), cpu_time); });
   const AccuracyTiming timing{.wall_time = clock.seconds(), .jobs = jobs};
   std::vector<OutputFile> files = promise_files(made, goal, timing, options.common.csv);
-  std::ranges::move(page_files(page_template, accuracy_page_data(scene, made, goal)), std::back_inserter(files));
+  add_page(files, page_template, accuracy_page_data(scene, made, goal));
   write_then_print(
       options.common.quiet, [&] { folder.write(files); },
       [&] { print("{}\n{}", wrapped(scene.title), promise_text(made, goal)); });

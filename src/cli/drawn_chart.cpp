@@ -4,7 +4,6 @@
 
 #include <nlohmann/json.hpp>
 #include <optional>
-#include <utility>
 
 #include "cli/asked_study.hpp"
 #include "cli/console.hpp"
@@ -13,9 +12,7 @@
 #include "report/page.hpp"
 #include "report/page_charts.hpp"
 #include "report/sweep_page.hpp"
-#include "scene/checked_json.hpp"
 #include "scene/input_error.hpp"
-#include "storage/atomic_file.hpp"
 #include "storage/study_plan.hpp"
 
 namespace vibrosow {
@@ -39,10 +36,9 @@ std::string data_of_study(const fs::path& folder, int jobs) {
 }  // namespace
 
 Chart drawn_chart(const fs::path& folder, const std::string& name, int jobs) {
-  std::optional<std::string> kept = text_of_file(folder / page_data_name);
-  const std::string text = kept ? std::move(*kept) : data_of_study(folder, jobs);
   try {
-    return page_chart(parse_json<nlohmann::ordered_json>(text), name);
+    const auto kept = kept_page_data(folder);
+    return page_chart(kept ? *kept : nlohmann::ordered_json::parse(data_of_study(folder, jobs)), name);
   } catch (const nlohmann::json::exception&) {
     throw InputError(
         fmt::format("{}: was not written by this version of vibrosow", (folder / page_data_name).string()));

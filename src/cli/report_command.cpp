@@ -70,10 +70,9 @@ OutputFolder folder_of(const std::string& kind, const CommonOptions& options) {
   throw InputError(fmt::format("{}: its report.json is of another version of the program", options.file));
 }
 
-/// The page of what report.json holds; an exit code.
-int page_of_data(const std::string& text, const CommonOptions& options) {
+/// The page of what kept_page_data gave; an exit code.
+int page_of_data(const Json& data, const CommonOptions& options) {
   try {
-    const Json data = parse_json<Json>(text);
     const std::string kind = data.at("kind");
     if (options.replays > 0)
       throw InputError(fmt::format(
@@ -109,7 +108,7 @@ int report(CommonOptions& options) {
   options.out = options.file;
   options.html = true;
   if (!std::filesystem::is_directory(options.file)) throw InputError(fmt::format("{}: is no folder", options.file));
-  const auto data = text_of_file(std::filesystem::path(options.file) / page_data_name);
+  const auto data = kept_page_data(options.file);
   const int exit_code = data ? page_of_data(*data, options) : page_of_study(options, options.page_template());
   if (exit_code == exit_done && !options.quiet) print("{}/report.html\n", options.file);
   return exit_code;

@@ -10,13 +10,13 @@
 #include "report/page.hpp"
 #include "report/study_page.hpp"
 #include "scene/integrator_names.hpp"
+#include "scene/si_units.hpp"
 
 namespace vibrosow {
 namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr double gram = 1e-3;             // kg
 constexpr double recommended_within = 1;  // %, as accuracy_sentence has it
 
 /// {percent, band} against the limit, or without a fit against the finest setting; null where there is none.
@@ -35,7 +35,6 @@ Json level(const AccuracyResult& result, std::size_t index, std::size_t chosen) 
           {"runs", row.replicates},
           {"rate_g_per_s", page_interval(row.mass_rate, gram)},
           {"error", error_of(row)},
-          {"cpu_s", row.mass_rate && row.cpu_time > 0 ? Json(row.cpu_time) : Json(nullptr)},
           {"cost_ratio", row.cost_ratio ? Json(*row.cost_ratio) : Json(nullptr)},
           {"on_front", row.mass_rate && row.on_front},
           {"finest", index == result.reference},

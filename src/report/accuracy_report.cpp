@@ -11,13 +11,10 @@
 #include "report/page.hpp"
 #include "report/terminal_text.hpp"
 #include "scene/integrator_names.hpp"
+#include "scene/si_units.hpp"
 
 namespace vibrosow {
 namespace {
-
-constexpr double gram = 1e-3;                   // kg
-constexpr double millimetre_per_second = 1e-3;  // m/s
-constexpr double megapascal = 1e6;              // Pa
 
 using R = const AccuracyRow&;
 using Value = std::optional<double>;
@@ -172,16 +169,26 @@ Columns<AccuracyRow> timing_columns(double reference) {
 struct CommandTiming {
   AccuracyTiming command;
   double run_time = 0, grain_steps = 0;
+  std::vector<Value> settings{};  // s
+  std::string sentence{};
 };
 
 JsonKeys<CommandTiming> timing_keys() {
   using T = const CommandTiming&;
-  return {{"wall_s", "s", "wall time of the command", [](T t) { return t.command.wall_time; }},
-          {"jobs", "", "runs side by side", [](T t) { return t.command.jobs; }},
-          {"run_cpu_s", "s", "CPU times of the runs that it made, summed", [](T t) { return t.run_time; }},
-          {"grain_steps", "", "grains times steps of these, summed", [](T t) { return t.grain_steps; }},
-          {"grain_steps_per_s", "1/s", "these in a second of the command's wall time",
-           [](T t) { return t.command.wall_time > 0 ? t.grain_steps / t.command.wall_time : 0; }}};
+  return {
+      {"wall_s", "s", "wall time of the command", [](T t) { return t.command.wall_time; }},
+      {"jobs", "", "runs side by side", [](T t) { return t.command.jobs; }},
+      {"run_cpu_s", "s", "CPU times of the runs that it made, summed", [](T t) { return t.run_time; }},
+      {"grain_steps", "", "grains times steps of these, summed", [](T t) { return t.grain_steps; }},
+      {"grain_steps_per_s", "1/s", "these in a second of the command's wall time",
+       [](T t) { return t.command.wall_time > 0 ? t.grain_steps / t.command.wall_time : 0; }},
+      {"setting_cpu_s", "s", "of each setting the CPU time of a run, as in accuracy_timing.csv; null without a rate",
+       [](T t) {
+         auto times = nlohmann::ordered_json::array();
+         for (const Value& time : t.settings) times.push_back(time ? nlohmann::ordered_json(*time) : nullptr);
+         return times;
+       }},
+      {"cost", "", "of a promise, in words", [](T t) { return t.sentence; }}};
 }
 
 /// "-0.4 +- 1.6 %".
@@ -446,8 +453,7 @@ AccuracyResult result_of(const Promise& promise) {
 
 std::vector<std::string> promise_paragraphs(const Promise& promise, const PromiseGoal& goal) {
   if (!promise.offer) {
-    std::string text = fmt::format("A rate {} cannot be promised: {} ({} pilots, {:.3g} s of CPU time).",
-                                   goal_text(goal), promise.refused, promise.pilots, promise.pilot_cpu_time);
+    std::string text = fmt::format("A rate {} cannot be promised: {}.", goal_text(goal), promise.refused);
     if (promise.least)
       text += fmt::format(" The most that as much time again would buy: {}.", offer_text(promise, *promise.least));
     return {text};
@@ -459,13 +465,18 @@ std::vector<std::string> promise_paragraphs(const Promise& promise, const Promis
                               promise.mass_rate->mean / gram, share(promise.offer->error_bound())));
   else
     all.push_back(fmt::format("There is no rate: {}.", promise.refused));
-  all.push_back(cost_text(promise));
   return all;
+}
+
+std::string promise_cost(const Promise& promise) {
+  if (promise.offer) return cost_text(promise);
+  return fmt::format("Cost: {} pilots {:.3g} s of CPU time.", promise.pilots, promise.pilot_cpu_time);
 }
 
 std::string promise_text(const Promise& promise, const PromiseGoal& goal) {
   std::string text;
   for (const std::string& paragraph : promise_paragraphs(promise, goal)) text += wrapped(paragraph);
+  text += wrapped(promise_cost(promise));
   for (const std::string& doubt : odd_runs_sentences(promise.runs)) text += wrapped(doubt);
   return text;
 }
@@ -492,30 +503,41 @@ std::vector<FileText> accuracy_file_texts() {
                 "one row per part of a setting that was varied, and one of chance; none where the runs were too few",
                 error_columns()),
       file_text("accuracy_timing.csv", "one row per setting: what it took on this machine", timing_columns(0)),
-      file_text("timing.json", "what the command took on this machine", timing_keys()),
+      file_text(page_times_name, "what the command took on this machine", timing_keys()),
       page_data_text(),
       accuracy_page_text(),
       file_text("promise.json", "with --within or --budget: what was chosen and what it may err by", promise_keys()),
       {"numerics.toml", "with --within or --budget: the keys of a seeder that set it so", {}}};
 }
 
-std::vector<OutputFile> accuracy_files(const AccuracyResult& result, const AccuracyTiming& timing, CsvFormat format) {
-  CommandTiming sums{timing};
+namespace {
+
+/// `cost`: of a promise, in words.
+std::vector<OutputFile> files_of(const AccuracyResult& result, const AccuracyTiming& timing, const std::string& cost,
+                                 CsvFormat format) {
+  CommandTiming sums{.command = timing, .sentence = cost};
   for (const AccuracyRun& run : result.runs) {
     if (!run.made()) continue;
     sums.grain_steps += run.grain_steps;
     sums.run_time += run.cpu_time;
   }
+  for (const AccuracyRow& row : result.rows) sums.settings.push_back(timed(row) ? Value(row.cpu_time) : Value());
   return {{"accuracy.csv", accuracy_csv(result, format)},
           {"accuracy_runs.csv", accuracy_runs_csv(result, format)},
           {"accuracy_errors.csv", accuracy_errors_csv(result, format)},
           {"accuracy_timing.csv", accuracy_timing_csv(result, format)},
-          {"timing.json", json_of(timing_keys(), sums)}};
+          {page_times_name, json_of(timing_keys(), sums)}};
+}
+
+}  // namespace
+
+std::vector<OutputFile> accuracy_files(const AccuracyResult& result, const AccuracyTiming& timing, CsvFormat format) {
+  return files_of(result, timing, "", format);
 }
 
 std::vector<OutputFile> promise_files(const Promise& promise, const PromiseGoal& goal, const AccuracyTiming& timing,
                                       CsvFormat format) {
-  std::vector<OutputFile> files = accuracy_files(result_of(promise), timing, format);
+  std::vector<OutputFile> files = files_of(result_of(promise), timing, promise_cost(promise), format);
   files.push_back({"promise.json", json_of(promise_keys(), PromiseSource{&promise, &goal})});
   if (promise.offer) files.push_back({"numerics.toml", promised_numerics(promise, goal)});
   return files;

@@ -55,10 +55,13 @@ std::vector<ErrorRow> error_rows(const AccuracyResult& result);
 /// Settings, fit and runs of a promise, as a table has them.
 AccuracyResult result_of(const Promise& promise);
 
-/// What was promised and at what cost, or why nothing was; a paragraph each.
+/// What was promised, or why nothing was; a paragraph each.
 std::vector<std::string> promise_paragraphs(const Promise& promise, const PromiseGoal& goal);
 
-/// The same for a terminal.
+/// The CPU time that it took, in a sentence.
+std::string promise_cost(const Promise& promise);
+
+/// Both for a terminal.
 std::string promise_text(const Promise& promise, const PromiseGoal& goal);
 
 /// The keys of a seeder that set it to an offer's setting, as TOML.

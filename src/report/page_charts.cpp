@@ -218,7 +218,7 @@ Chart precision_chart(const Json& data) {
   const double within = data.at("within_percent");
   ChartInterval times{INFINITY, 0}, sizes{within, within};
   for (const Json& level : data.at("levels")) {
-    if (level.at("error").is_null() || level.at("cpu_s").is_null()) continue;
+    if (level.at("error").is_null() || !level.contains("cpu_s") || level.at("cpu_s").is_null()) continue;
     const Json& error = level.at("error");
     ChartPoint point{level.at("cpu_s"), std::max(least_error, std::abs(error.at("percent").get<double>()))};
     if (!error.at("band").is_null()) {

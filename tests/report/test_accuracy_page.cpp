@@ -2,13 +2,20 @@
 
 #include <gmock/gmock.h>
 
+#include <filesystem>
+#include <fstream>
 #include <nlohmann/json.hpp>
+
+#include "report/accuracy_report.hpp"
+#include "report/page.hpp"
+#include "scene/input_error.hpp"
 
 namespace vibrosow {
 namespace {
 
 using testing::ElementsAre;
 using testing::HasSubstr;
+using testing::Not;
 using testing::StartsWith;
 
 AccuracySetting setting_of(double steps, double softness) {
@@ -52,15 +59,36 @@ class AccuracyPage : public testing::Test {
   Scene scene_;
 };
 
-TEST_F(AccuracyPage, EverySettingHasItsErrorItsTimeAndWhyItHasNone) {
+TEST_F(AccuracyPage, EverySettingHasItsErrorAndWhyItHasNone) {
   const auto page = data(4);
   EXPECT_THAT(of_levels(page, "number"), ElementsAre(1, 2, 3));
-  EXPECT_THAT(of_levels(page, "cpu_s"), ElementsAre(4.0, 1.0, nullptr));
   EXPECT_THAT(of_levels(page, "finest"), ElementsAre(true, false, false));
   EXPECT_THAT(of_levels(page, "note"), ElementsAre("", "", "the step is too long"));
   EXPECT_NEAR(page["levels"][1]["rate_g_per_s"]["mean"].get<double>(), 10.8, 0.01);
   EXPECT_TRUE(page["levels"][2]["error"].is_null());
   EXPECT_EQ(page["within_percent"], 1.0);
+}
+
+TEST_F(AccuracyPage, TimesAreInTheirOwnFileAndShownByThePage) {
+  AccuracyResult slow = result(4);
+  for (AccuracyRun& run : slow.runs) run.cpu_time *= 2;
+  slow = accuracy_of({slow.rows[0].setting, slow.rows[1].setting, slow.rows[2].setting},
+                     {"", "", "the step is too long"}, slow.runs);
+  EXPECT_EQ(accuracy_page_data(scene_, slow), accuracy_page_data(scene_, result(4)));
+
+  const std::filesystem::path folder = std::filesystem::path(testing::TempDir()) / "times_of_a_page";
+  std::filesystem::create_directory(folder);
+  const auto write = [&](const std::vector<OutputFile>& files) {
+    for (const OutputFile& file : files) std::ofstream(folder / file.name) << file.content;
+  };
+  write(timed_page_files("", accuracy_page_data(scene_, slow), "{}"));
+  EXPECT_FALSE((*kept_page_data(folder))["levels"][0].contains("cpu_s"));
+  write(accuracy_files(slow, {}));
+  EXPECT_THAT(of_levels(*kept_page_data(folder), "cpu_s"), ElementsAre(8.0, 2.0, nullptr));
+  std::ofstream(folder / "timing.json") << "{}";
+  EXPECT_THROW(kept_page_data(folder), InputError);
+  std::filesystem::remove_all(folder);
+  EXPECT_FALSE(kept_page_data(folder));
 }
 
 TEST_F(AccuracyPage, ErrorsAreAgainstTheLimitWhereRunsSuffice) {
@@ -101,6 +129,14 @@ TEST_F(AccuracyPage, APromiseThatCannotBeKeptSaysWhy) {
   EXPECT_THAT(page["headlines"][0].get<std::string>(), HasSubstr("within 3 % cannot be promised: too few pilots"));
   EXPECT_EQ(page["within_percent"], 3.0);
   EXPECT_EQ(page["levels"][0]["chosen"], false);
+  EXPECT_THAT(page.dump(), Not(HasSubstr("CPU")));
+  const std::vector<OutputFile> files = promise_files(promise, goal, {});
+  const auto times = std::ranges::find(files, "timing.json", &OutputFile::name);
+  EXPECT_THAT(times->content, HasSubstr("Cost: 0 pilots 0 s of CPU time."));
+  const std::string html =
+      timed_page_files("@RECORDING@@REPORT_DATA@", accuracy_page_data(scene_, promise, goal), times->content)[1]
+          .content;
+  EXPECT_THAT(html, HasSubstr("Cost: 0 pilots"));
 }
 
 }  // namespace
