@@ -155,8 +155,7 @@ Grains grains_for(const Model& model, const Grains& grains) {
   for (std::size_t i = 0; i < grains.size(); ++i) {
     GrainKind kind = grains.kind(i);
     if (!effects.rotation) kind.inverse_inertia = 0;
-    const Eigen::Vector3d at(grains.x[i], grains.y[i], grains.in_space ? grains.z[i] : 0);
-    const Eigen::Vector3d velocity(grains.vx[i], grains.vy[i], grains.in_space ? grains.vz[i] : 0);
+    const Eigen::Vector3d at = grains.place(i), velocity = grains.velocity(i);
     Turn turned;
     if (grains.oriented && grains.in_space) turned.orientation = grains.orientation(i);
     if (grains.oriented && !grains.in_space) turned.angle = grains.angle[i];
@@ -198,17 +197,17 @@ TimedBed time_bed(const Model& model, const Grains& start) {
 }
 
 /// A bed that goes on without an effect ("": with all).
-struct Variant {
+struct SceneVariant {
   std::string effect;
   std::unique_ptr<Simulation> simulation;
 };
 
-std::vector<Variant> variants_of(const TimedBed& bed, double span) {
+std::vector<SceneVariant> variants_of(const TimedBed& bed, double span) {
   const Scene scene = continued(bed.scene, bed.simulation->time(), span);
   const EffectSet effects = prepare(scene).effects;
   std::vector<std::string> names = effect_names(effects);
   names.insert(names.begin(), "");
-  std::vector<Variant> variants;
+  std::vector<SceneVariant> variants;
   for (const std::string& name : names) {
     const Model rest = model_of(without(scene, name), bed.dt);
     if (!name.empty() && rest.effects == effects) continue;
@@ -231,7 +230,7 @@ CostBreakdown break_down_cost(const Model& model, const Grains& start) {
   const double grains = static_cast<double>(std::max<std::size_t>(1, bed.simulation->grains().size()));
   const auto steps =
       static_cast<std::int64_t>(1 + 1e9 * round_cpu_time / (grains * std::max(1.0, bed.cost.ns_per_grain_step)));
-  const std::vector<Variant> variants = variants_of(bed, static_cast<double>((rounds + 1) * steps) * bed.dt);
+  const std::vector<SceneVariant> variants = variants_of(bed, static_cast<double>((rounds + 1) * steps) * bed.dt);
   std::vector<std::vector<double>> added(variants.size());
   for (int round = 0; round <= rounds; ++round) {
     double all = 0;

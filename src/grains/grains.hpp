@@ -65,6 +65,9 @@ struct Grains {
     return {radius[i],          mass[i],       inverse_mass[i],
             inverse_inertia[i], compliance[i], kinds[static_cast<std::size_t>(lot[i])].moments};
   }
+  /// m and m/s, of the lab; z is 0 in the plane.
+  Eigen::Vector3d place(std::size_t i) const { return {x[i], y[i], in_space ? z[i] : 0.0}; }
+  Eigen::Vector3d velocity(std::size_t i) const { return {vx[i], vy[i], in_space ? vz[i] : 0.0}; }
   Orientation orientation(std::size_t i) const { return {q_w[i], q_x[i], q_y[i], q_z[i]}; }
   std::array<std::vector<double>*, 4> quaternions() { return {&q_w, &q_x, &q_y, &q_z}; }
   void set_orientation(std::size_t i, const Orientation& q) { q_w[i] = q.w, q_x[i] = q.x, q_y[i] = q.y, q_z[i] = q.z; }

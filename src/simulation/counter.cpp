@@ -137,8 +137,7 @@ void Counter::remove_flagged(const std::vector<char>& removed) {
 }
 
 bool is_inside(const Vessel& vessel, const Pose& pose, const Grains& grains, std::size_t i) {
-  const Eigen::Vector3d own =
-      point_in_vessel(vessel, pose, {grains.x[i], grains.y[i], grains.in_space ? grains.z[i] : 0});
+  const Eigen::Vector3d own = point_in_vessel(vessel, pose, grains.place(i));
   return own.y() >= 0 && own.y() <= vessel.height && is_between_ends(vessel, grains.in_space, own.x(), own.z());
 }
 

@@ -15,8 +15,6 @@
 namespace vibrosow {
 namespace {
 
-constexpr double wall_slack = 1e-9;  // of a seed's radius: of what lies on a floor
-
 /// The vessel's frame, or of one that turns over and over that at rest: the heap lies where its floor was.
 Pose upright_frame(const Vessel& vessel, const Pose& pose) {
   return turns_over(vessel) ? Pose{} : pose;
@@ -46,21 +44,13 @@ struct Feeder::Inside {
   }
 };
 
-namespace {
-
-Eigen::Vector3d place_of(const Grains& grains, std::size_t i) {
-  return {grains.x[i], grains.y[i], grains.in_space ? grains.z[i] : 0.0};
-}
-
-}  // namespace
-
 /// Those whose centre is in the vessel count; others that reach into it, at an outlet or over its edge, are in the way.
 Feeder::Inside Feeder::grains_inside(const Vessel& vessel, const Pose& pose, const Grains& grains,
                                      const std::vector<char>& touching) const {
   Inside inside;
   inside.in_space = grains.in_space;
   for (std::size_t i = 0; i < grains.size(); ++i) {
-    const Eigen::Vector3d own = point_in_vessel(vessel, pose, place_of(grains, i));
+    const Eigen::Vector3d own = point_in_vessel(vessel, pose, grains.place(i));
     const double reach = grains.kind(i).radius + model_.largest_diameter;
     if (own.x() < -reach || own.x() > vessel.length + reach || own.y() < -reach || own.y() > vessel.height + reach)
       continue;
@@ -162,10 +152,10 @@ std::optional<double> Feeder::free_height(const Inside& inside, const FloorPlace
   const Vessel& vessel = walls.vessels()[v];
   const Pose frame = upright_frame(vessel, walls.poses()[v]);
   const Column column(inside, place, radius);
-  for (double y = column.lowest(0); y + radius <= vessel.height;) {
+  for (double y = column.lowest(radius); y + radius <= vessel.height;) {
     const Eigen::Vector3d at = point_in_lab(vessel, frame, {place.x(), y, place.y()});
     const double depth = places_.depth_in_walls(at, radius, walls);
-    const bool clear = depth <= wall_slack * radius;
+    const bool clear = depth <= most_placing_overlap * radius;
     if (clear && places_.belong(at, v, walls)) return y;
     // Nothing nearer is clear of the wall, or beyond the wall that shuts the place off.
     y = column.lowest(y + (clear ? std::max(-depth, rise_outside * radius) : std::max(depth, least_rise * radius)));
@@ -238,7 +228,7 @@ int Feeder::rain(std::size_t v, Grains& grains, const Walls& walls, double time)
     const double z = grains.in_space ? random_across(vessel, radius, x, shower.random) : 0;
     const Eigen::Vector3d at = point_in_lab(vessel, frame, {x, rain.height, z});
     const bool clear = places_.is_clear_of_grains(at, radius, grains) &&
-                       places_.depth_in_walls(at, radius, walls) <= wall_slack * radius;
+                       places_.depth_in_walls(at, radius, walls) <= most_placing_overlap * radius;
     if (!clear || !places_.belong(at, v, walls)) continue;
     put(*shower.next, at, Eigen::Vector3d::Zero(), v, walls, grains);
     shower.next.reset();

@@ -218,8 +218,7 @@ DeepestContact ForceField::deepest_contact() {
   for (const WallCandidate& near : state_.contacts.walls) {
     const std::size_t i = static_cast<std::size_t>(near.grain);
     const GrainKind kind = discs.kind(i);
-    const double apart = std::sqrt(walls_.distance2(static_cast<std::size_t>(near.wall),
-                                                    {discs.x[i], discs.y[i], discs.in_space ? discs.z[i] : 0}));
+    const double apart = std::sqrt(walls_.distance2(static_cast<std::size_t>(near.wall), discs.place(i)));
     look(near.grain, -1, kind.radius - apart, kind, model_.contacts.wall_compliance, 0, 0);
   }
   return deepest;

@@ -19,10 +19,6 @@ GrainContact contact_of(std::int64_t grain, std::int64_t partner, const Vector& 
   return {grain, partner, as_array(from), as_array(to), as_array(along), as_array(force - along), overlap};
 }
 
-Vector place_of(const Grains& discs, std::size_t i) {
-  return {discs.x[i], discs.y[i], discs.in_space ? discs.z[i] : 0};
-}
-
 /// Coincident centres have the normal that the kernels give them.
 Vector direction(const Vector& apart) {
   const double distance = apart.norm();
@@ -67,7 +63,7 @@ void ForceField::add_contacts(const Grains& discs, const PairList& pairs, Contac
   if (!in_space) at = across ? across_boundary(discs, image.x) : motion_of(discs);
   for (std::size_t k = 0; k < pairs.size(); ++k) {
     const std::size_t i = static_cast<std::size_t>(pairs.grain[k]), j = static_cast<std::size_t>(pairs.partner[k]);
-    const Vector to = place_of(discs, j), from = place_of(discs, i) + Vector(image.x, 0, image.z);
+    const Vector to = discs.place(j), from = discs.place(i) + Vector(image.x, 0, image.z);
     const double overlap = discs.kind(i).radius + discs.kind(j).radius - (to - from).norm();
     if (!(overlap > 0)) continue;
     const Vector force = in_space ? force_of_pair_in_space(discs, at_in_space, pairs, histories, k)
@@ -82,7 +78,7 @@ void ForceField::add_wall_contacts(const Grains& discs, std::vector<GrainContact
   wall_kernel_(surfaces_of(discs), motion_of(discs), model_.contacts, {}, state_.contacts.wall_histories, w);
   for (std::size_t k = 0; k < static_cast<std::size_t>(w.count); ++k) {
     const std::size_t i = static_cast<std::size_t>(w.grain[k]);
-    const Vector from = place_of(discs, i), apart(w.dx[k], w.dy[k], 0);
+    const Vector from = discs.place(i), apart(w.dx[k], w.dy[k], 0);
     const Vector normal = w.distance2[k] > 0 ? direction(apart) : Vector(w.normal_x[k], w.normal_y[k], 0);
     contacts.push_back(contact_of(id_of_disc(discs, i), -1, from, from + apart, normal, Vector(-w.fx[k], -w.fy[k], 0),
                                   discs.kind(i).radius - apart.norm()));
@@ -95,7 +91,7 @@ void ForceField::add_face_contacts(const Grains& balls, std::vector<GrainContact
                      w);
   for (std::size_t k = 0; k < static_cast<std::size_t>(w.count); ++k) {
     const std::size_t i = static_cast<std::size_t>(w.grain[k]);
-    const Vector from = place_of(balls, i), normal(w.normal.x[k], w.normal.y[k], w.normal.z[k]);
+    const Vector from = balls.place(i), normal(w.normal.x[k], w.normal.y[k], w.normal.z[k]);
     contacts.push_back(contact_of(id_of_disc(balls, i), -1, from, from + w.distance[k] * normal, normal,
                                   {w.force.x[k], w.force.y[k], w.force.z[k]}, balls.kind(i).radius - w.distance[k]));
   }

@@ -83,10 +83,7 @@ double speed2(const Grains& g, std::size_t i) {
 /// Of a grain towards what it is in, at most, m/s; of a wall any vessel's.
 double speed_into(const Integration& s, const DeepestContact& contact) {
   const Grains& g = s.grains;
-  const auto velocity = [&g](int k) {
-    const std::size_t i = static_cast<std::size_t>(k);
-    return Eigen::Vector3d(g.vx[i], g.vy[i], g.in_space ? g.vz[i] : 0);
-  };
+  const auto velocity = [&g](int k) { return g.velocity(static_cast<std::size_t>(k)); };
   if (contact.partner >= 0) return (velocity(contact.grain) - velocity(contact.partner)).norm();
   double most = 0;
   for (std::size_t v = 0; v < s.model.vessels.size(); ++v) {
@@ -110,8 +107,7 @@ double whole_impact(const LawTraits& law, const DeepestContact& contact, double 
 std::size_t worst(const Grains& g) {
   std::size_t fastest = 0;
   for (std::size_t i = 0; i < g.size(); ++i) {
-    const double across = g.in_space ? g.z[i] : 0;
-    if (!std::isfinite(mechanical_energy(g, i, Eigen::Vector2d::Zero()) + g.x[i] + g.y[i] + across)) return i;
+    if (!std::isfinite(mechanical_energy(g, i, Eigen::Vector2d::Zero()) + g.place(i).sum())) return i;
     if (speed2(g, i) > speed2(g, fastest)) fastest = i;
   }
   return fastest;

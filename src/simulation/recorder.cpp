@@ -85,7 +85,7 @@ void Recorder::note_new(const Grains& grains) {
     const auto id = static_cast<std::size_t>(grains.id[i]);
     if (id < known) continue;
     state_.start.resize(std::max(state_.start.size(), id + 1));
-    state_.start[id] = {grains.x[i], grains.y[i], grains.in_space ? grains.z[i] : 0.0};
+    state_.start[id] = grains.place(i);
   }
 }
 

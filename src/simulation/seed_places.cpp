@@ -15,12 +15,6 @@
 namespace vibrosow {
 namespace {
 
-constexpr double most_overlap = 1e-9;  // of a seed's radius, when it is put in
-
-Eigen::Vector3d centre_of(const Grains& grains, std::size_t i) {
-  return {grains.x[i], grains.y[i], grains.in_space ? grains.z[i] : 0.0};
-}
-
 Turn turn_of(const Grains& grains, std::size_t i) {
   Turn turn;
   if (!grains.oriented) return turn;
@@ -71,7 +65,7 @@ double SeedPlaces::depth_in_walls(const Eigen::Vector3d& at, double radius, cons
 
 /// From a place to a grain, or the nearest of its images, m.
 Eigen::Vector3d SeedPlaces::apart(const Grains& grains, std::size_t i, const Eigen::Vector3d& at) const {
-  Eigen::Vector3d apart = centre_of(grains, i) - at;
+  Eigen::Vector3d apart = grains.place(i) - at;
   if (along_ > 0) apart.x() = std::remainder(apart.x(), along_);
   if (across_ > 0) apart.z() = std::remainder(apart.z(), across_);
   return apart;
@@ -92,7 +86,7 @@ std::vector<ClumpDisc> SeedPlaces::balls_of(const Grains& grains, std::size_t i)
 }
 
 std::optional<std::string> SeedPlaces::overlapped_grain(const Grains& grains, std::size_t i) const {
-  const Eigen::Vector3d at = centre_of(grains, i);
+  const Eigen::Vector3d at = grains.place(i);
   const double radius = grains.kind(i).radius;
   const std::vector<ClumpDisc> balls = balls_of(grains, i);
   for (std::size_t j = 0; j < grains.size(); ++j) {
@@ -101,7 +95,7 @@ std::optional<std::string> SeedPlaces::overlapped_grain(const Grains& grains, st
     for (const ClumpDisc& other : balls_of(grains, j))
       for (const ClumpDisc& ball : balls) {
         const double overlap = ball.radius + other.radius - (between + arm(other) - arm(ball)).norm();
-        if (overlap > most_overlap * ball.radius)
+        if (overlap > most_placing_overlap * ball.radius)
           return fmt::format("lies {:.3g} of its radius deep in grain {}", overlap / ball.radius, grains.id[j]);
       }
   }
@@ -111,15 +105,15 @@ std::optional<std::string> SeedPlaces::overlapped_grain(const Grains& grains, st
 double SeedPlaces::relative_depth_in_walls(const Grains& grains, std::size_t i, const Walls& walls) const {
   double deepest = -std::numeric_limits<double>::infinity();
   for (const ClumpDisc& ball : balls_of(grains, i))
-    deepest = std::max(deepest, depth_in_walls(centre_of(grains, i) + arm(ball), ball.radius, walls) / ball.radius);
+    deepest = std::max(deepest, depth_in_walls(grains.place(i) + arm(ball), ball.radius, walls) / ball.radius);
   return deepest;
 }
 
 std::optional<std::string> SeedPlaces::fault_among_walls(const Grains& grains, std::size_t i, std::size_t vessel,
                                                          const Walls& walls) const {
   const double depth = relative_depth_in_walls(grains, i, walls);
-  if (depth > most_overlap) return fmt::format("lies {:.3g} of its radius deep in a wall", depth);
-  const Eigen::Vector3d at = centre_of(grains, i) + arm(thickest(balls_of(grains, i)));
+  if (depth > most_placing_overlap) return fmt::format("lies {:.3g} of its radius deep in a wall", depth);
+  const Eigen::Vector3d at = grains.place(i) + arm(thickest(balls_of(grains, i)));
   if (!is_in_room(at, vessel, walls))
     return "lies where no seed comes to from the top of the " + model_.vessels[vessel].name;
   return std::nullopt;

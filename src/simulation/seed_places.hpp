@@ -12,6 +12,9 @@
 
 namespace vibrosow {
 
+/// Of a seed's radius: deeper in nothing when it is put in.
+inline constexpr double most_placing_overlap = 1e-9;
+
 /// Where seeds may be put in while a scene runs, and whether those that were put in lie rightly. A place belongs to a
 /// vessel where its `FreeRoom` holds it, and to no hopper that dips into the vessel.
 class SeedPlaces {

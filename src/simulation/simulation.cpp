@@ -144,7 +144,7 @@ bool Simulation::is_free(std::size_t wall) const {
   const Grains& g = state_.grains;
   for (std::size_t i = 0; i < g.size(); ++i) {
     const double radius = g.kind(i).radius;
-    if (field_.walls().distance2(wall, {g.x[i], g.y[i], g.in_space ? g.z[i] : 0}) < radius * radius) return false;
+    if (field_.walls().distance2(wall, g.place(i)) < radius * radius) return false;
   }
   return true;
 }

@@ -56,7 +56,7 @@ class FillCheck {
     Walls walls(model_.vessels, model_.scene.space);
     const SeedPlaces places(model_);
     const std::optional<DeepestContact> deepest = deepest_contact(state, stop);
-    if (deepest && deepest->relative_overlap > most_overlap) {
+    if (deepest && deepest->relative_overlap > most_placing_overlap) {
       const std::size_t grain = static_cast<std::size_t>(deepest->grain);
       if (is_between_vessels(*deepest, grains)) refuse(deepest->relative_overlap);
       return placing_fault(
@@ -72,7 +72,6 @@ class FillCheck {
   }
 
  private:
-  static constexpr double most_overlap = 1e-9;  // of the radius
   static std::size_t partner_of(const DeepestContact& contact) { return static_cast<std::size_t>(contact.partner); }
 
   /// Pairs are many: the lists of the forces find them.
@@ -89,7 +88,7 @@ class FillCheck {
     if (contact.partner >= 0) return vessel_of_[grain] != vessel_of_[partner_of(contact)];
     if (model_.vessels.size() == 1) return false;
     const Walls own({model_.vessels[vessel_of_[grain]]}, model_.scene.space);
-    return SeedPlaces(model_).relative_depth_in_walls(grains, grain, own) <= most_overlap;
+    return SeedPlaces(model_).relative_depth_in_walls(grains, grain, own) <= most_placing_overlap;
   }
 
   [[noreturn]] void refuse(double overlap) const {
