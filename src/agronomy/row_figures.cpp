@@ -9,13 +9,13 @@
 #include <string>
 
 #include "outflow/flow.hpp"
+#include "scene/si_units.hpp"
 
 namespace vibrosow {
 namespace {
 
 using Value = std::optional<double>;
 
-constexpr double gram = 1e-3;  // kg
 constexpr double percent = 1e-2, millimetre = 1e-3;
 
 /// What the holes of a row, or of several that share them, gave in the window.

@@ -39,7 +39,7 @@ std::vector<std::string> words_of(const OptimiseQuestion& question) {
   return words;
 }
 
-OptimiseQuestion question_in(const StudyPlan& plan) {
+OptimiseQuestion optimise_question_in(const StudyPlan& plan) {
   CLI::App app;
   OptimiseQuestion question;
   add_question_options(app, question);
@@ -47,7 +47,7 @@ OptimiseQuestion question_in(const StudyPlan& plan) {
   return question;
 }
 
-std::string names_of_goals() {
+std::string names_of_front_goals() {
   std::string names;
   for (const FrontGoal& goal : front_goals()) names += fmt::format("{}{}", names.empty() ? "" : ", ", goal.name);
   return names;
@@ -56,7 +56,7 @@ std::string names_of_goals() {
 }  // namespace
 
 void add_question_options(CLI::App& command, OptimiseQuestion& question) {
-  command.add_option("--goals", question.goals, "what makes a layout good: " + names_of_goals())
+  command.add_option("--goals", question.goals, "what makes a layout good: " + names_of_front_goals())
       ->delimiter(',')
       ->type_name("GOAL")
       ->required();
@@ -87,7 +87,7 @@ AskedFront::AskedFront(const std::filesystem::path& file, const std::vector<std:
 
 AskedFront::AskedFront(const StudyPlan& plan)
     : AskedFront(path_of_planned(plan.study), plan.sets, plan.random_seed, SourceFiles::of_plan(plan.files),
-                 question_in(plan)) {
+                 optimise_question_in(plan)) {
   if (!std::ranges::equal(plan.runs, plan_.runs, {}, &PlannedRun::name, &PlannedRun::name))
     throw InputError(
         fmt::format("{}: the plan was made by another version of the program, or of the models shipped with it; "

@@ -8,11 +8,11 @@
 
 #include "scene/clump_shape.hpp"
 #include "scene/input_error.hpp"
+#include "scene/si_units.hpp"
 
 namespace vibrosow {
 namespace {
 
-constexpr double degree = std::numbers::pi / 180;
 constexpr double round_enough = 1.1;                        // aspect ratio up to which a seed is taken for a ball
 constexpr double densest_balls = 0.74, loosest_bed = 0.35;  // packing fractions between which a dry bed of seeds lies
 

@@ -44,8 +44,8 @@ std::vector<std::string> names_of_runs(const Scene& scene, std::uint64_t first_r
 
 /// By layout, then random seed; what each costs by `cost_of`.
 template <class CostOf>
-std::vector<PlannedRun> runs_of(const Study& study, std::uint64_t first_random_seed, const std::vector<int>& replicates,
-                                CostOf cost_of) {
+std::vector<PlannedRun> planned_runs(const Study& study, std::uint64_t first_random_seed,
+                                     const std::vector<int>& replicates, CostOf cost_of) {
   std::vector<PlannedRun> runs;
   for_each_scene(study, [&](const Layout& layout, const Model& model) {
     const double cost = cost_of(model);
@@ -56,16 +56,16 @@ std::vector<PlannedRun> runs_of(const Study& study, std::uint64_t first_random_s
   return runs;
 }
 
-std::vector<PlannedRun> runs_of(const Study& study, std::uint64_t first_random_seed,
-                                const std::vector<int>& replicates) {
-  return runs_of(study, first_random_seed, replicates,
-                 [](const Model& model) { return predicted_grain_steps(model.scene, model.step.dt); });
+std::vector<PlannedRun> planned_runs(const Study& study, std::uint64_t first_random_seed,
+                                     const std::vector<int>& replicates) {
+  return planned_runs(study, first_random_seed, replicates,
+                      [](const Model& model) { return predicted_grain_steps(model.scene, model.step.dt); });
 }
 
 /// Whether the runs of a plan are what this program makes of its study, whatever they cost.
 bool is_of_this_program(const PlannedStudy& planned) {
   const auto runs =
-      runs_of(planned.study, planned.plan.random_seed, replicates_in(planned), [](const Model&) { return 0.0; });
+      planned_runs(planned.study, planned.plan.random_seed, replicates_in(planned), [](const Model&) { return 0.0; });
   return std::ranges::equal(runs, planned.plan.runs, [](const PlannedRun& a, const PlannedRun& b) {
     return a.name == b.name && a.layout == b.layout && a.random_seed == b.random_seed;
   });
@@ -77,8 +77,8 @@ PlannedStudy plan_study(const std::filesystem::path& file, const std::vector<std
                         std::uint64_t first_random_seed, const std::shared_ptr<SourceFiles>& files) {
   PlannedStudy planned{study_in(file, sets, files), {}};
   planned.plan = {name_in_plan(file, file), sets, first_random_seed, files->planned_texts(file),
-                  runs_of(planned.study, first_random_seed,
-                          std::vector<int>(planned.study.scenes.size(), planned.study.replicates.first()))};
+                  planned_runs(planned.study, first_random_seed,
+                               std::vector<int>(planned.study.scenes.size(), planned.study.replicates.first()))};
   return planned;
 }
 
@@ -103,7 +103,7 @@ std::optional<PlannedStudy> next_round(const PlannedStudy& planned, const Simula
       replicates[scene] = runs_to_go_to(rates_of(result.runs[scene]), planned.study.replicates);
   if (replicates == options.replicates) return std::nullopt;
   PlannedStudy next = planned;
-  next.plan.runs = runs_of(planned.study, planned.plan.random_seed, replicates);
+  next.plan.runs = planned_runs(planned.study, planned.plan.random_seed, replicates);
   return next;
 }
 

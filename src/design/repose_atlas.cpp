@@ -6,18 +6,16 @@
 #include <array>
 #include <cmath>
 #include <map>
-#include <numbers>
 #include <stdexcept>
 #include <tuple>
 
 #include "input/read_scene.hpp"
 #include "input/source_files.hpp"
 #include "scene/input_error.hpp"
+#include "scene/si_units.hpp"
 
 namespace vibrosow {
 namespace {
-
-constexpr double degree = std::numbers::pi / 180;
 
 MeanAndScatter mean_and_scatter(const std::vector<double>& values) {
   const auto count = static_cast<double>(values.size());

@@ -15,13 +15,12 @@
 #include "input/read_drawing.hpp"
 #include "scene/input_error.hpp"
 #include "scene/printable.hpp"
+#include "scene/si_units.hpp"
 
 namespace vibrosow {
 namespace {
 
 using Point = Eigen::Vector2d;
-
-constexpr double degree = std::numbers::pi / 180;
 
 struct Group {
   int code = 0;

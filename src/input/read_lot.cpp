@@ -12,6 +12,7 @@
 #include "scene/clump_shape.hpp"
 #include "scene/make_clump.hpp"
 #include "scene/seed_lot.hpp"
+#include "scene/si_units.hpp"
 
 namespace vibrosow {
 namespace {
@@ -279,7 +280,6 @@ double read_thousand_grain_weight(Table& seeds) {
 }
 
 BulkProperties read_bulk_properties(Table& seeds) {
-  constexpr double degree = std::numbers::pi / 180;
   return {seeds.quantity("bulk_density", Dimension::bulk_density, 1, 3e4),
           seeds.quantity("angle_of_repose", Dimension::angle, 1 * degree, 89 * degree),
           seeds.quantity("moisture", Dimension::fraction, 0, 1)};

@@ -10,11 +10,11 @@
 #include "elementary/functions.hpp"
 #include "input/wording.hpp"
 #include "scene/input_error.hpp"
+#include "scene/si_units.hpp"
 
 namespace vibrosow {
 namespace {
 
-constexpr double degree = std::numbers::pi / 180;
 constexpr std::size_t fewest_rows = 4;  // that the interpolation needs
 // Bounds of a table, beyond any vessel, within which steps and speeds stay finite.
 constexpr double latest = 1e6;                                // s

@@ -13,14 +13,13 @@
 #include "input/drawing_paths.hpp"
 #include "input/read_drawing.hpp"
 #include "scene/input_error.hpp"
+#include "scene/si_units.hpp"
 
 namespace vibrosow {
 namespace {
 
 using Point = Eigen::Vector2d;
 using std::numbers::pi;
-
-constexpr double degree = pi / 180;
 
 /// x' = a x + c y + e, y' = b x + d y + f.
 struct Affine {

@@ -14,14 +14,14 @@
 #include "scene/clump_shape.hpp"
 #include "scene/motion.hpp"
 #include "scene/seed_lot.hpp"
+#include "scene/si_units.hpp"
 #include "scene/spaces.hpp"
 #include "vessel/vessel_walls.hpp"
 
 namespace vibrosow {
 namespace {
 
-constexpr double degree = std::numbers::pi / 180;
-constexpr double rounding = 1e-9;  // of a seed's thickness, forgiven
+constexpr double thickness_rounding = 1e-9;  // of a seed's thickness, forgiven
 
 Fill read_fill(Table table) {
   Fill fill;
@@ -190,7 +190,7 @@ Rain read_rain(Table table, const Vessel& vessel) {
 
 void check_depth(const Table& table, const Vessel& vessel, const std::vector<SeedLot>& lots) {
   for (const SeedLot& lot : lots)
-    if (vessel.depth && *vessel.depth < mean_thickness(lot) * (1 - rounding))
+    if (vessel.depth && *vessel.depth < mean_thickness(lot) * (1 - thickness_rounding))
       table.fail("depth", fmt::format("{} is less than one seed of {}, which is {} thick", millimetres(*vessel.depth),
                                       lot.name, millimetres(mean_thickness(lot))));
 }
@@ -227,7 +227,7 @@ void check_periodic_across(const Table& table, const Vessel& vessel, const Vesse
     if (periodic && (!of_tray || *vessel.depth != *tray->depth || vessel.front != 0))
       table.fail("front_and_back",
                  "a hopper is periodic across only with its tray, as deep as that and in front of it");
-    const double slack = rounding * *tray->depth;
+    const double slack = thickness_rounding * *tray->depth;
     if (of_tray && !periodic && (vessel.front < 0 || vessel.front + *vessel.depth > *tray->depth + slack))
       table.fail("depth", "the hopper does not lie within the depth of the periodic tray");
     return;
@@ -264,14 +264,14 @@ void check_funnel(const Table& table, const Vessel& vessel, Space space) {
   if (vessel.holes.empty()) table.fail("funnel", "needs holes for the floor to slope to");
   if (space == Space::plane) return;
   const Hole& hole = vessel.holes.front();
-  const double middle = vessel.length / 2, slack = rounding * vessel.length;
+  const double middle = vessel.length / 2, slack = thickness_rounding * vessel.length;
   if (vessel.plan == Plan::round) {
     if (vessel.holes.size() > 1 || std::abs(hole.centre - middle) > slack || std::abs(hole.across - middle) > slack)
       table.fail("funnel", "a round vessel's funnel has one hole, in the middle");
     return;
   }
   const bool from_front_to_back = std::ranges::all_of(vessel.holes, [&](const Hole& one) {
-    return one.shape == HoleShape::slot && one.across_length >= *vessel.depth * (1 - rounding);
+    return one.shape == HoleShape::slot && one.across_length >= *vessel.depth * (1 - thickness_rounding);
   });
   if (!from_front_to_back)
     table.fail("funnel", "needs slots from front to back, or plan = \"round\" with a round hole in the middle");

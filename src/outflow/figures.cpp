@@ -6,12 +6,13 @@
 #include <stdexcept>
 #include <string>
 
+#include "scene/si_units.hpp"
+
 namespace vibrosow {
 namespace {
 
 using Value = std::optional<double>;
 
-constexpr double gram = 1e-3;  // kg
 constexpr double percent = 1e-2;
 
 const HoleOutflow& whole(const Outflow& outflow) {

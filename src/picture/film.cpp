@@ -19,11 +19,11 @@ std::uint8_t as_byte(double part) {
 }
 
 /// The library knows of no error here but that memory runs out.
-void check(int result) {
+void check_gif(int result) {
   if (result != GIF_OK) throw std::bad_alloc();
 }
 
-int append_bytes(GifFileType* gif, const GifByteType* bytes, int count) {
+int append_gif_bytes(GifFileType* gif, const GifByteType* bytes, int count) {
   static_cast<std::string*>(gif->UserData)
       ->append(reinterpret_cast<const char*>(bytes), static_cast<std::size_t>(count));
   return count;
@@ -58,12 +58,12 @@ struct Film::Encoder {
                                                                            &GifFreeMapObject);
     if (!map) throw std::bad_alloc();
     EGifSetGifVersion(gif, true);
-    check(EGifPutScreenDesc(gif, width, height, 8, 0, map.get()));
+    check_gif(EGifPutScreenDesc(gif, width, height, 8, 0, map.get()));
     const GifByteType for_ever[] = {1, 0, 0};
-    check(EGifPutExtensionLeader(gif, APPLICATION_EXT_FUNC_CODE));
-    check(EGifPutExtensionBlock(gif, 11, "NETSCAPE2.0"));
-    check(EGifPutExtensionBlock(gif, 3, for_ever));
-    check(EGifPutExtensionTrailer(gif));
+    check_gif(EGifPutExtensionLeader(gif, APPLICATION_EXT_FUNC_CODE));
+    check_gif(EGifPutExtensionBlock(gif, 11, "NETSCAPE2.0"));
+    check_gif(EGifPutExtensionBlock(gif, 3, for_ever));
+    check_gif(EGifPutExtensionTrailer(gif));
   }
 };
 
@@ -74,7 +74,7 @@ Film::Film(int width, int height, const std::vector<Colour>& palette)
     encoder_->palette[k] = {as_byte(colour.red), as_byte(colour.green), as_byte(colour.blue)};
   }
   int error = 0;
-  encoder_->gif = EGifOpen(&encoder_->bytes, append_bytes, &error);
+  encoder_->gif = EGifOpen(&encoder_->bytes, append_gif_bytes, &error);
   if (!encoder_->gif) {
     delete encoder_;
     throw std::bad_alloc();
@@ -100,16 +100,16 @@ void Film::add(const Pixels& picture, int hundredths) {
                                      e.last.empty() ? NO_TRANSPARENT_COLOR : unchanged};
   GifByteType extension[4];
   const auto size = static_cast<int>(EGifGCBToExtension(&control, extension));
-  check(EGifPutExtension(e.gif, GRAPHICS_EXT_FUNC_CODE, size, extension));
-  check(EGifPutImageDesc(e.gif, 0, 0, e.width, e.height, false, nullptr));
+  check_gif(EGifPutExtension(e.gif, GRAPHICS_EXT_FUNC_CODE, size, extension));
+  check_gif(EGifPutImageDesc(e.gif, 0, 0, e.width, e.height, false, nullptr));
   for (int row = 0; row < e.height; ++row)
-    check(EGifPutLine(e.gif, shown.data() + std::ptrdiff_t{row} * e.width, e.width));
+    check_gif(EGifPutLine(e.gif, shown.data() + std::ptrdiff_t{row} * e.width, e.width));
   e.last = std::move(now);
 }
 
 std::string Film::file() {
   int error = 0;
-  check(EGifCloseFile(std::exchange(encoder_->gif, nullptr), &error));
+  check_gif(EGifCloseFile(std::exchange(encoder_->gif, nullptr), &error));
   return std::move(encoder_->bytes);
 }
 

@@ -7,6 +7,7 @@
 #include <new>
 #include <numbers>
 
+#include "picture/cairo_bytes.hpp"
 #include "picture/escaped_text.hpp"
 
 namespace vibrosow {
@@ -14,23 +15,13 @@ namespace {
 
 constexpr double dash = 3, gap = 2.5;  // of a line's width
 
-/// With sizes of a picture that was made, the library knows of no error but that memory runs out.
-void check(cairo_status_t status) {
-  if (status != CAIRO_STATUS_SUCCESS) throw std::bad_alloc();
-}
-
-cairo_status_t append_bytes(void* bytes, const unsigned char* data, unsigned int length) {
-  static_cast<std::string*>(bytes)->append(reinterpret_cast<const char*>(data), length);
-  return CAIRO_STATUS_SUCCESS;
-}
-
 /// A sheet of cairo's.
 class Sheet {
  public:
   Sheet(int width, int height)
       : surface_(cairo_image_surface_create(CAIRO_FORMAT_RGB24, width, height), &cairo_surface_destroy),
         to_(cairo_create(surface_.get()), &cairo_destroy) {
-    check(cairo_status(to_.get()));
+    check_cairo(cairo_status(to_.get()));
   }
   cairo_surface_t* surface() const { return surface_.get(); }
   cairo_t* to() const { return to_.get(); }
@@ -49,7 +40,7 @@ void set_font(cairo_t* to, double size, bool is_bold) {
 double advance(cairo_t* to, const std::string& text) {
   cairo_text_extents_t size;
   cairo_text_extents(to, text.c_str(), &size);
-  check(cairo_status(to));
+  check_cairo(cairo_status(to));
   return size.x_advance;
 }
 
@@ -98,9 +89,9 @@ class PngPen : public Pen {
   }
 
   std::string file() override {
-    check(cairo_status(to()));
+    check_cairo(cairo_status(to()));
     std::string bytes;
-    check(cairo_surface_write_to_png_stream(sheet_.surface(), append_bytes, &bytes));
+    check_cairo(cairo_surface_write_to_png_stream(sheet_.surface(), append_bytes, &bytes));
     return bytes;
   }
 

@@ -12,6 +12,7 @@
 #include <numeric>
 
 #include "grains/turned_discs.hpp"
+#include "picture/cairo_bytes.hpp"
 #include "picture/film.hpp"
 #include "scene/spaces.hpp"
 #include "vessel/vessel_motion.hpp"
@@ -51,16 +52,6 @@ double round_length(double value) {
   for (const double factor : {5.0, 2.0})
     if (factor * power <= value) return factor * power;
   return power;
-}
-
-cairo_status_t append_bytes(void* bytes, const unsigned char* data, unsigned int length) {
-  static_cast<std::string*>(bytes)->append(reinterpret_cast<const char*>(data), length);
-  return CAIRO_STATUS_SUCCESS;
-}
-
-/// With sizes of a picture that was made, the library knows of no error but that memory runs out.
-void check(cairo_status_t status) {
-  if (status != CAIRO_STATUS_SUCCESS) throw std::bad_alloc();
 }
 
 }  // namespace
@@ -290,7 +281,7 @@ void Picture::draw(cairo_t* to, const Frame& frame) const {
   draw_walls(to, frame.bed.time);
   draw_words(to, frame.bed.time);
   draw_key(to);
-  check(cairo_status(to));
+  check_cairo(cairo_status(to));
 }
 
 std::string Picture::png(const Frame& frame) const {
@@ -298,7 +289,7 @@ std::string Picture::png(const Frame& frame) const {
   const Context context(cairo_create(surface.get()), &cairo_destroy);
   draw(context.get(), frame);
   std::string bytes;
-  check(cairo_surface_write_to_png_stream(surface.get(), append_bytes, &bytes));
+  check_cairo(cairo_surface_write_to_png_stream(surface.get(), append_bytes, &bytes));
   return bytes;
 }
 
@@ -312,7 +303,7 @@ std::string Picture::svg(const Frame& frame) const {
     draw(context.get(), frame);
   }
   cairo_surface_finish(surface.get());
-  check(cairo_surface_status(surface.get()));
+  check_cairo(cairo_surface_status(surface.get()));
   return bytes;
 }
 

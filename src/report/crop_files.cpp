@@ -3,17 +3,16 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <numbers>
 #include <string_view>
 #include <utility>
 #include <vector>
 
 #include "report/terminal_text.hpp"
+#include "scene/si_units.hpp"
 
 namespace vibrosow {
 namespace {
 
-constexpr double degree = std::numbers::pi / 180;
 constexpr double little_learnt = 0.3;  // contraction
 constexpr double hardly_apart = 0.7;   // correlation
 constexpr const char* measured = "measured by the user";

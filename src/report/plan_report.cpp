@@ -11,14 +11,13 @@
 #include "agronomy/sowing_rate.hpp"
 #include "input/toml_value.hpp"
 #include "report/terminal_text.hpp"
+#include "scene/si_units.hpp"
 
 namespace vibrosow {
 namespace {
 
-constexpr double gram = 1e-3, milligram = 1e-6;  // kg
-constexpr double millimetre = 1e-3;              // m
 constexpr Unit kilometres_per_hour{"km/h", kilometre_per_hour}, hertz{"Hz", 1};
-constexpr std::size_t most_rows = 12;  // of the table on a screen
+constexpr std::size_t most_printed_rows = 12;  // of the table on a screen
 
 /// What the table of one hole was simulated with: seeders/one-hole.toml, which a test compares.
 constexpr struct {
@@ -226,7 +225,7 @@ std::vector<const PlannedLayout*> shown_layouts(const SowingPlan& plan) {
       return other->feed.holes == layout.feed.holes && other->feed.rows == layout.feed.rows &&
              other->depth_over_d == layout.depth_over_d;
     };
-    if (std::ranges::none_of(shown, alike) && shown.size() < most_rows) shown.push_back(&layout);
+    if (std::ranges::none_of(shown, alike) && shown.size() < most_printed_rows) shown.push_back(&layout);
   }
   return shown;
 }

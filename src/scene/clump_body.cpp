@@ -13,7 +13,7 @@
 namespace vibrosow {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 Eigen::Vector3d centre_of(const ClumpDisc& ball) {
   return {ball.x, ball.y, ball.z};

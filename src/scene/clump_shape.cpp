@@ -14,7 +14,7 @@
 namespace vibrosow {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 /// Integral over an arc of f(x, y, dx/dt, dy/dt).
 template <class Integrand>

@@ -10,7 +10,7 @@
 namespace vibrosow {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 /// The part of disc i's rim inside disc j, as an arc about `middle`; nothing when the rims do not cross. Of equal discs
 /// the first counts.

@@ -4,14 +4,11 @@
 #include <boost/math/special_functions/polygamma.hpp>
 #include <boost/math/special_functions/trigamma.hpp>
 #include <cmath>
-#include <limits>
 
 #include "distributions/distributions.hpp"
 
 namespace vibrosow {
 namespace {
-
-constexpr double endless = std::numeric_limits<double>::infinity();
 
 /// Smyth 2004, appendix: Newton's method on 1 / trigamma, which is nearly linear.
 double inverse_trigamma(double wanted) {
@@ -38,7 +35,7 @@ VariancePrior variance_prior(const std::vector<double>& variances, double degree
     if (variance > 0) logarithms.add(std::log(variance) - digamma(half) + std::log(half));
   if (logarithms.count() < 3) return {};
   const double beyond_chance = logarithms.variance() - trigamma(half);
-  if (beyond_chance <= 0) return {endless, std::exp(logarithms.mean())};
+  if (beyond_chance <= 0) return {HUGE_VAL, std::exp(logarithms.mean())};
   const double half_prior = inverse_trigamma(beyond_chance);
   return {2 * half_prior, std::exp(logarithms.mean() + digamma(half_prior) - std::log(half_prior))};
 }

@@ -17,8 +17,9 @@ namespace vibrosow {
 namespace {
 
 namespace fs = std::filesystem;
-constexpr std::string_view signature = "vibrosow segment 1 ";
-constexpr std::size_t hash_digits = 16, head_size = signature.size() + hash_digits + 1, bytes_of_place = 32;
+constexpr std::string_view segment_signature = "vibrosow segment 1 ";
+constexpr std::size_t segment_hash_digits = 16, segment_head_size = segment_signature.size() + segment_hash_digits + 1,
+                      bytes_of_place = 32;
 
 std::uint64_t number_of(std::string_view digits) {
   std::uint64_t number = 0;
@@ -37,7 +38,8 @@ std::uint64_t number_at(const std::string& bytes, std::size_t at) {
 }
 
 std::string head_of(const std::string& numbers) {
-  return fmt::format("{}{:0{}x}\n", signature, XXH3_64bits(numbers.data(), numbers.size()), hash_digits);
+  return fmt::format("{}{:0{}x}\n", segment_signature, XXH3_64bits(numbers.data(), numbers.size()),
+                     segment_hash_digits);
 }
 
 /// The numbers of a segment, the count of its cases before; none where it is damaged.
@@ -45,8 +47,8 @@ std::optional<std::string> numbers_of(const fs::path& file) {
   std::error_code error;
   const std::uint64_t size = fs::file_size(file, error);
   std::ifstream in(file, std::ios::binary);
-  std::string head(head_size, '\0'), numbers(8, '\0');
-  if (error || !in.read(head.data(), head_size) || !in.read(numbers.data(), 8)) return std::nullopt;
+  std::string head(segment_head_size, '\0'), numbers(8, '\0');
+  if (error || !in.read(head.data(), segment_head_size) || !in.read(numbers.data(), 8)) return std::nullopt;
   const std::uint64_t count = number_at(numbers, 0);
   if (count > size / bytes_of_place) return std::nullopt;
   numbers.resize(8 + count * bytes_of_place);
@@ -105,7 +107,7 @@ std::vector<std::string> Segments::names() const {
 void Segments::write(const std::map<std::string, std::string>& cases) const {
   std::string numbers, content, all_names;
   add_number(numbers, cases.size());
-  std::uint64_t at = head_size + 8 + cases.size() * bytes_of_place;
+  std::uint64_t at = segment_head_size + 8 + cases.size() * bytes_of_place;
   for (const auto& [name, bytes] : cases) {
     for (const std::uint64_t number :
          {number_of(name.substr(0, 16)), number_of(name.substr(16)), at, std::uint64_t{bytes.size()}})

@@ -19,9 +19,9 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 constexpr int most_rounds = 8;
-constexpr double wanted_share = 0.1;  // of the points, effective
-constexpr double negligible = 14;     // below the largest logarithm of a likelihood; 1e-6 of it
-constexpr double margin = 0.1;        // about the box of points that weigh, of its width
+constexpr double wanted_share = 0.1;    // of the points, effective
+constexpr double negligible_drop = 14;  // below the largest logarithm of a likelihood; 1e-6 of it
+constexpr double margin = 0.1;          // about the box of points that weigh, of its width
 
 /// What the likelihood of a shift needs of a point: with S the covariance and r the residuals, 1'S^-1 1, 1'S^-1 r and
 /// r'S^-1 r of the shifted values, the last of the others, and the logarithm of the determinant.
@@ -88,7 +88,7 @@ Box box_of_weighty(const MatrixXd& points, const VectorXd& logarithms) {
   Box box{VectorXd::Ones(points.cols()), VectorXd::Zero(points.cols())};
   const double most = logarithms.maxCoeff();
   for (Index i = 0; i < points.rows(); ++i) {
-    if (logarithms(i) < most - negligible) continue;
+    if (logarithms(i) < most - negligible_drop) continue;
     box.low = box.low.cwiseMin(points.row(i).transpose());
     box.high = box.high.cwiseMax(points.row(i).transpose());
   }

@@ -16,7 +16,7 @@ constexpr std::array scales = {0.3, 1.0, 3.0, 10.0, 30.0};  // variance of the p
 constexpr std::size_t first_length = 3, first_scale = 1;
 constexpr int most_passes = 5;
 constexpr double enough_more = 1.1;   // values, over those of the last search for a shape
-constexpr double least_noise = 1e-6;  // over the values' variance: what keeps the matrix regular
+constexpr double least_ridge = 1e-6;  // over the values' variance: what keeps the matrix regular
 
 }  // namespace
 
@@ -42,7 +42,7 @@ double SmoothFit::log_likelihood() {
     values(i) = one.value - middle_;
     for (Eigen::Index j = 0; j <= i; ++j)
       matrix(i, j) = covariance(one.place, seen_[static_cast<std::size_t>(j)].place);
-    matrix(i, i) += one.variance + least_noise * spread_;
+    matrix(i, i) += one.variance + least_ridge * spread_;
   }
   factors_.compute(matrix);  // of the lower half
   weights_ = factors_.solve(values);

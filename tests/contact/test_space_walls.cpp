@@ -8,7 +8,7 @@
 #include "contact/space_wall_contacts.hpp"
 #include "vessel/walls.hpp"
 
-namespace vibrosow {
+namespace vibrosow::space_walls_test {
 namespace {
 
 constexpr double radius = 2e-3;
@@ -143,4 +143,4 @@ TEST(SpaceWalls, ARoundVesselsFloorEndsAtItsWall) {
 }
 
 }  // namespace
-}  // namespace vibrosow
+}  // namespace vibrosow::space_walls_test

@@ -9,7 +9,7 @@
 #include "input/read_scene.hpp"
 #include "study_files.hpp"
 
-namespace vibrosow {
+namespace vibrosow::accuracy_settings_test {
 namespace {
 
 using testing::DoubleNear;
@@ -119,4 +119,4 @@ TEST(AccuracySettings, ALongerWindowBeginsWithTheScenes) {
 }
 
 }  // namespace
-}  // namespace vibrosow
+}  // namespace vibrosow::accuracy_settings_test

@@ -19,7 +19,7 @@
 #include "study_files.hpp"
 #include "surrogate/curve_surrogate.hpp"
 
-namespace vibrosow {
+namespace vibrosow::calibration_test {
 namespace {
 
 using testing::HasSubstr;
@@ -489,4 +489,4 @@ measure_from = "2 s"
 }
 
 }  // namespace
-}  // namespace vibrosow
+}  // namespace vibrosow::calibration_test

@@ -8,7 +8,7 @@
 #include "input/read_scene.hpp"
 #include "study_files.hpp"
 
-namespace vibrosow {
+namespace vibrosow::depth_error_test {
 namespace {
 
 SweepOptions one_job() {
@@ -58,4 +58,4 @@ TEST(DepthError, NeedsTwoRuns) {
 }
 
 }  // namespace
-}  // namespace vibrosow
+}  // namespace vibrosow::depth_error_test

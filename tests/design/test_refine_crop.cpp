@@ -10,7 +10,7 @@
 #include "made_up_atlas.hpp"
 #include "scene/input_error.hpp"
 
-namespace vibrosow {
+namespace vibrosow::refine_crop_test {
 namespace {
 
 using testing::HasSubstr;
@@ -107,4 +107,4 @@ TEST(RefineCrop, RunsThatFailedOrCloggedDoNotCount) {
 }
 
 }  // namespace
-}  // namespace vibrosow
+}  // namespace vibrosow::refine_crop_test

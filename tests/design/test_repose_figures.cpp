@@ -8,7 +8,7 @@
 
 #include "../fields/made_up_bed.hpp"
 
-namespace vibrosow {
+namespace vibrosow::repose_figures_test {
 namespace {
 
 constexpr double degree = std::numbers::pi / 180;
@@ -72,4 +72,4 @@ TEST(AspectRatio, IsLengthOverWidth) {
 }
 
 }  // namespace
-}  // namespace vibrosow
+}  // namespace vibrosow::repose_figures_test

@@ -6,7 +6,7 @@
 
 #include "fields/made_up_bed.hpp"
 
-namespace vibrosow {
+namespace vibrosow::segregation_test {
 namespace {
 
 const Vessel tray = made_up_tray(0.5);
@@ -86,4 +86,4 @@ TEST(SegregationIndex, NoneForALotAlone) {
 }
 
 }  // namespace
-}  // namespace vibrosow
+}  // namespace vibrosow::segregation_test

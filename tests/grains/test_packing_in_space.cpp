@@ -11,7 +11,7 @@
 #include "scene/seed_lot.hpp"
 #include "support/solid_lots.hpp"
 
-namespace vibrosow {
+namespace vibrosow::packing_in_space_test {
 namespace {
 
 constexpr double diameter = 4e-3;
@@ -260,4 +260,4 @@ TEST(PackingInSpace, WheatLiesLowerThanTheBallsThatHoldIt) {
 }
 
 }  // namespace
-}  // namespace vibrosow
+}  // namespace vibrosow::packing_in_space_test

@@ -13,7 +13,7 @@
 
 #include "scene/seed_lot.hpp"
 
-namespace vibrosow {
+namespace vibrosow::size_distribution_test {
 namespace {
 
 using Kind = SizeDistribution::Kind;
@@ -134,4 +134,4 @@ TEST(DrawnOrientations, PreferNoWay) {
 }
 
 }  // namespace
-}  // namespace vibrosow
+}  // namespace vibrosow::size_distribution_test

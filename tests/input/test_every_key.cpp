@@ -14,7 +14,7 @@
 #include "scene/input_error.hpp"
 #include "temporary_file.hpp"
 
-namespace vibrosow {
+namespace vibrosow::every_key_test {
 namespace {
 
 using testing::AllOf;
@@ -479,4 +479,4 @@ TEST_F(EveryKey, ARoundTraysMiddleSliceHoldsMoreThanTheMeanOne) {
 }
 
 }  // namespace
-}  // namespace vibrosow
+}  // namespace vibrosow::every_key_test

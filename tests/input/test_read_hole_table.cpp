@@ -11,7 +11,7 @@
 #include "input/source_files.hpp"
 #include "scene/input_error.hpp"
 
-namespace vibrosow {
+namespace vibrosow::read_hole_table_test {
 namespace {
 
 using testing::HasSubstr;
@@ -123,4 +123,4 @@ TEST(ShippedHoleTable, FasterShakingGivesLessAboveSomeSpeed) {
 }
 
 }  // namespace
-}  // namespace vibrosow
+}  // namespace vibrosow::read_hole_table_test

@@ -10,7 +10,7 @@
 #include "scene/motion.hpp"
 #include "temporary_file.hpp"
 
-namespace vibrosow {
+namespace vibrosow::read_motion_test {
 namespace {
 
 using testing::HasSubstr;
@@ -141,4 +141,4 @@ TEST(ReadMotion, WrongTablesAreRefusedWithLineAndColumn) {
 }
 
 }  // namespace
-}  // namespace vibrosow
+}  // namespace vibrosow::read_motion_test

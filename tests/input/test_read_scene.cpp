@@ -12,7 +12,7 @@
 #include "scene/input_error.hpp"
 #include "temporary_file.hpp"
 
-namespace vibrosow {
+namespace vibrosow::read_scene_test {
 namespace {
 
 constexpr const char* full_example = R"(
@@ -384,4 +384,4 @@ TEST(ReadScene, RowOfHolesEqualsTheSameHolesByPosition) {
 }
 
 }  // namespace
-}  // namespace vibrosow
+}  // namespace vibrosow::read_scene_test

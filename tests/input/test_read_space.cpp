@@ -8,7 +8,7 @@
 #include "scene/input_error.hpp"
 #include "temporary_file.hpp"
 
-namespace vibrosow {
+namespace vibrosow::read_space_test {
 namespace {
 
 using testing::HasSubstr;
@@ -245,4 +245,4 @@ TEST(ReadSpace, WhatCannotBeMeantIsRefused) {
 }
 
 }  // namespace
-}  // namespace vibrosow
+}  // namespace vibrosow::read_space_test

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace vibrosow {
+namespace vibrosow::clump_shape_test {
 namespace {
 
 constexpr double pi = std::numbers::pi;
@@ -284,4 +284,4 @@ TEST(SideContacts, OfADiscADipoleAndARow) {
 }
 
 }  // namespace
-}  // namespace vibrosow
+}  // namespace vibrosow::clump_shape_test

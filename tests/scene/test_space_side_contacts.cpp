@@ -8,7 +8,7 @@
 #include "scene/clump_body.hpp"
 #include "scene/cross_product.hpp"
 
-namespace vibrosow {
+namespace vibrosow::space_side_contacts_test {
 namespace {
 
 constexpr double pi = std::numbers::pi;
@@ -88,4 +88,4 @@ TEST(SpaceSideContacts, NoDirectionYieldsMoreThanATip) {
 }
 
 }  // namespace
-}  // namespace vibrosow
+}  // namespace vibrosow::space_side_contacts_test

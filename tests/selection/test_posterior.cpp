@@ -10,7 +10,7 @@
 #include "selection/guaranteed.hpp"
 #include "selection/made_up_systems.hpp"
 
-namespace vibrosow {
+namespace vibrosow::posterior_test {
 namespace {
 
 Question question_of(std::size_t systems) {
@@ -237,4 +237,4 @@ TEST(Posterior, RefusesASingleSystem) {
 }
 
 }  // namespace
-}  // namespace vibrosow
+}  // namespace vibrosow::posterior_test

@@ -8,7 +8,7 @@
 
 #include "support/bench.hpp"
 
-namespace vibrosow {
+namespace vibrosow::coinciding_walls_test {
 namespace {
 
 constexpr double full_turn = 2 * Bench::pi, tolerance = 1e-3 * Bench::radius;
@@ -223,4 +223,4 @@ TEST_P(CoincidingWalls, AreAlikeInAMirror) {
 }
 
 }  // namespace
-}  // namespace vibrosow
+}  // namespace vibrosow::coinciding_walls_test

@@ -11,7 +11,7 @@
 #include "support/same_bits.hpp"
 #include "vessel/vessel_faces.hpp"
 
-namespace vibrosow {
+namespace vibrosow::turning_test {
 namespace {
 
 constexpr double pi = std::numbers::pi;
@@ -41,7 +41,7 @@ struct Ball {
   Eigen::Vector3d at, velocity = Eigen::Vector3d::Zero(), spin = Eigen::Vector3d::Zero();
 };
 
-SimulationState start_of(const Model& model, const std::vector<Ball>& balls) {
+SimulationState start_with(const Model& model, const std::vector<Ball>& balls) {
   Grains grains = no_grains(model);
   for (const Ball& ball : balls) {
     if (grains.in_space)
@@ -77,9 +77,10 @@ class InADrum : public testing::TestWithParam<Space> {
     const Model model = prepare_to_run(scene);
     const double arm = drum_radius - radius * (1 - 1e-4 * std::cos(angle));  // pressed in by its weight
     Simulation run(
-        model, start_of(model, {{{drum_radius + arm * std::sin(angle), drum_radius - arm * std::cos(angle), depth / 2},
-                                 {0, 0, 0},
-                                 {0, 0, spin}}}));
+        model,
+        start_with(model, {{{drum_radius + arm * std::sin(angle), drum_radius - arm * std::cos(angle), depth / 2},
+                            {0, 0, 0},
+                            {0, 0, spin}}}));
     EXPECT_TRUE(run.run_until(1));
     return run.grains();
   }
@@ -122,7 +123,7 @@ TEST_P(InADrum, FasterThanGravityItGoesRoundWithTheWall) {
   Scene scene = drum(GetParam(), velocity / drum_radius);
   scene.contact.rotation = false, scene.contact.wall.friction = 2;
   const Model model = prepare_to_run(scene);
-  Simulation run(model, start_of(model, {{{drum_radius, radius, depth / 2}, {velocity, 0, 0}}}));
+  Simulation run(model, start_with(model, {{{drum_radius, radius, depth / 2}, {velocity, 0, 0}}}));
   EXPECT_TRUE(run.run_until(pi * own_circle / velocity));  // half round: it is at the top
   EXPECT_NEAR(run.grains().y[0], 2 * drum_radius - radius, 2e-5);
   EXPECT_NEAR(run.grains().x[0], drum_radius, 0.02 * drum_radius);
@@ -140,7 +141,7 @@ TEST_P(InADrum, NoSeedIsSpilledHoweverItIsTurned) {
     const Model model = prepare_to_run(scene);
     std::vector<Ball> balls = heap(drum_radius, drum_radius);
     if (GetParam() == Space::plane) std::erase_if(balls, [](const Ball& ball) { return ball.at.z() > 0.005; });
-    Simulation run(model, start_of(model, balls));
+    Simulation run(model, start_with(model, balls));
     EXPECT_TRUE(run.run_until(0.7));
     const vibrosow::Run result = run.result();
     EXPECT_EQ(result.balance.inside, std::ssize(balls));
@@ -155,7 +156,7 @@ TEST_P(InADrum, WhatFallsPastItIsSpilledOnce) {
   Scene scene = drum(GetParam(), 12);
   scene.run.count_below = 1e-3;
   const Model model = prepare_to_run(scene);
-  Simulation run(model, start_of(model, {{{-0.01, 0.03, depth / 2}}, {{drum_radius, radius, depth / 2}}}));
+  Simulation run(model, start_with(model, {{{-0.01, 0.03, depth / 2}}, {{drum_radius, radius, depth / 2}}}));
   EXPECT_TRUE(run.run_until(0.5));
   EXPECT_EQ(run.result().balance.spilled, 1);
   EXPECT_EQ(run.result().balance.inside, 1);
@@ -171,7 +172,7 @@ TEST_P(InADrum, TheWorkOfAPaddleIsAccountedFor) {
   scene.contact.friction_model = FrictionModel::sliding;
   scene.tray.pieces.push_back({{drum_radius, drum_radius}, {2 * drum_radius, drum_radius}});
   const Model model = with_step(prepare(scene), 2e-6);
-  Simulation run(model, start_of(model, {{{drum_radius, radius, 0.003}}, {{drum_radius + 0.005, 0.006, 0.0035}}}));
+  Simulation run(model, start_with(model, {{{drum_radius, radius, 0.003}}, {{drum_radius + 0.005, 0.006, 0.0035}}}));
   const double before = kinetic_energy(run.grains()) + potential_energy(run.grains(), model.gravity);
   EXPECT_TRUE(run.run_until(0.25));
   const vibrosow::Run result = run.result();
@@ -184,7 +185,7 @@ TEST_P(InADrum, ACutRunGoesOnToTheSameBits) {
   const Model model = prepare_to_run(drum(GetParam(), 12));
   std::vector<Ball> balls = heap(drum_radius, drum_radius);
   if (GetParam() == Space::plane) std::erase_if(balls, [](const Ball& ball) { return ball.at.z() > 0.005; });
-  expect_a_cut_run_goes_on(model, start_of(model, balls), 0.05, 0.1, 100);
+  expect_a_cut_run_goes_on(model, start_with(model, balls), 0.05, 0.1, 100);
 }
 
 TEST_P(InADrum, ItsListsChangeNoBit) {
@@ -194,7 +195,7 @@ TEST_P(InADrum, ItsListsChangeNoBit) {
   std::vector<std::vector<double>> ends;
   for (const NeighbourMargins margins :
        {NeighbourMargins{}, NeighbourMargins{2, 0.02, 0.5}, NeighbourMargins{4, 3, 4}}) {
-    Simulation run(model, start_of(model, balls), ComputeOptions{.margins = margins});
+    Simulation run(model, start_with(model, balls), ComputeOptions{.margins = margins});
     run.run_until(0.2);
     ends.push_back(bits(run.grains()));
   }
@@ -203,7 +204,7 @@ TEST_P(InADrum, ItsListsChangeNoBit) {
 
 TEST_P(InADrum, ItCanNeitherBeginNorEndByHand) {
   const Model model = prepare_to_run(drum(GetParam(), 12));
-  Simulation run(model, start_of(model, {}));
+  Simulation run(model, start_with(model, {}));
   EXPECT_THROW(run.set_motion(0, std::nullopt), std::invalid_argument);
 }
 
@@ -255,7 +256,7 @@ TEST(Turning, AnEndlessDrumCarriesItsBallsRound) {
   const Model model = prepare_to_run(scene);
   std::vector<Ball> balls = heap(drum_radius, drum_radius);
   for (std::size_t k = 0; k < balls.size(); ++k) balls[k].velocity.z() = k % 2 == 0 ? 0.3 : -0.3;
-  Simulation run(model, start_of(model, balls));
+  Simulation run(model, start_with(model, balls));
   EXPECT_TRUE(run.run_until(0.5));
   EXPECT_EQ(run.result().balance.inside, std::ssize(balls));
   for (std::size_t i = 0; i < balls.size(); ++i)
@@ -292,7 +293,7 @@ TEST(Turning, FrictionCarriesABallRoundOnAPlateUpToItsLimit) {
     Scene scene = rotor(speed);
     scene.contact.rotation = false;
     const Model model = prepare_to_run(scene);
-    Simulation run(model, start_of(model, {on_plate(from_axis, speed)}));
+    Simulation run(model, start_with(model, {on_plate(from_axis, speed)}));
     EXPECT_TRUE(run.run_until(1.0));
     const double x = run.grains().x[0] - plate_radius, z = run.grains().z[0] - plate_radius;
     if (part < 1) {
@@ -319,7 +320,7 @@ TEST(Turning, ABallThatRollsOnATurntableCirclesWithTwoSeventhsOfItsSpeed) {
   // Rolling without slipping: v + spin x (-r y) is the plate's own velocity there, (0, 0, omega x).
   const double slip = speed * 0.01 - 0.02;
   ball.spin = {-slip / radius, 0, 0};
-  Simulation run(model, start_of(model, {ball}));
+  Simulation run(model, start_with(model, {ball}));
   const double period = 2 * pi / (2.0 / 7 * speed);
   EXPECT_TRUE(run.run_until(period / 2));
   // Its velocity has turned round by half a turn.
@@ -344,8 +345,8 @@ TEST(Turning, AHoleCountsWhatItMeetsOnItsWayRound) {
     const double height = 0.02, angle = 5 * std::sqrt(2 * height / standard_gravity);
     const double side = speed < 0 ? -1 : 1;
     const Model model = prepare_to_run(scene);
-    Simulation run(model,
-                   start_of(model, {{{0.05 + 0.03 * std::cos(angle), height, 0.05 + side * 0.03 * std::sin(angle)}}}));
+    Simulation run(
+        model, start_with(model, {{{0.05 + 0.03 * std::cos(angle), height, 0.05 + side * 0.03 * std::sin(angle)}}}));
     EXPECT_TRUE(run.run_until(0.15));
     if (speed == 0) {
       EXPECT_EQ(run.result().balance.inside, 1);
@@ -372,4 +373,4 @@ TEST(Turning, AnUprightRotorNeedsSpace) {
 }
 
 }  // namespace
-}  // namespace vibrosow
+}  // namespace vibrosow::turning_test

@@ -6,7 +6,7 @@
 #include "support/bench.hpp"
 #include "verification/tables.hpp"
 
-namespace vibrosow {
+namespace vibrosow::rolling_test {
 namespace {
 
 struct Case {
@@ -103,4 +103,4 @@ TEST(Rolling, HoldsOnASlopeUpToItsLimit) {
 }
 
 }  // namespace
-}  // namespace vibrosow
+}  // namespace vibrosow::rolling_test

@@ -6,7 +6,7 @@
 #include "support/bench.hpp"
 #include "verification/tables.hpp"
 
-namespace vibrosow {
+namespace vibrosow::slip_test {
 namespace {
 
 struct Case {
@@ -121,4 +121,4 @@ TEST(Slip, OnASlope) {
 }
 
 }  // namespace
-}  // namespace vibrosow
+}  // namespace vibrosow::slip_test
