@@ -8,6 +8,7 @@
 #include "cli/commands.hpp"
 #include "cli/common_options.hpp"
 #include "cli/console.hpp"
+#include "cli/help_text.hpp"
 #include "cli/interrupt.hpp"
 #include "cli/progress.hpp"
 #include "cli/threads.hpp"
@@ -204,8 +205,6 @@ void add_page(std::vector<OutputFile>& files, const std::string& page_template, 
 }
 
 int ended(const AccuracyOptions& options, const OutputFolder& folder, const StudyRuns& runs, bool interrupted) {
-  if (!options.common.quiet && interrupted && options.budget.empty())
-    print("interrupted: the same command goes on from here\n");
   if (!options.common.quiet) print("reports: {}\n", folder.path().string());
   if (!runs.not_kept().empty()) complain("warning: runs are not kept: " + runs.not_kept());
   return interrupted ? exit_interrupted : exit_done;
@@ -352,6 +351,9 @@ void add_accuracy_command(CLI::App& app, int& exit_code) {
       ->excludes(within)
       ->excludes(replicates)
       ->excludes(depth);
+  add_examples(*command,
+               {"vibrosow accuracy wheat-tray", "vibrosow accuracy wheat-section --within \"5 %\" --out promise",
+                "vibrosow accuracy wheat-section --budget \"5 min\" --out minutes"});
   command->callback(
       [options, &exit_code] { exit_code = options->promises() ? run_promise(*options) : run_table(*options); });
 }

@@ -8,6 +8,7 @@
 #include "cli/commands.hpp"
 #include "cli/common_options.hpp"
 #include "cli/console.hpp"
+#include "cli/help_text.hpp"
 #include "cli/make_runs.hpp"
 #include "design/bench_plan.hpp"
 #include "input/input_file.hpp"
@@ -70,8 +71,7 @@ int run_bench_sheet(const BenchSheetOptions& command) {
   StudyRuns runs(cases_of(folder.path()));
   const Made made = make_runs(runs, wanted_runs(design), command.making, options.jobs, options.quiet);
   if (made.making.interrupted > 0) {
-    complain(fmt::format("{} of {} runs are still to be made; the same command goes on", made.making.interrupted,
-                         design.runs.size()));
+    complain(fmt::format("{} of {} runs are still to be made", made.making.interrupted, design.runs.size()));
     return exit_interrupted;
   }
   const std::optional<BenchPlan> plan = plan_bench(task, design, limits, runs.kept());
@@ -107,6 +107,9 @@ void add_bench_sheet_command(CLI::App& app, int& exit_code) {
       ->check(CLI::Range(1, 100000))
       ->capture_default_str();
   add_making_flags(*command, options->making);
+  add_examples(*command,
+               {"vibrosow bench-sheet wheat-tray", "vibrosow bench-sheet wheat-tray --time \"20 min\" --out sheet",
+                "vibrosow bench-sheet wheat-tray --try \"tray.motion.frequency=7 Hz..11 Hz\""});
   command->callback([options, &exit_code] { exit_code = run_bench_sheet(*options); });
 }
 

@@ -12,6 +12,7 @@
 #include "cli/commands.hpp"
 #include "cli/common_options.hpp"
 #include "cli/console.hpp"
+#include "cli/help_text.hpp"
 #include "cli/make_runs.hpp"
 #include "design/calibration.hpp"
 #include "input/input_file.hpp"
@@ -116,8 +117,7 @@ int run_calibrate(const CalibrateOptions& command) {
   StudyRuns runs(cases_of(folder.path()));
   const Made made = make_runs(runs, wanted_runs(design), command.making, options.jobs, options.quiet);
   if (made.making.interrupted > 0) {
-    complain(fmt::format("{} of {} runs are still to be made; the same command goes on", made.making.interrupted,
-                         design.runs.size()));
+    complain(fmt::format("{} of {} runs are still to be made", made.making.interrupted, design.runs.size()));
     return exit_interrupted;
   }
   const std::optional<std::vector<ReducedRun>> reduced = reduced_runs(task, design, runs.kept());
@@ -177,6 +177,9 @@ void add_calibrate_command(CLI::App& app, int& exit_code) {
   add_fit_options(*command, *options);
   add_html_option(*command, options->common);
   add_making_flags(*command, options->making);
+  add_examples(*command, {"vibrosow calibrate wheat-tray measured.csv",
+                          "vibrosow calibrate wheat-tray measured.csv --fit contact.friction=0.2..0.8",
+                          "vibrosow calibrate wheat-tray measured.csv --runs 100 --html --out quick"});
   command->callback([options, &exit_code] { exit_code = run_calibrate(*options); });
 }
 

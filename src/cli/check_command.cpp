@@ -11,6 +11,7 @@
 #include "cli/compare_spaces.hpp"
 #include "cli/console.hpp"
 #include "cli/drill_table.hpp"
+#include "cli/help_text.hpp"
 #include "cli/progress.hpp"
 #include "design/predicted_cost.hpp"
 #include "design/study.hpp"
@@ -81,7 +82,7 @@ void print_step(const StepPlan& plan, const PredictedCost& cost) {
   for (const StepLimit& limit : plan.limits)
     print_text(wrapped_beside(fmt::format("  at most {:.4g} s: ", limit.dt), limit.reason));
   print_text(wrapped(fmt::format("longest safe step {:.4g} s ({})", plan.longest_safe, plan.bound_by), 2));
-  print("  {} steps, about {:.3g} grain-steps: some {:.2g} s of one core\n", plan.steps, cost.grain_steps,
+  print("  {} steps, about {:.3g} grain-steps: some {:.2g} s of CPU time\n", plan.steps, cost.grain_steps,
         cost.seconds());
 }
 
@@ -219,7 +220,7 @@ int check_study(const InputFile& file, const CheckOptions& options) {
   print_warnings(study_warnings(study));
   print_warnings(warnings_of_files_outside(file));
   print_text(wrapped(study.title));
-  print_text(wrapped(fmt::format("{} layouts, {} different scenes, {} runs of each: some {} of one core in all",
+  print_text(wrapped(fmt::format("{} layouts, {} different scenes, {} runs of each: some {} of CPU time in all",
                                  study.layouts.size(), study.scenes.size(), replicates_text(study.replicates),
                                  duration_text(predict_seconds(study)))));
   for (const Layout& layout : study.layouts)
@@ -241,6 +242,8 @@ void add_check_command(CLI::App& app, int& exit_code) {
   add_input_options(*command, *options, "seeder or study file (.toml)");
   command->add_flag("--both", options->both,
                     "run the seeder in the plane and in space, and print the ratio of their rates");
+  add_examples(*command, {"vibrosow check wheat-tray", "vibrosow check my-wheat-tray.toml --set tray.holes.count=3",
+                          "vibrosow check pea-tray-3d"});
   command->callback([options, &exit_code] {
     const InputFile file = input_file(options->file);
     exit_code = file.kind == FileKind::study ? check_study(file, *options) : check_seeder(file, *options);

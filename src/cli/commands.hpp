@@ -28,12 +28,15 @@ void add_report_command(CLI::App& app, int& exit_code);
 void add_export_command(CLI::App& app, int& exit_code);
 void add_status_command(CLI::App& app, int& exit_code);
 void add_verify_command(CLI::App& app, int& exit_code);
-void add_new_command(CLI::App& app, int& exit_code);
+void add_new_crop_command(CLI::App& app, int& exit_code);
+void add_new_seeder_command(CLI::App& app, int& exit_code);
+void add_demo_command(CLI::App& app, int& exit_code);
 void add_draw_command(CLI::App& app, int& exit_code);
 void add_check_command(CLI::App& app, int& exit_code);
 void add_plan_command(CLI::App& app, int& exit_code);
 void add_studio_command(CLI::App& app, int& exit_code);
 void add_presets_command(CLI::App& app, int& exit_code);
-void add_columns_command(CLI::App& app, int& exit_code);
+/// `help COMMAND`, for those that were added before, and `columns`, an older name of `help columns`.
+void add_help_command(CLI::App& app, int& exit_code);
 
 }  // namespace vibrosow

@@ -82,7 +82,12 @@ void add_random_seed_option(CLI::App& command, CommonOptions& options) {
 
 std::string CommonOptions::page_template(bool with_simulator) const {
   if (replays > 0 && !html) throw InputError("--replays: goes with --html, whose page they are in");
-  return html ? shipped_page(with_simulator ? "report-with-simulator.html" : "report.html") : std::string();
+  if (!html) return "";
+  std::optional<std::string> page;
+  if (with_simulator) page = shipped_page("report-with-simulator.html");
+  if (!page) page = shipped_page("report.html");
+  if (!page) throw InputError("there is no pages/report.html in the shipped data (VIBROSOW_DATA)");
+  return *page;
 }
 
 void add_html_option(CLI::App& command, CommonOptions& options) {

@@ -32,8 +32,8 @@ struct CommonOptions {
   /// Where the reports go, in the name of this command: --out, or out/ and the file's name with `suffix`.
   OutputFolder output_folder(const std::string& command, const std::vector<FileText>& files,
                              const std::string& suffix = "") const;
-  /// The template of report.html, of a run in the plane with the simulator; empty without --html. Throws InputError
-  /// where the program has none.
+  /// The template of report.html, with the simulator where that is wanted and was built; empty without --html. Throws
+  /// InputError where there is none.
   std::string page_template(bool with_simulator = false) const;
 };
 

@@ -8,6 +8,7 @@
 #include "cli/progress.hpp"
 #include "design/evaluate.hpp"
 #include "plan/model.hpp"
+#include "report/number_text.hpp"
 #include "report/terminal_text.hpp"
 
 namespace vibrosow {
@@ -35,8 +36,8 @@ TrayRate tray_rate(const Evaluation& evaluation) {
 }
 
 void print_rate(std::string_view space, const TrayRate& rate, const Evaluation& evaluation) {
-  print("  {:<6} {:>9} g/s {:>9} seeds/s of the tray, from {} counted; {} of one core\n", space,
-        to_digits(rate.mass * 1e3, 4), to_digits(rate.seeds, 4), rate.counted, duration_text(evaluation.wall_time));
+  print("  {:<6} {:>9} g/s {:>9} seeds/s of the tray, from {} counted; run in {}\n", space,
+        number_text(rate.mass * 1e3), number_text(rate.seeds), rate.counted, duration_text(evaluation.wall_time));
   for (const Remark& remark : evaluation.outflow.remarks) print_text(wrapped_beside("         note: ", remark.text));
 }
 

@@ -4,6 +4,7 @@
 
 #include "cli/asked_decision.hpp"
 #include "cli/commands.hpp"
+#include "cli/help_text.hpp"
 #include "cli/reused_cases.hpp"
 #include "input/input_file.hpp"
 
@@ -37,6 +38,9 @@ void add_decide_command(CLI::App& app, int& exit_code) {
   add_replays_option(*command, options->common);
   add_making_flags(*command, options->making);
   add_reuse_option(*command, options->reuse);
+  add_examples(*command, {"vibrosow decide wheat-demo --goal rate --out best",
+                          "vibrosow decide wheat-demo --goal evenness --within \"20 %\" --out even",
+                          "vibrosow decide wheat-demo --goal rate --procedure posterior --out likely"});
   command->callback([options, &exit_code] { exit_code = run_decide(*options); });
 }
 

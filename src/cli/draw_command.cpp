@@ -10,6 +10,7 @@
 #include "cli/console.hpp"
 #include "cli/drawn_chart.hpp"
 #include "cli/drawn_frames.hpp"
+#include "cli/help_text.hpp"
 #include "cli/interrupt.hpp"
 #include "cli/progress.hpp"
 #include "compute/stop_request.hpp"
@@ -90,7 +91,7 @@ Drawn simulated(const DrawOptions& options) {
   const std::vector<double> times = wanted_times(options, model.scene.run.duration);
   Drawn drawn{model.scene, {}};
   const StopRequest stop(&watch_for_interrupt());
-  Progress progress(text_unless(options.common.quiet), times.back(), "s");
+  Progress progress(text_unless(options.common.quiet), times.back(), "s simulated");
   try {
     Simulation simulation(model, starting_state(model, options.common.random_seed, stop), {.stop = stop});
     constexpr double between_looks = 1e-3;  // s
@@ -208,6 +209,9 @@ void add_draw_command(CLI::App& app, int& exit_code) {
   add_random_seed_option(*command, options->common);
   add_jobs_option(*command, options->common);
   command->add_flag("--quiet", options->common.quiet, "no progress and no line about the picture");
+  add_examples(*command, {"vibrosow draw wheat-section --at \"0.3 s\"",
+                          "vibrosow draw my-wheat-tray.toml --gif --to \"0.4 s\" --every \"20 ms\"",
+                          "vibrosow draw 11-hz --chart outflow"});
   command->callback([options, &exit_code] { exit_code = draw(*options); });
 }
 

@@ -9,6 +9,8 @@
 #include "design/trade.hpp"
 #include "input/key_units.hpp"
 #include "report/drill_report.hpp"
+#include "report/layout_text.hpp"
+#include "report/number_text.hpp"
 #include "report/terminal_text.hpp"
 
 namespace vibrosow {
@@ -17,7 +19,7 @@ namespace {
 std::string text_of(const RowFigures& row, std::string_view name) {
   const RowFigure& figure = row_figure_named(name);
   const std::optional<double> value = figure.of(row);
-  return value ? to_digits(*value / figure.unit_size, 4) : "-";
+  return value ? number_text(*value / figure.unit_size) : "-";
 }
 
 void print_row(const RowFigures& row) {
@@ -39,9 +41,7 @@ std::string spacings_sentence(const RowFigures& all) {
 std::string mean_text(const RowMeans& row, std::string_view name) {
   const std::optional<MeanWithInterval>& mean = row[name];
   if (!mean) return "";
-  const double unit = row_figure_named(name).unit_size;
-  const std::string text = to_digits(mean->mean / unit, 4);
-  return mean->half_width_95 ? fmt::format("{} +- {}", text, to_digits(*mean->half_width_95 / unit, 2)) : text;
+  return with_interval(mean, row_figure_named(name).unit_size);
 }
 
 /// "5 mm", "9 Hz".

@@ -10,6 +10,7 @@
 #include "cli/commands.hpp"
 #include "cli/common_options.hpp"
 #include "cli/console.hpp"
+#include "cli/help_text.hpp"
 #include "cli/report_study.hpp"
 #include "design/planned_study.hpp"
 #include "input/wording.hpp"
@@ -108,6 +109,8 @@ void add_export_command(CLI::App& app, int& exit_code) {
       ->type_name("NAME");
   command->add_option("--out", options->common.out, "directory for the reports of --run")->type_name("DIR");
   add_csv_option(*command, options->common);
+  add_examples(*command, {"vibrosow export out/wheat-demo", "vibrosow export best",
+                          "vibrosow export out/wheat-demo --csv semicolon"});
   command->callback([options, &exit_code] { exit_code = export_study(*options); });
 }
 

@@ -37,4 +37,10 @@ std::string HelpText::make_option(const CLI::Option* option, bool is_positional)
   return entry(name, description);
 }
 
+void add_examples(CLI::App& command, const std::vector<std::string>& lines) {
+  std::string text = "Examples:";
+  for (const std::string& line : lines) text += "\n  " + line;
+  command.footer(text);
+}
+
 }  // namespace vibrosow

@@ -2,6 +2,7 @@
 
 #include <CLI/CLI.hpp>
 #include <string>
+#include <vector>
 
 namespace vibrosow {
 
@@ -16,5 +17,8 @@ class HelpText : public CLI::Formatter {
  private:
   std::string entry(const std::string& name, const std::string& description) const;
 };
+
+/// Lines that can be typed as they stand, in this order, after those of the commands before: a test does.
+void add_examples(CLI::App& command, const std::vector<std::string>& lines);
 
 }  // namespace vibrosow

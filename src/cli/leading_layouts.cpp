@@ -6,6 +6,7 @@
 
 #include "outflow/outflow.hpp"
 #include "outflow/statistics.hpp"
+#include "report/number_text.hpp"
 #include "report/terminal_text.hpp"
 
 namespace vibrosow {
@@ -28,8 +29,8 @@ std::string LeadingLayouts::text() const {
   std::string text;
   for (const Even& even : known) {
     const bool first = text.empty();
-    text += fmt::format("{}{}: {} +- {}", first ? "CV of layout " : ", ", even.layout, to_digits(even.raw_cv.mean, 2),
-                        to_digits(even.raw_cv.half_width_95.value(), 2));
+    text += fmt::format("{}{}: {}", first ? "CV of layout " : ", ", even.layout,
+                        interval_text(even.raw_cv.mean, even.raw_cv.half_width_95));
     if (!first) break;
   }
   return text.empty() ? text : text + " %";

@@ -4,9 +4,12 @@
 #include <cstdio>
 #include <exception>
 #include <memory>
+#include <optional>
+#include <set>
 #include <sstream>
 #include <string>
 #include <system_error>
+#include <utility>
 #include <vector>
 
 #include "cli/commands.hpp"
@@ -19,6 +22,16 @@
 namespace vibrosow {
 namespace {
 
+/// By what a user is about, in the order of the help.
+const std::vector<std::pair<const char*, std::vector<void (*)(CLI::App&, int&)>>> command_groups = {
+    {"Start",
+     {add_demo_command, add_presets_command, add_new_seeder_command, add_studio_command, add_check_command,
+      add_plan_command}},
+    {"Simulate", {add_run_command, add_draw_command, add_report_command}},
+    {"Study", {add_sweep_command, add_decide_command, add_optimise_command, add_status_command, add_export_command}},
+    {"Trust", {add_accuracy_command, add_calibrate_command, add_bench_sheet_command, add_new_crop_command}},
+    {"Cluster and upkeep", {add_submit_command, add_work_command, add_verify_command, add_pack_command}}};
+
 /// Of a misspelled one the library only says that a command is required.
 void require_command(const CLI::App& app, const std::string& first) {
   std::vector<std::string> names;
@@ -27,7 +40,66 @@ void require_command(const CLI::App& app, const std::string& first) {
   throw InputError(fmt::format("there is no command \"{}\"{}", shortened(first), did_you_mean(first, names)));
 }
 
-int run_program(int argument_count, char** arguments) {
+/// As it is typed in a shell.
+std::string typed(const std::vector<std::string>& words) {
+  std::string line = "vibrosow";
+  for (const std::string& word : words) {
+    const bool plain =
+        word.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-./=,:+%") ==
+        std::string::npos;
+    std::string quoted = word;
+    for (std::size_t at = 0; (at = quoted.find('\'', at)) != std::string::npos; at += 4) quoted.replace(at, 1, "'\\''");
+    line += plain && !word.empty() ? " " + word : " '" + quoted + "'";
+  }
+  return line;
+}
+
+bool is_given(const CLI::App& command, const char* option) {
+  const CLI::Option* found = command.get_option_no_throw(option);
+  return found != nullptr && found->count() > 0;
+}
+
+/// The line that goes on where a command was interrupted; empty where none does.
+std::string line_that_goes_on(const CLI::App& command, std::vector<std::string> words) {
+  static const std::set<std::string> keep_their_runs = {"sweep",    "decide",      "optimise", "accuracy", "calibrate",
+                                                        "new-crop", "bench-sheet", "work",     "verify"};
+  const std::string name = command.get_name();
+  if (name == "run" && is_given(command, "--checkpoint-every")) {
+    if (!is_given(command, "--resume")) words.push_back("--resume");
+    return typed(words);
+  }
+  // What a budget buys is measured by runs that are made now.
+  return keep_their_runs.contains(name) && !is_given(command, "--budget") ? typed(words) : "";
+}
+
+/// Names that commands had, with a hint.
+std::vector<std::string> renamed(std::vector<std::string> words) {
+  if (words.empty() || words.front() != "new") return words;
+  complain("\"new\" is called new-crop now");
+  words.front() = "new-crop";
+  return words;
+}
+
+/// "; did you mean --random-seed?" of an option that the command does not have, or nothing.
+std::string meant_option(const CLI::App& app, const std::vector<std::string>& words) {
+  const std::vector<const CLI::App*> chosen = app.get_subcommands([](const CLI::App* one) { return one->parsed(); });
+  if (chosen.empty()) return "";
+  std::vector<std::string> names;
+  for (const CLI::Option* option : chosen.front()->get_options())
+    for (const std::string& name : option->get_lnames()) names.push_back(name);
+  for (const std::string& word : words) {
+    if (!word.starts_with("--")) continue;
+    const std::string name = word.substr(2, word.find('=') - 2);
+    if (name.empty() || std::ranges::find(names, name) != names.end()) continue;
+    const auto holds_it =
+        std::ranges::find_if(names, [&](const std::string& one) { return one.ends_with("-" + name); });
+    const auto near = holds_it != names.end() ? std::optional(*holds_it) : nearest(name, names);
+    if (near) return fmt::format("; did you mean --{}?", *near);
+  }
+  return "";
+}
+
+int run_program(const std::vector<std::string>& words) {
   CLI::App app("Vibrosow designs vibrating-tray seeders: it simulates every seed and counts what leaves each hole.",
                "vibrosow");
   app.formatter(std::make_shared<HelpText>());
@@ -35,30 +107,18 @@ int run_program(int argument_count, char** arguments) {
   app.footer("Exit codes: 0 done, 2 wrong input, 3 stopped by the guard,\n4 a defect of the program, 130 interrupted.");
   app.require_subcommand(1);
   int exit_code = exit_done;
-  add_plan_command(app, exit_code);
-  add_run_command(app, exit_code);
-  add_sweep_command(app, exit_code);
-  add_decide_command(app, exit_code);
-  add_optimise_command(app, exit_code);
-  add_work_command(app, exit_code);
-  add_submit_command(app, exit_code);
-  add_status_command(app, exit_code);
-  add_report_command(app, exit_code);
-  add_export_command(app, exit_code);
-  add_draw_command(app, exit_code);
-  add_verify_command(app, exit_code);
-  add_pack_command(app, exit_code);
-  add_accuracy_command(app, exit_code);
-  add_new_command(app, exit_code);
-  add_bench_sheet_command(app, exit_code);
-  add_calibrate_command(app, exit_code);
-  add_check_command(app, exit_code);
-  add_studio_command(app, exit_code);
-  add_presets_command(app, exit_code);
-  add_columns_command(app, exit_code);
-  if (argument_count > 1) require_command(app, arguments[1]);
+  for (const auto& [group, commands] : command_groups)
+    for (const auto add : commands) {
+      add(app, exit_code);
+      app.get_subcommands({}).back()->group(group);
+    }
+  add_help_command(app, exit_code);
+  if (!words.empty()) require_command(app, words.front());
   try {
-    app.parse(argument_count, arguments);  // runs the chosen command
+    app.parse(std::vector<std::string>(words.rbegin(), words.rend()));  // runs the chosen command
+  } catch (const CLI::ExtrasError& error) {
+    complain(fmt::format("{}{}", error.what(), meant_option(app, words)));
+    return exit_wrong_input;
   } catch (const CLI::ParseError& error) {
     std::ostringstream out, wrong;
     const int code = app.exit(error, out, wrong);  // --help and --version are "errors" of exit code 0
@@ -67,6 +127,9 @@ int run_program(int argument_count, char** arguments) {
     output_error();
     return code == 0 ? exit_done : exit_wrong_input;
   }
+  const CLI::App& command = *app.get_subcommands().front();
+  if (const std::string line = line_that_goes_on(command, words); exit_code == exit_interrupted && !line.empty())
+    complain("interrupted; to go on: " + line);
   const auto not_printed = output_error();
   if (!not_printed) return exit_code;
   complain("standard output: " + *not_printed);
@@ -81,7 +144,7 @@ int main(int argument_count, char** arguments) {
   make_streams_safe();
   end_when_memory_runs_out();
   try {
-    return run_program(argument_count, arguments);
+    return run_program(renamed({arguments + 1, arguments + argument_count}));
   } catch (const InputError& error) {
     complain(error.what());
   } catch (const std::system_error& error) {  // of the file system

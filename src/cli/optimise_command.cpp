@@ -4,6 +4,7 @@
 
 #include "cli/asked_front.hpp"
 #include "cli/commands.hpp"
+#include "cli/help_text.hpp"
 #include "cli/reused_cases.hpp"
 #include "input/input_file.hpp"
 
@@ -37,6 +38,9 @@ void add_optimise_command(CLI::App& app, int& exit_code) {
   add_replays_option(*command, options->common);
   add_making_flags(*command, options->making);
   add_reuse_option(*command, options->reuse);
+  add_examples(*command, {"vibrosow optimise wheat-front --goals evenness,power --out front",
+                          "vibrosow optimise wheat-front --goals rate,evenness --runs 60 --out rate",
+                          "vibrosow optimise wheat-front --goals evenness,power --html --out shown"});
   command->callback([options, &exit_code] { exit_code = run_optimise(*options); });
 }
 

@@ -61,7 +61,7 @@ std::string rest_text(const OptimiseResult& result) {
 
 std::string optimise_text(const OptimiseResult& result, const std::string& folder) {
   std::string text = result.study.title.empty() ? "" : wrapped(result.study.title) + "\n";
-  if (result.is_interrupted) text += wrapped("Interrupted: the same command goes on from here. So far:");
+  if (result.is_interrupted) text += wrapped("Interrupted. So far:");
   const std::string sure = leading_text(result, FrontStanding::on_front);
   const std::string unsure = leading_text(result, FrontStanding::may_be_on_front);
   if (!sure.empty()) text += fmt::format("On the front:\n{}", sure);

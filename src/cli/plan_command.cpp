@@ -8,6 +8,7 @@
 #include "cli/commands.hpp"
 #include "cli/common_options.hpp"
 #include "cli/console.hpp"
+#include "cli/help_text.hpp"
 #include "design/sowing_plan.hpp"
 #include "input/read_crop_lot.hpp"
 #include "input/read_hole_table.hpp"
@@ -120,6 +121,9 @@ void add_plan_command(CLI::App& app, int& exit_code) {
   add("--tkw", options->thousand_grain_weight, "mass of a thousand seeds, \"4.5 g\"; default the crop's", "MASS");
   add("--out", options->common.out, "directory for plan.csv and the best layout's seeder; default none", "DIR");
   add_csv_option(*command, options->common);
+  add_examples(*command, {"vibrosow plan --crop pea --rate 200kg/ha --row-spacing 15cm --speed 8km/h",
+                          "vibrosow plan --crop wheat --rate \"350 1/m2\" --row-spacing 12cm --speed 9km/h",
+                          "vibrosow plan --crop rye --rate 140kg/ha --row-spacing 15cm --speed 2m/s"});
   command->callback([options, &exit_code] { exit_code = run_plan(*options); });
 }
 

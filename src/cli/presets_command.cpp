@@ -7,6 +7,7 @@
 
 #include "cli/commands.hpp"
 #include "cli/console.hpp"
+#include "cli/help_text.hpp"
 #include "input/document.hpp"
 #include "input/presets.hpp"
 #include "input/read_crop.hpp"
@@ -71,6 +72,7 @@ void add_presets_command(CLI::App& app, int& exit_code) {
   CLI::App* command = app.add_subcommand("presets", "what is shipped");
   command->add_option("KIND", *kind, "crops, contacts or seeders; default all")
       ->check(CLI::IsMember({"crops", "contacts", "seeders"}));
+  add_examples(*command, {"vibrosow presets", "vibrosow presets crops", "vibrosow presets seeders"});
   command->callback([kind, &exit_code] {
     const std::filesystem::path data = data_directory();
     const auto wanted = [&](std::string_view one) { return kind->empty() || *kind == one; };

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <ctime>
 
 #include "report/terminal_text.hpp"
 #include "scene/printable.hpp"
@@ -17,10 +18,20 @@ constexpr double redraw_every = 0.2;  // s
 constexpr double line_every = 5;      // s
 constexpr double event_every = 1;     // s
 
-/// "12 runs/min", "84000 steps/s".
-std::string rate_text(double per_second, const std::string& unit) {
-  return per_second < 10 ? fmt::format("{:.1f} {}/min", 60 * per_second, unit)
-                         : fmt::format("{:.0f} {}/s", per_second, unit);
+/// "40 runs", "2.1 million steps".
+std::string amount_text(double count, const std::string& unit) {
+  return count < 1e6 ? fmt::format("{:.0f} {}", count, unit) : fmt::format("{:.1f} million {}", count / 1e6, unit);
+}
+
+/// The time of day in so many seconds, where people read it: "14:05", or "14:05 tomorrow", "14:05 in 3 days".
+std::string time_of_day(double seconds) {
+  const std::time_t now = std::time(nullptr), then = now + static_cast<std::time_t>(seconds);
+  std::tm today{}, day{};
+  localtime_r(&now, &today), localtime_r(&then, &day);
+  const std::string time = fmt::format("{:02}:{:02}", day.tm_hour, day.tm_min);
+  today.tm_hour = today.tm_min = today.tm_sec = day.tm_hour = day.tm_min = day.tm_sec = 0;
+  const long long days = std::llround(std::difftime(std::mktime(&day), std::mktime(&today)) / 86400);
+  return days < 1 ? time : days < 2 ? time + " tomorrow" : fmt::format("{} in {} days", time, days);
 }
 
 }  // namespace
@@ -51,11 +62,9 @@ double Progress::seconds_left(double fraction_done) const {
 
 std::string Progress::line(double fraction_done) const {
   const double passed = seconds(), left = seconds_left(fraction_done);
-  std::string text = fmt::format("{:3.0f} %", 100 * fraction_done);
+  std::string text = fmt::format("{:3.0f} % of {}", 100 * fraction_done, amount_text(unit_count_, unit_));
   if (!terminal_ || left < 0) text += fmt::format(", {} passed", duration_text(passed));
-  if (left >= 0 && passed > 0)
-    text += fmt::format(", {}, {} left", rate_text(unit_count_ * (fraction_done - began_at_) / passed, unit_),
-                        duration_text(left));
+  if (left >= 0 && passed > 0) text += fmt::format(", {} left, done at {}", duration_text(left), time_of_day(left));
   return text;
 }
 

@@ -10,6 +10,7 @@
 #include "cli/commands.hpp"
 #include "cli/common_options.hpp"
 #include "cli/console.hpp"
+#include "cli/help_text.hpp"
 #include "cli/interrupt.hpp"
 #include "cli/progress.hpp"
 #include "cli/report_study.hpp"
@@ -123,6 +124,8 @@ void add_report_command(CLI::App& app, int& exit_code) {
   add_replays_option(*command, *options);
   add_jobs_option(*command, *options);
   command->add_flag("--quiet", options->quiet, "no progress");
+  add_examples(*command,
+               {"vibrosow report 11-hz", "vibrosow report out/my-wheat-tray", "vibrosow report 11-hz --quiet"});
   command->callback([options, &exit_code] { exit_code = report(*options); });
 }
 

@@ -13,6 +13,7 @@
 #include "cli/common_options.hpp"
 #include "cli/console.hpp"
 #include "cli/drill_table.hpp"
+#include "cli/help_text.hpp"
 #include "cli/interrupt.hpp"
 #include "cli/progress.hpp"
 #include "cli/threads.hpp"
@@ -24,6 +25,7 @@
 #include "plan/scene_warnings.hpp"
 #include "recording/recording.hpp"
 #include "report/mixture_text.hpp"
+#include "report/number_text.hpp"
 #include "report/output_folder.hpp"
 #include "report/page.hpp"
 #include "report/run_page.hpp"
@@ -41,7 +43,7 @@ namespace {
 
 /// A run that ended before its measuring window has no rates.
 std::string figure_text(double value) {
-  return std::isfinite(value) ? to_digits(value, 4) : "-";
+  return number_text(value);
 }
 
 void print_holes(const Outflow& outflow) {
@@ -173,6 +175,18 @@ class CheckpointFile {
   bool told_ = false;
 };
 
+/// Reports of another setting, which this run will replace, are told of.
+void tell_of_replaced(const OutputFolder& folder, const Scene& scene) {
+  std::optional<nlohmann::ordered_json> kept;
+  try {
+    kept = kept_page_data(folder.path());
+  } catch (const InputError&) {  // from elsewhere: the folder itself says whose it is
+  }
+  if (kept && kept->contains("scene") && kept->at("scene") != nlohmann::ordered_json::parse(scene_to_json(scene)))
+    complain(fmt::format("note: {} holds a run of another setting, which this one replaces; --out DIR keeps both",
+                         folder.path().string()));
+}
+
 int run_scene(const RunOptions& options) {
   const InputFile file = input_file(options.file, FileKind::seeder);
   const auto [read, drill, drawings] = read_seeder(file.path, options.overrides(), file.files);
@@ -187,6 +201,7 @@ int run_scene(const RunOptions& options) {
   const std::string page_template = options.page_template(scene.space == Space::plane);
   RecordedFrames recorded(options, scene);
   const OutputFolder folder = options.output_folder("run", run_file_texts());
+  if (!options.quiet) tell_of_replaced(folder, scene);
   SimulationOptions simulation;
   simulation.random_seed = options.random_seed;
   simulation.threads = threads_to_be_had(options.threads);
@@ -253,6 +268,8 @@ void add_run_command(CLI::App& app, int& exit_code) {
   add_html_option(*command, *options);
   command->add_flag("--vtk", options->vtk, "snapshots of [record] for ParaView as well: grains.pvd, contacts.pvd, ..");
   command->add_flag("--xyz", options->xyz, "snapshots of [record] for OVITO as well: grains.xyz");
+  add_examples(*command, {"vibrosow run wheat-section", "vibrosow run my-wheat-tray.toml --html",
+                          "vibrosow run wheat-section --set \"tray.motion.frequency=11 Hz\" --out 11-hz"});
   command->callback([options, &exit_code] { exit_code = run_scene(*options); });
 }
 

@@ -12,6 +12,7 @@
 #include "cli/asked_study.hpp"
 #include "cli/commands.hpp"
 #include "cli/console.hpp"
+#include "cli/help_text.hpp"
 #include "cli/progress.hpp"
 #include "report/terminal_text.hpp"
 #include "storage/case_folder.hpp"
@@ -106,6 +107,7 @@ void add_status_command(CLI::App& app, int& exit_code) {
   auto folder = std::make_shared<std::string>();
   CLI::App* command = app.add_subcommand("status", "how far a study is");
   command->add_option("FOLDER", *folder, "of a sweep, decide or optimise")->required();
+  add_examples(*command, {"vibrosow status out/wheat-demo", "vibrosow status best", "vibrosow status front"});
   command->callback([folder, &exit_code] {
     print_status(*folder);
     exit_code = exit_done;

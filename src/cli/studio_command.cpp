@@ -9,9 +9,11 @@
 #include <fstream>
 #include <iterator>
 #include <memory>
+#include <optional>
 
 #include "cli/commands.hpp"
 #include "cli/console.hpp"
+#include "cli/help_text.hpp"
 #include "input/document.hpp"
 #include "input/input_file.hpp"
 #include "input/presets.hpp"
@@ -82,7 +84,9 @@ bool open_in_browser(const fs::path& file) {
 
 int run_studio(const std::string& asked, const std::string& out) {
   const StudioPage page = studio_of(asked);
-  const std::string html = studio_page(shipped_page("studio.html"), page);
+  const std::optional<std::string> empty_page = shipped_page("studio.html");
+  if (!empty_page) throw InputError("the studio's page is not built yet; this makes it: scripts/web --build-only");
+  const std::string html = studio_page(*empty_page, page);
   const OutputFolder folder(out, "studio", {studio_page_text().name});
   folder.write({{studio_page_text().name, html}});
   const fs::path file = folder.path() / studio_page_text().name;
@@ -101,6 +105,8 @@ void add_studio_command(CLI::App& app, int& exit_code) {
   command->add_option("SEEDER", *asked,
                       "shown first: a seeder's file, or the name of a shipped one; wheat-tray without");
   command->add_option("--out", *out, "directory for the page")->type_name("DIR")->capture_default_str();
+  add_examples(*command,
+               {"vibrosow studio", "vibrosow studio pea-tray", "vibrosow studio my-wheat-tray.toml --out look-at-it"});
   command->callback([asked, out, &exit_code] { exit_code = run_studio(*asked, *out); });
 }
 

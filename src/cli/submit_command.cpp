@@ -11,6 +11,7 @@
 #include "cli/commands.hpp"
 #include "cli/common_options.hpp"
 #include "cli/console.hpp"
+#include "cli/help_text.hpp"
 #include "cli/report_study.hpp"
 #include "cli/slurm.hpp"
 #include "design/planned_study.hpp"
@@ -229,6 +230,9 @@ void add_submit_command(CLI::App& app, int& exit_code) {
   command->add_flag("--rounds", options->rounds, "submit round after round and wait, for replicates by need")
       ->group("");
   command->add_flag("--dry-run", options->dry_run, "print the scripts and submit nothing");
+  add_examples(*command, {"vibrosow submit wheat-demo --time \"1 h\" --dry-run --out there",
+                          "vibrosow submit wheat-demo --time \"1 h\" --bundles 4 --dry-run --out there",
+                          "vibrosow submit wheat-demo --time \"1 h\" --partition short --dry-run --out q"});
   command->callback([options, &exit_code] { exit_code = submit(*options); });
 }
 

@@ -9,6 +9,7 @@
 #include "cli/commands.hpp"
 #include "cli/common_options.hpp"
 #include "cli/console.hpp"
+#include "cli/help_text.hpp"
 #include "cli/make_runs.hpp"
 #include "cli/report_study.hpp"
 #include "cli/reused_cases.hpp"
@@ -56,7 +57,6 @@ int run_sweep(const SweepCommandOptions& command) {
   const Made made = make_all_runs(planned, runs, folder.path(), command);
   const int exit_code = report_study(planned, runs, folder, made.timing, options, page_template);
   if (!options.quiet && made.making.there > 0) print("{} of the runs were there from before\n", made.making.there);
-  if (!options.quiet && exit_code == exit_interrupted) print("interrupted: the same command goes on from here\n");
   if (!options.quiet) print("reports: {}\n", folder.path().string());
   if (!runs.not_kept().empty()) complain("warning: runs are not kept: " + runs.not_kept());
   return exit_code;
@@ -73,6 +73,9 @@ void add_sweep_command(CLI::App& app, int& exit_code) {
   add_replays_option(*command, options->common);
   add_making_flags(*command, options->making);
   add_reuse_option(*command, options->reuse);
+  add_examples(*command,
+               {"vibrosow sweep wheat-demo", "vibrosow sweep wheat-demo --set replicates=4 --html --replays 1",
+                "vibrosow sweep wheat-holes --set replicates=1 --out holes"});
   command->callback([options, &exit_code] { exit_code = run_sweep(*options); });
 }
 

@@ -5,6 +5,7 @@
 
 #include "cli/commands.hpp"
 #include "cli/console.hpp"
+#include "cli/help_text.hpp"
 #include "cli/make_runs.hpp"
 #include "design/planned_study.hpp"
 #include "storage/case_folder.hpp"
@@ -50,6 +51,7 @@ void add_verify_command(CLI::App& app, int& exit_code) {
   CLI::App* command =
       app.add_subcommand("verify", "read every run that a sweep has kept, and make those that are damaged again");
   command->add_option("FOLDER", *folder, "of the sweep")->required();
+  add_examples(*command, {"vibrosow verify out/wheat-demo", "vibrosow verify best", "vibrosow verify there"});
   command->callback([folder, &exit_code] { exit_code = verify(*folder); });
 }
 
@@ -57,6 +59,7 @@ void add_pack_command(CLI::App& app, int& exit_code) {
   auto folder = std::make_shared<std::string>();
   CLI::App* command = app.add_subcommand("pack", "move a sweep's kept runs into few large files");
   command->add_option("FOLDER", *folder, "of the sweep")->required();
+  add_examples(*command, {"vibrosow pack out/wheat-demo", "vibrosow pack best", "vibrosow pack there"});
   command->callback([folder, &exit_code] {
     current_plan(*folder);
     print("{} runs packed\n", CaseFolder(cases_of(*folder)).pack());

@@ -9,6 +9,7 @@
 #include "cli/commands.hpp"
 #include "cli/common_options.hpp"
 #include "cli/console.hpp"
+#include "cli/help_text.hpp"
 #include "cli/make_runs.hpp"
 #include "cli/slurm.hpp"
 #include "design/planned_study.hpp"
@@ -77,6 +78,8 @@ void add_work_command(CLI::App& app, int& exit_code) {
   add_making_flags(*command, options->making);
   command->add_flag("--requeue", options->requeue, "under Slurm: queue this job again while its share is unfinished");
   command->add_flag("--quiet", options->quiet, "no progress and no summary");
+  add_examples(*command, {"vibrosow work there --bundle 1/2", "vibrosow work there --bundle 2/2 --jobs 2",
+                          "vibrosow work there --time-limit \"1 min\""});
   command->callback([options, &exit_code] { exit_code = work(*options); });
 }
 

@@ -343,6 +343,7 @@ Study read_study_with(const std::filesystem::path& file, const std::vector<Overr
       study.layouts.push_back(std::move(layout));
     }
   }
+  add_keys(study.varied, grid.front());
   add_keys(study.keys, grid.front());
   Scenes scenes(study, files);
   scenes.resolve();

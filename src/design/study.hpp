@@ -53,7 +53,8 @@ struct Study {
   std::string title;
   std::filesystem::path base;  // of the seeder file
   Replicates replicates;
-  std::vector<std::string> keys;  // that tell the layouts apart, in the order of the study
+  std::vector<std::string> keys;    // that tell the layouts apart, in the order of the study
+  std::vector<std::string> varied;  // of these those of [vary], which no layout's name tells
   std::vector<Layout> layouts;
   std::vector<Scene> scenes;  // each different scene once, in the order of the layouts
   std::optional<MeasuredPart> measured;

@@ -72,14 +72,13 @@ fs::path shipped_preset(const std::string& name, const std::string& kind) {
   return directory / (name + ".toml");
 }
 
-std::string shipped_page(const std::string& name) {
+std::optional<std::string> shipped_page(const std::string& name) {
   const fs::path data = data_directory();
-  for (const fs::path& folder : {data / "pages", data / "build" / "web"}) {
+  for (const fs::path& folder : {data / "pages", data / "build/web", data / "web/made"}) {
     std::ifstream file(folder / name, std::ios::binary);
-    if (file) return {std::istreambuf_iterator<char>(file), {}};
+    if (file) return std::string(std::istreambuf_iterator<char>(file), {});
   }
-  throw InputError(fmt::format("this program was built without its pages: there is no {} in {}; scripts/web makes it",
-                               name, (data / "pages").string()));
+  return std::nullopt;
 }
 
 fs::path data_directory() {

@@ -21,9 +21,9 @@ std::filesystem::path shipped_preset(const std::string& name, const std::string&
 /// folder.
 std::vector<std::filesystem::path> toml_files(const std::filesystem::path& directory);
 
-/// The content of a page that reports are made of: NAME of pages/ in the shipped data, or of build/web/ in the source
-/// tree, where scripts/web makes it. Throws InputError where there is none.
-std::string shipped_page(const std::string& name);
+/// The content of a page that reports are made of: NAME of pages/ in the shipped data, or in the source tree of
+/// build/web/, where scripts/web makes all of them, or of web/made/, where the one is kept that has no simulator.
+std::optional<std::string> shipped_page(const std::string& name);
 
 /// Density of a preset's seeds themselves, kg/m3: reference.true_density. It changes no scene; a crop's mass is checked
 /// against it.

@@ -100,8 +100,11 @@ struct Table::State {
   }
 
   [[noreturn]] void unknown(const std::string& key, const std::vector<std::string>& expected_keys) const {
-    throw InputError(
-        fmt::format("{}: {}: unknown key{}", origin(key), joined(prefix, key), did_you_mean(key, expected_keys)));
+    const std::string hint = did_you_mean(key, expected_keys);
+    throw InputError(fmt::format("{}: {}: unknown key{}", origin(key), joined(prefix, key),
+                                 hint.empty() && !expected_keys.empty()
+                                     ? fmt::format("; known here are {}", fmt::join(expected_keys, ", "))
+                                     : hint));
   }
 
   /// A key that is missing may be there under a wrong name.

@@ -29,6 +29,7 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
 
 std::optional<std::string> nearest(std::string_view word, const std::vector<std::string>& known) {
   std::optional<std::string> best;
+  constexpr std::size_t shortest_part = 3;
   std::size_t best_distance = (word.size() + 2) / 3 + 1;  // farther than this is another word
   for (const std::string& candidate : known) {
     const std::size_t distance = edit_distance(word, candidate);
@@ -37,6 +38,11 @@ std::optional<std::string> nearest(std::string_view word, const std::vector<std:
       best_distance = distance;
     }
   }
+  if (best || word.size() < shortest_part) return best;
+  for (const std::string& candidate : known)
+    if (candidate.size() >= shortest_part &&
+        (candidate.find(word) != std::string::npos || word.find(candidate) != std::string_view::npos))
+      return candidate;
   return best;
 }
 

@@ -11,7 +11,8 @@ namespace vibrosow {
 
 // Words for messages about what was read.
 
-/// The nearest of `known` by edit distance (Damerau-Levenshtein) when it is near enough to be meant.
+/// The nearest of `known` by edit distance (Damerau-Levenshtein) when it is near enough to be meant; else the first
+/// that holds the word, or that the word holds ("freq" of "frequency").
 std::optional<std::string> nearest(std::string_view word, const std::vector<std::string>& known);
 
 /// "; did you mean "width"?", or nothing.

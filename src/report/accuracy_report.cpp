@@ -8,6 +8,7 @@
 #include "report/accuracy_page.hpp"
 #include "report/columns.hpp"
 #include "report/json_keys.hpp"
+#include "report/number_text.hpp"
 #include "report/page.hpp"
 #include "report/terminal_text.hpp"
 #include "scene/integrator_names.hpp"
@@ -219,22 +220,24 @@ std::string row_text(const AccuracyRow& row, bool reference) {
                      cost, row.on_front ? " *" : "");
 }
 
+std::string rate_text(const MeanWithInterval& rate) {
+  return interval_text(rate.mean / gram, *rate.half_width_95 / gram);
+}
+
 /// For a terminal.
 std::string errors_text(const AccuracyResult& result) {
   std::string text;
   if (result.fit) {
     const MeanWithInterval& limit = result.fit->limit();
-    text += wrapped(fmt::format(
-        "Errors by source, 95 %, of the limit of step 0 and rigid grains, {:.5g} +- {:.2g} g/s:", limit.mean / gram,
-        *limit.half_width_95 / gram));
+    text += wrapped(
+        fmt::format("Errors by source, 95 %, of the limit of step 0 and rigid grains, {} g/s:", rate_text(limit)));
   }
   for (const ErrorRow& row : error_rows(result))
     text += fmt::format("  {:<21} {:>15} {} {:<15} {}\n", row.source, row.from, row.to.empty() ? "  " : "to", row.to,
                         row.band ? error_text(row.percent, row.band) : fmt::format("{:.2f} %", row.percent));
   if (result.depth)
-    text += wrapped(fmt::format("The tray sows {:.5g} +- {:.2g} g/s as a plane, {:.5g} +- {:.2g} g/s in space.",
-                                result.depth->plane.mean / gram, *result.depth->plane.half_width_95 / gram,
-                                result.depth->space.mean / gram, *result.depth->space.half_width_95 / gram));
+    text += wrapped(fmt::format("The tray sows {} g/s as a plane, {} g/s in space.", rate_text(result.depth->plane),
+                                rate_text(result.depth->space)));
   if (result.fit && !result.fit->fits()) text += wrapped(misfit_sentence(*result.fit));
   for (const std::string& doubt : odd_runs_sentences(result.runs)) text += wrapped(doubt);
   return text;

@@ -127,7 +127,7 @@ std::string crop_toml(const NewCrop& crop, const CropEstimate& estimate) {
   if (crop.moisture) keys.add("moisture", quantity(*crop.moisture * 100, "%"), measured);
   keys.add("true_density", quantity(estimate.seed_density, "kg/m3"),
            "computed: mass over the volume of an ellipsoid of these sizes", "reference");
-  return keys.text("Made by vibrosow new.", crop.name);
+  return keys.text("Made by vibrosow new-crop.", crop.name);
 }
 
 std::string contact_toml(const NewCrop& crop, const CropEstimate& estimate) {
@@ -149,7 +149,7 @@ std::string contact_toml(const NewCrop& crop, const CropEstimate& estimate) {
            "wall");
   keys.add("restitution", "0.5", "assumed: as seed on seed", "wall");
   keys.add("rolling_friction", number(band.fitting.rolling_friction), "assumed: as seed on seed", "wall");
-  std::string comment = "Made by vibrosow new.";
+  std::string comment = "Made by vibrosow new-crop.";
   for (const std::string& doubt : estimate.doubts) comment += "\n# Doubtful: " + doubt;
   return keys.text(comment, crop.name + " on itself and on a tray");
 }

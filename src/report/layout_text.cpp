@@ -4,6 +4,7 @@
 
 #include "input/key_units.hpp"
 #include "report/csv.hpp"
+#include "report/number_text.hpp"
 #include "report/terminal_text.hpp"
 
 namespace vibrosow {
@@ -21,7 +22,8 @@ std::string described(const Study& study, const Layout& layout) {
   std::string text = layout.name;
   for (const std::string& key : study.keys) {
     const auto value = layout.values.find(key);
-    if (value == layout.values.end() || !layout.name.empty()) continue;
+    const bool is_told = !layout.name.empty() && std::ranges::find(study.varied, key) == study.varied.end();
+    if (value == layout.values.end() || is_told) continue;
     text +=
         fmt::format("{}{} {}", text.empty() ? "" : ", ", key.substr(key.rfind('.') + 1), with_unit(key, value->second));
   }
@@ -30,9 +32,8 @@ std::string described(const Study& study, const Layout& layout) {
 
 std::string with_interval(const std::optional<MeanWithInterval>& value, double unit, std::string_view plus_minus) {
   if (!value) return "";
-  const std::string mean = to_digits(value->mean / unit, 4);
-  return value->half_width_95 ? fmt::format("{} {} {}", mean, plus_minus, to_digits(*value->half_width_95 / unit, 2))
-                              : mean;
+  const auto half_width = value->half_width_95 ? std::optional(*value->half_width_95 / unit) : std::nullopt;
+  return interval_text(value->mean / unit, half_width, plus_minus);
 }
 
 }  // namespace vibrosow

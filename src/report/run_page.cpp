@@ -10,6 +10,7 @@
 #include "distributions/distributions.hpp"
 #include "plan/effects.hpp"
 #include "plan/softness.hpp"
+#include "report/number_text.hpp"
 #include "report/page.hpp"
 #include "report/terminal_text.hpp"
 #include "scene/integrator_names.hpp"
@@ -26,7 +27,7 @@ Json number(double value) {
 }
 
 std::string figure_text(double value) {
-  return std::isfinite(value) ? to_digits(value, 4) : "-";
+  return number_text(value);
 }
 
 double in_mm(double metres) {
@@ -162,7 +163,7 @@ Json drill(const std::optional<DrillFigures>& figures) {
   const RowFigures& all = figures->all();
   return {
       {"rows", std::move(rows)},
-      {"sentence", all.kg_per_m2 ? fmt::format("All rows together sow {} kg/ha.", to_digits(1e4 * *all.kg_per_m2, 4))
+      {"sentence", all.kg_per_m2 ? fmt::format("All rows together sow {} kg/ha.", number_text(1e4 * *all.kg_per_m2))
                                  : std::string("Without tray.depth there is no rate per area.")}};
 }
 

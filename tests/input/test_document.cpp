@@ -276,7 +276,8 @@ TEST_F(DocumentTest, AListOfTablesInPlaceOfATable) {
 TEST_F(DocumentTest, WhatAFileHoldsIsNotEchoedToTheTerminal) {
   Table root = read("\"\\u001b[5m\" = 1\ntext = \"a\\u0007\\u009bb\\u00e9\"\n");
   root.skip("text");
-  EXPECT_THAT([&] { root.reject_unknown_keys(); }, ThrowsMessage<InputError>(at(1, "\\x1b[5m: unknown key")));
+  EXPECT_THAT([&] { root.reject_unknown_keys(); },
+              ThrowsMessage<InputError>(at(1, "\\x1b[5m: unknown key; known here are text")));
   EXPECT_THAT([&] { root.choice("text", {"c"}); }, ThrowsMessage<InputError>(HasSubstr("\"a\\x07\\xc2\\x9bb\u00e9\"")));
 }
 
@@ -286,7 +287,8 @@ TEST_F(DocumentTest, ArrayOfTables) {
   ASSERT_EQ(layouts.size(), 2U);
   EXPECT_EQ(layouts[0].text("name"), "a");
   EXPECT_EQ(layouts[1].text("name"), "b");
-  EXPECT_THAT([&] { root.reject_unknown_keys(); }, ThrowsMessage<InputError>(at(5, "layout[2].odd: unknown key")));
+  EXPECT_THAT([&] { root.reject_unknown_keys(); },
+              ThrowsMessage<InputError>(at(5, "layout[2].odd: unknown key; known here are name")));
 }
 
 TEST_F(DocumentTest, WhereOfAnyKey) {
@@ -302,6 +304,8 @@ TEST(Nearest, IsAnEditAwayOrNothing) {
   EXPECT_EQ(nearest("widht", {"count", "width", "span"}), "width");
   EXPECT_EQ(nearest("frequenzy", {"frequency", "direction"}), "frequency");
   EXPECT_EQ(nearest("colour", {"count", "width", "span"}), std::nullopt);
+  EXPECT_EQ(nearest("freq", {"direction", "frequency"}), "frequency");
+  EXPECT_EQ(nearest("floor_angle", {"length", "funnel"}), std::nullopt);
   EXPECT_EQ(nearest("x", {}), std::nullopt);
 }
 

@@ -1,5 +1,6 @@
 // Numbers, scales, counters and places, without a browser.
 import assert from 'node:assert/strict';
+import { readFileSync } from 'node:fs';
 import test from 'node:test';
 import { layerScale, listColour, mix, speedScale } from '../../web/report/colours.mjs';
 import { Counters } from '../../web/report/counters.mjs';
@@ -10,15 +11,21 @@ import { outflowSentence } from '../../web/report/outflow_sentence.mjs';
 import { readPageData } from '../../web/report/page_data.mjs';
 import { frameAt } from '../../web/report/player.mjs';
 
-test('numbers have three digits and no exponent', () => {
-  assert.deepEqual([0, 1, 20.345, 1234.5, 0.00123456, -0.5, 1e-7, 99.96].map((value) => number(value)), ['0', '1', '20.3', '1235', '0.00123', '-0.5', '0.0000001', '100']);
+// The same cases as the terminal's (tests/report/test_number_text.cpp).
+const cases = JSON.parse(readFileSync(new URL('../report/numbers.json', import.meta.url)));
+
+test('numbers have three digits, their thousands apart and no exponent', () => {
+  for (const { value, text } of cases.numbers) assert.equal(number(value), text);
   assert.equal(number(1.23456, 5), '1.2346');
   assert.deepEqual([null, undefined, NaN, Infinity].map((value) => number(value)), ['–', '–', '–', '–']);
 });
 
-test('an interval tells how many decimals its mean has', () => {
-  assert.deepEqual([[19.24, 3.76], [20.65, 25.39], [180, 254.1], [11.322, 0.0402], [20.128, 0], [0.017929, NaN]].map(([mean, half]) => plusMinus(mean, half)),
-    ['19.2 ± 3.8', '21 ± 25', '180 ± 254', '11.322 ± 0.040', '20.13 ± 0', '0.01793']);
+test('an interval tells the last place of its mean', () => {
+  for (const { mean, half_width, text } of cases.intervals) assert.equal(plusMinus(mean, half_width), text);
+});
+
+test('a time has the unit that suits it', () => {
+  for (const { seconds, text } of cases.times) assert.equal(duration(seconds), text);
 });
 
 test('scales have round steps and hold their ends', () => {

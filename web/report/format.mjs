@@ -1,18 +1,33 @@
-// Numbers as people read them: three significant digits unless told, never an exponent, and a space before the unit.
+// Numbers as people read them, the same as on a terminal (src/report/number_text.hpp, tests/report/numbers.json): three significant
+// digits unless told, never an exponent, thousands apart, and a space before the unit.
+
+// The place of the first digit of `value` when it is rounded to `digits` of them.
+function placeOf(value, digits) {
+  return Number(Math.abs(value).toExponential(digits - 1).split('e')[1]);
+}
+
+// Rounded to a place, 10 ** place; from ten thousand on with its thousands apart.
+function atPlace(value, place) {
+  const unit = 10 ** Math.max(0, place);
+  const whole = Math.sign(value) * Math.round(Math.abs(value) / unit) * unit;
+  const [digits, decimals] = (place < 0 ? value.toFixed(Math.min(-place, 12)) : whole.toFixed(0)).split('.');
+  const apart = digits.replace('-', '').length < 5 ? digits : digits.replace(/\B(?=(\d{3})+$)/g, '\u202f');
+  return decimals ? `${apart}.${decimals}` : apart;
+}
 
 /** `value` to `digits` significant digits; "–" for what is not a number. */
 export function number(value, digits = 3) {
   if (value === null || value === undefined || !Number.isFinite(value)) return '–';
   if (value === 0) return '0';
-  const decimals = Math.max(0, digits - 1 - Math.floor(Math.log10(Math.abs(value))));
-  const text = value.toFixed(Math.min(decimals, 12));
+  const text = atPlace(value, placeOf(value, digits) - digits + 1);
   return text.includes('.') ? text.replace(/\.?0+$/, '') : text;
 }
 
-/** Seconds, in milliseconds when they are fewer than a tenth. */
+/** Seconds in the unit that suits them. */
 export function duration(seconds) {
   if (seconds === null || seconds === undefined || !Number.isFinite(seconds)) return '–';
-  return Math.abs(seconds) < 0.1 && seconds !== 0 ? `${number(seconds * 1000)} ms` : `${number(seconds)} s`;
+  const [unit, name] = [[1, 's'], [1e-3, 'ms']].find(([one]) => Math.abs(seconds) >= 0.1 * one || seconds === 0) ?? [1e-6, 'µs'];
+  return `${number(seconds / unit)} ${name}`;
 }
 
 /** Newtons, or a thousandth or millionth of them. */
@@ -46,12 +61,12 @@ export function niceAbove(value) {
   return [1, 2, 5, 10].map((step) => step * power).find((step) => step >= value * (1 - 1e-9));
 }
 
-/** "19.2 ± 3.8": the interval's half width to two digits and the mean to the same decimals; without one, the mean alone. */
+/** "19.2 ± 3.8": the interval's half width to two digits and the mean to the same place; without one, the mean alone. */
 export function plusMinus(mean, halfWidth) {
-  if (!Number.isFinite(halfWidth)) return number(mean, 4);
-  if (halfWidth <= 0) return `${number(mean, 4)} ± 0`;
-  const decimals = Math.min(12, Math.max(0, 1 - Math.floor(Math.log10(halfWidth))));
-  return `${mean.toFixed(decimals)} ± ${halfWidth.toFixed(decimals)}`;
+  if (halfWidth === null || !Number.isFinite(halfWidth)) return number(mean);
+  if (halfWidth <= 0) return `${number(mean)} ± 0`;
+  const place = placeOf(halfWidth, 2) - 1;
+  return `${atPlace(mean, place)} ± ${atPlace(halfWidth, place)}`;
 }
 
 /** Round steps that cover low to high, about `count` of them: { low, high, step, ticks }. */

@@ -16,7 +16,11 @@ export function verdict(counted, ofFile) {
 }
 
 export function rerunSection(data) {
-  if (data.space !== 'plane' || data.status === 'interrupted' || !hasSimulator()) return null;
+  if (data.space !== 'plane' || data.status === 'interrupted') return null;
+  if (!hasSimulator()) {
+    return section('rerun', 'Run it again here',
+      element('p', {}, 'This page was written without the simulator, which would make the run again in it. The packages have it, and so has a source tree in which scripts/web has run.'));
+  }
   const said = element('p', { 'aria-live': 'polite' });
   const course = element('progress', { max: 1, value: 0, 'aria-label': 'How far the run in the page is', hidden: true });
   const button = element('button', { type: 'button', class: 'quiet' });

@@ -13,6 +13,7 @@
 
 #include "cli/commands.hpp"
 #include "cli/console.hpp"
+#include "cli/help_text.hpp"
 #include "cli/make_runs.hpp"
 #include "design/new_crop.hpp"
 #include "design/refine_crop.hpp"
@@ -29,7 +30,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct NewOptions {
+struct NewCropOptions {
   std::string crop, tkw, length, width, thickness, bulk_density, repose, moisture, out = ".";
   int refine = 0;  // runs; 0: none
   int jobs = 1;
@@ -55,7 +56,7 @@ std::optional<double> if_given(const char* option, const std::string& text, Dime
   return quantity_of(option, text, dimension, least, most, example);
 }
 
-NewCrop crop_of(const NewOptions& options) {
+NewCrop crop_of(const NewCropOptions& options) {
   const bool plain = std::ranges::all_of(options.crop, [](char c) {
     return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '-' || c == '_';
   });
@@ -110,7 +111,7 @@ std::vector<NewFile> files_of(const NewCrop& crop, const CropEstimate& estimate,
 }
 
 /// Makes the runs, or goes on with them; false where that is interrupted.
-bool refine(const NewOptions& options, const NewCrop& crop, const CropEstimate& estimate, ShippedAtlas& atlas) {
+bool refine(const NewCropOptions& options, const NewCrop& crop, const CropEstimate& estimate, ShippedAtlas& atlas) {
   const std::vector<RefiningRun> refining = refining_runs(crop, estimate, atlas, options.refine);
   std::vector<WantedRun> wanted;
   for (const RefiningRun& run : refining)
@@ -122,16 +123,13 @@ bool refine(const NewOptions& options, const NewCrop& crop, const CropEstimate& 
   return true;
 }
 
-int make_crop(const NewOptions& options) {
+int make_crop(const NewCropOptions& options) {
   const NewCrop crop = crop_of(options);
   ShippedAtlas atlas = shipped_atlas();
   CropEstimate estimated = estimate(crop, atlas);
   refuse_to_overwrite(files_of(crop, estimated, options.out));
   if (options.refine > 0) {
-    if (!refine(options, crop, estimated, atlas)) {
-      complain("interrupted: the same command goes on from here");
-      return exit_interrupted;
-    }
+    if (!refine(options, crop, estimated, atlas)) return exit_interrupted;
     estimated = estimate(crop, atlas);
   }
   const std::vector<NewFile> files = files_of(crop, estimated, options.out);
@@ -145,9 +143,9 @@ int make_crop(const NewOptions& options) {
 
 }  // namespace
 
-void add_new_command(CLI::App& app, int& exit_code) {
-  auto options = std::make_shared<NewOptions>();
-  CLI::App* command = app.add_subcommand("new", "a crop and its contact model from what you weigh and measure");
+void add_new_crop_command(CLI::App& app, int& exit_code) {
+  auto options = std::make_shared<NewCropOptions>();
+  CLI::App* command = app.add_subcommand("new-crop", "a crop and its contact model from what you weigh and measure");
   const auto add = [command](const char* name, std::string& value, const char* help) {
     return command->add_option(name, value, help)->type_name("QUANTITY");
   };
@@ -168,6 +166,9 @@ void add_new_command(CLI::App& app, int& exit_code) {
   command->add_option("--jobs", options->jobs, "of those runs side by side; default 1")
       ->type_name("N")
       ->check(CLI::Range(1, 4096));
+  add_examples(*command, {"vibrosow new-crop --crop mine --tkw 4.5g --length 2.1mm",
+                          "vibrosow new-crop --crop long --tkw 40g --length 6mm --width 3.2mm",
+                          "vibrosow new-crop --crop oil --tkw 4.5g --length 2.1mm --bulk-density 680kg/m3"});
   command->callback([options, &exit_code] { exit_code = make_crop(*options); });
 }
 
