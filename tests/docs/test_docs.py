@@ -147,7 +147,9 @@ def main():
     check_pictures()
     front = (ROOT / "README.md").read_text(encoding="utf-8")
     check_seeder_of_front_page(program, front)
-    expect(len(front.split()) <= 800, f"README.md has {len(front.split())} words, more than 800")
+    expect(len(front.split()) <= 600, f"README.md has {len(front.split())} words, more than 600")
+    features = run(str(ROOT / "scripts/features"), "--print").stdout
+    expect((ROOT / "docs/FEATURES.md").read_text(encoding="utf-8") == features, "docs/FEATURES.md is not what scripts/features writes")
     expect(len(commands_in(front)) >= 5, "README.md: fewer than five commands found")
     for failure in failures:
         print(failure)
