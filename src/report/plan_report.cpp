@@ -136,7 +136,7 @@ std::string rate_text(const PlanSource& source) {
 std::string need_text(const PlanSource& source) {
   const SowingTask& task = source.plan.task;
   const double seeds = task.row_seed_rate();
-  std::string text = seed_text(source) + '\n' + rate_text(source) + '\n';
+  std::string text = wrapped(seed_text(source)) + wrapped(rate_text(source));
   text += fmt::format("a row, every {} cm at {} km/h: {} g/s, {} seeds/s, one every {} mm\n",
                       to_digits(task.pace.row_spacing * 100, 3), speed_text(task.pace.speed),
                       to_digits(task.row_mass_rate() / gram, 3), to_digits(seeds, 2 + (seeds >= 100)),

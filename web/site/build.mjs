@@ -91,6 +91,7 @@ export async function buildSite(folder, madeIn) {
     const { source, kind } = queue.waiting.shift();
     const page = queue.found.get(source);
     if (kind === 'picture' || kind === 'text') copyFileSync(path.join(root, source), roomFor(folder, source));
+    if (source.endsWith('.html')) ++pages;
     if (kind === 'picture') continue;
     const { title, html } = contentOf(root, { source, kind }, linkIn(queue, source, kind, page));
     const parts = { TITLE: escapeHtml(title === 'Vibrosow' ? title : `${title} – Vibrosow`), INDEX: addressFrom(page, 'index.html'), CONTENT: html, MENU: menu(groups, page) };

@@ -8,7 +8,8 @@ const pictures = new Set(['.png', '.jpg', '.gif', '.svg']);
 export const { escapeHtml } = markdown.utils;
 
 const isDocument = (file) => file.endsWith('.md');
-const isPicture = (file) => pictures.has(path.extname(file));
+// Taken as it is, and so is a page that a report holds.
+const isPicture = (file) => pictures.has(path.extname(file)) || file.endsWith('.html');
 
 /** Where the page of `source` stands in the site; both are paths with / from the top of the repository and of the site. */
 export function pageOf(source, kind) {
