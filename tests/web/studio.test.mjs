@@ -74,8 +74,13 @@ test('it opens playing, counts at the holes, and says plainly what it is', () =>
   await page.waitForFunction((then) => document.querySelector('canvas').dataset.time > then, time);
   assert.match(await countsAtTheEnd(place), /^\[\d+,\d+,\d+,\d+,\d+\]$/);
   await place.getByText('4.00 s of 4 s').waitFor();
+  await page.evaluate(() => {  // however slow the machine: no time that was shown is missed
+    const canvas = document.querySelector('canvas');
+    window.leastTime = Infinity;
+    new MutationObserver(() => { window.leastTime = Math.min(window.leastTime, Number(canvas.dataset.time)); }).observe(canvas, { attributeFilter: ['data-time'] });
+  });
   await place.getByRole('button', { name: 'Restart' }).click();
-  await page.waitForFunction(() => Number(document.querySelector('canvas').dataset.time) < 1);
+  await page.waitForFunction(() => window.leastTime < 1);
 }));
 
 test('before the measuring begins nothing is said of rates', () => withStudio({}, async (page) => {
