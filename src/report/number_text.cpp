@@ -55,8 +55,7 @@ std::string interval_text(double mean, const std::optional<double>& half_width, 
 std::string time_text(double seconds) {
   constexpr std::array<std::pair<double, const char*>, 3> units = {{{1, "s"}, {1e-3, "ms"}, {1e-6, "µs"}}};
   for (const auto& [unit, name] : units)
-    if (std::abs(seconds) >= 0.1 * unit || seconds == 0)
-      return fmt::format("{} {}", number_text(seconds / unit), name);
+    if (std::abs(seconds) >= 0.1 * unit || seconds == 0) return fmt::format("{} {}", number_text(seconds / unit), name);
   return fmt::format("{} µs", number_text(seconds * 1e6));
 }
 

@@ -161,10 +161,9 @@ Json drill(const std::optional<DrillFigures>& figures) {
                       {"low", nullptr},
                       {"high", nullptr}});
   const RowFigures& all = figures->all();
-  return {
-      {"rows", std::move(rows)},
-      {"sentence", all.kg_per_m2 ? fmt::format("All rows together sow {} kg/ha.", number_text(1e4 * *all.kg_per_m2))
-                                 : std::string("Without tray.depth there is no rate per area.")}};
+  return {{"rows", std::move(rows)},
+          {"sentence", all.kg_per_m2 ? fmt::format("All rows together sow {} kg/ha.", number_text(1e4 * *all.kg_per_m2))
+                                     : std::string("Without tray.depth there is no rate per area.")}};
 }
 
 std::string_view status_name(RunStatus status) {
