@@ -16,7 +16,7 @@ namespace {
 
 using Value = std::optional<double>;
 
-constexpr double percent = 1e-2, millimetre = 1e-3;
+constexpr double percent = 1e-2;
 
 /// What the holes of a row, or of several that share them, gave in the window.
 struct Stream {

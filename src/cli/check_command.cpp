@@ -24,6 +24,7 @@
 #include "plan/scene_warnings.hpp"
 #include "plan/softness.hpp"
 #include "report/mixture_text.hpp"
+#include "report/number_text.hpp"
 #include "report/terminal_text.hpp"
 #include "scene/input_error.hpp"
 #include "scene/integrator_names.hpp"
@@ -77,8 +78,8 @@ void print_effects(const Model& model, const CostBreakdown& cost) {
 }
 
 void print_step(const StepPlan& plan, const PredictedCost& cost) {
-  print("step\n  dt {:.4g} s, shortest contact {:.4g} s: {:.3g} steps a contact\n", plan.dt, plan.contact_duration,
-        plan.contact_duration / plan.dt);
+  print("step\n  dt {}, shortest contact {}: {:.3g} steps a contact\n", time_text(plan.dt),
+        time_text(plan.contact_duration), plan.contact_duration / plan.dt);
   for (const StepLimit& limit : plan.limits)
     print_text(wrapped_beside(fmt::format("  at most {:.4g} s: ", limit.dt), limit.reason));
   print_text(wrapped(fmt::format("longest safe step {:.4g} s ({})", plan.longest_safe, plan.bound_by), 2));

@@ -50,6 +50,27 @@ void complain(const std::string& text) {
   std::fwrite(line.data(), 1, line.size(), stderr);  // nobody is left to be told of a failure
 }
 
+std::string shell_quoted(const std::string& word) {
+  std::string quoted(1, '\'');
+  for (const char letter : word) {
+    if (letter == '\'') quoted.append("'\\'");  // out of the quotes, one that stands for itself, and in again
+    quoted.push_back(letter);
+  }
+  quoted.push_back('\'');
+  return quoted;
+}
+
+std::string typed_line(const std::vector<std::string>& words) {
+  constexpr std::string_view plain =
+      "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-./=,:+%";  // to every shell
+  std::string line = "vibrosow";
+  for (const std::string& word : words) {
+    const bool is_plain = !word.empty() && word.find_first_not_of(plain) == std::string::npos;
+    line += " " + (is_plain ? word : shell_quoted(word));
+  }
+  return line;
+}
+
 std::optional<std::string> output_error() {
   if (std::fflush(stdout) != 0) note_error();
   return first_error != 0 ? std::optional<std::string>(std::strerror(first_error)) : std::nullopt;

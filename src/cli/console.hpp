@@ -5,6 +5,7 @@
 #include <exception>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace vibrosow {
 
@@ -27,6 +28,12 @@ void print(fmt::format_string<Arguments...> format, Arguments&&... arguments) {
 
 /// Prints "vibrosow: TEXT" on standard error, one line whatever the text. Never throws.
 void complain(const std::string& text);
+
+/// A word that a shell takes as it is.
+std::string shell_quoted(const std::string& word);
+
+/// A command of the program as it is typed in a shell, quoted where it has to be.
+std::string typed_line(const std::vector<std::string>& words);
 
 /// Brings what was printed out of the program; why it could not be, if so ("No space left on device").
 std::optional<std::string> output_error();

@@ -20,7 +20,7 @@ struct DemoOptions {
 
 /// Prints a command as a user types it, and carries it out; its exit code.
 int carried_out(std::vector<std::string> words) {
-  print_text(fmt::format("$ vibrosow {}\n", fmt::join(words, " ")));
+  print("$ {}\n", typed_line(words));
   CLI::App app;
   int exit_code = exit_done;
   add_run_command(app, exit_code);

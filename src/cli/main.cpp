@@ -40,20 +40,6 @@ void require_command(const CLI::App& app, const std::string& first) {
   throw InputError(fmt::format("there is no command \"{}\"{}", shortened(first), did_you_mean(first, names)));
 }
 
-/// As it is typed in a shell.
-std::string typed(const std::vector<std::string>& words) {
-  std::string line = "vibrosow";
-  for (const std::string& word : words) {
-    const bool plain =
-        word.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-./=,:+%") ==
-        std::string::npos;
-    std::string quoted = word;
-    for (std::size_t at = 0; (at = quoted.find('\'', at)) != std::string::npos; at += 4) quoted.replace(at, 1, "'\\''");
-    line += plain && !word.empty() ? " " + word : " '" + quoted + "'";
-  }
-  return line;
-}
-
 bool is_given(const CLI::App& command, const char* option) {
   const CLI::Option* found = command.get_option_no_throw(option);
   return found != nullptr && found->count() > 0;
@@ -66,10 +52,10 @@ std::string line_that_goes_on(const CLI::App& command, std::vector<std::string> 
   const std::string name = command.get_name();
   if (name == "run" && is_given(command, "--checkpoint-every")) {
     if (!is_given(command, "--resume")) words.push_back("--resume");
-    return typed(words);
+    return typed_line(words);
   }
   // What a budget buys is measured by runs that are made now.
-  return keep_their_runs.contains(name) && !is_given(command, "--budget") ? typed(words) : "";
+  return keep_their_runs.contains(name) && !is_given(command, "--budget") ? typed_line(words) : "";
 }
 
 /// Names that commands had, with a hint.
@@ -144,7 +130,7 @@ int main(int argument_count, char** arguments) {
   make_streams_safe();
   end_when_memory_runs_out();
   try {
-    return run_program(renamed({arguments + 1, arguments + argument_count}));
+    return run_program(renamed({arguments + std::min(1, argument_count), arguments + argument_count}));
   } catch (const InputError& error) {
     complain(error.what());
   } catch (const std::system_error& error) {  // of the file system

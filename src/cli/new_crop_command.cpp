@@ -5,7 +5,6 @@
 #include <fstream>
 #include <iterator>
 #include <memory>
-#include <numbers>
 #include <optional>
 #include <string>
 #include <system_error>
@@ -21,6 +20,7 @@
 #include "report/crop_files.hpp"
 #include "report/terminal_text.hpp"
 #include "scene/input_error.hpp"
+#include "scene/si_units.hpp"
 #include "storage/atomic_file.hpp"
 #include "storage/case_file.hpp"
 #include "units/quantity.hpp"
@@ -62,7 +62,7 @@ NewCrop crop_of(const NewCropOptions& options) {
   });
   if (options.crop.empty() || options.crop.size() > 60 || !plain)
     throw InputError("--crop: the name of a file, up to 60 letters, digits, - and _");
-  constexpr double smallest = 5e-5, largest = 1, degree = std::numbers::pi / 180;  // m
+  constexpr double smallest = 5e-5, largest = 1;  // m
   NewCrop crop;
   crop.name = options.crop;
   crop.mass = quantity_of("--tkw", options.tkw, Dimension::seed_mass, 1e-6, 1e3, "45 g") / 1e3;

@@ -46,16 +46,6 @@ std::string own_job() {
 
 }  // namespace
 
-std::string shell_quoted(const std::string& word) {
-  std::string quoted(1, '\'');
-  for (const char letter : word) {
-    if (letter == '\'') quoted.append("'\\'");  // out of the quotes, one that stands for itself, and in again
-    quoted.push_back(letter);
-  }
-  quoted.push_back('\'');
-  return quoted;
-}
-
 void requeue_in_slurm() {
   const std::string job = own_job();
   if (job.empty()) return;

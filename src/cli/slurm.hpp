@@ -13,7 +13,4 @@ void requeue_in_slurm();
 /// is no Slurm or it refuses.
 std::string submit_to_slurm(const std::string& script, const std::vector<std::string>& options);
 
-/// A word that a shell takes as it is.
-std::string shell_quoted(const std::string& word);
-
 }  // namespace vibrosow
