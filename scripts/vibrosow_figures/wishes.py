@@ -1,4 +1,4 @@
-"""Pictures for the front page: how far hard cases stay from their bounds, and what each effect costs."""
+"""Pictures for those who have not run anything yet: how far hard cases stay from their bounds, what each effect costs, and a screen."""
 import matplotlib
 
 matplotlib.use("Agg")
@@ -52,8 +52,19 @@ def effect_prices(options):
     saved(figure, options.out)
 
 
+def screen(options):
+    """Draws the text that a command printed (TABLE) as OUT, as a terminal shows it."""
+    with open(options.table, encoding="utf-8") as file:
+        lines = file.read().splitlines()
+    size = 8  # points
+    figure = pyplot.figure(figsize=(max(map(len, lines)) * 0.602 * size / 72 + 0.3, len(lines) * 1.09 * size / 72 + 0.3), facecolor="#1e1e1e")
+    figure.text(0.15 / figure.get_figwidth(), 1 - 0.15 / figure.get_figheight(), "\n".join(lines), family="DejaVu Sans Mono", size=size,
+                color="#e6e6e6", va="top", linespacing=1.25, parse_math=False)
+    saved(figure, options.out)
+
+
 def add_commands(commands):
-    for name, act in (("margins", margins), ("effect-prices", effect_prices)):
+    for name, act in (("margins", margins), ("effect-prices", effect_prices), ("screen", screen)):
         drawn = command(commands, name, act)
         drawn.add_argument("table")
         drawn.add_argument("out")
