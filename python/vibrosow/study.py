@@ -97,16 +97,21 @@ class Study:
         low, high = (table[f"{figure}_low"], table[f"{figure}_high"]) if half is None else (value - half, value + half)
         return pandas.DataFrame({"value": value, "low": low, "high": high})
 
+    @property
+    def compared(self):
+        """Whether each row of `layouts` has figures of all its runs: it is ok, or doubtful, which its `reason` says."""
+        return self.layouts.status.isin(["ok", "doubtful"]).values
+
     def best(self, figure="rate_g_per_s", least=False):
         """Rows of `layouts` that chance alone may hold apart from the one with the largest figure (least: the smallest), the best first.
         Each is compared with that one, at 95 %, by their two intervals (Zou and Donner 2008, doi 10.1002/sim.3095): of many equal layouts
-        some are left out by chance. Only layouts that are ok are compared; one without an interval cannot be told apart. VibrosowError
+        some are left out by chance. Only layouts that are ok or doubtful are compared; one without an interval cannot be told apart. VibrosowError
         where none has the figure."""
-        table = self.intervals(figure)[(self.layouts.status == "ok").values]
+        table = self.intervals(figure)[self.compared]
         table["value"] = table.value.fillna(table.low)
         table = table.dropna(subset="value").sort_values("value", ascending=least, kind="stable")
         if table.empty:
-            raise VibrosowError(f"{self.folder}: no layout that is ok has {figure}")
+            raise VibrosowError(f"{self.folder}: no layout that can be compared has {figure}")
         first, (far, near) = table.iloc[0], ("low", "high") if least else ("high", "low")
         reach = ((table[far] - table.value) ** 2 + (first[near] - first.value) ** 2) ** 0.5
         alike = table.index[~((table.value - first.value).abs() > reach)]
@@ -121,11 +126,11 @@ class Study:
         return [", ".join([head, *values])[:60] for head, values in zip(heads, told)]
 
     def plot_rates(self, ax=None, figure="rate_g_per_s"):
-        """Draws a figure of every layout with its 95 % interval, the first layout on top; returns the axes. Layouts that are not ok are
+        """Draws a figure of every layout with its 95 % interval, the first layout on top; returns the axes. Layouts that cannot be compared are
         hollow, those without the figure empty. ValueError for a figure without intervals, VibrosowError where no layout has it."""
         from matplotlib import pyplot
 
-        table, sound = self.intervals(figure), (self.layouts.status == "ok").values
+        table, sound = self.intervals(figure), self.compared
         if table.isna().all(axis=None):
             raise VibrosowError(f"{self.folder}: no layout has {figure}")
         ax, places = ax or pyplot.subplots(figsize=(7, 2 + 0.25 * len(table)), layout="constrained")[1], pandas.RangeIndex(len(table))

@@ -249,7 +249,11 @@ int run_table(const AccuracyOptions& options) {
   add_page(files, page_template, accuracy_page_data(scene, result));
   write_then_print(
       options.common.quiet, [&] { folder.write(files); },
-      [&] { print("{}\n{}\n{}", wrapped(scene.title), accuracy_table(result), wrapped(accuracy_sentence(result))); });
+      [&] {
+        print("{}", wrapped(scene.title));
+        for (const std::string& doubt : odd_runs_sentences(result.runs)) print_text(wrapped(doubt));
+        print("\n{}\n{}", accuracy_table(result), wrapped(accuracy_sentence(result)));
+      });
   return ended(options, folder, runs, interrupt);
 }
 

@@ -129,7 +129,6 @@ int run_calibrate(const CalibrateOptions& command) {
                     std::back_inserter(files));
   write_then_print(
       options.quiet, [&] { folder.write(files); }, [&] { print_text(calibration_table(source)); });
-  for (const std::string& doubt : calibration_doubts(source)) complain("note: " + doubt);
   if (!options.quiet) print("reports: {}\n", folder.path().string());
   return exit_done;
 }

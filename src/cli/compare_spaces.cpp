@@ -38,7 +38,7 @@ TrayRate tray_rate(const Evaluation& evaluation) {
 void print_rate(std::string_view space, const TrayRate& rate, const Evaluation& evaluation) {
   print("  {:<6} {:>9} g/s {:>9} seeds/s of the tray, from {} counted; run in {}\n", space,
         number_text(rate.mass * 1e3), number_text(rate.seeds), rate.counted, duration_text(evaluation.wall_time));
-  for (const Remark& remark : evaluation.outflow.remarks) print_text(wrapped_beside("         note: ", remark.text));
+  for (const Doubt& doubt : evaluation.outflow.doubts) print_text(wrapped_beside("         note: ", doubt.text));
 }
 
 }  // namespace

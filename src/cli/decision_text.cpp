@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <map>
 
+#include "report/answer_doubts.hpp"
 #include "report/decision_words.hpp"
 #include "report/layout_text.hpp"
 #include "report/terminal_text.hpp"
@@ -32,34 +33,41 @@ std::string layout_text(const DecisionReport& report, const Layout& layout) {
          wrapped(figures_text(result.options, result.scenes[layout.scene.value()]), label.size());
 }
 
-std::string layouts_that_are(const DecisionReport& report, const std::string& standing) {
+std::string layouts_that_are(const DecisionReport& report, Standing standing) {
   std::string text;
   for (const Layout& layout : report.result.study.layouts)
-    if (standing_text(report, layout) == standing) text += layout_text(report, layout);
+    if (stands(report.result, layout, standing)) text += layout_text(report, layout);
   return text;
 }
 
 std::string answer_text(const DecisionReport& report) {
   const DecisionResult& result = report.result;
   if (!result.is_sure)
-    return wrapped(undecided_sentence(result)) + (result.cost.runs == 0 ? "" : layouts_that_are(report, "undecided"));
+    return wrapped(undecided_sentence(result)) +
+           (result.cost.runs == 0
+                ? ""
+                : layouts_that_are(report, Standing::undecided) + doubts_paragraph(doubts_about(report)));
   if (!result.best) return wrapped(no_best_sentence(result));
   std::string promise = promise_sentence(result);
   if (!is_guaranteed(result)) promise += ' ' + weakness_sentence();
-  const std::string others = layouts_that_are(report, "not shown to be worse");
-  return fmt::format("The best:\n{}{}{}{}", layouts_that_are(report, "best"), wrapped(promise),
+  const std::string others = layouts_that_are(report, Standing::not_shown_worse);
+  return fmt::format("The best:\n{}{}{}{}{}", layouts_that_are(report, Standing::best),
+                     doubts_paragraph(doubts_about(report)), wrapped(promise),
                      others.empty() ? "" : "\nLeft behind, but not shown to be worse:\n", others);
 }
 
 /// "38 worse, 12 misses the rate"
 std::string rest_text(const DecisionReport& report) {
   std::map<std::string, int> counts;
-  for (const Layout& layout : report.result.study.layouts) ++counts[standing_text(report, layout)];
+  for (const Layout& layout : report.result.study.layouts) {
+    const DecisionResult& result = report.result;
+    const bool is_told = stands(result, layout, Standing::best) || stands(result, layout, Standing::undecided) ||
+                         (result.is_sure && stands(result, layout, Standing::not_shown_worse));
+    if (!is_told) ++counts[standing_text(report, layout)];
+  }
   std::string text;
   for (const auto& [standing, count] : counts)
-    if (standing != "best" && standing != "undecided" &&
-        !(report.result.is_sure && standing == "not shown to be worse"))
-      text += fmt::format("{}{}: {}", text.empty() ? "" : "; ", standing, count);
+    text += fmt::format("{}{}: {}", text.empty() ? "" : "; ", standing, count);
   return text.empty() ? "" : fmt::format("\n{}", wrapped(fmt::format("Of the others, {} (decision.csv).", text)));
 }
 

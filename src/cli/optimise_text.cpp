@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <map>
 
+#include "report/answer_doubts.hpp"
 #include "report/front_report.hpp"
 #include "report/layout_text.hpp"
 #include "report/terminal_text.hpp"
@@ -66,6 +67,7 @@ std::string optimise_text(const OptimiseResult& result, const std::string& folde
   const std::string unsure = leading_text(result, FrontStanding::may_be_on_front);
   if (!sure.empty()) text += fmt::format("On the front:\n{}", sure);
   if (!unsure.empty()) text += fmt::format("First by their means, and may be on the front:\n{}", unsure);
+  text += doubts_paragraph(doubts_about(result));
   if (sure.empty() && unsure.empty()) text += wrapped("No layout meets the constraints by its means.");
   text += fmt::format("\n{}{}", rest_text(result), wrapped(front_promise(result)));
   text += wrapped(front_cost(result));

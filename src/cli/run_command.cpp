@@ -67,6 +67,8 @@ void print_holes(const Outflow& outflow) {
 
 void print_summary(const Scene& scene, const Run& run, const Outflow& outflow) {
   print("{}\n", wrapped(scene.title));
+  for (const Doubt& doubt : outflow.doubts) print_text(wrapped(doubt_sentence(doubt)));
+  if (!outflow.doubts.empty()) print("\n");
   print_holes(outflow);
   if (const std::string mixture = mixture_text(scene); !mixture.empty()) print_text("\n" + mixture);
   const HoleOutflow& all = *find_row(outflow, "all", "all");
@@ -81,7 +83,6 @@ void print_summary(const Scene& scene, const Run& run, const Outflow& outflow) {
   const Balance& balance = run.balance;
   print("\nwindow {:g} to {:g} s\nput in {} = inside {} + counted {} + spilled {} + lost {}\n", outflow.window_from,
         outflow.window_to, balance.put_in, balance.inside, balance.counted, balance.spilled, balance.lost);
-  for (const Remark& remark : outflow.remarks) print_text(wrapped("note: " + remark.text));
 }
 
 void print_profile(const Run& run) {
@@ -222,11 +223,12 @@ int run_scene(const RunOptions& options) {
     simulation.progress = [&](double fraction) { progress.update(fraction); };
     run = run_model(model, simulation);
   }
-  const Outflow outflow = measure_outflow(scene, run);
+  Outflow outflow = measure_outflow(scene, run);
+  for (std::size_t i = 0; i < warnings.size(); ++i)
+    outflow.doubts.insert(outflow.doubts.begin() + static_cast<std::ptrdiff_t>(i),
+                          {DoubtKind::unlikely_scene, warnings[i]});
   std::optional<DrillFigures> sown;
   if (drill) sown = drill_figures(scene, run, outflow, *drill);
-  const std::vector<std::string> warnings_of_run = run.warnings;
-  run.warnings.insert(run.warnings.begin(), warnings.begin(), warnings.end());
   std::vector<OutputFile> files = run_files(scene, run, outflow, effect_names(model.effects), options.csv, sown);
   std::ranges::move(page_files(page_template, run_page_data({model, run, outflow, sown}), recording.file()),
                     std::back_inserter(files));
@@ -240,7 +242,7 @@ int run_scene(const RunOptions& options) {
       });
   if (run.status == RunStatus::finished) checkpoint.remove();
   if (!options.quiet) print("reports: {}\n", folder.path().string());
-  print_warnings(warnings_of_run);
+  for (const Doubt& warning : run.warnings) print_warnings({warning.text});
   if (run.status == RunStatus::stopped_by_guard) {
     complain("the guard stopped the run: " + run.stop_reason);
     return exit_stopped_by_guard;

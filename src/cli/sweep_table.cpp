@@ -8,7 +8,9 @@
 
 #include "cli/console.hpp"
 #include "cli/drill_table.hpp"
+#include "report/answer_doubts.hpp"
 #include "report/layout_text.hpp"
+#include "report/sweep_report.hpp"
 #include "report/terminal_text.hpp"
 
 namespace vibrosow {
@@ -63,7 +65,7 @@ void print_remarks(const LayoutResult& of) {
                        4));
   if (of.misfit_percent) print("    misfit {} %\n", with_interval(of.misfit_percent, 1));
   if (!of.rows.empty()) print_text(wrapped(sown_sentence(of.rows), 4));
-  if (!of.reason.empty()) print_text(wrapped(of.reason, 4));
+  if (const std::string note = layout_note(of); !note.empty()) print_text(wrapped(note, 4));
 }
 
 void print_layouts(const StudyResult& result) {
@@ -85,6 +87,7 @@ void print_layouts(const StudyResult& result) {
 
 void print_sweep_table(const StudyResult& result) {
   print("{}\n", wrapped(result.study.title));
+  if (const std::string doubts = doubts_paragraph(doubts_about(result)); !doubts.empty()) print("{}\n", doubts);
   print_layouts(result);
   const bool uneven = std::ranges::any_of(
       result.layouts, [](const LayoutResult& one) { return one.figures["raw_cv_percent"].has_value(); });

@@ -127,6 +127,7 @@ AccuracyRun taken(const SettingRuns& of, const Evaluation& result) {
     run.refused = "outside the model";
   else
     take_rate(run, *find_row(result.outflow, "all", "all"));
+  run.doubts = result.outflow.doubts;
   return run;
 }
 

@@ -89,6 +89,7 @@ struct AccuracyRun {
   std::string refused{};              // why it has no rate: a step too long, stopped by the guard, interrupted
   std::optional<double> mass_rate{};  // kg/s, all holes and lots, of the plane slice or in space of the tray
   double seeds = 0;                   // of which the rate is made
+  std::vector<Doubt> doubts{};        // where it has a rate
   double grain_steps = 0;
   double cpu_time = 0;  // s, of this machine; 0: it was kept from before
   bool made() const { return cpu_time > 0; }

@@ -9,6 +9,13 @@
 namespace vibrosow {
 namespace {
 
+/// Whether it speaks against a rate in the window, and not against a curve of all that has left.
+bool is_of_a_rate(DoubtKind kind) {
+  using enum DoubtKind;
+  return kind == ran_dry || kind == drained || kind == stopped_flowing || kind == before_the_window ||
+         kind == few_seeds;
+}
+
 ReducedRun reduced_run(const CalibrationTask& task, const std::vector<std::size_t>& series, const Scene& scene,
                        const Evaluation& evaluation) {
   ReducedRun reduced;
@@ -18,6 +25,8 @@ ReducedRun reduced_run(const CalibrationTask& task, const std::vector<std::size_
   }
   if (evaluation.outside_the_model) reduced.reason = "outside the model";
   const bool curves = is_curve(task.measured.table.quantity);
+  reduced.doubts = evaluation.outflow.doubts;
+  if (curves) std::erase_if(reduced.doubts, [](const Doubt& doubt) { return is_of_a_rate(doubt.kind); });
   const double factor = task.measured.scale == MeasuredScale::depth ? evaluation.outflow.depth_factor.value_or(1) : 1;
   for (const std::size_t s : series) {
     std::vector<double> values = simulated_values(evaluation, task.measured, task.measured.table.series[s], scene);

@@ -15,6 +15,7 @@ struct ReducedRun {
   std::string reason;          // why it counts for nothing; empty where it counts
   std::vector<double> values;  // of the series of its condition, in their order, SI and unscaled but for --scale depth:
                                // rates, or curves
+  std::vector<Doubt> doubts{};  // of a run that counts, about what is fitted
 };
 
 /// Indices of the series that were measured under a condition.

@@ -163,8 +163,10 @@ const Outflow& a_finished_outflow(const std::vector<Evaluation>& replicates) {
   return std::ranges::find_if(replicates, &Evaluation::finished)->outflow;
 }
 
-void add_remark(LayoutResult& layout, const std::string& remark) {
-  if (layout.reason.find(remark) == std::string::npos) layout.reason += (layout.reason.empty() ? "" : "; ") + remark;
+/// Once a layout, however many series are cut short.
+void note_left_out(LayoutResult& layout) {
+  const CountedDoubt doubt{DoubtKind::measured_left_out, 0, 0, "measured times after the end of the run are left out"};
+  if (std::ranges::find(layout.doubts, doubt) == layout.doubts.end()) layout.doubts.push_back(doubt);
 }
 
 }  // namespace
@@ -201,8 +203,7 @@ void compare_with_measured(StudyResult& result) {
   for (const MeasuredMatch& match : part.matches) {
     if (result.layouts[match.layout].status == LayoutStatus::outside_the_model) continue;
     Pairing pairing = pair_up(result, match);
-    if (pairing.times.size() < pairing.series->times.size())
-      add_remark(result.layouts[match.layout], "measured times after the end of the run are left out");
+    if (pairing.times.size() < pairing.series->times.size()) note_left_out(result.layouts[match.layout]);
     if (!pairing.simulated.empty() && !pairing.measured.empty()) pairings.push_back(std::move(pairing));
   }
 

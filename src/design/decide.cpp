@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "design/layout_doubts.hpp"
 #include "outflow/outflow.hpp"
 #include "scene/input_error.hpp"
 #include "scene/spaces.hpp"
@@ -138,6 +139,7 @@ SceneDecision StudyDecision::figures_of(std::size_t scene) const {
   SceneDecision figures;
   figures.reason = failures_[scene];
   figures.stopped = first_stop(runs_.runs()[scene]);
+  figures.doubts = doubts_of_layout(study_.scenes[scene], runs_.runs()[scene]);
   std::vector<double> goal_values, rates;
   const auto rate_of = [&](const Outflow& outflow) {
     return options_.rate ? options_.rate->of(outflow) : figure_named("rate_g_per_s").of(outflow);

@@ -30,8 +30,9 @@ struct DecideOptions {
 /// What is known of a scene when the decision is there.
 struct SceneDecision {
   Standing standing = Standing::undecided;
-  std::string reason;   // why it failed
-  std::string stopped;  // `first_stop` of its runs
+  std::vector<CountedDoubt> doubts;  // of its runs that finished, and of its scene
+  std::string reason;                // why it failed
+  std::string stopped;               // `first_stop` of its runs
   bool is_screened_out = false;
   int runs = 0, clogged = 0;
   std::optional<MeanWithInterval> goal, rate;  // SI, over the runs that flowed; the goal as its figure is

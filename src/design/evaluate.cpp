@@ -28,7 +28,6 @@ Evaluation reduced(const Scene& scene, const Run& run, const std::vector<CurveRe
                         .status = status_of(run),
                         .reason = run.stop_reason,
                         .end_reason = run.end_reason,
-                        .warnings = run.warnings,
                         .outside_the_model = run.outside_the_model,
                         .dt = run.dt,
                         .end_time = run.end_time,

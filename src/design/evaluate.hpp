@@ -45,9 +45,8 @@ enum class EvaluationStatus {
 struct Evaluation {
   std::uint64_t random_seed = 1;
   EvaluationStatus status = EvaluationStatus::not_begun;
-  std::string reason{};                 // of `refused` and `stopped`
-  std::string end_reason{};             // why it ended before its duration, though sound; else empty
-  std::vector<std::string> warnings{};  // of the guard
+  std::string reason{};      // of `refused` and `stopped`
+  std::string end_reason{};  // why it ended before its duration, though sound; else empty
   bool outside_the_model = false;
   double dt = 0;        // s
   double end_time = 0;  // s

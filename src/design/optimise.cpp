@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "design/layout_doubts.hpp"
 #include "design/study_grid.hpp"
 #include "outflow/outflow.hpp"
 #include "scene/input_error.hpp"
@@ -221,6 +222,9 @@ FrontLayout StudyOptimisation::layout_result(std::size_t layout, FrontStanding s
   if (!place.scene) return result;
   for (const SceneRuns& runs : generations_[place.generation]->runs)
     if (result.stopped.empty()) result.stopped = first_stop(runs.runs()[*place.scene]);
+  const Generation& generation = *generations_[place.generation];
+  const auto own = static_cast<std::size_t>(std::ranges::find(variants_, Variant::as_it_is) - variants_.begin());
+  result.doubts = doubts_of_layout(generation.study.scenes[*place.scene], generation.runs[own].runs()[*place.scene]);
   result.runs = search_->front().observations(layout);
   result.clogged = search_->front().clogged(layout);
   const std::vector<KnownMean> known = search_->front().known(layout);

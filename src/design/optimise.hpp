@@ -30,10 +30,11 @@ struct OptimiseOptions {
 /// What is known of a layout.
 struct FrontLayout {
   FrontStanding standing = FrontStanding::failed;
-  bool is_first_by_means = false;  // meets the constraints by its means, and no other such has better means
-  std::string reason;              // why it failed
-  std::string stopped;             // `first_stop` of its runs, variants' included
-  int runs = 0, clogged = 0;       // without those of variants
+  bool is_first_by_means = false;    // meets the constraints by its means, and no other such has better means
+  std::string reason;                // why it failed
+  std::vector<CountedDoubt> doubts;  // of its runs that finished, without those of variants, and of its scene
+  std::string stopped;               // `first_stop` of its runs, variants' included
+  int runs = 0, clogged = 0;         // without those of variants
   std::vector<std::optional<MeanWithInterval>> goals;  // SI, as their figures are, with shared variances
   std::optional<MeanWithInterval>
       rate;  // SI, of the tray where one is wanted (with shared variances), else rate_g_per_s

@@ -1,15 +1,13 @@
 #include "design/sweep.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
-#include <set>
 #include <utility>
 
 #include "design/comparison.hpp"
-#include "plan/scene_warnings.hpp"
+#include "design/layout_doubts.hpp"
 
 namespace vibrosow {
 namespace {
@@ -149,28 +147,6 @@ BedFigures bed_figures(const Scene& scene, std::size_t record, const std::vector
   return figures;
 }
 
-/// What to know about the finished runs of a layout: each kind of remark, and how many runs have it.
-std::string remarks_on(const std::vector<Evaluation>& replicates) {
-  std::vector<std::pair<std::string, int>> kinds;  // in the order in which they come up
-  int finished = 0;
-  for (const Evaluation& replicate : replicates) {
-    if (!replicate.finished()) continue;
-    ++finished;
-    std::set<std::string> of_run;
-    for (const Remark& remark : replicate.outflow.remarks) {
-      if (!of_run.insert(remark.kind).second) continue;
-      const auto known = std::ranges::find(kinds, remark.kind, &std::pair<std::string, int>::first);
-      if (known == kinds.end())
-        kinds.emplace_back(remark.kind, 1);
-      else
-        ++known->second;
-    }
-  }
-  std::vector<std::string> remarks;
-  for (const auto& [kind, runs] : kinds) remarks.push_back(fmt::format("{} in {} of {} runs", kind, runs, finished));
-  return fmt::format("{}", fmt::join(remarks, "; "));
-}
-
 void set_status(LayoutResult& result, const std::vector<Evaluation>& replicates) {
   result.replicates = static_cast<int>(std::ranges::count_if(replicates, &Evaluation::finished));
   const auto refused = std::ranges::find(replicates, EvaluationStatus::refused, &Evaluation::status);
@@ -185,25 +161,28 @@ void set_status(LayoutResult& result, const std::vector<Evaluation>& replicates)
     result.status = LayoutStatus::interrupted;
     result.reason = fmt::format("{} of {} runs finished", result.replicates, replicates.size());
   } else {
+    result.doubts = doubts_of_runs(replicates);
     if (std::ranges::any_of(replicates, &Evaluation::outside_the_model))
       result.status = LayoutStatus::outside_the_model;
-    result.reason = remarks_on(replicates);
   }
 }
 
 /// Of replicates by need: runs that clogged, and what to know about the interval.
-void add_remarks_on_need(const Study& study, const std::vector<Evaluation>& replicates, LayoutResult& result) {
-  const auto add = [&](const std::string& remark) { result.reason += (result.reason.empty() ? "" : "; ") + remark; };
+void add_doubts_of_need(const Study& study, const std::vector<Evaluation>& replicates, LayoutResult& result) {
+  const auto add = [&](DoubtKind kind, std::string text) { result.doubts.push_back({kind, 0, 0, std::move(text)}); };
   const std::vector<std::optional<double>> rates = rates_of(replicates);
   if (result.stopped_flowing > 0)
-    add(fmt::format("clogged in {} of {} runs, which are left out", result.stopped_flowing, replicates.size()));
+    add(DoubtKind::clogged_replicates,
+        fmt::format("clogged in {} of {} runs, which are left out", result.stopped_flowing, replicates.size()));
   std::vector<double> flowed;
   for (const auto& rate : rates)
     if (rate) flowed.push_back(*rate);
   if (!enough_runs(rates, study.replicates))
-    add(fmt::format("after {} runs the rate's interval is still wider than {:.3g} %", replicates.size(),
-                    100 * *study.replicates.interval));
-  if (look_skewed(flowed)) add("the runs scatter to one side: the interval holds less often than 95 times in 100");
+    add(DoubtKind::wide_interval, fmt::format("after {} runs the rate's interval is still wider than {:.3g} %",
+                                              replicates.size(), 100 * *study.replicates.interval));
+  if (look_skewed(flowed))
+    add(DoubtKind::skewed_replicates,
+        "the runs scatter to one side: the interval holds less often than 95 times in 100");
 }
 
 LayoutResult invalid_result(const Layout& layout) {
@@ -226,11 +205,12 @@ SceneResult result_of(const Study& study, const Scene& scene, const std::vector<
   set_status(result, replicates);
   result.stopped_flowing = static_cast<int>(
       std::ranges::count_if(runs, [](const Evaluation& one) { return one.finished() && !one.end_reason.empty(); }));
-  const bool was_run = result.status == LayoutStatus::ok || result.status == LayoutStatus::outside_the_model;
-  if (study.replicates.interval && was_run) add_remarks_on_need(study, runs, result);
+  const bool was_run = is_comparable(result.status) || result.status == LayoutStatus::outside_the_model;
+  if (study.replicates.interval && was_run) add_doubts_of_need(study, runs, result);
   result.figures = figures_of(replicates);
   result.holes = hole_figures(replicates);
-  result.warnings = scene_warnings(scene);
+  for (CountedDoubt& doubt : doubts_of_scene(scene)) result.doubts.push_back(std::move(doubt));
+  if (result.status == LayoutStatus::ok && is_serious(result.doubts)) result.status = LayoutStatus::doubtful;
   for (std::size_t record = 0; scene.record && record < scene.record->times.size(); ++record)
     result.bed.push_back(bed_figures(scene, record, replicates));
   return {std::move(result), rows_of_drills(replicates, drills.size())};
@@ -244,6 +224,10 @@ LayoutResult result_of(const Layout& layout, const SceneResult& of_scene, const 
 }
 
 }  // namespace
+
+bool is_comparable(LayoutStatus status) {
+  return status == LayoutStatus::ok || status == LayoutStatus::doubtful;
+}
 
 std::vector<std::optional<double>> rates_of(const std::vector<Evaluation>& replicates) {
   std::vector<std::optional<double>> rates;

@@ -23,8 +23,12 @@ struct SweepOptions {
   ManyRunsOptions runs;
 };
 
-/// Of a layout of which a run left the model the figures are told, and nothing is decided by them.
-enum class LayoutStatus { ok, outside_the_model, invalid, stopped, interrupted };
+/// doubtful: there are serious doubts. Of a layout of which a run left the model the figures are told, and nothing is
+/// decided by them.
+enum class LayoutStatus { ok, doubtful, outside_the_model, invalid, stopped, interrupted };
+
+/// Whether its figures are of all its runs, and may be compared with those of others.
+bool is_comparable(LayoutStatus status);
 
 /// One hole and lot, over the finished replicates.
 struct HoleFigures {
@@ -48,11 +52,11 @@ struct BedFigures {
 
 struct LayoutResult {
   LayoutStatus status = LayoutStatus::ok;
-  std::string reason;                 // of a status other than ok; else what to know: "ran dry in 2 of 5 runs"
-  std::vector<std::string> warnings;  // what in its scene can hardly be meant
-  int replicates = 0;                 // finished
-  int stopped_flowing = 0;            // of all runs, also those that are left out: ended by a pause
-  FigureMeans figures;                // over the finished replicates
+  std::string reason;                              // why it is invalid, stopped or interrupted
+  std::vector<CountedDoubt> doubts;                // of its runs where none of these is so, and of its scene
+  int replicates = 0;                              // finished
+  int stopped_flowing = 0;                         // of all runs, also those that are left out: ended by a pause
+  FigureMeans figures;                             // over the finished replicates
   std::optional<MeanWithInterval> misfit_percent;  // of the mean outflow; interval from the misfits of the replicates
   std::vector<HoleFigures> holes;
   std::vector<BedFigures> bed{};  // empty without a record

@@ -19,13 +19,14 @@ Balance converted(const vibrosow::Balance& own) {
 Evaluation converted(const vibrosow::Evaluation& own) {
   Evaluation evaluation{.finished = own.finished(),
                         .reason = reason_of(own),
-                        .warnings = own.warnings,
+                        .warnings = {},
                         .outside_the_model = own.outside_the_model,
                         .end_time = own.end_time,
                         .balance = converted(own.balance),
                         .holes = {},
                         .evenness_cv = own.outflow.evenness ? own.outflow.evenness->cv : std::nullopt,
                         .depth_factor = own.outflow.depth_factor};
+  for (const Doubt& doubt : own.outflow.doubts) evaluation.warnings.push_back(doubt.text);
   for (const vibrosow::HoleOutflow& row : own.outflow.holes)
     evaluation.holes.push_back({row.hole, row.lot, row.grains, row.seeds_per_s, row.mass_rate, row.longest_pause});
   return evaluation;

@@ -111,41 +111,39 @@ bool is_fed(const Scene& scene) {
 /// rate is not that of a full tray.
 constexpr double drained_fraction = 0.5;
 
-std::optional<Remark> drained(const Scene& scene, const Run& run, const Window& window) {
+std::optional<Doubt> doubt_if_drained(const Scene& scene, const Run& run, const Window& window) {
   if (is_fed(scene) || window.empty()) return std::nullopt;
   const auto left_before =
       std::ranges::count_if(run.events, [&](const auto& event) { return event.time < window.from; });
   const Balance& balance = run.balance;
   const std::int64_t at_begin = balance.put_in - left_before;
   if (static_cast<double>(balance.inside) >= drained_fraction * static_cast<double>(at_begin)) return std::nullopt;
-  return Remark{"drained in the window", fmt::format("drained in the window: {} of {} seeds gone",
-                                                     balance.put_in - balance.inside, balance.put_in)};
+  return Doubt{DoubtKind::drained, fmt::format("drained in the window: {} of {} seeds gone",
+                                               balance.put_in - balance.inside, balance.put_in)};
 }
 
-std::vector<Remark> remarks_on(const Scene& scene, const Run& run, const Window& window, std::size_t counted) {
-  std::vector<Remark> remarks;
-  const auto add = [&](const std::string& kind, const std::string& text = "") {
-    remarks.push_back({kind, text.empty() ? kind : text});
+std::vector<Doubt> doubts_about(const Scene& scene, const Run& run, const Window& window, std::size_t counted) {
+  using enum DoubtKind;
+  std::vector<Doubt> doubts;
+  const auto add = [&](DoubtKind kind, const std::string& text = "") {
+    doubts.push_back({kind, text.empty() ? std::string(words_of(kind).name) : text});
   };
-  if (run.outside_the_model) add("outside the model");
+  if (run.outside_the_model) add(outside_the_model);
   if (run.tray_empty_since >= 0 && run.tray_empty_since < window.to)
-    add("ran dry", fmt::format("ran dry at {:.3g} s", run.tray_empty_since));
-  else if (const auto remark = drained(scene, run, window))
-    remarks.push_back(*remark);
-  if (!run.end_reason.empty())
-    add("stopped flowing", fmt::format("ended at {:.3g} s: {}", run.end_time, run.end_reason));
+    add(ran_dry, fmt::format("ran dry at {:.3g} s", run.tray_empty_since));
+  else if (const auto doubt = doubt_if_drained(scene, run, window))
+    doubts.push_back(*doubt);
+  if (!run.end_reason.empty()) add(stopped_flowing, fmt::format("ended at {:.3g} s: {}", run.end_time, run.end_reason));
   if (run.balance.lost > 0)
-    add("seeds lost through walls",
-        fmt::format("{} of {} seeds lost through walls", run.balance.lost, run.balance.put_in));
-  for (const std::string& warning : run.warnings)
-    add(warning.find("falls behind") != std::string::npos ? "the feeder fell behind" : "the guard warned", warning);
-  if (run.status == RunStatus::stopped_by_guard) add("stopped", "stopped: " + run.stop_reason);
-  if (run.status == RunStatus::interrupted) add("interrupted");
+    add(seeds_lost, fmt::format("{} of {} seeds lost through walls", run.balance.lost, run.balance.put_in));
+  doubts.insert(doubts.end(), run.warnings.begin(), run.warnings.end());
+  if (run.status == RunStatus::stopped_by_guard) add(stopped_by_guard, "stopped: " + run.stop_reason);
+  if (run.status == RunStatus::interrupted) add(interrupted);
   if (window.empty())
-    add("ended before the measuring window");
+    add(before_the_window);
   else if (static_cast<std::int64_t>(counted) < few_grains && !scene.tray.holes.empty())
-    add("few seeds", fmt::format("a rate from {} seed{}", counted, counted == 1 ? "" : "s"));
-  return remarks;
+    add(few_seeds, fmt::format("a rate from {} seed{}", counted, counted == 1 ? "" : "s"));
+  return doubts;
 }
 
 }  // namespace
@@ -162,7 +160,7 @@ std::optional<double> instability_cv(const std::vector<double>& times, double fr
 
 std::string Outflow::note() const {
   std::vector<std::string_view> texts;
-  for (const Remark& remark : remarks) texts.push_back(remark.text);
+  for (const Doubt& doubt : doubts) texts.push_back(doubt.text);
   return fmt::format("{}", fmt::join(texts, "; "));
 }
 
@@ -180,7 +178,7 @@ Outflow measure_outflow(const Scene& scene, const Run& run) {
   const std::int64_t left = run.balance.counted + run.balance.spilled;
   if (left > 0) outflow.spilled_fraction = static_cast<double>(run.balance.spilled) / static_cast<double>(left);
   outflow.depth_factor = depth_factor(scene);
-  outflow.remarks = remarks_on(scene, run, window, events.size());
+  outflow.doubts = doubts_about(scene, run, window, events.size());
   return outflow;
 }
 

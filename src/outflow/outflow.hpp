@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "outflow/doubts.hpp"
 #include "outflow/evenness.hpp"
 #include "outflow/statistics.hpp"
 #include "result/run.hpp"
@@ -27,13 +28,7 @@ struct HoleOutflow {
   double longest_pause = 0;  // s, inside the window, its ends counting as events
 };
 
-/// Something about a run that its figures do not show.
-struct Remark {
-  std::string kind;  // the same for every run: "ran dry"
-  std::string text;  // of this one: "ran dry at 3.2 s"
-};
-
-/// A rate from fewer seeds than this is remarked upon: by counting alone it is uncertain by 36 % (95 %).
+/// A rate from fewer seeds than this is doubtful: by counting alone it is uncertain by 36 % (95 %).
 inline constexpr std::int64_t few_grains = 30;
 
 struct Outflow {
@@ -44,7 +39,7 @@ struct Outflow {
   std::optional<double> instability_cv;      // fraction; CV of the whole outflow over equal time windows
   double spilled_fraction = 0;               // spilled / (counted + spilled), whole run
   std::optional<double> depth_factor;        // tray.depth / diameter of the plane slice; in space 1
-  std::vector<Remark> remarks;               // what happened that a reader must know; empty when all is well
+  std::vector<Doubt> doubts;                 // what speaks against the figures; empty when all is well
   std::string note() const;                  // their texts: "ran dry at 3.2 s; outside the model"
 };
 

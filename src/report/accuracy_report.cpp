@@ -3,8 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
 #include <nlohmann/json.hpp>
 
+#include "outflow/doubts.hpp"
 #include "report/accuracy_page.hpp"
 #include "report/columns.hpp"
 #include "report/json_keys.hpp"
@@ -239,8 +241,18 @@ std::string errors_text(const AccuracyResult& result) {
     text += wrapped(fmt::format("The tray sows {} g/s as a plane, {} g/s in space.", rate_text(result.depth->plane),
                                 rate_text(result.depth->space)));
   if (result.fit && !result.fit->fits()) text += wrapped(misfit_sentence(*result.fit));
-  for (const std::string& doubt : odd_runs_sentences(result.runs)) text += wrapped(doubt);
   return text;
+}
+
+/// What speaks against the runs that have a rate.
+std::vector<SharedDoubt> doubts_of_settings(const std::vector<AccuracyRun>& runs) {
+  std::map<std::size_t, std::vector<const std::vector<Doubt>*>> of_settings;
+  for (const AccuracyRun& run : runs)
+    if (run.mass_rate) of_settings[run.setting].push_back(&run.doubts);
+  std::vector<LayoutDoubts> doubts;
+  for (const auto& [setting, of_runs] : of_settings)
+    doubts.push_back({static_cast<int>(setting) + 1, counted_doubts(of_runs)});
+  return shared_doubts(doubts);
 }
 
 std::string share(double percent) {
@@ -428,6 +440,7 @@ std::vector<std::string> odd_runs_sentences(const std::vector<AccuracyRun>& runs
   if (reason)
     all.push_back(fmt::format("{} of the {} runs {} no rate: {}.", runs.size() - rates.size(), runs.size(),
                               runs.size() - rates.size() == 1 ? "has" : "have", *reason));
+  for (const SharedDoubt& doubt : doubts_of_settings(runs)) all.push_back(doubt_sentence(doubt, "setting"));
   if (rates.empty()) return all;
   std::ranges::sort(rates);
   const double median = rates[rates.size() / 2];
@@ -479,8 +492,8 @@ std::string promise_cost(const Promise& promise) {
 std::string promise_text(const Promise& promise, const PromiseGoal& goal) {
   std::string text;
   for (const std::string& paragraph : promise_paragraphs(promise, goal)) text += wrapped(paragraph);
-  text += wrapped(promise_cost(promise));
   for (const std::string& doubt : odd_runs_sentences(promise.runs)) text += wrapped(doubt);
+  text += wrapped(promise_cost(promise));
   return text;
 }
 

@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "input/key_units.hpp"
+#include "outflow/doubts.hpp"
 #include "report/calibration_page.hpp"
 #include "report/contact_model.hpp"
 #include "report/page.hpp"
@@ -177,6 +178,17 @@ std::vector<std::pair<std::string, std::string>> sources(const CalibrationSource
   return result;
 }
 
+/// What speaks against the runs that were fitted to.
+std::vector<std::string> sentences_of_runs(const std::vector<ReducedRun>& runs) {
+  std::vector<const std::vector<Doubt>*> that_count;
+  for (const ReducedRun& run : runs)
+    if (run.reason.empty()) that_count.push_back(&run.doubts);
+  std::vector<std::string> sentences;
+  for (const SharedDoubt& doubt : shared_doubts({{0, counted_doubts(that_count)}}))
+    sentences.push_back(doubt_clause(doubt, ""));
+  return sentences;
+}
+
 }  // namespace
 
 std::string fitted_name(const CalibrationSource& source, std::size_t index) {
@@ -208,8 +220,10 @@ std::string conditions_text(const std::vector<Condition>& conditions) {
 
 std::string calibration_table(const CalibrationSource& source) {
   const Calibration& of = source.calibration;
-  std::string text =
-      fmt::format("{:<28} {:>6} {:>9} {:>21} {:>11}\n", "key", "unit", "mean", "95 % interval", "contraction");
+  std::string text;
+  for (const std::string& doubt : calibration_doubts(source)) text += wrapped(fmt::format("Doubtful: {}.", doubt));
+  if (!text.empty()) text += '\n';
+  text += fmt::format("{:<28} {:>6} {:>9} {:>21} {:>11}\n", "key", "unit", "mean", "95 % interval", "contraction");
   for (const ValueRow& row : value_rows(source))
     text +=
         fmt::format("{:<28} {:>6} {:>9} {:>9} to {:>8} {:>9.0f} %\n", row.name, row.unit, to_digits(row.value.mean, 4),
@@ -226,7 +240,7 @@ std::string calibration_table(const CalibrationSource& source) {
 
 std::vector<std::string> calibration_doubts(const CalibrationSource& source) {
   const Calibration& of = source.calibration;
-  std::vector<std::string> doubts;
+  std::vector<std::string> doubts = sentences_of_runs(source.runs);
   for (const FittedPair& pair : of.correlations)
     if (std::abs(pair.correlation) > not_told_apart)
       doubts.push_back(fmt::format("{} and {} cannot be told apart by this table (correlation {:.2f})",

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
+#include "report/answer_doubts.hpp"
 #include "report/decision_words.hpp"
 #include "report/layout_text.hpp"
 #include "report/page.hpp"
@@ -46,10 +47,10 @@ std::string named(const Study& study, const Layout& layout) {
   return text.empty() ? fmt::format("Layout {}", layout.number) : fmt::format("Layout {} ({})", layout.number, text);
 }
 
-std::string numbers_that_are(const DecisionReport& report, std::string_view standing) {
+std::string numbers_that_are(const DecisionReport& report, Standing standing) {
   std::vector<int> numbers;
   for (const Layout& layout : report.result.study.layouts)
-    if (standing_text(report, layout) == standing) numbers.push_back(layout.number);
+    if (stands(report.result, layout, standing)) numbers.push_back(layout.number);
   return fmt::format("{}", fmt::join(numbers, ", "));
 }
 
@@ -57,7 +58,7 @@ std::string headline(const DecisionReport& report) {
   const DecisionResult& result = report.result;
   if (!result.is_sure) {
     const std::string text = undecided_sentence(result);
-    return text.ends_with(':') ? fmt::format("{} {}.", text, numbers_that_are(report, "undecided")) : text;
+    return text.ends_with(':') ? fmt::format("{} {}.", text, numbers_that_are(report, Standing::undecided)) : text;
   }
   for (const Layout& layout : result.study.layouts)
     if (layout.scene && layout.scene == result.best)
@@ -69,7 +70,7 @@ std::string headline(const DecisionReport& report) {
 /// What is doubtful about the answer; which layouts failed stands with the layouts.
 Json doubts(const DecisionReport& report) {
   const DecisionResult& result = report.result;
-  Json all = Json::array();
+  Json all = doubt_sentences(doubts_about(report));
   if (result.is_sure && result.best && !is_guaranteed(result)) all.push_back(weakness_sentence());
   if (report.drafts && report.drafts->screens) all.push_back(drafts_sentence(*report.drafts));
   if (!result.tests_clogging && result.options.clogging_limit < 1) all.push_back(clogging_untested_sentence());
@@ -104,12 +105,17 @@ Json cost(const DecisionReport& report, const SweepTiming& timing) {
   return all;
 }
 
+bool is_compared(const SceneDecision& of) {
+  using enum Standing;
+  const bool was_judged =
+      of.standing == best || of.standing == not_shown_worse || of.standing == worse || of.standing == undecided;
+  return was_judged && !of.is_screened_out;
+}
+
 /// "ok" of those that are compared by the goal, and what they failed at of the others.
 std::string status_of(const DecisionReport& report, const Layout& layout) {
-  std::string standing = standing_text(report, layout);
-  for (const char* compared : {"best", "not shown to be worse", "worse", "undecided"})
-    if (standing == compared) return "ok";
-  return standing;
+  const bool compared = layout.scene && is_compared(report.result.scenes[*layout.scene]);
+  return compared ? "ok" : standing_text(report, layout);
 }
 
 bool shows_rate(const DecideOptions& options) {
@@ -137,6 +143,7 @@ Json layout(const DecisionReport& report, const Layout& layout, const Replays& r
   const DecisionResult& result = report.result;
   Json one = page_layout(result.study, layout, result.options.first_random_seed, replays);
   one["status"] = status_of(report, layout);
+  one["compared"] = layout.scene && is_compared(result.scenes[*layout.scene]);
   one["standing"] = standing_text(report, layout);
   if (!layout.scene) {
     one["note"] = layout.invalid;
@@ -159,8 +166,7 @@ std::vector<WantedReplay> best_to_replay(const DecisionReport& report, std::size
   const auto scene_of = [&](const Layout* layout) -> const SceneDecision& { return result.scenes[*layout->scene]; };
   std::vector<const Layout*> layouts;
   for (const Layout& one : result.study.layouts) {
-    const std::string standing = standing_text(report, one);
-    if (standing == "best" || standing == "not shown to be worse" || standing == "undecided") layouts.push_back(&one);
+    if (is_in_the_answer(result, one)) layouts.push_back(&one);
   }
   std::erase_if(layouts, [&](const Layout* one) { return !scene_of(one).goal; });
   const double sign = result.options.goal->is_most ? -1 : 1;

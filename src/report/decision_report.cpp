@@ -2,6 +2,7 @@
 
 #include <cstdint>
 
+#include "report/answer_doubts.hpp"
 #include "report/decision_page.hpp"
 #include "report/json_keys.hpp"
 #include "report/layout_columns.hpp"
@@ -50,10 +51,12 @@ Columns<DecisionRow> decision_columns(const std::vector<std::string>& keys) {
       "fifth of the band); clogs; ruled out by drafts; failed (it cannot be run, has no such goal, or left the model); "
       "invalid; undecided",
       [](R r) { return standing_text(*r.report, r.layout()); }));
-  columns.push_back(text_column<DecisionRow>("reason", "why it failed or is invalid", [](R r) {
-    const SceneDecision* of = r.of();
-    return of ? of->reason : r.layout().invalid;
-  }));
+  columns.push_back(
+      text_column<DecisionRow>("reason", "why it failed or is invalid; else what makes it less sure", [](R r) {
+        const SceneDecision* of = r.of();
+        if (!of) return r.layout().invalid;
+        return of->reason.empty() ? doubts_text(of->doubts) : of->reason;
+      }));
   append(columns, key_columns<DecisionRow>(keys));
   append(columns, {text_column<DecisionRow>("runs", "after which it was decided, so far those that were made",
                                             [](R r) { return r.of() ? r.of()->runs : 0; }),
@@ -112,6 +115,7 @@ JsonKeys<DecisionReport> decision_keys() {
       {"rate.high", "", "upper end", of_rate([](const WantedRate& rate) { return rate.high; })},
       {"clogging_limit_percent", "%", "share of runs that may clog; null: it was not tested",
        [](S s) { return s.result.tests_clogging ? Json(100 * s.result.options.clogging_limit) : Json(); }},
+      {"doubts", "", doubts_description, [](S s) { return doubts_json(doubts_about(s)); }},
       {"correlation", "", "between layouts, of the goals of runs under one random seed, mean over pairs",
        [](S s) { return or_null(s.result.correlation); }},
       {"cost.runs", "", "that the decision took", [](S s) { return whole(s.result.cost.runs); }},
@@ -130,6 +134,17 @@ JsonKeys<DecisionReport> decision_keys() {
 }
 
 }  // namespace
+
+bool stands(const DecisionResult& result, const Layout& layout, Standing standing) {
+  if (!layout.scene) return false;
+  const SceneDecision& of = result.scenes[*layout.scene];
+  return !of.is_screened_out && of.standing == standing;
+}
+
+bool is_in_the_answer(const DecisionResult& result, const Layout& layout) {
+  return stands(result, layout, Standing::best) || stands(result, layout, Standing::not_shown_worse) ||
+         stands(result, layout, Standing::undecided);
+}
 
 std::string standing_text(const DecisionReport& report, const Layout& layout) {
   if (!layout.scene) return "invalid";

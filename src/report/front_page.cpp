@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "report/answer_doubts.hpp"
 #include "report/decision_words.hpp"
 #include "report/front_report.hpp"
 #include "report/page.hpp"
@@ -51,7 +52,7 @@ std::string headline(const OptimiseResult& result) {
 }
 
 Json doubts(const OptimiseResult& result) {
-  Json all = Json::array();
+  Json all = doubt_sentences(doubts_about(result));
   if (result.is_interrupted) all.push_back("Interrupted: the same command goes on from here.");
   all.push_back(front_promise(result));
   return all;
@@ -107,12 +108,11 @@ Json figures_of(const OptimiseOptions& options) {
   return all;
 }
 
-/// "ok" of those that are compared by the goals, and what they failed at of the others.
-std::string status_of(const OptimiseResult& result, std::size_t layout) {
-  std::string standing = standing_text(result, layout);
-  for (const char* compared : {"on the front", "may be on the front", "dominated"})
-    if (standing == compared) return "ok";
-  return standing;
+bool is_compared(const OptimiseResult& result, std::size_t layout) {
+  using enum FrontStanding;
+  const FrontStanding standing = result.layouts[layout].standing;
+  return result.study.layouts[layout].scene &&
+         (standing == on_front || standing == may_be_on_front || standing == dominated);
 }
 
 Json layout(const OptimiseResult& result, std::size_t index, const Replays& replays) {
@@ -120,7 +120,8 @@ Json layout(const OptimiseResult& result, std::size_t index, const Replays& repl
   const FrontLayout& of = result.layouts[index];
   const OptimiseOptions& options = result.options;
   Json one = page_layout(result.study, layout, options.first_random_seed, replays);
-  one["status"] = status_of(result, index);
+  one["status"] = is_compared(result, index) ? "ok" : standing_text(result, index);
+  one["compared"] = is_compared(result, index);
   one["standing"] = standing_text(result, index);
   one["first_by_means"] = of.is_first_by_means;
   one["note"] = layout.scene ? of.reason : layout.invalid;

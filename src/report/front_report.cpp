@@ -7,6 +7,7 @@
 #include <cstdint>
 
 #include "input/toml_value.hpp"
+#include "report/answer_doubts.hpp"
 #include "report/front_page.hpp"
 #include "report/json_keys.hpp"
 #include "report/layout_columns.hpp"
@@ -43,8 +44,10 @@ Columns<FrontRow> pareto_columns(const std::vector<std::string>& keys, const std
       text_column<FrontRow>("first_by_means",
                             "1: by its means it meets the constraints, and no other that does has better means",
                             [](R r) { return r.of().is_first_by_means ? 1 : 0; }),
-      text_column<FrontRow>("reason", "why it failed or is invalid",
-                            [](R r) { return r.layout().scene ? r.of().reason : r.layout().invalid; })};
+      text_column<FrontRow>("reason", "why it failed or is invalid; else what makes it less sure", [](R r) {
+        if (!r.layout().scene) return r.layout().invalid;
+        return r.of().reason.empty() ? doubts_text(r.of().doubts) : r.of().reason;
+      })};
   append(columns, key_columns<FrontRow>(keys));
   append(columns, {text_column<FrontRow>("runs", "of the layout as it is", [](R r) { return r.of().runs; }),
                    text_column<FrontRow>("clogged", "of these, runs that clogged; the means are of the others",
@@ -101,6 +104,7 @@ JsonKeys<OptimiseResult> optimise_keys() {
        [](S s) { return Json(100 * s.options.clogging_limit); }},
       {"spilled_limit_percent", "%", "of seeds that may leave over the rim; null: none is asked for",
        [](S s) { return s.options.spilled_limit ? Json(100 * *s.options.spilled_limit) : Json(); }},
+      {"doubts", "", doubts_description, [](S s) { return doubts_json(doubts_about(s)); }},
       {"layouts", "", "that were tried", [](S s) { return Json(s.layouts.size()); }},
       {"on_the_front", "", "of these", count(FrontStanding::on_front)},
       {"may_be_on_the_front", "", "of these", count(FrontStanding::may_be_on_front)},

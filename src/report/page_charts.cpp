@@ -69,13 +69,13 @@ std::optional<LayoutValue> value_of(const Json& layout, const std::string& figur
   return LayoutValue{&layout, value.at("mean"), half.is_null() ? std::nullopt : std::optional<double>(half)};
 }
 
-bool is_ok(const Json& layout) {
-  return layout.at("status") == "ok";
+bool is_compared(const Json& layout) {
+  return layout.value("compared", layout.at("status") == "ok");
 }
 
 /// By what layouts are told apart: their standing, if that was asked for.
 std::string group_of(const Json& layout) {
-  if (!is_ok(layout)) return not_compared;
+  if (!is_compared(layout)) return not_compared;
   return layout.contains("standing") ? std::string(layout.at("standing")) : "mean";
 }
 
@@ -153,8 +153,8 @@ std::vector<LayoutValue> ranked(const Json& data, const Json& figure) {
   for (const Json& layout : data.at("layouts"))
     if (const auto value = value_of(layout, figure.at("name"))) rows.push_back(*value);
   const double sign = figure.value("wanted", "high") == "low" ? 1 : -1;
-  std::ranges::stable_sort(rows, {},
-                           [&](const LayoutValue& row) { return std::pair(!is_ok(*row.layout), sign * row.mean); });
+  std::ranges::stable_sort(
+      rows, {}, [&](const LayoutValue& row) { return std::pair(!is_compared(*row.layout), sign * row.mean); });
   return rows;
 }
 
@@ -188,7 +188,7 @@ Chart ranking_chart(const Json& data) {
     series_of(chart, group_of(*rows[k].layout))
         .points.push_back({rows[k].mean, static_cast<double>(k), rows[k].interval()});
   }
-  if (const auto first = rows.front().interval(); first && is_ok(*rows.front().layout))
+  if (const auto first = rows.front().interval(); first && is_compared(*rows.front().layout))
     chart.shades.push_back({"interval of the first", *first});
   return chart;
 }

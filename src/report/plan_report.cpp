@@ -27,7 +27,7 @@ constexpr struct {
 } table_model;
 
 /// A layout and its plan.
-struct LayoutRow {
+struct PlannedLayoutRow {
   const SowingPlan* plan;
   const PlannedLayout* layout;
   std::size_t rank;
@@ -45,54 +45,55 @@ std::string_view class_name(HoleClass risk) {
   return "";
 }
 
-Columns<LayoutRow> plan_columns() {
-  using R = const LayoutRow&;
+Columns<PlannedLayoutRow> plan_columns() {
+  using R = const PlannedLayoutRow&;
   return {
-      text_column<LayoutRow>("rank", "1 is the best", [](R r) { return r.rank; }),
-      text_column<LayoutRow>("holes", "so many holes feed so many rows: the holes",
-                             [](R r) { return r.layout->feed.holes; }),
-      text_column<LayoutRow>("rows", "the rows", [](R r) { return r.layout->feed.rows; }),
-      quantity_column<LayoutRow>("width_mm", millimetres, "of a round hole", [](R r) { return r.layout->width; }),
-      quantity_column<LayoutRow>("width_over_seed", plain, "over the diameter of the ball of a seed's volume",
-                                 [](R r) { return r.layout->width_over_d; }),
-      text_column<LayoutRow>(
+      text_column<PlannedLayoutRow>("rank", "1 is the best", [](R r) { return r.rank; }),
+      text_column<PlannedLayoutRow>("holes", "so many holes feed so many rows: the holes",
+                                    [](R r) { return r.layout->feed.holes; }),
+      text_column<PlannedLayoutRow>("rows", "the rows", [](R r) { return r.layout->feed.rows; }),
+      quantity_column<PlannedLayoutRow>("width_mm", millimetres, "of a round hole",
+                                        [](R r) { return r.layout->width; }),
+      quantity_column<PlannedLayoutRow>("width_over_seed", plain, "over the diameter of the ball of a seed's volume",
+                                        [](R r) { return r.layout->width_over_d; }),
+      text_column<PlannedLayoutRow>(
           "risk",
           "of clogging, by width_over_seed: rarely clogs (5 and more), kept open by the shaking (3 to 5), clogs",
           [](R r) { return std::string(class_name(r.layout->risk())); }),
-      quantity_column<LayoutRow>(
+      quantity_column<PlannedLayoutRow>(
           "stood_still_percent", percent,
           "share of the simulated holes that once let nothing through for 10 sqrt(d / g), the largest "
           "of the table's places around",
           [](R r) { return r.layout->estimate.stood_still; }),
-      quantity_column<LayoutRow>("bed_mm", millimetres, "depth of the bed",
-                                 [](R r) { return r.layout->depth_over_d * r.plan->task.seed.diameter; }),
-      quantity_column<LayoutRow>("frequency_Hz", hertz, "to set", [](R r) { return r.layout->frequency; }),
-      quantity_column<LayoutRow>("amplitude_mm", millimetres, "half the stroke, to set",
-                                 [](R r) { return r.layout->amplitude; }),
-      quantity_column<LayoutRow>("hole_seeds_per_s", per_second, "of one hole",
-                                 [](R r) {
-                                   const HolesForRows& feed = r.layout->feed;
-                                   return r.plan->task.row_seed_rate() * feed.rows / feed.holes;
-                                 }),
-      quantity_column<LayoutRow>(
+      quantity_column<PlannedLayoutRow>("bed_mm", millimetres, "depth of the bed",
+                                        [](R r) { return r.layout->depth_over_d * r.plan->task.seed.diameter; }),
+      quantity_column<PlannedLayoutRow>("frequency_Hz", hertz, "to set", [](R r) { return r.layout->frequency; }),
+      quantity_column<PlannedLayoutRow>("amplitude_mm", millimetres, "half the stroke, to set",
+                                        [](R r) { return r.layout->amplitude; }),
+      quantity_column<PlannedLayoutRow>("hole_seeds_per_s", per_second, "of one hole",
+                                        [](R r) {
+                                          const HolesForRows& feed = r.layout->feed;
+                                          return r.plan->task.row_seed_rate() * feed.rows / feed.holes;
+                                        }),
+      quantity_column<PlannedLayoutRow>(
           "rate_error_percent", percent,
           "half width of the 95 % band of the rate within the model: chance and interpolation, and "
           "the softness of the table's seeds",
           [](R r) { return r.plan->uncertainty(*r.layout); }),
-      quantity_column<LayoutRow>("least_speed_km_per_h", kilometres_per_hour,
-                                 "the slowest drill that frequency alone keeps at the sowing rate",
-                                 [](R r) { return r.layout->speeds.least; }),
-      quantity_column<LayoutRow>("most_speed_km_per_h", kilometres_per_hour, "the fastest",
-                                 [](R r) { return r.layout->speeds.most; }),
-      text_column<LayoutRow>("more_by", "faster or slower: which shaking sows more",
-                             [](R r) { return std::string(r.layout->more_by_faster ? "faster" : "slower"); }),
-      quantity_column<LayoutRow>(
+      quantity_column<PlannedLayoutRow>("least_speed_km_per_h", kilometres_per_hour,
+                                        "the slowest drill that frequency alone keeps at the sowing rate",
+                                        [](R r) { return r.layout->speeds.least; }),
+      quantity_column<PlannedLayoutRow>("most_speed_km_per_h", kilometres_per_hour, "the fastest",
+                                        [](R r) { return r.layout->speeds.most; }),
+      text_column<PlannedLayoutRow>("more_by", "faster or slower: which shaking sows more",
+                                    [](R r) { return std::string(r.layout->more_by_faster ? "faster" : "slower"); }),
+      quantity_column<PlannedLayoutRow>(
           "dispersion", plain,
           "of the counts of a hole: variance over mean, 1 for seeds that come at random; the largest "
           "of the places around",
           [](R r) { return r.layout->estimate.dispersion; }),
-      text_column<LayoutRow>("measured", "whether anything of it was ever measured",
-                             [](R) { return std::string("no"); }),
+      text_column<PlannedLayoutRow>("measured", "whether anything of it was ever measured",
+                                    [](R) { return std::string("no"); }),
   };
 }
 
@@ -319,7 +320,7 @@ std::string plan_text(const PlanSource& source) {
 }
 
 std::string plan_csv(const SowingPlan& plan, CsvFormat format) {
-  Csv<LayoutRow> csv(plan_columns(), format);
+  Csv<PlannedLayoutRow> csv(plan_columns(), format);
   for (std::size_t i = 0; i < plan.layouts.size(); ++i) csv.add({&plan, &plan.layouts[i], i + 1});
   return csv.text();
 }

@@ -110,7 +110,7 @@ std::string headline(const RunPage& page) {
   return text + '.';
 }
 
-/// What the guard saw; its warnings stand among the remarks.
+/// What the guard saw; its warnings stand among the doubts.
 std::string guard_sentence(const Run& run, const GuardLimits& limits) {
   if (run.status == RunStatus::stopped_by_guard) return fmt::format("The guard stopped the run: {}.", run.stop_reason);
   std::string text = fmt::format("The deepest contact pressed a grain by {:.2g} % of its radius (warned from {:g} %)",
@@ -186,8 +186,7 @@ Json page_events(const Run& run) {
 std::string run_page_data(const RunPage& page) {
   const Scene& scene = page.model.scene;
   Json remarks = Json::array();
-  for (const std::string& warning : page.run.warnings) remarks.push_back(warning);
-  for (const Remark& remark : page.outflow.remarks) remarks.push_back(remark.text);
+  for (const Doubt& doubt : page.outflow.doubts) remarks.push_back(doubt.text);
   const Json data = {{"kind", "run"},
                      {"program", {{"name", "vibrosow"}, {"version", VIBROSOW_VERSION}}},
                      {"title", scene.title},

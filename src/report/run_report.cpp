@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <iterator>
 
+#include "report/answer_doubts.hpp"
 #include "report/columns.hpp"
 #include "report/drill_report.hpp"
 #include "report/json_keys.hpp"
@@ -157,8 +158,13 @@ JsonKeys<RunSource> run_keys() {
       {"title", "", "of the seeder file", [](S s) { return s.scene.title; }},
       {"status", "", "finished, stopped by the guard or interrupted", [](S s) { return name_of(s.run.status); }},
       {"stop_reason", "", "why the guard stopped it", [](S s) { return s.run.stop_reason; }},
-      {"warnings", "", "what in the scene can hardly be meant, and what the guard saw",
-       [](S s) { return s.run.warnings; }},
+      {"doubts", "",
+       "what speaks against the figures, each with its kind, whether it is serious, what happened and what to do",
+       [](S s) {
+         Json doubts = Json::array();
+         for (const Doubt& doubt : s.outflow.doubts) doubts.push_back(doubt_json(doubt));
+         return doubts;
+       }},
       {"outside_the_model", "",
        "whether a step that is too long was insisted on, a limit of the guard raised and the usual one passed, or "
        "seeds were lost through walls: nothing is to be decided by such a run",

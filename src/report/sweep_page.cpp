@@ -6,6 +6,7 @@
 #include <functional>
 #include <nlohmann/json.hpp>
 
+#include "report/answer_doubts.hpp"
 #include "report/layout_columns.hpp"
 #include "report/page.hpp"
 #include "report/study_page.hpp"
@@ -43,6 +44,7 @@ Json layout(Json one, const LayoutRow& row, const std::vector<const Figure*>& kn
   for (const Figure* figure : known)
     means[std::string(figure->name)] = page_interval(row.of().figures[*figure], figure->unit_size);
   one.update({{"status", layout_status(row.of().status)},
+              {"compared", is_comparable(row.of().status)},
               {"note", layout_note(row.of())},
               {"replicates", row.of().replicates},
               {"means", std::move(means)},
@@ -59,7 +61,7 @@ std::string headline(const StudyResult& result) {
   const Figure& rate = figure_named("rate_g_per_s");
   std::optional<double> least, most;
   for (const LayoutResult& one : result.layouts)
-    if (one.status == LayoutStatus::ok && one.figures[rate]) {
+    if (is_comparable(one.status) && one.figures[rate]) {
       const double value = one.figures[rate]->mean / rate.unit_size;
       least = std::min(value, least.value_or(value)), most = std::max(value, most.value_or(value));
     }
@@ -78,8 +80,7 @@ std::string headline(const StudyResult& result) {
 std::vector<WantedReplay> best_to_replay(const StudyResult& result, std::uint64_t first_random_seed, std::size_t most) {
   const Figure& rate = figure_named("rate_g_per_s");
   std::vector<LayoutRow> rows = layout_rows(result);
-  std::erase_if(rows,
-                [&](const LayoutRow& row) { return row.of().status != LayoutStatus::ok || !row.of().figures[rate]; });
+  std::erase_if(rows, [&](const LayoutRow& row) { return !is_comparable(row.of().status) || !row.of().figures[rate]; });
   std::ranges::stable_sort(rows, std::greater(), [&](const LayoutRow& row) { return row.of().figures[rate]->mean; });
   rows.resize(std::min(most, rows.size()));
   std::vector<WantedReplay> wanted;
@@ -95,7 +96,10 @@ std::string sweep_page_data(const StudyResult& result, std::uint64_t first_rando
   for (const LayoutRow& row : layout_rows(result))
     layouts.push_back(layout(page_layout(result.study, row.layout(), first_random_seed, replays), row, known));
   Json data = page_of_study("sweep", result.study);
-  data.update({{"headline", headline(result)}, {"figures", std::move(figure_texts)}, {"layouts", std::move(layouts)}});
+  data.update({{"headline", headline(result)},
+               {"doubts", doubt_sentences(doubts_about(result))},
+               {"figures", std::move(figure_texts)},
+               {"layouts", std::move(layouts)}});
   return page_text(data);
 }
 

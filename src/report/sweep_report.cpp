@@ -41,12 +41,13 @@ std::string run_note(int first, const Layout& layout, const Evaluation& run) {
 Columns<LayoutRow> sweep_columns(const std::vector<std::string>& keys) {
   using R = const LayoutRow&;
   Columns<LayoutRow> columns = layout_columns<LayoutRow>();
-  columns.push_back(text_column<LayoutRow>("status",
-                                           "ok, outside the model (of a run at least: nothing is to be decided by it), "
-                                           "invalid, stopped (by the guard) or interrupted",
-                                           [](R r) { return layout_status(r.of().status); }));
+  columns.push_back(
+      text_column<LayoutRow>("status",
+                             "ok, doubtful (its figures may be wrong), outside the model (of a run at least: nothing "
+                             "is to be decided by it), invalid, stopped (by the guard) or interrupted",
+                             [](R r) { return layout_status(r.of().status); }));
   columns.push_back(text_column<LayoutRow>(
-      "reason", "why it is not ok; else what to know about its runs; and what in its scene can hardly be meant",
+      "reason", "why it is not ok, or what makes it less sure; and what in its scene can hardly be meant",
       [](R r) { return layout_note(r.of()); }));
   append(columns, key_columns<LayoutRow>(keys));
   columns.push_back(replicates_column<LayoutRow>());
@@ -241,6 +242,8 @@ std::string layout_status(LayoutStatus status) {
   switch (status) {
     case LayoutStatus::ok:
       return "ok";
+    case LayoutStatus::doubtful:
+      return "doubtful";
     case LayoutStatus::outside_the_model:
       return "outside the model";
     case LayoutStatus::invalid:
@@ -254,9 +257,8 @@ std::string layout_status(LayoutStatus status) {
 }
 
 std::string layout_note(const LayoutResult& layout) {
-  std::string text = layout.reason;
-  for (const std::string& warning : layout.warnings) text += (text.empty() ? "" : "; ") + warning;
-  return text;
+  const std::string doubts = doubts_text(layout.doubts);
+  return layout.reason + (layout.reason.empty() || doubts.empty() ? "" : "; ") + doubts;
 }
 
 std::string sweep_csv(const StudyResult& result, CsvFormat format) {

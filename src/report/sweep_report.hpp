@@ -18,7 +18,7 @@ struct SweepTiming {
   double grain_steps = 0;  // theirs, summed
 };
 
-/// "ok", "outside the model", "invalid", "stopped" or "interrupted".
+/// "ok", "doubtful", "outside the model", "invalid", "stopped" or "interrupted".
 std::string layout_status(LayoutStatus status);
 
 /// Why a layout is not ok; else what to know about its runs; and what in its scene can hardly be meant.

@@ -59,6 +59,11 @@ namespace vibrosow {
 // Each lists every field of its type: what is missing here is lost.
 
 template <class Archive>
+void serialize(Archive& archive, Doubt& d) {
+  archive(d.kind, d.text);
+}
+
+template <class Archive>
 void serialize(Archive& archive, OutflowEvent& e) {
   archive(e.time, e.hole, e.lot, e.grain, e.mass, e.x, e.speed, e.z);
 }

@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "result/snapshot.hpp"
-
 #include "compute/profile.hpp"
+#include "result/doubt.hpp"
+#include "result/snapshot.hpp"
 
 namespace vibrosow {
 
@@ -56,9 +56,9 @@ enum class RunStatus {
 /// What one simulation gives. Holds nothing that depends on a clock but the last two.
 struct Run {
   RunStatus status = RunStatus::finished;
-  std::string stop_reason;            // of the guard; or why it is refused
-  std::string end_reason;             // why it ended before its duration, though sound; else empty
-  std::vector<std::string> warnings;  // of the guard
+  std::string stop_reason;      // of the guard; or why it is refused
+  std::string end_reason;       // why it ended before its duration, though sound; else empty
+  std::vector<Doubt> warnings;  // of the guard and the feeder
   // A long step insisted on; or limits of the guard raised, and the usual ones passed; or grains lost through walls.
   bool outside_the_model = false;
   std::uint64_t random_seed = 1;

@@ -317,8 +317,9 @@ Run Simulation::result() const {
     run.status = RunStatus::stopped_by_guard;
     run.stop_reason = *guard_.stop_reason();
   }
-  run.warnings = guard_.warnings();
-  for (const std::string& warning : feeder_.warnings(state_.time)) run.warnings.push_back(warning);
+  for (std::string& warning : guard_.warnings()) run.warnings.push_back({DoubtKind::guard_warned, std::move(warning)});
+  for (std::string& warning : feeder_.warnings(state_.time))
+    run.warnings.push_back({DoubtKind::feeder_behind, std::move(warning)});
   run.outside_the_model = guard_.outside_the_model() || run.balance.lost > 0;
   run.let_pass = state_.guard.let_pass;
   run.steps = state_.step;

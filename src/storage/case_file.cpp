@@ -39,7 +39,7 @@ namespace {
 
 /// Then come the hash of the content, a blank, the hash of all that follows it and a line's end; and the content,
 /// compressed.
-constexpr std::string_view signature = "vibrosow case 2 ";
+constexpr std::string_view signature = "vibrosow case 3 ";
 constexpr std::size_t hash_digits = 16;
 constexpr int compression_level = 3;
 
@@ -109,7 +109,7 @@ RunBounds bounds_in(const std::string& identity) {
 /// Its texts as they may be shown and written.
 void make_printable(Run& run) {
   for (std::string* text : {&run.stop_reason, &run.end_reason}) *text = printable(*text);
-  for (std::string& warning : run.warnings) warning = printable(warning);
+  for (Doubt& warning : run.warnings) warning.text = printable(warning.text);
 }
 
 }  // namespace

@@ -78,7 +78,8 @@ inline Run quick_run(const Model& model, const SimulationOptions& options) {
     }
   }
   std::ranges::stable_sort(run.events, {}, &OutflowEvent::time);
-  run.balance.put_in = run.balance.counted;
+  run.balance.inside = 10 * run.balance.counted;  // nothing has drained
+  run.balance.put_in = run.balance.counted + run.balance.inside;
   return run;
 }
 

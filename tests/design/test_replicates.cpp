@@ -117,7 +117,8 @@ TEST_F(ByNeed, RoundsGoOnUntilTheIntervalIsNarrow) {
   const StudyResult result = sweep(study.study, simulator_, all);
   const auto used = static_cast<int>(result.runs.at(0).size());
   EXPECT_EQ(result.layouts.at(0).replicates, used - 1) << "one clogged";
-  EXPECT_NE(result.layouts[0].reason.find("clogged in 1 of"), std::string::npos) << result.layouts[0].reason;
+  EXPECT_NE(doubts_text(result.layouts[0].doubts).find("clogged in 1 of"), std::string::npos)
+      << doubts_text(result.layouts[0].doubts);
   const auto rate = *result.layouts[0].figures["rate_g_per_s"];
   EXPECT_LE(*rate.half_width_95, 0.05 * rate.mean);
   all.replicates = {60};  // as if another had made more
@@ -134,7 +135,8 @@ TEST_F(ByNeed, APlanOfALaterRoundIsReadBack) {
   EXPECT_FALSE(next_round(study, simulator_, 1));
   SweepOptions all;
   all.replicates = {25};
-  EXPECT_NE(sweep(study.study, simulator_, all).layouts[0].reason.find("still wider than 0.1 %"), std::string::npos);
+  EXPECT_NE(doubts_text(sweep(study.study, simulator_, all).layouts[0].doubts).find("still wider than 0.1 %"),
+            std::string::npos);
 }
 
 TEST_F(ByNeed, WhatCannotBeMeantIsRefused) {

@@ -121,7 +121,7 @@ TEST(Sweep, ALayoutOutsideTheModelDecidesNothing) {
   EXPECT_EQ(within.status, LayoutStatus::ok);
   EXPECT_TRUE(within.misfit_percent);
   EXPECT_EQ(outside.status, LayoutStatus::outside_the_model);
-  EXPECT_THAT(outside.reason, HasSubstr("outside the model in 1 of 3 runs"));
+  EXPECT_THAT(doubts_text(outside.doubts), HasSubstr("outside the model in 1 of 3 runs"));
   EXPECT_THAT(sweep_csv(result), HasSubstr(",outside the model,"));
   EXPECT_FALSE(outside.misfit_percent);
   for (const ComparisonRow& row : result.comparison->rows) EXPECT_EQ(row.layout, 0u);
@@ -178,7 +178,7 @@ TEST(Sweep, CurveIsComparedAtItsTimesWithinTheRun) {
   ASSERT_EQ(result.comparison->rows.size(), 2u);
   EXPECT_DOUBLE_EQ(result.comparison->rows[1].simulated.mean, 12.0);
   EXPECT_NEAR(result.layouts[0].misfit_percent->mean, 0.0, 1e-9);
-  EXPECT_THAT(result.layouts[0].reason, HasSubstr("left out"));
+  EXPECT_THAT(doubts_text(result.layouts[0].doubts), HasSubstr("left out"));
 }
 
 TEST(Sweep, CurveBeginsWhenTheFirstHoleOpensOrAsTheStudySays) {

@@ -160,12 +160,14 @@ TEST(Note, SaysClogsLossesFewSeedsAndAFeederThatFellBehind) {
   run = sown(scene, 40, 1000);
   run.balance.inside -= 500;
   run.balance.lost = 500;
-  run.warnings = {"hopper.fill.keep falls behind: 60 of 200 seeds missing at 1 s, for want of room", "soft"};
+  run.warnings = {
+      {DoubtKind::feeder_behind, "hopper.fill.keep falls behind: 60 of 200 seeds missing at 1 s, for want of room"},
+      {DoubtKind::guard_warned, "soft"}};
   const Outflow outflow = measure_outflow(scene, run);
-  std::vector<std::string> kinds;
-  for (const Remark& remark : outflow.remarks) kinds.push_back(remark.kind);
-  EXPECT_EQ(kinds, (std::vector<std::string>{"drained in the window", "seeds lost through walls",
-                                             "the feeder fell behind", "the guard warned"}));
+  std::vector<DoubtKind> kinds;
+  for (const Doubt& doubt : outflow.doubts) kinds.push_back(doubt.kind);
+  EXPECT_EQ(kinds, (std::vector{DoubtKind::drained, DoubtKind::seeds_lost, DoubtKind::feeder_behind,
+                                DoubtKind::guard_warned}));
   EXPECT_NE(outflow.note().find("500 of 1000 seeds lost through walls"), std::string::npos);
   EXPECT_NE(outflow.note().find("60 of 200 seeds missing"), std::string::npos);
 }

@@ -60,7 +60,7 @@ TEST_F(RunReport, SummaryIsEmptyWhereUndefined) {
 }
 
 TEST_F(RunReport, JsonHoldsTheRunAndNoClock) {
-  run.warnings = {"relative overlap 0.06"};
+  run.warnings = {{DoubtKind::guard_warned, "relative overlap 0.06"}};
   run.energy.kinetic = std::numeric_limits<double>::quiet_NaN();
   const Outflow outflow = measure_outflow(scene, run);
   const std::string text = run_json(scene, run, outflow, {"friction", "motion"});
@@ -69,7 +69,11 @@ TEST_F(RunReport, JsonHoldsTheRunAndNoClock) {
   EXPECT_EQ(json["effects"], (std::vector<std::string>{"friction", "motion"}));
   EXPECT_EQ(json["grain_steps"], 6000);
   EXPECT_EQ(json["balance"]["spilled"], 1);
-  EXPECT_EQ(json["warnings"][0], "relative overlap 0.06");
+  const auto& doubt = json["doubts"][1];  // after the drained tray
+  EXPECT_EQ(doubt["kind"], "the guard warned");
+  EXPECT_EQ(doubt["text"], "relative overlap 0.06");
+  EXPECT_EQ(doubt["serious"], true);
+  EXPECT_NE(doubt["what_to_do"], "");
   EXPECT_TRUE(json["energy_J"]["kinetic"].is_null());
   EXPECT_EQ(json["outflow"]["spilled_percent"], 50);
   EXPECT_EQ(json["outflow"]["window_s"], (std::vector<double>{1, 2}));

@@ -234,7 +234,7 @@ TEST_P(GuardIn, StepsThatItLetPassAreCounted) {
   EXPECT_GT(deep, 100);
   EXPECT_EQ(run.result().let_pass.deep_steps, deep);
   ASSERT_EQ(run.result().warnings.size(), 1u);
-  EXPECT_THAT(run.result().warnings[0], HasSubstr(std::to_string(deep) + " steps"));
+  EXPECT_THAT(run.result().warnings[0].text, HasSubstr(std::to_string(deep) + " steps"));
 }
 
 TEST_P(GuardIn, AGrainThatWentThroughAWallIsNamed) {

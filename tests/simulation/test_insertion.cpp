@@ -253,8 +253,9 @@ TEST_P(Insertion, RainUnderASlopeWaitsAndTheRunSaysSo) {
   scene.run.duration = 0.1;
   const vibrosow::Run run = simulate(scene);
   EXPECT_EQ(run.balance.put_in, 0);
-  EXPECT_THAT(run.warnings,
-              testing::Contains(testing::StartsWith("tray.rain falls behind: 20 of 20 seeds still wait at 0.1")));
+  ASSERT_EQ(run.warnings.size(), 1u);
+  EXPECT_EQ(run.warnings[0].kind, DoubtKind::feeder_behind);
+  EXPECT_THAT(run.warnings[0].text, testing::StartsWith("tray.rain falls behind: 20 of 20 seeds still wait at 0.1"));
 }
 
 TEST_P(Insertion, RainBesideAShelfComesUnderItToo) {

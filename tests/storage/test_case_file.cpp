@@ -32,7 +32,8 @@ Snapshot snapshot_of_three() {
 Run made_up_run() {
   Run run;
   run.status = RunStatus::stopped_by_guard;
-  run.stop_reason = "too deep", run.end_reason = "a pause", run.warnings = {"one", "two"};
+  run.stop_reason = "too deep", run.end_reason = "a pause",
+  run.warnings = {{DoubtKind::guard_warned, "one"}, {DoubtKind::feeder_behind, "two"}};
   run.outside_the_model = true;
   run.random_seed = 7, run.dt = 1.5e-5, run.steps = 12, run.end_time = 1.8e-4, run.grain_steps = 120;
   run.force_evaluations = 77, run.slip_speed_raised = 3, run.let_pass = {4, 5, 6};
@@ -117,12 +118,11 @@ TEST(CaseFile, BehindARightChecksumNoIndexCountOrTimeIsBelieved) {
 
 TEST(CaseFile, ItsTextsAreShownAsTheyMayBe) {
   vibrosow::Run run = made_up_run();
-  run.stop_reason = "\x1b[31mred", run.warnings = {
-                                       "\xe2\x80\xae"
-                                       "backwards"};
+  run.stop_reason = "\x1b[31mred";
+  run.warnings = {{DoubtKind::guard_warned, std::string("\xe2\x80\xae") + "backwards"}};
   const vibrosow::Run read = read_case(case_bytes(identity, run)).run;
   EXPECT_EQ(read.stop_reason, "\\x1b[31mred");
-  EXPECT_EQ(read.warnings[0], "\\xe2\\x80\\xaebackwards");
+  EXPECT_EQ(read.warnings[0].text, "\\xe2\\x80\\xaebackwards");
 }
 
 /// A few kilobytes that become a gigabyte are given up long before, and what they become is not kept.

@@ -12,7 +12,7 @@ const rate = { name: 'rate_g_per_s', words: 'rate', unit: 'g/s', wanted_low: fal
 const pause = { name: 'longest_pause_s', words: 'longest pause', unit: 's', wanted_low: true };
 
 function layout(number, mean, half_width, more = {}) {
-  return { number, name: '', values: [], status: 'ok', note: '', means: { rate_g_per_s: mean === null ? null : { mean, half_width } }, ...more };
+  return { number, name: '', values: [], status: 'ok', note: '', means: { rate_g_per_s: mean === null ? null : { mean, half_width } }, compared: (more.status ?? 'ok') === 'ok', ...more };
 }
 
 function toldOf(layouts, leastFirst = false) {
@@ -44,7 +44,7 @@ test("a pooled figure's interval comes from its ends; what is not resolved lies 
 
 test('layouts in order, and which overlap the first', () => {
   const layouts = [layout(1, 5, 1), layout(2, 9, 1), layout(3, 7.5, 0.6), layout(4, null), layout(5, 7.3, 0.6), layout(6, 11, 1, { status: 'stopped' }), layout(7, 6, null)];
-  assert.deepEqual(toldOf(layouts), [[2, 'first'], [3, 'alike'], [5, 'apart'], [7, 'no interval'], [1, 'apart'], [6, 'not ok']]);
+  assert.deepEqual(toldOf(layouts), [[2, 'first'], [3, 'alike'], [5, 'apart'], [7, 'no interval'], [1, 'apart'], [6, 'not compared']]);
   assert.deepEqual(toldOf(layouts, true).slice(0, 2), [[1, 'first'], [7, 'no interval']]);
 });
 
@@ -59,7 +59,7 @@ test('the sentence over the order', () => {
     'By rate layout 2 has the most: 9.0 ± 1.0 g/s; 1 other is not told apart from it. 1 layout has no value of it.');
   assert.equal(say([layout(1, 5, 1), layout(2, 9, 1)], true), 'By rate layout 1 has the least: 5.0 ± 1.0 g/s; no other interval overlaps its own.');
   assert.equal(say([layout(1, 5, null), layout(2, 9, null)]), 'By rate layout 2 has the most: 9 g/s; without intervals nothing says which layouts differ from it.');
-  assert.equal(say([layout(1, 5, 1, { status: 'stopped' })]), 'No layout that is ok has a value of rate.');
+  assert.equal(say([layout(1, 5, 1, { status: 'stopped' })]), 'No layout that can be compared has a value of rate.');
 });
 
 test('a scale is not ruled by one wide interval', () => {
@@ -69,7 +69,7 @@ test('a scale is not ruled by one wide interval', () => {
 });
 
 test('layouts that no other beats in both figures', () => {
-  const both = (number, x, y, status = 'ok') => ({ number, status, means: { rate_g_per_s: { mean: x }, longest_pause_s: y === null ? null : { mean: y } } });
+  const both = (number, x, y, status = 'ok') => ({ number, status, compared: status === 'ok', means: { rate_g_per_s: { mean: x }, longest_pause_s: y === null ? null : { mean: y } } });
   const layouts = [both(1, 10, 3), both(2, 8, 2), both(3, 8, 4), both(4, 12, 5), both(5, 20, 1, 'stopped'), both(6, 3, null), both(7, 8, 2)];
   const points = pointsOf(layouts, rate, pause);
   const front = unbeaten(points, rate, pause);
@@ -80,11 +80,11 @@ test('layouts that no other beats in both figures', () => {
 
 test('doubts: a sentence for every reason, counted where there are many', () => {
   const bad = (number, status, note) => ({ number, status, note });
-  assert.deepEqual(doubtsOf({ layouts: [bad(1, 'ok', ''), bad(2, 'stopped', 'energy.'), bad(3, 'outside the model', ''), bad(4, 'outside the model', '')] }),
+  assert.deepEqual(doubtsOf({ layouts: [bad(2, 'stopped', 'energy.'), bad(3, 'outside the model', ''), bad(4, 'outside the model', '')] }),
     ['Layout 2 was stopped by the guard: energy.', 'Layouts 3 and 4 lie outside the model.']);
   const many = doubtsOf({ layouts: Array.from({ length: 20 }, (_, k) => bad(k + 1, 'invalid', `reason ${k}`)) });
   assert.equal(many.length, 7);
-  assert.equal(many[6], '14 more layouts are not ok, for other reasons: the table names them.');
+  assert.equal(many[6], '14 more layouts are not compared, for other reasons: the table names them.');
   const same = doubtsOf({ layouts: Array.from({ length: 20 }, (_, k) => bad(k + 1, 'invalid', 'too long')) });
   assert.deepEqual(same, ['Layouts 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12 and 8 more cannot be built: too long.']);
 });

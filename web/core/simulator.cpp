@@ -132,8 +132,8 @@ EMSCRIPTEN_KEEPALIVE const char* outcome() {
     if (goes_on) run.status = RunStatus::interrupted;  // so that rates are of the time so far
     Outflow outflow = measure_outflow(simulation->model().scene, run);
     if (goes_on)
-      std::erase_if(outflow.remarks, [](const Remark& remark) {
-        return remark.kind == "interrupted" || remark.kind == "ended before the measuring window";
+      std::erase_if(outflow.doubts, [](const Doubt& doubt) {
+        return doubt.kind == DoubtKind::interrupted || doubt.kind == DoubtKind::before_the_window;
       });
     const std::optional<DrillFigures> drill;
     return run_page_data({simulation->model(), run, outflow, drill});

@@ -21,7 +21,7 @@ function legend(data) {
   const dot = (name) => element('span', { class: `dot ${name}` });
   return [
     ...Object.entries(standings).filter(([standing]) => there(standing)).map(([standing, name]) => element('span', { class: 'legend-item' }, dot(name), standing)),
-    data.layouts.some(({ status }) => status !== 'ok') ? element('span', { class: 'legend-item' }, dot('not-ok'), 'misses a constraint, or failed') : null,
+    data.layouts.some(({ compared }) => !compared) ? element('span', { class: 'legend-item' }, dot('not-ok'), 'misses a constraint, or failed') : null,
     element('span', {}, 'Crosses: 95 % intervals of those that lead and of the chosen one.'),
   ];
 }

@@ -8,7 +8,7 @@ const emptyOf = {
     hole_table: { columns: [], rows: [] }, evenness: null, events: { time_s: [], hole: [], lot: [] }, effects: [], guard: '', settings: [],
     drill: null, scene: {},
   },
-  sweep: { keys: [], figures: [], layouts: [] },
+  sweep: { doubts: [], keys: [], figures: [], layouts: [] },
   decision: { doubts: [], asked: [], cost: [], keys: [], figures: [], layouts: [] },
   accuracy: { headlines: [], doubts: [], against: 'the finest setting', within_percent: 1, levels: [], errors: [] },
   calibration: { doubts: [], quantity: '', of_curves: false, parameters: [], pairs: [], series: [], account: [] },
@@ -28,7 +28,7 @@ export function readPageData(text) {
   if (!Object.hasOwn(emptyOf, kind)) throw new Error(`its data are of the kind "${kind}", which this page does not know`);
   const data = filled(given, empty, emptyOf[kind]);
   if (kind === 'run') data.window_s = data.window_s ?? [0, data.end_time_s];
-  if (data.layouts) data.layouts = data.layouts.map((layout) => filled(layout, emptyLayout));
+  if (data.layouts) data.layouts = data.layouts.map((layout) => filled(layout, emptyLayout, { compared: (layout.status ?? 'ok') === 'ok' }));
   return data;
 }
 

@@ -64,7 +64,7 @@ class RankedChart {
       first ? point('first') : null,
       has('alike') ? point('alike') : null,
       has('apart') ? point('apart') : null,
-      has('not ok') ? point('not-ok') : null,
+      has('not compared') ? point('not-ok') : null,
       first && first.low !== null ? element('span', { class: 'legend-item' }, element('span', { class: 'swatch window' }), this.words.band) : null,
       scale.cut ? element('span', {}, 'Intervals that reach the right edge go on beyond it.') : null,
       this.figure.has_interval || this.figure.with_ends ? null : element('span', {}, 'All runs of a layout together give this figure: it has no interval.'),

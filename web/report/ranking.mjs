@@ -10,17 +10,16 @@ function overlap(a, b) {
 }
 
 /**
- * [{ layout, value, told }] of the layouts that have the figure: those that are ok first, in its order; layouts of the same
- * value by number. `told`: "first", "alike" (its interval overlaps that of the first), "apart", "no interval"; "not ok" of
- * the others, which are not compared. Where the figure is what a decision was made by, `told` is what the decision found.
+ * [{ layout, value, told }] of the layouts that have the figure: those that are compared first, in its order; layouts of the same
+ * value by number. `told`: "first", "alike" (its interval overlaps that of the first), "apart", "no interval"; "not compared". Where the figure is what a decision was made by, `told` is what the decision found.
  */
 export function ranked(layouts, figure, leastFirst) {
   const sign = leastFirst ? 1 : -1;
   const rows = layouts.map((layout) => ({ layout, value: valueOf(layout, figure) })).filter((row) => row.value)
-    .sort((a, b) => (a.layout.status !== 'ok') - (b.layout.status !== 'ok') || sign * (a.value.value - b.value.value) || a.layout.number - b.layout.number);
-  const first = rows[0]?.layout.status === 'ok' ? rows[0] : null;
+    .sort((a, b) => b.layout.compared - a.layout.compared || sign * (a.value.value - b.value.value) || a.layout.number - b.layout.number);
+  const first = rows[0]?.layout.compared ? rows[0] : null;
   const toldOf = (row) => {
-    if (row.layout.status !== 'ok') return 'not ok';
+    if (!row.layout.compared) return 'not compared';
     if (figure.judged) return toldByDecision(row.layout);
     if (row === first) return 'first';
     const same = overlap(row.value, first.value);
@@ -41,7 +40,7 @@ function decisionSentence(data, rows, figure) {
   const are = (count, one, many) => `${count} ${count === 1 ? one : many}`;
   const rest = [
     [of('undecided'), 'may still be the best', 'may still be the best'], [of('not shown to be worse'), 'is not shown to be worse', 'are not shown to be worse'],
-    [of('worse'), 'is worse', 'are worse'], [data.layouts.filter(({ status }) => status !== 'ok').length, 'is not compared', 'are not compared'],
+    [of('worse'), 'is worse', 'are worse'], [data.layouts.filter(({ compared }) => !compared).length, 'is not compared', 'are not compared'],
   ].filter(([count]) => count > 0).map((words) => are(...words));
   const lead = best ? `By ${figure.words} ${layoutInSentence(data, best.layout)} is the best: ${textWithUnit(best.value, figure)}` : `By ${figure.words} no layout is known to be the best`;
   return `${lead}${rest.length ? `; of the ${best ? 'others' : 'layouts'} ${list(rest)}` : ''}.`;
@@ -53,8 +52,8 @@ export function rankingSentence(data, rows, figure, leastFirst) {
   const first = rows.find((row) => row.told === 'first');
   const without = data.layouts.length - rows.length;
   const missing = without === 0 ? '' : ` ${without} layout${without === 1 ? ' has' : 's have'} no value of it.`;
-  if (!first) return `No layout that is ok has a value of ${figure.words}.`;
-  const compared = rows.filter((row) => row.told !== 'not ok');
+  if (!first) return `No layout that can be compared has a value of ${figure.words}.`;
+  const compared = rows.filter((row) => row.told !== 'not compared');
   const alike = rows.filter((row) => row.told === 'alike').length;
   const unknown = rows.filter((row) => row.told === 'no interval').length;
   const lead = `By ${figure.words} ${layoutInSentence(data, first.layout)} has the ${leastFirst ? 'least' : 'most'}: ${textWithUnit(first.value, figure)}`;

@@ -114,8 +114,8 @@ class Scatter {
 }
 
 const plainLook = {
-  classOf: ({ status }) => (status === 'ok' ? 'ok' : 'not-ok'), withIntervals: () => false,
-  legend: () => element('span', {}, 'Cross: 95 % intervals of the chosen layout. Hollow: not ok.'),
+  classOf: ({ compared }) => (compared ? 'ok' : 'not-ok'), withIntervals: () => false,
+  legend: () => element('span', {}, 'Cross: 95 % intervals of the chosen layout. Hollow: not compared.'),
 };
 
 /**

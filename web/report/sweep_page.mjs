@@ -23,10 +23,10 @@ function numbersOf(layouts) {
   return `${numbers.slice(0, numbersShown).join(', ')} and ${numbers.length - numbersShown} more`;
 }
 
-/** A sentence for every reason why layouts are not ok; beyond six reasons, one that counts the rest. */
+/** A sentence for every reason why these layouts are not compared; beyond six reasons, one that counts the rest. */
 export function doubtsOf(data) {
   const reasons = new Map();
-  for (const layout of data.layouts.filter(({ status }) => status !== 'ok')) {
+  for (const layout of data.layouts) {
     const reason = `${layout.status}\n${layout.note}`;
     reasons.set(reason, [...(reasons.get(reason) ?? []), layout]);
   }
@@ -38,7 +38,7 @@ export function doubtsOf(data) {
   });
   if (sentences.length <= doubtsShown) return sentences;
   const rest = [...reasons.values()].slice(doubtsShown).flat().length;
-  return [...sentences.slice(0, doubtsShown), `${rest} more layout${rest === 1 ? ' is' : 's are'} not ok, for other reasons: the table names them.`];
+  return [...sentences.slice(0, doubtsShown), `${rest} more layout${rest === 1 ? ' is' : 's are'} not compared, for other reasons: the table names them.`];
 }
 
 function sections(data) {
@@ -59,7 +59,7 @@ export function sweepPage(data) {
     kicker: `Sweep ${data.space === 'plane' ? 'in the plane' : 'in space'}`,
     title: data.title || 'A sweep',
     headlines: [data.headline],
-    remarks: doubtsOf(data),
+    remarks: [...data.doubts, ...doubtsOf({ layouts: data.layouts.filter(({ compared }) => !compared) })],
     whole: 'Every layout',
     beside: true,
     sections: async () => sections(data),

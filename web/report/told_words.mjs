@@ -11,7 +11,7 @@ function byIntervals(best) {
   return {
     note: ({ told, layout }) => ({ first: best, alike: 'not told apart', apart: '', 'no interval': 'no interval' })[told] ?? layout.status,
     first: `the ${best}`, alike: 'not told apart from it: the 95 % intervals overlap (this is no test)', apart: 'the intervals do not overlap',
-    'not-ok': 'not ok, and not compared', band: 'interval of the first',
+    'not-ok': 'not compared', band: 'interval of the first',
   };
 }
 
@@ -19,7 +19,7 @@ const shortened = { 'not shown to be worse': 'not shown worse' };
 
 function byDecision(confidence, isUndecided) {
   return {
-    note: ({ told, layout }) => (told === 'not ok' ? layout.status : shortened[layout.standing] ?? layout.standing),
+    note: ({ told, layout }) => (told === 'not compared' ? layout.status : shortened[layout.standing] ?? layout.standing),
     first: 'the best', alike: isUndecided ? 'undecided' : 'not shown to be worse', apart: `worse, with a ${confidence}`,
     'not-ok': 'not among those that are compared', band: 'interval of the best',
   };

@@ -1,0 +1,77 @@
+#include "report/answer_doubts.hpp"
+
+#include <fmt/format.h>
+
+#include "report/front_report.hpp"
+#include "report/terminal_text.hpp"
+
+namespace vibrosow {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+}  // namespace
+
+std::vector<SharedDoubt> doubts_about(const StudyResult& result) {
+  std::vector<LayoutDoubts> doubts;
+  for (std::size_t i = 0; i < result.layouts.size(); ++i)
+    doubts.push_back({result.study.layouts[i].number, result.layouts[i].doubts});
+  return shared_doubts(doubts);
+}
+
+std::vector<SharedDoubt> doubts_about(const DecisionReport& report) {
+  std::vector<LayoutDoubts> doubts;
+  for (const Layout& layout : report.result.study.layouts) {
+    if (!is_in_the_answer(report.result, layout)) continue;
+    doubts.push_back({layout.number, report.result.scenes[*layout.scene].doubts});
+  }
+  return shared_doubts(doubts);
+}
+
+std::vector<SharedDoubt> doubts_about(const OptimiseResult& result) {
+  std::vector<LayoutDoubts> doubts;
+  for (std::size_t i = 0; i < result.layouts.size(); ++i)
+    if (leads(result.layouts[i])) doubts.push_back({result.study.layouts[i].number, result.layouts[i].doubts});
+  return shared_doubts(doubts);
+}
+
+std::vector<std::string> doubt_sentences(const std::vector<SharedDoubt>& doubts) {
+  constexpr std::size_t most = 6;
+  std::vector<std::string> sentences;
+  for (const SharedDoubt& doubt : doubts) {
+    if (sentences.size() == most) {
+      sentences.push_back(fmt::format("{} more kinds of doubts: the table names them.", doubts.size() - most));
+      break;
+    }
+    sentences.push_back(doubt_sentence(doubt));
+  }
+  return sentences;
+}
+
+std::string doubts_paragraph(const std::vector<SharedDoubt>& doubts) {
+  std::string text;
+  for (const std::string& sentence : doubt_sentences(doubts)) text += wrapped(sentence);
+  return text;
+}
+
+Json doubt_json(const Doubt& doubt) {
+  const DoubtWords& words = words_of(doubt.kind);
+  return {{"kind", words.name},
+          {"serious", words.severity == Severity::serious},
+          {"text", doubt.text},
+          {"what_to_do", words.advice}};
+}
+
+Json doubts_json(const std::vector<SharedDoubt>& doubts) {
+  Json all = Json::array();
+  for (const SharedDoubt& doubt : doubts) {
+    Json one = doubt_json({doubt.kind, doubt.text});
+    one["layouts"] = doubt.layouts;
+    one["runs"] = doubt.runs;
+    one["of_runs"] = doubt.of;
+    all.push_back(std::move(one));
+  }
+  return all;
+}
+
+}  // namespace vibrosow

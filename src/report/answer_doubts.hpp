@@ -1,0 +1,34 @@
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "design/optimise.hpp"
+#include "design/sweep.hpp"
+#include "outflow/doubts.hpp"
+#include "report/decision_report.hpp"
+
+namespace vibrosow {
+
+/// What speaks against the runs of layouts that an answer tells of: of a sweep all, of a decision those that are best,
+/// not shown to be worse or undecided, of a search those that lead.
+std::vector<SharedDoubt> doubts_about(const StudyResult& result);
+std::vector<SharedDoubt> doubts_about(const DecisionReport& report);
+std::vector<SharedDoubt> doubts_about(const OptimiseResult& result);
+
+/// A sentence each (`doubt_sentence`), at most six and one that counts the rest; none where there are none.
+std::vector<std::string> doubt_sentences(const std::vector<SharedDoubt>& doubts);
+
+/// The same for a terminal, wrapped; empty where there are none.
+std::string doubts_paragraph(const std::vector<SharedDoubt>& doubts);
+
+/// What a JSON file says of a doubt.
+nlohmann::ordered_json doubt_json(const Doubt& doubt);
+nlohmann::ordered_json doubts_json(const std::vector<SharedDoubt>& doubts);
+/// What the keys mean.
+inline constexpr const char* doubts_description =
+    "what speaks against the runs of the layouts that the answer names: each with its kind, whether it is serious, the "
+    "layouts, in how many of their runs, what happened first and what to do";
+
+}  // namespace vibrosow

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <string>
+
+namespace vibrosow {
+
+/// What may speak against a figure, by where it is known.
+enum class DoubtKind {
+  // Of a run:
+  outside_the_model,
+  ran_dry,
+  drained,
+  stopped_flowing,
+  seeds_lost,
+  feeder_behind,
+  guard_warned,
+  stopped_by_guard,
+  interrupted,
+  before_the_window,  // it ended before measuring began
+  few_seeds,
+  // Of the replicates of a layout together:
+  clogged_replicates,
+  wide_interval,
+  skewed_replicates,
+  measured_left_out,  // readings beyond the runs' end
+  // Of a scene:
+  unlikely_scene,  // it can be run, but can hardly be meant
+};
+inline constexpr DoubtKind last_doubt_kind = DoubtKind::unlikely_scene;
+
+struct Doubt {
+  DoubtKind kind;
+  std::string text;  // of this one: "ran dry at 3.2 s"
+  bool operator==(const Doubt&) const = default;
+};
+
+}  // namespace vibrosow
