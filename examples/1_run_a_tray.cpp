@@ -1,5 +1,6 @@
 // Runs a seeder file and prints what each hole sows.
 #include <cstdio>
+#include <string>
 #include <vibrosow/evaluate.hpp>
 
 int main(int, char** arguments) {
@@ -12,6 +13,7 @@ int main(int, char** arguments) {
   }
   std::printf("%s\n", scene.title().c_str());
   for (const HoleOutflow& row : evaluation.holes)
-    std::printf("hole %-3s %6.1f seeds/s %6.2f g/s\n", row.hole.c_str(), row.seeds_per_s, 1e3 * row.mass_rate);
+    std::printf("%-5s %6.1f seeds/s %6.2f g/s\n", row.hole == all_holes ? "all" : std::to_string(row.hole).c_str(),
+                row.seeds_per_s, 1e3 * row.mass_rate);
   return evaluation.balance.lost == 0 && evaluation.holes.back().grains > 0 ? 0 : 1;
 }

@@ -9,7 +9,8 @@ int main(int, char** arguments) {
 
   std::size_t seen = 0;
   bool open = false;
-  while (simulation.advance_to(simulation.time() + 0.01)) {
+  for (Status status = Status::running; status == Status::running;) {
+    status = simulation.advance_to(simulation.time() + 0.01);
     if (!open && simulation.time() >= 1) {
       simulation.open_gate(3);
       open = true;
@@ -20,5 +21,6 @@ int main(int, char** arguments) {
       ++seen;
     }
   }
-  return seen > 0 ? 0 : 1;
+  const Balance balance = simulation.result().balance;
+  return seen > 0 && seen == static_cast<std::size_t>(balance.counted + balance.spilled) ? 0 : 1;
 }

@@ -8,8 +8,8 @@ int main(int, char** arguments) {
   const Scene scene = Scene::read(arguments[1], {"space=3d", "tray.depth=2 cm", "tray.motion.direction=[1, 0, 0.5]",
                                                  "run.duration=0.1 s", "run.measure_from=0 s"});
   Simulation simulation(scene);
-  for (bool going = true; going;) {
-    going = simulation.advance_to(simulation.time() + 0.02);
+  for (Status status = Status::running; status == Status::running;) {
+    status = simulation.advance_to(simulation.time() + 0.02);
     std::size_t in_front = 0;
     const std::vector<Grain> grains = simulation.grains();
     for (const Grain& grain : grains) {

@@ -18,9 +18,13 @@ struct Balance {
   std::int64_t lost = 0;     // through a wall: an error
 };
 
+/// In the place of a hole's number, which is 1.. from the left.
+inline constexpr int no_hole = 0;     // a seed was spilled: it passed none
+inline constexpr int all_holes = -1;  // a row is of all together
+
 /// What leaves one hole (or all) of one lot (or all) in the measuring window.
 struct HoleOutflow {
-  std::string hole;          // "1".. from the left, or "all"
+  int hole = all_holes;      // its number, or all_holes
   std::string lot;           // its name, or "all"
   std::int64_t grains = 0;   // in the window
   double seeds_per_s = 0;    // of a plane slice one seed thick; not a number where a run ended before its window
@@ -32,7 +36,7 @@ struct HoleOutflow {
 struct Evaluation {
   bool finished = false;
   std::string reason;                 // why it was refused or stopped by the guard, or ended early
-  std::vector<std::string> warnings;  // of the guard
+  std::vector<std::string> doubts;    // what speaks against the figures: "ran dry at 3.2 s"; none where all is well
   bool outside_the_model = false;     // it went on past the guard's usual limits: nothing is to be decided by it
   double end_time = 0;                // s
   Balance balance;

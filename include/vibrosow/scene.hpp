@@ -19,6 +19,10 @@ class Scene {
   /// "tray.motion.frequency=12 Hz". Throws std::runtime_error with file, line and key for anything wrong.
   static Scene read(const std::filesystem::path& file, const std::vector<std::string>& changes = {});
 
+  /// The same of the text of a seeder file that is nowhere: "space = \"3d\"\n[tray]\n..". Files that it names are
+  /// looked for from the working directory; messages call it "scene.toml".
+  static Scene from_toml(std::string_view text, const std::vector<std::string>& changes = {});
+
   /// From what `json` gave. Throws std::runtime_error with the path of the first thing that is wrong.
   static Scene from_json(std::string_view json);
 

@@ -14,7 +14,7 @@ namespace vibrosow::api {
 /// A grain that left: its centre crossed the counting line.
 struct Event {
   double time;         // s
-  int hole;            // 1.. from the left; 0: spilled
+  int hole;            // its number, or no_hole: spilled
   int lot;             // in the file's order, from 0
   std::int64_t grain;  // its id
   double mass;         // kg
@@ -32,6 +32,13 @@ struct Grain {
   double radius;  // m
   double z = 0;   // m, across, from the tray's front at rest; 0 in the plane
   double vz = 0;  // m/s
+  double fx = 0, fy = 0, fz = 0;  // N, of all its contacts together; its weight is not in it
+};
+
+/// Whether a simulation goes on.
+enum class Status {
+  running,
+  finished,  // nothing more will come: the end is reached, the guard has stopped it, or a pause has ended it
 };
 
 /// Displacement of the tray: amplitude sin(2 pi frequency t + phase) along a direction, t since the start of the
@@ -55,9 +62,9 @@ class Simulation {
 
   double time() const;  // s
 
-  /// Takes steps until `time` (s) or the scene's end. False once there is nothing more to come: the end is reached, the
-  /// guard has stopped it, or a pause has ended it.
-  bool advance_to(double time);
+  /// Takes steps until `time` (s) or the scene's end, and says whether it goes on. Events come with the last steps too:
+  /// read them before leaving.
+  Status advance_to(double time);
 
   /// All events from the `first`-th on, counted from 0: what is new since one had read so many.
   std::vector<Event> events_since(std::size_t first) const;

@@ -66,9 +66,7 @@ class Folder:
     where only some of the `needed` are there. Committed reports have no files.json: then the needed files tell."""
 
     def __init__(self, path, command, needed):
-        self.path, self.listed = Path(path), []
-        if not self.path.is_dir():
-            raise NotAReport(f"{self.path} is not a folder")
+        self.path, self.listed = self.of(path), []
         if (self.path / "files.json").exists():
             content = read_json(self.path / "files.json")
             self.listed = content.get("files", [])
@@ -83,6 +81,13 @@ class Folder:
             raise NotAReport(f"{self.path} holds no reports of vibrosow {command}: there is no {needed[0]}{kept}")
         if absent:
             raise MissingFile(f"{self.path / absent[0]} is missing")
+
+    @staticmethod
+    def of(path):
+        """The path of a folder. NotAReport where it is none."""
+        if not Path(path).is_dir():
+            raise NotAReport(f"{path} is not a folder")
+        return Path(path)
 
     def table(self, name):
         """The DataFrame of a CSV file; None where the command had none to write."""

@@ -30,7 +30,9 @@ class Run:
         self.snapshots = sorted(int(path.stem.split("_")[1]) for path in self.folder.glob("grains_*.csv"))  # their numbers
 
     info = cached_property(lambda self: read_json(self.folder / "run.json"))  # a dict
-    summary = cached_property(lambda self: self._folder.table("summary.csv"))  # by hole and lot, in the measuring window
+    summary = cached_property(lambda self: self._folder.table("summary.csv"))  # by hole and lot, and of all, in the measuring window
+    holes = cached_property(lambda self: self.summary[self.summary.hole != "all"])  # of single holes
+    total = cached_property(lambda self: self.summary.iloc[-1])  # of all holes and lots
     events = cached_property(lambda self: self._folder.table("outflow.csv"))  # every seed that left, in the whole run
     records = cached_property(lambda self: self._folder.table("records.csv"))  # this and the next two: None without [record]
     profile = cached_property(lambda self: self._folder.table("profile.csv"))
@@ -41,6 +43,14 @@ class Run:
         """Its grains frame by frame, a Recording; None where `vibrosow run` was not asked for a page (--html)."""
         page = self.folder / "report.html"
         return Recording(page) if page.exists() else None
+
+    @property
+    def doubts(self):
+        """What speaks against its figures, a row each; empty where nothing does."""
+        return pandas.DataFrame(self.info.get("doubts", []), columns=["kind", "serious", "text", "what_to_do"])
+
+    def __repr__(self):
+        return f"<vibrosow run: {self.folder}, {self.info['status']}, {self.total.rate_g_per_s:.3g} g/s, {len(self.doubts)} doubts>"
 
     def snapshot(self, number, what="grains"):
         """Every grain (or what="fields": every cell) of a snapshot, by its number in `snapshots`. KeyError for another number."""

@@ -35,7 +35,9 @@ class Study:
         self.folder = self._folder.path
 
     layouts = cached_property(lambda self: self._folder.table("sweep.csv"))
-    holes = cached_property(lambda self: self._folder.table("sweep_holes.csv"))
+    _holes = cached_property(lambda self: self._folder.table("sweep_holes.csv"))
+    holes = cached_property(lambda self: self._holes[self._holes.hole != "all"])  # a row for each layout, hole and lot
+    totals = cached_property(lambda self: self._holes[self._holes.hole == "all"])  # of all holes together
     records = cached_property(lambda self: self._folder.table("sweep_records.csv"))  # None without [record]
     comparison = cached_property(lambda self: self._folder.table("comparison.csv"))  # None without a measurement
 
@@ -86,6 +88,9 @@ class Study:
                 raise VibrosowError(f"{self.folder}: its plan is not the one that its reports are of; `vibrosow export` makes them anew")
             weakref.finalize(run, stack.pop_all().close)
         return run
+
+    def __repr__(self):
+        return f"<vibrosow sweep: {self.folder}, {len(self.layouts)} layouts, {(self.layouts.status != 'ok').sum()} of them not ok>"
 
     def intervals(self, figure="rate_g_per_s"):
         """`value`, `low` and `high` of a figure by layout, in its column's unit: the mean over the replicates and its 95 % interval, NaN

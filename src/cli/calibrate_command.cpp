@@ -130,7 +130,10 @@ int run_calibrate(const CalibrateOptions& command) {
   write_then_print(
       options.quiet, [&] { folder.write(files); }, [&] { print_text(calibration_table(source)); });
   if (!options.quiet) print("reports: {}\n", folder.path().string());
-  return exit_done;
+  if (!is_beyond_its_noise(source)) return exit_done;
+  complain(fmt::format("{}: no values within the ranges meet it: the best miss it by {:.2g} times its noise",
+                       command.table, calibration.misfit_over_noise));
+  return exit_wrong_input;
 }
 
 void add_fit_options(CLI::App& command, CalibrateOptions& options) {

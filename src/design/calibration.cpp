@@ -63,7 +63,7 @@ class Fit {
     for (std::size_t condition = 0; condition < design_.conditions.size(); ++condition) {
       std::size_t offset = 0;
       for (const std::size_t s : series_of(task_, design_, condition)) {
-        const std::size_t count = values_within(task_, design_, condition, series(s));
+        const std::size_t count = series(s).values.size();
         for (const bool held_out : {false, true}) {
           Part part;
           part.series = s, part.held_out = held_out;
@@ -186,8 +186,11 @@ class Fit {
     }
     result_.posterior = posterior_sample(observed, static_cast<Index>(task_.keys.size()), choices_.points);
     const int freedom = result_.fitted_values - (result_.posterior.shifts.size() > 0 ? 1 : 0);
-    if (freedom > 0)
-      result_.misfit_probability = chi_squared_above(freedom, std::max(0.0, result_.posterior.least_misfit));
+    if (freedom > 0) {
+      const double misfit = std::max(0.0, result_.posterior.least_misfit);
+      result_.misfit_probability = chi_squared_above(freedom, misfit);
+      result_.misfit_over_noise = std::sqrt(misfit / freedom);
+    }
   }
 
   /// Of a quantity given at each point of the posterior.

@@ -56,9 +56,10 @@ struct Calibration {
   std::vector<FittedPair> correlations;     // of every pair
   std::vector<PredictedValue> predictions;  // by series, then time
   PosteriorSample posterior;
-  double noise = 0;          // of one measured rate, relative; of curves of a simulated one, a fraction of the most
-  std::string noise_source;  // where it is from
-  int fitted_values = 0;     // numbers in the likelihood; a curve's are its principal components
+  double noise = 0;              // of one measured rate, relative; of curves of a simulated one, a fraction of the most
+  std::string noise_source;      // where it is from
+  int fitted_values = 0;         // numbers in the likelihood; a curve's are its principal components
+  double misfit_over_noise = 0;  // root mean square of the best point's misfits, each over its own noise
   double misfit_probability = 1;  // of a misfit as large as the best point's, were the model right (chi squared)
   std::optional<double> fitted_rms,
       held_out_rms;  // of predictions: relative of rates; of curves of their largest value

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "design/comparison.hpp"
 #include "design/latin_hypercube.hpp"
 #include "input/read_scene.hpp"
 #include "plan/softness.hpp"
@@ -67,9 +68,7 @@ void check_measurable(const CalibrationTask& task, const MeasuredSeries& series,
         fmt::format("{}: discharged_percent is of the fill, and {} has none", series.where, task.seeder.string()));
   if (task.measured.scale == MeasuredScale::depth && !scene.tray.depth)
     throw InputError(fmt::format("{}: --scale depth needs tray.depth", task.seeder.string()));
-  if (!series.times.empty() && series.times.front() > scene.run.duration)
-    throw InputError(
-        fmt::format("{}: time_s: the run ends at {:g} s, before the curve begins", series.where, scene.run.duration));
+  check_within_run(task.measured, series, scene);
 }
 
 }  // namespace

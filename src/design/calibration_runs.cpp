@@ -38,11 +38,6 @@ ReducedRun reduced_run(const CalibrationTask& task, const std::vector<std::size_
   return reduced;
 }
 
-/// The scene that a condition's runs have but for the fitted keys.
-const Scene& scene_of(const CalibrationDesign& design, std::size_t condition) {
-  return std::ranges::find(design.runs, condition, &CalibrationRun::condition)->scene;
-}
-
 double median(std::vector<double> values) {
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
   std::ranges::nth_element(values, middle);
@@ -58,12 +53,6 @@ std::vector<std::size_t> series_of(const CalibrationTask& task, const Calibratio
   for (std::size_t s = 0; s < all.size(); ++s)
     if (all[s].conditions == design.conditions[condition]) indices.push_back(s);
   return indices;
-}
-
-std::size_t values_within(const CalibrationTask& task, const CalibrationDesign& design, std::size_t condition,
-                          const MeasuredSeries& series) {
-  if (!is_curve(task.measured.table.quantity)) return 1;
-  return curve_request(task.measured, series, scene_of(design, condition)).times.size() - 1;
 }
 
 std::optional<std::vector<ReducedRun>> reduced_runs(const CalibrationTask& task, const CalibrationDesign& design,
@@ -96,7 +85,7 @@ void leave_out_clogged(const CalibrationTask& task, const CalibrationDesign& des
     if (of_condition.empty()) continue;
     std::size_t first = 0;  // of the series' values in those of a run
     for (const std::size_t s : series_of(task, design, condition)) {
-      const std::size_t count = values_within(task, design, condition, task.measured.table.series[s]);
+      const std::size_t count = task.measured.table.series[s].values.size();
       std::vector<double> medians;
       for (std::size_t v = first; v < first + count; ++v) {
         std::vector<double> values;

@@ -21,10 +21,6 @@ struct ReducedRun {
 /// Indices of the series that were measured under a condition.
 std::vector<std::size_t> series_of(const CalibrationTask& task, const CalibrationDesign& design, std::size_t condition);
 
-/// How many of a series' values lie within the runs of its condition: one of a rate.
-std::size_t values_within(const CalibrationTask& task, const CalibrationDesign& design, std::size_t condition,
-                          const MeasuredSeries& series);
-
 /// Of every run of a design, in its order. Runs that failed, passed nothing or clogged count for nothing. None where
 /// one is missing. `kept`: gives the runs.
 std::optional<std::vector<ReducedRun>> reduced_runs(const CalibrationTask& task, const CalibrationDesign& design,

@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "outflow/misfit.hpp"
+#include "scene/input_error.hpp"
 
 namespace vibrosow {
 namespace {
@@ -51,16 +52,11 @@ double simulated_rate(const Evaluation& replicate, MeasuredQuantity quantity, co
   return quantity == MeasuredQuantity::mass_rate ? row->mass_rate : row->seeds_per_s;
 }
 
-/// How many of a curve's times, which rise, lie within the run.
-std::ptrdiff_t times_within(const CurveRequest& request) {
-  return std::ssize(request.times) - 1;
-}
-
 /// What has left since the curve's zero.
 std::vector<double> simulated_curve(const Evaluation& replicate, const CurveRequest& request) {
   const auto curve = std::ranges::find(replicate.curves, request, &Curve::request);
   if (curve == replicate.curves.end()) throw std::logic_error("a measured curve that was not evaluated");
-  std::vector<double> values(curve->values.begin(), curve->values.begin() + times_within(request));
+  std::vector<double> values(curve->values.begin(), curve->values.end() - 1);
   for (double& value : values) value -= curve->values.back();
   return values;
 }
@@ -72,10 +68,8 @@ Pairing pair_up(const StudyResult& result, const MeasuredMatch& match) {
   Pairing pairing;
   pairing.match = &match;
   pairing.series = &part.table.series[match.series];
-  const CurveRequest request = curve_request(part, *pairing.series, result.study.scenes[scene]);
-  if (curve) pairing.times.assign(pairing.series->times.begin(), pairing.series->times.begin() + times_within(request));
-  const std::size_t values = curve ? pairing.times.size() : 1;
-  for (std::size_t i = 0; i < values; ++i) pairing.measured.push_back(pairing.series->values[i].mean);
+  if (curve) pairing.times = pairing.series->times;
+  for (const MeanWithInterval& value : pairing.series->values) pairing.measured.push_back(value.mean);
   for (const Evaluation& replicate : result.runs[scene]) {
     if (!replicate.finished()) continue;
     pairing.simulated.push_back(simulated_values(replicate, part, *pairing.series, result.study.scenes[scene]));
@@ -163,19 +157,22 @@ const Outflow& a_finished_outflow(const std::vector<Evaluation>& replicates) {
   return std::ranges::find_if(replicates, &Evaluation::finished)->outflow;
 }
 
-/// Once a layout, however many series are cut short.
-void note_left_out(LayoutResult& layout) {
-  const CountedDoubt doubt{DoubtKind::measured_left_out, 0, 0, "measured times after the end of the run are left out"};
-  if (std::ranges::find(layout.doubts, doubt) == layout.doubts.end()) layout.doubts.push_back(doubt);
-}
-
 }  // namespace
+
+void check_within_run(const MeasuredPart& part, const MeasuredSeries& series, const Scene& scene) {
+  if (series.times.empty()) return;
+  const double zero = curve_zero(part, scene), last = series.times.back();
+  if (last + zero <= scene.run.duration * (1 + 1e-9)) return;
+  throw InputError(
+      fmt::format("{}: time_s: was read up to {:g} s, and the run ends {:g} s after the curve's time zero; run longer "
+                  "(run.duration), or leave these rows out",
+                  series.where, last, scene.run.duration - zero));
+}
 
 CurveRequest curve_request(const MeasuredPart& part, const MeasuredSeries& series, const Scene& scene) {
   CurveRequest request{discharge_of(part.table.quantity), series.hole, series.lot, {}};
   const double zero = curve_zero(part, scene);
-  for (const double time : series.times)
-    if (time + zero <= scene.run.duration) request.times.push_back(time + zero);
+  for (const double time : series.times) request.times.push_back(time + zero);
   request.times.push_back(zero);
   return request;
 }
@@ -203,7 +200,6 @@ void compare_with_measured(StudyResult& result) {
   for (const MeasuredMatch& match : part.matches) {
     if (result.layouts[match.layout].status == LayoutStatus::outside_the_model) continue;
     Pairing pairing = pair_up(result, match);
-    if (pairing.times.size() < pairing.series->times.size()) note_left_out(result.layouts[match.layout]);
     if (!pairing.simulated.empty() && !pairing.measured.empty()) pairings.push_back(std::move(pairing));
   }
 

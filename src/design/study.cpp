@@ -9,6 +9,7 @@
 #include <set>
 #include <system_error>
 
+#include "design/comparison.hpp"
 #include "design/study_grid.hpp"
 #include "input/key_units.hpp"
 #include "input/read_scene.hpp"
@@ -215,6 +216,7 @@ void check_measurable(const MeasuredPart& part, const MeasuredSeries& series, co
     throw InputError(
         fmt::format("{}: discharged_percent is of the fill, and layout {} has none; expected mass_g or seeds",
                     series.where, layout + 1));
+  check_within_run(part, series, scene);
   if (part.scale == MeasuredScale::depth && !scene.tray.depth)
     throw InputError(fmt::format("{}: measured.scale = \"depth\" needs tray.depth", base.string()));
 }

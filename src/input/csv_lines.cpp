@@ -4,10 +4,13 @@
 #include <charconv>
 #include <cmath>
 #include <iterator>
+#include <memory>
 #include <sstream>
+#include <utility>
 
 #include <csv.h>
 #include <fmt/format.h>
+#include <iconv.h>
 
 #include "scene/input_error.hpp"
 
@@ -60,12 +63,51 @@ bool is_skipped(const std::string& line) {
   return line.starts_with('#') || line.find_first_not_of(" \t\r") == std::string::npos;
 }
 
-/// The header line decides: column names hold neither comma nor semicolon.
-bool has_semicolons(const std::string& text) {
+/// Excel's first line "sep=;" names the separator; otherwise the header line decides: column names hold none of them.
+struct Dialect {
+  char separator = ',';
+  bool is_said = false;  // in a line of its own, the first
+};
+
+Dialect dialect_of(const std::string& text) {
   std::istringstream lines(text);
-  for (std::string line; std::getline(lines, line);)
-    if (!is_skipped(line)) return line.find(';') != std::string::npos;
-  return false;
+  for (std::string line; std::getline(lines, line);) {
+    if (is_skipped(line)) continue;
+    if (line.starts_with("sep=") && line.size() >= 5) return {line[4], true};
+    for (const char separator : {';', '\t'})
+      if (line.find(separator) != std::string::npos) return {separator};
+    break;
+  }
+  return {};
+}
+
+/// A number with a mark in the place of its decimal point.
+bool has_decimal(const std::string& field, char mark) {
+  const auto at = field.find(mark);
+  if (at == std::string::npos) return false;
+  std::string digits = field.substr(0, at) + field.substr(at + 1);
+  if (digits.starts_with('-') || digits.starts_with('+')) digits.erase(0, 1);
+  return !digits.empty() && digits.find_first_not_of("0123456789") == std::string::npos;
+}
+
+bool any_decimal(const CsvLines& csv, char mark) {
+  return std::ranges::any_of(csv.rows, [&](const CsvLines::Row& row) {
+    return std::ranges::any_of(row.fields, [&](const std::string& field) { return has_decimal(field, mark); });
+  });
+}
+
+/// UTF-8 of a text that begins with a mark of UTF-16; any other text as it is, without the mark of UTF-8.
+std::string in_utf8(std::string text, const std::string& file) {
+  if (text.starts_with("\xEF\xBB\xBF")) return text.substr(3);
+  if (!text.starts_with("\xFF\xFE") && !text.starts_with("\xFE\xFF")) return text;
+  const std::unique_ptr<void, decltype(&iconv_close)> converter(iconv_open("UTF-8", "UTF-16"), &iconv_close);
+  std::string converted(2 * text.size(), '\0');  // a unit of two bytes takes three at most
+  char *from = text.data(), *to = converted.data();
+  std::size_t from_left = text.size(), to_left = converted.size();
+  if (iconv(converter.get(), &from, &from_left, &to, &to_left) == static_cast<std::size_t>(-1))
+    throw InputError(file + ": begins as UTF-16 does, and is none");
+  converted.resize(converted.size() - to_left);
+  return converted;
 }
 
 /// Columns after the last one that has a name, where they hold nothing: spreadsheets append them.
@@ -78,12 +120,12 @@ void drop_empty_columns(CsvLines& csv) {
 }  // namespace
 
 CsvLines parse_csv_lines(std::string text, const std::string& file) {
-  if (text.starts_with("\xEF\xBB\xBF")) text.erase(0, 3);
+  text = in_utf8(std::move(text), file);
   CsvLines csv;
   csv.file = file;
-  csv.decimal_comma = has_semicolons(text);
+  Dialect dialect = dialect_of(text);
 
-  Parser parser(csv.decimal_comma ? ';' : ',');
+  Parser parser(static_cast<unsigned char>(dialect.separator));
   const auto fail_on_quotes = [&] {
     throw InputError(
         fmt::format("{}:{}: a quote is opened and not closed, or stands inside a field", file, parser.begun_on_line()));
@@ -93,6 +135,7 @@ CsvLines parse_csv_lines(std::string text, const std::string& file) {
   for (std::string line; std::getline(lines, line);) {
     ++number;
     if (parser.between_rows() && is_skipped(line)) continue;
+    if (std::exchange(dialect.is_said, false)) continue;
     if (!parser.feed(line + '\n', number)) fail_on_quotes();
   }
   if (!parser.finish()) fail_on_quotes();
@@ -104,6 +147,7 @@ CsvLines parse_csv_lines(std::string text, const std::string& file) {
   if (csv.rows.empty())
     throw InputError(fmt::format("{}:{}: only a header; at least one row is needed", file, csv.header.line));
   drop_empty_columns(csv);
+  csv.decimal_comma = dialect.separator != ',' && (any_decimal(csv, ',') || !any_decimal(csv, '.'));
   for (const CsvLines::Row& row : csv.rows)
     if (row.fields.size() != csv.header.fields.size())
       throw InputError(fmt::format("{}:{}: {} fields where the header has {}", file, row.line, row.fields.size(),

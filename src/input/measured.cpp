@@ -17,11 +17,19 @@
 namespace vibrosow {
 namespace {
 
+/// How a cumulative curve is made of what a balance shows.
+enum class Balance {
+  of_what_left,            // as it stands
+  of_what_is_left_behind,  // under the vessel: the first reading less each
+  not_tared,               // with the weight of the container: each less the first reading
+};
+
 /// A column that states a quantity, and the column that must stand beside it.
 struct QuantityColumn {
   std::string_view name;
   std::string_view beside;  // "": none
   MeasuredQuantity quantity;
+  Balance balance = Balance::of_what_left;
 };
 
 constexpr std::array quantity_columns = {
@@ -30,13 +38,15 @@ constexpr std::array quantity_columns = {
     QuantityColumn{"rate_g_per_s", "", MeasuredQuantity::mass_rate},
     QuantityColumn{"seeds_per_s", "", MeasuredQuantity::seed_rate},
     QuantityColumn{"mass_g", "time_s", MeasuredQuantity::mass_curve},
+    QuantityColumn{"remaining_g", "time_s", MeasuredQuantity::mass_curve, Balance::of_what_is_left_behind},
+    QuantityColumn{"gross_g", "time_s", MeasuredQuantity::mass_curve, Balance::not_tared},
     QuantityColumn{"seeds", "time_s", MeasuredQuantity::seed_curve},
     QuantityColumn{"discharged_percent", "time_s", MeasuredQuantity::fraction_curve},
 };
 constexpr std::string_view one_quantity_needed =
     "exactly one quantity is needed: caught_g or caught_seeds with duration_s; rate_g_per_s; seeds_per_s; or "
-    "time_s with "
-    "mass_g, seeds or discharged_percent";
+    "time_s with mass_g (remaining_g of a balance under the vessel, gross_g of one that was not tared), seeds or "
+    "discharged_percent";
 
 constexpr std::array<std::string_view, 4> label_columns = {"hole", "lot", "repeat", "note"};
 constexpr std::array<std::string_view, 2> companion_columns = {"duration_s", "time_s"};
@@ -83,6 +93,7 @@ class Reader {
     MeasuredSeries series;
     int line;
     std::map<double, std::vector<double>> values_at;
+    std::map<double, int> line_at;  // of the first row of a time
   };
 
   [[noreturn]] void fail(int line, std::string_view column, std::string_view message) const {
@@ -147,7 +158,7 @@ class Reader {
     if (!value)
       fail(row.line, header(index),
            fmt::format("\"{}\" is not a number with a decimal {}", text,
-                       csv_.decimal_comma ? "comma (fields are separated by semicolons)" : "point"));
+                       csv_.decimal_comma ? "comma, as the others of the file have" : "point"));
     if (*value < 0) fail(row.line, header(index), fmt::format("{} is negative", text));
     return *value;
   }
@@ -194,31 +205,81 @@ class Reader {
     series.lot = lot(row);
     series.where = fmt::format("{}:{}", csv_.file, row.line);
     const double time = is_curve(quantity_->quantity) ? required_number(row, *companion_) : 0;
-    gathered(series, row.line).values_at[time].push_back(value(row));
+    Gathered& of_series = gathered(series, row.line);
+    of_series.values_at[time].push_back(value(row));
+    of_series.line_at.try_emplace(time, row.line);
   }
 
   Gathered& gathered(const MeasuredSeries& series, int line) {
     std::vector<std::string> of = {series.hole, series.lot};
     for (const Condition& condition : series.conditions) of.push_back(condition.text);
     const auto [known, is_new] = places_.try_emplace(std::move(of), gathered_.size());
-    if (is_new) gathered_.push_back({series, line, {}});
+    if (is_new) gathered_.push_back({series, line, {}, {}});
     return gathered_[known->second];
   }
 
   MeasuredSeries average(const Gathered& one) const {
     MeasuredSeries series = one.series;
-    double largest = 0;
     for (const auto& [time, values] : one.values_at) {
       if (is_curve(quantity_->quantity)) series.times.push_back(time);
       series.values.push_back(mean_with_interval(values));
       series.repeats.push_back(static_cast<int>(values.size()));
-      largest = std::max(largest, series.values.back().mean);
     }
+    make_cumulative(series);
+    double largest = 0;
+    for (const MeanWithInterval& value : series.values) largest = std::max(largest, value.mean);
     if (largest == 0)
       fail(one.line, quantity_->name,
            is_curve(quantity_->quantity) ? "the curve never leaves zero: it has no misfit"
                                          : "a rate of zero has no relative misfit; leave the row out");
+    if (is_curve(quantity_->quantity)) check_curve(one, series, largest);
     return series;
+  }
+
+  /// What has left since the first reading, of balances that show something else.
+  void make_cumulative(MeasuredSeries& series) const {
+    if (quantity_->balance == Balance::of_what_left) return;
+    const double first = series.values.front().mean;
+    for (MeanWithInterval& value : series.values)
+      value.mean = quantity_->balance == Balance::not_tared ? value.mean - first : first - value.mean;
+  }
+
+  /// Refuses a curve that cannot be of what has left. A balance trembles: a hundredth of the largest value is let pass.
+  void check_curve(const Gathered& one, const MeasuredSeries& series, double largest) const {
+    const auto stated = [&](double si) { return fmt::format("{:.4g}", to_column_unit(quantity_->quantity, si)); };
+    std::vector<int> lines;
+    for (const auto& [time, line] : one.line_at) lines.push_back(line);
+    const double trembling = 0.01 * largest;
+    for (std::size_t i = 1; i < series.values.size(); ++i) {
+      const double before = series.values[i - 1].mean, now = series.values[i].mean;
+      if (now >= before - trembling) continue;
+      if (quantity_->balance == Balance::of_what_is_left_behind)
+        fail(lines[i], quantity_->name,
+             fmt::format("rises by {} from the reading before; of a balance under the vessel it can only fall",
+                         stated(before - now)));
+      fail(lines[i], quantity_->name,
+           fmt::format("falls from {} to {}; the curve is of all that has left so far.{}", stated(before), stated(now),
+                       quantity_->quantity == MeasuredQuantity::mass_curve
+                           ? " A balance under the vessel has the column remaining_g"
+                           : ""));
+    }
+    check_beginning(series, lines.front(), largest, stated);
+  }
+
+  /// A curve begins near nothing: at time zero with a twentieth of all at most, later with what three times its mean
+  /// rate may have brought until then.
+  template <class Stated>
+  void check_beginning(const MeasuredSeries& series, int line, double largest, Stated stated) const {
+    const double first = series.values.front().mean, time = series.times.front();
+    const double rise = series.values.back().mean - first, span = series.times.back() - time;
+    const double may_have_left = 0.05 * largest + (span > 0 ? 3 * rise / span * time : largest);
+    if (first <= may_have_left) return;
+    fail(
+        line, quantity_->name,
+        fmt::format("begins with {} at {:g} s; a curve is of what has left since its time zero.{}", stated(first), time,
+                    quantity_->quantity == MeasuredQuantity::mass_curve
+                        ? " A balance that was not tared has the column gross_g"
+                        : ""));
   }
 
   const CsvLines& csv_;

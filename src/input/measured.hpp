@@ -55,10 +55,11 @@ struct MeasuredTable {
 /// Reads a table of measured outflow. Condition columns are those of `condition_column`; `hole`, `lot`,
 /// `repeat` and `note` may follow (`repeat` and `note` are for the reader of the file), and exactly one
 /// quantity must: caught_g or caught_seeds with duration_s; rate_g_per_s; seeds_per_s; or time_s with mass_g,
-/// seeds or discharged_percent. Comma and decimal point, or semicolon and decimal comma, as the header shows.
-/// Rows alike in conditions, hole, lot and time are repeats. Throws InputError "FILE:LINE: COLUMN: ..." for
-/// anything else, an unknown column (with the nearest known one), a value that is not a
-/// finite number, negative, or over 100 %, and a rate of zero, which has no relative misfit.
+/// seeds or discharged_percent; instead of mass_g remaining_g, of a balance under the vessel, or gross_g, of one that
+/// was not tared: what has left is reckoned from their first reading. Rows alike in conditions, hole, lot and time are
+/// repeats. Throws InputError "FILE:LINE: COLUMN: ..." for anything else, an unknown column (with the nearest known
+/// one), a value that is not a finite number, negative, or over 100 %, a rate of zero, which has no relative misfit,
+/// and a curve that falls or does not begin near nothing.
 MeasuredTable read_measured(const CsvLines& csv);
 
 }  // namespace vibrosow

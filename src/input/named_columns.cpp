@@ -28,6 +28,8 @@ constexpr std::array quantities = {
     Quantities{"rate", Dimension::seed_rate, "1/s", "seeds_per_s"},
     Quantities{"caught", Dimension::mass, "g", "caught_g"},
     Quantities{"mass", Dimension::mass, "g", "mass_g"},
+    Quantities{"remaining", Dimension::mass, "g", "remaining_g"},
+    Quantities{"gross", Dimension::mass, "g", "gross_g"},
     Quantities{"discharged", Dimension::fraction, "%", "discharged_percent"},
     Quantities{"duration", Dimension::time, "s", "duration_s"},
     Quantities{"time", Dimension::time, "s", "time_s"},
@@ -85,6 +87,40 @@ void convert(CsvLines& csv, std::size_t column, double factor) {
   }
 }
 
+/// Seconds of "12:30:01" or "12:30:01.5".
+std::optional<double> seconds_of(const std::string& clock, bool decimal_comma) {
+  const auto hours_end = clock.find(':'), minutes_end = clock.find(':', hours_end + 1);
+  if (hours_end == std::string::npos || minutes_end == std::string::npos) return std::nullopt;
+  const auto part = [&](std::size_t from, std::size_t to, double below) -> std::optional<double> {
+    const auto number = csv_number(clock.substr(from, to - from), decimal_comma);
+    return number && *number >= 0 && *number < below ? number : std::nullopt;
+  };
+  const auto hours = part(0, hours_end, 24), minutes = part(hours_end + 1, minutes_end, 60),
+             seconds = part(minutes_end + 1, clock.size(), 60);
+  if (!hours || !minutes || !seconds) return std::nullopt;
+  return 3600 * *hours + 60 * *minutes + *seconds;
+}
+
+/// Seconds since the first row; past midnight they go on.
+void read_clock(CsvLines& csv, std::size_t column) {
+  constexpr double day = 86400;
+  std::optional<double> first, before;
+  double days = 0;
+  for (CsvLines::Row& row : csv.rows) {
+    const auto seconds = seconds_of(row.fields[column], csv.decimal_comma);
+    if (!seconds)
+      throw InputError(fmt::format("{}:{}: {}: \"{}\" is no time of day such as 12:30:01", csv.file, row.line,
+                                   csv.header.fields[column], shortened(row.fields[column])));
+    if (before && *seconds < *before) days += day;
+    before = seconds;
+    if (!first) first = seconds;
+    std::string text = fmt::format("{}", *seconds + days - *first);
+    if (csv.decimal_comma) std::ranges::replace(text, '.', ',');
+    row.fields[column] = std::move(text);
+  }
+  csv.header.fields[column] = "time_s";
+}
+
 void remove(CsvLines& csv, std::size_t column) {
   const auto at = static_cast<std::ptrdiff_t>(column);
   csv.header.fields.erase(csv.header.fields.begin() + at);
@@ -111,6 +147,10 @@ CsvLines with_named_columns(CsvLines csv, const std::vector<ColumnName>& names) 
     const auto column = static_cast<std::size_t>(found - csv.header.fields.begin());
     if (name.name.empty()) {
       remove(csv, column);
+      continue;
+    }
+    if (name.name == "clock") {
+      read_clock(csv, column);
       continue;
     }
     Reading reading = reading_of(name, where);

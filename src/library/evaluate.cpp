@@ -1,5 +1,7 @@
 #include "vibrosow/evaluate.hpp"
 
+#include <string>
+
 #include "design/evaluate.hpp"
 #include "library/convert.hpp"
 
@@ -8,6 +10,10 @@ namespace {
 
 std::string reason_of(const vibrosow::Evaluation& own) {
   return own.reason.empty() ? own.end_reason : own.reason;
+}
+
+int hole_of(const std::string& own) {
+  return own == "all" ? all_holes : std::stoi(own);
 }
 
 }  // namespace
@@ -19,16 +25,16 @@ Balance converted(const vibrosow::Balance& own) {
 Evaluation converted(const vibrosow::Evaluation& own) {
   Evaluation evaluation{.finished = own.finished(),
                         .reason = reason_of(own),
-                        .warnings = {},
+                        .doubts = {},
                         .outside_the_model = own.outside_the_model,
                         .end_time = own.end_time,
                         .balance = converted(own.balance),
                         .holes = {},
                         .evenness_cv = own.outflow.evenness ? own.outflow.evenness->cv : std::nullopt,
                         .depth_factor = own.outflow.depth_factor};
-  for (const Doubt& doubt : own.outflow.doubts) evaluation.warnings.push_back(doubt.text);
+  for (const Doubt& doubt : own.outflow.doubts) evaluation.doubts.push_back(doubt.text);
   for (const vibrosow::HoleOutflow& row : own.outflow.holes)
-    evaluation.holes.push_back({row.hole, row.lot, row.grains, row.seeds_per_s, row.mass_rate, row.longest_pause});
+    evaluation.holes.push_back({hole_of(row.hole), row.lot, row.grains, row.seeds_per_s, row.mass_rate, row.longest_pause});
   return evaluation;
 }
 

@@ -1,14 +1,30 @@
 #include "vibrosow/scene.hpp"
 
+#include <map>
+
 #include "input/read_scene.hpp"
 #include "scene/scene_json.hpp"
 
 namespace vibrosow::api {
+namespace {
 
-Scene Scene::read(const std::filesystem::path& file, const std::vector<std::string>& changes) {
+std::vector<Override> overrides_of(const std::vector<std::string>& changes) {
   std::vector<Override> overrides;
   for (const std::string& change : changes) overrides.push_back(parse_override(change));
-  return Scene(std::make_shared<const vibrosow::Scene>(read_scene(file, overrides)));
+  return overrides;
+}
+
+}  // namespace
+
+Scene Scene::read(const std::filesystem::path& file, const std::vector<std::string>& changes) {
+  return Scene(std::make_shared<const vibrosow::Scene>(read_scene(file, overrides_of(changes))));
+}
+
+Scene Scene::from_toml(std::string_view text, const std::vector<std::string>& changes) {
+  const std::filesystem::path file = "scene.toml";
+  const auto files = std::make_shared<SourceFiles>(
+      std::map<std::string, std::string>{{std::filesystem::absolute(file).lexically_normal().string(), std::string(text)}});
+  return Scene(std::make_shared<const vibrosow::Scene>(read_scene(file, overrides_of(changes), files)));
 }
 
 Scene Scene::from_json(std::string_view json) {

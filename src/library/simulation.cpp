@@ -1,5 +1,6 @@
 #include "vibrosow/simulation.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
@@ -36,8 +37,9 @@ double Simulation::time() const {
   return inside_->simulation.time();
 }
 
-bool Simulation::advance_to(double time) {
-  return inside_->simulation.run_until(time) && !inside_->simulation.at_end();
+Status Simulation::advance_to(double time) {
+  const bool goes_on = inside_->simulation.run_until(time) && !inside_->simulation.at_end();
+  return goes_on ? Status::running : Status::finished;
 }
 
 std::vector<Event> Simulation::events_since(std::size_t first) const {
@@ -54,6 +56,14 @@ std::vector<Grain> Simulation::grains() const {
     grains.push_back({own.id[i], own.lot[i], own.x[i], own.y[i], own.vx[i], own.vy[i], own.kind(i).radius});
     if (own.in_space) grains.back().z = own.z[i], grains.back().vz = own.vz[i];
   }
+  const auto add = [&](std::int64_t id, const GrainContact& contact, double sign) {
+    const auto grain = std::ranges::lower_bound(grains, id, {}, &Grain::id);
+    if (grain == grains.end() || grain->id != id) return;  // a wall
+    const auto force = [&](int axis) { return sign * (contact.normal_force[axis] + contact.tangential_force[axis]); };
+    grain->fx += force(0), grain->fy += force(1), grain->fz += force(2);
+  };
+  for (const GrainContact& contact : inside_->simulation.frame().contacts)
+    add(contact.grain, contact, 1), add(contact.partner, contact, -1);
   return grains;
 }
 

@@ -12,7 +12,7 @@ namespace {
 using enum Severity;
 
 /// By kind.
-constexpr std::array<DoubtWords, 16> doubt_words = {{
+constexpr std::array<DoubtWords, 15> doubt_words = {{
     {"outside the model", serious, "decide nothing by it: take a step that is not too long and the guard's own limits"},
     {"ran dry", serious, "put in more seeds, or measure before"},
     {"drained in the window", serious, "keep the tray topped up (fill.keep), or measure a shorter time"},
@@ -27,7 +27,6 @@ constexpr std::array<DoubtWords, 16> doubt_words = {{
     {"clogged", mild, "the figures are of the runs that flowed; wider holes clog less often"},
     {"wide interval", mild, "allow more replicates"},
     {"skewed runs", mild, "run more replicates before the interval is trusted"},
-    {"readings left out", mild, "run as long as was measured (run.duration)"},
     {"unlikely scene", serious, "look at the key that it names"},
 }};
 static_assert(doubt_words.size() == static_cast<std::size_t>(last_doubt_kind) + 1);

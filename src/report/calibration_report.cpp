@@ -13,6 +13,7 @@
 #include "report/contact_model.hpp"
 #include "report/page.hpp"
 #include "report/terminal_text.hpp"
+#include "scene/spaces.hpp"
 
 namespace vibrosow {
 namespace {
@@ -179,14 +180,36 @@ std::vector<std::pair<std::string, std::string>> sources(const CalibrationSource
 }
 
 /// What speaks against the runs that were fitted to.
-std::vector<std::string> sentences_of_runs(const std::vector<ReducedRun>& runs) {
+std::vector<CountedDoubt> doubts_of_runs(const std::vector<ReducedRun>& runs) {
   std::vector<const std::vector<Doubt>*> that_count;
   for (const ReducedRun& run : runs)
     if (run.reason.empty()) that_count.push_back(&run.doubts);
-  std::vector<std::string> sentences;
-  for (const SharedDoubt& doubt : shared_doubts({{0, counted_doubts(that_count)}}))
-    sentences.push_back(doubt_clause(doubt, ""));
-  return sentences;
+  return counted_doubts(that_count);
+}
+
+/// Which edge of its range a value's interval touches, of one that the table says something of; empty: none.
+std::string_view edge_of(const KeyRange& range, const FittedValue& value) {
+  const double near = 0.02 * (range.high - range.low);
+  if (value.contraction < little_contraction) return "";
+  if (value.low - range.low < near) return "lower";
+  return range.high - value.high < near ? "upper" : "";
+}
+
+bool any_at_an_edge(const CalibrationSource& source) {
+  for (std::size_t k = 0; k < source.task.keys.size(); ++k)
+    if (!edge_of(source.task.keys[k], source.calibration.values[k]).empty()) return true;
+  return false;
+}
+
+/// The fitted factor beside the one that the tray's depth means; empty without either.
+std::string depth_factor_text(const CalibrationSource& source) {
+  const auto& fitted = source.calibration.depth_factor;
+  if (!fitted || source.design.runs.empty()) return "";
+  const auto slices = slices_of_tray(source.design.runs.front().scene);
+  if (!slices) return "";
+  return fmt::format("depth factor fitted: {} ({} to {}); tray.depth over the slice's thickness is {}",
+                     to_digits(fitted->mean, 3), to_digits(fitted->low, 3), to_digits(fitted->high, 3),
+                     to_digits(*slices, 3));
 }
 
 }  // namespace
@@ -235,12 +258,28 @@ std::string calibration_table(const CalibrationSource& source) {
     text += wrapped(fmt::format("fitted values are met to {:.2g} {} (RMS)", 100 * *of.fitted_rms, of_what));
   if (of.held_out_rms)
     text += wrapped(fmt::format("held out, and predicted to {:.2g} {} (RMS)", 100 * *of.held_out_rms, of_what));
+  if (const std::string factor = depth_factor_text(source); !factor.empty()) text += wrapped(factor);
+  if (!gives_a_contact(source))
+    text += wrapped("No contact.toml is written: what is doubtful above would go on in it.");
   return text;
+}
+
+bool is_beyond_its_noise(const CalibrationSource& source) {
+  constexpr double most = 3;
+  return source.calibration.misfit_over_noise > most;
+}
+
+bool gives_a_contact(const CalibrationSource& source) {
+  const std::vector<CountedDoubt> doubts = doubts_of_runs(source.runs);
+  return source.calibration.misfit_probability >= unlikely_misfit && !any_at_an_edge(source) &&
+         std::ranges::find(doubts, DoubtKind::seeds_lost, &CountedDoubt::kind) == doubts.end();
 }
 
 std::vector<std::string> calibration_doubts(const CalibrationSource& source) {
   const Calibration& of = source.calibration;
-  std::vector<std::string> doubts = sentences_of_runs(source.runs);
+  std::vector<std::string> doubts;
+  for (const SharedDoubt& doubt : shared_doubts({{0, doubts_of_runs(source.runs)}}))
+    doubts.push_back(doubt_clause(doubt, ""));
   for (const FittedPair& pair : of.correlations)
     if (std::abs(pair.correlation) > not_told_apart)
       doubts.push_back(fmt::format("{} and {} cannot be told apart by this table (correlation {:.2f})",
@@ -249,7 +288,24 @@ std::vector<std::string> calibration_doubts(const CalibrationSource& source) {
   for (std::size_t k = 0; k < source.task.keys.size(); ++k)
     if (of.values[k].contraction < little_contraction) unknown.push_back(source.task.keys[k].key);
   if (!unknown.empty()) doubts.push_back(fmt::format("the table says little of {}", fmt::join(unknown, ", ")));
-  if (of.misfit_probability < unlikely_misfit)
+  for (std::size_t k = 0; k < source.task.keys.size(); ++k) {
+    const KeyRange& range = source.task.keys[k];
+    if (const std::string_view edge = edge_of(range, of.values[k]); !edge.empty())
+      doubts.push_back(fmt::format(
+          "{} lies at the {} edge of its range, {:g} to {:g}: what is better may lie beyond it (a wider --fit)",
+          range.key, edge, range.low, range.high));
+    if (of.values[k].contraction < 0)
+      doubts.push_back(
+          fmt::format("{} scatters more than an even spread over its range would (contraction below 0): the "
+                      "table speaks for both ends of the range at once",
+                      range.key));
+  }
+  if (is_beyond_its_noise(source))
+    doubts.push_back(
+        fmt::format("no values within the ranges meet the table: the best ones miss it by {:.2g} times its noise. "
+                    "Nothing was fitted",
+                    of.misfit_over_noise));
+  else if (of.misfit_probability < unlikely_misfit)
     doubts.push_back(
         "the model nowhere meets the table within its noise, so the intervals are too narrow: something "
         "else is wrong than what was fitted, or the noise is larger (--noise)");
@@ -275,20 +331,26 @@ std::vector<FileText> calibration_file_texts() {
       file_text("calibration_runs.csv", "one row per run that was made", run_columns(any)),
       {"contact.toml",
        "a contact model with the means of the fitted values and where each is from, for "
-       "`[contact] model = \"contact.toml\"`",
+       "`[contact] model = \"contact.toml\"`; none where the table is not met within its noise, a value lies at the "
+       "edge of "
+       "its range, or seeds went through walls",
        {}}};
 }
 
 std::vector<OutputFile> calibration_files(const CalibrationSource& source, const Contact& fitted, CsvFormat format) {
   const std::vector<KeyRange>& keys = source.task.keys;
   const bool with_factor = source.calibration.depth_factor.has_value();
-  return {{"calibration.csv", csv_of(value_columns(), value_rows(source), format)},
-          {"prediction.csv", csv_of(prediction_columns(), prediction_rows(source), format)},
-          {"posterior.csv", csv_of(posterior_columns(keys, with_factor), sample(source), format)},
-          {"calibration_runs.csv", csv_of(run_columns(keys), run_rows(source), format)},
-          {"contact.toml",
-           contact_model_toml(fitted, fmt::format("Fitted to {}", source.task.measured.file.filename().string()),
-                              sources(source))}};
+  std::vector<OutputFile> files = {
+      {"calibration.csv", csv_of(value_columns(), value_rows(source), format)},
+      {"prediction.csv", csv_of(prediction_columns(), prediction_rows(source), format)},
+      {"posterior.csv", csv_of(posterior_columns(keys, with_factor), sample(source), format)},
+      {"calibration_runs.csv", csv_of(run_columns(keys), run_rows(source), format)}};
+  if (gives_a_contact(source))
+    files.push_back(
+        {"contact.toml",
+         contact_model_toml(fitted, fmt::format("Fitted to {}", source.task.measured.file.filename().string()),
+                            sources(source))});
+  return files;
 }
 
 }  // namespace vibrosow

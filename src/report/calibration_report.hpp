@@ -37,13 +37,20 @@ std::string conditions_text(const std::vector<Condition>& conditions);
 /// The fitted values for a terminal, what was predicted of what was held out, and what is doubtful.
 std::string calibration_table(const CalibrationSource& source);
 
+/// Whether the best point misses the table by more than three times its noise: then nothing was fitted.
+bool is_beyond_its_noise(const CalibrationSource& source);
+
+/// Whether a contact model may be made of it: the table is met within its noise, no value lies at the edge of its
+/// range, and no run that counts lost seeds through walls.
+bool gives_a_contact(const CalibrationSource& source);
+
 /// What is doubtful about it, each a sentence; none where all is well.
 std::vector<std::string> calibration_doubts(const CalibrationSource& source);
 
 std::vector<FileText> calibration_file_texts();
 
-/// Its files: calibration.csv, prediction.csv, posterior.csv, calibration_runs.csv and contact.toml, the seeder's
-/// contact with the means of the fitted values.
+/// Its files: calibration.csv, prediction.csv, posterior.csv, calibration_runs.csv and, where `gives_a_contact`,
+/// contact.toml, the seeder's contact with the means of the fitted values.
 std::vector<OutputFile> calibration_files(const CalibrationSource& source, const Contact& fitted,
                                           CsvFormat format = {});
 

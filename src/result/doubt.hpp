@@ -22,7 +22,6 @@ enum class DoubtKind {
   clogged_replicates,
   wide_interval,
   skewed_replicates,
-  measured_left_out,  // readings beyond the runs' end
   // Of a scene:
   unlikely_scene,  // it can be run, but can hardly be meant
 };

@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <cstdint>
 #include <optional>
+#include <stdexcept>
 #include <vector>
 
 #include "box2d/broadphase.hpp"
@@ -53,7 +54,11 @@ class Neighbours {
   const std::vector<Image>& images() const { return images_; }
   std::int64_t searches() const { return searches_; }
   std::int64_t prunes() const { return prunes_; }
-  Broadphase& broadphase() { return *in_plane_; }  // of a plane
+  /// Throws std::logic_error in space.
+  Broadphase& broadphase() {
+    if (!in_plane_) throw std::logic_error("a broadphase of the plane, in space");
+    return *in_plane_;
+  }
 
  private:
   /// Where the grains (relative to the first vessel) and the other vessels were when a list was made.

@@ -439,7 +439,7 @@ TEST_F(CalibrationOf, WrongTasksAreRefused) {
   of.measured.scale = MeasuredScale::free;
   EXPECT_THAT(error(of), HasSubstr("--scale free goes with rates"));
   of = task("time_s,mass_g\n9,1\n");
-  EXPECT_THAT(error(of), HasSubstr("before the curve begins"));
+  EXPECT_THAT(error(of), HasSubstr("was read up to 9 s, and the run ends 4 s"));
 }
 
 TEST(FittedKey, IsReadWithItsUnit) {

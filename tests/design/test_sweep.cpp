@@ -169,16 +169,24 @@ TEST(Sweep, AMisfitsIntervalIsThatOfTheReplicatesMisfits) {
   EXPECT_NEAR(*result.layouts[0].holes[0].difference_percent, 20, 1e-9);
 }
 
-TEST(Sweep, CurveIsComparedAtItsTimesWithinTheRun) {
+TEST(Sweep, CurveIsComparedAtItsTimes) {
   const StudyFiles files;
-  files.write("curve.csv", "time_s,seeds\n2,0\n4,12\n9,40\n");
+  files.write("curve.csv", "time_s,seeds\n2,0\n4,12\n");
   const Study study = read_study(
       files.study("replicates = 3\n[set]\ntray.holes.count = 1\n[measured]\nfile = \"curve.csv\"\nscale = \"none\"\n"));
   const StudyResult result = sweep(study, quick_run, with_jobs(1));
   ASSERT_EQ(result.comparison->rows.size(), 2u);
   EXPECT_DOUBLE_EQ(result.comparison->rows[1].simulated.mean, 12.0);
   EXPECT_NEAR(result.layouts[0].misfit_percent->mean, 0.0, 1e-9);
-  EXPECT_THAT(doubts_text(result.layouts[0].doubts), HasSubstr("left out"));
+}
+
+TEST(Sweep, ReadingsBeyondTheRunsEndAreRefused) {
+  const StudyFiles files;
+  const auto curve = files.write("curve.csv", "time_s,seeds\n2,0\n4,12\n9,40\n");
+  const auto study = files.study("[measured]\nfile = \"curve.csv\"\nscale = \"none\"\n");
+  EXPECT_THAT([&] { read_study(study); },
+              testing::ThrowsMessage<InputError>(HasSubstr(
+                  "curve.csv:2: time_s: was read up to 9 s, and the run ends 4 s after the curve's time zero")));
 }
 
 TEST(Sweep, CurveBeginsWhenTheFirstHoleOpensOrAsTheStudySays) {
@@ -198,7 +206,7 @@ TEST(Sweep, CurveBeginsWhenTheFirstHoleOpensOrAsTheStudySays) {
   EXPECT_EQ(simulated("", ""), (std::vector<double>{0, 0, 0}));
   EXPECT_EQ(simulated("tray.holes.open_at = \"1.5 s\"\n", ""), (std::vector<double>{0, 3, 8}));
   EXPECT_EQ(simulated("", "time_zero = \"1.5 s\"\n"), (std::vector<double>{0, 3, 8}));
-  EXPECT_EQ(simulated("tray.holes.open_at = \"2 s\"\n", "time_zero = \"2.5 s\"\n"), (std::vector<double>{0, 5}));
+  EXPECT_EQ(simulated("tray.holes.open_at = \"1 s\"\n", "time_zero = \"1.9 s\"\n"), (std::vector<double>{0, 5, 10}));
 }
 
 /// A grain of each lot in the middle of a tray 50 cm long: the second rises to 3, 4 or 5 cm with the random seed, and

@@ -3,6 +3,7 @@
 
     tests/docs/test_docs.py VIBROSOW"""
 import csv
+import math
 import re
 import shlex
 import subprocess
@@ -21,6 +22,60 @@ failures = []
 def expect(holds, message):
     if not holds:
         failures.append(message)
+
+
+def table(name):
+    with open(ROOT / "reports" / name, newline="", encoding="utf-8") as file:
+        return list(csv.DictReader(line for line in file if not line.startswith("#")))
+
+
+def rows_with(name, texts):
+    return [row for row in table(name) if all(row[key] == str(value) for key, value in texts.items())]
+
+
+def column(name, key, texts={}):
+    return [float(row[key]) for row in rows_with(name, texts) if row[key]]
+
+
+def cell(name, key, texts):
+    values = column(name, key, texts)
+    if len(values) != 1:
+        raise ValueError(f"{name}: {len(values)} rows with {texts}")
+    return values[0]
+
+
+def holes(count, span_mm, frequency_hz):
+    return {"tray.holes.count": count, "tray.holes.span_mm": span_mm, "tray.motion.frequency_Hz": frequency_hz}
+
+
+def relative(*of):
+    """Half width of the rate's interval over the rate, of such a layout of wheat-holes."""
+    return cell("wheat-holes/sweep.csv", "rate_g_per_s_ci95", holes(*of)) / cell("wheat-holes/sweep.csv", "rate_g_per_s", holes(*of))
+
+
+def mean_rate(count):
+    rates = column("wheat-holes/sweep.csv", "rate_g_per_s", {"tray.holes.count": count})
+    return sum(rates) / len(rates)
+
+
+def near(name, texts, rate, half):
+    """Whether a layout's rate and its interval are these, as rounded as they are."""
+    def rounded(value, to):
+        return round(value, 1 if to != int(to) else 0) == to
+    return rounded(cell(name, "rate_g_per_s", texts), rate) and rounded(cell(name, "rate_g_per_s_ci95", texts), half)
+
+
+def settings(name):
+    return {tuple(row[key] for key in ("case", "space", "law", "scheme", "friction")) for row in table(name)}
+
+
+def check_claims():
+    """That each sentence of claims.toml stands in its document, and holds of the committed tables."""
+    known = {one.__name__: one for one in (cell, column, holes, relative, mean_rate, near, settings)} | {"math": math}
+    for claim in tomllib.loads((ROOT / "tests/docs/claims.toml").read_text(encoding="utf-8"))["claim"]:
+        text = " ".join((ROOT / claim["document"]).read_text(encoding="utf-8").split())
+        expect(" ".join(claim["says"].split()) in text, f"{claim['document']} does not say: {claim['says']}")
+        expect(eval(" ".join(claim["holds"].split()), known), f"{claim['document']}: not so by the tables: {claim['says']}")
 
 
 def run(*words):
@@ -148,6 +203,7 @@ def main():
     front = (ROOT / "README.md").read_text(encoding="utf-8")
     check_seeder_of_front_page(program, front)
     expect(len(front.split()) <= 600, f"README.md has {len(front.split())} words, more than 600")
+    check_claims()
     features = run(str(ROOT / "scripts/features"), "--print").stdout
     expect((ROOT / "docs/FEATURES.md").read_text(encoding="utf-8") == features, "docs/FEATURES.md is not what scripts/features writes")
     expect(len(commands_in(front)) >= 5, "README.md: fewer than five commands found")

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 
@@ -45,6 +46,53 @@ TEST_F(Measured, EmptyColumnsThatASpreadsheetAppendsAreLeftOut) {
   EXPECT_EQ(table.series[1].values[0].mean, 4.5);
   EXPECT_TRUE(contains(error("hole;seeds_per_s;;\n1;3;;x\n"), ":2: 4 fields where the header has 2"));
   EXPECT_TRUE(contains(error("hole;;seeds_per_s\n1;;3\n"), ":1: : unknown column"));
+}
+
+TEST_F(Measured, TabsOrASaidSeparatorStandBetweenFieldsAndNumbersHaveEitherMark) {
+  EXPECT_DOUBLE_EQ(read("time_s\tmass_g\n0\t0,00\n1\t18,42\n").series[0].values[1].mean, 0.01842);
+  EXPECT_DOUBLE_EQ(read("sep=;\ntime_s;mass_g\n0,0;0,00\n1,0;18,42\n").series[0].values[1].mean, 0.01842);
+  EXPECT_DOUBLE_EQ(read("sep=|\ntime_s|mass_g\n0.0|0\n1.0|18.42\n").series[0].values[1].mean, 0.01842);
+  EXPECT_DOUBLE_EQ(read("time_s;mass_g\n0.0;0\n1.0;18.42\n").series[0].values[1].mean, 0.01842);
+  EXPECT_TRUE(
+      contains(error("time_s;mass_g\n0;0\n1,0;18.42\n"), ":3: mass_g: \"18.42\" is not a number with a decimal comma"));
+}
+
+TEST_F(Measured, Utf16WithItsMarkIsRead) {
+  std::string wide = "\xFF\xFE";
+  for (const char letter : std::string("time_s;mass_g\n0;0\n1,0;18,42\n")) wide += {letter, '\0'};
+  EXPECT_DOUBLE_EQ(read(wide).series[0].values[1].mean, 0.01842);
+  EXPECT_TRUE(contains(error(std::string("\xFF\xFE\x00\xD8", 4) + "ab"), ": begins as UTF-16 does, and is none"));
+}
+
+TEST_F(Measured, ABalanceUnderTheVesselOrOneThatWasNotTaredIsAskedForByName) {
+  EXPECT_TRUE(
+      contains(error("time_s;mass_g\n0;500\n1;482,1\n2;463\n"),
+               ":3: mass_g: falls from 500 to 482.1; the curve is of all that has left so far. A balance under the "
+               "vessel has the column remaining_g"));
+  EXPECT_TRUE(
+      contains(error("time_s;mass_g\n0;125\n1;143,1\n2;161\n"),
+               ":2: mass_g: begins with 125 at 0 s; a curve is of what has left since its time zero. A balance that "
+               "was not tared has the column gross_g"));
+  const auto values = [&](const std::string& text) {
+    std::vector<double> grams;
+    const MeasuredTable table = read(text);
+    for (const MeanWithInterval& value : table.series[0].values) grams.push_back(std::round(1e6 * value.mean) / 1e3);
+    return grams;
+  };
+  EXPECT_EQ(values("time_s,remaining_g\n0,500\n1,480\n2,462\n"), (std::vector<double>{0, 20, 38}));
+  EXPECT_EQ(values("time_s,gross_g\n0,125\n1,145\n2,163\n"), (std::vector<double>{0, 20, 38}));
+  EXPECT_TRUE(contains(error("time_s,remaining_g\n0,480\n1,490\n2,400\n"), ":3: remaining_g: rises by 10 from"));
+}
+
+/// A balance trembles by a hundredth; a curve that is read from later on may begin with what three times its mean rate
+/// has brought by then, and a twentieth more.
+TEST_F(Measured, ACurveMayTrembleAndBeginLater) {
+  EXPECT_EQ(read("time_s,mass_g\n0,0\n1,50\n2,49.1\n3,100\n").series.size(), 1U);
+  EXPECT_TRUE(contains(error("time_s,mass_g\n0,0\n1,50\n2,48.9\n3,100\n"), ":4: mass_g: falls from 50 to 48.9"));
+  EXPECT_EQ(read("time_s,mass_g\n0,4.9\n3,100\n").series.size(), 1U);
+  EXPECT_TRUE(contains(error("time_s,mass_g\n0,5.1\n3,100\n"), "begins with 5.1"));
+  EXPECT_EQ(read("time_s,mass_g\n1,34\n11,134\n").series.size(), 1U);  // 3 * 10 + 0.05 * 134
+  EXPECT_TRUE(contains(error("time_s,mass_g\n1,38\n11,138\n"), "begins with 38"));
 }
 
 TEST_F(Measured, RatesWithRepeatsAreAveraged) {
@@ -152,8 +200,8 @@ TEST_F(Measured, ExactlyOneQuantityIsNeeded) {
 TEST_F(Measured, BadValuesAreNamedByLineAndColumn) {
   EXPECT_TRUE(contains(error("hole,seeds_per_s\n1,3\n2,three\n"),
                        ":3: seeds_per_s: \"three\" is not a number with a decimal point"));
-  EXPECT_TRUE(
-      contains(error("seeds_per_s;hole\n3.5;1\n"), ":2: seeds_per_s: \"3.5\" is not a number with a decimal comma"));
+  EXPECT_TRUE(contains(error("seeds_per_s;hole\n3,5;1\n3.5;2\n"),
+                       ":3: seeds_per_s: \"3.5\" is not a number with a decimal comma"));
   EXPECT_TRUE(contains(error("seeds_per_s\n-3\n"), "-3 is negative"));
   EXPECT_TRUE(contains(error("seeds_per_s\nnan\n"), "is not a number"));
   EXPECT_TRUE(contains(error("seeds_per_s\ninf\n"), "is not a number"));

@@ -46,6 +46,15 @@ TEST(NamedColumns, ThatStateTheirUnitAreTakenAsTheyAre) {
   EXPECT_EQ(named("Rate\n2\n", {"Rate=rate_g_per_s"}).rows[0].fields[0], "2");
 }
 
+TEST(NamedColumns, AClockIsReadAsSecondsSinceTheFirstRow) {
+  const CsvLines table = named("Datum;Uhrzeit;Gewicht [g];Stabil\n27.11.;23:59:59;0,00;S\n28.11.;00:00:00,5;18,42;S\n",
+                               {"Datum=", "Uhrzeit=clock", "Gewicht [g]=gross", "Stabil="});
+  EXPECT_EQ(table.header.fields, (std::vector<std::string>{"time_s", "gross_g"}));
+  EXPECT_EQ(table.rows[0].fields[0], "0");
+  EXPECT_EQ(table.rows[1].fields[0], "1,5");
+  EXPECT_EQ(error("t;m\n12:61:00;1\n", {"t=clock"}), "table.csv:2: t: \"12:61:00\" is no time of day such as 12:30:01");
+}
+
 TEST(NamedColumns, WrongOnesAreTold) {
   EXPECT_EQ(error("Menge [g/min]\n1\n", {"Menge [g/mim]=rate"}),
             "table.csv:1: Menge [g/mim]: there is no such column; did you mean \"Menge [g/min]\"?");

@@ -137,7 +137,9 @@ class Dialects(Case):
         self.assertEqual(list(study.layouts.status), ["ok", "ok", "ok", "invalid"])
         self.assertEqual(list(study.layouts["tray.motion.amplitude_mm"])[1:3], [5.5, 5.5])
         self.assertTrue(math.isnan(study.layouts["tray.motion.amplitude_mm"][0]))
-        self.assertEqual({*study.holes.hole}, {"1", "2", "3", "4", "5", "all"})
+        self.assertEqual({*study.holes.hole}, {"1", "2", "3", "4", "5"})
+        self.assertEqual({*study.totals.hole}, {"all"})
+        self.assertRegex(repr(study), "4 layouts, [0-4] of them not ok>$")
         self.assertEqual(study.layouts.rate_g_per_s.dtype, float)
 
 
@@ -494,6 +496,33 @@ class Plots(Case):
         self.assertEqual(with_interval, {*FIGURES})
         for name, label in FIGURES.items():
             self.assertRegex(label, rf", {re.escape(units[name])}($|[ ,])")
+
+
+class Answers(Case):
+    def test_each_command_s_folder_is_opened_as_what_it_is(self):
+        for name, command, rows in (("decision/guaranteed", "decide", 60), ("wheat-front", "optimise", 20), ("accuracy-tray", "accuracy", 5)):
+            answer = vibrosow.open(ROOT / "reports" / name)
+            self.assertEqual(answer.command, command)
+            self.assertGreaterEqual(len(answer.rows), rows)
+            self.assertRegex(repr(answer), f"^<vibrosow {command}: .*, {len(answer.rows)} rows, [0-9]+ doubts>$")
+        self.assertIsInstance(vibrosow.open(ROOT / "reports/wheat-holes"), vibrosow.Study)
+        self.assertRaisesRegex(vibrosow.NotAReport, "is not a folder", vibrosow.open, self.folder / "nowhere")
+        self.assertRaisesRegex(vibrosow.NotAReport, "holds no reports", vibrosow.open, ROOT / "docs")
+
+    def test_doubts_stand_beside_an_answer_and_a_run(self):
+        soft = ["--set", "contact.shell_compression=0.004", "--set", "run.duration=0.3 s", "--set", "run.measure_from=0.1 s", "--quiet"]
+        run_program("run", "wheat-tray", *soft, "--out", self.folder / "run")
+        run_program("decide", "wheat-demo", "--goal", "rate", "--within", "30 %", *soft, "--out", self.folder / "decision")
+        run, decision = vibrosow.open(self.folder / "run"), vibrosow.open(self.folder / "decision")
+        self.assertIn("the guard warned", {*run.doubts.kind})
+        self.assertTrue(run.doubts[run.doubts.kind == "the guard warned"].serious.all())
+        self.assertRegex(repr(run), "finished, .* g/s, [1-9] doubts>$")
+        self.assertEqual(run.total.grains, run.holes.grains.sum())
+        self.assertEqual(run.total.hole, "all")
+        warned = decision.doubts.set_index("kind").loc["the guard warned"]
+        self.assertEqual(warned.runs, warned.of_runs)
+        self.assertTrue(warned.layouts)
+        self.assertIsNone(decision.table("posterior.csv"))
 
 
 class Shipped(Case):

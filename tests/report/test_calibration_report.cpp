@@ -62,10 +62,49 @@ TEST_F(CalibrationReport, NamesWhatIsDoubtful) {
   calibration_.misfit_probability = 1e-4;
   calibration_.posterior.effective_points = 50;
   calibration_.held_out_rms.reset();
-  runs_ = {{"clogged", {}}, {"", {}}};
+  runs_ = {{"clogged", {}, {}}, {"", {}, {}}};
   EXPECT_THAT(doubts(), ElementsAre("the table says little of contact.restitution",
                                     HasSubstr("nowhere meets the table"), HasSubstr("50 effective points"),
                                     HasSubstr("1 of 2 runs were left out"), HasSubstr("nothing was held out")));
+}
+
+/// 0.1 to 0.8 is a range of 0.7, of which two hundredths are near an edge.
+TEST_F(CalibrationReport, AValueAtTheEdgeOfItsRangeIsSaidToBeAndGivesNoContact) {
+  EXPECT_TRUE(gives_a_contact(source()));
+  calibration_.values[0] = {.mean = 0.76, .low = 0.7, .high = 0.787, .contraction = 0.6};
+  EXPECT_THAT(doubts(), ElementsAre(HasSubstr("contact.friction lies at the upper edge of its range, 0.1 to 0.8")));
+  EXPECT_FALSE(gives_a_contact(source()));
+  EXPECT_EQ(file("contact.toml"), "no such file");
+  EXPECT_THAT(calibration_table(source()), HasSubstr("No contact.toml is written"));
+  calibration_.values[0].high = 0.785;
+  EXPECT_THAT(doubts(), IsEmpty());
+  calibration_.values[0] = {.mean = 0.13, .low = 0.113, .high = 0.2, .contraction = 0.6};
+  EXPECT_THAT(doubts(), ElementsAre(HasSubstr("lower edge")));
+  calibration_.values[0].contraction = 0.1;  // then it reaches to both: nothing is known of it
+  EXPECT_THAT(doubts(), ElementsAre(HasSubstr("the table says little of")));
+}
+
+TEST_F(CalibrationReport, AMisfitThatDwarfsTheNoiseIsNoFit) {
+  calibration_.misfit_probability = 1e-9, calibration_.misfit_over_noise = 2.9;
+  EXPECT_FALSE(is_beyond_its_noise(source()));
+  EXPECT_FALSE(gives_a_contact(source()));
+  calibration_.misfit_over_noise = 3.1;
+  EXPECT_TRUE(is_beyond_its_noise(source()));
+  EXPECT_THAT(doubts(), ElementsAre(HasSubstr("miss it by 3.1 times its noise. Nothing was fitted")));
+}
+
+TEST_F(CalibrationReport, AContractionBelowNothingIsExplained) {
+  calibration_.values[1].contraction = -0.2;
+  EXPECT_THAT(doubts(), testing::Contains(HasSubstr("contact.restitution scatters more than an even spread")));
+}
+
+TEST_F(CalibrationReport, RunsThatLostSeedsGiveNoContact) {
+  runs_ = {{"", {}, {{DoubtKind::guard_warned, "deep"}}}};  // which is said
+  EXPECT_TRUE(gives_a_contact(source()));
+  runs_.push_back({"", {}, {{DoubtKind::seeds_lost, "2 of 9 seeds lost through walls"}}});
+  EXPECT_FALSE(gives_a_contact(source()));
+  runs_.back().reason = "clogged";  // it does not count
+  EXPECT_TRUE(gives_a_contact(source()));
 }
 
 TEST_F(CalibrationReport, SaysWhatWasLearnedInEightyColumns) {
