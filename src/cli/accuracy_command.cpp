@@ -23,6 +23,7 @@
 #include "plan/softness.hpp"
 #include "report/accuracy_page.hpp"
 #include "report/accuracy_report.hpp"
+#include "report/kept_page.hpp"
 #include "report/page.hpp"
 #include "report/terminal_text.hpp"
 #include "scene/input_error.hpp"

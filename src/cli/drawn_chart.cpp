@@ -9,6 +9,7 @@
 #include "cli/console.hpp"
 #include "cli/report_study.hpp"
 #include "design/planned_study.hpp"
+#include "report/kept_page.hpp"
 #include "report/page.hpp"
 #include "report/page_charts.hpp"
 #include "report/sweep_page.hpp"

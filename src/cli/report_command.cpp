@@ -19,6 +19,7 @@
 #include "recording/recording.hpp"
 #include "report/accuracy_report.hpp"
 #include "report/calibration_report.hpp"
+#include "report/kept_page.hpp"
 #include "report/page.hpp"
 #include "report/run_page.hpp"
 #include "report/run_report.hpp"

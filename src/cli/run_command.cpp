@@ -24,6 +24,7 @@
 #include "plan/model.hpp"
 #include "plan/scene_warnings.hpp"
 #include "recording/recording.hpp"
+#include "report/kept_page.hpp"
 #include "report/mixture_text.hpp"
 #include "report/number_text.hpp"
 #include "report/output_folder.hpp"

@@ -10,6 +10,7 @@
 #include "report/accuracy_page.hpp"
 #include "report/columns.hpp"
 #include "report/json_keys.hpp"
+#include "report/kept_page.hpp"
 #include "report/number_text.hpp"
 #include "report/page.hpp"
 #include "report/terminal_text.hpp"

@@ -8,7 +8,6 @@
 #include "scene/checked_json.hpp"
 #include "scene/input_error.hpp"
 #include "scene/spaces.hpp"
-#include "storage/atomic_file.hpp"
 #include "vessel/vessel_walls.hpp"
 #include "vessel/wall_points.hpp"
 
@@ -62,14 +61,6 @@ void fill(std::string& page, const std::string& place, const std::string& conten
   const std::size_t at = page.find(place);
   if (at == std::string::npos) throw std::invalid_argument("the page's template has no place " + place);
   page.replace(at, place.size(), content);
-}
-
-/// Throws Json::exception for what the program has not written.
-void add_times(Json& data, const Json& times) {
-  Json& levels = data.at("levels");
-  const Json& of_levels = times.at("setting_cpu_s");
-  for (std::size_t i = 0; i < levels.size(); ++i) levels.at(i)["cpu_s"] = of_levels.at(i);
-  if (const std::string cost = times.at("cost"); !cost.empty()) data.at("headlines").push_back(cost);
 }
 
 }  // namespace
@@ -128,31 +119,6 @@ std::vector<OutputFile> page_files(const std::string& page_template, const std::
   std::vector<OutputFile> files = {{page_data_name, data + '\n'}};
   if (!page_template.empty()) files.push_back({"report.html", filled_page(page_template, data, recording)});
   return files;
-}
-
-std::vector<OutputFile> timed_page_files(const std::string& page_template, const std::string& data,
-                                         const std::string& times) {
-  std::vector<OutputFile> files = page_files("", data);
-  if (page_template.empty()) return files;
-  Json timed = Json::parse(data);
-  add_times(timed, Json::parse(times));
-  files.push_back({"report.html", filled_page(page_template, page_text(timed), {})});
-  return files;
-}
-
-std::optional<Json> kept_page_data(const std::filesystem::path& folder) {
-  const auto text = text_of_file(folder / page_data_name);
-  if (!text) return std::nullopt;
-  std::filesystem::path read = folder / page_data_name;
-  try {
-    Json data = parse_json<Json>(*text);
-    if (data.at("kind") != "accuracy") return data;
-    read = folder / page_times_name;
-    if (const auto times = text_of_file(read)) add_times(data, parse_json<Json>(*times));
-    return data;
-  } catch (const Json::exception& error) {
-    throw InputError(fmt::format("{}: was not written by vibrosow: {}", read.string(), error.what()));
-  }
 }
 
 FileText page_data_text() {

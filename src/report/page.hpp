@@ -32,20 +32,9 @@ std::string recording_in(const std::string& page);
 /// What a page shows, kept beside the reports that could not be made again without simulating.
 inline constexpr const char* page_data_name = "report.json";
 
-/// What a page of accuracy shows of the machine's clock, which report.json holds nothing of.
-inline constexpr const char* page_times_name = "timing.json";
-
 /// report.json and, unless `page_template` is empty, report.html.
 std::vector<OutputFile> page_files(const std::string& page_template, const std::string& data,
                                    const std::string& recording = {});
-
-/// The same with what page_times_name holds.
-std::vector<OutputFile> timed_page_files(const std::string& page_template, const std::string& data,
-                                         const std::string& times);
-
-/// What the page of a folder shows: its report.json and, of accuracy, its times where it has any. None where there is
-/// no report.json. Throws InputError for what the program has not written.
-std::optional<nlohmann::ordered_json> kept_page_data(const std::filesystem::path& folder);
 
 /// What report.json holds.
 FileText page_data_text();

@@ -99,7 +99,7 @@ bool is_hash_name(std::string_view name, std::size_t digits) {
   return name.size() == digits && name.find_first_not_of("0123456789abcdef") == std::string_view::npos;
 }
 
-std::optional<std::string> text_of_file(const fs::path& file, std::size_t most) {
+std::optional<std::string> text_of_file(const fs::path& file, std::uint64_t most) {
   std::error_code error;
   if (!fs::is_regular_file(file, error) || fs::file_size(file, error) > most || error) return std::nullopt;
   std::ifstream in(file, std::ios::binary);

@@ -2,6 +2,7 @@
 
 #include <concepts>
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -67,7 +68,7 @@ void sweep_temporary_files(const PathInFolder& directory);
 std::vector<std::filesystem::path> entries_of(const std::filesystem::path& directory);
 
 /// What a plain file holds; none where there is no such file, it is no plain file, or it holds more than `most` bytes.
-std::optional<std::string> text_of_file(const std::filesystem::path& file, std::size_t most = std::size_t{1} << 32);
+std::optional<std::string> text_of_file(const std::filesystem::path& file, std::uint64_t most = std::uint64_t{1} << 32);
 
 /// Whether a name that was read may be the name of a file: not empty, no separator, no control character, not "." or
 /// "..".

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "report/accuracy_report.hpp"
+#include "report/kept_page.hpp"
 #include "report/page.hpp"
 #include "scene/input_error.hpp"
 
