@@ -35,10 +35,10 @@ struct HoleOutflow {
 /// What one run of a scene comes to.
 struct Evaluation {
   bool finished = false;
-  std::string reason;                 // why it was refused or stopped by the guard, or ended early
-  std::vector<std::string> doubts;    // what speaks against the figures: "ran dry at 3.2 s"; none where all is well
-  bool outside_the_model = false;     // it went on past the guard's usual limits: nothing is to be decided by it
-  double end_time = 0;                // s
+  std::string reason;               // why it was refused or stopped by the guard, or ended early
+  std::vector<std::string> doubts;  // what speaks against the figures: "ran dry at 3.2 s"; none where all is well
+  bool outside_the_model = false;   // it went on past the guard's usual limits: nothing is to be decided by it
+  double end_time = 0;              // s
   Balance balance;
   std::vector<HoleOutflow> holes;  // by hole and lot, the last row of all; empty where refused
   /// Fraction: scatter of the holes' rates beyond that of counting; none for one hole, or below what the seeds resolve.

@@ -27,11 +27,11 @@ struct Event {
 struct Grain {
   std::int64_t id;
   int lot;
-  double x, y;    // m
-  double vx, vy;  // m/s
-  double radius;  // m
-  double z = 0;   // m, across, from the tray's front at rest; 0 in the plane
-  double vz = 0;  // m/s
+  double x, y;                    // m
+  double vx, vy;                  // m/s
+  double radius;                  // m
+  double z = 0;                   // m, across, from the tray's front at rest; 0 in the plane
+  double vz = 0;                  // m/s
   double fx = 0, fy = 0, fz = 0;  // N, of all its contacts together; its weight is not in it
 };
 

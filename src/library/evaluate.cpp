@@ -34,7 +34,8 @@ Evaluation converted(const vibrosow::Evaluation& own) {
                         .depth_factor = own.outflow.depth_factor};
   for (const Doubt& doubt : own.outflow.doubts) evaluation.doubts.push_back(doubt.text);
   for (const vibrosow::HoleOutflow& row : own.outflow.holes)
-    evaluation.holes.push_back({hole_of(row.hole), row.lot, row.grains, row.seeds_per_s, row.mass_rate, row.longest_pause});
+    evaluation.holes.push_back(
+        {hole_of(row.hole), row.lot, row.grains, row.seeds_per_s, row.mass_rate, row.longest_pause});
   return evaluation;
 }
 

@@ -22,8 +22,8 @@ Scene Scene::read(const std::filesystem::path& file, const std::vector<std::stri
 
 Scene Scene::from_toml(std::string_view text, const std::vector<std::string>& changes) {
   const std::filesystem::path file = "scene.toml";
-  const auto files = std::make_shared<SourceFiles>(
-      std::map<std::string, std::string>{{std::filesystem::absolute(file).lexically_normal().string(), std::string(text)}});
+  const auto files = std::make_shared<SourceFiles>(std::map<std::string, std::string>{
+      {std::filesystem::absolute(file).lexically_normal().string(), std::string(text)}});
   return Scene(std::make_shared<const vibrosow::Scene>(read_scene(file, overrides_of(changes), files)));
 }
 
