@@ -65,13 +65,20 @@ def near(name, texts, rate, half):
     return rounded(cell(name, "rate_g_per_s", texts), rate) and rounded(cell(name, "rate_g_per_s_ci95", texts), half)
 
 
+def slope(name, key):
+    """Of a curve over its time from 0.7 to 4 s, where the measured hopper's flow is steady."""
+    points = [(float(row["time_s"]), float(row[key])) for row in table(name) if 0.7 <= float(row["time_s"]) <= 4]
+    times, values = (sum(part) / len(points) for part in zip(*points))
+    return sum((t - times) * (v - values) for t, v in points) / sum((t - times) ** 2 for t, _ in points)
+
+
 def settings(name):
     return {tuple(row[key] for key in ("case", "space", "law", "scheme", "friction")) for row in table(name)}
 
 
 def check_claims():
     """That each sentence of claims.toml stands in its document, and holds of the committed tables."""
-    known = {one.__name__: one for one in (cell, column, holes, relative, mean_rate, near, settings)} | {"math": math}
+    known = {one.__name__: one for one in (cell, column, holes, relative, mean_rate, near, settings, slope)} | {"math": math}
     for claim in tomllib.loads((ROOT / "tests/docs/claims.toml").read_text(encoding="utf-8"))["claim"]:
         text = " ".join((ROOT / claim["document"]).read_text(encoding="utf-8").split())
         expect(" ".join(claim["says"].split()) in text, f"{claim['document']} does not say: {claim['says']}")
