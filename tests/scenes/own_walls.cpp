@@ -274,7 +274,10 @@ void OwnRoom::flood(const std::vector<OwnWall>& walls) {
   reached_.assign(static_cast<std::size_t>(along_) * static_cast<std::size_t>(up_) * static_cast<std::size_t>(across_),
                   0);
   std::vector<std::array<int, 3>> front;
+  const bool around = vessel_.sides == Sides::periodic, through = vessel_.front_and_back == Sides::periodic;
   const auto reach = [&](int i, int j, int k) {
+    if (around) i = (i + along_) % along_;  // past one side and in at the other
+    if (through) k = (k + across_) % across_;
     if (i < 0 || j < 0 || k < 0 || i >= along_ || j >= up_ || k >= across_) return;
     char& flag = reached_[index(i, j, k)];
     if (flag != 0) return;
