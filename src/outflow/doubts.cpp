@@ -16,7 +16,7 @@ constexpr std::array<DoubtWords, 15> doubt_words = {{
     {"outside the model", serious, "decide nothing by it: take a step that is not too long and the guard's own limits"},
     {"ran dry", serious, "put in more seeds, or measure before"},
     {"drained in the window", serious, "keep the tray topped up (fill.keep), or measure a shorter time"},
-    {"stopped flowing", serious, "the rate is of the time before; wider holes, or more runs"},
+    {"stopped flowing", serious, "the time without flow counts in the rate; take wider holes, or measure before"},
     {"seeds lost through walls", serious, "take more steps a contact or a stiffer shell"},
     {"the feeder fell behind", serious, "leave more room for what is fed, or feed less"},
     {"the guard warned", serious, "make contacts stiffer or steps shorter, as it says, and run again"},
@@ -45,7 +45,7 @@ std::string numbers_text(std::string_view noun, const std::vector<int>& numbers)
   return fmt::format("{}{} {}", noun, numbers.size() == 1 ? "" : "s", fmt::join(parts, ", "));
 }
 
-/// Whether it says all there is to say in a text of its own.
+/// Whether a doubt was counted over single runs; another says all there is to say in its own text.
 bool is_of_runs(int of) {
   return of > 0;
 }
