@@ -113,8 +113,9 @@ std::optional<std::string> SeedPlaces::fault_among_walls(const Grains& grains, s
                                                          const Walls& walls) const {
   const double depth = relative_depth_in_walls(grains, i, walls);
   if (depth > most_placing_overlap) return fmt::format("lies {:.3g} of its radius deep in a wall", depth);
-  const Eigen::Vector3d at = grains.place(i) + arm(thickest(balls_of(grains, i)));
-  if (!is_in_room(at, vessel, walls))
+  // Where the centre is in a gap of a clump, its thickest ball says where it is; over an open side that may hang out.
+  const Eigen::Vector3d centre = grains.place(i), ball = centre + arm(thickest(balls_of(grains, i)));
+  if (!is_in_room(ball, vessel, walls) && !is_in_room(centre, vessel, walls))
     return "lies where no seed comes to from the top of the " + model_.vessels[vessel].name;
   return std::nullopt;
 }

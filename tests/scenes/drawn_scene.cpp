@@ -211,11 +211,11 @@ class SceneWriter {
     const int sides = draw_.below("tray.sides", 5);
     if (sides == 3) set("tray.sides", quoted("open"));
     tray.periodic = sides == 4;
-    if (tray.periodic) set("tray.sides", quoted("periodic")), tray.length = std::max(tray.length, 6 * largest_);
+    if (tray.periodic) set("tray.sides", quoted("periodic")), tray.length = std::max(48.0, 6 * largest_);
     const int across = draw_.below("tray.front_and_back", 5);
     if (across == 3) set("tray.front_and_back", quoted("open"));
     tray.periodic_across = across == 4;
-    if (across == 4) set("tray.front_and_back", quoted("periodic")), tray.depth = std::max(tray.depth, 6 * largest_);
+    if (across == 4) set("tray.front_and_back", quoted("periodic")), tray.depth = 6 * largest_;
   }
 
   void write_hopper() {
@@ -335,6 +335,9 @@ class SceneWriter {
     filled_ = true;
     const int most = static_cast<int>(vessel.length * vessel.height / (1.6 * largest_ * largest_)) * (deep_ ? 2 : 1);
     int count = 8 + static_cast<int>(draw_.number(name + ".count", 0.2, 0.6) * most);
+    // So many that a heap meets itself across the seam.
+    if (deep_ && (vessel.periodic || vessel.periodic_across))
+      count = std::max(count, static_cast<int>(2 * vessel.length * vessel.depth / (largest_ * largest_)));
     if (draw_.one_in(name + ".too_many", 16)) count = 4 * most;
     set(name + ".fill.count", count);
     const int packing = draw_.below(name + ".packing", 4);

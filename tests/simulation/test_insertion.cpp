@@ -266,6 +266,23 @@ TEST_P(Insertion, RainBesideAShelfComesUnderItToo) {
   EXPECT_GT(expect_all_clear(scene, 0, [](const Eigen::Vector3d& own) { return own.y() < 0.03; }), 15u);
 }
 
+/// A seed is put in by its centre; the thickest ball of a clump may then hang over an open edge.
+TEST_P(Insertion, ClumpsThatRainAtAnOpenEdgeMayHangOverIt) {
+  Scene scene = soft(GetParam());
+  SeedLot drop{"drop", 0, 4e-5, Shape::clump, 1};
+  make_clump(drop, {{0, 0, 1.5e-3}, {2.5e-3, 0, 1e-3}}, scene.space);
+  scene.lots = {drop};
+  scene.tray.sides = scene.tray.front_and_back = Sides::open;
+  scene.tray.rain = Rain{400, 0, 0.08, 0.05};
+  bool hung_over = false;
+  const auto look = [&](const Eigen::Vector3d& own) {
+    hung_over |= own.x() < 0 || own.x() > 0.08 || own.z() < 0 || own.z() > 0.02;
+    return own.y() > 0;
+  };
+  EXPECT_GT(expect_all_clear(scene, 0, look), 50u);
+  EXPECT_TRUE(hung_over);
+}
+
 TEST_P(Insertion, ADrumIsKeptFullWithinItsCircle) {
   Scene scene = soft(GetParam());
   Vessel& drum = scene.tray;
