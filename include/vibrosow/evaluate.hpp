@@ -41,8 +41,9 @@ struct Evaluation {
   double end_time = 0;              // s
   Balance balance;
   std::vector<HoleOutflow> holes;  // by hole and lot, the last row of all; empty where refused
-  /// Fraction: scatter of the holes' rates beyond that of counting; none for one hole, or below what the seeds resolve.
-  std::optional<double> evenness_cv;
+  /// Fraction: coefficient of variation of the holes' rates, chance taken out; none for one hole, or where they are not
+  /// told from equal ones.
+  std::optional<double> unevenness_cv;
   std::optional<double> depth_factor;  // the real tray's rate over the slice's; none without tray.depth
 };
 

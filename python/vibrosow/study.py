@@ -19,7 +19,8 @@ FIGURES = {  # columns of sweep.csv that have an interval
     "tray_rate_g_per_s": "mass flow of the whole tray, g/s",
     "tray_rate_g_per_min": "mass flow of the whole tray, g/min",
     "tray_seeds_per_s": "seeds of the whole tray, 1/s",
-    "evenness_cv_percent": "variation between the holes, chance taken out, %",
+    "run_cv_percent": "variation between the holes in a single run (CV), %",
+    "unevenness_cv_percent": "unevenness between the holes (CV), chance taken out, %",
     "instability_cv_percent": "variation of the outflow over ten parts of the window, %",
     "longest_pause_s": "longest time without a seed from any hole, s",
     "spilled_percent": "seeds over the rim, % of all that left",
@@ -94,7 +95,7 @@ class Study:
 
     def intervals(self, figure="rate_g_per_s"):
         """`value`, `low` and `high` of a figure by layout, in its column's unit: the mean over the replicates and its 95 % interval, NaN
-        with one replicate. An evenness below what the seeds resolve has no value, only low and high. ValueError for another column."""
+        with one replicate. Holes that are not told from equal ones have no unevenness, only low and high. ValueError for another column."""
         if figure not in FIGURES:
             raise ValueError(f"{figure!r} has no interval; those that have: {', '.join(FIGURES)}")
         table = self.layouts.set_index("layout")

@@ -7,8 +7,8 @@ from .tables import command, rows, runs_within_the_model, write_table
 
 COSTS = "way,runs,grain_steps,core_hours,decisions_per_hour_of_two_cores,layout,name,goal,confidence_percent"
 OF_SECTION = ["standing", "runs", "goal", "goal_ci95", "rate", "rate_ci95"]
-OF_WHOLE = ["replicates", "tray_rate_g_per_s", "tray_rate_g_per_s_ci95", "raw_cv_percent", "counting_cv_percent", "evenness_cv_percent",
-            "evenness_cv_percent_low", "evenness_cv_percent_high", "spilled_percent"]
+OF_WHOLE = ["replicates", "tray_rate_g_per_s", "tray_rate_g_per_s_ci95", "raw_cv_percent", "chance_cv_percent", "unevenness_cv_percent",
+            "unevenness_cv_percent_low", "unevenness_cv_percent_high", "spilled_percent"]
 
 
 def json_of(path):
@@ -86,8 +86,8 @@ def decision_costs(options):
 def decision_finalists(options):
     """The finalists of a DECISION in the WHOLE tray, a sweep whose [[layout]] are called "layout 17: ..." by the decision's numbers.
 
-    Writes finalists.csv: goal and rate of single runs in the section, then the whole tray's rate and evenness, all its
-    replicates together, in the order of that evenness."""
+    Writes finalists.csv: goal and rate of single runs in the section, then the whole tray's rate and unevenness, all its
+    replicates together, in the order of their raw CV."""
     decision = Decision(options.decision)
     lines = []
     for row in rows(f"{options.whole}/sweep.csv"):

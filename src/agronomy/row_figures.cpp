@@ -30,7 +30,7 @@ std::vector<Stream> streams_of(const Run& run, const Outflow& outflow, const Dri
   for (std::size_t hole = 0; hole < drill.hole_to_row.size(); ++hole)
     streams.at(drill.stream_of(hole)).holes.push_back(static_cast<int>(hole) + 1);
   for (const OutflowEvent& event : run.events) {
-    if (event.hole < 1 || event.time < outflow.window_from || event.time > outflow.window_to) continue;
+    if (event.hole < 1 || event.time < outflow.window.from || event.time > outflow.window.to) continue;
     Stream& stream = streams[drill.stream_of(static_cast<std::size_t>(event.hole - 1))];
     stream.times.push_back(event.time);
     stream.mass += event.mass;
@@ -61,7 +61,7 @@ RowFigures figures_of(const Stream& stream, const Outflow& outflow, const Drill&
   RowFigures figures;
   figures.holes = stream.holes;
   figures.seeds = static_cast<std::int64_t>(stream.times.size());
-  const double length = outflow.window_to - outflow.window_from;
+  const double length = outflow.window.length();
   if (length <= 0) return figures;
   if (outflow.depth_factor) {
     const double of_a_row = *outflow.depth_factor / length / rows;
@@ -70,10 +70,10 @@ RowFigures figures_of(const Stream& stream, const Outflow& outflow, const Drill&
     figures.kg_per_m2 = sowing_rate(mass_rate, drill.pace);
     figures.seeds_per_m2 = sowing_rate(seeds_per_s, drill.pace);
   }
-  figures.instability_cv = instability_cv(stream.times, outflow.window_from, outflow.window_to);
+  figures.instability_cv = instability_cv(stream.times, outflow.window.from, outflow.window.to);
   if (figures.instability_cv)
     figures.instability_counting_cv = std::sqrt(instability_windows / static_cast<double>(figures.seeds));
-  figures.longest_pause = longest_pause(stream.times, outflow.window_from, outflow.window_to);
+  figures.longest_pause = longest_pause(stream.times, outflow.window.from, outflow.window.to);
   return figures;
 }
 
@@ -95,13 +95,16 @@ void add_spacings(RowFigures& figures, const std::vector<Spacing>& spacings, con
   figures.poisson_skips = poisson_skips(drill.limits, reference);
 }
 
-BetweenRows between_rows(const std::vector<Stream>& streams) {
+BetweenRows between_rows(const std::vector<Stream>& streams, const MeasuringWindow& window) {
   BetweenRows between;
+  std::vector<std::vector<std::int64_t>> blocks;  // by stream
   for (const Stream& one : streams) {
     between.seeds.push_back(static_cast<std::int64_t>(one.times.size()));
     between.mass.push_back(one.mass);
+    blocks.push_back(counts_in_blocks(one.times, block_ends(window)));
   }
-  between.evenness = evenness({between.seeds});
+  between.raw_cv = raw_cv(between.seeds);
+  between.unevenness = unevenness(transposed(blocks));
   between.mass_cv = coefficient_of_variation(between.mass);
   return between;
 }
@@ -112,8 +115,8 @@ Value of_spacing(const RowFigures& row, Get get) {
 }
 
 template <class Get>
-Value of_evenness(const RowFigures& row, Get get) {
-  return row.between && row.between->evenness ? Value(get(*row.between->evenness)) : Value();
+Value of_unevenness(const RowFigures& row, Get get) {
+  return row.between && row.between->unevenness ? Value(get(*row.between->unevenness)) : Value();
 }
 
 using Row = const RowFigures&;
@@ -172,30 +175,30 @@ constexpr std::array table = {
         "hole count once",
         [](Row r) { return r.between ? r.between->mass_cv : Value(); }, true},
     RowFigure{"raw_cv_percent", "%", percent, "all: the same of their seeds, all replicates together",
-              [](Row r) { return of_evenness(r, [](const Evenness& e) { return e.raw_cv; }); }, true},
-    RowFigure{"counting_cv_percent", "%", percent, "all: what counting so many independent seeds gives alone",
-              [](Row r) { return of_evenness(r, [](const Evenness& e) { return e.counting_cv; }); }, true},
-    RowFigure{"evenness_cv_percent", "%", percent,
-              "all: coefficient of variation of the rows' rates, chance taken out; empty: below what this many seeds "
-              "resolve",
-              [](Row r) { return of_evenness(r, [](const Evenness& e) { return e.cv; }); }, true},
-    RowFigure{"evenness_cv_percent_low", "%", percent, "all: lower end of its 95 % interval (noncentral chi squared)",
-              [](Row r) { return of_evenness(r, [](const Evenness& e) { return e.low; }); }, true},
-    RowFigure{"evenness_cv_percent_high", "%", percent, "all: upper end: what the seeds resolve where it is empty",
-              [](Row r) { return of_evenness(r, [](const Evenness& e) { return e.high; }); }, true},
+              [](Row r) { return r.between ? r.between->raw_cv : Value(); }, true},
+    RowFigure{"chance_cv_percent", "%", percent, "all: what of that rows of equal rates would show",
+              [](Row r) { return of_unevenness(r, [](const Unevenness& u) { return u.chance_cv; }); }, true},
+    RowFigure{"unevenness_cv_percent", "%", percent,
+              "all: coefficient of variation of the rows' rates, chance taken out; empty: not told from equal rows",
+              [](Row r) { return of_unevenness(r, [](const Unevenness& u) { return u.cv; }); }, true},
+    RowFigure{"unevenness_cv_percent_low", "%", percent, "all: lower end of its 95 % interval",
+              [](Row r) { return of_unevenness(r, [](const Unevenness& u) { return u.low; }); }, true},
+    RowFigure{"unevenness_cv_percent_high", "%", percent, "all: upper end: what it may be up to where it is empty",
+              [](Row r) { return of_unevenness(r, [](const Unevenness& u) { return u.high; }); }, true},
 };
 
 /// The first replicate with what the streams of all gave.
 RowFigures pooled(const std::vector<const RowFigures*>& replicates) {
   RowFigures all = *replicates.front();
-  if (!all.between) return all;
+  if (!all.between || replicates.size() == 1) return all;
   std::vector<std::vector<std::int64_t>> counts;
   std::vector<double> mass(all.between->mass.size(), 0.0);
   for (const RowFigures* one : replicates) {
     counts.push_back(one->between->seeds);
     for (std::size_t k = 0; k < mass.size(); ++k) mass[k] += one->between->mass[k];
   }
-  all.between->evenness = evenness(counts);
+  all.between->raw_cv = raw_cv(sum_of_parts(counts));
+  all.between->unevenness = unevenness(counts);
   all.between->mass_cv = coefficient_of_variation(mass);
   return all;
 }
@@ -238,7 +241,7 @@ DrillFigures drill_figures(const Scene& scene, const Run& run, const Outflow& ou
   add_spacings(all, spacings, drill, why);
   for (const RowFigures& row : result.rows)
     if (all.longest_pause) all.longest_pause = std::max(*all.longest_pause, row.longest_pause.value_or(0));
-  all.between = between_rows(streams);
+  all.between = between_rows(streams, outflow.window);
   result.rows.push_back(std::move(all));
   return result;
 }

@@ -8,9 +8,9 @@
 
 #include "agronomy/drill.hpp"
 #include "agronomy/spacings.hpp"
-#include "outflow/evenness.hpp"
 #include "outflow/outflow.hpp"
 #include "outflow/statistics.hpp"
+#include "outflow/unevenness.hpp"
 #include "result/run.hpp"
 #include "scene/scene.hpp"
 
@@ -20,7 +20,8 @@ namespace vibrosow {
 struct BetweenRows {
   std::vector<std::int64_t> seeds;  // of each stream in the window
   std::vector<double> mass;         // kg, likewise
-  std::optional<Evenness> evenness;
+  std::optional<double> raw_cv;     // fraction; of the seeds, chance included
+  std::optional<Unevenness> unevenness;
   std::optional<double> mass_cv;  // fraction; of the masses as they are, as ISO 7256-2 weighs what rows give
 };
 

@@ -28,6 +28,7 @@
 #include "report/terminal_text.hpp"
 #include "scene/input_error.hpp"
 #include "scene/integrator_names.hpp"
+#include "scene/measuring_window.hpp"
 #include "scene/spaces.hpp"
 #include "simulation/state.hpp"
 
@@ -183,6 +184,7 @@ int check_seeder(const InputFile& file, const CheckOptions& options) {
   if (scene.hopper) print_vessel(*scene.hopper, scene.space);
   print_text(mixture_text(scene));
   print_slice(scene);
+  if (!scene.tray.holes.empty()) print_text(wrapped(window_sentence(measuring_window(scene), scene.run.measure_from)));
   for (const Drawing& drawing : drawings) print_text(wrapped(drawing_text(drawing, scene)));
   if (drill) print_text(wrapped(drill_sentence(*drill)));
   print_space_advice(scene);

@@ -39,7 +39,7 @@ void add_decide_command(CLI::App& app, int& exit_code) {
   add_making_flags(*command, options->making);
   add_reuse_option(*command, options->reuse);
   add_examples(*command, {"vibrosow decide wheat-demo --goal rate --out best",
-                          "vibrosow decide wheat-demo --goal evenness --within \"20 %\" --out even",
+                          "vibrosow decide wheat-demo --goal unevenness --within \"20 %\" --out even",
                           "vibrosow decide wheat-demo --goal rate --procedure posterior --out likely"});
   command->callback([options, &exit_code] { exit_code = run_decide(*options); });
 }

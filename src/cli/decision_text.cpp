@@ -19,9 +19,10 @@ std::string in_figure(const std::optional<MeanWithInterval>& value, std::string_
   return value ? fmt::format("{} {}", with_interval(value, figure.unit_size), unit) : "";
 }
 
-/// "evenness 8.2 +- 0.4 %, 43.2 +- 0.5 seeds/s, clogged in 0 of 203 runs"
+/// "CV of a run 8.2 +- 0.4 %, unevenness (CV) 7.1 % (6.2 to 8.3 %), 43.2 +- 0.5 seeds/s, clogged in 0 of 203 runs"
 std::string figures_text(const DecideOptions& options, const SceneDecision& of) {
-  std::string text = fmt::format("{} {}", options.goal->name, in_figure(of.goal, options.goal->figure));
+  std::string text = fmt::format("{} {}", options.goal->words, in_figure(of.goal, options.goal->figure));
+  if (of.unevenness) text += fmt::format(", unevenness (CV) {}", unevenness_text(*of.unevenness));
   if (options.rate && of.rate) text += fmt::format(", {} of the tray", in_figure(of.rate, options.rate->figure));
   return text + fmt::format(", clogged in {} of {} runs", of.clogged, of.runs);
 }

@@ -87,7 +87,7 @@ void print_drill(const DrillFigures& figures) {
         "multipl %", "skips %");
   for (const RowFigures& row : figures.rows) print_row(row);
   const RowFigures& all = figures.all();
-  if (all.between && all.between->evenness) print_text(wrapped(evenness_sentence(*all.between->evenness, "rows")));
+  if (all.between && all.between->unevenness) print_text(wrapped(unevenness_sentence(*all.between->unevenness, "row")));
   print_text(wrapped(spacings_sentence(all)));
 }
 
@@ -98,8 +98,8 @@ std::string sown_sentence(const std::vector<RowMeans>& rows) {
                                                  mean_text(all, "seeds_per_m2"))
                                    : std::string("sown: no rate without tray.depth"));
   if (all["raw_cv_percent"])
-    parts.push_back(fmt::format("between rows raw CV {} %, of which counting {} %", mean_text(all, "raw_cv_percent"),
-                                mean_text(all, "counting_cv_percent")));
+    parts.push_back(fmt::format("between rows raw CV {} %, of which chance {} %", mean_text(all, "raw_cv_percent"),
+                                mean_text(all, "chance_cv_percent")));
   if (all["multiples_percent"])
     parts.push_back(fmt::format("at the hole multiples {} %, skips {} %", mean_text(all, "multiples_percent"),
                                 mean_text(all, "skips_percent")));

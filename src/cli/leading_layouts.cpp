@@ -13,8 +13,7 @@ namespace vibrosow {
 
 void LeadingLayouts::add(const WantedRun& wanted, const Run& run) {
   if (run.status != RunStatus::finished) return;
-  if (const auto evenness = measure_outflow(*wanted.scene, run).evenness)
-    raw_cvs_[wanted.layout].push_back(100 * evenness->raw_cv);
+  if (const auto cv = measure_outflow(*wanted.scene, run).raw_cv) raw_cvs_[wanted.layout].push_back(100 * *cv);
 }
 
 std::string LeadingLayouts::text() const {

@@ -38,9 +38,9 @@ void add_optimise_command(CLI::App& app, int& exit_code) {
   add_replays_option(*command, options->common);
   add_making_flags(*command, options->making);
   add_reuse_option(*command, options->reuse);
-  add_examples(*command, {"vibrosow optimise wheat-front --goals evenness,power --out front",
-                          "vibrosow optimise wheat-front --goals rate,evenness --runs 60 --out rate",
-                          "vibrosow optimise wheat-front --goals evenness,power --html --out shown"});
+  add_examples(*command, {"vibrosow optimise wheat-front --goals unevenness,power --out front",
+                          "vibrosow optimise wheat-front --goals rate,unevenness --runs 60 --out rate",
+                          "vibrosow optimise wheat-front --goals unevenness,power --html --out shown"});
   command->callback([options, &exit_code] { exit_code = run_optimise(*options); });
 }
 

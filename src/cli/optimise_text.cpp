@@ -19,13 +19,15 @@ std::string with_unit(const std::optional<MeanWithInterval>& value, std::string_
   return unit.empty() ? text : fmt::format("{} {}", text, unit);
 }
 
-/// "evenness 8.2 +- 0.4 %, power 1.4 W/kg, 43.2 +- 0.5 seeds/s of the tray, 12 runs"
+/// "CV of a run 8.2 +- 0.4 %, power 1.4 W/kg, unevenness (CV) 7.1 % (6.2 to 8.3 %), 43.2 +- 0.5 seeds/s of the tray, 12
+/// runs"
 std::string figures_text(const OptimiseResult& result, const FrontLayout& of) {
   std::string text;
   for (std::size_t g = 0; g < of.goals.size(); ++g) {
     const FrontGoal& goal = *result.options.goals[g];
-    text += fmt::format("{} {}, ", goal.name, with_unit(of.goals[g], goal.unit, goal.unit_size));
+    text += fmt::format("{} {}, ", goal.words, with_unit(of.goals[g], goal.unit, goal.unit_size));
   }
+  if (of.unevenness) text += fmt::format("unevenness (CV) {}, ", unevenness_text(*of.unevenness));
   if (const auto& rate = result.options.rate) {
     const Figure& figure = figure_named(rate->figure);
     const std::string_view unit = rate->figure == "tray_seeds_per_s" ? "seeds/s" : figure.unit;

@@ -80,10 +80,11 @@ void print_summary(const Scene& scene, const Run& run, const Outflow& outflow) {
                                    in_space ? "" : fmt::format(", {:.4g} times the slice", *depth),
                                    figure_text(all.mass_rate * 1e3 * *depth), figure_text(all.mass_rate * 6e4 * *depth),
                                    figure_text(all.seeds_per_s * *depth))));
-  if (outflow.evenness) print_text("\n" + wrapped(evenness_sentence(*outflow.evenness, "holes")));
+  if (outflow.unevenness) print_text("\n" + wrapped(unevenness_sentence(*outflow.unevenness, "hole")));
   const Balance& balance = run.balance;
-  print("\nwindow {:g} to {:g} s\nput in {} = inside {} + counted {} + spilled {} + lost {}\n", outflow.window_from,
-        outflow.window_to, balance.put_in, balance.inside, balance.counted, balance.spilled, balance.lost);
+  print("\n{}put in {} = inside {} + counted {} + spilled {} + lost {}\n",
+        wrapped(window_sentence(outflow.window, scene.run.measure_from)), balance.put_in, balance.inside,
+        balance.counted, balance.spilled, balance.lost);
 }
 
 void print_profile(const Run& run) {

@@ -21,17 +21,17 @@ std::string mean_text(const FigureMeans& figures, std::string_view name) {
   return with_interval(figures[figure], figure.unit_size);
 }
 
-/// "12.1 (9.3-16)", or "< 6.2" where the seeds do not resolve it.
-std::string evenness_text(const FigureMeans& figures) {
+/// "12.1 (9.3-16)", or "< 6.2" where it is not told from equal holes.
+std::string unevenness_cell(const FigureMeans& figures) {
   const auto text = [&](std::string_view name) {
     const Figure& figure = figure_named(name);
     return figures[figure] ? to_digits(figures[figure]->mean / figure.unit_size, 2) : "";
   };
-  const std::string high = text("evenness_cv_percent_high"), cv = mean_text(figures, "evenness_cv_percent");
+  const std::string high = text("unevenness_cv_percent_high"), cv = mean_text(figures, "unevenness_cv_percent");
   if (high.empty()) return "";
   if (cv.empty()) return fmt::format("< {}", high);
-  return fmt::format("{} ({}-{})", to_digits(figures["evenness_cv_percent"]->mean * 100, 3),
-                     text("evenness_cv_percent_low"), high);
+  return fmt::format("{} ({}-{})", to_digits(figures["unevenness_cv_percent"]->mean * 100, 3),
+                     text("unevenness_cv_percent_low"), high);
 }
 
 /// What the table shows of a layout, but for its name; each column is as wide as its longest cell.
@@ -40,7 +40,7 @@ const Cells heads = {"g/s", "seeds/s", "raw CV", "CV, %"};
 
 Cells cells_of(const FigureMeans& figures) {
   return {mean_text(figures, "rate_g_per_s"), mean_text(figures, "seeds_per_s"), mean_text(figures, "raw_cv_percent"),
-          evenness_text(figures)};
+          unevenness_cell(figures)};
 }
 
 /// A line of the table: a name longer than what the cells leave has lines of its own.
@@ -92,8 +92,8 @@ void print_sweep_table(const StudyResult& result) {
   const bool uneven = std::ranges::any_of(
       result.layouts, [](const LayoutResult& one) { return one.figures["raw_cv_percent"].has_value(); });
   if (uneven)
-    print("\n{}", wrapped("CV between the holes, %: raw, and without what counting alone gives, with its 95 % "
-                          "interval; \"<\": below what this many seeds resolve"));
+    print("\n{}", wrapped("CV between the holes, %: raw, and the unevenness (chance taken out) with its 95 % "
+                          "interval; \"<\": not told from equal holes"));
   print_trade(result);
   if (!result.comparison) return;
   if (result.study.measured->scale == MeasuredScale::free && result.comparison->scale)

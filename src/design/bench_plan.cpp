@@ -78,7 +78,7 @@ std::optional<Flow> flow_of(const CalibrationDesign& design, std::size_t conditi
     rates.push_back(all->mass_rate);
     seeds += all->seeds_per_s * depth_of(evaluation);
     emptied += emptying_time(run.scene, all->seeds_per_s);
-    flow.window = evaluation.outflow.window_to - evaluation.outflow.window_from;
+    flow.window = evaluation.outflow.window.length();
   }
   const auto count = static_cast<Index>(points.size());
   flow.points.resize(count, design.points.cols());

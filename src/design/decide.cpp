@@ -141,6 +141,7 @@ SceneDecision StudyDecision::figures_of(std::size_t scene) const {
   figures.stopped = first_stop(runs_.runs()[scene]);
   figures.doubts = doubts_of_layout(study_.scenes[scene], runs_.runs()[scene]);
   std::vector<double> goal_values, rates;
+  std::vector<const Outflow*> flowed;
   const auto rate_of = [&](const Outflow& outflow) {
     return options_.rate ? options_.rate->of(outflow) : figure_named("rate_g_per_s").of(outflow);
   };
@@ -148,12 +149,14 @@ SceneDecision StudyDecision::figures_of(std::size_t scene) const {
     ++figures.runs;
     figures.clogged += has_clogged(run);
     if (!run.is_sound() || has_clogged(run)) continue;
+    flowed.push_back(&run.outflow);
     if (const auto goal = options_.goal->of(run.outflow))
       goal_values.push_back(options_.goal->is_most ? -*goal : *goal);
     if (const auto rate = rate_of(run.outflow)) rates.push_back(*rate);
   }
   if (!goal_values.empty()) figures.goal = mean_with_interval(goal_values);
   if (!rates.empty()) figures.rate = mean_with_interval(rates);
+  figures.unevenness = unevenness_of(flowed);
   return figures;
 }
 

@@ -36,6 +36,7 @@ struct SceneDecision {
   bool is_screened_out = false;
   int runs = 0, clogged = 0;
   std::optional<MeanWithInterval> goal, rate;  // SI, over the runs that flowed; the goal as its figure is
+  std::optional<Unevenness> unevenness;        // of these together
 };
 
 /// Runs and grain-steps.

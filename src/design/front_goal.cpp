@@ -18,14 +18,16 @@ std::vector<FrontGoal> make_goals() {
   std::vector<FrontGoal> all;
   for (const Goal& goal : goals()) {
     const Figure& figure = figure_named(goal.figure);
-    all.push_back({Kind::figure, goal.name, figure.name, figure.unit, figure.unit_size, goal.description, &goal});
+    all.push_back(
+        {Kind::figure, goal.name, goal.words, figure.name, figure.unit, figure.unit_size, goal.description, &goal});
   }
-  all.push_back({Kind::rate_error, "rate_error", "rate_error_percent", "%", 1e-2,
+  all.push_back({Kind::rate_error, "rate_error", "rate error", "rate_error_percent", "%", 1e-2,
                  "distance of the mean rate from the wanted one, over the wanted one, least"});
-  all.push_back({Kind::power, "power", "power_W_per_kg", "W/kg", 1,
+  all.push_back({Kind::power, "power", "power", "power_W_per_kg", "W/kg", 1,
                  "greatest power of the drive over the mass that it shakes, (2 pi f)^3 A^2 / 2, least"});
   all.push_back({Kind::frequency_sensitivity,
                  "frequency_sensitivity",
+                 "frequency sensitivity",
                  "frequency_sensitivity",
                  "",
                  1,
@@ -34,6 +36,7 @@ std::vector<FrontGoal> make_goals() {
                  {Variant::faster, Variant::slower}});
   all.push_back({Kind::fill_sensitivity,
                  "fill_sensitivity",
+                 "fill sensitivity",
                  "fill_sensitivity",
                  "",
                  1,
@@ -78,7 +81,8 @@ std::vector<const FrontGoal*> read_front_goals(const std::vector<std::string>& n
   }
   std::vector<const FrontGoal*> chosen;
   for (const std::string& name : names) {
-    const auto found = std::ranges::find(front_goals(), name, &FrontGoal::name);
+    const std::string_view now = name == "evenness" ? "unevenness" : std::string_view(name);  // what it was called
+    const auto found = std::ranges::find(front_goals(), now, &FrontGoal::name);
     if (found == front_goals().end())
       throw InputError(
           fmt::format("--goals: \"{}\" is none of {}{}", shortened(name), list, did_you_mean(name, known)));

@@ -26,6 +26,7 @@ struct FrontGoal {
   enum class Kind { figure, rate_error, power, frequency_sensitivity, fill_sensitivity };
   Kind kind;
   std::string_view name;    // what a user says: "power"
+  std::string_view words;   // in a sentence: "rate error"
   std::string_view column;  // with its unit: "power_W_per_kg"
   std::string_view unit;    // empty for a plain number
   double unit_size;         // of that unit, in SI
@@ -37,7 +38,7 @@ struct FrontGoal {
 /// Those of `decide`, and rate_error, power, frequency_sensitivity, fill_sensitivity.
 const std::vector<FrontGoal>& front_goals();
 
-/// Reads "evenness,power": at least one, none twice. Throws InputError with the list for a name that is none.
+/// Reads "unevenness,power": at least one, none twice. Throws InputError with the list for a name that is none.
 std::vector<const FrontGoal*> read_front_goals(const std::vector<std::string>& names);
 
 /// The greatest power of the drive over the mass that it shakes, W/kg: (2 pi f)^3 A^2 / 2, by Newton's second law for

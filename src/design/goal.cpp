@@ -15,13 +15,13 @@ namespace vibrosow {
 namespace {
 
 constexpr std::array table = {
-    Goal{"evenness", "raw_cv_percent", false, "raw coefficient of variation between the holes of one run, least",
-         "one hole has no evenness"},
-    Goal{"instability", "instability_cv_percent", false, "of the whole outflow over ten parts of the window, least",
-         "it has no instability"},
-    Goal{"pause", "longest_pause_s", false, "longest time without a seed, least", "it has no pause"},
-    Goal{"rate", "rate_g_per_s", true, "mass flow, most", "it has no rate"},
-    Goal{"spilled", "spilled_percent", false, "seeds that left over the rim, least", "nothing left it"},
+    Goal{"unevenness", "CV of a run", "run_cv_percent", false,
+         "coefficient of variation between the holes of one run, chance included, least", "one hole has no unevenness"},
+    Goal{"instability", "instability", "instability_cv_percent", false,
+         "of the whole outflow over ten parts of the window, least", "it has no instability"},
+    Goal{"pause", "longest pause", "longest_pause_s", false, "longest time without a seed, least", "it has no pause"},
+    Goal{"rate", "rate", "rate_g_per_s", true, "mass flow, most", "it has no rate"},
+    Goal{"spilled", "spilled", "spilled_percent", false, "seeds that left over the rim, least", "nothing left it"},
 };
 
 std::optional<double> finite(const std::optional<double>& value) {
@@ -63,6 +63,7 @@ std::span<const Goal> goals() {
 }
 
 const Goal& goal_named(std::string_view name) {
+  if (name == "evenness") name = "unevenness";  // what it was called
   const auto found = std::ranges::find(table, name, &Goal::name);
   if (found != table.end()) return *found;
   std::vector<std::string> names;

@@ -13,7 +13,8 @@ namespace vibrosow {
 /// What layouts are compared by: a figure of each single run, of which the mean over runs is to be the least, or the
 /// most.
 struct Goal {
-  std::string_view name;    // what a user says: "evenness"
+  std::string_view name;    // what a user says: "unevenness"
+  std::string_view words;   // in a sentence: "CV of a run"
   std::string_view figure;  // its name
   bool is_most;
   std::string_view description;
@@ -24,7 +25,7 @@ struct Goal {
 
 std::span<const Goal> goals();
 
-/// Throws InputError with the list for a name that is none.
+/// Throws InputError with the list for a name that is none. "evenness" is the old name of "unevenness".
 const Goal& goal_named(std::string_view name);
 
 /// A rate of the whole tray that is wanted, within a band.

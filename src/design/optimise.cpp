@@ -237,15 +237,19 @@ FrontLayout StudyOptimisation::layout_result(std::size_t layout, FrontStanding s
     if (!goal.asks_for.empty()) mean = std::abs(mean);
     if (goal.figure != nullptr && goal.figure->is_most) mean = -mean;
   }
-  if (options_.rate) {
-    result.rate = in_interval(known[options_.goals.size()]);
-    return result;
-  }
   std::vector<double> rates;
-  for (std::size_t r = 0; r < static_cast<std::size_t>(result.runs); ++r)
-    if (const Evaluation& run = evaluation(Variant::as_it_is, place, r); run.is_sound() && !has_clogged(run))
-      rates.push_back(rate_as(Variant::as_it_is, place, r));
-  if (!rates.empty()) result.rate = mean_with_interval(rates);
+  std::vector<const Outflow*> flowed;
+  for (std::size_t r = 0; r < static_cast<std::size_t>(result.runs); ++r) {
+    const Evaluation& run = evaluation(Variant::as_it_is, place, r);
+    if (!run.is_sound() || has_clogged(run)) continue;
+    rates.push_back(rate_as(Variant::as_it_is, place, r));
+    flowed.push_back(&run.outflow);
+  }
+  result.unevenness = unevenness_of(flowed);
+  if (options_.rate)
+    result.rate = in_interval(known[options_.goals.size()]);
+  else if (!rates.empty())
+    result.rate = mean_with_interval(rates);
   return result;
 }
 

@@ -38,6 +38,7 @@ struct FrontLayout {
   std::vector<std::optional<MeanWithInterval>> goals;  // SI, as their figures are, with shared variances
   std::optional<MeanWithInterval>
       rate;  // SI, of the tray where one is wanted (with shared variances), else rate_g_per_s
+  std::optional<Unevenness> unevenness;  // of its runs that flowed together, without those of variants
 };
 
 struct OptimiseResult {

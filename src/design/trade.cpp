@@ -68,8 +68,8 @@ Setting setting_of(const LayoutResult& layout, const Drill& drill, double value)
   Setting setting{.value = value, .rate = rate->mean, .flowed = layout.stopped_flowing == 0};
   if (drill.streams() < 2) return setting;  // nothing to differ from
   const RowMeans& all = layout.rows.back();
-  const auto& low = all["evenness_cv_percent_low"];
-  const auto& high = all["evenness_cv_percent_high"];
+  const auto& low = all["unevenness_cv_percent_low"];
+  const auto& high = all["unevenness_cv_percent_high"];
   setting.cv_low = low ? low->mean : 0;
   setting.cv_high = high ? std::optional(high->mean) : std::nullopt;
   return setting;

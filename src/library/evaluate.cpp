@@ -30,7 +30,7 @@ Evaluation converted(const vibrosow::Evaluation& own) {
                         .end_time = own.end_time,
                         .balance = converted(own.balance),
                         .holes = {},
-                        .evenness_cv = own.outflow.evenness ? own.outflow.evenness->cv : std::nullopt,
+                        .unevenness_cv = own.outflow.unevenness ? own.outflow.unevenness->cv : std::nullopt,
                         .depth_factor = own.outflow.depth_factor};
   for (const Doubt& doubt : own.outflow.doubts) evaluation.doubts.push_back(doubt.text);
   for (const vibrosow::HoleOutflow& row : own.outflow.holes)

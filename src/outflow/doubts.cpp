@@ -12,7 +12,7 @@ namespace {
 using enum Severity;
 
 /// By kind.
-constexpr std::array<DoubtWords, 15> doubt_words = {{
+constexpr std::array<DoubtWords, 16> doubt_words = {{
     {"outside the model", serious, "decide nothing by it: take a step that is not too long and the guard's own limits"},
     {"ran dry", serious, "put in more seeds, or measure before"},
     {"drained in the window", serious, "keep the tray topped up (fill.keep), or measure a shorter time"},
@@ -24,6 +24,7 @@ constexpr std::array<DoubtWords, 15> doubt_words = {{
     {"interrupted", serious, "the same command goes on from here"},
     {"ended before the measuring window", serious, "run longer, or measure earlier"},
     {"few seeds", mild, "run longer"},
+    {"a part of a period", serious, "measure over whole periods of the drive: run longer"},
     {"clogged", mild, "the figures are of the runs that flowed; wider holes clog less often"},
     {"wide interval", mild, "allow more replicates"},
     {"skewed runs", mild, "run more replicates before the interval is trusted"},

@@ -24,8 +24,8 @@ Value of_tray(const Outflow& outflow, double of_slice) {
 }
 
 template <class Get>
-Value of_evenness(const Outflow& outflow, Get get) {
-  return outflow.evenness ? Value(get(*outflow.evenness)) : Value();
+Value of_unevenness(const Outflow& outflow, Get get) {
+  return outflow.unevenness ? Value(get(*outflow.unevenness)) : Value();
 }
 
 constexpr std::array table = {
@@ -48,16 +48,21 @@ constexpr std::array table = {
            [](const Outflow& o) { return of_tray(o, whole(o).seeds_per_s); }},
     Figure{"raw_cv_percent", "raw CV %", "%", percent,
            "coefficient of variation of the seeds of the holes, all replicates together",
-           [](const Outflow& o) { return of_evenness(o, [](const Evenness& e) { return e.raw_cv; }); }, true},
-    Figure{"counting_cv_percent", "counting %", "%", percent, "what counting so many independent seeds gives alone",
-           [](const Outflow& o) { return of_evenness(o, [](const Evenness& e) { return e.counting_cv; }); }, true},
-    Figure{"evenness_cv_percent", "evenness CV %", "%", percent,
-           "coefficient of variation of the holes' rates, chance taken out; empty: below what this many seeds resolve",
-           [](const Outflow& o) { return of_evenness(o, [](const Evenness& e) { return e.cv; }); }, true},
-    Figure{"evenness_cv_percent_low", "low", "%", percent, "lower end of its 95 % interval (noncentral chi squared)",
-           [](const Outflow& o) { return of_evenness(o, [](const Evenness& e) { return e.low; }); }, true},
-    Figure{"evenness_cv_percent_high", "high", "%", percent, "upper end: what the seeds resolve where it is empty",
-           [](const Outflow& o) { return of_evenness(o, [](const Evenness& e) { return e.high; }); }, true},
+           [](const Outflow& o) { return o.raw_cv; }, true},
+    Figure{"run_cv_percent", "CV of a run %", "%", percent,
+           "the same of the seeds of a single run, in which chance weighs more: mean over the replicates",
+           [](const Outflow& o) { return o.raw_cv; }},
+    Figure{"chance_cv_percent", "chance %", "%", percent, "what of the raw one holes of equal rates would show",
+           [](const Outflow& o) { return of_unevenness(o, [](const Unevenness& u) { return u.chance_cv; }); }, true},
+    Figure{
+        "unevenness_cv_percent", "unevenness (CV) %", "%", percent,
+        "coefficient of variation of the holes' rates, chance taken out; empty: not told from equal holes (F test of "
+        "holes against replicates, of one run against its blocks)",
+        [](const Outflow& o) { return of_unevenness(o, [](const Unevenness& u) { return u.cv; }); }, true},
+    Figure{"unevenness_cv_percent_low", "low", "%", percent, "lower end of its 95 % interval",
+           [](const Outflow& o) { return of_unevenness(o, [](const Unevenness& u) { return u.low; }); }, true},
+    Figure{"unevenness_cv_percent_high", "high", "%", percent, "upper end: what it may be up to where it is empty",
+           [](const Outflow& o) { return of_unevenness(o, [](const Unevenness& u) { return u.high; }); }, true},
     Figure{"instability_cv_percent", "instability CV %", "%", percent,
            "coefficient of variation of the whole outflow over ten equal parts of the window",
            [](const Outflow& o) { return o.instability_cv; }},
@@ -71,9 +76,11 @@ constexpr std::array table = {
 /// The first replicate with the seeds of all.
 Outflow pooled(const std::vector<const Outflow*>& replicates) {
   Outflow all = *replicates.front();
+  if (replicates.size() == 1) return all;
   std::vector<std::vector<std::int64_t>> counts;
   for (const Outflow* one : replicates) counts.push_back(one->grains_of_hole);
-  all.evenness = evenness(counts);
+  all.raw_cv = raw_cv(sum_of_parts(counts));
+  all.unevenness = unevenness_of(replicates);
   return all;
 }
 

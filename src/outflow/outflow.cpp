@@ -12,12 +12,6 @@
 namespace vibrosow {
 namespace {
 
-struct Window {
-  double from, to;
-  double length() const { return to - from; }
-  bool empty() const { return to <= from; }
-};
-
 /// Where a row takes its grains from; 0 and -1 stand for all holes and all lots.
 struct Selection {
   int hole = 0;
@@ -27,13 +21,13 @@ struct Selection {
   }
 };
 
-Window measuring_window(const Scene& scene, const Run& run) {
+MeasuringWindow window_of(const Scene& scene, const Run& run) {
+  const MeasuringWindow window = measuring_window(scene);
   // The last step of a finished run may end a rounding error short of the duration.
-  const bool whole = run.status == RunStatus::finished;
-  return {scene.run.measure_from, whole ? scene.run.duration : std::min(run.end_time, scene.run.duration)};
+  return run.status == RunStatus::finished ? window : window.until(run.end_time);
 }
 
-std::vector<OutflowEvent> counted_inside(const std::vector<OutflowEvent>& events, const Window& window) {
+std::vector<OutflowEvent> counted_inside(const std::vector<OutflowEvent>& events, const MeasuringWindow& window) {
   std::vector<OutflowEvent> inside;
   std::ranges::copy_if(events, std::back_inserter(inside), [&](const OutflowEvent& event) {
     return event.hole > 0 && event.time >= window.from && event.time <= window.to;
@@ -41,7 +35,7 @@ std::vector<OutflowEvent> counted_inside(const std::vector<OutflowEvent>& events
   return inside;
 }
 
-HoleOutflow measure_row(const Scene& scene, const std::vector<OutflowEvent>& events, const Window& window,
+HoleOutflow measure_row(const Scene& scene, const std::vector<OutflowEvent>& events, const MeasuringWindow& window,
                         Selection selection) {
   HoleOutflow row;
   row.hole = selection.hole > 0 ? fmt::format("{}", selection.hole) : "all";
@@ -71,7 +65,7 @@ HoleOutflow measure_row(const Scene& scene, const std::vector<OutflowEvent>& eve
 }
 
 std::vector<HoleOutflow> measure_rows(const Scene& scene, const std::vector<OutflowEvent>& events,
-                                      const Window& window) {
+                                      const MeasuringWindow& window) {
   const int holes = static_cast<int>(scene.tray.holes.size());
   const int lots = static_cast<int>(scene.lots.size());
   std::vector<HoleOutflow> rows;
@@ -90,6 +84,15 @@ std::vector<std::int64_t> grains_of_holes(const Scene& scene, const std::vector<
   std::vector<std::int64_t> grains(scene.tray.holes.size(), 0);
   for (const OutflowEvent& event : events) ++grains.at(static_cast<std::size_t>(event.hole - 1));
   return grains;
+}
+
+std::vector<std::vector<std::int64_t>> grains_in_blocks(const Scene& scene, const std::vector<OutflowEvent>& events,
+                                                        const std::vector<double>& ends) {
+  std::vector<std::vector<double>> times(scene.tray.holes.size());
+  for (const OutflowEvent& event : events) times.at(static_cast<std::size_t>(event.hole - 1)).push_back(event.time);
+  std::vector<std::vector<std::int64_t>> of_hole;
+  for (const std::vector<double>& one : times) of_hole.push_back(counts_in_blocks(one, ends));
+  return transposed(of_hole);
 }
 
 std::vector<double> times_of(const std::vector<OutflowEvent>& events) {
@@ -111,7 +114,7 @@ bool is_fed(const Scene& scene) {
 /// rate is not that of a full tray.
 constexpr double drained_fraction = 0.5;
 
-std::optional<Doubt> doubt_if_drained(const Scene& scene, const Run& run, const Window& window) {
+std::optional<Doubt> doubt_if_drained(const Scene& scene, const Run& run, const MeasuringWindow& window) {
   if (is_fed(scene) || window.empty()) return std::nullopt;
   const auto left_before =
       std::ranges::count_if(run.events, [&](const auto& event) { return event.time < window.from; });
@@ -122,7 +125,8 @@ std::optional<Doubt> doubt_if_drained(const Scene& scene, const Run& run, const 
                                                balance.put_in - balance.inside, balance.put_in)};
 }
 
-std::vector<Doubt> doubts_about(const Scene& scene, const Run& run, const Window& window, std::size_t counted) {
+std::vector<Doubt> doubts_about(const Scene& scene, const Run& run, const MeasuringWindow& window,
+                                std::size_t counted) {
   using enum DoubtKind;
   std::vector<Doubt> doubts;
   const auto add = [&](DoubtKind kind, const std::string& text = "") {
@@ -139,6 +143,9 @@ std::vector<Doubt> doubts_about(const Scene& scene, const Run& run, const Window
   doubts.insert(doubts.end(), run.warnings.begin(), run.warnings.end());
   if (run.status == RunStatus::stopped_by_guard) add(stopped_by_guard, "stopped: " + run.stop_reason);
   if (run.status == RunStatus::interrupted) add(interrupted);
+  if (window.drive == MeasuringWindow::Drive::periodic && window.periods == 0 && !window.empty())
+    add(part_of_a_period, fmt::format("measured over {:.3g} s, a part of one period of the drive, {:.3g} s",
+                                      window.length(), window.period));
   if (window.empty())
     add(before_the_window);
   else if (static_cast<std::int64_t>(counted) < few_grains && !scene.tray.holes.empty())
@@ -147,6 +154,16 @@ std::vector<Doubt> doubts_about(const Scene& scene, const Run& run, const Window
 }
 
 }  // namespace
+
+std::vector<std::int64_t> counts_in_blocks(const std::vector<double>& times, const std::vector<double>& ends) {
+  std::vector<std::int64_t> counts(ends.empty() ? 0 : ends.size() - 1, 0);
+  for (const double time : times) {
+    if (ends.empty() || time < ends.front() || time > ends.back()) continue;
+    const auto after = std::upper_bound(ends.begin() + 1, ends.end() - 1, time);
+    ++counts[static_cast<std::size_t>(after - ends.begin() - 1)];
+  }
+  return counts;
+}
 
 std::optional<double> instability_cv(const std::vector<double>& times, double from, double to) {
   if (to <= from || times.size() < 2) return std::nullopt;
@@ -165,21 +182,29 @@ std::string Outflow::note() const {
 }
 
 Outflow measure_outflow(const Scene& scene, const Run& run) {
-  const Window window = measuring_window(scene, run);
+  const MeasuringWindow window = window_of(scene, run);
   const std::vector<OutflowEvent> events = counted_inside(run.events, window);
 
   Outflow outflow;
-  outflow.window_from = window.from;
-  outflow.window_to = window.to;
+  outflow.window = window;
   outflow.holes = measure_rows(scene, events, window);
   outflow.grains_of_hole = grains_of_holes(scene, events);
-  outflow.evenness = evenness({outflow.grains_of_hole});
+  outflow.grains_of_hole_in_block = grains_in_blocks(scene, events, block_ends(window));
+  outflow.raw_cv = raw_cv(outflow.grains_of_hole);
+  outflow.unevenness = unevenness(outflow.grains_of_hole_in_block);
   outflow.instability_cv = instability_cv(times_of(events), window.from, window.to);
   const std::int64_t left = run.balance.counted + run.balance.spilled;
   if (left > 0) outflow.spilled_fraction = static_cast<double>(run.balance.spilled) / static_cast<double>(left);
   outflow.depth_factor = depth_factor(scene);
   outflow.doubts = doubts_about(scene, run, window, events.size());
   return outflow;
+}
+
+std::optional<Unevenness> unevenness_of(const std::vector<const Outflow*>& replicates) {
+  if (replicates.size() == 1) return replicates.front()->unevenness;
+  std::vector<std::vector<std::int64_t>> counts;
+  for (const Outflow* one : replicates) counts.push_back(one->grains_of_hole);
+  return unevenness(counts);
 }
 
 const HoleOutflow* find_row(const Outflow& outflow, const std::string& hole, const std::string& lot) {

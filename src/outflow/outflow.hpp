@@ -6,9 +6,10 @@
 #include <vector>
 
 #include "outflow/doubts.hpp"
-#include "outflow/evenness.hpp"
 #include "outflow/statistics.hpp"
+#include "outflow/unevenness.hpp"
 #include "result/run.hpp"
+#include "scene/measuring_window.hpp"
 #include "scene/scene.hpp"
 
 namespace vibrosow {
@@ -32,19 +33,25 @@ struct HoleOutflow {
 inline constexpr std::int64_t few_grains = 30;
 
 struct Outflow {
-  double window_from = 0, window_to = 0;     // s; window_to is the run's end when it ended early
+  MeasuringWindow window;                    // ends with the run when that ended early
   std::vector<HoleOutflow> holes;            // per hole and lot, per hole all lots when there are several, then "all"
   std::vector<std::int64_t> grains_of_hole;  // in the window
-  std::optional<Evenness> evenness;          // of these
-  std::optional<double> instability_cv;      // fraction; CV of the whole outflow over equal time windows
-  double spilled_fraction = 0;               // spilled / (counted + spilled), whole run
-  std::optional<double> depth_factor;        // tray.depth / diameter of the plane slice; in space 1
-  std::vector<Doubt> doubts;                 // what speaks against the figures; empty when all is well
-  std::string note() const;                  // their texts: "ran dry at 3.2 s; outside the model"
+  std::vector<std::vector<std::int64_t>> grains_of_hole_in_block;  // by block of the window, then by hole
+  std::optional<double> raw_cv;          // fraction; coefficient of variation of the holes' grains, chance included
+  std::optional<Unevenness> unevenness;  // of the blocks: blind to how starts differ
+  std::optional<double> instability_cv;  // fraction; CV of the whole outflow over equal time windows
+  double spilled_fraction = 0;           // spilled / (counted + spilled), whole run
+  std::optional<double> depth_factor;    // tray.depth / diameter of the plane slice; in space 1
+  std::vector<Doubt> doubts;             // what speaks against the figures; empty when all is well
+  std::string note() const;              // their texts: "ran dry at 3.2 s; outside the model"
 };
 
 /// Into how many equal parts the measuring window is cut for the instability.
 inline constexpr int instability_windows = 10;
+
+/// How many of such times (s, ascending or not) lie in each block, whose ends `block_ends` gives; those before the
+/// first and after the last in none.
+std::vector<std::int64_t> counts_in_blocks(const std::vector<double>& times, const std::vector<double>& ends);
 
 /// Coefficient of variation of seeds that come at these times (s) over equal parts of the window from `from` to `to`
 /// (s), in which they all lie; none for an empty window or fewer than two seeds.
@@ -52,6 +59,9 @@ std::optional<double> instability_cv(const std::vector<double>& times, double fr
 
 /// What the events of a run say about its holes. Mean diameter of the slice: by number, over all lots.
 Outflow measure_outflow(const Scene& scene, const Run& run);
+
+/// How uneven the holes are by all replicates together; of one, by its blocks. None where they have none, or for none.
+std::optional<Unevenness> unevenness_of(const std::vector<const Outflow*>& replicates);
 
 /// The row of a hole ("1".., "all") and lot (name, "all"). With a single lot, its name and "all" mean the
 /// same. Null when there is no such hole or lot.

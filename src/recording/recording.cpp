@@ -84,9 +84,9 @@ Scene with_map(Scene scene) {
   return scene;
 }
 
-double map_interval(const Scene& scene) {
+double map_interval(const MeasuringWindow& window) {
   constexpr double looks = 211;  // a prime, so that shaking is met in many of its phases
-  return std::max(scene.run.duration - scene.run.measure_from, 0.0) / looks;
+  return std::max(window.length(), 0.0) / looks;
 }
 
 }  // namespace
@@ -97,6 +97,7 @@ Recording::Recording(const Model& model)
       frame_interval_(frame_interval(model)),
       frames_per_contacts_(frames_per_contacts(model)),
       map_scene_(with_map(model.scene)),
+      window_(measuring_window(map_scene_)),
       extents_(map_scene_.lots),
       map_(map_scene_) {
   for (const std::string& field : fields_)
@@ -107,7 +108,7 @@ Recording::Recording(const Model& model)
 
 std::vector<Look> Recording::looks() {
   return {{frame_interval_, [this](Simulation& now) { add(now); }},
-          {map_interval(map_scene_), [this](Simulation& now) { add_to_map(now); }}};
+          {map_interval(window_), [this](Simulation& now) { add_to_map(now); }}};
 }
 
 void Recording::add(Simulation& simulation) {
@@ -196,7 +197,7 @@ void Recording::add_contacts(Simulation& simulation) {
 
 void Recording::add_to_map(Simulation& simulation) {
   const double time = simulation.time();
-  if (time < map_scene_.run.measure_from || time == map_time_) return;
+  if (time < window_.from || time == map_time_) return;
   map_time_ = time;
   Snapshot bed = snapshot_of(simulation.grains(), simulation.field().walls(), time);
   extents_.add_to(bed);

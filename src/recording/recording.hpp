@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "fields/mean_map.hpp"
+#include "scene/measuring_window.hpp"
 #include "simulation/simulate.hpp"
 #include "simulation/simulation.hpp"
 
@@ -71,6 +72,7 @@ class Recording {
   std::string packed_contacts_;
   std::vector<FrameContacts> contacts_;
   Scene map_scene_;  // with a [record]
+  MeasuringWindow window_;
   GrainExtents extents_;
   MeanMapSum map_;
   double map_time_ = -1;  // s, of the last look

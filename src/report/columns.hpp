@@ -8,6 +8,7 @@
 
 #include "outflow/figures.hpp"
 #include "outflow/statistics.hpp"
+#include "outflow/unevenness.hpp"
 #include "report/csv.hpp"
 
 namespace vibrosow {
@@ -54,6 +55,23 @@ template <class Row, class Get>
 Column<Row> quantity_column(std::string name, Unit unit, std::string description, Get get) {
   return {{std::move(name), std::string(unit.name), std::move(description)},
           [get, unit](const Row& row) { return in_unit(get(row), unit); }};
+}
+
+/// How uneven holes are, chance taken out, with its 95 % interval. `get` gives an optional Unevenness.
+template <class Row, class Get>
+void add_unevenness_columns(Columns<Row>& columns, const std::string& whose, Get get) {
+  const auto add = [&](const char* name, const std::string& description, auto of) {
+    columns.push_back(quantity_column<Row>(name, percent, description, [get, of](const Row& row) {
+      const std::optional<Unevenness> unevenness = get(row);
+      return unevenness ? of(*unevenness) : std::nullopt;
+    }));
+  };
+  using U = const Unevenness&;
+  add("unevenness_cv_percent", whose + ", chance taken out; empty: not told from equal holes",
+      [](U of) { return of.cv; });
+  add("unevenness_cv_percent_low", "lower end of its 95 % interval", [](U of) { return std::optional(of.low); });
+  add("unevenness_cv_percent_high", "upper end: what it may be up to where it is empty",
+      [](U of) { return std::optional(of.high); });
 }
 
 /// A mean over replicates and, in a second column, the half width of its 95 % interval. `get` gives an optional

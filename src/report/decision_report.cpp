@@ -68,6 +68,8 @@ Columns<DecisionRow> decision_columns(const std::vector<std::string>& keys) {
                       "rate in the unit of decision.json's rate.figure: of the tray where one is asked for, else "
                       "rate_g_per_s of sweep.csv",
                       figure_of_rate, [](const SceneDecision& of) { return of.rate; });
+  add_unevenness_columns(columns, "coefficient of variation of the holes' rates by all these runs together",
+                         [](R r) { return r.of() ? r.of()->unevenness : std::nullopt; });
   return columns;
 }
 

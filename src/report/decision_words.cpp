@@ -48,7 +48,7 @@ std::string undecided_sentence(const DecisionResult& result) {
   if (!result.has_margin)
     return fmt::format(
         "Undecided: the least {} is 0, and so is any share of it: --within cannot tell layouts apart by this goal.",
-        result.options.goal->name);
+        result.options.goal->words);
   if (result.is_interrupted) return "Interrupted: the same command goes on from here. So far not ruled out:";
   return fmt::format(
       "Undecided: after {} runs of a layout (--most) these cannot be told apart, or it is not known whether they meet "

@@ -18,22 +18,11 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// "rate error"
-std::string words_of(std::string_view name) {
-  std::string words(name);
-  std::ranges::replace(words, '_', ' ');
-  return words;
-}
-
-/// "evenness and power"
+/// "CV of a run and power"
 std::string goals_text(const OptimiseOptions& options) {
   std::string text;
   for (std::size_t g = 0; g < options.goals.size(); ++g)
-    text += fmt::format("{}{}",
-                        g == 0                          ? ""
-                        : g + 1 == options.goals.size() ? " and "
-                                                        : ", ",
-                        words_of(options.goals[g]->name));
+    text += fmt::format("{}{}", g == 0 ? "" : g + 1 == options.goals.size() ? " and " : ", ", options.goals[g]->words);
   return text;
 }
 
@@ -63,8 +52,7 @@ Json asked(const OptimiseOptions& options) {
   const auto add = [&](const std::string& name, const std::string& value) {
     all.push_back({{"name", name}, {"value", value}});
   };
-  for (const FrontGoal* goal : options.goals)
-    add("goal", fmt::format("{}: {}", words_of(goal->name), goal->description));
+  for (const FrontGoal* goal : options.goals) add("goal", fmt::format("{}: {}", goal->words, goal->description));
   if (options.rate) {
     const Figure& figure = rate_figure(options.rate);
     const std::string_view unit = figure.name == "tray_seeds_per_s" ? "seeds/s" : figure.unit;

@@ -67,6 +67,8 @@ Columns<FrontRow> pareto_columns(const std::vector<std::string>& keys, const std
                      if (value->half_width_95) *value->half_width_95 /= unit;
                      return value;
                    });
+  add_unevenness_columns(columns, "coefficient of variation of the holes' rates by all these runs together",
+                         [](R r) { return r.of().unevenness; });
   return columns;
 }
 

@@ -7,6 +7,7 @@
 #include "report/base64.hpp"
 #include "report/page.hpp"
 #include "report/run_page.hpp"
+#include "scene/measuring_window.hpp"
 
 namespace vibrosow {
 namespace {
@@ -41,7 +42,7 @@ Json replay_data(const Scene& scene, const Run& run) {
     holes.push_back({{"hole", hole}, {"counted_all", std::ranges::count(run.events, hole, &OutflowEvent::hole)}});
   return {{"random_seed", run.random_seed},
           {"end_time_s", run.end_time},
-          {"measure_from_s", std::min(scene.run.measure_from, run.end_time)},
+          {"measure_from_s", std::min(measuring_window(scene).from, run.end_time)},
           {"lots", page_lots(scene)},
           {"holes", std::move(holes)},
           {"events", page_events(run)}};

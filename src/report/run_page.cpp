@@ -7,7 +7,6 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
-#include "distributions/distributions.hpp"
 #include "plan/effects.hpp"
 #include "plan/softness.hpp"
 #include "report/number_text.hpp"
@@ -34,25 +33,29 @@ double in_mm(double metres) {
   return 1e3 * metres;
 }
 
-/// 95 % interval of a Poisson count's mean (Garwood 1936).
-std::pair<double, double> counting_interval(std::int64_t count) {
-  const auto n = static_cast<double>(count);
-  const auto bound = [](double degrees, double below) { return chi_squared_quantile(degrees, below) / 2; };
-  return {count > 0 ? bound(2 * n, 0.025) : 0, bound(2 * n + 2, 0.975)};
+/// 95 % interval of a hole's rate, 1/s, by the blocks of the window.
+MeanWithInterval rate_of_blocks(const Outflow& outflow, std::size_t hole) {
+  const std::vector<double> ends = block_ends(outflow.window);
+  std::vector<double> rates;
+  for (std::size_t k = 0; k + 1 < ends.size(); ++k)
+    rates.push_back(static_cast<double>(outflow.grains_of_hole_in_block[k][hole]) / (ends[k + 1] - ends[k]));
+  return mean_with_interval(rates);
 }
 
 Json holes(const RunPage& page) {
-  const double window = page.outflow.window_to - page.outflow.window_from;
   Json all = Json::array();
   for (int hole = 1; hole <= static_cast<int>(page.model.scene.tray.holes.size()); ++hole) {
     const HoleOutflow* row = find_row(page.outflow, fmt::format("{}", hole), "all");
-    const auto [low, high] = counting_interval(row->grains);
+    const MeanWithInterval blocks = rate_of_blocks(page.outflow, static_cast<std::size_t>(hole - 1));
+    const auto end = [&](double sign) {
+      return blocks.half_width_95 ? number(std::max(0.0, row->seeds_per_s + sign * *blocks.half_width_95)) : Json();
+    };
     all.push_back({{"hole", hole},
                    {"counted", row->grains},
                    {"counted_all", std::ranges::count(page.run.events, hole, &OutflowEvent::hole)},
                    {"rate", number(row->seeds_per_s)},
-                   {"rate_low", window > 0 ? number(low / window) : Json(nullptr)},
-                   {"rate_high", window > 0 ? number(high / window) : Json(nullptr)},
+                   {"rate_low", end(-1)},
+                   {"rate_high", end(1)},
                    {"longest_pause_s", number(row->longest_pause)}});
   }
   return all;
@@ -85,10 +88,9 @@ Json hole_table(const RunPage& page) {
   return {{"columns", std::move(columns)}, {"rows", std::move(rows)}};
 }
 
-Json evenness(const std::optional<Evenness>& even) {
-  if (!even) return nullptr;
-  return {{"sentence", evenness_sentence(*even, "holes")},
-          {"cv_percent", even->cv ? Json(100 * *even->cv) : Json(nullptr)}};
+Json unevenness(const std::optional<Unevenness>& of) {
+  if (!of) return nullptr;
+  return {{"sentence", unevenness_sentence(*of, "hole")}, {"cv_percent", of->cv ? Json(100 * *of->cv) : Json(nullptr)}};
 }
 
 std::string headline(const RunPage& page) {
@@ -102,7 +104,7 @@ std::string headline(const RunPage& page) {
   std::string text = fmt::format("{} let{} out {} g/s, {} seeds/s, between {:g} and {:g} s",
                                  holes == 1 ? "One hole" : fmt::format("{} holes", holes), holes == 1 ? "s" : "",
                                  figure_text(all.mass_rate * 1e3 * factor), figure_text(all.seeds_per_s * factor),
-                                 outflow.window_from, outflow.window_to);
+                                 outflow.window.from, outflow.window.to);
   if (slice && outflow.depth_factor)
     text += fmt::format(": of the whole tray, {:.4g} times the slice that was simulated", factor);
   else if (slice)
@@ -196,13 +198,13 @@ std::string run_page_data(const RunPage& page) {
                      {"status", status_name(page.run.status)},
                      {"random_seed", page.run.random_seed},
                      {"end_time_s", page.run.end_time},
-                     {"window_s", {page.outflow.window_from, page.outflow.window_to}},
+                     {"window_s", {page.outflow.window.from, page.outflow.window.to}},
                      {"lots", page_lots(scene)},
                      {"vessels", page_vessels(scene)},
                      {"holes", holes(page)},
                      {"rate_unit", "seeds/s"},
                      {"hole_table", hole_table(page)},
-                     {"evenness", evenness(page.outflow.evenness)},
+                     {"unevenness", unevenness(page.outflow.unevenness)},
                      {"events", page_events(page.run)},
                      {"effects", effects(page.model)},
                      {"guard", guard_sentence(page.run, scene.guard)},

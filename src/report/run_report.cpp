@@ -208,9 +208,12 @@ JsonKeys<RunSource> run_keys() {
        "of several lots: what each fill, and rain on average, has of each by number and by mean mass, beside what was "
        "asked for",
        [](S s) { return mixture_of(s.scene); }},
-      {"outflow.window_s", "s", "begin and end of the measuring window",
+      {"outflow.window_s", "s",
+       "begin and end of the measuring window: from run.measure_from, or as much later as makes it whole periods of "
+       "the "
+       "drive",
        [](S s) {
-         return Json{s.outflow.window_from, s.outflow.window_to};
+         return Json{s.outflow.window.from, s.outflow.window.to};
        }},
       {"outflow.instability_windows", "", "parts of the window for that", [](S) { return instability_windows; }},
       {"outflow.note", "", "as in summary.csv", [](S s) { return s.outflow.note(); }},

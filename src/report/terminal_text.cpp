@@ -35,14 +35,27 @@ std::string to_digits(double value, int digits) {
   return fmt::format("{:.0f}", std::strtod(text.c_str(), nullptr));
 }
 
-std::string evenness_sentence(const Evenness& even, std::string_view between) {
-  const std::string parts =
-      fmt::format("raw CV {:.3g} %, of which counting alone {:.3g} %", 100 * even.raw_cv, 100 * even.counting_cv);
-  if (!even.cv)
-    return fmt::format("between {}: {}; so few seeds show no difference, which may be up to {:.3g} %", between, parts,
-                       100 * even.high);
-  return fmt::format("between {}: CV {:.3g} %, 95 % interval {:.3g} to {:.3g} % ({})", between, 100 * *even.cv,
-                     100 * even.low, 100 * even.high, parts);
+std::string unevenness_text(const Unevenness& of) {
+  if (!of.cv) return fmt::format("up to {} %, if any", to_digits(100 * of.high, 2));
+  return fmt::format("{} % ({} to {} %)", to_digits(100 * *of.cv, 2), to_digits(100 * of.low, 2),
+                     to_digits(100 * of.high, 2));
+}
+
+std::string unevenness_sentence(const Unevenness& of, std::string_view what) {
+  const std::string text =
+      of.cv ? fmt::format("unevenness (CV) between {}s {}", what, unevenness_text(of))
+            : fmt::format("no {} is told from the others: unevenness (CV) {}", what, unevenness_text(of));
+  return text + "; by blocks of one run, which cannot show how starts differ";
+}
+
+std::string window_sentence(const MeasuringWindow& window, double written_from) {
+  std::string text = fmt::format("measured from {:.6g} s", window.from);
+  if (window.from != written_from) text += fmt::format(" (not from {:g} s)", written_from);
+  text += fmt::format(" to {:.6g} s", window.to);
+  if (window.drive == MeasuringWindow::Drive::aperiodic)
+    return text + ": the drive is a table, of which whole periods are not known";
+  if (window.drive == MeasuringWindow::Drive::still || window.periods == 0) return text;
+  return text + fmt::format(": {} whole period{} of the drive", window.periods, window.periods == 1 ? "" : "s");
 }
 
 }  // namespace vibrosow

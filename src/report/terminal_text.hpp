@@ -3,7 +3,8 @@
 #include <string>
 #include <string_view>
 
-#include "outflow/evenness.hpp"
+#include "outflow/unevenness.hpp"
+#include "scene/measuring_window.hpp"
 
 namespace vibrosow {
 
@@ -19,7 +20,14 @@ std::string wrapped_beside(std::string_view label, std::string_view text);
 /// `value` to so many significant digits, with an exponent only beyond a million: "11110", not "1.111e+04".
 std::string to_digits(double value, int digits);
 
-/// What is known of how far holes or rows differ: "between holes: CV 12.1 %, 95 % interval 9.3 to 16 % (..)".
-std::string evenness_sentence(const Evenness& even, std::string_view between);
+/// "12 % (9.3 to 16 %)", or "up to 8 %, if any".
+std::string unevenness_text(const Unevenness& unevenness);
+
+/// The same of one run; `what`: "hole" or "row".
+std::string unevenness_sentence(const Unevenness& unevenness, std::string_view what);
+
+/// What a run is measured over, beside what was written: "measured from 1.06 s (not from 1 s) to 4 s: 27 whole periods
+/// of the drive".
+std::string window_sentence(const MeasuringWindow& window, double written_from);
 
 }  // namespace vibrosow

@@ -18,6 +18,7 @@ enum class DoubtKind {
   interrupted,
   before_the_window,  // it ended before measuring began
   few_seeds,
+  part_of_a_period,  // the window is shorter than one of the drive
   // Of the replicates of a layout together:
   clogged_replicates,
   wide_interval,

@@ -3,6 +3,7 @@
 #include <chrono>
 #include <numeric>
 
+#include "scene/measuring_window.hpp"
 #include "simulation/simulation.hpp"
 
 namespace vibrosow {
@@ -37,7 +38,7 @@ Run run_to_end(Simulation& simulation, const SimulationOptions& options) {
     recorded = snapshots;
   };
   look_at_records();
-  const double measure_from = model.scene.run.measure_from;
+  const double measure_from = measuring_window(model.scene).from;
   bool interrupted = false;
   Clock::time_point measuring = Clock::now();
   std::int64_t steps = 0, grain_steps = 0;  // since the last look

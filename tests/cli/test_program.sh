@@ -374,7 +374,7 @@ expect 0 "Clogging is not tested" decide noisy.toml "${decide[@]}" --procedure p
 expect 0 "No layout meets the rate" decide noisy.toml "${decide[@]}" --rate "1 seeds/s +- 5 %" --out no-rate --reuse decided
 expect 0 "Drafts: .*pilot" decide noisy.toml "${decide[@]}" --set contact.shell_compression=1e-4 --drafts --out with-drafts
 expect 2 "as soft as drafts" decide noisy.toml "${decide[@]}" --drafts --out not-there
-expect 2 "none of evenness, instability" decide noisy.toml --goal evennes --out not-there
+expect 2 "none of unevenness, instability" decide noisy.toml --goal unevennes --out not-there
 expect 2 "says not how far" decide noisy.toml --goal rate --rate "43 seeds/s" --out not-there
 expect 2 "plane without tray.depth" decide study.toml --goal rate --rate "43 seeds/s +- 5 %" --out not-there
 expect 2 "within: \"60 %\" is out of range" decide noisy.toml --goal rate --within "60 %" --out not-there
@@ -415,7 +415,7 @@ sleep 0.3
 expect 0 "decide killed-front/front.toml" optimise space.toml "${optimise[@]}" --jobs 2 --out killed-front
 cmp -s front/pareto.csv killed-front/pareto.csv || fail "a killed search goes on to another front, or depends on the number of jobs"
 expect 0 "layout" sweep front/front.toml --reuse front --set replicates=2 --out swept-front
-expect 2 "none of evenness, instability" optimise space.toml --goals evennes --out no-front
+expect 2 "none of unevenness, instability" optimise space.toml --goals unevennes --out no-front
 expect 2 "rate_error needs the rate" optimise space.toml --goals rate_error,power --out no-front
 expect 2 "no \[vary\]" optimise study-of-one.toml --goals rate,power --out no-front
 expect 2 "do not take" optimise space.toml --goals frequency_sensitivity,power --runs 8 --out no-front

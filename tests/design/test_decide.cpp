@@ -149,7 +149,7 @@ TEST(Decide, FailuresInvalidAndEqualLayoutsAreSaid) {
   const Study study = read_study(files.study(
       "[vary]\ntray.holes.count = [1, 3]\ntray.holes.width = [\"10 mm\", \"14 mm\", \"16 mm\", \"60 cm\"]\n"));
   DecideOptions options = most_flow();
-  options.goal = &goal_named("evenness");
+  options.goal = &goal_named("unevenness");
   const Simulator stopped = [](const Model& model, const SimulationOptions& simulation) {
     vibrosow::Run run = noisy_run(model, simulation);
     run.events.erase(run.events.begin(), run.events.begin() + static_cast<std::ptrdiff_t>(simulation.random_seed % 5));
@@ -158,7 +158,7 @@ TEST(Decide, FailuresInvalidAndEqualLayoutsAreSaid) {
   };
   StudyDecision decision(study, options);
   const std::string csv = decision_csv(lead(decision, stopped));
-  EXPECT_THAT(csv, HasSubstr("\n1,,failed,random seed 1: one hole has no evenness,"));
+  EXPECT_THAT(csv, HasSubstr("\n1,,failed,random seed 1: one hole has no unevenness,"));
   EXPECT_THAT(csv, HasSubstr("\n7,,failed,random seed 1: too deep,"));
   EXPECT_THAT(csv, HasSubstr("\n8,,invalid,"));
 }

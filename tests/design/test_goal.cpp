@@ -25,11 +25,12 @@ TEST(Goal, MostIsTurnedRound) {
   EXPECT_DOUBLE_EQ(goal_named("rate").of(outflow).value(), -0.002);
   EXPECT_DOUBLE_EQ(goal_named("pause").of(outflow).value(), 0.3);
   EXPECT_DOUBLE_EQ(goal_named("spilled").of(outflow).value(), 0.1);
-  EXPECT_FALSE(goal_named("evenness").of(outflow));
+  EXPECT_FALSE(goal_named("unevenness").of(outflow));
+  EXPECT_EQ(&goal_named("evenness"), &goal_named("unevenness")) << "its old name";
 }
 
 TEST(Goal, UnknownNameIsToldWithTheList) {
-  EXPECT_THAT([] { goal_named("evennes"); }, ThrowsMessage<InputError>(HasSubstr("evenness, instability, pause")));
+  EXPECT_THAT([] { goal_named("unevennes"); }, ThrowsMessage<InputError>(HasSubstr("unevenness, instability, pause")));
 }
 
 TEST(WantedRate, ReadsSeedsAndMass) {

@@ -214,8 +214,8 @@ TEST_F(Optimise, PowerIsOfHarmonicMotion) {
 }
 
 TEST_F(Optimise, RefusesWhatItCannotDo) {
-  EXPECT_THAT([&] { read_front_goals({"evennes"}); },
-              ThrowsMessage<InputError>(HasSubstr("did you mean \"evenness\"")));
+  EXPECT_THAT([&] { read_front_goals({"unevennes"}); },
+              ThrowsMessage<InputError>(HasSubstr("did you mean \"unevenness\"")));
   EXPECT_THAT([&] { read_front_goals({"power", "power"}); }, ThrowsMessage<InputError>(HasSubstr("twice")));
   EXPECT_THAT([&] { StudyOptimisation(space(), options({"rate_error"})); },
               ThrowsMessage<InputError>(HasSubstr("--rate")));

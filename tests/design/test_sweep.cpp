@@ -259,8 +259,9 @@ TEST(SweepReport, ColumnsAreTheDocumentedOnes) {
   EXPECT_EQ(csv.substr(0, csv.find('\n')),
             "layout,name,status,reason,tray.holes.span_mm,replicates,rate_g_per_s,rate_g_per_s_ci95,seeds_per_s,"
             "seeds_per_s_ci95,depth_factor,tray_rate_g_per_s,tray_rate_g_per_s_ci95,tray_rate_g_per_min,"
-            "tray_rate_g_per_min_ci95,tray_seeds_per_s,tray_seeds_per_s_ci95,raw_cv_percent,counting_cv_percent,"
-            "evenness_cv_percent,evenness_cv_percent_low,evenness_cv_percent_high,instability_cv_percent,"
+            "tray_rate_g_per_min_ci95,tray_seeds_per_s,tray_seeds_per_s_ci95,raw_cv_percent,run_cv_percent,"
+            "run_cv_percent_ci95,chance_cv_percent,unevenness_cv_percent,unevenness_cv_percent_low,"
+            "unevenness_cv_percent_high,instability_cv_percent,"
             "instability_cv_percent_ci95,longest_pause_s,longest_pause_s_ci95,spilled_percent,spilled_percent_ci95,"
             "misfit_percent,misfit_percent_ci95");
 }

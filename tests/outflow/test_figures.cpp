@@ -58,19 +58,23 @@ FigureMeans means_of_splits(int first_of_one, int first_of_other) {
   return FigureMeans({&first, &second});
 }
 
-TEST(Figures, OfEvennessAreOfTheSeedsOfAllReplicates) {
+TEST(Figures, OfUnevennessAreOfTheSeedsOfAllReplicates) {
   const FigureMeans means = means_of_splits(100, 104);
   EXPECT_NEAR(means["raw_cv_percent"]->mean, std::sqrt(2.0) * 96 / 300, 1e-12);  // 204 and 396
   EXPECT_FALSE(means["raw_cv_percent"]->half_width_95);
-  ASSERT_TRUE(means["evenness_cv_percent"]);
-  EXPECT_LT(means["evenness_cv_percent_low"]->mean, means["evenness_cv_percent"]->mean);
+  // One run 100 and 200, the other 104 and 196.
+  EXPECT_NEAR(means["run_cv_percent"]->mean, std::sqrt(2.0) * (100.0 + 92) / 2 / 300, 1e-12);
+  EXPECT_TRUE(means["run_cv_percent"]->half_width_95);
+  ASSERT_TRUE(means["unevenness_cv_percent"]);
+  EXPECT_FALSE(means["unevenness_cv_percent"]->half_width_95);
+  EXPECT_LT(means["unevenness_cv_percent_low"]->mean, means["unevenness_cv_percent"]->mean);
 }
 
 TEST(Figures, UnevennessThatReplicatesDoNotShareHasNoValue) {
   const FigureMeans means = means_of_splits(100, 120);
   EXPECT_NEAR(means["raw_cv_percent"]->mean, std::sqrt(2.0) * 80 / 300, 1e-12);  // 220 and 380
-  EXPECT_FALSE(means["evenness_cv_percent"]);
-  EXPECT_EQ(means["evenness_cv_percent_low"]->mean, 0);
+  EXPECT_FALSE(means["unevenness_cv_percent"]);
+  EXPECT_EQ(means["unevenness_cv_percent_low"]->mean, 0);
 }
 
 }  // namespace

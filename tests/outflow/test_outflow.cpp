@@ -101,7 +101,7 @@ TEST(Window, EndsWithARunThatEndsEarly) {
   run.end_time = 6;
   add_grain(run, 3, 1);
   const Outflow outflow = measure_outflow(scene, run);
-  EXPECT_DOUBLE_EQ(outflow.window_to, 6);
+  EXPECT_DOUBLE_EQ(outflow.window.to, 6);
   EXPECT_DOUBLE_EQ(outflow.holes[0].seeds_per_s, 0.25);
   EXPECT_EQ(outflow.note(), "stopped: relative overlap 0.6; a rate from 1 seed");
 }
@@ -115,7 +115,7 @@ TEST(Window, NeverReachedGivesNoRate) {
   const Outflow outflow = measure_outflow(scene, run);
   EXPECT_TRUE(std::isnan(outflow.holes[0].mass_rate));
   EXPECT_TRUE(std::isnan(outflow.holes[0].longest_pause));
-  EXPECT_FALSE(outflow.evenness);
+  EXPECT_FALSE(outflow.unevenness);
   EXPECT_FALSE(outflow.instability_cv);
   EXPECT_EQ(outflow.note(), "interrupted; ended before the measuring window");
 }
@@ -172,16 +172,41 @@ TEST(Note, SaysClogsLossesFewSeedsAndAFeederThatFellBehind) {
   EXPECT_NE(outflow.note().find("60 of 200 seeds missing"), std::string::npos);
 }
 
-TEST(Evenness, OfARunUsesItsWindowAndHoles) {
+TEST(Unevenness, OfARunIsOfFiveBlocksOfItsWindow) {
   const Scene scene = made_up_scene(2);
   vibrosow::Run run = made_up_run(scene);
   for (int i = 0; i < 500; ++i) add_grain(run, 1, 2);  // before the window
-  for (int i = 0; i < 100; ++i) add_grain(run, 3, 1);
-  for (int i = 0; i < 300; ++i) add_grain(run, 3, 2);
+  std::vector<std::vector<std::int64_t>> blocks;
+  for (int k = 0; k < 5; ++k) {
+    blocks.push_back({20 + k % 2, 60});
+    for (int hole = 0; hole < 2; ++hole)
+      for (int i = 0; i < blocks.back()[static_cast<std::size_t>(hole)]; ++i) add_grain(run, 2.1 + 1.6 * k, hole + 1);
+  }
   const Outflow outflow = measure_outflow(scene, run);
-  // sample variance 2 * 100^2, mean 200
-  EXPECT_NEAR(*outflow.evenness->cv, std::sqrt(20000.0 / 40000 - 1.0 / 200), 1e-6);
-  EXPECT_NEAR(outflow.evenness->counting_cv, std::sqrt(1.0 / 200), 1e-12);
+  EXPECT_EQ(outflow.grains_of_hole_in_block, blocks);
+  EXPECT_NEAR(*outflow.raw_cv, std::sqrt(2.0) * 99 / 201, 1e-12);
+  const auto expected = unevenness(blocks);
+  EXPECT_EQ(*outflow.unevenness->cv, *expected->cv);
+  EXPECT_EQ(outflow.unevenness->high, expected->high);
+}
+
+TEST(CountsInBlocks, TakeTheLaterBlockAtAnEnd) {
+  const std::vector<double> ends = {1, 2, 3};
+  EXPECT_EQ(counts_in_blocks({0.9, 1, 1.5, 2, 3, 3.1}, ends), (std::vector<std::int64_t>{2, 2}));
+  EXPECT_TRUE(counts_in_blocks({1}, {}).empty());
+}
+
+TEST(Window, OfAShakenTrayIsWholePeriods) {
+  Scene scene = made_up_scene(1);  // measured from 2 to 10 s
+  scene.tray.motion = HarmonicMotion{.amplitude = 0.01, .frequency = 0.3};
+  vibrosow::Run run = made_up_run(scene);
+  for (int i = 0; i < 100; ++i) add_grain(run, 2.05 + 0.079 * i, 1);
+  const Outflow outflow = measure_outflow(scene, run);
+  EXPECT_DOUBLE_EQ(outflow.window.from, 10 - 2 / 0.3);
+  EXPECT_NEAR(outflow.holes[0].seeds_per_s, 1 / 0.079, 0.3);
+  EXPECT_EQ(outflow.note(), "");
+  std::get<HarmonicMotion>(*scene.tray.motion).frequency = 0.1;
+  EXPECT_EQ(measure_outflow(scene, run).note(), "measured over 8 s, a part of one period of the drive, 10 s");
 }
 
 TEST(Instability, IsTheCvOverTenEqualWindows) {

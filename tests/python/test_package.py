@@ -38,6 +38,7 @@ replicates = 2
 [set]
 run.duration = "0.12 s"
 run.measure_from = "0.05 s"
+tray.motion.frequency = "20 Hz"
 [[layout]]
 name = "one; \\"two\\", three"
 tray.holes.count = 3
@@ -94,8 +95,8 @@ def made_run(folder, seeds, **info):
 def made_study(folder, rows):
     """A study's folder of these (status, rate, its half width, evenness, low, high)."""
     folder.mkdir()
-    header = ("layout,name,status,reason,tray.holes.count,replicates,rate_g_per_s,rate_g_per_s_ci95,depth_factor,evenness_cv_percent,"
-              "evenness_cv_percent_low,evenness_cv_percent_high")
+    header = ("layout,name,status,reason,tray.holes.count,replicates,rate_g_per_s,rate_g_per_s_ci95,depth_factor,unevenness_cv_percent,"
+              "unevenness_cv_percent_low,unevenness_cv_percent_high")
     write_table(folder / "sweep.csv", header, *([number, "", status, "", number, 4 if rate != "" else 0, rate, half, 1, *evenness]
                                                 for number, (status, rate, half, *evenness) in enumerate(rows, 1)))
     for name in ("sweep_holes.csv", "sweep_runs.csv"):
@@ -430,17 +431,17 @@ class Best(Case):
     def test_uneven_intervals(self):
         study = made_study(self.folder / "made", [  # from the smallest, 0 to 3: by 4 downwards and 3 upwards, 5
             ("ok", 1, 1, "", 0, 3), ("ok", 1, 1, 4.9, 0.9, 9), ("ok", 1, 1, 5.1, 1.1, 50), ("ok", 1, 1, "", "", "")])
-        self.assertEqual(list(study.best("evenness_cv_percent", least=True).layout), [1, 2])
-        self.assertTrue(math.isnan(study.intervals("evenness_cv_percent").value[1]))
+        self.assertEqual(list(study.best("unevenness_cv_percent", least=True).layout), [1, 2])
+        self.assertTrue(math.isnan(study.intervals("unevenness_cv_percent").value[1]))
 
     def test_columns_without_intervals_are_refused(self):
         study = made_study(self.folder / "made", [("ok", 1, 1, "", "", "")])
         with self.assertRaisesRegex(ValueError, "'raw_cv_percent' has no interval; those that have: rate_g_per_s"):
             study.best("raw_cv_percent")
-        with self.assertRaisesRegex(vibrosow.VibrosowError, "no layout that can be compared has evenness_cv_percent"):
-            study.best("evenness_cv_percent")
-        with self.assertRaisesRegex(vibrosow.VibrosowError, "no layout has evenness_cv_percent"):
-            study.plot_rates(figure="evenness_cv_percent")
+        with self.assertRaisesRegex(vibrosow.VibrosowError, "no layout that can be compared has unevenness_cv_percent"):
+            study.best("unevenness_cv_percent")
+        with self.assertRaisesRegex(vibrosow.VibrosowError, "no layout has unevenness_cv_percent"):
+            study.plot_rates(figure="unevenness_cv_percent")
 
 
 class Plots(Case):

@@ -8,7 +8,7 @@ namespace {
 using testing::ElementsAre;
 using testing::HasSubstr;
 
-/// Layout 1 is on the front of pause and power, layout 2 may be.
+/// Layout 1 is on the front of longest pause and power, layout 2 may be.
 class FrontPage : public testing::Test {
  protected:
   FrontPage() {
@@ -34,11 +34,11 @@ class FrontPage : public testing::Test {
 };
 
 TEST_F(FrontPage, SaysHowManyAreOnTheFront) {
-  EXPECT_EQ(headline(), "1 layout is on the front of pause and power, of 3 that were tried; 1 more may be.");
+  EXPECT_EQ(headline(), "1 layout is on the front of longest pause and power, of 3 that were tried; 1 more may be.");
   result_.layouts[1].standing = FrontStanding::dominated;
-  EXPECT_EQ(headline(), "1 layout is on the front of pause and power, of 3 that were tried.");
+  EXPECT_EQ(headline(), "1 layout is on the front of longest pause and power, of 3 that were tried.");
   result_.layouts[0].standing = FrontStanding::may_be_on_front;
-  EXPECT_EQ(headline(), "1 layout may be on the front of pause and power, of 3 that were tried; none is shown to be.");
+  EXPECT_EQ(headline(), "1 layout may be on the front of longest pause and power, of 3 that were tried; none is shown to be.");
   result_.layouts[0].standing = FrontStanding::clogs;
   EXPECT_EQ(headline(), "No layout of 3 that were tried is known to meet the constraints.");
 }

@@ -48,10 +48,10 @@ Json run() {
 }
 
 Json front() {
-  Json one = layout(1, "", {{"power_W_per_kg", mean(3, 1)}, {"evenness_cv_percent", mean(8, 2)}}), other = one;
+  Json one = layout(1, "", {{"power_W_per_kg", mean(3, 1)}, {"unevenness_cv_percent", mean(8, 2)}}), other = one;
   one["standing"] = "on the front", one["first_by_means"] = true;
   other["number"] = 2, other["standing"] = "dominated", other["first_by_means"] = false;
-  Json power = figure("power_W_per_kg", "W/kg"), evenness = figure("evenness_cv_percent", "%");
+  Json power = figure("power_W_per_kg", "W/kg"), evenness = figure("unevenness_cv_percent", "%");
   power["goal"] = evenness["goal"] = true;
   power["wanted"] = "low";
   return {{"kind", "front"},
@@ -138,7 +138,7 @@ TEST(PageCharts, ALongRankingSaysHowMuchOfItIsShown) {
 
 TEST(PageCharts, AFrontHasTheIntervalsOfThoseThatLead) {
   const Chart chart = page_chart(front(), "front");
-  EXPECT_EQ(chart.y.title, "evenness CV, %");
+  EXPECT_EQ(chart.y.title, "unevenness CV, %");
   ASSERT_EQ(chart.series.size(), 2U);
   EXPECT_EQ(chart.series[0].points[0].label, "1");
   EXPECT_EQ(chart.series[0].points[0].of_y->high, 10);

@@ -158,7 +158,7 @@ export function madeUpRun(space, names = {}) {
       columns: [{ name: 'hole', unit: '' }, { name: 'lot', unit: '' }, { name: 'grains', unit: '' }, { name: 'rate', unit: '1/s' }, { name: 'longest pause', unit: 's' }, { name: 'note', unit: '' }],
       rows: holes.map((hole) => [String(hole.hole), names.lots ? lots[0] : 'all', String(hole.counted), hole.rate.toPrecision(4), hole.longest_pause_s.toPrecision(3), '']),
     },
-    evenness: { sentence: 'The holes differ by no more than chance lets them.' },
+    unevenness: { sentence: 'The holes differ by no more than chance lets them.' },
     events: { time_s: events.map((event) => event.time), hole: events.map((event) => event.hole), lot: events.map((event) => event.lot) },
     effects: [{ name: 'friction', present: true, why: 'seeds and walls rub' }, { name: 'damping', present: true, why: 'impacts lose energy' }, { name: 'air', present: false, why: 'the drag on a seed is a hundredth of its weight' }],
     guard: 'The guard watched energy and overlap and found nothing.',

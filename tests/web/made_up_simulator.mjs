@@ -113,7 +113,7 @@ class Simulator {
     const mean = total / holes.length;
     const cv = 100 * Math.sqrt(holes.reduce((sum, hole) => sum + (hole.seeds_per_s - mean) ** 2, 0) / Math.max(1, holes.length - 1)) / mean;
     return {
-      status, end_time_s: this.time, holes, total_seeds_per_s: total, evenness: span > 0 ? { sentence: 'the holes differ by more than chance', cv_percent: cv } : null,
+      status, end_time_s: this.time, holes, total_seeds_per_s: total, unevenness: span > 0 ? { sentence: 'the holes differ by more than chance', cv_percent: cv } : null,
       guard: 'the deepest contact pressed a grain by 0.3 % of its radius (warned from 5 %)', remarks: [],
     };
   }

@@ -8,9 +8,9 @@ const half = 6;                               // mm, of a hole
 const figures = [
   ['rate_g_per_s', 'g/s', 'g/s', 'mass flow through all holes, in the window', true],
   ['seeds_per_s', 'seeds/s', '1/s', 'seeds through all holes, in the window', true],
-  ['evenness_cv_percent', 'evenness CV %', '%', "coefficient of variation of the holes' rates, chance taken out", false],
-  ['evenness_cv_percent_low', 'low', '%', 'lower end of its 95 % interval', false],
-  ['evenness_cv_percent_high', 'high', '%', 'upper end', false],
+  ['unevenness_cv_percent', 'unevenness CV %', '%', "coefficient of variation of the holes' rates, chance taken out", false],
+  ['unevenness_cv_percent_low', 'low', '%', 'lower end of its 95 % interval', false],
+  ['unevenness_cv_percent_high', 'high', '%', 'upper end', false],
   ['longest_pause_s', 'pause s', 's', 'longest time in the window in which no seed came from any hole', true],
 ].map(([name, heading, unit, description, has_interval]) => ({ name, heading, unit, description, has_interval }));
 
@@ -42,8 +42,8 @@ function layoutOf(number, inSpace, name) {
   const cv = number % 6 === 0 ? null : 2 + ((number * 13) % 17);
   const ran = status !== 'invalid';
   const values = {
-    rate_g_per_s: mean(rate, noise), seeds_per_s: mean(30 * rate, 30 * noise), evenness_cv_percent: cv === null ? null : mean(cv),
-    evenness_cv_percent_low: mean(cv === null ? 0 : 0.7 * cv), evenness_cv_percent_high: mean(cv === null ? 5 : 1.5 * cv), longest_pause_s: mean(0.3 / count, 0.02),
+    rate_g_per_s: mean(rate, noise), seeds_per_s: mean(30 * rate, 30 * noise), unevenness_cv_percent: cv === null ? null : mean(cv),
+    unevenness_cv_percent_low: mean(cv === null ? 0 : 0.7 * cv), unevenness_cv_percent_high: mean(cv === null ? 5 : 1.5 * cv), longest_pause_s: mean(0.3 / count, 0.02),
   };
   return {
     number, name, values: [String(count), String(frequency), String((100 * tilt).toFixed(0))], status, note, replicates: ran ? 5 : 0,

@@ -351,10 +351,10 @@ describe('the course', () => {
   });
 });
 
-test('two layouts are compared by rate and evenness', () => {
+test('two layouts are compared by rate and unevenness', () => {
   const outcome = (rates, cv) => ({
     holes: rates.map((rate, k) => ({ hole: k + 1, seeds_per_s: rate, low: rate - 2, high: rate + 2 })), total_seeds_per_s: rates.reduce((sum, rate) => sum + rate, 0),
-    evenness: { sentence: '', cv_percent: cv },
+    unevenness: { sentence: '', cv_percent: cv },
   });
   const { columns, rows } = comparisonOf(outcome([10, 20], 33.3), outcome([15, 20.5, 5], 5));
   assert.deepEqual(columns, ['hole 1', 'hole 2', 'hole 3', 'all holes', 'CV']);

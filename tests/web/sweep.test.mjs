@@ -50,7 +50,7 @@ test('least first, and another figure', async () => {
   await page.getByRole('radio', { name: 'Least first' }).check();
   const least = plane.data.layouts.filter(({ status }) => status === 'ok').reduce((a, b) => (b.means.rate_g_per_s.mean < a.means.rate_g_per_s.mean ? b : a));
   assert.equal((await numbersIn(page, '#ranking .ranks button'))[0], least.number);
-  await page.getByRole('combobox', { name: 'Figure', exact: true }).selectOption('evenness CV, %');
+  await page.getByRole('combobox', { name: 'Figure', exact: true }).selectOption('unevenness CV, %');
   assert.equal(await page.getByRole('radio', { name: 'Least first' }).isChecked(), true);
   assert.match(await page.locator('#ranking .ranks button').first().textContent(), /below 5/);
   await page.getByRole('combobox', { name: 'Figure', exact: true }).selectOption('rate, g/s');
@@ -110,7 +110,7 @@ test('figures come into the table and leave it', async () => {
 
 test('the points of two figures: the mouse and the keyboard choose', async () => {
   assert.equal(await page.locator('#trade circle[role]').count(), 39);
-  assert.match(await page.locator('#trade-sentence').textContent(), /^For a high rate and a low evenness CV, no layout beats .*1 layout has no value/);
+  assert.match(await page.locator('#trade-sentence').textContent(), /^For a high rate and a low unevenness CV, no layout beats .*1 layout has no value/);
   const point = page.locator('#trade circle[data-layout="11"]');
   await point.scrollIntoViewIfNeeded();
   const box = await point.boundingBox();

@@ -20,8 +20,8 @@ function toldOf(layouts, leastFirst = false) {
 }
 
 test('words of keys and figures', () => {
-  assert.deepEqual(['tray.holes.span_mm', 'tray.motion.frequency_Hz', 'tray.holes.count', 'evenness_cv_percent', 'tray_rate_g_per_min', 'lots.mass_g'].map(wordsOf), [
-    { words: 'span', unit: 'mm' }, { words: 'frequency', unit: 'Hz' }, { words: 'count', unit: '' }, { words: 'evenness CV', unit: '%' },
+  assert.deepEqual(['tray.holes.span_mm', 'tray.motion.frequency_Hz', 'tray.holes.count', 'unevenness_cv_percent', 'tray_rate_g_per_min', 'lots.mass_g'].map(wordsOf), [
+    { words: 'span', unit: 'mm' }, { words: 'frequency', unit: 'Hz' }, { words: 'count', unit: '' }, { words: 'unevenness CV', unit: '%' },
     { words: 'tray rate', unit: 'g/min' }, { words: 'mass', unit: 'g' }]);
   assert.deepEqual(keyWords(['tray.length_mm', 'hopper.length_mm', 'tray.tilt_degree']).map(({ words }) => words), ['tray length', 'hopper length', 'tilt']);
   const data = { keys: ['tray.holes.count', 'tray.length_mm', 'tray.tilt_degree'] };
@@ -30,16 +30,16 @@ test('words of keys and figures', () => {
 });
 
 test("a pooled figure's interval comes from its ends; what is not resolved lies below its upper one", () => {
-  const data = { layouts: [], figures: ['evenness_cv_percent', 'evenness_cv_percent_low', 'evenness_cv_percent_high', 'rate_g_per_s'].map((name) => ({ name, unit: '%' })) };
+  const data = { layouts: [], figures: ['unevenness_cv_percent', 'unevenness_cv_percent_low', 'unevenness_cv_percent_high', 'rate_g_per_s'].map((name) => ({ name, unit: '%' })) };
   const figures = figuresOf(data);
-  assert.deepEqual(figures.map(({ name }) => name), ['evenness_cv_percent', 'rate_g_per_s']);
-  const means = (value, low, high) => ({ means: { evenness_cv_percent: value === null ? null : { mean: value }, evenness_cv_percent_low: { mean: low }, evenness_cv_percent_high: { mean: high } } });
+  assert.deepEqual(figures.map(({ name }) => name), ['unevenness_cv_percent', 'rate_g_per_s']);
+  const means = (value, low, high) => ({ means: { unevenness_cv_percent: value === null ? null : { mean: value }, unevenness_cv_percent_low: { mean: low }, unevenness_cv_percent_high: { mean: high } } });
   assert.equal(textOf(valueOf(means(12, 9, 15), figures[0])), '12 (9 to 15)');
   assert.equal(textOf(valueOf(means(null, 0, 4.2), figures[0])), 'below 4.2');
   assert.equal(valueOf({ means: {} }, figures[0]), null);
   assert.equal(textOf(null), '–');
-  const ends = { layouts: [], figures: data.figures.filter(({ name }) => name !== 'evenness_cv_percent') };
-  assert.deepEqual(figuresOf(ends).map(({ name, with_ends }) => [name, with_ends]), [['evenness_cv_percent', true], ['rate_g_per_s', false]]);
+  const ends = { layouts: [], figures: data.figures.filter(({ name }) => name !== 'unevenness_cv_percent') };
+  assert.deepEqual(figuresOf(ends).map(({ name, with_ends }) => [name, with_ends]), [['unevenness_cv_percent', true], ['rate_g_per_s', false]]);
 });
 
 test('layouts in order, and which overlap the first', () => {

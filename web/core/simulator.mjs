@@ -26,11 +26,11 @@ export function hasSimulator() {
 
 /** What a studio shows of an outcome, from what a run's page says of the run. */
 function figuresOf(said) {
-  const { status, end_time_s, guard, remarks, evenness } = said;
+  const { status, end_time_s, guard, remarks, unevenness } = said;
   const holes = said.holes.map(({ hole, counted, counted_all, rate, rate_low, rate_high, longest_pause_s }) => (
     { hole, counted, counted_all, seeds_per_s: rate, low: rate_low, high: rate_high, longest_pause_s }));
   const known = holes.every(({ seeds_per_s }) => seeds_per_s !== null);
-  return { status, end_time_s, guard, remarks, evenness, holes, total_seeds_per_s: known ? holes.reduce((sum, { seeds_per_s }) => sum + seeds_per_s, 0) : null, said };
+  return { status, end_time_s, guard, remarks, unevenness, holes, total_seeds_per_s: known ? holes.reduce((sum, { seeds_per_s }) => sum + seeds_per_s, 0) : null, said };
 }
 
 class Simulator {

@@ -3,7 +3,7 @@ import { element, section } from './dom.mjs';
 import { textOf, titleOf, valueOf } from './layout_figures.mjs';
 import { keyWords } from './layout_words.mjs';
 
-const shownAtFirst = ['rate_g_per_s', 'evenness_cv_percent', 'instability_cv_percent', 'longest_pause_s', 'spilled_percent', 'misfit_percent'];
+const shownAtFirst = ['rate_g_per_s', 'unevenness_cv_percent', 'instability_cv_percent', 'longest_pause_s', 'spilled_percent', 'misfit_percent'];
 
 function asNumber(text) {
   return text !== '' && Number.isFinite(Number(text)) ? Number(text) : text;

@@ -5,7 +5,7 @@ const empty = { program: {}, title: '', space: 'plane', headline: '' };
 const emptyOf = {
   run: {
     kind: 'run', remarks: [], status: 'finished', end_time_s: 0, window_s: null, lots: [], vessels: [], holes: [], rate_unit: 'seeds/s',
-    hole_table: { columns: [], rows: [] }, evenness: null, events: { time_s: [], hole: [], lot: [] }, effects: [], guard: '', settings: [],
+    hole_table: { columns: [], rows: [] }, unevenness: null, events: { time_s: [], hole: [], lot: [] }, effects: [], guard: '', settings: [],
     drill: null, scene: {},
   },
   sweep: { doubts: [], keys: [], figures: [], layouts: [] },

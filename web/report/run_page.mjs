@@ -1,6 +1,6 @@
 // The page of a run, part by part.
 import { effectsSection, guardSection, settingsSection } from './account.mjs';
-import { evennessSection, rowsSection } from './evenness.mjs';
+import { unevennessSection, rowsSection } from './unevenness.mjs';
 import { outflowSection } from './outflow.mjs';
 import { mapsSection } from './maps.mjs';
 import { bytesOfBase64 } from './page_data.mjs';
@@ -25,7 +25,7 @@ async function sections(data) {
   const player = recording ? new Player(recording.times) : null;
   player?.showTime(data.window_s[0]);
   return [
-    replaySection(data, recording, player, problem), outflowSection(data, player), mapsSection(data, map), evennessSection(data), rowsSection(data),
+    replaySection(data, recording, player, problem), outflowSection(data, player), mapsSection(data, map), unevennessSection(data), rowsSection(data),
     effectsSection(data), guardSection(data), rerunSection(data), settingsSection(data),
   ].filter(Boolean);
 }

@@ -132,6 +132,6 @@ export function scatterSection(data, figures, chosen) {
   const named = (name) => figures.find((figure) => figure.name === name);
   const has = (figure) => figure && pointsOf(data.layouts, figure, figure).length > 1;
   const across = [named('rate_g_per_s'), figures[0]].find(Boolean);
-  const up = ['evenness_cv_percent', 'raw_cv_percent', 'instability_cv_percent'].map(named).find(has) ?? figures.find((figure) => figure !== across);
+  const up = ['unevenness_cv_percent', 'raw_cv_percent', 'instability_cv_percent'].map(named).find(has) ?? figures.find((figure) => figure !== across);
   return scatterOf('One figure against another', data, figures, [across, up], chosen, plainLook);
 }

@@ -12,7 +12,7 @@ function totalOf(outcome) {
 }
 
 function cvOf(outcome) {
-  return Number.isFinite(outcome?.evenness?.cv_percent) ? { value: outcome.evenness.cv_percent } : null;
+  return Number.isFinite(outcome?.unevenness?.cv_percent) ? { value: outcome.unevenness.cv_percent } : null;
 }
 
 // The difference of two rates, and whether their intervals lie apart.

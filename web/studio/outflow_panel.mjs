@@ -1,4 +1,4 @@
-// What the holes have let out so far: rates with their intervals, evenness, guard, doubts.
+// What the holes have let out so far: rates with their intervals, unevenness, guard, doubts.
 import { element } from '../report/dom.mjs';
 import { number, sentence } from '../report/format.mjs';
 import { intervalTrack, scaleOf, trackAxis } from '../report/interval_track.mjs';
@@ -74,7 +74,7 @@ export class OutflowPanel {
     const rates = this.rates = measured(state);
     this.figures.replaceChildren(...[
       rates && prepared.holes ? figure('All holes', `${number(rates.total_seeds_per_s)} seeds/s`) : null,
-      rates?.evenness ? figure('Evenness', cvText(rates.evenness), sentence(rates.evenness.sentence)) : null,
+      rates?.unevenness ? figure('Unevenness (CV)', cvText(rates.unevenness), sentence(rates.unevenness.sentence)) : null,
       outcome?.guard ? figure('Guard', '', sentence(outcome.guard)) : null,
     ].filter(Boolean));
     const doubts = [endings[outcome?.status], ...new Set([...prepared.remarks, ...(outcome?.remarks ?? [])])].filter(Boolean);

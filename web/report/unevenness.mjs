@@ -10,17 +10,17 @@ function meanOf(bars) {
 
 function barSection(id, title, bars, unit, bar, said) {
   const mean = meanOf(bars);
-  const whiskers = bars.some((one) => typeof one.low === 'number') ? 'Whiskers: 95 % intervals, by counting alone. ' : '';
+  const whiskers = bars.some((one) => typeof one.low === 'number') ? 'Whiskers: 95 % intervals, by blocks of the run. ' : '';
   const chart = intervalBars(`${title}: ${bars.map((one) => `${bar} ${one.label} ${number(one.value)}`).join(', ')} ${unit}`, bars, unit, bar, mean);
   return section(id, title, element('figure', { class: 'card' }, chart.frame,
     element('figcaption', {}, said ? `${sentence(said)} ` : '', element('span', { class: 'muted' }, `${whiskers}Dashed: the mean, ${number(mean)} ${unit}.`))));
 }
 
-/** null where the data say nothing of evenness. */
-export function evennessSection(data) {
-  if (!data.evenness || data.holes.length === 0) return null;
+/** null where the data say nothing of unevenness. */
+export function unevennessSection(data) {
+  if (!data.unevenness || data.holes.length === 0) return null;
   const bars = data.holes.map((hole) => ({ label: String(hole.hole), value: hole.rate, low: hole.rate_low, high: hole.rate_high }));
-  return barSection('evenness', 'Evenness', bars, data.rate_unit, 'hole', data.evenness.sentence);
+  return barSection('unevenness', 'Unevenness', bars, data.rate_unit, 'hole', data.unevenness.sentence);
 }
 
 /** null of a run without a drill. */
