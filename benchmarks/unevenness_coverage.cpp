@@ -37,8 +37,8 @@ std::vector<std::vector<std::int64_t>> counts_of(const Cell& cell, std::mt19937_
     const double mean = of_part * (1 + swing * normal(random));
     std::vector<std::int64_t>& of_holes = counts.emplace_back();
     for (int hole = 0; hole < cell.holes; ++hole) {
-      const double drawn = mean * (1 + cell.cv * (hole - middle) / spread) +
-                           std::sqrt(cell.dispersion * of_part) * normal(random);
+      const double drawn =
+          mean * (1 + cell.cv * (hole - middle) / spread) + std::sqrt(cell.dispersion * of_part) * normal(random);
       of_holes.push_back(std::max<std::int64_t>(0, std::llround(drawn)));
     }
   }

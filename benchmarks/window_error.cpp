@@ -1,5 +1,5 @@
 // What windows as they were written say of the kept runs of a sweep, beside windows of whole periods: CSV.
-// Usage: window_error STUDY FOLDER
+// Usage: window_error FOLDER
 
 #include <fmt/format.h>
 
@@ -12,22 +12,21 @@
 #include "scene/measuring_window.hpp"
 #include "storage/case_file.hpp"
 #include "storage/case_folder.hpp"
+#include "storage/study_plan.hpp"
 
 namespace {
 
 using namespace vibrosow;
 
 double rate(const Run& run, double from, double to) {
-  const auto counted = std::ranges::count_if(run.events, [&](const OutflowEvent& event) {
-    return event.hole > 0 && event.time >= from && event.time <= to;
-  });
+  const auto counted = std::ranges::count_if(
+      run.events, [&](const OutflowEvent& event) { return event.hole > 0 && event.time >= from && event.time <= to; });
   return static_cast<double>(counted) / (to - from);
 }
 
-void write(const std::string& study, const std::string& folder) {
-  const PlannedStudy planned = plan_study(study, {}, 1);
+void write(const std::string& folder) {
+  const PlannedStudy planned = study_of_plan(read_plan(folder));
   const CaseFolder cases(cases_of(folder));
-  const std::vector<int> replicates = replicates_in(planned);
   std::cout << "layout,period_s,written_from_s,from_s,to_s,periods_as_written,replicates,seeds_per_s_as_written,"
                "seeds_per_s,difference_percent,difference_percent_ci95\n";
   for (const Layout& layout : planned.study.layouts) {
@@ -35,14 +34,16 @@ void write(const std::string& study, const std::string& folder) {
     const Scene& scene = planned.study.scenes[*layout.scene];
     const MeasuringWindow window = measuring_window(scene);
     std::vector<double> as_written, whole, difference;
-    for (int seed = 1; seed <= replicates[*layout.scene]; ++seed) {
-      const auto run = cases.find(case_identity(scene, static_cast<std::uint64_t>(seed)));
-      if (!run || run->status != RunStatus::finished)
-        throw InputError(folder + ": a run of " + study + " is missing or failed; sweep it first");
-      as_written.push_back(rate(*run, scene.run.measure_from, window.to));
-      whole.push_back(rate(*run, window.from, window.to));
+    for (const PlannedRun& planned_run : planned.plan.runs) {
+      if (planned_run.layout != layout.number) continue;
+      const auto kept = cases.named(planned_run.name);
+      if (!kept || kept->run.status != RunStatus::finished)
+        throw InputError(folder + ": a run is missing or failed; sweep it first");
+      as_written.push_back(rate(kept->run, scene.run.measure_from, window.to));
+      whole.push_back(rate(kept->run, window.from, window.to));
       difference.push_back(100 * (as_written.back() / whole.back() - 1));
     }
+    if (whole.empty()) continue;  // its scene is told with the first layout that has it
     const MeanWithInterval of = mean_with_interval(difference);
     const std::string half_width = of.half_width_95 ? fmt::format("{:.3g}", *of.half_width_95) : "";
     std::cout << fmt::format("{},{:.6g},{:.6g},{:.6g},{:.6g},{:.4g},{},{:.5g},{:.5g},{:.3g},{}\n", layout.number,
@@ -56,8 +57,8 @@ void write(const std::string& study, const std::string& folder) {
 }  // namespace
 
 int main(int argc, char** argv) try {
-  if (argc != 3) throw InputError("usage: window_error STUDY FOLDER");
-  write(argv[1], argv[2]);
+  if (argc != 2) throw InputError("usage: window_error FOLDER");
+  write(argv[1]);
 } catch (const std::exception& error) {
   std::cerr << error.what() << '\n';
   return 2;

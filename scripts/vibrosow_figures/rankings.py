@@ -30,6 +30,7 @@ class Sweep:
         free = sum(runs) - len(runs)
         self.variance = sum(np.var(values) * len(values) for values in logs.values()) / free
         self.mean = {name: np.mean(values) for name, values in logs.items()}
+        self.free = free
         self.quantile = student.ppf(0.975, free)
         self.runs = dict(zip(logs, runs))
 
@@ -42,12 +43,24 @@ class Sweep:
         return 0 if abs(difference) < self.half_width(one, other) else int(math.copysign(1, difference))
 
 
+    def surprise(self, one, other):
+        """The probability of a difference as large as this or larger between equal layouts."""
+        error = math.sqrt(sum(self.variance / self.runs[name] for name in (one, other)))
+        return 2 * student.sf(abs(self.mean[one] - self.mean[other]) / error, self.free)
+
+    def sure_of_all(self, pairs):
+        """How many pairs differ where all claims together are wrong in 5 % of studies (Holm 1979)."""
+        surprises = sorted(self.surprise(*pair) for pair in pairs)
+        fails = [k for k, surprise in enumerate(surprises) if surprise > 0.05 / (len(surprises) - k)]
+        return fails[0] if fails else len(surprises)
+
+
 def counted(what, pairs, space, plane):
     """A line of rankings.csv."""
     told = [(space.order(*pair), plane.order(*pair)) for pair in pairs]
     differ = [both for both in told if both[0] != 0]
     return [what, len(pairs), len(differ), sum(a == b for a, b in differ), sum(b == 0 for _, b in differ),
-            sum(a == -b for a, b in differ), sum(a == 0 and b != 0 for a, b in told)]
+            sum(a == -b for a, b in differ), sum(a == 0 and b != 0 for a, b in told), space.sure_of_all(pairs)]
 
 
 def compare_rankings(options):
@@ -55,7 +68,8 @@ def compare_rankings(options):
 
     Writes into OUT spaces.csv, both rates of every layout (geometric means of the runs), their ratio and ranks, and rankings.csv: of the pairs of layouts, all and those
     that differ in one key alone, how many differ beyond chance (95 %) in space, and in which order the plane has those: the same, none
-    beyond chance, the other way round; and how many differ in the plane alone. The last column of its first row is Kendall's tau."""
+    beyond chance, the other way round; how many differ in the plane alone; and how many differ in space where all claims of a line
+    together are wrong in 5 % of studies. The last column of its first row is Kendall's tau."""
     varied, conditions = conditions_of(rows(f"{options.space}/sweep.csv"))
     if conditions != conditions_of(rows(f"{options.plane}/sweep.csv"))[1]:
         raise SystemExit(f"{options.plane}/sweep.csv: other layouts than in {options.space}/sweep.csv")
@@ -78,7 +92,7 @@ def compare_rankings(options):
         alone = [(a, b) for a, b in pairs if all((x != y) == (at == place) for at, (x, y) in enumerate(zip(conditions[a], conditions[b])))]
         counts.append([*counted(key, alone, space, plane), ""])
     write_table(f"{options.out}/rankings.csv", "pairs_differ_in,pairs,differ_in_space,same_in_plane,alike_in_plane,reversed_in_plane,"
-                "differ_in_plane_alone,kendall_tau", counts)
+                "differ_in_plane_alone,differ_in_space_all_claims_right,kendall_tau", counts)
 
 
 def add_commands(commands):

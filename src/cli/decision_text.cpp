@@ -20,10 +20,11 @@ std::string in_figure(const std::optional<MeanWithInterval>& value, std::string_
 }
 
 /// "CV of a run 8.2 +- 0.4 %, unevenness (CV) 7.1 % (6.2 to 8.3 %), 43.2 +- 0.5 seeds/s, clogged in 0 of 203 runs"
-std::string figures_text(const DecideOptions& options, const SceneDecision& of) {
+std::string figures_text(const DecideOptions& options, const SceneDecision& of, Space space) {
   std::string text = fmt::format("{} {}", options.goal->words, in_figure(of.goal, options.goal->figure));
   if (of.unevenness) text += fmt::format(", unevenness (CV) {}", unevenness_text(*of.unevenness));
-  if (options.rate && of.rate) text += fmt::format(", {} of the tray", in_figure(of.rate, options.rate->figure));
+  if (options.rate && of.rate)
+    text += fmt::format(", {} of the tray{}", in_figure(of.rate, options.rate->figure), of_plane(space));
   return text + fmt::format(", clogged in {} of {} runs", of.clogged, of.runs);
 }
 
@@ -31,7 +32,9 @@ std::string layout_text(const DecisionReport& report, const Layout& layout) {
   const DecisionResult& result = report.result;
   const std::string label = fmt::format("{:>5}  ", layout.number);
   return wrapped_beside(label, described(result.study, layout)) +
-         wrapped(figures_text(result.options, result.scenes[layout.scene.value()]), label.size());
+         wrapped(figures_text(result.options, result.scenes[layout.scene.value()],
+                              result.study.scenes[*layout.scene].space),
+                 label.size());
 }
 
 std::string layouts_that_are(const DecisionReport& report, Standing standing) {
@@ -68,8 +71,8 @@ std::string rest_text(const DecisionReport& report) {
   }
   std::string text;
   for (const auto& [standing, count] : counts)
-    text += fmt::format("{}{}: {}", text.empty() ? "" : "; ", standing, count);
-  return text.empty() ? "" : fmt::format("\n{}", wrapped(fmt::format("Of the others, {} (decision.csv).", text)));
+    text += fmt::format("{}{} {}", text.empty() ? "" : ", ", count, standing);
+  return text.empty() ? "" : fmt::format("\n{}", wrapped(fmt::format("The others: {} (decision.csv).", text)));
 }
 
 std::string failures_text(const DecisionReport& report) {

@@ -31,7 +31,7 @@ std::string data_of_study(const fs::path& folder, int jobs) {
     return asked->page_data({}, {});
   }
   const PlannedStudy planned = study_of_plan(plan);
-  return sweep_page_data(result_of_kept(planned, runs, jobs), plan.random_seed);
+  return sweep_page_data(answer_of_kept(planned, kept_in(runs), jobs), plan.random_seed);
 }
 
 }  // namespace

@@ -81,8 +81,8 @@ std::string drill_sentence(const Drill& drill) {
                                                                                   : "several holes feed a row");
 }
 
-void print_drill(const DrillFigures& figures) {
-  print("\n{}", wrapped(drill_sentence(figures.drill)));
+void print_drill(const DrillFigures& figures, Space space) {
+  print("\n{}", wrapped(fmt::format("{}{}", drill_sentence(figures.drill), of_plane(space))));
   print("{:>6} {:>9} {:>9} {:>8} {:>9} {:>9} {:>9} {:>8}\n", "row", "g/min", "seeds/s", "kg/ha", "seeds/m2", "pause s",
         "multipl %", "skips %");
   for (const RowFigures& row : figures.rows) print_row(row);
@@ -91,11 +91,11 @@ void print_drill(const DrillFigures& figures) {
   print_text(wrapped(spacings_sentence(all)));
 }
 
-std::string sown_sentence(const std::vector<RowMeans>& rows) {
+std::string sown_sentence(const std::vector<RowMeans>& rows, Space space) {
   const RowMeans& all = rows.back();
   std::vector<std::string> parts;
-  parts.push_back(all["kg_per_ha"] ? fmt::format("sown: {} kg/ha, {} seeds/m2", mean_text(all, "kg_per_ha"),
-                                                 mean_text(all, "seeds_per_m2"))
+  parts.push_back(all["kg_per_ha"] ? fmt::format("sown: {} kg/ha, {} seeds/m2{}", mean_text(all, "kg_per_ha"),
+                                                 mean_text(all, "seeds_per_m2"), of_plane(space))
                                    : std::string("sown: no rate without tray.depth"));
   if (all["raw_cv_percent"])
     parts.push_back(fmt::format("between rows raw CV {} %, of which chance {} %", mean_text(all, "raw_cv_percent"),

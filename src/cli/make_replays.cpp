@@ -54,7 +54,7 @@ bool make_again(std::vector<Again>& all, const CommonOptions& options) {
   many.progress = [&](const ManyRunsProgress& now) { progress.update(now.fraction_done); };
   const std::vector<Evaluation> made = run_jobs(jobs, recorded, many);
   return std::ranges::none_of(made, [](const Evaluation& one) {
-    return one.status == EvaluationStatus::not_begun || one.status == EvaluationStatus::interrupted;
+    return one.status == EvaluationStatus::absent || one.status == EvaluationStatus::interrupted;
   });
 }
 

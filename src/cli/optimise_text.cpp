@@ -21,7 +21,8 @@ std::string with_unit(const std::optional<MeanWithInterval>& value, std::string_
 
 /// "CV of a run 8.2 +- 0.4 %, power 1.4 W/kg, unevenness (CV) 7.1 % (6.2 to 8.3 %), 43.2 +- 0.5 seeds/s of the tray, 12
 /// runs"
-std::string figures_text(const OptimiseResult& result, const FrontLayout& of) {
+std::string figures_text(const OptimiseResult& result, std::size_t layout) {
+  const FrontLayout& of = result.layouts[layout];
   std::string text;
   for (std::size_t g = 0; g < of.goals.size(); ++g) {
     const FrontGoal& goal = *result.options.goals[g];
@@ -31,9 +32,11 @@ std::string figures_text(const OptimiseResult& result, const FrontLayout& of) {
   if (const auto& rate = result.options.rate) {
     const Figure& figure = figure_named(rate->figure);
     const std::string_view unit = rate->figure == "tray_seeds_per_s" ? "seeds/s" : figure.unit;
-    text += fmt::format("{} of the tray, ", with_unit(of.rate, unit, figure.unit_size));
+    text += fmt::format("{} of the tray{}, ", with_unit(of.rate, unit, figure.unit_size),
+                        of_plane(result.study.scenes[result.study.layouts[layout].scene.value()].space));
   }
-  return text + fmt::format("{} runs{}", of.runs, of.clogged > 0 ? fmt::format(", {} clogged", of.clogged) : "");
+  text += fmt::format("{} runs{}", of.runs, of.clogged > 0 ? fmt::format(", {} clogged", of.clogged) : "");
+  return of.at_edge.empty() ? text : text + "; " + edge_text(of);
 }
 
 /// The layouts of a standing that lead.
@@ -44,20 +47,20 @@ std::string leading_text(const OptimiseResult& result, FrontStanding standing) {
     if (of.standing != standing || !leads(of)) continue;
     const Layout& layout = result.study.layouts[i];
     const std::string label = fmt::format("{:>5}  ", layout.number);
-    text += wrapped_beside(label, described(result.study, layout)) + wrapped(figures_text(result, of), label.size());
+    text += wrapped_beside(label, described(result.study, layout)) + wrapped(figures_text(result, i), label.size());
   }
   return text;
 }
 
-/// "dominated: 38; may be on the front: 12"
+/// "38 dominated, 12 may be on the front"
 std::string rest_text(const OptimiseResult& result) {
   std::map<std::string, int> counts;
   for (std::size_t i = 0; i < result.layouts.size(); ++i)
     if (!leads(result.layouts[i])) ++counts[standing_text(result, i)];
   std::string text;
   for (const auto& [standing, count] : counts)
-    text += fmt::format("{}{}: {}", text.empty() ? "" : "; ", standing, count);
-  return text.empty() ? "" : wrapped(fmt::format("Of the other layouts that were tried, {} (pareto.csv).", text));
+    text += fmt::format("{}{} {}", text.empty() ? "" : ", ", count, standing);
+  return text.empty() ? "" : wrapped(fmt::format("The other layouts that were tried: {} (pareto.csv).", text));
 }
 
 }  // namespace
@@ -69,6 +72,7 @@ std::string optimise_text(const OptimiseResult& result, const std::string& folde
   const std::string unsure = leading_text(result, FrontStanding::may_be_on_front);
   if (!sure.empty()) text += fmt::format("On the front:\n{}", sure);
   if (!unsure.empty()) text += fmt::format("First by their means, and may be on the front:\n{}", unsure);
+  if (const std::string why = why_unsure(result); !why.empty()) text += wrapped(why);
   text += doubts_paragraph(doubts_about(result));
   if (sure.empty() && unsure.empty()) text += wrapped("No layout meets the constraints by its means.");
   text += fmt::format("\n{}{}", rest_text(result), wrapped(front_promise(result)));

@@ -33,14 +33,8 @@ int stopped_by_guard(int layout, const std::string& reason) {
   return exit_stopped_by_guard;
 }
 
-StudyResult result_of_kept(const PlannedStudy& planned, const StudyRuns& runs, int jobs,
-                           const std::function<void(std::size_t, const std::vector<Evaluation>&)>& on_runs) {
-  SweepOptions reading;
-  reading.first_random_seed = planned.plan.random_seed;
-  reading.replicates = replicates_in(planned);
-  reading.runs.jobs = jobs;
-  reading.on_runs = on_runs;
-  return sweep(planned.study, runs.kept(), reading);
+KeptRuns kept_in(const StudyRuns& runs) {
+  return [&runs](const std::string& name) { return runs.named(name); };
 }
 
 int add_sweep_page_with_replays(const PlannedStudy& planned, const StudyRuns& runs, const OutputFolder& folder,
@@ -55,12 +49,12 @@ int add_sweep_page_with_replays(const PlannedStudy& planned, const StudyRuns& ru
 int report_study(const PlannedStudy& planned, const StudyRuns& runs, const OutputFolder& folder,
                  const SweepTiming& timing, const CommonOptions& options, const std::string& page_template) {
   SweepRunsCsv runs_csv(planned.study, options.csv);
-  const StudyResult result = result_of_kept(
-      planned, runs, timing.jobs,
+  const StudyResult result = answer_of_kept(
+      planned, kept_in(runs), timing.jobs,
       [&](std::size_t scene, const std::vector<Evaluation>& of_scene) { runs_csv.add(scene, of_scene); });
   std::vector<OutputFile> files = sweep_files(result, runs_csv, timing, options.csv);
   const bool whole = std::ranges::none_of(
-      result.layouts, [](const LayoutResult& one) { return one.status == LayoutStatus::interrupted; });
+      result.layouts, [](const LayoutResult& one) { return one.status == LayoutStatus::incomplete; });
   const bool with_replays = options.replays > 0 && whole;
   if (!page_template.empty() && !with_replays)
     files.push_back({"report.html", sweep_page(page_template, result, planned.plan.random_seed)});

@@ -76,10 +76,10 @@ void print_summary(const Scene& scene, const Run& run, const Outflow& outflow) {
   const bool in_space = scene.space == Space::three_dimensional;
   if (const auto& depth = outflow.depth_factor)
     print_text("\n" +
-               wrapped(fmt::format("whole tray{}: {} g/s = {} g/min, {} seeds/s",
+               wrapped(fmt::format("whole tray{}: {} g/s = {} g/min, {} seeds/s{}",
                                    in_space ? "" : fmt::format(", {:.4g} times the slice", *depth),
                                    figure_text(all.mass_rate * 1e3 * *depth), figure_text(all.mass_rate * 6e4 * *depth),
-                                   figure_text(all.seeds_per_s * *depth))));
+                                   figure_text(all.seeds_per_s * *depth), of_plane(scene.space))));
   if (outflow.unevenness) print_text("\n" + wrapped(unevenness_sentence(*outflow.unevenness, "hole")));
   const Balance& balance = run.balance;
   print("\n{}put in {} = inside {} + counted {} + spilled {} + lost {}\n",
@@ -239,7 +239,7 @@ int run_scene(const RunOptions& options) {
       options.quiet, [&] { folder.write(files); },
       [&] {
         print_summary(scene, run, outflow);
-        if (sown) print_drill(*sown);
+        if (sown) print_drill(*sown, scene.space);
         if (run.phase_times) print_profile(run);
       });
   if (run.status == RunStatus::finished) checkpoint.remove();

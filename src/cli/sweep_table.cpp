@@ -56,15 +56,18 @@ std::string line_of(const std::string& number, const std::string& name, const Ce
   return text + '\n';
 }
 
-void print_remarks(const LayoutResult& of) {
+void print_remarks(const StudyResult& result, std::size_t layout) {
+  const LayoutResult& of = result.layouts[layout];
+  const auto scene = result.study.layouts[layout].scene;
+  const Space space = scene ? result.study.scenes[*scene].space : Space::three_dimensional;
   const FigureMeans& figures = of.figures;
   if (figures["tray_rate_g_per_s"])
-    print_text(wrapped(fmt::format("tray, times {}: {} g/s, {} g/min, {} seeds/s", mean_text(figures, "depth_factor"),
+    print_text(wrapped(fmt::format("tray, times {}: {} g/s, {} g/min, {} seeds/s{}", mean_text(figures, "depth_factor"),
                                    mean_text(figures, "tray_rate_g_per_s"), mean_text(figures, "tray_rate_g_per_min"),
-                                   mean_text(figures, "tray_seeds_per_s")),
+                                   mean_text(figures, "tray_seeds_per_s"), of_plane(space)),
                        4));
   if (of.misfit_percent) print("    misfit {} %\n", with_interval(of.misfit_percent, 1));
-  if (!of.rows.empty()) print_text(wrapped(sown_sentence(of.rows), 4));
+  if (!of.rows.empty()) print_text(wrapped(sown_sentence(of.rows, space), 4));
   if (const std::string note = layout_note(of); !note.empty()) print_text(wrapped(note, 4));
 }
 
@@ -79,7 +82,7 @@ void print_layouts(const StudyResult& result) {
   print_text(line_of("", "layout", heads, widths));
   for (std::size_t i = 0; i < rows.size(); ++i) {
     print_text(line_of(std::to_string(i + 1), described(result.study, result.study.layouts[i]), rows[i], widths));
-    print_remarks(result.layouts[i]);
+    print_remarks(result, i);
   }
 }
 

@@ -70,7 +70,7 @@ std::optional<Flow> flow_of(const CalibrationDesign& design, std::size_t conditi
     SimulationOptions options;
     options.random_seed = run.random_seed;
     const Evaluation evaluation = evaluate(prepare_to_run(run.scene), options, {}, kept);
-    if (evaluation.status == EvaluationStatus::not_begun || evaluation.status == EvaluationStatus::interrupted)
+    if (evaluation.status == EvaluationStatus::absent || evaluation.status == EvaluationStatus::interrupted)
       return std::nullopt;
     const HoleOutflow* all = find_row(evaluation.outflow, "all", "all");
     if (!evaluation.is_sound() || all == nullptr || !(all->mass_rate > 0)) continue;

@@ -67,7 +67,7 @@ std::optional<std::vector<ReducedRun>> reduced_runs(const CalibrationTask& task,
     SimulationOptions options;
     options.random_seed = run.random_seed;
     const Evaluation evaluation = evaluate(prepare_to_run(run.scene), options, requests, kept);
-    if (evaluation.status == EvaluationStatus::not_begun || evaluation.status == EvaluationStatus::interrupted)
+    if (evaluation.status == EvaluationStatus::absent || evaluation.status == EvaluationStatus::interrupted)
       return std::nullopt;
     reduced.push_back(reduced_run(task, series, run.scene, evaluation));
   }

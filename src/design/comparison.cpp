@@ -32,10 +32,13 @@ struct Pairing {
   std::vector<double> measured;                // one for each time; a single one for a rate
   std::vector<std::vector<double>> simulated;  // of each replicate, as `measured`
   double depth_factor = 1;
-  std::vector<double> means() const {
+  /// Over the replicates, one of them left out if that is asked for.
+  std::vector<double> means(std::optional<std::size_t> without = {}) const {
     std::vector<double> result(measured.size(), 0.0);
-    for (const auto& one : simulated)
-      for (std::size_t i = 0; i < one.size(); ++i) result[i] += one[i] / static_cast<double>(simulated.size());
+    const auto count = static_cast<double>(simulated.size() - (without ? 1 : 0));
+    for (std::size_t replicate = 0; replicate < simulated.size(); ++replicate)
+      for (std::size_t i = 0; replicate != without && i < measured.size(); ++i)
+        result[i] += simulated[replicate][i] / count;
     return result;
   }
 };
@@ -118,19 +121,22 @@ std::optional<double> misfit(const std::vector<const Pairing*>& pairings, bool c
   return count > 0 ? std::optional(std::sqrt(squares / count)) : std::nullopt;
 }
 
-/// Misfit of the mean outflow; its interval from the misfits of the single replicates.
+/// Misfit of the mean outflow; its interval by the jackknife (Quenouille 1956, Biometrika 43): from the misfits of the
+/// means that leave out one replicate each.
 std::optional<MeanWithInterval> layout_misfit(const std::vector<const Pairing*>& pairings, bool curve, double scale) {
-  const auto of_mean = misfit(
-      pairings, curve, [&](const Pairing& pairing) { return scaled(pairing.means(), scale * pairing.depth_factor); });
-  if (!of_mean) return std::nullopt;
-  std::vector<double> single;
-  for (std::size_t i = 0; i < pairings.front()->simulated.size(); ++i) {
-    const auto one = misfit(pairings, curve, [&](const Pairing& pairing) {
-      return scaled(pairing.simulated[i], scale * pairing.depth_factor);
+  const auto of_means = [&](std::optional<std::size_t> without) {
+    return misfit(pairings, curve, [&](const Pairing& pairing) {
+      return scaled(pairing.means(without), scale * pairing.depth_factor);
     });
-    if (one) single.push_back(*one);
-  }
-  return MeanWithInterval{*of_mean, mean_with_interval(single).half_width_95};
+  };
+  const auto of_all = of_means(std::nullopt);
+  if (!of_all) return std::nullopt;
+  const std::size_t replicates = pairings.front()->simulated.size();
+  const auto count = static_cast<double>(replicates);
+  std::vector<double> pseudo;  // values, as if of single replicates
+  for (std::size_t i = 0; replicates > 1 && i < replicates; ++i)
+    if (const auto one = of_means(i)) pseudo.push_back(count * *of_all - (count - 1) * *one);
+  return MeanWithInterval{*of_all, mean_with_interval(pseudo).half_width_95};
 }
 
 void add_rows(Comparison& comparison, const Pairing& pairing, double scale) {

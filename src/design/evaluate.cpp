@@ -20,10 +20,16 @@ EvaluationStatus status_of(const Run& run) {
   return EvaluationStatus::interrupted;
 }
 
+Evaluation refused(std::uint64_t random_seed, const std::string& reason) {
+  return {.random_seed = random_seed, .status = EvaluationStatus::refused, .reason = reason};
+}
+
 }  // namespace
 
 Evaluation reduced(const Scene& scene, const Run& run, const std::vector<CurveRequest>& wanted,
                    const std::vector<Drill>& drills) {
+  if (run.status == RunStatus::refused) return refused(run.random_seed, run.stop_reason);
+  if (run.status == RunStatus::interrupted && run.steps == 0) return {.random_seed = run.random_seed};
   Evaluation evaluation{.random_seed = run.random_seed,
                         .status = status_of(run),
                         .reason = run.stop_reason,
@@ -47,21 +53,17 @@ Evaluation reduced(const Scene& scene, const Run& run, const std::vector<CurveRe
 
 Evaluation evaluate(const Model& model, const SimulationOptions& options, const std::vector<CurveRequest>& curves,
                     const Simulator& simulator, const std::vector<Drill>& drills) {
-  const auto refused = [&](const std::string& reason) {
-    return Evaluation{.random_seed = options.random_seed, .status = EvaluationStatus::refused, .reason = reason};
-  };
-  if (const auto too_long = step_refused(model.scene.numerics, model.step)) return refused(*too_long);
+  if (const auto too_long = step_refused(model.scene.numerics, model.step))
+    return refused(options.random_seed, *too_long);
   try {
     const double begin = cpu_time();
     const Run run = simulator(model, options);
     const double used = cpu_time() - begin;
-    if (run.status == RunStatus::refused) return refused(run.stop_reason);
-    if (run.status == RunStatus::interrupted && run.steps == 0) return {.random_seed = options.random_seed};
     Evaluation evaluation = reduced(model.scene, run, curves, drills);
     evaluation.cpu_time = used;
     return evaluation;
   } catch (const InputError& error) {
-    return refused(error.what());
+    return refused(options.random_seed, error.what());
   }
 }
 

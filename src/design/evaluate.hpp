@@ -33,8 +33,8 @@ struct Curve {
 };
 
 enum class EvaluationStatus {
-  not_begun,  // interrupted before its turn
-  refused,    // the scene cannot be run: a fill that does not fit, ...
+  absent,   // not kept, or interrupted before its turn
+  refused,  // the scene cannot be run: a fill that does not fit, ...
   interrupted,
   stopped,  // by the guard
   finished,
@@ -44,7 +44,7 @@ enum class EvaluationStatus {
 /// random seed alone, but for the two times.
 struct Evaluation {
   std::uint64_t random_seed = 1;
-  EvaluationStatus status = EvaluationStatus::not_begun;
+  EvaluationStatus status = EvaluationStatus::absent;
   std::string reason{};      // of `refused` and `stopped`
   std::string end_reason{};  // why it ended before its duration, though sound; else empty
   bool outside_the_model = false;
@@ -65,11 +65,11 @@ struct Evaluation {
   /// Whether something may be decided by it.
   bool is_sound() const { return finished() && !outside_the_model; }
   /// Whether there was a run, so that the figures mean something.
-  bool was_run() const { return status != EvaluationStatus::not_begun && status != EvaluationStatus::refused; }
+  bool was_run() const { return status != EvaluationStatus::absent && status != EvaluationStatus::refused; }
 };
 
-/// What is kept of a run of `scene` that has ended, or is cut short here. Throws std::invalid_argument as `evaluate`
-/// does.
+/// What is kept of a run of `scene` that has ended, or is cut short here; `absent` of one that was interrupted before
+/// its first step. Throws std::invalid_argument as `evaluate` does.
 Evaluation reduced(const Scene& scene, const Run& run, const std::vector<CurveRequest>& wanted = {},
                    const std::vector<Drill>& drills = {});
 

@@ -212,11 +212,22 @@ FrontObservation StudyOptimisation::observed(Place& place, std::size_t run) cons
   return seen;
 }
 
+/// Of a continuum the last fiftieth counts as its end; a key of two values has no other than its ends.
+std::vector<std::string> StudyOptimisation::keys_at_edge(const FrontSearch::Point& point) const {
+  std::vector<std::string> keys;
+  for (std::size_t axis = 0; axis < point.size(); ++axis) {
+    const std::size_t values = space_.values[axis], end = values / 50;
+    if (values > 2 && (point[axis] <= end || point[axis] + 1 + end >= values)) keys.push_back(space_.keys[axis]);
+  }
+  return keys;
+}
+
 FrontLayout StudyOptimisation::layout_result(std::size_t layout, FrontStanding standing, bool is_first) const {
   const Place& place = places_[layout];
   FrontLayout result;
   result.standing = standing;
   result.is_first_by_means = is_first;
+  result.at_edge = keys_at_edge(search_->points()[layout]);
   result.reason = place.failure;
   result.goals.resize(options_.goals.size());
   if (!place.scene) return result;
@@ -285,11 +296,12 @@ OptimiseResult StudyOptimisation::result() const {
   }
   const Front& front = search_->front();
   const std::vector<FrontStanding> standings = front.standings();
-  const std::vector<bool> meets = front.meets_by_means();
+  const std::vector<bool> meets = front.meets_by_means(), surely_meets = front.surely_in_bands();
   const auto layers = front.layers(1);
   for (std::size_t i = 0; i < places_.size(); ++i) {
     const bool is_first = !layers.empty() && meets[i] && std::ranges::find(layers.front(), i) != layers.front().end();
     result.layouts.push_back(layout_result(i, standings[i], is_first));
+    result.layouts.back().surely_meets = surely_meets[i];
   }
   return result;
 }

@@ -31,6 +31,8 @@ struct OptimiseOptions {
 struct FrontLayout {
   FrontStanding standing = FrontStanding::failed;
   bool is_first_by_means = false;    // meets the constraints by its means, and no other such has better means
+  bool surely_meets = false;         // the constraints, as what is on the front must
+  std::vector<std::string> at_edge;  // keys whose values end their ranges: better ones may lie beyond
   std::string reason;                // why it failed
   std::vector<CountedDoubt> doubts;  // of its runs that finished, without those of variants, and of its scene
   std::string stopped;               // `first_stop` of its runs, variants' included
@@ -103,6 +105,7 @@ class StudyOptimisation {
   std::optional<double> goal_of(const FrontGoal& goal, const Place& place, std::size_t run) const;
   double rate_as(Variant variant, const Place& place, std::size_t run) const;
   const Evaluation& evaluation(Variant variant, const Place& place, std::size_t run) const;
+  std::vector<std::string> keys_at_edge(const FrontSearch::Point& point) const;
   FrontLayout layout_result(std::size_t layout, FrontStanding standing, bool is_first) const;
 
   StudySource source_;

@@ -3,9 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <atomic>
 #include <numeric>
+#include <utility>
 
-#include "design/sweep.hpp"
+#include "design/side_by_side.hpp"
 #include "input/override.hpp"
 #include "plan/model.hpp"
 #include "plan/predicted_grains.hpp"
@@ -71,6 +73,15 @@ bool is_of_this_program(const PlannedStudy& planned) {
   });
 }
 
+/// By scene, and as the plan has them by random seed.
+std::vector<std::vector<const PlannedRun*>> runs_by_scene(const PlannedStudy& planned) {
+  std::vector<std::vector<const PlannedRun*>> runs(planned.study.scenes.size());
+  for (const PlannedRun& run : planned.plan.runs)
+    if (const auto index = static_cast<std::size_t>(run.layout) - 1; index < planned.study.layouts.size())
+      if (const auto scene = planned.study.layouts[index].scene) runs[*scene].push_back(&run);
+  return runs;
+}
+
 }  // namespace
 
 PlannedStudy plan_study(const std::filesystem::path& file, const std::vector<std::string>& sets,
@@ -83,25 +94,47 @@ PlannedStudy plan_study(const std::filesystem::path& file, const std::vector<std
 }
 
 std::vector<int> replicates_in(const PlannedStudy& planned) {
-  std::vector<int> replicates(planned.study.scenes.size());
-  for (const PlannedRun& run : planned.plan.runs)
-    if (const auto index = static_cast<std::size_t>(run.layout) - 1; index < planned.study.layouts.size())
-      if (const auto scene = planned.study.layouts[index].scene) ++replicates[*scene];
+  std::vector<int> replicates;
+  for (const auto& runs : runs_by_scene(planned)) replicates.push_back(static_cast<int>(runs.size()));
   return replicates;
 }
 
-std::optional<PlannedStudy> next_round(const PlannedStudy& planned, const Simulator& kept, int jobs) {
+StudyResult answer_of_kept(const PlannedStudy& planned, const KeptRuns& kept, int jobs, const OnRuns& on_runs) {
+  const std::vector<WantedOfRuns> wanted = wanted_of_runs(planned.study);
+  const std::vector<std::vector<const PlannedRun*>> of_scenes = runs_by_scene(planned);
+  const auto evaluation = [&](std::size_t scene, const PlannedRun& of) {
+    const std::optional<Run> run = kept(of.name);
+    return run ? reduced(planned.study.scenes[scene], *run, wanted[scene].curves, wanted[scene].drills)
+               : Evaluation{.random_seed = of.random_seed};
+  };
+  const auto read = [&](std::size_t from, std::size_t to) {
+    std::vector<std::vector<Evaluation>> runs;
+    std::vector<std::pair<std::size_t, std::size_t>> all;  // scene, and which of its runs
+    for (std::size_t scene = from; scene < to; ++scene) {
+      runs.emplace_back(of_scenes[scene].size());
+      for (std::size_t k = 0; k < of_scenes[scene].size(); ++k) all.emplace_back(scene, k);
+    }
+    std::atomic<std::size_t> next = 0;
+    side_by_side(jobs, [&] {
+      for (std::size_t i = next.fetch_add(1); i < all.size(); i = next.fetch_add(1)) {
+        const auto [scene, k] = all[i];
+        runs[scene - from][k] = evaluation(scene, *of_scenes[scene][k]);
+      }
+    });
+    return runs;
+  };
+  return answer_of(planned.study, read, on_runs);
+}
+
+std::optional<PlannedStudy> next_round(const PlannedStudy& planned, const KeptRuns& kept, int jobs) {
   if (!planned.study.replicates.interval) return std::nullopt;
-  SweepOptions options;
-  options.first_random_seed = planned.plan.random_seed;
-  options.replicates = replicates_in(planned);
-  options.runs.jobs = jobs;
-  const StudyResult result = sweep(planned.study, kept, options);
-  std::vector<int> replicates = options.replicates;
+  const StudyResult result = answer_of_kept(planned, kept, jobs);
+  const std::vector<int> before = replicates_in(planned);
+  std::vector<int> replicates = before;
   for (std::size_t scene = 0; scene < replicates.size(); ++scene)
     if (static_cast<int>(result.runs[scene].size()) == replicates[scene])  // else some were more than enough
       replicates[scene] = runs_to_go_to(rates_of(result.runs[scene]), planned.study.replicates);
-  if (replicates == options.replicates) return std::nullopt;
+  if (replicates == before) return std::nullopt;
   PlannedStudy next = planned;
   next.plan.runs = planned_runs(planned.study, planned.plan.random_seed, replicates);
   return next;

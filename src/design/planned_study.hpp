@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -9,6 +10,7 @@
 
 #include "design/study.hpp"
 #include "design/study_runs.hpp"
+#include "design/sweep.hpp"
 #include "storage/study_plan.hpp"
 
 namespace vibrosow {
@@ -27,9 +29,15 @@ PlannedStudy plan_study(const std::filesystem::path& file, const std::vector<std
 /// How many runs of each scene a plan has.
 std::vector<int> replicates_in(const PlannedStudy& planned);
 
+/// Gives the run of a case's name where it is kept. For several threads.
+using KeptRuns = std::function<std::optional<Run>(const std::string& name)>;
+
+/// A sweep by those runs of its plan that are kept; the others are absent. `jobs`: threads that read.
+StudyResult answer_of_kept(const PlannedStudy& planned, const KeptRuns& kept, int jobs, const OnRuns& on_runs = {});
+
 /// The next round of a study whose replicates are by need: more runs of the scenes whose intervals are still too wide,
-/// by the runs that `kept` gives. None where nothing more is needed.
-std::optional<PlannedStudy> next_round(const PlannedStudy& planned, const Simulator& kept, int jobs);
+/// by the runs that are kept. None where nothing more is needed.
+std::optional<PlannedStudy> next_round(const PlannedStudy& planned, const KeptRuns& kept, int jobs);
 
 /// The study of a plan as it was, whatever has become of its files. Throws InputError where this version of the
 /// program, or the models that are shipped with it, make another study of them, or where the plan is of a search, which

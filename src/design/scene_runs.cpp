@@ -46,7 +46,7 @@ bool SceneRuns::take(const std::vector<int>& counts, const Simulator& kept, int 
   options.jobs = jobs;
   std::vector<Evaluation> read = run_jobs(reading, kept, options);
   const auto is_missing = [](const Evaluation& one) {
-    return one.status == EvaluationStatus::interrupted || one.status == EvaluationStatus::not_begun;
+    return one.status == EvaluationStatus::interrupted || one.status == EvaluationStatus::absent;
   };
   if (std::ranges::any_of(read, is_missing)) return false;
   for (std::size_t i = 0; i < read.size(); ++i) runs_[scenes[i]].push_back(std::move(read[i]));

@@ -371,7 +371,7 @@ StudySpace read_study_space(const std::filesystem::path& file, const std::vector
   read_study_with(file, overrides, files, [&](Table& study, Table& vary, std::optional<std::int64_t> proposals) {
     if (study.has("layout")) study.fail("layout", "the space is that of [vary] alone; vary keys in place of designs");
     const VariedSpace varied(vary);
-    space.values = varied.values();
+    space.keys = varied.names(), space.values = varied.values();
     if (proposals) space.proposals = static_cast<std::size_t>(*proposals);
     return std::vector<Changes>{varied.at(std::vector<double>(varied.axes(), 0.5))};
   });

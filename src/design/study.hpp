@@ -68,8 +68,9 @@ struct Study {
 Study read_study(const std::filesystem::path& file, const std::vector<Override>& overrides = {},
                  const std::shared_ptr<SourceFiles>& files = std::make_shared<SourceFiles>());
 
-/// How many values each key of a study's [vary] has (VariedSpace), and how many `proposals` it asks for.
+/// The keys of a study's [vary], how many values each has (VariedSpace), and how many `proposals` it asks for.
 struct StudySpace {
+  std::vector<std::string> keys;
   std::vector<std::size_t> values;
   std::optional<std::size_t> proposals;
 };

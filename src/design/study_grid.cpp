@@ -184,6 +184,12 @@ VariedSpace::VariedSpace(Table& vary) : keys_(vary.dotted_values()) {
   }
 }
 
+std::vector<std::string> VariedSpace::names() const {
+  std::vector<std::string> names;
+  for (const Override& varied : keys_) names.push_back(varied.key);
+  return names;
+}
+
 Changes VariedSpace::at(const std::vector<double>& point) const {
   Changes changes;
   for (std::size_t k = 0; k < keys_.size(); ++k)

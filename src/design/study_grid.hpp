@@ -42,6 +42,8 @@ class VariedSpace {
   explicit VariedSpace(Table& vary);
 
   std::size_t axes() const { return keys_.size(); }
+  /// The key of each axis.
+  std::vector<std::string> names() const;
   /// How many values each axis has.
   const std::vector<std::size_t>& values() const { return values_; }
   /// `point`: of each axis the share of the way through its values, in [0, 1).

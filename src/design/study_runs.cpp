@@ -305,6 +305,13 @@ std::optional<Run> StudyRuns::find(const std::string& identity) const {
   return waiting == waiting_.end() ? std::nullopt : std::optional(waiting->second);
 }
 
+std::optional<Run> StudyRuns::named(const std::string& name) const {
+  if (std::optional<Case> kept = folders_.front().named(name)) return std::move(kept->run);
+  const std::lock_guard lock(mutex_);
+  const auto waiting = std::ranges::find_if(waiting_, [&](const auto& one) { return case_name(one.first) == name; });
+  return waiting == waiting_.end() ? std::nullopt : std::optional(waiting->second);
+}
+
 Simulator StudyRuns::kept() const {
   return [this](const Model& model, const SimulationOptions& options) {
     if (std::optional<Run> run = find(case_identity(model.scene, options.random_seed))) return std::move(*run);

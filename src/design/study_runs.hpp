@@ -62,6 +62,9 @@ class StudyRuns {
   /// gives a run that is `refused`, which is kept too. Throws InputError where another program made another run of it.
   Making make(const std::vector<WantedRun>& wanted, const Simulator& simulator, const MakingOptions& options);
 
+  /// The run that is kept under a case's name, here or waiting to be written; none: there is none.
+  std::optional<Run> named(const std::string& name) const;
+
   /// In the place of a simulator: gives the run that is kept; an interrupted one where there is none.
   Simulator kept() const;
 

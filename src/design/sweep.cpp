@@ -17,25 +17,14 @@ int replicates_of(const Study& study, const SweepOptions& options, std::size_t s
 }
 
 /// Scenes that are run at a time: all, so that no core waits for another; where runs are dropped, some thousand runs.
-std::size_t scenes_at_a_time(const Study& study, const SweepOptions& options) {
+std::size_t scenes_at_a_time(const Study& study, bool dropped) {
   constexpr std::size_t runs = 4096;
-  if (!options.on_runs || study.measured) return study.scenes.size();
+  if (!dropped) return study.scenes.size();
   return std::max<std::size_t>(1, runs / static_cast<std::size_t>(std::max(1, study.replicates.first())));
 }
 
-/// Of each scene the drills of its layouts, each different one once.
-std::vector<std::vector<Drill>> drills_of_scenes(const Study& study) {
-  std::vector<std::vector<Drill>> drills(study.scenes.size());
-  for (const Layout& layout : study.layouts) {
-    if (!layout.scene || !layout.drill) continue;
-    std::vector<Drill>& of_scene = drills[*layout.scene];
-    if (std::ranges::find(of_scene, *layout.drill) == of_scene.end()) of_scene.push_back(*layout.drill);
-  }
-  return drills;
-}
-
 /// Those of scenes from one to before another.
-std::vector<std::vector<Evaluation>> run_scenes(const Study& study, const std::vector<std::vector<Drill>>& drills,
+std::vector<std::vector<Evaluation>> run_scenes(const Study& study, const std::vector<WantedOfRuns>& wanted,
                                                 const Simulator& simulator, const SweepOptions& options,
                                                 std::size_t from, std::size_t to) {
   std::vector<Model> models;
@@ -44,7 +33,7 @@ std::vector<std::vector<Evaluation>> run_scenes(const Study& study, const std::v
   for (std::size_t scene = from; scene < to; ++scene)
     for (int i = 0; i < replicates_of(study, options, scene); ++i)
       jobs.push_back({&models[scene - from], options.first_random_seed + static_cast<std::uint64_t>(i),
-                      measured_curves(study, scene), drills[scene]});
+                      wanted[scene].curves, wanted[scene].drills});
   std::vector<Evaluation> results = run_jobs(jobs, simulator, options.runs);
 
   std::vector<std::vector<Evaluation>> runs(to - from);
@@ -158,7 +147,7 @@ void set_status(LayoutResult& result, const std::vector<Evaluation>& replicates)
     result.status = LayoutStatus::stopped;
     result.reason = fmt::format("random seed {}: {}", stopped->random_seed, stopped->reason);
   } else if (result.replicates < static_cast<int>(replicates.size())) {
-    result.status = LayoutStatus::interrupted;
+    result.status = LayoutStatus::incomplete;
     result.reason = fmt::format("{} of {} runs finished", result.replicates, replicates.size());
   } else {
     result.doubts = doubts_of_runs(replicates);
@@ -239,29 +228,49 @@ std::vector<std::optional<double>> rates_of(const std::vector<Evaluation>& repli
   return rates;
 }
 
-StudyResult sweep(const Study& study, const Simulator& simulator, const SweepOptions& options) {
+std::vector<WantedOfRuns> wanted_of_runs(const Study& study) {
+  std::vector<WantedOfRuns> wanted(study.scenes.size());
+  for (std::size_t scene = 0; scene < wanted.size(); ++scene) wanted[scene].curves = measured_curves(study, scene);
+  for (const Layout& layout : study.layouts) {
+    if (!layout.scene || !layout.drill) continue;
+    std::vector<Drill>& drills = wanted[*layout.scene].drills;
+    if (std::ranges::find(drills, *layout.drill) == drills.end()) drills.push_back(*layout.drill);
+  }
+  return wanted;
+}
+
+StudyResult answer_of(const Study& study, const RunsOfScenes& runs_of, const OnRuns& on_runs) {
   StudyResult result;
   result.study = study;
   result.runs.resize(study.scenes.size());
-  const std::vector<std::vector<Drill>> drills = drills_of_scenes(study);
+  const std::vector<WantedOfRuns> wanted = wanted_of_runs(study);
+  const bool dropped = on_runs && !study.measured;
   std::vector<SceneResult> of_scenes;
-  const std::size_t at_a_time = scenes_at_a_time(study, options);
+  const std::size_t at_a_time = scenes_at_a_time(study, dropped);
   for (std::size_t from = 0; from < study.scenes.size(); from += at_a_time) {
     const std::size_t to = std::min(from + at_a_time, study.scenes.size());
-    std::vector<std::vector<Evaluation>> runs = run_scenes(study, drills, simulator, options, from, to);
+    std::vector<std::vector<Evaluation>> runs = runs_of(from, to);
     for (std::size_t scene = from; scene < to; ++scene) {
       std::vector<Evaluation>& replicates = runs[scene - from];
       leave_out_more_than_enough(study, replicates);
-      of_scenes.push_back(result_of(study, study.scenes[scene], replicates, drills[scene]));
-      if (options.on_runs) options.on_runs(scene, replicates);
-      if (!options.on_runs || study.measured) result.runs[scene] = std::move(replicates);
+      of_scenes.push_back(result_of(study, study.scenes[scene], replicates, wanted[scene].drills));
+      if (on_runs) on_runs(scene, replicates);
+      if (!dropped) result.runs[scene] = std::move(replicates);
     }
   }
   for (const Layout& layout : study.layouts)
-    result.layouts.push_back(layout.scene ? result_of(layout, of_scenes[*layout.scene], drills[*layout.scene])
+    result.layouts.push_back(layout.scene ? result_of(layout, of_scenes[*layout.scene], wanted[*layout.scene].drills)
                                           : invalid_result(layout));
   if (study.measured) compare_with_measured(result);
   return result;
+}
+
+StudyResult sweep(const Study& study, const Simulator& simulator, const SweepOptions& options) {
+  const std::vector<WantedOfRuns> wanted = wanted_of_runs(study);
+  const auto run = [&](std::size_t from, std::size_t to) {
+    return run_scenes(study, wanted, simulator, options, from, to);
+  };
+  return answer_of(study, run, options.on_runs);
 }
 
 }  // namespace vibrosow

@@ -14,18 +14,20 @@
 
 namespace vibrosow {
 
+/// Is given the runs that count of each scene, in order, when they are there. They are dropped then, unless measured
+/// outflow is to be compared with them, so that memory does not grow with their number.
+using OnRuns = std::function<void(std::size_t scene, const std::vector<Evaluation>&)>;
+
 struct SweepOptions {
   std::uint64_t first_random_seed = 1;  // replicates use this one and those that follow
   std::vector<int> replicates{};        // of each of Study::scenes; empty: what the study begins with
-  /// Given the runs that count of each scene, in order, when they are there. They are dropped then, unless measured
-  /// outflow is to be compared with them, so that memory does not grow with their number.
-  std::function<void(std::size_t scene, const std::vector<Evaluation>&)> on_runs{};
+  OnRuns on_runs{};
   ManyRunsOptions runs;
 };
 
 /// doubtful: there are serious doubts. Of a layout of which a run left the model the figures are told, and nothing is
-/// decided by them.
-enum class LayoutStatus { ok, doubtful, outside_the_model, invalid, stopped, interrupted };
+/// decided by them. incomplete: runs are missing, or were interrupted.
+enum class LayoutStatus { ok, doubtful, outside_the_model, invalid, stopped, incomplete };
 
 /// Whether its figures are of all its runs, and may be compared with those of others.
 bool is_comparable(LayoutStatus status);
@@ -52,12 +54,12 @@ struct BedFigures {
 
 struct LayoutResult {
   LayoutStatus status = LayoutStatus::ok;
-  std::string reason;                              // why it is invalid, stopped or interrupted
+  std::string reason;                              // why it is invalid, stopped or incomplete
   std::vector<CountedDoubt> doubts;                // of its runs where none of these is so, and of its scene
   int replicates = 0;                              // finished
   int stopped_flowing = 0;                         // of all runs, also those that are left out: ended by a pause
   FigureMeans figures;                             // over the finished replicates
-  std::optional<MeanWithInterval> misfit_percent;  // of the mean outflow; interval from the misfits of the replicates
+  std::optional<MeanWithInterval> misfit_percent;  // of the mean outflow; interval by the jackknife
   std::vector<HoleFigures> holes;
   std::vector<BedFigures> bed{};  // empty without a record
   std::vector<RowMeans> rows{};   // by row, then all; empty without a drill
@@ -88,8 +90,21 @@ struct StudyResult {
 /// Mass rates (kg/s) of runs, as `enough_runs` takes them: none of a run that stopped flowing or did not finish.
 std::vector<std::optional<double>> rates_of(const std::vector<Evaluation>& replicates);
 
-/// Runs every scene of a study with every random seed. Where replicates are by need, runs beyond those needed are left
-/// out, and figures are of the runs that flowed. The result depends on the study and the first random seed alone,
+/// What is asked of each run of a scene.
+struct WantedOfRuns {
+  std::vector<CurveRequest> curves;
+  std::vector<Drill> drills;  // of the scene's layouts, each different one once
+};
+std::vector<WantedOfRuns> wanted_of_runs(const Study& study);
+
+/// Gives the evaluations of scenes from one to before another, by scene and random seed, with what is wanted of them.
+using RunsOfScenes = std::function<std::vector<std::vector<Evaluation>>(std::size_t from, std::size_t to)>;
+
+/// What a study comes to by its runs, whoever made them. Where replicates are by need, runs beyond those needed are
+/// left out, and figures are of the runs that flowed. A layout of which runs are absent is incomplete.
+StudyResult answer_of(const Study& study, const RunsOfScenes& runs, const OnRuns& on_runs = {});
+
+/// Runs every scene of a study with every random seed. The result depends on the study and the first random seed alone,
 /// not on the number of threads. An interrupted sweep keeps what was finished.
 StudyResult sweep(const Study& study, const Simulator& simulator, const SweepOptions& options);
 

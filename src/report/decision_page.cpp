@@ -33,13 +33,15 @@ std::string in_figure(const MeanWithInterval& value, const Figure& figure) {
 
 /// "CV of a run 8.2 ± 0.4 %, unevenness (CV) 7.1 % (6.2 to 8.3 %), 43.2 ± 0.5 seeds/s of the tray, clogged in 0 of 203
 /// runs"
-std::string figures_sentence(const DecisionResult& result, const SceneDecision& of) {
+std::string figures_sentence(const DecisionResult& result, std::size_t scene) {
+  const SceneDecision& of = result.scenes[scene];
   std::string text;
   if (of.goal)
     text = fmt::format("{} {}, ", result.options.goal->words, in_figure(*of.goal, goal_figure(result.options)));
   if (of.unevenness) text += fmt::format("unevenness (CV) {}, ", unevenness_text(*of.unevenness));
   if (result.options.rate && of.rate)
-    text += fmt::format("{} of the tray, ", in_figure(*of.rate, rate_figure(result.options.rate)));
+    text += fmt::format("{} of the tray{}, ", in_figure(*of.rate, rate_figure(result.options.rate)),
+                        of_plane(result.study.scenes[scene].space));
   return text + fmt::format("clogged in {} of {} runs", of.clogged, of.runs);
 }
 
@@ -64,8 +66,8 @@ std::string headline(const DecisionReport& report) {
   }
   for (const Layout& layout : result.study.layouts)
     if (layout.scene && layout.scene == result.best)
-      return fmt::format("{} is the best: {}. {}", named(result.study, layout),
-                         figures_sentence(result, result.scenes[*layout.scene]), promise_sentence(result));
+      return fmt::format("{} is the best: {}. {}", named(result.study, layout), figures_sentence(result, *layout.scene),
+                         promise_sentence(result));
   return no_best_sentence(result);
 }
 

@@ -43,6 +43,7 @@ std::string headline(const OptimiseResult& result) {
 Json doubts(const OptimiseResult& result) {
   Json all = doubt_sentences(doubts_about(result));
   if (result.is_interrupted) all.push_back("Interrupted: the same command goes on from here.");
+  if (const std::string why = why_unsure(result); !why.empty()) all.push_back(why);
   all.push_back(front_promise(result));
   return all;
 }
@@ -112,7 +113,7 @@ Json layout(const OptimiseResult& result, std::size_t index, const Replays& repl
   one["compared"] = is_compared(result, index);
   one["standing"] = standing_text(result, index);
   one["first_by_means"] = of.is_first_by_means;
-  one["note"] = layout.scene ? of.reason : layout.invalid;
+  one["note"] = !layout.scene ? layout.invalid : of.reason.empty() && leads(of) ? edge_text(of) : of.reason;
   one["replicates"] = of.runs;
   if (of.runs == 0) return one;
   for (std::size_t g = 0; g < options.goals.size(); ++g)

@@ -1,6 +1,7 @@
 #include "report/front_report.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
@@ -48,6 +49,8 @@ Columns<FrontRow> pareto_columns(const std::vector<std::string>& keys, const std
         if (!r.layout().scene) return r.layout().invalid;
         return r.of().reason.empty() ? doubts_text(r.of().doubts) : r.of().reason;
       })};
+  columns.push_back(text_column<FrontRow>("at_edge", "keys whose values end their ranges",
+                                          [](R r) { return fmt::format("{}", fmt::join(r.of().at_edge, " ")); }));
   append(columns, key_columns<FrontRow>(keys));
   append(columns, {text_column<FrontRow>("runs", "of the layout as it is", [](R r) { return r.of().runs; }),
                    text_column<FrontRow>("clogged", "of these, runs that clogged; the means are of the others",
@@ -150,6 +153,29 @@ std::string standing_text(const OptimiseResult& result, std::size_t layout) {
       break;
   }
   return "failed";
+}
+
+std::string why_unsure(const OptimiseResult& result) {
+  int unsure = 0, meets = 0;
+  for (const FrontLayout& one : result.layouts) {
+    if (one.standing != FrontStanding::may_be_on_front) continue;
+    ++unsure, meets += one.surely_meets;
+  }
+  if (unsure == 0) return "";
+  const std::string begin = fmt::format("Of the {} that may be on the front, ", unsure);
+  const std::string_view constraint = result.options.rate ? "the rate" : "the constraints";
+  const std::string better = "not shown to be better in some goal than every other; more runs (--runs) tell more";
+  if (meets == unsure) return begin + fmt::format("each is {}.", better);
+  if (meets == 0) return begin + fmt::format("none surely meets {}; more runs (--runs) tell more.", constraint);
+  return begin + fmt::format("{} do not surely meet {}, and {} are {}.", unsure - meets, constraint, meets, better);
+}
+
+std::string edge_text(const FrontLayout& layout) {
+  if (layout.at_edge.empty()) return "";
+  std::string keys;
+  for (const std::string& key : layout.at_edge)
+    keys += fmt::format("{}{}", keys.empty() ? "" : " and ", key.substr(key.rfind('.') + 1));
+  return fmt::format("at the end of the range of {}: better ones may lie beyond", keys);
 }
 
 bool leads(const FrontLayout& layout) {

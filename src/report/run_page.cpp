@@ -106,7 +106,8 @@ std::string headline(const RunPage& page) {
                                  figure_text(all.mass_rate * 1e3 * factor), figure_text(all.seeds_per_s * factor),
                                  outflow.window.from, outflow.window.to);
   if (slice && outflow.depth_factor)
-    text += fmt::format(": of the whole tray, {:.4g} times the slice that was simulated", factor);
+    text += fmt::format(": of the whole tray, {:.4g} times the slice that was simulated, its holes slots all across",
+                        factor);
   else if (slice)
     text += ": of a slice one seed thick";
   return text + '.';
@@ -153,7 +154,7 @@ Json effects(const Model& model) {
   return all;
 }
 
-Json drill(const std::optional<DrillFigures>& figures) {
+Json drill(const std::optional<DrillFigures>& figures, Space space) {
   if (!figures) return nullptr;
   Json rows = Json::array();
   for (const RowFigures& row : figures->rows)
@@ -164,7 +165,8 @@ Json drill(const std::optional<DrillFigures>& figures) {
                       {"high", nullptr}});
   const RowFigures& all = figures->all();
   return {{"rows", std::move(rows)},
-          {"sentence", all.kg_per_m2 ? fmt::format("All rows together sow {} kg/ha.", number_text(1e4 * *all.kg_per_m2))
+          {"sentence", all.kg_per_m2 ? fmt::format("All rows together sow {} kg/ha{}.",
+                                                   number_text(1e4 * *all.kg_per_m2), of_plane(space))
                                      : std::string("Without tray.depth there is no rate per area.")}};
 }
 
@@ -209,7 +211,7 @@ std::string run_page_data(const RunPage& page) {
                      {"effects", effects(page.model)},
                      {"guard", guard_sentence(page.run, scene.guard)},
                      {"settings", settings(page)},
-                     {"drill", drill(page.drill)},
+                     {"drill", drill(page.drill, scene.space)},
                      {"scene", Json::parse(scene_to_json(scene))}};
   return page_text(data);
 }

@@ -70,7 +70,7 @@ std::string headline(const StudyResult& result) {
   for (const auto& [status, words] : {std::pair(LayoutStatus::invalid, "cannot be built"),
                                       std::pair(LayoutStatus::stopped, "were stopped by the guard"),
                                       std::pair(LayoutStatus::outside_the_model, "lie outside the model"),
-                                      std::pair(LayoutStatus::interrupted, "have runs that are missing")})
+                                      std::pair(LayoutStatus::incomplete, "have runs that are missing")})
     if (of_status(status) > 0) text += fmt::format(" {} {}.", of_status(status), words);
   return text;
 }

@@ -19,7 +19,7 @@ std::string run_status(EvaluationStatus status) {
   switch (status) {
     case EvaluationStatus::refused:
       return "invalid";
-    case EvaluationStatus::not_begun:
+    case EvaluationStatus::absent:
       return "missing";
     case EvaluationStatus::interrupted:
       return "interrupted";
@@ -41,11 +41,11 @@ std::string run_note(int first, const Layout& layout, const Evaluation& run) {
 Columns<LayoutRow> sweep_columns(const std::vector<std::string>& keys) {
   using R = const LayoutRow&;
   Columns<LayoutRow> columns = layout_columns<LayoutRow>();
-  columns.push_back(
-      text_column<LayoutRow>("status",
-                             "ok, doubtful (its figures may be wrong), outside the model (of a run at least: nothing "
-                             "is to be decided by it), invalid, stopped (by the guard) or interrupted",
-                             [](R r) { return layout_status(r.of().status); }));
+  columns.push_back(text_column<LayoutRow>(
+      "status",
+      "ok, doubtful (its figures may be wrong), outside the model (of a run at least: nothing "
+      "is to be decided by it), invalid, stopped (by the guard) or incomplete (runs are missing)",
+      [](R r) { return layout_status(r.of().status); }));
   columns.push_back(text_column<LayoutRow>(
       "reason", "why it is not ok, or what makes it less sure; and what in its scene can hardly be meant",
       [](R r) { return layout_note(r.of()); }));
@@ -250,8 +250,8 @@ std::string layout_status(LayoutStatus status) {
       return "invalid";
     case LayoutStatus::stopped:
       return "stopped";
-    case LayoutStatus::interrupted:
-      return "interrupted";
+    case LayoutStatus::incomplete:
+      return "incomplete";
   }
   return "";
 }

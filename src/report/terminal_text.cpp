@@ -35,6 +35,10 @@ std::string to_digits(double value, int digits) {
   return fmt::format("{:.0f}", std::strtod(text.c_str(), nullptr));
 }
 
+std::string_view of_plane(Space space) {
+  return space == Space::plane ? " (2D: a slice times the depth, its holes slots all across)" : "";
+}
+
 std::string unevenness_text(const Unevenness& of) {
   if (!of.cv) return fmt::format("up to {} %, if any", to_digits(100 * of.high, 2));
   return fmt::format("{} % ({} to {} %)", to_digits(100 * *of.cv, 2), to_digits(100 * of.low, 2),

@@ -248,4 +248,10 @@ std::vector<FrontStanding> Front::standings() const {
   return standings;
 }
 
+std::vector<bool> Front::surely_in_bands() const {
+  std::vector<bool> meets;
+  for (const Known& of : all_known()) meets.push_back(of.violation == 0 && is_in_bands(of, 1 - question_.confidence));
+  return meets;
+}
+
 }  // namespace vibrosow

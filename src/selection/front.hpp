@@ -75,6 +75,9 @@ class Front {
   /// went by what was seen before, the confidence is no proof.
   std::vector<FrontStanding> standings() const;
 
+  /// Of each, whether it surely meets the bands, as a system on the front must.
+  std::vector<bool> surely_in_bands() const;
+
  private:
   struct System {
     int observations = 0, clogged = 0;

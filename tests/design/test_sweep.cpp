@@ -79,7 +79,7 @@ TEST(Sweep, InterruptKeepsWhatIsFinished) {
   const StudyResult result = sweep(three_layouts(files), fifth_is_interrupted, options);
   EXPECT_EQ(begun, 5);
   EXPECT_EQ(result.layouts[0].status, LayoutStatus::ok);
-  EXPECT_EQ(result.layouts[1].status, LayoutStatus::interrupted);
+  EXPECT_EQ(result.layouts[1].status, LayoutStatus::incomplete);
   EXPECT_EQ(result.layouts[1].replicates, 1);
   EXPECT_EQ(result.layouts[2].replicates, 0);
   EXPECT_FALSE(result.layouts[2].figures["rate_g_per_s"]);

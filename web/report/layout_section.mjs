@@ -13,7 +13,7 @@ const ofHoles = [
 ];
 const statusWords = {
   'outside the model': 'It lies outside the model, so nothing is to be decided by it', invalid: 'It cannot be built',
-  stopped: 'The guard stopped a run of it', interrupted: 'Runs of it are missing', failed: 'It failed', clogs: 'It clogs', spills: 'It spills',
+  stopped: 'The guard stopped a run of it', incomplete: 'Runs of it are missing', failed: 'It failed', clogs: 'It clogs', spills: 'It spills',
   'misses the rate': 'It misses the rate', 'misses the rate or spills': 'It misses the rate or spills', 'ruled out by drafts': 'Drafts ruled it out',
 };
 

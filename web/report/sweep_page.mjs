@@ -13,7 +13,7 @@ const doubtsShown = 6;
 const numbersShown = 12;
 const words = {
   'outside the model': ['lies outside the model', 'lie outside the model'], invalid: ['cannot be built', 'cannot be built'],
-  stopped: ['was stopped by the guard', 'were stopped by the guard'], interrupted: ['has runs that are missing', 'have runs that are missing'],
+  stopped: ['was stopped by the guard', 'were stopped by the guard'], incomplete: ['has runs that are missing', 'have runs that are missing'],
   failed: ['failed', 'failed'],
 };
 
