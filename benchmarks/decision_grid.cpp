@@ -54,7 +54,7 @@ Asked read_asked(const std::string& file) {
   const Figure& rate = figure_named(json.at("rate").at("figure").get<std::string>());
   const auto end_of_band = [&](const char* key) { return json.at("rate").at(key).get<double>() * rate.unit_size; };
   return {&goal_named(json.at("goal").at("name").get<std::string>()),
-          {rate.name, end_of_band("low"), end_of_band("high")},
+          {rate.name == "tray_seeds_per_s", end_of_band("low"), end_of_band("high")},
           json.at("confidence_percent"),
           json.at("best"),
           json.at("random_seed")};
@@ -70,7 +70,7 @@ KeptLayout kept_layout(const Layout& layout, const Scene& scene, const std::dequ
       if (!run) run = folder.find(case_identity(scene, random_seed));
     if (!run) return kept;
     const Evaluation evaluation = reduced(scene, *run);
-    const auto goal = asked.goal->of(evaluation.outflow), rate = asked.rate.of(evaluation.outflow);
+    const auto goal = asked.goal->of(evaluation.outflow), rate = rate_as_wanted(asked.rate, evaluation.outflow);
     if (!goal || !rate || !evaluation.finished() || evaluation.outside_the_model) return {layout.number, {}};
     kept.runs.push_back({*goal, *rate});
     kept.grain_steps +=

@@ -223,7 +223,8 @@ Outcome by_search(const Problem& problem, int budget, std::uint64_t seed, double
   FrontSearch search(options);
   Runs runs(problem, seed);
   std::vector<int> have;
-  for (std::vector<int> wanted = search.wanted(); wanted != have; wanted = search.wanted()) {
+  for (search.request_next_round(); search.counts() != have; search.request_next_round()) {
+    const std::vector<int>& wanted = search.counts();
     have.resize(wanted.size(), 0);
     for (std::size_t i = 0; i < wanted.size(); ++i)
       for (; have[i] < wanted[i]; ++have[i]) search.take(i, runs.run(place_of(search.points()[i])));

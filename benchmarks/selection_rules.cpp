@@ -114,9 +114,10 @@ struct Outcome {
 
 Outcome decide(Procedure& procedure, Problem& problem) {
   std::vector<int> have(layouts, 0);
-  for (std::vector<int> wanted = procedure.wanted(); wanted != have; wanted = procedure.wanted())
+  for (procedure.request_next_round(); procedure.counts() != have; procedure.request_next_round())
     for (std::size_t i = 0; i < layouts; ++i)
-      for (; have[i] < wanted[i]; ++have[i]) procedure.take(i, problem.run(i, static_cast<std::size_t>(have[i])));
+      for (; have[i] < procedure.counts()[i]; ++have[i])
+        procedure.take(i, problem.run(i, static_cast<std::size_t>(have[i])));
   double runs = 0;
   for (const int of : have) runs += of;
   const Decision decision = procedure.decision();

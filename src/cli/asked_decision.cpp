@@ -6,7 +6,6 @@
 #include "cli/console.hpp"
 #include "cli/decision_text.hpp"
 #include "cli/report_study.hpp"
-#include "report/decision_page.hpp"
 
 namespace vibrosow {
 namespace {
@@ -14,33 +13,14 @@ namespace {
 DecideOptions options_of(const DecideQuestion& question, std::uint64_t first_random_seed) {
   DecideOptions options;
   options.goal = &goal_named(question.goal);
-  if (!question.rate.empty()) options.rate = read_wanted_rate(question.rate);
-  options.clogging_limit = share_option("--clogging", question.clogging, 0.001, 1, "0.1 % to 100 %");
-  options.margin = share_option("--within", question.within, 0.0001, 0.5, "0.01 % to 50 %");
-  options.confidence = share_option("--confidence", question.confidence, 0.6, 0.9999, "60 % to 99.99 %");
-  options.rule = question.procedure == "posterior" ? SelectionRule::posterior : SelectionRule::guaranteed;
+  options.rate = question.rate;
+  options.clogging_limit = question.clogging_limit;
+  options.margin = question.margin;
+  options.confidence = question.confidence;
+  options.rule = question.rule;
   options.most = question.most;
   options.first_random_seed = first_random_seed;
   return options;
-}
-
-/// What a plan keeps of it, what is not said included.
-std::vector<std::string> words_of(const DecideQuestion& question) {
-  std::vector<std::string> words = {std::string(AskedDecision::command),    "--goal=" + question.goal,
-                                    "--clogging=" + question.clogging,      "--within=" + question.within,
-                                    "--confidence=" + question.confidence,  "--procedure=" + question.procedure,
-                                    fmt::format("--most={}", question.most)};
-  if (!question.rate.empty()) words.push_back("--rate=" + question.rate);
-  if (question.drafts) words.push_back("--drafts");
-  return words;
-}
-
-DecideQuestion question_in(const StudyPlan& plan) {
-  CLI::App app;
-  DecideQuestion question;
-  add_question_options(app, question);
-  read_asked(plan, app);
-  return question;
 }
 
 std::string names_of_goals() {
@@ -67,46 +47,56 @@ class LayoutsLeft {
 
 }  // namespace
 
-void add_question_options(CLI::App& command, DecideQuestion& question) {
-  command.add_option("--goal", question.goal, "what makes a layout good: " + names_of_goals())
+void add_question_options(CLI::App& command, DecideWords& words) {
+  command.add_option("--goal", words.goal, "what makes a layout good: " + names_of_goals())
       ->type_name("GOAL")
       ->required();
-  command.add_option("--rate", question.rate, "wanted of the tray: \"43 seeds/s +- 5 %\", \"12 g/min +- 5 %\"")
+  command.add_option("--rate", words.rate, "wanted of the tray: \"43 seeds/s +- 5 %\", \"12 g/min +- 5 %\"")
       ->type_name("RATE");
-  command.add_option("--clogging", question.clogging, "share of runs that a layout must clog less often than")
+  command.add_option("--clogging", words.clogging, "share of runs that a layout must clog less often than")
       ->type_name("SHARE")
       ->capture_default_str();
-  command.add_option("--within", question.within, "a difference that does not matter, over the best's mean")
+  command.add_option("--within", words.within, "a difference that does not matter, over the best's mean")
       ->type_name("SHARE")
       ->capture_default_str();
-  command.add_option("--confidence", question.confidence, "of a right decision")
+  command.add_option("--confidence", words.confidence, "of a right decision")
       ->type_name("SHARE")
       ->capture_default_str();
-  command.add_option("--procedure", question.procedure, "guaranteed, or posterior: fewer runs and no guarantee")
+  command.add_option("--procedure", words.procedure, "guaranteed, or posterior: fewer runs and no guarantee")
       ->type_name("NAME")
       ->check(CLI::IsMember({"guaranteed", "posterior"}))
       ->capture_default_str();
-  command.add_option("--most", question.most, "runs of a layout, at which it is given up")
+  command.add_option("--most", words.most, "runs of a layout, at which it is given up")
       ->type_name("N")
-      ->check(CLI::Range(2, 1000000))
+      ->check(CLI::Range(most_runs_range.least, most_runs_range.most))
       ->capture_default_str();
-  command.add_flag("--drafts", question.drafts,
+  command.add_flag("--drafts", words.drafts,
                    "let quick runs rule layouts out, if they are shown to be like the others");
+}
+
+DecideQuestion read_question(const DecideWords& words) {
+  DecideQuestion question{std::string(goal_named(words.goal).name)};
+  if (!words.rate.empty()) question.rate = read_wanted_rate(words.rate);
+  question.clogging_limit = share_option("--clogging", words.clogging, clogging_range, "0.1 % to 100 %");
+  question.margin = share_option("--within", words.within, margin_range, "0.01 % to 50 %");
+  question.confidence = share_option("--confidence", words.confidence, confidence_range, "60 % to 99.99 %");
+  question.rule = words.procedure == "posterior" ? SelectionRule::posterior : SelectionRule::guaranteed;
+  question.most = words.most;
+  question.drafts = words.drafts;
+  return question;
 }
 
 AskedDecision::AskedDecision(PlannedStudy planned, const DecideQuestion& question)
     : planned_(std::move(planned)), options_(options_of(question, planned_.plan.random_seed)) {
   StudyDecision decision(planned_.study, options_);
   if (question.drafts) drafts_.emplace(planned_.study, options_);
-  decision.wanted();
+  decision.request_next_round();
   planned_.plan.runs = decision.plan();
-  planned_.plan.asked = words_of(question);
+  planned_.plan.question = question;
 }
 
-AskedDecision::AskedDecision(const StudyPlan& plan) : AskedDecision(study_of_plan(plan), question_in(plan)) {}
-
 OutputFolder AskedDecision::folder(const CommonOptions& options) const {
-  return options.output_folder(std::string(command), decision_file_texts());
+  return options.output_folder(std::string(DecideQuestion::command), decision_file_texts());
 }
 
 bool AskedDecision::lead_drafts(RoundsOfRuns& rounds) {
@@ -119,7 +109,7 @@ bool AskedDecision::lead_drafts(RoundsOfRuns& rounds) {
 bool AskedDecision::lead(RoundsOfRuns& rounds) {
   const bool has_drafts = lead_drafts(rounds);
   StudyDecision decision(planned_.study, options_, report_.drafts ? report_.drafts->taking_part : std::vector<bool>());
-  decision.wanted();
+  decision.request_next_round();
   LayoutsLeft left;
   const bool is_whole = has_drafts && rounds.lead(decision, [&] { left.tell(decision, rounds); });
   planned_.plan.runs = decision.plan();
@@ -130,14 +120,6 @@ bool AskedDecision::lead(RoundsOfRuns& rounds) {
   if (report_.result.cost.runs == 0)  // a procedure that has seen nothing knows nothing of any layout
     for (SceneDecision& scene : report_.result.scenes) scene.standing = Standing::undecided;
   return is_whole;
-}
-
-std::vector<WantedReplay> AskedDecision::best_to_replay(std::size_t most) const {
-  return vibrosow::best_to_replay(report_, most);
-}
-
-std::string AskedDecision::page_data(const SweepTiming& timing, const Replays& replays) const {
-  return decision_page_data(report_, timing, replays);
 }
 
 int AskedDecision::report(const OutputFolder& folder, const CommonOptions& options, const std::string& page) const {

@@ -1,8 +1,8 @@
 #pragma once
 
+#include <CLI/CLI.hpp>
 #include <optional>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "cli/asked_study.hpp"
@@ -13,7 +13,7 @@
 namespace vibrosow {
 
 /// What `decide` is asked, in the words of its command line.
-struct DecideQuestion {
+struct DecideWords {
   std::string goal, rate;
   std::string clogging = "5 %", within = "2 %", confidence = "95 %";
   std::string procedure = "guaranteed";
@@ -22,24 +22,23 @@ struct DecideQuestion {
 };
 
 /// Adds --goal, --rate, --clogging, --within, --confidence, --procedure, --most and --drafts.
-void add_question_options(CLI::App& command, DecideQuestion& question);
+void add_question_options(CLI::App& command, DecideWords& words);
+
+/// Throws InputError for a goal that is none, and for what is out of its range.
+DecideQuestion read_question(const DecideWords& words);
 
 /// A decision with the drafts before it, if any.
 class AskedDecision : public AskedStudy {
  public:
-  static constexpr std::string_view command = "decide";
-
   /// Throws InputError for what cannot be decided.
   AskedDecision(PlannedStudy planned, const DecideQuestion& question);
-  explicit AskedDecision(const StudyPlan& plan);
 
   std::vector<std::string> warnings() const override { return study_warnings(planned_.study); }
   OutputFolder folder(const CommonOptions& options) const override;
   const StudyPlan& plan() const override { return planned_.plan; }
   bool lead(RoundsOfRuns& rounds) override;
   std::vector<PlannedRun> asked_for() const override { return asked_for_; }
-  std::vector<WantedReplay> best_to_replay(std::size_t most) const override;
-  std::string page_data(const SweepTiming& timing, const Replays& replays) const override;
+  StudyPage page(const SweepTiming& timing) const override { return study_page(report_, timing); }
   int report(const OutputFolder& folder, const CommonOptions& options, const std::string& page) const override;
 
  private:

@@ -14,9 +14,10 @@
 namespace vibrosow {
 
 std::unique_ptr<AskedStudy> asked_study(const StudyPlan& plan) {
-  if (plan.asked.empty()) return nullptr;
-  if (plan.asked.front() == AskedFront::command) return std::make_unique<AskedFront>(plan);
-  return std::make_unique<AskedDecision>(plan);
+  if (const auto* question = std::get_if<DecideQuestion>(&plan.question))
+    return std::make_unique<AskedDecision>(study_of_plan(plan), *question);
+  if (std::holds_alternative<OptimiseQuestion>(plan.question)) return std::make_unique<AskedFront>(plan);
+  return nullptr;
 }
 
 int answer(AskedStudy& asked, const CommonOptions& options, const MakingFlags& making,
@@ -30,8 +31,8 @@ int answer(AskedStudy& asked, const CommonOptions& options, const MakingFlags& m
   const bool with_replays = asked.lead(rounds) && options.replays > 0;
   freeze_plan(folder.path(), asked.plan());
   const bool with_page = !page_template.empty() && !with_replays;
-  const int exit_code =
-      asked.report(folder, options, with_page ? filled_page(page_template, asked.page_data(rounds.timing(), {})) : "");
+  const int exit_code = asked.report(
+      folder, options, with_page ? filled_page(page_template, page_data(asked.page(rounds.timing()))) : "");
   const int of_page =
       with_replays ? add_page_with_replays(asked, folder, runs, options, page_template, rounds.timing()) : exit_done;
   if (!options.quiet) print("reports: {}\n", folder.path().string());
@@ -41,20 +42,10 @@ int answer(AskedStudy& asked, const CommonOptions& options, const MakingFlags& m
 
 int add_page_with_replays(const AskedStudy& asked, const OutputFolder& folder, const StudyRuns& runs,
                           const CommonOptions& options, const std::string& page_template, const SweepTiming& timing) {
+  const StudyPage page = asked.page(timing);
   return add_page_with_replays(
-      folder, asked.best_to_replay(options.replays), runs.kept(), options,
-      [&](const Replays& replays) { return filled_page(page_template, asked.page_data(timing, replays)); });
-}
-
-void read_asked(const StudyPlan& plan, CLI::App& app) {
-  std::vector<std::string> words(plan.asked.rbegin(), plan.asked.rend());  // CLI11 takes them from the end
-  words.pop_back();                                                        // the command
-  try {
-    app.parse(words);
-  } catch (const CLI::ParseError& error) {
-    throw InputError(
-        fmt::format("{}: its plan was made by another version of the program: {}", plan.study, error.what()));
-  }
+      folder, best_to_replay(page.answer, options.replays), runs.kept(), options,
+      [&](const Replays& replays) { return filled_page(page_template, page_data(page, replays)); });
 }
 
 }  // namespace vibrosow

@@ -1,13 +1,12 @@
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <memory>
 #include <string>
 #include <vector>
 
 #include "cli/common_options.hpp"
 #include "cli/make_runs.hpp"
-#include "report/replay.hpp"
+#include "report/study_page.hpp"
 #include "storage/study_plan.hpp"
 
 namespace vibrosow {
@@ -31,10 +30,8 @@ class AskedStudy {
   virtual bool lead(RoundsOfRuns& rounds) = 0;
   /// The runs that it has asked for so far.
   virtual std::vector<PlannedRun> asked_for() const = 0;
-  /// Runs of its best layouts, at most so many, in the order of its page.
-  virtual std::vector<WantedReplay> best_to_replay(std::size_t most) const = 0;
-  /// What the page of where it is shows (page_text). `timing`: of the runs that were made for it just now.
-  virtual std::string page_data(const SweepTiming& timing, const Replays& replays) const = 0;
+  /// What the page of where it was led to shows. `timing`: of the runs that were made for it just now.
+  virtual StudyPage page(const SweepTiming& timing) const = 0;
   /// Writes the reports of where it is, with a `page` unless that is empty, and prints its answer; an exit code.
   virtual int report(const OutputFolder& folder, const CommonOptions& options, const std::string& page) const = 0;
 };
@@ -47,12 +44,8 @@ std::unique_ptr<AskedStudy> asked_study(const StudyPlan& plan);
 int answer(AskedStudy& asked, const CommonOptions& options, const MakingFlags& making,
            const std::vector<std::string>& reuse);
 
-/// Adds its page with the replays that the options ask for (add_page_with_replays). `timing`: as of page_data.
+/// Adds its page with the replays that the options ask for (add_page_with_replays). `timing`: as of `page`.
 int add_page_with_replays(const AskedStudy& asked, const OutputFolder& folder, const StudyRuns& runs,
                           const CommonOptions& options, const std::string& page_template, const SweepTiming& timing);
-
-/// Reads what a plan keeps of a command line into what the options of `app` are bound to. Throws InputError for what it
-/// does not know.
-void read_asked(const StudyPlan& plan, CLI::App& app);
 
 }  // namespace vibrosow

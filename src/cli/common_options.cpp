@@ -124,15 +124,15 @@ double time_option(const std::string& option, const std::string& text) {
   throw InputError(fmt::format("{}: \"{}\" is no time to wait", option, text));
 }
 
-double share_option(const std::string& option, const std::string& text, double least, double most, const char* range) {
+double share_option(const std::string& option, const std::string& text, AskedRange<double> range, const char* words) {
   double share = 0;
   try {
     share = parse_quantity(text, Dimension::fraction);
   } catch (const UnitError& error) {
     throw InputError(fmt::format("{}: {}", option, error.what()));
   }
-  if (!(share >= least && share <= most))
-    throw InputError(fmt::format("{}: \"{}\" is out of range, which is from {}", option, text, range));
+  if (!(share >= range.least && share <= range.most))
+    throw InputError(fmt::format("{}: \"{}\" is out of range, which is from {}", option, text, words));
   return share;
 }
 

@@ -10,6 +10,7 @@
 #include "input/override.hpp"
 #include "report/columns.hpp"
 #include "report/output_folder.hpp"
+#include "storage/asked_question.hpp"
 
 namespace vibrosow {
 
@@ -61,8 +62,8 @@ void add_common_options(CLI::App& command, CommonOptions& options, const std::st
 /// A time in s that an option was given. Throws InputError where it is none or not above 0.
 double time_option(const std::string& option, const std::string& text);
 
-/// A share between two, which `range` states. Throws InputError.
-double share_option(const std::string& option, const std::string& text, double least, double most, const char* range);
+/// A share in a range, which `words` state. Throws InputError.
+double share_option(const std::string& option, const std::string& text, AskedRange<double> range, const char* words);
 
 /// Each on stderr.
 void print_warnings(const std::vector<std::string>& warnings);

@@ -13,7 +13,7 @@ namespace {
 
 struct DecideCommandOptions {
   CommonOptions common;
-  DecideQuestion question;
+  DecideWords words;
   MakingFlags making;
   std::vector<std::string> reuse;
 };
@@ -21,7 +21,8 @@ struct DecideCommandOptions {
 int run_decide(const DecideCommandOptions& command) {
   const CommonOptions& common = command.common;
   const InputFile file = input_file(common.file, FileKind::study);
-  AskedDecision decision(plan_study(file.path, common.sets, common.random_seed, file.files), command.question);
+  AskedDecision decision(plan_study(file.path, common.sets, common.random_seed, file.files),
+                         read_question(command.words));
   print_warnings(warnings_of_files_outside(file));
   return answer(decision, common, command.making, command.reuse);
 }
@@ -33,7 +34,7 @@ void add_decide_command(CLI::App& app, int& exit_code) {
   CLI::App* command = app.add_subcommand(
       "decide", "find the best layout of a study: runs go where they decide, until it is sure enough");
   add_common_options(*command, options->common, "study file (.toml)");
-  add_question_options(*command, options->question);
+  add_question_options(*command, options->words);
   add_html_option(*command, options->common);
   add_replays_option(*command, options->common);
   add_making_flags(*command, options->making);

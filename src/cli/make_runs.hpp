@@ -44,10 +44,11 @@ class RoundsOfRuns {
   /// To its end; false where that is interrupted, or runs are missing.
   template <class Asking, class AfterRound>
   bool lead(Asking& asking, AfterRound after_round) {
-    for (auto wanted = asking.wanted(); !wanted.empty();) {
-      if (flags_) made_.add(make_runs(runs_, wanted, *flags_, jobs_, quiet_));
+    asking.request_next_round();
+    for (auto missing = asking.missing(); !missing.empty(); missing = asking.missing()) {
+      if (flags_) made_.add(make_runs(runs_, missing, *flags_, jobs_, quiet_));
       if (made_.making.interrupted > 0 || !asking.take(runs_.kept(), jobs_)) return false;
-      wanted = asking.wanted();
+      asking.request_next_round();
       after_round();
     }
     return true;

@@ -13,7 +13,7 @@ namespace {
 
 struct OptimiseCommandOptions {
   CommonOptions common;
-  OptimiseQuestion question;
+  OptimiseWords words;
   MakingFlags making;
   std::vector<std::string> reuse;
 };
@@ -21,7 +21,7 @@ struct OptimiseCommandOptions {
 int run_optimise(const OptimiseCommandOptions& command) {
   const CommonOptions& common = command.common;
   const InputFile file = input_file(common.file, FileKind::study);
-  AskedFront front(file.path, common.sets, common.random_seed, file.files, command.question);
+  AskedFront front(file.path, common.sets, common.random_seed, file.files, read_question(command.words));
   print_warnings(warnings_of_files_outside(file));
   return answer(front, common, command.making, command.reuse);
 }
@@ -33,7 +33,7 @@ void add_optimise_command(CLI::App& app, int& exit_code) {
   CLI::App* command = app.add_subcommand(
       "optimise", "look in the space of a study for layouts that no other is better than in several goals");
   add_common_options(*command, options->common, "study file (.toml)");
-  add_question_options(*command, options->question);
+  add_question_options(*command, options->words);
   add_html_option(*command, options->common);
   add_replays_option(*command, options->common);
   add_making_flags(*command, options->making);

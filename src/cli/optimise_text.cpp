@@ -4,8 +4,8 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <map>
 
+#include "design/answer.hpp"
 #include "report/answer_doubts.hpp"
 #include "report/front_report.hpp"
 #include "report/layout_text.hpp"
@@ -30,13 +30,12 @@ std::string figures_text(const OptimiseResult& result, std::size_t layout) {
   }
   if (of.unevenness) text += fmt::format("unevenness (CV) {}, ", unevenness_text(*of.unevenness));
   if (const auto& rate = result.options.rate) {
-    const Figure& figure = figure_named(rate->figure);
-    const std::string_view unit = rate->figure == "tray_seeds_per_s" ? "seeds/s" : figure.unit;
-    text += fmt::format("{} of the tray{}, ", with_unit(of.rate, unit, figure.unit_size),
+    const Figure& figure = rate_figure(rate);
+    text += fmt::format("{} of the tray{}, ", with_unit(of.rate, unit_of(figure), figure.unit_size),
                         of_plane(result.study.scenes[result.study.layouts[layout].scene.value()].space));
   }
   text += fmt::format("{} runs{}", of.runs, of.clogged > 0 ? fmt::format(", {} clogged", of.clogged) : "");
-  return of.at_edge.empty() ? text : text + "; " + edge_text(of);
+  return of.at_edge.empty() ? text : text + "; " + edge_text(of.at_edge);
 }
 
 /// The layouts of a standing that lead.
@@ -52,14 +51,8 @@ std::string leading_text(const OptimiseResult& result, FrontStanding standing) {
   return text;
 }
 
-/// "38 dominated, 12 may be on the front"
-std::string rest_text(const OptimiseResult& result) {
-  std::map<std::string, int> counts;
-  for (std::size_t i = 0; i < result.layouts.size(); ++i)
-    if (!leads(result.layouts[i])) ++counts[standing_text(result, i)];
-  std::string text;
-  for (const auto& [standing, count] : counts)
-    text += fmt::format("{}{} {}", text.empty() ? "" : ", ", count, standing);
+std::string rest_text(const Answer& answer) {
+  const std::string text = counted_standings(answer, [](const AnsweredLayout& one) { return one.is_named; });
   return text.empty() ? "" : wrapped(fmt::format("The other layouts that were tried: {} (pareto.csv).", text));
 }
 
@@ -67,15 +60,16 @@ std::string rest_text(const OptimiseResult& result) {
 
 std::string optimise_text(const OptimiseResult& result, const std::string& folder) {
   std::string text = result.study.title.empty() ? "" : wrapped(result.study.title) + "\n";
+  const Answer answer = answer_of(result);
   if (result.is_interrupted) text += wrapped("Interrupted. So far:");
   const std::string sure = leading_text(result, FrontStanding::on_front);
   const std::string unsure = leading_text(result, FrontStanding::may_be_on_front);
   if (!sure.empty()) text += fmt::format("On the front:\n{}", sure);
   if (!unsure.empty()) text += fmt::format("First by their means, and may be on the front:\n{}", unsure);
   if (const std::string why = why_unsure(result); !why.empty()) text += wrapped(why);
-  text += doubts_paragraph(doubts_about(result));
+  text += doubts_paragraph(doubts_about(answer));
   if (sure.empty() && unsure.empty()) text += wrapped("No layout meets the constraints by its means.");
-  text += fmt::format("\n{}{}", rest_text(result), wrapped(front_promise(result)));
+  text += fmt::format("\n{}{}", rest_text(answer), wrapped(front_promise(result)));
   text += wrapped(front_cost(result));
   if (std::ranges::count_if(result.layouts, leads) < 2) return text;
   const std::uint64_t random_seed = result.options.first_random_seed;  // else it would take none of the runs

@@ -9,7 +9,8 @@
 #include "cli/make_replays.hpp"
 #include "cli/sweep_table.hpp"
 #include "design/sweep.hpp"
-#include "report/sweep_page.hpp"
+#include "report/page.hpp"
+#include "report/study_page.hpp"
 
 namespace vibrosow {
 namespace {
@@ -40,10 +41,10 @@ KeptRuns kept_in(const StudyRuns& runs) {
 int add_sweep_page_with_replays(const PlannedStudy& planned, const StudyRuns& runs, const OutputFolder& folder,
                                 const StudyResult& result, const CommonOptions& options,
                                 const std::string& page_template) {
-  const std::uint64_t first = planned.plan.random_seed;
+  const StudyPage page = study_page(result, planned.plan.random_seed);
   return add_page_with_replays(
-      folder, best_to_replay(result, first, options.replays), runs.kept(), options,
-      [&](const Replays& replays) { return sweep_page(page_template, result, first, replays); });
+      folder, best_to_replay(page.answer, options.replays), runs.kept(), options,
+      [&](const Replays& replays) { return filled_page(page_template, page_data(page, replays)); });
 }
 
 int report_study(const PlannedStudy& planned, const StudyRuns& runs, const OutputFolder& folder,
@@ -57,7 +58,8 @@ int report_study(const PlannedStudy& planned, const StudyRuns& runs, const Outpu
       result.layouts, [](const LayoutResult& one) { return one.status == LayoutStatus::incomplete; });
   const bool with_replays = options.replays > 0 && whole;
   if (!page_template.empty() && !with_replays)
-    files.push_back({"report.html", sweep_page(page_template, result, planned.plan.random_seed)});
+    files.push_back(
+        {"report.html", filled_page(page_template, page_data(study_page(result, planned.plan.random_seed)))});
   write_then_print(
       options.quiet, [&] { folder.write(files); }, [&] { print_sweep_table(result); });
   const int of_page =

@@ -76,8 +76,8 @@ std::string follow(StudyPlan& plan, AskedStudy& asked, const std::string& folder
   RoundsOfRuns rounds(runs, std::nullopt, 1, true);
   const bool has_ended = asked.lead(rounds);
   plan.runs = asked.asked_for();
-  return has_ended ? fmt::format("vibrosow {} has ended\n", plan.asked.front())
-                   : fmt::format("vibrosow {} has asked for these so far; more may follow\n", plan.asked.front());
+  return fmt::format("vibrosow {} has {}\n", command_of(plan.question),
+                     has_ended ? "ended" : "asked for these so far; more may follow");
 }
 
 /// How far a study is, and what has failed.

@@ -90,7 +90,8 @@ void print_layouts(const StudyResult& result) {
 
 void print_sweep_table(const StudyResult& result) {
   print("{}\n", wrapped(result.study.title));
-  if (const std::string doubts = doubts_paragraph(doubts_about(result)); !doubts.empty()) print("{}\n", doubts);
+  if (const std::string doubts = doubts_paragraph(doubts_about(answer_of(result, 1))); !doubts.empty())
+    print("{}\n", doubts);
   print_layouts(result);
   const bool uneven = std::ranges::any_of(
       result.layouts, [](const LayoutResult& one) { return one.figures["raw_cv_percent"].has_value(); });

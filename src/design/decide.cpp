@@ -97,10 +97,9 @@ StudyDecision::StudyDecision(const Study& study, const DecideOptions& options, c
                                  least, options.most));
 }
 
-std::vector<WantedRun> StudyDecision::wanted() {
-  const std::vector<int> of_systems = procedure_->wanted();
-  for (std::size_t i = 0; i < systems_.size(); ++i) counts_[systems_[i]] = of_systems[i];
-  return runs_.wanted(counts_);
+void StudyDecision::request_next_round() {
+  procedure_->request_next_round();
+  for (std::size_t i = 0; i < systems_.size(); ++i) counts_[systems_[i]] = procedure_->counts()[i];
 }
 
 bool StudyDecision::take(const Simulator& kept, int jobs) {
@@ -123,8 +122,8 @@ Observation StudyDecision::observed(std::size_t scene, const Evaluation& run) {
   if (has_clogged(run)) return {RunEnd::clogged};
   const auto goal = options_.goal->of(run.outflow);
   if (!goal) return failed(std::string(options_.goal->if_none));
-  const auto rate = options_.rate ? options_.rate->of(run.outflow) : std::optional(0.0);
-  if (!rate) return failed(fmt::format("it has no {}", options_.rate->figure));
+  const auto rate = options_.rate ? rate_as_wanted(*options_.rate, run.outflow) : std::optional(0.0);
+  if (!rate) return failed(fmt::format("it has no {}", rate_figure(options_.rate).name));
   return {RunEnd::flowed, *goal, *rate};
 }
 
@@ -143,7 +142,7 @@ SceneDecision StudyDecision::figures_of(std::size_t scene) const {
   std::vector<double> goal_values, rates;
   std::vector<const Outflow*> flowed;
   const auto rate_of = [&](const Outflow& outflow) {
-    return options_.rate ? options_.rate->of(outflow) : figure_named("rate_g_per_s").of(outflow);
+    return options_.rate ? rate_as_wanted(*options_.rate, outflow) : figure_named("rate_g_per_s").of(outflow);
   };
   for (const Evaluation& run : runs_.runs()[scene]) {
     ++figures.runs;

@@ -11,10 +11,9 @@
 #include "design/study.hpp"
 #include "outflow/statistics.hpp"
 #include "selection/procedure.hpp"
+#include "storage/asked_question.hpp"
 
 namespace vibrosow {
-
-enum class SelectionRule { guaranteed, posterior };
 
 struct DecideOptions {
   const Goal* goal = nullptr;
@@ -72,10 +71,13 @@ class StudyDecision {
   /// scenes are left, where the rate of the tray is not known, or where `most` is too few to decide anything.
   StudyDecision(const Study& study, const DecideOptions& options, const std::vector<bool>& taking_part = {});
 
-  /// The runs of the next round; empty: it is decided, or cannot be.
-  std::vector<WantedRun> wanted();
+  /// Asks for the runs of the next round by those that were taken; for none where it is decided, or cannot be.
+  void request_next_round();
 
-  /// Takes the round's runs where they are kept; false where one is not there.
+  /// Of the runs asked for, those that were not taken yet.
+  std::vector<WantedRun> missing() const { return runs_.missing(counts_); }
+
+  /// Takes what is missing where it is kept; false where a run is not there.
   bool take(const Simulator& kept, int jobs);
 
   /// How many layouts may still be the best.

@@ -50,12 +50,15 @@ DraftScreen::DraftScreen(const Study& study, const DecideOptions& options)
   for (const std::size_t scene : pilots_) own_counts_[scene] = draft_counts_[scene] = runs;
 }
 
-std::vector<WantedRun> DraftScreen::wanted() {
-  std::vector<WantedRun> wanted = as_drafts_.wanted(draft_counts_), others = own_.wanted(own_counts_);
-  wanted.insert(wanted.end(), others.begin(), others.end());
-  if (!wanted.empty() || correlation().value_or(0) < least_correlation) return wanted;
-  draft_counts_.assign(draft_counts_.size(), runs);
-  return as_drafts_.wanted(draft_counts_);
+void DraftScreen::request_next_round() {
+  if (missing().empty() && correlation().value_or(0) >= least_correlation)
+    draft_counts_.assign(draft_counts_.size(), runs);
+}
+
+std::vector<WantedRun> DraftScreen::missing() const {
+  std::vector<WantedRun> missing = as_drafts_.missing(draft_counts_), others = own_.missing(own_counts_);
+  missing.insert(missing.end(), others.begin(), others.end());
+  return missing;
 }
 
 bool DraftScreen::take(const Simulator& kept, int jobs) {
@@ -86,7 +89,7 @@ bool DraftScreen::met_the_constraints(std::size_t scene) const {
   for (const Evaluation& run : as_drafts_.runs()[scene]) {
     if (has_clogged(run)) return false;
     if (!options_.rate) continue;
-    if (const auto rate = options_.rate->of(run.outflow)) rates.add(*rate);
+    if (const auto rate = rate_as_wanted(*options_.rate, run.outflow)) rates.add(*rate);
   }
   return !options_.rate || (rates.mean() >= options_.rate->low && rates.mean() <= options_.rate->high);
 }

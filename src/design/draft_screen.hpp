@@ -34,8 +34,11 @@ class DraftScreen {
   DraftScreen(const DraftScreen&) = delete;
   DraftScreen& operator=(const DraftScreen&) = delete;
 
-  /// The runs of the next round; empty: the findings are there.
-  std::vector<WantedRun> wanted();
+  /// Asks for all drafts once the pilots are there, if these are like enough; else for nothing more.
+  void request_next_round();
+  /// Of the runs asked for, those that were not taken yet; empty after a request: the findings are there.
+  std::vector<WantedRun> missing() const;
+  /// Takes what is missing where it is kept; false where a run is not there.
   bool take(const Simulator& kept, int jobs);
   DraftFindings findings() const;
   /// The runs asked for so far: the drafts', then the pilots' other ones.

@@ -185,18 +185,17 @@ int FrontSearch::resolve(int observations) {
   return asked;
 }
 
-const std::vector<int>& FrontSearch::wanted() {
+void FrontSearch::request_next_round() {
   for (std::size_t i = 0; i < counts_.size(); ++i)
-    if (front_.observations(i) < counts_[i]) return counts_;
+    if (front_.observations(i) < counts_[i]) return;
   if (points_.empty()) {
     begin();
-    return counts_;
+    return;
   }
   const int of_new = new_points_a_round * options_.question.first;
   const bool is_late = left() <= last_share * options_.budget;
   const int asked = resolve(std::min(left(), is_late ? of_new : of_new / 2));
   if (!is_late || asked == 0) propose(std::min(left(), of_new));
-  return counts_;
 }
 
 }  // namespace vibrosow

@@ -33,10 +33,13 @@ class FrontSearch {
   /// Throws std::invalid_argument for a space without axes or values, or fewer than 2 first observations.
   explicit FrontSearch(FrontSearchOptions options);
 
-  /// How many observations each point should have; as many as it has: the search is over. New points come last.
-  const std::vector<int>& wanted();
+  /// Asks for more observations once all that were asked for are there; for none where the search is over.
+  void request_next_round();
 
-  /// Of the points in any order, of each as many as were wanted.
+  /// How many observations each point should have by what was asked for. New points come last.
+  const std::vector<int>& counts() const { return counts_; }
+
+  /// Of the points in any order, of each as many as were asked for.
   void take(std::size_t point, const FrontObservation& observation) { front_.take(point, observation); }
 
   /// A point that there is no system for: it counts as one observation and comes no more.

@@ -75,12 +75,13 @@ const Goal& goal_named(std::string_view name) {
   throw InputError(fmt::format("--goal: \"{}\" is none of {}{}", shortened(name), list, did_you_mean(name, names)));
 }
 
-std::optional<double> WantedRate::of(const Outflow& outflow) const {
-  return finite(figure_named(figure).of(outflow));
+const Figure& rate_figure(const std::optional<WantedRate>& wanted) {
+  if (!wanted) return figure_named("rate_g_per_s");
+  return figure_named(wanted->is_of_seeds ? "tray_seeds_per_s" : "tray_rate_g_per_s");
 }
 
-const Figure& rate_figure(const std::optional<WantedRate>& wanted) {
-  return figure_named(wanted ? wanted->figure : "rate_g_per_s");
+std::optional<double> rate_as_wanted(const WantedRate& wanted, const Outflow& outflow) {
+  return finite(rate_figure(wanted).of(outflow));
 }
 
 WantedRate read_wanted_rate(const std::string& text) {
@@ -102,8 +103,8 @@ WantedRate read_wanted_rate(const std::string& text) {
       off = read_rate(by);
     if (off.is_of_seeds != rate.is_of_seeds) throw wrong(" has two kinds of rates");
     if (!(rate.value > 0 && off.value > 0 && off.value < rate.value)) throw wrong(" leaves no band above 0");
-    return {rate.is_of_seeds ? "tray_seeds_per_s" : "tray_rate_g_per_s", rate.value - off.value,
-            rate.value + off.value};
+    if (rate.value + off.value > most_wanted_rate) throw wrong(" is more than a tray can give");
+    return {rate.is_of_seeds, rate.value - off.value, rate.value + off.value};
   } catch (const UnitError& error) {
     throw wrong(fmt::format(": {}", error.what()));
   }

@@ -7,6 +7,7 @@
 
 #include "outflow/figures.hpp"
 #include "scene/scene.hpp"
+#include "storage/asked_question.hpp"
 
 namespace vibrosow {
 
@@ -28,15 +29,11 @@ std::span<const Goal> goals();
 /// Throws InputError with the list for a name that is none. "evenness" is the old name of "unevenness".
 const Goal& goal_named(std::string_view name);
 
-/// A rate of the whole tray that is wanted, within a band.
-struct WantedRate {
-  std::string_view figure;   // tray_seeds_per_s or tray_rate_g_per_s
-  double low = 0, high = 0;  // SI
-  std::optional<double> of(const Outflow& outflow) const;
-};
-
-/// The figure that a rate is shown as: of the wanted one, or else rate_g_per_s.
+/// The figure that a rate is shown as: of the whole tray as it is wanted, or else rate_g_per_s.
 const Figure& rate_figure(const std::optional<WantedRate>& wanted);
+
+/// Of the whole tray, in the unit of the wanted one; none where the run has no such figure.
+std::optional<double> rate_as_wanted(const WantedRate& wanted, const Outflow& outflow);
 
 /// Reads "43 seeds/s +- 5 %", "0.19 g/s +- 0.01 g/s", "12 g/min +- 5 %", also with "±". Throws InputError with what
 /// would be right.

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "design/layout_doubts.hpp"
 #include "design/study_grid.hpp"
@@ -63,6 +64,10 @@ std::optional<MeanWithInterval> in_interval(const KnownMean& known) {
 
 }  // namespace
 
+bool leads(const FrontLayout& layout) {
+  return layout.standing == FrontStanding::on_front || layout.is_first_by_means;
+}
+
 StudyOptimisation::StudyOptimisation(StudySource source, const OptimiseOptions& options)
     : source_(std::move(source)),
       options_(options),
@@ -79,7 +84,7 @@ StudyOptimisation::StudyOptimisation(StudySource source, const OptimiseOptions& 
                                  search.first_points, first_runs, variants_.size()));
   search.question = question_of(options_);
   search_ = std::make_unique<FrontSearch>(std::move(search));
-  search_->wanted();
+  search_->request_next_round();
   build_new_layouts();
   if (generations_.front()->study.scenes.empty()) throw InputError(generations_.front()->study.layouts.front().invalid);
   warnings_ = study_warnings(generations_.front()->study);
@@ -125,22 +130,26 @@ void StudyOptimisation::build_new_layouts() {
   generations_.push_back(std::move(generation));
 }
 
-std::vector<WantedRun> StudyOptimisation::wanted() {
-  std::vector<WantedRun> all;
+void StudyOptimisation::request_next_round() {
   do {
-    const std::vector<int> counts = search_->wanted();
+    search_->request_next_round();
     build_new_layouts();
+    const std::vector<int>& counts = search_->counts();
     for (std::size_t i = 0; i < places_.size(); ++i)
       if (const auto scene = places_[i].scene) {
         int& count = generations_[places_[i].generation]->counts[*scene];
         count = std::max(count, counts[i]);
       }
-    for (const auto& generation : generations_)
-      for (const SceneRuns& runs : generation->runs) {
-        std::vector<WantedRun> wanted = runs.wanted(generation->counts);
-        all.insert(all.end(), wanted.begin(), wanted.end());
-      }
-  } while (all.empty() && tell_search());
+  } while (missing().empty() && tell_search());
+}
+
+std::vector<WantedRun> StudyOptimisation::missing() const {
+  std::vector<WantedRun> all;
+  for (const auto& generation : generations_)
+    for (const SceneRuns& runs : generation->runs) {
+      std::vector<WantedRun> missing = runs.missing(generation->counts);
+      all.insert(all.end(), std::make_move_iterator(missing.begin()), std::make_move_iterator(missing.end()));
+    }
   return all;
 }
 
@@ -154,7 +163,8 @@ bool StudyOptimisation::take(const Simulator& kept, int jobs) {
 
 /// Of the runs that are there what it asked for; false where that is nothing. Layouts of one scene share its runs.
 bool StudyOptimisation::tell_search() {
-  const std::vector<int> counts = search_->wanted();
+  search_->request_next_round();
+  const std::vector<int> counts = search_->counts();
   bool is_new = places_.size() < counts.size();  // layouts of which none could be built
   for (std::size_t i = 0; i < places_.size(); ++i)
     if (places_[i].scene)
@@ -178,7 +188,7 @@ std::optional<double> StudyOptimisation::goal_of(const FrontGoal& goal, const Pl
   if (goal.kind == Kind::figure) return goal.figure->of(outflow);
   if (goal.kind == Kind::power) return drive_power(generations_[place.generation]->study.scenes[place.scene.value()]);
   if (goal.kind == Kind::rate_error) {
-    const auto rate = options_.rate->of(outflow);
+    const auto rate = rate_as_wanted(*options_.rate, outflow);
     return rate ? std::optional(2 * *rate / (options_.rate->low + options_.rate->high)) : std::nullopt;
   }
   const double rate = rate_as(Variant::as_it_is, place, run);  // above 0: the run has not clogged
@@ -207,7 +217,7 @@ FrontObservation StudyOptimisation::observed(Place& place, std::size_t run) cons
     seen.goals.push_back(*value);
   }
   const auto add = [&](const std::optional<double>& value) { seen.banded.push_back(value.value_or(0)); };
-  if (options_.rate) add(options_.rate->of(whole.outflow));
+  if (options_.rate) add(rate_as_wanted(*options_.rate, whole.outflow));
   if (options_.spilled_limit) add(figure_named("spilled_percent").of(whole.outflow));
   return seen;
 }

@@ -43,6 +43,9 @@ struct FrontLayout {
   std::optional<Unevenness> unevenness;  // of its runs that flowed together, without those of variants
 };
 
+/// Whether it stands in front.toml: it is on the front, or it is first by its means.
+bool leads(const FrontLayout& layout);
+
 struct OptimiseResult {
   OptimiseOptions options;
   Study study;                       // of all layouts that were tried
@@ -69,10 +72,13 @@ class StudyOptimisation {
   /// constraint asks for what the scenes have not, or the runs are fewer than a first round takes.
   StudyOptimisation(StudySource source, const OptimiseOptions& options);
 
-  /// The runs of the next round; empty: it has ended.
-  std::vector<WantedRun> wanted();
+  /// Asks for the runs of the next round by those that were taken; for none where it has ended.
+  void request_next_round();
 
-  /// Takes the round's runs where they are kept; false where one is not there.
+  /// Of the runs asked for, those that were not taken yet.
+  std::vector<WantedRun> missing() const;
+
+  /// Takes what is missing where it is kept; false where a run is not there.
   bool take(const Simulator& kept, int jobs);
 
   OptimiseResult result() const;

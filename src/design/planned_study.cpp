@@ -141,7 +141,7 @@ std::optional<PlannedStudy> next_round(const PlannedStudy& planned, const KeptRu
 }
 
 PlannedStudy study_of_plan(const StudyPlan& plan) {
-  if (!plan.asked.empty() && plan.asked.front() == "optimise")
+  if (std::holds_alternative<OptimiseQuestion>(plan.question))
     throw InputError(fmt::format(
         "{}: vibrosow optimise chooses its layouts as it goes; only the same command again makes their runs",
         plan.study));

@@ -24,14 +24,14 @@ std::string SceneRuns::name_of(std::size_t scene, std::uint64_t random_seed) con
   return case_name(case_identity(json_[scene], random_seed));
 }
 
-std::vector<WantedRun> SceneRuns::wanted(const std::vector<int>& counts) const {
-  std::vector<WantedRun> wanted;
+std::vector<WantedRun> SceneRuns::missing(const std::vector<int>& counts) const {
+  std::vector<WantedRun> missing;
   for (std::size_t scene = 0; scene < counts.size(); ++scene)
     for (auto r = runs_[scene].size(); r < static_cast<std::size_t>(counts[scene]); ++r) {
       const std::uint64_t seed = first_random_seed_ + r;
-      wanted.push_back({&scenes_[scene], seed, name_of(scene, seed), costs_[scene], layouts_[scene]});
+      missing.push_back({&scenes_[scene], seed, name_of(scene, seed), costs_[scene], layouts_[scene]});
     }
-  return wanted;
+  return missing;
 }
 
 bool SceneRuns::take(const std::vector<int>& counts, const Simulator& kept, int jobs) {

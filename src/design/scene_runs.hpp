@@ -19,7 +19,7 @@ class SceneRuns {
   SceneRuns(const Study& study, const std::vector<Scene>& scenes, std::uint64_t first_random_seed);
 
   /// Those that are missing for so many of each scene.
-  std::vector<WantedRun> wanted(const std::vector<int>& counts) const;
+  std::vector<WantedRun> missing(const std::vector<int>& counts) const;
 
   /// Reads them where they are kept, side by side; false where one is not there, and then none counts.
   bool take(const std::vector<int>& counts, const Simulator& kept, int jobs);

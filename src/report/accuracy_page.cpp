@@ -8,7 +8,6 @@
 
 #include "report/accuracy_report.hpp"
 #include "report/page.hpp"
-#include "report/study_page.hpp"
 #include "scene/integrator_names.hpp"
 #include "scene/si_units.hpp"
 

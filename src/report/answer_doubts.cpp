@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include "report/front_report.hpp"
 #include "report/terminal_text.hpp"
 
 namespace vibrosow {
@@ -11,29 +10,6 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 }  // namespace
-
-std::vector<SharedDoubt> doubts_about(const StudyResult& result) {
-  std::vector<LayoutDoubts> doubts;
-  for (std::size_t i = 0; i < result.layouts.size(); ++i)
-    doubts.push_back({result.study.layouts[i].number, result.layouts[i].doubts});
-  return shared_doubts(doubts);
-}
-
-std::vector<SharedDoubt> doubts_about(const DecisionReport& report) {
-  std::vector<LayoutDoubts> doubts;
-  for (const Layout& layout : report.result.study.layouts) {
-    if (!is_in_the_answer(report.result, layout)) continue;
-    doubts.push_back({layout.number, report.result.scenes[*layout.scene].doubts});
-  }
-  return shared_doubts(doubts);
-}
-
-std::vector<SharedDoubt> doubts_about(const OptimiseResult& result) {
-  std::vector<LayoutDoubts> doubts;
-  for (std::size_t i = 0; i < result.layouts.size(); ++i)
-    if (leads(result.layouts[i])) doubts.push_back({result.study.layouts[i].number, result.layouts[i].doubts});
-  return shared_doubts(doubts);
-}
 
 std::vector<std::string> doubt_sentences(const std::vector<SharedDoubt>& doubts) {
   constexpr std::size_t most = 6;

@@ -4,18 +4,9 @@
 #include <string>
 #include <vector>
 
-#include "design/optimise.hpp"
-#include "design/sweep.hpp"
 #include "outflow/doubts.hpp"
-#include "report/decision_report.hpp"
 
 namespace vibrosow {
-
-/// What speaks against the runs of layouts that an answer tells of: of a sweep all, of a decision those that are best,
-/// not shown to be worse or undecided, of a search those that lead.
-std::vector<SharedDoubt> doubts_about(const StudyResult& result);
-std::vector<SharedDoubt> doubts_about(const DecisionReport& report);
-std::vector<SharedDoubt> doubts_about(const OptimiseResult& result);
 
 /// A sentence each (`doubt_sentence`), at most six and one that counts the rest; none where there are none.
 std::vector<std::string> doubt_sentences(const std::vector<SharedDoubt>& doubts);

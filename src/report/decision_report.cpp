@@ -2,10 +2,11 @@
 
 #include <cstdint>
 
+#include "design/answer.hpp"
 #include "report/answer_doubts.hpp"
-#include "report/decision_page.hpp"
 #include "report/json_keys.hpp"
 #include "report/layout_columns.hpp"
+#include "report/study_page.hpp"
 
 namespace vibrosow {
 namespace {
@@ -14,6 +15,7 @@ using Json = nlohmann::ordered_json;
 
 struct DecisionRow {
   const DecisionReport* report;
+  const Answer* answer;
   std::size_t index;
   const Layout& layout() const { return report->result.study.layouts[index]; }
   /// None where the layout cannot be built.
@@ -50,7 +52,7 @@ Columns<DecisionRow> decision_columns(const std::vector<std::string>& keys) {
       "best; not shown to be worse; worse (with the confidence asked for); misses the rate (or meets it by less than a "
       "fifth of the band); clogs; ruled out by drafts; failed (it cannot be run, has no such goal, or left the model); "
       "invalid; undecided",
-      [](R r) { return standing_text(*r.report, r.layout()); }));
+      [](R r) { return std::string(name_of(r.answer->layouts[r.index].standing)); }));
   columns.push_back(
       text_column<DecisionRow>("reason", "why it failed or is invalid; else what makes it less sure", [](R r) {
         const SceneDecision* of = r.of();
@@ -87,7 +89,7 @@ JsonKeys<DecisionReport> decision_keys() {
   const auto of_rate = [](auto get) {
     return [get](S s) {
       const auto& rate = s.result.options.rate;
-      return rate ? Json(get(*rate) / figure_named(rate->figure).unit_size) : Json();
+      return rate ? Json(get(*rate) / rate_figure(rate).unit_size) : Json();
     };
   };
   return {
@@ -117,7 +119,7 @@ JsonKeys<DecisionReport> decision_keys() {
       {"rate.high", "", "upper end", of_rate([](const WantedRate& rate) { return rate.high; })},
       {"clogging_limit_percent", "%", "share of runs that may clog; null: it was not tested",
        [](S s) { return s.result.tests_clogging ? Json(100 * s.result.options.clogging_limit) : Json(); }},
-      {"doubts", "", doubts_description, [](S s) { return doubts_json(doubts_about(s)); }},
+      {"doubts", "", doubts_description, [](S s) { return doubts_json(doubts_about(answer_of(s.result))); }},
       {"correlation", "", "between layouts, of the goals of runs under one random seed, mean over pairs",
        [](S s) { return or_null(s.result.correlation); }},
       {"cost.runs", "", "that the decision took", [](S s) { return whole(s.result.cost.runs); }},
@@ -137,43 +139,10 @@ JsonKeys<DecisionReport> decision_keys() {
 
 }  // namespace
 
-bool stands(const DecisionResult& result, const Layout& layout, Standing standing) {
-  if (!layout.scene) return false;
-  const SceneDecision& of = result.scenes[*layout.scene];
-  return !of.is_screened_out && of.standing == standing;
-}
-
-bool is_in_the_answer(const DecisionResult& result, const Layout& layout) {
-  return stands(result, layout, Standing::best) || stands(result, layout, Standing::not_shown_worse) ||
-         stands(result, layout, Standing::undecided);
-}
-
-std::string standing_text(const DecisionReport& report, const Layout& layout) {
-  if (!layout.scene) return "invalid";
-  const SceneDecision& of = report.result.scenes[*layout.scene];
-  if (of.is_screened_out) return "ruled out by drafts";
-  switch (of.standing) {
-    case Standing::best:
-      return "best";
-    case Standing::not_shown_worse:
-      return "not shown to be worse";
-    case Standing::worse:
-      return "worse";
-    case Standing::misses_the_rate:
-      return "misses the rate";
-    case Standing::clogs:
-      return "clogs";
-    case Standing::failed:
-      return "failed";
-    case Standing::undecided:
-      break;
-  }
-  return "undecided";
-}
-
 std::string decision_csv(const DecisionReport& report, CsvFormat format) {
+  const Answer answer = answer_of(report.result);
   std::vector<DecisionRow> rows;
-  for (std::size_t i = 0; i < report.result.study.layouts.size(); ++i) rows.push_back({&report, i});
+  for (std::size_t i = 0; i < answer.layouts.size(); ++i) rows.push_back({&report, &answer, i});
   return csv_of(decision_columns(report.result.study.keys), rows, format);
 }
 

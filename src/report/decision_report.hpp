@@ -17,15 +17,6 @@ struct DecisionReport {
   std::optional<DraftFindings> drafts;
 };
 
-/// Whether a layout took part to the end and stands so.
-bool stands(const DecisionResult& result, const Layout& layout, Standing standing);
-
-/// Whether the answer is about it: it is the best, not shown to be worse, or undecided.
-bool is_in_the_answer(const DecisionResult& result, const Layout& layout);
-
-/// "best", "not shown to be worse", "worse", ..
-std::string standing_text(const DecisionReport& report, const Layout& layout);
-
 /// One row per layout.
 std::string decision_csv(const DecisionReport& report, CsvFormat format = {});
 

@@ -42,6 +42,26 @@ std::string weakness_sentence() {
          "more often (docs/DECIDING.md). For a guarantee: --procedure guaranteed, which goes on from these runs.";
 }
 
+std::string figures_sentence(const DecisionResult& result, std::size_t scene, std::string_view plus_minus) {
+  const SceneDecision& of = result.scenes[scene];
+  const DecideOptions& options = result.options;
+  const auto in_figure = [&](const MeanWithInterval& value, const Figure& figure) {
+    return fmt::format("{} {}", with_interval(value, figure.unit_size, plus_minus), unit_of(figure));
+  };
+  std::string text;
+  if (of.goal)
+    text = fmt::format("{} {}, ", options.goal->words, in_figure(*of.goal, figure_named(options.goal->figure)));
+  if (of.unevenness) text += fmt::format("unevenness (CV) {}, ", unevenness_text(*of.unevenness));
+  if (options.rate && of.rate)
+    text += fmt::format("{} of the tray{}, ", in_figure(*of.rate, rate_figure(options.rate)),
+                        of_plane(result.study.scenes[scene].space));
+  return text + fmt::format("clogged in {} of {} runs", of.clogged, of.runs);
+}
+
+bool tells_who_is_left(const DecisionResult& result) {
+  return result.has_margin && !(result.is_interrupted && result.cost.runs == 0);
+}
+
 std::string undecided_sentence(const DecisionResult& result) {
   if (result.is_interrupted && result.cost.runs == 0)
     return "Interrupted in the first round of runs: the same command goes on from here. No layout is ruled out.";

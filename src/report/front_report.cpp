@@ -7,11 +7,12 @@
 #include <array>
 #include <cstdint>
 
+#include "design/answer.hpp"
 #include "input/toml_value.hpp"
 #include "report/answer_doubts.hpp"
-#include "report/front_page.hpp"
 #include "report/json_keys.hpp"
 #include "report/layout_columns.hpp"
+#include "report/study_page.hpp"
 
 namespace vibrosow {
 namespace {
@@ -20,6 +21,7 @@ using Json = nlohmann::ordered_json;
 
 struct FrontRow {
   const OptimiseResult* result;
+  const Answer* answer;
   std::size_t index;
   const Layout& layout() const { return result->study.layouts[index]; }
   const FrontLayout& of() const { return result->layouts[index]; }
@@ -41,7 +43,7 @@ Columns<FrontRow> pareto_columns(const std::vector<std::string>& keys, const std
           "standing",
           "on the front; may be on the front; dominated; misses the rate; spills; clogs; failed (it cannot be run, has "
           "no such goal, or left the model); invalid; each with the confidence asked for",
-          [](R r) { return standing_text(*r.result, r.index); }),
+          [](R r) { return std::string(name_of(r.answer->layouts[r.index].standing)); }),
       text_column<FrontRow>("first_by_means",
                             "1: by its means it meets the constraints, and no other that does has better means",
                             [](R r) { return r.of().is_first_by_means ? 1 : 0; }),
@@ -85,7 +87,7 @@ JsonKeys<OptimiseResult> optimise_keys() {
   using S = const OptimiseResult&;
   const auto of_rate = [](auto get) {
     return [get](S s) {
-      return s.options.rate ? Json(get(*s.options.rate) / figure_named(s.options.rate->figure).unit_size) : Json();
+      return s.options.rate ? Json(get(*s.options.rate) / rate_figure(s.options.rate).unit_size) : Json();
     };
   };
   const auto count = [](FrontStanding standing) {
@@ -109,7 +111,7 @@ JsonKeys<OptimiseResult> optimise_keys() {
        [](S s) { return Json(100 * s.options.clogging_limit); }},
       {"spilled_limit_percent", "%", "of seeds that may leave over the rim; null: none is asked for",
        [](S s) { return s.options.spilled_limit ? Json(100 * *s.options.spilled_limit) : Json(); }},
-      {"doubts", "", doubts_description, [](S s) { return doubts_json(doubts_about(s)); }},
+      {"doubts", "", doubts_description, [](S s) { return doubts_json(doubts_about(answer_of(s))); }},
       {"layouts", "", "that were tried", [](S s) { return Json(s.layouts.size()); }},
       {"on_the_front", "", "of these", count(FrontStanding::on_front)},
       {"may_be_on_the_front", "", "of these", count(FrontStanding::may_be_on_front)},
@@ -134,27 +136,6 @@ std::string changes_text(const std::vector<Override>& changes) {
 
 }  // namespace
 
-std::string standing_text(const OptimiseResult& result, std::size_t layout) {
-  if (!result.study.layouts[layout].scene) return "invalid";
-  const FrontLayout& of = result.layouts[layout];
-  switch (of.standing) {
-    case FrontStanding::on_front:
-      return "on the front";
-    case FrontStanding::may_be_on_front:
-      return "may be on the front";
-    case FrontStanding::dominated:
-      return "dominated";
-    case FrontStanding::misses_a_band:
-      return result.options.rate ? result.options.spilled_limit ? "misses the rate or spills" : "misses the rate"
-                                 : "spills";
-    case FrontStanding::clogs:
-      return "clogs";
-    case FrontStanding::failed:
-      break;
-  }
-  return "failed";
-}
-
 std::string why_unsure(const OptimiseResult& result) {
   int unsure = 0, meets = 0;
   for (const FrontLayout& one : result.layouts) {
@@ -168,18 +149,6 @@ std::string why_unsure(const OptimiseResult& result) {
   if (meets == unsure) return begin + fmt::format("each is {}.", better);
   if (meets == 0) return begin + fmt::format("none surely meets {}; more runs (--runs) tell more.", constraint);
   return begin + fmt::format("{} do not surely meet {}, and {} are {}.", unsure - meets, constraint, meets, better);
-}
-
-std::string edge_text(const FrontLayout& layout) {
-  if (layout.at_edge.empty()) return "";
-  std::string keys;
-  for (const std::string& key : layout.at_edge)
-    keys += fmt::format("{}{}", keys.empty() ? "" : " and ", key.substr(key.rfind('.') + 1));
-  return fmt::format("at the end of the range of {}: better ones may lie beyond", keys);
-}
-
-bool leads(const FrontLayout& layout) {
-  return layout.standing == FrontStanding::on_front || layout.is_first_by_means;
 }
 
 std::string front_promise(const OptimiseResult& result) {
@@ -199,8 +168,9 @@ std::string front_cost(const OptimiseResult& result) {
 }
 
 std::string pareto_csv(const OptimiseResult& result, CsvFormat format) {
+  const Answer answer = answer_of(result);
   std::vector<FrontRow> rows;
-  for (std::size_t i = 0; i < result.layouts.size(); ++i) rows.push_back({&result, i});
+  for (std::size_t i = 0; i < result.layouts.size(); ++i) rows.push_back({&result, &answer, i});
   return csv_of(pareto_columns(result.study.keys, result.options.goals), rows, format);
 }
 

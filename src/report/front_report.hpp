@@ -10,17 +10,8 @@
 
 namespace vibrosow {
 
-/// "on the front", "may be on the front", "dominated", ..
-std::string standing_text(const OptimiseResult& result, std::size_t layout);
-
 /// Why layouts may be on the front and are not shown to be; empty where none is so.
 std::string why_unsure(const OptimiseResult& result);
-
-/// "at the end of the range of frequency and width: look beyond it"; empty of a layout within all ranges.
-std::string edge_text(const FrontLayout& layout);
-
-/// Whether it stands in front.toml: it is on the front, or it is first by its means.
-bool leads(const FrontLayout& layout);
 
 /// What the standings promise and what they do not; a paragraph.
 std::string front_promise(const OptimiseResult& result);

@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <map>
+
 #include "input/key_units.hpp"
 #include "report/csv.hpp"
 #include "report/number_text.hpp"
@@ -28,6 +31,28 @@ std::string described(const Study& study, const Layout& layout) {
         fmt::format("{}{} {}", text.empty() ? "" : ", ", key.substr(key.rfind('.') + 1), with_unit(key, value->second));
   }
   return text;
+}
+
+std::string_view unit_of(const Figure& figure) {
+  return figure.unit == "1/s" ? "seeds/s" : figure.unit;
+}
+
+std::string counted_standings(const Answer& answer, const std::function<bool(const AnsweredLayout&)>& is_told) {
+  std::map<LayoutStanding, int> counts;
+  for (const AnsweredLayout& one : answer.layouts)
+    if (!is_told(one)) ++counts[one.standing];
+  std::string text;
+  for (const auto& [standing, count] : counts)
+    text += fmt::format("{}{} {}", text.empty() ? "" : ", ", count, name_of(standing));
+  return text;
+}
+
+std::string edge_text(const std::vector<std::string>& keys) {
+  if (keys.empty()) return "";
+  std::string names;
+  for (const std::string& key : keys)
+    names += fmt::format("{}{}", names.empty() ? "" : " and ", key.substr(key.rfind('.') + 1));
+  return fmt::format("at the end of the range of {}: better ones may lie beyond", names);
 }
 
 std::string with_interval(const std::optional<MeanWithInterval>& value, double unit, std::string_view plus_minus) {

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <stdexcept>
 
 #include "report/base64.hpp"
@@ -84,6 +85,13 @@ nlohmann::ordered_json page_vessels(const Scene& scene) {
   Json all = Json::array({vessel(scene.tray, slice.tray)});
   if (scene.hopper) all.push_back(vessel(*scene.hopper, *slice.hopper));
   return all;
+}
+
+Json page_interval(const std::optional<MeanWithInterval>& value, double unit) {
+  const auto number = [&](double of) { return std::isfinite(of) ? Json(of / unit) : Json(nullptr); };
+  if (!value) return nullptr;
+  return {{"mean", number(value->mean)},
+          {"half_width", value->half_width_95 ? number(*value->half_width_95) : Json(nullptr)}};
 }
 
 std::string page_text(const Json& data) {

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "outflow/statistics.hpp"
 #include "report/columns.hpp"
 #include "report/output_folder.hpp"
 #include "scene/scene.hpp"
@@ -15,6 +16,9 @@ namespace vibrosow {
 /// A scene's lots, and its vessels as they are seen from the side, in space with the holes of their floors; mm.
 nlohmann::ordered_json page_lots(const Scene& scene);
 nlohmann::ordered_json page_vessels(const Scene& scene);
+
+/// {mean, half width of its 95 % interval}, in `unit`; null where there is none.
+nlohmann::ordered_json page_interval(const std::optional<MeanWithInterval>& value, double unit);
 
 /// JSON in one line that holds no "<", so that nothing in it can end the script that it stands in.
 std::string page_text(const nlohmann::ordered_json& data);

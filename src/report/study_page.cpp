@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
+#include <nlohmann/json.hpp>
 
 #include "input/key_units.hpp"
 #include "report/layout_text.hpp"
@@ -15,38 +15,44 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-Json number(double value, double unit) {
-  return std::isfinite(value) ? Json(value / unit) : Json(nullptr);
+std::string_view kind_of(AnswerKind kind) {
+  switch (kind) {
+    case AnswerKind::sweep:
+      return "sweep";
+    case AnswerKind::decision:
+      return "decision";
+    case AnswerKind::search:
+      break;
+  }
+  return "front";
 }
 
-}  // namespace
-
-Json page_interval(const std::optional<MeanWithInterval>& value, double unit) {
-  if (!value) return nullptr;
-  return {{"mean", number(value->mean, unit)},
-          {"half_width", value->half_width_95 ? number(*value->half_width_95, unit) : Json(nullptr)}};
+Json figure(const AnswerFigure& of, AnswerKind kind) {
+  Json one = {{"name", of.name}};
+  if (!of.heading.empty()) one["heading"] = of.heading;
+  one["unit"] = of.unit, one["description"] = of.description, one["has_interval"] = of.has_interval;
+  if (of.name == clogged_figure) one["words"] = "clogged";
+  if (kind == AnswerKind::sweep) return one;
+  if (of.wanted != Wanted::any) one["wanted"] = of.wanted == Wanted::high ? "high" : "low";
+  if (of.is_goal) one[kind == AnswerKind::decision ? "judged" : "goal"] = true;
+  return one;
 }
 
-Json page_of_study(std::string_view kind, const Study& study) {
-  const bool plane = std::ranges::all_of(study.scenes, [](const Scene& one) { return one.space == Space::plane; });
-  Json keys = Json::array();
-  for (const std::string& key : study.keys) keys.push_back(condition_column(key));
-  return {{"kind", kind},
-          {"program", {{"name", "vibrosow"}, {"version", VIBROSOW_VERSION}}},
-          {"title", study.title},
-          {"space", plane ? "plane" : "three_dimensional"},
-          {"keys", std::move(keys)}};
+Json holes(const std::vector<HoleFigures>& figures) {
+  Json all = Json::array();
+  for (const HoleFigures& hole : figures)
+    if (hole.hole != "all")
+      all.push_back({{"hole", hole.hole},
+                     {"lot", hole.lot},
+                     {"seeds_per_s", page_interval(hole.seeds_per_s, 1)},
+                     {"g_per_s", page_interval(hole.mass_rate, 1e-3)},
+                     {"longest_pause_s", page_interval(hole.longest_pause, 1)}});
+  return all;
 }
 
-Json page_figure(const Figure& figure) {
-  return {{"name", figure.name},
-          {"heading", figure.heading},
-          {"unit", figure.unit},
-          {"description", figure.description},
-          {"has_interval", !figure.pooled}};
-}
-
-Json page_layout(const Study& study, const Layout& layout, std::uint64_t first_random_seed, const Replays& replays) {
+/// How it is built: number, name, what it is in words, values of the keys, vessels, and the command that runs it alone.
+Json layout_of(const Answer& answer, const Layout& layout) {
+  const Study& study = *answer.study;
   Json values = Json::array();
   for (const std::string& key : study.keys) {
     const auto value = layout.values.find(key);
@@ -57,9 +63,69 @@ Json page_layout(const Study& study, const Layout& layout, std::uint64_t first_r
               {"described", described(study, layout)},
               {"values", std::move(values)},
               {"vessels", layout.scene ? page_vessels(study.scenes[*layout.scene]) : Json::array()}};
-  if (layout.scene) one["command"] = run_command_of(study, layout, first_random_seed);
-  if (const auto replay = replays.find(layout.number); replay != replays.end()) one["replay"] = replay->second;
+  if (layout.scene) one["command"] = run_command_of(study, layout, answer.first_random_seed);
   return one;
+}
+
+/// Why it stands so, and what makes it less sure.
+std::string note(const AnsweredLayout& of) {
+  std::string text = of.reason;
+  for (const std::string& more : {doubts_text(of.doubts), of.is_named ? edge_text(of.at_edge) : std::string()})
+    if (!more.empty()) text += (text.empty() ? "" : "; ") + more;
+  return text;
+}
+
+Json layout(const Answer& answer, const AnsweredLayout& of, const Replays& replays) {
+  const Layout& layout = answer.study->layouts[of.layout];
+  const bool of_sweep = answer.kind == AnswerKind::sweep, compared = is_compared(of.standing);
+  Json one = layout_of(answer, layout);
+  if (const auto replay = replays.find(layout.number); replay != replays.end()) one["replay"] = replay->second;
+  one["status"] = compared && !of_sweep ? "ok" : name_of(of.standing);
+  one["compared"] = compared;
+  if (!of_sweep) one["standing"] = name_of(of.standing);
+  if (answer.kind == AnswerKind::search) one["first_by_means"] = of.is_first_by_means;
+  one["note"] = note(of);
+  one["replicates"] = of.runs;
+  if (!of.values.empty()) {
+    Json& means = one["means"] = Json::object();
+    for (std::size_t k = 0; k < of.values.size(); ++k)
+      means[std::string(answer.figures[k].name)] = page_interval(of.values[k], answer.figures[k].unit_size);
+  }
+  if (!of_sweep) return one;
+  one["misfit_percent"] = page_interval(of.misfit_percent, 1);
+  one["holes"] = holes(of.holes);
+  return one;
+}
+
+}  // namespace
+
+std::string page_data(const StudyPage& page, const Replays& replays) {
+  const Answer& answer = page.answer;
+  const Study& study = *answer.study;
+  const bool plane = std::ranges::all_of(study.scenes, [](const Scene& one) { return one.space == Space::plane; });
+  Json keys = Json::array(), asked = Json::array(), figures = Json::array(), layouts = Json::array();
+  for (const std::string& key : study.keys) keys.push_back(condition_column(key));
+  for (const auto& [name, value] : page.asked) asked.push_back({{"name", name}, {"value", value}});
+  for (const AnswerFigure& of : answer.figures) figures.push_back(figure(of, answer.kind));
+  for (const AnsweredLayout& of : answer.layouts) layouts.push_back(layout(answer, of, replays));
+  Json data = {{"kind", kind_of(answer.kind)}, {"program", {{"name", "vibrosow"}, {"version", VIBROSOW_VERSION}}},
+               {"title", study.title},         {"space", plane ? "plane" : "three_dimensional"},
+               {"keys", std::move(keys)},      {"headline", page.headline},
+               {"doubts", page.doubts}};
+  if (!page.asked.empty()) data["asked"] = std::move(asked), data["cost"] = page.cost;
+  if (!page.confidence.empty()) data["confidence"] = page.confidence;
+  data["figures"] = std::move(figures), data["layouts"] = std::move(layouts);
+  return page_text(data);
+}
+
+std::vector<WantedReplay> best_to_replay(const Answer& answer, std::size_t most) {
+  std::vector<WantedReplay> wanted;
+  for (const std::size_t index : answer.best_first) {
+    if (wanted.size() == most) break;
+    const Layout& layout = answer.study->layouts[index];
+    wanted.push_back({layout.number, answer.study->scenes[layout.scene.value()], answer.first_random_seed});
+  }
+  return wanted;
 }
 
 std::string page_timing(const SweepTiming& timing) {

@@ -10,7 +10,7 @@
 #include "report/drill_report.hpp"
 #include "report/json_keys.hpp"
 #include "report/layout_columns.hpp"
-#include "report/sweep_page.hpp"
+#include "report/study_page.hpp"
 
 namespace vibrosow {
 namespace {

@@ -140,25 +140,24 @@ void Guaranteed::more_of(const std::vector<std::size_t>& systems, std::vector<in
   for (const std::size_t i : asked) wanted[i] = std::min(wanted[i] + each, question_.most);
 }
 
-std::vector<int> Guaranteed::wanted() {
-  std::vector<int> counts;
-  for (const System& system : systems_) counts.push_back(static_cast<int>(system.goals.size()));
+void Guaranteed::request_next_round() {
+  counts_.clear();
+  for (const System& system : systems_) counts_.push_back(static_cast<int>(system.goals.size()));
   // One of each before the others: what fails takes no more.
   for (const int each : {1, std::min(first_observations, question_.most)}) {
-    const auto lacks = [&](std::size_t i) { return systems_[i].place != Place::failed && counts[i] < each; };
+    const auto lacks = [&](std::size_t i) { return systems_[i].place != Place::failed && counts_[i] < each; };
     bool asks = false;
-    for (std::size_t i = 0; i < counts.size(); ++i)
-      if (lacks(i)) counts[i] = each, asks = true;
-    if (asks) return counts;
+    for (std::size_t i = 0; i < counts_.size(); ++i)
+      if (lacks(i)) counts_[i] = each, asks = true;
+    if (asks) return;
   }
   judge_constraints();
   set_margin();
-  if (margin_ == 0.0) return counts;
+  if (margin_ == 0.0) return;
   if (margin_) compare(), leave_behind();
   const std::vector<std::size_t> all = contending();
   const bool decided = all.empty() || (all.size() == 1 && is_feasible(systems_[all.front()]));
-  if (!decided) more_of(awake(), counts);
-  return counts;
+  if (!decided) more_of(awake(), counts_);
 }
 
 int Guaranteed::least_observations() const {

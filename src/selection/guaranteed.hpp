@@ -30,7 +30,7 @@ class Guaranteed : public Procedure {
   /// Throws std::invalid_argument for fewer than two systems.
   explicit Guaranteed(const Question& question);
 
-  std::vector<int> wanted() override;
+  void request_next_round() override;
   void take(std::size_t system, const Observation& observation) override;
   int least_observations() const override;
   Decision decision() const override;

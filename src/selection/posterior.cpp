@@ -140,27 +140,26 @@ std::optional<std::size_t> Posterior::most_doubtful(const Belief& belief, const 
   return most;
 }
 
-std::vector<int> Posterior::wanted() {
-  std::vector<int> counts;
-  for (const System& system : systems_) counts.push_back(system.observations);
+void Posterior::request_next_round() {
+  counts_.clear();
+  for (const System& system : systems_) counts_.push_back(system.observations);
   const int first = std::min(first_observations, question_.most);
   bool is_first = false;
-  for (std::size_t i = 0; i < counts.size(); ++i)
-    if (!systems_[i].failed && counts[i] < first) counts[i] = first, is_first = true;
-  if (is_first) return counts;
+  for (std::size_t i = 0; i < counts_.size(); ++i)
+    if (!systems_[i].failed && counts_[i] < first) counts_[i] = first, is_first = true;
+  if (is_first) return;
   set_priors();
   Belief belief = this->belief();
   std::vector<double> factors = factors_of(belief);
-  if ((belief.best && belief.margin == 0) || is_sure(factors)) return counts;
+  if ((belief.best && belief.margin == 0) || is_sure(factors)) return;
   for (int i = 0; i < question_.batch; ++i) {
-    const auto doubtful = most_doubtful(belief, factors, counts);
+    const auto doubtful = most_doubtful(belief, factors, counts_);
     if (!doubtful) break;
-    const std::size_t next = one_of_two(belief, *doubtful, counts);
-    ++counts[next];
+    const std::size_t next = one_of_two(belief, *doubtful, counts_);
+    ++counts_[next];
     ++belief.goals[next].count;
     factors[*doubtful] = factor_of(belief, *doubtful);
   }
-  return counts;
 }
 
 int Posterior::least_observations() const {

@@ -25,7 +25,7 @@ class Posterior : public Procedure {
   /// Throws std::invalid_argument for fewer than two systems.
   explicit Posterior(const Question& question);
 
-  std::vector<int> wanted() override;
+  void request_next_round() override;
   void take(std::size_t system, const Observation& observation) override;
   int least_observations() const override;
   Decision decision() const override;

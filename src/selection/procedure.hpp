@@ -65,9 +65,11 @@ class Procedure {
   Procedure(const Procedure&) = delete;
   Procedure& operator=(const Procedure&) = delete;
 
-  /// How many observations each system should have, by all that were taken: as many as it has where no more are
-  /// needed. The decision is there when none needs more.
-  virtual std::vector<int> wanted() = 0;
+  /// Asks for more observations by all that were taken; for none where the decision is there.
+  virtual void request_next_round() = 0;
+
+  /// How many observations each system should have by what was asked for.
+  const std::vector<int>& counts() const { return counts_; }
 
   /// The next observation of a system; the systems in any order.
   virtual void take(std::size_t system, const Observation& observation) = 0;
@@ -75,8 +77,11 @@ class Procedure {
   /// How many the best needs at least, whatever comes of them.
   virtual int least_observations() const = 0;
 
-  /// By what was taken until the last `wanted`.
+  /// By what was taken until the last request.
   virtual Decision decision() const = 0;
+
+ protected:
+  std::vector<int> counts_;
 };
 
 }  // namespace vibrosow

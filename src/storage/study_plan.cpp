@@ -92,14 +92,18 @@ std::string text_of(const StudyPlan& plan) {
                {"random_seed", plan.random_seed},
                {"files", files},
                {"runs", groups_of(plan.runs)}};
-  if (!plan.asked.empty()) json["asked"] = plan.asked;
+  if (!command_of(plan.question).empty()) json["question"] = json_of(plan.question);
   return json.dump(1) + '\n';
 }
 
+struct OtherVersion {};
+
+/// Throws OtherVersion where a question stands there as words.
 StudyPlan plan_in(const std::string& text) {
   const auto json = parse_json<nlohmann::json>(text);
+  if (json.contains("asked")) throw OtherVersion();
   StudyPlan plan{json.at("study"), json.at("set"), seed_number(json.at("random_seed")), {}, {}};
-  if (json.contains("asked")) plan.asked = json.at("asked").get<std::vector<std::string>>();
+  if (json.contains("question")) plan.question = question_in(json.at("question"));
   for (const auto& [path, content] : json.at("files").items()) plan.files[path] = bytes_of(content);
   plan.runs = runs_in(json.at("runs"));
   return plan;
@@ -146,6 +150,11 @@ StudyPlan read_plan(const fs::path& folder, std::string name) {
   if (!text) throw InputError(fmt::format("{}: there is no plan {}", folder.string(), name));
   try {
     if (name_of(*text) == name) return plan_in(*text);
+  } catch (const OtherVersion&) {
+    throw InputError(
+        fmt::format("{}: its plan was made by another version of the program; the same command again makes a new one "
+                    "and takes the runs that are there",
+                    folder.string()));
   } catch (const nlohmann::json::exception&) {
   } catch (const InputError&) {  // what stands there is no plan's
   }

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "storage/asked_question.hpp"
 #include "storage/atomic_file.hpp"
 
 namespace vibrosow {
@@ -25,7 +26,7 @@ struct StudyPlan {
   std::uint64_t random_seed = 1;             // the first
   std::map<std::string, std::string> files;  // what was read, by path from the study's folder, or of what is shipped
   std::vector<PlannedRun> runs;              // by layout, then random seed
-  std::vector<std::string> asked{};  // of a decision or a search: the command, and its options with their values
+  AskedQuestion question{};                  // of a decision or a search
 };
 
 /// Where a sweep's folder has its runs and its plans.
@@ -36,7 +37,8 @@ PathInFolder cases_of(const std::filesystem::path& folder);
 std::string freeze_plan(const std::filesystem::path& folder, const StudyPlan& plan);
 
 /// The plan of a name, the current one where that is empty. Throws InputError where the folder has no such plan, or
-/// it is damaged: cut short, of another hash, or with a name, number or cost that no plan has.
+/// it is damaged: cut short, of another hash, or with a name, number or cost that no plan has; or where it keeps its
+/// question as the words of a command line ("asked"), which other versions of the program read.
 StudyPlan read_plan(const std::filesystem::path& folder, std::string name = "");
 
 /// A file of a plan: its name with an extension.

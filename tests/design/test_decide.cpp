@@ -9,8 +9,8 @@
 
 #include "design/draft_screen.hpp"
 #include "grains/random.hpp"
-#include "killed_rounds.hpp"
 #include "report/decision_report.hpp"
+#include "rounds_of_runs.hpp"
 #include "scene/input_error.hpp"
 #include "study_files.hpp"
 
@@ -63,7 +63,7 @@ DecideOptions most_flow() {
 
 /// To its end; the files that come of it.
 DecisionReport lead(StudyDecision& decision, const Simulator& simulator, int jobs = 1) {
-  while (!decision.wanted().empty()) decision.take(simulator, jobs);
+  lead_to_the_end(decision, simulator, jobs);
   return {decision.result(), {}};
 }
 
@@ -226,7 +226,7 @@ class Drafts : public testing::Test {
                      "tray.holes.width = { from = \"10 mm\", to = \"30 mm\", step = \"1 mm\" }\n"));
   }
   static DraftFindings findings_of(DraftScreen& screen, const Simulator& simulator) {
-    while (!screen.wanted().empty()) screen.take(simulator, 1);
+    lead_to_the_end(screen, simulator);
     return screen.findings();
   }
   static double unrelated(const Model& model) {

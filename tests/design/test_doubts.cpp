@@ -16,11 +16,10 @@
 #include "report/accuracy_report.hpp"
 #include "report/answer_doubts.hpp"
 #include "report/calibration_report.hpp"
-#include "report/decision_page.hpp"
-#include "report/front_page.hpp"
 #include "report/front_report.hpp"
-#include "report/sweep_page.hpp"
+#include "report/study_page.hpp"
 #include "report/sweep_report.hpp"
+#include "rounds_of_runs.hpp"
 #include "study_files.hpp"
 
 namespace vibrosow {
@@ -112,7 +111,7 @@ constexpr std::array table = {
     KindAndAnswers{DoubtKind::few_seeds, as_doubt, as_doubt, as_doubt, as_doubt, as_doubt, not_at_all},
 };
 
-class Doubts : public testing::TestWithParam<KindAndAnswers> {
+class DoubtsOfScenes : public testing::Test {
  protected:
   /// Sound where `kind` is none.
   static Simulator simulator(std::optional<DoubtKind> kind) {
@@ -120,11 +119,17 @@ class Doubts : public testing::TestWithParam<KindAndAnswers> {
       return kind ? doubtful_run(*kind, model, options) : sound_run(model, options);
     };
   }
-  Study study() const {
+  Study study(const std::string& frequency = "10 Hz") const {
     return read_study(
         files_.study("replicates = 3\n[set.tray.motion]\nkind = \"harmonic\"\namplitude = \"4 mm\"\n"
-                     "frequency = \"10 Hz\"\n[vary]\ntray.holes.width = [\"14 mm\", \"16 mm\"]\n"));
+                     "frequency = \"" +
+                     frequency + "\"\n[vary]\ntray.holes.width = [\"14 mm\", \"16 mm\"]\n"));
   }
+  StudyFiles files_;
+};
+
+class Doubts : public DoubtsOfScenes, public testing::WithParamInterface<KindAndAnswers> {
+ protected:
   static std::string name() { return std::string(words_of(GetParam().kind).name); }
 
   /// What is told first, and all that is written.
@@ -144,9 +149,8 @@ class Doubts : public testing::TestWithParam<KindAndAnswers> {
 
   Texts sweep_texts(std::optional<DoubtKind> kind) const {
     const StudyResult result = sweep(study(), simulator(kind), {});
-    return {doubt_sentences(doubts_about(result)), sweep_csv(result) + sweep_page_data(result, 1)};
+    return {doubt_sentences(doubts_about(answer_of(result, 1))), sweep_csv(result) + page_data(study_page(result, 1))};
   }
-  StudyFiles files_;
 };
 
 TEST_P(Doubts, ASweepTells) {
@@ -154,7 +158,7 @@ TEST_P(Doubts, ASweepTells) {
   check(GetParam().sweep, sweep_texts(GetParam().kind));
   EXPECT_THAT(sweep_texts({}).sentences, testing::IsEmpty());
   if (GetParam().sweep == as_status) {
-    EXPECT_THAT(sweep_csv(result), testing::AnyOf(HasSubstr(",stopped,"), HasSubstr(",interrupted,")));
+    EXPECT_THAT(sweep_csv(result), testing::AnyOf(HasSubstr(",stopped,"), HasSubstr(",incomplete,")));
   } else if (words_of(GetParam().kind).severity == Severity::serious) {
     EXPECT_THAT(sweep_csv(result), testing::AnyOf(HasSubstr(",doubtful,"), HasSubstr(",outside the model,")));
   } else {
@@ -168,17 +172,17 @@ DecisionReport decided(const Study& study, const Simulator& simulator) {
   options.margin = 0.05;
   options.most = 20;
   StudyDecision decision(study, options);
-  while (!decision.wanted().empty() && decision.take(simulator, 1)) continue;
+  lead_to_the_end(decision, simulator);
   return {decision.result(), {}};
 }
 
 TEST_P(Doubts, ADecisionTells) {
   const Told told = GetParam().decision;
   const DecisionReport report = decided(study(), simulator(GetParam().kind));
-  check(told, {doubt_sentences(doubts_about(report)), decision_csv(report) + decision_json(report)});
+  check(told, {doubt_sentences(doubts_about(answer_of(report.result))), decision_csv(report) + decision_json(report)});
   if (told == as_doubt) {
     EXPECT_EQ(report.result.best, 1u) << "doubtful, and yet the best";
-    const auto page = nlohmann::json::parse(decision_page_data(report, {}));
+    const auto page = nlohmann::json::parse(page_data(study_page(report, {})));
     EXPECT_THAT(page["doubts"][0].get<std::string>(), HasSubstr(name()));
   }
   if (told == as_status) {
@@ -190,7 +194,18 @@ TEST_P(Doubts, ADecisionTells) {
   if (told == as_missing) {
     EXPECT_EQ(report.result.cost.runs, 0);
   }
-  EXPECT_THAT(doubts_about(decided(study(), simulator({}))), testing::IsEmpty());
+  const DecisionReport sound = decided(study(), simulator({}));
+  EXPECT_THAT(doubts_about(answer_of(sound.result)), testing::IsEmpty());
+}
+
+/// A window that holds no whole period of the drive; of the scene, so not of the table.
+TEST_F(DoubtsOfScenes, ADriveSlowerThanTheWindowIsTold) {
+  const std::string name(words_of(DoubtKind::part_of_a_period).name);
+  const StudyResult swept = sweep(study("0.1 Hz"), simulator({}), {});
+  EXPECT_THAT(doubt_sentences(doubts_about(answer_of(swept, 1))), Contains(HasSubstr(name)));
+  EXPECT_EQ(swept.layouts[0].status, LayoutStatus::doubtful);
+  const DecisionReport report = decided(study("0.1 Hz"), simulator({}));
+  EXPECT_THAT(doubt_sentences(doubts_about(answer_of(report.result))), Contains(HasSubstr(name)));
 }
 
 OptimiseResult searched(const StudySource& source, const Simulator& simulator) {
@@ -198,7 +213,7 @@ OptimiseResult searched(const StudySource& source, const Simulator& simulator) {
   options.goals = read_front_goals({"rate", "power"});
   options.runs = 20;
   StudyOptimisation search(source, options);
-  while (!search.wanted().empty() && search.take(simulator, 1)) continue;
+  lead_to_the_end(search, simulator);
   return search.result();
 }
 
@@ -208,9 +223,9 @@ TEST_P(Doubts, ASearchTells) {
       files_.study("[set.tray.motion]\nkind = \"harmonic\"\namplitude = \"4 mm\"\nfrequency = \"10 Hz\"\n[vary]\n"
                    "tray.holes.width = [\"14 mm\", \"16 mm\"]\n")};
   const OptimiseResult result = searched(source, simulator(GetParam().kind));
-  check(told, {doubt_sentences(doubts_about(result)), pareto_csv(result) + optimise_json(result)});
+  check(told, {doubt_sentences(doubts_about(answer_of(result))), pareto_csv(result) + optimise_json(result)});
   if (told == as_doubt) {
-    const auto page = nlohmann::json::parse(front_page_data(result, {}));
+    const auto page = nlohmann::json::parse(page_data(study_page(result, {})));
     EXPECT_THAT(page["doubts"][0].get<std::string>(), HasSubstr(name()));
   }
   if (told == as_status) {

@@ -33,7 +33,8 @@ int lead(FrontSearch& search, double deviation = 0.02) {
   MadeUpChance chance(3);
   int taken = 0;
   std::vector<int> have;
-  for (std::vector<int> wanted = search.wanted(); wanted != have; wanted = search.wanted()) {
+  for (search.request_next_round(); search.counts() != have; search.request_next_round()) {
+    const std::vector<int>& wanted = search.counts();
     have.resize(wanted.size(), 0);
     for (std::size_t i = 0; i < wanted.size(); ++i)
       for (; have[i] < wanted[i]; ++have[i], ++taken) {
@@ -80,8 +81,11 @@ TEST(FrontSearch, EndsWhereThereIsNothingLeftToTry) {
 TEST(FrontSearch, GoesOnWherePointsCannotBeBuilt) {
   FrontSearch search(options_of(60));
   int rounds = 0;
-  for (std::size_t known = 0; search.wanted().size() > known && rounds < 100; ++rounds)
+  search.request_next_round();
+  for (std::size_t known = 0; search.points().size() > known && rounds < 100; ++rounds) {
     for (; known < search.points().size(); ++known) search.leave_out(known);
+    search.request_next_round();
+  }
   EXPECT_LE(search.points().size(), 60u);
   EXPECT_GT(search.points().size(), 30u);
 }

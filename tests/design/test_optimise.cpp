@@ -7,9 +7,9 @@
 #include <numbers>
 
 #include "grains/random.hpp"
-#include "killed_rounds.hpp"
 #include "outflow/outflow.hpp"
 #include "report/front_report.hpp"
+#include "rounds_of_runs.hpp"
 #include "scene/input_error.hpp"
 #include "selection/known_mean.hpp"
 #include "study_files.hpp"
@@ -69,7 +69,7 @@ class Optimise : public testing::Test {
     return options;
   }
   static OptimiseResult lead(StudyOptimisation& optimisation, int jobs = 1, const Simulator& simulator = noisy_run) {
-    while (!optimisation.wanted().empty()) optimisation.take(simulator, jobs);
+    lead_to_the_end(optimisation, simulator, jobs);
     return optimisation.result();
   }
   StudyFiles files_;

@@ -317,16 +317,11 @@ TEST(PlannedStudy, BundlesAreSharesOfEqualCost) {
   EXPECT_LT(std::ranges::max(costs) / std::ranges::min(costs), 1.1);
 }
 
-TEST(PlannedStudy, KeepsWhatIsAsked) {
-  const StudyFiles files;
-  const fs::path out = files.seeder().parent_path() / "out";
-  StudyPlan plan{"study.toml", {}, 1, {}, {{std::string(32, 'a'), 1, 1, 5}}};
-  const std::string of_a_sweep = freeze_plan(out, plan);
-  plan.asked = {"optimise", "--rate=43 seeds/s +- 5 %", "--goals=rate,power"};
-  const std::string of_a_search = freeze_plan(out, plan);
-  EXPECT_TRUE(read_plan(out, of_a_sweep).asked.empty());
-  EXPECT_EQ(read_plan(out, of_a_search).asked, plan.asked);
-  EXPECT_THROW(study_of_plan(plan), InputError) << "its layouts are not those of a grid";
+TEST(PlannedStudy, IsNoneOfASearch) {
+  StudyPlan plan;
+  plan.question = OptimiseQuestion{{"rate", "power"}};
+  EXPECT_THAT([&] { study_of_plan(plan); },
+              testing::ThrowsMessage<InputError>(testing::HasSubstr("chooses its layouts as it goes")));
 }
 
 TEST(PlannedStudy, ADamagedPlanIsRefused) {

@@ -83,7 +83,7 @@ TEST(Sweep, InterruptKeepsWhatIsFinished) {
   EXPECT_EQ(result.layouts[1].replicates, 1);
   EXPECT_EQ(result.layouts[2].replicates, 0);
   EXPECT_FALSE(result.layouts[2].figures["rate_g_per_s"]);
-  EXPECT_THAT(sweep_csv(result), HasSubstr("\n3,,interrupted,0 of 3 runs finished,5,0,,"));
+  EXPECT_THAT(sweep_csv(result), HasSubstr("\n3,,incomplete,0 of 3 runs finished,5,0,,"));
 }
 
 TEST(Sweep, GuardAndRefusalGiveAStatusAndAReason) {

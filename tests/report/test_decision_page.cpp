@@ -1,4 +1,4 @@
-#include "report/decision_page.hpp"
+#include "report/study_page.hpp"
 
 #include "page_data.hpp"
 
@@ -17,7 +17,7 @@ class DecisionPage : public testing::Test {
     DecisionResult& result = report_.result;
     result.study = three_trays();
     result.options.goal = &goal_named("rate");
-    result.options.rate = WantedRate{"tray_rate_g_per_s", 0.01, 0.02};
+    result.options.rate = WantedRate{false, 0.01, 0.02};
     result.scenes.resize(2);
     SceneDecision &missing = result.scenes[0], &best = result.scenes[1];
     missing.standing = Standing::misses_the_rate;
@@ -33,7 +33,7 @@ class DecisionPage : public testing::Test {
     result.tests_clogging = true;
     result.cost = {12, 3e6};
   }
-  nlohmann::json data() const { return nlohmann::json::parse(decision_page_data(report_, timing_)); }
+  nlohmann::json data() const { return nlohmann::json::parse(page_data(study_page(report_, timing_))); }
 
   DecisionReport report_;
   SweepTiming timing_;
@@ -41,8 +41,8 @@ class DecisionPage : public testing::Test {
 
 TEST_F(DecisionPage, SaysTheAnswerWithItsIntervalsAndWhatIsPromised) {
   EXPECT_EQ(data()["headline"],
-            "Layout 2 (frequency 8 Hz) is the best: rate 2.00 ± 0.10 g/s, 15.0 ± 1.0 g/s of the tray, clogged in 2 of "
-            "8 runs. "
+            "Layout 2 (frequency 8 Hz) is the best: rate 2.00 ± 0.10 g/s, 15.0 ± 1.0 g/s of the tray (2D: a slice times the "
+            "depth, its holes slots all across), clogged in 2 of 8 runs. "
             "It meets the rate and clogs in fewer than 5 % of runs; no other that does so is better by more than 2 %: "
             "with a confidence of 95 %.");
   EXPECT_TRUE(data()["doubts"].empty());
@@ -105,13 +105,13 @@ TEST_F(DecisionPage, TimeIsOfRunsThatWereMadeNow) {
 }
 
 TEST_F(DecisionPage, TheDataEndNoScript) {
-  EXPECT_EQ(decision_page_data(report_, timing_).find('<'), std::string::npos);
+  EXPECT_EQ(page_data(study_page(report_, timing_)).find('<'), std::string::npos);
 }
 
 TEST_F(DecisionPage, ReplaysAreOfTheBestAndOfThoseNotShownToBeWorse) {
   const auto numbers = [&](std::size_t most) {
     std::vector<int> all;
-    for (const WantedReplay& one : best_to_replay(report_, most)) all.push_back(one.layout);
+    for (const WantedReplay& one : best_to_replay(answer_of(report_.result), most)) all.push_back(one.layout);
     return all;
   };
   EXPECT_THAT(numbers(5), ElementsAre(2));

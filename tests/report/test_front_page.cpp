@@ -1,4 +1,4 @@
-#include "report/front_page.hpp"
+#include "report/study_page.hpp"
 
 #include "page_data.hpp"
 
@@ -27,7 +27,7 @@ class FrontPage : public testing::Test {
     unsure.rate = MeanWithInterval{0.002, 0.0001};
     result_.cost = {6, 2e6};
   }
-  nlohmann::json data() const { return nlohmann::json::parse(front_page_data(result_, {})); }
+  nlohmann::json data() const { return nlohmann::json::parse(page_data(study_page(result_, SweepTiming{}))); }
   std::string headline() const { return data()["headline"]; }
 
   OptimiseResult result_;
@@ -38,14 +38,20 @@ TEST_F(FrontPage, SaysHowManyAreOnTheFront) {
   result_.layouts[1].standing = FrontStanding::dominated;
   EXPECT_EQ(headline(), "1 layout is on the front of longest pause and power, of 3 that were tried.");
   result_.layouts[0].standing = FrontStanding::may_be_on_front;
-  EXPECT_EQ(headline(), "1 layout may be on the front of longest pause and power, of 3 that were tried; none is shown to be.");
+  EXPECT_EQ(headline(),
+            "1 layout may be on the front of longest pause and power, of 3 that were tried; none is shown to be.");
   result_.layouts[0].standing = FrontStanding::clogs;
   EXPECT_EQ(headline(), "No layout of 3 that were tried is known to meet the constraints.");
 }
 
 TEST_F(FrontPage, DoubtsAreWhatIsNotPromisedAndThatItWasInterrupted) {
-  ASSERT_EQ(data()["doubts"].size(), 1U);
-  EXPECT_THAT(data()["doubts"][0].get<std::string>(), HasSubstr("is not promised"));
+  ASSERT_EQ(data()["doubts"].size(), 2U);
+  EXPECT_EQ(data()["doubts"][0],
+            "Of the 1 that may be on the front, none surely meets the constraints; more runs (--runs) tell more.");
+  EXPECT_THAT(data()["doubts"][1].get<std::string>(), HasSubstr("is not promised"));
+  result_.layouts[1].surely_meets = true;
+  EXPECT_THAT(data()["doubts"][0].get<std::string>(),
+              HasSubstr("each is not shown to be better in some goal than every other"));
   result_.is_interrupted = true;
   EXPECT_THAT(data()["doubts"][0].get<std::string>(), HasSubstr("Interrupted"));
 }
@@ -65,7 +71,7 @@ TEST_F(FrontPage, LayoutsHaveTheirGoalsInTheirUnits) {
 TEST_F(FrontPage, ReplaysAreOfThoseThatLead) {
   const auto numbers = [&](std::size_t most) {
     std::vector<int> all;
-    for (const WantedReplay& one : best_to_replay(result_, most)) all.push_back(one.layout);
+    for (const WantedReplay& one : best_to_replay(answer_of(result_), most)) all.push_back(one.layout);
     return all;
   };
   EXPECT_THAT(numbers(5), ElementsAre(1));

@@ -11,32 +11,6 @@ using Json = nlohmann::ordered_json;
 using testing::ElementsAre;
 using testing::HasSubstr;
 
-Json mean(double value, double half_width) {
-  return {{"mean", value}, {"half_width", half_width}};
-}
-
-Json layout(int number, const std::string& described, const Json& means) {
-  return {{"number", number}, {"described", described}, {"status", "ok"}, {"means", means}};
-}
-
-Json figure(const std::string& name, const std::string& unit) {
-  return {{"name", name}, {"unit", unit}};
-}
-
-Json sweep() {
-  Json data = {{"kind", "sweep"},
-               {"title", "Trays <b>"},
-               {"headline", "4 layouts."},
-               {"figures", {figure("seeds_per_s", "1/s"), figure("rate_g_per_s", "g/s")}},
-               {"layouts", Json::array()}};
-  const double rates[] = {2, 5, 9, 3};
-  for (int k = 0; k < 4; ++k)
-    data["layouts"].push_back(layout(k + 1, k == 1 ? "slow & <wide>" : "", {{"rate_g_per_s", mean(rates[k], 0.5)}}));
-  data["layouts"][2]["status"] = "stopped";
-  data["layouts"].push_back(layout(5, "", {{"rate_g_per_s", nullptr}}));
-  return data;
-}
-
 Json run() {
   return {{"kind", "run"},
           {"title", "A run"},
@@ -45,20 +19,6 @@ Json run() {
           {"window_s", {1.0, 4.0}},
           {"holes", {{{"hole", 1}}, {{"hole", 2}}}},
           {"events", {{"time_s", {0.5, 1.0, 4.0000001}}, {"hole", {1, 2, 1}}}}};
-}
-
-Json front() {
-  Json one = layout(1, "", {{"power_W_per_kg", mean(3, 1)}, {"unevenness_cv_percent", mean(8, 2)}}), other = one;
-  one["standing"] = "on the front", one["first_by_means"] = true;
-  other["number"] = 2, other["standing"] = "dominated", other["first_by_means"] = false;
-  Json power = figure("power_W_per_kg", "W/kg"), evenness = figure("unevenness_cv_percent", "%");
-  power["goal"] = evenness["goal"] = true;
-  power["wanted"] = "low";
-  return {{"kind", "front"},
-          {"title", "A search"},
-          {"headline", "1 layout is on the front."},
-          {"figures", {power, evenness}},
-          {"layouts", {one, other}}};
 }
 
 Json accuracy() {
@@ -92,8 +52,7 @@ Json calibration(bool of_curves) {
 
 TEST(PageCharts, EveryChartOfEveryKindIsDrawnWithItsWords) {
   const std::vector<std::pair<Json, std::vector<std::string>>> all = {
-      {run(), {"outflow"}},        {sweep(), {"ranking"}},       {front(), {"front", "ranking"}},
-      {accuracy(), {"precision"}}, {calibration(true), {"fit"}}, {calibration(false), {"fit"}}};
+      {run(), {"outflow"}}, {accuracy(), {"precision"}}, {calibration(true), {"fit"}}, {calibration(false), {"fit"}}};
   for (const auto& [data, names] : all) {
     EXPECT_EQ(chart_names(data), names);
     for (const std::string& name : names) {
@@ -117,34 +76,6 @@ TEST(PageCharts, OutflowEndsAtTheCountsOfTheRun) {
   EXPECT_EQ(chart.shades.front().of_x.low, 1);
 }
 
-TEST(PageCharts, ARankingStandsInTheOrderOfThePageTheOnesThatAreNotOkLast) {
-  const Chart chart = page_chart(sweep(), "ranking");
-  EXPECT_THAT(chart.y.rows, ElementsAre("2: slow & <wide>", "4", "1", "3"));
-  ASSERT_EQ(chart.series.size(), 2U);
-  EXPECT_EQ(chart.series[1].style, SeriesStyle::hollow_points);
-  EXPECT_EQ(chart.series[0].points[0].of_x->low, 4.5);
-  EXPECT_EQ(chart.shades.front().of_x.high, 5.5);
-  EXPECT_EQ(chart.x.title, "rate, g/s (bars: 95 % intervals)");
-  EXPECT_THAT(chart_svg(chart, 800), HasSubstr("slow &amp; &lt;wide&gt;"));
-}
-
-TEST(PageCharts, ALongRankingSaysHowMuchOfItIsShown) {
-  Json data = sweep();
-  for (int k = 0; k < 60; ++k) data["layouts"].push_back(layout(10 + k, "", {{"rate_g_per_s", mean(1, 0.1)}}));
-  const Chart chart = page_chart(data, "ranking");
-  EXPECT_EQ(chart.y.rows.size(), 40U);
-  EXPECT_EQ(chart.sentence, "4 layouts. Shown: the first 40 of 64.");
-}
-
-TEST(PageCharts, AFrontHasTheIntervalsOfThoseThatLead) {
-  const Chart chart = page_chart(front(), "front");
-  EXPECT_EQ(chart.y.title, "unevenness CV, %");
-  ASSERT_EQ(chart.series.size(), 2U);
-  EXPECT_EQ(chart.series[0].points[0].label, "1");
-  EXPECT_EQ(chart.series[0].points[0].of_y->high, 10);
-  EXPECT_FALSE(chart.series[1].points[0].of_y);
-}
-
 TEST(PageCharts, PrecisionIsOfWhatHasAnErrorAndATime) {
   const Chart chart = page_chart(accuracy(), "precision");
   ASSERT_EQ(chart.series.size(), 1U);
@@ -165,15 +96,8 @@ TEST(PageCharts, WhatWasHeldOutStandsApart) {
 }
 
 TEST(PageCharts, WhatIsNotThereIsToldWithWhatIs) {
-  try {
-    page_chart(front(), "outflow");
-    FAIL();
-  } catch (const InputError& error) {
-    EXPECT_STREQ(error.what(), "--chart: there is no \"outflow\" of this folder, but front, ranking");
-  }
-  Json none = sweep();
-  for (Json& one : none["layouts"]) one["means"] = Json::object();
-  EXPECT_THROW(page_chart(none, "ranking"), InputError);
+  EXPECT_THAT([] { page_chart(run(), "ranking"); },
+              testing::ThrowsMessage<InputError>("--chart: there is no \"ranking\" of this folder, but outflow"));
   EXPECT_THROW(page_chart(Json{{"kind", "run"}}, "outflow"), Json::exception);
 }
 

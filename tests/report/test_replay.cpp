@@ -5,7 +5,7 @@
 #include "page_data.hpp"
 #include "report/base64.hpp"
 #include "report/page.hpp"
-#include "report/sweep_page.hpp"
+#include "report/study_page.hpp"
 
 namespace vibrosow {
 namespace {
@@ -66,7 +66,7 @@ TEST(Replay, StandsInItsLayoutWithItsRecording) {
   result.layouts.resize(3);
   const std::string recording("\0<b>\xff", 5);
   const Replays replays = {{2, page_replay(replay_data(two_holes(), run_of(3)), recording)}};
-  const auto layouts = nlohmann::json::parse(sweep_page_data(result, 1, replays))["layouts"];
+  const auto layouts = nlohmann::json::parse(page_data(study_page(result, 1), replays))["layouts"];
   EXPECT_FALSE(layouts[0].contains("replay"));
   EXPECT_EQ(from_base64(layouts[1]["replay"]["recording"].get<std::string>()), recording);
   EXPECT_TRUE(layouts[0].contains("command"));
@@ -82,12 +82,12 @@ TEST(Replay, BestOfASweepAreThoseThatAreOkInTheOrderOfTheRate) {
   result.layouts[1].figures = with_rate(2);
   const auto numbers = [&](std::size_t most) {
     std::vector<int> all;
-    for (const WantedReplay& one : best_to_replay(result, 5, most)) all.push_back(one.layout);
+    for (const WantedReplay& one : best_to_replay(answer_of(result, 5), most)) all.push_back(one.layout);
     return all;
   };
   EXPECT_THAT(numbers(9), ElementsAre(2, 1, 3));  // of the same rate the first by number
   EXPECT_THAT(numbers(2), ElementsAre(2, 1));
-  EXPECT_EQ(best_to_replay(result, 5, 1).front().random_seed, 5U);
+  EXPECT_EQ(best_to_replay(answer_of(result, 5), 1).front().random_seed, 5U);
   result.layouts[1].status = LayoutStatus::outside_the_model;
   result.layouts[2].figures = {};
   EXPECT_THAT(numbers(9), ElementsAre(1));

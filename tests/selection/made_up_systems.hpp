@@ -61,7 +61,8 @@ inline std::vector<int> lead(Procedure& procedure, std::size_t systems, const Ob
                              bool backwards = false) {
   std::vector<int> have(systems, 0);
   for (int round = 0; round < rounds; ++round) {
-    const std::vector<int> wanted = procedure.wanted();
+    procedure.request_next_round();
+    const std::vector<int>& wanted = procedure.counts();
     if (wanted == have) break;
     for (std::size_t k = 0; k < systems; ++k) {
       const std::size_t i = backwards ? systems - 1 - k : k;

@@ -47,6 +47,29 @@ TEST(StudyPlanFile, IsReadAsItWasFrozen) {
   EXPECT_EQ(plan.runs[0].name, a_run);
 }
 
+TEST(StudyPlanFile, KeepsWhatIsAsked) {
+  const TemporaryFolder folder;
+  StudyPlan asking = small_plan();
+  asking.question = DecideQuestion{"rate", std::nullopt, 0.05, 0.02, 0.95, SelectionRule::guaranteed, 400, false};
+  const std::string name = freeze_plan(folder.path(), asking);
+  EXPECT_EQ(read_plan(folder.path()).question, asking.question);
+  std::get<DecideQuestion>(asking.question).margin = 0.03;
+  EXPECT_NE(freeze_plan(folder.path(), asking), name) << "another question is another plan";
+  freeze_plan(folder.path(), small_plan());
+  EXPECT_EQ(read_plan(folder.path()).question, AskedQuestion());
+}
+
+TEST(StudyPlanFile, OneThatAsksInWordsIsOfAnotherVersion) {
+  const TemporaryFolder folder;
+  freeze_plan(folder.path(), small_plan());
+  EXPECT_THAT(message_of_reading(folder.path(), R"({"study":"s","set":[],"random_seed":1,"files":{},"runs":[],)"
+                                                R"("asked":["decide","--goal=rate"]})"),
+              HasSubstr("its plan was made by another version of the program"));
+  EXPECT_THAT(message_of_reading(folder.path(), R"({"study":"s","set":[],"random_seed":1,"files":{},"runs":[],)"
+                                                R"("question":{"command":"decide","goal":"rate"}})"),
+              HasSubstr("is damaged"));
+}
+
 TEST(StudyPlanFile, ATruncatedOneIsMadeAgain) {
   const TemporaryFolder folder;
   const std::string name = freeze_plan(folder.path(), small_plan());

@@ -10,8 +10,16 @@
 
 namespace vibrosow {
 
-/// What asks for runs round by round (StudyDecision, StudyOptimisation) is led by one job, killed in its 37th run,
-/// and led anew by another through the runs that are kept in `folder`. Returns the runs made after the kill.
+/// Leads what asks for runs round by round (StudyDecision, StudyOptimisation, DraftScreen) to its end, or to a run that
+/// is not there.
+template <class Asking>
+void lead_to_the_end(Asking& asking, const Simulator& simulator, int jobs = 1) {
+  asking.request_next_round();
+  while (!asking.missing().empty() && asking.take(simulator, jobs)) asking.request_next_round();
+}
+
+/// Such a thing is led by one job, killed in its 37th run, and led anew by another through the runs that are kept in
+/// `folder`. Returns the runs made after the kill.
 template <class Asking>
 std::int64_t lead_through_a_kill(const std::filesystem::path& folder, Asking killed, Asking& again,
                                  const Simulator& simulator) {
@@ -26,17 +34,21 @@ std::int64_t lead_through_a_kill(const std::filesystem::path& folder, Asking kil
     return run;
   };
   StudyRuns first(folder);
-  for (auto wanted = killed.wanted(); !wanted.empty(); wanted = killed.wanted()) {
-    first.make(wanted, dying, making);
+  killed.request_next_round();
+  for (auto missing = killed.missing(); !missing.empty(); missing = killed.missing()) {
+    first.make(missing, dying, making);
     if (!killed.take(first.kept(), 1)) break;
+    killed.request_next_round();
   }
   EXPECT_EQ(begun, 37);
   interrupt = false;
   std::int64_t made = 0;
   StudyRuns second(folder);
-  for (auto wanted = again.wanted(); !wanted.empty(); wanted = again.wanted()) {
-    made += second.make(wanted, simulator, making).made;
+  again.request_next_round();
+  for (auto missing = again.missing(); !missing.empty(); missing = again.missing()) {
+    made += second.make(missing, simulator, making).made;
     EXPECT_TRUE(again.take(second.kept(), 1));
+    again.request_next_round();
   }
   return made;
 }
