@@ -91,11 +91,11 @@ void print_drill(const DrillFigures& figures, Space space) {
   print_text(wrapped(spacings_sentence(all)));
 }
 
-std::string sown_sentence(const std::vector<RowMeans>& rows, Space space) {
+std::string sown_sentence(const std::vector<RowMeans>& rows, std::string_view beside) {
   const RowMeans& all = rows.back();
   std::vector<std::string> parts;
   parts.push_back(all["kg_per_ha"] ? fmt::format("sown: {} kg/ha, {} seeds/m2{}", mean_text(all, "kg_per_ha"),
-                                                 mean_text(all, "seeds_per_m2"), of_plane(space))
+                                                 mean_text(all, "seeds_per_m2"), beside)
                                    : std::string("sown: no rate without tray.depth"));
   if (all["raw_cv_percent"])
     parts.push_back(fmt::format("between rows raw CV {} %, of which chance {} %", mean_text(all, "raw_cv_percent"),

@@ -13,8 +13,8 @@ std::string drill_sentence(const Drill& drill);
 /// What a run is to its drill: a table of rows, how far they differ, and what spacings stand for.
 void print_drill(const DrillFigures& figures, Space space);
 
-/// What a layout sows, in a sentence. It has rows.
-std::string sown_sentence(const std::vector<RowMeans>& rows, Space space);
+/// What a layout sows, in a sentence. It has rows. `beside`: stands beside the rate.
+std::string sown_sentence(const std::vector<RowMeans>& rows, std::string_view beside);
 
 /// Turn-down and sensitivity to slope, where the study says something of them.
 void print_trade(const StudyResult& result);

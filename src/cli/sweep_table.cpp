@@ -12,6 +12,7 @@
 #include "report/layout_text.hpp"
 #include "report/sweep_report.hpp"
 #include "report/terminal_text.hpp"
+#include "scene/spaces.hpp"
 
 namespace vibrosow {
 namespace {
@@ -56,18 +57,23 @@ std::string line_of(const std::string& number, const std::string& name, const Ce
   return text + '\n';
 }
 
+/// Whether its rates of the tray are a slice's.
+bool is_slice_of_a_tray(const Scene& scene) {
+  return scene.space == Space::plane && slices_of_tray(scene);
+}
+
 void print_remarks(const StudyResult& result, std::size_t layout) {
   const LayoutResult& of = result.layouts[layout];
   const auto scene = result.study.layouts[layout].scene;
-  const Space space = scene ? result.study.scenes[*scene].space : Space::three_dimensional;
+  const std::string_view beside = scene && result.study.scenes[*scene].space == Space::plane ? " (2D)" : "";
   const FigureMeans& figures = of.figures;
   if (figures["tray_rate_g_per_s"])
     print_text(wrapped(fmt::format("tray, times {}: {} g/s, {} g/min, {} seeds/s{}", mean_text(figures, "depth_factor"),
                                    mean_text(figures, "tray_rate_g_per_s"), mean_text(figures, "tray_rate_g_per_min"),
-                                   mean_text(figures, "tray_seeds_per_s"), of_plane(space)),
+                                   mean_text(figures, "tray_seeds_per_s"), beside),
                        4));
   if (of.misfit_percent) print("    misfit {} %\n", with_interval(of.misfit_percent, 1));
-  if (!of.rows.empty()) print_text(wrapped(sown_sentence(of.rows, space), 4));
+  if (!of.rows.empty()) print_text(wrapped(sown_sentence(of.rows, beside), 4));
   if (const std::string note = layout_note(of); !note.empty()) print_text(wrapped(note, 4));
 }
 
@@ -98,6 +104,8 @@ void print_sweep_table(const StudyResult& result) {
   if (uneven)
     print("\n{}", wrapped("CV between the holes, %: raw, and the unevenness (chance taken out) with its 95 % "
                           "interval; \"<\": not told from equal holes"));
+  if (std::ranges::any_of(result.study.scenes, is_slice_of_a_tray))
+    print("\n{}", wrapped("2D: a slice times the depth of the tray, its holes slots all across"));
   print_trade(result);
   if (!result.comparison) return;
   if (result.study.measured->scale == MeasuredScale::free && result.comparison->scale)
