@@ -68,9 +68,9 @@ void print_remarks(const StudyResult& result, std::size_t layout) {
   const std::string_view beside = scene && result.study.scenes[*scene].space == Space::plane ? " (2D)" : "";
   const FigureMeans& figures = of.figures;
   if (figures["tray_rate_g_per_s"])
-    print_text(wrapped(fmt::format("tray, times {}: {} g/s, {} g/min, {} seeds/s{}", mean_text(figures, "depth_factor"),
-                                   mean_text(figures, "tray_rate_g_per_s"), mean_text(figures, "tray_rate_g_per_min"),
-                                   mean_text(figures, "tray_seeds_per_s"), beside),
+    print_text(wrapped(fmt::format("tray{}, times {}: {} g/s, {} g/min, {} seeds/s", beside,
+                                   mean_text(figures, "depth_factor"), mean_text(figures, "tray_rate_g_per_s"),
+                                   mean_text(figures, "tray_rate_g_per_min"), mean_text(figures, "tray_seeds_per_s")),
                        4));
   if (of.misfit_percent) print("    misfit {} %\n", with_interval(of.misfit_percent, 1));
   if (!of.rows.empty()) print_text(wrapped(sown_sentence(of.rows, beside), 4));

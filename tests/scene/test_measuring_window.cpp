@@ -28,6 +28,7 @@ TEST(MeasuringWindow, OfWholePeriodsIsAsItWasWritten) {
   EXPECT_EQ(window.to, 4);
   EXPECT_EQ(window.drive, Drive::periodic);
   EXPECT_EQ(window.periods, 27);
+  EXPECT_EQ(measuring_window(shaken(at(49))).from, 1) << "4 - 147 periods is a rounding later";
 }
 
 TEST(MeasuringWindow, BeginsLaterToHoldWholePeriods) {

@@ -14,6 +14,7 @@
 #include "plan/scene_warnings.hpp"
 #include "report/page.hpp"
 #include "report/run_page.hpp"
+#include "scene/measuring_window.hpp"
 #include "scene/scene_json.hpp"
 #include "simulation/simulation.hpp"
 
@@ -49,7 +50,7 @@ Json state() {
 Json opened() {
   const Model& model = simulation->model();
   return {{"grains", simulation->grains().size()},  {"holes", model.scene.tray.holes.size()},
-          {"duration_s", model.scene.run.duration}, {"measure_from_s", model.scene.run.measure_from},
+          {"duration_s", model.scene.run.duration}, {"measure_from_s", measuring_window(model.scene).from},
           {"time_step_s", model.step.dt},           {"steps", model.step.steps},
           {"remarks", scene_warnings(model.scene)}, {"lots", page_lots(model.scene)},
           {"vessels", page_vessels(model.scene)},   {"state", state()}};
