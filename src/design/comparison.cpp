@@ -125,9 +125,8 @@ std::optional<double> misfit(const std::vector<const Pairing*>& pairings, bool c
 /// means that leave out one replicate each.
 std::optional<MeanWithInterval> layout_misfit(const std::vector<const Pairing*>& pairings, bool curve, double scale) {
   const auto of_means = [&](std::optional<std::size_t> without) {
-    return misfit(pairings, curve, [&](const Pairing& pairing) {
-      return scaled(pairing.means(without), scale * pairing.depth_factor);
-    });
+    return misfit(pairings, curve,
+                  [&](const Pairing& pairing) { return scaled(pairing.means(without), scale * pairing.depth_factor); });
   };
   const auto of_all = of_means(std::nullopt);
   if (!of_all) return std::nullopt;

@@ -40,11 +40,12 @@ class DecisionPage : public testing::Test {
 };
 
 TEST_F(DecisionPage, SaysTheAnswerWithItsIntervalsAndWhatIsPromised) {
-  EXPECT_EQ(data()["headline"],
-            "Layout 2 (frequency 8 Hz) is the best: rate 2.00 ± 0.10 g/s, 15.0 ± 1.0 g/s of the tray (2D: a slice times the "
-            "depth, its holes slots all across), clogged in 2 of 8 runs. "
-            "It meets the rate and clogs in fewer than 5 % of runs; no other that does so is better by more than 2 %: "
-            "with a confidence of 95 %.");
+  EXPECT_EQ(
+      data()["headline"],
+      "Layout 2 (frequency 8 Hz) is the best: rate 2.00 ± 0.10 g/s, 15.0 ± 1.0 g/s of the tray (2D: a slice times the "
+      "depth, its holes slots all across), clogged in 2 of 8 runs. "
+      "It meets the rate and clogs in fewer than 5 % of runs; no other that does so is better by more than 2 %: "
+      "with a confidence of 95 %.");
   EXPECT_TRUE(data()["doubts"].empty());
 }
 
