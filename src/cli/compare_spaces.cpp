@@ -67,7 +67,7 @@ int run_in_both_spaces(const BothSpaces& scenes) {
       return exit_stopped_by_guard;
     }
   const TrayRate of_slice = tray_rate(flat), of_tray = tray_rate(deep);
-  print("both spaces, one run each, window {:g} to {:g} s\n", deep.outflow.window.from, deep.outflow.window.to);
+  print("both spaces, one run each, window {:.4g} to {:.4g} s\n", deep.outflow.window.from, deep.outflow.window.to);
   print_rate("plane", of_slice, flat);
   print_rate("space", of_tray, deep);
   if (flat.outside_the_model || deep.outside_the_model)

@@ -101,7 +101,7 @@ std::string headline(const RunPage& page) {
   const std::size_t holes = scene.tray.holes.size();
   const bool slice = scene.space == Space::plane;
   const double factor = outflow.depth_factor.value_or(1);
-  std::string text = fmt::format("{} let{} out {} g/s, {} seeds/s, between {:g} and {:g} s",
+  std::string text = fmt::format("{} let{} out {} g/s, {} seeds/s, between {:.4g} and {:.4g} s",
                                  holes == 1 ? "One hole" : fmt::format("{} holes", holes), holes == 1 ? "s" : "",
                                  figure_text(all.mass_rate * 1e3 * factor), figure_text(all.seeds_per_s * factor),
                                  outflow.window.from, outflow.window.to);
