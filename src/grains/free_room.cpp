@@ -125,7 +125,7 @@ std::vector<char> FreeRoom::free_cells(const Grid& grid) const {
             for (int x = i; x < end.x(); ++x) {
               const Eigen::Array3i at(x, y, z);
               const Eigen::Vector3d centre = in_cut(grid.centre(at));
-              const bool inside = is_in_plan(centre, clear) && (!vessel_.box || centre.y() >= clear);
+              const bool inside = is_in_plan(centre, clear) && centre.y() >= clear;
               free[grid.index(at)] = inside && (all_free || obstacles_.distance(centre) >= clear) ? 1 : 0;
             }
       }

@@ -283,6 +283,26 @@ TEST_P(Insertion, ClumpsThatRainAtAnOpenEdgeMayHangOverIt) {
   EXPECT_TRUE(hung_over);
 }
 
+/// Between two drawn slopes is a gap; under their ends no seed passes that stays in the vessel.
+TEST_P(Insertion, AKeptVesselWithoutABoxIsNotFedBeneathItsSlopes) {
+  Scene scene = soft(GetParam());
+  scene.lots[0].diameter = 2e-3;
+  Vessel& tray = scene.tray;
+  tray.box = false;
+  tray.length = 0.06;
+  tray.pieces = {{.a = {0, 0.04}, .b = {0, 0.02}},
+                 {.a = {0, 0.02}, .b = {0.022, 0.001}},
+                 {.a = {0.038, 0.001}, .b = {0.06, 0.02}},
+                 {.a = {0.06, 0.02}, .b = {0.06, 0.04}}};
+  tray.fill = Fill{GetParam() == Space::plane ? 60 : 200, Packing::poured, 1e-3, true};
+  scene.run.duration = 0.1;
+  const auto is_over_slopes_or_gap = [](const Eigen::Vector3d& own) {
+    const double beside = std::max(0.0, std::abs(own.x() - 0.03) - 0.008);
+    return own.y() > beside * 0.019 / 0.022;
+  };
+  EXPECT_GT(expect_all_clear(scene, 0, is_over_slopes_or_gap), 80u);
+}
+
 TEST_P(Insertion, ADrumIsKeptFullWithinItsCircle) {
   Scene scene = soft(GetParam());
   Vessel& drum = scene.tray;
