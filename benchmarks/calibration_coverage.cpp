@@ -14,11 +14,11 @@
 #include <string>
 #include <vector>
 
-#include "design/calibration.hpp"
-#include "design/many_runs.hpp"
+#include "calibration/calibration.hpp"
 #include "grains/random.hpp"
 #include "input/csv_lines.hpp"
 #include "plan/model.hpp"
+#include "study/many_runs.hpp"
 
 namespace {
 

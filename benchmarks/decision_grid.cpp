@@ -14,13 +14,13 @@
 #include <string>
 #include <vector>
 
-#include "design/decide.hpp"
-#include "design/planned_study.hpp"
 #include "grains/random.hpp"
+#include "optimise/decide.hpp"
 #include "outflow/figures.hpp"
 #include "scene/input_error.hpp"
 #include "storage/case_file.hpp"
 #include "storage/case_folder.hpp"
+#include "study/planned_study.hpp"
 
 namespace {
 

@@ -8,8 +8,8 @@
 #include <iostream>
 #include <random>
 
-#include "design/planned_study.hpp"
 #include "scene/input_error.hpp"
+#include "study/planned_study.hpp"
 
 namespace {
 

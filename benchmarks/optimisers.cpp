@@ -25,8 +25,8 @@
 #include <string>
 #include <vector>
 
-#include "design/front_search.hpp"
-#include "design/latin_hypercube.hpp"
+#include "optimise/front_search.hpp"
+#include "study/latin_hypercube.hpp"
 
 namespace {
 

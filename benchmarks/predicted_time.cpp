@@ -8,11 +8,11 @@
 #include <cstdlib>
 #include <filesystem>
 
-#include "design/predicted_cost.hpp"
 #include "input/read_scene.hpp"
 #include "plan/model.hpp"
 #include "scene/input_error.hpp"
 #include "simulation/simulate.hpp"
+#include "study/predicted_cost.hpp"
 
 namespace vibrosow {
 namespace {

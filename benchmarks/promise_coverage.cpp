@@ -14,7 +14,7 @@
 #include <string>
 #include <vector>
 
-#include "design/promise.hpp"
+#include "accuracy/promise.hpp"
 #include "grains/random.hpp"
 #include "input/csv_lines.hpp"
 #include "scene/input_error.hpp"

@@ -12,8 +12,8 @@
 #include <string>
 #include <vector>
 
-#include "design/replicates.hpp"
 #include "outflow/statistics.hpp"
+#include "study/replicates.hpp"
 
 namespace {
 

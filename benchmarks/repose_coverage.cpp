@@ -14,7 +14,7 @@
 #include <map>
 #include <vector>
 
-#include "design/repose_band.hpp"
+#include "calibration/repose_band.hpp"
 #include "repose_runs.hpp"
 
 namespace {

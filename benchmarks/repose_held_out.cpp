@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "design/new_crop.hpp"
+#include "calibration/new_crop.hpp"
 #include "repose_runs.hpp"
 
 namespace {

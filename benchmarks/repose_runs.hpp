@@ -5,11 +5,11 @@
 #include <utility>
 #include <vector>
 
-#include "design/planned_study.hpp"
-#include "design/repose_atlas.hpp"
+#include "calibration/repose_atlas.hpp"
 #include "scene/input_error.hpp"
 #include "storage/case_file.hpp"
 #include "storage/case_folder.hpp"
+#include "study/planned_study.hpp"
 
 namespace vibrosow {
 

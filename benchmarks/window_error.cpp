@@ -6,13 +6,13 @@
 #include <iostream>
 #include <string>
 
-#include "design/planned_study.hpp"
 #include "outflow/statistics.hpp"
 #include "scene/input_error.hpp"
 #include "scene/measuring_window.hpp"
 #include "storage/case_file.hpp"
 #include "storage/case_folder.hpp"
 #include "storage/study_plan.hpp"
+#include "study/planned_study.hpp"
 
 namespace {
 

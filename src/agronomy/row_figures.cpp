@@ -103,8 +103,8 @@ BetweenRows between_rows(const std::vector<Stream>& streams, const MeasuringWind
     between.mass.push_back(one.mass);
     blocks.push_back(counts_in_blocks(one.times, block_ends(window)));
   }
+  between.seeds_in_block = transposed(blocks);
   between.raw_cv = raw_cv(between.seeds);
-  between.unevenness = unevenness(transposed(blocks));
   between.mass_cv = coefficient_of_variation(between.mass);
   return between;
 }
@@ -115,104 +115,108 @@ Value of_spacing(const RowFigures& row, Get get) {
 }
 
 template <class Get>
-Value of_unevenness(const RowFigures& row, Get get) {
-  return row.between && row.between->unevenness ? Value(get(*row.between->unevenness)) : Value();
+Value of_unevenness(const RowSource& source, Get get) {
+  return source.unevenness ? Value(get(*source.unevenness)) : Value();
 }
 
-using Row = const RowFigures&;
+using Source = const RowSource&;
 using Spaced = const SpacingFigures&;
 
 constexpr std::array table = {
     RowFigure{"rate_g_per_min", "g/min", gram / 60,
               "what the row gets, of the whole tray (in the plane the slice's times the depth factor; empty without "
               "tray.depth); all: the rows together",
-              [](Row r) { return r.mass_rate; }},
-    RowFigure{"seeds_per_s", "1/s", 1, "likewise, seeds", [](Row r) { return r.seeds_per_s; }},
+              [](Source s) { return s.row.mass_rate; }},
+    RowFigure{"seeds_per_s", "1/s", 1, "likewise, seeds", [](Source s) { return s.row.seeds_per_s; }},
     RowFigure{"kg_per_ha", "kg/ha", kilogram_per_hectare, "that over row spacing and speed; all: of the whole width",
-              [](Row r) { return r.kg_per_m2; }},
-    RowFigure{"seeds_per_m2", "1/m2", 1, "likewise, seeds", [](Row r) { return r.seeds_per_m2; }},
+              [](Source s) { return s.row.kg_per_m2; }},
+    RowFigure{"seeds_per_m2", "1/m2", 1, "likewise, seeds", [](Source s) { return s.row.seeds_per_m2; }},
     RowFigure{"instability_cv_percent", "%", percent,
               "coefficient of variation of its seeds over ten equal parts of the window, in the plane of the slice's",
-              [](Row r) { return r.instability_cv; }},
+              [](Source s) { return s.row.instability_cv; }},
     RowFigure{"instability_counting_percent", "%", percent, "what counting so many independent seeds gives alone",
-              [](Row r) { return r.instability_counting_cv; }},
+              [](Source s) { return s.row.instability_counting_cv; }},
     RowFigure{
         "longest_pause_s", "s", 1,
         "longest time in the window without a seed from its holes, in the plane of the slice; all: the longest of "
         "any row",
-        [](Row r) { return r.longest_pause; }},
+        [](Source s) { return s.row.longest_pause; }},
     RowFigure{"multiples_percent", "%", percent,
               "spacings up to 0.5 of the reference (ISO 7256-1; drill.multiples_below; ISOBUS DDI 419, there in ppm), "
               "at the hole, not in the furrow",
-              [](Row r) { return of_spacing(r, [](Spaced s) { return s.multiples; }); }},
+              [](Source s) { return of_spacing(s.row, [](Spaced of) { return of.multiples; }); }},
     RowFigure{"poisson_multiples_percent", "%", percent,
               "what seeds that come independently of each other would have: 39 beside their mean",
-              [](Row r) { return r.poisson_multiples; }},
+              [](Source s) { return s.row.poisson_multiples; }},
     RowFigure{"skips_percent", "%", percent,
               "spacings beyond 1.5 of the reference (ISO 7256-1; drill.skips_above; ISOBUS DDI 417), at the hole, not "
               "in the furrow",
-              [](Row r) { return of_spacing(r, [](Spaced s) { return s.skips; }); }},
+              [](Source s) { return of_spacing(s.row, [](Spaced of) { return of.skips; }); }},
     RowFigure{"poisson_skips_percent", "%", percent,
               "what seeds that come independently of each other would have: 22 beside their mean",
-              [](Row r) { return r.poisson_skips; }},
+              [](Source s) { return s.row.poisson_skips; }},
     RowFigure{"singulation_percent", "%", percent,
               "the other spacings: quality of feed (ISO 7256-1; ISOBUS DDI 415), at the hole, not in the furrow",
-              [](Row r) { return of_spacing(r, [](Spaced s) { return s.singles; }); }},
+              [](Source s) { return of_spacing(s.row, [](Spaced of) { return of.singles; }); }},
     RowFigure{"precision_percent", "%", percent,
               "standard deviation of these others over the reference (Kachman and Smith 1995)",
-              [](Row r) { return r.spacing ? r.spacing->precision : Value(); }},
+              [](Source s) { return s.row.spacing ? s.row.spacing->precision : Value(); }},
     RowFigure{"reference_spacing_mm", "mm", millimetre, "drill.reference_spacing, or else the row's mean spacing",
-              [](Row r) { return of_spacing(r, [](Spaced s) { return s.reference; }); }},
+              [](Source s) { return of_spacing(s.row, [](Spaced of) { return of.reference; }); }},
     RowFigure{"spacing_deviation_mm", "mm", millimetre,
               "mean distance of a spacing from the reference, without sign (ISOBUS DDI 421)",
-              [](Row r) { return of_spacing(r, [](Spaced s) { return s.deviation; }); }},
+              [](Source s) { return of_spacing(s.row, [](Spaced of) { return of.deviation; }); }},
     RowFigure{"spacing_cv_percent", "%", percent,
               "coefficient of variation of all spacings (ISOBUS DDI 423); a Poisson stream's is 100",
-              [](Row r) { return r.spacing ? r.spacing->cv : Value(); }},
+              [](Source s) { return s.row.spacing ? s.row.spacing->cv : Value(); }},
     RowFigure{
         "mass_cv_percent", "%", percent,
         "all: coefficient of variation between rows of what they weigh, as ISO 7256-2 takes it; rows that share a "
         "hole count once",
-        [](Row r) { return r.between ? r.between->mass_cv : Value(); }, true},
+        [](Source s) { return s.mass_cv; }, true},
     RowFigure{"raw_cv_percent", "%", percent, "all: the same of their seeds, all replicates together",
-              [](Row r) { return r.between ? r.between->raw_cv : Value(); }, true},
+              [](Source s) { return s.raw_cv; }, true},
     RowFigure{"chance_cv_percent", "%", percent, "all: what of that rows of equal rates would show",
-              [](Row r) { return of_unevenness(r, [](const Unevenness& u) { return u.chance_cv; }); }, true},
+              [](Source s) { return of_unevenness(s, [](const Unevenness& u) { return u.chance_cv; }); }, true},
     RowFigure{"unevenness_cv_percent", "%", percent,
               "all: coefficient of variation of the rows' rates, chance taken out; empty: not told from equal rows",
-              [](Row r) { return of_unevenness(r, [](const Unevenness& u) { return u.cv; }); }, true},
+              [](Source s) { return of_unevenness(s, [](const Unevenness& u) { return u.cv; }); }, true},
     RowFigure{"unevenness_cv_percent_low", "%", percent, "all: lower end of its 95 % interval",
-              [](Row r) { return of_unevenness(r, [](const Unevenness& u) { return u.low; }); }, true},
+              [](Source s) { return of_unevenness(s, [](const Unevenness& u) { return u.low; }); }, true},
     RowFigure{"unevenness_cv_percent_high", "%", percent, "all: upper end: what it may be up to where it is empty",
-              [](Row r) { return of_unevenness(r, [](const Unevenness& u) { return u.high; }); }, true},
+              [](Source s) { return of_unevenness(s, [](const Unevenness& u) { return u.high; }); }, true},
 };
 
-/// The first replicate with what the streams of all gave.
-RowFigures pooled(const std::vector<const RowFigures*>& replicates) {
-  RowFigures all = *replicates.front();
-  if (!all.between || replicates.size() == 1) return all;
+RowSource together(const std::vector<const RowFigures*>& replicates) {
+  RowSource all{*replicates.front()};
+  if (!all.row.between) return all;
+  std::vector<const BetweenRows*> between;
   std::vector<std::vector<std::int64_t>> counts;
-  std::vector<double> mass(all.between->mass.size(), 0.0);
+  std::vector<double> mass(all.row.between->mass.size(), 0.0);
   for (const RowFigures* one : replicates) {
+    between.push_back(&*one->between);
     counts.push_back(one->between->seeds);
     for (std::size_t k = 0; k < mass.size(); ++k) mass[k] += one->between->mass[k];
   }
-  all.between->raw_cv = raw_cv(sum_of_parts(counts));
-  all.between->unevenness = unevenness(counts);
-  all.between->mass_cv = coefficient_of_variation(mass);
+  all.raw_cv = raw_cv(sum_of_parts(counts));
+  all.mass_cv = coefficient_of_variation(mass);
+  all.unevenness = unevenness_of(between);
   return all;
 }
 
 RowMeans means_of(const std::vector<const RowFigures*>& replicates) {
   const RowFigures& first = *replicates.front();
-  const RowFigures all = pooled(replicates);
+  const RowSource all = together(replicates);
   RowMeans means{first.row, first.holes, first.without_spacing, {}};
   for (const RowFigure& figure : table) {
     std::vector<double> values;
-    for (const RowFigures* one : figure.pooled ? std::vector{&all} : replicates) {
-      const Value value = figure.of(*one);
+    const auto add = [&](const Value& value) {
       if (value && std::isfinite(*value)) values.push_back(*value);
-    }
+    };
+    if (figure.pooled)
+      add(figure.of(all));
+    else
+      for (const RowFigures* one : replicates) add(figure.of({*one}));
     means.means.push_back(values.empty() ? std::nullopt : std::optional(mean_with_interval(values)));
   }
   return means;
@@ -244,6 +248,13 @@ DrillFigures drill_figures(const Scene& scene, const Run& run, const Outflow& ou
   all.between = between_rows(streams, outflow.window);
   result.rows.push_back(std::move(all));
   return result;
+}
+
+std::optional<Unevenness> unevenness_of(const std::vector<const BetweenRows*>& replicates) {
+  if (replicates.size() == 1) return unevenness(replicates.front()->seeds_in_block);
+  std::vector<std::vector<std::int64_t>> counts;
+  for (const BetweenRows* one : replicates) counts.push_back(one->seeds);
+  return unevenness(counts);
 }
 
 std::span<const RowFigure> row_figures() {

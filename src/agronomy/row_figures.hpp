@@ -18,12 +18,15 @@ namespace vibrosow {
 
 /// How far rows differ. Rows that share a hole count once: how a divider deals out their seeds is not simulated.
 struct BetweenRows {
-  std::vector<std::int64_t> seeds;  // of each stream in the window
-  std::vector<double> mass;         // kg, likewise
-  std::optional<double> raw_cv;     // fraction; of the seeds, chance included
-  std::optional<Unevenness> unevenness;
+  std::vector<std::int64_t> seeds;                        // of each stream in the window
+  std::vector<double> mass;                               // kg, likewise
+  std::vector<std::vector<std::int64_t>> seeds_in_block;  // by block of the window, then by stream
+  std::optional<double> raw_cv;                           // fraction; of the seeds, chance included
   std::optional<double> mass_cv;  // fraction; of the masses as they are, as ISO 7256-2 weighs what rows give
 };
+
+/// As `unevenness_of` of runs: by all replicates together; of one, by its blocks.
+std::optional<Unevenness> unevenness_of(const std::vector<const BetweenRows*>& replicates);
 
 /// Why there are no spacings.
 enum class NoSpacings { none, plane_slice, shared_hole, few_seeds };
@@ -57,13 +60,20 @@ struct DrillFigures {
 /// holes than the tray's.
 DrillFigures drill_figures(const Scene& scene, const Run& run, const Outflow& outflow, const Drill& drill);
 
+/// What figures of a row are taken from: a run; or of replicates the first, with what the seeds of all say of the rows.
+struct RowSource {
+  const RowFigures& row;
+  std::optional<double> raw_cv{}, mass_cv{};
+  std::optional<Unevenness> unevenness{};
+};
+
 /// A number of a row, as `Figure` is one of a run.
 struct RowFigure {
   std::string_view name;         // of its column, with its unit: "rate_g_per_min"
   std::string_view unit;         // "g/min"; empty for a plain number
   double unit_size;              // of that unit, in SI
   std::string_view description;  // a clause without a full stop
-  std::optional<double> (*of)(const RowFigures&);
+  std::optional<double> (*of)(const RowSource&);
   bool pooled = false;  // of replicates: taken once from the seeds of all together, not a mean with an interval
 };
 

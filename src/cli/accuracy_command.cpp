@@ -5,6 +5,8 @@
 #include <memory>
 #include <numeric>
 
+#include "accuracy/accuracy.hpp"
+#include "accuracy/promise.hpp"
 #include "cli/commands.hpp"
 #include "cli/common_options.hpp"
 #include "cli/console.hpp"
@@ -12,10 +14,6 @@
 #include "cli/interrupt.hpp"
 #include "cli/progress.hpp"
 #include "cli/threads.hpp"
-#include "design/accuracy.hpp"
-#include "design/predicted_cost.hpp"
-#include "design/promise.hpp"
-#include "design/study_runs.hpp"
 #include "input/input_file.hpp"
 #include "input/read_scene.hpp"
 #include "laws/law.hpp"
@@ -31,6 +29,8 @@
 #include "simulation/simulate.hpp"
 #include "storage/case_folder.hpp"
 #include "storage/study_plan.hpp"
+#include "study/predicted_cost.hpp"
+#include "study/study_runs.hpp"
 #include "units/quantity.hpp"
 
 namespace vibrosow {

@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "cli/asked_study.hpp"
-#include "design/draft_screen.hpp"
-#include "design/planned_study.hpp"
+#include "optimise/draft_screen.hpp"
 #include "report/decision_report.hpp"
+#include "study/planned_study.hpp"
 
 namespace vibrosow {
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "cli/asked_study.hpp"
-#include "design/optimise.hpp"
+#include "optimise/optimise.hpp"
 
 namespace vibrosow {
 

@@ -5,12 +5,12 @@
 #include <string>
 #include <vector>
 
+#include "calibration/bench_plan.hpp"
 #include "cli/commands.hpp"
 #include "cli/common_options.hpp"
 #include "cli/console.hpp"
 #include "cli/help_text.hpp"
 #include "cli/make_runs.hpp"
-#include "design/bench_plan.hpp"
 #include "input/input_file.hpp"
 #include "report/bench_report.hpp"
 #include "scene/input_error.hpp"

@@ -9,12 +9,12 @@
 #include <string>
 #include <vector>
 
+#include "calibration/calibration.hpp"
 #include "cli/commands.hpp"
 #include "cli/common_options.hpp"
 #include "cli/console.hpp"
 #include "cli/help_text.hpp"
 #include "cli/make_runs.hpp"
-#include "design/calibration.hpp"
 #include "input/input_file.hpp"
 #include "input/named_columns.hpp"
 #include "input/read_scene.hpp"

@@ -13,8 +13,6 @@
 #include "cli/drill_table.hpp"
 #include "cli/help_text.hpp"
 #include "cli/progress.hpp"
-#include "design/predicted_cost.hpp"
-#include "design/study.hpp"
 #include "input/input_file.hpp"
 #include "input/key_units.hpp"
 #include "input/measured.hpp"
@@ -31,6 +29,8 @@
 #include "scene/measuring_window.hpp"
 #include "scene/spaces.hpp"
 #include "simulation/state.hpp"
+#include "study/predicted_cost.hpp"
+#include "study/study.hpp"
 
 namespace vibrosow {
 namespace {

@@ -6,10 +6,10 @@
 #include "cli/console.hpp"
 #include "cli/interrupt.hpp"
 #include "cli/progress.hpp"
-#include "design/evaluate.hpp"
 #include "plan/model.hpp"
 #include "report/number_text.hpp"
 #include "report/terminal_text.hpp"
+#include "study/evaluate.hpp"
 
 namespace vibrosow {
 namespace {

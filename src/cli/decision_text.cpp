@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "design/answer.hpp"
+#include "answer/answer.hpp"
 #include "report/answer_doubts.hpp"
 #include "report/decision_words.hpp"
 #include "report/layout_text.hpp"

@@ -14,6 +14,7 @@
 #include "cli/interrupt.hpp"
 #include "cli/progress.hpp"
 #include "compute/stop_request.hpp"
+#include "files/atomic_file.hpp"
 #include "input/input_file.hpp"
 #include "input/read_scene.hpp"
 #include "picture/chart.hpp"
@@ -21,7 +22,6 @@
 #include "plan/model.hpp"
 #include "scene/input_error.hpp"
 #include "simulation/simulation.hpp"
-#include "storage/atomic_file.hpp"
 #include "units/quantity.hpp"
 
 namespace vibrosow {

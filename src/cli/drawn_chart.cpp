@@ -8,13 +8,13 @@
 #include "cli/asked_study.hpp"
 #include "cli/console.hpp"
 #include "cli/report_study.hpp"
-#include "design/planned_study.hpp"
 #include "report/kept_page.hpp"
 #include "report/page.hpp"
 #include "report/page_charts.hpp"
 #include "report/study_page.hpp"
 #include "scene/input_error.hpp"
 #include "storage/study_plan.hpp"
+#include "study/planned_study.hpp"
 
 namespace vibrosow {
 namespace {

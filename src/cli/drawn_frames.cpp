@@ -8,6 +8,8 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
+#include "files/atomic_file.hpp"
+#include "files/whole_file.hpp"
 #include "grains/orientation.hpp"
 #include "input/csv_lines.hpp"
 #include "recording/read_recording.hpp"
@@ -18,7 +20,6 @@
 #include "scene/motion.hpp"
 #include "scene/printable.hpp"
 #include "scene/scene_json.hpp"
-#include "storage/atomic_file.hpp"
 #include "vessel/vessel_motion.hpp"
 
 namespace vibrosow {

@@ -6,19 +6,19 @@
 #include <numbers>
 
 #include "cli/console.hpp"
-#include "design/trade.hpp"
 #include "input/key_units.hpp"
 #include "report/drill_report.hpp"
 #include "report/layout_text.hpp"
 #include "report/number_text.hpp"
 #include "report/terminal_text.hpp"
+#include "study/trade.hpp"
 
 namespace vibrosow {
 namespace {
 
 std::string text_of(const RowFigures& row, std::string_view name) {
   const RowFigure& figure = row_figure_named(name);
-  const std::optional<double> value = figure.of(row);
+  const std::optional<double> value = figure.of({row});
   return value ? number_text(*value / figure.unit_size) : "-";
 }
 
@@ -87,7 +87,9 @@ void print_drill(const DrillFigures& figures, Space space) {
         "multipl %", "skips %");
   for (const RowFigures& row : figures.rows) print_row(row);
   const RowFigures& all = figures.all();
-  if (all.between && all.between->unevenness) print_text(wrapped(unevenness_sentence(*all.between->unevenness, "row")));
+  if (all.between)
+    if (const auto unevenness = unevenness_of({&*all.between}))
+      print_text(wrapped(unevenness_sentence(*unevenness, "row")));
   print_text(wrapped(spacings_sentence(all)));
 }
 

@@ -3,7 +3,7 @@
 #include <string>
 
 #include "agronomy/row_figures.hpp"
-#include "design/sweep.hpp"
+#include "study/sweep.hpp"
 
 namespace vibrosow {
 

@@ -12,7 +12,6 @@
 #include "cli/console.hpp"
 #include "cli/help_text.hpp"
 #include "cli/report_study.hpp"
-#include "design/planned_study.hpp"
 #include "input/wording.hpp"
 #include "outflow/outflow.hpp"
 #include "plan/effects.hpp"
@@ -23,6 +22,7 @@
 #include "scene/input_error.hpp"
 #include "storage/case_folder.hpp"
 #include "storage/study_plan.hpp"
+#include "study/planned_study.hpp"
 
 namespace vibrosow {
 namespace {

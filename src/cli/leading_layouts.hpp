@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "design/study_runs.hpp"
+#include "study/study_runs.hpp"
 
 namespace vibrosow {
 

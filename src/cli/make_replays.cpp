@@ -10,11 +10,11 @@
 #include "cli/interrupt.hpp"
 #include "cli/progress.hpp"
 #include "cli/threads.hpp"
-#include "design/many_runs.hpp"
 #include "plan/model.hpp"
 #include "recording/thinned_recording.hpp"
 #include "scene/input_error.hpp"
 #include "simulation/simulate.hpp"
+#include "study/many_runs.hpp"
 
 namespace vibrosow {
 namespace {

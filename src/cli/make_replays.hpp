@@ -5,9 +5,9 @@
 #include <vector>
 
 #include "cli/common_options.hpp"
-#include "design/evaluate.hpp"
 #include "report/output_folder.hpp"
 #include "report/replay.hpp"
+#include "study/evaluate.hpp"
 
 namespace vibrosow {
 

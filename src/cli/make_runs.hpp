@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "design/study_runs.hpp"
 #include "report/sweep_report.hpp"
+#include "study/study_runs.hpp"
 
 namespace vibrosow {
 

@@ -2,26 +2,25 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <memory>
 #include <optional>
 #include <string>
 #include <system_error>
 #include <vector>
 
+#include "calibration/new_crop.hpp"
+#include "calibration/refine_crop.hpp"
 #include "cli/commands.hpp"
 #include "cli/console.hpp"
 #include "cli/help_text.hpp"
 #include "cli/make_runs.hpp"
-#include "design/new_crop.hpp"
-#include "design/refine_crop.hpp"
+#include "files/atomic_file.hpp"
+#include "files/whole_file.hpp"
 #include "input/wording.hpp"
 #include "report/crop_files.hpp"
 #include "report/terminal_text.hpp"
 #include "scene/input_error.hpp"
 #include "scene/si_units.hpp"
-#include "storage/atomic_file.hpp"
 #include "storage/case_file.hpp"
 #include "units/quantity.hpp"
 
@@ -82,16 +81,10 @@ struct NewFile {
   std::string content;
 };
 
-bool holds_just_this(const NewFile& file) {
-  std::ifstream stream(file.path, std::ios::binary);
-  const std::string there((std::istreambuf_iterator<char>(stream)), {});
-  return stream.good() && there == file.content;
-}
-
 /// A file that someone may have edited is never replaced.
 void refuse_to_overwrite(const std::vector<NewFile>& files) {
   for (const NewFile& file : files)
-    if (fs::exists(file.path) && !holds_just_this(file))
+    if (fs::exists(file.path) && text_of_file(file.path) != file.content)
       throw InputError(fmt::format("{}: is there already and says something else; give another --crop or --out",
                                    file.path.string()));
 }

@@ -7,10 +7,11 @@
 #include "cli/commands.hpp"
 #include "cli/console.hpp"
 #include "cli/help_text.hpp"
+#include "files/atomic_file.hpp"
+#include "files/whole_file.hpp"
 #include "input/input_file.hpp"
 #include "report/terminal_text.hpp"
 #include "scene/input_error.hpp"
-#include "storage/atomic_file.hpp"
 
 namespace vibrosow {
 namespace {

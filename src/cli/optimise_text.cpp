@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cstdint>
 
-#include "design/answer.hpp"
+#include "answer/answer.hpp"
 #include "report/answer_doubts.hpp"
 #include "report/front_report.hpp"
 #include "report/layout_text.hpp"

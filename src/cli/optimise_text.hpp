@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "design/optimise.hpp"
+#include "optimise/optimise.hpp"
 
 namespace vibrosow {
 

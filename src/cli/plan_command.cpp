@@ -4,12 +4,12 @@
 #include <optional>
 #include <string>
 
+#include "agronomy/sowing_plan.hpp"
 #include "agronomy/sowing_rate.hpp"
 #include "cli/commands.hpp"
 #include "cli/common_options.hpp"
 #include "cli/console.hpp"
 #include "cli/help_text.hpp"
-#include "design/sowing_plan.hpp"
 #include "input/read_crop_lot.hpp"
 #include "input/read_hole_table.hpp"
 #include "report/plan_report.hpp"

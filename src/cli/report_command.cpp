@@ -14,7 +14,8 @@
 #include "cli/interrupt.hpp"
 #include "cli/progress.hpp"
 #include "cli/report_study.hpp"
-#include "design/planned_study.hpp"
+#include "files/atomic_file.hpp"
+#include "files/whole_file.hpp"
 #include "plan/model.hpp"
 #include "recording/recording.hpp"
 #include "report/accuracy_report.hpp"
@@ -27,8 +28,8 @@
 #include "scene/input_error.hpp"
 #include "scene/scene_json.hpp"
 #include "simulation/simulate.hpp"
-#include "storage/atomic_file.hpp"
 #include "storage/study_plan.hpp"
+#include "study/planned_study.hpp"
 
 namespace vibrosow {
 namespace {

@@ -8,20 +8,20 @@
 #include "cli/console.hpp"
 #include "cli/make_replays.hpp"
 #include "cli/sweep_table.hpp"
-#include "design/sweep.hpp"
 #include "report/page.hpp"
 #include "report/study_page.hpp"
+#include "study/sweep.hpp"
 
 namespace vibrosow {
 namespace {
 
 int exit_code_of(const StudyResult& result, bool interrupted) {
   if (interrupted) return exit_interrupted;
-  const auto stopped = std::ranges::find(result.layouts, LayoutStatus::stopped, &LayoutResult::status);
+  const auto stopped = std::ranges::find(result.layouts, LayoutStanding::stopped, &LayoutResult::status);
   if (stopped != result.layouts.end())
     return stopped_by_guard(static_cast<int>(stopped - result.layouts.begin()) + 1, stopped->reason);
-  const bool all_invalid =
-      std::ranges::all_of(result.layouts, [](const LayoutResult& one) { return one.status == LayoutStatus::invalid; });
+  const bool all_invalid = std::ranges::all_of(
+      result.layouts, [](const LayoutResult& one) { return one.status == LayoutStanding::invalid; });
   if (!all_invalid) return exit_done;
   complain("no layout could be simulated: " + result.layouts.front().reason);
   return exit_wrong_input;
@@ -55,7 +55,7 @@ int report_study(const PlannedStudy& planned, const StudyRuns& runs, const Outpu
       [&](std::size_t scene, const std::vector<Evaluation>& of_scene) { runs_csv.add(scene, of_scene); });
   std::vector<OutputFile> files = sweep_files(result, runs_csv, timing, options.csv);
   const bool whole = std::ranges::none_of(
-      result.layouts, [](const LayoutResult& one) { return one.status == LayoutStatus::incomplete; });
+      result.layouts, [](const LayoutResult& one) { return one.status == LayoutStanding::incomplete; });
   const bool with_replays = options.replays > 0 && whole;
   if (!page_template.empty() && !with_replays)
     files.push_back(

@@ -5,9 +5,9 @@
 #include <vector>
 
 #include "cli/common_options.hpp"
-#include "design/planned_study.hpp"
-#include "design/sweep.hpp"
 #include "report/sweep_report.hpp"
+#include "study/planned_study.hpp"
+#include "study/sweep.hpp"
 
 namespace vibrosow {
 

@@ -17,6 +17,8 @@
 #include "cli/interrupt.hpp"
 #include "cli/progress.hpp"
 #include "cli/threads.hpp"
+#include "files/atomic_file.hpp"
+#include "files/whole_file.hpp"
 #include "input/input_file.hpp"
 #include "input/read_scene.hpp"
 #include "outflow/outflow.hpp"
@@ -37,7 +39,6 @@
 #include "scene/input_error.hpp"
 #include "simulation/checkpoint.hpp"
 #include "simulation/simulate.hpp"
-#include "storage/atomic_file.hpp"
 
 namespace vibrosow {
 namespace {
@@ -80,7 +81,8 @@ void print_summary(const Scene& scene, const Run& run, const Outflow& outflow) {
                                    in_space ? "" : fmt::format(", {:.4g} times the slice", *depth),
                                    figure_text(all.mass_rate * 1e3 * *depth), figure_text(all.mass_rate * 6e4 * *depth),
                                    figure_text(all.seeds_per_s * *depth), of_plane(scene.space))));
-  if (outflow.unevenness) print_text("\n" + wrapped(unevenness_sentence(*outflow.unevenness, "hole")));
+  if (const auto unevenness = unevenness_of({&outflow}))
+    print_text("\n" + wrapped(unevenness_sentence(*unevenness, "hole")));
   const Balance& balance = run.balance;
   print("\n{}put in {} = inside {} + counted {} + spilled {} + lost {}\n",
         wrapped(window_sentence(outflow.window, scene.run.measure_from)), balance.put_in, balance.inside,

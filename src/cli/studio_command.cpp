@@ -6,14 +6,13 @@
 #include <array>
 #include <cstdlib>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <memory>
 #include <optional>
 
 #include "cli/commands.hpp"
 #include "cli/console.hpp"
 #include "cli/help_text.hpp"
+#include "files/whole_file.hpp"
 #include "input/document.hpp"
 #include "input/input_file.hpp"
 #include "input/presets.hpp"
@@ -28,14 +27,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::string text_of(const fs::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  if (!stream) throw InputError(fmt::format("{}: cannot be read", file.string()));
-  return {std::istreambuf_iterator<char>(stream), {}};
-}
-
 StudioSeeder studio_seeder(const fs::path& file) {
-  return {file.stem().string(), text_of(file), read_scene(file)};
+  return {file.stem().string(), text_of_wanted_file(file), read_scene(file)};
 }
 
 /// Those with a contact model of their own name, in the first shipped seeder's place.

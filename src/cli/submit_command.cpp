@@ -14,14 +14,14 @@
 #include "cli/help_text.hpp"
 #include "cli/report_study.hpp"
 #include "cli/slurm.hpp"
-#include "design/planned_study.hpp"
-#include "design/predicted_cost.hpp"
+#include "files/atomic_file.hpp"
 #include "input/input_file.hpp"
 #include "report/sweep_report.hpp"
 #include "scene/input_error.hpp"
 #include "scene/printable.hpp"
-#include "storage/atomic_file.hpp"
 #include "storage/study_plan.hpp"
+#include "study/planned_study.hpp"
+#include "study/predicted_cost.hpp"
 
 namespace vibrosow {
 namespace {

@@ -13,9 +13,9 @@
 #include "cli/make_runs.hpp"
 #include "cli/report_study.hpp"
 #include "cli/reused_cases.hpp"
-#include "design/planned_study.hpp"
 #include "input/input_file.hpp"
 #include "storage/study_plan.hpp"
+#include "study/planned_study.hpp"
 
 namespace vibrosow {
 namespace {

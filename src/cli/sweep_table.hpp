@@ -1,6 +1,6 @@
 #pragma once
 
-#include "design/sweep.hpp"
+#include "study/sweep.hpp"
 
 namespace vibrosow {
 

@@ -7,9 +7,9 @@
 #include "cli/console.hpp"
 #include "cli/help_text.hpp"
 #include "cli/make_runs.hpp"
-#include "design/planned_study.hpp"
 #include "storage/case_folder.hpp"
 #include "storage/study_plan.hpp"
+#include "study/planned_study.hpp"
 
 namespace vibrosow {
 namespace {

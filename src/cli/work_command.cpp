@@ -12,10 +12,10 @@
 #include "cli/help_text.hpp"
 #include "cli/make_runs.hpp"
 #include "cli/slurm.hpp"
-#include "design/planned_study.hpp"
 #include "input/wording.hpp"
 #include "scene/input_error.hpp"
 #include "storage/study_plan.hpp"
+#include "study/planned_study.hpp"
 
 namespace vibrosow {
 namespace {

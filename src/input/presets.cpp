@@ -5,9 +5,8 @@
 
 #include <algorithm>
 #include <cstdlib>
-#include <fstream>
-#include <iterator>
 
+#include "files/whole_file.hpp"
 #include "input/read_scene.hpp"
 #include "input/wording.hpp"
 #include "scene/input_error.hpp"
@@ -75,8 +74,7 @@ fs::path shipped_preset(const std::string& name, const std::string& kind) {
 std::optional<std::string> shipped_page(const std::string& name) {
   const fs::path data = data_directory();
   for (const fs::path& folder : {data / "pages", data / "build/web", data / "web/made"}) {
-    std::ifstream file(folder / name, std::ios::binary);
-    if (file) return std::string(std::istreambuf_iterator<char>(file), {});
+    if (std::optional<std::string> text = text_of_file(folder / name)) return text;
   }
   return std::nullopt;
 }

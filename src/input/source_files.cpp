@@ -3,14 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
-#include <cerrno>
-#include <cstring>
-#include <fstream>
 #include <optional>
 #include <string_view>
 #include <system_error>
 
+#include "files/whole_file.hpp"
 #include "input/read_scene.hpp"
 #include "scene/input_error.hpp"
 
@@ -58,24 +55,6 @@ bool is_shipped(const std::filesystem::path& file) {
   return shipped_name(file).has_value();
 }
 
-std::string text_on_disk(const std::filesystem::path& file) {
-  const auto fail = [&](const std::string& reason) { throw InputError(file.string() + ": " + reason); };
-  std::error_code error;
-  const auto kind = std::filesystem::status(file, error).type();
-  if (kind == std::filesystem::file_type::not_found) fail("there is no such file");
-  if (error) fail("cannot be read: " + error.message());
-  if (kind == std::filesystem::file_type::directory) fail("cannot be read: it is a directory");
-  if (kind != std::filesystem::file_type::regular) fail("cannot be read: it is not a plain file");
-  std::ifstream in(file, std::ios::binary);
-  if (!in) fail(std::string("cannot be read: ") + std::strerror(errno));
-  std::string text;
-  std::array<char, 65536> part;
-  while (in.read(part.data(), part.size()) || in.gcount() > 0)
-    text.append(part.data(), static_cast<std::size_t>(in.gcount()));
-  if (in.bad()) fail(std::string("cannot be read: ") + std::strerror(EIO));
-  return text;
-}
-
 }  // namespace
 
 const std::string& SourceFiles::read(const std::filesystem::path& file) {
@@ -84,7 +63,7 @@ const std::string& SourceFiles::read(const std::filesystem::path& file) {
   const auto frozen = frozen_.find(key);
   if (frozen == frozen_.end() && is_of_plan_ && !is_shipped(file))
     throw InputError(file.string() + ": the plan keeps no such file");
-  return texts_[key] = frozen != frozen_.end() ? frozen->second : text_on_disk(file);
+  return texts_[key] = frozen != frozen_.end() ? frozen->second : text_of_wanted_file(file);
 }
 
 bool SourceFiles::has(const std::filesystem::path& file) const {

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "design/evaluate.hpp"
+#include "study/evaluate.hpp"
 #include "vibrosow/evaluate.hpp"
 
 namespace vibrosow::api {

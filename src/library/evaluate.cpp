@@ -2,8 +2,8 @@
 
 #include <string>
 
-#include "design/evaluate.hpp"
 #include "library/convert.hpp"
+#include "study/evaluate.hpp"
 
 namespace vibrosow::api {
 namespace {
@@ -23,6 +23,7 @@ Balance converted(const vibrosow::Balance& own) {
 }
 
 Evaluation converted(const vibrosow::Evaluation& own) {
+  const std::optional<Unevenness> unevenness = unevenness_of({&own.outflow});
   Evaluation evaluation{.finished = own.finished(),
                         .reason = reason_of(own),
                         .doubts = {},
@@ -30,7 +31,7 @@ Evaluation converted(const vibrosow::Evaluation& own) {
                         .end_time = own.end_time,
                         .balance = converted(own.balance),
                         .holes = {},
-                        .unevenness_cv = own.outflow.unevenness ? own.outflow.unevenness->cv : std::nullopt,
+                        .unevenness_cv = unevenness ? unevenness->cv : std::nullopt,
                         .depth_factor = own.outflow.depth_factor};
   for (const Doubt& doubt : own.outflow.doubts) evaluation.doubts.push_back(doubt.text);
   for (const vibrosow::HoleOutflow& row : own.outflow.holes)

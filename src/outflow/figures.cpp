@@ -24,64 +24,61 @@ Value of_tray(const Outflow& outflow, double of_slice) {
 }
 
 template <class Get>
-Value of_unevenness(const Outflow& outflow, Get get) {
-  return outflow.unevenness ? Value(get(*outflow.unevenness)) : Value();
+Value of_unevenness(const FigureSource& source, Get get) {
+  return source.unevenness ? Value(get(*source.unevenness)) : Value();
 }
+
+using Source = const FigureSource&;
 
 constexpr std::array table = {
     Figure{"rate_g_per_s", "g/s", "g/s", gram,
            "mass flow through all holes, of the plane slice or in space of the tray, in the window",
-           [](const Outflow& o) { return Value(whole(o).mass_rate); }},
+           [](Source s) { return Value(whole(s.outflow).mass_rate); }},
     Figure{"seeds_per_s", "seeds/s", "1/s", 1,
            "seeds through all holes, of the plane slice or in space of the tray, in the window",
-           [](const Outflow& o) { return Value(whole(o).seeds_per_s); }},
+           [](Source s) { return Value(whole(s.outflow).seeds_per_s); }},
     Figure{"depth_factor", "factor", "", 1,
            "tray.depth over the thickness of the plane slice, by which its rates are multiplied; in space 1; empty "
            "without "
            "tray.depth",
-           [](const Outflow& o) { return o.depth_factor; }, true},
+           [](Source s) { return s.outflow.depth_factor; }, true},
     Figure{"tray_rate_g_per_s", "tray g/s", "g/s", gram, "mass flow of the whole tray; empty without tray.depth",
-           [](const Outflow& o) { return of_tray(o, whole(o).mass_rate); }},
+           [](Source s) { return of_tray(s.outflow, whole(s.outflow).mass_rate); }},
     Figure{"tray_rate_g_per_min", "tray g/min", "g/min", gram / 60, "the same per minute",
-           [](const Outflow& o) { return of_tray(o, whole(o).mass_rate); }},
+           [](Source s) { return of_tray(s.outflow, whole(s.outflow).mass_rate); }},
     Figure{"tray_seeds_per_s", "tray seeds/s", "1/s", 1, "seeds of the whole tray; empty without tray.depth",
-           [](const Outflow& o) { return of_tray(o, whole(o).seeds_per_s); }},
+           [](Source s) { return of_tray(s.outflow, whole(s.outflow).seeds_per_s); }},
     Figure{"raw_cv_percent", "raw CV %", "%", percent,
            "coefficient of variation of the seeds of the holes, all replicates together",
-           [](const Outflow& o) { return o.raw_cv; }, true},
+           [](Source s) { return s.raw_cv; }, true},
     Figure{"run_cv_percent", "CV of a run %", "%", percent,
            "the same of the seeds of a single run, in which chance weighs more: mean over the replicates",
-           [](const Outflow& o) { return o.raw_cv; }},
+           [](Source s) { return s.outflow.raw_cv; }},
     Figure{"chance_cv_percent", "chance %", "%", percent, "what of the raw one holes of equal rates would show",
-           [](const Outflow& o) { return of_unevenness(o, [](const Unevenness& u) { return u.chance_cv; }); }, true},
+           [](Source s) { return of_unevenness(s, [](const Unevenness& u) { return u.chance_cv; }); }, true},
     Figure{
         "unevenness_cv_percent", "unevenness (CV) %", "%", percent,
         "coefficient of variation of the holes' rates, chance taken out; empty: not told from equal holes (F test of "
         "holes against replicates, of one run against its blocks)",
-        [](const Outflow& o) { return of_unevenness(o, [](const Unevenness& u) { return u.cv; }); }, true},
+        [](Source s) { return of_unevenness(s, [](const Unevenness& u) { return u.cv; }); }, true},
     Figure{"unevenness_cv_percent_low", "low", "%", percent, "lower end of its 95 % interval",
-           [](const Outflow& o) { return of_unevenness(o, [](const Unevenness& u) { return u.low; }); }, true},
+           [](Source s) { return of_unevenness(s, [](const Unevenness& u) { return u.low; }); }, true},
     Figure{"unevenness_cv_percent_high", "high", "%", percent, "upper end: what it may be up to where it is empty",
-           [](const Outflow& o) { return of_unevenness(o, [](const Unevenness& u) { return u.high; }); }, true},
+           [](Source s) { return of_unevenness(s, [](const Unevenness& u) { return u.high; }); }, true},
     Figure{"instability_cv_percent", "instability CV %", "%", percent,
            "coefficient of variation of the whole outflow over ten equal parts of the window",
-           [](const Outflow& o) { return o.instability_cv; }},
+           [](Source s) { return s.outflow.instability_cv; }},
     Figure{"longest_pause_s", "pause s", "s", 1, "longest time in the window in which no seed came from any hole",
-           [](const Outflow& o) { return Value(whole(o).longest_pause); }},
+           [](Source s) { return Value(whole(s.outflow).longest_pause); }},
     Figure{"spilled_percent", "spilled %", "%", percent,
            "seeds that left over the rim, of all that left the tray in the whole run",
-           [](const Outflow& o) { return Value(o.spilled_fraction); }},
+           [](Source s) { return Value(s.outflow.spilled_fraction); }},
 };
 
-/// The first replicate with the seeds of all.
-Outflow pooled(const std::vector<const Outflow*>& replicates) {
-  Outflow all = *replicates.front();
-  if (replicates.size() == 1) return all;
+FigureSource together(const std::vector<const Outflow*>& replicates) {
   std::vector<std::vector<std::int64_t>> counts;
   for (const Outflow* one : replicates) counts.push_back(one->grains_of_hole);
-  all.raw_cv = raw_cv(sum_of_parts(counts));
-  all.unevenness = unevenness_of(replicates);
-  return all;
+  return {*replicates.front(), raw_cv(sum_of_parts(counts)), unevenness_of(replicates)};
 }
 
 }  // namespace
@@ -98,13 +95,16 @@ const Figure& figure_named(std::string_view name) {
 
 FigureMeans::FigureMeans(const std::vector<const Outflow*>& replicates) {
   if (replicates.empty()) return;
-  const Outflow all = pooled(replicates);
+  const FigureSource all = together(replicates);
   for (std::size_t i = 0; i < table.size(); ++i) {
     std::vector<double> values;
-    for (const Outflow* one : table[i].pooled ? std::vector{&all} : replicates) {
-      const Value value = table[i].of(*one);
+    const auto add = [&](const Value& value) {
       if (value && std::isfinite(*value)) values.push_back(*value);
-    }
+    };
+    if (table[i].pooled)
+      add(table[i].of(all));
+    else
+      for (const Outflow* one : replicates) add(table[i].of({*one}));
     if (!values.empty()) means_[i] = mean_with_interval(values);
   }
 }

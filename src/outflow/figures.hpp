@@ -10,15 +10,22 @@
 
 namespace vibrosow {
 
+/// What figures are taken from: a run; or of replicates the first, with what the seeds of all say of the holes.
+struct FigureSource {
+  const Outflow& outflow;
+  std::optional<double> raw_cv{};          // of the seeds of all; none for a run alone
+  std::optional<Unevenness> unevenness{};  // likewise
+};
+
 /// A number that a run gives. The one place that says what it is called, in which unit it is stated and how it is
 /// taken: tables, CSV files and their documentation ask here.
 struct Figure {
-  std::string_view name;                        // of its column, with its unit: "rate_g_per_s"
-  std::string_view heading;                     // of its column on a screen: "g/s"
-  std::string_view unit;                        // "g/s"; empty for a plain number
-  double unit_size;                             // of that unit, in SI
-  std::string_view description;                 // a clause without a full stop
-  std::optional<double> (*of)(const Outflow&);  // SI; none where it is undefined
+  std::string_view name;                             // of its column, with its unit: "rate_g_per_s"
+  std::string_view heading;                          // of its column on a screen: "g/s"
+  std::string_view unit;                             // "g/s"; empty for a plain number
+  double unit_size;                                  // of that unit, in SI
+  std::string_view description;                      // a clause without a full stop
+  std::optional<double> (*of)(const FigureSource&);  // SI; none where it is undefined
   bool pooled = false;  // of replicates: taken once from the seeds of all together, not a mean with an interval
 };
 

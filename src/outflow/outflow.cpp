@@ -191,7 +191,6 @@ Outflow measure_outflow(const Scene& scene, const Run& run) {
   outflow.grains_of_hole = grains_of_holes(scene, events);
   outflow.grains_of_hole_in_block = grains_in_blocks(scene, events, block_ends(window));
   outflow.raw_cv = raw_cv(outflow.grains_of_hole);
-  outflow.unevenness = unevenness(outflow.grains_of_hole_in_block);
   outflow.instability_cv = instability_cv(times_of(events), window.from, window.to);
   const std::int64_t left = run.balance.counted + run.balance.spilled;
   if (left > 0) outflow.spilled_fraction = static_cast<double>(run.balance.spilled) / static_cast<double>(left);
@@ -201,7 +200,7 @@ Outflow measure_outflow(const Scene& scene, const Run& run) {
 }
 
 std::optional<Unevenness> unevenness_of(const std::vector<const Outflow*>& replicates) {
-  if (replicates.size() == 1) return replicates.front()->unevenness;
+  if (replicates.size() == 1) return unevenness(replicates.front()->grains_of_hole_in_block);
   std::vector<std::vector<std::int64_t>> counts;
   for (const Outflow* one : replicates) counts.push_back(one->grains_of_hole);
   return unevenness(counts);

@@ -38,7 +38,6 @@ struct Outflow {
   std::vector<std::int64_t> grains_of_hole;  // in the window
   std::vector<std::vector<std::int64_t>> grains_of_hole_in_block;  // by block of the window, then by hole
   std::optional<double> raw_cv;          // fraction; coefficient of variation of the holes' grains, chance included
-  std::optional<Unevenness> unevenness;  // of the blocks: blind to how starts differ
   std::optional<double> instability_cv;  // fraction; CV of the whole outflow over equal time windows
   double spilled_fraction = 0;           // spilled / (counted + spilled), whole run
   std::optional<double> depth_factor;    // tray.depth / diameter of the plane slice; in space 1
@@ -60,7 +59,8 @@ std::optional<double> instability_cv(const std::vector<double>& times, double fr
 /// What the events of a run say about its holes. Mean diameter of the slice: by number, over all lots.
 Outflow measure_outflow(const Scene& scene, const Run& run);
 
-/// How uneven the holes are by all replicates together; of one, by its blocks. None where they have none, or for none.
+/// How uneven the holes are by all replicates together; of one, by its blocks, which are blind to how starts differ.
+/// None where that cannot be told. Takes milliseconds.
 std::optional<Unevenness> unevenness_of(const std::vector<const Outflow*>& replicates);
 
 /// The row of a hole ("1".., "all") and lot (name, "all"). With a single lot, its name and "all" mean the

@@ -2,8 +2,8 @@
 
 #include <string>
 
-#include "design/accuracy.hpp"
-#include "design/promise.hpp"
+#include "accuracy/accuracy.hpp"
+#include "accuracy/promise.hpp"
 #include "report/columns.hpp"
 
 namespace vibrosow {

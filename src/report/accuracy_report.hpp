@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "design/accuracy.hpp"
-#include "design/promise.hpp"
+#include "accuracy/accuracy.hpp"
+#include "accuracy/promise.hpp"
 #include "report/columns.hpp"
 #include "report/output_folder.hpp"
 

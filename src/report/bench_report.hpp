@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "design/bench_plan.hpp"
+#include "calibration/bench_plan.hpp"
 #include "report/columns.hpp"
 #include "report/output_folder.hpp"
 

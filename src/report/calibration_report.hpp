@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "design/calibration.hpp"
+#include "calibration/calibration.hpp"
 #include "report/columns.hpp"
 #include "report/output_folder.hpp"
 

@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "design/new_crop.hpp"
+#include "calibration/new_crop.hpp"
 
 namespace vibrosow {
 

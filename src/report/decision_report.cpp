@@ -2,7 +2,7 @@
 
 #include <cstdint>
 
-#include "design/answer.hpp"
+#include "answer/answer.hpp"
 #include "report/answer_doubts.hpp"
 #include "report/json_keys.hpp"
 #include "report/layout_columns.hpp"

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "design/decide.hpp"
-#include "design/draft_screen.hpp"
+#include "optimise/decide.hpp"
+#include "optimise/draft_screen.hpp"
 #include "report/columns.hpp"
 #include "report/output_folder.hpp"
 

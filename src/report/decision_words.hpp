@@ -2,8 +2,8 @@
 
 #include <string>
 
-#include "design/decide.hpp"
-#include "design/draft_screen.hpp"
+#include "optimise/decide.hpp"
+#include "optimise/draft_screen.hpp"
 
 namespace vibrosow {
 

@@ -25,17 +25,27 @@ constexpr const char* row_text = "number of the drill row, or all";
 constexpr const char* holes_text = "numbers of the holes that feed it, from the left";
 constexpr const char* note_text = "why there are no spacings; empty where there are";
 
-Columns<RowFigures> rows_columns() {
-  using R = const RowFigures&;
-  Columns<RowFigures> columns = {
-      text_column<RowFigures>("row", row_text, [](R r) { return row_name(r.row); }),
-      text_column<RowFigures>("holes", holes_text, [](R r) { return numbers_text(r.holes); }),
-      text_column<RowFigures>("seeds", "from these in the window, of the plane slice or in space of the tray",
-                              [](R r) { return r.seeds; })};
+/// Of a run.
+struct RowOfRun {
+  const RowFigures* row;
+  RowMeans figures;
+};
+
+Columns<RowOfRun> rows_columns() {
+  using R = const RowOfRun&;
+  Columns<RowOfRun> columns = {
+      text_column<RowOfRun>("row", row_text, [](R r) { return row_name(r.row->row); }),
+      text_column<RowOfRun>("holes", holes_text, [](R r) { return numbers_text(r.row->holes); }),
+      text_column<RowOfRun>("seeds", "from these in the window, of the plane slice or in space of the tray",
+                            [](R r) { return r.row->seeds; })};
   for (const RowFigure& figure : row_figures())
-    columns.push_back(quantity_column<RowFigures>(std::string(figure.name), Unit{figure.unit, figure.unit_size},
-                                                  std::string(figure.description), figure.of));
-  columns.push_back(text_column<RowFigures>("note", note_text, [](R r) { return spacings_note(r.without_spacing); }));
+    columns.push_back(quantity_column<RowOfRun>(std::string(figure.name), Unit{figure.unit, figure.unit_size},
+                                                std::string(figure.description), [&figure](R r) {
+                                                  const auto& value = r.figures[figure.name];
+                                                  return value ? std::optional(value->mean) : std::nullopt;
+                                                }));
+  columns.push_back(
+      text_column<RowOfRun>("note", note_text, [](R r) { return spacings_note(r.row->without_spacing); }));
   return columns;
 }
 
@@ -156,7 +166,10 @@ std::string spacings_note(NoSpacings why) {
 }
 
 std::string rows_csv(const DrillFigures& figures, CsvFormat format) {
-  return csv_of(rows_columns(), figures.rows, format);
+  std::vector<RowMeans> means = row_means({&figures});
+  std::vector<RowOfRun> rows;
+  for (std::size_t i = 0; i < means.size(); ++i) rows.push_back({&figures.rows[i], std::move(means[i])});
+  return csv_of(rows_columns(), rows, format);
 }
 
 FileText rows_file_text() {

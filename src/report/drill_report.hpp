@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "agronomy/row_figures.hpp"
-#include "design/trade.hpp"
 #include "report/columns.hpp"
+#include "study/trade.hpp"
 
 namespace vibrosow {
 

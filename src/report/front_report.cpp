@@ -7,7 +7,7 @@
 #include <array>
 #include <cstdint>
 
-#include "design/answer.hpp"
+#include "answer/answer.hpp"
 #include "input/toml_value.hpp"
 #include "report/answer_doubts.hpp"
 #include "report/json_keys.hpp"

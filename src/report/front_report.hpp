@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "design/optimise.hpp"
+#include "optimise/optimise.hpp"
 #include "report/columns.hpp"
 #include "report/output_folder.hpp"
 

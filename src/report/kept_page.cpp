@@ -2,10 +2,11 @@
 
 #include <fmt/format.h>
 
+#include "files/atomic_file.hpp"
+#include "files/whole_file.hpp"
 #include "report/page.hpp"
 #include "scene/checked_json.hpp"
 #include "scene/input_error.hpp"
-#include "storage/atomic_file.hpp"
 
 namespace vibrosow {
 namespace {

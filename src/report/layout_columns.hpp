@@ -3,9 +3,9 @@
 #include <string>
 #include <vector>
 
-#include "design/sweep.hpp"
 #include "input/key_units.hpp"
 #include "report/columns.hpp"
+#include "study/sweep.hpp"
 
 namespace vibrosow {
 

@@ -6,9 +6,9 @@
 #include <string_view>
 #include <vector>
 
-#include "design/answer.hpp"
-#include "design/study.hpp"
+#include "answer/answer.hpp"
 #include "outflow/statistics.hpp"
+#include "study/study.hpp"
 
 namespace vibrosow {
 

@@ -18,9 +18,10 @@
 
 #include <nlohmann/json.hpp>
 
+#include "files/atomic_file.hpp"
+#include "files/whole_file.hpp"
 #include "scene/checked_json.hpp"
 #include "scene/input_error.hpp"
-#include "storage/atomic_file.hpp"
 
 namespace vibrosow {
 namespace {

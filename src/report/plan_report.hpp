@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "design/sowing_plan.hpp"
+#include "agronomy/sowing_plan.hpp"
 #include "report/columns.hpp"
 #include "report/output_folder.hpp"
 

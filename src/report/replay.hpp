@@ -6,8 +6,8 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "design/study.hpp"
 #include "result/run.hpp"
+#include "study/study.hpp"
 
 namespace vibrosow {
 

@@ -206,7 +206,7 @@ std::string run_page_data(const RunPage& page) {
                      {"holes", holes(page)},
                      {"rate_unit", "seeds/s"},
                      {"hole_table", hole_table(page)},
-                     {"unevenness", unevenness(page.outflow.unevenness)},
+                     {"unevenness", unevenness(unevenness_of({&page.outflow}))},
                      {"events", page_events(page.run)},
                      {"effects", effects(page.model)},
                      {"guard", guard_sentence(page.run, scene.guard)},

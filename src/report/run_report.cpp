@@ -124,6 +124,7 @@ struct RunSource {
   const Run& run;
   const Outflow& outflow;
   const std::vector<std::string>& effects;
+  const FigureMeans figures = FigureMeans({&outflow});
 };
 
 /// Every figure, under its name.
@@ -132,8 +133,8 @@ JsonKeys<RunSource> figure_keys() {
   for (const Figure& figure : figures())
     keys.push_back({fmt::format("outflow.{}", figure.name), std::string(figure.unit), std::string(figure.description),
                     [&figure](const RunSource& s) {
-                      const std::optional<double> value = figure.of(s.outflow);
-                      return value ? Json(*value / figure.unit_size) : Json(nullptr);
+                      const std::optional<MeanWithInterval>& value = s.figures[figure];
+                      return value ? Json(value->mean / figure.unit_size) : Json(nullptr);
                     }});
   return keys;
 }

@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "design/answer.hpp"
+#include "answer/answer.hpp"
 #include "picture/chart.hpp"
 #include "report/decision_report.hpp"
 #include "report/output_folder.hpp"

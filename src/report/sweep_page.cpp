@@ -10,23 +10,23 @@ namespace vibrosow {
 namespace {
 
 std::string headline(const StudyResult& result) {
-  const auto of_status = [&](LayoutStatus status) {
+  const auto of_status = [&](LayoutStanding status) {
     return std::ranges::count(result.layouts, status, &LayoutResult::status);
   };
   std::string text = fmt::format("{} layout{}", result.layouts.size(), result.layouts.size() == 1 ? "" : "s");
   const Figure& rate = figure_named("rate_g_per_s");
   std::optional<double> least, most;
   for (const LayoutResult& one : result.layouts)
-    if (is_comparable(one.status) && one.figures[rate]) {
+    if (is_compared(one.status) && one.figures[rate]) {
       const double value = one.figures[rate]->mean / rate.unit_size;
       least = std::min(value, least.value_or(value)), most = std::max(value, most.value_or(value));
     }
   if (most) text += fmt::format(" let out {} to {} g/s", to_digits(*least, 3), to_digits(*most, 3));
   text += '.';
-  for (const auto& [status, words] : {std::pair(LayoutStatus::invalid, "cannot be built"),
-                                      std::pair(LayoutStatus::stopped, "were stopped by the guard"),
-                                      std::pair(LayoutStatus::outside_the_model, "lie outside the model"),
-                                      std::pair(LayoutStatus::incomplete, "have runs that are missing")})
+  for (const auto& [status, words] : {std::pair(LayoutStanding::invalid, "cannot be built"),
+                                      std::pair(LayoutStanding::stopped, "were stopped by the guard"),
+                                      std::pair(LayoutStanding::outside_the_model, "lie outside the model"),
+                                      std::pair(LayoutStanding::incomplete, "have runs that are missing")})
     if (of_status(status) > 0) text += fmt::format(" {} {}.", of_status(status), words);
   return text;
 }

@@ -45,7 +45,7 @@ Columns<LayoutRow> sweep_columns(const std::vector<std::string>& keys) {
       "status",
       "ok, doubtful (its figures may be wrong), outside the model (of a run at least: nothing "
       "is to be decided by it), invalid, stopped (by the guard) or incomplete (runs are missing)",
-      [](R r) { return layout_status(r.of().status); }));
+      [](R r) { return std::string(name_of(r.of().status)); }));
   columns.push_back(text_column<LayoutRow>(
       "reason", "why it is not ok, or what makes it less sure; and what in its scene can hardly be meant",
       [](R r) { return layout_note(r.of()); }));
@@ -168,7 +168,7 @@ Column<RunRow> run_column(std::string name, Unit unit, std::string description, 
 Column<RunRow> figure_column(std::string_view name) {
   const Figure& figure = figure_named(name);
   return run_column(std::string(figure.name), Unit{figure.unit, figure.unit_size}, std::string(figure.description),
-                    [&figure](const Evaluation& one) { return figure.of(one.outflow); });
+                    [&figure](const Evaluation& one) { return figure.of({one.outflow}); });
 }
 
 Columns<RunRow> sweep_runs_columns() {
@@ -237,24 +237,6 @@ JsonKeys<SweepTiming> timing_keys() {
 }
 
 }  // namespace
-
-std::string layout_status(LayoutStatus status) {
-  switch (status) {
-    case LayoutStatus::ok:
-      return "ok";
-    case LayoutStatus::doubtful:
-      return "doubtful";
-    case LayoutStatus::outside_the_model:
-      return "outside the model";
-    case LayoutStatus::invalid:
-      return "invalid";
-    case LayoutStatus::stopped:
-      return "stopped";
-    case LayoutStatus::incomplete:
-      return "incomplete";
-  }
-  return "";
-}
 
 std::string layout_note(const LayoutResult& layout) {
   const std::string doubts = doubts_text(layout.doubts);

@@ -3,9 +3,9 @@
 #include <string>
 #include <vector>
 
-#include "design/sweep.hpp"
 #include "report/columns.hpp"
 #include "report/output_folder.hpp"
+#include "study/sweep.hpp"
 
 namespace vibrosow {
 
@@ -17,9 +17,6 @@ struct SweepTiming {
   double run_time = 0;     // s, their wall times, summed
   double grain_steps = 0;  // theirs, summed
 };
-
-/// "ok", "doubtful", "outside the model", "invalid", "stopped" or "interrupted".
-std::string layout_status(LayoutStatus status);
 
 /// Why a layout is not ok; else what to know about its runs; and what in its scene can hardly be meant.
 std::string layout_note(const LayoutResult& layout);

@@ -6,8 +6,9 @@
 #include <iterator>
 #include <map>
 
+#include "files/atomic_file.hpp"
+#include "files/whole_file.hpp"
 #include "scene/input_error.hpp"
-#include "storage/atomic_file.hpp"
 
 namespace vibrosow {
 namespace {

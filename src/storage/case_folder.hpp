@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "storage/atomic_file.hpp"
+#include "files/atomic_file.hpp"
 #include "storage/case_file.hpp"
 #include "storage/segments.hpp"
 

@@ -7,7 +7,7 @@
 #include <set>
 #include <system_error>
 
-#include "storage/atomic_file.hpp"
+#include "files/atomic_file.hpp"
 
 namespace vibrosow {
 

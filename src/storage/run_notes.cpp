@@ -13,10 +13,11 @@
 #include <sstream>
 #include <system_error>
 
+#include "files/atomic_file.hpp"
+#include "files/this_machine.hpp"
+#include "files/whole_file.hpp"
 #include "scene/checked_json.hpp"
 #include "scene/printable.hpp"
-#include "storage/atomic_file.hpp"
-#include "storage/this_machine.hpp"
 
 namespace vibrosow {
 namespace {

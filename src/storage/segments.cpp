@@ -11,7 +11,7 @@
 #include <optional>
 #include <system_error>
 
-#include "storage/atomic_file.hpp"
+#include "files/atomic_file.hpp"
 
 namespace vibrosow {
 namespace {

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "storage/atomic_file.hpp"
+#include "files/atomic_file.hpp"
 
 namespace vibrosow {
 

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "files/atomic_file.hpp"
 #include "storage/asked_question.hpp"
-#include "storage/atomic_file.hpp"
 
 namespace vibrosow {
 

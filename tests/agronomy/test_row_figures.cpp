@@ -62,7 +62,7 @@ TEST(RowFigures, RatesOfARowAndOfTheGround) {
   EXPECT_NEAR(*figures.all().between->raw_cv, std::sqrt(2.0) / 3, 1e-12);
   EXPECT_NEAR(*figures.all().between->mass_cv, std::sqrt(2.0) / 3, 1e-12);
   // In each of five blocks 16 and 32, but for a seed that falls on the edge of one.
-  EXPECT_NEAR(*figures.all().between->unevenness->cv, std::sqrt(2.0) / 3, 0.02);
+  EXPECT_NEAR(*unevenness_of({&*figures.all().between})->cv, std::sqrt(2.0) / 3, 0.02);
 }
 
 TEST(RowFigures, OfAMixturesSliceAreOfSlicesByVolume) {
@@ -136,7 +136,7 @@ TEST(RowFigures, OfASliceAreTheTraysAndHaveNoSpacings) {
   const DrillFigures bare = figures_of(scene, run, a_hole_a_row(2));
   EXPECT_FALSE(bare.rows[0].mass_rate);
   EXPECT_FALSE(bare.rows[0].seeds_per_m2);
-  EXPECT_TRUE(bare.all().between->unevenness);
+  EXPECT_TRUE(unevenness_of({&*bare.all().between}));
   scene.tray.depth = 0.06;  // 15 slices of 4 mm
   const DrillFigures tray = figures_of(scene, run, a_hole_a_row(2));
   EXPECT_DOUBLE_EQ(*tray.rows[0].seeds_per_s, 150);
@@ -151,7 +151,7 @@ TEST(RowFigures, NothingIsKnownOfARunThatEndedBeforeTheWindow) {
   run.end_time = 1;
   const DrillFigures figures = figures_of(scene, run, a_hole_a_row(2));
   for (const RowFigure& figure : row_figures())
-    for (const RowFigures& row : figures.rows) EXPECT_FALSE(figure.of(row)) << figure.name;
+    for (const RowFigures& row : figures.rows) EXPECT_FALSE(figure.of({row})) << figure.name;
 }
 
 TEST(RowFigures, RefuseADrillOfAnotherTray) {

@@ -1,6 +1,6 @@
 // Atlases of heaps; what is read is looked up.
 
-#include "design/repose_atlas.hpp"
+#include "calibration/repose_atlas.hpp"
 #include "fuzz/try_bytes.hpp"
 #include "input/temporary_file.hpp"
 #include "scene/input_error.hpp"

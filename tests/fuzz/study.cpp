@@ -2,11 +2,11 @@
 
 #include <filesystem>
 
-#include "design/study.hpp"
 #include "fuzz/try_bytes.hpp"
 #include "input/read_scene.hpp"
 #include "input/temporary_file.hpp"
 #include "scene/input_error.hpp"
+#include "study/study.hpp"
 
 namespace vibrosow {
 namespace {

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <xxhash.h>
 
+#include "files/whole_file.hpp"
 #include "fuzz/edits.hpp"
 #include "fuzz/try_bytes.hpp"
 #include "input/temporary_file.hpp"

@@ -42,10 +42,10 @@ TEST(Figures, OfTheTrayAreTheSlicesTimesItsDepthFactor) {
   vibrosow::Run run = made_up_run(scene);
   for (int i = 0; i < 8; ++i) add_grain(run, 3 + 0.1 * i, 1);
   const Outflow outflow = measure_outflow(scene, run);
-  EXPECT_DOUBLE_EQ(*figure_named("depth_factor").of(outflow), 15);
-  EXPECT_DOUBLE_EQ(*figure_named("tray_seeds_per_s").of(outflow), 15);
+  EXPECT_DOUBLE_EQ(*figure_named("depth_factor").of({outflow}), 15);
+  EXPECT_DOUBLE_EQ(*figure_named("tray_seeds_per_s").of({outflow}), 15);
   const Figure& per_minute = figure_named("tray_rate_g_per_min");
-  EXPECT_NEAR(*per_minute.of(outflow) / per_minute.unit_size, 15 * 0.04 * 60, 1e-9);
+  EXPECT_NEAR(*per_minute.of({outflow}) / per_minute.unit_size, 15 * 0.04 * 60, 1e-9);
 }
 
 /// Means over two runs of 300 seeds each, of which so many fall through the first of two holes.

@@ -115,7 +115,7 @@ TEST(Window, NeverReachedGivesNoRate) {
   const Outflow outflow = measure_outflow(scene, run);
   EXPECT_TRUE(std::isnan(outflow.holes[0].mass_rate));
   EXPECT_TRUE(std::isnan(outflow.holes[0].longest_pause));
-  EXPECT_FALSE(outflow.unevenness);
+  EXPECT_FALSE(unevenness_of({&outflow}));
   EXPECT_FALSE(outflow.instability_cv);
   EXPECT_EQ(outflow.note(), "interrupted; ended before the measuring window");
 }
@@ -186,8 +186,9 @@ TEST(Unevenness, OfARunIsOfFiveBlocksOfItsWindow) {
   EXPECT_EQ(outflow.grains_of_hole_in_block, blocks);
   EXPECT_NEAR(*outflow.raw_cv, std::sqrt(2.0) * 99 / 201, 1e-12);
   const auto expected = unevenness(blocks);
-  EXPECT_EQ(*outflow.unevenness->cv, *expected->cv);
-  EXPECT_EQ(outflow.unevenness->high, expected->high);
+  const auto unevenness = unevenness_of({&outflow});
+  EXPECT_EQ(*unevenness->cv, *expected->cv);
+  EXPECT_EQ(unevenness->high, expected->high);
 }
 
 TEST(CountsInBlocks, TakeTheLaterBlockAtAnEnd) {

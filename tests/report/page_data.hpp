@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "design/study.hpp"
+#include "study/study.hpp"
 
 namespace vibrosow {
 

@@ -6,10 +6,10 @@
 #include <numbers>
 #include <sstream>
 
-#include "../design/made_up_atlas.hpp"
 #include "../input/temporary_file.hpp"
 #include "input/read_crop.hpp"
 #include "input/read_scene.hpp"
+#include "support/made_up_atlas.hpp"
 
 namespace vibrosow {
 namespace {

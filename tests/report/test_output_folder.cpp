@@ -13,8 +13,8 @@
 #include <iterator>
 #include <set>
 
+#include "files/atomic_file.hpp"
 #include "scene/input_error.hpp"
-#include "storage/atomic_file.hpp"
 
 namespace vibrosow {
 namespace {

@@ -88,7 +88,7 @@ TEST(Replay, BestOfASweepAreThoseThatAreOkInTheOrderOfTheRate) {
   EXPECT_THAT(numbers(9), ElementsAre(2, 1, 3));  // of the same rate the first by number
   EXPECT_THAT(numbers(2), ElementsAre(2, 1));
   EXPECT_EQ(best_to_replay(answer_of(result, 5), 1).front().random_seed, 5U);
-  result.layouts[1].status = LayoutStatus::outside_the_model;
+  result.layouts[1].status = LayoutStanding::outside_the_model;
   result.layouts[2].figures = {};
   EXPECT_THAT(numbers(9), ElementsAre(1));
 }

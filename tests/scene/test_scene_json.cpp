@@ -1,9 +1,9 @@
 #include "scene/scene_json.hpp"
 
-#include "design/study.hpp"
 #include "input/input_file.hpp"
 #include "input/read_scene.hpp"
 #include "scene/input_error.hpp"
+#include "study/study.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -8,7 +8,7 @@
 #include <thread>
 
 #include "storage/checkpoint_folder.hpp"
-#include "temporary_folder.hpp"
+#include "support/temporary_folder.hpp"
 
 namespace vibrosow {
 namespace {

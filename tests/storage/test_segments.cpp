@@ -5,7 +5,7 @@
 #include <fstream>
 #include <iterator>
 
-#include "temporary_folder.hpp"
+#include "support/temporary_folder.hpp"
 
 namespace vibrosow {
 namespace {

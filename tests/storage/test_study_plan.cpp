@@ -7,7 +7,7 @@
 
 #include <fstream>
 
-#include "temporary_folder.hpp"
+#include "support/temporary_folder.hpp"
 
 namespace vibrosow {
 namespace {

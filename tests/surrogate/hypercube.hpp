@@ -3,7 +3,7 @@
 #include <Eigen/Core>
 #include <cstdint>
 
-#include "design/latin_hypercube.hpp"
+#include "study/latin_hypercube.hpp"
 
 namespace vibrosow {
 

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <optional>
+
+#include "accuracy/error_fit.hpp"
+#include "study/sweep.hpp"
+
+namespace vibrosow {
+
+/// What standing for a tray by a plane does to its rate.
+struct DepthError {
+  MeanWithInterval plane, space;  // kg/s of the tray: the plane's slice times its slices; balls
+  RateError error;                // plane less space, of space; its band of both intervals, as independent
+};
+
+/// From so many runs of each, of the scenes' own numerics; both have a `tray.depth`. None where a run was cut short or
+/// left the model, or nothing flows in space. Throws InputError where one of the two cannot be run, and
+/// std::invalid_argument for fewer than two runs.
+std::optional<DepthError> measure_depth_error(const Scene& plane, const Scene& space, int replicates,
+                                              const Simulator& simulator, const SweepOptions& options);
+
+}  // namespace vibrosow

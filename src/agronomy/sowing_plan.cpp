@@ -1,0 +1,249 @@
+#include "agronomy/sowing_plan.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <boost/math/tools/toms748_solve.hpp>
+#include <cmath>
+#include <cstdint>
+#include <functional>
+#include <numbers>
+#include <tuple>
+
+#include "scene/accuracy_level.hpp"
+#include "scene/input_error.hpp"
+#include "scene/seed_lot.hpp"
+
+namespace vibrosow {
+namespace {
+
+constexpr double width_step = 0.5e-3, amplitude_step = 0.1e-3;  // m
+constexpr HolesForRows feeds[] = {{1, 4}, {1, 3}, {1, 2}, {1, 1}, {2, 1}, {3, 1}};
+
+/// From end to end along x, y and z, the longest first.
+std::array<double, 3> measures(const std::vector<ClumpDisc>& discs) {
+  std::array<double, 3> low{}, high{};
+  for (const ClumpDisc& disc : discs) {
+    const std::array<double, 3> centre{disc.x, disc.y, disc.z};
+    for (std::size_t k = 0; k < 3; ++k) {
+      low[k] = std::min(low[k], centre[k] - disc.radius);
+      high[k] = std::max(high[k], centre[k] + disc.radius);
+    }
+  }
+  std::array<double, 3> result{high[0] - low[0], high[1] - low[1], high[2] - low[2]};
+  std::ranges::sort(result, std::greater());
+  return result;
+}
+
+/// Looks up what one hole gives for a task; speeds and times over sqrt(g d) and sqrt(d / g).
+class Search {
+ public:
+  Search(const SowingTask& task, const HoleTable& table, const ShakerLimits& limits)
+      : task_(task),
+        table_(table),
+        diameter_(task.seed.diameter),
+        amplitude_(std::round(table.amplitude() * diameter_ / amplitude_step) * amplitude_step),
+        needed_(task.row_seed_rate() * std::sqrt(diameter_ / standard_gravity)) {
+    amplitude_ = std::max(amplitude_, amplitude_step);
+    const Span within{speed_of(limits.least_frequency), speed_of(limits.most_frequency)};
+    const Span known = table.peak_speeds(task.seed.aspect);
+    speeds_ = table.speed_steps(task.seed.aspect);
+    for (const double end : {within.least, within.most})
+      if (known.holds(end)) speeds_.push_back(end);
+    std::erase_if(speeds_, [&](double speed) { return !within.holds(speed); });
+    std::ranges::sort(speeds_);
+  }
+
+  std::vector<PlannedLayout> layouts() {
+    std::vector<PlannedLayout> found;
+    for (const HolesForRows& feed : feeds)
+      for (const double depth : depths())
+        for (const double width : widths()) add_layouts(feed, width, depth, found);
+    return found;
+  }
+
+  NearestChange change() const {
+    NearestChange change;
+    change.kept_open = narrowest(kept_open_from);
+    change.rarely_clogs = narrowest(rarely_clogs_from);
+    change.least_share = least_share_;
+    change.most_share = most_share_;
+    return change;
+  }
+
+ private:
+  double speed_of(double frequency) const {
+    return 2 * std::numbers::pi * frequency * amplitude_ / std::sqrt(standard_gravity * diameter_);
+  }
+  double frequency_of(double peak_speed) const {
+    return peak_speed * std::sqrt(standard_gravity * diameter_) / (2 * std::numbers::pi * amplitude_);
+  }
+
+  std::array<double, 2> depths() const {
+    const Span depths = table_.depths(task_.seed.aspect);
+    return {depths.least, depths.most};
+  }
+
+  std::vector<double> widths() const {
+    const Span over_d = table_.widths(task_.seed.aspect);
+    std::vector<double> widths;
+    for (auto step = static_cast<std::int64_t>(std::ceil(over_d.least * diameter_ / width_step));; ++step) {
+      const double width = static_cast<double>(step) * width_step;
+      if (!over_d.holds(width / diameter_)) return widths;
+      widths.push_back(width);
+    }
+  }
+
+  /// The places asked for lie within the table.
+  HoleEstimate estimate(double width_over_d, double depth, double peak_speed) const {
+    return table_.at({task_.seed.aspect, width_over_d, peak_speed, depth}).value();
+  }
+
+  std::vector<double> outflows(double width_over_d, double depth) const {
+    std::vector<double> outflows;
+    for (const double speed : speeds_) outflows.push_back(estimate(width_over_d, depth, speed).outflow);
+    return outflows;
+  }
+
+  double solve(double width_over_d, double depth, double from, double to, double outflow) const {
+    const auto excess = [&](double speed) { return estimate(width_over_d, depth, speed).outflow - outflow; };
+    const double below = excess(from), above = excess(to);
+    if (below == 0) return from;
+    if (above == 0) return to;
+    std::uintmax_t most_steps = 100;
+    const auto [low, high] = boost::math::tools::toms748_solve(
+        excess, from, to, below, above, boost::math::tools::eps_tolerance<double>(30), most_steps);
+    return 0.5 * (low + high);
+  }
+
+  void add_layouts(const HolesForRows& feed, double width, double depth, std::vector<PlannedLayout>& found) {
+    const double wanted = needed_ * feed.rows / feed.holes;
+    const std::vector<double> given = outflows(width / diameter_, depth);
+    for (const double outflow : given) {
+      least_share_ = least_share_ > 0 ? std::min(least_share_, outflow / wanted) : outflow / wanted;
+      most_share_ = std::max(most_share_, outflow / wanted);
+    }
+    for (std::size_t k = 0; k + 1 < given.size(); ++k) {
+      const bool rises = given[k] <= wanted && wanted < given[k + 1];
+      const bool falls = given[k] >= wanted && wanted > given[k + 1];
+      if (!rises && !falls) continue;
+      PlannedLayout layout;
+      layout.feed = feed;
+      layout.width = width;
+      layout.width_over_d = width / diameter_;
+      layout.depth_over_d = depth;
+      layout.peak_speed = solve(layout.width_over_d, depth, speeds_[k], speeds_[k + 1], wanted);
+      layout.frequency = frequency_of(layout.peak_speed);
+      layout.amplitude = amplitude_;
+      layout.estimate = estimate(layout.width_over_d, depth, layout.peak_speed);
+      layout.interpolation = table_.interpolation_error(task_.seed.aspect, layout.width_over_d, layout.peak_speed);
+      layout.more_by_faster = rises;
+      layout.speeds = speeds_kept(given, k, wanted);
+      found.push_back(layout);
+    }
+  }
+
+  /// As far as the outflow goes on rising, or falling, on both sides of a step: beyond, one would turn the frequency up
+  /// to sow less.
+  Span speeds_kept(const std::vector<double>& given, std::size_t step, double wanted) const {
+    const bool rises = given[step] < given[step + 1];
+    std::size_t first = step, last = step + 1;
+    while (first > 0 && (given[first - 1] < given[first]) == rises) --first;
+    while (last + 1 < given.size() && (given[last] < given[last + 1]) == rises) ++last;
+    const double low = std::min(given[first], given[last]), high = std::max(given[first], given[last]);
+    return {task_.pace.speed * low / wanted, task_.pace.speed * high / wanted};
+  }
+
+  /// Of holes of so many seeds and more.
+  std::optional<NearestChange::WiderHole> narrowest(double width_over_d) const {
+    for (const double width : widths()) {
+      if (width / diameter_ < width_over_d || speeds_.empty()) continue;
+      double least = 0;
+      for (const double depth : depths())
+        for (const double outflow : outflows(width / diameter_, depth))
+          least = least > 0 ? std::min(least, outflow) : outflow;
+      return NearestChange::WiderHole{width, static_cast<int>(std::min(std::ceil(least / needed_), 1e9))};
+    }
+    return std::nullopt;
+  }
+
+  const SowingTask& task_;
+  const HoleTable& table_;
+  double diameter_, amplitude_;  // m
+  double needed_;                // by a row, seeds in sqrt(d / g)
+  std::vector<double> speeds_;   // between which outflows bend nowhere
+  double least_share_ = 0, most_share_ = 0;
+};
+
+/// By how much the rate can be turned, the lesser of up and down.
+double reserve(const PlannedLayout& layout, double speed) {
+  return std::min(layout.speeds.most / speed, speed / layout.speeds.least);
+}
+
+}  // namespace
+
+SeedLot of_mass(SeedLot lot, double mass) {
+  if (lot.sizes.kind != SizeDistribution::Kind::single)
+    throw InputError(
+        fmt::format("{}: its seeds have sizes; another thousand grain mass is for seeds of one size", lot.name));
+  const double factor = std::cbrt(mass / lot.mass);
+  lot.diameter *= factor;
+  for (ClumpDisc& disc : lot.discs) {
+    disc.x *= factor, disc.y *= factor, disc.z *= factor, disc.radius *= factor;
+  }
+  for (double* gyration2 : {&lot.gyration2, &lot.gyration2_x, &lot.gyration2_y}) *gyration2 *= factor * factor;
+  lot.mass = mass;
+  return lot;
+}
+
+PlannedSeed planned_seed(const SeedLot& lot) {
+  const double volume =
+      lot.shape == Shape::clump ? clump_volume(lot) : std::numbers::pi / 6 * std::pow(lot.diameter, 3);
+  PlannedSeed seed;
+  seed.diameter = std::cbrt(6 / std::numbers::pi * volume * size_moment(lot, 3));
+  seed.mass = mean_mass(lot);
+  if (lot.shape == Shape::clump) {
+    const std::array<double, 3> long_first = measures(lot.discs);
+    seed.aspect = long_first[0] / long_first[1];
+  }
+  return seed;
+}
+
+HoleClass hole_class(double width_over_d) {
+  if (width_over_d >= rarely_clogs_from) return HoleClass::rarely_clogs;
+  return width_over_d >= kept_open_from ? HoleClass::kept_open : HoleClass::clogs;
+}
+
+double SowingPlan::uncertainty(const PlannedLayout& layout) const {
+  return std::hypot(layout.estimate.chance, layout.interpolation) + softness;
+}
+
+SowingPlan plan_sowing(const SowingTask& task, const HoleTable& table, const ShakerLimits& limits) {
+  const Span aspects = table.aspects();
+  if (!aspects.holds(task.seed.aspect)) {
+    const std::string known = aspects.most > 1 ? fmt::format("seeds of {:g} to {:g} times", aspects.least, aspects.most)
+                                               : std::string("balls alone");
+    throw InputError(
+        fmt::format("its seeds are {:.3g} times as long as wide; the table of one hole knows {}, and is not "
+                    "stretched",
+                    task.seed.aspect, known));
+  }
+  Search search(task, table, limits);
+  SowingPlan plan;
+  plan.task = task;
+  plan.layouts = search.layouts();
+  plan.change = search.change();
+  plan.amplitude_over_d = table.amplitude();
+  plan.softness = accuracy_levels.front().error_percent / 100;  // of the softest level, softer than the table's seeds
+  plan.too_uncertain = std::erase_if(
+      plan.layouts, [&](const PlannedLayout& layout) { return plan.uncertainty(layout) > most_uncertain; });
+  std::ranges::sort(plan.layouts, {}, [&](const PlannedLayout& layout) {
+    return std::tuple(layout.risk(), layout.estimate.stood_still, !layout.reaches_working_speeds(),
+                      -reserve(layout, task.pace.speed), layout.feed.holes, -layout.feed.rows, layout.width,
+                      layout.depth_over_d, layout.frequency);
+  });
+  return plan;
+}
+
+}  // namespace vibrosow

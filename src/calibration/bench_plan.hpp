@@ -1,0 +1,51 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "calibration/calibration_design.hpp"
+
+namespace vibrosow {
+
+/// What a bench has: settings that can be changed, and time.
+struct BenchLimits {
+  double time = 1800;    // s, for all of it
+  double handling = 60;  // s, for each reading besides its catching: to set, fill and weigh
+  double noise = 0.02;   // relative standard deviation of a reading beside the chance of the flow
+};
+
+/// A condition that can be set, and what a reading under it would say.
+struct BenchCandidate {
+  std::vector<Condition> conditions;
+  double mass_rate = 0;        // kg/s, of the plane slice or in space of the tray: geometric mean over the keys' ranges
+  double chance = 0;           // relative standard deviation of one reading
+  std::optional<int> place{};  // in the order in which it was chosen, 1..; none: it was not
+};
+
+/// Which conditions to measure, how long and how often.
+struct BenchPlan {
+  std::vector<BenchCandidate> candidates;
+  double catch_time = 0;            // s, of each reading
+  int repeats = 0;                  // of each condition
+  std::vector<double> contraction;  // that is expected, of CalibrationTask::keys
+  bool whole_rates = true;          // false: rates are known up to a factor
+  int readings() const;
+  std::vector<const BenchCandidate*> chosen() const;  // in their order
+};
+
+/// A measured table without values, to be measured: every combination of three values of each setting, of two where
+/// there are more than two settings, rounded to three digits.
+MeasuredTable bench_candidates(const std::vector<KeyRange>& settings);
+
+/// Chooses the conditions one after the other, each as the one that adds most to the expected logarithm of the
+/// determinant of the keys' information (Bayesian D-optimality, Chaloner & Verdinelli 1995), over 64 Sobol points of
+/// their ranges, with Gaussian processes fitted to the runs of `design`, which was made for `bench_candidates`. Where
+/// the task's scale is free, the factor is one more unknown. Each condition is read three times, twice where that
+/// leaves too few; readings catch a thousand seeds or more, 10 to 120 s, and at most half of what a fill that is not
+/// kept up holds. None where a run is missing. Throws InputError where too few runs can be used, or the time is too
+/// short.
+std::optional<BenchPlan> plan_bench(const CalibrationTask& task, const CalibrationDesign& design,
+                                    const BenchLimits& limits, const Simulator& kept);
+
+}  // namespace vibrosow

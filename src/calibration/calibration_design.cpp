@@ -1,0 +1,128 @@
+#include "calibration/calibration_design.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "input/read_scene.hpp"
+#include "plan/softness.hpp"
+#include "scene/input_error.hpp"
+#include "storage/case_file.hpp"
+#include "study/comparison.hpp"
+#include "study/latin_hypercube.hpp"
+
+namespace vibrosow {
+namespace {
+
+constexpr double repeated_share = 0.2;  // of the points, run a second time
+constexpr Eigen::Index least_repeated = 2;
+
+/// How many different points, and how many of them again.
+struct Counts {
+  Eigen::Index different, repeated;
+};
+
+Counts counts_for(const CalibrationTask& task, std::size_t conditions) {
+  const auto affordable = static_cast<Eigen::Index>(static_cast<std::size_t>(task.most_runs) / conditions);
+  const auto keys = static_cast<Eigen::Index>(task.keys.size());
+  const auto repeated = std::max(least_repeated, static_cast<Eigen::Index>(repeated_share / (1 + repeated_share) *
+                                                                           static_cast<double>(affordable)));
+  const Eigen::Index needed = 3 * (keys + 1);
+  if (affordable - repeated < needed)
+    throw InputError(fmt::format(
+        "--runs {}: {} keys under {} conditions need at least {} runs; fit fewer keys (--fit), or leave conditions out",
+        task.most_runs, keys, conditions,
+        static_cast<std::size_t>(needed + std::max(least_repeated, needed / 5 + 1)) * conditions));
+  return {affordable - repeated, repeated};
+}
+
+std::vector<std::vector<Condition>> conditions_of(const MeasuredTable& table) {
+  std::vector<std::vector<Condition>> conditions;
+  for (const MeasuredSeries& series : table.series)
+    if (std::ranges::find(conditions, series.conditions) == conditions.end()) conditions.push_back(series.conditions);
+  return conditions;
+}
+
+void check_keys(const CalibrationTask& task) {
+  if (task.keys.empty()) throw InputError("--fit: nothing is left to be fitted");
+  for (const KeyRange& fitted : task.keys) {
+    if (std::ranges::count(task.keys, fitted.key, &KeyRange::key) > 1)
+      throw InputError(fmt::format("--fit {}: is fitted twice", fitted.key));
+    if (std::ranges::count(task.overrides, fitted.key, &Override::key) > 0)
+      throw InputError(fmt::format("--fit {}: is set by --set as well", fitted.key));
+    if (std::ranges::count(task.measured.table.condition_keys, fitted.key) > 0)
+      throw InputError(fmt::format("--fit {}: is a condition of {} as well", fitted.key, task.measured.file.string()));
+  }
+}
+
+/// That a scene can be measured as the series was.
+void check_measurable(const CalibrationTask& task, const MeasuredSeries& series, const Scene& scene) {
+  const bool hole = series.hole == "all" || std::stoul(series.hole) <= scene.tray.holes.size();
+  const bool lot = series.lot == "all" || std::ranges::find(scene.lots, series.lot, &SeedLot::name) != scene.lots.end();
+  if (!hole || !lot)
+    throw InputError(fmt::format("{}: hole {}, lot {}: {} has no such hole or lot", series.where, series.hole,
+                                 series.lot, task.seeder.string()));
+  const bool filled = scene.tray.fill || (scene.hopper && scene.hopper->fill);
+  if (task.measured.table.quantity == MeasuredQuantity::fraction_curve && !filled)
+    throw InputError(
+        fmt::format("{}: discharged_percent is of the fill, and {} has none", series.where, task.seeder.string()));
+  if (task.measured.scale == MeasuredScale::depth && !scene.tray.depth)
+    throw InputError(fmt::format("{}: --scale depth needs tray.depth", task.seeder.string()));
+  check_within_run(task.measured, series, scene);
+}
+
+}  // namespace
+
+Scene calibration_scene(const CalibrationTask& task, const std::vector<Condition>& conditions,
+                        const Eigen::VectorXd& point, const std::shared_ptr<SourceFiles>& files) {
+  std::vector<Override> overrides = task.overrides;
+  for (const Condition& condition : conditions)
+    overrides.push_back(override_of(condition, task.measured.file.string()));
+  for (std::size_t k = 0; k < task.keys.size(); ++k)
+    overrides.push_back(task.keys[k].override_at(point(static_cast<Eigen::Index>(k))));
+  return read_scene(task.seeder, overrides, files);
+}
+
+Scene middle_scene(const CalibrationTask& task, const std::shared_ptr<SourceFiles>& files) {
+  return calibration_scene(task, {}, Eigen::VectorXd::Constant(static_cast<Eigen::Index>(task.keys.size()), 0.5),
+                           files);
+}
+
+CalibrationDesign design_calibration(const CalibrationTask& task, const std::shared_ptr<SourceFiles>& files) {
+  check_keys(task);
+  if (is_curve(task.measured.table.quantity) && task.measured.scale == MeasuredScale::free)
+    throw InputError(
+        fmt::format("{}: --scale free goes with rates; of curves expected none or depth", task.measured.file.string()));
+  CalibrationDesign design;
+  design.conditions = conditions_of(task.measured.table);
+  const auto [different, repeated] = counts_for(task, design.conditions.size());
+  const auto dimensions = static_cast<Eigen::Index>(task.keys.size());
+  design.points.resize(different + repeated, dimensions);
+  const auto cube = latin_hypercube(static_cast<std::size_t>(different), task.keys.size(), task.random_seed);
+  for (Eigen::Index point = 0; point < different; ++point)
+    design.points.row(point) =
+        Eigen::Map<const Eigen::RowVectorXd>(cube[static_cast<std::size_t>(point)].data(), dimensions);
+  design.points.bottomRows(repeated) = design.points.topRows(repeated);
+  std::uint64_t seed = task.random_seed;
+  for (Eigen::Index point = 0; point < design.points.rows(); ++point)
+    for (std::size_t condition = 0; condition < design.conditions.size(); ++condition)
+      design.runs.push_back(
+          {point, condition, seed++,
+           calibration_scene(task, design.conditions[condition], design.points.row(point).transpose(), files)});
+  for (const MeasuredSeries& series : task.measured.table.series) {
+    const auto condition = std::ranges::find(design.conditions, series.conditions) - design.conditions.begin();
+    check_measurable(task, series, design.runs[static_cast<std::size_t>(condition)].scene);
+  }
+  return design;
+}
+
+std::vector<WantedRun> wanted_runs(const CalibrationDesign& design) {
+  std::vector<WantedRun> wanted;
+  for (const CalibrationRun& run : design.runs)
+    wanted.push_back({&run.scene, run.random_seed,
+                      case_name(case_identity(at_its_accuracy(run.scene), run.random_seed)), 1,
+                      static_cast<int>(run.condition) + 1});
+  return wanted;
+}
+
+}  // namespace vibrosow

@@ -1,0 +1,16 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+
+namespace vibrosow {
+
+/// What a plain file holds; none where there is no such file, it is no plain file, or it holds more than `most` bytes.
+std::optional<std::string> text_of_file(const std::filesystem::path& file, std::uint64_t most = std::uint64_t{1} << 32);
+
+/// The same of a file that there has to be. Throws InputError, with its name and the reason.
+std::string text_of_wanted_file(const std::filesystem::path& file);
+
+}  // namespace vibrosow

@@ -1,0 +1,113 @@
+#include "optimise/goal.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
+#include "input/wording.hpp"
+#include "scene/input_error.hpp"
+#include "units/quantity.hpp"
+
+namespace vibrosow {
+namespace {
+
+constexpr std::array table = {
+    Goal{"unevenness", "CV of a run", "run_cv_percent", false,
+         "coefficient of variation between the holes of one run, chance included, least", "one hole has no unevenness"},
+    Goal{"instability", "instability", "instability_cv_percent", false,
+         "of the whole outflow over ten parts of the window, least", "it has no instability"},
+    Goal{"pause", "longest pause", "longest_pause_s", false, "longest time without a seed, least", "it has no pause"},
+    Goal{"rate", "rate", "rate_g_per_s", true, "mass flow, most", "it has no rate"},
+    Goal{"spilled", "spilled", "spilled_percent", false, "seeds that left over the rim, least", "nothing left it"},
+};
+
+std::optional<double> finite(const std::optional<double>& value) {
+  return value && std::isfinite(*value) ? value : std::nullopt;
+}
+
+struct Rate {
+  bool is_of_seeds;
+  double value;  // SI
+};
+
+std::string_view trimmed(std::string_view text) {
+  const auto from = text.find_first_not_of(' '), to = text.find_last_not_of(' ');
+  return from == std::string_view::npos ? std::string_view() : text.substr(from, to - from + 1);
+}
+
+/// Where "+-", "±" or "+/-" stands, and how many bytes it takes.
+std::pair<std::size_t, std::size_t> find_plus_minus(std::string_view text) {
+  for (const std::string_view sign : {"+-", "\u00b1", "+/-"})
+    if (const auto at = text.find(sign); at != std::string_view::npos) return {at, sign.size()};
+  return {std::string_view::npos, 0};
+}
+
+Rate read_rate(std::string_view text) {
+  const Quantity quantity = split_quantity(text);
+  if (quantity.unit.starts_with("seeds")) return {true, in_si(quantity, Dimension::seed_rate)};
+  return {false, in_si(quantity, Dimension::mass_rate)};
+}
+
+}  // namespace
+
+std::optional<double> Goal::of(const Outflow& outflow) const {
+  const auto value = finite(figure_named(figure).of({outflow}));
+  return value && is_most ? -*value : value;
+}
+
+std::span<const Goal> goals() {
+  return table;
+}
+
+const Goal& goal_named(std::string_view name) {
+  if (name == "evenness") name = "unevenness";  // what it was called
+  const auto found = std::ranges::find(table, name, &Goal::name);
+  if (found != table.end()) return *found;
+  std::vector<std::string> names;
+  std::string list;
+  for (const Goal& goal : table) {
+    names.emplace_back(goal.name);
+    list += (list.empty() ? "" : ", ") + names.back();
+  }
+  throw InputError(fmt::format("--goal: \"{}\" is none of {}{}", shortened(name), list, did_you_mean(name, names)));
+}
+
+const Figure& rate_figure(const std::optional<WantedRate>& wanted) {
+  if (!wanted) return figure_named("rate_g_per_s");
+  return figure_named(wanted->is_of_seeds ? "tray_seeds_per_s" : "tray_rate_g_per_s");
+}
+
+std::optional<double> rate_as_wanted(const WantedRate& wanted, const Outflow& outflow) {
+  return finite(rate_figure(wanted).of({outflow}));
+}
+
+WantedRate read_wanted_rate(const std::string& text) {
+  const auto wrong = [&](const std::string& why) {
+    return InputError(
+        fmt::format("--rate: \"{}\"{}; expected is a rate of the tray such as \"43 seeds/s +- 5 %\" or "
+                    "\"12 g/min +- 5 %\"",
+                    shortened(text), why));
+  };
+  const auto [sign, length] = find_plus_minus(text);
+  if (sign == std::string::npos) throw wrong(" says not how far from it is near enough");
+  const std::string_view whole = text, of = trimmed(whole.substr(0, sign)), by = trimmed(whole.substr(sign + length));
+  try {
+    const Rate rate = read_rate(of);
+    Rate off{rate.is_of_seeds, 0};
+    if (by.ends_with('%'))
+      off.value = rate.value * parse_quantity(by, Dimension::fraction);
+    else
+      off = read_rate(by);
+    if (off.is_of_seeds != rate.is_of_seeds) throw wrong(" has two kinds of rates");
+    if (!(rate.value > 0 && off.value > 0 && off.value < rate.value)) throw wrong(" leaves no band above 0");
+    if (rate.value + off.value > most_wanted_rate) throw wrong(" is more than a tray can give");
+    return {rate.is_of_seeds, rate.value - off.value, rate.value + off.value};
+  } catch (const UnitError& error) {
+    throw wrong(fmt::format(": {}", error.what()));
+  }
+}
+
+}  // namespace vibrosow

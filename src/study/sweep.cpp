@@ -1,0 +1,272 @@
+#include "study/sweep.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "study/comparison.hpp"
+#include "study/layout_doubts.hpp"
+
+namespace vibrosow {
+namespace {
+
+int replicates_of(const Study& study, const SweepOptions& options, std::size_t scene) {
+  return options.replicates.empty() ? study.replicates.first() : options.replicates.at(scene);
+}
+
+/// Scenes that are run at a time: all, so that no core waits for another; where runs are dropped, some thousand runs.
+std::size_t scenes_at_a_time(const Study& study, bool dropped) {
+  constexpr std::size_t runs = 4096;
+  if (!dropped) return study.scenes.size();
+  return std::max<std::size_t>(1, runs / static_cast<std::size_t>(std::max(1, study.replicates.first())));
+}
+
+/// Those of scenes from one to before another.
+std::vector<std::vector<Evaluation>> run_scenes(const Study& study, const std::vector<WantedOfRuns>& wanted,
+                                                const Simulator& simulator, const SweepOptions& options,
+                                                std::size_t from, std::size_t to) {
+  std::vector<Model> models;
+  for (std::size_t scene = from; scene < to; ++scene) models.push_back(prepare(study.scenes[scene]));
+  std::vector<Job> jobs;
+  for (std::size_t scene = from; scene < to; ++scene)
+    for (int i = 0; i < replicates_of(study, options, scene); ++i)
+      jobs.push_back({&models[scene - from], options.first_random_seed + static_cast<std::uint64_t>(i),
+                      wanted[scene].curves, wanted[scene].drills});
+  std::vector<Evaluation> results = run_jobs(jobs, simulator, options.runs);
+
+  std::vector<std::vector<Evaluation>> runs(to - from);
+  std::size_t job = 0;
+  for (std::size_t scene = from; scene < to; ++scene)
+    for (int i = 0; i < replicates_of(study, options, scene); ++i)
+      runs[scene - from].push_back(std::move(results[job++]));
+  return runs;
+}
+
+/// Where replicates are by need: those that are needed, whoever made more.
+void leave_out_more_than_enough(const Study& study, std::vector<Evaluation>& replicates) {
+  if (!study.replicates.interval) return;
+  if (const auto enough = enough_runs(rates_of(replicates), study.replicates))
+    replicates.resize(static_cast<std::size_t>(*enough));
+}
+
+/// The runs of which figures are made.
+std::vector<Evaluation> that_count(const Study& study, const std::vector<Evaluation>& replicates) {
+  if (!study.replicates.interval) return replicates;
+  std::vector<Evaluation> flowed;
+  for (const Evaluation& one : replicates)
+    if (!one.finished() || one.end_reason.empty()) flowed.push_back(one);
+  return flowed;
+}
+
+/// Mean of a figure over the finished replicates that have it.
+template <typename Figure>
+std::optional<MeanWithInterval> mean_over(const std::vector<Evaluation>& replicates, Figure figure) {
+  std::vector<double> values;
+  for (const Evaluation& replicate : replicates) {
+    if (!replicate.finished()) continue;
+    const std::optional<double> value = figure(replicate);
+    if (value && std::isfinite(*value)) values.push_back(*value);
+  }
+  if (values.empty()) return std::nullopt;
+  return mean_with_interval(values);
+}
+
+template <typename Member>
+std::optional<MeanWithInterval> mean_of_row(const std::vector<Evaluation>& replicates, const std::string& hole,
+                                            const std::string& lot, Member member) {
+  return mean_over(replicates, [&](const Evaluation& one) -> std::optional<double> {
+    const HoleOutflow* row = find_row(one.outflow, hole, lot);
+    return row ? std::optional(row->*member) : std::nullopt;
+  });
+}
+
+FigureMeans figures_of(const std::vector<Evaluation>& replicates) {
+  std::vector<const Outflow*> finished;
+  for (const Evaluation& one : replicates)
+    if (one.finished()) finished.push_back(&one.outflow);
+  return FigureMeans(finished);
+}
+
+std::vector<HoleFigures> hole_figures(const std::vector<Evaluation>& replicates) {
+  const auto finished = std::ranges::find_if(replicates, &Evaluation::finished);
+  if (finished == replicates.end()) return {};
+  std::vector<HoleFigures> holes;
+  for (const HoleOutflow& row : finished->outflow.holes) {
+    HoleFigures figures;
+    figures.hole = row.hole;
+    figures.lot = row.lot;
+    figures.centre = row.centre, figures.across = row.across;
+    figures.width = row.width;
+    figures.seeds_per_s = mean_of_row(replicates, row.hole, row.lot, &HoleOutflow::seeds_per_s);
+    figures.mass_rate = mean_of_row(replicates, row.hole, row.lot, &HoleOutflow::mass_rate);
+    figures.longest_pause = mean_of_row(replicates, row.hole, row.lot, &HoleOutflow::longest_pause);
+    holes.push_back(std::move(figures));
+  }
+  return holes;
+}
+
+/// One for each drill of the scene.
+std::vector<std::vector<RowMeans>> rows_of_drills(const std::vector<Evaluation>& replicates, std::size_t drills) {
+  std::vector<std::vector<RowMeans>> rows;
+  for (std::size_t drill = 0; drill < drills; ++drill) {
+    std::vector<const DrillFigures*> finished;
+    for (const Evaluation& one : replicates)
+      if (one.finished()) finished.push_back(&one.drills.at(drill));
+    rows.push_back(row_means(finished));
+  }
+  return rows;
+}
+
+BedFigures bed_figures(const Scene& scene, std::size_t record, const std::vector<Evaluation>& replicates) {
+  using Value = std::optional<double>;
+  const auto reached = [record](const Evaluation& one) { return record < one.records.size(); };
+  BedFigures figures{record, scene.record->times[record], {}, {}, {}};
+  figures.packing = mean_over(
+      replicates, [&](const Evaluation& one) { return reached(one) ? one.records[record].packing : Value(); });
+  figures.packing_change = mean_over(replicates, [&](const Evaluation& one) {
+    if (!reached(one) || !one.records[record].packing || !one.records[0].packing) return Value();
+    return Value(*one.records[record].packing - *one.records[0].packing);
+  });
+  for (std::size_t lot = 0; lot < scene.lots.size(); ++lot)
+    figures.segregation.push_back(mean_over(replicates, [&](const Evaluation& one) {
+      return reached(one) ? one.records[record].segregation[lot] : Value();
+    }));
+  return figures;
+}
+
+void set_status(LayoutResult& result, const std::vector<Evaluation>& replicates) {
+  result.replicates = static_cast<int>(std::ranges::count_if(replicates, &Evaluation::finished));
+  const auto refused = std::ranges::find(replicates, EvaluationStatus::refused, &Evaluation::status);
+  const auto stopped = std::ranges::find(replicates, EvaluationStatus::stopped, &Evaluation::status);
+  if (refused != replicates.end()) {
+    result.status = LayoutStanding::invalid;
+    result.reason = refused->reason;
+  } else if (stopped != replicates.end()) {
+    result.status = LayoutStanding::stopped;
+    result.reason = fmt::format("random seed {}: {}", stopped->random_seed, stopped->reason);
+  } else if (result.replicates < static_cast<int>(replicates.size())) {
+    result.status = LayoutStanding::incomplete;
+    result.reason = fmt::format("{} of {} runs finished", result.replicates, replicates.size());
+  } else {
+    result.doubts = doubts_of_runs(replicates);
+    if (std::ranges::any_of(replicates, &Evaluation::outside_the_model))
+      result.status = LayoutStanding::outside_the_model;
+  }
+}
+
+/// Of replicates by need: runs that clogged, and what to know about the interval.
+void add_doubts_of_need(const Study& study, const std::vector<Evaluation>& replicates, LayoutResult& result) {
+  const auto add = [&](DoubtKind kind, std::string text) { result.doubts.push_back({kind, 0, 0, std::move(text)}); };
+  const std::vector<std::optional<double>> rates = rates_of(replicates);
+  if (result.stopped_flowing > 0)
+    add(DoubtKind::clogged_replicates,
+        fmt::format("clogged in {} of {} runs, which are left out", result.stopped_flowing, replicates.size()));
+  std::vector<double> flowed;
+  for (const auto& rate : rates)
+    if (rate) flowed.push_back(*rate);
+  if (!enough_runs(rates, study.replicates))
+    add(DoubtKind::wide_interval, fmt::format("after {} runs the rate's interval is still wider than {:.3g} %",
+                                              replicates.size(), 100 * *study.replicates.interval));
+  if (look_skewed(flowed))
+    add(DoubtKind::skewed_replicates,
+        "the runs scatter to one side: the interval holds less often than 95 times in 100");
+}
+
+LayoutResult invalid_result(const Layout& layout) {
+  LayoutResult result;
+  result.status = LayoutStanding::invalid;
+  result.reason = layout.invalid;
+  return result;
+}
+
+/// What came of a scene, and of each of its drills the rows.
+struct SceneResult {
+  LayoutResult of_all_layouts;
+  std::vector<std::vector<RowMeans>> rows;
+};
+
+SceneResult result_of(const Study& study, const Scene& scene, const std::vector<Evaluation>& runs,
+                      const std::vector<Drill>& drills) {
+  LayoutResult result;
+  const std::vector<Evaluation> replicates = that_count(study, runs);
+  set_status(result, replicates);
+  result.stopped_flowing = static_cast<int>(
+      std::ranges::count_if(runs, [](const Evaluation& one) { return one.finished() && !one.end_reason.empty(); }));
+  const bool was_run = is_compared(result.status) || result.status == LayoutStanding::outside_the_model;
+  if (study.replicates.interval && was_run) add_doubts_of_need(study, runs, result);
+  result.figures = figures_of(replicates);
+  result.holes = hole_figures(replicates);
+  for (CountedDoubt& doubt : doubts_of_scene(scene)) result.doubts.push_back(std::move(doubt));
+  if (result.status == LayoutStanding::ok && is_serious(result.doubts)) result.status = LayoutStanding::doubtful;
+  for (std::size_t record = 0; scene.record && record < scene.record->times.size(); ++record)
+    result.bed.push_back(bed_figures(scene, record, replicates));
+  return {std::move(result), rows_of_drills(replicates, drills.size())};
+}
+
+LayoutResult result_of(const Layout& layout, const SceneResult& of_scene, const std::vector<Drill>& drills) {
+  LayoutResult result = of_scene.of_all_layouts;
+  if (layout.drill)
+    result.rows = of_scene.rows.at(static_cast<std::size_t>(std::ranges::find(drills, *layout.drill) - drills.begin()));
+  return result;
+}
+
+}  // namespace
+
+std::vector<std::optional<double>> rates_of(const std::vector<Evaluation>& replicates) {
+  std::vector<std::optional<double>> rates;
+  for (const Evaluation& one : replicates) {
+    const HoleOutflow* const all =
+        one.finished() && one.end_reason.empty() ? find_row(one.outflow, "all", "all") : nullptr;
+    rates.push_back(all && std::isfinite(all->mass_rate) ? std::optional(all->mass_rate) : std::nullopt);
+  }
+  return rates;
+}
+
+std::vector<WantedOfRuns> wanted_of_runs(const Study& study) {
+  std::vector<WantedOfRuns> wanted(study.scenes.size());
+  for (std::size_t scene = 0; scene < wanted.size(); ++scene) wanted[scene].curves = measured_curves(study, scene);
+  for (const Layout& layout : study.layouts) {
+    if (!layout.scene || !layout.drill) continue;
+    std::vector<Drill>& drills = wanted[*layout.scene].drills;
+    if (std::ranges::find(drills, *layout.drill) == drills.end()) drills.push_back(*layout.drill);
+  }
+  return wanted;
+}
+
+StudyResult answer_of(const Study& study, const RunsOfScenes& runs_of, const OnRuns& on_runs) {
+  StudyResult result;
+  result.study = study;
+  result.runs.resize(study.scenes.size());
+  const std::vector<WantedOfRuns> wanted = wanted_of_runs(study);
+  const bool dropped = on_runs && !study.measured;
+  std::vector<SceneResult> of_scenes;
+  const std::size_t at_a_time = scenes_at_a_time(study, dropped);
+  for (std::size_t from = 0; from < study.scenes.size(); from += at_a_time) {
+    const std::size_t to = std::min(from + at_a_time, study.scenes.size());
+    std::vector<std::vector<Evaluation>> runs = runs_of(from, to);
+    for (std::size_t scene = from; scene < to; ++scene) {
+      std::vector<Evaluation>& replicates = runs[scene - from];
+      leave_out_more_than_enough(study, replicates);
+      of_scenes.push_back(result_of(study, study.scenes[scene], replicates, wanted[scene].drills));
+      if (on_runs) on_runs(scene, replicates);
+      if (!dropped) result.runs[scene] = std::move(replicates);
+    }
+  }
+  for (const Layout& layout : study.layouts)
+    result.layouts.push_back(layout.scene ? result_of(layout, of_scenes[*layout.scene], wanted[*layout.scene].drills)
+                                          : invalid_result(layout));
+  if (study.measured) compare_with_measured(result);
+  return result;
+}
+
+StudyResult sweep(const Study& study, const Simulator& simulator, const SweepOptions& options) {
+  const std::vector<WantedOfRuns> wanted = wanted_of_runs(study);
+  const auto run = [&](std::size_t from, std::size_t to) {
+    return run_scenes(study, wanted, simulator, options, from, to);
+  };
+  return answer_of(study, run, options.on_runs);
+}
+
+}  // namespace vibrosow

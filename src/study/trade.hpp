@@ -1,0 +1,25 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "agronomy/turn_down.hpp"
+#include "study/sweep.hpp"
+
+namespace vibrosow {
+
+/// Layouts of a study that differ in one key alone, and what they tell of a drive or a slope.
+struct TradeLine {
+  std::string key;
+  std::vector<std::size_t> layouts;                 // indices in Study::layouts, in the order of the study
+  std::optional<TurnDown> shown{}, not_excluded{};  // where the key drives the tray
+  std::optional<SlopeSensitivity> slope{};          // where it is the tilt
+};
+
+/// One for each such set of at least two layouts of a seeder with a drill: along the frequency and the amplitude of the
+/// tray's motion its turn-down, to which a layout that is not `ok` is a setting that will not do; along the tray's tilt
+/// its sensitivity to slope, of the layouts that are. Key by key, in the order of the study.
+std::vector<TradeLine> trade_lines(const StudyResult& result);
+
+}  // namespace vibrosow

@@ -1,0 +1,61 @@
+#include "accuracy/depth_error.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <stdexcept>
+
+#include "input/read_scene.hpp"
+#include "support/study_files.hpp"
+
+namespace vibrosow::depth_error_test {
+namespace {
+
+SweepOptions one_job() {
+  SweepOptions options;
+  options.runs.jobs = 1;
+  return options;
+}
+
+/// In space twelve times what the plane's slice sows; the tray has fifteen slices.
+Run slow_in_space(const Model& model, const SimulationOptions& options) {
+  Run run = quick_run(model, options);
+  if (model.scene.space == Space::plane) return run;
+  const std::vector<OutflowEvent> once = run.events;
+  for (int times = 1; times < 12; ++times) run.events.insert(run.events.end(), once.begin(), once.end());
+  std::ranges::stable_sort(run.events, {}, &OutflowEvent::time);
+  return run;
+}
+
+TEST(DepthError, IsThePlanesTrayAgainstTheTrayInSpace) {
+  const StudyFiles files;
+  const auto [plane, space] = read_in_both_spaces(files.seeder());
+  const auto found = measure_depth_error(plane, space, 3, slow_in_space, one_job());
+  ASSERT_TRUE(found);
+  // 63, 66 and 69 seeds of 40 mg in 2 s, by random seed; Student's t of two degrees of freedom is 4.3027.
+  const double slice = 33 * 40e-6, relative = 4.3027 * 3 / std::sqrt(3.0) / 66;
+  EXPECT_NEAR(found->plane.mean, 15 * slice, 1e-9);
+  EXPECT_NEAR(found->space.mean, 12 * slice, 1e-9);
+  EXPECT_NEAR(found->error.percent, 25, 1e-9);
+  EXPECT_NEAR(found->error.band, 125 * std::sqrt(2.0) * relative, 1e-3);
+}
+
+TEST(DepthError, NoneOfRunsOutsideTheModel) {
+  const StudyFiles files;
+  const auto [plane, space] = read_in_both_spaces(files.seeder());
+  const Simulator outside = [](const Model& model, const SimulationOptions& options) {
+    vibrosow::Run run = slow_in_space(model, options);
+    run.outside_the_model = model.scene.space == Space::three_dimensional;
+    return run;
+  };
+  EXPECT_FALSE(measure_depth_error(plane, space, 2, outside, one_job()));
+}
+
+TEST(DepthError, NeedsTwoRuns) {
+  const StudyFiles files;
+  const auto [plane, space] = read_in_both_spaces(files.seeder());
+  EXPECT_THROW(measure_depth_error(plane, space, 1, slow_in_space, one_job()), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace vibrosow::depth_error_test

@@ -1,0 +1,57 @@
+#include "optimise/goal.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "scene/input_error.hpp"
+
+namespace vibrosow {
+namespace {
+
+using testing::HasSubstr;
+using testing::ThrowsMessage;
+
+TEST(Goal, EachIsAFigureOfARun) {
+  for (const Goal& goal : goals()) EXPECT_EQ(figure_named(goal.figure).name, goal.figure) << goal.name;
+}
+
+TEST(Goal, MostIsTurnedRound) {
+  Outflow outflow;
+  HoleOutflow& all = outflow.holes.emplace_back();
+  all.hole = all.lot = "all";
+  all.mass_rate = 0.002;
+  all.longest_pause = 0.3;
+  outflow.spilled_fraction = 0.1;
+  EXPECT_DOUBLE_EQ(goal_named("rate").of(outflow).value(), -0.002);
+  EXPECT_DOUBLE_EQ(goal_named("pause").of(outflow).value(), 0.3);
+  EXPECT_DOUBLE_EQ(goal_named("spilled").of(outflow).value(), 0.1);
+  EXPECT_FALSE(goal_named("unevenness").of(outflow));
+  EXPECT_EQ(&goal_named("evenness"), &goal_named("unevenness")) << "its old name";
+}
+
+TEST(Goal, UnknownNameIsToldWithTheList) {
+  EXPECT_THAT([] { goal_named("unevennes"); }, ThrowsMessage<InputError>(HasSubstr("unevenness, instability, pause")));
+}
+
+TEST(WantedRate, ReadsSeedsAndMass) {
+  const WantedRate seeds = read_wanted_rate("43 seeds/s +- 5 %");
+  EXPECT_EQ(rate_figure(seeds).name, "tray_seeds_per_s");
+  EXPECT_DOUBLE_EQ(seeds.low, 43 * 0.95);
+  EXPECT_DOUBLE_EQ(seeds.high, 43 * 1.05);
+  const WantedRate mass = read_wanted_rate("12 g/min +- 1 g/min");
+  EXPECT_EQ(rate_figure(mass).name, "tray_rate_g_per_s");
+  EXPECT_NEAR(mass.low, 0.011 / 60, 1e-12);
+  EXPECT_NEAR(mass.high, 0.013 / 60, 1e-12);
+  EXPECT_NEAR(read_wanted_rate("60 seeds/min +- 10 %").high, 1.1, 1e-12);
+  for (const char* text : {"43 seeds/s ± 5 %", "43 seeds/s ±5%", "43 seeds/s +/- 5 %"})
+    EXPECT_EQ(read_wanted_rate(text).high, seeds.high) << text;
+}
+
+TEST(WantedRate, RefusesWhatCannotBeMeant) {
+  for (const char* text : {"43 seeds/s", "43 +- 5 %", "43 seeds/s +- 5", "43 seeds/s +- 1 g/s", "43 seeds/s +- 100 %",
+                           "-4 g/s +- 5 %", "4 mm +- 5 %", "+- 5 %", "", "4 g/s +- 0 %", "1e308 seeds/s +- 90 %"})
+    EXPECT_THAT([&] { read_wanted_rate(text); }, ThrowsMessage<InputError>(HasSubstr("43 seeds/s +- 5 %"))) << text;
+}
+
+}  // namespace
+}  // namespace vibrosow
