@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "accuracy/accuracy.hpp"
+#include "accuracy/accuracy_doubts.hpp"
 #include "accuracy/promise.hpp"
 #include "cli/commands.hpp"
 #include "cli/common_options.hpp"
@@ -21,6 +22,7 @@
 #include "plan/softness.hpp"
 #include "report/accuracy_page.hpp"
 #include "report/accuracy_report.hpp"
+#include "report/answer_doubts.hpp"
 #include "report/kept_page.hpp"
 #include "report/page.hpp"
 #include "report/terminal_text.hpp"
@@ -252,7 +254,7 @@ int run_table(const AccuracyOptions& options) {
       options.common.quiet, [&] { folder.write(files); },
       [&] {
         print("{}", wrapped(scene.title));
-        for (const std::string& doubt : odd_runs_sentences(result.runs)) print_text(wrapped(doubt));
+        print("{}", doubts_paragraph(doubts_about(result, scene), "setting"));
         print("\n{}\n{}", accuracy_table(result), wrapped(accuracy_sentence(result)));
       });
   return ended(options, folder, runs, interrupt);

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "calibration/calibration.hpp"
+#include "calibration/calibration_answer.hpp"
 #include "cli/commands.hpp"
 #include "cli/common_options.hpp"
 #include "cli/console.hpp"
@@ -123,14 +124,14 @@ int run_calibrate(const CalibrateOptions& command) {
   const std::optional<std::vector<ReducedRun>> reduced = reduced_runs(task, design, runs.kept());
   if (!reduced) throw InputError(fmt::format("{}: runs are missing", folder.path().string()));
   const Calibration calibration = calibrate(task, design, choices, *reduced);
-  const CalibrationSource source{task, design, *reduced, calibration};
-  std::vector<OutputFile> files = calibration_files(source, fitted_contact(task, calibration, file.files), options.csv);
-  std::ranges::move(page_files(page_template, calibration_page_data(source, middle_scene(task, file.files))),
+  const CalibrationAnswer answer = answer_of(task, design, *reduced, calibration);
+  std::vector<OutputFile> files = calibration_files(answer, fitted_contact(task, calibration, file.files), options.csv);
+  std::ranges::move(page_files(page_template, calibration_page_data(answer, middle_scene(task, file.files))),
                     std::back_inserter(files));
   write_then_print(
-      options.quiet, [&] { folder.write(files); }, [&] { print_text(calibration_table(source)); });
+      options.quiet, [&] { folder.write(files); }, [&] { print_text(calibration_table(answer)); });
   if (!options.quiet) print("reports: {}\n", folder.path().string());
-  if (!is_beyond_its_noise(source)) return exit_done;
+  if (answer.is_fitted) return exit_done;
   complain(fmt::format("{}: no values within the ranges meet it: the best miss it by {:.2g} times its noise",
                        command.table, calibration.misfit_over_noise));
   return exit_wrong_input;

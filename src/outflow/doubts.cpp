@@ -12,7 +12,7 @@ namespace {
 using enum Severity;
 
 /// By kind.
-constexpr std::array<DoubtWords, 16> doubt_words = {{
+constexpr std::array<DoubtWords, 29> doubt_words = {{
     {"outside the model", serious, "decide nothing by it: take a step that is not too long and the guard's own limits"},
     {"ran dry", serious, "put in more seeds, or measure before"},
     {"drained in the window", serious, "keep the tray topped up (fill.keep), or measure a shorter time"},
@@ -29,6 +29,19 @@ constexpr std::array<DoubtWords, 16> doubt_words = {{
     {"wide interval", mild, "allow more replicates"},
     {"skewed runs", mild, "run more replicates before the interval is trusted"},
     {"unlikely scene", serious, "look at the key that it names"},
+    {"runs left out", mild, "the table of the runs says why"},
+    {"two kinds of run", serious, "take wider holes, or run longer"},
+    {"errors that act on each other", mild, "go to finer settings for narrower bands"},
+    {"no limit", mild, "allow more replicates"},
+    {"the plane's own error", mild, "add it with --depth"},
+    {"nothing fitted", serious, "look for what else is wrong than what was fitted, in the table or in the seeder"},
+    {"misfit", serious, "look for what else is wrong than what was fitted, or state a larger noise (--noise)"},
+    {"not told apart", mild, "use the two together, or measure what tells them apart (vibrosow bench-sheet)"},
+    {"little learned", mild, "measure what depends on it (vibrosow bench-sheet)"},
+    {"at the edge of its range", serious, "give it a wider range (--fit)"},
+    {"wider than its range", mild, "take values from posterior.csv, which go together"},
+    {"few points", mild, "give narrower ranges (--fit)"},
+    {"nothing held out", mild, "measure more conditions, or give --hold-out"},
 }};
 static_assert(doubt_words.size() == static_cast<std::size_t>(last_doubt_kind) + 1);
 
@@ -100,7 +113,7 @@ std::vector<SharedDoubt> shared_doubts(const std::vector<LayoutDoubts>& layouts)
       };
       auto known = std::ranges::find_if(shared, is_same);
       if (known == shared.end()) known = shared.insert(shared.end(), {doubt.kind, {}, 0, 0, doubt.text});
-      known->layouts.push_back(layout.layout);
+      if (layout.layout > 0) known->layouts.push_back(layout.layout);
       known->runs += doubt.runs, known->of += doubt.of;
     }
   std::ranges::stable_sort(shared, {},
@@ -110,7 +123,7 @@ std::vector<SharedDoubt> shared_doubts(const std::vector<LayoutDoubts>& layouts)
 
 std::string doubt_clause(const SharedDoubt& doubt, std::string_view noun) {
   const DoubtWords& words = words_of(doubt.kind);
-  std::string text = noun.empty() ? "" : numbers_text(noun, doubt.layouts) + ": ";
+  std::string text = noun.empty() || doubt.layouts.empty() ? "" : numbers_text(noun, doubt.layouts) + ": ";
   if (is_of_runs(doubt.of)) {
     text += fmt::format("{} in {} of {} runs", words.name, doubt.runs, doubt.of);
     if (doubt.text != words.name) text += fmt::format(" ({})", doubt.text);

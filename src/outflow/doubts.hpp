@@ -40,13 +40,13 @@ bool is_serious(const std::vector<CountedDoubt>& doubts);
 /// A doubt of an answer: what several layouts have in common.
 struct SharedDoubt {
   DoubtKind kind;
-  std::vector<int> layouts;  // their numbers, ascending
+  std::vector<int> layouts;  // their numbers, ascending; none: of the answer itself
   int runs = 0, of = 0;      // of all these together
   std::string text;          // of the first
 };
 
 struct LayoutDoubts {
-  int layout;  // its number
+  int layout;  // its number; 0: of the answer itself
   std::vector<CountedDoubt> doubts;
 };
 

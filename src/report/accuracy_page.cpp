@@ -6,7 +6,9 @@
 #include <optional>
 #include <vector>
 
+#include "accuracy/accuracy_doubts.hpp"
 #include "report/accuracy_report.hpp"
+#include "report/answer_doubts.hpp"
 #include "report/page.hpp"
 #include "scene/integrator_names.hpp"
 #include "scene/si_units.hpp"
@@ -52,18 +54,6 @@ Json errors(const AccuracyResult& result) {
   return all;
 }
 
-/// Settings that gave no rate are named in the table.
-Json doubts(const Scene& scene, const AccuracyResult& result) {
-  Json all = Json::array();
-  if (result.fit && !result.fit->fits()) all.push_back(misfit_sentence(*result.fit));
-  for (const std::string& doubt : odd_runs_sentences(result.runs)) all.push_back(doubt);
-  if (!result.fit)
-    all.push_back("Errors are against the finest setting, which errs too: the runs were too few for more.");
-  if (scene.space == Space::plane && !result.depth)
-    all.push_back("That the tray is run as a plane is an error of its own, which is not in these (--depth).");
-  return all;
-}
-
 /// `chosen`: index of the row that is recommended; the number of rows: none is.
 Json page_of(const Scene& scene, const AccuracyResult& result, std::size_t chosen, double within) {
   Json levels = Json::array();
@@ -72,7 +62,7 @@ Json page_of(const Scene& scene, const AccuracyResult& result, std::size_t chose
           {"program", {{"name", "vibrosow"}, {"version", VIBROSOW_VERSION}}},
           {"title", scene.title},
           {"space", scene.space == Space::plane ? "plane" : "three_dimensional"},
-          {"doubts", doubts(scene, result)},
+          {"doubts", doubt_sentences(doubts_about(result, scene), "setting")},
           {"against", result.fit ? "the limit of step 0 and rigid grains" : "the finest setting"},
           {"within_percent", within},
           {"levels", std::move(levels)},

@@ -6,8 +6,9 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
-#include "outflow/doubts.hpp"
+#include "accuracy/accuracy_doubts.hpp"
 #include "report/accuracy_page.hpp"
+#include "report/answer_doubts.hpp"
 #include "report/columns.hpp"
 #include "report/json_keys.hpp"
 #include "report/kept_page.hpp"
@@ -207,16 +208,17 @@ std::string error_text(const AccuracyRow& row, bool reference) {
   return row.error_percent ? error_text(*row.error_percent, row.error_ci95) : "";
 }
 
-std::string setting_columns_text(const AccuracySetting& setting) {
+std::string setting_columns_text(std::size_t number, const AccuracySetting& setting) {
   const double softness = setting.youngs_modulus > 0 ? setting.youngs_modulus / megapascal : setting.shell_compression;
   const std::string slip_speed =
       setting.slip_speed > 0 ? fmt::format("{:>9.4g} ", setting.slip_speed / millimetre_per_second) : "";
-  return fmt::format("  {:>5.4g} {:>9.4g} {}{:>9.3g} ", setting.steps_per_contact, softness, slip_speed, setting.dt);
+  return fmt::format("{:>2} {:>5.4g} {:>9.4g} {}{:>9.3g} ", number, setting.steps_per_contact, softness, slip_speed,
+                     setting.dt);
 }
 
 /// A line of the table for a terminal.
-std::string row_text(const AccuracyRow& row, bool reference) {
-  const std::string setting = setting_columns_text(row.setting);
+std::string row_text(std::size_t number, const AccuracyRow& row, bool reference) {
+  const std::string setting = setting_columns_text(number, row.setting);
   if (!row.mass_rate) return wrapped_beside(setting, row.refused);
   const std::string cost = row.cost_ratio ? fmt::format("{:.3g}", *row.cost_ratio) : "";
   return fmt::format("{}{:>10.5g} {:>19} {:>8}{}\n", setting, row.mass_rate->mean / gram, error_text(row, reference),
@@ -241,19 +243,7 @@ std::string errors_text(const AccuracyResult& result) {
   if (result.depth)
     text += wrapped(fmt::format("The tray sows {} g/s as a plane, {} g/s in space.", rate_text(result.depth->plane),
                                 rate_text(result.depth->space)));
-  if (result.fit && !result.fit->fits()) text += wrapped(misfit_sentence(*result.fit));
   return text;
-}
-
-/// What speaks against the runs that have a rate.
-std::vector<SharedDoubt> doubts_of_settings(const std::vector<AccuracyRun>& runs) {
-  std::map<std::size_t, std::vector<const std::vector<Doubt>*>> of_settings;
-  for (const AccuracyRun& run : runs)
-    if (run.mass_rate) of_settings[run.setting].push_back(&run.doubts);
-  std::vector<LayoutDoubts> doubts;
-  for (const auto& [setting, of_runs] : of_settings)
-    doubts.push_back({static_cast<int>(setting) + 1, counted_doubts(of_runs)});
-  return shared_doubts(doubts);
 }
 
 std::string share(double percent) {
@@ -320,6 +310,8 @@ JsonKeys<PromiseSource> promise_keys() {
        [=](S s) { return or_null(s.goal->cpu_time); }},
       {"pilots", "", "runs made to choose by", [](S s) { return s.promise->pilots; }},
       {"refused", "", "why nothing is promised; empty where something is", [](S s) { return s.promise->refused; }},
+      {"doubts", "", "what speaks against its runs, as in decision.json; of settings by their rows in accuracy.csv",
+       [](S s) { return doubts_json(doubts_about(s.promise->runs), "setting"); }},
       {"integrator", "", "scheme chosen",
        of_offer([=](P p, O o) { return integrator_name(setting(p, o).integrator); })},
       {"steps_per_contact", "", "contact duration over the time step",
@@ -372,15 +364,15 @@ std::string accuracy_timing_csv(const AccuracyResult& result, CsvFormat format) 
 
 std::string accuracy_table(const AccuracyResult& result) {
   const AccuracySetting& first = result.rows.front().setting;
-  std::string text =
-      fmt::format("  {:>5} {:>9} {}{:>9} {:>10} {:>19} {:>8}\n", "steps", first.youngs_modulus > 0 ? "E MPa" : "eps/r",
-                  first.slip_speed > 0 ? "slip mm/s " : "", "dt s", "rate g/s", "error", "cost");
+  std::string text = fmt::format(" # {:>5} {:>9} {}{:>9} {:>10} {:>19} {:>8}\n", "steps",
+                                 first.youngs_modulus > 0 ? "E MPa" : "eps/r", first.slip_speed > 0 ? "slip mm/s " : "",
+                                 "dt s", "rate g/s", "error", "cost");
   std::string scheme;
   for (std::size_t i = 0; i < result.rows.size(); ++i) {
     const AccuracyRow& row = result.rows[i];
     if (const std::string& name = integrator_name(row.setting.integrator); name != scheme)
       scheme = name, text += name + '\n';
-    text += row_text(row, i == result.reference);
+    text += row_text(i + 1, row, i == result.reference);
   }
   return text + '\n' +
          wrapped(fmt::format("error: {}; cost: grain-steps times force evaluations a step, of the finest setting's; *: "
@@ -417,41 +409,6 @@ std::string setting_text(const AccuracySetting& setting) {
       setting.slip_speed > 0 ? fmt::format(", slip speed {:g} mm/s", setting.slip_speed / millimetre_per_second) : "";
   return fmt::format("{}, {:g} steps a contact, {}{}", integrator_name(setting.integrator), setting.steps_per_contact,
                      softness, slip_speed);
-}
-
-std::string misfit_sentence(const ErrorFit& fit) {
-  if (fit.fits()) return "";
-  return fmt::format(
-      "These main effects do not account for the runs (so large a lack of fit has probability {:.2g}): parts of a "
-      "setting act on each other, and the limit is not shown to have been reached. The bands allow for it.",
-      *fit.lack_of_fit());
-}
-
-std::vector<std::string> odd_runs_sentences(const std::vector<AccuracyRun>& runs) {
-  constexpr double share = 0.5;  // of the median, below which a run is of another kind
-  std::vector<std::string> all;
-  std::vector<double> rates;
-  const std::string* reason = nullptr;
-  for (const AccuracyRun& run : runs) {
-    if (run.mass_rate)
-      rates.push_back(*run.mass_rate);
-    else if (!reason)
-      reason = &run.refused;
-  }
-  if (reason)
-    all.push_back(fmt::format("{} of the {} runs {} no rate: {}.", runs.size() - rates.size(), runs.size(),
-                              runs.size() - rates.size() == 1 ? "has" : "have", *reason));
-  for (const SharedDoubt& doubt : doubts_of_settings(runs)) all.push_back(doubt_sentence(doubt, "setting"));
-  if (rates.empty()) return all;
-  std::ranges::sort(rates);
-  const double median = rates[rates.size() / 2];
-  const auto few = std::ranges::lower_bound(rates, share * median) - rates.begin();
-  if (few > 0)
-    all.push_back(
-        fmt::format("{} of the {} runs with a rate passed less than half of what the median run did ({:.4g} "
-                    "g/s), as where an outlet clogs: their mean is of two kinds of run.",
-                    few, rates.size(), median / gram));
-  return all;
 }
 
 std::vector<ErrorRow> error_rows(const AccuracyResult& result) {
@@ -493,7 +450,7 @@ std::string promise_cost(const Promise& promise) {
 std::string promise_text(const Promise& promise, const PromiseGoal& goal) {
   std::string text;
   for (const std::string& paragraph : promise_paragraphs(promise, goal)) text += wrapped(paragraph);
-  for (const std::string& doubt : odd_runs_sentences(promise.runs)) text += wrapped(doubt);
+  text += doubts_paragraph(doubts_about(promise.runs), "setting");
   text += wrapped(promise_cost(promise));
   return text;
 }

@@ -34,15 +34,6 @@ std::string accuracy_sentence(const AccuracyResult& result);
 /// "velocity-verlet, 20 steps a contact, shell compression 0.001"
 std::string setting_text(const AccuracySetting& setting);
 
-/// That the errors of a fit are not to be taken at their word, where its main effects do not account for the runs;
-/// empty where they do.
-std::string misfit_sentence(const ErrorFit& fit);
-
-/// What some of the runs are to be looked at for: those that have no rate, with the reason of the first, and those that
-/// passed less than half of what the median run did, as where an outlet clogs. A sentence each, none where there are
-/// none.
-std::vector<std::string> odd_runs_sentences(const std::vector<AccuracyRun>& runs);
-
 /// A line of the account of errors: what changing a part of a setting, from its finest level to its coarsest, does to
 /// the rate, percent.
 struct ErrorRow {

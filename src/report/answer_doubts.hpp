@@ -2,6 +2,7 @@
 
 #include <nlohmann/json.hpp>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "outflow/doubts.hpp"
@@ -9,14 +10,14 @@
 namespace vibrosow {
 
 /// A sentence each (`doubt_sentence`), at most six and one that counts the rest; none where there are none.
-std::vector<std::string> doubt_sentences(const std::vector<SharedDoubt>& doubts);
+std::vector<std::string> doubt_sentences(const std::vector<SharedDoubt>& doubts, std::string_view noun = "layout");
 
 /// The same for a terminal, wrapped; empty where there are none.
-std::string doubts_paragraph(const std::vector<SharedDoubt>& doubts);
+std::string doubts_paragraph(const std::vector<SharedDoubt>& doubts, std::string_view noun = "layout");
 
 /// What a JSON file says of a doubt.
 nlohmann::ordered_json doubt_json(const Doubt& doubt);
-nlohmann::ordered_json doubts_json(const std::vector<SharedDoubt>& doubts);
+nlohmann::ordered_json doubts_json(const std::vector<SharedDoubt>& doubts, const std::string& noun = "layout");
 /// What the keys mean.
 inline constexpr const char* doubts_description =
     "what speaks against the runs of the layouts that the answer names: each with its kind, whether it is serious, the "

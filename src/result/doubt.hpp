@@ -25,8 +25,22 @@ enum class DoubtKind {
   skewed_replicates,
   // Of a scene:
   unlikely_scene,  // it can be run, but can hardly be meant
+  // Of what was fitted to runs:
+  runs_left_out,     // they count for nothing
+  two_kinds_of_run,  // of one setting: some clogged
+  errors_interact,
+  no_limit,        // errors are against a setting that errs too
+  depth_left_out,  // the plane's own error
+  nothing_fitted,
+  misfit,
+  confused_values,  // not told apart
+  little_learned,
+  edge_of_range,
+  wider_than_its_range,
+  few_points,
+  nothing_held_out,
 };
-inline constexpr DoubtKind last_doubt_kind = DoubtKind::unlikely_scene;
+inline constexpr DoubtKind last_doubt_kind = DoubtKind::nothing_held_out;
 
 struct Doubt {
   DoubtKind kind;

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <functional>
 
+#include "accuracy/accuracy_doubts.hpp"
 #include "made_up_rates.hpp"
 #include "report/accuracy_report.hpp"
 
@@ -278,11 +279,14 @@ TEST(Promise, WhatCannotBeHadIsTheSameOfRunsThatWereKept) {
 TEST(Promise, SaysWhichOfItsRunsAreOdd) {
   std::vector<AccuracyRun> runs(5);
   for (std::size_t i = 0; i < runs.size(); ++i) runs[i].mass_rate = 2.0 + 0.1 * static_cast<double>(i);
-  EXPECT_THAT(odd_runs_sentences(runs), testing::IsEmpty());
+  EXPECT_THAT(doubts_about(runs), testing::IsEmpty());
   runs[1].mass_rate = 0.04, runs[3].mass_rate.reset(), runs[3].refused = "it does not fit";
-  EXPECT_THAT(odd_runs_sentences(runs),
-              testing::ElementsAre("1 of the 5 runs has no rate: it does not fit.",
-                                   testing::StartsWith("1 of the 4 runs with a rate passed less than half")));
+  const std::vector<SharedDoubt> doubts = doubts_about(runs);
+  ASSERT_EQ(doubts.size(), 2u);
+  EXPECT_THAT(doubt_sentence(doubts[0], "setting"),
+              testing::StartsWith("Doubtful: 1 of the 4 runs with a rate passed less than half"));
+  EXPECT_THAT(doubt_sentence(doubts[1], "setting"),
+              testing::StartsWith("Note: 1 of the 5 runs has no rate: it does not fit. What to do: "));
   const PromiseChoices from = choices();
   MadeUpRuns made_up({});
   const PromiseGoal goal{.within_percent = 3};

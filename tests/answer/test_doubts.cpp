@@ -8,7 +8,8 @@
 #include <nlohmann/json.hpp>
 
 #include "accuracy/accuracy.hpp"
-#include "calibration/calibration.hpp"
+#include "accuracy/accuracy_doubts.hpp"
+#include "calibration/calibration_answer.hpp"
 #include "input/read_scene.hpp"
 #include "input/table.hpp"
 #include "optimise/decide.hpp"
@@ -246,7 +247,7 @@ TEST_P(Doubts, AnAccuracyStudyTells) {
   grid.integrators = {Integrator::velocity_verlet};
   const AccuracyResult result =
       measure_accuracy(scene, thrifty_design(grid), 1, simulator(GetParam().kind), SweepOptions());
-  const std::vector<std::string> sentences = odd_runs_sentences(result.runs);
+  const std::vector<std::string> sentences = doubt_sentences(doubts_about(result.runs), "setting");
   if (told == as_doubt) {
     EXPECT_THAT(sentences, Contains(HasSubstr(name())));
     EXPECT_THAT(sentences.front(), HasSubstr("settings 1 to "));
@@ -282,7 +283,7 @@ void check_calibration(Told told, const StudyFiles& files, const std::string& cs
   EXPECT_EQ(runs->front().reason, "");
   Calibration calibration;
   calibration.values.resize(1);
-  const std::vector<std::string> sentences = calibration_doubts({task, design, *runs, calibration});
+  const std::vector<std::string> sentences = doubt_sentences(answer_of(task, design, *runs, calibration).doubts);
   const auto about_it = Contains(HasSubstr(std::string(words_of(kind).name)));
   if (told == as_doubt)
     EXPECT_THAT(sentences, about_it);

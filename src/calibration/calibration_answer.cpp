@@ -1,0 +1,111 @@
+#include "calibration/calibration_answer.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+
+#include "input/key_units.hpp"
+
+namespace vibrosow {
+namespace {
+
+constexpr double few_effective_points = 200;
+constexpr double little_contraction = 0.2;
+constexpr double unlikely_misfit = 0.01;
+constexpr double most_of_the_noise = 3;  // that the best point may miss the table by
+
+RangeEdge edge_of(const KeyRange& range, const FittedValue& value) {
+  const double near = 0.02 * (range.high - range.low);
+  if (value.contraction < little_contraction) return RangeEdge::none;
+  if (value.low - range.low < near) return RangeEdge::lower;
+  return range.high - value.high < near ? RangeEdge::upper : RangeEdge::none;
+}
+
+std::vector<FittedNumber> numbers_of(const CalibrationTask& task, const Calibration& of) {
+  std::vector<FittedNumber> numbers;
+  for (std::size_t k = 0; k < task.keys.size(); ++k) {
+    const KeyRange& key = task.keys[k];
+    const auto unit = column_unit(key.key);
+    numbers.push_back(
+        {key.key, unit ? std::string(unit->unit) : "", key.low, key.high, of.values[k], edge_of(key, of.values[k])});
+  }
+  if (of.depth_factor) numbers.push_back({depth_factor_name, "", {}, {}, *of.depth_factor});
+  for (const FittedPair& pair : of.correlations)
+    if (std::abs(pair.correlation) > not_told_apart) {
+      numbers[pair.a].not_told_apart_from.push_back(numbers[pair.b].name);
+      numbers[pair.b].not_told_apart_from.push_back(numbers[pair.a].name);
+    }
+  return numbers;
+}
+
+/// What speaks against the runs that were fitted to.
+std::vector<CountedDoubt> doubts_of_runs(const std::vector<ReducedRun>& runs) {
+  std::vector<const std::vector<Doubt>*> that_count;
+  for (const ReducedRun& run : runs)
+    if (run.reason.empty()) that_count.push_back(&run.doubts);
+  return counted_doubts(that_count);
+}
+
+/// Of the fit itself, and of each value.
+std::vector<CountedDoubt> doubts_of_fit(const CalibrationAnswer& answer) {
+  using enum DoubtKind;
+  const Calibration& of = answer.calibration;
+  std::vector<CountedDoubt> doubts;
+  const auto add = [&](DoubtKind kind, std::string text) { doubts.push_back({kind, 0, 0, std::move(text)}); };
+  if (!answer.is_fitted)
+    add(nothing_fitted, fmt::format("no values within the ranges meet the table: the best ones miss it by {:.2g} times "
+                                    "its noise. Nothing was fitted",
+                                    of.misfit_over_noise));
+  else if (of.misfit_probability < unlikely_misfit)
+    add(misfit, "the model nowhere meets the table within its noise, so the intervals are too narrow");
+  for (const FittedPair& pair : of.correlations)
+    if (std::abs(pair.correlation) > not_told_apart)
+      add(confused_values, fmt::format("{} and {} cannot be told apart by this table (correlation {:.2f})",
+                                       answer.numbers[pair.a].name, answer.numbers[pair.b].name, pair.correlation));
+  std::vector<std::string> unknown;
+  for (std::size_t k = 0; k < answer.task.keys.size(); ++k)
+    if (of.values[k].contraction < little_contraction) unknown.push_back(answer.numbers[k].name);
+  if (!unknown.empty()) add(little_learned, fmt::format("the table says little of {}", fmt::join(unknown, ", ")));
+  for (std::size_t k = 0; k < answer.task.keys.size(); ++k) {
+    const FittedNumber& number = answer.numbers[k];
+    if (number.edge != RangeEdge::none)
+      add(edge_of_range,
+          fmt::format("{} lies at the {} edge of its range, {:g} to {:g}: what is better may lie beyond "
+                      "it",
+                      number.name, number.edge == RangeEdge::lower ? "lower" : "upper", *number.low, *number.high));
+    if (number.value.contraction < 0)
+      add(wider_than_its_range,
+          fmt::format("{} scatters more than an even spread over its range would (contraction below 0): the table "
+                      "speaks for both ends of the range at once",
+                      number.name));
+  }
+  if (of.posterior.effective_points < few_effective_points)
+    add(few_points, fmt::format("the intervals rest on {:.0f} effective points only", of.posterior.effective_points));
+  if (const std::size_t left_out = answer.runs.size() - answer.runs_that_count; left_out > 0)
+    add(runs_left_out, fmt::format("{} of {} runs were left out", left_out, answer.runs.size()));
+  if (!of.held_out_rms) add(nothing_held_out, "nothing was held out, so that no prediction was tested");
+  return doubts;
+}
+
+}  // namespace
+
+CalibrationAnswer answer_of(const CalibrationTask& task, const CalibrationDesign& design,
+                            const std::vector<ReducedRun>& runs, const Calibration& calibration) {
+  CalibrationAnswer answer{task, design, runs, calibration, numbers_of(task, calibration)};
+  answer.runs_that_count = static_cast<std::size_t>(std::ranges::count(runs, std::string(), &ReducedRun::reason));
+  answer.is_fitted = calibration.misfit_over_noise <= most_of_the_noise;
+  std::vector<CountedDoubt> doubts = doubts_of_runs(runs);
+  std::ranges::move(doubts_of_fit(answer), std::back_inserter(doubts));
+  for (const CountedDoubt& doubt : doubts) {
+    using enum DoubtKind;
+    for (const DoubtKind kind : {nothing_fitted, misfit, edge_of_range, seeds_lost})
+      if (doubt.kind == kind) answer.gives_a_contact = false;
+  }
+  answer.doubts = shared_doubts({{0, doubts}});
+  return answer;
+}
+
+}  // namespace vibrosow
