@@ -47,7 +47,9 @@ CalibrationTask task_of(const std::filesystem::path& seeder) {
 
 /// Curves of all runs of the design, as a CSV file with the runs' keys.
 void make_pool(const CalibrationTask& task, const CalibrationDesign& design, const std::filesystem::path& file) {
-  const std::vector<ReducedRun> runs = *reduced_runs(task, design, run_model);
+  StudyRuns kept(std::filesystem::temp_directory_path() / "vibrosow-calibration-coverage");
+  kept.make(wanted_runs(design), run_model, {});
+  const std::vector<ReducedRun> runs = *reduced_runs(task, design, kept.kept());
   std::ofstream out(file);
   out << "point,random_seed";
   for (const KeyRange& key : task.keys) out << ',' << key.key;

@@ -7,7 +7,6 @@
 
 #include <fmt/format.h>
 
-#include "plan/model.hpp"
 #include "scene/input_error.hpp"
 #include "study/evaluate.hpp"
 #include "surrogate/gaussian_process.hpp"
@@ -60,18 +59,16 @@ double emptying_time(const Scene& scene, double slice_seeds_per_s) {
 }
 
 /// None where a run is missing.
-std::optional<Flow> flow_of(const CalibrationDesign& design, std::size_t condition, const Simulator& kept) {
+std::optional<Flow> flow_of(const CalibrationDesign& design, std::size_t condition, const KeptRuns& kept) {
   std::vector<Index> points;
   std::vector<double> rates;
   Flow flow;
   double seeds = 0, emptied = 0;
   for (const CalibrationRun& run : design.runs) {
     if (run.condition != condition) continue;
-    SimulationOptions options;
-    options.random_seed = run.random_seed;
-    const Evaluation evaluation = evaluate(prepare_to_run(run.scene), options, {}, kept);
-    if (evaluation.status == EvaluationStatus::absent || evaluation.status == EvaluationStatus::interrupted)
-      return std::nullopt;
+    const std::optional<Run> made = kept(name_of_run(run.scene, run.random_seed));
+    if (!made) return std::nullopt;
+    const Evaluation evaluation = reduced(run.scene, *made);
     const HoleOutflow* all = find_row(evaluation.outflow, "all", "all");
     if (!evaluation.is_sound() || all == nullptr || !(all->mass_rate > 0)) continue;
     points.push_back(run.point);
@@ -223,7 +220,7 @@ MeasuredTable bench_candidates(const std::vector<KeyRange>& settings) {
 }
 
 std::optional<BenchPlan> plan_bench(const CalibrationTask& task, const CalibrationDesign& design,
-                                    const BenchLimits& limits, const Simulator& kept) {
+                                    const BenchLimits& limits, const KeptRuns& kept) {
   const auto keys = static_cast<Index>(task.keys.size());
   std::vector<Flow> flows;
   for (std::size_t condition = 0; condition < design.conditions.size(); ++condition) {

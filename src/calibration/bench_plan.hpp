@@ -46,6 +46,6 @@ MeasuredTable bench_candidates(const std::vector<KeyRange>& settings);
 /// kept up holds. None where a run is missing. Throws InputError where too few runs can be used, or the time is too
 /// short.
 std::optional<BenchPlan> plan_bench(const CalibrationTask& task, const CalibrationDesign& design,
-                                    const BenchLimits& limits, const Simulator& kept);
+                                    const BenchLimits& limits, const KeptRuns& kept);
 
 }  // namespace vibrosow

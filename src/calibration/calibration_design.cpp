@@ -5,9 +5,7 @@
 #include <algorithm>
 
 #include "input/read_scene.hpp"
-#include "plan/softness.hpp"
 #include "scene/input_error.hpp"
-#include "storage/case_file.hpp"
 #include "study/comparison.hpp"
 #include "study/latin_hypercube.hpp"
 
@@ -119,9 +117,8 @@ CalibrationDesign design_calibration(const CalibrationTask& task, const std::sha
 std::vector<WantedRun> wanted_runs(const CalibrationDesign& design) {
   std::vector<WantedRun> wanted;
   for (const CalibrationRun& run : design.runs)
-    wanted.push_back({&run.scene, run.random_seed,
-                      case_name(case_identity(at_its_accuracy(run.scene), run.random_seed)), 1,
-                      static_cast<int>(run.condition) + 1});
+    wanted.push_back(
+        {&run.scene, run.random_seed, name_of_run(run.scene, run.random_seed), 1, static_cast<int>(run.condition) + 1});
   return wanted;
 }
 

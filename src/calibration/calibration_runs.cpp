@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "plan/model.hpp"
 #include "study/comparison.hpp"
 
 namespace vibrosow {
@@ -56,23 +55,20 @@ std::vector<std::size_t> series_of(const CalibrationTask& task, const Calibratio
 }
 
 std::optional<std::vector<ReducedRun>> reduced_runs(const CalibrationTask& task, const CalibrationDesign& design,
-                                                    const Simulator& kept) {
-  std::vector<ReducedRun> reduced;
+                                                    const KeptRuns& kept) {
+  std::vector<ReducedRun> all;
   for (const CalibrationRun& run : design.runs) {
     const std::vector<std::size_t> series = series_of(task, design, run.condition);
     std::vector<CurveRequest> requests;
     if (is_curve(task.measured.table.quantity))
       for (const std::size_t s : series)
         requests.push_back(curve_request(task.measured, task.measured.table.series[s], run.scene));
-    SimulationOptions options;
-    options.random_seed = run.random_seed;
-    const Evaluation evaluation = evaluate(prepare_to_run(run.scene), options, requests, kept);
-    if (evaluation.status == EvaluationStatus::absent || evaluation.status == EvaluationStatus::interrupted)
-      return std::nullopt;
-    reduced.push_back(reduced_run(task, series, run.scene, evaluation));
+    const std::optional<Run> made = kept(name_of_run(run.scene, run.random_seed));
+    if (!made) return std::nullopt;
+    all.push_back(reduced_run(task, series, run.scene, reduced(run.scene, *made, requests)));
   }
-  leave_out_clogged(task, design, reduced);
-  return reduced;
+  leave_out_clogged(task, design, all);
+  return all;
 }
 
 void leave_out_clogged(const CalibrationTask& task, const CalibrationDesign& design, std::vector<ReducedRun>& runs) {

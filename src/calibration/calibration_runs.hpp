@@ -24,7 +24,7 @@ std::vector<std::size_t> series_of(const CalibrationTask& task, const Calibratio
 /// Of every run of a design, in its order. Runs that failed, passed nothing or clogged count for nothing. None where
 /// one is missing. `kept`: gives the runs.
 std::optional<std::vector<ReducedRun>> reduced_runs(const CalibrationTask& task, const CalibrationDesign& design,
-                                                    const Simulator& kept);
+                                                    const KeptRuns& kept);
 
 /// Gives a reason to runs whose curve stands still from a time on after which the median run under the same condition
 /// still has more than a tenth of its end to go.

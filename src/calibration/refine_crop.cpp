@@ -58,14 +58,12 @@ std::vector<RefiningRun> refining_runs(const NewCrop& crop, const CropEstimate& 
   return runs;
 }
 
-PlaneToSpace refined_to_space(const ReposeAtlas& atlas, const std::vector<RefiningRun>& runs, const Simulator& kept) {
+PlaneToSpace refined_to_space(const ReposeAtlas& atlas, const std::vector<RefiningRun>& runs, const KeptRuns& kept) {
   std::vector<AtlasPoint> points;
   for (const RefiningRun& wanted : runs) {
-    SimulationOptions options;
-    options.random_seed = wanted.random_seed;
-    const Run run = kept(prepare(wanted.scene), options);
-    if (run.status != RunStatus::finished) continue;
-    AtlasPoint point = atlas_point(wanted.scene, {repose_figures(wanted.scene, run)});
+    const std::optional<Run> run = kept(name_of_run(wanted.scene, wanted.random_seed));
+    if (!run || run->status != RunStatus::finished) continue;
+    AtlasPoint point = atlas_point(wanted.scene, {repose_figures(wanted.scene, *run)});
     if (point.clogged > 0) continue;
     point.aspect_ratio = wanted.aspect_ratio_in_atlas;
     points.push_back(point);

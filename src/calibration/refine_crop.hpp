@@ -5,7 +5,7 @@
 
 #include "calibration/new_crop.hpp"
 #include "scene/scene.hpp"
-#include "study/evaluate.hpp"
+#include "study/study_runs.hpp"
 
 namespace vibrosow {
 
@@ -24,6 +24,6 @@ std::vector<RefiningRun> refining_runs(const NewCrop& crop, const CropEstimate& 
                                        int count);
 
 /// What to add to the plane by those runs, which `kept` gives. Throws InputError where less than three drained.
-PlaneToSpace refined_to_space(const ReposeAtlas& atlas, const std::vector<RefiningRun>& runs, const Simulator& kept);
+PlaneToSpace refined_to_space(const ReposeAtlas& atlas, const std::vector<RefiningRun>& runs, const KeptRuns& kept);
 
 }  // namespace vibrosow

@@ -31,7 +31,7 @@ Chart chart_of_study(const fs::path& folder, const std::string& name, int jobs) 
     return study_chart(asked->page({}), name);
   }
   const PlannedStudy planned = study_of_plan(plan);
-  const StudyResult result = answer_of_kept(planned, kept_in(runs), jobs);
+  const StudyResult result = answer_of_kept(planned, runs.kept(), jobs);
   return study_chart(study_page(result, plan.random_seed), name);
 }
 

@@ -75,17 +75,15 @@ nlohmann::ordered_json replay_of(const Again& one, std::size_t replays) {
 }
 
 /// Of those whose run is kept. None where they were interrupted.
-std::optional<Replays> make_replays(const std::vector<WantedReplay>& wanted, const Simulator& kept,
+std::optional<Replays> make_replays(const std::vector<WantedReplay>& wanted, const KeptRuns& kept,
                                     const CommonOptions& options) {
   std::vector<Again> all;
   for (const WantedReplay& one : wanted) {
+    std::optional<Run> run = kept(name_of_run(one.scene, one.random_seed));
+    if (!run || run->status == RunStatus::refused) continue;
     Model model = prepare_to_run(one.scene);
-    SimulationOptions same;
-    same.random_seed = one.random_seed;
-    Run run = kept(model, same);
-    if (run.status == RunStatus::interrupted || run.status == RunStatus::refused) continue;
     ThinnedRecording recording(model);
-    all.push_back({one.layout, std::move(model), std::move(run), std::move(recording)});
+    all.push_back({one.layout, std::move(model), std::move(*run), std::move(recording)});
   }
   if (!all.empty() && !make_again(all, options)) return std::nullopt;
   Replays replays;
@@ -95,7 +93,7 @@ std::optional<Replays> make_replays(const std::vector<WantedReplay>& wanted, con
 
 }  // namespace
 
-int add_page_with_replays(const OutputFolder& folder, const std::vector<WantedReplay>& wanted, const Simulator& kept,
+int add_page_with_replays(const OutputFolder& folder, const std::vector<WantedReplay>& wanted, const KeptRuns& kept,
                           const CommonOptions& options, const std::function<std::string(const Replays&)>& page) {
   const std::optional<Replays> replays = make_replays(wanted, kept, options);
   if (!replays) {

@@ -21,7 +21,6 @@
 #include "report/terminal_text.hpp"
 #include "scene/input_error.hpp"
 #include "scene/si_units.hpp"
-#include "storage/case_file.hpp"
 #include "units/quantity.hpp"
 
 namespace vibrosow {
@@ -108,7 +107,7 @@ bool refine(const NewCropOptions& options, const NewCrop& crop, const CropEstima
   const std::vector<RefiningRun> refining = refining_runs(crop, estimate, atlas, options.refine);
   std::vector<WantedRun> wanted;
   for (const RefiningRun& run : refining)
-    wanted.push_back({&run.scene, run.random_seed, case_name(case_identity(run.scene, run.random_seed))});
+    wanted.push_back({&run.scene, run.random_seed, name_of_run(run.scene, run.random_seed)});
   StudyRuns runs(PathInFolder(fs::path(options.out)) / (crop.name + "-runs"));
   const Made made = make_runs(runs, wanted, MakingFlags{}, options.jobs, false);
   if (made.making.interrupted > 0) return false;

@@ -34,10 +34,6 @@ int stopped_by_guard(int layout, const std::string& reason) {
   return exit_stopped_by_guard;
 }
 
-KeptRuns kept_in(const StudyRuns& runs) {
-  return [&runs](const std::string& name) { return runs.named(name); };
-}
-
 int add_sweep_page_with_replays(const PlannedStudy& planned, const StudyRuns& runs, const OutputFolder& folder,
                                 const StudyResult& result, const CommonOptions& options,
                                 const std::string& page_template) {
@@ -51,7 +47,7 @@ int report_study(const PlannedStudy& planned, const StudyRuns& runs, const Outpu
                  const SweepTiming& timing, const CommonOptions& options, const std::string& page_template) {
   SweepRunsCsv runs_csv(planned.study, options.csv);
   const StudyResult result = answer_of_kept(
-      planned, kept_in(runs), timing.jobs,
+      planned, runs.kept(), timing.jobs,
       [&](std::size_t scene, const std::vector<Evaluation>& of_scene) { runs_csv.add(scene, of_scene); });
   std::vector<OutputFile> files = sweep_files(result, runs_csv, timing, options.csv);
   const bool whole = std::ranges::none_of(

@@ -14,9 +14,6 @@ namespace vibrosow {
 /// Says which layout the guard stopped, and why; an exit code.
 int stopped_by_guard(int layout, const std::string& reason);
 
-/// Those that are kept in a folder.
-KeptRuns kept_in(const StudyRuns& runs);
-
 /// Adds a sweep's page with the replays that the options ask for (add_page_with_replays).
 int add_sweep_page_with_replays(const PlannedStudy& planned, const StudyRuns& runs, const OutputFolder& folder,
                                 const StudyResult& result, const CommonOptions& options,

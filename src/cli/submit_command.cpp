@@ -169,7 +169,7 @@ int submit_rounds(const SubmitOptions& options, double time) {
   while (true) {
     const std::size_t bundles = bundles_of(options, frozen.planned, time);
     submit_to_slurm(write_script(frozen, ".sbatch", array_script(options, frozen, bundles, time)), {"--wait"});
-    std::optional<PlannedStudy> next = next_round(frozen.planned, kept_in(runs), 1);
+    std::optional<PlannedStudy> next = next_round(frozen.planned, runs.kept(), 1);
     if (!next) break;
     frozen.planned = std::move(*next);
     frozen.name = freeze_plan(frozen.folder, frozen.planned.plan);

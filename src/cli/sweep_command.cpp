@@ -33,7 +33,7 @@ Made make_all_runs(PlannedStudy& planned, StudyRuns& runs, const std::filesystem
   freeze_plan(folder, planned.plan);
   Made made = make_runs(runs, wanted_runs(planned), command.making, options.jobs, options.quiet);
   while (made.making.interrupted == 0) {
-    std::optional<PlannedStudy> next = next_round(planned, kept_in(runs), options.jobs);
+    std::optional<PlannedStudy> next = next_round(planned, runs.kept(), options.jobs);
     if (!next) break;
     const std::size_t more = next->plan.runs.size() - planned.plan.runs.size();
     if (!options.quiet && !command.making.json_progress)

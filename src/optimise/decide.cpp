@@ -102,7 +102,7 @@ void StudyDecision::request_next_round() {
   for (std::size_t i = 0; i < systems_.size(); ++i) counts_[systems_[i]] = procedure_->counts()[i];
 }
 
-bool StudyDecision::take(const Simulator& kept, int jobs) {
+bool StudyDecision::take(const KeptRuns& kept, int jobs) {
   std::vector<std::size_t> had;
   for (const auto& of_scene : runs_.runs()) had.push_back(of_scene.size());
   if (!runs_.take(counts_, kept, jobs)) return false;

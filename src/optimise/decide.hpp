@@ -78,7 +78,7 @@ class StudyDecision {
   std::vector<WantedRun> missing() const { return runs_.missing(counts_); }
 
   /// Takes what is missing where it is kept; false where a run is not there.
-  bool take(const Simulator& kept, int jobs);
+  bool take(const KeptRuns& kept, int jobs);
 
   /// How many layouts may still be the best.
   std::size_t left() const;

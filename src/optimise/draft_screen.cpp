@@ -61,7 +61,7 @@ std::vector<WantedRun> DraftScreen::missing() const {
   return missing;
 }
 
-bool DraftScreen::take(const Simulator& kept, int jobs) {
+bool DraftScreen::take(const KeptRuns& kept, int jobs) {
   return as_drafts_.take(draft_counts_, kept, jobs) && own_.take(own_counts_, kept, jobs);
 }
 

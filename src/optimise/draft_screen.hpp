@@ -39,7 +39,7 @@ class DraftScreen {
   /// Of the runs asked for, those that were not taken yet; empty after a request: the findings are there.
   std::vector<WantedRun> missing() const;
   /// Takes what is missing where it is kept; false where a run is not there.
-  bool take(const Simulator& kept, int jobs);
+  bool take(const KeptRuns& kept, int jobs);
   DraftFindings findings() const;
   /// The runs asked for so far: the drafts', then the pilots' other ones.
   std::vector<PlannedRun> plan() const;

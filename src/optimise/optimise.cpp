@@ -153,7 +153,7 @@ std::vector<WantedRun> StudyOptimisation::missing() const {
   return all;
 }
 
-bool StudyOptimisation::take(const Simulator& kept, int jobs) {
+bool StudyOptimisation::take(const KeptRuns& kept, int jobs) {
   for (const auto& generation : generations_)
     for (SceneRuns& runs : generation->runs)
       if (!runs.take(generation->counts, kept, jobs)) return false;

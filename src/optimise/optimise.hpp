@@ -79,7 +79,7 @@ class StudyOptimisation {
   std::vector<WantedRun> missing() const;
 
   /// Takes what is missing where it is kept; false where a run is not there.
-  bool take(const Simulator& kept, int jobs);
+  bool take(const KeptRuns& kept, int jobs);
 
   OptimiseResult result() const;
   /// The runs asked for so far, by round and variant.

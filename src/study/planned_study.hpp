@@ -29,9 +29,6 @@ PlannedStudy plan_study(const std::filesystem::path& file, const std::vector<std
 /// How many runs of each scene a plan has.
 std::vector<int> replicates_in(const PlannedStudy& planned);
 
-/// Gives the run of a case's name where it is kept. For several threads.
-using KeptRuns = std::function<std::optional<Run>(const std::string& name)>;
-
 /// A sweep by those runs of its plan that are kept; the others are absent. `jobs`: threads that read.
 StudyResult answer_of_kept(const PlannedStudy& planned, const KeptRuns& kept, int jobs, const OnRuns& on_runs = {});
 

@@ -1,11 +1,12 @@
 #include "study/scene_runs.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include "plan/model.hpp"
 #include "plan/predicted_grains.hpp"
 #include "storage/case_file.hpp"
-#include "study/many_runs.hpp"
+#include "study/side_by_side.hpp"
 
 namespace vibrosow {
 
@@ -34,22 +35,18 @@ std::vector<WantedRun> SceneRuns::missing(const std::vector<int>& counts) const 
   return missing;
 }
 
-bool SceneRuns::take(const std::vector<int>& counts, const Simulator& kept, int jobs) {
-  std::vector<Job> reading;
-  std::vector<std::size_t> scenes;
+bool SceneRuns::take(const std::vector<int>& counts, const KeptRuns& kept, int jobs) {
+  std::vector<std::pair<std::size_t, std::uint64_t>> wanted;  // scene, random seed
   for (std::size_t scene = 0; scene < counts.size(); ++scene)
-    for (auto r = runs_[scene].size(); r < static_cast<std::size_t>(counts[scene]); ++r) {
-      reading.push_back({&models_[scene], first_random_seed_ + r});
-      scenes.push_back(scene);
-    }
-  ManyRunsOptions options;
-  options.jobs = jobs;
-  std::vector<Evaluation> read = run_jobs(reading, kept, options);
-  const auto is_missing = [](const Evaluation& one) {
-    return one.status == EvaluationStatus::interrupted || one.status == EvaluationStatus::absent;
-  };
-  if (std::ranges::any_of(read, is_missing)) return false;
-  for (std::size_t i = 0; i < read.size(); ++i) runs_[scenes[i]].push_back(std::move(read[i]));
+    for (auto r = runs_[scene].size(); r < static_cast<std::size_t>(counts[scene]); ++r)
+      wanted.emplace_back(scene, first_random_seed_ + r);
+  std::vector<std::optional<Evaluation>> read(wanted.size());
+  side_by_side(jobs, wanted.size(), [&](std::size_t i) {
+    const auto [scene, seed] = wanted[i];
+    if (const std::optional<Run> run = kept(name_of(scene, seed))) read[i] = reduced(models_[scene].scene, *run);
+  });
+  if (std::ranges::any_of(read, [](const auto& one) { return !one; })) return false;
+  for (std::size_t i = 0; i < read.size(); ++i) runs_[wanted[i].first].push_back(std::move(*read[i]));
   return true;
 }
 

@@ -22,7 +22,7 @@ class SceneRuns {
   std::vector<WantedRun> missing(const std::vector<int>& counts) const;
 
   /// Reads them where they are kept, side by side; false where one is not there, and then none counts.
-  bool take(const std::vector<int>& counts, const Simulator& kept, int jobs);
+  bool take(const std::vector<int>& counts, const KeptRuns& kept, int jobs);
 
   const std::vector<std::vector<Evaluation>>& runs() const { return runs_; }
   const Model& model(std::size_t scene) const { return models_[scene]; }

@@ -77,6 +77,10 @@ std::optional<SimulationState> state_to_go_on_from(const CheckpointFolder& check
 
 }  // namespace
 
+std::string name_of_run(const Scene& scene, std::uint64_t random_seed) {
+  return case_name(case_identity(at_its_accuracy(scene), random_seed));
+}
+
 /// What is still to be done, and how far it is. Runs that others are making come again after all the rest.
 class StudyRuns::Queue {
  public:
@@ -313,14 +317,8 @@ std::optional<Run> StudyRuns::named(const std::string& name) const {
   return waiting == waiting_.end() ? std::nullopt : std::optional(waiting->second);
 }
 
-Simulator StudyRuns::kept() const {
-  return [this](const Model& model, const SimulationOptions& options) {
-    if (std::optional<Run> run = find(case_identity(model.scene, options.random_seed))) return std::move(*run);
-    Run none;
-    none.status = RunStatus::interrupted;
-    none.random_seed = options.random_seed;
-    return none;
-  };
+KeptRuns StudyRuns::kept() const {
+  return [this](const std::string& name) { return named(name); };
 }
 
 Simulator StudyRuns::keeping(Simulator simulator) {

@@ -28,6 +28,12 @@ struct WantedRun {
   int layout = 0;          // its number
 };
 
+/// The name under which a run of a scene is kept. Throws as `prepare` does.
+std::string name_of_run(const Scene& scene, std::uint64_t random_seed);
+
+/// Gives the run of such a name where it is kept. For several threads.
+using KeptRuns = std::function<std::optional<Run>(const std::string& name)>;
+
 struct MakingOptions {
   int jobs = 0;                                  // runs side by side; 0: one per core
   const std::atomic<bool>* interrupt = nullptr;  // true saves the runs under way and begins no other
@@ -65,8 +71,8 @@ class StudyRuns {
   /// The run that is kept under a case's name, here or waiting to be written; none: there is none.
   std::optional<Run> named(const std::string& name) const;
 
-  /// In the place of a simulator: gives the run that is kept; an interrupted one where there is none.
-  Simulator kept() const;
+  /// The same as a function, which refers to this.
+  KeptRuns kept() const;
 
   /// A simulator that gives the run that is kept or, where there is none, makes it by another and keeps it: for runs
   /// whose number is small and that are wanted one by one. What is interrupted is not kept. For several threads.

@@ -273,7 +273,8 @@ void check_calibration(Told told, const StudyFiles& files, const std::string& cs
                        const Simulator& simulator) {
   const CalibrationTask task = task_of(files, csv);
   const CalibrationDesign design = design_calibration(task, std::make_shared<SourceFiles>());
-  const std::optional<std::vector<ReducedRun>> runs = reduced_runs(task, design, simulator);
+  const std::optional<std::vector<ReducedRun>> runs =
+      reduced_runs(task, design, runs_on_demand(wanted_runs(design), simulator));
   ASSERT_EQ(runs.has_value(), told != as_missing);
   if (!runs) return;
   if (told == as_status) {

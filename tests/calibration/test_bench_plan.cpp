@@ -7,6 +7,7 @@
 
 #include "grains/random.hpp"
 #include "scene/input_error.hpp"
+#include "support/runs_on_demand.hpp"
 #include "support/study_files.hpp"
 
 namespace vibrosow {
@@ -41,7 +42,7 @@ class BenchPlanOf : public testing::Test {
                  const Simulator& simulator = made_up_run) {
     task_.measured.scale = scale;
     const CalibrationDesign design = design_calibration(task_, std::make_shared<SourceFiles>());
-    return *plan_bench(task_, design, limits, simulator);
+    return *plan_bench(task_, design, limits, runs_on_demand(wanted_runs(design), simulator));
   }
   StudyFiles files_;
   CalibrationTask task_;

@@ -16,6 +16,7 @@
 #include "grains/random.hpp"
 #include "input/csv_lines.hpp"
 #include "scene/input_error.hpp"
+#include "support/runs_on_demand.hpp"
 #include "support/study_files.hpp"
 #include "surrogate/curve_surrogate.hpp"
 
@@ -68,7 +69,7 @@ class CalibrationOf : public testing::Test {
     const CalibrationDesign design = design_calibration(of, std::make_shared<SourceFiles>());
     CalibrationChoices quick = choices;
     quick.points = 2048;
-    return calibrate(of, design, quick, *reduced_runs(of, design, made_up_run));
+    return calibrate(of, design, quick, *reduced_runs(of, design, runs_on_demand(wanted_runs(design), made_up_run)));
   }
   std::string error(const CalibrationTask& of) const {
     try {
@@ -379,7 +380,7 @@ TEST_F(CalibrationOf, RunsThatClogAreLeftOutOfCurves) {
       std::erase_if(run.events, [](const OutflowEvent& event) { return event.time > 3.2; });
     return run;
   };
-  const std::vector<ReducedRun> runs = *reduced_runs(of, design, clogging);
+  const std::vector<ReducedRun> runs = *reduced_runs(of, design, runs_on_demand(wanted_runs(design), clogging));
   for (std::size_t r = 0; r < runs.size(); ++r)
     EXPECT_EQ(runs[r].reason, design.runs[r].scene.contact.seed.friction > 0.7 ? "clogged" : "");
 }
@@ -402,17 +403,15 @@ TEST_F(CalibrationOf, EveryPointIsRunUnderEveryCondition) {
 TEST_F(CalibrationOf, MissingRunsGiveNothing) {
   const CalibrationTask of = task(rates(1));
   const CalibrationDesign design = design_calibration(of, std::make_shared<SourceFiles>());
-  EXPECT_FALSE(reduced_runs(of, design, [](const Model&, const SimulationOptions&) {
-    vibrosow::Run run;
-    run.status = RunStatus::interrupted;
-    return run;
-  }));
+  std::vector<WantedRun> most = wanted_runs(design);
+  most.pop_back();
+  EXPECT_FALSE(reduced_runs(of, design, runs_on_demand(most, made_up_run)));
 }
 
 TEST_F(CalibrationOf, RunsThatPassNothingAreLeftOutAndTooFewAreRefused) {
   const CalibrationTask of = task(rates(1));
   const CalibrationDesign design = design_calibration(of, std::make_shared<SourceFiles>());
-  std::vector<ReducedRun> runs = *reduced_runs(of, design, made_up_run);
+  std::vector<ReducedRun> runs = *reduced_runs(of, design, runs_on_demand(wanted_runs(design), made_up_run));
   const CalibrationChoices quick{.points = 2048};
   const Calibration all = calibrate(of, design, quick, runs);
   runs[5].reason = "nothing flowed";

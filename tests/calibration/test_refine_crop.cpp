@@ -9,6 +9,7 @@
 #include "../fields/made_up_bed.hpp"
 #include "scene/input_error.hpp"
 #include "support/made_up_atlas.hpp"
+#include "support/runs_on_demand.hpp"
 
 namespace vibrosow::refine_crop_test {
 namespace {
@@ -76,13 +77,21 @@ TEST(RefineCrop, SeedsHaveTheCropsShapeAndTheBallsVolume) {
   EXPECT_NEAR(scene.lots[2].diameter / scene.lots[0].diameter, 4.6 / 3.4, 1e-4);
 }
 
+KeptRuns on_demand(const std::vector<RefiningRun>& runs, const Simulator& simulator) {
+  std::vector<WantedRun> wanted;
+  for (const RefiningRun& run : runs)
+    wanted.push_back({&run.scene, run.random_seed, name_of_run(run.scene, run.random_seed)});
+  return runs_on_demand(wanted, simulator);
+}
+
 TEST(RefineCrop, WhatTheyStandAtTakesThePlaceOfTheFourMaterials) {
   const ShippedAtlas atlas = plain_atlas();
   const std::vector<RefiningRun> runs = runs_of(crop_of(2e-3, 2e-3), 3);
   const auto offset_at = [&](double angle) {
     const PlaneToSpace own = refined_to_space(
-        atlas.atlas, runs,
-        [angle](const Model& model, const SimulationOptions& options) { return made_up_run(model, options, angle); });
+        atlas.atlas, runs, on_demand(runs, [angle](const Model& model, const SimulationOptions& options) {
+          return made_up_run(model, options, angle);
+        }));
     EXPECT_TRUE(own.of_the_crop);
     EXPECT_EQ(own.materials, 3);
     return own.angle_offset.mean;
@@ -101,8 +110,8 @@ TEST(RefineCrop, RunsThatFailedOrCloggedDoNotCount) {
       return run;
     };
   };
-  EXPECT_EQ(refined_to_space(atlas.atlas, runs, fails_from(4)).materials, 3);
-  EXPECT_THAT([&] { refined_to_space(atlas.atlas, runs, fails_from(3)); },
+  EXPECT_EQ(refined_to_space(atlas.atlas, runs, on_demand(runs, fails_from(4))).materials, 3);
+  EXPECT_THAT([&] { refined_to_space(atlas.atlas, runs, on_demand(runs, fails_from(3))); },
               ThrowsMessage<InputError>(HasSubstr("at least 3")));
 }
 

@@ -34,9 +34,9 @@ class StudyRunsOf : public testing::Test {
     return runs.make(wanted(random_seeds), simulator_, options);
   }
   vibrosow::Run kept(const StudyRuns& runs, std::uint64_t random_seed) const {
-    SimulationOptions options;
-    options.random_seed = random_seed;
-    return runs.kept()(model_, options);
+    vibrosow::Run none;
+    none.status = RunStatus::interrupted;
+    return runs.kept()(name_of_run(scene_, random_seed)).value_or(none);
   }
   fs::path folder(const std::string& name) const { return files_.seeder().parent_path() / name; }
   std::vector<fs::path> cases(const std::string& name) const {

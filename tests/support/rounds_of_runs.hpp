@@ -7,6 +7,7 @@
 #include <filesystem>
 
 #include "study/study_runs.hpp"
+#include "support/runs_on_demand.hpp"
 
 namespace vibrosow {
 
@@ -15,7 +16,10 @@ namespace vibrosow {
 template <class Asking>
 void lead_to_the_end(Asking& asking, const Simulator& simulator, int jobs = 1) {
   asking.request_next_round();
-  while (!asking.missing().empty() && asking.take(simulator, jobs)) asking.request_next_round();
+  for (auto missing = asking.missing(); !missing.empty(); missing = asking.missing()) {
+    if (!asking.take(runs_on_demand(missing, simulator), jobs)) return;
+    asking.request_next_round();
+  }
 }
 
 /// Such a thing is led by one job, killed in its 37th run, and led anew by another through the runs that are kept in
