@@ -151,8 +151,8 @@ Answer answer_of(const DecisionResult& result) {
     answer.layouts.push_back(std::move(one));
   }
   sort_by(answer, 0, options.goal->is_most);
-  std::ranges::stable_partition(answer.best_first,
-                                [&](std::size_t i) { return result.study.layouts[i].scene == result.best; });
+  std::stable_partition(answer.best_first.begin(), answer.best_first.end(),
+                        [&](std::size_t i) { return result.study.layouts[i].scene == result.best; });
   return answer;
 }
 

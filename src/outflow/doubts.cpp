@@ -45,6 +45,17 @@ constexpr std::array<DoubtWords, 29> doubt_words = {{
 }};
 static_assert(doubt_words.size() == static_cast<std::size_t>(last_doubt_kind) + 1);
 
+/// Whether a doubt was counted over single runs; another says all there is to say in its own text.
+bool is_of_runs(int of) {
+  return of > 0;
+}
+
+}  // namespace
+
+const DoubtWords& words_of(DoubtKind kind) {
+  return doubt_words.at(static_cast<std::size_t>(kind));
+}
+
 std::string numbers_text(std::string_view noun, const std::vector<int>& numbers) {
   std::vector<std::string> parts;
   for (std::size_t from = 0; from < numbers.size();) {
@@ -57,17 +68,6 @@ std::string numbers_text(std::string_view noun, const std::vector<int>& numbers)
     from = to + 1;
   }
   return fmt::format("{}{} {}", noun, numbers.size() == 1 ? "" : "s", fmt::join(parts, ", "));
-}
-
-/// Whether a doubt was counted over single runs; another says all there is to say in its own text.
-bool is_of_runs(int of) {
-  return of > 0;
-}
-
-}  // namespace
-
-const DoubtWords& words_of(DoubtKind kind) {
-  return doubt_words.at(static_cast<std::size_t>(kind));
 }
 
 std::vector<CountedDoubt> counted_doubts(const std::vector<const std::vector<Doubt>*>& runs) {

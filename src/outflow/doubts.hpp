@@ -53,6 +53,9 @@ struct LayoutDoubts {
 /// By kind, serious ones first. Texts of a scene are shared by their words.
 std::vector<SharedDoubt> shared_doubts(const std::vector<LayoutDoubts>& layouts);
 
+/// "layouts 1 to 18, 20": of ascending numbers.
+std::string numbers_text(std::string_view noun, const std::vector<int>& numbers);
+
 /// "layouts 1 to 18: the guard warned in 54 of 54 runs (the relative overlap passed 0.05 ..). What to do: .." `noun`:
 /// of what the numbers are; empty: they are not told.
 std::string doubt_clause(const SharedDoubt& doubt, std::string_view noun = "layout");

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "report/terminal_text.hpp"
 
 namespace vibrosow {
@@ -9,14 +11,49 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
+constexpr std::size_t most_sentences = 6;
+
+/// After "layout 3" or "layouts 3 to 5".
+std::string predicate(LayoutStanding standing, bool several) {
+  switch (standing) {
+    case LayoutStanding::invalid:
+      return "cannot be built";
+    case LayoutStanding::stopped:
+      return several ? "were stopped by the guard" : "was stopped by the guard";
+    case LayoutStanding::incomplete:
+      return several ? "have runs that are missing" : "has runs that are missing";
+    default:
+      return std::string(name_of(standing));
+  }
+}
+
+bool is_left_out(AnswerKind kind, LayoutStanding standing) {
+  if (standing == LayoutStanding::outside_the_model) return false;  // a doubt says so
+  if (kind == AnswerKind::sweep) return !is_compared(standing);
+  return standing == LayoutStanding::failed || standing == LayoutStanding::invalid;
+}
+
+/// Those of one standing and reason.
+struct LeftOut {
+  LayoutStanding standing;
+  std::string reason;
+  std::vector<int> layouts;  // their numbers
+};
+
+std::string sentence(const LeftOut& of) {
+  std::string text = numbers_text("Layout", of.layouts) + " " + predicate(of.standing, of.layouts.size() > 1);
+  if (!of.reason.empty()) text += ": " + of.reason;
+  return text.ends_with('.') ? text : text + ".";
+}
+
 }  // namespace
 
 std::vector<std::string> doubt_sentences(const std::vector<SharedDoubt>& doubts, std::string_view noun) {
-  constexpr std::size_t most = 6;
   std::vector<std::string> sentences;
   for (const SharedDoubt& doubt : doubts) {
-    if (sentences.size() == most) {
-      sentences.push_back(fmt::format("{} more kinds of doubts: the table names them.", doubts.size() - most));
+    if (sentences.size() == most_sentences) {
+      sentences.push_back(
+          fmt::format("{} more kinds of doubts: the table names them.", doubts.size() - most_sentences));
       break;
     }
     sentences.push_back(doubt_sentence(doubt, noun));
@@ -28,6 +65,29 @@ std::string doubts_paragraph(const std::vector<SharedDoubt>& doubts, std::string
   std::string text;
   for (const std::string& sentence : doubt_sentences(doubts, noun)) text += wrapped(sentence);
   return text;
+}
+
+std::vector<std::string> left_out_sentences(const Answer& answer) {
+  std::vector<LeftOut> all;
+  for (const AnsweredLayout& one : answer.layouts) {
+    if (!is_left_out(answer.kind, one.standing)) continue;
+    const std::string reason = one.reason.empty() ? doubts_text(one.doubts) : one.reason;
+    const auto is_same = [&](const LeftOut& known) { return known.standing == one.standing && known.reason == reason; };
+    auto known = std::ranges::find_if(all, is_same);
+    if (known == all.end()) known = all.insert(all.end(), {one.standing, reason, {}});
+    known->layouts.push_back(answer.study->layouts[one.layout].number);
+  }
+  std::vector<std::string> sentences;
+  std::size_t rest = 0;
+  for (const LeftOut& one : all)
+    if (sentences.size() < most_sentences)
+      sentences.push_back(sentence(one));
+    else
+      rest += one.layouts.size();
+  if (rest > 0)
+    sentences.push_back(fmt::format("{} more layout{} not compared, for other reasons: the table names them.", rest,
+                                    rest == 1 ? " is" : "s are"));
+  return sentences;
 }
 
 Json doubt_json(const Doubt& doubt) {

@@ -5,6 +5,7 @@
 #include <string_view>
 #include <vector>
 
+#include "answer/answer.hpp"
 #include "outflow/doubts.hpp"
 
 namespace vibrosow {
@@ -14,6 +15,10 @@ std::vector<std::string> doubt_sentences(const std::vector<SharedDoubt>& doubts,
 
 /// The same for a terminal, wrapped; empty where there are none.
 std::string doubts_paragraph(const std::vector<SharedDoubt>& doubts, std::string_view noun = "layout");
+
+/// Why layouts are not compared, a sentence for each reason: those that cannot be built or failed, and of a sweep all
+/// that are not compared. At most six, and one that counts the rest.
+std::vector<std::string> left_out_sentences(const Answer& answer);
 
 /// What a JSON file says of a doubt.
 nlohmann::ordered_json doubt_json(const Doubt& doubt);

@@ -1,6 +1,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
+#include <iterator>
 #include <utility>
 
 #include "report/answer_doubts.hpp"
@@ -80,6 +82,7 @@ StudyPage study_page(const DecisionReport& report, const SweepTiming& timing) {
   StudyPage page{.answer = answer_of(result)};
   page.headline = headline(result, page.answer);
   page.doubts = doubts(report, page.answer);
+  std::ranges::move(left_out_sentences(page.answer), std::back_inserter(page.doubts));
   page.asked = asked(result);
   page.cost = cost(report, timing);
   page.confidence = sureness_text(result.options);

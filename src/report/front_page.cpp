@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iterator>
 #include <utility>
 
 #include "report/answer_doubts.hpp"
@@ -70,6 +71,7 @@ std::vector<std::string> cost(const OptimiseResult& result, const SweepTiming& t
 StudyPage study_page(const OptimiseResult& result, const SweepTiming& timing) {
   StudyPage page{.answer = answer_of(result), .headline = headline(result)};
   page.doubts = doubts(result, page.answer);
+  std::ranges::move(left_out_sentences(page.answer), std::back_inserter(page.doubts));
   page.asked = asked(result.options);
   page.cost = cost(result, timing);
   return page;

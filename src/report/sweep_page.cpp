@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iterator>
 
 #include "report/answer_doubts.hpp"
 #include "report/study_page.hpp"
@@ -36,6 +37,7 @@ std::string headline(const StudyResult& result) {
 StudyPage study_page(const StudyResult& result, std::uint64_t first_random_seed) {
   StudyPage page{.answer = answer_of(result, first_random_seed), .headline = headline(result)};
   page.doubts = doubt_sentences(doubts_about(page.answer));
+  std::ranges::move(left_out_sentences(page.answer), std::back_inserter(page.doubts));
   return page;
 }
 

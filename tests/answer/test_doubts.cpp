@@ -340,5 +340,51 @@ TEST(SharedDoubts, BeyondSixAreCounted) {
   EXPECT_EQ(sentences.back(), "3 more kinds of doubts: the table names them.");
 }
 
+/// An answer of so many layouts that stand so, numbered from 1, each for its reason.
+class LeftOut : public testing::Test {
+ protected:
+  std::vector<std::string> sentences(AnswerKind kind,
+                                     const std::vector<std::pair<LayoutStanding, std::string>>& layouts) {
+    study_.layouts.clear();
+    Answer answer{kind, &study_};
+    for (const auto& [standing, reason] : layouts) {
+      answer.layouts.push_back({.layout = study_.layouts.size(), .standing = standing, .reason = reason});
+      Layout layout;
+      layout.number = static_cast<int>(answer.layouts.size());
+      study_.layouts.push_back(layout);
+    }
+    return left_out_sentences(answer);
+  }
+  Study study_;
+};
+
+TEST_F(LeftOut, HasASentenceForEveryReason) {
+  using enum LayoutStanding;
+  EXPECT_THAT(
+      sentences(AnswerKind::sweep, {{ok, ""},
+                                    {stopped, "energy."},
+                                    {invalid, "it does not fit"},
+                                    {invalid, "it does not fit"},
+                                    {invalid, "it does not fit"},
+                                    {incomplete, ""},
+                                    {outside_the_model, ""}}),
+      testing::ElementsAre("Layout 2 was stopped by the guard: energy.",
+                           "Layouts 3 to 5 cannot be built: it does not fit.", "Layout 6 has runs that are missing."));
+}
+
+TEST_F(LeftOut, OfADecisionAreThoseThatFailedOrCannotBeBuilt) {
+  using enum LayoutStanding;
+  EXPECT_THAT(sentences(AnswerKind::decision, {{clogs, ""}, {failed, "hole 3 lies beyond the rim"}, {worse, ""}}),
+              testing::ElementsAre("Layout 2 failed: hole 3 lies beyond the rim."));
+}
+
+TEST_F(LeftOut, BeyondSixReasonsTheRestIsCounted) {
+  std::vector<std::pair<LayoutStanding, std::string>> layouts;
+  for (int k = 0; k < 20; ++k) layouts.emplace_back(LayoutStanding::invalid, fmt::format("reason {}", k));
+  const std::vector<std::string> all = sentences(AnswerKind::sweep, layouts);
+  ASSERT_EQ(all.size(), 7u);
+  EXPECT_EQ(all[6], "14 more layouts are not compared, for other reasons: the table names them.");
+}
+
 }  // namespace
 }  // namespace vibrosow

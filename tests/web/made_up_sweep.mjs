@@ -67,7 +67,7 @@ export function madeUpSweep(space, count = 40, names = {}, replayed = []) {
     .map((layout) => (layout.status === 'invalid' ? layout : { ...layout, command: names.command ?? `vibrosow run 'tray.toml' --set 'tray.holes.count=${layout.values[0]}' --html` }));
   const data = {
     kind: 'sweep', program, title: names.title ?? 'Made-up trays: how many holes, how fast', space, headline: `${count} layouts let out 9 to 31 g/s.`,
-    keys: ['tray.holes.count', 'tray.motion.frequency_Hz', 'tray.tilt_degree'], figures, layouts,
+    keys: ['tray.holes.count', 'tray.motion.frequency_Hz', 'tray.tilt_degree'], figures, layouts, doubts: ['Layout 4 cannot be built: hole 3 lies beyond the rim.'],
   };
   return { data, recording: null };
 }

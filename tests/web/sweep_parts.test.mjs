@@ -5,7 +5,6 @@ import { figuresOf, textOf, valueOf } from '../../web/report/layout_figures.mjs'
 import { keyWords, layoutName, wordsOf } from '../../web/report/layout_words.mjs';
 import { scaleOf } from '../../web/report/interval_track.mjs';
 import { ranked, rankingSentence } from '../../web/report/ranking.mjs';
-import { doubtsOf } from '../../web/report/sweep_page.mjs';
 import { pointsOf, tradeSentence, unbeaten } from '../../web/report/trade.mjs';
 
 const rate = { name: 'rate_g_per_s', words: 'rate', unit: 'g/s', wanted_low: false };
@@ -77,9 +76,6 @@ test('layouts that no other beats in both figures', () => {
   assert.equal(tradeSentence({ layouts }, points, front, rate, pause),
     'For a high rate and a low longest pause, no layout beats layouts 1, 2, 4 and 7 in both, by their means. 1 layout has no value of one of the two and is not shown.');
 });
-
-test('doubts: a sentence for every reason, counted where there are many', () => {
-  const bad = (number, status, note) => ({ number, status, note });
   assert.deepEqual(doubtsOf({ layouts: [bad(2, 'stopped', 'energy.'), bad(3, 'outside the model', ''), bad(4, 'outside the model', '')] }),
     ['Layout 2 was stopped by the guard: energy.', 'Layouts 3 and 4 lie outside the model.']);
   const many = doubtsOf({ layouts: Array.from({ length: 20 }, (_, k) => bad(k + 1, 'invalid', `reason ${k}`)) });

@@ -7,7 +7,6 @@ import { questionSection } from './question.mjs';
 import { rankingSection } from './ranked_chart.mjs';
 import { ranked } from './ranking.mjs';
 import { scatterSection } from './scatter.mjs';
-import { doubtsOf } from './sweep_page.mjs';
 
 function sections(data) {
   const figures = figuresOf(data);
@@ -27,7 +26,7 @@ export function decisionPage(data) {
     kicker: `Decision ${data.space === 'plane' ? 'in the plane' : 'in space'}`,
     title: data.title || 'A decision',
     headlines: [data.headline],
-    remarks: [...data.doubts, ...doubtsOf({ layouts: data.layouts.filter(({ status }) => ['failed', 'invalid'].includes(status)) })],
+    remarks: data.doubts,
     whole: 'Every layout',
     beside: true,
     sections: async () => sections(data),

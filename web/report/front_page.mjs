@@ -8,7 +8,6 @@ import { questionSection } from './question.mjs';
 import { rankingSection } from './ranked_chart.mjs';
 import { ranked } from './ranking.mjs';
 import { scatterOf } from './scatter.mjs';
-import { doubtsOf } from './sweep_page.mjs';
 
 const standings = { 'on the front': 'on-front', 'may be on the front': 'may-be', dominated: 'dominated' };
 
@@ -46,7 +45,7 @@ export function frontPage(data) {
     kicker: `Search for the front ${data.space === 'plane' ? 'in the plane' : 'in space'}`,
     title: data.title || 'A search',
     headlines: [data.headline],
-    remarks: [...data.doubts, ...doubtsOf({ layouts: data.layouts.filter(({ status }) => ['failed', 'invalid'].includes(status)) })],
+    remarks: data.doubts,
     whole: 'Every layout',
     beside: true,
     sections: async () => sections(data),
