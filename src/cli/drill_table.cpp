@@ -3,14 +3,13 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <numbers>
-
 #include "cli/console.hpp"
 #include "input/key_units.hpp"
 #include "report/drill_report.hpp"
 #include "report/layout_text.hpp"
 #include "report/number_text.hpp"
 #include "report/terminal_text.hpp"
+#include "scene/si_units.hpp"
 #include "study/trade.hpp"
 
 namespace vibrosow {
@@ -64,7 +63,7 @@ std::string turn_down_text(const TradeLine& line, double cv_limit) {
 }
 
 std::string slope_text(const SlopeSensitivity& slope) {
-  constexpr double per_degree = 100 * std::numbers::pi / 180;  // % of a fraction of a radian's change
+  constexpr double per_degree = 100 * degree;  // % of a fraction of a radian's change
   const std::string off_line =
       slope.off_line ? fmt::format("; the rates lie within {:.2g} % of that line", 100 * *slope.off_line) : "";
   return fmt::format("slope: {:+.3g}{} % of the rate a degree{}", slope.change * per_degree,

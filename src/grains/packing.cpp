@@ -67,11 +67,11 @@ class Seats {
 };
 
 /// Places side by side along one direction of a vessel.
-struct Row {
+struct PackedRow {
   int places;
   double spacing;  // m
 
-  Row(double length, double clear)
+  PackedRow(double length, double clear)
       : places(static_cast<int>(std::floor(length / clear))), spacing(length / std::max(1, places)) {}
 
   int of_layer(bool offset) const { return places - (offset ? 1 : 0); }
@@ -98,7 +98,7 @@ struct RowPlan {
 std::vector<PackedGrain> pack_rows(const Vessel& vessel, const std::vector<SeedLot>& lots,
                                    const std::vector<int>& order, Random& random) {
   const RowPlan plan(*vessel.fill, lots, 2);
-  const Row row(vessel.length, plan.clear);
+  const PackedRow row(vessel.length, plan.clear);
   if (row.places < 2) refuse_fill(vessel);
   const Seats seats(vessel, lots, Space::plane);
   std::vector<PackedGrain> packed;
@@ -123,7 +123,7 @@ std::vector<PackedGrain> pack_rows(const Vessel& vessel, const std::vector<SeedL
 std::vector<PackedGrain> pack_layers(const Vessel& vessel, const std::vector<SeedLot>& lots,
                                      const std::vector<int>& order, Random& random) {
   const RowPlan plan(*vessel.fill, lots, 3);
-  const Row along(vessel.length, plan.clear), across(*vessel.depth, plan.clear);
+  const PackedRow along(vessel.length, plan.clear), across(*vessel.depth, plan.clear);
   if (along.places < 2 || across.places < (plan.hexagonal ? 2 : 1)) refuse_fill(vessel);
   const Seats seats(vessel, lots, Space::three_dimensional);
   const double rise = plan.rise(0.5 * FloorPlace(along.spacing, across.spacing).norm());

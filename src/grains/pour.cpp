@@ -133,12 +133,12 @@ Rolled roll_down(const Heap& heap, int support, double length, double side, doub
 }
 
 /// How a seed lies: its centre, m, and how far it is turned, rad.
-struct Place {
+struct Rest {
   double x, y, angle;
 };
 
 /// Where a grain of `radius` dropped at `x` comes to rest.
-Place drop_and_roll(const Heap& heap, double length, double x, double radius) {
+Rest drop_and_roll(const Heap& heap, double length, double x, double radius) {
   constexpr int most_moves = 100000;  // never reached: each move goes down
   double y = 0;
   int support = heap.first_below(x, std::numeric_limits<double>::max(), radius, y);
@@ -214,11 +214,11 @@ double touching_height(const Heap& heap, const TurnedSeed& seed, double x, doubl
 /// Where a clump dropped at `x` comes to rest: it is dropped again a little aside and turned a little, at random,
 /// less and less, and stays where its centre lies lowest. A search for the lowest place near where it fell, since a
 /// clump, unlike a disc, has no closed form for where it rolls to.
-Place drop_and_search(const Heap& heap, double length, const SeedLot& lot, double size, double x, double angle,
-                      Random& random) {
+Rest drop_and_search(const Heap& heap, double length, const SeedLot& lot, double size, double x, double angle,
+                     Random& random) {
   constexpr int tries = 60;        // fills 0.79 of the plane with seeds of four widths, as poured discs do; 30: 0.73
   constexpr double shrink = 0.95;  // of the steps, which begin with the seed's diameter and a quarter turn
-  Place lowest{0, std::numeric_limits<double>::infinity(), 0};
+  Rest lowest{0, std::numeric_limits<double>::infinity(), 0};
   const auto drop = [&](double at, double turned) {
     const TurnedSeed seed(lot, size, turned);
     at = std::max(seed.left, std::min(at, length - seed.right));
@@ -248,8 +248,8 @@ std::vector<PackedGrain> pour(const Vessel& vessel, const std::vector<SeedLot>& 
     const double size = draw_size(seeds, random), angle = draw_angle(seeds, random);
     const double radius = 0.5 * size * seeds.diameter;
     const double x = random.uniform(radius, vessel.length - radius);
-    const Place at = seeds.discs.empty() ? drop_and_roll(heap, vessel.length, x, radius)
-                                         : drop_and_search(heap, vessel.length, seeds, size, x, angle, random);
+    const Rest at = seeds.discs.empty() ? drop_and_roll(heap, vessel.length, x, radius)
+                                        : drop_and_search(heap, vessel.length, seeds, size, x, angle, random);
     const TurnedSeed seed(seeds, size, at.angle);
     if (at.y + seed.top > vessel.height) refuse_fill(vessel);
     for (const ClumpDisc& disc : seed.discs) heap.add({at.x + disc.x, at.y + disc.y, disc.radius});

@@ -13,7 +13,7 @@ namespace vibrosow {
 namespace {
 
 /// Gives every key within a value the place of the override that brought it.
-void move_to(TomlValue& value, const Place& place) {
+void move_to(TomlValue& value, const SourcePlace& place) {
   if (auto* list = std::get_if<TomlValue::List>(&value.data)) {
     for (TomlValue& element : *list) move_to(element, place);
   } else if (auto* table = std::get_if<TomlTable>(&value.data)) {
@@ -54,7 +54,7 @@ class Change {
   }
 
   void set(TomlValue value) const {
-    const Place place{0, 0, change_.where};
+    const SourcePlace place{0, 0, change_.where};
     TomlTable* table = &root_;
     for (std::size_t i = 0; i + 1 < parts_.size(); ++i) {
       TomlEntry* next = table->find(parts_[i]);
@@ -101,7 +101,7 @@ std::shared_ptr<const Document> Document::read(const std::filesystem::path& file
   return document;
 }
 
-std::string Document::origin(const Place& place) const {
+std::string Document::origin(const SourcePlace& place) const {
   if (!place.origin.empty()) return place.origin;
   return place.line > 0 ? fmt::format("{}:{}", file_.string(), place.line) : file_.string();
 }

@@ -25,7 +25,7 @@ class Document {
   const std::shared_ptr<SourceFiles>& files() const { return files_; }
 
   /// "FILE:LINE", or an override's origin; "FILE" for nowhere.
-  std::string origin(const Place& place) const;
+  std::string origin(const SourcePlace& place) const;
 
  private:
   Document(std::filesystem::path file, std::shared_ptr<SourceFiles> files);

@@ -40,7 +40,7 @@ std::string not_a_table(const std::string& key, const TomlValue& value) {
 struct Written {
   std::string key;
   const TomlValue* value;
-  Place place;
+  SourcePlace place;
 };
 
 /// Every value, list and inline table below a table, by its dotted key.

@@ -125,7 +125,7 @@ std::string_view line_of(std::string_view text, std::size_t number) {
 
 TomlValue converted(const toml::node& node);
 
-Place place_of(const toml::source_region& source) {
+SourcePlace place_of(const toml::source_region& source) {
   return {static_cast<int>(source.begin.line), static_cast<int>(source.begin.column), {}};
 }
 
@@ -139,7 +139,7 @@ TomlTable converted_table(const toml::table& table) {
   result.place = place_of(table.source());
   result.is_inline = table.is_inline();
   for (const auto& [key, node] : table) {
-    Place place = place_of(key.source());
+    SourcePlace place = place_of(key.source());
     if (place.line == 0) place = result.place;
     check_length(key.str(), place.line);
     result.entries.push_back({std::string(key.str()), converted(node), place});
@@ -230,7 +230,7 @@ TomlEntry* TomlTable::find(std::string_view key) {
   return const_cast<TomlEntry*>(std::as_const(*this).find(key));
 }
 
-TomlEntry& TomlTable::set(const std::string& key, TomlValue value, const Place& at) {
+TomlEntry& TomlTable::set(const std::string& key, TomlValue value, const SourcePlace& at) {
   TomlEntry* entry = find(key);
   if (entry == nullptr) return entries.emplace_back(TomlEntry{key, std::move(value), at});
   *entry = {key, std::move(value), at};

@@ -13,7 +13,7 @@
 namespace vibrosow {
 
 /// Where a key is written.
-struct Place {
+struct SourcePlace {
   int line = 0, column = 0;  // of the file; 0: nowhere
   std::string origin;        // of what is laid over the file ("--set tray.length=2 m"), instead of a line
 };
@@ -24,13 +24,13 @@ struct TomlEntry;
 /// The keys of a table in the order of the file; what was added later comes last.
 struct TomlTable {
   std::vector<TomlEntry> entries;
-  Place place{};
+  SourcePlace place{};
   bool is_inline = false;  // written { .. }
 
   const TomlEntry* find(std::string_view key) const;  // nullptr: not written
   TomlEntry* find(std::string_view key);
   /// Puts a value in place of the key's, or at the end.
-  TomlEntry& set(const std::string& key, TomlValue value, const Place& at);
+  TomlEntry& set(const std::string& key, TomlValue value, const SourcePlace& at);
   void erase(std::string_view key);
 };
 
@@ -51,7 +51,7 @@ struct TomlValue {
 struct TomlEntry {
   std::string key;
   TomlValue value;
-  Place place;
+  SourcePlace place;
 };
 
 /// What is not TOML, or beyond the limits; `line` of the text, from 1.

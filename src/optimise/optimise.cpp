@@ -107,17 +107,17 @@ void StudyOptimisation::check(const Study& study) const {
 }
 
 void StudyOptimisation::build_new_layouts() {
-  if (places_.size() == search_->points().size()) return;
+  if (trials_.size() == search_->points().size()) return;
   std::vector<std::vector<double>> points;
-  for (std::size_t i = places_.size(); i < search_->points().size(); ++i)
+  for (std::size_t i = trials_.size(); i < search_->points().size(); ++i)
     points.push_back(share_of(search_->points()[i]));
   auto generation = std::make_unique<Generation>();
   generation->study = read_study_at(source_.file, source_.overrides, source_.files, points);
   check(generation->study);
   for (Layout& layout : generation->study.layouts) {
-    const std::size_t point = places_.size();
+    const std::size_t point = trials_.size();
     layout.number = static_cast<int>(point) + 1;
-    places_.push_back({generations_.size(), layout.scene});
+    trials_.push_back({generations_.size(), layout.scene});
     if (!layout.scene) search_->leave_out(point);
   }
   for (const Variant variant : variants_) {
@@ -135,9 +135,9 @@ void StudyOptimisation::request_next_round() {
     search_->request_next_round();
     build_new_layouts();
     const std::vector<int>& counts = search_->counts();
-    for (std::size_t i = 0; i < places_.size(); ++i)
-      if (const auto scene = places_[i].scene) {
-        int& count = generations_[places_[i].generation]->counts[*scene];
+    for (std::size_t i = 0; i < trials_.size(); ++i)
+      if (const auto scene = trials_[i].scene) {
+        int& count = generations_[trials_[i].generation]->counts[*scene];
         count = std::max(count, counts[i]);
       }
   } while (missing().empty() && tell_search());
@@ -165,54 +165,54 @@ bool StudyOptimisation::take(const KeptRuns& kept, int jobs) {
 bool StudyOptimisation::tell_search() {
   search_->request_next_round();
   const std::vector<int> counts = search_->counts();
-  bool is_new = places_.size() < counts.size();  // layouts of which none could be built
-  for (std::size_t i = 0; i < places_.size(); ++i)
-    if (places_[i].scene)
+  bool is_new = trials_.size() < counts.size();  // layouts of which none could be built
+  for (std::size_t i = 0; i < trials_.size(); ++i)
+    if (trials_[i].scene)
       for (int r = search_->front().observations(i); r < counts[i]; ++r, is_new = true)
-        search_->take(i, observed(places_[i], static_cast<std::size_t>(r)));
+        search_->take(i, observed(trials_[i], static_cast<std::size_t>(r)));
   return is_new;
 }
 
-const Evaluation& StudyOptimisation::evaluation(Variant variant, const Place& place, std::size_t run) const {
+const Evaluation& StudyOptimisation::evaluation(Variant variant, const Trial& trial, std::size_t run) const {
   const auto index = static_cast<std::size_t>(std::ranges::find(variants_, variant) - variants_.begin());
-  return generations_[place.generation]->runs.at(index).runs()[place.scene.value()].at(run);
+  return generations_[trial.generation]->runs.at(index).runs()[trial.scene.value()].at(run);
 }
 
-double StudyOptimisation::rate_as(Variant variant, const Place& place, std::size_t run) const {
-  return figure_named("rate_g_per_s").of({evaluation(variant, place, run).outflow}).value_or(0);
+double StudyOptimisation::rate_as(Variant variant, const Trial& trial, std::size_t run) const {
+  return figure_named("rate_g_per_s").of({evaluation(variant, trial, run).outflow}).value_or(0);
 }
 
 /// None where the run has no such figure.
-std::optional<double> StudyOptimisation::goal_of(const FrontGoal& goal, const Place& place, std::size_t run) const {
-  const Outflow& outflow = evaluation(Variant::as_it_is, place, run).outflow;
+std::optional<double> StudyOptimisation::goal_of(const FrontGoal& goal, const Trial& trial, std::size_t run) const {
+  const Outflow& outflow = evaluation(Variant::as_it_is, trial, run).outflow;
   if (goal.kind == Kind::figure) return goal.figure->of(outflow);
-  if (goal.kind == Kind::power) return drive_power(generations_[place.generation]->study.scenes[place.scene.value()]);
+  if (goal.kind == Kind::power) return drive_power(generations_[trial.generation]->study.scenes[trial.scene.value()]);
   if (goal.kind == Kind::rate_error) {
     const auto rate = rate_as_wanted(*options_.rate, outflow);
     return rate ? std::optional(2 * *rate / (options_.rate->low + options_.rate->high)) : std::nullopt;
   }
-  const double rate = rate_as(Variant::as_it_is, place, run);  // above 0: the run has not clogged
-  if (goal.kind == Kind::fill_sensitivity) return (1 - rate_as(Variant::less_fill, place, run) / rate) / fill_change;
-  return (rate_as(Variant::faster, place, run) - rate_as(Variant::slower, place, run)) / rate / (2 * frequency_change);
+  const double rate = rate_as(Variant::as_it_is, trial, run);  // above 0: the run has not clogged
+  if (goal.kind == Kind::fill_sensitivity) return (1 - rate_as(Variant::less_fill, trial, run) / rate) / fill_change;
+  return (rate_as(Variant::faster, trial, run) - rate_as(Variant::slower, trial, run)) / rate / (2 * frequency_change);
 }
 
-FrontObservation StudyOptimisation::observed(Place& place, std::size_t run) const {
+FrontObservation StudyOptimisation::observed(Trial& trial, std::size_t run) const {
   const auto failed = [&](std::uint64_t random_seed, const std::string& reason) {
-    if (place.failure.empty()) place.failure = fmt::format("random seed {}: {}", random_seed, reason);
+    if (trial.failure.empty()) trial.failure = fmt::format("random seed {}: {}", random_seed, reason);
     return FrontObservation{RunEnd::failed};
   };
   bool clogged = false;
   for (const Variant variant : variants_) {
-    const Evaluation& one = evaluation(variant, place, run);
+    const Evaluation& one = evaluation(variant, trial, run);
     if (!one.finished()) return failed(one.random_seed, one.reason);
     if (one.outside_the_model) return failed(one.random_seed, "outside the model");
     clogged |= has_clogged(one);
   }
   if (clogged) return {RunEnd::clogged};
-  const Evaluation& whole = evaluation(Variant::as_it_is, place, run);
+  const Evaluation& whole = evaluation(Variant::as_it_is, trial, run);
   FrontObservation seen;
   for (const FrontGoal* goal : options_.goals) {
-    const auto value = goal_of(*goal, place, run);
+    const auto value = goal_of(*goal, trial, run);
     if (!value) return failed(whole.random_seed, fmt::format("it has no {}", goal->column));
     seen.goals.push_back(*value);
   }
@@ -233,19 +233,19 @@ std::vector<std::string> StudyOptimisation::keys_at_edge(const FrontSearch::Poin
 }
 
 FrontLayout StudyOptimisation::layout_result(std::size_t layout, FrontStanding standing, bool is_first) const {
-  const Place& place = places_[layout];
+  const Trial& trial = trials_[layout];
   FrontLayout result;
   result.standing = standing;
   result.is_first_by_means = is_first;
   result.at_edge = keys_at_edge(search_->points()[layout]);
-  result.reason = place.failure;
+  result.reason = trial.failure;
   result.goals.resize(options_.goals.size());
-  if (!place.scene) return result;
-  for (const SceneRuns& runs : generations_[place.generation]->runs)
-    if (result.stopped.empty()) result.stopped = first_stop(runs.runs()[*place.scene]);
-  const Generation& generation = *generations_[place.generation];
+  if (!trial.scene) return result;
+  for (const SceneRuns& runs : generations_[trial.generation]->runs)
+    if (result.stopped.empty()) result.stopped = first_stop(runs.runs()[*trial.scene]);
+  const Generation& generation = *generations_[trial.generation];
   const auto own = static_cast<std::size_t>(std::ranges::find(variants_, Variant::as_it_is) - variants_.begin());
-  result.doubts = doubts_of_layout(generation.study.scenes[*place.scene], generation.runs[own].runs()[*place.scene]);
+  result.doubts = doubts_of_layout(generation.study.scenes[*trial.scene], generation.runs[own].runs()[*trial.scene]);
   result.runs = search_->front().observations(layout);
   result.clogged = search_->front().clogged(layout);
   const std::vector<KnownMean> known = search_->front().known(layout);
@@ -261,9 +261,9 @@ FrontLayout StudyOptimisation::layout_result(std::size_t layout, FrontStanding s
   std::vector<double> rates;
   std::vector<const Outflow*> flowed;
   for (std::size_t r = 0; r < static_cast<std::size_t>(result.runs); ++r) {
-    const Evaluation& run = evaluation(Variant::as_it_is, place, r);
+    const Evaluation& run = evaluation(Variant::as_it_is, trial, r);
     if (!run.is_sound() || has_clogged(run)) continue;
-    rates.push_back(rate_as(Variant::as_it_is, place, r));
+    rates.push_back(rate_as(Variant::as_it_is, trial, r));
     flowed.push_back(&run.outflow);
   }
   result.unevenness = unevenness_of(flowed);
@@ -308,7 +308,7 @@ OptimiseResult StudyOptimisation::result() const {
   const std::vector<FrontStanding> standings = front.standings();
   const std::vector<bool> meets = front.meets_by_means(), surely_meets = front.surely_in_bands();
   const auto layers = front.layers(1);
-  for (std::size_t i = 0; i < places_.size(); ++i) {
+  for (std::size_t i = 0; i < trials_.size(); ++i) {
     const bool is_first = !layers.empty() && meets[i] && std::ranges::find(layers.front(), i) != layers.front().end();
     result.layouts.push_back(layout_result(i, standings[i], is_first));
     result.layouts.back().surely_meets = surely_meets[i];

@@ -85,7 +85,7 @@ class StudyOptimisation {
   /// The runs asked for so far, by round and variant.
   std::vector<PlannedRun> plan() const;
   /// How many layouts were tried.
-  std::size_t tried() const { return places_.size(); }
+  std::size_t tried() const { return trials_.size(); }
   const std::vector<std::string>& warnings() const { return warnings_; }
 
  private:
@@ -97,7 +97,7 @@ class StudyOptimisation {
     std::vector<int> counts;                 // runs wanted of each scene
   };
   /// Where a layout's runs are.
-  struct Place {
+  struct Trial {
     std::size_t generation;
     std::optional<std::size_t> scene;  // none: it cannot be built
     std::string failure{};
@@ -107,10 +107,10 @@ class StudyOptimisation {
   void build_new_layouts();
   void check(const Study& study) const;
   bool tell_search();
-  FrontObservation observed(Place& place, std::size_t run) const;
-  std::optional<double> goal_of(const FrontGoal& goal, const Place& place, std::size_t run) const;
-  double rate_as(Variant variant, const Place& place, std::size_t run) const;
-  const Evaluation& evaluation(Variant variant, const Place& place, std::size_t run) const;
+  FrontObservation observed(Trial& trial, std::size_t run) const;
+  std::optional<double> goal_of(const FrontGoal& goal, const Trial& trial, std::size_t run) const;
+  double rate_as(Variant variant, const Trial& trial, std::size_t run) const;
+  const Evaluation& evaluation(Variant variant, const Trial& trial, std::size_t run) const;
   std::vector<std::string> keys_at_edge(const FrontSearch::Point& point) const;
   FrontLayout layout_result(std::size_t layout, FrontStanding standing, bool is_first) const;
 
@@ -120,7 +120,7 @@ class StudyOptimisation {
   std::vector<Variant> variants_;  // that the goals ask for
   std::unique_ptr<FrontSearch> search_;
   std::vector<std::unique_ptr<Generation>> generations_;
-  std::vector<Place> places_;  // of each point of the search
+  std::vector<Trial> trials_;  // of each point of the search
   std::vector<std::string> warnings_;
 };
 

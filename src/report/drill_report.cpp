@@ -3,15 +3,14 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <numbers>
-
 #include "input/key_units.hpp"
 #include "report/layout_columns.hpp"
+#include "scene/si_units.hpp"
 
 namespace vibrosow {
 namespace {
 
-constexpr Unit percent_per_degree{"%/degree", 1e-2 * 180 / std::numbers::pi};
+constexpr Unit percent_per_degree{"%/degree", 1e-2 / degree};
 
 std::string row_name(int row) {
   return row > 0 ? fmt::format("{}", row) : "all";

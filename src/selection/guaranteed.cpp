@@ -39,7 +39,7 @@ const Guaranteed::Pair& Guaranteed::pair(std::size_t lower, std::size_t higher) 
 
 void Guaranteed::take(std::size_t index, const Observation& observation) {
   System& system = systems_.at(index);
-  if (observation.end == RunEnd::failed) system.place = Place::failed;
+  if (observation.end == RunEnd::failed) system.stage = Stage::failed;
   const bool flowed = observation.end == RunEnd::flowed;
   system.goals.push_back(flowed ? observation.goal : std::numeric_limits<double>::quiet_NaN());
   if (flowed) system.mean.add(observation.goal);
@@ -60,14 +60,14 @@ bool Guaranteed::is_behind(std::size_t system, std::size_t other) const {
 
 bool Guaranteed::rests(std::size_t system) const {
   for (std::size_t other = 0; other < systems_.size(); ++other)
-    if (other != system && systems_[other].place == Place::contending && is_behind(system, other)) return true;
+    if (other != system && systems_[other].stage == Stage::contending && is_behind(system, other)) return true;
   return false;
 }
 
 std::vector<std::size_t> Guaranteed::contending() const {
   std::vector<std::size_t> those;
   for (std::size_t i = 0; i < systems_.size(); ++i)
-    if (systems_[i].place == Place::contending) those.push_back(i);
+    if (systems_[i].stage == Stage::contending) those.push_back(i);
   return those;
 }
 
@@ -91,10 +91,10 @@ std::optional<std::size_t> Guaranteed::least_of(const std::vector<std::size_t>& 
 
 void Guaranteed::judge_constraints() {
   for (System& system : systems_) {
-    if (system.place != Place::contending) continue;
+    if (system.stage != Stage::contending) continue;
     const bool clogs = system.clogging && system.clogging->verdict() == ShareTest::Verdict::much;
-    if (clogs || system.mean.count() == 0) system.place = Place::clogs;
-    if (system.rate && system.rate->verdict() == BandTest::Verdict::outside) system.place = Place::misses_the_rate;
+    if (clogs || system.mean.count() == 0) system.stage = Stage::clogs;
+    if (system.rate && system.rate->verdict() == BandTest::Verdict::outside) system.stage = Stage::misses_the_rate;
   }
 }
 
@@ -126,7 +126,7 @@ void Guaranteed::leave_behind() {
       out.push_back(i);
   if (out.size() == all.size())
     if (const auto least = least_of(all)) std::erase(out, *least);
-  for (const std::size_t i : out) systems_[i].place = Place::behind;
+  for (const std::size_t i : out) systems_[i].stage = Stage::behind;
 }
 
 /// Of those with the fewest observations, and of those of which it is open whether they meet the constraints.
@@ -145,7 +145,7 @@ void Guaranteed::request_next_round() {
   for (const System& system : systems_) counts_.push_back(static_cast<int>(system.goals.size()));
   // One of each before the others: what fails takes no more.
   for (const int each : {1, std::min(first_observations, question_.most)}) {
-    const auto lacks = [&](std::size_t i) { return systems_[i].place != Place::failed && counts_[i] < each; };
+    const auto lacks = [&](std::size_t i) { return systems_[i].stage != Stage::failed && counts_[i] < each; };
     bool asks = false;
     for (std::size_t i = 0; i < counts_.size(); ++i)
       if (lacks(i)) counts_[i] = each, asks = true;
@@ -177,14 +177,14 @@ Decision Guaranteed::decision() const {
   for (std::size_t i = 0; i < systems_.size(); ++i) {
     const System& system = systems_[i];
     Standing standing = Standing::undecided;
-    if (system.place == Place::failed) standing = Standing::failed;
-    if (system.place == Place::clogs) standing = Standing::clogs;
-    if (system.place == Place::misses_the_rate) standing = Standing::misses_the_rate;
+    if (system.stage == Stage::failed) standing = Standing::failed;
+    if (system.stage == Stage::clogs) standing = Standing::clogs;
+    if (system.stage == Stage::misses_the_rate) standing = Standing::misses_the_rate;
     if (decision.best == i && decision.is_sure) standing = Standing::best;
-    const bool is_compared = system.place == Place::behind || (system.place == Place::contending && rests(i));
+    const bool is_compared = system.stage == Stage::behind || (system.stage == Stage::contending && rests(i));
     if (is_compared && decision.best && decision.best != i)
       standing = is_surely_above(system.goals, systems_[*decision.best].goals, error) ? Standing::worse
-                 : system.place == Place::behind                                      ? Standing::not_shown_worse
+                 : system.stage == Stage::behind                                      ? Standing::not_shown_worse
                                                                                       : Standing::undecided;
     decision.standings.push_back(standing);
   }

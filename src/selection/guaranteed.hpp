@@ -36,13 +36,13 @@ class Guaranteed : public Procedure {
   Decision decision() const override;
 
  private:
-  enum class Place { contending, behind, misses_the_rate, clogs, failed };
+  enum class Stage { contending, behind, misses_the_rate, clogs, failed };
   struct System {
     std::vector<double> goals{};  // by observation; not a number where it clogged
     Moments mean{};               // of those that flowed
     std::optional<BandTest> rate{};
     std::optional<ShareTest> clogging{};
-    Place place = Place::contending;
+    Stage stage = Stage::contending;
   };
   /// Two systems by the observations in which both flowed.
   struct Pair {

@@ -36,26 +36,26 @@ bool is_between_ends(const Vessel& vessel, bool in_space, double x, double z) {
 
 }  // namespace
 
-Counter::Place Counter::within_period(const Place& place) const {
+Counter::FloorPoint Counter::within_period(const FloorPoint& place) const {
   return {tray_.sides == Sides::periodic ? within(place.x, tray_.length) : place.x,
           in_space_ && tray_.front_and_back == Sides::periodic ? within(place.z, *tray_.depth) : place.z};
 }
 
-double Counter::past_edge(const Hole& hole, const Place& place) const {
+double Counter::past_edge(const Hole& hole, const FloorPoint& place) const {
   const double along = std::abs(place.x - hole.centre), across = std::abs(place.z - hole.across);
   if (!in_space_) return along - 0.5 * hole.width;
   if (hole.shape == HoleShape::round) return elementary::hypot(along, across) - 0.5 * hole.width;
   return std::max(along - 0.5 * hole.width, across - 0.5 * hole.across_length);
 }
 
-int Counter::hole_at(const Place& place) const {
+int Counter::hole_at(const FloorPoint& place) const {
   if (line_below_) return 0;
   for (std::size_t k = 0; k < tray_.holes.size(); ++k)
     if (past_edge(tray_.holes[k], place) <= 0) return static_cast<int>(k) + 1;
   return tray_.box && is_between_ends(tray_, in_space_, place.x, place.z) ? through_the_floor : 0;
 }
 
-int Counter::hole_beside(const Place& place, double reach) const {
+int Counter::hole_beside(const FloorPoint& place, double reach) const {
   int nearest = through_the_floor;
   for (std::size_t k = 0; k < tray_.holes.size(); ++k) {
     const double apart = past_edge(tray_.holes[k], place);
@@ -101,13 +101,13 @@ void Counter::watch(const Grains& grains, const Walls& walls, const GrainLoops& 
       const double x = along - (speed_along + rate.turn_rate * across) * ago;
       const double z = across - (speed_across - rate.turn_rate * along) * ago;
       if (pose.turn == 0) return within_period({x, z});
-      return Place{turned.x() * x + turned.y() * z, turned.x() * z - turned.y() * x};
+      return FloorPoint{turned.x() * x + turned.y() * z, turned.x() * z - turned.y() * x};
     };
     // Back along the present velocity to the moment when the centre was `level` high.
     const auto since = [&](double level) { return speed_up < 0 ? (height - level) / speed_up : 0.0; };
     if (!state_.below[i]) {
       state_.below[i] = 1;
-      const Place place = place_before(since(0));
+      const FloorPoint place = place_before(since(0));
       passage.x = place.x, passage.z = place.z;
       passage.hole = hole_at(place);
       // The edge may lie in the waist of a clump: its centre then passes beside the opening. A disc of it that goes
@@ -122,7 +122,7 @@ void Counter::watch(const Grains& grains, const Walls& walls, const GrainLoops& 
       continue;
     }
     const double ago = since(-count_below_);
-    const Place place = passage.hole > 0 ? Place{passage.x, passage.z} : place_before(ago);
+    const FloorPoint place = passage.hole > 0 ? FloorPoint{passage.x, passage.z} : place_before(ago);
     const double in_plane = elementary::hypot(grains.vx[i], grains.vy[i]);
     events.push_back({time - ago, passage.hole, grains.lot[i], grains.id[i], grains.kind(i).mass, place.x,
                       in_space_ ? elementary::hypot(in_plane, grains.vz[i]) : in_plane, place.z});

@@ -36,16 +36,16 @@ class Counter {
  private:
   static constexpr int through_the_floor = -1;
   /// A place on the floor, in the tray's frame, m; in the plane z is 0.
-  struct Place {
+  struct FloorPoint {
     double x, z;
   };
-  int hole_at(const Place& place) const;
+  int hole_at(const FloorPoint& place) const;
   /// m, from a hole's edge; negative over the hole.
-  double past_edge(const Hole& hole, const Place& place) const;
+  double past_edge(const Hole& hole, const FloorPoint& place) const;
   std::size_t next_flag(std::size_t from) const;
-  Place within_period(const Place& place) const;
+  FloorPoint within_period(const FloorPoint& place) const;
   /// The hole whose edge is no farther from a place than `reach` (m), of several the nearest; else through_the_floor.
-  int hole_beside(const Place& place, double reach) const;
+  int hole_beside(const FloorPoint& place, double reach) const;
 
   const Vessel& tray_;
   bool in_space_;

@@ -65,10 +65,10 @@ void Segments::read(const fs::path& file) {
   const std::optional<std::string> numbers = numbers_of(file);
   if (!numbers) return;
   for (std::size_t at = 8; at < numbers->size(); at += bytes_of_place)
-    places_.push_back({{number_at(*numbers, at), number_at(*numbers, at + 8)},
-                       number_at(*numbers, at + 16),
-                       number_at(*numbers, at + 24),
-                       segment});
+    entries_.push_back({{number_at(*numbers, at), number_at(*numbers, at + 8)},
+                        number_at(*numbers, at + 16),
+                        number_at(*numbers, at + 24),
+                        segment});
 }
 
 void Segments::refresh() {
@@ -78,21 +78,22 @@ void Segments::refresh() {
   if (fresh.empty()) return;
   std::ranges::sort(fresh);
   for (const fs::path& file : fresh) read(file);
-  std::ranges::sort(places_);
+  std::ranges::sort(entries_);
 }
 
 std::vector<std::string> Segments::bytes_of(const std::string& name) const {
   if (name.size() != 32) return {};
   const Key key = {number_of(name.substr(0, 16)), number_of(name.substr(16))};
   std::vector<std::string> copies;
-  for (auto it = std::ranges::lower_bound(places_, key, {}, &Place::key); it != places_.end() && it->key == key; ++it) {
-    const Place& place = *it;
-    std::ifstream in(files_[place.segment], std::ios::binary);
+  for (auto it = std::ranges::lower_bound(entries_, key, {}, &IndexEntry::key); it != entries_.end() && it->key == key;
+       ++it) {
+    const IndexEntry& entry = *it;
+    std::ifstream in(files_[entry.segment], std::ios::binary);
     std::error_code error;
-    const std::uint64_t file_size = fs::file_size(files_[place.segment], error);
-    if (error || place.size > file_size || place.at > file_size - place.size) continue;
-    std::string bytes(place.size, '\0');
-    in.seekg(static_cast<std::streamoff>(place.at));
+    const std::uint64_t file_size = fs::file_size(files_[entry.segment], error);
+    if (error || entry.size > file_size || entry.at > file_size - entry.size) continue;
+    std::string bytes(entry.size, '\0');
+    in.seekg(static_cast<std::streamoff>(entry.at));
     if (in.read(bytes.data(), static_cast<std::streamsize>(bytes.size()))) copies.push_back(std::move(bytes));
   }
   return copies;
@@ -100,7 +101,7 @@ std::vector<std::string> Segments::bytes_of(const std::string& name) const {
 
 std::vector<std::string> Segments::names() const {
   std::vector<std::string> names;
-  for (const Place& place : places_) names.push_back(fmt::format("{:016x}{:016x}", place.key[0], place.key[1]));
+  for (const IndexEntry& entry : entries_) names.push_back(fmt::format("{:016x}{:016x}", entry.key[0], entry.key[1]));
   return names;
 }
 

@@ -33,11 +33,11 @@ class Segments {
 
  private:
   using Key = std::array<std::uint64_t, 2>;  // the name's 32 digits
-  struct Place {
+  struct IndexEntry {
     Key key;
     std::uint64_t at, size;  // bytes of the segment
     std::uint32_t segment;   // index in files_
-    auto operator<=>(const Place&) const = default;
+    auto operator<=>(const IndexEntry&) const = default;
   };
 
   void read(const std::filesystem::path& file);
@@ -45,7 +45,7 @@ class Segments {
   PathInFolder folder_;
   std::vector<std::filesystem::path> files_;  // sound and others
   std::set<std::string> known_;               // their names: a folder of many segments is looked through for each miss
-  std::vector<Place> places_;                 // in order
+  std::vector<IndexEntry> entries_;           // in order
 };
 
 }  // namespace vibrosow

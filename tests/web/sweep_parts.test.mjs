@@ -76,11 +76,3 @@ test('layouts that no other beats in both figures', () => {
   assert.equal(tradeSentence({ layouts }, points, front, rate, pause),
     'For a high rate and a low longest pause, no layout beats layouts 1, 2, 4 and 7 in both, by their means. 1 layout has no value of one of the two and is not shown.');
 });
-  assert.deepEqual(doubtsOf({ layouts: [bad(2, 'stopped', 'energy.'), bad(3, 'outside the model', ''), bad(4, 'outside the model', '')] }),
-    ['Layout 2 was stopped by the guard: energy.', 'Layouts 3 and 4 lie outside the model.']);
-  const many = doubtsOf({ layouts: Array.from({ length: 20 }, (_, k) => bad(k + 1, 'invalid', `reason ${k}`)) });
-  assert.equal(many.length, 7);
-  assert.equal(many[6], '14 more layouts are not compared, for other reasons: the table names them.');
-  const same = doubtsOf({ layouts: Array.from({ length: 20 }, (_, k) => bad(k + 1, 'invalid', 'too long')) });
-  assert.deepEqual(same, ['Layouts 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12 and 8 more cannot be built: too long.']);
-});
