@@ -5,12 +5,12 @@
 #include <limits>
 #include <vector>
 
-#include "compute/grain_force.hpp"
 #include "compute/instruction_set.hpp"
 #include "contact/compiled_effects.hpp"
 #include "contact/contact_history.hpp"
 #include "contact/contact_list.hpp"
 #include "laws/surface_parameters.hpp"
+#include "loops/grain_force.hpp"
 
 // Plain data between the simulation and kernels compiled for several instruction sets.
 

@@ -3,8 +3,8 @@
 #include <array>
 #include <vector>
 
-#include "compute/grain_force.hpp"
 #include "contact/pair_block.hpp"
+#include "loops/grain_force.hpp"
 
 // Plain data between the simulation and the kernels of balls in space, as pair_block.hpp has it for the plane.
 

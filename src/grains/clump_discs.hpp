@@ -2,10 +2,10 @@
 
 #include <vector>
 
-#include "compute/execution.hpp"
-#include "compute/grain_force.hpp"
-#include "compute/space_forces.hpp"
 #include "grains/grains.hpp"
+#include "loops/execution.hpp"
+#include "loops/grain_force.hpp"
+#include "loops/space_forces.hpp"
 
 namespace vibrosow {
 

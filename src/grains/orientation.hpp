@@ -2,7 +2,7 @@
 
 #include <Eigen/Core>
 
-#include "compute/orientation.hpp"
+#include "loops/orientation.hpp"
 
 namespace vibrosow {
 

@@ -2,8 +2,8 @@
 
 #include <Eigen/Core>
 
-#include "compute/turning_clump.hpp"
 #include "grains/grains.hpp"
+#include "loops/turning_clump.hpp"
 
 namespace vibrosow {
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "report/layout_text.hpp"
 #include "report/terminal_text.hpp"
 
 namespace vibrosow {

@@ -37,6 +37,12 @@ void keep_rates_for_gear(Integration& s, std::size_t i) {
   for (std::size_t k = 0; k < 4; ++k) s.kept.quaternion_rate[k][i] = rates[k];
 }
 
+/// At the beginning of a step (rk2_midpoint).
+Vector3 spin_at_start(const Integration& s, std::size_t i) {
+  const std::size_t first = s.moving.along.size();
+  return {s.speeds[first][i], s.speeds[first + 1][i], s.speeds[first + 2][i]};
+}
+
 /// From the grain number `from` on.
 ClumpTurning turning_from(Integration& s, std::size_t from) {
   Grains& g = s.grains;
@@ -71,7 +77,7 @@ void advance_clump_rotation(Integration& s, double dt, std::size_t from, std::si
     const Vector3 present_spin = spin_of(grains, i);
     grains.set_orientation(i, s.orientation[i]);
     TurningClump clump = turning_clump(grains, i);
-    const Vector3 momentum = clump.momentum_of({s.omega_x[i], s.omega_y[i], s.omega[i]});
+    const Vector3 momentum = clump.momentum_of(spin_at_start(s, i));
     clump.turn(present_spin, dt);
     grains.set_orientation(i, clump.orientation());
     set_spin(grains, i, clump.spin_of(momentum + dt * kept_torque(s, i)));

@@ -3,7 +3,7 @@
 #include <optional>
 #include <vector>
 
-#include "compute/grain_loops.hpp"
+#include "loops/grain_loops.hpp"
 #include "simulation/state.hpp"
 #include "vessel/vessel_motion.hpp"
 #include "vessel/walls.hpp"

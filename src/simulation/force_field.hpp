@@ -4,12 +4,12 @@
 #include <span>
 #include <vector>
 
-#include "compute/execution.hpp"
-#include "compute/space_forces.hpp"
 #include "contact/pair_forces.hpp"
 #include "contact/space_wall_contacts.hpp"
 #include "contact/wall_contacts.hpp"
 #include "grains/clump_discs.hpp"
+#include "loops/execution.hpp"
+#include "loops/space_forces.hpp"
 #include "result/frame.hpp"
 #include "simulation/neighbours.hpp"
 #include "simulation/state.hpp"

@@ -76,6 +76,11 @@ void accelerations(Integration& s) {
   });
 }
 
+/// Where the values of a coordinate begin from grain number `a` on; null where there are none.
+double* from(std::vector<double>* values, std::size_t a) {
+  return values == nullptr || values->empty() ? nullptr : values->data() + a;
+}
+
 void add_scaled(std::vector<double>& to, const std::vector<double>& rate, double factor) {
   double* t = to.data();
   const double* r = rate.data();
@@ -113,23 +118,17 @@ void watch_speed(Integration& s, std::size_t a, std::size_t b) {
   if (s.execution.loops().any_faster(b - a, &s.grains.vx[a], &s.grains.vy[a], s.fastest)) s.too_fast = true;
 }
 
-/// Angles are kept of clumps in the plane alone.
-double* angle_or_null(Grains& grains, std::size_t from) {
-  return grains.angle.empty() ? nullptr : &grains.angle[from];
-}
-
 /// Places, predicted velocities and spins at the end of a step.
 void predict(Integration& s) {
-  Grains& grains = s.grains;
   const GrainLoops& loops = s.execution.loops();
-  s.execution.share(grains.size(), [&](std::size_t a, std::size_t b) {
-    loops.predict(b - a, s.dt, &grains.x[a], &grains.vx[a], &s.kept.ax[a]);
-    loops.predict(b - a, s.dt, &grains.y[a], &grains.vy[a], &s.kept.ay[a]);
-    if (grains.in_space) loops.predict(b - a, s.dt, &grains.z[a], &grains.vz[a], &s.kept.az[a]);
-    if (turn_as_clumps(grains))
-      predict_clump_rotation(s, a, b);
-    else if (grains.rotation)
-      loops.predict(b - a, s.dt, angle_or_null(grains, a), &grains.omega[a], &s.kept.alpha[a]);
+  const bool as_clumps = turn_as_clumps(s.grains);
+  s.execution.share(s.grains.size(), [&](std::size_t a, std::size_t b) {
+    const auto ahead = [&](const std::vector<Coordinate>& coordinates) {
+      for (const Coordinate& c : coordinates)
+        loops.predict(b - a, s.dt, from(c.place, a), from(c.speed, a), from(c.rate, a));
+    };
+    ahead(s.moving.along);
+    as_clumps ? predict_clump_rotation(s, a, b) : ahead(s.moving.about);
   });
 }
 
@@ -168,84 +167,62 @@ void note_orientations(Integration& s) {
 }
 
 void rk2_midpoint(Integration& s) {
-  Grains& grains = s.grains;
   s.field.evaluate(s.state.time, {}, s.state.statistics);
   accelerations(s);
-  s.x = grains.x, s.y = grains.y, s.vx = grains.vx, s.vy = grains.vy, s.omega = grains.omega, s.angle = grains.angle;
-  s.z = grains.z, s.vz = grains.vz, s.omega_x = grains.omega_x, s.omega_y = grains.omega_y;  // in the plane all empty
-  const bool as_clumps = turn_as_clumps(grains);
+  std::vector<Coordinate> all = s.moving.along;
+  all.insert(all.end(), s.moving.about.begin(), s.moving.about.end());
+  const bool as_clumps = turn_as_clumps(s.grains);
+  const std::size_t driven = as_clumps ? s.moving.along.size() : all.size();
+  s.places.resize(all.size()), s.speeds.resize(all.size());
+  for (std::size_t c = 0; c < all.size(); ++c) {
+    if (all[c].place) s.places[c] = *all[c].place;
+    s.speeds[c] = *all[c].speed;
+  }
   if (as_clumps) note_orientations(s);
   const double half = 0.5 * s.dt;
-  add_scaled(grains.x, s.vx, half), add_scaled(grains.y, s.vy, half);
-  add_scaled(grains.vx, s.kept.ax, half), add_scaled(grains.vy, s.kept.ay, half);
-  add_scaled(grains.z, s.vz, half), add_scaled(grains.vz, s.kept.az, half);
-  if (as_clumps) {
-    advance_clump_rotation(s, half, 0, grains.size());
-  } else if (grains.rotation) {
-    add_scaled(grains.angle, s.omega, half);
-    add_scaled(grains.omega, s.kept.alpha, half);
-    add_scaled(grains.omega_x, s.kept.alpha_x, half), add_scaled(grains.omega_y, s.kept.alpha_y, half);
+  for (std::size_t c = 0; c < driven; ++c) {
+    if (all[c].place) add_scaled(*all[c].place, s.speeds[c], half);
+    add_scaled(*all[c].speed, *all[c].rate, half);
   }
+  if (as_clumps) advance_clump_rotation(s, half, 0, s.grains.size());
 
   s.field.evaluate(s.state.time + half, {.trial = half, .commit = s.dt, .present = 1}, s.state.statistics);
   accelerations(s);
-  set_sum(grains.x, s.x, grains.vx, s.dt), set_sum(grains.y, s.y, grains.vy, s.dt);
-  set_sum(grains.vx, s.vx, s.kept.ax, s.dt), set_sum(grains.vy, s.vy, s.kept.ay, s.dt);
-  set_sum(grains.z, s.z, grains.vz, s.dt), set_sum(grains.vz, s.vz, s.kept.az, s.dt);
-  if (as_clumps) {
-    advance_clump_rotation(s, s.dt, 0, grains.size());
-  } else if (grains.rotation) {
-    set_sum(grains.angle, s.angle, grains.omega, s.dt);
-    set_sum(grains.omega, s.omega, s.kept.alpha, s.dt);
-    set_sum(grains.omega_x, s.omega_x, s.kept.alpha_x, s.dt), set_sum(grains.omega_y, s.omega_y, s.kept.alpha_y, s.dt);
+  for (std::size_t c = 0; c < driven; ++c) {
+    if (all[c].place) set_sum(*all[c].place, s.places[c], *all[c].speed, s.dt);
+    set_sum(*all[c].speed, s.speeds[c], *all[c].rate, s.dt);
   }
-  s.execution.share(grains.size(), [&](std::size_t a, std::size_t b) { watch_speed(s, a, b); });
+  if (as_clumps) advance_clump_rotation(s, s.dt, 0, s.grains.size());
+  s.execution.share(s.grains.size(), [&](std::size_t a, std::size_t b) { watch_speed(s, a, b); });
   add_wall_work(s, s.dt * s.state.statistics.wall_power);
 }
 
-void gear_predict(Integration& s, double* x, double* v, HigherDerivatives& q, std::size_t a, std::size_t b) {
-  s.execution.loops().gear_predict(b - a, s.dt, x, v, &q[0][a], &q[1][a], &q[2][a], &q[3][a]);
-}
-
-void gear_correct(Integration& s, double* x, double* v, HigherDerivatives& q, const std::vector<double>& acceleration,
-                  std::size_t a, std::size_t b) {
-  s.execution.loops().gear_correct(b - a, s.dt, &acceleration[a], x, v, &q[0][a], &q[1][a], &q[2][a], &q[3][a]);
+/// Calls `visit` with each coordinate that Gear's scheme moves.
+template <class Visit>
+void for_each_of_gear(Integration& s, Visit visit) {
+  for (const auto* coordinates : {&s.moving.along, &s.moving.about, &s.moving.quaternions})
+    for (const Coordinate& c : *coordinates) visit(c);
 }
 
 void gear5(Integration& s) {
-  Grains& g = s.grains;
-  s.execution.share(g.size(), [&](std::size_t a, std::size_t b) {
-    gear_predict(s, &g.x[a], &g.vx[a], s.kept.of_x, a, b);
-    gear_predict(s, &g.y[a], &g.vy[a], s.kept.of_y, a, b);
-    if (g.rotation) gear_predict(s, angle_or_null(g, a), &g.omega[a], s.kept.of_angle, a, b);
-    if (!g.in_space) return;
-    gear_predict(s, &g.z[a], &g.vz[a], s.kept.of_z, a, b);
-    if (!g.rotation) return;
-    gear_predict(s, nullptr, &g.omega_x[a], s.kept.of_angle_x, a, b);
-    gear_predict(s, nullptr, &g.omega_y[a], s.kept.of_angle_y, a, b);
-    if (!g.oriented) return;
-    for (std::size_t k = 0; k < 4; ++k)
-      gear_predict(s, nullptr, g.quaternions()[k]->data() + a, s.kept.of_quaternion[k], a, b);
+  const GrainLoops& loops = s.execution.loops();
+  s.execution.share(s.grains.size(), [&](std::size_t a, std::size_t b) {
+    for_each_of_gear(s, [&](const Coordinate& c) {
+      HigherDerivatives& q = *c.higher;
+      loops.gear_predict(b - a, s.dt, from(c.place, a), from(c.speed, a), &q[0][a], &q[1][a], &q[2][a], &q[3][a]);
+    });
   });
   s.execution.profile().lap(Phase::integration);
   const double power_before = s.kept.wall_power;
   s.field.evaluate(next_time(s), {.trial = s.dt, .commit = s.dt, .present = 0.5}, s.state.statistics);
   accelerations(s);
-  s.execution.share(g.size(), [&](std::size_t a, std::size_t b) {
-    gear_correct(s, &g.x[a], &g.vx[a], s.kept.of_x, s.kept.ax, a, b);
-    gear_correct(s, &g.y[a], &g.vy[a], s.kept.of_y, s.kept.ay, a, b);
-    if (g.rotation) gear_correct(s, angle_or_null(g, a), &g.omega[a], s.kept.of_angle, s.kept.alpha, a, b);
-    if (g.in_space) gear_correct(s, &g.z[a], &g.vz[a], s.kept.of_z, s.kept.az, a, b);
-    if (g.in_space && g.rotation) {
-      gear_correct(s, nullptr, &g.omega_x[a], s.kept.of_angle_x, s.kept.alpha_x, a, b);
-      gear_correct(s, nullptr, &g.omega_y[a], s.kept.of_angle_y, s.kept.alpha_y, a, b);
-    }
-    if (turn_as_clumps(g)) {
-      for (std::size_t k = 0; k < 4; ++k)
-        gear_correct(s, nullptr, g.quaternions()[k]->data() + a, s.kept.of_quaternion[k], s.kept.quaternion_rate[k], a,
-                     b);
-      bring_to_unit_length(g, a, b);
-    }
+  s.execution.share(s.grains.size(), [&](std::size_t a, std::size_t b) {
+    for_each_of_gear(s, [&](const Coordinate& c) {
+      HigherDerivatives& q = *c.higher;
+      loops.gear_correct(b - a, s.dt, from(c.rate, a), from(c.place, a), from(c.speed, a), &q[0][a], &q[1][a], &q[2][a],
+                         &q[3][a]);
+    });
+    if (turn_as_clumps(s.grains)) bring_to_unit_length(s.grains, a, b);
     watch_speed(s, a, b);
   });
   s.kept.wall_power = s.state.statistics.wall_power;
@@ -256,27 +233,25 @@ void gear5(Integration& s) {
 void runge_kutta4(Integration& s, double time, ContactStatistics& statistics) {
   Grains start = s.grains, end = s.grains;
   const double h = s.dt;
+  Moving began(start, s.kept), ended(end, s.kept);
   const auto stage = [&](double at, double weight, double ahead) {
     accelerations_now(s, at, {}, statistics);
-    const auto move = [&](std::vector<double>& x, std::vector<double>& v, const std::vector<double>& x0,
-                          const std::vector<double>& v0, std::vector<double>& x1, std::vector<double>& v1,
-                          const std::vector<double>& a) {
-      for (std::size_t i = 0; i < v.size(); ++i) {
-        if (!x.empty()) x1[i] += weight * h * v[i], x[i] = x0[i] + ahead * h * v[i];
-        v1[i] += weight * h * a[i], v[i] = v0[i] + ahead * h * a[i];
+    const auto move = [&](const Coordinate& now, const Coordinate& from_start, const Coordinate& to_end) {
+      const bool has_place = now.place && !now.place->empty();
+      for (std::size_t i = 0; i < now.speed->size(); ++i) {
+        double& v = (*now.speed)[i];
+        const double rate = (*now.rate)[i], v0 = (*from_start.speed)[i];
+        if (has_place) {
+          (*to_end.place)[i] += weight * h * v;
+          (*now.place)[i] = (*from_start.place)[i] + ahead * h * v;
+        }
+        (*to_end.speed)[i] += weight * h * rate;
+        v = v0 + ahead * h * rate;
       }
     };
-    Grains& g = s.grains;
-    move(g.x, g.vx, start.x, start.vx, end.x, end.vx, s.kept.ax);
-    move(g.y, g.vy, start.y, start.vy, end.y, end.vy, s.kept.ay);
-    move(g.angle, g.omega, start.angle, start.omega, end.angle, end.omega, s.kept.alpha);
-    move(g.z, g.vz, start.z, start.vz, end.z, end.vz, s.kept.az);
-    std::vector<double> none;
-    move(none, g.omega_x, none, start.omega_x, none, end.omega_x, s.kept.alpha_x);
-    move(none, g.omega_y, none, start.omega_y, none, end.omega_y, s.kept.alpha_y);
-    for (std::size_t k = 0; turn_as_clumps(g) && k < 4; ++k)
-      move(none, *g.quaternions()[k], none, *start.quaternions()[k], none, *end.quaternions()[k],
-           s.kept.quaternion_rate[k]);
+    for (const auto coordinates : {&Moving::along, &Moving::about, &Moving::quaternions})
+      for (std::size_t c = 0; c < (s.moving.*coordinates).size(); ++c)
+        move((s.moving.*coordinates)[c], (began.*coordinates)[c], (ended.*coordinates)[c]);
   };
   stage(time, 1.0 / 6, 0.5), stage(time + 0.5 * h, 1.0 / 3, 0.5), stage(time + 0.5 * h, 1.0 / 3, 1);
   stage(time + h, 1.0 / 6, 1);
@@ -298,26 +273,40 @@ void fit_derivatives(const std::array<std::vector<double>, 4>& a, double h, High
 
 void start_gear(Integration& s) {
   const Grains start = s.grains;
-  ContactStatistics aside;  // a look ahead: what it meets has not happened
-  std::array<std::vector<double>, 4> ax, ay, alpha, az, alpha_x, alpha_y;
-  std::array<std::array<std::vector<double>, 4>, 4> quaternion_rate;  // of each component its four
+  ContactStatistics aside;                                // a look ahead: what it meets has not happened
+  std::vector<std::array<std::vector<double>, 4>> rates;  // of each coordinate
   for (std::size_t k = 0; k < 4; ++k) {
     const double time = s.state.time + static_cast<double>(k) * s.dt;
     accelerations_now(s, time, {}, aside);
-    ax[k] = s.kept.ax, ay[k] = s.kept.ay, alpha[k] = s.kept.alpha;
-    az[k] = s.kept.az, alpha_x[k] = s.kept.alpha_x, alpha_y[k] = s.kept.alpha_y;
-    for (std::size_t q = 0; q < 4; ++q) quaternion_rate[q][k] = s.kept.quaternion_rate[q];
+    std::size_t of = 0;
+    for_each_of_gear(s, [&](const Coordinate& c) {
+      if (k == 0) rates.emplace_back();
+      rates[of++][k] = *c.rate;
+    });
     if (k < 3) runge_kutta4(s, time, aside);
   }
   s.grains = start;
-  fit_derivatives(ax, s.dt, s.kept.of_x), fit_derivatives(ay, s.dt, s.kept.of_y),
-      fit_derivatives(alpha, s.dt, s.kept.of_angle);
-  fit_derivatives(az, s.dt, s.kept.of_z);
-  fit_derivatives(alpha_x, s.dt, s.kept.of_angle_x), fit_derivatives(alpha_y, s.dt, s.kept.of_angle_y);
-  for (std::size_t q = 0; q < 4; ++q) fit_derivatives(quaternion_rate[q], s.dt, s.kept.of_quaternion[q]);
+  std::size_t of = 0;
+  for_each_of_gear(s, [&](const Coordinate& c) { fit_derivatives(rates[of++], s.dt, *c.higher); });
 }
 
 }  // namespace
+
+Moving::Moving(Grains& g, IntegratorState& k) {
+  along = {{&g.x, &g.vx, &k.ax, &k.of_x}, {&g.y, &g.vy, &k.ay, &k.of_y}};
+  if (g.in_space) along.push_back({&g.z, &g.vz, &k.az, &k.of_z});
+  if (!g.rotation) return;
+  if (!g.in_space) {
+    about = {{&g.angle, &g.omega, &k.alpha, &k.of_angle}};
+    return;
+  }
+  about = {{nullptr, &g.omega_x, &k.alpha_x, &k.of_angle_x},
+           {nullptr, &g.omega_y, &k.alpha_y, &k.of_angle_y},
+           {nullptr, &g.omega, &k.alpha, &k.of_angle}};
+  if (turn_as_clumps(g))
+    for (std::size_t q = 0; q < 4; ++q)
+      quaternions.push_back({nullptr, g.quaternions()[q], &k.quaternion_rate[q], &k.of_quaternion[q]});
+}
 
 StepFunction step_function(Integrator integrator) {
   switch (integrator) {
@@ -342,34 +331,28 @@ void add_to_integration(Integration& s) {
   s.kept.wall_power = s.state.statistics.wall_power;
   if (s.model.scene.numerics.integrator != Integrator::gear5) return;
   // Newcomers start with their acceleration; those who were there keep what they have.
-  const auto extend = [&s](HigherDerivatives& higher, const std::vector<double>& a) {
+  for_each_of_gear(s, [&s](const Coordinate& c) {
+    const std::vector<double>& a = *c.rate;
+    HigherDerivatives& higher = *c.higher;
     for (std::size_t i = higher[0].size(); i < a.size(); ++i) {
       higher[0].push_back(0.5 * s.dt * s.dt * a[i]);
       for (std::size_t n = 1; n < 4; ++n) higher[n].push_back(0);
     }
-  };
-  extend(s.kept.of_x, s.kept.ax), extend(s.kept.of_y, s.kept.ay), extend(s.kept.of_angle, s.kept.alpha);
-  extend(s.kept.of_z, s.kept.az), extend(s.kept.of_angle_x, s.kept.alpha_x), extend(s.kept.of_angle_y, s.kept.alpha_y);
-  for (std::size_t q = 0; q < 4; ++q) extend(s.kept.of_quaternion[q], s.kept.quaternion_rate[q]);
+  });
 }
 
 void remove_from_integration(Integration& s, const std::vector<char>& removed) {
   accelerations_now(s, s.state.time, {}, s.state.statistics);
   s.kept.wall_power = s.state.statistics.wall_power;
   if (s.model.scene.numerics.integrator != Integrator::gear5) return;
-  const auto keep = [&removed](HigherDerivatives& higher) {
-    for (std::vector<double>& q : higher) {
-      if (q.empty()) continue;
+  for_each_of_gear(s, [&removed](const Coordinate& c) {
+    for (std::vector<double>& q : *c.higher) {
       std::size_t kept = 0;
       for (std::size_t i = 0; i < removed.size(); ++i)
         if (!removed[i]) q[kept++] = q[i];
       q.resize(kept);
     }
-  };
-  for (HigherDerivatives* higher :
-       {&s.kept.of_x, &s.kept.of_y, &s.kept.of_angle, &s.kept.of_z, &s.kept.of_angle_x, &s.kept.of_angle_y})
-    keep(*higher);
-  for (HigherDerivatives& higher : s.kept.of_quaternion) keep(higher);
+  });
 }
 
 int evaluations_per_step(Integrator integrator) {

@@ -9,6 +9,21 @@
 
 namespace vibrosow {
 
+/// One coordinate of all grains as it moves. Spins of balls in space and components of quaternions have no place; the
+/// array of an absent effect is empty.
+struct Coordinate {
+  std::vector<double>* place;  // null: there is none
+  std::vector<double>*speed, *rate;
+  HigherDerivatives* higher;  // gear5
+};
+
+/// Those that there are.
+struct Moving {
+  std::vector<Coordinate> along, about;  // the axes; clumps in space turn in a way of their own, but for gear5
+  std::vector<Coordinate> quaternions;   // of clumps in space, under gear5
+  Moving(Grains& grains, IntegratorState& kept);
+};
+
 /// What an integrator moves, with what, and where it keeps things within a step.
 struct Integration {
   const Model& model;
@@ -22,9 +37,11 @@ struct Integration {
   double fastest;         // m/s; a step that ends with a faster grain is noted
 
   std::atomic<bool> too_fast = false;  // whether a grain was faster at the end of the last step
-  // The state at the beginning of a step (rk2_midpoint); the second line in space alone, the third of clumps there.
-  std::vector<double> x{}, y{}, vx{}, vy{}, omega{}, angle{};
-  std::vector<double> z{}, vz{}, omega_x{}, omega_y{};
+  Moving moving{grains, kept};
+
+  // The state at the beginning of a step (rk2_midpoint), of the coordinates along the axes, then about them; the last
+  // line of clumps in space alone.
+  std::vector<std::vector<double>> places{}, speeds{};
   std::vector<Orientation> orientation{};
 
   std::array<std::vector<double>, 3> moments = moments_by_lot(grains);  // of clumps

@@ -8,9 +8,9 @@
 
 #include "box2d/broadphase.hpp"
 #include "box2d/space_broadphase.hpp"
-#include "compute/execution.hpp"
 #include "contact/contact_state.hpp"
 #include "grains/grains.hpp"
+#include "loops/execution.hpp"
 #include "vessel/walls.hpp"
 
 namespace vibrosow {

@@ -2,9 +2,9 @@
 
 #include <cstddef>
 
-#include "compute/grain_force.hpp"
-#include "compute/grain_loops.hpp"
 #include "compute/instruction_set.hpp"
+#include "loops/grain_force.hpp"
+#include "loops/grain_loops.hpp"
 
 namespace vibrosow {
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "compute/orientation.hpp"
+#include "loops/orientation.hpp"
 
 namespace vibrosow::inline VIBROSOW_ISA {
 

@@ -2,8 +2,8 @@
 
 #include <cstddef>
 
-#include "compute/grain_force.hpp"
 #include "compute/instruction_set.hpp"
+#include "loops/grain_force.hpp"
 
 namespace vibrosow {
 

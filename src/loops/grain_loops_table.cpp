@@ -1,8 +1,8 @@
 #include <stdexcept>
 
-#include "compute/clump_loops.hpp"
-#include "compute/grain_loops.hpp"
-#include "compute/space_loops.hpp"
+#include "loops/clump_loops.hpp"
+#include "loops/grain_loops.hpp"
+#include "loops/space_loops.hpp"
 
 namespace vibrosow {
 

@@ -4,12 +4,12 @@
 #include <cstddef>
 #include <functional>
 
-#include "compute/clump_loops.hpp"
-#include "compute/grain_loops.hpp"
 #include "compute/profile.hpp"
-#include "compute/space_loops.hpp"
 #include "compute/stop_request.hpp"
 #include "compute/thread_team.hpp"
+#include "loops/clump_loops.hpp"
+#include "loops/grain_loops.hpp"
+#include "loops/space_loops.hpp"
 
 namespace vibrosow {
 

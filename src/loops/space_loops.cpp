@@ -1,11 +1,11 @@
 // Compiled for each instruction set (VIBROSOW_ISA), see src/CMakeLists.txt.
-#include "compute/space_loops.hpp"
+#include "loops/space_loops.hpp"
 
 #include <type_traits>
 
 #include "compute/compress.hpp"
 #include "compute/four.hpp"
-#include "compute/rows.hpp"
+#include "loops/rows.hpp"
 
 namespace vibrosow::inline VIBROSOW_ISA {
 namespace {

@@ -3,7 +3,7 @@
 #include <cstddef>
 
 #include "compute/four.hpp"
-#include "compute/grain_force.hpp"
+#include "loops/grain_force.hpp"
 
 namespace vibrosow::inline VIBROSOW_ISA {
 

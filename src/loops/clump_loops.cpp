@@ -1,8 +1,8 @@
 // Compiled for each instruction set (VIBROSOW_ISA), see src/CMakeLists.txt.
-#include "compute/clump_loops.hpp"
+#include "loops/clump_loops.hpp"
 
-#include "compute/rows.hpp"
-#include "compute/turning_clump.hpp"
+#include "loops/rows.hpp"
+#include "loops/turning_clump.hpp"
 
 namespace vibrosow::inline VIBROSOW_ISA {
 namespace {

@@ -1,5 +1,5 @@
 // Compiled for each instruction set (VIBROSOW_ISA), see src/CMakeLists.txt.
-#include "compute/grain_loops.hpp"
+#include "loops/grain_loops.hpp"
 
 #include <type_traits>
 

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "compute/grain_force.hpp"
+#include "loops/grain_force.hpp"
 
 namespace vibrosow {
 
