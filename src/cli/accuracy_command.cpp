@@ -233,8 +233,8 @@ int run_table(const AccuracyOptions& options) {
   AccuracyResult result;
   AccuracyTiming timing{.jobs = jobs};
   {
-    const double runs = std::accumulate(design.runs.begin(), design.runs.end(), 0.0);
-    Progress progress(text_unless(options.common.quiet), runs * options.replicates, "runs");
+    const double of_a_round = std::accumulate(design.runs.begin(), design.runs.end(), 0.0);
+    Progress progress(text_unless(options.common.quiet), of_a_round * options.replicates, "runs");
     SweepOptions sweep_options = sweep_options_of(options, jobs, interrupt);
     sweep_options.runs.progress = [&](const ManyRunsProgress& done) { progress.update(done.fraction_done); };
     result = measure_accuracy(scene, design, options.replicates, simulator, sweep_options);
