@@ -230,7 +230,7 @@ void gear5(Integration& s) {
 }
 
 /// One step of the classical fourth-order scheme that leaves no trace in the contacts' memory.
-[[gnu::cold]] void runge_kutta4(Integration& s, double time, ContactStatistics& statistics) {
+void runge_kutta4(Integration& s, double time, ContactStatistics& statistics) {
   Grains start = s.grains, end = s.grains;
   const double h = s.dt;
   Moving began(start, s.kept), ended(end, s.kept);
@@ -259,7 +259,7 @@ void gear5(Integration& s) {
 }
 
 /// h^n / n! times the derivatives at the first of four equally spaced accelerations, by the cubic through them.
-[[gnu::cold]] void fit_derivatives(const std::array<std::vector<double>, 4>& a, double h, HigherDerivatives& higher) {
+void fit_derivatives(const std::array<std::vector<double>, 4>& a, double h, HigherDerivatives& higher) {
   const std::size_t n = a[0].size();
   for (std::vector<double>& q : higher) q.resize(n);
   const double h2 = h * h;
@@ -271,7 +271,7 @@ void gear5(Integration& s) {
   }
 }
 
-[[gnu::cold]] void start_gear(Integration& s) {
+void start_gear(Integration& s) {
   const Grains start = s.grains;
   ContactStatistics aside;                                // a look ahead: what it meets has not happened
   std::vector<std::array<std::vector<double>, 4>> rates;  // of each coordinate
