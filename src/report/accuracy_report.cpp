@@ -364,9 +364,9 @@ std::string accuracy_timing_csv(const AccuracyResult& result, CsvFormat format) 
 
 std::string accuracy_table(const AccuracyResult& result) {
   const AccuracySetting& first = result.rows.front().setting;
-  std::string text = fmt::format(" # {:>5} {:>9} {}{:>9} {:>10} {:>19} {:>8}\n", "steps",
-                                 first.youngs_modulus > 0 ? "E MPa" : "eps/r", first.slip_speed > 0 ? "slip mm/s " : "",
-                                 "dt s", "rate g/s", "error", "cost");
+  std::string text =
+      fmt::format(" # {:>5} {:>9} {}{:>9} {:>10} {:>19} {:>8}\n", "steps", first.youngs_modulus > 0 ? "E MPa" : "eps/r",
+                  first.slip_speed > 0 ? "slip mm/s " : "", "dt s", "rate g/s", "error", "cost");
   std::string scheme;
   for (std::size_t i = 0; i < result.rows.size(); ++i) {
     const AccuracyRow& row = result.rows[i];

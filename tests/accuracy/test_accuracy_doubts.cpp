@@ -14,9 +14,9 @@ using testing::IsEmpty;
 
 AccuracyResult result_with(double by_interaction) {
   const AccuracyDesign design = made_up_design();
-  return accuracy_of(design.settings, std::vector<std::string>(design.settings.size()),
-                     MadeUpRuns({.scatter = 0.5, .by_interaction = by_interaction})
-                         .run(design.settings, rounds_of(design, 4)));
+  return accuracy_of(
+      design.settings, std::vector<std::string>(design.settings.size()),
+      MadeUpRuns({.scatter = 0.5, .by_interaction = by_interaction}).run(design.settings, rounds_of(design, 4)));
 }
 
 std::vector<DoubtKind> kinds_of(const AccuracyResult& result, Space space) {
