@@ -169,8 +169,7 @@ void note_orientations(Integration& s) {
 void rk2_midpoint(Integration& s) {
   s.field.evaluate(s.state.time, {}, s.state.statistics);
   accelerations(s);
-  std::vector<Coordinate> all = s.moving.along;
-  all.insert(all.end(), s.moving.about.begin(), s.moving.about.end());
+  const std::vector<Coordinate>& all = s.moving.axes;
   const bool as_clumps = turn_as_clumps(s.grains);
   const std::size_t driven = as_clumps ? s.moving.along.size() : all.size();
   s.places.resize(all.size()), s.speeds.resize(all.size());
@@ -295,14 +294,14 @@ void start_gear(Integration& s) {
 Moving::Moving(Grains& g, IntegratorState& k) {
   along = {{&g.x, &g.vx, &k.ax, &k.of_x}, {&g.y, &g.vy, &k.ay, &k.of_y}};
   if (g.in_space) along.push_back({&g.z, &g.vz, &k.az, &k.of_z});
-  if (!g.rotation) return;
-  if (!g.in_space) {
+  if (g.rotation && g.in_space)
+    about = {{nullptr, &g.omega_x, &k.alpha_x, &k.of_angle_x},
+             {nullptr, &g.omega_y, &k.alpha_y, &k.of_angle_y},
+             {nullptr, &g.omega, &k.alpha, &k.of_angle}};
+  else if (g.rotation)
     about = {{&g.angle, &g.omega, &k.alpha, &k.of_angle}};
-    return;
-  }
-  about = {{nullptr, &g.omega_x, &k.alpha_x, &k.of_angle_x},
-           {nullptr, &g.omega_y, &k.alpha_y, &k.of_angle_y},
-           {nullptr, &g.omega, &k.alpha, &k.of_angle}};
+  axes = along;
+  axes.insert(axes.end(), about.begin(), about.end());
   if (turn_as_clumps(g))
     for (std::size_t q = 0; q < 4; ++q)
       quaternions.push_back({nullptr, g.quaternions()[q], &k.quaternion_rate[q], &k.of_quaternion[q]});

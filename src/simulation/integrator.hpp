@@ -20,6 +20,7 @@ struct Coordinate {
 /// Those that there are.
 struct Moving {
   std::vector<Coordinate> along, about;  // the axes; clumps in space turn in a way of their own, but for gear5
+  std::vector<Coordinate> axes;          // both, in that order
   std::vector<Coordinate> quaternions;   // of clumps in space, under gear5
   Moving(Grains& grains, IntegratorState& kept);
 };
