@@ -212,7 +212,7 @@ class Given {
   const Grains& grains_ = state_.grains;
   const PairList& list_ = state_.contacts.pairs;
   const Bare constants_ = bare_of(model_, grains_.kinds.front());
-  const HistoryAdvance advance_{.trial = constants_.dt, .commit = constants_.dt, .present = 0.5};
+  const ContactStep advance_{.trial = constants_.dt, .commit = constants_.dt, .present = 0.5};
 };
 
 /// Both kernels on it, each with histories and sums of its own.

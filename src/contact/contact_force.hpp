@@ -31,6 +31,11 @@ struct PairConstants {
   double steepest_rolling;  // N s, of a constant rolling torque by the rolling speed
   double rolling_inertia;   // kg m2, of turning about the contact
   double twisting_inertia;  // kg m2, of the two about their common normal
+  // How fast a force of 1 changes the approach, and a torque of 1 how each of the two turns, 1/kg and 1/(kg m2).
+  double approach_yield, turning_yield_i, turning_yield_j;
+  double brake_yield;  // 1/kg, by which drag slows down the two against each other
+
+  double turning_yield() const { return turning_yield_i + turning_yield_j; }
 };
 
 /// How two surfaces stand and move.
@@ -39,43 +44,56 @@ struct Touch {
   double approach;  // m/s, growth of the overlap
   double sliding;   // m/s, W: speed of i's surface over j's along t
   double turning;   // rad/s, omega_i - omega_j
+  double slipping;       // m/s, as sliding, on the mean over the step: set where there is a spring
+  double sliding_yield;  // 1/kg, how fast a force of 1 changes the sliding
 };
 
 /// A displacement between two evaluations: read, moved on, and stored.
 class MovingHistory {
  public:
-  MovingHistory(double stored, double old_speed, double speed, const HistoryAdvance& advance)
-      : displacement(stored + advance.trial * mean(old_speed, speed, advance)),
-        mean_(mean(old_speed, speed, advance)) {}
+  MovingHistory(double stored, double old_speed, double speed, const ContactStep& step)
+      : displacement(stored + step.trial * mean(old_speed, speed, step)),
+        mean_(mean(old_speed, speed, step)) {}
 
   double displacement;  // at which the force is wanted; the law may shorten it
 
-  double to_store(const HistoryAdvance& advance) const {
-    return displacement + (advance.commit - advance.trial) * mean_;
+  double to_store(const ContactStep& step) const {
+    return displacement + (step.commit - step.trial) * mean_;
   }
 
  private:
-  static double mean(double old_speed, double speed, const HistoryAdvance& advance) {
-    return old_speed + advance.present * (speed - old_speed);
+  static double mean(double old_speed, double speed, const ContactStep& step) {
+    return old_speed + step.present * (speed - old_speed);
   }
   double mean_;
 };
 
 /// What a law and its dashpot make of an overlap: together they never pull.
 struct NormalForce {
-  double secant;     // N/m, of the elastic force
-  double dashpot;    // N s/m; 0 without damping
+  double secant;       // N/m, of the elastic force
+  double dashpot;      // N s/m, as long as it acts; 0 without damping
+  double own_dashpot;  // N s/m, at the overlap: by which its own force changes what it takes
   double repulsion;  // N
 };
 template <class Law, class Effects>
-[[gnu::always_inline]] inline NormalForce normal_force(double overlap, double approach, const PairConstants& pair) {
+[[gnu::always_inline]] inline NormalForce normal_force(double overlap, double approach, const PairConstants& pair,
+                                                       const SurfaceParameters& surface, const ContactStep& step) {
   const double secant = Law::secant(pair.stiffness, overlap);
-  double repulsion = secant * overlap, dashpot = 0;
+  double repulsion = secant * overlap, dashpot = 0, own = 0;
   if constexpr (Effects::damping) {
-    dashpot = Law::dashpot_at(pair.dashpot, overlap);
-    repulsion = std::max(0.0, repulsion + dashpot * approach);
+    // A contact that begins in this step has touched for overlap / approach of it. Its force counts for all of a step
+    // from the middle of this one on; the dashpot then for the time in touch, which is longer or shorter.
+    const double in_half_step = step.lag * approach, before = overlap - in_half_step;
+    const bool begins = before < in_half_step;
+    own = Law::dashpot_at(pair.dashpot, overlap);
+    dashpot = begins ? Law::dashpot_impulse(pair.dashpot, overlap + in_half_step) / (in_half_step + in_half_step) : own;
+    const double yield = step.lag * pair.approach_yield;
+    double later = approach;
+    if constexpr (Effects::cohesion) later += surface.cohesion * yield;
+    const double trial = (repulsion + dashpot * later) / (1 + own * yield);
+    repulsion = std::max(0.0, trial);
   }
-  return {secant, dashpot, repulsion};
+  return {secant, dashpot, own, repulsion};
 }
 
 struct ContactForce {
@@ -89,34 +107,37 @@ struct ContactForce {
 /// as it was stored and comes out as it is to be stored.
 template <class Law, class Effects>
 inline ContactForce contact_force(const Touch& touch, const PairConstants& pair, const SurfaceParameters& surface,
-                                  const HistoryAdvance& advance, ContactHistory& history) {
-  [[maybe_unused]] const auto [secant, dashpot, repulsion] =
-      normal_force<Law, Effects>(touch.overlap, touch.approach, pair);
+                                  const ContactStep& step, ContactHistory& history) {
+  [[maybe_unused]] const auto [secant, dashpot, own_dashpot, repulsion] =
+      normal_force<Law, Effects>(touch.overlap, touch.approach, pair, surface, step);
   ContactForce force{repulsion, 0, 0, 0};
   if constexpr (Effects::cohesion) force.normal -= surface.cohesion;
   if constexpr (Effects::spring) {
-    MovingHistory slip(history.slip, history.slip_speed, touch.sliding, advance);
-    force.tangential = spring_friction(surface.tangential_ratio * secant, surface.tangential_damping * dashpot,
-                                       surface.friction * repulsion, touch.sliding, slip.displacement);
-    history.slip = slip.to_store(advance), history.slip_speed = touch.sliding;
+    MovingHistory slip(history.slip, history.slip_speed, touch.slipping, step);
+    force.tangential =
+        spring_friction(surface.tangential_ratio * secant, surface.tangential_damping * dashpot,
+                        surface.friction * repulsion, touch.sliding,
+                        surface.tangential_damping * own_dashpot * step.lag * touch.sliding_yield, slip.displacement);
+    history.slip = slip.to_store(step), history.slip_speed = touch.slipping;
   } else if constexpr (Effects::friction) {
     const auto sliding = sliding_friction(surface.friction * repulsion, touch.sliding, surface.inverse_slip_speed,
-                                          pair.steepest_sliding);
+                                          pair.steepest_sliding, step.lag * touch.sliding_yield);
     force.tangential = sliding.force, force.slip_raised = sliding.raised;
   }
   if constexpr (Effects::rolling == Rolling::constant_torque) {
     const double arm = surface.rolling_friction * pair.rolling_radius;
     const auto rolling = sliding_friction(arm * repulsion, pair.rolling_radius * touch.turning,
-                                          surface.inverse_slip_speed, pair.steepest_rolling);
+                                          surface.inverse_slip_speed, pair.steepest_rolling, 0.0);
     force.rolling = -rolling.force, force.slip_raised = std::max(force.slip_raised, rolling.raised);
   } else if constexpr (Effects::rolling == Rolling::spring) {
     const double arm = surface.rolling_friction * pair.rolling_radius;
     const double stiffness = 2.25 * secant * arm * arm;
     const double critical = 2 * std::sqrt(pair.rolling_inertia * stiffness);
-    MovingHistory roll(history.roll, history.roll_speed, touch.turning, advance);
-    force.rolling = -spring_friction(stiffness, surface.rolling_damping * critical, arm * repulsion, touch.turning,
-                                     roll.displacement);
-    history.roll = roll.to_store(advance), history.roll_speed = touch.turning;
+    MovingHistory roll(history.roll, history.roll_speed, touch.turning, step);
+    const double damping = surface.rolling_damping * critical;
+    force.rolling = -spring_friction(stiffness, damping, arm * repulsion, touch.turning,
+                                     damping * step.lag * pair.turning_yield(), roll.displacement);
+    history.roll = roll.to_store(step), history.roll_speed = touch.turning;
   }
   return force;
 }

@@ -97,12 +97,19 @@ struct ContactHistories {
   }
 };
 
-/// How a history moves on in one evaluation of the forces. The displacement at which a force is wanted is the stored
-/// one plus `trial` seconds of the speed, which is taken between the stored (0) and the present one (1) at `present`.
-/// What is stored for the next step is `commit` seconds on; 0: an evaluation that leaves no trace.
-struct HistoryAdvance {
+/// What an evaluation of the forces is within its step. The displacement at which a force is wanted is the stored one
+/// plus `trial` seconds of the speed, which is taken between the stored (0) and the present one (1) at `present`. What
+/// is stored for the next step is `commit` seconds on; 0: an evaluation that leaves no trace.
+///
+/// Velocities may be those of `lag` seconds before the places, in the middle of a step of 2 lag (velocity Verlet). Then
+/// a dashpot takes them as its own contact's force, gravity and drag make them until the end, and in the step in which
+/// a contact begins it counts as long as there is one (docs/THEORY.md). 0: velocities and places are of one time.
+struct ContactStep {
   double trial = 0, commit = 0;  // s
   double present = 1;
+  double lag = 0;                 // s
+  double fall_x = 0, fall_y = 0;  // m/s, that gravity adds in this time
+  double brake = 0;               // kg, drag times this time: over its mass, the part of its speed that a grain loses
 };
 
 }  // namespace vibrosow

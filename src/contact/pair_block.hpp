@@ -36,12 +36,13 @@ struct ContactParameters {
 /// What a contact needs to know of one grain.
 struct GrainSurface {
   double radius, compliance, inverse_mass, inverse_inertia, curvature;
+  double lever_yield;  // 1/kg, GrainKind's
 };
 
 /// The same of all grains: arrays where they are polydisperse, `equal` where they are not.
 struct GrainSurfaces {
   GrainSurface equal;
-  const double *radius, *compliance, *inverse_mass, *inverse_inertia, *curvature;
+  const double *radius, *compliance, *inverse_mass, *inverse_inertia, *curvature, *lever_yield;
   const int* lot;
 };
 
@@ -81,7 +82,7 @@ struct PairResult {
 /// Works out a block: the law for each touching pair of a range, contact by contact added to the grains in the order of
 /// the list. `histories` has an entry for each pair of the list.
 using PairKernel = void (*)(const GrainSurfaces&, const Motion&, const PairList&, PairRange, const ContactParameters&,
-                            const HistoryAdvance&, ContactHistories& histories, PairResult&);
+                            const ContactStep&, ContactHistories& histories, PairResult&);
 
 /// Grains that touch walls: of each array the first `count` places count.
 struct WallContacts {
@@ -89,12 +90,13 @@ struct WallContacts {
   std::vector<int> candidate, grain;
   std::vector<double> dx, dy, distance2;            // m, m2: from the centre to the wall's nearest point
   std::vector<double> normal_x, normal_y;           // towards the wall, set where the distance is 0
-  std::vector<double> wall_vx, wall_vy, wall_spin;  // m/s, rad/s: of the wall's material at that point
+  std::vector<double> wall_vx, wall_vy, wall_spin;  // m/s, rad/s: of the wall's material there; the spin on the mean
+  std::vector<double> mean_wall_vx, mean_wall_vy;   // m/s, on the step's mean
   std::vector<double> fx, fy, torque;               // N, on the wall; N m, on the grain, without rotation unset
 };
 
 /// Works out the forces of all contacts. `histories` has an entry for each candidate.
-using WallKernel = LawFigures (*)(const GrainSurfaces&, const Motion&, const ContactParameters&, const HistoryAdvance&,
+using WallKernel = LawFigures (*)(const GrainSurfaces&, const Motion&, const ContactParameters&, const ContactStep&,
                                   ContactHistories& histories, WallContacts&);
 
 /// What is compiled for each instruction set.

@@ -12,7 +12,7 @@ void add_figures(const LawFigures& figures, ContactStatistics& statistics) {
 }
 
 void add_pair_forces(PairKernel kernel, const GrainSurfaces& grains, const Motion& at, const PairList& list,
-                     PairRange range, const ContactParameters& parameters, const HistoryAdvance& advance,
+                     PairRange range, const ContactParameters& parameters, const ContactStep& step,
                      ContactHistories& histories, GrainRange fresh, Forces& forces, std::vector<ForeignForce>& foreign,
                      ContactStatistics& statistics) {
   PairResult result;
@@ -25,7 +25,7 @@ void add_pair_forces(PairKernel kernel, const GrainSurfaces& grains, const Motio
   for (int from = range.from; from < range.to; from += pair_block_size) {
     const int to = std::min(from + pair_block_size, range.to);
     begin_up_to(std::min(list.grain[static_cast<std::size_t>(to) - 1] + 1, fresh.to));
-    kernel(grains, at, list, {from, to}, parameters, advance, histories, result);
+    kernel(grains, at, list, {from, to}, parameters, step, histories, result);
     foreign.insert(foreign.end(), result.foreign, result.foreign + result.foreign_count);
     statistics.contacts += result.contacts;
     add_figures(result.figures, statistics);

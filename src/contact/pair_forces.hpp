@@ -16,7 +16,7 @@ void add_figures(const LawFigures& figures, ContactStatistics& statistics);
 /// Forces on grains before `fresh.from` go to `foreign` instead, in the same order. Forces on `fresh` grains, each of
 /// whose pairs comes with a partner of a lower number, begin with zero.
 void add_pair_forces(PairKernel kernel, const GrainSurfaces& grains, const Motion& at, const PairList& list,
-                     PairRange range, const ContactParameters& parameters, const HistoryAdvance& advance,
+                     PairRange range, const ContactParameters& parameters, const ContactStep& step,
                      ContactHistories& histories, GrainRange fresh, Forces& forces, std::vector<ForeignForce>& foreign,
                      ContactStatistics& statistics);
 

@@ -119,10 +119,10 @@ inline double max_relative_overlap(const PairBlock& block) {
 template <class Law, class Effects>
 [[gnu::flatten]] LawFigures forces_of_touching(const PairProperties<Law, Effects>& properties, const Motion& at,
                                                int first_entry, const ContactParameters& parameters,
-                                               const HistoryAdvance& advance_, const ContactHistories& histories,
+                                               const ContactStep& step_, const ContactHistories& histories,
                                                PairBlock& block, BlockHistories& block_histories) {
   const double shortening = parameters.arm_shortening;
-  const HistoryAdvance advance = advance_;
+  const ContactStep step = step_;
   const double *vx = at.vx, *vy = at.vy, *omega = at.omega;
   const int whole = block.whole_vectors();
   const int touching = block.touching;
@@ -141,21 +141,24 @@ template <class Law, class Effects>
     const double overlap = pair.reach - distance;
     block.relative_overlap[k] = overlap * pair.relative_per_overlap;
 
-    Touch touch{overlap, 0, 0, 0};
+    Touch touch{overlap, 0, 0, 0, 0, pair.approach_yield};
     [[maybe_unused]] double arm_i = 0, arm_j = 0;
     if constexpr (Effects::damping || Effects::friction) {
       const double ux = vx[i] - vx[j], uy = vy[i] - vy[j];
-      if constexpr (Effects::damping) touch.approach = ux * nx + uy * ny;
-      if constexpr (Effects::friction) touch.sliding = uy * nx - ux * ny;
+      const double kept = 1 - step.brake * pair.brake_yield;
+      if constexpr (Effects::damping) touch.approach = kept * (ux * nx + uy * ny);
+      if constexpr (Effects::friction) touch.slipping = uy * nx - ux * ny, touch.sliding = kept * touch.slipping;
       if constexpr (Effects::rotation) {
         arm_i = properties.radius(i) - shortening * overlap * pair.overlap_fraction_i;
         arm_j = properties.radius(j) - shortening * overlap * pair.overlap_fraction_j;
-        touch.sliding += arm_i * omega[i] + arm_j * omega[j];
+        const double turned = arm_i * omega[i] + arm_j * omega[j];
+        touch.sliding += turned, touch.slipping += turned;
+        touch.sliding_yield += arm_i * arm_i * pair.turning_yield_i + arm_j * arm_j * pair.turning_yield_j;
       }
       if constexpr (Effects::rolls) touch.turning = omega[i] - omega[j];
     }
     ContactHistory history = load_history<Effects>(histories, e);
-    const ContactForce force = contact_force<Law, Effects>(touch, pair, properties.between(i, j), advance, history);
+    const ContactForce force = contact_force<Law, Effects>(touch, pair, properties.between(i, j), step, history);
     if constexpr (Effects::spring)
       block_histories.slip[k] = history.slip, block_histories.slip_speed[k] = history.slip_speed;
     if constexpr (Effects::rolling == Rolling::spring)
@@ -204,14 +207,14 @@ inline void add_block(const PairBlock& block, PairResult& result) {
 
 template <class Law, class Effects>
 [[gnu::flatten]] void pair_forces(const GrainSurfaces& grains, const Motion& at, const PairList& list, PairRange range,
-                                  const ContactParameters& parameters, const HistoryAdvance& advance,
+                                  const ContactParameters& parameters, const ContactStep& step,
                                   ContactHistories& histories, PairResult& result) {
   const PairProperties<Law, Effects> properties(grains, parameters);
-  const bool leaves_trace = advance.commit > 0;
+  const bool leaves_trace = step.commit > 0;
   PairBlock block;
   find_touching<Law, Effects>(properties, at, list, range, leaves_trace, histories, block);
   BlockHistories block_histories;
-  result.figures = forces_of_touching<Law, Effects>(properties, at, range.from, parameters, advance, histories, block,
+  result.figures = forces_of_touching<Law, Effects>(properties, at, range.from, parameters, step, histories, block,
                                                     block_histories);
   if (keeps_history<Effects> && leaves_trace)
     store_block<Effects>(block_histories, block.entry, range.from, block.touching, histories);

@@ -20,6 +20,9 @@ inline PairConstants pair_constants(const GrainSurface& a, const GrainSurface& b
   p.overlap_fraction_j = b.compliance / compliance;
   const double at_i = p.overlap_fraction_i * a.curvature, at_j = p.overlap_fraction_j * b.curvature;
   p.relative_per_overlap = at_i > at_j ? at_i : at_j;
+  p.approach_yield = a.inverse_mass + b.inverse_mass + (a.lever_yield + b.lever_yield);
+  p.brake_yield = b.inverse_mass > 0 ? 0.5 * (a.inverse_mass + b.inverse_mass) : a.inverse_mass;
+  if constexpr (Effects::rotation) p.turning_yield_i = a.inverse_inertia, p.turning_yield_j = b.inverse_inertia;
   if constexpr (Effects::friction && !Effects::spring)
     p.steepest_sliding = parameters.steepest_sliding / (a.inverse_mass + b.inverse_mass);
   if constexpr (Effects::rolls) p.rolling_radius = 1 / (a.curvature + b.curvature);
@@ -76,8 +79,8 @@ class PairProperties {
  private:
   GrainSurface surface(std::size_t i) const {
     if constexpr (Effects::polydisperse)
-      return {grains_.radius[i], grains_.compliance[i], grains_.inverse_mass[i], grains_.inverse_inertia[i],
-              grains_.curvature[i]};
+      return {grains_.radius[i],          grains_.compliance[i], grains_.inverse_mass[i],
+              grains_.inverse_inertia[i], grains_.curvature[i],  grains_.lever_yield[i]};
     return grains_.equal;
   }
 

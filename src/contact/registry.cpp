@@ -95,12 +95,14 @@ const std::vector<KernelSet>& registered_kernels() {
 
 GrainSurfaces surfaces_of(const Grains& grains) {
   const GrainKind& kind = grains.kinds.front();
-  return {{kind.radius, kind.compliance, kind.inverse_mass, kind.inverse_inertia, 1 / kind.radius},
+  return {{kind.radius, kind.compliance, kind.inverse_mass, kind.inverse_inertia, 1 / kind.radius,
+           kind.lever_yield},
           grains.radius.data(),
           grains.compliance.data(),
           grains.inverse_mass.data(),
           grains.inverse_inertia.data(),
           grains.curvature.data(),
+          grains.lever_yield.data(),
           grains.lot.data()};
 }
 

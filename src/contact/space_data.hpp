@@ -29,7 +29,7 @@ struct SpacePairResult {
 };
 
 using SpacePairKernel = void (*)(const GrainSurfaces&, const SpaceMotion&, const PairList&, PairRange,
-                                 const ContactParameters&, const HistoryAdvance&, ContactHistories&, SpacePairResult&);
+                                 const ContactParameters&, const ContactStep&, ContactHistories&, SpacePairResult&);
 
 /// One vector for each contact.
 struct VectorColumns {
@@ -44,12 +44,13 @@ struct SpaceWallContacts {
   std::vector<int> candidate, grain;
   std::vector<double> distance;            // m, from the centre to the wall's nearest point
   VectorColumns normal;                    // towards that point
-  VectorColumns wall_velocity, wall_spin;  // m/s, rad/s: of the wall's material there
+  VectorColumns wall_velocity, wall_spin;  // m/s, rad/s: of the wall's material there; the spin on the step's mean
+  VectorColumns mean_wall_velocity;        // m/s, on the step's mean
   VectorColumns force, torque;             // N, N m, on the grain; torques without rotation unset
 };
 
 using SpaceWallKernel = LawFigures (*)(const GrainSurfaces&, const SpaceMotion&, const ContactParameters&,
-                                       const HistoryAdvance&, ContactHistories&, SpaceWallContacts&);
+                                       const ContactStep&, ContactHistories&, SpaceWallContacts&);
 
 /// What is compiled for each instruction set.
 struct SpaceVectorKernels {

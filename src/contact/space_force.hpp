@@ -14,15 +14,22 @@ struct SpaceTouch {
   double approach = 0;  // m/s, growth of the overlap
   Vector3 n;
   Vector3 sliding;      // m/s, W: velocity of i's surface over j's, across n
+  Vector3 slipping;     // m/s, the same on the mean over the step: set where there is a spring
+  double sliding_yield = 0;  // 1/kg, how fast a force of 1 changes the sliding
   Vector3 turning;      // rad/s, omega_i - omega_j, across n
   double twisting = 0;  // rad/s, the same along n
   double spin = 0;      // rad/s, of both together about n: their mean
 };
 
-/// How i's surface turns over j's: sets what of `touch` the effects ask for, and adds to its sliding. Arms in m.
+/// How i's surface turns over j's: sets what of `touch` the effects ask for, and adds to its sliding, slipping and
+/// yield. Arms in m.
 template <class Effects>
-inline void set_turning(const Vector3& omega_i, const Vector3& omega_j, double arm_i, double arm_j, SpaceTouch& touch) {
-  touch.sliding = touch.sliding + cross(arm_i * omega_i + arm_j * omega_j, touch.n);
+inline void set_turning(const Vector3& omega_i, const Vector3& omega_j, double arm_i, double arm_j,
+                        const PairConstants& pair, SpaceTouch& touch) {
+  touch.sliding_yield += arm_i * arm_i * pair.turning_yield_i + arm_j * arm_j * pair.turning_yield_j;
+  const Vector3 turned = cross(arm_i * omega_i + arm_j * omega_j, touch.n);
+  touch.sliding = touch.sliding + turned;
+  if constexpr (Effects::spring) touch.slipping = touch.slipping + turned;
   if constexpr (keeps_history<Effects>) touch.spin = 0.5 * dot(omega_i + omega_j, touch.n);
   if constexpr (Effects::rolls) {
     const Vector3 relative = omega_i - omega_j;
@@ -69,16 +76,16 @@ class Carrier {
 class MovingVector {
  public:
   MovingVector(const Vector3& stored, const Vector3& old_speed, const Vector3& speed, const Carrier& carry,
-               const HistoryAdvance& advance) {
+               const ContactStep& step) {
     const Vector3 old = carry(old_speed);
-    mean_ = old + advance.present * (speed - old);
-    displacement = carry(stored) + advance.trial * mean_;
+    mean_ = old + step.present * (speed - old);
+    displacement = carry(stored) + step.trial * mean_;
   }
 
   Vector3 displacement;  // at which the force is wanted; the law may shorten it
 
-  Vector3 to_store(const HistoryAdvance& advance) const {
-    return displacement + (advance.commit - advance.trial) * mean_;
+  Vector3 to_store(const ContactStep& step) const {
+    return displacement + (step.commit - step.trial) * mean_;
   }
 
  private:
@@ -91,22 +98,23 @@ struct SpaceSliding {
   double raised;
 };
 [[gnu::always_inline]] inline SpaceSliding sliding_friction(double limit, const Vector3& speed,
-                                                            double inverse_slip_speed, double steepest) {
+                                                            double inverse_slip_speed, double steepest, double yield) {
   const double size = length(speed);
+  const double slope = inverse_slip_speed / (1 + limit * inverse_slip_speed * yield);
   // The plane's limit min(1, |W| / v_s) over |W|.
-  const double usual = limit * std::min(inverse_slip_speed, 1 / std::max(size, 1e-300));
-  const bool raised = steepest < usual && size > 0;
-  return {(raised ? steepest : usual) * speed, raised ? 1.0 : 0.0};
+  const double usual = limit * std::min(slope, 1 / std::max(size, 1e-300)), most = steepest / (1 + steepest * yield);
+  const bool raised = most < usual && size > 0;
+  return {(raised ? most : usual) * speed, raised ? 1.0 : 0.0};
 }
 
 /// As in the plane; at slip the displacement is shortened without changing its direction.
 [[gnu::always_inline]] inline Vector3 spring_friction(double stiffness, double dashpot, double limit,
-                                                      const Vector3& speed, Vector3& displacement) {
+                                                      const Vector3& speed, double own, Vector3& displacement) {
   const Vector3 elastic = stiffness * displacement;
   const auto within = [limit](const Vector3& force) { return std::min(1.0, limit / length(force)); };
   const double held = within(elastic) * (stiffness > 0 ? 1.0 : 0.0);
   displacement = held * displacement;
-  const Vector3 both = held * elastic + dashpot * speed;
+  const Vector3 both = (1 / (1 + own)) * (held * elastic + dashpot * speed);
   return within(both) * both;
 }
 
@@ -118,14 +126,16 @@ inline double either(double a, double b) {
 /// Torque (N m) of model C against twisting, with an arm of its own; moves the history on.
 [[gnu::always_inline]] inline double twisting_torque(const SpaceTouch& touch, const PairConstants& pair,
                                                      const SurfaceParameters& surface, const NormalForce& normal,
-                                                     const HistoryAdvance& advance, SpaceHistory& history) {
+                                                     const ContactStep& step, SpaceHistory& history) {
   const double arm = surface.twisting_friction * pair.rolling_radius;
   const double stiffness = 2.25 * normal.secant * arm * arm;
   const double critical = 2 * std::sqrt(pair.twisting_inertia * stiffness);
-  MovingHistory twist(history.twist, history.twist_speed, touch.twisting, advance);
-  const double torque = spring_friction(stiffness, surface.rolling_damping * critical, arm * normal.repulsion,
-                                        touch.twisting, twist.displacement);
-  history.twist = twist.to_store(advance), history.twist_speed = touch.twisting;
+  MovingHistory twist(history.twist, history.twist_speed, touch.twisting, step);
+  const double damping = surface.rolling_damping * critical;
+  const double torque = spring_friction(stiffness, damping, arm * normal.repulsion,
+                                        touch.twisting, damping * step.lag * pair.turning_yield(),
+                                        twist.displacement);
+  history.twist = twist.to_store(step), history.twist_speed = touch.twisting;
   return torque;
 }
 
@@ -134,41 +144,45 @@ inline double either(double a, double b) {
 template <class Law, class Effects>
 [[gnu::always_inline]] inline SpaceContactForce space_contact_force(const SpaceTouch& touch, const PairConstants& pair,
                                                                     const SurfaceParameters& surface,
-                                                                    const HistoryAdvance& advance,
+                                                                    const ContactStep& step,
                                                                     SpaceHistory& history) {
-  const NormalForce normal = normal_force<Law, Effects>(touch.overlap, touch.approach, pair);
+  const NormalForce normal = normal_force<Law, Effects>(touch.overlap, touch.approach, pair, surface, step);
   SpaceContactForce force{normal.repulsion, {}, {}, 0};
   if constexpr (Effects::cohesion) force.normal -= surface.cohesion;
-  [[maybe_unused]] const Carrier carry(history.normal, touch.n, 0.5 * advance.commit * touch.spin);
+  [[maybe_unused]] const Carrier carry(history.normal, touch.n, 0.5 * step.commit * touch.spin);
   if constexpr (Effects::spring) {
-    MovingVector slip(history.slip, history.slip_speed, touch.sliding, carry, advance);
+    MovingVector slip(history.slip, history.slip_speed, touch.slipping, carry, step);
     force.tangential =
         -1 * spring_friction(surface.tangential_ratio * normal.secant, surface.tangential_damping * normal.dashpot,
-                             surface.friction * normal.repulsion, touch.sliding, slip.displacement);
-    history.slip = slip.to_store(advance), history.slip_speed = touch.sliding;
+                             surface.friction * normal.repulsion, touch.sliding,
+                             surface.tangential_damping * normal.own_dashpot * step.lag * touch.sliding_yield,
+                             slip.displacement);
+    history.slip = slip.to_store(step), history.slip_speed = touch.slipping;
   } else if constexpr (Effects::friction) {
     const auto sliding = sliding_friction(surface.friction * normal.repulsion, touch.sliding,
-                                          surface.inverse_slip_speed, pair.steepest_sliding);
+                                          surface.inverse_slip_speed, pair.steepest_sliding,
+                                          step.lag * touch.sliding_yield);
     force.tangential = -1 * sliding.force, force.slip_raised = sliding.raised;
   }
   if constexpr (Effects::rolling == Rolling::constant_torque) {
     const double arm = surface.rolling_friction * pair.rolling_radius;
     const auto rolling = sliding_friction(arm * normal.repulsion, pair.rolling_radius * touch.turning,
-                                          surface.inverse_slip_speed, pair.steepest_rolling);
-    const auto twisting =
-        sliding_friction(surface.twisting_friction * pair.rolling_radius * normal.repulsion,
-                         pair.rolling_radius * touch.twisting, surface.inverse_slip_speed, pair.steepest_rolling);
+                                          surface.inverse_slip_speed, pair.steepest_rolling, 0.0);
+    const auto twisting = sliding_friction(surface.twisting_friction * pair.rolling_radius * normal.repulsion,
+                                           pair.rolling_radius * touch.twisting, surface.inverse_slip_speed,
+                                           pair.steepest_rolling, 0.0);
     force.resistance = -1 * rolling.force - twisting.force * touch.n;
     force.slip_raised = either(force.slip_raised, either(rolling.raised, twisting.raised));
   } else if constexpr (Effects::rolling == Rolling::spring) {
     const double arm = surface.rolling_friction * pair.rolling_radius;
     const double stiffness = 2.25 * normal.secant * arm * arm;
     const double critical = 2 * std::sqrt(pair.rolling_inertia * stiffness);
-    MovingVector roll(history.roll, history.roll_speed, touch.turning, carry, advance);
-    force.resistance = -1 * spring_friction(stiffness, surface.rolling_damping * critical, arm * normal.repulsion,
-                                            touch.turning, roll.displacement);
-    history.roll = roll.to_store(advance), history.roll_speed = touch.turning;
-    force.resistance = force.resistance - twisting_torque(touch, pair, surface, normal, advance, history) * touch.n;
+    MovingVector roll(history.roll, history.roll_speed, touch.turning, carry, step);
+    const double damping = surface.rolling_damping * critical;
+    force.resistance = -1 * spring_friction(stiffness, damping, arm * normal.repulsion,
+                                            touch.turning, damping * step.lag * pair.turning_yield(), roll.displacement);
+    history.roll = roll.to_store(step), history.roll_speed = touch.turning;
+    force.resistance = force.resistance - twisting_torque(touch, pair, surface, normal, step, history) * touch.n;
   }
   history.normal = touch.n;
   return force;

@@ -91,7 +91,7 @@ template <class Law, class Effects>
 struct SpacePairWork {
   const PairProperties<Law, Effects>& properties;
   const double shortening;
-  const HistoryAdvance advance;
+  const ContactStep step;
   SpaceBlock& block;
   SpaceBlockHistories& block_histories;
 
@@ -108,22 +108,24 @@ struct SpacePairWork {
     touch.n.y = distance > 0 ? apart.y * per_distance : 0;
     touch.n.z = distance > 0 ? apart.z * per_distance : 0;
     touch.overlap = pair.reach - distance;
+    touch.sliding_yield = pair.approach_yield;
     [[maybe_unused]] double arm_i = 0, arm_j = 0;
     if constexpr (Effects::damping || Effects::friction) {
       const Vector3 u = block.velocity[k];
-      touch.approach = dot(u, touch.n);
-      if constexpr (Effects::friction) touch.sliding = u - touch.approach * touch.n;
+      const double kept = 1 - step.brake * pair.brake_yield, approach = dot(u, touch.n);
+      touch.approach = kept * approach;
+      if constexpr (Effects::friction) touch.slipping = u - approach * touch.n, touch.sliding = kept * touch.slipping;
     }
     if constexpr (Effects::rotation) {
       arm_i = properties.radius(i) - shortening * touch.overlap * pair.overlap_fraction_i;
       arm_j = arm_i;
       if constexpr (Effects::polydisperse)
         arm_j = properties.radius(j) - shortening * touch.overlap * pair.overlap_fraction_j;
-      set_turning<Effects>(block.spin[k], block.partner_spin[k], arm_i, arm_j, touch);
+      set_turning<Effects>(block.spin[k], block.partner_spin[k], arm_i, arm_j, pair, touch);
     }
     SpaceHistory history = block_histories.template get<Effects>(static_cast<std::size_t>(k));
     const SpaceContactForce force =
-        space_contact_force<Law, Effects>(touch, pair, properties.between(i, j), advance, history);
+        space_contact_force<Law, Effects>(touch, pair, properties.between(i, j), step, history);
     block_histories.template set<Effects>(static_cast<std::size_t>(k), history);
     const Vector3 on_grain = force.tangential - force.normal * touch.n;
     block.force.set(k, on_grain);
@@ -191,10 +193,10 @@ void add_block(const SpaceBlock& block, SpacePairResult& result) {
 template <class Law, class Effects>
 [[gnu::flatten]] void space_pair_forces(const GrainSurfaces& grains, const SpaceMotion& at, const PairList& list,
                                         PairRange range, const ContactParameters& parameters,
-                                        const HistoryAdvance& advance, ContactHistories& histories,
+                                        const ContactStep& step, ContactHistories& histories,
                                         SpacePairResult& result) {
   const PairProperties<Law, Effects> properties(grains, parameters);
-  const bool leaves_trace = advance.commit > 0;
+  const bool leaves_trace = step.commit > 0;
   SpaceBlock block;
   find_touching<Law, Effects>(properties, at, list, range, leaves_trace, histories, block);
   await_records<Effects>(histories, range.from, block.touching);
@@ -202,7 +204,7 @@ template <class Law, class Effects>
   SpaceBlockHistories block_histories;
   load_block<Effects>(histories, block.entry, range.from, block.whole_vectors(), block_histories);
   result.figures =
-      forces_of_touching<Law, Effects>({properties, parameters.arm_shortening, advance, block, block_histories});
+      forces_of_touching<Law, Effects>({properties, parameters.arm_shortening, step, block, block_histories});
   if (keeps_history<Effects> && leaves_trace)
     store_block<Effects>(
         block_histories, block.entry, range.from, block.touching, [&](int k) { return range.from + k; }, histories);

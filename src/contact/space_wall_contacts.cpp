@@ -38,15 +38,16 @@ void add(const WallCandidate& candidate, std::size_t c, const NearestOnFace& nea
       distance > 0 ? Eigen::Vector3d(nearest.apart / distance)
                    : Eigen::Vector3d(std::copysign(1.0, -candidate.side) * face_normal_at(face, centre));
   put(contacts.normal, k, normal);
-  put(contacts.wall_velocity, k, face.velocity + cross(face.spin, centre + nearest.apart));
-  put(contacts.wall_spin, k, face.spin);
+  put(contacts.wall_velocity, k, face.now.at(centre + nearest.apart));
+  put(contacts.mean_wall_velocity, k, face.on_mean.at(centre + nearest.apart));
+  put(contacts.wall_spin, k, face.on_mean.spin);
 }
 
 void make_room(std::size_t most, SpaceWallContacts& contacts) {
   if (contacts.grain.size() >= most) return;
   contacts.candidate.resize(most), contacts.grain.resize(most), contacts.distance.resize(most);
   for (VectorColumns* columns :
-       {&contacts.normal, &contacts.wall_velocity, &contacts.wall_spin, &contacts.force, &contacts.torque})
+       {&contacts.normal, &contacts.wall_velocity, &contacts.mean_wall_velocity, &contacts.wall_spin, &contacts.force, &contacts.torque})
     columns->resize(most);
 }
 

@@ -29,11 +29,11 @@ template <class Law, class Effects>
 struct SpaceWallWork {
   const WallProperties<Law, Effects>& properties;
   const double shortening;
-  const HistoryAdvance advance;
+  const ContactStep step;
   const int* grain;
   const double* distances;
   const SpaceColumns &velocity, &spin;
-  const ColumnsFrom normal, wall_velocity, wall_spin;
+  const ColumnsFrom normal, wall_velocity, mean_wall_velocity, wall_spin;
   const ColumnsTo forces, torques;
   SpaceBlockHistories& block_histories;
 
@@ -44,19 +44,25 @@ struct SpaceWallWork {
     SpaceTouch touch;
     touch.n = normal[k];
     touch.overlap = properties.radius(i) - distances[k];
+    touch.sliding_yield = pair.approach_yield;
     [[maybe_unused]] double arm = 0;
     if constexpr (Effects::damping || Effects::friction) {
-      const Vector3 u = velocity[k] - wall_velocity[k];
+      const double kept = 1 - step.brake * pair.brake_yield;
+      const Vector3 v = velocity[k], u = kept * v + Vector3{step.fall_x, step.fall_y, 0} - wall_velocity[k];
       touch.approach = dot(u, touch.n);
       if constexpr (Effects::friction) touch.sliding = u - touch.approach * touch.n;
+      if constexpr (Effects::spring) {
+        const Vector3 on_mean = v - mean_wall_velocity[k];
+        touch.slipping = on_mean - dot(on_mean, touch.n) * touch.n;
+      }
     }
     if constexpr (Effects::rotation) {
       arm = properties.radius(i) - shortening * touch.overlap * pair.overlap_fraction_i;
-      set_turning<Effects>(spin[k], wall_spin[k], arm, 0, touch);
+      set_turning<Effects>(spin[k], wall_spin[k], arm, 0, pair, touch);
     }
     SpaceHistory history = block_histories.template get<Effects>(static_cast<std::size_t>(k));
     const SpaceContactForce force =
-        space_contact_force<Law, Effects>(touch, pair, properties.surface(i), advance, history);
+        space_contact_force<Law, Effects>(touch, pair, properties.surface(i), step, history);
     block_histories.template set<Effects>(static_cast<std::size_t>(k), history);
     forces.set(k, force.tangential - force.normal * touch.n);
     if constexpr (Effects::rotation) torques.set(k, arm * cross(touch.n, force.tangential) + force.resistance);
@@ -80,7 +86,7 @@ template <class Law, class Effects>
 
 template <class Law, class Effects>
 [[gnu::flatten]] LawFigures space_wall_forces(const GrainSurfaces& grains, const SpaceMotion& at,
-                                              const ContactParameters& parameters, const HistoryAdvance& advance,
+                                              const ContactParameters& parameters, const ContactStep& step,
                                               ContactHistories& histories, SpaceWallContacts& contacts) {
   const WallProperties<Law, Effects> properties(grains, parameters);
   SpaceBlockHistories block_histories;
@@ -96,13 +102,14 @@ template <class Law, class Effects>
     load_block<Effects>(histories, candidate, 0, count, block_histories);
     const LawFigures here = forces_of_walls<Law, Effects>({properties,
                                                            parameters.arm_shortening,
-                                                           advance,
+                                                           step,
                                                            grain,
                                                            contacts.distance.data() + from,
                                                            velocity,
                                                            spin,
                                                            {contacts.normal, from},
                                                            {contacts.wall_velocity, from},
+                                                           {contacts.mean_wall_velocity, from},
                                                            {contacts.wall_spin, from},
                                                            {contacts.force, from},
                                                            {contacts.torque, from},
@@ -110,7 +117,7 @@ template <class Law, class Effects>
                                                           count);
     figures.max_relative_overlap = std::max(figures.max_relative_overlap, here.max_relative_overlap);
     figures.slip_raised += here.slip_raised;
-    if (keeps_history<Effects> && advance.commit > 0)
+    if (keeps_history<Effects> && step.commit > 0)
       store_block<Effects>(
           block_histories, candidate, 0, count, [candidate](int k) { return candidate[k]; }, histories);
   }

@@ -22,9 +22,12 @@ void add(const WallCandidate& candidate, std::size_t c, const NearestPoint& near
   const std::size_t k = static_cast<std::size_t>(contacts.count++);
   contacts.candidate[k] = static_cast<int>(c), contacts.grain[k] = candidate.grain;
   contacts.dx[k] = nearest.dx, contacts.dy[k] = nearest.dy, contacts.distance2[k] = nearest.distance2;
-  contacts.wall_vx[k] = wall.vx - wall.spin * (y + nearest.dy);
-  contacts.wall_vy[k] = wall.vy + wall.spin * (x + nearest.dx);
-  contacts.wall_spin[k] = wall.spin;
+  const auto at_point = [&](const PlacedWall::Moving& moving, double& vx, double& vy) {
+    vx = moving.vx - moving.spin * (y + nearest.dy), vy = moving.vy + moving.spin * (x + nearest.dx);
+  };
+  at_point(wall.now, contacts.wall_vx[k], contacts.wall_vy[k]);
+  at_point(wall.on_mean, contacts.mean_wall_vx[k], contacts.mean_wall_vy[k]);
+  contacts.wall_spin[k] = wall.on_mean.spin;
   if (nearest.distance2 == 0) set_normal_on_wall(candidate, wall, x, y, contacts, k);
 }
 
@@ -33,7 +36,7 @@ void make_room(std::size_t most, WallContacts& contacts) {
   for (std::vector<int>* array : {&contacts.candidate, &contacts.grain}) array->resize(most);
   for (std::vector<double>* array :
        {&contacts.dx, &contacts.dy, &contacts.distance2, &contacts.normal_x, &contacts.normal_y, &contacts.wall_vx,
-        &contacts.wall_vy, &contacts.wall_spin, &contacts.fx, &contacts.fy, &contacts.torque})
+        &contacts.wall_vy, &contacts.wall_spin, &contacts.mean_wall_vx, &contacts.mean_wall_vy, &contacts.fx, &contacts.fy, &contacts.torque})
     array->resize(most);
 }
 

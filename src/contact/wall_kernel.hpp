@@ -10,11 +10,11 @@ namespace vibrosow::inline VIBROSOW_ISA {
 /// Forces of the contacts [from, from + count), at most pair_block_size of them.
 template <class Law, class Effects>
 [[gnu::flatten]] LawFigures forces_of_walls(const WallProperties<Law, Effects>& properties, const Motion& at,
-                                            const ContactParameters& parameters, const HistoryAdvance& advance_,
+                                            const ContactParameters& parameters, const ContactStep& step_,
                                             const ContactHistories& histories, int from, int count,
                                             WallContacts& contacts, BlockHistories& block_histories) {
   const double shortening = parameters.arm_shortening;
-  const HistoryAdvance advance = advance_;
+  const ContactStep step = step_;
   const double *vx = at.vx, *vy = at.vy, *omega = at.omega;
   const int *grain = contacts.grain.data() + from, *candidate = contacts.candidate.data() + from;
   const double *dx = contacts.dx.data() + from, *dy = contacts.dy.data() + from;
@@ -22,6 +22,7 @@ template <class Law, class Effects>
   const double *normal_x = contacts.normal_x.data() + from, *normal_y = contacts.normal_y.data() + from;
   const double *wall_vx = contacts.wall_vx.data() + from, *wall_vy = contacts.wall_vy.data() + from;
   const double* wall_spin = contacts.wall_spin.data() + from;
+  const double *mean_vx = contacts.mean_wall_vx.data() + from, *mean_vy = contacts.mean_wall_vy.data() + from;
   double *out_x = contacts.fx.data() + from, *out_y = contacts.fy.data() + from;
   double* torque = contacts.torque.data() + from;
   double max_relative_overlap = 0, slip_raised = 0;
@@ -32,22 +33,25 @@ template <class Law, class Effects>
     const double distance = std::sqrt(distance2[k]);
     const double nx = distance > 0 ? dx[k] / distance : normal_x[k];
     const double ny = distance > 0 ? dy[k] / distance : normal_y[k];
-    Touch touch{properties.radius(i) - distance, 0, 0, 0};
+    Touch touch{properties.radius(i) - distance, 0, 0, 0, 0, pair.approach_yield};
     const double relative_overlap = touch.overlap * pair.relative_per_overlap;
     max_relative_overlap = relative_overlap > max_relative_overlap ? relative_overlap : max_relative_overlap;
     [[maybe_unused]] double arm = 0;
     if constexpr (Effects::damping || Effects::friction) {
-      const double ux = vx[i] - wall_vx[k], uy = vy[i] - wall_vy[k];
+      const double kept = 1 - step.brake * pair.brake_yield;
+      const double ux = kept * vx[i] + step.fall_x - wall_vx[k], uy = kept * vy[i] + step.fall_y - wall_vy[k];
       if constexpr (Effects::damping) touch.approach = ux * nx + uy * ny;
       if constexpr (Effects::friction) touch.sliding = uy * nx - ux * ny;
+      if constexpr (Effects::spring) touch.slipping = (vy[i] - mean_vy[k]) * nx - (vx[i] - mean_vx[k]) * ny;
       if constexpr (Effects::rotation) {
         arm = properties.radius(i) - shortening * touch.overlap * pair.overlap_fraction_i;
-        touch.sliding += arm * omega[i];
+        touch.sliding += arm * omega[i], touch.slipping += arm * omega[i];
+        touch.sliding_yield += arm * arm * pair.turning_yield_i;
       }
       if constexpr (Effects::rolls) touch.turning = omega[i] - wall_spin[k];
     }
     ContactHistory history = load_history<Effects>(histories, c);
-    const ContactForce force = contact_force<Law, Effects>(touch, pair, properties.surface(i), advance, history);
+    const ContactForce force = contact_force<Law, Effects>(touch, pair, properties.surface(i), step, history);
     if constexpr (Effects::spring)
       block_histories.slip[k] = history.slip, block_histories.slip_speed[k] = history.slip_speed;
     if constexpr (Effects::rolling == Rolling::spring)
@@ -63,18 +67,18 @@ template <class Law, class Effects>
 
 template <class Law, class Effects>
 [[gnu::flatten]] LawFigures wall_forces(const GrainSurfaces& grains, const Motion& at,
-                                        const ContactParameters& parameters, const HistoryAdvance& advance,
+                                        const ContactParameters& parameters, const ContactStep& step,
                                         ContactHistories& histories, WallContacts& contacts) {
   const WallProperties<Law, Effects> properties(grains, parameters);
   BlockHistories block_histories;
   LawFigures figures;
   for (int from = 0; from < contacts.count; from += pair_block_size) {
     const int count = contacts.count - from < pair_block_size ? contacts.count - from : pair_block_size;
-    const LawFigures here = forces_of_walls<Law, Effects>(properties, at, parameters, advance, histories, from, count,
+    const LawFigures here = forces_of_walls<Law, Effects>(properties, at, parameters, step, histories, from, count,
                                                           contacts, block_histories);
     figures.max_relative_overlap = std::max(figures.max_relative_overlap, here.max_relative_overlap);
     figures.slip_raised += here.slip_raised;
-    if (keeps_history<Effects> && advance.commit > 0)
+    if (keeps_history<Effects> && step.commit > 0)
       store_block<Effects>(block_histories, contacts.candidate.data() + from, 0, count, histories);
   }
   return figures;

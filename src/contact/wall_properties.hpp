@@ -28,7 +28,7 @@ class WallProperties {
   decltype(auto) pair(std::size_t i) const {
     if constexpr (Effects::polydisperse)
       return constants({grains_.radius[i], grains_.compliance[i], grains_.inverse_mass[i], grains_.inverse_inertia[i],
-                        grains_.curvature[i]},
+                        grains_.curvature[i], grains_.lever_yield[i]},
                        surface(i));
     else
       return (equal_);
@@ -36,7 +36,7 @@ class WallProperties {
 
  private:
   PairConstants constants(const GrainSurface& grain, const SurfaceParameters& surface) const {
-    return pair_constants<Law, Effects>(grain, {0, parameters_.wall_compliance, 0, 0, 0}, surface, parameters_);
+    return pair_constants<Law, Effects>(grain, {0, parameters_.wall_compliance, 0, 0, 0, 0}, surface, parameters_);
   }
 
   const GrainSurfaces grains_;

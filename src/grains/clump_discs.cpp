@@ -11,6 +11,12 @@ GrainKind kind_of_disc(const GrainKind& clump, const ClumpDisc& disc, double siz
   own.radius = disc.radius * size;
   // eps goes with the disc's own radius, under the whole clump's weight
   own.compliance = law.compliance_of_size(clump.compliance, own.radius / clump.radius, 1);
+  // |a x n|^2 about each principal axis, on the mean over directions n: (|a|^2 - a_k^2) / 3
+  const std::array<double, 3> arm = {disc.x * size, disc.y * size, disc.z * size};
+  const double arm2 = arm[0] * arm[0] + arm[1] * arm[1] + arm[2] * arm[2];
+  own.lever_yield = 0;
+  for (std::size_t k = 0; k < 3; ++k)
+    own.lever_yield += (arm2 - arm[k] * arm[k]) / 3 * clump.inverse_inertia / clump.moments[k];
   return own;
 }
 

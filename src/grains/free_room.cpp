@@ -34,8 +34,8 @@ FreeRoom::FreeRoom(const Vessel& vessel, Space space, double least_radius)
       in_space_(space == Space::three_dimensional),
       turned_(is_turned(vessel, space)),
       cut_(turned_ || is_drawn_out(vessel, space)),
-      cells_in_radius_(cut_ ? 8 : 2),
-      kept_clear_(cut_ ? 0.9 : 0.6),
+      cells_in_radius_(cut_ ? 8 : 4),
+      kept_clear_(cut_ ? 0.9 : 0.8),
       least_radius_(least_radius),
       obstacles_(without_lid(vessel), space) {
   top_ = std::max(vessel.height, obstacles_.top() + least_radius);

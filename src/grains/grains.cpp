@@ -56,7 +56,8 @@ GrainKind sized_kind(const SeedLot& lot, const LawTraits& law, const GrainKind& 
           1 / mass,
           kind.inverse_inertia / (growth * size * size),
           law.compliance_of_size(kind.compliance, size, growth),
-          kind.moments};
+          kind.moments,
+          kind.lever_yield / growth};
 }
 
 void Grains::add(double px, double py, double pvx, double pvy, int lot_index) {
@@ -79,6 +80,7 @@ void Grains::add(double px, double py, double pvx, double pvy, int lot_index, co
   inverse_inertia.push_back(own.inverse_inertia);
   compliance.push_back(own.compliance);
   curvature.push_back(1 / own.radius);
+  lever_yield.push_back(own.lever_yield);
 }
 
 void Grains::add(const Eigen::Vector3d& at, const Eigen::Vector3d& velocity, int lot_index, const GrainKind& own,
@@ -104,6 +106,7 @@ void Grains::remove_flagged(const std::vector<char>& remove) {
   keep(z), keep(vz), keep(omega_x), keep(omega_y), keep(q_w), keep(q_x), keep(q_y), keep(q_z);
   keep(x), keep(y), keep(vx), keep(vy), keep(omega), keep(angle), keep(lot), keep(id);
   keep(radius), keep(mass), keep(inverse_mass), keep(inverse_inertia), keep(compliance), keep(curvature);
+  keep(lever_yield);
 }
 
 }  // namespace vibrosow

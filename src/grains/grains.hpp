@@ -20,6 +20,9 @@ struct GrainKind {
   double inverse_inertia;  // 1/(kg m2); 0 without rotation; of a clump in space: of its smallest principal moment
   double compliance;       // m/N of one shell, eps / (m g); with Hertz' law 1/Pa, (1 - nu^2) / E
   std::array<double, 3> moments{1, 1, 1};  // of a clump in space: its principal moments over the smallest
+  /// 1/kg, of a clump's disc: how fast a force of 1 N moves it by turning its clump, on the mean over all directions in
+  /// which it may be touched.
+  double lever_yield = 0;
 };
 
 /// What each lot's seeds are made of: its own values, or the contact's.
@@ -50,7 +53,7 @@ struct Grains {
   bool polydisperse = false;     // whether the arrays below are filled
   bool rotation = false;
   bool in_space = false;
-  std::vector<double> radius, mass, inverse_mass, inverse_inertia, compliance, curvature;  // curvature 1/m
+  std::vector<double> radius, mass, inverse_mass, inverse_inertia, compliance, curvature, lever_yield;  // curvature 1/m
 
   std::int64_t next_id = 0;  // of the next grain that is added
   bool oriented = false;     // whether angles are kept, in space quaternions
@@ -63,7 +66,8 @@ struct Grains {
   GrainKind kind(std::size_t i) const {
     if (!polydisperse) return kinds.front();
     return {radius[i],          mass[i],       inverse_mass[i],
-            inverse_inertia[i], compliance[i], kinds[static_cast<std::size_t>(lot[i])].moments};
+            inverse_inertia[i], compliance[i], kinds[static_cast<std::size_t>(lot[i])].moments,
+            lever_yield[i]};
   }
   /// m and m/s, of the lab; z is 0 in the plane.
   Eigen::Vector3d place(std::size_t i) const { return {x[i], y[i], in_space ? z[i] : 0.0}; }

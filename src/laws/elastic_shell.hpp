@@ -44,6 +44,11 @@ struct ElasticShell {
   static Real dashpot_at(Real dashpot, Real /*overlap*/) {
     return dashpot;
   }
+  /// What the dashpot has taken from 0 to an overlap, N s: the integral of `dashpot_at`.
+  template <class Real>
+  static Real dashpot_impulse(Real dashpot, Real overlap) {
+    return dashpot * overlap;
+  }
 
   /// Stored in both shells, J.
   template <class Real>

@@ -49,6 +49,12 @@ struct Hertz {
     using std::sqrt;
     return dashpot * sqrt(sqrt(overlap));
   }
+  /// What the dashpot has taken from 0 to an overlap, N s: the integral of `dashpot_at`.
+  template <class Real>
+  static Real dashpot_impulse(Real dashpot, Real overlap) {
+    using std::sqrt;
+    return Real(0.8) * dashpot * overlap * sqrt(sqrt(overlap));
+  }
 
   /// (2/5) k d^(5/2), J.
   template <class Real>

@@ -17,6 +17,10 @@ struct HertzViscous : Hertz {
   static Real dashpot_at(Real dashpot, Real /*overlap*/) {
     return dashpot;
   }
+  template <class Real>
+  static Real dashpot_impulse(Real dashpot, Real overlap) {
+    return dashpot * overlap;
+  }
 
   static double damping_ratio(const SurfaceParameters& surface, double omega) {
     return surface.damping_rate / (2 * omega);

@@ -36,10 +36,10 @@ struct Turning {
 
 [[gnu::always_inline]] inline void predict_one(const Turning& clumps, std::size_t i, double dt, const Vector3& torque) {
   TurningClump clump = clumps.clump(i);
-  const Vector3 before = clump.momentum_of(clumps.spin(i)), gain = dt * torque;
-  clump.turn_freely(before + 0.5 * gain, dt);
+  const Vector3 momentum = clump.momentum_of(clumps.spin(i)) + (0.5 * dt) * torque;
+  clump.turn_freely(momentum, dt);
   clumps.set(i, clump.orientation());
-  clumps.set_spin(i, clump.spin_of(before + gain));
+  clumps.set_spin(i, clump.spin_of(momentum));
 }
 
 [[gnu::flatten]] void predict(std::size_t n, double dt, const ClumpTurning& of, const double* const (&torque)[3]) {
@@ -51,8 +51,8 @@ struct Turning {
 
 [[gnu::always_inline]] inline void correct_one(const Turning& clumps, std::size_t i, double dt, const double* now,
                                                double& kept_x, double& kept_y, double& kept_z) {
-  const Vector3 missed{now[0] - kept_x, now[1] - kept_y, now[2] - kept_z};
-  clumps.set_spin(i, clumps.spin(i) + clumps.clump(i).spin_of((0.5 * dt) * missed));
+  const Vector3 torque{now[0], now[1], now[2]};
+  clumps.set_spin(i, clumps.spin(i) + clumps.clump(i).spin_of((0.5 * dt) * torque));
   kept_x = clumps.turns(i) ? now[0] : kept_x;
   kept_y = clumps.turns(i) ? now[1] : kept_y;
   kept_z = clumps.turns(i) ? now[2] : kept_z;

@@ -45,10 +45,10 @@ struct ClumpForces {
 /// Loops over clumps in space, compiled for one instruction set; those of `n` clumps begin with the first of all
 /// arrays, others take the clumps [from, to).
 struct ClumpLoops {
-  /// Velocity Verlet: how they lie at the end of a step, by the angular momentum at its middle, and the spins predicted
-  /// there. `torque`: at its beginning, N m.
+  /// Velocity Verlet: how they lie at the end of a step, and the spins there by the angular momentum in its middle.
+  /// `torque`: at its beginning, N m.
   void (*predict)(std::size_t n, double dt, const ClumpTurning& clumps, const double* const (&torque)[3]);
-  /// Spins corrected by what the torques `kept` lack of those of now, which are kept.
+  /// Spins at the end of a step, by the torques there, which are `kept`.
   void (*correct)(std::size_t n, double dt, const ClumpTurning& clumps, const GrainVector* torque,
                   double* const (&kept)[3]);
   /// Balls moved with their clumps: x + R c, v + omega x R c, R by the clump's quaternion.

@@ -13,18 +13,20 @@ void predict(std::size_t n, double dt, double* x, double* v, const double* a) {
   if (x) {
 #pragma omp simd
     for (std::size_t i = 0; i < n; ++i) {
-      x[i] += dt * (v[i] + half * a[i]);
-      v[i] += dt * a[i];
+      v[i] += half * a[i];
+      x[i] += dt * v[i];
     }
   } else {
 #pragma omp simd
-    for (std::size_t i = 0; i < n; ++i) v[i] += dt * a[i];
+    for (std::size_t i = 0; i < n; ++i) v[i] += half * a[i];
   }
 }
 
-/// Calls `take(v, a, now)` for each velocity of each grain, its old rate and that by which it is driven now.
+/// Calls `take(v, a, now)` for each velocity of each grain, its old rate and that by which it is driven `ahead` seconds
+/// on, drag apart all the time.
 template <bool polydisperse, bool drags, bool rotation, class Take>
-[[gnu::always_inline]] inline void for_each_rate(std::size_t n, const Drive& drive, const Rates& rates, Take take) {
+[[gnu::always_inline]] inline void for_each_rate(std::size_t n, const Drive& drive, double ahead, const Rates& rates,
+                                                 Take take) {
   const double* force = &drive.force->fx;  // four numbers each
   const double *each_per_mass = drive.per_mass.each, *each_per_inertia = drive.per_inertia.each;
   const double same_per_mass = drive.per_mass.same, same_per_inertia = drive.per_inertia.same;
@@ -34,7 +36,10 @@ template <bool polydisperse, bool drags, bool rotation, class Take>
   for (std::size_t i = 0; i < n; ++i) {
     const double per_mass = polydisperse ? each_per_mass[i] : same_per_mass;
     double now_x = force[4 * i] * per_mass + gx, now_y = force[4 * i + 1] * per_mass + gy;
-    if constexpr (drags) now_x -= drag * per_mass * vx[i], now_y -= drag * per_mass * vy[i];
+    if constexpr (drags) {
+      const double fall_off = drag * per_mass, later = 1 + ahead * fall_off;
+      now_x = (now_x - fall_off * vx[i]) / later, now_y = (now_y - fall_off * vy[i]) / later;
+    }
     take(vx[i], ax[i], now_x), take(vy[i], ay[i], now_y);
     if constexpr (rotation)
       take(omega[i], alpha[i], force[4 * i + 2] * (polydisperse ? each_per_inertia[i] : same_per_inertia));
@@ -42,10 +47,10 @@ template <bool polydisperse, bool drags, bool rotation, class Take>
 }
 
 template <class Take>
-[[gnu::always_inline]] inline void drive_all(std::size_t n, const Drive& drive, const Rates& rates, Take take) {
+[[gnu::always_inline]] inline void drive_all(std::size_t n, const Drive& drive, double ahead, const Rates& rates, Take take) {
   const auto with = [&](auto polydisperse, auto drags) {
-    rates.omega ? for_each_rate<polydisperse, drags, true>(n, drive, rates, take)
-                : for_each_rate<polydisperse, drags, false>(n, drive, rates, take);
+    rates.omega ? for_each_rate<polydisperse, drags, true>(n, drive, ahead, rates, take)
+                : for_each_rate<polydisperse, drags, false>(n, drive, ahead, rates, take);
   };
   const std::true_type yes;
   const std::false_type no;
@@ -56,12 +61,13 @@ template <class Take>
 }
 
 void accelerate(std::size_t n, const Drive& drive, const Rates& rates) {
-  drive_all(n, drive, rates, [](double /*v*/, double& a, double now) { a = now; });
+  drive_all(n, drive, 0, rates, [](double /*v*/, double& a, double now) { a = now; });
 }
 
 void correct(std::size_t n, double dt, const Drive& drive, const Rates& rates) {
-  drive_all(n, drive, rates, [half = 0.5 * dt](double& v, double& a, double now) {
-    v += half * (now - a);
+  const double half = 0.5 * dt;
+  drive_all(n, drive, half, rates, [half](double& v, double& a, double now) {
+    v += half * now;
     a = now;
   });
 }

@@ -27,13 +27,13 @@ struct Rates {
 
 /// Loops over all grains, compiled for one instruction set. Every array has `n` entries.
 struct GrainLoops {
-  /// x += dt (v + dt/2 a), v += dt a: positions and predicted velocities at the end of a step. No positions: x = null.
+  /// v += dt/2 a, x += dt v: velocities in the middle of a step, positions at its end. No positions: x = null.
   void (*predict)(std::size_t n, double dt, double* x, double* v, const double* a);
 
   /// Rates as they are driven.
   void (*accelerate)(std::size_t n, const Drive& drive, const Rates& rates);
 
-  /// The same in place of the old rates, and v += (a - old a) dt/2: velocities corrected at the end of a step.
+  /// The same at the end of a step, and v += dt/2 a: velocities there, which drag acts on, from those in its middle.
   void (*correct)(std::size_t n, double dt, const Drive& drive, const Rates& rates);
 
   /// Taylor's series for position, velocity and higher derivatives (gear5), one step on; x = null as above.

@@ -22,9 +22,10 @@ void motions_to_rows(std::size_t n, const Coordinates& velocity, const Coordinat
 template <bool spins>
 [[gnu::always_inline]] inline void predict_all(std::size_t n, double dt, double* const (&places)[3],
                                                const SpaceRates& rates, const BallRows& rows) {
-  const auto move = [dt, half = 0.5 * dt](auto& x, auto& v, const auto& a) {
-    x += dt * (v + half * a);
-    v += dt * a;
+  const double half = 0.5 * dt;
+  const auto move = [dt, half](auto& x, auto& v, const auto& a) {
+    v += half * a;
+    x += dt * v;
   };
   std::size_t i = 0;
   for (; i + 4 <= n; i += 4) {
@@ -36,7 +37,7 @@ template <bool spins>
       store(place[axis], places[axis] + i), store(velocity[axis], rates.v[axis] + i);
       if constexpr (spins) {
         load(spin[axis], rates.omega[axis] + i), load(a, rates.alpha[axis] + i);
-        spin[axis] += dt * a;
+        spin[axis] += half * a;
         store(spin[axis], rates.omega[axis] + i);
       }
     }
@@ -50,7 +51,7 @@ template <bool spins>
   for (; i < n; ++i) {
     for (int axis = 0; axis < 3; ++axis) {
       move(places[axis][i], rates.v[axis][i], rates.a[axis][i]);
-      if constexpr (spins) rates.omega[axis][i] += dt * rates.alpha[axis][i];
+      if constexpr (spins) rates.omega[axis][i] += half * rates.alpha[axis][i];
     }
     rows.places[i] = {places[0][i], places[1][i], places[2][i], 0};
     rows.motions[i].velocity = {rates.v[0][i], rates.v[1][i], rates.v[2][i], 0};
@@ -63,14 +64,17 @@ void predict(std::size_t n, double dt, double* const (&places)[3], const SpaceRa
 }
 
 /// Calls `take(v, a, now)` for the velocities of four balls or of one, their old rates and those by which they are
-/// driven now.
+/// driven `ahead` seconds on, drag apart all the time.
 template <bool polydisperse, bool drags, class Take>
 [[gnu::always_inline]] inline void for_each_rate(std::size_t n, const GrainVector* force, PerGrain per,
-                                                 const double (&gravity)[3], double drag, double* const (&v)[3],
-                                                 double* const (&a)[3], Take take) {
+                                                 const double (&gravity)[3], double drag, double ahead,
+                                                 double* const (&v)[3], double* const (&a)[3], Take take) {
   const auto drive = [&](const auto& pushes, const auto& per_mass, auto& velocity, auto& rate, int axis) {
     auto now = pushes * per_mass + gravity[axis];
-    if constexpr (drags) now -= drag * per_mass * velocity;
+    if constexpr (drags) {
+      const auto fall_off = drag * per_mass;
+      now = (now - fall_off * velocity) / (1 + ahead * fall_off);
+    }
     take(velocity, rate, now);
   };
   std::size_t i = 0;
@@ -95,13 +99,13 @@ template <bool polydisperse, bool drags, class Take>
 }
 
 template <class Take>
-[[gnu::always_inline]] inline void drive_all(std::size_t n, const SpaceDrive& drive, const SpaceRates& rates,
-                                             Take take) {
+[[gnu::always_inline]] inline void drive_all(std::size_t n, const SpaceDrive& drive, double ahead,
+                                             const SpaceRates& rates, Take take) {
   const auto one = [&](const GrainVector* force, PerGrain per, const double(&gravity)[3], double drag,
                        double* const(&v)[3], double* const(&a)[3]) {
     const auto with = [&](auto polydisperse) {
-      drag == 0 ? for_each_rate<polydisperse, false>(n, force, per, gravity, drag, v, a, take)
-                : for_each_rate<polydisperse, true>(n, force, per, gravity, drag, v, a, take);
+      drag == 0 ? for_each_rate<polydisperse, false>(n, force, per, gravity, drag, ahead, v, a, take)
+                : for_each_rate<polydisperse, true>(n, force, per, gravity, drag, ahead, v, a, take);
     };
     per.each ? with(std::true_type()) : with(std::false_type());
   };
@@ -110,12 +114,13 @@ template <class Take>
 }
 
 void accelerate(std::size_t n, const SpaceDrive& drive, const SpaceRates& rates) {
-  drive_all(n, drive, rates, [](auto& /*v*/, auto& a, const auto& now) { a = now; });
+  drive_all(n, drive, 0, rates, [](auto& /*v*/, auto& a, const auto& now) { a = now; });
 }
 
 void correct(std::size_t n, double dt, const SpaceDrive& drive, const SpaceRates& rates) {
-  drive_all(n, drive, rates, [half = 0.5 * dt](auto& v, auto& a, const auto& now) {
-    v += half * (now - a);
+  const double half = 0.5 * dt;
+  drive_all(n, drive, half, rates, [half](auto& v, auto& a, const auto& now) {
+    v += half * now;
     a = now;
   });
 }

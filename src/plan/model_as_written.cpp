@@ -49,9 +49,23 @@ void check_lots(const Scene& scene) {
   throw InputError(fmt::format("{}: {}", filled ? missing->vessel->fill->where.or_key(key) : key, missing->message));
 }
 
-}  // namespace
+/// All of a model but its step and what is foreseen beside it.
+struct UnplannedModel {
+  Model model;
+  std::vector<GrainKind> touching;
 
-Model model_as_written(const Scene& scene, const std::optional<EffectSet>& effects) {
+  StepBasis basis() const {
+    return {.scene = model.scene,
+            .effects = model.effects,
+            .contacts = model.contacts,
+            .law = *model.law,
+            .seeds = model.kinds,
+            .touching = touching,
+            .loads = model.loads,
+            .smallest_radius = model.smallest_radius};
+  }
+};
+UnplannedModel model_without_step(const Scene& scene, const std::optional<EffectSet>& effects = std::nullopt) {
   Model model{};
   model.scene = scene;
   model.vessels = {scene.tray};
@@ -71,22 +85,29 @@ Model model_as_written(const Scene& scene, const std::optional<EffectSet>& effec
   model.kinds = grain_kinds(scene.lots, materials, law);
   if (!model.effects.rotation || !scene.contact.rotation)
     for (GrainKind& kind : model.kinds) kind.inverse_inertia = 0;
-  const std::vector<GrainKind> touching = touching_kinds(scene.lots, sizes, model.kinds, law);
   model.contacts = contact_parameters(scene.contact, surfaces, materials, law);
   model.loads = bed_loads(scene.lots, sizes, model.vessels, scene.run, scene.space);
-  const StepBasis basis{.scene = model.scene,
-                        .effects = model.effects,
-                        .contacts = model.contacts,
-                        .law = law,
-                        .seeds = model.kinds,
-                        .touching = touching,
-                        .loads = model.loads,
-                        .smallest_radius = model.smallest_radius};
-  model.step = plan_step(basis);
+  return {model, touching_kinds(scene.lots, sizes, model.kinds, law)};
+}
+
+}  // namespace
+
+Model model_as_written(const Scene& scene, const std::optional<EffectSet>& effects) {
+  UnplannedModel unplanned = model_without_step(scene, effects);
+  Model& model = unplanned.model;
+  model.step = plan_step(unplanned.basis());
+  model.overlap = predict_overlap(unplanned.basis());
   model.contacts.steepest_sliding = model.step.steepest_sliding;
   model.contacts.steepest_rolling = model.step.steepest_rolling;
-  model.overlap = predict_overlap(basis);
   return model;
+}
+
+PredictedOverlap overlap_as_written(const Scene& scene) {
+  return predict_overlap(model_without_step(scene).basis());
+}
+
+double contact_duration_as_written(const Scene& scene) {
+  return shortest_contact(model_without_step(scene).basis());
 }
 
 }  // namespace vibrosow

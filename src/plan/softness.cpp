@@ -7,6 +7,7 @@
 #include "laws/law.hpp"
 #include "plan/model_as_written.hpp"
 #include "scene/accuracy_level.hpp"
+#include "scene/seed_lot.hpp"
 
 namespace vibrosow {
 namespace {
@@ -41,12 +42,12 @@ double duration_of_shell(double shell_compression, double radius) {
   return std::numbers::pi * std::sqrt(shell_compression * radius / standard_gravity);
 }
 
-/// Of a level, for the scene of that model.
-double softness_at(const AccuracyLevelValues& level, const Model& model) {
-  if (has_shell(*model.law)) return level.shell_compression;
-  const double written = softness_of(model.scene, *model.law);
-  const double wanted = duration_of_shell(level.shell_compression, model.smallest_radius);
-  return std::max(written, written * softness_for(*model.law, wanted / model.step.contact_duration));
+/// Of a level, for that scene.
+double softness_at(const AccuracyLevelValues& level, const Scene& scene, const LawTraits& law) {
+  if (has_shell(law)) return level.shell_compression;
+  const double written = softness_of(scene, law);
+  const double wanted = duration_of_shell(level.shell_compression, smallest_radius(scene.lots));
+  return std::max(written, written * softness_for(law, wanted / contact_duration_as_written(scene)));
 }
 
 }  // namespace
@@ -69,7 +70,7 @@ void set_softness(Scene& scene, const LawTraits& law, double softness) {
 }
 
 bool is_predicted_sound(const Scene& scene) {
-  const PredictedOverlap overlap = model_as_written(scene).overlap;
+  const PredictedOverlap overlap = overlap_as_written(scene);
   const GuardLimits& guard = scene.guard;
   return std::max(overlap.overlap_at_rest, overlap.overlap_at_impact) <=
          std::sqrt(guard.warn_relative_overlap * guard.stop_relative_overlap);
@@ -82,13 +83,13 @@ Scene at_its_accuracy(const Scene& scene) {
   Scene changed = scene;
   changed.numerics.accuracy = AccuracyLevel::as_written;
   changed.numerics.steps_per_contact = level.steps_per_contact;
-  const Model model = model_as_written(changed);
-  const double stiffest = has_shell(*model.law) ? 0 : softness_of(changed, *model.law);
-  double softness = softness_at(level, model);
-  set_softness(changed, *model.law, softness);
+  const LawTraits& law = traits_of(changed.contact.law);
+  const double stiffest = has_shell(law) ? 0 : softness_of(changed, law);
+  double softness = softness_at(level, changed, law);
+  set_softness(changed, law, softness);
   for (int i = 0; i < most_halvings && softness > stiffest && !is_predicted_sound(changed); ++i) {
     softness = std::max(softness / half_a_decade, stiffest);
-    set_softness(changed, *model.law, softness);
+    set_softness(changed, law, softness);
   }
   return changed;
 }

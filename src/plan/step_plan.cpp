@@ -11,6 +11,8 @@
 
 #include "elementary/functions.hpp"
 #include "grains/clump_discs.hpp"
+#include "plan/bed_vibration.hpp"
+#include "plan/meeting.hpp"
 #include "scene/clump_shape.hpp"
 #include "scene/motion.hpp"
 #include "scene/seed_lot.hpp"
@@ -21,36 +23,6 @@ namespace {
 
 constexpr double longest_travel = 0.1;          // radii a step
 constexpr double allowed_energy_growth = 1.01;  // of a free vibration under RK2 over the whole run, in amplitude
-
-/// The fastest ways in which a closely packed bed of equal grains vibrates, its contacts having a slope k and a
-/// tangential ratio rho: against each other, omega^2 = (normal + tangential rho) k / m, and all turning alike, omega^2
-/// = 2 x rho k / m with x = turning m r^2 / I. In the plane hexagonal, in space face-centred cubic; computed over all
-/// wave vectors.
-struct PackedBed {
-  double normal, tangential, turning;
-};
-PackedBed packed_bed(const StepBasis& basis) {
-  return basis.scene.space == Space::plane ? PackedBed{6, 3, 6} : PackedBed{8, 8, 8};
-}
-
-/// Two bodies that meet: a grain and another, or a wall (curvature and inverse mass 0).
-struct Meeting {
-  double stiffness, inverse_mass, relative_per_overlap;
-};
-
-Meeting meeting(const LawTraits& law, const GrainKind& a, double compliance, double curvature, double inverse_mass) {
-  const double fraction = a.compliance / (a.compliance + compliance);
-  return {law.stiffness(a.compliance, compliance, 1 / a.radius, curvature), a.inverse_mass + inverse_mass,
-          fraction / a.radius};
-}
-
-Meeting on_wall(const StepBasis& basis, const GrainKind& a) {
-  return meeting(basis.law, a, basis.contacts.wall_compliance, 0, 0);
-}
-
-Meeting with_grain(const StepBasis& basis, const GrainKind& a, const GrainKind& b) {
-  return meeting(basis.law, a, b.compliance, 1 / b.radius, b.inverse_mass);
-}
 
 double largest(const std::vector<SurfaceParameters>& surfaces, double SurfaceParameters::*value) {
   double most = 0;
@@ -66,7 +38,7 @@ struct FrictionStep {
 FrictionStep friction_step(Integrator integrator) {
   switch (integrator) {
     case Integrator::velocity_verlet:
-      return {1, 0.5};  // with predicted velocities it swings from here on
+      return {2, 0.5};  // it swings from here on, as friction takes its own contact's change into account
     case Integrator::rk2_midpoint:
       return {2, 0.5};
     case Integrator::gear5:
@@ -112,11 +84,6 @@ double friction_rate(const StepBasis& basis) {
   return std::max(rate_on_wall, rate_in_bed) * basis.loads.load_of_smallest / basis.scene.contact.slip_speed;
 }
 
-/// Speed of impact at which a law whose contacts last differently is looked at, m/s.
-double impact_speed(const StepBasis& basis) {
-  return basis.scene.numerics.impact_speed.value_or(basis.loads.grain_speed);
-}
-
 /// How the seeds of a lot lean on what they touch; a round one on a point. Sides that lie within the depth a run bears
 /// unwarned count as flat.
 SideContacts side_contacts_of(const StepBasis& basis, std::size_t lot) {
@@ -158,18 +125,13 @@ struct Mode {
   double room_to_spare;  // fraction of the limit of stability that a step may take
 };
 
-/// The steepest slope of any contact over the lighter grain's mass, 1/s2: the slope is taken at the larger of the
-/// overlaps of impact and of the layers' weight.
+/// The steepest slope of any contact over the lighter grain's mass, 1/s2.
 double slope_per_mass(const StepBasis& basis) {
   double largest = 0;
   for (const GrainKind& light : basis.touching)
-    for (const GrainKind& other : basis.touching) {
-      const Meeting m = with_grain(basis, light, other);
-      const double weight = basis.loads.layers * basis.loads.weight_factor * other.mass * standard_gravity;
-      const double overlap = std::max(basis.law.impact_overlap(m.stiffness, m.inverse_mass, impact_speed(basis)),
-                                      basis.law.static_overlap(m.stiffness, weight));
-      largest = std::max(largest, basis.law.slope(m.stiffness, overlap) * light.inverse_mass);
-    }
+    for (const GrainKind& other : basis.touching)
+      largest = std::max(largest,
+                         steepest_slope(basis, with_grain(basis, light, other), other.mass) * light.inverse_mass);
   return largest;
 }
 
@@ -196,7 +158,7 @@ std::pair<double, double> damping_ratios(const StepBasis& basis, double omega) {
 /// and 9/2 (1 + rho), at its corner.) Without springs sqrt(3 g / eps), in space sqrt(4 g / eps), for equal grains in
 /// elastic shells. Clumps touched at their tips yield more easily, and are damped alike.
 Mode translation(const StepBasis& basis, double slope_over_mass, const SideContacts& sides) {
-  const PackedBed bed = packed_bed(basis);
+  const ClosestPacking bed = closest_packing(basis.scene.space);
   const double omega =
       std::sqrt((bed.normal + bed.tangential * spring_ratio(basis)) * sides.at_a_tip * slope_over_mass);
   const double over_pair = std::sqrt(0.5 * bed.normal * sides.at_a_tip);  // of frequencies, and of damping ratios
@@ -217,24 +179,11 @@ Mode stack(const StepBasis& basis, double slope_over_mass, const SideContacts& s
 /// All grains turning alike, each against its neighbours, damped by the tangential dashpots, tau times the normal ones:
 /// the pair's ratio times tau sqrt(x / rho). A clump's neighbours touch all the discs of a side.
 Mode rotation(const StepBasis& basis, double slope_over_mass, const SideContacts& sides) {
-  const double x = packed_bed(basis).turning * sides.turning;
+  const double x = closest_packing(basis.scene.space).turning * sides.turning;
   const double rho = spring_ratio(basis);
   const auto [least, most] = damping_ratios(basis, std::sqrt(2 * slope_over_mass));
   const double damped = basis.scene.contact.tangential_damping * std::sqrt(x / rho);
   return {"the spin's vibration", std::sqrt(2 * x * rho * slope_over_mass), damped * most, damped * least, 0.75};
-}
-
-/// The shortest elastic contact of any two grains or a grain on a wall, s.
-double shortest_contact(const StepBasis& basis) {
-  const auto duration = [&](const Meeting& m) {
-    return basis.law.impact_duration(m.stiffness, m.inverse_mass, impact_speed(basis));
-  };
-  double shortest = std::numeric_limits<double>::infinity();
-  for (const GrainKind& a : basis.touching) {
-    shortest = std::min(shortest, duration(on_wall(basis, a)));
-    for (const GrainKind& b : basis.touching) shortest = std::min(shortest, duration(with_grain(basis, a, b)));
-  }
-  return shortest;
 }
 
 double lightest(const std::vector<GrainKind>& kinds) {
@@ -246,15 +195,12 @@ double lightest(const std::vector<GrainKind>& kinds) {
 /// The longest step that keeps a mode stable, with room to spare.
 StepLimit vibration_limit(const StepBasis& basis, const Mode& mode) {
   const double zeta = mode.most_damped, omega = mode.omega;
-  // Eigenvalues of a step of a damped oscillator: velocity Verlet with predicted velocities is stable up to omega dt =
-  // 2 (sqrt(1 + 4 zeta^2) - 2 zeta), the midpoint scheme where it is damped beyond 2 (sqrt(1 + zeta^2) - zeta).
-  if (basis.scene.numerics.integrator == Integrator::velocity_verlet)
-    return {mode.what + " (Verlet)", mode.room_to_spare * 2 * (std::sqrt(1 + 4 * zeta * zeta) - 2 * zeta) / omega};
-  // Gear's with alpha_0 = 3/16: none is larger than 1 for omega dt up to 0.327 where it is hardly damped, and up to
+  // Eigenvalues of a step of a damped oscillator. Gear's scheme with alpha_0 = 3/16: none is larger than 1 for omega dt up to 0.327 where it is hardly damped, and up to
   // 0.081 / zeta where it is.
   if (basis.scene.numerics.integrator == Integrator::gear5)
     return {mode.what + " (Gear)", std::min(0.327, 0.081 / zeta) / omega};
-  // A free vibration grows by omega^4 dt^3 / 8 per second; half of what drag and damping take may be used up.
+  // The midpoint scheme is stable where it is damped beyond 2 (sqrt(1 + zeta^2) - zeta); a free vibration grows by
+  // omega^4 dt^3 / 8 per second: half of what drag and damping take may be used up.
   const double taken = 0.5 * (basis.scene.contact.drag / (2 * lightest(basis.touching)) + mode.least_damped * omega);
   const double growth = taken + elementary::log(allowed_energy_growth) / basis.scene.run.duration;
   const double stable = mode.room_to_spare * 2 * (std::sqrt(1 + zeta * zeta) - zeta) / omega;
@@ -319,18 +265,38 @@ void add_limit_of_drive(const Scene& scene, std::vector<StepLimit>& limits) {
         {fmt::format("{:g} steps in a period of the motion", steps_per_period), shortest / steps_per_period});
 }
 
+/// Of schemes without a bed of their own.
+void add_limits_of_modes(const StepBasis& basis, const SideContacts& sides, std::vector<StepLimit>& limits) {
+  const double slope_over_mass = slope_per_mass(basis);
+  limits.push_back(vibration_limit(basis, translation(basis, slope_over_mass, sides)));
+  if (basis.effects.clumps) limits.push_back(vibration_limit(basis, stack(basis, slope_over_mass, sides)));
+  if (basis.effects.tangential_spring && basis.effects.rotation)
+    limits.push_back(vibration_limit(basis, rotation(basis, slope_over_mass, sides)));
+}
+
 }  // namespace
+
+double shortest_contact(const StepBasis& basis) {
+  const auto duration = [&](const Meeting& m) {
+    return basis.law.impact_duration(m.stiffness, m.inverse_mass, impact_speed(basis));
+  };
+  double shortest = std::numeric_limits<double>::infinity();
+  for (const GrainKind& a : basis.touching) {
+    shortest = std::min(shortest, duration(on_wall(basis, a)));
+    for (const GrainKind& b : basis.touching) shortest = std::min(shortest, duration(with_grain(basis, a, b)));
+  }
+  return shortest;
+}
 
 StepPlan plan_step(const StepBasis& basis) {
   const Numerics& numerics = basis.scene.numerics;
   StepPlan plan{};
   plan.contact_duration = shortest_contact(basis);
-  const double slope_over_mass = slope_per_mass(basis);
   const SideContacts sides = most_side_contacts(basis);
-  plan.limits.push_back(vibration_limit(basis, translation(basis, slope_over_mass, sides)));
-  if (basis.effects.clumps) plan.limits.push_back(vibration_limit(basis, stack(basis, slope_over_mass, sides)));
-  if (basis.effects.tangential_spring && basis.effects.rotation)
-    plan.limits.push_back(vibration_limit(basis, rotation(basis, slope_over_mass, sides)));
+  if (numerics.integrator == Integrator::velocity_verlet)
+    plan.limits.push_back({"the bed's vibration (Verlet)", longest_stable_step(basis, packed_bed(basis))});
+  else
+    add_limits_of_modes(basis, sides, plan.limits);
   double wanted = plan.contact_duration / numerics.steps_per_contact;
   const FrictionStep friction = friction_step(numerics.integrator);
   if (const double rate = friction_rate(basis); rate > 0) {

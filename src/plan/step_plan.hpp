@@ -45,6 +45,9 @@ struct StepPlan {
 };
 StepPlan plan_step(const StepBasis& basis);
 
+/// The shortest elastic contact of any two grains or a grain on a wall, s.
+double shortest_contact(const StepBasis& basis);
+
 /// Why the scene cannot run with its step, where that was written and the longest safe one; nothing when it can, or
 /// when the scene insists (numerics.allow_long_step).
 std::optional<std::string> step_refused(const Numerics& numerics, const StepPlan& plan);

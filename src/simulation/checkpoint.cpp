@@ -76,7 +76,7 @@ template <class Archive>
 void serialize(Archive& archive, Grains& g) {  // kinds and flags are the model's
   archive(g.x, g.y, g.vx, g.vy, g.omega, g.angle, g.lot, g.id);
   archive(g.z, g.vz, g.omega_x, g.omega_y, g.q_w, g.q_x, g.q_y, g.q_z);
-  archive(g.radius, g.mass, g.inverse_mass, g.inverse_inertia, g.compliance, g.curvature, g.next_id);
+  archive(g.radius, g.mass, g.inverse_mass, g.inverse_inertia, g.compliance, g.curvature, g.lever_yield, g.next_id);
 }
 template <class Archive>
 void serialize(Archive& archive, IntegratorState& s) {

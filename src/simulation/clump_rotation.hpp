@@ -9,10 +9,10 @@ namespace vibrosow {
 // Rotation of clumps in space, of the grains [from, to), in each scheme's terms. What turns a clump is its torque, not
 // an angular acceleration: the angular momentum of a clump that none acts on stays what it is, to rounding.
 
-/// Velocity Verlet: how clumps lie at the end of a step, by the angular momentum at its middle, and the spins predicted
-/// there. `alpha` of the state holds the torques (N m) at its beginning.
+/// Velocity Verlet: how clumps lie at the end of a step, and the spins there by the angular momentum in its middle.
+/// `alpha` of the state holds the torques (N m) at its beginning.
 void predict_clump_rotation(Integration& s, std::size_t from, std::size_t to);
-/// Spins corrected by the torques of the last evaluation, which are kept.
+/// Spins at the end of a step, by the torques of the last evaluation, which are kept.
 void correct_clump_rotation(Integration& s, std::size_t from, std::size_t to);
 
 /// What the scheme needs of the last evaluation: the torques; or, for gear5, the rates alpha = I^-1 (T - omega x I

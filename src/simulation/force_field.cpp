@@ -76,7 +76,7 @@ void ForceField::add_up_ranges(ContactStatistics& statistics) const {
 /// Each thread takes the rows of a range of grains, whose forces it begins with zero. What they do to grains of earlier
 /// ranges is added afterwards, range by range: a grain's own row first, then the later rows in order, as one thread
 /// would.
-void ForceField::set_pair_forces(const Grains& discs, const Motion& at, const HistoryAdvance& advance, Forces& forces,
+void ForceField::set_pair_forces(const Grains& discs, const Motion& at, const ContactStep& step, Forces& forces,
                                  ContactStatistics& statistics) {
   const GrainSurfaces surfaces = surfaces_of(discs);
   forces.resize(discs.size());
@@ -86,7 +86,7 @@ void ForceField::set_pair_forces(const Grains& discs, const Motion& at, const Hi
     RangeWork& own = ranges_[range];
     own.foreign.clear();
     own.statistics = {};
-    add_pair_forces(pair_kernel_, surfaces, at, state_.contacts.pairs, share.entries, model_.contacts, advance,
+    add_pair_forces(pair_kernel_, surfaces, at, state_.contacts.pairs, share.entries, model_.contacts, step,
                     state_.contacts.pair_histories, share.grains, forces, own.foreign, own.statistics);
   });
   add_up_ranges(statistics);
@@ -98,22 +98,22 @@ void ForceField::set_pair_forces(const Grains& discs, const Motion& at, const Hi
   }
 }
 
-void ForceField::run_kernels(const Grains& discs, const HistoryAdvance& advance, Forces& forces,
+void ForceField::run_kernels(const Grains& discs, const ContactStep& step, Forces& forces,
                              ContactStatistics& statistics) {
   const Motion at = motion_of(discs);
-  set_pair_forces(discs, at, advance, forces, statistics);
+  set_pair_forces(discs, at, step, forces, statistics);
   // Few, and their partners come before and after: one thread does them.
   for (std::size_t k = 0; k < neighbours_.images().size(); ++k) {
     BoundaryContacts& boundary = state_.contacts.boundaries[k];
     add_pair_forces(pair_kernel_, surfaces_of(discs), across_boundary(discs, neighbours_.images()[k].x), boundary.pairs,
-                    {0, static_cast<int>(boundary.pairs.size())}, model_.contacts, advance, boundary.histories, {0, 0},
+                    {0, static_cast<int>(boundary.pairs.size())}, model_.contacts, step, boundary.histories, {0, 0},
                     forces, ranges_.front().foreign, statistics);
   }
   execution_.profile().lap(Phase::pairs);
   const auto add = [&](const WallContacts& touching) {
     add_wall_forces(touching, model_.kernels->effects.rotation, forces);
   };
-  add_walls(&RangeWork::walls, discs, walls_.placed(), wall_kernel_, at, advance, add, statistics);
+  add_walls(&RangeWork::walls, discs, walls_.placed(), wall_kernel_, at, step, add, statistics);
   execution_.profile().lap(Phase::walls);
 }
 
@@ -135,8 +135,8 @@ WallContacts& ForceField::find_wall_contacts(const Grains& discs) {
   return only.walls.contacts;
 }
 
-void ForceField::evaluate(double time, const HistoryAdvance& advance, ContactStatistics& statistics) {
-  walls_.place(time);
+void ForceField::evaluate(double time, const ContactStep& step, ContactStatistics& statistics) {
+  walls_.place(time, step.lag);
   state_.vessels.placed_at = time;
   const Grains& discs = place_discs();
   neighbours_.update(discs, walls_, state_.contacts);
@@ -144,9 +144,9 @@ void ForceField::evaluate(double time, const HistoryAdvance& advance, ContactSta
   statistics.wall_power = 0;
   const std::size_t crossed_before = statistics.crossed.size();
   if (discs.in_space)
-    run_kernels_in_space(discs, advance, clumps_ ? ball_forces_ : space_forces_, statistics);
+    run_kernels_in_space(discs, step, clumps_ ? ball_forces_ : space_forces_, statistics);
   else
-    run_kernels(discs, advance, clumps_ ? disc_forces_ : forces_, statistics);
+    run_kernels(discs, step, clumps_ ? disc_forces_ : forces_, statistics);
   if (!clumps_) return;
   if (discs.in_space) {
     clumps_->gather(ball_forces_, space_forces_, execution_);
@@ -174,6 +174,7 @@ double ForceField::elastic_energy() {
 }
 
 Forces ForceField::wall_forces() {
+  see_walls_as_they_are();
   const Grains& discs = place_discs();
   Forces on_discs(discs.size());
   WallContacts& touching = find_wall_contacts(discs);

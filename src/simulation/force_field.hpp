@@ -41,10 +41,13 @@ class ForceField {
   BallRows rows_to_set();
 
   /// Forces on the grains where they are now, with the vessels where they are at `time`. Statistics are added up, but
-  /// for the walls' power, which is this evaluation's. `advance` moves the histories of contacts on.
-  void evaluate(double time, const HistoryAdvance& advance) { evaluate(time, advance, state_.statistics); }
+  /// for the walls' power, which is this evaluation's. `step` moves the histories of contacts on.
+  void evaluate(double time, const ContactStep& step) { evaluate(time, step, state_.statistics); }
   /// The same with other statistics, of a look ahead.
-  void evaluate(double time, const HistoryAdvance& advance, ContactStatistics& statistics);
+  void evaluate(double time, const ContactStep& step, ContactStatistics& statistics);
+
+  /// Walls are where they are at `time` until the next evaluation.
+  void place_walls(double time) { walls_.place(state_.vessels.placed_at = time); }
 
   /// Energy of all springs in contacts, J.
   double elastic_energy();
@@ -84,18 +87,20 @@ class ForceField {
 
  private:
   const Grains& place_discs();
-  void set_pair_forces(const Grains& discs, const Motion& at, const HistoryAdvance& advance, Forces& forces,
+  /// They move as they do where they are, not as in the middle of the step of the last evaluation.
+  void see_walls_as_they_are() { place_walls(state_.vessels.placed_at); }
+  void set_pair_forces(const Grains& discs, const Motion& at, const ContactStep& step, Forces& forces,
                        ContactStatistics& statistics);
   Motion motion_of(const Grains& discs) const;
   Motion across_boundary(const Grains& discs, double period);
   WallContacts& find_wall_contacts(const Grains& discs);
-  void run_kernels(const Grains& discs, const HistoryAdvance& advance, Forces& forces, ContactStatistics& statistics);
+  void run_kernels(const Grains& discs, const ContactStep& step, Forces& forces, ContactStatistics& statistics);
   SpaceMotion motion_in_space(const Grains& balls);
   void set_rows(const Grains& balls);
   SpaceMotion motion_of_image(const SpaceMotion& at, const Neighbours::Image& image);
-  void run_kernels_in_space(const Grains& balls, const HistoryAdvance& advance, SpaceForces& forces,
+  void run_kernels_in_space(const Grains& balls, const ContactStep& step, SpaceForces& forces,
                             ContactStatistics& statistics);
-  void set_pair_forces_in_space(const Grains& balls, const SpaceMotion& at, const HistoryAdvance& advance,
+  void set_pair_forces_in_space(const Grains& balls, const SpaceMotion& at, const ContactStep& step,
                                 SpaceForces& forces, ContactStatistics& statistics);
   SpaceWallContacts& find_wall_contacts_in_space(const Grains& balls);
   double elastic_energy_in_space(const Grains& balls);
@@ -152,7 +157,7 @@ class ForceField {
   void add_up_ranges(ContactStatistics& statistics) const;
   template <class Work, class Placed, class Kernel, class At, class Add>
   void add_walls(Work RangeWork::*work, const Grains& grains, const Placed& walls, Kernel kernel, const At& at,
-                 const HistoryAdvance& advance, const Add& add_forces, ContactStatistics& statistics);
+                 const ContactStep& step, const Add& add_forces, ContactStatistics& statistics);
 
   std::vector<RangeWork> ranges_;
   std::vector<double> shifted_x_;                     // m, across the periodic boundary
@@ -164,7 +169,7 @@ class ForceField {
 /// A grain's walls are all in one range, so its forces are added up alike for any number of ranges.
 template <class Work, class Placed, class Kernel, class At, class Add>
 void ForceField::add_walls(Work RangeWork::*work, const Grains& grains, const Placed& walls, Kernel kernel,
-                           const At& at, const HistoryAdvance& advance, const Add& add_forces,
+                           const At& at, const ContactStep& step, const Add& add_forces,
                            ContactStatistics& statistics) {
   ContactHistories& histories = state_.contacts.wall_histories;
   const GrainSurfaces surfaces = surfaces_of(grains);
@@ -175,9 +180,9 @@ void ForceField::add_walls(Work RangeWork::*work, const Grains& grains, const Pl
     own.statistics = {};
     finder.find(grains, candidates, first, walls, contacts);
     finder.watch_crossings(candidates, own.statistics.crossed);
-    if (advance.commit > 0) finder.touches().renew(histories);
-    add_figures(kernel(surfaces, at, model_.contacts, advance, histories, contacts), own.statistics);
-    if (advance.commit > 0) finder.touches().share(histories);
+    if (step.commit > 0) finder.touches().renew(histories);
+    add_figures(kernel(surfaces, at, model_.contacts, step, histories, contacts), own.statistics);
+    if (step.commit > 0) finder.touches().share(histories);
     add_forces(contacts);
     own.statistics.contacts = contacts.count;
   });

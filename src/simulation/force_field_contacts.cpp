@@ -102,6 +102,7 @@ std::int64_t ForceField::id_of_disc(const Grains& discs, std::size_t i) const {
 }
 
 std::vector<GrainContact> ForceField::contacts() {
+  see_walls_as_they_are();
   const Grains& discs = place_discs();
   std::vector<GrainContact> contacts;
   add_contacts(discs, state_.contacts.pairs, state_.contacts.pair_histories, {0, 0}, contacts);

@@ -9,11 +9,11 @@ namespace {
 
 /// Runs a kernel over the pairs of a range, block by block; what it leaves for others goes to `foreign`.
 void add_pairs(SpacePairKernel kernel, const GrainSurfaces& surfaces, const SpaceMotion& at, const PairList& list,
-               PairRange range, const ContactParameters& parameters, const HistoryAdvance& advance,
+               PairRange range, const ContactParameters& parameters, const ContactStep& step,
                ContactHistories& histories, SpacePairResult& result, std::vector<ForeignSpaceForce>& foreign,
                ContactStatistics& statistics) {
   for (int from = range.from; from < range.to; from += pair_block_size) {
-    kernel(surfaces, at, list, {from, std::min(from + pair_block_size, range.to)}, parameters, advance, histories,
+    kernel(surfaces, at, list, {from, std::min(from + pair_block_size, range.to)}, parameters, step, histories,
            result);
     foreign.insert(foreign.end(), result.foreign, result.foreign + result.foreign_count);
     statistics.contacts += result.contacts;
@@ -55,7 +55,7 @@ SpaceMotion ForceField::motion_of_image(const SpaceMotion& at, const Neighbours:
 }
 
 /// As in the plane, range by range.
-void ForceField::set_pair_forces_in_space(const Grains& balls, const SpaceMotion& at, const HistoryAdvance& advance,
+void ForceField::set_pair_forces_in_space(const Grains& balls, const SpaceMotion& at, const ContactStep& step,
                                           SpaceForces& all, ContactStatistics& statistics) {
   const GrainSurfaces surfaces = surfaces_of(balls);
   all.forces.resize(balls.size()), all.torques.resize(model_.kernels->effects.rotation ? balls.size() : 0);
@@ -70,7 +70,7 @@ void ForceField::set_pair_forces_in_space(const Grains& balls, const SpaceMotion
     SpacePairResult result;
     result.forces = all.forces.data(), result.torques = all.torques.data();
     result.first_own = own_grains.from;
-    add_pairs(space_pair_kernel_, surfaces, at, state_.contacts.pairs, entries, model_.contacts, advance,
+    add_pairs(space_pair_kernel_, surfaces, at, state_.contacts.pairs, entries, model_.contacts, step,
               state_.contacts.pair_histories, result, own.foreign_in_space, own.statistics);
   });
   add_up_ranges(statistics);
@@ -86,24 +86,24 @@ void ForceField::set_pair_forces_in_space(const Grains& balls, const SpaceMotion
   }
 }
 
-void ForceField::run_kernels_in_space(const Grains& balls, const HistoryAdvance& advance, SpaceForces& all,
+void ForceField::run_kernels_in_space(const Grains& balls, const ContactStep& step, SpaceForces& all,
                                       ContactStatistics& statistics) {
   const SpaceMotion at = motion_in_space(balls);
-  set_pair_forces_in_space(balls, at, advance, all, statistics);
+  set_pair_forces_in_space(balls, at, step, all, statistics);
   const GrainSurfaces surfaces = surfaces_of(balls);
   for (std::size_t k = 0; k < neighbours_.images().size(); ++k) {
     BoundaryContacts& boundary = state_.contacts.boundaries[k];
     SpacePairResult result;
     result.forces = all.forces.data(), result.torques = all.torques.data(), result.first_own = 0;
     add_pairs(space_pair_kernel_, surfaces, motion_of_image(at, neighbours_.images()[k]), boundary.pairs,
-              {0, static_cast<int>(boundary.pairs.size())}, model_.contacts, advance, boundary.histories, result,
+              {0, static_cast<int>(boundary.pairs.size())}, model_.contacts, step, boundary.histories, result,
               ranges_.front().foreign_in_space, statistics);
   }
   execution_.profile().lap(Phase::pairs);
   const auto add = [&](const SpaceWallContacts& touching) {
     add_wall_forces(touching, model_.kernels->effects.rotation, all.forces, all.torques);
   };
-  add_walls(&RangeWork::space_walls, balls, walls_.placed_faces(), space_wall_kernel_, at, advance, add, statistics);
+  add_walls(&RangeWork::space_walls, balls, walls_.placed_faces(), space_wall_kernel_, at, step, add, statistics);
   execution_.profile().lap(Phase::walls);
 }
 
@@ -129,6 +129,7 @@ double ForceField::elastic_energy_in_space(const Grains& balls) {
 }
 
 std::vector<GrainVector> ForceField::wall_forces_in_space() {
+  see_walls_as_they_are();
   const Grains& balls = place_discs();
   std::vector<GrainVector> forces(balls.size()), torques(balls.size());
   SpaceWallContacts& touching = find_wall_contacts_in_space(balls);

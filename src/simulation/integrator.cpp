@@ -94,8 +94,8 @@ void set_sum(std::vector<double>& to, const std::vector<double>& from, const std
   for (std::size_t i = 0; i < to.size(); ++i) t[i] = f[i] + factor * r[i];
 }
 
-void accelerations_now(Integration& s, double time, const HistoryAdvance& advance, ContactStatistics& statistics) {
-  s.field.evaluate(time, advance, statistics);
+void accelerations_now(Integration& s, double time, const ContactStep& step, ContactStatistics& statistics) {
+  s.field.evaluate(time, step, statistics);
   accelerations(s);
 }
 
@@ -118,7 +118,7 @@ void watch_speed(Integration& s, std::size_t a, std::size_t b) {
   if (s.execution.loops().any_faster(b - a, &s.grains.vx[a], &s.grains.vy[a], s.fastest)) s.too_fast = true;
 }
 
-/// Places, predicted velocities and spins at the end of a step.
+/// Velocities and spins in the middle of a step, places at its end.
 void predict(Integration& s) {
   const GrainLoops& loops = s.execution.loops();
   const bool as_clumps = turn_as_clumps(s.grains);
@@ -147,7 +147,15 @@ void velocity_verlet(Integration& s) {
   grains.in_space && !s.model.effects.clumps ? predict_balls(s) : predict(s);
   s.execution.profile().lap(Phase::integration);
   const double power_before = s.kept.wall_power;
-  s.field.evaluate(next_time(s), {.trial = s.dt, .commit = s.dt, .present = 0.5}, s.state.statistics);
+  const double lag = 0.5 * s.dt;
+  const ContactStep step{.trial = s.dt,
+                         .commit = s.dt,
+                         .present = 1,
+                         .lag = lag,
+                         .fall_x = lag * s.model.gravity.x(),
+                         .fall_y = lag * s.model.gravity.y(),
+                         .brake = lag * s.drag};
+  s.field.evaluate(next_time(s), step, s.state.statistics);
 
   s.execution.share(grains.size(), [&](std::size_t a, std::size_t b) {
     if (grains.in_space)

@@ -273,6 +273,7 @@ void Simulation::open_walls(const std::vector<std::size_t>& walls) {
 
 void Simulation::feed(bool top_up, bool rain) {
   int added = 0;
+  field_.place_walls(state_.time);  // the last evaluation may have been for the middle of a step
   if (top_up) added += feeder_.top_up(state_.grains, field_.touching(), field_.walls(), state_.time);
   if (rain) added += feeder_.rain(state_.grains, field_.walls(), state_.time);
   if (feeder_.fault()) guard_.stop(*feeder_.fault());

@@ -48,6 +48,7 @@ bool are_grains(const Model& model, const Grains& g) {
                            &Grains::mass,
                            &Grains::inverse_mass,
                            &Grains::inverse_inertia,
+                           &Grains::lever_yield,
                            &Grains::compliance,
                            &Grains::curvature})
     if (!like(array)) return false;

@@ -73,42 +73,47 @@ void Walls::place_arc(PlacedWall& wall, const AtRest& rest, const Vessel& vessel
   wall.cos_half = elementary::cos(0.5 * (rest.own.to - rest.own.from));
 }
 
-void Walls::place_segment(std::size_t number, const Pose& pose, const PoseRate& rate) {
+void Walls::place_segment(std::size_t number, const Driven& now, const Driven& on_mean) {
   const Vessel& vessel = vessels_[about_[number].vessel];
-  // The wall's velocity is stated for the material that passes the lab's zero: at (x, y) it is (vx - spin y, vy +
-  // spin x).
-  const Eigen::Vector2d velocity = material_velocity(vessel, pose, rate, Eigen::Vector2d::Zero());
+  const Pose& pose = now.pose;
+  const auto moving = [&vessel](const Driven& driven) {
+    const Eigen::Vector2d at_zero = material_velocity(vessel, driven.pose, driven.rate, Eigen::Vector2d::Zero());
+    return PlacedWall::Moving{at_zero.x(), at_zero.y(), driven.rate.angular_velocity};
+  };
   const AtRest& rest = at_rest_[number];
   const bool turned = pose.angle != 0;
   const Eigen::Vector2d a = turned ? in_lab_frame(vessel, pose, rest.own.a) : rest.a + pose.displacement;
   const Eigen::Vector2d b = turned ? in_lab_frame(vessel, pose, rest.own.b) : rest.b + pose.displacement;
   PlacedWall& wall = placed_[number];
   wall.ax = a.x(), wall.ay = a.y(), wall.bx = b.x(), wall.by = b.y();
-  wall.vx = velocity.x(), wall.vy = velocity.y(), wall.spin = rate.angular_velocity;
+  wall.now = moving(now), wall.on_mean = moving(on_mean);
   if (rest.own.radius > 0) place_arc(wall, rest, vessel, pose);
 }
 
-void Walls::place_face(std::size_t number, const Pose& pose, const PoseRate& rate) {
+void Walls::place_face(std::size_t number, const Driven& now, const Driven& on_mean) {
   const Vessel& vessel = vessels_[about_[number].vessel];
   const Face& own = faces_[number];
   PlacedFace& face = placed_faces_[number];
+  const Pose& pose = now.pose;
+  const auto moving = [&vessel](const Driven& driven) {
+    return PlacedFace::Moving{point_velocity(vessel, driven.pose, driven.rate, Eigen::Vector3d::Zero()),
+                              spin_in_space(vessel, driven.pose, driven.rate)};
+  };
   face.origin = point_in_lab(vessel, pose, own.origin);
   face.e1 = direction_in_lab(vessel, pose, own.e1);
   face.e2 = direction_in_lab(vessel, pose, own.e2);
   face.normal = direction_in_lab(vessel, pose, own.normal);
-  face.velocity = point_velocity(vessel, pose, rate, Eigen::Vector3d::Zero());
-  face.spin = spin_in_space(vessel, pose, rate);
+  face.now = moving(now), face.on_mean = moving(on_mean);
 }
 
-void Walls::place(double time) {
+void Walls::place(double time, double lag) {
   std::size_t next = 0;
   for (std::size_t v = 0; v < vessels_.size(); ++v) {
-    const Pose pose = this->pose(v, time);
-    const PoseRate rate = this->rate(v, time);
-    poses_[v] = pose;
+    const Driven now = driven(v, time), on_mean = lag == 0 ? now : driven(v, time - lag);
+    poses_[v] = now.pose;
     for (; next < about_.size() && about_[next].vessel == v; ++next) {
       if (about_[next].removed) continue;
-      faces_.empty() ? place_segment(next, pose, rate) : place_face(next, pose, rate);
+      faces_.empty() ? place_segment(next, now, on_mean) : place_face(next, now, on_mean);
     }
   }
 }

@@ -21,8 +21,8 @@ class Walls {
   Walls(const Walls&) = delete;
   Walls& operator=(const Walls&) = delete;
 
-  /// Moves every wall to where it is at `time` (s).
-  void place(double time);
+  /// Moves every wall to where it is at `time` (s), in a step whose middle was `lag` (s) ago.
+  void place(double time, double lag = 0);
 
   /// A wall that is gone, as a gate that opened: it is placed no more.
   void remove(std::size_t wall) { about_[wall].removed = true; }
@@ -61,8 +61,14 @@ class Walls {
   };
   void add_segments(std::size_t vessel);
   void add_faces(std::size_t vessel);
-  void place_segment(std::size_t wall, const Pose& pose, const PoseRate& rate);
-  void place_face(std::size_t wall, const Pose& pose, const PoseRate& rate);
+  /// How a vessel is driven at a time.
+  struct Driven {
+    Pose pose;
+    PoseRate rate;
+  };
+  Driven driven(std::size_t vessel, double time) const { return {pose(vessel, time), rate(vessel, time)}; }
+  void place_segment(std::size_t wall, const Driven& now, const Driven& on_mean);
+  void place_face(std::size_t wall, const Driven& now, const Driven& on_mean);
   void place_arc(PlacedWall& wall, const AtRest& rest, const Vessel& vessel, const Pose& pose) const;
 
   std::vector<Vessel> vessels_;

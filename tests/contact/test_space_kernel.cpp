@@ -50,7 +50,7 @@ GrainSurfaces surfaces_of_balls(Law law) {
                                                .youngs_modulus = 1e7,
                                                .poisson_ratio = 0.3});
   GrainSurfaces grains{};
-  grains.equal = {radius, compliance, 1 / mass, inverse_inertia, 1 / radius};
+  grains.equal = {radius, compliance, 1 / mass, inverse_inertia, 1 / radius, 0};
   return grains;
 }
 
@@ -66,13 +66,13 @@ class Contact2 {
     histories_.resize(1, {effects.tangential_spring, effects.rolling == Rolling::spring, in_space});
   }
 
-  Loads loads(const Balls& balls, const HistoryAdvance& advance) {
+  Loads loads(const Balls& balls, const ContactStep& advance) {
     return in_space_ ? space(balls, advance) : plane(balls, advance);
   }
   ContactHistories& histories() { return histories_; }
 
  private:
-  Loads plane(const Balls& b, const HistoryAdvance& advance) {
+  Loads plane(const Balls& b, const ContactStep& advance) {
     const auto pair = [&b](auto of) { return std::array{of(b[0]), of(b[1])}; };
     const auto x = pair([](const Ball&p) { return p.x.x(); }), y = pair([](const Ball&p) { return p.x.y(); });
     const auto vx = pair([](const Ball&p) { return p.v.x(); }), vy = pair([](const Ball&p) { return p.v.y(); });
@@ -86,7 +86,7 @@ class Contact2 {
     for (std::size_t k = 0; k < 2; ++k) loads[k] = {{sums[k].fx, sums[k].fy, 0}, {0, 0, sums[k].torque}};
     return loads;
   }
-  Loads space(const Balls& b, const HistoryAdvance& advance) {
+  Loads space(const Balls& b, const ContactStep& advance) {
     const auto row = [](const Eigen::Vector3d& a) { return GrainVector{a.x(), a.y(), a.z(), 0}; };
     const std::array<GrainVector, 2> places{row(b[0].x), row(b[1].x)};
     const std::array<BallMotion, 2> motions{BallMotion{row(b[0].v), row(b[0].omega)},
@@ -220,7 +220,7 @@ double error_after_turning(const Eigen::Vector3d& axis, double angle, int steps)
   start[0].x = {-0.99 * radius, 0, 0}, start[1].x = {0.99 * radius, 0, 0};
   start[1].v = {0, 1e-5, 1.5e-5};
   contact.loads(start, {.trial = dt, .commit = dt, .present = 1});  // stretches the spring
-  const HistoryAdvance still{.trial = dt, .commit = dt, .present = 1};
+  const ContactStep still{.trial = dt, .commit = dt, .present = 1};
   start[1].v = Eigen::Vector3d::Zero();
   const Loads held = contact.loads(start, still);
   Balls now;
@@ -263,7 +263,7 @@ class ManyContacts {
   }
 
   void evaluate(int step) {
-    const HistoryAdvance advance{.trial = 1e-5, .commit = 1e-5, .present = 0.5};
+    const ContactStep advance{.trial = 1e-5, .commit = 1e-5, .present = 0.5};
     const int pairs = static_cast<int>(list_.size());
     for (int k = 0; k < pairs; ++k) {
       const bool touches = (7 * k + 3 * step * step) % 5 < 2;

@@ -35,7 +35,7 @@ TEST(Wall, IsAGrainOfInfiniteRadiusAndMass) {
       grains.omega[0] = 5;
       if (!as_wall) grains.add(0.5, -giant, 0.01, 0.03, 1);
       const PairList pairs = as_wall ? PairList{} : PairList{{0}, {1}};
-      const std::vector<PlacedWall> walls{{0, 0, 1, 0, 0.01, 0.03}};
+      const std::vector<PlacedWall> walls{{0, 0, 1, 0, {0.01, 0.03}, {0.01, 0.03}}};
       std::vector<WallCandidate> near;
       if (as_wall) near.push_back({0, 0, 1});
       Forces f(2);
@@ -87,7 +87,7 @@ TEST(Wall, ACentreOnItIsPushedBackToTheSideItCameFrom) {
     grains.add(0.5, 0, 0, 0, 0);
     WallContacts contacts;
     const std::vector<WallCandidate> below = {{0, 0, side}};
-    WallContactFinder().find(grains, below, 0, {{0, 0, 1, 0, 0, 1, 0, 0}}, contacts);  // above is left: positive
+    WallContactFinder().find(grains, below, 0, {{0, 0, 1, 0, {0, 1}, {0, 1}}}, contacts);  // above is left: positive
     ASSERT_EQ(contacts.count, 1);
     EXPECT_EQ(contacts.normal_y[0], -side) << "towards the wall";
     Grains balls(prepare(in_space.scene).kinds, false, false);

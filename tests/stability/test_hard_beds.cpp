@@ -164,7 +164,7 @@ TEST_P(HardBed, ClumpsThatArchOverAHole) {
   scene.contact.seed = scene.contact.wall = {0.9, 0.3};
   scene.contact.friction_model = FrictionModel::spring;
   scene.tray.fill->packing = Packing::poured;
-  scene.tray.holes = {{.centre = 0.5 * scene.tray.length, .width = in_space ? 0.017 : 0.02}};
+  scene.tray.holes = {{.centre = 0.5 * scene.tray.length, .width = in_space ? 0.017 : 0.021}};
   if (in_space) scene.tray.holes[0].shape = HoleShape::round, scene.tray.holes[0].across = 0.5 * *scene.tray.depth;
   scene.run.duration = 0.4;
   Simulation run(prepare_to_run(scene), 1);

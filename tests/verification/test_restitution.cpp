@@ -1,7 +1,9 @@
 // Restitution and bounces against theory: what is asked for is what is measured; paper B's damping; bounce heights.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "support/bench.hpp"
 #include "verification/tables.hpp"
@@ -61,6 +63,54 @@ TEST(Restitution, AskedForIsMeasured) {
           const std::string name = law == Law::hertz ? "hertz" : "elastic_shell";
           EXPECT_NEAR(measured, asked, 0.005 * asked) << name << " " << against << " " << speed << " m/s";
           report.add(name, against, speed, asked, measured, 100 * (measured / asked - 1));
+        }
+}
+
+/// Restitution of impacts whose first touch falls anywhere in a step: its mean and its scatter (one sigma).
+struct Spread {
+  double mean, scatter;
+};
+Spread restitution_spread(Law law, bool on_wall, double asked, int steps_per_contact) {
+  constexpr int phases = 64;
+  constexpr double speed = 0.1;
+  double sum = 0, square = 0;
+  for (int k = 0; k < phases; ++k) {
+    Bench bench = two_lots(law);
+    bench.scene.contact.seed.restitution = bench.scene.contact.wall.restitution = asked;
+    const double dt = contact_time(bench, on_wall ? -1 : 0, speed) / steps_per_contact, phase = 8 + (k + 0.5) / phases;
+    const ImpactResult impact = on_wall ? wall_impact(bench, speed, 0, dt, 0, phase)
+                                        : head_on_impact(bench, speed, 0, dt, phase);
+    const double measured = (on_wall ? impact.vy : impact.other_vx - impact.vx) / speed;
+    sum += measured, square += measured * measured;
+  }
+  const double mean = sum / phases;
+  return {mean, std::sqrt(std::max(0.0, square / phases - mean * mean))};
+}
+
+// At the steps that runs take: where in a step the first touch falls hardly tells.
+TEST(Restitution, AtTheStepsOfRuns) {
+  VerificationReport report(
+      "restitution_at_few_steps",
+      "restitution at few steps an elastic contact, velocity Verlet: mean and scatter (one sigma) over 64 moments of "
+      "touch within a step",
+      {"law", "against", "restitution_asked", "steps_per_contact", "mean", "deviation", "scatter"});
+  const std::map<int, double> largest_scatter = {{8, 0.01}, {12, 0.005}, {20, 0.002}};
+  for (const Law law : {Law::elastic_shell, Law::hertz})
+    for (const bool on_wall : {false, true})
+      for (const double asked : {0.1, 0.3, 0.5, 0.7, 0.9})
+        for (const int steps : {8, 12, 20, 40}) {
+          const Spread spread = restitution_spread(law, on_wall, asked, steps);
+          const std::string name = law == Law::hertz ? "hertz" : "elastic_shell", against = on_wall ? "wall" : "grain";
+          SCOPED_TRACE(testing::Message() << name << " " << against << " " << asked << " " << steps << " steps");
+          report.add(name, against, asked, steps, spread.mean, spread.mean - asked, spread.scatter);
+          if (asked == 0.5 && largest_scatter.count(steps)) {
+            EXPECT_NEAR(spread.mean, asked, 0.01 * asked);
+            EXPECT_LE(spread.scatter, largest_scatter.at(steps));
+          }
+          if (asked == 0.1 && steps >= 12) {
+            EXPECT_NEAR(spread.mean, asked, 0.01);
+            EXPECT_LE(spread.scatter, 0.01);
+          }
         }
 }
 

@@ -164,7 +164,7 @@ TEST(TangentialSpring, NeverMakesEnergy) {
       const double before = displacement;
       displacement += speed * dt;
       const double moved = displacement - before;
-      const double force = spring_friction(stiffness, dashpot, limit, speed, displacement);
+      const double force = spring_friction(stiffness, dashpot, limit, speed, 0.0, displacement);
       work += force * moved;
       ASSERT_LE(std::abs(force), limit);
       // The force at the end of a step stands for the whole: k (dx)^2 / 2 too much work a step at most.
@@ -177,7 +177,7 @@ TEST(TangentialSpring, NeverMakesEnergy) {
 TEST(TangentialSpring, HoldsNoMoreThanItsLimitBesideTheDashpot) {
   const double stiffness = 100, limit = 1, dashpot = 2, speed = -0.1;
   double displacement = 0.03;
-  EXPECT_DOUBLE_EQ(spring_friction(stiffness, dashpot, limit, speed, displacement), limit + dashpot * speed);
+  EXPECT_DOUBLE_EQ(spring_friction(stiffness, dashpot, limit, speed, 0.0, displacement), limit + dashpot * speed);
   EXPECT_DOUBLE_EQ(displacement, limit / stiffness);
 }
 

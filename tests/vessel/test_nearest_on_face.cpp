@@ -23,7 +23,7 @@ PlacedFace placed(const Face& face) {
   PlacedFace made;
   made.own = &face;
   made.origin = face.origin, made.e1 = face.e1, made.e2 = face.e2, made.normal = face.normal;
-  made.velocity = made.spin = Eigen::Vector3d::Zero();
+  made.now = made.on_mean = {Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()};
   made.sine_half = std::sin(face.half_angle), made.cosine_half = std::cos(face.half_angle);
   return made;
 }
