@@ -40,10 +40,10 @@ struct PairConstants {
 
 /// How two surfaces stand and move.
 struct Touch {
-  double overlap;   // m
-  double approach;  // m/s, growth of the overlap
-  double sliding;   // m/s, W: speed of i's surface over j's along t
-  double turning;   // rad/s, omega_i - omega_j
+  double overlap;        // m
+  double approach;       // m/s, growth of the overlap
+  double sliding;        // m/s, W: speed of i's surface over j's along t
+  double turning;        // rad/s, omega_i - omega_j
   double slipping;       // m/s, as sliding, on the mean over the step: set where there is a spring
   double sliding_yield;  // 1/kg, how fast a force of 1 changes the sliding
 };
@@ -52,14 +52,11 @@ struct Touch {
 class MovingHistory {
  public:
   MovingHistory(double stored, double old_speed, double speed, const ContactStep& step)
-      : displacement(stored + step.trial * mean(old_speed, speed, step)),
-        mean_(mean(old_speed, speed, step)) {}
+      : displacement(stored + step.trial * mean(old_speed, speed, step)), mean_(mean(old_speed, speed, step)) {}
 
   double displacement;  // at which the force is wanted; the law may shorten it
 
-  double to_store(const ContactStep& step) const {
-    return displacement + (step.commit - step.trial) * mean_;
-  }
+  double to_store(const ContactStep& step) const { return displacement + (step.commit - step.trial) * mean_; }
 
  private:
   static double mean(double old_speed, double speed, const ContactStep& step) {
@@ -73,7 +70,7 @@ struct NormalForce {
   double secant;       // N/m, of the elastic force
   double dashpot;      // N s/m, as long as it acts; 0 without damping
   double own_dashpot;  // N s/m, at the overlap: by which its own force changes what it takes
-  double repulsion;  // N
+  double repulsion;    // N
 };
 template <class Law, class Effects>
 [[gnu::always_inline]] inline NormalForce normal_force(double overlap, double approach, const PairConstants& pair,
@@ -114,10 +111,9 @@ inline ContactForce contact_force(const Touch& touch, const PairConstants& pair,
   if constexpr (Effects::cohesion) force.normal -= surface.cohesion;
   if constexpr (Effects::spring) {
     MovingHistory slip(history.slip, history.slip_speed, touch.slipping, step);
-    force.tangential =
-        spring_friction(surface.tangential_ratio * secant, surface.tangential_damping * dashpot,
-                        surface.friction * repulsion, touch.sliding,
-                        surface.tangential_damping * own_dashpot * step.lag * touch.sliding_yield, slip.displacement);
+    force.tangential = spring_friction(
+        surface.tangential_ratio * secant, surface.tangential_damping * dashpot, surface.friction * repulsion,
+        touch.sliding, surface.tangential_damping * own_dashpot * step.lag * touch.sliding_yield, slip.displacement);
     history.slip = slip.to_store(step), history.slip_speed = touch.slipping;
   } else if constexpr (Effects::friction) {
     const auto sliding = sliding_friction(surface.friction * repulsion, touch.sliding, surface.inverse_slip_speed,

@@ -146,13 +146,21 @@ template <class Law, class Effects>
     if constexpr (Effects::damping || Effects::friction) {
       const double ux = vx[i] - vx[j], uy = vy[i] - vy[j];
       const double kept = 1 - step.brake * pair.brake_yield;
-      if constexpr (Effects::damping) touch.approach = kept * (ux * nx + uy * ny);
-      if constexpr (Effects::friction) touch.slipping = uy * nx - ux * ny, touch.sliding = kept * touch.slipping;
+      const double approach = ux * nx + uy * ny, nearer = step.lag * approach;
+      if constexpr (Effects::damping) touch.approach = kept * approach;
+      if constexpr (Effects::friction) touch.sliding = uy * nx - ux * ny;
+      // In the middle of the step the two were further apart by `nearer`: the normal has turned since.
+      if constexpr (Effects::spring) touch.slipping = touch.sliding * (1 - (distance > 0 ? nearer * per_distance : 0));
+      touch.sliding *= kept;
       if constexpr (Effects::rotation) {
         arm_i = properties.radius(i) - shortening * overlap * pair.overlap_fraction_i;
         arm_j = properties.radius(j) - shortening * overlap * pair.overlap_fraction_j;
-        const double turned = arm_i * omega[i] + arm_j * omega[j];
-        touch.sliding += turned, touch.slipping += turned;
+        touch.sliding += arm_i * omega[i] + arm_j * omega[j];
+        if constexpr (Effects::spring) {
+          const double longer = shortening * nearer;
+          touch.slipping += (arm_i + longer * pair.overlap_fraction_i) * omega[i] +
+                            (arm_j + longer * pair.overlap_fraction_j) * omega[j];
+        }
         touch.sliding_yield += arm_i * arm_i * pair.turning_yield_i + arm_j * arm_j * pair.turning_yield_j;
       }
       if constexpr (Effects::rolls) touch.turning = omega[i] - omega[j];
@@ -214,8 +222,8 @@ template <class Law, class Effects>
   PairBlock block;
   find_touching<Law, Effects>(properties, at, list, range, leaves_trace, histories, block);
   BlockHistories block_histories;
-  result.figures = forces_of_touching<Law, Effects>(properties, at, range.from, parameters, step, histories, block,
-                                                    block_histories);
+  result.figures =
+      forces_of_touching<Law, Effects>(properties, at, range.from, parameters, step, histories, block, block_histories);
   if (keeps_history<Effects> && leaves_trace)
     store_block<Effects>(block_histories, block.entry, range.from, block.touching, histories);
   add_block(block, result);

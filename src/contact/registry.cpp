@@ -95,8 +95,7 @@ const std::vector<KernelSet>& registered_kernels() {
 
 GrainSurfaces surfaces_of(const Grains& grains) {
   const GrainKind& kind = grains.kinds.front();
-  return {{kind.radius, kind.compliance, kind.inverse_mass, kind.inverse_inertia, 1 / kind.radius,
-           kind.lever_yield},
+  return {{kind.radius, kind.compliance, kind.inverse_mass, kind.inverse_inertia, 1 / kind.radius, kind.lever_yield},
           grains.radius.data(),
           grains.compliance.data(),
           grains.inverse_mass.data(),

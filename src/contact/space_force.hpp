@@ -13,24 +13,44 @@ struct SpaceTouch {
   double overlap = 0;   // m
   double approach = 0;  // m/s, growth of the overlap
   Vector3 n;
-  Vector3 sliding;      // m/s, W: velocity of i's surface over j's, across n
-  Vector3 slipping;     // m/s, the same on the mean over the step: set where there is a spring
+  Vector3 sliding;           // m/s, W: velocity of i's surface over j's, across n
+  Vector3 slipping;          // m/s, the same on the mean over the step: set where there is a history
+  double nearer = 0;         // m, by how much less the two overlapped in the middle of the step
   double sliding_yield = 0;  // 1/kg, how fast a force of 1 changes the sliding
-  Vector3 turning;      // rad/s, omega_i - omega_j, across n
-  double twisting = 0;  // rad/s, the same along n
-  double spin = 0;      // rad/s, of both together about n: their mean
+  Vector3 turning;           // rad/s, omega_i - omega_j, across n
+  double twisting = 0;       // rad/s, the same along n
+  double spin = 0;           // rad/s, of both together about n: their mean
 };
 
-/// How i's surface turns over j's: sets what of `touch` the effects ask for, and adds to its sliding, slipping and
-/// yield. Arms in m.
+/// Two that roll over each other.
+struct Turning {
+  Vector3 omega_i, omega_j;  // rad/s
+  double arm_i, arm_j;       // m
+  double per_distance;       // 1/m, of the centres; 0 at a wall, whose normal does not turn as the grain moves along it
+  double shortening;         // of the arms, by the overlap
+};
+
+/// Sets what of `touch` the effects ask for, and adds to its sliding, slipping and yield. In the middle of the step,
+/// `lag` ago, arms were longer, and normal and grains had not turned as far: the slipping is carried on to now.
 template <class Effects>
-inline void set_turning(const Vector3& omega_i, const Vector3& omega_j, double arm_i, double arm_j,
-                        const PairConstants& pair, SpaceTouch& touch) {
+inline void set_turning(const Turning& turning, const PairConstants& pair, double lag, SpaceTouch& touch) {
+  const auto& [omega_i, omega_j, arm_i, arm_j, per_distance, shortening] = turning;
   touch.sliding_yield += arm_i * arm_i * pair.turning_yield_i + arm_j * arm_j * pair.turning_yield_j;
-  const Vector3 turned = cross(arm_i * omega_i + arm_j * omega_j, touch.n);
-  touch.sliding = touch.sliding + turned;
-  if constexpr (Effects::spring) touch.slipping = touch.slipping + turned;
-  if constexpr (keeps_history<Effects>) touch.spin = 0.5 * dot(omega_i + omega_j, touch.n);
+  touch.sliding = touch.sliding + cross(arm_i * omega_i + arm_j * omega_j, touch.n);
+  [[maybe_unused]] const double turns = lag * per_distance;
+  if constexpr (keeps_history<Effects>) {
+    const Vector3 both = omega_i + omega_j;
+    touch.spin = 0.5 * (dot(both, touch.n) + turns * dot(both, touch.slipping));
+  }
+  if constexpr (Effects::spring) {
+    const double longer = shortening * touch.nearer;
+    const Vector3 rims =
+        (arm_i + longer * pair.overlap_fraction_i) * omega_i + (arm_j + longer * pair.overlap_fraction_j) * omega_j;
+    const Vector3 along = touch.slipping;
+    touch.slipping = (1 - touch.nearer * per_distance) * along + cross(rims, touch.n);
+    touch.slipping =
+        touch.slipping + cross(touch.n, (turns * dot(rims, touch.n)) * along + (lag * touch.spin) * touch.slipping);
+  }
   if constexpr (Effects::rolls) {
     const Vector3 relative = omega_i - omega_j;
     touch.twisting = dot(relative, touch.n);
@@ -84,9 +104,7 @@ class MovingVector {
 
   Vector3 displacement;  // at which the force is wanted; the law may shorten it
 
-  Vector3 to_store(const ContactStep& step) const {
-    return displacement + (step.commit - step.trial) * mean_;
-  }
+  Vector3 to_store(const ContactStep& step) const { return displacement + (step.commit - step.trial) * mean_; }
 
  private:
   Vector3 mean_;
@@ -132,9 +150,8 @@ inline double either(double a, double b) {
   const double critical = 2 * std::sqrt(pair.twisting_inertia * stiffness);
   MovingHistory twist(history.twist, history.twist_speed, touch.twisting, step);
   const double damping = surface.rolling_damping * critical;
-  const double torque = spring_friction(stiffness, damping, arm * normal.repulsion,
-                                        touch.twisting, damping * step.lag * pair.turning_yield(),
-                                        twist.displacement);
+  const double torque = spring_friction(stiffness, damping, arm * normal.repulsion, touch.twisting,
+                                        damping * step.lag * pair.turning_yield(), twist.displacement);
   history.twist = twist.to_store(step), history.twist_speed = touch.twisting;
   return torque;
 }
@@ -144,8 +161,7 @@ inline double either(double a, double b) {
 template <class Law, class Effects>
 [[gnu::always_inline]] inline SpaceContactForce space_contact_force(const SpaceTouch& touch, const PairConstants& pair,
                                                                     const SurfaceParameters& surface,
-                                                                    const ContactStep& step,
-                                                                    SpaceHistory& history) {
+                                                                    const ContactStep& step, SpaceHistory& history) {
   const NormalForce normal = normal_force<Law, Effects>(touch.overlap, touch.approach, pair, surface, step);
   SpaceContactForce force{normal.repulsion, {}, {}, 0};
   if constexpr (Effects::cohesion) force.normal -= surface.cohesion;
@@ -159,18 +175,18 @@ template <class Law, class Effects>
                              slip.displacement);
     history.slip = slip.to_store(step), history.slip_speed = touch.slipping;
   } else if constexpr (Effects::friction) {
-    const auto sliding = sliding_friction(surface.friction * normal.repulsion, touch.sliding,
-                                          surface.inverse_slip_speed, pair.steepest_sliding,
-                                          step.lag * touch.sliding_yield);
+    const auto sliding =
+        sliding_friction(surface.friction * normal.repulsion, touch.sliding, surface.inverse_slip_speed,
+                         pair.steepest_sliding, step.lag * touch.sliding_yield);
     force.tangential = -1 * sliding.force, force.slip_raised = sliding.raised;
   }
   if constexpr (Effects::rolling == Rolling::constant_torque) {
     const double arm = surface.rolling_friction * pair.rolling_radius;
     const auto rolling = sliding_friction(arm * normal.repulsion, pair.rolling_radius * touch.turning,
                                           surface.inverse_slip_speed, pair.steepest_rolling, 0.0);
-    const auto twisting = sliding_friction(surface.twisting_friction * pair.rolling_radius * normal.repulsion,
-                                           pair.rolling_radius * touch.twisting, surface.inverse_slip_speed,
-                                           pair.steepest_rolling, 0.0);
+    const auto twisting =
+        sliding_friction(surface.twisting_friction * pair.rolling_radius * normal.repulsion,
+                         pair.rolling_radius * touch.twisting, surface.inverse_slip_speed, pair.steepest_rolling, 0.0);
     force.resistance = -1 * rolling.force - twisting.force * touch.n;
     force.slip_raised = either(force.slip_raised, either(rolling.raised, twisting.raised));
   } else if constexpr (Effects::rolling == Rolling::spring) {
@@ -179,8 +195,8 @@ template <class Law, class Effects>
     const double critical = 2 * std::sqrt(pair.rolling_inertia * stiffness);
     MovingVector roll(history.roll, history.roll_speed, touch.turning, carry, step);
     const double damping = surface.rolling_damping * critical;
-    force.resistance = -1 * spring_friction(stiffness, damping, arm * normal.repulsion,
-                                            touch.turning, damping * step.lag * pair.turning_yield(), roll.displacement);
+    force.resistance = -1 * spring_friction(stiffness, damping, arm * normal.repulsion, touch.turning,
+                                            damping * step.lag * pair.turning_yield(), roll.displacement);
     history.roll = roll.to_store(step), history.roll_speed = touch.turning;
     force.resistance = force.resistance - twisting_torque(touch, pair, surface, normal, step, history) * touch.n;
   }

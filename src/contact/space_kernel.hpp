@@ -114,6 +114,7 @@ struct SpacePairWork {
       const Vector3 u = block.velocity[k];
       const double kept = 1 - step.brake * pair.brake_yield, approach = dot(u, touch.n);
       touch.approach = kept * approach;
+      touch.nearer = step.lag * approach;
       if constexpr (Effects::friction) touch.slipping = u - approach * touch.n, touch.sliding = kept * touch.slipping;
     }
     if constexpr (Effects::rotation) {
@@ -121,7 +122,9 @@ struct SpacePairWork {
       arm_j = arm_i;
       if constexpr (Effects::polydisperse)
         arm_j = properties.radius(j) - shortening * touch.overlap * pair.overlap_fraction_j;
-      set_turning<Effects>(block.spin[k], block.partner_spin[k], arm_i, arm_j, pair, touch);
+      set_turning<Effects>(
+          {block.spin[k], block.partner_spin[k], arm_i, arm_j, distance > 0 ? per_distance : 0.0, shortening}, pair,
+          step.lag, touch);
     }
     SpaceHistory history = block_histories.template get<Effects>(static_cast<std::size_t>(k));
     const SpaceContactForce force =
@@ -192,9 +195,8 @@ void add_block(const SpaceBlock& block, SpacePairResult& result) {
 
 template <class Law, class Effects>
 [[gnu::flatten]] void space_pair_forces(const GrainSurfaces& grains, const SpaceMotion& at, const PairList& list,
-                                        PairRange range, const ContactParameters& parameters,
-                                        const ContactStep& step, ContactHistories& histories,
-                                        SpacePairResult& result) {
+                                        PairRange range, const ContactParameters& parameters, const ContactStep& step,
+                                        ContactHistories& histories, SpacePairResult& result) {
   const PairProperties<Law, Effects> properties(grains, parameters);
   const bool leaves_trace = step.commit > 0;
   SpaceBlock block;

@@ -46,8 +46,8 @@ void add(const WallCandidate& candidate, std::size_t c, const NearestOnFace& nea
 void make_room(std::size_t most, SpaceWallContacts& contacts) {
   if (contacts.grain.size() >= most) return;
   contacts.candidate.resize(most), contacts.grain.resize(most), contacts.distance.resize(most);
-  for (VectorColumns* columns :
-       {&contacts.normal, &contacts.wall_velocity, &contacts.mean_wall_velocity, &contacts.wall_spin, &contacts.force, &contacts.torque})
+  for (VectorColumns* columns : {&contacts.normal, &contacts.wall_velocity, &contacts.mean_wall_velocity,
+                                 &contacts.wall_spin, &contacts.force, &contacts.torque})
     columns->resize(most);
 }
 

@@ -51,14 +51,15 @@ struct SpaceWallWork {
       const Vector3 v = velocity[k], u = kept * v + Vector3{step.fall_x, step.fall_y, 0} - wall_velocity[k];
       touch.approach = dot(u, touch.n);
       if constexpr (Effects::friction) touch.sliding = u - touch.approach * touch.n;
-      if constexpr (Effects::spring) {
+      if constexpr (keeps_history<Effects>) {
         const Vector3 on_mean = v - mean_wall_velocity[k];
-        touch.slipping = on_mean - dot(on_mean, touch.n) * touch.n;
+        const double approach = dot(on_mean, touch.n);
+        touch.slipping = on_mean - approach * touch.n, touch.nearer = step.lag * approach;
       }
     }
     if constexpr (Effects::rotation) {
       arm = properties.radius(i) - shortening * touch.overlap * pair.overlap_fraction_i;
-      set_turning<Effects>(spin[k], wall_spin[k], arm, 0, pair, touch);
+      set_turning<Effects>({spin[k], wall_spin[k], arm, 0, 0, shortening}, pair, step.lag, touch);
     }
     SpaceHistory history = block_histories.template get<Effects>(static_cast<std::size_t>(k));
     const SpaceContactForce force =

@@ -36,7 +36,8 @@ void make_room(std::size_t most, WallContacts& contacts) {
   for (std::vector<int>* array : {&contacts.candidate, &contacts.grain}) array->resize(most);
   for (std::vector<double>* array :
        {&contacts.dx, &contacts.dy, &contacts.distance2, &contacts.normal_x, &contacts.normal_y, &contacts.wall_vx,
-        &contacts.wall_vy, &contacts.wall_spin, &contacts.mean_wall_vx, &contacts.mean_wall_vy, &contacts.fx, &contacts.fy, &contacts.torque})
+        &contacts.wall_vy, &contacts.wall_spin, &contacts.mean_wall_vx, &contacts.mean_wall_vy, &contacts.fx,
+        &contacts.fy, &contacts.torque})
     array->resize(most);
 }
 

@@ -42,10 +42,15 @@ template <class Law, class Effects>
       const double ux = kept * vx[i] + step.fall_x - wall_vx[k], uy = kept * vy[i] + step.fall_y - wall_vy[k];
       if constexpr (Effects::damping) touch.approach = ux * nx + uy * ny;
       if constexpr (Effects::friction) touch.sliding = uy * nx - ux * ny;
-      if constexpr (Effects::spring) touch.slipping = (vy[i] - mean_vy[k]) * nx - (vx[i] - mean_vx[k]) * ny;
+      const double mean_ux = vx[i] - mean_vx[k], mean_uy = vy[i] - mean_vy[k];
+      if constexpr (Effects::spring) touch.slipping = mean_uy * nx - mean_ux * ny;
       if constexpr (Effects::rotation) {
         arm = properties.radius(i) - shortening * touch.overlap * pair.overlap_fraction_i;
-        touch.sliding += arm * omega[i], touch.slipping += arm * omega[i];
+        touch.sliding += arm * omega[i];
+        if constexpr (Effects::spring) {
+          const double nearer = step.lag * (mean_ux * nx + mean_uy * ny);
+          touch.slipping += (arm + shortening * nearer * pair.overlap_fraction_i) * omega[i];
+        }
         touch.sliding_yield += arm * arm * pair.turning_yield_i;
       }
       if constexpr (Effects::rolls) touch.turning = omega[i] - wall_spin[k];

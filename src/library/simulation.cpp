@@ -59,7 +59,9 @@ std::vector<Grain> Simulation::grains() const {
   const auto add = [&](std::int64_t id, const GrainContact& contact, double sign) {
     const auto grain = std::ranges::lower_bound(grains, id, {}, &Grain::id);
     if (grain == grains.end() || grain->id != id) return;  // a wall
-    const auto force = [&](int axis) { return sign * (contact.normal_force[axis] + contact.tangential_force[axis]); };
+    const auto force = [&](std::size_t axis) {
+      return sign * (contact.normal_force[axis] + contact.tangential_force[axis]);
+    };
     grain->fx += force(0), grain->fy += force(1), grain->fz += force(2);
   };
   for (const GrainContact& contact : inside_->simulation.frame().contacts)

@@ -47,7 +47,8 @@ template <bool polydisperse, bool drags, bool rotation, class Take>
 }
 
 template <class Take>
-[[gnu::always_inline]] inline void drive_all(std::size_t n, const Drive& drive, double ahead, const Rates& rates, Take take) {
+[[gnu::always_inline]] inline void drive_all(std::size_t n, const Drive& drive, double ahead, const Rates& rates,
+                                             Take take) {
   const auto with = [&](auto polydisperse, auto drags) {
     rates.omega ? for_each_rate<polydisperse, drags, true>(n, drive, ahead, rates, take)
                 : for_each_rate<polydisperse, drags, false>(n, drive, ahead, rates, take);

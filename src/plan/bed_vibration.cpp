@@ -88,8 +88,8 @@ std::vector<HeldContact> held_contacts(const StepBasis& basis, const PackedBed& 
       const BedSeed& other = bed.seeds[static_cast<std::size_t>(c.b)];
       const BedDisc& touched = other.discs[static_cast<std::size_t>(c.disc_b)];
       held.arm_b = touched.arm - touched.kind.radius * c.normal;
-      held.holds = holds_of(basis, with_grain(basis, disc.kind, touched.kind),
-                            basis.contacts.pair(seed.lot, other.lot), disc.kind, &touched.kind);
+      held.holds = holds_of(basis, with_grain(basis, disc.kind, touched.kind), basis.contacts.pair(seed.lot, other.lot),
+                            disc.kind, &touched.kind);
     }
     contacts.push_back(held);
   }
@@ -109,8 +109,8 @@ class Vibration {
     for (const BedSeed& seed : bed.seeds) {
       Inertia inertia{std::sqrt(seed.kind.inverse_mass), Eigen::Matrix3d::Zero()};
       for (std::size_t k = 0; k < 3; ++k)
-        inertia.per_root_moment += std::sqrt(seed.kind.inverse_inertia / seed.kind.moments[k]) * seed.axes[k] *
-                                   seed.axes[k].transpose();
+        inertia.per_root_moment +=
+            std::sqrt(seed.kind.inverse_inertia / seed.kind.moments[k]) * seed.axes[k] * seed.axes[k].transpose();
       inertias_.push_back(inertia);
       const auto any = [&random] { return random.uniform(-1, 1); };
       mode_.push_back({{any(), any(), plane_ ? 0 : any()}, {plane_ ? 0 : any(), plane_ ? 0 : any(), any()}});
@@ -181,8 +181,7 @@ class Vibration {
 /// Of equal seeds in the closest packing.
 double largest_in_lattice(const StepBasis& basis, const GrainKind& kind, int lot, double dt) {
   const auto [normal, tangential, turning] = closest_packing(basis.scene.space);
-  const Holds holds =
-      holds_of(basis, with_grain(basis, kind, kind), basis.contacts.pair(lot, lot), kind, &kind);
+  const Holds holds = holds_of(basis, with_grain(basis, kind, kind), basis.contacts.pair(lot, lot), kind, &kind);
   const double approach = holds.approach.weight(dt), sliding = holds.sliding.weight(dt);
   return std::max((normal * approach + tangential * sliding) * kind.inverse_mass,
                   2 * turning * kind.radius * kind.radius * kind.inverse_inertia * sliding);
@@ -203,7 +202,8 @@ double longest_stable_step(const StepBasis& basis, const PackedBed& bed) {
     double most = vibration.largest(dt, count) / margin_of_bed;
     for (std::size_t lot = 0; lot < basis.seeds.size(); ++lot)
       if (is_round_and_equal(basis.scene.lots[lot]))
-        most = std::max(most, largest_in_lattice(basis, basis.seeds[lot], static_cast<int>(lot), dt) / margin_of_lattice);
+        most =
+            std::max(most, largest_in_lattice(basis, basis.seeds[lot], static_cast<int>(lot), dt) / margin_of_lattice);
     return most;
   };
   const GrainKind& any = bed.seeds.front().discs.front().kind;

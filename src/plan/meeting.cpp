@@ -27,8 +27,9 @@ double impact_speed(const StepBasis& basis) {
 
 double steepest_slope(const StepBasis& basis, const Meeting& meeting, double mass) {
   const double weight = basis.loads.layers * basis.loads.weight_factor * mass * standard_gravity;
-  const double overlap = std::max(basis.law.impact_overlap(meeting.stiffness, meeting.inverse_mass, impact_speed(basis)),
-                                  basis.law.static_overlap(meeting.stiffness, weight));
+  const double overlap =
+      std::max(basis.law.impact_overlap(meeting.stiffness, meeting.inverse_mass, impact_speed(basis)),
+               basis.law.static_overlap(meeting.stiffness, weight));
   return basis.law.slope(meeting.stiffness, overlap);
 }
 

@@ -118,9 +118,7 @@ class Press {
     return between;
   }
 
-  Vector arm_of(const OwnDisc& disc) const {
-    return rotation_matrix(bodies_[disc.seed].orientation) * disc.own;
-  }
+  Vector arm_of(const OwnDisc& disc) const { return rotation_matrix(bodies_[disc.seed].orientation) * disc.own; }
 
   void place_discs() {
     places_.resize(discs_.size()), arms_.resize(discs_.size());

@@ -130,8 +130,8 @@ double slope_per_mass(const StepBasis& basis) {
   double largest = 0;
   for (const GrainKind& light : basis.touching)
     for (const GrainKind& other : basis.touching)
-      largest = std::max(largest,
-                         steepest_slope(basis, with_grain(basis, light, other), other.mass) * light.inverse_mass);
+      largest =
+          std::max(largest, steepest_slope(basis, with_grain(basis, light, other), other.mass) * light.inverse_mass);
   return largest;
 }
 
@@ -195,8 +195,8 @@ double lightest(const std::vector<GrainKind>& kinds) {
 /// The longest step that keeps a mode stable, with room to spare.
 StepLimit vibration_limit(const StepBasis& basis, const Mode& mode) {
   const double zeta = mode.most_damped, omega = mode.omega;
-  // Eigenvalues of a step of a damped oscillator. Gear's scheme with alpha_0 = 3/16: none is larger than 1 for omega dt up to 0.327 where it is hardly damped, and up to
-  // 0.081 / zeta where it is.
+  // Eigenvalues of a step of a damped oscillator. Gear's scheme with alpha_0 = 3/16: none is larger than 1 for omega dt
+  // up to 0.327 where it is hardly damped, and up to 0.081 / zeta where it is.
   if (basis.scene.numerics.integrator == Integrator::gear5)
     return {mode.what + " (Gear)", std::min(0.327, 0.081 / zeta) / omega};
   // The midpoint scheme is stable where it is damped beyond 2 (sqrt(1 + zeta^2) - zeta); a free vibration grows by

@@ -13,8 +13,7 @@ void add_pairs(SpacePairKernel kernel, const GrainSurfaces& surfaces, const Spac
                ContactHistories& histories, SpacePairResult& result, std::vector<ForeignSpaceForce>& foreign,
                ContactStatistics& statistics) {
   for (int from = range.from; from < range.to; from += pair_block_size) {
-    kernel(surfaces, at, list, {from, std::min(from + pair_block_size, range.to)}, parameters, step, histories,
-           result);
+    kernel(surfaces, at, list, {from, std::min(from + pair_block_size, range.to)}, parameters, step, histories, result);
     foreign.insert(foreign.end(), result.foreign, result.foreign + result.foreign_count);
     statistics.contacts += result.contacts;
     add_figures(result.figures, statistics);

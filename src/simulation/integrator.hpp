@@ -50,9 +50,10 @@ struct Integration {
 
 /// One step of a scheme. Velocity Verlet works out forces from the places at the end of a step and the velocities in
 /// its middle; what depends on velocities takes its own part in their change until the end into account (ContactStep),
-/// and is of second order for drag and for one contact at a time, of first order where contacts share a grain. RK2 is paper A's midpoint scheme, with the walls at the middle of the step too; gear5 is the
-/// fifth-order predictor-corrector in Nordsieck form for forces that depend on velocity (alpha_0 = 3/16; Gear 1971,
-/// Allen & Tildesley 1987), one evaluation a step. Clumps in space turn as clump_rotation.hpp has it.
+/// and is of second order for drag and for one contact at a time, of first order where contacts share a grain. RK2 is
+/// paper A's midpoint scheme, with the walls at the middle of the step too; gear5 is the fifth-order
+/// predictor-corrector in Nordsieck form for forces that depend on velocity (alpha_0 = 3/16; Gear 1971, Allen &
+/// Tildesley 1987), one evaluation a step. Clumps in space turn as clump_rotation.hpp has it.
 using StepFunction = void (*)(Integration&);
 StepFunction step_function(Integrator integrator);
 

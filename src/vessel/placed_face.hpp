@@ -17,7 +17,7 @@ struct PlacedFace {
     Eigen::Vector3d velocity, spin;
     Eigen::Vector3d at(const Eigen::Vector3d& p) const { return velocity + cross(spin, p); }
   };
-  Moving now, on_mean;  // when it stands here, and on the mean over the step that brought it here
+  Moving now, on_mean;                    // when it stands here, and on the mean over the step that brought it here
   double sine_half = 0, cosine_half = 0;  // of a surface of revolution's half angle
 };
 

@@ -247,7 +247,7 @@ expect 0 "reports: semicolon" run seeder.toml --csv semicolon --out semicolon
 head -2 semicolon/summary.csv | tail -1 | grep -qE '^1;wheat;40;16;[0-9]+;[0-9]+,[0-9]+;' || fail "no decimal commas"
 expect 2 "csv.*comma,semicolon" run seeder.toml --csv tabs
 
-expect 0 "cost" accuracy seeder.toml --out accuracy --integrator velocity-verlet --steps-per-contact 10,20 \
+expect 0 "cost" accuracy seeder.toml --out accuracy --integrator velocity-verlet --steps-per-contact 5,20 \
   --shell-compression 1e-3 --slip-speed "20 mm/s" --replicates 2
 have accuracy/accuracy.csv accuracy/accuracy_timing.csv accuracy/timing.json
 [ "$(wc -l <accuracy/accuracy.csv)" -eq 3 ] || fail "accuracy.csv has not two rows"

@@ -22,8 +22,8 @@ struct Basis {
       : model(prepare(scene)),
         sizes(sizes_of(model.scene.lots)),
         touching(model.kinds),
-        step{model.scene, model.effects, model.contacts, *model.law, model.kinds, touching, model.loads,
-             model.smallest_radius} {}
+        step{model.scene, model.effects, model.contacts, *model.law,
+             model.kinds, touching,      model.loads,    model.smallest_radius} {}
 
   Model model;
   std::vector<SeedSizes> sizes;
@@ -43,7 +43,9 @@ Scene scene_of(Space space, double restitution, bool springs) {
 
 BedSeed seed_of(const Basis& basis) {
   const GrainKind& kind = basis.model.kinds.front();
-  return {0, kind, {Eigen::Vector3d::UnitX(), Eigen::Vector3d::UnitY(), Eigen::Vector3d::UnitZ()},
+  return {0,
+          kind,
+          {Eigen::Vector3d::UnitX(), Eigen::Vector3d::UnitY(), Eigen::Vector3d::UnitZ()},
           {{kind, Eigen::Vector3d::Zero()}}};
 }
 

@@ -99,7 +99,7 @@ Grains run_from(const Scene& scene, const Grains& start, const Eigen::Vector2d& 
   Model model = with_step(prepare(scene), 1e-5);
   model.gravity = -standard_gravity * up;
   Simulation run(model, starting_state(model, 1, start));
-  run.steps(5000);  // 0.05 s
+  run.steps(3000);  // 0.03 s
   EXPECT_FALSE(run.guard().stop_reason()) << *run.guard().stop_reason();
   EXPECT_GT(run.statistics().contacts, 5000);
   return run.grains();
@@ -229,7 +229,7 @@ class Invariance : public testing::TestWithParam<Space> {
   static void SetUpTestSuite() {
     for (const Space space : both_spaces)
       reports_[space].emplace(report_in(space, "invariances"),
-                              "largest difference of any grain's place after 0.05 s in a shaken tray of 60 grains",
+                              "largest difference of any grain's place after 0.03 s in a shaken tray of 60 grains",
                               std::vector<std::string>{"change", "case", "largest_difference_m"});
   }
   static void TearDownTestSuite() { reports_.clear(); }
@@ -237,7 +237,7 @@ class Invariance : public testing::TestWithParam<Space> {
     reports_[GetParam()]->add(change, name, difference);
   }
 
-  /// What differs where rounding does, which chaos lets grow: 1e-15 m at first, some 1e-10 m after 0.05 s.
+  /// What differs where rounding does, which chaos lets grow: 1e-15 m at first, some 1e-10 m after 0.03 s.
   static void expect_nearly_the_same(const std::vector<View>& views) {
     for (const Case& c : cases()) {
       const Scene scene = without_cohesion(scene_of(c, GetParam(), views.front().plan));

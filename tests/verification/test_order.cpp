@@ -231,8 +231,8 @@ TEST_P(Order, OnASmoothProblemWithDragDampingAndAMovingWall) {
 
 /// A grain on a slope with a tangential spring that holds, while it swings up and down on its shell. In space it also
 /// rolls across the slope and spins about its normal, which carries the spring round by half. It sets out without
-/// sliding: a new contact is thought to have begun within the step, so that a run that begins with one that slides has
-/// slid half a step too little.
+/// sliding: to Gear's scheme a new contact has begun within the step, so that a run that begins with one that slides
+/// has slid half a step too little.
 struct StuckProblem {
   Law law;
   Space space;
@@ -283,8 +283,7 @@ struct StuckProblem {
   }
 };
 
-// The memory moves on with the mean sliding speed of a step (Verlet) or its midpoint's (RK2): second order. Gear's
-// memory does the same, which makes it second order here too.
+// The memory moves on with the sliding speed of a step's middle (Verlet, RK2) or its mean (Gear): second order.
 TEST_P(Order, OfATangentialSpringThatHolds) {
   for (const Law law : {Law::elastic_shell, Law::hertz}) {
     const StuckProblem problem{law, GetParam()};

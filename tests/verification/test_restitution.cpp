@@ -78,8 +78,8 @@ Spread restitution_spread(Law law, bool on_wall, double asked, int steps_per_con
     Bench bench = two_lots(law);
     bench.scene.contact.seed.restitution = bench.scene.contact.wall.restitution = asked;
     const double dt = contact_time(bench, on_wall ? -1 : 0, speed) / steps_per_contact, phase = 8 + (k + 0.5) / phases;
-    const ImpactResult impact = on_wall ? wall_impact(bench, speed, 0, dt, 0, phase)
-                                        : head_on_impact(bench, speed, 0, dt, phase);
+    const ImpactResult impact =
+        on_wall ? wall_impact(bench, speed, 0, dt, 0, phase) : head_on_impact(bench, speed, 0, dt, phase);
     const double measured = (on_wall ? impact.vy : impact.other_vx - impact.vx) / speed;
     sum += measured, square += measured * measured;
   }
