@@ -55,7 +55,10 @@ class Press {
   void draw_seeds() {
     const std::vector<SeedLot>& lots = basis_.scene.lots;
     clumps_ = std::ranges::any_of(lots, [](const SeedLot& lot) { return !lot.discs.empty(); });
-    const double count = clumps_ ? 40 : plane_ ? 48 : 80, fewest = count / 8;
+    std::size_t discs = 1;
+    for (const SeedLot& lot : lots) discs = std::max(discs, lot.discs.size());
+    const double count = clumps_ ? std::clamp(400.0 / static_cast<double>(discs), 8.0, 40.0) : plane_ ? 48 : 80;
+    const double fewest = count / std::max(8.0, static_cast<double>(lots.size()));
     for (std::size_t l = 0; l < lots.size(); ++l) {
       const double share = std::max(lots[l].number_fraction * count, fewest);
       for (int k = 0; k < static_cast<int>(std::ceil(share)); ++k) add_seed(static_cast<int>(l));
