@@ -37,6 +37,7 @@
 #include "report/vtk_report.hpp"
 #include "report/xyz_report.hpp"
 #include "scene/input_error.hpp"
+#include "scene/scene_json.hpp"
 #include "simulation/checkpoint.hpp"
 #include "simulation/simulate.hpp"
 
