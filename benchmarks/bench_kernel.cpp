@@ -50,13 +50,13 @@ long bare_kernel(const Bare& c, const Grains& g, const PairList& list, ContactHi
   int entry[block + 16];
   std::array<int, block> places;
   std::iota(places.begin(), places.end(), 0);
-  double px[block], py[block], turn[block], slip[block], slip_speed[block];
+  double px[block], py[block], turn[block], slip[block];
   const double *x = g.x.data(), *y = g.y.data(), *vx = g.vx.data(), *vy = g.vy.data(), *omega = g.omega.data();
   long contacts = 0;
   for (std::size_t from = 0; from < list.size(); from += block) {
     const int *a = list.grain.data() + from, *b = list.partner.data() + from;
     const int count = static_cast<int>(std::min<std::size_t>(block, list.size() - from));
-    double *old_slip = histories.slip.data() + from, *old_speed = histories.slip_speed.data() + from;
+    double* old_slip = histories.slip.data() + from;
     const double reach2 = c.reach * c.reach;
 #pragma omp simd
     for (int k = 0; k < count; ++k) {
@@ -72,11 +72,11 @@ long bare_kernel(const Bare& c, const Grains& g, const PairList& list, ContactHi
       const double ux = vx[i] - vx[j], uy = vy[i] - vy[j], arm = 0.5 * (c.reach - overlap);
       const double normal = std::max(0.0, c.stiffness * overlap + c.dashpot * (ux * nx + uy * ny));
       const double speed = uy * nx - ux * ny + arm * (omega[i] + omega[j]);
-      const double stretched = old_slip[e] + 0.5 * c.dt * (old_speed[e] + speed);
+      const double stretched = old_slip[e] + c.dt * speed;
       const double limit = c.friction * normal, pull = c.tangential * stretched;
       const double held = std::min(limit, std::max(-limit, pull));
       const double force = std::min(limit, std::max(-limit, held + c.tangential_dashpot * speed));
-      slip[k] = held != pull ? held / c.tangential : stretched, slip_speed[k] = speed;
+      slip[k] = held != pull ? held / c.tangential : stretched;
       px[k] = normal * nx - force * ny, py[k] = normal * ny + force * nx, turn[k] = arm * force;
     }
     for (int k = 0; k < touching; ++k) {
@@ -84,7 +84,7 @@ long bare_kernel(const Bare& c, const Grains& g, const PairList& list, ContactHi
       const std::size_t i = static_cast<std::size_t>(a[e]), j = static_cast<std::size_t>(b[e]);
       forces[i].fx -= px[k], forces[i].fy -= py[k], forces[i].torque -= turn[k];
       forces[j].fx += px[k], forces[j].fy += py[k], forces[j].torque -= turn[k];
-      old_slip[e] = slip[k], old_speed[e] = slip_speed[k];
+      old_slip[e] = slip[k];
     }
     contacts += touching;
   }
@@ -111,7 +111,7 @@ struct Three {
   return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
 
-/// The same in space: springs and normals of all pairs, touching or not, lie side by side, nine numbers each.
+/// The same in space: springs of all pairs, touching or not, lie side by side, four numbers each.
 long bare_kernel_in_space(const Bare& c, const Grains& g, const PairList& list, std::vector<double>& records,
                           SpaceForces& sums) {
   constexpr int block = 256;
@@ -119,14 +119,14 @@ long bare_kernel_in_space(const Bare& c, const Grains& g, const PairList& list, 
   int entry[block + 16];
   std::array<int, block> places;
   std::iota(places.begin(), places.end(), 0);
-  double px[block], py[block], pz[block], tx[block], ty[block], tz[block], kept[9][block];
+  double px[block], py[block], pz[block], tx[block], ty[block], tz[block], kept[3][block];
   const double *x = g.x.data(), *y = g.y.data(), *z = g.z.data(), *vx = g.vx.data(), *vy = g.vy.data(),
                *vz = g.vz.data(), *wx = g.omega_x.data(), *wy = g.omega_y.data(), *wz = g.omega.data();
   long contacts = 0;
   for (std::size_t from = 0; from < list.size(); from += block) {
     const int *a = list.grain.data() + from, *b = list.partner.data() + from;
     const int count = static_cast<int>(std::min<std::size_t>(block, list.size() - from));
-    double* old = records.data() + 9 * from;
+    double* old = records.data() + 4 * from;
     const double reach2 = c.reach * c.reach;
 #pragma omp simd
     for (int k = 0; k < count; ++k) {
@@ -137,25 +137,18 @@ long bare_kernel_in_space(const Bare& c, const Grains& g, const PairList& list, 
     const int touching = compress(touches, count, Kept<int>{places.data(), entry});
     const auto work_out = [&](int k) __attribute__((always_inline)) {
       const int e = entry[k], i = a[e], j = b[e];
-      const auto three = [ old, e ](int m) __attribute__((always_inline)) {
-        return Three{old[9 * e + m], old[9 * e + m + 1], old[9 * e + m + 2]};
-      };
       const Three apart{x[j] - x[i], y[j] - y[i], z[j] - z[i]};
       const double distance = std::sqrt(dot(apart, apart)), overlap = c.reach - distance, arm = 0.5 * distance;
-      const Three n = 1 / distance * apart, u{vx[i] - vx[j], vy[i] - vy[j], vz[i] - vz[j]};
+      const double per_distance = 1 / distance;
+      const Three n = per_distance * apart, u{vx[i] - vx[j], vy[i] - vy[j], vz[i] - vz[j]};
       const Three spins{wx[i] + wx[j], wy[i] + wy[j], wz[i] + wz[j]};
-      const double approach = dot(u, n), half = 0.25 * c.dt * dot(spins, n);
-      const Three speed = u - approach * n + arm * cross(spins, n);
+      const double approach = dot(u, n), angle = 0.5 * c.dt * dot(spins, n);
+      const Three passing = u - approach * n, speed = passing + arm * cross(spins, n);
       const double normal = std::max(0.0, c.stiffness * overlap + c.dashpot * approach);
-      // Springs turn with the pair: about the normals, and about the new one by half the sum of the spins.
-      const Three before = three(0), both = 1 / (1 + dot(before, n)) * (before + n);
-      const double per = 1 / (1 + half * half), cosine = (1 - half * half) * per, sine = 2 * half * per;
-      const auto turned = [&](Three v) __attribute__((always_inline)) {
-        const Three over = v - dot(v, n) * both;
-        return cosine * over + sine * cross(n, over);
-      };
-      const Three old_speed = turned(three(6));
-      Three slip = turned(three(3)) + 0.5 * c.dt * (old_speed + speed);
+      // Springs turn with the pair: with the normal, and about it by half the sum of the spins.
+      const Three before{old[4 * e], old[4 * e + 1], old[4 * e + 2]};
+      const Three over = before - dot(before, n) * (n + 0.5 * c.dt * per_distance * passing);
+      Three slip = (1 - 0.5 * angle * angle) * over + angle * cross(n, over) + c.dt * speed;
       const double limit = c.friction * normal;
       const Three pull = c.tangential * slip;
       const double share = std::min(1.0, limit / std::sqrt(dot(pull, pull)));
@@ -164,9 +157,7 @@ long bare_kernel_in_space(const Bare& c, const Grains& g, const PairList& list, 
       force = std::min(1.0, limit / std::sqrt(dot(force, force))) * force;
       const Three push = normal * n + force, torque = arm * cross(n, force);
       px[k] = push.x, py[k] = push.y, pz[k] = push.z, tx[k] = torque.x, ty[k] = torque.y, tz[k] = torque.z;
-      kept[0][k] = n.x, kept[1][k] = n.y, kept[2][k] = n.z;
-      kept[3][k] = slip.x, kept[4][k] = slip.y, kept[5][k] = slip.z;
-      kept[6][k] = speed.x, kept[7][k] = speed.y, kept[8][k] = speed.z;
+      kept[0][k] = slip.x, kept[1][k] = slip.y, kept[2][k] = slip.z;
     };
 #pragma omp simd
     for (int k = 0; k < touching; ++k) work_out(k);
@@ -175,7 +166,7 @@ long bare_kernel_in_space(const Bare& c, const Grains& g, const PairList& list, 
       GrainVector &on_i = sums.forces[i], &on_j = sums.forces[j], &turn_i = sums.torques[i], &turn_j = sums.torques[j];
       on_i.x -= px[k], on_i.y -= py[k], on_i.z -= pz[k], turn_i.x -= tx[k], turn_i.y -= ty[k], turn_i.z -= tz[k];
       on_j.x += px[k], on_j.y += py[k], on_j.z += pz[k], turn_j.x -= tx[k], turn_j.y -= ty[k], turn_j.z -= tz[k];
-      for (int m = 0; m < 9; ++m) old[9 * entry[k] + m] = kept[m][k];
+      for (int m = 0; m < 3; ++m) old[4 * entry[k] + m] = kept[m][k];
     }
     contacts += touching;
   }
@@ -212,7 +203,7 @@ class Given {
   const Grains& grains_ = state_.grains;
   const PairList& list_ = state_.contacts.pairs;
   const Bare constants_ = bare_of(model_, grains_.kinds.front());
-  const ContactStep advance_{.trial = constants_.dt, .commit = constants_.dt, .present = 0.5};
+  const ContactStep advance_{.trial = constants_.dt, .commit = constants_.dt};
 };
 
 /// Both kernels on it, each with histories and sums of its own.

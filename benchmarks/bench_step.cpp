@@ -109,8 +109,8 @@ void search(benchmark::State& state) {
   const Ranges one{1, [](const auto& work) { work(0); }};
   part_of_a_step(state, [&](Simulation& simulation) {
     const Grains& grains = simulation.grains();
-    simulation.field().neighbours().broadphase().find(grains, simulation.field().walls().poses(), 0.016, one, pairs,
-                                                      walls);
+    simulation.field().neighbours().broadphase().find(grains, simulation.field().walls().poses(),
+                                                      reaches_at_rest(grains), 0.016, one, pairs, walls);
   });
 }
 

@@ -33,7 +33,8 @@ struct Surroundings {
 /// Grains in the order of their places, so that each eight that follow each other are neighbours.
 struct Sorted {
   std::vector<int> grain;         // by place
-  std::vector<double> x, y, r;    // m, relative to the first vessel
+  std::vector<double> x, y;       // m, relative to the first vessel
+  std::vector<double> r, wall_r;  // m, reaches
   std::vector<int> strip, count;  // by grain; by strip
 
   std::size_t clusters() const { return (grain.size() + cluster_size - 1) / cluster_size; }
@@ -41,9 +42,9 @@ struct Sorted {
   std::size_t end(std::size_t cluster) const { return std::min(begin(cluster + 1), grain.size()); }
 
   /// Strip by strip from below, each from left to right.
-  void sort(const Grains& grains, const Eigen::Vector2d& shift, double height) {
+  void sort(const Grains& grains, const Reaches& reaches, const Eigen::Vector2d& shift, double height) {
     const std::size_t n = grains.size();
-    grain.resize(n), x.resize(n), y.resize(n), r.resize(n), strip.resize(n);
+    grain.resize(n), x.resize(n), y.resize(n), r.resize(n), wall_r.resize(n), strip.resize(n);
     if (n == 0) return;
     const auto [low, high] = std::minmax_element(grains.y.begin(), grains.y.end());
     // A grain thrown far off must not cost a strip for every diameter on its way.
@@ -62,7 +63,8 @@ struct Sorted {
       });
     for (std::size_t k = 0; k < n; ++k) {
       const std::size_t i = static_cast<std::size_t>(grain[k]);
-      x[k] = grains.x[i] - shift.x(), y[k] = grains.y[i] - shift.y(), r[k] = grains.kind(i).radius;
+      x[k] = grains.x[i] - shift.x(), y[k] = grains.y[i] - shift.y();
+      r[k] = reaches.pair[i], wall_r[k] = reaches.wall[i];
     }
   }
 };
@@ -137,14 +139,14 @@ struct Broadphase::World {
     }
   }
 
-  /// Holds a cluster's grains, widened by `margin` and moved by `moved` along x (m).
-  b2AABB box(std::size_t cluster, double margin, double moved = 0) const {
+  /// Holds a cluster's grains, widened by the largest of their `reaches` and `margin` and moved by `moved` along x (m).
+  b2AABB box(std::size_t cluster, const std::vector<double>& reaches, double margin, double moved = 0) const {
     const std::size_t first = sorted.begin(cluster);
     double left = sorted.x[first], right = left, low = sorted.y[first], high = low, largest = 0;
     for (std::size_t k = first; k < sorted.end(cluster); ++k) {
       left = std::min(left, sorted.x[k]), right = std::max(right, sorted.x[k]);
       low = std::min(low, sorted.y[k]), high = std::max(high, sorted.y[k]);
-      largest = std::max(largest, sorted.r[k]);
+      largest = std::max(largest, reaches[k]);
     }
     const double u = units_per_metre, far = std::max({-left, right, -low, high, std::abs(moved)});
     // Rounding to float must never shrink a box.
@@ -167,14 +169,14 @@ struct Broadphase::World {
   }
 
   /// Forms the clusters afresh and brings the tree up to date with them.
-  void update_boxes(const Grains& grains, const Eigen::Vector2d& shift) {
-    sorted.sort(grains, shift, strip_height / units_per_metre);
+  void update_boxes(const Grains& grains, const Reaches& reaches, const Eigen::Vector2d& shift) {
+    sorted.sort(grains, reaches, shift, strip_height / units_per_metre);
     while (proxies.size() > sorted.clusters()) tree.DestroyProxy(proxies.back()), proxies.pop_back();
     for (std::size_t c = 0; c < sorted.clusters(); ++c) {
       if (c < proxies.size())
-        tree.MoveProxy(proxies[c], box(c, 0), b2Vec2(0, 0));
+        tree.MoveProxy(proxies[c], box(c, sorted.r, 0), b2Vec2(0, 0));
       else
-        proxies.push_back(tree.CreateProxy(box(c, 0), nullptr));
+        proxies.push_back(tree.CreateProxy(box(c, sorted.r, 0), nullptr));
       const std::size_t proxy = static_cast<std::size_t>(proxies[c]);
       if (cluster_of_proxy.size() <= proxy) cluster_of_proxy.resize(proxy + 1);
       cluster_of_proxy[proxy] = static_cast<int>(c);
@@ -189,7 +191,7 @@ struct Broadphase::World {
     for (std::size_t c = from; c < to; ++c) {
       part.found.clear();
       ClusterQuery query{*this, part.found};
-      tree.Query(&query, box(c, margin, moved));
+      tree.Query(&query, box(c, sorted.r, margin, moved));
       gather(part.found, part.around);
       for (std::size_t k = sorted.begin(c); k < sorted.end(c); ++k) {
         const int grain = sorted.grain[k];
@@ -224,7 +226,7 @@ struct Broadphase::World {
     for (std::size_t c = from; c < to; ++c) {
       part.found.clear();
       WallQuery query(part.found);
-      world.QueryAABB(&query, box(c, margin + largest_sagitta));
+      world.QueryAABB(&query, box(c, sorted.wall_r, margin + largest_sagitta));
       std::sort(part.found.begin(), part.found.end());
       part.found.erase(std::unique(part.found.begin(), part.found.end()), part.found.end());
       for (std::size_t k = sorted.begin(c); k < sorted.end(c); ++k)
@@ -269,6 +271,13 @@ std::vector<Eigen::Vector2d> edges_of(const WallSegment& wall, double unit, doub
 
 }  // namespace
 
+Reaches reaches_at_rest(const Grains& grains) {
+  Reaches reaches;
+  for (std::size_t i = 0; i < grains.size(); ++i) reaches.pair.push_back(grains.kind(i).radius);
+  reaches.wall = reaches.pair;
+  return reaches;
+}
+
 Broadphase::Broadphase(const std::vector<Vessel>& vessels, double unit, InstructionSet instructions)
     : world_(std::make_unique<World>(unit, instructions)) {
   World& w = *world_;
@@ -300,11 +309,11 @@ void Broadphase::restore_wall(int wall) {
   world_->create_fixtures(static_cast<std::size_t>(wall));
 }
 
-void Broadphase::find(const Grains& grains, const std::vector<Pose>& poses, double margin, const Ranges& ranges,
-                      PairList& pairs, std::vector<WallCandidate>& near_walls) {
+void Broadphase::find(const Grains& grains, const std::vector<Pose>& poses, const Reaches& reaches, double margin,
+                      const Ranges& ranges, PairList& pairs, std::vector<WallCandidate>& near_walls) {
   World& w = *world_;
   w.place_vessels(poses);
-  w.update_boxes(grains, poses.front().displacement);
+  w.update_boxes(grains, reaches, poses.front().displacement);
   w.find_pairs(ranges, margin, 0, false, pairs);
 
   w.share_clusters(ranges, [&](int range, std::size_t from, std::size_t to) {

@@ -33,22 +33,24 @@ struct Box {
 struct Cluster {
   std::size_t begin, end;
   int slab;
-  Box box;         // of centres
-  double largest;  // m, radius
+  Box box;                           // of centres
+  double largest, largest_to_walls;  // m, reach
 };
 
 /// Balls in the order of their places: slab by slab from below, strip by strip across, to and fro along.
 struct SortedBalls {
-  std::vector<int> grain;          // by place
-  std::vector<double> x, y, z, r;  // m, relative to the first vessel
+  std::vector<int> grain;       // by place
+  std::vector<double> x, y, z;  // m, relative to the first vessel
+  std::vector<double> r;        // m, reach for pairs
   std::vector<Cluster> clusters;
   double bottom = 0, slab_height = 1;  // m
+  double largest = 0;                  // m, reach for pairs
   int slabs = 0;
 
-  void sort(const Grains& grains, const Eigen::Vector3d& shift, double diameter) {
+  void sort(const Grains& grains, const Reaches& reaches, const Eigen::Vector3d& shift, double diameter) {
     const std::size_t n = grains.size();
     grain.resize(n), x.resize(n), y.resize(n), z.resize(n), r.resize(n);
-    clusters.clear(), slabs = 0;
+    clusters.clear(), slabs = 0, largest = 0;
     if (n == 0) return;
     const auto [low, high] = std::ranges::minmax(grains.y);
     // A ball thrown far off must not cost a slab for every diameter on its way.
@@ -78,15 +80,17 @@ struct SortedBalls {
     for (std::size_t k = 0; k < n; ++k) {
       const std::size_t i = static_cast<std::size_t>(grain[k]);
       x[k] = grains.x[i] - shift.x(), y[k] = grains.y[i] - shift.y(), z[k] = grains.z[i] - shift.z();
-      r[k] = grains.kind(i).radius;
+      r[k] = reaches.pair[i];
       const int slab = keys[i].slab;
       if (clusters.empty() || clusters.back().slab != slab ||
           clusters.back().end - clusters.back().begin == cluster_size)
-        clusters.push_back({k, k, slab, {}, 0});
+        clusters.push_back({k, k, slab, {}, 0, 0});
       Cluster& cluster = clusters.back();
       cluster.end = k + 1;
       cluster.box.include({x[k], y[k], z[k]});
       cluster.largest = std::max(cluster.largest, r[k]);
+      cluster.largest_to_walls = std::max(cluster.largest_to_walls, reaches.wall[i]);
+      largest = std::max(largest, r[k]);
     }
   }
 
@@ -234,13 +238,15 @@ struct SpaceBroadphase::World {
   }
 
   /// Forms the clusters afresh and brings the tree up to date with them.
-  void update_boxes(const Grains& grains, double margin) {
+  void update_boxes(const Grains& grains, const Reaches& reaches, double margin) {
     const Eigen::Vector2d& moved = poses.front().displacement;
-    sorted.sort(grains, {moved.x(), moved.y(), poses.front().across}, diameter);
+    sorted.sort(grains, reaches, {moved.x(), moved.y(), poses.front().across}, diameter);
     Box all;
     for (const Cluster& cluster : sorted.clusters) all.include(cluster.box.low), all.include(cluster.box.high);
     // Far enough that no query of one slab reaches the plan of another, even moved by a period.
-    stride = sorted.clusters.empty() ? 0 : 3 * (all.high.x() - all.low.x()) + 4 * (margin + 2 * diameter);
+    stride = sorted.clusters.empty()
+                 ? 0
+                 : 3 * (all.high.x() - all.low.x()) + 4 * (margin + 2 * diameter + 2 * sorted.largest);
     while (proxies.size() > sorted.clusters.size()) tree.DestroyProxy(proxies.back()), proxies.pop_back();
     for (std::size_t c = 0; c < sorted.clusters.size(); ++c) {
       const Cluster& cluster = sorted.clusters[c];
@@ -262,7 +268,7 @@ struct SpaceBroadphase::World {
     Box moved = cluster.box;
     const Eigen::Vector3d shift(shift_x, 0, shift_z);
     moved.low += shift, moved.high += shift;
-    const double reach = cluster.largest + margin, highest = reach + 0.5 * diameter;
+    const double reach = cluster.largest + margin, highest = reach + sorted.largest;
     const int from = std::max(0, sorted.slab_at(moved.low.y() - highest));
     const int to = std::min(sorted.slabs - 1, sorted.slab_at(moved.high.y() + highest));
     for (int slab = from; slab <= to; ++slab) {
@@ -315,7 +321,7 @@ struct SpaceBroadphase::World {
     part.walls.clear();
     for (std::size_t c = from; c < to; ++c) {
       const Cluster& cluster = sorted.clusters[c];
-      const double reach = cluster.largest + margin;
+      const double reach = cluster.largest_to_walls + margin;
       part.found.clear();
       WallQuery query(part.found);
       world.QueryAABB(&query, in_plan(cluster.box, reach, 0));
@@ -380,13 +386,13 @@ void SpaceBroadphase::restore_wall(int wall) {
   world_->create_fixture(static_cast<std::size_t>(wall));
 }
 
-void SpaceBroadphase::find(const Grains& grains, const std::vector<Pose>& poses, double margin, const Ranges& ranges,
-                           PairList& pairs, std::vector<WallCandidate>& near_walls) {
+void SpaceBroadphase::find(const Grains& grains, const std::vector<Pose>& poses, const Reaches& reaches, double margin,
+                           const Ranges& ranges, PairList& pairs, std::vector<WallCandidate>& near_walls) {
   World& w = *world_;
   w.poses = poses;
   w.place_vessels();
   w.turn_walls();
-  w.update_boxes(grains, margin);
+  w.update_boxes(grains, reaches, margin);
   w.find_pairs(ranges, margin, 0, 0, false, pairs);
 
   w.share_clusters(ranges, [&](int range, std::size_t from, std::size_t to) {

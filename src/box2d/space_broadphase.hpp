@@ -21,13 +21,14 @@ class SpaceBroadphase {
   SpaceBroadphase(const std::vector<Vessel>& vessels, double unit, InstructionSet instructions);
   ~SpaceBroadphase();
 
-  /// Fills `pairs` with all (i, j) nearer than r_i + r_j + margin (m) and `near_walls` with at least all balls nearer
-  /// than r + margin to a face, both sorted; the candidates' sides are not set. `poses` of each vessel.
-  void find(const Grains& grains, const std::vector<Pose>& poses, double margin, const Ranges& ranges, PairList& pairs,
-            std::vector<WallCandidate>& near_walls);
+  /// Fills `pairs` with all (i, j) whose centres are nearer than their reaches plus margin (m) and `near_walls` with at
+  /// least all balls nearer than theirs plus margin to a face, both sorted; the candidates' sides are not set. `poses`
+  /// of each vessel.
+  void find(const Grains& grains, const std::vector<Pose>& poses, const Reaches& reaches, double margin,
+            const Ranges& ranges, PairList& pairs, std::vector<WallCandidate>& near_walls);
 
-  /// Fills `pairs` with all (i, j) such that i, moved by (shift_x, shift_z) (m), is nearer than r_i + r_j + margin to
-  /// j: pairs across a periodic boundary; j may be less than i. For the balls and poses of the last `find`.
+  /// Fills `pairs` with all (i, j) such that i, moved by (shift_x, shift_z) (m), is nearer than their reaches plus
+  /// margin to j: pairs across a periodic boundary; j may be less than i. For the balls and poses of the last `find`.
   void find_across(double shift_x, double shift_z, double margin, const Ranges& ranges, PairList& pairs);
 
   /// Takes a face out of the vessel's body: nothing will touch it any more.

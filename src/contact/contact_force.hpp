@@ -51,18 +51,15 @@ struct Touch {
 /// A displacement between two evaluations: read, moved on, and stored.
 class MovingHistory {
  public:
-  MovingHistory(double stored, double old_speed, double speed, const ContactStep& step)
-      : displacement(stored + step.trial * mean(old_speed, speed, step)), mean_(mean(old_speed, speed, step)) {}
+  MovingHistory(double stored, double speed, const ContactStep& step)
+      : displacement(stored + step.trial * speed), rest_((step.commit - step.trial) * speed) {}
 
   double displacement;  // at which the force is wanted; the law may shorten it
 
-  double to_store(const ContactStep& step) const { return displacement + (step.commit - step.trial) * mean_; }
+  double to_store() const { return displacement + rest_; }
 
  private:
-  static double mean(double old_speed, double speed, const ContactStep& step) {
-    return old_speed + step.present * (speed - old_speed);
-  }
-  double mean_;
+  double rest_;
 };
 
 /// What a law and its dashpot make of an overlap: together they never pull.
@@ -100,21 +97,22 @@ struct ContactForce {
   double slip_raised;  // 1 where a slip speed was raised, else 0
 };
 
-/// Force of one contact. Cohesion pulls beside the normal force and does not add to friction's limit. `history` goes in
-/// as it was stored and comes out as it is to be stored.
+/// Force of one contact. Cohesion pulls beside the normal force and does not add to friction's limit. Its history goes
+/// in as it was stored and comes out as it is to be stored: two numbers, since g++ keeps a struct of them in memory,
+/// and then makes no vectors.
 template <class Law, class Effects>
 inline ContactForce contact_force(const Touch& touch, const PairConstants& pair, const SurfaceParameters& surface,
-                                  const ContactStep& step, ContactHistory& history) {
+                                  const ContactStep& step, double& slip, double& roll) {
   [[maybe_unused]] const auto [secant, dashpot, own_dashpot, repulsion] =
       normal_force<Law, Effects>(touch.overlap, touch.approach, pair, surface, step);
   ContactForce force{repulsion, 0, 0, 0};
   if constexpr (Effects::cohesion) force.normal -= surface.cohesion;
   if constexpr (Effects::spring) {
-    MovingHistory slip(history.slip, history.slip_speed, touch.slipping, step);
+    MovingHistory moving(slip, touch.slipping, step);
     force.tangential = spring_friction(
         surface.tangential_ratio * secant, surface.tangential_damping * dashpot, surface.friction * repulsion,
-        touch.sliding, surface.tangential_damping * own_dashpot * step.lag * touch.sliding_yield, slip.displacement);
-    history.slip = slip.to_store(step), history.slip_speed = touch.slipping;
+        touch.sliding, surface.tangential_damping * own_dashpot * step.lag * touch.sliding_yield, moving.displacement);
+    slip = moving.to_store();
   } else if constexpr (Effects::friction) {
     const auto sliding = sliding_friction(surface.friction * repulsion, touch.sliding, surface.inverse_slip_speed,
                                           pair.steepest_sliding, step.lag * touch.sliding_yield);
@@ -129,43 +127,37 @@ inline ContactForce contact_force(const Touch& touch, const PairConstants& pair,
     const double arm = surface.rolling_friction * pair.rolling_radius;
     const double stiffness = 2.25 * secant * arm * arm;
     const double critical = 2 * std::sqrt(pair.rolling_inertia * stiffness);
-    MovingHistory roll(history.roll, history.roll_speed, touch.turning, step);
+    MovingHistory moving(roll, touch.turning, step);
     const double damping = surface.rolling_damping * critical;
     force.rolling = -spring_friction(stiffness, damping, arm * repulsion, touch.turning,
-                                     damping * step.lag * pair.turning_yield(), roll.displacement);
-    history.roll = roll.to_store(step), history.roll_speed = touch.turning;
+                                     damping * step.lag * pair.turning_yield(), moving.displacement);
+    roll = moving.to_store();
   }
   return force;
 }
 
 template <class Effects>
-inline ContactHistory load_history(const ContactHistories& histories, std::size_t k) {
-  ContactHistory history;
-  if constexpr (Effects::spring) history.slip = histories.slip[k], history.slip_speed = histories.slip_speed[k];
-  if constexpr (Effects::rolling == Rolling::spring)
-    history.roll = histories.roll[k], history.roll_speed = histories.roll_speed[k];
-  return history;
+inline double stored_slip(const ContactHistories& histories, std::size_t k) {
+  if constexpr (Effects::spring) return histories.slip[k];
+  return 0;
 }
-
-/// Keeps `history` for the next step, at entry `k`; nothing, where nothing touches.
 template <class Effects>
-inline void store_history(const ContactHistory& history, ContactHistories& histories, std::size_t k) {
-  if constexpr (Effects::spring) histories.slip[k] = history.slip, histories.slip_speed[k] = history.slip_speed;
-  if constexpr (Effects::rolling == Rolling::spring)
-    histories.roll[k] = history.roll, histories.roll_speed[k] = history.roll_speed;
+inline double stored_roll(const ContactHistories& histories, std::size_t k) {
+  if constexpr (Effects::rolling == Rolling::spring) return histories.roll[k];
+  return 0;
 }
 
 /// Energy of the springs of one contact, J; cohesion counts from the moment of touch.
 template <class Law, class Effects>
-inline double contact_energy(double overlap, const PairConstants& pair, const SurfaceParameters& surface,
-                             const ContactHistory& history) {
+inline double contact_energy(double overlap, const PairConstants& pair, const SurfaceParameters& surface, double slip,
+                             double roll) {
   double energy = Law::elastic_energy(pair.stiffness, overlap);
   [[maybe_unused]] const double secant = Law::secant(pair.stiffness, overlap);
   if constexpr (Effects::cohesion) energy -= surface.cohesion * overlap;
-  if constexpr (Effects::spring) energy += 0.5 * surface.tangential_ratio * secant * history.slip * history.slip;
+  if constexpr (Effects::spring) energy += 0.5 * surface.tangential_ratio * secant * slip * slip;
   if constexpr (Effects::rolling == Rolling::spring) {
     const double arm = surface.rolling_friction * pair.rolling_radius;
-    energy += 0.5 * 2.25 * secant * arm * arm * history.roll * history.roll;
+    energy += 0.5 * 2.25 * secant * arm * arm * roll * roll;
   }
   return energy;
 }

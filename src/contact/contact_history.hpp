@@ -7,49 +7,42 @@
 
 namespace vibrosow {
 
-/// History of one contact; signs do not depend on which of the two grains comes first.
-struct ContactHistory {
-  double slip = 0, slip_speed = 0;  // m, m/s: displacement of the tangential spring, last sliding speed
-  double roll = 0, roll_speed = 0;  // rad, rad/s: the same of the rolling spring
-};
-
 /// Which histories contacts have.
 struct HistoryKinds {
   bool slip = false, roll = false;
   bool in_space = false;  // a record for each contact instead of a column for each number
 
   constexpr bool any() const { return slip || roll; }
-  /// Numbers a record has: the normal (3), slip and its speed (3 each), roll and its speed (3 each), twist and its.
-  constexpr std::size_t record_length() const {
-    return in_space && any() ? 3 + (slip ? 6u : 0u) + (roll ? 8u : 0u) : 0;
-  }
+  /// Numbers a record has: the slip and one that stays 0, the roll and the twist.
+  constexpr std::size_t record_length() const { return in_space ? (slip ? 4u : 0u) + (roll ? 4u : 0u) : 0; }
 };
 
-/// Histories of touching contacts, one entry a candidate of a list; all zero where nothing touches. In the plane a
-/// column for each number, empty where its effect is absent; in space a record for each candidate that touches, seen
-/// from the pair's first grain. Most candidates touch nothing, and a kernel that stores the records of a block of them
-/// puts these side by side at the block's first places. No other block's lie there, as blocks are the same until the
-/// list is made anew or shortened, which puts each record at its own candidate's place.
+/// Histories of touching contacts, one entry a candidate of a list; all zero where nothing touches: the displacements
+/// of the tangential spring (slip, m) and of the rolling one (roll, rad). In the plane a column for each, empty where
+/// its effect is absent, with signs that do not depend on which of the two grains comes first; in space a record for
+/// each candidate that touches, seen from the pair's first grain. Most candidates touch nothing, and a kernel that
+/// stores the records of a block of them puts these side by side at the block's first places. No other block's lie
+/// there, as blocks are the same until the list is made anew or shortened, which puts each record at its own
+/// candidate's place.
 struct ContactHistories {
   static constexpr int no_record = -1;
 
-  std::vector<double> slip, slip_speed, roll, roll_speed;
+  std::vector<double> slip, roll;
   std::vector<double> records;         // HistoryKinds::record_length() numbers each, with room for one a candidate
   std::vector<int> place;              // of a candidate's record among these, or no_record: then all is zero
   std::vector<unsigned char> touched;  // 1 where there may be a history
   HistoryKinds kinds;                  // which of these are filled; set by `resize`
 
   bool has_history(std::size_t k) const {
-    return (!slip.empty() && (slip[k] != 0 || slip_speed[k] != 0)) ||
-           (!roll.empty() && (roll[k] != 0 || roll_speed[k] != 0)) || (!place.empty() && place[k] != no_record);
+    return (!slip.empty() && slip[k] != 0) || (!roll.empty() && roll[k] != 0) ||
+           (!place.empty() && place[k] != no_record);
   }
 
   /// Those that are new have no history.
   void resize(std::size_t candidates, HistoryKinds of) {
     kinds = of;
     const bool columns = !of.in_space;
-    slip.resize(columns && of.slip ? candidates : 0), slip_speed.resize(slip.size());
-    roll.resize(columns && of.roll ? candidates : 0), roll_speed.resize(roll.size());
+    slip.resize(columns && of.slip ? candidates : 0), roll.resize(columns && of.roll ? candidates : 0);
     records.resize(candidates * of.record_length());
     place.resize(of.in_space && of.any() ? candidates : 0, no_record);
     touched.resize(of.any() ? candidates : 0);
@@ -72,8 +65,8 @@ struct ContactHistories {
   /// these histories where each record lies at its own entry's place, as those of walls do; of pairs the record at
   /// place `k` may be another entry's.
   void copy_entry(std::size_t k, const ContactHistories& from, std::size_t from_entry) {
-    if (!slip.empty()) slip[k] = from.slip[from_entry], slip_speed[k] = from.slip_speed[from_entry];
-    if (!roll.empty()) roll[k] = from.roll[from_entry], roll_speed[k] = from.roll_speed[from_entry];
+    if (!slip.empty()) slip[k] = from.slip[from_entry];
+    if (!roll.empty()) roll[k] = from.roll[from_entry];
     if (!place.empty()) {
       place[k] = from.place[from_entry] == no_record ? no_record : static_cast<int>(k);
       if (place[k] != no_record) std::copy_n(from.record(from_entry), kinds.record_length(), record(k));
@@ -83,8 +76,8 @@ struct ContactHistories {
 
   /// Nothing touches at entry `k` any more.
   void forget(std::size_t k) {
-    if (!slip.empty()) slip[k] = slip_speed[k] = 0;
-    if (!roll.empty()) roll[k] = roll_speed[k] = 0;
+    if (!slip.empty()) slip[k] = 0;
+    if (!roll.empty()) roll[k] = 0;
     if (!place.empty()) place[k] = no_record;
   }
 
@@ -98,15 +91,15 @@ struct ContactHistories {
 };
 
 /// What an evaluation of the forces is within its step. The displacement at which a force is wanted is the stored one
-/// plus `trial` seconds of the speed, which is taken between the stored (0) and the present one (1) at `present`. What
-/// is stored for the next step is `commit` seconds on; 0: an evaluation that leaves no trace.
+/// plus `trial` seconds of the speed. What is stored for the next step is `commit` seconds of it on; 0: an evaluation
+/// that leaves no trace. With `commit` twice `trial` each speed counts for half a step before it and half a step after:
+/// second order, where speeds are those of the moment of the force.
 ///
 /// Velocities may be those of `lag` seconds before the places, in the middle of a step of 2 lag (velocity Verlet). Then
 /// a dashpot takes them as its own contact's force, gravity and drag make them until the end, and in the step in which
 /// a contact begins it counts as long as there is one (docs/THEORY.md). 0: velocities and places are of one time.
 struct ContactStep {
-  double trial = 0, commit = 0;  // s
-  double present = 1;
+  double trial = 0, commit = 0;   // s
   double lag = 0;                 // s
   double fall_x = 0, fall_y = 0;  // m/s, that gravity adds in this time
   double brake = 0;               // kg, drag times this time: over its mass, the part of its speed that a grain loses

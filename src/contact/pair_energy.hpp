@@ -18,7 +18,7 @@ double pair_energy(const GrainSurfaces& grains, const Motion& at, const PairList
       },
       [&](std::size_t k, std::size_t i, std::size_t j, double overlap) {
         energy += contact_energy<Law, Effects>(overlap, properties.pair(i, j), properties.between(i, j),
-                                               load_history<Effects>(histories, k));
+                                               stored_slip<Effects>(histories, k), stored_roll<Effects>(histories, k));
       });
   return energy;
 }

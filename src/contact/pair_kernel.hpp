@@ -80,8 +80,7 @@ void find_touching(const PairProperties<Law, Effects>& properties, const Motion&
     touches[k] = dx * dx + dy * dy < reach * reach ? 1 : 0;
   }
   if constexpr (keeps_history<Effects>)
-    if (leaves_trace)
-      part(range, touches, histories, [&](std::size_t entry) { store_history<Effects>({}, histories, entry); });
+    if (leaves_trace) part(range, touches, histories, [&histories](std::size_t entry) { histories.forget(entry); });
   block.touching =
       compress(touches, count, Kept<int>{places.data(), block.entry}, Kept<int>{grain, block.grain},
                Kept<int>{partner, block.partner}, Kept<double>{all_dx, block.dx}, Kept<double>{all_dy, block.dy});
@@ -90,7 +89,7 @@ void find_touching(const PairProperties<Law, Effects>& properties, const Motion&
 
 /// Histories of the contacts of a block.
 struct BlockHistories {
-  double slip[pair_block_room], slip_speed[pair_block_room], roll[pair_block_room], roll_speed[pair_block_room];
+  double slip[pair_block_room], roll[pair_block_room];
 };
 
 /// Stores the histories of the first `count` contacts of a block, at their entries of the list after `first`.
@@ -101,10 +100,8 @@ void store_block(const BlockHistories& block_histories, const int* entry, int fi
     double* of_list_at = of_list.data() + first;
     for (int k = 0; k < count; ++k) of_list_at[entry[k]] = of_block[k];
   };
-  if constexpr (Effects::spring)
-    keep(block_histories.slip, histories.slip), keep(block_histories.slip_speed, histories.slip_speed);
-  if constexpr (Effects::rolling == Rolling::spring)
-    keep(block_histories.roll, histories.roll), keep(block_histories.roll_speed, histories.roll_speed);
+  if constexpr (Effects::spring) keep(block_histories.slip, histories.slip);
+  if constexpr (Effects::rolling == Rolling::spring) keep(block_histories.roll, histories.roll);
 }
 
 /// In a loop of its own: with it, clang leaves the loop over the contacts scalar.
@@ -165,12 +162,10 @@ template <class Law, class Effects>
       }
       if constexpr (Effects::rolls) touch.turning = omega[i] - omega[j];
     }
-    ContactHistory history = load_history<Effects>(histories, e);
-    const ContactForce force = contact_force<Law, Effects>(touch, pair, properties.between(i, j), step, history);
-    if constexpr (Effects::spring)
-      block_histories.slip[k] = history.slip, block_histories.slip_speed[k] = history.slip_speed;
-    if constexpr (Effects::rolling == Rolling::spring)
-      block_histories.roll[k] = history.roll, block_histories.roll_speed[k] = history.roll_speed;
+    double slip = stored_slip<Effects>(histories, e), roll = stored_roll<Effects>(histories, e);
+    const ContactForce force = contact_force<Law, Effects>(touch, pair, properties.between(i, j), step, slip, roll);
+    if constexpr (Effects::spring) block_histories.slip[k] = slip;
+    if constexpr (Effects::rolling == Rolling::spring) block_histories.roll[k] = roll;
     // On the grain: -F_n n - F_t t with t = (-n_y, n_x).
     double fx = force.normal * nx, fy = force.normal * ny;
     if constexpr (Effects::friction) fx -= force.tangential * ny, fy += force.tangential * nx;
@@ -218,7 +213,7 @@ template <class Law, class Effects>
                                   const ContactParameters& parameters, const ContactStep& step,
                                   ContactHistories& histories, PairResult& result) {
   const PairProperties<Law, Effects> properties(grains, parameters);
-  const bool leaves_trace = step.commit > 0;
+  const bool leaves_trace = step.commit != 0;
   PairBlock block;
   find_touching<Law, Effects>(properties, at, list, range, leaves_trace, histories, block);
   BlockHistories block_histories;

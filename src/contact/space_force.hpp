@@ -20,6 +20,7 @@ struct SpaceTouch {
   Vector3 turning;           // rad/s, omega_i - omega_j, across n
   double twisting = 0;       // rad/s, the same along n
   double spin = 0;           // rad/s, of both together about n: their mean
+  Vector3 normal_rate;       // rad/s, how fast n turns as the two pass each other: of a wall's, 0
 };
 
 /// Two that roll over each other.
@@ -58,12 +59,12 @@ inline void set_turning(const Turning& turning, const PairConstants& pair, doubl
   }
 }
 
-/// History of one contact in space. The displacements lie across the normal of the moment when they were stored.
+/// History of one contact in space. The displacements lie across the normal of the moment when they were stored, and
+/// are seen from the list's grain.
 struct SpaceHistory {
-  Vector3 normal;                     // from the list's grain to its partner, or to the wall
-  Vector3 slip, slip_speed;           // m, m/s: displacement of the tangential spring, last sliding velocity
-  Vector3 roll, roll_speed;           // rad, rad/s: the same of the rolling spring
-  double twist = 0, twist_speed = 0;  // rad, rad/s: of the twisting spring
+  Vector3 slip;      // m, displacement of the tangential spring
+  Vector3 roll;      // rad, of the rolling spring
+  double twist = 0;  // rad, of the twisting spring
 };
 
 struct SpaceContactForce {
@@ -73,41 +74,38 @@ struct SpaceContactForce {
   double slip_raised;  // 1 where a slip speed was raised, else 0
 };
 
-/// Carries a vector that lay across the unit vector `from` along with a contact: by the smallest rotation that takes
-/// `from` to `to`, then by the angle 2 atan(half_angle) about `to`.
+/// Carries a vector that lay across a contact's normal on to its normal of now, by the rotation of the two together:
+/// the smallest that takes the one normal to the other, then the spin about it. To the second order in the angles of a
+/// step; what comes out lies across the normal at any angle.
 class Carrier {
  public:
-  Carrier(const Vector3& from, const Vector3& to, double half_angle) : to_(to) {
-    both_ = (1 / std::max(1 + dot(from, to), 1e-9)) * (from + to);  // never turned right round in a step
-    const double square = half_angle * half_angle, per = 1 / (1 + square);
-    cosine_ = (1 - square) * per, sine_ = 2 * half_angle * per;
-  }
+  Carrier(const SpaceTouch& touch, double step)
+      : n_(touch.n),
+        middle_(touch.n - 0.5 * step * touch.normal_rate),
+        angle_(step * touch.spin),
+        cosine_(1 - 0.5 * angle_ * angle_) {}
   Vector3 operator()(const Vector3& a) const {
-    const Vector3 turned = a - dot(a, to_) * both_;
-    return cosine_ * turned + sine_ * cross(to_, turned);
+    const Vector3 turned = a - dot(a, n_) * middle_;
+    return cosine_ * turned + angle_ * cross(n_, turned);
   }
 
  private:
-  Vector3 to_, both_;
-  double cosine_, sine_;
+  Vector3 n_, middle_;
+  double angle_, cosine_;
 };
 
 /// A displacement across the contact's normal between two evaluations: read, carried, moved on, and stored.
 class MovingVector {
  public:
-  MovingVector(const Vector3& stored, const Vector3& old_speed, const Vector3& speed, const Carrier& carry,
-               const ContactStep& step) {
-    const Vector3 old = carry(old_speed);
-    mean_ = old + step.present * (speed - old);
-    displacement = carry(stored) + step.trial * mean_;
-  }
+  MovingVector(const Vector3& stored, const Vector3& speed, const Carrier& carry, const ContactStep& step)
+      : displacement(carry(stored) + step.trial * speed), rest_((step.commit - step.trial) * speed) {}
 
   Vector3 displacement;  // at which the force is wanted; the law may shorten it
 
-  Vector3 to_store(const ContactStep& step) const { return displacement + (step.commit - step.trial) * mean_; }
+  Vector3 to_store() const { return displacement + rest_; }
 
  private:
-  Vector3 mean_;
+  Vector3 rest_;
 };
 
 /// `limit` against the direction of a velocity, made continuous as in the plane.
@@ -148,11 +146,11 @@ inline double either(double a, double b) {
   const double arm = surface.twisting_friction * pair.rolling_radius;
   const double stiffness = 2.25 * normal.secant * arm * arm;
   const double critical = 2 * std::sqrt(pair.twisting_inertia * stiffness);
-  MovingHistory twist(history.twist, history.twist_speed, touch.twisting, step);
+  MovingHistory twist(history.twist, touch.twisting, step);
   const double damping = surface.rolling_damping * critical;
   const double torque = spring_friction(stiffness, damping, arm * normal.repulsion, touch.twisting,
                                         damping * step.lag * pair.turning_yield(), twist.displacement);
-  history.twist = twist.to_store(step), history.twist_speed = touch.twisting;
+  history.twist = twist.to_store();
   return torque;
 }
 
@@ -165,15 +163,15 @@ template <class Law, class Effects>
   const NormalForce normal = normal_force<Law, Effects>(touch.overlap, touch.approach, pair, surface, step);
   SpaceContactForce force{normal.repulsion, {}, {}, 0};
   if constexpr (Effects::cohesion) force.normal -= surface.cohesion;
-  [[maybe_unused]] const Carrier carry(history.normal, touch.n, 0.5 * step.commit * touch.spin);
+  [[maybe_unused]] const Carrier carry(touch, step.commit);
   if constexpr (Effects::spring) {
-    MovingVector slip(history.slip, history.slip_speed, touch.slipping, carry, step);
+    MovingVector slip(history.slip, touch.slipping, carry, step);
     force.tangential =
         -1 * spring_friction(surface.tangential_ratio * normal.secant, surface.tangential_damping * normal.dashpot,
                              surface.friction * normal.repulsion, touch.sliding,
                              surface.tangential_damping * normal.own_dashpot * step.lag * touch.sliding_yield,
                              slip.displacement);
-    history.slip = slip.to_store(step), history.slip_speed = touch.slipping;
+    history.slip = slip.to_store();
   } else if constexpr (Effects::friction) {
     const auto sliding =
         sliding_friction(surface.friction * normal.repulsion, touch.sliding, surface.inverse_slip_speed,
@@ -193,14 +191,13 @@ template <class Law, class Effects>
     const double arm = surface.rolling_friction * pair.rolling_radius;
     const double stiffness = 2.25 * normal.secant * arm * arm;
     const double critical = 2 * std::sqrt(pair.rolling_inertia * stiffness);
-    MovingVector roll(history.roll, history.roll_speed, touch.turning, carry, step);
+    MovingVector roll(history.roll, touch.turning, carry, step);
     const double damping = surface.rolling_damping * critical;
     force.resistance = -1 * spring_friction(stiffness, damping, arm * normal.repulsion, touch.turning,
                                             damping * step.lag * pair.turning_yield(), roll.displacement);
-    history.roll = roll.to_store(step), history.roll_speed = touch.turning;
+    history.roll = roll.to_store();
     force.resistance = force.resistance - twisting_torque(touch, pair, surface, normal, step, history) * touch.n;
   }
-  history.normal = touch.n;
   return force;
 }
 

@@ -6,14 +6,12 @@
 
 namespace vibrosow::inline VIBROSOW_ISA {
 
-/// Where the parts of a record of ContactHistories lie: the normal, then the slip and its speed, then roll, twist and
-/// theirs.
+/// Where the parts of a record of ContactHistories lie: rows of four, the slip, then roll and twist.
 template <class Effects>
 struct RecordOf {
   static constexpr bool slips = Effects::spring, rolls = Effects::rolling == Rolling::spring;
   static constexpr HistoryKinds kinds{slips, rolls, true};
-  static constexpr std::size_t slip = 3, slip_speed = 6;
-  static constexpr std::size_t roll = slips ? 9 : 3, roll_speed = roll + 3, twist = roll + 6, twist_speed = roll + 7;
+  static constexpr std::size_t slip = 0, roll = slips ? 4 : 0, twist = roll + 3;
   static constexpr std::size_t length = kinds.record_length();
 };
 
@@ -24,12 +22,8 @@ inline SpaceHistory history_from(At at) {
   SpaceHistory history;
   if constexpr (keeps_history<Effects>) {
     const auto vector = [&at](std::size_t n) { return Vector3{at(n), at(n + 1), at(n + 2)}; };
-    history.normal = vector(0);
-    if constexpr (Record::slips) history.slip = vector(Record::slip), history.slip_speed = vector(Record::slip_speed);
-    if constexpr (Record::rolls) {
-      history.roll = vector(Record::roll), history.roll_speed = vector(Record::roll_speed);
-      history.twist = at(Record::twist), history.twist_speed = at(Record::twist_speed);
-    }
+    if constexpr (Record::slips) history.slip = vector(Record::slip);
+    if constexpr (Record::rolls) history.roll = vector(Record::roll), history.twist = at(Record::twist);
   }
   return history;
 }
@@ -76,23 +70,10 @@ struct SpaceBlockHistories {
     const auto put = [this, k](std::size_t at, const Vector3& a) {
       numbers[at][k] = a.x, numbers[at + 1][k] = a.y, numbers[at + 2][k] = a.z;
     };
-    put(0, history.normal);
-    if constexpr (Record::slips) put(Record::slip, history.slip), put(Record::slip_speed, history.slip_speed);
-    if constexpr (Record::rolls) {
-      put(Record::roll, history.roll), put(Record::roll_speed, history.roll_speed);
-      numbers[Record::twist][k] = history.twist, numbers[Record::twist_speed][k] = history.twist_speed;
-    }
+    if constexpr (Record::slips) put(Record::slip, history.slip);
+    if constexpr (Record::rolls) put(Record::roll, history.roll), numbers[Record::twist][k] = history.twist;
   }
 };
-
-/// Calls `take(n)` for each four numbers of a record from number n on (at least four, if any); the last four may
-/// overlap those before.
-template <class Effects, class Take>
-[[gnu::always_inline]] inline void for_each_four(Take take) {
-  constexpr std::size_t length = RecordOf<Effects>::length;
-  for (std::size_t n = 0; n + 4 <= length; n += 4) take(n);
-  if constexpr (length > 4 && length % 4 != 0) take(length - 4);
-}
 
 /// Asks for `count` records from the place `first` on ahead of their use, where a block's lie.
 template <class Effects>
@@ -115,12 +96,12 @@ void load_block(const ContactHistories& histories, const int* entry, int first, 
   int k = 0;
   for (; k + 4 <= count; k += 4) {
     const double* const of[4]{record(k), record(k + 1), record(k + 2), record(k + 3)};
-    for_each_four<Effects>([&](std::size_t n) {
+    for (std::size_t n = 0; n < RecordOf<Effects>::length; n += 4) {
       Four four[4];
       for (int c = 0; c < 4; ++c) load(four[c], of[c] + n);
       transpose(four);
       for (std::size_t m = 0; m < 4; ++m) *reinterpret_cast<Four*>(&of_block.numbers[n + m][k]) = four[m];
-    });
+    }
   }
   for (; k < count; ++k)
     for (std::size_t n = 0; n < RecordOf<Effects>::length; ++n) of_block.numbers[n][k] = record(k)[n];
@@ -139,12 +120,12 @@ void store_block(const SpaceBlockHistories& of_block, const int* entry, int firs
   int k = 0;
   for (; k + 4 <= count; k += 4) {
     double* const of[4]{record(k), record(k + 1), record(k + 2), record(k + 3)};
-    for_each_four<Effects>([&](std::size_t n) {
+    for (std::size_t n = 0; n < RecordOf<Effects>::length; n += 4) {
       Four four[4];
       for (std::size_t m = 0; m < 4; ++m) four[m] = *reinterpret_cast<const Four*>(&of_block.numbers[n + m][k]);
       transpose(four);
       for (int c = 0; c < 4; ++c) store(four[c], of[c] + n);
-    });
+    }
   }
   for (; k < count; ++k)
     for (std::size_t n = 0; n < RecordOf<Effects>::length; ++n) record(k)[n] = of_block.numbers[n][k];

@@ -115,7 +115,10 @@ struct SpacePairWork {
       const double kept = 1 - step.brake * pair.brake_yield, approach = dot(u, touch.n);
       touch.approach = kept * approach;
       touch.nearer = step.lag * approach;
-      if constexpr (Effects::friction) touch.slipping = u - approach * touch.n, touch.sliding = kept * touch.slipping;
+      if constexpr (Effects::friction) {
+        touch.slipping = u - approach * touch.n, touch.sliding = kept * touch.slipping;
+        touch.normal_rate = (distance > 0 ? -per_distance : 0) * touch.slipping;
+      }
     }
     if constexpr (Effects::rotation) {
       arm_i = properties.radius(i) - shortening * touch.overlap * pair.overlap_fraction_i;
@@ -198,7 +201,7 @@ template <class Law, class Effects>
                                         PairRange range, const ContactParameters& parameters, const ContactStep& step,
                                         ContactHistories& histories, SpacePairResult& result) {
   const PairProperties<Law, Effects> properties(grains, parameters);
-  const bool leaves_trace = step.commit > 0;
+  const bool leaves_trace = step.commit != 0;
   SpaceBlock block;
   find_touching<Law, Effects>(properties, at, list, range, leaves_trace, histories, block);
   await_records<Effects>(histories, range.from, block.touching);

@@ -16,11 +16,15 @@ double radius_of(const Grains& grains, std::size_t i) {
 }
 
 /// Whether the whole plane of a plate is farther from the ball than its radius, on the side that it came from: then it
-/// neither touches the plate nor has crossed it, whatever holes and edges there are.
-bool is_clear_of(const PlacedFace& face, const Eigen::Vector3d& centre, double radius, double side) {
-  if (face.own->kind != Face::Kind::plate) return false;
-  const double height = (centre - face.origin).dot(face.normal);
+/// neither touches the plate nor has crossed it, whatever holes and edges there are. Of no other face.
+bool is_clear_of(const FacePlane& plane, const Eigen::Vector3d& centre, double radius, double side) {
+  const double height = plane.normal.dot(centre) - plane.level;
   return height * side > 0 && height * height >= radius * radius;
+}
+
+FacePlane plane_of(const PlacedFace& face) {
+  if (face.own->kind != Face::Kind::plate) return {};
+  return {face.normal, face.normal.dot(face.origin)};
 }
 
 void put(VectorColumns& columns, std::size_t k, const Eigen::Vector3d& vector) {
@@ -38,8 +42,10 @@ void add(const WallCandidate& candidate, std::size_t c, const NearestOnFace& nea
       distance > 0 ? Eigen::Vector3d(nearest.apart / distance)
                    : Eigen::Vector3d(std::copysign(1.0, -candidate.side) * face_normal_at(face, centre));
   put(contacts.normal, k, normal);
-  put(contacts.wall_velocity, k, face.now.at(centre + nearest.apart));
-  put(contacts.mean_wall_velocity, k, face.on_mean.at(centre + nearest.apart));
+  const bool turns = !face.now.spin.isZero(0) || !face.on_mean.spin.isZero(0);
+  const Eigen::Vector3d point = centre + nearest.apart;
+  put(contacts.wall_velocity, k, turns ? face.now.at(point) : face.now.velocity);
+  put(contacts.mean_wall_velocity, k, turns ? face.on_mean.at(point) : face.on_mean.velocity);
   put(contacts.wall_spin, k, face.on_mean.spin);
 }
 
@@ -60,13 +66,15 @@ void SpaceWallFinder::find(const Grains& grains, std::span<const WallCandidate> 
   contacts.count = 0;
   nearest_.resize(count), close_.clear(), near_.clear();
   touches_.begin(first, count);
+  planes_.clear();
+  for (const PlacedFace& face : faces) planes_.push_back(plane_of(face));
   for (std::size_t c = 0; c < count; ++c) {
     const auto& [grain, wall, side] = candidates[c];
     const std::size_t i = static_cast<std::size_t>(grain);
     const PlacedFace& face = faces[static_cast<std::size_t>(wall)];
     const Eigen::Vector3d centre = centre_of(grains, i);
     const double radius = radius_of(grains, i);
-    if (is_clear_of(face, centre, radius, side)) continue;
+    if (is_clear_of(planes_[static_cast<std::size_t>(wall)], centre, radius, side)) continue;
     close_.push_back(c);
     nearest_[c] = nearest_on_face(face, centre);
     if (nearest_[c].distance2 < radius * radius) near_.push_back(c);

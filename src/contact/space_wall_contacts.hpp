@@ -12,6 +12,13 @@
 
 namespace vibrosow {
 
+/// The plane of a plate: what lies over it by `height` has normal . place - level = height (m). Of other faces all is
+/// 0.
+struct FacePlane {
+  Eigen::Vector3d normal = Eigen::Vector3d::Zero();
+  double level = 0;
+};
+
 /// Looks through the candidates for balls that touch faces; WallTouches says which of these push. Candidates lie sorted
 /// by grain; ranges of them that part no grain's may be looked through side by side, each by a finder of its own.
 class SpaceWallFinder {
@@ -28,6 +35,7 @@ class SpaceWallFinder {
   const WallTouches& touches() const { return touches_; }
 
  private:
+  std::vector<FacePlane> planes_;            // by face
   std::vector<std::size_t> close_;           // candidates that are not clear of a plate's plane
   std::vector<NearestOnFace> nearest_;       // by candidate of the range, of those that are close
   std::vector<std::size_t> near_;            // candidates nearer than a radius

@@ -118,7 +118,7 @@ template <class Law, class Effects>
                                                           count);
     figures.max_relative_overlap = std::max(figures.max_relative_overlap, here.max_relative_overlap);
     figures.slip_raised += here.slip_raised;
-    if (keeps_history<Effects> && step.commit > 0)
+    if (keeps_history<Effects> && step.commit != 0)
       store_block<Effects>(
           block_histories, candidate, 0, count, [candidate](int k) { return candidate[k]; }, histories);
   }

@@ -55,12 +55,10 @@ template <class Law, class Effects>
       }
       if constexpr (Effects::rolls) touch.turning = omega[i] - wall_spin[k];
     }
-    ContactHistory history = load_history<Effects>(histories, c);
-    const ContactForce force = contact_force<Law, Effects>(touch, pair, properties.surface(i), step, history);
-    if constexpr (Effects::spring)
-      block_histories.slip[k] = history.slip, block_histories.slip_speed[k] = history.slip_speed;
-    if constexpr (Effects::rolling == Rolling::spring)
-      block_histories.roll[k] = history.roll, block_histories.roll_speed[k] = history.roll_speed;
+    double slip = stored_slip<Effects>(histories, c), roll = stored_roll<Effects>(histories, c);
+    const ContactForce force = contact_force<Law, Effects>(touch, pair, properties.surface(i), step, slip, roll);
+    if constexpr (Effects::spring) block_histories.slip[k] = slip;
+    if constexpr (Effects::rolling == Rolling::spring) block_histories.roll[k] = roll;
     if constexpr (regularised<Effects>) slip_raised += force.slip_raised;
     double fx = force.normal * nx, fy = force.normal * ny;
     if constexpr (Effects::friction) fx -= force.tangential * ny, fy += force.tangential * nx;
@@ -83,7 +81,7 @@ template <class Law, class Effects>
                                                           contacts, block_histories);
     figures.max_relative_overlap = std::max(figures.max_relative_overlap, here.max_relative_overlap);
     figures.slip_raised += here.slip_raised;
-    if (keeps_history<Effects> && step.commit > 0)
+    if (keeps_history<Effects> && step.commit != 0)
       store_block<Effects>(block_histories, contacts.candidate.data() + from, 0, count, histories);
   }
   return figures;

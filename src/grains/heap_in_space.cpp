@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "compute/nearest_image.hpp"
+
 namespace vibrosow {
 
 HeapInSpace::Direction::Direction(double whole, double largest, Sides sides)
@@ -16,7 +18,7 @@ std::size_t HeapInSpace::Direction::at(double place) const {
 }
 
 double HeapInSpace::Direction::apart(double a, double b) const {
-  return periodic ? std::remainder(a - b, length) : a - b;
+  return periodic ? nearest_image(a - b, length) : a - b;
 }
 
 template <class Visit>

@@ -74,12 +74,13 @@ void correct(std::size_t n, double dt, const Drive& drive, const Rates& rates) {
 }
 
 bool any_moved(std::size_t n, const double* x, const double* y, double shift_x, double shift_y, const double* was_x,
-               const double* was_y, double limit) {
+               const double* was_y, const double* speed_x, const double* speed_y, double elapsed, double limit) {
   const double limit2 = limit * limit;
   int far = 0;
 #pragma omp simd reduction(| : far)
   for (std::size_t i = 0; i < n; ++i) {
-    const double dx = x[i] - shift_x - was_x[i], dy = y[i] - shift_y - was_y[i];
+    const double dx = x[i] - shift_x - was_x[i] - elapsed * speed_x[i];
+    const double dy = y[i] - shift_y - was_y[i] - elapsed * speed_y[i];
     far |= dx * dx + dy * dy > limit2 ? 1 : 0;
   }
   return far != 0;
@@ -102,18 +103,21 @@ void flag_below(std::size_t n, const double* x, const double* y, double sine, do
 
 template <class Radius>
 [[gnu::always_inline]] inline std::size_t near_pairs_of(std::size_t n, const int* grain, const int* partner,
-                                                        const double* x, const double* y, double shift, Radius radius,
-                                                        double margin, int* near_grain, int* near_partner) {
+                                                        const float* speed, const double* x, const double* y,
+                                                        double shift, Radius radius, double margin, double lasts,
+                                                        int* near_grain, int* near_partner) {
   constexpr std::size_t block = 256;
   unsigned char flags[block + 16];
   std::size_t near = 0;
   for (std::size_t from = 0; from < n; from += block) {
     const int count = static_cast<int>(n - from < block ? n - from : block);
     const int *a = grain + from, *b = partner + from;
+    const float* apart = speed + from;
 #pragma omp simd
     for (int k = 0; k < count; ++k) {
       const std::size_t i = static_cast<std::size_t>(a[k]), j = static_cast<std::size_t>(b[k]);
-      const double dx = x[j] - (x[i] + shift), dy = y[j] - y[i], limit = radius(i) + margin + radius(j);
+      const double dx = x[j] - (x[i] + shift), dy = y[j] - y[i];
+      const double limit = radius(i) + margin + radius(j) + lasts * static_cast<double>(apart[k]);
       flags[k] = dx * dx + dy * dy < limit * limit ? 1 : 0;
     }
     near += static_cast<std::size_t>(
@@ -122,14 +126,14 @@ template <class Radius>
   return near;
 }
 
-std::size_t near_pairs(std::size_t n, const int* grain, const int* partner, const double* x, const double* y,
-                       double shift, PerGrain radius, double margin, int* near_grain, int* near_partner) {
-  if (radius.each)
-    return near_pairs_of(
-        n, grain, partner, x, y, shift, [=](std::size_t i) { return radius.each[i]; }, margin, near_grain,
-        near_partner);
-  return near_pairs_of(
-      n, grain, partner, x, y, shift, [=](std::size_t) { return radius.same; }, margin, near_grain, near_partner);
+std::size_t near_pairs(std::size_t n, const int* grain, const int* partner, const float* speed, const double* x,
+                       const double* y, double shift, PerGrain radius, double margin, double lasts, int* near_grain,
+                       int* near_partner) {
+  const auto with = [&](auto radius_of) {
+    return near_pairs_of(n, grain, partner, speed, x, y, shift, radius_of, margin, lasts, near_grain, near_partner);
+  };
+  if (radius.each) return with([=](std::size_t i) { return radius.each[i]; });
+  return with([=](std::size_t) { return radius.same; });
 }
 
 template <bool with_position>

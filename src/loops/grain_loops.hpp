@@ -43,9 +43,11 @@ struct GrainLoops {
   void (*gear_correct)(std::size_t n, double dt, const double* a, double* x, double* v, double* q2, double* q3,
                        double* q4, double* q5);
 
-  /// Whether a grain is farther than `limit` (m) from where it was, `x` and `y` taken relative to (shift_x, shift_y).
+  /// Whether a grain is farther than `limit` (m) from where it was and would be `elapsed` (s) later at its speed (m/s),
+  /// `x` and `y` taken relative to (shift_x, shift_y).
   bool (*any_moved)(std::size_t n, const double* x, const double* y, double shift_x, double shift_y,
-                    const double* was_x, const double* was_y, double limit);
+                    const double* was_x, const double* was_y, const double* speed_x, const double* speed_y,
+                    double elapsed, double limit);
 
   /// Whether a speed is beyond `limit` (m/s), or no number.
   bool (*any_faster)(std::size_t n, const double* vx, const double* vy, double limit);
@@ -54,10 +56,12 @@ struct GrainLoops {
   void (*flag_below)(std::size_t n, const double* x, const double* y, double sine, double cosine, double level,
                      const char* before, char* flags);
 
-  /// Copies the pairs k in [0, n) nearer than r_i + r_j + margin (m) to the front of `near`, in order, and returns how
-  /// many; `grain`s are moved by `shift` along x. `near_grain` and `near_partner` have n + 16 places.
-  std::size_t (*near_pairs)(std::size_t n, const int* grain, const int* partner, const double* x, const double* y,
-                            double shift, PerGrain radius, double margin, int* near_grain, int* near_partner);
+  /// Copies the pairs k in [0, n) nearer than r_i + r_j + margin (m), and `lasts` (s) times `speed` (m/s, of each pair)
+  /// more, to the front of `near`, in order, and returns how many; `grain`s are moved by `shift` along x. `near_grain`
+  /// and `near_partner` have n + 16 places.
+  std::size_t (*near_pairs)(std::size_t n, const int* grain, const int* partner, const float* speed, const double* x,
+                            const double* y, double shift, PerGrain radius, double margin, double lasts,
+                            int* near_grain, int* near_partner);
 };
 
 /// Throws std::logic_error where it is not available.

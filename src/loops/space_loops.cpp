@@ -125,13 +125,17 @@ void correct(std::size_t n, double dt, const SpaceDrive& drive, const SpaceRates
   });
 }
 
-bool any_moved(std::size_t n, const Coordinates& now, const double (&shift)[3], const Coordinates& was, double limit) {
+bool any_moved(std::size_t n, const Coordinates& now, const double (&shift)[3], const Coordinates& was,
+               const Coordinates& speed, double elapsed, double limit) {
   const double *x = now.x, *y = now.y, *z = now.z, *was_x = was.x, *was_y = was.y, *was_z = was.z;
+  const double *speed_x = speed.x, *speed_y = speed.y, *speed_z = speed.z;
   const double shift_x = shift[0], shift_y = shift[1], shift_z = shift[2], limit2 = limit * limit;
   int far = 0;
 #pragma omp simd reduction(| : far)
   for (std::size_t i = 0; i < n; ++i) {
-    const double dx = x[i] - shift_x - was_x[i], dy = y[i] - shift_y - was_y[i], dz = z[i] - shift_z - was_z[i];
+    const double dx = x[i] - shift_x - was_x[i] - elapsed * speed_x[i];
+    const double dy = y[i] - shift_y - was_y[i] - elapsed * speed_y[i];
+    const double dz = z[i] - shift_z - was_z[i] - elapsed * speed_z[i];
     far |= dx * dx + dy * dy + dz * dz > limit2 ? 1 : 0;
   }
   return far != 0;
@@ -147,9 +151,9 @@ bool any_faster(std::size_t n, const double* vx, const double* vy, const double*
 
 template <class Radius>
 [[gnu::always_inline]] inline std::size_t near_pairs_of(std::size_t n, const int* grain, const int* partner,
-                                                        const Coordinates& at, double shift_x, double shift_z,
-                                                        Radius radius, double margin, int* near_grain,
-                                                        int* near_partner) {
+                                                        const float* speed, const Coordinates& at, double shift_x,
+                                                        double shift_z, Radius radius, double margin, double lasts,
+                                                        int* near_grain, int* near_partner) {
   constexpr std::size_t block = 256;
   unsigned char flags[block + 16];
   const double *x = at.x, *y = at.y, *z = at.z;
@@ -157,11 +161,12 @@ template <class Radius>
   for (std::size_t from = 0; from < n; from += block) {
     const int count = static_cast<int>(n - from < block ? n - from : block);
     const int *a = grain + from, *b = partner + from;
+    const float* apart = speed + from;
 #pragma omp simd
     for (int k = 0; k < count; ++k) {
       const std::size_t i = static_cast<std::size_t>(a[k]), j = static_cast<std::size_t>(b[k]);
       const double dx = x[j] - (x[i] + shift_x), dy = y[j] - y[i], dz = z[j] - (z[i] + shift_z);
-      const double limit = radius(i) + margin + radius(j);
+      const double limit = radius(i) + margin + radius(j) + lasts * static_cast<double>(apart[k]);
       flags[k] = dx * dx + dy * dy + dz * dz < limit * limit ? 1 : 0;
     }
     near += static_cast<std::size_t>(
@@ -170,15 +175,15 @@ template <class Radius>
   return near;
 }
 
-std::size_t near_pairs(std::size_t n, const int* grain, const int* partner, const Coordinates& at, double shift_x,
-                       double shift_z, PerGrain radius, double margin, int* near_grain, int* near_partner) {
-  if (radius.each)
-    return near_pairs_of(
-        n, grain, partner, at, shift_x, shift_z, [=](std::size_t i) { return radius.each[i]; }, margin, near_grain,
-        near_partner);
-  return near_pairs_of(
-      n, grain, partner, at, shift_x, shift_z, [=](std::size_t) { return radius.same; }, margin, near_grain,
-      near_partner);
+std::size_t near_pairs(std::size_t n, const int* grain, const int* partner, const float* speed, const Coordinates& at,
+                       double shift_x, double shift_z, PerGrain radius, double margin, double lasts, int* near_grain,
+                       int* near_partner) {
+  const auto with = [&](auto radius_of) {
+    return near_pairs_of(n, grain, partner, speed, at, shift_x, shift_z, radius_of, margin, lasts, near_grain,
+                         near_partner);
+  };
+  if (radius.each) return with([=](std::size_t i) { return radius.each[i]; });
+  return with([=](std::size_t) { return radius.same; });
 }
 
 }  // namespace

@@ -43,11 +43,12 @@ struct SpaceLoops {
   void (*accelerate)(std::size_t n, const SpaceDrive& drive, const SpaceRates& rates);
   void (*correct)(std::size_t n, double dt, const SpaceDrive& drive, const SpaceRates& rates);
   bool (*any_moved)(std::size_t n, const Coordinates& now, const double (&shift)[3], const Coordinates& was,
-                    double limit);
+                    const Coordinates& speed, double elapsed, double limit);
   bool (*any_faster)(std::size_t n, const double* vx, const double* vy, const double* vz, double limit);
   /// The grains are moved by `shift_x` and `shift_z`.
-  std::size_t (*near_pairs)(std::size_t n, const int* grain, const int* partner, const Coordinates& at, double shift_x,
-                            double shift_z, PerGrain radius, double margin, int* near_grain, int* near_partner);
+  std::size_t (*near_pairs)(std::size_t n, const int* grain, const int* partner, const float* speed,
+                            const Coordinates& at, double shift_x, double shift_z, PerGrain radius, double margin,
+                            double lasts, int* near_grain, int* near_partner);
 };
 
 /// Throws std::logic_error where it is not available. All null in a program for the plane alone.

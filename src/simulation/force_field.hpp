@@ -87,6 +87,7 @@ class ForceField {
 
  private:
   const Grains& place_discs();
+  double energy_of_springs();
   /// They move as they do where they are, not as in the middle of the step of the last evaluation.
   void see_walls_as_they_are() { place_walls(state_.vessels.placed_at); }
   void set_pair_forces(const Grains& discs, const Motion& at, const ContactStep& step, Forces& forces,
@@ -180,9 +181,9 @@ void ForceField::add_walls(Work RangeWork::*work, const Grains& grains, const Pl
     own.statistics = {};
     finder.find(grains, candidates, first, walls, contacts);
     finder.watch_crossings(candidates, own.statistics.crossed);
-    if (step.commit > 0) finder.touches().renew(histories);
+    if (step.commit != 0) finder.touches().renew(histories);
     add_figures(kernel(surfaces, at, model_.contacts, step, histories, contacts), own.statistics);
-    if (step.commit > 0) finder.touches().share(histories);
+    if (step.commit != 0) finder.touches().share(histories);
     add_forces(contacts);
     own.statistics.contacts = contacts.count;
   });

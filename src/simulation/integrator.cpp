@@ -150,7 +150,6 @@ void velocity_verlet(Integration& s) {
   const double lag = 0.5 * s.dt;
   const ContactStep step{.trial = s.dt,
                          .commit = s.dt,
-                         .present = 1,
                          .lag = lag,
                          .fall_x = lag * s.model.gravity.x(),
                          .fall_y = lag * s.model.gravity.y(),
@@ -193,7 +192,7 @@ void rk2_midpoint(Integration& s) {
   }
   if (as_clumps) advance_clump_rotation(s, half, 0, s.grains.size());
 
-  s.field.evaluate(s.state.time + half, {.trial = half, .commit = s.dt, .present = 1}, s.state.statistics);
+  s.field.evaluate(s.state.time + half, {.trial = half, .commit = s.dt}, s.state.statistics);
   accelerations(s);
   for (std::size_t c = 0; c < driven; ++c) {
     if (all[c].place) set_sum(*all[c].place, s.places[c], *all[c].speed, s.dt);
@@ -221,7 +220,7 @@ void gear5(Integration& s) {
   });
   s.execution.profile().lap(Phase::integration);
   const double power_before = s.kept.wall_power;
-  s.field.evaluate(next_time(s), {.trial = s.dt, .commit = s.dt, .present = 0.5}, s.state.statistics);
+  s.field.evaluate(next_time(s), {.trial = 0.5 * s.dt, .commit = s.dt}, s.state.statistics);
   accelerations(s);
   s.execution.share(s.grains.size(), [&](std::size_t a, std::size_t b) {
     for_each_of_gear(s, [&](const Coordinate& c) {

@@ -22,8 +22,8 @@ void keep_unflagged(std::vector<double>& array, const std::vector<char>& removed
   array.resize(kept);
 }
 
-void renumber(PairList& list, ContactHistories& histories, const std::vector<char>& removed,
-              const std::vector<int>& new_index) {
+/// Returns which entries are kept, ascending.
+std::vector<std::size_t> renumber(PairList& list, const std::vector<char>& removed, const std::vector<int>& new_index) {
   std::vector<std::size_t> kept;
   for (std::size_t k = 0; k < list.size(); ++k) {
     const std::size_t i = static_cast<std::size_t>(list.grain[k]), j = static_cast<std::size_t>(list.partner[k]);
@@ -32,6 +32,12 @@ void renumber(PairList& list, ContactHistories& histories, const std::vector<cha
     kept.push_back(k);
   }
   list.grain.resize(kept.size()), list.partner.resize(kept.size());
+  return kept;
+}
+
+void renumber(PairList& list, ContactHistories& histories, const std::vector<char>& removed,
+              const std::vector<int>& new_index) {
+  const std::vector<std::size_t> kept = renumber(list, removed, new_index);
   if (!histories.touched.empty()) histories.keep_entries(kept);
 }
 
@@ -84,11 +90,11 @@ std::vector<ActivePair> active_pairs(const PairList& pairs, const ContactHistori
 
 /// Seen from the pair's other grain: in space vectors change their sign, in the plane nothing does.
 void reverse(ContactHistories& histories, std::size_t k) {
-  const std::size_t length = histories.kinds.record_length(),
-                    scalars = histories.kinds.roll ? 2 : 0;  // twist, its speed
+  const std::size_t length = histories.kinds.record_length(), twist = histories.kinds.roll ? length - 1 : length;
   if (length == 0 || histories.place[k] == ContactHistories::no_record) return;
   double* record = histories.record(k);
-  for (std::size_t n = 0; n + scalars < length; ++n) record[n] = -record[n];
+  for (std::size_t n = 0; n < length; ++n)
+    if (n != twist) record[n] = -record[n];
 }
 
 void carry_over(const std::vector<ActivePair>& active, const PairList& list, ContactHistories& histories) {
@@ -110,8 +116,7 @@ void forget(ContactHistories& histories, std::size_t from, std::size_t to) {
       std::fill(array.begin() + static_cast<std::ptrdiff_t>(begin), array.begin() + static_cast<std::ptrdiff_t>(end),
                 value);
   };
-  for (std::vector<double>* column : {&histories.slip, &histories.slip_speed, &histories.roll, &histories.roll_speed})
-    clear(*column, from, to);
+  clear(histories.slip, from, to), clear(histories.roll, from, to);
   clear(histories.place, from, to, ContactHistories::no_record);
   clear(histories.touched, from, to);
 }
@@ -143,6 +148,15 @@ void carry_over(const PairList& old, const ContactHistories& old_histories, cons
   }
 }
 
+/// By how much longer than the last list held the next is to last.
+constexpr double longer = 1.5;
+
+/// Where a vessel is displaced to (m), relative to the first.
+Eigen::Vector3d place_of(const std::vector<Pose>& poses, std::size_t v) {
+  const Eigen::Vector2d moved = poses[v].displacement - poses.front().displacement;
+  return {moved.x(), moved.y(), poses[v].across - poses.front().across};
+}
+
 /// How far a wall is from a grain's centre, and on which side of it the grain stands.
 struct SeenWall {
   double distance2, side;  // m2; its sign
@@ -163,8 +177,8 @@ Neighbours::Neighbours(const std::vector<Vessel>& vessels, double largest_diamet
                        HistoryKinds kinds, Execution& execution)
     : execution_(execution),
       diameter_(largest_diameter),
-      wide_margin_((kinds.in_space ? margins.wide_in_space : margins.wide) * largest_diameter),
-      narrow_margin_(margins.narrow * largest_diameter),
+      wide_level_{(kinds.in_space ? margins.wide_in_space : margins.wide) * largest_diameter},
+      narrow_level_{margins.narrow * largest_diameter},
       kinds_(kinds) {
   if (kinds.in_space)
     in_space_.emplace(vessels, largest_diameter, execution.instructions());
@@ -180,53 +194,97 @@ Neighbours::Neighbours(const std::vector<Vessel>& vessels, double largest_diamet
     largest_radius_.push_back(largest_radius(vessel, Eigen::Vector2d::Zero()));
     largest_radius_in_plan_.push_back(kinds.in_space ? largest_radius_in_plan(vessel, Eigen::Vector2d::Zero()) : 0);
   }
+  course_.vessels.assign(vessels.size(), Eigen::Vector3d::Zero());
 }
 
-void Neighbours::note(const Grains& grains, const Walls& walls, Reference& reference) {
+Eigen::Vector3d Neighbours::Course::mean() const {
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  for (std::size_t i = 0; i < x.size(); ++i) sum += of(i);
+  return x.empty() ? sum : Eigen::Vector3d(sum / static_cast<double>(x.size()));
+}
+
+void Neighbours::note(const Grains& grains, const Walls& walls, double time, Reference& reference) {
   const Pose& first = walls.poses().front();
-  reference.x = grains.x, reference.y = grains.y, reference.z = grains.z, reference.poses = walls.poses();
+  reference.time = time, reference.poses = walls.poses();
+  reference.x = grains.x, reference.y = grains.y, reference.z = grains.z;
   for (double& x : reference.x) x -= first.displacement.x();
   for (double& y : reference.y) y -= first.displacement.y();
   for (double& z : reference.z) z -= first.across;
 }
 
-bool Neighbours::any_moved(const Reference& from, const Grains& grains, const Pose& first, double limit) const {
+/// How they moved on the mean since the last search. Those that are new go with the first vessel until the next one;
+/// one that was carried to the other side of a periodic vessel goes on as it did.
+void Neighbours::learn_course(const Grains& grains, const Walls& walls, double time) {
+  const Reference& from = wide_level_.from;
+  const double elapsed = time - from.time, far = 2 * wide_level_.margin;
+  const auto learn = [&](const std::vector<double>& now, double shift, const std::vector<double>& was,
+                         std::vector<double>& speed) {
+    speed.resize(now.size());
+    for (std::size_t i = 0; i < was.size(); ++i) {
+      const double moved = now[i] - shift - was[i];
+      if (std::abs(moved - elapsed * speed[i]) < far) speed[i] = moved / elapsed;
+    }
+  };
+  const Pose& first = walls.poses().front();
+  if (from.poses.empty() || !(elapsed > 0)) {
+    course_.x.resize(grains.x.size()), course_.y.resize(grains.y.size()), course_.z.resize(grains.z.size());
+    return;
+  }
+  learn(grains.x, first.displacement.x(), from.x, course_.x);
+  learn(grains.y, first.displacement.y(), from.y, course_.y);
+  learn(grains.z, first.across, from.z, course_.z);
+  for (std::size_t v = 0; v < from.poses.size(); ++v)
+    course_.vessels[v] = 1 / elapsed * (place_of(walls.poses(), v) - place_of(from.poses, v));
+}
+
+bool Neighbours::any_strayed(const Reference& from, const Grains& grains, const Pose& first, double elapsed,
+                             double limit) const {
   std::atomic<bool> any = false;
   const double shift[] = {first.displacement.x(), first.displacement.y(), first.across};
   execution_.share(from.x.size(), [&](std::size_t a, std::size_t b) {
-    const bool here = kinds_.in_space
-                          ? execution_.space_loops().any_moved(b - a, {&grains.x[a], &grains.y[a], &grains.z[a]}, shift,
-                                                               {&from.x[a], &from.y[a], &from.z[a]}, limit)
-                          : execution_.loops().any_moved(b - a, grains.x.data() + a, grains.y.data() + a, shift[0],
-                                                         shift[1], from.x.data() + a, from.y.data() + a, limit);
+    const bool here =
+        kinds_.in_space
+            ? execution_.space_loops().any_moved(b - a, {&grains.x[a], &grains.y[a], &grains.z[a]}, shift,
+                                                 {&from.x[a], &from.y[a], &from.z[a]},
+                                                 {&course_.x[a], &course_.y[a], &course_.z[a]}, elapsed, limit)
+            : execution_.loops().any_moved(b - a, grains.x.data() + a, grains.y.data() + a, shift[0], shift[1],
+                                           from.x.data() + a, from.y.data() + a, course_.x.data() + a,
+                                           course_.y.data() + a, elapsed, limit);
     if (here) any = true;
   });
   return any;
 }
 
-bool Neighbours::moved(const Reference& from, const Grains& grains, const Walls& walls, double limit) const {
-  const Pose& first = walls.poses().front();
-  if (any_moved(from, grains, first, limit)) return true;
+/// Whether a grain or a vessel is farther than `limit` (m) from where its course would have taken it.
+bool Neighbours::strayed(const Reference& from, const Grains& grains, const Walls& walls, double time,
+                         double limit) const {
+  const double elapsed = time - from.time;
+  if (any_strayed(from, grains, walls.poses().front(), elapsed, limit)) return true;
   for (std::size_t v = 0; v < from.poses.size(); ++v) {
     const Pose &now = walls.poses()[v], &then = from.poses[v];
-    const Eigen::Vector2d relative_now = now.displacement - first.displacement;
-    const Eigen::Vector2d relative_then = then.displacement - from.poses.front().displacement;
     const double turned = std::abs(now.angle - then.angle) * largest_radius_[v] +
                           std::abs(now.turn - then.turn) * largest_radius_in_plan_[v];
-    const double across = std::abs(now.across - first.across - then.across + from.poses.front().across);
-    if ((relative_now - relative_then).norm() + across + turned > limit) return true;
+    const Eigen::Vector3d moved = place_of(walls.poses(), v) - place_of(from.poses, v);
+    if ((moved - elapsed * course_.vessels[v]).norm() + turned > limit) return true;
   }
   return false;
 }
 
-void Neighbours::update(const Grains& grains, const Walls& walls, ContactState& contacts) {
-  // Two that were further apart than their reach plus a margin have touched only if they moved half the margin each.
+void Neighbours::update(const Grains& grains, const Walls& walls, double time, ContactState& contacts) {
+  // Two that were further apart than a list looks have touched only if they strayed half its margin each.
   ++updates_since_prune_;
-  if (wide_is_valid_ && !moved(narrow_reference_, grains, walls, 0.5 * narrow_margin_)) return;
+  Level &wide = wide_level_, &narrow = narrow_level_;
+  if (wide_is_valid_ && narrow.elapsed(time) <= narrow.lasts &&
+      !strayed(narrow.from, grains, walls, time, 0.5 * narrow.margin))
+    return;
   choose_narrow_margin();
-  if (!wide_is_valid_ || moved(wide_reference_, grains, walls, 0.5 * (wide_margin_ - narrow_margin_)))
-    search(grains, walls);
-  prune(grains, walls, contacts);
+  if (wide_is_valid_) narrow.lasts = longer * narrow.elapsed(time);
+  const double left = wide.lasts - wide.elapsed(time);
+  if (!wide_is_valid_ || left < 0.5 * narrow.lasts ||
+      strayed(wide.from, grains, walls, time, 0.5 * (wide.margin - narrow.margin)))
+    search(grains, walls, time);
+  narrow.lasts = std::min(narrow.lasts, wide.lasts - wide.elapsed(time));
+  prune(grains, walls, time, contacts);
 }
 
 /// A margin m costs c m at every update, in pairs looked at for nothing, and P every T updates, when the list is
@@ -235,42 +293,89 @@ void Neighbours::update(const Grains& grains, const Walls& walls, ContactState& 
 void Neighbours::choose_narrow_margin() {
   constexpr double prune_per_candidate_cost = 6;  // P / c, in diameters; measured on shaken trays and slot hoppers
   constexpr double least = 0.02, most = 0.35;     // diameters
+  double& margin = narrow_level_.margin;
   if (updates_since_prune_ > 1) {
-    const double before = narrow_margin_ / diameter_;
+    const double before = margin / diameter_;
     const double best = std::sqrt(prune_per_candidate_cost * before / static_cast<double>(updates_since_prune_));
-    narrow_margin_ = std::min(std::clamp(best, least, most) * diameter_, 0.5 * wide_margin_);
+    margin = std::min(std::clamp(best, least, most) * diameter_, 0.5 * wide_level_.margin);
   }
   updates_since_prune_ = 0;
 }
 
-void Neighbours::search(const Grains& grains, const Walls& walls) {
+/// Somewhat longer than the last one held, and not so long that a usual grain's course takes it farther than the
+/// margin.
+void Neighbours::choose_wide_time(double elapsed, bool outlived) {
+  Level& wide = wide_level_;
+  if (outlived || wide.lasts == std::numeric_limits<double>::max()) wide.lasts = longer * elapsed;
+  double square = 0;
+  for (std::size_t i = 0; i < course_.x.size(); ++i) square += (course_.of(i) - mean_course_).squaredNorm();
+  const double usual = std::sqrt(square / std::max<double>(1, static_cast<double>(course_.x.size())));
+  if (usual > 0) wide.lasts = std::min(wide.lasts, 0.5 * wide.margin / usual);
+}
+
+/// From where on a grain is near while the wide list lasts: by pairs' common course, and by each vessel's.
+Reaches Neighbours::reaches(const Grains& grains) const {
+  Reaches all = reaches_at_rest(grains);
+  for (std::size_t i = 0; i < grains.size(); ++i) {
+    const Eigen::Vector3d own = course_.of(i);
+    double past_walls = 0;
+    for (const Eigen::Vector3d& vessel : course_.vessels) past_walls = std::max(past_walls, (own - vessel).norm());
+    all.pair[i] += wide_level_.lasts * (own - mean_course_).norm();
+    all.wall[i] += wide_level_.lasts * past_walls;
+  }
+  return all;
+}
+
+void Neighbours::search(const Grains& grains, const Walls& walls, double time) {
   execution_.stop_if_asked();  // a search among millions takes seconds
+  const double elapsed = time - wide_level_.from.time;
+  learn_course(grains, walls, time);
+  mean_course_ = course_.mean();
+  if (!wide_level_.from.poses.empty() && elapsed > 0) choose_wide_time(elapsed, wide_is_valid_);
+  const Reaches near = reaches(grains);
+  const double margin = wide_level_.margin;
   const Ranges ranges{execution_.threads(), [this](const auto& work) {
                         execution_.stop_if_asked();
                         execution_.for_each_range(work);
                       }};
   if (in_plane_)
-    in_plane_->find(grains, walls.poses(), wide_margin_, ranges, wide_, wide_walls_);
+    in_plane_->find(grains, walls.poses(), near, margin, ranges, wide_.pairs, wide_walls_);
   else
-    in_space_->find(grains, walls.poses(), wide_margin_, ranges, wide_, wide_walls_);
+    in_space_->find(grains, walls.poses(), near, margin, ranges, wide_.pairs, wide_walls_);
   for (std::size_t k = 0; k < images_.size(); ++k) {
     if (in_plane_)
-      in_plane_->find_across(images_[k].x, wide_margin_, ranges, wide_boundaries_[k]);
+      in_plane_->find_across(images_[k].x, margin, ranges, wide_boundaries_[k].pairs);
     else
-      in_space_->find_across(images_[k].x, images_[k].z, wide_margin_, ranges, wide_boundaries_[k]);
+      in_space_->find_across(images_[k].x, images_[k].z, margin, ranges, wide_boundaries_[k].pairs);
   }
   if (!grains.clump.empty()) {
-    drop_pairs_within_clumps(grains.clump, wide_);
-    for (PairList& boundary : wide_boundaries_) drop_pairs_within_clumps(grains.clump, boundary);
+    drop_pairs_within_clumps(grains.clump, wide_.pairs);
+    for (WideList& boundary : wide_boundaries_) drop_pairs_within_clumps(grains.clump, boundary.pairs);
   }
-  note(grains, walls, wide_reference_);
+  set_pair_speeds();
+  note(grains, walls, time, wide_level_.from);
   wide_is_valid_ = true;
   ++searches_;
 }
 
-/// Of the entries [from, to) of a wide list, keeps the pairs nearer than their reach plus the narrow margin, with the
-/// rows' grains moved by `shift`.
-void Neighbours::prune_range(const Grains& grains, const PairList& wide, std::size_t from, std::size_t to,
+void Neighbours::set_pair_speeds() {
+  const auto set = [this](WideList& list) {
+    list.speed.resize(list.pairs.size());
+    execution_.share(list.pairs.size(), [&](std::size_t from, std::size_t to) {
+      for (std::size_t k = from; k < to; ++k) {
+        const Eigen::Vector3d apart = course_.of(static_cast<std::size_t>(list.pairs.grain[k])) -
+                                      course_.of(static_cast<std::size_t>(list.pairs.partner[k]));
+        list.speed[k] = static_cast<float>((1 + 1e-6) * apart.norm());  // never rounded to less
+      }
+    });
+  };
+  set(wide_);
+  for (WideList& boundary : wide_boundaries_) set(boundary);
+}
+
+/// Of the entries [from, to) of a wide list, keeps the pairs that are near while the narrow one lasts, with the rows'
+/// grains moved by `shift`.
+void Neighbours::prune_range(const Grains& grains, const WideList& wide, std::size_t from, std::size_t to,
                              const Image& shift, PairList& narrow) const {
   const PerGrain radius{grains.polydisperse ? grains.radius.data() : nullptr, grains.kinds.front().radius};
   constexpr std::size_t chunk = 4096;  // of the wide list: the narrow one is never much longer than it must be
@@ -279,24 +384,28 @@ void Neighbours::prune_range(const Grains& grains, const PairList& wide, std::si
     const std::size_t count = std::min(chunk, to - from);
     if (narrow.grain.size() < near + count + 16)
       narrow.grain.resize(near + count + 16), narrow.partner.resize(near + count + 16);
-    const int *grain = &wide.grain[from], *partner = &wide.partner[from];
+    const int *grain = &wide.pairs.grain[from], *partner = &wide.pairs.partner[from];
+    const float* speed = &wide.speed[from];
     int *near_grain = &narrow.grain[near], *near_partner = &narrow.partner[near];
-    near += kinds_.in_space ? execution_.space_loops().near_pairs(
-                                  count, grain, partner, {grains.x.data(), grains.y.data(), grains.z.data()}, shift.x,
-                                  shift.z, radius, narrow_margin_, near_grain, near_partner)
-                            : execution_.loops().near_pairs(count, grain, partner, grains.x.data(), grains.y.data(),
-                                                            shift.x, radius, narrow_margin_, near_grain, near_partner);
+    const auto [margin, lasts] = std::pair(narrow_level_.margin, narrow_level_.lasts);
+    near += kinds_.in_space
+                ? execution_.space_loops().near_pairs(count, grain, partner, speed,
+                                                      {grains.x.data(), grains.y.data(), grains.z.data()}, shift.x,
+                                                      shift.z, radius, margin, lasts, near_grain, near_partner)
+                : execution_.loops().near_pairs(count, grain, partner, speed, grains.x.data(), grains.y.data(), shift.x,
+                                                radius, margin, lasts, near_grain, near_partner);
   }
   narrow.grain.resize(near), narrow.partner.resize(near);
 }
 
-void Neighbours::prune_pairs(const Grains& grains, const PairList& wide, const Image& shift, PairList& narrow) {
+void Neighbours::prune_pairs(const Grains& grains, const WideList& wide, const Image& shift, PairList& narrow) {
+  const std::size_t pairs = wide.pairs.size();
   const std::size_t threads = static_cast<std::size_t>(execution_.threads());
-  if (threads == 1) return prune_range(grains, wide, 0, wide.size(), shift, narrow);
+  if (threads == 1) return prune_range(grains, wide, 0, pairs, shift, narrow);
   parts_.resize(threads);
   execution_.for_each_range([&](int range) {
     const std::size_t k = static_cast<std::size_t>(range);
-    prune_range(grains, wide, wide.size() * k / threads, wide.size() * (k + 1) / threads, shift, parts_[k]);
+    prune_range(grains, wide, pairs * k / threads, pairs * (k + 1) / threads, shift, parts_[k]);
   });
   narrow.clear();
   for (const PairList& part : parts_) {
@@ -305,7 +414,7 @@ void Neighbours::prune_pairs(const Grains& grains, const PairList& wide, const I
   }
 }
 
-void Neighbours::prune(const Grains& grains, const Walls& walls, ContactState& contacts) {
+void Neighbours::prune(const Grains& grains, const Walls& walls, double time, ContactState& contacts) {
   execution_.stop_if_asked();
   contacts.boundaries.resize(images_.size());
   std::swap(contacts.pairs, old_), std::swap(contacts.pair_histories, old_histories_);
@@ -315,7 +424,7 @@ void Neighbours::prune(const Grains& grains, const Walls& walls, ContactState& c
     prune_pairs(grains, wide_boundaries_[k], images_[k], contacts.boundaries[k].pairs);
   if (kinds_.any()) carry_histories_over(contacts);
   prune_walls(grains, walls, contacts);
-  note(grains, walls, narrow_reference_);
+  note(grains, walls, time, narrow_level_.from);
   ++prunes_;
 }
 
@@ -349,9 +458,11 @@ void Neighbours::prune_walls(const Grains& grains, const Walls& walls, ContactSt
   auto known = old.begin();
   for (const WallCandidate& candidate : wide_walls_) {
     const std::size_t i = static_cast<std::size_t>(candidate.grain);
+    const std::size_t wall = static_cast<std::size_t>(candidate.wall);
     const auto [distance2, side] =
         in_plane_ ? seen_in_plane(grains, i, walls, candidate.wall) : seen_in_space(grains, i, walls, candidate.wall);
-    const double reach = grains.kind(i).radius + narrow_margin_;
+    const double past = (course_.of(i) - course_.vessels[walls.vessel_of(wall)]).norm();
+    const double reach = grains.kind(i).radius + narrow_level_.margin + narrow_level_.lasts * past;
     if (distance2 >= reach * reach) continue;
     while (known != old.end() && before(*known, candidate)) ++known;
     const bool was_near = known != old.end() && !before(candidate, *known);
@@ -364,10 +475,9 @@ void Neighbours::prune_walls(const Grains& grains, const Walls& walls, ContactSt
     contacts.wall_histories.copy_entry(entry, old_histories, old_entry);
 }
 
-void Neighbours::remove_flagged(Reference& reference, const std::vector<char>& removed) {
-  keep_unflagged(reference.x, removed);
-  keep_unflagged(reference.y, removed);
-  if (!reference.z.empty()) keep_unflagged(reference.z, removed);
+void Neighbours::remove_flagged(const std::vector<char>& removed, std::vector<double>& x, std::vector<double>& y,
+                                std::vector<double>& z) {
+  for (std::vector<double>* one : {&x, &y, &z}) keep_unflagged(*one, removed);
 }
 
 void Neighbours::remove_wall(int wall, ContactState& contacts) {
@@ -386,17 +496,22 @@ void Neighbours::remove_flagged(const std::vector<char>& removed, ContactState& 
   std::vector<int> new_index(removed.size());
   int next = 0;
   for (std::size_t i = 0; i < removed.size(); ++i) new_index[i] = removed[i] ? -1 : next++;
-  ContactHistories none;
   renumber(contacts.pairs, contacts.pair_histories, removed, new_index);
   for (BoundaryContacts& boundary : contacts.boundaries)
     renumber(boundary.pairs, boundary.histories, removed, new_index);
   renumber(contacts.walls, contacts.wall_histories, removed, new_index);
+  for (Reference* from : {&wide_level_.from, &narrow_level_.from}) remove_flagged(removed, from->x, from->y, from->z);
+  remove_flagged(removed, course_.x, course_.y, course_.z);
   if (!wide_is_valid_) return;
-  renumber(wide_, none, removed, new_index);
-  for (PairList& boundary : wide_boundaries_) renumber(boundary, none, removed, new_index);
+  const auto renumber_wide = [&](WideList& list) {
+    const std::vector<std::size_t> kept = renumber(list.pairs, removed, new_index);
+    for (std::size_t k = 0; k < kept.size(); ++k) list.speed[k] = list.speed[kept[k]];
+    list.speed.resize(kept.size());
+  };
+  renumber_wide(wide_);
+  for (WideList& boundary : wide_boundaries_) renumber_wide(boundary);
+  ContactHistories none;
   renumber(wide_walls_, none, removed, new_index);
-  remove_flagged(wide_reference_, removed);
-  remove_flagged(narrow_reference_, removed);
 }
 
 }  // namespace vibrosow

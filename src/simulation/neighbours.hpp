@@ -1,7 +1,9 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cmath>
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <stdexcept>
 #include <vector>
@@ -18,23 +20,25 @@ namespace vibrosow {
 /// Margins of the two lists, in diameters of the largest grain; the narrow one is where a run begins, and is then
 /// chosen from how long the lists last. They change the time of a run and never its result.
 struct NeighbourMargins {
-  double wide = 2;
+  double wide = 1.4;
   double narrow = 0.15;
-  double wide_in_space = 0.9;  // a wide list grows with its cube there
+  double wide_in_space = 0.5;  // a wide list grows with its cube there
 };
 
 /// Who may touch whom. A wide list comes from Box2D, seldom; the narrow ones of a ContactState are pruned from it,
-/// often; both are renewed just when a grain has moved so far that a contact could be missed (a dual pair list).
-/// Contacts keep their histories through every renewal. Nothing here is state of a run: made anew, it gives the same
-/// contacts.
+/// often; both are renewed just when a contact could be missed (a dual pair list). Grains are taken to go on as they
+/// moved since the search before, so that lists outlive a bed that slides and seeds that fall: two are near if they are
+/// nearer than a margin, and by as much more as they may come nearer while the list lasts. It lasts until that time is
+/// over, or until a grain has strayed half the margin from its course. Contacts keep their histories through every
+/// renewal. Nothing here is state of a run: made anew, it gives the same contacts.
 class Neighbours {
  public:
   /// In space where the histories' kinds are.
   Neighbours(const std::vector<Vessel>& vessels, double largest_diameter, NeighbourMargins margins, HistoryKinds kinds,
              Execution& execution);
 
-  /// Renews the lists if the grains or walls have moved too far for them.
-  void update(const Grains& grains, const Walls& walls, ContactState& contacts);
+  /// Renews the lists if the grains or walls have moved too far for them by `time` (s).
+  void update(const Grains& grains, const Walls& walls, double time, ContactState& contacts);
 
   /// The grains have changed in number: the next update starts afresh.
   void start_afresh() { wide_is_valid_ = false; }
@@ -61,21 +65,47 @@ class Neighbours {
   }
 
  private:
-  /// Where the grains (relative to the first vessel) and the other vessels were when a list was made.
+  /// Where the grains (relative to the first vessel) and the vessels were when a list was made.
   struct Reference {
-    std::vector<double> x, y, z;
+    double time = 0;              // s
+    std::vector<double> x, y, z;  // m
     std::vector<Pose> poses;
   };
-  static void note(const Grains& grains, const Walls& walls, Reference& reference);
-  bool any_moved(const Reference& from, const Grains& grains, const Pose& first, double limit) const;
-  bool moved(const Reference& from, const Grains& grains, const Walls& walls, double limit) const;
-  static void remove_flagged(Reference& reference, const std::vector<char>& removed);
+  /// Pairs, and how fast each of them may come nearer, m/s.
+  struct WideList {
+    PairList pairs;
+    std::vector<float> speed;
+  };
+  /// A kind of list: how much farther than touching it looks, and for how long.
+  struct Level {
+    double margin;                                      // m
+    double lasts = std::numeric_limits<double>::max();  // s
+    Reference from{};
+
+    double elapsed(double time) const { return std::abs(time - from.time); }
+  };
+  /// How all go on from there, m/s relative to the first vessel.
+  struct Course {
+    std::vector<double> x, y, z;           // by grain
+    std::vector<Eigen::Vector3d> vessels;  // by vessel
+    Eigen::Vector3d of(std::size_t i) const { return {x[i], y[i], z.empty() ? 0 : z[i]}; }
+    Eigen::Vector3d mean() const;  // of the grains
+  };
+  static void note(const Grains& grains, const Walls& walls, double time, Reference& reference);
+  bool any_strayed(const Reference& from, const Grains& grains, const Pose& first, double elapsed, double limit) const;
+  bool strayed(const Reference& from, const Grains& grains, const Walls& walls, double time, double limit) const;
+  static void remove_flagged(const std::vector<char>& removed, std::vector<double>& x, std::vector<double>& y,
+                             std::vector<double>& z);
 
   void choose_narrow_margin();
-  void search(const Grains& grains, const Walls& walls);
-  void prune(const Grains& grains, const Walls& walls, ContactState& contacts);
-  void prune_pairs(const Grains& grains, const PairList& wide, const Image& shift, PairList& narrow);
-  void prune_range(const Grains& grains, const PairList& wide, std::size_t from, std::size_t to, const Image& shift,
+  void learn_course(const Grains& grains, const Walls& walls, double time);
+  void choose_wide_time(double elapsed, bool outlived);
+  Reaches reaches(const Grains& grains) const;
+  void set_pair_speeds();
+  void search(const Grains& grains, const Walls& walls, double time);
+  void prune(const Grains& grains, const Walls& walls, double time, ContactState& contacts);
+  void prune_pairs(const Grains& grains, const WideList& wide, const Image& shift, PairList& narrow);
+  void prune_range(const Grains& grains, const WideList& wide, std::size_t from, std::size_t to, const Image& shift,
                    PairList& narrow) const;
   void carry_histories_over(ContactState& contacts);
   void prune_walls(const Grains& grains, const Walls& walls, ContactState& contacts);
@@ -86,18 +116,19 @@ class Neighbours {
   std::vector<double> largest_radius_;          // m, by vessel, of its walls about its frame's zero
   std::vector<double> largest_radius_in_plan_;  // m, the same about the upright axis, in space
   double diameter_;                             // m, of the largest grain
-  double wide_margin_, narrow_margin_;          // m
+  Level wide_level_, narrow_level_;
+  Course course_;
+  Eigen::Vector3d mean_course_ = Eigen::Vector3d::Zero();  // m/s, of the grains
   std::int64_t updates_since_prune_ = 0;
   HistoryKinds kinds_;
   std::vector<Image> images_;
-  PairList wide_;
-  std::vector<PairList> wide_boundaries_;  // by image
+  WideList wide_;
+  std::vector<WideList> wide_boundaries_;  // by image
   std::vector<WallCandidate> wide_walls_;
   std::vector<PairList> parts_;  // by thread
   PairList old_;                 // the narrow lists before, while histories are carried over
   std::vector<BoundaryContacts> old_boundaries_;
   ContactHistories old_histories_;
-  Reference wide_reference_, narrow_reference_;
   bool wide_is_valid_ = false;
   std::int64_t searches_ = 0, prunes_ = 0;
 };

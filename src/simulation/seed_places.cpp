@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "compute/nearest_image.hpp"
 #include "grains/turned_discs.hpp"
 #include "scene/motion.hpp"
 #include "scene/seed_lot.hpp"
@@ -66,8 +67,8 @@ double SeedPlaces::depth_in_walls(const Eigen::Vector3d& at, double radius, cons
 /// From a place to a grain, or the nearest of its images, m.
 Eigen::Vector3d SeedPlaces::apart(const Grains& grains, std::size_t i, const Eigen::Vector3d& at) const {
   Eigen::Vector3d apart = grains.place(i) - at;
-  if (along_ > 0) apart.x() = std::remainder(apart.x(), along_);
-  if (across_ > 0) apart.z() = std::remainder(apart.z(), across_);
+  if (along_ > 0) apart.x() = nearest_image(apart.x(), along_);
+  if (across_ > 0) apart.z() = nearest_image(apart.z(), across_);
   return apart;
 }
 

@@ -96,8 +96,7 @@ bool are_histories(const ContactHistories& h, std::size_t candidates, bool in_sp
   if (candidates > 0 && h.kinds.any() && h.kinds.in_space != in_space) return false;
   ContactHistories like;
   like.resize(candidates, h.kinds);
-  return h.slip.size() == like.slip.size() && h.slip_speed.size() == like.slip_speed.size() &&
-         h.roll.size() == like.roll.size() && h.roll_speed.size() == like.roll_speed.size() &&
+  return h.slip.size() == like.slip.size() && h.roll.size() == like.roll.size() &&
          h.records.size() == like.records.size() && h.touched.size() == like.touched.size();
 }
 

@@ -30,6 +30,7 @@ class Walls {
   bool is_removed(std::size_t wall) const { return about_[wall].removed; }
   /// When a gate opens (s); 0: the wall is no gate.
   double opens_at(std::size_t wall) const { return about_[wall].opens_at; }
+  std::size_t vessel_of(std::size_t wall) const { return about_[wall].vessel; }
   std::size_t count() const { return about_.size(); }
 
   const std::vector<PlacedWall>& placed() const { return placed_; }              // in the plane

@@ -37,6 +37,13 @@ Grains scattered(std::size_t count, std::uint64_t seed) {
   return grains;
 }
 
+/// Every tenth looks two diameters farther than its radius for pairs, three for walls.
+Reaches some_far(const Grains& grains) {
+  Reaches reaches = reaches_at_rest(grains);
+  for (std::size_t i = 0; i < grains.size(); i += 10) reaches.pair[i] += 2 * largest, reaches.wall[i] += 3 * largest;
+  return reaches;
+}
+
 using Pair = std::pair<int, int>;
 std::vector<Pair> pairs_in(const PairList& list) {
   std::vector<Pair> pairs;
@@ -44,14 +51,15 @@ std::vector<Pair> pairs_in(const PairList& list) {
   return pairs;
 }
 
-std::vector<Pair> all_near(const Grains& g, double margin, double shift_x, double shift_z, bool lower_alone) {
+std::vector<Pair> all_near(const Grains& g, const Reaches& reaches, double margin, double shift_x, double shift_z,
+                           bool lower_alone) {
   std::vector<Pair> pairs;
   const int n = static_cast<int>(g.size());
   for (int i = 0; i < n; ++i)
     for (int j = 0; j < (lower_alone ? i : n); ++j) {
       const std::size_t a = static_cast<std::size_t>(i), b = static_cast<std::size_t>(j);
       const double dx = g.x[b] - g.x[a] - shift_x, dy = g.y[b] - g.y[a], dz = g.z[b] - g.z[a] - shift_z;
-      if (std::sqrt(dx * dx + dy * dy + dz * dz) < g.radius[a] + g.radius[b] + margin) pairs.emplace_back(i, j);
+      if (std::sqrt(dx * dx + dy * dy + dz * dz) < reaches.pair[a] + reaches.pair[b] + margin) pairs.emplace_back(i, j);
     }
   return pairs;
 }
@@ -66,23 +74,25 @@ TEST(SpaceBroadphase, FindsJustThePairsThereAre) {
   for (const std::size_t count : {0u, 1u, 7u, 300u, 2000u})
     for (const double margin : {0.0, 1e-3, 8e-3}) {
       const Grains grains = scattered(count, count + 1);
+      const Reaches reaches = some_far(grains);
       SpaceBroadphase search({box()}, largest, best_instruction_set());
       PairList pairs;
       std::vector<WallCandidate> walls;
-      search.find(grains, {{{0.003, 0.002}, 0, 0.001}}, margin, shared_by(3), pairs, walls);
-      EXPECT_EQ(pairs_in(pairs), all_near(grains, margin, 0, 0, true)) << count << ", " << margin;
+      search.find(grains, {{{0.003, 0.002}, 0, 0.001}}, reaches, margin, shared_by(3), pairs, walls);
+      EXPECT_EQ(pairs_in(pairs), all_near(grains, reaches, margin, 0, 0, true)) << count << ", " << margin;
     }
 }
 
 TEST(SpaceBroadphase, FindsPairsAcrossABoundary) {
   const Grains grains = scattered(500, 3);
+  const Reaches reaches = some_far(grains);
   SpaceBroadphase search({box()}, largest, best_instruction_set());
   PairList pairs;
   std::vector<WallCandidate> walls;
-  search.find(grains, {{}}, 2e-3, shared_by(2), pairs, walls);
+  search.find(grains, {{}}, reaches, 2e-3, shared_by(2), pairs, walls);
   for (const auto& [x, z] : {std::pair(0.04, 0.0), std::pair(0.0, 0.03), std::pair(0.04, -0.03)}) {
     search.find_across(x, z, 2e-3, shared_by(2), pairs);
-    EXPECT_EQ(pairs_in(pairs), all_near(grains, 2e-3, x, z, false)) << x << ", " << z;
+    EXPECT_EQ(pairs_in(pairs), all_near(grains, reaches, 2e-3, x, z, false)) << x << ", " << z;
   }
 }
 
@@ -97,11 +107,12 @@ TEST(SpaceBroadphase, MissesNoFaceWhereverItsVesselIs) {
     Walls walls(vessels, Space::three_dimensional);
     PairList pairs;
     std::vector<WallCandidate> near;
-    search.find(grains, walls.poses(), 1e-3, shared_by(1), pairs, near);
+    const Reaches reaches = some_far(grains);
+    search.find(grains, walls.poses(), reaches, 1e-3, shared_by(1), pairs, near);
     EXPECT_TRUE(std::ranges::is_sorted(near, {}, [](const WallCandidate& c) { return std::pair(c.grain, c.wall); }));
     for (std::size_t i = 0; i < grains.size(); ++i)
       for (std::size_t wall = 0; wall < walls.count(); ++wall) {
-        const double reach = grains.radius[i] + 1e-3;
+        const double reach = reaches.wall[i] + 1e-3;
         const NearestOnFace nearest =
             nearest_on_face(walls.placed_faces()[wall], {grains.x[i], grains.y[i], grains.z[i]});
         if (nearest.distance2 >= reach * reach) continue;
@@ -120,7 +131,7 @@ TEST(SpaceBroadphase, ARemovedFaceIsNotFoundAndARestoredOneIs) {
   PairList pairs;
   std::vector<WallCandidate> near;
   const auto of_wall_0 = [&] {
-    search.find(grains, {{}}, 1e-3, shared_by(1), pairs, near);
+    search.find(grains, {{}}, reaches_at_rest(grains), 1e-3, shared_by(1), pairs, near);
     return std::ranges::count(near, 0, &WallCandidate::wall);
   };
   const auto before = of_wall_0();

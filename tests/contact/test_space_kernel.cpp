@@ -124,7 +124,7 @@ Balls after_impact(Contact2& contact, Balls balls, double dt, int steps) {
       balls[k].v += dt * a, balls[k].omega += dt * alpha;
     }
     const Loads before = loads;
-    loads = contact.loads(balls, {.trial = dt, .commit = dt, .present = 0.5});
+    loads = contact.loads(balls, {.trial = 0.5 * dt, .commit = dt});
     for (std::size_t k = 0; k < 2; ++k) {
       const auto [a, alpha] = rates(loads[k]);
       const auto [a0, alpha0] = rates(before[k]);
@@ -182,8 +182,9 @@ void expect_like_the_plane(Law law, bool spring, Rolling rolling) {
   const Balls expected = turned(after_impact(plane, start, dt, 4000), turn);
   const double found = difference(after_impact(space, turned(start, turn), dt, 4000), expected);
   RC_LOG() << "difference " << found << " m/s\n";
-  // Rounding over 4000 steps: of 10 000 impacts all but some four lie within 1e-12, the worst seen at 1.4e-12.
-  RC_ASSERT(found < 2e-12);
+  // A spring is carried on by a small rotation, to the third order in its angle: the worst of 9000 impacts lay
+  // at 3.5e-11.
+  RC_ASSERT(found < 1e-10);
 }
 
 RC_GTEST_PROP(SpaceKernel, AnImpactInAPlaneOfSpaceIsThePlanesShell, ()) {
@@ -203,7 +204,7 @@ TEST(SpaceKernel, NoForceOrTorqueComesFromNothing) {
   balls[0].x = {-0.95 * radius, 0, 0}, balls[1].x = {0.9 * radius, 0.1 * radius, 0.2 * radius};
   balls[0].v = {0.3, -0.2, 0.5}, balls[0].omega = {10, 20, -30}, balls[1].omega = {-5, 7, 11};
   Contact2 contact(Law::elastic_shell, with_friction(true, Rolling::spring), true);
-  const Loads loads = contact.loads(balls, {.trial = 1e-5, .commit = 1e-5, .present = 0.5});
+  const Loads loads = contact.loads(balls, {.trial = 1e-5, .commit = 1e-5});
   EXPECT_GT(loads[0].force.norm(), 0);
   EXPECT_EQ(loads[0].force, -loads[1].force);
   const Eigen::Vector3d moment =
@@ -219,8 +220,8 @@ double error_after_turning(const Eigen::Vector3d& axis, double angle, int steps)
   Balls start;
   start[0].x = {-0.99 * radius, 0, 0}, start[1].x = {0.99 * radius, 0, 0};
   start[1].v = {0, 1e-5, 1.5e-5};
-  contact.loads(start, {.trial = dt, .commit = dt, .present = 1});  // stretches the spring
-  const ContactStep still{.trial = dt, .commit = dt, .present = 1};
+  contact.loads(start, {.trial = dt, .commit = dt});  // stretches the spring
+  const ContactStep still{.trial = dt, .commit = dt};
   start[1].v = Eigen::Vector3d::Zero();
   const Loads held = contact.loads(start, still);
   Balls now;
@@ -240,10 +241,14 @@ double error_after_turning(const Eigen::Vector3d& axis, double angle, int steps)
   return (loads[0].force - expected).norm() / tangential.norm();
 }
 
-TEST(SpaceKernel, ASpringCarriedRoundAcrossItsNormalIsTheSameAfterTenThousandTurns) {
-  constexpr int turns = 10000, steps_a_turn = 20;
-  const double angle = 2 * std::numbers::pi / steps_a_turn;
-  EXPECT_LT(error_after_turning(Eigen::Vector3d(0, 0.6, 0.8), angle, turns * steps_a_turn), 1e-9);
+TEST(SpaceKernel, ASpringCarriedRoundAcrossItsNormalErrsByThirdOrder) {
+  // Ten turns, of 1e-3 rad a step as a fast ball makes and twice as far.
+  const auto error = [](int steps_a_turn) {
+    return error_after_turning(Eigen::Vector3d(0, 0.6, 0.8), 2 * std::numbers::pi / steps_a_turn, 10 * steps_a_turn);
+  };
+  const double coarse = error(3142), fine = error(6283);
+  EXPECT_LT(fine, 1e-6);
+  EXPECT_NEAR(std::log2(coarse / fine), 3, 0.1);
 }
 
 TEST(SpaceKernel, ASpringCarriedRoundATiltedAxisErrsBySecondOrder) {
@@ -257,20 +262,21 @@ TEST(SpaceKernel, ASpringCarriedRoundATiltedAxisErrsBySecondOrder) {
 class ManyContacts {
  public:
   ManyContacts(int pairs, int entries_at_once)
-      : entries_at_once_(entries_at_once), places_(2 * pairs), motions_(2 * pairs) {
+      : entries_at_once_(entries_at_once), places_(2 * static_cast<std::size_t>(pairs)), motions_(places_.size()) {
     for (int k = 0; k < pairs; ++k) list_.add(2 * k + 1, 2 * k);
     histories_.resize(list_.size(), {true, true, true});
   }
 
   void evaluate(int step) {
-    const ContactStep advance{.trial = 1e-5, .commit = 1e-5, .present = 0.5};
+    const ContactStep advance{.trial = 1e-5, .commit = 1e-5};
     const int pairs = static_cast<int>(list_.size());
     for (int k = 0; k < pairs; ++k) {
       const bool touches = (7 * k + 3 * step * step) % 5 < 2;
       const double apart = 2 * radius + (touches ? -1e-6 : 1e-6), spin = 3 + 0.1 * k + step;
-      places_[2 * k] = {0.1 * k, 0, 0, 0}, places_[2 * k + 1] = {0.1 * k + 0.8 * apart, 0.6 * apart, 0, 0};
-      motions_[2 * k] = {{0.2, -0.01 * k, 0.1 * step, 0}, {spin, 2, -spin, 0}};
-      motions_[2 * k + 1] = {{-0.1, 0.3, 0.02 * k, 0}, {-1, 0.5 * spin, 4, 0}};
+      const std::size_t even = 2 * static_cast<std::size_t>(k), odd = even + 1;
+      places_[even] = {0.1 * k, 0, 0, 0}, places_[odd] = {0.1 * k + 0.8 * apart, 0.6 * apart, 0, 0};
+      motions_[even] = {{0.2, -0.01 * k, 0.1 * step, 0}, {spin, 2, -spin, 0}};
+      motions_[odd] = {{-0.1, 0.3, 0.02 * k, 0}, {-1, 0.5 * spin, 4, 0}};
     }
     std::vector<GrainVector> forces(places_.size()), torques(places_.size());
     SpacePairResult result;

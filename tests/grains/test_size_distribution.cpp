@@ -121,16 +121,16 @@ TEST(DrawAngle, OfClumpsIsUniformOverAllTurns) {
 }
 
 TEST(DrawnOrientations, PreferNoWay) {
-  // The mean of each direction cosine is 0, that of its square 1/3: of 20 000 draws to 0.004 and 0.002.
-  constexpr int draws = 20000;
+  // The mean of each direction cosine is 0, that of its square 1/3: of 20 000 to 0.004 and 0.002.
+  constexpr int ways = 20000;
   Random random(7);
   Eigen::Matrix3d sum = Eigen::Matrix3d::Zero(), sum_of_squares = sum;
-  for (int k = 0; k < draws; ++k) {
+  for (int k = 0; k < ways; ++k) {
     const Eigen::Matrix3d axes = rotation_matrix(draw_orientation(random));
     sum += axes, sum_of_squares += axes.cwiseAbs2();
   }
-  EXPECT_LT((sum / draws).cwiseAbs().maxCoeff(), 0.016);
-  EXPECT_LT((sum_of_squares.array() / draws - 1.0 / 3).abs().maxCoeff(), 0.009);
+  EXPECT_LT((sum / ways).cwiseAbs().maxCoeff(), 0.016);
+  EXPECT_LT((sum_of_squares.array() / ways - 1.0 / 3).abs().maxCoeff(), 0.009);
 }
 
 }  // namespace

@@ -12,8 +12,10 @@ namespace vibrosow {
 namespace {
 
 /// A small tray that is shaken hard under a hopper that stands still and is kept topped up; two sizes of grain.
-Scene busy_scene() {
+Scene busy_scene(Space space = Space::plane) {
   Scene scene;
+  scene.space = space;
+  if (space == Space::three_dimensional) scene.tray.depth = 0.03, scene.tray.front_and_back = Sides::periodic;
   scene.lots = {{"big", 8e-3, 6e-4, Shape::ball, 0.6}, {"small", 5e-3, 1.5e-4, Shape::ball, 0.4}};
   scene.contact.shell_compression = 3e-4;
   scene.contact.seed = scene.contact.wall = {0.3, 0.5};
@@ -33,6 +35,11 @@ Scene busy_scene() {
   hopper.funnel = 0.7;
   hopper.holes = {{0.05, 0.03}};
   hopper.fill = Fill{60, Packing::poured, 1e-3, true};
+  if (space == Space::three_dimensional) {
+    hopper.depth = 0.02, hopper.front = 0.005, hopper.funnel = 0;
+    scene.tray.fill->count = 300;
+    for (Hole& hole : scene.tray.holes) hole.shape = HoleShape::round, hole.across = 0.015;
+  }
   scene.hopper = hopper;
   scene.run.duration = 1;
   return scene;
@@ -48,8 +55,7 @@ Contacts touching(const Grains& grains, const PairList& pairs) {
   Contacts contacts;
   for (std::size_t k = 0; k < pairs.size(); ++k) {
     const std::size_t i = static_cast<std::size_t>(pairs.grain[k]), j = static_cast<std::size_t>(pairs.partner[k]);
-    if (std::hypot(grains.x[i] - grains.x[j], grains.y[i] - grains.y[j]) <
-        grains.kind(i).radius + grains.kind(j).radius)
+    if ((grains.place(i) - grains.place(j)).norm() < grains.kind(i).radius + grains.kind(j).radius)
       contacts.emplace(pairs.grain[k], pairs.partner[k]);
   }
   return contacts;
@@ -100,6 +106,36 @@ TEST(Neighbours, MissNoContactOfAWholeRun) {
   EXPECT_GT(run->result().balance.counted, 20);
   EXPECT_GT(run->result().balance.put_in, 160) << "the hopper must have been topped up";
   EXPECT_LT(run->field().neighbours().searches(), 5000) << "lists must last";
+}
+
+TEST(Neighbours, MissNoPairOfAWholeRunInSpace) {
+  const auto run = start(busy_scene(Space::three_dimensional));
+  std::size_t pairs = 0;
+  for (int step = 0; step < 20000; ++step) {
+    ASSERT_TRUE(run->step()) << *run->guard().stop_reason();
+    if (step % 17 != 0) continue;
+    const Grains& grains = run->grains();
+    const Contacts found = touching(grains, run->state().contacts.pairs);
+    ASSERT_EQ(found, touching(grains, every_pair(grains.size()))) << "step " << step;
+    pairs += found.size();
+  }
+  EXPECT_GT(pairs, 20000u);
+  EXPECT_GT(run->result().balance.counted, 3);
+  EXPECT_LT(run->field().neighbours().searches(), 2500) << "lists must last";
+}
+
+TEST(Neighbours, OutliveGrainsThatGoOnAsTheyDid) {
+  // A swarm flies 0.8 m past a tray and two grains at rest: a hundred diameters.
+  for (const Space space : both_spaces) {
+    Bench bench(space);
+    bench.place(0.5, 0.5).place(0.5, 0.51);
+    for (int k = 0; k < 6; ++k) bench.place(0.05 + 0.009 * k, 0.2, 2, 0);
+    Simulation& run = bench.start(1e-5);
+    run.steps(40000);
+    const double margin = space == Space::plane ? NeighbourMargins{}.wide : NeighbourMargins{}.wide_in_space;
+    const double by_its_way_alone = 0.8 / (0.5 * margin * 2 * Bench::radius);
+    EXPECT_LT(static_cast<double>(run.field().neighbours().searches()), 0.5 * by_its_way_alone);
+  }
 }
 
 TEST(Neighbours, MarginsChangeNoBit) {

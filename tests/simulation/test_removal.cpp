@@ -26,7 +26,7 @@ struct Impacts {
     if (space == Space::three_dimensional) hole.shape = HoleShape::round, hole.across = 0.5;
     bench.scene.tray.holes = {hole};
     bench.scene.tray.pieces = {{{0.313, -0.01}, {0.313, -0.2}}};
-    if (with_leavers) bench.place(0.3, 0.001, 0, -5).place(0.3085, 0.001, 0, -5);
+    if (with_leavers) bench.place(0.3, 0.001, 0, -5).place(0.3081, 0.001, 0, -5);
     constexpr double r = Bench::radius, until = 2e-3;  // s, before the touch
     const std::array<double, 3> slide = {0.3, -0.1, 0.05}, spin = {20, 60, -30};
     for (std::size_t k = 0; k < 3; ++k)

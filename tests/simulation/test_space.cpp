@@ -203,10 +203,10 @@ TEST(Space, AVesselWithoutADepthIsRefused) {
 TEST(Space, FrictionOneAndHardlyAnyReboundFallSilent) {
   Scene scene = box(Space::three_dimensional);
   scene.contact.seed = scene.contact.wall = {1, 0.1, 0.1, 0};
-  scene.run.duration = 0.3;
+  scene.run.duration = 0.5;
   const Model model = prepare_to_run(scene);
   Simulation run(model, start_of(model, heap(5, 5, 5)));
-  EXPECT_TRUE(run.run_until(0.3));
+  EXPECT_TRUE(run.run_until(0.5));
   // A ball may go on spinning about an upright axis: nothing resists twisting here.
   const Grains& g = run.grains();
   for (std::size_t i = 0; i < g.size(); ++i)

@@ -203,7 +203,6 @@ TEST(TangentialSpring, ForgetsAtSeparation) {
   EXPECT_GT(longest, 1e-8);
   run.step();
   EXPECT_EQ(run.state().contacts.wall_histories.slip[0], 0);
-  EXPECT_EQ(run.state().contacts.wall_histories.slip_speed[0], 0);
   EXPECT_NEAR(run.grains().vx[0], once.vx, 1e-12);
   // Sent down again as the first time, after a contact that left the spring stretched: the same impact to the last
   // bits.
