@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "vessel/directions.hpp"
 
@@ -15,16 +16,25 @@ double radius_of(const Grains& grains, std::size_t i) {
   return grains.polydisperse ? grains.radius[i] : grains.kinds.front().radius;
 }
 
-/// Whether the whole plane of a plate is farther from the ball than its radius, on the side that it came from: then it
-/// neither touches the plate nor has crossed it, whatever holes and edges there are. Of no other face.
-bool is_clear_of(const FacePlane& plane, const Eigen::Vector3d& centre, double radius, double side) {
-  const double height = plane.normal.dot(centre) - plane.level;
-  return height * side > 0 && height * height >= radius * radius;
+GrainVector row_of(const Eigen::Vector3d& direction, const Eigen::Vector3d& origin) {
+  return {direction.x(), direction.y(), direction.z(), -direction.dot(origin)};
 }
 
-FacePlane plane_of(const PlacedFace& face) {
-  if (face.own->kind != Face::Kind::plate) return {};
-  return {face.normal, face.normal.dot(face.origin)};
+PlateRows rows_of(const PlacedFace& face) {
+  const Face& own = *face.own;
+  if (own.kind != Face::Kind::plate) return {};
+  PlateRows rows;
+  rows.normal = row_of(face.normal, face.origin);
+  rows.e1 = row_of(face.e1, face.origin), rows.e2 = row_of(face.e2, face.origin);
+  if (!own.round) rows.sides = {own.length_u, own.length_v, 0, 0};
+  constexpr double far = std::numeric_limits<double>::infinity();
+  rows.holes = {far, -far, far, -far};
+  for (const RoundHole& hole : own.holes) {
+    auto& [from_u, to_u, from_v, to_v] = rows.holes;
+    from_u = std::min(from_u, hole.u - hole.radius), to_u = std::max(to_u, hole.u + hole.radius);
+    from_v = std::min(from_v, hole.v - hole.radius), to_v = std::max(to_v, hole.v + hole.radius);
+  }
+  return rows;
 }
 
 void put(VectorColumns& columns, std::size_t k, const Eigen::Vector3d& vector) {
@@ -59,25 +69,31 @@ void make_room(std::size_t most, SpaceWallContacts& contacts) {
 
 }  // namespace
 
+/// The nearest point of the face of a candidate of the range, which is not clear of it.
+NearestOnFace SpaceWallFinder::nearest(const PlacedFace& face, const Eigen::Vector3d& centre, std::size_t c) const {
+  if (stands_[c] != OverPlate::flat) return nearest_on_face(face, centre);
+  return {-height_[c] * face.normal, height_[c] * height_[c], true, height_[c]};
+}
+
 void SpaceWallFinder::find(const Grains& grains, std::span<const WallCandidate> candidates, std::size_t first,
                            const std::vector<PlacedFace>& faces, SpaceWallContacts& contacts) {
   const std::size_t count = candidates.size();
   make_room(count, contacts);
   contacts.count = 0;
-  nearest_.resize(count), close_.clear(), near_.clear();
+  nearest_.resize(count), height_.resize(count), stands_.resize(count), close_.clear(), near_.clear();
   touches_.begin(first, count);
-  planes_.clear();
-  for (const PlacedFace& face : faces) planes_.push_back(plane_of(face));
+  plates_.clear();
+  for (const PlacedFace& face : faces) plates_.push_back(rows_of(face));
+  const PerGrain radius{grains.polydisperse ? grains.radius.data() : nullptr, grains.kinds.front().radius};
+  over_plates_(count, candidates.data(), {grains.x.data(), grains.y.data(), grains.z.data()}, radius, plates_.data(),
+               height_.data(), stands_.data());
   for (std::size_t c = 0; c < count; ++c) {
-    const auto& [grain, wall, side] = candidates[c];
-    const std::size_t i = static_cast<std::size_t>(grain);
-    const PlacedFace& face = faces[static_cast<std::size_t>(wall)];
-    const Eigen::Vector3d centre = centre_of(grains, i);
-    const double radius = radius_of(grains, i);
-    if (is_clear_of(planes_[static_cast<std::size_t>(wall)], centre, radius, side)) continue;
+    if (stands_[c] == OverPlate::clear) continue;
+    const std::size_t i = static_cast<std::size_t>(candidates[c].grain);
+    const double reach = radius_of(grains, i);
     close_.push_back(c);
-    nearest_[c] = nearest_on_face(face, centre);
-    if (nearest_[c].distance2 < radius * radius) near_.push_back(c);
+    nearest_[c] = nearest(faces[static_cast<std::size_t>(candidates[c].wall)], centre_of(grains, i), c);
+    if (nearest_[c].distance2 < reach * reach) near_.push_back(c);
   }
   for (std::size_t from = 0, to = 0; from < near_.size(); from = to) {
     while (to < near_.size() && candidates[near_[to]].grain == candidates[near_[from]].grain) ++to;

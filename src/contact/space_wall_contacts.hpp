@@ -5,6 +5,7 @@
 
 #include "contact/contact_list.hpp"
 #include "contact/kernels.hpp"
+#include "contact/over_plates.hpp"
 #include "contact/space_data.hpp"
 #include "contact/wall_touches.hpp"
 #include "grains/grains.hpp"
@@ -12,17 +13,13 @@
 
 namespace vibrosow {
 
-/// The plane of a plate: what lies over it by `height` has normal . place - level = height (m). Of other faces all is
-/// 0.
-struct FacePlane {
-  Eigen::Vector3d normal = Eigen::Vector3d::Zero();
-  double level = 0;
-};
-
 /// Looks through the candidates for balls that touch faces; WallTouches says which of these push. Candidates lie sorted
 /// by grain; ranges of them that part no grain's may be looked through side by side, each by a finder of its own.
 class SpaceWallFinder {
  public:
+  explicit SpaceWallFinder(InstructionSet instructions = InstructionSet::generic)
+      : over_plates_(over_plates(instructions)) {}
+
   /// Sets `contacts`, whose candidates are numbered from `first`.
   void find(const Grains& grains, std::span<const WallCandidate> candidates, std::size_t first,
             const std::vector<PlacedFace>& faces, SpaceWallContacts& contacts);
@@ -35,7 +32,12 @@ class SpaceWallFinder {
   const WallTouches& touches() const { return touches_; }
 
  private:
-  std::vector<FacePlane> planes_;            // by face
+  NearestOnFace nearest(const PlacedFace& face, const Eigen::Vector3d& centre, std::size_t candidate) const;
+
+  OverPlates over_plates_;
+  std::vector<PlateRows> plates_;            // by face
+  std::vector<double> height_;               // m, by candidate of the range, over its plate
+  std::vector<OverPlate> stands_;            // by candidate of the range
   std::vector<std::size_t> close_;           // candidates that are not clear of a plate's plane
   std::vector<NearestOnFace> nearest_;       // by candidate of the range, of those that are close
   std::vector<std::size_t> near_;            // candidates nearer than a radius

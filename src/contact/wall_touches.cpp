@@ -1,5 +1,8 @@
 #include "contact/wall_touches.hpp"
 
+#include <algorithm>
+#include <cstring>
+
 namespace vibrosow {
 
 void WallTouches::begin(std::size_t first, std::size_t count) {
@@ -22,9 +25,15 @@ void WallTouches::renew(ContactHistories& histories) const {
   for (const auto& [twin, pusher] : twins_)
     if (histories.touched[first_ + twin] && !histories.touched[first_ + pusher])
       histories.copy_entry(first_ + pusher, histories, first_ + twin);
-  for (std::size_t c = 0; c < touches_.size(); ++c) {
-    if (histories.touched[first_ + c] && !touches_[c]) histories.forget(first_ + c);
-    histories.touched[first_ + c] = touches_[c];
+  // Few change: the rest is passed over in long words.
+  constexpr std::size_t word = 32;
+  for (std::size_t from = 0; from < touches_.size(); from += word) {
+    const std::size_t to = std::min(from + word, touches_.size());
+    if (std::memcmp(&histories.touched[first_ + from], &touches_[from], to - from) == 0) continue;
+    for (std::size_t c = from; c < to; ++c) {
+      if (histories.touched[first_ + c] && !touches_[c]) histories.forget(first_ + c);
+      histories.touched[first_ + c] = touches_[c];
+    }
   }
 }
 

@@ -19,6 +19,7 @@ ForceField::ForceField(const Model& model, SimulationState& state, NeighbourMarg
       space_pair_kernel_(model.kernels->in_space[static_cast<std::size_t>(execution.instructions())].pair),
       space_wall_kernel_(model.kernels->in_space[static_cast<std::size_t>(execution.instructions())].wall),
       ranges_(static_cast<std::size_t>(execution.threads())) {
+  for (RangeWork& range : ranges_) range.space_walls.finder = SpaceWallFinder(execution.instructions());
   if (model.effects.clumps) clumps_.emplace(model.scene.lots, model.kinds, *model.law, model.effects.rotation);
   for (std::size_t v = 0; v < model.vessels.size(); ++v)
     walls_.set_motion(v, state.vessels.motion[v], state.vessels.shift[v]);

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "contact/space_wall_contacts.hpp"
+#include "grains/random.hpp"
 #include "vessel/walls.hpp"
 
 namespace vibrosow::space_walls_test {
@@ -69,6 +70,35 @@ TEST(SpaceWalls, ABallIsSeenToCrossAPlateHoweverFarItIs) {
   EXPECT_EQ(crossings(tray({hole}), {above, {0.03, -0.003, 0.015}, {0.04, -0.003, 0.015}}), 0u);
   EXPECT_EQ(crossings(tray({hole}), {above, {0.03, -0.003, 0.015}, {0.04, -0.003, 0.015}, {0.04, 0.003, 0.015}}), 1u);
   EXPECT_EQ(crossings(tray(), {{-0.003, -0.003, 0.015}, {-0.003, 0.003, 0.015}, {-0.003, -0.003, 0.015}}), 0u);
+}
+
+TEST(SpaceWalls, VectorsFindWhatTheFaceSays) {
+  // Of 3000 places around a tilted tray with two holes: the finder's contacts are those of the nearest points.
+  Vessel vessel = tray({{.centre = 0.02, .width = 0.008, .shape = HoleShape::round, .across = 0.01},
+                        {.centre = 0.04, .width = 0.01, .shape = HoleShape::round, .across = 0.02}});
+  vessel.tilt = 0.2;
+  const Walls walls({vessel}, Space::three_dimensional);
+  Random random(11);
+  std::size_t touching = 0;
+  for (int k = 0; k < 3000; ++k) {
+    const double x = random.uniform(-0.005, 0.065), y = random.uniform(-0.02, 0.02), z = random.uniform(-0.005, 0.035);
+    const Grains ball = one_ball({x, y, z});
+    for (std::size_t wall = 0; wall < walls.count(); ++wall) {
+      const NearestOnFace nearest = nearest_on_face(walls.placed_faces()[wall], {x, y, z});
+      const WallCandidate candidate{0, static_cast<int>(wall), nearest.side};
+      for (const InstructionSet set : instruction_sets) {
+        if (!is_available(set)) continue;
+        SpaceWallContacts contacts;
+        SpaceWallFinder(set).find(ball, {&candidate, 1}, 0, walls.placed_faces(), contacts);
+        ASSERT_EQ(contacts.count, nearest.distance2 < radius * radius ? 1 : 0) << wall;
+        if (contacts.count == 0) continue;
+        const Eigen::Vector3d normal(contacts.normal.x[0], contacts.normal.y[0], contacts.normal.z[0]);
+        EXPECT_LT((contacts.distance[0] * normal - nearest.apart).norm(), 1e-16);
+        ++touching;
+      }
+    }
+  }
+  EXPECT_GT(touching, 1000u);
 }
 
 TEST(SpaceWalls, AFloorAnEdgeAndACorner) {
