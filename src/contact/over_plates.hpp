@@ -14,8 +14,8 @@ namespace vibrosow {
 /// its two sides. Other faces have zeros: nothing lies over them.
 struct PlateRows {
   GrainVector normal{}, e1{}, e2{};
-  GrainVector sides{};                           // m: the lengths along e1 and e2; zeros where it is round
-  GrainVector holes{1, 0, 1, 0};                 // m: from and to along e1, then along e2, of what holds its holes
+  GrainVector sides{};            // m: the lengths along e1 and e2; zeros where it is round
+  GrainVector holes{1, 0, 1, 0};  // m: from and to along e1, then along e2, of what holds its holes
 };
 
 /// How a ball stands to a face: clear of a plate's whole plane, on the side that it came from; over a plate away from

@@ -102,16 +102,20 @@ bool fits(std::string_view name, std::string_view pattern) {
   return std::ranges::all_of(name, [](char c) { return c >= '0' && c <= '9'; });
 }
 
-/// The former set of the command; throws InputError where the folder holds what it may not replace.
+/// The former set of the command; throws InputError where the folder holds what it may not replace. Another process may
+/// add to the set meanwhile, each file named before it is there: one that is not named is looked for in the list anew.
 FileList former_set(const fs::path& folder, const std::string& command, const std::vector<std::string>& files) {
-  FileList former = read_list(folder).value_or(FileList{command, {}});
+  const auto list_now = [&] { return read_list(folder).value_or(FileList{command, {}}); };
+  FileList former = list_now();
   if (former.command != command)
     refuse(folder, fmt::format("holds the reports of vibrosow {}, not of {}", former.command, command));
   for (const auto& entry : fs::directory_iterator(folder)) {
     const std::string name = entry.path().filename().string();
-    if (former.files.contains(name)) continue;
-    for (const std::string& file : files)
-      if (fits(name, file)) refuse(entry.path(), "would be overwritten, and no files.json names it as a report");
+    if (former.files.contains(name) || !std::ranges::any_of(files, [&](const auto& file) { return fits(name, file); }))
+      continue;
+    former = list_now();
+    if (!former.files.contains(name))
+      refuse(entry.path(), "would be overwritten, and no files.json names it as a report");
   }
   return former;
 }
