@@ -403,6 +403,25 @@ TEST(DrawnScene, AllThatWasPutInIsSomewhere) {
   expect_of_drawn_scenes(30, unbalanced);
 }
 
+// ---- lists ----
+
+/// Lists that reach far and last, against those that are made anew every few steps: not one contact may differ.
+std::string depends_on_margins(const DrawnScene& drawn) {
+  std::optional<Start> start = start_of(drawn);
+  if (!start) return "";
+  const ComputeOptions narrow{.margins = {.wide = 0.1, .narrow = 0.02, .wide_in_space = 0.1}};
+  Simulation run(start->model, start->state), other(start->model, start->state, narrow);
+  const double end = start->model.scene.run.duration;
+  run.run_until(end), other.run_until(end);
+  const Grains &g = run.grains(), &h = other.grains();
+  const bool same = g.id == h.id && g.x == h.x && g.y == h.y && g.z == h.z && g.vx == h.vx && g.omega == h.omega;
+  return same ? "" : "other margins of the lists give another run" + told_by(run);
+}
+
+TEST(DrawnScene, IsTheSameWithOtherMarginsOfItsLists) {
+  expect_of_drawn_scenes(30, depends_on_margins);
+}
+
 // ---- walls ----
 
 /// Follows every ball from millisecond to millisecond.
