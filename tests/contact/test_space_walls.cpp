@@ -86,19 +86,20 @@ TEST(SpaceWalls, VectorsFindWhatTheFaceSays) {
     for (std::size_t wall = 0; wall < walls.count(); ++wall) {
       const NearestOnFace nearest = nearest_on_face(walls.placed_faces()[wall], {x, y, z});
       const WallCandidate candidate{0, static_cast<int>(wall), nearest.side};
+      const bool touches = nearest.distance2 < radius * radius;
+      touching += touches;
       for (const InstructionSet set : instruction_sets) {
         if (!is_available(set)) continue;
         SpaceWallContacts contacts;
         SpaceWallFinder(set).find(ball, {&candidate, 1}, 0, walls.placed_faces(), contacts);
-        ASSERT_EQ(contacts.count, nearest.distance2 < radius * radius ? 1 : 0) << wall;
-        if (contacts.count == 0) continue;
+        ASSERT_EQ(contacts.count, touches) << wall;
+        if (!touches) continue;
         const Eigen::Vector3d normal(contacts.normal.x[0], contacts.normal.y[0], contacts.normal.z[0]);
         EXPECT_LT((contacts.distance[0] * normal - nearest.apart).norm(), 1e-16);
-        ++touching;
       }
     }
   }
-  EXPECT_GT(touching, 1000u);
+  EXPECT_GT(touching, 400u);
 }
 
 TEST(SpaceWalls, AFloorAnEdgeAndACorner) {
