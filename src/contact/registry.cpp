@@ -1,29 +1,14 @@
 #include <stdexcept>
 
+#include "compute/each_instruction_set.hpp"
 #include "contact/energy_kernels.hpp"
 #include "contact/kernels.hpp"
 
 namespace vibrosow {
 
 // Defined in law_kernels.cpp and space_law_kernels.cpp, compiled for each.
-inline namespace generic {
-template <Law law>
-const LawKernels& law_kernels();
-template <Law law>
-const SpaceLawKernels& space_law_kernels();
-}  // namespace generic
-namespace avx2 {
-template <Law law>
-const LawKernels& law_kernels();
-template <Law law>
-const SpaceLawKernels& space_law_kernels();
-}  // namespace avx2
-namespace avx512 {
-template <Law law>
-const LawKernels& law_kernels();
-template <Law law>
-const SpaceLawKernels& space_law_kernels();
-}  // namespace avx512
+VIBROSOW_DECLARE_IN_EACH_SET(template <Law law> const LawKernels& law_kernels();
+                             template <Law law> const SpaceLawKernels& space_law_kernels();)
 
 template <Law law>
 const EnergyKernels& energy_kernels();  // law_energies.cpp, compiled for each law
@@ -34,23 +19,6 @@ namespace {
 
 using Table = std::vector<KernelSet>;
 
-[[maybe_unused]] std::size_t index_of(InstructionSet set) {
-  return static_cast<std::size_t>(set);
-}
-
-/// Those of each instruction set that this program was built with; null for the others.
-template <Law law>
-auto kernels_at(std::size_t index) {
-  decltype(KernelSet::vectors) kernels{generic::law_kernels<law>()[index]};
-#ifdef VIBROSOW_AVX2
-  kernels[index_of(InstructionSet::avx2)] = avx2::law_kernels<law>()[index];
-#endif
-#ifdef VIBROSOW_AVX512
-  kernels[index_of(InstructionSet::avx512)] = avx512::law_kernels<law>()[index];
-#endif
-  return kernels;
-}
-
 #ifdef VIBROSOW_PLANE_ALONE  // of a program that simulates nothing in space, and is to be small
 template <Law>
 void add_space([[maybe_unused]] KernelSet& set, [[maybe_unused]] std::size_t index) {}
@@ -58,13 +26,7 @@ void add_space([[maybe_unused]] KernelSet& set, [[maybe_unused]] std::size_t ind
 template <Law law>
 void add_space(KernelSet& set, std::size_t index) {
   set.energy_in_space = space_energy_kernels<law>()[index];
-  set.in_space = {generic::space_law_kernels<law>()[index]};
-#ifdef VIBROSOW_AVX2
-  set.in_space[index_of(InstructionSet::avx2)] = avx2::space_law_kernels<law>()[index];
-#endif
-#ifdef VIBROSOW_AVX512
-  set.in_space[index_of(InstructionSet::avx512)] = avx512::space_law_kernels<law>()[index];
-#endif
+  set.in_space = VIBROSOW_OF_EACH_SET(, space_law_kernels<law>()[index]);
 }
 #endif
 
@@ -72,7 +34,8 @@ template <Law law>
 void add_law(Table& table) {
   const EnergyKernels& energies = energy_kernels<law>();
   for (std::size_t index = 0; index < compiled_effects.size(); ++index) {
-    KernelSet set{law, compiled_effects[index], kernels_at<law>(index), energies[index], {}, {}};
+    KernelSet set{law, compiled_effects[index], VIBROSOW_OF_EACH_SET(, law_kernels<law>()[index]), energies[index], {},
+                  {}};
     add_space<law>(set, index);
     table.push_back(set);
   }

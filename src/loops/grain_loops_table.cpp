@@ -1,38 +1,16 @@
-#include <stdexcept>
-
+#include "compute/each_instruction_set.hpp"
 #include "loops/clump_loops.hpp"
 #include "loops/grain_loops.hpp"
 #include "loops/space_loops.hpp"
 
 namespace vibrosow {
 
-// Defined in grain_loops.cpp, space_loops.cpp and clump_loops.cpp, compiled for each that VIBROSOW_INSTRUCTION_SETS
-// names.
-inline namespace generic {
-extern const GrainLoops loops;
-extern const SpaceLoops loops_in_space;
-extern const ClumpLoops loops_of_clumps;
-}  // namespace generic
-namespace avx2 {
-extern const GrainLoops loops;
-extern const SpaceLoops loops_in_space;
-extern const ClumpLoops loops_of_clumps;
-}  // namespace avx2
-namespace avx512 {
-extern const GrainLoops loops;
-extern const SpaceLoops loops_in_space;
-extern const ClumpLoops loops_of_clumps;
-}  // namespace avx512
+// Defined in grain_loops.cpp, space_loops.cpp and clump_loops.cpp, compiled for each.
+VIBROSOW_DECLARE_IN_EACH_SET(extern const GrainLoops loops; extern const SpaceLoops loops_in_space;
+                             extern const ClumpLoops loops_of_clumps;)
 
 const GrainLoops& grain_loops(InstructionSet set) {
-  if (!is_available(set)) throw std::logic_error("these vector instructions are not available");
-#ifdef VIBROSOW_AVX2
-  if (set == InstructionSet::avx2) return avx2::loops;
-#endif
-#ifdef VIBROSOW_AVX512
-  if (set == InstructionSet::avx512) return avx512::loops;
-#endif
-  return generic::loops;
+  return *of_set<const GrainLoops*>(set, VIBROSOW_OF_EACH_SET(&, loops));
 }
 
 #ifdef VIBROSOW_PLANE_ALONE  // of a program that simulates nothing in space, and is to be small
@@ -47,25 +25,11 @@ const ClumpLoops& clump_loops(InstructionSet) {
 }
 #else
 const SpaceLoops& space_loops(InstructionSet set) {
-  if (!is_available(set)) throw std::logic_error("these vector instructions are not available");
-#ifdef VIBROSOW_AVX2
-  if (set == InstructionSet::avx2) return avx2::loops_in_space;
-#endif
-#ifdef VIBROSOW_AVX512
-  if (set == InstructionSet::avx512) return avx512::loops_in_space;
-#endif
-  return generic::loops_in_space;
+  return *of_set<const SpaceLoops*>(set, VIBROSOW_OF_EACH_SET(&, loops_in_space));
 }
 
 const ClumpLoops& clump_loops(InstructionSet set) {
-  if (!is_available(set)) throw std::logic_error("these vector instructions are not available");
-#ifdef VIBROSOW_AVX2
-  if (set == InstructionSet::avx2) return avx2::loops_of_clumps;
-#endif
-#ifdef VIBROSOW_AVX512
-  if (set == InstructionSet::avx512) return avx512::loops_of_clumps;
-#endif
-  return generic::loops_of_clumps;
+  return *of_set<const ClumpLoops*>(set, VIBROSOW_OF_EACH_SET(&, loops_of_clumps));
 }
 #endif
 
