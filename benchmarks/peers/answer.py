@@ -8,14 +8,14 @@ from scenes import Window, tray
 STEPS = [2e-5, 5e-5, 1e-4, 2e-4, 5e-4, 1e-3]
 WITHIN = 3  # percent of the mean at the smallest step
 COLUMNS = ['program', 'dt_s', 'seeds', 'out', 'out_min', 'out_max', 'difference_percent', 'within_3_percent',
-           'wall_s_per_simulated_s', 'wall_min', 'wall_max', 'answers']
+           'cpu_s_per_simulated_s', 'cpu_min', 'cpu_max', 'answers']
 
 
 def by_lammps(bench, scene, places, dt, seed):
     steps = round(scene.outflow / dt)
     skin = 3e-3 if dt <= 1e-4 else 5e-3  # a long step moves grains far: fewer rebuilds
     result = lammps(bench, scene, Start(places, dt), Window(0, steps, 0, steps), skin)
-    return result.out, result.wall / scene.outflow
+    return result.out, result.cpu / scene.outflow
 
 
 def by_vibrosow(integrator):
@@ -23,7 +23,7 @@ def by_vibrosow(integrator):
         scene = replace(scene, sets=(scene.sets[0], f'numerics.dt={dt!r} s', 'numerics.allow_long_step=true',
                                      f'numerics.integrator={integrator}', 'guard.energy_tolerance=1e9'))
         found, timing = run_vibrosow(bench, scene, scene.outflow, '--random-seed', seed)
-        return found['balance']['counted'] + found['balance']['spilled'], timing['wall_s'] / scene.outflow
+        return found['balance']['counted'] + found['balance']['spilled'], timing['measured_cpu_s'] / scene.outflow
     return run
 
 
@@ -32,7 +32,7 @@ PROGRAMS = {'lammps': by_lammps, 'vibrosow velocity-verlet': by_vibrosow('veloci
 
 
 def measure(bench, seeds, say):
-    """{(program, dt): [(grains out, wall time per simulated second) of each seed]}; a run that fails is None."""
+    """{(program, dt): [(grains out, processor time per simulated second) of each seed]}; a run that fails is None."""
     scene = tray(3, 'soft')
     found = {(program, dt): [] for program in PROGRAMS for dt in STEPS}
     for seed in range(1, seeds + 1):
@@ -58,12 +58,12 @@ def rows_of(program, found):
             rows.append([program, dt, len(runs), '', '', '', '', 'failed', '', '', ''])
             right = False
             continue
-        outs, walls = zip(*runs)
+        outs, times = zip(*runs)
         difference = 100 * (statistics.mean(outs) / reference - 1)
         right = right and abs(difference) <= WITHIN
         rows.append([program, dt, len(runs), f'{statistics.mean(outs):.1f}', min(outs), max(outs), f'{difference:.2f}',
-                     'yes' if abs(difference) <= WITHIN else 'no', f'{statistics.median(walls):.4g}', f'{min(walls):.4g}',
-                     f'{max(walls):.4g}'])
+                     'yes' if abs(difference) <= WITHIN else 'no', f'{statistics.median(times):.4g}', f'{min(times):.4g}',
+                     f'{max(times):.4g}'])
         longest = len(rows) - 1 if right else longest
     return [row + ['yes' if k == longest else ''] for k, row in enumerate(rows)]
 

@@ -4,9 +4,7 @@ import json
 import math
 import os
 import re
-import resource
 import subprocess
-import time
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -21,46 +19,39 @@ LAMMPS_HERTZ_DAMPING = 9.93e7
 
 @dataclass
 class Result:
-    """Of the timed window: wall time of the loop alone, and the share of it for which the program had its core; grains present
-    summed over steps; touching contacts a step and grains out at the scene's `outflow` where they were looked at."""
-    wall: float
+    """Of the timed window: processor time of the loop alone, s; grains present summed over steps; touching contacts a step and
+    grains out at the scene's `outflow` where they were looked at."""
+    cpu: float
     grain_steps: float
     grains: int = 0
     dt: float = 0
     steps: int = 0
     contacts: float = math.nan
     out: int = 0
-    share: float = 1
 
     @property
     def speed(self):
         """Million grain-steps a second of processor time."""
-        return self.grain_steps / (self.wall * self.share) / 1e6
+        return self.grain_steps / self.cpu / 1e6
 
 
 class Bench:
     """Where and on which core programs run."""
 
-    def __init__(self, vibrosow, box2d, core, work):
+    def __init__(self, vibrosow, native_lammps, box2d, core, work):
         self.vibrosow, self.box2d, self.core, self.work = Path(vibrosow).resolve(), box2d, core, Path(work)
+        self.native_lammps = native_lammps and Path(native_lammps).resolve()
         self.before = {}  # of each scene and its start: what Vibrosow counts up to the timed window
-        self.share = 1.0  # of its core that the last command had
+        self.work.mkdir(exist_ok=True)
 
     def output_of(self, command):
         """Runs on the one core, without threads; returns what it printed, or fails with it."""
         environment = dict(os.environ, OMP_NUM_THREADS='1', PYTHONPATH=str(HERE / 'yade'), PYTHONDONTWRITEBYTECODE='1')
-        began, before = time.monotonic(), children_time()
         done = subprocess.run(['taskset', '-c', str(self.core)] + [str(word) for word in command], cwd=self.work,
                               env=environment, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, errors="replace")
         if done.returncode != 0:
             raise RuntimeError(f'{" ".join(str(word) for word in command)}\n{done.stdout[-3000:]}')
-        self.share = min(1.0, (children_time() - before) / (time.monotonic() - began))
         return done.stdout
-
-
-def children_time():
-    used = resource.getrusage(resource.RUSAGE_CHILDREN)
-    return used.ru_utime + used.ru_stime
 
 
 @dataclass
@@ -106,7 +97,7 @@ def vibrosow(bench, scene, start, window, options=()):
     before = bench.before[case]
     after, timing = run_vibrosow(bench, scene, lead + window.steps * start.dt, *options, '--set', f'run.measure_from={lead!r} s')
     steps = after['steps'] - before['steps']
-    result = Result(timing['measured_wall_s'], after['grain_steps'] - before['grain_steps'],
+    result = Result(timing['measured_cpu_s'], after['grain_steps'] - before['grain_steps'],
                     after['balance']['put_in'], after['dt_s'], steps,
                     (after['force_evaluations'] - before['force_evaluations']) / steps)
     if window.rest:
@@ -204,13 +195,13 @@ def lammps_box(scene):
             'slot_to': slot_to, 'decks': HERE / 'lammps'}
 
 
-def lammps(bench, scene, start, window, skin=None, granular=False):
+def lammps(bench, scene, start, window, skin=None, granular=False, program='lmp'):
     write_atoms(bench.work / 'lammps.data', scene, start, ball_density(scene))
     steep = math.radians(67.5)
     variables = window_variables(window, skin or scene.skin['lammps']) | lammps_laws(scene, granular) | lammps_box(scene) | {
         'data': 'lammps.data', 'dt': start.dt, 'holes': scene.holes, 'amplitude': scene.amplitude,
         'frequency': scene.frequency, 'half_width': 0.05, 'slope_x': math.sin(steep), 'slope_y': math.cos(steep)}
-    return molecular(bench, scene, start, window, ['lmp', '-screen', 'none'], HERE / 'lammps' / f'{scene.deck}.in', variables)
+    return molecular(bench, scene, start, window, [program, '-screen', 'none'], HERE / 'lammps' / f'{scene.deck}.in', variables)
 
 
 def lammps_granular(bench, scene, start, window):
@@ -218,17 +209,27 @@ def lammps_granular(bench, scene, start, window):
     return lammps(bench, scene, start, window, granular=True)
 
 
+def native_lammps_granular(bench, scene, start, window):
+    """The same source, built for this processor (native-lammps)."""
+    return lammps(bench, scene, start, window, granular=True, program=bench.native_lammps)
+
+
 def liggghts(bench, scene, start, window):
     write_atoms(bench.work / 'liggghts.data', scene, start, ball_density(scene), types=2)
     write_mesh(bench.work / 'walls.stl', scene)
     variables = window_variables(window, scene.skin['liggghts']) | {
         key: textbook_restitution(value) if 'restitution' in key else value for key, value in scene.law.items()} | {
-            'data': 'liggghts.data', 'dt': start.dt, 'amplitude': scene.amplitude, 'tray': 'walls.stl', 'walls': 'walls.stl',
+            'data': 'liggghts.data', 'note_cpu': HERE / 'liggghts' / 'note-cpu', 'dt': start.dt, 'amplitude': scene.amplitude, 'tray': 'walls.stl', 'walls': 'walls.stl',
             'wall_kn': 2 * scene.law['kn'], 'wall_kt': 2 * scene.law['kt'], 'depth': scene.depth,
             'period': 1 / scene.frequency if scene.frequency else 0}
     deck = HERE / 'liggghts' / f'{"tray" if scene.is_tray else scene.deck}.in'
+    noted = bench.work / 'cpu'
+    noted.unlink(missing_ok=True)
     # With -screen none it crashes on reading a mesh.
-    return molecular(bench, scene, start, window, ['liggghts'], deck, variables)
+    result = molecular(bench, scene, start, window, ['liggghts'], deck, variables)
+    before, after = map(float, noted.read_text().split())
+    result.cpu = after - before
+    return result
 
 
 def molecular(bench, scene, start, window, command, deck, variables):
@@ -245,13 +246,15 @@ def molecular(bench, scene, start, window, command, deck, variables):
 
 
 def read_log(text):
-    """The second loop's time; its grain-steps by the trapezoidal rule from the table of step, atoms and dt."""
+    """The second loop's time, of the processor where the program knows it; its grain-steps by the trapezoidal rule from the table of step, atoms and dt."""
     tables = re.findall(r'^ *Step +Atoms +Dt *\n((?:[ \d.e+-]+\n|WARNING.*\n)*)', text, re.MULTILINE)
     rows = [[[float(word) for word in line.split()] for line in table.splitlines() if line[:1] != 'W'] for table in tables]
     loops = re.findall(r'Loop time of (\S+) on 1 procs for (\d+) steps', text)
+    shares = re.findall(r'([\d.]+)% CPU use', text)
     timed = rows[1]
     grain_steps = sum((b[0] - a[0]) * (a[1] + b[1]) / 2 for a, b in zip(timed, timed[1:]))
-    return Result(float(loops[1][0]), grain_steps, int(rows[0][0][1]), timed[0][2], int(loops[1][1]))
+    share = float(shares[1]) / 100 if shares else 1
+    return Result(float(loops[1][0]) * share, grain_steps, int(rows[0][0][1]), timed[0][2], int(loops[1][1]))
 
 
 def yade(bench, scene, start, window):
@@ -267,7 +270,7 @@ def yade(bench, scene, start, window):
     (bench.work / 'yade.json').write_text(json.dumps(parameters))
     deck = HERE / 'yade' / ('tray.py' if scene.is_tray else 'channel.py')
     found = result_line(bench.output_of(['yade', '-j1', '-n', '-x', deck, bench.work / 'yade.json']))
-    return Result(found['wall_s'], found['grain_steps'], found['number'], found['dt'], window.steps, found['contacts'],
+    return Result(found['cpu_s'], found['grain_steps'], found['number'], found['dt'], window.steps, found['contacts'],
                   found['out'])
 
 
@@ -277,7 +280,7 @@ def box2d(rate):
         rest = window.rest * start.dt
         text = bench.output_of([bench.box2d, 'start.txt', scene.holes, rate, scene.lead, scene.window, rest])
         found = result_line(text)
-        return Result(found['wall_s'], found['grain_steps'], found['number'], 1 / rate, found['steps'], found['contacts'],
+        return Result(found['cpu_s'], found['grain_steps'], found['number'], 1 / rate, found['steps'], found['contacts'],
                       found['out'])
     return run
 
@@ -292,23 +295,23 @@ def version_of(bench, name):
         return re.search(r'\d+(\.\d+)+', bench.output_of([bench.vibrosow, '--version']))[0]
     if name.startswith('box2d'):
         return bench.output_of([bench.box2d, '--version']).strip()
-    question = {'lammps': (['lmp', '-h'], r'- (.*)'),
+    question = {'lammps': (['lmp', '-h'], r'- (.*)'), 'native': ([bench.native_lammps, '-h'], r'- (.*)'),
                 'liggghts': (['liggghts', '-in', '/dev/null', '-log', 'none'], r'PUBLIC ([\d.]+)'),
                 'yade': (['yade', '--version'], r'version: (\S+)')}
     command, pattern = question[name.split()[0]]
     return re.search(pattern, bench.output_of(command))[1].strip()
 
 
-PROGRAMS = {'vibrosow': vibrosow, 'lammps': lammps, 'lammps granular': lammps_granular, 'liggghts': liggghts, 'yade': yade,
+PROGRAMS = {'vibrosow': vibrosow, 'lammps': lammps, 'lammps granular': lammps_granular,
+            'native lammps granular': native_lammps_granular, 'liggghts': liggghts, 'yade': yade,
             'box2d 240 Hz': box2d(240), 'box2d 1 kHz': box2d(1000), 'box2d 4 kHz': box2d(4000),
             'vibrosow as published': vibrosow_as_published}
 
 
 def can_run(program, scene):
-    if program == 'lammps granular':
-        return scene.deck == 'tray-in-space'
-    if scene.depth:
-        return program in ('vibrosow', 'lammps', 'liggghts')
+    if scene.depth:  # `lammps` of the slot speaks `granular` already
+        return program in ('vibrosow', 'lammps', 'liggghts', 'native lammps granular') or (
+            program == 'lammps granular' and scene.deck == 'tray-in-space')
     if program.startswith('box2d'):
         return scene.is_tray
-    return program != 'vibrosow as published' or not scene.is_tray
+    return 'granular' not in program and (program != 'vibrosow as published' or not scene.is_tray)

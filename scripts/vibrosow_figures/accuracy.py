@@ -86,12 +86,12 @@ def work_precision(options):
     figure.savefig(options.out, metadata={"Date": None} if options.out.endswith(".svg") else None, dpi=150)
 
 
-LEVELS = (("draft", 3e-4, 20), ("design", 3e-5, 20), ("reference", 3e-6, 40))  # as src/scene/accuracy_level.hpp; a test compares
+LEVELS = (("draft", 3e-4, 12), ("design", 3e-5, 12), ("reference", 3e-6, 24))  # as src/scene/accuracy_level.hpp; a test compares
 
 
 def level_rows(folder):
     """Of a folder of `vibrosow accuracy` that ran velocity Verlet at the levels' softness and steps: level, row, CPU time of a run (s). Where
-    so few steps are not safe, as 20 of balls whose springs turn them, a level takes more, and so does its row."""
+    so few steps are not safe, as of grains, a level takes more, and so does its row."""
     table = list(zip(rows(f"{folder}/accuracy.csv"), rows(f"{folder}/accuracy_timing.csv")))
     for level, compression, steps in LEVELS:
         found = [(float(row["steps_per_contact"]), row, float(timing["cpu_s"])) for row, timing in table

@@ -17,7 +17,7 @@ namespace vibrosow {
 /// lot's.
 struct AccuracySetting {
   Integrator integrator = Integrator::velocity_verlet;
-  double steps_per_contact = 20;
+  double steps_per_contact = usual_steps_per_contact(Integrator::velocity_verlet);
   double shell_compression = 0;  // eps / r under the grain's own weight; 0: Hertz' law
   double youngs_modulus = 0;     // Pa, of seeds; 0: elastic shells
   double slip_speed = 0;         // m/s; 0: friction has none, as a spring has

@@ -25,12 +25,14 @@
 #ifdef VIBROSOW_AVX2
 #define VIBROSOW_OF_AVX2(prefix, ...) prefix avx2::__VA_ARGS__
 #else
-#define VIBROSOW_OF_AVX2(prefix, ...) {}
+#define VIBROSOW_OF_AVX2(prefix, ...) \
+  {}
 #endif
 #ifdef VIBROSOW_AVX512
 #define VIBROSOW_OF_AVX512(prefix, ...) prefix avx512::__VA_ARGS__
 #else
-#define VIBROSOW_OF_AVX512(prefix, ...) {}
+#define VIBROSOW_OF_AVX512(prefix, ...) \
+  {}
 #endif
 /// In the order of `instruction_sets`, null for those that this program was not built with. `prefix`: & or nothing,
 /// before the name.

@@ -99,7 +99,7 @@ Numerics read_numerics(Table table, Law law, AccuracyLevel accuracy) {
   if (numerics.dt) numerics.where = table.where("dt");
   const auto steps = table.number("steps_per_contact", 1, 1e6);
   if (numerics.dt && steps) table.fail("steps_per_contact", "contradicts dt; give one of them");
-  numerics.steps_per_contact = steps.value_or(numerics.steps_per_contact);
+  numerics.steps_per_contact = steps.value_or(usual_steps_per_contact(numerics.integrator));
   numerics.impact_speed = table.quantity("impact_speed", Dimension::speed, 1e-6, 1000);
   if (numerics.impact_speed && law == Law::elastic_shell) {
     table.fail("impact_speed", "belongs to law = \"hertz\"; an elastic shell's contact lasts as long at any speed");

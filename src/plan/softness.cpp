@@ -82,7 +82,8 @@ Scene at_its_accuracy(const Scene& scene) {
       *std::ranges::find(accuracy_levels, scene.numerics.accuracy, &AccuracyLevelValues::level);
   Scene changed = scene;
   changed.numerics.accuracy = AccuracyLevel::as_written;
-  changed.numerics.steps_per_contact = level.steps_per_contact;
+  changed.numerics.steps_per_contact =
+      std::max(level.steps_per_contact, usual_steps_per_contact(scene.numerics.integrator));
   const LawTraits& law = traits_of(changed.contact.law);
   const double stiffest = has_shell(law) ? 0 : softness_of(changed, law);
   double softness = softness_at(level, changed, law);

@@ -230,8 +230,8 @@ JsonKeys<Run> timing_keys(bool phases) {
   using R = const Run&;
   JsonKeys<Run> keys = {
       {"wall_s", "s", "wall time of the run", [](R r) { return r.wall_time; }},
-      {"measured_wall_s", "s", "that part of it that went into the measuring window",
-       [](R r) { return r.measured_wall_time; }},
+      {"measured_cpu_s", "s", "processor time of all threads in the measuring window",
+       [](R r) { return r.measured_cpu_time; }},
       {"grain_steps_per_s", "1/s", "grains times steps in a second of wall time",
        [](R r) { return r.wall_time > 0 ? Json(static_cast<double>(r.grain_steps) / r.wall_time) : Json(nullptr); }}};
   for (std::size_t k = 0; phases && k < phase_names.size(); ++k)

@@ -76,7 +76,7 @@ struct Run {
   std::vector<OutflowEvent> events;       // by time
   std::vector<Snapshot> snapshots;        // one a record time that was reached; empty without a record
   double wall_time = 0;                   // s, of this machine
-  double measured_wall_time = 0;          // s, that part of it that went into the measuring window
+  double measured_cpu_time = 0;           // s of the process, all its threads, in the measuring window
   std::optional<PhaseTimes> phase_times;  // of wall_time, where asked for
 };
 

@@ -553,11 +553,10 @@ void fields(Io& io, Vessel& vessel) {
 
 template <class Io>
 void fields(Io& io, Numerics& numerics) {
-  const Numerics usual;
   io.used_choice("accuracy", numerics.accuracy, accuracy_level_names(), AccuracyLevel::as_written);
   io.choice("integrator", numerics.integrator, integrator_names());
   io.optional("dt_s", numerics.dt);
-  io.used("steps_per_contact", numerics.steps_per_contact, usual.steps_per_contact, !numerics.dt);
+  io.used("steps_per_contact", numerics.steps_per_contact, usual_steps_per_contact(numerics.integrator), !numerics.dt);
   io.optional("impact_speed_m_per_s", numerics.impact_speed);
   io.value("allow_long_step", numerics.allow_long_step);
   range(io, numerics.dt.value_or(1), 1e-12, latest, "dt_s");

@@ -1,6 +1,7 @@
 #include "simulation/simulate.hpp"
 
 #include <chrono>
+#include <ctime>
 #include <numeric>
 
 #include "scene/measuring_window.hpp"
@@ -15,6 +16,11 @@ using Clock = std::chrono::steady_clock;
 
 double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+/// Of this process, all its threads, s.
+double processor_time() {
+  return static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
 }
 
 /// A run that was interrupted before its first step.
@@ -40,11 +46,11 @@ Run run_to_end(Simulation& simulation, const SimulationOptions& options) {
   look_at_records();
   const double measure_from = measuring_window(model.scene).from;
   bool interrupted = false;
-  Clock::time_point measuring = Clock::now();
+  std::optional<double> measured_since;     // of the processor's time
   std::int64_t steps = 0, grain_steps = 0;  // since the last look
   while (!simulation.at_end() && !interrupted && simulation.step()) {
     look_at_records();
-    if (simulation.time() <= measure_from) measuring = Clock::now();
+    if (!measured_since && simulation.time() > measure_from) measured_since = processor_time();
     grain_steps += static_cast<std::int64_t>(simulation.grains().size());
     if (++steps < steps_between_looks && grain_steps < grain_steps_between_looks) continue;
     steps = grain_steps = 0;
@@ -58,7 +64,7 @@ Run run_to_end(Simulation& simulation, const SimulationOptions& options) {
   if (interrupted && options.on_checkpoint) checkpoint(simulation);
   Run run = simulation.result();
   if (interrupted) run.status = RunStatus::interrupted;
-  run.measured_wall_time = run.end_time > measure_from ? seconds_since(measuring) : 0;
+  if (measured_since) run.measured_cpu_time = processor_time() - *measured_since;
   return run;
 }
 

@@ -28,7 +28,7 @@ TEST(AccuracySettings, DefaultsReachBeyondTheSceneToBothSides) {
   EXPECT_DOUBLE_EQ(grid.shell_compressions[1], 1e-5);
   EXPECT_GT(grid.shell_compressions[2], 2e-5);
   EXPECT_THAT(grid.slip_speeds, ElementsAre(DoubleNear(0.01, 1e-12), DoubleNear(0.08, 1e-12)));
-  EXPECT_DOUBLE_EQ(grid.steps_per_contact.back(), 80);
+  EXPECT_DOUBLE_EQ(grid.steps_per_contact.back(), 48);
 }
 
 TEST(AccuracySettings, NoDefaultIsPredictedUnsoundOrTooLong) {

@@ -164,7 +164,7 @@ TEST(ReadScene, DefaultsAreNeutral) {
   EXPECT_TRUE(scene.tray.holes.empty());
   EXPECT_FALSE(scene.tray.motion);
   EXPECT_FALSE(scene.hopper);
-  EXPECT_EQ(scene.numerics.steps_per_contact, 20);
+  EXPECT_EQ(scene.numerics.steps_per_contact, 12);
   EXPECT_FALSE(scene.numerics.dt);
   EXPECT_EQ(scene.run.count_below, 0.02);
 }

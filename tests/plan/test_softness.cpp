@@ -86,7 +86,7 @@ TEST(Softness, AModelIsThatOfItsLevel) {
   scene.numerics.accuracy = AccuracyLevel::reference;
   const Model model = prepare(scene);
   EXPECT_DOUBLE_EQ(model.scene.contact.shell_compression, 3e-6);
-  EXPECT_NEAR(model.step.contact_duration / model.step.dt, 40, 1e-9);
+  EXPECT_NEAR(model.step.contact_duration / model.step.dt, 24, 1e-9);
 }
 
 }  // namespace

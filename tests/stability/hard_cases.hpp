@@ -60,6 +60,7 @@ struct Setting {
     scene.contact.youngs_modulus = 2e7;
     scene.contact.damping_rate = 1000;
     scene.numerics.integrator = scheme;
+    scene.numerics.steps_per_contact = usual_steps_per_contact(scheme);
   }
 };
 inline std::ostream& operator<<(std::ostream& out, const Setting& setting) {

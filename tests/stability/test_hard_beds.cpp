@@ -122,8 +122,10 @@ TEST_P(HardBed, PileComesToRest) {
   Simulation run(prepare(scene), 1);
   while (run.time() < settled) ASSERT_TRUE(run.step()) << *run.guard().stop_reason();
   const Bounds bounds("pile at rest", GetParam(), scene.contact);
+  // The slope of sliding friction is held to what a step can take, so a pile creeps at a speed that goes with the step.
+  const double longer = in_space ? 1 : 20 / scene.numerics.steps_per_contact;
   bounds.at_most("kinetic energy of a grain", kinetic_energy(run.grains()) / count,
-                 1e-8 * Bench::mass * standard_gravity * Bench::radius, "J");
+                 1e-8 * longer * longer * Bench::mass * standard_gravity * Bench::radius, "J");
   const Grains before = run.grains();
   while (run.time() < settled + looked_at) ASSERT_TRUE(run.step());
   double most = 0;
