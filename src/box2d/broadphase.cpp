@@ -8,6 +8,7 @@
 #include <numeric>
 #include <utility>
 
+#include "box2d/cluster_search.hpp"
 #include "box2d/near_places.hpp"
 #include "box2d/pair_rows.hpp"
 #include "elementary/functions.hpp"
@@ -18,8 +19,7 @@ namespace vibrosow {
 
 namespace {
 
-constexpr std::size_t cluster_size = 8;  // grains
-constexpr double strip_height = 2.8;     // in diameters of the largest grain: eight of them fill about a square
+constexpr double strip_height = 2.8;  // in diameters of the largest grain: eight of them fill about a square
 
 /// Places of the grains of some clusters, next to each other in memory.
 struct Surroundings {
@@ -76,15 +76,6 @@ struct Part {
   std::vector<WallCandidate> walls;
 };
 
-struct WallQuery : b2QueryCallback {
-  explicit WallQuery(std::vector<int>& walls) : found(walls) {}
-  bool ReportFixture(b2Fixture* fixture) override {
-    found.push_back(static_cast<int>(fixture->GetUserData().pointer));
-    return true;
-  }
-  std::vector<int>& found;
-};
-
 }  // namespace
 
 struct Broadphase::World {
@@ -94,17 +85,6 @@ struct Broadphase::World {
     std::vector<b2Fixture*> fixtures;      // none while the wall is removed
   };
 
-  /// Box2D's tree calls it for every cluster met.
-  struct ClusterQuery {
-    const World& world;
-    std::vector<int>& found;
-
-    bool QueryCallback(int32 proxy) {
-      found.push_back(world.cluster_of_proxy[static_cast<std::size_t>(proxy)]);
-      return true;
-    }
-  };
-
   b2World world{b2Vec2(0, 0)};
   std::vector<b2Body*> bodies;  // by vessel
   std::vector<b2Vec2> rest;     // by vessel, where its body stands at rest
@@ -112,9 +92,7 @@ struct Broadphase::World {
   std::vector<Wall> walls;
   double largest_sagitta = 0;  // m, by which an arc bulges beyond its edges
   Sorted sorted;
-  b2DynamicTree tree;        // of the clusters
-  std::vector<int> proxies;  // by cluster
-  std::vector<int> cluster_of_proxy;
+  ClusterTree tree;
   std::vector<Part> parts;  // by range
   PairRows rows;
   double units_per_metre;
@@ -171,16 +149,7 @@ struct Broadphase::World {
   /// Forms the clusters afresh and brings the tree up to date with them.
   void update_boxes(const Grains& grains, const Reaches& reaches, const Eigen::Vector2d& shift) {
     sorted.sort(grains, reaches, shift, strip_height / units_per_metre);
-    while (proxies.size() > sorted.clusters()) tree.DestroyProxy(proxies.back()), proxies.pop_back();
-    for (std::size_t c = 0; c < sorted.clusters(); ++c) {
-      if (c < proxies.size())
-        tree.MoveProxy(proxies[c], box(c, sorted.r, 0), b2Vec2(0, 0));
-      else
-        proxies.push_back(tree.CreateProxy(box(c, sorted.r, 0), nullptr));
-      const std::size_t proxy = static_cast<std::size_t>(proxies[c]);
-      if (cluster_of_proxy.size() <= proxy) cluster_of_proxy.resize(proxy + 1);
-      cluster_of_proxy[proxy] = static_cast<int>(c);
-    }
+    tree.update(sorted.clusters(), [&](std::size_t c) { return box(c, sorted.r, 0); });
   }
 
   /// For each grain of the clusters [from, to), moved by `moved` along x (m): the numbers of those that are nearer than
@@ -190,8 +159,7 @@ struct Broadphase::World {
     rows.begin_range(range);
     for (std::size_t c = from; c < to; ++c) {
       part.found.clear();
-      ClusterQuery query{*this, part.found};
-      tree.Query(&query, box(c, sorted.r, margin, moved));
+      tree.query(box(c, sorted.r, margin, moved), [&](int met) { part.found.push_back(met); });
       gather(part.found, part.around);
       for (std::size_t k = sorted.begin(c); k < sorted.end(c); ++k) {
         const int grain = sorted.grain[k];
@@ -224,11 +192,7 @@ struct Broadphase::World {
   void look_for_walls(Part& part, std::size_t from, std::size_t to, double margin) const {
     part.walls.clear();
     for (std::size_t c = from; c < to; ++c) {
-      part.found.clear();
-      WallQuery query(part.found);
-      world.QueryAABB(&query, box(c, sorted.wall_r, margin + largest_sagitta));
-      std::sort(part.found.begin(), part.found.end());
-      part.found.erase(std::unique(part.found.begin(), part.found.end()), part.found.end());
+      walls_in(world, box(c, sorted.wall_r, margin + largest_sagitta), part.found);
       for (std::size_t k = sorted.begin(c); k < sorted.end(c); ++k)
         for (const int wall : part.found) part.walls.push_back({sorted.grain[k], wall, 0.0});
     }
@@ -237,18 +201,10 @@ struct Broadphase::World {
   void find_pairs(const Ranges& ranges, double margin, double moved, bool all, PairList& pairs) {
     parts.resize(static_cast<std::size_t>(ranges.count));
     rows.begin(sorted.grain.size(), ranges.count);
-    share_clusters(
-        ranges, [&](int range, std::size_t from, std::size_t to) { look_around(range, from, to, margin, moved, all); });
-    rows.transpose(pairs);
-  }
-
-  template <class Work>
-  void share_clusters(const Ranges& ranges, Work work) const {
-    const std::size_t clusters = sorted.clusters(), count = static_cast<std::size_t>(ranges.count);
-    ranges.for_each([&](int range) {
-      const std::size_t k = static_cast<std::size_t>(range);
-      work(range, clusters * k / count, clusters * (k + 1) / count);
+    share_clusters(ranges, sorted.clusters(), [&](int range, std::size_t from, std::size_t to) {
+      look_around(range, from, to, margin, moved, all);
     });
+    rows.transpose(pairs);
   }
 };
 
@@ -316,14 +272,10 @@ void Broadphase::find(const Grains& grains, const std::vector<Pose>& poses, cons
   w.update_boxes(grains, reaches, poses.front().displacement);
   w.find_pairs(ranges, margin, 0, false, pairs);
 
-  w.share_clusters(ranges, [&](int range, std::size_t from, std::size_t to) {
+  share_clusters(ranges, w.sorted.clusters(), [&](int range, std::size_t from, std::size_t to) {
     w.look_for_walls(w.parts[static_cast<std::size_t>(range)], from, to, margin);
   });
-  near_walls.clear();
-  for (const Part& part : w.parts) near_walls.insert(near_walls.end(), part.walls.begin(), part.walls.end());
-  std::sort(near_walls.begin(), near_walls.end(), [](const WallCandidate& a, const WallCandidate& b) {
-    return a.grain != b.grain ? a.grain < b.grain : a.wall < b.wall;
-  });
+  join_walls(w.parts, near_walls);
 }
 
 void Broadphase::find_across(double period, double margin, const Ranges& ranges, PairList& pairs) {

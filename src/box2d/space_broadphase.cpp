@@ -8,6 +8,7 @@
 #include <numeric>
 #include <utility>
 
+#include "box2d/cluster_search.hpp"
 #include "box2d/near_places.hpp"
 #include "box2d/pair_rows.hpp"
 #include "scene/motion.hpp"
@@ -17,10 +18,9 @@
 namespace vibrosow {
 namespace {
 
-constexpr std::size_t cluster_size = 8;  // balls
-constexpr std::size_t widest = 64;       // numbers in a vector of the widest kind
-constexpr double slab_diameters = 2;     // of the largest ball: eight of them fill about a cube
-constexpr double strip_diameters = 2;    // within a slab
+constexpr std::size_t widest = 64;     // numbers in a vector of the widest kind
+constexpr double slab_diameters = 2;   // of the largest ball: eight of them fill about a cube
+constexpr double strip_diameters = 2;  // within a slab
 
 /// A box with sides along the axes, m.
 struct Box {
@@ -113,15 +113,6 @@ struct Part {
   std::vector<WallCandidate> walls;
 };
 
-struct WallQuery : b2QueryCallback {
-  explicit WallQuery(std::vector<int>& walls) : found(walls) {}
-  bool ReportFixture(b2Fixture* fixture) override {
-    found.push_back(static_cast<int>(fixture->GetUserData().pointer));
-    return true;
-  }
-  std::vector<int>& found;
-};
-
 /// Holds a face of a vessel as it is turned, in the lab's directions about the vessel's zero.
 Box box_of(const Face& face, const Vessel& vessel, const Pose& pose) {
   Box box;
@@ -148,23 +139,6 @@ struct SpaceBroadphase::World {
     Box box{};  // m, about the vessel's zero
     b2Fixture* fixture = nullptr;
   };
-  /// Box2D's tree calls it for every cluster met.
-  struct ClusterQuery {
-    const World& world;
-    const Box& wanted;
-    double reach;  // m
-    std::vector<int>& found;
-
-    bool QueryCallback(int32 proxy) {
-      const int number = world.cluster_of_proxy[static_cast<std::size_t>(proxy)];
-      const Cluster& cluster = world.sorted.clusters[static_cast<std::size_t>(number)];
-      const double apart = reach + cluster.largest;
-      if (cluster.box.low.y() <= wanted.high.y() + apart && cluster.box.high.y() >= wanted.low.y() - apart)
-        found.push_back(number);
-      return true;
-    }
-  };
-
   b2World world{b2Vec2(0, 0)};
   std::vector<Vessel> vessels;
   std::vector<b2Body*> bodies;        // by vessel
@@ -173,9 +147,7 @@ struct SpaceBroadphase::World {
   std::vector<Wall> walls;
   std::vector<Pose> poses;
   SortedBalls sorted;
-  b2DynamicTree tree;        // of the clusters
-  std::vector<int> proxies;  // by cluster
-  std::vector<int> cluster_of_proxy;
+  ClusterTree tree;
   double stride = 0;        // m, along x from a slab's plan to the next
   std::vector<Part> parts;  // by range
   PairRows rows;
@@ -247,18 +219,10 @@ struct SpaceBroadphase::World {
     stride = sorted.clusters.empty()
                  ? 0
                  : 3 * (all.high.x() - all.low.x()) + 4 * (margin + 2 * diameter + 2 * sorted.largest);
-    while (proxies.size() > sorted.clusters.size()) tree.DestroyProxy(proxies.back()), proxies.pop_back();
-    for (std::size_t c = 0; c < sorted.clusters.size(); ++c) {
+    tree.update(sorted.clusters.size(), [&](std::size_t c) {
       const Cluster& cluster = sorted.clusters[c];
-      const b2AABB plan = in_plan(cluster.box, cluster.largest, cluster.slab * stride);
-      if (c < proxies.size())
-        tree.MoveProxy(proxies[c], plan, b2Vec2(0, 0));
-      else
-        proxies.push_back(tree.CreateProxy(plan, nullptr));
-      const std::size_t proxy = static_cast<std::size_t>(proxies[c]);
-      if (cluster_of_proxy.size() <= proxy) cluster_of_proxy.resize(proxy + 1);
-      cluster_of_proxy[proxy] = static_cast<int>(c);
-    }
+      return in_plan(cluster.box, cluster.largest, cluster.slab * stride);
+    });
   }
 
   /// The clusters whose balls may be nearer than `margin` to one of a cluster moved by (shift_x, 0, shift_z).
@@ -271,10 +235,13 @@ struct SpaceBroadphase::World {
     const double reach = cluster.largest + margin, highest = reach + sorted.largest;
     const int from = std::max(0, sorted.slab_at(moved.low.y() - highest));
     const int to = std::min(sorted.slabs - 1, sorted.slab_at(moved.high.y() + highest));
-    for (int slab = from; slab <= to; ++slab) {
-      ClusterQuery query{*this, moved, reach, found};
-      tree.Query(&query, in_plan(moved, reach, slab * stride));
-    }
+    const auto near_in_height = [&](int number) {
+      const Cluster& other = sorted.clusters[static_cast<std::size_t>(number)];
+      const double apart = reach + other.largest;
+      if (other.box.low.y() <= moved.high.y() + apart && other.box.high.y() >= moved.low.y() - apart)
+        found.push_back(number);
+    };
+    for (int slab = from; slab <= to; ++slab) tree.query(in_plan(moved, reach, slab * stride), near_in_height);
   }
 
   /// For each ball of the clusters [from, to), moved: the numbers of those that are nearer than r + r + margin (m) to
@@ -322,16 +289,13 @@ struct SpaceBroadphase::World {
     for (std::size_t c = from; c < to; ++c) {
       const Cluster& cluster = sorted.clusters[c];
       const double reach = cluster.largest_to_walls + margin;
-      part.found.clear();
-      WallQuery query(part.found);
-      world.QueryAABB(&query, in_plan(cluster.box, reach, 0));
+      walls_in(world, in_plan(cluster.box, reach, 0), part.found);
       std::erase_if(part.found, [&](int number) {
         const Wall& wall = walls[static_cast<std::size_t>(number)];
         const double zero = zero_of(wall.vessel).y();
         return zero + wall.box.low.y() > cluster.box.high.y() + reach ||
                zero + wall.box.high.y() < cluster.box.low.y() - reach;
       });
-      std::ranges::sort(part.found);
       for (std::size_t k = cluster.begin; k < cluster.end; ++k)
         for (const int wall : part.found) part.walls.push_back({sorted.grain[k], wall, 0.0});
     }
@@ -340,19 +304,10 @@ struct SpaceBroadphase::World {
   void find_pairs(const Ranges& ranges, double margin, double shift_x, double shift_z, bool all, PairList& pairs) {
     parts.resize(static_cast<std::size_t>(ranges.count));
     rows.begin(sorted.grain.size(), ranges.count);
-    share_clusters(ranges, [&](int range, std::size_t from, std::size_t to) {
+    share_clusters(ranges, sorted.clusters.size(), [&](int range, std::size_t from, std::size_t to) {
       look_around(range, from, to, margin, shift_x, shift_z, all);
     });
     rows.transpose(pairs);
-  }
-
-  template <class Work>
-  void share_clusters(const Ranges& ranges, Work work) const {
-    const std::size_t clusters = sorted.clusters.size(), count = static_cast<std::size_t>(ranges.count);
-    ranges.for_each([&](int range) {
-      const std::size_t k = static_cast<std::size_t>(range);
-      work(range, clusters * k / count, clusters * (k + 1) / count);
-    });
   }
 };
 
@@ -395,14 +350,10 @@ void SpaceBroadphase::find(const Grains& grains, const std::vector<Pose>& poses,
   w.update_boxes(grains, reaches, margin);
   w.find_pairs(ranges, margin, 0, 0, false, pairs);
 
-  w.share_clusters(ranges, [&](int range, std::size_t from, std::size_t to) {
+  share_clusters(ranges, w.sorted.clusters.size(), [&](int range, std::size_t from, std::size_t to) {
     w.look_for_walls(w.parts[static_cast<std::size_t>(range)], from, to, margin);
   });
-  near_walls.clear();
-  for (const Part& part : w.parts) near_walls.insert(near_walls.end(), part.walls.begin(), part.walls.end());
-  std::sort(near_walls.begin(), near_walls.end(), [](const WallCandidate& a, const WallCandidate& b) {
-    return a.grain != b.grain ? a.grain < b.grain : a.wall < b.wall;
-  });
+  join_walls(w.parts, near_walls);
 }
 
 void SpaceBroadphase::find_across(double shift_x, double shift_z, double margin, const Ranges& ranges,
