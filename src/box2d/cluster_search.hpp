@@ -61,8 +61,8 @@ void share_clusters(const Ranges& ranges, std::size_t clusters, Work work) {
   });
 }
 
-/// Fills `walls` with the numbers of those that have a fixture which meets `box`, in order: a fixture's user data is its
-/// wall's number.
+/// Fills `walls` with the numbers of those that have a fixture which meets `box`, in order: a fixture's user data is
+/// its wall's number.
 void walls_in(const b2World& world, const b2AABB& box, std::vector<int>& walls);
 
 /// What the ranges found, sorted by grain and wall.

@@ -87,37 +87,29 @@ void SpaceWallFinder::find(const Grains& grains, std::span<const WallCandidate> 
   const PerGrain radius{grains.polydisperse ? grains.radius.data() : nullptr, grains.kinds.front().radius};
   over_plates_(count, candidates.data(), {grains.x.data(), grains.y.data(), grains.z.data()}, radius, plates_.data(),
                height_.data(), stands_.data());
+  const auto grain_of = [&](std::size_t c) { return static_cast<std::size_t>(candidates[c].grain); };
+  const auto face_of = [&](std::size_t c) -> const PlacedFace& {
+    return faces[static_cast<std::size_t>(candidates[c].wall)];
+  };
   for (std::size_t c = 0; c < count; ++c) {
     if (stands_[c] == OverPlate::clear) continue;
-    const std::size_t i = static_cast<std::size_t>(candidates[c].grain);
-    const double reach = radius_of(grains, i);
+    const double reach = radius_of(grains, grain_of(c));
     close_.push_back(c);
-    nearest_[c] = nearest(faces[static_cast<std::size_t>(candidates[c].wall)], centre_of(grains, i), c);
+    nearest_[c] = nearest(face_of(c), centre_of(grains, grain_of(c)), c);
     if (nearest_[c].distance2 < reach * reach) near_.push_back(c);
   }
-  for (std::size_t from = 0, to = 0; from < near_.size(); from = to) {
-    while (to < near_.size() && candidates[near_[to]].grain == candidates[near_[from]].grain) ++to;
-    const std::size_t i = static_cast<std::size_t>(candidates[near_[from]].grain);
-    const Eigen::Vector3d centre = centre_of(grains, i);
-    const auto push = [&](std::size_t c) {
-      add(candidates[c], first + c, nearest_[c], faces[static_cast<std::size_t>(candidates[c].wall)], centre, contacts);
-    };
-    if (to == from + 1) {
-      touches_.add(near_[from]);
-      push(near_[from]);
-      continue;
-    }
-    touched_.clear();
-    for (std::size_t k = from; k < to; ++k) {
-      const NearestOnFace& nearest = nearest_[near_[k]];
-      touched_.push_back({near_[k], nearest.apart, std::sqrt(nearest.distance2), nearest.inside});
-    }
-    const auto from_wall = [&](std::size_t c, const Eigen::Vector3d& apart) {
-      return nearest_on_face(faces[static_cast<std::size_t>(candidates[c].wall)], centre + apart).distance2;
-    };
-    for (const WallTouches::Touch& one : touches_.choose(touched_, radius_of(grains, i), from_wall))
-      push(one.candidate);
-  }
+  const auto touch_of = [&](std::size_t c) {
+    const NearestOnFace& nearest = nearest_[c];
+    return WallTouches::Touch{c, nearest.apart, std::sqrt(nearest.distance2), nearest.inside};
+  };
+  const auto from_wall = [&](std::size_t c, const Eigen::Vector3d& apart) {
+    return nearest_on_face(face_of(c), centre_of(grains, grain_of(c)) + apart).distance2;
+  };
+  const auto push = [&](std::size_t c) {
+    add(candidates[c], first + c, nearest_[c], face_of(c), centre_of(grains, grain_of(c)), contacts);
+  };
+  touches_.push_each(
+      candidates, near_, touch_of, [&](std::size_t i) { return radius_of(grains, i); }, from_wall, push);
 }
 
 void SpaceWallFinder::watch_crossings(std::span<WallCandidate> candidates, std::vector<int>& crossed) const {

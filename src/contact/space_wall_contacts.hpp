@@ -35,13 +35,12 @@ class SpaceWallFinder {
   NearestOnFace nearest(const PlacedFace& face, const Eigen::Vector3d& centre, std::size_t candidate) const;
 
   OverPlates over_plates_;
-  std::vector<PlateRows> plates_;            // by face
-  std::vector<double> height_;               // m, by candidate of the range, over its plate
-  std::vector<OverPlate> stands_;            // by candidate of the range
-  std::vector<std::size_t> close_;           // candidates that are not clear of a plate's plane
-  std::vector<NearestOnFace> nearest_;       // by candidate of the range, of those that are close
-  std::vector<std::size_t> near_;            // candidates nearer than a radius
-  std::vector<WallTouches::Touch> touched_;  // by one ball
+  std::vector<PlateRows> plates_;       // by face
+  std::vector<double> height_;          // m, by candidate of the range, over its plate
+  std::vector<OverPlate> stands_;       // by candidate of the range
+  std::vector<std::size_t> close_;      // candidates that are not clear of a plate's plane
+  std::vector<NearestOnFace> nearest_;  // by candidate of the range, of those that are close
+  std::vector<std::size_t> near_;       // candidates nearer than a radius
   WallTouches touches_;
 };
 

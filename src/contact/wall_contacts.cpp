@@ -53,37 +53,31 @@ void WallContactFinder::find(const Grains& grains, std::span<const WallCandidate
   const auto wall_of = [&](std::size_t c) -> const PlacedWall& {
     return walls[static_cast<std::size_t>(candidates[c].wall)];
   };
+  const auto grain_of = [&](std::size_t c) { return static_cast<std::size_t>(candidates[c].grain); };
   const auto radius_of = [&](std::size_t i) {
     return grains.polydisperse ? grains.radius[i] : grains.kinds.front().radius;
   };
   std::size_t near = 0;
   for (std::size_t c = 0; c < count; ++c) {
-    const std::size_t i = static_cast<std::size_t>(candidates[c].grain);
+    const std::size_t i = grain_of(c);
     const double radius = radius_of(i);
-    nearest_[c] = nearest_point(walls[static_cast<std::size_t>(candidates[c].wall)], grains.x[i], grains.y[i]);
+    nearest_[c] = nearest_point(wall_of(c), grains.x[i], grains.y[i]);
     near_[near] = c;
     near += nearest_[c].distance2 < radius * radius ? 1 : 0;
   }
-  for (std::size_t from = 0, to = 0; from < near; from = to) {
-    while (to < near && candidates[near_[to]].grain == candidates[near_[from]].grain) ++to;
-    const std::size_t i = static_cast<std::size_t>(candidates[near_[from]].grain);
-    const double x = grains.x[i], y = grains.y[i];
-    const auto push = [&](std::size_t c) { add(candidates[c], first + c, nearest_[c], wall_of(c), x, y, contacts); };
-    if (to == from + 1) {
-      touches_.add(near_[from]);
-      push(near_[from]);
-      continue;
-    }
-    touched_.clear();
-    for (std::size_t k = from; k < to; ++k) {
-      const NearestPoint& nearest = nearest_[near_[k]];
-      touched_.push_back({near_[k], {nearest.dx, nearest.dy, 0}, std::sqrt(nearest.distance2), nearest.inside});
-    }
-    const auto from_wall = [&](std::size_t c, const Eigen::Vector3d& apart) {
-      return nearest_point(wall_of(c), x + apart.x(), y + apart.y()).distance2;
-    };
-    for (const WallTouches::Touch& one : touches_.choose(touched_, radius_of(i), from_wall)) push(one.candidate);
-  }
+  const auto touch_of = [&](std::size_t c) {
+    const NearestPoint& nearest = nearest_[c];
+    return WallTouches::Touch{c, {nearest.dx, nearest.dy, 0}, std::sqrt(nearest.distance2), nearest.inside};
+  };
+  const auto from_wall = [&](std::size_t c, const Eigen::Vector3d& apart) {
+    const std::size_t i = grain_of(c);
+    return nearest_point(wall_of(c), grains.x[i] + apart.x(), grains.y[i] + apart.y()).distance2;
+  };
+  const auto push = [&](std::size_t c) {
+    const std::size_t i = grain_of(c);
+    add(candidates[c], first + c, nearest_[c], wall_of(c), grains.x[i], grains.y[i], contacts);
+  };
+  touches_.push_each(candidates, {near_.data(), near}, touch_of, radius_of, from_wall, push);
 }
 
 void WallContactFinder::watch_crossings(std::span<WallCandidate> candidates, std::vector<int>& crossed) const {

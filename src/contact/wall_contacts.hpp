@@ -28,9 +28,8 @@ class WallContactFinder {
   const WallTouches& touches() const { return touches_; }
 
  private:
-  std::vector<NearestPoint> nearest_;        // by candidate of the range
-  std::vector<std::size_t> near_;            // candidates nearer than a radius; places to spare
-  std::vector<WallTouches::Touch> touched_;  // by one grain
+  std::vector<NearestPoint> nearest_;  // by candidate of the range
+  std::vector<std::size_t> near_;      // candidates nearer than a radius; places to spare
   WallTouches touches_;
 };
 

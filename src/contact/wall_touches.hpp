@@ -2,9 +2,11 @@
 
 #include <Eigen/Core>
 #include <cstddef>
+#include <span>
 #include <vector>
 
 #include "contact/contact_history.hpp"
+#include "contact/contact_list.hpp"
 
 namespace vibrosow {
 
@@ -30,12 +32,12 @@ class WallTouches {
   /// Nothing touches yet; `count` candidates, which are numbered from `first` among all.
   void begin(std::size_t first, std::size_t count);
 
-  void add(std::size_t candidate) { touches_[candidate] = 1; }
-
-  /// Of all walls that one grain of this radius (m) touches those that push, faces first and else in their order.
-  /// `from_wall(candidate, apart)`: distance squared (m2) of a place, seen from the grain's centre, from a wall.
-  template <class FromWall>
-  const std::vector<Touch>& choose(const std::vector<Touch>& touched, double radius, FromWall from_wall);
+  /// Calls `push(c)` for each of the candidates that touch, `near` (sorted by grain), which pushes; of one grain faces
+  /// first, else in their order. `touch_of(c)`: how it touches; `radius_of(i)`: m, of grain i; `from_wall(c, apart)`:
+  /// distance squared (m2) of a place, seen from the grain's centre, from the wall.
+  template <class TouchOf, class RadiusOf, class FromWall, class Push>
+  void push_each(std::span<const WallCandidate> candidates, std::span<const std::size_t> near, TouchOf touch_of,
+                 RadiusOf radius_of, FromWall from_wall, Push push);
 
   /// Before histories move on: a wall that pushes in another's place takes what that one had, and candidates that
   /// touched before and do not now have none.
@@ -49,17 +51,39 @@ class WallTouches {
   struct Twin {
     std::size_t candidate, pusher;
   };
+  void add(std::size_t candidate) { touches_[candidate] = 1; }
+  template <class FromWall>
+  void choose(double radius, FromWall from_wall);
   void replace(std::size_t pushing, const Touch& by, std::size_t first_twin);
 
   std::size_t first_ = 0;
   std::vector<unsigned char> touches_;  // by candidate: whether it pushes or lies on one that does
-  std::vector<Touch> pushing_;          // the grain
+  std::vector<Touch> touched_;          // by one grain
+  std::vector<Touch> pushing_;          // of these
   std::vector<Twin> twins_;             // of all grains
 };
 
+template <class TouchOf, class RadiusOf, class FromWall, class Push>
+void WallTouches::push_each(std::span<const WallCandidate> candidates, std::span<const std::size_t> near,
+                            TouchOf touch_of, RadiusOf radius_of, FromWall from_wall, Push push) {
+  for (std::size_t from = 0, to = 0; from < near.size(); from = to) {
+    const int grain = candidates[near[from]].grain;
+    while (to < near.size() && candidates[near[to]].grain == grain) ++to;
+    if (to == from + 1) {
+      add(near[from]);
+      push(near[from]);
+      continue;
+    }
+    touched_.clear();
+    for (std::size_t k = from; k < to; ++k) touched_.push_back(touch_of(near[k]));
+    choose(radius_of(static_cast<std::size_t>(grain)), from_wall);
+    for (const Touch& one : pushing_) push(one.candidate);
+  }
+}
+
+/// Of what is `touched_`, sets what is `pushing_`.
 template <class FromWall>
-const std::vector<WallTouches::Touch>& WallTouches::choose(const std::vector<Touch>& touched, double radius,
-                                                           FromWall from_wall) {
+void WallTouches::choose(double radius, FromWall from_wall) {
   constexpr double same_place = 1e-3, as_near = 1e-9;  // of the radius
   const std::size_t first_twin = twins_.size();
   const auto is_on = [&](const Touch& one, const Touch& other) {
@@ -77,7 +101,7 @@ const std::vector<WallTouches::Touch>& WallTouches::choose(const std::vector<Tou
   };
   pushing_.clear();
   for (const bool inside : {true, false})
-    for (const Touch& one : touched) {
+    for (const Touch& one : touched_) {
       if (one.inside != inside || is_known(one)) continue;
       for (std::size_t k = pushing_.size(); k-- > 0;)
         if (is_on(one, pushing_[k])) replace(k, one, first_twin);
@@ -85,7 +109,6 @@ const std::vector<WallTouches::Touch>& WallTouches::choose(const std::vector<Tou
     }
   for (const Touch& one : pushing_) add(one.candidate);
   for (std::size_t k = first_twin; k < twins_.size(); ++k) add(twins_[k].candidate);
-  return pushing_;
 }
 
 }  // namespace vibrosow
