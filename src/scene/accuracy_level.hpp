@@ -19,9 +19,9 @@ struct AccuracyLevelValues {
 
 /// From the cheapest to the most accurate.
 inline constexpr std::array<AccuracyLevelValues, 3> accuracy_levels{
-    {{AccuracyLevel::draft, "draft", 3e-4, 12, 8.8},
-     {AccuracyLevel::design, "design", 3e-5, 12, 4.8},
-     {AccuracyLevel::reference, "reference", 3e-6, 24, 2.1}}};
+    {{AccuracyLevel::draft, "draft", 3e-4, 12, 6.2},
+     {AccuracyLevel::design, "design", 3e-5, 12, 3.9},
+     {AccuracyLevel::reference, "reference", 3e-6, 24, 1.8}}};
 
 /// As JSON calls them, in the order of the enumeration.
 inline const std::vector<std::string>& accuracy_level_names() {
