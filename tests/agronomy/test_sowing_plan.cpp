@@ -141,7 +141,7 @@ TEST(SowingPlan, IsSureToChanceAndInterpolationAndSoftness) {
   const PlannedLayout& best = plan.layouts.front();
   EXPECT_NEAR(
       plan.uncertainty(best),
-      std::hypot(best.estimate.chance, table().interpolation_error(1, best.width_over_d, best.peak_speed)) + 0.088,
+      std::hypot(best.estimate.chance, table().interpolation_error(1, best.width_over_d, best.peak_speed)) + 0.062,
       1e-12);
   EXPECT_GT(plan.uncertainty(best), plan.softness);
 }
