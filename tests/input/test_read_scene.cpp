@@ -169,6 +169,14 @@ TEST(ReadScene, DefaultsAreNeutral) {
   EXPECT_EQ(scene.run.count_below, 0.02);
 }
 
+TEST(ReadScene, ThePapersSchemesTakeMoreStepsWhereNothingIsSaid) {
+  for (const char* scheme : {"rk2-midpoint", "gear5"}) {
+    const std::string key = std::string("numerics.integrator=") + scheme;
+    EXPECT_EQ(read(small_example, {key.c_str()}).numerics.steps_per_contact, 20);
+    EXPECT_EQ(read(small_example, {key.c_str(), "numerics.steps_per_contact=12"}).numerics.steps_per_contact, 12);
+  }
+}
+
 TEST(ReadScene, AccuracyIsALevelAndContradictsAStep) {
   EXPECT_EQ(read(small_example).numerics.accuracy, AccuracyLevel::as_written);
   EXPECT_EQ(read(small_example, {"accuracy=draft"}).numerics.accuracy, AccuracyLevel::draft);

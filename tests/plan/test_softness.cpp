@@ -46,6 +46,13 @@ TEST(Softness, ALevelSetsShellAndSteps) {
   EXPECT_DOUBLE_EQ(at(tray(Law::elastic_shell), AccuracyLevel::reference).contact.shell_compression, 3e-6);
 }
 
+TEST(Softness, ALevelTakesNoFewerStepsThanItsSchemeWants) {
+  Scene scene = tray(Law::elastic_shell);
+  scene.numerics.integrator = Integrator::rk2_midpoint;
+  EXPECT_EQ(at(scene, AccuracyLevel::draft).numerics.steps_per_contact, 20);
+  EXPECT_EQ(at(scene, AccuracyLevel::reference).numerics.steps_per_contact, 24);
+}
+
 TEST(Softness, HertzContactsLastAsLongAsTheLevelsShell) {
   const Scene shell = at(tray(Law::elastic_shell), AccuracyLevel::design),
               hertz = at(tray(Law::hertz), AccuracyLevel::design);
