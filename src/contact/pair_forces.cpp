@@ -1,36 +1,64 @@
 #include "contact/pair_forces.hpp"
 
-#include <algorithm>
 #include <cmath>
-#include <cstring>
 
 namespace vibrosow {
+namespace {
+
+template <class Sum>
+void clear(std::vector<Sum>& sums, GrainRange grains) {
+  if (sums.empty() || grains.to <= grains.from) return;
+  std::fill(sums.begin() + grains.from, sums.begin() + grains.to, Sum{});
+}
+
+void add(const std::array<double, 3>& what, GrainVector& sum) {
+  sum.x += what[0], sum.y += what[1], sum.z += what[2];
+}
+
+}  // namespace
 
 void add_figures(const LawFigures& figures, ContactStatistics& statistics) {
   statistics.slip_raised += std::llround(figures.slip_raised);
   statistics.max_relative_overlap = std::max(statistics.max_relative_overlap, figures.max_relative_overlap);
 }
 
-void add_pair_forces(PairKernel kernel, const GrainSurfaces& grains, const Motion& at, const PairList& list,
-                     PairRange range, const ContactParameters& parameters, const ContactStep& step,
-                     ContactHistories& histories, GrainRange fresh, Forces& forces, std::vector<ForeignForce>& foreign,
-                     ContactStatistics& statistics) {
-  PairResult result;
-  result.forces = forces.data(), result.first_own = fresh.from;
-  int begun = fresh.from;
-  const auto begin_up_to = [&](int end) {  // just before they are added to, and still in the cache then
-    if (end > begun) std::memset(forces.data() + begun, 0, sizeof(GrainForce) * static_cast<std::size_t>(end - begun));
-    begun = std::max(begun, end);
-  };
-  for (int from = range.from; from < range.to; from += pair_block_size) {
-    const int to = std::min(from + pair_block_size, range.to);
-    begin_up_to(std::min(list.grain[static_cast<std::size_t>(to) - 1] + 1, fresh.to));
-    kernel(grains, at, list, {from, to}, parameters, step, histories, result);
-    foreign.insert(foreign.end(), result.foreign, result.foreign + result.foreign_count);
-    statistics.contacts += result.contacts;
-    add_figures(result.figures, statistics);
+void resize(Forces& sums, std::size_t grains, bool /*rotation*/) {
+  sums.resize(grains);
+}
+void resize(SpaceForces& sums, std::size_t grains, bool rotation) {
+  sums.forces.resize(grains), sums.torques.resize(rotation ? grains : 0);
+}
+
+void begin_with_zero(Forces& sums, GrainRange grains) {
+  clear(sums, grains);
+}
+void begin_with_zero(SpaceForces& sums, GrainRange grains) {
+  clear(sums.forces, grains), clear(sums.torques, grains);
+}
+
+void add_foreign(const std::vector<ForeignForce>& foreign, Forces& sums) {
+  for (const ForeignForce& force : foreign) {
+    GrainForce& sum = sums[static_cast<std::size_t>(force.grain)];
+    sum.fx += force.fx, sum.fy += force.fy, sum.torque += force.torque;
   }
-  begin_up_to(fresh.to);
+}
+void add_foreign(const std::vector<ForeignSpaceForce>& foreign, SpaceForces& sums) {
+  for (const ForeignSpaceForce& one : foreign) {
+    const std::size_t i = static_cast<std::size_t>(one.grain);
+    add(one.force, sums.forces[i]);
+    if (!sums.torques.empty()) add(one.torque, sums.torques[i]);
+  }
+}
+
+PairResult result_in(Forces& sums, int first_own) {
+  PairResult result;
+  result.forces = sums.data(), result.first_own = first_own;
+  return result;
+}
+SpacePairResult result_in(SpaceForces& sums, int first_own) {
+  SpacePairResult result;
+  result.forces = sums.forces.data(), result.torques = sums.torques.data(), result.first_own = first_own;
+  return result;
 }
 
 }  // namespace vibrosow

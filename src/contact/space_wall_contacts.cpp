@@ -121,8 +121,7 @@ void SpaceWallFinder::watch_crossings(std::span<WallCandidate> candidates, std::
   }
 }
 
-void add_wall_forces(const SpaceWallContacts& contacts, bool rotation, std::vector<GrainVector>& forces,
-                     std::vector<GrainVector>& torques) {
+void add_wall_forces(const SpaceWallContacts& contacts, bool rotation, SpaceForces& forces) {
   const std::size_t count = static_cast<std::size_t>(contacts.count);
   const auto add_up = [](const VectorColumns& columns, std::size_t k, GrainVector& sum) {
     sum.x += columns.x[k], sum.y += columns.y[k], sum.z += columns.z[k];
@@ -134,8 +133,9 @@ void add_wall_forces(const SpaceWallContacts& contacts, bool rotation, std::vect
       add_up(contacts.force, k, force);
       if (rotation) add_up(contacts.torque, k, torque);
     }
-    forces[i].x += force.x, forces[i].y += force.y, forces[i].z += force.z;
-    if (rotation) torques[i].x += torque.x, torques[i].y += torque.y, torques[i].z += torque.z;
+    const auto add = [](const GrainVector& of, GrainVector& sum) { sum.x += of.x, sum.y += of.y, sum.z += of.z; };
+    add(force, forces.forces[i]);
+    if (rotation) add(torque, forces.torques[i]);
   }
 }
 

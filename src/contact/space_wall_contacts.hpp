@@ -9,6 +9,7 @@
 #include "contact/space_data.hpp"
 #include "contact/wall_touches.hpp"
 #include "grains/grains.hpp"
+#include "loops/space_forces.hpp"
 #include "vessel/nearest_on_face.hpp"
 
 namespace vibrosow {
@@ -45,8 +46,7 @@ class SpaceWallFinder {
 };
 
 /// Adds the forces of contacts to their balls, those of one ball added up among themselves first.
-void add_wall_forces(const SpaceWallContacts& contacts, bool rotation, std::vector<GrainVector>& forces,
-                     std::vector<GrainVector>& torques);
+void add_wall_forces(const SpaceWallContacts& contacts, bool rotation, SpaceForces& forces);
 
 /// Adds what the walls do by their motion, W, contact by contact.
 void add_wall_power(const SpaceWallContacts& contacts, double& power);

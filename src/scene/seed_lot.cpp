@@ -16,6 +16,14 @@ namespace {
 
 using Kind = SizeDistribution::Kind;
 
+/// Of the largest disc or ball of a seed of the lot's diameter, m.
+double disc_diameter(const SeedLot& lot) {
+  if (lot.shape != Shape::clump) return lot.diameter;
+  double radius = 0;
+  for (const ClumpDisc& disc : lot.discs) radius = std::max(radius, disc.radius);
+  return 2 * radius;
+}
+
 /// (x / unit)^power
 double share_in_moment(double x, double unit, int power) {
   return elementary::pow(x / unit, power);
@@ -119,17 +127,18 @@ std::optional<double> seed_density(const SeedLot& lot) {
 }
 
 double mean_thickness(const SeedLot& lot) {
-  double thickness = lot.diameter;
-  if (lot.shape == Shape::clump) {
-    thickness = 0;
-    for (const ClumpDisc& disc : lot.discs) thickness = std::max(thickness, 2 * disc.radius);
-  }
-  return thickness * size_moment(lot, 1);
+  return disc_diameter(lot) * size_moment(lot, 1);
 }
 
 double largest_diameter(const std::vector<SeedLot>& lots) {
   double largest = 0;
   for (const SeedLot& lot : lots) largest = std::max(largest, most_size(lot) * lot.diameter);
+  return largest;
+}
+
+double largest_disc_diameter(const std::vector<SeedLot>& lots) {
+  double largest = 0;
+  for (const SeedLot& lot : lots) largest = std::max(largest, most_size(lot) * disc_diameter(lot));
   return largest;
 }
 

@@ -53,6 +53,9 @@ double mean_thickness(const SeedLot& lot);
 /// Diameter of the largest seed there can be, m; of a clump: of the circle that holds it.
 double largest_diameter(const std::vector<SeedLot>& lots);
 
+/// The same of the largest disc or ball of any seed, m.
+double largest_disc_diameter(const std::vector<SeedLot>& lots);
+
 /// Radius of the smallest seed there can be, m; of a clump: of its smallest disc.
 double smallest_radius(const std::vector<SeedLot>& lots);
 

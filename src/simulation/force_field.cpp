@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "scene/seed_lot.hpp"
+
 namespace vibrosow {
 
 ForceField::ForceField(const Model& model, SimulationState& state, NeighbourMargins margins, Execution& execution)
@@ -10,16 +12,16 @@ ForceField::ForceField(const Model& model, SimulationState& state, NeighbourMarg
       state_(state),
       execution_(execution),
       walls_(model.vessels, model.scene.space),
-      neighbours_(model.vessels, model.largest_diameter, margins,
+      neighbours_(model.vessels, largest_disc_diameter(model.scene.lots), margins,
                   {model.effects.tangential_spring, model.effects.rolling == Rolling::spring,
                    model.scene.space == Space::three_dimensional},
                   execution),
-      pair_kernel_(model.kernels->vectors[static_cast<std::size_t>(execution.instructions())].pair),
-      wall_kernel_(model.kernels->vectors[static_cast<std::size_t>(execution.instructions())].wall),
-      space_pair_kernel_(model.kernels->in_space[static_cast<std::size_t>(execution.instructions())].pair),
-      space_wall_kernel_(model.kernels->in_space[static_cast<std::size_t>(execution.instructions())].wall),
-      ranges_(static_cast<std::size_t>(execution.threads())) {
-  for (RangeWork& range : ranges_) range.space_walls.finder = SpaceWallFinder(execution.instructions());
+      of_ranges_(static_cast<std::size_t>(execution.threads())) {
+  const std::size_t instructions = static_cast<std::size_t>(execution.instructions());
+  plane_ = {model.kernels->vectors[instructions], model.kernels->energy, {}, {}, {}};
+  space_ = {model.kernels->in_space[instructions], model.kernels->energy_in_space, {}, {}, {}};
+  plane_.ranges.resize(of_ranges_.size()), space_.ranges.resize(of_ranges_.size());
+  for (auto& range : space_.ranges) range.finder = SpaceWallFinder(execution.instructions());
   if (model.effects.clumps) clumps_.emplace(model.scene.lots, model.kinds, *model.law, model.effects.rotation);
   for (std::size_t v = 0; v < model.vessels.size(); ++v)
     walls_.set_motion(v, state.vessels.motion[v], state.vessels.shift[v]);
@@ -38,21 +40,9 @@ const Grains& ForceField::place_discs() {
   return clumps_->discs();
 }
 
-Motion ForceField::motion_of(const Grains& discs) const {
-  return {discs.x.data(), discs.y.data(), discs.vx.data(), discs.vy.data(), discs.omega.data(), discs.x.data()};
-}
-
-Motion ForceField::across_boundary(const Grains& discs, double period) {
-  shifted_x_ = discs.x;
-  for (double& x : shifted_x_) x += period;
-  Motion at = motion_of(discs);
-  at.row_x = shifted_x_.data();
-  return at;
-}
-
 ForceField::PairShare ForceField::pair_share(std::size_t range, std::size_t grains) const {
   const PairList& pairs = state_.contacts.pairs;
-  const std::size_t ranges = ranges_.size();
+  const std::size_t ranges = of_ranges_.size();
   const auto first_grain = [&](std::size_t k) {
     if (k == 0) return 0;
     return k == ranges || pairs.size() == 0 ? static_cast<int>(grains) : pairs.grain[pairs.size() * k / ranges];
@@ -64,64 +54,10 @@ ForceField::PairShare ForceField::pair_share(std::size_t range, std::size_t grai
   return {{first_grain(range), first_grain(range + 1)}, {first_entry(range), first_entry(range + 1)}};
 }
 
-/// Range by range: what is a sum of fractions is added up contact by contact elsewhere, as one thread would.
-void ForceField::add_up_ranges(ContactStatistics& statistics) const {
-  for (const RangeWork& own : ranges_) {
-    statistics.contacts += own.statistics.contacts;
-    statistics.slip_raised += own.statistics.slip_raised;
-    statistics.max_relative_overlap = std::max(statistics.max_relative_overlap, own.statistics.max_relative_overlap);
-    statistics.crossed.insert(statistics.crossed.end(), own.statistics.crossed.begin(), own.statistics.crossed.end());
-  }
-}
-
-/// Each thread takes the rows of a range of grains, whose forces it begins with zero. What they do to grains of earlier
-/// ranges is added afterwards, range by range: a grain's own row first, then the later rows in order, as one thread
-/// would.
-void ForceField::set_pair_forces(const Grains& discs, const Motion& at, const ContactStep& step, Forces& forces,
-                                 ContactStatistics& statistics) {
-  const GrainSurfaces surfaces = surfaces_of(discs);
-  forces.resize(discs.size());
-  execution_.for_each_range([&](int k) {
-    const std::size_t range = static_cast<std::size_t>(k);
-    const PairShare share = pair_share(range, discs.size());
-    RangeWork& own = ranges_[range];
-    own.foreign.clear();
-    own.statistics = {};
-    add_pair_forces(pair_kernel_, surfaces, at, state_.contacts.pairs, share.entries, model_.contacts, step,
-                    state_.contacts.pair_histories, share.grains, forces, own.foreign, own.statistics);
-  });
-  add_up_ranges(statistics);
-  for (const RangeWork& own : ranges_) {
-    for (const ForeignForce& force : own.foreign) {
-      GrainForce& sum = forces[static_cast<std::size_t>(force.grain)];
-      sum.fx += force.fx, sum.fy += force.fy, sum.torque += force.torque;
-    }
-  }
-}
-
-void ForceField::run_kernels(const Grains& discs, const ContactStep& step, Forces& forces,
-                             ContactStatistics& statistics) {
-  const Motion at = motion_of(discs);
-  set_pair_forces(discs, at, step, forces, statistics);
-  // Few, and their partners come before and after: one thread does them.
-  for (std::size_t k = 0; k < neighbours_.images().size(); ++k) {
-    BoundaryContacts& boundary = state_.contacts.boundaries[k];
-    add_pair_forces(pair_kernel_, surfaces_of(discs), across_boundary(discs, neighbours_.images()[k].x), boundary.pairs,
-                    {0, static_cast<int>(boundary.pairs.size())}, model_.contacts, step, boundary.histories, {0, 0},
-                    forces, ranges_.front().foreign, statistics);
-  }
-  execution_.profile().lap(Phase::pairs);
-  const auto add = [&](const WallContacts& touching) {
-    add_wall_forces(touching, model_.kernels->effects.rotation, forces);
-  };
-  add_walls(&RangeWork::walls, discs, walls_.placed(), wall_kernel_, at, step, add, statistics);
-  execution_.profile().lap(Phase::walls);
-}
-
 ForceField::WallRange ForceField::wall_range(std::size_t range) {
   std::vector<WallCandidate>& all = state_.contacts.walls;
   const auto first_of = [&](std::size_t k) {
-    std::size_t first = all.size() * k / ranges_.size();
+    std::size_t first = all.size() * k / of_ranges_.size();
     while (first > 0 && first < all.size() && all[first].grain == all[first - 1].grain) ++first;
     return first;
   };
@@ -129,11 +65,102 @@ ForceField::WallRange ForceField::wall_range(std::size_t range) {
   return {from, {all.data() + from, first_of(range + 1) - from}};
 }
 
+/// Range by range: what is a sum of fractions is added up contact by contact elsewhere, as one thread would.
+void ForceField::add_up_ranges(ContactStatistics& statistics) const {
+  for (const ContactStatistics& of : of_ranges_) {
+    statistics.contacts += of.contacts;
+    statistics.slip_raised += of.slip_raised;
+    statistics.max_relative_overlap = std::max(statistics.max_relative_overlap, of.max_relative_overlap);
+    statistics.crossed.insert(statistics.crossed.end(), of.crossed.begin(), of.crossed.end());
+  }
+}
+
+/// Each thread takes the rows of a range of grains, whose forces it begins with zero. What they do to grains of earlier
+/// ranges is added afterwards, range by range: a grain's own row first, then the later rows in order, as one thread
+/// would.
+template <class In>
+void ForceField::set_pair_forces(Part<In>& part, const Grains& discs, const typename In::Moving& at,
+                                 const ContactStep& step, typename In::Sums& sums, ContactStatistics& statistics) {
+  const GrainSurfaces surfaces = surfaces_of(discs);
+  resize(sums, discs.size(), model_.kernels->effects.rotation);
+  execution_.for_each_range([&](int k) {
+    const std::size_t range = static_cast<std::size_t>(k);
+    const PairShare share = pair_share(range, discs.size());
+    part.ranges[range].foreign.clear();
+    of_ranges_[range] = {};
+    add_pair_forces(part.kernels.pair, surfaces, at, state_.contacts.pairs, share.entries, model_.contacts, step,
+                    state_.contacts.pair_histories, share.grains, sums, part.ranges[range].foreign, of_ranges_[range]);
+  });
+  add_up_ranges(statistics);
+  for (const auto& range : part.ranges) add_foreign(range.foreign, sums);
+}
+
+/// A grain's walls are all in one range, so its forces are added up alike for any number of ranges.
+template <class In>
+void ForceField::add_walls(Part<In>& part, const Grains& discs, const typename In::Moving& at, const ContactStep& step,
+                           typename In::Sums& sums, ContactStatistics& statistics) {
+  ContactHistories& histories = state_.contacts.wall_histories;
+  const GrainSurfaces surfaces = surfaces_of(discs);
+  execution_.for_each_range([&](int k) {
+    const std::size_t range = static_cast<std::size_t>(k);
+    const auto [first, candidates] = wall_range(range);
+    auto& [foreign, finder, contacts] = part.ranges[range];
+    ContactStatistics& own = of_ranges_[range] = {};
+    finder.find(discs, candidates, first, In::walls_of(walls_), contacts);
+    finder.watch_crossings(candidates, own.crossed);
+    if (step.commit != 0) finder.touches().renew(histories);
+    add_figures(part.kernels.wall(surfaces, at, model_.contacts, step, histories, contacts), own);
+    if (step.commit != 0) finder.touches().share(histories);
+    add_wall_forces(contacts, model_.kernels->effects.rotation, sums);
+    own.contacts = contacts.count;
+  });
+  add_up_ranges(statistics);
+  for (const auto& range : part.ranges) add_wall_power(range.contacts, statistics.wall_power);
+}
+
+template <class In>
+void ForceField::run_kernels(Part<In>& part, const Grains& discs, const ContactStep& step, typename In::Sums& sums,
+                             ContactStatistics& statistics) {
+  const typename In::Moving at = motion_of(part, discs);
+  set_pair_forces(part, discs, at, step, sums, statistics);
+  // Few, and their partners come before and after: one thread does them.
+  for (std::size_t k = 0; k < neighbours_.images().size(); ++k) {
+    BoundaryContacts& boundary = state_.contacts.boundaries[k];
+    add_pair_forces(part.kernels.pair, surfaces_of(discs), across(at, discs, neighbours_.images()[k]), boundary.pairs,
+                    {0, static_cast<int>(boundary.pairs.size())}, model_.contacts, step, boundary.histories, {0, 0},
+                    sums, part.ranges.front().foreign, statistics);
+  }
+  execution_.profile().lap(Phase::pairs);
+  add_walls(part, discs, at, step, sums, statistics);
+  execution_.profile().lap(Phase::walls);
+}
+
 /// All of them in one range.
-WallContacts& ForceField::find_wall_contacts(const Grains& discs) {
-  RangeWork& only = ranges_.front();
-  only.walls.finder.find(discs, state_.contacts.walls, 0, walls_.placed(), only.walls.contacts);
-  return only.walls.contacts;
+template <class In>
+typename In::WallContacts& ForceField::find_walls(Part<In>& part, const Grains& discs) {
+  auto& only = part.ranges.front();
+  only.finder.find(discs, state_.contacts.walls, 0, In::walls_of(walls_), only.contacts);
+  return only.contacts;
+}
+
+/// With the forces in them; nothing moves on by it.
+template <class In>
+typename In::WallContacts& ForceField::press_walls(Part<In>& part, const Grains& discs) {
+  typename In::WallContacts& touching = find_walls(part, discs);
+  part.kernels.wall(surfaces_of(discs), motion_of(part, discs), model_.contacts, {}, state_.contacts.wall_histories,
+                    touching);
+  return touching;
+}
+
+template WallContacts& ForceField::press_walls(Part<InPlane>&, const Grains&);
+template SpaceWallContacts& ForceField::press_walls(Part<InSpace>&, const Grains&);
+
+void ForceField::gather(Part<InPlane>& part) {
+  part.on_grains.assign(state_.grains.size(), {});
+  clumps_->gather(part.on_discs, part.on_grains);
+}
+void ForceField::gather(Part<InSpace>& part) {
+  clumps_->gather(part.on_discs, part.on_grains, execution_);
 }
 
 void ForceField::evaluate(double time, const ContactStep& step, ContactStatistics& statistics) {
@@ -144,17 +171,11 @@ void ForceField::evaluate(double time, const ContactStep& step, ContactStatistic
   execution_.profile().lap(Phase::neighbours);
   statistics.wall_power = 0;
   const std::size_t crossed_before = statistics.crossed.size();
-  if (discs.in_space)
-    run_kernels_in_space(discs, step, clumps_ ? ball_forces_ : space_forces_, statistics);
-  else
-    run_kernels(discs, step, clumps_ ? disc_forces_ : forces_, statistics);
+  with_part([&](auto& part) {
+    run_kernels(part, discs, step, clumps_ ? part.on_discs : part.on_grains, statistics);
+    if (clumps_) gather(part);
+  });
   if (!clumps_) return;
-  if (discs.in_space) {
-    clumps_->gather(ball_forces_, space_forces_, execution_);
-  } else {
-    forces_.assign(state_.grains.size(), {});
-    clumps_->gather(disc_forces_, forces_);
-  }
   for (std::size_t k = crossed_before; k < statistics.crossed.size(); ++k)
     statistics.crossed[k] = discs.clump[static_cast<std::size_t>(statistics.crossed[k])];
 }
@@ -167,13 +188,10 @@ double ForceField::elastic_energy() {
   const ContactStep back{.trial = -0.5 * model_.step.dt, .commit = -0.5 * model_.step.dt};
   ContactStatistics aside;
   const Grains& discs = place_discs();
-  if (discs.in_space) {
-    SpaceForces forces;
-    run_kernels_in_space(discs, back, forces, aside);
-  } else {
-    Forces forces;
-    run_kernels(discs, back, forces, aside);
-  }
+  with_part([&]<class In>(Part<In>& part) {
+    typename In::Sums sums;
+    run_kernels(part, discs, back, sums, aside);
+  });
   const double energy = energy_of_springs();
   state_.contacts = kept;
   return energy;
@@ -181,30 +199,42 @@ double ForceField::elastic_energy() {
 
 double ForceField::energy_of_springs() {
   const Grains& discs = place_discs();
-  if (discs.in_space) return elastic_energy_in_space(discs);
-  const Motion at = motion_of(discs);
-  double energy = model_.kernels->energy.pair(surfaces_of(discs), at, state_.contacts.pairs, model_.contacts,
-                                              state_.contacts.pair_histories);
+  return with_part([&](auto& part) { return energy_of_springs(part, discs); });
+}
+
+template <class In>
+double ForceField::energy_of_springs(Part<In>& part, const Grains& discs) {
+  const GrainSurfaces surfaces = surfaces_of(discs);
+  const typename In::Moving at = motion_of(part, discs);
+  double energy =
+      part.energies.pair(surfaces, at, state_.contacts.pairs, model_.contacts, state_.contacts.pair_histories);
   for (std::size_t k = 0; k < neighbours_.images().size(); ++k) {
     const BoundaryContacts& boundary = state_.contacts.boundaries[k];
-    energy += model_.kernels->energy.pair(surfaces_of(discs), across_boundary(discs, neighbours_.images()[k].x),
-                                          boundary.pairs, model_.contacts, boundary.histories);
+    energy += part.energies.pair(surfaces, across(at, discs, neighbours_.images()[k]), boundary.pairs, model_.contacts,
+                                 boundary.histories);
   }
-  return energy + model_.kernels->energy.wall(surfaces_of(discs), find_wall_contacts(discs), model_.contacts,
-                                              state_.contacts.wall_histories);
+  return energy +
+         part.energies.wall(surfaces, find_walls(part, discs), model_.contacts, state_.contacts.wall_histories);
 }
 
 Forces ForceField::wall_forces() {
   see_walls_as_they_are();
   const Grains& discs = place_discs();
   Forces on_discs(discs.size());
-  WallContacts& touching = find_wall_contacts(discs);
-  wall_kernel_(surfaces_of(discs), motion_of(discs), model_.contacts, {}, state_.contacts.wall_histories, touching);
-  add_wall_forces(touching, model_.kernels->effects.rotation, on_discs);
+  add_wall_forces(press_walls(plane_, discs), model_.kernels->effects.rotation, on_discs);
   if (!clumps_) return on_discs;
   Forces forces(state_.grains.size());
   clumps_->gather(on_discs, forces);
   return forces;
+}
+
+std::vector<GrainVector> ForceField::wall_forces_in_space() {
+  see_walls_as_they_are();
+  const Grains& balls = place_discs();
+  SpaceForces on_balls;
+  resize(on_balls, balls.size(), model_.kernels->effects.rotation);
+  add_wall_forces(press_walls(space_, balls), model_.kernels->effects.rotation, on_balls);
+  return on_balls.forces;
 }
 
 DeepestContact ForceField::deepest_contact() {
@@ -271,7 +301,7 @@ void ForceField::grains_added() {
 }
 
 void ForceField::grains_wrapped() {
-  neighbours_.start_afresh();
+  neighbours_.start_afresh_across();
   neighbours_.update(place_discs(), walls_, state_.vessels.placed_at, state_.contacts);
 }
 

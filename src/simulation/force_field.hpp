@@ -77,42 +77,104 @@ class ForceField {
   void restore_wall(std::size_t wall);
   void set_motion(std::size_t vessel, const std::optional<VesselMotion>& motion, const Eigen::Vector2d& shift);
 
-  const Forces& forces() const { return forces_; }
+  const Forces& forces() const { return plane_.on_grains; }
   /// The same of balls in space: forces (N) and torques (N m), the latter without rotation empty.
-  const std::vector<GrainVector>& forces_in_space() const { return space_forces_.forces; }
-  const std::vector<GrainVector>& torques_in_space() const { return space_forces_.torques; }
+  const std::vector<GrainVector>& forces_in_space() const { return space_.on_grains.forces; }
+  const std::vector<GrainVector>& torques_in_space() const { return space_.on_grains.torques; }
   const Walls& walls() const { return walls_; }
   Neighbours& neighbours() { return neighbours_; }
   const Neighbours& neighbours() const { return neighbours_; }
 
  private:
+  /// What the plane and space have each of their own.
+  struct InPlane {
+    using Moving = Motion;
+    using Sums = Forces;
+    using Foreign = ForeignForce;
+    using Finder = WallContactFinder;
+    using WallContacts = vibrosow::WallContacts;
+    using Kernels = VectorKernels;
+    using Energies = EnergyKernel;
+    static const auto& walls_of(const Walls& walls) { return walls.placed(); }
+  };
+  struct InSpace {
+    using Moving = SpaceMotion;
+    using Sums = SpaceForces;
+    using Foreign = ForeignSpaceForce;
+    using Finder = SpaceWallFinder;
+    using WallContacts = SpaceWallContacts;
+    using Kernels = SpaceVectorKernels;
+    using Energies = SpaceEnergyKernel;
+    static const auto& walls_of(const Walls& walls) { return walls.placed_faces(); }
+  };
+  /// With what one of the two is worked out.
+  template <class In>
+  struct Part {
+    /// With what one thread works on its range of pairs or of wall candidates, and what it leaves for the others.
+    struct Range {
+      std::vector<typename In::Foreign> foreign;
+      typename In::Finder finder;
+      typename In::WallContacts contacts;
+    };
+    typename In::Kernels kernels;
+    typename In::Energies energies;
+    std::vector<Range> ranges;
+    typename In::Sums on_grains, on_discs;  // the second of clumps
+  };
+  /// A thread's grains, and the entries of the list that are theirs.
+  struct PairShare {
+    GrainRange grains;
+    PairRange entries;
+  };
+  /// Of wall candidates, with its place among them; a grain's are all in one range.
+  struct WallRange {
+    std::size_t first;
+    std::span<WallCandidate> candidates;
+  };
+
+  /// Calls `work` with the part of the plane or of space.
+  template <class Work>
+  auto with_part(const Work& work) {
+    return state_.grains.in_space ? work(space_) : work(plane_);
+  }
   const Grains& place_discs();
   double energy_of_springs();
   /// They move as they do where they are, not as in the middle of the step of the last evaluation.
   void see_walls_as_they_are() { place_walls(state_.vessels.placed_at); }
-  void set_pair_forces(const Grains& discs, const Motion& at, const ContactStep& step, Forces& forces,
-                       ContactStatistics& statistics);
-  Motion motion_of(const Grains& discs) const;
-  Motion across_boundary(const Grains& discs, double period);
-  WallContacts& find_wall_contacts(const Grains& discs);
-  void run_kernels(const Grains& discs, const ContactStep& step, Forces& forces, ContactStatistics& statistics);
-  SpaceMotion motion_in_space(const Grains& balls);
+  Motion motion_of(const Part<InPlane>& part, const Grains& discs) const;
+  SpaceMotion motion_of(const Part<InSpace>& part, const Grains& balls);
+  Motion across(const Motion& at, const Grains& discs, const Neighbours::Image& image);
+  SpaceMotion across(const SpaceMotion& at, const Grains& balls, const Neighbours::Image& image);
   void set_rows(const Grains& balls);
-  SpaceMotion motion_of_image(const SpaceMotion& at, const Neighbours::Image& image);
-  void run_kernels_in_space(const Grains& balls, const ContactStep& step, SpaceForces& forces,
-                            ContactStatistics& statistics);
-  void set_pair_forces_in_space(const Grains& balls, const SpaceMotion& at, const ContactStep& step,
-                                SpaceForces& forces, ContactStatistics& statistics);
-  SpaceWallContacts& find_wall_contacts_in_space(const Grains& balls);
-  double elastic_energy_in_space(const Grains& balls);
-  Eigen::Vector3d force_of_pair(const Grains& discs, const Motion& at, const PairList& pairs,
-                                ContactHistories& histories, std::size_t k);
-  Eigen::Vector3d force_of_pair_in_space(const Grains& balls, const SpaceMotion& at, const PairList& pairs,
-                                         ContactHistories& histories, std::size_t k);
-  void add_contacts(const Grains& discs, const PairList& pairs, ContactHistories& histories,
-                    const Neighbours::Image& image, std::vector<GrainContact>& contacts);
-  void add_wall_contacts(const Grains& discs, std::vector<GrainContact>& contacts);
-  void add_face_contacts(const Grains& balls, std::vector<GrainContact>& contacts);
+  PairShare pair_share(std::size_t range, std::size_t grains) const;
+  WallRange wall_range(std::size_t range);
+  void add_up_ranges(ContactStatistics& statistics) const;
+  void gather(Part<InPlane>& part);
+  void gather(Part<InSpace>& part);
+
+  template <class In>
+  void set_pair_forces(Part<In>& part, const Grains& discs, const typename In::Moving& at, const ContactStep& step,
+                       typename In::Sums& sums, ContactStatistics& statistics);
+  template <class In>
+  void add_walls(Part<In>& part, const Grains& discs, const typename In::Moving& at, const ContactStep& step,
+                 typename In::Sums& sums, ContactStatistics& statistics);
+  template <class In>
+  void run_kernels(Part<In>& part, const Grains& discs, const ContactStep& step, typename In::Sums& sums,
+                   ContactStatistics& statistics);
+  template <class In>
+  typename In::WallContacts& find_walls(Part<In>& part, const Grains& discs);
+  template <class In>
+  typename In::WallContacts& press_walls(Part<In>& part, const Grains& discs);
+  template <class In>
+  double energy_of_springs(Part<In>& part, const Grains& discs);
+  template <class In>
+  void add_contacts(Part<In>& part, const Grains& discs, const typename In::Moving& at, const PairList& pairs,
+                    ContactHistories& histories, const Neighbours::Image& image, std::vector<GrainContact>& contacts);
+  template <class In>
+  std::vector<GrainContact> contacts_of(Part<In>& part, const Grains& discs);
+  void add_wall_contacts(const WallContacts& touching, const Grains& discs, std::vector<GrainContact>& contacts) const;
+  void add_wall_contacts(const SpaceWallContacts& touching, const Grains& balls,
+                         std::vector<GrainContact>& contacts) const;
   std::int64_t id_of_disc(const Grains& discs, std::size_t i) const;
 
   const Model& model_;
@@ -120,75 +182,15 @@ class ForceField {
   Execution& execution_;
   Walls walls_;
   Neighbours neighbours_;
-  PairKernel pair_kernel_;
-  WallKernel wall_kernel_;
   std::optional<ClumpDiscs> clumps_;
   bool clumps_are_current_ = false;
-  Forces forces_, disc_forces_;
-  SpacePairKernel space_pair_kernel_;
-  SpaceWallKernel space_wall_kernel_;
-  SpaceForces space_forces_, ball_forces_;
-
-  /// A finder of contacts with walls, and those that it found.
-  template <class Finder, class Contacts>
-  struct WallWork {
-    Finder finder;
-    Contacts contacts;
-  };
-  /// With what one thread works on its range of pairs or of wall candidates, and what it leaves for the others.
-  struct RangeWork {
-    std::vector<ForeignForce> foreign;
-    std::vector<ForeignSpaceForce> foreign_in_space;
-    ContactStatistics statistics;
-    WallWork<WallContactFinder, WallContacts> walls;
-    WallWork<SpaceWallFinder, SpaceWallContacts> space_walls;
-  };
-  /// A thread's grains, and the entries of the list that are theirs.
-  struct PairShare {
-    GrainRange grains;
-    PairRange entries;
-  };
-  PairShare pair_share(std::size_t range, std::size_t grains) const;
-  /// Of wall candidates, with its place among them; a grain's are all in one range.
-  struct WallRange {
-    std::size_t first;
-    std::span<WallCandidate> candidates;
-  };
-  WallRange wall_range(std::size_t range);
-  void add_up_ranges(ContactStatistics& statistics) const;
-  template <class Work, class Placed, class Kernel, class At, class Add>
-  void add_walls(Work RangeWork::*work, const Grains& grains, const Placed& walls, Kernel kernel, const At& at,
-                 const ContactStep& step, const Add& add_forces, ContactStatistics& statistics);
-
-  std::vector<RangeWork> ranges_;
+  Part<InPlane> plane_;
+  Part<InSpace> space_;
+  std::vector<ContactStatistics> of_ranges_;
   std::vector<double> shifted_x_;                     // m, across the periodic boundary
   std::vector<GrainVector> places_, shifted_places_;  // the same of balls in space
   std::vector<BallMotion> motions_;
   bool rows_are_set_ = false;
 };
-
-/// A grain's walls are all in one range, so its forces are added up alike for any number of ranges.
-template <class Work, class Placed, class Kernel, class At, class Add>
-void ForceField::add_walls(Work RangeWork::*work, const Grains& grains, const Placed& walls, Kernel kernel,
-                           const At& at, const ContactStep& step, const Add& add_forces,
-                           ContactStatistics& statistics) {
-  ContactHistories& histories = state_.contacts.wall_histories;
-  const GrainSurfaces surfaces = surfaces_of(grains);
-  execution_.for_each_range([&](int k) {
-    const auto [first, candidates] = wall_range(static_cast<std::size_t>(k));
-    RangeWork& own = ranges_[static_cast<std::size_t>(k)];
-    auto& [finder, contacts] = own.*work;
-    own.statistics = {};
-    finder.find(grains, candidates, first, walls, contacts);
-    finder.watch_crossings(candidates, own.statistics.crossed);
-    if (step.commit != 0) finder.touches().renew(histories);
-    add_figures(kernel(surfaces, at, model_.contacts, step, histories, contacts), own.statistics);
-    if (step.commit != 0) finder.touches().share(histories);
-    add_forces(contacts);
-    own.statistics.contacts = contacts.count;
-  });
-  add_up_ranges(statistics);
-  for (const RangeWork& own : ranges_) add_wall_power((own.*work).contacts, statistics.wall_power);
-}
 
 }  // namespace vibrosow

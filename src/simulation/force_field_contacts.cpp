@@ -25,57 +25,37 @@ Vector direction(const Vector& apart) {
   return distance > 0 ? Vector(apart / distance) : Vector(Vector::UnitX());
 }
 
+Vector force_on(const Forces& sums, std::size_t i) {
+  return {sums[i].fx, sums[i].fy, 0};
+}
+Vector force_on(const SpaceForces& sums, std::size_t i) {
+  return {sums.forces[i].x, sums.forces[i].y, sums.forces[i].z};
+}
+
 }  // namespace
 
 /// The kernels work out the forces, of one pair at a time: what its grain then has is this contact's.
-Eigen::Vector3d ForceField::force_of_pair_in_space(const Grains& balls, const SpaceMotion& at, const PairList& pairs,
-                                                   ContactHistories& histories, std::size_t k) {
-  const int entry = static_cast<int>(k);
-  const std::size_t i = static_cast<std::size_t>(pairs.grain[k]), j = static_cast<std::size_t>(pairs.partner[k]);
-  ball_forces_.forces.resize(balls.size()), ball_forces_.torques.resize(balls.size());
-  for (const std::size_t n : {i, j}) ball_forces_.forces[n] = ball_forces_.torques[n] = {};
-  SpacePairResult result;
-  result.forces = ball_forces_.forces.data(), result.torques = ball_forces_.torques.data(), result.first_own = 0;
-  space_pair_kernel_(surfaces_of(balls), at, pairs, {entry, entry + 1}, model_.contacts, {}, histories, result);
-  const GrainVector& force = ball_forces_.forces[i];
-  return {force.x, force.y, force.z};
-}
-
-Eigen::Vector3d ForceField::force_of_pair(const Grains& discs, const Motion& at, const PairList& pairs,
-                                          ContactHistories& histories, std::size_t k) {
-  const int entry = static_cast<int>(k);
-  const std::size_t i = static_cast<std::size_t>(pairs.grain[k]), j = static_cast<std::size_t>(pairs.partner[k]);
-  disc_forces_.resize(discs.size());
-  disc_forces_[i] = disc_forces_[j] = {};
-  PairResult result;
-  result.forces = disc_forces_.data(), result.first_own = 0;
-  pair_kernel_(surfaces_of(discs), at, pairs, {entry, entry + 1}, model_.contacts, {}, histories, result);
-  return {disc_forces_[i].fx, disc_forces_[i].fy, 0};
-}
-
-void ForceField::add_contacts(const Grains& discs, const PairList& pairs, ContactHistories& histories,
-                              const Neighbours::Image& image, std::vector<GrainContact>& contacts) {
-  const bool across = image.x != 0 || image.z != 0, in_space = discs.in_space;
-  SpaceMotion at_in_space{};
-  if (in_space) at_in_space = motion_in_space(discs);
-  if (in_space && across) at_in_space = motion_of_image(at_in_space, image);
-  Motion at{};
-  if (!in_space) at = across ? across_boundary(discs, image.x) : motion_of(discs);
+template <class In>
+void ForceField::add_contacts(Part<In>& part, const Grains& discs, const typename In::Moving& at, const PairList& pairs,
+                              ContactHistories& histories, const Neighbours::Image& image,
+                              std::vector<GrainContact>& contacts) {
+  resize(part.on_discs, discs.size(), model_.kernels->effects.rotation);
   for (std::size_t k = 0; k < pairs.size(); ++k) {
-    const std::size_t i = static_cast<std::size_t>(pairs.grain[k]), j = static_cast<std::size_t>(pairs.partner[k]);
+    const int entry = static_cast<int>(k), grain = pairs.grain[k], partner = pairs.partner[k];
+    const std::size_t i = static_cast<std::size_t>(grain), j = static_cast<std::size_t>(partner);
     const Vector to = discs.place(j), from = discs.place(i) + Vector(image.x, 0, image.z);
     const double overlap = discs.kind(i).radius + discs.kind(j).radius - (to - from).norm();
     if (!(overlap > 0)) continue;
-    const Vector force = in_space ? force_of_pair_in_space(discs, at_in_space, pairs, histories, k)
-                                  : force_of_pair(discs, at, pairs, histories, k);
-    contacts.push_back(
-        contact_of(id_of_disc(discs, i), id_of_disc(discs, j), from, to, direction(to - from), force, overlap));
+    for (const int n : {grain, partner}) begin_with_zero(part.on_discs, {n, n + 1});
+    auto result = result_in(part.on_discs, 0);
+    part.kernels.pair(surfaces_of(discs), at, pairs, {entry, entry + 1}, model_.contacts, {}, histories, result);
+    contacts.push_back(contact_of(id_of_disc(discs, i), id_of_disc(discs, j), from, to, direction(to - from),
+                                  force_on(part.on_discs, i), overlap));
   }
 }
 
-void ForceField::add_wall_contacts(const Grains& discs, std::vector<GrainContact>& contacts) {
-  WallContacts& w = find_wall_contacts(discs);
-  wall_kernel_(surfaces_of(discs), motion_of(discs), model_.contacts, {}, state_.contacts.wall_histories, w);
+void ForceField::add_wall_contacts(const WallContacts& w, const Grains& discs,
+                                   std::vector<GrainContact>& contacts) const {
   for (std::size_t k = 0; k < static_cast<std::size_t>(w.count); ++k) {
     const std::size_t i = static_cast<std::size_t>(w.grain[k]);
     const Vector from = discs.place(i), apart(w.dx[k], w.dy[k], 0);
@@ -85,10 +65,8 @@ void ForceField::add_wall_contacts(const Grains& discs, std::vector<GrainContact
   }
 }
 
-void ForceField::add_face_contacts(const Grains& balls, std::vector<GrainContact>& contacts) {
-  SpaceWallContacts& w = find_wall_contacts_in_space(balls);
-  space_wall_kernel_(surfaces_of(balls), motion_in_space(balls), model_.contacts, {}, state_.contacts.wall_histories,
-                     w);
+void ForceField::add_wall_contacts(const SpaceWallContacts& w, const Grains& balls,
+                                   std::vector<GrainContact>& contacts) const {
   for (std::size_t k = 0; k < static_cast<std::size_t>(w.count); ++k) {
     const std::size_t i = static_cast<std::size_t>(w.grain[k]);
     const Vector from = balls.place(i), normal(w.normal.x[k], w.normal.y[k], w.normal.z[k]);
@@ -101,17 +79,24 @@ std::int64_t ForceField::id_of_disc(const Grains& discs, std::size_t i) const {
   return clumps_ ? state_.grains.id[static_cast<std::size_t>(discs.clump[i])] : discs.id[i];
 }
 
+template <class In>
+std::vector<GrainContact> ForceField::contacts_of(Part<In>& part, const Grains& discs) {
+  std::vector<GrainContact> contacts;
+  const typename In::Moving at = motion_of(part, discs);
+  add_contacts(part, discs, at, state_.contacts.pairs, state_.contacts.pair_histories, {0, 0}, contacts);
+  for (std::size_t k = 0; k < neighbours_.images().size(); ++k) {
+    BoundaryContacts& boundary = state_.contacts.boundaries[k];
+    const Neighbours::Image& image = neighbours_.images()[k];
+    add_contacts(part, discs, across(at, discs, image), boundary.pairs, boundary.histories, image, contacts);
+  }
+  add_wall_contacts(press_walls(part, discs), discs, contacts);
+  return contacts;
+}
+
 std::vector<GrainContact> ForceField::contacts() {
   see_walls_as_they_are();
   const Grains& discs = place_discs();
-  std::vector<GrainContact> contacts;
-  add_contacts(discs, state_.contacts.pairs, state_.contacts.pair_histories, {0, 0}, contacts);
-  for (std::size_t k = 0; k < neighbours_.images().size(); ++k) {
-    BoundaryContacts& boundary = state_.contacts.boundaries[k];
-    add_contacts(discs, boundary.pairs, boundary.histories, neighbours_.images()[k], contacts);
-  }
-  discs.in_space ? add_face_contacts(discs, contacts) : add_wall_contacts(discs, contacts);
-  return contacts;
+  return with_part([&](auto& part) { return contacts_of(part, discs); });
 }
 
 }  // namespace vibrosow

@@ -173,17 +173,17 @@ SeenWall seen_in_space(const Grains& grains, std::size_t i, const Walls& walls, 
 
 }  // namespace
 
-Neighbours::Neighbours(const std::vector<Vessel>& vessels, double largest_diameter, NeighbourMargins margins,
+Neighbours::Neighbours(const std::vector<Vessel>& vessels, double largest_disc_diameter, NeighbourMargins margins,
                        HistoryKinds kinds, Execution& execution)
     : execution_(execution),
-      diameter_(largest_diameter),
-      wide_level_{(kinds.in_space ? margins.wide_in_space : margins.wide) * largest_diameter},
-      narrow_level_{margins.narrow * largest_diameter},
+      diameter_(largest_disc_diameter),
+      wide_level_{(kinds.in_space ? margins.wide_in_space : margins.wide) * largest_disc_diameter},
+      narrow_level_{margins.narrow * largest_disc_diameter},
       kinds_(kinds) {
   if (kinds.in_space)
-    in_space_.emplace(vessels, largest_diameter, execution.instructions());
+    in_space_.emplace(vessels, largest_disc_diameter, execution.instructions());
   else
-    in_plane_.emplace(vessels, largest_diameter, execution.instructions());
+    in_plane_.emplace(vessels, largest_disc_diameter, execution.instructions());
   const Vessel& tray = vessels.front();
   const bool along = tray.sides == Sides::periodic, across = kinds.in_space && tray.front_and_back == Sides::periodic;
   if (along) images_.push_back({tray.length, 0});
@@ -435,10 +435,14 @@ void Neighbours::carry_histories_over(ContactState& contacts) {
   };
   begin(contacts.pairs, contacts.pair_histories);
   for (BoundaryContacts& boundary : contacts.boundaries) begin(boundary.pairs, boundary.histories);
-  if (images_.empty()) {
+  if (!std::exchange(changed_lists_, false)) {
     execution_.share(contacts.pairs.size(), [&](std::size_t from, std::size_t to) {
       carry_over(old_, old_histories_, contacts.pairs, from, to, contacts.pair_histories);
     });
+    for (std::size_t k = 0; k < old_boundaries_.size(); ++k) {
+      auto& [pairs, histories] = contacts.boundaries[k];
+      carry_over(old_boundaries_[k].pairs, old_boundaries_[k].histories, pairs, 0, pairs.size(), histories);
+    }
     return;
   }
   const std::vector<ActivePair> active = active_pairs(old_, old_histories_, old_boundaries_);

@@ -17,7 +17,7 @@
 
 namespace vibrosow {
 
-/// Margins of the two lists, in diameters of the largest grain; the narrow one is where a run begins, and is then
+/// Margins of the two lists, in diameters of the largest disc or ball; the narrow one is where a run begins, and is then
 /// chosen from how long the lists last. They change the time of a run and never its result.
 struct NeighbourMargins {
   double wide = 1.4;
@@ -34,7 +34,7 @@ struct NeighbourMargins {
 class Neighbours {
  public:
   /// In space where the histories' kinds are.
-  Neighbours(const std::vector<Vessel>& vessels, double largest_diameter, NeighbourMargins margins, HistoryKinds kinds,
+  Neighbours(const std::vector<Vessel>& vessels, double largest_disc_diameter, NeighbourMargins margins, HistoryKinds kinds,
              Execution& execution);
 
   /// Renews the lists if the grains or walls have moved too far for them by `time` (s).
@@ -42,6 +42,8 @@ class Neighbours {
 
   /// The grains have changed in number: the next update starts afresh.
   void start_afresh() { wide_is_valid_ = false; }
+  /// The same where grains were moved by a period: their contacts are in other lists then.
+  void start_afresh_across() { wide_is_valid_ = false, changed_lists_ = true; }
 
   /// Takes removed grains out of the lists without a search.
   void remove_flagged(const std::vector<char>& removed, ContactState& contacts);
@@ -115,7 +117,7 @@ class Neighbours {
   std::optional<SpaceBroadphase> in_space_;
   std::vector<double> largest_radius_;          // m, by vessel, of its walls about its frame's zero
   std::vector<double> largest_radius_in_plan_;  // m, the same about the upright axis, in space
-  double diameter_;                             // m, of the largest grain
+  double diameter_;                             // m, of the largest disc or ball
   Level wide_level_, narrow_level_;
   Course course_;
   Eigen::Vector3d mean_course_ = Eigen::Vector3d::Zero();  // m/s, of the grains
@@ -130,6 +132,7 @@ class Neighbours {
   std::vector<BoundaryContacts> old_boundaries_;
   ContactHistories old_histories_;
   bool wide_is_valid_ = false;
+  bool changed_lists_ = false;  // whether a contact may be in another list than before
   std::int64_t searches_ = 0, prunes_ = 0;
 };
 
