@@ -43,7 +43,7 @@ const plainText = (token) => token.children.map(({ content }) => content).join('
 
 /** `link(target)`: the address, in the site, of what a document calls `target`. Gives the title and the content as HTML. */
 function readDocument(text, link) {
-  const tokens = markdown.parse(text, {});
+  const tokens = markdown.parse(text.replace(/^<!--.*-->\n/gm, ''), {});
   const anchor = anchorsOf();
   let title = '';
   tokens.forEach((token, k) => {

@@ -1,0 +1,287 @@
+"""Tables of numbers in the documents, made of the reports' CSV files. A table is a list of lines of cells; the first line is its header."""
+import math
+import re
+import statistics
+import sys
+import tomllib
+from pathlib import Path
+
+from .accuracy import LEVELS, level_rows
+from .outflow import slot_of
+from .tables import command, rows
+
+ROOT = Path(__file__).resolve().parents[2]
+DOCUMENTS = ("reports/FINDINGS.md", "docs/ACCURACY.md")
+MARKED = re.compile(r"^<!-- made: (\S+) -->\n((?:\|.*\n)*)", re.MULTILINE)
+HOLES, SPAN, FREQUENCY = "tray.holes.count", "tray.holes.span_mm", "tray.motion.frequency_Hz"
+
+
+def decimals(value, significant):
+    """How many there are where a value is written with so many significant digits."""
+    return max(0, significant - 1 - math.floor(math.log10(abs(value)))) if value else 0
+
+
+def plus_minus(value, half, digits=None, sign=""):
+    """A value and the half width of its interval. Where no decimals are given the half width has two significant digits."""
+    digits = decimals(half, 2) if digits is None else digits
+    return f"{value:{sign}.{digits}f} ± {half:.{digits}f}"
+
+
+def number(row, key, digits=0, times=1):
+    return f"{times * float(row[key]):.{digits}f}"
+
+
+def interval(row, key, digits=None, half=None, sign=""):
+    """Of a column and its half width, `half`, or the column that is called after it."""
+    return plus_minus(float(row[key]), float(row[half or f"{key}_ci95"]), digits, sign)
+
+
+def scientific(value):
+    """A power of ten with one digit before it: 3e-4."""
+    return f"{value:.0e}".replace("e-0", "e-")
+
+
+def column(table, key):
+    return [float(row[key]) for row in table]
+
+
+def chosen(table, wanted):
+    """The rows with these texts."""
+    return [row for row in table if all(row[key] == text for key, text in wanted.items())]
+
+
+def values(table, key):
+    """Each text of a column once, in order."""
+    return list(dict.fromkeys(row[key] for row in table))
+
+
+def wheat_holes(root):
+    """One hole is the same at every span, so it is shown at the first alone."""
+    header = ["holes", "span, cm", "frequency, Hz", "rate, g/s", "seeds/s", "unevenness (CV), %", "longest pause, ms"]
+    table = rows(root / "reports/wheat-holes/sweep.csv")
+    lines = []
+    for row in table:
+        span, unevenness = number(row, SPAN, 0, 0.1), ""
+        if row[HOLES] == "1":
+            if row[SPAN] != table[0][SPAN]:
+                continue
+            span = "–"
+        else:
+            middle, low, high = (number(row, f"unevenness_cv_percent{end}", 1) for end in ("", "_low", "_high"))
+            unevenness = f"{middle} ({low} to {high})"
+        lines.append([row[HOLES], span, row[FREQUENCY], interval(row, "rate_g_per_s", 2), interval(row, "seeds_per_s", 0), unevenness,
+                      number(row, "longest_pause_s", 0, 1000)])
+    return [header, *lines]
+
+
+def wheat_tray_spaces(root):
+    header = ["holes", "span, cm", "frequency, Hz", "space, g/s", "slice times depth, g/s", "rank in space", "in the plane"]
+    return [header, *([row[HOLES], number(row, SPAN, 0, 0.1), row[FREQUENCY], number(row, "space_g_per_s", 1),
+                       number(row, "plane_g_per_s", 1), row["rank_in_space"], row["rank_in_plane"]]
+                      for row in rows(root / "reports/wheat-tray-spaces/spaces.csv"))]
+
+
+def wheat_tray_clumps(root):
+    """Every run's rate."""
+    layouts, runs = (rows(root / f"reports/wheat-tray-clumps/{name}.csv") for name in ("sweep", "sweep_runs"))
+    lines = [["frequency, Hz", "balls, g/s", "clumps, g/s", "clumps over balls, of the means"]]
+    for frequency in values(layouts, FREQUENCY):
+        of_crops = []
+        for crop in ("wheat", "wheat-grain"):
+            (layout,) = chosen(layouts, {FREQUENCY: frequency, "seeds.wheat.crop": crop})
+            of_crops.append(column(chosen(runs, {"layout": layout["layout"]}), "rate_g_per_s"))
+        balls, clumps = map(statistics.mean, of_crops)
+        lines.append([frequency, *(", ".join(f"{rate:.2f}" for rate in rates) for rates in of_crops), f"{clumps / balls:.2f}"])
+    return lines
+
+
+def wheat_tray_grains(root):
+    table = rows(root / "reports/wheat-tray-grains/rates.csv")
+    lines = [["frequency, Hz", "balls, g/s", "by hole", "clumps, g/s", "by hole", "clumps over balls"]]
+    for frequency in values(table, FREQUENCY):
+        cells, rates = [frequency], []
+        for crop in ("wheat", "wheat-grain"):
+            whole, *holes = column(chosen(table, {FREQUENCY: frequency, "seeds.wheat.crop": crop}), "rate_g_per_s")
+            cells += [f"{whole:.1f}", ", ".join(f"{rate:.1f}" for rate in holes)]
+            rates.append(whole)
+        lines.append([*cells, f"{rates[1] / rates[0]:.2f}"])
+    return lines
+
+
+def slot_in_space(root):
+    table = rows(root / "reports/slot-in-space/slot.csv")
+    lines = [["", "percent a second", "of the measured 19.1", "misfit of the curve"]]
+    for depth in values(table, "depth_mm"):
+        for program, name in (("vibrosow", "Vibrosow"), ("lammps", "LAMMPS")):
+            (row,) = chosen(table, {"depth_mm": depth, "program": program})
+            off, misfit = float(row["difference_from_measured_percent"]), float(row["misfit_percent"])
+            lines.append([f"{name}, {depth} mm{' deep' if len(lines) == 1 else ''}", interval(row, "percent_per_s", 2),
+                          f"{off:+.{decimals(off, 2)}f} %", interval(row, "misfit_percent", decimals(misfit, 3)) + " %"])
+    return lines
+
+
+def paper_a_fig3(root):
+    """Lost and spilled grains are means of a layout's runs, the overlap is the largest of them."""
+    layouts, holes, runs = (rows(root / f"reports/paper-a-fig3/{name}.csv") for name in ("sweep", "sweep_holes", "sweep_runs"))
+    lines = [["", "hole 1", "hole 2", "hole 3", "all", "largest relative overlap", "lost through walls, of 2500", "spilled"]]
+    for row in layouts:
+        own = chosen(runs, {"layout": row["layout"]})
+        lost, spilled = (f"{statistics.mean(column(own, key)):.0f}" for key in ("lost", "spilled"))
+        lines.append([row["name"], *(interval(hole, "seeds_per_s") for hole in chosen(holes, {"layout": row["layout"]})),
+                      f"{max(column(own, 'max_relative_overlap')):.2f}", lost, spilled])
+    return lines
+
+
+READINGS = {"as read: outlet 5 d, walls 22.5 degrees from the vertical": [f"paper-b-channel/seed-{seed}" for seed in (1, 2, 3)],
+            "outlet 4 d": ["paper-b-readings/outlet-4-d"],
+            "walls 45 degrees from the vertical": ["paper-b-readings/walls-45-degree"],
+            "grains that do not turn": ["paper-b-readings/no-rotation"]}
+OPENED_AT_S = 0.5  # open_at in seeders/papers/paper-b-channel.toml
+
+
+def emptied_after(folder):
+    """Seconds from when the outlet opens, with the three digits of the run's note."""
+    note = rows(folder / "summary.csv")[-1]["note"]
+    found = re.search(r"ran dry at ([\d.]+) s", note)
+    if not found:
+        sys.exit(f"scripts/figures: {folder}/summary.csv: did not run dry: {note}")
+    seconds = float(found[1]) - OPENED_AT_S
+    return f"{seconds:.{decimals(seconds, 3)}f}"
+
+
+def pauses_of(folder):
+    """Their number, without the wait for the outlet to open, and the longest of those after the first window, in which that wait is."""
+    _, *later, whole = rows(folder / "flow.csv")
+    count = int(whole["pauses"]) - 1
+    return f"{count} ({max(column(later, 'longest_pause_s')):.2f} s)" if count else "none"
+
+
+def paper_b_readings(root):
+    lines = [["reading", "random seeds", "empty after", "pauses (longest)"]]
+    for reading, names in READINGS.items():
+        folders = [root / "reports" / name for name in names]
+        times, pauses = map(emptied_after, folders), dict.fromkeys(map(pauses_of, folders))
+        lines.append([reading, str(len(folders)), ", ".join(times) + " s", ", ".join(pauses)])
+    return lines
+
+
+def by_slot(path, corner, unit, cell):
+    """A column for each slot or hole that is called after its width: 5 d, 7 d, .."""
+    table = sorted((row for row in rows(path) if slot_of(row["name"])), key=lambda row: slot_of(row["name"]))
+    return [[corner, *(row["name"] for row in table)], [unit, *map(cell, table)]]
+
+
+def silo(root):
+    return by_slot(root / "reports/silo/rates.csv", "slot D", "grains/s",
+                   lambda row: plus_minus(float(row["seeds_per_s"]), float(row["seeds_per_s"]) * float(row["ci95_percent"]) / 100))
+
+
+def round_holes(root):
+    return by_slot(root / "reports/round-holes/rates.csv", "hole D", "balls/s", lambda row: number(row, "seeds_per_s"))
+
+
+def relations(root):
+    """A relation is named at the first of its numbers."""
+    lines = [["relation", "number", "published", "comes out", "verdict", "runs"]]
+    named = set()
+    for row in rows(root / "reports/relations/relations.csv"):
+        relation = f"{row['relation']}. {row['statement']} ({row['source']})"
+        lines.append(["" if relation in named else relation, row["number"], row["published"],
+                      f"{row['value']} ({row['ci95_low']} to {row['ci95_high']})", row["verdict"], row["runs"]])
+        named.add(relation)
+    return lines
+
+
+SCHEMES = {"velocity-verlet": "Verlet", "rk2-midpoint": "midpoint", "gear5": "Gear"}
+SOURCES = {"step, velocity-verlet": "step, velocity Verlet", "step, rk2-midpoint": "step, midpoint rule", "step, gear5": "step, Gear"}
+
+
+def setting(text):
+    """The end of a comparison, without its unit."""
+    text = text.removeprefix("eps/r ").removesuffix(" a contact")
+    return SCHEMES.get(text) or (scientific(float(text)) if float(text) < 1 else text)
+
+
+def accuracy_tray(root):
+    """Softness and the first of the steps say what their numbers are."""
+    lines = [["source", "from, to", "rate changes by, %"]]
+    for row in rows(root / "reports/accuracy-tray/accuracy_errors.csv"):
+        source = row["source"]
+        if source.startswith("chance"):
+            lines.append([source, "", f"{number(row, 'rate_change_percent', 1)} (standard deviation)"])
+            continue
+        before = "eps/r " if source == "softness" else ""
+        after = " steps a contact" if source == "step, velocity-verlet" else ""
+        lines.append([SOURCES.get(source, source.replace("scheme, ", "scheme, at ")),
+                      f"{before}{setting(row['from'])}, {setting(row['to'])}{after}",
+                      interval(row, "rate_change_percent", 1, "rate_change_ci95", "+")])
+    return lines
+
+
+def levels(root):
+    """What the worst of the seeders is known to stay within at each level, rounded up."""
+    table = rows(root / "reports/accuracy-levels/levels.csv")
+    lines = [["level", "shell compression", "steps a contact", "errs by at most, %"]]
+    for level, compression, steps in LEVELS:
+        worst = max(column(chosen(table, {"level": level}), "error_bound_percent"))
+        lines.append([f"`{level}`", scientific(compression), str(steps), f"{math.ceil(round(10 * worst, 6)) / 10:.1f}"])
+    return lines
+
+
+def level_errors(root):
+    """By seeder: errors, and times over that of the reference, whose own is in seconds. From its own report: levels.csv is rounded."""
+    folder = root / "reports/accuracy-levels"
+    lines = [["seeder", "draft: error, %; time", "design", "reference; s of a run"]]
+    for scene in values(rows(folder / "levels.csv"), "scene"):
+        seeder = tomllib.loads((root / f"seeders/{scene}.toml").read_text(encoding="utf-8"))
+        space = "3D" if seeder.get("space") == "3d" else "plane"
+        errors, seconds = [], []
+        for _, row, cpu_s in level_rows(folder / scene):
+            errors.append(interval(row, "fitted_error_percent", 1, "fitted_error_band95", "+"))
+            seconds.append(cpu_s)
+        times = [*(f"{time / seconds[-1]:.2f}" for time in seconds[:-1]), f"{seconds[-1]:.0f}"]
+        lines.append([f"{scene}, {space}", *(f"{error}; {time}" for error, time in zip(errors, times))])
+    return lines
+
+
+TABLES = {"wheat-holes": wheat_holes, "wheat-tray-spaces": wheat_tray_spaces, "wheat-tray-clumps": wheat_tray_clumps,
+          "wheat-tray-grains": wheat_tray_grains, "slot-in-space": slot_in_space, "paper-a-fig3": paper_a_fig3,
+          "paper-b-readings": paper_b_readings, "silo": silo, "round-holes": round_holes, "relations": relations,
+          "accuracy-tray": accuracy_tray, "levels": levels, "level-errors": level_errors}
+
+
+def markdown(lines):
+    header, *others = ("| " + " | ".join(cells) + " |\n" for cells in lines)
+    return "".join([header, "|" + "---|" * len(lines[0]) + "\n", *others])
+
+
+def made(name, root):
+    if name not in TABLES:
+        sys.exit(f"scripts/figures: documents: no table is called {name}")
+    return markdown(TABLES[name](root))
+
+
+def documents(options):
+    """Makes the tables of numbers in the documents from the reports' CSV files.
+
+    A table is made where a line <!-- made: NAME --> stands above it; all else of a document stays as it is."""
+    differences, shown = [], set()
+    for document in DOCUMENTS:
+        path = options.root / document
+        text = path.read_text(encoding="utf-8")
+        tables = {name: made(name, options.root) for name, _ in MARKED.findall(text)}
+        differences += [f"{document}: {name} is not what scripts/figures documents writes"
+                        for name, old in MARKED.findall(text) if old != tables[name]]
+        shown |= tables.keys()
+        remade = MARKED.sub(lambda found: f"<!-- made: {found[1]} -->\n{tables[found[1]]}", text)
+        if remade != text and not options.check:
+            path.write_text(remade, encoding="utf-8")
+    differences += [f"{name}: no document has this table" for name in TABLES if name not in shown]
+    if options.check and differences:
+        sys.exit("\n".join(differences))
+
+
+def add_commands(commands):
+    parser = command(commands, "documents", documents)
+    parser.add_argument("--check", action="store_true", help="changes nothing; fails and names the tables that would change")
+    parser.add_argument("--root", type=Path, default=ROOT, metavar="FOLDER", help="the repository; default: this one")
