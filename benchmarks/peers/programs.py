@@ -38,7 +38,7 @@ class Result:
 class Bench:
     """Where and on which core programs run."""
 
-    def __init__(self, vibrosow, native_lammps, box2d, core, work):
+    def __init__(self, vibrosow, core, work, native_lammps=None, box2d=None):
         self.vibrosow, self.box2d, self.core, self.work = Path(vibrosow).resolve(), box2d, core, Path(work)
         self.native_lammps = native_lammps and Path(native_lammps).resolve()
         self.before = {}  # of each scene and its start: what Vibrosow counts up to the timed window
