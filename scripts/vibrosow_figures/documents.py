@@ -11,7 +11,7 @@ from .outflow import slot_of
 from .tables import command, rows
 
 ROOT = Path(__file__).resolve().parents[2]
-DOCUMENTS = ("reports/FINDINGS.md", "docs/ACCURACY.md")
+DOCUMENTS = ("reports/FINDINGS.md", "docs/ACCURACY.md", "docs/CALIBRATING.md")
 MARKED = re.compile(r"^<!-- made: (\S+) -->\n((?:\|.*\n)*)", re.MULTILINE)
 HOLES, SPAN, FREQUENCY = "tray.holes.count", "tray.holes.span_mm", "tray.motion.frequency_Hz"
 
@@ -244,10 +244,19 @@ def level_errors(root):
     return lines
 
 
+def calibration_coverage(root):
+    """How often a calibration's intervals held the truth."""
+    lines = [["key", "held", "of 400, 95 %", "contraction, mean"]]
+    for row in rows(root / "reports/calibration/coverage.csv"):
+        low, high = (number(row, f"{end}_percent", 1) for end in ("low", "high"))
+        lines.append([f"`{row['key']}`", f"{number(row, 'covered_percent', 1)} %", f"{low} to {high}", f"{number(row, 'mean_contraction_percent')} %"])
+    return lines
+
+
 TABLES = {"wheat-holes": wheat_holes, "wheat-tray-spaces": wheat_tray_spaces, "wheat-tray-clumps": wheat_tray_clumps,
           "wheat-tray-grains": wheat_tray_grains, "slot-in-space": slot_in_space, "paper-a-fig3": paper_a_fig3,
           "paper-b-readings": paper_b_readings, "silo": silo, "round-holes": round_holes, "relations": relations,
-          "accuracy-tray": accuracy_tray, "levels": levels, "level-errors": level_errors}
+          "accuracy-tray": accuracy_tray, "levels": levels, "level-errors": level_errors, "calibration-coverage": calibration_coverage}
 
 
 def markdown(lines):
