@@ -50,7 +50,7 @@ void print_space_advice(const Scene& scene) {
       "  ",
       flat ? "which layout or frequency sows more, and roughly by how much, is a question for the plane; an absolute "
              "rate, round holes, or holes narrower than some eight seeds need space = \"3d\": through the one "
-             "measured slot the plane is 11.5 % fast, space 5.5 %"
+             "measured slot the plane is 13 % fast, space 5 %"
            : "absolute rates and round holes; for comparing many layouts of slots the plane is far faster"));
   print("  check --both runs the two and prints their ratio\n");
 }
