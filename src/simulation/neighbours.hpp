@@ -17,8 +17,8 @@
 
 namespace vibrosow {
 
-/// Margins of the two lists, in diameters of the largest disc or ball; the narrow one is where a run begins, and is then
-/// chosen from how long the lists last. They change the time of a run and never its result.
+/// Margins of the two lists, in diameters of the largest disc or ball; the narrow one is where a run begins, and is
+/// then chosen from how long the lists last. They change the time of a run and never its result.
 struct NeighbourMargins {
   double wide = 1.4;
   double narrow = 0.15;
@@ -34,8 +34,8 @@ struct NeighbourMargins {
 class Neighbours {
  public:
   /// In space where the histories' kinds are.
-  Neighbours(const std::vector<Vessel>& vessels, double largest_disc_diameter, NeighbourMargins margins, HistoryKinds kinds,
-             Execution& execution);
+  Neighbours(const std::vector<Vessel>& vessels, double largest_disc_diameter, NeighbourMargins margins,
+             HistoryKinds kinds, Execution& execution);
 
   /// Renews the lists if the grains or walls have moved too far for them by `time` (s).
   void update(const Grains& grains, const Walls& walls, double time, ContactState& contacts);
