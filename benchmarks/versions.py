@@ -1,4 +1,5 @@
-"""Programs to set beside one another: of another commit, or of this tree for fewer instruction sets. They are built aside, in build/versions."""
+"""Programs to set beside one another: of another commit, or of this tree for fewer instruction sets. They are built aside, in build/versions.
+What is no program and no commit fails with git's message."""
 import subprocess
 import sys
 from pathlib import Path
@@ -21,10 +22,11 @@ def of(name):
     """The program of that name; or that of a commit, made for this processor."""
     if Path(name).is_file():
         return Path(name).resolve()
-    folder, tree = BUILDS / name, BUILDS / f'{name}-tree'
+    commit = subprocess.run(['git', 'rev-parse', '--verify', f'{name}^{{commit}}'], check=True, cwd=ROOT, stdout=subprocess.PIPE, text=True).stdout.strip()
+    folder, tree = BUILDS / commit, BUILDS / f'{commit}-tree'
     if not (folder / 'src/vibrosow').is_file():
         sets = subprocess.run([ROOT / 'scripts/instruction-sets'], check=True, stdout=subprocess.PIPE, text=True).stdout.strip()
-        call('git', 'worktree', 'add', '--force', '--detach', tree, name)
+        call('git', 'worktree', 'add', '--force', '--detach', tree, commit)
         build(tree, folder, sets)
         call('git', 'worktree', 'remove', '--force', tree)
     return folder / 'src/vibrosow'
