@@ -19,23 +19,33 @@ struct ReposeMaterial {
   std::vector<ReposeFigures> runs;
 };
 
-/// All materials of a study from the runs that are kept in a sweep's folder. Throws InputError where one is missing or
-/// has failed.
-inline std::vector<ReposeMaterial> kept_materials(const std::string& study, const std::string& folder) {
+/// Calls `visit(scene, runs)` for each scene of a study with the runs of it that are kept in a sweep's folder, by
+/// random seed. Throws InputError where one is missing or has failed.
+template <class Visit>
+void visit_kept_runs(const std::string& study, const std::string& folder, Visit visit) {
   const PlannedStudy planned = plan_study(study, {}, 1);
   const CaseFolder cases(cases_of(folder));
   const std::vector<int> replicates = replicates_in(planned);
-  std::vector<ReposeMaterial> materials;
   for (std::size_t s = 0; s < planned.study.scenes.size(); ++s) {
-    ReposeMaterial material{planned.study.scenes[s], {}};
+    const Scene& scene = planned.study.scenes[s];
+    std::vector<Run> runs;
     for (int seed = 1; seed <= replicates[s]; ++seed) {
-      const auto run = cases.find(case_identity(material.scene, static_cast<std::uint64_t>(seed)));
+      const auto run = cases.find(case_identity(scene, static_cast<std::uint64_t>(seed)));
       if (!run || run->status != RunStatus::finished)
         throw InputError(folder + ": a run of " + study + " is missing or failed; sweep it first");
-      material.runs.push_back(repose_figures(material.scene, *run));
+      runs.push_back(*run);
     }
-    materials.push_back(std::move(material));
+    visit(scene, runs);
   }
+}
+
+/// All materials of such a study.
+inline std::vector<ReposeMaterial> kept_materials(const std::string& study, const std::string& folder) {
+  std::vector<ReposeMaterial> materials;
+  visit_kept_runs(study, folder, [&](const Scene& scene, const std::vector<Run>& runs) {
+    materials.push_back({scene, {}});
+    for (const Run& run : runs) materials.back().runs.push_back(repose_figures(scene, run));
+  });
   return materials;
 }
 

@@ -4,6 +4,14 @@ import subprocess
 import sys
 
 
+# Keys that write wheat and its contact out, since versions know them by different names: as balls and as grains of five balls.
+_CONTACT = {'seeds.wheat.crop': '', 'contact.model': '', 'contact.law': 'elastic-shell', 'contact.shell_compression': 3e-5, 'contact.friction': 0.45,
+            'contact.restitution': 0.5, 'contact.friction_model': 'spring', 'contact.wall.friction': 0.36, 'contact.wall.restitution': 0.5,
+            'seeds.wheat.thousand_grain_weight': '29.6 g'}
+BALLS = _CONTACT | {'seeds.wheat.shape': 'ball', 'seeds.wheat.diameter': '3.57 mm'}
+GRAINS = _CONTACT | {'seeds.wheat.shape': 'elongated', 'seeds.wheat.length': '6.32 mm', 'seeds.wheat.width': '2.92 mm', 'seeds.wheat.thickness': '2.66 mm'}
+
+
 def start(program, command, file, keys, out, *options):
     """A run that goes on beside this program: `command` of the seeder or study `file`, with keys set and options."""
     words = [word for key, value in keys.items() for word in ('--set', f'{key}={value}')]

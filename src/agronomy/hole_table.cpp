@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <boost/math/tools/toms748_solve.hpp>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <stdexcept>
 #include <tuple>
@@ -11,7 +13,8 @@
 namespace vibrosow {
 namespace {
 
-constexpr double beverloo = 2.5;  // power of the width, less some, with which the outflow grows
+constexpr double normal_95 = 1.959964;  // standard deviations of a 95 % half width
+constexpr double beverloo = 2.5;        // power of the width, less some, with which the outflow grows
 
 /// Along one axis of a grid: where the interpolation is linear.
 double coordinate(std::size_t axis, double value) {
@@ -131,14 +134,15 @@ Span HoleTable::span(double aspect, std::size_t axis) const {
   return common;
 }
 
-std::vector<double> HoleTable::speed_steps(double aspect) const {
+std::vector<double> HoleTable::speed_steps(double aspect, const Span& limits) const {
   const Span common = peak_speeds(aspect);
   std::vector<double> steps = grids_.front().axes[1];
+  steps.insert(steps.end(), {limits.least, limits.most});
   for (const Share& shape : shapes_around(aspect)) {
     const std::vector<double>& own = grids_[shape.index].axes[1];
     steps.insert(steps.end(), own.begin(), own.end());
   }
-  std::erase_if(steps, [&](double speed) { return !common.holds(speed); });
+  std::erase_if(steps, [&](double speed) { return !common.holds(speed) || !limits.holds(speed); });
   return sorted_without_repeats(steps);
 }
 
@@ -230,6 +234,57 @@ std::optional<HoleEstimate> HoleTable::at(const HoleConditions& conditions) cons
   return estimate;
 }
 
+double HoleTable::peak_speed_giving(double outflow, HoleConditions conditions, double from, double to) const {
+  const auto excess = [&](double speed) {
+    conditions.peak_speed = speed;
+    return at(conditions).value().outflow - outflow;
+  };
+  const double below = excess(from), above = excess(to);
+  if (below == 0) return from;
+  if (above == 0) return to;
+  std::uintmax_t most_steps = 100;
+  const auto [low, high] = boost::math::tools::toms748_solve(excess, from, to, below, above,
+                                                             boost::math::tools::eps_tolerance<double>(30), most_steps);
+  return 0.5 * (low + high);
+}
+
+HoleTable::Slopes HoleTable::slopes(const HoleConditions& conditions) const {
+  constexpr double step = 0.01;
+  const auto slope = [&](double HoleConditions::*value, const Span& known) {
+    HoleConditions less = conditions, more = conditions;
+    less.*value = std::max(known.least, conditions.*value * (1 - step));
+    more.*value = std::min(known.most, conditions.*value * (1 + step));
+    return std::log(at(more).value().outflow / at(less).value().outflow) / std::log(more.*value / (less.*value));
+  };
+  return {slope(&HoleConditions::width, widths(conditions.aspect)),
+          slope(&HoleConditions::peak_speed, peak_speeds(conditions.aspect))};
+}
+
+double HoleTable::factor_spread(double least_width) const {
+  double sum = 0, groups = 0;
+  for (const Grid& grid : grids_) {
+    const std::size_t settings = grid.axes[1].size() * grid.axes[2].size();
+    for (std::size_t width = 0; !grid.of_balls && width < grid.axes[0].size(); ++width) {
+      if (grid.axes[0][width] < least_width) continue;
+      double mean = 0, variance = 0, by_chance = 0;
+      for (std::size_t k = 0; k < settings; ++k)
+        mean += grid.values[width * settings + k] / static_cast<double>(settings);
+      for (std::size_t k = 0; k < settings; ++k) {
+        const std::size_t place = width * settings + k;
+        const HoleConditions& at_place = records_[grid.records[place]].at;
+        std::vector<double> slopes(records_.size(), 0.0);
+        slopes[grid.records[place]] = 1;
+        add_balls(places_around(grids_.front(), at_place), -1, slopes);
+        variance += std::pow(grid.values[place] - mean, 2) / static_cast<double>(settings - 1);
+        by_chance += std::pow(chance(slopes) / normal_95, 2) / static_cast<double>(settings);
+      }
+      sum += std::max(0.0, variance - by_chance);
+      ++groups;
+    }
+  }
+  return groups > 0 ? std::sqrt(sum / groups) : 0;
+}
+
 /// The first and the last of an axis' places to be looked at: those around a value; where they are to have neighbours
 /// on both sides, the nearest that have.
 std::pair<std::size_t, std::size_t> HoleTable::range_around(const std::vector<double>& steps, double value,
@@ -300,7 +355,7 @@ double HoleTable::interpolation_error(double aspect, double width, double peak_s
   for (const Share& shape : shapes)
     if (!grids_[shape.index].of_balls) add(grids_[shape.index]);
   if (shapes.size() > 1) sum += mean_square(shapes_left_out(width, peak_speed));
-  constexpr double normal_95 = 1.959964, within_a_gap = 0.25;
+  constexpr double within_a_gap = 0.25;
   return normal_95 * within_a_gap * std::sqrt(sum);
 }
 

@@ -67,13 +67,29 @@ class HoleTable {
   Span widths(double aspect) const { return span(aspect, 0); }
   Span peak_speeds(double aspect) const { return span(aspect, 1); }
   Span depths(double aspect) const { return span(aspect, 2); }
-  /// Speeds between which the outflow of such seeds bends nowhere, ascending, its ends among them.
-  std::vector<double> speed_steps(double aspect) const;
+  /// Speeds within `limits` between which the outflow of such seeds bends nowhere, ascending; those limits that the
+  /// table has are among them.
+  std::vector<double> speed_steps(double aspect, const Span& limits) const;
   /// Of the tray, over d: the same in all records.
   double amplitude() const { return records_.front().amplitude; }
 
   /// None outside the table.
   std::optional<HoleEstimate> at(const HoleConditions& conditions) const;
+  /// The peak speed from `from` to `to`, between which the outflow passes this one, at which it is this one. Of
+  /// `conditions` the others count; they lie within the table.
+  double peak_speed_giving(double outflow, HoleConditions conditions, double from, double to) const;
+
+  /// By how much the logarithm of the outflow grows with that of the width and of the peak speed, over a hundredth to
+  /// either side as far as the table goes. The conditions lie within it.
+  struct Slopes {
+    double width, peak_speed;
+  };
+  Slopes slopes(const HoleConditions& conditions) const;
+
+  /// By how much the factor between longer seeds and balls varies from setting to setting of one hole: standard
+  /// deviation of its logarithm over speeds and depths, without what chance makes of it; root mean square over shapes
+  /// and widths of `least_width` d and more; 0 of balls alone. It stands for what a seed's error varies by.
+  double factor_spread(double least_width) const;
 
   /// Half width, over the outflow, of the band that holds 95 % of the interpolation's errors for holes of this width
   /// and speed: 1.96 times the root mean square of what is missed, summed over widths, speeds, for longer seeds those

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <array>
-#include <boost/math/tools/toms748_solve.hpp>
 #include <cmath>
 #include <cstdint>
 #include <functional>
@@ -47,12 +46,7 @@ class Search {
         needed_(task.row_seed_rate() * std::sqrt(diameter_ / standard_gravity)) {
     amplitude_ = std::max(amplitude_, amplitude_step);
     const Span within{speed_of(limits.least_frequency), speed_of(limits.most_frequency)};
-    const Span known = table.peak_speeds(task.seed.aspect);
-    speeds_ = table.speed_steps(task.seed.aspect);
-    for (const double end : {within.least, within.most})
-      if (known.holds(end)) speeds_.push_back(end);
-    std::erase_if(speeds_, [&](double speed) { return !within.holds(speed); });
-    std::ranges::sort(speeds_);
+    speeds_ = table.speed_steps(task.seed.aspect, within);
   }
 
   std::vector<PlannedLayout> layouts() {
@@ -106,17 +100,6 @@ class Search {
     return outflows;
   }
 
-  double solve(double width_over_d, double depth, double from, double to, double outflow) const {
-    const auto excess = [&](double speed) { return estimate(width_over_d, depth, speed).outflow - outflow; };
-    const double below = excess(from), above = excess(to);
-    if (below == 0) return from;
-    if (above == 0) return to;
-    std::uintmax_t most_steps = 100;
-    const auto [low, high] = boost::math::tools::toms748_solve(
-        excess, from, to, below, above, boost::math::tools::eps_tolerance<double>(30), most_steps);
-    return 0.5 * (low + high);
-  }
-
   void add_layouts(const HolesForRows& feed, double width, double depth, std::vector<PlannedLayout>& found) {
     const double wanted = needed_ * feed.rows / feed.holes;
     const std::vector<double> given = outflows(width / diameter_, depth);
@@ -133,7 +116,8 @@ class Search {
       layout.width = width;
       layout.width_over_d = width / diameter_;
       layout.depth_over_d = depth;
-      layout.peak_speed = solve(layout.width_over_d, depth, speeds_[k], speeds_[k + 1], wanted);
+      layout.peak_speed = table_.peak_speed_giving(wanted, {task_.seed.aspect, layout.width_over_d, 0, depth},
+                                                   speeds_[k], speeds_[k + 1]);
       layout.frequency = frequency_of(layout.peak_speed);
       layout.amplitude = amplitude_;
       layout.estimate = estimate(layout.width_over_d, depth, layout.peak_speed);
@@ -215,11 +199,30 @@ HoleClass hole_class(double width_over_d) {
   return width_over_d >= kept_open_from ? HoleClass::kept_open : HoleClass::clogs;
 }
 
-double SowingPlan::uncertainty(const PlannedLayout& layout) const {
+double softness_error(double aspect) {
+  const AccuracyLevelValues& softest = accuracy_levels.front();  // softer than the table's seeds
+  return (aspect > 1 ? softest.grains_error_percent : softest.error_percent) / 100;
+}
+
+PredictionError table_error(const HoleTable& table, const HoleConditions& conditions, double diameter,
+                            const ModelError& model, const BuildTolerance& tolerance) {
+  constexpr double normal_95 = 1.959964;  // standard deviations of a 95 % half width
+  const HoleTable::Slopes slopes = table.slopes(conditions);
+  const double interpolation = table.interpolation_error(conditions.aspect, conditions.width, conditions.peak_speed);
+  return {.chance = table.at(conditions).value().chance / normal_95,
+          .numerics = std::hypot(interpolation, softness_error(conditions.aspect)) / normal_95,
+          .tolerance = std::hypot(slopes.width * tolerance.hole_width / (conditions.width * diameter),
+                                  slopes.peak_speed * tolerance.amplitude) /
+                       normal_95,
+          .model = model};
+}
+
+double SowingPlan::unknown_to_table(const PlannedLayout& layout) const {
   return std::hypot(layout.estimate.chance, layout.interpolation) + softness;
 }
 
-SowingPlan plan_sowing(const SowingTask& task, const HoleTable& table, const ShakerLimits& limits) {
+SowingPlan plan_sowing(const SowingTask& task, const HoleTable& table, const ModelError& model,
+                       const ShakerLimits& limits) {
   const Span aspects = table.aspects();
   if (!aspects.holds(task.seed.aspect)) {
     const std::string known = aspects.most > 1 ? fmt::format("seeds of {:g} to {:g} times", aspects.least, aspects.most)
@@ -235,9 +238,12 @@ SowingPlan plan_sowing(const SowingTask& task, const HoleTable& table, const Sha
   plan.layouts = search.layouts();
   plan.change = search.change();
   plan.amplitude_over_d = table.amplitude();
-  plan.softness = accuracy_levels.front().error_percent / 100;  // of the softest level, softer than the table's seeds
+  plan.softness = softness_error(task.seed.aspect);
   plan.too_uncertain = std::erase_if(
-      plan.layouts, [&](const PlannedLayout& layout) { return plan.uncertainty(layout) > most_uncertain; });
+      plan.layouts, [&](const PlannedLayout& layout) { return plan.unknown_to_table(layout) > most_uncertain; });
+  for (PlannedLayout& layout : plan.layouts)
+    layout.error = table_error(table, {task.seed.aspect, layout.width_over_d, layout.peak_speed, layout.depth_over_d},
+                               task.seed.diameter, model);
   std::ranges::sort(plan.layouts, {}, [&](const PlannedLayout& layout) {
     return std::tuple(layout.risk(), layout.estimate.stood_still, !layout.reaches_working_speeds(),
                       -reserve(layout, task.pace.speed), layout.feed.holes, -layout.feed.rows, layout.width,

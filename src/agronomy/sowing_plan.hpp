@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "agronomy/hole_table.hpp"
+#include "agronomy/prediction_error.hpp"
 #include "agronomy/sowing_rate.hpp"
 #include "scene/scene.hpp"
 
@@ -62,6 +63,7 @@ struct PlannedLayout {
   double peak_speed = 0;    // of the tray, over sqrt(g d)
   HoleEstimate estimate;
   double interpolation = 0;    // half width of the 95 % band of its errors, over the outflow
+  PredictionError error{};     // of the rate that it is planned for
   Span speeds;                 // m/s, at which the same sowing rate can be kept by frequency alone
   bool more_by_faster = true;  // shaking; else slower shaking sows more
   HoleClass risk() const { return hole_class(width_over_d); }
@@ -92,15 +94,31 @@ struct SowingPlan {
   NearestChange change;
   double amplitude_over_d = 0;  // of the tray, in the table
   double softness = 0;          // what the softness of the table's seeds may do to the rate, over it
-  /// Of a layout's rate, over it: chance and interpolation as independent, and softness. Within the model alone.
-  double uncertainty(const PlannedLayout& layout) const;
+  /// Of a layout's rate, over it: what the table does not know of it, within the model. Chance and interpolation as
+  /// independent, and softness.
+  double unknown_to_table(const PlannedLayout& layout) const;
 };
+
+/// How a tray may differ from what was drawn: half widths of 95 %.
+struct BuildTolerance {
+  double hole_width = 0.1e-3;  // m
+  double amplitude = 0.02;     // share
+};
+
+/// What a rate errs by that is looked up in a table at conditions (which it has) for a seed of that diameter (m). The
+/// tolerance by the table's own slopes.
+PredictionError table_error(const HoleTable& table, const HoleConditions& conditions, double diameter,
+                            const ModelError& model, const BuildTolerance& tolerance = {});
+
+/// What the softness of the table's seeds may do to a rate, over it: half width of 95 %.
+double softness_error(double aspect);
 
 /// All layouts that give the rate: one hole for 4, 3, 2 rows or one, 2 or 3 holes a row; widths in steps of 0.5 mm; the
 /// shallowest and the deepest bed of the table; the amplitude that the table has in seeds, to 0.1 mm; every frequency
 /// within the shaker's limits that gives the rate. Ranked by the hole's class, then the share of holes that stood
 /// still, then whether working speeds are reached, then by how far the rate can be turned up and down. Those whose rate
 /// is not known to `most_uncertain` are left out. Throws InputError for seeds of an aspect that the table has not.
-SowingPlan plan_sowing(const SowingTask& task, const HoleTable& table, const ShakerLimits& limits = {});
+SowingPlan plan_sowing(const SowingTask& task, const HoleTable& table, const ModelError& model,
+                       const ShakerLimits& limits = {});
 
 }  // namespace vibrosow

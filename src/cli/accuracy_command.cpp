@@ -359,8 +359,8 @@ void add_accuracy_command(CLI::App& app, int& exit_code) {
       ->excludes(replicates)
       ->excludes(depth);
   add_examples(*command,
-               {"vibrosow accuracy wheat-tray", "vibrosow accuracy wheat-section --within \"5 %\" --out promise",
-                "vibrosow accuracy wheat-section --budget \"5 min\" --out minutes"});
+               {"vibrosow accuracy wheat-tray", "vibrosow accuracy wheat-ball-section --within \"5 %\" --out promise",
+                "vibrosow accuracy wheat-ball-section --budget \"5 min\" --out minutes"});
   command->callback(
       [options, &exit_code] { exit_code = options->promises() ? run_promise(*options) : run_table(*options); });
 }

@@ -177,7 +177,7 @@ int check_seeder(const InputFile& file, const CheckOptions& options) {
   const Scene& scene = model.scene;
   print_warnings(scene_warnings(scene));
   print_warnings(drawing_warnings(scene, drawings));
-  print_warnings(warnings_of_files_outside(file));
+  tell_of_files(file);
   const StepPlan& plan = model.step;
   print_text(wrapped(scene.title));
   print_vessel(scene.tray, scene.space);
@@ -221,7 +221,7 @@ int check_study(const InputFile& file, const CheckOptions& options) {
   if (options.both) throw InputError("--both: is for one seeder, not for a study");
   const Study study = read_study(file.path, options.overrides(), file.files);
   print_warnings(study_warnings(study));
-  print_warnings(warnings_of_files_outside(file));
+  tell_of_files(file);
   print_text(wrapped(study.title));
   print_text(wrapped(fmt::format("{} layouts, {} different scenes, {} runs of each: some {} of CPU time in all",
                                  study.layouts.size(), study.scenes.size(), replicates_text(study.replicates),

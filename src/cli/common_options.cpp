@@ -140,4 +140,13 @@ void print_warnings(const std::vector<std::string>& warnings) {
   for (const std::string& warning : warnings) complain("warning: " + warning);
 }
 
+void print_notes(const std::vector<std::string>& notes) {
+  for (const std::string& note : notes) complain("note: " + note);
+}
+
+void tell_of_files(const InputFile& file) {
+  print_notes(file.files->notes());
+  print_warnings(warnings_of_files_outside(file));
+}
+
 }  // namespace vibrosow

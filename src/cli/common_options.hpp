@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "input/input_file.hpp"
 #include "input/override.hpp"
 #include "report/columns.hpp"
 #include "report/output_folder.hpp"
@@ -67,5 +68,9 @@ double share_option(const std::string& option, const std::string& text, AskedRan
 
 /// Each on stderr.
 void print_warnings(const std::vector<std::string>& warnings);
+void print_notes(const std::vector<std::string>& notes);
+
+/// What is to be said of the files that were read, after all was.
+void tell_of_files(const InputFile& file);
 
 }  // namespace vibrosow

@@ -23,7 +23,7 @@ int run_decide(const DecideCommandOptions& command) {
   const InputFile file = input_file(common.file, FileKind::study);
   AskedDecision decision(plan_study(file.path, common.sets, common.random_seed, file.files),
                          read_question(command.words));
-  print_warnings(warnings_of_files_outside(file));
+  tell_of_files(file);
   return answer(decision, common, command.making, command.reuse);
 }
 

@@ -129,7 +129,8 @@ int make_crop(const NewCropOptions& options) {
   print_text(crop_table(crop, estimated, atlas));
   print("{}\n{}\n", files[0].path.string(), files[1].path.string());
   print_text(wrapped(fmt::format(
-      "in a seeder beside them: seeds.NAME.crop = \"{0}.toml\", contact.model = \"{0}-contact.toml\"", crop.name)));
+      "in a seeder beside them: seeds.NAME.crop = \"{}.toml\"; it names its contact model, so no [contact] is needed",
+      crop.name)));
   return exit_done;
 }
 

@@ -22,7 +22,7 @@ int run_optimise(const OptimiseCommandOptions& command) {
   const CommonOptions& common = command.common;
   const InputFile file = input_file(common.file, FileKind::study);
   AskedFront front(file.path, common.sets, common.random_seed, file.files, read_question(command.words));
-  print_warnings(warnings_of_files_outside(file));
+  tell_of_files(file);
   return answer(front, common, command.making, command.reuse);
 }
 

@@ -201,7 +201,7 @@ int run_scene(const RunOptions& options) {
   if (!options.quiet)
     for (const Drawing& drawing : drawings) print_text(wrapped(drawing_text(drawing, read)));
   print_warnings(warnings);
-  print_warnings(warnings_of_files_outside(file));
+  tell_of_files(file);
   const Model model = prepare_to_run(read);
   const Scene& scene = model.scene;
   const std::string page_template = options.page_template(scene.space == Space::plane);

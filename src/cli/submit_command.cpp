@@ -70,7 +70,7 @@ Frozen freeze(const SubmitOptions& options) {
   const InputFile file = input_file(common.file, FileKind::study);
   PlannedStudy planned = plan_study(file.path, common.sets, common.random_seed, file.files);
   print_warnings(study_warnings(planned.study));
-  print_warnings(warnings_of_files_outside(file));
+  tell_of_files(file);
   const OutputFolder folder = common.output_folder("sweep", sweep_file_texts());
   std::string name = freeze_plan(folder.path(), planned.plan);
   return {std::move(planned), fs::canonical(folder.path()), std::move(name)};

@@ -50,7 +50,7 @@ int run_sweep(const SweepCommandOptions& command) {
   const InputFile file = input_file(options.file, FileKind::study);
   PlannedStudy planned = plan_study(file.path, options.sets, options.random_seed, file.files);
   print_warnings(study_warnings(planned.study));
-  print_warnings(warnings_of_files_outside(file));
+  tell_of_files(file);
   const std::string page_template = options.page_template();
   const OutputFolder folder = options.output_folder("sweep", sweep_file_texts());
   StudyRuns runs(cases_of(folder.path()), cases_to_reuse(command.reuse));

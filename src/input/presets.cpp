@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <string_view>
 
 #include "files/whole_file.hpp"
 #include "input/read_scene.hpp"
@@ -23,17 +24,33 @@ std::vector<std::string> shipped(const fs::path& directory) {
   return names;
 }
 
+/// Names of version 0.2 that mean something else now, or the same as another one.
+struct Renamed {
+  std::string_view kind, name, now, meaning;
+};
+constexpr Renamed renamed[] = {
+    {"crops", "wheat", "wheat",
+     "\"wheat\" is the grain, of five balls; until version 0.2 it was a ball, which is \"wheat-ball\" now"},
+    {"crops", "wheat-grain", "wheat", "\"wheat-grain\" is called \"wheat\" now"},
+    {"crops", "barley-grain", "barley", "\"barley-grain\" is called \"barley\" now"},
+};
+
+const Renamed* find_renamed(const std::string& name, const std::string& kind) {
+  const auto found =
+      std::ranges::find_if(renamed, [&](const Renamed& one) { return one.kind == kind && one.name == name; });
+  return found == std::end(renamed) ? nullptr : found;
+}
+
 fs::path preset_file(const Table& table, const std::string& key, const std::string& name, const std::string& kind) {
   if (!name.ends_with(".toml")) {
+    if (const auto meaning = changed_meaning(name, kind)) table.files()->note(table.where(key) + ": " + *meaning);
     try {
       return shipped_preset(name, kind);
     } catch (const InputError& error) {
       table.fail(key, error.what());
     }
   }
-  fs::path file = table.directory(key) / name;
-  if (!table.files()->has(file)) table.fail(key, fmt::format("there is no file {}", file.string()));
-  return file;
+  return table.directory(key) / name;
 }
 
 }  // namespace
@@ -46,14 +63,31 @@ std::vector<fs::path> toml_files(const fs::path& directory) {
   return files;
 }
 
-void use_preset(Table& table, const std::string& key, const std::string& kind) {
+PresetFile named_preset(Table& table, const std::string& key, const std::string& kind) {
   const std::optional<std::string> name = table.text(key);
-  if (!name) return;
-  Table preset(Document::read(preset_file(table, key, *name, kind), {}, table.files()));
-  preset.skip("title");
-  read_true_density(preset);
-  preset.skip("sources");
-  table.set_fallback(preset);
+  if (!name) return {};
+  const fs::path file = preset_file(table, key, *name, kind);
+  return {file.stem().string(), file.lexically_normal().string()};
+}
+
+Table read_preset(const PresetFile& preset, const Table& table, const std::string& key) {
+  if (!table.files()->has(preset.file)) table.fail(key, fmt::format("there is no file {}", preset.file));
+  Table read(Document::read(preset.file, {}, table.files()));
+  read.skip("title");
+  read_true_density(read);
+  read.skip("sources");
+  return read;
+}
+
+PresetFile use_preset(Table& table, const std::string& key, const std::string& kind) {
+  PresetFile preset = named_preset(table, key, kind);
+  if (preset.is_known()) table.set_fallback(read_preset(preset, table, key));
+  return preset;
+}
+
+std::optional<std::string> changed_meaning(const std::string& name, const std::string& kind) {
+  const Renamed* const known = find_renamed(name, kind);
+  return known != nullptr ? std::optional(std::string(known->meaning)) : std::nullopt;
 }
 
 std::optional<double> read_true_density(Table& preset) {
@@ -64,6 +98,7 @@ std::optional<double> read_true_density(Table& preset) {
 fs::path shipped_preset(const std::string& name, const std::string& kind) {
   const fs::path directory = data_directory() / "models" / kind;
   const std::vector<std::string> names = shipped(directory);
+  if (const Renamed* const known = find_renamed(name, kind)) return directory / (std::string(known->now) + ".toml");
   if (std::find(names.begin(), names.end(), name) == names.end()) {
     throw InputError(fmt::format("\"{}\" is not shipped; there are {}, or give a path ending in .toml{}", name,
                                  fmt::join(names, ", "), did_you_mean(name, names)));

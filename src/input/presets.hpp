@@ -6,13 +6,23 @@
 #include <vector>
 
 #include "input/table.hpp"
+#include "scene/scene.hpp"
 
 namespace vibrosow {
 
-/// Lays the preset that `table` names under `key` (if it does) behind the table: a shipped one of
-/// models/`kind`/NAME.toml, or a path ending in .toml relative to the file that names it. Throws InputError
-/// with the shipped names when there is none.
-void use_preset(Table& table, const std::string& key, const std::string& kind);
+/// The preset that `table` names under `key`, empty where it does not: a shipped one of models/`kind`/NAME.toml, or a
+/// path ending in .toml relative to the file that names it, which need not be there. What a name means now, if that has
+/// changed, is noted in the table's files. Throws InputError with the shipped names for another name.
+PresetFile named_preset(Table& table, const std::string& key, const std::string& kind);
+
+/// The keys of a preset that `table` names under `key`. Throws InputError where it is not there or wrong.
+Table read_preset(const PresetFile& preset, const Table& table, const std::string& key);
+
+/// Lays the preset that `table` names under `key` (if it does) behind the table.
+PresetFile use_preset(Table& table, const std::string& key, const std::string& kind);
+
+/// What a preset's name means since version 0.3, where it meant something else before.
+std::optional<std::string> changed_meaning(const std::string& name, const std::string& kind);
 
 /// The file models/`kind`/NAME.toml. Throws InputError with the shipped names when there is none.
 std::filesystem::path shipped_preset(const std::string& name, const std::string& kind);

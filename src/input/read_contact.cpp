@@ -7,6 +7,7 @@
 #include <array>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 
 #include "input/presets.hpp"
@@ -307,10 +308,7 @@ void read_rolling(Parts& parts, Contact& contact) {
   }
 }
 
-}  // namespace
-
-Contact read_contact(Table table, Table seeds, std::vector<SeedLot>& lots) {
-  use_preset(table, "model", "contacts");
+Contact read_own(Table& table, Table& seeds, std::vector<SeedLot>& lots) {
   Contact contact;
   Parts parts = find_parts(table, lots);
   read_law(parts, seeds, lots, contact);
@@ -319,6 +317,107 @@ Contact read_contact(Table table, Table seeds, std::vector<SeedLot>& lots) {
   read_rolling(parts, contact);
   read_friction(parts, contact);
   read_surfaces(parts, contact);
+  return contact;
+}
+
+// Contact models of crops.
+
+constexpr std::string_view of_crop = "crop";
+
+Surface surface_of(const Contact& contact, int lot, int other) {
+  for (const SurfaceOverride& pair : contact.overrides)
+    if (pair.lot == lot && pair.other == other) return pair.surface;
+  return other == walls ? contact.wall : contact.seed;
+}
+
+Surface mean_of(const Surface& a, const Surface& b) {
+  return {.friction = 0.5 * (a.friction + b.friction),
+          .restitution = 0.5 * (a.restitution + b.restitution),
+          .rolling_friction = 0.5 * (a.rolling_friction + b.rolling_friction),
+          .cohesion = 0.5 * (a.cohesion + b.cohesion),
+          .twisting_friction = 0.5 * (a.twisting_friction + b.twisting_friction)};
+}
+
+/// [contact] over the model of one lot's crop.
+Contact read_over(Table& table, const PresetFile& model, Table& seeds, std::vector<SeedLot>& lots) {
+  table.set_fallback(read_preset(model, table, "model"));
+  table.skip("model");
+  return read_own(table, seeds, lots);
+}
+
+void require_one_law(const Table& table, const Contact& first, const Contact& other, const SeedLot& lot) {
+  if (other.law == first.law && other.friction_model == first.friction_model && other.rolling == first.rolling) return;
+  table.fail("model", fmt::format("the crops' contact models are of several laws, friction models or rolling models "
+                                  "({} is of another than the first); choose one in [contact]",
+                                  lot.contact.name));
+}
+
+/// The general surfaces are of the first lot; those of the others, and between any two, are overrides.
+void join_surfaces(const std::vector<Contact>& own, const std::vector<Pair>& written, Contact& contact) {
+  const auto is_written = [&](int lot, int other) {
+    return std::ranges::any_of(written, [&](const Pair& pair) { return pair.lot == lot && pair.other == other; });
+  };
+  const auto add = [&](int lot, int other, const Surface& surface) {
+    if (surface != (other == walls ? contact.wall : contact.seed)) contact.overrides.push_back({lot, other, surface});
+  };
+  contact.overrides.clear();
+  for (int lot = 0; lot < static_cast<int>(own.size()); ++lot) {
+    const Contact& of_lot = own[static_cast<std::size_t>(lot)];
+    add(lot, walls, surface_of(of_lot, lot, walls));
+    for (int other = lot; other < static_cast<int>(own.size()); ++other) {
+      const bool own_pair = other == lot || is_written(lot, other);
+      add(lot, other,
+          own_pair ? surface_of(of_lot, lot, other) : mean_of(of_lot.seed, own[static_cast<std::size_t>(other)].seed));
+    }
+  }
+}
+
+void give_lots_their_materials(const std::vector<Contact>& own, std::vector<SeedLot>& lots) {
+  for (std::size_t i = 1; i < lots.size(); ++i) {
+    if (own[i].law == Law::elastic_shell) {
+      if (!lots[i].shell_compression && own[i].shell_compression != own[0].shell_compression)
+        lots[i].shell_compression = own[i].shell_compression;
+    } else {
+      if (!lots[i].youngs_modulus && own[i].youngs_modulus != own[0].youngs_modulus)
+        lots[i].youngs_modulus = own[i].youngs_modulus;
+      if (!lots[i].poisson_ratio && own[i].poisson_ratio != own[0].poisson_ratio)
+        lots[i].poisson_ratio = own[i].poisson_ratio;
+    }
+  }
+}
+
+Contact read_contacts_of_crops(Table& table, Table& seeds, std::vector<SeedLot>& lots) {
+  for (const SeedLot& lot : lots) {
+    if (lot.contact.is_known()) continue;
+    table.fail("model",
+               fmt::format("is \"{}\", and seeds.{} {}; give a contact model, or seeds.{}.contact", of_crop, lot.name,
+                           lot.crop.is_known() ? "has a crop that names none" : "has no crop", lot.name));
+  }
+  std::vector<Contact> own{read_over(table, lots.front().contact, seeds, lots)};
+  for (std::size_t i = 1; i < lots.size(); ++i) {
+    Table anew = table.anew();
+    own.push_back(read_over(anew, lots[i].contact, seeds, lots));
+    anew.reject_unknown_keys();
+    require_one_law(table, own.front(), own.back(), lots[i]);
+  }
+  Contact contact = own.front();
+  join_surfaces(own, find_pairs(table, lots), contact);
+  give_lots_their_materials(own, lots);
+  return contact;
+}
+
+}  // namespace
+
+bool crops_have_contacts(const std::vector<SeedLot>& lots) {
+  return std::ranges::all_of(lots, [](const SeedLot& lot) { return lot.contact.is_known(); });
+}
+
+Contact read_contact(Table table, Table seeds, std::vector<SeedLot>& lots) {
+  const bool crops_tell = table.keys().empty() && crops_have_contacts(lots);
+  if (crops_tell || table.text("model") == of_crop) return read_contacts_of_crops(table, seeds, lots);
+  const PresetFile model = use_preset(table, "model", "contacts");
+  Contact contact = read_own(table, seeds, lots);
+  contact.model = model;
   return contact;
 }
 

@@ -34,6 +34,7 @@ Crop read_crop(const std::filesystem::path& file) {
   crop.mass = lot.mass;
   crop.true_density = read_true_density(table);
   crop.bulk = read_bulk_properties(table);
+  crop.contact = lot.contact;
   crop.sources = read_sources(table);
   table.reject_unknown_keys();
   return crop;

@@ -18,6 +18,7 @@ struct Crop {
   double mass;                         // kg, of one seed
   std::optional<double> true_density;  // kg/m3, of the seeds themselves
   BulkProperties bulk;
+  PresetFile contact;                          // the contact model that it names as its own; maybe none
   std::map<std::string, std::string> sources;  // by key: where each value comes from
 };
 

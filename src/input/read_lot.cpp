@@ -286,9 +286,10 @@ BulkProperties read_bulk_properties(Table& seeds) {
 }
 
 SeedLot read_lot(Table& seeds, const std::string& name, Space space) {
-  use_preset(seeds, "crop", "crops");
   SeedLot lot;
   lot.name = name;
+  lot.crop = use_preset(seeds, "crop", "crops");
+  lot.contact = named_preset(seeds, "contact", "contacts");
   const auto chosen = seeds.choice("shape", shape_names);
   const ShapeName shape = chosen ? static_cast<ShapeName>(*chosen) : ShapeName::ball;
   refuse_keys(seeds, "shape", keys_of_other_shapes(shape),

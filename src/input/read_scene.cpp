@@ -201,7 +201,9 @@ Seeder read_seeder_in(std::optional<Space> wanted, const std::filesystem::path& 
   scene.lots = read_lots(seeds, scene.space);
   std::optional<double> slice;  // m, where seeds are counted in the other space
   if (scene.space != own) slice = slice_thickness(read_lots(seeds, Space::plane));
-  scene.contact = read_contact(root.required_table("contact"), seeds, scene.lots);
+  const Table contact =
+      crops_have_contacts(scene.lots) ? root.table_or_empty("contact") : root.required_table("contact");
+  scene.contact = read_contact(contact, seeds, scene.lots);
   Table tray = root.required_table("tray");
   scene.tray = read_vessel(tray, "tray", scene.lots, scene.space, seeder.drawings, nullptr, slice);
   if (auto hopper = root.table("hopper")) {

@@ -106,6 +106,10 @@ std::filesystem::path path_of_planned(const std::string& name) {
   return shipped_folder().value_or("") / name.substr(shipped_prefix.size());
 }
 
+void SourceFiles::note(const std::string& sentence) {
+  if (std::ranges::find(notes_, sentence) == notes_.end()) notes_.push_back(sentence);
+}
+
 std::shared_ptr<SourceFiles> SourceFiles::of_plan(const std::map<std::string, std::string>& texts) {
   auto files = std::make_shared<SourceFiles>();
   files->is_of_plan_ = true;

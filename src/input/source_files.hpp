@@ -34,6 +34,10 @@ class SourceFiles {
   /// Whether there is such a plain file.
   bool has(const std::filesystem::path& file) const;
 
+  /// Keeps a sentence about what was read, once.
+  void note(const std::string& sentence);
+  const std::vector<std::string>& notes() const { return notes_; }
+
   int reads() const { return reads_; }  // of files, so far
   /// What was read so far, by absolute path.
   const std::map<std::string, std::string>& texts() const { return texts_; }
@@ -45,6 +49,7 @@ class SourceFiles {
   bool is_of_plan_ = false;
   std::map<std::filesystem::path, TomlTable> toml_;
   std::map<std::filesystem::path, CsvLines> csv_;
+  std::vector<std::string> notes_;
   int reads_ = 0;
 };
 

@@ -174,6 +174,16 @@ Table Table::required_table(const std::string& key) {
   return *found;
 }
 
+Table Table::table_or_empty(const std::string& key) {
+  static const TomlTable nothing;
+  if (const std::optional<Table> found = table(key)) return *found;
+  return Table(std::make_shared<State>(state_->document, &nothing, joined(state_->prefix, key)));
+}
+
+Table Table::anew() const {
+  return Table(std::make_shared<State>(state_->document, state_->node, state_->prefix));
+}
+
 std::vector<std::string> Table::keys() const {
   std::vector<std::string> keys;
   for (const TomlEntry& entry : state_->node->entries) keys.push_back(entry.key);

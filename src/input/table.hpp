@@ -29,6 +29,9 @@ class Table {
   bool has_here(const std::string& key) const;         // written in this document
   std::optional<Table> table(const std::string& key);  // absent: nullopt; not a table: InputError
   Table required_table(const std::string& key);
+  Table table_or_empty(const std::string& key);  // absent: one that a preset may lie behind
+  /// The same table as it is written: nothing behind it, no key asked for yet.
+  Table anew() const;
   std::vector<std::string> keys() const;              // written in this document, in order of the file
   std::vector<Table> tables(const std::string& key);  // array of tables ([[layout]]); absent: empty
 

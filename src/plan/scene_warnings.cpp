@@ -196,6 +196,28 @@ void warn_of_bulk_density(const Scene& scene, Warnings& warnings) {
       millimetres(slice_thickness(scene.lots)), implied, 100 * implied / *solid, 100 * loosest, 100 * closest));
 }
 
+bool has_override(const Scene& scene, int lot, int other) {
+  return std::ranges::any_of(scene.contact.overrides,
+                             [&](const SurfaceOverride& pair) { return pair.lot == lot && pair.other == other; });
+}
+
+/// Friction and restitution decide the rate, and are of one seed on one material.
+void warn_of_foreign_contacts(const Scene& scene, Warnings& warnings) {
+  constexpr int walls = -1;
+  const PresetFile& model = scene.contact.model;
+  if (!model.is_known()) return;
+  for (std::size_t i = 0; i < scene.lots.size(); ++i) {
+    const SeedLot& lot = scene.lots[i];
+    const int number = static_cast<int>(i);
+    if (!lot.contact.is_known() || lot.contact.file == model.file) continue;
+    if (has_override(scene, number, number) && has_override(scene, number, walls)) continue;
+    warnings.push_back(
+        fmt::format("contact.model: \"{}\" is made for other seeds than seeds.{}, whose crop, {}, has \"{}\"; "
+                    "model = \"crop\" takes that",
+                    model.name, lot.name, lot.crop.name, lot.contact.name));
+  }
+}
+
 }  // namespace
 
 std::vector<std::string> scene_warnings(const Scene& scene) {
@@ -204,6 +226,7 @@ std::vector<std::string> scene_warnings(const Scene& scene) {
   warn_of_mixture(scene, warnings);
   warn_of_bulk_density(scene, warnings);
   warn_of_narrow_holes(scene.tray, scene.lots, warnings);
+  warn_of_foreign_contacts(scene, warnings);
   warn_of_standing_liquid(scene, warnings);
   warn_of_rain(scene, scene.tray, warnings);
   if (scene.space == Space::plane) warn_of_round_holes(scene.tray, warnings);

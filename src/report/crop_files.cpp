@@ -125,6 +125,7 @@ std::string crop_toml(const NewCrop& crop, const CropEstimate& estimate) {
   if (crop.bulk_density) keys.add("bulk_density", quantity(*crop.bulk_density, "kg/m3"), measured);
   if (crop.angle_of_repose) keys.add("angle_of_repose", quantity(*crop.angle_of_repose / degree, "degree"), measured);
   if (crop.moisture) keys.add("moisture", quantity(*crop.moisture * 100, "%"), measured);
+  keys.add("contact", fmt::format("\"{}-contact.toml\"", crop.name), "made by the same command");
   keys.add("true_density", quantity(estimate.seed_density, "kg/m3"),
            "computed: mass over the volume of an ellipsoid of these sizes", "reference");
   return keys.text("Made by vibrosow new-crop.", crop.name);

@@ -45,6 +45,12 @@ std::string_view class_name(HoleClass risk) {
   return "";
 }
 
+/// 1/s, as planned.
+double hole_rate(const PlannedLayoutRow& row) {
+  const HolesForRows& feed = row.layout->feed;
+  return row.plan->task.row_seed_rate() * feed.rows / feed.holes;
+}
+
 Columns<PlannedLayoutRow> plan_columns() {
   using R = const PlannedLayoutRow&;
   return {
@@ -70,16 +76,24 @@ Columns<PlannedLayoutRow> plan_columns() {
       quantity_column<PlannedLayoutRow>("frequency_Hz", hertz, "to set", [](R r) { return r.layout->frequency; }),
       quantity_column<PlannedLayoutRow>("amplitude_mm", millimetres, "half the stroke, to set",
                                         [](R r) { return r.layout->amplitude; }),
-      quantity_column<PlannedLayoutRow>("hole_seeds_per_s", per_second, "of one hole",
-                                        [](R r) {
-                                          const HolesForRows& feed = r.layout->feed;
-                                          return r.plan->task.row_seed_rate() * feed.rows / feed.holes;
-                                        }),
-      quantity_column<PlannedLayoutRow>(
-          "rate_error_percent", percent,
-          "half width of the 95 % band of the rate within the model: chance and interpolation, and "
-          "the softness of the table's seeds",
-          [](R r) { return r.plan->uncertainty(*r.layout); }),
+      quantity_column<PlannedLayoutRow>("hole_seeds_per_s", per_second, "of one hole", hole_rate),
+      quantity_column<PlannedLayoutRow>("low_seeds_per_s", per_second,
+                                        "of one hole, lower end of the range that holds the true rate in 95 % of cases",
+                                        [](R r) { return hole_rate(r) * expected_range(r.layout->error).low; }),
+      quantity_column<PlannedLayoutRow>("high_seeds_per_s", per_second, "upper end",
+                                        [](R r) { return hole_rate(r) * expected_range(r.layout->error).high; }),
+      quantity_column<PlannedLayoutRow>("chance_percent", percent,
+                                        "half width of the part that chance has in it: so many seeds were counted",
+                                        [](R r) { return half_width_of_normal(r.layout->error.chance); }),
+      quantity_column<PlannedLayoutRow>("numerics_percent", percent,
+                                        "the same of the softness of the table's seeds, and between its places",
+                                        [](R r) { return half_width_of_normal(r.layout->error.numerics); }),
+      quantity_column<PlannedLayoutRow>("tolerance_percent", percent,
+                                        "the same of a hole 0.1 mm wider or narrower and an amplitude off by 2 %",
+                                        [](R r) { return half_width_of_normal(r.layout->error.tolerance); }),
+      quantity_column<PlannedLayoutRow>("model_percent", percent,
+                                        "the same of the model: from rates that others measured of other materials",
+                                        [](R r) { return half_width_of_model(r.layout->error.model); }),
       quantity_column<PlannedLayoutRow>("least_speed_km_per_h", kilometres_per_hour,
                                         "the slowest drill that frequency alone keeps at the sowing rate",
                                         [](R r) { return r.layout->speeds.least; }),
@@ -243,7 +257,7 @@ std::string table_text(const SowingPlan& plan) {
                         layout->frequency, layout->amplitude / millimetre,
                         fmt::format("{} to {}{}", speed_text(layout->speeds.least), speed_text(layout->speeds.most),
                                     layout->reaches_working_speeds() ? "*" : " "),
-                        percent_text(plan.uncertainty(*layout)), percent_text(layout->estimate.stood_still),
+                        percent_text(plan.unknown_to_table(*layout)), percent_text(layout->estimate.stood_still),
                         layout->more_by_faster ? "faster" : "slower");
   text += '\n';
   if (std::ranges::none_of(plan.layouts, &PlannedLayout::reaches_working_speeds))
@@ -252,29 +266,52 @@ std::string table_text(const SowingPlan& plan) {
                 "slide over them, not the shaker.",
                 speed_text(working_speeds.least), speed_text(working_speeds.most))) +
             '\n';
-  return text + wrapped(fmt::format(
-                    "{} the rate{}; of each number of holes and depth of bed the best, the best first. speeds: "
-                    "which frequency alone keeps at the sowing rate, * all of {} to {} km/h; stood still: share of the "
-                    "simulated holes that once let nothing through for {} s; more by: which shaking sows more",
-                    plan.layouts.size() == 1 ? "One layout gives" : fmt::format("{} layouts give", plan.layouts.size()),
-                    plan.too_uncertain > 0 ? fmt::format(", {} more are left out, being unsure by more than {} %",
-                                                         plan.too_uncertain, percent_text(most_uncertain))
-                                           : "",
-                    speed_text(working_speeds.least), speed_text(working_speeds.most),
-                    to_digits(long_pause * unit_of_time(plan), 2)));
+  return text +
+         wrapped(fmt::format(
+             "{} the rate{}; of each number of holes and depth of bed the best, the best first. rate +- %: what the "
+             "table itself does not know, see How sure; speeds: "
+             "which frequency alone keeps at the sowing rate, * all of {} to {} km/h; stood still: share of the "
+             "simulated holes that once let nothing through for {} s; more by: which shaking sows more",
+             plan.layouts.size() == 1 ? "One layout gives" : fmt::format("{} layouts give", plan.layouts.size()),
+             plan.too_uncertain > 0 ? fmt::format(", {} more are left out, being unsure by more than {} %",
+                                                  plan.too_uncertain, percent_text(most_uncertain))
+                                    : "",
+             speed_text(working_speeds.least), speed_text(working_speeds.most),
+             to_digits(long_pause * unit_of_time(plan), 2)));
 }
 
 // How far to trust it.
 
+/// A rate and the ends of its range, in g/s.
+std::string range_text(double rate, const FactorRange& range) {
+  return fmt::format("{} to {} g/s", to_digits(rate * range.low / gram, 2), to_digits(rate * range.high / gram, 2));
+}
+
+std::string parts_text(const PredictionError& error) {
+  return fmt::format(
+      "chance {} %, numerics {} %, tolerance {} %, model {} %", percent_text(half_width_of_normal(error.chance)),
+      percent_text(half_width_of_normal(error.numerics)), percent_text(half_width_of_normal(error.tolerance)),
+      percent_text(half_width_of_model(error.model)));
+}
+
+/// How the model did where others measured. Its bias is told, not taken out.
+std::string model_text(const ModelError& model) {
+  const double over = 1 / model.mean_factor - 1;
+  return fmt::format(
+      "The model's part is Student's, from {} materials whose flow through still holes and slots others measured: it "
+      "gave {} % too {} of them on the whole. Of a tray that shakes no measurement was to be had.",
+      model.materials, percent_text(std::abs(over)), over > 0 ? "much" : "little");
+}
+
 /// What is said of the best layout.
 std::string certainty_text(const SowingPlan& plan) {
   const PlannedLayout& best = plan.layouts.front();
+  const double rate = plan.task.row_mass_rate() * best.feed.rows / best.feed.holes;
   return fmt::format(
-      "How sure: the rate of the best layout is known to +- {} % within the model (95 %: chance {}, "
-      "interpolation {}, softness of the seeds {}). Its holes were watched for {} s in all, so clogs that are "
-      "rarer were not seen. ",
-      percent_text(plan.uncertainty(best)), percent_text(best.estimate.chance), percent_text(best.interpolation),
-      percent_text(plan.softness), to_digits(best.estimate.watched * unit_of_time(plan), 2));
+      "How sure: a hole of the best layout is to give {} g/s. Expect {} until you weigh (95 %); of it {}. {} Its holes "
+      "were watched for {} s in all, so clogs that are rarer were not seen. ",
+      to_digits(rate / gram, 2), range_text(rate, expected_range(best.error)), parts_text(best.error),
+      model_text(best.error.model), to_digits(best.estimate.watched * unit_of_time(plan), 2));
 }
 
 std::string trust_text(const SowingPlan& plan) {
@@ -283,7 +320,7 @@ std::string trust_text(const SowingPlan& plan) {
              "Nothing of this was ever measured. It is simulated: one round hole in a level tray that is shaken along "
              "by {:g} seeds to each side, friction {:g} ({:g} on the tray), restitution {:g}, dry seeds of one size, "
              "nothing between them. Even drill charts miss the real rate by 25 to 50 % (MSU P3112): weigh what comes "
-             "in a minute before sowing, and correct the frequency.",
+             "in a minute before sowing, and ask again with --layout and --weighed.",
              plan.amplitude_over_d, table_model.friction, table_model.wall_friction, table_model.restitution);
 }
 
@@ -310,7 +347,99 @@ std::string lot_text(const PlanSource& source) {
   return text + "]\n";
 }
 
+/// Which rows the layout's holes feed.
+std::string drill_text(const RowPace& pace, const HolesForRows& feed) {
+  std::string text = fmt::format("\n[drill]\nrow_spacing = {}\nspeed = \"{:.6g} km/h\"\n",
+                                 in_millimetres(pace.row_spacing), pace.speed / kilometre_per_hour);
+  if (feed.holes == 1) return text + fmt::format("rows_per_hole = {}\n", feed.rows);
+  std::string rows = "1";
+  for (int hole = 1; hole < feed.holes; ++hole) rows += ", 1";
+  return text + fmt::format("hole_to_row = [{}]\n", rows);
+}
+
+// A tray that was weighed.
+
+using SettingRow = CorrectedSetting;
+
+Columns<SettingRow> setting_columns() {
+  using R = const SettingRow&;
+  return {
+      quantity_column<SettingRow>("frequency_Hz", hertz, "to set", [](R r) { return r.frequency; }),
+      quantity_column<SettingRow>("predicted_g_per_s", grams_per_second, "of all holes, by the table alone",
+                                  [](R r) { return r.predicted; }),
+      quantity_column<SettingRow>("low_g_per_s", grams_per_second,
+                                  "lower end of the range that holds the true rate in 95 % of cases, after weighing",
+                                  [](R r) { return r.low; }),
+      quantity_column<SettingRow>("high_g_per_s", grams_per_second, "upper end", [](R r) { return r.high; }),
+      text_column<SettingRow>("more_by", "faster or slower: which shaking sows more",
+                              [](R r) { return std::string(r.more_by_faster ? "faster" : "slower"); }),
+  };
+}
+
+Columns<WeighedRow> weighed_columns() {
+  using R = const WeighedRow&;
+  return {
+      quantity_column<WeighedRow>("frequency_Hz", hertz, "at which it was weighed",
+                                  [](R r) { return r.weighed.tray.frequency; }),
+      quantity_column<WeighedRow>("weighed_g_per_s", grams_per_second, "of all holes",
+                                  [](R r) { return r.weighed.mass_rate; }),
+      quantity_column<WeighedRow>("predicted_g_per_s", grams_per_second, "by the table alone",
+                                  [](R r) { return r.predicted; }),
+      quantity_column<WeighedRow>(
+          "likely_percent", percent,
+          "how likely a rate so far off, or further, is by the other rows and the model's error; "
+          "under 1 % it contradicts them",
+          [](R r) { return r.surprise; }),
+  };
+}
+
+std::string weighed_row_text(const WeighedRow& row) {
+  const WeighedTray& weighed = row.weighed;
+  std::string text = fmt::format("weighed {} g/s at {:.4g} Hz, {} times the {} g/s of the table",
+                                 to_digits(weighed.mass_rate / gram, 3), weighed.tray.frequency,
+                                 to_digits(weighed.mass_rate / row.predicted, 3), to_digits(row.predicted / gram, 3));
+  if (row.surprise < surprising)
+    text += fmt::format(": this contradicts {} (so far off in {} % of cases): weigh again, and look at the unit",
+                        "the other rows and what the model errs by", percent_text(row.surprise));
+  return wrapped(text);
+}
+
 }  // namespace
+
+std::string weighed_text(const SowingTask& task, int rows, const WeighedPlan& plan) {
+  std::string text = wrapped(fmt::format("{} row{} of {} kg/ha, every {} cm at {} km/h, need {} g/s of this tray", rows,
+                                         rows == 1 ? "" : "s", to_digits(task.sowing_rate / kilogram_per_hectare, 3),
+                                         to_digits(task.pace.row_spacing * 100, 3), speed_text(task.pace.speed),
+                                         to_digits(plan.needed / gram, 3)));
+  for (const WeighedRow& row : plan.rows) text += weighed_row_text(row);
+  const auto spread = [](const FactorRange& range) {
+    return fmt::format("{} to {} %", percent_text(range.low), percent_text(range.high));
+  };
+  text +=
+      wrapped(fmt::format("So the tray gives {} times what the table says. A setting far from these was known to {} of "
+                          "it before weighing, and is "
+                          "known to {} now.",
+                          to_digits(plan.factor, 3), spread(plan.before), spread(plan.after)));
+  if (plan.settings.empty())
+    return text +
+           wrapped(fmt::format("No frequency of this tray gives {} g/s: from {} to {} g/s are to be had. Take {} "
+                               "hole, or another number of rows.",
+                               to_digits(plan.needed / gram, 3), to_digits(plan.least / gram, 3),
+                               to_digits(plan.most / gram, 3), plan.most < plan.needed ? "a wider" : "a narrower"));
+  for (const CorrectedSetting& setting : plan.settings)
+    text += wrapped(fmt::format("set {:.3g} Hz: expect {} to {} g/s (95 %); {} shaking sows more", setting.frequency,
+                                to_digits(setting.low / gram, 3), to_digits(setting.high / gram, 3),
+                                setting.more_by_faster ? "faster" : "slower"));
+  return text + wrapped("Weigh at the frequency that you set: a setting near a weighed one is known best.");
+}
+
+std::vector<OutputFile> weighed_files(const WeighedPlan& plan, CsvFormat format) {
+  Csv<SettingRow> settings(setting_columns(), format);
+  for (const CorrectedSetting& setting : plan.settings) settings.add(setting);
+  Csv<WeighedRow> weighed(weighed_columns(), format);
+  for (const WeighedRow& row : plan.rows) weighed.add(row);
+  return {{"settings.csv", settings.text()}, {"weighed.csv", weighed.text()}};
+}
 
 std::string plan_text(const PlanSource& source) {
   const SowingPlan& plan = source.plan;
@@ -334,11 +463,12 @@ std::string planned_seeder(const PlanSource& source) {
   const double count = best.depth_over_d * table_model.packing * section / (std::numbers::pi / 6);
   const HolesForRows& feed = best.feed;
   std::string text = fmt::format(
-      "# One hole of the best layout of a plan ({}) in an endless tray. It should give {} seeds/s;\n"
+      "# The best layout of a plan, {}, in an endless tray. It should give {} seeds/s;\n"
       "# nothing of it was ever measured. Contacts are those of the table that the plan was looked up in.\n"
       "title = {}\nspace = \"3d\"\n\n",
-      feed_text(feed), to_digits(plan.task.row_seed_rate() * feed.rows / feed.holes, 3),
-      toml_text({fmt::format("One hole, {} kg/ha", to_digits(plan.task.sowing_rate / kilogram_per_hectare, 3))}));
+      feed_text(feed), to_digits(plan.task.row_seed_rate() * feed.rows, 3),
+      toml_text(
+          {fmt::format("{}, {} kg/ha", feed_text(feed), to_digits(plan.task.sowing_rate / kilogram_per_hectare, 3))}));
   text += lot_text(source);
   text += fmt::format(
       "\n[contact]\nlaw = \"elastic-shell\"\nshell_compression = {:g}\nfriction = {:g}\nrestitution = {:g}\n"
@@ -346,20 +476,25 @@ std::string planned_seeder(const PlanSource& source) {
       table_model.shell_compression, table_model.friction, table_model.restitution, table_model.wall_friction,
       table_model.restitution);
   text += fmt::format(
-      "\n[tray]\nlength = {0}\ndepth = {0}\nheight = {1}\nsides = \"periodic\"\nfront_and_back = \"periodic\"\n"
+      "\n[tray]\nlength = {3}\ndepth = {0}\nheight = {1}\nsides = \"periodic\"\nfront_and_back = \"periodic\"\n"
       "fill = {{ count = {2:.0f}, packing = \"poured\", keep = true }}\n",
-      in_millimetres(table_model.section * d), in_millimetres(table_model.height * d), count);
-  text += fmt::format("\n[tray.holes]\nshape = \"round\"\ncount = 1\nwidth = {}\n", in_millimetres(best.width));
+      in_millimetres(table_model.section * d), in_millimetres(table_model.height * d), count * feed.holes,
+      in_millimetres(table_model.section * d * feed.holes));
+  text += fmt::format("\n[tray.holes]\nshape = \"round\"\ncount = {}\nwidth = {}\n", feed.holes,
+                      in_millimetres(best.width));
   text += fmt::format(
       "\n[tray.motion]\nkind = \"harmonic\"\ndirection = \"0 degree\"\namplitude = {}\nfrequency = \"{:.6g} Hz\"\n"
       "ramp = \"{:.3g} s\"\n",
       in_millimetres(best.amplitude), best.frequency, 5 * time);
+  text += drill_text(plan.task.pace, feed);
   return text + fmt::format("\n[run]\nduration = \"{:.3g} s\"\nmeasure_from = \"{:.3g} s\"\n", 100 * time, 14 * time);
 }
 
 std::vector<FileText> plan_file_texts() {
   return {file_text("plan.csv", "one row per layout that gives the rate, the best first", plan_columns()),
-          {"seeder.toml", "one hole of the best layout in an endless tray, to simulate; none without a layout", {}}};
+          {"seeder.toml", "the best layout in an endless tray, to simulate and to weigh; none without a layout", {}},
+          file_text("settings.csv", "with --layout: the frequencies that give what is needed", setting_columns()),
+          file_text("weighed.csv", "with --layout: one row per weighing", weighed_columns())};
 }
 
 std::vector<OutputFile> plan_files(const PlanSource& source, CsvFormat format) {

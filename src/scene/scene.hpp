@@ -27,6 +27,15 @@ class WrittenAt {
   std::string text_;
 };
 
+/// A preset that values were taken from; empty in a scene not read from a file. Says nothing about the scene, so any
+/// two are equal.
+struct PresetFile {
+  std::string name{};  // without .toml
+  std::string file{};  // its path
+  bool is_known() const { return !file.empty(); }
+  bool operator==(const PresetFile&) const { return true; }
+};
+
 /// Decides the moment of inertia: m r^2 / 2 for a disc, 2 m r^2 / 5 for a ball, for a clump that of a uniform plate, in
 /// space of a uniform body.
 enum class Shape { disc, ball, clump };
@@ -63,6 +72,7 @@ struct SeedLot {
   std::optional<double> shell_compression{};  // these three: instead of the contact's
   std::optional<double> youngs_modulus{};     // Pa
   std::optional<double> poisson_ratio{};
+  PresetFile crop{}, contact{};  // the contact model that the crop names as its own
   bool operator==(const SeedLot&) const = default;
 };
 
@@ -108,6 +118,7 @@ struct Contact {
   double drag = 0;               // kg/s, paper A's mu
   bool rotation = true;
   FrictionArm friction_arm = FrictionArm::contact_point;
+  PresetFile model{};  // none where each lot has that of its crop
   bool operator==(const Contact&) const = default;
 };
 

@@ -77,8 +77,8 @@ TEST(HoleTable, TellsWhereItReaches) {
   EXPECT_EQ(table.widths(1.5).most, 5);
   EXPECT_EQ(table.peak_speeds(2).most, 3);
   EXPECT_EQ(table.depths(2).least, 3);
-  EXPECT_THAT(table.speed_steps(1), ElementsAre(0.7, 1.4, 2.4, 3.8));
-  EXPECT_THAT(table.speed_steps(1.5), ElementsAre(0.7, 1.4, 2.4, 3.0));
+  EXPECT_THAT(table.speed_steps(1, {0, 9}), ElementsAre(0.7, 1.4, 2.4, 3.8));
+  EXPECT_THAT(table.speed_steps(1.5, {0, 9}), ElementsAre(0.7, 1.4, 2.4, 3.0));
   EXPECT_EQ(table.amplitude(), 2);
   EXPECT_THROW(table.widths(3), std::invalid_argument);
 }
@@ -201,6 +201,36 @@ TEST(HoleTable, RefusesWhatIsNoTable) {
   for (HoleRecord& record : wide)
     if (record.at.aspect == 2 && record.at.width == 5) record.at.width = 7;
   EXPECT_THAT([&] { table_of(wide); }, refused("outside those of balls"));
+}
+
+TEST(HoleTable, SlopesAreThoseOfTheLaw) {
+  const HoleTable table(made_up_records());
+  const HoleTable::Slopes slopes = table.slopes({1, 4, 2, 6});
+  EXPECT_NEAR(slopes.width, 2.5 * 4 / 3, 0.05);
+  EXPECT_NEAR(slopes.peak_speed, -std::log(2 / 1.4), 0.1);
+  EXPECT_NEAR(table.slopes({1, 2, 2, 6}).width, 2.5 * 2 / 1, 0.2) << "on the edge, from one side";
+}
+
+TEST(HoleTable, SpeedThatGivesAnOutflow) {
+  const HoleTable table(made_up_records());
+  const double wanted = table.at({1, 4, 2, 6})->outflow;
+  EXPECT_NEAR(table.peak_speed_giving(wanted, {1, 4, 0, 6}, 1.4, 2.4), 2, 1e-8);
+  EXPECT_EQ(table.peak_speed_giving(table.at({1, 4, 1.4, 6})->outflow, {1, 4, 0, 6}, 1.4, 2.4), 1.4);
+}
+
+TEST(HoleTable, FactorOfLongerSeedsVariesFromSettingToSetting) {
+  std::vector<HoleRecord> records = made_up_records();
+  for (HoleRecord& record : records) record.half_width_95 = 1e-6 * record.outflow;
+  const double interpolation = HoleTable(records).factor_spread(3);
+  EXPECT_LT(interpolation, 0.06) << "a constant factor of the law, but for what is interpolated between speeds";
+  int k = 0;
+  for (HoleRecord& record : records)
+    if (record.at.aspect > 1) record.outflow *= ++k % 2 == 0 ? 1.2 : 1 / 1.2;
+  EXPECT_NEAR(HoleTable(records).factor_spread(3), std::log(1.2) * std::sqrt(6.0 / 5), 0.03);
+  for (HoleRecord& record : records) record.half_width_95 = 0.5 * record.outflow;
+  EXPECT_EQ(HoleTable(records).factor_spread(3), 0) << "no more than chance makes";
+  std::erase_if(records, [](const HoleRecord& record) { return record.at.aspect > 1; });
+  EXPECT_EQ(HoleTable(records).factor_spread(3), 0) << "balls alone";
 }
 
 }  // namespace

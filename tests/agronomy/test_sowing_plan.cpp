@@ -21,6 +21,9 @@ const HoleTable& table() {
   return made_up;
 }
 
+/// Five materials that were predicted to a fifth or so.
+const ModelError other_materials{0.2, 5, 1.1};
+
 /// Balls of 4 mm and 40 mg in rows of 25 cm at 8 km/h.
 SowingTask task_of(double seeds_per_s) {
   SowingTask task;
@@ -45,7 +48,7 @@ TEST(SowingPlan, RapeseedsNeed) {
 
 TEST(SowingPlan, EveryLayoutGivesTheRate) {
   const SowingTask task = task_of(100);
-  const SowingPlan plan = plan_sowing(task, table());
+  const SowingPlan plan = plan_sowing(task, table(), other_materials);
   ASSERT_GT(plan.layouts.size(), 10U);
   std::set<std::pair<int, int>> feeds;
   for (const PlannedLayout& layout : plan.layouts) {
@@ -66,7 +69,7 @@ TEST(SowingPlan, EveryLayoutGivesTheRate) {
 
 TEST(SowingPlan, WiderHolesComeFirstThenThoseThatNeverStoodStill) {
   for (const double rate : {30.0, 100.0, 300.0, 1000.0}) {
-    const SowingPlan plan = plan_sowing(task_of(rate), table());
+    const SowingPlan plan = plan_sowing(task_of(rate), table(), other_materials);
     ASSERT_FALSE(plan.layouts.empty()) << rate;
     for (std::size_t i = 1; i < plan.layouts.size(); ++i) {
       const PlannedLayout &better = plan.layouts[i - 1], &worse = plan.layouts[i];
@@ -89,7 +92,7 @@ TEST(SowingPlan, ClassesOfHoles) {
 
 TEST(SowingPlan, SpeedsReachAsFarAsTheOutflowGoesOneWay) {
   const SowingTask task = task_of(100);
-  for (const PlannedLayout& layout : plan_sowing(task, table()).layouts) {
+  for (const PlannedLayout& layout : plan_sowing(task, table(), other_materials).layouts) {
     // The law has its most at 1.4; the shaker's 3 Hz are 0.761.
     const double turn = made_up_outflow({1, layout.width_over_d, 1.4, layout.depth_over_d});
     const double end = made_up_outflow({1, layout.width_over_d, 3.8, layout.depth_over_d});
@@ -103,30 +106,32 @@ TEST(SowingPlan, SpeedsReachAsFarAsTheOutflowGoesOneWay) {
 }
 
 TEST(SowingPlan, NoFrequencyBeyondTheShakersLimits) {
-  const SowingPlan plan = plan_sowing(task_of(100), table(), {.least_frequency = 6, .most_frequency = 7});
+  const SowingPlan plan =
+      plan_sowing(task_of(100), table(), other_materials, {.least_frequency = 6, .most_frequency = 7});
   for (const PlannedLayout& layout : plan.layouts) {
     EXPECT_GE(layout.frequency, 6);
     EXPECT_LE(layout.frequency, 7);
   }
-  const SowingPlan none = plan_sowing(task_of(100), table(), {.least_frequency = 60, .most_frequency = 70});
+  const SowingPlan none =
+      plan_sowing(task_of(100), table(), other_materials, {.least_frequency = 60, .most_frequency = 70});
   EXPECT_TRUE(none.layouts.empty());
   EXPECT_EQ(none.change.most_share, 0);
 }
 
 TEST(SowingPlan, TooLittleAndTooMuchAreToldAsShares) {
-  const SowingPlan least = plan_sowing(task_of(0.5), table());
+  const SowingPlan least = plan_sowing(task_of(0.5), table(), other_materials);
   EXPECT_TRUE(least.layouts.empty());
   EXPECT_GT(least.change.least_share, 1);
   // One hole of 2 d for four rows, in the shallow bed and shaken the fastest.
   EXPECT_NEAR(least.change.least_share, table().at({1, 2, 3.8, 3})->outflow / (4 * 0.5 * unit), 1e-9);
-  const SowingPlan most = plan_sowing(task_of(1e5), table());
+  const SowingPlan most = plan_sowing(task_of(1e5), table(), other_materials);
   EXPECT_TRUE(most.layouts.empty());
   EXPECT_LT(most.change.most_share, 1);
   EXPECT_GT(most.change.most_share, 0);
 }
 
 TEST(SowingPlan, RowsThatAWideHoleWouldHaveToFeed) {
-  const NearestChange change = plan_sowing(task_of(10), table()).change;
+  const NearestChange change = plan_sowing(task_of(10), table(), other_materials).change;
   ASSERT_TRUE(change.kept_open && change.rarely_clogs);
   EXPECT_NEAR(change.kept_open->width, 12e-3, 1e-12);
   EXPECT_NEAR(change.rarely_clogs->width, 20e-3, 1e-12);
@@ -136,33 +141,51 @@ TEST(SowingPlan, RowsThatAWideHoleWouldHaveToFeed) {
   EXPECT_EQ(change.rarely_clogs->rows, static_cast<int>(std::ceil(wide / (10 * unit))));
 }
 
-TEST(SowingPlan, IsSureToChanceAndInterpolationAndSoftness) {
-  const SowingPlan plan = plan_sowing(task_of(100), table());
+TEST(SowingPlan, TheTableIsSureToChanceAndInterpolationAndSoftness) {
+  const SowingPlan plan = plan_sowing(task_of(100), table(), other_materials);
   const PlannedLayout& best = plan.layouts.front();
   EXPECT_NEAR(
-      plan.uncertainty(best),
+      plan.unknown_to_table(best),
       std::hypot(best.estimate.chance, table().interpolation_error(1, best.width_over_d, best.peak_speed)) + 0.062,
       1e-12);
-  EXPECT_GT(plan.uncertainty(best), plan.softness);
+  EXPECT_GT(plan.unknown_to_table(best), plan.softness);
+}
+
+TEST(SowingPlan, ARateErrsByFourParts) {
+  const SowingPlan plan = plan_sowing(task_of(100), table(), other_materials);
+  const PlannedLayout& best = plan.layouts.front();
+  constexpr double normal_95 = 1.959964;
+  EXPECT_NEAR(best.error.chance * normal_95, best.estimate.chance, 1e-12);
+  EXPECT_NEAR(best.error.numerics * normal_95, std::hypot(best.interpolation, 0.062), 1e-12);
+  EXPECT_EQ(best.error.model.scale, other_materials.scale);
+  // By the made-up law the width counts as (width - 1)^(5/2), the speed as exp(-ln(speed / 1.4)^2 / 2).
+  const double by_width = 2.5 * best.width_over_d / (best.width_over_d - 1) * 0.1e-3 / best.width;
+  const double by_speed = -std::log(best.peak_speed / 1.4) * 0.02;
+  EXPECT_NEAR(best.error.tolerance * normal_95, std::hypot(by_width, by_speed), 0.15 * by_width);
+}
+
+TEST(SowingPlan, LongSeedsHaveTheSoftnessErrorOfGrains) {
+  EXPECT_DOUBLE_EQ(softness_error(1), 0.062);
+  EXPECT_DOUBLE_EQ(softness_error(2.2), 0.073);
 }
 
 TEST(SowingPlan, WhatTheTableHardlyKnowsIsLeftOut) {
   std::vector<HoleRecord> records = made_up_records();
   for (HoleRecord& record : records)
     if (record.at.width >= 5) record.half_width_95 = 0.6 * record.outflow;
-  const SowingPlan known = plan_sowing(task_of(300), table());
-  const SowingPlan plan = plan_sowing(task_of(300), HoleTable(records));
+  const SowingPlan known = plan_sowing(task_of(300), table(), other_materials);
+  const SowingPlan plan = plan_sowing(task_of(300), HoleTable(records), other_materials);
   EXPECT_EQ(known.too_uncertain, 0U);
   EXPECT_GT(plan.too_uncertain, 0U);
   EXPECT_EQ(plan.layouts.size() + plan.too_uncertain, known.layouts.size());
-  for (const PlannedLayout& layout : plan.layouts) EXPECT_LE(plan.uncertainty(layout), most_uncertain);
+  for (const PlannedLayout& layout : plan.layouts) EXPECT_LE(plan.unknown_to_table(layout), most_uncertain);
 }
 
 TEST(SowingPlan, SeedsThatTheTableHasNot) {
   SowingTask task = task_of(100);
   task.seed.aspect = 2.7;
   EXPECT_THAT(
-      [&] { plan_sowing(task, table()); },
+      [&] { plan_sowing(task, table(), other_materials); },
       ThrowsMessage<InputError>(HasSubstr("2.7 times as long as wide; the table of one hole knows seeds of 1 to 2")));
 }
 

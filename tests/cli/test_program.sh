@@ -65,6 +65,7 @@ expect 0 "pairs +[0-9.]+ +[0-9.]+ %" run seeder.toml --profile --out profiled
 grep -q '"neighbours"' profiled/timing.json || fail "timing.json has no shares"
 expect 0 "wheat" presets crops
 expect 0 "wheat-steel +Wheat on steel" presets contacts
+expect 0 "wheat-ball +Wheat as balls" presets crops
 expect 0 "wheat-holes" presets
 for command in run sweep decide optimise calibrate bench-sheet work submit status report export verify pack accuracy plan new check presets columns; do expect 0 "^Usage: vibrosow $command" $command --help; done
 expect 0 "wheat-tray +Wheat tray" presets seeders

@@ -6,12 +6,14 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <memory>
 #include <numbers>
 #include <string>
 #include <vector>
 
 #include <toml++/toml.h>
 
+#include "input/presets.hpp"
 #include "input/read_crop.hpp"
 #include "input/read_scene.hpp"
 #include "scene/clump_shape.hpp"
@@ -30,12 +32,13 @@ std::vector<fs::path> toml_files(const fs::path& directory) {
   return files;
 }
 
-/// Full names of all values of a preset that need a source: all but its title and the sources themselves.
+/// Full names of all values of a preset that need a source: all but its title, its contact model and the sources
+/// themselves.
 std::vector<std::string> keys_to_source(const toml::table& preset, const std::string& prefix = "") {
   std::vector<std::string> keys;
   for (const auto& [key, value] : preset) {
     const std::string name = prefix + std::string(key.str());
-    if (name == "title" || name == "sources") continue;
+    if (name == "title" || name == "sources" || name == "contact") continue;
     if (const toml::table* inner = value.as_table()) {
       for (const std::string& deeper : keys_to_source(*inner, name + ".")) keys.push_back(deeper);
     } else {
@@ -128,6 +131,24 @@ TEST(Presets, EveryContactModelSaysHowItPushesAndRubs) {
   }
 }
 
+TEST(Presets, EveryCropNamesItsContactModel) {
+  for (const fs::path& file : toml_files(data_directory() / "models" / "crops"))
+    EXPECT_TRUE(fs::exists(read_crop(file).contact.file)) << file;
+}
+
+TEST(Presets, NamesOfBeforeStandForTheSameSeeds) {
+  EXPECT_EQ(find_crop("wheat-grain").name, "wheat");
+  EXPECT_EQ(find_crop("barley-grain").name, "barley");
+  const auto files = std::make_shared<SourceFiles>();
+  read_scene(data_directory() / "seeders" / "wheat-grains.toml", {parse_override("seeds.wheat.crop=wheat-grain")},
+             files);
+  ASSERT_EQ(files->notes().size(), 1u);
+  EXPECT_NE(files->notes()[0].find("seeds.wheat.crop: \"wheat-grain\" is called \"wheat\" now"), std::string::npos)
+      << files->notes()[0];
+  EXPECT_TRUE(changed_meaning("wheat", "crops"));
+  EXPECT_FALSE(changed_meaning("wheat-ball", "crops"));
+}
+
 TEST(Presets, WheatAtItsGeometricMeanDiameterWouldNotAgree) {
   EXPECT_NEAR(mass_ratio(toml::parse(
                   "diameter = '4.26 mm'\nthousand_grain_weight = '29.6 g'\nreference.true_density = '1240 kg/m3'")),
@@ -143,7 +164,7 @@ TEST(Presets, WheatAtItsMeasuredLengthWidthAndThicknessWouldNotAgree) {
 
 TEST(Presets, ElongatedAndDropCropsReadAsClumps) {
   for (const auto& [crop, length] :
-       {std::pair("wheat-grain", 6.32e-3), {"barley-grain", 9.13e-3}, {"oats", 10e-3}, {"rice", 10.1e-3}}) {
+       {std::pair("wheat", 6.32e-3), {"barley", 9.13e-3}, {"oats", 10e-3}, {"rice", 10.1e-3}}) {
     const Scene scene = read_scene(data_directory() / "seeders" / "wheat-tray.toml",
                                    {parse_override(std::string("seeds.wheat.crop=") + crop),
                                     parse_override("hopper.fill.count=50"), parse_override("tray.fill.count=50")});

@@ -1,9 +1,11 @@
 // The keys of materials, contacts, numerics and records that laws beside the elastic shell, springs, rolling, cohesion
 // and pairs of materials brought.
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "input/read_scene.hpp"
@@ -279,6 +281,89 @@ TEST(ReadContact, KeysNotUsedDoNotTellScenesApart) {
   EXPECT_TRUE(read(seeder(shell)) ==
               read(seeder(shell + "law = 'elastic-shell'\nfriction_model = 'sliding'\nrolling = 'none'\n"
                                   "cohesion = '0 N'\nrolling_friction = 0\n")));
+}
+
+/// Two lots, each with a crop and a contact model of its own, and whatever follows.
+class ContactsOfCrops : public testing::Test {
+ protected:
+  Scene read(const std::string& rest) const {
+    folder.write("pea.toml", "diameter = '7 mm'\nmass = '0.2 g'\ncontact = 'pea-contact.toml'\n");
+    folder.write("rape.toml", "diameter = '2 mm'\nmass = '5 mg'\ncontact = 'rape-contact.toml'\n");
+    folder.write("pea-contact.toml",
+                 "shell_compression = 1e-4\nfriction = 0.4\nrestitution = 0.5\nwall = { friction = 0.3 }\n");
+    folder.write("rape-contact.toml",
+                 "shell_compression = 2e-5\nfriction = 0.5\nrestitution = 0.6\nwall = { friction = 0.2 }\n");
+    return read_scene(folder.write("seeder.toml",
+                                   "[seeds.pea]\ncrop = 'pea.toml'\nnumber_fraction = '50 %'\n"
+                                   "[seeds.rape]\ncrop = 'rape.toml'\nnumber_fraction = '50 %'\n"
+                                   "[tray]\nlength = '50 cm'\nheight = '12 cm'\nfill = { count = 10 }\n"
+                                   "[run]\nduration = '6 s'\n" +
+                                       rest));
+  }
+  static double friction(const Scene& scene, int lot, int other) {
+    for (const SurfaceOverride& pair : scene.contact.overrides)
+      if (pair.lot == lot && pair.other == other) return pair.surface.friction;
+    return other < 0 ? scene.contact.wall.friction : scene.contact.seed.friction;
+  }
+  const TemporaryFolder folder{};
+};
+
+TEST_F(ContactsOfCrops, AreTakenWithoutContact) {
+  for (const char* rest : {"", "[contact]\n", "[contact]\nmodel = 'crop'\n"}) {
+    const Scene scene = read(rest);
+    EXPECT_EQ(friction(scene, 0, 0), 0.4) << rest;
+    EXPECT_EQ(friction(scene, 0, -1), 0.3);
+    EXPECT_EQ(friction(scene, 1, 1), 0.5);
+    EXPECT_EQ(friction(scene, 1, -1), 0.2);
+    EXPECT_DOUBLE_EQ(friction(scene, 0, 1), 0.45) << "the mean of both";
+    EXPECT_EQ(scene.contact.shell_compression, 1e-4);
+    EXPECT_EQ(scene.lots[1].shell_compression, 2e-5);
+    EXPECT_FALSE(scene.contact.model.is_known());
+    EXPECT_EQ(scene.lots[1].contact.name, "rape-contact");
+    EXPECT_EQ(scene.lots[1].crop.name, "rape");
+  }
+}
+
+TEST_F(ContactsOfCrops, WhatTheSeederSaysWins) {
+  const Scene all = read("[contact]\nmodel = 'crop'\nfriction = 0.1\nshell_compression = 3e-4\n");
+  for (const auto& [lot, other] : {std::pair(0, 0), {0, 1}, {1, 1}}) EXPECT_EQ(friction(all, lot, other), 0.1);
+  EXPECT_EQ(friction(all, 1, -1), 0.2);
+  EXPECT_FALSE(all.lots[1].shell_compression);
+  const Scene pair = read("[contact]\nmodel = 'crop'\npea.rape.friction = 0.7\nrape.rape.friction = 0.4\n");
+  EXPECT_EQ(friction(pair, 0, 1), 0.7);
+  EXPECT_EQ(friction(pair, 1, 1), 0.4);
+  EXPECT_EQ(friction(pair, 0, 0), 0.4);
+}
+
+TEST_F(ContactsOfCrops, OfSeveralLawsAreRefused) {
+  folder.write("hertz.toml", "law = 'hertz'\nyoungs_modulus = '50 MPa'\nfriction = 0.3\n");
+  read("");
+  EXPECT_THAT(
+      [&] {
+        read_scene(folder.write("two.toml",
+                                "[seeds.pea]\ncrop = 'pea.toml'\nnumber_fraction = '50 %'\n[seeds.rape]\n"
+                                "crop = 'rape.toml'\ncontact = 'hertz.toml'\nnumber_fraction = '50 %'\n[tray]\n"
+                                "length = '50 cm'\nheight = '12 cm'\nfill = { count = 10 }\n[run]\n"
+                                "duration = '6 s'\n"));
+      },
+      testing::ThrowsMessage<InputError>(testing::HasSubstr("are of several laws")));
+}
+
+TEST_F(ContactsOfCrops, ALotWithoutOneIsNamed) {
+  EXPECT_THAT(
+      [] { vibrosow::read(seeder("model = 'crop'\n")); },
+      testing::ThrowsMessage<InputError>(testing::HasSubstr("contact.model: is \"crop\", and seeds.pea has no crop")));
+}
+
+TEST_F(ContactsOfCrops, AModelThatIsNotThereIsNamed) {
+  EXPECT_THAT(
+      [&] {
+        folder.write("lost.toml", "diameter = '7 mm'\nmass = '0.2 g'\ncontact = 'nowhere.toml'\n");
+        read_scene(folder.write("s.toml",
+                                "[seeds.a]\ncrop = 'lost.toml'\n[tray]\nlength = '50 cm'\nheight = '12 cm'\n"
+                                "fill = { count = 10 }\n[run]\nduration = '6 s'\n"));
+      },
+      testing::ThrowsMessage<InputError>(testing::HasSubstr("nowhere.toml")));
 }
 
 }  // namespace

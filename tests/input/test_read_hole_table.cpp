@@ -73,7 +73,7 @@ TEST(ShippedHoleTable, IsWholeAndItsOutflowGrowsWithTheWidth) {
   EXPECT_GE(table.widths(1).most, 6.5);
   for (const double aspect : {table.aspects().least, table.aspects().most}) {
     const Span widths = table.widths(aspect);
-    for (const double speed : table.speed_steps(aspect))
+    for (const double speed : table.speed_steps(aspect, table.peak_speeds(aspect)))
       for (const double depth : {table.depths(aspect).least, table.depths(aspect).most}) {
         double before = 0;
         for (int k = 0; k <= 100; ++k) {
@@ -117,7 +117,7 @@ TEST(ShippedHoleTable, SaysWhatRunsBetweenItsPlacesGive) {
 /// granular medium", abstract).
 TEST(ShippedHoleTable, FasterShakingGivesLessAboveSomeSpeed) {
   const HoleTable table = shipped_hole_table();
-  const std::vector<double> speeds = table.speed_steps(1);
+  const std::vector<double> speeds = table.speed_steps(1, table.peak_speeds(1));
   for (const double width : {3.0, 4.0, 5.0, 6.5})
     EXPECT_LT(table.at({1, width, speeds.back(), 3})->outflow, table.at({1, width, speeds[1], 3})->outflow) << width;
 }

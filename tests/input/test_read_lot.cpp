@@ -77,10 +77,10 @@ TEST(ReadLot, AThousandGrainWeightIsAThousandMasses) {
 }
 
 TEST(ReadLot, ASeedersMassWinsOverItsCropsThousandGrainWeight) {
-  EXPECT_DOUBLE_EQ(lot_of("crop = 'wheat'").mass, 29.6e-6);
-  EXPECT_DOUBLE_EQ(lot_of("crop = 'wheat'\nmass = '40 mg'").mass, 40e-6);
-  EXPECT_DOUBLE_EQ(lot_of("crop = 'wheat'\nthousand_grain_weight = '50 g'").mass, 50e-6);
-  EXPECT_NEAR(lot_of("crop = 'wheat'\ndensity = '1000 kg/m3'").mass, 23.8e-6, 0.1e-6);
+  EXPECT_DOUBLE_EQ(lot_of("crop = 'wheat-ball'").mass, 29.6e-6);
+  EXPECT_DOUBLE_EQ(lot_of("crop = 'wheat-ball'\nmass = '40 mg'").mass, 40e-6);
+  EXPECT_DOUBLE_EQ(lot_of("crop = 'wheat-ball'\nthousand_grain_weight = '50 g'").mass, 50e-6);
+  EXPECT_NEAR(lot_of("crop = 'wheat-ball'\ndensity = '1000 kg/m3'").mass, 23.8e-6, 0.1e-6);
 }
 
 TEST(ReadLot, BulkPropertiesChangeNoSeed) {
@@ -248,10 +248,10 @@ TEST(ReadLot, ShapeWrittenOverACropsOwn) {
   const SeedLot ball = lot_of("crop = 'sunflower'\nshape = 'ball'\ndiameter = '6 mm'");
   EXPECT_EQ(ball.shape, Shape::ball);
   EXPECT_EQ(ball.diameter, 6e-3);
-  const SeedLot grain = lot_of("crop = 'wheat'\nshape = 'elongated'\nlength = '7 mm'\nwidth = '3 mm'");
+  const SeedLot grain = lot_of("crop = 'wheat-ball'\nshape = 'elongated'\nlength = '7 mm'\nwidth = '3 mm'");
   EXPECT_NEAR(grain.diameter, 7e-3, 1e-15);
   const SeedLot scattered =
-      lot_of("crop = 'wheat'\nsizes = { distribution = 'uniform', least = '3 mm', most = '5 mm' }");
+      lot_of("crop = 'wheat-ball'\nsizes = { distribution = 'uniform', least = '3 mm', most = '5 mm' }");
   EXPECT_DOUBLE_EQ(scattered.diameter, 4e-3);
 }
 

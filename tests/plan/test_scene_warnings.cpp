@@ -56,6 +56,21 @@ TEST(SceneWarnings, ASoundSceneHasNone) {
   EXPECT_THAT(scene_warnings(scene), IsEmpty());
 }
 
+TEST(SceneWarnings, AContactThatIsMadeForOtherSeeds) {
+  Scene scene = sound();
+  scene.lots[0].crop = {"wheat", "crops/wheat.toml"};
+  scene.lots[0].contact = {"wheat-steel", "contacts/wheat-steel.toml"};
+  EXPECT_THAT(scene_warnings(scene), IsEmpty()) << "each lot has that of its crop, or values are written out";
+  scene.contact.model = scene.lots[0].contact;
+  EXPECT_THAT(scene_warnings(scene), IsEmpty());
+  scene.contact.model = {"pea-steel", "contacts/pea-steel.toml"};
+  EXPECT_THAT(scene_warnings(scene),
+              ElementsAre(AllOf(HasSubstr("\"pea-steel\" is made for other seeds than seeds.wheat"),
+                                HasSubstr("\"wheat-steel\""))));
+  scene.contact.overrides = {{0, -1, scene.contact.wall}, {0, 0, scene.contact.seed}};
+  EXPECT_THAT(scene_warnings(scene), IsEmpty()) << "the seeder gives its pairs itself";
+}
+
 SeedLot ball(const std::string& name, double size, double fraction) {
   SeedLot lot;
   lot.name = name, lot.diameter = size, lot.number_fraction = fraction;

@@ -15,6 +15,7 @@
 namespace vibrosow {
 namespace {
 
+using testing::AllOf;
 using testing::HasSubstr;
 using testing::Not;
 
@@ -30,7 +31,7 @@ PlanSource source_of(double seeds_per_s) {
   task.seed = planned_seed(source.lot);
   task.pace = {0.25, 8 * kilometre_per_hour};
   task.sowing_rate = seeds_per_s * task.seed.mass / (task.pace.row_spacing * task.pace.speed);
-  source.plan = plan_sowing(task, HoleTable(made_up_records()));
+  source.plan = plan_sowing(task, HoleTable(made_up_records()), {0.2, 5, 1 / 1.1});
   return source;
 }
 
@@ -59,7 +60,8 @@ TEST(PlanText, LeadsWithTheRisk) {
   EXPECT_LT(narrow.find("None of these"), narrow.find("1:4"));
   const std::string wide = unwrapped(plan_text(source_of(1000)));
   EXPECT_THAT(wide, HasSubstr("such a hole rarely clogs"));
-  EXPECT_THAT(wide, HasSubstr("is known to +- "));
+  EXPECT_THAT(wide, AllOf(HasSubstr("Expect "), HasSubstr(" g/s until you weigh (95 %); of it chance "),
+                          HasSubstr("it gave 10 % too much")));
 }
 
 TEST(PlanText, NoneOfTheseDoes) {
@@ -67,7 +69,7 @@ TEST(PlanText, NoneOfTheseDoes) {
   const std::string most = unwrapped(plan_text(source_of(1e5)));
   EXPECT_THAT(most, HasSubstr("None of these does: the most"));
   EXPECT_THAT(most, HasSubstr("such holes a row"));
-  EXPECT_THAT(most, Not(HasSubstr("known to +-")));
+  EXPECT_THAT(most, Not(HasSubstr("until you weigh")));
 }
 
 TEST(PlanCsv, OneRowPerLayoutEachWithItsErrorAndThatItWasNotMeasured) {
@@ -75,7 +77,9 @@ TEST(PlanCsv, OneRowPerLayoutEachWithItsErrorAndThatItWasNotMeasured) {
   std::istringstream csv(plan_csv(source.plan));
   std::string line;
   std::getline(csv, line);
-  EXPECT_THAT(line, HasSubstr("rate_error_percent"));
+  EXPECT_THAT(
+      line,
+      HasSubstr("low_seeds_per_s,high_seeds_per_s,chance_percent,numerics_percent,tolerance_percent,model_percent"));
   std::size_t rows = 0;
   while (std::getline(csv, line)) {
     EXPECT_TRUE(line.ends_with(",no")) << line;
@@ -130,6 +134,46 @@ TEST(PlannedSeeder, OfAShippedCropNamesIt) {
   source.own_mass = false;
   EXPECT_THAT(planned_seeder(source), HasSubstr("crop = \"pea\""));
   EXPECT_NEAR(planned_scene(source).lots[0].diameter, 6.83e-3, 1e-9);
+}
+
+TEST(PlannedSeeder, HasTheHolesAndTheRowsOfItsLayout) {
+  PlanSource source = source_of(100);
+  PlannedLayout& best = source.plan.layouts.front();
+  best.feed = {1, 3};
+  EXPECT_THAT(planned_seeder(source), HasSubstr("rows_per_hole = 3"));
+  best.feed = {2, 1};
+  const std::string two = planned_seeder(source);
+  EXPECT_THAT(two, HasSubstr("hole_to_row = [1, 1]"));
+  const Scene scene = planned_scene(source);
+  EXPECT_EQ(scene.tray.holes.size(), 2U);
+  EXPECT_NEAR(scene.tray.length, 2 * *scene.tray.depth, 1e-9);
+}
+
+/// A tray of balls of 4 mm that gave `times` what the table says.
+WeighedPlan weighed_plan(double times) {
+  const HoleTable table(made_up_records());
+  TableTray tray{{4e-3, 40e-6, 1}, {1, 4, 1.2, 6}, 1, 8e-3, 4.7};
+  const double rate = 40e-6 * table.at(tray.at)->outflow / std::sqrt(4e-3 / standard_gravity);
+  return plan_weighed(rate, {{tray, times * rate, 0.01}}, table, {0.2, 5, 1});
+}
+
+TEST(WeighedText, SaysWhatToSetAndHowSureItIs) {
+  const SowingTask task{{4e-3, 40e-6, 1}, 0.018, {0.25, 8 * kilometre_per_hour}};
+  const std::string text = unwrapped(weighed_text(task, 2, weighed_plan(1.1)));
+  EXPECT_THAT(text,
+              AllOf(HasSubstr("2 rows of 180 kg/ha"), HasSubstr("1.1 times the"), HasSubstr("So the tray gives 1."),
+                    HasSubstr("set "), HasSubstr("Weigh at the frequency that you set")));
+  EXPECT_THAT(unwrapped(weighed_text(task, 2, weighed_plan(3))), HasSubstr("Take a narrower hole"));
+  EXPECT_THAT(unwrapped(weighed_text(task, 2, weighed_plan(0.3))), HasSubstr("Take a wider hole"));
+  EXPECT_THAT(unwrapped(weighed_text(task, 1, weighed_plan(20))), HasSubstr("this contradicts"));
+}
+
+TEST(WeighedFiles, AreOneRowPerSettingAndPerWeighing) {
+  const std::vector<OutputFile> files = weighed_files(weighed_plan(1.05));
+  ASSERT_EQ(files.size(), 2U);
+  EXPECT_EQ(files[0].name, "settings.csv");
+  EXPECT_THAT(files[0].content, HasSubstr("frequency_Hz,predicted_g_per_s,low_g_per_s,high_g_per_s,more_by"));
+  EXPECT_THAT(files[1].content, HasSubstr("frequency_Hz,weighed_g_per_s,predicted_g_per_s,likely_percent"));
 }
 
 }  // namespace

@@ -296,7 +296,7 @@ ClumpDisc any_disc() {
 SeedLot any_lot() {
   SeedLot lot;
   auto& [name, diameter, mass, shape, fraction, sizes, discs, gyration2, gyration2_x, gyration2_y, shell, modulus,
-         ratio] = lot;
+         ratio, crop, contact] = lot;
   name = any_text();
   for (double* number : {&diameter, &mass, &fraction, &gyration2}) *number = any_number();
   for (double* number : {&gyration2_x, &gyration2_y}) *number = any_choice() ? any_number() : 0;
@@ -304,6 +304,7 @@ SeedLot any_lot() {
   if (any_choice()) sizes = any_sizes();
   discs = any_list(any_disc, shape == Shape::clump ? 1 : 0);
   for (std::optional<double>* number : {&shell, &modulus, &ratio}) *number = maybe(any_number);
+  for (PresetFile* preset : {&crop, &contact}) *preset = {any_text(), any_text()};
   return lot;
 }
 
@@ -318,7 +319,8 @@ Surface any_surface() {
 Contact any_contact(int lots) {
   Contact contact;
   auto& [law, shell, modulus, ratio, wall_modulus, wall_ratio, damping_rate, seed, wall, overrides, friction_model,
-         tangential_ratio, tangential_damping, rolling, rolling_damping, slip_speed, drag, rotation, arm] = contact;
+         tangential_ratio, tangential_damping, rolling, rolling_damping, slip_speed, drag, rotation, arm, model] =
+      contact;
   law = any_of_first<Law>(3);
   for (double* number : {&shell, &modulus, &ratio, &wall_ratio, &damping_rate, &tangential_damping, &rolling_damping,
                          &slip_speed, &drag})
@@ -334,6 +336,7 @@ Contact any_contact(int lots) {
   rolling = any_of_first<Rolling>(3);
   rotation = any_choice();
   arm = any_of_first<FrictionArm>(2);
+  model = {any_text(), any_text()};
   return contact;
 }
 

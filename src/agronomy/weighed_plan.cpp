@@ -1,0 +1,170 @@
+#include "agronomy/weighed_plan.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <boost/math/tools/toms748_solve.hpp>
+#include <cmath>
+#include <cstdint>
+#include <numbers>
+#include <variant>
+
+#include "scene/input_error.hpp"
+#include "scene/seed_lot.hpp"
+#include "scene/spaces.hpp"
+
+namespace vibrosow {
+namespace {
+
+constexpr double poured_packing = 0.6;  // by which the number of seeds is called a depth, as of the table's runs
+
+[[noreturn]] void refuse(const char* key, const char* why) {
+  throw InputError(fmt::format("{}: {}; the table of one hole does not tell of it", key, why));
+}
+
+const HarmonicMotion& shaking_along(const Vessel& tray) {
+  if (!tray.motion) refuse("tray.motion", "the tray stands still");
+  const auto* motion = std::get_if<HarmonicMotion>(&*tray.motion);
+  if (motion == nullptr) refuse("tray.motion.kind", "is not harmonic");
+  constexpr double level = 1e-6;  // rad
+  if (std::abs(motion->direction) > level || std::abs(motion->across) > level)
+    refuse("tray.motion.direction", "the tray is not shaken along its floor");
+  if (!(motion->amplitude > 0 && motion->frequency > 0)) refuse("tray.motion.amplitude", "the tray stands still");
+  return *motion;
+}
+
+void check_holes(const std::vector<Hole>& holes) {
+  if (holes.empty()) refuse("tray.holes", "there are none");
+  for (const Hole& hole : holes) {
+    if (hole.shape != HoleShape::round) refuse("tray.holes.shape", "holes are not round");
+    if (hole.width != holes.front().width) refuse("tray.holes.width", "holes are unequal");
+    if (hole.open_at > 0) refuse("tray.holes.open_at", "a gate closes a hole");
+  }
+}
+
+/// A length over sqrt(g d): what the peak speed of a frequency is, and back.
+double peak_speed(const TableTray& tray, double frequency) {
+  return 2 * std::numbers::pi * frequency * tray.amplitude / std::sqrt(standard_gravity * tray.seed.diameter);
+}
+
+double frequency_of(const TableTray& tray, double peak) {
+  return peak * std::sqrt(standard_gravity * tray.seed.diameter) / (2 * std::numbers::pi * tray.amplitude);
+}
+
+/// kg/s, of all holes.
+double mass_rate(const TableTray& tray, double outflow) {
+  return tray.holes * tray.seed.mass * outflow / std::sqrt(tray.seed.diameter / standard_gravity);
+}
+
+double predicted_rate(const TableTray& tray, const HoleTable& table) {
+  const auto known = [](const char* key, double value, const Span& span, const char* unit) {
+    if (!span.holds(value))
+      throw InputError(fmt::format("{}: {:.3g} {} is outside the table of one hole, which has {:.3g} to {:.3g}", key,
+                                   value, unit, span.least, span.most));
+  };
+  const double aspect = tray.at.aspect;
+  if (!table.aspects().holds(aspect)) refuse("seeds", "seeds are longer than the table's");
+  known("tray.holes.width", tray.at.width, table.widths(aspect), "seeds");
+  known("tray.motion.frequency", tray.at.peak_speed, table.peak_speeds(aspect), "sqrt(g d)");
+  known("tray.fill.count", tray.at.depth, table.depths(aspect), "seeds of depth");
+  return mass_rate(tray, table.at(tray.at).value().outflow);
+}
+
+/// Deviation of a prediction's logarithm at a setting, from what is its own: chance and interpolation.
+double own_deviation(const TableTray& tray, const HoleTable& table) {
+  constexpr double normal_95 = 1.959964;
+  return std::hypot(table.at(tray.at).value().chance,
+                    table.interpolation_error(tray.at.aspect, tray.at.width, tray.at.peak_speed)) /
+         normal_95;
+}
+
+/// Places of the table are about so far apart: twice the speed, three seeds of depth, one of width.
+SettingPlace place_of(const TableTray& tray) {
+  return {std::log2(tray.at.peak_speed), tray.at.depth / 3, tray.at.width};
+}
+
+/// The error that all settings of a tray have in common: what is not chance and interpolation.
+PredictionError common_error(const TableTray& tray, const HoleTable& table, const ModelError& model) {
+  constexpr double normal_95 = 1.959964;
+  PredictionError error = table_error(table, tray.at, tray.seed.diameter, model);
+  error.chance = 0;
+  error.numerics = softness_error(tray.at.aspect) / normal_95;
+  return error;
+}
+
+}  // namespace
+
+TableTray table_tray(const Scene& scene) {
+  const Vessel& tray = scene.tray;
+  if (scene.space == Space::plane) refuse("space", "is the plane");
+  if (scene.lots.size() > 1) refuse("seeds", "there are several lots");
+  if (scene.hopper) refuse("hopper", "a hopper feeds the tray");
+  if (tray.rain || !tray.fill) refuse("tray.fill", "the bed is not a fill");
+  if (tray.tilt != 0 || tray.funnel != 0) refuse("tray.tilt", "the floor slopes");
+  check_holes(tray.holes);
+  const HarmonicMotion& motion = shaking_along(tray);
+  TableTray found;
+  found.seed = planned_seed(scene.lots.front());
+  found.holes = static_cast<int>(tray.holes.size());
+  found.amplitude = motion.amplitude;
+  found.frequency = motion.frequency;
+  const double d = found.seed.diameter;
+  const double seeds_a_layer = poured_packing * floor_area(tray) / (std::numbers::pi / 6 * d * d);
+  found.at = {found.seed.aspect, tray.holes.front().width / d, peak_speed(found, motion.frequency),
+              tray.fill->count / seeds_a_layer};
+  return found;
+}
+
+WeighedPlan plan_weighed(double needed, const std::vector<WeighedTray>& weighed, const HoleTable& table,
+                         const ModelError& model, const ShakerLimits& limits) {
+  const TableTray tray = weighed.front().tray;
+  WeighedPlan plan;
+  plan.needed = needed;
+  std::vector<Weighing> weighings;
+  for (const WeighedTray& one : weighed) {
+    plan.rows.push_back({one, predicted_rate(one.tray, table), 1});
+    weighings.push_back({place_of(one.tray), std::log(one.mass_rate / plan.rows.back().predicted), one.deviation,
+                         own_deviation(one.tray, table)});
+  }
+  const PredictionError common = common_error(tray, table, model);
+  const double spread = table.factor_spread(kept_open_from);
+  const WeighedRates unweighed(common, spread, {}), rates(common, spread, weighings);
+  const std::vector<double> surprises = rates.surprise();
+  for (std::size_t i = 0; i < surprises.size(); ++i) plan.rows[i].surprise = surprises[i];
+  const double own = own_deviation(tray, table);
+  plan.before = unweighed.at(own).range;
+  const WeighedRates::Answer anew = rates.at(own);
+  plan.factor = anew.middle;
+  plan.after = {anew.range.low / anew.middle, anew.range.high / anew.middle};
+
+  const Span within{peak_speed(tray, limits.least_frequency), peak_speed(tray, limits.most_frequency)};
+  const std::vector<double> speeds = table.speed_steps(tray.at.aspect, within);
+  const auto at_speed = [&](double speed) {
+    TableTray set = tray;
+    set.at.peak_speed = speed;
+    set.frequency = frequency_of(set, speed);
+    return set;
+  };
+  const auto corrected = [&](double speed) {
+    const TableTray set = at_speed(speed);
+    return rates.at(own_deviation(set, table), place_of(set)).middle * predicted_rate(set, table);
+  };
+  std::vector<double> given;
+  for (const double speed : speeds) given.push_back(corrected(speed));
+  if (!given.empty()) plan.least = std::ranges::min(given), plan.most = std::ranges::max(given);
+  for (std::size_t k = 0; k + 1 < speeds.size(); ++k) {
+    if ((given[k] < needed) == (given[k + 1] < needed)) continue;
+    std::uintmax_t most_steps = 60;
+    const auto [low, high] = boost::math::tools::toms748_solve(
+        [&](double speed) { return corrected(speed) - needed; }, speeds[k], speeds[k + 1], given[k] - needed,
+        given[k + 1] - needed, boost::math::tools::eps_tolerance<double>(20), most_steps);
+    const TableTray set = at_speed(0.5 * (low + high));
+    const double predicted = predicted_rate(set, table);
+    const FactorRange range = rates.at(own_deviation(set, table), place_of(set)).range;
+    plan.settings.push_back(
+        {set.frequency, predicted, range.low * predicted, range.high * predicted, given[k] < given[k + 1]});
+  }
+  return plan;
+}
+
+}  // namespace vibrosow

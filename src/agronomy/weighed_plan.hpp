@@ -1,0 +1,64 @@
+#pragma once
+
+#include <vector>
+
+#include "agronomy/hole_table.hpp"
+#include "agronomy/prediction_error.hpp"
+#include "agronomy/sowing_plan.hpp"
+#include "scene/scene.hpp"
+
+namespace vibrosow {
+
+/// A tray of equal round holes that is shaken along, as the table of one hole knows it.
+struct TableTray {
+  PlannedSeed seed;
+  HoleConditions at;  // of each of its holes
+  int holes = 1;
+  double amplitude = 0;  // m
+  double frequency = 0;  // Hz
+};
+
+/// Throws InputError "KEY: .." for a tray that the table does not tell of: of the plane, of several lots, with slots or
+/// unequal holes, with a gate, tilted, turned or shaken otherwise than along, or fed by anything but a fill.
+TableTray table_tray(const Scene& scene);
+
+/// A tray's rate as it was weighed.
+struct WeighedTray {
+  TableTray tray;
+  double mass_rate = 0;  // kg/s, of all its holes
+  double deviation = 0;  // of its logarithm
+};
+
+/// What is said of it.
+struct WeighedRow {
+  WeighedTray weighed;
+  double predicted = 0;  // kg/s
+  double surprise = 1;   // how likely such a rate is by all the others, and the model's error; see WeighedRates
+};
+
+/// A frequency that gives what is needed.
+struct CorrectedSetting {
+  double frequency = 0;      // Hz
+  double predicted = 0;      // kg/s, by the table alone
+  double low = 0, high = 0;  // kg/s, 95 %
+  bool more_by_faster = true;
+};
+
+struct WeighedPlan {
+  double needed = 0;  // kg/s, of all holes of the tray
+  std::vector<WeighedRow> rows;
+  double factor = 1;              // truth over the table at a setting far from these, middle
+  FactorRange before{}, after{};  // of a setting far from these, over what is predicted and over `factor`
+  std::vector<CorrectedSetting> settings;
+  double least = 0, most = 0;  // kg/s, corrected, within the shaker's limits
+};
+
+/// What to set the tray to that was weighed, for `needed` (kg/s, of all its holes). All rows are of one tray at several
+/// settings. Throws InputError where the table does not tell of one.
+WeighedPlan plan_weighed(double needed, const std::vector<WeighedTray>& weighed, const HoleTable& table,
+                         const ModelError& model, const ShakerLimits& limits = {});
+
+/// Below it a weighing contradicts the others.
+inline constexpr double surprising = 0.01;
+
+}  // namespace vibrosow

@@ -1,0 +1,143 @@
+#include "agronomy/weighed_plan.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <numbers>
+#include <string>
+#include <utility>
+
+#include "scene/input_error.hpp"
+#include "support/made_up_hole_table.hpp"
+
+namespace vibrosow {
+namespace {
+
+using testing::HasSubstr;
+using testing::ThrowsMessage;
+
+/// Balls of 4 mm, six deep, over two round holes of 16 mm.
+Scene tray_scene() {
+  Scene scene;
+  scene.space = Space::three_dimensional;
+  scene.lots = {{.name = "balls", .diameter = 4e-3, .mass = 40e-6}};
+  Vessel& tray = scene.tray;
+  tray.name = "tray";
+  tray.length = 128e-3, tray.depth = 64e-3, tray.height = 80e-3;
+  tray.holes = {{.centre = 32e-3, .width = 16e-3, .shape = HoleShape::round},
+                {.centre = 96e-3, .width = 16e-3, .shape = HoleShape::round}};
+  tray.fill = Fill{};
+  tray.fill->count = static_cast<int>(std::lround(0.6 * 32 * 16 * 6 / (std::numbers::pi / 6)));
+  tray.motion = HarmonicMotion{.amplitude = 8e-3, .frequency = 5};
+  return scene;
+}
+
+TEST(TableTray, OfATrayThatTheTableKnows) {
+  const TableTray tray = table_tray(tray_scene());
+  EXPECT_EQ(tray.holes, 2);
+  EXPECT_NEAR(tray.at.width, 4, 1e-12);
+  EXPECT_NEAR(tray.at.depth, 6, 1e-3);
+  EXPECT_NEAR(tray.at.peak_speed, 2 * std::numbers::pi * 5 * 8e-3 / std::sqrt(standard_gravity * 4e-3), 1e-12);
+  EXPECT_EQ(tray.at.aspect, 1);
+}
+
+TEST(TableTray, RefusesWhatTheTableDoesNotTellOf) {
+  const std::pair<const char*, std::function<void(Scene&)>> cases[] = {
+      {"space: is the plane", [](Scene& scene) { scene.space = Space::plane; }},
+      {"seeds: there are several lots", [](Scene& scene) { scene.lots.push_back(scene.lots[0]); }},
+      {"hopper: a hopper feeds", [](Scene& scene) { scene.hopper = scene.tray; }},
+      {"tray.fill: the bed is not a fill", [](Scene& scene) { scene.tray.fill.reset(); }},
+      {"tray.tilt: the floor slopes", [](Scene& scene) { scene.tray.tilt = 0.1; }},
+      {"tray.holes: there are none", [](Scene& scene) { scene.tray.holes.clear(); }},
+      {"tray.holes.shape: holes are not round", [](Scene& scene) { scene.tray.holes[1].shape = HoleShape::slot; }},
+      {"tray.holes.width: holes are unequal", [](Scene& scene) { scene.tray.holes[1].width = 15e-3; }},
+      {"tray.holes.open_at: a gate", [](Scene& scene) { scene.tray.holes[1].open_at = 1; }},
+      {"tray.motion: the tray stands still", [](Scene& scene) { scene.tray.motion.reset(); }},
+      {"tray.motion.kind: is not harmonic", [](Scene& scene) { scene.tray.motion = RockingMotion{}; }},
+      {"tray.motion.direction", [](Scene& scene) { std::get<HarmonicMotion>(*scene.tray.motion).direction = 0.3; }},
+  };
+  for (const auto& [message, change] : cases) {
+    Scene scene = tray_scene();
+    change(scene);
+    EXPECT_THAT([&] { table_tray(scene); }, ThrowsMessage<InputError>(HasSubstr(message)));
+  }
+}
+
+class Weighed : public testing::Test {
+ protected:
+  WeighedTray row(double frequency, double times) const {
+    Scene scene = tray_scene();
+    std::get<HarmonicMotion>(*scene.tray.motion).frequency = frequency;
+    const TableTray tray = table_tray(scene);
+    return {tray, times * rate(tray), 0.01};
+  }
+  double rate(const TableTray& tray) const {
+    return 2 * 40e-6 * table.at(tray.at)->outflow / std::sqrt(4e-3 / standard_gravity);
+  }
+
+  const HoleTable table{made_up_records()};
+  const ModelError model{0.25, 5, 1};
+};
+
+TEST_F(Weighed, SettingGivesWhatIsNeeded) {
+  const WeighedTray weighed = row(4.5, 1.2);
+  const WeighedPlan plan = plan_weighed(weighed.mass_rate * 0.99, {weighed}, table, model);
+  EXPECT_NEAR(plan.rows[0].predicted * 1.2, weighed.mass_rate, 1e-12);
+  EXPECT_GT(plan.factor, 1.1);
+  EXPECT_LT(plan.factor, 1.2) << "far from it not all of it: a part is taken for this setting's own";
+  ASSERT_FALSE(plan.settings.empty());
+  for (const CorrectedSetting& setting : plan.settings) {
+    EXPECT_LT(setting.low, plan.needed);
+    EXPECT_GT(setting.high, plan.needed);
+    EXPECT_NEAR(rate(row(setting.frequency, 1).tray) / setting.predicted, 1, 1e-6);
+  }
+  EXPECT_LT(std::log(plan.after.high / plan.after.low), 0.7 * std::log(plan.before.high / plan.before.low));
+}
+
+TEST_F(Weighed, WhatWasWeighedIsGivenThereAndKnownBest) {
+  const WeighedTray weighed = row(4.5, 1.2);
+  const WeighedPlan plan = plan_weighed(weighed.mass_rate, {weighed}, table, model);
+  ASSERT_FALSE(plan.settings.empty());
+  EXPECT_NEAR(plan.settings[0].frequency, 4.5, 0.05);
+  EXPECT_LT(std::log(plan.settings[0].high / plan.settings[0].low), 0.5 * std::log(plan.after.high / plan.after.low));
+}
+
+TEST_F(Weighed, RowsAlikeAreOneSetting) {
+  const WeighedTray weighed = row(4.5, 1.2);
+  const WeighedPlan once = plan_weighed(weighed.mass_rate, {weighed}, table, model);
+  const WeighedPlan twice = plan_weighed(weighed.mass_rate, {weighed, weighed}, table, model);
+  const WeighedPlan elsewhere = plan_weighed(weighed.mass_rate, {weighed, row(6, 1.2)}, table, model);
+  const auto width = [](const WeighedPlan& plan) { return std::log(plan.after.high / plan.after.low); };
+  EXPECT_NEAR(width(twice) / width(once), 1, 0.02);
+  EXPECT_LT(width(elsewhere), width(twice));
+}
+
+TEST_F(Weighed, ARowThatContradictsTheModelIsTold) {
+  EXPECT_GT(plan_weighed(1e-3, {row(4.5, 1.2)}, table, model).rows[0].surprise, surprising);
+  EXPECT_LT(plan_weighed(1e-3, {row(4.5, 12)}, table, model).rows[0].surprise, surprising);
+}
+
+TEST_F(Weighed, NoFrequencyGivesWhatIsOutOfReach) {
+  const WeighedPlan plan = plan_weighed(1, {row(4.5, 1)}, table, model);
+  EXPECT_TRUE(plan.settings.empty());
+  EXPECT_LT(plan.most, 1);
+  EXPECT_LT(plan.least, plan.most);
+}
+
+TEST_F(Weighed, OutsideTheTable) {
+  EXPECT_THAT(
+      [&] {
+        plan_weighed(1e-3, {[&] {
+                       WeighedTray far = row(4.5, 1);
+                       far.tray.at.peak_speed = 9;
+                       return far;
+                     }()},
+                     table, model);
+      },
+      ThrowsMessage<InputError>(HasSubstr("tray.motion.frequency: 9 sqrt(g d) is outside the table")));
+}
+
+}  // namespace
+}  // namespace vibrosow
