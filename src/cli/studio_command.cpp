@@ -13,11 +13,10 @@
 #include "cli/console.hpp"
 #include "cli/help_text.hpp"
 #include "files/whole_file.hpp"
-#include "input/document.hpp"
 #include "input/input_file.hpp"
 #include "input/presets.hpp"
+#include "input/read_crop.hpp"
 #include "input/read_scene.hpp"
-#include "input/table.hpp"
 #include "report/output_folder.hpp"
 #include "report/studio_page.hpp"
 #include "scene/input_error.hpp"
@@ -31,15 +30,15 @@ StudioSeeder studio_seeder(const fs::path& file) {
   return {file.stem().string(), text_of_wanted_file(file), read_scene(file)};
 }
 
-/// Those with a contact model of their own name, in the first shipped seeder's place.
+/// Each with its own contact model, in the first shipped seeder's place.
 std::vector<StudioCrop> studio_crops(const fs::path& data, const fs::path& seeder) {
   std::vector<StudioCrop> crops;
   for (const fs::path& file : toml_files(data / "models/crops")) {
-    const std::string name = file.stem().string(), model = name + "-steel";
-    if (!fs::exists(data / "models/contacts" / (model + ".toml"))) continue;
+    const Crop crop = read_crop(file);
+    const std::string &name = crop.name, &model = crop.contact.name;
     const Scene scene = read_scene(seeder, {parse_override(fmt::format("seeds={{{0}={{crop=\"{0}\"}}}}", name)),
                                             parse_override(fmt::format("contact={{model=\"{}\"}}", model))});
-    crops.push_back({name, Table(Document::read(file)).text("title").value_or(name), model, scene});
+    crops.push_back({name, crop.title, model, scene});
   }
   return crops;
 }
