@@ -83,6 +83,18 @@ SettingPlace place_of(const TableTray& tray) {
   return {std::log2(tray.at.peak_speed), tray.at.depth / 3, tray.at.width};
 }
 
+/// The factor that weighings tell is of one seed and of holes that were drilled once.
+void require_one_tray(const TableTray& first, const TableTray& other) {
+  constexpr double same = 1e-6;
+  const auto differs = [](double a, double b) { return std::abs(a - b) > same * std::abs(b); };
+  if (other.holes != first.holes || differs(other.at.width, first.at.width))
+    throw InputError("tray.holes: weighings are of other holes than the first; ask of each tray by itself");
+  if (differs(other.seed.diameter, first.seed.diameter) || differs(other.at.aspect, first.at.aspect))
+    throw InputError("seeds: weighings are of other seeds than the first; ask of each crop by itself");
+  if (differs(other.amplitude, first.amplitude))
+    throw InputError("tray.motion.amplitude: weighings differ in it from the first; ask of each amplitude by itself");
+}
+
 /// The error that all settings of a tray have in common: what is not chance and interpolation.
 PredictionError common_error(const TableTray& tray, const HoleTable& table, const ModelError& model) {
   constexpr double normal_95 = 1.959964;
@@ -122,6 +134,7 @@ WeighedPlan plan_weighed(double needed, const std::vector<WeighedTray>& weighed,
   plan.needed = needed;
   std::vector<Weighing> weighings;
   for (const WeighedTray& one : weighed) {
+    require_one_tray(tray, one.tray);
     plan.rows.push_back({one, predicted_rate(one.tray, table), 1});
     weighings.push_back({place_of(one.tray), std::log(one.mass_rate / plan.rows.back().predicted), one.deviation,
                          own_deviation(one.tray, table)});

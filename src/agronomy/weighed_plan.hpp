@@ -54,7 +54,7 @@ struct WeighedPlan {
 };
 
 /// What to set the tray to that was weighed, for `needed` (kg/s, of all its holes). All rows are of one tray at several
-/// settings. Throws InputError where the table does not tell of one.
+/// settings, at least one. Throws InputError where they are not, and where the table does not tell of one.
 WeighedPlan plan_weighed(double needed, const std::vector<WeighedTray>& weighed, const HoleTable& table,
                          const ModelError& model, const ShakerLimits& limits = {});
 

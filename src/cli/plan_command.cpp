@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 #include <memory>
 #include <optional>
@@ -158,7 +159,13 @@ int run_weighed(PlanOptions options, const SowingTask& task) {
     else
       weighed.push_back(weighing_of(options.layout, text));
   }
-  for (WeighedTray& one : weighed) one.tray.seed.mass = task.seed.mass;
+  constexpr double same = 0.01;
+  const PlannedSeed& seed = weighed.front().tray.seed;
+  if (std::abs(seed.mass / task.seed.mass - 1) > same || std::abs(seed.diameter / task.seed.diameter - 1) > same)
+    throw InputError(
+        fmt::format("--layout: its seeds weigh {:.3g} mg and are as large as balls of {:.3g} mm, those of "
+                    "--crop {:.3g} mg and {:.3g} mm; give the crop of the layout",
+                    seed.mass * 1e6, seed.diameter * 1e3, task.seed.mass * 1e6, task.seed.diameter * 1e3));
   const int rows = rows_of(options.layout);
   const WeighedPlan plan =
       plan_weighed(rows * task.row_mass_rate(), weighed, shipped_hole_table(), shipped_model_error());

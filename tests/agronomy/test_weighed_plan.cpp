@@ -8,6 +8,7 @@
 #include <numbers>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "scene/input_error.hpp"
 #include "support/made_up_hole_table.hpp"
@@ -124,6 +125,21 @@ TEST_F(Weighed, NoFrequencyGivesWhatIsOutOfReach) {
   EXPECT_TRUE(plan.settings.empty());
   EXPECT_LT(plan.most, 1);
   EXPECT_LT(plan.least, plan.most);
+}
+
+TEST_F(Weighed, RowsOfAnotherTrayAreRefused) {
+  const std::pair<const char*, std::function<void(TableTray&)>> cases[] = {
+      {"tray.holes: ", [](TableTray& tray) { tray.at.width = 5; }},
+      {"tray.holes: ", [](TableTray& tray) { tray.holes = 3; }},
+      {"seeds: ", [](TableTray& tray) { tray.seed.diameter = 5e-3; }},
+      {"tray.motion.amplitude: ", [](TableTray& tray) { tray.amplitude = 9e-3; }},
+  };
+  for (const auto& [message, change] : cases) {
+    WeighedTray other = row(6, 1);
+    change(other.tray);
+    const std::vector<WeighedTray> rows{row(4.5, 1), other};
+    EXPECT_THAT([&] { plan_weighed(1e-3, rows, table, model); }, ThrowsMessage<InputError>(HasSubstr(message)));
+  }
 }
 
 TEST_F(Weighed, OutsideTheTable) {
