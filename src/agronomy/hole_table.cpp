@@ -10,11 +10,12 @@
 #include <stdexcept>
 #include <tuple>
 
+#include "agronomy/prediction_error.hpp"
+
 namespace vibrosow {
 namespace {
 
-constexpr double normal_95 = 1.959964;  // standard deviations of a 95 % half width
-constexpr double beverloo = 2.5;        // power of the width, less some, with which the outflow grows
+constexpr double beverloo = 2.5;  // power of the width, less some, with which the outflow grows
 
 /// Along one axis of a grid: where the interpolation is linear.
 double coordinate(std::size_t axis, double value) {

@@ -34,9 +34,9 @@ std::vector<double> drawn_variances(const ModelError& model) {
 
 /// The value below which `share` lies; `below(x)` is what lies below x.
 template <class Below>
-double quantile(double share, double reach, Below below) {
+double quantile(double share, Below below) {
   const auto excess = [&](double value) { return below(value) - share; };
-  double low = -reach, high = reach;
+  double low = -1, high = 1;
   while (excess(low) > 0) low *= 2;
   while (excess(high) < 0) high *= 2;
   std::uintmax_t most_steps = 100;
@@ -135,7 +135,7 @@ double below(const Normals& normals, double value) {
 WeighedRates::Answer WeighedRates::at(double own_deviation, const std::optional<SettingPlace>& setting) const {
   const std::vector<Normal> normals = mixture(weighings_, own_deviation, setting);
   const auto factor = [&](double share) {
-    return std::exp(quantile(share, 1.0, [&](double value) { return below(normals, value); }));
+    return std::exp(quantile(share, [&](double value) { return below(normals, value); }));
   };
   return {factor(0.5), {factor(tail), factor(1 - tail)}};
 }

@@ -6,6 +6,9 @@
 
 namespace vibrosow {
 
+/// Standard deviations of a normal in the half width of its 95 %.
+inline constexpr double normal_95 = 1.959964;
+
 /// By how much measured rates differ from rates that were predicted without fitting: ln(measured / predicted) over
 /// materials. The error of a new material is Student's t about zero, with as many degrees of freedom as there are
 /// materials: a bias is told, not taken out.

@@ -206,7 +206,6 @@ double softness_error(double aspect) {
 
 PredictionError table_error(const HoleTable& table, const HoleConditions& conditions, double diameter,
                             const ModelError& model, const BuildTolerance& tolerance) {
-  constexpr double normal_95 = 1.959964;  // standard deviations of a 95 % half width
   const HoleTable::Slopes slopes = table.slopes(conditions);
   const double interpolation = table.interpolation_error(conditions.aspect, conditions.width, conditions.peak_speed);
   return {.chance = table.at(conditions).value().chance / normal_95,

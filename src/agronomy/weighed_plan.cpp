@@ -72,7 +72,6 @@ double predicted_rate(const TableTray& tray, const HoleTable& table) {
 
 /// Deviation of a prediction's logarithm at a setting, from what is its own: chance and interpolation.
 double own_deviation(const TableTray& tray, const HoleTable& table) {
-  constexpr double normal_95 = 1.959964;
   return std::hypot(table.at(tray.at).value().chance,
                     table.interpolation_error(tray.at.aspect, tray.at.width, tray.at.peak_speed)) /
          normal_95;
@@ -97,7 +96,6 @@ void require_one_tray(const TableTray& first, const TableTray& other) {
 
 /// The error that all settings of a tray have in common: what is not chance and interpolation.
 PredictionError common_error(const TableTray& tray, const HoleTable& table, const ModelError& model) {
-  constexpr double normal_95 = 1.959964;
   PredictionError error = table_error(table, tray.at, tray.seed.diameter, model);
   error.chance = 0;
   error.numerics = softness_error(tray.at.aspect) / normal_95;

@@ -94,7 +94,6 @@ constexpr double usual_weighing_error = 0.02;  // half width of 95 %: a kitchen 
 /// The tray of the layout with one change to it.
 WeighedTray weighed_tray(const std::string& layout, const std::vector<Override>& changes, double mass_rate,
                          double half_width) {
-  constexpr double normal_95 = 1.959964;
   try {
     return {table_tray(read_scene(layout, changes)), mass_rate, half_width / normal_95};
   } catch (const InputError& error) {
