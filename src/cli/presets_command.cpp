@@ -2,7 +2,6 @@
 
 #include <filesystem>
 #include <memory>
-#include <numbers>
 #include <utility>
 
 #include "cli/commands.hpp"
@@ -14,6 +13,7 @@
 #include "input/read_scene.hpp"
 #include "input/table.hpp"
 #include "report/terminal_text.hpp"
+#include "scene/si_units.hpp"
 
 namespace vibrosow {
 namespace {
@@ -31,8 +31,10 @@ std::string crop_text(const Crop& crop) {
   std::string text =
       fmt::format("{}: {} of {}, {:.4g} g a thousand", crop.title, crop.shape, size_text(crop), crop.mass * 1e6);
   if (crop.bulk.bulk_density) text += fmt::format(", {:.3g} kg/m3 poured", *crop.bulk.bulk_density);
-  if (crop.bulk.angle_of_repose)
-    text += fmt::format(", repose {:.3g} degree", *crop.bulk.angle_of_repose * 180 / std::numbers::pi);
+  if (crop.bulk.angle_of_repose) text += fmt::format(", repose {:.3g} degree", *crop.bulk.angle_of_repose / degree);
+  if (crop.reference.angle_of_repose)
+    text += fmt::format(" ({:.3g} to {:.3g} over sources)", crop.reference.angle_of_repose->front() / degree,
+                        crop.reference.angle_of_repose->back() / degree);
   return text;
 }
 

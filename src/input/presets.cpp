@@ -11,6 +11,7 @@
 #include "input/read_scene.hpp"
 #include "input/wording.hpp"
 #include "scene/input_error.hpp"
+#include "scene/si_units.hpp"
 
 namespace vibrosow {
 namespace {
@@ -53,6 +54,13 @@ fs::path preset_file(const Table& table, const std::string& key, const std::stri
   return table.directory(key) / name;
 }
 
+std::optional<std::array<double, 2>> read_range(Table& table, const std::string& key, Dimension dimension, double least, double most) {
+  if (!table.has(key)) return std::nullopt;
+  const std::vector<double> ends = table.quantities(key, dimension, least, most);
+  if (ends.size() != 2 || ends[0] > ends[1]) table.fail(key, "is a range: [least, most]");
+  return std::array{ends[0], ends[1]};
+}
+
 }  // namespace
 
 std::vector<fs::path> toml_files(const fs::path& directory) {
@@ -74,7 +82,7 @@ Table read_preset(const PresetFile& preset, const Table& table, const std::strin
   if (!table.files()->has(preset.file)) table.fail(key, fmt::format("there is no file {}", preset.file));
   Table read(Document::read(preset.file, {}, table.files()));
   read.skip("title");
-  read_true_density(read);
+  read_reference(read);
   read.skip("sources");
   return read;
 }
@@ -90,9 +98,16 @@ std::optional<std::string> changed_meaning(const std::string& name, const std::s
   return known != nullptr ? std::optional(std::string(known->meaning)) : std::nullopt;
 }
 
-std::optional<double> read_true_density(Table& preset) {
-  auto reference = preset.table("reference");
-  return reference ? reference->quantity("true_density", Dimension::density, 1, 3e4) : std::nullopt;
+Reference read_reference(Table& preset) {
+  auto table = preset.table("reference");
+  if (!table) return {};
+  Reference reference;
+  reference.true_density = table->quantity("true_density", Dimension::density, 1, 3e4);
+  reference.bulk_density = read_range(*table, "bulk_density_range", Dimension::bulk_density, 1, 3e4);
+  reference.angle_of_repose = read_range(*table, "angle_of_repose_range", Dimension::angle, 1 * degree, 89 * degree);
+  const std::vector<std::string> methods{"drained", "piled", "turning drum", "tilted box", "not said"};
+  if (const auto method = table->choice("angle_of_repose_method", methods)) reference.angle_of_repose_method = methods[*method];
+  return reference;
 }
 
 fs::path shipped_preset(const std::string& name, const std::string& kind) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -35,8 +36,15 @@ std::vector<std::filesystem::path> toml_files(const std::filesystem::path& direc
 /// build/web/, where scripts/web makes all of them, or of web/made/, where the one is kept that has no simulator.
 std::optional<std::string> shipped_page(const std::string& name);
 
-/// Density of a preset's seeds themselves, kg/m3: reference.true_density. It changes no scene; a crop's mass is checked
-/// against it.
-std::optional<double> read_true_density(Table& preset);
+/// What is known of a preset's seeds that changes no scene, its table [reference]: a crop is tried against it.
+struct Reference {
+  std::optional<double> true_density;                      // kg/m3, of the seeds themselves
+  std::optional<std::array<double, 2>> bulk_density;       // kg/m3, least and most over sources
+  std::optional<std::array<double, 2>> angle_of_repose;    // rad, the same
+  std::optional<std::string> angle_of_repose_method;       // how the preset's own angle was measured, "not said" too
+};
+
+/// Throws InputError out of range, where a range is not of two values in order, and for a method without a name here.
+Reference read_reference(Table& preset);
 
 }  // namespace vibrosow

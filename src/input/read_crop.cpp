@@ -32,7 +32,7 @@ Crop read_crop(const std::filesystem::path& file) {
   crop.width = size("width", crop.length);
   crop.thickness = size("thickness", crop.width);
   crop.mass = lot.mass;
-  crop.true_density = read_true_density(table);
+  crop.reference = read_reference(table);
   crop.bulk = read_bulk_properties(table);
   crop.contact = lot.contact;
   crop.sources = read_sources(table);

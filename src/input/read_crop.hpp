@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 
+#include "input/presets.hpp"
 #include "input/read_lot.hpp"
 
 namespace vibrosow {
@@ -16,8 +17,8 @@ struct Crop {
   std::string shape;                   // as in its file: "ball", "elongated", "drop", ..
   double length, width, thickness;     // m; of a ball, and of shapes that have no such keys, the diameter
   double mass;                         // kg, of one seed
-  std::optional<double> true_density;  // kg/m3, of the seeds themselves
   BulkProperties bulk;
+  Reference reference;
   PresetFile contact;                          // the contact model that it names as its own; maybe none
   std::map<std::string, std::string> sources;  // by key: where each value comes from
 };

@@ -12,6 +12,7 @@
 #include "scene/motion.hpp"
 #include "scene/seed_lot.hpp"
 #include "scene/spaces.hpp"
+#include "scene/surfaces.hpp"
 
 namespace vibrosow {
 namespace {
@@ -161,6 +162,27 @@ void warn_of_hopper(const Scene& scene, const Vessel& hopper, Warnings& warnings
   }
 }
 
+bool rolls_freely_on(const Vessel& vessel, const Scene& scene) {
+  if (!scene.contact.rotation || !vessel.motion || !moves(*vessel.motion)) return false;
+  if (const auto* shake = std::get_if<HarmonicMotion>(&*vessel.motion); shake != nullptr && std::abs(std::cos(shake->direction)) < 1e-6)
+    return false;  // upright: it carries nothing
+  return std::ranges::none_of(scene.lots, [](const SeedLot& lot) { return lot.shape == Shape::clump; }) &&
+         std::ranges::all_of(meeting_surfaces(scene.contact, scene.lots.size()).walls,
+                             [](const Surface& wall) { return wall.rolling_friction == 0; });
+}
+
+/// A ball that nothing keeps from rolling turns on a floor that moves under it, and stays where it is.
+void warn_of_free_rolling(const Scene& scene, const Vessel& vessel, Warnings& warnings) {
+  constexpr double thin = 2.5;  // seeds, by which a bed is deep
+  if (!vessel.fill || !rolls_freely_on(vessel, scene)) return;
+  const double layers = vessel.fill->count / most_seeds(scene, vessel, mean_diameter(scene));
+  if (layers > thin) return;
+  warnings.push_back(fmt::format(
+      "contact.wall.rolling_friction: is 0, and round seeds lie {:.2g} deep on the floor of the {}: they roll on it and are hardly carried; "
+      "give it (0.02 for smooth seeds), with rolling = \"spring\"",
+      layers, vessel.name));
+}
+
 /// What whole seeds make of the fractions that were asked for.
 void warn_of_mixture(const Scene& scene, Warnings& warnings) {
   constexpr double far = 0.05, few = 3;  // of what was asked for; seeds, of which one run in 20 has none
@@ -229,6 +251,7 @@ std::vector<std::string> scene_warnings(const Scene& scene) {
   warn_of_foreign_contacts(scene, warnings);
   warn_of_standing_liquid(scene, warnings);
   warn_of_rain(scene, scene.tray, warnings);
+  warn_of_free_rolling(scene, scene.tray, warnings);
   if (scene.space == Space::plane) warn_of_round_holes(scene.tray, warnings);
   for (const std::string& warning : geometry_warnings(scene)) warnings.push_back(warning);
   if (!scene.hopper) return warnings;

@@ -117,9 +117,9 @@ TEST(Presets, CropsReadAsCropsAndPackAsBedsDo) {
     EXPECT_GE(crop.length, crop.width) << file;
     EXPECT_GE(crop.width, crop.thickness) << file;
     EXPECT_EQ(crop.sources.count("shape"), 1u) << file;
-    ASSERT_TRUE(crop.true_density) << file;
+    ASSERT_TRUE(crop.reference.true_density) << file;
     if (!crop.bulk.bulk_density) continue;
-    const double packing = *crop.bulk.bulk_density / *crop.true_density;
+    const double packing = *crop.bulk.bulk_density / *crop.reference.true_density;
     EXPECT_TRUE(packing > 0.35 && packing < 0.74) << file << ": " << packing;
   }
 }

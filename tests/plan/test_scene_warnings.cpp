@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <functional>
 #include <numbers>
 
 namespace vibrosow {
@@ -12,6 +13,8 @@ namespace {
 using testing::AllOf;
 using testing::ElementsAre;
 using testing::HasSubstr;
+using testing::Contains;
+using testing::Not;
 using testing::IsEmpty;
 using testing::StartsWith;
 
@@ -26,6 +29,7 @@ Scene sound() {
   lot.mass = 1200 * std::numbers::pi / 6 * std::pow(diameter, 3);
   scene.lots = {lot};
   scene.contact.seed.friction = scene.contact.wall.friction = 0.3;
+  scene.contact.wall.rolling_friction = 0.02;
   scene.tray.name = "tray";
   scene.tray.length = 0.5;
   scene.tray.height = 0.12;
@@ -143,6 +147,25 @@ TEST(SceneWarnings, NeitherMotionNorFriction) {
   EXPECT_THAT(scene_warnings(scene), ElementsAre(StartsWith("tray.motion: ")));
   scene.contact.overrides = {{0, -1, {0.2}}};
   EXPECT_THAT(scene_warnings(scene), IsEmpty());
+}
+
+TEST(SceneWarnings, BallsInAThinLayerThatRollFreely) {
+  Scene thin = sound();
+  thin.tray.fill->count = 150;
+  thin.contact.wall.rolling_friction = 0;
+  const auto told = ElementsAre(StartsWith("contact.wall.rolling_friction: is 0, and round seeds lie 1 deep"));
+  EXPECT_THAT(scene_warnings(thin), told);
+  thin.contact.overrides = {{0, -1, {.friction = 0.3}}};
+  EXPECT_THAT(scene_warnings(thin), told);
+  for (const auto& mend : std::vector<std::function<void(Scene&)>>{
+           [](Scene& scene) { scene.contact.overrides = {{0, -1, {.friction = 0.3, .rolling_friction = 0.02}}}; },
+           [](Scene& scene) { scene.contact.rotation = false; }, [](Scene& scene) { scene.lots[0].shape = Shape::clump; },
+           [](Scene& scene) { std::get<HarmonicMotion>(*scene.tray.motion).direction = std::numbers::pi / 2; },
+           [](Scene& scene) { scene.tray.fill->count = 500; }, [](Scene& scene) { scene.tray.fill.reset(); }}) {
+    Scene mended = thin;
+    mend(mended);
+    EXPECT_THAT(scene_warnings(mended), Not(Contains(HasSubstr("roll on it"))));
+  }
 }
 
 TEST(SceneWarnings, RainThatHasNoRoom) {
