@@ -54,7 +54,8 @@ fs::path preset_file(const Table& table, const std::string& key, const std::stri
   return table.directory(key) / name;
 }
 
-std::optional<std::array<double, 2>> read_range(Table& table, const std::string& key, Dimension dimension, double least, double most) {
+std::optional<std::array<double, 2>> read_range(Table& table, const std::string& key, Dimension dimension, double least,
+                                                double most) {
   if (!table.has(key)) return std::nullopt;
   const std::vector<double> ends = table.quantities(key, dimension, least, most);
   if (ends.size() != 2 || ends[0] > ends[1]) table.fail(key, "is a range: [least, most]");
@@ -106,7 +107,8 @@ Reference read_reference(Table& preset) {
   reference.bulk_density = read_range(*table, "bulk_density_range", Dimension::bulk_density, 1, 3e4);
   reference.angle_of_repose = read_range(*table, "angle_of_repose_range", Dimension::angle, 1 * degree, 89 * degree);
   const std::vector<std::string> methods{"drained", "piled", "turning drum", "tilted box", "not said"};
-  if (const auto method = table->choice("angle_of_repose_method", methods)) reference.angle_of_repose_method = methods[*method];
+  if (const auto method = table->choice("angle_of_repose_method", methods))
+    reference.angle_of_repose_method = methods[*method];
   return reference;
 }
 

@@ -38,10 +38,10 @@ std::optional<std::string> shipped_page(const std::string& name);
 
 /// What is known of a preset's seeds that changes no scene, its table [reference]: a crop is tried against it.
 struct Reference {
-  std::optional<double> true_density;                      // kg/m3, of the seeds themselves
-  std::optional<std::array<double, 2>> bulk_density;       // kg/m3, least and most over sources
-  std::optional<std::array<double, 2>> angle_of_repose;    // rad, the same
-  std::optional<std::string> angle_of_repose_method;       // how the preset's own angle was measured, "not said" too
+  std::optional<double> true_density;                    // kg/m3, of the seeds themselves
+  std::optional<std::array<double, 2>> bulk_density;     // kg/m3, least and most over sources
+  std::optional<std::array<double, 2>> angle_of_repose;  // rad, the same
+  std::optional<std::string> angle_of_repose_method;     // how the preset's own angle was measured, "not said" too
 };
 
 /// Throws InputError out of range, where a range is not of two values in order, and for a method without a name here.

@@ -12,11 +12,11 @@ namespace vibrosow {
 
 /// A crop of models/crops or of a user, as a value.
 struct Crop {
-  std::string name;                    // of its file, without .toml
-  std::string title;                   // the name where it has none
-  std::string shape;                   // as in its file: "ball", "elongated", "drop", ..
-  double length, width, thickness;     // m; of a ball, and of shapes that have no such keys, the diameter
-  double mass;                         // kg, of one seed
+  std::string name;                 // of its file, without .toml
+  std::string title;                // the name where it has none
+  std::string shape;                // as in its file: "ball", "elongated", "drop", ..
+  double length, width, thickness;  // m; of a ball, and of shapes that have no such keys, the diameter
+  double mass;                      // kg, of one seed
   BulkProperties bulk;
   Reference reference;
   PresetFile contact;                          // the contact model that it names as its own; maybe none

@@ -164,7 +164,8 @@ void warn_of_hopper(const Scene& scene, const Vessel& hopper, Warnings& warnings
 
 bool rolls_freely_on(const Vessel& vessel, const Scene& scene) {
   if (!scene.contact.rotation || !vessel.motion || !moves(*vessel.motion)) return false;
-  if (const auto* shake = std::get_if<HarmonicMotion>(&*vessel.motion); shake != nullptr && std::abs(std::cos(shake->direction)) < 1e-6)
+  if (const auto* shake = std::get_if<HarmonicMotion>(&*vessel.motion);
+      shake != nullptr && std::abs(std::cos(shake->direction)) < 1e-6)
     return false;  // upright: it carries nothing
   return std::ranges::none_of(scene.lots, [](const SeedLot& lot) { return lot.shape == Shape::clump; }) &&
          std::ranges::all_of(meeting_surfaces(scene.contact, scene.lots.size()).walls,
@@ -177,10 +178,11 @@ void warn_of_free_rolling(const Scene& scene, const Vessel& vessel, Warnings& wa
   if (!vessel.fill || !rolls_freely_on(vessel, scene)) return;
   const double layers = vessel.fill->count / most_seeds(scene, vessel, mean_diameter(scene));
   if (layers > thin) return;
-  warnings.push_back(fmt::format(
-      "contact.wall.rolling_friction: is 0, and round seeds lie {:.2g} deep on the floor of the {}: they roll on it and are hardly carried; "
-      "give it (0.02 for smooth seeds), with rolling = \"spring\"",
-      layers, vessel.name));
+  warnings.push_back(
+      fmt::format("contact.wall.rolling_friction: is 0, and round seeds lie {:.2g} deep on the floor of the {}: they "
+                  "roll on it and are hardly carried; "
+                  "give it (0.02 for smooth seeds), with rolling = \"spring\"",
+                  layers, vessel.name));
 }
 
 /// What whole seeds make of the fractions that were asked for.

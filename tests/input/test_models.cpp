@@ -66,8 +66,8 @@ std::vector<std::string> source_faults(const toml::table& preset) {
   return faults;
 }
 
-/// A crop's mass over its volume times true density: 1 when they agree. The volume of a ball, or of a clump with the
-/// outline of its discs, 2/3 of its area times its thickness as an ellipsoid has.
+/// A crop's mass over its volume times true density: 1 when they agree. The volume of a ball, of a row of balls, or of
+/// a clump with the outline of its discs, 2/3 of its area times its thickness as an ellipsoid has.
 double mass_ratio(const toml::table& crop) {
   const auto quantity = [&](const toml::node_view<const toml::node>& node, Dimension dimension) {
     return parse_quantity(node.value_or(std::string()), dimension);
@@ -77,6 +77,16 @@ double mass_ratio(const toml::table& crop) {
   const std::string shape = crop["shape"].value_or(std::string("ball"));
   if (shape == "ball")
     return mass_per_volume / (std::numbers::pi / 6 * std::pow(quantity(crop["diameter"], Dimension::length), 3));
+  if (shape == "discs") {
+    std::vector<ClumpDisc> balls;
+    for (const auto& node : *crop["discs"].as_array()) {
+      const auto of = [&](const char* key) {
+        return quantity(toml::node_view<const toml::node>((*node.as_table())[key]), Dimension::length);
+      };
+      balls.push_back({of("x"), of("y"), 0.5 * of("diameter")});
+    }
+    return mass_per_volume / volume_of_balls(balls);
+  }
   const double length = quantity(crop["length"], Dimension::length);
   const double width = quantity(crop["width"], Dimension::length);
   const double area = plate_of(shape == "drop" ? drop(length, width) : elongated(length, width)).area;
@@ -104,10 +114,15 @@ TEST(Presets, FaultsInSourcesAreFound) {
   EXPECT_EQ(faults("[wall]\nfriction = 1\n[sources]\n'wall.friction' = 'tilting table'"), Faults{});
 }
 
-TEST(Presets, MassAgreesWithVolumeAndTrueDensity) {
+/// Smooth model seeds lie closer than true ones. So a model seed may be as much larger as makes its poured bed weigh
+/// right, some air with it.
+TEST(Presets, MassAgreesWithVolumeAndTrueDensityButForAFewPercentOfAir) {
   const std::vector<fs::path> crops = toml_files(data_directory() / "models" / "crops");
   ASSERT_GE(crops.size(), 15u);
-  for (const fs::path& file : crops) EXPECT_NEAR(mass_ratio(toml::parse_file(file.string())), 1, 0.02) << file;
+  for (const fs::path& file : crops) {
+    const double ratio = mass_ratio(toml::parse_file(file.string()));
+    EXPECT_TRUE(ratio > 0.85 && ratio < 1.02) << file << ": " << ratio;
+  }
 }
 
 TEST(Presets, CropsReadAsCropsAndPackAsBedsDo) {
@@ -164,7 +179,7 @@ TEST(Presets, WheatAtItsMeasuredLengthWidthAndThicknessWouldNotAgree) {
 
 TEST(Presets, ElongatedAndDropCropsReadAsClumps) {
   for (const auto& [crop, length] :
-       {std::pair("wheat", 6.32e-3), {"barley", 9.13e-3}, {"oats", 10e-3}, {"rice", 10.1e-3}}) {
+       {std::pair("wheat", 6.53e-3), {"barley", 9.13e-3}, {"oats", 10e-3}, {"rice", 10.1e-3}}) {
     const Scene scene = read_scene(data_directory() / "seeders" / "wheat-tray.toml",
                                    {parse_override(std::string("seeds.wheat.crop=") + crop),
                                     parse_override("hopper.fill.count=50"), parse_override("tray.fill.count=50")});
@@ -194,7 +209,7 @@ TEST(Seeders, EveryShippedOneReads) {
 TEST(Seeders, WheatTrayTakesSeedAndContactFromThePresets) {
   const Scene scene = read_scene(data_directory() / "seeders" / "wheat-tray.toml");
   ASSERT_EQ(scene.lots.size(), 1u);
-  EXPECT_DOUBLE_EQ(scene.lots[0].diameter, 3.57e-3);
+  EXPECT_DOUBLE_EQ(scene.lots[0].diameter, 3.63e-3);
   EXPECT_DOUBLE_EQ(scene.lots[0].mass, 29.6e-6);
   EXPECT_EQ(scene.lots[0].shape, Shape::ball);
   EXPECT_DOUBLE_EQ(scene.contact.seed.friction, 0.45);

@@ -44,15 +44,19 @@ TEST(ReadCrop, TellsSizeMassAndBulk) {
 
 TEST(ReadCrop, TellsWhatOtherSourcesSay) {
   const std::string ball = "diameter = '2 mm'\nmass = '5 mg'\n[reference]\n";
-  const Reference told = crop_of(ball + "bulk_density_range = ['690 kg/m3', '0.78 g/cm3']\nangle_of_repose_range = ['25 degree', '29 degree']\n"
-                                        "angle_of_repose_method = 'drained'").reference;
+  const Reference told =
+      crop_of(ball +
+              "bulk_density_range = ['690 kg/m3', '0.78 g/cm3']\nangle_of_repose_range = ['25 degree', '29 degree']\n"
+              "angle_of_repose_method = 'drained'")
+          .reference;
   EXPECT_DOUBLE_EQ(told.bulk_density.value()[0], 690);
   EXPECT_DOUBLE_EQ(told.bulk_density.value()[1], 780);
   EXPECT_DOUBLE_EQ(told.angle_of_repose.value()[1], 29 * degree);
   EXPECT_EQ(told.angle_of_repose_method.value(), "drained");
   for (const char* wrong : {"bulk_density_range = ['780 kg/m3', '690 kg/m3']", "bulk_density_range = '780 kg/m3'",
                             "angle_of_repose_range = ['25 degree', '95 degree']", "angle_of_repose_method = 'dropped'"})
-    EXPECT_THAT([&] { crop_of(ball + wrong); }, ThrowsMessage<InputError>(HasSubstr("my-crop.toml:4: reference."))) << wrong;
+    EXPECT_THAT([&] { crop_of(ball + wrong); }, ThrowsMessage<InputError>(HasSubstr("my-crop.toml:4: reference.")))
+        << wrong;
 }
 
 TEST(ReadCrop, ABallIsAsWideAndThickAsLong) {
@@ -61,7 +65,8 @@ TEST(ReadCrop, ABallIsAsWideAndThickAsLong) {
   EXPECT_EQ(crop.shape, "ball");
   for (const double size : {crop.length, crop.width, crop.thickness}) EXPECT_DOUBLE_EQ(size, 2e-3);
   EXPECT_DOUBLE_EQ(crop.mass, 5e-6);
-  EXPECT_FALSE(crop.bulk.bulk_density || crop.bulk.angle_of_repose || crop.bulk.moisture || crop.reference.true_density);
+  EXPECT_FALSE(crop.bulk.bulk_density || crop.bulk.angle_of_repose || crop.bulk.moisture ||
+               crop.reference.true_density);
 }
 
 TEST(ReadCrop, ThicknessIsTheWidthWhereItIsNotGiven) {

@@ -80,7 +80,7 @@ TEST(ReadLot, ASeedersMassWinsOverItsCropsThousandGrainWeight) {
   EXPECT_DOUBLE_EQ(lot_of("crop = 'wheat-ball'").mass, 29.6e-6);
   EXPECT_DOUBLE_EQ(lot_of("crop = 'wheat-ball'\nmass = '40 mg'").mass, 40e-6);
   EXPECT_DOUBLE_EQ(lot_of("crop = 'wheat-ball'\nthousand_grain_weight = '50 g'").mass, 50e-6);
-  EXPECT_NEAR(lot_of("crop = 'wheat-ball'\ndensity = '1000 kg/m3'").mass, 23.8e-6, 0.1e-6);
+  EXPECT_NEAR(lot_of("crop = 'wheat-ball'\ndensity = '1000 kg/m3'").mass, 25.05e-6, 0.1e-6);
 }
 
 TEST(ReadLot, BulkPropertiesChangeNoSeed) {

@@ -1,4 +1,5 @@
-// One grain that cannot turn, carried by a plate that shakes at a slope, against a point mass: stick, slide, flight and impact.
+// One grain that cannot turn, carried by a plate that shakes at a slope, against a point mass: stick, slide, flight and
+// impact.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -28,8 +29,9 @@ struct Plate {
 
 constexpr double settled = 10, periods = 30;  // the mean is of those in between
 
-/// A point mass under gravity that begins on the plate with its velocity, in steps of 1e-5 of a period. An impact of normal speed w leaves
-/// restitution times w, and takes at most friction times (1 + restitution) w of the sliding speed. Below 0.1 mm/s no bounce is left.
+/// A point mass under gravity that begins on the plate with its velocity, in steps of 1e-5 of a period. An impact of
+/// normal speed w leaves restitution times w, and takes at most friction times (1 + restitution) w of the sliding
+/// speed. Below 0.1 mm/s no bounce is left.
 class PointMass {
  public:
   explicit PointMass(const Plate& plate) : plate_(plate) {}
@@ -86,7 +88,8 @@ double carried_speed(const Plate& plate, Space space, FrictionModel friction_mod
   contact.friction_model = friction_model;
   contact.slip_speed = 1e-3;
   contact.rotation = false;
-  bench.scene.tray.motion = HarmonicMotion{.direction = plate.slope, .amplitude = plate.amplitude, .frequency = plate.frequency};
+  bench.scene.tray.motion =
+      HarmonicMotion{.direction = plate.slope, .amplitude = plate.amplitude, .frequency = plate.frequency};
   bench.scene.run.duration = periods / plate.frequency;
   bench.place(0.2, Bench::radius * (1 - 4e-6), plate.x_speed(0), plate.y_speed(0));
   Simulation& run = bench.start(bench.contact_time() / 20);
@@ -105,7 +108,8 @@ TEST_P(Conveying, CarriesAsFastAsAPointMass) {
   for (const Space space : both_spaces)
     for (const FrictionModel model : {FrictionModel::spring, FrictionModel::sliding}) {
       const double carried = carried_speed(GetParam(), space, model);
-      EXPECT_NEAR(carried / exact, 1, 0.01) << (space == Space::plane ? "plane" : "3D") << (model == FrictionModel::spring ? ", spring" : ", sliding");
+      EXPECT_NEAR(carried / exact, 1, 0.01)
+          << (space == Space::plane ? "plane" : "3D") << (model == FrictionModel::spring ? ", spring" : ", sliding");
     }
 }
 
@@ -113,8 +117,10 @@ constexpr double slope = 30 * Bench::pi / 180;
 
 // Thrown from 1 on: amplitude omega^2 sin(slope) / g is 0.8, 1.3 and 1.6.
 INSTANTIATE_TEST_SUITE_P(Plates, Conveying,
-                         testing::Values(Plate{"slides", 1e-3, 20, slope, 0.4, 0.3}, Plate{"slides_with_little_friction", 1e-3, 20, slope, 0.15, 0.3},
-                                         Plate{"thrown_without_bounce", 2e-3, 20, slope, 0.4, 0.02}, Plate{"thrown_and_bounces", 1.6e-3, 20, slope, 0.4, 0.3}),
+                         testing::Values(Plate{"slides", 1e-3, 20, slope, 0.4, 0.3},
+                                         Plate{"slides_with_little_friction", 1e-3, 20, slope, 0.15, 0.3},
+                                         Plate{"thrown_without_bounce", 2e-3, 20, slope, 0.4, 0.02},
+                                         Plate{"thrown_and_bounces", 1.6e-3, 20, slope, 0.4, 0.3}),
                          [](const auto& info) { return info.param.name; });
 
 }  // namespace

@@ -11,11 +11,11 @@ namespace vibrosow {
 namespace {
 
 using testing::AllOf;
+using testing::Contains;
 using testing::ElementsAre;
 using testing::HasSubstr;
-using testing::Contains;
-using testing::Not;
 using testing::IsEmpty;
+using testing::Not;
 using testing::StartsWith;
 
 constexpr double diameter = 4e-3;
@@ -158,8 +158,11 @@ TEST(SceneWarnings, BallsInAThinLayerThatRollFreely) {
   thin.contact.overrides = {{0, -1, {.friction = 0.3}}};
   EXPECT_THAT(scene_warnings(thin), told);
   for (const auto& mend : std::vector<std::function<void(Scene&)>>{
-           [](Scene& scene) { scene.contact.overrides = {{0, -1, {.friction = 0.3, .rolling_friction = 0.02}}}; },
-           [](Scene& scene) { scene.contact.rotation = false; }, [](Scene& scene) { scene.lots[0].shape = Shape::clump; },
+           [](Scene& scene) {
+             scene.contact.overrides = {{0, -1, {.friction = 0.3, .rolling_friction = 0.02}}};
+           },
+           [](Scene& scene) { scene.contact.rotation = false; },
+           [](Scene& scene) { scene.lots[0].shape = Shape::clump; },
            [](Scene& scene) { std::get<HarmonicMotion>(*scene.tray.motion).direction = std::numbers::pi / 2; },
            [](Scene& scene) { scene.tray.fill->count = 500; }, [](Scene& scene) { scene.tray.fill.reset(); }}) {
     Scene mended = thin;

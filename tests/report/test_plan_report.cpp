@@ -133,7 +133,7 @@ TEST(PlannedSeeder, OfAShippedCropNamesIt) {
   source.crop = "pea";
   source.own_mass = false;
   EXPECT_THAT(planned_seeder(source), HasSubstr("crop = \"pea\""));
-  EXPECT_NEAR(planned_scene(source).lots[0].diameter, 6.83e-3, 1e-9);
+  EXPECT_NEAR(planned_scene(source).lots[0].diameter, 7.00e-3, 1e-9);
 }
 
 TEST(PlannedSeeder, HasTheHolesAndTheRowsOfItsLayout) {
