@@ -27,43 +27,57 @@ std::vector<double> read_widths(Table& table, std::size_t holes, double diameter
   return widths;
 }
 
-struct HoleRow {
-  std::vector<double> centres;  // m
-  std::string placed_by;        // key that answers for a hole in the wrong place
+/// Where holes lie along the floor: in one row, which all rows of holes are like, or row by row from the front.
+struct HoleRows {
+  std::vector<std::vector<double>> centres;  // m
+  std::string placed_by;                     // key that answers for a hole in the wrong place
+
+  bool are_unlike() const { return centres.size() > 1; }
+  /// As many as lists of widths and times may have entries.
+  std::size_t holes() const {
+    std::size_t holes = 0;
+    for (const std::vector<double>& row : centres) holes += row.size();
+    return holes;
+  }
 };
 
-/// `count` holes, evenly spaced about a centre.
-HoleRow read_row(Table& table, double length) {
+/// `count` holes a row, evenly spaced about a centre.
+HoleRows read_counted(Table& table, double length, Space space) {
   if (table.has("span") && table.has("pitch")) table.fail("pitch", "contradicts span; give one of them");
-  const std::optional<std::int64_t> count = table.whole_number("count", 1, 10000);
+  const std::vector<std::int64_t> counts = table.whole_numbers("count", 1, 10000);
   const std::optional<double> span = table.quantity("span", Dimension::length, shortest, longest);
   const std::optional<double> pitch_given = table.quantity("pitch", Dimension::length, shortest, longest);
   const std::optional<double> centre = table.quantity("centre", Dimension::length, 0, longest);
-  if (!count) table.fail("count", "is missing; give count, or at with the holes' centres");
+  if (counts.empty()) table.fail("count", "is missing; give count, or at with the holes' centres");
+  if (counts.size() > 1 && space == Space::plane)
+    table.fail("count",
+               "is one number in the plane, where a row of holes stands for all rows; a list, one a row, needs "
+               "space = \"3d\"");
 
-  const double n = static_cast<double>(*count);
-  double pitch = pitch_given.value_or(length / (n + 1));
-  if (span) pitch = *count > 1 ? *span / (n - 1) : 0;
-  HoleRow row;
-  for (int i = 0; i < *count; ++i) {
-    row.centres.push_back(rounded(centre.value_or(length / 2) + (i - (n - 1) / 2) * pitch));
+  HoleRows rows;
+  for (const std::int64_t count : counts) {
+    const double n = static_cast<double>(count);
+    double pitch = pitch_given.value_or(length / (n + 1));
+    if (span) pitch = count > 1 ? *span / (n - 1) : 0;
+    std::vector<double>& row = rows.centres.emplace_back();
+    for (int i = 0; i < count; ++i) row.push_back(rounded(centre.value_or(length / 2) + (i - (n - 1) / 2) * pitch));
   }
-  const bool spaced = *count > 1;
-  row.placed_by = spaced && span ? "span" : spaced && pitch_given ? "pitch" : centre ? "centre" : "width";
-  return row;
+  const bool spaced = std::ranges::max(counts) > 1;
+  rows.placed_by = spaced && span ? "span" : spaced && pitch_given ? "pitch" : centre ? "centre" : "width";
+  return rows;
 }
 
-HoleRow read_positions(Table& table, double length) {
+HoleRows read_positions(Table& table, double length, Space space) {
   if (!table.has("at")) {
-    HoleRow row = read_row(table, length);
+    HoleRows rows = read_counted(table, length, space);
     table.skip("at");
-    return row;
+    return rows;
   }
   for (const char* key : {"count", "span", "pitch", "centre"}) {
     table.skip(key);
     if (table.has(key)) table.fail(key, "contradicts at, which already gives each hole's centre");
   }
-  return {table.quantities("at", Dimension::length, 0, longest), "at"};
+  return {{table.quantities("at", Dimension::length, 0, longest)}, "at"};
 }
 
 std::vector<double> read_opening_times(Table& table, std::size_t holes) {
@@ -89,21 +103,27 @@ std::vector<double> evenly(std::int64_t rows, double depth) {
   return across;
 }
 
-Rows read_rows(Table& table, HoleShape shape, double depth) {
-  const std::optional<std::int64_t> rows = table.whole_number("rows", 1, 1000);
+/// `counted`: how many rows `count` gives, where they are unlike.
+Rows read_rows(Table& table, HoleShape shape, double depth, std::optional<std::size_t> counted) {
+  const std::optional<std::int64_t> given = table.whole_number("rows", 1, 1000);
+  if (given && counted && *given != static_cast<std::int64_t>(*counted))
+    table.fail("rows", fmt::format("contradicts count, which gives the holes of {} rows", *counted));
+  const std::int64_t rows = counted ? static_cast<std::int64_t>(*counted) : given.value_or(1);
   const std::vector<double> across = table.quantities("across", Dimension::length, 0, longest);
   if (shape == HoleShape::round) {
-    if (rows && !across.empty()) table.fail("rows", "contradicts across, which already gives each row's place");
-    return {across.empty() ? evenly(rows.value_or(1), depth) : across, 0};
+    if (given && !across.empty()) table.fail("rows", "contradicts across, which already gives each row's place");
+    if (counted && !across.empty() && across.size() != *counted)
+      table.fail("across", fmt::format("lists {} places for the {} rows that count gives", across.size(), *counted));
+    return {across.empty() ? evenly(rows, depth) : across, 0};
   }
   if (across.size() > 1) table.fail("across", "is the length of a slot across, one value; give rows for several rows");
-  const double strip = depth / static_cast<double>(rows.value_or(1));
-  if (across.empty() && rows.value_or(1) > 1) table.fail("across", "is missing; how long are the slots of a row?");
+  const double strip = depth / static_cast<double>(rows);
+  if (across.empty() && rows > 1) table.fail("across", "is missing; how long are the slots of a row?");
   if (!across.empty() && across.front() == 0) table.fail("across", "is the length of a slot, which is not nothing");
   if (!across.empty() && across.front() > strip * (1 + rounding))
     table.fail("across", fmt::format("{} is longer than {}, the depth that a row has", millimetres(across.front()),
                                      millimetres(strip)));
-  return {evenly(rows.value_or(1), depth), across.empty() ? depth : across.front()};
+  return {evenly(rows, depth), across.empty() ? depth : across.front()};
 }
 
 /// How far (m) two holes are apart; not above zero where they touch.
@@ -161,24 +181,28 @@ void check_holes(const Table& table, const std::vector<Hole>& holes, const Vesse
 
 std::vector<Hole> read_holes(Table table, const Vessel& vessel, Space space, double diameter) {
   constexpr HoleShape shapes[] = {HoleShape::slot, HoleShape::round};
-  const HoleRow row = read_positions(table, vessel.length);
-  const std::vector<double> widths = read_widths(table, row.centres.size(), diameter);
-  const std::vector<double> open_at = read_opening_times(table, row.centres.size());
+  const HoleRows along = read_positions(table, vessel.length, space);
+  const std::vector<double> widths = read_widths(table, along.holes(), diameter);
+  const std::vector<double> open_at = read_opening_times(table, along.holes());
   const HoleShape shape = shapes[table.choice("shape", {"slot", "round"}).value_or(0)];
-  const bool flat = space == Space::plane;
   Rows rows{{0}, 0};
-  if (flat)
+  if (space == Space::plane)
     table.skip("rows"), table.skip("across");
   else
-    rows = read_rows(table, shape, *vessel.depth);
+    rows =
+        read_rows(table, shape, *vessel.depth, along.are_unlike() ? std::optional(along.centres.size()) : std::nullopt);
   std::vector<Hole> holes;
-  for (std::size_t i = 0; i < widths.size(); ++i)
-    for (const double across : rows.across)
-      holes.push_back({row.centres[i], widths[i], open_at[i], shape, across, rows.length});
+  std::size_t first = 0;  // of the row in the lists
+  for (std::size_t k = 0; k < rows.across.size(); ++k) {
+    const std::vector<double>& centres = along.centres[along.are_unlike() ? k : 0];
+    for (std::size_t i = 0; i < centres.size(); ++i)
+      holes.push_back({centres[i], widths[first + i], open_at[first + i], shape, rows.across[k], rows.length});
+    if (along.are_unlike()) first += centres.size();
+  }
   std::stable_sort(holes.begin(), holes.end(), [](const Hole& a, const Hole& b) {
     return std::tie(a.centre, a.across) < std::tie(b.centre, b.across);
   });
-  check_holes(table, holes, vessel, space, row.placed_by);
+  check_holes(table, holes, vessel, space, along.placed_by);
   return holes;
 }
 

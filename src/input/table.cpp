@@ -232,17 +232,15 @@ std::optional<bool> Table::boolean(const std::string& key) {
   return *flag;
 }
 
-std::optional<std::int64_t> Table::whole_number(const std::string& key, std::int64_t least, std::int64_t most) {
-  state_->know(key);
-  const TomlValue* found = state_->find(key);
-  if (found == nullptr) return std::nullopt;
-  const auto* whole = found->get<std::int64_t>();
+namespace {
+
+std::int64_t whole_number_of(const Table& table, const std::string& key, const TomlValue& found, std::int64_t least,
+                             std::int64_t most) {
+  const auto* whole = found.get<std::int64_t>();
   if (whole == nullptr || *whole < least || *whole > most)
-    fail(key, fmt::format("must be a whole number from {} to {}, not {}", least, most, message_text(*found)));
+    table.fail(key, fmt::format("must be a whole number from {} to {}, not {}", least, most, message_text(found)));
   return *whole;
 }
-
-namespace {
 
 double number_of(const Table& table, const std::string& key, const TomlValue& found, double least, double most) {
   std::optional<double> value;
@@ -255,6 +253,19 @@ double number_of(const Table& table, const std::string& key, const TomlValue& fo
 }
 
 }  // namespace
+
+std::optional<std::int64_t> Table::whole_number(const std::string& key, std::int64_t least, std::int64_t most) {
+  state_->know(key);
+  const TomlValue* found = state_->find(key);
+  if (found == nullptr) return std::nullopt;
+  return whole_number_of(*this, key, *found, least, most);
+}
+
+std::vector<std::int64_t> Table::whole_numbers(const std::string& key, std::int64_t least, std::int64_t most) {
+  std::vector<std::int64_t> values;
+  for (const TomlValue& element : values_of(key)) values.push_back(whole_number_of(*this, key, element, least, most));
+  return values;
+}
 
 std::optional<double> Table::number(const std::string& key, double least, double most) {
   state_->know(key);

@@ -39,6 +39,8 @@ class Table {
   std::string required_text(const std::string& key);
   std::optional<bool> boolean(const std::string& key);
   std::optional<std::int64_t> whole_number(const std::string& key, std::int64_t least, std::int64_t most);
+  std::vector<std::int64_t> whole_numbers(const std::string& key, std::int64_t least,
+                                          std::int64_t most);                       // one, or a list; absent: empty
   std::optional<double> number(const std::string& key, double least, double most);  // plain, no unit
   std::vector<double> numbers(const std::string& key, double least, double most);   // a list of such; absent: empty
   /// Ranges are in SI and include their ends.

@@ -122,6 +122,50 @@ pieces = [{ line = [["1 cm", "5 cm"], ["1 cm", "45 cm"]], about = ["6 cm", "3 cm
   EXPECT_THAT(refused(line, "centre = [\"6 cm\", \"6 cm\"], radius = \"1 cm\""), HasSubstr("an arc is drawn out"));
 }
 
+TEST(ReadSpace, RowsOfHolesWithCountsOfTheirOwn) {
+  const std::string rows = whole + R"(
+[tray.holes]
+shape = "round"
+count = [3, 2]
+width = "8 mm"
+pitch = "10 cm"
+)";
+  const auto refused = [&](const std::string& from, const std::string& to) {
+    std::string text = rows;
+    text.replace(text.find(from), from.size(), to);
+    return refusal(text);
+  };
+  const Scene scene = read(rows + "open_at = [\"1 s\", \"2 s\", \"3 s\", \"4 s\", \"5 s\"]\n");
+  const std::vector<std::array<double, 3>> places = {
+      {0.15, 0.015, 1}, {0.2, 0.045, 4}, {0.25, 0.015, 2}, {0.3, 0.045, 5}, {0.35, 0.015, 3}};
+  ASSERT_EQ(scene.tray.holes.size(), places.size());
+  for (std::size_t k = 0; k < places.size(); ++k) {
+    const Hole& hole = scene.tray.holes[k];
+    EXPECT_DOUBLE_EQ(hole.centre, places[k][0]);
+    EXPECT_DOUBLE_EQ(hole.across, places[k][1]);
+    EXPECT_DOUBLE_EQ(hole.open_at, places[k][2]) << "lists go row by row";
+  }
+  std::string own_pitch = rows;
+  own_pitch.replace(own_pitch.find("pitch"), std::string::npos, "rows = 2\nacross = \"3 cm\"\nshape = \"slot\"\n");
+  own_pitch.erase(own_pitch.find("shape = \"round\"\n"), 16);
+  const Scene slots = read(own_pitch);
+  ASSERT_EQ(slots.tray.holes.size(), 5u);
+  EXPECT_DOUBLE_EQ(slots.tray.holes[0].centre, 0.125);
+  EXPECT_NEAR(slots.tray.holes[1].centre, 0.5 / 3, 1e-11) << "each row has the pitch of its own number";
+  EXPECT_DOUBLE_EQ(slots.tray.holes[1].across, 0.045);
+  const Scene at = read(rows + "across = [\"1 cm\", \"5 cm\"]\n");
+  EXPECT_DOUBLE_EQ(at.tray.holes[1].across, 0.05);
+  EXPECT_EQ(read(rows + "rows = 2\n").tray.holes.size(), 5u);
+  EXPECT_THAT(refused("[3, 2]", "[3, 0]"),
+              HasSubstr("seeder.toml:17: tray.holes.count: must be a whole number from 1"));
+  EXPECT_THAT(refused("[3, 2]", "[]"), HasSubstr("tray.holes.count: the list is empty"));
+  EXPECT_THAT(refused("[3, 2]", "[3, 20]"), HasSubstr("tray.holes.pitch: hole"));
+  EXPECT_THAT(refusal(rows + "rows = 3\n"), HasSubstr("seeder.toml:20: tray.holes.rows: contradicts count"));
+  EXPECT_THAT(refusal(rows + "across = [\"1 cm\"]\n"), HasSubstr("tray.holes.across: lists 1 places for the 2 rows"));
+  EXPECT_THAT(refused("\"8 mm\"", "[\"8 mm\", \"9 mm\", \"8 mm\"]"), HasSubstr("lists 3 widths for 5 holes"));
+  EXPECT_THAT(refusal(rows.substr(rows.find('\n'))), HasSubstr("tray.holes.count: is one number in the plane"));
+}
+
 TEST(ReadSpace, RowsWhereTheyAreSaidToBe) {
   const Scene scene =
       read(whole + R"(holes = { shape = "round", at = ["10 cm"], across = ["1 cm", "5 cm"], width = "8 mm" })");
