@@ -19,9 +19,7 @@ bool is_turned(const Vessel& vessel, Space space) {
 }
 
 bool is_drawn_out(const Vessel& vessel, Space space) {
-  return space == Space::plane ||
-         (vessel.plan == Plan::rectangle &&
-          std::ranges::none_of(vessel.pieces, [](const WallPiece& piece) { return piece.about.has_value(); }));
+  return space == Space::plane || (vessel.plan == Plan::rectangle && std::ranges::all_of(vessel.pieces, is_of_plane));
 }
 
 }  // namespace

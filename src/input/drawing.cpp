@@ -26,6 +26,8 @@ std::string drawing_text(const Drawing& drawing, const Scene& scene) {
   const Eigen::Vector2d low = 1e3 * all.low, high = 1e3 * all.high;
   std::string text = fmt::format("drawing {}: {} piece{} from ({:.4g}, {:.4g}) to ({:.4g}, {:.4g}) mm", drawing.file,
                                  drawing.count, drawing.count == 1 ? "" : "s", low.x(), low.y(), high.x(), high.y());
+  if (vessel_of(drawing, scene).pieces.at(drawing.first).drawn_out == DrawnOut::along)
+    text += " across and up, drawn out along the vessel";
   if (!drawing.layers.empty())
     text += fmt::format(", layer{} {}", drawing.layers.size() == 1 ? "" : "s", fmt::join(drawing.layers, ", "));
   if (!drawing.left_out.empty()) text += fmt::format("; left out: {}", fmt::join(drawing.left_out, "; "));

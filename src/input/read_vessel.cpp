@@ -151,24 +151,41 @@ std::vector<Table> tables_of_pieces(Table& vessel) {
   return {table};
 }
 
+/// Lines, or an arc, of the seeder file itself.
+void read_drawn_here(Table& table, Space space, std::vector<WallPiece>& pieces) {
+  for (const char* key : {"file", "unit", "scale", "at", "tolerance"}) table.skip(key);
+  if (table.has("line")) {
+    auto line = read_line(table, table.points("line", Dimension::length, -longest, longest));
+    read_axis(table, space, line);
+    pieces.insert(pieces.end(), line.begin(), line.end());
+    return;
+  }
+  pieces.push_back(read_arc(table));
+  for (const char* key : {"about", "axis"})
+    if (table.has(key))
+      table.fail(key, "is of a line that is turned; an arc is drawn out, from front to back or along");
+  for (const char* key : {"line", "about", "axis"}) table.skip(key);
+}
+
+/// Which way a piece, or all of a drawing, is drawn out.
+DrawnOut read_drawn_out(Table& table, Space space) {
+  const bool along = table.choice("drawn_out", {"across", "along"}).value_or(0) == 1;
+  if (along && space == Space::plane)
+    table.fail("drawn_out", "along the vessel a piece is drawn out in space alone: space = \"3d\"");
+  if (along && table.has("about")) table.fail("drawn_out", "contradicts about, by which the line is turned");
+  return along ? DrawnOut::along : DrawnOut::across;
+}
+
 void read_pieces(Table& vessel_table, Space space, Vessel& vessel, std::vector<Drawing>& drawings) {
   std::vector<WallPiece>& pieces = vessel.pieces;
   for (Table& table : tables_of_pieces(vessel_table)) {
-    if (table.has("file")) {
+    const std::size_t first = pieces.size();
+    const DrawnOut drawn_out = read_drawn_out(table, space);
+    if (table.has("file"))
       drawings.push_back(read_drawing(table, vessel));
-      continue;
-    }
-    for (const char* key : {"file", "unit", "scale", "at", "tolerance"}) table.skip(key);
-    if (table.has("line")) {
-      auto line = read_line(table, table.points("line", Dimension::length, -longest, longest));
-      read_axis(table, space, line);
-      pieces.insert(pieces.end(), line.begin(), line.end());
-    } else {
-      pieces.push_back(read_arc(table));
-      for (const char* key : {"about", "axis"})
-        if (table.has(key)) table.fail(key, "is of a line that is turned; an arc is drawn out from front to back");
-      for (const char* key : {"line", "about", "axis"}) table.skip(key);
-    }
+    else
+      read_drawn_here(table, space, pieces);
+    for (std::size_t k = first; k < pieces.size(); ++k) pieces[k].drawn_out = drawn_out;
   }
 }
 

@@ -66,7 +66,7 @@ Picture::Picture(const Scene& scene, const std::vector<Frame>& frames, const Pic
 }
 
 void Picture::add_lines(std::size_t vessel, const Vessel& from_the_side) {
-  for (const WallSegment& wall : vessel_walls(drawn_once(from_the_side)))
+  for (const WallSegment& wall : walls_from_the_front(from_the_side))
     lines_.push_back({vessel, wall_points(wall), wall.opens_at});
   vessels_.push_back(from_the_side);
 }

@@ -49,7 +49,7 @@ std::optional<Stretch> near_floor(const Eigen::Vector2d& a, const Eigen::Vector2
   return part.from < part.to ? std::optional(part) : std::nullopt;
 }
 
-/// Over which stretches of the floor a piece that is drawn out lies near it.
+/// Over which stretches of the floor, along it or across, a piece that is drawn out lies near it.
 std::vector<Stretch> over_floor(const WallPiece& piece, double height) {
   WallSegment wall{piece.a, piece.b, ""};
   wall.centre = piece.centre, wall.radius = piece.radius, wall.from = piece.from, wall.to = piece.to;
@@ -67,10 +67,13 @@ std::vector<Stretch> over_floor(const WallPiece& piece, double height) {
 /// How much of a hole a piece covers, as a part of it; 0: it stands in it; nothing: neither.
 using Covered = std::optional<double>;
 
-constexpr double rim = 0.02;  // of a hole's width: what reaches no further in is beside it
+constexpr double rim = 0.02;  // of a hole's width, or its length across: what reaches no further in is beside it
 
 Covered covered_by_drawn_out(const WallPiece& piece, const Hole& hole, double height) {
-  const double left = hole.centre - hole.width / 2, right = hole.centre + hole.width / 2, slack = rim * hole.width;
+  const bool along = piece.drawn_out == DrawnOut::along;
+  const double middle = along ? hole.across : hole.centre;
+  const double width = along && hole.shape == HoleShape::slot ? hole.across_length : hole.width;
+  const double left = middle - width / 2, right = middle + width / 2, slack = rim * width;
   std::vector<Stretch> over = over_floor(piece, height);
   std::ranges::sort(over, {}, &Stretch::from);
   Covered covered;
@@ -78,7 +81,7 @@ Covered covered_by_drawn_out(const WallPiece& piece, const Hole& hole, double he
   for (const Stretch& one : over) {
     if (one.to < left + slack || one.from > right - slack) continue;
     const double from = std::max(one.from, reached), to = std::min(one.to, right);
-    covered = covered.value_or(0) + std::max(0.0, to - from) / hole.width;
+    covered = covered.value_or(0) + std::max(0.0, to - from) / width;
     reached = std::max(reached, to);
   }
   return covered;
@@ -379,7 +382,9 @@ void warn_of_pieces_below(const Scene& scene, const Vessel& vessel, Warnings& wa
     const auto include = [&](const Eigen::Vector2d& own) {
       lowest = std::min(lowest, in_vessel_frame(scene.tray, of_tray, in_lab_frame(vessel, pose, own)).y());
     };
-    if (!piece.about && piece.radius == 0)
+    if (piece.drawn_out == DrawnOut::along)
+      include({0, all.low.y()}), include({vessel.length, all.low.y()});
+    else if (!piece.about && piece.radius == 0)
       include(piece.a), include(piece.b);
     else
       for (const double x : {all.low.x(), all.high.x()}) include({x, all.low.y()}), include({x, all.high.y()});

@@ -54,7 +54,7 @@ Json vessel(const Vessel& whole, const Vessel& from_the_side) {
                  {"depth_mm", whole.depth ? Json(in_mm(*whole.depth)) : Json(nullptr)},
                  {"lines", Json::array()},
                  {"holes", holes_of(whole)}};
-  for (const WallSegment& wall : vessel_walls(drawn_once(from_the_side))) result["lines"].push_back(line(wall));
+  for (const WallSegment& wall : walls_from_the_front(from_the_side)) result["lines"].push_back(line(wall));
   return result;
 }
 

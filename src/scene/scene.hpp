@@ -137,11 +137,15 @@ struct Hole {
 
 enum class PieceAxis { upright, along };
 
+/// Which way a piece is drawn out in space: from front to back, or from the vessel's left end to its right one.
+enum class DrawnOut { across, along };
+
 /// A piece of a vessel's wall beside its box, in the vessel's frame: a straight line from a to b, or, where the radius
 /// is not zero, an arc about `centre`, anticlockwise from the angle `from` to the angle `to` (at most a full turn). A
 /// grain larger than an arc's circle feels only the nearer end of it from within. In space a piece is drawn out from
-/// front to back, or a line is turned about an axis that is upright or lies along x, and then its points are (distance
-/// from the axis, place along it): a cylinder, a cone or a disc.
+/// front to back; or along the vessel, and then its points are (z, y), its angles 0 along z and pi/2 up; or a line is
+/// turned about an axis that is upright or lies along x, and then its points are (distance from the axis, place along
+/// it): a cylinder, a cone or a disc.
 struct WallPiece {
   Eigen::Vector2d a = Eigen::Vector2d::Zero(), b = Eigen::Vector2d::Zero();  // m
   Eigen::Vector2d centre = Eigen::Vector2d::Zero();                          // m
@@ -149,6 +153,7 @@ struct WallPiece {
   double from = 0, to = 0;                                                   // rad, 0 along x, pi/2 up
   std::optional<Eigen::Vector2d> about{};  // m, where that axis passes: x and z of an upright one, else y and z
   PieceAxis axis = PieceAxis::upright;
+  DrawnOut drawn_out = DrawnOut::across;  // along: in space alone, and not turned
   bool operator==(const WallPiece&) const = default;
 };
 

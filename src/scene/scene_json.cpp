@@ -401,6 +401,7 @@ void fields(Io& io, WallPiece& piece) {
   io.used("to_rad", piece.to, usual.to, arc);
   io.optional("about_m", piece.about);
   io.used_choice("axis", piece.axis, {"upright", "along"}, usual.axis);
+  io.used_choice("drawn_out", piece.drawn_out, {"across", "along"}, usual.drawn_out);
   range(io, piece.radius, 0, farthest, "radius_m");
   range(io, piece.from, -most_turns, most_turns, "from_rad");
   range(io, piece.to, -most_turns, most_turns, "to_rad");

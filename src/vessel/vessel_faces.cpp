@@ -71,6 +71,24 @@ Face drawn_out(const WallSegment& wall, const Span& z) {
   return face;
 }
 
+/// A piece whose points are (z, y), drawn out along the vessel, `aside` (m) of where it is drawn.
+Face drawn_along(const std::string& name, const WallPiece& piece, const Span& x, double aside) {
+  const auto at = [&](const Eigen::Vector2d& point) { return Vector(x.from, point.y(), point.x() + aside); };
+  if (piece.radius == 0) return plate(name, at(piece.a), at(piece.b) - at(piece.a), {x.length(), 0, 0});
+  Face face;
+  face.kind = Face::Kind::revolved;
+  face.name = name;
+  face.origin = at(piece.centre);
+  const Eigen::Vector2d middle = unit_vector(0.5 * (piece.from + piece.to));
+  face.e1 = {0, middle.y(), middle.x()};
+  face.normal = Vector::UnitX();
+  face.e2 = cross(face.normal, face.e1);
+  face.radius_a = face.radius_b = piece.radius;
+  face.height_b = x.length();
+  face.half_angle = 0.5 * (piece.to - piece.from);
+  return face;
+}
+
 Span along(const Hole& hole) {
   return {hole.centre - hole.width / 2, hole.centre + hole.width / 2};
 }
@@ -215,6 +233,16 @@ void add_revolved_pieces(const Vessel& vessel, std::vector<Face>& faces) {
   }
 }
 
+/// Pieces drawn out along the vessel, and where the depth is periodic their images.
+void add_pieces_along(const Vessel& vessel, std::vector<Face>& faces) {
+  const int most_z = vessel.front_and_back == Sides::periodic ? 1 : 0;
+  const Span x = with_periods(vessel.sides, vessel.length);
+  for (std::size_t k = 0; k < vessel.pieces.size(); ++k)
+    for (int j = -most_z; j <= most_z && vessel.pieces[k].drawn_out == DrawnOut::along; ++j)
+      faces.push_back(
+          drawn_along(vessel.name + " piece " + std::to_string(k + 1), vessel.pieces[k], x, j * vessel.depth.value()));
+}
+
 /// A lid over a hole and over its images.
 void add_gate(const std::string& name, const Hole& hole, std::vector<Face>& faces) {
   Face face = is_round(hole)
@@ -242,6 +270,7 @@ std::vector<Face> vessel_faces(const Vessel& vessel) {
   drawn.box = vessel.box && vessel.plan == Plan::rectangle && like_the_plane(vessel);
   for (Hole& hole : drawn.holes) hole.open_at = 0;
   for (const WallSegment& wall : vessel_walls(drawn)) faces.push_back(drawn_out(wall, z));
+  add_pieces_along(vessel, faces);
   add_revolved_pieces(vessel, faces);
   add_ends_of_drum(vessel, faces);
   const std::vector<Hole> holes = with_images(vessel);

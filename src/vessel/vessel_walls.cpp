@@ -146,13 +146,17 @@ std::vector<WallSegment> vessel_walls(const Vessel& vessel) {
   for (int copy = periodic ? -1 : 0; copy <= (periodic ? 1 : 0); ++copy) {
     const double shift = copy * vessel.length;
     for (std::size_t k = 0; k < vessel.pieces.size(); ++k)
-      if (!vessel.pieces[k].about)
+      if (is_of_plane(vessel.pieces[k]))
         walls.push_back(segment_of(vessel.pieces[k], {shift, 0}, vessel.name + " piece " + std::to_string(k + 1)));
     for (std::size_t k = 0; k < vessel.holes.size(); ++k)
       if (vessel.holes[k].open_at > 0)
         walls.push_back(gate(vessel.holes[k], shift, vessel.name + " gate " + std::to_string(k + 1)));
   }
   return walls;
+}
+
+bool is_of_plane(const WallPiece& piece) {
+  return !piece.about && piece.drawn_out == DrawnOut::across;
 }
 
 double highest_floor(const Vessel& vessel) {
@@ -206,10 +210,14 @@ double largest_radius(const Vessel& vessel, const Eigen::Vector2d& about) {
     largest = std::max({largest, (wall.a - about).norm(), (wall.b - about).norm()});
     if (wall.radius > 0) largest = std::max(largest, (wall.centre - about).norm() + wall.radius);
   }
-  for (const WallPiece& piece : vessel.pieces)
+  const auto include = [&](const Eigen::Vector2d& corner) { largest = std::max(largest, (corner - about).norm()); };
+  for (const WallPiece& piece : vessel.pieces) {
     if (piece.about)
-      for (const Eigen::Vector2d& corner : corners_of_turned(piece))
-        largest = std::max(largest, (corner - about).norm());
+      for (const Eigen::Vector2d& corner : corners_of_turned(piece)) include(corner);
+    else if (!is_of_plane(piece))
+      for (const double y : {extent({piece}).low.y(), extent({piece}).high.y()})
+        include({0, y}), include({vessel.length, y});
+  }
   return largest;
 }
 
@@ -230,8 +238,9 @@ double furthest(const WallPiece& piece, const Eigen::Vector2d& from) {
 const WallPiece* drum_of(const Vessel& vessel) {
   if (vessel.box) return nullptr;
   const auto found = std::ranges::find_if(vessel.pieces, [&](const WallPiece& circle) {
-    return is_full_circle(circle) && std::ranges::all_of(vessel.pieces, [&](const WallPiece& other) {
-             return other.about || furthest(other, circle.centre) <= circle.radius * (1 + 1e-9);
+    return is_full_circle(circle) && is_of_plane(circle) &&
+           std::ranges::all_of(vessel.pieces, [&](const WallPiece& other) {
+             return !is_of_plane(other) || furthest(other, circle.centre) <= circle.radius * (1 + 1e-9);
            });
   });
   return found == vessel.pieces.end() ? nullptr : &*found;

@@ -30,10 +30,15 @@ struct WallSegment {
 /// and everything is there three times, shifted by the length to either side, which leaves room for grains that are
 /// beyond a side and not yet carried over to the other.
 ///
-/// A gate lies across each hole that opens later than 0. A piece turned about an upright axis is a wall of space alone.
+/// A gate lies across each hole that opens later than 0. A piece turned about an axis, or drawn out along the vessel,
+/// is a wall of space alone.
 std::vector<WallSegment> vessel_walls(const Vessel& vessel);
 
-/// The rectangle in which pieces lie, m, in their vessel's frame; in space seen from the front.
+/// Whether a piece is a line or an arc of the plane, in space drawn out from front to back.
+bool is_of_plane(const WallPiece& piece);
+
+/// The rectangle in which pieces lie, m, in their vessel's frame; in space seen from the front, or from the left those
+/// that are drawn out along it.
 struct Extent {
   Eigen::Vector2d low = Eigen::Vector2d::Constant(1e300), high = Eigen::Vector2d::Constant(-1e300);
 

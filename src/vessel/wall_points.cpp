@@ -1,6 +1,7 @@
 #include "vessel/wall_points.hpp"
 
 #include <numbers>
+#include <set>
 
 #include "elementary/functions.hpp"
 
@@ -63,6 +64,18 @@ std::vector<Eigen::Vector2d> wall_points(const WallSegment& wall) {
 
 std::vector<Line> face_lines(const Face& face) {
   return face.kind == Face::Kind::plate ? lines_of_plate(face) : lines_of_revolution(face);
+}
+
+std::vector<WallSegment> walls_from_the_front(const Vessel& vessel) {
+  std::vector<WallSegment> walls = vessel_walls(drawn_once(vessel));
+  std::set<double> heights;
+  for (const WallPiece& piece : vessel.pieces) {
+    if (piece.drawn_out != DrawnOut::along) continue;
+    const Extent all = extent({piece});
+    heights.insert({all.low.y(), all.high.y()});
+  }
+  for (const double height : heights) walls.push_back({{0, height}, {vessel.length, height}, "edge", true});
+  return walls;
 }
 
 Vessel drawn_once(Vessel vessel) {

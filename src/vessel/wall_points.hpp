@@ -18,6 +18,10 @@ std::vector<Eigen::Vector2d> wall_points(const WallSegment& wall);
 /// between them.
 std::vector<std::vector<Eigen::Vector3d>> face_lines(const Face& face);
 
+/// The walls of a vessel as they are seen from the front: those of the plane, each once, and of pieces that are drawn
+/// out along the vessel the edges, lines at the heights of their ends and of arcs' lowest and highest places.
+std::vector<WallSegment> walls_from_the_front(const Vessel& vessel);
+
 /// The vessel without the copies of its walls that a periodic one has beside it.
 Vessel drawn_once(Vessel vessel);
 

@@ -54,6 +54,18 @@ TEST_P(Room, GoesRoundAShelfAndThroughWhatASeedPasses) {
   EXPECT_TRUE(holds(v, 0.02, 0.01)) << "a gap of 4.1 mm";
 }
 
+TEST(RoomInSpace, LiesOverAGrooveAlongTheVessel) {
+  Vessel v;
+  v.name = "tray";
+  v.length = 0.1, v.height = 0.06, v.depth = 0.04;
+  v.pieces = {{.a = {0, 0.02}, .b = {0.02, 0}}, {.a = {0.02, 0}, .b = {0.04, 0.02}}};
+  for (WallPiece& piece : v.pieces) piece.drawn_out = DrawnOut::along;
+  const FreeRoom room(v, Space::three_dimensional, radius);
+  EXPECT_TRUE(room.holds({0.05, 0.005, 0.02}));
+  EXPECT_FALSE(room.holds({0.05, 0.005, 0.005})) << "beneath";
+  EXPECT_FALSE(room.holds({0.05, 0.005, 0.035}));
+}
+
 TEST_P(Room, IsNotWithinWhatIsClosed) {
   Vessel v = box();
   v.pieces = {{.centre = {0.05, 0.03}, .radius = 0.02, .from = 0, .to = 2 * std::numbers::pi}};

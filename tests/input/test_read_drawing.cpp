@@ -294,6 +294,20 @@ TEST_F(Drawings, SayWhatTheyGave) {
                                       "high: is its unit right?"}));
 }
 
+TEST_F(Drawings, MayBeDrawnOutAlongTheTray) {
+  write("a.dxf", dxf(two_lines));
+  EXPECT_EQ(tray("{ file = \"a.dxf\" }").pieces[1].drawn_out, DrawnOut::across);
+  write("deep.toml",
+        "space = \"3d\"\n[seeds.wheat]\ndiameter = \"4 mm\"\nmass = \"40 mg\"\n[contact]\nshell_compression = 1e-3\n"
+        "[tray]\nlength = \"20 cm\"\nheight = \"10 cm\"\ndepth = \"8 cm\"\nfill = { count = 9 }\npieces = { file = "
+        "\"a.dxf\", drawn_out = \"along\" }\n[run]\nduration = \"1 s\"\n");
+  const Seeder seeder = read_seeder(folder / "deep.toml");
+  ASSERT_EQ(seeder.scene.tray.pieces.size(), 2u);
+  for (const WallPiece& piece : seeder.scene.tray.pieces) EXPECT_EQ(piece.drawn_out, DrawnOut::along);
+  EXPECT_EQ(drawing_text(seeder.drawings[0], seeder.scene),
+            "drawing a.dxf: 2 pieces from (0, 20) to (80, 50) mm across and up, drawn out along the vessel");
+}
+
 TEST_F(Drawings, OfWhichNothingIsSeenAreRefused) {
   write("a.dxf", dxf_with_layers(layer("NOTES", 0, -1), line_on("NOTES")));
   EXPECT_EQ(

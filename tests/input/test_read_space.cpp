@@ -122,6 +122,28 @@ pieces = [{ line = [["1 cm", "5 cm"], ["1 cm", "45 cm"]], about = ["6 cm", "3 cm
   EXPECT_THAT(refused(line, "centre = [\"6 cm\", \"6 cm\"], radius = \"1 cm\""), HasSubstr("an arc is drawn out"));
 }
 
+TEST(ReadSpace, PiecesDrawnOutAlongTheTray) {
+  const std::string groove = whole + R"(
+pieces = [{ line = [["0 cm", "2 cm"], ["3 cm", "0 cm"], ["6 cm", "2 cm"]], drawn_out = "along" },
+          { centre = ["3 cm", "5 cm"], radius = "1 cm", drawn_out = "along" },
+          { line = [["1 cm", "5 cm"], ["2 cm", "5 cm"]] }]
+)";
+  const Scene scene = read(groove);
+  ASSERT_EQ(scene.tray.pieces.size(), 4u);
+  EXPECT_EQ(scene.tray.pieces[1].a, Eigen::Vector2d(0.03, 0));
+  for (std::size_t k = 0; k < 4; ++k)
+    EXPECT_EQ(scene.tray.pieces[k].drawn_out, k < 3 ? DrawnOut::along : DrawnOut::across);
+  EXPECT_THAT(refusal(groove.substr(groove.find('\n'))), HasSubstr("tray.pieces[1].drawn_out: along the vessel"));
+  const auto refused = [&](const std::string& from, const std::string& to) {
+    std::string text = groove;
+    text.replace(text.find(from), from.size(), to);
+    return refusal(text);
+  };
+  EXPECT_THAT(refused("\"along\"", "\"upright\""), HasSubstr("is not one of across, along"));
+  EXPECT_THAT(refused("drawn_out", "about = [\"3 cm\", \"3 cm\"], drawn_out"),
+              HasSubstr("seeder.toml:15: tray.pieces[1].drawn_out: contradicts about"));
+}
+
 TEST(ReadSpace, RowsOfHolesWithCountsOfTheirOwn) {
   const std::string rows = whole + R"(
 [tray.holes]

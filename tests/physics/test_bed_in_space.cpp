@@ -86,6 +86,37 @@ TEST(BedInSpace, PouredBallsLieLooselyAndShakenOnesDenser) {
   RecordProperty("shaken", std::to_string(shaken.packing_fraction) + " " + std::to_string(shaken.coordination_number));
 }
 
+/// Balls that rain all over a tray roll to its middle down a groove that is drawn out along it.
+TEST(BedInSpace, InAGrooveAlongTheTrayBallsRollToTheMiddle) {
+  Scene scene = bed();
+  scene.contact.seed.friction = scene.contact.wall.friction = 0.1;
+  Vessel& tray = scene.tray;
+  tray.sides = tray.front_and_back = Sides::walls;
+  tray.depth = 20 * diameter, tray.height = 0.1;
+  tray.fill.reset();
+  tray.rain = Rain{.rate = 200, .from = 0, .to = tray.length, .height = 0.05, .stop = 0.2};
+  const double middle = *tray.depth / 2, slope = 0.5;
+  for (const bool groove : {false, true}) {
+    if (groove)
+      tray.pieces = {{.a = {0, slope * middle}, .b = {middle, 0}},
+                     {.a = {middle, 0}, .b = {*tray.depth, slope * middle}}};
+    for (WallPiece& piece : tray.pieces) piece.drawn_out = DrawnOut::along;
+    Simulation run(prepare_to_run(scene), 1);
+    ASSERT_TRUE(run.run_until(0.8));
+    const Grains& balls = run.grains();
+    EXPECT_GE(balls.size(), 38u);
+    double furthest = 0;
+    for (std::size_t i = 0; i < balls.size(); ++i) {
+      furthest = std::max(furthest, std::abs(balls.z[i] - middle));
+      EXPECT_GT(balls.y[i], groove ? slope * std::abs(balls.z[i] - middle) : 0) << "above the slopes";
+    }
+    if (groove)
+      EXPECT_LT(furthest, 0.35 * middle);
+    else
+      EXPECT_GT(furthest, 0.8 * middle) << "on a flat floor they lie all over it";
+  }
+}
+
 TEST(BedInSpace, TheWheatTrayStartsWithGrainsInPlaceOfBalls) {
   const auto height_of_tray = [](const std::vector<Override>& changes) {
     const Simulation run(prepare_to_run(read_scene(data_directory() / "seeders" / "wheat-tray-3d.toml", changes)), 1);

@@ -278,6 +278,28 @@ TEST(SceneWarnings, ATurnedPieceOverAHole) {
   }
 }
 
+TEST(SceneWarnings, APieceAlongTheTrayOverAHole) {
+  const auto along = [](WallPiece piece) {
+    piece.drawn_out = DrawnOut::along;
+    return piece;
+  };
+  for (const HoleShape shape : {HoleShape::slot, HoleShape::round}) {
+    const Scene scene = sound_in_space(shape);
+    EXPECT_THAT(warnings_with(scene, {along(straight(0, 0, 0.06, 0))}),
+                ElementsAre(HasSubstr("piece 1 covers hole 1, hole 2, hole 3:")));
+    EXPECT_THAT(warnings_with(scene, {along(straight(0.03, 0, 0.06, 0))}),
+                ElementsAre(HasSubstr("covers hole 1 (50 % of it), hole 2")));
+    EXPECT_THAT(warnings_with(scene, {along(straight(0.03, 0.05, 0.03, -0.01))}),
+                ElementsAre(HasSubstr("hole 2 (stands in it)")));
+    EXPECT_THAT(warnings_with(scene, {along(straight(0.03, -0.05, 0.03, -0.04))}),
+                ElementsAre(HasSubstr("piece 1 reaches 50 mm below the tray's floor")));
+  }
+  // A groove whose flat bottom is as wide as the round holes.
+  EXPECT_THAT(warnings_with(sound_in_space(HoleShape::round),
+                            {along(straight(0, 0.02, 0.024, 0)), along(straight(0.036, 0, 0.06, 0.02))}),
+              IsEmpty());
+}
+
 TEST(SceneWarnings, PiecesThatReachBelowTheCountingLine) {
   Scene scene = sound();
   EXPECT_THAT(warnings_with(scene, {straight(0.27, 0, 0.27, -0.019)}), IsEmpty());

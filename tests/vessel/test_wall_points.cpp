@@ -89,6 +89,55 @@ TEST(LargestRadius, IsThatOfTheFurthestPointOfAPieceAboutEitherAxis) {
   }
 }
 
+WallPiece along(WallPiece piece) {
+  piece.drawn_out = DrawnOut::along;
+  return piece;
+}
+
+TEST(PiecesAlong, AreDrawnOutFromTheLeftEndToTheRight) {
+  Vessel vessel;
+  vessel.name = "tray", vessel.length = 1, vessel.height = 0.5, vessel.depth = 0.4, vessel.box = false;
+  vessel.front_and_back = Sides::open;
+  vessel.pieces = {along({.a = {0.1, 0.2}, .b = {0.3, 0.1}}),
+                   along({.centre = {0.2, 0.3}, .radius = 0.1, .from = 0, .to = std::numbers::pi / 2})};
+  EXPECT_TRUE(vessel_walls(vessel).empty()) << "there is nothing of them in the plane";
+  const std::vector<Face> faces = vessel_faces(vessel);
+  ASSERT_EQ(faces.size(), 2u);
+  const auto ends = [&](const Face& face) {
+    Eigen::Vector3d low = Eigen::Vector3d::Constant(9), high = -low;
+    for (const auto& line : face_lines(face))
+      for (const Eigen::Vector3d& at : line) low = low.cwiseMin(at), high = high.cwiseMax(at);
+    return std::pair(low, high);
+  };
+  const auto [low, high] = ends(faces[0]);
+  EXPECT_TRUE(low.isApprox(Eigen::Vector3d(0, 0.1, 0.1), 1e-12)) << low.transpose();
+  EXPECT_TRUE(high.isApprox(Eigen::Vector3d(1, 0.2, 0.3), 1e-12)) << high.transpose();
+  EXPECT_GT(faces[0].normal.y(), 0);
+  EXPECT_NEAR(faces[0].normal.dot(Eigen::Vector3d(0, -0.1, 0.2)), 0, 1e-15);
+  const auto [arc_low, arc_high] = ends(faces[1]);  // from straight back of its axis to straight above
+  EXPECT_TRUE(arc_low.isApprox(Eigen::Vector3d(0, 0.3, 0.2), 1e-12)) << arc_low.transpose();
+  EXPECT_TRUE(arc_high.isApprox(Eigen::Vector3d(1, 0.4, 0.3), 1e-12)) << arc_high.transpose();
+  EXPECT_NEAR(largest_radius(vessel, Eigen::Vector2d::Zero()), std::hypot(1, 0.4), 1e-12);
+  vessel.sides = vessel.front_and_back = Sides::periodic;
+  const std::vector<Face> endless = vessel_faces(vessel);
+  ASSERT_EQ(endless.size(), 6u) << "its images in front and behind";
+  EXPECT_DOUBLE_EQ(ends(endless[0]).first.z(), 0.1 - 0.4);
+  EXPECT_DOUBLE_EQ(ends(endless[1]).first.x(), -1);
+  EXPECT_DOUBLE_EQ(ends(endless[1]).second.x(), 2);
+}
+
+TEST(PiecesAlong, AreSeenFromTheFrontByTheirEdges) {
+  Vessel vessel;
+  vessel.name = "tray", vessel.length = 1, vessel.height = 0.5, vessel.depth = 0.4;
+  const std::size_t box = walls_from_the_front(vessel).size();
+  vessel.pieces = {along({.a = {0, 0.2}, .b = {0.2, 0.1}}), along({.a = {0.2, 0.1}, .b = {0.4, 0.2}})};
+  const std::vector<WallSegment> walls = walls_from_the_front(vessel);
+  ASSERT_EQ(walls.size(), box + 2);
+  EXPECT_EQ(walls[box].a, Eigen::Vector2d(0, 0.1));
+  EXPECT_EQ(walls[box].b, Eigen::Vector2d(1, 0.1));
+  EXPECT_EQ(walls[box + 1].a, Eigen::Vector2d(0, 0.2));
+}
+
 TEST(DrawnOnce, APeriodicVesselHasNoCopiesBesideIt) {
   Vessel vessel;
   vessel.name = "tray", vessel.length = 1, vessel.height = 1, vessel.sides = Sides::periodic;
