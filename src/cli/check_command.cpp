@@ -13,6 +13,7 @@
 #include "cli/drill_table.hpp"
 #include "cli/help_text.hpp"
 #include "cli/progress.hpp"
+#include "grains/fill_height.hpp"
 #include "input/input_file.hpp"
 #include "input/key_units.hpp"
 #include "input/measured.hpp"
@@ -121,16 +122,23 @@ std::string hole_text(const Hole& hole, Space space) {
                      hole.across * mm);
 }
 
-void print_vessel(const Vessel& vessel, Space space) {
+std::string fill_text(const Vessel& vessel, const Scene& scene) {
+  if (!vessel.fill) return "0 seeds";
+  return fmt::format("{} seeds, some {:.3g} mm high", vessel.fill->count,
+                     height_of_fill(vessel, scene.lots, scene.space) * 1e3);
+}
+
+void print_vessel(const Vessel& vessel, const Scene& scene) {
+  const Space space = scene.space;
   const double mm = 1e3;
   const bool round = space == Space::three_dimensional && vessel.plan == Plan::round;
   const std::string depth = space == Space::plane || round ? "" : fmt::format("{:.1f} mm deep, ", *vessel.depth * mm);
   print("{}\n", vessel.name);
   print_text(wrapped_beside(
       "  ",
-      fmt::format("{}floor from ({:.1f}, {:.1f}) mm, {:.1f} mm {}, {}walls {:.1f} mm, {} seeds", round ? "round, " : "",
+      fmt::format("{}floor from ({:.1f}, {:.1f}) mm, {:.1f} mm {}, {}walls {:.1f} mm, {}", round ? "round, " : "",
                   vessel.origin.x() * mm, vessel.origin.y() * mm, vessel.length * mm, round ? "in diameter" : "long",
-                  space == Space::plane ? "end " : depth, vessel.height * mm, vessel.fill ? vessel.fill->count : 0)));
+                  space == Space::plane ? "end " : depth, vessel.height * mm, fill_text(vessel, scene))));
   for (std::size_t i = 0; i < vessel.holes.size(); ++i)
     print("  hole {} {}{}\n", i + 1, hole_text(vessel.holes[i], space),
           vessel.holes[i].open_at > 0 ? fmt::format(", opens at {:.6g} s", vessel.holes[i].open_at) : "");
@@ -180,8 +188,8 @@ int check_seeder(const InputFile& file, const CheckOptions& options) {
   tell_of_files(file);
   const StepPlan& plan = model.step;
   print_text(wrapped(scene.title));
-  print_vessel(scene.tray, scene.space);
-  if (scene.hopper) print_vessel(*scene.hopper, scene.space);
+  print_vessel(scene.tray, scene);
+  if (scene.hopper) print_vessel(*scene.hopper, scene);
   print_text(mixture_text(scene));
   print_slice(scene);
   if (!scene.tray.holes.empty()) print_text(wrapped(window_sentence(measuring_window(scene), scene.run.measure_from)));

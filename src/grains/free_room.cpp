@@ -27,7 +27,7 @@ bool is_drawn_out(const Vessel& vessel, Space space) {
 /// Two neighbouring cells, `1 / cells` of the seed's radius apart, never lie on two sides of a wall from which both
 /// keep `kept_clear` of that radius. Cells lie beside the middle of a passage: one as wide as the seed is always open,
 /// one of that part of its width is closed.
-FreeRoom::FreeRoom(const Vessel& vessel, Space space, double least_radius)
+FreeRoom::FreeRoom(const Vessel& vessel, Space space, double least_radius, double most_cells)
     : vessel_(vessel),
       in_space_(space == Space::three_dimensional),
       turned_(is_turned(vessel, space)),
@@ -35,6 +35,7 @@ FreeRoom::FreeRoom(const Vessel& vessel, Space space, double least_radius)
       cells_in_radius_(cut_ ? 8 : 4),
       kept_clear_(cut_ ? 0.9 : 0.8),
       least_radius_(least_radius),
+      most_cells_(most_cells),
       obstacles_(without_lid(vessel), space) {
   top_ = std::max(vessel.height, obstacles_.top() + least_radius);
 }
@@ -76,6 +77,39 @@ bool FreeRoom::holds(const Eigen::Vector3d& centre) const {
   if (const WallPiece* drum = drum_of(vessel_))
     if ((centre.head<2>() - drum->centre).norm() > drum->radius) return false;
   return obstacles_.none() || is_open_above(centre) || is_reached(centre);
+}
+
+/// Of any place: one that is nearer to a wall than a seed's centre comes is asked of that far away, on its own side.
+bool FreeRoom::holds_beside_walls(const Eigen::Vector3d& place) const {
+  constexpr double beyond = 1.02, difference = 1e-3;  // of the radius: more than what `is_reached` forgives
+  const double clear = beyond * least_radius_, gap = obstacles_.distance(place);
+  if (gap >= clear) return holds(place);
+  Eigen::Vector3d away = Eigen::Vector3d::Zero();
+  for (int axis = 0; axis < (in_space_ ? 3 : 2); ++axis) {
+    const Eigen::Vector3d step = difference * least_radius_ * Eigen::Vector3d::Unit(axis);
+    away[axis] = obstacles_.distance(place + step) - obstacles_.distance(place - step);
+  }
+  const double slope = away.norm();
+  Eigen::Vector3d asked = place;
+  if (slope > 0) asked += (clear - gap) / slope * away;
+  const double depth = vessel_.depth.value_or(0);
+  return holds(asked.cwiseMax(Eigen::Vector3d::Zero()).cwiseMin(Eigen::Vector3d(vessel_.length, top_, depth)));
+}
+
+double FreeRoom::share_at(double height) const {
+  constexpr int along_a_cut = 200, along_and_across = 40;
+  const int along = cut_ && !turned_ ? along_a_cut : along_and_across;
+  const int across = cut_ && !turned_ ? 1 : along_and_across;
+  int places = 0, held = 0;
+  for (int i = 0; i < along; ++i)
+    for (int k = 0; k < across; ++k) {
+      const Eigen::Vector3d place((i + 0.5) / along * vessel_.length, height,
+                                  (k + 0.5) / across * vessel_.depth.value_or(0));
+      if (!is_in_plan(place, 0)) continue;
+      ++places;
+      held += holds_beside_walls(place) ? 1 : 0;
+    }
+  return static_cast<double>(held) / places;
 }
 
 /// The cells near enough that no wall can lie between.
@@ -156,11 +190,10 @@ void FreeRoom::flood(std::vector<char> free, Grid& grid) const {
 }
 
 FreeRoom::Grid FreeRoom::made_grid() const {
-  constexpr double most_cells = 2e7;
   const double depth = cut_ ? 0 : *vessel_.depth;
   const double in_plane = vessel_.length * top_;
   const double least_cell =
-      cut_ ? std::sqrt(in_plane / most_cells) : elementary::pow(in_plane * depth / most_cells, 1.0 / 3);
+      cut_ ? std::sqrt(in_plane / most_cells_) : elementary::pow(in_plane * depth / most_cells_, 1.0 / 3);
   const double cell = std::max(least_radius_ / cells_in_radius_, least_cell);
   Grid grid{
       .cell = Eigen::Vector3d::Constant(cell), .cells = Eigen::Array3i::Ones(), .radius = cells_in_radius_ * cell};

@@ -14,15 +14,22 @@ namespace vibrosow {
 /// open. Nothing leads out through holes or open sides, and around again.
 class FreeRoom {
  public:
+  static constexpr double usual_most_cells = 2e7;
+
   /// `least_radius` (m): half the least width of the smallest seed (`least_half_width`). A seed that is asked for is
-  /// told by the centre of its thickest disc, which keeps that far from every wall.
-  FreeRoom(const Vessel& vessel, Space space, double least_radius);
+  /// told by the centre of its thickest disc, which keeps that far from every wall. With fewer cells at most, narrow
+  /// ways of larger vessels count as closed.
+  FreeRoom(const Vessel& vessel, Space space, double least_radius, double most_cells = usual_most_cells);
 
   /// Whether the centre of a seed that touches nothing (m) lies in the room, or above it.
   bool holds(const Eigen::Vector3d& centre) const;
 
   /// Whether it does, below the vessel's top.
   bool holds_below_top(const Eigen::Vector3d& centre) const { return centre.y() <= vessel_.height && holds(centre); }
+
+  /// The part of the vessel's plan, in the plane of its length, that is room at a height (m), up to the walls' very
+  /// surfaces: from 0 to 1, by places on a grid.
+  double share_at(double height) const;
 
  private:
   /// Cells whose centres a seed can reach from the top; one across where a cut says all.
@@ -44,6 +51,7 @@ class FreeRoom {
   };
   bool is_in_plan(const Eigen::Vector3d& centre, double clear) const;
   Eigen::Vector3d in_cut(const Eigen::Vector3d& centre) const;
+  bool holds_beside_walls(const Eigen::Vector3d& place) const;
   bool is_open_above(const Eigen::Vector3d& centre) const;
   bool is_reached(const Eigen::Vector3d& centre) const;
   std::vector<char> free_cells(const Grid& grid) const;
@@ -57,7 +65,7 @@ class FreeRoom {
   bool cut_;             // whether a cut in the middle of the depth says all: of what is turned so, or drawn out
   int cells_in_radius_;  // of the grid, in the least radius
   double kept_clear_;    // part of a seed's radius that a cell's centre keeps from every wall
-  double least_radius_, top_;
+  double least_radius_, most_cells_, top_;
   Obstacles obstacles_;
   mutable std::optional<Grid> grid_;  // made when it is first asked for
 };

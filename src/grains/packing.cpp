@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "grains/free_room.hpp"
 #include "grains/pour.hpp"
+#include "grains/seats.hpp"
 #include "grains/size_distribution.hpp"
 #include "grains/turned_discs.hpp"
 #include "scene/input_error.hpp"
@@ -41,110 +41,21 @@ std::vector<int> shuffled_lots(const std::vector<SeedLot>& lots, int count, Rand
   return order;
 }
 
-/// Whether a grain of `radius` at `seat` does not lie within its drum.
-bool is_outside_of_drum(const Vessel& vessel, const Eigen::Vector2d& seat, double radius) {
-  constexpr double slack = 1e-3;  // of the radius
-  const WallPiece* drum = drum_of(vessel);
-  return drum != nullptr && (seat - drum->centre).norm() + (1 - slack) * radius >= drum->radius;
-}
-
-/// Where in a vessel a row may have a place.
-class Seats {
- public:
-  Seats(const Vessel& vessel, const std::vector<SeedLot>& lots, Space space)
-      : vessel_(vessel), obstacles_(vessel, space), room_(vessel, space, least_half_width(lots)) {}
-
-  /// Whether a ball of diameter `clear` (m) has room at `seat`.
-  bool take(const Eigen::Vector3d& seat, double clear) const {
-    return obstacles_.distance(seat) >= 0.5 * clear && !is_outside_of_drum(vessel_, seat.head<2>(), 0.5 * clear) &&
-           room_.holds(seat);
-  }
-
- private:
-  const Vessel& vessel_;
-  Obstacles obstacles_;
-  FreeRoom room_;
-};
-
-/// Places side by side along one direction of a vessel.
-struct PackedRow {
-  int places;
-  double spacing;  // m
-
-  PackedRow(double length, double clear)
-      : places(static_cast<int>(std::floor(length / clear))), spacing(length / std::max(1, places)) {}
-
-  int of_layer(bool offset) const { return places - (offset ? 1 : 0); }
-  double at(int k, bool offset) const { return (k + (offset ? 1.0 : 0.5)) * spacing; }
-};
-
-/// How rows of a fill lie.
-struct RowPlan {
-  bool hexagonal;  // every other layer is offset by half a place
-  double clear;    // m, so wide that jitter never makes an overlap
-  double shift;    // m, each way
-
-  RowPlan(const Fill& fill, const std::vector<SeedLot>& lots, double directions)
-      : hexagonal(fill.packing == Packing::hexagonal),
-        clear(largest_diameter(lots) * (1 + 2 * fill.jitter)),
-        shift(largest_diameter(lots) * fill.jitter / std::sqrt(directions)) {}
-
-  /// m, from a layer to the next whose places lie `aside` (m) of it.
-  double rise(double aside) const {
-    return hexagonal ? std::sqrt(std::max(clear * clear - aside * aside, 0.25 * clear * clear)) : clear;
-  }
-};
-
-std::vector<PackedGrain> pack_rows(const Vessel& vessel, const std::vector<SeedLot>& lots,
+std::vector<PackedGrain> pack_rows(const Vessel& vessel, const std::vector<SeedLot>& lots, Space space,
                                    const std::vector<int>& order, Random& random) {
-  const RowPlan plan(*vessel.fill, lots, 2);
-  const PackedRow row(vessel.length, plan.clear);
-  if (row.places < 2) refuse_fill(vessel);
-  const Seats seats(vessel, lots, Space::plane);
   std::vector<PackedGrain> packed;
-  double y = highest_floor(vessel) + 0.5 * plan.clear;
-  for (int layer = 0; packed.size() < order.size(); ++layer, y += plan.rise(0.5 * row.spacing)) {
-    const bool offset = plan.hexagonal && layer % 2 == 1;
-    for (int k = 0; k < row.of_layer(offset) && packed.size() < order.size(); ++k) {
-      const double x = row.at(k, offset);
-      if (!seats.take({x, y, 0}, plan.clear)) continue;
-      const double dx = plan.shift * random.uniform(-1, 1), dy = plan.shift * random.uniform(-1, 1);
-      const int lot = order[packed.size()];
-      const SeedLot& seeds = lots[static_cast<std::size_t>(lot)];
-      const double size = draw_size(seeds, random);
-      packed.push_back({x + dx, y + dy, lot, size, draw_turn(seeds, random)});
-    }
-    if (y + 0.5 * plan.clear > vessel.height) refuse_fill(vessel);
-  }
-  return packed;
-}
-
-/// Square layers: one above the other, or closest packed.
-std::vector<PackedGrain> pack_layers(const Vessel& vessel, const std::vector<SeedLot>& lots,
-                                     const std::vector<int>& order, Random& random) {
-  const RowPlan plan(*vessel.fill, lots, 3);
-  const PackedRow along(vessel.length, plan.clear), across(*vessel.depth, plan.clear);
-  if (along.places < 2 || across.places < (plan.hexagonal ? 2 : 1)) refuse_fill(vessel);
-  const Seats seats(vessel, lots, Space::three_dimensional);
-  const double rise = plan.rise(0.5 * FloorPlace(along.spacing, across.spacing).norm());
-  std::vector<PackedGrain> packed;
-  double y = 0.5 * plan.clear;
-  for (int layer = 0; packed.size() < order.size(); ++layer, y += rise) {
-    const bool offset = plan.hexagonal && layer % 2 == 1;
-    const int in_row = along.of_layer(offset), in_layer = in_row * across.of_layer(offset);
-    for (int k = 0; k < in_layer && packed.size() < order.size(); ++k) {
-      const FloorPlace place(along.at(k % in_row, offset), across.at(k / in_row, offset));
-      if (between_ends(vessel, 0.5 * plan.clear * (1 - 1e-9), place) != place) continue;
-      if (!seats.take({place.x(), y, place.y()}, plan.clear)) continue;
-      const double dx = plan.shift * random.uniform(-1, 1), dy = plan.shift * random.uniform(-1, 1);
-      const double dz = plan.shift * random.uniform(-1, 1);
-      const int lot = order[packed.size()];
-      const SeedLot& seeds = lots[static_cast<std::size_t>(lot)];
-      const double size = draw_size(seeds, random);
-      packed.push_back({place.x() + dx, y + dy, lot, size, draw_turn(seeds, random), place.y() + dz});
-    }
-    if (y + 0.5 * plan.clear > vessel.height) refuse_fill(vessel);
-  }
+  if (order.empty()) return packed;
+  const double shift = SeatWidth(vessel, lots, space).shift;
+  const bool all = visit_seats(vessel, lots, space, [&](const Eigen::Vector3d& seat) {
+    const double dx = shift * random.uniform(-1, 1), dy = shift * random.uniform(-1, 1);
+    const double dz = space == Space::plane ? 0 : shift * random.uniform(-1, 1);
+    const int lot = order[packed.size()];
+    const SeedLot& seeds = lots[static_cast<std::size_t>(lot)];
+    const double size = draw_size(seeds, random);
+    packed.push_back({seat.x() + dx, seat.y() + dy, lot, size, draw_turn(seeds, random), seat.z() + dz});
+    return packed.size() < order.size();
+  });
+  if (!all) refuse_fill(vessel);
   return packed;
 }
 
@@ -180,9 +91,8 @@ std::vector<PackedGrain> pack(const Vessel& vessel, const std::vector<SeedLot>& 
   if (in_space && diameter > *vessel.depth)
     throw InputError(fmt::format("{}.depth: a grain of {:.6g} mm does not fit in", vessel.name, diameter * 1e3));
   const std::vector<int> order = shuffled_lots(lots, vessel.fill->count, random);
-  std::vector<PackedGrain> grains = poured                     ? pack_poured(vessel, lots, space, order, random, stop)
-                                    : !plane_alone && in_space ? pack_layers(vessel, lots, order, random)
-                                                               : pack_rows(vessel, lots, order, random);
+  std::vector<PackedGrain> grains =
+      poured ? pack_poured(vessel, lots, space, order, random, stop) : pack_rows(vessel, lots, space, order, random);
   constexpr double in_plane = 64, across_columns = 8;  // diameters
   if (grains.size() > large_bed) order_by_columns((in_space ? across_columns : in_plane) * diameter, grains);
   return grains;

@@ -180,9 +180,8 @@ void refuse_missing_lot(Table root, const Scene& scene) {
   const auto missing = missing_lot(scene);
   if (!missing) return;
   const bool filled = missing->source == SeedSource::fill;
-  root.required_table(missing->vessel->name)
-      .required_table(filled ? "fill" : "rain")
-      .fail(filled ? "count" : "rate", missing->message);
+  const Table source = root.required_table(missing->vessel->name).required_table(filled ? "fill" : "rain");
+  source.fail(!filled ? "rate" : source.has("height") ? "height" : "count", missing->message);
 }
 
 /// In its own space, or in the one that is wanted.

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "grains/fill_height.hpp"
 #include "input/lengths.hpp"
 #include "input/read_drawing.hpp"
 #include "input/read_holes.hpp"
@@ -23,12 +24,21 @@ namespace {
 
 constexpr double thickness_rounding = 1e-9;  // of a seed's thickness, forgiven
 
+constexpr int most_of_a_fill = 100'000'000;  // seeds
+
+/// By which a fill says how much it is.
+const char* key_of_fill(const Table& fill_table) {
+  return fill_table.has("height") ? "height" : "count";
+}
+
+/// The count is read where it is given; one of a height follows from all else (`fill_to_height`).
 Fill read_fill(Table table) {
   Fill fill;
-  const std::optional<std::int64_t> count = table.whole_number("count", 1, 100'000'000);
-  if (!count) table.fail("count", "is missing; how many seeds?");
-  fill.count = static_cast<int>(*count);
-  fill.where = table.where("count");
+  const std::optional<std::int64_t> count = table.whole_number("count", 1, most_of_a_fill);
+  if (count && table.has("height")) table.fail("height", "contradicts count; give one of them");
+  if (!count && !table.has("height")) table.fail("count", "is missing; how many seeds? Or height: how high?");
+  fill.count = static_cast<int>(count.value_or(1));
+  fill.where = table.where(key_of_fill(table));
   constexpr Packing packings[] = {Packing::poured, Packing::layers, Packing::hexagonal};
   fill.packing = packings[table.choice("packing", {"poured", "layers", "hexagonal"}).value_or(0)];
   const std::optional<double> jitter = table.number("jitter", 0, 0.1);
@@ -63,13 +73,33 @@ double most_seeds(const Vessel& vessel, const std::vector<SeedLot>& lots, Space 
   return (flat ? vessel.length : floor_area(vessel)) * vessel.height / per_seed;
 }
 
+/// Where the fill's height is given in place of its count.
+void fill_to_height(Table& fill_table, Vessel& vessel, const std::vector<SeedLot>& lots, Space space) {
+  const std::optional<double> height = fill_table.quantity("height", Dimension::length, shortest, longest);
+  if (!height) return;
+  if (*height > vessel.height)
+    fill_table.fail("height", fmt::format("{} is more than the {}'s walls are high, {}", millimetres(*height),
+                                          vessel.name, millimetres(vessel.height)));
+  for (const SeedLot& lot : lots)
+    if (*height < mean_thickness(lot))
+      fill_table.fail("height", fmt::format("{} is less than one seed of {}, which is {} thick", millimetres(*height),
+                                            lot.name, millimetres(mean_thickness(lot))));
+  const double count = std::round(seeds_to_height(vessel, lots, space, *height));
+  if (count < 1) fill_table.fail("height", fmt::format("up to {} there is no room for a seed", millimetres(*height)));
+  if (count > most_of_a_fill)
+    fill_table.fail("height", fmt::format("up to {} there is room for {:.3g} seeds, more than {}", millimetres(*height),
+                                          count, most_of_a_fill));
+  vessel.fill->count = static_cast<int>(count);
+}
+
 /// Too crude to promise that a fill fits, but what fails here cannot fit.
-void check_fill_fits(Table fill_table, const Vessel& vessel, const std::vector<SeedLot>& lots, Space space) {
+void check_fill_fits(const Table& fill_table, const Vessel& vessel, const std::vector<SeedLot>& lots, Space space) {
   const double widest = largest_diameter(lots);
+  const char* key = key_of_fill(fill_table);
   const auto check_room = [&](double room, std::string_view extent) {
     if (widest > room)
-      fill_table.fail("count", fmt::format("does not fit: a seed of {} is wider than the {}, which is {} {}",
-                                           millimetres(widest), vessel.name, millimetres(room), extent));
+      fill_table.fail(key, fmt::format("does not fit: a seed of {} is wider than the {}, which is {} {}",
+                                       millimetres(widest), vessel.name, millimetres(room), extent));
   };
   check_room(vessel.length, "long");
   if (space == Space::three_dimensional) check_room(*vessel.depth, "deep");
@@ -78,11 +108,10 @@ void check_fill_fits(Table fill_table, const Vessel& vessel, const std::vector<S
     const bool holders = vessel.fill->packing != Packing::poured &&
                          std::ranges::any_of(lots, [](const SeedLot& lot) { return lot.shape == Shape::clump; });
     fill_table.fail(
-        "count",
-        fmt::format(
-            "does not fit: {} seeds, but closely packed{} the {} holds no more than {:.0f}", vessel.fill->count,
-            holders ? fmt::format(", as the {} that hold them,", space == Space::plane ? "circles" : "balls") : "",
-            vessel.name, std::floor(most)));
+        key, fmt::format(
+                 "does not fit: {} seeds, but closely packed{} the {} holds no more than {:.0f}", vessel.fill->count,
+                 holders ? fmt::format(", as the {} that hold them,", space == Space::plane ? "circles" : "balls") : "",
+                 vessel.name, std::floor(most)));
   }
 }
 
@@ -346,10 +375,12 @@ Vessel read_vessel(Table table, const std::string& name, const std::vector<SeedL
     table.fail("funnel", fmt::format("the floor would rise to {}, as high as the walls or higher ({})",
                                      millimetres(highest_floor(vessel)), millimetres(vessel.height)));
   }
-  const auto fill = table.table("fill"), rain = table.table("rain");
+  auto fill = table.table("fill");
+  const auto rain = table.table("rain");
   if (fill) vessel.fill = read_fill(*fill);
   if (rain) vessel.rain = read_rain(*rain, vessel);
   if (slice) multiply_seeds(vessel, seeds_of_other_space(table, vessel, tray, space, *slice));
+  if (fill) fill_to_height(*fill, vessel, lots, space);
   if (fill) check_fill_fits(*fill, vessel, lots, space);
   if (const auto motion = table.table("motion")) {
     vessel.motion = read_motion(*motion);

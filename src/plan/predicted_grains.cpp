@@ -7,9 +7,7 @@
 #include <vector>
 
 #include "elementary/functions.hpp"
-#include "scene/clump_shape.hpp"
 #include "scene/motion.hpp"
-#include "scene/seed_lot.hpp"
 #include "scene/spaces.hpp"
 #include "vessel/vessel_motion.hpp"
 
@@ -18,48 +16,28 @@ namespace {
 
 constexpr double flow_constant = 1.25;
 constexpr double lost_width_at_rest = 1.9, lost_width_shaken = 1.4;  // mean diameters of a hole that pass nothing
-constexpr double steepest_heap = 0.35;  // tangent; piles of discs stand at 17 to 20 degrees
-constexpr double shaken_heap = 0.13;    // tangent, under the wheat and pea trays' hoppers
-constexpr double packing_fraction = 0.82, packing_fraction_in_space = 0.6;  // of a poured bed
-constexpr double round_constant = 0.58, slot_constant = 1.03;               // Beverloo's, of the bulk in space
+constexpr double steepest_heap = 0.35;                         // tangent; piles of discs stand at 17 to 20 degrees
+constexpr double shaken_heap = 0.13;                           // tangent, under the wheat and pea trays' hoppers
+constexpr double packing_fraction_in_space = 0.6;              // of a poured bed
+constexpr double round_constant = 0.58, slot_constant = 1.03;  // Beverloo's, of the bulk in space
 constexpr double carried =
     0.55;  // of its peak speed is that of seeds on a shaken floor: 0.45 and 0.7 in reports/relations
 constexpr int parts_of_a_run = 2000;
-
-/// Mean area of a grain in the plane, m2.
-double mean_area(const Scene& scene) {
-  double area = 0;
-  for (const SeedLot& lot : scene.lots) {
-    const double circle = 0.25 * std::numbers::pi * lot.diameter * lot.diameter;
-    area += lot.number_fraction * size_moment(lot, 2) * (lot.discs.empty() ? circle : plate_of(lot.discs).area);
-  }
-  return area;
-}
 
 bool is_flat(const Scene& scene) {
   return scene.space == Space::plane;
 }
 
-/// Mean volume of a grain in space, m3.
-double mean_volume(const Scene& scene) {
-  double volume = 0;
-  for (const SeedLot& lot : scene.lots) {
-    const double ball = std::numbers::pi / 6 * elementary::pow(lot.diameter, 3);
-    volume += lot.number_fraction * size_moment(lot, 3) * (lot.discs.empty() ? ball : clump_volume(lot));
-  }
-  return volume;
-}
-
 /// Of the disc, or in space the ball, that is as large as the mean grain.
 double equal_diameter(const Scene& scene) {
-  return is_flat(scene) ? std::sqrt(4 / std::numbers::pi * mean_area(scene))
-                        : elementary::cbrt(6 / std::numbers::pi * mean_volume(scene));
+  return is_flat(scene) ? std::sqrt(4 / std::numbers::pi * mean_area(scene.lots))
+                        : elementary::cbrt(6 / std::numbers::pi * mean_volume(scene.lots));
 }
 
 /// Grains of a bed over an area (m2) of the plane, in space over all of a vessel's depth.
 double grains_over(double area, const Scene& scene, const Vessel& vessel) {
-  if (is_flat(scene)) return area * packing_fraction / mean_area(scene);
-  return area / vessel.length * floor_area(vessel) * packing_fraction_in_space / mean_volume(scene);
+  if (is_flat(scene)) return area * poured_share / mean_area(scene.lots);
+  return area / vessel.length * floor_area(vessel) * packing_fraction_in_space / mean_volume(scene.lots);
 }
 
 bool is_shaken(const Vessel& vessel) {

@@ -170,7 +170,7 @@ struct Fill {
   Packing packing = Packing::poured;
   double jitter = 1e-3;  // largest shift of a grain in layers and hexagonal, in diameters
   bool keep = false;     // topped up to `count` during the run
-  WrittenAt where = {};  // of the count
+  WrittenAt where = {};  // of the count, or of the height that it was worked out from
   bool operator==(const Fill&) const = default;
 };
 

@@ -60,6 +60,21 @@ double slice_thickness(const std::vector<SeedLot>& lots) {
   return volume / area;
 }
 
+double mean_area(const std::vector<SeedLot>& lots) {
+  double area = 0;
+  for (const SeedLot& lot : lots) area += lot.number_fraction * mean_section(lot);
+  return area;
+}
+
+double mean_volume(const std::vector<SeedLot>& lots) {
+  double volume = 0;
+  for (const SeedLot& lot : lots) {
+    const double ball = std::numbers::pi / 6 * lot.diameter * lot.diameter * lot.diameter;
+    volume += lot.number_fraction * size_moment(lot, 3) * (lot.shape == Shape::clump ? clump_volume(lot) : ball);
+  }
+  return volume;
+}
+
 double implied_bulk_density(const std::vector<SeedLot>& lots, double filled) {
   double mass = 0, area = 0;
   for (const SeedLot& lot : lots) {

@@ -22,6 +22,12 @@ double slice_thickness(const std::vector<SeedLot>& lots);
 /// Share of its area that a bed of discs poured at random covers (Visscher & Bolsterli 1972, doi 10.1038/239504a0).
 inline constexpr double poured_share = 0.82;
 
+/// Mean area (m2) of a seed in the plane, of all lots by their fractions of the number.
+double mean_area(const std::vector<SeedLot>& lots);
+
+/// Mean volume (m3) of a seed in space, of all lots by their fractions of the number.
+double mean_volume(const std::vector<SeedLot>& lots);
+
 /// Bulk density (kg/m3) of the bed that the plane's slice stands for, where seeds cover the share `filled` of its area.
 double implied_bulk_density(const std::vector<SeedLot>& lots, double filled);
 

@@ -96,7 +96,7 @@ class FillCheck {
     const Fill fill = scene.hopper->fill.value_or(scene.tray.fill.value_or(Fill{}));
     throw InputError(
         fmt::format("{}: grains overlap at the start, by {:.3g} of the radius; does the "
-                    "hopper stand in the tray's bed? (hopper.above, fill.count)",
+                    "hopper stand in the tray's bed? (hopper.above, fill)",
                     fill.where.or_key("fill.count"), overlap));
   }
 

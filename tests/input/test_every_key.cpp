@@ -182,6 +182,7 @@ const std::vector<Key>& keys() {
       {"tray.plan", "", "'round'", "", {"tray.length='6 cm'", "tray.holes.shape='round'", "tray.holes.count=1"}},
       {"tray.front_and_back", "", "'periodic'"},
       {"tray.fill.count", "", "50"},
+      {"tray.fill.height", "length", quoted, "3 cm", {"tray.fill.count="}},
       {"tray.fill.packing", "", "'hexagonal'"},
       {"tray.fill.jitter", "", "0.01", "", {"tray.fill.packing='layers'"}},
       {"tray.fill.keep", "", "true"},
@@ -463,6 +464,23 @@ TEST_F(EveryKey, SeedsAreAsManyAsTheSlicesMakeOfThem) {
   EXPECT_EQ(back.plane.tray.fill->count, 40);
   EXPECT_EQ(back.space.tray.fill->count, 600);
   EXPECT_NEAR(back.plane.tray.rain->rate, 10.0 / 15, 1e-9);
+}
+
+TEST_F(EveryKey, AHeightIsTheSameInBothSpacesAndForEachCrop) {
+  Lines high = base;
+  lay_over(high, "tray.fill.count=");
+  high["tray.fill.height"] = "'3 cm'";
+  constexpr double area = 0.4 * 0.03, pi = 3.14159265358979;
+  const BothSpaces both = read_in_both_spaces(file(high));
+  EXPECT_NEAR(both.plane.tray.fill->count, 0.82 * area / (pi / 4 * 4e-3 * 4e-3), 0.5);
+  EXPECT_NEAR(both.space.tray.fill->count, 0.545 * area * 0.06 / (pi / 6 * 4e-3 * 4e-3 * 4e-3), 0.5);
+  const Scene halved = read_scene(file(high), {parse_override("seeds.wheat.diameter=2 mm")});
+  EXPECT_NEAR(halved.tray.fill->count, 4 * both.plane.tray.fill->count, 2);
+  for (const std::string& one : fed) lay_over(high, one);
+  lay_over(high, "hopper.fill.count="), high["hopper.fill.height"] = "'4 cm'", high["hopper.fill.keep"] = "true";
+  const Scene with_hopper = read_scene(file(high));
+  EXPECT_NEAR(with_hopper.hopper->fill->count, 0.82 * 0.1 * 0.04 / (pi / 4 * 4e-3 * 4e-3), 0.5);
+  EXPECT_TRUE(with_hopper.hopper->fill->keep);
 }
 
 TEST_F(EveryKey, ARoundHoleBySetIsRoundInSpace) {

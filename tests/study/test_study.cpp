@@ -66,6 +66,25 @@ TEST(Range, ThatMissesItsEndOrNeverStepsIsRefused) {
   EXPECT_THROW(range("contact.friction", "true", "0.3", "0.1"), std::invalid_argument);
 }
 
+TEST(Study, AFillOfAHeightAndTheContactFollowAVariedCrop) {
+  const StudyFiles files;
+  const std::string crops = "[vary]\nseeds.wheat.crop = [\"wheat-ball\", \"pea\"]\n";
+  const std::string unset = "unset = [\"seeds.wheat.diameter\", \"seeds.wheat.mass\", \"contact\", \"tray.fill\"]\n";
+  for (const char* contact : {"", "contact.model = \"crop\"\n"}) {
+    const Study study = read_study(files.study("[set]\n" + unset + contact + "tray.fill.height = \"3 cm\"\n" + crops));
+    ASSERT_EQ(study.scenes.size(), 2u);
+    const Scene &wheat = study.scenes[0], &pea = study.scenes[1];
+    const auto seeds_3_cm_high = [](double diameter) {
+      return 0.82 * 0.5 * 0.03 / (0.785398163 * diameter * diameter);
+    };
+    EXPECT_NEAR(wheat.tray.fill->count, seeds_3_cm_high(3.57e-3), 0.5);
+    EXPECT_NEAR(pea.tray.fill->count, seeds_3_cm_high(6.83e-3), 0.5);
+    EXPECT_EQ(pea.lots[0].contact.name, "pea-steel");
+    EXPECT_EQ(wheat.lots[0].contact.name, "wheat-ball-steel");
+    EXPECT_FALSE(pea.contact == wheat.contact);
+  }
+}
+
 TEST(Study, ExpandsTheGridFirstKeySlowestInFileOrder) {
   const StudyFiles files;
   const Study study = read_study(files.study(R"([vary]

@@ -196,6 +196,13 @@ describe('seeder files', () => {
     assert.deepEqual(fileOf({ ...layouts.layoutOf(mixed), crop: 'wheat' }).tray.holes.width, ['24 mm', '30 mm']);
   });
 
+  test('a fill of a height becomes the number of seeds that the page simulates', () => {
+    const high = { ...wheat, toml: wheatText.replace('count = 560', 'height = "4 cm"') };
+    assert.equal(fileOf(layouts.layoutOf(high)).tray.fill.height, '4 cm');
+    const asCounted = fileOf({ ...fresh, crop: 'soybean' }).tray.fill;
+    assert.deepEqual(fileOf({ ...layouts.layoutOf(high), crop: 'soybean' }).tray.fill, asCounted);
+  });
+
   test('accuracy is a key of its own', () => {
     assert.equal(fileOf({ ...fresh, accuracy: 'design' }).accuracy, 'design');
     assert.equal(fileOf({ ...layouts.layoutOf(mixed), accuracy: 'design' }).accuracy, 'design');

@@ -64,7 +64,9 @@ function changeCrop(tree, layout, crops) {
   Object.assign(tree, structuredClone({ seeds: crop.toml.seeds, contact: crop.toml.contact }));
   const fills = fillsOf(layout, crops);
   for (const name of ['tray', 'hopper']) {
-    if (fills[name] !== undefined) tree[name].fill.count = fills[name];
+    if (fills[name] === undefined) continue;
+    tree[name].fill.count = fills[name];
+    delete tree[name].fill.height;  // whose count the page has made its own
   }
   const { hopper } = layout.seeder.scene;
   if (hopper && saysDiameters(tree.hopper.holes?.width)) tree.hopper.holes.width = oneOrAll(hopper.holes.map((hole) => lengthText(hole.width_m)));
