@@ -9,6 +9,8 @@
 #include <utility>
 
 #include "elementary/functions.hpp"
+#include "grains/free_room.hpp"
+#include "grains/turned_discs.hpp"
 #include "scene/motion.hpp"
 #include "scene/plane_alone.hpp"
 #include "scene/seed_lot.hpp"
@@ -120,7 +122,9 @@ Covered covered_by_turned(const WallPiece& piece, const Hole& hole, double heigh
   return under == 0 ? std::nullopt : Covered(static_cast<double>(under) / places);
 }
 
-void warn_of_covered_holes(const Scene& scene, const Vessel& vessel, Warnings& warnings) {
+/// The holes that are covered, if only in part.
+std::vector<bool> warn_of_covered_holes(const Scene& scene, const Vessel& vessel, Warnings& warnings) {
+  std::vector<bool> all_covered(vessel.holes.size(), false);
   // Nothing passes between the floor and what is nearer to it than half a seed.
   double height = std::numeric_limits<double>::infinity();
   for (const SeedLot& lot : scene.lots) height = std::min(height, 0.5 * mean_thickness(lot));
@@ -132,6 +136,7 @@ void warn_of_covered_holes(const Scene& scene, const Vessel& vessel, Warnings& w
       const Covered covered = !plane_alone && piece.about ? covered_by_turned(piece, hole, height)
                                                           : covered_by_drawn_out(piece, hole, height);
       if (!covered) continue;
+      all_covered[h] = true;
       holes += fmt::format("{}hole {}", holes.empty() ? "" : ", ", h + 1);
       if (*covered < 0.995)
         holes += *covered < 0.005 ? " (stands in it)" : fmt::format(" ({:.0f} % of it)", 100 * *covered);
@@ -140,6 +145,31 @@ void warn_of_covered_holes(const Scene& scene, const Vessel& vessel, Warnings& w
       warnings.push_back(
           fmt::format("{} covers {}: what is drawn across a hole is a wall there", name_of_piece(vessel, k), holes));
   }
+  return all_covered;
+}
+
+/// Whether a seed can come to the middle of a hole from the vessel's open top, or to a place beside it.
+bool is_come_to(const Hole& hole, const FreeRoom& room, double half_width) {
+  const double aside = 0.25 * (hole.shape == HoleShape::round ? hole.width : hole.across_length);
+  for (const double x : {0.0, -0.25 * hole.width, 0.25 * hole.width})
+    for (const double z : {0.0, -aside, aside})
+      if (room.holds({hole.centre + x, half_width, hole.across + z})) return true;
+  return false;
+}
+
+/// A groove or a slope shuts off the holes beneath it.
+void warn_of_holes_shut_off(const Scene& scene, const Vessel& vessel, const std::vector<bool>& covered,
+                            Warnings& warnings) {
+  if (vessel.pieces.empty() || vessel.holes.empty()) return;
+  constexpr double most_cells = 1e6;  // a hole that lies open above needs none
+  const double half_width = least_half_width(scene.lots);
+  const FreeRoom room(vessel, scene.space, half_width, most_cells);
+  std::string holes;
+  for (std::size_t h = 0; h < vessel.holes.size(); ++h)
+    if (!covered[h] && vessel.holes[h].width >= 2 * half_width && !is_come_to(vessel.holes[h], room, half_width))
+      holes += fmt::format("{}hole {}", holes.empty() ? "" : ", ", h + 1);
+  if (!holes.empty())
+    warnings.push_back(fmt::format("{}.pieces: shut off {}: no seed comes there from above", vessel.name, holes));
 }
 
 // Vessels that pass through each other.
@@ -405,7 +435,8 @@ std::vector<std::string> geometry_warnings(const Scene& scene) {
   std::vector<const Vessel*> vessels = {&scene.tray};
   if (scene.hopper) vessels.push_back(&*scene.hopper);
   for (const Vessel* vessel : vessels) {
-    warn_of_covered_holes(scene, *vessel, warnings);
+    const std::vector<bool> covered = warn_of_covered_holes(scene, *vessel, warnings);
+    warn_of_holes_shut_off(scene, *vessel, covered, warnings);
     warn_of_large_pieces(*vessel, warnings);
     warn_of_pieces_below(scene, *vessel, warnings);
   }

@@ -300,6 +300,21 @@ TEST(SceneWarnings, APieceAlongTheTrayOverAHole) {
               IsEmpty());
 }
 
+TEST(SceneWarnings, HolesThatPiecesShutOff) {
+  Scene scene = sound_in_space(HoleShape::round);
+  std::vector<WallPiece> groove = {straight(0, 0.02, 0.03, 0), straight(0.03, 0, 0.06, 0.02)};
+  for (WallPiece& piece : groove) piece.drawn_out = DrawnOut::along;
+  EXPECT_THAT(warnings_with(scene, groove), ElementsAre(HasSubstr("covers hole 1"), HasSubstr("covers hole 1")));
+  scene.tray.holes[1].across = 0.008;
+  EXPECT_THAT(warnings_with(scene, groove),
+              ElementsAre(HasSubstr("hole 1 ("), HasSubstr("hole 1 ("),
+                          "tray.pieces: shut off hole 2: no seed comes there from above"));
+  const std::vector<WallPiece> slope = {straight(0, 0.05, 0.2, 0)};
+  for (const Scene& one : {sound(), sound_in_space()})
+    EXPECT_THAT(warnings_with(one, slope), ElementsAre("tray.pieces: shut off hole 1: no seed comes there from above"));
+  EXPECT_THAT(warnings_with(sound(), {straight(0, 0.05, 0.2, 0.02)}), IsEmpty()) << "a shelf";
+}
+
 TEST(SceneWarnings, PiecesThatReachBelowTheCountingLine) {
   Scene scene = sound();
   EXPECT_THAT(warnings_with(scene, {straight(0.27, 0, 0.27, -0.019)}), IsEmpty());
@@ -311,7 +326,7 @@ TEST(SceneWarnings, PiecesThatReachBelowTheCountingLine) {
 }
 
 TEST(SceneWarnings, PiecesOfAnotherSize) {
-  EXPECT_THAT(warnings_with(sound(), {straight(0, 0.1, 12.7, 0.1)}),
+  EXPECT_THAT(warnings_with(sound(), {straight(0, 0, 0, 12.7)}),
               ElementsAre(StartsWith("tray.pieces: reach over 1.27e+04 mm, the tray is 500 mm long")));
 }
 
