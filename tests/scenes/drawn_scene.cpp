@@ -74,7 +74,8 @@ class SceneWriter {
 
   void write_lots() {
     lots_ = draw_.below("lots", 3) + 1;
-    for (int k = 0; k < lots_; ++k) write_lot(k);
+    crops_ = draw_.one_in("crops", 8);
+    for (int k = 0; k < lots_; ++k) crops_ ? write_crop(k) : write_lot(k);
     if (lots_ == 1) return;
     // One lot may be so rare that a small fill has none of it.
     const bool rare = draw_.one_in("lots.rare", 4);
@@ -119,6 +120,16 @@ class SceneWriter {
     largest_ = std::max(largest_, (shape >= 3 && shape <= 4 ? 2.2 : 1.3) * 1.25 * size);
   }
 
+  void write_crop(int k) {
+    // Contacts of one scene all roll, or none does.
+    const char* crops[2][3] = {{"pea", "wheat-ball", "soybean"}, {"wheat", "sugar-beet-pellet", "rice"}};
+    const int roll = draw_.below("crops.roll", 2);
+    set(lot(k) + ".crop", quoted(crops[roll][draw_.below(lot(k) + ".which", 3)]));
+    set(lot(k) + ".moisture", in_unit(12, "%"));
+    if (roll == 0 && draw_.one_in(lot(k) + ".own_contact", 6)) set(lot(k) + ".contact", quoted("rapeseed-steel"));
+    largest_ = std::max(largest_, 8.5);
+  }
+
   void write_sizes(const std::string& name, const std::string& key, double size) {
     const int kind = draw_.below(name + ".sizes", 8);
     if (kind == 0 || kind > 4) return set(name + "." + key, mm(size));
@@ -147,7 +158,18 @@ class SceneWriter {
 
   // ---- contact ----
 
+  /// Each lot's own, made softer; or without a word, as stiff as they are.
+  void write_contact_of_crops() {
+    const int kind = draw_.below("contact.of_crops", 6);
+    if (kind == 5) return;
+    set("contact.model", quoted("crop"));
+    set("contact.shell_compression", 1e-3);
+    if (kind == 4) set("contact.friction", draw_.number("contact.friction", 0.4, 0));
+    if (kind == 3) set("contact.a.wall.friction", 0.1);
+  }
+
   void write_contact() {
+    if (crops_) return write_contact_of_crops();
     const int law = draw_.below("contact.law", 4);
     if (law < 2) {
       set("contact.shell_compression", draw_.one_in("contact.stiff", 4) ? 3e-4 : 1e-3);
@@ -269,6 +291,8 @@ class SceneWriter {
       std::vector<std::string> at;
       for (int k = 0; k < vessel.holes; ++k) at.push_back(mm((k + 1) * vessel.length / (vessel.holes + 1)));
       set(name + ".holes.at", list(at));
+    } else if (deep_ && !vessel.round && !hopper && draw_.one_in(name + ".unlike_rows", 5)) {
+      return write_unlike_rows(vessel, width);
     } else {
       set(name + ".holes.count", vessel.holes);
       if (draw_.one_in(name + ".pitch", 4)) set(name + ".holes.pitch", mm(0.4 * vessel.length));
@@ -283,6 +307,19 @@ class SceneWriter {
     }
     if (funnel) set(name + ".funnel", degrees(draw_.number(name + ".funnel.slope", 20, 45)));
     if (draw_.one_in(name + ".gate", 4)) set(name + ".holes.open_at", ms(draw_.number(name + ".gate.time", 10, 40)));
+  }
+
+  /// Two rows with numbers of their own, of round holes or short slots.
+  void write_unlike_rows(Shape& vessel, double width) {
+    const std::string holes = vessel.name + ".holes.";
+    set(holes + "count", list({std::to_string(vessel.holes), std::to_string(3 - vessel.holes)}));
+    vessel.holes = 3;
+    if (draw_.one_in(holes + "pitch", 3)) set(holes + "pitch", mm(0.4 * vessel.length));
+    set(holes + "width", draw_.one_in(holes + "widths", 3) ? list({mm(width), mm(0.8 * width), mm(width)}) : mm(width));
+    if (draw_.one_in(holes + "slots", 2))
+      set(holes + "across", mm(0.4 * vessel.depth));
+    else
+      set(holes + "shape", quoted("round"));
   }
 
   void write_pieces(const Shape& vessel) {
@@ -306,9 +343,14 @@ class SceneWriter {
       line({point(0, 0.9 * h), point(0, 0.5 * h), point(middle - 8, 1)});
       line({point(middle + 8, 1), point(l, 0.5 * h), point(l, 0.9 * h)});
     }
-    const int kinds = deep_ ? 12 : 10;
+    const auto along = [&](const std::vector<std::string>& points) {
+      pieces.push_back(fmt::format("{{ line = {}, drawn_out = \"along\" }}", list(points)));
+    };
+    const double d = vessel.depth;
+    const int kinds = deep_ ? 15 : 10;
     for (const char* which : {".piece", ".other_piece"}) {
-      const int kind = vessel.drum ? 0 : draw_.below(name + which, 3 * kinds);
+      const int drawn = vessel.drum ? 0 : draw_.below(name + which, 3 * kinds);
+      const int kind = drawn < kinds ? drawn : 0;                                          // most have none
       if (kind == 1) line({point(0, 0.4 * h), point(0.6 * l, 0.25 * h)});                  // a sloping shelf
       if (kind == 2) line({point(0, 0.5 * h), point(0.4 * l, 2), point(0.4 * l + 1, 2)});  // a drawn slope
       if (kind == 3) line({point(0.3 * l, 0.1 * h), point(0.3 * l, 0.7 * h)});             // a board
@@ -321,6 +363,11 @@ class SceneWriter {
       if (kind == 9) arc(0.3 * l, 0.3 * h, 0.2 * l, 200, 340);  // a bowl
       if (kind == 10) turned({point(6, 0), point(6, 0.4 * h)}, middle, vessel.depth / 2, "upright");
       if (kind == 11) turned({point(4, 0), point(4, l)}, 0.4 * h, vessel.depth / 2, "along");
+      if (kind == 12) along({point(0, 0.35 * h), point(0.5 * d, 0), point(d, 0.3 * h)});  // a groove
+      if (kind == 13) along({point(0, 0.4 * h), point(0.6 * d, 0.25 * h)});               // a shelf
+      if (kind == 14)                                                                     // a trough
+        pieces.push_back(fmt::format("{{ centre = {}, radius = {}, from = {}, to = {}, drawn_out = \"along\" }}",
+                                     point(0.5 * d, 0.4 * h), mm(0.3 * d), degrees(200), degrees(330)));
     }
     if (!pieces.empty()) set(name + ".pieces", list(pieces));
   }
@@ -339,7 +386,10 @@ class SceneWriter {
     if (deep_ && (vessel.periodic || vessel.periodic_across))
       count = std::max(count, static_cast<int>(2 * vessel.length * vessel.depth / (largest_ * largest_)));
     if (draw_.one_in(name + ".too_many", 16)) count = 4 * most;
-    set(name + ".fill.count", count);
+    if (draw_.one_in(name + ".to_a_height", 5))
+      set(name + ".fill.height", mm(draw_.number(name + ".fill.height", 0.3, 0.6) * vessel.height));
+    else
+      set(name + ".fill.count", count);
     const int packing = draw_.below(name + ".packing", 4);
     if (packing < 2) set(name + ".fill.packing", quoted("poured"));
     if (packing == 2) set(name + ".fill.packing", quoted("layers"));
@@ -465,6 +515,7 @@ class SceneWriter {
   Draw& draw_;
   bool deep_;
   int lots_ = 1;
+  bool crops_ = false;
   double largest_ = 0;  // mm, at least the diameter of the largest seed
   bool filled_ = false;
   Shape tray_{};

@@ -47,6 +47,7 @@ struct MirroredMotion {
 };
 
 WallPiece mirrored(WallPiece piece, double length) {
+  if (piece.drawn_out == DrawnOut::along) return piece;
   if (piece.about && piece.axis == PieceAxis::along) {
     piece.a.y() = length - piece.a.y(), piece.b.y() = length - piece.b.y();
     return piece;

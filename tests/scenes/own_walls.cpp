@@ -46,6 +46,13 @@ Distance drawn_out(FlatDistance flat, const Vessel& vessel, Space space) {
   return [=](const Point& p) { return std::hypot(flat(p.head<2>()), endless ? 0 : beyond(p.z(), 0, depth)); };
 }
 
+/// What is drawn across and up, drawn out from the left end to the right one.
+Distance drawn_along(FlatDistance flat, const Vessel& vessel) {
+  const bool endless = vessel.sides == Sides::periodic;
+  const double length = vessel.length;
+  return [=](const Point& p) { return std::hypot(flat({p.z(), p.y()}), endless ? 0 : beyond(p.x(), 0, length)); };
+}
+
 Distance line(const Flat& a, const Flat& b, const Vessel& vessel, Space space) {
   return drawn_out([=](const Flat& p) { return to_line(a, b, p); }, vessel, space);
 }
@@ -206,6 +213,12 @@ class WallMaker {
   }
 
   void add_piece(const WallPiece& piece) {
+    if (piece.drawn_out == DrawnOut::along)
+      return add("piece", drawn_along(
+                              [piece](const Flat& p) {
+                                return piece.radius > 0 ? to_arc(piece, p) : to_line(piece.a, piece.b, p);
+                              },
+                              vessel_));
     if (piece.radius > 0)
       return add("piece", drawn_out([piece](const Flat& p) { return to_arc(piece, p); }, vessel_, space_));
     if (!piece.about) return add("piece", line(piece.a, piece.b, vessel_, space_));
