@@ -64,6 +64,10 @@ double half_width_of_normal(double deviation) {
   return std::sinh(normal_quantile(1 - tail) * deviation);
 }
 
+double deviation_of_half_width(double half_width) {
+  return std::asinh(half_width) / normal_quantile(1 - tail);
+}
+
 double half_width_of_model(const ModelError& model) {
   if (model.materials == 0) return 0;
   return std::sinh(students_t_quantile(model.materials, 1 - tail) * model.scale);

@@ -42,6 +42,9 @@ FactorRange expected_range(const PredictionError& error);
 double half_width_of_normal(double deviation);
 double half_width_of_model(const ModelError& model);
 
+/// The deviation of a normal whose half width is this: the inverse of `half_width_of_normal`.
+double deviation_of_half_width(double half_width);
+
 /// Where a tray is set to: coordinates in which settings one apart in any have nothing in common of what is their own.
 using SettingPlace = std::array<double, 3>;
 

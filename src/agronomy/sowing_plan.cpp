@@ -200,20 +200,22 @@ HoleClass hole_class(double width_over_d) {
 }
 
 double softness_error(double aspect) {
-  const AccuracyLevelValues& softest = accuracy_levels.front();  // softer than the table's seeds
-  return (aspect > 1 ? softest.grains_error_percent : softest.error_percent) / 100;
+  return accuracy_levels.front().error(aspect > 1);  // softer than the table's seeds
+}
+
+double tolerance_deviation(const BuildSlopes& slopes, const BuildTolerance& tolerance) {
+  return std::hypot(slopes.width * tolerance.hole_width, slopes.amplitude * tolerance.amplitude) / normal_95;
 }
 
 PredictionError table_error(const HoleTable& table, const HoleConditions& conditions, double diameter,
                             const ModelError& model, const BuildTolerance& tolerance) {
   const HoleTable::Slopes slopes = table.slopes(conditions);
   const double interpolation = table.interpolation_error(conditions.aspect, conditions.width, conditions.peak_speed);
-  return {.chance = table.at(conditions).value().chance / normal_95,
-          .numerics = std::hypot(interpolation, softness_error(conditions.aspect)) / normal_95,
-          .tolerance = std::hypot(slopes.width * tolerance.hole_width / (conditions.width * diameter),
-                                  slopes.peak_speed * tolerance.amplitude) /
-                       normal_95,
-          .model = model};
+  return {
+      .chance = table.at(conditions).value().chance / normal_95,
+      .numerics = std::hypot(interpolation, softness_error(conditions.aspect)) / normal_95,
+      .tolerance = tolerance_deviation({slopes.width / (conditions.width * diameter), slopes.peak_speed}, tolerance),
+      .model = model};
 }
 
 double SowingPlan::unknown_to_table(const PlannedLayout& layout) const {

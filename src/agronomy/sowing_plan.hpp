@@ -105,6 +105,14 @@ struct BuildTolerance {
   double amplitude = 0.02;     // share
 };
 
+/// By how much the logarithm of a rate grows with the width of a hole (1/m), and with the logarithm of the amplitude.
+struct BuildSlopes {
+  double width, amplitude;
+};
+
+/// Standard deviation of the rate's logarithm, width and amplitude being independent of each other.
+double tolerance_deviation(const BuildSlopes& slopes, const BuildTolerance& tolerance);
+
 /// What a rate errs by that is looked up in a table at conditions (which it has) for a seed of that diameter (m). The
 /// tolerance by the table's own slopes.
 PredictionError table_error(const HoleTable& table, const HoleConditions& conditions, double diameter,

@@ -7,40 +7,12 @@
 #include <cmath>
 #include <cstdint>
 #include <numbers>
-#include <variant>
+#include <string>
 
 #include "scene/input_error.hpp"
-#include "scene/seed_lot.hpp"
-#include "scene/spaces.hpp"
 
 namespace vibrosow {
 namespace {
-
-constexpr double poured_packing = 0.6;  // by which the number of seeds is called a depth, as of the table's runs
-
-[[noreturn]] void refuse(const char* key, const char* why) {
-  throw InputError(fmt::format("{}: {}; the table of one hole does not tell of it", key, why));
-}
-
-const HarmonicMotion& shaking_along(const Vessel& tray) {
-  if (!tray.motion) refuse("tray.motion", "the tray stands still");
-  const auto* motion = std::get_if<HarmonicMotion>(&*tray.motion);
-  if (motion == nullptr) refuse("tray.motion.kind", "is not harmonic");
-  constexpr double level = 1e-6;  // rad
-  if (std::abs(motion->direction) > level || std::abs(motion->across) > level)
-    refuse("tray.motion.direction", "the tray is not shaken along its floor");
-  if (!(motion->amplitude > 0 && motion->frequency > 0)) refuse("tray.motion.amplitude", "the tray stands still");
-  return *motion;
-}
-
-void check_holes(const std::vector<Hole>& holes) {
-  if (holes.empty()) refuse("tray.holes", "there are none");
-  for (const Hole& hole : holes) {
-    if (hole.shape != HoleShape::round) refuse("tray.holes.shape", "holes are not round");
-    if (hole.width != holes.front().width) refuse("tray.holes.width", "holes are unequal");
-    if (hole.open_at > 0) refuse("tray.holes.open_at", "a gate closes a hole");
-  }
-}
 
 /// A length over sqrt(g d): what the peak speed of a frequency is, and back.
 double peak_speed(const TableTray& tray, double frequency) {
@@ -57,16 +29,7 @@ double mass_rate(const TableTray& tray, double outflow) {
 }
 
 double predicted_rate(const TableTray& tray, const HoleTable& table) {
-  const auto known = [](const char* key, double value, const Span& span, const char* unit) {
-    if (!span.holds(value))
-      throw InputError(fmt::format("{}: {:.3g} {} is outside the table of one hole, which has {:.3g} to {:.3g}", key,
-                                   value, unit, span.least, span.most));
-  };
-  const double aspect = tray.at.aspect;
-  if (!table.aspects().holds(aspect)) refuse("seeds", "seeds are longer than the table's");
-  known("tray.holes.width", tray.at.width, table.widths(aspect), "seeds");
-  known("tray.motion.frequency", tray.at.peak_speed, table.peak_speeds(aspect), "sqrt(g d)");
-  known("tray.fill.count", tray.at.depth, table.depths(aspect), "seeds of depth");
+  if (const std::string outside = outside_table(tray.at, table); !outside.empty()) throw InputError(outside);
   return mass_rate(tray, table.at(tray.at).value().outflow);
 }
 
@@ -103,27 +66,6 @@ PredictionError common_error(const TableTray& tray, const HoleTable& table, cons
 }
 
 }  // namespace
-
-TableTray table_tray(const Scene& scene) {
-  const Vessel& tray = scene.tray;
-  if (scene.space == Space::plane) refuse("space", "is the plane");
-  if (scene.lots.size() > 1) refuse("seeds", "there are several lots");
-  if (scene.hopper) refuse("hopper", "a hopper feeds the tray");
-  if (tray.rain || !tray.fill) refuse("tray.fill", "the bed is not a fill");
-  if (tray.tilt != 0 || tray.funnel != 0) refuse("tray.tilt", "the floor slopes");
-  check_holes(tray.holes);
-  const HarmonicMotion& motion = shaking_along(tray);
-  TableTray found;
-  found.seed = planned_seed(scene.lots.front());
-  found.holes = static_cast<int>(tray.holes.size());
-  found.amplitude = motion.amplitude;
-  found.frequency = motion.frequency;
-  const double d = found.seed.diameter;
-  const double seeds_a_layer = poured_packing * floor_area(tray) / (std::numbers::pi / 6 * d * d);
-  found.at = {found.seed.aspect, tray.holes.front().width / d, peak_speed(found, motion.frequency),
-              tray.fill->count / seeds_a_layer};
-  return found;
-}
 
 WeighedPlan plan_weighed(double needed, const std::vector<WeighedTray>& weighed, const HoleTable& table,
                          const ModelError& model, const ShakerLimits& limits) {

@@ -5,22 +5,9 @@
 #include "agronomy/hole_table.hpp"
 #include "agronomy/prediction_error.hpp"
 #include "agronomy/sowing_plan.hpp"
-#include "scene/scene.hpp"
+#include "agronomy/table_tray.hpp"
 
 namespace vibrosow {
-
-/// A tray of equal round holes that is shaken along, as the table of one hole knows it.
-struct TableTray {
-  PlannedSeed seed;
-  HoleConditions at;  // of each of its holes
-  int holes = 1;
-  double amplitude = 0;  // m
-  double frequency = 0;  // Hz
-};
-
-/// Throws InputError "KEY: .." for a tray that the table does not tell of: of the plane, of several lots, with slots or
-/// unequal holes, with a gate, tilted, turned or shaken otherwise than along, or fed by anything but a fill.
-TableTray table_tray(const Scene& scene);
 
 /// A tray's rate as it was weighed.
 struct WeighedTray {

@@ -108,6 +108,7 @@ Answer answer_of(const StudyResult& result, std::uint64_t first_random_seed) {
                        .runs = of.replicates,
                        .is_named = true,
                        .holes = of.holes,
+                       .expected = of.expected,
                        .misfit_percent = of.misfit_percent};
     for (const Figure* figure : known) one.values.push_back(of.figures[*figure]);
     if (is_compared(one.standing)) answer.best_first.push_back(i);

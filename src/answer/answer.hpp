@@ -11,6 +11,7 @@
 #include "optimise/optimise.hpp"
 #include "outflow/doubts.hpp"
 #include "outflow/statistics.hpp"
+#include "study/expected_rate.hpp"
 #include "study/layout_standing.hpp"
 #include "study/study.hpp"
 #include "study/sweep.hpp"
@@ -47,6 +48,7 @@ struct AnsweredLayout {
   bool is_first_by_means = false;                         // of a search
   std::vector<std::string> at_edge{};                     // of a search: keys whose values end their ranges
   std::vector<HoleFigures> holes{};                       // of a sweep
+  std::optional<ExpectedRate> expected{};                 // likewise
   std::optional<MeanWithInterval> misfit_percent{};       // likewise, against measured outflow
 };
 

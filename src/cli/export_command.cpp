@@ -47,12 +47,15 @@ int export_run(const ExportOptions& command) {
   const Layout& layout = planned.study.layouts.at(static_cast<std::size_t>(run->layout) - 1);
   const Model model = prepare(*wanted_runs(planned, {index}).front().scene);
   const OutputFolder folder = options.output_folder("run", run_file_texts());
-  const Outflow outflow = measure_outflow(model.scene, found->run);
+  Outflow outflow = measure_outflow(model.scene, found->run);
+  const ExpectedOfRun expected = expected_of_run(model.scene, found->run, outflow, shipped_rate_knowledge());
+  std::ranges::copy(expected.doubts, std::back_inserter(outflow.doubts));
   std::optional<DrillFigures> sown;
   if (layout.drill) sown = drill_figures(model.scene, found->run, outflow, *layout.drill);
   std::vector<OutputFile> files =
-      run_files(model.scene, found->run, outflow, effect_names(model.effects), options.csv, sown);
-  std::ranges::move(page_files("", run_page_data({model, found->run, outflow, sown})), std::back_inserter(files));
+      run_files(model.scene, found->run, outflow, effect_names(model.effects), options.csv, sown, expected.rate);
+  std::ranges::move(page_files("", run_page_data({model, found->run, outflow, sown, expected.rate})),
+                    std::back_inserter(files));
   folder.write(files);
   print("reports: {}\n", folder.path().string());
   return exit_done;

@@ -26,6 +26,7 @@
 #include "plan/model.hpp"
 #include "plan/scene_warnings.hpp"
 #include "recording/recording.hpp"
+#include "report/expected_report.hpp"
 #include "report/kept_page.hpp"
 #include "report/mixture_text.hpp"
 #include "report/number_text.hpp"
@@ -40,6 +41,7 @@
 #include "scene/scene_json.hpp"
 #include "simulation/checkpoint.hpp"
 #include "simulation/simulate.hpp"
+#include "study/expected_rate.hpp"
 
 namespace vibrosow {
 namespace {
@@ -68,7 +70,8 @@ void print_holes(const Outflow& outflow) {
   }
 }
 
-void print_summary(const Scene& scene, const Run& run, const Outflow& outflow) {
+void print_summary(const Scene& scene, const Run& run, const Outflow& outflow,
+                   const std::optional<ExpectedRate>& expected) {
   print("{}\n", wrapped(scene.title));
   for (const Doubt& doubt : outflow.doubts) print_text(wrapped(doubt_sentence(doubt)));
   if (!outflow.doubts.empty()) print("\n");
@@ -82,6 +85,7 @@ void print_summary(const Scene& scene, const Run& run, const Outflow& outflow) {
                                    in_space ? "" : fmt::format(", {:.4g} times the slice", *depth),
                                    figure_text(all.mass_rate * 1e3 * *depth), figure_text(all.mass_rate * 6e4 * *depth),
                                    figure_text(all.seeds_per_s * *depth), of_plane(scene.space))));
+  if (expected) print_text(wrapped(expected_sentence(*expected)));
   if (const auto unevenness = unevenness_of({&outflow}))
     print_text("\n" + wrapped(unevenness_sentence(*unevenness, "hole")));
   const Balance& balance = run.balance;
@@ -205,6 +209,7 @@ int run_scene(const RunOptions& options) {
   const Model model = prepare_to_run(read);
   const Scene& scene = model.scene;
   const std::string page_template = options.page_template(scene.space == Space::plane);
+  const RateKnowledge knowledge = shipped_rate_knowledge();
   RecordedFrames recorded(options, scene);
   const OutputFolder folder = options.output_folder("run", run_file_texts());
   if (!options.quiet) tell_of_replaced(folder, scene);
@@ -232,16 +237,20 @@ int run_scene(const RunOptions& options) {
   for (std::size_t i = 0; i < warnings.size(); ++i)
     outflow.doubts.insert(outflow.doubts.begin() + static_cast<std::ptrdiff_t>(i),
                           {DoubtKind::unlikely_scene, warnings[i]});
+  const ExpectedOfRun expected = expected_of_run(scene, run, outflow, knowledge);
+  std::ranges::copy(expected.doubts, std::back_inserter(outflow.doubts));
   std::optional<DrillFigures> sown;
   if (drill) sown = drill_figures(scene, run, outflow, *drill);
-  std::vector<OutputFile> files = run_files(scene, run, outflow, effect_names(model.effects), options.csv, sown);
-  std::ranges::move(page_files(page_template, run_page_data({model, run, outflow, sown}), recording.file()),
-                    std::back_inserter(files));
+  std::vector<OutputFile> files =
+      run_files(scene, run, outflow, effect_names(model.effects), options.csv, sown, expected.rate);
+  std::ranges::move(
+      page_files(page_template, run_page_data({model, run, outflow, sown, expected.rate}), recording.file()),
+      std::back_inserter(files));
   std::ranges::move(recorded.files(scene, run.snapshots), std::back_inserter(files));
   write_then_print(
       options.quiet, [&] { folder.write(files); },
       [&] {
-        print_summary(scene, run, outflow);
+        print_summary(scene, run, outflow, expected.rate);
         if (sown) print_drill(*sown, scene.space);
         if (run.phase_times) print_profile(run);
       });

@@ -9,6 +9,7 @@
 #include "cli/console.hpp"
 #include "cli/drill_table.hpp"
 #include "report/answer_doubts.hpp"
+#include "report/expected_report.hpp"
 #include "report/layout_text.hpp"
 #include "report/sweep_report.hpp"
 #include "report/terminal_text.hpp"
@@ -95,9 +96,9 @@ void print_layouts(const StudyResult& result) {
 }  // namespace
 
 void print_sweep_table(const StudyResult& result) {
+  const Answer answer = answer_of(result, 1);
   print("{}\n", wrapped(result.study.title));
-  if (const std::string doubts = doubts_paragraph(doubts_about(answer_of(result, 1))); !doubts.empty())
-    print("{}\n", doubts);
+  if (const std::string doubts = doubts_paragraph(doubts_about(answer)); !doubts.empty()) print("{}\n", doubts);
   print_layouts(result);
   const bool uneven = std::ranges::any_of(
       result.layouts, [](const LayoutResult& one) { return one.figures["raw_cv_percent"].has_value(); });
@@ -106,6 +107,7 @@ void print_sweep_table(const StudyResult& result) {
                           "interval; \"<\": not told from equal holes"));
   if (std::ranges::any_of(result.study.scenes, is_slice_of_a_tray))
     print("\n{}", wrapped("2D: a slice times the depth of the tray, its holes slots all across"));
+  if (const std::string expected = expected_sentence(answer); !expected.empty()) print("\n{}", wrapped(expected));
   print_trade(result);
   if (!result.comparison) return;
   if (result.study.measured->scale == MeasuredScale::free && result.comparison->scale)

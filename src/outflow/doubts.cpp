@@ -12,7 +12,7 @@ namespace {
 using enum Severity;
 
 /// By kind.
-constexpr std::array<DoubtWords, 29> doubt_words = {{
+constexpr std::array<DoubtWords, 31> doubt_words = {{
     {"outside the model", serious, "decide nothing by it: take a step that is not too long and the guard's own limits"},
     {"ran dry", serious, "put in more seeds, or measure before"},
     {"drained in the window", serious, "keep the tray topped up (fill.keep), or measure a shorter time"},
@@ -29,6 +29,8 @@ constexpr std::array<DoubtWords, 29> doubt_words = {{
     {"wide interval", mild, "allow more replicates"},
     {"skewed runs", mild, "run more replicates before the interval is trusted"},
     {"unlikely scene", serious, "look at the key that it names"},
+    {"tolerance outside the table", mild, "weigh the tray as it is built"},
+    {"beyond the levels", mild, "take accuracy = \"draft\" or a finer level, or find its error with vibrosow accuracy"},
     {"runs left out", mild, "the table of the runs says why"},
     {"two kinds of run", serious, "take wider holes, or run longer"},
     {"errors that act on each other", mild, "go to finer settings for narrower bands"},

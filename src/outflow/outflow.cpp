@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -204,6 +205,29 @@ std::optional<Unevenness> unevenness_of(const std::vector<const Outflow*>& repli
   std::vector<std::vector<std::int64_t>> counts;
   for (const Outflow* one : replicates) counts.push_back(one->grains_of_hole);
   return unevenness(counts);
+}
+
+MeanWithInterval rate_of_blocks(const Outflow& outflow, std::optional<std::size_t> hole) {
+  const std::vector<double> ends = block_ends(outflow.window);
+  std::vector<double> rates;
+  for (std::size_t k = 0; k < outflow.grains_of_hole_in_block.size(); ++k) {  // none of a tray without holes
+    const std::vector<std::int64_t>& counts = outflow.grains_of_hole_in_block[k];
+    const std::int64_t seeds = hole ? counts[*hole] : std::accumulate(counts.begin(), counts.end(), std::int64_t{0});
+    rates.push_back(static_cast<double>(seeds) / (ends[k + 1] - ends[k]));
+  }
+  return mean_with_interval(rates);
+}
+
+std::optional<double> chance_of_rate(const std::vector<const Outflow*>& replicates) {
+  std::vector<double> rates;
+  const Outflow* last = nullptr;
+  for (const Outflow* one : replicates)
+    if (const double rate = find_row(*one, "all", "all")->mass_rate; std::isfinite(rate))
+      rates.push_back(rate), last = one;
+  if (rates.empty()) return std::nullopt;
+  const MeanWithInterval mean = rates.size() > 1 ? mean_with_interval(rates) : rate_of_blocks(*last);
+  if (!(mean.mean > 0) || !mean.half_width_95) return std::nullopt;
+  return *mean.half_width_95 / mean.mean;
 }
 
 const HoleOutflow* find_row(const Outflow& outflow, const std::string& hole, const std::string& lot) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -62,6 +63,14 @@ Outflow measure_outflow(const Scene& scene, const Run& run);
 /// How uneven the holes are by all replicates together; of one, by its blocks, which are blind to how starts differ.
 /// None where that cannot be told. Takes milliseconds.
 std::optional<Unevenness> unevenness_of(const std::vector<const Outflow*>& replicates);
+
+/// Seeds in a second of a hole (0..) or, without one, of all: mean over the blocks of the window with its interval; not
+/// a number for an empty window. Blind to how starts differ.
+MeanWithInterval rate_of_blocks(const Outflow& outflow, std::optional<std::size_t> hole = std::nullopt);
+
+/// Half width of the rate's 95 % interval, of all holes, over that rate: of replicates, or of one by its blocks. None
+/// where nothing flowed, or too little was measured to tell.
+std::optional<double> chance_of_rate(const std::vector<const Outflow*>& replicates);
 
 /// The row of a hole ("1".., "all") and lot (name, "all"). With a single lot, its name and "all" mean the
 /// same. Null when there is no such hole or lot.

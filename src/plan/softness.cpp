@@ -42,6 +42,19 @@ double duration_of_shell(double shell_compression, double radius) {
   return std::numbers::pi * std::sqrt(shell_compression * radius / standard_gravity);
 }
 
+/// Of a scene without a level: its own, or with Hertz' law that of a shell whose contacts last as long.
+double shell_compression_of(const Scene& scene, const LawTraits& law) {
+  if (has_shell(law)) return softness_of(scene, law);
+  const double radius = smallest_radius(scene.lots);
+  const double times = contact_duration_as_written(scene) / duration_of_shell(1, radius);
+  return times * times;
+}
+
+double steps_a_contact(const Scene& scene) {
+  const Numerics& numerics = scene.numerics;
+  return numerics.dt ? contact_duration_as_written(scene) / *numerics.dt : numerics.steps_per_contact;
+}
+
 /// Of a level, for that scene.
 double softness_at(const AccuracyLevelValues& level, const Scene& scene, const LawTraits& law) {
   if (has_shell(law)) return level.shell_compression;
@@ -93,6 +106,23 @@ Scene at_its_accuracy(const Scene& scene) {
     set_softness(changed, law, softness);
   }
   return changed;
+}
+
+NumericsError numerics_error(const Scene& scene) {
+  constexpr double rounding = 1e-9;
+  const Scene written = at_its_accuracy(scene);
+  const double shell = shell_compression_of(written, traits_of(written.contact.law)), steps = steps_a_contact(written);
+  const bool long_grains =
+      std::ranges::any_of(scene.lots, [](const SeedLot& lot) { return lot.shape == Shape::clump; });
+  const auto times_beyond = [&](const AccuracyLevelValues& level) {
+    const double times = std::max(shell / level.shell_compression, level.steps_per_contact / steps);
+    return times <= 1 + rounding ? 1 : times;
+  };
+  const AccuracyLevelValues& softest = accuracy_levels.front();
+  NumericsError error{softest.error(long_grains) * times_beyond(softest), times_beyond(softest)};
+  for (const AccuracyLevelValues& level : accuracy_levels)
+    if (times_beyond(level) == 1) error.half_width = std::min(error.half_width, level.error(long_grains));
+  return error;
 }
 
 }  // namespace vibrosow

@@ -21,4 +21,16 @@ bool is_predicted_sound(const Scene& scene);
 /// Hertz' law never stiffer than written, since a modulus is the material's.
 Scene at_its_accuracy(const Scene& scene);
 
+/// What softness and step may do to a scene's rates.
+struct NumericsError {
+  double half_width = 0;    // of the 95 %, over the rate
+  double times_beyond = 1;  // how many times softer than the softest level it is, or its steps longer; 1 within
+};
+
+/// That of the most accurate level (scene/accuracy_level.hpp) which is no stiffer and has no more steps a contact than
+/// the scene, of long grains where any lot is of clumps. Beyond the softest level its error, as many times as large: of
+/// what errs, overlap and step go with the first power, and the duration of contacts with less. With Hertz' law
+/// softness is that of a shell whose contacts last as long.
+NumericsError numerics_error(const Scene& scene);
+
 }  // namespace vibrosow

@@ -10,6 +10,7 @@
 
 #include "agronomy/sowing_rate.hpp"
 #include "input/toml_value.hpp"
+#include "report/expected_report.hpp"
 #include "report/terminal_text.hpp"
 #include "scene/si_units.hpp"
 
@@ -53,7 +54,7 @@ double hole_rate(const PlannedLayoutRow& row) {
 
 Columns<PlannedLayoutRow> plan_columns() {
   using R = const PlannedLayoutRow&;
-  return {
+  Columns<PlannedLayoutRow> columns = {
       text_column<PlannedLayoutRow>("rank", "1 is the best", [](R r) { return r.rank; }),
       text_column<PlannedLayoutRow>("holes", "so many holes feed so many rows: the holes",
                                     [](R r) { return r.layout->feed.holes; }),
@@ -82,33 +83,28 @@ Columns<PlannedLayoutRow> plan_columns() {
                                         [](R r) { return hole_rate(r) * expected_range(r.layout->error).low; }),
       quantity_column<PlannedLayoutRow>("high_seeds_per_s", per_second, "upper end",
                                         [](R r) { return hole_rate(r) * expected_range(r.layout->error).high; }),
-      quantity_column<PlannedLayoutRow>("chance_percent", percent,
-                                        "half width of the part that chance has in it: so many seeds were counted",
-                                        [](R r) { return half_width_of_normal(r.layout->error.chance); }),
-      quantity_column<PlannedLayoutRow>("numerics_percent", percent,
-                                        "the same of the softness of the table's seeds, and between its places",
-                                        [](R r) { return half_width_of_normal(r.layout->error.numerics); }),
-      quantity_column<PlannedLayoutRow>("tolerance_percent", percent,
-                                        "the same of a hole 0.1 mm wider or narrower and an amplitude off by 2 %",
-                                        [](R r) { return half_width_of_normal(r.layout->error.tolerance); }),
-      quantity_column<PlannedLayoutRow>("model_percent", percent,
-                                        "the same of the model: from rates that others measured of other materials",
-                                        [](R r) { return half_width_of_model(r.layout->error.model); }),
-      quantity_column<PlannedLayoutRow>("least_speed_km_per_h", kilometres_per_hour,
-                                        "the slowest drill that frequency alone keeps at the sowing rate",
-                                        [](R r) { return r.layout->speeds.least; }),
-      quantity_column<PlannedLayoutRow>("most_speed_km_per_h", kilometres_per_hour, "the fastest",
-                                        [](R r) { return r.layout->speeds.most; }),
-      text_column<PlannedLayoutRow>("more_by", "faster or slower: which shaking sows more",
-                                    [](R r) { return std::string(r.layout->more_by_faster ? "faster" : "slower"); }),
-      quantity_column<PlannedLayoutRow>(
-          "dispersion", plain,
-          "of the counts of a hole: variance over mean, 1 for seeds that come at random; the largest "
-          "of the places around",
-          [](R r) { return r.layout->estimate.dispersion; }),
-      text_column<PlannedLayoutRow>("measured", "whether anything of it was ever measured",
-                                    [](R) { return std::string("no"); }),
   };
+  add_part_columns(
+      columns, [](R r) -> const auto& { return r.layout->error; });
+  append(columns,
+         {
+             quantity_column<PlannedLayoutRow>("least_speed_km_per_h", kilometres_per_hour,
+                                               "the slowest drill that frequency alone keeps at the sowing rate",
+                                               [](R r) { return r.layout->speeds.least; }),
+             quantity_column<PlannedLayoutRow>("most_speed_km_per_h", kilometres_per_hour, "the fastest",
+                                               [](R r) { return r.layout->speeds.most; }),
+             text_column<PlannedLayoutRow>(
+                 "more_by", "faster or slower: which shaking sows more",
+                 [](R r) { return std::string(r.layout->more_by_faster ? "faster" : "slower"); }),
+             quantity_column<PlannedLayoutRow>(
+                 "dispersion", plain,
+                 "of the counts of a hole: variance over mean, 1 for seeds that come at random; the largest "
+                 "of the places around",
+                 [](R r) { return r.layout->estimate.dispersion; }),
+             text_column<PlannedLayoutRow>("measured", "whether anything of it was ever measured",
+                                           [](R) { return std::string("no"); }),
+         });
+  return columns;
 }
 
 std::string speed_text(double speed) {
@@ -118,10 +114,6 @@ std::string speed_text(double speed) {
 /// sqrt(d / g), s
 double unit_of_time(const SowingPlan& plan) {
   return std::sqrt(plan.task.seed.diameter / standard_gravity);
-}
-
-std::string percent_text(double fraction) {
-  return to_digits(fraction * 100, 2);
 }
 
 std::string feed_text(const HolesForRows& feed) {
@@ -144,7 +136,7 @@ std::string rate_text(const PlanSource& source) {
                                  to_digits(task.seeds_per_area(), 3));
   if (source.plants)
     text += fmt::format(" for {} plants/m2 at an establishment of {} %", to_digits(*source.plants, 3),
-                        percent_text(*source.establishment));
+                        two_digit_percent(*source.establishment));
   return text;
 }
 
@@ -196,7 +188,7 @@ std::string none_text(const SowingPlan& plan) {
     return fmt::format(
         "None of these is known to give the rate: of the {} that should, each is unsure by more than {} %. The table "
         "knows such seeds too little at such holes and frequencies.",
-        plan.too_uncertain, percent_text(most_uncertain));
+        plan.too_uncertain, two_digit_percent(most_uncertain));
   if (change.most_share <= 0)
     return "None of these does: within the shaker's limits the table has no frequency for such seeds.";
   if (change.least_share > 1)
@@ -207,7 +199,7 @@ std::string none_text(const SowingPlan& plan) {
     return fmt::format(
         "None of these does: the most that any gives, three wide holes a row, is {} % of what is needed. "
         "The nearest change: {} such holes a row, or a slower drill.",
-        percent_text(change.most_share), static_cast<int>(std::ceil(3 / change.most_share)));
+        two_digit_percent(change.most_share), static_cast<int>(std::ceil(3 / change.most_share)));
   return "None of these does: between steps of 0.5 mm no width gives the rate.";
 }
 
@@ -257,8 +249,8 @@ std::string table_text(const SowingPlan& plan) {
                         layout->frequency, layout->amplitude / millimetre,
                         fmt::format("{} to {}{}", speed_text(layout->speeds.least), speed_text(layout->speeds.most),
                                     layout->reaches_working_speeds() ? "*" : " "),
-                        percent_text(plan.unknown_to_table(*layout)), percent_text(layout->estimate.stood_still),
-                        layout->more_by_faster ? "faster" : "slower");
+                        two_digit_percent(plan.unknown_to_table(*layout)),
+                        two_digit_percent(layout->estimate.stood_still), layout->more_by_faster ? "faster" : "slower");
   text += '\n';
   if (std::ranges::none_of(plan.layouts, &PlannedLayout::reaches_working_speeds))
     text += wrapped(fmt::format(
@@ -274,34 +266,13 @@ std::string table_text(const SowingPlan& plan) {
              "simulated holes that once let nothing through for {} s; more by: which shaking sows more",
              plan.layouts.size() == 1 ? "One layout gives" : fmt::format("{} layouts give", plan.layouts.size()),
              plan.too_uncertain > 0 ? fmt::format(", {} more are left out, being unsure by more than {} %",
-                                                  plan.too_uncertain, percent_text(most_uncertain))
+                                                  plan.too_uncertain, two_digit_percent(most_uncertain))
                                     : "",
              speed_text(working_speeds.least), speed_text(working_speeds.most),
              to_digits(long_pause * unit_of_time(plan), 2)));
 }
 
 // How far to trust it.
-
-/// A rate and the ends of its range, in g/s.
-std::string range_text(double rate, const FactorRange& range) {
-  return fmt::format("{} to {} g/s", to_digits(rate * range.low / gram, 2), to_digits(rate * range.high / gram, 2));
-}
-
-std::string parts_text(const PredictionError& error) {
-  return fmt::format(
-      "chance {} %, numerics {} %, tolerance {} %, model {} %", percent_text(half_width_of_normal(error.chance)),
-      percent_text(half_width_of_normal(error.numerics)), percent_text(half_width_of_normal(error.tolerance)),
-      percent_text(half_width_of_model(error.model)));
-}
-
-/// How the model did where others measured. Its bias is told, not taken out.
-std::string model_text(const ModelError& model) {
-  const double over = 1 / model.mean_factor - 1;
-  return fmt::format(
-      "The model's part is Student's, from {} materials whose flow through still holes and slots others measured: it "
-      "gave {} % too {} of them on the whole. Of a tray that shakes no measurement was to be had.",
-      model.materials, percent_text(std::abs(over)), over > 0 ? "much" : "little");
-}
 
 /// What is said of the best layout.
 std::string certainty_text(const SowingPlan& plan) {
@@ -400,7 +371,7 @@ std::string weighed_row_text(const WeighedRow& row) {
                                  to_digits(weighed.mass_rate / row.predicted, 3), to_digits(row.predicted / gram, 3));
   if (row.surprise < surprising)
     text += fmt::format(": this contradicts {} (so far off in {} % of cases): weigh again, and look at the unit",
-                        "the other rows and what the model errs by", percent_text(row.surprise));
+                        "the other rows and what the model errs by", two_digit_percent(row.surprise));
   return wrapped(text);
 }
 
@@ -413,7 +384,7 @@ std::string weighed_text(const SowingTask& task, int rows, const WeighedPlan& pl
                                          to_digits(plan.needed / gram, 3)));
   for (const WeighedRow& row : plan.rows) text += weighed_row_text(row);
   const auto spread = [](const FactorRange& range) {
-    return fmt::format("{} to {} %", percent_text(range.low), percent_text(range.high));
+    return fmt::format("{} to {} %", two_digit_percent(range.low), two_digit_percent(range.high));
   };
   text +=
       wrapped(fmt::format("So the tray gives {} times what the table says. A setting far from these was known to {} of "

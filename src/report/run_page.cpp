@@ -9,6 +9,7 @@
 
 #include "plan/effects.hpp"
 #include "plan/softness.hpp"
+#include "report/expected_report.hpp"
 #include "report/number_text.hpp"
 #include "report/page.hpp"
 #include "report/terminal_text.hpp"
@@ -31,15 +32,6 @@ std::string figure_text(double value) {
 
 double in_mm(double metres) {
   return 1e3 * metres;
-}
-
-/// 95 % interval of a hole's rate, 1/s, by the blocks of the window.
-MeanWithInterval rate_of_blocks(const Outflow& outflow, std::size_t hole) {
-  const std::vector<double> ends = block_ends(outflow.window);
-  std::vector<double> rates;
-  for (std::size_t k = 0; k + 1 < ends.size(); ++k)
-    rates.push_back(static_cast<double>(outflow.grains_of_hole_in_block[k][hole]) / (ends[k + 1] - ends[k]));
-  return mean_with_interval(rates);
 }
 
 Json holes(const RunPage& page) {
@@ -191,28 +183,29 @@ std::string run_page_data(const RunPage& page) {
   const Scene& scene = page.model.scene;
   Json remarks = Json::array();
   for (const Doubt& doubt : page.outflow.doubts) remarks.push_back(doubt.text);
-  const Json data = {{"kind", "run"},
-                     {"program", {{"name", "vibrosow"}, {"version", VIBROSOW_VERSION}}},
-                     {"title", scene.title},
-                     {"space", scene.space == Space::plane ? "plane" : "three_dimensional"},
-                     {"headline", headline(page)},
-                     {"remarks", std::move(remarks)},
-                     {"status", status_name(page.run.status)},
-                     {"random_seed", page.run.random_seed},
-                     {"end_time_s", page.run.end_time},
-                     {"window_s", {page.outflow.window.from, page.outflow.window.to}},
-                     {"lots", page_lots(scene)},
-                     {"vessels", page_vessels(scene)},
-                     {"holes", holes(page)},
-                     {"rate_unit", "seeds/s"},
-                     {"hole_table", hole_table(page)},
-                     {"unevenness", unevenness(unevenness_of({&page.outflow}))},
-                     {"events", page_events(page.run)},
-                     {"effects", effects(page.model)},
-                     {"guard", guard_sentence(page.run, scene.guard)},
-                     {"settings", settings(page)},
-                     {"drill", drill(page.drill, scene.space)},
-                     {"scene", Json::parse(scene_to_json(scene))}};
+  Json data = {{"kind", "run"},
+               {"program", {{"name", "vibrosow"}, {"version", VIBROSOW_VERSION}}},
+               {"title", scene.title},
+               {"space", scene.space == Space::plane ? "plane" : "three_dimensional"},
+               {"headline", headline(page)},
+               {"remarks", std::move(remarks)},
+               {"status", status_name(page.run.status)},
+               {"random_seed", page.run.random_seed},
+               {"end_time_s", page.run.end_time},
+               {"window_s", {page.outflow.window.from, page.outflow.window.to}},
+               {"lots", page_lots(scene)},
+               {"vessels", page_vessels(scene)},
+               {"holes", holes(page)},
+               {"rate_unit", "seeds/s"},
+               {"hole_table", hole_table(page)},
+               {"unevenness", unevenness(unevenness_of({&page.outflow}))},
+               {"events", page_events(page.run)},
+               {"effects", effects(page.model)},
+               {"guard", guard_sentence(page.run, scene.guard)},
+               {"settings", settings(page)},
+               {"drill", drill(page.drill, scene.space)},
+               {"scene", Json::parse(scene_to_json(scene))}};
+  if (page.expected) data["expected"] = expected_sentence(*page.expected) + ".";
   return page_text(data);
 }
 

@@ -9,6 +9,7 @@
 #include "plan/model.hpp"
 #include "report/columns.hpp"
 #include "result/run.hpp"
+#include "study/expected_rate.hpp"
 
 namespace vibrosow {
 
@@ -18,6 +19,7 @@ struct RunPage {
   const Run& run;
   const Outflow& outflow;
   const std::optional<DrillFigures>& drill;
+  const std::optional<ExpectedRate>& expected;
 };
 
 /// The page's numbers and texts (page_text).

@@ -8,6 +8,7 @@
 #include "report/answer_doubts.hpp"
 #include "report/columns.hpp"
 #include "report/drill_report.hpp"
+#include "report/expected_report.hpp"
 #include "report/json_keys.hpp"
 #include "report/page.hpp"
 #include "report/record_report.hpp"
@@ -55,13 +56,14 @@ Columns<EventRow> outflow_columns(Space space) {
 struct SummaryRow {
   const Outflow* outflow;
   const HoleOutflow* hole;
+  std::optional<ExpectedRate> expected{};  // of the row of all holes and lots
 };
 
 std::optional<double> of_tray(const SummaryRow& row, double of_slice) {
   return row.outflow->depth_factor ? std::optional(of_slice * *row.outflow->depth_factor) : std::nullopt;
 }
 
-Columns<SummaryRow> summary_columns(bool with_across) {
+Columns<SummaryRow> summary_columns(bool with_across, bool with_expected) {
   using R = const SummaryRow&;
   Columns<SummaryRow> columns = {
       text_column<SummaryRow>("hole", "number of the hole from the left, or all", [](R r) { return r.hole->hole; }),
@@ -95,6 +97,9 @@ Columns<SummaryRow> summary_columns(bool with_across) {
     columns.push_back(quantity_column<SummaryRow>("across_mm", millimetres,
                                                   "in space: middle of the hole, from the tray's front",
                                                   [](R r) { return r.hole->across; }));
+  if (with_expected)
+    add_expected_columns(
+        columns, [](R r) -> const auto& { return r.expected; });
   return columns;
 }
 
@@ -124,10 +129,11 @@ struct RunSource {
   const Run& run;
   const Outflow& outflow;
   const std::vector<std::string>& effects;
+  const std::optional<ExpectedRate>& expected;
   const FigureMeans figures = FigureMeans({&outflow});
 };
 
-/// Every figure, under its name.
+/// Every figure, under its name, and what the rate is expected to be.
 JsonKeys<RunSource> figure_keys() {
   JsonKeys<RunSource> keys;
   for (const Figure& figure : figures())
@@ -135,6 +141,12 @@ JsonKeys<RunSource> figure_keys() {
                     [&figure](const RunSource& s) {
                       const std::optional<MeanWithInterval>& value = s.figures[figure];
                       return value ? Json(value->mean / figure.unit_size) : Json(nullptr);
+                    }});
+  for (const ExpectedFigure& figure : expected_figures())
+    keys.push_back({fmt::format("outflow.{}", figure.name), std::string(figure.unit.name), figure.description,
+                    [figure](const RunSource& s) {
+                      const std::optional<double> value = s.expected ? figure.of(*s.expected) : std::nullopt;
+                      return value ? Json(*value / figure.unit.size) : Json(nullptr);
                     }});
   return keys;
 }
@@ -248,17 +260,18 @@ std::string outflow_csv(const Scene& scene, const Run& run, CsvFormat format) {
   return csv.text();
 }
 
-std::string summary_csv(const Outflow& outflow, CsvFormat format) {
+std::string summary_csv(const Outflow& outflow, CsvFormat format, const std::optional<ExpectedRate>& expected) {
   const bool with_across =
       std::ranges::any_of(outflow.holes, [](const HoleOutflow& row) { return row.across.has_value(); });
-  Csv<SummaryRow> csv(summary_columns(with_across), format);
-  for (const HoleOutflow& hole : outflow.holes) csv.add({&outflow, &hole});
+  Csv<SummaryRow> csv(summary_columns(with_across, expected.has_value()), format);
+  for (const HoleOutflow& hole : outflow.holes)
+    csv.add({&outflow, &hole, &hole == &outflow.holes.back() ? expected : std::nullopt});
   return csv.text();
 }
 
 std::string run_json(const Scene& scene, const Run& run, const Outflow& outflow,
-                     const std::vector<std::string>& effects) {
-  return json_of(run_keys(), RunSource{scene, run, outflow, effects});
+                     const std::vector<std::string>& effects, const std::optional<ExpectedRate>& expected) {
+  return json_of(run_keys(), RunSource{scene, run, outflow, effects, expected});
 }
 
 std::string timing_json(const Run& run) {
@@ -271,7 +284,7 @@ std::vector<FileText> run_file_texts() {
       file_text(
           "summary.csv",
           "one row per hole and lot, per hole one of all lots where there are several, then the same of all holes",
-          summary_columns(true)),
+          summary_columns(true, true)),
       file_text("run.json", "what the run was and how it went", run_keys()),
       file_text("timing.json", "what the run took on this machine", timing_keys(true))};
   std::ranges::move(record_file_texts(), std::back_inserter(texts));
@@ -285,10 +298,11 @@ std::vector<FileText> run_file_texts() {
 
 std::vector<OutputFile> run_files(const Scene& scene, const Run& run, const Outflow& outflow,
                                   const std::vector<std::string>& effects, CsvFormat format,
-                                  const std::optional<DrillFigures>& drill) {
+                                  const std::optional<DrillFigures>& drill,
+                                  const std::optional<ExpectedRate>& expected) {
   std::vector<OutputFile> files = {{"outflow.csv", outflow_csv(scene, run, format)},
-                                   {"summary.csv", summary_csv(outflow, format)},
-                                   {"run.json", run_json(scene, run, outflow, effects)},
+                                   {"summary.csv", summary_csv(outflow, format, expected)},
+                                   {"run.json", run_json(scene, run, outflow, effects, expected)},
                                    {"timing.json", timing_json(run)}};
   std::ranges::move(record_files(scene, run, format), std::back_inserter(files));
   if (drill) files.push_back({"rows.csv", rows_csv(*drill, format)});

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "input/key_units.hpp"
+#include "report/expected_report.hpp"
 #include "report/layout_text.hpp"
 #include "report/page.hpp"
 #include "report/terminal_text.hpp"
@@ -92,6 +93,7 @@ Json layout(const Answer& answer, const AnsweredLayout& of, const Replays& repla
       means[std::string(answer.figures[k].name)] = page_interval(of.values[k], answer.figures[k].unit_size);
   }
   if (!of_sweep) return one;
+  if (of.expected) one["expected"] = expected_sentence(*of.expected);
   one["misfit_percent"] = page_interval(of.misfit_percent, 1);
   one["holes"] = holes(of.holes);
   return one;
@@ -112,6 +114,7 @@ std::string page_data(const StudyPage& page, const Replays& replays) {
                {"title", study.title},         {"space", plane ? "plane" : "three_dimensional"},
                {"keys", std::move(keys)},      {"headline", page.headline},
                {"doubts", page.doubts}};
+  if (!page.expected.empty()) data["expected"] = page.expected;
   if (!page.asked.empty()) data["asked"] = std::move(asked), data["cost"] = page.cost;
   if (!page.confidence.empty()) data["confidence"] = page.confidence;
   data["figures"] = std::move(figures), data["layouts"] = std::move(layouts);

@@ -8,6 +8,7 @@
 #include "input/key_units.hpp"
 #include "report/columns.hpp"
 #include "report/drill_report.hpp"
+#include "report/expected_report.hpp"
 #include "report/json_keys.hpp"
 #include "report/layout_columns.hpp"
 #include "report/study_page.hpp"
@@ -56,6 +57,8 @@ Columns<LayoutRow> sweep_columns(const std::vector<std::string>& keys) {
   add_mean_columns(columns, "misfit_percent", Unit{"%", 1},
                    "misfit to the measured outflow; empty without a measurement",
                    [](R r) { return r.of().misfit_percent; });
+  add_expected_columns(
+      columns, [](R r) -> const auto& { return r.of().expected; });
   return columns;
 }
 

@@ -35,6 +35,10 @@ std::string to_digits(double value, int digits) {
   return fmt::format("{:.0f}", std::strtod(text.c_str(), nullptr));
 }
 
+std::string two_digit_percent(double fraction) {
+  return to_digits(100 * fraction, 2);
+}
+
 std::string_view of_plane(Space space) {
   return space == Space::plane ? " (2D: a slice times the depth, its holes slots all across)" : "";
 }

@@ -20,6 +20,9 @@ std::string wrapped_beside(std::string_view label, std::string_view text);
 /// `value` to so many significant digits, with an exponent only beyond a million: "11110", not "1.111e+04".
 std::string to_digits(double value, int digits);
 
+/// A fraction in percent to two significant digits, without the sign: "4.6".
+std::string two_digit_percent(double fraction);
+
 /// What stands beside every rate of the whole tray and of the ground: how the plane comes to it; empty in space.
 std::string_view of_plane(Space space);
 

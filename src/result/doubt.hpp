@@ -24,7 +24,9 @@ enum class DoubtKind {
   wide_interval,
   skewed_replicates,
   // Of a scene:
-  unlikely_scene,  // it can be run, but can hardly be meant
+  unlikely_scene,     // it can be run, but can hardly be meant
+  outside_the_table,  // of one hole, whose slopes give the tolerance of what is expected
+  beyond_the_levels,  // softer, or of longer steps, than any level whose error was measured
   // Of what was fitted to runs:
   runs_left_out,     // they count for nothing
   two_kinds_of_run,  // of one setting: some clogged

@@ -16,6 +16,9 @@ struct AccuracyLevelValues {
   double steps_per_contact;
   double error_percent;         // at 95 %, of the worst of six seeders of balls: reports/accuracy-levels, rounded up
   double grains_error_percent;  // the same of long grains: reports/grains-softness; "reference" was not tried
+
+  /// Share of a rate that it stays within, at 95 %.
+  double error(bool of_long_grains) const { return (of_long_grains ? grains_error_percent : error_percent) / 100; }
 };
 
 /// From the cheapest to the most accurate.

@@ -119,7 +119,10 @@ StudyResult answer_of_kept(const PlannedStudy& planned, const KeptRuns& kept, in
     });
     return runs;
   };
-  return answer_of(planned.study, read, on_runs);
+  StudyResult result = answer_of(planned.study, read, on_runs);
+  const auto in_space = [](const Scene& scene) { return scene.space != Space::plane; };
+  if (std::ranges::any_of(result.study.scenes, in_space)) expect_rates(result, shipped_rate_knowledge());
+  return result;
 }
 
 std::optional<PlannedStudy> next_round(const PlannedStudy& planned, const KeptRuns& kept, int jobs) {

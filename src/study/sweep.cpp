@@ -82,11 +82,11 @@ std::optional<MeanWithInterval> mean_of_row(const std::vector<Evaluation>& repli
   });
 }
 
-FigureMeans figures_of(const std::vector<Evaluation>& replicates) {
+std::vector<const Outflow*> finished_outflows(const std::vector<Evaluation>& replicates) {
   std::vector<const Outflow*> finished;
   for (const Evaluation& one : replicates)
     if (one.finished()) finished.push_back(&one.outflow);
-  return FigureMeans(finished);
+  return finished;
 }
 
 std::vector<HoleFigures> hole_figures(const std::vector<Evaluation>& replicates) {
@@ -196,7 +196,9 @@ SceneResult result_of(const Study& study, const Scene& scene, const std::vector<
       std::ranges::count_if(runs, [](const Evaluation& one) { return one.finished() && !one.end_reason.empty(); }));
   const bool was_run = is_compared(result.status) || result.status == LayoutStanding::outside_the_model;
   if (study.replicates.interval && was_run) add_doubts_of_need(study, runs, result);
-  result.figures = figures_of(replicates);
+  const std::vector<const Outflow*> outflows = finished_outflows(replicates);
+  result.figures = FigureMeans(outflows);
+  result.chance_of_rate = chance_of_rate(outflows);
   result.holes = hole_figures(replicates);
   for (CountedDoubt& doubt : doubts_of_scene(scene)) result.doubts.push_back(std::move(doubt));
   if (result.status == LayoutStanding::ok && is_serious(result.doubts)) result.status = LayoutStanding::doubtful;
@@ -259,6 +261,19 @@ StudyResult answer_of(const Study& study, const RunsOfScenes& runs_of, const OnR
                                           : invalid_result(layout));
   if (study.measured) compare_with_measured(result);
   return result;
+}
+
+void expect_rates(StudyResult& result, const RateKnowledge& knowledge) {
+  if (result.study.measured) return;
+  for (std::size_t i = 0; i < result.layouts.size(); ++i) {
+    LayoutResult& layout = result.layouts[i];
+    const auto& rate = layout.figures["rate_g_per_s"];
+    if (!is_compared(layout.status) || !rate) continue;
+    const auto error = scene_error(result.study.scenes[*result.study.layouts[i].scene], knowledge);
+    if (error) layout.expected = expected_rate(rate->mean, layout.chance_of_rate, *error);
+    if (!layout.expected) continue;
+    for (const Doubt& doubt : error->doubts) layout.doubts.push_back({doubt.kind, 0, 0, doubt.text});
+  }
 }
 
 StudyResult sweep(const Study& study, const Simulator& simulator, const SweepOptions& options) {

@@ -9,6 +9,7 @@
 #include "agronomy/row_figures.hpp"
 #include "outflow/figures.hpp"
 #include "outflow/statistics.hpp"
+#include "study/expected_rate.hpp"
 #include "study/layout_standing.hpp"
 #include "study/many_runs.hpp"
 #include "study/study.hpp"
@@ -53,6 +54,8 @@ struct LayoutResult {
   int replicates = 0;                              // finished
   int stopped_flowing = 0;                         // of all runs, also those that are left out: ended by a pause
   FigureMeans figures;                             // over the finished replicates
+  std::optional<double> chance_of_rate{};          // half width of the rate's 95 % over it
+  std::optional<ExpectedRate> expected{};          // of the rate, by `expect_rates`
   std::optional<MeanWithInterval> misfit_percent;  // of the mean outflow; interval by the jackknife
   std::vector<HoleFigures> holes;
   std::vector<BedFigures> bed{};  // empty without a record
@@ -97,6 +100,10 @@ using RunsOfScenes = std::function<std::vector<std::vector<Evaluation>>(std::siz
 /// What a study comes to by its runs, whoever made them. Where replicates are by need, runs beyond those needed are
 /// left out, and figures are of the runs that flowed. A layout of which runs are absent is incomplete.
 StudyResult answer_of(const Study& study, const RunsOfScenes& runs, const OnRuns& on_runs = {});
+
+/// What the layouts' rates are expected to be once they are weighed, and the doubts about that: of each in space that
+/// is compared. None where measured outflow stands beside the rates: the misfit then says what the model errs by.
+void expect_rates(StudyResult& result, const RateKnowledge& knowledge);
 
 /// Runs every scene of a study with every random seed. The result depends on the study and the first random seed alone,
 /// not on the number of threads. An interrupted sweep keeps what was finished.

@@ -18,6 +18,11 @@ TEST(PredictionError, OfChanceAloneIsNormal) {
   EXPECT_NEAR(half_width_of_normal(0.02), 1.959964 * 0.02, 2e-5);
 }
 
+TEST(PredictionError, AHalfWidthIsThatOfItsDeviation) {
+  for (const double half_width : {0.0, 0.01, 0.3, 2.0})
+    EXPECT_NEAR(half_width_of_normal(deviation_of_half_width(half_width)), half_width, 1e-12);
+}
+
 TEST(PredictionError, NormalPartsAddInSquares) {
   EXPECT_NEAR(expected_range({.chance = 0.03, .numerics = 0.04, .tolerance = 0.12}).high, std::exp(1.959964 * 0.13),
               1e-6);

@@ -12,6 +12,7 @@
 
 #include "scene/input_error.hpp"
 #include "support/made_up_hole_table.hpp"
+#include "support/table_tray_scene.hpp"
 
 namespace vibrosow {
 namespace {
@@ -19,57 +20,10 @@ namespace {
 using testing::HasSubstr;
 using testing::ThrowsMessage;
 
-/// Balls of 4 mm, six deep, over two round holes of 16 mm.
-Scene tray_scene() {
-  Scene scene;
-  scene.space = Space::three_dimensional;
-  scene.lots = {{.name = "balls", .diameter = 4e-3, .mass = 40e-6}};
-  Vessel& tray = scene.tray;
-  tray.name = "tray";
-  tray.length = 128e-3, tray.depth = 64e-3, tray.height = 80e-3;
-  tray.holes = {{.centre = 32e-3, .width = 16e-3, .shape = HoleShape::round},
-                {.centre = 96e-3, .width = 16e-3, .shape = HoleShape::round}};
-  tray.fill = Fill{};
-  tray.fill->count = static_cast<int>(std::lround(0.6 * 32 * 16 * 6 / (std::numbers::pi / 6)));
-  tray.motion = HarmonicMotion{.amplitude = 8e-3, .frequency = 5};
-  return scene;
-}
-
-TEST(TableTray, OfATrayThatTheTableKnows) {
-  const TableTray tray = table_tray(tray_scene());
-  EXPECT_EQ(tray.holes, 2);
-  EXPECT_NEAR(tray.at.width, 4, 1e-12);
-  EXPECT_NEAR(tray.at.depth, 6, 1e-3);
-  EXPECT_NEAR(tray.at.peak_speed, 2 * std::numbers::pi * 5 * 8e-3 / std::sqrt(standard_gravity * 4e-3), 1e-12);
-  EXPECT_EQ(tray.at.aspect, 1);
-}
-
-TEST(TableTray, RefusesWhatTheTableDoesNotTellOf) {
-  const std::pair<const char*, std::function<void(Scene&)>> cases[] = {
-      {"space: is the plane", [](Scene& scene) { scene.space = Space::plane; }},
-      {"seeds: there are several lots", [](Scene& scene) { scene.lots.push_back(scene.lots[0]); }},
-      {"hopper: a hopper feeds", [](Scene& scene) { scene.hopper = scene.tray; }},
-      {"tray.fill: the bed is not a fill", [](Scene& scene) { scene.tray.fill.reset(); }},
-      {"tray.tilt: the floor slopes", [](Scene& scene) { scene.tray.tilt = 0.1; }},
-      {"tray.holes: there are none", [](Scene& scene) { scene.tray.holes.clear(); }},
-      {"tray.holes.shape: holes are not round", [](Scene& scene) { scene.tray.holes[1].shape = HoleShape::slot; }},
-      {"tray.holes.width: holes are unequal", [](Scene& scene) { scene.tray.holes[1].width = 15e-3; }},
-      {"tray.holes.open_at: a gate", [](Scene& scene) { scene.tray.holes[1].open_at = 1; }},
-      {"tray.motion: the tray stands still", [](Scene& scene) { scene.tray.motion.reset(); }},
-      {"tray.motion.kind: is not harmonic", [](Scene& scene) { scene.tray.motion = RockingMotion{}; }},
-      {"tray.motion.direction", [](Scene& scene) { std::get<HarmonicMotion>(*scene.tray.motion).direction = 0.3; }},
-  };
-  for (const auto& [message, change] : cases) {
-    Scene scene = tray_scene();
-    change(scene);
-    EXPECT_THAT([&] { table_tray(scene); }, ThrowsMessage<InputError>(HasSubstr(message)));
-  }
-}
-
 class Weighed : public testing::Test {
  protected:
   WeighedTray row(double frequency, double times) const {
-    Scene scene = tray_scene();
+    Scene scene = table_tray_scene();
     std::get<HarmonicMotion>(*scene.tray.motion).frequency = frequency;
     const TableTray tray = table_tray(scene);
     return {tray, times * rate(tray), 0.01};

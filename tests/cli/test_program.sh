@@ -111,6 +111,33 @@ expect 0 "plane over space [0-9.]+" check seeder.toml --both "${space[@]}"
 expect 0 "^whole tray: [0-9.]+ g/s" run seeder.toml --out in-space "${space[@]}"
 grep -q ",z_mm" in-space/outflow.csv || fail "outflow.csv of a run in space has no z"
 grep -q "across_mm" in-space/summary.csv || fail "summary.csv of a run in space does not say where holes lie across"
+# What a rate in space is expected to be until one weighs, in four parts; of a tray outside the table of one hole with a doubt; not in the plane.
+brief=(--set accuracy=draft --set "run.duration=0.6 s" --set "run.measure_from=0.3 s")
+until="g/s, expect [0-9.]+ to [0-9.]+ g/s until you weigh"
+expect 0 "^[0-9.]+ $until" run pellet-precision --out precision "${brief[@]}"
+expect 0 "^Note: tray.holes.width: 1.53 seeds is outside the table of one hole" run pellet-precision --out precision "${brief[@]}"
+python3 - precision <<'END' || fail "precision: summary.csv and run.json do not agree about what is expected"
+import csv, json, sys
+*holes, whole = csv.DictReader(open(f"{sys.argv[1]}/summary.csv"))
+outflow = json.load(open(f"{sys.argv[1]}/run.json"))["outflow"]
+names = ["expected_low_g_per_s", "expected_high_g_per_s", "chance_percent", "numerics_percent", "tolerance_percent", "model_percent"]
+assert all(abs(float(whole[name]) / outflow[name] - 1) < 1e-5 for name in names), whole
+assert not any(hole[name] for hole in holes for name in names), holes
+assert float(whole["expected_low_g_per_s"]) < float(whole["rate_g_per_s"]) < float(whole["expected_high_g_per_s"])
+assert abs(outflow["numerics_percent"] - 6.2) < 1e-9, outflow  # the level's own
+END
+expect 0 "compared by chance alone" sweep study.toml --out expecting "${space[@]}" --set accuracy=draft --set "tray.motion.kind=harmonic" \
+  --set "tray.motion.amplitude=8 mm" --set "tray.motion.frequency=5 Hz" --set "run.duration=0.6 s" --html
+python3 - expecting/sweep.csv <<'END' || fail "expecting/sweep.csv has not every part: $(<expecting/sweep.csv)"
+import csv, sys
+layouts = list(csv.DictReader(open(sys.argv[1])))
+assert len(layouts) == 2
+for one in layouts:
+    assert all(float(one[f"{part}_percent"]) > 0 for part in ("chance", "numerics", "tolerance", "model")), one
+    assert float(one["expected_low_g_per_s"]) < float(one["rate_g_per_s"]) < float(one["expected_high_g_per_s"])
+END
+grep -q '"expected":"Until you weigh, expect ' expecting/report.html || fail "the page of a sweep in space does not say what to expect"
+"$program" run seeder.toml --out plane | grep -q "until you weigh" && fail "in the plane a range is told"
 expect 0 "tray.holes.shape: in the plane a round hole is taken for a slot" check seeder.toml --set "tray.holes.shape=round"
 expect 2 "tray.depth: is missing" run seeder.toml --set "space=3d"
 expect 2 "for one seeder, not for a study" check study.toml --both

@@ -10,6 +10,43 @@
 namespace vibrosow {
 namespace {
 
+/// Of a hole, so many seeds in each of its eight seconds of measuring.
+Outflow outflow_of_seconds(const std::vector<int>& seeds) {
+  const Scene scene = made_up_scene(1);
+  Run run = made_up_run(scene);
+  for (std::size_t second = 0; second < seeds.size(); ++second)
+    for (int i = 0; i < seeds[second]; ++i)
+      add_grain(run, 2 + static_cast<double>(second) + (i + 0.5) / seeds[second], 1);
+  return measure_outflow(scene, run);
+}
+
+TEST(ChanceOfRate, OfReplicatesIsStudents) {
+  const Outflow a = outflow_of_seconds({10, 10, 10, 10, 10, 10, 10, 10}),
+                b = outflow_of_seconds({12, 12, 12, 12, 12, 12, 12, 12});
+  // 10 and 12 seeds/s: t(0.975, 1) = 12.706, standard error 1.
+  EXPECT_NEAR(*chance_of_rate({&a, &b}), 12.7062 / 11, 1e-5);
+}
+
+TEST(ChanceOfRate, OfOneRunIsThatOfItsBlocks) {
+  const Outflow even = outflow_of_seconds({10, 10, 10, 10, 10, 10, 10, 10});
+  const Outflow uneven = outflow_of_seconds({5, 5, 15, 15, 5, 5, 15, 15});
+  const MeanWithInterval blocks = rate_of_blocks(uneven);
+  EXPECT_GT(*blocks.half_width_95, 1);
+  EXPECT_NEAR(*chance_of_rate({&uneven}), *blocks.half_width_95 / blocks.mean, 1e-12);
+  EXPECT_LT(*chance_of_rate({&even}), 0.1);
+  EXPECT_NEAR(rate_of_blocks(uneven, 0).mean, blocks.mean, 1e-12) << "its only hole";
+}
+
+TEST(ChanceOfRate, IsNoneWhereNothingFlowed) {
+  const Outflow none = outflow_of_seconds({});
+  EXPECT_FALSE(chance_of_rate({&none}));
+  EXPECT_FALSE(chance_of_rate({&none, &none}));
+  EXPECT_FALSE(chance_of_rate({}));
+  const Scene closed = made_up_scene(0);
+  const Outflow without = measure_outflow(closed, made_up_run(closed));
+  EXPECT_FALSE(chance_of_rate({&without}));
+}
+
 TEST(Rows, CountOnlyTheWindowAndNoSpilledGrain) {
   const Scene scene = made_up_scene(2);
   vibrosow::Run run = made_up_run(scene);

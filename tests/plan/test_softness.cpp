@@ -53,6 +53,51 @@ TEST(Softness, ALevelTakesNoFewerStepsThanItsSchemeWants) {
   EXPECT_EQ(at(scene, AccuracyLevel::reference).numerics.steps_per_contact, 24);
 }
 
+TEST(NumericsError, OfALevelIsWhatWasMeasuredOfIt) {
+  for (const AccuracyLevelValues& level : accuracy_levels) {
+    Scene scene = tray(Law::elastic_shell);
+    scene.numerics.accuracy = level.level;
+    EXPECT_DOUBLE_EQ(numerics_error(scene).half_width, level.error_percent / 100) << level.name;
+    EXPECT_EQ(numerics_error(scene).times_beyond, 1);
+    scene.lots[0].shape = Shape::clump;
+    scene.lots[0].discs = {{-1e-3, 0, 1e-3}, {1e-3, 0, 1e-3}};
+    EXPECT_DOUBLE_EQ(numerics_error(scene).half_width, level.grains_error_percent / 100) << level.name;
+  }
+}
+
+TEST(NumericsError, WithoutALevelIsThatOfTheMostAccurateThatIsNoStiffer) {
+  const auto error = [](double shell, double steps) {
+    Scene scene = tray(Law::elastic_shell);
+    scene.contact.shell_compression = shell;
+    scene.numerics.steps_per_contact = steps;
+    return numerics_error(scene);
+  };
+  EXPECT_DOUBLE_EQ(error(1e-4, 12).half_width, 0.062);
+  EXPECT_DOUBLE_EQ(error(2e-5, 12).half_width, 0.039);
+  EXPECT_DOUBLE_EQ(error(1e-6, 12).half_width, 0.039) << "the reference takes more steps";
+  EXPECT_DOUBLE_EQ(error(1e-6, 30).half_width, 0.018);
+  EXPECT_NEAR(error(6e-4, 12).half_width, 2 * 0.062, 1e-12);
+  EXPECT_NEAR(error(6e-4, 12).times_beyond, 2, 1e-12);
+  EXPECT_NEAR(error(6e-4, 4).times_beyond, 3, 1e-12);
+}
+
+TEST(NumericsError, OfHertzIsThatOfAShellWhoseContactsLastAsLong) {
+  Scene hertz = at(tray(Law::hertz), AccuracyLevel::design);
+  EXPECT_DOUBLE_EQ(numerics_error(hertz).half_width, 0.039);
+  hertz.contact.youngs_modulus /=
+      100;  // contacts last 100^(2/5) times as long, and as a shell are so much squared softer
+  const double times = std::pow(100, 0.8) * 3e-5 / 3e-4;
+  EXPECT_NEAR(numerics_error(hertz).times_beyond / times, 1, 1e-9);
+  EXPECT_NEAR(numerics_error(hertz).half_width / (0.062 * times), 1, 1e-9);
+}
+
+TEST(NumericsError, AStepThatIsWrittenCountsByTheStepsOfAContact) {
+  Scene scene = tray(Law::elastic_shell);
+  scene.contact.shell_compression = 3e-5;
+  scene.numerics.dt = prepare(scene).step.contact_duration / 6;
+  EXPECT_NEAR(numerics_error(scene).times_beyond, 2, 1e-9);
+}
+
 TEST(Softness, HertzContactsLastAsLongAsTheLevelsShell) {
   const Scene shell = at(tray(Law::elastic_shell), AccuracyLevel::design),
               hertz = at(tray(Law::hertz), AccuracyLevel::design);

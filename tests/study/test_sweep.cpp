@@ -256,14 +256,16 @@ TEST(SweepReport, ColumnsAreTheDocumentedOnes) {
   const StudyFiles files;
   const Study study = read_study(files.study("[vary]\ntray.holes.span = [\"30 cm\"]\n"));
   const std::string csv = sweep_csv(sweep(study, quick_run, with_jobs(1)));
-  EXPECT_EQ(csv.substr(0, csv.find('\n')),
-            "layout,name,status,reason,tray.holes.span_mm,replicates,rate_g_per_s,rate_g_per_s_ci95,seeds_per_s,"
-            "seeds_per_s_ci95,depth_factor,tray_rate_g_per_s,tray_rate_g_per_s_ci95,tray_rate_g_per_min,"
-            "tray_rate_g_per_min_ci95,tray_seeds_per_s,tray_seeds_per_s_ci95,raw_cv_percent,run_cv_percent,"
-            "run_cv_percent_ci95,chance_cv_percent,unevenness_cv_percent,unevenness_cv_percent_low,"
-            "unevenness_cv_percent_high,instability_cv_percent,"
-            "instability_cv_percent_ci95,longest_pause_s,longest_pause_s_ci95,spilled_percent,spilled_percent_ci95,"
-            "misfit_percent,misfit_percent_ci95");
+  EXPECT_EQ(
+      csv.substr(0, csv.find('\n')),
+      "layout,name,status,reason,tray.holes.span_mm,replicates,rate_g_per_s,rate_g_per_s_ci95,seeds_per_s,"
+      "seeds_per_s_ci95,depth_factor,tray_rate_g_per_s,tray_rate_g_per_s_ci95,tray_rate_g_per_min,"
+      "tray_rate_g_per_min_ci95,tray_seeds_per_s,tray_seeds_per_s_ci95,raw_cv_percent,run_cv_percent,"
+      "run_cv_percent_ci95,chance_cv_percent,unevenness_cv_percent,unevenness_cv_percent_low,"
+      "unevenness_cv_percent_high,instability_cv_percent,"
+      "instability_cv_percent_ci95,longest_pause_s,longest_pause_s_ci95,spilled_percent,spilled_percent_ci95,"
+      "misfit_percent,misfit_percent_ci95,expected_low_g_per_s,expected_high_g_per_s,chance_percent,numerics_percent,"
+      "tolerance_percent,model_percent");
 }
 
 TEST(Sweep, RunsThatAreDroppedGiveTheSameReports) {

@@ -182,6 +182,13 @@ test('a recording that is cut off is said, and the rest is shown', () => {
   });
 });
 
+test('in space a run tells what to expect until one weighs', () => {
+  const run = madeUpRun('three_dimensional');
+  return withPage(run, {}, async (open) => {
+    assert.deepEqual(await open.locator('.headline').allTextContents(), [run.data.headline, run.data.expected, run.data.drill.sentence]);
+  });
+});
+
 test('a remark that the guard and the outflow both make is shown once', () => {
   const run = madeUpRun('plane');
   run.data.remarks = ['the overlap passed 0.05', 'the overlap passed 0.05', 'another'];

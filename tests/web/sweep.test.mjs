@@ -131,6 +131,17 @@ test('the address opens with its layout, and a foreign one with the first of the
   await withPage(plane, { hash: '#layout=999' }, async (open) => assertShown(open, (await numbersIn(open, '#ranking .ranks button'))[0]));
 });
 
+test('in space it is told what to expect until one weighs, of all layouts and of the chosen one', () => withPage(madeUpSweep('three_dimensional'), { hash: '#layout=5', bypass: true }, async (open) => {
+  const { data } = madeUpSweep('three_dimensional');
+  assert.deepEqual(await open.locator('.headline').allTextContents(), [data.headline, data.expected]);
+  assert.equal(await open.locator('#layout .expected').textContent(), `${data.layouts[4].expected}.`);
+}));
+
+test('in the plane it is not', async () => {
+  assert.equal(await page.locator('.headline').count(), 1);
+  assert.equal(await page.locator('#layout .expected').count(), 0);
+});
+
 test('in space a layout is drawn from above too, holes round or slots', () => withPage(madeUpSweep('three_dimensional'), { hash: '#layout=5', bypass: true }, async (open) => {
   const { holes } = madeUpSweep('three_dimensional').data.layouts[4].vessels[0];
   assert.equal(await open.locator('#layout .drawing').count(), 2);

@@ -70,7 +70,7 @@ export function layoutSection(data, figures, chosen) {
     if (!layout) return;
     const doubt = statusWords[layout.status] ? sentenceWithNote(statusWords[layout.status], layout.note) : layout.note;
     title.textContent = layout.name ? `Layout ${layout.number}: ${layout.name}` : `Layout ${layout.number}`;
-    about.replaceChildren(...[doubt ? element('p', { class: 'doubt' }, doubt) : null, layout.standing && layout.compared ? element('p', { class: 'standing' }, sentence(layout.standing)) : null, layoutDrawing(layout, boxes), settings(data, layout)].filter(Boolean));
+    about.replaceChildren(...[doubt ? element('p', { class: 'doubt' }, doubt) : null, layout.standing && layout.compared ? element('p', { class: 'standing' }, sentence(layout.standing)) : null, layout.expected ? element('p', { class: 'expected' }, sentence(layout.expected)) : null, layoutDrawing(layout, boxes), settings(data, layout)].filter(Boolean));
     replays.show(layout);
     bars.show(layout);
     const runs = layout.replicates === 1 ? 'From one run: no intervals.' : `Means of ${layout.replicates} runs, ± half the width of the 95 % interval; what has no ± is of all runs together.`;

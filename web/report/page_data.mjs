@@ -1,6 +1,6 @@
 // What the program wrote into the page. Missing parts become empty ones, so that the rest is shown all the same.
 
-const empty = { program: {}, title: '', space: 'plane', headline: '' };
+const empty = { program: {}, title: '', space: 'plane', headline: '', expected: '' };
 
 const emptyOf = {
   run: {
@@ -15,7 +15,7 @@ const emptyOf = {
   front: { doubts: [], asked: [], cost: [], keys: [], figures: [], layouts: [] },
 };
 
-const emptyLayout = { name: '', values: [], status: 'ok', note: '', replicates: 0, means: {}, misfit_percent: null, holes: [], vessels: [], command: '', replay: null };
+const emptyLayout = { name: '', values: [], status: 'ok', note: '', expected: '', replicates: 0, means: {}, misfit_percent: null, holes: [], vessels: [], command: '', replay: null };
 
 function filled(given, ...defaults) {
   return Object.assign({}, ...defaults, Object.fromEntries(Object.entries(given).filter(([, value]) => value !== null)));

@@ -35,7 +35,7 @@ export function runPage(data) {
   return {
     kicker: `Run ${data.space === 'plane' ? 'in the plane' : 'in space'}`,
     title: data.title || 'A run',
-    headlines: [data.headline, data.drill?.sentence],
+    headlines: [data.headline, data.expected, data.drill?.sentence],
     remarks: [...(endings[data.status] ? [`${endings[data.status]} at ${data.end_time_s} s.`] : []), ...new Set(data.remarks)],  // the guard's stand among the outflow's too
     whole: 'The whole run',
     sections: () => sections(data),

@@ -24,7 +24,7 @@ export function sweepPage(data) {
   return {
     kicker: `Sweep ${data.space === 'plane' ? 'in the plane' : 'in space'}`,
     title: data.title || 'A sweep',
-    headlines: [data.headline],
+    headlines: [data.headline, data.expected],
     remarks: data.doubts,
     whole: 'Every layout',
     beside: true,

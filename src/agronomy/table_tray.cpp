@@ -1,0 +1,154 @@
+#include "agronomy/table_tray.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <variant>
+#include <vector>
+
+#include "scene/input_error.hpp"
+#include "scene/spaces.hpp"
+
+namespace vibrosow {
+namespace {
+
+constexpr double poured_packing = 0.6;  // by which the number of seeds is called a depth, as of the table's runs
+
+[[noreturn]] void refuse(const char* key, const char* why) {
+  throw InputError(fmt::format("{}: {}; the table of one hole does not tell of it", key, why));
+}
+
+/// Null of a tray that stands still or moves otherwise.
+const HarmonicMotion* shaking(const Vessel& tray) {
+  const auto* motion = tray.motion ? std::get_if<HarmonicMotion>(&*tray.motion) : nullptr;
+  return motion != nullptr && motion->amplitude > 0 && motion->frequency > 0 ? motion : nullptr;
+}
+
+bool is_level(double angle) {
+  constexpr double level = 1e-6;  // rad
+  return std::abs(angle) <= level;
+}
+
+const HarmonicMotion& shaking_along(const Vessel& tray) {
+  if (!tray.motion) refuse("tray.motion", "the tray stands still");
+  if (!std::holds_alternative<HarmonicMotion>(*tray.motion)) refuse("tray.motion.kind", "is not harmonic");
+  const HarmonicMotion* motion = shaking(tray);
+  if (motion == nullptr) refuse("tray.motion.amplitude", "the tray stands still");
+  if (!is_level(motion->direction) || !is_level(motion->across))
+    refuse("tray.motion.direction", "the tray is not shaken along its floor");
+  return *motion;
+}
+
+bool all_round(const std::vector<Hole>& holes) {
+  return std::ranges::all_of(holes, [](const Hole& hole) { return hole.shape == HoleShape::round; });
+}
+
+void check_holes(const std::vector<Hole>& holes) {
+  if (holes.empty()) refuse("tray.holes", "there are none");
+  if (!all_round(holes)) refuse("tray.holes.shape", "holes are not round");
+  for (const Hole& hole : holes) {
+    if (hole.width != holes.front().width) refuse("tray.holes.width", "holes are unequal");
+    if (hole.open_at > 0) refuse("tray.holes.open_at", "a gate closes a hole");
+  }
+}
+
+double peak_speed(const HarmonicMotion& motion, const PlannedSeed& seed) {
+  return 2 * std::numbers::pi * motion.frequency * motion.amplitude / std::sqrt(standard_gravity * seed.diameter);
+}
+
+/// Over the seed's diameter.
+double bed_depth(const Vessel& tray, const PlannedSeed& seed) {
+  const double d = seed.diameter;
+  return tray.fill->count * std::numbers::pi / 6 * d * d / (poured_packing * floor_area(tray));
+}
+
+double nearest(double value, const Span& known) {
+  return std::clamp(value, known.least, known.most);
+}
+
+HoleConditions nearest_place(HoleConditions at, const HoleTable& table) {
+  at.aspect = nearest(at.aspect, table.aspects());
+  at.width = nearest(at.width, table.widths(at.aspect));
+  at.peak_speed = nearest(at.peak_speed, table.peak_speeds(at.aspect));
+  at.depth = nearest(at.depth, table.depths(at.aspect));
+  return at;
+}
+
+PlannedSeed largest_seed(const std::vector<SeedLot>& lots) {
+  PlannedSeed largest;
+  for (const SeedLot& lot : lots)
+    if (const PlannedSeed seed = planned_seed(lot); seed.diameter > largest.diameter) largest = seed;
+  return largest;
+}
+
+/// Why none of a tray's holes is a place of the table, whatever its width and speed; empty where it may be.
+std::string unlike_table(const Scene& scene, const HarmonicMotion& motion) {
+  if (scene.lots.size() > 1) return "seeds: there are several lots, of which the largest seeds count";
+  if (!is_level(motion.direction)) return "tray.motion.direction: the tray is not shaken along its floor";
+  return "";
+}
+
+}  // namespace
+
+TableTray table_tray(const Scene& scene) {
+  const Vessel& tray = scene.tray;
+  if (scene.space == Space::plane) refuse("space", "is the plane");
+  if (scene.lots.size() > 1) refuse("seeds", "there are several lots");
+  if (scene.hopper) refuse("hopper", "a hopper feeds the tray");
+  if (tray.rain || !tray.fill) refuse("tray.fill", "the bed is not a fill");
+  if (tray.tilt != 0 || tray.funnel != 0) refuse("tray.tilt", "the floor slopes");
+  check_holes(tray.holes);
+  const HarmonicMotion& motion = shaking_along(tray);
+  TableTray found;
+  found.seed = planned_seed(scene.lots.front());
+  found.holes = static_cast<int>(tray.holes.size());
+  found.amplitude = motion.amplitude;
+  found.frequency = motion.frequency;
+  found.at = {found.seed.aspect, tray.holes.front().width / found.seed.diameter, peak_speed(motion, found.seed),
+              bed_depth(tray, found.seed)};
+  return found;
+}
+
+std::string outside_table(const char* key, double value, const Span& known, const char* unit) {
+  if (known.holds(value)) return "";
+  return fmt::format("{}: {:.3g} {} is outside the table of one hole, which has {:.3g} to {:.3g}", key, value, unit,
+                     known.least, known.most);
+}
+
+std::string outside_table(const HoleConditions& at, const HoleTable& table) {
+  const Span aspects = table.aspects();
+  std::string text = outside_table("seeds", at.aspect, aspects, "times as long as wide");
+  const double aspect = nearest(at.aspect, aspects);
+  const auto look = [&](const char* key, double value, const Span& known, const char* unit) {
+    if (text.empty()) text = outside_table(key, value, known, unit);
+  };
+  look("tray.holes.width", at.width, table.widths(aspect), "seeds");
+  look("tray.motion.frequency", at.peak_speed, table.peak_speeds(aspect), "sqrt(g d)");
+  look("tray.fill.count", at.depth, table.depths(aspect), "seeds of depth");
+  return text;
+}
+
+TrayTolerance tray_tolerance(const Scene& scene, const HoleTable& table, const BuildTolerance& tolerance) {
+  const Vessel& tray = scene.tray;
+  const HarmonicMotion* motion = shaking(tray);
+  if (tray.holes.empty() || !all_round(tray.holes)) return {std::nullopt, "tray.holes.shape: holes are not round"};
+  if (motion == nullptr) return {std::nullopt, "tray.motion: the tray is not shaken to and fro"};
+  const PlannedSeed seed = largest_seed(scene.lots);
+  std::string outside = unlike_table(scene, *motion);
+  double sum = 0, by_width = 0, by_speed = 0;
+  for (const Hole& hole : tray.holes) {
+    HoleConditions own{seed.aspect, hole.width / seed.diameter, peak_speed(*motion, seed), 0};
+    const Span depths = table.depths(nearest(own.aspect, table.aspects()));
+    own.depth = tray.fill ? nearest(bed_depth(tray, seed), depths) : depths.most;
+    if (outside.empty()) outside = outside_table(own, table);
+    const HoleConditions at = nearest_place(own, table);
+    const HoleTable::Slopes slopes = table.slopes(at);
+    const double outflow = table.at(at).value().outflow;
+    sum += outflow, by_width += outflow * slopes.width / hole.width, by_speed += outflow * slopes.peak_speed;
+  }
+  return {tolerance_deviation({by_width / sum, by_speed / sum}, tolerance), outside};
+}
+
+}  // namespace vibrosow
