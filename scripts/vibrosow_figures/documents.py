@@ -253,10 +253,22 @@ def calibration_coverage(root):
     return lines
 
 
+def bench_sheets(root):
+    """What sheets of made-up benches promised, and what calibrations found with their readings."""
+    lines = [["key", "narrowed by, promised", "found", "held", "of 40, 95 %"]]
+    for row in rows(root / "reports/bench-sheets/summary.csv"):
+        low, high = (number(row, f"held_{end}_percent", 0) for end in ("low", "high"))
+        lines.append([f"`{row['key']}`", f"{number(row, 'promised_percent', 0)} %",
+                      f"{number(row, 'narrowed_percent', 0)} ± {number(row, 'narrowed_half_width_95', 0)} %", f"{number(row, 'held_percent', 0)} %",
+                      f"{low} to {high}"])
+    return lines
+
+
 TABLES = {"wheat-holes": wheat_holes, "wheat-tray-spaces": wheat_tray_spaces, "wheat-tray-clumps": wheat_tray_clumps,
           "wheat-tray-grains": wheat_tray_grains, "slot-in-space": slot_in_space, "paper-a-fig3": paper_a_fig3,
           "paper-b-readings": paper_b_readings, "silo": silo, "round-holes": round_holes, "relations": relations,
-          "accuracy-tray": accuracy_tray, "levels": levels, "level-errors": level_errors, "calibration-coverage": calibration_coverage}
+          "accuracy-tray": accuracy_tray, "levels": levels, "level-errors": level_errors, "calibration-coverage": calibration_coverage,
+          "bench-sheets": bench_sheets}
 
 
 def markdown(lines):

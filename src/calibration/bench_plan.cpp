@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "calibration/calibration.hpp"
 #include "scene/input_error.hpp"
 #include "study/evaluate.hpp"
 #include "surrogate/gaussian_process.hpp"
@@ -34,69 +35,97 @@ double settable(double value) {
   return value == 0 ? 0 : std::round(value * unit) / unit;
 }
 
-/// What the runs of one candidate say.
-struct Flow {
-  MatrixXd points;
-  VectorXd log_rates;      // kg/s
-  double seeds_per_s = 0;  // of the tray as far as its depth is known, mean
-  double emptied_in = 0;   // s, of a fill that is not kept up; 0: never
-  double window = 0;       // s
-};
-
 double depth_of(const Evaluation& evaluation) {
   return evaluation.outflow.depth_factor.value_or(1);
 }
 
-/// Time in which the fills that are not kept up leave at this rate; 0: never.
-double emptying_time(const Scene& scene, double slice_seeds_per_s) {
+/// Seeds of the fills that are not kept up; 0 where one is.
+double seeds_to_give(const Scene& scene) {
   double count = 0;
   for (const Vessel* vessel : {&scene.tray, scene.hopper ? &*scene.hopper : nullptr}) {
     if (vessel == nullptr || !vessel->fill) continue;
     if (vessel->fill->keep) return 0;
     count += vessel->fill->count;
   }
-  return slice_seeds_per_s > 0 ? count / slice_seeds_per_s : 0;
+  return count;
+}
+
+/// What the runs say, of all conditions together.
+struct Flows {
+  MatrixXd places;               // parts of the keys' ranges, then of the settings'; one run a row
+  VectorXd log_rates;            // kg/s
+  std::vector<int> tried, gave;  // of each condition: runs, and those that let something through
+  double seeds_per_kg = 0;       // of the tray as far as its depth is known, over what the scene gives; mean
+  double scene_seeds_per_kg = 0;
+  double to_give = 0;  // seeds of a fill that is not kept up; 0: for ever
+  double window = 0;   // s
+
+  /// Whether enough flows under a condition to tell.
+  bool is_told(std::size_t condition) const { return 2 * gave[condition] >= tried[condition]; }
+};
+
+/// Of each condition, where each of its settings lies between the least and the most that is tried.
+MatrixXd settings_of(const std::vector<std::vector<Condition>>& conditions) {
+  MatrixXd parts(static_cast<Index>(conditions.size()), static_cast<Index>(conditions.front().size()));
+  for (Index c = 0; c < parts.rows(); ++c)
+    for (Index k = 0; k < parts.cols(); ++k)
+      parts(c, k) = conditions[static_cast<std::size_t>(c)][static_cast<std::size_t>(k)].number.value();
+  const Eigen::RowVectorXd least = parts.colwise().minCoeff(), most = parts.colwise().maxCoeff();
+  return (parts.rowwise() - least).array().rowwise() / (most - least).array();
+}
+
+/// Points of the keys under one condition, as the surrogate takes them.
+MatrixXd under(const MatrixXd& points, const Eigen::RowVectorXd& settings) {
+  MatrixXd places(points.rows(), points.cols() + settings.cols());
+  places << points, settings.replicate(points.rows(), 1);
+  return places;
 }
 
 /// None where a run is missing.
-std::optional<Flow> flow_of(const CalibrationDesign& design, std::size_t condition, const KeptRuns& kept) {
-  std::vector<Index> points;
+std::optional<Flows> flows_of(const CalibrationDesign& design, const MatrixXd& settings, const KeptRuns& kept) {
+  Flows flows;
+  flows.tried.assign(design.conditions.size(), 0);
+  flows.gave = flows.tried;
+  std::vector<const CalibrationRun*> flowing;
   std::vector<double> rates;
-  Flow flow;
-  double seeds = 0, emptied = 0;
   for (const CalibrationRun& run : design.runs) {
-    if (run.condition != condition) continue;
     const std::optional<Run> made = kept(name_of_run(run.scene, run.random_seed));
     if (!made) return std::nullopt;
+    ++flows.tried[run.condition];
     const Evaluation evaluation = reduced(run.scene, *made);
     const HoleOutflow* all = find_row(evaluation.outflow, "all", "all");
     if (!evaluation.is_sound() || all == nullptr || !(all->mass_rate > 0)) continue;
-    points.push_back(run.point);
-    rates.push_back(all->mass_rate);
-    seeds += all->seeds_per_s * depth_of(evaluation);
-    emptied += emptying_time(run.scene, all->seeds_per_s);
-    flow.window = evaluation.outflow.window.length();
+    ++flows.gave[run.condition];
+    flowing.push_back(&run);
+    rates.push_back(std::log(all->mass_rate));
+    flows.scene_seeds_per_kg += all->seeds_per_s / all->mass_rate;
+    flows.seeds_per_kg += all->seeds_per_s / all->mass_rate * depth_of(evaluation);
+    flows.to_give += seeds_to_give(run.scene);
+    flows.window += evaluation.outflow.window.length();
   }
-  const auto count = static_cast<Index>(points.size());
-  flow.points.resize(count, design.points.cols());
-  flow.log_rates.resize(count);
+  const auto count = static_cast<Index>(flowing.size());
+  for (double* sum : {&flows.scene_seeds_per_kg, &flows.seeds_per_kg, &flows.to_give, &flows.window})
+    *sum /= static_cast<double>(std::max<Index>(count, 1));
+  flows.log_rates = Eigen::Map<const VectorXd>(rates.data(), count);
+  flows.places.resize(count, design.points.cols() + settings.cols());
   for (Index i = 0; i < count; ++i) {
-    flow.points.row(i) = design.points.row(points[static_cast<std::size_t>(i)]);
-    flow.log_rates(i) = std::log(rates[static_cast<std::size_t>(i)]);
+    const CalibrationRun& run = *flowing[static_cast<std::size_t>(i)];
+    flows.places.row(i) = under(design.points.row(run.point), settings.row(static_cast<Index>(run.condition)));
   }
-  flow.seeds_per_s = seeds / static_cast<double>(std::max<Index>(count, 1));
-  flow.emptied_in = emptied / static_cast<double>(std::max<Index>(count, 1));
-  return flow;
+  return flows;
 }
 
-/// Slopes of the surrogate along the keys at each point, one a row; a last column of ones for an unknown factor.
-MatrixXd slopes_of(const GaussianProcess& surrogate, const MatrixXd& points, bool with_factor) {
+/// Slopes of the surrogate along the keys at each point under a condition, one a row; a last column of ones for an
+/// unknown factor.
+MatrixXd slopes_of(const GaussianProcess& surrogate, const MatrixXd& points, const Eigen::RowVectorXd& settings,
+                   bool with_factor) {
   MatrixXd result = MatrixXd::Ones(points.rows(), points.cols() + (with_factor ? 1 : 0));
   for (Index d = 0; d < points.cols(); ++d) {
     MatrixXd up = points, down = points;
     up.col(d) = (up.col(d).array() + difference).min(1.0);
     down.col(d) = (down.col(d).array() - difference).max(0.0);
-    result.col(d) = (surrogate.at(up).mean - surrogate.at(down).mean).array() / (up.col(d) - down.col(d)).array();
+    result.col(d) = (surrogate.at(under(up, settings)).mean - surrogate.at(under(down, settings)).mean).array() /
+                    (up.col(d) - down.col(d)).array();
   }
   return result;
 }
@@ -135,12 +164,15 @@ class Information {
   std::vector<MatrixXd> at_points_;
 };
 
-/// The same for all readings: long enough for the slowest candidate, short enough for the one that empties first.
-double catch_time(const std::vector<Flow>& flows) {
+/// The same for all readings: long enough for the slowest candidate that tells, short enough for the one that empties
+/// first.
+double catch_time(const Flows& flows, const std::vector<BenchCandidate>& candidates) {
   double time = least_catch, most = most_catch;
-  for (const Flow& flow : flows) {
-    if (flow.seeds_per_s > 0) time = std::max(time, seeds_wanted / flow.seeds_per_s);
-    if (flow.emptied_in > 0) most = std::min(most, share_of_fill * flow.emptied_in);
+  for (std::size_t c = 0; c < candidates.size(); ++c) {
+    if (!flows.is_told(c)) continue;
+    time = std::max(time, seeds_wanted / (flows.seeds_per_kg * candidates[c].mass_rate));
+    if (flows.to_give > 0)
+      most = std::min(most, share_of_fill * flows.to_give / (flows.scene_seeds_per_kg * candidates[c].mass_rate));
   }
   time = std::min(time, most);
   return time >= 5 ? 5 * std::floor(time / 5) : std::max(1.0, std::floor(time));
@@ -149,31 +181,22 @@ double catch_time(const std::vector<Flow>& flows) {
 /// Of one candidate at the points averaged over; none where too little flows to tell.
 using Slopes = std::optional<MatrixXd>;
 
-/// Fills in what the runs of a candidate say.
-Slopes look_at(BenchCandidate& candidate, const Flow& flow, const MatrixXd& points, const BenchPlan& plan,
-               double noise) {
-  if (flow.log_rates.size() < points.cols() + 4) return std::nullopt;
-  const GaussianProcess surrogate(flow.points, flow.log_rates);
-  const double flow_chance = surrogate.noise() * flow.window / plan.catch_time;
-  candidate.mass_rate = std::exp(surrogate.at(points).mean.mean());
-  candidate.chance = std::sqrt(flow_chance + noise * noise);
-  return slopes_of(surrogate, points, !plan.whole_rates);
-}
-
-/// Of all readings of a candidate.
-double weight_of(const BenchPlan& plan, std::size_t candidate) {
-  const double chance = plan.candidates[candidate].chance;
-  return plan.repeats / (chance * chance);
+/// Of what calibrate will know of a condition's rate from its usual number of runs, each off by `noise` (variance of
+/// the logarithm): of a trend along the keys, mean over the runs.
+double variance_of_fit(double noise, std::size_t keys, int conditions) {
+  const double runs = static_cast<double>(CalibrationTask().most_runs) / conditions;
+  return noise * static_cast<double>(keys + 1) / runs;
 }
 
 /// The candidate, of those without a place, that adds most to the information.
-std::size_t most_telling(const BenchPlan& plan, const std::vector<Slopes>& slopes, const Information& information) {
+std::size_t most_telling(const BenchPlan& plan, const std::vector<Slopes>& slopes, const Information& information,
+                         double weight) {
   std::optional<std::size_t> best;
   double most = 0;
   for (std::size_t c = 0; c < slopes.size(); ++c) {
     if (!slopes[c] || plan.candidates[c].place) continue;
     Information with = information;
-    with.add(*slopes[c], weight_of(plan, c));
+    with.add(*slopes[c], weight);
     const double determinant = with.log_determinant();
     if (best && determinant <= most) continue;
     best = c, most = determinant;
@@ -200,6 +223,8 @@ MeasuredTable bench_candidates(const std::vector<KeyRange>& settings) {
   const int levels = settings.size() <= 2 ? 3 : 2;
   std::vector<std::vector<Condition>> grid{{}};
   for (const KeyRange& setting : settings) {
+    if (settable(setting.low) == settable(setting.high))
+      throw InputError(fmt::format("--try {}: its ends are the same to three digits", setting.key));
     table.condition_keys.push_back(setting.key);
     std::vector<std::vector<Condition>> longer;
     for (const std::vector<Condition>& point : grid)
@@ -222,37 +247,46 @@ MeasuredTable bench_candidates(const std::vector<KeyRange>& settings) {
 std::optional<BenchPlan> plan_bench(const CalibrationTask& task, const CalibrationDesign& design,
                                     const BenchLimits& limits, const KeptRuns& kept) {
   const auto keys = static_cast<Index>(task.keys.size());
-  std::vector<Flow> flows;
-  for (std::size_t condition = 0; condition < design.conditions.size(); ++condition) {
-    std::optional<Flow> flow = flow_of(design, condition, kept);
-    if (!flow) return std::nullopt;
-    flows.push_back(std::move(*flow));
-  }
+  const MatrixXd settings = settings_of(design.conditions);
+  const std::optional<Flows> flows = flows_of(design, settings, kept);
+  if (!flows) return std::nullopt;
+  const auto flowing = flows->log_rates.size();
+  if (flowing < flows->places.cols() + 4)
+    throw InputError(fmt::format("{}: {} under the settings that are tried: {} of {} runs let something through",
+                                 task.seeder.string(), flowing == 0 ? "nothing flows" : "too little flows", flowing,
+                                 design.runs.size()));
+  const GaussianProcess surrogate(flows->places, flows->log_rates);
   BenchPlan plan;
   plan.whole_rates = task.measured.scale != MeasuredScale::free;
-  plan.catch_time = catch_time(flows);
   const MatrixXd points = sobol_points(points_averaged, keys);
   std::vector<Slopes> slopes;
-  int usable = 0;
-  for (std::size_t c = 0; c < flows.size(); ++c) {
+  for (std::size_t c = 0; c < design.conditions.size(); ++c) {
+    const Eigen::RowVectorXd set = settings.row(static_cast<Index>(c));
     plan.candidates.push_back({.conditions = design.conditions[c]});
-    slopes.push_back(look_at(plan.candidates.back(), flows[c], points, plan, limits.noise));
-    if (slopes.back()) ++usable;
+    plan.candidates.back().mass_rate = std::exp(surrogate.at(under(points, set)).mean.mean());
+    slopes.push_back(flows->is_told(c) ? Slopes(slopes_of(surrogate, points, set, !plan.whole_rates)) : std::nullopt);
   }
-  if (usable == 0) throw InputError(fmt::format("{}: nothing flows under any of the settings", task.seeder.string()));
+  plan.catch_time = catch_time(*flows, plan.candidates);
+  const double chance = std::sqrt(surrogate.noise() * flows->window / plan.catch_time + limits.noise * limits.noise);
+  for (BenchCandidate& candidate : plan.candidates) candidate.chance = chance;
+  const auto usable = static_cast<int>(std::ranges::count_if(slopes, &Slopes::has_value));
   const int readings = static_cast<int>(limits.time / (plan.catch_time + limits.handling));
   plan.repeats = readings / usual_repeats > static_cast<int>(keys) ? usual_repeats : least_repeats;
   const int wanted = std::min(readings / plan.repeats, usable);
   if (wanted < 1)
     throw InputError(fmt::format("--time: {:g} min are too short for {} readings of {:g} s", limits.time / 60,
                                  least_repeats, plan.catch_time));
-  Information information(keys, !plan.whole_rates);
+  const int held_out = usual_hold_out(task.measured.table).every;
+  Information information(keys, !plan.whole_rates), fitted = information;
+  const double weight =
+      1 / (chance * chance / plan.repeats + variance_of_fit(surrogate.noise(), task.keys.size(), wanted));
   for (int place = 1; place <= wanted; ++place) {
-    const std::size_t best = most_telling(plan, slopes, information);
+    const std::size_t best = most_telling(plan, slopes, information, weight);
     plan.candidates[best].place = place;
-    information.add(*slopes[best], weight_of(plan, best));
+    information.add(*slopes[best], weight);
+    if (place % held_out != 0) fitted.add(*slopes[best], weight);
   }
-  for (Index k = 0; k < keys; ++k) plan.contraction.push_back(information.contraction(k));
+  for (Index k = 0; k < keys; ++k) plan.contraction.push_back(fitted.contraction(k));
   return plan;
 }
 

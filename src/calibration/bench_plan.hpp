@@ -19,7 +19,7 @@ struct BenchLimits {
 struct BenchCandidate {
   std::vector<Condition> conditions;
   double mass_rate = 0;        // kg/s, of the plane slice or in space of the tray: geometric mean over the keys' ranges
-  double chance = 0;           // relative standard deviation of one reading
+  double chance = 0;           // relative standard deviation of one reading; of the flow's that of all runs together
   std::optional<int> place{};  // in the order in which it was chosen, 1..; none: it was not
 };
 
@@ -28,20 +28,22 @@ struct BenchPlan {
   std::vector<BenchCandidate> candidates;
   double catch_time = 0;            // s, of each reading
   int repeats = 0;                  // of each condition
-  std::vector<double> contraction;  // that is expected, of CalibrationTask::keys
+  std::vector<double> contraction;  // that is expected, of CalibrationTask::keys; without what calibrate holds out
   bool whole_rates = true;          // false: rates are known up to a factor
   int readings() const;
   std::vector<const BenchCandidate*> chosen() const;  // in their order
 };
 
 /// A measured table without values, to be measured: every combination of three values of each setting, of two where
-/// there are more than two settings, rounded to three digits.
+/// there are more than two settings, rounded to three digits. Throws InputError for a range that has no two of them.
 MeasuredTable bench_candidates(const std::vector<KeyRange>& settings);
 
 /// Chooses the conditions one after the other, each as the one that adds most to the expected logarithm of the
 /// determinant of the keys' information (Bayesian D-optimality, Chaloner & Verdinelli 1995), over 64 Sobol points of
-/// their ranges, with Gaussian processes fitted to the runs of `design`, which was made for `bench_candidates`. Where
-/// the task's scale is free, the factor is one more unknown. Each condition is read three times, twice where that
+/// their ranges, with one Gaussian process over keys and settings fitted to the runs of `design` (design_bench), which
+/// was made for `bench_candidates`. A condition under which fewer than half of the runs let anything through is left
+/// out. A reading is as telling as its own chance, and that of the runs which calibrate will set beside it, allow.
+/// Where the task's scale is free, the factor is one more unknown. Each condition is read three times, twice where that
 /// leaves too few; readings catch a thousand seeds or more, 10 to 120 s, and at most half of what a fill that is not
 /// kept up holds. None where a run is missing. Throws InputError where too few runs can be used, or the time is too
 /// short.

@@ -20,18 +20,42 @@ struct Counts {
   Eigen::Index different, repeated;
 };
 
-Counts counts_for(const CalibrationTask& task, std::size_t conditions) {
-  const auto affordable = static_cast<Eigen::Index>(static_cast<std::size_t>(task.most_runs) / conditions);
-  const auto keys = static_cast<Eigen::Index>(task.keys.size());
+/// Of what can be afforded.
+Counts shared_out(Eigen::Index affordable) {
   const auto repeated = std::max(least_repeated, static_cast<Eigen::Index>(repeated_share / (1 + repeated_share) *
                                                                            static_cast<double>(affordable)));
-  const Eigen::Index needed = 3 * (keys + 1);
-  if (affordable - repeated < needed)
+  return {affordable - repeated, repeated};
+}
+
+/// Points for a trend along so many axes and what departs from it.
+Eigen::Index points_needed(std::size_t axes) {
+  return 3 * (static_cast<Eigen::Index>(axes) + 1);
+}
+
+/// With those that are made again.
+std::size_t with_repeats(Eigen::Index needed) {
+  return static_cast<std::size_t>(needed + std::max(least_repeated, needed / 5 + 1));
+}
+
+Counts counts_for(const CalibrationTask& task, std::size_t conditions) {
+  const Counts counts = shared_out(static_cast<Eigen::Index>(static_cast<std::size_t>(task.most_runs) / conditions));
+  const Eigen::Index needed = points_needed(task.keys.size());
+  if (counts.different < needed)
     throw InputError(fmt::format(
         "--runs {}: {} keys under {} conditions need at least {} runs; fit fewer keys (--fit), or leave conditions out",
-        task.most_runs, keys, conditions,
-        static_cast<std::size_t>(needed + std::max(least_repeated, needed / 5 + 1)) * conditions));
-  return {affordable - repeated, repeated};
+        task.most_runs, task.keys.size(), conditions, with_repeats(needed) * conditions));
+  return counts;
+}
+
+/// Points of a Latin hypercube over the keys' ranges, the first of them a second time at the end.
+Eigen::MatrixXd drawn_points(const CalibrationTask& task, const Counts& counts) {
+  const auto dimensions = static_cast<Eigen::Index>(task.keys.size());
+  Eigen::MatrixXd points(counts.different + counts.repeated, dimensions);
+  const auto cube = latin_hypercube(static_cast<std::size_t>(counts.different), task.keys.size(), task.random_seed);
+  for (Eigen::Index point = 0; point < counts.different; ++point)
+    points.row(point) = Eigen::Map<const Eigen::RowVectorXd>(cube[static_cast<std::size_t>(point)].data(), dimensions);
+  points.bottomRows(counts.repeated) = points.topRows(counts.repeated);
+  return points;
 }
 
 std::vector<std::vector<Condition>> conditions_of(const MeasuredTable& table) {
@@ -93,14 +117,7 @@ CalibrationDesign design_calibration(const CalibrationTask& task, const std::sha
         fmt::format("{}: --scale free goes with rates; of curves expected none or depth", task.measured.file.string()));
   CalibrationDesign design;
   design.conditions = conditions_of(task.measured.table);
-  const auto [different, repeated] = counts_for(task, design.conditions.size());
-  const auto dimensions = static_cast<Eigen::Index>(task.keys.size());
-  design.points.resize(different + repeated, dimensions);
-  const auto cube = latin_hypercube(static_cast<std::size_t>(different), task.keys.size(), task.random_seed);
-  for (Eigen::Index point = 0; point < different; ++point)
-    design.points.row(point) =
-        Eigen::Map<const Eigen::RowVectorXd>(cube[static_cast<std::size_t>(point)].data(), dimensions);
-  design.points.bottomRows(repeated) = design.points.topRows(repeated);
+  design.points = drawn_points(task, counts_for(task, design.conditions.size()));
   std::uint64_t seed = task.random_seed;
   for (Eigen::Index point = 0; point < design.points.rows(); ++point)
     for (std::size_t condition = 0; condition < design.conditions.size(); ++condition)
@@ -110,6 +127,31 @@ CalibrationDesign design_calibration(const CalibrationTask& task, const std::sha
   for (const MeasuredSeries& series : task.measured.table.series) {
     const auto condition = std::ranges::find(design.conditions, series.conditions) - design.conditions.begin();
     check_measurable(task, series, design.runs[static_cast<std::size_t>(condition)].scene);
+  }
+  return design;
+}
+
+int fewest_bench_runs(std::size_t keys_and_settings) {
+  return static_cast<int>(with_repeats(points_needed(keys_and_settings)));
+}
+
+CalibrationDesign design_bench(const CalibrationTask& task, const std::shared_ptr<SourceFiles>& files) {
+  check_keys(task);
+  const std::size_t settings = task.measured.table.condition_keys.size();
+  if (const int fewest = fewest_bench_runs(task.keys.size() + settings); task.most_runs < fewest)
+    throw InputError(
+        fmt::format("--runs {}: {} keys and {} settings need at least {} runs; fit fewer keys (--fit), or try fewer "
+                    "settings (--try)",
+                    task.most_runs, task.keys.size(), settings, fewest));
+  CalibrationDesign design;
+  design.conditions = conditions_of(task.measured.table);
+  const Counts counts = shared_out(task.most_runs);
+  design.points = drawn_points(task, counts);
+  for (Eigen::Index point = 0; point < design.points.rows(); ++point) {
+    const std::size_t condition = static_cast<std::size_t>(point % counts.different) % design.conditions.size();
+    design.runs.push_back(
+        {point, condition, task.random_seed + static_cast<std::uint64_t>(point),
+         calibration_scene(task, design.conditions[condition], design.points.row(point).transpose(), files)});
   }
   return design;
 }

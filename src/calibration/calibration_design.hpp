@@ -44,6 +44,14 @@ struct CalibrationDesign {
 /// for so many keys and conditions, or a range that leaves what the key may be.
 CalibrationDesign design_calibration(const CalibrationTask& task, const std::shared_ptr<SourceFiles>& files);
 
+/// The runs from which a bench's settings are chosen: each point of a Latin hypercube under one condition of the table
+/// alone, the conditions in turn, and some points again under other random seeds. `most_runs` of them in all, at least
+/// `fewest_bench_runs`. Throws InputError as `design_calibration` does.
+CalibrationDesign design_bench(const CalibrationTask& task, const std::shared_ptr<SourceFiles>& files);
+
+/// So few runs tell of a rate over so many fitted keys and settings together.
+int fewest_bench_runs(std::size_t keys_and_settings);
+
 /// The seeder at one point of the keys (parts of their ranges) under conditions.
 Scene calibration_scene(const CalibrationTask& task, const std::vector<Condition>& conditions,
                         const Eigen::VectorXd& point, const std::shared_ptr<SourceFiles>& files);

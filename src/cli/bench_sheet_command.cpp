@@ -1,20 +1,26 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "calibration/bench_plan.hpp"
+#include "calibration/bench_runs.hpp"
 #include "cli/commands.hpp"
 #include "cli/common_options.hpp"
 #include "cli/console.hpp"
 #include "cli/help_text.hpp"
 #include "cli/make_runs.hpp"
+#include "cli/progress.hpp"
 #include "input/input_file.hpp"
 #include "report/bench_report.hpp"
+#include "report/terminal_text.hpp"
 #include "scene/input_error.hpp"
 #include "storage/study_plan.hpp"
+#include "study/predicted_cost.hpp"
 #include "units/quantity.hpp"
 
 namespace vibrosow {
@@ -25,38 +31,54 @@ struct BenchSheetOptions {
   MakingFlags making;
   std::vector<std::string> fits, settings;
   std::string time = "30 min", handling = "60 s";
-  int runs = 250;
+  int runs = 60;
 };
 
-CalibrationTask task_of(const BenchSheetOptions& command, const InputFile& seeder) {
-  CalibrationTask task;
-  task.seeder = seeder.path;
-  task.overrides = command.common.overrides();
-  for (const std::string& fit : command.fits) task.keys.push_back(parse_fitted_key(fit));
-  if (task.keys.empty()) task.keys = usual_fitted_keys(task.seeder, task.overrides, seeder.files);
-  const Scene scene = middle_scene(task, seeder.files);
-  std::vector<KeyRange> settings;
-  for (const std::string& setting : command.settings) settings.push_back(parse_setting(setting));
-  if (settings.empty()) settings = usual_settings(scene);
-  if (settings.empty())
-    throw InputError(
-        fmt::format("{}: the tray has no harmonic motion; say what can be set at the bench, such as --try "
-                    "\"tray.holes.width=8 mm..12 mm\"",
-                    task.seeder.string()));
-  task.measured.file = "--try";
-  task.measured.table = bench_candidates(settings);
-  task.measured.scale = scene.space == Space::plane ? MeasuredScale::free : MeasuredScale::none;
-  task.most_runs = command.runs;
-  task.random_seed = command.common.random_seed;
-  return task;
+BenchAsked asked_of(const BenchSheetOptions& command, const std::filesystem::path& seeder) {
+  BenchAsked asked{.seeder = seeder, .overrides = command.common.overrides(), .keys = {}, .settings = {}};
+  for (const std::string& fit : command.fits) asked.keys.push_back(parse_fitted_key(fit));
+  for (const std::string& setting : command.settings) asked.settings.push_back(parse_setting(setting));
+  asked.most_runs = command.runs;
+  asked.random_seed = command.common.random_seed;
+  return asked;
 }
 
 /// With the same keys and changes as this page was made for.
-std::string calibrate_command(const BenchSheetOptions& command) {
+std::string calibrate_command(const BenchSheetOptions& command, const BenchRuns& bench) {
   std::string text = fmt::format("vibrosow calibrate {} bench.csv", command.common.file);
   for (const std::string& fit : command.fits) text += fmt::format(" --fit \"{}\"", fit);
   for (const std::string& set : command.common.sets) text += fmt::format(" --set \"{}\"", set);
-  return text;
+  return text + (bench.is_draft ? " --set accuracy=draft" : "");
+}
+
+/// What was chosen so that the sheet is not dear.
+std::vector<std::string> choices_of(const BenchSheetOptions& command, const BenchRuns& bench) {
+  std::vector<std::string> choices;
+  const auto runs = static_cast<int>(bench.design.runs.size());
+  const std::string why = fmt::format("more would take over {:.0f} minutes of two cores", bench_budget / 120);
+  if (bench.is_draft)
+    choices.push_back(fmt::format("Its runs are of the level \"draft\", with softer seeds: {}.", why));
+  if (runs < command.runs) choices.push_back(fmt::format("It is of {} runs: {}.", runs, why));
+  if (!bench.left_out.empty())
+    choices.push_back(
+        fmt::format("{} is left as it is: {}. --try chooses another.", fmt::join(bench.left_out, ", "), why));
+  return choices;
+}
+
+/// Says what the runs that are not there yet will take. Throws InputError where this machine is too slow.
+void tell_cost(const BenchSheetOptions& command, const BenchRuns& bench, const StudyRuns& runs) {
+  std::vector<const Scene*> missing;
+  for (const CalibrationRun& run : bench.design.runs)
+    if (!runs.named(name_of_run(run.scene, run.random_seed))) missing.push_back(&run.scene);
+  if (missing.empty()) return;
+  const double seconds = predict_seconds(missing);
+  if (seconds > bench_budget)
+    throw InputError(
+        fmt::format("{}: its {} runs would take some {} of two cores on this machine, over {:.0f} minutes; give a "
+                    "shorter run.duration or a section of the tray, or fewer --runs",
+                    bench.task.seeder.string(), missing.size(), duration_text(seconds / 2), bench_budget / 120));
+  if (!command.common.quiet)
+    print_text(wrapped(fmt::format("{} runs, some {} of CPU time", missing.size(), duration_text(seconds))));
 }
 
 int run_bench_sheet(const BenchSheetOptions& command) {
@@ -65,18 +87,18 @@ int run_bench_sheet(const BenchSheetOptions& command) {
   limits.time = time_option("--time", command.time);
   limits.handling = time_option("--handling", command.handling);
   const InputFile file = input_file(options.file, FileKind::seeder);
-  const CalibrationTask task = task_of(command, file);
-  const CalibrationDesign design = design_calibration(task, file.files);
+  const BenchRuns bench = affordable_bench(asked_of(command, file.path), file.files);
   const OutputFolder folder = options.output_folder("bench-sheet", bench_file_texts(), "-bench");
   StudyRuns runs(cases_of(folder.path()));
-  const Made made = make_runs(runs, wanted_runs(design), command.making, options.jobs, options.quiet);
+  tell_cost(command, bench, runs);
+  const Made made = make_runs(runs, wanted_runs(bench.design), command.making, options.jobs, options.quiet);
   if (made.making.interrupted > 0) {
-    complain(fmt::format("{} of {} runs are still to be made", made.making.interrupted, design.runs.size()));
+    complain(fmt::format("{} of {} runs are still to be made", made.making.interrupted, bench.design.runs.size()));
     return exit_interrupted;
   }
-  const std::optional<BenchPlan> plan = plan_bench(task, design, limits, runs.kept());
+  const std::optional<BenchPlan> plan = plan_bench(bench.task, bench.design, limits, runs.kept());
   if (!plan) throw InputError(fmt::format("{}: runs are missing", folder.path().string()));
-  const BenchSource source{task, limits, *plan, calibrate_command(command)};
+  const BenchSource source{bench.task, limits, *plan, choices_of(command, bench), calibrate_command(command, bench)};
   write_then_print(
       options.quiet, [&] { folder.write(bench_files(source, options.csv)); }, [&] { print_text(bench_table(source)); });
   if (!options.quiet) print("reports: {}\n", folder.path().string());

@@ -156,6 +156,7 @@ std::string page(const BenchSource& source) {
       "</head><body>\n<h1>Bench sheet: {}</h1>\n",
       page_style, escaped_text(source.task.seeder.stem().string()));
   text += instructions(source) + reading_table(source);
+  for (const std::string& choice : source.choices) text += fmt::format("<p>{}</p>\n", escaped_text(choice));
   return text + fmt::format("<p>{}</p>\n<p>Then: <code>{}</code></p>\n</body></html>\n",
                             escaped_text(expectation(source)), escaped_text(source.command));
 }
@@ -171,6 +172,7 @@ std::string bench_table(const BenchSource& source) {
   text += wrapped(fmt::format("to set ({}):", fmt::join(names, ", ")));
   for (const BenchCandidate* candidate : source.plan.chosen())
     text += fmt::format("  {:<40} a reading is off by {:.2g} %\n", setting_text(*candidate), 100 * candidate->chance);
+  for (const std::string& choice : source.choices) text += wrapped(choice);
   text += wrapped(expectation(source));
   if (!is_caught_by_hand(source)) text += wrapped(too_short);
   return text + wrapped(fmt::format("then: {}", source.command));

@@ -14,7 +14,8 @@ struct BenchSource {
   const CalibrationTask& task;
   const BenchLimits& limits;
   const BenchPlan& plan;
-  std::string command;  // that reads the table when it is filled in
+  std::vector<std::string> choices;  // sentences: what it does without, so that it is not dear
+  std::string command;               // that reads the table when it is filled in
 };
 
 /// The plan for a terminal: what to set, and what it is expected to tell.

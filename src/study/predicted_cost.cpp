@@ -247,18 +247,31 @@ CostBreakdown break_down_cost(const Model& model, const Grains& start) {
   return breakdown;
 }
 
-double predict_seconds(const Study& study) {
+double predict_seconds(const std::vector<const Scene*>& scenes) {
   constexpr std::size_t most_timed = 5;
-  const std::size_t scenes = study.scenes.size();
-  const std::size_t stride = (scenes + most_timed - 1) / most_timed;
+  const std::size_t stride = (scenes.size() + most_timed - 1) / most_timed;
   double seconds = 0;
   PredictedCost cost;
-  for (std::size_t k = 0; k < scenes; ++k) {
-    if (k % stride == 0) cost = predict_cost(study.scenes[k]);
-    cost.grain_steps = predicted_grain_steps(study.scenes[k], prepare(study.scenes[k]).step.dt);
-    seconds += cost.seconds() * study.replicates.first();
+  for (std::size_t k = 0; k < scenes.size(); ++k) {
+    if (k % stride == 0) cost = predict_cost(*scenes[k]);
+    cost.grain_steps = predicted_grain_steps(*scenes[k], prepare(*scenes[k]).step.dt);
+    seconds += cost.seconds();
   }
   return seconds;
+}
+
+double predict_seconds(const Study& study) {
+  std::vector<const Scene*> scenes;
+  for (const Scene& scene : study.scenes) scenes.push_back(&scene);
+  return study.replicates.first() * predict_seconds(scenes);
+}
+
+double usual_seconds(const Scene& scene) {
+  const double disc = scene.space == Space::plane ? 25e-9 : 70e-9;  // s
+  double discs = 0;                                                 // of a seed, mean
+  for (const SeedLot& lot : scene.lots)
+    discs += lot.number_fraction * static_cast<double>(std::max<std::size_t>(1, lot.discs.size()));
+  return disc * discs * predicted_grain_steps(scene, prepare(scene).step.dt);
 }
 
 }  // namespace vibrosow

@@ -41,8 +41,16 @@ struct CostBreakdown {
 };
 CostBreakdown break_down_cost(const Model& model, const Grains& start);
 
-/// CPU time of all runs of a study, s. At most five of its scenes, spread evenly, are timed; the others are thought to
-/// take as long a grain-step as the timed one before them.
+/// CPU time of a run of each of the scenes, summed, s. At most five of them, spread evenly, are timed; the others are
+/// thought to take as long a grain-step as the timed one before them.
+double predict_seconds(const std::vector<const Scene*>& scenes);
+
+/// The same of all runs of a study.
 double predict_seconds(const Study& study);
+
+/// CPU time (s) of a run on a machine as they are: the grain-steps that are foreseen, at 25 ns each of a disc in the
+/// plane and 70 ns of a ball in space, which are those of two hyperthreads of one core that are both at work
+/// (reports/performance). The same on every machine, so that what follows from it is, too. Throws as `prepare` does.
+double usual_seconds(const Scene& scene);
 
 }  // namespace vibrosow

@@ -41,7 +41,8 @@ class BenchPlanOf : public testing::Test {
   BenchPlan plan(const BenchLimits& limits, MeasuredScale scale = MeasuredScale::none,
                  const Simulator& simulator = made_up_run) {
     task_.measured.scale = scale;
-    const CalibrationDesign design = design_calibration(task_, std::make_shared<SourceFiles>());
+    task_.most_runs = 60;
+    const CalibrationDesign design = design_bench(task_, std::make_shared<SourceFiles>());
     return *plan_bench(task_, design, limits, runs_on_demand(wanted_runs(design), simulator));
   }
   StudyFiles files_;
@@ -101,21 +102,53 @@ TEST_F(BenchPlanOf, ItsContractionIsThatOfTheReadingsInformation) {
   EXPECT_NEAR(scaled.contraction.at(0), 1 - std::sqrt(12 / (information - across * across / of_factor)), 5e-3);
 }
 
+/// By a thirty-fifth of what flows, in a way that depends on the random seed alone.
+Run scattered_run(const Model& model, const SimulationOptions& options) {
+  Run run = exact_run(model, options);
+  const double chance = 0.1 * static_cast<double>((7 * options.random_seed) % 5) / 5;  // deviation 0.1 sqrt(2) / 5
+  run.events.resize(static_cast<std::size_t>((1 - chance) * static_cast<double>(run.events.size())));
+  return run;
+}
+
 /// A reading scatters by the flow's chance as far as the time in which it is caught is longer than a run's window, and
 /// by its own noise.
 TEST_F(BenchPlanOf, ALongerCatchHasLessChance) {
   BenchLimits limits;
   limits.noise = 1e-3;
-  const auto scattered = [](const Model& model, const SimulationOptions& options) {
-    vibrosow::Run run = exact_run(model, options);
-    const double chance = 0.1 * static_cast<double>((7 * options.random_seed) % 5) / 5;  // deviation 0.1 sqrt(2) / 5
-    run.events.resize(static_cast<std::size_t>((1 - chance) * static_cast<double>(run.events.size())));
-    return run;
-  };
-  const BenchPlan all = plan(limits, MeasuredScale::none, scattered);
+  const BenchPlan all = plan(limits, MeasuredScale::none, scattered_run);
   ASSERT_GE(all.catch_time, 10);
   const double expected = 0.1 * std::sqrt(2.0) / 5 * std::sqrt(2 / all.catch_time);  // the window is of 2 s
   for (const BenchCandidate& one : all.candidates) EXPECT_NEAR(one.chance, expected, 0.35 * expected);
+}
+
+/// What is read is compared with runs that scatter too: a trend of two numbers from 150 runs of three conditions.
+TEST_F(BenchPlanOf, ItsContractionAllowsForTheChanceOfTheRunsThatAreFitted) {
+  task_.keys.resize(1);
+  BenchLimits limits;
+  limits.noise = 1e-3;
+  const BenchPlan all = plan(limits, MeasuredScale::none, scattered_run);
+  ASSERT_EQ(all.chosen().size(), 3U);
+  const double flow = 0.1 * 0.1 * 2 / 25, window = 2;  // s
+  const double variance = (flow * window / all.catch_time + 1e-6) / 3 + flow * 2 / 50;
+  const double expected = std::sqrt(12 / (12 + (1 + 4 + 9) / variance));
+  EXPECT_NEAR(1 - all.contraction.at(0), expected, 0.3 * expected);
+  const double without_runs = std::sqrt(12 / (12 + (1 + 4 + 9) / (variance - flow * 2 / 50)));
+  EXPECT_GT(1 - all.contraction.at(0), 1.2 * without_runs);
+}
+
+/// Every fourth condition is predicted by calibrate and not fitted: it narrows nothing.
+TEST_F(BenchPlanOf, ItsContractionIsWithoutWhatIsHeldOut) {
+  task_.keys.resize(1);
+  task_.measured.table =
+      bench_candidates({parse_setting("tray.holes.width=12 mm..20 mm"), parse_setting("tray.depth=5 cm..7 cm")});
+  BenchLimits limits;
+  limits.noise = 0.3, limits.time = 3600;
+  const BenchPlan all = plan(limits, MeasuredScale::none, exact_run);
+  ASSERT_EQ(all.chosen().size(), 9U);
+  ASSERT_EQ(all.repeats, 3);
+  // The steepest are chosen first, three of each slope; the fourth is of slope 2, the eighth of slope 1.
+  const double expected = std::sqrt(12 / (12 + 3 * (3 * 9 + 2 * 4 + 2 * 1) / 0.09));
+  EXPECT_NEAR(1 - all.contraction.at(0), expected, 0.02 * expected);
 }
 
 /// With an unknown factor one condition alone tells nothing: the two that differ most do.
@@ -139,6 +172,28 @@ TEST_F(BenchPlanOf, StaysWithinItsTime) {
   BenchLimits limits;
   limits.time = 60;
   EXPECT_THROW(plan(limits), InputError);
+}
+
+/// A setting under which most runs are stopped up is not asked for; what flows under others tells of theirs.
+TEST_F(BenchPlanOf, LeavesOutASettingUnderWhichMostRunsClog) {
+  const auto narrow_clogs = [](const Model& model, const SimulationOptions& options) {
+    vibrosow::Run run = made_up_run(model, options);
+    if (model.scene.tray.holes.front().width < 0.013) run.events.clear(), run.balance.counted = 0;
+    return run;
+  };
+  const BenchPlan planned = plan({}, MeasuredScale::none, narrow_clogs);
+  EXPECT_FALSE(planned.candidates[0].place);
+  EXPECT_TRUE(planned.candidates[1].place);
+  const auto all_clog = [](const Model& model, const SimulationOptions& options) {
+    vibrosow::Run run = made_up_run(model, options);
+    run.events.clear(), run.balance.counted = 0;
+    return run;
+  };
+  EXPECT_THROW(plan({}, MeasuredScale::none, all_clog), InputError);
+}
+
+TEST(BenchCandidates, AreOfRangesThatHaveTwoNumbers) {
+  EXPECT_THROW(bench_candidates({parse_setting("tray.motion.frequency=6.7512 Hz..6.7513 Hz")}), InputError);
 }
 
 TEST(BenchCandidates, AreSettableNumbers) {

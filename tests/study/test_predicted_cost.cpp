@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "input/read_scene.hpp"
+#include "plan/predicted_grains.hpp"
 #include "simulation/state.hpp"
 #include "support/study_files.hpp"
 
@@ -49,6 +50,20 @@ TEST(PredictedCost, AStudyTakesItsReplicates) {
   const StudyFiles files;
   const Study study = read_study(files.study("replicates = 4\n[vary]\ntray.holes.count = [1, 3]\n"));
   EXPECT_GT(predict_seconds(study), 0);
+}
+
+TEST(PredictedCost, TheUsualIsOfGrainStepsAndTheBallsOfASeed) {
+  const StudyFiles files;
+  const auto a_grain_step = [&](const std::vector<Override>& overrides) {
+    const Scene scene = small_scene(files, overrides);
+    return usual_seconds(scene) / predicted_grain_steps(scene, prepare(scene).step.dt);
+  };
+  const Override space = parse_override("space=3d");
+  const double disc = a_grain_step({}), ball = a_grain_step({space});
+  EXPECT_GT(ball, disc);
+  const double grains =
+      a_grain_step({space, parse_override("seeds.wheat.shape=dipole"), parse_override("seeds.wheat.distance=2 mm")});
+  EXPECT_NEAR(grains, 2 * ball, 1e-6 * ball);
 }
 
 }  // namespace
