@@ -35,6 +35,23 @@ std::array<double, 3> measures(const std::vector<ClumpDisc>& discs) {
   return result;
 }
 
+/// Mean volume of a lot's seeds, m3.
+double volume_of(const SeedLot& lot) {
+  return (lot.shape == Shape::clump ? clump_volume(lot) : std::numbers::pi / 6 * std::pow(lot.diameter, 3)) *
+         size_moment(lot, 3);
+}
+
+/// Of the ball of a volume, m.
+double diameter_of(double volume) {
+  return std::cbrt(6 / std::numbers::pi * volume);
+}
+
+double aspect_of(const SeedLot& lot) {
+  if (lot.shape != Shape::clump) return 1;
+  const std::array<double, 3> long_first = measures(lot.discs);
+  return long_first[0] / long_first[1];
+}
+
 /// Looks up what one hole gives for a task; speeds and times over sqrt(g d) and sqrt(d / g).
 class Search {
  public:
@@ -115,6 +132,7 @@ class Search {
       layout.feed = feed;
       layout.width = width;
       layout.width_over_d = width / diameter_;
+      layout.width_over_largest = width / std::max(task_.seed.largest, diameter_);
       layout.depth_over_d = depth;
       layout.peak_speed = table_.peak_speed_giving(wanted, {task_.seed.aspect, layout.width_over_d, 0, depth},
                                                    speeds_[k], speeds_[k + 1]);
@@ -142,7 +160,7 @@ class Search {
   /// Of holes of so many seeds and more.
   std::optional<NearestChange::WiderHole> narrowest(double width_over_d) const {
     for (const double width : widths()) {
-      if (width / diameter_ < width_over_d || speeds_.empty()) continue;
+      if (width / std::max(task_.seed.largest, diameter_) < width_over_d || speeds_.empty()) continue;
       double least = 0;
       for (const double depth : depths())
         for (const double outflow : outflows(width / diameter_, depth))
@@ -181,17 +199,29 @@ SeedLot of_mass(SeedLot lot, double mass) {
   return lot;
 }
 
-PlannedSeed planned_seed(const SeedLot& lot) {
-  const double volume =
-      lot.shape == Shape::clump ? clump_volume(lot) : std::numbers::pi / 6 * std::pow(lot.diameter, 3);
+PlannedSeed planned_seed(const std::vector<SeedLot>& lots) {
   PlannedSeed seed;
-  seed.diameter = std::cbrt(6 / std::numbers::pi * volume * size_moment(lot, 3));
-  seed.mass = mean_mass(lot);
-  if (lot.shape == Shape::clump) {
-    const std::array<double, 3> long_first = measures(lot.discs);
-    seed.aspect = long_first[0] / long_first[1];
+  double volume = 0;  // m3, mean
+  for (const SeedLot& lot : lots) {
+    const double of_lot = volume_of(lot);
+    volume += lot.number_fraction * of_lot;
+    seed.mass += lot.number_fraction * mean_mass(lot);
+    seed.largest = std::max(seed.largest, diameter_of(of_lot));
   }
+  seed.diameter = diameter_of(volume);
+  seed.aspect = 0;
+  for (const SeedLot& lot : lots) seed.aspect += lot.number_fraction * volume_of(lot) / volume * aspect_of(lot);
   return seed;
+}
+
+double SownLot::seeds_per_area() const {
+  return seeds_of_mass(sowing_rate, mean_mass(lot));
+}
+
+void share_out(std::vector<SownLot>& sown) {
+  double all = 0;
+  for (const SownLot& one : sown) all += one.seeds_per_area();
+  for (SownLot& one : sown) one.lot.number_fraction = one.seeds_per_area() / all;
 }
 
 HoleClass hole_class(double width_over_d) {

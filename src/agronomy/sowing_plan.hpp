@@ -15,10 +15,22 @@ struct PlannedSeed {
   double diameter = 0;  // m, of the ball of its volume
   double mass = 0;      // kg
   double aspect = 1;    // how many times it is as long as wide; its thickness counts through the volume alone
+  double largest = 0;   // m, the diameter of the largest lot's seeds, by which holes clog; 0: `diameter`
 };
 
-/// Of a lot in space; of seeds of several sizes the mean by volume and mass.
-PlannedSeed planned_seed(const SeedLot& lot);
+/// Of lots in space; of seeds of several sizes, and of a mixture by its number fractions, the mean by volume and mass;
+/// the aspect's by volume.
+PlannedSeed planned_seed(const std::vector<SeedLot>& lots);
+
+/// A crop and how much of it is sown.
+struct SownLot {
+  SeedLot lot;                    // in space
+  double sowing_rate = 0;         // kg/m2
+  double seeds_per_area() const;  // 1/m2
+};
+
+/// Gives lots the number fractions in which they are sown.
+void share_out(std::vector<SownLot>& sown);
 
 /// The lot with its seeds made heavier or lighter (kg) at equal density and shape. Throws InputError where it has
 /// sizes.
@@ -57,16 +69,17 @@ struct PlannedLayout {
   HolesForRows feed;
   double width = 0;  // m, of a hole
   double width_over_d = 0;
-  double depth_over_d = 0;  // of the bed
-  double frequency = 0;     // Hz
-  double amplitude = 0;     // m
-  double peak_speed = 0;    // of the tray, over sqrt(g d)
+  double width_over_largest = 0;  // over the diameter of a mixture's largest lot
+  double depth_over_d = 0;        // of the bed
+  double frequency = 0;           // Hz
+  double amplitude = 0;           // m
+  double peak_speed = 0;          // of the tray, over sqrt(g d)
   HoleEstimate estimate;
   double interpolation = 0;    // half width of the 95 % band of its errors, over the outflow
   PredictionError error{};     // of the rate that it is planned for
   Span speeds;                 // m/s, at which the same sowing rate can be kept by frequency alone
   bool more_by_faster = true;  // shaking; else slower shaking sows more
-  HoleClass risk() const { return hole_class(width_over_d); }
+  HoleClass risk() const { return hole_class(width_over_largest); }
   bool reaches_working_speeds() const {
     return speeds.holds(working_speeds.least) && speeds.holds(working_speeds.most);
   }

@@ -14,6 +14,7 @@
 namespace vibrosow {
 namespace {
 
+constexpr double told_depth = 0.01;     // d, finer than a whole number of seeds says how deep they lie
 constexpr double poured_packing = 0.6;  // by which the number of seeds is called a depth, as of the table's runs
 
 [[noreturn]] void refuse(const char* key, const char* why) {
@@ -61,7 +62,8 @@ double peak_speed(const HarmonicMotion& motion, const PlannedSeed& seed) {
 /// Over the seed's diameter.
 double bed_depth(const Vessel& tray, const PlannedSeed& seed) {
   const double d = seed.diameter;
-  return tray.fill->count * std::numbers::pi / 6 * d * d / (poured_packing * floor_area(tray));
+  const double depth = tray.fill->count * std::numbers::pi / 6 * d * d / (poured_packing * floor_area(tray));
+  return std::round(depth / told_depth) * told_depth;
 }
 
 double nearest(double value, const Span& known) {
@@ -76,16 +78,9 @@ HoleConditions nearest_place(HoleConditions at, const HoleTable& table) {
   return at;
 }
 
-PlannedSeed largest_seed(const std::vector<SeedLot>& lots) {
-  PlannedSeed largest;
-  for (const SeedLot& lot : lots)
-    if (const PlannedSeed seed = planned_seed(lot); seed.diameter > largest.diameter) largest = seed;
-  return largest;
-}
-
 /// Why none of a tray's holes is a place of the table, whatever its width and speed; empty where it may be.
 std::string unlike_table(const Scene& scene, const HarmonicMotion& motion) {
-  if (scene.lots.size() > 1) return "seeds: there are several lots, of which the largest seeds count";
+  if (scene.lots.size() > 1) return "seeds: there are several lots, which count as seeds of their mean volume";
   if (!is_level(motion.direction)) return "tray.motion.direction: the tray is not shaken along its floor";
   return "";
 }
@@ -95,20 +90,27 @@ std::string unlike_table(const Scene& scene, const HarmonicMotion& motion) {
 TableTray table_tray(const Scene& scene) {
   const Vessel& tray = scene.tray;
   if (scene.space == Space::plane) refuse("space", "is the plane");
-  if (scene.lots.size() > 1) refuse("seeds", "there are several lots");
   if (scene.hopper) refuse("hopper", "a hopper feeds the tray");
   if (tray.rain || !tray.fill) refuse("tray.fill", "the bed is not a fill");
   if (tray.tilt != 0 || tray.funnel != 0) refuse("tray.tilt", "the floor slopes");
   check_holes(tray.holes);
   const HarmonicMotion& motion = shaking_along(tray);
   TableTray found;
-  found.seed = planned_seed(scene.lots.front());
+  found.seed = planned_seed(scene.lots);
   found.holes = static_cast<int>(tray.holes.size());
   found.amplitude = motion.amplitude;
   found.frequency = motion.frequency;
   found.at = {found.seed.aspect, tray.holes.front().width / found.seed.diameter, peak_speed(motion, found.seed),
               bed_depth(tray, found.seed)};
   return found;
+}
+
+TableTray table_tray(const SowingTask& task, const PlannedLayout& layout) {
+  return {task.seed,
+          {task.seed.aspect, layout.width_over_d, layout.peak_speed, layout.depth_over_d},
+          layout.feed.holes,
+          layout.amplitude,
+          layout.frequency};
 }
 
 std::string outside_table(const char* key, double value, const Span& known, const char* unit) {
@@ -135,7 +137,7 @@ TrayTolerance tray_tolerance(const Scene& scene, const HoleTable& table, const B
   const HarmonicMotion* motion = shaking(tray);
   if (tray.holes.empty() || !all_round(tray.holes)) return {std::nullopt, "tray.holes.shape: holes are not round"};
   if (motion == nullptr) return {std::nullopt, "tray.motion: the tray is not shaken to and fro"};
-  const PlannedSeed seed = largest_seed(scene.lots);
+  const PlannedSeed seed = planned_seed(scene.lots);
   std::string outside = unlike_table(scene, *motion);
   double sum = 0, by_width = 0, by_speed = 0;
   for (const Hole& hole : tray.holes) {

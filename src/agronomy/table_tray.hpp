@@ -18,9 +18,13 @@ struct TableTray {
   double frequency = 0;  // Hz
 };
 
-/// Throws InputError "KEY: .." for a tray that the table does not tell of: of the plane, of several lots, with slots or
-/// unequal holes, with a gate, tilted, turned or shaken otherwise than along, or fed by anything but a fill.
+/// A mixture is seeds of its mean (planned_seed). Throws InputError "KEY: .." for a tray that the table does not tell
+/// of: of the plane, with slots or unequal holes, with a gate, tilted, turned or shaken otherwise than along, or fed by
+/// anything but a fill.
 TableTray table_tray(const Scene& scene);
+
+/// The tray of a planned layout, which feeds `layout.feed.rows` rows.
+TableTray table_tray(const SowingTask& task, const PlannedLayout& layout);
 
 /// "KEY: 12 SEEDS is outside the table of one hole, which has 2 to 6.5", of a value in `unit`; empty within.
 std::string outside_table(const char* key, double value, const Span& known, const char* unit);
@@ -34,8 +38,8 @@ struct TrayTolerance {
 };
 
 /// Of a scene in space, by the table's own slopes at its holes' width over the seed's size and its peak speed; all
-/// holes err alike, as of one drill bit. Round holes may be unequal: each counts by its outflow. Of several lots the
-/// largest seeds count. The depth of the bed, how it is fed and how the floor slopes are left aside. None without round
+/// holes err alike, as of one drill bit. Round holes may be unequal: each counts by its outflow. Several lots
+/// are seeds of their mean. The depth of the bed, how it is fed and how the floor slopes are left aside. None without round
 /// holes, or where the tray is not shaken to and fro.
 TrayTolerance tray_tolerance(const Scene& scene, const HoleTable& table, const BuildTolerance& tolerance = {});
 

@@ -4,8 +4,7 @@
 
 #include "agronomy/hole_table.hpp"
 #include "agronomy/prediction_error.hpp"
-#include "agronomy/sowing_plan.hpp"
-#include "agronomy/table_tray.hpp"
+#include "agronomy/tray_rates.hpp"
 
 namespace vibrosow {
 
@@ -23,25 +22,21 @@ struct WeighedRow {
   double surprise = 1;   // how likely such a rate is by all the others, and the model's error; see WeighedRates
 };
 
-/// A frequency that gives what is needed.
-struct CorrectedSetting {
-  double frequency = 0;      // Hz
-  double predicted = 0;      // kg/s, by the table alone
-  double low = 0, high = 0;  // kg/s, 95 %
-  bool more_by_faster = true;
-};
-
 struct WeighedPlan {
   double needed = 0;  // kg/s, of all holes of the tray
   std::vector<WeighedRow> rows;
   double factor = 1;              // truth over the table at a setting far from these, middle
   FactorRange before{}, after{};  // of a setting far from these, over what is predicted and over `factor`
   std::vector<CorrectedSetting> settings;
-  double least = 0, most = 0;  // kg/s, corrected, within the shaker's limits
+  Span reach{};  // kg/s, corrected, within the shaker's limits
 };
 
-/// What to set the tray to that was weighed, for `needed` (kg/s, of all its holes). All rows are of one tray at several
-/// settings, at least one. Throws InputError where they are not, and where the table does not tell of one.
+/// What a tray gives that was weighed. All rows are of one tray at several settings, at least one. Throws InputError
+/// where they are not, and where the table, which must outlive the rates, does not tell of one.
+TrayRates weighed_rates(const std::vector<WeighedTray>& weighed, const HoleTable& table, const ModelError& model,
+                        const ShakerLimits& limits = {});
+
+/// What to set the tray to that was weighed, for `needed` (kg/s, of all its holes). Throws as `weighed_rates` does.
 WeighedPlan plan_weighed(double needed, const std::vector<WeighedTray>& weighed, const HoleTable& table,
                          const ModelError& model, const ShakerLimits& limits = {});
 

@@ -1,19 +1,24 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <iterator>
 #include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "agronomy/settings_card.hpp"
 #include "agronomy/sowing_plan.hpp"
 #include "agronomy/sowing_rate.hpp"
+#include "agronomy/weighed_plan.hpp"
 #include "cli/commands.hpp"
 #include "cli/common_options.hpp"
 #include "cli/console.hpp"
 #include "cli/help_text.hpp"
+#include "files/atomic_file.hpp"
 #include "input/input_file.hpp"
 #include "input/measured.hpp"
 #include "input/presets.hpp"
@@ -21,8 +26,10 @@
 #include "input/read_held_out.hpp"
 #include "input/read_hole_table.hpp"
 #include "input/read_scene.hpp"
+#include "report/plan_page.hpp"
 #include "report/plan_report.hpp"
 #include "scene/input_error.hpp"
+#include "scene/seed_lot.hpp"
 #include "units/quantity.hpp"
 
 namespace vibrosow {
@@ -30,7 +37,8 @@ namespace {
 
 struct PlanOptions {
   CommonOptions common;
-  std::string crop, rate, plants, establishment, row_spacing, speed, thousand_grain_weight;
+  std::vector<std::string> crops, rates, thousand_grain_weights;  // several: a mixture, one after the other
+  std::string plants, establishment, row_spacing, speed, html;
   std::optional<int> rows;
   std::string layout;
   std::vector<std::string> weighed;
@@ -61,30 +69,75 @@ bool counts_seeds(const std::string& text) {
 
 constexpr double fewest_per_area = 0.1, most_per_area = 1e5;  // 1/m2
 
-PlanSource source_of(const PlanOptions& options) {
-  PlanSource source;
-  if (const auto meaning = changed_meaning(options.crop, "crops")) print_notes({*meaning});
-  source.crop = options.crop;
-  source.lot = read_crop_lot(options.crop, "--crop");
-  if (!options.thousand_grain_weight.empty()) {
-    const double mass = quantity("--tkw", options.thousand_grain_weight, Dimension::seed_mass, 1e-6, 10, "45 g") / 1000;
-    source.lot = of_mass(source.lot, mass);
-    source.own_mass = true;
+/// A crop and its own thousand grain mass; empty: the crop's.
+PlannedLot lot_of(const std::string& crop, const std::string& thousand_grain_weight) {
+  if (const auto meaning = changed_meaning(crop, "crops")) print_notes({*meaning});
+  PlannedLot planned;
+  planned.crop = crop;
+  planned.sown.lot = read_crop_lot(crop, "--crop");
+  if (!thousand_grain_weight.empty()) {
+    const double mass = quantity("--tkw", thousand_grain_weight, Dimension::seed_mass, 1e-6, 10, "45 g") / 1000;
+    planned.sown.lot = of_mass(planned.sown.lot, mass);
+    planned.own_mass = true;
   }
+  return planned;
+}
+
+/// kg/m2, of seeds of that mass (kg).
+double sowing_rate_of(const std::string& rate, double seed_mass) {
+  if (counts_seeds(rate))
+    return mass_of_seeds(quantity("--rate", rate, Dimension::seeds_per_area, fewest_per_area, most_per_area),
+                         seed_mass);
+  return quantity("--rate", rate, Dimension::mass_per_area, 1e-6, 1);
+}
+
+/// Every crop has its rate, and its thousand grain mass where any has one.
+void check_counts(const PlanOptions& options) {
+  if (options.rates.empty() == options.plants.empty()) throw InputError("one of --rate and --plants is needed");
+  const std::size_t crops = options.crops.size();
+  if (crops > 1 && !options.plants.empty())
+    throw InputError("--plants: is of one crop; give each of a mixture a --rate");
+  if (options.plants.empty() && options.rates.size() != crops)
+    throw InputError(fmt::format("--rate: there are {} for {} crops; give each --crop its --rate, in the same order",
+                                 options.rates.size(), crops));
+  if (!options.thousand_grain_weights.empty() && options.thousand_grain_weights.size() != crops)
+    throw InputError(fmt::format("--tkw: there are {} for {} crops; give each --crop its own, or none",
+                                 options.thousand_grain_weights.size(), crops));
+  for (std::size_t i = 1; i < crops; ++i)
+    if (std::find(options.crops.begin(), options.crops.begin() + static_cast<std::ptrdiff_t>(i), options.crops[i]) !=
+        options.crops.begin() + static_cast<std::ptrdiff_t>(i))
+      throw InputError(fmt::format("--crop: {} is given twice", options.crops[i]));
+}
+
+PlanSource source_of(const PlanOptions& options) {
+  check_counts(options);
+  PlanSource source;
+  std::vector<SownLot> sown;
+  for (std::size_t i = 0; i < options.crops.size(); ++i) {
+    const bool own_mass = !options.thousand_grain_weights.empty();
+    source.lots.push_back(lot_of(options.crops[i], own_mass ? options.thousand_grain_weights[i] : ""));
+    SownLot& of_lot = source.lots.back().sown;
+    const double mass = mean_mass(of_lot.lot);
+    if (!options.plants.empty()) {
+      source.plants = quantity("--plants", options.plants, Dimension::plants_per_area, fewest_per_area, most_per_area);
+      source.establishment = quantity("--establishment", options.establishment, Dimension::fraction, 0.01, 1, "85 %");
+      of_lot.sowing_rate = mass_of_seeds(seeds_for_plants(*source.plants, *source.establishment), mass);
+    } else {
+      of_lot.sowing_rate = sowing_rate_of(options.rates[i], mass);
+    }
+    sown.push_back(of_lot);
+  }
+  share_out(sown);
   SowingTask& task = source.plan.task;
-  task.seed = planned_seed(source.lot);
+  std::vector<SeedLot> lots;
+  for (std::size_t i = 0; i < sown.size(); ++i) {
+    source.lots[i].sown = sown[i];
+    lots.push_back(sown[i].lot);
+    task.sowing_rate += sown[i].sowing_rate;
+  }
+  task.seed = planned_seed(lots);
   task.pace.row_spacing = quantity("--row-spacing", options.row_spacing, Dimension::length, 0.01, 10, "15 cm");
   task.pace.speed = quantity("--speed", options.speed, Dimension::travel_speed, 0.01, 20);
-  if (!options.plants.empty()) {
-    source.plants = quantity("--plants", options.plants, Dimension::plants_per_area, fewest_per_area, most_per_area);
-    source.establishment = quantity("--establishment", options.establishment, Dimension::fraction, 0.01, 1, "85 %");
-    task.sowing_rate = mass_of_seeds(seeds_for_plants(*source.plants, *source.establishment), task.seed.mass);
-  } else if (counts_seeds(options.rate)) {
-    task.sowing_rate = mass_of_seeds(
-        quantity("--rate", options.rate, Dimension::seeds_per_area, fewest_per_area, most_per_area), task.seed.mass);
-  } else {
-    task.sowing_rate = quantity("--rate", options.rate, Dimension::mass_per_area, 1e-6, 1);
-  }
   source.rows = options.rows;
   return source;
 }
@@ -149,7 +202,45 @@ int rows_of(const std::string& layout) {
   return seeder.drill ? seeder.drill->rows() : static_cast<int>(seeder.scene.tray.holes.size());
 }
 
-int run_weighed(PlanOptions options, const SowingTask& task) {
+/// The command that asks again when a layout was weighed.
+std::string asked_again(const PlanOptions& options) {
+  std::vector<std::string> words{"plan"};
+  const auto add = [&](const char* option, const std::string& value) {
+    if (!value.empty()) words.insert(words.end(), {option, value});
+  };
+  for (std::size_t i = 0; i < options.crops.size(); ++i) {
+    add("--crop", options.crops[i]);
+    if (!options.rates.empty()) add("--rate", options.rates[i]);
+    if (!options.thousand_grain_weights.empty()) add("--tkw", options.thousand_grain_weights[i]);
+  }
+  add("--plants", options.plants);
+  add("--establishment", options.establishment);
+  add("--row-spacing", options.row_spacing);
+  add("--speed", options.speed);
+  const std::string folder = options.common.out.empty() ? "plan" : options.common.out;
+  add("--layout", options.layout.empty() ? folder + "/seeder.toml" : options.layout);
+  for (const std::string& weighed : options.weighed) add("--weighed", weighed);
+  add("--html", options.html);
+  return typed_line(words);
+}
+
+/// Writes what was asked for, then prints the answer.
+void answer(const PlanOptions& options, const PlanPage& page, const std::vector<OutputFile>& files,
+            const std::string& text) {
+  std::optional<OutputFolder> folder;
+  if (!options.common.out.empty()) folder = options.common.output_folder("plan", plan_file_texts());
+  const auto write = [&] {
+    if (folder) folder->write(files);
+    if (!options.html.empty()) write_file_atomically(std::filesystem::path(options.html), plan_page(page));
+  };
+  write_then_print(false, write, [&] { print_text(text); });
+  if (folder) print("reports: {}\n", folder->path().string());
+  if (!options.html.empty()) print("page: {}\n", options.html);
+}
+
+int run_weighed(PlanOptions options, const PlanSource& source) {
+  const SowingTask& task = source.plan.task;
+  const std::string command = asked_again(options);
   options.layout = input_file(options.layout, FileKind::seeder).path.string();
   std::vector<WeighedTray> weighed;
   for (const std::string& text : options.weighed) {
@@ -166,37 +257,39 @@ int run_weighed(PlanOptions options, const SowingTask& task) {
                     "--crop {:.3g} mg and {:.3g} mm; give the crop of the layout",
                     seed.mass * 1e6, seed.diameter * 1e3, task.seed.mass * 1e6, task.seed.diameter * 1e3));
   const int rows = rows_of(options.layout);
-  const WeighedPlan plan =
-      plan_weighed(rows * task.row_mass_rate(), weighed, shipped_hole_table(), shipped_model_error());
-  const auto print_plan = [&] { print_text(weighed_text(task, rows, plan)); };
-  if (options.common.out.empty()) {
-    print_plan();
-    return exit_done;
+  const HoleTable table = shipped_hole_table();
+  const ModelError model = shipped_model_error();
+  const WeighedPlan plan = plan_weighed(rows * task.row_mass_rate(), weighed, table, model);
+  PlanPage page{.source = source, .weighed = &plan, .command = command};
+  PlanCard card;
+  if (!options.html.empty()) {
+    const TrayRates rates = weighed_rates(weighed, table, model);
+    card = {rates.tray(), rows, settings_card(rates, task, rows)};
+    page.card = &card;
   }
-  const OutputFolder folder = options.common.output_folder("plan", plan_file_texts());
-  write_then_print(
-      false, [&] { folder.write(weighed_files(plan, options.common.csv)); }, print_plan);
-  print("reports: {}\n", folder.path().string());
+  answer(options, page, weighed_files(source, plan, options.common.csv), weighed_text(source, rows, plan));
   return exit_done;
 }
 
 int run_plan(const PlanOptions& options) {
-  if (options.rate.empty() == options.plants.empty()) throw InputError("one of --rate and --plants is needed");
   PlanSource source = source_of(options);
-  if (!options.layout.empty()) return run_weighed(options, source.plan.task);
+  if (!options.layout.empty()) return run_weighed(options, source);
+  const HoleTable table = shipped_hole_table();
+  const ModelError model = shipped_model_error();
   try {
-    source.plan = plan_sowing(source.plan.task, shipped_hole_table(), shipped_model_error());
+    source.plan = plan_sowing(source.plan.task, table, model);
   } catch (const InputError& error) {
-    throw InputError(fmt::format("--crop: {}: {}", options.crop, error.what()));
+    throw InputError(fmt::format("--crop: {}: {}", fmt::join(options.crops, ", "), error.what()));
   }
-  if (options.common.out.empty()) {
-    print_text(plan_text(source));
-    return exit_done;
+  PlanPage page{.source = source, .command = asked_again(options)};
+  PlanCard card;
+  if (!options.html.empty() && !source.plan.layouts.empty()) {
+    const PlannedLayout& best = source.plan.layouts.front();
+    const TrayRates rates(table_tray(source.plan.task, best), table, model, 0, {});
+    card = {rates.tray(), best.feed.rows, settings_card(rates, source.plan.task, best.feed.rows, best.more_by_faster)};
+    page.card = &card;
   }
-  const OutputFolder folder = options.common.output_folder("plan", plan_file_texts());
-  write_then_print(
-      false, [&] { folder.write(plan_files(source, options.common.csv)); }, [&] { print_text(plan_text(source)); });
-  print("reports: {}\n", folder.path().string());
+  answer(options, page, plan_files(source, options.common.csv), plan_text(source));
   return exit_done;
 }
 
@@ -208,8 +301,18 @@ void add_plan_command(CLI::App& app, int& exit_code) {
   const auto add = [&](const char* name, std::string& value, const char* help, const char* kind) {
     return command->add_option(name, value, help)->type_name(kind);
   };
-  add("--crop", options->crop, "a shipped crop (vibrosow presets crops) or a path ending in .toml", "CROP")->required();
-  CLI::Option* rate = add("--rate", options->rate, "\"180 kg/ha\", or seeds: \"350 seeds/m2\"", "RATE");
+  const auto add_each = [&](const char* name, std::vector<std::string>& values, const char* help, const char* kind) {
+    return command->add_option(name, values, help)
+        ->type_name(kind)
+        ->expected(1)
+        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  };
+  add_each(
+      "--crop", options->crops,
+      "a shipped crop (vibrosow presets crops) or a path ending in .toml; several, each with its --rate: a mixture",
+      "CROP")
+      ->required();
+  CLI::Option* rate = add_each("--rate", options->rates, "\"180 kg/ha\", or seeds: \"350 seeds/m2\"", "RATE");
   CLI::Option* plants =
       add("--plants", options->plants, "instead: plants that are to stand, \"280 plants/m2\"", "RATE");
   CLI::Option* establishment =
@@ -222,7 +325,7 @@ void add_plan_command(CLI::App& app, int& exit_code) {
   command->add_option("--rows", options->rows, "of the drill, for what all take together")
       ->type_name("N")
       ->check(CLI::Range(1, 1000));
-  add("--tkw", options->thousand_grain_weight, "mass of a thousand seeds, \"4.5 g\"; default the crop's", "MASS");
+  add_each("--tkw", options->thousand_grain_weights, "mass of a thousand seeds, \"4.5 g\"; default the crop's", "MASS");
   CLI::Option* layout =
       add("--layout", options->layout, "a tray that was weighed: seeder.toml of a plan, or one's own", "FILE");
   CLI::Option* weighed =
@@ -232,11 +335,12 @@ void add_plan_command(CLI::App& app, int& exit_code) {
           ->type_name("RATE");
   layout->needs(weighed);
   weighed->needs(layout);
+  add("--html", options->html, "a page to print: what to set from 4 to 14 km/h, and what to weigh", "FILE");
   add("--out", options->common.out, "directory for plan.csv and the best layout's seeder; default none", "DIR");
   add_csv_option(*command, options->common);
   add_examples(*command, {"vibrosow plan --crop pea --rate 200kg/ha --row-spacing 15cm --speed 8km/h",
                           "vibrosow plan --crop wheat --rate \"350 1/m2\" --row-spacing 12cm --speed 9km/h",
-                          "vibrosow plan --crop rye --rate 140kg/ha --row-spacing 15cm --speed 2m/s"});
+                          "vibrosow plan --crop rye --rate 140kg/ha --row-spacing 15cm --speed 2m/s --html card.html"});
   command->callback([options, &exit_code] { exit_code = run_plan(*options); });
 }
 

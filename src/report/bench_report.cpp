@@ -8,6 +8,7 @@
 
 #include "input/key_units.hpp"
 #include "picture/escaped_text.hpp"
+#include "report/printed_page.hpp"
 #include "report/terminal_text.hpp"
 
 namespace vibrosow {
@@ -97,12 +98,6 @@ double minutes(const BenchSource& source) {
   return source.plan.readings() * (source.plan.catch_time + source.limits.handling) / 60;
 }
 
-constexpr const char* page_style =
-    "@page { size: A4; margin: 15mm } body { font: 10pt sans-serif } h1 { font-size: 15pt } "
-    "table { border-collapse: collapse; width: 100% } tr { break-inside: avoid } "
-    "th, td { border: 1px solid black; padding: 1.2mm 2mm; text-align: right } td.write { width: 35mm } "
-    ".line { display: inline-block; width: 45mm; border-bottom: 1px solid black; margin-right: 6mm }";
-
 constexpr double shortest_by_hand = 5;  // s; a hand with a stopwatch errs by some tenths
 constexpr const char* too_short =
     "So short a catch cannot be timed by hand to 2 %: time it by a switch, or have the seeder keep its tray filled up "
@@ -115,8 +110,7 @@ bool is_caught_by_hand(const BenchSource& source) {
 /// What a person needs to do before the table.
 std::string instructions(const BenchSource& source) {
   std::string text = "<p>";
-  for (const char* field : {"Date", "Seed lot", "Thousand-grain weight"})
-    text += fmt::format("{} <span class=\"line\"></span>\n", field);
+  for (const char* field : {"Date", "Seed lot", "Thousand-grain weight"}) text += line_to_write(field);
   text += fmt::format(
       "</p>\n<p>{} readings of {:g} s, about {:.0f} minutes with {:g} s for setting, filling and weighing. Use the "
       "seed that will be sown, and a balance that shows 0.1 g.</p>\n{}<ol>\n",
@@ -151,14 +145,10 @@ std::string reading_table(const BenchSource& source) {
 }
 
 std::string page(const BenchSource& source) {
-  std::string text = fmt::format(
-      "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><title>Bench sheet</title>\n<style>{}</style>"
-      "</head><body>\n<h1>Bench sheet: {}</h1>\n",
-      page_style, escaped_text(source.task.seeder.stem().string()));
-  text += instructions(source) + reading_table(source);
-  for (const std::string& choice : source.choices) text += fmt::format("<p>{}</p>\n", escaped_text(choice));
-  return text + fmt::format("<p>{}</p>\n<p>Then: <code>{}</code></p>\n</body></html>\n",
-                            escaped_text(expectation(source)), escaped_text(source.command));
+  std::string text = instructions(source) + reading_table(source);
+  for (const std::string& choice : source.choices) text += paragraph(choice);
+  text += paragraph(expectation(source)) + fmt::format("<p>Then: <code>{}</code></p>\n", escaped_text(source.command));
+  return printed_page(fmt::format("Bench sheet: {}", source.task.seeder.stem().string()), text);
 }
 
 }  // namespace

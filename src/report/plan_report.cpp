@@ -63,10 +63,10 @@ Columns<PlannedLayoutRow> plan_columns() {
                                         [](R r) { return r.layout->width; }),
       quantity_column<PlannedLayoutRow>("width_over_seed", plain, "over the diameter of the ball of a seed's volume",
                                         [](R r) { return r.layout->width_over_d; }),
-      text_column<PlannedLayoutRow>(
-          "risk",
-          "of clogging, by width_over_seed: rarely clogs (5 and more), kept open by the shaking (3 to 5), clogs",
-          [](R r) { return std::string(class_name(r.layout->risk())); }),
+      text_column<PlannedLayoutRow>("risk",
+                                    "of clogging, by the hole over the largest crop's seed: rarely clogs (5 and more), "
+                                    "kept open by the shaking (3 to 5), clogs",
+                                    [](R r) { return std::string(class_name(r.layout->risk())); }),
       quantity_column<PlannedLayoutRow>(
           "stood_still_percent", percent,
           "share of the simulated holes that once let nothing through for 10 sqrt(d / g), the largest "
@@ -123,17 +123,27 @@ std::string feed_text(const HolesForRows& feed) {
 
 // The need.
 
-std::string seed_text(const PlanSource& source) {
-  const PlannedSeed& seed = source.plan.task.seed;
-  return fmt::format("{}: seeds of {} mg, as large as balls of {} mm{}", source.crop,
-                     to_digits(seed.mass / milligram, 4), to_digits(seed.diameter / millimetre, 3),
+std::string per_area_text(double sowing_rate, double seeds_per_area) {
+  return fmt::format("{} kg/ha, {} seeds/m2", to_digits(sowing_rate / kilogram_per_hectare, 3),
+                     to_digits(seeds_per_area, 3));
+}
+
+std::string seed_text(const PlannedSeed& seed) {
+  return fmt::format("seeds of {} mg, as large as balls of {} mm{}", to_digits(seed.mass / milligram, 4),
+                     to_digits(seed.diameter / millimetre, 3),
                      seed.aspect > 1 ? fmt::format(", {} times as long as wide", to_digits(seed.aspect, 3)) : "");
+}
+
+/// The seeds of a lot by itself.
+PlannedSeed seed_of(const PlannedLot& planned) {
+  SeedLot alone = planned.sown.lot;
+  alone.number_fraction = 1;
+  return planned_seed({alone});
 }
 
 std::string rate_text(const PlanSource& source) {
   const SowingTask& task = source.plan.task;
-  std::string text = fmt::format("{} kg/ha, {} seeds/m2", to_digits(task.sowing_rate / kilogram_per_hectare, 3),
-                                 to_digits(task.seeds_per_area(), 3));
+  std::string text = per_area_text(task.sowing_rate, task.seeds_per_area());
   if (source.plants)
     text += fmt::format(" for {} plants/m2 at an establishment of {} %", to_digits(*source.plants, 3),
                         two_digit_percent(*source.establishment));
@@ -143,7 +153,8 @@ std::string rate_text(const PlanSource& source) {
 std::string need_text(const PlanSource& source) {
   const SowingTask& task = source.plan.task;
   const double seeds = task.row_seed_rate();
-  std::string text = wrapped(seed_text(source)) + wrapped(rate_text(source));
+  std::string text;
+  for (const std::string& sentence : need_sentences(source)) text += wrapped(sentence);
   text += fmt::format("a row, every {} cm at {} km/h: {} g/s, {} seeds/s, one every {} mm\n",
                       to_digits(task.pace.row_spacing * 100, 3), speed_text(task.pace.speed),
                       to_digits(task.row_mass_rate() / gram, 3), to_digits(seeds, 2 + (seeds >= 100)),
@@ -160,7 +171,8 @@ std::string need_text(const PlanSource& source) {
 std::optional<double> widest_of_one_a_row(const SowingPlan& plan) {
   std::optional<double> widest;
   for (const PlannedLayout& layout : plan.layouts)
-    if (layout.feed.holes == 1 && layout.feed.rows == 1) widest = std::max(widest.value_or(0), layout.width_over_d);
+    if (layout.feed.holes == 1 && layout.feed.rows == 1)
+      widest = std::max(widest.value_or(0), layout.width_over_largest);
   return widest;
 }
 
@@ -168,7 +180,7 @@ std::string wider_text(const SowingPlan& plan, const std::optional<NearestChange
   constexpr int rows_tried = 4;
   if (!hole || hole->rows <= rows_tried) return "";
   return fmt::format("a hole of {:g} mm, {} seeds wide, would have to feed at least {} rows", hole->width / millimetre,
-                     to_digits(hole->width / plan.task.seed.diameter, 2), hole->rows);
+                     to_digits(hole->width / std::max(plan.task.seed.largest, plan.task.seed.diameter), 2), hole->rows);
 }
 
 std::string change_text(const SowingPlan& plan) {
@@ -207,7 +219,7 @@ std::string risk_text(const SowingPlan& plan) {
   if (plan.layouts.empty()) return none_text(plan);
   const PlannedLayout& best = plan.layouts.front();
   std::string text =
-      fmt::format("The best is {}, {} seeds wide: ", feed_text(best.feed), to_digits(best.width_over_d, 2));
+      fmt::format("The best is {}, {} seeds wide: ", feed_text(best.feed), to_digits(best.width_over_largest, 2));
   if (best.risk() == HoleClass::rarely_clogs) text += "such a hole rarely clogs.";
   if (best.risk() == HoleClass::kept_open)
     text +=
@@ -215,7 +227,7 @@ std::string risk_text(const SowingPlan& plan) {
   if (best.risk() == HoleClass::clogs)
     text =
         fmt::format("None of these stays clear of clogging: the best, {}, is {} seeds wide, and holes under {:g} clog.",
-                    feed_text(best.feed), to_digits(best.width_over_d, 2), kept_open_from);
+                    feed_text(best.feed), to_digits(best.width_over_largest, 2), kept_open_from);
   if (const auto one = widest_of_one_a_row(plan); one && *one < kept_open_from)
     text += fmt::format(" One hole a row would be at most {} seeds wide.", to_digits(*one, 2));
   const std::string change = best.risk() == HoleClass::rarely_clogs ? "" : change_text(plan);
@@ -285,6 +297,18 @@ std::string certainty_text(const SowingPlan& plan) {
       model_text(best.error.model), to_digits(best.estimate.watched * unit_of_time(plan), 2));
 }
 
+/// What the table leaves out of a mixture; empty of one crop.
+std::string mixture_doubt(const PlanSource& source) {
+  if (source.lots.size() < 2) return "";
+  return "Segregation is not in the table: it knows seeds of one kind, and the mixture is looked up as seeds of its "
+         "mean "
+         "volume, mass and shape. In a shaken bed small and heavy seeds sink and leave first, so what each crop gives "
+         "drifts while the tray empties; nothing of that is in the range. Sort what you catch, when the tray is full "
+         "and when it is nearly empty, and weigh each crop. How many seeds wide a hole is said to be, and how it "
+         "clogs, goes "
+         "by the largest crop.";
+}
+
 std::string trust_text(const SowingPlan& plan) {
   return (plan.layouts.empty() ? "How sure: " : certainty_text(plan)) +
          fmt::format(
@@ -302,20 +326,41 @@ std::string in_millimetres(double length) {
   return fmt::format("\"{:.6g} mm\"", length / millimetre);
 }
 
-/// The lot: the crop by name, or written out where its seeds were made heavier or lighter.
-std::string lot_text(const PlanSource& source) {
-  const bool is_file = source.crop.ends_with(".toml");
-  const std::string crop = is_file ? std::filesystem::absolute(source.crop).lexically_normal().string() : source.crop;
-  std::string text = "[seeds.seed]\n";
-  if (!source.own_mass) return text + fmt::format("crop = {}\n", toml_text({crop}));
-  text += fmt::format("mass = \"{:.6g} mg\"\n", source.lot.mass / milligram);
-  if (source.lot.shape == Shape::ball)
-    return text + fmt::format("shape = \"ball\"\ndiameter = {}\n", in_millimetres(source.lot.diameter));
+/// A lot: the crop by name, or written out where its seeds were made heavier or lighter.
+std::string lot_text(const PlannedLot& planned, const std::string& name) {
+  const bool is_file = planned.crop.ends_with(".toml");
+  const std::string crop = is_file ? std::filesystem::absolute(planned.crop).lexically_normal().string() : planned.crop;
+  const SeedLot& lot = planned.sown.lot;
+  std::string text = fmt::format("[seeds.{}]\n", name);
+  if (!planned.own_mass) return text + fmt::format("crop = {}\n", toml_text({crop}));
+  text += fmt::format("mass = \"{:.6g} mg\"\n", lot.mass / milligram);
+  if (lot.shape == Shape::ball)
+    return text + fmt::format("shape = \"ball\"\ndiameter = {}\n", in_millimetres(lot.diameter));
   text += "shape = \"discs\"\ndiscs = [\n";
-  for (const ClumpDisc& disc : source.lot.discs)
+  for (const ClumpDisc& disc : lot.discs)
     text += fmt::format("  {{ x = {}, y = {}, z = {}, diameter = {} }},\n", in_millimetres(disc.x),
                         in_millimetres(disc.y), in_millimetres(disc.z), in_millimetres(2 * disc.radius));
   return text + "]\n";
+}
+
+std::string lots_text(const PlanSource& source) {
+  if (source.lots.size() == 1) return lot_text(source.lots.front(), "seed");
+  std::string text;
+  for (std::size_t i = 0; i < source.lots.size(); ++i)
+    text += fmt::format("{}number_fraction = \"{:.9g} %\"\n{}", lot_text(source.lots[i], fmt::format("seed-{}", i + 1)),
+                        100 * source.lots[i].sown.lot.number_fraction, i + 1 < source.lots.size() ? "\n" : "");
+  return text;
+}
+
+Columns<PlannedLot> lot_columns() {
+  using R = const PlannedLot&;
+  return {text_column<PlannedLot>("crop", "as it was asked for", [](R r) { return r.crop; }),
+          quantity_column<PlannedLot>("rate_kg_per_ha", Unit{"kg/ha", kilogram_per_hectare}, "to be sown",
+                                      [](R r) { return r.sown.sowing_rate; }),
+          quantity_column<PlannedLot>("seeds_per_m2", Unit{"1/m2", 1}, "to be sown",
+                                      [](R r) { return r.sown.seeds_per_area(); }),
+          quantity_column<PlannedLot>("number_percent", percent, "of all seeds that are sown",
+                                      [](R r) { return r.sown.lot.number_fraction; })};
 }
 
 /// Which rows the layout's holes feed.
@@ -372,51 +417,86 @@ std::string weighed_row_text(const WeighedRow& row) {
   if (row.surprise < surprising)
     text += fmt::format(": this contradicts {} (so far off in {} % of cases): weigh again, and look at the unit",
                         "the other rows and what the model errs by", two_digit_percent(row.surprise));
-  return wrapped(text);
+  return text;
 }
 
 }  // namespace
 
-std::string weighed_text(const SowingTask& task, int rows, const WeighedPlan& plan) {
-  std::string text = wrapped(fmt::format("{} row{} of {} kg/ha, every {} cm at {} km/h, need {} g/s of this tray", rows,
-                                         rows == 1 ? "" : "s", to_digits(task.sowing_rate / kilogram_per_hectare, 3),
-                                         to_digits(task.pace.row_spacing * 100, 3), speed_text(task.pace.speed),
-                                         to_digits(plan.needed / gram, 3)));
-  for (const WeighedRow& row : plan.rows) text += weighed_row_text(row);
+std::vector<std::string> need_sentences(const PlanSource& source) {
+  const SowingTask& task = source.plan.task;
+  if (source.lots.size() == 1)
+    return {fmt::format("{}: {}", source.lots.front().crop, seed_text(task.seed)), rate_text(source)};
+  std::vector<std::string> sentences;
+  for (const PlannedLot& lot : source.lots)
+    sentences.push_back(fmt::format("{}: {}; {}", lot.crop, seed_text(seed_of(lot)),
+                                    per_area_text(lot.sown.sowing_rate, lot.sown.seeds_per_area())));
+  sentences.push_back(fmt::format("together {}, looked up as {}", rate_text(source), seed_text(task.seed)));
+  return sentences;
+}
+
+std::string risk_sentence(const SowingPlan& plan) {
+  return risk_text(plan);
+}
+
+std::vector<std::string> trust_sentences(const PlanSource& source) {
+  std::vector<std::string> sentences;
+  if (const std::string doubt = mixture_doubt(source); !doubt.empty()) sentences.push_back(doubt);
+  sentences.push_back(trust_text(source.plan));
+  return sentences;
+}
+
+std::vector<std::string> weighed_sentences(const PlanSource& source, int rows, const WeighedPlan& plan) {
+  const SowingTask& task = source.plan.task;
+  std::vector<std::string> sentences = {
+      fmt::format("{} row{} of {} kg/ha, every {} cm at {} km/h, need {} g/s of this tray", rows, rows == 1 ? "" : "s",
+                  to_digits(task.sowing_rate / kilogram_per_hectare, 3), to_digits(task.pace.row_spacing * 100, 3),
+                  speed_text(task.pace.speed), to_digits(plan.needed / gram, 3))};
+  const auto add = [&](std::string sentence) { sentences.push_back(std::move(sentence)); };
+  for (const WeighedRow& row : plan.rows) add(weighed_row_text(row));
   const auto spread = [](const FactorRange& range) {
     return fmt::format("{} to {} %", two_digit_percent(range.low), two_digit_percent(range.high));
   };
-  text +=
-      wrapped(fmt::format("So the tray gives {} times what the table says. A setting far from these was known to {} of "
-                          "it before weighing, and is "
-                          "known to {} now.",
-                          to_digits(plan.factor, 3), spread(plan.before), spread(plan.after)));
+  add(fmt::format(
+      "So the tray gives {} times what the table says. A setting far from these was known to {} of it before "
+      "weighing, and is known to {} now.",
+      to_digits(plan.factor, 3), spread(plan.before), spread(plan.after)));
   if (plan.settings.empty())
-    return text +
-           wrapped(fmt::format("No frequency of this tray gives {} g/s: from {} to {} g/s are to be had. Take {} "
-                               "hole, or another number of rows.",
-                               to_digits(plan.needed / gram, 3), to_digits(plan.least / gram, 3),
-                               to_digits(plan.most / gram, 3), plan.most < plan.needed ? "a wider" : "a narrower"));
+    add(
+        fmt::format("No frequency of this tray gives {} g/s: from {} to {} g/s are to be had. Take {} hole, or another "
+                    "number of rows.",
+                    to_digits(plan.needed / gram, 3), to_digits(plan.reach.least / gram, 3),
+                    to_digits(plan.reach.most / gram, 3), plan.reach.most < plan.needed ? "a wider" : "a narrower"));
   for (const CorrectedSetting& setting : plan.settings)
-    text += wrapped(fmt::format("set {:.3g} Hz: expect {} to {} g/s (95 %); {} shaking sows more", setting.frequency,
-                                to_digits(setting.low / gram, 3), to_digits(setting.high / gram, 3),
-                                setting.more_by_faster ? "faster" : "slower"));
-  return text + wrapped("Weigh at the frequency that you set: a setting near a weighed one is known best.");
+    add(fmt::format("set {:.3g} Hz: expect {} to {} g/s (95 %); {} shaking sows more", setting.frequency,
+                    to_digits(setting.low / gram, 3), to_digits(setting.high / gram, 3),
+                    setting.more_by_faster ? "faster" : "slower"));
+  if (!plan.settings.empty()) add("Weigh at the frequency that you set: a setting near a weighed one is known best.");
+  if (const std::string doubt = mixture_doubt(source); !doubt.empty()) add(doubt);
+  return sentences;
 }
 
-std::vector<OutputFile> weighed_files(const WeighedPlan& plan, CsvFormat format) {
+std::string weighed_text(const PlanSource& source, int rows, const WeighedPlan& plan) {
+  std::string text;
+  for (const std::string& sentence : weighed_sentences(source, rows, plan)) text += wrapped(sentence);
+  return text;
+}
+
+std::vector<OutputFile> weighed_files(const PlanSource& source, const WeighedPlan& plan, CsvFormat format) {
   Csv<SettingRow> settings(setting_columns(), format);
   for (const CorrectedSetting& setting : plan.settings) settings.add(setting);
   Csv<WeighedRow> weighed(weighed_columns(), format);
   for (const WeighedRow& row : plan.rows) weighed.add(row);
-  return {{"settings.csv", settings.text()}, {"weighed.csv", weighed.text()}};
+  return {{"settings.csv", settings.text()},
+          {"weighed.csv", weighed.text()},
+          {"lots.csv", csv_of(lot_columns(), source.lots, format)}};
 }
 
 std::string plan_text(const PlanSource& source) {
   const SowingPlan& plan = source.plan;
   std::string text = need_text(source) + '\n' + wrapped(risk_text(plan)) + '\n';
   if (!plan.layouts.empty()) text += table_text(plan) + '\n';
-  return text + wrapped(trust_text(plan));
+  for (const std::string& sentence : trust_sentences(source)) text += wrapped(sentence);
+  return text;
 }
 
 std::string plan_csv(const SowingPlan& plan, CsvFormat format) {
@@ -440,7 +520,7 @@ std::string planned_seeder(const PlanSource& source) {
       feed_text(feed), to_digits(plan.task.row_seed_rate() * feed.rows, 3),
       toml_text(
           {fmt::format("{}, {} kg/ha", feed_text(feed), to_digits(plan.task.sowing_rate / kilogram_per_hectare, 3))}));
-  text += lot_text(source);
+  text += lots_text(source);
   text += fmt::format(
       "\n[contact]\nlaw = \"elastic-shell\"\nshell_compression = {:g}\nfriction = {:g}\nrestitution = {:g}\n"
       "friction_model = \"spring\"\nwall = {{ friction = {:g}, restitution = {:g} }}\n",
@@ -463,13 +543,15 @@ std::string planned_seeder(const PlanSource& source) {
 
 std::vector<FileText> plan_file_texts() {
   return {file_text("plan.csv", "one row per layout that gives the rate, the best first", plan_columns()),
+          file_text("lots.csv", "one row per crop that is sown", lot_columns()),
           {"seeder.toml", "the best layout in an endless tray, to simulate and to weigh; none without a layout", {}},
           file_text("settings.csv", "with --layout: the frequencies that give what is needed", setting_columns()),
           file_text("weighed.csv", "with --layout: one row per weighing", weighed_columns())};
 }
 
 std::vector<OutputFile> plan_files(const PlanSource& source, CsvFormat format) {
-  std::vector<OutputFile> files = {{"plan.csv", plan_csv(source.plan, format)}};
+  std::vector<OutputFile> files = {{"plan.csv", plan_csv(source.plan, format)},
+                                   {"lots.csv", csv_of(lot_columns(), source.lots, format)}};
   if (!source.plan.layouts.empty()) files.push_back({"seeder.toml", planned_seeder(source)});
   return files;
 }

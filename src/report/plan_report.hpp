@@ -11,12 +11,17 @@
 
 namespace vibrosow {
 
+/// A crop of a plan.
+struct PlannedLot {
+  std::string crop;       // as it was asked for
+  SownLot sown;           // its seeds and their part of the rate
+  bool own_mass = false;  // their mass was given beside the crop
+};
+
 /// A plan and what was asked for, as far as a reader is told of it.
 struct PlanSource {
   SowingPlan plan;
-  std::string crop;                       // as it was asked for
-  SeedLot lot;                            // its seeds
-  bool own_mass = false;                  // their mass was given beside the crop
+  std::vector<PlannedLot> lots;           // several: a mixture
   std::optional<double> plants{};         // 1/m2, where the rate was asked for by plants
   std::optional<double> establishment{};  // fraction, then
   std::optional<int> rows{};              // of the drill
@@ -32,16 +37,24 @@ std::string plan_csv(const SowingPlan& plan, CsvFormat format = {});
 /// layout.
 std::string planned_seeder(const PlanSource& source);
 
-/// What a tray that was weighed is to be set to, and how sure that is; for a terminal.
-std::string weighed_text(const SowingTask& task, int rows, const WeighedPlan& plan);
+/// What is sown: every crop with kg/ha and seeds/m2; sentences.
+std::vector<std::string> need_sentences(const PlanSource& source);
+
+/// How likely the best layout's holes clog, and how sure its rate is; sentences.
+std::string risk_sentence(const SowingPlan& plan);
+std::vector<std::string> trust_sentences(const PlanSource& source);
+
+/// What a tray that was weighed is to be set to, and how sure that is: sentences, and the same for a terminal.
+std::vector<std::string> weighed_sentences(const PlanSource& source, int rows, const WeighedPlan& plan);
+std::string weighed_text(const PlanSource& source, int rows, const WeighedPlan& plan);
 
 /// What the files of the command hold.
 std::vector<FileText> plan_file_texts();
 
-/// settings.csv, of the frequencies that give what is needed, and weighed.csv.
-std::vector<OutputFile> weighed_files(const WeighedPlan& plan, CsvFormat format = {});
+/// settings.csv, of the frequencies that give what is needed, weighed.csv and lots.csv.
+std::vector<OutputFile> weighed_files(const PlanSource& source, const WeighedPlan& plan, CsvFormat format = {});
 
-/// plan.csv, and with a layout seeder.toml.
+/// plan.csv, lots.csv, and with a layout seeder.toml.
 std::vector<OutputFile> plan_files(const PlanSource& source, CsvFormat format = {});
 
 }  // namespace vibrosow

@@ -193,17 +193,17 @@ TEST(PlannedSeed, OfABallAndOfAClump) {
   SeedLot ball;
   ball.diameter = 4e-3;
   ball.mass = 40e-6;
-  EXPECT_NEAR(planned_seed(ball).diameter, 4e-3, 1e-15);
-  EXPECT_EQ(planned_seed(ball).aspect, 1);
-  const PlannedSeed heavier = planned_seed(of_mass(ball, 8 * 40e-6));
+  EXPECT_NEAR(planned_seed({ball}).diameter, 4e-3, 1e-15);
+  EXPECT_EQ(planned_seed({ball}).aspect, 1);
+  const PlannedSeed heavier = planned_seed({of_mass(ball, 8 * 40e-6)});
   EXPECT_NEAR(heavier.diameter, 8e-3, 1e-15) << "at equal density";
   EXPECT_NEAR(heavier.mass, 8 * 40e-6, 1e-18);
   SeedLot clump = ball;
   clump.shape = Shape::clump;
   clump.discs = {{-1e-3, 0, 1e-3, 0}, {1e-3, 0, 1e-3, 0}};
-  EXPECT_NEAR(planned_seed(clump).aspect, 2, 1e-12);
-  EXPECT_NEAR(planned_seed(clump).diameter, 2e-3 * std::cbrt(2), 1e-9) << "two balls that touch";
-  EXPECT_NEAR(planned_seed(of_mass(clump, 8 * 40e-6)).diameter, 4e-3 * std::cbrt(2), 1e-9);
+  EXPECT_NEAR(planned_seed({clump}).aspect, 2, 1e-12);
+  EXPECT_NEAR(planned_seed({clump}).diameter, 2e-3 * std::cbrt(2), 1e-9) << "two balls that touch";
+  EXPECT_NEAR(planned_seed({of_mass(clump, 8 * 40e-6)}).diameter, 4e-3 * std::cbrt(2), 1e-9);
 }
 
 TEST(PlannedSeed, SizesAreNotStretched) {
@@ -215,6 +215,48 @@ TEST(PlannedSeed, SizesAreNotStretched) {
   lot.sizes.least = 3e-3;
   lot.sizes.most = 5e-3;
   EXPECT_THAT([&] { of_mass(lot, 50e-6); }, ThrowsMessage<InputError>(HasSubstr("mixed: its seeds have sizes")));
+}
+
+/// 120 kg/ha of 40 mg and 90 kg/ha of 10 mg: three small ones for each large one.
+TEST(Mixture, IsSharedOutByNumber) {
+  std::vector<SownLot> sown(2);
+  sown[0].lot.diameter = 4e-3, sown[0].lot.mass = 40e-6, sown[0].sowing_rate = 120 * kilogram_per_hectare;
+  sown[1].lot.diameter = 2e-3, sown[1].lot.mass = 10e-6, sown[1].sowing_rate = 90 * kilogram_per_hectare;
+  share_out(sown);
+  EXPECT_NEAR(sown[0].seeds_per_area(), 300, 1e-9);
+  EXPECT_NEAR(sown[1].seeds_per_area(), 900, 1e-9);
+  EXPECT_NEAR(sown[0].lot.number_fraction, 0.25, 1e-12);
+  EXPECT_NEAR(sown[1].lot.number_fraction, 0.75, 1e-12);
+  // The rate by mass over the mean mass is the number of all.
+  const PlannedSeed mean = planned_seed({sown[0].lot, sown[1].lot});
+  EXPECT_NEAR(210 * kilogram_per_hectare / mean.mass, 1200, 1e-9);
+}
+
+/// The aspect of a mixture goes by volume: of balls and pairs of them that touch, as many of each, two thirds are
+/// pairs.
+TEST(Mixture, ItsAspectGoesByVolume) {
+  SeedLot ball{.name = "ball", .diameter = 2e-3, .mass = 5e-6};
+  SeedLot pair{.name = "pair", .diameter = 4e-3, .mass = 10e-6, .shape = Shape::clump};
+  pair.discs = {{-1e-3, 0, 1e-3}, {1e-3, 0, 1e-3}};
+  ball.number_fraction = pair.number_fraction = 0.5;
+  EXPECT_NEAR(planned_seed({ball, pair}).aspect, (1 + 2 * 2) / 3.0, 1e-9);
+}
+
+/// A hole clogs by the largest crop: what is three mean seeds wide is not three of the largest.
+TEST(Mixture, ItsHolesClogByTheLargestCrop) {
+  SowingTask task = task_of(300);
+  task.seed.largest = 8e-3;
+  const SowingPlan mixed = plan_sowing(task, table(), other_materials);
+  ASSERT_FALSE(mixed.layouts.empty());
+  for (const PlannedLayout& layout : mixed.layouts) {
+    EXPECT_NEAR(layout.width_over_largest, layout.width_over_d / 2, 1e-12);
+    EXPECT_EQ(layout.risk(), hole_class(layout.width_over_d / 2));
+  }
+  const SowingPlan alone = plan_sowing(task_of(300), table(), other_materials);
+  EXPECT_GT(mixed.layouts.front().risk(), alone.layouts.front().risk());
+  if (mixed.change.kept_open) {
+    EXPECT_NEAR(mixed.change.kept_open->width, 24e-3, 1e-12);
+  }
 }
 
 }  // namespace

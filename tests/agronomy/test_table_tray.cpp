@@ -28,10 +28,25 @@ TEST(TableTray, OfATrayThatTheTableKnows) {
   EXPECT_EQ(tray.at.aspect, 1);
 }
 
+/// As many balls of 2 mm as of 4 mm: half the volume of both together.
+Scene mixed_scene() {
+  Scene scene = table_tray_scene();
+  scene.lots.push_back({.name = "small", .diameter = 2e-3, .mass = 5e-6});
+  for (SeedLot& lot : scene.lots) lot.number_fraction = 0.5;
+  return scene;
+}
+
+TEST(TableTray, AMixtureIsSeedsOfItsMeanVolume) {
+  const TableTray tray = table_tray(mixed_scene());
+  EXPECT_NEAR(tray.seed.mass, 22.5e-6, 1e-15);
+  EXPECT_NEAR(std::pow(tray.seed.diameter, 3), 0.5 * (64e-9 + 8e-9), 1e-18);
+  EXPECT_NEAR(tray.seed.largest, 4e-3, 1e-15);
+  EXPECT_NEAR(tray.at.width, 16e-3 / tray.seed.diameter, 1e-12);
+}
+
 TEST(TableTray, RefusesWhatTheTableDoesNotTellOf) {
   const std::pair<const char*, std::function<void(Scene&)>> cases[] = {
       {"space: is the plane", [](Scene& scene) { scene.space = Space::plane; }},
-      {"seeds: there are several lots", [](Scene& scene) { scene.lots.push_back(scene.lots[0]); }},
       {"hopper: a hopper feeds", [](Scene& scene) { scene.hopper = scene.tray; }},
       {"tray.fill: the bed is not a fill", [](Scene& scene) { scene.tray.fill.reset(); }},
       {"tray.tilt: the floor slopes", [](Scene& scene) { scene.tray.tilt = 0.1; }},
@@ -100,10 +115,10 @@ TEST_F(Tolerance, OutsideTheTableIsItsNearestPlacesAndSaysSo) {
   motion(slanting).direction = 0.3;
   EXPECT_THAT(tray_tolerance(slanting, table).outside, HasSubstr("tray.motion.direction"));
   EXPECT_EQ(tray_tolerance(slanting, table).deviation, tray_tolerance(table_tray_scene(), table).deviation);
-  Scene mixed = table_tray_scene();
-  mixed.lots.push_back({.name = "small", .diameter = 2e-3, .mass = 5e-6});
-  EXPECT_THAT(tray_tolerance(mixed, table).outside, HasSubstr("seeds: there are several lots"));
-  EXPECT_EQ(tray_tolerance(mixed, table).deviation, tray_tolerance(table_tray_scene(), table).deviation);
+  Scene mean = table_tray_scene();
+  mean.lots[0].diameter = planned_seed(mixed_scene().lots).diameter;
+  EXPECT_THAT(tray_tolerance(mixed_scene(), table).outside, HasSubstr("seeds: there are several lots"));
+  EXPECT_NEAR(*tray_tolerance(mixed_scene(), table).deviation, *tray_tolerance(mean, table).deviation, 1e-12);
 }
 
 TEST_F(Tolerance, HowTheBedIsFedAndHowDeepItIsAreLeftAside) {

@@ -77,8 +77,8 @@ TEST_F(Weighed, ARowThatContradictsTheModelIsTold) {
 TEST_F(Weighed, NoFrequencyGivesWhatIsOutOfReach) {
   const WeighedPlan plan = plan_weighed(1, {row(4.5, 1)}, table, model);
   EXPECT_TRUE(plan.settings.empty());
-  EXPECT_LT(plan.most, 1);
-  EXPECT_LT(plan.least, plan.most);
+  EXPECT_LT(plan.reach.most, 1);
+  EXPECT_LT(plan.reach.least, plan.reach.most);
 }
 
 TEST_F(Weighed, RowsOfAnotherTrayAreRefused) {

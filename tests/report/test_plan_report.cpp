@@ -9,7 +9,10 @@
 #include <fstream>
 #include <sstream>
 
+#include "input/read_crop_lot.hpp"
 #include "input/read_scene.hpp"
+#include "report/plan_page.hpp"
+#include "scene/seed_lot.hpp"
 #include "support/made_up_hole_table.hpp"
 
 namespace vibrosow {
@@ -22,15 +25,12 @@ using testing::Not;
 /// Balls of 4 mm and 40 mg.
 PlanSource source_of(double seeds_per_s) {
   PlanSource source;
-  source.crop = "balls";
-  source.lot.name = "balls";
-  source.lot.diameter = 4e-3;
-  source.lot.mass = 40e-6;
-  source.own_mass = true;
+  SeedLot balls{.name = "balls", .diameter = 4e-3, .mass = 40e-6};
   SowingTask task;
-  task.seed = planned_seed(source.lot);
+  task.seed = planned_seed({balls});
   task.pace = {0.25, 8 * kilometre_per_hour};
   task.sowing_rate = seeds_per_s * task.seed.mass / (task.pace.row_spacing * task.pace.speed);
+  source.lots = {{"balls", {balls, task.sowing_rate}, true}};
   source.plan = plan_sowing(task, HoleTable(made_up_records()), {0.2, 5, 1 / 1.1});
   return source;
 }
@@ -118,10 +118,25 @@ TEST(PlannedSeeder, IsThatOfTheTableWithTheLayoutsHole) {
   EXPECT_NEAR(scene.lots[0].mass, 40e-6, 1e-12);
 }
 
+/// What a plan has written can be weighed: it is read back as the tray that was planned, also at the table's ends.
+TEST(PlannedSeeder, IsATrayThatTheTableKnows) {
+  const HoleTable table(made_up_records());
+  PlanSource source = source_of(100);
+  const std::vector<PlannedLayout> layouts = source.plan.layouts;
+  for (const PlannedLayout& layout : layouts) {
+    source.plan.layouts.front() = layout;
+    const TableTray tray = table_tray(planned_scene(source));
+    EXPECT_NEAR(tray.at.depth, layout.depth_over_d, 1e-9);
+    const double needed = layout.feed.rows * source.plan.task.row_mass_rate();
+    EXPECT_NEAR(predicted_rate(tray, table) / needed, 1, 1e-4);
+  }
+}
+
 TEST(PlannedSeeder, OfSeedsMadeHeavierIsWrittenOut) {
   PlanSource source = source_of(100);
-  source.lot.shape = Shape::clump;
-  source.lot.discs = {{-1e-3, 0, 1.5e-3, 0}, {1e-3, 0, 1.5e-3, 0}};
+  SeedLot& lot = source.lots.front().sown.lot;
+  lot.shape = Shape::clump;
+  lot.discs = {{-1e-3, 0, 1.5e-3, 0}, {1e-3, 0, 1.5e-3, 0}};
   const Scene scene = planned_scene(source);
   EXPECT_EQ(scene.lots[0].shape, Shape::clump);
   EXPECT_EQ(scene.lots[0].discs.size(), 2U);
@@ -130,8 +145,8 @@ TEST(PlannedSeeder, OfSeedsMadeHeavierIsWrittenOut) {
 
 TEST(PlannedSeeder, OfAShippedCropNamesIt) {
   PlanSource source = source_of(100);
-  source.crop = "pea";
-  source.own_mass = false;
+  source.lots.front().crop = "pea";
+  source.lots.front().own_mass = false;
   EXPECT_THAT(planned_seeder(source), HasSubstr("crop = \"pea\""));
   EXPECT_NEAR(planned_scene(source).lots[0].diameter, 7.00e-3, 1e-9);
 }
@@ -158,22 +173,116 @@ WeighedPlan weighed_plan(double times) {
 }
 
 TEST(WeighedText, SaysWhatToSetAndHowSureItIs) {
-  const SowingTask task{{4e-3, 40e-6, 1}, 0.018, {0.25, 8 * kilometre_per_hour}};
-  const std::string text = unwrapped(weighed_text(task, 2, weighed_plan(1.1)));
+  PlanSource source = source_of(100);
+  source.plan.task.sowing_rate = 180 * kilogram_per_hectare;
+  const std::string text = unwrapped(weighed_text(source, 2, weighed_plan(1.1)));
   EXPECT_THAT(text,
               AllOf(HasSubstr("2 rows of 180 kg/ha"), HasSubstr("1.1 times the"), HasSubstr("So the tray gives 1."),
                     HasSubstr("set "), HasSubstr("Weigh at the frequency that you set")));
-  EXPECT_THAT(unwrapped(weighed_text(task, 2, weighed_plan(3))), HasSubstr("Take a narrower hole"));
-  EXPECT_THAT(unwrapped(weighed_text(task, 2, weighed_plan(0.3))), HasSubstr("Take a wider hole"));
-  EXPECT_THAT(unwrapped(weighed_text(task, 1, weighed_plan(20))), HasSubstr("this contradicts"));
+  EXPECT_THAT(unwrapped(weighed_text(source, 2, weighed_plan(3))), HasSubstr("Take a narrower hole"));
+  EXPECT_THAT(unwrapped(weighed_text(source, 2, weighed_plan(0.3))), HasSubstr("Take a wider hole"));
+  EXPECT_THAT(unwrapped(weighed_text(source, 1, weighed_plan(20))), HasSubstr("this contradicts"));
+}
+
+/// 100 kg/ha of wheat and 50 kg/ha of peas.
+PlanSource mixture() {
+  PlanSource source;
+  std::vector<SownLot> sown;
+  for (const auto& [crop, rate] : {std::pair{"wheat", 100.0}, {"pea", 50.0}}) {
+    sown.push_back({read_crop_lot(crop, "--crop"), rate * kilogram_per_hectare});
+    source.lots.push_back({crop, {}, false});
+  }
+  share_out(sown);
+  for (std::size_t i = 0; i < 2; ++i) source.lots[i].sown = sown[i];
+  SowingTask task;
+  task.seed = planned_seed({sown[0].lot, sown[1].lot});
+  task.seed.aspect = 1;  // the made-up table is of balls
+  task.pace = {0.15, 8 * kilometre_per_hour};
+  task.sowing_rate = 150 * kilogram_per_hectare;
+  source.plan = plan_sowing(task, HoleTable(made_up_records()), {0.2, 5, 1 / 1.1});
+  return source;
+}
+
+TEST(PlanText, OfAMixtureTellsEachCropAndThatItSegregates) {
+  const PlanSource source = mixture();
+  const std::string text = unwrapped(plan_text(source));
+  EXPECT_THAT(text, AllOf(HasSubstr("100 kg/ha, 338 seeds/m2"), HasSubstr("50 kg/ha, 26.5 seeds/m2"),
+                          HasSubstr("together 150 kg/ha, 364 seeds/m2"), HasSubstr("Segregation is not in the table")));
+  EXPECT_THAT(unwrapped(weighed_text(source, 2, weighed_plan(1.1))), HasSubstr("Segregation is not in the table"));
+  EXPECT_THAT(unwrapped(plan_text(source_of(100))), Not(HasSubstr("Segregation")));
+}
+
+/// Read back, its lots are those of the plan and in its parts.
+TEST(PlannedSeeder, OfAMixtureHasItsCrops) {
+  const PlanSource source = mixture();
+  const Scene scene = planned_scene(source);
+  ASSERT_EQ(scene.lots.size(), 2U);
+  for (std::size_t i = 0; i < 2; ++i) {
+    EXPECT_NEAR(scene.lots[i].number_fraction, source.lots[i].sown.lot.number_fraction, 1e-8);
+    EXPECT_NEAR(mean_mass(scene.lots[i]), mean_mass(source.lots[i].sown.lot), 1e-12);
+  }
 }
 
 TEST(WeighedFiles, AreOneRowPerSettingAndPerWeighing) {
-  const std::vector<OutputFile> files = weighed_files(weighed_plan(1.05));
-  ASSERT_EQ(files.size(), 2U);
+  const std::vector<OutputFile> files = weighed_files(source_of(100), weighed_plan(1.05));
+  ASSERT_EQ(files.size(), 3U);
   EXPECT_EQ(files[0].name, "settings.csv");
   EXPECT_THAT(files[0].content, HasSubstr("frequency_Hz,predicted_g_per_s,low_g_per_s,high_g_per_s,more_by"));
   EXPECT_THAT(files[1].content, HasSubstr("frequency_Hz,weighed_g_per_s,predicted_g_per_s,likely_percent"));
+  EXPECT_THAT(files[2].content, HasSubstr("crop,rate_kg_per_ha,seeds_per_m2,number_percent\nballs,"));
+}
+
+/// The rows of a page's first table, its head aside.
+int rows_of_card(const std::string& page) {
+  const std::string table = page.substr(0, page.find("</table>"));
+  int rows = -1;
+  for (std::size_t at = table.find("<tr>"); at != std::string::npos; at = table.find("<tr>", at + 1)) ++rows;
+  return rows;
+}
+
+void expect_needs_nothing(const std::string& page) {
+  for (const char* word : {"http", "src=", "href", "url(", "<script", "@import"})
+    EXPECT_THAT(page, Not(HasSubstr(word)));
+  EXPECT_THAT(page, AllOf(HasSubstr("@page"), HasSubstr("width=device-width")));
+}
+
+TEST(PlanPageText, HasACardAndWhatToWeigh) {
+  PlanSource source = source_of(100);
+  source.lots.front().crop = "<balls>";
+  const PlannedLayout& best = source.plan.layouts.front();
+  const HoleTable table(made_up_records());
+  const TrayRates rates(table_tray(source.plan.task, best), table, {0.2, 5, 1}, 0, {});
+  const PlanCard card{rates.tray(), best.feed.rows,
+                      settings_card(rates, source.plan.task, best.feed.rows, best.more_by_faster)};
+  const std::string page = plan_page({.source = source, .card = &card, .command = "vibrosow plan --crop <balls>"});
+  expect_needs_nothing(page);
+  EXPECT_EQ(rows_of_card(page), 11);
+  EXPECT_THAT(page, AllOf(HasSubstr("&lt;balls&gt;"), Not(HasSubstr("<balls>")), HasSubstr("What to weigh"),
+                          HasSubstr("Nothing of this was ever measured")));
+  // At the planned speed stands the planned frequency.
+  EXPECT_THAT(page, HasSubstr(fmt::format("<td>8</td>")));
+  EXPECT_THAT(page, HasSubstr(fmt::format("<td>{:.3g}</td>", best.frequency)));
+}
+
+TEST(PlanPageText, OfAWeighedTraySaysWhatWasWeighed) {
+  PlanSource source = source_of(100);
+  const HoleTable table(made_up_records());
+  const WeighedPlan weighed = weighed_plan(1.1);
+  source.plan.task.sowing_rate = sowing_rate(weighed.needed, source.plan.task.pace);
+  const TrayRates rates = weighed_rates({weighed.rows[0].weighed}, table, {0.2, 5, 1});
+  const PlanCard card{rates.tray(), 1, settings_card(rates, source.plan.task, 1)};
+  const std::string page = plan_page({.source = source, .card = &card, .weighed = &weighed, .command = "again"});
+  expect_needs_nothing(page);
+  EXPECT_EQ(rows_of_card(page), 11);
+  EXPECT_THAT(page, AllOf(HasSubstr("1.1 times the"), HasSubstr("So the tray gives"), HasSubstr("again --weighed")));
+}
+
+/// What no layout gives has no card, and says why.
+TEST(PlanPageText, WithoutALayout) {
+  const PlanSource source = source_of(1e5);
+  const std::string page = plan_page({.source = source, .command = ""});
+  EXPECT_EQ(rows_of_card(page), -1);
+  EXPECT_THAT(page, HasSubstr("None of these does"));
 }
 
 }  // namespace
