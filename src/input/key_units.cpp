@@ -120,6 +120,7 @@ constexpr std::array key_words = {
     KeyWord{"box", {}},
     KeyWord{"sides", {}},
     KeyWord{"open_at", second, "2 s"},
+    KeyWord{"chamfer", millimetre, "0.5 mm"},
     KeyWord{"rate", seeds_per_second},
     KeyWord{"from", millimetre, "5 cm"},
     KeyWord{"to", millimetre, "35 cm"},

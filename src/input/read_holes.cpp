@@ -126,17 +126,35 @@ Rows read_rows(Table& table, HoleShape shape, double depth, std::optional<std::s
   return {evenly(rows, depth), across.empty() ? depth : across.front()};
 }
 
+/// Of the floor at its holes, which are round holes of space.
+struct Edge {
+  double thickness = 0, chamfer = 0;  // m
+};
+
+Edge read_edge(Table& table, HoleShape shape, Space space) {
+  Edge edge;
+  edge.chamfer = table.quantity("chamfer", Dimension::length, shortest, longest).value_or(0);
+  edge.thickness = table.quantity("thickness", Dimension::length, shortest, longest).value_or(edge.chamfer);
+  if (shape != HoleShape::round)
+    for (const char* key : {"chamfer", "thickness"})
+      if (table.has(key)) table.fail(key, "is of round holes: shape = \"round\"");
+  if (edge.chamfer > edge.thickness)
+    table.fail("chamfer", fmt::format("{} is more than the floor's thickness, {}", millimetres(edge.chamfer),
+                                      millimetres(edge.thickness)));
+  return space == Space::plane ? Edge{} : edge;
+}
+
 /// How far (m) two holes are apart; not above zero where they touch.
 double apart(const Hole& a, const Hole& b, Space space) {
   const double along = std::abs(a.centre - b.centre), across = std::abs(a.across - b.across);
   if (space == Space::three_dimensional && a.shape == HoleShape::round)
-    return elementary::hypot(along, across) - 0.5 * (a.width + b.width);
+    return elementary::hypot(along, across) - 0.5 * (a.rim_width() + b.rim_width());
   const double gap = along - 0.5 * (a.width + b.width);
   return space == Space::plane ? gap : std::max(gap, across - 0.5 * (a.across_length + b.across_length));
 }
 
 bool is_within(const Hole& hole, const Vessel& vessel, Space space) {
-  const double slack = rounding * vessel.length, radius = hole.width / 2;
+  const double slack = rounding * vessel.length, radius = hole.rim_width() / 2;
   const bool along = hole.centre - radius >= -slack && hole.centre + radius <= vessel.length + slack;
   if (space == Space::plane) return along;
   if (vessel.plan == Plan::round) {
@@ -153,7 +171,7 @@ std::string place_of(const Hole& hole, Space space) {
 }
 
 double longest_width(const std::vector<Hole>& holes) {
-  return std::ranges::max_element(holes, {}, &Hole::width)->width;
+  return std::ranges::max_element(holes, {}, &Hole::rim_width)->rim_width();
 }
 
 void check_holes(const Table& table, const std::vector<Hole>& holes, const Vessel& vessel, Space space,
@@ -166,7 +184,7 @@ void check_holes(const Table& table, const std::vector<Hole>& holes, const Vesse
                                         place_of(hole, space), millimetres(hole.width), millimetres(vessel.length),
                                         deep ? fmt::format(" and {} deep", millimetres(*vessel.depth)) : ""));
     }
-    const double reach = 0.5 * hole.width + 0.5 * longest_width(holes);
+    const double reach = 0.5 * hole.rim_width() + 0.5 * longest_width(holes);
     for (std::size_t k = i; k-- > 0 && holes[i].centre - holes[k].centre <= reach * (1 + rounding);) {
       const Hole& before = holes[k];
       if (apart(before, hole, space) > rounding * vessel.length) continue;
@@ -185,6 +203,7 @@ std::vector<Hole> read_holes(Table table, const Vessel& vessel, Space space, dou
   const std::vector<double> widths = read_widths(table, along.holes(), diameter);
   const std::vector<double> open_at = read_opening_times(table, along.holes());
   const HoleShape shape = shapes[table.choice("shape", {"slot", "round"}).value_or(0)];
+  const Edge edge = read_edge(table, shape, space);
   Rows rows{{0}, 0};
   if (space == Space::plane)
     table.skip("rows"), table.skip("across");
@@ -196,7 +215,7 @@ std::vector<Hole> read_holes(Table table, const Vessel& vessel, Space space, dou
   for (std::size_t k = 0; k < rows.across.size(); ++k) {
     const std::vector<double>& centres = along.centres[along.are_unlike() ? k : 0];
     for (std::size_t i = 0; i < centres.size(); ++i)
-      holes.push_back({centres[i], widths[first + i], open_at[first + i], shape, rows.across[k], rows.length});
+      holes.push_back({centres[i], widths[first + i], open_at[first + i], shape, rows.across[k], rows.length, edge.thickness, edge.chamfer});
     if (along.are_unlike()) first += centres.size();
   }
   std::stable_sort(holes.begin(), holes.end(), [](const Hole& a, const Hole& b) {

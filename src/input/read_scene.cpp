@@ -135,6 +135,15 @@ RunPlan read_run(Table table) {
   return run;
 }
 
+/// Seeds are counted below the floor's holes.
+void check_counting_line(Table& root, const Scene& scene) {
+  for (const Hole& hole : scene.tray.holes)
+    if (hole.thickness >= scene.run.count_below)
+      root.required_table("tray").required_table("holes").fail(
+          "thickness", fmt::format("{} reaches to the counting line, {} below the floor (run.count_below), or below it",
+                                   millimetres(hole.thickness), millimetres(scene.run.count_below)));
+}
+
 /// 0, every, 2 every, .. up to the end of the run, which a rounding error must not pass.
 std::vector<double> repeated_times(Table& table, double every, double duration) {
   constexpr double most = 100'000, rounding = 1e-9;
@@ -223,6 +232,7 @@ Seeder read_seeder_in(std::optional<Space> wanted, const std::filesystem::path& 
   scene.numerics.accuracy = accuracy;
   if (auto guard = root.table("guard")) scene.guard = read_guard(*guard);
   scene.run = read_run(root.required_table("run"));
+  check_counting_line(root, scene);
   if (auto record = root.table("record"))
     scene.record = read_record(*record, scene.run.duration, scene.lots, scene.space);
   if (auto drill = root.table("drill")) seeder.drill = read_drill(*drill, scene.tray.holes.size());

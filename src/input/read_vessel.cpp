@@ -312,6 +312,7 @@ void check_funnel(const Table& table, const Vessel& vessel, Space space) {
   const Hole& hole = vessel.holes.front();
   const double middle = vessel.length / 2, slack = thickness_rounding * vessel.length;
   if (vessel.plan == Plan::round) {
+    if (hole.chamfer > 0) table.required_table("holes").fail("chamfer", "is of a level floor, and this one slopes");
     if (vessel.holes.size() > 1 || std::abs(hole.centre - middle) > slack || std::abs(hole.across - middle) > slack)
       table.fail("funnel", "a round vessel's funnel has one hole, in the middle");
     return;

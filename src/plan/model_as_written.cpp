@@ -10,6 +10,7 @@
 #include "scene/input_error.hpp"
 #include "scene/mixture.hpp"
 #include "scene/seed_lot.hpp"
+#include "vessel/vessel_walls.hpp"
 
 namespace vibrosow {
 namespace {
@@ -21,6 +22,8 @@ void check_plane(const Vessel& vessel) {
     throw InputError(vessel.name + ".motion.axis: about an upright axis a vessel turns in space alone");
   if (std::ranges::any_of(vessel.pieces, [](const WallPiece& piece) { return piece.about.has_value(); }))
     throw InputError(vessel.name + ".pieces: a line is turned about an axis in space alone");
+  if (!std::ranges::all_of(vessel.pieces, is_of_plane))
+    throw InputError(vessel.name + ".pieces: along the vessel a piece is drawn out in space alone");
 }
 
 void check_vessels(const Model& model) {

@@ -165,7 +165,7 @@ void warn_of_hopper(const Scene& scene, const Vessel& hopper, Warnings& warnings
 bool rolls_freely_on(const Vessel& vessel, const Scene& scene) {
   if (!scene.contact.rotation || !vessel.motion || !moves(*vessel.motion)) return false;
   if (const auto* shake = std::get_if<HarmonicMotion>(&*vessel.motion);
-      shake != nullptr && std::abs(std::cos(shake->direction)) < 1e-6)
+      shake != nullptr && std::abs(elementary::cos(shake->direction)) < 1e-6)
     return false;  // upright: it carries nothing
   return std::ranges::none_of(scene.lots, [](const SeedLot& lot) { return lot.shape == Shape::clump; }) &&
          std::ranges::all_of(meeting_surfaces(scene.contact, scene.lots.size()).walls,

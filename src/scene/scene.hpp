@@ -132,7 +132,12 @@ struct Hole {
   HoleShape shape = HoleShape::slot;
   double across = 0;         // m, of its centre from the vessel's front
   double across_length = 0;  // m, of a slot
+  double thickness = 0;      // m, of the floor: how far down a round hole's wall reaches
+  double chamfer = 0;        // m, of a round hole's upper edge, at 45 degrees, no more than the thickness
   bool operator==(const Hole&) const = default;
+
+  /// m, in the plane of the floor.
+  double rim_width() const { return width + 2 * chamfer; }
 };
 
 enum class PieceAxis { upright, along };

@@ -382,11 +382,15 @@ void fields(Io& io, Hole& hole) {
   io.used_choice("shape", hole.shape, {"slot", "round"}, usual.shape);
   io.used("across_m", hole.across, usual.across, false);
   io.used("across_length_m", hole.across_length, usual.across_length, false);
+  io.used("thickness_m", hole.thickness, usual.thickness, false);
+  io.used("chamfer_m", hole.chamfer, usual.chamfer, false);
   range(io, hole.centre, -farthest, farthest, "centre_m");
   range(io, hole.width, 0, farthest, "width_m");
   range(io, hole.open_at, 0, never, "open_at_s");
   range(io, hole.across, -farthest, farthest, "across_m");
   range(io, hole.across_length, 0, farthest, "across_length_m");
+  range(io, hole.thickness, 0, farthest, "thickness_m");
+  range(io, hole.chamfer, 0, hole.thickness, "chamfer_m");
 }
 
 template <class Io>
@@ -402,6 +406,7 @@ void fields(Io& io, WallPiece& piece) {
   io.optional("about_m", piece.about);
   io.used_choice("axis", piece.axis, {"upright", "along"}, usual.axis);
   io.used_choice("drawn_out", piece.drawn_out, {"across", "along"}, usual.drawn_out);
+  check(io, !piece.about || piece.drawn_out == DrawnOut::across, "drawn_out", "contradicts about_m");
   range(io, piece.radius, 0, farthest, "radius_m");
   range(io, piece.from, -most_turns, most_turns, "from_rad");
   range(io, piece.to, -most_turns, most_turns, "to_rad");

@@ -44,7 +44,7 @@ Counter::FloorPoint Counter::within_period(const FloorPoint& place) const {
 double Counter::past_edge(const Hole& hole, const FloorPoint& place) const {
   const double along = std::abs(place.x - hole.centre), across = std::abs(place.z - hole.across);
   if (!in_space_) return along - 0.5 * hole.width;
-  if (hole.shape == HoleShape::round) return elementary::hypot(along, across) - 0.5 * hole.width;
+  if (hole.shape == HoleShape::round) return elementary::hypot(along, across) - 0.5 * hole.rim_width();
   return std::max(along - 0.5 * hole.width, across - 0.5 * hole.across_length);
 }
 

@@ -163,7 +163,7 @@ void add_floor(const Vessel& vessel, const Span& z, std::vector<Face>& faces) {
   if (!round) return add_floor_with_slots(name, x, z, holes, faces);
   Face face = level_plate(name + "1", x.from, x.to, z.from, z.to);
   for (const Hole& hole : holes)  // u goes across
-    face.holes.push_back({hole.across - z.from, hole.centre - x.from, hole.width / 2});
+    face.holes.push_back({hole.across - z.from, hole.centre - x.from, hole.rim_width() / 2});
   faces.push_back(face);
 }
 
@@ -246,10 +246,20 @@ void add_pieces_along(const Vessel& vessel, std::vector<Face>& faces) {
 /// A lid over a hole and over its images.
 void add_gate(const std::string& name, const Hole& hole, std::vector<Face>& faces) {
   Face face = is_round(hole)
-                  ? revolved(name, PieceAxis::upright, {hole.centre, 0, hole.across}, {0, 0}, {hole.width / 2, 0})
+                  ? revolved(name, PieceAxis::upright, {hole.centre, 0, hole.across}, {0, 0}, {hole.rim_width() / 2, 0})
                   : level_plate(name, along(hole).from, along(hole).to, across(hole).from, across(hole).to);
   face.opens_at = hole.open_at;
   faces.push_back(face);
+}
+
+/// A round hole's wall in a thick floor, its upper edge broken.
+void add_bore(const std::string& name, const Hole& hole, std::vector<Face>& faces) {
+  const Vector middle(hole.centre, 0, hole.across);
+  const double radius = hole.width / 2;
+  if (hole.chamfer > 0)
+    faces.push_back(revolved(name, PieceAxis::upright, middle, {radius + hole.chamfer, 0}, {radius, -hole.chamfer}));
+  if (hole.thickness > hole.chamfer)
+    faces.push_back(revolved(name, PieceAxis::upright, middle, {radius, -hole.chamfer}, {radius, -hole.thickness}));
 }
 
 /// Floor, walls and funnel, but for what is drawn out.
@@ -274,9 +284,11 @@ std::vector<Face> vessel_faces(const Vessel& vessel) {
   add_revolved_pieces(vessel, faces);
   add_ends_of_drum(vessel, faces);
   const std::vector<Hole> holes = with_images(vessel);
-  for (std::size_t k = 0; k < holes.size(); ++k)
-    if (holes[k].open_at > 0)
-      add_gate(vessel.name + " gate " + std::to_string(k % vessel.holes.size() + 1), holes[k], faces);
+  for (std::size_t k = 0; k < holes.size(); ++k) {
+    const std::string number = std::to_string(k % vessel.holes.size() + 1);
+    add_bore(vessel.name + " hole " + number, holes[k], faces);
+    if (holes[k].open_at > 0) add_gate(vessel.name + " gate " + number, holes[k], faces);
+  }
   return faces;
 }
 

@@ -205,6 +205,8 @@ const std::vector<Key>& keys() {
       {"tray.holes.shape", "", "'round'"},
       {"tray.holes.across", "length", quoted, "30 mm"},
       {"tray.holes.rows", "", "2", "", {"tray.holes.shape='round'"}},
+      {"tray.holes.thickness", "length", quoted, "2 mm", {"tray.holes.shape='round'"}},
+      {"tray.holes.chamfer", "length", quoted, "0.5 mm", {"tray.holes.shape='round'"}},
       {"tray.rain.rate", "seeds per time", quoted, "60 1/s", rains},
       {"tray.rain.from", "length", quoted, "5 cm", rains},
       {"tray.rain.to", "length", quoted, "35 cm", rains},

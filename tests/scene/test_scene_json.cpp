@@ -88,7 +88,13 @@ TEST(SceneJson, EveryChangeHasItsOwnText) {
         s.tray.pieces.back().about = {1, 1};
         s.tray.pieces.back().axis = PieceAxis::along;
       },
+      [](Scene& s) {
+        s.tray.pieces.push_back({{0, 0}, {1, 0}});
+        s.tray.pieces.back().drawn_out = DrawnOut::along;
+      },
       [](Scene& s) { s.tray.holes[0].open_at = 1; },
+      [](Scene& s) { s.tray.holes[0].thickness = 2e-3; },
+      [](Scene& s) { s.tray.holes[0].thickness = 2e-3, s.tray.holes[0].chamfer = 1e-3; },
       [](Scene& s) {
         s.tray.rain = Rain{200, 0, 0.1, 0.1};
       },
@@ -342,18 +348,20 @@ Contact any_contact(int lots) {
 
 Hole any_hole() {
   Hole hole;
-  auto& [centre, width, open_at, shape, across, across_length] = hole;
+  auto& [centre, width, open_at, shape, across, across_length, thickness, chamfer] = hole;
   centre = any_number(), width = any_number(), open_at = any_time();
   shape = any_of_first<HoleShape>(2);
-  across = any_number(), across_length = any_number();
+  across = any_number(), across_length = any_number(), thickness = any_number();
+  if (any_choice()) chamfer = 0.5 * thickness;
   return hole;
 }
 
 WallPiece any_piece() {
   WallPiece piece;
-  auto& [a, b, centre, radius, from, to, about, axis] = piece;
+  auto& [a, b, centre, radius, from, to, about, axis, drawn_out] = piece;
   about = maybe(any_point);
   axis = any_of_first<PieceAxis>(2);
+  if (!about) drawn_out = any_of_first<DrawnOut>(2);
   for (Eigen::Vector2d* point : {&a, &b, &centre}) *point = any_point();
   for (double* number : {&radius, &from, &to})
     if (any_choice()) *number = any_number();

@@ -87,6 +87,12 @@ class WallMaker {
     if (vessel_.box) add_box();
     for (std::size_t k = 0; k < vessel_.pieces.size(); ++k) add_piece(vessel_.pieces[k]);
     add_drum_ends();
+    for (const Hole& hole : vessel_.holes) {
+      const double radius = hole.width / 2;
+      const Point middle(hole.centre, 0, hole.across);
+      if (hole.chamfer > 0) add("chamfer", revolved({radius + hole.chamfer, 0}, {radius, -hole.chamfer}, middle, true));
+      if (hole.thickness > hole.chamfer) add("bore", revolved({radius, -hole.chamfer}, {radius, -hole.thickness}, middle, true));
+    }
     for (const Hole& hole : vessel_.holes)
       if (hole.open_at > 0) add("gate", lid(hole), hole.open_at);
     return std::move(walls_);
@@ -111,7 +117,7 @@ class WallMaker {
   Distance lid(const Hole& hole) const {
     if (!deep_) return line({left(hole), 0}, {right(hole), 0}, vessel_, space_);
     if (hole.shape == HoleShape::round)
-      return revolved({0, 0}, {hole.width / 2, 0}, {hole.centre, 0, hole.across}, true);
+      return revolved({0, 0}, {hole.width / 2 + hole.chamfer, 0}, {hole.centre, 0, hole.across}, true);
     return level(left(hole), right(hole), hole.across - hole.across_length / 2, hole.across + hole.across_length / 2);
   }
 
@@ -160,7 +166,8 @@ class WallMaker {
       return add("floor", [=](const Point& p) {
         for (const Hole& hole : holes) {
           const double in_plan = std::hypot(p.x() - hole.centre, p.z() - hole.across);
-          if (in_plan < hole.width / 2) return std::hypot(hole.width / 2 - in_plan, p.y());
+          const double rim = hole.width / 2 + hole.chamfer;
+          if (in_plan < rim) return std::hypot(rim - in_plan, p.y());
         }
         return level(0, length, 0, depth)(p);
       });

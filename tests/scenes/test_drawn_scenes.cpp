@@ -709,6 +709,8 @@ TEST(DrawnScene, HasEveryFeatureAndIsMostlyTaken) {
                               "hopper.holes.open_at",
                               "tray.holes.shape = \"round\"",
                               "tray.holes.rows",
+                              "tray.holes.thickness",
+                              "tray.holes.chamfer",
                               "tray.holes.across",
                               "tray.motion.kind = \"harmonic\"",
                               "tray.motion.kind = \"sum\"",

@@ -1,6 +1,7 @@
 // Balls that leave a vessel in space and come into it: counted at the hole they pass, rained, topped up.
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "simulation/simulate.hpp"
@@ -54,6 +55,34 @@ TEST(OutflowInSpace, ABallBelongsToTheRoundHoleItPasses) {
   EXPECT_NEAR(run.events[0].speed, std::sqrt(2 * standard_gravity * 0.04), 1e-3);
   EXPECT_EQ(run.balance.inside, 1) << "between two holes the floor holds";
   EXPECT_EQ(run.balance.lost, 0);
+}
+
+TEST(OutflowInSpace, OffAChamferABallFallsIntoItsHole) {
+  Scene scene = tray();
+  scene.tray.holes = {round_hole(0.03, 0.02, 0.01)};
+  const Dropped beside{0.0355, 0.0025, 0.02};  // its centre is over the floor, half a millimetre from the hole
+  EXPECT_EQ(run_of(scene, {beside}).balance.inside, 1);
+  scene.tray.holes[0].thickness = scene.tray.holes[0].chamfer = 1.5e-3;
+  const vibrosow::Run run = run_of(scene, {beside});
+  ASSERT_EQ(run.events.size(), 1u);
+  EXPECT_EQ(run.events[0].hole, 1);
+}
+
+TEST(OutflowInSpace, TheWallOfAHoleInAThickFloorHoldsABall) {
+  Scene scene = tray();
+  scene.tray.holes = {round_hole(0.03, 0.02, 0.01)};
+  const auto furthest = [&] {  // of a ball that is thrown sideways below the upper edge
+    const Model model = prepare_to_run(scene);
+    Grains grains = no_grains(model);
+    grains.add({0.03, -0.0025, 0.02}, {1, 0, 0}, 0, grains.kinds.front());
+    Simulation run(model, starting_state(model, 1, grains));
+    double most = 0;
+    while (run.time() < 0.01 && run.step()) most = std::max(most, run.grains().x[0] - 0.03);
+    return most;
+  };
+  EXPECT_GT(furthest(), 9e-3);
+  scene.tray.holes[0].thickness = 8e-3;
+  EXPECT_NEAR(furthest(), 0.5 * (0.01 - 4e-3), 2e-4);
 }
 
 TEST(OutflowInSpace, ASlotEndsWhereItEnds) {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <vector>
 
 #include "vessel/vessel_faces.hpp"
 #include "vessel/vessel_walls.hpp"
@@ -67,6 +68,29 @@ TEST(FaceLines, OfARoundVesselsFloorAreItsRimAndItsHoles) {
     return;
   }
   ADD_FAILURE() << "no floor";
+}
+
+TEST(VesselFaces, OfARoundHoleInAThickFloorAreItsChamferAndItsWall) {
+  Vessel vessel;
+  vessel.name = "tray", vessel.length = 0.1, vessel.height = 0.1, vessel.depth = 0.06;
+  vessel.front_and_back = Sides::periodic;
+  vessel.holes = {{.centre = 0.05, .width = 0.02, .shape = HoleShape::round, .across = 0.03, .thickness = 3e-3, .chamfer = 1e-3}};
+  std::vector<double> images;
+  for (const Face& face : vessel_faces(vessel)) {
+    if (face.name == "tray floor 1")
+      for (const RoundHole& hole : face.holes) EXPECT_DOUBLE_EQ(hole.radius, 0.011);
+    if (face.name != "tray hole 1") continue;
+    EXPECT_EQ(face.normal, Eigen::Vector3d::UnitY());
+    EXPECT_DOUBLE_EQ(face.origin.x(), 0.05);
+    images.push_back(face.origin.z());
+    const bool is_chamfer = face.height_a == 0;
+    EXPECT_DOUBLE_EQ(face.radius_a, is_chamfer ? 0.011 : 0.01);
+    EXPECT_DOUBLE_EQ(face.radius_b, 0.01);
+    EXPECT_DOUBLE_EQ(face.height_a, is_chamfer ? 0 : -1e-3);
+    EXPECT_DOUBLE_EQ(face.height_b, is_chamfer ? -1e-3 : -3e-3);
+  }
+  EXPECT_EQ(images.size(), 6u) << "with those of a period in front and behind";
+  EXPECT_EQ(std::ranges::count(images, 0.03), 2);
 }
 
 TEST(LargestRadius, IsThatOfTheFurthestPointOfAPieceAboutEitherAxis) {
