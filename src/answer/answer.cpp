@@ -108,8 +108,8 @@ Answer answer_of(const StudyResult& result, std::uint64_t first_random_seed) {
                        .runs = of.replicates,
                        .is_named = true,
                        .holes = of.holes,
-                       .expected = of.expected,
-                       .misfit_percent = of.misfit_percent};
+                       .misfit_percent = of.misfit_percent,
+                       .expected = of.expected};
     for (const Figure* figure : known) one.values.push_back(of.figures[*figure]);
     if (is_compared(one.standing)) answer.best_first.push_back(i);
     answer.layouts.push_back(std::move(one));
@@ -142,6 +142,7 @@ Answer answer_of(const DecisionResult& result) {
     const SceneDecision& of = result.scenes[*layout.scene];
     AnsweredLayout one{
         .layout = i, .standing = standing_of(of), .reason = of.reason, .doubts = of.doubts, .runs = of.runs};
+    one.expected = of.expected;
     one.is_named = one.standing == best || one.standing == not_shown_worse || one.standing == undecided;
     if (of.runs > 0) {
       one.values.push_back(of.goal);
@@ -188,7 +189,8 @@ Answer answer_of(const OptimiseResult& result) {
                        .runs = of.runs,
                        .is_named = leads(of),
                        .is_first_by_means = of.is_first_by_means,
-                       .at_edge = of.at_edge};
+                       .at_edge = of.at_edge,
+                       .expected = of.expected};
     if (of.runs > 0) {
       one.values = of.goals;
       if (shows_rate) one.values.push_back(of.rate);

@@ -48,8 +48,8 @@ struct AnsweredLayout {
   bool is_first_by_means = false;                         // of a search
   std::vector<std::string> at_edge{};                     // of a search: keys whose values end their ranges
   std::vector<HoleFigures> holes{};                       // of a sweep
-  std::optional<ExpectedRate> expected{};                 // likewise
   std::optional<MeanWithInterval> misfit_percent{};       // likewise, against measured outflow
+  std::optional<ExpectedRate> expected{};                 // of its rate, of any answer
 };
 
 /// What is known of the layouts of a study, in one form for every question; pages, charts and the doubts of an answer

@@ -5,6 +5,7 @@
 #include "answer/answer.hpp"
 #include "report/answer_doubts.hpp"
 #include "report/decision_words.hpp"
+#include "report/expected_report.hpp"
 #include "report/layout_text.hpp"
 #include "report/terminal_text.hpp"
 
@@ -59,6 +60,7 @@ std::string decision_text(const DecisionReport& report) {
   std::string text = result.study.title.empty() ? "" : wrapped(result.study.title) + "\n";
   const Answer answer = answer_of(result);
   text += answer_text(result, answer) + rest_text(result, answer) + failures_text(answer) + "\n";
+  text += expected_paragraph(answer);
   if (!result.tests_clogging && result.options.clogging_limit < 1) text += wrapped(clogging_untested_sentence());
   if (report.drafts) text += wrapped(drafts_sentence(*report.drafts));
   const std::string correlation = correlation_sentence(result);

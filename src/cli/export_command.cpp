@@ -48,7 +48,7 @@ int export_run(const ExportOptions& command) {
   const Model model = prepare(*wanted_runs(planned, {index}).front().scene);
   const OutputFolder folder = options.output_folder("run", run_file_texts());
   Outflow outflow = measure_outflow(model.scene, found->run);
-  const ExpectedOfRun expected = expected_of_run(model.scene, found->run, outflow, shipped_rate_knowledge());
+  const ExpectedWithDoubts expected = expected_of_run(model.scene, found->run, outflow, knowledge_for(planned.study));
   std::ranges::copy(expected.doubts, std::back_inserter(outflow.doubts));
   std::optional<DrillFigures> sown;
   if (layout.drill) sown = drill_figures(model.scene, found->run, outflow, *layout.drill);

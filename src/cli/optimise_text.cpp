@@ -7,6 +7,7 @@
 
 #include "answer/answer.hpp"
 #include "report/answer_doubts.hpp"
+#include "report/expected_report.hpp"
 #include "report/front_report.hpp"
 #include "report/layout_text.hpp"
 #include "report/terminal_text.hpp"
@@ -68,6 +69,7 @@ std::string optimise_text(const OptimiseResult& result, const std::string& folde
   if (!unsure.empty()) text += fmt::format("First by their means, and may be on the front:\n{}", unsure);
   if (const std::string why = why_unsure(result); !why.empty()) text += wrapped(why);
   text += doubts_paragraph(doubts_about(answer));
+  text += expected_paragraph(answer);
   if (sure.empty() && unsure.empty()) text += wrapped("No layout meets the constraints by its means.");
   text += fmt::format("\n{}{}", rest_text(answer), wrapped(front_promise(result)));
   text += wrapped(front_cost(result));

@@ -209,7 +209,8 @@ int run_scene(const RunOptions& options) {
   const Model model = prepare_to_run(read);
   const Scene& scene = model.scene;
   const std::string page_template = options.page_template(scene.space == Space::plane);
-  const RateKnowledge knowledge = shipped_rate_knowledge();
+  std::optional<RateKnowledge> knowledge;
+  if (scene.space == Space::three_dimensional) knowledge = shipped_rate_knowledge();
   RecordedFrames recorded(options, scene);
   const OutputFolder folder = options.output_folder("run", run_file_texts());
   if (!options.quiet) tell_of_replaced(folder, scene);
@@ -237,7 +238,7 @@ int run_scene(const RunOptions& options) {
   for (std::size_t i = 0; i < warnings.size(); ++i)
     outflow.doubts.insert(outflow.doubts.begin() + static_cast<std::ptrdiff_t>(i),
                           {DoubtKind::unlikely_scene, warnings[i]});
-  const ExpectedOfRun expected = expected_of_run(scene, run, outflow, knowledge);
+  const ExpectedWithDoubts expected = expected_of_run(scene, run, outflow, knowledge);
   std::ranges::copy(expected.doubts, std::back_inserter(outflow.doubts));
   std::optional<DrillFigures> sown;
   if (drill) sown = drill_figures(scene, run, outflow, *drill);

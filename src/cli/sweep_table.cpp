@@ -107,7 +107,7 @@ void print_sweep_table(const StudyResult& result) {
                           "interval; \"<\": not told from equal holes"));
   if (std::ranges::any_of(result.study.scenes, is_slice_of_a_tray))
     print("\n{}", wrapped("2D: a slice times the depth of the tray, its holes slots all across"));
-  if (const std::string expected = expected_sentence(answer); !expected.empty()) print("\n{}", wrapped(expected));
+  if (const std::string expected = expected_paragraph(answer); !expected.empty()) print("\n{}", expected);
   print_trade(result);
   if (!result.comparison) return;
   if (result.study.measured->scale == MeasuredScale::free && result.comparison->scale)

@@ -134,7 +134,7 @@ std::size_t StudyDecision::left() const {
   }));
 }
 
-SceneDecision StudyDecision::figures_of(std::size_t scene) const {
+SceneDecision StudyDecision::figures_of(std::size_t scene, const std::optional<RateKnowledge>& knowledge) const {
   SceneDecision figures;
   figures.reason = failures_[scene];
   figures.stopped = first_stop(runs_.runs()[scene]);
@@ -156,6 +156,9 @@ SceneDecision StudyDecision::figures_of(std::size_t scene) const {
   if (!goal_values.empty()) figures.goal = mean_with_interval(goal_values);
   if (!rates.empty()) figures.rate = mean_with_interval(rates);
   figures.unevenness = unevenness_of(flowed);
+  const ExpectedWithDoubts expected = expected_of(study_.scenes[scene], flowed, knowledge);
+  figures.expected = expected.rate;
+  for (const Doubt& doubt : expected.doubts) figures.doubts.push_back({doubt.kind, 0, 0, doubt.text});
   return figures;
 }
 
@@ -204,8 +207,9 @@ DecisionResult StudyDecision::result() const {
   result.options = options_;
   result.study = study_;
   result.tests_clogging = tests_clogging_;
+  const std::optional<RateKnowledge> knowledge = knowledge_for(study_);
   for (std::size_t scene = 0; scene < study_.scenes.size(); ++scene) {
-    result.scenes.push_back(figures_of(scene));
+    result.scenes.push_back(figures_of(scene, knowledge));
     result.scenes.back().is_screened_out = std::ranges::find(systems_, scene) == systems_.end();
   }
   const Decision decision = procedure_->decision();

@@ -10,6 +10,7 @@
 #include "outflow/statistics.hpp"
 #include "selection/procedure.hpp"
 #include "storage/asked_question.hpp"
+#include "study/expected_rate.hpp"
 #include "study/scene_runs.hpp"
 #include "study/study.hpp"
 
@@ -35,6 +36,7 @@ struct SceneDecision {
   bool is_screened_out = false;
   int runs = 0, clogged = 0;
   std::optional<MeanWithInterval> goal, rate;  // SI, over the runs that flowed; the goal as its figure is
+  std::optional<ExpectedRate> expected{};      // of the rate of these
   std::optional<Unevenness> unevenness;        // of these together
 };
 
@@ -87,7 +89,7 @@ class StudyDecision {
 
  private:
   Observation observed(std::size_t scene, const Evaluation& run);
-  SceneDecision figures_of(std::size_t scene) const;
+  SceneDecision figures_of(std::size_t scene, const std::optional<RateKnowledge>& knowledge) const;
   std::vector<std::vector<double>> goals_by_run() const;
   std::optional<DecisionCost> equal_grid() const;
 

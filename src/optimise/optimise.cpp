@@ -232,7 +232,8 @@ std::vector<std::string> StudyOptimisation::keys_at_edge(const FrontSearch::Poin
   return keys;
 }
 
-FrontLayout StudyOptimisation::layout_result(std::size_t layout, FrontStanding standing, bool is_first) const {
+FrontLayout StudyOptimisation::layout_result(std::size_t layout, FrontStanding standing, bool is_first,
+                                             const std::optional<RateKnowledge>& knowledge) const {
   const Trial& trial = trials_[layout];
   FrontLayout result;
   result.standing = standing;
@@ -267,6 +268,9 @@ FrontLayout StudyOptimisation::layout_result(std::size_t layout, FrontStanding s
     flowed.push_back(&run.outflow);
   }
   result.unevenness = unevenness_of(flowed);
+  const ExpectedWithDoubts expected = expected_of(generation.study.scenes[*trial.scene], flowed, knowledge);
+  result.expected = expected.rate;
+  for (const Doubt& doubt : expected.doubts) result.doubts.push_back({doubt.kind, 0, 0, doubt.text});
   if (options_.rate)
     result.rate = in_interval(known[options_.goals.size()]);
   else if (!rates.empty())
@@ -308,9 +312,10 @@ OptimiseResult StudyOptimisation::result() const {
   const std::vector<FrontStanding> standings = front.standings();
   const std::vector<bool> meets = front.meets_by_means(), surely_meets = front.surely_in_bands();
   const auto layers = front.layers(1);
+  const std::optional<RateKnowledge> knowledge = knowledge_for(result.study);
   for (std::size_t i = 0; i < trials_.size(); ++i) {
     const bool is_first = !layers.empty() && meets[i] && std::ranges::find(layers.front(), i) != layers.front().end();
-    result.layouts.push_back(layout_result(i, standings[i], is_first));
+    result.layouts.push_back(layout_result(i, standings[i], is_first, knowledge));
     result.layouts.back().surely_meets = surely_meets[i];
   }
   return result;

@@ -40,7 +40,8 @@ struct FrontLayout {
   std::vector<std::optional<MeanWithInterval>> goals;  // SI, as their figures are, with shared variances
   std::optional<MeanWithInterval>
       rate;  // SI, of the tray where one is wanted (with shared variances), else rate_g_per_s
-  std::optional<Unevenness> unevenness;  // of its runs that flowed together, without those of variants
+  std::optional<ExpectedRate> expected{};  // of rate_g_per_s, of those that flowed, without those of variants
+  std::optional<Unevenness> unevenness;    // of its runs that flowed together, without those of variants
 };
 
 /// Whether it stands in front.toml: it is on the front, or it is first by its means.
@@ -112,7 +113,8 @@ class StudyOptimisation {
   double rate_as(Variant variant, const Trial& trial, std::size_t run) const;
   const Evaluation& evaluation(Variant variant, const Trial& trial, std::size_t run) const;
   std::vector<std::string> keys_at_edge(const FrontSearch::Point& point) const;
-  FrontLayout layout_result(std::size_t layout, FrontStanding standing, bool is_first) const;
+  FrontLayout layout_result(std::size_t layout, FrontStanding standing, bool is_first,
+                            const std::optional<RateKnowledge>& knowledge) const;
 
   StudySource source_;
   OptimiseOptions options_;

@@ -4,6 +4,7 @@
 
 #include "answer/answer.hpp"
 #include "report/answer_doubts.hpp"
+#include "report/expected_report.hpp"
 #include "report/json_keys.hpp"
 #include "report/layout_columns.hpp"
 #include "report/study_page.hpp"
@@ -72,6 +73,8 @@ Columns<DecisionRow> decision_columns(const std::vector<std::string>& keys) {
                       figure_of_rate, [](const SceneDecision& of) { return of.rate; });
   add_unevenness_columns(columns, "coefficient of variation of the holes' rates by all these runs together",
                          [](R r) { return r.of() ? r.of()->unevenness : std::nullopt; });
+  add_expected_columns(
+      columns, [](R r) -> const auto& { return r.answer->layouts[r.index].expected; });
   return columns;
 }
 

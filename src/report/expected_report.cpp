@@ -98,13 +98,13 @@ std::string expected_sentence(const ExpectedRate& expected) {
 std::string expected_sentence(const Answer& answer) {
   const Study& study = *answer.study;
   const auto in_space = [](const Scene& scene) { return scene.space == Space::three_dimensional; };
-  if (study.measured)
+  if (answer.kind == AnswerKind::sweep && study.measured)
     return std::ranges::any_of(study.scenes, in_space) ? "Beside measured outflow the misfit says what the model errs "
                                                          "by: no range is told from other materials."
                                                        : "";
   std::vector<const ExpectedRate*> rates;
   for (const AnsweredLayout& layout : answer.layouts)
-    if (layout.expected) rates.push_back(&*layout.expected);
+    if (layout.is_named && layout.expected) rates.push_back(&*layout.expected);
   if (rates.empty()) return "";
   if (rates.size() == 1 && answer.layouts.size() == 1) return expected_sentence(*rates.front()) + '.';
   double low = rates.front()->range.low, high = rates.front()->range.high;
@@ -114,6 +114,11 @@ std::string expected_sentence(const Answer& answer) {
       "all "
       "layouts with the same seed: it does not decide between them, and they are compared by chance alone.",
       to_digits(low, 2), to_digits(high, 2), parts_text(rates));
+}
+
+std::string expected_paragraph(const Answer& answer) {
+  const std::string sentence = expected_sentence(answer);
+  return sentence.empty() ? "" : wrapped(sentence);
 }
 
 }  // namespace vibrosow

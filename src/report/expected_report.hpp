@@ -62,8 +62,11 @@ std::string model_text(const ModelError& model);
 /// called so.
 std::string expected_sentence(const ExpectedRate& expected);
 
-/// What a sweep's rates are expected to be, and that it decides nothing between its layouts; or, of rates in space
-/// beside measured outflow, why that is not told. Empty where no layout has any.
+/// What the rates of the layouts that an answer names are expected to be, and that it decides nothing between them; or,
+/// of rates in space beside measured outflow, why that is not told. Empty where no layout has any.
 std::string expected_sentence(const Answer& answer);
+
+/// The same for a terminal, wrapped.
+std::string expected_paragraph(const Answer& answer);
 
 }  // namespace vibrosow

@@ -10,6 +10,7 @@
 #include "answer/answer.hpp"
 #include "input/toml_value.hpp"
 #include "report/answer_doubts.hpp"
+#include "report/expected_report.hpp"
 #include "report/json_keys.hpp"
 #include "report/layout_columns.hpp"
 #include "report/study_page.hpp"
@@ -74,6 +75,8 @@ Columns<FrontRow> pareto_columns(const std::vector<std::string>& keys, const std
                    });
   add_unevenness_columns(columns, "coefficient of variation of the holes' rates by all these runs together",
                          [](R r) { return r.of().unevenness; });
+  add_expected_columns(
+      columns, [](R r) -> const auto& { return r.of().expected; });
   return columns;
 }
 

@@ -92,8 +92,8 @@ Json layout(const Answer& answer, const AnsweredLayout& of, const Replays& repla
     for (std::size_t k = 0; k < of.values.size(); ++k)
       means[std::string(answer.figures[k].name)] = page_interval(of.values[k], answer.figures[k].unit_size);
   }
-  if (!of_sweep) return one;
   if (of.expected) one["expected"] = expected_sentence(*of.expected);
+  if (!of_sweep) return one;
   one["misfit_percent"] = page_interval(of.misfit_percent, 1);
   one["holes"] = holes(of.holes);
   return one;
@@ -114,7 +114,7 @@ std::string page_data(const StudyPage& page, const Replays& replays) {
                {"title", study.title},         {"space", plane ? "plane" : "three_dimensional"},
                {"keys", std::move(keys)},      {"headline", page.headline},
                {"doubts", page.doubts}};
-  if (!page.expected.empty()) data["expected"] = page.expected;
+  if (const std::string expected = expected_sentence(answer); !expected.empty()) data["expected"] = expected;
   if (!page.asked.empty()) data["asked"] = std::move(asked), data["cost"] = page.cost;
   if (!page.confidence.empty()) data["confidence"] = page.confidence;
   data["figures"] = std::move(figures), data["layouts"] = std::move(layouts);

@@ -19,7 +19,6 @@ namespace vibrosow {
 struct StudyPage {
   Answer answer;
   std::string headline{};
-  std::string expected{};  // of a sweep: what its rates are expected to be; empty without
   std::vector<std::string> doubts{};
   std::vector<std::pair<std::string, std::string>> asked{};  // what was asked, by name
   std::vector<std::string> cost{};

@@ -4,7 +4,6 @@
 #include <iterator>
 
 #include "report/answer_doubts.hpp"
-#include "report/expected_report.hpp"
 #include "report/study_page.hpp"
 #include "report/terminal_text.hpp"
 
@@ -37,7 +36,6 @@ std::string headline(const StudyResult& result) {
 
 StudyPage study_page(const StudyResult& result, std::uint64_t first_random_seed) {
   StudyPage page{.answer = answer_of(result, first_random_seed), .headline = headline(result)};
-  page.expected = expected_sentence(page.answer);
   page.doubts = doubt_sentences(doubts_about(page.answer));
   std::ranges::move(left_out_sentences(page.answer), std::back_inserter(page.doubts));
   return page;

@@ -2,11 +2,14 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <string>
+#include <utility>
 
 #include "agronomy/table_tray.hpp"
 #include "input/read_held_out.hpp"
 #include "input/read_hole_table.hpp"
+#include "outflow/figures.hpp"
 #include "plan/softness.hpp"
 
 namespace vibrosow {
@@ -25,6 +28,12 @@ std::string tolerance_doubt(const TrayTolerance& tolerance) {
 
 RateKnowledge shipped_rate_knowledge() {
   return {shipped_hole_table(), shipped_model_error()};
+}
+
+std::optional<RateKnowledge> knowledge_for(const Study& study) {
+  const auto in_space = [](const Scene& scene) { return scene.space == Space::three_dimensional; };
+  if (study.measured || std::ranges::none_of(study.scenes, in_space)) return std::nullopt;
+  return shipped_rate_knowledge();
 }
 
 std::optional<SceneError> scene_error(const Scene& scene, const RateKnowledge& knowledge) {
@@ -55,15 +64,20 @@ std::optional<ExpectedRate> expected_rate(double mass_rate, std::optional<double
   return expected;
 }
 
-ExpectedOfRun expected_of_run(const Scene& scene, const Run& run, const Outflow& outflow,
-                              const RateKnowledge& knowledge) {
-  if (run.status != RunStatus::finished || run.outside_the_model) return {};
-  std::optional<SceneError> error = scene_error(scene, knowledge);
-  if (!error) return {};
-  ExpectedOfRun expected;
-  expected.rate = expected_rate(find_row(outflow, "all", "all")->mass_rate, chance_of_rate({&outflow}), *error);
+ExpectedWithDoubts expected_of(const Scene& scene, const std::vector<const Outflow*>& replicates,
+                               const std::optional<RateKnowledge>& knowledge) {
+  std::optional<SceneError> error = knowledge ? scene_error(scene, *knowledge) : std::nullopt;
+  const auto rate = FigureMeans(replicates)["rate_g_per_s"];
+  if (!error || !rate) return {};
+  ExpectedWithDoubts expected{expected_rate(rate->mean, chance_of_rate(replicates), *error), {}};
   if (expected.rate) expected.doubts = std::move(error->doubts);
   return expected;
+}
+
+ExpectedWithDoubts expected_of_run(const Scene& scene, const Run& run, const Outflow& outflow,
+                                   const std::optional<RateKnowledge>& knowledge) {
+  if (run.status != RunStatus::finished || run.outside_the_model) return {};
+  return expected_of(scene, {&outflow}, knowledge);
 }
 
 }  // namespace vibrosow

@@ -9,6 +9,7 @@
 #include "result/doubt.hpp"
 #include "result/run.hpp"
 #include "scene/scene.hpp"
+#include "study/study.hpp"
 
 namespace vibrosow {
 
@@ -20,6 +21,9 @@ struct RateKnowledge {
 
 /// The shipped one. Throws InputError where it is not there.
 RateKnowledge shipped_rate_knowledge();
+/// The same for a study with scenes in space, unless measured outflow stands beside its rates: the misfit then says
+/// what the model errs by.
+std::optional<RateKnowledge> knowledge_for(const Study& study);
 
 /// What all rates of a scene in space err by, but for chance.
 struct SceneError {
@@ -43,12 +47,18 @@ struct ExpectedRate {
 /// known.
 std::optional<ExpectedRate> expected_rate(double mass_rate, std::optional<double> chance, const SceneError& error);
 
-/// Of one run, with the doubts about its parts; none of a run that did not finish or is outside the model, too.
-struct ExpectedOfRun {
+/// Such a rate with the doubts about its parts.
+struct ExpectedWithDoubts {
   std::optional<ExpectedRate> rate{};
   std::vector<Doubt> doubts{};  // none without a rate
 };
-ExpectedOfRun expected_of_run(const Scene& scene, const Run& run, const Outflow& outflow,
-                              const RateKnowledge& knowledge);
+
+/// Of replicates of a scene.
+ExpectedWithDoubts expected_of(const Scene& scene, const std::vector<const Outflow*>& replicates,
+                               const std::optional<RateKnowledge>& knowledge);
+
+/// Of one run; none of a run that did not finish or is outside the model, too.
+ExpectedWithDoubts expected_of_run(const Scene& scene, const Run& run, const Outflow& outflow,
+                                   const std::optional<RateKnowledge>& knowledge);
 
 }  // namespace vibrosow

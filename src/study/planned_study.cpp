@@ -120,8 +120,7 @@ StudyResult answer_of_kept(const PlannedStudy& planned, const KeptRuns& kept, in
     return runs;
   };
   StudyResult result = answer_of(planned.study, read, on_runs);
-  const auto in_space = [](const Scene& scene) { return scene.space != Space::plane; };
-  if (std::ranges::any_of(result.study.scenes, in_space)) expect_rates(result, shipped_rate_knowledge());
+  if (const auto knowledge = knowledge_for(result.study)) expect_rates(result, *knowledge);
   return result;
 }
 

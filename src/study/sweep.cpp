@@ -264,7 +264,6 @@ StudyResult answer_of(const Study& study, const RunsOfScenes& runs_of, const OnR
 }
 
 void expect_rates(StudyResult& result, const RateKnowledge& knowledge) {
-  if (result.study.measured) return;
   for (std::size_t i = 0; i < result.layouts.size(); ++i) {
     LayoutResult& layout = result.layouts[i];
     const auto& rate = layout.figures["rate_g_per_s"];

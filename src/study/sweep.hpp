@@ -102,7 +102,7 @@ using RunsOfScenes = std::function<std::vector<std::vector<Evaluation>>(std::siz
 StudyResult answer_of(const Study& study, const RunsOfScenes& runs, const OnRuns& on_runs = {});
 
 /// What the layouts' rates are expected to be once they are weighed, and the doubts about that: of each in space that
-/// is compared. None where measured outflow stands beside the rates: the misfit then says what the model errs by.
+/// is compared.
 void expect_rates(StudyResult& result, const RateKnowledge& knowledge);
 
 /// Runs every scene of a study with every random seed. The result depends on the study and the first random seed alone,

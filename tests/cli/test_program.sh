@@ -137,6 +137,8 @@ for one in layouts:
     assert float(one["expected_low_g_per_s"]) < float(one["rate_g_per_s"]) < float(one["expected_high_g_per_s"])
 END
 grep -q '"expected":"Until you weigh, expect ' expecting/report.html || fail "the page of a sweep in space does not say what to expect"
+expect 0 "compared by chance alone" decide study.toml --goal rate --within "20 %" --out deciding "${space[@]}" --set accuracy=draft --reuse expecting \
+  --set "tray.motion.kind=harmonic" --set "tray.motion.amplitude=8 mm" --set "tray.motion.frequency=5 Hz" --set "run.duration=0.6 s"
 "$program" run seeder.toml --out plane | grep -q "until you weigh" && fail "in the plane a range is told"
 expect 0 "tray.holes.shape: in the plane a round hole is taken for a slot" check seeder.toml --set "tray.holes.shape=round"
 expect 2 "tray.depth: is missing" run seeder.toml --set "space=3d"

@@ -90,6 +90,27 @@ TEST(Decide, FindsTheBestAndLeavesThePlainlyWorse) {
   EXPECT_DOUBLE_EQ(result.equal_grid->grain_steps, 4000 * result.equal_grid->runs);
 }
 
+TEST(Decide, InSpaceTellsWhatTheRatesAreExpectedToBeAndDecidesByChanceAlone) {
+  const StudyFiles files;
+  const std::string along =
+      "contact.shell_compression = 1e-4\n[set.tray.holes]\nshape = \"round\"\n[set.tray.motion]\nkind = \"harmonic\"\n"
+      "amplitude = \"8 mm\"\nfrequency = \"5 Hz\"\n";
+  const Study space = widths(files, "[set]\nspace = \"3d\"\n" + along);
+  const Study plane = widths(files, "[set]\n" + along);
+  StudyDecision in_space(space, most_flow()), in_plane(plane, most_flow());
+  const DecisionReport report = lead(in_space, noisy_run), other = lead(in_plane, noisy_run);
+  EXPECT_EQ(report.result.best, other.result.best);
+  EXPECT_EQ(report.result.cost.runs, other.result.cost.runs);
+  for (std::size_t scene = 0; scene < 3; ++scene) {
+    EXPECT_FALSE(other.result.scenes[scene].expected);
+    const auto& expected = report.result.scenes[scene].expected;
+    ASSERT_TRUE(expected);
+    EXPECT_DOUBLE_EQ(expected->mass_rate, report.result.scenes[scene].rate->mean);
+    EXPECT_GT(half_width_of_model(expected->error.model), 0.1);
+  }
+  EXPECT_THAT(decision_csv(report), HasSubstr(",expected_low_g_per_s,expected_high_g_per_s,chance_percent,"));
+}
+
 TEST(Decide, NeitherJobsNorProcedureNeedMore) {
   const StudyFiles files;
   const Study study = widths(files);

@@ -95,6 +95,22 @@ TEST_F(Optimise, FindsWhatRateAndPowerCost) {
   EXPECT_GE(first, 4);
 }
 
+TEST_F(Optimise, InSpaceTellsWhatTheRatesAreExpectedToBe) {
+  const auto with = [&](const std::string& space) {
+    return StudySource{files_.study("[set]\n" + space +
+                                    "[set.tray.motion]\nkind = \"harmonic\"\namplitude = \"4 mm\"\n"
+                                    "frequency = \"10 Hz\"\n[vary]\ntray.holes.width = [\"10 mm\", \"14 mm\"]\n")};
+  };
+  StudyOptimisation in_space(with("space = \"3d\"\n"), options({"rate", "power"}, 40));
+  for (const FrontLayout& layout : lead(in_space).layouts) {
+    ASSERT_TRUE(layout.expected);
+    EXPECT_LT(layout.expected->range.low, 0.9);
+    EXPECT_GT(layout.expected->range.high, 1.1);
+  }
+  StudyOptimisation in_plane(with(""), options({"rate", "power"}, 40));
+  for (const FrontLayout& layout : lead(in_plane).layouts) EXPECT_FALSE(layout.expected);
+}
+
 /// Student's t about each mean, of a variance that is the layout's and what the first runs of all say of it.
 TEST_F(Optimise, IntervalsAreOfTheSharedVariance) {
   StudyOptimisation optimisation(space(), options({"rate", "power"}, 60));

@@ -25,7 +25,7 @@ export function decisionPage(data) {
   return {
     kicker: `Decision ${data.space === 'plane' ? 'in the plane' : 'in space'}`,
     title: data.title || 'A decision',
-    headlines: [data.headline],
+    headlines: [data.headline, data.expected],
     remarks: data.doubts,
     whole: 'Every layout',
     beside: true,

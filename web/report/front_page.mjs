@@ -44,7 +44,7 @@ export function frontPage(data) {
   return {
     kicker: `Search for the front ${data.space === 'plane' ? 'in the plane' : 'in space'}`,
     title: data.title || 'A search',
-    headlines: [data.headline],
+    headlines: [data.headline, data.expected],
     remarks: data.doubts,
     whole: 'Every layout',
     beside: true,
