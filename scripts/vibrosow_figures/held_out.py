@@ -3,6 +3,8 @@ import math
 import tomllib
 from pathlib import Path
 
+from scipy import stats
+
 from .outflow import CYLINDERS, GRAVITY, MEASURED_PERCENT_PER_S
 from .tables import command, rows, write_table
 
@@ -70,8 +72,38 @@ def held_out(options):
     write_table(options.table, "material,condition,unit,measured,predicted,report", lines)
 
 
+def logarithms_by_material(table):
+    """ln(measured / predicted) of each material, mean over its conditions, by name: as the program takes them."""
+    ratios = {}
+    for row in rows(table):
+        ratios.setdefault(row["material"], []).append(math.log(float(row["measured"]) / float(row["predicted"])))
+    return {material: sum(ratios[material]) / len(ratios[material]) for material in sorted(ratios)}
+
+
+def left_out(options):
+    """Each material predicted with the error that the others tell: Student's t about zero, as `vibrosow plan` has it of a new one.
+
+    `held`: whether the range of 95 % holds what was measured. The last row is of all: how many it held, and Clopper and Pearson's 95 % of that."""
+    logarithms = logarithms_by_material(options.held_out)
+    lines, held = [], 0
+    for material, own in logarithms.items():
+        others = [one for name, one in logarithms.items() if name != material]
+        scale = math.sqrt(sum(one * one for one in others) / len(others))
+        half = stats.t.ppf(0.975, len(others)) * scale
+        held += abs(own) <= half
+        lines.append([material, len(others), f"{math.exp(own):.4f}", f"{math.exp(-half):.4f}", f"{math.exp(half):.4f}", "yes" if abs(own) <= half else "no"])
+    count = len(lines)
+    low = stats.beta.ppf(0.025, held, count - held + 1) if held else 0
+    high = stats.beta.ppf(0.975, held + 1, count - held) if held < count else 1
+    lines.append(["all", count, f"{held / count:.4f}", f"{low:.4f}", f"{high:.4f}", f"{held} of {count}"])
+    write_table(options.table, "material,others,measured_over_predicted,low,high,held", lines)
+
+
 def add_commands(commands):
     parser = command(commands, "orifices", orifices)
     parser.add_argument("reports", metavar="REPORTS")
     parser = command(commands, "held-out", held_out)
+    parser.add_argument("table", metavar="CSV")
+    parser = command(commands, "left-out", left_out)
+    parser.add_argument("held_out", metavar="HELD-OUT.csv")
     parser.add_argument("table", metavar="CSV")

@@ -304,7 +304,7 @@ void read_space(Table& table, Space space, const Vessel* tray, Vessel& vessel) {
 }
 
 /// A floor slopes to slots from front to back, and in a round vessel to one round hole in its middle.
-void check_funnel(const Table& table, const Vessel& vessel, Space space) {
+void check_funnel(Table& table, const Vessel& vessel, Space space) {
   if (vessel.funnel == 0) return;
   if (!vessel.box) table.fail("funnel", "is a slope of the floor, which box = false leaves out");
   if (vessel.holes.empty()) table.fail("funnel", "needs holes for the floor to slope to");
