@@ -39,8 +39,8 @@ struct TrayTolerance {
 
 /// Of a scene in space, by the table's own slopes at its holes' width over the seed's size and its peak speed; all
 /// holes err alike, as of one drill bit. Round holes may be unequal: each counts by its outflow. Several lots
-/// are seeds of their mean. The depth of the bed, how it is fed and how the floor slopes are left aside. None without round
-/// holes, or where the tray is not shaken to and fro.
+/// are seeds of their mean. The depth of the bed, how it is fed and how the floor slopes are left aside. None without
+/// round holes, or where the tray is not shaken to and fro.
 TrayTolerance tray_tolerance(const Scene& scene, const HoleTable& table, const BuildTolerance& tolerance = {});
 
 }  // namespace vibrosow

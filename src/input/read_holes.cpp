@@ -215,7 +215,8 @@ std::vector<Hole> read_holes(Table table, const Vessel& vessel, Space space, dou
   for (std::size_t k = 0; k < rows.across.size(); ++k) {
     const std::vector<double>& centres = along.centres[along.are_unlike() ? k : 0];
     for (std::size_t i = 0; i < centres.size(); ++i)
-      holes.push_back({centres[i], widths[first + i], open_at[first + i], shape, rows.across[k], rows.length, edge.thickness, edge.chamfer});
+      holes.push_back({centres[i], widths[first + i], open_at[first + i], shape, rows.across[k], rows.length,
+                       edge.thickness, edge.chamfer});
     if (along.are_unlike()) first += centres.size();
   }
   std::stable_sort(holes.begin(), holes.end(), [](const Hole& a, const Hole& b) {

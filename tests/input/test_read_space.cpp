@@ -189,7 +189,8 @@ pitch = "10 cm"
 }
 
 TEST(ReadSpace, RoundHolesOfAThickFloor) {
-  const std::string holes = "\n[tray.holes]\ncount = 2\nwidth = \"8 mm\"\npitch = \"10 mm\"\n", round = whole + holes + "shape = \"round\"\n";
+  const std::string holes = "\n[tray.holes]\ncount = 2\nwidth = \"8 mm\"\npitch = \"10 mm\"\n",
+                    round = whole + holes + "shape = \"round\"\n";
   for (const Hole& hole : read(round).tray.holes) EXPECT_EQ(hole.rim_width(), hole.width);
   for (const Hole& hole : read(round + "thickness = \"2 mm\"\nchamfer = \"0.5 mm\"\n").tray.holes) {
     EXPECT_DOUBLE_EQ(hole.thickness, 2e-3);
@@ -198,8 +199,10 @@ TEST(ReadSpace, RoundHolesOfAThickFloor) {
   }
   EXPECT_DOUBLE_EQ(read(round + "chamfer = \"0.5 mm\"\n").tray.holes[0].thickness, 0.5e-3) << "at least";
   EXPECT_THAT(refusal(round + "chamfer = \"1.1 mm\"\n"), HasSubstr("tray.holes.pitch: hole 1")) << "their rims meet";
-  EXPECT_THAT(refusal(round + "thickness = \"1 mm\"\nchamfer = \"1.5 mm\"\n"), HasSubstr("tray.holes.chamfer: 1.5 mm is more than the floor's thickness"));
-  EXPECT_THAT(refusal(round + "thickness = \"20 mm\"\n"), HasSubstr("tray.holes.thickness: 20 mm reaches to the counting line"));
+  EXPECT_THAT(refusal(round + "thickness = \"1 mm\"\nchamfer = \"1.5 mm\"\n"),
+              HasSubstr("tray.holes.chamfer: 1.5 mm is more than the floor's thickness"));
+  EXPECT_THAT(refusal(round + "thickness = \"20 mm\"\n"),
+              HasSubstr("tray.holes.thickness: 20 mm reaches to the counting line"));
   for (const std::string key : {"thickness", "chamfer"})
     EXPECT_THAT(refusal(whole + holes + key + " = \"1 mm\"\n"), HasSubstr("tray.holes." + key + ": is of round holes"));
 }

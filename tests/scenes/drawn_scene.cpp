@@ -302,7 +302,8 @@ class SceneWriter {
     if (vessel.round || (!funnel && draw_.one_in(name + ".round_holes", 4))) {
       set(name + ".holes.shape", quoted("round"));
       if (!vessel.round && draw_.one_in(name + ".rows", 3)) set(name + ".holes.rows", 2);
-      if (draw_.one_in(name + ".thick_floor", 3)) set(name + ".holes.thickness", mm(draw_.number(name + ".thickness", 0.6, 3)));
+      if (draw_.one_in(name + ".thick_floor", 3))
+        set(name + ".holes.thickness", mm(draw_.number(name + ".thickness", 0.6, 3)));
       if (!funnel && draw_.one_in(name + ".chamfered", 3)) set(name + ".holes.chamfer", mm(0.5));
     } else if (deep_ && !funnel && draw_.one_in(name + ".short_slots", 4)) {
       set(name + ".holes.across", mm(0.6 * vessel.depth));

@@ -91,7 +91,8 @@ class WallMaker {
       const double radius = hole.width / 2;
       const Point middle(hole.centre, 0, hole.across);
       if (hole.chamfer > 0) add("chamfer", revolved({radius + hole.chamfer, 0}, {radius, -hole.chamfer}, middle, true));
-      if (hole.thickness > hole.chamfer) add("bore", revolved({radius, -hole.chamfer}, {radius, -hole.thickness}, middle, true));
+      if (hole.thickness > hole.chamfer)
+        add("bore", revolved({radius, -hole.chamfer}, {radius, -hole.thickness}, middle, true));
     }
     for (const Hole& hole : vessel_.holes)
       if (hole.open_at > 0) add("gate", lid(hole), hole.open_at);
