@@ -65,7 +65,7 @@ std::vector<std::string> choices_of(const BenchSheetOptions& command, const Benc
   return choices;
 }
 
-/// Says what the runs that are not there yet will take. Throws InputError where this machine is too slow.
+/// Says what the runs that are not there yet will take, and where this machine is slower than the usual one.
 void tell_cost(const BenchSheetOptions& command, const BenchRuns& bench, const StudyRuns& runs) {
   std::vector<const Scene*> missing;
   for (const CalibrationRun& run : bench.design.runs)
@@ -73,9 +73,9 @@ void tell_cost(const BenchSheetOptions& command, const BenchRuns& bench, const S
   if (missing.empty()) return;
   const double seconds = predict_seconds(missing);
   if (seconds > bench_budget)
-    throw InputError(
-        fmt::format("{}: its {} runs would take some {} of two cores on this machine, over {:.0f} minutes; give a "
-                    "shorter run.duration or a section of the tray, or fewer --runs",
+    complain(
+        fmt::format("{}: its {} runs take some {} of two cores on this machine, over {:.0f} minutes; a shorter "
+                    "run.duration, a section of the tray or fewer --runs take less",
                     bench.task.seeder.string(), missing.size(), duration_text(seconds / 2), bench_budget / 120));
   if (!command.common.quiet)
     print_text(wrapped(fmt::format("{} runs, some {} of CPU time", missing.size(), duration_text(seconds))));

@@ -16,6 +16,7 @@
 #include "outflow/outflow.hpp"
 #include "plan/effects.hpp"
 #include "plan/model.hpp"
+#include "report/expected_report.hpp"
 #include "report/page.hpp"
 #include "report/run_page.hpp"
 #include "report/run_report.hpp"
@@ -54,7 +55,7 @@ int export_run(const ExportOptions& command) {
   if (layout.drill) sown = drill_figures(model.scene, found->run, outflow, *layout.drill);
   std::vector<OutputFile> files =
       run_files(model.scene, found->run, outflow, effect_names(model.effects), options.csv, sown, expected.rate);
-  std::ranges::move(page_files("", run_page_data({model, found->run, outflow, sown, expected.rate})),
+  std::ranges::move(page_files("", run_page_data({model, found->run, outflow, sown, sentence_of(expected.rate)})),
                     std::back_inserter(files));
   folder.write(files);
   print("reports: {}\n", folder.path().string());

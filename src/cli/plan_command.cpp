@@ -340,7 +340,7 @@ void add_plan_command(CLI::App& app, int& exit_code) {
   add_csv_option(*command, options->common);
   add_examples(*command, {"vibrosow plan --crop pea --rate 200kg/ha --row-spacing 15cm --speed 8km/h",
                           "vibrosow plan --crop wheat --rate \"350 1/m2\" --row-spacing 12cm --speed 9km/h",
-                          "vibrosow plan --crop rye --rate 140kg/ha --row-spacing 15cm --speed 2m/s --html card.html"});
+                          "vibrosow plan --crop rye --rate 140kg/ha --row-spacing 15cm --speed 2m/s"});
   command->callback([options, &exit_code] { exit_code = run_plan(*options); });
 }
 

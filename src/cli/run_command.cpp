@@ -244,9 +244,9 @@ int run_scene(const RunOptions& options) {
   if (drill) sown = drill_figures(scene, run, outflow, *drill);
   std::vector<OutputFile> files =
       run_files(scene, run, outflow, effect_names(model.effects), options.csv, sown, expected.rate);
-  std::ranges::move(
-      page_files(page_template, run_page_data({model, run, outflow, sown, expected.rate}), recording.file()),
-      std::back_inserter(files));
+  std::ranges::move(page_files(page_template, run_page_data({model, run, outflow, sown, sentence_of(expected.rate)}),
+                               recording.file()),
+                    std::back_inserter(files));
   std::ranges::move(recorded.files(scene, run.snapshots), std::back_inserter(files));
   write_then_print(
       options.quiet, [&] { folder.write(files); },

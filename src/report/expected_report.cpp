@@ -95,6 +95,10 @@ std::string expected_sentence(const ExpectedRate& expected) {
                      range_text(expected.mass_rate, expected.range), parts_text(std::vector{&expected}));
 }
 
+std::string sentence_of(const std::optional<ExpectedRate>& expected) {
+  return expected ? expected_sentence(*expected) : "";
+}
+
 std::string expected_sentence(const Answer& answer) {
   const Study& study = *answer.study;
   const auto in_space = [](const Scene& scene) { return scene.space == Space::three_dimensional; };

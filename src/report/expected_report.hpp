@@ -61,6 +61,8 @@ std::string model_text(const ModelError& model);
 /// "6.2 g/s, expect 3.1 to 12 g/s until you weigh (95 %); of it chance 2 %, ..". A tolerance that is not known is
 /// called so.
 std::string expected_sentence(const ExpectedRate& expected);
+/// The same; empty where none is known.
+std::string sentence_of(const std::optional<ExpectedRate>& expected);
 
 /// What the rates of the layouts that an answer names are expected to be, and that it decides nothing between them; or,
 /// of rates in space beside measured outflow, why that is not told. Empty where no layout has any.

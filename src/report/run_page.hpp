@@ -9,7 +9,6 @@
 #include "plan/model.hpp"
 #include "report/columns.hpp"
 #include "result/run.hpp"
-#include "study/expected_rate.hpp"
 
 namespace vibrosow {
 
@@ -19,7 +18,7 @@ struct RunPage {
   const Run& run;
   const Outflow& outflow;
   const std::optional<DrillFigures>& drill;
-  const std::optional<ExpectedRate>& expected;
+  const std::string& expected;  // the sentence on what the rate is expected to be; empty: none
 };
 
 /// The page's numbers and texts (page_text).

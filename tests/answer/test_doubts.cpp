@@ -121,10 +121,11 @@ class DoubtsOfScenes : public testing::Test {
     };
   }
   Study study(const std::string& frequency = "10 Hz") const {
-    return read_study(
-        files_.study("replicates = 3\n[set.tray.motion]\nkind = \"harmonic\"\namplitude = \"4 mm\"\n"
-                     "frequency = \"" +
-                     frequency + "\"\n[vary]\ntray.holes.width = [\"14 mm\", \"16 mm\"]\n"));
+    return read_study(files_.study(
+        "replicates = 3\n[set.contact]\nfriction_model = \"spring\"\nrolling = \"spring\"\nrolling_friction = 0.02\n"
+        "[set.tray.motion]\nkind = \"harmonic\"\namplitude = \"4 mm\"\n"
+        "frequency = \"" +
+        frequency + "\"\n[vary]\ntray.holes.width = [\"14 mm\", \"16 mm\"]\n"));
   }
   StudyFiles files_;
 };
@@ -221,7 +222,8 @@ OptimiseResult searched(const StudySource& source, const Simulator& simulator) {
 TEST_P(Doubts, ASearchTells) {
   const Told told = GetParam().search;
   const StudySource source{
-      files_.study("[set.tray.motion]\nkind = \"harmonic\"\namplitude = \"4 mm\"\nfrequency = \"10 Hz\"\n[vary]\n"
+      files_.study("[set.contact]\nfriction_model = \"spring\"\nrolling = \"spring\"\nrolling_friction = 0.02\n"
+                   "[set.tray.motion]\nkind = \"harmonic\"\namplitude = \"4 mm\"\nfrequency = \"10 Hz\"\n[vary]\n"
                    "tray.holes.width = [\"14 mm\", \"16 mm\"]\n")};
   const OptimiseResult result = searched(source, simulator(GetParam().kind));
   check(told, {doubt_sentences(doubts_about(answer_of(result))), pareto_csv(result) + optimise_json(result)});

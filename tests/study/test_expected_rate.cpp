@@ -89,7 +89,9 @@ class ExpectedOfAStudy : public testing::Test {
   StudyResult result(const std::string& space, const std::string& more = "", int replicates = 3) const {
     const Study study = read_study(files_.study(
         "replicates = " + std::to_string(replicates) + "\n[set]\nspace = \"" + space +
-        "\"\ncontact.shell_compression = 1e-4\n[set.tray.holes]\nshape = \"round\"\n[set.tray.motion]\nkind = "
+        "\"\ncontact.shell_compression = 1e-4\n"
+        "contact.friction_model = \"spring\"\ncontact.rolling = \"spring\"\ncontact.rolling_friction = "
+        "0.02\n[set.tray.holes]\nshape = \"round\"\n[set.tray.motion]\nkind = "
         "\"harmonic\"\namplitude = \"8 mm\"\nfrequency = \"5 Hz\"\n[vary]\ntray.holes.width = [\"14 mm\", \"16 "
         "mm\"]\n" +
         more));

@@ -77,8 +77,8 @@ TEST(Study, AFillOfAHeightAndTheContactFollowAVariedCrop) {
     const auto seeds_3_cm_high = [](double diameter) {
       return 0.82 * 0.5 * 0.03 / (0.785398163 * diameter * diameter);
     };
-    EXPECT_NEAR(wheat.tray.fill->count, seeds_3_cm_high(3.57e-3), 0.5);
-    EXPECT_NEAR(pea.tray.fill->count, seeds_3_cm_high(6.83e-3), 0.5);
+    EXPECT_NEAR(wheat.tray.fill->count, seeds_3_cm_high(wheat.lots[0].diameter), 0.5);
+    EXPECT_NEAR(pea.tray.fill->count, seeds_3_cm_high(pea.lots[0].diameter), 0.5);
     EXPECT_EQ(pea.lots[0].contact.name, "pea-steel");
     EXPECT_EQ(wheat.lots[0].contact.name, "wheat-ball-steel");
     EXPECT_FALSE(pea.contact == wheat.contact);

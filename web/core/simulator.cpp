@@ -137,7 +137,8 @@ EMSCRIPTEN_KEEPALIVE const char* outcome() {
         return doubt.kind == DoubtKind::interrupted || doubt.kind == DoubtKind::before_the_window;
       });
     const std::optional<DrillFigures> drill;
-    return run_page_data({simulation->model(), run, outflow, drill});
+    const std::string expected;  // of trays in space alone
+    return run_page_data({simulation->model(), run, outflow, drill, expected});
   });
 }
 }
