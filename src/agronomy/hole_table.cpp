@@ -3,13 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <boost/math/tools/toms748_solve.hpp>
 #include <cmath>
-#include <cstdint>
 #include <limits>
 #include <stdexcept>
 #include <tuple>
 
+#include "agronomy/place_giving.hpp"
 #include "agronomy/prediction_error.hpp"
 
 namespace vibrosow {
@@ -236,17 +235,10 @@ std::optional<HoleEstimate> HoleTable::at(const HoleConditions& conditions) cons
 }
 
 double HoleTable::peak_speed_giving(double outflow, HoleConditions conditions, double from, double to) const {
-  const auto excess = [&](double speed) {
+  return place_giving(outflow, from, to, [&](double speed) {
     conditions.peak_speed = speed;
-    return at(conditions).value().outflow - outflow;
-  };
-  const double below = excess(from), above = excess(to);
-  if (below == 0) return from;
-  if (above == 0) return to;
-  std::uintmax_t most_steps = 100;
-  const auto [low, high] = boost::math::tools::toms748_solve(excess, from, to, below, above,
-                                                             boost::math::tools::eps_tolerance<double>(30), most_steps);
-  return 0.5 * (low + high);
+    return at(conditions).value().outflow;
+  });
 }
 
 HoleTable::Slopes HoleTable::slopes(const HoleConditions& conditions) const {

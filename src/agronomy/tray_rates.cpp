@@ -1,13 +1,12 @@
 #include "agronomy/tray_rates.hpp"
 
 #include <algorithm>
-#include <boost/math/tools/toms748_solve.hpp>
 #include <cmath>
-#include <cstdint>
 #include <numbers>
 #include <string>
 #include <utility>
 
+#include "agronomy/place_giving.hpp"
 #include "scene/input_error.hpp"
 
 namespace vibrosow {
@@ -45,19 +44,6 @@ PredictionError common_error(const TableTray& tray, const HoleTable& table, cons
   error.chance = 0;
   error.numerics = softness_error(tray.at.aspect) / normal_95;
   return error;
-}
-
-/// The place in between at which `rate` is `needed`, of which one end gives more and the other less.
-template <class Rate>
-double place_giving(double needed, double from, double to, Rate rate) {
-  const auto excess = [&](double place) { return rate(place) - needed; };
-  const double below = excess(from), above = excess(to);
-  if (below == 0) return from;
-  if (above == 0) return to;
-  std::uintmax_t most_steps = 60;
-  const auto [low, high] = boost::math::tools::toms748_solve(excess, from, to, below, above,
-                                                             boost::math::tools::eps_tolerance<double>(20), most_steps);
-  return 0.5 * (low + high);
 }
 
 }  // namespace

@@ -51,42 +51,36 @@ struct Span {
   double length() const { return to - from; }
 };
 
-/// A wall's piece of the plane drawn out across.
-Face drawn_out(const WallSegment& wall, const Span& z) {
-  if (wall.radius == 0) {
-    const Vector a(wall.a.x(), wall.a.y(), z.from), b(wall.b.x(), wall.b.y(), z.from);
-    return plate(wall.name, a, {0, 0, z.length()}, b - a);
-  }
+/// An arc about `centre`, `middle` the direction to the middle of it, drawn out along `normal` by `length` (m).
+Face drawn_out_arc(const std::string& name, const Vector& centre, const Vector& middle, const Vector& normal,
+                   double length, double radius, double angle) {
   Face face;
   face.kind = Face::Kind::revolved;
-  face.name = wall.name;
-  face.origin = {wall.centre.x(), wall.centre.y(), z.from};
-  const Eigen::Vector2d middle = unit_vector(0.5 * (wall.from + wall.to));
-  face.e1 = {middle.x(), middle.y(), 0};
-  face.normal = Vector::UnitZ();
-  face.e2 = cross(face.normal, face.e1);
-  face.radius_a = face.radius_b = wall.radius;
-  face.height_b = z.length();
-  face.half_angle = 0.5 * (wall.to - wall.from);
+  face.name = name;
+  face.origin = centre;
+  face.e1 = middle, face.e2 = cross(normal, middle), face.normal = normal;
+  face.radius_a = face.radius_b = radius;
+  face.height_b = length;
+  face.half_angle = 0.5 * angle;
   return face;
+}
+
+/// A wall's piece of the plane drawn out across.
+Face drawn_out(const WallSegment& wall, const Span& z) {
+  const auto at = [&](const Eigen::Vector2d& point) { return Vector(point.x(), point.y(), z.from); };
+  if (wall.radius == 0) return plate(wall.name, at(wall.a), {0, 0, z.length()}, at(wall.b) - at(wall.a));
+  const Eigen::Vector2d middle = unit_vector(0.5 * (wall.from + wall.to));
+  return drawn_out_arc(wall.name, at(wall.centre), {middle.x(), middle.y(), 0}, Vector::UnitZ(), z.length(),
+                       wall.radius, wall.to - wall.from);
 }
 
 /// A piece whose points are (z, y), drawn out along the vessel, `aside` (m) of where it is drawn.
 Face drawn_along(const std::string& name, const WallPiece& piece, const Span& x, double aside) {
   const auto at = [&](const Eigen::Vector2d& point) { return Vector(x.from, point.y(), point.x() + aside); };
   if (piece.radius == 0) return plate(name, at(piece.a), at(piece.b) - at(piece.a), {x.length(), 0, 0});
-  Face face;
-  face.kind = Face::Kind::revolved;
-  face.name = name;
-  face.origin = at(piece.centre);
   const Eigen::Vector2d middle = unit_vector(0.5 * (piece.from + piece.to));
-  face.e1 = {0, middle.y(), middle.x()};
-  face.normal = Vector::UnitX();
-  face.e2 = cross(face.normal, face.e1);
-  face.radius_a = face.radius_b = piece.radius;
-  face.height_b = x.length();
-  face.half_angle = 0.5 * (piece.to - piece.from);
-  return face;
+  return drawn_out_arc(name, at(piece.centre), {0, middle.y(), middle.x()}, Vector::UnitX(), x.length(), piece.radius,
+                       piece.to - piece.from);
 }
 
 Span along(const Hole& hole) {
