@@ -58,7 +58,7 @@ def read_table(path):
 def share_of_tray(depth_factors):
     """What rates without `tray` in their name are of. The factor is 1 in space, and of a plane as thick as the tray."""
     whole = {factor == 1 for factor in depth_factors}
-    return "of the tray" if whole == {True} else "of the plane slice" if True not in whole else "of the plane slice or the tray"
+    return "of the tray" if whole == {True} else "of the 2D slice" if True not in whole else "of the 2D slice or the tray"
 
 
 class Folder:

@@ -20,7 +20,7 @@ FIGURES = {  # columns of sweep.csv that have an interval
     "tray_rate_g_per_min": "mass flow of the whole tray, g/min",
     "tray_seeds_per_s": "seeds of the whole tray, 1/s",
     "run_cv_percent": "variation between the holes in a single run (CV), %",
-    "unevenness_cv_percent": "unevenness between the holes (CV), chance taken out, %",
+    "unevenness_cv_percent": "unevenness between the holes (CV) without chance, %",
     "instability_cv_percent": "variation of the outflow over ten parts of the window, %",
     "longest_pause_s": "longest time without a seed from any hole, s",
     "spilled_percent": "seeds over the rim, % of all that left",
@@ -86,7 +86,7 @@ class Study:
                 raise ProgramError(f"{' '.join(command)}: {done.stderr.strip() or f'exit code {done.returncode}'}")
             run = Run(folder)
             if run.info["grain_steps"] != found.grain_steps.iloc[0]:
-                raise VibrosowError(f"{self.folder}: its plan is not the one that its reports are of; `vibrosow export` makes them anew")
+                raise VibrosowError(f"{self.folder}: its plan is not the one that its reports are of; `vibrosow export` makes them again")
             weakref.finalize(run, stack.pop_all().close)
         return run
 

@@ -64,7 +64,7 @@ std::vector<SharedDoubt> doubts_about(const AccuracyResult& result, const Scene&
   if (!result.fit)
     add(DoubtKind::no_limit, "errors are against the finest setting, which errs too: the runs were too few for more");
   if (scene.space == Space::plane && !result.depth)
-    add(DoubtKind::depth_left_out, "that the tray is run as a plane is an error of its own, which is not in these");
+    add(DoubtKind::depth_left_out, "running the tray in 2D is an error of its own, which is not in these");
   return shared_doubts(doubts);
 }
 

@@ -124,7 +124,7 @@ using Spaced = const SpacingFigures&;
 
 constexpr std::array table = {
     RowFigure{"rate_g_per_min", "g/min", gram / 60,
-              "what the row gets, of the whole tray (in the plane the slice's times the depth factor; empty without "
+              "what the row gets, of the whole tray (in 2D the slice's times the depth factor; empty without "
               "tray.depth); all: the rows together",
               [](Source s) { return s.row.mass_rate; }},
     RowFigure{"seeds_per_s", "1/s", 1, "likewise, seeds", [](Source s) { return s.row.seeds_per_s; }},
@@ -132,14 +132,13 @@ constexpr std::array table = {
               [](Source s) { return s.row.kg_per_m2; }},
     RowFigure{"seeds_per_m2", "1/m2", 1, "likewise, seeds", [](Source s) { return s.row.seeds_per_m2; }},
     RowFigure{"instability_cv_percent", "%", percent,
-              "coefficient of variation of its seeds over ten equal parts of the window, in the plane of the slice's",
+              "coefficient of variation of its seeds over ten equal parts of the window, in 2D of the slice's",
               [](Source s) { return s.row.instability_cv; }},
     RowFigure{"instability_counting_percent", "%", percent, "what counting so many independent seeds gives alone",
               [](Source s) { return s.row.instability_counting_cv; }},
     RowFigure{
         "longest_pause_s", "s", 1,
-        "longest time in the window without a seed from its holes, in the plane of the slice; all: the longest of "
-        "any row",
+        "longest time in the window without a seed from its holes, in 2D of the slice; all: the longest of any row",
         [](Source s) { return s.row.longest_pause; }},
     RowFigure{"multiples_percent", "%", percent,
               "spacings up to 0.5 of the reference (ISO 7256-1; drill.multiples_below; ISOBUS DDI 419, there in ppm), "
@@ -179,7 +178,7 @@ constexpr std::array table = {
     RowFigure{"chance_cv_percent", "%", percent, "all: what of that rows of equal rates would show",
               [](Source s) { return of_unevenness(s, [](const Unevenness& u) { return u.chance_cv; }); }, true},
     RowFigure{"unevenness_cv_percent", "%", percent,
-              "all: coefficient of variation of the rows' rates, chance taken out; empty: not told from equal rows",
+              "all: coefficient of variation of the rows' rates without chance; empty: no difference beyond chance",
               [](Source s) { return of_unevenness(s, [](const Unevenness& u) { return u.cv; }); }, true},
     RowFigure{"unevenness_cv_percent_low", "%", percent, "all: lower end of its 95 % interval",
               [](Source s) { return of_unevenness(s, [](const Unevenness& u) { return u.low; }); }, true},

@@ -135,7 +135,7 @@ CropEstimate estimate(const NewCrop& crop, const ShippedAtlas& atlas) {
   estimate.shell_compression = stiff_enough(0.5 * crop.thickness);
   if (!estimate.is_ball() && estimate.own_runs == 0)
     estimate.doubts.push_back(
-        "what the plane's atlas leaves out was found with balls alone, and is taken to hold for this shape");
+        "the atlas is in 2D; what 3D adds was found with balls alone, and is taken to hold for this shape");
   return estimate;
 }
 

@@ -212,15 +212,14 @@ AtlasFigures beneath(const ReposeAtlas& plane, const AtlasPoint& ball) {
   try {
     return plane.at(ball.aspect_ratio, ball.friction, ball.rolling_friction);
   } catch (const std::out_of_range& fault) {
-    throw InputError(fmt::format("atlas: a material in space: {}", fault.what()));
+    throw InputError(fmt::format("atlas: a material in 3D: {}", fault.what()));
   }
 }
 
 }  // namespace
 
 PlaneToSpace plane_to_space(const ReposeAtlas& plane, const std::vector<AtlasPoint>& space) {
-  if (space.size() < 3)
-    throw InputError(fmt::format("atlas: {} materials in space; at least 3 are needed", space.size()));
+  if (space.size() < 3) throw InputError(fmt::format("atlas: {} materials in 3D; at least 3 are needed", space.size()));
   std::vector<double> offsets, packings, discharges;
   for (const AtlasPoint& ball : space) {
     const AtlasFigures flat = beneath(plane, ball);

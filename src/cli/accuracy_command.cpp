@@ -277,7 +277,7 @@ int run_promise(const AccuracyOptions& options) {
     complain(worth_telling ? fmt::format("{}: some {}", what, duration_text(cpu_time / jobs)) : what);
   };
   const bool goes_on = !goal.cpu_time && !CaseFolder(cases_of(folder.path())).names().empty();
-  tell(goes_on ? "a first round of pilots, but for those that are kept" : "a first round of pilots", foreseen);
+  tell(goes_on ? "a first round of pilots, without those that are kept" : "a first round of pilots", foreseen);
   const std::atomic<bool>& interrupt = watch_for_interrupt();
   StudyRuns runs(cases_of(folder.path()));
   // What a budget buys is measured by runs that are made now.
@@ -300,7 +300,7 @@ int run_promise(const AccuracyOptions& options) {
 
 void add_accuracy_command(CLI::App& app, int& exit_code) {
   auto options = std::make_shared<AccuracyOptions>();
-  CLI::App* command = app.add_subcommand("accuracy", "what accuracy costs in time, on a seeder of yours");
+  CLI::App* command = app.add_subcommand("accuracy", "show what accuracy costs in time, for your seeder");
   add_common_options(*command, options->common, "seeder file (.toml)");
   add_html_option(*command, options->common);
   command
@@ -332,28 +332,27 @@ void add_accuracy_command(CLI::App& app, int& exit_code) {
           "with units: \"20 mm/s\"; default: half the seeder's and four times that, where its friction is sliding")
       ->delimiter(',')
       ->type_name("SPEED");
-  CLI::Option* replicates =
-      command
-          ->add_option("--replicates", options->replicates, "runs of each setting; without levels, rounds of a design")
-          ->type_name("N")
-          ->check(CLI::Range(1, 1000))
-          ->capture_default_str();
-  CLI::Option* depth =
-      command
-          ->add_option("--depth", options->depth,
-                       "runs of the tray as a plane and as many in space besides: the error of the missing depth")
-          ->type_name("N")
-          ->check(CLI::Range(2, 1000));
+  CLI::Option* replicates = command
+                                ->add_option("--replicates", options->replicates,
+                                             "runs of each setting; if no settings are named, rounds of a design")
+                                ->type_name("N")
+                                ->check(CLI::Range(1, 1000))
+                                ->capture_default_str();
+  CLI::Option* depth = command
+                           ->add_option("--depth", options->depth,
+                                        "runs of the tray in 2D and as many in 3D, for the error of the missing depth")
+                           ->type_name("N")
+                           ->check(CLI::Range(2, 1000));
   CLI::Option* within =
       command
           ->add_option("--within", options->within,
-                       "instead: choose a setting and run it, so that the rate errs by at most that: \"3 %\"")
+                       "instead: choose a setting and run it, so that the rate errs by at most this: \"3 %\"")
           ->type_name("PERCENT")
           ->excludes(replicates)
           ->excludes(depth);
   command
       ->add_option("--budget", options->budget,
-                   "instead: the smallest error to be had for that time of all jobs: \"2 min\"")
+                   "instead: find the smallest error for this CPU time of all jobs: \"2 min\"")
       ->type_name("TIME")
       ->excludes(within)
       ->excludes(replicates)

@@ -51,27 +51,27 @@ void add_question_options(CLI::App& command, DecideWords& words) {
   command.add_option("--goal", words.goal, "what makes a layout good: " + names_of_goals())
       ->type_name("GOAL")
       ->required();
-  command.add_option("--rate", words.rate, "wanted of the tray: \"43 seeds/s +- 5 %\", \"12 g/min +- 5 %\"")
+  command.add_option("--rate", words.rate, "wanted rate of the whole tray: \"43 seeds/s +- 5 %\", \"12 g/min +- 5 %\"")
       ->type_name("RATE");
-  command.add_option("--clogging", words.clogging, "share of runs that a layout must clog less often than")
+  command.add_option("--clogging", words.clogging, "largest share of runs in which a layout may clog")
       ->type_name("SHARE")
       ->capture_default_str();
-  command.add_option("--within", words.within, "a difference that does not matter, over the best's mean")
+  command.add_option("--within", words.within, "difference that does not matter, as a share of the best mean")
       ->type_name("SHARE")
       ->capture_default_str();
-  command.add_option("--confidence", words.confidence, "of a right decision")
+  command.add_option("--confidence", words.confidence, "confidence in the decision")
       ->type_name("SHARE")
       ->capture_default_str();
-  command.add_option("--procedure", words.procedure, "guaranteed, or posterior: fewer runs and no guarantee")
+  command.add_option("--procedure", words.procedure, "guaranteed, or posterior: fewer runs, no guarantee")
       ->type_name("NAME")
       ->check(CLI::IsMember({"guaranteed", "posterior"}))
       ->capture_default_str();
-  command.add_option("--most", words.most, "runs of a layout, at which it is given up")
+  command.add_option("--most", words.most, "largest number of runs of a layout")
       ->type_name("N")
       ->check(CLI::Range(most_runs_range.least, most_runs_range.most))
       ->capture_default_str();
   command.add_flag("--drafts", words.drafts,
-                   "let quick runs rule layouts out, if they are shown to be like the others");
+                   "let quick runs with softer seeds rule layouts out, if they are shown to agree with the others");
 }
 
 DecideQuestion read_question(const DecideWords& words) {

@@ -39,18 +39,18 @@ void add_question_options(CLI::App& command, OptimiseWords& words) {
       ->delimiter(',')
       ->type_name("GOAL")
       ->required();
-  command.add_option("--rate", words.rate, "wanted of the tray: \"43 seeds/s +- 5 %\", \"12 g/min +- 5 %\"")
+  command.add_option("--rate", words.rate, "wanted rate of the whole tray: \"43 seeds/s +- 5 %\", \"12 g/min +- 5 %\"")
       ->type_name("RATE");
-  command.add_option("--runs", words.runs, "that it may take")
+  command.add_option("--runs", words.runs, "largest number of runs")
       ->type_name("N")
       ->check(CLI::Range(search_runs_range.least, search_runs_range.most))
       ->capture_default_str();
-  command.add_option("--clogging", words.clogging, "share of a layout's runs that may clog")
+  command.add_option("--clogging", words.clogging, "largest share of a layout's runs that may clog")
       ->type_name("SHARE")
       ->capture_default_str();
-  command.add_option("--spilled", words.spilled, "share of the seeds that may leave over the rim; default any")
+  command.add_option("--spilled", words.spilled, "largest share of the seeds that may leave over the rim; default any")
       ->type_name("SHARE");
-  command.add_option("--confidence", words.confidence, "of what is said of a layout")
+  command.add_option("--confidence", words.confidence, "confidence of each statement about a layout")
       ->type_name("SHARE")
       ->capture_default_str();
 }

@@ -109,8 +109,7 @@ int run_bench_sheet(const BenchSheetOptions& command) {
 
 void add_bench_sheet_command(CLI::App& app, int& exit_code) {
   auto options = std::make_shared<BenchSheetOptions>();
-  CLI::App* command =
-      app.add_subcommand("bench-sheet", "a page to print: what to measure, so that calibrate tells most from it");
+  CLI::App* command = app.add_subcommand("bench-sheet", "print a measurement plan for calibrate");
   add_common_options(*command, options->common, "seeder file (.toml)");
   const auto repeatable = [&](const char* name, std::vector<std::string>& values, const char* help) {
     command->add_option(name, values, help)
@@ -118,10 +117,11 @@ void add_bench_sheet_command(CLI::App& app, int& exit_code) {
         ->expected(1)
         ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
   };
-  repeatable("--try", options->settings, "what can be set: --try \"tray.motion.frequency=7 Hz..11 Hz\"; repeatable");
-  repeatable("--fit", options->fits, "what is to be fitted, as calibrate takes it; repeatable");
-  command->add_option("--time", options->time, "at the bench, in all")->type_name("TIME")->capture_default_str();
-  command->add_option("--handling", options->handling, "of each reading, to set, fill and weigh")
+  repeatable("--try", options->settings,
+             "a setting that can be changed, and its range: --try \"tray.motion.frequency=7 Hz..11 Hz\"; repeatable");
+  repeatable("--fit", options->fits, "a value to be fitted, as for calibrate; repeatable");
+  command->add_option("--time", options->time, "time at the bench in all")->type_name("TIME")->capture_default_str();
+  command->add_option("--handling", options->handling, "time of each reading to set, fill and weigh")
       ->type_name("TIME")
       ->capture_default_str();
   command->add_option("--runs", options->runs, "at most")

@@ -149,19 +149,18 @@ void add_fit_options(CLI::App& command, CalibrateOptions& options) {
   repeatable("--fit", options.fits,
              "a number of [contact] and its range: --fit \"contact.friction=0.2..0.8\"; repeatable", "KEY=RANGE");
   command
-      .add_option("--scale", options.scale,
-                  "none, depth, or free: rates times an unknown factor; default free in the plane")
+      .add_option("--scale", options.scale, "none, depth, or free: rates times an unknown factor; default free in 2D")
       ->type_name("SCALE")
       ->check(CLI::IsMember({"none", "depth", "free"}));
   command
       .add_option("--hold-out", options.hold_out,
-                  "to be predicted: every so many-th condition, or of curves what is after a time; or none")
+                  "what to hold out and predict: every Nth condition (N), of curves all after a time, or none")
       ->type_name("PART");
   command
       .add_option("--noise", options.noise,
-                  "of one reading, such as \"3 %\"; default: from the table's repeats, else from simulated runs")
+                  "error of one reading, such as \"3 %\"; default: from the table's repeats, else from simulated runs")
       ->type_name("SHARE");
-  command.add_option("--time-zero", options.time_zero, "of the run, at which a curve's time is zero")
+  command.add_option("--time-zero", options.time_zero, "time of the run at which a curve's time is zero")
       ->type_name("TIME");
   command.add_option("--runs", options.runs, "at most")
       ->type_name("N")
@@ -174,7 +173,7 @@ void add_fit_options(CLI::App& command, CalibrateOptions& options) {
 void add_calibrate_command(CLI::App& app, int& exit_code) {
   auto options = std::make_shared<CalibrateOptions>();
   CLI::App* command =
-      app.add_subcommand("calibrate", "fit friction, restitution and the like to measured outflow, with intervals");
+      app.add_subcommand("calibrate", "fit friction, restitution and other contact values to measured outflow");
   add_common_options(*command, options->common, "seeder file (.toml)");
   command->add_option("TABLE", options->table, "measured outflow (.csv)")->required();
   add_fit_options(*command, *options);

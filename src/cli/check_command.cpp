@@ -249,10 +249,9 @@ int check_study(const InputFile& file, const CheckOptions& options) {
 void add_check_command(CLI::App& app, int& exit_code) {
   auto options = std::make_shared<CheckOptions>();
   CLI::App* command =
-      app.add_subcommand("check", "validate a seeder or a study; effects, step, predicted overlap and cost");
+      app.add_subcommand("check", "validate a seeder or a study; show effects, step, predicted overlap and cost");
   add_input_options(*command, *options, "seeder or study file (.toml)");
-  command->add_flag("--both", options->both,
-                    "run the seeder in the plane and in space, and print the ratio of their rates");
+  command->add_flag("--both", options->both, "run the seeder in 2D and in 3D, and print the ratio of their rates");
   add_examples(*command, {"vibrosow check wheat-tray", "vibrosow check my-wheat-tray.toml --set tray.holes.count=3",
                           "vibrosow check pea-tray-3d"});
   command->callback([options, &exit_code] {

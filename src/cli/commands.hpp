@@ -4,7 +4,7 @@
 
 namespace vibrosow {
 
-/// What the program ends with; the help and docs/STUDIES.md list it.
+/// What the program ends with; the help and docs/reference/stable.md list it.
 enum ExitCode {
   exit_done = 0,
   exit_wrong_input = 2,

@@ -67,14 +67,14 @@ void add_common_options(CLI::App& command, CommonOptions& options, const std::st
 
 void add_jobs_option(CLI::App& command, CommonOptions& options) {
   options.jobs = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
-  command.add_option("--jobs", options.jobs, "runs side by side; a single run takes one core")
+  command.add_option("--jobs", options.jobs, "runs in parallel; a single run takes one core")
       ->type_name("N")
       ->check(CLI::Range(1, 4096))
       ->capture_default_str();
 }
 
 void add_random_seed_option(CLI::App& command, CommonOptions& options) {
-  command.add_option("--random-seed", options.random_seed, "random seed, of replicates the first")
+  command.add_option("--random-seed", options.random_seed, "random seed; of replicates, the first")
       ->type_name("N")
       ->check(whole_number)
       ->capture_default_str();
@@ -91,14 +91,13 @@ std::string CommonOptions::page_template(bool with_simulator) const {
 }
 
 void add_html_option(CLI::App& command, CommonOptions& options) {
-  command.add_flag("--html", options.html, "a page to look at as well: report.html, for any browser, offline");
+  command.add_flag("--html", options.html, "also write report.html, a page for any browser, offline");
 }
 
 void add_replays_option(CLI::App& command, CommonOptions& options) {
   command
-      .add_option(
-          "--replays", options.replays,
-          "of the N best layouts, in the page: a run of each is made again to be recorded, which takes its time")
+      .add_option("--replays", options.replays,
+                  "replays of the N best layouts in the page; one run of each is simulated again")
       ->type_name("N")
       ->check(CLI::Range(0, 1000))
       ->capture_default_str();

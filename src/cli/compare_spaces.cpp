@@ -45,13 +45,12 @@ void print_rate(std::string_view space, const TrayRate& rate, const Evaluation& 
 
 void print_space_advice(const Scene& scene) {
   const bool flat = scene.space == Space::plane;
-  print("{}\n", flat ? "plane: discs in a slice one seed thick" : "space: balls");
+  print("{}\n", flat ? "2D: discs in a slice one seed thick" : "3D: balls");
   print_text(wrapped_beside(
       "  ",
-      flat ? "which layout or frequency sows more, and roughly by how much, is a question for the plane; an absolute "
-             "rate, round holes, or holes narrower than some eight seeds need space = \"3d\": through the one "
-             "measured slot the plane is 13 % fast, space 5 %"
-           : "absolute rates and round holes; for comparing many layouts of slots the plane is far faster"));
+      flat ? "use 2D to compare layouts and frequencies of slots; an absolute rate, round holes, or holes narrower "
+             "than some eight seeds need space = \"3d\": through the one measured slot 2D is 13 % too fast, 3D 5 %"
+           : "absolute rates and round holes; for comparing many layouts of slots 2D is far faster"));
   print("  check --both runs the two and prints their ratio\n");
 }
 
@@ -67,13 +66,13 @@ int run_in_both_spaces(const BothSpaces& scenes) {
       return exit_stopped_by_guard;
     }
   const TrayRate of_slice = tray_rate(flat), of_tray = tray_rate(deep);
-  print("both spaces, one run each, window {:.4g} to {:.4g} s\n", deep.outflow.window.from, deep.outflow.window.to);
-  print_rate("plane", of_slice, flat);
-  print_rate("space", of_tray, deep);
+  print("2D and 3D, one run each, window {:.4g} to {:.4g} s\n", deep.outflow.window.from, deep.outflow.window.to);
+  print_rate("2D", of_slice, flat);
+  print_rate("3D", of_tray, deep);
   if (flat.outside_the_model || deep.outside_the_model)
     print("  outside the model: no ratio of it\n");
   else if (of_tray.counted > 0)
-    print("  plane over space {}\n", to_digits(of_slice.seeds / of_tray.seeds, 3));
+    print("  2D over 3D {}\n", to_digits(of_slice.seeds / of_tray.seeds, 3));
   return exit_done;
 }
 

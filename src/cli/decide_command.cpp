@@ -32,7 +32,7 @@ int run_decide(const DecideCommandOptions& command) {
 void add_decide_command(CLI::App& app, int& exit_code) {
   auto options = std::make_shared<DecideCommandOptions>();
   CLI::App* command = app.add_subcommand(
-      "decide", "find the best layout of a study: runs go where they decide, until it is sure enough");
+      "decide", "find the best layout of a study: adds replicates where they matter, up to the requested confidence");
   add_common_options(*command, options->common, "study file (.toml)");
   add_question_options(*command, options->words);
   add_html_option(*command, options->common);

@@ -35,7 +35,7 @@ std::string answer_text(const DecisionResult& result, const Answer& answer) {
   if (!is_guaranteed(result)) promise += ' ' + weakness_sentence();
   const std::string others = that_are(LayoutStanding::not_shown_worse);
   return fmt::format("The best:\n{}{}{}{}{}", that_are(LayoutStanding::best), doubts, wrapped(promise),
-                     others.empty() ? "" : "\nLeft behind, but not shown to be worse:\n", others);
+                     others.empty() ? "" : "\nBehind the best, but not shown to be worse:\n", others);
 }
 
 std::string rest_text(const DecisionResult& result, const Answer& answer) {

@@ -37,9 +37,9 @@ int show(const DemoOptions& options) {
     if (options.quiet) words.push_back("--quiet");
     return carried_out(words);
   };
-  print("600 wheat grains in a shaken tray, in space, for 0.9 s:\n");
+  print("600 wheat grains in a shaken tray, in 3D, for 0.9 s:\n");
   if (const int exit_code = command({"run", "wheat-grains"}, "grains"); exit_code != exit_done) return exit_code;
-  print("\nThree or five holes at two frequencies, of a slice in the plane:\n");
+  print("\nThree or five holes at two frequencies, of a 2D slice:\n");
   if (const int exit_code = command({"sweep", "wheat-demo"}, "sweep"); exit_code != exit_done) return exit_code;
   print("\nOpen in a browser:\n  {}\n  {}\n", (out / "grains/report.html").string(),
         (out / "sweep/report.html").string());

@@ -172,22 +172,22 @@ int draw(const DrawOptions& options) {
 
 void add_draw_command(CLI::App& app, int& exit_code) {
   auto options = std::make_shared<DrawOptions>();
-  CLI::App* command =
-      app.add_subcommand("draw", "a picture of a run at one time, a film of it, or a chart of what a folder holds");
+  CLI::App* command = app.add_subcommand("draw", "draw a picture or a film of a run, or a chart of a folder's results");
   const auto text = [command](const char* name, std::string& value, const char* type, const char* help) {
     command->add_option(name, value, help)->type_name(type);
   };
   add_input_options(*command, options->common, "seeder file (.toml), run up to that time; or the folder of a run");
-  text("--at", options->at, "TIME", "of the run; default its end. Of a folder the nearest frame that it keeps");
+  text("--at", options->at, "TIME", "time of the run; default its end; of a folder, the nearest kept frame");
   command->add_flag("--gif", options->film, "a film instead");
-  text("--from", options->from, "TIME", "of a film; default 0");
-  text("--to", options->to, "TIME", "of a film; default the run's end");
+  text("--from", options->from, "TIME", "start of a film; default 0");
+  text("--to", options->to, "TIME", "end of a film; default the run's end");
   text("--chart", options->chart, "NAME",
-       "of a folder: outflow (of run), ranking (of sweep, decide, optimise), front (of optimise), precision (of "
+       "chart of a folder: outflow (of run), ranking (of sweep, decide, optimise), front (of optimise), precision (of "
        "accuracy), fit (of calibrate)");
-  text("--every", options->every, "TIME", "between a film's frames; below \"20 ms\" it goes slower than the run");
+  text("--every", options->every, "TIME",
+       "time between a film's frames; below \"20 ms\" the film is slower than the run");
   text("--out", options->common.out, "FILE",
-       ".png or .svg, of a film .gif; default the seeder's name and .png or .gif");
+       "file to write, .png or .svg, of a film .gif; default the seeder's name and .png or .gif");
   command
       ->add_option_function<std::string>(
           "--colour",
@@ -196,13 +196,13 @@ void add_draw_command(CLI::App& app, int& exit_code) {
                                          : name == "force" ? ColourBy::force
                                                            : ColourBy::lot;
           },
-          "of the seeds: by lot, speed in the lab, or the sum of the normal forces on a seed")
+          "colour of the seeds: by lot, speed in the lab, or the sum of the normal forces on a seed")
       ->type_name("BY")
       ->check(CLI::IsMember({"lot", "speed", "force"}))
       ->default_str("lot");
   command->add_flag("--chains", options->picture.force_chains,
-                    "draw contacts, the wider the larger their normal force");
-  command->add_option("--width", options->picture.width, "of the picture, pixels")
+                    "draw contacts, wider where their normal force is larger");
+  command->add_option("--width", options->picture.width, "width of the picture, pixels")
       ->type_name("N")
       ->check(CLI::Range(160, 8000))
       ->capture_default_str();

@@ -105,11 +105,10 @@ int export_study(ExportOptions command) {
 
 void add_export_command(CLI::App& app, int& exit_code) {
   auto options = std::make_shared<ExportOptions>();
-  CLI::App* command =
-      app.add_subcommand("export", "make a study's reports of the runs that are kept, simulating nothing");
+  CLI::App* command = app.add_subcommand("export", "write a study's reports from its kept runs, without simulating");
   command->add_option("FOLDER", options->common.file, "of a sweep, decide or optimise")->required();
   command->add_flag("--complete", options->complete, "write nothing, with exit code 2, while runs are missing");
-  command->add_option("--run", options->run, "name of a kept run (cases/plans): its reports alone, as run makes them")
+  command->add_option("--run", options->run, "name of a kept run (cases/plans): write only its reports, as run does")
       ->type_name("NAME");
   command->add_option("--out", options->common.out, "directory for the reports of --run")->type_name("DIR");
   add_csv_option(*command, options->common);

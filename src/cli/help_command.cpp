@@ -29,7 +29,7 @@ void help(const CLI::App& app, const std::string& topic) {
 
 void add_help_command(CLI::App& app, int& exit_code) {
   auto topic = std::make_shared<std::string>();
-  CLI::App* command = app.add_subcommand("help", "what a command does; help columns: what is in the files written");
+  CLI::App* command = app.add_subcommand("help", "explain a command; help columns: the columns of the files");
   command->group("Start");
   command->add_option("COMMAND", *topic, "of the list; or columns");
   command->callback([&app, topic, &exit_code] {

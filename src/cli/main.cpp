@@ -115,7 +115,7 @@ int run_program(const std::vector<std::string>& words) {
   }
   const CLI::App& command = *app.get_subcommands().front();
   if (const std::string line = line_that_goes_on(command, words); exit_code == exit_interrupted && !line.empty())
-    complain("interrupted; to go on: " + line);
+    complain("interrupted; to resume: " + line);
   const auto not_printed = output_error();
   if (!not_printed) return exit_code;
   complain("standard output: " + *not_printed);

@@ -64,14 +64,16 @@ std::string event_fields(const WantedRun& wanted, const Run& run) {
 }  // namespace
 
 void add_making_flags(CLI::App& command, MakingFlags& flags) {
-  command.add_option("--save-every", flags.save_every, "by the clock: runs under way are saved, to go on from there")
+  command
+      .add_option("--save-every", flags.save_every,
+                  "clock time between saves of unfinished runs, which resume from there")
       ->type_name("TIME")
       ->capture_default_str();
-  command.add_flag("--retry", flags.retry, "make runs anew that could not begin or were stopped by the guard");
+  command.add_flag("--retry", flags.retry, "repeat runs that could not begin or that the guard stopped");
   command
       .add_option_function<std::string>(
           "--progress", [&flags](const std::string& style) { flags.json_progress = style == "json"; },
-          "text, or json: a line of JSON per event on standard error")
+          "text, or json: one line of JSON per event, on standard error")
       ->type_name("STYLE")
       ->check(CLI::IsMember({"text", "json"}))
       ->default_str("text");

@@ -138,11 +138,12 @@ int make_crop(const NewCropOptions& options) {
 
 void add_new_crop_command(CLI::App& app, int& exit_code) {
   auto options = std::make_shared<NewCropOptions>();
-  CLI::App* command = app.add_subcommand("new-crop", "a crop and its contact model from what you weigh and measure");
+  CLI::App* command =
+      app.add_subcommand("new-crop", "make a crop and its contact model from what you weigh and measure");
   const auto add = [command](const char* name, std::string& value, const char* help) {
     return command->add_option(name, value, help)->type_name("QUANTITY");
   };
-  command->add_option("--crop", options->crop, "its name, which its files get")->required()->type_name("NAME");
+  command->add_option("--crop", options->crop, "name of the crop and of its files")->required()->type_name("NAME");
   add("--tkw", options->tkw, "weight of a thousand seeds, \"4.5 g\"")->required();
   add("--length", options->length, "of a seed, \"2.1 mm\"")->required();
   add("--width", options->width, "default: the length, a ball");
@@ -153,15 +154,15 @@ void add_new_crop_command(CLI::App& app, int& exit_code) {
   command->add_option("--out", options->out, "folder for its two files; default: this one")->type_name("DIR");
   command
       ->add_option("--refine", options->refine,
-                   "runs in space of its own shape, each of some minutes, that narrow the band; default: none")
+                   "runs in 3D of its own shape that narrow the band, some minutes each; default: none")
       ->type_name("RUNS")
       ->check(CLI::Range(3, 1000));
-  command->add_option("--jobs", options->jobs, "of those runs side by side; default 1")
+  command->add_option("--jobs", options->jobs, "how many of those runs in parallel; default 1")
       ->type_name("N")
       ->check(CLI::Range(1, 4096));
   add_examples(*command, {"vibrosow new-crop --crop mine --tkw 4.5g --length 2.1mm",
                           "vibrosow new-crop --crop long --tkw 40g --length 6mm --width 3.2mm",
-                          "vibrosow new-crop --crop oil --tkw 4.5g --length 2.1mm --bulk-density 680kg/m3"});
+                          "vibrosow new-crop --crop oil --tkw 4.5g --length 1.95mm --bulk-density 680kg/m3"});
   command->callback([options, &exit_code] { exit_code = make_crop(*options); });
 }
 

@@ -39,7 +39,7 @@ int write_seeder(const NewSeederOptions& options) {
 
 void add_new_seeder_command(CLI::App& app, int& exit_code) {
   auto options = std::make_shared<NewSeederOptions>();
-  CLI::App* command = app.add_subcommand("new-seeder", "write a shipped seeder, with its comments, to edit");
+  CLI::App* command = app.add_subcommand("new-seeder", "copy a shipped seeder, with its comments, to edit");
   command->add_option("NAME", options->from, "of vibrosow presets seeders")->required();
   command->add_option("--out", options->out, "its file; default my-NAME.toml")->type_name("FILE");
   add_examples(*command, {"vibrosow new-seeder wheat-tray", "vibrosow new-seeder wheat-tray-3d --out trays/mine.toml",

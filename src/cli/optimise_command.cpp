@@ -30,8 +30,8 @@ int run_optimise(const OptimiseCommandOptions& command) {
 
 void add_optimise_command(CLI::App& app, int& exit_code) {
   auto options = std::make_shared<OptimiseCommandOptions>();
-  CLI::App* command = app.add_subcommand(
-      "optimise", "look in the space of a study for layouts that no other is better than in several goals");
+  CLI::App* command =
+      app.add_subcommand("optimise", "find Pareto-optimal layouts for several goals, in the ranges of a study");
   add_common_options(*command, options->common, "study file (.toml)");
   add_question_options(*command, options->words);
   add_html_option(*command, options->common);

@@ -297,7 +297,7 @@ int run_plan(const PlanOptions& options) {
 
 void add_plan_command(CLI::App& app, int& exit_code) {
   auto options = std::make_shared<PlanOptions>();
-  CLI::App* command = app.add_subcommand("plan", "which holes, frequency and amplitude sow a crop at a rate");
+  CLI::App* command = app.add_subcommand("plan", "find holes, frequency and amplitude that sow a crop at a rate");
   const auto add = [&](const char* name, std::string& value, const char* help, const char* kind) {
     return command->add_option(name, value, help)->type_name(kind);
   };
@@ -314,15 +314,15 @@ void add_plan_command(CLI::App& app, int& exit_code) {
       ->required();
   CLI::Option* rate = add_each("--rate", options->rates, "\"180 kg/ha\", or seeds: \"350 seeds/m2\"", "RATE");
   CLI::Option* plants =
-      add("--plants", options->plants, "instead: plants that are to stand, \"280 plants/m2\"", "RATE");
+      add("--plants", options->plants, "instead of --rate: plants that are to stand, \"280 plants/m2\"", "RATE");
   CLI::Option* establishment =
-      add("--establishment", options->establishment, "the part of the seeds that becomes plants, \"85 %\"", "PERCENT");
+      add("--establishment", options->establishment, "share of the seeds that become plants, \"85 %\"", "PERCENT");
   rate->excludes(plants);
   plants->needs(establishment);
   establishment->needs(plants);
-  add("--row-spacing", options->row_spacing, "between neighbouring rows, \"15 cm\"", "LENGTH")->required();
-  add("--speed", options->speed, "of the drill, \"8 km/h\"", "SPEED")->required();
-  command->add_option("--rows", options->rows, "of the drill, for what all take together")
+  add("--row-spacing", options->row_spacing, "distance between rows, \"15 cm\"", "LENGTH")->required();
+  add("--speed", options->speed, "speed of the drill, \"8 km/h\"", "SPEED")->required();
+  command->add_option("--rows", options->rows, "rows of the drill, for its totals")
       ->type_name("N")
       ->check(CLI::Range(1, 1000));
   add_each("--tkw", options->thousand_grain_weights, "mass of a thousand seeds, \"4.5 g\"; default the crop's", "MASS");
@@ -331,7 +331,7 @@ void add_plan_command(CLI::App& app, int& exit_code) {
   CLI::Option* weighed =
       command
           ->add_option("--weighed", options->weighed,
-                       "what it gave, \"0.17 g/s at 6.4 Hz\", or a table of it (.csv); any number of times")
+                       "what that tray gave, \"0.17 g/s at 6.4 Hz\", or a table of it (.csv); repeatable")
           ->type_name("RATE");
   layout->needs(weighed);
   weighed->needs(layout);

@@ -71,7 +71,7 @@ void print_seeders(const std::filesystem::path& data) {
 
 void add_presets_command(CLI::App& app, int& exit_code) {
   auto kind = std::make_shared<std::string>();
-  CLI::App* command = app.add_subcommand("presets", "what is shipped");
+  CLI::App* command = app.add_subcommand("presets", "list the shipped crops, contact models and seeders");
   command->add_option("KIND", *kind, "crops, contacts or seeders; default all")
       ->check(CLI::IsMember({"crops", "contacts", "seeders"}));
   add_examples(*command, {"vibrosow presets", "vibrosow presets crops", "vibrosow presets seeders"});

@@ -121,7 +121,7 @@ int report(CommonOptions& options) {
 
 void add_report_command(CLI::App& app, int& exit_code) {
   auto options = std::make_shared<CommonOptions>();
-  CLI::App* command = app.add_subcommand("report", "make the page, report.html, of a folder that is computed already");
+  CLI::App* command = app.add_subcommand("report", "write the page report.html of a folder of results");
   command->add_option("FOLDER", options->file, "of run, sweep, decide, optimise, accuracy or calibrate")->required();
   add_replays_option(*command, *options);
   add_jobs_option(*command, *options);

@@ -8,7 +8,7 @@
 namespace vibrosow {
 
 void add_reuse_option(CLI::App& command, std::vector<std::string>& folders) {
-  command.add_option("--reuse", folders, "folders of other sweeps: runs that are there are not made again")
+  command.add_option("--reuse", folders, "folders of other studies, whose runs are used where they fit")
       ->delimiter(',')
       ->type_name("FOLDER");
 }

@@ -153,7 +153,7 @@ class CheckpointFile {
     try {
       write_file_atomically(path_, save(model, state));
     } catch (const CannotWrite& error) {
-      if (!told_) complain(fmt::format("warning: {}; the run goes on unsaved", error.what()));
+      if (!told_) complain(fmt::format("warning: {}; the run continues unsaved", error.what()));
       told_ = true;
     }
   }
@@ -171,7 +171,7 @@ class CheckpointFile {
       throw InputError(fmt::format("the checkpoint does not fit: its random seed was {}, and now {} is asked for",
                                    state.run.random_seed, random_seed));
     } catch (const InputError& error) {
-      throw InputError(fmt::format("{}: {}; leave out --resume to start anew", path_.string(), error.what()));
+      throw InputError(fmt::format("{}: {}; leave out --resume to start again", path_.string(), error.what()));
     }
   }
 
@@ -269,22 +269,23 @@ int run_scene(const RunOptions& options) {
 
 void add_run_command(CLI::App& app, int& exit_code) {
   auto options = std::make_shared<RunOptions>();
-  CLI::App* command = app.add_subcommand("run", "simulate a seeder once; outflow per hole");
+  CLI::App* command = app.add_subcommand("run", "simulate a seeder once; show the outflow of each hole");
   add_common_options(*command, *options, "seeder file (.toml)");
-  command->add_option("--threads", options->threads, "that share one run; worth it from about 10000 seeds")
+  command->add_option("--threads", options->threads, "threads of one run; worth it from about 10000 seeds")
       ->type_name("N")
       ->check(CLI::Range(1, 256))
       ->capture_default_str();
-  command->add_flag("--profile", options->profile, "show what the time went into; also in timing.json");
+  command->add_flag("--profile", options->profile, "show where the time went; also in timing.json");
   command
       ->add_option("--checkpoint-every", options->checkpoint_every,
-                   "of simulated time, such as \"1 s\": the run is saved beside its folder, to be resumed")
+                   "simulated time between checkpoints, such as \"1 s\"; they are saved beside the run's folder")
       ->type_name("TIME");
   command->add_flag("--resume", options->resume,
-                    "go on from the checkpoint, to the same bytes as if never interrupted");
+                    "resume from the checkpoint, with the same results as an uninterrupted run");
   add_html_option(*command, *options);
-  command->add_flag("--vtk", options->vtk, "snapshots of [record] for ParaView as well: grains.pvd, contacts.pvd, ..");
-  command->add_flag("--xyz", options->xyz, "snapshots of [record] for OVITO as well: grains.xyz");
+  command->add_flag("--vtk", options->vtk,
+                    "also write snapshots of [record] for ParaView: grains.pvd, contacts.pvd, ..");
+  command->add_flag("--xyz", options->xyz, "also write snapshots of [record] for OVITO: grains.xyz");
   add_examples(*command, {"vibrosow run wheat-section", "vibrosow run my-wheat-tray.toml --html",
                           "vibrosow run wheat-section --set \"tray.motion.frequency=11 Hz\" --out 11-hz"});
   command->callback([options, &exit_code] { exit_code = run_scene(*options); });

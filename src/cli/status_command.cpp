@@ -93,19 +93,19 @@ void print_status(const std::string& folder) {
                                            [&](const std::string& run) { return status.missing.contains(run); });
   if (saved > 0) print("{} of these saved part of the way\n", saved);
   for (const auto& [what, runs] : status.failed) print_text(wrapped(fmt::format("{} {}", runs, what), 2));
-  if (!status.failed.empty()) print_text("with --retry the same command makes those anew\n");
+  if (!status.failed.empty()) print_text("with --retry the same command repeats those\n");
   if (status.missing.empty()) return;
   if (rate > 0)
-    print("{} left, at the speed of what is under way\n", duration_text(status.cost_left / rate));
+    print("{} left, at the current speed\n", duration_text(status.cost_left / rate));
   else
-    print_text("the same command again makes those that are missing\n");
+    print_text("the same command makes the missing ones\n");
 }
 
 }  // namespace
 
 void add_status_command(CLI::App& app, int& exit_code) {
   auto folder = std::make_shared<std::string>();
-  CLI::App* command = app.add_subcommand("status", "how far a study is");
+  CLI::App* command = app.add_subcommand("status", "show a study's progress");
   command->add_option("FOLDER", *folder, "of a sweep, decide or optimise")->required();
   add_examples(*command, {"vibrosow status out/wheat-demo", "vibrosow status best", "vibrosow status front"});
   command->callback([folder, &exit_code] {

@@ -92,10 +92,9 @@ int run_studio(const std::string& asked, const std::string& out) {
 void add_studio_command(CLI::App& app, int& exit_code) {
   auto asked = std::make_shared<std::string>();
   auto out = std::make_shared<std::string>("out/studio");
-  CLI::App* command =
-      app.add_subcommand("studio", "a page that simulates: move holes, set frequency and amplitude, watch it sow");
-  command->add_option("SEEDER", *asked,
-                      "shown first: a seeder's file, or the name of a shipped one; wheat-tray without");
+  CLI::App* command = app.add_subcommand(
+      "studio", "write a page that simulates: move holes, set frequency and amplitude, watch it sow");
+  command->add_option("SEEDER", *asked, "seeder to open, a file or the name of a shipped one; default wheat-tray");
   command->add_option("--out", *out, "directory for the page")->type_name("DIR")->capture_default_str();
   add_examples(*command,
                {"vibrosow studio", "vibrosow studio pea-tray", "vibrosow studio my-wheat-tray.toml --out look-at-it"});

@@ -214,20 +214,21 @@ int submit(const SubmitOptions& options) {
 
 void add_submit_command(CLI::App& app, int& exit_code) {
   auto options = std::make_shared<SubmitOptions>();
-  CLI::App* command = app.add_subcommand("submit", "hand a sweep over to Slurm, in bundles; then its reports");
+  CLI::App* command =
+      app.add_subcommand("submit", "run a sweep on a Slurm cluster, in bundles, then write its reports");
   add_input_options(*command, options->common, "study file (.toml), or the folder of one that is begun");
   command->add_option("--out", options->common.out, "directory for the reports; default out/ and the file's name")
       ->type_name("DIR");
   add_random_seed_option(*command, options->common);
-  command->add_option("--time", options->time, "limit of a job, such as \"1 h\"")->type_name("TIME")->required();
-  command->add_option("--bundles", options->bundles, "jobs of the array; default: each of 10 to 60 minutes")
+  command->add_option("--time", options->time, "time limit of a job, such as \"1 h\"")->type_name("TIME")->required();
+  command->add_option("--bundles", options->bundles, "number of jobs in the array; default: jobs of 10 to 60 minutes")
       ->type_name("N")
       ->check(CLI::Range(1, 100000));
   command->add_option("--partition", options->partition, "of Slurm")->type_name("NAME");
-  command->add_option("--array-limit", options->array_limit, "jobs at a time")
+  command->add_option("--array-limit", options->array_limit, "largest number of jobs at a time")
       ->type_name("N")
       ->check(CLI::Range(1, 100000));
-  command->add_flag("--rounds", options->rounds, "submit round after round and wait, for replicates by need")
+  command->add_flag("--rounds", options->rounds, "submit round after round and wait, for adaptive replicates")
       ->group("");
   command->add_flag("--dry-run", options->dry_run, "print the scripts and submit nothing");
   add_examples(*command, {"vibrosow submit wheat-demo --time \"1 h\" --dry-run --out there",

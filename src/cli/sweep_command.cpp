@@ -56,7 +56,7 @@ int run_sweep(const SweepCommandOptions& command) {
   StudyRuns runs(cases_of(folder.path()), cases_to_reuse(command.reuse));
   const Made made = make_all_runs(planned, runs, folder.path(), command);
   const int exit_code = report_study(planned, runs, folder, made.timing, options, page_template);
-  if (!options.quiet && made.making.there > 0) print("{} of the runs were there from before\n", made.making.there);
+  if (!options.quiet && made.making.there > 0) print("{} of the runs were kept from before\n", made.making.there);
   if (!options.quiet) print("reports: {}\n", folder.path().string());
   if (!runs.not_kept().empty()) complain("warning: runs are not kept: " + runs.not_kept());
   return exit_code;
@@ -67,7 +67,7 @@ int run_sweep(const SweepCommandOptions& command) {
 void add_sweep_command(CLI::App& app, int& exit_code) {
   auto options = std::make_shared<SweepCommandOptions>();
   CLI::App* command =
-      app.add_subcommand("sweep", "simulate every layout of a study, against measured outflow where it names some");
+      app.add_subcommand("sweep", "simulate every layout of a study; compare with measured outflow if it names some");
   add_common_options(*command, options->common, "study file (.toml)");
   add_html_option(*command, options->common);
   add_replays_option(*command, options->common);

@@ -103,8 +103,8 @@ void print_sweep_table(const StudyResult& result) {
   const bool uneven = std::ranges::any_of(
       result.layouts, [](const LayoutResult& one) { return one.figures["raw_cv_percent"].has_value(); });
   if (uneven)
-    print("\n{}", wrapped("CV between the holes, %: raw, and the unevenness (chance taken out) with its 95 % "
-                          "interval; \"<\": not told from equal holes"));
+    print("\n{}", wrapped("CV between the holes, %: raw, and the unevenness (without chance) with its 95 % interval; "
+                          "\"<\": no difference beyond chance"));
   if (std::ranges::any_of(result.study.scenes, is_slice_of_a_tray))
     print("\n{}", wrapped("2D: a slice times the depth of the tray, its holes slots all across"));
   if (const std::string expected = expected_paragraph(answer); !expected.empty()) print("\n{}", expected);

@@ -39,7 +39,7 @@ int verify(const std::string& folder) {
   }
   StudyRuns runs(cases_of(folder));
   const Made made = make_runs(runs, wanted_runs(planned, again), {}, 1, true);
-  print("{} made again; {} belong to no run of the plan and were taken away\n", made.making.made,
+  print("{} made again; {} belong to no run of the plan and were removed\n", made.making.made,
         damaged.size() - again.size());
   return made.making.interrupted > 0 ? exit_interrupted : exit_done;
 }
@@ -48,8 +48,7 @@ int verify(const std::string& folder) {
 
 void add_verify_command(CLI::App& app, int& exit_code) {
   auto folder = std::make_shared<std::string>();
-  CLI::App* command =
-      app.add_subcommand("verify", "read every run that a sweep has kept, and make those that are damaged again");
+  CLI::App* command = app.add_subcommand("verify", "check every kept run of a sweep, and make damaged ones again");
   command->add_option("FOLDER", *folder, "of the sweep")->required();
   add_examples(*command, {"vibrosow verify out/wheat-demo", "vibrosow verify best", "vibrosow verify there"});
   command->callback([folder, &exit_code] { exit_code = verify(*folder); });
@@ -57,7 +56,7 @@ void add_verify_command(CLI::App& app, int& exit_code) {
 
 void add_pack_command(CLI::App& app, int& exit_code) {
   auto folder = std::make_shared<std::string>();
-  CLI::App* command = app.add_subcommand("pack", "move a sweep's kept runs into few large files");
+  CLI::App* command = app.add_subcommand("pack", "pack a sweep's kept runs into few large files");
   command->add_option("FOLDER", *folder, "of the sweep")->required();
   add_examples(*command, {"vibrosow pack out/wheat-demo", "vibrosow pack best", "vibrosow pack there"});
   command->callback([folder, &exit_code] {

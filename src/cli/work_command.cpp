@@ -64,14 +64,15 @@ int work(const WorkOptions& options) {
 
 void add_work_command(CLI::App& app, int& exit_code) {
   auto options = std::make_shared<WorkOptions>();
-  CLI::App* command = app.add_subcommand("work", "make the runs of a sweep's plan, or a share of them; no reports");
+  CLI::App* command =
+      app.add_subcommand("work", "make the runs of a sweep's plan, or a share of them, without reports");
   command->add_option("FOLDER", options->folder, "of the sweep")->required();
-  command->add_option("--bundle", options->bundle, "the share: 17/200 is the 17th of 200 that cost the same")
+  command->add_option("--bundle", options->bundle, "share of the runs: 17/200 is the 17th of 200 shares of equal cost")
       ->type_name("K/N");
   command->add_option("--plan", options->plan, "an older plan of the folder, by its name")->type_name("NAME");
-  command->add_option("--time-limit", options->making.time_limit, "by the clock; runs under way are then saved")
+  command->add_option("--time-limit", options->making.time_limit, "clock time after which unfinished runs are saved")
       ->type_name("TIME");
-  command->add_option("--jobs", options->jobs, "runs side by side")
+  command->add_option("--jobs", options->jobs, "runs in parallel")
       ->type_name("N")
       ->check(CLI::Range(1, 4096))
       ->capture_default_str();

@@ -50,9 +50,9 @@ HoleRows read_counted(Table& table, double length, Space space) {
   const std::optional<double> centre = table.quantity("centre", Dimension::length, 0, longest);
   if (counts.empty()) table.fail("count", "is missing; give count, or at with the holes' centres");
   if (counts.size() > 1 && space == Space::plane)
-    table.fail("count",
-               "is one number in the plane, where a row of holes stands for all rows; a list, one a row, needs "
-               "space = \"3d\"");
+    table.fail(
+        "count",
+        "is one number in 2D, where a row of holes stands for all rows; a list, one a row, needs space = \"3d\"");
 
   HoleRows rows;
   for (const std::int64_t count : counts) {

@@ -138,7 +138,7 @@ void read_shape(Table& seeds, ShapeName shape, double size, Space space, SeedLot
   lot.diameter = size;
   lot.shape = shape == ShapeName::disc ? Shape::disc : Shape::ball;
   if (shape == ShapeName::disc && space != Space::plane)
-    seeds.fail("shape", "a disc lies in the plane; in space it is a \"ball\"");
+    seeds.fail("shape", "is for 2D; with space = \"3d\" it is a \"ball\"");
   if (shape == ShapeName::elongated || shape == ShapeName::drop) {
     if (space == Space::plane) seeds.skip("thickness");
     make_clump(lot, space == Space::plane ? read_row(seeds, shape, size) : read_solid_row(seeds, shape, size), space);

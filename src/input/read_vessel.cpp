@@ -136,7 +136,7 @@ void read_axis(Table& table, Space space, std::vector<WallPiece>& line) {
     if (table.has("axis")) table.fail("axis", "is of a line that is turned; expected about beside it");
     return table.skip("axis");
   }
-  if (space == Space::plane) table.fail("about", "a line is turned about an axis in space alone: space = \"3d\"");
+  if (space == Space::plane) table.fail("about", "a line is turned about an axis only with space = \"3d\"");
   const bool upright = table.choice("axis", {"upright", "along"}).value_or(0) == 0;
   if (about.size() != 2)
     table.fail("about", fmt::format("expected where the axis passes, {} and across, such as [\"10 cm\", \"4 cm\"]",
@@ -200,7 +200,7 @@ void read_drawn_here(Table& table, Space space, std::vector<WallPiece>& pieces) 
 DrawnOut read_drawn_out(Table& table, Space space) {
   const bool along = table.choice("drawn_out", {"across", "along"}).value_or(0) == 1;
   if (along && space == Space::plane)
-    table.fail("drawn_out", "along the vessel a piece is drawn out in space alone: space = \"3d\"");
+    table.fail("drawn_out", "a piece is drawn out along the vessel only with space = \"3d\"");
   if (along && table.has("about")) table.fail("drawn_out", "contradicts about, by which the line is turned");
   return along ? DrawnOut::along : DrawnOut::across;
 }
@@ -329,7 +329,7 @@ void check_turning(Table& table, const Vessel& vessel, Space space) {
   if (!turns_steadily(vessel)) return;
   const bool upright = std::get<TurningMotion>(*vessel.motion).axis == TurningAxis::upright;
   if (upright && space == Space::plane)
-    table.required_table("motion").fail("axis", "about an upright axis a vessel turns in space alone: space = \"3d\"");
+    table.required_table("motion").fail("axis", "a vessel turns about an upright axis only with space = \"3d\"");
   if (vessel.fill && vessel.fill->keep)
     table.required_table("fill").fail("keep", "a vessel that turns over and over cannot be topped up");
   if (!upright && !vessel.holes.empty())
@@ -345,7 +345,7 @@ double seeds_of_other_space(Table& table, const Vessel& vessel, const Vessel* tr
   if (table.choice("plan", {"rectangle", "round"}).value_or(0) == 1)
     whole.plan = Plan::round, whole.depth = vessel.length;
   if (!whole.depth && tray != nullptr) whole.depth = tray->depth;
-  if (!whole.depth) table.fail("depth", "is missing; in space a tray has a depth, from front to back");
+  if (!whole.depth) table.fail("depth", "is missing; with space = \"3d\" a tray has a depth, from front to back");
   const double slices = slices_of_vessel(whole, slice);
   return space == Space::plane ? 1 / slices : slices;
 }
@@ -389,7 +389,7 @@ Vessel read_vessel(Table table, const std::string& name, const std::vector<SeedL
       motion->fail(motion->has("file")         ? "file"
                    : motion->has("components") ? "components"
                                                : "direction",
-                   "a motion across the plane needs space = \"3d\"");
+                   "a motion from front to back needs space = \"3d\"");
   }
   check_turning(table, vessel, space);
   check_periodic(table, vessel, largest_diameter(lots));

@@ -26,7 +26,7 @@ void check_rates(const Study& study, const DecideOptions& options) {
     if (layout.scene && study.scenes[*layout.scene].space == Space::plane &&
         !slices_of_tray(study.scenes[*layout.scene]))
       throw InputError(
-          fmt::format("--rate: is of the whole tray, and layout {} is a plane without tray.depth", layout.number));
+          fmt::format("--rate: is of the whole tray, and layout {} is in 2D without tray.depth", layout.number));
 }
 
 std::unique_ptr<Procedure> procedure_of(SelectionRule rule, const Question& question) {

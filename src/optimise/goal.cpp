@@ -92,7 +92,7 @@ WantedRate read_wanted_rate(const std::string& text) {
                     shortened(text), why));
   };
   const auto [sign, length] = find_plus_minus(text);
-  if (sign == std::string::npos) throw wrong(" says not how far from it is near enough");
+  if (sign == std::string::npos) throw wrong(" has no tolerance, such as +- 5 %");
   const std::string_view whole = text, of = trimmed(whole.substr(0, sign)), by = trimmed(whole.substr(sign + length));
   try {
     const Rate rate = read_rate(of);

@@ -101,7 +101,7 @@ std::vector<double> StudyOptimisation::share_of(const FrontSearch::Point& point)
 void StudyOptimisation::check(const Study& study) const {
   for (const Scene& scene : study.scenes) {
     if (options_.rate && scene.space == Space::plane && !slices_of_tray(scene))
-      throw InputError("--rate: is of the whole tray, and the seeder is a plane without tray.depth");
+      throw InputError("--rate: is of the whole tray, and the seeder is in 2D without tray.depth");
     if (has(options_, Kind::power)) drive_power(scene);
   }
 }

@@ -13,7 +13,7 @@ using enum Severity;
 
 /// By kind.
 constexpr std::array<DoubtWords, 31> doubt_words = {{
-    {"outside the model", serious, "decide nothing by it: take a step that is not too long and the guard's own limits"},
+    {"outside the model", serious, "do not use it: take a step that is not too long and the guard's own limits"},
     {"ran dry", serious, "put in more seeds, or measure before"},
     {"drained in the window", serious, "keep the tray topped up (fill.keep), or measure a shorter time"},
     {"stopped flowing", serious, "the time without flow counts in the rate; take wider holes, or measure before"},
@@ -21,7 +21,7 @@ constexpr std::array<DoubtWords, 31> doubt_words = {{
     {"the feeder fell behind", serious, "leave more room for what is fed, or feed less"},
     {"the guard warned", serious, "make contacts stiffer or steps shorter, as it says, and run again"},
     {"stopped", serious, "the guard's reason says what to change"},
-    {"interrupted", serious, "the same command goes on from here"},
+    {"interrupted", serious, "the same command resumes"},
     {"ended before the measuring window", serious, "run longer, or measure earlier"},
     {"few seeds", mild, "run longer"},
     {"a part of a period", serious, "measure over whole periods of the drive: run longer"},
@@ -35,7 +35,7 @@ constexpr std::array<DoubtWords, 31> doubt_words = {{
     {"two kinds of run", serious, "take wider holes, or run longer"},
     {"errors that act on each other", mild, "go to finer settings for narrower bands"},
     {"no limit", mild, "allow more replicates"},
-    {"the plane's own error", mild, "add it with --depth"},
+    {"the error of 2D", mild, "add it with --depth"},
     {"nothing fitted", serious, "look for what else is wrong than what was fitted, in the table or in the seeder"},
     {"misfit", serious, "look for what else is wrong than what was fitted, or state a larger noise (--noise)"},
     {"not told apart", mild, "use the two together, or measure what tells them apart (vibrosow bench-sheet)"},

@@ -32,14 +32,13 @@ using Source = const FigureSource&;
 
 constexpr std::array table = {
     Figure{"rate_g_per_s", "g/s", "g/s", gram,
-           "mass flow through all holes, of the plane slice or in space of the tray, in the window",
+           "mass flow through all holes, of the 2D slice or in 3D of the tray, in the window",
            [](Source s) { return Value(whole(s.outflow).mass_rate); }},
     Figure{"seeds_per_s", "seeds/s", "1/s", 1,
-           "seeds through all holes, of the plane slice or in space of the tray, in the window",
+           "seeds through all holes, of the 2D slice or in 3D of the tray, in the window",
            [](Source s) { return Value(whole(s.outflow).seeds_per_s); }},
     Figure{"depth_factor", "factor", "", 1,
-           "tray.depth over the thickness of the plane slice, by which its rates are multiplied; in space 1; empty "
-           "without "
+           "tray.depth over the thickness of the 2D slice, by which its rates are multiplied; in 3D 1; empty without "
            "tray.depth",
            [](Source s) { return s.outflow.depth_factor; }, true},
     Figure{"tray_rate_g_per_s", "tray g/s", "g/s", gram, "mass flow of the whole tray; empty without tray.depth",
@@ -56,11 +55,10 @@ constexpr std::array table = {
            [](Source s) { return s.outflow.raw_cv; }},
     Figure{"chance_cv_percent", "chance %", "%", percent, "what of the raw one holes of equal rates would show",
            [](Source s) { return of_unevenness(s, [](const Unevenness& u) { return u.chance_cv; }); }, true},
-    Figure{
-        "unevenness_cv_percent", "unevenness (CV) %", "%", percent,
-        "coefficient of variation of the holes' rates, chance taken out; empty: not told from equal holes (F test of "
-        "holes against replicates, of one run against its blocks)",
-        [](Source s) { return of_unevenness(s, [](const Unevenness& u) { return u.cv; }); }, true},
+    Figure{"unevenness_cv_percent", "unevenness (CV) %", "%", percent,
+           "coefficient of variation of the holes' rates without chance; empty: no difference beyond chance (F test of "
+           "holes against replicates, of one run against its blocks)",
+           [](Source s) { return of_unevenness(s, [](const Unevenness& u) { return u.cv; }); }, true},
     Figure{"unevenness_cv_percent_low", "low", "%", percent, "lower end of its 95 % interval",
            [](Source s) { return of_unevenness(s, [](const Unevenness& u) { return u.low; }); }, true},
     Figure{"unevenness_cv_percent_high", "high", "%", percent, "upper end: what it may be up to where it is empty",

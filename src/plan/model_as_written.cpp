@@ -19,11 +19,11 @@ namespace {
 void check_plane(const Vessel& vessel) {
   const auto* turning = vessel.motion ? std::get_if<TurningMotion>(&*vessel.motion) : nullptr;
   if (turning && turning->axis == TurningAxis::upright)
-    throw InputError(vessel.name + ".motion.axis: about an upright axis a vessel turns in space alone");
+    throw InputError(vessel.name + ".motion.axis: a vessel turns about an upright axis in 3D only");
   if (std::ranges::any_of(vessel.pieces, [](const WallPiece& piece) { return piece.about.has_value(); }))
-    throw InputError(vessel.name + ".pieces: a line is turned about an axis in space alone");
+    throw InputError(vessel.name + ".pieces: a line is turned about an axis in 3D only");
   if (!std::ranges::all_of(vessel.pieces, is_of_plane))
-    throw InputError(vessel.name + ".pieces: along the vessel a piece is drawn out in space alone");
+    throw InputError(vessel.name + ".pieces: a piece is drawn out along the vessel in 3D only");
 }
 
 void check_vessels(const Model& model) {
@@ -32,15 +32,14 @@ void check_vessels(const Model& model) {
     return;
   }
   for (const Vessel& vessel : model.vessels)
-    if (!vessel.depth) throw InputError(vessel.name + ".depth: is missing; in space a vessel has one");
+    if (!vessel.depth) throw InputError(vessel.name + ".depth: is missing; in 3D a vessel has one");
 }
 
 /// What a clump has no inertia for cannot turn as it should.
 void check_clumps(const Scene& scene) {
   for (const SeedLot& lot : scene.lots)
     if (lot.shape == Shape::clump && is_solid_clump(lot) != (scene.space == Space::three_dimensional))
-      throw InputError(
-          fmt::format("seeds.{}: a clump has three moments of inertia in space and one in the plane", lot.name));
+      throw InputError(fmt::format("seeds.{}: a clump has three moments of inertia in 3D and one in 2D", lot.name));
 }
 
 /// A mixture without one of its lots is another mixture.

@@ -133,10 +133,10 @@ void warn_of_round_holes(const Vessel& vessel, Warnings& warnings) {
     const double width = vessel.holes.front().width;
     taken = fmt::format(", {:.2g} times the area of a round hole", *vessel.depth / (std::numbers::pi / 4 * width));
   }
-  warnings.push_back(fmt::format(
-      "{}.holes.shape: in the plane a round hole is taken for a slot from front to back{}: rates are those of such "
-      "slots; space = \"3d\" simulates round holes",
-      vessel.name, taken));
+  warnings.push_back(
+      fmt::format("{}.holes.shape: in 2D a round hole is taken for a slot from front to back{}: rates are those of "
+                  "such slots; space = \"3d\" simulates round holes",
+                  vessel.name, taken));
 }
 
 void warn_of_hopper(const Scene& scene, const Vessel& hopper, Warnings& warnings) {

@@ -37,8 +37,7 @@ struct FrictionStep {
 };
 FrictionStep friction_step(Integrator integrator) {
   switch (integrator) {
-    case Integrator::velocity_verlet:
-      return {2, 0.5};  // it swings from here on, as friction takes its own contact's change into account
+    case Integrator::velocity_verlet:  // it swings from 2 on, as friction takes its own contact's change into account
     case Integrator::rk2_midpoint:
       return {2, 0.5};
     case Integrator::gear5:

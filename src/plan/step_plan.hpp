@@ -31,7 +31,7 @@ struct StepLimit {
   double dt;  // s, the longest step that this limit allows
 };
 
-/// The step that a scene runs with and what bounds it (docs/THEORY.md).
+/// The step that a scene runs with and what bounds it (docs/explanation/theory.md).
 struct StepPlan {
   double contact_duration;        // s, shortest elastic contact of any two grains
   std::vector<StepLimit> limits;  // each reason on its own

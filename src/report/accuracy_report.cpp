@@ -139,15 +139,14 @@ Columns<ErrorRow> error_columns() {
   using Row = const ErrorRow&;
   return {
       text_column<ErrorRow>("source",
-                            "what was varied; chance: standard deviation of one run; depth: a plane in the place of "
-                            "the tray, at the seeder's own setting",
+                            "what was varied; chance: standard deviation of one run; depth: 2D in the place of the "
+                            "tray, at the seeder's own setting",
                             [](Row r) { return r.source; }),
       text_column<ErrorRow>("from", "finest level", [](Row r) { return r.from; }),
       text_column<ErrorRow>("to", "coarsest level", [](Row r) { return r.to; }),
       quantity_column<ErrorRow>(
           "rate_change_percent", Unit{"%", 1},
-          "what that does to the rate, of the limit's, by the main effects of all runs; of depth: "
-          "of the rate in space",
+          "what that does to the rate, of the limit's, by the main effects of all runs; of depth: of the rate in 3D",
           [](Row r) { return r.percent; }),
       quantity_column<ErrorRow>("rate_change_ci95", Unit{"%", 1}, "half width of its 95 % interval",
                                 [](Row r) { return r.band; })};
@@ -182,7 +181,7 @@ JsonKeys<CommandTiming> timing_keys() {
   using T = const CommandTiming&;
   return {
       {"wall_s", "s", "wall time of the command", [](T t) { return t.command.wall_time; }},
-      {"jobs", "", "runs side by side", [](T t) { return t.command.jobs; }},
+      {"jobs", "", "runs in parallel", [](T t) { return t.command.jobs; }},
       {"run_cpu_s", "s", "CPU times of the runs that it made, summed", [](T t) { return t.run_time; }},
       {"grain_steps", "", "grains times steps of these, summed", [](T t) { return t.grain_steps; }},
       {"grain_steps_per_s", "1/s", "these in a second of the command's wall time",
@@ -241,7 +240,7 @@ std::string errors_text(const AccuracyResult& result) {
     text += fmt::format("  {:<21} {:>15} {} {:<15} {}\n", row.source, row.from, row.to.empty() ? "  " : "to", row.to,
                         row.band ? error_text(row.percent, row.band) : fmt::format("{:.2f} %", row.percent));
   if (result.depth)
-    text += wrapped(fmt::format("The tray sows {} g/s as a plane, {} g/s in space.", rate_text(result.depth->plane),
+    text += wrapped(fmt::format("The tray sows {} g/s in 2D, {} g/s in 3D.", rate_text(result.depth->plane),
                                 rate_text(result.depth->space)));
   return text;
 }
@@ -268,7 +267,7 @@ std::string cost_text(const Promise& promise) {
   const Offer& offer = *promise.offer;
   if (const auto kept =
           std::ranges::count_if(promise.runs, [](const AccuracyRun& run) { return run.mass_rate && !run.made(); }))
-    return fmt::format("{} of the {} runs were there from before; the others took {:.3g} s of CPU time.", kept,
+    return fmt::format("{} of the {} runs were kept from before; the others took {:.3g} s of CPU time.", kept,
                        promise.runs.size(), promise.pilot_cpu_time + promise.answer_cpu_time);
   std::string text = fmt::format(
       "Cost: {} pilots {:.3g} s of CPU time, {} more {} {:.3g} s (predicted {:.3g} s). Another layout with this "

@@ -60,10 +60,9 @@ Columns<BenchCandidate> candidate_columns(const std::vector<std::string>& keys) 
   append(columns,
          {text_column<BenchCandidate>("place", "in the order in which it was chosen; empty: it was not",
                                       [](Row r) { return r.place ? fmt::format("{}", *r.place) : std::string(); }),
-          quantity_column<BenchCandidate>(
-              "rate_g_per_s", grams_per_second,
-              "expected, geometric mean over what is not known; of the plane slice in the plane",
-              [](Row r) { return r.mass_rate; }),
+          quantity_column<BenchCandidate>("rate_g_per_s", grams_per_second,
+                                          "expected, geometric mean over what is not known; of the 2D slice in 2D",
+                                          [](Row r) { return r.mass_rate; }),
           quantity_column<BenchCandidate>("chance_percent", percent, "standard deviation of one reading",
                                           [](Row r) { return r.chance; })});
   return columns;
@@ -88,9 +87,9 @@ std::string expectation(const BenchSource& source) {
     else
       untold.push_back(key);
   }
-  std::string text = told.empty() ? "These readings would tell little of any of the fitted numbers."
-                                  : fmt::format("Expected to narrow what is known of {}.", fmt::join(told, ", "));
-  if (!untold.empty() && !told.empty()) text += fmt::format(" They would tell little of {}.", fmt::join(untold, ", "));
+  std::string text = told.empty() ? "These readings would say little about any of the fitted numbers."
+                                  : fmt::format("Expected to reduce the uncertainty of {}.", fmt::join(told, ", "));
+  if (!untold.empty() && !told.empty()) text += fmt::format(" They would say little about {}.", fmt::join(untold, ", "));
   return text;
 }
 
@@ -120,7 +119,8 @@ std::string instructions(const BenchSource& source) {
        {"Fill as the tray is filled in work, the same for every reading.",
         "Set what the row says. Let it run until the flow is even, three seconds at least.",
         "Catch what leaves all holes for the time stated, and weigh it.",
-        "Write the grams here and into bench.csv. Go through the rows in order: the repeats are settings made anew.",
+        "Write the grams here and into bench.csv. Go through the rows in order: the repeats are settings made again "
+        "from the start.",
         "A reading that went wrong (an empty tray, a clogged hole) is taken again, or its row is deleted."})
     text += fmt::format("<li>{}</li>\n", step);
   return text + "</ol>\n";

@@ -27,7 +27,7 @@ std::string confused_with(const FittedNumber& number) {
 Columns<FittedNumber> value_columns() {
   using Row = const FittedNumber&;
   return {
-      text_column<FittedNumber>("key", "that was fitted; depth_factor: what rates of the plane slice are multiplied by",
+      text_column<FittedNumber>("key", "that was fitted; depth_factor: what rates of the 2D slice are multiplied by",
                                 [](Row r) { return r.name; }),
       text_column<FittedNumber>("unit", "of the values of this row", [](Row r) { return r.unit; }),
       quantity_column<FittedNumber>("prior_low", plain, "from where on it was taken to lie; empty: anywhere",
@@ -38,7 +38,7 @@ Columns<FittedNumber> value_columns() {
       quantity_column<FittedNumber>("high", plain, "upper end of its 95 % interval",
                                     [](Row r) { return r.value.high; }),
       quantity_column<FittedNumber>("contraction_percent", percent,
-                                    "by how much its standard deviation is below that of the prior; 0: nothing learned",
+                                    "by how much its standard deviation is below that of the range it was fitted in; 0: nothing learned",
                                     [](Row r) { return r.value.contraction; }),
       text_column<FittedNumber>("not_told_apart_from", "others with which it is correlated above 0.8 either way",
                                 [](Row r) { return confused_with(r); })};
@@ -91,7 +91,7 @@ Columns<PointRow> posterior_columns(const std::vector<KeyRange>& keys, bool with
   Columns<PointRow> columns = key_columns(keys);
   if (with_factor)
     columns.push_back(quantity_column<PointRow>(depth_factor_name, plain,
-                                                "what rates of the plane slice are multiplied by, where it is fitted",
+                                                "what rates of the 2D slice are multiplied by, where it is fitted",
                                                 [](const PointRow& r) { return r.factor; }));
   return columns;
 }
@@ -147,7 +147,7 @@ std::vector<PredictionRow> prediction_rows(const CalibrationAnswer& answer) {
 
 std::string provenance(const CalibrationAnswer& answer, const FittedNumber& row) {
   std::string text = fmt::format(
-      "fitted to {} with {} ({} of {} runs, vibrosow calibrate): 95 % interval {} to {}{}, contraction {:.0f} %",
+      "fitted to {} with {} ({} of {} runs, vibrosow calibrate): 95 % interval {} to {}{}, uncertainty reduced by {:.0f} %",
       answer.task.measured.file.filename().string(), answer.task.seeder.filename().string(), answer.runs_that_count,
       answer.runs.size(), to_digits(row.value.low, 3), to_digits(row.value.high, 3),
       row.unit.empty() ? "" : fmt::format(" {}", row.unit), 100 * row.value.contraction);
@@ -161,8 +161,8 @@ std::vector<std::pair<std::string, std::string>> sources(const CalibrationAnswer
     const std::string text = provenance(answer, row);
     if (row.name == depth_factor_name)
       result.emplace_back(depth_factor_name,
-                          fmt::format("{} ({}): what rates of the plane slice are multiplied by, no part of "
-                                      "the contact; for tray.depth = factor times seed diameter",
+                          fmt::format("{} ({}): what rates of the 2D slice are multiplied by, no part of the contact; "
+                                      "for tray.depth = factor times seed diameter",
                                       to_digits(row.value.mean, 4), text));
     else
       result.emplace_back(row.name.substr(std::string("contact.").size()), text);
@@ -199,11 +199,11 @@ std::string calibration_table(const CalibrationAnswer& answer) {
   std::string text;
   for (const SharedDoubt& doubt : answer.doubts) text += wrapped(doubt_sentence(doubt));
   if (!text.empty()) text += '\n';
-  text += fmt::format("{:<28} {:>6} {:>9} {:>21} {:>11}\n", "key", "unit", "mean", "95 % interval", "contraction");
+  text += fmt::format("{:<28} {:>6} {:>9} {:>21} {:>11}\n", "key", "unit", "mean", "95 % interval", "uncertainty");
   for (const FittedNumber& row : answer.numbers)
     text +=
-        fmt::format("{:<28} {:>6} {:>9} {:>9} to {:>8} {:>9.0f} %\n", row.name, row.unit, to_digits(row.value.mean, 4),
-                    to_digits(row.value.low, 3), to_digits(row.value.high, 3), 100 * row.value.contraction);
+        fmt::format("{:<28} {:>6} {:>9} {:>9} to {:>8} {:>+9.0f} %\n", row.name, row.unit, to_digits(row.value.mean, 4),
+                    to_digits(row.value.low, 3), to_digits(row.value.high, 3), -100 * row.value.contraction);
   text += fmt::format("\n{}",
                       wrapped(fmt::format("noise of one measurement: {:.2g} % ({})", 100 * of.noise, of.noise_source)));
   const char* of_what = is_curve(answer.task.measured.table.quantity) ? "percent of the largest value" : "%";

@@ -67,7 +67,7 @@ void add_unevenness_columns(Columns<Row>& columns, const std::string& whose, Get
     }));
   };
   using U = const Unevenness&;
-  add("unevenness_cv_percent", whose + ", chance taken out; empty: not told from equal holes",
+  add("unevenness_cv_percent", whose + " without chance; empty: no difference beyond chance",
       [](U of) { return of.cv; });
   add("unevenness_cv_percent_low", "lower end of its 95 % interval", [](U of) { return std::optional(of.low); });
   add("unevenness_cv_percent_high", "upper end: what it may be up to where it is empty",

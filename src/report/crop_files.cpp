@@ -59,14 +59,14 @@ std::string band_source(const ParameterBand& band, const std::string& evidence, 
     return fmt::format(
         "assumed: middle of the atlas of repose, {:.2g} to {:.2g}, since neither repose nor bulk density says more",
         band.low, band.high);
-  const std::string refined = own_runs > 0 ? fmt::format(", refined by {} runs of this crop in space", own_runs) : "";
-  return fmt::format("out of {:.2g} to {:.2g} (95 %) by the atlas of repose from {}, {:.0f} % narrower than before{}",
+  const std::string refined = own_runs > 0 ? fmt::format(", refined by {} runs of this crop in 3D", own_runs) : "";
+  return fmt::format("out of {:.2g} to {:.2g} (95 %) by the atlas of repose from {}, uncertainty reduced by {:.0f} %{}",
                      band.low, band.high, evidence, 100 * std::max(0.0, band.contraction), refined);
 }
 
 std::string band_line(std::string_view name, double taken, const ParameterBand& band) {
-  return fmt::format("  {:<18} {:>6.2f}   {:>4.2f} to {:<4.2f}   {:>6.0f} %\n", name, taken, band.low, band.high,
-                     100 * std::max(0.0, band.contraction));
+  return fmt::format("  {:<18} {:>6.2f}   {:>4.2f} to {:<4.2f}   {:>9.0f} %\n", name, taken, band.low, band.high,
+                     -100 * std::max(0.0, band.contraction) + 0.0);
 }
 
 std::string undetermined(const CropEstimate& estimate) {
@@ -76,7 +76,7 @@ std::string undetermined(const CropEstimate& estimate) {
     names += names.empty() ? "rolling friction" : " and rolling friction";
   if (names.empty()) return "not determined: restitution, stiffness and the friction on the tray, which are assumed";
   return fmt::format(
-      "not determined: {} (little narrower than before anything was measured); restitution, stiffness and the "
+      "not determined: {} (hardly less uncertain than without a measurement); restitution, stiffness and the "
       "friction on the tray, which are assumed",
       names);
 }
@@ -93,7 +93,7 @@ double ball_diameter(const NewCrop& crop) {
 
 /// "+1.2 +- 0.8 degree from the plane to space, by 4 materials of balls"
 std::string to_space_text(const PlaneToSpace& to_space) {
-  return fmt::format("{:+.1f} +- {:.1f} degree from the plane to space, by {} {}", to_space.angle_offset.mean / degree,
+  return fmt::format("{:+.1f} +- {:.1f} degree from 2D to 3D, by {} {}", to_space.angle_offset.mean / degree,
                      angle_error_in_space(to_space) / degree, to_space.materials,
                      to_space.of_the_crop ? "runs of this crop" : "materials of balls");
 }
@@ -164,7 +164,7 @@ std::string crop_table(const NewCrop& crop, const CropEstimate& estimate, const 
   const std::string from = evidence(crop, estimate);
   text += wrapped(from.empty() ? "nothing that counts says how it rubs: the band is all of the atlas"
                                : fmt::format("how it rubs, from {}:", from));
-  text += fmt::format("  {:<18} {:>6}   {:<12}   {:>8}\n", "", "taken", "95 % band", "narrower");
+  text += fmt::format("  {:<18} {:>6}   {:<12}   {:>11}\n", "", "taken", "95 % band", "uncertainty");
   text += band_line("friction", band.fitting.friction, band.friction) +
           band_line("rolling friction", band.fitting.rolling_friction, band.rolling_friction);
   text += wrapped(fmt::format("with what is taken it stands at {:.3g} degree", estimate.fitting_angle / degree));

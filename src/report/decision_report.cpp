@@ -104,7 +104,7 @@ JsonKeys<DecisionReport> decision_keys() {
        }},
       {"sure", "", "whether it is, or that there is none, with the confidence asked for",
        [](S s) { return Json(s.result.is_sure); }},
-      {"interrupted", "", "whether runs are missing: the same command goes on",
+      {"interrupted", "", "whether runs are missing; the same command resumes",
        [](S s) { return Json(s.result.is_interrupted); }},
       {"procedure", "", "guaranteed or posterior",
        [](S s) { return Json(s.result.options.rule == SelectionRule::guaranteed ? "guaranteed" : "posterior"); }},

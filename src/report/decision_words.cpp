@@ -29,9 +29,9 @@ std::string sureness_text(const DecideOptions& options) {
 
 std::string promise_sentence(const DecisionResult& result) {
   const std::string met = constraints_text(result);
-  const std::string among = met.empty() ? "No other" : fmt::format("It {}; no other that does so", met);
-  return fmt::format("{} is better by more than {}: with a {}.", among, percent_text(result.options.margin),
-                     sureness_text(result.options));
+  return fmt::format("{} a {}, no other layout{} is more than {} better.",
+                     met.empty() ? "With" : fmt::format("It {}. With", met), sureness_text(result.options),
+                     met.empty() ? "" : " that does so", percent_text(result.options.margin));
 }
 
 bool is_guaranteed(const DecisionResult& result) {
@@ -40,7 +40,7 @@ bool is_guaranteed(const DecisionResult& result) {
 
 std::string weakness_sentence() {
   return "That is no guarantee: among layouts that all lie about that far behind the best this rule is wrong clearly "
-         "more often (docs/DECIDING.md). For a guarantee: --procedure guaranteed, which goes on from these runs.";
+         "more often (docs/explanation/how-the-best-layout-is-found.md). For a guarantee: --procedure guaranteed, which uses these runs.";
 }
 
 std::string figures_sentence(const DecisionResult& result, std::size_t scene, std::string_view plus_minus) {
@@ -65,12 +65,12 @@ bool tells_who_is_left(const DecisionResult& result) {
 
 std::string undecided_sentence(const DecisionResult& result) {
   if (result.is_interrupted && result.cost.runs == 0)
-    return "Interrupted in the first round of runs: the same command goes on from here. No layout is ruled out.";
+    return "Interrupted in the first round of runs: the same command resumes. No layout is ruled out.";
   if (!result.has_margin)
     return fmt::format(
-        "Undecided: the least {} is 0, and so is any share of it: --within cannot tell layouts apart by this goal.",
+        "Undecided: the best {} is 0, and so is any share of it, so --within cannot tell layouts apart by this goal.",
         result.options.goal->words);
-  if (result.is_interrupted) return "Interrupted: the same command goes on from here. So far not ruled out:";
+  if (result.is_interrupted) return "Interrupted: the same command resumes. So far not ruled out:";
   return fmt::format(
       "Undecided: after {} runs of a layout (--most) these cannot be told apart, or it is not known whether they meet "
       "the constraints:",
@@ -80,7 +80,7 @@ std::string undecided_sentence(const DecisionResult& result) {
 std::string no_best_sentence(const DecisionResult& result) {
   const std::string constraints = constraints_text(result);
   if (constraints.empty()) return "No layout can be compared.";
-  return fmt::format("No layout {}: with a {}.", constraints, sureness_text(result.options));
+  return fmt::format("With a {}, no layout {}.", sureness_text(result.options), constraints);
 }
 
 std::string cost_sentence(const DecisionResult& result) {
@@ -88,19 +88,18 @@ std::string cost_sentence(const DecisionResult& result) {
                                  result.cost.grain_steps);
   if (result.equal_grid)
     text += fmt::format(
-        "; a grid that is run without looking (Rinott's procedure) takes {} runs, {:.3g} grain-steps "
-        "for the same confidence",
+        "; without leaving layouts out early (Rinott's procedure) it would be {} runs, {:.3g} grain-steps for the same "
+        "confidence",
         static_cast<long long>(result.equal_grid->runs), result.equal_grid->grain_steps);
   return text + ".";
 }
 
 std::string correlation_sentence(const DecisionResult& result) {
   if (!result.correlation) return "";
-  return fmt::format(
-      "Runs of different layouts under one random seed correlate by {:.2f}{}.", *result.correlation,
-      *result.correlation < DraftScreen::least_correlation
-          ? fmt::format("; below {:g} nothing is claimed of common random numbers", DraftScreen::least_correlation)
-          : ": differences are surer than each value");
+  return fmt::format("Runs of different layouts under one random seed correlate by {:.2f}{}.", *result.correlation,
+                     *result.correlation < DraftScreen::least_correlation
+                         ? fmt::format("; below {:g} common random numbers do not help", DraftScreen::least_correlation)
+                         : ": differences are surer than each value");
 }
 
 std::string drafts_sentence(const DraftFindings& drafts) {

@@ -16,10 +16,10 @@ namespace {
 
 constexpr const char* introduction = R"(# What the program writes
 
-Made by `vibrosow columns > docs/OUTPUT.md`; a test compares the two.
+Made by `vibrosow columns > docs/reference/output.md`; a test compares the two.
 
 CSV files have one header row, numbers of six digits, and an empty field where a value is undefined. Rates are of the
-plane slice, one seed thick, unless their name says `tray`. A column `X_ci95` is the half width of the 95 % interval of
+2D slice, one seed thick, unless their name says `tray`. A column `X_ci95` is the half width of the 95 % interval of
 the mean `X` over replicates (Student's t); it is empty for a single run.
 )";
 
@@ -44,7 +44,7 @@ std::string output_documentation() {
   return introduction + chapter("run", "one run of a seeder", run_file_texts()) +
          chapter("sweep", "every layout of a study", sweep_file_texts()) +
          chapter("decide", "the best layout of a study", decision_file_texts()) +
-         chapter("optimise", "the layouts of a space that no other is better than", optimise_file_texts()) +
+         chapter("optimise", "the Pareto-optimal layouts of a study's ranges", optimise_file_texts()) +
          chapter("accuracy", "what accuracy costs in time", accuracy_file_texts()) +
          chapter("plan", "layouts that sow a crop at a rate", plan_file_texts()) +
          chapter("bench-sheet", "what to measure", bench_file_texts()) +

@@ -4,7 +4,7 @@
 
 namespace vibrosow {
 
-/// Every file that the program writes and every column and key in it, as Markdown: docs/OUTPUT.md.
+/// Every file that the program writes and every column and key in it, as Markdown: docs/reference/output.md.
 std::string output_documentation();
 
 }  // namespace vibrosow

@@ -35,7 +35,7 @@ Columns<RowOfRun> rows_columns() {
   Columns<RowOfRun> columns = {
       text_column<RowOfRun>("row", row_text, [](R r) { return row_name(r.row->row); }),
       text_column<RowOfRun>("holes", holes_text, [](R r) { return numbers_text(r.row->holes); }),
-      text_column<RowOfRun>("seeds", "from these in the window, of the plane slice or in space of the tray",
+      text_column<RowOfRun>("seeds", "from these in the window, of the 2D slice or in 3D of the tray",
                             [](R r) { return r.row->seeds; })};
   for (const RowFigure& figure : row_figures())
     columns.push_back(quantity_column<RowOfRun>(std::string(figure.name), Unit{figure.unit, figure.unit_size},
@@ -105,7 +105,7 @@ void add_turn_down(Columns<TradeRow>& columns, const std::string& prefix, const 
            prefix + "_to", plain, "the largest",
            [which](R r) { return of_turn_down(which(r), [&](T t) { return to_column_unit(r.line->key, t.to); }); }),
        quantity_column<TradeRow>(prefix + "_least_rate_g_per_s", grams_per_second,
-                                 "the smallest rate there, of the plane slice or in space of the tray",
+                                 "the smallest rate there, of the 2D slice or in 3D of the tray",
                                  [which](R r) { return of_turn_down(which(r), [](T t) { return t.least_rate; }); }),
        quantity_column<TradeRow>(prefix + "_most_rate_g_per_s", grams_per_second, "the largest rate there",
                                  [which](R r) { return of_turn_down(which(r), [](T t) { return t.most_rate; }); })});
@@ -155,7 +155,7 @@ std::string spacings_note(NoSpacings why) {
     case NoSpacings::none:
       return "";
     case NoSpacings::plane_slice:
-      return "no spacings: seeds of a plane slice are not those of a row";
+      return "no spacings: seeds of a 2D slice are not those of a row";
     case NoSpacings::shared_hole:
       return "no spacings: how a hole's seeds are dealt out to its rows is not simulated";
     case NoSpacings::few_seeds:

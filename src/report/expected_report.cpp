@@ -62,7 +62,7 @@ std::vector<ExpectedFigure> expected_figures() {
   std::vector<ExpectedFigure> figures = {
       {"expected_low_g_per_s", grams_per_second,
        "lower end of the range that holds the true rate of all holes in 95 % of cases until the tray is weighed; empty "
-       "in the plane, and beside measured outflow",
+       "in 2D, and beside measured outflow",
        [](const ExpectedRate& expected) { return expected.mass_rate * expected.range.low; }},
       {"expected_high_g_per_s", grams_per_second, "upper end",
        [](const ExpectedRate& expected) { return expected.mass_rate * expected.range.high; }}};
@@ -86,7 +86,7 @@ std::string model_text(const ModelError& model) {
   const double over = 1 / model.mean_factor - 1;
   return fmt::format(
       "The model's part is Student's, from {} materials whose flow through still holes and slots others measured: it "
-      "gave {} % too {} of them on the whole. Of a tray that shakes no measurement was to be had.",
+      "gave {} % too {} of them on the whole. No measurement of a shaken tray was found.",
       model.materials, two_digit_percent(std::abs(over)), over > 0 ? "much" : "little");
 }
 
@@ -103,8 +103,8 @@ std::string expected_sentence(const Answer& answer) {
   const Study& study = *answer.study;
   const auto in_space = [](const Scene& scene) { return scene.space == Space::three_dimensional; };
   if (answer.kind == AnswerKind::sweep && study.measured)
-    return std::ranges::any_of(study.scenes, in_space) ? "Beside measured outflow the misfit says what the model errs "
-                                                         "by: no range is told from other materials."
+    return std::ranges::any_of(study.scenes, in_space) ? "The misfit to the measured outflow shows the model's error "
+                                                         "here, so no range from other materials is given."
                                                        : "";
   std::vector<const ExpectedRate*> rates;
   for (const AnsweredLayout& layout : answer.layouts)

@@ -38,7 +38,7 @@ std::string headline(const OptimiseResult& result) {
 
 std::vector<std::string> doubts(const OptimiseResult& result, const Answer& answer) {
   std::vector<std::string> all = doubt_sentences(doubts_about(answer));
-  if (result.is_interrupted) all.push_back("Interrupted: the same command goes on from here.");
+  if (result.is_interrupted) all.push_back("Interrupted: the same command resumes.");
   if (const std::string why = why_unsure(result); !why.empty()) all.push_back(why);
   all.push_back(front_promise(result));
   return all;

@@ -103,7 +103,7 @@ JsonKeys<OptimiseResult> optimise_keys() {
          for (const FrontGoal* goal : s.options.goals) names.push_back(goal->name);
          return names;
        }},
-      {"interrupted", "", "whether runs are missing: the same command goes on",
+      {"interrupted", "", "whether runs are missing; the same command resumes",
        [](S s) { return Json(s.is_interrupted); }},
       {"confidence_percent", "%", "of each standing", [](S s) { return Json(100 * s.options.confidence); }},
       {"rate.figure", "", "of pareto.csv's rate", [](S s) { return Json(rate_figure(s.options.rate).name); }},
@@ -161,7 +161,8 @@ std::string front_promise(const OptimiseResult& result) {
           : " Of a single goal `vibrosow decide` finds the best of given layouts with a guarantee.";
   return fmt::format(
       "\"On the front\" and \"dominated\" are among the layouts that were tried, each with a confidence of {:g} %, and "
-      "no proof, since runs went where earlier ones led. That no better layout is in the space is not promised.{}",
+      "no proof, since later runs were chosen by the results of earlier ones. That no better layout exists within the "
+      "ranges is not promised.{}",
       100 * result.options.confidence, alone);
 }
 

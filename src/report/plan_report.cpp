@@ -219,11 +219,12 @@ std::string risk_text(const SowingPlan& plan) {
   if (plan.layouts.empty()) return none_text(plan);
   const PlannedLayout& best = plan.layouts.front();
   std::string text =
-      fmt::format("The best is {}, {} seeds wide: ", feed_text(best.feed), to_digits(best.width_over_largest, 2));
-  if (best.risk() == HoleClass::rarely_clogs) text += "such a hole rarely clogs.";
+      fmt::format("The best is {}, {} seeds wide. ", feed_text(best.feed), to_digits(best.width_over_largest, 2));
+  if (best.risk() == HoleClass::rarely_clogs) text += "Such a hole rarely clogs.";
   if (best.risk() == HoleClass::kept_open)
     text +=
-        "still it would clog, and the shaking keeps it open; a straw or a cluster stops it sooner than a wider one.";
+        "It clogs without vibration; vibration keeps it flowing. A straw or a cluster stops it sooner than a wider "
+        "hole.";
   if (best.risk() == HoleClass::clogs)
     text =
         fmt::format("None of these stays clear of clogging: the best, {}, is {} seeds wide, and holes under {:g} clog.",
@@ -250,19 +251,21 @@ std::vector<const PlannedLayout*> shown_layouts(const SowingPlan& plan) {
 }
 
 std::string table_text(const SowingPlan& plan) {
-  std::string text = fmt::format("{:>5} {:>6} {:>6} {:>6} {:>6} {:>6} {:>14} {:>6} {:>7}  {}\n", "holes", "hole",
-                                 "hole /", "bed", "freq.", "ampl.", "speeds", "rate", "stood", "more");
-  text += fmt::format("{:>5} {:>6} {:>6} {:>6} {:>6} {:>6} {:>14} {:>6} {:>7}  {}\n", ":rows", "mm", "seed", "mm", "Hz",
-                      "mm", "km/h", "+- %", "still %", "by");
-  for (const PlannedLayout* layout : shown_layouts(plan))
-    text += fmt::format("{:>5} {:>6.1f} {:>6.2f} {:>6.1f} {:>6.2f} {:>6.1f} {:>14} {:>6} {:>7}  {}\n",
+  std::string text = fmt::format("{:>5} {:>5} {:>6} {:>5} {:>6} {:>6} {:>14} {:>10} {:>7}  {}\n", "holes", "hole",
+                                 "hole /", "bed", "freq.", "ampl.", "speeds", "expect", "stood", "more");
+  text += fmt::format("{:>5} {:>5} {:>6} {:>5} {:>6} {:>6} {:>14} {:>10} {:>7}  {}\n", ":rows", "mm", "seed", "mm", "Hz",
+                      "mm", "km/h", "%", "still %", "by");
+  for (const PlannedLayout* layout : shown_layouts(plan)) {
+    const FactorRange expected = expected_range(layout->error);
+    text += fmt::format("{:>5} {:>5.1f} {:>6.2f} {:>5.1f} {:>6.2f} {:>6.1f} {:>14} {:>10} {:>7}  {}\n",
                         fmt::format("{}:{}", layout->feed.holes, layout->feed.rows), layout->width / millimetre,
                         layout->width_over_d, layout->depth_over_d * plan.task.seed.diameter / millimetre,
                         layout->frequency, layout->amplitude / millimetre,
                         fmt::format("{} to {}{}", speed_text(layout->speeds.least), speed_text(layout->speeds.most),
                                     layout->reaches_working_speeds() ? "*" : " "),
-                        two_digit_percent(plan.unknown_to_table(*layout)),
+                        fmt::format("{:.0f} to {:.0f}", 100 * expected.low, 100 * expected.high),
                         two_digit_percent(layout->estimate.stood_still), layout->more_by_faster ? "faster" : "slower");
+  }
   text += '\n';
   if (std::ranges::none_of(plan.layouts, &PlannedLayout::reaches_working_speeds))
     text += wrapped(fmt::format(
@@ -270,18 +273,22 @@ std::string table_text(const SowingPlan& plan) {
                 "slide over them, not the shaker.",
                 speed_text(working_speeds.least), speed_text(working_speeds.most))) +
             '\n';
-  return text +
-         wrapped(fmt::format(
-             "{} the rate{}; of each number of holes and depth of bed the best, the best first. rate +- %: what the "
-             "table itself does not know, see How sure; speeds: "
-             "which frequency alone keeps at the sowing rate, * all of {} to {} km/h; stood still: share of the "
-             "simulated holes that once let nothing through for {} s; more by: which shaking sows more",
-             plan.layouts.size() == 1 ? "One layout gives" : fmt::format("{} layouts give", plan.layouts.size()),
-             plan.too_uncertain > 0 ? fmt::format(", {} more are left out, being unsure by more than {} %",
-                                                  plan.too_uncertain, two_digit_percent(most_uncertain))
-                                    : "",
-             speed_text(working_speeds.least), speed_text(working_speeds.most),
-             to_digits(long_pause * unit_of_time(plan), 2)));
+  text += wrapped(fmt::format(
+      "{} the rate{}. Of each number of holes and depth of bed the best is shown, the best first.",
+      plan.layouts.size() == 1 ? "One layout gives" : fmt::format("{} layouts give", plan.layouts.size()),
+      plan.too_uncertain > 0 ? fmt::format("; {} more are left out, as they are unsure by more than {} %",
+                                           plan.too_uncertain, two_digit_percent(most_uncertain))
+                             : ""));
+  const auto line = [&text](std::string_view column, const std::string& meaning) {
+    text += wrapped_beside(fmt::format("  {:<12}", column), meaning);
+  };
+  line("speeds", fmt::format("at which frequency alone keeps the sowing rate; *: all of {} to {} km/h",
+                             speed_text(working_speeds.least), speed_text(working_speeds.most)));
+  line("expect", "range of the true rate until you weigh (95 %), of the planned one");
+  line("stood still", fmt::format("share of the simulated holes that once let nothing through for {} s",
+                                  to_digits(long_pause * unit_of_time(plan), 2)));
+  line("more by", "whether faster or slower shaking sows more");
+  return text;
 }
 
 // How far to trust it.

@@ -58,7 +58,7 @@ Columns<GrainRow> grains_columns(Space space) {
   const auto quaternion = [](std::string name, std::vector<double> Snapshot::*values) {
     return quantity_column<GrainRow>(
         std::move(name), plain,
-        "in space: of the rotation from a clump's own axes to the tray's; empty in a scene without clumps",
+        "in 3D: of the rotation from a clump's own axes to the tray's; empty in a scene without clumps",
         [values](R r) { return (r.own->*values).empty() ? Value() : Value((r.own->*values)[r.i]); });
   };
   Columns<GrainRow> columns = {
@@ -71,7 +71,7 @@ Columns<GrainRow> grains_columns(Space space) {
       quantity("vy_m_per_s", metres_per_second, "velocity upwards", &Snapshot::vy),
       quantity("omega_rad_per_s", radians_per_second, "angular velocity, anticlockwise", &Snapshot::omega),
       quantity_column<GrainRow>("angle_rad", radians,
-                                "in the plane: how far a clump is turned; empty in a scene without clumps",
+                                "in 2D: how far a clump is turned; empty in a scene without clumps",
                                 [](R r) { return r.own->angle.empty() ? Value() : Value(r.own->angle[r.i]); }),
       quantity("radius_mm", millimetres, "radius of the grain, of a clump of the circle or ball that just holds it",
                &Snapshot::radius),
@@ -81,13 +81,13 @@ Columns<GrainRow> grains_columns(Space space) {
                                 "shear strain about it since the snapshot before; empty where it is undefined",
                                 [](R r) { return r.shear; })};
   if (space == Space::plane) return columns;
-  append(columns, {place("z_mm", "in space: place from the tray's front", &Snapshot::z),
-                   quantity("vz_m_per_s", metres_per_second, "in space: velocity across, to the back", &Snapshot::vz),
-                   quantity("omega_x_rad_per_s", radians_per_second,
-                            "in space: angular velocity about the floor's length", &Snapshot::omega_x),
-                   quantity("omega_y_rad_per_s", radians_per_second,
-                            "in space: angular velocity about the upright axis", &Snapshot::omega_y),
-                   quantity("start_z_mm", millimetres, "in space: where it was put in", &Snapshot::start_z),
+  append(columns, {place("z_mm", "in 3D: place from the tray's front", &Snapshot::z),
+                   quantity("vz_m_per_s", metres_per_second, "in 3D: velocity across, to the back", &Snapshot::vz),
+                   quantity("omega_x_rad_per_s", radians_per_second, "in 3D: angular velocity about the floor's length",
+                            &Snapshot::omega_x),
+                   quantity("omega_y_rad_per_s", radians_per_second, "in 3D: angular velocity about the upright axis",
+                            &Snapshot::omega_y),
+                   quantity("start_z_mm", millimetres, "in 3D: where it was put in", &Snapshot::start_z),
                    quaternion("q_w", &Snapshot::q_w), quaternion("q_x", &Snapshot::q_x),
                    quaternion("q_y", &Snapshot::q_y), quaternion("q_z", &Snapshot::q_z)});
   return columns;
@@ -110,7 +110,7 @@ Columns<CellRow> fields_columns(Space space) {
                                [](const CellRow& r) { return r.centre.x(); }),
       quantity_column<CellRow>("y_mm", millimetres, "middle of the cell, over the tray's floor",
                                [](const CellRow& r) { return r.centre.y(); }),
-      quantity_column<CellRow>("packing_fraction", plain, "share of the cell that grains cover, in space fill",
+      quantity_column<CellRow>("packing_fraction", plain, "share of the cell that grains cover, in 3D fill",
                                [](const CellRow& r) { return r.packing; }),
       quantity("packing_change", plain, "its change since the snapshot before", &CellRow::change),
       quantity("vx_m_per_s", metres_per_second, "mean velocity along the floor", &CellRow::vx),
@@ -120,7 +120,7 @@ Columns<CellRow> fields_columns(Space space) {
                &CellRow::dilation_rate)};
   if (space != Space::plane)
     columns.push_back(
-        quantity("vz_m_per_s", metres_per_second, "in space: mean velocity across, to the back", &CellRow::vz));
+        quantity("vz_m_per_s", metres_per_second, "in 3D: mean velocity across, to the back", &CellRow::vz));
   return columns;
 }
 
@@ -283,7 +283,7 @@ std::vector<FileText> record_file_texts() {
                     grains_columns(Space::three_dimensional)),
           file_text("fields_NNN.csv",
                     "of each snapshot: one row per cell that holds a part of a grain, in it or in the snapshot before, "
-                    "in the tray's frame; in space of the view that record.view names",
+                    "in the tray's frame; in 3D of the view that record.view names",
                     fields_columns(Space::three_dimensional)),
           file_text("records.csv", "one row per snapshot and lot, and per snapshot one of all lots", records_columns()),
           file_text("profile.csv", "one row per snapshot, layer and lot", profile_columns()),

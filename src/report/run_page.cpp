@@ -114,7 +114,7 @@ std::string guard_sentence(const Run& run, const GuardLimits& limits) {
     text += fmt::format("; the numerics made energy in {} accounts of it", run.let_pass.energy_accounts);
   if (run.let_pass.strides > 0)
     text += fmt::format("; in {} steps a seed could have passed a wall unseen", run.let_pass.strides);
-  if (run.outside_the_model) return text + "; the run lies outside the model: nothing is to be decided by it.";
+  if (run.outside_the_model) return text + "; the run lies outside the model: it must not be used.";
   return text + '.';
 }
 

@@ -48,7 +48,7 @@ Columns<EventRow> outflow_columns(Space space) {
       quantity_column<EventRow>("speed_m_per_s", metres_per_second, "its speed at the counting line",
                                 [](R r) { return r.event->speed; })};
   if (space == Space::three_dimensional)
-    columns.push_back(quantity_column<EventRow>("z_mm", millimetres, "in space: as x, from the tray's front",
+    columns.push_back(quantity_column<EventRow>("z_mm", millimetres, "in 3D: as x, from the tray's front",
                                                 [](R r) { return r.event->z; }));
   return columns;
 }
@@ -71,21 +71,19 @@ Columns<SummaryRow> summary_columns(bool with_across, bool with_expected) {
       quantity_column<SummaryRow>("position_mm", millimetres, "middle of the hole, from the tray's left end",
                                   [](R r) { return r.hole->centre; }),
       quantity_column<SummaryRow>("width_mm", millimetres, "of the hole", [](R r) { return r.hole->width; }),
-      text_column<SummaryRow>("grains", "that left in the window, of the plane slice or in space of the tray",
+      text_column<SummaryRow>("grains", "that left in the window, of the 2D slice or in 3D of the tray",
                               [](R r) { return r.hole->grains; }),
-      quantity_column<SummaryRow>("mass_g", grams,
-                                  "that left in the window, of the plane slice or in space of the tray",
+      quantity_column<SummaryRow>("mass_g", grams, "that left in the window, of the 2D slice or in 3D of the tray",
                                   [](R r) { return r.hole->mass; }),
-      quantity_column<SummaryRow>("seeds_per_s", per_second, "of the plane slice or in space of the tray",
+      quantity_column<SummaryRow>("seeds_per_s", per_second, "of the 2D slice or in 3D of the tray",
                                   [](R r) { return r.hole->seeds_per_s; }),
-      quantity_column<SummaryRow>("rate_g_per_s", grams_per_second, "of the plane slice or in space of the tray",
+      quantity_column<SummaryRow>("rate_g_per_s", grams_per_second, "of the 2D slice or in 3D of the tray",
                                   [](R r) { return r.hole->mass_rate; }),
       quantity_column<SummaryRow>("longest_pause_s", seconds, "longest time in the window without a seed",
                                   [](R r) { return r.hole->longest_pause; }),
-      quantity_column<SummaryRow>(
-          "depth_factor", plain,
-          "tray.depth over the thickness of the plane slice; in space 1; empty without tray.depth",
-          [](R r) { return r.outflow->depth_factor; }),
+      quantity_column<SummaryRow>("depth_factor", plain,
+                                  "tray.depth over the thickness of the 2D slice; in 3D 1; empty without tray.depth",
+                                  [](R r) { return r.outflow->depth_factor; }),
       quantity_column<SummaryRow>("tray_rate_g_per_s", grams_per_second,
                                   "of the whole tray: the slice's rate times the depth factor",
                                   [](R r) { return of_tray(r, r.hole->mass_rate); }),
@@ -95,7 +93,7 @@ Columns<SummaryRow> summary_columns(bool with_across, bool with_expected) {
                               [](R r) { return r.outflow->note(); })};
   if (with_across)
     columns.push_back(quantity_column<SummaryRow>("across_mm", millimetres,
-                                                  "in space: middle of the hole, from the tray's front",
+                                                  "in 3D: middle of the hole, from the tray's front",
                                                   [](R r) { return r.hole->across; }));
   if (with_expected)
     add_expected_columns(
@@ -180,7 +178,7 @@ JsonKeys<RunSource> run_keys() {
        }},
       {"outside_the_model", "",
        "whether a step that is too long was insisted on, a limit of the guard raised and the usual one passed, or "
-       "seeds were lost through walls: nothing is to be decided by such a run",
+       "seeds were lost through walls: such a run must not be used",
        [](S s) { return s.run.outside_the_model; }},
       {"random_seed", "", "of the run", [](S s) { return s.run.random_seed; }},
       {"dt_s", "s", "time step", [](S s) { return s.run.dt; }},

@@ -31,8 +31,8 @@ Json seeder(const StudioSeeder& one, const std::vector<StudioCrop>& crops) {
           {"space", live ? "plane" : "three_dimensional"},
           {"live", live},
           {"why_not", live ? std::string()
-                           : fmt::format("Balls in space take some fifty times what a page can compute: vibrosow run "
-                                         "{} --html makes a page that shows such a run.",
+                           : fmt::format("Balls in 3D take some fifty times what a page can compute: vibrosow run {} "
+                                         "--html makes a page that shows such a run.",
                                          one.name)},
           {"scene", Json::parse(scene_to_json(one.scene))}};
 }

@@ -42,14 +42,14 @@ std::string run_note(int first, const Layout& layout, const Evaluation& run) {
 Columns<LayoutRow> sweep_columns(const std::vector<std::string>& keys) {
   using R = const LayoutRow&;
   Columns<LayoutRow> columns = layout_columns<LayoutRow>();
-  columns.push_back(text_column<LayoutRow>(
-      "status",
-      "ok, doubtful (its figures may be wrong), outside the model (of a run at least: nothing "
-      "is to be decided by it), invalid, stopped (by the guard) or incomplete (runs are missing)",
-      [](R r) { return std::string(name_of(r.of().status)); }));
-  columns.push_back(text_column<LayoutRow>(
-      "reason", "why it is not ok, or what makes it less sure; and what in its scene can hardly be meant",
-      [](R r) { return layout_note(r.of()); }));
+  columns.push_back(
+      text_column<LayoutRow>("status",
+                             "ok, doubtful (its figures may be wrong), outside the model (of a run at least: it must "
+                             "not be used), invalid, stopped (by the guard) or incomplete (runs are missing)",
+                             [](R r) { return std::string(name_of(r.of().status)); }));
+  columns.push_back(text_column<LayoutRow>("reason",
+                                           "why it is not ok, or what makes it less sure; and suspicious input",
+                                           [](R r) { return layout_note(r.of()); }));
   append(columns, key_columns<LayoutRow>(keys));
   columns.push_back(replicates_column<LayoutRow>());
   add_figure_columns(
@@ -95,9 +95,9 @@ Columns<HoleRow> sweep_holes_columns(bool with_across) {
                                    [](R r) { return r.hole->centre; }),
           quantity_column<HoleRow>("width_mm", millimetres, "of the hole", [](R r) { return r.hole->width; }),
           replicates_column<HoleRow>()});
-  add_mean_columns(columns, "rate_g_per_s", grams_per_second, "mass flow, of the plane slice or in space of the tray",
+  add_mean_columns(columns, "rate_g_per_s", grams_per_second, "mass flow, of the 2D slice or in 3D of the tray",
                    [](R r) { return r.hole->mass_rate; });
-  add_mean_columns(columns, "seeds_per_s", per_second, "seeds, of the plane slice or in space of the tray",
+  add_mean_columns(columns, "seeds_per_s", per_second, "seeds, of the 2D slice or in 3D of the tray",
                    [](R r) { return r.hole->seeds_per_s; });
   add_mean_columns(columns, "longest_pause_s", seconds, "longest time in the window without a seed",
                    [](R r) { return r.hole->longest_pause; });
@@ -108,7 +108,7 @@ Columns<HoleRow> sweep_holes_columns(bool with_across) {
                                              [](R r) { return r.hole->difference_percent; }));
   if (with_across)
     columns.push_back(quantity_column<HoleRow>("across_mm", millimetres,
-                                               "in space: middle of the hole, from the tray's front",
+                                               "in 3D: middle of the hole, from the tray's front",
                                                [](R r) { return r.hole->across; }));
   return columns;
 }
@@ -229,7 +229,7 @@ Columns<MeasuredRow> comparison_columns() {
 JsonKeys<SweepTiming> timing_keys() {
   using T = const SweepTiming&;
   return {{"wall_s", "s", "wall time of the sweep", [](T t) { return t.wall_time; }},
-          {"jobs", "", "runs side by side", [](T t) { return t.jobs; }},
+          {"jobs", "", "runs in parallel", [](T t) { return t.jobs; }},
           {"runs", "", "runs that were made; not those kept from before", [](T t) { return t.runs; }},
           {"run_wall_s", "s", "wall times of the runs, summed", [](T t) { return t.run_time; }},
           {"grain_steps", "", "grains times steps, summed", [](T t) { return t.grain_steps; }},

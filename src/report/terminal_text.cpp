@@ -44,15 +44,15 @@ std::string_view of_plane(Space space) {
 }
 
 std::string unevenness_text(const Unevenness& of) {
-  if (!of.cv) return fmt::format("up to {} %, if any", to_digits(100 * of.high, 2));
+  if (!of.cv) return fmt::format("below {} % (95 %)", to_digits(100 * of.high, 2));
   return fmt::format("{} % ({} to {} %)", to_digits(100 * *of.cv, 2), to_digits(100 * of.low, 2),
                      to_digits(100 * of.high, 2));
 }
 
 std::string unevenness_sentence(const Unevenness& of, std::string_view what) {
-  const std::string text =
-      of.cv ? fmt::format("unevenness (CV) between {}s {}", what, unevenness_text(of))
-            : fmt::format("no {} is told from the others: unevenness (CV) {}", what, unevenness_text(of));
+  const std::string text = of.cv ? fmt::format("unevenness (CV) between {}s {}", what, unevenness_text(of))
+                                 : fmt::format("too few seeds to tell any {} from the others: unevenness (CV) {}", what,
+                                               unevenness_text(of));
   return text + "; by blocks of one run, which cannot show how starts differ";
 }
 

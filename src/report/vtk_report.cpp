@@ -270,7 +270,7 @@ std::vector<FileText> vtk_file_texts() {
         {"overlap", "m", "of the two"}}},
       {"vessels.pvd", "with --vtk: the series of vessels_NNN.vtp", {}},
       {"vessels_NNN.vtp",
-       "with --vtk, of each snapshot: the vessels' walls as lines, in space their edges and rims",
+       "with --vtk, of each snapshot: the vessels' walls as lines, in 3D their edges and rims",
        {{"vessel", "", "0: the tray, 1: the hopper"}}}};
 }
 

@@ -62,7 +62,7 @@ class Neighbours {
   std::int64_t prunes() const { return prunes_; }
   /// Throws std::logic_error in space.
   Broadphase& broadphase() {
-    if (!in_plane_) throw std::logic_error("a broadphase of the plane, in space");
+    if (!in_plane_) throw std::logic_error("a 2D broadphase for a 3D scene");
     return *in_plane_;
   }
 

@@ -315,7 +315,7 @@ Study read_study_with(const std::filesystem::path& file, const std::vector<Overr
   auto set = table.table("set");
   auto vary = table.table("vary");
   const auto proposals = table.whole_number("proposals", 1, most_layouts);
-  if (proposals && !vary) table.fail("proposals", "these are points of the space that [vary] spans, which is missing");
+  if (proposals && !vary) table.fail("proposals", "these are points within the ranges of [vary], which is missing");
   const Changes fixed = set ? read_changes(*set) : Changes{};
   const std::vector<NamedDesign> designs = read_designs(table);
   study.measured = read_measured_part(table);
@@ -369,7 +369,8 @@ StudySpace read_study_space(const std::filesystem::path& file, const std::vector
                             const std::shared_ptr<SourceFiles>& files) {
   StudySpace space;
   read_study_with(file, overrides, files, [&](Table& study, Table& vary, std::optional<std::int64_t> proposals) {
-    if (study.has("layout")) study.fail("layout", "the space is that of [vary] alone; vary keys in place of designs");
+    if (study.has("layout"))
+      study.fail("layout", "optimise looks in the ranges of [vary] alone; vary keys in place of designs");
     const VariedSpace varied(vary);
     space.keys = varied.names(), space.values = varied.values();
     if (proposals) space.proposals = static_cast<std::size_t>(*proposals);

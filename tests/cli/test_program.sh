@@ -107,7 +107,7 @@ expect 2 "study.toml: this is a study: use vibrosow sweep" run study.toml
 expect 2 "seeder.toml: this is a seeder" sweep seeder.toml
 space=(--set "space=3d" --set "tray.depth=4 cm" --set "tray.fill.count=400" --set "tray.holes.shape=round")
 expect 0 "hole 2 at 80.00 mm, 20.00 mm from the front, 16.00 mm in diameter" check seeder.toml "${space[@]}"
-expect 0 "plane over space [0-9.]+" check seeder.toml --both "${space[@]}"
+expect 0 "2D over 3D [0-9.]+" check seeder.toml --both "${space[@]}"
 expect 0 "^whole tray: [0-9.]+ g/s" run seeder.toml --out in-space "${space[@]}"
 grep -q ",z_mm" in-space/outflow.csv || fail "outflow.csv of a run in space has no z"
 grep -q "across_mm" in-space/summary.csv || fail "summary.csv of a run in space does not say where holes lie across"
@@ -139,16 +139,16 @@ END
 grep -q '"expected":"Until you weigh, expect ' expecting/report.html || fail "the page of a sweep in space does not say what to expect"
 expect 0 "compared by chance alone" decide study.toml --goal rate --within "20 %" --out deciding "${space[@]}" --set accuracy=draft --reuse expecting \
   --set "tray.motion.kind=harmonic" --set "tray.motion.amplitude=8 mm" --set "tray.motion.frequency=5 Hz" --set "run.duration=0.6 s"
-"$program" run seeder.toml --out plane | grep -q "until you weigh" && fail "in the plane a range is told"
-expect 0 "tray.holes.shape: in the plane a round hole is taken for a slot" check seeder.toml --set "tray.holes.shape=round"
+"$program" run seeder.toml --out plane | grep -q "until you weigh" && fail "in 2D a range is given"
+expect 0 "tray.holes.shape: in 2D a round hole is taken for a slot" check seeder.toml --set "tray.holes.shape=round"
 expect 2 "tray.depth: is missing" run seeder.toml --set "space=3d"
 expect 2 "for one seeder, not for a study" check study.toml --both
 # A key of one space is there for the other: a round hole lets less out than a slot from front to back, by --set and by the file, from the
 # plane and from space.
-ratio() { "$program" check seeder.toml --both --set "run.duration=0.4 s" --set "tray.depth=4 cm" --set "tray.fill.count=$1" --set "space=$2" --set "tray.holes.shape=$3" 2>/dev/null | awk '/plane over space/ { print $4 }'; }
+ratio() { "$program" check seeder.toml --both --set "run.duration=0.4 s" --set "tray.depth=4 cm" --set "tray.fill.count=$1" --set "space=$2" --set "tray.holes.shape=$3" 2>/dev/null | awk '/2D over 3D/ { print $4 }'; }
 slot=$(ratio 60 plane slot) round=$(ratio 60 plane round) back=$(ratio 600 3d round)
 awk -v slot="$slot" -v round="$round" -v back="$back" 'BEGIN { exit !(slot > 0 && round > 1.5 * slot && back > 1.5 * slot) }' ||
-  fail "plane over space: $slot of slots, $round of round holes, $back of the same from space"
+  fail "2D over 3D: $slot of slots, $round of round holes, $back of the same from space"
 # A lot that was asked for is there, or is refused in the same words by all.
 sed 's/^mass = "40 mg"/mass = "40 mg"\nmass_fraction = "50 %"\n[seeds.pea]\ndiameter = "14 mm"\nmass = "1700 mg"\nmass_fraction = "50 %"/' seeder.toml >mixture.toml
 sed 's/"seeder.toml"/"mixture.toml"/' study.toml >mixtures.toml

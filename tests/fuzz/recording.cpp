@@ -27,7 +27,7 @@ std::string good_frames() {
       append(bytes, id), append(bytes, std::uint16_t{0}), append(bytes, 1e-3F);
       for (int k = 0; k < 3; ++k) append(bytes, 0.0F);
     }
-    bytes.append(2 * 2 * sizeof(std::int32_t), '\0');
+    bytes.append(sizeof(std::int32_t) * 2 * 2, '\0');
   }
   return bytes;
 }

@@ -155,7 +155,7 @@ TEST(ReadLot, InSpaceWhatCannotBeIsSaid) {
   const auto expect = [](const std::string& lines, const std::string& message) {
     EXPECT_THAT([&] { solid_lot_of(lines); }, ThrowsMessage<InputError>(HasSubstr(message)));
   };
-  expect("shape = 'disc'\ndiameter = '3 mm'\nmass = '30 mg'", "shape: a disc lies in the plane");
+  expect("shape = 'disc'\ndiameter = '3 mm'\nmass = '30 mg'", "shape: is for 2D");
   expect(grain + "thickness = '3.1 mm'", "thickness: 3.1 mm is more than the width, 3 mm");
   expect(grain + "thickness = '0.7 mm'", "thickness: 0.7 mm is too thin for 4 balls side by side, 3 mm wide");
   expect("shape = 'elongated'\nlength = '20 mm'\nwidth = '3 mm'\nmass = '30 mg'\nthickness = '1 mm'",

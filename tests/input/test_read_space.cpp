@@ -185,7 +185,7 @@ pitch = "10 cm"
   EXPECT_THAT(refusal(rows + "rows = 3\n"), HasSubstr("seeder.toml:20: tray.holes.rows: contradicts count"));
   EXPECT_THAT(refusal(rows + "across = [\"1 cm\"]\n"), HasSubstr("tray.holes.across: lists 1 places for the 2 rows"));
   EXPECT_THAT(refused("\"8 mm\"", "[\"8 mm\", \"9 mm\", \"8 mm\"]"), HasSubstr("lists 3 widths for 5 holes"));
-  EXPECT_THAT(refusal(rows.substr(rows.find('\n'))), HasSubstr("tray.holes.count: is one number in the plane"));
+  EXPECT_THAT(refusal(rows.substr(rows.find('\n'))), HasSubstr("tray.holes.count: is one number in 2D"));
 }
 
 TEST(ReadSpace, RoundHolesOfAThickFloor) {

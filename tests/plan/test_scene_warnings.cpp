@@ -211,9 +211,8 @@ TEST(SceneWarnings, InThePlaneARoundHoleIsTakenForASlot) {
   Scene scene = sound();
   scene.tray.depth = 0.06;
   scene.tray.holes = {{0.25, 0.016, 0, HoleShape::round, 0, 0}};
-  EXPECT_THAT(scene_warnings(scene),
-              ElementsAre(StartsWith("tray.holes.shape: in the plane a round hole is taken for a slot "
-                                     "from front to back, 4.8 times the area of a round hole")));
+  EXPECT_THAT(scene_warnings(scene), ElementsAre(StartsWith("tray.holes.shape: in 2D a round hole is taken for a slot "
+                                                            "from front to back, 4.8 times the area of a round hole")));
   scene.space = Space::three_dimensional;
   EXPECT_THAT(scene_warnings(scene), IsEmpty());
 }

@@ -455,7 +455,7 @@ class Plots(Case):
             self.assertAlmostEqual(high, row.rate_g_per_s + row.rate_g_per_s_ci95)
         self.assertEqual(list(axes.lines[0].get_xdata()), list(study.layouts.rate_g_per_s))
         self.assertEqual(axes.get_yticklabels()[17].get_text(), "18, count 5, span_mm 420, frequency_Hz 11")
-        self.assertEqual(axes.get_xlabel(), "mass flow through all holes, g/s, of the plane slice\n95 % intervals over 5 random seeds")
+        self.assertEqual(axes.get_xlabel(), "mass flow through all holes, g/s, of the 2D slice\n95 % intervals over 5 random seeds")
 
     def test_what_decides_nothing_is_hollow(self):
         axes = vibrosow.open_study(ROOT / "reports/paper-a-fig4").plot_rates()
@@ -486,7 +486,7 @@ class Plots(Case):
         steps = [patch for patch in axes.patches if patch.get_label() == "hole 1"][0].get_data()
         self.assertTrue(all(abs(value - wanted) < 1e-9 for value, wanted in zip(steps.values, (20, 0, 20))))
         self.assertEqual(axes.get_title(), "made\nstopped by the guard; outside the model")
-        self.assertEqual(axes.get_ylabel(), "seeds that leave, 1/s, of the plane slice")
+        self.assertEqual(axes.get_ylabel(), "seeds that leave, 1/s, of the 2D slice")
         axes.figure.canvas.draw()
 
     def test_labels_say_the_unit_that_the_program_says(self):

@@ -25,7 +25,7 @@ class CalibrationReport : public MadeUpCalibration {
 TEST_F(CalibrationReport, NamesWhatCannotBeToldApart) {
   calibration_.correlations[1].correlation = -0.93;
   EXPECT_THAT(file("calibration.csv"), HasSubstr("\ncontact.friction,,0.1,0.8,0.4,0.3,0.5,60,depth_factor\n"));
-  EXPECT_THAT(file("contact.toml"), HasSubstr("contraction 60 %; not told apart from depth_factor"));
+  EXPECT_THAT(file("contact.toml"), HasSubstr("uncertainty reduced by 60 %; not told apart from depth_factor"));
 }
 
 TEST_F(CalibrationReport, WithoutAContactSaysSo) {

@@ -70,7 +70,7 @@ TEST(CropFiles, SayWhereRunsOfTheCropRefinedThem) {
   ShippedAtlas atlas = plain_atlas();
   atlas.to_space.of_the_crop = true;
   const CropEstimate known = estimate(oblong(), atlas);
-  EXPECT_THAT(contact_toml(oblong(), known), HasSubstr("refined by 4 runs of this crop in space"));
+  EXPECT_THAT(contact_toml(oblong(), known), HasSubstr("refined by 4 runs of this crop in 3D"));
   EXPECT_THAT(crop_table(oblong(), known, atlas), HasSubstr("by 4 runs of\nthis crop"));
   EXPECT_THAT(crop_table(oblong(), known, atlas), Not(HasSubstr("balls alone")));
 }

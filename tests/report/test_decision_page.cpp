@@ -47,8 +47,8 @@ TEST_F(DecisionPage, SaysTheAnswerWithItsIntervalsAndWhatIsPromised) {
       data()["headline"],
       "Layout 2 (frequency 8 Hz) is the best: rate 2.00 ± 0.10 g/s, 15.0 ± 1.0 g/s of the tray (2D: a slice times the "
       "depth, its holes slots all across), clogged in 2 of 8 runs. "
-      "It meets the rate and clogs in fewer than 5 % of runs; no other that does so is better by more than 2 %: "
-      "with a confidence of 95 %.");
+      "It meets the rate and clogs in fewer than 5 % of runs. With a confidence of 95 %, no other layout "
+      "that does so is more than 2 % better.");
   EXPECT_EQ(doubts(), left_out_);
 }
 
@@ -68,13 +68,13 @@ TEST_F(DecisionPage, NamesThoseThatAreLeftWhereItIsUndecided) {
   EXPECT_THAT(data()["headline"].get<std::string>(), HasSubstr("these cannot be told apart"));
   EXPECT_THAT(data()["headline"].get<std::string>(), HasSubstr("constraints: 1, 2."));
   result.is_interrupted = true;
-  EXPECT_THAT(data()["headline"].get<std::string>(), HasSubstr("the same command goes on"));
+  EXPECT_THAT(data()["headline"].get<std::string>(), HasSubstr("the same command resumes"));
 }
 
 TEST_F(DecisionPage, SaysWhereNoLayoutMeetsTheConstraints) {
   report_.result.best = std::nullopt;
   EXPECT_EQ(data()["headline"],
-            "No layout meets the rate and clogs in fewer than 5 % of runs: with a confidence of 95 %.");
+            "With a confidence of 95 %, no layout meets the rate and clogs in fewer than 5 % of runs.");
 }
 
 TEST_F(DecisionPage, LayoutsStandAsTheDecisionFoundThem) {

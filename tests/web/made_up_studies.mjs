@@ -47,7 +47,7 @@ export function madeUpFront(space, { goals = 2, ...names } = {}) {
   return {
     data: {
       ...data, kind: 'front', layouts, asked, cost, figures: [...marked, clogged], headline: '3 layouts are on the front of rate and power.',
-      doubts: ['That no better layout is in the space is not promised.'],
+      doubts: ['That no better layout exists within the ranges is not promised.'],
     },
     recording: null,
   };

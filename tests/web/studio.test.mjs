@@ -61,7 +61,7 @@ test('the template is small and keeps the licence of what is in it', () => {
 test('it opens playing, counts at the holes, and says plainly what it is', () => withStudio({}, async (page) => {
   const place = bench(page);
   await page.waitForFunction(() => JSON.parse(document.querySelector('canvas').dataset.counts ?? '[0]')[0] > 3);
-  assert.match(await page.locator('#head').textContent(), /A slice one seed thick, in the plane: compare layouts by it; it is no sowing rate\./);
+  assert.match(await page.locator('#head').textContent(), /A 2D slice one seed thick: use it to compare layouts; it is no sowing rate\./);
   await place.getByText('In real time').waitFor();
   await place.getByText(/^Measured from 1 to/).waitFor();
   await place.getByText('The holes differ by more than chance.').waitFor();
@@ -196,7 +196,7 @@ test('another seeder brings its own controls, another crop its seeds', () => wit
 
 test('seeders in space are listed with what keeps them from running', () => withStudio({}, async (page) => {
   const options = bench(page).getByRole('combobox', { name: 'Seeder' }).locator('optgroup');
-  assert.deepEqual(await options.evaluateAll((groups) => groups.map((group) => [group.label, group.disabled])), [['In space: shown as recorded runs', true]]);
+  assert.deepEqual(await options.evaluateAll((groups) => groups.map((group) => [group.label, group.disabled])), [['In 3D: shown as recorded runs', true]]);
   await page.getByText('Seeders that are not simulated here').click();
   await page.getByText(whyNotInSpace).waitFor();
 }));

@@ -275,7 +275,7 @@ describe('links', () => {
     const withTray = (changes) => withOwn({ scene: { ...own.scene, tray: { ...own.scene.tray, ...changes } } });
     for (const [value, message] of [
       [withOwn({ name: 1 }), /name is not a text/], [withOwn({ title: 'x'.repeat(201) }), /at most 200/], [withOwn({ crop: 'gold' }), /crop is none/], [withOwn({ scene: [] }), /scene is not one/],
-      [withOwn({ scene: { ...own.scene, lots: [] } }), /scene is not one/], [withOwn({ scene: { ...own.scene, space: '3d' } }), /in space/], [withTray({ holes: [null] }), /the tray is not/],
+      [withOwn({ scene: { ...own.scene, lots: [] } }), /scene is not one/], [withOwn({ scene: { ...own.scene, space: '3d' } }), /in 3D/], [withTray({ holes: [null] }), /the tray is not/],
       [withTray({ length_m: 'long' }), /length of the tray/], [withTray({ fill: { count: -1 } }), /fill of the tray/], [withTray({ fill: 3 }), /fill of the tray/],
       [withOwn({ scene: { ...own.scene, hopper: 4 } }), /the hopper is not/], [withOwn({ scene: { ...own.scene, lots: [{ ...own.scene.lots[0], discs: [{}] }] } }), /a disc of a seed/],
       [withOwn({ live: true }), /unknown about its seeder/],

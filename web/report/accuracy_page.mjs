@@ -123,7 +123,7 @@ function errorsSection(data) {
 export function accuracyPage(data) {
   const refused = data.levels.filter(({ rate_g_per_s }) => !rate_g_per_s).map(({ number: n }) => n);
   return {
-    kicker: `Accuracy ${data.space === 'plane' ? 'in the plane' : 'in space'}`,
+    kicker: `Accuracy ${data.space === 'plane' ? 'in 2D' : 'in 3D'}`,
     title: data.title || 'What accuracy costs',
     headlines: data.headlines,
     remarks: [...data.doubts, ...(refused.length ? [sentence(`${refused.length === 1 ? 'Setting' : 'Settings'} ${refused.join(', ')} gave no rate; the table says why`)] : [])],

@@ -166,7 +166,7 @@ function pairsSection({ pairs }) {
 /** What main.mjs lays out of a calibration. */
 export function calibrationPage(data) {
   return {
-    kicker: `Calibration ${data.space === 'plane' ? 'in the plane' : 'in space'}`,
+    kicker: `Calibration ${data.space === 'plane' ? 'in 2D' : 'in 3D'}`,
     title: data.title || 'A calibration',
     headlines: [data.headline],
     remarks: data.doubts.map(sentence),

@@ -23,7 +23,7 @@ function sections(data) {
 /** What main.mjs lays out of a decision. */
 export function decisionPage(data) {
   return {
-    kicker: `Decision ${data.space === 'plane' ? 'in the plane' : 'in space'}`,
+    kicker: `Decision ${data.space === 'plane' ? 'in 2D' : 'in 3D'}`,
     title: data.title || 'A decision',
     headlines: [data.headline, data.expected],
     remarks: data.doubts,

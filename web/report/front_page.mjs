@@ -42,7 +42,7 @@ function sections(data) {
 /** What main.mjs lays out of a search for a front. */
 export function frontPage(data) {
   return {
-    kicker: `Search for the front ${data.space === 'plane' ? 'in the plane' : 'in space'}`,
+    kicker: `Pareto search ${data.space === 'plane' ? 'in 2D' : 'in 3D'}`,
     title: data.title || 'A search',
     headlines: [data.headline, data.expected],
     remarks: data.doubts,

@@ -12,7 +12,7 @@ const ofHoles = [
   { name: 'longest_pause_s', words: 'longest pause', unit: 's' },
 ];
 const statusWords = {
-  'outside the model': 'It lies outside the model, so nothing is to be decided by it', invalid: 'It cannot be built',
+  'outside the model': 'It lies outside the model, so it must not be used', invalid: 'It cannot be built',
   stopped: 'The guard stopped a run of it', incomplete: 'Runs of it are missing', failed: 'It failed', clogs: 'It clogs', spills: 'It spills',
   'misses the rate': 'It misses the rate', 'misses the rate or spills': 'It misses the rate or spills', 'ruled out by drafts': 'Drafts ruled it out',
 };

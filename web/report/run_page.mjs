@@ -33,7 +33,7 @@ async function sections(data) {
 /** What main.mjs lays out of a run. */
 export function runPage(data) {
   return {
-    kicker: `Run ${data.space === 'plane' ? 'in the plane' : 'in space'}`,
+    kicker: `Run ${data.space === 'plane' ? 'in 2D' : 'in 3D'}`,
     title: data.title || 'A run',
     headlines: [data.headline, data.expected, data.drill?.sentence],
     remarks: [...(endings[data.status] ? [`${endings[data.status]} at ${data.end_time_s} s.`] : []), ...new Set(data.remarks)],  // the guard's stand among the outflow's too

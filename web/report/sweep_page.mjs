@@ -22,7 +22,7 @@ function sections(data) {
 /** What main.mjs lays out of a sweep. */
 export function sweepPage(data) {
   return {
-    kicker: `Sweep ${data.space === 'plane' ? 'in the plane' : 'in space'}`,
+    kicker: `Sweep ${data.space === 'plane' ? 'in 2D' : 'in 3D'}`,
     title: data.title || 'A sweep',
     headlines: [data.headline, data.expected],
     remarks: data.doubts,

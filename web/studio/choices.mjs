@@ -29,7 +29,7 @@ function seederList(data, layout, choose) {
   const inSpace = resting.filter((seeder) => seeder.space !== 'plane'), others = resting.filter((seeder) => seeder.space === 'plane');
   const groups = [
     { entries: entriesOf(data.seeders.filter((seeder) => seeder.live)) },
-    { name: 'In space: shown as recorded runs', disabled: true, entries: entriesOf(inSpace) }, { name: 'Not simulated here', disabled: true, entries: entriesOf(others) },
+    { name: 'In 3D: shown as recorded runs', disabled: true, entries: entriesOf(inSpace) }, { name: 'Not simulated here', disabled: true, entries: entriesOf(others) },
   ];
   return list('Seeder', groups.filter(({ entries }) => entries.length), layout.seeder, choose);
 }

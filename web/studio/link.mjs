@@ -114,7 +114,7 @@ function checkLot(lot) {
 
 function checkScene(scene) {
   if (!isObject(scene) || !Array.isArray(scene.lots) || !scene.lots.length || !isObject(scene.numerics) || !isObject(scene.run)) throw new Error('its scene is not one');
-  if ((scene.space ?? 'plane') !== 'plane') throw new Error('its scene is in space, which this page only shows as recorded');
+  if ((scene.space ?? 'plane') !== 'plane') throw new Error('its scene is in 3D, which this page only shows as recorded');
   scene.lots.forEach(checkLot);
   checkVessel(scene.tray, 'the tray');
   if (scene.hopper !== null && scene.hopper !== undefined) checkVessel(scene.hopper, 'the hopper');

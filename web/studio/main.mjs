@@ -11,7 +11,7 @@ import { layoutsOf } from './link.mjs';
 import { Share } from './share.mjs';
 import { readStudioData } from './studio_data.mjs';
 
-const plainWords = 'A slice one seed thick, in the plane: compare layouts by it; it is no sowing rate.';
+const plainWords = 'A 2D slice one seed thick: use it to compare layouts; it is no sowing rate.';
 
 class Studio {
   constructor(data, { layouts, notice }) {
