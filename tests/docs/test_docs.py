@@ -123,7 +123,7 @@ def commands_in(text):
 
 
 def written_by(commands):
-    """Folders that the commands of a document write with --out, as "plan/"."""
+    """What the commands of a document write with --out, as "plan/"."""
     return tuple(words[k + 1].rstrip("/") + "/" for words in commands for k, word in enumerate(words[:-1]) if word == "--out")
 
 
@@ -140,7 +140,7 @@ def check_command(program, name, words, made):
     for option in words[1:]:
         if option.startswith("--"):
             expect(re.search(rf"{option}\b", help_text.stdout), f"{name}: vibrosow {words[0]} has no option {option}")
-    files = [word for word in words[1:] if word.endswith(".toml") and not is_placeholder(word) and not word.startswith(made)]
+    files = [word for word in words[1:] if word.endswith(".toml") and not is_placeholder(word) and not f"{word}/".startswith(made)]
     for file in files:
         expect((ROOT / file).exists(), f"{name}: vibrosow {words[0]} {file}: there is no such file")
     sets = [word for k, word in enumerate(words) if k and words[k - 1] == "--set"]
@@ -230,6 +230,8 @@ def main():
     check_claims()
     features = run(str(ROOT / "scripts/features"), "--print").stdout
     expect((ROOT / "docs/reference/features.md").read_text(encoding="utf-8") == features, "docs/reference/features.md is not what scripts/features writes")
+    commands = run(str(ROOT / "scripts/commands"), "--print", program).stdout
+    expect((ROOT / "docs/reference/commands.md").read_text(encoding="utf-8") == commands, "docs/reference/commands.md is not what scripts/commands writes")
     expect(len(commands_in(front)) >= 5, "README.md: fewer than five commands found")
     for failure in failures:
         print(failure)
