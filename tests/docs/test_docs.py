@@ -194,18 +194,18 @@ def check_pictures():
 
 
 def check_citation():
-    """CITATION.cff has the fields that its schema (1.2.0) requires, the program's version and licence, and the papers of THEORY.md."""
+    """CITATION.cff has the fields that its schema (1.2.0) requires, the program's version and licence, and the papers of theory.md."""
     text = (ROOT / "CITATION.cff").read_text(encoding="utf-8")
     for field in ("cff-version: 1.2.0", "message: ", "title: Vibrosow", "authors:", "license: MIT"):
         expect(re.search(rf"^{field}", text, re.MULTILINE), f"CITATION.cff: has no \"{field}\"")
     version = re.search(r"^version: (\S+)$", text, re.MULTILINE)
     expect(version and f"project(vibrosow VERSION {version[1]} " in (ROOT / "CMakeLists.txt").read_text(encoding="utf-8"),
            "CITATION.cff: its version is not that of CMakeLists.txt")
-    theory = " ".join((ROOT / "docs/THEORY.md").read_text(encoding="utf-8").split())
+    theory = " ".join((ROOT / "docs/explanation/theory.md").read_text(encoding="utf-8").split())
     titles = re.findall(r"^    title: (.*)$", text, re.MULTILINE)
     expect(len(titles) == 2, "CITATION.cff: does not name two papers")
     for title in titles:
-        expect(f'"{title}"' in theory, f"CITATION.cff: THEORY.md knows no \"{title}\"")
+        expect(f'"{title}"' in theory, f"CITATION.cff: theory.md knows no \"{title}\"")
 
 
 def main():

@@ -100,7 +100,7 @@ std::array<double, n> reference(
   return end;
 }
 
-/// The springs and dashpots of a contact as docs/THEORY.md has them, worked out here: of a grain and a rigid wall, or
+/// The springs and dashpots of a contact as docs/explanation/theory.md has them, worked out here: of a grain and a rigid wall, or
 /// of two like grains.
 struct Springs {
   Law law;

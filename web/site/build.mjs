@@ -20,7 +20,7 @@ const byName = (list) => list.sort((a, b) => (a.name < b.name ? -1 : 1));
 
 /** Headings of the menu, each with what stands under it: { page, name, source of a document }. */
 function menuGroups() {
-  const reference = ['seeders/FORMAT.md', 'docs/reference/output.md', 'docs/THEORY.md', 'ARCHITECTURE.md', 'CONTRIBUTING.md', 'CHANGELOG.md'];
+  const reference = ['seeders/FORMAT.md', 'docs/reference/output.md', 'docs/explanation/theory.md', 'ARCHITECTURE.md', 'CONTRIBUTING.md', 'CHANGELOG.md'];
   const guide = readdirSync(path.join(root, 'docs')).filter((name) => name.endsWith('.md')).map((name) => `docs/${name}`).filter((source) => !reference.includes(source));
   const front = there(['reports/gallery/README.md', 'reports/pages/README.md']);
   const reports = readdirSync(path.join(root, 'reports')).map((name) => `reports/${name}/README.md`);
