@@ -117,7 +117,7 @@ def commands_in(text):
     blocks = re.findall(r"^ *```.*\n(.*?)^ *```", text, re.MULTILINE | re.DOTALL)
     fenced = [line for block in blocks for line in re.findall(r"^ *(?:\$ )?(vibrosow .*)$", block.replace("\\\n", " "), re.MULTILINE)]
     prose = re.sub(r"^ *```.*\n.*?^ *```", "", text, flags=re.MULTILINE | re.DOTALL)
-    indented = re.findall(r"^    (vibrosow .*)$", prose, re.MULTILINE)
+    indented = re.findall(r"^ {4,}(vibrosow .*)$", prose, re.MULTILINE)
     quoted = [" ".join(one.split()) for one in re.findall(r"`(vibrosow [^`]*)`", prose)]
     return [shlex.split(re.split(r" (?:\||>|&&) ", line)[0], comments=True)[1:] for line in fenced + indented + quoted]
 
