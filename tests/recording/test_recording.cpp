@@ -21,7 +21,7 @@ namespace {
 
 using Json = nlohmann::json;
 
-/// Reads the format as docs/RECORDING.md tells it.
+/// Reads the format as docs/reference/recording-format.md tells it.
 class Reader {
  public:
   explicit Reader(const std::string& file) {
