@@ -18,7 +18,7 @@ DOUBTS = ["kind", "serious", "text", "what_to_do", "layouts", "runs", "of_runs"]
 
 
 class Answer:
-    """The answer of one of these commands. Files are read when they are asked for; their columns and units are in docs/OUTPUT.md."""
+    """The answer of one of these commands. Files are read when they are asked for; their columns and units are in docs/reference/output.md."""
 
     def __init__(self, folder, command):
         self._folder = Folder(folder, command, FILES[command][:1])

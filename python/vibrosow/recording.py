@@ -1,4 +1,4 @@
-"""The recording in a run's report.html: docs/RECORDING.md has its format."""
+"""The recording in a run's report.html: docs/reference/recording-format.md has its format."""
 import base64
 import json
 import re

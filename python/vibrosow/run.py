@@ -22,7 +22,7 @@ def seconds(time):
 
 
 class Run:
-    """The reports of one run. Files are read when they are asked for; their columns and units are in docs/OUTPUT.md."""
+    """The reports of one run. Files are read when they are asked for; their columns and units are in docs/reference/output.md."""
 
     def __init__(self, folder):
         self._folder = Folder(folder, "run", ("run.json", "outflow.csv", "summary.csv"))

@@ -29,7 +29,7 @@ FIGURES = {  # columns of sweep.csv that have an interval
 
 
 class Study:
-    """The reports of one sweep. Files are read when they are asked for; their columns and units are in docs/OUTPUT.md."""
+    """The reports of one sweep. Files are read when they are asked for; their columns and units are in docs/reference/output.md."""
 
     def __init__(self, folder):
         self._folder = Folder(folder, "sweep", ("sweep.csv", "sweep_holes.csv", "sweep_runs.csv"))

@@ -11,7 +11,7 @@ from .outflow import slot_of
 from .tables import command, rows
 
 ROOT = Path(__file__).resolve().parents[2]
-DOCUMENTS = ("reports/FINDINGS.md", "docs/ACCURACY.md", "docs/CALIBRATING.md")
+DOCUMENTS = ("reports/FINDINGS.md", "docs/explanation/accuracy.md", "docs/CALIBRATING.md")
 MARKED = re.compile(r"^<!-- made: (\S+) -->\n((?:\|.*\n)*)", re.MULTILINE)
 HOLES, SPAN, FREQUENCY = "tray.holes.count", "tray.holes.span_mm", "tray.motion.frequency_Hz"
 

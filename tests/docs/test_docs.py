@@ -13,7 +13,7 @@ import tomllib
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
-DOCUMENTS = [path for pattern in ("*.md", "docs/*.md", "seeders/*.md", "reports/*.md", "reports/*/*.md", "benchmarks/peers/*.md", "python/*.md") for path in ROOT.glob(pattern)]
+DOCUMENTS = [path for pattern in ("*.md", "docs/*.md", "docs/*/*.md", "seeders/*.md", "reports/*.md", "reports/*/*.md", "benchmarks/peers/*.md", "python/*.md") for path in ROOT.glob(pattern)]
 HISTORY = ["CHANGELOG.md"]  # names what is gone
 ROOMS = "seeders|scripts|reports|models|docs|tests|benchmarks|examples|src|include|python"
 failures = []
@@ -95,31 +95,44 @@ def run(*words):
 def check_links(path, text):
     for target in re.findall(r"\]\(([^)#\s]+)[^)]*\)", text):
         if "://" not in target:
-            expect((path.parent / target).exists(), f"{path.name}: link to {target}, which does not exist")
+            expect((path.parent / target).exists(), f"{path.relative_to(ROOT)}: link to {target}, which does not exist")
 
 
 def check_paths(path, text):
     for target in re.findall(rf"`((?:{ROOMS})/[\w./-]*\w)", text):
-        expect((ROOT / target).exists(), f"{path.name}: names {target}, which does not exist")
+        expect((ROOT / target).exists(), f"{path.relative_to(ROOT)}: names {target}, which does not exist")
     for target in re.findall(r"`([a-z0-9]+/\w+\.[ch]pp)`", text):
-        expect((ROOT / "src" / target).exists() or (ROOT / target).exists(), f"{path.name}: names {target}, which is not in src")
+        expect((ROOT / "src" / target).exists() or (ROOT / target).exists(), f"{path.relative_to(ROOT)}: names {target}, which is not in src")
 
 
 def check_reports(path, text):
     recipes = tomllib.loads((ROOT / "reports/recipes.toml").read_text())
     for names in re.findall(r"scripts/make-reports((?:\s+[a-z][\w-]+)+)`", text):
         for name in names.split():
-            expect(name in recipes, f"{path.name}: scripts/make-reports {name}: there is no such recipe")
+            expect(name in recipes, f"{path.relative_to(ROOT)}: scripts/make-reports {name}: there is no such recipe")
 
 
 def commands_in(text):
-    """Words of each line and each backticked text that begins with vibrosow; comments are left out."""
-    indented = re.findall(r"^    (vibrosow .*)$", text, re.MULTILINE)
-    quoted = [" ".join(one.split()) for one in re.findall(r"`(vibrosow [^`]*)`", text)]
-    return [shlex.split(line, comments=True)[1:] for line in indented + quoted]
+    """Words of each line, indented or in a fenced block, and of each backticked text that begins with vibrosow; comments are left out."""
+    blocks = re.findall(r"^ *```.*\n(.*?)^ *```", text, re.MULTILINE | re.DOTALL)
+    fenced = [line for block in blocks for line in re.findall(r"^ *(?:\$ )?(vibrosow .*)$", block.replace("\\\n", " "), re.MULTILINE)]
+    prose = re.sub(r"^ *```.*\n.*?^ *```", "", text, flags=re.MULTILINE | re.DOTALL)
+    indented = re.findall(r"^ {4,}(vibrosow .*)$", prose, re.MULTILINE)
+    quoted = [" ".join(one.split()) for one in re.findall(r"`(vibrosow [^`]*)`", prose)]
+    return [shlex.split(re.split(r" (?:\||>|&&) ", line)[0], comments=True)[1:] for line in fenced + indented + quoted]
 
 
-def check_command(program, name, words):
+def written_by(commands):
+    """What the commands of a document write with --out, as "plan/"."""
+    return tuple(words[k + 1].rstrip("/") + "/" for words in commands for k, word in enumerate(words[:-1]) if word == "--out")
+
+
+def is_placeholder(word):
+    """STUDY.toml, my-tray.toml: files of the reader."""
+    return re.search(r"\b[A-Z]{3,}\b", word) or Path(word).name.startswith("my-")
+
+
+def check_command(program, name, words, made):
     if words[0].startswith("-"):
         return expect(run(program, *words).returncode == 0, f"{name}: vibrosow {' '.join(words)} fails")
     help_text = run(program, words[0], "--help")
@@ -127,8 +140,7 @@ def check_command(program, name, words):
     for option in words[1:]:
         if option.startswith("--"):
             expect(re.search(rf"{option}\b", help_text.stdout), f"{name}: vibrosow {words[0]} has no option {option}")
-    files = [word for word in words[1:] if word.endswith(".toml") and not re.search(r"\b[A-Z]{3,}\b", word)  # STUDY.toml: any
-             and not (words[0] == "plan" and word == "plan/seeder.toml")]  # what the command before it wrote with --out plan
+    files = [word for word in words[1:] if word.endswith(".toml") and not is_placeholder(word) and not f"{word}/".startswith(made)]
     for file in files:
         expect((ROOT / file).exists(), f"{name}: vibrosow {words[0]} {file}: there is no such file")
     sets = [word for k, word in enumerate(words) if k and words[k - 1] == "--set"]
@@ -182,18 +194,18 @@ def check_pictures():
 
 
 def check_citation():
-    """CITATION.cff has the fields that its schema (1.2.0) requires, the program's version and licence, and the papers of THEORY.md."""
+    """CITATION.cff has the fields that its schema (1.2.0) requires, the program's version and licence, and the papers of theory.md."""
     text = (ROOT / "CITATION.cff").read_text(encoding="utf-8")
     for field in ("cff-version: 1.2.0", "message: ", "title: Vibrosow", "authors:", "license: MIT"):
         expect(re.search(rf"^{field}", text, re.MULTILINE), f"CITATION.cff: has no \"{field}\"")
     version = re.search(r"^version: (\S+)$", text, re.MULTILINE)
     expect(version and f"project(vibrosow VERSION {version[1]} " in (ROOT / "CMakeLists.txt").read_text(encoding="utf-8"),
            "CITATION.cff: its version is not that of CMakeLists.txt")
-    theory = " ".join((ROOT / "docs/THEORY.md").read_text(encoding="utf-8").split())
+    theory = " ".join((ROOT / "docs/explanation/theory.md").read_text(encoding="utf-8").split())
     titles = re.findall(r"^    title: (.*)$", text, re.MULTILINE)
     expect(len(titles) == 2, "CITATION.cff: does not name two papers")
     for title in titles:
-        expect(f'"{title}"' in theory, f"CITATION.cff: THEORY.md knows no \"{title}\"")
+        expect(f'"{title}"' in theory, f"CITATION.cff: theory.md knows no \"{title}\"")
 
 
 def main():
@@ -205,8 +217,9 @@ def main():
             continue
         check_paths(path, text)
         check_reports(path, text)
-        for words in commands_in(text):
-            check_command(program, path.name, words)
+        commands = commands_in(text)
+        for words in commands:
+            check_command(program, path.relative_to(ROOT), words, written_by(commands))
     check_accuracy_levels()
     check_tables()
     check_citation()
@@ -216,7 +229,9 @@ def main():
     expect(len(front.split()) <= 600, f"README.md has {len(front.split())} words, more than 600")
     check_claims()
     features = run(str(ROOT / "scripts/features"), "--print").stdout
-    expect((ROOT / "docs/FEATURES.md").read_text(encoding="utf-8") == features, "docs/FEATURES.md is not what scripts/features writes")
+    expect((ROOT / "docs/reference/features.md").read_text(encoding="utf-8") == features, "docs/reference/features.md is not what scripts/features writes")
+    commands = run(str(ROOT / "scripts/commands"), "--print", program).stdout
+    expect((ROOT / "docs/reference/commands.md").read_text(encoding="utf-8") == commands, "docs/reference/commands.md is not what scripts/commands writes")
     expect(len(commands_in(front)) >= 5, "README.md: fewer than five commands found")
     for failure in failures:
         print(failure)

@@ -51,11 +51,15 @@ test('every link leads to a file of the site, and to a place in it', () => {
 });
 
 test('every document has its page, and each page leads to all in the menu', () => {
-  for (const name of readdirSync(new URL('../../docs', import.meta.url))) assert.ok(existsSync(path.join(site, 'docs', name.replace(/\.md$/, '.html'))), name);
+  const documents = readdirSync(new URL('../../docs', import.meta.url), { recursive: true }).filter((name) => name.endsWith('.md'));
+  for (const name of documents) {
+    const page = name.replace(/\.md$/, '.html').replace(/(^|\/)README\.html$/, '$1index.html');
+    assert.ok(existsSync(path.join(site, 'docs', page)), name);
+  }
   const menuOf = (file) => addressesIn(/<nav.*<\/nav>/s.exec(texts.get(file))[0]).map((address) => path.join(path.dirname(file), address));
   const ofIndex = menuOf(path.join(site, 'index.html'));
   assert.ok(ofIndex.includes(path.join(site, 'studio.html')) && ofIndex.includes(path.join(site, 'seeders/FORMAT.html')));
-  assert.deepEqual(menuOf(path.join(site, 'docs/STUDIES.html')), ofIndex);
+  assert.deepEqual(menuOf(path.join(site, 'docs/how-to/run-a-long-study.html')), ofIndex);
 });
 
 test('what a file says stays text', () => {
@@ -85,7 +89,7 @@ test('pictures are shown, under the page\'s own policy', async () => {
 });
 
 test('a phone reaches the menu, and the theme turns', async () => {
-  const page = await in_.openPage(browser, path.join(site, 'docs/STUDIO.html'), { viewport: { width: 390, height: 844 } });
+  const page = await in_.openPage(browser, path.join(site, 'docs/how-to/use-the-studio.html'), { viewport: { width: 390, height: 844 } });
   await page.getByRole('link', { name: 'Contents' }).click();
   await page.getByRole('navigation', { name: 'Contents' }).getByRole('link', { name: 'What it is' }).click();
   await page.getByRole('heading', { name: 'Vibrosow', exact: true, level: 1 }).waitFor();

@@ -18,17 +18,27 @@ const there = (sources) => sources.filter((source) => existsSync(path.join(root,
 const entries = (sources) => sources.map((source) => ({ page: pageOf(source), name: titleOf(source), source }));
 const byName = (list) => list.sort((a, b) => (a.name < b.name ? -1 : 1));
 
+/** The documents of a folder; a README first. */
+function documentsIn(folder) {
+  if (!existsSync(path.join(root, folder))) return [];
+  const names = readdirSync(path.join(root, folder)).filter((name) => name.endsWith('.md'));
+  const index = names.filter((name) => name === 'README.md');
+  return [...index, ...names.filter((name) => name !== 'README.md')].map((name) => `${folder}/${name}`);
+}
+
 /** Headings of the menu, each with what stands under it: { page, name, source of a document }. */
 function menuGroups() {
-  const reference = ['seeders/FORMAT.md', 'docs/OUTPUT.md', 'docs/THEORY.md', 'ARCHITECTURE.md', 'CONTRIBUTING.md', 'CHANGELOG.md'];
-  const guide = readdirSync(path.join(root, 'docs')).filter((name) => name.endsWith('.md')).map((name) => `docs/${name}`).filter((source) => !reference.includes(source));
   const front = there(['reports/gallery/README.md', 'reports/pages/README.md']);
   const reports = readdirSync(path.join(root, 'reports')).map((name) => `reports/${name}/README.md`);
   const findings = there(['reports/FINDINGS.md', 'reports/performance.md', 'reports/README.md', ...reports.filter((source) => !front.includes(source))]);
   return [
-    ['Vibrosow', [{ page: 'index.html', name: 'What it is', source: 'README.md' }, ...made, ...entries(front)]],
-    ['Guide', byName(entries(guide))], ['Reference', entries(reference)], ['Findings', entries(findings)],
-  ];
+    ['Vibrosow', [{ page: 'index.html', name: 'What it is', source: 'README.md' }, ...made, ...entries(front), ...entries(documentsIn('docs'))]],
+    ['Tutorials', byName(entries(documentsIn('docs/tutorials')))],
+    ['How to', byName(entries(documentsIn('docs/how-to')))],
+    ['Reference', entries(['seeders/FORMAT.md', ...documentsIn('docs/reference'), 'python/README.md', 'ARCHITECTURE.md', 'CONTRIBUTING.md', 'CHANGELOG.md'])],
+    ['Explanation', byName(entries(documentsIn('docs/explanation')))],
+    ['Findings', entries(findings)],
+  ].filter(([, list]) => list.length > 0);
 }
 
 const addressFrom = (page, other) => encodeURI(path.posix.relative(path.posix.dirname(page), other));
