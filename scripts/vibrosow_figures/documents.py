@@ -11,7 +11,7 @@ from .outflow import slot_of
 from .tables import command, rows
 
 ROOT = Path(__file__).resolve().parents[2]
-DOCUMENTS = ("reports/FINDINGS.md", "docs/explanation/accuracy.md", "docs/CALIBRATING.md")
+DOCUMENTS = ("reports/FINDINGS.md", "docs/explanation/accuracy.md", "docs/explanation/how-calibration-works.md")
 MARKED = re.compile(r"^<!-- made: (\S+) -->\n((?:\|.*\n)*)", re.MULTILINE)
 HOLES, SPAN, FREQUENCY = "tray.holes.count", "tray.holes.span_mm", "tray.motion.frequency_Hz"
 
@@ -246,7 +246,7 @@ def level_errors(root):
 
 def calibration_coverage(root):
     """How often a calibration's intervals held the truth."""
-    lines = [["key", "held", "of 400, 95 %", "contraction, mean"]]
+    lines = [["key", "held", "of 400, 95 %", "uncertainty reduced by, mean"]]
     for row in rows(root / "reports/calibration/coverage.csv"):
         low, high = (number(row, f"{end}_percent", 1) for end in ("low", "high"))
         lines.append([f"`{row['key']}`", f"{number(row, 'covered_percent', 1)} %", f"{low} to {high}", f"{number(row, 'mean_contraction_percent')} %"])
@@ -255,7 +255,7 @@ def calibration_coverage(root):
 
 def bench_sheets(root):
     """What sheets of made-up benches promised, and what calibrations found with their readings."""
-    lines = [["key", "narrowed by, promised", "found", "held", "of 40, 95 %"]]
+    lines = [["key", "uncertainty reduced by, promised", "found", "held", "of 40, 95 %"]]
     for row in rows(root / "reports/bench-sheets/summary.csv"):
         low, high = (number(row, f"held_{end}_percent", 0) for end in ("low", "high"))
         lines.append([f"`{row['key']}`", f"{number(row, 'promised_percent', 0)} %",
