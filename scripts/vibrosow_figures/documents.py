@@ -75,7 +75,7 @@ def wheat_holes(root):
 
 
 def wheat_tray_spaces(root):
-    header = ["holes", "span, cm", "frequency, Hz", "space, g/s", "slice times depth, g/s", "rank in space", "in the plane"]
+    header = ["holes", "span, cm", "frequency, Hz", "3D, g/s", "2D slice times depth, g/s", "rank in 3D", "rank in 2D"]
     return [header, *([row[HOLES], number(row, SPAN, 0, 0.1), row[FREQUENCY], number(row, "space_g_per_s", 1),
                        number(row, "plane_g_per_s", 1), row["rank_in_space"], row["rank_in_plane"]]
                       for row in rows(root / "reports/wheat-tray-spaces/spaces.csv"))]
