@@ -11,7 +11,7 @@ from .outflow import slot_of
 from .tables import command, rows
 
 ROOT = Path(__file__).resolve().parents[2]
-DOCUMENTS = ("reports/FINDINGS.md", "docs/explanation/accuracy.md", "docs/explanation/how-calibration-works.md")
+DOCUMENTS = ("reports/FINDINGS.md", "reports/performance.md", "benchmarks/peers/README.md", "docs/explanation/accuracy.md", "docs/explanation/how-calibration-works.md")
 MARKED = re.compile(r"^<!-- made: (\S+) -->\n((?:\|.*\n)*)", re.MULTILINE)
 HOLES, SPAN, FREQUENCY = "tray.holes.count", "tray.holes.span_mm", "tray.motion.frequency_Hz"
 
@@ -75,7 +75,7 @@ def wheat_holes(root):
 
 
 def wheat_tray_spaces(root):
-    header = ["holes", "span, cm", "frequency, Hz", "space, g/s", "slice times depth, g/s", "rank in space", "in the plane"]
+    header = ["holes", "span, cm", "frequency, Hz", "3D, g/s", "2D slice times depth, g/s", "rank in 3D", "rank in 2D"]
     return [header, *([row[HOLES], number(row, SPAN, 0, 0.1), row[FREQUENCY], number(row, "space_g_per_s", 1),
                        number(row, "plane_g_per_s", 1), row["rank_in_space"], row["rank_in_plane"]]
                       for row in rows(root / "reports/wheat-tray-spaces/spaces.csv"))]
@@ -264,11 +264,78 @@ def bench_sheets(root):
     return lines
 
 
+# What changed, the table that benchmarks/paired wrote of it, and the commits before and after that it was given.
+GAINS = (("all 3D kernels in vector instructions", "kernels-in-space", "6cf2536", "909c446"),
+         ("what a pair needs of a ball side by side, transposed four pairs at once", "rows-in-space", "43a6bc4", "30158b5"),
+         ("contacts eight at a time, no longer filled up to sixteen", "whole-vectors", "a043a7f", "ba36282"),
+         ("records of contacts side by side in their block", "dense-records", "b854941", "7b97115"),
+         ("columns of a block a cache line longer; blocks of 1024", "block-columns", "2121648", "22fca1a"),
+         ("eight clumps turned at once, their balls written straight into the rows", "clumps", "3065349", "9b07292"),
+         ("places and velocities written into the rows in one pass instead of seven", "predicted-rows", "873d8a9", "64b0d6c"),
+         ("memory in large pages", "large-pages", "64b0d6c", "739d357"),
+         ("a contact keeps 3 numbers, not 9; with rolling 7, not 17", "lean-contacts", "681eff9", "5a3ac46"))
+NEW_PROGRAM_FIRST = ("lean-contacts",)
+GAINED_IN = {"balls, slot hopper with rolling": "3D slot with rolling", "balls, shaken tray of 20 000": "3D shaken tray",
+             "balls, sliding friction, closed tray": "3D sliding friction", "clumps of five balls, section of a tray": "clumps",
+             "shells, closed tray": "2D tray"}
+
+
+def spread(row, keys):
+    return f"{float(row[keys[0]]):.2f} ({float(row[keys[1]]):.2f} to {float(row[keys[2]]):.2f})"
+
+
+def layout_gains(root):
+    """How often the program was as fast after each change of how data lie."""
+    lines = [["change", *GAINED_IN.values(), "table", "`benchmarks/paired`"]]
+    for change, name, *commits in GAINS:
+        table, cells = rows(root / f"reports/performance/{name}.csv"), []
+        for scene in GAINED_IN:
+            found = chosen(table, {"scene": scene})
+            keys = ("other_over_first", "least", "most")
+            if found and name in NEW_PROGRAM_FIRST:
+                found, keys = [{key: 1 / float(found[0][key]) for key in keys}], (keys[0], keys[2], keys[1])
+            cells.append(spread(found[0], keys) if found else "")
+        lines.append([change, *cells, f"[{name}](performance/{name}.csv)", f"`{' '.join(commits)}`"])
+    return lines
+
+
+def size(root):
+    """Of one run each."""
+    lines = [["grains", *(f"{space}: {of}" for space in ("2D", "3D") for of in ("ns a grain-step, one thread", "two", "bytes a grain"))]]
+    tables = [rows(root / f"reports/performance/{name}.csv") for name in ("growth", "growth-in-space")]
+    for grains in ("2400", "10000", "100000", "1000000"):
+        cells = []
+        for table in tables:
+            one, two = chosen(table, {"grains": grains})
+            cells += [number(one, "ns_per_grain_step", 1), number(two, "ns_per_grain_step", 1), one["bytes_per_grain"]]
+        lines.append([grains, *cells])
+    return lines
+
+
+PEERS = {"lammps": "LAMMPS", "lammps granular": "LAMMPS, `pair granular`", "liggghts": "LIGGGHTS", "yade": "YADE"}
+
+
+def peers(root):
+    """Speed of Vibrosow, and how often it is as fast as each program."""
+    tables = [rows(root / f"reports/performance/{name}.csv") for name in ("peers", "peers-yade", "peers-in-space")]
+    lines = [["scene", "Vibrosow, million grain-steps/s", *(f"times as fast as {name}" for name in PEERS.values())]]
+    for scene in dict.fromkeys(row["scene"] for table in tables for row in table):
+        of_scene = [row for table in tables for row in chosen(table, {"scene": scene})]
+        granular = scene.startswith("slot")  # there "lammps" is pair granular, which alone has what the scene needs
+        cells = []
+        for program in PEERS:
+            wanted = {"lammps": "", "lammps granular": "lammps"}.get(program, program) if granular else program
+            found = chosen(of_scene, {"program": wanted})
+            cells.append(spread(found[0], ("vibrosow_over_program", "ratio_min", "ratio_max")) if found else "")
+        lines.append([scene, number(chosen(of_scene, {"program": "vibrosow"})[0], "mgs_per_s", 1), *cells])
+    return lines
+
+
 TABLES = {"wheat-holes": wheat_holes, "wheat-tray-spaces": wheat_tray_spaces, "wheat-tray-clumps": wheat_tray_clumps,
           "wheat-tray-grains": wheat_tray_grains, "slot-in-space": slot_in_space, "paper-a-fig3": paper_a_fig3,
           "paper-b-readings": paper_b_readings, "silo": silo, "round-holes": round_holes, "relations": relations,
           "accuracy-tray": accuracy_tray, "levels": levels, "level-errors": level_errors, "calibration-coverage": calibration_coverage,
-          "bench-sheets": bench_sheets}
+          "bench-sheets": bench_sheets, "layout-gains": layout_gains, "size": size, "peers": peers}
 
 
 def markdown(lines):

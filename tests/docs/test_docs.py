@@ -75,13 +75,21 @@ def held_out():
     return [round(100 * (math.exp(sum(one) / len(one)) - 1)) for one in ratios.values()]
 
 
+def costs_ns(space):
+    """What a grain-step of each shipped seeder cost, "2D" or "3D"."""
+    rows = [row for row in table("performance/predicted-time.csv") if row["ns"]]
+    seeders = {path.stem: tomllib.loads(path.read_text(encoding="utf-8")) for folder in ("seeders", "seeders/papers", "seeders/verification")
+               for path in (ROOT / folder).glob("*.toml")}
+    return [float(row["ns"]) for row in rows if (seeders[row["seeder"]].get("space") == "3d") == (space == "3D")]
+
+
 def settings(name):
     return {tuple(row[key] for key in ("case", "space", "law", "scheme", "friction")) for row in table(name)}
 
 
 def check_claims():
     """That each sentence of claims.toml stands in its document, and holds of the committed tables."""
-    known = {one.__name__: one for one in (cell, column, holes, relative, mean_rate, near, settings, held_out)} | {"math": math}
+    known = {one.__name__: one for one in (cell, column, costs_ns, holes, relative, mean_rate, near, settings, held_out, table)} | {"math": math}
     for claim in tomllib.loads((ROOT / "tests/docs/claims.toml").read_text(encoding="utf-8"))["claim"]:
         text = " ".join((ROOT / claim["document"]).read_text(encoding="utf-8").split())
         expect(" ".join(claim["says"].split()) in text, f"{claim['document']} does not say: {claim['says']}")
