@@ -15,7 +15,8 @@ namespace vibrosow {
 namespace {
 
 void help(const CLI::App& app, const std::string& topic) {
-  if (topic.empty()) return print_text(app.help());
+  // App::help would print that of the command that was given, which is this one.
+  if (topic.empty()) return print_text(app.get_formatter()->make_help(&app, app.get_name(), CLI::AppFormatMode::Normal));
   if (topic == "columns") return print("{}", output_documentation());
   std::vector<std::string> names = {"columns"};
   for (const CLI::App* command : app.get_subcommands({})) {
