@@ -31,7 +31,7 @@ struct Renamed {
 };
 constexpr Renamed renamed[] = {
     {"crops", "wheat", "wheat",
-     "\"wheat\" is the grain, of five balls; until version 0.2 it was a ball, which is \"wheat-ball\" now"},
+     "\"wheat\" is the grain, of five balls; in version 0.1 it was a ball, which is \"wheat-ball\" now"},
     {"crops", "wheat-grain", "wheat", "\"wheat-grain\" is called \"wheat\" now"},
     {"crops", "barley-grain", "barley", "\"barley-grain\" is called \"barley\" now"},
 };

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <map>
 #include <set>
+#include <string_view>
 #include <tuple>
 
 #include "input/key_units.hpp"
@@ -15,6 +16,13 @@
 
 namespace vibrosow {
 namespace {
+
+/// A key that had another name in an earlier version; `now` without its table.
+struct RenamedKey {
+  std::string_view was, now;
+};
+constexpr RenamedKey renamed_keys[] = {{"guard.warn_compression", "warn_relative_overlap"},
+                                       {"guard.stop_compression", "stop_relative_overlap"}};
 
 std::string joined(const std::string& prefix, const std::string& key) {
   if (prefix.empty()) return key;
@@ -100,8 +108,11 @@ struct Table::State {
   }
 
   [[noreturn]] void unknown(const std::string& key, const std::vector<std::string>& expected_keys) const {
-    const std::string hint = did_you_mean(key, expected_keys);
-    throw InputError(fmt::format("{}: {}: unknown key{}", origin(key), joined(prefix, key),
+    const std::string name = joined(prefix, key);
+    const auto* renamed = std::ranges::find(renamed_keys, name, &RenamedKey::was);
+    const std::string hint = renamed != std::end(renamed_keys) ? fmt::format("; it is called {} now", renamed->now)
+                                                               : did_you_mean(key, expected_keys);
+    throw InputError(fmt::format("{}: {}: unknown key{}", origin(key), name,
                                  hint.empty() && !expected_keys.empty()
                                      ? fmt::format("; known here are {}", fmt::join(expected_keys, ", "))
                                      : hint));

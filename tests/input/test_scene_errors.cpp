@@ -102,6 +102,7 @@ INSTANTIATE_TEST_SUITE_P(
         Case{12, "widht = '16 mm'", 12, "tray.holes.widht", "did you mean \"width\"?"},
         Case{12, "+spann = '16 mm'", 13, "tray.holes.spann", "did you mean \"span\"?"},
         Case{8, "+colour = 'red'", 9, "tray.colour", "unknown key"},
+        Case{23, "+warn_compression = 0.1", 24, "guard.warn_compression", "it is called warn_relative_overlap now"},
         Case{25, "durration = '10 s'", 25, "run.durration", "did you mean \"duration\"?"},
         Case{6, "[tary]", 6, "tary", "did you mean \"tray\"?"},
         Case{9, "fill = { count = 600, keap = true }", 9, "tray.fill.keap", "did you mean \"keep\"?"},
