@@ -50,8 +50,8 @@ void print_space_advice(const Scene& scene) {
       "  ",
       flat ? "use 2D to compare layouts and frequencies of slots; an absolute rate, round holes, or holes narrower "
              "than some eight seeds need space = \"3d\": through the one measured slot 2D is 13 % too fast, 3D 5 %"
-           : "absolute rates and round holes; for comparing many layouts of slots 2D is far faster"));
-  print("  check --both runs the two and prints their ratio\n");
+           : "use 3D for absolute rates and round holes; to compare many layouts of slots, 2D is far faster"));
+  print("  check --both runs both and prints the ratio of their rates\n");
 }
 
 int run_in_both_spaces(const BothSpaces& scenes) {

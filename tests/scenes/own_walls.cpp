@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <numbers>
 #include <utility>
@@ -39,7 +40,7 @@ double to_arc(const WallPiece& arc, const Flat& p) {
 }
 
 /// What is drawn in the plane, in space drawn out from front to back.
-Distance drawn_out(FlatDistance flat, const Vessel& vessel, Space space) {
+Distance drawn_out(const FlatDistance& flat, const Vessel& vessel, Space space) {
   if (space == Space::plane) return [flat](const Point& p) { return flat(p.head<2>()); };
   const bool endless = vessel.front_and_back == Sides::periodic;
   const double depth = *vessel.depth;
@@ -47,7 +48,7 @@ Distance drawn_out(FlatDistance flat, const Vessel& vessel, Space space) {
 }
 
 /// What is drawn across and up, drawn out from the left end to the right one.
-Distance drawn_along(FlatDistance flat, const Vessel& vessel) {
+Distance drawn_along(const FlatDistance& flat, const Vessel& vessel) {
   const bool endless = vessel.sides == Sides::periodic;
   const double length = vessel.length;
   return [=](const Point& p) { return std::hypot(flat({p.z(), p.y()}), endless ? 0 : beyond(p.x(), 0, length)); };
@@ -75,7 +76,7 @@ Distance level(double x0, double x1, double z0, double z1) {
 }
 
 /// In periods beside each other as well.
-Distance repeated(Distance once, double period, const Point& along) {
+Distance repeated(const Distance& once, double period, const Point& along) {
   return [=](const Point& p) { return std::min({once(p), once(p + period * along), once(p - period * along)}); };
 }
 
@@ -286,7 +287,7 @@ OwnRoom::OwnRoom(const Vessel& vessel, Space space, double fine)
 }
 
 std::size_t OwnRoom::index(int i, int j, int k) const {
-  return static_cast<std::size_t>((k * up_ + j) * along_ + i);
+  return static_cast<std::size_t>((std::int64_t{k} * up_ + j) * along_ + i);
 }
 
 /// Two neighbours with a wall between them are not both further from it than half their distance.
