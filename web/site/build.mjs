@@ -1,63 +1,28 @@
 // Builds the site: the documents, and whatever they link to, as pages beside each other, with the studio and examples of reports.
 // Usage: node web/site/build.mjs FOLDER MADE, which holds studio/studio.html and NAME/report.html of each example; scripts/site makes it.
-import { copyFileSync, existsSync, mkdirSync, readFileSync, readdirSync, rmSync, writeFileSync } from 'node:fs';
+import { copyFileSync, mkdirSync, rmSync, writeFileSync } from 'node:fs';
 import path from 'node:path';
 import { fileURLToPath, pathToFileURL } from 'node:url';
+import { build } from 'esbuild';
 import { makePage } from '../make_page.mjs';
 import { contentOf, escapeHtml, lookedUp, pageOf } from './documents.mjs';
+import { withStart } from './front.mjs';
+import { addressFrom, made, menu, menuGroups } from './menu.mjs';
 
-const root = fileURLToPath(new URL('../..', import.meta.url));
-const made = [
-  { from: 'studio/studio.html', page: 'studio.html', name: 'The studio' },
-  { from: 'run/report.html', page: 'example-run/report.html', name: 'A report: a run in the plane' },
-  { from: 'run-in-space/report.html', page: 'example-run-in-space/report.html', name: 'A report: a run in space' },
-];
-
-const titleOf = (source) => /^# (.*)$/m.exec(readFileSync(path.join(root, source), 'utf8'))[1];
-const there = (sources) => sources.filter((source) => existsSync(path.join(root, source)));
-const entries = (sources) => sources.map((source) => ({ page: pageOf(source), name: titleOf(source), source }));
-const byName = (list) => list.sort((a, b) => (a.name < b.name ? -1 : 1));
-
-/** The documents of a folder; a README first. */
-function documentsIn(folder) {
-  if (!existsSync(path.join(root, folder))) return [];
-  const names = readdirSync(path.join(root, folder)).filter((name) => name.endsWith('.md'));
-  const index = names.filter((name) => name === 'README.md');
-  return [...index, ...names.filter((name) => name !== 'README.md')].map((name) => `${folder}/${name}`);
-}
-
-/** Headings of the menu, each with what stands under it: { page, name, source of a document }. */
-function menuGroups() {
-  const front = there(['reports/gallery/README.md', 'reports/pages/README.md']);
-  const reports = readdirSync(path.join(root, 'reports')).map((name) => `reports/${name}/README.md`);
-  const findings = there(['reports/FINDINGS.md', 'reports/performance.md', 'reports/README.md', ...reports.filter((source) => !front.includes(source))]);
-  return [
-    ['Vibrosow', [{ page: 'index.html', name: 'What it is', source: 'README.md' }, ...made, ...entries(front), ...entries(documentsIn('docs'))]],
-    ['Tutorials', byName(entries(documentsIn('docs/tutorials')))],
-    ['How to', byName(entries(documentsIn('docs/how-to')))],
-    ['Reference', entries(['seeders/FORMAT.md', ...documentsIn('docs/reference'), 'python/README.md', 'ARCHITECTURE.md', 'CONTRIBUTING.md', 'CHANGELOG.md'])],
-    ['Explanation', byName(entries(documentsIn('docs/explanation')))],
-    ['Findings', entries(findings)],
-  ].filter(([, list]) => list.length > 0);
-}
-
-const addressFrom = (page, other) => encodeURI(path.posix.relative(path.posix.dirname(page), other));
-
-function menu(groups, page) {
-  return groups.map(([heading, list]) => `<h2>${heading}</h2><ul>${list.map((entry) =>
-    `<li><a href="${addressFrom(page, entry.page)}"${entry.page === page ? ' aria-current="page"' : ''}>${escapeHtml(entry.name)}</a></li>`).join('')}</ul>`).join('');
-}
+const here = path.dirname(fileURLToPath(import.meta.url));
+const repository = path.join(here, '../..');
 
 /** What the site holds of the repository, by its source; what is linked to is added while pages are written. */
 class Queue {
-  constructor() {
+  constructor(root) {
+    this.root = root;
     this.found = new Map();
     this.waiting = [];
   }
 
   /** The place of a source in the site. */
   placeOf(source) {
-    const looked = lookedUp(root, source);
+    const looked = lookedUp(this.root, source);
     if (!this.found.has(looked.source)) {
       this.found.set(looked.source, looked.kind === 'picture' ? looked.source : pageOf(looked.source, looked.kind));
       this.waiting.push(looked);
@@ -72,12 +37,8 @@ function linkIn(queue, source, kind, page) {
     if (/^(?:[a-z]+:|#)/i.test(target)) return target;
     const [, file, anchor] = /^([^#]*)(#.*)?$/.exec(target);
     const wanted = path.posix.join(folder, decodeURI(file));
-    if (wanted.startsWith('..')) throw new Error(`${source}: a link leads out of the repository: ${target}`);
-    try {
-      return addressFrom(page, queue.placeOf(wanted.replace(/\/$/, ''))) + (anchor ?? '');
-    } catch (error) {
-      throw new Error(`${source}: ${error.message}`);
-    }
+    if (wanted.startsWith('..')) throw new Error(`a link leads out of the repository: ${target}`);
+    return addressFrom(page, queue.placeOf(wanted.replace(/\/$/, ''))) + (anchor ?? '');
   };
 }
 
@@ -88,11 +49,24 @@ function roomFor(folder, place) {
   return file;
 }
 
-/** Writes the site into `folder`, in place of what was there. Returns how many pages it has. */
-export async function buildSite(folder, madeIn) {
-  const template = await makePage('site', { markers: ['@TITLE@', '@INDEX@', '@CONTENT@', '@MENU@'] });
-  const groups = menuGroups();
-  const queue = new Queue();
+// A guide comes before a change or a report that has the same words.
+const weightOf = (page) => (/^(?:docs|seeders|python|index)\b/.test(page) ? 1 : 0.5);
+
+/** The search and all texts that it finds, as one script. `pages` as find.mjs takes them. */
+async function searchScript(pages) {
+  const { outputFiles } = await build({
+    entryPoints: [path.join(here, 'find.mjs')], bundle: true, minify: true, write: false,
+    format: 'iife', globalName: 'vibrosowSearch', target: 'es2020', charset: 'utf8',
+  });
+  return `${outputFiles[0].text}var vibrosowIndex=vibrosowSearch.indexOf(${JSON.stringify(pages)});\n`;
+}
+
+/** Writes the site of the repository at `root` into `folder`, in place of what was there. Returns how many pages it has. */
+export async function buildSite(folder, madeIn, root = repository) {
+  const template = await makePage('site', { markers: ['@TITLE@', '@INDEX@', '@CONTENTS@', '@CONTENT@', '@MENU@'] });
+  const groups = menuGroups(root);
+  const queue = new Queue(root);
+  const toFind = [];
   groups.flatMap(([, list]) => list).forEach(({ source }) => source && queue.placeOf(source));
   rmSync(folder, { recursive: true, force: true });
   for (const { from, page } of made) copyFileSync(path.join(madeIn, from), roomFor(folder, page));
@@ -103,11 +77,21 @@ export async function buildSite(folder, madeIn) {
     if (kind === 'picture' || kind === 'text') copyFileSync(path.join(root, source), roomFor(folder, source));
     if (source.endsWith('.html')) ++pages;
     if (kind === 'picture') continue;
-    const { title, html } = contentOf(root, { source, kind }, linkIn(queue, source, kind, page));
-    const parts = { TITLE: escapeHtml(title === 'Vibrosow' ? title : `${title} – Vibrosow`), INDEX: addressFrom(page, 'index.html'), CONTENT: html, MENU: menu(groups, page) };
-    writeFileSync(roomFor(folder, page), template.replace(/@(TITLE|INDEX|CONTENT|MENU)@/g, (_, name) => parts[name]));
+    try {
+      const { title, html, contents, sections } = contentOf(root, { source, kind }, linkIn(queue, source, kind, page));
+      const content = page === 'index.html' ? withStart(html, root, groups, queue) : html;
+      const parts = {
+        TITLE: escapeHtml(title === 'Vibrosow' ? title : `${title} – Vibrosow`), INDEX: addressFrom(page, 'index.html'),
+        CONTENTS: contents, CONTENT: content, MENU: menu(groups, page),
+      };
+      writeFileSync(roomFor(folder, page), template.replace(/@(TITLE|INDEX|CONTENTS|CONTENT|MENU)@/g, (_, name) => parts[name]));
+      if (sections.length > 0) toFind.push([encodeURI(page), weightOf(page), ...sections]);
+    } catch (error) {
+      throw new Error(`${source}: ${error.message}`, { cause: error });
+    }
     ++pages;
   }
+  writeFileSync(path.join(folder, 'search-index.js'), await searchScript(toFind));
   return pages;
 }
 
