@@ -152,7 +152,7 @@ std::vector<double> WeighedRates::surprise() const {
     const Weighing& one = weighings_[i];
     std::vector<Normal> normals = mixture(others, one.own_deviation, one.setting);
     for (Normal& normal : normals) normal.deviation = std::hypot(normal.deviation, one.deviation);
-    const double share = below(normals, one.log_ratio);
+    const double share = std::clamp(below(normals, one.log_ratio), 0.0, 1.0);  // sums of shares end off 1 by rounding
     shares.push_back(2 * std::min(share, 1 - share));
   }
   return shares;

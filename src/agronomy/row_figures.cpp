@@ -127,10 +127,10 @@ constexpr std::array table = {
               "what the row gets, of the whole tray (in 2D the slice's times the depth factor; empty without "
               "tray.depth); all: the rows together",
               [](Source s) { return s.row.mass_rate; }},
-    RowFigure{"seeds_per_s", "1/s", 1, "likewise, seeds", [](Source s) { return s.row.seeds_per_s; }},
+    RowFigure{"seeds_per_s", "1/s", 1, "the same in seeds", [](Source s) { return s.row.seeds_per_s; }},
     RowFigure{"kg_per_ha", "kg/ha", kilogram_per_hectare, "that over row spacing and speed; all: of the whole width",
               [](Source s) { return s.row.kg_per_m2; }},
-    RowFigure{"seeds_per_m2", "1/m2", 1, "likewise, seeds", [](Source s) { return s.row.seeds_per_m2; }},
+    RowFigure{"seeds_per_m2", "1/m2", 1, "the same in seeds", [](Source s) { return s.row.seeds_per_m2; }},
     RowFigure{"instability_cv_percent", "%", percent,
               "coefficient of variation of its seeds over ten equal parts of the window, in 2D of the slice's",
               [](Source s) { return s.row.instability_cv; }},

@@ -57,9 +57,9 @@ Weighing weighing_of(const TableTray& tray, double mass_rate, double deviation, 
   return {place_of(tray), std::log(mass_rate / predicted_rate(tray, table)), deviation, own_deviation(tray, table)};
 }
 
-TrayRates::TrayRates(TableTray tray, const HoleTable& table, const ModelError& model, double setting_spread,
+TrayRates::TrayRates(const TableTray& tray, const HoleTable& table, const ModelError& model, double setting_spread,
                      std::vector<Weighing> weighings, const ShakerLimits& limits)
-    : tray_(std::move(tray)),
+    : tray_(tray),
       table_(table),
       is_weighed_(!weighings.empty()),
       model_(model),

@@ -30,9 +30,9 @@ class TrayRates {
  public:
   /// `table` must outlive this. `setting_spread`: what a setting has of its own besides chance and interpolation
   /// (WeighedRates).
-  TrayRates(TableTray tray, const HoleTable& table, const ModelError& model, double setting_spread,
+  TrayRates(const TableTray& tray, const HoleTable& table, const ModelError& model, double setting_spread,
             std::vector<Weighing> weighings, const ShakerLimits& limits = {});
-  TrayRates(TableTray tray, HoleTable&& table, const ModelError& model, double setting_spread,
+  TrayRates(const TableTray& tray, HoleTable&& table, const ModelError& model, double setting_spread,
             std::vector<Weighing> weighings, const ShakerLimits& limits = {}) = delete;
 
   const TableTray& tray() const { return tray_; }

@@ -8,6 +8,7 @@
 #include <iterator>
 
 #include "input/key_units.hpp"
+#include "study/layout_doubts.hpp"
 
 namespace vibrosow {
 namespace {
@@ -47,6 +48,28 @@ std::vector<CountedDoubt> doubts_of_runs(const std::vector<ReducedRun>& runs) {
   for (const ReducedRun& run : runs)
     if (run.reason.empty()) that_count.push_back(&run.doubts);
   return counted_doubts(that_count);
+}
+
+/// What can hardly be meant in the scenes of the measured conditions, each sentence once.
+std::vector<CountedDoubt> doubts_of_scenes(const CalibrationDesign& design) {
+  std::vector<CountedDoubt> doubts;
+  std::vector<bool> seen(design.conditions.size(), false);
+  for (const CalibrationRun& run : design.runs) {
+    if (seen.at(run.condition)) continue;
+    seen[run.condition] = true;
+    for (CountedDoubt& doubt : doubts_of_scene(run.scene))
+      if (std::ranges::find(doubts, doubt.text, &CountedDoubt::text) == doubts.end())
+        doubts.push_back(std::move(doubt));
+  }
+  return doubts;
+}
+
+/// Whether each of several lots has the contact model of its crop, so that one file cannot hold them.
+bool takes_contacts_of_crops(const CalibrationDesign& design) {
+  if (design.runs.empty()) return false;
+  const Scene& scene = design.runs.front().scene;
+  return scene.lots.size() > 1 && !scene.contact.model.is_known() && !scene.contact.overrides.empty() &&
+         std::ranges::all_of(scene.lots, [](const SeedLot& lot) { return lot.contact.is_known(); });
 }
 
 /// Of the fit itself, and of each value.
@@ -97,12 +120,15 @@ CalibrationAnswer answer_of(const CalibrationTask& task, const CalibrationDesign
   answer.runs_that_count = static_cast<std::size_t>(std::ranges::count(runs, std::string(), &ReducedRun::reason));
   answer.is_fitted = calibration.misfit_over_noise <= most_of_the_noise;
   std::vector<CountedDoubt> doubts = doubts_of_runs(runs);
+  std::ranges::move(doubts_of_scenes(design), std::back_inserter(doubts));
   std::ranges::move(doubts_of_fit(answer), std::back_inserter(doubts));
   for (const CountedDoubt& doubt : doubts) {
     using enum DoubtKind;
     for (const DoubtKind kind : {nothing_fitted, misfit, edge_of_range, seeds_lost})
       if (doubt.kind == kind) answer.gives_a_contact = false;
   }
+  answer.lots_have_own_contacts = takes_contacts_of_crops(design);
+  if (answer.lots_have_own_contacts) answer.gives_a_contact = false;
   answer.doubts = shared_doubts({{0, doubts}});
   return answer;
 }

@@ -16,6 +16,7 @@
 #include "cli/make_runs.hpp"
 #include "cli/progress.hpp"
 #include "input/input_file.hpp"
+#include "plan/scene_warnings.hpp"
 #include "report/bench_report.hpp"
 #include "report/terminal_text.hpp"
 #include "scene/input_error.hpp"
@@ -90,6 +91,7 @@ int run_bench_sheet(const BenchSheetOptions& command) {
   const BenchRuns bench = affordable_bench(asked_of(command, file.path), file.files);
   const OutputFolder folder = options.output_folder("bench-sheet", bench_file_texts(), "-bench");
   StudyRuns runs(cases_of(folder.path()));
+  print_warnings(scene_warnings(bench.design.runs.front().scene));
   tell_cost(command, bench, runs);
   const Made made = make_runs(runs, wanted_runs(bench.design), command.making, options.jobs, options.quiet);
   if (made.making.interrupted > 0) {

@@ -19,6 +19,7 @@
 #include "input/input_file.hpp"
 #include "input/named_columns.hpp"
 #include "input/read_scene.hpp"
+#include "plan/scene_warnings.hpp"
 #include "report/calibration_page.hpp"
 #include "report/calibration_report.hpp"
 #include "report/page.hpp"
@@ -113,6 +114,7 @@ int run_calibrate(const CalibrateOptions& command) {
   const CalibrationTask task = task_of(command, file);
   const CalibrationChoices choices{hold_out_of(command, task.measured.table), noise_of(command.noise)};
   const CalibrationDesign design = design_calibration(task, file.files);
+  print_warnings(scene_warnings(middle_scene(task, file.files)));
   const std::string page_template = options.page_template();
   const OutputFolder folder = options.output_folder("calibrate", calibration_file_texts(), "-calibration");
   StudyRuns runs(cases_of(folder.path()));

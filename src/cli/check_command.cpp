@@ -210,7 +210,13 @@ int check_seeder(const InputFile& file, const CheckOptions& options) {
   }
   if (refused) throw InputError(*refused);
   if (plan.too_long) print("the step is too long and insisted on: every result will be marked \"outside the model\"\n");
-  return options.both ? run_in_both_spaces(read_in_both_spaces(file.path, options.overrides(), file.files)) : exit_done;
+  if (!options.both) return exit_done;
+  const BothSpaces both = read_in_both_spaces(file.path, options.overrides(), file.files);
+  std::vector<std::string> of_the_other = scene_warnings(read.space == Space::plane ? both.space : both.plane);
+  const std::vector<std::string> told = scene_warnings(scene);
+  std::erase_if(of_the_other, [&](const std::string& one) { return std::ranges::find(told, one) != told.end(); });
+  print_warnings(of_the_other);
+  return run_in_both_spaces(both);
 }
 
 /// The header of a table of measured outflow for this study, ready to fill in.

@@ -16,7 +16,8 @@ namespace {
 
 void help(const CLI::App& app, const std::string& topic) {
   // App::help would print that of the command that was given, which is this one.
-  if (topic.empty()) return print_text(app.get_formatter()->make_help(&app, app.get_name(), CLI::AppFormatMode::Normal));
+  if (topic.empty())
+    return print_text(app.get_formatter()->make_help(&app, app.get_name(), CLI::AppFormatMode::Normal));
   if (topic == "columns") return print("{}", output_documentation());
   std::vector<std::string> names = {"columns"};
   for (const CLI::App* command : app.get_subcommands({})) {

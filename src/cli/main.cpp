@@ -49,7 +49,7 @@ bool is_given(const CLI::App& command, const char* option) {
 std::string line_that_goes_on(const CLI::App& command, std::vector<std::string> words) {
   static const std::set<std::string> keep_their_runs = {"sweep",    "decide",      "optimise", "accuracy", "calibrate",
                                                         "new-crop", "bench-sheet", "work",     "verify"};
-  const std::string name = command.get_name();
+  const std::string& name = command.get_name();
   if (name == "run" && is_given(command, "--checkpoint-every")) {
     if (!is_given(command, "--resume")) words.push_back("--resume");
     return typed_line(words);

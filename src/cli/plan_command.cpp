@@ -26,6 +26,7 @@
 #include "input/read_held_out.hpp"
 #include "input/read_hole_table.hpp"
 #include "input/read_scene.hpp"
+#include "plan/scene_warnings.hpp"
 #include "report/plan_page.hpp"
 #include "report/plan_report.hpp"
 #include "scene/input_error.hpp"
@@ -167,8 +168,8 @@ WeighedTray weighing_of(const std::string& layout, const std::string& text) {
   if (at == std::string::npos) throw InputError(fmt::format("--weighed: \"{}\": {}", text, example));
   std::string rate = text.substr(0, at);
   double half_width = usual_weighing_error;
-  if (const auto sign = rate.find("+-"); sign != std::string::npos) {
-    half_width = quantity("--weighed", trimmed(rate.substr(sign + 2)), Dimension::fraction, 1e-4, 1, "3 %");
+  if (const auto [sign, length] = find_plus_minus(rate); sign != std::string::npos) {
+    half_width = quantity("--weighed", trimmed(rate.substr(sign + length)), Dimension::fraction, 1e-4, 1, "3 %");
     rate = trimmed(rate.substr(0, sign));
   }
   const std::string frequency = trimmed(text.substr(at + 4));
@@ -217,8 +218,8 @@ std::string asked_again(const PlanOptions& options) {
   add("--establishment", options.establishment);
   add("--row-spacing", options.row_spacing);
   add("--speed", options.speed);
-  const std::string folder = options.common.out.empty() ? "plan" : options.common.out;
-  add("--layout", options.layout.empty() ? folder + "/seeder.toml" : options.layout);
+  const std::string written = options.common.out.empty() ? "SEEDER.toml" : options.common.out + "/seeder.toml";
+  add("--layout", options.layout.empty() ? written : options.layout);
   for (const std::string& weighed : options.weighed) add("--weighed", weighed);
   add("--html", options.html);
   return typed_line(words);
@@ -242,6 +243,7 @@ int run_weighed(PlanOptions options, const PlanSource& source) {
   const SowingTask& task = source.plan.task;
   const std::string command = asked_again(options);
   options.layout = input_file(options.layout, FileKind::seeder).path.string();
+  print_warnings(scene_warnings(read_scene(options.layout, {})));
   std::vector<WeighedTray> weighed;
   for (const std::string& text : options.weighed) {
     if (text.ends_with(".csv"))
@@ -251,11 +253,14 @@ int run_weighed(PlanOptions options, const PlanSource& source) {
   }
   constexpr double same = 0.01;
   const PlannedSeed& seed = weighed.front().tray.seed;
-  if (std::abs(seed.mass / task.seed.mass - 1) > same || std::abs(seed.diameter / task.seed.diameter - 1) > same)
-    throw InputError(
-        fmt::format("--layout: its seeds weigh {:.3g} mg and are as large as balls of {:.3g} mm, those of "
-                    "--crop {:.3g} mg and {:.3g} mm; give the crop of the layout",
-                    seed.mass * 1e6, seed.diameter * 1e3, task.seed.mass * 1e6, task.seed.diameter * 1e3));
+  const auto differs = [](double one, double other) { return std::abs(one / other - 1) > same; };
+  if (differs(seed.mass, task.seed.mass) || differs(seed.diameter, task.seed.diameter) ||
+      differs(seed.aspect, task.seed.aspect))
+    throw InputError(fmt::format(
+        "--layout: its seeds weigh {:.3g} mg, are as large as balls of {:.3g} mm and {:.3g} times as long as "
+        "wide, those of --crop {:.3g} mg, {:.3g} mm and {:.3g} times; give the crop of the layout",
+        seed.mass * 1e6, seed.diameter * 1e3, seed.aspect, task.seed.mass * 1e6, task.seed.diameter * 1e3,
+        task.seed.aspect));
   const int rows = rows_of(options.layout);
   const HoleTable table = shipped_hole_table();
   const ModelError model = shipped_model_error();

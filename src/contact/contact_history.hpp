@@ -97,7 +97,8 @@ struct ContactHistories {
 ///
 /// Velocities may be those of `lag` seconds before the places, in the middle of a step of 2 lag (velocity Verlet). Then
 /// a dashpot takes them as its own contact's force, gravity and drag make them until the end, and in the step in which
-/// a contact begins it counts as long as there is one (docs/explanation/theory.md). 0: velocities and places are of one time.
+/// a contact begins it counts as long as there is one (docs/explanation/theory.md). 0: velocities and places are of one
+/// time.
 struct ContactStep {
   double trial = 0, commit = 0;   // s
   double lag = 0;                 // s

@@ -89,10 +89,14 @@ class Reader {
 
  private:
   /// Values of one series before repeats are averaged; a rate stands at time 0.
+  struct Reading {
+    std::string repeat;
+    double value;  // SI
+  };
   struct Gathered {
     MeasuredSeries series;
     int line;
-    std::map<double, std::vector<double>> values_at;
+    std::map<double, std::vector<Reading>> values_at;
     std::map<double, int> line_at;  // of the first row of a time
   };
 
@@ -121,6 +125,7 @@ class Reader {
     find_quantity(line);
     hole_ = column("hole");
     lot_ = column("lot");
+    repeat_ = column("repeat");
   }
 
   [[noreturn]] void fail_unknown(int line, const std::string& name, const std::vector<std::string>& plain) const {
@@ -206,7 +211,7 @@ class Reader {
     series.where = fmt::format("{}:{}", csv_.file, row.line);
     const double time = is_curve(quantity_->quantity) ? required_number(row, *companion_) : 0;
     Gathered& of_series = gathered(series, row.line);
-    of_series.values_at[time].push_back(value(row));
+    of_series.values_at[time].push_back({repeat_ ? row.fields[*repeat_] : "", value(row)});
     of_series.line_at.try_emplace(time, row.line);
   }
 
@@ -220,12 +225,14 @@ class Reader {
 
   MeasuredSeries average(const Gathered& one) const {
     MeasuredSeries series = one.series;
-    for (const auto& [time, values] : one.values_at) {
+    const std::map<std::string, double> firsts = first_readings(one);
+    for (const auto& [time, readings] : one.values_at) {
       if (is_curve(quantity_->quantity)) series.times.push_back(time);
+      std::vector<double> values;
+      for (const Reading& reading : readings) values.push_back(cumulative(reading, firsts));
       series.values.push_back(mean_with_interval(values));
       series.repeats.push_back(static_cast<int>(values.size()));
     }
-    make_cumulative(series);
     double largest = 0;
     for (const MeanWithInterval& value : series.values) largest = std::max(largest, value.mean);
     if (largest == 0)
@@ -236,12 +243,34 @@ class Reader {
     return series;
   }
 
-  /// What has left since the first reading, of balances that show something else.
-  void make_cumulative(MeasuredSeries& series) const {
-    if (quantity_->balance == Balance::of_what_left) return;
-    const double first = series.values.front().mean;
-    for (MeanWithInterval& value : series.values)
-      value.mean = quantity_->balance == Balance::not_tared ? value.mean - first : first - value.mean;
+  /// Of each repeat, what a balance that does not show what has left showed at first. Repeats begin at one time.
+  std::map<std::string, double> first_readings(const Gathered& one) const {
+    std::map<std::string, double> firsts;
+    if (quantity_->balance == Balance::of_what_left) return firsts;
+    const auto& [begin, readings] = *one.values_at.begin();
+    double least = readings.front().value, most = least;
+    for (const Reading& reading : readings) {
+      firsts.emplace(reading.repeat, reading.value);
+      least = std::min(least, reading.value), most = std::max(most, reading.value);
+    }
+    constexpr double trembling = 0.01;
+    if (firsts.size() < readings.size() && most - least > trembling * most)
+      fail(one.line_at.at(begin), quantity_->name,
+           fmt::format("{} readings at {:g} s differ; give a column repeat, so that each is of its own fill",
+                       readings.size(), begin));
+    for (const auto& [time, later] : one.values_at)
+      for (const Reading& reading : later)
+        if (!firsts.contains(reading.repeat))
+          fail(one.line_at.at(time), "repeat",
+               fmt::format("repeat {} has no reading at {:g} s, where the others begin", reading.repeat, begin));
+    return firsts;
+  }
+
+  /// What has left since its repeat's first reading.
+  double cumulative(const Reading& reading, const std::map<std::string, double>& firsts) const {
+    if (quantity_->balance == Balance::of_what_left) return reading.value;
+    const double since = reading.value - firsts.at(reading.repeat);
+    return quantity_->balance == Balance::not_tared ? since : -since;
   }
 
   /// Refuses a curve that cannot be of what has left. A balance trembles: a hundredth of the largest value is let pass.
@@ -286,7 +315,7 @@ class Reader {
   std::vector<std::pair<std::size_t, std::string>> conditions_;  // column and key
   const QuantityColumn* quantity_ = nullptr;
   std::size_t value_ = 0;
-  std::optional<std::size_t> companion_, hole_, lot_;
+  std::optional<std::size_t> companion_, hole_, lot_, repeat_;
   std::vector<Gathered> gathered_;
   std::map<std::vector<std::string>, std::size_t> places_;  // among these, by hole, lot and conditions
 };

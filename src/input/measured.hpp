@@ -53,7 +53,8 @@ struct MeasuredTable {
 };
 
 /// Reads a table of measured outflow. Condition columns are those of `condition_column`; `hole`, `lot`,
-/// `repeat` and `note` may follow (`repeat` and `note` are for the reader of the file), and exactly one
+/// `repeat` and `note` may follow (`repeat` tells apart the fills of a balance that shows something else than what has
+/// left, `note` is for the reader of the file), and exactly one
 /// quantity must: caught_g or caught_seeds with duration_s; rate_g_per_s; seeds_per_s; or time_s with mass_g,
 /// seeds or discharged_percent; instead of mass_g remaining_g, of a balance under the vessel, or gross_g, of one that
 /// was not tared: what has left is reckoned from their first reading. Rows alike in conditions, hole, lot and time are

@@ -352,6 +352,30 @@ void require_one_law(const Table& table, const Contact& first, const Contact& ot
                                   lot.contact.name));
 }
 
+/// What all contacts of a scene share cannot be one lot's alone.
+void require_shared_values(const Table& table, const Contact& first, const Contact& other, const SeedLot& lot) {
+  struct Shared {
+    const char* key;
+    bool is_same;
+  };
+  const bool slips = first.friction_model == FrictionModel::sliding || first.rolling == Rolling::constant_torque;
+  const Shared values[] = {{"damping_rate", other.damping_rate == first.damping_rate},
+                           {"wall.youngs_modulus", other.wall_youngs_modulus == first.wall_youngs_modulus},
+                           {"wall.poisson_ratio", other.wall_poisson_ratio == first.wall_poisson_ratio},
+                           {"tangential_ratio", other.tangential_ratio == first.tangential_ratio},
+                           {"tangential_damping", other.tangential_damping == first.tangential_damping},
+                           {"rolling_damping", other.rolling_damping == first.rolling_damping},
+                           {"slip_speed", !slips || other.slip_speed == first.slip_speed},
+                           {"drag", other.drag == first.drag},
+                           {"rotation", other.rotation == first.rotation},
+                           {"friction_arm", other.friction_arm == first.friction_arm}};
+  for (const auto& [key, is_same] : values)
+    if (!is_same)
+      table.fail(key, fmt::format("is shared by all seeds, and the crops' contact models differ in it ({} from the "
+                                  "first); give it in [contact]",
+                                  lot.contact.name));
+}
+
 /// The general surfaces are of the first lot; those of the others, and between any two, are overrides.
 void join_surfaces(const std::vector<Contact>& own, const std::vector<Pair>& written, Contact& contact) {
   const auto is_written = [&](int lot, int other) {
@@ -399,11 +423,23 @@ Contact read_contacts_of_crops(Table& table, Table& seeds, std::vector<SeedLot>&
     own.push_back(read_over(anew, lots[i].contact, seeds, lots));
     anew.reject_unknown_keys();
     require_one_law(table, own.front(), own.back(), lots[i]);
+    require_shared_values(table, own.front(), own.back(), lots[i]);
   }
   Contact contact = own.front();
   join_surfaces(own, find_pairs(table, lots), contact);
   give_lots_their_materials(own, lots);
   return contact;
+}
+
+/// Whether [contact] stands alone: it names a law, or has both stiffness and friction. Else its keys, such as one that
+/// --set or a study gives, lie over the crops' models.
+bool is_whole(const Table& table, Table& seeds, const std::vector<SeedLot>& lots) {
+  const auto is_stiff = [](const Table& one) {
+    return one.has_here("shell_compression") || one.has_here("youngs_modulus");
+  };
+  const bool lots_are_stiff =
+      std::ranges::all_of(lots, [&](const SeedLot& lot) { return is_stiff(seeds.required_table(lot.name)); });
+  return table.has_here("law") || (table.has_here("friction") && (is_stiff(table) || lots_are_stiff));
 }
 
 }  // namespace
@@ -413,7 +449,7 @@ bool crops_have_contacts(const std::vector<SeedLot>& lots) {
 }
 
 Contact read_contact(Table table, Table seeds, std::vector<SeedLot>& lots) {
-  const bool crops_tell = table.keys().empty() && crops_have_contacts(lots);
+  const bool crops_tell = !table.has_here("model") && crops_have_contacts(lots) && !is_whole(table, seeds, lots);
   if (crops_tell || table.text("model") == of_crop) return read_contacts_of_crops(table, seeds, lots);
   const PresetFile model = use_preset(table, "model", "contacts");
   Contact contact = read_own(table, seeds, lots);

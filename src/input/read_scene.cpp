@@ -70,8 +70,8 @@ std::vector<SeedLot> read_lots(Table seeds, Space space) {
   return lots;
 }
 
-/// A level by its name, or the cheapest whose error is known to be within a fraction.
-AccuracyLevel read_accuracy(Table& root) {
+/// A level by its name, or the cheapest whose error with such seeds is known to be within a fraction.
+AccuracyLevel read_accuracy(Table& root, const std::vector<SeedLot>& lots) {
   const std::optional<std::string> text = root.text("accuracy");
   if (!text) return AccuracyLevel::as_written;
   for (const AccuracyLevelValues& level : accuracy_levels)
@@ -81,13 +81,27 @@ AccuracyLevel read_accuracy(Table& root) {
         "accuracy",
         fmt::format("\"{}\" is neither \"draft\", \"design\" nor \"reference\", nor an error such as \"3 %\"", *text));
   }
-  const double percent = 100 * *root.quantity("accuracy", Dimension::fraction, 0, 1);
+  const double wanted = *root.quantity("accuracy", Dimension::fraction, 0, 1);
+  const auto error = [&](const AccuracyLevelValues& level) { return level.error(has_clumps(lots)); };
   for (const AccuracyLevelValues& level : accuracy_levels)
-    if (level.error_percent <= percent) return level.level;
-  root.fail("accuracy",
-            fmt::format("{} is less than any level is known to err by, {:g} %; `vibrosow accuracy --within` "
-                        "finds out for one seeder",
-                        *text, accuracy_levels.back().error_percent));
+    if (error(level) <= wanted * (1 + 1e-9)) return level.level;
+  root.fail(
+      "accuracy",
+      fmt::format("{} is less than any level is known to err by with such seeds, {:g} %; `vibrosow accuracy --within` "
+                  "finds out for one seeder",
+                  *text, 100 * error(accuracy_levels.back())));
+}
+
+/// A level takes the place of the softness that a file gives. One that is asked for beside it would count for nothing.
+void refuse_softness_beside(AccuracyLevel accuracy, const Table& contact, Table& seeds) {
+  if (accuracy == AccuracyLevel::as_written) return;
+  constexpr const char* key = "shell_compression";
+  const auto refuse = [](const Table& table) {
+    if (table.is_laid_over(key)) table.fail(key, "contradicts accuracy, which sets it");
+  };
+  refuse(contact);
+  for (const std::string& lot : seeds.keys())
+    if (const auto table = seeds.table(lot)) refuse(*table);
 }
 
 Numerics read_numerics(Table table, Law law, AccuracyLevel accuracy) {
@@ -227,7 +241,8 @@ Seeder read_seeder_in(std::optional<Space> wanted, const std::filesystem::path& 
   if (!gives_seeds(scene.tray) && !(scene.hopper && gives_seeds(*scene.hopper))) {
     tray.fail("fill", "is missing, no hopper has one, and no rain falls: there is nothing to sow");
   }
-  const AccuracyLevel accuracy = read_accuracy(root);
+  const AccuracyLevel accuracy = read_accuracy(root, scene.lots);
+  refuse_softness_beside(accuracy, contact, seeds);
   if (auto numerics = root.table("numerics")) scene.numerics = read_numerics(*numerics, scene.contact.law, accuracy);
   scene.numerics.accuracy = accuracy;
   if (auto guard = root.table("guard")) scene.guard = read_guard(*guard);

@@ -105,8 +105,7 @@ void check_fill_fits(const Table& fill_table, const Vessel& vessel, const std::v
   if (space == Space::three_dimensional) check_room(*vessel.depth, "deep");
   const double most = most_seeds(vessel, lots, space);
   if (vessel.fill->count > most) {
-    const bool holders = vessel.fill->packing != Packing::poured &&
-                         std::ranges::any_of(lots, [](const SeedLot& lot) { return lot.shape == Shape::clump; });
+    const bool holders = vessel.fill->packing != Packing::poured && has_clumps(lots);
     fill_table.fail(
         key, fmt::format(
                  "does not fit: {} seeds, but closely packed{} the {} holds no more than {:.0f}", vessel.fill->count,

@@ -173,6 +173,11 @@ bool Table::has_here(const std::string& key) const {
   return state_->node->find(key) != nullptr;
 }
 
+bool Table::is_laid_over(const std::string& key) const {
+  const TomlEntry* entry = state_->node->find(key);
+  return entry != nullptr && !entry->place.origin.empty();
+}
+
 std::optional<Table> Table::table(const std::string& key) {
   state_->know(key);
   const std::shared_ptr<State> child = state_->child(key);

@@ -27,6 +27,7 @@ class Table {
 
   bool has(const std::string& key) const;              // here or in the fallback
   bool has_here(const std::string& key) const;         // written in this document
+  bool is_laid_over(const std::string& key) const;     // by --set or by a study, not written in the file
   std::optional<Table> table(const std::string& key);  // absent: nullopt; not a table: InputError
   Table required_table(const std::string& key);
   Table table_or_empty(const std::string& key);  // absent: one that a preset may lie behind

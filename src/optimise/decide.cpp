@@ -54,7 +54,7 @@ std::optional<double> correlation(const std::vector<double>& a, const std::vecto
 
 bool has_clogged(const Evaluation& run) {
   const HoleOutflow* const all = find_row(run.outflow, "all", "all");
-  return run.finished() && (!run.end_reason.empty() || !all || all->grains == 0);
+  return run.finished() && (run.stopped_flowing() || !all || all->grains == 0);
 }
 
 std::string first_stop(const std::vector<Evaluation>& runs) {
@@ -77,6 +77,7 @@ StudyDecision::StudyDecision(const Study& study, const DecideOptions& options, c
       failures_(study.scenes.size()),
       counts_(study.scenes.size(), 0) {
   check_rates(study, options);
+  options_.goal = &goal_between(*options.goal, study.scenes);
   for (std::size_t scene = 0; scene < study.scenes.size(); ++scene) {
     if (!taking_part.empty() && !taking_part[scene]) continue;
     systems_.push_back(scene);

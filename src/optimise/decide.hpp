@@ -59,7 +59,8 @@ struct DecisionResult {
   std::optional<DecisionCost> equal_grid;  // what Rinott's procedure takes for the same confidence, by the first runs
 };
 
-/// Whether a run clogged: it ended for want of outflow (run.end_after_pause), or no seed came in its window.
+/// Whether a run clogged: it ended for want of outflow (run.end_after_pause) with seeds in it, or no seed came in its
+/// window.
 bool has_clogged(const Evaluation& run);
 
 /// Of the first of some runs that the guard stopped, the random seed and why; empty without one.

@@ -9,6 +9,7 @@
 
 #include "input/wording.hpp"
 #include "scene/input_error.hpp"
+#include "scene/spaces.hpp"
 #include "units/quantity.hpp"
 
 namespace vibrosow {
@@ -24,6 +25,9 @@ constexpr std::array table = {
     Goal{"spilled", "spilled", "spilled_percent", false, "seeds that left over the rim, least", "nothing left it"},
 };
 
+constexpr std::string_view rate = "rate";
+constexpr Goal rate_of_tray{rate, "rate of the tray", "tray_rate_g_per_s", true, "mass flow, most", "it has no rate"};
+
 std::optional<double> finite(const std::optional<double>& value) {
   return value && std::isfinite(*value) ? value : std::nullopt;
 }
@@ -36,13 +40,6 @@ struct Rate {
 std::string_view trimmed(std::string_view text) {
   const auto from = text.find_first_not_of(' '), to = text.find_last_not_of(' ');
   return from == std::string_view::npos ? std::string_view() : text.substr(from, to - from + 1);
-}
-
-/// Where "+-", "±" or "+/-" stands, and how many bytes it takes.
-std::pair<std::size_t, std::size_t> find_plus_minus(std::string_view text) {
-  for (const std::string_view sign : {"+-", "\u00b1", "+/-"})
-    if (const auto at = text.find(sign); at != std::string_view::npos) return {at, sign.size()};
-  return {std::string_view::npos, 0};
 }
 
 Rate read_rate(std::string_view text) {
@@ -73,6 +70,21 @@ const Goal& goal_named(std::string_view name) {
     list += (list.empty() ? "" : ", ") + names.back();
   }
   throw InputError(fmt::format("--goal: \"{}\" is none of {}{}", shortened(name), list, did_you_mean(name, names)));
+}
+
+const Goal& goal_between(const Goal& goal, const std::vector<Scene>& scenes) {
+  if (goal.name != rate || scenes.empty()) return goal;
+  const auto slice = [](const Scene& scene) {
+    return scene.space == Space::plane ? std::pair(slice_thickness(scene.lots), slices_of_tray(scene))
+                                       : std::pair(0.0, std::optional(1.0));
+  };
+  const auto is_like_the_first = [&, first = slice(scenes.front())](const Scene& scene) {
+    return slice(scene) == first;
+  };
+  if (std::ranges::all_of(scenes, is_like_the_first)) return goal;
+  if (std::ranges::all_of(scenes, [&](const Scene& scene) { return slice(scene).second.has_value(); }))
+    return rate_of_tray;
+  throw InputError("the goal rate: 2D slices of these layouts are of other thickness, and a tray.depth is missing");
 }
 
 const Figure& rate_figure(const std::optional<WantedRate>& wanted) {

@@ -4,6 +4,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "outflow/figures.hpp"
 #include "scene/scene.hpp"
@@ -28,6 +29,11 @@ std::span<const Goal> goals();
 
 /// Throws InputError with the list for a name that is none. "evenness" is the old name of "unevenness".
 const Goal& goal_named(std::string_view name);
+
+/// The goal as it compares these scenes. "rate" is of a slice in 2D; where slices are of other thickness or a tray
+/// holds another number of them, it is of the whole tray. Throws InputError where that takes a tray.depth that is
+/// missing.
+const Goal& goal_between(const Goal& goal, const std::vector<Scene>& scenes);
 
 /// The figure that a rate is shown as: of the whole tray as it is wanted, or else rate_g_per_s.
 const Figure& rate_figure(const std::optional<WantedRate>& wanted);

@@ -104,6 +104,11 @@ void StudyOptimisation::check(const Study& study) const {
       throw InputError("--rate: is of the whole tray, and the seeder is in 2D without tray.depth");
     if (has(options_, Kind::power)) drive_power(scene);
   }
+  std::vector<Scene> all = generations_.empty() ? std::vector<Scene>() : generations_.front()->study.scenes;
+  all.insert(all.end(), study.scenes.begin(), study.scenes.end());
+  for (const FrontGoal* goal : options_.goals)
+    if (goal->figure != nullptr && &goal_between(*goal->figure, all) != goal->figure)
+      throw InputError("--goals: rate is of a 2D slice, and slices of these layouts differ; take space = \"3d\"");
 }
 
 void StudyOptimisation::build_new_layouts() {
@@ -245,8 +250,10 @@ FrontLayout StudyOptimisation::layout_result(std::size_t layout, FrontStanding s
   for (const SceneRuns& runs : generations_[trial.generation]->runs)
     if (result.stopped.empty()) result.stopped = first_stop(runs.runs()[*trial.scene]);
   const Generation& generation = *generations_[trial.generation];
-  const auto own = static_cast<std::size_t>(std::ranges::find(variants_, Variant::as_it_is) - variants_.begin());
-  result.doubts = doubts_of_layout(generation.study.scenes[*trial.scene], generation.runs[own].runs()[*trial.scene]);
+  std::vector<Evaluation> of_all_variants;
+  for (const SceneRuns& runs : generation.runs)
+    std::ranges::copy(runs.runs()[*trial.scene], std::back_inserter(of_all_variants));
+  result.doubts = doubts_of_layout(generation.study.scenes[*trial.scene], of_all_variants);
   result.runs = search_->front().observations(layout);
   result.clogged = search_->front().clogged(layout);
   const std::vector<KnownMean> known = search_->front().known(layout);

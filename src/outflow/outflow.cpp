@@ -106,22 +106,36 @@ std::optional<double> depth_factor(const Scene& scene) {
   return scene.space == Space::three_dimensional ? std::optional(1.0) : slices_of_tray(scene);
 }
 
-bool is_fed(const Scene& scene) {
-  const auto fed = [](const Vessel& vessel) { return vessel.rain || (vessel.fill && vessel.fill->keep); };
-  return fed(scene.tray) || (scene.hopper && fed(*scene.hopper));
+bool is_kept(const Scene& scene) {
+  const auto kept = [](const Vessel& vessel) { return vessel.fill && vessel.fill->keep; };
+  return kept(scene.tray) || (scene.hopper && kept(*scene.hopper));
 }
 
-/// Of a fill that nothing tops up: what is left at the window's end, of what was there when it began, below which the
+/// Seeds that rain is to bring in the window.
+double rained_in(const Scene& scene, const MeasuringWindow& window) {
+  double seeds = 0;
+  for (const Vessel* vessel : {&scene.tray, scene.hopper ? &*scene.hopper : nullptr})
+    if (vessel != nullptr && vessel->rain)
+      seeds += vessel->rain->rate *
+               std::max(0.0, std::min(window.to, vessel->rain->stop) - std::max(window.from, vessel->rain->start));
+  return seeds;
+}
+
+/// Of a fill that nothing keeps up: what is left at the window's end, of what was there when it began, below which the
 /// rate is not that of a full tray.
 constexpr double drained_fraction = 0.5;
 
+/// Of the seeds that left, and at all, without a word.
+constexpr double most_spilled = 0.05;
+constexpr std::int64_t few_spilled = 5;
+
 std::optional<Doubt> doubt_if_drained(const Scene& scene, const Run& run, const MeasuringWindow& window) {
-  if (is_fed(scene) || window.empty()) return std::nullopt;
+  if (is_kept(scene) || window.empty()) return std::nullopt;
   const auto left_before =
       std::ranges::count_if(run.events, [&](const auto& event) { return event.time < window.from; });
   const Balance& balance = run.balance;
-  const std::int64_t at_begin = balance.put_in - left_before;
-  if (static_cast<double>(balance.inside) >= drained_fraction * static_cast<double>(at_begin)) return std::nullopt;
+  const double at_begin = static_cast<double>(balance.put_in - left_before) - rained_in(scene, window);
+  if (static_cast<double>(balance.inside) >= drained_fraction * at_begin) return std::nullopt;
   return Doubt{DoubtKind::drained, fmt::format("drained in the window: {} of {} seeds gone",
                                                balance.put_in - balance.inside, balance.put_in)};
 }
@@ -138,7 +152,12 @@ std::vector<Doubt> doubts_about(const Scene& scene, const Run& run, const Measur
     add(ran_dry, fmt::format("ran dry at {:.3g} s", run.tray_empty_since));
   else if (const auto doubt = doubt_if_drained(scene, run, window))
     doubts.push_back(*doubt);
-  if (!run.end_reason.empty()) add(stopped_flowing, fmt::format("ended at {:.3g} s: {}", run.end_time, run.end_reason));
+  if (!run.end_reason.empty() && run.balance.inside > 0)
+    add(stopped_flowing, fmt::format("ended at {:.3g} s: {}", run.end_time, run.end_reason));
+  const std::int64_t left = run.balance.counted + run.balance.spilled;
+  if (run.balance.spilled > few_spilled &&
+      static_cast<double>(run.balance.spilled) > most_spilled * static_cast<double>(left))
+    add(seeds_spilled, fmt::format("{} of the {} seeds that left fell past the tray's rim", run.balance.spilled, left));
   if (run.balance.lost > 0)
     add(seeds_lost, fmt::format("{} of {} seeds lost through walls", run.balance.lost, run.balance.put_in));
   doubts.insert(doubts.end(), run.warnings.begin(), run.warnings.end());

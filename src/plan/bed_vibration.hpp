@@ -17,9 +17,9 @@ constexpr ClosestPacking closest_packing(Space space) {
 
 /// The longest step (s) with which velocity Verlet keeps a bed's vibrations stable. A mode of elastic and dashpot
 /// forces K and C over mass is stable up to h^2 K / 4 + h C / 2 = 1, K and C being those that the scheme makes of each
-/// contact's k and c: over 1 + c h / (2 m_c), m_c the mass that the two have against each other (docs/explanation/theory.md). The
-/// fastest mode of `bed` keeps to 9/16 of that, found by power iteration; that of equal seeds in the closest packing,
-/// which only what is laid so has, to 9/10.
+/// contact's k and c: over 1 + c h / (2 m_c), m_c the mass that the two have against each other
+/// (docs/explanation/theory.md). The fastest mode of `bed` keeps to 9/16 of that, found by power iteration; that of
+/// equal seeds in the closest packing, which only what is laid so has, to 9/10.
 double longest_stable_step(const StepBasis& basis, const PackedBed& bed);
 
 }  // namespace vibrosow

@@ -42,23 +42,30 @@ struct Stretch {
   double from, to;
 };
 
-/// The part of a straight line that is less than `height` above or below the floor's line, as parts of the line.
-std::optional<Stretch> near_floor(const Eigen::Vector2d& a, const Eigen::Vector2d& b, double height) {
+/// How far above and below the floor's line (m) what is drawn lets no seed through a hole. A line steeper than 45
+/// degrees narrows it, as a chute does, and counts below as above.
+struct Near {
+  double above, below;
+};
+
+/// The part of a straight line that is so near the floor's line, as parts of the line.
+std::optional<Stretch> near_floor(const Eigen::Vector2d& a, const Eigen::Vector2d& b, Near near) {
   const double rise = b.y() - a.y();
-  if (rise == 0) return std::abs(a.y()) < height ? std::optional(Stretch{0, 1}) : std::nullopt;
-  const double one = (-height - a.y()) / rise, other = (height - a.y()) / rise;
+  if (rise == 0) return a.y() < near.above && a.y() > -near.below ? std::optional(Stretch{0, 1}) : std::nullopt;
+  const double below = std::abs(rise) > std::abs(b.x() - a.x()) ? near.above : near.below;
+  const double one = (-below - a.y()) / rise, other = (near.above - a.y()) / rise;
   const Stretch part{std::max(0.0, std::min(one, other)), std::min(1.0, std::max(one, other))};
   return part.from < part.to ? std::optional(part) : std::nullopt;
 }
 
 /// Over which stretches of the floor, along it or across, a piece that is drawn out lies near it.
-std::vector<Stretch> over_floor(const WallPiece& piece, double height) {
+std::vector<Stretch> over_floor(const WallPiece& piece, Near near) {
   WallSegment wall{piece.a, piece.b, ""};
   wall.centre = piece.centre, wall.radius = piece.radius, wall.from = piece.from, wall.to = piece.to;
   const std::vector<Eigen::Vector2d> points = wall_points(wall);
   std::vector<Stretch> stretches;
   for (std::size_t k = 1; k < points.size(); ++k)
-    if (const auto part = near_floor(points[k - 1], points[k], height)) {
+    if (const auto part = near_floor(points[k - 1], points[k], near)) {
       const double along = points[k].x() - points[k - 1].x();
       const double one = points[k - 1].x() + part->from * along, other = points[k - 1].x() + part->to * along;
       stretches.push_back({std::min(one, other), std::max(one, other)});
@@ -71,12 +78,12 @@ using Covered = std::optional<double>;
 
 constexpr double rim = 0.02;  // of a hole's width, or its length across: what reaches no further in is beside it
 
-Covered covered_by_drawn_out(const WallPiece& piece, const Hole& hole, double height) {
+Covered covered_by_drawn_out(const WallPiece& piece, const Hole& hole, Near near) {
   const bool along = piece.drawn_out == DrawnOut::along;
   const double middle = along ? hole.across : hole.centre;
   const double width = along && hole.shape == HoleShape::slot ? hole.across_length : hole.width;
   const double left = middle - width / 2, right = middle + width / 2, slack = rim * width;
-  std::vector<Stretch> over = over_floor(piece, height);
+  std::vector<Stretch> over = over_floor(piece, near);
   std::ranges::sort(over, {}, &Stretch::from);
   Covered covered;
   double reached = left;
@@ -90,9 +97,9 @@ Covered covered_by_drawn_out(const WallPiece& piece, const Hole& hole, double he
 }
 
 /// Whether a piece turned about an axis lies near the floor at a place of it (m).
-bool is_over(const WallPiece& piece, double x, double z, double height) {
+bool is_over(const WallPiece& piece, double x, double z, Near near) {
   if (piece.axis == PieceAxis::upright) {
-    const auto part = near_floor(piece.a, piece.b, height);
+    const auto part = near_floor(piece.a, piece.b, near);
     const double away = elementary::hypot(x - piece.about->x(), z - piece.about->y());
     const double one = piece.a.x() + (part ? part->from : 0) * (piece.b.x() - piece.a.x());
     const double other = piece.a.x() + (part ? part->to : 0) * (piece.b.x() - piece.a.x());
@@ -103,11 +110,12 @@ bool is_over(const WallPiece& piece, double x, double z, double height) {
   const double radius = piece.a.x() + part * (piece.b.x() - piece.a.x()), aside = z - piece.about->y();
   if (std::abs(aside) > radius) return false;
   const double up = std::sqrt(radius * radius - aside * aside);
-  return std::abs(piece.about->x() + up) < height || std::abs(piece.about->x() - up) < height;
+  const auto is_near = [near](double y) { return y < near.above && y > -near.below; };
+  return is_near(piece.about->x() + up) || is_near(piece.about->x() - up);
 }
 
 /// Places of a hole are looked at on a grid; a thin wall that stands in the hole passes between them and is not seen.
-Covered covered_by_turned(const WallPiece& piece, const Hole& hole, double height) {
+Covered covered_by_turned(const WallPiece& piece, const Hole& hole, Near near) {
   constexpr int rows = 25;
   const bool round = hole.shape == HoleShape::round;
   const double half_z = 0.5 * (round ? hole.width : hole.across_length);
@@ -117,7 +125,7 @@ Covered covered_by_turned(const WallPiece& piece, const Hole& hole, double heigh
       const double u = (2 * i + 1.0) / rows - 1, v = (2 * k + 1.0) / rows - 1;
       if (round && u * u + v * v > 1) continue;
       ++places;
-      under += is_over(piece, hole.centre + u * hole.width / 2, hole.across + v * half_z, height) ? 1 : 0;
+      under += is_over(piece, hole.centre + u * hole.width / 2, hole.across + v * half_z, near) ? 1 : 0;
     }
   return under == 0 ? std::nullopt : Covered(static_cast<double>(under) / places);
 }
@@ -125,16 +133,18 @@ Covered covered_by_turned(const WallPiece& piece, const Hole& hole, double heigh
 /// The holes that are covered, if only in part.
 std::vector<bool> warn_of_covered_holes(const Scene& scene, const Vessel& vessel, Warnings& warnings) {
   std::vector<bool> all_covered(vessel.holes.size(), false);
-  // Nothing passes between the floor and what is nearer to it than half a seed.
-  double height = std::numeric_limits<double>::infinity();
-  for (const SeedLot& lot : scene.lots) height = std::min(height, 0.5 * mean_thickness(lot));
+  double seed = std::numeric_limits<double>::infinity();
+  for (const SeedLot& lot : scene.lots) seed = std::min(seed, mean_thickness(lot));
   for (std::size_t k = 0; k < vessel.pieces.size(); ++k) {
     const WallPiece& piece = vessel.pieces[k];
     std::string holes;
     for (std::size_t h = 0; h < vessel.holes.size(); ++h) {
       const Hole& hole = vessel.holes[h];
-      const Covered covered = !plane_alone && piece.about ? covered_by_turned(piece, hole, height)
-                                                          : covered_by_drawn_out(piece, hole, height);
+      // Nothing comes from aside between the floor and what lies half a seed over it, and nothing leaves between what
+      // lies a seed under the hole and the hole.
+      const Near near{0.5 * seed, hole.thickness + seed};
+      const Covered covered =
+          !plane_alone && piece.about ? covered_by_turned(piece, hole, near) : covered_by_drawn_out(piece, hole, near);
       if (!covered) continue;
       all_covered[h] = true;
       holes += fmt::format("{}hole {}", holes.empty() ? "" : ", ", h + 1);
@@ -390,6 +400,26 @@ void warn_of_vessels_that_meet(const Scene& scene, Warnings& warnings) {
   }
 }
 
+/// What a hopper lets out beside the tray is spilled.
+void warn_of_outlets_beside_tray(const Scene& scene, Warnings& warnings) {
+  const Vessel& tray = scene.tray;
+  if (!scene.hopper || !tray.box || turns_steadily(tray)) return;
+  const Pose of_tray = vessel_pose(tray, 0), of_hopper = vessel_pose(*scene.hopper, 0);
+  for (std::size_t k = 0; k < scene.hopper->holes.size(); ++k) {
+    const Hole& hole = scene.hopper->holes[k];
+    const auto along = [&](double x) {
+      return in_vessel_frame(tray, of_tray, in_lab_frame(*scene.hopper, of_hopper, {x, 0})).x();
+    };
+    const double one = along(hole.centre - hole.width / 2), other = along(hole.centre + hole.width / 2);
+    const double slack = rim * hole.width, left = std::min(one, other), right = std::max(one, other);
+    if (tray.sides == Sides::periodic || (left >= -slack && right <= tray.length + slack)) continue;
+    warnings.push_back(
+        fmt::format("hopper.holes: hole {} is over {} to {} of the tray, which is {} long: what falls "
+                    "beside the tray is spilled",
+                    k + 1, in_mm(left), in_mm(right), in_mm(tray.length)));
+  }
+}
+
 // Where pieces reach to.
 
 void warn_of_large_pieces(const Vessel& vessel, Warnings& warnings) {
@@ -441,6 +471,7 @@ std::vector<std::string> geometry_warnings(const Scene& scene) {
     warn_of_pieces_below(scene, *vessel, warnings);
   }
   warn_of_vessels_that_meet(scene, warnings);
+  warn_of_outlets_beside_tray(scene, warnings);
   return warnings;
 }
 

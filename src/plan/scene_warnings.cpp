@@ -5,9 +5,11 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <string_view>
 
 #include "elementary/functions.hpp"
 #include "plan/geometry_warnings.hpp"
+#include "plan/steadiness_warnings.hpp"
 #include "scene/mixture.hpp"
 #include "scene/motion.hpp"
 #include "scene/seed_lot.hpp"
@@ -167,9 +169,8 @@ bool rolls_freely_on(const Vessel& vessel, const Scene& scene) {
   if (const auto* shake = std::get_if<HarmonicMotion>(&*vessel.motion);
       shake != nullptr && std::abs(elementary::cos(shake->direction)) < 1e-6)
     return false;  // upright: it carries nothing
-  return std::ranges::none_of(scene.lots, [](const SeedLot& lot) { return lot.shape == Shape::clump; }) &&
-         std::ranges::all_of(meeting_surfaces(scene.contact, scene.lots.size()).walls,
-                             [](const Surface& wall) { return wall.rolling_friction == 0; });
+  return !has_clumps(scene.lots) && std::ranges::all_of(meeting_surfaces(scene.contact, scene.lots.size()).walls,
+                                                        [](const Surface& wall) { return wall.rolling_friction == 0; });
 }
 
 /// A ball that nothing keeps from rolling turns on a floor that moves under it, and stays where it is.
@@ -225,7 +226,13 @@ bool has_override(const Scene& scene, int lot, int other) {
                              [&](const SurfaceOverride& pair) { return pair.lot == lot && pair.other == other; });
 }
 
-/// Friction and restitution decide the rate, and are of one seed on one material.
+/// Of a file's path, what lies before its name.
+std::string_view folder_of(std::string_view file) {
+  return file.substr(0, file.find_last_of('/') + 1);
+}
+
+/// Friction and restitution decide the rate, and are of one seed on one material. A model from elsewhere than the
+/// crop's was fitted to it or chosen by hand.
 void warn_of_foreign_contacts(const Scene& scene, Warnings& warnings) {
   constexpr int walls = -1;
   const PresetFile& model = scene.contact.model;
@@ -234,6 +241,7 @@ void warn_of_foreign_contacts(const Scene& scene, Warnings& warnings) {
     const SeedLot& lot = scene.lots[i];
     const int number = static_cast<int>(i);
     if (!lot.contact.is_known() || lot.contact.file == model.file) continue;
+    if (folder_of(lot.contact.file) != folder_of(model.file)) continue;
     if (has_override(scene, number, number) && has_override(scene, number, walls)) continue;
     warnings.push_back(
         fmt::format("contact.model: \"{}\" is made for other seeds than seeds.{}, whose crop, {}, has \"{}\"; "
@@ -256,6 +264,7 @@ std::vector<std::string> scene_warnings(const Scene& scene) {
   warn_of_free_rolling(scene, scene.tray, warnings);
   if (scene.space == Space::plane) warn_of_round_holes(scene.tray, warnings);
   for (const std::string& warning : geometry_warnings(scene)) warnings.push_back(warning);
+  for (const std::string& warning : steadiness_warnings(scene)) warnings.push_back(warning);
   if (!scene.hopper) return warnings;
   if (scene.space == Space::plane) warn_of_round_holes(*scene.hopper, warnings);
   warn_of_narrow_holes(*scene.hopper, scene.lots, warnings);

@@ -22,6 +22,14 @@ double general_value(const Scene& scene, double Contact::*general, std::optional
   return all_their_own ? *(scene.lots.front().*own) : scene.contact.*general;
 }
 
+/// The shell compression of the softest lot.
+double softest_shell(const Scene& scene) {
+  double softest = 0;
+  for (const SeedLot& lot : scene.lots)
+    softest = std::max(softest, lot.shell_compression.value_or(scene.contact.shell_compression));
+  return softest;
+}
+
 bool has_shell(const LawTraits& law) {
   return law.material == LawMaterial::shell;
 }
@@ -44,7 +52,7 @@ double duration_of_shell(double shell_compression, double radius) {
 
 /// Of a scene without a level: its own, or with Hertz' law that of a shell whose contacts last as long.
 double shell_compression_of(const Scene& scene, const LawTraits& law) {
-  if (has_shell(law)) return softness_of(scene, law);
+  if (has_shell(law)) return softest_shell(scene);
   const double radius = smallest_radius(scene.lots);
   const double times = contact_duration_as_written(scene) / duration_of_shell(1, radius);
   return times * times;
@@ -57,7 +65,7 @@ double steps_a_contact(const Scene& scene) {
 
 /// Of a level, for that scene.
 double softness_at(const AccuracyLevelValues& level, const Scene& scene, const LawTraits& law) {
-  if (has_shell(law)) return level.shell_compression;
+  if (has_shell(law)) return level.shell_compression * (softness_of(scene, law) / softest_shell(scene));
   const double written = softness_of(scene, law);
   const double wanted = duration_of_shell(level.shell_compression, smallest_radius(scene.lots));
   return std::max(written, written * softness_for(law, wanted / contact_duration_as_written(scene)));
@@ -112,8 +120,7 @@ NumericsError numerics_error(const Scene& scene) {
   constexpr double rounding = 1e-9;
   const Scene written = at_its_accuracy(scene);
   const double shell = shell_compression_of(written, traits_of(written.contact.law)), steps = steps_a_contact(written);
-  const bool long_grains =
-      std::ranges::any_of(scene.lots, [](const SeedLot& lot) { return lot.shape == Shape::clump; });
+  const bool long_grains = has_clumps(scene.lots);
   const auto times_beyond = [&](const AccuracyLevelValues& level) {
     const double times = std::max(shell / level.shell_compression, level.steps_per_contact / steps);
     return times <= 1 + rounding ? 1 : times;

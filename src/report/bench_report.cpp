@@ -89,7 +89,8 @@ std::string expectation(const BenchSource& source) {
   }
   std::string text = told.empty() ? "These readings would say little about any of the fitted numbers."
                                   : fmt::format("Expected to reduce the uncertainty of {}.", fmt::join(told, ", "));
-  if (!untold.empty() && !told.empty()) text += fmt::format(" They would say little about {}.", fmt::join(untold, ", "));
+  if (!untold.empty() && !told.empty())
+    text += fmt::format(" They would say little about {}.", fmt::join(untold, ", "));
   return text;
 }
 

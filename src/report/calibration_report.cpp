@@ -37,9 +37,10 @@ Columns<FittedNumber> value_columns() {
       quantity_column<FittedNumber>("low", plain, "lower end of its 95 % interval", [](Row r) { return r.value.low; }),
       quantity_column<FittedNumber>("high", plain, "upper end of its 95 % interval",
                                     [](Row r) { return r.value.high; }),
-      quantity_column<FittedNumber>("contraction_percent", percent,
-                                    "by how much its standard deviation is below that of the range it was fitted in; 0: nothing learned",
-                                    [](Row r) { return r.value.contraction; }),
+      quantity_column<FittedNumber>(
+          "contraction_percent", percent,
+          "by how much its standard deviation is below that of the range it was fitted in; 0: nothing learned",
+          [](Row r) { return r.value.contraction; }),
       text_column<FittedNumber>("not_told_apart_from", "others with which it is correlated above 0.8 either way",
                                 [](Row r) { return confused_with(r); })};
 }
@@ -147,7 +148,8 @@ std::vector<PredictionRow> prediction_rows(const CalibrationAnswer& answer) {
 
 std::string provenance(const CalibrationAnswer& answer, const FittedNumber& row) {
   std::string text = fmt::format(
-      "fitted to {} with {} ({} of {} runs, vibrosow calibrate): 95 % interval {} to {}{}, uncertainty reduced by {:.0f} %",
+      "fitted to {} with {} ({} of {} runs, vibrosow calibrate): 95 % interval {} to {}{}, uncertainty reduced by "
+      "{:.0f} %",
       answer.task.measured.file.filename().string(), answer.task.seeder.filename().string(), answer.runs_that_count,
       answer.runs.size(), to_digits(row.value.low, 3), to_digits(row.value.high, 3),
       row.unit.empty() ? "" : fmt::format(" {}", row.unit), 100 * row.value.contraction);
@@ -212,7 +214,12 @@ std::string calibration_table(const CalibrationAnswer& answer) {
   if (of.held_out_rms)
     text += wrapped(fmt::format("held out, and predicted to {:.2g} {} (RMS)", 100 * *of.held_out_rms, of_what));
   if (const std::string factor = depth_factor_text(answer); !factor.empty()) text += wrapped(factor);
-  if (!answer.gives_a_contact) text += wrapped("No contact.toml is written: what is doubtful above would go on in it.");
+  if (answer.lots_have_own_contacts)
+    text += wrapped(
+        "No contact.toml is written: each lot has the contact model of its crop. Write the fitted keys into "
+        "the seeder's [contact], beside model = \"crop\".");
+  else if (!answer.gives_a_contact)
+    text += wrapped("No contact.toml is written: what is doubtful above would go on in it.");
   return text;
 }
 
@@ -229,8 +236,7 @@ std::vector<FileText> calibration_file_texts() {
       {"contact.toml",
        "a contact model with the means of the fitted values and where each is from, for "
        "`[contact] model = \"contact.toml\"`; none where the table is not met within its noise, a value lies at the "
-       "edge of "
-       "its range, or seeds went through walls",
+       "edge of its range, seeds went through walls, or each of several lots has the model of its crop",
        {}}};
 }
 

@@ -40,7 +40,8 @@ bool is_guaranteed(const DecisionResult& result) {
 
 std::string weakness_sentence() {
   return "That is no guarantee: among layouts that all lie about that far behind the best this rule is wrong clearly "
-         "more often (docs/explanation/how-the-best-layout-is-found.md). For a guarantee: --procedure guaranteed, which uses these runs.";
+         "more often (docs/explanation/how-the-best-layout-is-found.md). For a guarantee: --procedure guaranteed, "
+         "which uses these runs.";
 }
 
 std::string figures_sentence(const DecisionResult& result, std::size_t scene, std::string_view plus_minus) {

@@ -113,11 +113,15 @@ std::string expected_sentence(const Answer& answer) {
   if (rates.size() == 1 && answer.layouts.size() == 1) return expected_sentence(*rates.front()) + '.';
   double low = rates.front()->range.low, high = rates.front()->range.high;
   for (const ExpectedRate* rate : rates) low = std::min(low, rate->range.low), high = std::max(high, rate->range.high);
-  return fmt::format(
-      "Until you weigh, expect {} to {} times these rates (95 %); of it {}. What the model errs by is one factor of "
-      "all "
-      "layouts with the same seed: it does not decide between them, and they are compared by chance alone.",
-      to_digits(low, 2), to_digits(high, 2), parts_text(rates));
+  const bool of_one_seed =
+      std::ranges::all_of(study.scenes, [&](const Scene& scene) { return scene.lots == study.scenes.front().lots; });
+  return fmt::format("Until you weigh, expect {} to {} times these rates (95 %); of it {}. {}", to_digits(low, 2),
+                     to_digits(high, 2), parts_text(rates),
+                     of_one_seed
+                         ? "What the model errs by is one factor of all layouts with the same seed: it does not "
+                           "decide between them, and they are compared by chance alone."
+                         : "What the model errs by differs from seed to seed: layouts with different seeds are "
+                           "compared by chance alone, and that error may turn their order round.");
 }
 
 std::string expected_paragraph(const Answer& answer) {

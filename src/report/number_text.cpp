@@ -47,7 +47,8 @@ std::string number_text(double value, int digits) {
 
 std::string interval_text(double mean, const std::optional<double>& half_width, std::string_view plus_minus) {
   if (!half_width || !std::isfinite(*half_width) || !std::isfinite(mean)) return number_text(mean);
-  if (*half_width <= 0) return fmt::format("{} {} 0", number_text(mean), plus_minus);
+  constexpr double rounding = 1e-9;  // what is left of equal values
+  if (*half_width <= rounding * std::abs(mean)) return fmt::format("{} {} 0", number_text(mean), plus_minus);
   const int place = place_of(*half_width, 2) - 1;
   return fmt::format("{} {} {}", at_place(mean, place), plus_minus, at_place(*half_width, place));
 }

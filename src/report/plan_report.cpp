@@ -253,8 +253,8 @@ std::vector<const PlannedLayout*> shown_layouts(const SowingPlan& plan) {
 std::string table_text(const SowingPlan& plan) {
   std::string text = fmt::format("{:>5} {:>5} {:>6} {:>5} {:>6} {:>6} {:>14} {:>10} {:>7}  {}\n", "holes", "hole",
                                  "hole /", "bed", "freq.", "ampl.", "speeds", "expect", "stood", "more");
-  text += fmt::format("{:>5} {:>5} {:>6} {:>5} {:>6} {:>6} {:>14} {:>10} {:>7}  {}\n", ":rows", "mm", "seed", "mm", "Hz",
-                      "mm", "km/h", "%", "still %", "by");
+  text += fmt::format("{:>5} {:>5} {:>6} {:>5} {:>6} {:>6} {:>14} {:>10} {:>7}  {}\n", ":rows", "mm", "seed", "mm",
+                      "Hz", "mm", "km/h", "%", "still %", "by");
   for (const PlannedLayout* layout : shown_layouts(plan)) {
     const FactorRange expected = expected_range(layout->error);
     text += fmt::format("{:>5} {:>5.1f} {:>6.2f} {:>5.1f} {:>6.2f} {:>6.1f} {:>14} {:>10} {:>7}  {}\n",
@@ -273,12 +273,12 @@ std::string table_text(const SowingPlan& plan) {
                 "slide over them, not the shaker.",
                 speed_text(working_speeds.least), speed_text(working_speeds.most))) +
             '\n';
-  text += wrapped(fmt::format(
-      "{} the rate{}. Of each number of holes and depth of bed the best is shown, the best first.",
-      plan.layouts.size() == 1 ? "One layout gives" : fmt::format("{} layouts give", plan.layouts.size()),
-      plan.too_uncertain > 0 ? fmt::format("; {} more are left out, as they are unsure by more than {} %",
-                                           plan.too_uncertain, two_digit_percent(most_uncertain))
-                             : ""));
+  text += wrapped(
+      fmt::format("{} the rate{}. Of each number of holes and depth of bed the best is shown, the best first.",
+                  plan.layouts.size() == 1 ? "One layout gives" : fmt::format("{} layouts give", plan.layouts.size()),
+                  plan.too_uncertain > 0 ? fmt::format("; {} more are left out, as they are unsure by more than {} %",
+                                                       plan.too_uncertain, two_digit_percent(most_uncertain))
+                                         : ""));
   const auto line = [&text](std::string_view column, const std::string& meaning) {
     text += wrapped_beside(fmt::format("  {:<12}", column), meaning);
   };

@@ -41,8 +41,10 @@ enum class DoubtKind {
   wider_than_its_range,
   few_points,
   nothing_held_out,
+  // Of a run; kept runs know kinds by their numbers, so it comes last.
+  seeds_spilled,
 };
-inline constexpr DoubtKind last_doubt_kind = DoubtKind::nothing_held_out;
+inline constexpr DoubtKind last_doubt_kind = DoubtKind::seeds_spilled;
 
 struct Doubt {
   DoubtKind kind;

@@ -101,6 +101,10 @@ bool is_solid_clump(const SeedLot& lot) {
   return lot.shape == Shape::clump && lot.gyration2_x > 0 && lot.gyration2_y > 0;
 }
 
+bool has_clumps(const std::vector<SeedLot>& lots) {
+  return std::ranges::any_of(lots, [](const SeedLot& lot) { return lot.shape == Shape::clump; });
+}
+
 int mass_power(const SeedLot& lot) {
   return lot.shape == Shape::ball || is_solid_clump(lot) ? 3 : 2;
 }

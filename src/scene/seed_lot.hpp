@@ -26,6 +26,8 @@ double size_moment(const SeedLot& lot, int power);
 /// Whether a lot's seeds are clumps of balls in space.
 bool is_solid_clump(const SeedLot& lot);
 
+bool has_clumps(const std::vector<SeedLot>& lots);
+
 /// The power of its size with which a seed's mass grows, at equal density: 3 of a ball or a clump of balls, 2 of a disc
 /// or a clump of discs.
 int mass_power(const SeedLot& lot);

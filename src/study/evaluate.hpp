@@ -62,6 +62,8 @@ struct Evaluation {
   double cpu_time = 0;                   // s, of the thread that ran it
 
   bool finished() const { return status == EvaluationStatus::finished; }
+  /// Whether it ended for want of outflow though seeds were left in it. One that ended empty ran dry.
+  bool stopped_flowing() const { return finished() && !end_reason.empty() && balance.inside > 0; }
   /// Whether something may be decided by it.
   bool is_sound() const { return finished() && !outside_the_model; }
   /// Whether there was a run, so that the figures mean something.

@@ -56,7 +56,7 @@ std::vector<Evaluation> that_count(const Study& study, const std::vector<Evaluat
   if (!study.replicates.interval) return replicates;
   std::vector<Evaluation> flowed;
   for (const Evaluation& one : replicates)
-    if (!one.finished() || one.end_reason.empty()) flowed.push_back(one);
+    if (!one.stopped_flowing()) flowed.push_back(one);
   return flowed;
 }
 
@@ -192,8 +192,7 @@ SceneResult result_of(const Study& study, const Scene& scene, const std::vector<
   LayoutResult result;
   const std::vector<Evaluation> replicates = that_count(study, runs);
   set_status(result, replicates);
-  result.stopped_flowing = static_cast<int>(
-      std::ranges::count_if(runs, [](const Evaluation& one) { return one.finished() && !one.end_reason.empty(); }));
+  result.stopped_flowing = static_cast<int>(std::ranges::count_if(runs, &Evaluation::stopped_flowing));
   const bool was_run = is_compared(result.status) || result.status == LayoutStanding::outside_the_model;
   if (study.replicates.interval && was_run) add_doubts_of_need(study, runs, result);
   const std::vector<const Outflow*> outflows = finished_outflows(replicates);
@@ -220,7 +219,7 @@ std::vector<std::optional<double>> rates_of(const std::vector<Evaluation>& repli
   std::vector<std::optional<double>> rates;
   for (const Evaluation& one : replicates) {
     const HoleOutflow* const all =
-        one.finished() && one.end_reason.empty() ? find_row(one.outflow, "all", "all") : nullptr;
+        one.finished() && !one.stopped_flowing() ? find_row(one.outflow, "all", "all") : nullptr;
     rates.push_back(all && std::isfinite(all->mass_rate) ? std::optional(all->mass_rate) : std::nullopt);
   }
   return rates;

@@ -65,7 +65,9 @@ std::optional<MeanWithInterval> rate_of(const LayoutResult& layout) {
 Setting setting_of(const LayoutResult& layout, const Drill& drill, double value) {
   const std::optional<MeanWithInterval> rate = rate_of(layout);
   if (!rate) return {.value = value, .flowed = false};
-  Setting setting{.value = value, .rate = rate->mean, .flowed = layout.stopped_flowing == 0};
+  const bool ran_dry =
+      std::ranges::any_of(layout.doubts, [](const CountedDoubt& doubt) { return doubt.kind == DoubtKind::ran_dry; });
+  Setting setting{.value = value, .rate = rate->mean, .flowed = layout.stopped_flowing == 0 && !ran_dry};
   if (drill.streams() < 2) return setting;  // nothing to differ from
   const RowMeans& all = layout.rows.back();
   const auto& low = all["unevenness_cv_percent_low"];

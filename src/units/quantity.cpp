@@ -411,6 +411,12 @@ std::size_t number_length(std::string_view text) {
   return at;
 }
 
+std::pair<std::size_t, std::size_t> find_plus_minus(std::string_view text) {
+  for (const std::string_view sign : {"+-", "\u00b1", "+/-"})
+    if (const auto at = text.find(sign); at != std::string_view::npos) return {at, sign.size()};
+  return {std::string_view::npos, 0};
+}
+
 Quantity split_quantity(std::string_view text) {
   std::string plain(text);
   write_plainly(plain);

@@ -4,6 +4,7 @@
 #include <stdexcept>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace vibrosow {
@@ -53,6 +54,9 @@ std::size_t number_length(std::string_view text);
 /// Number and unit of a text; the unit may be empty or wrong. Throws UnitError where the text does not begin with a
 /// number, the number is not finite, or a decimal comma follows; the message begins after the text: "does not ..".
 Quantity split_quantity(std::string_view text);
+
+/// Where a tolerance begins, "+-", "±" or "+/-", and how many bytes that takes; npos and 0: nowhere.
+std::pair<std::size_t, std::size_t> find_plus_minus(std::string_view text);
 
 /// In SI. The unit must be one of the wanted dimension's: throws UnitError otherwise.
 double in_si(const Quantity& quantity, Dimension dimension);

@@ -201,7 +201,7 @@ TEST(Promise, TellsWhatEachStageCostsBeforeItIsRun) {
   const Promise made = promise(
       from, {.within_percent = 3},
       [&](const std::vector<SettingRuns>& wanted) {
-        const std::vector<AccuracyRun> stage = runs.run(from.design.settings, wanted);
+        std::vector<AccuracyRun> stage = runs.run(from.design.settings, wanted);
         made_runs.push_back(static_cast<int>(stage.size()));
         taken.push_back(0);
         for (const AccuracyRun& run : stage) taken.back() += run.cpu_time;

@@ -55,7 +55,7 @@ Run doubtful_run(DoubtKind kind, const Model& model, const SimulationOptions& op
       run.balance.inside = 0;
       break;
     case stopped_flowing:
-      run.end_reason = "no grain left for 1 s";
+      run.end_reason = "no grain left for 1 s", run.balance.inside = 20;
       break;
     case seeds_lost:
       run.balance.lost = 1, --run.balance.inside;

@@ -80,5 +80,30 @@ TEST_F(CalibrationAnswerOf, RunsThatLostSeedsGiveNoContact) {
   EXPECT_TRUE(answer().gives_a_contact);
 }
 
+/// A condition's scene is looked at once, whatever is fitted.
+TEST_F(CalibrationAnswerOf, SaysWhatIsUnlikelyInItsScenes) {
+  CalibrationRun run{0, 0, 1, {}};
+  run.scene.lots = {SeedLot{.name = "lead", .diameter = 4e-3, .mass = 1e-3}};
+  run.scene.tray.motion = HarmonicMotion{.amplitude = 3e-3, .frequency = 10};
+  design_.conditions.resize(2);
+  design_.runs = {run, run, run};
+  design_.runs[2].condition = 1;
+  EXPECT_THAT(doubts(), ElementsAre(HasSubstr("seeds.lead.mass")));
+}
+
+TEST_F(CalibrationAnswerOf, LotsWithContactsOfTheirOwnGetNoFileForAll) {
+  CalibrationRun run{0, 0, 1, {}};
+  for (const char* name : {"pea", "barley"})
+    run.scene.lots.push_back({.name = name, .number_fraction = 0.5, .contact = {name, std::string("models/") + name}});
+  run.scene.tray.motion = HarmonicMotion{.amplitude = 3e-3, .frequency = 10};
+  run.scene.contact.overrides = {{1, -1, {.friction = 0.2}}};
+  design_.conditions.resize(1);
+  design_.runs = {run};
+  EXPECT_TRUE(answer().lots_have_own_contacts);
+  EXPECT_FALSE(answer().gives_a_contact);
+  design_.runs[0].scene.contact.model = {"mine", "mine.toml"};
+  EXPECT_TRUE(answer().gives_a_contact) << "all lots have that";
+}
+
 }  // namespace
 }  // namespace vibrosow

@@ -208,8 +208,8 @@ for file in sweep.csv sweep_holes.csv sweep_runs.csv; do
 done
 
 # Runs are kept: nothing is simulated twice, and their folder can be looked at.
-expect 0 "([0-9]+) of the runs were there from before" sweep study.toml --out one-job
-expect 0 "of the runs were there from before" sweep study.toml --out reusing --reuse two-jobs
+expect 0 "([0-9]+) of the runs were kept from before" sweep study.toml --out one-job
+expect 0 "of the runs were kept from before" sweep study.toml --out reusing --reuse two-jobs
 cmp -s reusing/sweep_runs.csv one-job/sweep_runs.csv || fail "sweep_runs.csv depends on where runs come from"
 expect 2 "reuse: out/nowhere holds no runs of a sweep" sweep study.toml --out reusing --reuse out/nowhere
 expect 0 "^([0-9]+) of \1 runs are there, 0 are missing" status one-job
@@ -286,10 +286,10 @@ expect 0 "A rate within 50 %: " accuracy seeder.toml --within "50 %" --out promi
 have promise/promise.json promise/numerics.toml promise/accuracy_errors.csv
 grep -q "^steps_per_contact = " promise/numerics.toml || fail "numerics.toml sets no step"
 kept=$(find promise/cases -name '*.case' | sort)
-expect 0 "(.*) of the \\1 runs were there from before" accuracy seeder.toml --within "50 %" --out promise
+expect 0 "(.*) of the \\1 runs were kept from before" accuracy seeder.toml --within "50 %" --out promise
 head -n 3 <<<"$kept" | xargs rm
 cp promise/promise.json promise/accuracy_runs.csv .
-expect 0 "pilots, but for those that are kept" accuracy seeder.toml --within "50 %" --out promise --jobs 1
+expect 0 "pilots, without those that are kept" accuracy seeder.toml --within "50 %" --out promise --jobs 1
 for file in promise.json accuracy_runs.csv; do cmp "$file" "promise/$file" || fail "a promise from kept runs differs"; done
 [ "$(find promise/cases -name '*.case' | sort)" = "$kept" ] || fail "runs of a promise are not kept"
 expect 0 "cannot be promised" accuracy seeder.toml --within "0.01 %" --out promise
@@ -392,7 +392,7 @@ END
 decide=(--goal rate --within "5 %" --confidence "90 %")
 expect 0 "The best:" decide noisy.toml "${decide[@]}" --jobs 1 --out decided
 have decided/decision.csv decided/decision.json
-expect 0 "Cost: [0-9]+ runs, .* grain-steps; a grid" decide noisy.toml "${decide[@]}" --jobs 2 --out decided-by-two
+expect 0 "Cost: [0-9]+ runs, .* grain-steps; without leaving" decide noisy.toml "${decide[@]}" --jobs 2 --out decided-by-two
 cmp -s decided/decision.csv decided-by-two/decision.csv || fail "a decision depends on the number of jobs"
 expect 0 "are there, 0 are missing" status decided
 "$program" decide noisy.toml "${decide[@]}" --jobs 1 --out killed --quiet 2>messages &
@@ -401,12 +401,12 @@ sleep 0.3
 expect 0 "The best:" decide noisy.toml "${decide[@]}" --jobs 1 --out killed
 cmp -s decided/decision.csv killed/decision.csv || fail "a killed decision goes on to another"
 expect 0 "Clogging is not tested" decide noisy.toml "${decide[@]}" --procedure posterior --out posterior --reuse decided
-expect 0 "No layout meets the rate" decide noisy.toml "${decide[@]}" --rate "1 seeds/s +- 5 %" --out no-rate --reuse decided
+expect 0 "no layout meets the rate" decide noisy.toml "${decide[@]}" --rate "1 seeds/s +- 5 %" --out no-rate --reuse decided
 expect 0 "Drafts: .*pilot" decide noisy.toml "${decide[@]}" --set contact.shell_compression=1e-4 --drafts --out with-drafts
 expect 2 "as soft as drafts" decide noisy.toml "${decide[@]}" --drafts --out not-there
 expect 2 "none of unevenness, instability" decide noisy.toml --goal unevennes --out not-there
-expect 2 "says not how far" decide noisy.toml --goal rate --rate "43 seeds/s" --out not-there
-expect 2 "plane without tray.depth" decide study.toml --goal rate --rate "43 seeds/s +- 5 %" --out not-there
+expect 2 "has no tolerance" decide noisy.toml --goal rate --rate "43 seeds/s" --out not-there
+expect 2 "in 2D without tray.depth" decide study.toml --goal rate --rate "43 seeds/s +- 5 %" --out not-there
 expect 2 "within: \"60 %\" is out of range" decide noisy.toml --goal rate --within "60 %" --out not-there
 expect 2 "confidence: .*unit" decide noisy.toml --goal rate --confidence 95 --out not-there
 expect 2 "5 cannot decide" decide noisy.toml --goal rate --most 5 --out not-there

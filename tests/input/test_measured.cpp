@@ -84,6 +84,22 @@ TEST_F(Measured, ABalanceUnderTheVesselOrOneThatWasNotTaredIsAskedForByName) {
   EXPECT_TRUE(contains(error("time_s,remaining_g\n0,480\n1,490\n2,400\n"), ":3: remaining_g: rises by 10 from"));
 }
 
+/// Each repeat is of its own fill, and need not be as long as the others.
+TEST_F(Measured, RepeatsOfABalanceAreEachOfTheirOwnFill) {
+  const MeasuredTable table = read("time_s,remaining_g,repeat\n0,500,1\n0.1,480,1\n0,300,2\n0.1,278,2\n0.2,260,2\n");
+  ASSERT_EQ(table.series.size(), 1U);
+  const std::vector<MeanWithInterval>& values = table.series[0].values;
+  EXPECT_DOUBLE_EQ(values[0].mean, 0);
+  EXPECT_DOUBLE_EQ(values[1].mean, 0.021);
+  EXPECT_DOUBLE_EQ(values[2].mean, 0.04);
+  EXPECT_NEAR(*values[1].half_width_95, 12.706 * 0.001, 1e-6) << "of 20 and 22 g, not of 480 and 278";
+  EXPECT_TRUE(contains(error("time_s,remaining_g\n0,500\n0,300\n0.1,480\n0.1,278\n"),
+                       ":2: remaining_g: 2 readings at 0 s differ; give a column repeat"));
+  EXPECT_TRUE(contains(error("time_s,gross_g,repeat\n0,100,1\n0.1,120,1\n0.05,300,2\n0.1,311,2\n"),
+                       ":4: repeat: repeat 2 has no reading at 0 s, where the others begin"));
+  EXPECT_EQ(read("time_s,gross_g\n0,100\n0,100.5\n0.1,120\n").series.size(), 1U);
+}
+
 /// A balance trembles by a hundredth; a curve that is read from later on may begin with what three times its mean rate
 /// has brought by then, and a twentieth more.
 TEST_F(Measured, ACurveMayTrembleAndBeginLater) {

@@ -335,6 +335,40 @@ TEST_F(ContactsOfCrops, WhatTheSeederSaysWins) {
   EXPECT_EQ(friction(pair, 0, 0), 0.4);
 }
 
+/// One key, as --set and studies give it, does not take the crops' friction away.
+TEST_F(ContactsOfCrops, LieBeneathAContactThatDoesNotStandAlone) {
+  const Scene stiff = read("[contact]\nshell_compression = 3e-4\n");
+  EXPECT_EQ(stiff.contact.shell_compression, 3e-4);
+  EXPECT_EQ(friction(stiff, 0, 0), 0.4);
+  EXPECT_EQ(friction(stiff, 1, -1), 0.2);
+  const Scene rough = read("[contact]\nfriction = 0.1\n");
+  EXPECT_EQ(friction(rough, 1, 1), 0.1);
+  EXPECT_EQ(rough.lots[1].shell_compression, 2e-5);
+  const Scene alone = read("[contact]\nfriction = 0.1\nshell_compression = 3e-4\n");
+  EXPECT_EQ(friction(alone, 1, -1), 0.1);
+  EXPECT_EQ(alone.contact.seed.restitution, 1);
+}
+
+TEST_F(ContactsOfCrops, ThatDifferInWhatAllSeedsShareAreRefused) {
+  read("");
+  const auto with = [&](const std::string& key, const std::string& rest) {
+    folder.write("other.toml", "shell_compression = 2e-5\nfriction = 0.5\n" + key);
+    return read_scene(folder.write("two.toml",
+                                   "[seeds.pea]\ncrop = 'pea.toml'\nnumber_fraction = '50 %'\n[seeds.rape]\n"
+                                   "crop = 'rape.toml'\ncontact = 'other.toml'\nnumber_fraction = '50 %'\n[tray]\n"
+                                   "length = '50 cm'\nheight = '12 cm'\nfill = { count = 10 }\n[run]\n"
+                                   "duration = '6 s'\n" +
+                                       rest));
+  };
+  EXPECT_NO_THROW(with("", ""));
+  for (const char* key : {"drag = '3 g/s'", "slip_speed = '200 mm/s'", "rotation = false"}) {
+    const std::string name = std::string(key).substr(0, std::string(key).find(' '));
+    EXPECT_THAT([&] { with(key, ""); },
+                testing::ThrowsMessage<InputError>(testing::HasSubstr("contact." + name + ": is shared by all seeds")));
+    EXPECT_NO_THROW(with(key, std::string("[contact]\n") + key + "\n"));
+  }
+}
+
 TEST_F(ContactsOfCrops, OfSeveralLawsAreRefused) {
   folder.write("hertz.toml", "law = 'hertz'\nyoungs_modulus = '50 MPa'\nfriction = 0.3\n");
   read("");

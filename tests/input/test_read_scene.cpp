@@ -185,6 +185,22 @@ TEST(ReadScene, AccuracyIsALevelAndContradictsAStep) {
   EXPECT_EQ(read(small_example, {"accuracy=3 %"}).numerics.accuracy, AccuracyLevel::reference);
   for (const char* step : {"numerics.dt=1e-5 s", "numerics.steps_per_contact=30"})
     EXPECT_THROW(read(small_example, {"accuracy=design", step}), InputError);
+  for (const char* softness : {"contact.shell_compression=1e-5", "seeds.pea.shell_compression=1e-5"})
+    EXPECT_THAT(
+        [&] {
+          read(small_example, {"accuracy=design", softness});
+        },
+        testing::ThrowsMessage<InputError>(testing::HasSubstr("contradicts accuracy")));
+}
+
+TEST(ReadScene, AnErrorOfGrainsIsThatOfGrains) {
+  std::string grains = small_example;
+  const std::string ball = "diameter = \"8 mm\"";
+  grains.replace(grains.find(ball), ball.size(), "shape = \"elongated\"\nlength = \"8 mm\"\nwidth = \"4 mm\"");
+  EXPECT_EQ(read(grains, {"accuracy=7 %"}).numerics.accuracy, AccuracyLevel::design);
+  EXPECT_EQ(read(grains, {"accuracy=7.3 %"}).numerics.accuracy, AccuracyLevel::draft);
+  EXPECT_THAT([&] { read(grains, {"accuracy=5 %"}); },
+              testing::ThrowsMessage<InputError>(testing::HasSubstr("with such seeds, 6.6 %")));
 }
 
 TEST(ReadScene, OverridesAct) {

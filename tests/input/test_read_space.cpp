@@ -133,7 +133,8 @@ pieces = [{ line = [["0 cm", "2 cm"], ["3 cm", "0 cm"], ["6 cm", "2 cm"]], drawn
   EXPECT_EQ(scene.tray.pieces[1].a, Eigen::Vector2d(0.03, 0));
   for (std::size_t k = 0; k < 4; ++k)
     EXPECT_EQ(scene.tray.pieces[k].drawn_out, k < 3 ? DrawnOut::along : DrawnOut::across);
-  EXPECT_THAT(refusal(groove.substr(groove.find('\n'))), HasSubstr("tray.pieces[1].drawn_out: along the vessel"));
+  EXPECT_THAT(refusal(groove.substr(groove.find('\n'))),
+              HasSubstr("tray.pieces[1].drawn_out: a piece is drawn out along the vessel"));
   const auto refused = [&](const std::string& from, const std::string& to) {
     std::string text = groove;
     text.replace(text.find(from), from.size(), to);
@@ -321,7 +322,7 @@ TEST(ReadSpace, WhatCannotBeMeantIsRefused) {
   std::string plane =
       whole + "[tray.motion]\nkind = \"harmonic\"\ndirection = [0, 0, 1]\namplitude = \"1 mm\"\nfrequency = \"9 Hz\"\n";
   plane.replace(plane.find("3d"), 2, "plane");
-  EXPECT_THAT(refusal(plane), HasSubstr("tray.motion.direction: a motion across the plane needs space"));
+  EXPECT_THAT(refusal(plane), HasSubstr("tray.motion.direction: a motion from front to back needs space"));
   EXPECT_THAT(refusal(whole + "holes = { shape = \"square\", count = 1, width = \"8 mm\" }\n"),
               HasSubstr("tray.holes.shape"));
   std::string tiny = whole;

@@ -145,7 +145,15 @@ TEST(Decide, ClogsAndRatesAreConstraints) {
   const Study study = widths(files, "set.run.end_after_pause = \"1 s\"\n");
   const Simulator widest_clogs = [](const Model& model, const SimulationOptions& options) {
     vibrosow::Run run = noisy_run(model, options);
-    if (model.scene.tray.holes[0].width > 0.0135 && options.random_seed % 3 == 0) run.end_reason = "no grain left";
+    if (model.scene.tray.holes[0].width > 0.0135 && options.random_seed % 3 == 0) {
+      run.end_reason = "no grain left";
+      run.balance.inside = 20;
+    }
+    return run;
+  };
+  const Simulator widest_runs_dry = [&](const Model& model, const SimulationOptions& options) {
+    vibrosow::Run run = widest_clogs(model, options);
+    run.balance.inside = 0;
     return run;
   };
   DecideOptions options = most_flow();
@@ -156,6 +164,8 @@ TEST(Decide, ClogsAndRatesAreConstraints) {
   EXPECT_EQ(clogs.result.best, 1u);
   EXPECT_EQ(clogs.result.scenes[2].standing, Standing::clogs);
   EXPECT_THAT(decision_csv(clogs), HasSubstr("\n3,,clogs,"));
+  StudyDecision of_dry(study, options);
+  EXPECT_EQ(lead(of_dry, widest_runs_dry).result.scenes[2].clogged, 0) << "what is empty has not clogged";
   // 10 mm and three holes: 300 seeds in 2 s of a slice, 15 slices.
   options.rate = read_wanted_rate("2250 seeds/s +- 10 %");
   StudyDecision by_rate(study, options);
@@ -226,7 +236,7 @@ TEST(Decide, RefusesWhatCannotBeDecided) {
   DecideOptions rate = most_flow();
   rate.rate = read_wanted_rate("43 seeds/s +- 5 %");
   const Study slice = widths(files, "set.unset = [\"tray.depth\"]\n");
-  EXPECT_THAT([&] { StudyDecision(slice, rate); }, ThrowsMessage<InputError>(HasSubstr("layout 1 is a plane")));
+  EXPECT_THAT([&] { StudyDecision(slice, rate); }, ThrowsMessage<InputError>(HasSubstr("layout 1 is in 2D")));
 }
 
 TEST(Decide, CorrelationOfCommonRandomSeeds) {

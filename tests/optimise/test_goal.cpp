@@ -33,6 +33,30 @@ TEST(Goal, UnknownNameIsToldWithTheList) {
   EXPECT_THAT([] { goal_named("unevennes"); }, ThrowsMessage<InputError>(HasSubstr("unevenness, instability, pause")));
 }
 
+/// Slices as thick and as many for every layout compare as trays do; others are compared as trays.
+TEST(Goal, RatesOfUnlikeSlicesAreThoseOfTheTray) {
+  const Goal& rate = goal_named("rate");
+  Scene shallow;
+  shallow.lots = {SeedLot{.name = "pea", .diameter = 7e-3, .mass = 2e-4}};
+  shallow.tray.depth = 0.02;
+  Scene deep = shallow, small = shallow, none = shallow, solid = shallow;
+  deep.tray.depth = 0.08;
+  small.lots[0].diameter = 2e-3;
+  none.tray.depth.reset();
+  solid.space = Space::three_dimensional;
+  EXPECT_EQ(&goal_between(rate, {shallow, shallow}), &rate);
+  EXPECT_EQ(&goal_between(rate, {none, none}), &rate);
+  EXPECT_EQ(&goal_between(rate, {solid, solid}), &rate);
+  for (const Scene& other : {deep, small, solid})
+    EXPECT_EQ(goal_between(rate, {shallow, other}).figure, "tray_rate_g_per_s");
+  EXPECT_EQ(&goal_between(goal_named("pause"), {shallow, deep}), &goal_named("pause"));
+  EXPECT_THAT(
+      [&] {
+        goal_between(rate, {shallow, none});
+      },
+      ThrowsMessage<InputError>(HasSubstr("tray.depth is missing")));
+}
+
 TEST(WantedRate, ReadsSeedsAndMass) {
   const WantedRate seeds = read_wanted_rate("43 seeds/s +- 5 %");
   EXPECT_EQ(rate_figure(seeds).name, "tray_seeds_per_s");

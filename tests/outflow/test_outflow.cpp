@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <random>
 
@@ -268,6 +269,39 @@ TEST(Instability, NeedsTwoGrains) {
   EXPECT_FALSE(measure_outflow(scene, run).instability_cv);
   add_grain(run, 10, 1);
   EXPECT_TRUE(measure_outflow(scene, run).instability_cv);
+}
+
+/// What rain brings in the window is no seed of the bed that it finds there.
+TEST(Notes, ABedThatDrainsUnderWeakRainIsDrained) {
+  Scene scene = made_up_scene(1);
+  scene.tray.rain = Rain{.rate = 5};
+  vibrosow::Run run = made_up_run(scene);
+  run.balance = {.put_in = 250, .inside = 40, .counted = 210};
+  EXPECT_EQ(measure_outflow(scene, run).doubts.front().kind, DoubtKind::drained);
+  scene.tray.rain->rate = 25;  // 200 in the window: 50 were there when it began
+  EXPECT_NE(measure_outflow(scene, run).doubts.front().kind, DoubtKind::drained);
+}
+
+TEST(Notes, WhatEndedEmptyRanDryAndDidNotClog) {
+  const Scene scene = made_up_scene(1);
+  vibrosow::Run run = made_up_run(scene);
+  run.end_reason = "no grain left for 1 s";
+  EXPECT_EQ(measure_outflow(scene, run).doubts.front().kind, DoubtKind::stopped_flowing);
+  run.balance.inside = 0;
+  run.tray_empty_since = 5;
+  const std::vector<Doubt> doubts = measure_outflow(scene, run).doubts;
+  EXPECT_EQ(doubts.front().kind, DoubtKind::ran_dry);
+  EXPECT_TRUE(std::ranges::none_of(doubts, [](const Doubt& one) { return one.kind == DoubtKind::stopped_flowing; }));
+}
+
+TEST(Notes, SeedsThatFallBesideAreSaidToBeSpilled) {
+  const Scene scene = made_up_scene(1);
+  vibrosow::Run run = made_up_run(scene);
+  for (int i = 0; i < 95; ++i) add_grain(run, 3 + 0.01 * i, 1);
+  for (int i = 0; i < 5; ++i) add_grain(run, 4, 0);
+  EXPECT_EQ(measure_outflow(scene, run).note(), "");
+  add_grain(run, 4, 0);
+  EXPECT_EQ(measure_outflow(scene, run).note(), "6 of the 101 seeds that left fell past the tray's rim");
 }
 
 }  // namespace

@@ -71,6 +71,9 @@ TEST(SceneWarnings, AContactThatIsMadeForOtherSeeds) {
   EXPECT_THAT(scene_warnings(scene),
               ElementsAre(AllOf(HasSubstr("\"pea-steel\" is made for other seeds than seeds.wheat"),
                                 HasSubstr("\"wheat-steel\""))));
+  scene.contact.model = {"contact", "fitted/contact.toml"};
+  EXPECT_THAT(scene_warnings(scene), IsEmpty()) << "one that was fitted, or chosen by hand";
+  scene.contact.model = {"pea-steel", "contacts/pea-steel.toml"};
   scene.contact.overrides = {{0, -1, scene.contact.wall}, {0, 0, scene.contact.seed}};
   EXPECT_THAT(scene_warnings(scene), IsEmpty()) << "the seeder gives its pairs itself";
 }
@@ -374,6 +377,37 @@ TEST_P(VesselsThatMeet, WithTheirPieces) {
   EXPECT_THAT(scene_warnings(scene), IsEmpty());
   scene.hopper->pieces = {straight(-0.021, -0.03, -0.021, 0)};
   EXPECT_THAT(scene_warnings(scene), ElementsAre(HasSubstr("piece 1 and ")));
+}
+
+TEST(SceneWarnings, APieceThatPlugsAHoleFromBelow) {
+  Scene scene = sound();
+  const auto plate = [](double y) { return WallPiece{.a = {0.09, y}, .b = {0.11, y}}; };
+  scene.tray.pieces = {plate(-0.003)};
+  EXPECT_THAT(scene_warnings(scene), ElementsAre(HasSubstr("piece 1 covers hole 1:"))) << "seeds are 4 mm";
+  scene.tray.pieces = {plate(-0.0041)};
+  EXPECT_THAT(scene_warnings(scene), IsEmpty());
+  for (Hole& hole : scene.tray.holes) hole.thickness = 0.01;
+  EXPECT_THAT(scene_warnings(scene), ElementsAre(HasSubstr("piece 1 covers hole 1:"))) << "within the floor";
+  scene.tray.pieces = {plate(-0.013)};
+  EXPECT_THAT(scene_warnings(scene), ElementsAre(HasSubstr("piece 1 covers hole 1:"))) << "nearer to it than a seed";
+  scene.tray.pieces = {plate(-0.0141)};
+  EXPECT_THAT(scene_warnings(scene), IsEmpty());
+}
+
+TEST(SceneWarnings, AnOutletBesideTheTray) {
+  Scene scene = sound();
+  scene.hopper = hopper(0.03);
+  for (const double left : {0.0, 0.42}) {
+    scene.hopper->origin.x() = left;
+    EXPECT_THAT(scene_warnings(scene), IsEmpty()) << left;
+  }
+  scene.hopper->origin.x() = -0.05;  // its outlet is 25 to 55 mm from its left end
+  EXPECT_THAT(scene_warnings(scene), ElementsAre(HasSubstr("hopper.holes: hole 1 is over -25 mm to 5 mm of the tray, "
+                                                           "which is 500 mm long: what falls beside the tray is")));
+  scene.hopper->origin.x() = 0.46;
+  EXPECT_THAT(scene_warnings(scene), ElementsAre(HasSubstr("beside the tray is spilled")));
+  scene.tray.sides = Sides::periodic;
+  EXPECT_THAT(scene_warnings(scene), IsEmpty());
 }
 
 }  // namespace

@@ -133,6 +133,25 @@ TEST(Softness, LotsAndWallsWithTheirOwnAreSoftenedAlike) {
   EXPECT_DOUBLE_EQ(*scene.contact.wall_youngs_modulus, 2e8);
 }
 
+/// The softest lot bounds what is known, in whatever order lots stand and whether all or some have their own.
+TEST(NumericsError, IsThatOfTheSoftestLot) {
+  Scene scene = tray(Law::elastic_shell);
+  scene.lots[0].number_fraction = 0.5;
+  scene.lots.push_back(scene.lots[0]);
+  scene.lots[0].shell_compression = 1e-5, scene.lots[1].shell_compression = 1e-3;
+  const double beyond = numerics_error(scene).times_beyond;
+  EXPECT_NEAR(beyond, 1e-3 / 3e-4, 1e-9);
+  const Scene soft_last = at(scene, AccuracyLevel::draft);
+  EXPECT_DOUBLE_EQ(soft_last.lots[1].shell_compression.value(), 3e-4);
+  EXPECT_DOUBLE_EQ(soft_last.lots[0].shell_compression.value(), 3e-6);
+  std::swap(scene.lots[0], scene.lots[1]);
+  EXPECT_EQ(numerics_error(scene).times_beyond, beyond);
+  EXPECT_DOUBLE_EQ(at(scene, AccuracyLevel::draft).lots[0].shell_compression.value(), 3e-4);
+  scene.lots[1].shell_compression.reset();  // that of all: 1e-4
+  EXPECT_EQ(numerics_error(scene).times_beyond, beyond);
+  EXPECT_DOUBLE_EQ(at(scene, AccuracyLevel::draft).lots[0].shell_compression.value(), 3e-4);
+}
+
 TEST(Softness, AModelIsThatOfItsLevel) {
   Scene scene = tray(Law::elastic_shell);
   scene.numerics.accuracy = AccuracyLevel::reference;

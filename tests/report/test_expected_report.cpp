@@ -59,6 +59,8 @@ TEST_F(ExpectedOfASweep, DecidesNothingBetweenItsLayouts) {
                               "numerics 1 %, tolerance 5 %, model 54 %."),
                     HasSubstr("it does not decide between them, and they are compared by chance alone")));
   EXPECT_EQ(answer.best_first, order);
+  swept.study.scenes[1].lots[0].diameter *= 2;
+  EXPECT_THAT(expected_sentence(answer_of(swept, 1)), HasSubstr("What the model errs by differs from seed to seed"));
 }
 
 TEST_F(ExpectedOfASweep, StandsOnItsPageAndInItsTable) {
@@ -77,8 +79,9 @@ TEST_F(ExpectedOfASweep, StandsOnItsPageAndInItsTable) {
 TEST_F(ExpectedOfASweep, BesideMeasuredOutflowItIsNotTold) {
   files_.write("measured.csv", "tray.holes.width_mm,hole,seeds_per_s\n14,all,20\n16,all,30\n");
   const StudyResult beside = result("[measured]\nfile = \"measured.csv\"\nscale = \"none\"\n");
-  EXPECT_THAT(expected_sentence(answer_of(beside, 1)),
-              AllOf(HasSubstr("the misfit says what the model errs by"), Not(HasSubstr("until you weigh"))));
+  EXPECT_THAT(
+      expected_sentence(answer_of(beside, 1)),
+      AllOf(HasSubstr("misfit to the measured outflow shows the model's error"), Not(HasSubstr("until you weigh"))));
 }
 
 TEST_F(ExpectedOfASweep, OfARunStandsInTheRowOfAllItsHoles) {

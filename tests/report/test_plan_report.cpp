@@ -59,7 +59,7 @@ TEST(PlanText, LeadsWithTheRisk) {
   EXPECT_THAT(narrow, HasSubstr("precision tray"));
   EXPECT_LT(narrow.find("None of these"), narrow.find("1:4"));
   const std::string wide = unwrapped(plan_text(source_of(1000)));
-  EXPECT_THAT(wide, HasSubstr("such a hole rarely clogs"));
+  EXPECT_THAT(wide, HasSubstr("Such a hole rarely clogs"));
   EXPECT_THAT(wide, AllOf(HasSubstr("Expect "), HasSubstr(" g/s until you weigh (95 %); of it chance "),
                           HasSubstr("it gave 10 % too much")));
 }

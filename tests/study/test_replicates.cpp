@@ -108,7 +108,7 @@ class ByNeed : public testing::Test {
     options.random_seed = 1 + 6 * (seed % 2);  // few or many, in turns
     vibrosow::Run run = quick_run(model, options);
     run.random_seed = seed;
-    if (seed == 4) run.end_reason = "nothing left for 5 s";
+    if (seed == 4) run.end_reason = "nothing left for 5 s", run.balance.inside = 20;
     return run;
   };
 };

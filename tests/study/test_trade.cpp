@@ -44,7 +44,7 @@ vibrosow::Run by_frequency(const Model& model, const SimulationOptions& options)
   run.dt = 1e-3;
   run.steps = 4000;
   run.end_time = scene.run.duration;
-  if (frequency < 6) run.end_reason = "no seed left for 1 s";
+  if (frequency < 6) run.end_reason = "no seed left for 1 s", run.balance.inside = 20;
   for (int hole = 1; hole <= 3; ++hole) {
     const int seeds = static_cast<int>(std::lround(40 * frequency * (1 + 0.02 * tilt)));
     for (int i = 0; i < seeds; ++i)
@@ -88,7 +88,7 @@ TEST(Trade, TurnDownIsOfTheFrequenciesThatFlow) {
   const StudyFiles files;
   const StudyResult result =
       swept(with_drill(files, "[vary]\ntray.motion.frequency = [\"5 Hz\", \"7 Hz\", \"14 Hz\"]\n"), by_frequency);
-  EXPECT_EQ(result.layouts[0].stopped_flowing, 3);
+  EXPECT_EQ(result.layouts[0].stopped_flowing, 3) << "of whose runs seeds are left";
   const auto lines = trade_lines(result);
   ASSERT_EQ(lines.size(), 1u);
   EXPECT_EQ(lines[0].key, "tray.motion.frequency");

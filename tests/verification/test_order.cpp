@@ -100,8 +100,8 @@ std::array<double, n> reference(
   return end;
 }
 
-/// The springs and dashpots of a contact as docs/explanation/theory.md has them, worked out here: of a grain and a rigid wall, or
-/// of two like grains.
+/// The springs and dashpots of a contact as docs/explanation/theory.md has them, worked out here: of a grain and a
+/// rigid wall, or of two like grains.
 struct Springs {
   Law law;
   bool on_wall;

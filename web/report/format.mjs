@@ -64,7 +64,8 @@ export function niceAbove(value) {
 /** "19.2 ± 3.8": the interval's half width to two digits and the mean to the same place; without one, the mean alone. */
 export function plusMinus(mean, halfWidth) {
   if (halfWidth === null || !Number.isFinite(halfWidth)) return number(mean);
-  if (halfWidth <= 0) return `${number(mean)} ± 0`;
+  const rounding = 1e-9;  // what is left of equal values
+  if (halfWidth <= rounding * Math.abs(mean)) return `${number(mean)} ± 0`;
   const place = placeOf(halfWidth, 2) - 1;
   return `${atPlace(mean, place)} ± ${atPlace(halfWidth, place)}`;
 }
