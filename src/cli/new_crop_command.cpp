@@ -162,7 +162,7 @@ void add_new_crop_command(CLI::App& app, int& exit_code) {
       ->check(CLI::Range(1, 4096));
   add_examples(*command, {"vibrosow new-crop --crop mine --tkw 4.5g --length 2.1mm",
                           "vibrosow new-crop --crop long --tkw 40g --length 6mm --width 3.2mm",
-                          "vibrosow new-crop --crop oil --tkw 4.5g --length 1.95mm --bulk-density 680kg/m3"});
+                          "vibrosow new-crop --crop oil --tkw 5g --length 2mm --bulk-density 680kg/m3"});
   command->callback([options, &exit_code] { exit_code = make_crop(*options); });
 }
 

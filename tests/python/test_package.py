@@ -39,6 +39,7 @@ replicates = 2
 run.duration = "0.12 s"
 run.measure_from = "0.05 s"
 tray.motion.frequency = "20 Hz"
+tray.motion.ramp = "0.05 s"
 [[layout]]
 name = "one; \\"two\\", three"
 tray.holes.count = 3
