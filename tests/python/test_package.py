@@ -38,8 +38,9 @@ replicates = 2
 [set]
 run.duration = "0.12 s"
 run.measure_from = "0.05 s"
-tray.motion.frequency = "20 Hz"
+tray.motion.frequency = "16 Hz"
 tray.motion.ramp = "0.05 s"
+contact.shell_compression = 1e-5
 [[layout]]
 name = "one; \\"two\\", three"
 tray.holes.count = 3
