@@ -155,7 +155,7 @@ std::vector<Doubt> doubts_about(const Scene& scene, const Run& run, const Measur
   if (!run.end_reason.empty() && run.balance.inside > 0)
     add(stopped_flowing, fmt::format("ended at {:.3g} s: {}", run.end_time, run.end_reason));
   const std::int64_t left = run.balance.counted + run.balance.spilled;
-  if (run.balance.spilled > few_spilled &&
+  if (!run.outside_the_model && run.balance.spilled > few_spilled &&
       static_cast<double>(run.balance.spilled) > most_spilled * static_cast<double>(left))
     add(seeds_spilled, fmt::format("{} of the {} seeds that left fell past the tray's rim", run.balance.spilled, left));
   if (run.balance.lost > 0)
