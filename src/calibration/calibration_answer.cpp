@@ -8,6 +8,7 @@
 #include <iterator>
 
 #include "input/key_units.hpp"
+#include "input/read_contact.hpp"
 #include "study/layout_doubts.hpp"
 
 namespace vibrosow {
@@ -69,7 +70,7 @@ bool takes_contacts_of_crops(const CalibrationDesign& design) {
   if (design.runs.empty()) return false;
   const Scene& scene = design.runs.front().scene;
   return scene.lots.size() > 1 && !scene.contact.model.is_known() && !scene.contact.overrides.empty() &&
-         std::ranges::all_of(scene.lots, [](const SeedLot& lot) { return lot.contact.is_known(); });
+         crops_have_contacts(scene.lots);
 }
 
 /// Of the fit itself, and of each value.

@@ -104,8 +104,9 @@ void StudyOptimisation::check(const Study& study) const {
       throw InputError("--rate: is of the whole tray, and the seeder is in 2D without tray.depth");
     if (has(options_, Kind::power)) drive_power(scene);
   }
-  std::vector<Scene> all = generations_.empty() ? std::vector<Scene>() : generations_.front()->study.scenes;
-  all.insert(all.end(), study.scenes.begin(), study.scenes.end());
+  std::vector<Scene> all = study.scenes;  // beside one of the first, which was like all before these
+  if (!generations_.empty() && !generations_.front()->study.scenes.empty())
+    all.push_back(generations_.front()->study.scenes.front());
   for (const FrontGoal* goal : options_.goals)
     if (goal->figure != nullptr && &goal_between(*goal->figure, all) != goal->figure)
       throw InputError("--goals: rate is of a 2D slice, and slices of these layouts differ; take space = \"3d\"");
