@@ -173,7 +173,7 @@ std::vector<SettingRuns> more_pilots(const Chooser& chooser, const PromiseGoal& 
 
 /// Where no setting is within a goal of an error: what leads there as it looks now, or else tells whether any may be.
 std::vector<SettingRuns> further_pilots(const Chooser& chooser, const PromiseGoal& goal, const Promise& made) {
-  const std::vector<SettingRuns> planned = more_pilots(chooser, goal, made);
+  std::vector<SettingRuns> planned = more_pilots(chooser, goal, made);
   if (!planned.empty()) return planned;
   return runs_of(plan_further_pilots(basis_of(chooser, goal, made), *goal.within_percent, work_of(made)));
 }

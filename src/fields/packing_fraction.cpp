@@ -76,8 +76,10 @@ double height_holding(const Snapshot& own, const Vessel& tray, double fraction) 
   double all = 0;
   for (const std::size_t i : inside) all += extent[i];
   double below = 0;
-  for (const std::size_t i : inside)
-    if ((below += extent[i]) >= fraction * all) return own.y[i];
+  for (const std::size_t i : inside) {
+    below += extent[i];
+    if (below >= fraction * all) return own.y[i];
+  }
   return 0;
 }
 

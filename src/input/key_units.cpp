@@ -186,7 +186,7 @@ std::string condition_column(const std::string& key) {
 std::optional<std::string> key_of_column(const std::string& column) {
   if (column.find('.') == std::string::npos) return std::nullopt;
   for (const KeyWord& word : key_words) {
-    const std::string key = column.substr(0, column.rfind('.') + 1) + std::string(word.word);
+    std::string key = column.substr(0, column.rfind('.') + 1) + std::string(word.word);
     if (condition_column(key) == column) return key;
   }
   return std::nullopt;

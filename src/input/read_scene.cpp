@@ -95,8 +95,8 @@ AccuracyLevel read_accuracy(Table& root, const std::vector<SeedLot>& lots) {
 /// A level takes the place of the softness that a file gives. One that is asked for beside it would count for nothing.
 void refuse_softness_beside(AccuracyLevel accuracy, const Table& contact, Table& seeds) {
   if (accuracy == AccuracyLevel::as_written) return;
-  constexpr const char* key = "shell_compression";
   const auto refuse = [](const Table& table) {
+    constexpr const char* key = "shell_compression";
     if (table.is_laid_over(key)) table.fail(key, "contradicts accuracy, which sets it");
   };
   refuse(contact);

@@ -49,22 +49,21 @@ struct Turning {
   for (std::size_t i = 0; i < n; ++i) predict_one(clumps, i, dt, {torque_x[i], torque_y[i], torque_z[i]});
 }
 
-[[gnu::always_inline]] inline void correct_one(const Turning& clumps, std::size_t i, double dt, const double* now,
+[[gnu::always_inline]] inline void correct_one(const Turning& clumps, std::size_t i, double dt, const GrainVector& now,
                                                double& kept_x, double& kept_y, double& kept_z) {
-  const Vector3 torque{now[0], now[1], now[2]};
+  const Vector3 torque{now.x, now.y, now.z};
   clumps.set_spin(i, clumps.spin(i) + clumps.clump(i).spin_of((0.5 * dt) * torque));
-  kept_x = clumps.turns(i) ? now[0] : kept_x;
-  kept_y = clumps.turns(i) ? now[1] : kept_y;
-  kept_z = clumps.turns(i) ? now[2] : kept_z;
+  kept_x = clumps.turns(i) ? now.x : kept_x;
+  kept_y = clumps.turns(i) ? now.y : kept_y;
+  kept_z = clumps.turns(i) ? now.z : kept_z;
 }
 
 [[gnu::flatten]] void correct(std::size_t n, double dt, const ClumpTurning& of, const GrainVector* torque,
                               double* const (&kept)[3]) {
   const Turning clumps{of};
   double *kept_x = kept[0], *kept_y = kept[1], *kept_z = kept[2];
-  const double* torques = &torque->x;
 #pragma omp simd
-  for (std::size_t i = 0; i < n; ++i) correct_one(clumps, i, dt, torques + 4 * i, kept_x[i], kept_y[i], kept_z[i]);
+  for (std::size_t i = 0; i < n; ++i) correct_one(clumps, i, dt, torque[i], kept_x[i], kept_y[i], kept_z[i]);
 }
 
 /// sum += a x b. (By reference: how vectors are returned differs between instruction sets.)

@@ -27,7 +27,7 @@ void predict(std::size_t n, double dt, double* x, double* v, const double* a) {
 template <bool polydisperse, bool drags, bool rotation, class Take>
 [[gnu::always_inline]] inline void for_each_rate(std::size_t n, const Drive& drive, double ahead, const Rates& rates,
                                                  Take take) {
-  const double* force = &drive.force->fx;  // four numbers each
+  const GrainForce* force = drive.force;
   const double *each_per_mass = drive.per_mass.each, *each_per_inertia = drive.per_inertia.each;
   const double same_per_mass = drive.per_mass.same, same_per_inertia = drive.per_inertia.same;
   const double gx = drive.gravity_x, gy = drive.gravity_y, drag = drive.drag;
@@ -35,14 +35,14 @@ template <bool polydisperse, bool drags, bool rotation, class Take>
 #pragma omp simd
   for (std::size_t i = 0; i < n; ++i) {
     const double per_mass = polydisperse ? each_per_mass[i] : same_per_mass;
-    double now_x = force[4 * i] * per_mass + gx, now_y = force[4 * i + 1] * per_mass + gy;
+    double now_x = force[i].fx * per_mass + gx, now_y = force[i].fy * per_mass + gy;
     if constexpr (drags) {
       const double fall_off = drag * per_mass, later = 1 + ahead * fall_off;
       now_x = (now_x - fall_off * vx[i]) / later, now_y = (now_y - fall_off * vy[i]) / later;
     }
     take(vx[i], ax[i], now_x), take(vy[i], ay[i], now_y);
     if constexpr (rotation)
-      take(omega[i], alpha[i], force[4 * i + 2] * (polydisperse ? each_per_inertia[i] : same_per_inertia));
+      take(omega[i], alpha[i], force[i].torque * (polydisperse ? each_per_inertia[i] : same_per_inertia));
   }
 }
 

@@ -34,6 +34,7 @@ const Goal& goal_named(std::string_view name);
 /// holds another number of them, it is of the whole tray. Throws InputError where that takes a tray.depth that is
 /// missing.
 const Goal& goal_between(const Goal& goal, const std::vector<Scene>& scenes);
+const Goal& goal_between(Goal&& goal, const std::vector<Scene>& scenes) = delete;  // what is returned would be gone
 
 /// The figure that a rate is shown as: of the whole tray as it is wanted, or else rate_g_per_s.
 const Figure& rate_figure(const std::optional<WantedRate>& wanted);

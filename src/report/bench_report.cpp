@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 #include "input/key_units.hpp"
 #include "picture/escaped_text.hpp"
@@ -56,7 +57,7 @@ Columns<Reading> reading_columns(const std::vector<std::string>& keys) {
 
 Columns<BenchCandidate> candidate_columns(const std::vector<std::string>& keys) {
   using Row = const BenchCandidate&;
-  Columns<BenchCandidate> columns = condition_columns<BenchCandidate>(keys, [](Row r) -> Row { return r; });
+  Columns<BenchCandidate> columns = condition_columns<BenchCandidate>(keys, std::identity{});
   append(columns,
          {text_column<BenchCandidate>("place", "in the order in which it was chosen; empty: it was not",
                                       [](Row r) { return r.place ? fmt::format("{}", *r.place) : std::string(); }),
@@ -120,8 +121,7 @@ std::string instructions(const BenchSource& source) {
        {"Fill as the tray is filled in work, the same for every reading.",
         "Set what the row says. Let it run until the flow is even, three seconds at least.",
         "Catch what leaves all holes for the time stated, and weigh it.",
-        "Write the grams here and into bench.csv. Go through the rows in order: the repeats are settings made again "
-        "from the start.",
+        "Write the grams here and into bench.csv. Take the rows in order: the repeats are settings made again.",
         "A reading that went wrong (an empty tray, a clogged hole) is taken again, or its row is deleted."})
     text += fmt::format("<li>{}</li>\n", step);
   return text + "</ol>\n";

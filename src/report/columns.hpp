@@ -54,7 +54,7 @@ Column<Row> text_column(std::string name, std::string description, Get get) {
 template <class Row, class Get>
 Column<Row> quantity_column(std::string name, Unit unit, std::string description, Get get) {
   return {{std::move(name), std::string(unit.name), std::move(description)},
-          [get, unit](const Row& row) { return in_unit(get(row), unit); }};
+          [get = std::move(get), unit](const Row& row) { return in_unit(get(row), unit); }};
 }
 
 /// How uneven holes are, chance taken out, with its 95 % interval. `get` gives an optional Unevenness.

@@ -30,7 +30,7 @@ std::string at_place(double value, int place) {
 /// Of the first digit of `value` rounded to `digits` of them.
 int place_of(double value, int digits) {
   const std::string text = fmt::format("{:.{}e}", std::abs(value), digits - 1);
-  return std::atoi(text.c_str() + text.find('e') + 1);
+  return static_cast<int>(std::strtol(text.c_str() + text.find('e') + 1, nullptr, 10));
 }
 
 }  // namespace

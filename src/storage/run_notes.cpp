@@ -70,7 +70,7 @@ int process_in(const nlohmann::json& note) {
 bool is_of_the_dead(const std::string& text) {
   try {
     const auto json = parse_json<nlohmann::json>(text);
-    return json.at("place") == place_of_processes() && start_of(process_in(json)) != json.at("started");
+    return json.at("place") == place_of_processes() && !(json.at("started") == start_of(process_in(json)));
   } catch (const nlohmann::json::exception&) {
   } catch (const InputError&) {
   }

@@ -42,7 +42,8 @@ void start() {
   if (!wanted) return;
   for (int call = 0; call < calls; ++call) {
     const size_t length = strlen(names[call]);
-    if (strncmp(wanted, names[call], length) == 0 && wanted[length] == ':') fails_at[call] = atol(wanted + length + 1);
+    if (strncmp(wanted, names[call], length) == 0 && wanted[length] == ':')
+      fails_at[call] = strtol(wanted + length + 1, nullptr, 10);
   }
   started = true;
 }

@@ -172,8 +172,8 @@ TEST(ReadScene, DefaultsAreNeutral) {
 TEST(ReadScene, ThePapersSchemesTakeMoreStepsWhereNothingIsSaid) {
   for (const char* scheme : {"rk2-midpoint", "gear5"}) {
     const std::string key = std::string("numerics.integrator=") + scheme;
-    EXPECT_EQ(read(small_example, {key.c_str()}).numerics.steps_per_contact, 20);
-    EXPECT_EQ(read(small_example, {key.c_str(), "numerics.steps_per_contact=12"}).numerics.steps_per_contact, 12);
+    EXPECT_EQ(read(small_example, {key}).numerics.steps_per_contact, 20);
+    EXPECT_EQ(read(small_example, {key, "numerics.steps_per_contact=12"}).numerics.steps_per_contact, 12);
   }
 }
 

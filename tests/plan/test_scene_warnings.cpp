@@ -236,7 +236,7 @@ WallPiece straight(double ax, double ay, double bx, double by) {
   return piece;
 }
 WallPiece turned(double ra, double ha, double rb, double hb, PieceAxis axis = PieceAxis::upright,
-                 Eigen::Vector2d about = {0.25, 0.03}) {
+                 const Eigen::Vector2d& about = {0.25, 0.03}) {
   WallPiece piece = straight(ra, ha, rb, hb);
   piece.about = about, piece.axis = axis;
   return piece;

@@ -182,7 +182,7 @@ TEST(Sweep, CurveIsComparedAtItsTimes) {
 
 TEST(Sweep, ReadingsBeyondTheRunsEndAreRefused) {
   const StudyFiles files;
-  const auto curve = files.write("curve.csv", "time_s,seeds\n2,0\n4,12\n9,40\n");
+  files.write("curve.csv", "time_s,seeds\n2,0\n4,12\n9,40\n");
   const auto study = files.study("[measured]\nfile = \"curve.csv\"\nscale = \"none\"\n");
   EXPECT_THAT([&] { read_study(study); },
               testing::ThrowsMessage<InputError>(HasSubstr(
