@@ -18,7 +18,7 @@ constexpr double told_depth = 0.01;     // d, finer than a whole number of seeds
 constexpr double poured_packing = 0.6;  // by which the number of seeds is called a depth, as of the table's runs
 
 [[noreturn]] void refuse(const char* key, const char* why) {
-  throw InputError(fmt::format("{}: {}; the table of one hole does not tell of it", key, why));
+  throw InputError(fmt::format("{}: {}; the table of one hole does not cover that", key, why));
 }
 
 /// Null of a tray that stands still or moves otherwise.
@@ -89,7 +89,7 @@ std::string unlike_table(const Scene& scene, const HarmonicMotion& motion) {
 
 TableTray table_tray(const Scene& scene) {
   const Vessel& tray = scene.tray;
-  if (scene.space == Space::plane) refuse("space", "is the plane");
+  if (scene.space == Space::plane) refuse("space", "the tray is in 2D");
   if (scene.hopper) refuse("hopper", "a hopper feeds the tray");
   if (tray.rain || !tray.fill) refuse("tray.fill", "the bed is not a fill");
   if (tray.tilt != 0 || tray.funnel != 0) refuse("tray.tilt", "the floor slopes");

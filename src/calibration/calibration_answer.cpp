@@ -101,8 +101,9 @@ std::vector<CountedDoubt> doubts_of_fit(const CalibrationAnswer& answer) {
                       "it",
                       number.name, number.edge == RangeEdge::lower ? "lower" : "upper", *number.low, *number.high));
     if (number.value.contraction < 0)
-      add(wider_than_its_range, fmt::format("{} scatters more than an even spread over its range would (contraction "
-                                            "below 0): the table agrees with both ends of the range at once",
+      add(wider_than_its_range, fmt::format("{} scatters more than an even spread over its range would (its "
+                                            "uncertainty is larger than before): the table agrees with both ends of "
+                                            "the range at once",
                                             number.name));
   }
   if (of.posterior.effective_points < few_effective_points)

@@ -62,7 +62,7 @@ nlohmann::ordered_json replay_of(const Again& one, std::size_t replays) {
   if (!same_outflow(one.run, one.kept))
     throw InputError(
         fmt::format("--replays: this version of the program makes another run of layout {} than is kept; make the "
-                    "study anew, or leave out --replays",
+                    "study again, or leave out --replays",
                     one.layout));
   nlohmann::ordered_json data = replay_data(one.model.scene, one.run);
   const std::string recording = one.recording.file(most_recording_bytes(replays, data));

@@ -219,7 +219,7 @@ std::string calibration_table(const CalibrationAnswer& answer) {
         "No contact.toml is written: each lot has the contact model of its crop. Write the fitted keys into "
         "the seeder's [contact], beside model = \"crop\".");
   else if (!answer.gives_a_contact)
-    text += wrapped("No contact.toml is written: what is doubtful above would go on in it.");
+    text += wrapped("No contact.toml is written: what is doubtful above would be used with it.");
   return text;
 }
 

@@ -141,7 +141,7 @@ std::string contact_toml(const NewCrop& crop, const CropEstimate& estimate) {
            "assumed: keeps a shell under 5 % of the radius at twice the speed of a tray of 9 Hz and 1 cm (0.0025 g r / "
            "V^2)");
   keys.add("friction", number(band.fitting.friction), band_source(band.friction, from, estimate.own_runs));
-  keys.add("restitution", "0.5", "assumed: the atlas' value; repose does not tell it");
+  keys.add("restitution", "0.5", "assumed: the atlas' value; repose does not determine it");
   keys.add("friction_model", "\"spring\"", "assumed: as the atlas");
   keys.add("rolling", "\"spring\"", "assumed: as the atlas");
   keys.add("rolling_friction", number(band.fitting.rolling_friction),

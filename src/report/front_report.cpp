@@ -148,9 +148,9 @@ std::string why_unsure(const OptimiseResult& result) {
   if (unsure == 0) return "";
   const std::string begin = fmt::format("Of the {} that may be on the front, ", unsure);
   const std::string_view constraint = result.options.rate ? "the rate" : "the constraints";
-  const std::string better = "not shown to be better in some goal than every other; more runs (--runs) tell more";
+  const std::string better = "not shown to be better in some goal than every other; more runs (--runs) may decide";
   if (meets == unsure) return begin + fmt::format("each is {}.", better);
-  if (meets == 0) return begin + fmt::format("none surely meets {}; more runs (--runs) tell more.", constraint);
+  if (meets == 0) return begin + fmt::format("none surely meets {}; more runs (--runs) may decide.", constraint);
   return begin + fmt::format("{} do not surely meet {}, and {} are {}.", unsure - meets, constraint, meets, better);
 }
 

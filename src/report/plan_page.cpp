@@ -119,7 +119,7 @@ std::string weigh_part(const PlanPage& page) {
   text += "<p>" + line_to_write("Date") + line_to_write("Seed lot") + "</p>\n";
   text += paragraph(
       "Fill the tray as in work, set the frequency, let it run until the flow is even, catch what leaves all holes for "
-      "the time stated, weigh it. The first row tells most; each further one makes the card surer.");
+      "the time stated, weigh it. The first row matters most; each further one narrows the card's ranges.");
   text +=
       "<div class=\"table\"><table><thead><tr><th>set<br>Hz</th><th>catch for<br>s</th><th>expect<br>g</th>"
       "<th>caught<br>g</th></tr></thead>\n";

@@ -47,7 +47,7 @@ TEST_F(FrontPage, SaysHowManyAreOnTheFront) {
 TEST_F(FrontPage, DoubtsAreWhatIsNotPromisedAndThatItWasInterrupted) {
   ASSERT_EQ(data()["doubts"].size(), 3U) << "and that a layout cannot be built";
   EXPECT_EQ(data()["doubts"][0],
-            "Of the 1 that may be on the front, none surely meets the constraints; more runs (--runs) tell more.");
+            "Of the 1 that may be on the front, none surely meets the constraints; more runs (--runs) may decide.");
   EXPECT_THAT(data()["doubts"][1].get<std::string>(), HasSubstr("is not promised"));
   result_.layouts[1].surely_meets = true;
   EXPECT_THAT(data()["doubts"][0].get<std::string>(),
