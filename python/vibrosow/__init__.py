@@ -1,4 +1,4 @@
-"""Reads what `vibrosow run`, `sweep`, `decide`, `optimise`, `accuracy` and `calibrate` write. Columns, with their units: docs/reference/output.md, or `vibrosow columns`."""
+"""Reads what `vibrosow run`, `sweep`, `decide`, `optimise`, `accuracy` and `calibrate` write. Columns, with their units: docs/reference/output.md, or `vibrosow help columns`."""
 from .answer import Answer, open
 from .folder import Incomplete, MissingFile, NotAReport, ProgramError, VibrosowError
 from .recording import Frame, Recording

@@ -209,7 +209,7 @@ int check_seeder(const InputFile& file, const CheckOptions& options) {
     }
   }
   if (refused) throw InputError(*refused);
-  if (plan.too_long) print("the step is too long and insisted on: every result will be marked \"outside the model\"\n");
+  if (plan.too_long) print("the step is too long and allowed: every result will be marked \"outside the model\"\n");
   if (!options.both) return exit_done;
   const BothSpaces both = read_in_both_spaces(file.path, options.overrides(), file.files);
   std::vector<std::string> of_the_other = scene_warnings(read.space == Space::plane ? both.space : both.plane);

@@ -51,7 +51,7 @@ constexpr std::array table = {
            "coefficient of variation of the seeds of the holes, all replicates together",
            [](Source s) { return s.raw_cv; }, true},
     Figure{"run_cv_percent", "CV of a run %", "%", percent,
-           "the same of the seeds of a single run, in which chance weighs more: mean over the replicates",
+           "the same of the seeds of a single run, in which chance weighs more",
            [](Source s) { return s.outflow.raw_cv; }},
     Figure{"chance_cv_percent", "chance %", "%", percent, "what of the raw one holes of equal rates would show",
            [](Source s) { return of_unevenness(s, [](const Unevenness& u) { return u.chance_cv; }); }, true},

@@ -16,7 +16,7 @@ namespace {
 
 constexpr const char* introduction = R"(# What the program writes
 
-Made by `vibrosow columns > docs/reference/output.md`; a test compares the two.
+Made by `vibrosow help columns > docs/reference/output.md`; a test compares the two.
 
 CSV files have one header row, numbers of six digits, and an empty field where a value is undefined. Rates are of the
 2D slice, one seed thick, unless their name says `tray`. A column `X_ci95` is the half width of the 95 % interval of

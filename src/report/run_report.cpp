@@ -177,7 +177,7 @@ JsonKeys<RunSource> run_keys() {
          return doubts;
        }},
       {"outside_the_model", "",
-       "whether a step that is too long was insisted on, a limit of the guard raised and the usual one passed, or "
+       "whether a step that is too long was allowed, a limit of the guard raised and the usual one passed, or "
        "seeds were lost through walls: such a run must not be used",
        [](S s) { return s.run.outside_the_model; }},
       {"random_seed", "", "of the run", [](S s) { return s.run.random_seed; }},
@@ -195,7 +195,7 @@ JsonKeys<RunSource> run_keys() {
        [](S s) { return s.run.max_relative_overlap; }},
       {"let_pass.deep_steps", "", "steps with a relative overlap beyond guard.warn_relative_overlap",
        [](S s) { return s.run.let_pass.deep_steps; }},
-      {"let_pass.strides", "", "steps, insisted on, in which a seed could have passed a wall unseen",
+      {"let_pass.strides", "", "steps, allowed by numerics.allow_long_step, in which a seed could have passed a wall unseen",
        [](S s) { return s.run.let_pass.strides; }},
       {"let_pass.energy_accounts", "",
        "accounts of energy, one in 100 steps, with more made by the numerics than 5 % of what is in play",

@@ -12,7 +12,7 @@ namespace {
 TEST(Documentation, TheCommittedPageIsWhatTheProgramPrints) {
   std::ifstream page(VIBROSOW_SOURCE_DIR "/docs/reference/output.md", std::ios::binary);
   const std::string committed{std::istreambuf_iterator<char>(page), {}};
-  EXPECT_EQ(committed, output_documentation()) << "vibrosow columns > docs/reference/output.md";
+  EXPECT_EQ(committed, output_documentation()) << "vibrosow help columns > docs/reference/output.md";
 }
 
 TEST(Documentation, HasEveryFileAndEveryFigure) {
