@@ -9,6 +9,7 @@
 
 #include "laws/law.hpp"
 #include "plan/softness.hpp"
+#include "plan/steadiness_warnings.hpp"
 #include "scene/input_error.hpp"
 #include "simulation/integrator.hpp"
 
@@ -131,6 +132,12 @@ AccuracyRun taken(const SettingRuns& of, const Evaluation& result) {
   return run;
 }
 
+/// A scene whose measuring window is so many times as long.
+Scene over_window(Scene scene, double times) {
+  scene.run.duration = scene.run.measure_from + times * (scene.run.duration - scene.run.measure_from);
+  return scene;
+}
+
 }  // namespace
 
 AccuracyGrid default_accuracy_grid(const Scene& scene) {
@@ -223,6 +230,18 @@ Scene scene_with(const Scene& scene, AccuracySetting& setting) {
   return changed;
 }
 
+std::vector<double> windows_alike(const Scene& scene) {
+  const auto fed = [](const Vessel& vessel) {
+    return (vessel.fill && vessel.fill->keep) || (vessel.rain && vessel.rain->stop == never);
+  };
+  std::vector<double> windows = {1};
+  if (!fed(scene.tray) && !(scene.hopper && fed(*scene.hopper))) return windows;
+  const std::vector<std::string> own = steadiness_warnings(scene);
+  for (const double times : {2.0, 4.0})
+    if (steadiness_warnings(over_window(scene, times)) == own) windows.push_back(times);
+  return windows;
+}
+
 SettingRunner::SettingRunner(const Scene& scene, std::vector<AccuracySetting>& settings, Simulator simulator,
                              SweepOptions options)
     : simulator_(std::move(simulator)), options_(std::move(options)), next_seed_(options_.first_random_seed) {
@@ -242,9 +261,7 @@ std::vector<AccuracyRun> SettingRunner::run(const std::vector<SettingRuns>& want
     if (of.window == 1) return &model;
     const auto [place, fresh] = longer.try_emplace({of.setting, of.window}, model);
     if (fresh) {
-      Scene scene = model.scene;
-      scene.run.duration = scene.run.measure_from + of.window * (scene.run.duration - scene.run.measure_from);
-      place->second = prepare(scene);
+      place->second = prepare(over_window(model.scene, of.window));
     }
     return &place->second;
   };

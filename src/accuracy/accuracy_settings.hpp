@@ -98,6 +98,10 @@ struct AccuracyRun {
 /// What a run costs wherever it is made: grain-steps times force evaluations a step.
 double work_of(const AccuracySetting& setting, double grain_steps);
 
+/// How many times as long the measuring window may be taken, 1 first: longer where the flow goes on for as long as one
+/// likes, as seeds are put in again, and nothing that the scene's own window does not see begins or ends in it.
+std::vector<double> windows_alike(const Scene& scene);
+
 /// Settings of a scene, ready to be run. Every run has a random seed of its own, so that runs are independent.
 class SettingRunner {
  public:

@@ -17,7 +17,7 @@ struct PromiseChoices {
   AccuracyDesign design;              // pilots of a round; a setting without a pilot may be chosen as well
   double lead = 0;                    // s, of a run before its measuring window
   double window = 1;                  // s
-  std::vector<double> windows = {1};  // times as long, where the flow goes on for as long as one likes
+  std::vector<double> windows = {1};  // times as long (windows_alike)
 };
 
 /// A setting, so many runs of it, and what their mean rate may err by.

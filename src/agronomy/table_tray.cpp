@@ -39,6 +39,7 @@ const HarmonicMotion& shaking_along(const Vessel& tray) {
   if (motion == nullptr) refuse("tray.motion.amplitude", "the tray stands still");
   if (!is_level(motion->direction) || !is_level(motion->across))
     refuse("tray.motion.direction", "the tray is not shaken along its floor");
+  if (motion->stop != never) refuse("tray.motion.stop", "the motion ends");
   return *motion;
 }
 
@@ -52,6 +53,7 @@ void check_holes(const std::vector<Hole>& holes) {
   for (const Hole& hole : holes) {
     if (hole.width != holes.front().width) refuse("tray.holes.width", "holes are unequal");
     if (hole.open_at > 0) refuse("tray.holes.open_at", "a gate closes a hole");
+    if (hole.chamfer > 0) refuse("tray.holes.chamfer", "a hole is chamfered");
   }
 }
 
@@ -93,6 +95,9 @@ TableTray table_tray(const Scene& scene) {
   if (scene.hopper) refuse("hopper", "a hopper feeds the tray");
   if (tray.rain || !tray.fill) refuse("tray.fill", "the bed is not a fill");
   if (tray.tilt != 0 || tray.funnel != 0) refuse("tray.tilt", "the floor slopes");
+  if (!tray.pieces.empty() || !tray.box) refuse("tray.pieces", "the tray is drawn");
+  if (tray.plan != Plan::rectangle) refuse("tray.plan", "the tray is round");
+  if (tray.sides == Sides::open || tray.front_and_back == Sides::open) refuse("tray.sides", "a side is open");
   check_holes(tray.holes);
   const HarmonicMotion& motion = shaking_along(tray);
   TableTray found;

@@ -9,7 +9,7 @@ namespace vibrosow {
 struct Setting {
   double value = 0;                  // of what is set, in SI
   double rate = 0;                   // kg/s, mean over the runs
-  bool flowed = true;                // every run to its end
+  bool flowed = true;                // every run to its end, and without a serious doubt
   double cv_low = 0;                 // fraction; 95 % interval of the CV between rows; of a single row 0
   std::optional<double> cv_high{0};  // none: not known
 };

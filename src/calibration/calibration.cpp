@@ -143,6 +143,18 @@ class Fit {
     return freedom > 0 ? std::optional(squares / freedom) : std::nullopt;
   }
 
+  /// Equal repeats say that the readings are coarse, not that they are exact.
+  void take_noise_of_repeats() {
+    measured_variance_ = relative_variance_of_repeats();
+    if (!measured_variance_) return;
+    if (*measured_variance_ > 0) {
+      result_.noise_source = "the table's repeats";
+    } else {
+      measured_variance_.reset();
+      result_.noise_source += ", as the table's repeats are all equal";
+    }
+  }
+
   void choose_noise() {
     double simulated2 = 0, count = 0;
     for (const Part& part : parts_) {
@@ -156,8 +168,7 @@ class Fit {
       measured_variance_ = *choices_.noise * *choices_.noise;
       result_.noise_source = curves_ ? "--noise, beside the scatter of simulated runs" : "--noise";
     } else if (!curves_) {
-      measured_variance_ = relative_variance_of_repeats();
-      if (measured_variance_) result_.noise_source = "the table's repeats";
+      take_noise_of_repeats();
     }
     if (measured_variance_) result_.noise = std::sqrt(*measured_variance_);
   }

@@ -78,19 +78,10 @@ void check_keys(const CalibrationTask& task) {
 }
 
 /// That a scene can be measured as the series was.
-void check_measurable(const CalibrationTask& task, const MeasuredSeries& series, const Scene& scene) {
-  const bool hole = series.hole == "all" || std::stoul(series.hole) <= scene.tray.holes.size();
-  const bool lot = series.lot == "all" || std::ranges::find(scene.lots, series.lot, &SeedLot::name) != scene.lots.end();
-  if (!hole || !lot)
-    throw InputError(fmt::format("{}: hole {}, lot {}: {} has no such hole or lot", series.where, series.hole,
-                                 series.lot, task.seeder.string()));
-  const bool filled = scene.tray.fill || (scene.hopper && scene.hopper->fill);
-  if (task.measured.table.quantity == MeasuredQuantity::fraction_curve && !filled)
-    throw InputError(
-        fmt::format("{}: discharged_percent is of the fill, and {} has none", series.where, task.seeder.string()));
+void check_scene_measurable(const CalibrationTask& task, const MeasuredSeries& series, const Scene& scene) {
+  check_measurable(task.measured, series, scene, task.seeder.string());
   if (task.measured.scale == MeasuredScale::depth && !scene.tray.depth)
     throw InputError(fmt::format("{}: --scale depth needs tray.depth", task.seeder.string()));
-  check_within_run(task.measured, series, scene);
 }
 
 }  // namespace
@@ -126,7 +117,7 @@ CalibrationDesign design_calibration(const CalibrationTask& task, const std::sha
            calibration_scene(task, design.conditions[condition], design.points.row(point).transpose(), files)});
   for (const MeasuredSeries& series : task.measured.table.series) {
     const auto condition = std::ranges::find(design.conditions, series.conditions) - design.conditions.begin();
-    check_measurable(task, series, design.runs[static_cast<std::size_t>(condition)].scene);
+    check_scene_measurable(task, series, design.runs[static_cast<std::size_t>(condition)].scene);
   }
   return design;
 }

@@ -133,23 +133,14 @@ PromiseGoal goal_of(const AccuracyOptions& options, int jobs) {
   return goal;
 }
 
-/// Whether the flow goes on for as long as one likes: seeds are put in again, at one rate or up to one number.
-bool is_fed_for_ever(const Scene& scene) {
-  const auto fed = [](const Vessel& vessel) {
-    return (vessel.fill && vessel.fill->keep) || (vessel.rain && vessel.rain->stop == never);
-  };
-  return fed(scene.tray) || (scene.hopper && fed(*scene.hopper));
-}
-
 /// The scene's own scheme alone: others cost more for what they bring, which the table of `accuracy` shows.
 PromiseChoices choices_of(const Scene& scene) {
   AccuracyGrid grid = default_accuracy_grid(scene);
   grid.integrators = {scene.numerics.integrator};
-  PromiseChoices choices{.design = runnable(scene, thrifty_design(grid)),
-                         .lead = scene.run.measure_from,
-                         .window = scene.run.duration - scene.run.measure_from};
-  if (is_fed_for_ever(scene)) choices.windows = {1, 2, 4};
-  return choices;
+  return {.design = runnable(scene, thrifty_design(grid)),
+          .lead = scene.run.measure_from,
+          .window = scene.run.duration - scene.run.measure_from,
+          .windows = windows_alike(scene)};
 }
 
 /// CPU time, s, of the first round, by the time that a run of the scene takes.

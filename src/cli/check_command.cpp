@@ -244,8 +244,8 @@ int check_study(const InputFile& file, const CheckOptions& options) {
     if (!layout.scene)
       print_text(wrapped(fmt::format("layout {} {}: invalid: {}", layout.number, layout.name, layout.invalid)));
   if (study.measured)
-    print_text(wrapped(fmt::format("measured: {}, {} series, {} matched to layouts", study.measured->file.string(),
-                                   study.measured->table.series.size(), study.measured->matches.size())));
+    print_text(wrapped(fmt::format("measured: {}, {} series, {} of them of a layout", study.measured->file.string(),
+                                   study.measured->table.series.size(), compared_series(*study.measured))));
   print("header of a table of measured outflow:\n{}\n", measured_header(study));
   return exit_done;
 }

@@ -112,7 +112,11 @@ void print_sweep_table(const StudyResult& result) {
   if (!result.comparison) return;
   if (result.study.measured->scale == MeasuredScale::free && result.comparison->scale)
     print("\nscale fitted to the measured outflow: {:.4g}\n", *result.comparison->scale);
-  if (result.comparison->misfit_percent) print("misfit over all rows: {:.3g} %\n", *result.comparison->misfit_percent);
+  if (!result.comparison->misfit_percent) return;
+  const std::size_t compared = compared_series(*result.study.measured),
+                    all = result.study.measured->table.series.size();
+  print("misfit over {}: {:.3g} %\n", compared == all ? "all rows" : fmt::format("{} of the {} series", compared, all),
+        *result.comparison->misfit_percent);
 }
 
 }  // namespace vibrosow

@@ -211,7 +211,11 @@ class Reader {
     series.where = fmt::format("{}:{}", csv_.file, row.line);
     const double time = is_curve(quantity_->quantity) ? required_number(row, *companion_) : 0;
     Gathered& of_series = gathered(series, row.line);
-    of_series.values_at[time].push_back({repeat_ ? row.fields[*repeat_] : "", value(row)});
+    const std::string repeat = repeat_ ? row.fields[*repeat_] : "";
+    std::vector<Reading>& readings = of_series.values_at[time];
+    if (!repeat.empty() && std::ranges::find(readings, repeat, &Reading::repeat) != readings.end())
+      fail(row.line, "repeat", fmt::format("repeat {} stands twice", repeat));
+    readings.push_back({repeat, value(row)});
     of_series.line_at.try_emplace(time, row.line);
   }
 

@@ -254,7 +254,7 @@ double read_mass(Table& seeds, const SeedLot& lot) {
   for (const std::string& key : mass_keys) seeds.skip(key);
   const std::string key = mass_key(seeds);
   if (key == "mass") return seeds.required_quantity(key, Dimension::seed_mass, 1e-12, 1e3);
-  if (key == "thousand_grain_weight") return read_thousand_grain_weight(seeds);
+  if (key == "thousand_grain_weight") return read_thousand_grain_weight(seeds) / size_moment(lot, mass_power(lot));
   const double density = seeds.required_quantity(key, Dimension::density, 1, 3e4);
   if (lot.shape == Shape::disc) seeds.fail("density", "gives no mass to a disc, which has no thickness; give mass");
   if (lot.shape == Shape::clump) return clump_volume(lot) * density;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <ranges>
 #include <utility>
 
 #include "input/wording.hpp"
@@ -25,11 +26,22 @@ constexpr std::array table = {
     Goal{"spilled", "spilled", "spilled_percent", false, "seeds that left over the rim, least", "nothing left it"},
 };
 
-constexpr std::string_view rate = "rate";
+constexpr std::string_view rate = "rate", spilled = "spilled";
 constexpr Goal rate_of_tray{rate, "rate of the tray", "tray_rate_g_per_s", true, "mass flow, most", "it has no rate"};
 
 std::optional<double> finite(const std::optional<double>& value) {
   return value && std::isfinite(*value) ? value : std::nullopt;
+}
+
+/// In a longer window a pause may be longer, and chance evens out more.
+void check_windows_alike(const Goal& goal, const std::vector<Scene>& scenes) {
+  constexpr double alike = 1.05;
+  const auto window = [](const Scene& scene) { return scene.run.duration - scene.run.measure_from; };
+  const auto [shortest, longest] = std::ranges::minmax(scenes | std::views::transform(window));
+  if (longest <= alike * shortest) return;
+  throw InputError(
+      fmt::format("the goal {}: it depends on how long is measured, and layouts measure from {:.3g} to {:.3g} s",
+                  goal.name, shortest, longest));
 }
 
 struct Rate {
@@ -73,7 +85,11 @@ const Goal& goal_named(std::string_view name) {
 }
 
 const Goal& goal_between(const Goal& goal, const std::vector<Scene>& scenes) {
-  if (goal.name != rate || scenes.empty()) return goal;
+  if (scenes.empty()) return goal;
+  if (goal.name != rate) {
+    if (goal.name != spilled) check_windows_alike(goal, scenes);
+    return goal;
+  }
   const auto slice = [](const Scene& scene) {
     return scene.space == Space::plane ? std::pair(slice_thickness(scene.lots), slices_of_tray(scene))
                                        : std::pair(0.0, std::optional(1.0));

@@ -32,7 +32,7 @@ const Goal& goal_named(std::string_view name);
 
 /// The goal as it compares these scenes. "rate" is of a slice in 2D; where slices are of other thickness or a tray
 /// holds another number of them, it is of the whole tray. Throws InputError where that takes a tray.depth that is
-/// missing.
+/// missing, and for a goal that depends on how long is measured where these windows are unlike.
 const Goal& goal_between(const Goal& goal, const std::vector<Scene>& scenes);
 const Goal& goal_between(Goal&& goal, const std::vector<Scene>& scenes) = delete;  // what is returned would be gone
 

@@ -162,9 +162,31 @@ const Outflow& a_finished_outflow(const std::vector<Evaluation>& replicates) {
   return std::ranges::find_if(replicates, &Evaluation::finished)->outflow;
 }
 
+bool has_hole_and_lot(const Scene& scene, const MeasuredSeries& series) {
+  const bool hole = series.hole == "all" || std::stoul(series.hole) <= scene.tray.holes.size();
+  const bool lot = series.lot == "all" || std::ranges::find(scene.lots, series.lot, &SeedLot::name) != scene.lots.end();
+  return hole && lot;
+}
+
+/// Whether all seeds are there from the start, so that a share of them is one of a fill.
+bool empties_a_fill(const Scene& scene) {
+  const auto is_fed = [](const Vessel& vessel) { return vessel.rain || (vessel.fill && vessel.fill->keep); };
+  if (is_fed(scene.tray) || (scene.hopper && is_fed(*scene.hopper))) return false;
+  return scene.tray.fill || (scene.hopper && scene.hopper->fill);
+}
+
 }  // namespace
 
-void check_within_run(const MeasuredPart& part, const MeasuredSeries& series, const Scene& scene) {
+void check_measurable(const MeasuredPart& part, const MeasuredSeries& series, const Scene& scene,
+                      const std::string& whose) {
+  if (!has_hole_and_lot(scene, series))
+    throw InputError(
+        fmt::format("{}: hole {}, lot {}: {} has no such hole or lot", series.where, series.hole, series.lot, whose));
+  if (part.table.quantity == MeasuredQuantity::fraction_curve && !empties_a_fill(scene))
+    throw InputError(
+        fmt::format("{}: discharged_percent is of a fill that empties, and {} has none, or is fed; expected mass_g or "
+                    "seeds",
+                    series.where, whose));
   if (series.times.empty()) return;
   const double zero = curve_zero(part, scene), last = series.times.back();
   if (last + zero <= scene.run.duration * (1 + 1e-9)) return;

@@ -10,8 +10,10 @@ namespace vibrosow {
 /// The discharge curves that a comparison needs of each run of a scene of the study; none for measured rates.
 std::vector<CurveRequest> measured_curves(const Study& study, std::size_t scene);
 
-/// Throws InputError where a series was read at a time that a run of `scene` does not come to.
-void check_within_run(const MeasuredPart& part, const MeasuredSeries& series, const Scene& scene);
+/// Throws InputError where a series cannot be of `scene`, which the message calls `whose`: it has not that hole or lot,
+/// or no fill that empties, of which a share could have left, or its run ends before the series does.
+void check_measurable(const MeasuredPart& part, const MeasuredSeries& series, const Scene& scene,
+                      const std::string& whose);
 
 /// Of one measured series the discharge curve that is needed of a run of `scene`, for `simulated_values`.
 CurveRequest curve_request(const MeasuredPart& part, const MeasuredSeries& series, const Scene& scene);

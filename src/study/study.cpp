@@ -196,27 +196,10 @@ class Scenes {
   std::shared_ptr<SourceFiles> files_;
 };
 
-bool has_hole_and_lot(const Scene& scene, const MeasuredSeries& series) {
-  const bool hole = series.hole == "all" || std::stoul(series.hole) <= scene.tray.holes.size();
-  const bool lot = series.lot == "all" || std::ranges::find(scene.lots, series.lot, &SeedLot::name) != scene.lots.end();
-  return hole && lot;
-}
-
-bool has_fill(const Scene& scene) {
-  return scene.tray.fill || (scene.hopper && scene.hopper->fill);
-}
-
 /// That a layout can be measured as the series was.
-void check_measurable(const MeasuredPart& part, const MeasuredSeries& series, const Scene& scene, std::size_t layout,
-                      const std::filesystem::path& base) {
-  if (!has_hole_and_lot(scene, series))
-    throw InputError(fmt::format("{}: hole {}, lot {}: layout {} has no such hole or lot", series.where, series.hole,
-                                 series.lot, layout + 1));
-  if (part.table.quantity == MeasuredQuantity::fraction_curve && !has_fill(scene))
-    throw InputError(
-        fmt::format("{}: discharged_percent is of the fill, and layout {} has none; expected mass_g or seeds",
-                    series.where, layout + 1));
-  check_within_run(part, series, scene);
+void check_layout_measurable(const MeasuredPart& part, const MeasuredSeries& series, const Scene& scene,
+                             std::size_t layout, const std::filesystem::path& base) {
+  check_measurable(part, series, scene, fmt::format("layout {}", layout + 1));
   if (part.scale == MeasuredScale::depth && !scene.tray.depth)
     throw InputError(fmt::format("{}: measured.scale = \"depth\" needs tray.depth", base.string()));
 }
@@ -253,7 +236,8 @@ void match_measured(Study& study, std::vector<MeasuredMatch> matches) {
   MeasuredPart& part = *study.measured;
   part.matches = std::move(matches);
   for (const auto& [layout, series] : part.matches)
-    check_measurable(part, part.table.series[series], study.scenes[*study.layouts[layout].scene], layout, study.base);
+    check_layout_measurable(part, part.table.series[series], study.scenes[*study.layouts[layout].scene], layout,
+                            study.base);
   if (part.matches.empty())
     throw InputError(fmt::format("{}: no row was measured under the conditions of a layout", part.file.string()));
 }
@@ -263,6 +247,12 @@ bool is_study_key(const Override& change) {
 }
 
 }  // namespace
+
+std::size_t compared_series(const MeasuredPart& part) {
+  std::set<std::size_t> series;
+  for (const MeasuredMatch& match : part.matches) series.insert(match.series);
+  return series.size();
+}
 
 std::vector<std::string> study_warnings(const Study& study) {
   std::vector<std::pair<std::string, std::vector<int>>> told;  // and by which layouts, in their order
@@ -275,6 +265,11 @@ std::vector<std::string> study_warnings(const Study& study) {
     }
   }
   std::vector<std::string> warnings;
+  if (study.measured && compared_series(*study.measured) < study.measured->table.series.size())
+    warnings.push_back(fmt::format(
+        "measured: {} of the {} series of {} {} measured under the conditions of a layout; the rest counts for nothing",
+        compared_series(*study.measured), study.measured->table.series.size(), study.measured->file.string(),
+        compared_series(*study.measured) == 1 ? "was" : "were"));
   for (const auto& [warning, layouts] : told)
     warnings.push_back(
         layouts.size() == study.layouts.size()
@@ -333,6 +328,7 @@ Study read_study_with(const std::filesystem::path& file, const std::vector<Overr
   if (vary) reject_set_and_varied(fixed, grid.front());
   for (const NamedDesign& design : designs) {
     if (vary) reject_set_and_varied(design.changes, grid.front());
+    reject_set_and_varied(of_seeder, design.changes);
     add_keys(study.keys, design.changes);
     for (const Changes& point : grid) {
       Layout layout;

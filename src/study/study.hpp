@@ -49,6 +49,9 @@ struct MeasuredPart {
   std::vector<MeasuredMatch> matches;  // by layout, then series
 };
 
+/// How many of a table's series were measured under the conditions of a layout.
+std::size_t compared_series(const MeasuredPart& part);
+
 struct Study {
   std::string title;
   std::filesystem::path base;  // of the seeder file

@@ -62,12 +62,18 @@ std::optional<MeanWithInterval> rate_of(const LayoutResult& layout) {
   return is_compared(layout.status) ? layout.figures["rate_g_per_s"] : std::nullopt;
 }
 
+/// Whether something serious speaks against single runs, so that their rate may not be the tray's.
+bool has_doubted_runs(const LayoutResult& layout) {
+  return std::ranges::any_of(layout.doubts, [](const CountedDoubt& doubt) {
+    return doubt.runs > 0 && words_of(doubt.kind).severity == Severity::serious;
+  });
+}
+
 Setting setting_of(const LayoutResult& layout, const Drill& drill, double value) {
   const std::optional<MeanWithInterval> rate = rate_of(layout);
   if (!rate) return {.value = value, .flowed = false};
-  const bool ran_dry =
-      std::ranges::any_of(layout.doubts, [](const CountedDoubt& doubt) { return doubt.kind == DoubtKind::ran_dry; });
-  Setting setting{.value = value, .rate = rate->mean, .flowed = layout.stopped_flowing == 0 && !ran_dry};
+  Setting setting{
+      .value = value, .rate = rate->mean, .flowed = layout.stopped_flowing == 0 && !has_doubted_runs(layout)};
   if (drill.streams() < 2) return setting;  // nothing to differ from
   const RowMeans& all = layout.rows.back();
   const auto& low = all["unevenness_cv_percent_low"];

@@ -31,6 +31,23 @@ TEST(AccuracySettings, DefaultsReachBeyondTheSceneToBothSides) {
   EXPECT_DOUBLE_EQ(grid.steps_per_contact.back(), 48);
 }
 
+TEST(AccuracySettings, ALongerWindowIsTakenOnlyWhereItIsLikeTheScenesOwn) {
+  const StudyFiles files;
+  Scene scene = scene_of(files);
+  ASSERT_TRUE(scene.tray.fill);
+  EXPECT_THAT(windows_alike(scene), ElementsAre(1)) << "a fill empties";
+  scene.tray.fill->keep = true;
+  EXPECT_THAT(windows_alike(scene), ElementsAre(1, 2, 4));
+  const double end = scene.run.duration, window = end - scene.run.measure_from;
+  scene.tray.motion = HarmonicMotion{.amplitude = 0.01, .frequency = 9, .stop = end};
+  EXPECT_THAT(windows_alike(scene), ElementsAre(1));
+  scene.tray.motion = HarmonicMotion{.amplitude = 0.01, .frequency = 9, .stop = end + 1.5 * window};
+  EXPECT_THAT(windows_alike(scene), ElementsAre(1, 2));
+  scene.tray.motion = HarmonicMotion{.amplitude = 0.01, .frequency = 9};
+  scene.tray.holes.back().open_at = end + 0.5 * window;
+  EXPECT_THAT(windows_alike(scene), ElementsAre(1));
+}
+
 TEST(AccuracySettings, NoDefaultIsPredictedUnsoundOrTooLong) {
   const StudyFiles files;
   for (const char* softness : {"contact.shell_compression=1e-4", "contact.shell_compression=0.03"}) {

@@ -148,6 +148,12 @@ TEST_F(CalibrationOf, NoiseIsThatOfTheRepeats) {
   EXPECT_NEAR(calibrated(task(rates(1)), {}).noise, 0.02, 0.008);  // of the simulated runs
 }
 
+TEST_F(CalibrationOf, EqualRepeatsAreNotWithoutNoise) {
+  const Calibration found = calibrated(task(rates(1, {0, 0})), {}), once = calibrated(task(rates(1)), {});
+  EXPECT_EQ(found.noise, once.noise);
+  EXPECT_EQ(found.noise_source, "the scatter of simulated runs, as the table's repeats are all equal");
+}
+
 TEST_F(CalibrationOf, AMisfitIsSeen) {
   EXPECT_LT(calibrated(task(rates(0.3)), {.noise = 0.02}).misfit_probability, 1e-6);
 }

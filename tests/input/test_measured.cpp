@@ -97,6 +97,8 @@ TEST_F(Measured, RepeatsOfABalanceAreEachOfTheirOwnFill) {
                        ":2: remaining_g: 2 readings at 0 s differ; give a column repeat"));
   EXPECT_TRUE(contains(error("time_s,gross_g,repeat\n0,100,1\n0.1,120,1\n0.05,300,2\n0.1,311,2\n"),
                        ":4: repeat: repeat 2 has no reading at 0 s, where the others begin"));
+  EXPECT_TRUE(contains(error("tray.holes.count,repeat,rate_g_per_s\n3,1,4\n3,2,4.1\n5,1,6\n3,1,4\n"),
+                       ":5: repeat: repeat 1 stands twice"));
   EXPECT_EQ(read("time_s,gross_g\n0,100\n0,100.5\n0.1,120\n").series.size(), 1U);
 }
 

@@ -75,8 +75,12 @@ double mass_ratio(const toml::table& crop) {
   const double mass_per_volume = quantity(crop["thousand_grain_weight"], Dimension::mass) / 1e3 /
                                  quantity(crop["reference"]["true_density"], Dimension::density);
   const std::string shape = crop["shape"].value_or(std::string("ball"));
-  if (shape == "ball")
-    return mass_per_volume / (std::numbers::pi / 6 * std::pow(quantity(crop["diameter"], Dimension::length), 3));
+  if (shape == "ball") {
+    const double diameter = quantity(crop["diameter"], Dimension::length);
+    const auto deviation = crop["sizes"]["deviation"];  // of a normal distribution, of which E[d^3] = d^3 + 3 d sigma^2
+    const double sigma = deviation ? quantity(deviation, Dimension::length) : 0;
+    return mass_per_volume / (std::numbers::pi / 6 * diameter * (diameter * diameter + 3 * sigma * sigma));
+  }
   if (shape == "discs") {
     std::vector<ClumpDisc> balls;
     for (const auto& node : *crop["discs"].as_array()) {

@@ -76,6 +76,14 @@ TEST(ReadLot, AThousandGrainWeightIsAThousandMasses) {
               ThrowsMessage<InputError>(HasSubstr("thousand_grain_weight: contradicts mass")));
 }
 
+/// A thousand seeds of different sizes weigh more than a thousand of the mean one.
+TEST(ReadLot, AThousandGrainWeightIsOfSeedsOfAllSizes) {
+  const SeedLot lot = lot_of(
+      "diameter = '3 mm'\nsizes = { distribution = 'normal', deviation = '0.6 mm' }\nthousand_grain_weight = '45 g'");
+  EXPECT_NEAR(mean_mass(lot), 45e-6, 1e-18);
+  EXPECT_NEAR(lot.mass, 45e-6 / (1 + 3 * 0.04), 0.01 * 45e-6) << "E[s^3] of a normal one is 1 + 3 sigma^2";
+}
+
 TEST(ReadLot, ASeedersMassWinsOverItsCropsThousandGrainWeight) {
   EXPECT_DOUBLE_EQ(lot_of("crop = 'wheat-ball'").mass, 29.6e-6);
   EXPECT_DOUBLE_EQ(lot_of("crop = 'wheat-ball'\nmass = '40 mg'").mass, 40e-6);

@@ -57,6 +57,24 @@ TEST(Goal, RatesOfUnlikeSlicesAreThoseOfTheTray) {
       ThrowsMessage<InputError>(HasSubstr("tray.depth is missing")));
 }
 
+/// A pause may be longer in a longer window, and chance weighs less.
+TEST(Goal, WhatDependsOnTheWindowNeedsWindowsAlike) {
+  Scene usual, later, longer;
+  usual.space = later.space = longer.space = Space::three_dimensional;
+  usual.run.duration = later.run.duration = 4, longer.run.duration = 6;
+  usual.run.measure_from = longer.run.measure_from = 1, later.run.measure_from = 1.1;
+  for (const char* name : {"unevenness", "instability", "pause"}) {
+    EXPECT_EQ(&goal_between(goal_named(name), {usual, later}), &goal_named(name));
+    EXPECT_THAT(
+        [&] {
+          goal_between(goal_named(name), {usual, longer});
+        },
+        ThrowsMessage<InputError>(HasSubstr("layouts measure from 3 to 5 s")));
+  }
+  for (const char* name : {"rate", "spilled"})
+    EXPECT_EQ(&goal_between(goal_named(name), {usual, longer}), &goal_named(name));
+}
+
 TEST(WantedRate, ReadsSeedsAndMass) {
   const WantedRate seeds = read_wanted_rate("43 seeds/s +- 5 %");
   EXPECT_EQ(rate_figure(seeds).name, "tray_seeds_per_s");

@@ -264,6 +264,26 @@ duration = "4 s"
               ThrowsMessage<InputError>(testing::AllOf(HasSubstr("bench.csv:2: "), HasSubstr("discharged_percent"))));
 }
 
+TEST(Study, RefusesAShareOfAFillThatIsToppedUp) {
+  const StudyFiles files;
+  files.write("bench.csv", "time_s,discharged_percent\n1,20\n3,60\n");
+  const auto path = files.study("[set]\ntray.fill.keep = true\n[measured]\nfile = \"bench.csv\"\n");
+  EXPECT_THAT([&] { read_study(path); },
+              ThrowsMessage<InputError>(HasSubstr("layout 1 has none, or is fed; expected mass_g or seeds")));
+}
+
+TEST(Study, SaysWhichOfATablesSeriesCountForNothing) {
+  const StudyFiles files;
+  files.write("bench.csv", "contact.friction,rate_g_per_s\n0.1,5\n0.2,4\n0.4,3\n");
+  const Study study =
+      read_study(files.study("[vary]\ncontact.friction = [0.1, 0.3]\n[measured]\nfile = \"bench.csv\"\n"));
+  EXPECT_EQ(compared_series(*study.measured), 1u);
+  EXPECT_THAT(study_warnings(study), testing::Contains(HasSubstr("1 of the 3 series of")));
+  const Study own = read_study(files.study("[measured]\nfile = \"bench.csv\"\n"));
+  EXPECT_EQ(compared_series(*own.measured), 3u);
+  EXPECT_THAT(study_warnings(own), testing::Not(testing::Contains(HasSubstr("series of"))));
+}
+
 TEST(Study, ReadsEveryFileOnce) {
   const StudyFiles files;
   files.write("bench.csv",
@@ -303,6 +323,16 @@ tray.holes.at = ["10 cm", "20 cm", "40 cm"]
   const Study by_command = read_study(files.study("[vary]\ncontact.friction = [0.1, 0.2]\n"),
                                       {parse_override("tray.holes.span="), parse_override("tray.holes.pitch=10 cm")});
   EXPECT_DOUBLE_EQ(by_command.scenes[0].tray.holes[0].centre, 0.15);
+}
+
+/// What a layout is called by would not be so.
+TEST(Study, KeyOfALayoutIsNotSetForAll) {
+  const StudyFiles files;
+  const auto path = files.study(
+      "[[layout]]\nname = \"smooth\"\ncontact.friction = 0.1\n[[layout]]\nname = \"rough\"\ncontact.friction = 0.6\n");
+  EXPECT_EQ(read_study(path, {parse_override("tray.holes.count=2")}).scenes.size(), 2u);
+  EXPECT_THAT([&] { read_study(path, {parse_override("contact.friction=0.3")}); },
+              ThrowsMessage<InputError>(HasSubstr("contact.friction: varied here, and set at")));
 }
 
 TEST(Study, UnsettingWhatIsNotThereOrIsVariedIsRefused) {

@@ -51,7 +51,8 @@ vibrosow::Run by_frequency(const Model& model, const SimulationOptions& options)
       run.events.push_back({2.0 + 2.0 * (i + 0.5) / seeds, hole, 0, run.balance.counted++, 40e-6, 0.1, 0.5});
   }
   std::ranges::stable_sort(run.events, {}, &OutflowEvent::time);
-  run.balance.put_in = run.balance.counted;
+  run.balance.inside += 100000;  // so many stay that the tray has not drained
+  run.balance.put_in = run.balance.counted + run.balance.inside;
   return run;
 }
 
@@ -97,6 +98,23 @@ TEST(Trade, TurnDownIsOfTheFrequenciesThatFlow) {
   EXPECT_NEAR(lines[0].not_excluded->ratio, 2, 1e-9);
   EXPECT_EQ(lines[0].not_excluded->from, 7);
   EXPECT_FALSE(lines[0].slope);
+}
+
+TEST(Trade, TurnDownLeavesOutWhatIsSeriouslyDoubted) {
+  const StudyFiles files;
+  const StudyResult result =
+      swept(with_drill(files, "[vary]\ntray.motion.frequency = [\"7 Hz\", \"10 Hz\", \"14 Hz\"]\n"),
+            [](const Model& model, const SimulationOptions& options) {
+              vibrosow::Run run = by_frequency(model, options);
+              if (std::get<HarmonicMotion>(*model.scene.tray.motion).frequency > 12)
+                run.warnings.push_back({DoubtKind::guard_warned, "the overlap was large"});
+              return run;
+            });
+  ASSERT_TRUE(is_serious(result.layouts[2].doubts));
+  const auto lines = trade_lines(result);
+  ASSERT_EQ(lines.size(), 1u);
+  ASSERT_TRUE(lines[0].not_excluded);
+  EXPECT_NEAR(lines[0].not_excluded->ratio, 10.0 / 7, 1e-9);
 }
 
 TEST(Trade, SlopeIsOfTheTiltsAndEachFrequencyIsALine) {
