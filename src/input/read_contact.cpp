@@ -376,10 +376,14 @@ void require_shared_values(const Table& table, const Contact& first, const Conta
                                   lot.contact.name));
 }
 
-/// The general surfaces are of the first lot; those of the others, and between any two, are overrides.
-void join_surfaces(const std::vector<Contact>& own, const std::vector<Pair>& written, Contact& contact) {
-  const auto is_written = [&](int lot, int other) {
-    return std::ranges::any_of(written, [&](const Pair& pair) { return pair.lot == lot && pair.other == other; });
+/// The general surfaces are of the first lot; those of the others, and between any two, are overrides. What is written
+/// of two lots lies over the mean of their models.
+void join_surfaces(const std::vector<Contact>& own, std::vector<Pair> written, Contact& contact) {
+  const auto between = [&](int lot, int other) {
+    const Surface mean = mean_of(own[static_cast<std::size_t>(lot)].seed, own[static_cast<std::size_t>(other)].seed);
+    const auto pair =
+        std::ranges::find_if(written, [&](const Pair& one) { return one.lot == lot && one.other == other; });
+    return pair == written.end() ? mean : effective(read_surface(pair->part.table, mean), contact);
   };
   const auto add = [&](int lot, int other, const Surface& surface) {
     if (surface != (other == walls ? contact.wall : contact.seed)) contact.overrides.push_back({lot, other, surface});
@@ -388,11 +392,8 @@ void join_surfaces(const std::vector<Contact>& own, const std::vector<Pair>& wri
   for (int lot = 0; lot < static_cast<int>(own.size()); ++lot) {
     const Contact& of_lot = own[static_cast<std::size_t>(lot)];
     add(lot, walls, surface_of(of_lot, lot, walls));
-    for (int other = lot; other < static_cast<int>(own.size()); ++other) {
-      const bool own_pair = other == lot || is_written(lot, other);
-      add(lot, other,
-          own_pair ? surface_of(of_lot, lot, other) : mean_of(of_lot.seed, own[static_cast<std::size_t>(other)].seed));
-    }
+    add(lot, lot, surface_of(of_lot, lot, lot));
+    for (int other = lot + 1; other < static_cast<int>(own.size()); ++other) add(lot, other, between(lot, other));
   }
 }
 

@@ -400,23 +400,45 @@ void warn_of_vessels_that_meet(const Scene& scene, Warnings& warnings) {
   }
 }
 
+/// How far (m) places of a hopper's floor reach along and across the tray, in the tray's frame, where what leaves them
+/// comes to the tray's mouth: straight down to the height of its end walls, without these to its floor.
+Box3 fallen_to_tray(const Scene& scene, const std::vector<Eigen::Vector3d>& places) {
+  const Vessel &tray = scene.tray, &hopper = *scene.hopper;
+  const Pose of_tray = vessel_pose(tray, 0), of_hopper = vessel_pose(hopper, 0);
+  const double mouth = tray.sides == Sides::walls ? tray.height : 0;
+  Box3 box;
+  for (const Eigen::Vector3d& place : places) {
+    const Eigen::Vector3d lab = point_in_lab(hopper, of_hopper, place);
+    Eigen::Vector3d own = point_in_vessel(tray, of_tray, lab);
+    const Eigen::Vector3d down = point_in_vessel(tray, of_tray, lab - Eigen::Vector3d::UnitY()) - own;
+    if (own.y() > mouth && down.y() < 0) own += (mouth - own.y()) / down.y() * down;
+    box.include(own);
+  }
+  return box;
+}
+
 /// What a hopper lets out beside the tray is spilled.
 void warn_of_outlets_beside_tray(const Scene& scene, Warnings& warnings) {
   const Vessel& tray = scene.tray;
   if (!scene.hopper || !tray.box || turns_steadily(tray)) return;
-  const Pose of_tray = vessel_pose(tray, 0), of_hopper = vessel_pose(*scene.hopper, 0);
+  const bool in_space = !plane_alone && scene.space != Space::plane;
   for (std::size_t k = 0; k < scene.hopper->holes.size(); ++k) {
     const Hole& hole = scene.hopper->holes[k];
-    const auto along = [&](double x) {
-      return in_vessel_frame(tray, of_tray, in_lab_frame(*scene.hopper, of_hopper, {x, 0})).x();
+    const double slack = rim * hole.width, half = 0.5 * hole.width;
+    const double half_across = hole.shape == HoleShape::round ? half : 0.5 * hole.across_length;
+    const auto warn = [&](double from, double to, const std::string& of_tray) {
+      warnings.push_back(fmt::format("hopper.holes: hole {} is over {} to {} {}: what falls beside the tray is spilled",
+                                     k + 1, in_mm(from), in_mm(to), of_tray));
     };
-    const double one = along(hole.centre - hole.width / 2), other = along(hole.centre + hole.width / 2);
-    const double slack = rim * hole.width, left = std::min(one, other), right = std::max(one, other);
-    if (tray.sides == Sides::periodic || (left >= -slack && right <= tray.length + slack)) continue;
-    warnings.push_back(
-        fmt::format("hopper.holes: hole {} is over {} to {} of the tray, which is {} long: what falls "
-                    "beside the tray is spilled",
-                    k + 1, in_mm(left), in_mm(right), in_mm(tray.length)));
+    const Eigen::Vector3d middle(hole.centre, 0, in_space ? hole.across : 0), along(half, 0, 0);
+    const Box3 over = fallen_to_tray(scene, {middle - along, middle + along});
+    if (tray.sides != Sides::periodic && (over.low.x() < -slack || over.high.x() > tray.length + slack))
+      warn(over.low.x(), over.high.x(), fmt::format("of the tray, which is {} long", in_mm(tray.length)));
+    if (!in_space || tray.front_and_back == Sides::periodic) continue;
+    const Eigen::Vector3d across(0, 0, half_across);
+    const Box3 beside = fallen_to_tray(scene, {middle - across, middle + across});
+    if (beside.low.z() < -slack || beside.high.z() > *tray.depth + slack)
+      warn(beside.low.z(), beside.high.z(), fmt::format("from the tray's front, which is {} deep", in_mm(*tray.depth)));
   }
 }
 

@@ -3,6 +3,7 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <algorithm>
 
 #include <string>
 #include <utility>
@@ -333,6 +334,16 @@ TEST_F(ContactsOfCrops, WhatTheSeederSaysWins) {
   EXPECT_EQ(friction(pair, 0, 1), 0.7);
   EXPECT_EQ(friction(pair, 1, 1), 0.4);
   EXPECT_EQ(friction(pair, 0, 0), 0.4);
+}
+
+/// Of two lots, too: what is not written there is the mean of both.
+TEST_F(ContactsOfCrops, WhatTheSeederSaysOfTwoLotsLiesOverTheirMean) {
+  const Scene scene = read("[contact]\npea.rape.friction = 0.7\n");
+  const auto pair = std::ranges::find_if(scene.contact.overrides,
+                                         [](const SurfaceOverride& one) { return one.lot == 0 && one.other == 1; });
+  ASSERT_NE(pair, scene.contact.overrides.end());
+  EXPECT_EQ(pair->surface.friction, 0.7);
+  EXPECT_DOUBLE_EQ(pair->surface.restitution, 0.55);
 }
 
 /// One key, as --set and studies give it, does not take the crops' friction away.

@@ -410,5 +410,44 @@ TEST(SceneWarnings, AnOutletBesideTheTray) {
   EXPECT_THAT(scene_warnings(scene), IsEmpty());
 }
 
+/// Seeds fall straight down, however the tray lies.
+TEST(SceneWarnings, AnOutletBesideATiltedTray) {
+  Scene scene = sound();
+  scene.hopper = hopper(0.03);
+  scene.hopper->origin.y() = 1;
+  scene.tray.tilt = 0.1;  // its mouth goes from -12 to 486 mm
+  for (const double left : {-0.03, 0.42}) {
+    scene.hopper->origin.x() = left;
+    EXPECT_THAT(scene_warnings(scene), IsEmpty()) << left;
+  }
+  for (const double left : {-0.045, 0.44}) {
+    scene.hopper->origin.x() = left;
+    EXPECT_THAT(scene_warnings(scene), ElementsAre(HasSubstr("beside the tray is spilled"))) << left;
+  }
+  scene.tray.sides = Sides::open;  // its floor goes to 498 mm
+  EXPECT_THAT(scene_warnings(scene), IsEmpty());
+}
+
+TEST(SceneWarnings, AnOutletInFrontOfTheTrayOrBehindIt) {
+  Scene scene = sound();
+  scene.space = Space::three_dimensional;
+  scene.tray.depth = 0.1;
+  for (Hole& hole : scene.tray.holes) hole.across = 0.05, hole.across_length = 0.1;
+  scene.hopper = hopper(0.03);
+  scene.hopper->depth = 0.04;
+  scene.hopper->holes[0].across = 0.02, scene.hopper->holes[0].across_length = 0.04;
+  for (const double front : {0.0, 0.06}) {
+    scene.hopper->front = front;
+    EXPECT_THAT(scene_warnings(scene), IsEmpty()) << front;
+  }
+  scene.hopper->front = -0.01;
+  EXPECT_THAT(scene_warnings(scene), ElementsAre(HasSubstr("hole 1 is over -10 mm to 30 mm from the tray's front, "
+                                                           "which is 100 mm deep: what falls beside the tray is")));
+  scene.hopper->front = 0.07;
+  EXPECT_THAT(scene_warnings(scene), ElementsAre(HasSubstr("beside the tray is spilled")));
+  scene.tray.front_and_back = Sides::periodic;
+  EXPECT_THAT(scene_warnings(scene), IsEmpty());
+}
+
 }  // namespace
 }  // namespace vibrosow

@@ -56,7 +56,7 @@ class SceneWriter {
   }
 
   std::vector<DrawnScene::Key> keys;
-  std::map<std::string, std::string> tables;
+  std::map<std::string, std::string> files;  // that they name, by path
 
  private:
   /// Of a vessel, as far as others depend on it.
@@ -65,6 +65,8 @@ class SceneWriter {
     double length, height, depth;
     bool box = true, round = false, drum = false, turns = false, periodic = false, periodic_across = false;
     int holes = 0;
+    double hole_at = 0, hole_width = 0;  // of one of them
+    double floor = 0;                    // its thickness
   };
 
   void set(const std::string& key, const std::string& value) { keys.emplace_back(key, value); }
@@ -118,6 +120,7 @@ class SceneWriter {
     }
     write_mass(name, disc, size);
     largest_ = std::max(largest_, (shape >= 3 && shape <= 4 ? 2.2 : 1.3) * 1.25 * size);
+    thinnest_ = std::min(thinnest_, row ? 0.5 * length : 0.8 * size);
   }
 
   void write_crop(int k) {
@@ -128,6 +131,7 @@ class SceneWriter {
     set(lot(k) + ".moisture", in_unit(12, "%"));
     if (roll == 0 && draw_.one_in(lot(k) + ".own_contact", 6)) set(lot(k) + ".contact", quoted("rapeseed-steel"));
     largest_ = std::max(largest_, 8.5);
+    thinnest_ = 2;
   }
 
   void write_sizes(const std::string& name, const std::string& key, double size) {
@@ -170,6 +174,8 @@ class SceneWriter {
 
   void write_contact() {
     if (crops_) return write_contact_of_crops();
+    if (draw_.one_in("models", 5)) return write_models();
+    if (lots_ > 1 && draw_.one_in("contact.pair_of_lots", 6)) set("contact.a.b.friction", 0.25);
     const int law = draw_.below("contact.law", 4);
     if (law < 2) {
       set("contact.shell_compression", draw_.one_in("contact.stiff", 4) ? 3e-4 : 1e-3);
@@ -213,6 +219,86 @@ class SceneWriter {
     if (rolling == 2 && draw_.one_in("contact.rolling_damping", 3)) set("contact.rolling_damping", 0.6);
   }
 
+  // ---- a contact model of each lot ----
+
+  /// What the models of all lots have in common.
+  struct Models {
+    bool hertz, damped_by_rate, spring;
+    int rolling;
+  };
+
+  /// They may differ in what all seeds share. [contact] may settle that, and lie over them with some of its keys.
+  void write_models() {
+    const bool hertz = draw_.one_in("models.hertz", 3);
+    const Models models{hertz, hertz && draw_.one_in("models.damping_rate", 3), draw_.one_in("models.spring", 2),
+                        draw_.below("models.rolling", 3)};
+    const DrawnScene::Key odd = odd_key(models);
+    const int who = draw_.below("models.odd.lot", lots_);
+    for (int k = 0; k < lots_; ++k) write_model(k, models, k == who ? odd : DrawnScene::Key{});
+    if (!odd.first.empty() && draw_.one_in("models.settled", 3)) set("contact." + odd.first, odd.second);
+    write_over_models(models);
+  }
+
+  /// Of what is one for all seeds, and counts for something with such models.
+  DrawnScene::Key odd_key(const Models& models) {
+    if (!draw_.one_in("models.odd", 2)) return {};
+    std::vector<DrawnScene::Key> keys = {{"drag", in_unit(0.05, "g/s")}, {"friction_arm", quoted("rim")}};
+    keys.emplace_back("friction_model", quoted(models.spring ? "sliding" : "spring"));
+    if (models.rolling == 0) keys.emplace_back("rotation", "false");
+    if (models.rolling == 2) keys.emplace_back("rolling_damping", "0.6");
+    if (!models.spring || models.rolling == 1) keys.emplace_back("slip_speed", in_unit(50, "mm/s"));
+    if (models.spring) keys.emplace_back("tangential_ratio", "0.5"), keys.emplace_back("tangential_damping", "0.2");
+    if (models.hertz) keys.emplace_back("wall.youngs_modulus", in_unit(5, "MPa"));
+    if (models.damped_by_rate) keys.emplace_back("damping_rate", in_unit(2e3, "1/s"));
+    return keys[static_cast<std::size_t>(draw_.below("models.odd.key", static_cast<int>(keys.size())))];
+  }
+
+  void write_model(int k, const Models& models, const DrawnScene::Key& odd) {
+    const std::string name = lot(k) + ".model.";
+    std::map<std::string, std::string> model;
+    const auto give = [&](const std::string& key, double from, double to) {
+      model[key] = fmt::format("{:.6g}", draw_.number(name + key, from, to));
+    };
+    if (models.hertz)
+      model["law"] = quoted("hertz"), model["youngs_modulus"] = in_unit(draw_.number(name + "modulus", 1, 3), "MPa");
+    else
+      give("shell_compression", 1e-3, 4e-4);
+    give("friction", 0.4, 0);
+    if (models.damped_by_rate)
+      model["damping_rate"] = in_unit(1e3, "1/s");
+    else
+      give("restitution", 0.4, 0.9);
+    if (draw_.one_in(name + "walls", 2)) give("wall.friction", 0.2, 0.7);
+    if (draw_.one_in(name + "sticky", 4)) model["cohesion"] = in_unit(0.2, "mN");
+    if (models.spring) model["friction_model"] = quoted("spring");
+    if (models.rolling > 0)
+      model["rolling"] = quoted(models.rolling == 1 ? "constant-torque" : "spring"),
+      give("rolling_friction", 0.1, 0.02);
+    if (!odd.first.empty()) model[odd.first] = odd.second;
+    const std::string file = fmt::format("{}-contact.toml", "abc"[k]);
+    for (const auto& [key, value] : model) files["/drawn/" + file] += key + " = " + value + "\n";
+    set(lot(k) + ".contact", quoted(file));
+  }
+
+  /// Some keys alone leave the rest to the models; a law, or both stiffness and friction, do not.
+  void write_over_models(const Models& models) {
+    const auto stiffness = [&] {
+      if (models.hertz) return set("contact.youngs_modulus", in_unit(2, "MPa"));
+      set("contact.shell_compression", 8e-4);
+    };
+    const int kind = draw_.below("contact.over", 7);
+    if (kind == 1 || kind > 4) set("contact.friction", draw_.number("contact.over.friction", 0.3, 0.1));
+    if (kind == 2 || kind > 4) stiffness();
+    if (kind == 3) set("contact.wall.friction", 0.15);
+    if (kind == 4 && !models.damped_by_rate) set("contact.restitution", 0.6);
+    if (kind == 5 && draw_.one_in("contact.over.law", 2))
+      set("contact.law", quoted(models.hertz ? "hertz" : "elastic-shell"));
+    if (kind == 6 || draw_.one_in("contact.over.named", 4)) set("contact.model", quoted("crop"));
+    if (draw_.one_in("contact.pair", 3)) set("contact.a.wall.friction", 0.1);
+    if (lots_ > 1 && draw_.one_in("models.pair_of_lots", 2)) set("contact.a.b.friction", 0.25);
+    if (lots_ > 1 && !models.hertz && draw_.one_in("contact.soft_lot", 5)) set(lot(0) + ".shell_compression", 2e-3);
+  }
+
   // ---- vessels ----
 
   void write_tray() {
@@ -244,18 +330,30 @@ class SceneWriter {
     Shape hopper{"hopper", draw_.number("hopper.length", 30, 45), draw_.number("hopper.height", 30, 60), tray_.depth};
     hopper.round = deep_ && draw_.one_in("hopper.round", 3);
     hopper.periodic_across = tray_.periodic_across && !hopper.round;
-    set("hopper.left", mm(draw_.number("hopper.left", 0.5, 1) * (tray_.length - hopper.length)));
+    const bool beside = !tray_.periodic && draw_.one_in("hopper.beside", 6);
+    const double over = draw_.number("hopper.left", 0.5, 1) * (tray_.length - hopper.length);
+    set("hopper.left", mm(beside ? left_beside(hopper) : over));
     // Above the tray's walls, within them, or in its bed.
     const int above = draw_.below("hopper.above", 8);
-    set("hopper.above", mm(above == 7 ? 3 : above > 3 ? 15 : tray_.height + 5));
-    if (deep_ && hopper.round && tray_.depth > hopper.length)
+    const double high = draw_.one_in("hopper.high", 4) ? 120 : 5;
+    set("hopper.above", mm(above == 7 ? 3 : above > 3 ? 15 : tray_.height + high));
+    const bool in_front = deep_ && !tray_.periodic_across && draw_.one_in("hopper.in_front", 8);
+    if (in_front) set("hopper.front", mm(-0.4 * tray_.depth));
+    if (deep_ && hopper.round && tray_.depth > hopper.length && !in_front)
       set("hopper.front", mm(0.5 * (tray_.depth - hopper.length)));
     if (deep_ && !hopper.round && !hopper.periodic_across && draw_.one_in("hopper.depth", 3)) {
       hopper.depth = 0.8 * tray_.depth;
       set("hopper.depth", mm(hopper.depth));
-      set("hopper.front", mm(0.1 * tray_.depth));
+      if (!in_front) set("hopper.front", mm(0.1 * tray_.depth));
     }
     write_vessel(hopper);
+  }
+
+  /// So that its outlet, in its middle, is over an end of the tray or beyond it.
+  double left_beside(const Shape& hopper) {
+    const double ends[] = {-0.5 * hopper.length, -hopper.length - 2, tray_.length - 0.5 * hopper.length,
+                           tray_.length + 2};
+    return ends[draw_.below("hopper.beside.where", 4)];
   }
 
   void write_vessel(Shape& vessel) {
@@ -287,33 +385,48 @@ class SceneWriter {
     if (vessel.round) vessel.holes = std::min(vessel.holes, 1);
     if (vessel.holes == 0) return;
     const double width = hopper ? draw_.number(name + ".width", 12, 20) : draw_.number(name + ".width", 9, 15);
+    vessel.hole_width = width;
     if (draw_.one_in(name + ".at", 3)) {
       std::vector<std::string> at;
       for (int k = 0; k < vessel.holes; ++k) at.push_back(mm((k + 1) * vessel.length / (vessel.holes + 1)));
       set(name + ".holes.at", list(at));
+      vessel.hole_at = vessel.length / (vessel.holes + 1);
     } else if (deep_ && !vessel.round && !hopper && draw_.one_in(name + ".unlike_rows", 5)) {
       return write_unlike_rows(vessel, width);
     } else {
       set(name + ".holes.count", vessel.holes);
-      if (draw_.one_in(name + ".pitch", 4)) set(name + ".holes.pitch", mm(0.4 * vessel.length));
+      double pitch = vessel.length / (vessel.holes + 1);
+      if (draw_.one_in(name + ".pitch", 4)) pitch = 0.4 * vessel.length, set(name + ".holes.pitch", mm(pitch));
+      vessel.hole_at = 0.5 * (vessel.length - (vessel.holes - 1) * pitch);
     }
     set(name + ".holes.width", mm(width));
     const bool funnel = draw_.one_in(name + ".funnel", hopper ? 2 : 5) && vessel.box;
     if (vessel.round || (!funnel && draw_.one_in(name + ".round_holes", 4))) {
       set(name + ".holes.shape", quoted("round"));
       if (!vessel.round && draw_.one_in(name + ".rows", 3)) set(name + ".holes.rows", 2);
-      if (draw_.one_in(name + ".thick_floor", 3))
-        set(name + ".holes.thickness", mm(draw_.number(name + ".thickness", 0.6, 3)));
+      if (draw_.one_in(name + ".thick_floor", 3)) {
+        vessel.floor = draw_.number(name + ".thickness", 0.6, 3);
+        set(name + ".holes.thickness", mm(vessel.floor));
+      }
       if (!funnel && draw_.one_in(name + ".chamfered", 3)) set(name + ".holes.chamfer", mm(0.5));
     } else if (deep_ && !funnel && draw_.one_in(name + ".short_slots", 4)) {
       set(name + ".holes.across", mm(0.6 * vessel.depth));
     }
     if (funnel) set(name + ".funnel", degrees(draw_.number(name + ".funnel.slope", 20, 45)));
-    if (draw_.one_in(name + ".gate", 4)) set(name + ".holes.open_at", ms(draw_.number(name + ".gate.time", 10, 40)));
+    if (draw_.one_in(name + ".gate", 4)) write_gate(vessel);
+  }
+
+  /// Of all holes or of the second, and one may open when all is over.
+  void write_gate(const Shape& vessel) {
+    const std::string& name = vessel.name;
+    const double time = draw_.one_in(name + ".gate.late", 6) ? 200 : draw_.number(name + ".gate.time", 10, 40);
+    const bool one = vessel.holes == 2 && draw_.one_in(name + ".gate.one", 3);
+    set(name + ".holes.open_at", one ? list({ms(0), ms(time)}) : ms(time));
   }
 
   /// Two rows with numbers of their own, of round holes or short slots.
   void write_unlike_rows(Shape& vessel, double width) {
+    vessel.hole_at = vessel.length / 2;  // of the row that has one
     const std::string holes = vessel.name + ".holes.";
     set(holes + "count", list({std::to_string(vessel.holes), std::to_string(3 - vessel.holes)}));
     vessel.holes = 3;
@@ -372,7 +485,18 @@ class SceneWriter {
         pieces.push_back(fmt::format("{{ centre = {}, radius = {}, from = {}, to = {}, drawn_out = \"along\" }}",
                                      point(0.5 * d, 0.4 * h), mm(0.3 * d), degrees(200), degrees(330)));
     }
+    if (vessel.holes > 0 && draw_.one_in(name + ".plate", 6)) line(plate_at_hole(vessel));
     if (!pieces.empty()) set(name + ".pieces", list(pieces));
+  }
+
+  /// Level: near below the hole or further down, within the floor, near above or further up; over all of it or half.
+  std::vector<std::string> plate_at_hole(const Shape& vessel) {
+    const std::string key = vessel.name + ".plate.";
+    const double heights[] = {-vessel.floor - 0.7 * thinnest_, -vessel.floor - 2 * thinnest_, -0.5 * vessel.floor,
+                              0.3 * thinnest_, 2 * thinnest_};
+    const double y = heights[draw_.below(key + "where", 5)], half = 0.5 * vessel.hole_width;
+    const double right = vessel.hole_at + (draw_.one_in(key + "half", 3) ? 0 : half + 1);
+    return {point(vessel.hole_at - half - 1, y), point(right, y)};
   }
 
   void write_fill(const Shape& vessel) {
@@ -448,8 +572,14 @@ class SceneWriter {
       set(key + "frequency", in_unit(10, "Hz"));
     }
     if (kind > 2) return write_table(vessel);
+    write_course(key);
+  }
+
+  void write_course(const std::string& key) {
     if (draw_.one_in(key + "ramp", 3)) set(key + "ramp", ms(20));
-    if (draw_.one_in(key + "stop", 4)) set(key + "stop", ms(30));
+    if (!draw_.one_in(key + "stop", 4)) return;
+    set(key + "stop", ms(30));
+    if (draw_.one_in(key + "stop_ramp", 2)) set(key + "stop_ramp", ms(10));
   }
 
   void write_oscillation(const Shape& vessel) {
@@ -470,21 +600,22 @@ class SceneWriter {
     const bool is_upright = !vessel.drum && upright(vessel);
     if (is_upright) set(key + "axis", quoted("upright"));
     set(key + "pivot", point(vessel.length / 2, is_upright ? vessel.depth / 2 : vessel.height / 2));
-    if (draw_.one_in(key + "ramp", 3)) set(key + "ramp", ms(20));
+    write_course(key);
   }
 
-  /// Begins displaced and, where the vessel may turn, turned.
+  /// Begins displaced and, where the vessel may turn, turned; it may begin late, or last longer than the run.
   void write_table(const Shape& vessel) {
     const std::string file = vessel.name + ".csv";
     const bool turns = !vessel.periodic && draw_.one_in(vessel.name + ".table.turns", 2);
     const bool across = deep_ && draw_.one_in(vessel.name + ".table.across", 3);
     const double angle = turns ? draw_.number(vessel.name + ".table.angle", 3, -6) : 0;
     std::string text = fmt::format("time_s,x_mm,y_mm{}{}\n", turns ? ",angle_degree" : "", across ? ",z_mm" : "");
-    for (int k = 0; k < 6; ++k)
-      text += fmt::format("{:g},{:g},{:g}{}{}\n", 0.01 * k, 1.0 + (k % 2), 0.5 * (k % 3),
+    const int when = draw_.below(vessel.name + ".table.when", 4);
+    for (int k = 0; k < (when == 3 ? 12 : 6); ++k)
+      text += fmt::format("{:g},{:g},{:g}{}{}\n", 0.01 * k + (when == 2 ? 0.02 : 0), 1.0 + (k % 2), 0.5 * (k % 3),
                           turns ? fmt::format(",{:g}", angle * (1 - 0.15 * k)) : "",
                           across ? fmt::format(",{:g}", 0.4 * k) : "");
-    tables["/drawn/" + file] = text;
+    files["/drawn/" + file] = text;
     set(vessel.name + ".motion.kind", quoted("table"));
     set(vessel.name + ".motion.file", quoted(file));
   }
@@ -498,9 +629,13 @@ class SceneWriter {
   }
 
   void write_run() {
-    set("run.duration", ms(draw_.number("run.duration", 40, 80)));
+    const double duration = draw_.number("run.duration", 40, 80);
+    set("run.duration", ms(duration));
     set("run.count_below", mm(draw_.number("run.count_below", 4, 10)));
-    if (draw_.one_in("run.measure_from", 3)) set("run.measure_from", ms(15));
+    if (draw_.one_in("run.measure_late", 4))
+      set("run.measure_from", ms(0.8 * duration));
+    else if (draw_.one_in("run.measure_from", 3))
+      set("run.measure_from", ms(15));
     if (draw_.one_in("run.start", 3)) set("run.start", quoted("with-tray"));
     if (draw_.one_in("run.pause", 6)) set("run.end_after_pause", ms(25));
     if (draw_.one_in("record", 4)) {
@@ -519,7 +654,8 @@ class SceneWriter {
   bool deep_;
   int lots_ = 1;
   bool crops_ = false;
-  double largest_ = 0;  // mm, at least the diameter of the largest seed
+  double largest_ = 0;     // mm, at least the diameter of the largest seed
+  double thinnest_ = 100;  // mm, some thickness of the thinnest lot
   bool filled_ = false;
   Shape tray_{};
 };
@@ -541,7 +677,7 @@ DrawnScene::DrawnScene(std::uint64_t seed, std::set<std::string> plain) : seed_(
   writer.write();
   taken_ = draw.taken();
   keys_ = std::move(writer.keys);
-  tables_ = std::move(writer.tables);
+  files_ = std::move(writer.files);
 }
 
 std::string DrawnScene::toml() const {
@@ -552,7 +688,7 @@ std::string DrawnScene::toml() const {
 
 std::string DrawnScene::told() const {
   std::string text = "\n" + toml();
-  for (const auto& [file, rows] : tables_) {
+  for (const auto& [file, rows] : files_) {
     text += "# " + file + ":\n# ";
     for (const char c : rows) text += c == '\n' ? std::string("\n# ") : std::string(1, c);
     text += "\n";
@@ -561,7 +697,7 @@ std::string DrawnScene::told() const {
 }
 
 std::map<std::string, std::string> DrawnScene::texts() const {
-  std::map<std::string, std::string> texts = tables_;
+  std::map<std::string, std::string> texts = files_;
   texts[path()] = toml();
   return texts;
 }

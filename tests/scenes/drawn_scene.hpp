@@ -63,7 +63,7 @@ class DrawnScene {
   std::set<std::string> plain_;
   std::vector<std::string> taken_;
   std::vector<Key> keys_;
-  std::map<std::string, std::string> tables_;  // of motion, by path
+  std::map<std::string, std::string> files_;  // tables of motion and contact models, by path
 };
 
 }  // namespace vibrosow

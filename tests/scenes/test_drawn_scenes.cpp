@@ -1,12 +1,9 @@
-// What must hold whatever the scene, on seeders drawn over all features at once. VIBROSOW_SCENES is how many (some
-// dozens without it), VIBROSOW_SCENES_SEED which. What fails is made as plain as it goes and printed as TOML.
+// What must hold whatever the scene: how it is read, where seeds are put, and what becomes of them.
 #include <gtest/gtest.h>
-#include <rapidcheck.h>
 
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <map>
 #include <optional>
 #include <set>
@@ -18,87 +15,14 @@
 #include "scene/motion.hpp"
 #include "scene/scene_json.hpp"
 #include "scene/seed_lot.hpp"
-#include "scenes/drawn_scene.hpp"
+#include "scenes/any_scene.hpp"
 #include "scenes/mirrored.hpp"
 #include "scenes/own_walls.hpp"
 #include "simulation/simulation.hpp"
 #include "support/bench.hpp"
 
 namespace vibrosow {
-
-void showValue(const DrawnScene& drawn, std::ostream& out) {
-  out << drawn.told();
-}
-
 namespace {
-
-std::uint64_t from_environment(const char* name, std::uint64_t otherwise) {
-  const char* text = std::getenv(name);
-  return text != nullptr ? std::strtoull(text, nullptr, 10) : otherwise;
-}
-
-rc::Gen<DrawnScene> any_scene() {
-  return [](const rc::Random& random, int) {
-    rc::Random numbers = random;
-    return rc::shrinkable::shrinkRecur(DrawnScene(numbers.next()),
-                                       [](const DrawnScene& scene) { return rc::seq::fromContainer(scene.plainer()); });
-  };
-}
-
-/// `wrong`: what is wrong with a scene; empty: nothing.
-template <class Wrong>
-void expect_of_drawn_scenes(int cases, Wrong wrong) {
-  rc::detail::TestParams params;
-  params.seed = from_environment("VIBROSOW_SCENES_SEED", 20261127);
-  params.maxSuccess = static_cast<int>(from_environment("VIBROSOW_SCENES", static_cast<std::uint64_t>(cases)));
-  const auto result = rc::detail::checkTestable(
-      [&] {
-        const DrawnScene drawn = *any_scene();
-        const std::string text = wrong(drawn);
-        if (!text.empty()) RC_FAIL(text);
-      },
-      rc::detail::TestMetadata{}, params);
-  std::ostringstream told;
-  rc::detail::printResultMessage(result, told);
-  EXPECT_TRUE(result.template is<rc::detail::SuccessResult>()) << told.str();
-}
-
-/// What is thrown at the user, without the place in the file; empty: nothing.
-template <class Do>
-std::string refusal(Do act) {
-  try {
-    act();
-    return "";
-  } catch (const InputError& error) {
-    const std::string text = error.what();
-    const auto after = text.find(": ");
-    return text.starts_with(DrawnScene::path()) || text.starts_with("--set") ? text.substr(after + 2) : text;
-  }
-}
-
-/// The scene and the state that a run of it begins with; none where it is refused.
-struct Start {
-  Model model;
-  SimulationState state;
-};
-std::optional<Start> start_of(const Scene& scene) {
-  try {
-    Model model = prepare_to_run(scene);
-    SimulationState state = starting_state(model, 1);
-    return Start{std::move(model), std::move(state)};
-  } catch (const InputError&) {
-    return std::nullopt;
-  }
-}
-std::optional<Start> start_of(const DrawnScene& drawn) {
-  std::optional<Scene> scene;
-  try {
-    scene = drawn.read();
-  } catch (const InputError&) {
-    return std::nullopt;
-  }
-  return start_of(*scene);
-}
 
 // ---- reading ----
 
@@ -302,7 +226,7 @@ std::string outside_of_room(OwnScene& own, const Model& model, const Grains& gra
 
 /// Watches the start and every insertion.
 std::string put_in_wrongly(const DrawnScene& drawn, bool rooms) {
-  std::optional<Start> start = start_of(drawn);
+  std::optional<RunStart> start = start_of(drawn);
   if (!start) return "";
   const Model& model = start->model;
   OwnScene own(model);
@@ -345,7 +269,7 @@ std::vector<double> shares_asked(const DrawnScene& drawn, const Scene& scene, bo
 
 /// Of what lies there at the start; each vessel's fill may miss a lot's share by less than a seed.
 std::string lots_not_as_asked(const DrawnScene& drawn) {
-  const std::optional<Start> start = start_of(drawn);
+  const std::optional<RunStart> start = start_of(drawn);
   if (!start || start->state.grains.size() == 0) return "";
   const Scene& scene = start->model.scene;
   bool by_mass = false;
@@ -373,7 +297,7 @@ TEST(DrawnScene, HasTheLotsThatWereAskedFor) {
 // ---- what is counted ----
 
 std::string unbalanced(const DrawnScene& drawn) {
-  std::optional<Start> start = start_of(drawn);
+  std::optional<RunStart> start = start_of(drawn);
   if (!start) return "";
   Simulation run(start->model, std::move(start->state));
   std::string wrong;
@@ -407,7 +331,7 @@ TEST(DrawnScene, AllThatWasPutInIsSomewhere) {
 
 /// Lists that reach far and last, against those that are made anew every few steps: not one contact may differ.
 std::string depends_on_margins(const DrawnScene& drawn) {
-  std::optional<Start> start = start_of(drawn);
+  std::optional<RunStart> start = start_of(drawn);
   if (!start) return "";
   const ComputeOptions narrow{.margins = {.wide = 0.1, .narrow = 0.02, .wide_in_space = 0.1}};
   Simulation run(start->model, start->state), other(start->model, start->state, narrow);
@@ -473,7 +397,7 @@ class Followed {
 };
 
 std::string passed_a_wall(const DrawnScene& drawn) {
-  std::optional<Start> start = start_of(drawn);
+  std::optional<RunStart> start = start_of(drawn);
   if (!start) return "";
   Followed followed(start->model);
   std::string wrong = followed.look(start->state.grains, 0);
@@ -502,12 +426,6 @@ std::vector<Eigen::Vector3d> places_around(const Scene& scene) {
     places.emplace_back(vessel.origin.x() + x, vessel.origin.y() + y, z);
   }
   return places;
-}
-
-std::vector<Vessel> vessels_of(const Scene& scene) {
-  std::vector<Vessel> vessels{scene.tray};
-  if (scene.hopper) vessels.push_back(*scene.hopper);
-  return vessels;
 }
 
 std::string not_the_walls_described(const DrawnScene& drawn) {
@@ -616,7 +534,7 @@ std::string come_apart(const Model& first, const Grains& here, const Model& seco
 }
 
 std::string steps_not_mirrored(const DrawnScene& drawn) {
-  std::optional<Start> start = start_of(drawn);
+  std::optional<RunStart> start = start_of(drawn);
   if (!start) return "";
   const Scene scene = left_alone(start->model), other = mirrored(scene);
   for (const Vessel& vessel : vessels_of(scene))
@@ -641,7 +559,7 @@ Vessel drawn_twice(Vessel tray) {
 }
 
 std::string pushes_twice(const DrawnScene& drawn) {
-  const std::optional<Start> start = start_of(drawn);
+  const std::optional<RunStart> start = start_of(drawn);
   if (!start) return "";
   const Scene once = left_alone(start->model);
   const bool round = once.space != Space::plane && once.tray.plan == Plan::round;
@@ -687,6 +605,10 @@ TEST(DrawnScene, HasEveryFeatureAndIsMostlyTaken) {
                               "contact.drag",
                               "contact.rotation = false",
                               "contact.a.wall.friction",
+                              "contact.a.b.friction",
+                              "contact.model = \"crop\"",
+                              "seeds.a.contact = \"a-contact.toml\"",
+                              "seeds.c.contact = \"c-contact.toml\"",
                               "tray.fill.packing = \"layers\"",
                               "tray.fill.packing = \"hexagonal\"",
                               "tray.fill.keep",
@@ -718,6 +640,12 @@ TEST(DrawnScene, HasEveryFeatureAndIsMostlyTaken) {
                               "tray.motion.kind = \"turning\"",
                               "tray.motion.kind = \"table\"",
                               "tray.motion.axis = \"upright\"",
+                              "tray.motion.ramp",
+                              "tray.motion.stop",
+                              "tray.motion.stop_ramp",
+                              "tray.rain.start",
+                              "tray.rain.stop",
+                              "run.measure_from",
                               "hopper.motion.kind = \"harmonic\"",
                               "numerics.integrator = \"gear5\"",
                               "numerics.integrator = \"rk2-midpoint\"",

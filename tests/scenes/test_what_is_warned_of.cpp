@@ -1,0 +1,216 @@
+// What check warns of, on drawn scenes: what changes while rates are measured, plates at holes, outlets beside the
+// tray. Each has its word, and nothing else has.
+#include <gtest/gtest.h>
+
+#include <Eigen/Core>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <optional>
+#include <set>
+#include <string>
+#include <type_traits>
+#include <variant>
+#include <vector>
+
+#include "plan/scene_warnings.hpp"
+#include "scene/measuring_window.hpp"
+#include "scene/motion.hpp"
+#include "scene/seed_lot.hpp"
+#include "scenes/any_scene.hpp"
+#include "vessel/vessel_motion.hpp"
+
+namespace vibrosow {
+namespace {
+
+std::string joined(const std::set<std::string>& words) {
+  std::string text;
+  for (const std::string& word : words) text += " " + word;
+  return text.empty() ? " nothing" : text;
+}
+
+// ---- what changes in the window ----
+
+bool stands(const PoseRate& rate) {
+  return rate.velocity.norm() + std::abs(rate.angular_velocity) + std::abs(rate.across_velocity) +
+             std::abs(rate.turn_rate) ==
+         0;
+}
+
+/// The motion as if it had always been and never ended.
+VesselMotion for_ever(VesselMotion motion) {
+  const auto go_on = [](auto& one) { one.ramp = 0, one.stop = never, one.stop_ramp = 0; };
+  std::visit(
+      [&](auto& one) {
+        using Motion = std::decay_t<decltype(one)>;
+        if constexpr (std::is_same_v<Motion, SumMotion>)
+          for (HarmonicMotion& component : one.components) go_on(component);
+        else if constexpr (!std::is_same_v<Motion, TableMotion>)
+          go_on(one);
+      },
+      motion);
+  return motion;
+}
+
+/// Whether all through the window the vessel goes on as ever, or stands.
+bool moves_evenly(const Vessel& vessel, const MeasuringWindow& window) {
+  if (!vessel.motion) return true;
+  if (const auto* table = std::get_if<TableMotion>(&*vessel.motion))
+    return table->times.front() <= window.from && table->times.back() >= window.to;
+  Vessel even = vessel;
+  even.motion = for_ever(*vessel.motion);
+  const VesselPath path(vessel), steady(even);
+  bool as_ever = true, still = true;
+  constexpr int looks = 97;
+  for (int k = 1; k < looks; ++k) {
+    const double time = window.from + window.length() * k / looks;
+    const PoseRate rate = path.rate(time), other = steady.rate(time);
+    const double off =
+        (rate.velocity - other.velocity).norm() + std::abs(rate.angular_velocity - other.angular_velocity) +
+        std::abs(rate.across_velocity - other.across_velocity) + std::abs(rate.turn_rate - other.turn_rate);
+    as_ever &= off < 1e-9, still &= stands(rate);
+  }
+  return as_ever || still;
+}
+
+/// Keys of what begins or ends within the window; of a motion "tray.motion".
+std::set<std::string> changing(const Scene& scene, const MeasuringWindow& window) {
+  std::set<std::string> keys;
+  constexpr double rounding = 1e-9;  // s
+  const auto is_within = [&](double time) { return time > window.from + rounding && time < window.to - rounding; };
+  for (const Vessel& vessel : vessels_of(scene)) {
+    if (!moves_evenly(vessel, window)) keys.insert(vessel.name + ".motion");
+    for (const Hole& hole : vessel.holes)
+      if (hole.open_at > window.from + rounding) keys.insert(vessel.name + ".holes.open_at");
+    if (vessel.rain && is_within(vessel.rain->start)) keys.insert(vessel.name + ".rain.start");
+    if (vessel.rain && is_within(vessel.rain->stop)) keys.insert(vessel.name + ".rain.stop");
+  }
+  return keys;
+}
+
+std::string not_warned_of_changes(const Scene& scene, const std::vector<std::string>& warnings) {
+  const MeasuringWindow window = measuring_window(scene);
+  std::set<std::string> warned, expected;
+  for (const std::string& warning : warnings) {
+    if (warning.find("they are means of two conditions") == std::string::npos) continue;
+    const std::string key = warning.substr(0, warning.find(": ")), vessel = key.substr(0, key.find('.'));
+    warned.insert(key.starts_with(vessel + ".motion.") ? vessel + ".motion" : key);
+  }
+  if (!window.empty() && !scene.tray.holes.empty()) expected = changing(scene, window);
+  return warned == expected ? "" : "warned of" + joined(warned) + ", not of" + joined(expected);
+}
+
+// ---- plates at holes ----
+
+/// How a hole's number stands in the warning of a piece that covers holes, " (NN % of it)" behind it; empty: not at
+/// all.
+std::string covered_by(const std::vector<std::string>& warnings, const Vessel& vessel, std::size_t piece,
+                       std::size_t hole) {
+  const std::string begin = vessel.name + ".pieces: piece " + std::to_string(piece + 1) + " covers ";
+  const std::string name = "hole " + std::to_string(hole + 1);
+  for (const std::string& warning : warnings) {
+    if (!warning.starts_with(begin)) continue;
+    const std::string holes = warning.substr(begin.size(), warning.rfind(": ") - begin.size());
+    const auto at = holes.find(name);
+    if (at != std::string::npos) return holes.substr(at, holes.find(',', at) - at);
+  }
+  return "";
+}
+
+double thinnest(const std::vector<SeedLot>& lots) {
+  double thin = std::numeric_limits<double>::infinity();
+  for (const SeedLot& lot : lots) thin = std::min(thin, mean_thickness(lot));
+  return thin;
+}
+
+std::string plate_not_warned_of(const Scene& scene, const std::vector<std::string>& warnings) {
+  const double thin = thinnest(scene.lots), slack = 1e-9;
+  for (const Vessel& vessel : vessels_of(scene))
+    for (std::size_t k = 0; k < vessel.pieces.size(); ++k) {
+      const WallPiece& piece = vessel.pieces[k];
+      const bool level =
+          piece.radius == 0 && !piece.about && piece.drawn_out == DrawnOut::across && piece.a.y() == piece.b.y();
+      for (std::size_t h = 0; level && h < vessel.holes.size(); ++h) {
+        const Hole& hole = vessel.holes[h];
+        const double left = hole.centre - hole.width / 2, right = hole.centre + hole.width / 2, y = piece.a.y();
+        const double from = std::max(left, std::min(piece.a.x(), piece.b.x()));
+        const double to = std::min(right, std::max(piece.a.x(), piece.b.x()));
+        // No seed comes between the floor and what is half a seed over it, or between a hole and what is a seed below.
+        const bool shuts = y < 0.5 * thin - slack && y > -hole.thickness - thin + slack;
+        const std::string covered = covered_by(warnings, vessel, k, h);
+        const std::string what = vessel.name + " piece " + std::to_string(k + 1) + " at hole " + std::to_string(h + 1);
+        if ((!shuts || to < from) && !covered.empty()) return "warned of in vain: " + what;
+        if (shuts && to - from > 0.1 * hole.width && covered.empty()) return "not warned of: " + what;
+        const bool whole = to - from > 0.999 * hole.width;
+        if (shuts && whole && covered.find('%') != std::string::npos) return "said to cover a part: " + what;
+      }
+    }
+  return "";
+}
+
+// ---- outlets beside the tray ----
+
+/// How far (m) beside the tray's mouth a place of the hopper's floor lets its seeds fall: they fall straight down to
+/// where the end walls begin, or where there are none to the floor.
+double beside_tray(const Scene& scene, const Eigen::Vector3d& of_hopper) {
+  const Vessel& tray = scene.tray;
+  const Pose of_tray = vessel_pose(tray, 0), pose = vessel_pose(*scene.hopper, 0);
+  const auto in_tray = [&](const Eigen::Vector3d& lab) { return point_in_vessel(tray, of_tray, lab); };
+  Eigen::Vector3d lab = point_in_lab(*scene.hopper, pose, of_hopper);
+  const double mouth = tray.sides == Sides::walls ? tray.height : 0;
+  for (int k = 0; k < 60 && in_tray(lab).y() > mouth; ++k) lab.y() -= in_tray(lab).y() - mouth;  // nears it
+  const Eigen::Vector3d own = in_tray(lab);
+  const bool deep = scene.space != Space::plane;
+  double beside = tray.sides == Sides::periodic ? -1 : std::max(-own.x(), own.x() - tray.length);
+  if (deep && tray.front_and_back != Sides::periodic) beside = std::max({beside, -own.z(), own.z() - *tray.depth});
+  return beside;
+}
+
+/// The furthest of its rim, m.
+double beside_tray(const Scene& scene, const Hole& hole) {
+  const bool round = hole.shape == HoleShape::round;
+  double beside = -1;
+  for (int k = 0; k < 64; ++k) {
+    const double angle = 2 * std::numbers::pi * k / 64, x = std::cos(angle), z = std::sin(angle);
+    const double corner = round ? 1 : 1 / std::max(std::abs(x), std::abs(z));
+    const double across = 0.5 * corner * z * (round ? hole.width : hole.across_length);
+    beside =
+        std::max(beside, beside_tray(scene, Eigen::Vector3d(hole.centre + 0.5 * corner * x * hole.width, 0,
+                                                            scene.space == Space::plane ? 0 : hole.across + across)));
+  }
+  return beside;
+}
+
+std::string outlet_not_warned_of(const Scene& scene, const std::vector<std::string>& warnings) {
+  if (!scene.hopper || !scene.tray.box || turns_steadily(scene.tray)) return "";
+  for (std::size_t k = 0; k < scene.hopper->holes.size(); ++k) {
+    const Hole& hole = scene.hopper->holes[k];
+    const std::string begin = "hopper.holes: hole " + std::to_string(k + 1) + " is over ";
+    const bool warned =
+        std::ranges::any_of(warnings, [&](const std::string& warning) { return warning.starts_with(begin); });
+    const double beside = beside_tray(scene, hole);
+    if (warned && beside < 1e-9) return "an outlet over the tray is said to be beside it";
+    if (!warned && beside > 0.05 * hole.width)
+      return "not warned of: an outlet " + std::to_string(beside) + " m beside the tray";
+  }
+  return "";
+}
+
+// ---- all of them ----
+
+std::string warned_wrongly(const DrawnScene& drawn) {
+  const std::optional<Scene> scene = scene_of(drawn);
+  if (!scene) return "";
+  const std::vector<std::string> warnings = scene_warnings(*scene);
+  for (const auto wrong : {not_warned_of_changes, plate_not_warned_of, outlet_not_warned_of})
+    if (const std::string text = wrong(*scene, warnings); !text.empty()) return text;
+  return "";
+}
+
+TEST(DrawnScene, IsWarnedOfWhatCanHardlyBeMeant) {
+  expect_of_drawn_scenes(100, warned_wrongly);
+}
+
+}  // namespace
+}  // namespace vibrosow
