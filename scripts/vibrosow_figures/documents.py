@@ -81,20 +81,6 @@ def wheat_tray_spaces(root):
                       for row in rows(root / "reports/wheat-tray-spaces/spaces.csv"))]
 
 
-def wheat_tray_clumps(root):
-    """Every run's rate."""
-    layouts, runs = (rows(root / f"reports/wheat-tray-clumps/{name}.csv") for name in ("sweep", "sweep_runs"))
-    lines = [["frequency, Hz", "balls, g/s", "clumps, g/s", "clumps over balls, of the means"]]
-    for frequency in values(layouts, FREQUENCY):
-        of_crops = []
-        for crop in ("wheat", "wheat-grain"):
-            (layout,) = chosen(layouts, {FREQUENCY: frequency, "seeds.wheat.crop": crop})
-            of_crops.append(column(chosen(runs, {"layout": layout["layout"]}), "rate_g_per_s"))
-        balls, clumps = map(statistics.mean, of_crops)
-        lines.append([frequency, *(", ".join(f"{rate:.2f}" for rate in rates) for rates in of_crops), f"{clumps / balls:.2f}"])
-    return lines
-
-
 def wheat_tray_grains(root):
     table = rows(root / "reports/wheat-tray-grains/rates.csv")
     lines = [["frequency, Hz", "balls, g/s", "by hole", "clumps, g/s", "by hole", "clumps over balls"]]
@@ -331,8 +317,8 @@ def peers(root):
     return lines
 
 
-TABLES = {"wheat-holes": wheat_holes, "wheat-tray-spaces": wheat_tray_spaces, "wheat-tray-clumps": wheat_tray_clumps,
-          "wheat-tray-grains": wheat_tray_grains, "slot-in-space": slot_in_space, "paper-a-fig3": paper_a_fig3,
+TABLES = {"wheat-holes": wheat_holes, "wheat-tray-spaces": wheat_tray_spaces, "wheat-tray-grains": wheat_tray_grains,
+          "slot-in-space": slot_in_space, "paper-a-fig3": paper_a_fig3,
           "paper-b-readings": paper_b_readings, "silo": silo, "round-holes": round_holes, "relations": relations,
           "accuracy-tray": accuracy_tray, "levels": levels, "level-errors": level_errors, "calibration-coverage": calibration_coverage,
           "bench-sheets": bench_sheets, "layout-gains": layout_gains, "size": size, "peers": peers}
