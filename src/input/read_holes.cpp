@@ -90,6 +90,8 @@ std::vector<double> read_opening_times(Table& table, std::size_t holes) {
   return times;
 }
 
+constexpr std::int64_t most_rows = 1000;
+
 /// Where the rows of holes lie across, and how far a slot reaches.
 struct Rows {
   std::vector<double> across;  // m, from the front
@@ -105,7 +107,7 @@ std::vector<double> evenly(std::int64_t rows, double depth) {
 
 /// `counted`: how many rows `count` gives, where they are unlike.
 Rows read_rows(Table& table, HoleShape shape, double depth, std::optional<std::size_t> counted) {
-  const std::optional<std::int64_t> given = table.whole_number("rows", 1, 1000);
+  const std::optional<std::int64_t> given = table.whole_number("rows", 1, most_rows);
   if (given && counted && *given != static_cast<std::int64_t>(*counted))
     table.fail("rows", fmt::format("contradicts count, which gives the holes of {} rows", *counted));
   const std::int64_t rows = counted ? static_cast<std::int64_t>(*counted) : given.value_or(1);
@@ -196,6 +198,14 @@ void check_holes(const Table& table, const std::vector<Hole>& holes, const Vesse
 }
 
 }  // namespace
+
+SlotsIn3d read_slots_in_3d(Table table, double depth) {
+  SlotsIn3d slots;
+  slots.rows = static_cast<int>(table.whole_number("rows", 1, most_rows).value_or(1));
+  const std::vector<double> across = table.quantities("across", Dimension::length, 0, longest);
+  if (!across.empty()) slots.open = std::min(1.0, slots.rows * across.front() / depth);
+  return slots;
+}
 
 std::vector<Hole> read_holes(Table table, const Vessel& vessel, Space space, double diameter) {
   constexpr HoleShape shapes[] = {HoleShape::slot, HoleShape::round};

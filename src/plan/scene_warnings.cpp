@@ -141,6 +141,33 @@ void warn_of_round_holes(const Vessel& vessel, Warnings& warnings) {
                   vessel.name, taken));
 }
 
+/// Slots of 3D that do not reach from front to back, or lie in several rows, are one slot of 2D.
+void warn_of_slots_in_3d(const Vessel& vessel, Warnings& warnings) {
+  constexpr double whole = 0.99;
+  const SlotsIn3d& slots = vessel.slots_in_3d;
+  if (slots.open < whole)
+    warnings.push_back(
+        fmt::format("{}.holes.across: in 2D slots reach from front to back; these open {:.2g} % of the depth, so rates "
+                    "of the tray come out up to {:.2g} times too high; space = \"3d\" simulates them",
+                    vessel.name, 100 * slots.open, 1 / slots.open));
+  if (slots.rows > 1)
+    warnings.push_back(fmt::format(
+        "{}.holes.rows: in 2D one hole stands for {}, one behind the other: figures of a hole, and of a row "
+        "of a drill, are of all of them; space = \"3d\" tells them apart",
+        vessel.name, slots.rows));
+}
+
+/// In 2D both are as deep as the tray.
+void warn_of_depths(const Scene& scene, Warnings& warnings) {
+  constexpr double rounding = 1e-6;
+  const std::optional<double>&tray = scene.tray.depth, &hopper = scene.hopper->depth;
+  if (!tray || !hopper || std::abs(*hopper - *tray) <= rounding * *tray) return;
+  warnings.push_back(
+      fmt::format("hopper.depth: {} is taken for the tray's {} in 2D, so the hopper feeds {:.2g} times what it does; "
+                  "space = \"3d\" simulates it",
+                  millimetres(*hopper), millimetres(*tray), *tray / *hopper));
+}
+
 void warn_of_hopper(const Scene& scene, const Vessel& hopper, Warnings& warnings) {
   if (!hopper.fill && !hopper.rain) return;
   if (is_closed(hopper)) {
@@ -263,10 +290,13 @@ std::vector<std::string> scene_warnings(const Scene& scene) {
   warn_of_rain(scene, scene.tray, warnings);
   warn_of_free_rolling(scene, scene.tray, warnings);
   if (scene.space == Space::plane) warn_of_round_holes(scene.tray, warnings);
+  warn_of_slots_in_3d(scene.tray, warnings);
   for (const std::string& warning : geometry_warnings(scene)) warnings.push_back(warning);
   for (const std::string& warning : steadiness_warnings(scene)) warnings.push_back(warning);
   if (!scene.hopper) return warnings;
   if (scene.space == Space::plane) warn_of_round_holes(*scene.hopper, warnings);
+  warn_of_slots_in_3d(*scene.hopper, warnings);
+  if (scene.space == Space::plane) warn_of_depths(scene, warnings);
   warn_of_narrow_holes(*scene.hopper, scene.lots, warnings);
   warn_of_rain(scene, *scene.hopper, warnings);
   warn_of_hopper(scene, *scene.hopper, warnings);

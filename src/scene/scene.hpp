@@ -36,6 +36,14 @@ struct PresetFile {
   bool operator==(const PresetFile&) const { return true; }
 };
 
+/// What a vessel in 2D says of its slots in 3D, where they need not reach from front to back. Says nothing about the
+/// scene, so any two are equal.
+struct SlotsIn3d {
+  int rows = 1;
+  double open = 1;  // of the depth, all rows together
+  bool operator==(const SlotsIn3d&) const { return true; }
+};
+
 /// Decides the moment of inertia: m r^2 / 2 for a disc, 2 m r^2 / 5 for a ball, for a clump that of a uniform plate, in
 /// space of a uniform body.
 enum class Shape { disc, ball, clump };
@@ -262,6 +270,7 @@ struct Vessel {
   double funnel = 0;                                 // rad, slope of the floor towards its holes; 0: flat
   std::optional<double> depth;                       // m, across the plane
   std::vector<Hole> holes;                           // from the left, not overlapping
+  SlotsIn3d slots_in_3d{};                           // in the plane
   std::vector<WallPiece> pieces{};                   // beside floor and end walls
   bool box = true;                                   // whether there are floor and end walls
   Sides sides = Sides::walls;

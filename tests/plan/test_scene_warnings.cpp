@@ -210,6 +210,27 @@ TEST(SceneWarnings, HopperThatCannotFollow) {
   EXPECT_THAT(scene_warnings(scene), ElementsAre("hopper.holes: is missing, so no seed leaves the hopper"));
 }
 
+TEST(SceneWarnings, InThePlaneSlotsReachFromFrontToBack) {
+  Scene scene = sound();
+  scene.tray.slots_in_3d = {3, 0.75};
+  EXPECT_THAT(scene_warnings(scene),
+              ElementsAre(AllOf(StartsWith("tray.holes.across: in 2D"), HasSubstr("open 75 % of the depth"),
+                                HasSubstr("up to 1.3 times too high")),
+                          StartsWith("tray.holes.rows: in 2D one hole stands for 3")));
+}
+
+TEST(SceneWarnings, InThePlaneAHopperIsAsDeepAsItsTray) {
+  Scene scene = sound();
+  scene.tray.depth = 0.08;
+  scene.hopper = hopper(0.03);
+  EXPECT_THAT(scene_warnings(scene), IsEmpty());
+  scene.hopper->depth = 0.08;
+  EXPECT_THAT(scene_warnings(scene), IsEmpty());
+  scene.hopper->depth = 0.02;
+  EXPECT_THAT(scene_warnings(scene), ElementsAre(AllOf(StartsWith("hopper.depth: 20 mm is taken for the tray's 80 mm"),
+                                                       HasSubstr("4 times"))));
+}
+
 TEST(SceneWarnings, InThePlaneARoundHoleIsTakenForASlot) {
   Scene scene = sound();
   scene.tray.depth = 0.06;

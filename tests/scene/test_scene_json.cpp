@@ -442,13 +442,14 @@ VesselMotion any_motion() {
 
 Vessel any_vessel() {
   Vessel vessel;
-  auto& [name, origin, length, height, tilt, funnel, depth, holes, pieces, box, sides, front_and_back, front, plan,
-         fill, rain, motion] = vessel;
+  auto& [name, origin, length, height, tilt, funnel, depth, holes, slots_in_3d, pieces, box, sides, front_and_back,
+         front, plan, fill, rain, motion] = vessel;
   name = *rc::gen::elementOf(std::vector<std::string>{"", "tray", "hopper"});
   origin = any_point();
   for (double* number : {&length, &height, &tilt, &funnel, &front}) *number = any_number();
   depth = maybe(any_number);
   holes = any_list(any_hole);
+  slots_in_3d = {2, 0.5};  // of no scene: any two are equal
   pieces = any_list(any_piece);
   box = any_choice();
   sides = any_of_first<Sides>(3);
