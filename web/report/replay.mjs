@@ -2,10 +2,11 @@
 import { chainsOf } from './chains.mjs';
 import { colourings } from './colouring.mjs';
 import { Counters } from './counters.mjs';
-import { choice, element, section } from './dom.mjs';
+import { choice, element, presses, section } from './dom.mjs';
 import { clock, force } from './format.mjs';
 import { labBox, meanPose } from './geometry.mjs';
 import { legendParts } from './legend.mjs';
+import { lookAround } from './looking.mjs';
 import { PlaneView } from './plane_view.mjs';
 import { nameButton, roundButton } from './round_button.mjs';
 import { SpaceView } from './space_view.mjs';
@@ -13,15 +14,15 @@ import { Stage } from './stage.mjs';
 import { inks, onTheme, theme } from './theme.mjs';
 
 const speeds = [[0.125, '1/8', 'an eighth'], [0.25, '1/4', 'a quarter'], [0.5, '1/2', 'a half'], [1, '1×', 'as fast as it was']];
-const views = [['side', 'Side'], ['above', 'From above'], ['turnable', 'Turnable']];
-const turnedByKey = { ArrowLeft: [-0.1, 0], ArrowRight: [0.1, 0], ArrowUp: [0, 0.1], ArrowDown: [0, -0.1] };
 
 class Replay {
   constructor(data, recording, player) {
     Object.assign(this, { data, recording, player, still: false, chained: false });
     const tray = Math.max(0, recording.vessels.indexOf('tray'));
-    const View = recording.fields.includes('z') ? SpaceView : PlaneView;
-    this.view = new View(data, recording, labBox(data.vessels, recording), meanPose(recording, tray));
+    this.canvas = element('canvas', { id: 'replay-canvas', role: 'img', 'aria-label': 'The grains of the run' });
+    this.under = recording.fields.includes('z') ? element('canvas', { 'aria-hidden': 'true' }) : null;
+    const View = this.under ? SpaceView : PlaneView;
+    this.view = new View(data, recording, labBox(data.vessels, recording), meanPose(recording, tray), this.under);
     this.counters = new Counters(data.events, data.holes);
     this.ways = colourings(recording, data);
     this.build();
@@ -32,8 +33,6 @@ class Replay {
   }
 
   build() {
-    const inSpace = this.view instanceof SpaceView;
-    this.canvas = element('canvas', { id: 'replay-canvas', role: 'img', 'aria-label': 'The grains of the run' });
     this.legend = element('p', { class: 'legend', id: 'replay-legend' });
     this.forceNote = element('p', { class: 'legend', id: 'replay-forces', hidden: true });
     this.clock = element('output', { class: 'clock', id: 'replay-time', for: 'replay-frame' });
@@ -50,12 +49,12 @@ class Replay {
         roundButton('forward', 'One frame forward', () => this.player.step(1)), this.range, this.clock),
       element('div', { class: 'controls-choices' },
         choice('Speed', speeds.map(([value, text, name]) => ({ value, text, name })), 1, (value) => this.player.setSpeed(value)),
-        inSpace ? choice('View', views.map(([value, text]) => ({ value, text })), 'side', (value) => this.look(value)) : null,
+        this.under ? this.views() : null,
         choice('Colour', this.ways.map((way) => ({ value: way, text: way.text })), this.ways[0], (way) => this.colourBy(way)),
         this.data.vessels.some((vessel) => vessel.name === 'tray') ? this.stillSwitch() : null,
         this.recording.forceFrames.length ? this.chainSwitch() : null));
-    this.figure = element('div', { class: 'replay card' }, element('div', { class: 'stage' }, this.canvas), this.legend, this.forceNote, controls);
-    if (inSpace) this.makeTurnable();
+    this.figure = element('div', { class: 'replay card' }, element('div', { class: this.under ? 'stage layered' : 'stage' }, this.under, this.canvas), this.legend, this.forceNote, controls);
+    if (this.under) this.makeTurnable();
   }
 
   stillSwitch() {
@@ -68,40 +67,27 @@ class Replay {
     return element('label', { class: 'switch' }, box, element('span', {}, 'Force chains'));
   }
 
-  look(name) {
-    this.view.look(name);
-    this.canvas.classList.toggle('turnable', name === 'turnable');
-    this.canvas.tabIndex = name === 'turnable' ? 0 : -1;
-    if (this.colouring) this.showLegend();
-    this.stage.fit();
+  // Each press of the last looks through the next hole.
+  views() {
+    const { holes } = this.view;
+    let next = 0;
+    const throughHole = () => {
+      this.look('hole', next);
+      next = (next + 1) % holes.length;
+    };
+    return presses('View', [['Front', () => this.look('front')], ['Corner', () => this.look('corner')], ['Above', () => this.look('above')],
+      ...(holes.length ? [['Hole', throughHole, 'Through a hole, from below']] : [])]);
+  }
+
+  look(name, hole) {
+    this.view.camera.look(name, hole);
+    this.paint();
   }
 
   makeTurnable() {
-    this.view.look('side');
-    let from = null;
-    this.canvas.addEventListener('pointerdown', (event) => {
-      if (this.view.fixed) return;
-      from = [event.clientX, event.clientY];
-      this.canvas.setPointerCapture(event.pointerId);
-    });
-    this.canvas.addEventListener('pointermove', (event) => {
-      if (!from) return;
-      this.turn((event.clientX - from[0]) * 0.008, (event.clientY - from[1]) * 0.008);
-      from = [event.clientX, event.clientY];
-    });
-    for (const end of ['pointerup', 'pointercancel']) this.canvas.addEventListener(end, () => { from = null; });
-    this.canvas.addEventListener('keydown', (event) => {
-      const by = turnedByKey[event.key];
-      if (this.view.fixed || !by) return;
-      event.preventDefault();
-      event.stopPropagation();
-      this.turn(...by);
-    });
-  }
-
-  turn(yaw, pitch) {
-    this.view.turn(yaw, pitch);
-    this.paint();
+    this.canvas.classList.add('turnable');
+    this.canvas.tabIndex = 0;
+    lookAround(this.canvas, this.view.camera, () => this.paint(), () => this.look('front'));
   }
 
   async colourBy(way) {
@@ -118,8 +104,7 @@ class Replay {
     const { legend } = this.colouring;
     const colours = this.colouring.colours(theme());
     const parts = legendParts(legend, colours);
-    const counted = (this.view.name ?? 'side') === 'side';
-    this.legend.replaceChildren(...parts, ...(counted ? [element('span', { class: 'legend-note' }, 'Under the holes: seeds so far')] : []));
+    this.legend.replaceChildren(...parts, element('span', { class: 'legend-note' }, 'Under the holes: seeds so far'));
   }
 
   countsNow() {
@@ -188,7 +173,7 @@ class Replay {
   said() {
     const { shown } = this;
     const counts = [...shown.counts].map(([hole, count]) => `hole ${hole}: ${count}`).join(', ');
-    const how = this.view.fixed === false ? '. Arrow keys turn it' : '';
+    const how = this.under ? '. Arrow keys turn it, with Shift they move it, plus and minus zoom, 0 shows its front' : '';
     const forces = shown.forces ? ` ${this.forceNote.textContent}` : '';
     return `${shown.frame.ids.length} grains at ${clock(shown.time)}.${forces} Seeds so far, ${counts}${how}.`;
   }
