@@ -17,12 +17,13 @@ export function startBrowser(more = []) {
   return chromium.launch({ executablePath: process.env.CHROMIUM ?? '/usr/bin/chromium', args, timeout: patience });
 }
 
-/** Opens a file; `page.complaints` gathers errors of the console, requests that are not of files, and dialogs. */
+/** Opens a file; `page.complaints` gathers errors of the console, requests that are not of files, and dialogs. `first` runs before its own script. */
 export async function openPage(browser, file, options = {}) {
-  const { bypass = false, hash = '', ...looks } = options;
+  const { bypass = false, hash = '', first = null, ...looks } = options;
   const context = await browser.newContext({ viewport: { width: 1280, height: 800 }, bypassCSP: bypass, ...looks });
   context.setDefaultTimeout(patience);
   const page = await context.newPage();
+  if (first) await page.addInitScript(first);
   page.complaints = [];
   page.on('console', (message) => {
     const ofTheDriver = /GL Driver Message .*Performance/.test(message.text());  // a screen that is read back

@@ -5,6 +5,7 @@ const turnOfKey = 0.1;
 const panOfKey = 30;        // px
 const zoomOfKey = 1.25;
 const zoomOfWheel = 0.0015;
+const still = 4;            // px that a press may move and chooses a seed all the same
 
 const arrows = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] };
 const zooms = { '+': zoomOfKey, '=': zoomOfKey, '-': 1 / zoomOfKey };
@@ -12,9 +13,10 @@ const zooms = { '+': zoomOfKey, '=': zoomOfKey, '-': 1 / zoomOfKey };
 const middleOf = ([a, b = a]) => [(a[0] + b[0]) / 2, (a[1] + b[1]) / 2];
 const apart = ([a, b]) => (b ? Math.hypot(a[0] - b[0], a[1] - b[1]) : 1);
 
-/** `changed` is called after each turn, move or zoom; `reset` for the key 0. */
-export function lookAround(canvas, camera, changed, reset) {
+/** `changed` is called after each turn, move or zoom; `reset` for the key 0; `choose(x, y)` for a press, px, or of the middle for the key Enter. */
+export function lookAround(canvas, camera, { changed, reset, choose }) {
   const held = new Map();  // places of pointers that are down
+  let pressed = null;      // where, until it moves
 
   const keys = ({ key, shiftKey }) => {
     const [x, y] = arrows[key] ?? [];
@@ -22,6 +24,7 @@ export function lookAround(canvas, camera, changed, reset) {
     else if (x !== undefined) camera.orbit(turnOfKey * x, turnOfKey * y);
     else if (zooms[key]) camera.zoomBy(zooms[key]);
     else if (key === '0') reset();
+    else if (key === 'Enter') choose(camera.width / 2, camera.height / 2);
     else return false;
     return true;
   };
@@ -41,14 +44,20 @@ export function lookAround(canvas, camera, changed, reset) {
 
   canvas.addEventListener('pointerdown', (event) => {
     held.set(event.pointerId, placeOf(event));
+    pressed = held.size === 1 ? placeOf(event) : null;
     canvas.setPointerCapture(event.pointerId);
   });
   canvas.addEventListener('pointermove', (event) => {
     if (!held.has(event.pointerId)) return;
+    if (pressed && apart([pressed, placeOf(event)]) > still) pressed = null;
     const before = [...held.values()].slice(0, 2);
     held.set(event.pointerId, placeOf(event));
     drag(before, [...held.values()].slice(0, 2), event);
     changed();
+  });
+  canvas.addEventListener('pointerup', () => {
+    if (pressed) choose(...pressed);
+    pressed = null;
   });
   for (const end of ['pointerup', 'pointercancel', 'lostpointercapture']) canvas.addEventListener(end, ({ pointerId }) => held.delete(pointerId));
   canvas.addEventListener('contextmenu', (event) => event.preventDefault());

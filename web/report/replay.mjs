@@ -1,8 +1,9 @@
 // The replay's section: the canvas, its controls and its legend.
 import { chainsOf } from './chains.mjs';
+import { seedSentence } from './chosen_seed.mjs';
 import { colourings } from './colouring.mjs';
 import { Counters } from './counters.mjs';
-import { choice, element, presses, section } from './dom.mjs';
+import { choice, element, listChoice, presses, section } from './dom.mjs';
 import { clock, force } from './format.mjs';
 import { labBox, meanPose } from './geometry.mjs';
 import { legendParts } from './legend.mjs';
@@ -17,7 +18,7 @@ const speeds = [[0.125, '1/8', 'an eighth'], [0.25, '1/4', 'a quarter'], [0.5, '
 
 class Replay {
   constructor(data, recording, player) {
-    Object.assign(this, { data, recording, player, still: false, chained: false });
+    Object.assign(this, { data, recording, player, still: false, chained: false, chosen: null });
     const tray = Math.max(0, recording.vessels.indexOf('tray'));
     this.canvas = element('canvas', { id: 'replay-canvas', role: 'img', 'aria-label': 'The grains of the run' });
     this.under = recording.fields.includes('z') ? element('canvas', { 'aria-hidden': 'true' }) : null;
@@ -28,6 +29,7 @@ class Replay {
     this.build();
     this.stage = new Stage(this.canvas, (width) => this.view.height(width), () => this.show());
     player.onChange(() => this.show());
+    this.ink = inks();
     onTheme(() => this.repaint());
     this.colourBy(this.ways[0]);
   }
@@ -35,6 +37,7 @@ class Replay {
   build() {
     this.legend = element('p', { class: 'legend', id: 'replay-legend' });
     this.forceNote = element('p', { class: 'legend', id: 'replay-forces', hidden: true });
+    this.seedNote = element('p', { class: 'legend', id: 'replay-seed', role: 'status', hidden: true });
     this.clock = element('output', { class: 'clock', id: 'replay-time', for: 'replay-frame' });
     this.range = element('input', { type: 'range', id: 'replay-frame', min: 0, max: this.player.last, step: 1, value: 0, 'aria-label': 'Time of the replay',
       oninput: () => {
@@ -49,11 +52,11 @@ class Replay {
         roundButton('forward', 'One frame forward', () => this.player.step(1)), this.range, this.clock),
       element('div', { class: 'controls-choices' },
         choice('Speed', speeds.map(([value, text, name]) => ({ value, text, name })), 1, (value) => this.player.setSpeed(value)),
-        this.under ? this.views() : null,
+        this.under ? this.views() : null, this.under ? this.cutting() : null,
         choice('Colour', this.ways.map((way) => ({ value: way, text: way.text })), this.ways[0], (way) => this.colourBy(way)),
         this.data.vessels.some((vessel) => vessel.name === 'tray') ? this.stillSwitch() : null,
         this.recording.forceFrames.length ? this.chainSwitch() : null));
-    this.figure = element('div', { class: 'replay card' }, element('div', { class: this.under ? 'stage layered' : 'stage' }, this.under, this.canvas), this.legend, this.forceNote, controls);
+    this.figure = element('div', { class: 'replay card' }, element('div', { class: this.under ? 'stage layered' : 'stage' }, this.under, this.canvas), this.legend, this.forceNote, this.seedNote, controls);
     if (this.under) this.makeTurnable();
   }
 
@@ -79,6 +82,37 @@ class Replay {
       ...(holes.length ? [['Hole', throughHole, 'Through a hole, from below']] : [])]);
   }
 
+  // From where, and how far, what stands before the middle is cut away.
+  cutting() {
+    let side = 'front';
+    const range = element('input', { type: 'range', min: 0, max: 100, value: 0, 'aria-label': 'How much is cut away, percent', oninput: () => cut() });
+    const cut = () => {
+      range.style.setProperty('--done', `${range.value}%`);
+      this.view.cutFrom(side, range.value / 100);
+      this.paint();
+    };
+    const sides = listChoice('Cut', [['front', 'from the front'], ['left', 'from the left'], ['top', 'from the top']].map(([value, text]) => ({ value, text })), side, (value) => {
+      side = value;
+      cut();
+    });
+    return element('div', { class: 'cut' }, sides, range);
+  }
+
+  choose(x, y) {
+    const seed = this.shown ? this.view.seedAt(x, y) : null;
+    this.chosen = seed === null ? null : this.shown.frame.ids[seed];
+    this.paint();
+    this.tellChosen();
+  }
+
+  async tellChosen() {
+    const { chosen, shown } = this;
+    this.seedNote.hidden = chosen === null;
+    if (chosen === null) return;
+    const text = await seedSentence(this.recording, this.data, chosen, shown);
+    if (chosen === this.chosen && shown === this.shown) this.seedNote.textContent = text;
+  }
+
   look(name, hole) {
     this.view.camera.look(name, hole);
     this.paint();
@@ -87,7 +121,7 @@ class Replay {
   makeTurnable() {
     this.canvas.classList.add('turnable');
     this.canvas.tabIndex = 0;
-    lookAround(this.canvas, this.view.camera, () => this.paint(), () => this.look('front'));
+    lookAround(this.canvas, this.view.camera, { changed: () => this.paint(), reset: () => this.look('front'), choose: (x, y) => this.choose(x, y) });
   }
 
   async colourBy(way) {
@@ -115,6 +149,7 @@ class Replay {
   /** Brings controls and picture to the player's frame. */
   async show() {
     const { player } = this;
+    const from = performance.now();
     this.range.value = player.index;
     this.range.style.setProperty('--done', `${(100 * player.index) / Math.max(1, player.last)}%`);
     this.range.setAttribute('aria-valuetext', clock(player.time));
@@ -124,7 +159,8 @@ class Replay {
     if (!this.colouring || !this.stage?.width) return;
     this.shown = await this.picture(asked);
     if (asked !== player.index && !player.playing) return;
-    this.paint();
+    this.paint(from);
+    if (this.chosen !== null) this.tellChosen();
   }
 
   // What is drawn of a frame: where forces are asked for, of the nearest that has them.
@@ -154,17 +190,20 @@ class Replay {
     nameButton(this.playButton, name.toLowerCase(), name);
   }
 
-  paint() {
+  // `from`: when the script began that leads to it.
+  paint(from = performance.now()) {
     if (!this.shown || !this.stage?.width) return;
     const { shown } = this;
     this.showForces(shown);
-    this.view.draw(this.stage, { ...shown, still: this.still, colours: shown.colouring.colours(theme()), ink: inks() });
+    this.view.draw(this.stage, { ...shown, still: this.still, chosen: this.chosen, colours: shown.colouring.colours(theme()), ink: this.ink });
     this.canvas.dataset.counts = JSON.stringify([...shown.counts]);
     this.canvas.dataset.frame = shown.asked;
     this.canvas.setAttribute('aria-label', this.said());
+    this.canvas.dataset.scriptMs = (performance.now() - from).toFixed(2);
   }
 
   repaint() {
+    this.ink = inks();
     if (!this.colouring) return;
     this.showLegend();
     this.paint();
@@ -173,7 +212,7 @@ class Replay {
   said() {
     const { shown } = this;
     const counts = [...shown.counts].map(([hole, count]) => `hole ${hole}: ${count}`).join(', ');
-    const how = this.under ? '. Arrow keys turn it, with Shift they move it, plus and minus zoom, 0 shows its front' : '';
+    const how = this.under ? '. Arrow keys turn it, with Shift they move it, plus and minus zoom, 0 shows its front, Enter chooses the seed in the middle' : '';
     const forces = shown.forces ? ` ${this.forceNote.textContent}` : '';
     return `${shown.frame.ids.length} grains at ${clock(shown.time)}.${forces} Seeds so far, ${counts}${how}.`;
   }

@@ -15,6 +15,7 @@ const ofScale = 1 / 8;  // of the width, at least, is the scale bar long
 const shortest = 300;   // px
 const tallest = 0.72;   // of the window
 const nothingCut = [0, 0, 0, 1];
+const within = 3;       // px beside a ball that still choose it
 
 const nowhere = { x: 0, y: 0, z: 0, angle: 0 };
 
@@ -34,6 +35,7 @@ export class SpaceView {
     const holes = this.holes.map(({ at, radius }) => ({ at: placed(rest, at), radius }));
     this.camera = new Camera({ ...box, low: box.low - below * (box.right - box.left) }, holes);
     this.balls = new Balls(recording, data.lots);
+    this.cut = nothingCut;
     this.painter = GlPainter.on(under, this.balls, this.parts) ?? this.withoutGl();
   }
 
@@ -46,17 +48,57 @@ export class SpaceView {
     return Math.min(Math.max(shortest, this.camera.heightOf(width)), Math.max(shortest, tallest * innerHeight));
   }
 
+  /** Leaves out what lies before a plane, `part` of the way through from the "front", the "left" or the "top". */
+  cutFrom(side, part) {
+    const [axis, way] = { front: [2, -1], left: [0, -1], top: [1, 1] }[side];
+    const { middle, half } = this.camera;
+    const at = middle[axis] + way * half[axis] * (1 - 2 * part);
+    this.cut = part > 0 ? [...[0, 1, 2].map((one) => (one === axis ? way : 0)), way * at] : nothingCut;
+  }
+
+  /** The place in its frame's list of the seed that is drawn nearest at a place of the picture, px; null where there is none. */
+  seedAt(x, y) {
+    const { balls: { count, place, grain }, camera, cut } = this;
+    let best = null, nearest = -Infinity;
+    for (let k = 0; k < count; ++k) {
+      const at = placed(this.motion, place.subarray(4 * k, 4 * k + 3));
+      if (cut[0] * at[0] + cut[1] * at[1] + cut[2] * at[2] > cut[3]) continue;
+      const [px, py, toward] = camera.project(...at);
+      const aside = Math.hypot(px - x, py - y) / camera.scale, radius = place[4 * k + 3];
+      if (aside > radius + within / camera.scale) continue;
+      const front = toward + Math.sqrt(Math.max(0, radius ** 2 - aside ** 2));
+      if (front > nearest) [best, nearest] = [grain[k], front];
+    }
+    return best;
+  }
+
   draw(stage, shown) {
     const { camera, recording } = this;
     const { context, width, height } = stage;
     context.clearRect(0, 0, width, height);
     camera.place(width, height);
     // With the tray held still: by way of its own frame to where it rests.
-    const motion = shown.still ? composed(this.rest, inverse(recording.pose(shown.index, this.tray))) : nowhere;
+    const motion = this.motion = shown.still ? composed(this.rest, inverse(recording.pose(shown.index, this.tray))) : nowhere;
     const poses = this.parts.map(({ place }) => (place < 0 ? null : composed(motion, recording.pose(shown.index, place))));
-    this.painter.draw(stage, { ...shown, camera, motion, poses, cut: nothingCut, radius: this.radius, least: this.leastChain });
+    this.painter.draw(stage, { ...shown, camera, motion, poses, cut: this.cut, radius: this.radius, least: this.leastChain });
+    this.drawChosen(context, shown);
     this.drawCounts(context, shown);
     this.drawScale(context, shown.ink, height);
+  }
+
+  // A ring about each ball of the chosen seed, also through others.
+  drawChosen(context, { frame, chosen, ink }) {
+    const { balls: { count, place, grain }, camera } = this;
+    if (chosen === null) return;
+    context.lineWidth = 2.5;
+    context.strokeStyle = ink.ink;
+    for (let k = 0; k < count; ++k) {
+      if (frame.ids[grain[k]] !== chosen) continue;
+      const [x, y] = camera.project(...placed(this.motion, place.subarray(4 * k, 4 * k + 3)));
+      context.beginPath();
+      context.arc(x, y, place[4 * k + 3] * camera.scale + 2, 0, 2 * Math.PI);
+      context.stroke();
+    }
   }
 
   // In every view, below the hole on the screen.
