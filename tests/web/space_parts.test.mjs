@@ -2,8 +2,11 @@
 import assert from 'node:assert/strict';
 import test from 'node:test';
 import { Balls } from '../../web/report/balls.mjs';
+import { Between } from '../../web/report/between.mjs';
 import { Camera } from '../../web/report/camera.mjs';
 import { composed, inverse, placed } from '../../web/report/geometry.mjs';
+import { poseAt } from '../../web/report/path.mjs';
+import { Player } from '../../web/report/player.mjs';
 import { wallsOf } from '../../web/report/walls.mjs';
 
 const near = (a, b, slack = 1e-9) => a.forEach((value, k) => assert.ok(Math.abs(value - b[k]) <= slack, `${a} is not ${b}`));
@@ -109,4 +112,63 @@ test('a clump is its balls, turned and in place', () => {
   assert.equal(balls.count, 3);
   near([...balls.place.subarray(0, 12)], [10, 21, 30, 1, 10, 19, 30, 1, 0, 0, 1, 3], 1e-5);
   assert.deepEqual([...balls.grain.subarray(0, 3)], [0, 0, 1]);
+});
+
+// Ten frames of a tray that swings along by 4 mm, 2.5 frames a swing, with a seed that rides on it, one that rests in the lab, and one that falls and
+// is gone after the seventh frame.
+function swinging() {
+  const unit = 1e-6, step = 0.04, swing = (time) => 4 * Math.sin((2 * Math.PI * time) / 0.1);
+  const fall = (time) => 50 - 0.5 * 9810 * time * time * 0.01;
+  const frames = Array.from({ length: 10 }, (_, frame) => {
+    const time = frame * step;
+    const at = [[20 + swing(time), 3, 5], [70, 90, 5], ...(frame < 7 ? [[40, fall(time), 5]] : [])];
+    return { ids: at.map((__, id) => id), values: [0, 1, 2].map((axis) => at.map((place) => Math.round(place[axis] / 1e3 / unit))) };
+  });
+  const recording = {
+    frames: frames.length, times: frames.map((_, k) => k * step), units: [unit, unit, unit], fields: ['x', 'y', 'z'], vessels: ['tray'],
+    frame: async (k) => frames[k], pose: (k) => ({ x: swing(k * step) / 1e3, y: 0, z: 0, angle: 0 }),
+  };
+  const at = Array.from({ length: 400 }, (_, k) => [swing(k * 1e-3), 0, 0, 0]);
+  return { recording, swing, fall, step, path: { step_s: 1e-3, at } };
+}
+
+test('between frames a seed that rides moves with the tray, one that rests stays, one that falls goes on falling', async () => {
+  const { recording, swing, fall, step, path } = swinging();
+  const between = new Between(recording);
+  for (const index of [2, 3, 4, 5]) {
+    for (const part of [0.1, 0.4, 0.5, 0.9]) {
+      const time = (index + part) * step;
+      const pose = poseAt(recording, 0, path, index, part);
+      near([pose.x * 1e3], [swing(time)], 0.03);
+      const { ids, values } = await between.frame(index, part, pose);
+      assert.deepEqual([...ids], [0, 1, 2]);
+      near([values[0][0], values[0][1], values[0][2]].map((count) => count / 1e3), [20 + swing(time), 70, 40], 0.04);
+      near([values[1][2] / 1e3], [fall(time)], 0.1);
+    }
+  }
+  const { values } = await between.frame(6, 0.5, poseAt(recording, 0, path, 6, 0.5));
+  assert.ok(values[1][2] / 1e3 < fall(6 * step), 'what leaves has stopped');
+});
+
+test('without its path a vessel goes straight from frame to frame', () => {
+  const { recording } = swinging();
+  near([poseAt(recording, 0, undefined, 2, 0.25).x], [0.75 * recording.pose(2).x + 0.25 * recording.pose(3).x]);
+  assert.deepEqual(poseAt(recording, 0, undefined, 2, 0), recording.pose(2));
+});
+
+test('a player that is smooth tells of every moment, and of its frames alone where it is not', () => {
+  const ticks = [];
+  globalThis.requestAnimationFrame = (tick) => ticks.push(tick);
+  for (const [smooth, expected] of [[true, [0, 0.25, 0.75, 1]], [false, [0, 1]]]) {
+    const player = new Player([0, 1, 2]);
+    const told = [];
+    Object.assign(player, { smooth });
+    player.onChange(() => told.push(player.moment));
+    player.play();
+    for (const now of [0, 250, 750, 1000]) ticks.shift()(now);
+    player.pause();
+    ticks.length = 0;
+    assert.deepEqual([...new Set(told)], expected);
+  }
+  delete globalThis.requestAnimationFrame;
 });

@@ -7,7 +7,9 @@ import { channels } from './colours.mjs';
 const edgeWidth = 1.25;   // px
 const rimWidth = 2;
 const thinnest = 0.7;     // px, of a chain's line
+const darkSides = 0.55;   // of it
 const leastRadius = 0.7;  // px, of a ball
+const pressed = 0.1;      // of a seed's mean radius that it may sink into a floor and not be seen from below
 const faded = 0.7;        // of seeds before force chains, towards the paper
 const quad = new Float32Array([-1, -1, 1, -1, -1, 1, 1, 1]);
 
@@ -87,12 +89,13 @@ in vec3 own;
 in vec3 normal;
 in float opens;
 uniform float time;
+uniform float bias;
 out vec3 at;
 out vec3 facing;
 void main() {
   at = placed(own);
   facing = turn * (placed(normal) - placed(vec3(0)));
-  gl_Position = time >= opens ? nowhere : onScreen(seen(at));
+  gl_Position = time >= opens ? nowhere : onScreen(seen(at) + vec3(0, 0, bias));
 }`,
   fragment: `${fragment}
 uniform mat3 turn;
@@ -119,26 +122,34 @@ uniform float time;
 uniform float least;  // width, px
 out vec3 at;
 out float opacity;
+out vec2 inside;      // from the middle, along and aside
+flat out vec2 half_;  // length, width
 void main() {
   vec3 begin = placed(from), end = placed(to);
   vec3 a = seen(begin), b = seen(end);
   vec2 along = b.xy - a.xy;
-  along = length(along) > 0.0 ? normalize(along) : vec2(1, 0);
-  float wide = 0.5 * max(look.x, least * pixel);
-  float part = 0.5 + 0.5 * corner.x;
+  float length_ = length(along);
+  along = length_ > 0.0 ? along / length_ : vec2(1, 0);
+  half_ = vec2(0.5 * length_, 0.5 * max(look.x, least * pixel));
+  inside = corner * vec2(half_.x + half_.y, half_.y);
+  float part = clamp(0.5 + 0.5 * corner.x, 0.0, 1.0);
   at = mix(begin, end, part);
   opacity = look.y;
-  vec3 here = mix(a, b, part) + vec3((along * corner.x + vec2(-along.y, along.x) * corner.y) * wide, 0.0005 * span.z);
+  vec3 here = vec3(0.5 * (a.xy + b.xy) + along * inside.x + vec2(-along.y, along.x) * inside.y, mix(a.z, b.z, part) + 0.0005 * span.z);
   gl_Position = time >= look.z ? nowhere : onScreen(here);
 }`,
   fragment: `${fragment}
 uniform vec4 cut;
 uniform vec3 tint;
+uniform float rounded;  // how dark the sides are
 in vec3 at;
 in float opacity;
+in vec2 inside;
+flat in vec2 half_;
 void main() {
-  if (dot(at, cut.xyz) > cut.w) discard;
-  painted = vec4(tint, opacity);
+  float aside = length(vec2(max(0.0, abs(inside.x) - half_.x), inside.y)) / half_.y;
+  if (aside > 1.0 || dot(at, cut.xyz) > cut.w) discard;
+  painted = vec4(tint * mix(1.0, sqrt(1.0 - aside * aside), rounded), opacity);
 }`,
 };
 
@@ -168,7 +179,7 @@ export class GlPainter {
     canvas.removeAttribute('style');  // the page sets its size
     this.gl = this.renderer.gl;
     this.balls = balls;
-    const names = ['turn', 'target', 'span', 'pixel', 'pose', 'cut', 'time', 'depths', 'depth', 'paper', 'fading', 'tint', 'glass', 'least'];
+    const names = ['turn', 'target', 'span', 'pixel', 'pose', 'cut', 'time', 'depths', 'depth', 'paper', 'fading', 'tint', 'glass', 'least', 'bias', 'rounded'];
     this.set = Object.fromEntries(names.map((name) => [name, { value: 0 }]));
     this.ballMesh = this.mesh(ballShaders, this.ballGeometry());
     this.vessels = parts.map(({ walls, rims }) => ({
@@ -241,13 +252,14 @@ export class GlPainter {
     gl.disable(gl.SAMPLE_ALPHA_TO_COVERAGE);
     const wall = unitColour(ink.wall), floor = unitColour(ink.floor), accent = unitColour(ink.accent);
     const ofEach = (act) => this.vessels.forEach((vessel, k) => { if (scene.poses[k]) act(vessel, poseOf(scene.poses[k])); });
-    ofEach(({ floors }, pose) => this.paint(floors, { pose, tint: floor, glass: 0 }));
+    ofEach(({ floors }, pose) => this.paint(floors, { pose, tint: floor, glass: 0, bias: pressed * scene.radius }));
+    this.set.rounded.value = 0;
     ofEach(({ edges, rims }, pose) => {
       this.paint(edges, { pose, tint: wall, least: edgeWidth * stage.ratio });
       this.paint(rims, { pose, tint: accent, least: rimWidth * stage.ratio });
     });
-    ofEach(({ glass }, pose) => this.paint(glass, { pose, tint: unitColour(ink.glass), glass: 1 }));
-    if (scene.chains) this.paint(this.chainMesh(scene), { pose: poseOf(scene.motion), tint: unitColour(ink.chain), least: thinnest * stage.ratio });
+    ofEach(({ glass }, pose) => this.paint(glass, { pose, tint: unitColour(ink.glass), glass: 1, bias: 0 }));
+    if (scene.chains) this.paint(this.chainMesh(scene), { pose: poseOf(scene.motion), tint: unitColour(ink.chain), least: thinnest * stage.ratio, rounded: darkSides });
   }
 
   look(camera, { time, cut, ink }, paper) {
@@ -266,7 +278,7 @@ export class GlPainter {
     set.paper.value = paper;
   }
 
-  // Places where the frame is another, colours where the frame or the colours are.
+  // Places where the frame is another, colours where its grains or their colours are.
   upload({ frame, bins, colours }) {
     const { balls, ballMesh: { geometry } } = this;
     if (this.frame !== frame) {
@@ -276,13 +288,13 @@ export class GlPainter {
       geometry.setInstancedCount(balls.count);
     }
     const palette = colours.join();
-    if (this.frame !== frame || this.bins !== bins || this.palette !== palette) {
+    if (this.ids !== frame.ids || this.bins !== bins || this.palette !== palette) {
       const packed = colours.map(packedColour);
       for (let k = 0; k < balls.count; ++k) this.colour[k] = packed[bins[balls.grain[k]]];
       this.tints.data = new Uint8Array(this.colour.buffer, 0, 4 * balls.count);
       this.tints.needsUpdate = true;
     }
-    Object.assign(this, { frame, bins, palette });
+    Object.assign(this, { frame, ids: frame.ids, bins, palette });
   }
 
   chainMesh({ chains, radius, least }) {

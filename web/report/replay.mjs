@@ -1,4 +1,5 @@
 // The replay's section: the canvas, its controls and its legend.
+import { Between } from './between.mjs';
 import { chainsOf } from './chains.mjs';
 import { seedSentence } from './chosen_seed.mjs';
 import { colourings } from './colouring.mjs';
@@ -8,6 +9,7 @@ import { clock, force } from './format.mjs';
 import { labBox, meanPose } from './geometry.mjs';
 import { legendParts } from './legend.mjs';
 import { lookAround } from './looking.mjs';
+import { poseAt } from './path.mjs';
 import { PlaneView } from './plane_view.mjs';
 import { nameButton, roundButton } from './round_button.mjs';
 import { SpaceView } from './space_view.mjs';
@@ -24,6 +26,8 @@ class Replay {
     this.under = recording.fields.includes('z') ? element('canvas', { 'aria-hidden': 'true' }) : null;
     const View = this.under ? SpaceView : PlaneView;
     this.view = new View(data, recording, labBox(data.vessels, recording), meanPose(recording, tray), this.under);
+    this.between = new Between(recording);
+    player.smooth = this.under !== null;
     this.counters = new Counters(data.events, data.holes);
     this.ways = colourings(recording, data);
     this.build();
@@ -142,7 +146,7 @@ class Replay {
   }
 
   countsNow() {
-    const until = this.player.index === this.player.last ? Infinity : this.player.time;
+    const until = this.player.index === this.player.last ? Infinity : this.player.moment;
     return new Map(this.data.holes.map((hole) => [hole.hole, this.counters.until(hole.hole, until)]));
   }
 
@@ -152,27 +156,32 @@ class Replay {
     const from = performance.now();
     this.range.value = player.index;
     this.range.style.setProperty('--done', `${(100 * player.index) / Math.max(1, player.last)}%`);
-    this.range.setAttribute('aria-valuetext', clock(player.time));
-    this.clock.textContent = clock(player.time);
+    this.range.setAttribute('aria-valuetext', clock(player.moment));
+    this.clock.textContent = clock(player.moment);
     this.showPlaying();
-    const asked = player.index;
+    const asked = player.index, { part } = player;
     if (!this.colouring || !this.stage?.width) return;
-    this.shown = await this.picture(asked);
+    this.shown = await this.picture(asked, part);
     if (asked !== player.index && !player.playing) return;
     this.paint(from);
     if (this.chosen !== null) this.tellChosen();
   }
 
-  // What is drawn of a frame: where forces are asked for, of the nearest that has them.
-  async picture(asked) {
+  // What is drawn of a moment, `part` of the way to the next frame: where forces are asked for, of the nearest frame that has them.
+  async picture(asked, part) {
     const { recording, colouring } = this;
     const chained = this.chained, forces = chained || this.ofForces;
     const index = forces ? recording.nearestForces(asked) : asked;
-    const frame = await recording.frame(index);
-    const bins = await colouring.of(frame, index);
+    const smooth = forces ? 0 : part;
+    const poseOf = (vessel) => poseAt(recording, vessel, this.data.paths?.[recording.vessels[vessel]], index, smooth);
+    const recorded = await recording.frame(index);
+    const frame = smooth > 0 ? await this.between.frame(index, smooth, poseOf(this.between.tray)) : recorded;
+    const known = this.shown?.index === index && this.shown.colouring === colouring;
+    const bins = known ? this.shown.bins : await colouring.of(recorded, index);
     const chains = forces ? chainsOf(await recording.contacts(index), frame, recording) : null;
+    const time = smooth > 0 ? recording.times[index] + smooth * (recording.times[index + 1] - recording.times[index]) : recording.times[index];
     const counts = this.countsNow();
-    return { asked, index, frame, bins, time: recording.times[index], counts, colouring, forces: chains, chains: chained ? chains : null };
+    return { asked, index, frame, bins, poseOf, time, counts, colouring, forces: chains, chains: chained ? chains : null };
   }
 
   // How large the forces are, and of which moment.

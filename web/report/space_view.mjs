@@ -22,7 +22,7 @@ const nowhere = { x: 0, y: 0, z: 0, angle: 0 };
 export class SpaceView {
   /** `rest`: the tray's mean pose. `under`: the canvas below that of the labels. */
   constructor(data, recording, box, rest, under) {
-    Object.assign(this, { recording, rest, under });
+    Object.assign(this, { rest, under });
     this.tray = Math.max(0, recording.vessels.indexOf('tray'));
     const tray = data.vessels.find((vessel) => vessel.name === 'tray') ?? data.vessels[0];
     this.holes = holesOf(tray);
@@ -73,13 +73,13 @@ export class SpaceView {
   }
 
   draw(stage, shown) {
-    const { camera, recording } = this;
+    const { camera } = this;
     const { context, width, height } = stage;
     context.clearRect(0, 0, width, height);
     camera.place(width, height);
     // With the tray held still: by way of its own frame to where it rests.
-    const motion = this.motion = shown.still ? composed(this.rest, inverse(recording.pose(shown.index, this.tray))) : nowhere;
-    const poses = this.parts.map(({ place }) => (place < 0 ? null : composed(motion, recording.pose(shown.index, place))));
+    const motion = this.motion = shown.still ? composed(this.rest, inverse(shown.poseOf(this.tray))) : nowhere;
+    const poses = this.parts.map(({ place }) => (place < 0 ? null : composed(motion, shown.poseOf(place))));
     this.painter.draw(stage, { ...shown, camera, motion, poses, cut: this.cut, radius: this.radius, least: this.leastChain });
     this.drawChosen(context, shown);
     this.drawCounts(context, shown);
