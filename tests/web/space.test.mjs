@@ -52,22 +52,34 @@ test('a frame of 12 000 balls is one draw of them, and a turned camera uploads n
   };
   const scriptOf = async (act) => {
     const times = [];
-    for (let k = 0; k < 15; ++k) {
+    for (let k = 0; k < 7; ++k) {
       await act(k);
       times.push(Number(await page.getAttribute('#replay-canvas', 'data-script-ms')));
     }
-    return times.sort((a, b) => a - b)[7];
+    times.sort((a, b) => a - b);
+    return `${times[0]} ms at least, ${times[3]} ms in the median`;
   };
   const ofFrames = await scriptOf((k) => in_.scrubTo(page, k % 8)), ofTurns = await scriptOf(() => page.locator('#replay-canvas').press('ArrowLeft'));
   await in_.scrubTo(page, 2);
   const frame = await askedOf(() => in_.scrubTo(page, 3));
   const turned = await askedOf(() => page.locator('#replay-canvas').press('ArrowUp'));
-  console.log(`script of a frame of ${balls} balls: ${ofFrames} ms, of a turn ${ofTurns} ms, in the median; ${frame.draws} draws, ${frame.bytes} bytes`);
+  console.log(`script of a frame of ${balls} balls: ${ofFrames}; of a turn: ${ofTurns}; ${frame.draws} draws, ${frame.bytes} bytes`);
   assert.ok(frame.draws < 20, `${frame.draws} draws`);
   assert.equal(frame.bytes, balls * bytesOfBall);
   assert.ok(turned.draws < 20, `${turned.draws} draws`);
   assert.equal(turned.bytes, 0);
   assert.deepEqual(page.complaints, []);
+  await browser.close();
+});
+
+test('where the browser takes WebGL back, the replay goes on without', async () => {
+  const browser = await in_.startBrowser();
+  const page = await in_.openPage(browser, fileOf(madeUpRun('three_dimensional')), small);
+  await page.evaluate(() => document.querySelector('.stage canvas[aria-hidden]').getContext('webgl2').getExtension('WEBGL_lose_context').loseContext());
+  await page.waitForFunction(() => document.querySelector('.stage canvas[aria-hidden]').hidden);
+  const before = await in_.pictureOf(page);
+  await in_.scrubTo(page, 3);
+  await in_.nextPicture(page, before);
   await browser.close();
 });
 

@@ -125,6 +125,10 @@ class Replay {
   makeTurnable() {
     this.canvas.classList.add('turnable');
     this.canvas.tabIndex = 0;
+    this.under.addEventListener('webglcontextlost', () => {
+      this.view.withoutGl();
+      this.paint();
+    });
     lookAround(this.canvas, this.view.camera, { changed: () => this.paint(), reset: () => this.look('front'), choose: (x, y) => this.choose(x, y) });
   }
 

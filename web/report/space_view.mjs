@@ -36,12 +36,14 @@ export class SpaceView {
     this.camera = new Camera({ ...box, low: box.low - below * (box.right - box.left) }, holes);
     this.balls = new Balls(recording, data.lots);
     this.cut = nothingCut;
-    this.painter = GlPainter.on(under, this.balls, this.parts) ?? this.withoutGl();
+    this.painter = GlPainter.on(under, this.balls, this.parts);
+    if (!this.painter) this.withoutGl();
   }
 
+  /** Paints without WebGL from now on: where there is none, or a browser took it back, as it does from the oldest of many replays. */
   withoutGl() {
     this.under.hidden = true;
-    return new SpritePainter(this.balls, this.parts);
+    this.painter = new SpritePainter(this.balls, this.parts);
   }
 
   height(width) {
