@@ -13,14 +13,14 @@ function madeUpCrowd(count) {
   const made = madeUpRun('three_dimensional');
   const unit = 1e-5, across = 20, radius = 1e-3;
   const place = (id) => [id % across, Math.floor(id / across) % across, Math.floor(id / across ** 2)].map((step) => (2 * step + 1) * radius);
-  const frames = Array.from({ length: 8 }, (_, frame) => ({
+  const frames = Array.from({ length: 4 }, (_, frame) => ({
     time: frame / 40, poses: [[0, 0, 0, 0], [0, 0, 0, 0]],
     grains: Array.from({ length: count }, (__, id) => {
       const [z, y, x] = place(id);
       return { id, lot: 0, radius, start: [x, y, z], values: [x, y + 1e-4 * ((id + frame) % 3), z].map((value) => Math.round(value / unit)) };
     }),
   }));
-  return { data: made.data, recording: encodeRecording({ frames, version: 1, perBlock: 8, vessels: ['tray', 'hopper'], fields: ['x', 'y', 'z'], units: [unit, unit, unit] }) };
+  return { data: made.data, recording: encodeRecording({ frames, version: 1, perBlock: 4, vessels: ['tray', 'hopper'], fields: ['x', 'y', 'z'], units: [unit, unit, unit] }) };
 }
 
 // Counts what is asked of WebGL: draw calls, and bytes that are uploaded.
@@ -59,7 +59,7 @@ test('a frame of 12 000 balls is one draw of them, and a turned camera uploads n
     times.sort((a, b) => a - b);
     return `${times[0]} ms at least, ${times[3]} ms in the median`;
   };
-  const ofFrames = await scriptOf((k) => in_.scrubTo(page, k % 8)), ofTurns = await scriptOf(() => page.locator('#replay-canvas').press('ArrowLeft'));
+  const ofFrames = await scriptOf((k) => in_.scrubTo(page, k % 4)), ofTurns = await scriptOf(() => page.locator('#replay-canvas').press('ArrowLeft'));
   await in_.scrubTo(page, 2);
   const frame = await askedOf(() => in_.scrubTo(page, 3));
   const turned = await askedOf(() => page.locator('#replay-canvas').press('ArrowUp'));
