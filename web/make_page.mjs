@@ -1,5 +1,6 @@
 // Makes one file of a page: script and style inlined, the script's hash in its content security policy.
 import { createHash } from 'node:crypto';
+import { existsSync } from 'node:fs';
 import { readFile } from 'node:fs/promises';
 import path from 'node:path';
 import { fileURLToPath } from 'node:url';
@@ -24,13 +25,22 @@ const asText = {
   },
 };
 
-// The licence texts of the packages that went in, as their authors wrote them.
+// A package's licence as its authors wrote it: a file, or the end of what it says of itself.
+async function licenceOf(folder, licence) {
+  const file = path.join(folder, 'LICENSE');
+  if (existsSync(file)) return readFile(file, 'utf8');
+  const [, text] = (await readFile(path.join(folder, 'README.md'), 'utf8')).split(`## ${licence}\n`);
+  if (!text) throw new Error(`${folder}: it has no licence text`);
+  return `${licence}\n${text}`;
+}
+
+// The licence texts of the packages that went in.
 async function licences(inputs) {
   const packages = new Set(inputs.map((file) => /^node_modules\/((?:@[^/]+\/)?[^/]+)\//.exec(file)?.[1]).filter(Boolean));
   const texts = await Promise.all([...packages].sort().map(async (name) => {
     const folderOf = path.join(here, 'node_modules', name);
-    const { version } = JSON.parse(await readFile(path.join(folderOf, 'package.json'), 'utf8'));
-    return `${name} ${version}\n\n${(await readFile(path.join(folderOf, 'LICENSE'), 'utf8')).trim()}`;
+    const { version, license: licence } = JSON.parse(await readFile(path.join(folderOf, 'package.json'), 'utf8'));
+    return `${name} ${version}\n\n${(await licenceOf(folderOf, licence)).trim()}`;
   }));
   return `/*!\n${texts.join('\n\n').replaceAll('*/', '* /')}\n*/\n`;
 }

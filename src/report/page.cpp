@@ -9,6 +9,7 @@
 #include "scene/checked_json.hpp"
 #include "scene/input_error.hpp"
 #include "scene/spaces.hpp"
+#include "vessel/vessel_faces.hpp"
 #include "vessel/vessel_walls.hpp"
 #include "vessel/wall_points.hpp"
 
@@ -58,6 +59,31 @@ Json vessel(const Vessel& whole, const Vessel& from_the_side) {
   return result;
 }
 
+Json vector(const Eigen::Vector3d& of) {
+  return {of.x(), of.y(), of.z()};
+}
+
+Json face(const Face& of) {
+  Json result = {{"at_mm", vector(1e3 * of.origin)}, {"e1", vector(of.e1)}, {"e2", vector(of.e2)}};
+  if (of.kind == Face::Kind::plate) {
+    result["size_mm"] = {in_mm(of.length_u), in_mm(of.length_v)};
+    if (of.round) result["round"] = true;
+    for (const RoundHole& hole : of.holes)
+      result["holes_mm"].push_back({in_mm(hole.u), in_mm(hole.v), in_mm(hole.radius)});
+  } else {
+    result["rims_mm"] = {{in_mm(of.radius_a), in_mm(of.height_a)}, {in_mm(of.radius_b), in_mm(of.height_b)}};
+    result["half_angle_rad"] = of.half_angle;
+  }
+  if (of.opens_at > 0) result["opens_at_s"] = of.opens_at;
+  return result;
+}
+
+Json faces_of(const Vessel& vessel) {
+  Json all = Json::array();
+  for (const Face& one : vessel_faces(drawn_once(vessel))) all.push_back(face(one));
+  return all;
+}
+
 void fill(std::string& page, const std::string& place, const std::string& content) {
   const std::size_t at = page.find(place);
   if (at == std::string::npos) throw std::invalid_argument("the page's template has no place " + place);
@@ -84,6 +110,14 @@ nlohmann::ordered_json page_vessels(const Scene& scene) {
   const Scene slice = in_plane(scene);
   Json all = Json::array({vessel(scene.tray, slice.tray)});
   if (scene.hopper) all.push_back(vessel(*scene.hopper, *slice.hopper));
+  return all;
+}
+
+nlohmann::ordered_json page_faces(const Scene& scene) {
+  Json all = Json::object();
+  if (scene.space == Space::plane) return all;
+  all[scene.tray.name] = faces_of(scene.tray);
+  if (scene.hopper) all[scene.hopper->name] = faces_of(*scene.hopper);
   return all;
 }
 

@@ -17,6 +17,12 @@ namespace vibrosow {
 nlohmann::ordered_json page_lots(const Scene& scene);
 nlohmann::ordered_json page_vessels(const Scene& scene);
 
+/// In space the faces of each vessel by its name (vessel/face.hpp), mm, in the vessel's own frame: of a plate its size
+/// along e1 and e2 and its round holes (place and radius), of a surface of revolution about e1 x e2 its two rims
+/// (radius and height) and half its angle. Copies that a periodic direction has beside the vessel are left out. Empty
+/// in the plane.
+nlohmann::ordered_json page_faces(const Scene& scene);
+
 /// {mean, half width of its 95 % interval}, in `unit`; null where there is none.
 nlohmann::ordered_json page_interval(const std::optional<MeanWithInterval>& value, double unit);
 

@@ -44,6 +44,7 @@ Json replay_data(const Scene& scene, const Run& run) {
           {"end_time_s", run.end_time},
           {"measure_from_s", std::min(measuring_window(scene).from, run.end_time)},
           {"lots", page_lots(scene)},
+          {"faces", page_faces(scene)},
           {"holes", std::move(holes)},
           {"events", page_events(run)}};
 }

@@ -194,6 +194,7 @@ std::string run_page_data(const RunPage& page) {
                {"window_s", {page.outflow.window.from, page.outflow.window.to}},
                {"lots", page_lots(scene)},
                {"vessels", page_vessels(scene)},
+               {"faces", page_faces(scene)},
                {"holes", holes(page)},
                {"rate_unit", "seeds/s"},
                {"hole_table", hole_table(page)},

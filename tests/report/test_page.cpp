@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <numeric>
 #include <stdexcept>
 
@@ -24,6 +25,53 @@ TEST(Page, HasNoRecordingWhereNoneIsReadable) {
   EXPECT_EQ(recording_in(""), "");
   EXPECT_EQ(recording_in("<script id=\"recording\" type=\"text/plain\">not base64</script>"), "");
   EXPECT_EQ(recording_in("<script id=\"recording\" type=\"text/plain\">AAA</script>"), "");
+}
+
+Scene with_round_hole() {
+  Scene scene;
+  scene.space = Space::three_dimensional;
+  scene.tray.name = "tray";
+  scene.tray.length = 0.1, scene.tray.height = 0.05, scene.tray.depth = 0.04;
+  Hole hole;
+  hole.shape = HoleShape::round;
+  hole.centre = 0.03, hole.across = 0.02, hole.width = 0.008;
+  scene.tray.holes = {hole};
+  return scene;
+}
+
+TEST(Page, AFloorHasItsRoundHolesAsRoundHoles) {
+  const nlohmann::json faces = page_faces(with_round_hole())["tray"];
+  const auto floor = std::ranges::find_if(faces, [](const nlohmann::json& face) { return face.contains("holes_mm"); });
+  ASSERT_NE(floor, faces.end());
+  const nlohmann::json& hole = (*floor)["holes_mm"][0];
+  const auto at = [&](int axis) {
+    return (*floor)["at_mm"][axis].get<double>() + hole[0].get<double>() * (*floor)["e1"][axis].get<double>() +
+           hole[1].get<double>() * (*floor)["e2"][axis].get<double>();
+  };
+  EXPECT_DOUBLE_EQ(at(0), 30);
+  EXPECT_DOUBLE_EQ(at(1), 0);
+  EXPECT_DOUBLE_EQ(at(2), 20);
+  EXPECT_DOUBLE_EQ(hole[2].get<double>(), 4);
+  EXPECT_EQ(faces.size(), 5U);  // floor, two ends, front and back
+}
+
+TEST(Page, AGateSaysWhenItOpensAndWhatIsTurnedHasItsRims) {
+  Scene scene = with_round_hole();
+  scene.tray.holes[0].open_at = 0.5;
+  const nlohmann::json gate = page_faces(scene)["tray"].back();
+  EXPECT_EQ(gate["opens_at_s"], 0.5);
+  EXPECT_EQ(gate["rims_mm"], nlohmann::json({{0.0, 0.0}, {4.0, 0.0}}));
+}
+
+TEST(Page, APeriodicTrayIsDrawnOnceAndAPlaneHasNoFaces) {
+  Scene scene = with_round_hole();
+  scene.tray.sides = scene.tray.front_and_back = Sides::periodic;
+  const nlohmann::json faces = page_faces(scene)["tray"];
+  ASSERT_EQ(faces.size(), 1U);
+  EXPECT_EQ(faces[0]["size_mm"], nlohmann::json({40.0, 100.0}));
+  EXPECT_EQ(faces[0]["holes_mm"].size(), 1U);
+  scene.space = Space::plane;
+  EXPECT_TRUE(page_faces(scene).empty());
 }
 
 TEST(Page, ATextEndsNoScript) {

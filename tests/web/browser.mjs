@@ -11,19 +11,24 @@ export const template = fileURLToPath(new URL('../../build/web/report.html', imp
 
 const patience = 300_000; // ms, after which a page hangs: no slow machine decides a test
 
-export function startBrowser() {
-  const args = ['--disable-gpu', '--disable-quic', ...(process.getuid() === 0 ? ['--no-sandbox'] : [])];
+/** `more`: arguments of its command line. WebGL is drawn in software. */
+export function startBrowser(more = []) {
+  const args = ['--disable-gpu', '--enable-unsafe-swiftshader', '--disable-quic', ...more, ...(process.getuid() === 0 ? ['--no-sandbox'] : [])];
   return chromium.launch({ executablePath: process.env.CHROMIUM ?? '/usr/bin/chromium', args, timeout: patience });
 }
 
-/** Opens a file; `page.complaints` gathers errors of the console, requests that are not of files, and dialogs. */
+/** Opens a file; `page.complaints` gathers errors of the console, requests that are not of files, and dialogs. `first` runs before its own script. */
 export async function openPage(browser, file, options = {}) {
-  const { bypass = false, hash = '', ...looks } = options;
+  const { bypass = false, hash = '', first = null, ...looks } = options;
   const context = await browser.newContext({ viewport: { width: 1280, height: 800 }, bypassCSP: bypass, ...looks });
   context.setDefaultTimeout(patience);
   const page = await context.newPage();
+  if (first) await page.addInitScript(first);
   page.complaints = [];
-  page.on('console', (message) => { if (['error', 'warning'].includes(message.type())) page.complaints.push(message.text()); });
+  page.on('console', (message) => {
+    const ofTheDriver = /GL Driver Message .*Performance/.test(message.text());  // a screen that is read back
+    if (['error', 'warning'].includes(message.type()) && !ofTheDriver) page.complaints.push(message.text());
+  });
   page.on('pageerror', (error) => page.complaints.push(String(error)));
   page.on('request', (request) => { if (!/^(file|blob|data):/.test(request.url())) page.complaints.push(request.url()); });
   page.on('dialog', (dialog) => { page.complaints.push(`dialog: ${dialog.message()}`); dialog.dismiss(); });
@@ -60,15 +65,20 @@ export async function scrubToEnd(page) {
   return last;
 }
 
-/** The canvas as a picture; equal texts are equal pictures. */
+// All that is drawn of the replay, of a run in space also what lies under the labels, once it is another picture than `before`; false until then.
+const drawn = (before) => {
+  const text = [...document.querySelectorAll('.replay canvas')].map((canvas) => canvas.toDataURL()).join();
+  return text !== before && text;
+};
+
+/** The replay as a picture; equal texts are equal pictures. */
 export function pictureOf(page) {
-  return page.$eval('#replay-canvas', (canvas) => canvas.toDataURL());
+  return page.evaluate(drawn);
 }
 
-/** The canvas once it is another picture than `before`. */
+/** The replay once it is another picture than `before`. */
 export async function nextPicture(page, before) {
-  await page.waitForFunction((old) => document.querySelector('#replay-canvas').toDataURL() !== old, before);
-  return pictureOf(page);
+  return (await page.waitForFunction(drawn, before)).jsonValue();
 }
 
 /** The page must have been opened with bypass: axe is a script of its own. */

@@ -117,6 +117,25 @@ function vesselsOf(tray, inSpace) {
   ];
 }
 
+// As the program writes them: a floor with round holes, four walls of the tray, and a hopper that is a cone, with a gate that opens.
+function facesOf(tray) {
+  const [length, depth, height] = [tray.length, tray.depth, 0.06].map((metres) => metres * 1000);
+  const plate = (at, e1, e2, size, more) => ({ at_mm: at, e1, e2, size_mm: size, ...more });
+  const [x, y, z] = [[1, 0, 0], [0, 1, 0], [0, 0, 1]];
+  const middle = [length / 2, 0, depth / 2];
+  return {
+    tray: [
+      plate([0, 0, 0], z, x, [depth, length], { holes_mm: tray.holes.map((at) => [depth / 2, at * 1000, tray.half * 1000]) }),
+      plate([0, 0, 0], y, z, [height, depth]), plate([length, 0, 0], z, y, [depth, height]),
+      plate([0, 0, 0], x, y, [length, height]), plate([0, 0, depth], y, x, [height, length]),
+    ],
+    hopper: [
+      { at_mm: middle, e1: z, e2: x, rims_mm: [[12, 45], [25, 70]], half_angle_rad: Math.PI },
+      { at_mm: middle, e1: z, e2: x, rims_mm: [[0, 45], [12, 45]], half_angle_rad: Math.PI, opens_at_s: 1 },
+    ],
+  };
+}
+
 function holeFigures(events, count) {
   const span = window[1] - window[0];
   return Array.from({ length: count }, (_, k) => {
@@ -154,7 +173,7 @@ export function madeUpRun(space, names = {}) {
     ...(inSpace ? { expected: '6 g/s, expect 3 to 12 g/s until you weigh (95 %); of it chance 5 %, numerics 6.2 %, tolerance 2 %, model 54 %.' } : {}),
     remarks: ['This run is made up: it must not be used.'], status: 'finished', end_time_s: duration, window_s: window,
     lots: [{ name: lots[0], diameter_mm: 4.4 }, { name: lots[1], diameter_mm: 2 * reach * 1000, discs: clump }],
-    vessels: vesselsOf(tray, inSpace), holes, rate_unit: 'seeds/s',
+    vessels: vesselsOf(tray, inSpace), faces: inSpace ? facesOf(tray) : {}, holes, rate_unit: 'seeds/s',
     hole_table: {
       columns: [{ name: 'hole', unit: '' }, { name: 'lot', unit: '' }, { name: 'grains', unit: '' }, { name: 'rate', unit: '1/s' }, { name: 'longest pause', unit: 's' }, { name: 'note', unit: '' }],
       rows: holes.map((hole) => [String(hole.hole), names.lots ? lots[0] : 'all', String(hole.counted), hole.rate.toPrecision(4), hole.longest_pause_s.toPrecision(3), '']),

@@ -8,7 +8,7 @@ import { madeUpRun } from './made_up_run.mjs';
 
 test('the template is small and keeps the licence of what is in it', () => {
   assert.ok(statSync(in_.template).size < 250e3);
-  assert.match(template, /uplot 1\.6\.32[\s\S]*MIT License[\s\S]*Leon Sorokin/);
+  assert.match(template, /earcut 3\.2\.4[\s\S]*ISC License[\s\S]*Mapbox[\s\S]*ogl 1\.0\.11[\s\S]*public domain[\s\S]*uplot 1\.6\.32[\s\S]*MIT License[\s\S]*Leon Sorokin/);
 });
 
 for (const space of ['plane', 'three_dimensional']) {
@@ -129,23 +129,6 @@ test('a recording without forces and maps offers none', () => {
     assert.deepEqual(page.complaints, []);
   });
 });
-
-test('a run in space turns by keys and by dragging', () => withPage(madeUpRun('three_dimensional'), {}, async (page) => {
-  const fromTheSide = await in_.pictureOf(page);
-  await page.getByRole('radio', { name: 'Turnable' }).check();
-  const turned = await in_.nextPicture(page, fromTheSide);
-  const frame = await in_.shownFrame(page);
-  await page.locator('#replay-canvas').focus();
-  await page.keyboard.press('ArrowLeft');
-  const byKey = await in_.nextPicture(page, turned);
-  assert.equal(await in_.shownFrame(page), frame);
-  const box = await page.locator('#replay-canvas').boundingBox();
-  await page.mouse.move(box.x + 100, box.y + 100);
-  await page.mouse.down();
-  await page.mouse.move(box.x + 160, box.y + 120);
-  await page.mouse.up();
-  await in_.nextPicture(page, byKey);
-}));
 
 test('a press on the chart moves the replay', () => withPage(madeUpRun('plane'), {}, async (page) => {
   const over = page.locator('#outflow .u-over');

@@ -31,6 +31,11 @@ export function chainsOf(contacts, frame, recording) {
   return chains;
 }
 
+/** How lines of each kind look: { width (of a seed's mean radius), opacity }; null of contacts below `least` mean forces. */
+export function chainLooks(least = 0) {
+  return steps.map((step, kind) => (step < least ? null : { width: ofMean * Math.sqrt(step), opacity: 0.3 + (0.7 * (kind + 1)) / steps.length }));
+}
+
 /** Draws them; `project(x, y, z)` gives places on the screen, `radius` is a seed's there; contacts below `least` mean forces are left out. */
 export function drawChains(context, chains, { colour, radius, project, least = 0 }) {
   const paths = steps.map(() => new Path2D());
@@ -43,10 +48,10 @@ export function drawChains(context, chains, { colour, radius, project, least = 0
   context.save();
   context.strokeStyle = colour;
   context.lineCap = 'round';
-  steps.forEach((step, kind) => {
-    if (step < least) return;
-    context.globalAlpha = 0.3 + (0.7 * (kind + 1)) / steps.length;
-    context.lineWidth = Math.max(thinnest, ofMean * radius * Math.sqrt(step));
+  chainLooks(least).forEach((look, kind) => {
+    if (!look) return;
+    context.globalAlpha = look.opacity;
+    context.lineWidth = Math.max(thinnest, look.width * radius);
     context.stroke(paths[kind]);
   });
   context.restore();

@@ -9,12 +9,19 @@ const layers = 10;
 const forceSteps = 15;
 const forceDecades = 3;
 
+// Of each grain of a frame a number below 256.
+function binsOf(ids, of) {
+  const bins = new Uint8Array(ids.length);
+  for (let k = 0; k < bins.length; ++k) bins[k] = of(ids[k], k);
+  return bins;
+}
+
 function byLot(recording, data) {
   return {
     name: 'lot', text: 'Lot', bins: Math.max(1, data.lots.length),
     colours: (theme) => data.lots.map((_, k) => listColour(k, theme)),
     legend: { kind: 'names', names: data.lots.map((lot) => lot.name) },
-    of: async (frame) => Uint8Array.from(frame.ids, (id) => recording.lots[id]),
+    of: async (frame) => binsOf(frame.ids, (id) => recording.lots[id]),
   };
 }
 
@@ -37,13 +44,12 @@ function byStart(recording) {
   return {
     name: 'start', text: 'Starting height', bins: layers, colours: (theme) => layerScale(layers, theme),
     legend: { kind: 'scale', low: `${number(ends[0] * 1000)} mm`, high: `${number(ends[layers] * 1000)} mm`, note: 'starting height, in ten layers of equally many seeds' },
-    of: async (frame) => Uint8Array.from(frame.ids, (id) => ofId[id]),
+    of: async (frame) => binsOf(frame.ids, (id) => ofId[id]),
   };
 }
 
-// Speeds of a frame's grains in the tray's frame, m/s, by the difference from the frame before; of the first frame from
-// the next. NaN of a grain that is in only one of them.
-async function speeds(recording, index) {
+/** Speeds of a frame's grains in the tray's frame, m/s, by the difference from the frame before; of the first frame from the next. NaN of a grain that is in only one of them. */
+export async function speeds(recording, index) {
   const other = index > 0 ? index - 1 : Math.min(1, recording.frames - 1);
   const [frame, beside] = await Promise.all([recording.frame(index), recording.frame(other)]);
   const placeOf = new Map();
@@ -87,7 +93,8 @@ async function bySpeed(recording) {
   };
 }
 
-async function forcesOn(recording, frame) {
+/** Of each grain of one of forceFrames the sum of the normal forces on it, N. */
+export async function forcesOn(recording, frame) {
   const [contacts, { ids }] = await Promise.all([recording.contacts(frame), recording.frame(frame)]);
   return forceOfGrains(contacts, ids.length);
 }

@@ -10,7 +10,8 @@ const ofLots = {
 const viridis = ['#440154', '#482878', '#3e4a89', '#31688e', '#26828e', '#1f9e89', '#35b779', '#6ece58', '#b5de2b', '#fde725'];
 const batlow = ['#011959', '#10375c', '#1c5a62', '#3c6d56', '#687b3e', '#9d892b', '#d29343', '#f8a17b', '#fdb7bc', '#faccfa'];
 
-function channels(colour) {
+/** Red, green and blue of "#rrggbb", 0 to 255. */
+export function channels(colour) {
   return [1, 3, 5].map((k) => parseInt(colour.slice(k, k + 2), 16));
 }
 

@@ -38,6 +38,12 @@ export function choice(title, options, chosen, change) {
   return element('fieldset', { class: 'choice' }, element('legend', {}, title), element('div', { class: 'choice-row' }, buttons));
 }
 
+/** Buttons side by side under a name. `acts`: [text, what a press does, name (said aloud)]. */
+export function presses(title, acts) {
+  return element('div', { class: 'choice', role: 'group', 'aria-label': title }, element('span', { class: 'choice-title' }, title),
+    element('div', { class: 'choice-row' }, acts.map(([text, act, name]) => element('button', { type: 'button', 'aria-label': name ?? null, title: name ?? null, onclick: act }, text))));
+}
+
 /** One choice of many, in a list that opens. `options`: [{ value, text }]. */
 export function listChoice(title, options, chosen, change) {
   const list = element('select', { 'aria-label': title, onchange: () => change(options[list.selectedIndex].value) },

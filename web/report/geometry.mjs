@@ -13,6 +13,23 @@ export function toOwn(pose, x, y) {
   return [cos * dx + sin * dy, cos * dy - sin * dx];
 }
 
+/** A place of three coordinates, mm, in the lab. */
+export function placed(pose, [x, y, z]) {
+  return [...toLab(pose, x, y), z + pose.z * 1000];
+}
+
+/** The pose that `inner` has in the lab, where it is given in the frame of `outer`. */
+export function composed(outer, inner) {
+  const [x, y, z] = placed(outer, [inner.x * 1000, inner.y * 1000, inner.z * 1000]);
+  return { x: x / 1000, y: y / 1000, z: z / 1000, angle: outer.angle + inner.angle };
+}
+
+/** The lab in a vessel's frame. */
+export function inverse(pose) {
+  const [x, y] = toOwn(pose, 0, 0);
+  return { x: x / 1000, y: y / 1000, z: -pose.z, angle: -pose.angle };
+}
+
 /** The pose of a vessel that rests. */
 export function restPose({ at_mm: at = [0, 0, 0], tilt_rad: tilt = 0 }) {
   return { x: at[0] / 1000, y: at[1] / 1000, angle: tilt ?? 0 };

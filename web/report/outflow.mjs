@@ -51,7 +51,7 @@ function cumulativeChart(data, player) {
 function bindTime(chart, player) {
   const line = element('div', { class: 'time-line' });
   const put = () => {
-    if (chart.plot) line.style.transform = `translateX(${chart.plot.valToPos(player.time, 'x')}px)`;
+    if (chart.plot) line.style.transform = `translateX(${chart.plot.valToPos(player.moment, 'x')}px)`;
   };
   chart.afterDraw = (plot) => {
     plot.over.append(line);

@@ -15,6 +15,8 @@ export class Player {
   constructor(times) {
     this.times = times;
     this.index = 0;
+    this.part = 0;        // of the way to the next frame
+    this.smooth = false;  // whether listeners are told of what lies between frames
     this.speed = 1;
     this.playing = false;
     this.listeners = new Set();
@@ -22,6 +24,11 @@ export class Player {
 
   get time() {
     return this.times[this.index];
+  }
+
+  /** The moment that is shown, s; between frames while it plays smoothly. */
+  get moment() {
+    return this.part === 0 ? this.time : this.time + this.part * (this.times[this.index + 1] - this.time);
   }
 
   get last() {
@@ -38,6 +45,7 @@ export class Player {
 
   show(index) {
     this.index = Math.min(this.last, Math.max(0, index));
+    this.part = 0;
     this.begin = null;
     this.tell();
   }
@@ -62,7 +70,7 @@ export class Player {
   }
 
   play() {
-    if (this.index === this.last) this.index = 0;
+    if (this.index === this.last) Object.assign(this, { index: 0, part: 0 });
     this.playing = true;
     this.begin = null;
     requestAnimationFrame((now) => this.tick(now));
@@ -78,12 +86,13 @@ export class Player {
   // `begin`: when this stretch of playing began, on the wall and in the run.
   tick(now) {
     if (!this.playing) return;
-    this.begin = this.begin ?? { wall: now, run: this.time };
+    this.begin = this.begin ?? { wall: now, run: this.moment };
     const time = this.begin.run + ((now - this.begin.wall) / 1000) * this.speed;
     const index = frameAt(this.times, time);
     if (index === this.last) this.playing = false;
-    if (index !== this.index || !this.playing) {
+    if (index !== this.index || !this.playing || this.smooth) {
       this.index = index;
+      this.part = this.smooth && this.playing ? (time - this.time) / (this.times[index + 1] - this.time) : 0;
       this.tell();
     }
     if (this.playing) requestAnimationFrame((later) => this.tick(later));

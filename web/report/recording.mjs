@@ -117,6 +117,7 @@ class Recording {
     this.lots = new Uint16Array(header.grains);                               // of each id, as the next two
     this.radii = new Float32Array(header.grains);                             // m; 0 of an id that never enters
     this.starts = new Float32Array(3 * header.grains);                        // m
+    this.mostGrains = 0;                                                      // in a frame
     this.forceFrames = (header.contacts ?? []).map(({ frame }) => frame);      // ascending
     this.keptContacts = new Map();
     this.blockFrom = [];
@@ -139,8 +140,9 @@ class Recording {
     if (frame !== this.frames) throw new RecordingError(`it has ${frame} frames and says ${this.frames}`);
   }
 
-  note(frame, { view, time, poses, entering, entered }) {
+  note(frame, { view, time, poses, entering, entered, present }) {
     this.times[frame] = time;
+    this.mostGrains = Math.max(this.mostGrains, present);
     const values = this.vessels.length * 4;
     for (let k = 0; k < values; ++k) this.poses[frame * values + k] = view.getFloat64(poses + 8 * k, true);
     for (let k = 0; k < entering; ++k) {

@@ -1,11 +1,15 @@
 // The replay's section: the canvas, its controls and its legend.
+import { Between } from './between.mjs';
 import { chainsOf } from './chains.mjs';
+import { seedSentence } from './chosen_seed.mjs';
 import { colourings } from './colouring.mjs';
 import { Counters } from './counters.mjs';
-import { choice, element, section } from './dom.mjs';
+import { choice, element, listChoice, presses, section } from './dom.mjs';
 import { clock, force } from './format.mjs';
 import { labBox, meanPose } from './geometry.mjs';
 import { legendParts } from './legend.mjs';
+import { lookAround } from './looking.mjs';
+import { poseAt } from './path.mjs';
 import { PlaneView } from './plane_view.mjs';
 import { nameButton, roundButton } from './round_button.mjs';
 import { SpaceView } from './space_view.mjs';
@@ -13,29 +17,31 @@ import { Stage } from './stage.mjs';
 import { inks, onTheme, theme } from './theme.mjs';
 
 const speeds = [[0.125, '1/8', 'an eighth'], [0.25, '1/4', 'a quarter'], [0.5, '1/2', 'a half'], [1, '1×', 'as fast as it was']];
-const views = [['side', 'Side'], ['above', 'From above'], ['turnable', 'Turnable']];
-const turnedByKey = { ArrowLeft: [-0.1, 0], ArrowRight: [0.1, 0], ArrowUp: [0, 0.1], ArrowDown: [0, -0.1] };
 
 class Replay {
   constructor(data, recording, player) {
-    Object.assign(this, { data, recording, player, still: false, chained: false });
+    Object.assign(this, { data, recording, player, still: false, chained: false, chosen: null });
     const tray = Math.max(0, recording.vessels.indexOf('tray'));
-    const View = recording.fields.includes('z') ? SpaceView : PlaneView;
-    this.view = new View(data, recording, labBox(data.vessels, recording), meanPose(recording, tray));
+    this.canvas = element('canvas', { id: 'replay-canvas', role: 'img', 'aria-label': 'The grains of the run' });
+    this.under = recording.fields.includes('z') ? element('canvas', { 'aria-hidden': 'true' }) : null;
+    const View = this.under ? SpaceView : PlaneView;
+    this.view = new View(data, recording, labBox(data.vessels, recording), meanPose(recording, tray), this.under);
+    this.between = new Between(recording);
+    player.smooth = this.under !== null;
     this.counters = new Counters(data.events, data.holes);
     this.ways = colourings(recording, data);
     this.build();
     this.stage = new Stage(this.canvas, (width) => this.view.height(width), () => this.show());
     player.onChange(() => this.show());
+    this.ink = inks();
     onTheme(() => this.repaint());
     this.colourBy(this.ways[0]);
   }
 
   build() {
-    const inSpace = this.view instanceof SpaceView;
-    this.canvas = element('canvas', { id: 'replay-canvas', role: 'img', 'aria-label': 'The grains of the run' });
     this.legend = element('p', { class: 'legend', id: 'replay-legend' });
     this.forceNote = element('p', { class: 'legend', id: 'replay-forces', hidden: true });
+    this.seedNote = element('p', { class: 'legend', id: 'replay-seed', role: 'status', hidden: true });
     this.clock = element('output', { class: 'clock', id: 'replay-time', for: 'replay-frame' });
     this.range = element('input', { type: 'range', id: 'replay-frame', min: 0, max: this.player.last, step: 1, value: 0, 'aria-label': 'Time of the replay',
       oninput: () => {
@@ -50,12 +56,12 @@ class Replay {
         roundButton('forward', 'One frame forward', () => this.player.step(1)), this.range, this.clock),
       element('div', { class: 'controls-choices' },
         choice('Speed', speeds.map(([value, text, name]) => ({ value, text, name })), 1, (value) => this.player.setSpeed(value)),
-        inSpace ? choice('View', views.map(([value, text]) => ({ value, text })), 'side', (value) => this.look(value)) : null,
+        this.under ? this.views() : null, this.under ? this.cutting() : null,
         choice('Colour', this.ways.map((way) => ({ value: way, text: way.text })), this.ways[0], (way) => this.colourBy(way)),
         this.data.vessels.some((vessel) => vessel.name === 'tray') ? this.stillSwitch() : null,
         this.recording.forceFrames.length ? this.chainSwitch() : null));
-    this.figure = element('div', { class: 'replay card' }, element('div', { class: 'stage' }, this.canvas), this.legend, this.forceNote, controls);
-    if (inSpace) this.makeTurnable();
+    this.figure = element('div', { class: 'replay card' }, element('div', { class: this.under ? 'stage layered' : 'stage' }, this.under, this.canvas), this.legend, this.forceNote, this.seedNote, controls);
+    if (this.under) this.makeTurnable();
   }
 
   stillSwitch() {
@@ -68,40 +74,62 @@ class Replay {
     return element('label', { class: 'switch' }, box, element('span', {}, 'Force chains'));
   }
 
-  look(name) {
-    this.view.look(name);
-    this.canvas.classList.toggle('turnable', name === 'turnable');
-    this.canvas.tabIndex = name === 'turnable' ? 0 : -1;
-    if (this.colouring) this.showLegend();
-    this.stage.fit();
+  // Each press of the last looks through the next hole.
+  views() {
+    const { holes } = this.view;
+    let next = 0;
+    const throughHole = () => {
+      this.look('hole', next);
+      next = (next + 1) % holes.length;
+    };
+    return presses('View', [['Front', () => this.look('front')], ['Corner', () => this.look('corner')], ['Above', () => this.look('above')],
+      ...(holes.length ? [['Hole', throughHole, 'Through a hole, from below']] : [])]);
+  }
+
+  // From where, and how far, what stands before the middle is cut away.
+  cutting() {
+    let side = 'front';
+    const range = element('input', { type: 'range', min: 0, max: 100, value: 0, 'aria-label': 'How much is cut away, percent', oninput: () => cut() });
+    const cut = () => {
+      range.style.setProperty('--done', `${range.value}%`);
+      this.view.cutFrom(side, range.value / 100);
+      this.paint();
+    };
+    const sides = listChoice('Cut', [['front', 'from the front'], ['left', 'from the left'], ['top', 'from the top']].map(([value, text]) => ({ value, text })), side, (value) => {
+      side = value;
+      cut();
+    });
+    return element('div', { class: 'cut' }, sides, range);
+  }
+
+  choose(x, y) {
+    const seed = this.shown ? this.view.seedAt(x, y) : null;
+    this.chosen = seed === null ? null : this.shown.frame.ids[seed];
+    this.paint();
+    this.tellChosen();
+  }
+
+  async tellChosen() {
+    const { chosen, shown } = this;
+    this.seedNote.hidden = chosen === null;
+    if (chosen === null) return;
+    const text = await seedSentence(this.recording, this.data, chosen, shown);
+    if (chosen === this.chosen && shown === this.shown) this.seedNote.textContent = text;
+  }
+
+  look(name, hole) {
+    this.view.camera.look(name, hole);
+    this.paint();
   }
 
   makeTurnable() {
-    this.view.look('side');
-    let from = null;
-    this.canvas.addEventListener('pointerdown', (event) => {
-      if (this.view.fixed) return;
-      from = [event.clientX, event.clientY];
-      this.canvas.setPointerCapture(event.pointerId);
+    this.canvas.classList.add('turnable');
+    this.canvas.tabIndex = 0;
+    this.under.addEventListener('webglcontextlost', () => {
+      this.view.withoutGl();
+      this.paint();
     });
-    this.canvas.addEventListener('pointermove', (event) => {
-      if (!from) return;
-      this.turn((event.clientX - from[0]) * 0.008, (event.clientY - from[1]) * 0.008);
-      from = [event.clientX, event.clientY];
-    });
-    for (const end of ['pointerup', 'pointercancel']) this.canvas.addEventListener(end, () => { from = null; });
-    this.canvas.addEventListener('keydown', (event) => {
-      const by = turnedByKey[event.key];
-      if (this.view.fixed || !by) return;
-      event.preventDefault();
-      event.stopPropagation();
-      this.turn(...by);
-    });
-  }
-
-  turn(yaw, pitch) {
-    this.view.turn(yaw, pitch);
-    this.paint();
+    lookAround(this.canvas, this.view.camera, { changed: () => this.paint(), reset: () => this.look('front'), choose: (x, y) => this.choose(x, y) });
   }
 
   async colourBy(way) {
@@ -118,40 +146,46 @@ class Replay {
     const { legend } = this.colouring;
     const colours = this.colouring.colours(theme());
     const parts = legendParts(legend, colours);
-    const counted = (this.view.name ?? 'side') === 'side';
-    this.legend.replaceChildren(...parts, ...(counted ? [element('span', { class: 'legend-note' }, 'Under the holes: seeds so far')] : []));
+    this.legend.replaceChildren(...parts, element('span', { class: 'legend-note' }, 'Under the holes: seeds so far'));
   }
 
   countsNow() {
-    const until = this.player.index === this.player.last ? Infinity : this.player.time;
+    const until = this.player.index === this.player.last ? Infinity : this.player.moment;
     return new Map(this.data.holes.map((hole) => [hole.hole, this.counters.until(hole.hole, until)]));
   }
 
   /** Brings controls and picture to the player's frame. */
   async show() {
     const { player } = this;
+    const from = performance.now();
     this.range.value = player.index;
     this.range.style.setProperty('--done', `${(100 * player.index) / Math.max(1, player.last)}%`);
-    this.range.setAttribute('aria-valuetext', clock(player.time));
-    this.clock.textContent = clock(player.time);
+    this.range.setAttribute('aria-valuetext', clock(player.moment));
+    this.clock.textContent = clock(player.moment);
     this.showPlaying();
-    const asked = player.index;
+    const asked = player.index, { part } = player;
     if (!this.colouring || !this.stage?.width) return;
-    this.shown = await this.picture(asked);
+    this.shown = await this.picture(asked, part);
     if (asked !== player.index && !player.playing) return;
-    this.paint();
+    this.paint(from);
+    if (this.chosen !== null) this.tellChosen();
   }
 
-  // What is drawn of a frame: where forces are asked for, of the nearest that has them.
-  async picture(asked) {
+  // What is drawn of a moment, `part` of the way to the next frame: where forces are asked for, of the nearest frame that has them.
+  async picture(asked, part) {
     const { recording, colouring } = this;
     const chained = this.chained, forces = chained || this.ofForces;
     const index = forces ? recording.nearestForces(asked) : asked;
-    const frame = await recording.frame(index);
-    const bins = await colouring.of(frame, index);
+    const smooth = forces ? 0 : part;
+    const poseOf = (vessel) => poseAt(recording, vessel, this.data.paths?.[recording.vessels[vessel]], index, smooth);
+    const recorded = await recording.frame(index);
+    const frame = smooth > 0 ? await this.between.frame(index, smooth, poseOf(this.between.tray)) : recorded;
+    const known = this.shown?.index === index && this.shown.colouring === colouring;
+    const bins = known ? this.shown.bins : await colouring.of(recorded, index);
     const chains = forces ? chainsOf(await recording.contacts(index), frame, recording) : null;
+    const time = smooth > 0 ? recording.times[index] + smooth * (recording.times[index + 1] - recording.times[index]) : recording.times[index];
     const counts = this.countsNow();
-    return { asked, index, frame, bins, time: recording.times[index], counts, colouring, forces: chains, chains: chained ? chains : null };
+    return { asked, index, frame, bins, poseOf, time, counts, colouring, forces: chains, chains: chained ? chains : null };
   }
 
   // How large the forces are, and of which moment.
@@ -169,17 +203,20 @@ class Replay {
     nameButton(this.playButton, name.toLowerCase(), name);
   }
 
-  paint() {
+  // `from`: when the script began that leads to it.
+  paint(from = performance.now()) {
     if (!this.shown || !this.stage?.width) return;
     const { shown } = this;
     this.showForces(shown);
-    this.view.draw(this.stage, { ...shown, still: this.still, colours: shown.colouring.colours(theme()), ink: inks() });
+    this.view.draw(this.stage, { ...shown, still: this.still, chosen: this.chosen, colours: shown.colouring.colours(theme()), ink: this.ink });
     this.canvas.dataset.counts = JSON.stringify([...shown.counts]);
     this.canvas.dataset.frame = shown.asked;
     this.canvas.setAttribute('aria-label', this.said());
+    this.canvas.dataset.scriptMs = (performance.now() - from).toFixed(2);
   }
 
   repaint() {
+    this.ink = inks();
     if (!this.colouring) return;
     this.showLegend();
     this.paint();
@@ -188,7 +225,7 @@ class Replay {
   said() {
     const { shown } = this;
     const counts = [...shown.counts].map(([hole, count]) => `hole ${hole}: ${count}`).join(', ');
-    const how = this.view.fixed === false ? '. Arrow keys turn it' : '';
+    const how = this.under ? '. Arrow keys turn it, with Shift they move it, plus and minus zoom, 0 shows its front, Enter chooses the seed in the middle' : '';
     const forces = shown.forces ? ` ${this.forceNote.textContent}` : '';
     return `${shown.frame.ids.length} grains at ${clock(shown.time)}.${forces} Seeds so far, ${counts}${how}.`;
   }

@@ -15,6 +15,7 @@ export class Stage {
     if (width === 0) return;
     const height = Math.round(this.heightOf(width));
     const ratio = Math.max(1, window.devicePixelRatio || 1);
+    this.ratio = ratio;  // of its pixels to those of the page
     this.width = width;
     this.height = height;
     this.canvas.width = Math.round(width * ratio);

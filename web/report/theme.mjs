@@ -35,7 +35,7 @@ export function themeColour(name) {
 
 /** The colours that a canvas is drawn with, and the font of its numbers. */
 export function inks() {
-  const colours = Object.fromEntries(['ink', 'wall', 'halo', 'accent', 'depth', 'chain'].map((name) => [name, themeColour(name)]));
+  const colours = Object.fromEntries(['ink', 'wall', 'halo', 'accent', 'depth', 'chain', 'card', 'floor', 'glass'].map((name) => [name, themeColour(name)]));
   return { ...colours, font: `600 13px ${themeColour('font')}` };
 }
 
