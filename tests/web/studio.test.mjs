@@ -180,6 +180,38 @@ test('what the program refuses is said, and mended by a change', () => withStudi
   await place.getByRole('alert').waitFor({ state: 'hidden' });
 }));
 
+// What is on the page of a simulation: ink in the picture, counts, clock, bars, lots, handles that can be seen.
+function shownOf(place) {
+  return place.evaluate((frame) => {
+    const canvas = frame.querySelector('canvas');
+    const blank = Object.assign(document.createElement('canvas'), { width: canvas.width, height: canvas.height });
+    return {
+      ink: canvas.toDataURL() !== blank.toDataURL(), counts: canvas.dataset.counts ?? '', said: canvas.getAttribute('aria-label'), clock: frame.querySelector('.clock').textContent,
+      part: frame.querySelector('progress').value, bars: frame.querySelectorAll('.hole-bars li').length, outflow: frame.querySelector('.outflow').innerText.trim(),
+      legend: frame.querySelector('.legend').textContent, handles: [...frame.querySelectorAll('.handle')].filter((one) => one.checkVisibility()).length,
+    };
+  });
+}
+
+test('of a seeder that cannot be simulated nothing is shown, least of all another one’s seeds', () => {
+  const data = structuredClone(madeUpStudio());
+  data.seeders[1].scene.tray.holes[0].width_m = 0.07;
+  return withStudio({}, async (page) => {
+    const place = bench(page);
+    await countsAtTheEnd(place);
+    const before = await shownOf(place);
+    assert.ok(before.ink && before.bars === 6 && before.clock === '4.00 s of 4 s' && before.handles === 5);
+    await place.getByRole('combobox', { name: 'Seeder' }).selectOption('Two lots that rock');
+    await status(place, 'failed');
+    assert.deepEqual(await shownOf(place), { ink: false, counts: '', said: 'The tray', clock: '', part: 0, bars: 0, outflow: 'Outflow', legend: '', handles: 0 });
+    await page.getByRole('button', { name: 'Dark' }).click();  // draws anew
+    assert.equal((await shownOf(place)).ink, false);
+    await place.getByRole('combobox', { name: 'Seeder' }).selectOption('Wheat tray, five holes, fed from a hopper');
+    await opened(place);
+    assert.equal((await shownOf(place)).handles, 5);
+  }, data);
+});
+
 test('another seeder brings its own controls, another crop its seeds', () => withStudio({}, async (page) => {
   const place = bench(page);
   await place.getByRole('combobox', { name: 'Crop' }).selectOption('Soybean');
