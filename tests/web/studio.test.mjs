@@ -6,6 +6,8 @@ import { tmpdir } from 'node:os';
 import path from 'node:path';
 import test, { after } from 'node:test';
 import { deflateRawSync } from 'node:zlib';
+import { layoutOf } from '../../web/studio/layout.mjs';
+import { fragmentOf } from '../../web/studio/link.mjs';
 import * as in_ from './browser.mjs';
 import { fillStudio, madeUpStudio, studioTemplate, whyNotInSpace } from './made_up_studio.mjs';
 
@@ -264,6 +266,31 @@ test('two layouts are compared, and a link brings both back with their counts', 
   await page.getByRole('button', { name: 'Remove layout B' }).click();
   assert.equal(await b.count(), 0);
   await page.locator('#comparison').waitFor({ state: 'hidden' });
+}));
+
+// A link as a page makes it that has `seeder` as its own.
+async function linkTo(seeder) {
+  return fragmentOf([layoutOf({ ...seeder, own: true })]);
+}
+
+test('a link’s own seeder bears its own name', async () => {
+  const theirs = { ...structuredClone(madeUpStudio().seeders[1]), name: 'wheat-tray', title: 'A tray of theirs' };
+  const chosen = (page) => bench(page).getByRole('combobox', { name: 'Seeder' }).locator('option:checked').textContent();
+  await withStudio({ hash: await linkTo(theirs) }, async (page) => {
+    assert.equal(await chosen(page), 'A tray of theirs');
+    await bench(page).locator('.legend', { hasText: 'stone' }).waitFor();
+    await bench(page).getByRole('combobox', { name: 'Seeder' }).selectOption('Wheat tray, five holes, fed from a hopper');
+    await bench(page).locator('.legend', { hasText: 'wheat' }).waitFor();
+    await bench(page).getByRole('combobox', { name: 'Seeder' }).selectOption('A tray of theirs');  // it is still to be had
+    assert.equal(await chosen(page), 'A tray of theirs');
+  });
+});
+
+test('a link out of a file says that it opens where that file is', () => withStudio({}, async (page) => {
+  await page.getByRole('button', { name: 'Share a link' }).click();
+  const said = page.locator('.share [role=status]');
+  await said.filter({ hasText: /./ }).waitFor();
+  assert.match(await said.textContent(), /It leads to this file on this computer: whoever else is to open it needs the file studio\.html too, and puts what follows # in the link after its address\.$/);
 }));
 
 test('the seeder file is saved with what was changed', () => withStudio({}, async (page) => {
