@@ -95,6 +95,20 @@ test('before the measuring begins nothing is said of rates', () => withStudio({}
   await place.getByText('Measuring begins at 30 s.').waitFor();
 }, withLateMeasuring()));
 
+test('doubts stand on top of the picture and the rates', () => withStudio({}, async (page) => {
+  const place = bench(page);
+  const width = place.getByRole('spinbutton', { name: 'Width of hole 1 in mm' });
+  await width.fill('3');
+  await width.press('Enter');
+  const doubts = place.getByRole('list', { name: 'What to know about this layout' });
+  await doubts.getByText('tray.holes.width: seeds cannot pass.').waitFor();
+  const [bottom, top] = [await doubts.boundingBox(), await place.locator('canvas').boundingBox()].map((box, k) => box.y + (k === 0 ? box.height : 0));
+  assert.ok(bottom <= top, `${bottom} ${top}`);
+  await width.fill('12');
+  await width.press('Enter');
+  await doubts.waitFor({ state: 'hidden' });
+}));
+
 test('a hole is dragged, and the simulation starts again with it', () => withStudio({}, async (page) => {
   const place = bench(page);
   const before = await countsAtTheEnd(place);

@@ -44,7 +44,7 @@ export class Bench {
     this.title = element('h2', { id: `layout-${this.name}` }, `Layout ${this.name}`);
     const save = element('button', { type: 'button', class: 'quiet', onclick: () => this.save() }, 'Save the seeder file');
     const controls = element('div', { class: 'controls' }, this.transport.frame, element('div', { class: 'controls-choices' }, this.view.choices, save));
-    this.frame = element('section', { class: 'bench', 'aria-labelledby': `layout-${this.name}` }, this.title, this.choices, this.kept, this.problem,
+    this.frame = element('section', { class: 'bench', 'aria-labelledby': `layout-${this.name}` }, this.title, this.choices, this.kept, this.problem, this.outflow.remarks,
       element('div', { class: 'replay card' }, this.view.place, this.view.legend, controls),
       element('div', { class: 'panels' }, this.outflow.frame, this.holes.frame, this.motion.frame), this.status);
   }

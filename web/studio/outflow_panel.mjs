@@ -43,13 +43,14 @@ function windowWords(state) {
 
 const endings = { stopped_by_guard: 'The guard stopped this run' };
 
+/** `remarks`, the doubts, has a place of its own: on top of what they are about. */
 export class OutflowPanel {
   constructor() {
     this.window = element('p', { class: 'hint' });
     this.bars = element('ul', { class: 'hole-bars' });
     this.figures = element('dl', { class: 'figures' });
-    this.remarks = element('ul', { class: 'remarks', 'aria-label': 'What to know about this layout' });
-    this.frame = element('div', { role: 'group', class: 'panel outflow', 'aria-label': 'Outflow of the holes' }, element('h3', {}, 'Outflow'), this.window, this.bars, this.figures, this.remarks);
+    this.remarks = element('ul', { class: 'remarks', 'aria-label': 'What to know about this layout', hidden: true });
+    this.frame = element('div', { role: 'group', class: 'panel outflow', 'aria-label': 'Outflow of the holes' }, element('h3', {}, 'Outflow'), this.window, this.bars, this.figures);
   }
 
   /** `state`: of the course. Of a scene that is not prepared there is nothing to say. */
