@@ -246,7 +246,7 @@ std::string errors_text(const AccuracyResult& result) {
 }
 
 std::string share(double percent) {
-  return fmt::format("{:.2f} %", percent);
+  return number_text(percent) + " %";
 }
 
 std::string goal_text(const PromiseGoal& goal) {

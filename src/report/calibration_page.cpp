@@ -52,6 +52,9 @@ Json parameters(const CalibrationAnswer& answer) {
                    {"mean", row.value.mean},
                    {"low", row.value.low},
                    {"high", row.value.high},
+                   {"edge", row.edge == RangeEdge::none    ? ""
+                            : row.edge == RangeEdge::lower ? "lower"
+                                                           : "upper"},
                    {"contraction_percent", 100 * row.value.contraction},
                    {"not_told_apart_from", fmt::format("{}", fmt::join(row.not_told_apart_from, ";"))}});
   return all;

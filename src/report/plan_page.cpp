@@ -136,22 +136,27 @@ std::string weigh_part(const PlanPage& page) {
              escaped_text(page.command), rows.front()->setting->frequency);
 }
 
+std::string sure_part(const PlanPage& page) {
+  std::string text = "<h2>How sure</h2>\n";
+  if (page.weighed != nullptr) {
+    for (const std::string& sentence : weighed_sentences(page.source, page.card->rows, *page.weighed))
+      text += paragraph(sentence);
+  } else {
+    text += paragraph(risk_sentence(page.source.plan));
+    for (const std::string& sentence : trust_sentences(page.source)) text += paragraph(sentence);
+  }
+  return text;
+}
+
 }  // namespace
 
 std::string plan_page(const PlanPage& page) {
   std::string body;
   for (const std::string& sentence : need_sentences(page.source)) body += paragraph(sentence);
+  body += sure_part(page);  // before any number that it is about
   if (page.card != nullptr)
-    body +=
-        paragraph(tray_text(*page.card)) + card_table(page) + paragraph(reading_text(*page.card)) + weigh_part(page);
-  body += "<h2>How sure</h2>\n";
-  if (page.weighed != nullptr) {
-    for (const std::string& sentence : weighed_sentences(page.source, page.card->rows, *page.weighed))
-      body += paragraph(sentence);
-  } else {
-    body += paragraph(risk_sentence(page.source.plan));
-    for (const std::string& sentence : trust_sentences(page.source)) body += paragraph(sentence);
-  }
+    body += "<h2>What to set</h2>\n" + paragraph(tray_text(*page.card)) + card_table(page) +
+            paragraph(reading_text(*page.card)) + weigh_part(page);
   return printed_page(title_of(page), body);
 }
 

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "plan/effects.hpp"
+#include "plan/scene_warnings.hpp"
 #include "plan/softness.hpp"
 #include "report/number_text.hpp"
 #include "report/page.hpp"
@@ -92,13 +93,18 @@ std::string headline(const RunPage& page) {
   const std::size_t holes = scene.tray.holes.size();
   const bool slice = scene.space == Space::plane;
   const double factor = outflow.depth_factor.value_or(1);
-  std::string text = fmt::format("{} let{} out {} g/s, {} seeds/s, between {:.4g} and {:.4g} s",
+  const std::optional<double> chance = chance_of_rate({&outflow});
+  const auto rate = [&](double value) {
+    return interval_text(value * factor, chance ? std::optional(value * factor * *chance) : std::nullopt, "±");
+  };
+  std::string text = fmt::format("{} let{} out {} g/s, {} seeds/s ({}), between {} and {} s",
                                  holes == 1 ? "One hole" : fmt::format("{} holes", holes), holes == 1 ? "s" : "",
-                                 figure_text(all.mass_rate * 1e3 * factor), figure_text(all.seeds_per_s * factor),
-                                 outflow.window.from, outflow.window.to);
+                                 rate(all.mass_rate * 1e3), rate(all.seeds_per_s),
+                                 chance ? "95 %, by blocks of this run" : "too few to tell how sure that is",
+                                 figure_text(outflow.window.from), figure_text(outflow.window.to));
   if (slice && outflow.depth_factor)
-    text += fmt::format(": of the whole tray, {:.4g} times the slice that was simulated, its holes slots all across",
-                        factor);
+    text += fmt::format(": of the whole tray, {} times the slice that was simulated, its holes slots all across",
+                        figure_text(factor));
   else if (slice)
     text += ": of a slice one seed thick";
   return text + '.';
@@ -181,7 +187,9 @@ Json page_events(const Run& run) {
 std::string run_page_data(const RunPage& page) {
   const Scene& scene = page.model.scene;
   Json remarks = Json::array();
-  for (const Doubt& doubt : page.outflow.doubts) remarks.push_back(doubt.text);
+  for (const std::string& text : scene_warnings(scene))
+    remarks.push_back(doubt_sentence({DoubtKind::unlikely_scene, text}));
+  for (const Doubt& doubt : page.outflow.doubts) remarks.push_back(doubt_sentence(doubt));
   Json data = {{"kind", "run"},
                {"program", {{"name", "vibrosow"}, {"version", VIBROSOW_VERSION}}},
                {"title", scene.title},

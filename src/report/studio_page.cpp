@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "plan/model.hpp"
 #include "report/page.hpp"
+#include "scene/input_error.hpp"
 #include "scene/scene_json.hpp"
 
 namespace vibrosow {
@@ -21,19 +23,34 @@ std::string crop_of(const Scene& scene, const std::vector<StudioCrop>& crops) {
   return same == crops.end() ? std::string() : same->name;
 }
 
+/// Why a page cannot run the scene; empty where nothing but its length might keep it from it.
+std::string refusal(const StudioSeeder& one) {
+  if (one.scene.space != Space::plane)
+    return fmt::format(
+        "Balls in 3D take some fifty times what a page can compute: vibrosow run {} --html makes a page that shows "
+        "such "
+        "a run.",
+        one.name);
+  try {
+    prepare_to_run(one.scene);
+  } catch (const InputError& error) {
+    return fmt::format("It is not run as it is written: {}", error.what());
+  }
+  return "";
+}
+
 Json seeder(const StudioSeeder& one, const std::vector<StudioCrop>& crops) {
-  const bool live = one.scene.space == Space::plane;
+  const std::string why_not = refusal(one);
+  const bool live = why_not.empty(), plane = one.scene.space == Space::plane;
   return {{"name", one.name},
           {"title", one.scene.title},
           {"own", one.own},
           {"toml", one.text},
           {"crop", crop_of(one.scene, crops)},
-          {"space", live ? "plane" : "three_dimensional"},
+          {"space", plane ? "plane" : "three_dimensional"},
           {"live", live},
-          {"why_not", live ? std::string()
-                           : fmt::format("Balls in 3D take some fifty times what a page can compute: vibrosow run {} "
-                                         "--html makes a page that shows such a run.",
-                                         one.name)},
+          {"why_not", why_not},
+          {"steps", live ? Json(prepare_to_run(one.scene).step.steps) : Json(nullptr)},
           {"scene", Json::parse(scene_to_json(one.scene))}};
 }
 

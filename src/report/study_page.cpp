@@ -68,6 +68,13 @@ Json layout_of(const Answer& answer, const Layout& layout) {
   return one;
 }
 
+/// Places of keys among the study's.
+Json places(const Study& study, const std::vector<std::string>& keys) {
+  Json all = Json::array();
+  for (const std::string& key : keys) all.push_back(std::ranges::find(study.keys, key) - study.keys.begin());
+  return all;
+}
+
 /// Why it stands so, and what makes it less sure.
 std::string note(const AnsweredLayout& of) {
   std::string text = of.reason;
@@ -84,7 +91,8 @@ Json layout(const Answer& answer, const AnsweredLayout& of, const Replays& repla
   one["status"] = compared && !of_sweep ? "ok" : name_of(of.standing);
   one["compared"] = compared;
   if (!of_sweep) one["standing"] = name_of(of.standing);
-  if (answer.kind == AnswerKind::search) one["first_by_means"] = of.is_first_by_means;
+  if (answer.kind == AnswerKind::search)
+    one["first_by_means"] = of.is_first_by_means, one["at_edge"] = places(*answer.study, of.at_edge);
   one["note"] = note(of);
   one["replicates"] = of.runs;
   if (!of.values.empty()) {

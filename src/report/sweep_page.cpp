@@ -4,6 +4,7 @@
 #include <iterator>
 
 #include "report/answer_doubts.hpp"
+#include "report/number_text.hpp"
 #include "report/study_page.hpp"
 #include "report/terminal_text.hpp"
 
@@ -16,13 +17,16 @@ std::string headline(const StudyResult& result) {
   };
   std::string text = fmt::format("{} layout{}", result.layouts.size(), result.layouts.size() == 1 ? "" : "s");
   const Figure& rate = figure_named("rate_g_per_s");
-  std::optional<double> least, most;
+  std::vector<MeanWithInterval> rates;
   for (const LayoutResult& one : result.layouts)
-    if (is_compared(one.status) && one.figures[rate]) {
-      const double value = one.figures[rate]->mean / rate.unit_size;
-      least = std::min(value, least.value_or(value)), most = std::max(value, most.value_or(value));
-    }
-  if (most) text += fmt::format(" let out {} to {} g/s", to_digits(*least, 3), to_digits(*most, 3));
+    if (is_compared(one.status) && one.figures[rate]) rates.push_back(*one.figures[rate]);
+  const auto stated = [&](const MeanWithInterval& value) {
+    const auto& half = value.half_width_95;
+    return interval_text(value.mean / rate.unit_size, half ? std::optional(*half / rate.unit_size) : std::nullopt, "±");
+  };
+  const auto [least, most] = std::ranges::minmax_element(rates, {}, &MeanWithInterval::mean);
+  if (rates.size() == 1) text += fmt::format(" let out {} g/s", stated(*most));
+  if (rates.size() > 1) text += fmt::format(" let out from {} to {} g/s", stated(*least), stated(*most));
   text += '.';
   for (const auto& [status, words] : {std::pair(LayoutStanding::invalid, "cannot be built"),
                                       std::pair(LayoutStanding::stopped, "were stopped by the guard"),

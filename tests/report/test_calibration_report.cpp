@@ -77,6 +77,9 @@ TEST_F(CalibrationPage, ParametersHaveTheirRangeAndTheFactorHasNone) {
   EXPECT_EQ(parameters[0]["prior_high"], 0.8);
   EXPECT_EQ(parameters[0]["contraction_percent"], 60.0);
   EXPECT_TRUE(parameters[2]["prior_low"].is_null());
+  EXPECT_EQ(parameters[0]["edge"], "");
+  calibration_.values[0] = {.mean = 0.76, .low = 0.7, .high = 0.787, .contraction = 0.6};
+  EXPECT_EQ(data()["parameters"][0]["edge"], "upper");
 }
 
 TEST_F(CalibrationPage, PairsThatAreNotToldApartBringTheirPoints) {

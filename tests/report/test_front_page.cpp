@@ -66,6 +66,9 @@ TEST_F(FrontPage, LayoutsHaveTheirGoalsInTheirUnits) {
   EXPECT_EQ(layouts[0]["means"]["clogged_percent"]["mean"], 25.0);
   EXPECT_EQ(layouts[1]["means"]["rate_g_per_s"]["mean"], 2.0);
   EXPECT_FALSE(layouts[2].contains("means"));
+  EXPECT_TRUE(layouts[0]["at_edge"].empty());
+  result_.layouts[0].at_edge = {"tray.motion.frequency"};
+  EXPECT_EQ(data()["layouts"][0]["at_edge"], nlohmann::json({0})) << "the places of its keys";
 }
 
 TEST_F(FrontPage, ReplaysAreOfThoseThatLead) {

@@ -259,6 +259,7 @@ TEST(PlanPageText, HasACardAndWhatToWeigh) {
   EXPECT_EQ(rows_of_card(page), 11);
   EXPECT_THAT(page, AllOf(HasSubstr("&lt;balls&gt;"), Not(HasSubstr("<balls>")), HasSubstr("What to weigh"),
                           HasSubstr("Nothing of this was ever measured")));
+  EXPECT_LT(page.find("Nothing of this was ever measured"), page.find("<table>")) << "the doubts come first";
   // At the planned speed stands the planned frequency.
   EXPECT_THAT(page, HasSubstr(fmt::format("<td>8</td>")));
   EXPECT_THAT(page, HasSubstr(fmt::format("<td>{:.3g}</td>", best.frequency)));

@@ -72,6 +72,8 @@ test('a calibration by curves: one at a time, with its residuals', () => withPag
   assert.equal(await open.locator('#parameters li').count(), 3);
   assert.match(await open.locator('#parameters .lead').textContent(), /^The table says most of contact.friction.* least of contact.rolling_friction \(12 %\)/);
   assert.match(await open.locator('#parameters li').first().textContent(), /not told apart from contact.rolling_friction/);
+  assert.match(await open.locator('#parameters li').nth(1).textContent(), /at the upper end of its range: it may lie beyond/);
+  assert.equal(await open.locator('#parameters .edge').count(), 1);
   await assertDrawn(open, '#pairs');
   assert.match(await open.locator('#pairs .lead').textContent(), /^1 of 2 pairs is not told apart/);
   await assertReadsWell(open);

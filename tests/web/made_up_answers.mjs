@@ -48,7 +48,7 @@ export function madeUpCalibration(ofCurves, names = {}) {
     data: {
       kind: 'calibration', program, title: names.title ?? 'A made-up slot', space: 'three_dimensional', headline: `Fitted to table.csv: ${friction} 0.4 (0.3 to 0.5).`, doubts: ['contact.friction and contact.rolling_friction cannot be told apart by this table'],
       quantity: ofCurves ? 'discharged_percent' : 'rate_g_per_s', of_curves: ofCurves, series: ofCurves ? [curve(1), curve(2)] : rates(),
-      parameters: [parameter(friction, 0.4, { not_told_apart_from: 'contact.rolling_friction' }), parameter('contact.rolling_friction', 0.5, { contraction_percent: 12 }), parameter('depth_factor', 20, { prior_low: null, prior_high: null, low: 18, high: 22 })],
+      parameters: [parameter(friction, 0.4, { not_told_apart_from: 'contact.rolling_friction' }), parameter('contact.rolling_friction', 0.8, { contraction_percent: 12, edge: 'upper' }), parameter('depth_factor', 20, { prior_low: null, prior_high: null, low: 18, high: 22 })],
       pairs: [{ a: friction, b: 'contact.rolling_friction', correlation: -0.93, told_apart: false, points }, { a: friction, b: 'depth_factor', correlation: 0.2, told_apart: true, points: [] }],
       account: ['150 runs at 100 points of the fitted values were simulated; 148 of them count.', 'Noise of one measurement: 3 % (of the repeats).'],
     },

@@ -33,7 +33,7 @@ export function madeUpDecision(space, { isSure = true, ...names } = {}) {
 function standingInSearch({ number, status }) {
   if (status !== 'ok') return { status: 'misses the rate', standing: 'misses the rate', first_by_means: false };
   const standing = number % 6 === 1 ? 'on the front' : number % 6 === 2 ? 'may be on the front' : 'dominated';
-  return { status: 'ok', standing, first_by_means: standing === 'on the front' };
+  return { status: 'ok', standing, first_by_means: standing === 'on the front', at_edge: number === 7 ? [1] : [] };
 }
 
 /** `goals`: 1 or 2 */

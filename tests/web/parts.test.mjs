@@ -6,6 +6,7 @@ import { layerScale, listColour, mix, speedScale } from '../../web/report/colour
 import { Counters } from '../../web/report/counters.mjs';
 import { axisScale, duration, force, list, niceAbove, number, plusMinus, sentence } from '../../web/report/format.mjs';
 import { floorAt, toLab, toOwn, wallsSeenFrom } from '../../web/report/geometry.mjs';
+import { mapOfTray } from '../../web/report/tray_map.mjs';
 import { mapSentence, packingSentence, velocitySentence } from '../../web/report/map_sentences.mjs';
 import { outflowSentence } from '../../web/report/outflow_sentence.mjs';
 import { readPageData } from '../../web/report/page_data.mjs';
@@ -99,6 +100,20 @@ test('forces have the unit that suits them', () => {
   assert.deepEqual([0, 2.5, 0.0123, 4e-5, 3e-8].map(force), ['0 N', '2.5 N', '12.3 mN', '40 µN', '30 nN']);
 });
 
+test('a map of the tray is without what a hopper covers while the tray swings', () => {
+  const tray = { name: 'tray', lines: [{ points_mm: [[0, 0], [100, 0]] }] };
+  const hopper = { name: 'hopper', lines: [{ points_mm: [[40, 60], [40, 30], [47, 20]] }, { points_mm: [[60, 60], [60, 30], [53, 20]] }] };  // in the lab's frame
+  const recording = { vessels: ['tray', 'hopper'], frames: 4, pose: (frame, vessel) => ({ x: vessel === 0 ? [0, 0.01, 0, -0.01][frame] : 0, y: 0, angle: 0 }) };
+  const map = { cell: 0.01, columns: 10, rows: 5, packing: Float32Array.from({ length: 50 }, (_, k) => (k === 49 ? 0 : 0.5)), vx: new Float32Array(50), vy: new Float32Array(50) };
+  const { map: own, leftOut } = mapOfTray(map, [tray, hopper], recording);
+  const row = (k) => [...own.packing.slice(10 * k, 10 * k + 10)].map((share) => (share > 0 ? 'o' : '.')).join('');
+  // 10 mm to either side of the hopper's own 20 mm; its cone begins 20 mm up, no wider than 20 mm and the swing; the last cell was empty.
+  assert.deepEqual([0, 1, 2, 3, 4].map(row), ['oooooooooo', 'oooooooooo', 'ooo....ooo', 'ooo....ooo', 'ooo....oo.']);
+  assert.equal(leftOut, 12);
+  assert.ok(Number.isNaN(own.vx[34]) && own.vx[0] === 0);
+  assert.equal(mapOfTray(map, [tray], { ...recording, vessels: ['tray'] }).leftOut, 0);
+});
+
 test('sentences of maps', () => {
   const tray = { holes: [{ number: 1, x_mm: 5, half_x_mm: 2 }, { number: 2, x_mm: 5, half_x_mm: 2 }, { number: 3, x_mm: 55, half_x_mm: 2 }] };
   const map = { cell: 0.01, columns: 6, rows: 2, looks: 211, from: 1, to: 3, view: 'slice',
@@ -107,6 +122,7 @@ test('sentences of maps', () => {
   assert.equal(velocitySentence(map, tray), 'Fastest, 0.2 m/s down, at holes 1 and 2; cells that seeds fill to less than 0.05 are left out.');
   assert.equal(mapSentence(map, 'three_dimensional'),
     'The mean of 211 looks from 1 to 3 s, in the tray’s own frame, in cells of 10 mm, of a slice through the middle of the depth.');
+  assert.match(mapSentence(map, 'plane', [{ name: 'hopper' }], 7), /The hopper is drawn where it stands while nothing shakes; seeds in it are left out, for they do not move with the tray\.$/);
   assert.match(mapSentence(map, 'plane', [{ name: 'hopper' }]), /cells of 10 mm\. The hopper is drawn where it stands while nothing shakes\.$/);
   const empty = { ...map, packing: map.packing.map(() => 0) };
   assert.equal(packingSentence(empty, tray), 'The tray was empty.');

@@ -67,6 +67,47 @@ test('a front: the points as they stand, with the intervals of those that lead',
   await assertReadsWell(open);
 }));
 
+// How a point is drawn: its fill, its line and, of what lies over it, the fill.
+function lookOf(open, number) {
+  return open.evaluate((layout) => {
+    const { fill, stroke, strokeWidth } = getComputedStyle(document.querySelector(`#trade circle[data-layout="${layout}"]`));
+    return { fill, stroke, strokeWidth, over: getComputedStyle(document.querySelector('#trade .ring')).fill };
+  }, number);
+}
+
+test('what may be on the front is not drawn as what is, chosen or not', () => withPage(madeUpFront('plane'), {}, async (open) => {
+  const made = madeUpFront('plane');
+  const [sure] = numbersOf(made, 'on the front'), [unsure] = numbersOf(made, 'may be on the front');
+  for (const number of [sure, unsure]) {
+    await open.evaluate((layout) => { location.hash = `layout=${layout}`; }, number);
+    await open.getByRole('heading', { name: `Layout ${number}`, exact: true }).waitFor();
+    assert.equal((await lookOf(open, number)).over, 'none');
+  }
+  assert.notEqual((await lookOf(open, sure)).fill, (await lookOf(open, unsure)).fill);
+  const dots = await open.$$eval('#trade .legend .dot', (nodes) => nodes.slice(0, 2).map((node) => getComputedStyle(node).backgroundColor));
+  assert.notEqual(dots[0], dots[1]);
+}));
+
+test('a value at the end of its range is marked, in the table and of the chosen layout', () => withPage(madeUpFront('plane'), { hash: '#layout=7' }, async (open) => {
+  const cells = await open.locator('#layouts tbody tr[data-layout="7"] td').allTextContents();
+  assert.match(cells[1], /^6 ⊣ end of its range$/);
+  assert.equal(await open.locator('#layouts .at-edge').count(), 1);
+  assert.match(await open.locator('#layout .settings').textContent(), /frequency6 Hz, the end of its range/);
+  assert.match(await open.locator('#layouts').textContent(), /⊣: at the end of the range that was searched; better ones may lie beyond\./);
+}));
+
+test('an interval that goes on beyond the diagram ends in an arrow', () => {
+  const made = madeUpFront('plane');
+  made.data.layouts[6].means.rate_g_per_s.half_width = 1e3;
+  return withPage(made, { hash: '#layout=7' }, async (open) => {
+    await open.getByRole('heading', { name: 'Layout 7', exact: true }).waitFor();
+    const arrows = await open.$$eval('#trade .cross', (paths) => paths.map((path) => (path.getAttribute('d').match(/l/g) ?? []).length));
+    assert.equal(Math.max(...arrows), 4);  // two strokes at either end
+    assert.equal(arrows.filter((count) => count > 0).length, 2);  // as one that leads, and as the chosen one
+    assert.match(await open.locator('#trade .legend').textContent(), /An arrow: it goes on\./);
+  });
+});
+
 test('a search by one goal ranks by it', () => withPage(madeUpFront('plane', { goals: 1 }), {}, async (open) => {
   assert.equal(await open.locator('#trade').count(), 0);
   assert.match(await open.locator('#ranking-sentence').textContent(), /^By rate layout \d+ .* has the most/);

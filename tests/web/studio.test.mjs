@@ -6,6 +6,8 @@ import { tmpdir } from 'node:os';
 import path from 'node:path';
 import test, { after } from 'node:test';
 import { deflateRawSync } from 'node:zlib';
+import { layoutOf } from '../../web/studio/layout.mjs';
+import { fragmentOf } from '../../web/studio/link.mjs';
 import * as in_ from './browser.mjs';
 import { fillStudio, madeUpStudio, studioTemplate, whyNotInSpace } from './made_up_studio.mjs';
 
@@ -92,6 +94,20 @@ test('before the measuring begins nothing is said of rates', () => withStudio({}
   assert.equal(await place.getByText('seeds/s').count(), 0);
   await place.getByText('Measuring begins at 30 s.').waitFor();
 }, withLateMeasuring()));
+
+test('doubts stand on top of the picture and the rates', () => withStudio({}, async (page) => {
+  const place = bench(page);
+  const width = place.getByRole('spinbutton', { name: 'Width of hole 1 in mm' });
+  await width.fill('3');
+  await width.press('Enter');
+  const doubts = place.getByRole('list', { name: 'What to know about this layout' });
+  await doubts.getByText('tray.holes.width: seeds cannot pass.').waitFor();
+  const [bottom, top] = [await doubts.boundingBox(), await place.locator('canvas').boundingBox()].map((box, k) => box.y + (k === 0 ? box.height : 0));
+  assert.ok(bottom <= top, `${bottom} ${top}`);
+  await width.fill('12');
+  await width.press('Enter');
+  await doubts.waitFor({ state: 'hidden' });
+}));
 
 test('a hole is dragged, and the simulation starts again with it', () => withStudio({}, async (page) => {
   const place = bench(page);
@@ -180,6 +196,38 @@ test('what the program refuses is said, and mended by a change', () => withStudi
   await place.getByRole('alert').waitFor({ state: 'hidden' });
 }));
 
+// What is on the page of a simulation: ink in the picture, counts, clock, bars, lots, handles that can be seen.
+function shownOf(place) {
+  return place.evaluate((frame) => {
+    const canvas = frame.querySelector('canvas');
+    const blank = Object.assign(document.createElement('canvas'), { width: canvas.width, height: canvas.height });
+    return {
+      ink: canvas.toDataURL() !== blank.toDataURL(), counts: canvas.dataset.counts ?? '', said: canvas.getAttribute('aria-label'), clock: frame.querySelector('.clock').textContent,
+      part: frame.querySelector('progress').value, bars: frame.querySelectorAll('.hole-bars li').length, outflow: frame.querySelector('.outflow').innerText.trim(),
+      legend: frame.querySelector('.legend').textContent, handles: [...frame.querySelectorAll('.handle')].filter((one) => one.checkVisibility()).length,
+    };
+  });
+}
+
+test('of a seeder that cannot be simulated nothing is shown, least of all another one’s seeds', () => {
+  const data = structuredClone(madeUpStudio());
+  data.seeders[1].scene.tray.holes[0].width_m = 0.07;
+  return withStudio({}, async (page) => {
+    const place = bench(page);
+    await countsAtTheEnd(place);
+    const before = await shownOf(place);
+    assert.ok(before.ink && before.bars === 6 && before.clock === '4.00 s of 4 s' && before.handles === 5);
+    await place.getByRole('combobox', { name: 'Seeder' }).selectOption('Two lots that rock');
+    await status(place, 'failed');
+    assert.deepEqual(await shownOf(place), { ink: false, counts: '', said: 'The tray', clock: '', part: 0, bars: 0, outflow: 'Outflow', legend: '', handles: 0 });
+    await page.getByRole('button', { name: 'Dark' }).click();  // draws anew
+    assert.equal((await shownOf(place)).ink, false);
+    await place.getByRole('combobox', { name: 'Seeder' }).selectOption('Wheat tray, five holes, fed from a hopper');
+    await opened(place);
+    assert.equal((await shownOf(place)).handles, 5);
+  }, data);
+});
+
 test('another seeder brings its own controls, another crop its seeds', () => withStudio({}, async (page) => {
   const place = bench(page);
   await place.getByRole('combobox', { name: 'Crop' }).selectOption('Soybean');
@@ -232,6 +280,31 @@ test('two layouts are compared, and a link brings both back with their counts', 
   await page.getByRole('button', { name: 'Remove layout B' }).click();
   assert.equal(await b.count(), 0);
   await page.locator('#comparison').waitFor({ state: 'hidden' });
+}));
+
+// A link as a page makes it that has `seeder` as its own.
+async function linkTo(seeder) {
+  return fragmentOf([layoutOf({ ...seeder, own: true })]);
+}
+
+test('a link’s own seeder bears its own name', async () => {
+  const theirs = { ...structuredClone(madeUpStudio().seeders[1]), name: 'wheat-tray', title: 'A tray of theirs' };
+  const chosen = (page) => bench(page).getByRole('combobox', { name: 'Seeder' }).locator('option:checked').textContent();
+  await withStudio({ hash: await linkTo(theirs) }, async (page) => {
+    assert.equal(await chosen(page), 'A tray of theirs');
+    await bench(page).locator('.legend', { hasText: 'stone' }).waitFor();
+    await bench(page).getByRole('combobox', { name: 'Seeder' }).selectOption('Wheat tray, five holes, fed from a hopper');
+    await bench(page).locator('.legend', { hasText: 'wheat' }).waitFor();
+    await bench(page).getByRole('combobox', { name: 'Seeder' }).selectOption('A tray of theirs');  // it is still to be had
+    assert.equal(await chosen(page), 'A tray of theirs');
+  });
+});
+
+test('a link out of a file says that it opens where that file is', () => withStudio({}, async (page) => {
+  await page.getByRole('button', { name: 'Share a link' }).click();
+  const said = page.locator('.share [role=status]');
+  await said.filter({ hasText: /./ }).waitFor();
+  assert.match(await said.textContent(), /It leads to this file on this computer: whoever else is to open it needs the file studio\.html too, and puts what follows # in the link after its address\.$/);
 }));
 
 test('the seeder file is saved with what was changed', () => withStudio({}, async (page) => {

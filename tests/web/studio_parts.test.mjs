@@ -372,6 +372,18 @@ test('two layouts are compared by rate and unevenness', () => {
   assert.match(comparisonSentence(null, outcome([1], 1)), /have to sow for a while/);
 });
 
+test('a seeder that is too much for a page is not offered, and why', () => {
+  const made = structuredClone(madeUpStudio());
+  Object.assign(made.seeders[0], { steps: 80e6 });
+  made.seeders[1].scene.tray.fill.count = 20_001;
+  made.seeders.push({ ...structuredClone(made.seeders[0]), name: 'shorter', steps: 60e6 });
+  const { seeders, opened } = readStudioData(JSON.stringify(made));
+  assert.deepEqual(seeders.map(({ live }) => live), [false, false, false, true]);
+  assert.match(seeders[0].why_not, /^760 seeds in 80000000 steps, .* vibrosow run does it\.$/);
+  assert.match(seeders[1].why_not, /^20001 seeds are more than/);
+  assert.equal(opened.name, 'shorter');
+});
+
 test('data without a seeder to show are refused', () => {
   assert.throws(() => readStudioData('{"kind":"run"}'), /of the kind "run"/);
   assert.throws(() => readStudioData('{"kind":"studio","seeders":[{"live":false}]}'), /none of its seeders/);

@@ -94,6 +94,28 @@ async function countsAtTheEnd(page) {
   }));
 }
 
+test('every seeder that is offered as live plays', { skip: whyNot('studio', '--out') }, () => inFolder(async (folder) => {
+  execFileSync(program, ['studio', '--out', folder]);
+  const browser = await in_.startBrowser();
+  try {
+    const page = await in_.openPage(browser, path.join(folder, 'studio.html'));
+    const list = page.getByRole('combobox', { name: 'Seeder' });
+    const offered = await list.locator('> option').evaluateAll((options) => options.map(({ value }) => value));
+    assert.ok(offered.length > 8);
+    const bench = page.locator('.bench');
+    for (const value of offered) {
+      await list.selectOption(value);
+      const ends = ['playing', 'ended', 'failed'].map((status) => `[data-status="${status}"]`).join(',');
+      await page.waitForFunction(() => ['changed', 'opening'].includes(document.querySelector('.bench').dataset.status));
+      await bench.and(page.locator(ends)).waitFor();
+      assert.equal(await bench.locator('> .doubt').textContent(), '', await list.locator('option:checked').textContent());
+    }
+    assert.deepEqual(page.complaints, []);
+  } finally {
+    await browser.close();
+  }
+}));
+
 test('a layout made in the page, saved and run by the program, lets out the same seeds', { skip: whyNot('studio', '--out') }, () => inFolder(async (folder) => {
   execFileSync(program, ['studio', 'wheat-tray', '--out', folder]);
   const browser = await in_.startBrowser();

@@ -49,10 +49,13 @@ Json state() {
 
 Json opened() {
   const Model& model = simulation->model();
+  Json remarks = Json::array();
+  for (const std::string& text : scene_warnings(model.scene))
+    remarks.push_back(doubt_sentence({DoubtKind::unlikely_scene, text}));
   return {{"grains", simulation->grains().size()},  {"holes", model.scene.tray.holes.size()},
           {"duration_s", model.scene.run.duration}, {"measure_from_s", measuring_window(model.scene).from},
           {"time_step_s", model.step.dt},           {"steps", model.step.steps},
-          {"remarks", scene_warnings(model.scene)}, {"lots", page_lots(model.scene)},
+          {"remarks", std::move(remarks)},          {"lots", page_lots(model.scene)},
           {"vessels", page_vessels(model.scene)},   {"state", state()}};
 }
 

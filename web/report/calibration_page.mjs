@@ -17,13 +17,15 @@ function withUnit(value, unit) {
 }
 
 // The range that was allowed is the whole of a track; what has none begins at 0.
-function parameterRow({ name, unit, prior_low, prior_high, mean, low, high, contraction_percent, not_told_apart_from }) {
+function parameterRow({ name, unit, prior_low, prior_high, mean, low, high, contraction_percent, not_told_apart_from, edge }) {
   const ends = [prior_low ?? Math.min(0, low), prior_high ?? 1.2 * high];
   const scale = { ...axisScale(...ends), low: ends[0], high: ends[1] };
   const ticks = [ends[0], ends[1]];
   const apart = not_told_apart_from ? `not told apart from ${not_told_apart_from.replaceAll(';', ', ')}` : '';
-  return element('li', {}, element('span', {}, name, element('span', { class: 'rank-note' }, [prior_low === null ? 'no range' : '', apart].filter(Boolean).join('; '))),
-    element('span', { class: 'parameter-track' }, intervalTrack(scale, { value: mean, low, high, below: false }), trackAxis({ ...scale, ticks })),
+  const beyond = edge ? `at the ${edge} end of its range: it may lie beyond` : '';
+  const notes = [prior_low === null ? 'no range' : '', beyond, apart].filter(Boolean);
+  return element('li', {}, element('span', {}, name, element('span', { class: 'rank-note' }, notes.join('; '))),
+    element('span', { class: 'parameter-track' }, intervalTrack(scale, { value: mean, low, high, below: false }, { edge }), trackAxis({ ...scale, ticks })),
     element('span', { class: 'number' }, withUnit(text(mean), unit), element('span', { class: 'rank-note' }, `${text(low)} to ${text(high)}${prior_low === null ? '' : `; ${Math.round(contraction_percent)} % narrower`}`)));
 }
 

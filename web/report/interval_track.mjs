@@ -22,14 +22,18 @@ export function trackAxis(scale) {
     scale.ticks.map((tick) => element('span', { style: `left:${percent(scale, tick)}%` }, number(tick))));
 }
 
-/** `band`: { low, high }, shaded over the track's height, or null. `bar`: the value as a bar from the left, else as a point. */
-export function intervalTrack(scale, { value, low, high, below }, { band = null, bar = false } = {}) {
+/**
+ * `band`: { low, high }, shaded over the track's height, or null. `bar`: the value as a bar from the left, else as a point. `edge`:
+ * "lower" or "upper", the end of the scale that is marked.
+ */
+export function intervalTrack(scale, { value, low, high, below }, { band = null, bar = false, edge = '' } = {}) {
   const at = (x) => `left:${percent(scale, x)}%`;
   const span = (from, to) => `${at(from)};width:${percent(scale, to) - percent(scale, from)}%`;
   const hasInterval = low !== null && high !== null;
   return element('span', { class: 'track', 'aria-hidden': 'true', style: `--step:${(100 * scale.step) / (scale.high - scale.low)}%` },
     band && band.low !== null && band.high !== null ? element('span', { class: 'band', style: span(band.low, band.high) }) : null,
     bar ? element('span', { class: 'bar', style: span(0, value) }) : null,
+    edge ? element('span', { class: `edge ${edge}` }) : null,
     hasInterval ? element('span', { class: 'whisker', style: span(low, high) }) : null,
     bar || below ? null : element('span', { class: 'point', style: at(value) }));
 }

@@ -18,8 +18,9 @@ const statusWords = {
 };
 
 function settings(data, layout) {
-  const rows = keyWords(data.keys).map(({ words, unit }, k) => [words, layout.values[k], unit]).filter(([, value]) => value !== undefined && value !== '');
-  return element('dl', { class: 'settings narrow' }, rows.map(([words, value, unit]) => element('div', {}, element('dt', {}, words), element('dd', {}, withUnit(value, unit)))));
+  const rows = keyWords(data.keys).map(({ words, unit }, k) => [words, layout.values[k], unit, layout.at_edge.includes(k)]).filter(([, value]) => value !== undefined && value !== '');
+  return element('dl', { class: 'settings narrow' }, rows.map(([words, value, unit, isEdge]) => element('div', {}, element('dt', {}, words),
+    element('dd', {}, withUnit(value, unit), isEdge ? element('span', { class: 'at-edge' }, ', the end of its range') : null))));
 }
 
 function figureList(layout, figures) {

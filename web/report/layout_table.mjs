@@ -17,6 +17,10 @@ function compare(a, b, sign) {
   return sign * String(a).localeCompare(String(b), 'en', { numeric: true });
 }
 
+function edgeMark() {
+  return element('span', { class: 'at-edge' }, ' ⊣', element('span', { class: 'unseen' }, ' end of its range'));
+}
+
 class LayoutTable {
   constructor(data, figures, chosen) {
     Object.assign(this, { data, figures, chosen, sort: 'number', sign: 1 });
@@ -25,7 +29,8 @@ class LayoutTable {
     const boxes = figures.map((figure) => element('label', { class: 'switch' },
       element('input', { type: 'checkbox', checked: this.wanted.has(figure), onchange: (event) => this.want(figure, event.target.checked) }), element('span', {}, titleOf(figure))));
     this.frame = element('div', {}, element('details', { class: 'card columns-choice' }, element('summary', {}, 'Figures in the table'), element('div', { class: 'choices' }, boxes)),
-      element('div', { class: 'table-frame tall', tabindex: '0', role: 'region', 'aria-label': 'Table of all layouts' }, this.table));
+      element('div', { class: 'table-frame tall', tabindex: '0', role: 'region', 'aria-label': 'Table of all layouts' }, this.table),
+      data.layouts.some((layout) => layout.at_edge.length) ? element('p', { class: 'muted' }, '⊣: at the end of the range that was searched; better ones may lie beyond.') : null);
     this.show();
     chosen.onChange(() => this.mark());
   }
@@ -43,7 +48,7 @@ class LayoutTable {
     return [
       { id: 'number', name: 'layout', of: (layout) => layout.number },
       ...(has((layout) => layout.name) ? [{ id: 'name', name: 'name', of: (layout) => layout.name }] : []),
-      ...keyWords(data.keys).map(({ words, unit }, k) => ({ id: `key-${k}`, name: words, unit, of: (layout) => asNumber(layout.values[k] ?? '') })),
+      ...keyWords(data.keys).map(({ words, unit }, k) => ({ id: `key-${k}`, name: words, unit, of: (layout) => asNumber(layout.values[k] ?? ''), isEdge: (layout) => layout.at_edge.includes(k) })),
       { id: 'status', name: 'status', of: (layout) => layout.standing ?? layout.status },
       ...(has((layout) => layout.replicates !== data.layouts[0].replicates) ? [{ id: 'replicates', name: 'runs', of: (layout) => layout.replicates }] : []),
       ...this.figures.filter((figure) => this.wanted.has(figure)).map((figure) => ({
@@ -83,7 +88,7 @@ class LayoutTable {
     const cells = columns.map((column, k) => {
       const content = column.text ? column.text(layout) : String(column.of(layout) ?? '');
       const align = column.numeric ? 'number' : null;
-      if (k > 0) return element('td', { class: align }, content);
+      if (k > 0) return element('td', { class: align }, content, column.isEdge?.(layout) ? edgeMark() : null);
       return element('th', { scope: 'row', class: align }, element('button', { type: 'button', class: 'pick', 'aria-label': `Show layout ${content}` }, content));
     });
     return element('tr', { 'data-layout': layout.number, onclick: () => this.chosen.choose(layout.number) }, cells);

@@ -29,10 +29,10 @@ function direction(vx, vy) {
   return vx < 0 ? 'to the left' : 'to the right';
 }
 
-/** What both maps are of; `beside`: the vessels that stand by the tray. */
-export function mapSentence(map, space, beside = []) {
+/** What both maps are of; `beside`: the vessels that stand by the tray; `leftOut`: how many cells their seeds filled. */
+export function mapSentence(map, space, beside = [], leftOut = 0) {
   const through = space === 'plane' ? '' : map.view === 'slice' ? ', of a slice through the middle of the depth' : ', through the whole depth';
-  const drawnAtRest = beside.length ? ` The ${list(beside.map(({ name }) => name))} is drawn where it stands while nothing shakes.` : '';
+  const drawnAtRest = beside.length ? ` The ${list(beside.map(({ name }) => name))} is drawn where it stands while nothing shakes${leftOut ? '; seeds in it are left out, for they do not move with the tray' : ''}.` : '';
   return `The mean of ${map.looks} looks from ${number(map.from)} to ${number(map.to)} s, in the tray’s own frame, in cells of ${number(map.cell * 1000)} mm${through}.${drawnAtRest}`;
 }
 

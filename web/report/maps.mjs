@@ -7,6 +7,7 @@ import { legendParts } from './legend.mjs';
 import { emptyShare, mapSentence, packingSentence, speeds, velocitySentence } from './map_sentences.mjs';
 import { Stage } from './stage.mjs';
 import { inks, onTheme, theme } from './theme.mjs';
+import { mapOfTray } from './tray_map.mjs';
 
 const margin = 12;       // px
 const arrowEvery = 26;   // px, at least
@@ -127,15 +128,16 @@ function mapFigure(id, title, sentence, view, legend) {
   return figure;
 }
 
-/** The section of a recording's map; null of a run that kept none. */
-export function mapsSection(data, map) {
-  if (!map) return null;
+/** The section of a recording's map (`whole`); null of a run that kept none. */
+export function mapsSection(data, whole, recording) {
+  if (!whole) return null;
+  const { map, leftOut } = mapOfTray(whole, data.vessels, recording);
   const [tray] = data.vessels;
   const inSpace = data.space !== 'plane';
   const speed = speeds(map);
   const dense = Math.max(0.1, Math.ceil(Math.max(...map.packing) * 10 - 1e-6) / 10), fast = niceAbove(Math.max(0, ...speed.filter((value) => !Number.isNaN(value))));
   const fills = inSpace ? 'part of a cell’s volume that seeds fill' : 'part of a cell’s area that seeds cover';
-  return section('maps', 'Where the bed is dense, and how it flows', element('p', { class: 'lead' }, mapSentence(map, data.space, besideTray(map, data.vessels))),
+  return section('maps', 'Where the bed is dense, and how it flows', element('p', { class: 'lead' }, mapSentence(map, data.space, besideTray(map, data.vessels), leftOut)),
     element('div', { class: 'maps' },
       mapFigure('map-packing', 'Packing', packingSentence(map, tray), new MapView(map, data.vessels, { values: map.packing, top: dense, scale: layerScale }),
         { kind: 'scale', low: '0', high: number(dense), note: fills }),

@@ -15,7 +15,7 @@ const emptyOf = {
   front: { doubts: [], asked: [], cost: [], keys: [], figures: [], layouts: [] },
 };
 
-const emptyLayout = { name: '', values: [], status: 'ok', note: '', expected: '', replicates: 0, means: {}, misfit_percent: null, holes: [], vessels: [], command: '', replay: null };
+const emptyLayout = { name: '', values: [], status: 'ok', note: '', expected: '', replicates: 0, means: {}, misfit_percent: null, holes: [], vessels: [], command: '', replay: null, at_edge: [] };
 
 function filled(given, ...defaults) {
   return Object.assign({}, ...defaults, Object.fromEntries(Object.entries(given).filter(([, value]) => value !== null)));

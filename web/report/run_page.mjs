@@ -1,6 +1,7 @@
 // The page of a run, part by part.
 import { effectsSection, guardSection, settingsSection } from './account.mjs';
 import { unevennessSection, rowsSection } from './unevenness.mjs';
+import { number } from './format.mjs';
 import { outflowSection } from './outflow.mjs';
 import { mapsSection } from './maps.mjs';
 import { bytesOfBase64 } from './page_data.mjs';
@@ -25,7 +26,7 @@ async function sections(data) {
   const player = recording ? new Player(recording.times) : null;
   player?.showTime(data.window_s[0]);
   return [
-    replaySection(data, recording, player, problem), outflowSection(data, player), mapsSection(data, map), unevennessSection(data), rowsSection(data),
+    replaySection(data, recording, player, problem), outflowSection(data, player), mapsSection(data, map, recording), unevennessSection(data), rowsSection(data),
     effectsSection(data), guardSection(data), rerunSection(data), settingsSection(data),
   ].filter(Boolean);
 }
@@ -36,7 +37,7 @@ export function runPage(data) {
     kicker: `Run ${data.space === 'plane' ? 'in 2D' : 'in 3D'}`,
     title: data.title || 'A run',
     headlines: [data.headline, data.expected, data.drill?.sentence],
-    remarks: [...(endings[data.status] ? [`${endings[data.status]} at ${data.end_time_s} s.`] : []), ...new Set(data.remarks)],  // the guard's stand among the outflow's too
+    remarks: [...(endings[data.status] ? [`${endings[data.status]} at ${number(data.end_time_s)} s.`] : []), ...new Set(data.remarks)],  // the guard's stand among the outflow's too
     whole: 'The whole run',
     sections: () => sections(data),
   };

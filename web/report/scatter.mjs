@@ -15,6 +15,11 @@ function scaleOf(values) {
   return axisScale(least > 0.5 * highest ? least : 0, highest || 1);
 }
 
+// The tip of an arrow at (x, y), whose strokes go back along (dx, dy).
+function tip(x, y, dx, dy) {
+  return [1, -1].map((side) => `M${x} ${y}l${6 * dx + 4 * side * dy} ${6 * dy + 4 * side * dx}`).join('');
+}
+
 class Scatter {
   constructor(data, figures, [figureX, figureY], chosen, look) {
     Object.assign(this, { data, chosen, figureX, figureY, look });
@@ -25,7 +30,7 @@ class Scatter {
       listChoice('Across', options, figureX, (one) => { this.figureX = one; this.draw(); }), listChoice('Up', options, figureY, (one) => { this.figureY = one; this.draw(); })),
     this.sentence, element('figure', { class: 'card' }, this.place,
       element('figcaption', {}, element('p', { class: 'legend' },
-        element('span', { class: 'legend-item' }, element('span', { class: 'stroke front-stroke' }), 'layouts that no other beats in both'), look.legend()))));
+        element('span', { class: 'legend-item' }, element('span', { class: 'stroke front-stroke' }), 'layouts that no other beats in both, by their means'), look.legend(), element('span', {}, 'An arrow: it goes on.')))));
     new ResizeObserver(() => { if (this.place.clientWidth !== this.width) this.draw(); }).observe(this.place);
     chosen.onChange(() => this.mark());
   }
@@ -108,8 +113,9 @@ class Scatter {
     const { left, right, top, bottom } = this.inside;
     const [cx, cy] = [this.x(x.value), this.y(y.value)];
     const within = (value, low, high) => Math.min(high, Math.max(low, value));
-    const across = x.low === null || x.high === null ? '' : `M${within(this.x(x.low), left, right)} ${cy}H${within(this.x(x.high), left, right)}`;
-    return across + (y.low === null || y.high === null ? '' : `M${cx} ${within(this.y(y.low), top, bottom)}V${within(this.y(y.high), top, bottom)}`);
+    const across = (from, to) => `M${within(from, left, right)} ${cy}H${within(to, left, right)}${from < left ? tip(left, cy, 1, 0) : ''}${to > right ? tip(right, cy, -1, 0) : ''}`;
+    const along = (from, to) => `M${cx} ${within(from, top, bottom)}V${within(to, top, bottom)}${from > bottom ? tip(cx, bottom, 0, -1) : ''}${to < top ? tip(cx, top, 0, 1) : ''}`;
+    return (x.low === null || x.high === null ? '' : across(this.x(x.low), this.x(x.high))) + (y.low === null || y.high === null ? '' : along(this.y(y.low), this.y(y.high)));
   }
 }
 

@@ -44,7 +44,7 @@ export class Bench {
     this.title = element('h2', { id: `layout-${this.name}` }, `Layout ${this.name}`);
     const save = element('button', { type: 'button', class: 'quiet', onclick: () => this.save() }, 'Save the seeder file');
     const controls = element('div', { class: 'controls' }, this.transport.frame, element('div', { class: 'controls-choices' }, this.view.choices, save));
-    this.frame = element('section', { class: 'bench', 'aria-labelledby': `layout-${this.name}` }, this.title, this.choices, this.kept, this.problem,
+    this.frame = element('section', { class: 'bench', 'aria-labelledby': `layout-${this.name}` }, this.title, this.choices, this.kept, this.problem, this.outflow.remarks,
       element('div', { class: 'replay card' }, this.view.place, this.view.legend, controls),
       element('div', { class: 'panels' }, this.outflow.frame, this.holes.frame, this.motion.frame), this.status);
   }
@@ -61,11 +61,12 @@ export class Bench {
 
   /** Takes another layout. It is simulated once the gesture that makes it has ended. */
   change(layout, ended = true) {
-    const moved = layout !== this.layout;
+    const moved = layout !== this.layout, other = layout.seeder !== this.layout.seeder;
     this.layout = layout;
     if (moved) this.showLayout();
     clearTimeout(this.opening);
-    if (moved && this.course.state.status !== 'changed') this.course.leave();
+    if (other) this.course.leaveSeeder();
+    else if (moved && this.course.state.status !== 'changed') this.course.leave();
     if (ended) this.opening = setTimeout(() => this.open(), settling);
     if (moved) this.told('layout');
   }
@@ -94,7 +95,10 @@ export class Bench {
   }
 
   showState(state) {
-    if (state.prepared && state.prepared !== this.prepared) {
+    if (!state.prepared) {
+      this.prepared = null;
+      this.view.clear();
+    } else if (state.prepared !== this.prepared) {
       this.prepared = state.prepared;
       this.view.open(state.prepared, sceneOf(this.layout, this.data.crops), this.layout.motion);
       this.view.showHoles(this.layout);

@@ -28,7 +28,7 @@ function seederList(data, layout, choose) {
   const resting = data.seeders.filter((seeder) => !seeder.live);
   const inSpace = resting.filter((seeder) => seeder.space !== 'plane'), others = resting.filter((seeder) => seeder.space === 'plane');
   const groups = [
-    { entries: entriesOf(data.seeders.filter((seeder) => seeder.live)) },
+    { entries: entriesOf(data.seeders.filter((seeder) => seeder.live)) }, { name: 'Of the link', entries: entriesOf(data.linked) },
     { name: 'In 3D: shown as recorded runs', disabled: true, entries: entriesOf(inSpace) }, { name: 'Not simulated here', disabled: true, entries: entriesOf(others) },
   ];
   return list('Seeder', groups.filter(({ entries }) => entries.length), layout.seeder, choose);

@@ -26,7 +26,7 @@ export class Course {
     const turn = ++this.opened;
     this.rest();
     const problem = tooLarge(scene);
-    if (problem) this.tell({ status: 'failed', problem });
+    if (problem) this.fail(problem);
     else this.tell({ status: 'opening', problem: '' });
     this.queue = this.queue.then(() => (problem || turn !== this.opened ? null : this.prepare(turn, scene, pace)));
     return this.queue;
@@ -43,15 +43,25 @@ export class Course {
       this.tell({ prepared, frame: prepared.frame, outcome: null, problem, status: problem ? 'failed' : 'ready' });
       if (!problem && pace !== undefined) this.play(pace);
     } catch (error) {
-      if (turn === this.opened) this.tell({ status: 'failed', problem: error.message });
+      if (turn === this.opened) this.fail(error.message);
     }
   }
 
-  /** The scene on the page is another than the one that ran: it rests until the next is opened. */
-  leave() {
+  // Nothing of the scene before is true of one that cannot be opened.
+  fail(problem) {
+    this.tell({ ...nothing, status: 'failed', problem });
+  }
+
+  /** The scene on the page is another than the one that ran: it rests until the next is opened. `of`: what is still shown of it meanwhile. */
+  leave(of = this.state) {
     ++this.opened;
     this.rest();
-    this.tell({ status: 'changed' });
+    this.tell({ ...of, status: 'changed' });
+  }
+
+  /** The same where the next is of another seeder, of which what is shown says nothing. */
+  leaveSeeder() {
+    this.leave(nothing);
   }
 
   /** `pace`: simulated seconds a second at most; null: as fast as it can. */

@@ -8,10 +8,19 @@ function words(grains) {
   return `${grains} seeds are more than the ${mostGrains} that a page can follow; vibrosow run simulates them.`;
 }
 
+function grainsOf({ tray, hopper }) {
+  return [tray, hopper].reduce((sum, vessel) => sum + (vessel?.fill?.count ?? 0), 0);
+}
+
 /** Why a scene is not even prepared; empty where it may be. */
 export function tooLarge(scene) {
-  const grains = [scene.tray, scene.hopper].reduce((sum, vessel) => sum + (vessel?.fill?.count ?? 0), 0);
+  const grains = grainsOf(scene);
   return grains > mostGrains ? words(grains) : '';
+}
+
+/** Why a seeder that takes so many steps as it is written is not played; empty where it is. */
+export function tooLongAsWritten({ scene, steps }) {
+  return tooLong({ grains: grainsOf(scene), steps: steps ?? 0 });
 }
 
 /** Why a prepared scene is not played; empty where it is. */

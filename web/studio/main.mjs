@@ -69,13 +69,16 @@ class Studio {
   }
 }
 
-// What the page opens with: the link's layouts, else the seeder that the program named.
+// What the page opens with: the link's layouts, else the seeder that the program named. Seeders that a link brings join those of the page.
 async function opening(data) {
   const { asked, opened } = data;
   const notice = asked && asked !== opened ? `${asked.title || asked.name} is not simulated in this page. ${sentence(asked.why_not)}` : '';
   try {
     const layouts = await layoutsOf(location.hash, data);
-    if (layouts) return { layouts, notice: '' };
+    if (layouts) {
+      data.linked = [...new Set(layouts.map(({ seeder }) => seeder))].filter((seeder) => !data.seeders.includes(seeder));
+      return { layouts, notice: '' };
+    }
   } catch (error) {
     return { layouts: [layoutOf(opened)], notice: `The link cannot be opened: ${error.message}` };
   }

@@ -43,20 +43,20 @@ function windowWords(state) {
 
 const endings = { stopped_by_guard: 'The guard stopped this run' };
 
+/** `remarks`, the doubts, has a place of its own: on top of what they are about. */
 export class OutflowPanel {
   constructor() {
     this.window = element('p', { class: 'hint' });
     this.bars = element('ul', { class: 'hole-bars' });
     this.figures = element('dl', { class: 'figures' });
-    this.remarks = element('ul', { class: 'remarks', 'aria-label': 'What to know about this layout' });
-    this.frame = element('div', { role: 'group', class: 'panel outflow', 'aria-label': 'Outflow of the holes' }, element('h3', {}, 'Outflow'), this.window, this.bars, this.figures, this.remarks);
+    this.remarks = element('ul', { class: 'remarks', 'aria-label': 'What to know about this layout', hidden: true });
+    this.frame = element('div', { role: 'group', class: 'panel outflow', 'aria-label': 'Outflow of the holes' }, element('h3', {}, 'Outflow'), this.window, this.bars, this.figures);
   }
 
-  /** `state`: of the course. Before a scene is prepared there is nothing to say. */
+  /** `state`: of the course. Of a scene that is not prepared there is nothing to say. */
   show(state) {
     this.frame.classList.toggle('stale', ['changed', 'opening'].includes(state.status));
-    if (!state.prepared || !state.frame) return;
-    this.window.textContent = windowWords(state);
+    this.window.textContent = state.prepared ? windowWords(state) : '';
     if (state.outcome !== this.outcome || state.prepared !== this.prepared) this.fill(state);
     Object.assign(this, { outcome: state.outcome, prepared: state.prepared });
   }
@@ -71,13 +71,13 @@ export class OutflowPanel {
 
   fill(state) {
     const { prepared, outcome } = state;
-    const rates = this.rates = measured(state);
+    const rates = this.rates = prepared && measured(state);
     this.figures.replaceChildren(...[
       rates && prepared.holes ? figure('All holes', `${number(rates.total_seeds_per_s)} seeds/s`) : null,
       rates?.unevenness ? figure('Unevenness (CV)', cvText(rates.unevenness), sentence(rates.unevenness.sentence)) : null,
       outcome?.guard ? figure('Guard', '', sentence(outcome.guard)) : null,
     ].filter(Boolean));
-    const doubts = [endings[outcome?.status], ...new Set([...prepared.remarks, ...(outcome?.remarks ?? [])])].filter(Boolean);
+    const doubts = [endings[outcome?.status], ...new Set([...(prepared?.remarks ?? []), ...(outcome?.remarks ?? [])])].filter(Boolean);
     this.remarks.replaceChildren(...doubts.map((doubt) => element('li', {}, sentence(doubt))));
     this.remarks.hidden = doubts.length === 0;
   }

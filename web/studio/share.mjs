@@ -12,6 +12,13 @@ async function copied(text) {
   }
 }
 
+// Whom the link serves. A page that is a file has an address on this computer alone.
+function reach() {
+  if (location.protocol !== 'file:') return 'Whoever opens the link sees these layouts and the same counts.';
+  const file = decodeURIComponent(location.pathname.split('/').pop());
+  return `It leads to this file on this computer: whoever else is to open it needs the file ${file} too, and puts what follows # in the link after its address.`;
+}
+
 export class Share {
   /** `layouts()`: those that are on the page. */
   constructor(layouts) {
@@ -27,8 +34,8 @@ export class Share {
       history.replaceState(null, '', await fragmentOf(layouts));
       this.field.value = location.href;
       this.field.hidden = false;
-      this.said.textContent = await copied(location.href)
-        ? 'Copied. Whoever opens the link sees these layouts and the same counts.' : 'Copy the link from the field: this browser does not let the page do it.';
+      const how = await copied(location.href) ? 'Copied.' : 'Copy the link from the field: this browser does not let the page do it.';
+      this.said.textContent = `${how} ${reach()}`;
     } catch (error) {
       this.field.hidden = true;
       this.said.textContent = sentence(`There is no link: ${error.message}`);

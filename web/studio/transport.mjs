@@ -38,9 +38,8 @@ export class Transport {
     this.restart.disabled = this.play.disabled || status === 'ready';
     this.toTheEnd.disabled = this.play.disabled || status === 'ended';
     this.speed.textContent = words[status](state);
-    if (!prepared || !frame) return;
-    this.clock.textContent = `${clock(frame.time_s)} of ${number(prepared.duration_s)} s`;
-    this.bar.value = frame.time_s / prepared.duration_s;
+    this.clock.textContent = prepared ? `${clock(frame.time_s)} of ${number(prepared.duration_s)} s` : '';
+    this.bar.value = prepared ? frame.time_s / prepared.duration_s : 0;
     this.bar.setAttribute('aria-valuetext', this.clock.textContent);
   }
 }

@@ -15,13 +15,14 @@ const below = 0.085;   // of the picture's width is shown under the tray
 const strip = 46;      // px below the picture, where the handles are
 const tallest = 0.55;  // of the window, so that picture and handles are on it together
 const shortest = 240;  // px
+const empty = 'The tray';
 
 export class TrayView {
   constructor(acts) {
     this.way = liveColourings[0];
     this.still = false;
     this.handles = new Handles(acts);
-    this.canvas = element('canvas', { class: 'tray-canvas', role: 'img', 'aria-label': 'The tray' });
+    this.canvas = element('canvas', { class: 'tray-canvas', role: 'img', 'aria-label': empty });
     this.legend = element('p', { class: 'legend' });
     this.place = element('div', { class: 'stage live' }, this.canvas, this.handles.frame);
     const still = element('input', { type: 'checkbox', onchange: () => { this.still = still.checked; this.paint(); } });
@@ -41,8 +42,20 @@ export class TrayView {
     const view = new PlaneView({ vessels, lots: prepared.lots }, this.recording, labBox(vessels, swings(vessels, scene)), restPose(this.tray), below);
     Object.assign(this, { prepared, motion, view, frame: null });
     this.colouring = this.way.make(prepared, motion);
+    this.handles.frame.hidden = false;
     this.showLegend();
     this.stage.fit();
+  }
+
+  /** Shows nothing: neither seeds nor handles on a tray that is not there. */
+  clear() {
+    if (!this.prepared) return;
+    Object.assign(this, { prepared: null, view: null, frame: null, colouring: null });
+    this.handles.frame.hidden = true;
+    this.legend.replaceChildren();
+    this.stage.fit();
+    for (const name of ['counts', 'time']) delete this.canvas.dataset[name];
+    this.canvas.setAttribute('aria-label', empty);
   }
 
   colourBy(way) {

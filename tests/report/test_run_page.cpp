@@ -1,0 +1,76 @@
+#include "report/run_page.hpp"
+
+#include <gmock/gmock.h>
+
+#include <nlohmann/json.hpp>
+
+namespace vibrosow {
+namespace {
+
+using testing::ElementsAre;
+
+class RunPageData : public testing::Test {
+ protected:
+  void SetUp() override {
+    scene.lots = {{.name = "wheat", .diameter = 4e-3, .mass = 40e-6}};
+    scene.contact.shell_compression = 1e-3;
+    scene.contact.seed.friction = 0.3;
+    scene.tray.name = "tray";
+    scene.tray.length = 0.5;
+    scene.tray.height = 0.1;
+    scene.tray.depth = 0.066;
+    scene.tray.holes = {{0.1, 0.016}, {0.2, 0.016}};
+    scene.run.duration = 2;
+    scene.run.measure_from = 1;
+    run.dt = 1e-5;
+    run.end_time = 2;
+    run.balance = {.put_in = 1000, .inside = 900, .counted = 100};
+    for (int k = 0; k < 100; ++k) run.events.push_back({1.003 + 0.01 * k, 1 + k % 2, 0, k, 40e-6, 0.1, 0.6});
+  }
+  nlohmann::json data() const {
+    const Model model = prepare(scene);
+    const Outflow outflow = measure_outflow(scene, run);
+    const std::optional<DrillFigures> drill;
+    const std::string expected;
+    return nlohmann::json::parse(run_page_data({model, run, outflow, drill, expected}));
+  }
+  Scene scene;
+  vibrosow::Run run;
+};
+
+TEST_F(RunPageData, TheHeadlineHasItsIntervalAndThreeFigures) {
+  EXPECT_EQ(data()["headline"],
+            "2 holes let out 66 ± 0 g/s, 1650 ± 0 seeds/s (95 %, by blocks of this run), between 1 and 2 s: of the "
+            "whole tray, 16.5 times the slice that was simulated, its holes slots all across.");
+  run.events.resize(
+      50);  // in five blocks 20, 20, 10, 0 and 0: a standard deviation of half the seeds, Student's t of 4 is 2.78
+  EXPECT_EQ(data()["headline"],
+            "2 holes let out 33 ± 41 g/s, 800 ± 1000 seeds/s (95 %, by blocks of this run), between 1 and 2 s: of the "
+            "whole tray, 16.5 times the slice that was simulated, its holes slots all across.");
+}
+
+TEST_F(RunPageData, WithoutAnIntervalItSaysSo) {
+  run.events.clear();
+  scene.tray.depth.reset();
+  EXPECT_EQ(
+      data()["headline"],
+      "2 holes let out 0 g/s, 0 seeds/s (too few to tell how sure that is), between 1 and 2 s: of a slice one seed "
+      "thick.");
+}
+
+TEST_F(RunPageData, DoubtsSayHowSeriousTheyAreAndWhatToDo) {
+  run.warnings = {{DoubtKind::guard_warned, "the relative overlap passed 0.05"}};
+  EXPECT_THAT(data()["remarks"].get<std::vector<std::string>>(),
+              ElementsAre(doubt_sentence(Doubt{DoubtKind::guard_warned, "the relative overlap passed 0.05"})));
+  EXPECT_THAT(data()["remarks"][0].get<std::string>(), testing::MatchesRegex("Doubtful: .* What to do: .*"));
+}
+
+TEST_F(RunPageData, WhatCanHardlyBeMeantIsADoubtToo) {
+  scene.tray.holes[0].width = 3e-3;  // narrower than a seed
+  const auto remarks = data()["remarks"].get<std::vector<std::string>>();
+  ASSERT_EQ(remarks.size(), 1U);
+  EXPECT_THAT(remarks[0], testing::HasSubstr(": tray.holes"));
+}
+
+}  // namespace
+}  // namespace vibrosow
