@@ -17,10 +17,10 @@ async function assertReadsWell(open) {
 }
 
 async function assertDrawn(open, selector) {
-  await open.waitForFunction((chart) => {
-    const canvas = document.querySelector(`${chart} canvas`);
-    return canvas && new Set(canvas.getContext('2d').getImageData(0, 0, canvas.width, canvas.height).data).size > 8;
-  }, selector);
+  await open.locator(`${selector} .chart svg[role="slider"]`).first().waitFor();
+  const broken = await open.$$eval(`${selector} .chart svg[role="slider"] *`, (parts) => parts.filter((part) => /NaN|Infinity/.test(part.outerHTML)).map((part) => part.outerHTML));
+  assert.deepEqual(broken, []);
+  assert.ok(await open.locator(`${selector} .chart :is(.line, .point-mark)`).count() > 2);
 }
 
 test('the ends of errors, and decades that hold them', () => {
@@ -65,7 +65,7 @@ test('an accuracy study: the recommendation, the diagram and the settings', () =
 
 test('a calibration by curves: one at a time, with its residuals', () => withPage(madeUpCalibration(true), { bypass: true }, async (open) => {
   await assertDrawn(open, '#fit');
-  assert.equal(await open.locator('#fit canvas').count(), 2);
+  assert.equal(await open.locator('#fit .chart').count(), 2);
   assert.match(await open.locator('#fit-sentence').textContent(), /4 of 5 held out values/);
   await open.getByRole('combobox', { name: 'Curve' }).selectOption('tray.motion.frequency = 9 Hz, hole 2');
   await assertDrawn(open, '#fit');

@@ -1,78 +1,42 @@
 // The page of an accuracy study: the recommendation, error against cost, every setting, and where the errors come from.
-import { Chart } from './chart.mjs';
+import { Chart, markerOf, markerPicture } from './chart.mjs';
 import { listColour } from './colours.mjs';
 import { element, section, table } from './dom.mjs';
 import { number, plusMinus, sentence } from './format.mjs';
+import { logAxis } from './plot.mjs';
 import { decades, pointsOf, precisionSentence } from './precision.mjs';
-import { onTheme, theme, themeColour } from './theme.mjs';
+import { onTheme, theme } from './theme.mjs';
 
 const least = 0.003;  // %, where the axis of errors begins: less is no difference that anybody could measure
-const logScale = (range) => ({ distr: 3, range: () => range, time: false });
 
 function schemesOf(levels) {
   return [...new Set(levels.map(({ scheme }) => scheme))];
 }
 
-// Each setting a numbered point, with the interval of its error; a line at what is wanted.
-function drawPoints(plot, data, points, schemes) {
-  const { ctx, bbox } = plot, px = devicePixelRatio;
-  const at = (value) => plot.valToPos(Math.max(value, plot.scales.y.min), 'y', true);
-  ctx.save();
-  ctx.beginPath();
-  ctx.rect(bbox.left, bbox.top - 8 * px, bbox.width, bbox.height + 8 * px);
-  ctx.clip();
-  ctx.setLineDash([5 * px, 4 * px]);
-  ctx.strokeStyle = themeColour('edge');
-  ctx.beginPath();
-  ctx.moveTo(bbox.left, at(data.within_percent));
-  ctx.lineTo(bbox.left + bbox.width, at(data.within_percent));
-  ctx.stroke();
-  ctx.setLineDash([]);
-  ctx.font = `${11 * px}px ${themeColour('font')}`;
-  ctx.textAlign = 'left';
-  ctx.textBaseline = 'middle';
-  for (const { level, size, low, high } of points) {
-    const x = plot.valToPos(level.cpu_s, 'x', true), y = at(size);
-    ctx.strokeStyle = ctx.fillStyle = listColour(schemes.indexOf(level.scheme), theme());
-    ctx.lineWidth = 1.5 * px;
-    if (high !== null) {
-      ctx.beginPath();
-      ctx.moveTo(x, at(low));
-      ctx.lineTo(x, at(high));
-      ctx.moveTo(x - 4 * px, at(high));
-      ctx.lineTo(x + 4 * px, at(high));
-      if (low > plot.scales.y.min) { ctx.moveTo(x - 4 * px, at(low)); ctx.lineTo(x + 4 * px, at(low)); }
-      ctx.stroke();
-    }
-    ctx.beginPath();
-    ctx.arc(x, y, (level.chosen ? 7 : 4.5) * px, 0, 2 * Math.PI);
-    ctx.fill();
-    if (level.chosen) { ctx.strokeStyle = themeColour('ink'); ctx.lineWidth = 2 * px; ctx.stroke(); }
-    ctx.fillStyle = themeColour('ink');
-    ctx.fillText(String(level.number), x + 9 * px, y);
-  }
-  ctx.restore();
+function wordsOf({ level, size, low, high }) {
+  const band = high === null ? '' : ` (${number(low)} to ${number(high)})`;
+  return `setting ${level.number}, ${level.name}: error ${number(size)}${band} %, ${number(level.cpu_s)} s of CPU${level.chosen ? ', recommended' : ''}`;
 }
 
+// Each setting a numbered point, with the interval of its error; a line at what is wanted.
 function precisionChart(data, points) {
   const schemes = schemesOf(data.levels);
   const times = decades(points.map(({ level }) => level.cpu_s));
   const sizes = decades([...points.flatMap(({ size, high }) => [Math.max(size, least), high ?? size]), data.within_percent]);
-  const chart = new Chart(`Error of the rate against the time of a run, both on logarithmic axes: ${precisionSentence(data, points)}`, (axis) => ({
-    scales: { x: logScale(times), y: logScale(sizes) },
-    cursor: { show: false },
-    axes: [axis('CPU time of a run on this machine, s', { values: (_, splits) => splits.map((value) => (Math.log10(value) % 1 === 0 ? number(value) : '')) }),
-      axis('error of the rate, %', { size: 62, values: (_, splits) => splits.map((value) => (Math.abs(Math.log10(value) % 1) < 1e-9 ? number(value) : '')) })],
-    series: [{}, { paths: () => null, points: { show: false } }],
-    hooks: { draw: [(plot) => drawPoints(plot, data, points, schemes)] },
-  }), [points.map(({ level }) => level.cpu_s), points.map(({ size }) => Math.max(size, least))], 380);
-  return chart.frame;
+  const at = ({ level, size, low, high }) => ({ x: level.cpu_s, y: Math.max(size, least), low: high === null ? NaN : Math.max(low, least), high, label: String(level.number), look: level.chosen ? 'chosen' : '', size: level.chosen ? 7 : 4.5 });
+  return new Chart(`Error of the rate against the time of a run, both on logarithmic axes: ${precisionSentence(data, points)}`, 'precision', (shade) => ({
+    x: logAxis('CPU time of a run on this machine, s', times), y: logAxis('error of the rate, %', sizes),
+    layers: [{ kind: 'rule', from: [times[0], data.within_percent], to: [times[1], data.within_percent] },
+      ...schemes.map((scheme, k) => ({ kind: 'points', marker: markerOf(k), style: `--colour:${listColour(k, shade)}`, points: points.filter(({ level }) => level.scheme === scheme).map(at) }))],
+    marks: points.map((point) => ({ x: point.level.cpu_s, y: Math.max(point.size, least), text: wordsOf(point) })),
+    table: { columns: ['setting', 'name', 'cpu_s', 'error_percent', 'low', 'high'], rows: points.map(({ level, size, low, high }) => [level.number, level.name, level.cpu_s, size, low, high]) },
+  }), { height: 380 }).frame;
 }
 
 function legend(data, points) {
   const frame = element('p', { class: 'legend' });
   const fill = () => frame.replaceChildren(...[
-    ...schemesOf(data.levels).map((scheme, k) => element('span', { class: 'legend-item' }, element('span', { class: 'swatch', style: `background:${listColour(k, theme())}` }), scheme)),
+    ...schemesOf(data.levels).map((scheme, k) => element('span', { class: 'legend-item' }, markerPicture(markerOf(k), `fill:${listColour(k, theme())}`), scheme)),
     points.some(({ level }) => level.chosen) ? element('span', { class: 'legend-item' }, element('span', { class: 'dot chosen-dot' }), 'recommended') : null,
     element('span', {}, `Lines: 95 % bands; those that reach the bottom hold 0. Dashed: ${number(data.within_percent)} %. Numbers: as in the table.`),
   ].filter(Boolean));

@@ -1,12 +1,12 @@
 // The page of a calibration: the fitted values, measured against fitted, residuals, and which values cannot be told apart.
-import { Chart } from './chart.mjs';
+import { Chart, markerPicture } from './chart.mjs';
 import { element, listChoice, section, table } from './dom.mjs';
 import { fitSentence, residualSentence, residualsOf, seriesName } from './fit.mjs';
 import { axisScale, number, sentence } from './format.mjs';
 import { intervalTrack, trackAxis } from './interval_track.mjs';
 import { titleOf } from './layout_figures.mjs';
 import { wordsOf } from './layout_words.mjs';
-import { themeColour } from './theme.mjs';
+import { axis, roundAxis } from './plot.mjs';
 
 function text(value) {
   return number(value, 3);
@@ -43,27 +43,29 @@ function parametersSection({ parameters }) {
       element('figcaption', {}, element('p', { class: 'legend' }, 'Point: the mean. Line: its 95 % interval, in the range that was allowed. Narrower: the standard deviation against that of the range.'))));
 }
 
-function shadeHeldOut(plot, values) {
+function heldOutFrom(values, end) {
   const times = values.filter(({ held_out: one }) => one).map(({ time_s: time }) => time);
-  if (times.length === 0) return;
-  const { ctx, bbox } = plot;
-  const left = plot.valToPos(Math.min(...times), 'x', true);
-  ctx.save();
-  ctx.fillStyle = themeColour('window');
-  ctx.fillRect(left, bbox.top, bbox.left + bbox.width - left, bbox.height);
-  ctx.restore();
+  return times.length ? [{ kind: 'shade', from: Math.min(...times), to: end }] : [];
 }
 
-const dots = (colour) => ({ stroke: themeColour(colour), paths: () => null, points: { show: true, size: 5, fill: themeColour(colour), stroke: themeColour(colour) } });
-const line = (colour, more = {}) => ({ stroke: themeColour(colour), width: 2, points: { show: false }, ...more });
+function wordsOfValue({ time_s: time, conditions, measured, predicted, low, high, held_out: heldOut }) {
+  const where = time === null || time === undefined ? conditions : `${text(time)} s`;
+  return `${where ? `${where}: ` : ''}measured ${text(measured)}, predicted ${text(predicted)} (${text(low)} to ${text(high)})${heldOut ? ', held out' : ''}`;
+}
+
+const columns = ['time_s', 'conditions', 'measured', 'predicted', 'low', 'high', 'held_out'];
+const tableOf = (values) => ({ columns, rows: values.map((value) => columns.map((name) => value[name])) });
 
 function curveChart(name, values, quantity) {
-  const columns = ['time_s', 'low', 'high', 'predicted', 'measured'].map((part) => values.map((value) => value[part]));
-  return new Chart(name, (axis) => ({
-    scales: { x: { time: false } }, cursor: { show: false }, axes: [axis('time, s'), axis(titleOf(wordsOf(quantity)), { size: 62 })],
-    series: [{}, line('line', { width: 1 }), line('line', { width: 1 }), line('accent'), dots('ink')],
-    bands: [{ series: [2, 1], fill: themeColour('line') }], hooks: { drawClear: [(plot) => shadeHeldOut(plot, values)] },
-  }), columns, 340);
+  const [first, last] = [Math.min(...values.map(({ time_s: time }) => time)), Math.max(...values.map(({ time_s: time }) => time))];
+  const all = values.flatMap(({ low, high, measured }) => [low, high, measured]);
+  return new Chart(name, 'fit', () => ({
+    x: axis('time, s', first, last), y: roundAxis(titleOf(wordsOf(quantity)), Math.min(0, ...all), Math.max(...all)),
+    layers: [...heldOutFrom(values, last), { kind: 'band', points: values.map(({ time_s: time, low, high }) => [time, low, high]) },
+      { kind: 'line', style: 'stroke:var(--accent)', points: values.map(({ time_s: time, predicted }) => [time, predicted]) },
+      { kind: 'points', style: '--colour:var(--ink)', points: values.map(({ time_s: time, measured }) => ({ x: time, y: measured, size: 2.5 })) }],
+    marks: values.map((value) => ({ x: value.time_s, y: value.measured, text: wordsOfValue(value) })), table: tableOf(values),
+  }), { height: 340 });
 }
 
 // A point for every measured rate, with the interval of its prediction; on the diagonal the two agree.
@@ -72,61 +74,35 @@ function rateChart(name, values, quantity) {
   const top = 1.05 * Math.max(...values.flatMap(({ measured, high }) => [measured, high])), least = Math.min(...values.flatMap(({ measured, low }) => [measured, low]));
   const bottom = least > 0.5 * top ? 0.95 * least : 0;
   const sorted = [...values].sort((a, b) => a.measured - b.measured);
-  const draw = (plot) => {
-    const { ctx } = plot, px = devicePixelRatio;
-    const at = (x, y) => [plot.valToPos(x, 'x', true), plot.valToPos(y, 'y', true)];
-    ctx.save();
-    ctx.lineWidth = px;
-    ctx.strokeStyle = themeColour('edge');
-    ctx.setLineDash([5 * px, 4 * px]);
-    ctx.beginPath();
-    ctx.moveTo(...at(bottom, bottom));
-    ctx.lineTo(...at(top, top));
-    ctx.stroke();
-    ctx.setLineDash([]);
-    for (const { measured, predicted, low, high, held_out: heldOut } of sorted) {
-      ctx.strokeStyle = themeColour('ink');
-      ctx.beginPath();
-      ctx.moveTo(...at(measured, low));
-      ctx.lineTo(...at(measured, high));
-      ctx.stroke();
-      ctx.beginPath();
-      ctx.arc(...at(measured, predicted), 4.5 * px, 0, 2 * Math.PI);
-      ctx.fillStyle = themeColour(heldOut ? 'card' : 'accent');
-      ctx.fill();
-      ctx.stroke();
-    }
-    ctx.restore();
-  };
-  return new Chart(name, (axis) => ({
-    scales: { x: { time: false, range: [bottom, top] }, y: { range: [bottom, top] } }, cursor: { show: false }, axes: [axis(`measured ${title}`), axis(`predicted ${title}`, { size: 62 })],
-    series: [{}, { paths: () => null, points: { show: false } }], hooks: { draw: [draw] },
-  }), [sorted.map(({ measured }) => measured), sorted.map(({ predicted }) => predicted)], 380);
+  const ofKind = (wanted) => sorted.filter(({ held_out: one }) => Boolean(one) === wanted).map(({ measured, predicted, low, high }) => ({ x: measured, y: predicted, low, high }));
+  return new Chart(name, 'fit', () => ({
+    x: axis(`measured ${title}`, bottom, top), y: axis(`predicted ${title}`, bottom, top),
+    layers: [{ kind: 'rule', from: [bottom, bottom], to: [top, top] }, { kind: 'points', style: '--colour:var(--accent)', plain: true, points: ofKind(false) },
+      { kind: 'points', marker: 'diamond', style: '--colour:var(--card)', plain: true, points: ofKind(true).map((point) => ({ ...point, look: 'hollow' })) }],
+    marks: sorted.map((value) => ({ x: value.measured, y: value.predicted, text: wordsOfValue(value) })), table: tableOf(sorted),
+  }), { height: 380 });
 }
 
 function residualChart(name, residuals, ofCurves) {
   const at = (value, k) => (ofCurves ? value.time_s : k + 1);
-  const columns = [residuals.map(at), ...['low', 'high', 'residual'].map((part) => residuals.map((value) => value[part]))];
-  const shade = (plot) => {
-    if (ofCurves) return shadeHeldOut(plot, residuals);
-    const { ctx, bbox } = plot, half = bbox.width / (residuals.length + 1) / 2;
-    ctx.save();
-    ctx.fillStyle = themeColour('window');
-    residuals.forEach((value, k) => { if (value.held_out) ctx.fillRect(plot.valToPos(k + 1, 'x', true) - half, bbox.top, 2 * half, bbox.height); });
-    ctx.restore();
-  };
-  return new Chart(name, (axis) => ({
-    scales: { x: { time: false, ...(ofCurves ? {} : { range: [0, residuals.length + 1] }) } }, cursor: { show: false },
-    axes: [ofCurves ? axis('time, s') : axis('measured value, in the order of the table', { incrs: [1, 2, 5, 10, 20, 50, 100, 200, 500, 1000] }), axis('difference, %', { size: 62 })],
-    series: [{}, line('line', { width: 1 }), line('line', { width: 1 }), dots('ink')],
-    bands: [{ series: [2, 1], fill: themeColour('line') }], hooks: { drawClear: [shade] },
-  }), columns, 220);
+  const places = residuals.map(at), all = residuals.flatMap(({ low, high, residual }) => [low, high, residual]);
+  const [first, last] = ofCurves ? [Math.min(...places), Math.max(...places)] : [0, residuals.length + 1];
+  const shades = ofCurves ? heldOutFrom(residuals, last) : residuals.flatMap((value, k) => (value.held_out ? [{ kind: 'shade', from: k + 0.75, to: k + 1.25 }] : []));
+  const band = ofCurves ? [{ kind: 'band', points: residuals.map((value, k) => [places[k], value.low, value.high]) }] : [];
+  const words = (value, k) => `${ofCurves ? `${text(value.time_s)} s` : `value ${k + 1}`}: ${text(value.residual)} % (95 %: ${text(value.low)} to ${text(value.high)})`;
+  return new Chart(name, 'residuals', () => ({
+    x: axis(ofCurves ? 'time, s' : 'measured value, in the order of the table', first, last), y: roundAxis('difference, %', Math.min(...all), Math.max(...all)),
+    layers: [...shades, ...band, { kind: 'rule', from: [first, 0], to: [last, 0] },
+      { kind: 'points', style: '--colour:var(--ink)', points: residuals.map((value, k) => ({ x: places[k], y: value.residual, size: 2.5, ...(ofCurves ? {} : { low: value.low, high: value.high }) })) }],
+    marks: residuals.map((value, k) => ({ x: places[k], y: value.residual, text: words(value, k) })),
+    table: { columns: [ofCurves ? 'time_s' : 'value', 'residual_percent', 'low', 'high'], rows: residuals.map((value, k) => [places[k], value.residual, value.low, value.high]) },
+  }), { height: 220 });
 }
 
 const legend = (ofCurves) => element('p', { class: 'legend' },
   ...(ofCurves ? [element('span', { class: 'legend-item' }, element('span', { class: 'stroke', style: 'border-top:3px solid var(--accent)' }), 'fitted'), element('span', { class: 'legend-item' }, element('span', { class: 'dot measured-dot' }), 'measured'),
     element('span', { class: 'legend-item' }, element('span', { class: 'swatch window' }), 'held out: predicted, not fitted')]
-    : [element('span', { class: 'legend-item' }, element('span', { class: 'dot on-front' }), 'fitted'), element('span', { class: 'legend-item' }, element('span', { class: 'dot' }), 'held out: predicted, not fitted'), element('span', {}, 'Dashed: where the two agree.')]),
+    : [element('span', { class: 'legend-item' }, element('span', { class: 'dot on-front' }), 'fitted'), element('span', { class: 'legend-item' }, markerPicture('diamond', 'fill:var(--card);stroke:var(--ink)'), 'held out: predicted, not fitted'), element('span', {}, 'Dashed: where the two agree.')]),
   element('span', {}, '95 % intervals are of such a measurement.'));
 
 // A curve is shown by itself, rates all together.
@@ -135,7 +111,7 @@ function fitSection(data) {
   const said = element('p', { id: 'fit-sentence', class: 'lead', 'aria-live': 'polite' });
   const place = element('figure', { class: 'card' });
   const show = (chosen) => {
-    const values = chosen.flatMap((one) => one.values), residuals = chosen.flatMap((one) => residualsOf(one, data.of_curves));
+    const values = chosen.flatMap((one) => one.values.map((value) => ({ ...value, conditions: one.conditions }))), residuals = chosen.flatMap((one) => residualsOf(one, data.of_curves));
     said.textContent = fitSentence(values);
     const name = `Measured and fitted ${wordsOf(data.quantity).words}: ${said.textContent}`, more = residualSentence(residuals, data.of_curves);
     const chart = data.of_curves ? curveChart(name, values, data.quantity) : rateChart(name, values, data.quantity);
@@ -150,10 +126,11 @@ function fitSection(data) {
 
 function pairChart({ a, b, points }) {
   const sorted = [...points].sort((one, other) => one[0] - other[0]);
-  return new Chart(`${b} against ${a}, points of what is known of them`, (axis) => ({
-    scales: { x: { time: false } }, cursor: { show: false }, axes: [axis(a), axis(b, { size: 62 })],
-    series: [{}, { ...dots('bar'), points: { show: true, size: 4, fill: themeColour('bar'), stroke: themeColour('bar') } }],
-  }), [sorted.map(([x]) => x), sorted.map(([, y]) => y)], 300).frame;
+  const ends = (k) => [Math.min(...points.map((point) => point[k])), Math.max(...points.map((point) => point[k]))];
+  return new Chart(`${b} against ${a}, points of what is known of them`, 'pair', () => ({
+    x: roundAxis(a, ...ends(0)), y: roundAxis(b, ...ends(1)), layers: [{ kind: 'points', style: '--colour:var(--bar)', points: sorted.map(([x, y]) => ({ x, y, size: 2 })) }],
+    marks: sorted.map(([x, y]) => ({ x, y, text: `${a} ${text(x)}, ${b} ${text(y)}` })), table: { columns: [a, b], rows: sorted },
+  })).frame;
 }
 
 function pairsSection({ pairs }) {

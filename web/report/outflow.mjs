@@ -1,78 +1,74 @@
-// Outflow of every hole: the table, and how the seeds added up over time.
-import { Chart } from './chart.mjs';
-import { listColour, listColours } from './colours.mjs';
+// Outflow of every hole: the table, how the seeds added up over time, and how fast they came.
+import { Chart, dashOf } from './chart.mjs';
+import { listColour } from './colours.mjs';
 import { Counters } from './counters.mjs';
-import { element, section, table } from './dom.mjs';
+import { element, section, shape, table } from './dom.mjs';
 import { number } from './format.mjs';
 import { outflowSentence } from './outflow_sentence.mjs';
-import { onTheme, theme, themeColour } from './theme.mjs';
+import { axis, roundAxis } from './plot.mjs';
+import { onTheme, theme } from './theme.mjs';
 
-const points = 400;
-const dashes = [[], [6, 4], [2, 3], [10, 4, 2, 4]];
+const points = 200;      // of a curve
+const seedsOfASpan = 12;  // at least, in the mean of the holes, so that the rate is not noise alone
+const spans = [10, 40];  // how many the run is cut into, at least and at most
 
 function holeTable({ hole_table: { columns, rows } }) {
   const used = columns.map((_, k) => k).filter((k) => k === 0 || rows.some((row) => row[k]));
   return table('Table of the outflow per hole', used.map((k) => columns[k]), rows.map((row) => used.map((k) => row[k])));
 }
 
-function cumulative(data) {
-  const counters = new Counters(data.events, data.holes);
+const styleOf = (k, shade) => `stroke:${listColour(k, shade)};stroke-dasharray:${dashOf(k)}`;
+
+// The seeds of each hole until each time.
+function cumulative(data, counters) {
   const times = Array.from({ length: points + 1 }, (_, k) => (k * data.end_time_s) / points);
-  return [times, ...data.holes.map((hole) => times.map((time) => counters.until(hole.hole, time)))];
+  return { times, values: data.holes.map(({ hole }) => times.map((time) => counters.until(hole, time))) };
 }
 
-function shadeWindow(plot, [from, to]) {
-  const { ctx, bbox } = plot;
-  const [left, right] = [plot.valToPos(from, 'x', true), plot.valToPos(to, 'x', true)];
-  ctx.save();
-  ctx.fillStyle = themeColour('window');
-  ctx.fillRect(left, bbox.top, right - left, bbox.height);
-  ctx.restore();
+/** The seeds a second of each hole in equal spans of the run: { times (of their middles, s), span_s, values }. */
+export function ratesOver(data, counters) {
+  const all = data.holes.reduce((sum, { hole }) => sum + counters.until(hole, Infinity), 0);
+  const count = Math.min(spans[1], Math.max(spans[0], Math.floor(all / Math.max(1, data.holes.length) / seedsOfASpan)));
+  const span = data.end_time_s / count;
+  const ends = Array.from({ length: count + 1 }, (_, k) => k * span);
+  const values = data.holes.map(({ hole }) => ends.slice(1).map((end, k) => (counters.until(hole, end) - (k === 0 ? 0 : counters.until(hole, ends[k]))) / span));
+  return { times: ends.slice(1).map((end) => end - span / 2), span_s: span, values };
 }
 
-function dash(hole) {
-  return dashes[Math.floor(hole / listColours) % dashes.length];
+// A line for each hole.
+function lineChart(data, { name, file, title, unit, columns, series: { times, values } }, seek) {
+  const top = Math.max(1, ...values.flat());
+  return new Chart(name, file, (shade) => ({
+    x: axis('time, s', 0, data.end_time_s || 1), y: roundAxis(title, 0, top),
+    layers: [{ kind: 'shade', from: data.window_s[0], to: data.window_s[1] }, ...values.map((of, k) => ({ kind: 'line', style: styleOf(k, shade), points: of.map((value, i) => [times[i], value]) }))],
+    marks: times.map((time, i) => ({ x: time, text: `${number(time)} s: ${data.holes.map(({ hole }, k) => `hole ${hole} ${number(values[k][i])}`).join(', ')} ${unit}` })),
+    table: { columns, rows: times.map((time, i) => [time, ...values.map((of) => of[i])]) },
+  }), { height: 300, seek });
 }
 
-function cumulativeChart(data, player) {
-  const name = `Seeds that each hole has let out, from 0 to ${number(data.end_time_s)} s`;
-  const chart = new Chart(name, (axis, shade) => ({
-    scales: { x: { time: false, range: [0, data.end_time_s || 1] } },
-    cursor: { drag: { x: false, y: false }, y: false, points: { show: false } },
-    axes: [axis('time, s'), axis('seeds so far', { size: 58 })],
-    series: [{}, ...data.holes.map((_, k) => ({ stroke: listColour(k, shade), width: 2, dash: dash(k), points: { show: false } }))],
-    hooks: { drawClear: [(plot) => shadeWindow(plot, data.window_s)] },
-  }), cumulative(data), 320);
-  if (player) bindTime(chart, player);
-  return chart.frame;
-}
-
-// The replay's time as a line; a press on the chart, or a stroke over it, moves the replay.
-function bindTime(chart, player) {
-  const line = element('div', { class: 'time-line' });
-  const put = () => {
-    if (chart.plot) line.style.transform = `translateX(${chart.plot.valToPos(player.moment, 'x')}px)`;
-  };
-  chart.afterDraw = (plot) => {
-    plot.over.append(line);
-    put();
-    if (plot.timeBound) return;
-    plot.timeBound = true;
-    const seek = (event) => {
-      player.pause();
-      player.showTime(plot.posToVal(event.clientX - plot.over.getBoundingClientRect().left, 'x'));
-    };
-    plot.over.addEventListener('pointerdown', seek);
-    plot.over.addEventListener('pointermove', (event) => { if (event.buttons === 1) seek(event); });
-  };
-  player.onChange(put);
+function charts(data, player) {
+  const counters = new Counters(data.events, data.holes);
+  const seek = player && ((time) => {
+    player.pause();
+    player.showTime(time);
+  });
+  const rates = ratesOver(data, counters);
+  const holes = data.holes.map(({ hole }) => `hole ${hole}`);
+  const both = [
+    lineChart(data, { name: `Seeds that each hole has let out, from 0 to ${number(data.end_time_s)} s`, file: 'outflow', title: 'seeds so far', unit: 'seeds', columns: ['time_s', ...holes],
+      series: cumulative(data, counters) }, seek),
+    lineChart(data, { name: `Seeds a second of each hole, in spans of ${number(rates.span_s)} s`, file: 'rates', title: `seeds/s, in ${number(rates.span_s)} s`, unit: 'seeds/s', columns: ['middle_of_span_s', ...holes], series: rates }, seek),
+  ];
+  player?.onChange(() => both.forEach((chart) => chart.showTime(player.moment)));
+  if (player) both.forEach((chart) => chart.showTime(player.moment));
+  return element('div', { class: 'charts-beside' }, both.map(({ frame }) => frame));
 }
 
 function legend(data) {
   const frame = element('p', { class: 'legend' });
+  const stroke = (k) => shape('svg', { class: 'stroke', viewBox: '0 0 30 6', 'aria-hidden': 'true' }, shape('path', { class: 'line', d: 'M0 3H30', style: styleOf(k, theme()) }));
   const fill = () => frame.replaceChildren(
-    ...data.holes.map((hole, k) => element('span', { class: 'legend-item' },
-      element('span', { class: 'stroke', style: `border-top:3px ${dash(k).length ? 'dashed' : 'solid'} ${listColour(k, theme())}` }), `hole ${hole.hole}`)),
+    ...data.holes.map((hole, k) => element('span', { class: 'legend-item' }, stroke(k), `hole ${hole.hole}`)),
     element('span', { class: 'legend-item' }, element('span', { class: 'swatch window' }), 'measured'));
   onTheme(fill);
   fill();
@@ -80,6 +76,6 @@ function legend(data) {
 }
 
 export function outflowSection(data, player) {
-  const figure = element('figure', { class: 'card' }, cumulativeChart(data, player), legend(data), element('figcaption', {}, outflowSentence(data)));
+  const figure = element('figure', { class: 'card' }, charts(data, player), legend(data), element('figcaption', {}, outflowSentence(data)));
   return section('outflow', 'Outflow per hole', holeTable(data), figure);
 }

@@ -1,18 +1,18 @@
 // Two figures of the layouts against each other, each layout a point to press.
+import { saveButtons } from './chart_files.mjs';
 import { element, listChoice, section, shape } from './dom.mjs';
-import { axisScale, number } from './format.mjs';
 import { textWithUnit, titleOf } from './layout_figures.mjs';
 import { layoutName } from './layout_words.mjs';
+import { plotFrame, roundAxis } from './plot.mjs';
 import { pointsOf, tradeSentence, unbeaten } from './trade.mjs';
 
 const height = 380;  // px
-const margin = { left: 58, right: 16, top: 14, bottom: 46 };
 const reach = 24;    // px, from a press to the point that is meant
 const steps = { ArrowLeft: -1, ArrowDown: -1, ArrowRight: 1, ArrowUp: 1 };
 
-function scaleOf(values) {
+function axisOf(figure, values) {
   const highest = Math.max(...values, 0), least = Math.min(...values);
-  return axisScale(least > 0.5 * highest ? least : 0, highest || 1);
+  return roundAxis(titleOf(figure), least > 0.5 * highest ? least : 0, highest || 1);
 }
 
 // The tip of an arrow at (x, y), whose strokes go back along (dx, dy).
@@ -25,10 +25,11 @@ class Scatter {
     Object.assign(this, { data, chosen, figureX, figureY, look });
     const options = figures.map((one) => ({ value: one, text: titleOf(one) }));
     this.place = element('div', { class: 'scatter' });
+    this.reading = element('p', { class: 'chart-reading', 'aria-hidden': 'true' });
     this.sentence = element('p', { id: 'trade-sentence', class: 'lead', 'aria-live': 'polite' });
     this.frame = element('div', {}, element('div', { class: 'choices' },
       listChoice('Across', options, figureX, (one) => { this.figureX = one; this.draw(); }), listChoice('Up', options, figureY, (one) => { this.figureY = one; this.draw(); })),
-    this.sentence, element('figure', { class: 'card' }, this.place,
+    this.sentence, element('figure', { class: 'card' }, this.place, element('div', { class: 'chart-foot' }, this.reading, saveButtons('layouts', () => this.place.querySelector('svg'), () => this.table())),
       element('figcaption', {}, element('p', { class: 'legend' },
         element('span', { class: 'legend-item' }, element('span', { class: 'stroke front-stroke' }), 'layouts that no other beats in both, by their means'), look.legend(), element('span', {}, 'An arrow: it goes on.')))));
     new ResizeObserver(() => { if (this.place.clientWidth !== this.width) this.draw(); }).observe(this.place);
@@ -41,11 +42,8 @@ class Scatter {
     const points = pointsOf(data.layouts, figureX, figureY);
     const front = unbeaten(points, figureX, figureY);
     this.sentence.textContent = tradeSentence(data, points, front, figureX, figureY);
-    const [scaleX, scaleY] = [scaleOf(points.map(({ x }) => x.value)), scaleOf(points.map(({ y }) => y.value))];
-    const right = this.width - margin.right, bottom = height - margin.bottom;
-    this.x = (value) => margin.left + ((value - scaleX.low) / (scaleX.high - scaleX.low)) * (right - margin.left);
-    this.y = (value) => bottom - ((value - scaleY.low) / (scaleY.high - scaleY.low)) * (bottom - margin.top);
-    this.inside = { left: margin.left, right, top: margin.top, bottom };
+    const { x: place, y: up, inside, grid } = plotFrame(this.width, height, axisOf(figureX, points.map(({ x }) => x.value)), axisOf(figureY, points.map(({ y }) => y.value)));
+    Object.assign(this, { x: place, y: up, inside });
     this.points = points.sort((a, b) => a.x.value - b.x.value || a.y.value - b.y.value);
     this.circles = this.points.map((point) => this.circle(point));
     this.cross = shape('path', { class: 'cross' });
@@ -53,32 +51,42 @@ class Scatter {
     const line = front.length > 1 ? shape('polyline', { class: 'front', points: front.map(({ x, y }) => `${this.x(x.value)},${this.y(y.value)}`).join(' ') }) : null;
     const crosses = this.points.filter(({ layout }) => this.look.withIntervals(layout)).map((point) => shape('path', { class: 'cross', d: this.crossOf(point) }));
     this.place.replaceChildren(shape('svg', { width: this.width, height, role: 'group', 'aria-label': `${titleOf(figureY)} against ${titleOf(figureX)}: a point for every layout; arrow keys go from one to the next`,
-      onclick: (event) => this.press(event), onkeydown: (event) => this.key(event) },
-    this.grid(scaleX, scaleY), line, crosses, this.cross, this.circles, this.ring));
+      onclick: (event) => this.press(event), onpointermove: (event) => this.read(this.nearest(event)), onpointerleave: () => this.read(null), onkeydown: (event) => this.key(event) },
+    grid, line, crosses, this.cross, this.circles, this.ring));
     this.mark();
   }
 
-  grid(scaleX, scaleY) {
-    const { left, right, top, bottom } = this.inside;
-    const text = (attributes, words) => shape('text', attributes, words);
-    return shape('g', { class: 'grid', 'aria-hidden': 'true' },
-      scaleX.ticks.map((tick) => [shape('path', { d: `M${this.x(tick)} ${top}V${bottom}` }), text({ x: this.x(tick), y: bottom + 18, 'text-anchor': 'middle' }, number(tick))]),
-      scaleY.ticks.map((tick) => [shape('path', { d: `M${left} ${this.y(tick)}H${right}` }), text({ x: left - 8, y: this.y(tick) + 4, 'text-anchor': 'end' }, number(tick))]),
-      text({ x: (left + right) / 2, y: height - 8, 'text-anchor': 'middle' }, titleOf(this.figureX)),
-      text({ transform: `translate(14 ${(top + bottom) / 2}) rotate(-90)`, 'text-anchor': 'middle' }, titleOf(this.figureY)));
+  table() {
+    const ends = ({ value, low, high }) => [value, low, high];
+    const names = [this.figureX, this.figureY].flatMap((figure) => [figure.name, `${figure.name}_low`, `${figure.name}_high`]);
+    return { columns: ['layout', 'name', 'standing', ...names], rows: this.points.map(({ layout, x, y }) => [layout.number, layoutName(this.data, layout), layout.standing ?? layout.status, ...ends(x), ...ends(y)]) };
   }
 
-  circle({ layout, x, y }) {
-    const name = `Layout ${layout.number}, ${layoutName(this.data, layout)}: ${this.figureX.words} ${textWithUnit(x, this.figureX)}, ${this.figureY.words} ${textWithUnit(y, this.figureY)}`;
+  circle(point) {
+    const { layout, x, y } = point;
+    const name = this.words(point);
     return shape('circle', { cx: this.x(x.value), cy: this.y(y.value), r: 5, role: 'button', tabindex: -1, 'data-layout': layout.number,
-      class: this.look.classOf(layout), 'aria-label': name }, shape('title', {}, name));
+      class: this.look.classOf(layout), 'aria-label': name, onfocus: () => this.read(point), onblur: () => this.read(null) });
   }
 
-  press(event) {
+  nearest(event) {
     const box = this.place.getBoundingClientRect();
     const far = ({ x, y }) => Math.hypot(this.x(x.value) - (event.clientX - box.left), this.y(y.value) - (event.clientY - box.top));
     const nearest = this.points.reduce((best, point) => (best && far(best) <= far(point) ? best : point), null);
-    if (nearest && far(nearest) <= reach) this.chosen.choose(nearest.layout.number);
+    return nearest && far(nearest) <= reach ? nearest : null;
+  }
+
+  press(event) {
+    const point = this.nearest(event);
+    if (point) this.chosen.choose(point.layout.number);
+  }
+
+  read(point) {
+    this.reading.textContent = point ? this.words(point) : '';
+  }
+
+  words({ layout, x, y }) {
+    return `Layout ${layout.number}, ${layoutName(this.data, layout)}: ${this.figureX.words} ${textWithUnit(x, this.figureX)}, ${this.figureY.words} ${textWithUnit(y, this.figureY)}`;
   }
 
   key(event) {

@@ -9,7 +9,7 @@ import { HoleControls } from './hole_controls.mjs';
 import { addHole, layoutOf, moveHole, removeHole, widenHole } from './layout.mjs';
 import { MotionControls } from './motion_controls.mjs';
 import { measured, OutflowPanel } from './outflow_panel.mjs';
-import { saveText } from './save.mjs';
+import { saveText } from '../report/save.mjs';
 import { keptSentence, sceneOf } from './scene_edit.mjs';
 import { fileName, seederFile } from './seeder_file.mjs';
 import { asFastAsItCan, realTime, Transport } from './transport.mjs';
