@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
@@ -10,6 +11,7 @@
 #include "scene/input_error.hpp"
 #include "scene/spaces.hpp"
 #include "vessel/vessel_faces.hpp"
+#include "vessel/vessel_motion.hpp"
 #include "vessel/vessel_walls.hpp"
 #include "vessel/wall_points.hpp"
 
@@ -84,6 +86,24 @@ Json faces_of(const Vessel& vessel) {
   return all;
 }
 
+/// So often that straight on from each place to the next leaves the motion by less than a hundredth of its amplitude,
+/// and at most so many places.
+Json path_of(const Vessel& vessel, const MotionBounds& bounds, double end) {
+  constexpr double most = 20000, of_period = 0.25;  // rad of the fastest swing
+  const double step =
+      std::max(bounds.acceleration > 0 ? of_period * bounds.speed / bounds.acceleration : end, end / most);
+  const VesselPath path(vessel);
+  const auto rounded = [](double value, double parts) { return std::round(value * parts) / parts + 0.0; };
+  Json at = Json::array();
+  for (int k = 0; k <= static_cast<int>(end / step) + 1; ++k) {
+    const Pose pose = path.pose(k * step);
+    const Eigen::Vector2d place = vessel.origin + pose.displacement;
+    at.push_back({rounded(in_mm(place.x()), 1e4), rounded(in_mm(place.y()), 1e4),
+                  rounded(in_mm(vessel.front + pose.across), 1e4), rounded(vessel.tilt + pose.angle, 1e6)});
+  }
+  return {{"step_s", step}, {"at", std::move(at)}};
+}
+
 void fill(std::string& page, const std::string& place, const std::string& content) {
   const std::size_t at = page.find(place);
   if (at == std::string::npos) throw std::invalid_argument("the page's template has no place " + place);
@@ -118,6 +138,18 @@ nlohmann::ordered_json page_faces(const Scene& scene) {
   if (scene.space == Space::plane) return all;
   all[scene.tray.name] = faces_of(scene.tray);
   if (scene.hopper) all[scene.hopper->name] = faces_of(*scene.hopper);
+  return all;
+}
+
+nlohmann::ordered_json page_paths(const Scene& scene, double end_time) {
+  Json all = Json::object();
+  if (scene.space == Space::plane || !(end_time > 0)) return all;
+  const auto add = [&](const Vessel& vessel) {
+    const MotionBounds bounds = motion_bounds(vessel);
+    if (bounds.speed > 0) all[vessel.name] = path_of(vessel, bounds, end_time);
+  };
+  add(scene.tray);
+  if (scene.hopper) add(*scene.hopper);
   return all;
 }
 

@@ -23,6 +23,11 @@ nlohmann::ordered_json page_vessels(const Scene& scene);
 /// in the plane.
 nlohmann::ordered_json page_faces(const Scene& scene);
 
+/// In space where each vessel that moves is until `end_time` (s), by its name: {step_s, at}, every step_s the place of
+/// its frame's zero (x, y, z in mm, lab) and its angle (rad). A recording has two or three frames a shake: too few to
+/// move between them. Empty in the plane.
+nlohmann::ordered_json page_paths(const Scene& scene, double end_time);
+
 /// {mean, half width of its 95 % interval}, in `unit`; null where there is none.
 nlohmann::ordered_json page_interval(const std::optional<MeanWithInterval>& value, double unit);
 

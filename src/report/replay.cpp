@@ -45,6 +45,7 @@ Json replay_data(const Scene& scene, const Run& run) {
           {"measure_from_s", std::min(measuring_window(scene).from, run.end_time)},
           {"lots", page_lots(scene)},
           {"faces", page_faces(scene)},
+          {"paths", page_paths(scene, run.end_time)},
           {"holes", std::move(holes)},
           {"events", page_events(run)}};
 }

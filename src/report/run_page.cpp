@@ -203,6 +203,7 @@ std::string run_page_data(const RunPage& page) {
                {"lots", page_lots(scene)},
                {"vessels", page_vessels(scene)},
                {"faces", page_faces(scene)},
+               {"paths", page_paths(scene, page.run.end_time)},
                {"holes", holes(page)},
                {"rate_unit", "seeds/s"},
                {"hole_table", hole_table(page)},

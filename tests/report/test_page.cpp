@@ -6,6 +6,8 @@
 #include <numeric>
 #include <stdexcept>
 
+#include "vessel/vessel_motion.hpp"
+
 namespace vibrosow {
 namespace {
 
@@ -72,6 +74,30 @@ TEST(Page, APeriodicTrayIsDrawnOnceAndAPlaneHasNoFaces) {
   EXPECT_EQ(faces[0]["holes_mm"].size(), 1U);
   scene.space = Space::plane;
   EXPECT_TRUE(page_faces(scene).empty());
+}
+
+TEST(Page, APathFollowsTheShakeBetweenItsPlaces) {
+  Scene scene = with_round_hole();
+  scene.tray.front = 0.01, scene.tray.origin = {0.02, 0.03};
+  HarmonicMotion motion;
+  motion.amplitude = 0.004, motion.frequency = 9;
+  scene.tray.motion = motion;
+  const nlohmann::json path = page_paths(scene, 1)["tray"];
+  const double step = path["step_s"];
+  ASSERT_GT(static_cast<double>(path["at"].size() - 1) * step, 1.0);
+  for (double time = 0; time < 1; time += 0.0037) {
+    const auto k = static_cast<std::size_t>(time / step);
+    const double part = time / step - static_cast<double>(k);
+    const auto between = [&](int axis) {
+      return (1 - part) * path["at"][k][axis].get<double>() + part * path["at"][k + 1][axis].get<double>();
+    };
+    EXPECT_NEAR(between(0), 20 + 1e3 * vessel_pose(scene.tray, time).displacement.x(), 0.01 * 4) << time;
+    EXPECT_NEAR(between(1), 30, 1e-9);
+    EXPECT_NEAR(between(2), 10, 1e-9);
+  }
+  EXPECT_LE(page_paths(scene, 1e4)["tray"]["at"].size(), 20002U);
+  scene.tray.motion.reset();
+  EXPECT_TRUE(page_paths(scene, 1).empty());
 }
 
 TEST(Page, ATextEndsNoScript) {
