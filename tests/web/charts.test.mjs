@@ -102,7 +102,7 @@ test('a chart is saved with its numbers, and as pictures that stand by themselve
 for (const [name, made, least] of [
   ['run', madeUpRun('three_dimensional'), 4], ['accuracy study', madeUpAccuracy(), 1], ['calibration by curves', madeUpCalibration(true), 3], ['calibration by rates', madeUpCalibration(false), 3],
 ]) {
-  test(`every chart of a ${name} is drawn, read and saved`, () => withPage(made, {}, async (page) => {
+  test(`every chart of: ${name}, is drawn, read and saved`, () => withPage(made, {}, async (page) => {
     const all = await charts(page).all();
     assert.ok(all.length >= least, `${all.length} charts`);
     for (const chart of all) {

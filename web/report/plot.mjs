@@ -3,6 +3,7 @@ import { shape } from './dom.mjs';
 import { axisScale, number } from './format.mjs';
 
 const margin = { left: 62, right: 16, top: 14, bottom: 46 };
+const steps = 12;             // of an axis with round ends: so many that little of it is empty
 const room = { x: 90, y: 46 };  // px of a number of an axis
 
 /** From `low` to `high`. `more`: { ticks: [{ at, text }] } instead of round ones, { log: true }. */
@@ -12,7 +13,7 @@ export function axis(title, low, high, more = {}) {
 
 /** The same, with round ends that hold both. */
 export function roundAxis(title, low, high) {
-  const scale = axisScale(low, high);
+  const scale = axisScale(low, high, steps);
   return axis(title, scale.low, scale.high);
 }
 
