@@ -100,7 +100,7 @@ std::string headline(const RunPage& page) {
   std::string text = fmt::format("{} let{} out {} g/s, {} seeds/s ({}), between {} and {} s",
                                  holes == 1 ? "One hole" : fmt::format("{} holes", holes), holes == 1 ? "s" : "",
                                  rate(all.mass_rate * 1e3), rate(all.seeds_per_s),
-                                 chance ? "95 %, by blocks of this run" : "too few to tell how sure that is",
+                                 chance ? "95 %, by blocks of this run" : "too few for an interval",
                                  figure_text(outflow.window.from), figure_text(outflow.window.to));
   if (slice && outflow.depth_factor)
     text += fmt::format(": of the whole tray, {} times the slice that was simulated, its holes slots all across",

@@ -54,7 +54,7 @@ TEST_F(RunPageData, WithoutAnIntervalItSaysSo) {
   scene.tray.depth.reset();
   EXPECT_EQ(
       data()["headline"],
-      "2 holes let out 0 g/s, 0 seeds/s (too few to tell how sure that is), between 1 and 2 s: of a slice one seed "
+      "2 holes let out 0 g/s, 0 seeds/s (too few for an interval), between 1 and 2 s: of a slice one seed "
       "thick.");
 }
 
