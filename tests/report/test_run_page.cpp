@@ -52,10 +52,9 @@ TEST_F(RunPageData, TheHeadlineHasItsIntervalAndThreeFigures) {
 TEST_F(RunPageData, WithoutAnIntervalItSaysSo) {
   run.events.clear();
   scene.tray.depth.reset();
-  EXPECT_EQ(
-      data()["headline"],
-      "2 holes let out 0 g/s, 0 seeds/s (too few for an interval), between 1 and 2 s: of a slice one seed "
-      "thick.");
+  EXPECT_EQ(data()["headline"],
+            "2 holes let out 0 g/s, 0 seeds/s (too few for an interval), between 1 and 2 s: of a slice one seed "
+            "thick.");
 }
 
 TEST_F(RunPageData, DoubtsSayHowSeriousTheyAreAndWhatToDo) {
