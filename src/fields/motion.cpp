@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numeric>
 
+#include "compute/nearest_image.hpp"
+
 namespace vibrosow {
 namespace {
 
@@ -22,16 +24,25 @@ Eigen::Matrix<double, N, 1> place_of(const Snapshot& s, std::size_t i) {
 }
 
 template <int N>
-std::vector<std::optional<double>> strain_in(const Snapshot& before, const Snapshot& after, double reach) {
+Eigen::Matrix<double, N, 1> shorter_way(Eigen::Matrix<double, N, 1> moved, const Periods& periods) {
+  if (periods.along > 0) moved[0] = nearest_image(moved[0], periods.along);
+  if (N == 3 && periods.across > 0) moved[N - 1] = nearest_image(moved[N - 1], periods.across);
+  return moved;
+}
+
+template <int N>
+std::vector<std::optional<double>> strain_in(const Snapshot& before, const Snapshot& after, double reach,
+                                             const Periods& periods) {
+  const Snapshot bed = with_images(before, periods, reach);
   PointsOf<N> places, displacements;
-  std::vector<std::size_t> grain;  // of `after`
-  for (std::size_t i = 0; i < after.size(); ++i) {
-    const auto found = std::ranges::lower_bound(before.id, after.id[i]);
-    if (found == before.id.end() || *found != after.id[i]) continue;
-    const auto j = static_cast<std::size_t>(found - before.id.begin());
-    grain.push_back(i);
-    places.push_back(place_of<N>(before, j));
-    displacements.push_back(place_of<N>(after, i) - places.back());
+  std::vector<std::size_t> grain;  // of `after`, of those that are no images
+  for (std::size_t j = 0; j < bed.size(); ++j) {
+    const auto found = std::ranges::lower_bound(after.id, bed.id[j]);
+    if (found == after.id.end() || *found != bed.id[j]) continue;
+    const auto i = static_cast<std::size_t>(found - after.id.begin());
+    if (j < before.size()) grain.push_back(i);
+    places.push_back(place_of<N>(bed, j));
+    displacements.push_back(shorter_way<N>(place_of<N>(after, i) - places.back(), periods));
   }
   const Neighbourhoods<N> neighbourhoods(places, reach);
   std::vector<std::optional<double>> strain(after.size());
@@ -77,8 +88,9 @@ std::vector<std::optional<CellMotion>> cell_motion(const Snapshot& snapshot, con
   return cells;
 }
 
-std::vector<std::optional<double>> shear_strain(const Snapshot& before, const Snapshot& after, double reach) {
-  return after.in_space() ? strain_in<3>(before, after, reach) : strain_in<2>(before, after, reach);
+std::vector<std::optional<double>> shear_strain(const Snapshot& before, const Snapshot& after, double reach,
+                                                const Periods& periods) {
+  return after.in_space() ? strain_in<3>(before, after, reach, periods) : strain_in<2>(before, after, reach, periods);
 }
 
 }  // namespace vibrosow
