@@ -19,7 +19,7 @@ constexpr std::array table = {
     Goal{"unevenness", "CV of a run", "run_cv_percent", false,
          "coefficient of variation between the holes of one run, chance included, least", "one hole has no unevenness"},
     Goal{"instability", "instability", "instability_cv_percent", false,
-         "of the whole outflow over ten parts of the window, least", "it has no instability"},
+         "of the whole outflow over about ten parts of the window, least", "it has no instability"},
     Goal{"pause", "longest pause", "longest_pause_s", false, "longest time without a seed, least", "it has no pause"},
     Goal{"rate", "rate", "rate_g_per_s", true, "mass flow, most", "it has no rate"},
     Goal{"spilled", "spilled", "spilled_percent", false, "seeds that left over the rim, least", "nothing left it"},

@@ -195,7 +195,8 @@ JsonKeys<RunSource> run_keys() {
        [](S s) { return s.run.max_relative_overlap; }},
       {"let_pass.deep_steps", "", "steps with a relative overlap beyond guard.warn_relative_overlap",
        [](S s) { return s.run.let_pass.deep_steps; }},
-      {"let_pass.strides", "", "steps, allowed by numerics.allow_long_step, in which a seed could have passed a wall unseen",
+      {"let_pass.strides", "",
+       "steps, allowed by numerics.allow_long_step, in which a seed could have passed a wall unseen",
        [](S s) { return s.run.let_pass.strides; }},
       {"let_pass.energy_accounts", "",
        "accounts of energy, one in 100 steps, with more made by the numerics than 5 % of what is in play",
@@ -226,7 +227,8 @@ JsonKeys<RunSource> run_keys() {
        [](S s) {
          return Json{s.outflow.window.from, s.outflow.window.to};
        }},
-      {"outflow.instability_windows", "", "parts of the window for that", [](S) { return instability_windows; }},
+      {"outflow.instability_windows", "", "parts of the window for that, of whole periods of the drive; 0: of none",
+       [](S s) { return std::max<std::int64_t>(0, std::ssize(instability_ends(s.outflow.window)) - 1); }},
       {"outflow.note", "", "as in summary.csv", [](S s) { return s.outflow.note(); }},
       {"versions.vibrosow", "", "of the program", [](S) { return VIBROSOW_VERSION; }},
       {"versions.box2d", "", "of Box2D", [](S) { return VIBROSOW_BOX2D_VERSION; }},
