@@ -21,7 +21,7 @@ FIGURES = {  # columns of sweep.csv that have an interval
     "tray_seeds_per_s": "seeds of the whole tray, 1/s",
     "run_cv_percent": "variation between the holes in a single run (CV), %",
     "unevenness_cv_percent": "unevenness between the holes (CV) without chance, %",
-    "instability_cv_percent": "variation of the outflow over ten parts of the window, %",
+    "instability_cv_percent": "variation of the outflow over about ten parts of the window, %",
     "longest_pause_s": "longest time without a seed from any hole, s",
     "spilled_percent": "seeds over the rim, % of all that left",
     "misfit_percent": "misfit to the measured outflow, %",

@@ -231,9 +231,7 @@ Scene scene_with(const Scene& scene, AccuracySetting& setting) {
 }
 
 std::vector<double> windows_alike(const Scene& scene) {
-  const auto fed = [](const Vessel& vessel) {
-    return (vessel.fill && vessel.fill->keep) || (vessel.rain && vessel.rain->stop == never);
-  };
+  const auto fed = [](const Vessel& vessel) { return is_kept(vessel) || (vessel.rain && vessel.rain->stop == never); };
   std::vector<double> windows = {1};
   if (!fed(scene.tray) && !(scene.hopper && fed(*scene.hopper))) return windows;
   const std::vector<std::string> own = steadiness_warnings(scene);

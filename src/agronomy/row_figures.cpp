@@ -70,9 +70,8 @@ RowFigures figures_of(const Stream& stream, const Outflow& outflow, const Drill&
     figures.kg_per_m2 = sowing_rate(mass_rate, drill.pace);
     figures.seeds_per_m2 = sowing_rate(seeds_per_s, drill.pace);
   }
-  figures.instability_cv = instability_cv(stream.times, outflow.window.from, outflow.window.to);
-  if (figures.instability_cv)
-    figures.instability_counting_cv = std::sqrt(instability_windows / static_cast<double>(figures.seeds));
+  if (const auto of_row = instability(stream.times, outflow.window))
+    figures.instability_cv = of_row->cv, figures.instability_counting_cv = of_row->counting_cv;
   figures.longest_pause = longest_pause(stream.times, outflow.window.from, outflow.window.to);
   return figures;
 }
@@ -132,7 +131,8 @@ constexpr std::array table = {
               [](Source s) { return s.row.kg_per_m2; }},
     RowFigure{"seeds_per_m2", "1/m2", 1, "the same in seeds", [](Source s) { return s.row.seeds_per_m2; }},
     RowFigure{"instability_cv_percent", "%", percent,
-              "coefficient of variation of its seeds over ten equal parts of the window, in 2D of the slice's",
+              "coefficient of variation of its seeds over about ten equal parts of the window, whole periods of the "
+              "drive; in 2D of the slice's",
               [](Source s) { return s.row.instability_cv; }},
     RowFigure{"instability_counting_percent", "%", percent, "what counting so many independent seeds gives alone",
               [](Source s) { return s.row.instability_counting_cv; }},

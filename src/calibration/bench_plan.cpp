@@ -44,7 +44,7 @@ double seeds_to_give(const Scene& scene) {
   double count = 0;
   for (const Vessel* vessel : {&scene.tray, scene.hopper ? &*scene.hopper : nullptr}) {
     if (vessel == nullptr || !vessel->fill) continue;
-    if (vessel->fill->keep) return 0;
+    if (is_kept(*vessel)) return 0;
     count += vessel->fill->count;
   }
   return count;

@@ -12,7 +12,7 @@ namespace {
 bool is_of_a_rate(DoubtKind kind) {
   using enum DoubtKind;
   return kind == ran_dry || kind == drained || kind == stopped_flowing || kind == before_the_window ||
-         kind == few_seeds;
+         kind == few_seeds || kind == flow_changed;
 }
 
 ReducedRun reduced_run(const CalibrationTask& task, const std::vector<std::size_t>& series, const Scene& scene,

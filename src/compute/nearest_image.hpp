@@ -13,4 +13,9 @@ inline double nearest_image(double apart, double period) {
   return std::remainder(apart, period);
 }
 
+/// A place along a periodic direction, counted from where the period begins, less as many periods as bring it into one.
+inline double within_period(double place, double period) {
+  return place - period * std::floor(place / period);
+}
+
 }  // namespace vibrosow

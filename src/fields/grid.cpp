@@ -7,6 +7,11 @@
 
 namespace vibrosow {
 
+std::int64_t cells_over(double length, double cell) {
+  constexpr double rounding = 1e-9;  // of a cell
+  return static_cast<std::int64_t>(std::ceil(length / cell - rounding));
+}
+
 Grid grid_over(const std::vector<const Snapshot*>& snapshots, double cell) {
   if (!(cell > 0)) throw std::invalid_argument("the cells of a grid need an edge above 0");
   const double infinity = std::numeric_limits<double>::infinity();

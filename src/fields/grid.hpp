@@ -27,6 +27,9 @@ struct Grid {
   Eigen::Vector2d centre(std::size_t k) const { return lower_left(k) + Eigen::Vector2d::Constant(0.5 * cell); }
 };
 
+/// How many cells of an edge (m) it takes to cover a length (m).
+std::int64_t cells_over(double length, double cell);
+
 /// The smallest grid that covers every grain of the snapshots; of no cells without grains. `cell` > 0, m.
 Grid grid_over(const std::vector<const Snapshot*>& snapshots, double cell);
 

@@ -1,7 +1,6 @@
 #include "fields/mean_map.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 
 #include "fields/motion.hpp"
@@ -13,8 +12,8 @@ namespace {
 Grid grid_of(const Vessel& tray, double cell) {
   Grid grid;
   grid.cell = cell;
-  grid.columns = static_cast<std::int64_t>(std::ceil(tray.length / cell));
-  grid.rows = static_cast<std::int64_t>(std::ceil(tray.height / cell));
+  grid.columns = cells_over(tray.length, cell);
+  grid.rows = cells_over(tray.height, cell);
   return grid;
 }
 
@@ -23,14 +22,17 @@ Grid grid_of(const Vessel& tray, double cell) {
 MeanMapSum::MeanMapSum(const Scene& scene)
     : lots_(scene.lots),
       part_(map_part(scene)),
+      periods_(periods_of(scene.tray, scene.space != Space::plane)),
       grid_(grid_of(scene.tray, scene.record->cell)),
       packing_(grid_.size(), 0.0),
       moved_x_(packing_),
       moved_y_(packing_) {}
 
 void MeanMapSum::add(const Snapshot& own) {
-  const std::vector<double> packing = packing_fraction(own, lots_, grid_, part_);
-  const auto motion = cell_motion(own, grid_, std::max(fit_reach(own), grid_.cell), part_);
+  const double reach = std::max(fit_reach(own), grid_.cell);
+  const Snapshot bed = with_images(own, periods_, reach + grid_.cell);
+  const std::vector<double> packing = packing_fraction(bed, lots_, grid_, part_);
+  const auto motion = cell_motion(bed, grid_, reach, part_);
   for (std::size_t k = 0; k < packing.size(); ++k) {
     packing_[k] += packing[k];
     if (!motion[k]) continue;

@@ -4,6 +4,7 @@
 
 #include "fields/grid.hpp"
 #include "fields/map_part.hpp"
+#include "fields/tray_frame.hpp"
 #include "scene/scene.hpp"
 
 namespace vibrosow {
@@ -32,6 +33,7 @@ class MeanMapSum {
  private:
   std::vector<SeedLot> lots_;
   MapPart part_;
+  Periods periods_;
   Grid grid_;
   std::vector<double> packing_, moved_x_, moved_y_;  // sums; of velocities times packing
   int looks_ = 0;

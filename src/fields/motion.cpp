@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numeric>
 
+#include "compute/nearest_image.hpp"
+
 namespace vibrosow {
 namespace {
 
@@ -21,23 +23,36 @@ Eigen::Matrix<double, N, 1> place_of(const Snapshot& s, std::size_t i) {
     return {s.x[i], s.y[i]};
 }
 
+/// How far one grain moved against another: a bed may have moved as a whole by any part of a period.
 template <int N>
-std::vector<std::optional<double>> strain_in(const Snapshot& before, const Snapshot& after, double reach) {
+Eigen::Matrix<double, N, 1> shorter_way(Eigen::Matrix<double, N, 1> moved, const Periods& periods) {
+  if (periods.along > 0) moved[0] = nearest_image(moved[0], periods.along);
+  if (N == 3 && periods.across > 0) moved[N - 1] = nearest_image(moved[N - 1], periods.across);
+  return moved;
+}
+
+template <int N>
+std::vector<std::optional<double>> strain_in(const Snapshot& before, const Snapshot& after, double reach,
+                                             const Periods& periods) {
+  const Snapshot bed = with_images(before, periods, reach);
   PointsOf<N> places, displacements;
-  std::vector<std::size_t> grain;  // of `after`
-  for (std::size_t i = 0; i < after.size(); ++i) {
-    const auto found = std::ranges::lower_bound(before.id, after.id[i]);
-    if (found == before.id.end() || *found != after.id[i]) continue;
-    const auto j = static_cast<std::size_t>(found - before.id.begin());
-    grain.push_back(i);
-    places.push_back(place_of<N>(before, j));
+  std::vector<std::size_t> grain;  // of `after`, of those that are no images
+  for (std::size_t j = 0; j < bed.size(); ++j) {
+    const auto found = std::ranges::lower_bound(after.id, bed.id[j]);
+    if (found == after.id.end() || *found != bed.id[j]) continue;
+    const auto i = static_cast<std::size_t>(found - after.id.begin());
+    if (j < before.size()) grain.push_back(i);
+    places.push_back(place_of<N>(bed, j));
     displacements.push_back(place_of<N>(after, i) - places.back());
   }
   const Neighbourhoods<N> neighbourhoods(places, reach);
   std::vector<std::optional<double>> strain(after.size());
-  for (std::size_t k = 0; k < grain.size(); ++k)
-    if (const auto gradient = fit_gradient<N>(places, displacements, neighbourhoods.around(places[k])))
-      strain[grain[k]] = shear(*gradient);
+  PointsOf<N> towards = displacements;
+  for (std::size_t k = 0; k < grain.size(); ++k) {
+    const std::vector<std::size_t> around = neighbourhoods.around(places[k]);
+    for (const std::size_t j : around) towards[j] = shorter_way<N>(displacements[j] - displacements[k], periods);
+    if (const auto gradient = fit_gradient<N>(places, towards, around)) strain[grain[k]] = shear(*gradient);
+  }
   return strain;
 }
 
@@ -77,8 +92,9 @@ std::vector<std::optional<CellMotion>> cell_motion(const Snapshot& snapshot, con
   return cells;
 }
 
-std::vector<std::optional<double>> shear_strain(const Snapshot& before, const Snapshot& after, double reach) {
-  return after.in_space() ? strain_in<3>(before, after, reach) : strain_in<2>(before, after, reach);
+std::vector<std::optional<double>> shear_strain(const Snapshot& before, const Snapshot& after, double reach,
+                                                const Periods& periods) {
+  return after.in_space() ? strain_in<3>(before, after, reach, periods) : strain_in<2>(before, after, reach, periods);
 }
 
 }  // namespace vibrosow

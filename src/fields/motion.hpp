@@ -5,6 +5,7 @@
 #include "fields/gradient.hpp"
 #include "fields/grid.hpp"
 #include "fields/map_part.hpp"
+#include "fields/tray_frame.hpp"
 
 namespace vibrosow {
 
@@ -26,7 +27,9 @@ std::vector<std::optional<CellMotion>> cell_motion(const Snapshot& snapshot, con
 /// Shear strain about each grain of `after` since `before`, from the displacement gradient (see `shear`) fitted through
 /// the grains that were within `reach` (m) of it in `before` and are still there: what moved as a block has 0, a slip
 /// line stands out. None for a grain that was not there before or has too few of its neighbours left. In space about
-/// each grain in all directions.
-std::vector<std::optional<double>> shear_strain(const Snapshot& before, const Snapshot& after, double reach);
+/// each grain in all directions. In a periodic tray a grain moved the shorter way
+/// against each of its neighbours.
+std::vector<std::optional<double>> shear_strain(const Snapshot& before, const Snapshot& after, double reach,
+                                                const Periods& periods = {});
 
 }  // namespace vibrosow

@@ -1,5 +1,9 @@
 #include "fields/tray_frame.hpp"
 
+#include <algorithm>
+#include <cmath>
+
+#include "compute/nearest_image.hpp"
 #include "elementary/functions.hpp"
 #include "grains/orientation.hpp"
 #include "scene/motion.hpp"
@@ -41,7 +45,33 @@ void turn_clumps_back(Snapshot& own, double angle) {
   }
 }
 
+void bring_within(std::vector<double>& places, double period) {
+  if (period == 0) return;
+  for (double& place : places) place = within_period(place, period);
+}
+
+/// Appends grain `i` of `from`, moved (m).
+void append_moved(Snapshot& to, const Snapshot& from, std::size_t i, double along, double across) {
+  const auto append = [&]<class... Array>(Array Snapshot::*... arrays) {
+    const auto one = [&](auto array) {
+      if (!(from.*array).empty()) (to.*array).push_back((from.*array)[i]);
+    };
+    (one(arrays), ...);
+  };
+  using S = Snapshot;
+  append(&S::x, &S::y, &S::vx, &S::vy, &S::omega, &S::angle, &S::lot, &S::id, &S::radius, &S::mass, &S::area,
+         &S::start_x, &S::start_y, &S::z, &S::vz, &S::omega_x, &S::omega_y, &S::q_w, &S::q_x, &S::q_y, &S::q_z,
+         &S::start_z, &S::volume);
+  to.x.back() += along;
+  if (to.in_space()) to.z.back() += across;
+}
+
 }  // namespace
+
+Periods periods_of(const Vessel& tray, bool in_space) {
+  return {tray.sides == Sides::periodic ? tray.length : 0,
+          in_space && tray.front_and_back == Sides::periodic ? *tray.depth : 0};
+}
 
 Snapshot in_tray_frame(const Snapshot& lab, const Vessel& tray) {
   if (turns_steadily(tray) && !is_at_rest(lab)) {
@@ -67,7 +97,33 @@ Snapshot in_tray_frame(const Snapshot& lab, const Vessel& tray) {
   turn_clumps_back(own, tray.tilt + lab.tray_angle);
   if (lab.in_space()) take_off_what_is_across(own, tray.front, now);
   put_at_rest(own);
+  const Periods periods = periods_of(tray, own.in_space());
+  bring_within(own.x, periods.along), bring_within(own.z, periods.across);
   return own;
+}
+
+Snapshot with_images(const Snapshot& own, const Periods& periods, double reach) {
+  Snapshot bed = own;
+  const auto is_near = [](double at, double period, double beyond) {
+    return period == 0 || (at >= -beyond && at <= period + beyond);
+  };
+  const double widest = own.size() == 0 ? 0 : *std::ranges::max_element(own.radius);
+  const auto images = [&](double period) {
+    return period > 0 ? static_cast<int>(std::ceil((reach + widest) / period)) : 0;
+  };
+  const int along = images(periods.along), across = images(periods.across);
+  for (int i = -along; i <= along; ++i)
+    for (int k = -across; k <= across; ++k) {
+      if (i == 0 && k == 0) continue;
+      const double dx = i * periods.along, dz = k * periods.across;
+      for (std::size_t grain = 0; grain < own.size(); ++grain) {
+        const double beyond = reach + own.radius[grain];
+        if (!is_near(own.x[grain] + dx, periods.along, beyond)) continue;
+        if (own.in_space() && !is_near(own.z[grain] + dz, periods.across, beyond)) continue;
+        append_moved(bed, own, grain, dx, dz);
+      }
+    }
+  return bed;
 }
 
 std::vector<std::size_t> grains_in_tray(const Snapshot& own, const Vessel& tray) {

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <map>
 #include <optional>
 #include <string_view>
 
@@ -101,20 +102,42 @@ std::optional<double> seconds_of(const std::string& clock, bool decimal_comma) {
   return 3600 * *hours + 60 * *minutes + *seconds;
 }
 
-/// Seconds since the first row; past midnight they go on.
+/// What tells a run of the table from its others.
+std::vector<std::size_t> columns_of_run(const CsvLines& csv) {
+  std::vector<std::size_t> columns;
+  for (std::size_t i = 0; i < csv.header.fields.size(); ++i)
+    if (csv.header.fields[i] == "repeat" || key_of_column(csv.header.fields[i])) columns.push_back(i);
+  return columns;
+}
+
+/// Seconds since the first row of a run; past midnight they go on.
+class RunClock {
+ public:
+  double operator()(double time_of_day) {
+    constexpr double day = 86400;
+    if (before_ && time_of_day < *before_) days_ += day;
+    before_ = time_of_day;
+    if (!first_) first_ = time_of_day;
+    return time_of_day + days_ - *first_;
+  }
+
+ private:
+  std::optional<double> first_, before_;
+  double days_ = 0;
+};
+
+/// Of a table whose other columns are named.
 void read_clock(CsvLines& csv, std::size_t column) {
-  constexpr double day = 86400;
-  std::optional<double> first, before;
-  double days = 0;
+  const std::vector<std::size_t> of_run = columns_of_run(csv);
+  std::map<std::vector<std::string>, RunClock> clocks;
   for (CsvLines::Row& row : csv.rows) {
-    const auto seconds = seconds_of(row.fields[column], csv.decimal_comma);
-    if (!seconds)
+    const auto time_of_day = seconds_of(row.fields[column], csv.decimal_comma);
+    if (!time_of_day)
       throw InputError(fmt::format("{}:{}: {}: \"{}\" is no time of day such as 12:30:01", csv.file, row.line,
                                    csv.header.fields[column], shortened(row.fields[column])));
-    if (before && *seconds < *before) days += day;
-    before = seconds;
-    if (!first) first = seconds;
-    std::string text = fmt::format("{}", *seconds + days - *first);
+    std::vector<std::string> run;
+    for (const std::size_t i : of_run) run.push_back(row.fields[i]);
+    std::string text = fmt::format("{}", clocks[std::move(run)](*time_of_day));
     if (csv.decimal_comma) std::ranges::replace(text, '.', ',');
     row.fields[column] = std::move(text);
   }
@@ -125,6 +148,14 @@ void remove(CsvLines& csv, std::size_t column) {
   const auto at = static_cast<std::ptrdiff_t>(column);
   csv.header.fields.erase(csv.header.fields.begin() + at);
   for (CsvLines::Row& row : csv.rows) row.fields.erase(row.fields.begin() + at);
+}
+
+std::size_t column_at(const CsvLines& csv, const std::string& name, const std::string& where) {
+  const auto found = std::ranges::find(csv.header.fields, name);
+  if (found == csv.header.fields.end())
+    throw InputError(
+        fmt::format("{}: {}: there is no such column{}", where, name, did_you_mean(name, csv.header.fields)));
+  return static_cast<std::size_t>(found - csv.header.fields.begin());
 }
 
 }  // namespace
@@ -139,24 +170,20 @@ ColumnName parse_column_name(const std::string& column_is_name) {
 
 CsvLines with_named_columns(CsvLines csv, const std::vector<ColumnName>& names) {
   const std::string where = fmt::format("{}:{}", csv.file, csv.header.line);
+  std::vector<std::string> clocks;
   for (const ColumnName& name : names) {
-    const auto found = std::ranges::find(csv.header.fields, name.column);
-    if (found == csv.header.fields.end())
-      throw InputError(fmt::format("{}: {}: there is no such column{}", where, name.column,
-                                   did_you_mean(name.column, csv.header.fields)));
-    const auto column = static_cast<std::size_t>(found - csv.header.fields.begin());
+    const std::size_t column = column_at(csv, name.column, where);
     if (name.name.empty()) {
       remove(csv, column);
-      continue;
+    } else if (name.name == "clock") {
+      clocks.push_back(name.column);
+    } else {
+      Reading reading = reading_of(name, where);
+      convert(csv, column, reading.factor);
+      csv.header.fields[column] = std::move(reading.column);
     }
-    if (name.name == "clock") {
-      read_clock(csv, column);
-      continue;
-    }
-    Reading reading = reading_of(name, where);
-    convert(csv, column, reading.factor);
-    csv.header.fields[column] = std::move(reading.column);
   }
+  for (const std::string& clock : clocks) read_clock(csv, column_at(csv, clock, where));
   return csv;
 }
 

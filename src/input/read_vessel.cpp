@@ -329,7 +329,7 @@ void check_turning(Table& table, const Vessel& vessel, Space space) {
   const bool upright = std::get<TurningMotion>(*vessel.motion).axis == TurningAxis::upright;
   if (upright && space == Space::plane)
     table.required_table("motion").fail("axis", "a vessel turns about an upright axis only with space = \"3d\"");
-  if (vessel.fill && vessel.fill->keep)
+  if (is_kept(vessel))
     table.required_table("fill").fail("keep", "a vessel that turns over and over cannot be topped up");
   if (!upright && !vessel.holes.empty())
     table.fail("holes", "a vessel that turns over and over has none; leave gaps between its pieces");

@@ -10,6 +10,7 @@
 
 #include "input/wording.hpp"
 #include "scene/input_error.hpp"
+#include "scene/measuring_window.hpp"
 #include "scene/spaces.hpp"
 #include "units/quantity.hpp"
 
@@ -20,13 +21,14 @@ constexpr std::array table = {
     Goal{"unevenness", "CV of a run", "run_cv_percent", false,
          "coefficient of variation between the holes of one run, chance included, least", "one hole has no unevenness"},
     Goal{"instability", "instability", "instability_cv_percent", false,
-         "of the whole outflow over ten parts of the window, least", "it has no instability"},
+         "of the whole outflow over about ten parts of the window, least",
+         "its window has fewer than two periods of the drive, or it has no seeds"},
     Goal{"pause", "longest pause", "longest_pause_s", false, "longest time without a seed, least", "it has no pause"},
     Goal{"rate", "rate", "rate_g_per_s", true, "mass flow, most", "it has no rate"},
     Goal{"spilled", "spilled", "spilled_percent", false, "seeds that left over the rim, least", "nothing left it"},
 };
 
-constexpr std::string_view rate = "rate", spilled = "spilled";
+constexpr std::string_view rate = "rate", spilled = "spilled", unsteady = "instability";
 constexpr Goal rate_of_tray{rate, "rate of the tray", "tray_rate_g_per_s", true, "mass flow, most", "it has no rate"};
 
 std::optional<double> finite(const std::optional<double>& value) {
@@ -42,6 +44,20 @@ void check_windows_alike(const Goal& goal, const std::vector<Scene>& scenes) {
   throw InputError(
       fmt::format("the goal {}: it depends on how long is measured, and layouts measure from {:.3g} to {:.3g} s",
                   goal.name, shortest, longest));
+}
+
+/// Chance makes the CV of more parts larger, in the measure of the root of their number.
+void check_parts_alike(const Goal& goal, const std::vector<Scene>& scenes) {
+  constexpr double alike = 1.5;
+  const auto parts = [](const Scene& scene) {
+    return std::max<std::ptrdiff_t>(0, std::ssize(instability_ends(measuring_window(scene))) - 1);
+  };
+  const auto [fewest, most] = std::ranges::minmax(scenes | std::views::transform(parts));
+  if (fewest > 0 && static_cast<double>(most) <= alike * static_cast<double>(fewest)) return;
+  throw InputError(fmt::format(
+      "the goal {}: it is of parts of whole periods of the drive, and layouts' windows have {} to {} of them; measure "
+      "over twenty periods or more",
+      goal.name, fewest, most));
 }
 
 struct Rate {
@@ -88,6 +104,7 @@ const Goal& goal_between(const Goal& goal, const std::vector<Scene>& scenes) {
   if (scenes.empty()) return goal;
   if (goal.name != rate) {
     if (goal.name != spilled) check_windows_alike(goal, scenes);
+    if (goal.name == unsteady) check_parts_alike(goal, scenes);
     return goal;
   }
   const auto slice = [](const Scene& scene) {

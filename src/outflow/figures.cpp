@@ -63,9 +63,11 @@ constexpr std::array table = {
            [](Source s) { return of_unevenness(s, [](const Unevenness& u) { return u.low; }); }, true},
     Figure{"unevenness_cv_percent_high", "high", "%", percent, "upper end: what it may be up to where it is empty",
            [](Source s) { return of_unevenness(s, [](const Unevenness& u) { return u.high; }); }, true},
-    Figure{"instability_cv_percent", "instability CV %", "%", percent,
-           "coefficient of variation of the whole outflow over ten equal parts of the window",
-           [](Source s) { return s.outflow.instability_cv; }},
+    Figure{
+        "instability_cv_percent", "instability CV %", "%", percent,
+        "coefficient of variation of the whole outflow over about ten equal parts of the window, whole periods of the "
+        "drive",
+        [](Source s) { return s.outflow.instability_cv; }},
     Figure{"longest_pause_s", "pause s", "s", 1, "longest time in the window in which no seed came from any hole",
            [](Source s) { return Value(whole(s.outflow).longest_pause); }},
     Figure{"spilled_percent", "spilled %", "%", percent,

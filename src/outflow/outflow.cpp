@@ -106,43 +106,84 @@ std::optional<double> depth_factor(const Scene& scene) {
   return scene.space == Space::three_dimensional ? std::optional(1.0) : slices_of_tray(scene);
 }
 
-bool is_kept(const Scene& scene) {
-  const auto kept = [](const Vessel& vessel) { return vessel.fill && vessel.fill->keep; };
-  return kept(scene.tray) || (scene.hopper && kept(*scene.hopper));
-}
-
-/// Seeds that rain is to bring in the window.
-double rained_in(const Scene& scene, const MeasuringWindow& window) {
-  double seeds = 0;
-  for (const Vessel* vessel : {&scene.tray, scene.hopper ? &*scene.hopper : nullptr})
-    if (vessel != nullptr && vessel->rain)
-      seeds += vessel->rain->rate *
-               std::max(0.0, std::min(window.to, vessel->rain->stop) - std::max(window.from, vessel->rain->start));
-  return seeds;
-}
-
-/// Of a fill that nothing keeps up: what is left at the window's end, of what was there when it began, below which the
-/// rate is not that of a full tray.
+/// What the tray holds at the window's end, of what it held when it began, below which the rate is not that of a full
+/// tray.
 constexpr double drained_fraction = 0.5;
+/// And by how many square roots of its seeds: a tray that holds a few at a time often holds half as many.
+constexpr double drained_deviations = 3;
 
 /// Of the seeds that left, and at all, without a word.
 constexpr double most_spilled = 0.05;
 constexpr std::int64_t few_spilled = 5;
 
-std::optional<Doubt> doubt_if_drained(const Scene& scene, const Run& run, const MeasuringWindow& window) {
-  if (is_kept(scene) || window.empty()) return std::nullopt;
-  const auto left_before =
-      std::ranges::count_if(run.events, [&](const auto& event) { return event.time < window.from; });
-  const Balance& balance = run.balance;
-  const double at_begin = static_cast<double>(balance.put_in - left_before) - rained_in(scene, window);
-  if (static_cast<double>(balance.inside) >= drained_fraction * at_begin) return std::nullopt;
-  return Doubt{DoubtKind::drained, fmt::format("drained in the window: {} of {} seeds gone",
-                                               balance.put_in - balance.inside, balance.put_in)};
+/// By what the tray itself holds: a hopper that is kept topped up may have arched over it.
+std::optional<Doubt> doubt_if_drained(const Run& run) {
+  const double begin = static_cast<double>(run.tray_at_begin), end = static_cast<double>(run.tray_at_end);
+  if (begin < 0 || end >= drained_fraction * begin || begin - end <= drained_deviations * std::sqrt(begin))
+    return std::nullopt;
+  return Doubt{DoubtKind::drained, fmt::format("drained in the window: {} of the {} seeds in the tray gone",
+                                               run.tray_at_begin - run.tray_at_end, run.tray_at_begin)};
+}
+
+/// The window's first or last third, s, in whole periods of the drive. Less than two periods are none: a shaken bed may
+/// take turns from one to the next. None where it has not so many.
+std::optional<double> third_of(const MeasuringWindow& window) {
+  constexpr int fewest = 2;
+  if (window.empty()) return std::nullopt;
+  if (window.drive != MeasuringWindow::Drive::periodic) return window.length() / 3;
+  if (window.periods < 2 * fewest) return std::nullopt;
+  return std::max(fewest, window.periods / 3) * window.period;
+}
+
+/// How much more the seeds' counts scatter than those of independent seeds: variance over mean of the equal parts of
+/// two pieces of the window, each about its own mean; at least 1. Seeds that leave in bursts have more.
+double dispersion(const std::vector<double>& first, const std::vector<double>& last) {
+  double variances = 0, means = 0;
+  for (const std::vector<double>* counts : {&first, &last}) {
+    const double mean = std::accumulate(counts->begin(), counts->end(), 0.0) / static_cast<double>(counts->size());
+    const double deviation = mean * coefficient_of_variation(*counts).value_or(0);
+    variances += deviation * deviation, means += mean;
+  }
+  return means > 0 ? std::max(1.0, variances / means) : 1;
+}
+
+/// The flow of the last third over that of the first, or the other way, above which their mean is of two flows; and by
+/// how many standard deviations they differ.
+constexpr double changed_flow = 2, changed_deviations = 5;
+
+std::optional<Doubt> doubt_if_flow_changed(const std::vector<OutflowEvent>& events, const MeasuringWindow& window) {
+  const std::optional<double> third = third_of(window);
+  if (!third) return std::nullopt;
+  const std::vector<double> times = times_of(events);
+  const auto counts = [&](double from) {
+    constexpr int parts = 10;
+    std::vector<double> ends;
+    for (int k = 0; k <= parts; ++k) ends.push_back(from + *third * k / parts);
+    const std::vector<std::int64_t> whole = counts_in_blocks(times, ends);
+    return std::vector<double>(whole.begin(), whole.end());
+  };
+  const std::vector<double> of_first = counts(window.from), of_last = counts(window.to - *third);
+  const double first = std::accumulate(of_first.begin(), of_first.end(), 0.0),
+               last = std::accumulate(of_last.begin(), of_last.end(), 0.0);
+  if (std::max(first, last) <= changed_flow * std::min(first, last)) return std::nullopt;
+  if (std::abs(last - first) <= changed_deviations * std::sqrt(dispersion(of_first, of_last) * (first + last)))
+    return std::nullopt;
+  return Doubt{DoubtKind::flow_changed,
+               fmt::format("the flow changed in the window: from {:.3g} to {:.3g} seeds/s, first and last {:.3g} s",
+                           first / *third, last / *third, *third)};
+}
+
+bool says_why_flow_ended(const std::vector<Doubt>& doubts) {
+  using enum DoubtKind;
+  return std::ranges::any_of(doubts, [](const Doubt& doubt) {
+    return doubt.kind == ran_dry || doubt.kind == drained || doubt.kind == stopped_flowing;
+  });
 }
 
 std::vector<Doubt> doubts_about(const Scene& scene, const Run& run, const MeasuringWindow& window,
-                                std::size_t counted) {
+                                const std::vector<OutflowEvent>& events) {
   using enum DoubtKind;
+  const std::size_t counted = events.size();
   std::vector<Doubt> doubts;
   const auto add = [&](DoubtKind kind, const std::string& text = "") {
     doubts.push_back({kind, text.empty() ? std::string(words_of(kind).name) : text});
@@ -150,10 +191,12 @@ std::vector<Doubt> doubts_about(const Scene& scene, const Run& run, const Measur
   if (run.outside_the_model) add(outside_the_model);
   if (run.tray_empty_since >= 0 && run.tray_empty_since < window.to)
     add(ran_dry, fmt::format("ran dry at {:.3g} s", run.tray_empty_since));
-  else if (const auto doubt = doubt_if_drained(scene, run, window))
-    doubts.push_back(*doubt);
+  else if (const auto drained_doubt = doubt_if_drained(run))
+    doubts.push_back(*drained_doubt);
   if (!run.end_reason.empty() && run.balance.inside > 0)
     add(stopped_flowing, fmt::format("ended at {:.3g} s: {}", run.end_time, run.end_reason));
+  if (!says_why_flow_ended(doubts))
+    if (const auto changed = doubt_if_flow_changed(events, window)) doubts.push_back(*changed);
   const std::int64_t left = run.balance.counted + run.balance.spilled;
   if (!run.outside_the_model && run.balance.spilled > few_spilled &&
       static_cast<double>(run.balance.spilled) > most_spilled * static_cast<double>(left))
@@ -185,14 +228,15 @@ std::vector<std::int64_t> counts_in_blocks(const std::vector<double>& times, con
   return counts;
 }
 
-std::optional<double> instability_cv(const std::vector<double>& times, double from, double to) {
-  if (to <= from || times.size() < 2) return std::nullopt;
-  std::vector<double> grains(instability_windows, 0.0);
-  for (const double time : times) {
-    const double part = (time - from) / (to - from) * instability_windows;
-    grains[static_cast<std::size_t>(std::clamp(static_cast<int>(part), 0, instability_windows - 1))] += 1;
-  }
-  return coefficient_of_variation(grains);
+std::optional<Instability> instability(const std::vector<double>& times, const MeasuringWindow& window) {
+  std::vector<double> counts;
+  for (const std::int64_t count : counts_in_blocks(times, instability_ends(window)))
+    counts.push_back(static_cast<double>(count));
+  const double seeds = std::accumulate(counts.begin(), counts.end(), 0.0);
+  if (seeds < 2) return std::nullopt;
+  const std::optional<double> cv = coefficient_of_variation(counts);
+  if (!cv) return std::nullopt;
+  return Instability{*cv, std::sqrt(static_cast<double>(counts.size()) / seeds)};
 }
 
 std::string Outflow::note() const {
@@ -211,11 +255,11 @@ Outflow measure_outflow(const Scene& scene, const Run& run) {
   outflow.grains_of_hole = grains_of_holes(scene, events);
   outflow.grains_of_hole_in_block = grains_in_blocks(scene, events, block_ends(window));
   outflow.raw_cv = raw_cv(outflow.grains_of_hole);
-  outflow.instability_cv = instability_cv(times_of(events), window.from, window.to);
+  if (const auto of_all = instability(times_of(events), window)) outflow.instability_cv = of_all->cv;
   const std::int64_t left = run.balance.counted + run.balance.spilled;
   if (left > 0) outflow.spilled_fraction = static_cast<double>(run.balance.spilled) / static_cast<double>(left);
   outflow.depth_factor = depth_factor(scene);
-  outflow.doubts = doubts_about(scene, run, window, events.size());
+  outflow.doubts = doubts_about(scene, run, window, events);
   return outflow;
 }
 

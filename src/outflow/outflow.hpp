@@ -39,23 +39,26 @@ struct Outflow {
   std::vector<std::int64_t> grains_of_hole;  // in the window
   std::vector<std::vector<std::int64_t>> grains_of_hole_in_block;  // by block of the window, then by hole
   std::optional<double> raw_cv;          // fraction; coefficient of variation of the holes' grains, chance included
-  std::optional<double> instability_cv;  // fraction; CV of the whole outflow over equal time windows
+  std::optional<double> instability_cv;  // fraction; CV of the whole outflow over the parts of `instability_ends`
   double spilled_fraction = 0;           // spilled / (counted + spilled), whole run
   std::optional<double> depth_factor;    // tray.depth / diameter of the plane slice; in space 1
   std::vector<Doubt> doubts;             // what speaks against the figures; empty when all is well
   std::string note() const;              // their texts: "ran dry at 3.2 s; outside the model"
 };
 
-/// Into how many equal parts the measuring window is cut for the instability.
-inline constexpr int instability_windows = 10;
-
 /// How many of such times (s, ascending or not) lie in each block, whose ends `block_ends` gives; those before the
 /// first and after the last in none.
 std::vector<std::int64_t> counts_in_blocks(const std::vector<double>& times, const std::vector<double>& ends);
 
-/// Coefficient of variation of seeds that come at these times (s) over equal parts of the window from `from` to `to`
-/// (s), in which they all lie; none for an empty window or fewer than two seeds.
-std::optional<double> instability_cv(const std::vector<double>& times, double from, double to);
+/// How unsteady a flow is; fractions.
+struct Instability {
+  double cv = 0;           // of the counts of the parts of the window
+  double counting_cv = 0;  // what so many independent seeds would show
+};
+
+/// Of seeds that come at these times (s), over the parts of `instability_ends`; none where these are fewer than two, or
+/// the seeds in them.
+std::optional<Instability> instability(const std::vector<double>& times, const MeasuringWindow& window);
 
 /// What the events of a run say about its holes. Mean diameter of the slice: by number, over all lots.
 Outflow measure_outflow(const Scene& scene, const Run& run);

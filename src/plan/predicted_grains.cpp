@@ -147,7 +147,7 @@ struct Store {
         grains(of.fill ? of.fill->count : 0),
         resting(vibrosow::resting(scene, of)),
         under_way(time_to_holes(of)),
-        kept(of.fill && of.fill->keep) {}
+        kept(is_kept(of)) {}
 
   double rain(double from, double to) const {
     if (!vessel->rain) return 0;

@@ -20,11 +20,12 @@ class Changes {
     if (vessel_.motion && moves(*vessel_.motion)) std::visit(*this, *vessel_.motion);
     for (std::size_t k = 0; k < vessel_.holes.size(); ++k)
       if (is_later(vessel_.holes[k].open_at))
-        add("holes.open_at", fmt::format("hole {} opens at {:.3g} s", k + 1, vessel_.holes[k].open_at));
+        add("holes.open_at", fmt::format("hole {} opens at {:.3g} s", k + 1, vessel_.holes[k].open_at),
+            vessel_.holes[k].open_at);
     if (vessel_.rain && is_within(vessel_.rain->start))
-      add("rain.start", fmt::format("it rains from {:.3g} s on", vessel_.rain->start));
+      add("rain.start", fmt::format("it rains from {:.3g} s on", vessel_.rain->start), vessel_.rain->start);
     if (vessel_.rain && is_within(vessel_.rain->stop))
-      add("rain.stop", fmt::format("it rains until {:.3g} s", vessel_.rain->stop));
+      add("rain.stop", fmt::format("it rains until {:.3g} s", vessel_.rain->stop), vessel_.rain->stop);
     return std::move(found_);
   }
 
@@ -39,9 +40,9 @@ class Changes {
   void operator()(const TurningMotion& m) { see(m); }
   void operator()(const TableMotion& m) {
     if (is_within(m.times.front()) || m.times.front() >= window_.to)
-      add("motion.file", fmt::format("the table of the motion begins at {:.3g} s", m.times.front()));
+      add("motion.file", fmt::format("the table of the motion begins at {:.3g} s", m.times.front()), m.times.front());
     if (m.times.back() < window_.to)
-      add("motion.file", fmt::format("the table of the motion ends at {:.3g} s", m.times.back()));
+      add("motion.file", fmt::format("the table of the motion ends at {:.3g} s", m.times.back()), m.times.back());
   }
 
  private:
@@ -53,16 +54,18 @@ class Changes {
 
   template <class Motion>
   void see(const Motion& m) {
-    if (is_later(m.ramp)) add("motion.ramp", fmt::format("the motion builds up until {:.3g} s", m.ramp));
+    if (is_later(m.ramp)) add("motion.ramp", fmt::format("the motion builds up until {:.3g} s", m.ramp), window_.from);
     if (m.stop < window_.to && is_later(m.stop + m.stop_ramp))
-      add("motion.stop", fmt::format("the motion ends from {:.3g} s on", m.stop));
+      add("motion.stop", fmt::format("the motion ends from {:.3g} s on", m.stop), window_.from);
   }
 
-  void add(std::string_view key, const std::string& what) {
-    found_.push_back(
-        fmt::format("{}.{}: {}, and rates are measured from {:.3g} to {:.3g} s: they are means of two "
-                    "conditions",
-                    vessel_.name, key, what, window_.from, window_.to));
+  /// At a time (s) before the window, after it, or in it, its ends included.
+  void add(std::string_view key, const std::string& what, double at) {
+    const std::string_view so = at < window_.from ? "after that"
+                                : at > window_.to ? "before that"
+                                                  : "they are means of two conditions";
+    found_.push_back(fmt::format("{}.{}: {}, and rates are measured from {:.3g} to {:.3g} s: {}", vessel_.name, key,
+                                 what, window_.from, window_.to, so));
   }
 
   const Vessel& vessel_;

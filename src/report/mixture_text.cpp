@@ -19,7 +19,7 @@ std::string heading(const LotShare& share) {
   if (share.source == SeedSource::rain)
     return fmt::format("mixture of the {}'s rain, drawn at random: on average\n", vessel.name);
   return fmt::format("mixture in the {}'s fill of {} seeds{}\n", vessel.name, vessel.fill->count,
-                     vessel.fill->keep ? ", topped up at random as asked" : "");
+                     is_kept(vessel) ? ", topped up at random as asked" : "");
 }
 
 }  // namespace

@@ -133,6 +133,13 @@ CellRow cell_row(const Grid& grid, std::size_t k, double packing, Value change,
   return row;
 }
 
+/// The smallest grid that covers every grain; along a periodic tray of one period.
+Grid map_grid(const std::vector<const Snapshot*>& snapshots, double cell, const Periods& periods) {
+  Grid grid = grid_over(snapshots, cell);
+  if (periods.along > 0 && grid.size() > 0) grid.first_column = 0, grid.columns = cells_over(periods.along, cell);
+  return grid;
+}
+
 /// Of one lot, or of all where `lot` is negative.
 struct RecordRow {
   const Scene* scene;
@@ -216,7 +223,8 @@ Columns<FlowWindow> flow_columns() {
 std::string grains_csv(const Scene& scene, const Snapshot& snapshot, const Snapshot* before, CsvFormat format) {
   const Snapshot own = in_tray_frame(snapshot, scene.tray);
   std::vector<Value> shear(own.size());
-  if (const auto earlier = in_tray_frame(scene, before)) shear = shear_strain(*earlier, own, fit_reach(*earlier));
+  if (const auto earlier = in_tray_frame(scene, before))
+    shear = shear_strain(*earlier, own, fit_reach(*earlier), periods_of(scene.tray, own.in_space()));
   Csv<GrainRow> csv(grains_columns(scene.space), format);
   for (std::size_t i = 0; i < own.size(); ++i) csv.add({&scene, &own, i, shear[i]});
   return csv.text();
@@ -224,14 +232,19 @@ std::string grains_csv(const Scene& scene, const Snapshot& snapshot, const Snaps
 
 std::string fields_csv(const Scene& scene, const Snapshot& snapshot, const Snapshot* before, CsvFormat format) {
   const double cell = scene.record->cell;
-  const Snapshot own = in_tray_frame(snapshot, scene.tray);
-  const std::optional<Snapshot> earlier = in_tray_frame(scene, before);
-  const Grid grid = earlier ? grid_over({&*earlier, &own}, cell) : grid_over({&own}, cell);
+  const Periods periods = periods_of(scene.tray, scene.space != Space::plane);
+  Snapshot own = in_tray_frame(snapshot, scene.tray);
+  std::optional<Snapshot> earlier = in_tray_frame(scene, before);
+  const double reach = std::max(fit_reach(own), cell);
+  const Grid grid = map_grid(
+      earlier ? std::vector<const Snapshot*>{&*earlier, &own} : std::vector<const Snapshot*>{&own}, cell, periods);
+  own = with_images(own, periods, reach + cell);
+  if (earlier) earlier = with_images(*earlier, periods, reach + cell);
   const MapPart part = map_part(scene);
   const std::vector<double> packing = packing_fraction(own, scene.lots, grid, part);
   const std::vector<double> change =
       earlier ? packing_change(*earlier, own, scene.lots, grid, part) : std::vector<double>{};
-  const auto motion = cell_motion(own, grid, std::max(fit_reach(own), cell), part);
+  const auto motion = cell_motion(own, grid, reach, part);
   Csv<CellRow> csv(fields_columns(scene.space), format);
   for (std::size_t k = 0; k < grid.size(); ++k) {
     if (packing[k] == 0 && (!earlier || change[k] == 0)) continue;

@@ -227,7 +227,8 @@ JsonKeys<RunSource> run_keys() {
        [](S s) {
          return Json{s.outflow.window.from, s.outflow.window.to};
        }},
-      {"outflow.instability_windows", "", "parts of the window for that", [](S) { return instability_windows; }},
+      {"outflow.instability_windows", "", "parts of the window for that, of whole periods of the drive; 0: of none",
+       [](S s) { return std::max<std::int64_t>(0, std::ssize(instability_ends(s.outflow.window)) - 1); }},
       {"outflow.note", "", "as in summary.csv", [](S s) { return s.outflow.note(); }},
       {"versions.vibrosow", "", "of the program", [](S) { return VIBROSOW_VERSION; }},
       {"versions.box2d", "", "of Box2D", [](S) { return VIBROSOW_BOX2D_VERSION; }},

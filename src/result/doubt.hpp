@@ -41,10 +41,11 @@ enum class DoubtKind {
   wider_than_its_range,
   few_points,
   nothing_held_out,
-  // Of a run; kept runs know kinds by their numbers, so it comes last.
+  // Of a run; kept runs know kinds by their numbers, so these come last.
   seeds_spilled,
+  flow_changed,  // in the window, by more than chance
 };
-inline constexpr DoubtKind last_doubt_kind = DoubtKind::seeds_spilled;
+inline constexpr DoubtKind last_doubt_kind = DoubtKind::flow_changed;
 
 struct Doubt {
   DoubtKind kind;

@@ -70,6 +70,8 @@ struct Run {
   std::int64_t slip_speed_raised = 0;  // of these, where sliding friction's slip speed was raised in a hard impact
   LetPass let_pass;
   double max_relative_overlap = 0;  // a grain's share of the overlap over its radius, the largest of the run
+  std::int64_t tray_at_begin = -1;  // seeds inside the tray when the measuring window began; negative: it did not
+  std::int64_t tray_at_end = 0;     // seeds inside the tray at the end of the run
   double tray_empty_since = -1;     // s, when the last grain left the tray; negative: it never ran dry
   EnergyAccount energy;
   Balance balance;

@@ -66,10 +66,11 @@ inline bool is_possible(const Run& r, const RunBounds& of) {
                                                       b.lost,
                                                       b.put_in,
                                                       r.let_pass.energy_accounts};
+  const bool tray = r.tray_at_begin >= -1 && r.tray_at_end >= 0;
   const bool times = r.end_time >= 0 && r.end_time <= latest && r.dt >= 0 && r.dt <= latest &&
                      r.tray_empty_since >= -1 && r.tray_empty_since <= latest;
   const auto is_kind = [](const Doubt& doubt) { return doubt.kind >= DoubtKind{} && doubt.kind <= last_doubt_kind; };
-  return times && std::ranges::all_of(r.warnings, is_kind) &&
+  return times && tray && std::ranges::all_of(r.warnings, is_kind) &&
          std::ranges::all_of(counts, [](std::int64_t count) { return count >= 0; }) &&
          std::ranges::all_of(r.events, is_event) &&
          std::ranges::all_of(r.snapshots, [&](const Snapshot& s) { return is_possible(s, of); });

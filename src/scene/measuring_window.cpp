@@ -75,16 +75,33 @@ MeasuringWindow measuring_window(const Scene& scene) {
   return window;
 }
 
+namespace {
+
+/// Of so many parts of such a length (s), up to the window's end.
+std::vector<double> ends_of(const MeasuringWindow& window, int parts, double length) {
+  std::vector<double> ends;
+  for (int k = parts; k >= 0; --k) ends.push_back(window.to - k * length);
+  return ends;
+}
+
+}  // namespace
+
 std::vector<double> block_ends(const MeasuringWindow& window) {
   constexpr int fewest = 5, most = 6;
   if (window.empty()) return {};
   const int left_of_most = window.periods % most, left_of_fewest = window.periods % fewest;
   const int blocks = window.periods >= fewest && left_of_most <= left_of_fewest ? most : fewest;
   const int periods = window.periods / blocks;
-  const double length = periods > 0 ? periods * window.period : window.length() / blocks;
-  std::vector<double> ends;
-  for (int k = blocks; k >= 0; --k) ends.push_back(window.to - k * length);
-  return ends;
+  return ends_of(window, blocks, periods > 0 ? periods * window.period : window.length() / blocks);
+}
+
+std::vector<double> instability_ends(const MeasuringWindow& window) {
+  constexpr int parts = 10;
+  if (window.empty()) return {};
+  if (window.drive != MeasuringWindow::Drive::periodic) return ends_of(window, parts, window.length() / parts);
+  if (window.periods < 2) return {};
+  const int periods = std::max(1, (window.periods + parts / 2) / parts);
+  return ends_of(window, window.periods / periods, periods * window.period);
 }
 
 }  // namespace vibrosow

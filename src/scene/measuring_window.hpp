@@ -32,4 +32,9 @@ MeasuringWindow measuring_window(const Scene& scene);
 /// what of it is then left over before the first. Their ends, the first's beginning included; empty for an empty one.
 std::vector<double> block_ends(const MeasuringWindow& window);
 
+/// The same in equal parts of about a tenth of the window, of whole periods of a periodic drive, whose rhythm is no
+/// instability: ten of a window of 10, 20, 30 .. periods, else as many as there are of the periods nearest to a tenth,
+/// at least one. None of a window shorter than two periods.
+std::vector<double> instability_ends(const MeasuringWindow& window);
+
 }  // namespace vibrosow

@@ -283,6 +283,11 @@ struct Vessel {
   bool operator==(const Vessel&) const = default;
 };
 
+/// Whether its fill is topped up during the run.
+inline bool is_kept(const Vessel& vessel) {
+  return vessel.fill && vessel.fill->keep;
+}
+
 enum class Integrator { velocity_verlet, rk2_midpoint, gear5 };
 
 /// Steps a contact where a seeder says nothing: fewer with velocity Verlet, which counts a contact's first step for the

@@ -134,7 +134,7 @@ void serialize(Archive& archive, FeederState::Shower& s) {
 }
 template <class Archive>
 void serialize(Archive& archive, FeederState& s) {
-  archive(s.random, s.showers, s.warning);
+  archive(s.random, s.missing, s.showers, s.warning);
 }
 template <class Archive>
 void serialize(Archive& archive, GuardState& s) {
@@ -149,8 +149,8 @@ void serialize(Archive& archive, RecorderState& s) {
 /// What a running simulation has put into its Run; the rest is filled in by `Simulation::result`.
 template <class Archive>
 void serialize(Archive& archive, Run& r) {
-  archive(r.end_reason, r.random_seed, r.dt, r.grain_steps, r.tray_empty_since, r.energy, r.balance, r.events,
-          r.snapshots);
+  archive(r.end_reason, r.random_seed, r.dt, r.grain_steps, r.tray_at_begin, r.tray_empty_since, r.energy, r.balance,
+          r.events, r.snapshots);
 }
 template <class Archive>
 void serialize(Archive& archive, SimulationState& s) {
@@ -162,7 +162,7 @@ namespace {
 
 constexpr std::string_view signature = "vibrosow checkpoint\n";
 /// To be raised whenever a state has other fields, or goes on differently.
-constexpr std::uint32_t version = 7;
+constexpr std::uint32_t version = 8;
 
 std::uint32_t checksum(std::string_view bytes) {
   boost::crc_32_type crc;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstring>
 
+#include "compute/nearest_image.hpp"
 #include "elementary/functions.hpp"
 #include "vessel/directions.hpp"
 #include "vessel/vessel_motion.hpp"
@@ -17,10 +18,6 @@ std::size_t Counter::next_flag(std::size_t from) const {
 }
 
 namespace {
-
-double within(double place, double period) {
-  return place - period * std::floor(place / period);
-}
 
 /// Of a place on the floor or above it, in the vessel's frame.
 bool is_between_ends(const Vessel& vessel, bool in_space, double x, double z) {
@@ -37,8 +34,9 @@ bool is_between_ends(const Vessel& vessel, bool in_space, double x, double z) {
 }  // namespace
 
 Counter::FloorPoint Counter::within_period(const FloorPoint& place) const {
-  return {tray_.sides == Sides::periodic ? within(place.x, tray_.length) : place.x,
-          in_space_ && tray_.front_and_back == Sides::periodic ? within(place.z, *tray_.depth) : place.z};
+  return {
+      tray_.sides == Sides::periodic ? vibrosow::within_period(place.x, tray_.length) : place.x,
+      in_space_ && tray_.front_and_back == Sides::periodic ? vibrosow::within_period(place.z, *tray_.depth) : place.z};
 }
 
 double Counter::past_edge(const Hole& hole, const FloorPoint& place) const {

@@ -97,10 +97,6 @@ class Column {
   std::vector<std::pair<double, double>> falling_;  // m, heights taken by grains in the air
 };
 
-bool is_kept(const Vessel& vessel) {
-  return vessel.fill && vessel.fill->keep;
-}
-
 /// Seeds that have come up to `time`.
 std::int64_t arrivals(const Rain& rain, double time) {
   const double lasted = std::min(time, rain.stop) - rain.start;
@@ -126,16 +122,18 @@ int Feeder::draw_lot(Random& random) const {
   return static_cast<int>(model_.scene.lots.size()) - 1;
 }
 
+const SeedLot& Feeder::lot_of(const DrawnSeed& seed) const {
+  return model_.scene.lots[static_cast<std::size_t>(seed.lot)];
+}
+
 DrawnSeed Feeder::draw(Random& random) const {
   DrawnSeed seed{.lot = draw_lot(random)};
-  const SeedLot& seeds = model_.scene.lots[static_cast<std::size_t>(seed.lot)];
-  seed.size = draw_size(seeds, random);
-  seed.turned = draw_turn(seeds, random);
+  seed.size = draw_size(lot_of(seed), random);
   return seed;
 }
 
 double Feeder::radius_of(const DrawnSeed& seed) const {
-  return 0.5 * seed.size * model_.scene.lots[static_cast<std::size_t>(seed.lot)].diameter;
+  return 0.5 * seed.size * lot_of(seed).diameter;
 }
 
 void Feeder::note_waiting(const Vessel& vessel, int waiting, double time) {
@@ -165,9 +163,8 @@ std::optional<double> Feeder::free_height(const Inside& inside, const FloorPlace
 
 void Feeder::put(const DrawnSeed& seed, const Eigen::Vector3d& at, const Eigen::Vector3d& velocity, std::size_t v,
                  const Walls& walls, Grains& grains) {
-  const std::size_t lot = static_cast<std::size_t>(seed.lot);
-  grains.add(at, velocity, seed.lot, sized_kind(model_.scene.lots[lot], *model_.law, model_.kinds[lot], seed.size),
-             seed.turned);
+  const GrainKind& mean = model_.kinds[static_cast<std::size_t>(seed.lot)];
+  grains.add(at, velocity, seed.lot, sized_kind(lot_of(seed), *model_.law, mean, seed.size), seed.turned);
   if (fault_) return;
   const std::size_t i = grains.size() - 1;
   if (const auto fault = places_.fault(grains, i, v, walls)) fault_ = placing_fault(model_, grains, i, *fault);
@@ -183,9 +180,11 @@ int Feeder::top_up(Grains& grains, const std::vector<char>& touching, const Wall
     Inside inside = grains_inside(vessel, frame, grains, touching);
     const int missing = vessel.fill->count - inside.grains;
     int waiting = 0;
+    std::optional<DrawnSeed>& next = state_.missing[v];
     for (int k = 0; k < missing; ++k) {
-      const DrawnSeed seed = draw(state_.random);
-      const double radius = radius_of(seed);
+      if (!next) next = draw(state_.random);
+      next->turned = draw_turn(lot_of(*next), state_.random);
+      const double radius = radius_of(*next);
       const FloorPlace place = grains.in_space ? random_place(vessel, radius, state_.random)
                                                : FloorPlace(state_.random.uniform(radius, vessel.length - radius), 0);
       const std::optional<double> y = free_height(inside, place, radius, v, walls);
@@ -196,7 +195,8 @@ int Feeder::top_up(Grains& grains, const std::vector<char>& touching, const Wall
       const Eigen::Vector3d own(place.x(), *y, place.y());
       inside.add(vessel, own, radius, false);
       const Eigen::Vector3d at = point_in_lab(vessel, frame, own);
-      put(seed, at, point_velocity(vessel, pose, rate, at), v, walls, grains);
+      put(*next, at, point_velocity(vessel, pose, rate, at), v, walls, grains);
+      next.reset();
       ++added;
     }
     note_waiting(vessel, waiting, time);
@@ -219,7 +219,10 @@ int Feeder::rain(std::size_t v, Grains& grains, const Walls& walls, double time)
   const std::int64_t waiting = arrivals(rain, time) - shower.arrived;
   int added = 0;
   for (std::int64_t k = 0; k < waiting; ++k) {
-    if (!shower.next) shower.next = draw(shower.random);
+    if (!shower.next) {
+      shower.next = draw(shower.random);
+      shower.next->turned = draw_turn(lot_of(*shower.next), shower.random);
+    }
     const double radius = radius_of(*shower.next);
     const double margin = vessel.sides == Sides::walls ? std::min(radius, 0.5 * vessel.length) : 0;
     const double from = std::clamp(rain.from, margin, vessel.length - margin);

@@ -20,8 +20,9 @@ namespace vibrosow {
 /// Keeps vessels topped up (`fill.keep`): each missing grain is laid above the heap, as low as there is room, at a
 /// random place of the floor, at rest with its vessel, of a lot drawn by the fractions, its size and how a clump is
 /// turned drawn too; a clump takes the room of the circle that holds it. Where there is none below the vessel's top, it
-/// waits. Grains of the heap touch others (`touching`, one flag a grain); between those that are still falling there
-/// may be room.
+/// waits, and is tried again at another place, a clump turned anew: a seed that is drawn is fed before any other, for
+/// else what is fed would be what fits. Grains of the heap touch others (`touching`, one flag a grain); between those
+/// that are still falling there may be room.
 class Feeder {
  public:
   Feeder(const Model& model, FeederState& state);
@@ -53,7 +54,8 @@ class Feeder {
   void put(const DrawnSeed& seed, const Eigen::Vector3d& at, const Eigen::Vector3d& velocity, std::size_t vessel,
            const Walls& walls, Grains& grains);
   int draw_lot(Random& random) const;
-  DrawnSeed draw(Random& random) const;
+  const SeedLot& lot_of(const DrawnSeed& seed) const;
+  DrawnSeed draw(Random& random) const;  // its lot and size
   double radius_of(const DrawnSeed& seed) const;
   void note_waiting(const Vessel& vessel, int waiting, double time);
 

@@ -7,6 +7,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "scene/measuring_window.hpp"
 #include "scene/motion.hpp"
 #include "vessel/vessel_motion.hpp"
 
@@ -46,6 +47,7 @@ Simulation::Simulation(Model model, SimulationState state, const ComputeOptions&
       counter_(model_.scene, state_.counter),
       feeder_(model_, state_.feeder),
       guard_(model_, state_.guard),
+      window_from_(measuring_window(model_.scene).from),
       steps_per_look_(steps_in(look_interval, model_.step.dt)),
       steps_per_removal_(steps_in(removal_interval, model_.step.dt)),
       steps_per_feed_(steps_in(feeding_interval, model_.step.dt)) {
@@ -64,6 +66,7 @@ void Simulation::begin() {
   open_due_gates();
   guard_.watch_step(s_);
   guard_.watch_energy(s_, state_.run.energy);
+  if (window_from_ <= 0) state_.run.tray_at_begin = inside_tray();
   execution_.profile().lap(Phase::start);
   if (!recorder_) return;
   recorder_->note_new(state_.grains);
@@ -88,7 +91,7 @@ bool Simulation::step() {
   profile.lap(Phase::counters);
   const auto is_due = [this](std::int64_t every) { return state_.step % every == 0; };
   if (is_due(steps_per_removal_)) take_out();
-  if (is_due(steps_per_look_)) wrap(), note_whether_dry(), end_after_pause();
+  if (is_due(steps_per_look_)) wrap(), note_what_tray_holds(), end_after_pause();
   const bool top_up = feeder_.feeds() && is_due(steps_per_feed_), rain = feeder_.rains() && is_due(steps_per_look_);
   if (top_up || rain) feed(top_up, rain);
   if (is_due(steps_per_energy_account) || at_end()) guard_.watch_energy(s_, run.energy);
@@ -288,14 +291,18 @@ void Simulation::feed(bool top_up, bool rain) {
   add_to_integration(s_);
 }
 
-void Simulation::note_whether_dry() {
+std::int64_t Simulation::inside_tray(std::int64_t most) const {
   const Pose pose = field_.walls().poses().front();
-  for (std::size_t i = 0; i < state_.grains.size(); ++i)
-    if (!counter_.is_counted(i) && is_inside(model_.scene.tray, pose, state_.grains, i)) {
-      state_.run.tray_empty_since = -1;
-      return;
-    }
-  if (state_.run.tray_empty_since < 0) state_.run.tray_empty_since = state_.time;
+  std::int64_t inside = 0;
+  for (std::size_t i = 0; i < state_.grains.size() && inside < most; ++i)
+    if (!counter_.is_counted(i) && is_inside(model_.scene.tray, pose, state_.grains, i)) ++inside;
+  return inside;
+}
+
+void Simulation::note_what_tray_holds() {
+  double& empty_since = state_.run.tray_empty_since;
+  empty_since = inside_tray(1) > 0 ? -1 : empty_since < 0 ? state_.time : empty_since;
+  if (state_.run.tray_at_begin < 0 && state_.time >= window_from_) state_.run.tray_at_begin = inside_tray();
 }
 
 void Simulation::end_after_pause() {
@@ -333,6 +340,7 @@ Run Simulation::result() const {
   run.balance.inside = 0;
   for (std::size_t i = 0; i < state_.grains.size(); ++i)
     if (!counter_.is_counted(i)) ++run.balance.inside;
+  run.tray_at_end = inside_tray();
   return run;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <limits>
 #include <optional>
 #include <span>
 #include <string>
@@ -93,7 +94,9 @@ class Simulation {
   std::vector<std::size_t> gate_of(const std::string& vessel, int hole) const;
   bool is_free(std::size_t wall) const;
   void feed(bool top_up, bool rain);
-  void note_whether_dry();
+  /// Counted up to so many.
+  std::int64_t inside_tray(std::int64_t most = std::numeric_limits<std::int64_t>::max()) const;
+  void note_what_tray_holds();
   void end_after_pause();
   void take_out_flagged(const std::vector<char>& removed);
 
@@ -108,6 +111,7 @@ class Simulation {
   Guard guard_;
   std::optional<Recorder> recorder_;
   std::vector<Watcher> watchers_;
+  double window_from_;    // s, when measuring begins
   double next_gate_ = 0;  // s, when the next gate opens
   std::int64_t steps_per_look_, steps_per_removal_, steps_per_feed_;
 };

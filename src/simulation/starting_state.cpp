@@ -106,7 +106,9 @@ class FillCheck {
 
 FeederState first_draws(const Model& model, std::uint64_t random_seed) {
   constexpr std::uint64_t apart = 0x9e3779b97f4a7c15;
-  FeederState feeder{.random = Random(~random_seed), .showers = {}, .warning = {}};  // streams apart from the packing's
+  // Streams apart from the packing's.
+  FeederState feeder{.random = Random(~random_seed), .missing = {}, .showers = {}, .warning = {}};
+  feeder.missing.resize(model.vessels.size());
   for (std::size_t vessel = 0; vessel < model.vessels.size(); ++vessel)
     feeder.showers.push_back({Random(random_seed ^ (apart * (vessel + 1)))});
   return feeder;

@@ -69,8 +69,9 @@ struct FeederState {
     std::optional<DrawnSeed> next{};  // that waits; none: not drawn
   };
   Random random;
-  std::vector<Shower> showers;  // by vessel
-  std::string warning;          // that more than a quarter of a fill was missing, and since when
+  std::vector<std::optional<DrawnSeed>> missing;  // by vessel: the next of what is missing; none: not drawn
+  std::vector<Shower> showers;                    // by vessel
+  std::string warning;                            // that more than a quarter of a fill was missing, and since when
 };
 
 struct GuardState {

@@ -162,11 +162,12 @@ bool is_counter(const CounterState& c, std::size_t grains, std::size_t holes) {
 }
 
 bool is_feeder(const FeederState& fresh, const FeederState& f, std::size_t lots) {
-  return f.showers.size() == fresh.showers.size() && std::ranges::all_of(f.showers, [lots](const auto& one) {
-           const bool waits = one.next.has_value();
-           return one.arrived >= 0 &&
-                  (!waits || (is_index(one.next->lot, lots) && one.next->size > 0 && one.next->size < 1e3));
-         });
+  const auto may_wait = [lots](const std::optional<DrawnSeed>& next) {
+    return !next || (is_index(next->lot, lots) && next->size > 0 && next->size < 1e3);
+  };
+  return f.showers.size() == fresh.showers.size() && f.missing.size() == fresh.missing.size() &&
+         std::ranges::all_of(f.missing, may_wait) &&
+         std::ranges::all_of(f.showers, [&](const auto& one) { return one.arrived >= 0 && may_wait(one.next); });
 }
 
 /// Of the grains that are there every start is known.

@@ -32,14 +32,14 @@ void serialize(Archive& archive, WholeRun& whole) {
   Run& r = whole.run;
   archive(r.status, r.stop_reason, r.end_reason, r.warnings, r.outside_the_model, r.random_seed, r.dt, r.steps,
           r.end_time, r.grain_steps, r.force_evaluations, r.slip_speed_raised, r.let_pass, r.max_relative_overlap,
-          r.tray_empty_since, r.energy, r.balance, r.events, r.snapshots);
+          r.tray_at_begin, r.tray_at_end, r.tray_empty_since, r.energy, r.balance, r.events, r.snapshots);
 }
 
 namespace {
 
 /// Then come the hash of the content, a blank, the hash of all that follows it and a line's end; and the content,
 /// compressed.
-constexpr std::string_view signature = "vibrosow case 3 ";
+constexpr std::string_view signature = "vibrosow case 4 ";
 constexpr std::size_t hash_digits = 16;
 constexpr int compression_level = 3;
 

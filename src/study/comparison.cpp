@@ -170,7 +170,7 @@ bool has_hole_and_lot(const Scene& scene, const MeasuredSeries& series) {
 
 /// Whether all seeds are there from the start, so that a share of them is one of a fill.
 bool empties_a_fill(const Scene& scene) {
-  const auto is_fed = [](const Vessel& vessel) { return vessel.rain || (vessel.fill && vessel.fill->keep); };
+  const auto is_fed = [](const Vessel& vessel) { return vessel.rain || is_kept(vessel); };
   if (is_fed(scene.tray) || (scene.hopper && is_fed(*scene.hopper))) return false;
   return scene.tray.fill || (scene.hopper && scene.hopper->fill);
 }

@@ -51,8 +51,7 @@ Run doubtful_run(DoubtKind kind, const Model& model, const SimulationOptions& op
       run.tray_empty_since = 3.5;
       break;
     case drained:
-      run.balance.put_in -= run.balance.inside;
-      run.balance.inside = 0;
+      run.tray_at_begin = 20, run.tray_at_end = 5;
       break;
     case stopped_flowing:
       run.end_reason = "no grain left for 1 s", run.balance.inside = 20;
@@ -75,6 +74,14 @@ Run doubtful_run(DoubtKind kind, const Model& model, const SimulationOptions& op
       break;
     case few_seeds:
       run.events.resize(model.scene.tray.holes[0].width > 0.015 ? 9 : 3);
+      break;
+    case seeds_spilled:
+      run.balance.spilled = 20, run.balance.put_in += 20;
+      break;
+    case flow_changed:
+      for (int more = 0; more < 300; ++more)
+        run.events.push_back({3.39 + 2e-3 * more, 1, 0, run.balance.counted++, model.scene.lots[0].mass, 0.1, 0.5});
+      run.balance.put_in += 300;
       break;
     default:
       ADD_FAILURE() << "not of a run";
@@ -110,6 +117,8 @@ constexpr std::array table = {
     KindAndAnswers{DoubtKind::interrupted, as_status, as_missing, as_missing, as_status, as_missing, as_missing},
     KindAndAnswers{DoubtKind::before_the_window, as_status, as_status, as_status, as_status, as_status, as_status},
     KindAndAnswers{DoubtKind::few_seeds, as_doubt, as_doubt, as_doubt, as_doubt, as_doubt, not_at_all},
+    KindAndAnswers{DoubtKind::seeds_spilled, as_doubt, as_doubt, as_doubt, as_doubt, as_doubt, as_doubt},
+    KindAndAnswers{DoubtKind::flow_changed, as_doubt, as_doubt, as_doubt, as_doubt, as_doubt, not_at_all},
 };
 
 class DoubtsOfScenes : public testing::Test {
@@ -311,8 +320,13 @@ INSTANTIATE_TEST_SUITE_P(Kinds, Doubts, testing::ValuesIn(table), [](const auto&
 });
 
 TEST(DoubtTable, HasEveryKindOfARun) {
-  ASSERT_EQ(table.size(), static_cast<std::size_t>(DoubtKind::few_seeds) + 1);
-  for (std::size_t i = 0; i < table.size(); ++i) EXPECT_EQ(table[i].kind, static_cast<DoubtKind>(i));
+  std::vector<DoubtKind> of_a_run;
+  for (int kind = 0; kind <= static_cast<int>(DoubtKind::few_seeds); ++kind)
+    of_a_run.push_back(static_cast<DoubtKind>(kind));
+  of_a_run.insert(of_a_run.end(), {DoubtKind::seeds_spilled, DoubtKind::flow_changed});
+  std::vector<DoubtKind> of_the_table;
+  for (const KindAndAnswers& row : table) of_the_table.push_back(row.kind);
+  EXPECT_EQ(of_the_table, of_a_run);
 }
 
 TEST(DoubtTable, EveryKindSaysWhatToDo) {

@@ -187,6 +187,35 @@ TEST(ShearStrain, ASlipLineStandsOutBetweenTwoBlocks) {
   EXPECT_NEAR(largest, 8 * 4e-3 / (3 * 3.14159265358979 * reach), 0.03);
 }
 
+TEST(ShearStrain, ABedThatMovesOnOverAPeriodicSeamHasNone) {
+  const double period = 40e-3;  // of ten grains in each row
+  const Snapshot before = hexagonal_bed(10, stay, at_rest);
+  Snapshot after = before;
+  for (double& x : after.x) x = std::fmod(x + 7e-3, period);
+  const double reach = fit_reach(before);
+  for (const auto& one : shear_strain(before, after, reach, {.along = period})) EXPECT_NEAR(one.value(), 0, 1e-11);
+}
+
+TEST(ShearStrain, ABedThatMovesByHalfAPeriodHasNone) {
+  const double period = 40e-3;
+  const Snapshot before = hexagonal_bed(10, stay, at_rest);
+  Snapshot after = before;
+  for (std::size_t i = 0; i < after.size(); ++i)
+    after.x[i] = std::fmod(after.x[i] + 20e-3 + (i % 2 == 0 ? 1e-9 : -1e-9), period);
+  for (const auto& one : shear_strain(before, after, fit_reach(before), {.along = period}))
+    EXPECT_NEAR(one.value(), 0, 1e-6);
+}
+
+TEST(ShearStrain, GoesOnOverAPeriodicSeam) {
+  // Rows that slide over each other: one shear everywhere, also of the grains at the seam, which see both sides.
+  const double period = 40e-3;
+  const Snapshot before = hexagonal_bed(10, stay, at_rest);
+  Snapshot after = before;
+  for (std::size_t i = 0; i < after.size(); ++i) after.x[i] = std::fmod(after.x[i] + 0.3 * after.y[i], period);
+  const auto strain = shear_strain(before, after, fit_reach(before), {.along = period});
+  for (const auto& one : strain) EXPECT_NEAR(one.value(), 0.3, 1e-11);
+}
+
 TEST(ShearStrain, NoneForAGrainThatWasNotThere) {
   Snapshot before = hexagonal_bed(4, stay, at_rest), after = before;
   put(after, 0.1, 0.1);

@@ -54,6 +54,20 @@ TEST(MeanMap, AVelocityIsWeighedByWhatFillsTheCell) {
   EXPECT_TRUE(std::isnan(map.vx[map.grid.index(2, 0)])) << "no grain was there";
 }
 
+TEST(MeanMap, APeriodicTrayHasNoGapAtItsSeam) {
+  Scene scene = scene_of_a_tray();
+  scene.tray.sides = Sides::periodic;
+  MeanMapSum sum(scene);
+  Snapshot bed;
+  for (int k = 0; k < 6; ++k) put(bed, 5e-3 * k, 5e-3, 0.1 * (k == 0));  // the first on the seam
+  sum.add(bed);
+  const MeanMap map = sum.mean();
+  const double full = std::numbers::pi * 2e-3 * 2e-3 / (cell * cell);
+  for (std::int64_t column = 0; column < 3; ++column)
+    EXPECT_NEAR(map.packing[map.grid.index(column, 0)], 2 * full, 1e-12);
+  EXPECT_NEAR(map.vx[0], map.vx[2], 1e-12) << "half of the first is in each";
+}
+
 TEST(MeanMap, OfNoLooksOrNoGrainsHasNoCells) {
   const Scene scene = scene_of_a_tray();
   MeanMapSum sum(scene);

@@ -98,5 +98,48 @@ TEST(TrayFrame, TakesOffWhatIsAcrossAndTurnsSpinsWithTheTray) {
   EXPECT_EQ(grains_in_tray(own, tray), (std::vector<std::size_t>{0, 1})) << "the last is behind the back";
 }
 
+TEST(TrayFrame, InAPeriodicTrayEachGrainIsWhereItsImageLiesWithin) {
+  Vessel tray = made_up_tray(0.06);
+  tray.origin = {0.1, 0}, tray.sides = Sides::periodic;
+  Snapshot lab;
+  lab.tray_x = 0.01;
+  put(lab, 0.11 - 0.003, 0.01), put(lab, 0.11 + 0.03, 0.01), put(lab, 0.11 + 0.062, 0.01);
+  const Snapshot own = in_tray_frame(lab, tray);
+  EXPECT_NEAR(own.x[0], 0.057, 1e-15);
+  EXPECT_NEAR(own.x[1], 0.03, 1e-15);
+  EXPECT_NEAR(own.x[2], 0.002, 1e-15);
+  EXPECT_EQ(grains_in_tray(own, tray).size(), 3u);
+  tray.sides = Sides::walls;
+  EXPECT_EQ(grains_in_tray(in_tray_frame(lab, tray), tray).size(), 1u);
+}
+
+TEST(TrayFrame, InSpaceAPeriodicDepthToo) {
+  Vessel tray = made_up_tray(0.06);
+  tray.depth = 0.02, tray.front = -0.1, tray.sides = tray.front_and_back = Sides::periodic;
+  Snapshot lab;
+  put_ball(lab, {-0.001, 0.01, -0.1 + 0.021}), put_ball(lab, {0.03, 0.01, -0.1 - 0.002});
+  const Snapshot own = in_tray_frame(lab, tray);
+  EXPECT_NEAR(own.x[0], 0.059, 1e-15);
+  EXPECT_NEAR(own.z[0], 0.001, 1e-15);
+  EXPECT_NEAR(own.z[1], 0.018, 1e-15);
+  EXPECT_EQ(grains_in_tray(own, tray).size(), 2u);
+}
+
+TEST(Images, StandBeyondBothSeamsAsFarAsAsked) {
+  Snapshot own;
+  put_ball(own, {0.001, 0.01, 0.019}), put_ball(own, {0.03, 0.01, 0.01});
+  own.q_w = {1, 0}, own.q_x = {0, 1}, own.q_y = own.q_z = {0, 0};
+  const Snapshot bed = with_images(own, {0.06, 0.02}, 0.002);
+  ASSERT_EQ(bed.size(), 5u) << "along, across and both of the first";
+  EXPECT_EQ(bed.id, (std::vector<std::int64_t>{0, 1, 0, 0, 0}));
+  EXPECT_EQ(bed.x, (std::vector<double>{0.001, 0.03, 0.001, 0.001 + 0.06, 0.001 + 0.06}));
+  EXPECT_EQ(bed.z, (std::vector<double>{0.019, 0.01, 0.019 - 0.02, 0.019 - 0.02, 0.019}));
+  EXPECT_EQ(bed.volume.size(), 5u);
+  EXPECT_EQ(bed.q_w, (std::vector<double>{1, 0, 1, 1, 1}));
+  EXPECT_TRUE(bed.area.empty());
+  EXPECT_EQ(with_images(own, {}, 0.002).size(), 2u);
+  EXPECT_EQ(with_images(own, {0.06, 0}, 0.15).size(), 2u + 5u + 6u) << "in three periods on each side";
+}
+
 }  // namespace
 }  // namespace vibrosow

@@ -15,7 +15,7 @@ namespace vibrosow {
 namespace {
 
 constexpr std::size_t hash_at = 16, hash_size = 16,
-                      content_at = hash_at + 2 * hash_size + 2;  // after "vibrosow case 3 "
+                      content_at = hash_at + 2 * hash_size + 2;  // after "vibrosow case 4 "
 
 std::string good_case() {
   Scene scene;

@@ -55,6 +55,16 @@ TEST(NamedColumns, AClockIsReadAsSecondsSinceTheFirstRow) {
   EXPECT_EQ(error("t;m\n12:61:00;1\n", {"t=clock"}), "table.csv:2: t: \"12:61:00\" is no time of day such as 12:30:01");
 }
 
+TEST(NamedColumns, AClockBeginsAnewWithEachRun) {
+  const CsvLines table =
+      named("f;t;hole;m\n9;10:00:00;1;0\n9;10:00:02;2;0\n11;11:00:00;1;0\n11;11:00:01;1;2\n9;10:00:04;1;3\n",
+            {"t=clock", "f=tray.motion.frequency_Hz", "m=mass_g"});
+  const std::size_t time = 1;
+  std::vector<std::string> times;
+  for (const CsvLines::Row& row : table.rows) times.push_back(row.fields[time]);
+  EXPECT_EQ(times, (std::vector<std::string>{"0", "2", "0", "1", "4"}));
+}
+
 TEST(NamedColumns, WrongOnesAreTold) {
   EXPECT_EQ(error("Menge [g/min]\n1\n", {"Menge [g/mim]=rate"}),
             "table.csv:1: Menge [g/mim]: there is no such column; did you mean \"Menge [g/min]\"?");

@@ -24,7 +24,7 @@ inline Run made_up_run(const Scene& scene) {
   Run run;
   run.dt = 1e-3;
   run.end_time = scene.run.duration;
-  run.balance.put_in = run.balance.inside = 1000;
+  run.balance.put_in = run.balance.inside = run.tray_at_begin = run.tray_at_end = 1000;
   run.steps = static_cast<std::int64_t>(scene.run.duration / run.dt);
   return run;
 }

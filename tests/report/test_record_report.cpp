@@ -84,6 +84,21 @@ TEST_F(RecordReport, FieldsHaveTheCellsThatHoldGrains) {
   EXPECT_NE(later.find("\n7.5,2.5,0.502655,0,"), std::string::npos) << later;
 }
 
+TEST_F(RecordReport, APeriodicTrayLosesNoneAtItsSeam) {
+  scene.tray.sides = Sides::periodic;
+  for (double& x : run.snapshots[0].x) x += 32.5e-3;  // to 40, 45 and 40 mm: the seam is at 40 mm
+  EXPECT_NE(records_csv(scene, run.snapshots).find("1,0,all,3,0.09,"), std::string::npos)
+      << records_csv(scene, run.snapshots);
+  // Cells of 5 mm: half of each grain on the seam is in the first column and half in the last, the other is in the
+  // first two.
+  const std::string text = fields_csv(scene, run.snapshots[0], nullptr);
+  EXPECT_NE(text.find("\n2.5,2.5,0.502655,"), std::string::npos) << text;
+  EXPECT_NE(text.find("\n7.5,2.5,0.251327,"), std::string::npos) << text;
+  EXPECT_NE(text.find("\n37.5,2.5,0.251327,"), std::string::npos) << text;
+  EXPECT_NE(text.find("\n37.5,7.5,0.251327,"), std::string::npos) << text;
+  EXPECT_EQ(std::ranges::count(text, '\n'), 6) << text;
+}
+
 /// The same three grains as balls, 6, 10 and 6 mm from the front of a tray that has moved by 1 mm across, and a fourth
 /// behind the first, since it takes four to tell a strain in space.
 class RecordReportInSpace : public RecordReport {

@@ -27,6 +27,7 @@ class RunReport : public testing::Test {
     run.wall_time = 0.5;
     run.measured_cpu_time = 0.3;
     run.balance = {.put_in = 3, .inside = 1, .counted = 1, .spilled = 1};
+    run.tray_at_begin = 30, run.tray_at_end = 10;
     run.events = {{1.5, 2, 0, 17, 40e-6, 0.201, 0.6264}, {1.75, 0, 0, 18, 40e-6, -0.0035, 0.5}};
   }
   Scene scene;
@@ -41,18 +42,21 @@ TEST_F(RunReport, OutflowHasARowPerGrainAndNamesTheSpilled) {
 }
 
 TEST_F(RunReport, SummaryHasPlaneAndTrayRates) {
-  EXPECT_EQ(summary_csv(measure_outflow(scene, run)),
-            "hole,lot,position_mm,width_mm,grains,mass_g,seeds_per_s,rate_g_per_s,longest_pause_s,depth_factor,"
-            "tray_rate_g_per_s,tray_seeds_per_s,note\n"
-            "1,wheat,100,16,0,0,0,0,1,15,0,0,drained in the window: 2 of 3 seeds gone; a rate from 1 seed\n"
-            "2,wheat,200,16,1,0.04,1,0.04,0.5,15,0.6,15,drained in the window: 2 of 3 seeds gone; a rate from 1 seed\n"
-            "all,all,,,1,0.04,1,0.04,0.5,15,0.6,15,drained in the window: 2 of 3 seeds gone; a rate from 1 seed\n");
+  EXPECT_EQ(
+      summary_csv(measure_outflow(scene, run)),
+      "hole,lot,position_mm,width_mm,grains,mass_g,seeds_per_s,rate_g_per_s,longest_pause_s,depth_factor,"
+      "tray_rate_g_per_s,tray_seeds_per_s,note\n"
+      "1,wheat,100,16,0,0,0,0,1,15,0,0,drained in the window: 20 of the 30 seeds in the tray gone; a rate from 1 seed\n"
+      "2,wheat,200,16,1,0.04,1,0.04,0.5,15,0.6,15,drained in the window: 20 of the 30 seeds in the tray gone; a rate "
+      "from 1 seed\n"
+      "all,all,,,1,0.04,1,0.04,0.5,15,0.6,15,drained in the window: 20 of the 30 seeds in the tray gone; a rate from 1 "
+      "seed\n");
 }
 
 TEST_F(RunReport, SummaryIsEmptyWhereUndefined) {
   scene.tray.depth.reset();
   run.status = RunStatus::interrupted;
-  run.end_time = 0.5;
+  run.end_time = 0.5, run.tray_at_begin = -1;
   run.events.clear();
   EXPECT_NE(summary_csv(measure_outflow(scene, run))
                 .find("\n1,wheat,100,16,0,0,,,,,,,interrupted; ended before the measuring window\n"),

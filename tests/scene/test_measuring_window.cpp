@@ -95,5 +95,23 @@ TEST(BlockEnds, AreFiveOrSixOfWholePeriods) {
   EXPECT_TRUE(block_ends(measuring_window(shaken(at(9))).until(0.5)).empty());
 }
 
+TEST(InstabilityEnds, AreOfWholePeriodsNearATenthOfTheWindow) {
+  const auto ends_of = [](double frequency) { return instability_ends(measuring_window(shaken(at(frequency)))); };
+  const std::vector<double> ten = ends_of(10);  // 30 periods
+  ASSERT_EQ(ten.size(), 11u);
+  EXPECT_DOUBLE_EQ(ten[0], 1);
+  EXPECT_DOUBLE_EQ(ten[1], 1.3);
+  EXPECT_EQ(ten[10], 4);
+  EXPECT_EQ(ends_of(5).size(), 8u) << "15 periods: seven parts of two, and one is left";
+  EXPECT_DOUBLE_EQ(ends_of(5)[0], 1.2);
+  EXPECT_EQ(ends_of(14.0 / 3).size(), 15u) << "14 periods";
+  const std::vector<double> five = ends_of(5.0 / 3);
+  ASSERT_EQ(five.size(), 6u) << "five periods";
+  EXPECT_DOUBLE_EQ(five[1] - five[0], 0.6);
+  EXPECT_TRUE(ends_of(0.5).empty()) << "one period";
+  EXPECT_TRUE(ends_of(0.1).empty()) << "a part of one";
+  EXPECT_EQ(instability_ends(measuring_window(shaken(std::nullopt))).size(), 11u);
+}
+
 }  // namespace
 }  // namespace vibrosow

@@ -1,10 +1,11 @@
-// What check warns of, on drawn scenes: what changes while rates are measured, plates at holes, outlets beside the
-// tray. Each has its word, and nothing else has.
+// What check warns of and a run doubts, on drawn scenes: what changes while rates are measured, plates at holes,
+// outlets beside the tray, seeds that fall there, trays that drain. Each has its word, and nothing else has.
 #include <gtest/gtest.h>
 
 #include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <numbers>
 #include <optional>
@@ -14,6 +15,7 @@
 #include <variant>
 #include <vector>
 
+#include "outflow/outflow.hpp"
 #include "plan/scene_warnings.hpp"
 #include "scene/measuring_window.hpp"
 #include "scene/motion.hpp"
@@ -93,7 +95,7 @@ std::string not_warned_of_changes(const Scene& scene, const std::vector<std::str
   const MeasuringWindow window = measuring_window(scene);
   std::set<std::string> warned, expected;
   for (const std::string& warning : warnings) {
-    if (warning.find("they are means of two conditions") == std::string::npos) continue;
+    if (warning.find(", and rates are measured from ") == std::string::npos) continue;
     const std::string key = warning.substr(0, warning.find(": ")), vessel = key.substr(0, key.find('.'));
     warned.insert(key.starts_with(vessel + ".motion.") ? vessel + ".motion" : key);
   }
@@ -208,8 +210,56 @@ std::string warned_wrongly(const DrawnScene& drawn) {
   return "";
 }
 
+// ---- what a run doubts ----
+
+bool has(const std::vector<Doubt>& doubts, DoubtKind kind) {
+  return std::ranges::find(doubts, kind, &Doubt::kind) != doubts.end();
+}
+
+std::string spilling_not_doubted(const vibrosow::Run& result, const Outflow& outflow) {
+  std::int64_t counted = 0, spilled = 0;
+  for (const OutflowEvent& event : result.events) ++(event.hole > 0 ? counted : spilled);
+  const bool much = spilled > 5 && 20 * spilled > counted + spilled;
+  const std::string told = std::to_string(spilled) + " of " + std::to_string(counted + spilled) + " seeds that left";
+  if (has(outflow.doubts, DoubtKind::seeds_spilled) != much)
+    return told + (much ? " were spilled, and nothing is said" : " were spilled, and that is said");
+  const double share = static_cast<double>(spilled) / static_cast<double>(counted + spilled);
+  return counted + spilled == 0 || outflow.spilled_fraction == share ? "" : told + " are told as another share";
+}
+
+/// `before`: seeds in the tray when the window began, by a look or so.
+std::string draining_not_doubted(const vibrosow::Run& result, const Outflow& outflow, std::int64_t before) {
+  const double held = static_cast<double>(before), left = static_cast<double>(result.tray_at_end);
+  const double least = std::min(0.5 * held, held - 3 * std::sqrt(held));
+  if (has(outflow.doubts, DoubtKind::ran_dry) || std::abs(left - least) < 2) return "";
+  if (has(outflow.doubts, DoubtKind::drained) == (left < least)) return "";
+  return std::to_string(before) + " seeds lay in the tray when the window began and " +
+         std::to_string(result.tray_at_end) + " at its end, and it is " +
+         (left < least ? "not called drained" : "called drained");
+}
+
+std::string not_doubted(const DrawnScene& drawn) {
+  std::optional<RunStart> start = start_of(drawn);
+  if (!start || start->model.scene.tray.holes.empty()) return "";
+  const Scene scene = start->model.scene;
+  const MeasuringWindow window = measuring_window(scene);
+  Simulation run(start->model, std::move(start->state));
+  run.run_until(window.from);
+  const std::int64_t before = run.result().tray_at_end;
+  run.run_until(scene.run.duration);
+  const vibrosow::Run result = run.result();
+  const Outflow outflow = measure_outflow(scene, result);
+  if (result.status != RunStatus::finished || result.outside_the_model || window.empty()) return "";
+  const std::string text = spilling_not_doubted(result, outflow);
+  return text.empty() ? draining_not_doubted(result, outflow, before) : text;
+}
+
 TEST(DrawnScene, IsWarnedOfWhatCanHardlyBeMeant) {
   expect_of_drawn_scenes(100, warned_wrongly);
+}
+
+TEST(DrawnScene, IsDoubtedWhereItSpillsOrDrains) {
+  expect_of_drawn_scenes(30, not_doubted);
 }
 
 }  // namespace

@@ -31,7 +31,8 @@ std::vector<double> outcome(const Simulation& simulation) {
   for (const std::int64_t count :
        {b.put_in, b.inside, b.counted, b.spilled, b.lost, run.grain_steps, run.force_evaluations})
     all.push_back(static_cast<double>(count));
-  all.insert(all.end(), {run.max_relative_overlap, run.tray_empty_since, run.end_time});
+  all.insert(all.end(), {run.max_relative_overlap, run.tray_empty_since, run.end_time,
+                         static_cast<double>(run.tray_at_begin), static_cast<double>(run.tray_at_end)});
   return all;
 }
 

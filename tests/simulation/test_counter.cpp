@@ -41,6 +41,26 @@ TEST(Counter, AGrainBelongsToTheHoleItsCentrePasses) {
   expect_balanced(result.balance);
 }
 
+TEST(Counter, WhatTheTrayHoldsIsNotedWhenMeasuringBegins) {
+  for (const double measure_from : {0.0, 0.15}) {
+    Bench bench;
+    bench.gravity = {0, -standard_gravity};
+    bench.scene.tray.holes = {{0.3, 0.04}, {0.7, 0.05}};
+    bench.scene.run.measure_from = measure_from, bench.scene.run.duration = 0.4;
+    bench.place(0.7, 0.1).place(0.3, 0.2);  // below the floor from 0.14 and 0.2 s on
+    Simulation& run = bench.start(1e-4);
+    run.steps(1000);
+    EXPECT_EQ(run.result().tray_at_begin, measure_from == 0 ? 2 : -1);
+    EXPECT_EQ(run.result().tray_at_end, 2);
+    run.steps(800);
+    EXPECT_EQ(run.result().tray_at_begin, measure_from == 0 ? 2 : 1);
+    EXPECT_EQ(run.result().tray_at_end, 1);
+    run.steps(700);
+    EXPECT_EQ(run.result().tray_at_begin, measure_from == 0 ? 2 : 1);
+    EXPECT_EQ(run.result().tray_at_end, 0);
+  }
+}
+
 TEST(Counter, EventsComeByTimeNotByGrain) {
   // Both cross the line in the same step, the second grain first.
   Bench bench;

@@ -272,6 +272,47 @@ TEST(Feeder, DrawsLotsByTheirShares) {
   EXPECT_NEAR(static_cast<double>(of_first) / 2000, 0.7, 4 * std::sqrt(0.7 * 0.3 / 2000));
 }
 
+/// In a tray that has not room for all that is missing, a seed that waits comes before others: else what is fed is what
+/// fits.
+TEST(Feeder, FeedsWhatIsDrawnAndNotWhatFits) {
+  for (const Space space : {Space::plane, Space::three_dimensional}) {
+    Scene scene = kept_full({"small", 3e-3, 2e-5, Shape::ball, 0.5});
+    scene.lots.push_back({"large", 9e-3, 2e-4, Shape::ball, 0.5});
+    scene.space = space;
+    if (space == Space::three_dimensional) scene.tray.depth = 0.03;
+    scene.tray.length = 0.05, scene.tray.height = 0.02;
+    scene.tray.fill->count = space == Space::plane ? 20 : 60;
+    Fed fed(scene);
+    Grains& grains = fed.state.grains;
+    std::ptrdiff_t large = 0;
+    std::size_t all = 0;
+    for (int round = 0; round < 200; ++round) {
+      fed.feeder.top_up(grains, std::vector<char>(grains.size(), 1), fed.walls, 0);
+      ASSERT_LT(static_cast<int>(grains.size()), scene.tray.fill->count) << "there is room for all";
+      large += std::ranges::count(grains.lot, 1);
+      all += grains.size();
+      grains = no_grains(fed.model);
+    }
+    const double share = static_cast<double>(large) / static_cast<double>(all);
+    EXPECT_NEAR(share, 0.5, 4 * 0.5 / std::sqrt(static_cast<double>(all))) << all;
+  }
+}
+
+TEST(Feeder, KeepsTheSizeOfASeedThatWaits) {
+  Scene scene = kept_full(scattered_balls());
+  scene.tray.length = 0.03, scene.tray.height = 6e-3, scene.tray.fill->count = 12;
+  Fed fed(scene);
+  Grains& grains = fed.state.grains;
+  double sum = 0, all = 0;
+  for (int round = 0; round < 500; ++round) {
+    fed.feeder.top_up(grains, std::vector<char>(grains.size(), 1), fed.walls, 0);
+    ASSERT_LT(grains.size(), 12u) << "there is room for all";
+    for (std::size_t i = 0; i < grains.size(); ++i) sum += 2 * grains.radius[i], ++all;
+    grains = no_grains(fed.model);
+  }
+  EXPECT_NEAR(sum / all, 4e-3, 4 * 2e-3 / std::sqrt(12 * all)) << "uniform from 3 to 5 mm";
+}
+
 TEST(Feeder, LaysNothingIntoAGrainThatReachesInThroughAnOutlet) {
   Scene scene = kept_full(scattered_balls());
   scene.tray.holes = {{0.5 * scene.tray.length, 0.9 * scene.tray.length}};

@@ -38,6 +38,7 @@ Run made_up_run() {
   run.random_seed = 7, run.dt = 1.5e-5, run.steps = 12, run.end_time = 1.8e-4, run.grain_steps = 120;
   run.force_evaluations = 77, run.slip_speed_raised = 3, run.let_pass = {4, 5, 6};
   run.max_relative_overlap = 0.01, run.tray_empty_since = 0.5;
+  run.tray_at_begin = 8, run.tray_at_end = 9;
   run.energy = {1, 2, 3, 4, 5, 6, 7};
   run.balance = {10, 4, 3, 2, 1};
   for (int k = 0; k < 100; ++k) run.events.push_back({0.1 * k, 1 + k % 3, 0, k, 2e-4, 0.01 * k, 1.5, 0.002 * k});
@@ -58,6 +59,8 @@ TEST(CaseFile, GivesTheRunBackWithoutItsTimes) {
   EXPECT_EQ(read.energy.made_by_numerics, 7);
   EXPECT_EQ(read.balance.lost, 1);
   EXPECT_EQ(read.max_relative_overlap, 0.01);
+  EXPECT_EQ(read.tray_at_begin, 8);
+  EXPECT_EQ(read.tray_at_end, 9);
   EXPECT_EQ(read.steps, 12);
   EXPECT_EQ(read.force_evaluations, 77);
   ASSERT_EQ(read.events.size(), 100u);
