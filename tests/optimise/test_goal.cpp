@@ -75,6 +75,29 @@ TEST(Goal, WhatDependsOnTheWindowNeedsWindowsAlike) {
     EXPECT_EQ(&goal_between(goal_named(name), {usual, longer}), &goal_named(name));
 }
 
+TEST(Goal, InstabilityNeedsPartsAlike) {
+  const auto of_periods = [](int periods) {
+    Scene scene;
+    scene.space = Space::three_dimensional;
+    scene.run.duration = 4, scene.tray.holes.resize(1);
+    scene.tray.motion = HarmonicMotion{.amplitude = 0.01, .frequency = periods / 4.0};
+    return scene;
+  };
+  const Goal& instability = goal_named("instability");
+  EXPECT_EQ(&goal_between(instability, {of_periods(24), of_periods(25)}), &instability) << "12 and 8 parts";
+  EXPECT_EQ(&goal_between(instability, {of_periods(200), of_periods(45)}), &instability);
+  const auto refuses = [&](int some, int others, const std::string& parts) {
+    EXPECT_THAT(
+        [&] {
+          goal_between(instability, {of_periods(some), of_periods(others)});
+        },
+        ThrowsMessage<InputError>(HasSubstr("windows have " + parts + " of them")));
+  };
+  refuses(14, 15, "7 to 14");
+  refuses(1, 40, "0 to 10");
+  EXPECT_NO_THROW(goal_between(goal_named("pause"), {of_periods(14), of_periods(15)}));
+}
+
 TEST(WantedRate, ReadsSeedsAndMass) {
   const WantedRate seeds = read_wanted_rate("43 seeds/s +- 5 %");
   EXPECT_EQ(rate_figure(seeds).name, "tray_seeds_per_s");
