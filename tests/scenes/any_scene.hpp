@@ -34,14 +34,13 @@ inline rc::Gen<DrawnScene> any_scene() {
   };
 }
 
-/// `wrong`: what is wrong with a scene; empty: nothing. Of so many seeders drawn over all features at once, or as many
-/// as VIBROSOW_SCENES says; VIBROSOW_SCENES_SEED says which. What fails is made as plain as it goes and printed as
-/// TOML.
+/// `wrong`: what is wrong with a scene; empty: nothing. Of so many seeders drawn over all features at once, times
+/// VIBROSOW_SCENES_TIMES; VIBROSOW_SCENES_SEED says which. What fails is made as plain as it goes and printed as TOML.
 template <class Wrong>
 void expect_of_drawn_scenes(int cases, Wrong wrong) {
   rc::detail::TestParams params;
   params.seed = from_environment("VIBROSOW_SCENES_SEED", 20261127);
-  params.maxSuccess = static_cast<int>(from_environment("VIBROSOW_SCENES", static_cast<std::uint64_t>(cases)));
+  params.maxSuccess = cases * static_cast<int>(from_environment("VIBROSOW_SCENES_TIMES", 1));
   const auto result = rc::detail::checkTestable(
       [&] {
         const DrawnScene drawn = *any_scene();
