@@ -55,6 +55,14 @@ VesselMotion for_ever(VesselMotion motion) {
   return motion;
 }
 
+/// How two rates differ. A vessel that turned up slowly lags behind one that always turned, and is as fast.
+double apart(const PoseRate& a, const PoseRate& b, bool turns) {
+  const auto speed = [](const PoseRate& rate) { return std::hypot(rate.velocity.norm(), rate.across_velocity); };
+  const double velocity = turns ? std::abs(speed(a) - speed(b))
+                                : (a.velocity - b.velocity).norm() + std::abs(a.across_velocity - b.across_velocity);
+  return velocity + std::abs(a.angular_velocity - b.angular_velocity) + std::abs(a.turn_rate - b.turn_rate);
+}
+
 /// Whether all through the window the vessel goes on as ever, or stands.
 bool moves_evenly(const Vessel& vessel, const MeasuringWindow& window) {
   if (!vessel.motion) return true;
@@ -63,15 +71,13 @@ bool moves_evenly(const Vessel& vessel, const MeasuringWindow& window) {
   Vessel even = vessel;
   even.motion = for_ever(*vessel.motion);
   const VesselPath path(vessel), steady(even);
+  const bool turns = std::holds_alternative<TurningMotion>(*vessel.motion);
   bool as_ever = true, still = true;
   constexpr int looks = 97;
   for (int k = 1; k < looks; ++k) {
     const double time = window.from + window.length() * k / looks;
-    const PoseRate rate = path.rate(time), other = steady.rate(time);
-    const double off =
-        (rate.velocity - other.velocity).norm() + std::abs(rate.angular_velocity - other.angular_velocity) +
-        std::abs(rate.across_velocity - other.across_velocity) + std::abs(rate.turn_rate - other.turn_rate);
-    as_ever &= off < 1e-9, still &= stands(rate);
+    const PoseRate rate = path.rate(time);
+    as_ever &= apart(rate, steady.rate(time), turns) < 1e-9, still &= stands(rate);
   }
   return as_ever || still;
 }
