@@ -64,6 +64,7 @@ test('it opens playing, counts at the holes, and says plainly what it is', () =>
   const place = bench(page);
   await page.waitForFunction(() => JSON.parse(document.querySelector('canvas').dataset.counts ?? '[0]')[0] > 3);
   assert.match(await page.locator('#head').textContent(), /A 2D slice one seed thick: use it to compare layouts; it is no sowing rate\./);
+  assert.ok(await place.getByRole('radio', { name: 'Draft' }).isChecked());
   await place.getByText('In real time').waitFor();
   await place.getByText(/^Measured from 1 to/).waitFor();
   await place.getByText('The holes differ by more than chance.').waitFor();
@@ -86,12 +87,16 @@ test('it opens playing, counts at the holes, and says plainly what it is', () =>
   await page.waitForFunction(() => window.leastTime < 1);
 }));
 
-test('before the measuring begins nothing is said of rates', () => withStudio({}, async (page) => {
+test('before the measuring begins the rate of the last shakes is told', () => withStudio({}, async (page) => {
   const place = bench(page);
+  await place.locator('dt', { hasText: /^Last (shake|[0-9]+ shakes)$/ }).waitFor();
   await place.getByRole('button', { name: 'Pause' }).click();
-  await place.getByText(/warned from 5 %/).waitFor();  // an outcome is there
-  assert.equal(await place.locator('.hole-bars .track').count(), 0);
-  assert.equal(await place.getByText('seeds/s').count(), 0);
+  await status(place, 'paused');
+  const told = await place.locator('.figures .value').textContent();
+  const [rate, low, high] = /^([0-9.]+) seeds\/s, ([0-9.]+) to ([0-9.]+)$/.exec(told).slice(1).map(Number);
+  assert.ok(low < rate && rate < high, told);
+  assert.equal(await place.locator('.hole-bars .track').count(), 5);
+  assert.equal(await place.getByText('All holes').count(), 0);
   await place.getByText('Measuring begins at 30 s.').waitFor();
 }, withLateMeasuring()));
 
@@ -107,6 +112,53 @@ test('doubts stand on top of the picture and the rates', () => withStudio({}, as
   await width.fill('12');
   await width.press('Enter');
   await doubts.waitFor({ state: 'hidden' });
+}));
+
+// What of `selectors`, inside the bench, is not wholly in the window, which has not been scrolled; each has to be there.
+function outside(page, selectors) {
+  return page.evaluate((all) => all.flatMap((selector) => {
+    const found = [...document.querySelectorAll(`.bench ${selector}`)];
+    const isIn = ({ left, top, right, bottom, width }) => width > 0 && left >= 0 && top >= 0 && right <= innerWidth && bottom <= innerHeight;
+    return found.length ? found.filter((one) => !isIn(one.getBoundingClientRect())).map((one) => one.outerHTML.slice(0, 90)) : [`nothing is ${selector}`];
+  }), selectors);
+}
+
+test('bed, controls and rates are on one screen', () => withStudio({ viewport: { width: 1280, height: 720 } }, async (page) => {
+  const place = bench(page);
+  await place.getByText('The holes differ').waitFor();
+  assert.deepEqual(await outside(page, ['canvas', '.knob', 'select', '.controls button', '.panel input', '.panel button', '.hole-bars li', '.figures dd']), []);
+  assert.equal(await place.getByRole('spinbutton').count(), 15);
+  assert.equal(await place.getByRole('radio', { name: 'Motion' }).isVisible(), false);
+}));
+
+test('on a phone the bed stays beside each panel, a tap away', () => withStudio({ viewport: { width: 390, height: 844 } }, async (page) => {
+  const place = bench(page);
+  await place.getByText('The holes differ').waitFor();
+  for (const [tab, inIt] of [['Holes', ['.holes input', '.holes button']], ['Motion', ['.motion input']], ['View', ['.looks input', '.looks button']], ['Rates', ['.hole-bars li', '.figures div:first-child']]]) {
+    await place.getByRole('radio', { name: tab }).check();
+    assert.equal(await place.locator('.panel').filter({ visible: true }).count(), 1);
+    assert.deepEqual(await outside(page, ['canvas', '.knob', '.controls button', ...inIt]), []);
+  }
+}));
+
+test('the picture has the tray’s dimensions, a scale bar, a ruler, and the ends of the shake', () => withStudio({}, async (page) => {
+  const place = bench(page);
+  await place.locator('.measures .dimension', { hasText: '120 mm' }).waitFor();
+  assert.deepEqual(await place.locator('.ruler text').allTextContents(), ['0', '100', '200', '300', '400', '500 mm']);
+  const scale = await page.evaluate(() => document.querySelector('.rail').clientWidth / 500);
+  const width = (selector) => place.locator(selector).evaluate((node) => node.getBBox().width);
+  const [bar, said] = [await width('.scale-bar path'), parseFloat(await place.locator('.scale-bar text').textContent())];
+  assert.ok(Math.abs(bar - said * scale) < 1, `${bar} px for ${said} mm at ${scale}`);
+  const apart = async () => (await width('.shake-end >> nth=1')) && place.locator('.shake-end').evaluateAll(([left, right]) => right.getBBox().x - left.getBBox().x);
+  assert.ok(Math.abs((await apart()) - 20 * scale) < 1);
+  assert.equal(await place.locator('.shake text').textContent(), '9 Hz, ±10 mm');
+  const amplitude = place.getByRole('spinbutton', { name: 'Amplitude in mm' });
+  await amplitude.fill('15');
+  await amplitude.press('Enter');
+  assert.equal(await place.locator('.shake text').textContent(), '9 Hz, ±15 mm');
+  assert.ok(Math.abs((await apart()) - 30 * (await page.evaluate(() => document.querySelector('.rail').clientWidth / 500))) < 1);
+  await place.getByRole('checkbox', { name: 'Hold the tray still' }).check();
+  assert.equal(await place.locator('.shake').count(), 0);
 }));
 
 test('a hole is dragged, and the simulation starts again with it', () => withStudio({}, async (page) => {
@@ -255,7 +307,7 @@ test('a program that opens a seeder in space is told so', () => withStudio({}, a
 
 test('two layouts are compared, and a link brings both back with their counts', () => withStudio({}, async (page) => {
   await handle(bench(page), 1).press('Shift+ArrowLeft');
-  await page.getByRole('button', { name: 'Compare with a second layout' }).click();
+  await page.getByRole('button', { name: 'Compare layouts' }).click();
   const [a, b] = [bench(page, 'A'), bench(page, 'B')];
   assert.equal(await valueText(b, 1), 'hole 1 at 60 mm, 12 mm wide');
   await handle(b, 3).press('+');
@@ -347,7 +399,7 @@ test('accessible in light and dark, and no wider than a phone', () => withStudio
   await page.emulateMedia({ colorScheme: 'dark' });
   await page.waitForSelector('html[data-theme="dark"]');
   await page.setViewportSize({ width: 390, height: 844 });
-  await page.getByRole('button', { name: 'Compare with a second layout' }).click();
+  await page.getByRole('button', { name: 'Compare layouts' }).click();
   await page.getByRole('button', { name: 'Share a link' }).click();
   await bench(page, 'B').getByText('The holes differ').waitFor();
   await in_.assertAccessible(page);

@@ -8,7 +8,9 @@ import { comparisonOf, comparisonSentence } from '../../web/studio/comparison.mj
 import { Course } from '../../web/studio/course.mjs';
 import * as layouts from '../../web/studio/layout.mjs';
 import { fragmentOf, layoutsOf } from '../../web/studio/link.mjs';
+import { barLength, rulerMarks, shakeWords } from '../../web/studio/measures.mjs';
 import { angleText, lengthText, metresOf, radiansOf } from '../../web/studio/quantities.mjs';
+import { countInterval, RollingRate } from '../../web/studio/rolling.mjs';
 import { keptSentence, sceneOf, seedArea } from '../../web/studio/scene_edit.mjs';
 import { fileName, seederFile } from '../../web/studio/seeder_file.mjs';
 import { readStudioData } from '../../web/studio/studio_data.mjs';
@@ -30,6 +32,63 @@ describe('quantities', () => {
     assert.deepEqual([radiansOf(17.3), 0.3].map(angleText), ['17.3 degree', '0.3 rad']);
     assert.equal(radiansOf(17.3), 17.3 * (Math.PI / 180));
   });
+});
+
+describe('measures', () => {
+  test('a ruler has round marks and the end', () => {
+    assert.deepEqual(rulerMarks(500, 1), [0, 100, 200, 300, 400, 500]);
+    assert.deepEqual(rulerMarks(1135.5, 0.5), [0, 200, 400, 600, 800, 1135.5]);
+    assert.deepEqual(rulerMarks(40, 0.1), [0, 40]);
+  });
+  test('a scale bar is round and neither a dot nor the picture', () => {
+    assert.deepEqual([0.1, 0.5, 1, 3, 10].map(barLength), [500, 100, 50, 20, 5]);
+    for (const scale of [0.03, 0.4, 1.7, 26]) assert.ok(barLength(scale) * scale >= 35 && barLength(scale) * scale <= 90, String(scale));
+  });
+  test('a shake is told where it is harmonic', () => assert.deepEqual([{ frequency_hz: 9, amplitude_m: 0.0025 }, null].map(shakeWords), ['9 Hz, ±2.5 mm', '']));
+});
+
+describe('the rate of the last shakes', () => {
+  // Hole 1 lets out a seed every 10 ms, hole 2 none, told 30 times a second.
+  const told = (rolling, until) => {
+    for (let k = 0; k / 30 <= until + 1e-9; ++k) rolling.take({ time_s: k / 30, counted: [Math.floor(100 * (k / 30) + 1e-9), 0] });
+    return rolling.now();
+  };
+  test('it is known once a shake is over, and of whole shakes', () => {
+    assert.equal(told(new RollingRate(0.2), 0.19), null);
+    const first = told(new RollingRate(0.2), 0.21);
+    assert.deepEqual([first.shakes, first.from_s, first.until_s], [1, 0, 0.2]);
+    assert.deepEqual(first.holes.map(({ hole, seeds_per_s }) => [hole, seeds_per_s]), [[1, 100], [2, 0]]);
+    assert.equal(first.all.seeds_per_s, 100);
+  });
+  test('it forgets what is longer ago than a second', () => {
+    const rolling = new RollingRate(0.3);
+    for (let k = 0; k <= 100; ++k) rolling.take({ time_s: k / 30, counted: [k < 50 ? k : 50] });
+    const { shakes, from_s, until_s, all } = rolling.now();
+    assert.deepEqual([shakes, Math.round(30 * (until_s - from_s)), all.seeds_per_s], [3, 27, 0]);
+    assert.ok(rolling.past.length < 33);
+  });
+  test('a shake that takes longer than a second is waited for', () => {
+    assert.equal(told(new RollingRate(2), 1.9), null);
+    assert.equal(told(new RollingRate(2), 2.1).shakes, 1);
+  });
+  test('what does not shake to and fro has a rate of the last second', () => {
+    assert.equal(told(new RollingRate(null), 0.05), null);
+    const { shakes, from_s, until_s } = told(new RollingRate(null), 3);
+    assert.deepEqual([shakes, from_s, until_s], [null, 2, 3]);
+  });
+  // Exact limits of a Poisson mean: of 0 seeds 0 to 3.689, of 4 1.090 to 10.242, of 100 81.36 to 121.63 (Garwood 1936).
+  test('its interval is that of a count', () => {
+    for (const [count, low, high] of [[0, 0, 3.689], [4, 1.09, 10.242], [100, 81.36, 121.63]]) {
+      const given = countInterval(count);
+      assert.ok(Math.abs(given.low - low) <= 0.02 * low + 1e-12 && Math.abs(given.high - high) <= 0.02 * high, `${count}: ${given.low} ${given.high}`);
+    }
+  });
+});
+
+test('a layout begins at draft, unless its seeder says its time step', () => {
+  assert.equal(layouts.startOf(wheat).accuracy, 'draft');
+  const timed = { ...wheat, scene: { ...wheat.scene, numerics: { ...wheat.scene.numerics, dt_s: 1e-6 } } };
+  assert.deepEqual([layouts.startOf(timed).accuracy, layouts.accuraciesOf(timed)], ['as-written', ['as-written']]);
 });
 
 // A simulator that makes `speed` simulated seconds a second, in slices of at most 12 ms with 1 ms between them: how far it has come by each

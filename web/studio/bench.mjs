@@ -1,12 +1,12 @@
 // One tray on the page: a layout, its simulation, and the controls of both.
 import { startSimulator } from '../core/simulator.mjs';
-import { element } from '../report/dom.mjs';
+import { choice, element } from '../report/dom.mjs';
 import { clock, sentence } from '../report/format.mjs';
 import { choicesOf } from './choices.mjs';
 import { Course } from './course.mjs';
 import { holeWords } from './handles.mjs';
 import { HoleControls } from './hole_controls.mjs';
-import { addHole, layoutOf, moveHole, removeHole, widenHole } from './layout.mjs';
+import { addHole, moveHole, removeHole, startOf, widenHole } from './layout.mjs';
 import { MotionControls } from './motion_controls.mjs';
 import { measured, OutflowPanel } from './outflow_panel.mjs';
 import { saveText } from '../report/save.mjs';
@@ -43,10 +43,19 @@ export class Bench {
     this.status = element('p', { class: 'unseen', role: 'status' });
     this.title = element('h2', { id: `layout-${this.name}` }, `Layout ${this.name}`);
     const save = element('button', { type: 'button', class: 'quiet', onclick: () => this.save() }, 'Save the seeder file');
-    const controls = element('div', { class: 'controls' }, this.transport.frame, element('div', { class: 'controls-choices' }, this.view.choices, save));
+    const looks = element('div', { role: 'group', class: 'panel looks', 'aria-label': 'View' }, this.view.legend, this.view.choices, save);
     this.frame = element('section', { class: 'bench', 'aria-labelledby': `layout-${this.name}` }, this.title, this.choices, this.kept, this.problem, this.outflow.remarks,
-      element('div', { class: 'replay card' }, this.view.place, this.view.legend, controls),
-      element('div', { class: 'panels' }, this.outflow.frame, this.holes.frame, this.motion.frame), this.status);
+      element('div', { class: 'workbench' }, element('div', { class: 'replay card' }, this.view.place, element('div', { class: 'controls' }, this.transport.frame)),
+        this.tabs(), element('div', { class: 'panels' }, this.outflow.frame, this.holes.frame), this.motion.frame, looks), this.status);
+    this.frame.dataset.tab = 'outflow';
+  }
+
+  // Where there is no room for all panels beside the picture, one at a time.
+  tabs() {
+    const options = [['outflow', 'Rates'], ['holes', 'Holes'], ['motion', 'Motion'], ['looks', 'View']].map(([value, text]) => ({ value, text }));
+    const tabs = choice('Show', options, 'outflow', (value) => { this.frame.dataset.tab = value; });
+    tabs.classList.add('tabs');
+    return tabs;
   }
 
   /** Of the layout shown, as far as it has been measured; null before that. */
@@ -89,7 +98,7 @@ export class Bench {
     const focused = [...this.choices.querySelectorAll('select, input')].indexOf(document.activeElement);
     this.chosen = now;
     this.choices.replaceChildren(...choicesOf(this.data, this.layout, {
-      seeder: (one) => this.change(layoutOf(one)), crop: (name) => this.change({ ...this.layout, crop: name }), accuracy: (name) => this.change({ ...this.layout, accuracy: name }),
+      seeder: (one) => this.change(startOf(one)), crop: (name) => this.change({ ...this.layout, crop: name }), accuracy: (name) => this.change({ ...this.layout, accuracy: name }),
     }));
     if (focused >= 0) this.choices.querySelectorAll('select, input')[focused]?.focus();
   }
@@ -100,12 +109,13 @@ export class Bench {
       this.view.clear();
     } else if (state.prepared !== this.prepared) {
       this.prepared = state.prepared;
-      this.view.open(state.prepared, sceneOf(this.layout, this.data.crops), this.layout.motion);
+      this.scene = sceneOf(this.layout, this.data.crops);
+      this.view.open(state.prepared, this.scene, this.layout.motion);
       this.view.showHoles(this.layout);
     }
     if (state.frame && state.prepared === this.prepared) this.view.show(state.frame);
     this.transport.show(state);
-    this.outflow.show(state);
+    this.outflow.show(state, this.scene);
     this.tellProblem(state.problem);
     if (state.status !== this.lastStatus) this.say(state);
     this.lastStatus = state.status;

@@ -6,7 +6,7 @@ import { themeSwitch } from '../report/theme_switch.mjs';
 import { Bench } from './bench.mjs';
 import { restingSeeders } from './choices.mjs';
 import { Comparison } from './comparison.mjs';
-import { layoutOf } from './layout.mjs';
+import { startOf } from './layout.mjs';
 import { layoutsOf } from './link.mjs';
 import { Share } from './share.mjs';
 import { readStudioData } from './studio_data.mjs';
@@ -28,10 +28,9 @@ class Studio {
 
   head() {
     return [
-      element('div', { class: 'topline' }, element('p', { class: 'kicker' }, 'Studio'), element('div', { class: 'actions' }, this.compareButton, this.share.button, themeSwitch())),
+      element('div', { class: 'topline' }, element('h1', {}, 'Move a hole and watch it sow'), element('div', { class: 'actions' }, this.compareButton, this.share.button, themeSwitch())),
       this.share.frame,
-      element('h1', {}, 'Move a hole and watch it sow'),
-      element('p', { class: 'plain' }, 'Every seed is simulated here, in this page. ', element('b', {}, plainWords)), this.notice,
+      element('p', { class: 'plain' }, element('span', { class: 'roomy' }, 'Every seed is simulated here, in this page. '), element('b', {}, plainWords)), this.notice,
     ];
   }
 
@@ -57,7 +56,7 @@ class Studio {
   showCount() {
     const two = this.benches.length === 2;
     document.documentElement.dataset.benches = this.benches.length;
-    this.compareButton.textContent = two ? 'Remove layout B' : 'Compare with a second layout';
+    this.compareButton.textContent = two ? 'Remove layout B' : 'Compare layouts';
     this.comparison.frame.hidden = !two;
   }
 
@@ -65,7 +64,8 @@ class Studio {
     if (what === 'layout') this.share.hide();
     const outcomes = this.benches.map((bench) => bench.outcome);
     if (outcomes.length === 2) this.comparison.show(...outcomes);
-    for (const bench of this.benches) bench.outflow.showBeside(outcomes);
+    const rates = this.benches.map((bench) => bench.outflow.rates);
+    for (const bench of this.benches) bench.outflow.showBeside(rates);
   }
 }
 
@@ -80,9 +80,9 @@ async function opening(data) {
       return { layouts, notice: '' };
     }
   } catch (error) {
-    return { layouts: [layoutOf(opened)], notice: `The link cannot be opened: ${error.message}` };
+    return { layouts: [startOf(opened)], notice: `The link cannot be opened: ${error.message}` };
   }
-  return { layouts: [layoutOf(opened)], notice };
+  return { layouts: [startOf(opened)], notice };
 }
 
 async function show() {
