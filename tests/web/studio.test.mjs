@@ -6,7 +6,7 @@ import { tmpdir } from 'node:os';
 import path from 'node:path';
 import test, { after } from 'node:test';
 import { deflateRawSync } from 'node:zlib';
-import { layoutOf } from '../../web/studio/layout.mjs';
+import { layoutOf, moveHole } from '../../web/studio/layout.mjs';
 import { fragmentOf } from '../../web/studio/link.mjs';
 import * as in_ from './browser.mjs';
 import { fillStudio, madeUpStudio, studioTemplate, whyNotInSpace } from './made_up_studio.mjs';
@@ -332,6 +332,63 @@ test('two layouts are compared, and a link brings both back with their counts', 
   await page.getByRole('button', { name: 'Remove layout B' }).click();
   assert.equal(await b.count(), 0);
   await page.locator('#comparison').waitFor({ state: 'hidden' });
+}));
+
+const withKept = (page) => page.waitForFunction(() => localStorage.length > 0);
+
+test('what was made is undone, done again, there after a reload, and reset', () => withStudio({}, async (page) => {
+  const place = bench(page);
+  const press = (name) => page.getByRole('button', { name, exact: true }).click();
+  const isDisabled = (name) => page.getByRole('button', { name, exact: true }).isDisabled();
+  assert.deepEqual(await Promise.all(['Undo', 'Redo', 'Reset'].map(isDisabled)), [true, true, true]);
+  await handle(place, 2).press('Shift+ArrowRight');
+  await place.getByRole('spinbutton', { name: 'Frequency in Hz' }).fill('11');
+  await place.getByRole('spinbutton', { name: 'Frequency in Hz' }).press('Enter');
+  const made = async () => [await valueText(place, 2), await place.getByRole('spinbutton', { name: 'Frequency in Hz' }).inputValue()];
+  await press('Undo');
+  assert.deepEqual(await made(), ['hole 2 at 170 mm, 12 mm wide', '9']);
+  await handle(place, 2).press('Control+z');
+  assert.deepEqual(await made(), ['hole 2 at 160 mm, 12 mm wide', '9']);
+  await press('Redo');
+  await handle(place, 2).press('Control+Shift+Z');
+  assert.deepEqual(await made(), ['hole 2 at 170 mm, 12 mm wide', '11']);
+  await withKept(page);
+  await page.reload();
+  await page.waitForSelector('html[data-ready]');
+  await page.getByText('These are the layouts that you left here').waitFor();
+  assert.deepEqual(await made(), ['hole 2 at 170 mm, 12 mm wide', '11']);
+  await press('Reset');
+  assert.deepEqual(await made(), ['hole 2 at 160 mm, 12 mm wide', '9']);
+  assert.equal(await isDisabled('Reset'), true);
+  await press('Undo');
+  assert.deepEqual(await made(), ['hole 2 at 170 mm, 12 mm wide', '11']);
+}));
+
+test('a change takes the link’s layouts out of the address, and is there after a reload instead of them', async () => {
+  await withStudio({ hash: await fragmentOf([moveHole(layoutOf(madeUpStudio().seeders[0]), 1, 200)]) }, async (page) => {
+    const place = bench(page);
+    assert.equal(await valueText(place, 2), 'hole 2 at 200 mm, 12 mm wide');
+    await page.getByRole('button', { name: 'Share a link' }).click();
+    await handle(place, 2).press('ArrowRight');
+    await page.getByRole('textbox', { name: 'Link to what is on this page' }).waitFor({ state: 'hidden' });
+    assert.doesNotMatch(page.url(), /#/);
+    await withKept(page);
+    await page.reload();
+    await page.waitForSelector('html[data-ready]');
+    assert.equal(await valueText(place, 2), 'hole 2 at 201 mm, 12 mm wide');
+  });
+});
+
+test('a browser that keeps nothing is said to, and all else works', () => withStudio({
+  first: () => Object.defineProperty(window, 'localStorage', { get() { throw new DOMException('denied', 'SecurityError'); } }),
+}, async (page) => {
+  const place = bench(page);
+  assert.equal(await page.locator('#head [role=alert]').isVisible(), false);
+  await handle(place, 2).press('ArrowRight');
+  await page.getByText('This browser keeps nothing for this page').waitFor();
+  await page.getByRole('button', { name: 'Undo' }).click();
+  assert.equal(await valueText(place, 2), 'hole 2 at 160 mm, 12 mm wide');
+  await opened(place);
 }));
 
 // A link as a page makes it that has `seeder` as its own.

@@ -6,8 +6,10 @@ import { deflateRawSync } from 'node:zlib';
 import { Pace } from '../../web/core/pace.mjs';
 import { comparisonOf, comparisonSentence } from '../../web/studio/comparison.mjs';
 import { Course } from '../../web/studio/course.mjs';
+import { History } from '../../web/studio/history.mjs';
+import { Kept } from '../../web/studio/kept.mjs';
 import * as layouts from '../../web/studio/layout.mjs';
-import { fragmentOf, layoutsOf } from '../../web/studio/link.mjs';
+import { fragmentOf, layoutsOf, textOfLayouts } from '../../web/studio/link.mjs';
 import { barLength, rulerMarks, shakeWords } from '../../web/studio/measures.mjs';
 import { angleText, lengthText, metresOf, radiansOf } from '../../web/studio/quantities.mjs';
 import { countInterval, RollingRate } from '../../web/studio/rolling.mjs';
@@ -339,6 +341,47 @@ describe('links', () => {
       [withOwn({ scene: { ...own.scene, hopper: 4 } }), /the hopper is not/], [withOwn({ scene: { ...own.scene, lots: [{ ...own.scene.lots[0], discs: [{}] }] } }), /a disc of a seed/],
       [withOwn({ live: true }), /unknown about its seeder/],
     ]) await refused(value, message);
+  });
+});
+
+describe('undo', () => {
+  test('steps are gone back and forth, and what was undone is forgotten by another', () => {
+    const history = new History([fresh], textOfLayouts);
+    const moved = [layouts.moveHole(fresh, 1, 164)], wider = [layouts.widenAll(fresh, 20)];
+    assert.deepEqual([history.canUndo, history.canRedo, history.undo()], [false, false, [fresh]]);
+    assert.ok(history.add(moved));
+    assert.equal(history.add([layouts.moveHole(fresh, 1, 164)]), false);  // nothing new
+    assert.ok(history.add(wider));
+    assert.deepEqual([history.undo(), history.undo(), history.canUndo, history.redo(), history.canRedo], [moved, [fresh], false, moved, true]);
+    assert.ok(history.add([fresh, fresh]));
+    assert.deepEqual([history.canRedo, history.redo(), history.undo()], [false, [fresh, fresh], moved]);
+  });
+  test('only so many steps are remembered', () => {
+    const history = new History(0, String);
+    for (let k = 1; k <= 500; ++k) history.add(k);
+    let steps = 0;
+    for (; history.canUndo; ++steps) history.undo();
+    assert.deepEqual([steps, history.now], [199, 301]);
+  });
+});
+
+describe('what is kept', () => {
+  const store = () => {
+    const items = new Map();
+    return { getItem: (name) => items.get(name) ?? null, setItem: (name, value) => items.set(name, value), items };
+  };
+  test('it comes back to the page that kept it, and to no other', () => {
+    const storage = store();
+    const kept = (place, text) => new Kept(() => storage, place, text);
+    assert.equal(kept('/a.html', 'data').read(), '');
+    assert.equal(kept('/a.html', 'data').write('#s=made'), true);
+    assert.deepEqual([kept('/a.html', 'data').read(), kept('/b.html', 'data').read(), kept('/a.html', 'date').read()], ['#s=made', '', '']);
+  });
+  test('a browser that refuses, is full, or holds something else does no harm', () => {
+    const refuses = () => { throw new Error('denied'); };
+    const full = { getItem: () => null, setItem: refuses };
+    assert.deepEqual([new Kept(refuses, '', '').read(), new Kept(refuses, '', '').write('x'), new Kept(() => full, '', '').write('x'), new Kept(() => null, '', '').write('x')], ['', false, false, false]);
+    for (const value of ['{', '7', '[]', '{"mark":1}']) assert.equal(new Kept(() => ({ getItem: () => value }), '', '').read(), '');
   });
 });
 

@@ -19,7 +19,7 @@ const settling = 250;  // ms after a gesture, before its layout is simulated
 const still = matchMedia('(prefers-reduced-motion: reduce)');
 
 export class Bench {
-  /** `name`: "A" or "B"; `told("layout")` is called when its layout has changed, `told("state")` when its simulation has moved on. */
+  /** `name`: "A" or "B"; `told("layout")` is called when its layout has changed, `told("made")` when the gesture that changed it has ended, `told("state")` when its simulation has moved on. */
   constructor(data, name, layout, told) {
     Object.assign(this, { data, name, layout, told });
     this.pace = still.matches ? undefined : realTime;  // undefined: waits at the start
@@ -78,6 +78,7 @@ export class Bench {
     else if (moved && this.course.state.status !== 'changed') this.course.leave();
     if (ended) this.opening = setTimeout(() => this.open(), settling);
     if (moved) this.told('layout');
+    if (ended) this.told('made');
   }
 
   showLayout() {

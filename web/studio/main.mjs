@@ -6,41 +6,55 @@ import { themeSwitch } from '../report/theme_switch.mjs';
 import { Bench } from './bench.mjs';
 import { restingSeeders } from './choices.mjs';
 import { Comparison } from './comparison.mjs';
+import { History } from './history.mjs';
+import { Kept } from './kept.mjs';
 import { startOf } from './layout.mjs';
-import { layoutsOf } from './link.mjs';
+import { fragmentOf, isLink, layoutsOf, textOfLayouts } from './link.mjs';
 import { Share } from './share.mjs';
 import { readStudioData } from './studio_data.mjs';
 
 const plainWords = 'A 2D slice one seed thick: use it to compare layouts; it is no sowing rate.';
 
 class Studio {
-  constructor(data, { layouts, notice }) {
-    this.data = data;
-    this.benches = [];
+  constructor(data, kept, { layouts, notice, asLeft }) {
+    Object.assign(this, { data, kept, benches: [], writing: Promise.resolve() });
+    this.history = new History(layouts, textOfLayouts);
     this.comparison = new Comparison();
-    this.share = new Share(() => this.benches.map((bench) => bench.layout));
-    this.compareButton = element('button', { type: 'button', class: 'quiet', onclick: () => this.toggleSecond() });
+    this.share = new Share(() => this.made());
+    const press = (text, act) => element('button', { type: 'button', class: 'quiet', onclick: act }, text);
+    this.undoButton = press('Undo', () => this.take(this.history.undo()));
+    this.redoButton = press('Redo', () => this.take(this.history.redo()));
+    this.resetButton = press('Reset', () => this.reset());
+    this.compareButton = press('', () => this.toggleSecond());
     this.place = element('div', { class: 'benches' });
     this.comparison.frame.hidden = true;
     this.notice = element('p', { class: 'doubt', role: 'alert', hidden: !notice }, sentence(notice));
-    this.layouts = layouts;
+    this.said = element('span', { role: 'status' }, asLeft ? ' These are the layouts that you left here; Reset goes back.' : '');
+    addEventListener('keydown', (event) => this.key(event));
   }
 
   head() {
     return [
-      element('div', { class: 'topline' }, element('h1', {}, 'Move a hole and watch it sow'), element('div', { class: 'actions' }, this.compareButton, this.share.button, themeSwitch())),
+      element('div', { class: 'topline' }, element('h1', {}, 'Move a hole and watch it sow'), element('div', { class: 'actions' },
+        this.undoButton, this.redoButton, this.resetButton, this.compareButton, this.share.button, themeSwitch())),
       this.share.frame,
-      element('p', { class: 'plain' }, element('span', { class: 'roomy' }, 'Every seed is simulated here, in this page. '), element('b', {}, plainWords)), this.notice,
+      element('p', { class: 'plain' }, element('span', { class: 'roomy' }, 'Every seed is simulated here, in this page; a change starts the run again. '), element('b', {}, plainWords), this.said), this.notice,
     ];
   }
 
   page() {
-    this.layouts.forEach((layout) => this.add(layout));
+    this.history.now.forEach((layout) => this.add(layout));
+    this.showButtons();
     return [this.comparison.frame, this.place, restingSeeders(this.data)].filter(Boolean);
   }
 
+  /** The layouts on the page. */
+  made() {
+    return this.benches.map((bench) => bench.layout);
+  }
+
   add(layout) {
-    const bench = new Bench(this.data, 'AB'[this.benches.length], layout, (told, what) => this.told(what));
+    const bench = new Bench(this.data, 'AB'[this.benches.length], layout, (what) => this.told(what));
     this.benches.push(bench);
     this.place.append(bench.frame);
     this.showCount();
@@ -51,6 +65,35 @@ class Studio {
     else this.benches.pop().close();
     this.showCount();
     this.told('layout');
+    this.told('made');
+  }
+
+  // Brings back what was on the page.
+  take(layouts) {
+    this.taking = true;
+    while (this.benches.length > layouts.length) this.benches.pop().close();
+    layouts.forEach((layout, k) => {
+      if (k >= this.benches.length) this.add(layout);
+      else if (layout !== this.benches[k].layout) this.benches[k].change(layout);
+    });
+    this.taking = false;
+    this.showCount();
+    this.told('layout');
+    this.keep();
+  }
+
+  /** Each layout as its seeder has it; that can be undone. */
+  reset() {
+    this.history.add(this.made().map(({ seeder }) => startOf(seeder)));
+    this.take(this.history.now);
+  }
+
+  key(event) {
+    const isText = event.target.closest?.('input[type="number"], input[type="text"]');
+    if (isText || event.altKey || !(event.ctrlKey || event.metaKey) || !['z', 'y'].includes(event.key.toLowerCase())) return;
+    event.preventDefault();
+    const again = event.shiftKey || event.key.toLowerCase() === 'y';
+    this.take(again ? this.history.redo() : this.history.undo());
   }
 
   showCount() {
@@ -60,8 +103,32 @@ class Studio {
     this.comparison.frame.hidden = !two;
   }
 
+  showButtons() {
+    this.undoButton.disabled = !this.history.canUndo;
+    this.redoButton.disabled = !this.history.canRedo;
+    const fresh = this.made().map(({ seeder }) => startOf(seeder));
+    this.resetButton.disabled = textOfLayouts(fresh) === textOfLayouts(this.made());
+  }
+
+  // What was made is kept, one after the other; an address that names other layouts is given up.
+  keep() {
+    this.showButtons();
+    this.said.textContent = '';
+    if (isLink(location.hash)) history.replaceState(null, '', location.href.split('#')[0]);
+    const layouts = this.made();
+    this.writing = this.writing.then(async () => this.tellKept(this.kept.write(await fragmentOf(layouts)))).catch(() => this.tellKept(false));
+  }
+
+  tellKept(kept) {
+    if (kept || this.toldNotKept) return;
+    this.toldNotKept = true;
+    this.notice.textContent = 'This browser keeps nothing for this page: after a reload what you make here is gone. Share a link or save the seeder file.';
+    this.notice.hidden = false;
+  }
+
   told(what) {
     if (what === 'layout') this.share.hide();
+    if (what === 'made' && !this.taking && this.history.add(this.made())) this.keep();
     const outcomes = this.benches.map((bench) => bench.outcome);
     if (outcomes.length === 2) this.comparison.show(...outcomes);
     const rates = this.benches.map((bench) => bench.outflow.rates);
@@ -69,27 +136,33 @@ class Studio {
   }
 }
 
-// What the page opens with: the link's layouts, else the seeder that the program named. Seeders that a link brings join those of the page.
-async function opening(data) {
+// Seeders that layouts bring join those of the page.
+async function layoutsFrom(fragment, data) {
+  const layouts = await layoutsOf(fragment, data);
+  if (layouts) data.linked = [...new Set(layouts.map(({ seeder }) => seeder))].filter((seeder) => !data.seeders.includes(seeder));
+  return layouts;
+}
+
+// What the page opens with: the link's layouts, else those that were made here before, else the seeder that the program named.
+async function opening(data, kept) {
   const { asked, opened } = data;
   const notice = asked && asked !== opened ? `${asked.title || asked.name} is not simulated in this page. ${sentence(asked.why_not)}` : '';
   try {
-    const layouts = await layoutsOf(location.hash, data);
-    if (layouts) {
-      data.linked = [...new Set(layouts.map(({ seeder }) => seeder))].filter((seeder) => !data.seeders.includes(seeder));
-      return { layouts, notice: '' };
-    }
+    const layouts = await layoutsFrom(location.hash, data);
+    if (layouts) return { layouts, notice: '' };
   } catch (error) {
     return { layouts: [startOf(opened)], notice: `The link cannot be opened: ${error.message}` };
   }
-  return { layouts: [startOf(opened)], notice };
+  const left = await layoutsFrom(kept.read(), data).catch(() => null);  // of a page that can no longer read it
+  return { layouts: left ?? [startOf(opened)], notice, asLeft: left !== null };
 }
 
 async function show() {
   startTheme();
   addEventListener('hashchange', () => location.reload());
-  const data = readStudioData(document.getElementById('studio-data').textContent);
-  const studio = new Studio(data, await opening(data));
+  const text = document.getElementById('studio-data').textContent;
+  const data = readStudioData(text), kept = new Kept(() => localStorage, location.pathname, text);
+  const studio = new Studio(data, kept, await opening(data, kept));
   document.documentElement.dataset.kind = 'studio';
   document.getElementById('head').replaceChildren(...studio.head());
   document.getElementById('page').replaceChildren(...studio.page());
