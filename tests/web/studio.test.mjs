@@ -391,6 +391,31 @@ test('a browser that keeps nothing is said to, and all else works', () => withSt
   await opened(place);
 }));
 
+test('sent as one file, it opens by itself with what was on the page, to the same counts', () => withStudio({}, async (page) => {
+  await handle(bench(page), 2).press('Shift+ArrowRight');
+  await page.getByRole('button', { name: 'Compare layouts' }).click();
+  await handle(bench(page, 'B'), 1).press('+');
+  await page.getByRole('button', { name: 'Dark' }).click();
+  const [download] = await Promise.all([page.waitForEvent('download'), page.getByRole('button', { name: 'Send as one file' }).click()]);
+  assert.equal(download.suggestedFilename(), 'studio.html');
+  const sent = path.join(folder, 'elsewhere', 'got this.html');
+  await download.saveAs(sent);
+  const text = readFileSync(sent, 'utf8');
+  assert.equal(/<script>[\s\S]*<\/script>/.exec(text)[0], /<script>[\s\S]*<\/script>/.exec(template)[0]);  // which its policy lets run
+  assert.match(text, /^<!doctype html>\n<html lang="en"><head>/);  // light or dark is for them to choose
+  const counts = await countsAtTheEnd(bench(page));
+  const theirs = await in_.openPage(browser, sent);
+  assert.deepEqual([await valueText(bench(theirs), 2), await valueText(bench(theirs, 'B'), 1)], ['hole 2 at 170 mm, 12 mm wide', 'hole 1 at 70 mm, 12.5 mm wide']);
+  assert.equal(await countsAtTheEnd(bench(theirs)), counts);
+  await handle(bench(theirs), 2).press('ArrowRight');  // what they make is kept for them
+  await withKept(theirs);
+  await theirs.reload();
+  await theirs.waitForSelector('html[data-ready]');
+  assert.equal(await valueText(bench(theirs), 2), 'hole 2 at 171 mm, 12 mm wide');
+  assert.deepEqual(theirs.complaints, []);
+  await theirs.context().close();
+}));
+
 // A link as a page makes it that has `seeder` as its own.
 async function linkTo(seeder) {
   return fragmentOf([layoutOf({ ...seeder, own: true })]);

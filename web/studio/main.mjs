@@ -10,6 +10,8 @@ import { History } from './history.mjs';
 import { Kept } from './kept.mjs';
 import { startOf } from './layout.mjs';
 import { fragmentOf, isLink, layoutsOf, textOfLayouts } from './link.mjs';
+import { saveText } from '../report/save.mjs';
+import { oneFile } from './one_file.mjs';
 import { Share } from './share.mjs';
 import { readStudioData } from './studio_data.mjs';
 
@@ -26,6 +28,7 @@ class Studio {
     this.redoButton = press('Redo', () => this.take(this.history.redo()));
     this.resetButton = press('Reset', () => this.reset());
     this.compareButton = press('', () => this.toggleSecond());
+    this.sendButton = press('Send as one file', () => this.send());
     this.place = element('div', { class: 'benches' });
     this.comparison.frame.hidden = true;
     this.notice = element('p', { class: 'doubt', role: 'alert', hidden: !notice }, sentence(notice));
@@ -36,7 +39,7 @@ class Studio {
   head() {
     return [
       element('div', { class: 'topline' }, element('h1', {}, 'Move a hole and watch it sow'), element('div', { class: 'actions' },
-        this.undoButton, this.redoButton, this.resetButton, this.compareButton, this.share.button, themeSwitch())),
+        this.undoButton, this.redoButton, this.resetButton, this.compareButton, this.share.button, this.sendButton, themeSwitch())),
       this.share.frame,
       element('p', { class: 'plain' }, element('span', { class: 'roomy' }, 'Every seed is simulated here, in this page; a change starts the run again. '), element('b', {}, plainWords), this.said), this.notice,
     ];
@@ -110,6 +113,16 @@ class Studio {
     this.resetButton.disabled = textOfLayouts(fresh) === textOfLayouts(this.made());
   }
 
+  async send() {
+    try {
+      saveText(oneFile(document, await fragmentOf(this.made())), 'studio.html', 'text/html');
+      this.said.textContent = ' The file holds these layouts and the simulator: any browser opens it, without a network.';
+    } catch (error) {
+      this.notice.textContent = sentence(`There is no file: ${error.message}`);
+      this.notice.hidden = false;
+    }
+  }
+
   // What was made is kept, one after the other; an address that names other layouts is given up.
   keep() {
     this.showButtons();
@@ -143,7 +156,8 @@ async function layoutsFrom(fragment, data) {
   return layouts;
 }
 
-// What the page opens with: the link's layouts, else those that were made here before, else the seeder that the program named.
+// What the page opens with: the link's layouts, else those that were made here before, else those that it was sent with, else the seeder
+// that the program named.
 async function opening(data, kept) {
   const { asked, opened } = data;
   const notice = asked && asked !== opened ? `${asked.title || asked.name} is not simulated in this page. ${sentence(asked.why_not)}` : '';
@@ -154,7 +168,9 @@ async function opening(data, kept) {
     return { layouts: [startOf(opened)], notice: `The link cannot be opened: ${error.message}` };
   }
   const left = await layoutsFrom(kept.read(), data).catch(() => null);  // of a page that can no longer read it
-  return { layouts: left ?? [startOf(opened)], notice, asLeft: left !== null };
+  if (left) return { layouts: left, notice, asLeft: true };
+  const sent = await layoutsFrom(data.sent, data).catch(() => null);
+  return sent ? { layouts: sent, notice: '' } : { layouts: [startOf(opened)], notice };
 }
 
 async function show() {
