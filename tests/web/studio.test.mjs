@@ -416,6 +416,26 @@ test('sent as one file, it opens by itself with what was on the page, to the sam
   await theirs.context().close();
 }));
 
+test('a wanted rate is told in seeds a second with its doubt, and kept', () => withStudio({}, async (page) => {
+  const place = bench(page);
+  assert.equal(await place.getByText('Wanted').count(), 0);
+  await page.getByRole('button', { name: 'Wanted rate' }).click();
+  await place.getByText('203 seeds/s of the tray').waitFor();
+  await place.getByText(/Doubtful: in 2D a hole is a slot/).waitFor();
+  const rows = page.getByRole('spinbutton', { name: 'Rows that the tray feeds' });
+  await rows.fill('3');
+  await rows.press('Enter');
+  await place.getByText('608 seeds/s of the tray').waitFor();
+  await page.getByRole('button', { name: 'Compare layouts' }).click();
+  await bench(page, 'B').getByText('608 seeds/s of the tray').waitFor({ state: 'attached' });
+  await page.reload();
+  await page.waitForSelector('html[data-ready]');
+  await place.getByText('608 seeds/s of the tray').waitFor({ state: 'attached' });
+  await page.getByRole('button', { name: 'Wanted rate' }).click();
+  assert.equal(await rows.isVisible(), false);
+  await place.getByText('608 seeds/s of the tray').waitFor({ state: 'detached' });
+}));
+
 // A link as a page makes it that has `seeder` as its own.
 async function linkTo(seeder) {
   return fragmentOf([layoutOf({ ...seeder, own: true })]);

@@ -16,6 +16,7 @@ import { countInterval, RollingRate } from '../../web/studio/rolling.mjs';
 import { keptSentence, sceneOf, seedArea } from '../../web/studio/scene_edit.mjs';
 import { fileName, seederFile } from '../../web/studio/seeder_file.mjs';
 import { readStudioData } from '../../web/studio/studio_data.mjs';
+import { taskOf, wantedRate, wantedWords } from '../../web/studio/wanted.mjs';
 import { startSimulator } from './made_up_simulator.mjs';
 import { madeUpStudio, wheatText } from './made_up_studio.mjs';
 
@@ -382,6 +383,37 @@ describe('what is kept', () => {
     const full = { getItem: () => null, setItem: refuses };
     assert.deepEqual([new Kept(refuses, '', '').read(), new Kept(refuses, '', '').write('x'), new Kept(() => full, '', '').write('x'), new Kept(() => null, '', '').write('x')], ['', false, false, false]);
     for (const value of ['{', '7', '[]', '{"mark":1}']) assert.equal(new Kept(() => ({ getItem: () => value }), '', '').read(), '');
+  });
+});
+
+describe('a wanted sowing rate', () => {
+  const task = { kg_per_ha: 180, spacing_cm: 15, speed_km_per_h: 8, rows: 3 };
+  const table = (cells) => ({
+    columns: [{ name: 'hole', unit: '' }, { name: 'seeds of', unit: '' }, { name: 'rate of the slice', unit: 'seeds/s' }, { name: 'rate of the slice', unit: 'g/s' }, { name: 'of the tray', unit: 'g/s' }],
+    rows: [['1', 'all', '30', '1', '16'], ['all', 'all', ...cells]],
+  });
+  test('it is so many seeds a second of the tray', () => {
+    const { g_per_s, seeds_per_s } = wantedRate(task, wheat.scene.lots);
+    assert.ok(Math.abs(g_per_s - 18) < 1e-9 && Math.abs(seeds_per_s - 18 / 0.0296) < 1e-9, `${g_per_s} ${seeds_per_s}`);  // 180 kg/ha are 18 g/m2, of 0.15 m x 3 x 2.22 m/s
+    const { seeds_per_s: mixture } = wantedRate(task, mixed.scene.lots);
+    assert.ok(Math.abs(mixture - 18 / 0.35) < 1e-9, `${mixture}`);  // half the seeds weigh 0.6 g, half 0.1 g
+  });
+  test('the slice is set beside it where the tray has a depth, and the doubt always', () => {
+    const outcome = { total_seeds_per_s: 85, said: { hole_table: table(['85', '2.5', '40']) } };
+    const told = wantedWords(task, wheat.scene.lots, outcome);
+    assert.equal(told.value, '608 seeds/s of the tray');
+    assert.match(told.words, /^18 g\/s\. In 2D this layout sows 1360 seeds\/s, 2\.2 times that: 16 slices of 85\. Doubtful: in 2D .* weigh, before you sow\.$/);
+    for (const said of [undefined, { hole_table: table(['0', '0', '0']) }, { hole_table: { columns: table([]).columns.slice(0, 4), rows: [['all', 'all', '85', '2.5']] } }]) {
+      assert.match(wantedWords(task, wheat.scene.lots, { ...outcome, said }).words, /is not known.*Doubtful/);
+    }
+    assert.match(wantedWords(task, wheat.scene.lots, null).words, /^18 g\/s\. Doubtful/);
+  });
+  test('seeds of several sizes are left to the program', () => {
+    assert.match(wantedWords(task, [{ ...wheat.scene.lots[0], sizes: {} }], null).words, /vibrosow plan/);
+  });
+  test('what was kept of it is looked at', () => {
+    assert.deepEqual(taskOf(JSON.stringify({ ...task, more: 1 })), task);
+    for (const text of ['', 'null', '7', JSON.stringify({ ...task, rows: 1e9 }), JSON.stringify({ ...task, kg_per_ha: '<b>' })]) assert.equal(taskOf(text), null);
   });
 });
 

@@ -14,12 +14,13 @@ import { saveText } from '../report/save.mjs';
 import { oneFile } from './one_file.mjs';
 import { Share } from './share.mjs';
 import { readStudioData } from './studio_data.mjs';
+import { taskOf, Wanted } from './wanted.mjs';
 
 const plainWords = 'A 2D slice one seed thick: use it to compare layouts; it is no sowing rate.';
 
 class Studio {
-  constructor(data, kept, { layouts, notice, asLeft }) {
-    Object.assign(this, { data, kept, benches: [], writing: Promise.resolve() });
+  constructor(data, { kept, keptTask }, { layouts, notice, asLeft }) {
+    Object.assign(this, { data, kept, keptTask, benches: [], writing: Promise.resolve() });
     this.history = new History(layouts, textOfLayouts);
     this.comparison = new Comparison();
     this.share = new Share(() => this.made());
@@ -28,6 +29,7 @@ class Studio {
     this.redoButton = press('Redo', () => this.take(this.history.redo()));
     this.resetButton = press('Reset', () => this.reset());
     this.compareButton = press('', () => this.toggleSecond());
+    this.wanted = new Wanted(taskOf(keptTask.read()), (task) => this.want(task));
     this.sendButton = press('Send as one file', () => this.send());
     this.place = element('div', { class: 'benches' });
     this.comparison.frame.hidden = true;
@@ -39,8 +41,8 @@ class Studio {
   head() {
     return [
       element('div', { class: 'topline' }, element('h1', {}, 'Move a hole and watch it sow'), element('div', { class: 'actions' },
-        this.undoButton, this.redoButton, this.resetButton, this.compareButton, this.share.button, this.sendButton, themeSwitch())),
-      this.share.frame,
+        this.undoButton, this.redoButton, this.resetButton, this.wanted.button, this.compareButton, this.share.button, this.sendButton, themeSwitch())),
+      this.share.frame, this.wanted.frame,
       element('p', { class: 'plain' }, element('span', { class: 'roomy' }, 'Every seed is simulated here, in this page; a change starts the run again. '), element('b', {}, plainWords), this.said), this.notice,
     ];
   }
@@ -59,6 +61,7 @@ class Studio {
   add(layout) {
     const bench = new Bench(this.data, 'AB'[this.benches.length], layout, (what) => this.told(what));
     this.benches.push(bench);
+    bench.outflow.want(this.wanted.task);
     this.place.append(bench.frame);
     this.showCount();
   }
@@ -123,6 +126,11 @@ class Studio {
     }
   }
 
+  want(task) {
+    for (const bench of this.benches) bench.outflow.want(task);
+    this.tellKept(this.keptTask.write(JSON.stringify(task)));
+  }
+
   // What was made is kept, one after the other; an address that names other layouts is given up.
   keep() {
     this.showButtons();
@@ -177,8 +185,9 @@ async function show() {
   startTheme();
   addEventListener('hashchange', () => location.reload());
   const text = document.getElementById('studio-data').textContent;
-  const data = readStudioData(text), kept = new Kept(() => localStorage, location.pathname, text);
-  const studio = new Studio(data, kept, await opening(data, kept));
+  const data = readStudioData(text);
+  const kept = new Kept(() => localStorage, location.pathname, text), keptTask = new Kept(() => localStorage, `${location.pathname} wanted`, text);
+  const studio = new Studio(data, { kept, keptTask }, await opening(data, kept));
   document.documentElement.dataset.kind = 'studio';
   document.getElementById('head').replaceChildren(...studio.head());
   document.getElementById('page').replaceChildren(...studio.page());

@@ -3,6 +3,7 @@ import { element } from '../report/dom.mjs';
 import { number, sentence } from '../report/format.mjs';
 import { intervalTrack, scaleOf, trackAxis } from '../report/interval_track.mjs';
 import { RollingRate } from './rolling.mjs';
+import { wantedWords } from './wanted.mjs';
 
 const rated = (hole) => Number.isFinite(hole.seeds_per_s);
 
@@ -30,6 +31,10 @@ function barsOf(outcome, scale) {
 
 function figure(term, value, words) {
   return element('div', { class: value ? null : 'note' }, element('dt', {}, term), value ? element('dd', { class: 'value' }, value) : null, words ? element('dd', { class: 'muted' }, words) : null);
+}
+
+function wantedFigure({ value, words }) {
+  return figure('Wanted', value, words);
 }
 
 // Nothing where so few seeds show no difference: the sentence says so.
@@ -76,6 +81,7 @@ export class OutflowPanel {
     const { status, prepared, frame, outcome } = state;
     this.frame.classList.toggle('stale', ['changed', 'opening'].includes(status));
     this.window.textContent = prepared ? windowWords(state) : '';
+    Object.assign(this, { state, scene });
     if (prepared !== this.prepared) this.rolling = prepared && new RollingRate(periodOf(scene.tray.motion));
     if (prepared) this.rolling.take(frame);
     const now = performance.now();
@@ -85,6 +91,12 @@ export class OutflowPanel {
       this.fill(state);
     }
     Object.assign(this, { outcome, prepared, status });
+  }
+
+  /** Tells what a task wants, too: see wantedWords. null: nothing is wanted. */
+  want(task) {
+    this.task = task;
+    if (this.state) this.fill(this.state);
   }
 
   /** Draws the bars on a scale that holds those of all layouts of the page; `all`: the `rates` of each. */
@@ -102,6 +114,7 @@ export class OutflowPanel {
     this.figures.replaceChildren(...[
       rates && prepared.holes ? figure('All holes', `${number(rates.total_seeds_per_s)} seeds/s`) : null,
       rolling && prepared.holes ? latelyFigure(rolling) : null,
+      this.task && prepared ? wantedFigure(wantedWords(this.task, this.scene.lots, rates)) : null,
       rates?.unevenness ? figure('Unevenness (CV)', cvText(rates.unevenness), sentence(rates.unevenness.sentence)) : null,
       outcome?.guard ? figure('Guard', '', sentence(outcome.guard)) : null,
     ].filter(Boolean));
