@@ -436,6 +436,35 @@ test('a wanted rate is told in seeds a second with its doubt, and kept', () => w
   await place.getByText('608 seeds/s of the tray').waitFor({ state: 'detached' });
 }));
 
+test('two layouts run in step, and start and rest together', () => withStudio({ viewport: { width: 1280, height: 720 } }, async (page) => {
+  await page.getByRole('button', { name: 'Compare layouts' }).click();
+  const [a, b] = [bench(page, 'A'), bench(page, 'B')];
+  await b.getByRole('radio', { name: 'Design' }).check();  // which this made-up simulator takes four times as long for
+  await page.waitForFunction(() => document.querySelectorAll('.bench[data-status="playing"]').length === 2 && [...document.querySelectorAll('canvas')].every((canvas) => Number(canvas.dataset.time) > 0.05));
+  const apart = await page.evaluate(() => new Promise((done) => {
+    const gaps = [];
+    const look = () => {
+      const [one, other] = [...document.querySelectorAll('.bench canvas')].map((canvas) => Number(canvas.dataset.time));
+      gaps.push(Math.abs(one - other));
+      if (gaps.length < 30) requestAnimationFrame(look);
+      else done(Math.max(...gaps));
+    };
+    look();
+  }));
+  assert.ok(apart < 0.08, `${apart} s`);
+  await a.getByRole('button', { name: 'Pause' }).click();
+  await status(a, 'paused');
+  await status(b, 'paused');
+  assert.deepEqual(await outside(page, ['canvas', '.knob', '.controls button', '.tabs label']), []);
+  await b.getByRole('button', { name: 'Play' }).click();
+  await status(a, 'playing');
+  await page.waitForFunction(() => [...document.querySelectorAll('canvas')].every((canvas) => Number(canvas.dataset.time) > 0.5));
+  await handle(a, 2).press('ArrowRight');
+  await page.waitForFunction(() => [...document.querySelectorAll('canvas')].every((canvas) => Number(canvas.dataset.time) < 0.4));
+  await page.getByRole('button', { name: 'Remove layout B' }).click();
+  await status(a, 'ended');
+}));
+
 // A link as a page makes it that has `seeder` as its own.
 async function linkTo(seeder) {
   return fragmentOf([layoutOf({ ...seeder, own: true })]);

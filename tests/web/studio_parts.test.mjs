@@ -8,6 +8,7 @@ import { comparisonOf, comparisonSentence } from '../../web/studio/comparison.mj
 import { Course } from '../../web/studio/course.mjs';
 import { History } from '../../web/studio/history.mjs';
 import { Kept } from '../../web/studio/kept.mjs';
+import { holdInStep, limitBeside } from '../../web/studio/in_step.mjs';
 import * as layouts from '../../web/studio/layout.mjs';
 import { fragmentOf, layoutsOf, textOfLayouts } from '../../web/studio/link.mjs';
 import { barLength, rulerMarks, shakeWords } from '../../web/studio/measures.mjs';
@@ -489,6 +490,45 @@ describe('the course', () => {
     assert.match(course.state.problem, /57 billion seed-steps, are more than the 50 billion/);
     course.play(1);
     assert.equal(course.state.status, 'failed');
+  });
+});
+
+describe('two layouts in step', () => {
+  // Of a layout and one that takes four times as long: the times of both at each news, until the first has come to `until`.
+  async function timesOf(pace, until, hold) {
+    const times = [];
+    let all = [];
+    const tell = (done) => {
+      hold(all);
+      const now = all.map(({ course }) => course.state.frame?.time_s ?? 0);
+      times.push(now);
+      if (now[0] >= until) done();
+    };
+    const done = new Promise((reached) => {
+      all = ['draft', 'design'].map((accuracy) => ({ pace, accuracy, course: new Course(startSimulator, () => tell(reached)) }));
+      for (const { course, accuracy } of all) course.open(sceneOf({ ...fresh, accuracy }, data.crops), pace);
+    });
+    await done;
+    for (const { course } of all) course.close();
+    return times;
+  }
+  const apart = (times) => Math.max(...times.map(([a, b]) => Math.abs(a - b)));
+
+  test('the faster one waits, and neither stands still', async () => {
+    const times = await timesOf(1, 0.25, holdInStep);
+    assert.ok(apart(times) <= 0.041, `${apart(times)}`);
+    assert.ok(apart(await timesOf(1, 0.25, () => {})) > 0.1);  // by themselves
+  });
+  test('as fast as they can they are further apart', async () => {
+    const gap = apart(await timesOf(null, 2, holdInStep));
+    assert.ok(gap <= 0.501, `${gap}`);
+  });
+  test('one alone is free, and so is one beside another that has ended or failed', () => {
+    const limits = [];
+    holdInStep([{ course: { limit: (until) => limits.push(until) }, pace: 1 }]);
+    assert.deepEqual(limits, [Infinity]);
+    assert.deepEqual(['ended', 'failed'].map((status) => limitBeside({ status, frame: { time_s: 4 } }, 1)), [Infinity, Infinity]);
+    assert.equal(limitBeside({ status: 'changed', frame: { time_s: 4 } }, 1), limitBeside({ status: 'opening', frame: null }, 1));  // it starts again
   });
 });
 

@@ -19,9 +19,10 @@ const settling = 250;  // ms after a gesture, before its layout is simulated
 const still = matchMedia('(prefers-reduced-motion: reduce)');
 
 export class Bench {
-  /** `name`: "A" or "B"; `told("layout")` is called when its layout has changed, `told("made")` when the gesture that changed it has ended, `told("state")` when its simulation has moved on. */
-  constructor(data, name, layout, told) {
-    Object.assign(this, { data, name, layout, told });
+  /** `name`: "A" or "B"; `told("layout")` is called when its layout has changed, `told("made")` when the gesture that changed it has ended, `told("state")` when its simulation has moved on.
+   * `all()`: the benches of the page, which start, run and rest together. */
+  constructor(data, name, layout, { told, all }) {
+    Object.assign(this, { data, name, layout, told, all });
     this.pace = still.matches ? undefined : realTime;  // undefined: waits at the start
     const remove = (k) => this.remove(k);
     const edit = (changed, ended) => this.change(changed, ended);
@@ -33,7 +34,6 @@ export class Bench {
     this.course = new Course(startSimulator, (state) => this.showState(state));
     this.build();
     this.showLayout();
-    this.open();
   }
 
   build() {
@@ -76,7 +76,7 @@ export class Bench {
     clearTimeout(this.opening);
     if (other) this.course.leaveSeeder();
     else if (moved && this.course.state.status !== 'changed') this.course.leave();
-    if (ended) this.opening = setTimeout(() => this.open(), settling);
+    if (ended) this.opening = setTimeout(() => this.restart(), settling);
     if (moved) this.told('layout');
     if (ended) this.told('made');
   }
@@ -154,25 +154,25 @@ export class Bench {
     this.status.textContent = `Removed hole ${k + 1}.`;
   }
 
+  /** At a pace of the transport; undefined: it rests. One that has ended stays so. */
+  go(pace) {
+    this.pace = pace;
+    if (pace === undefined) this.course.pause();
+    else this.course.play(pace);
+  }
+
   toggle() {
-    const { course } = this;
-    if (course.state.status === 'playing') {
-      this.pace = undefined;
-      course.pause();
-    } else {
-      this.pace = realTime;
-      if (course.state.status === 'ended') this.open();
-      else course.play(this.pace);
-    }
+    const { status } = this.course.state;
+    for (const bench of this.all()) bench.go(status === 'playing' ? undefined : realTime);
+    if (status === 'ended') this.restart();
   }
 
   restart() {
-    this.open();
+    for (const bench of this.all()) bench.open();
   }
 
   toTheEnd() {
-    this.pace = asFastAsItCan;
-    this.course.play(this.pace);
+    for (const bench of this.all()) bench.go(asFastAsItCan);
   }
 
   save() {

@@ -8,6 +8,7 @@ import { restingSeeders } from './choices.mjs';
 import { Comparison } from './comparison.mjs';
 import { History } from './history.mjs';
 import { Kept } from './kept.mjs';
+import { holdInStep } from './in_step.mjs';
 import { startOf } from './layout.mjs';
 import { fragmentOf, isLink, layoutsOf, textOfLayouts } from './link.mjs';
 import { saveText } from '../report/save.mjs';
@@ -59,11 +60,13 @@ class Studio {
   }
 
   add(layout) {
-    const bench = new Bench(this.data, 'AB'[this.benches.length], layout, (what) => this.told(what));
+    const bench = new Bench(this.data, 'AB'[this.benches.length], layout, { told: (what) => this.told(what), all: () => this.benches });
     this.benches.push(bench);
     bench.outflow.want(this.wanted.task);
     this.place.append(bench.frame);
     this.showCount();
+    bench.pace = this.benches[0].pace;
+    bench.restart();
   }
 
   toggleSecond() {
@@ -150,6 +153,7 @@ class Studio {
   told(what) {
     if (what === 'layout') this.share.hide();
     if (what === 'made' && !this.taking && this.history.add(this.made())) this.keep();
+    holdInStep(this.benches);
     const outcomes = this.benches.map((bench) => bench.outcome);
     if (outcomes.length === 2) this.comparison.show(...outcomes);
     const rates = this.benches.map((bench) => bench.outflow.rates);
