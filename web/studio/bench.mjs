@@ -46,7 +46,7 @@ export class Bench {
     const looks = element('div', { role: 'group', class: 'panel looks', 'aria-label': 'View' }, this.view.legend, this.view.choices, save);
     this.frame = element('section', { class: 'bench', 'aria-labelledby': `layout-${this.name}` }, this.title, this.choices, this.kept, this.problem, this.outflow.remarks,
       element('div', { class: 'workbench' }, element('div', { class: 'replay card' }, this.view.place, element('div', { class: 'controls' }, this.transport.frame)),
-        this.tabs(), element('div', { class: 'panels' }, this.outflow.frame, this.holes.frame), this.motion.frame, looks), this.status);
+        this.tabs(), element('div', { class: 'panels' }, this.outflow.frame, this.holes.frame), this.motion.frame, looks), this.outflow.guard, this.status);
     this.frame.dataset.tab = 'outflow';
   }
 

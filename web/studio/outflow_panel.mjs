@@ -30,7 +30,7 @@ function barsOf(outcome, scale) {
 }
 
 function figure(term, value, words) {
-  return element('div', { class: value ? null : 'note' }, element('dt', {}, term), value ? element('dd', { class: 'value' }, value) : null, words ? element('dd', { class: 'muted' }, words) : null);
+  return element('div', {}, element('dt', {}, term), element('dd', { class: 'value' }, value), words ? element('dd', { class: 'muted' }, words) : null);
 }
 
 function wantedFigure({ value, words }) {
@@ -66,13 +66,14 @@ function latelyFigure(rolling) {
 
 const endings = { stopped_by_guard: 'The guard stopped this run' };
 
-/** `remarks`, the doubts, has a place of its own: on top of what they are about. */
+/** `remarks`, the doubts, has a place of its own, on top of what they are about; `guard`, what the guard saw, one below. */
 export class OutflowPanel {
   constructor() {
     this.window = element('p', { class: 'hint' });
     this.bars = element('ul', { class: 'hole-bars' });
     this.figures = element('dl', { class: 'figures' });
-    this.remarks = element('ul', { class: 'remarks', 'aria-label': 'What to know about this layout', hidden: true });
+    this.remarks = element('ul', { class: 'remarks', 'aria-label': 'What to know about this layout', tabindex: '0', hidden: true });  // where it is cut short, the focus shows it whole
+    this.guard = element('p', { class: 'hint guard' });
     this.frame = element('div', { role: 'group', class: 'panel outflow', 'aria-label': 'Outflow of the holes' }, element('div', { class: 'panel-head' }, element('h3', {}, 'Outflow'), this.window), this.bars, this.figures);
   }
 
@@ -116,9 +117,11 @@ export class OutflowPanel {
       rolling && prepared.holes ? latelyFigure(rolling) : null,
       this.task && prepared ? wantedFigure(wantedWords(this.task, this.scene.lots, rates)) : null,
       rates?.unevenness ? figure('Unevenness (CV)', cvText(rates.unevenness), sentence(rates.unevenness.sentence)) : null,
-      outcome?.guard ? figure('Guard', '', sentence(outcome.guard)) : null,
     ].filter(Boolean));
+    this.guard.textContent = sentence(outcome?.guard);
     const doubts = [endings[outcome?.status], ...new Set([...(prepared?.remarks ?? []), ...(outcome?.remarks ?? [])])].filter(Boolean);
+    if (doubts.join() === this.doubts) return;  // so that they can be read, and marked, in peace
+    this.doubts = doubts.join();
     this.remarks.replaceChildren(...doubts.map((doubt) => element('li', {}, sentence(doubt))));
     this.remarks.hidden = doubts.length === 0;
   }
