@@ -32,6 +32,7 @@ function rows(vessel, radius, lots) {
 class Simulator {
   constructor() {
     this.simd = true;
+    this.until = Infinity;
   }
 
   async open(text) {
@@ -47,7 +48,7 @@ class Simulator {
     const vessels = [pageVessel('tray', scene.tray), ...(scene.hopper ? [pageVessel('hopper', scene.hopper)] : [])];
     return {
       grains: this.seeds.length, duration_s: scene.run.duration_s, measure_from_s: scene.run.measure_from_s, time_step_s: 1e-5, steps: Math.round(scene.run.duration_s / 1e-5),
-      remarks: scene.tray.holes.some((hole) => hole.width_m < 0.004) ? ['tray.holes.width: seeds cannot pass'] : [],
+      remarks: [...(scene.made_up_remarks ?? []), ...(scene.tray.holes.some((hole) => hole.width_m < 0.004) ? ['tray.holes.width: seeds cannot pass'] : [])],
       lots: scene.lots.map((lot) => ({ name: lot.name, diameter_mm: lot.diameter_m * 1000 })), vessels, holes: scene.tray.holes.length, frame: this.frame(0),
     };
   }
@@ -83,14 +84,19 @@ class Simulator {
 
   play({ pace, onFrame, onEnd }) {
     this.pause();
-    const step = pace === null ? 0.5 : pace / framesPerSecond;
+    const slow = this.scene.numerics.accuracy === 'design' ? 4 : 1;
+    const step = (pace === null ? 0.5 : pace / framesPerSecond) / slow;
     this.timer = setInterval(() => {
-      this.time = Math.min(this.scene.run.duration_s, this.time + step);
+      this.time = Math.max(this.time, Math.min(this.scene.run.duration_s, this.time + step, this.until));
       onFrame(this.frame(pace ?? 15));
       if (this.time < this.scene.run.duration_s) return;
       this.pause();
       onEnd(this.result('finished'));
     }, 1000 / framesPerSecond);
+  }
+
+  limit(until) {
+    this.until = until;
   }
 
   pause() {

@@ -78,7 +78,7 @@ async function shootStudio(browser, folder) {
     await toTheEnd(bench(page, 'A'));
     await settled(page);
     await shoot(page, to('ended'), 1500);
-    await page.getByRole('button', { name: 'Compare with a second layout' }).click();
+    await page.getByRole('button', { name: 'Compare layouts' }).click();
     const moved = bench(page, 'B').getByRole('spinbutton', { name: 'Place of hole 2 in mm' });
     await moved.fill('190');
     await moved.press('Enter');

@@ -6,7 +6,7 @@ import { tmpdir } from 'node:os';
 import path from 'node:path';
 import test, { after } from 'node:test';
 import { deflateRawSync } from 'node:zlib';
-import { layoutOf } from '../../web/studio/layout.mjs';
+import { layoutOf, moveHole } from '../../web/studio/layout.mjs';
 import { fragmentOf } from '../../web/studio/link.mjs';
 import * as in_ from './browser.mjs';
 import { fillStudio, madeUpStudio, studioTemplate, whyNotInSpace } from './made_up_studio.mjs';
@@ -64,6 +64,8 @@ test('it opens playing, counts at the holes, and says plainly what it is', () =>
   const place = bench(page);
   await page.waitForFunction(() => JSON.parse(document.querySelector('canvas').dataset.counts ?? '[0]')[0] > 3);
   assert.match(await page.locator('#head').textContent(), /A 2D slice one seed thick: use it to compare layouts; it is no sowing rate\./);
+  assert.match(await page.locator('#head').textContent(), /a change starts the run again/);
+  assert.ok(await place.getByRole('radio', { name: 'Draft' }).isChecked());
   await place.getByText('In real time').waitFor();
   await place.getByText(/^Measured from 1 to/).waitFor();
   await place.getByText('The holes differ by more than chance.').waitFor();
@@ -86,12 +88,16 @@ test('it opens playing, counts at the holes, and says plainly what it is', () =>
   await page.waitForFunction(() => window.leastTime < 1);
 }));
 
-test('before the measuring begins nothing is said of rates', () => withStudio({}, async (page) => {
+test('before the measuring begins the rate of the last shakes is told', () => withStudio({}, async (page) => {
   const place = bench(page);
+  await place.locator('dt', { hasText: /^Last (shake|[0-9]+ shakes)$/ }).waitFor();
   await place.getByRole('button', { name: 'Pause' }).click();
-  await place.getByText(/warned from 5 %/).waitFor();  // an outcome is there
-  assert.equal(await place.locator('.hole-bars .track').count(), 0);
-  assert.equal(await place.getByText('seeds/s').count(), 0);
+  await status(place, 'paused');
+  const told = await place.locator('.figures .value').textContent();
+  const [rate, low, high] = /^([0-9.]+) seeds\/s, ([0-9.]+) to ([0-9.]+)$/.exec(told).slice(1).map(Number);
+  assert.ok(low < rate && rate < high, told);
+  assert.equal(await place.locator('.hole-bars .track').count(), 5);
+  assert.equal(await place.getByText('All holes').count(), 0);
   await place.getByText('Measuring begins at 30 s.').waitFor();
 }, withLateMeasuring()));
 
@@ -107,6 +113,62 @@ test('doubts stand on top of the picture and the rates', () => withStudio({}, as
   await width.fill('12');
   await width.press('Enter');
   await doubts.waitFor({ state: 'hidden' });
+}));
+
+// What of `selectors`, inside the bench, is not wholly in the window, which has not been scrolled; each has to be there.
+function outside(page, selectors) {
+  return page.evaluate((all) => all.flatMap((selector) => {
+    const found = [...document.querySelectorAll(`.bench ${selector}`)];
+    const isIn = ({ left, top, right, bottom, width }) => width > 0 && left >= 0 && top >= 0 && right <= innerWidth && bottom <= innerHeight;
+    return found.length ? found.filter((one) => !isIn(one.getBoundingClientRect())).map((one) => one.outerHTML.slice(0, 90)) : [`nothing is ${selector}`];
+  }), selectors);
+}
+
+// With a doubt as long as that of a draft.
+function withDoubt() {
+  const data = madeUpStudio();
+  data.seeders[0].scene.made_up_remarks = ['doubtful: the relative overlap passed 0.05 at 0.1574 s, in 1143 steps in all, and reached 0.0884: a thin shell is no longer a good model; a smaller '
+    + 'contact.shell_compression is stiffer. What to do: make contacts stiffer or steps shorter, as it says, and run again'];
+  data.crops[1].title = 'Soybean, of a title so long that a list of crops is wider than all of the other choices beside it';
+  return data;
+}
+
+test('bed, controls and rates are on one screen', () => withStudio({ viewport: { width: 1280, height: 720 } }, async (page) => {
+  const place = bench(page);
+  await place.getByText('The holes differ').waitFor();
+  assert.deepEqual(await outside(page, ['canvas', '.knob', 'select', '.controls button', '.panel input', '.panel button', '.hole-bars li', '.figures dd']), []);
+  assert.equal(await place.getByRole('spinbutton').count(), 15);
+  assert.equal(await place.getByRole('radio', { name: 'Motion' }).isVisible(), false);
+}, withDoubt()));
+
+test('on a phone the bed stays beside each panel, a tap away', () => withStudio({ viewport: { width: 390, height: 844 } }, async (page) => {
+  const place = bench(page);
+  await place.getByText('The holes differ').waitFor();
+  for (const [tab, inIt] of [['Holes', ['.holes input', '.holes button']], ['Motion', ['.motion input']], ['View', ['.looks input', '.looks button']], ['Rates', ['.hole-bars li', '.figures div:first-child']]]) {
+    await place.getByRole('radio', { name: tab }).check();
+    assert.equal(await place.locator('.panel').filter({ visible: true }).count(), 1);
+    assert.deepEqual(await outside(page, ['canvas', '.knob', '.controls button', ...inIt]), []);
+  }
+}, withDoubt()));
+
+test('the picture has the tray’s dimensions, a scale bar, a ruler, and the ends of the shake', () => withStudio({}, async (page) => {
+  const place = bench(page);
+  await place.locator('.measures .dimension', { hasText: '120 mm' }).waitFor();
+  assert.deepEqual(await place.locator('.ruler text').allTextContents(), ['0', '100', '200', '300', '400', '500 mm']);
+  const scale = await page.evaluate(() => document.querySelector('.rail').clientWidth / 500);
+  const width = (selector) => place.locator(selector).evaluate((node) => node.getBBox().width);
+  const [bar, said] = [await width('.scale-bar path'), parseFloat(await place.locator('.scale-bar text').textContent())];
+  assert.ok(Math.abs(bar - said * scale) < 1, `${bar} px for ${said} mm at ${scale}`);
+  const apart = async () => (await width('.shake-end >> nth=1')) && place.locator('.shake-end').evaluateAll(([left, right]) => right.getBBox().x - left.getBBox().x);
+  assert.ok(Math.abs((await apart()) - 20 * scale) < 1);
+  assert.equal(await place.locator('.shake text').textContent(), '9 Hz, ±10 mm');
+  const amplitude = place.getByRole('spinbutton', { name: 'Amplitude in mm' });
+  await amplitude.fill('15');
+  await amplitude.press('Enter');
+  assert.equal(await place.locator('.shake text').textContent(), '9 Hz, ±15 mm');
+  assert.ok(Math.abs((await apart()) - 30 * (await page.evaluate(() => document.querySelector('.rail').clientWidth / 500))) < 1);
+  await place.getByRole('checkbox', { name: 'Hold the tray still' }).check();
+  assert.equal(await place.locator('.shake').count(), 0);
 }));
 
 test('a hole is dragged, and the simulation starts again with it', () => withStudio({}, async (page) => {
@@ -255,7 +317,7 @@ test('a program that opens a seeder in space is told so', () => withStudio({}, a
 
 test('two layouts are compared, and a link brings both back with their counts', () => withStudio({}, async (page) => {
   await handle(bench(page), 1).press('Shift+ArrowLeft');
-  await page.getByRole('button', { name: 'Compare with a second layout' }).click();
+  await page.getByRole('button', { name: 'Compare layouts' }).click();
   const [a, b] = [bench(page, 'A'), bench(page, 'B')];
   assert.equal(await valueText(b, 1), 'hole 1 at 60 mm, 12 mm wide');
   await handle(b, 3).press('+');
@@ -280,6 +342,137 @@ test('two layouts are compared, and a link brings both back with their counts', 
   await page.getByRole('button', { name: 'Remove layout B' }).click();
   assert.equal(await b.count(), 0);
   await page.locator('#comparison').waitFor({ state: 'hidden' });
+}));
+
+const withKept = (page) => page.waitForFunction(() => localStorage.length > 0);
+
+test('what was made is undone, done again, there after a reload, and reset', () => withStudio({}, async (page) => {
+  const place = bench(page);
+  const press = (name) => page.getByRole('button', { name, exact: true }).click();
+  const isDisabled = (name) => page.getByRole('button', { name, exact: true }).isDisabled();
+  assert.deepEqual(await Promise.all(['Undo', 'Redo', 'Reset'].map(isDisabled)), [true, true, true]);
+  await handle(place, 2).press('Shift+ArrowRight');
+  await place.getByRole('spinbutton', { name: 'Frequency in Hz' }).fill('11');
+  await place.getByRole('spinbutton', { name: 'Frequency in Hz' }).press('Enter');
+  const made = async () => [await valueText(place, 2), await place.getByRole('spinbutton', { name: 'Frequency in Hz' }).inputValue()];
+  await press('Undo');
+  assert.deepEqual(await made(), ['hole 2 at 170 mm, 12 mm wide', '9']);
+  await handle(place, 2).press('Control+z');
+  assert.deepEqual(await made(), ['hole 2 at 160 mm, 12 mm wide', '9']);
+  await press('Redo');
+  await handle(place, 2).press('Control+Shift+Z');
+  assert.deepEqual(await made(), ['hole 2 at 170 mm, 12 mm wide', '11']);
+  await withKept(page);
+  await page.reload();
+  await page.waitForSelector('html[data-ready]');
+  await page.getByText('These are the layouts that you left here').waitFor();
+  assert.deepEqual(await made(), ['hole 2 at 170 mm, 12 mm wide', '11']);
+  await press('Reset');
+  assert.deepEqual(await made(), ['hole 2 at 160 mm, 12 mm wide', '9']);
+  assert.equal(await isDisabled('Reset'), true);
+  await press('Undo');
+  assert.deepEqual(await made(), ['hole 2 at 170 mm, 12 mm wide', '11']);
+}));
+
+test('a change takes the link’s layouts out of the address, and is there after a reload instead of them', async () => {
+  await withStudio({ hash: await fragmentOf([moveHole(layoutOf(madeUpStudio().seeders[0]), 1, 200)]) }, async (page) => {
+    const place = bench(page);
+    assert.equal(await valueText(place, 2), 'hole 2 at 200 mm, 12 mm wide');
+    await page.getByRole('button', { name: 'Share a link' }).click();
+    await handle(place, 2).press('ArrowRight');
+    await page.getByRole('textbox', { name: 'Link to what is on this page' }).waitFor({ state: 'hidden' });
+    assert.doesNotMatch(page.url(), /#/);
+    await withKept(page);
+    await page.reload();
+    await page.waitForSelector('html[data-ready]');
+    assert.equal(await valueText(place, 2), 'hole 2 at 201 mm, 12 mm wide');
+  });
+});
+
+test('a browser that keeps nothing is said to, and all else works', () => withStudio({
+  first: () => Object.defineProperty(window, 'localStorage', { get() { throw new DOMException('denied', 'SecurityError'); } }),
+}, async (page) => {
+  const place = bench(page);
+  assert.equal(await page.locator('#head [role=alert]').isVisible(), false);
+  await handle(place, 2).press('ArrowRight');
+  await page.getByText('This browser keeps nothing for this page').waitFor();
+  await page.getByRole('button', { name: 'Undo' }).click();
+  assert.equal(await valueText(place, 2), 'hole 2 at 160 mm, 12 mm wide');
+  await opened(place);
+}));
+
+test('sent as one file, it opens by itself with what was on the page, to the same counts', () => withStudio({}, async (page) => {
+  await handle(bench(page), 2).press('Shift+ArrowRight');
+  await page.getByRole('button', { name: 'Compare layouts' }).click();
+  await handle(bench(page, 'B'), 1).press('+');
+  await page.getByRole('button', { name: 'Dark' }).click();
+  const [download] = await Promise.all([page.waitForEvent('download'), page.getByRole('button', { name: 'Send as one file' }).click()]);
+  assert.equal(download.suggestedFilename(), 'studio.html');
+  const sent = path.join(folder, 'elsewhere', 'got this.html');
+  await download.saveAs(sent);
+  const text = readFileSync(sent, 'utf8');
+  assert.equal(/<script>[\s\S]*<\/script>/.exec(text)[0], /<script>[\s\S]*<\/script>/.exec(template)[0]);  // which its policy lets run
+  assert.match(text, /^<!doctype html>\n<html lang="en"><head>/);  // light or dark is for them to choose
+  const counts = await countsAtTheEnd(bench(page));
+  const theirs = await in_.openPage(browser, sent);
+  assert.deepEqual([await valueText(bench(theirs), 2), await valueText(bench(theirs, 'B'), 1)], ['hole 2 at 170 mm, 12 mm wide', 'hole 1 at 70 mm, 12.5 mm wide']);
+  assert.equal(await countsAtTheEnd(bench(theirs)), counts);
+  await handle(bench(theirs), 2).press('ArrowRight');  // what they make is kept for them
+  await withKept(theirs);
+  await theirs.reload();
+  await theirs.waitForSelector('html[data-ready]');
+  assert.equal(await valueText(bench(theirs), 2), 'hole 2 at 171 mm, 12 mm wide');
+  assert.deepEqual(theirs.complaints, []);
+  await theirs.context().close();
+}));
+
+test('a wanted rate is told in seeds a second with its doubt, and kept', () => withStudio({}, async (page) => {
+  const place = bench(page);
+  assert.equal(await place.getByText('Wanted').count(), 0);
+  await page.getByRole('button', { name: 'Wanted rate' }).click();
+  await place.getByText('203 seeds/s of the tray').waitFor();
+  await place.getByText(/Doubtful: in 2D a hole is a slot/).waitFor();
+  const rows = page.getByRole('spinbutton', { name: 'Rows that the tray feeds' });
+  await rows.fill('3');
+  await rows.press('Enter');
+  await place.getByText('608 seeds/s of the tray').waitFor();
+  await page.getByRole('button', { name: 'Compare layouts' }).click();
+  await bench(page, 'B').getByText('608 seeds/s of the tray').waitFor({ state: 'attached' });
+  await page.reload();
+  await page.waitForSelector('html[data-ready]');
+  await place.getByText('608 seeds/s of the tray').waitFor({ state: 'attached' });
+  await page.getByRole('button', { name: 'Wanted rate' }).click();
+  assert.equal(await rows.isVisible(), false);
+  await place.getByText('608 seeds/s of the tray').waitFor({ state: 'detached' });
+}));
+
+test('two layouts run in step, and start and rest together', () => withStudio({ viewport: { width: 1280, height: 720 } }, async (page) => {
+  await page.getByRole('button', { name: 'Compare layouts' }).click();
+  const [a, b] = [bench(page, 'A'), bench(page, 'B')];
+  await b.getByRole('radio', { name: 'Design' }).check();  // which this made-up simulator takes four times as long for
+  await page.waitForFunction(() => document.querySelectorAll('.bench[data-status="playing"]').length === 2 && [...document.querySelectorAll('canvas')].every((canvas) => Number(canvas.dataset.time) > 0.05));
+  const apart = await page.evaluate(() => new Promise((done) => {
+    const gaps = [];
+    const look = () => {
+      const [one, other] = [...document.querySelectorAll('.bench canvas')].map((canvas) => Number(canvas.dataset.time));
+      gaps.push(Math.abs(one - other));
+      if (gaps.length < 30) requestAnimationFrame(look);
+      else done(Math.max(...gaps));
+    };
+    look();
+  }));
+  assert.ok(apart < 0.08, `${apart} s`);
+  await a.getByRole('button', { name: 'Pause' }).click();
+  await status(a, 'paused');
+  await status(b, 'paused');
+  assert.deepEqual(await outside(page, ['canvas', '.knob', '.controls button', '.tabs label']), []);
+  await b.getByRole('button', { name: 'Play' }).click();
+  await status(a, 'playing');
+  await page.waitForFunction(() => [...document.querySelectorAll('canvas')].every((canvas) => Number(canvas.dataset.time) > 0.5));
+  await handle(a, 2).press('ArrowRight');
+  await page.waitForFunction(() => [...document.querySelectorAll('canvas')].every((canvas) => Number(canvas.dataset.time) < 0.4));
+  await page.getByRole('button', { name: 'Remove layout B' }).click();
+  await status(a, 'ended');
 }));
 
 // A link as a page makes it that has `seeder` as its own.
@@ -347,7 +540,7 @@ test('accessible in light and dark, and no wider than a phone', () => withStudio
   await page.emulateMedia({ colorScheme: 'dark' });
   await page.waitForSelector('html[data-theme="dark"]');
   await page.setViewportSize({ width: 390, height: 844 });
-  await page.getByRole('button', { name: 'Compare with a second layout' }).click();
+  await page.getByRole('button', { name: 'Compare layouts' }).click();
   await page.getByRole('button', { name: 'Share a link' }).click();
   await bench(page, 'B').getByText('The holes differ').waitFor();
   await in_.assertAccessible(page);

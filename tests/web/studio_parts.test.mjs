@@ -6,12 +6,18 @@ import { deflateRawSync } from 'node:zlib';
 import { Pace } from '../../web/core/pace.mjs';
 import { comparisonOf, comparisonSentence } from '../../web/studio/comparison.mjs';
 import { Course } from '../../web/studio/course.mjs';
+import { History } from '../../web/studio/history.mjs';
+import { Kept } from '../../web/studio/kept.mjs';
+import { holdInStep, limitBeside } from '../../web/studio/in_step.mjs';
 import * as layouts from '../../web/studio/layout.mjs';
-import { fragmentOf, layoutsOf } from '../../web/studio/link.mjs';
+import { fragmentOf, layoutsOf, textOfLayouts } from '../../web/studio/link.mjs';
+import { barLength, rulerMarks, shakeWords } from '../../web/studio/measures.mjs';
 import { angleText, lengthText, metresOf, radiansOf } from '../../web/studio/quantities.mjs';
+import { countInterval, RollingRate } from '../../web/studio/rolling.mjs';
 import { keptSentence, sceneOf, seedArea } from '../../web/studio/scene_edit.mjs';
 import { fileName, seederFile } from '../../web/studio/seeder_file.mjs';
 import { readStudioData } from '../../web/studio/studio_data.mjs';
+import { taskOf, wantedRate, wantedWords } from '../../web/studio/wanted.mjs';
 import { startSimulator } from './made_up_simulator.mjs';
 import { madeUpStudio, wheatText } from './made_up_studio.mjs';
 
@@ -30,6 +36,63 @@ describe('quantities', () => {
     assert.deepEqual([radiansOf(17.3), 0.3].map(angleText), ['17.3 degree', '0.3 rad']);
     assert.equal(radiansOf(17.3), 17.3 * (Math.PI / 180));
   });
+});
+
+describe('measures', () => {
+  test('a ruler has round marks and the end', () => {
+    assert.deepEqual(rulerMarks(500, 1), [0, 100, 200, 300, 400, 500]);
+    assert.deepEqual(rulerMarks(1135.5, 0.5), [0, 200, 400, 600, 800, 1135.5]);
+    assert.deepEqual(rulerMarks(40, 0.1), [0, 40]);
+  });
+  test('a scale bar is round and neither a dot nor the picture', () => {
+    assert.deepEqual([0.1, 0.5, 1, 3, 10].map(barLength), [500, 100, 50, 20, 5]);
+    for (const scale of [0.03, 0.4, 1.7, 26]) assert.ok(barLength(scale) * scale >= 35 && barLength(scale) * scale <= 90, String(scale));
+  });
+  test('a shake is told where it is harmonic', () => assert.deepEqual([{ frequency_hz: 9, amplitude_m: 0.0025 }, null].map(shakeWords), ['9 Hz, ±2.5 mm', '']));
+});
+
+describe('the rate of the last shakes', () => {
+  // Hole 1 lets out a seed every 10 ms, hole 2 none, told 30 times a second.
+  const told = (rolling, until) => {
+    for (let k = 0; k / 30 <= until + 1e-9; ++k) rolling.take({ time_s: k / 30, counted: [Math.floor(100 * (k / 30) + 1e-9), 0] });
+    return rolling.now();
+  };
+  test('it is known once a shake is over, and of whole shakes', () => {
+    assert.equal(told(new RollingRate(0.2), 0.19), null);
+    const first = told(new RollingRate(0.2), 0.21);
+    assert.deepEqual([first.shakes, first.from_s, first.until_s], [1, 0, 0.2]);
+    assert.deepEqual(first.holes.map(({ hole, seeds_per_s }) => [hole, seeds_per_s]), [[1, 100], [2, 0]]);
+    assert.equal(first.all.seeds_per_s, 100);
+  });
+  test('it forgets what is longer ago than a second', () => {
+    const rolling = new RollingRate(0.3);
+    for (let k = 0; k <= 100; ++k) rolling.take({ time_s: k / 30, counted: [k < 50 ? k : 50] });
+    const { shakes, from_s, until_s, all } = rolling.now();
+    assert.deepEqual([shakes, Math.round(30 * (until_s - from_s)), all.seeds_per_s], [3, 27, 0]);
+    assert.ok(rolling.past.length < 33);
+  });
+  test('a shake that takes longer than a second is waited for', () => {
+    assert.equal(told(new RollingRate(2), 1.9), null);
+    assert.equal(told(new RollingRate(2), 2.1).shakes, 1);
+  });
+  test('what does not shake to and fro has a rate of the last second', () => {
+    assert.equal(told(new RollingRate(null), 0.05), null);
+    const { shakes, from_s, until_s } = told(new RollingRate(null), 3);
+    assert.deepEqual([shakes, from_s, until_s], [null, 2, 3]);
+  });
+  // Exact limits of a Poisson mean: of 0 seeds 0 to 3.689, of 4 1.090 to 10.242, of 100 81.36 to 121.63 (Garwood 1936).
+  test('its interval is that of a count', () => {
+    for (const [count, low, high] of [[0, 0, 3.689], [4, 1.09, 10.242], [100, 81.36, 121.63]]) {
+      const given = countInterval(count);
+      assert.ok(Math.abs(given.low - low) <= 0.02 * low + 1e-12 && Math.abs(given.high - high) <= 0.02 * high, `${count}: ${given.low} ${given.high}`);
+    }
+  });
+});
+
+test('a layout begins at draft, unless its seeder says its time step', () => {
+  assert.equal(layouts.startOf(wheat).accuracy, 'draft');
+  const timed = { ...wheat, scene: { ...wheat.scene, numerics: { ...wheat.scene.numerics, dt_s: 1e-6 } } };
+  assert.deepEqual([layouts.startOf(timed).accuracy, layouts.accuraciesOf(timed)], ['as-written', ['as-written']]);
 });
 
 // A simulator that makes `speed` simulated seconds a second, in slices of at most 12 ms with 1 ms between them: how far it has come by each
@@ -283,6 +346,78 @@ describe('links', () => {
   });
 });
 
+describe('undo', () => {
+  test('steps are gone back and forth, and what was undone is forgotten by another', () => {
+    const history = new History([fresh], textOfLayouts);
+    const moved = [layouts.moveHole(fresh, 1, 164)], wider = [layouts.widenAll(fresh, 20)];
+    assert.deepEqual([history.canUndo, history.canRedo, history.undo()], [false, false, [fresh]]);
+    assert.ok(history.add(moved));
+    assert.equal(history.add([layouts.moveHole(fresh, 1, 164)]), false);  // nothing new
+    assert.ok(history.add(wider));
+    assert.deepEqual([history.undo(), history.undo(), history.canUndo, history.redo(), history.canRedo], [moved, [fresh], false, moved, true]);
+    assert.ok(history.add([fresh, fresh]));
+    assert.deepEqual([history.canRedo, history.redo(), history.undo()], [false, [fresh, fresh], moved]);
+  });
+  test('only so many steps are remembered', () => {
+    const history = new History(0, String);
+    for (let k = 1; k <= 500; ++k) history.add(k);
+    let steps = 0;
+    for (; history.canUndo; ++steps) history.undo();
+    assert.deepEqual([steps, history.now], [199, 301]);
+  });
+});
+
+describe('what is kept', () => {
+  const store = () => {
+    const items = new Map();
+    return { getItem: (name) => items.get(name) ?? null, setItem: (name, value) => items.set(name, value), items };
+  };
+  test('it comes back to the page that kept it, and to no other', () => {
+    const storage = store();
+    const kept = (place, text) => new Kept(() => storage, place, text);
+    assert.equal(kept('/a.html', 'data').read(), '');
+    assert.equal(kept('/a.html', 'data').write('#s=made'), true);
+    assert.deepEqual([kept('/a.html', 'data').read(), kept('/b.html', 'data').read(), kept('/a.html', 'date').read()], ['#s=made', '', '']);
+  });
+  test('a browser that refuses, is full, or holds something else does no harm', () => {
+    const refuses = () => { throw new Error('denied'); };
+    const full = { getItem: () => null, setItem: refuses };
+    assert.deepEqual([new Kept(refuses, '', '').read(), new Kept(refuses, '', '').write('x'), new Kept(() => full, '', '').write('x'), new Kept(() => null, '', '').write('x')], ['', false, false, false]);
+    for (const value of ['{', '7', '[]', '{"mark":1}']) assert.equal(new Kept(() => ({ getItem: () => value }), '', '').read(), '');
+  });
+});
+
+describe('a wanted sowing rate', () => {
+  const task = { kg_per_ha: 180, spacing_cm: 15, speed_km_per_h: 8, rows: 3 };
+  const table = (cells) => ({
+    columns: [{ name: 'hole', unit: '' }, { name: 'seeds of', unit: '' }, { name: 'rate of the slice', unit: 'seeds/s' }, { name: 'rate of the slice', unit: 'g/s' }, { name: 'of the tray', unit: 'g/s' }],
+    rows: [['1', 'all', '30', '1', '16'], ['all', 'all', ...cells]],
+  });
+  test('it is so many seeds a second of the tray', () => {
+    const { g_per_s, seeds_per_s } = wantedRate(task, wheat.scene.lots);
+    assert.ok(Math.abs(g_per_s - 18) < 1e-9 && Math.abs(seeds_per_s - 18 / 0.0296) < 1e-9, `${g_per_s} ${seeds_per_s}`);  // 180 kg/ha are 18 g/m2, of 0.15 m x 3 x 2.22 m/s
+    const { seeds_per_s: mixture } = wantedRate(task, mixed.scene.lots);
+    assert.ok(Math.abs(mixture - 18 / 0.35) < 1e-9, `${mixture}`);  // half the seeds weigh 0.6 g, half 0.1 g
+  });
+  test('the slice is set beside it where the tray has a depth, and the doubt always', () => {
+    const outcome = { total_seeds_per_s: 85, said: { hole_table: table(['85', '2.5', '40']) } };
+    const told = wantedWords(task, wheat.scene.lots, outcome);
+    assert.equal(told.value, '608 seeds/s of the tray');
+    assert.match(told.words, /^18 g\/s\. In 2D this layout sows 1360 seeds\/s, 2\.2 times that: 16 slices of 85\. Doubtful: in 2D .* weigh, before you sow\.$/);
+    for (const said of [undefined, { hole_table: table(['0', '0', '0']) }, { hole_table: { columns: table([]).columns.slice(0, 4), rows: [['all', 'all', '85', '2.5']] } }]) {
+      assert.match(wantedWords(task, wheat.scene.lots, { ...outcome, said }).words, /is not known.*Doubtful/);
+    }
+    assert.match(wantedWords(task, wheat.scene.lots, null).words, /^18 g\/s\. Doubtful/);
+  });
+  test('seeds of several sizes are left to the program', () => {
+    assert.match(wantedWords(task, [{ ...wheat.scene.lots[0], sizes: {} }], null).words, /vibrosow plan/);
+  });
+  test('what was kept of it is looked at', () => {
+    assert.deepEqual(taskOf(JSON.stringify({ ...task, more: 1 })), task);
+    for (const text of ['', 'null', '7', JSON.stringify({ ...task, rows: 1e9 }), JSON.stringify({ ...task, kg_per_ha: '<b>' })]) assert.equal(taskOf(text), null);
+  });
+});
+
 describe('the course', () => {
   const settled = (course) => course.queue;
   async function started() {
@@ -355,6 +490,45 @@ describe('the course', () => {
     assert.match(course.state.problem, /57 billion seed-steps, are more than the 50 billion/);
     course.play(1);
     assert.equal(course.state.status, 'failed');
+  });
+});
+
+describe('two layouts in step', () => {
+  // Of a layout and one that takes four times as long: the times of both at each news, until the first has come to `until`.
+  async function timesOf(pace, until, hold) {
+    const times = [];
+    let all = [];
+    const tell = (done) => {
+      hold(all);
+      const now = all.map(({ course }) => course.state.frame?.time_s ?? 0);
+      times.push(now);
+      if (now[0] >= until) done();
+    };
+    const done = new Promise((reached) => {
+      all = ['draft', 'design'].map((accuracy) => ({ pace, accuracy, course: new Course(startSimulator, () => tell(reached)) }));
+      for (const { course, accuracy } of all) course.open(sceneOf({ ...fresh, accuracy }, data.crops), pace);
+    });
+    await done;
+    for (const { course } of all) course.close();
+    return times;
+  }
+  const apart = (times) => Math.max(...times.map(([a, b]) => Math.abs(a - b)));
+
+  test('the faster one waits, and neither stands still', async () => {
+    const times = await timesOf(1, 0.25, holdInStep);
+    assert.ok(apart(times) <= 0.041, `${apart(times)}`);
+    assert.ok(apart(await timesOf(1, 0.25, () => {})) > 0.1);  // by themselves
+  });
+  test('as fast as they can they are further apart', async () => {
+    const gap = apart(await timesOf(null, 2, holdInStep));
+    assert.ok(gap <= 0.501, `${gap}`);
+  });
+  test('one alone is free, and so is one beside another that has ended or failed', () => {
+    const limits = [];
+    holdInStep([{ course: { limit: (until) => limits.push(until) }, pace: 1 }]);
+    assert.deepEqual(limits, [Infinity]);
+    assert.deepEqual(['ended', 'failed'].map((status) => limitBeside({ status, frame: { time_s: 4 } }, 1)), [Infinity, Infinity]);
+    assert.equal(limitBeside({ status: 'changed', frame: { time_s: 4 } }, 1), limitBeside({ status: 'opening', frame: null }, 1));  // it starts again
   });
 });
 

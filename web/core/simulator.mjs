@@ -91,6 +91,11 @@ class Simulator {
     this.#worker.postMessage({ kind: 'play', pace, run: ++this.#run });
   }
 
+  /** No run passes this simulated time (s), until another is said. */
+  limit(until) {
+    this.#worker.postMessage({ kind: 'limit', until });
+  }
+
   pause() {
     this.#worker.postMessage({ kind: 'pause' });
   }

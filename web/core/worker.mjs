@@ -5,6 +5,7 @@ const frameEvery = 29, slice = 12; // ms of the clock, a slice at most; with pos
 const fieldsOfGrain = 6;
 
 let core = null; // the module's exports
+let limit = Infinity; // s of simulated time, which no run passes
 let running = null; // { id, pace, timer, since: [[wall, simulated], ..], shown }
 
 function memoryView() {
@@ -81,7 +82,7 @@ function pause() {
 
 function step(run) {
   const now = performance.now();
-  const due = run.pace.due(now);
+  const due = Math.min(run.pace.due(now), limit);
   const ended = core.advance(due, Math.max(1, Math.min(slice, run.shown + frameEvery - now))) === 1;
   const after = performance.now();
   const state = parsed(core.state_now());
@@ -124,6 +125,7 @@ const orders = {
     guarded(running);
   },
   pause,
+  limit({ until }) { limit = until; },
 };
 
 onmessage = async ({ data }) => {

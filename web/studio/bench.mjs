@@ -1,12 +1,12 @@
 // One tray on the page: a layout, its simulation, and the controls of both.
 import { startSimulator } from '../core/simulator.mjs';
-import { element } from '../report/dom.mjs';
+import { choice, element } from '../report/dom.mjs';
 import { clock, sentence } from '../report/format.mjs';
 import { choicesOf } from './choices.mjs';
 import { Course } from './course.mjs';
 import { holeWords } from './handles.mjs';
 import { HoleControls } from './hole_controls.mjs';
-import { addHole, layoutOf, moveHole, removeHole, widenHole } from './layout.mjs';
+import { addHole, moveHole, removeHole, startOf, widenHole } from './layout.mjs';
 import { MotionControls } from './motion_controls.mjs';
 import { measured, OutflowPanel } from './outflow_panel.mjs';
 import { saveText } from '../report/save.mjs';
@@ -19,9 +19,10 @@ const settling = 250;  // ms after a gesture, before its layout is simulated
 const still = matchMedia('(prefers-reduced-motion: reduce)');
 
 export class Bench {
-  /** `name`: "A" or "B"; `told("layout")` is called when its layout has changed, `told("state")` when its simulation has moved on. */
-  constructor(data, name, layout, told) {
-    Object.assign(this, { data, name, layout, told });
+  /** `name`: "A" or "B"; `told("layout")` is called when its layout has changed, `told("made")` when the gesture that changed it has ended, `told("state")` when its simulation has moved on.
+   * `all()`: the benches of the page, which start, run and rest together. */
+  constructor(data, name, layout, { told, all }) {
+    Object.assign(this, { data, name, layout, told, all });
     this.pace = still.matches ? undefined : realTime;  // undefined: waits at the start
     const remove = (k) => this.remove(k);
     const edit = (changed, ended) => this.change(changed, ended);
@@ -33,7 +34,6 @@ export class Bench {
     this.course = new Course(startSimulator, (state) => this.showState(state));
     this.build();
     this.showLayout();
-    this.open();
   }
 
   build() {
@@ -43,10 +43,19 @@ export class Bench {
     this.status = element('p', { class: 'unseen', role: 'status' });
     this.title = element('h2', { id: `layout-${this.name}` }, `Layout ${this.name}`);
     const save = element('button', { type: 'button', class: 'quiet', onclick: () => this.save() }, 'Save the seeder file');
-    const controls = element('div', { class: 'controls' }, this.transport.frame, element('div', { class: 'controls-choices' }, this.view.choices, save));
+    const looks = element('div', { role: 'group', class: 'panel looks', 'aria-label': 'View' }, this.view.legend, this.view.choices, save);
     this.frame = element('section', { class: 'bench', 'aria-labelledby': `layout-${this.name}` }, this.title, this.choices, this.kept, this.problem, this.outflow.remarks,
-      element('div', { class: 'replay card' }, this.view.place, this.view.legend, controls),
-      element('div', { class: 'panels' }, this.outflow.frame, this.holes.frame, this.motion.frame), this.status);
+      element('div', { class: 'workbench' }, element('div', { class: 'replay card' }, this.view.place, element('div', { class: 'controls' }, this.transport.frame)),
+        this.tabs(), element('div', { class: 'panels' }, this.outflow.frame, this.holes.frame), this.motion.frame, looks), this.outflow.guard, this.status);
+    this.frame.dataset.tab = 'outflow';
+  }
+
+  // Where there is no room for all panels beside the picture, one at a time.
+  tabs() {
+    const options = [['outflow', 'Rates'], ['holes', 'Holes'], ['motion', 'Motion'], ['looks', 'View']].map(([value, text]) => ({ value, text }));
+    const tabs = choice('Show', options, 'outflow', (value) => { this.frame.dataset.tab = value; });
+    tabs.classList.add('tabs');
+    return tabs;
   }
 
   /** Of the layout shown, as far as it has been measured; null before that. */
@@ -67,8 +76,9 @@ export class Bench {
     clearTimeout(this.opening);
     if (other) this.course.leaveSeeder();
     else if (moved && this.course.state.status !== 'changed') this.course.leave();
-    if (ended) this.opening = setTimeout(() => this.open(), settling);
+    if (ended) this.opening = setTimeout(() => this.restart(), settling);
     if (moved) this.told('layout');
+    if (ended) this.told('made');
   }
 
   showLayout() {
@@ -89,7 +99,7 @@ export class Bench {
     const focused = [...this.choices.querySelectorAll('select, input')].indexOf(document.activeElement);
     this.chosen = now;
     this.choices.replaceChildren(...choicesOf(this.data, this.layout, {
-      seeder: (one) => this.change(layoutOf(one)), crop: (name) => this.change({ ...this.layout, crop: name }), accuracy: (name) => this.change({ ...this.layout, accuracy: name }),
+      seeder: (one) => this.change(startOf(one)), crop: (name) => this.change({ ...this.layout, crop: name }), accuracy: (name) => this.change({ ...this.layout, accuracy: name }),
     }));
     if (focused >= 0) this.choices.querySelectorAll('select, input')[focused]?.focus();
   }
@@ -100,12 +110,13 @@ export class Bench {
       this.view.clear();
     } else if (state.prepared !== this.prepared) {
       this.prepared = state.prepared;
-      this.view.open(state.prepared, sceneOf(this.layout, this.data.crops), this.layout.motion);
+      this.scene = sceneOf(this.layout, this.data.crops);
+      this.view.open(state.prepared, this.scene, this.layout.motion);
       this.view.showHoles(this.layout);
     }
     if (state.frame && state.prepared === this.prepared) this.view.show(state.frame);
     this.transport.show(state);
-    this.outflow.show(state);
+    this.outflow.show(state, this.scene);
     this.tellProblem(state.problem);
     if (state.status !== this.lastStatus) this.say(state);
     this.lastStatus = state.status;
@@ -143,25 +154,25 @@ export class Bench {
     this.status.textContent = `Removed hole ${k + 1}.`;
   }
 
+  /** At a pace of the transport; undefined: it rests. One that has ended stays so. */
+  go(pace) {
+    this.pace = pace;
+    if (pace === undefined) this.course.pause();
+    else this.course.play(pace);
+  }
+
   toggle() {
-    const { course } = this;
-    if (course.state.status === 'playing') {
-      this.pace = undefined;
-      course.pause();
-    } else {
-      this.pace = realTime;
-      if (course.state.status === 'ended') this.open();
-      else course.play(this.pace);
-    }
+    const { status } = this.course.state;
+    for (const bench of this.all()) bench.go(status === 'playing' ? undefined : realTime);
+    if (status === 'ended') this.restart();
   }
 
   restart() {
-    this.open();
+    for (const bench of this.all()) bench.open();
   }
 
   toTheEnd() {
-    this.pace = asFastAsItCan;
-    this.course.play(this.pace);
+    for (const bench of this.all()) bench.go(asFastAsItCan);
   }
 
   save() {

@@ -13,7 +13,7 @@ const nothing = { prepared: null, frame: null, outcome: null, problem: '' };
 export class Course {
   /** `start()` promises a simulator; it is asked when the first scene is opened, and again where a simulator has failed. */
   constructor(start, changed) {
-    Object.assign(this, { start, changed, simulator: null, opened: 0, queue: Promise.resolve(), state: { ...nothing, status: 'opening' } });
+    Object.assign(this, { start, changed, simulator: null, until: Infinity, opened: 0, queue: Promise.resolve(), state: { ...nothing, status: 'opening' } });
   }
 
   tell(news) {
@@ -35,6 +35,7 @@ export class Course {
   async prepare(turn, scene, pace) {
     try {
       this.simulator ??= await this.start();
+      this.simulator.limit(this.until);
       if (this.closed) this.drop();
       if (turn !== this.opened) return;
       const prepared = await this.simulator.open(JSON.stringify(scene));
@@ -81,6 +82,13 @@ export class Course {
         this.end({ status: 'failed', problem: error.message });
       }),
     });
+  }
+
+  /** No run passes this simulated time (s), until another is said. */
+  limit(until) {
+    if (until === this.until) return;
+    this.until = until;
+    this.simulator?.limit(until);
   }
 
   pause() {

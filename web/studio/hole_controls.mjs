@@ -14,8 +14,7 @@ export class HoleControls {
     this.count = numberField('Number of holes', (value) => this.set(spreadHoles(this.layout, value)), { step: 1 });
     this.width = rangeField('Width of all', 'mm', (value, ended) => this.acts.change(widenAll(this.layout, value), ended), 'various');
     this.adder = element('button', { type: 'button', class: 'quiet', onclick: () => acts.add() }, 'Add a hole');
-    this.frame = element('div', { role: 'group', class: 'panel', 'aria-label': 'Holes of the tray' }, element('h3', {}, 'Holes'),
-      element('div', { class: 'field count' }, element('span', { class: 'field-name', 'aria-hidden': 'true' }, 'Number'), element('span', { class: 'field-value' }, this.count.field, this.adder)),
+    this.frame = element('div', { role: 'group', class: 'panel holes', 'aria-label': 'Holes of the tray' }, element('div', { class: 'panel-head' }, element('h3', {}, 'Holes'), this.count.field, this.adder),
       this.width.frame,
       element('div', { class: 'hole-row hole-list-head', 'aria-hidden': 'true' }, element('span'), element('span', {}, 'at, mm'), element('span', {}, 'width, mm'), element('span')), this.list);
   }

@@ -27,14 +27,21 @@ export function layoutOf(seeder) {
   };
 }
 
+/** The layout to begin with: the seeder's own, at draft accuracy where it can be, so that it moves while one looks. */
+export function startOf(seeder) {
+  const own = layoutOf(seeder);
+  return { ...own, accuracy: accuraciesOf(seeder).includes('draft') ? 'draft' : own.accuracy };
+}
+
 /** Whether holes may be moved, added and taken away: a tray that turns over and over has none. */
 export function hasFloor(seeder) {
   return seeder.scene.tray.motion?.kind !== 'turning';
 }
 
-/** The accuracies to choose from: the seeder's own too. */
+/** The accuracies to choose from: the seeder's own too, and alone where it says its time step, which an accuracy would set. */
 export function accuraciesOf(seeder) {
-  return [...new Set(['draft', 'design', seeder.scene.numerics.accuracy ?? asWritten])];
+  const { accuracy: own = asWritten, dt_s: step } = seeder.scene.numerics;
+  return [...new Set(step === undefined ? ['draft', 'design', own] : [own])];
 }
 
 function holding(range, value) {

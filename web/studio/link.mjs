@@ -23,10 +23,14 @@ function packed({ seeder, crop, accuracy, holes, motion }) {
   return { seeder: seeder.own ? ownSeeder(seeder) : seeder.name, crop, accuracy, holes, motion };
 }
 
+/** A text that is the same for the same layouts. */
+export function textOfLayouts(layouts) {
+  return JSON.stringify({ layouts: layouts.map(packed) });
+}
+
 /** The fragment, "#s=...", of one or two layouts. Throws an Error where they are too much for a link. */
 export async function fragmentOf(layouts) {
-  const json = JSON.stringify({ layouts: layouts.map(packed) });
-  const bytes = new TextEncoder().encode(json);
+  const bytes = new TextEncoder().encode(textOfLayouts(layouts));
   const stream = new Blob([bytes]).stream().pipeThrough(new CompressionStream('deflate-raw'));
   const text = base64url(new Uint8Array(await new Response(stream).arrayBuffer()));
   if (bytes.length > mostUnpacked || text.length > mostPacked) throw new Error('the seeder is too large for a link; save its file instead');
@@ -170,9 +174,14 @@ function checkLayout(given, data) {
   };
 }
 
+/** Whether a fragment says that it holds layouts. */
+export function isLink(fragment) {
+  return fragment.startsWith(mark);
+}
+
 /** The layouts, one or two, of a fragment; null of one that holds none. Throws an Error that says what is wrong. */
 export async function layoutsOf(fragment, data) {
-  if (!fragment.startsWith(mark)) return null;
+  if (!isLink(fragment)) return null;
   const { layouts } = keysOf(await readJson(fragment.slice(mark.length)), ['layouts'], 'the page');
   if (!Array.isArray(layouts) || layouts.length < 1 || layouts.length > 2) throw new Error('it holds neither one layout nor two');
   return layouts.map((layout) => checkLayout(layout, data));

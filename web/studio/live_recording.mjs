@@ -5,15 +5,16 @@ export function restPose({ at_mm: at = [0, 0, 0], tilt_rad: tilt = 0 }) {
   return { x: at[0] / 1000, y: at[1] / 1000, z: 0, angle: tilt };
 }
 
-function amplitudeOf(motion) {
+/** How far, m, a motion swings to either side: [x, y]; nothing where it does not go to and fro on a line. */
+export function swingOf(motion) {
   if (motion?.kind === 'harmonic') return [motion.amplitude_m * Math.cos(motion.direction_rad), motion.amplitude_m * Math.sin(motion.direction_rad)];
-  if (motion?.kind === 'sum') return motion.components.map((one) => amplitudeOf({ kind: 'harmonic', ...one })).reduce(([x, y], [dx, dy]) => [x + Math.abs(dx), y + Math.abs(dy)], [0, 0]);
+  if (motion?.kind === 'sum') return motion.components.map((one) => swingOf({ kind: 'harmonic', ...one })).reduce(([x, y], [dx, dy]) => [x + Math.abs(dx), y + Math.abs(dy)], [0, 0]);
   return [0, 0];
 }
 
 /** What `labBox` of the replay asks: each vessel where it rests and at both ends of its swing. */
 export function swings(vessels, scene) {
-  const ends = vessels.map((vessel) => amplitudeOf(scene[vessel.name]?.motion));
+  const ends = vessels.map((vessel) => swingOf(scene[vessel.name]?.motion));
   const pose = (frame, k) => {
     const rest = restPose(vessels[k]), [x, y] = ends[k];
     return { ...rest, x: rest.x + (frame - 1) * x, y: rest.y + (frame - 1) * y };

@@ -8,8 +8,8 @@ export class MotionControls {
   constructor(change) {
     const field = (name, unit, key) => rangeField(name, unit, (value, ended) => change(withMotion(this.layout, { [key]: value }), ended));
     this.fields = { frequency_hz: field('Frequency', 'Hz', 'frequency_hz'), amplitude_mm: field('Amplitude', 'mm', 'amplitude_mm'), direction_degree: field('Direction', '°', 'direction_degree') };
-    this.frame = element('div', { role: 'group', class: 'panel', 'aria-label': 'Motion of the tray' }, element('h3', {}, 'Motion'), Object.values(this.fields).map(({ frame }) => frame),
-      element('p', { class: 'hint' }, 'Amplitude: half the stroke. Direction: 0° along the tray, 90° up.'));
+    this.frame = element('div', { role: 'group', class: 'panel motion', 'aria-label': 'Motion of the tray' }, element('div', { class: 'panel-head' }, element('h3', {}, 'Motion'),
+      element('p', { class: 'hint' }, 'Amplitude: half the stroke. Direction: 0° along the tray, 90° up.')), Object.values(this.fields).map(({ frame }) => frame));
   }
 
   show(layout) {

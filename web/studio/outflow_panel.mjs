@@ -2,10 +2,13 @@
 import { element } from '../report/dom.mjs';
 import { number, sentence } from '../report/format.mjs';
 import { intervalTrack, scaleOf, trackAxis } from '../report/interval_track.mjs';
+import { RollingRate } from './rolling.mjs';
+import { wantedWords } from './wanted.mjs';
 
 const rated = (hole) => Number.isFinite(hole.seeds_per_s);
 
 const leastWindow = 0.1; // s, of which rates are shown, unless the run has ended
+const newsEvery = 250;   // ms of the clock, of the rate of the last shakes: so that it can be read
 
 /** The outcome of a course's state once something has been measured; null before that. */
 export function measured({ status, prepared, outcome }) {
@@ -30,6 +33,10 @@ function figure(term, value, words) {
   return element('div', {}, element('dt', {}, term), element('dd', { class: 'value' }, value), words ? element('dd', { class: 'muted' }, words) : null);
 }
 
+function wantedFigure({ value, words }) {
+  return figure('Wanted', value, words);
+}
+
 // Nothing where so few seeds show no difference: the sentence says so.
 function cvText({ cv_percent: cv }) {
   return Number.isFinite(cv) ? `CV ${number(cv)} %` : '';
@@ -41,29 +48,61 @@ function windowWords(state) {
   return state.frame.time_s > from ? 'Measuring has begun.' : `Measuring begins at ${number(from)} s.`;
 }
 
+// s of a shake; null of a tray that does not shake to and fro.
+function periodOf(motion) {
+  return motion?.kind === 'harmonic' && motion.amplitude_m > 0 ? 1 / motion.frequency_hz : null;
+}
+
+// "last 3 shakes"; of a tray that does not shake to and fro, "last 0.5 s".
+function lately({ shakes, from_s: from, until_s: until }) {
+  if (shakes === null) return `Last ${number(until - from, 2)} s`;
+  return shakes === 1 ? 'Last shake' : `Last ${shakes} shakes`;
+}
+
+function latelyFigure(rolling) {
+  const { seeds_per_s: rate, low, high } = rolling.all;
+  return figure(lately(rolling), `${number(rate)} seeds/s, ${number(low)} to ${number(high)}`);
+}
+
 const endings = { stopped_by_guard: 'The guard stopped this run' };
 
-/** `remarks`, the doubts, has a place of its own: on top of what they are about. */
+/** `remarks`, the doubts, has a place of its own, on top of what they are about; `guard`, what the guard saw, one below. */
 export class OutflowPanel {
   constructor() {
     this.window = element('p', { class: 'hint' });
     this.bars = element('ul', { class: 'hole-bars' });
     this.figures = element('dl', { class: 'figures' });
-    this.remarks = element('ul', { class: 'remarks', 'aria-label': 'What to know about this layout', hidden: true });
-    this.frame = element('div', { role: 'group', class: 'panel outflow', 'aria-label': 'Outflow of the holes' }, element('h3', {}, 'Outflow'), this.window, this.bars, this.figures);
+    this.remarks = element('ul', { class: 'remarks', 'aria-label': 'What to know about this layout', tabindex: '0', hidden: true });  // where it is cut short, the focus shows it whole
+    this.guard = element('p', { class: 'hint guard' });
+    this.frame = element('div', { role: 'group', class: 'panel outflow', 'aria-label': 'Outflow of the holes' }, element('div', { class: 'panel-head' }, element('h3', {}, 'Outflow'), this.window), this.bars, this.figures);
   }
 
-  /** `state`: of the course. Of a scene that is not prepared there is nothing to say. */
-  show(state) {
-    this.frame.classList.toggle('stale', ['changed', 'opening'].includes(state.status));
-    this.window.textContent = state.prepared ? windowWords(state) : '';
-    if (state.outcome !== this.outcome || state.prepared !== this.prepared) this.fill(state);
-    Object.assign(this, { outcome: state.outcome, prepared: state.prepared });
+  /** `state`: of the course, of this `scene`. Of one that is not prepared there is nothing to say. */
+  show(state, scene) {
+    const { status, prepared, frame, outcome } = state;
+    this.frame.classList.toggle('stale', ['changed', 'opening'].includes(status));
+    this.window.textContent = prepared ? windowWords(state) : '';
+    Object.assign(this, { state, scene });
+    if (prepared !== this.prepared) this.rolling = prepared && new RollingRate(periodOf(scene.tray.motion));
+    if (prepared) this.rolling.take(frame);
+    const now = performance.now();
+    const news = prepared && status !== this.status || now - (this.filled ?? 0) >= newsEvery;
+    if (news || outcome !== this.outcome || prepared !== this.prepared) {
+      this.filled = now;
+      this.fill(state);
+    }
+    Object.assign(this, { outcome, prepared, status });
   }
 
-  /** Draws the bars on a scale that holds those of all layouts of the page. */
-  showBeside(outcomes) {
-    const scale = scaleOf(outcomes.flatMap(valuesOf).map(({ value }) => value));
+  /** Tells what a task wants, too: see wantedWords. null: nothing is wanted. */
+  want(task) {
+    this.task = task;
+    if (this.state) this.fill(this.state);
+  }
+
+  /** Draws the bars on a scale that holds those of all layouts of the page; `all`: the `rates` of each. */
+  showBeside(all) {
+    const scale = scaleOf(all.flatMap(valuesOf).map(({ value }) => value));
     if (this.drawn && this.drawn.rates === this.rates && this.drawn.high === scale.high) return;
     this.drawn = { rates: this.rates, high: scale.high };
     this.bars.replaceChildren(...barsOf(this.rates, scale));
@@ -71,13 +110,18 @@ export class OutflowPanel {
 
   fill(state) {
     const { prepared, outcome } = state;
-    const rates = this.rates = prepared && measured(state);
+    const rates = prepared && measured(state), rolling = prepared && this.rolling.now();
+    this.rates = rates ?? rolling;
     this.figures.replaceChildren(...[
       rates && prepared.holes ? figure('All holes', `${number(rates.total_seeds_per_s)} seeds/s`) : null,
+      rolling && prepared.holes ? latelyFigure(rolling) : null,
+      this.task && prepared ? wantedFigure(wantedWords(this.task, this.scene.lots, rates)) : null,
       rates?.unevenness ? figure('Unevenness (CV)', cvText(rates.unevenness), sentence(rates.unevenness.sentence)) : null,
-      outcome?.guard ? figure('Guard', '', sentence(outcome.guard)) : null,
     ].filter(Boolean));
+    this.guard.textContent = sentence(outcome?.guard);
     const doubts = [endings[outcome?.status], ...new Set([...(prepared?.remarks ?? []), ...(outcome?.remarks ?? [])])].filter(Boolean);
+    if (doubts.join() === this.doubts) return;  // so that they can be read, and marked, in peace
+    this.doubts = doubts.join();
     this.remarks.replaceChildren(...doubts.map((doubt) => element('li', {}, sentence(doubt))));
     this.remarks.hidden = doubts.length === 0;
   }

@@ -15,5 +15,5 @@ export function readStudioData(text) {
   const live = seeders.filter((seeder) => seeder.live);
   if (live.length === 0) throw new Error('none of its seeders can be simulated here');
   const asked = seeders.find((seeder) => seeder.name === data.opened);
-  return { program: data.program ?? {}, seeders, linked: [], crops: data.crops ?? [], asked: asked ?? null, opened: asked?.live ? asked : live[0] };
+  return { program: data.program ?? {}, seeders, linked: [], crops: data.crops ?? [], sent: data.sent ?? '', asked: asked ?? null, opened: asked?.live ? asked : live[0] };
 }

@@ -1,4 +1,4 @@
-// The tray while it sows: the replay's drawing of the simulation's last frame, and the handles of the holes over it.
+// The tray while it sows: the replay's drawing of the simulation's last frame, and over it dimensions and the handles of the holes.
 import { choice, element } from '../report/dom.mjs';
 import { clock } from '../report/format.mjs';
 import { labBox, toLab } from '../report/geometry.mjs';
@@ -10,11 +10,12 @@ import { Handles } from './handles.mjs';
 import { reachOf } from './layout.mjs';
 import { liveColourings } from './live_colouring.mjs';
 import { LiveRecording, restPose, swings } from './live_recording.mjs';
+import { Measures } from './measures.mjs';
 
 const below = 0.085;   // of the picture's width is shown under the tray
-const strip = 46;      // px below the picture, where the handles are
-const tallest = 0.55;  // of the window, so that picture and handles are on it together
-const shortest = 240;  // px
+const strip = 58;      // px below the picture, where the handles and the ruler are
+const tallest = 0.37;  // of the window, so that picture and controls are on it together
+const shortest = 150;  // px
 const empty = 'The tray';
 
 export class TrayView {
@@ -23,9 +24,10 @@ export class TrayView {
     this.still = false;
     this.handles = new Handles(acts);
     this.canvas = element('canvas', { class: 'tray-canvas', role: 'img', 'aria-label': empty });
+    this.measures = new Measures();
     this.legend = element('p', { class: 'legend' });
-    this.place = element('div', { class: 'stage live' }, this.canvas, this.handles.frame);
-    const still = element('input', { type: 'checkbox', onchange: () => { this.still = still.checked; this.paint(); } });
+    this.place = element('div', { class: 'stage live' }, this.canvas, this.measures.frame, this.handles.frame);
+    const still = element('input', { type: 'checkbox', onchange: () => { this.still = still.checked; this.showAll(); } });
     this.choices = [
       choice('Colour', liveColourings.map((way) => ({ value: way, text: way.text })), this.way, (way) => this.colourBy(way)),
       element('label', { class: 'switch' }, still, element('span', {}, 'Hold the tray still')),
@@ -40,7 +42,7 @@ export class TrayView {
     this.recording = new LiveRecording(vessels);
     this.tray = vessels.find((vessel) => vessel.name === 'tray') ?? vessels[0];
     const view = new PlaneView({ vessels, lots: prepared.lots }, this.recording, labBox(vessels, swings(vessels, scene)), restPose(this.tray), below);
-    Object.assign(this, { prepared, motion, view, frame: null });
+    Object.assign(this, { prepared, motion, view, scene, frame: null });
     this.colouring = this.way.make(prepared, motion);
     this.handles.frame.hidden = false;
     this.showLegend();
@@ -52,6 +54,7 @@ export class TrayView {
     if (!this.prepared) return;
     Object.assign(this, { prepared: null, view: null, frame: null, colouring: null });
     this.handles.frame.hidden = true;
+    this.measures.clear();
     this.legend.replaceChildren();
     this.stage.fit();
     for (const name of ['counts', 'time']) delete this.canvas.dataset[name];
@@ -67,7 +70,7 @@ export class TrayView {
 
   showLegend() {
     this.legend.replaceChildren(...legendParts(this.colouring.legend, this.colouring.colours(theme())),
-      element('span', { class: 'legend-note' }, 'Under the holes: seeds so far'));
+      element('span', { class: 'legend-note' }, 'Numbers: seeds so far'));
   }
 
   repaint() {
@@ -105,7 +108,7 @@ export class TrayView {
     return `${this.frame.x.length} seeds at ${clock(this.frame.time_s)}. Seeds so far, ${words || 'no holes'}.`;
   }
 
-  /** Brings the handles to the layout's holes. */
+  /** Brings the handles to the layout's holes, and the dimensions to its tray and motion. */
   showHoles(layout) {
     this.layout = layout;
     const { view, stage, tray } = this;
@@ -114,6 +117,10 @@ export class TrayView {
     const pose = restPose(tray);
     this.handles.show(layout.holes, layout.holes.map((_, k) => reachOf(layout, k)), {
       placeOf: (mm) => view.project(...toLab(pose, mm, 0), false), scale: view.scale, length: layout.seeder.scene.tray.length_m * 1000, height: stage.height + strip,
+    });
+    this.measures.show({
+      tray, pose, height: stage.height, strip, motion: layout.motion, trayMotion: layout.motion ? { kind: 'harmonic', ...layout.motion } : this.scene.tray.motion,
+      place: { scale: view.scale, of: (x, y) => view.project(x, y, false) }, still: this.still,
     });
   }
 
