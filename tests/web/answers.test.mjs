@@ -55,6 +55,7 @@ test('an accuracy study: the recommendation, the diagram and the settings', () =
   assert.equal(await open.locator('.headline').textContent(), 'The cheapest setting shown to be within 1 % is setting 2.');
   assert.match(await open.locator('.remarks').textContent(), /as a plane\..*Setting 5 gave no rate/);
   await assertDrawn(open, '#precision');
+  assert.match(await open.locator('.tray-card + .inputs').textContent(), /Shaking5 Hz/);
   assert.match(await open.locator('#precision .chart').getAttribute('aria-label'), /the quickest, setting 2/);
   const cells = await open.locator('#levels tbody tr').nth(1).locator('td').allTextContents();
   assert.deepEqual(cells.slice(1, 5), ['recommended', '-0.30 ± 0.40', '0.9', '11.97 ± 0.10']);
@@ -66,6 +67,7 @@ test('an accuracy study: the recommendation, the diagram and the settings', () =
 test('a calibration by curves: one at a time, with its residuals', () => withPage(madeUpCalibration(true), { bypass: true }, async (open) => {
   await assertDrawn(open, '#fit');
   assert.equal(await open.locator('#fit .chart').count(), 2);
+  assert.match(await open.locator('.tray-card + .inputs').textContent(), /Shaking5 Hz/);
   assert.match(await open.locator('#fit-sentence').textContent(), /4 of 5 held out values/);
   await open.getByRole('combobox', { name: 'Curve' }).selectOption('tray.motion.frequency = 9 Hz, hole 2');
   await assertDrawn(open, '#fit');

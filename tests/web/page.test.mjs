@@ -19,6 +19,23 @@ for (const space of ['plane', 'three_dimensional']) {
     before(async () => { page = await openMade(run); });
     after(() => assert.deepEqual(page.complaints, []));
 
+    test('the first screen holds the answer, its doubts, and the tray with its dimensions and in words', async () => {
+      const { data } = run, inSpace = space !== 'plane';
+      for (const part of ['.headline', '.light', '.tray-card', '.inputs']) {
+        const { y, height } = await page.locator(part).first().boundingBox();
+        assert.ok(y >= 0 && y + height <= 800, `${part} from ${y} px, ${height} px high`);
+      }
+      const names = await page.locator('.tray-card .drawing').evaluateAll((drawings) => drawings.map((drawing) => drawing.getAttribute('aria-label')));
+      assert.deepEqual(names, ['The tray from the side, to scale: holes 1, 2 and 3', ...(inSpace ? ['The tray from above, to scale; the front is below'] : [])]);
+      const [tray] = data.vessels, gap = '45';  // mm, from the floor to the hopper
+      assert.deepEqual(await page.locator('.tray-card .dimension text').allTextContents(),
+        [...(inSpace ? ['40', '2 × 40', '40'] : ['60', '2 × 90', '60']), String(tray.length_mm), '60', inSpace ? '⌀ 12' : '12', gap, ...(inSpace ? ['50'] : [])]);
+      const terms = await page.locator('.inputs dt').allTextContents();
+      assert.deepEqual(terms, ['Mixture', 'Holes', 'Shaking', 'Level of seeds', 'Tray']);
+      const order = await page.evaluate(() => [...document.querySelectorAll('h1, .headline, .light, .tray-card, main > section')].map(({ className, tagName }) => className.split(' ')[0] || tagName));
+      assert.deepEqual(order.slice(0, order.indexOf('SECTION')), ['H1', ...Array(inSpace ? 3 : 1).fill('headline'), 'light', 'tray-card']);
+    });
+
     test("play moves on, and the counters end at the run's counts", async () => {
       const last = Number(await page.getAttribute('#replay-frame', 'max'));
       await in_.scrubTo(page, last - 8);
@@ -179,3 +196,19 @@ test('a remark that the guard and the outflow both make is shown once', () => {
     assert.deepEqual(await open.locator('.remarks li').allTextContents(), ['The overlap passed 0.05.', 'Another.']);
   });
 });
+
+for (const [remarks, status, level, said] of [
+  [[], 'finished', 'none', []],
+  [['Note: few seeds. What to do: run longer.'], 'finished', 'mild', ['Few seeds. What to do: run longer.']],
+  [['Note: few seeds. What to do: run longer.'], 'interrupted', 'serious', ['Doubtful: Interrupted at 2 s.', 'Few seeds. What to do: run longer.']],
+]) {
+  test(`the light of a run that ${status} with ${remarks.length} remarks: ${level}`, () => {
+    const run = madeUpRun('plane');
+    return withPage({ ...run, data: { ...run.data, remarks, status } }, { bypass: true }, async (open) => {
+      assert.equal(await open.locator('.light').count(), 1);
+      assert.equal(await open.locator(`.light.${level} .light-words .lamp`).count(), 1);
+      assert.deepEqual(await open.locator('.light .remarks li').allTextContents(), said);
+      await in_.assertAccessible(open);
+    });
+  });
+}

@@ -94,6 +94,7 @@ test('a value at the end of its range is marked, in the table and of the chosen 
   assert.equal(await open.locator('#layouts .at-edge').count(), 1);
   assert.match(await open.locator('#layout .settings').textContent(), /frequency6 Hz, the end of its range/);
   assert.match(await open.locator('#layouts').textContent(), /⊣: at the end of the range that was searched; better ones may lie beyond\./);
+  assert.match(await open.locator('.light.mild .remarks').textContent(), /Layout 7 leads at the end of the range of frequency: better ones may lie beyond\./);
 }));
 
 test('an interval that goes on beyond the diagram ends in an arrow', () => {

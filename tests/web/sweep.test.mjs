@@ -26,7 +26,7 @@ async function assertShown(open, number) {
   const layout = plane.data.layouts[number - 1];
   const label = await open.locator('#layout .drawing').first().getAttribute('aria-label');
   assert.ok(label.startsWith(`Layout ${number} from the side`), label);
-  assert.deepEqual(await open.locator('#layout .drawing text').allTextContents(), [...layout.holes.map(({ hole }) => hole), '50 mm']);
+  assert.deepEqual(await open.locator('#layout .drawing > text').allTextContents(), layout.holes.map(({ hole }) => hole));
   assert.equal(await open.locator('#layout .hole-bars .track').count(), layout.holes.length);
 }
 
@@ -44,6 +44,14 @@ test('the layouts stand in the order of the rate, those that are not ok last and
   assert.match(await page.locator('#ranking-sentence').textContent(), new RegExp(`^By rate layout ${shown[0]} .* ${alike.length} others are not told apart from it`));
   await page.getByRole('button', { name: 'Show the first 30' }).click();
   assert.equal((await numbersIn(page, '#ranking .ranks button')).length, 30);
+});
+
+test('the first screen has the layout that is first, drawn and in words', async () => {
+  const [first] = await numbersIn(page, '#ranking .ranks button');
+  const card = page.locator('.tray-card');
+  assert.match(await card.locator('h2').textContent(), new RegExp(`^Layout ${first} \\(.*\\): the highest rate$`));
+  assert.ok((await card.locator('.drawing').getAttribute('aria-label')).startsWith(`Layout ${first} `));
+  assert.match(await page.locator('.inputs').textContent(), new RegExp(`Mixture.*Shaking5 Hz, 8 mm.*Level of seeds${100 + first} seeds`));
 });
 
 test('least first, and another figure', async () => {
@@ -74,6 +82,7 @@ test('a press on a row, on a point, and the enter key choose a layout; the addre
 test("a layout's figures and its drawing are those of the data", async () => {
   await page.getByRole('button', { name: 'Show layout 8', exact: true }).click();
   await assertShown(page, 8);
+  assert.deepEqual(await page.locator('#layout .dimension text').allTextContents(), ['50', '4 × 50', '50', '300', '60', '12', '40']);  // 5 holes, and a closed hopper 40 mm over the floor
   const { means } = plane.data.layouts[7];
   const values = await page.locator('#layout .figures .value').allTextContents();
   assert.equal(values[0], `${means.rate_g_per_s.mean.toFixed(2)} ± ${means.rate_g_per_s.half_width.toFixed(2)} g/s`);

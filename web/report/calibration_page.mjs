@@ -2,7 +2,7 @@
 import { Chart, markerPicture } from './chart.mjs';
 import { element, listChoice, section, table } from './dom.mjs';
 import { fitSentence, residualSentence, residualsOf, seriesName } from './fit.mjs';
-import { axisScale, number, sentence } from './format.mjs';
+import { axisScale, number } from './format.mjs';
 import { intervalTrack, trackAxis } from './interval_track.mjs';
 import { titleOf } from './layout_figures.mjs';
 import { wordsOf } from './layout_words.mjs';
@@ -148,7 +148,8 @@ export function calibrationPage(data) {
     kicker: `Calibration ${data.space === 'plane' ? 'in 2D' : 'in 3D'}`,
     title: data.title || 'A calibration',
     headlines: [data.headline],
-    remarks: data.doubts.map(sentence),
+    remarks: data.doubts,
+    tray: { name: 'The tray', vessels: data.vessels, scene: data.scene, space: data.space },
     whole: 'The whole calibration',
     sections: async () => [fitSection(data), parametersSection(data), pairsSection(data), section('account', 'What it took', data.account.map((one) => element('p', {}, one)))].filter(Boolean),
   };

@@ -2,10 +2,10 @@
 import { element, listChoice } from './dom.mjs';
 import { sentence } from './format.mjs';
 import { intervalTrack, scaleOf, trackAxis } from './interval_track.mjs';
-import { boxesOf, layoutDrawing } from './layout_drawing.mjs';
 import { textOf, textWithUnit, titleOf, valueOf } from './layout_figures.mjs';
 import { LayoutReplays } from './layout_replay.mjs';
 import { keyWords, sentenceWithNote, withUnit } from './layout_words.mjs';
+import { boxesOf, trayDrawing } from './tray_drawing.mjs';
 
 const ofHoles = [
   { name: 'seeds_per_s', words: 'seeds', unit: '1/s' }, { name: 'g_per_s', words: 'rate', unit: 'g/s' },
@@ -59,7 +59,7 @@ class HoleBars {
 
 /** Follows the choice; on a narrow page it comes into sight when the reader chooses. */
 export function layoutSection(data, figures, chosen) {
-  const boxes = boxesOf(data);
+  const boxes = boxesOf(data.layouts.map(({ vessels }) => vessels), data.space);
   const bars = new HoleBars();
   const replays = new LayoutReplays();
   const title = element('h2', { id: 'layout-title', 'aria-live': 'polite' });
@@ -71,7 +71,7 @@ export function layoutSection(data, figures, chosen) {
     if (!layout) return;
     const doubt = statusWords[layout.status] ? sentenceWithNote(statusWords[layout.status], layout.note) : layout.note;
     title.textContent = layout.name ? `Layout ${layout.number}: ${layout.name}` : `Layout ${layout.number}`;
-    about.replaceChildren(...[doubt ? element('p', { class: 'doubt' }, doubt) : null, layout.standing && layout.compared ? element('p', { class: 'standing' }, sentence(layout.standing)) : null, layout.expected ? element('p', { class: 'expected' }, sentence(layout.expected)) : null, layoutDrawing(layout, boxes), settings(data, layout)].filter(Boolean));
+    about.replaceChildren(...[doubt ? element('p', { class: 'doubt' }, doubt) : null, layout.standing && layout.compared ? element('p', { class: 'standing' }, sentence(layout.standing)) : null, layout.expected ? element('p', { class: 'expected' }, sentence(layout.expected)) : null, trayDrawing(`Layout ${layout.number}`, layout.vessels, boxes), settings(data, layout)].filter(Boolean));
     replays.show(layout);
     bars.show(layout);
     const runs = layout.replicates === 1 ? 'From one run: no intervals.' : `Means of ${layout.replicates} runs, ± half the width of the 95 % interval; what has no ± is of all runs together.`;
