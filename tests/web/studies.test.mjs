@@ -35,6 +35,8 @@ test('a decision: the answer, its doubts, and the layouts as they stand', () => 
     /^By rate layout 11 .* is the best: .* g\/s; of the others \d+ (is|are) not shown to be worse, \d+ are worse and \d+ are not compared\.$/);
   await open.getByRole('heading', { name: 'Layout 11', exact: true }).waitFor();
   assert.equal(await open.locator('#layout .standing').textContent(), 'Best.');
+  assert.equal(await open.getByRole('textbox', { name: 'Wanted rate from, g/s' }).inputValue(), '12');
+  assert.equal(await open.locator('#ranking .ranks li').first().locator('.wanted-line').count(), 2);
   assert.match(await open.locator('#question').textContent(), /confidence of 95 %.*Cost: 120 runs.*took 31.2 s/);
   await assertReadsWell(open);
 }));
@@ -62,7 +64,7 @@ test('a front: the points as they stand, with the intervals of those that lead',
   await point.focus();
   await open.keyboard.press('Enter');
   await open.getByRole('heading', { name: `Layout ${number}`, exact: true }).waitFor();
-  assert.equal(await open.locator('#layout .standing').textContent(), 'Dominated.');
+  assert.match(await open.locator('#layout .standing').textContent(), /^Dominated\. Layout \d+ beats it by the means, rate .* against .* and power /);
   assert.equal(await open.locator('#layout .drawing').count(), 2);
   await assertReadsWell(open);
 }));

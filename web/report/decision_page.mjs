@@ -1,5 +1,6 @@
 // The page of a decision, part by part: the answer, the layouts in the order of the goal, and what was asked.
 import { ChosenLayout } from './chosen_layout.mjs';
+import { Filter } from './filter.mjs';
 import { trayOfLayout } from './first_screen.mjs';
 import { figuresOf } from './layout_figures.mjs';
 import { layoutSection } from './layout_section.mjs';
@@ -8,6 +9,7 @@ import { questionSection } from './question.mjs';
 import { rankingSection } from './ranked_chart.mjs';
 import { ranked } from './ranking.mjs';
 import { scatterSection } from './scatter.mjs';
+import { Wanted } from './wanted.mjs';
 
 // What was decided by, and the layout that is the best, or the first in its order.
 function leadOf(data) {
@@ -20,9 +22,10 @@ function leadOf(data) {
 
 function sections(data, { figures, goal, layout }) {
   const chosen = new ChosenLayout(data.layouts, layout?.number ?? null);
+  const filter = new Filter(data, figures, new Wanted(data.wanted, null));
   return [
-    goal ? rankingSection(data, figures, goal, chosen) : null, layoutTableSection(data, figures, chosen), layoutSection(data, figures, chosen),
-    scatterSection(data, figures.filter((figure) => figure.has_interval), chosen), questionSection(data),
+    goal ? rankingSection(data, figures, goal, chosen, filter) : null, layoutTableSection(data, figures, chosen, filter), layoutSection(data, figures, chosen),
+    scatterSection(data, figures.filter((figure) => figure.has_interval), chosen, filter), questionSection(data),
   ].filter(Boolean);
 }
 

@@ -1,8 +1,10 @@
 // The page of a search for layouts that no other dominates: the front, every layout that was tried, and what was asked.
 import { ChosenLayout } from './chosen_layout.mjs';
 import { element } from './dom.mjs';
+import { Filter } from './filter.mjs';
 import { trayOfLayout } from './first_screen.mjs';
 import { list } from './format.mjs';
+import { frontReason } from './front_reasons.mjs';
 import { figuresOf } from './layout_figures.mjs';
 import { layoutSection } from './layout_section.mjs';
 import { layoutTableSection } from './layout_table.mjs';
@@ -11,6 +13,7 @@ import { questionSection } from './question.mjs';
 import { rankingSection } from './ranked_chart.mjs';
 import { ranked } from './ranking.mjs';
 import { scatterOf } from './scatter.mjs';
+import { Wanted } from './wanted.mjs';
 
 const standings = { 'on the front': 'on-front', 'may be on the front': 'may-be', dominated: 'dominated' };
 
@@ -47,10 +50,12 @@ function leadOf(data) {
 
 function sections(data, { figures, goals, layout }) {
   const chosen = new ChosenLayout(data.layouts, layout?.number ?? null);
+  const filter = new Filter(data, figures, new Wanted(data.wanted, null));
+  const why = (one) => frontReason(data, one, goals);
   const compared = goals.length > 1
-    ? scatterOf('The front', data, figures.filter((figure) => figure.has_interval), goals, chosen, { ...look, legend: () => legend(data) })
-    : goals.length && rankingSection(data, figures, goals[0], chosen);
-  return [compared, layoutTableSection(data, figures, chosen), layoutSection(data, figures, chosen), questionSection(data)].filter(Boolean);
+    ? scatterOf('The front', data, figures.filter((figure) => figure.has_interval), goals, chosen, filter, { ...look, legend: () => legend(data), why })
+    : goals.length && rankingSection(data, figures, goals[0], chosen, filter);
+  return [compared, layoutTableSection(data, figures, chosen, filter), layoutSection(data, figures, chosen, why), questionSection(data)].filter(Boolean);
 }
 
 /** What main.mjs lays out of a search for a front. */

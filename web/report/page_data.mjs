@@ -1,5 +1,7 @@
 // What the program wrote into the page. Missing parts become empty ones, so that the rest is shown all the same.
 
+import { withoutTwins } from './same_layouts.mjs';
+
 const empty = { program: {}, title: '', space: 'plane', headline: '', expected: '', vessels: [], scene: {} };
 
 const emptyOf = {
@@ -28,7 +30,7 @@ export function readPageData(text) {
   if (!Object.hasOwn(emptyOf, kind)) throw new Error(`its data are of the kind "${kind}", which this page does not know`);
   const data = filled(given, empty, emptyOf[kind]);
   if (kind === 'run') data.window_s = data.window_s ?? [0, data.end_time_s];
-  if (data.layouts) data.layouts = data.layouts.map((layout) => filled(layout, emptyLayout, { compared: (layout.status ?? 'ok') === 'ok' }));
+  if (data.layouts) data.layouts = withoutTwins(data.layouts.map((layout) => filled(layout, emptyLayout, { compared: (layout.status ?? 'ok') === 'ok' })));
   return data;
 }
 

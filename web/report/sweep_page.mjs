@@ -1,12 +1,15 @@
 // The page of a sweep, part by part.
 import { ChosenLayout } from './chosen_layout.mjs';
+import { Filter } from './filter.mjs';
 import { trayOfLayout } from './first_screen.mjs';
+import { heatMapSection } from './heat_map.mjs';
 import { figuresOf } from './layout_figures.mjs';
 import { layoutSection } from './layout_section.mjs';
 import { layoutTableSection } from './layout_table.mjs';
 import { rankingSection } from './ranked_chart.mjs';
 import { ranked } from './ranking.mjs';
 import { scatterSection } from './scatter.mjs';
+import { Wanted } from './wanted.mjs';
 
 // The figure that is looked at first, and the layout that has most of it, or least where little is wanted.
 function leadOf(data) {
@@ -19,9 +22,10 @@ function leadOf(data) {
 
 function sections(data, { figures, inOrder, figure, layout }) {
   const chosen = new ChosenLayout(data.layouts, layout?.number ?? null);
+  const filter = new Filter(data, inOrder, new Wanted(null, figure));
   return [
-    figure ? rankingSection(data, inOrder, figure, chosen) : null, layoutTableSection(data, figures, chosen),
-    layoutSection(data, figures, chosen), scatterSection(data, figures, chosen),
+    figure ? rankingSection(data, inOrder, figure, chosen, filter) : null, heatMapSection(data, inOrder, figure, chosen, filter), layoutTableSection(data, figures, chosen, filter),
+    layoutSection(data, figures, chosen), scatterSection(data, figures, chosen, filter),
   ].filter(Boolean);
 }
 
