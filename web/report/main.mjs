@@ -6,6 +6,7 @@ import { element } from './dom.mjs';
 import { firstScreen } from './first_screen.mjs';
 import { frontPage } from './front_page.mjs';
 import { readPageData } from './page_data.mjs';
+import { paperStyle } from './paper.mjs';
 import { runPage } from './run_page.mjs';
 import { sweepPage } from './sweep_page.mjs';
 import { startTheme } from './theme.mjs';
@@ -22,6 +23,7 @@ async function show() {
   const page = pages[data.kind](data);
   document.documentElement.toggleAttribute('data-beside', Boolean(page.beside));
   document.title = `${page.title} – Vibrosow`;
+  document.head.append(paperStyle(page, data.program));
   document.getElementById('head').replaceChildren(...firstScreen(page));
   document.getElementById('foot').replaceChildren(foot(data.program, page.whole));
   document.getElementById('page').replaceChildren(...(await page.sections()));

@@ -1,5 +1,5 @@
 // The page of a run, part by part.
-import { effectsSection, guardSection, settingsSection } from './account.mjs';
+import { computedSection } from './account.mjs';
 import { unevennessSection, rowsSection } from './unevenness.mjs';
 import { number } from './format.mjs';
 import { outflowSection } from './outflow.mjs';
@@ -27,7 +27,7 @@ async function sections(data) {
   player?.showTime(data.window_s[0]);
   return [
     replaySection(data, recording, player, problem), outflowSection(data, player), mapsSection(data, map, recording), unevennessSection(data), rowsSection(data),
-    effectsSection(data), guardSection(data), rerunSection(data), settingsSection(data),
+    rerunSection(data), computedSection(data),
   ].filter(Boolean);
 }
 

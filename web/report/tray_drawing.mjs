@@ -33,8 +33,9 @@ function boxOf(points) {
   return points.reduce(([left, low, right, high], [x, y]) => [Math.min(left, x), Math.min(low, y), Math.max(right, x), Math.max(high, y)], [Infinity, Infinity, -Infinity, -Infinity]);
 }
 
-function textSize([left, , right]) {
-  return 0.034 * (right - left);
+// mm: of a broad drawing a part of its width, of one that is narrow and high of its height, for that limits it then.
+function textSize([left, low, right, high]) {
+  return Math.max(0.034 * (right - left), 0.07 * (high - low));
 }
 
 // A place of a vessel's own frame in a picture, whose y goes down.
