@@ -70,6 +70,7 @@ test('a calibration by curves: all in one chart or one at a time, with residuals
   assert.match(await open.locator('.tray-card + .inputs').textContent(), /Shaking5 Hz/);
   assert.match(await open.locator('#fit-sentence').textContent(), /30 of 30 fitted values and 8 of 10 held out values/);
   assert.equal(await open.locator('#fit .chart').first().locator('.line').count(), 2);
+  assert.deepEqual(await open.locator('#fit .legend-item:has(.marker)').allTextContents(), ['tray.motion.frequency = 9 Hz, hole 1', 'tray.motion.frequency = 9 Hz, hole 2']);
   assert.equal(await open.locator('#fit .chart').first().locator('.point-mark').count(), 40);
   await open.getByRole('combobox', { name: 'Curve' }).selectOption('tray.motion.frequency = 9 Hz, hole 2');
   await assertDrawn(open, '#fit');

@@ -3,6 +3,7 @@ import assert from 'node:assert/strict';
 import test from 'node:test';
 import { chainOf, widthsOf } from '../../web/report/dimensions.mjs';
 import { holeWords, inputRows, shakingWords, tiltWords } from '../../web/report/inputs.mjs';
+import { cssString } from '../../web/report/paper.mjs';
 import { madeUpRun } from './made_up_run.mjs';
 
 const texts = (places, length) => chainOf(places, length).map(({ text }) => text);
@@ -15,6 +16,7 @@ test('a chain of dimensions goes over all places to the end', () => {
   assert.deepEqual(texts([60, 60.01, 60], 200), ['60', '140']);  // rows one behind the other
   assert.deepEqual(texts([1, 3, 6, 10, 15, 21, 28], 100), ['1', '27', '72']);
   assert.deepEqual(texts([0, 100], 100), ['100']);
+  assert.deepEqual(texts([42.857, 85.714, 128.571], 300), ['42.9', '2 × 42.9', '171.4']);
   assert.deepEqual(texts([], 100), []);
   for (const places of [[70, 160, 250], [60, 150, 400]]) {
     const chain = chainOf(places, 500);
@@ -61,4 +63,9 @@ test('the inputs of a run, and of what has no scene', () => {
   ]);
   assert.deepEqual(inputRows({ ...data, scene: {} }).map(({ name }) => name), ['Holes', 'Tray']);
   assert.deepEqual(inputRows({ vessels: [], scene: {}, space: 'plane' }), []);
+});
+
+test('a title at the head of a sheet ends no string of CSS', () => {
+  assert.equal(cssString('Tray 5'), '"Tray 5"');
+  assert.equal(cssString('a"b\\c\n</style>'), '"a\\22 b\\5c c\\a \\3c /style\\3e "');
 });

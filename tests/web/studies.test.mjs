@@ -59,6 +59,7 @@ test('a front: the points as they stand, with the intervals of those that lead',
   }
   assert.equal(await open.locator('#trade .cross').count(), numbersOf(made, 'on the front').length + 1);
   assert.match(await open.locator('#trade-sentence').textContent(), /^For a high rate and a low power, no layout beats /);
+  assert.equal(await open.locator('#trade .filter').getByRole('combobox', { name: 'Only count' }).count(), 1);
   const point = open.locator('#trade circle.dominated').first();
   const number = Number(await point.getAttribute('data-layout'));
   await point.focus();

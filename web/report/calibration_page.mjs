@@ -8,6 +8,7 @@ import { intervalTrack, trackAxis } from './interval_track.mjs';
 import { titleOf } from './layout_figures.mjs';
 import { wordsOf } from './layout_words.mjs';
 import { axis, roundAxis } from './plot.mjs';
+import { onTheme, theme } from './theme.mjs';
 
 function text(value) {
   return number(value, 3);
@@ -78,6 +79,11 @@ const curveStyle = (k, alone, shade) => (alone ? 'stroke:var(--accent)' : `strok
 
 const aside = 0.12;  // of a place, from the middle to what is measured and to what is fitted
 
+// A place for every measured value; so many that their numbers would touch have none.
+function tableAxis(count) {
+  return axis('measured values, in the order of the table', 0.5, count + 0.5, { bare: true, ticks: count > 20 ? [] : Array.from({ length: count }, (_, k) => ({ at: k + 1, text: String(k + 1) })) });
+}
+
 // Of every measured rate what was measured and, with its interval, what is fitted, in the order of the table.
 function rateChart(name, values, quantity) {
   const all = values.flatMap(({ measured, low, high }) => [measured, low, high]);
@@ -86,7 +92,7 @@ function rateChart(name, values, quantity) {
   const fitted = values.map(place).filter(({ held_out: one }) => !one), heldOut = values.map(place).filter(({ held_out: one }) => one);
   const predicted = (of, look) => of.map(({ x, predicted: y, low, high }) => ({ x: x + aside, y, low, high, look }));
   return new Chart(name, 'fit', () => ({
-    x: axis('measured values, in the order of the table', 0.5, values.length + 0.5, { bare: true, ticks: values.length > 20 ? [] : values.map((_, k) => ({ at: k + 1, text: String(k + 1) })) }),
+    x: tableAxis(values.length),
     y: roundAxis(titleOf(wordsOf(quantity)), least > 0.5 * top ? least : 0, top),
     layers: [...heldOut.map(({ x }) => ({ kind: 'shade', from: x - 0.45, to: x + 0.45 })), { kind: 'points', style: '--colour:var(--accent)', plain: true, points: predicted(fitted) },
       { kind: 'points', marker: 'diamond', style: '--colour:var(--card)', plain: true, points: predicted(heldOut, 'hollow') },
@@ -98,12 +104,12 @@ function rateChart(name, values, quantity) {
 function residualChart(name, residuals, ofCurves) {
   const at = (value, k) => (ofCurves ? value.time_s : k + 1);
   const places = residuals.map(at), all = residuals.flatMap(({ low, high, residual }) => [low, high, residual]);
-  const [first, last] = ofCurves ? [Math.min(...places), Math.max(...places)] : [0, residuals.length + 1];
-  const shades = ofCurves ? heldOutFrom(residuals, last) : residuals.flatMap((value, k) => (value.held_out ? [{ kind: 'shade', from: k + 0.75, to: k + 1.25 }] : []));
+  const [first, last] = ofCurves ? [Math.min(...places), Math.max(...places)] : [0.5, residuals.length + 0.5];
+  const shades = ofCurves ? heldOutFrom(residuals, last) : residuals.flatMap((value, k) => (value.held_out ? [{ kind: 'shade', from: k + 0.55, to: k + 1.45 }] : []));
   const band = ofCurves ? [{ kind: 'band', points: residuals.map((value, k) => [places[k], value.low, value.high]) }] : [];
   const words = (value, k) => `${ofCurves ? `${text(value.time_s)} s` : `value ${k + 1}`}: ${text(value.residual)} % (95 %: ${text(value.low)} to ${text(value.high)})`;
   return new Chart(name, 'residuals', () => ({
-    x: axis(ofCurves ? 'time, s' : 'measured value, in the order of the table', first, last), y: roundAxis('difference, %', Math.min(...all), Math.max(...all)),
+    x: ofCurves ? axis('time, s', first, last) : tableAxis(residuals.length), y: roundAxis('difference, %', Math.min(...all), Math.max(...all)),
     layers: [...shades, ...band, { kind: 'rule', from: [first, 0], to: [last, 0] },
       { kind: 'points', style: '--colour:var(--ink)', points: residuals.map((value, k) => ({ x: places[k], y: value.residual, size: 2.5, ...(ofCurves ? {} : { low: value.low, high: value.high }) })) }],
     marks: residuals.map((value, k) => ({ x: places[k], y: value.residual, text: words(value, k) })),
@@ -111,11 +117,24 @@ function residualChart(name, residuals, ofCurves) {
   }), { height: 220 });
 }
 
-const legend = (ofCurves) => element('p', { class: 'legend' },
-  ...(ofCurves ? [element('span', { class: 'legend-item' }, element('span', { class: 'stroke', style: 'border-top:3px solid var(--accent)' }), 'fitted'), element('span', { class: 'legend-item' }, element('span', { class: 'dot measured-dot' }), 'measured'),
-    element('span', { class: 'legend-item' }, element('span', { class: 'swatch window' }), 'held out: predicted, not fitted')]
+const heldOutItem = () => element('span', { class: 'legend-item' }, element('span', { class: 'swatch window' }), 'held out: predicted, not fitted');
+
+function curveItems(curves) {
+  if (curves.length === 1) {
+    return [element('span', { class: 'legend-item' }, element('span', { class: 'stroke', style: 'border-top:3px solid var(--accent)' }), 'fitted'), element('span', { class: 'legend-item' }, element('span', { class: 'dot measured-dot' }), 'measured')];
+  }
+  return [...curves.map(({ title }, k) => element('span', { class: 'legend-item' }, markerPicture(markerOf(k), `fill:${listColour(k, theme())}`), title)), element('span', {}, 'Points: measured. Lines: fitted.')];
+}
+
+function legend(ofCurves, curves) {
+  const frame = element('p', { class: 'legend' });
+  const fill = () => frame.replaceChildren(...(ofCurves ? [...curveItems(curves), heldOutItem()]
     : [element('span', { class: 'legend-item' }, markerPicture('square', 'fill:var(--ink)'), 'measured'), element('span', { class: 'legend-item' }, element('span', { class: 'dot on-front' }), 'fitted'), element('span', { class: 'legend-item' }, markerPicture('diamond', 'fill:var(--card);stroke:var(--ink)'), 'held out: predicted, not fitted')]),
   element('span', {}, '95 % intervals are of such a measurement.'));
+  onTheme(fill);
+  fill();
+  return frame;
+}
 
 // Curves, so few that they are told apart, and rates are shown all together; a curve also by itself.
 function fitSection(data) {
@@ -128,7 +147,7 @@ function fitSection(data) {
     const name = `Measured and fitted ${wordsOf(data.quantity).words}: ${said.textContent}`, more = residualSentence(residuals, data.of_curves);
     const curves = chosen.map((one) => ({ ...one, title: seriesName(one, filled) }));
     const chart = data.of_curves ? curveChart(name, curves, data.quantity) : rateChart(name, values, data.quantity);
-    place.replaceChildren(chart.frame, residualChart(`Residuals: ${more}`, residuals, data.of_curves).frame, element('figcaption', {}, more, legend(data.of_curves)));
+    place.replaceChildren(chart.frame, residualChart(`Residuals: ${more}`, residuals, data.of_curves).frame, element('figcaption', {}, more, legend(data.of_curves, curves)));
   };
   if (filled.length === 0) return null;
   const several = data.of_curves && filled.length > 1;

@@ -1,6 +1,6 @@
 // The page of a decision, part by part: the answer, the layouts in the order of the goal, and what was asked.
 import { ChosenLayout } from './chosen_layout.mjs';
-import { Filter } from './filter.mjs';
+import { Filter, withFilter } from './filter.mjs';
 import { trayOfLayout } from './first_screen.mjs';
 import { figuresOf } from './layout_figures.mjs';
 import { layoutSection } from './layout_section.mjs';
@@ -24,7 +24,7 @@ function sections(data, { figures, goal, layout }) {
   const chosen = new ChosenLayout(data.layouts, layout?.number ?? null);
   const filter = new Filter(data, figures, new Wanted(data.wanted, null));
   return [
-    goal ? rankingSection(data, figures, goal, chosen, filter) : null, layoutTableSection(data, figures, chosen, filter), layoutSection(data, figures, chosen),
+    goal ? withFilter(filter, rankingSection(data, figures, goal, chosen, filter)) : null, layoutTableSection(data, figures, chosen, filter), layoutSection(data, figures, chosen),
     scatterSection(data, figures.filter((figure) => figure.has_interval), chosen, filter), questionSection(data),
   ].filter(Boolean);
 }

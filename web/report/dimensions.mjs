@@ -1,6 +1,6 @@
 // Dimension lines of a drawing, in mm: from rim to rim, with what lies between them.
 import { shape } from './dom.mjs';
-import { number } from './format.mjs';
+import { millimetres } from './format.mjs';
 import { floorAt, restPose } from './geometry.mjs';
 
 const same = 0.05;    // mm: places that differ by less are one
@@ -24,15 +24,15 @@ export function chainOf(places, length) {
   if (centres.length === 0) return [];
   const [first, last] = [centres[0], centres[centres.length - 1]];
   const step = stepOf(centres);
-  const part = (from, to, text = number(to - from, 4)) => ({ from, to, text });
+  const part = (from, to, text = millimetres(to - from)) => ({ from, to, text });
   const between = step === null && centres.length <= mostSteps ? centres.slice(1).map((place, k) => part(centres[k], place))
-    : centres.length > 1 ? [part(first, last, step === null ? undefined : `${centres.length - 1} × ${number(step, 4)}`)] : [];
+    : centres.length > 1 ? [part(first, last, step === null ? undefined : `${centres.length - 1} × ${millimetres(step)}`)] : [];
   return [part(0, first), ...between, part(last, length)].filter(({ from, to }) => to - from > same);
 }
 
 /** Of each width the first hole: "⌀ 12" of a round one, "12" of a slot. */
 export function widthsOf(holes) {
-  const text = (hole) => `${hole.round ? '⌀ ' : ''}${number(2 * hole.half_x_mm, 4)}`;
+  const text = (hole) => `${hole.round ? '⌀ ' : ''}${millimetres(2 * hole.half_x_mm)}`;
   return holes.filter((hole, k) => holes.findIndex((other) => text(other) === text(hole)) === k).map((hole) => ({ hole, text: text(hole) }));
 }
 
@@ -60,8 +60,8 @@ export function sideDimensions(tray, place, size, below) {
   const along = (from, to, text, row) => dimension(place, [[from, 0], [to, 0]], [0, low - below - 1.5 * row * size], text, size, turned);
   const chain = chainOf(holes.map(({ x_mm: x }) => x), length);
   return [
-    ...chain.map(({ from, to, text }) => along(from, to, text, 1)), along(0, length, number(length, 4), chain.length > 0 ? 2 : 1),
-    height > 0 ? dimension(place, [[length, 0], [length, height]], [1.2 * size, 0], number(height, 4), size, turned) : null,
+    ...chain.map(({ from, to, text }) => along(from, to, text, 1)), along(0, length, millimetres(length), chain.length > 0 ? 2 : 1),
+    height > 0 ? dimension(place, [[length, 0], [length, height]], [1.2 * size, 0], millimetres(height), size, turned) : null,
     ...widthsOf(holes).map(({ hole, text }) => dimension(place, [-1, 1].map((side) => [hole.x_mm + side * hole.half_x_mm, floorAt(tray, hole)]), [0, 0.9 * size], text, size, turned)),
   ];
 }
@@ -73,7 +73,7 @@ export function hopperDimensions(tray, hopper, place, size) {
   const low = Math.min(...points.map(([, y]) => y)), right = Math.max(...points.filter(([, y]) => y - low < same).map(([x]) => x));
   const floor = (restPose(tray).y - restPose(hopper).y) * 1000;  // in the hopper's frame
   if (tray.tilt_rad || hopper.tilt_rad || !(low - floor > same)) return widths;
-  return [...widths, dimension(place, [[right, floor], [right, low]], [0.8 * size, 0], number(low - floor, 4), size, 0)];
+  return [...widths, dimension(place, [[right, floor], [right, low]], [0.8 * size, 0], millimetres(low - floor), size, 0)];
 }
 
 /** Lines of text that stand under a tray for its dimensions. */
@@ -83,5 +83,5 @@ export function dimensionRows(vessels) {
 
 /** Of the tray from above: its depth beside it. */
 export function aboveDimensions({ length_mm: length, depth_mm: depth }, place, size) {
-  return [dimension(place, [[length, 0], [length, depth]], [1.2 * size, 0], number(depth, 4), size, 0)];
+  return [dimension(place, [[length, 0], [length, depth]], [1.2 * size, 0], millimetres(depth), size, 0)];
 }

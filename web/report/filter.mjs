@@ -14,6 +14,12 @@ export function filtered(layouts, levels, figure = null, range = null) {
   return layouts.filter((layout) => eachOf(layout).some((one) => levels.every(({ factor, level }) => factor.of(one) === level)) && isWanted(layout));
 }
 
+/** A section of the page with the filter under its heading. */
+export function withFilter(filter, part) {
+  part.querySelector('h2').after(filter.frame);
+  return part;
+}
+
 export class Filter {
   constructor(data, figures, wanted) {
     Object.assign(this, { data, wanted, listeners: [], levels: new Map(), asWanted: false, figure: figures.find(({ name }) => name === wanted.figure) ?? null });

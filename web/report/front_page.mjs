@@ -1,7 +1,7 @@
 // The page of a search for layouts that no other dominates: the front, every layout that was tried, and what was asked.
 import { ChosenLayout } from './chosen_layout.mjs';
 import { element } from './dom.mjs';
-import { Filter } from './filter.mjs';
+import { Filter, withFilter } from './filter.mjs';
 import { trayOfLayout } from './first_screen.mjs';
 import { list } from './format.mjs';
 import { frontReason } from './front_reasons.mjs';
@@ -54,8 +54,8 @@ function sections(data, { figures, goals, layout }) {
   const why = (one) => frontReason(data, one, goals);
   const compared = goals.length > 1
     ? scatterOf('The front', data, figures.filter((figure) => figure.has_interval), goals, chosen, filter, { ...look, legend: () => legend(data), why })
-    : goals.length && rankingSection(data, figures, goals[0], chosen, filter);
-  return [compared, layoutTableSection(data, figures, chosen, filter), layoutSection(data, figures, chosen, why), questionSection(data)].filter(Boolean);
+    : goals.length > 0 && rankingSection(data, figures, goals[0], chosen, filter);
+  return [compared && withFilter(filter, compared), layoutTableSection(data, figures, chosen, filter), layoutSection(data, figures, chosen, why), questionSection(data)].filter(Boolean);
 }
 
 /** What main.mjs lays out of a search for a front. */

@@ -1,15 +1,15 @@
 // What a result was simulated of, in words: the seeds, the tray, its holes, how it is shaken, how it is filled.
 import { different, stepOf } from './dimensions.mjs';
 import { element } from './dom.mjs';
-import { list, number } from './format.mjs';
+import { list, millimetres, number } from './format.mjs';
 
 const gravity = 9.80665;  // m/s2
 const mostPlaces = 6;     // that are named one by one
 const level = 1e-6;       // rad
 const order = ['Seeds', 'Mixture', 'Holes', 'Shaking', 'Level of seeds', 'Tray', 'Hopper'];
 
-const mm = (metres) => number(1e3 * metres, 4);
-const degrees = (radians) => number((radians * 180) / Math.PI, 4);
+const mm = (metres) => millimetres(1e3 * metres);
+const degrees = (radians) => number((radians * 180) / Math.PI);
 const counted = (count, one, many = `${one}s`) => `${number(count, 6)} ${count === 1 ? one : many}`;
 
 function lotWords({ name, diameter_m: diameter, mass_kg: mass, shape, discs, sizes, number_fraction: share }, isMixed) {
@@ -25,13 +25,13 @@ export function tiltWords(tilt) {
 }
 
 function trayWords({ length_mm: length, height_mm: height, depth_mm: depth, tilt_rad: tilt }, space) {
-  const size = `${number(length, 4)} mm long, ${Number.isFinite(depth) ? `${number(depth, 4)} mm deep, ` : ''}${number(height, 4)} mm high`;
+  const size = `${millimetres(length)} mm long, ${Number.isFinite(depth) ? `${millimetres(depth)} mm deep, ` : ''}${millimetres(height)} mm high`;
   return `${size}; ${tiltWords(tilt ?? 0)}${space === 'plane' ? '; simulated in 2D, as a slice one seed thick' : ''}`;
 }
 
 function holeKind({ half_x_mm: x, half_z_mm: z, round }, space) {
-  if (round) return `round hole|round holes|${number(2 * x, 4)} mm`;
-  return `slot|slots|${number(2 * x, 4)}${space === 'plane' || !(z > 0) ? '' : ` × ${number(2 * z, 4)}`} mm`;
+  if (round) return `round hole|round holes|${millimetres(2 * x)} mm`;
+  return `slot|slots|${millimetres(2 * x)}${space === 'plane' || !(z > 0) ? '' : ` × ${millimetres(2 * z)}`} mm`;
 }
 
 // "5 slots of 12 mm", each kind by itself.
@@ -48,7 +48,7 @@ function kindWords(holes, space) {
 export function holeWords(holes, space) {
   if (holes.length === 0) return 'none';
   const places = different(holes.map(({ x_mm: x }) => x)), step = stepOf(places), rows = different(holes.map(({ z_mm: z }) => z)).length;
-  const apart = step !== null ? `${number(step, 4)} mm apart` : places.length <= mostPlaces ? `at ${list(places.map((x) => number(x, 4)))} mm` : `from ${number(places[0], 4)} to ${number(places[places.length - 1], 4)} mm`;
+  const apart = step !== null ? `${millimetres(step)} mm apart` : places.length <= mostPlaces ? `at ${list(places.map((x) => millimetres(x)))} mm` : `from ${millimetres(places[0])} to ${millimetres(places[places.length - 1])} mm`;
   return `${kindWords(holes, space)}, ${apart}${rows > 1 ? `, in ${rows} rows` : ''}`;
 }
 

@@ -83,5 +83,5 @@ class RankedChart {
 
 /** `figure`: the one to begin with. */
 export function rankingSection(data, figures, figure, chosen, filter) {
-  return section('ranking', 'Layouts in order', filter.frame, new RankedChart(data, figures, figure, chosen, filter).frame);
+  return section('ranking', 'Layouts in order', new RankedChart(data, figures, figure, chosen, filter).frame);
 }

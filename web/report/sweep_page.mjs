@@ -1,6 +1,6 @@
 // The page of a sweep, part by part.
 import { ChosenLayout } from './chosen_layout.mjs';
-import { Filter } from './filter.mjs';
+import { Filter, withFilter } from './filter.mjs';
 import { trayOfLayout } from './first_screen.mjs';
 import { heatMapSection } from './heat_map.mjs';
 import { figuresOf } from './layout_figures.mjs';
@@ -24,7 +24,7 @@ function sections(data, { figures, inOrder, figure, layout }) {
   const chosen = new ChosenLayout(data.layouts, layout?.number ?? null);
   const filter = new Filter(data, inOrder, new Wanted(null, figure));
   return [
-    figure ? rankingSection(data, inOrder, figure, chosen, filter) : null, heatMapSection(data, inOrder, figure, chosen, filter), layoutTableSection(data, figures, chosen, filter),
+    figure ? withFilter(filter, rankingSection(data, inOrder, figure, chosen, filter)) : null, heatMapSection(data, inOrder, figure, chosen, filter), layoutTableSection(data, figures, chosen, filter),
     layoutSection(data, figures, chosen), scatterSection(data, figures, chosen, filter),
   ].filter(Boolean);
 }
