@@ -91,6 +91,7 @@ TEST_F(FrontPage, GoalsAreMarkedAndSayWhatIsWanted) {
   EXPECT_EQ(figures[1]["wanted"], "low");
   EXPECT_EQ(figures[1]["goal"], true);
   EXPECT_FALSE(figures[2].contains("goal"));
+  EXPECT_EQ(data().contains("wanted"), result_.options.rate.has_value());
 }
 
 }  // namespace
