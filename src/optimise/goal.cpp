@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <ranges>
 #include <utility>
+#include <vector>
 
 #include "input/wording.hpp"
 #include "scene/input_error.hpp"
@@ -35,11 +35,19 @@ std::optional<double> finite(const std::optional<double>& value) {
   return value && std::isfinite(*value) ? value : std::nullopt;
 }
 
+template <class Of>
+auto least_and_most(const std::vector<Scene>& scenes, Of of) {
+  std::vector<decltype(of(scenes.front()))> values;
+  for (const Scene& scene : scenes) values.push_back(of(scene));
+  const auto [least, most] = std::ranges::minmax_element(values);
+  return std::pair(*least, *most);
+}
+
 /// In a longer window a pause may be longer, and chance evens out more.
 void check_windows_alike(const Goal& goal, const std::vector<Scene>& scenes) {
   constexpr double alike = 1.05;
   const auto window = [](const Scene& scene) { return scene.run.duration - scene.run.measure_from; };
-  const auto [shortest, longest] = std::ranges::minmax(scenes | std::views::transform(window));
+  const auto [shortest, longest] = least_and_most(scenes, window);
   if (longest <= alike * shortest) return;
   throw InputError(
       fmt::format("the goal {}: it depends on how long is measured, and layouts measure from {:.3g} to {:.3g} s",
@@ -52,7 +60,7 @@ void check_parts_alike(const Goal& goal, const std::vector<Scene>& scenes) {
   const auto parts = [](const Scene& scene) {
     return std::max<std::ptrdiff_t>(0, std::ssize(instability_ends(measuring_window(scene))) - 1);
   };
-  const auto [fewest, most] = std::ranges::minmax(scenes | std::views::transform(parts));
+  const auto [fewest, most] = least_and_most(scenes, parts);
   if (fewest > 0 && static_cast<double>(most) <= alike * static_cast<double>(fewest)) return;
   throw InputError(fmt::format(
       "the goal {}: it is of parts of whole periods of the drive, and layouts' windows have {} to {} of them; measure "
@@ -140,16 +148,16 @@ WantedRate read_wanted_rate(const std::string& text) {
   if (sign == std::string::npos) throw wrong(" has no tolerance, such as +- 5 %");
   const std::string_view whole = text, of = trimmed(whole.substr(0, sign)), by = trimmed(whole.substr(sign + length));
   try {
-    const Rate rate = read_rate(of);
-    Rate off{rate.is_of_seeds, 0};
+    const Rate stated = read_rate(of);
+    Rate off{stated.is_of_seeds, 0};
     if (by.ends_with('%'))
-      off.value = rate.value * parse_quantity(by, Dimension::fraction);
+      off.value = stated.value * parse_quantity(by, Dimension::fraction);
     else
       off = read_rate(by);
-    if (off.is_of_seeds != rate.is_of_seeds) throw wrong(" has two kinds of rates");
-    if (!(rate.value > 0 && off.value > 0 && off.value < rate.value)) throw wrong(" leaves no band above 0");
-    if (rate.value + off.value > most_wanted_rate) throw wrong(" is more than a tray can give");
-    return {rate.is_of_seeds, rate.value - off.value, rate.value + off.value};
+    if (off.is_of_seeds != stated.is_of_seeds) throw wrong(" has two kinds of rates");
+    if (!(stated.value > 0 && off.value > 0 && off.value < stated.value)) throw wrong(" leaves no band above 0");
+    if (stated.value + off.value > most_wanted_rate) throw wrong(" is more than a tray can give");
+    return {stated.is_of_seeds, stated.value - off.value, stated.value + off.value};
   } catch (const UnitError& error) {
     throw wrong(fmt::format(": {}", error.what()));
   }

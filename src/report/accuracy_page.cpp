@@ -11,6 +11,7 @@
 #include "report/answer_doubts.hpp"
 #include "report/page.hpp"
 #include "scene/integrator_names.hpp"
+#include "scene/scene_json.hpp"
 #include "scene/si_units.hpp"
 
 namespace vibrosow {
@@ -62,6 +63,8 @@ Json page_of(const Scene& scene, const AccuracyResult& result, std::size_t chose
           {"program", {{"name", "vibrosow"}, {"version", VIBROSOW_VERSION}}},
           {"title", scene.title},
           {"space", scene.space == Space::plane ? "plane" : "three_dimensional"},
+          {"vessels", page_vessels(scene)},
+          {"scene", Json::parse(scene_to_json(scene))},
           {"doubts", doubt_sentences(doubts_about(result, scene), "setting")},
           {"against", result.fit ? "the limit of step 0 and rigid grains" : "the finest setting"},
           {"within_percent", within},

@@ -10,6 +10,7 @@
 #include "report/answer_doubts.hpp"
 #include "report/page.hpp"
 #include "report/terminal_text.hpp"
+#include "scene/scene_json.hpp"
 
 namespace vibrosow {
 namespace {
@@ -125,6 +126,8 @@ std::string calibration_page_data(const CalibrationAnswer& answer, const Scene& 
                      {"program", {{"name", "vibrosow"}, {"version", VIBROSOW_VERSION}}},
                      {"title", scene.title},
                      {"space", scene.space == Space::plane ? "plane" : "three_dimensional"},
+                     {"vessels", page_vessels(scene)},
+                     {"scene", Json::parse(scene_to_json(scene))},
                      {"headline", headline(answer)},
                      {"doubts", doubt_sentences(answer.doubts)},
                      {"quantity", column_of(answer.task.measured.table.quantity)},

@@ -84,6 +84,7 @@ StudyPage study_page(const DecisionReport& report, const SweepTiming& timing) {
   page.doubts = doubts(report, page.answer);
   std::ranges::move(left_out_sentences(page.answer), std::back_inserter(page.doubts));
   page.asked = asked(result);
+  page.wanted = result.options.rate;
   page.cost = cost(report, timing);
   page.confidence = sureness_text(result.options);
   return page;

@@ -73,6 +73,7 @@ StudyPage study_page(const OptimiseResult& result, const SweepTiming& timing) {
   page.doubts = doubts(result, page.answer);
   std::ranges::move(left_out_sentences(page.answer), std::back_inserter(page.doubts));
   page.asked = asked(result.options);
+  page.wanted = result.options.rate;
   page.cost = cost(result, timing);
   return page;
 }

@@ -26,6 +26,8 @@ Json number(double value) {
   return std::isfinite(value) ? Json(value) : Json(nullptr);
 }
 
+constexpr int all_digits = 15;  // of a count
+
 std::string figure_text(double value) {
   return number_text(value);
 }
@@ -69,7 +71,7 @@ Json hole_table(const RunPage& page) {
   for (const HoleOutflow& row : page.outflow.holes) {
     Json cells = {row.hole,
                   row.lot,
-                  row.centre ? fmt::format("{:.1f}", in_mm(*row.centre)) : std::string(),
+                  row.centre ? number_text(in_mm(*row.centre), 4) : std::string(),
                   fmt::format("{}", row.grains),
                   figure_text(row.seeds_per_s),
                   figure_text(row.mass_rate * 1e3)};
@@ -113,8 +115,9 @@ std::string headline(const RunPage& page) {
 /// What the guard saw; its warnings stand among the doubts.
 std::string guard_sentence(const Run& run, const GuardLimits& limits) {
   if (run.status == RunStatus::stopped_by_guard) return fmt::format("The guard stopped the run: {}.", run.stop_reason);
-  std::string text = fmt::format("The deepest contact pressed a grain by {:.2g} % of its radius (warned from {:g} %)",
-                                 100 * run.max_relative_overlap, 100 * limits.warn_relative_overlap);
+  std::string text =
+      fmt::format("The deepest contact pressed a grain by {} % of its radius (warned from {} %)",
+                  number_text(100 * run.max_relative_overlap, 2), number_text(100 * limits.warn_relative_overlap));
   if (run.balance.lost > 0) text += fmt::format("; {} seeds went through walls", run.balance.lost);
   if (run.let_pass.energy_accounts > 0)
     text += fmt::format("; the numerics made energy in {} accounts of it", run.let_pass.energy_accounts);
@@ -132,13 +135,12 @@ Json settings(const RunPage& page) {
   };
   add("contact law", std::string(model.law->name));
   add(model.law->material == LawMaterial::shell ? "shell compression" : "Young's modulus",
-      model.law->material == LawMaterial::shell
-          ? fmt::format("{:.3g}", softness_of(model.scene, *model.law))
-          : fmt::format("{:.4g} MPa", 1e-6 / softness_of(model.scene, *model.law)));
+      model.law->material == LawMaterial::shell ? number_text(softness_of(model.scene, *model.law))
+                                                : number_text(1e-6 / softness_of(model.scene, *model.law), 4) + " MPa");
   add("scheme", integrator_name(model.scene.numerics.integrator));
-  add("time step", fmt::format("{:.3g} us", 1e6 * page.run.dt));
-  add("steps", fmt::format("{}", page.run.steps));
-  add("seeds put in", fmt::format("{}", page.run.balance.put_in));
+  add("time step", time_text(page.run.dt));
+  add("steps", number_text(static_cast<double>(page.run.steps), all_digits));
+  add("seeds put in", number_text(static_cast<double>(page.run.balance.put_in), all_digits));
   add("random seed", fmt::format("{}", page.run.random_seed));
   add("program", fmt::format("vibrosow {}", VIBROSOW_VERSION));
   return all;

@@ -10,6 +10,7 @@
 #include "report/layout_text.hpp"
 #include "report/page.hpp"
 #include "report/terminal_text.hpp"
+#include "scene/scene_json.hpp"
 
 namespace vibrosow {
 namespace {
@@ -51,7 +52,8 @@ Json holes(const std::vector<HoleFigures>& figures) {
   return all;
 }
 
-/// How it is built: number, name, what it is in words, values of the keys, vessels, and the command that runs it alone.
+/// How it is built: number, name, what it is in words, values of the keys, vessels, its scene, and the command that
+/// runs it alone.
 Json layout_of(const Answer& answer, const Layout& layout) {
   const Study& study = *answer.study;
   Json values = Json::array();
@@ -64,7 +66,9 @@ Json layout_of(const Answer& answer, const Layout& layout) {
               {"described", described(study, layout)},
               {"values", std::move(values)},
               {"vessels", layout.scene ? page_vessels(study.scenes[*layout.scene]) : Json::array()}};
-  if (layout.scene) one["command"] = run_command_of(study, layout, answer.first_random_seed);
+  if (!layout.scene) return one;
+  one["scene"] = Json::parse(scene_to_json(study.scenes[*layout.scene]));
+  one["command"] = run_command_of(study, layout, answer.first_random_seed);
   return one;
 }
 
@@ -124,6 +128,12 @@ std::string page_data(const StudyPage& page, const Replays& replays) {
                {"doubts", page.doubts}};
   if (const std::string expected = expected_sentence(answer); !expected.empty()) data["expected"] = expected;
   if (!page.asked.empty()) data["asked"] = std::move(asked), data["cost"] = page.cost;
+  if (page.wanted) {
+    const Figure& rate = rate_figure(page.wanted);
+    data["wanted"] = {{"figure", rate.name},
+                      {"low", page.wanted->low / rate.unit_size},
+                      {"high", page.wanted->high / rate.unit_size}};
+  }
   if (!page.confidence.empty()) data["confidence"] = page.confidence;
   data["figures"] = std::move(figures), data["layouts"] = std::move(layouts);
   return page_text(data);

@@ -1,12 +1,14 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
 
 #include "answer/answer.hpp"
+#include "optimise/goal.hpp"
 #include "picture/chart.hpp"
 #include "report/decision_report.hpp"
 #include "report/output_folder.hpp"
@@ -22,7 +24,8 @@ struct StudyPage {
   std::vector<std::string> doubts{};
   std::vector<std::pair<std::string, std::string>> asked{};  // what was asked, by name
   std::vector<std::string> cost{};
-  std::string confidence{};  // of a decision
+  std::optional<WantedRate> wanted{};  // of the tray
+  std::string confidence{};            // of a decision
 };
 
 /// `timing`: of the runs that were made for it just now. The results outlive the page.

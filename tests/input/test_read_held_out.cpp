@@ -9,6 +9,7 @@
 
 #include "agronomy/prediction_error.hpp"
 #include "input/presets.hpp"
+#include "input/read_scene.hpp"
 #include "input/source_files.hpp"
 #include "scene/input_error.hpp"
 

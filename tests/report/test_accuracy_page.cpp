@@ -10,6 +10,7 @@
 #include "report/kept_page.hpp"
 #include "report/page.hpp"
 #include "scene/input_error.hpp"
+#include "scene/scene_json.hpp"
 
 namespace vibrosow {
 namespace {
@@ -68,6 +69,8 @@ TEST_F(AccuracyPage, EverySettingHasItsErrorAndWhyItHasNone) {
   EXPECT_NEAR(page["levels"][1]["rate_g_per_s"]["mean"].get<double>(), 10.8, 0.01);
   EXPECT_TRUE(page["levels"][2]["error"].is_null());
   EXPECT_EQ(page["within_percent"], 1.0);
+  EXPECT_EQ(page["scene"], nlohmann::json::parse(scene_to_json(scene_)));
+  EXPECT_EQ(page["vessels"].size(), 1U);
 }
 
 TEST_F(AccuracyPage, TimesAreInTheirOwnFileAndShownByThePage) {

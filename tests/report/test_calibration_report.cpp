@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "report/calibration_page.hpp"
+#include "scene/scene_json.hpp"
 #include "support/made_up_calibration.hpp"
 
 namespace vibrosow {
@@ -65,6 +66,8 @@ TEST_F(CalibrationPage, SaysTheValuesAndHowWellTheHeldOutOnesArePredicted) {
       "Fitted to table.csv: contact.friction 0.4 (0.3 to 0.5), contact.restitution 0.5 (0.3 to 0.8), depth_factor "
       "20 (18 to 22). What was held out is predicted to 2 % (RMS).");
   EXPECT_TRUE(data()["doubts"].empty());
+  EXPECT_EQ(data()["scene"], nlohmann::json::parse(scene_to_json(Scene{})));
+  EXPECT_EQ(data()["vessels"].size(), 1U);
   calibration_.misfit_probability = 0.001;
   EXPECT_THAT(data()["doubts"][0].get<std::string>(), testing::StartsWith("Doubtful: the model nowhere meets"));
   calibration_.held_out_rms = std::nullopt;

@@ -1,6 +1,7 @@
 #include "report/study_page.hpp"
 
 #include "page_data.hpp"
+#include "scene/scene_json.hpp"
 
 namespace vibrosow {
 namespace {
@@ -83,6 +84,8 @@ TEST_F(DecisionPage, LayoutsStandAsTheDecisionFoundThem) {
   const auto layouts = data()["layouts"];
   EXPECT_EQ(layouts[2]["note"], "hole 3 lies beyond the rim");
   EXPECT_TRUE(layouts[2]["vessels"].empty());
+  EXPECT_FALSE(layouts[2].contains("scene"));
+  EXPECT_EQ(layouts[1]["scene"], nlohmann::json::parse(scene_to_json(report_.result.study.scenes[1])));
   EXPECT_EQ(layouts[1]["replicates"], 8);
   EXPECT_EQ(layouts[1]["means"]["rate_g_per_s"], nlohmann::json({{"mean", 2.0}, {"half_width", 0.1}}));
   EXPECT_EQ(layouts[1]["means"]["clogged_percent"]["mean"], 25.0);
@@ -96,8 +99,12 @@ TEST_F(DecisionPage, TheGoalIsTheFigureThatIsJudged) {
   EXPECT_EQ(figures[0]["wanted"], "high");
   EXPECT_EQ(figures[0]["judged"], true);
   EXPECT_FALSE(figures[1].contains("judged"));
+  EXPECT_EQ(data()["wanted"]["figure"], "tray_rate_g_per_s");
+  EXPECT_NEAR(data()["wanted"]["low"].get<double>(), 10, 1e-12);
+  EXPECT_NEAR(data()["wanted"]["high"].get<double>(), 20, 1e-12);
   report_.result.options.rate = std::nullopt;  // the rate shown is then the goal itself
   EXPECT_EQ(data()["figures"].size(), 2U);
+  EXPECT_FALSE(data().contains("wanted"));
 }
 
 TEST_F(DecisionPage, TimeIsOfRunsThatWereMadeNow) {

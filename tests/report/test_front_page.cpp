@@ -68,7 +68,7 @@ TEST_F(FrontPage, LayoutsHaveTheirGoalsInTheirUnits) {
   EXPECT_FALSE(layouts[2].contains("means"));
   EXPECT_TRUE(layouts[0]["at_edge"].empty());
   result_.layouts[0].at_edge = {"tray.motion.frequency"};
-  EXPECT_EQ(data()["layouts"][0]["at_edge"], nlohmann::json({0})) << "the places of its keys";
+  EXPECT_EQ(data()["layouts"][0]["at_edge"], nlohmann::json::array({0})) << "the places of its keys";
 }
 
 TEST_F(FrontPage, ReplaysAreOfThoseThatLead) {
@@ -91,6 +91,7 @@ TEST_F(FrontPage, GoalsAreMarkedAndSayWhatIsWanted) {
   EXPECT_EQ(figures[1]["wanted"], "low");
   EXPECT_EQ(figures[1]["goal"], true);
   EXPECT_FALSE(figures[2].contains("goal"));
+  EXPECT_EQ(data().contains("wanted"), result_.options.rate.has_value());
 }
 
 }  // namespace

@@ -46,7 +46,7 @@ TEST(Page, AFloorHasItsRoundHolesAsRoundHoles) {
   const auto floor = std::ranges::find_if(faces, [](const nlohmann::json& face) { return face.contains("holes_mm"); });
   ASSERT_NE(floor, faces.end());
   const nlohmann::json& hole = (*floor)["holes_mm"][0];
-  const auto at = [&](int axis) {
+  const auto at = [&](std::size_t axis) {
     return (*floor)["at_mm"][axis].get<double>() + hole[0].get<double>() * (*floor)["e1"][axis].get<double>() +
            hole[1].get<double>() * (*floor)["e2"][axis].get<double>();
   };
@@ -88,7 +88,7 @@ TEST(Page, APathFollowsTheShakeBetweenItsPlaces) {
   for (double time = 0; time < 1; time += 0.0037) {
     const auto k = static_cast<std::size_t>(time / step);
     const double part = time / step - static_cast<double>(k);
-    const auto between = [&](int axis) {
+    const auto between = [&](std::size_t axis) {
       return (1 - part) * path["at"][k][axis].get<double>() + part * path["at"][k + 1][axis].get<double>();
     };
     EXPECT_NEAR(between(0), 20 + 1e3 * vessel_pose(scene.tray, time).displacement.x(), 0.01 * 4) << time;

@@ -2,7 +2,9 @@
 
 #include <gmock/gmock.h>
 
+#include <map>
 #include <nlohmann/json.hpp>
+#include <string>
 
 namespace vibrosow {
 namespace {
@@ -62,6 +64,19 @@ TEST_F(RunPageData, DoubtsSayHowSeriousTheyAreAndWhatToDo) {
   EXPECT_THAT(data()["remarks"].get<std::vector<std::string>>(),
               ElementsAre(doubt_sentence(Doubt{DoubtKind::guard_warned, "the relative overlap passed 0.05"})));
   EXPECT_THAT(data()["remarks"][0].get<std::string>(), testing::MatchesRegex("Doubtful: .* What to do: .*"));
+}
+
+TEST_F(RunPageData, SettingsAreWrittenAsAllNumbersAre) {
+  run.steps = 123456;
+  scene.contact.shell_compression = 3e-5;
+  std::map<std::string, std::string> settings;
+  const nlohmann::json page = data();
+  for (const nlohmann::json& one : page["settings"]) settings[one["name"].get<std::string>()] = one["value"];
+  EXPECT_EQ(settings["shell compression"], "0.00003");
+  EXPECT_EQ(settings["time step"], "10 \u00b5s");
+  EXPECT_EQ(settings["steps"], "123\u202f456");
+  EXPECT_EQ(settings["seeds put in"], "1000");
+  EXPECT_EQ(page["hole_table"]["rows"][0][2], "100");
 }
 
 TEST_F(RunPageData, WhatCanHardlyBeMeantIsADoubtToo) {

@@ -55,6 +55,7 @@ test('an accuracy study: the recommendation, the diagram and the settings', () =
   assert.equal(await open.locator('.headline').textContent(), 'The cheapest setting shown to be within 1 % is setting 2.');
   assert.match(await open.locator('.remarks').textContent(), /as a plane\..*Setting 5 gave no rate/);
   await assertDrawn(open, '#precision');
+  assert.match(await open.locator('.tray-card + .inputs').textContent(), /Shaking5 Hz/);
   assert.match(await open.locator('#precision .chart').getAttribute('aria-label'), /the quickest, setting 2/);
   const cells = await open.locator('#levels tbody tr').nth(1).locator('td').allTextContents();
   assert.deepEqual(cells.slice(1, 5), ['recommended', '-0.30 ± 0.40', '0.9', '11.97 ± 0.10']);
@@ -63,10 +64,14 @@ test('an accuracy study: the recommendation, the diagram and the settings', () =
   await assertReadsWell(open);
 }));
 
-test('a calibration by curves: one at a time, with its residuals', () => withPage(madeUpCalibration(true), { bypass: true }, async (open) => {
+test('a calibration by curves: all in one chart or one at a time, with residuals', () => withPage(madeUpCalibration(true), { bypass: true }, async (open) => {
   await assertDrawn(open, '#fit');
   assert.equal(await open.locator('#fit .chart').count(), 2);
-  assert.match(await open.locator('#fit-sentence').textContent(), /4 of 5 held out values/);
+  assert.match(await open.locator('.tray-card + .inputs').textContent(), /Shaking5 Hz/);
+  assert.match(await open.locator('#fit-sentence').textContent(), /30 of 30 fitted values and 8 of 10 held out values/);
+  assert.equal(await open.locator('#fit .chart').first().locator('.line').count(), 2);
+  assert.deepEqual(await open.locator('#fit .legend-item:has(.marker)').allTextContents(), ['tray.motion.frequency = 9 Hz, hole 1', 'tray.motion.frequency = 9 Hz, hole 2']);
+  assert.equal(await open.locator('#fit .chart').first().locator('.point-mark').count(), 40);
   await open.getByRole('combobox', { name: 'Curve' }).selectOption('tray.motion.frequency = 9 Hz, hole 2');
   await assertDrawn(open, '#fit');
   assert.equal(await open.locator('#parameters li').count(), 3);
@@ -74,7 +79,10 @@ test('a calibration by curves: one at a time, with its residuals', () => withPag
   assert.match(await open.locator('#parameters li').first().textContent(), /not told apart from contact.rolling_friction/);
   assert.match(await open.locator('#parameters li').nth(1).textContent(), /at the upper end of its range: it may lie beyond/);
   assert.equal(await open.locator('#parameters .edge').count(), 1);
+  assert.match(await open.locator('#fit-sentence').textContent(), /4 of 5 held out values/);
+  assert.equal(await open.locator('#fit .chart').first().locator('.line').count(), 1);
   await assertDrawn(open, '#pairs');
+  assert.match(await open.locator('#pairs figcaption').textContent(), /ends of the ranges/);
   assert.match(await open.locator('#pairs .lead').textContent(), /^1 of 2 pairs is not told apart/);
   await assertReadsWell(open);
 }));
@@ -82,6 +90,7 @@ test('a calibration by curves: one at a time, with its residuals', () => withPag
 test('a calibration by rates: all of them in one chart', () => withPage(madeUpCalibration(false), { bypass: true }, async (open) => {
   await assertDrawn(open, '#fit');
   assert.equal(await open.getByRole('combobox', { name: 'Curve' }).count(), 0);
+  assert.equal(await open.locator('#fit .chart').first().locator('.point-mark').count(), 8);  // of 4 values what is measured and what is fitted
   assert.equal(await open.locator('#fit-sentence').textContent(), 'Within their 95 % intervals lie 3 of 3 fitted values and 1 of 1 held out values.');
   await in_.assertAccessible(open);
 }));

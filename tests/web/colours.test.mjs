@@ -89,7 +89,7 @@ for (const theme of themes) {
 
   test(`what is no text is seen on paper and card, ${theme}`, () => {
     const { paper, card, ...rest } = variables[theme];
-    const seen = [...['accent', 'bar', 'edge', 'wall', 'control', 'chain'].map((name) => [name, rest[name]]), ...Array.from({ length: listColours }, (_, k) => [`list ${k}`, listColour(k, theme)])];
+    const seen = [...['accent', 'bar', 'edge', 'wall', 'control', 'chain', 'good'].map((name) => [name, rest[name]]), ...Array.from({ length: listColours }, (_, k) => [`list ${k}`, listColour(k, theme)])];
     for (const [name, colour] of seen) {
       for (const below of [paper, card]) assert.ok(contrast(colour, below) >= leastContrast, `${name} ${colour} on ${below}: ${contrast(colour, below).toFixed(2)}`);
     }

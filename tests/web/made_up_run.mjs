@@ -148,6 +148,17 @@ function holeFigures(events, count) {
   });
 }
 
+/** What a page reads of a scene, as the program writes it. */
+export function sceneOf(title, [ball, joined], count) {
+  const motion = { kind: 'harmonic', direction_rad: 0, amplitude_m: amplitude, frequency_hz: frequency, phase_rad: 0 };
+  return {
+    title,
+    lots: [{ name: ball, diameter_m: 4.4e-3, mass_kg: 4e-5, shape: 'ball', number_fraction: 2 / 3 },
+      { name: joined, diameter_m: 2 * reach, mass_kg: 2.5e-5, shape: 'clump', number_fraction: 1 / 3, discs: clump.map(({ x_mm: x, radius_mm: radius }) => ({ x_m: x / 1000, y_m: 0, radius_m: radius / 1000 })) }],
+    tray: { motion, fill: { count, packing: 'poured', keep: false }, rain: null }, hopper: { motion: null, fill: { count: 90, packing: 'poured', keep: true }, rain: null }, run: { duration_s: duration },
+  };
+}
+
 /** data and recording of a run; `names` may replace texts: { title, lots }, and { version } of the recording: 1 has no forces. */
 export function madeUpRun(space, names = {}) {
   const inSpace = space === 'three_dimensional';
@@ -184,7 +195,7 @@ export function madeUpRun(space, names = {}) {
     guard: 'The guard watched energy and overlap and found nothing.',
     settings: [{ name: 'step', value: '11.6 µs' }, { name: 'scheme', value: 'velocity Verlet' }, { name: 'law', value: 'elastic shell' }, { name: 'random seed', value: '1' }, { name: 'results version', value: '12' }],
     drill: inSpace ? { rows: [1, 2, 3].map((row) => ({ row, kg_per_ha: 180 + row, low: 170 + row, high: 190 + row })), sentence: 'At 8 km/h the drill sows 182 kg/ha.' } : null,
-    scene: { title: names.title ?? 'A made-up run', lots: lots.map((name) => ({ name })), run: { duration_s: duration } },
+    scene: sceneOf(names.title ?? 'A made-up run', lots, all.length),
   };
   return { data, recording };
 }

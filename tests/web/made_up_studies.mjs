@@ -24,7 +24,7 @@ export function madeUpDecision(space, { isSure = true, ...names } = {}) {
   return {
     data: {
       ...data, kind: 'decision', layouts, asked, cost, confidence: 'confidence of 95 %', figures: [{ ...rate, judged: true }, clogged],
-      headline: 'Layout 11 is the best: rate 13.4 ± 0.9 g/s.', doubts: ['That is no guarantee.', 'Layout 4 failed: hole 3 lies beyond the rim.'],
+      wanted: { figure: 'rate_g_per_s', low: 12, high: 16 }, headline: 'Layout 11 is the best: rate 13.4 ± 0.9 g/s.', doubts: ['That is no guarantee.', 'Layout 4 failed: hole 3 lies beyond the rim.'],
     },
     recording: null,
   };

@@ -1,5 +1,5 @@
 // Sweeps made up for tests of the page: trays with more or fewer holes, shaken faster or slower.
-import { madeUpRun } from './made_up_run.mjs';
+import { madeUpRun, sceneOf } from './made_up_run.mjs';
 
 const program = { name: 'vibrosow', version: '0.2.0' };
 const length = 300, height = 60, depth = 60;  // mm, of the tray
@@ -50,7 +50,7 @@ function layoutOf(number, inSpace, name) {
     means: ran ? values : Object.fromEntries(figures.map((figure) => [figure.name, null])), misfit_percent: null,
     ...(inSpace && status === 'ok' ? { expected: `${rate.toPrecision(2)} g/s, expect ${(rate / 2).toPrecision(2)} to ${(2 * rate).toPrecision(2)} g/s until you weigh (95 %); of it chance 5 %, model 54 %` } : {}),
     holes: ran ? holePlaces(count).map((_, k) => ({ hole: String(k + 1), lot: 'wheat', seeds_per_s: mean((30 * rate) / count + 3 * k, 4), g_per_s: mean(rate / count + 0.1 * k, 0.13), longest_pause_s: mean(0.1 + 0.02 * k, null) })) : [],
-    vessels: ran ? vesselsOf(count, tilt, inSpace) : [],
+    vessels: ran ? vesselsOf(count, tilt, inSpace) : [], ...(ran ? { scene: sceneOf('A tray', ['wheat', 'oat'], 100 + number) } : {}),
   };
 }
 

@@ -19,6 +19,23 @@ for (const space of ['plane', 'three_dimensional']) {
     before(async () => { page = await openMade(run); });
     after(() => assert.deepEqual(page.complaints, []));
 
+    test('the first screen holds the answer, its doubts, and the tray with its dimensions and in words', async () => {
+      const { data } = run, inSpace = space !== 'plane';
+      for (const part of ['.headline', '.light', '.tray-card', '.inputs']) {
+        const { y, height } = await page.locator(part).first().boundingBox();
+        assert.ok(y >= 0 && y + height <= 800, `${part} from ${y} px, ${height} px high`);
+      }
+      const names = await page.locator('.tray-card .drawing').evaluateAll((drawings) => drawings.map((drawing) => drawing.getAttribute('aria-label')));
+      assert.deepEqual(names, ['The tray from the side, to scale: holes 1, 2 and 3', ...(inSpace ? ['The tray from above, to scale; the front is below'] : [])]);
+      const [tray] = data.vessels, gap = '45';  // mm, from the floor to the hopper
+      assert.deepEqual(await page.locator('.tray-card .dimension text').allTextContents(),
+        [...(inSpace ? ['40', '2 × 40', '40'] : ['60', '2 × 90', '60']), String(tray.length_mm), '60', inSpace ? '⌀ 12' : '12', gap, ...(inSpace ? ['50'] : [])]);
+      const terms = await page.locator('.inputs dt').allTextContents();
+      assert.deepEqual(terms, ['Mixture', 'Holes', 'Shaking', 'Level of seeds', 'Tray']);
+      const order = await page.evaluate(() => [...document.querySelectorAll('h1, .headline, .light, .tray-card, main > section')].map(({ className, tagName }) => className.split(' ')[0] || tagName));
+      assert.deepEqual(order.slice(0, order.indexOf('SECTION')), ['H1', ...Array(inSpace ? 3 : 1).fill('headline'), 'light', 'tray-card']);
+    });
+
     test("play moves on, and the counters end at the run's counts", async () => {
       const last = Number(await page.getAttribute('#replay-frame', 'max'));
       await in_.scrubTo(page, last - 8);
@@ -138,6 +155,55 @@ test('a press on the chart moves the replay', () => withPage(madeUpRun('plane'),
   await page.waitForFunction(() => Math.abs(Number(document.querySelector('#replay-canvas').dataset.frame) - 75) <= 1);
 }));
 
+// Rules for the boxes in the margins of paper, by where they are.
+const margins = () => Object.fromEntries([...document.styleSheets].flatMap((sheet) => [...sheet.cssRules]).filter((rule) => rule.type === CSSRule.PAGE_RULE)
+  .flatMap((rule) => [...rule.cssRules]).map((rule) => [rule.name, rule.style.content]));
+
+test('on paper every sheet has its heading and number, tables have their heads, and no word is broken', () => {
+  const run = madeUpRun('plane', { title: 'A "tray" \\' });
+  return withPage(run, {}, async (page) => {
+    assert.deepEqual(await page.evaluate(margins), { 'top-left': '"A \\"tray\\" \\\\"', 'top-right': '"Run in 2D"', 'bottom-left': '"Written by vibrosow 0.2.0"', 'bottom-right': 'counter(page) " / " counter(pages)' });
+    await page.emulateMedia({ media: 'print' });
+    const look = (selector, what) => page.$$eval(selector, (nodes, name) => [...new Set(nodes.map((node) => getComputedStyle(node)[name]))], what);
+    assert.deepEqual(await look('thead', 'display'), ['table-header-group']);
+    assert.deepEqual(await look('th, td', 'overflowWrap'), ['normal']);
+    assert.deepEqual(await look('p, dd, h2', 'overflowWrap'), ['break-word']);
+    assert.deepEqual(await look('footer, .controls', 'display'), ['none']);
+    const pdf = await page.pdf({ format: 'A4', preferCSSPageSize: true });
+    assert.ok(pdf.toString('latin1').match(/\/Type \/Page\b/g).length > 1);
+  });
+});
+
+test('a table that is wider than its place has a shadow where it goes on', () => withPage(madeUpRun('plane'), { viewport: { width: 390, height: 844 } }, async (page) => {
+  const frame = page.locator('#outflow .table-frame');
+  await frame.scrollIntoViewIfNeeded();
+  assert.ok(await frame.evaluate((node) => node.scrollWidth > node.clientWidth + 40));
+  // The darkest pixel of a strip at either end, where no text is: between the first two rows.
+  const strips = async () => {
+    const { x, y, width } = await frame.evaluate((node) => {
+      const { left, width: all } = node.getBoundingClientRect();
+      return { x: left, y: node.querySelector('thead').getBoundingClientRect().top + 2, width: all };
+    });
+    const darkest = async (left) => {
+      const png = await page.screenshot({ clip: { x: left, y, width: 6, height: 4 } });
+      return page.evaluate(async (base64) => {
+        const picture = new Image();
+        picture.src = `data:image/png;base64,${base64}`;
+        await picture.decode();
+        const context = Object.assign(document.createElement('canvas'), { width: 6, height: 4 }).getContext('2d');
+        context.drawImage(picture, 0, 0);
+        return Math.min(...context.getImageData(0, 0, 6, 4).data.filter((_, k) => k % 4 === 0));
+      }, png.toString('base64'));
+    };
+    return [await darkest(x), await darkest(x + width - 6)];
+  };
+  const [left, right] = await strips();
+  assert.ok(right < left - 20, `${left} at the left, ${right} at the right`);
+  await frame.evaluate((node) => { node.scrollLeft = node.scrollWidth; });
+  const [later, end] = await strips();
+  assert.ok(later < end - 20, `${later} at the left, ${end} at the right`);
+}));
+
 test('hostile names stay text', () => withPage(madeUpRun('plane', { title: hostile, lots: [hostile, `${hostile}2`] }), {}, async (page) => {
   assert.equal(await page.locator('h1').textContent(), hostile);
   assert.match(await page.locator('#replay-legend').textContent(), /onerror=alert\(1\)>2/);
@@ -145,7 +211,21 @@ test('hostile names stay text', () => withPage(madeUpRun('plane', { title: hosti
   assert.equal(await page.locator('img').count(), 0);
 }));
 
+test('how it was computed is folded until one asks, and open on paper', () => withPage(madeUpRun('plane'), { bypass: true }, async (page) => {
+  const effect = page.getByText('seeds and walls rub');
+  assert.equal(await effect.isVisible(), false);
+  assert.match(await page.locator('#computed summary').first().textContent(), /scheme velocity Verlet/);
+  await page.evaluate(() => dispatchEvent(new Event('beforeprint')));
+  await effect.waitFor();
+  await page.evaluate(() => dispatchEvent(new Event('afterprint')));
+  await effect.waitFor({ state: 'hidden' });
+  await page.locator('#computed summary').first().click();
+  await effect.waitFor();
+  await in_.assertAccessible(page);
+}));
+
 test('the scene is there to read and to save', () => withPage(madeUpRun('plane'), {}, async (page) => {
+  await page.locator('#computed summary').first().click();
   await page.getByText('The whole scene').click();
   const [download] = await Promise.all([page.waitForEvent('download'), page.getByText('Save the scene').click()]);
   const saved = JSON.parse(readFileSync(await download.path(), 'utf8'));
@@ -179,3 +259,19 @@ test('a remark that the guard and the outflow both make is shown once', () => {
     assert.deepEqual(await open.locator('.remarks li').allTextContents(), ['The overlap passed 0.05.', 'Another.']);
   });
 });
+
+for (const [remarks, status, level, said] of [
+  [[], 'finished', 'none', []],
+  [['Note: few seeds. What to do: run longer.'], 'finished', 'mild', ['Few seeds. What to do: run longer.']],
+  [['Note: few seeds. What to do: run longer.'], 'interrupted', 'serious', ['Doubtful: Interrupted at 2 s.', 'Few seeds. What to do: run longer.']],
+]) {
+  test(`the light of a run that ${status} with ${remarks.length} remarks: ${level}`, () => {
+    const run = madeUpRun('plane');
+    return withPage({ ...run, data: { ...run.data, remarks, status } }, { bypass: true }, async (open) => {
+      assert.equal(await open.locator('.light').count(), 1);
+      assert.equal(await open.locator(`.light.${level} .light-words .lamp`).count(), 1);
+      assert.deepEqual(await open.locator('.light .remarks li').allTextContents(), said);
+      await in_.assertAccessible(open);
+    });
+  });
+}

@@ -6,6 +6,7 @@ import { layerScale, listColour, mix, speedScale } from '../../web/report/colour
 import { Counters } from '../../web/report/counters.mjs';
 import { axisScale, duration, force, list, niceAbove, number, plusMinus, sentence } from '../../web/report/format.mjs';
 import { floorAt, toLab, toOwn, wallsSeenFrom } from '../../web/report/geometry.mjs';
+import { lightOf } from '../../web/report/light.mjs';
 import { mapOfTray } from '../../web/report/tray_map.mjs';
 import { mapSentence, packingSentence, velocitySentence } from '../../web/report/map_sentences.mjs';
 import { outflowSentence } from '../../web/report/outflow_sentence.mjs';
@@ -143,4 +144,11 @@ test('what is missing or null in the data is empty', () => {
   const sweep = readPageData('{"kind": "sweep", "layouts": [{"number": 3, "means": null}]}');
   assert.deepEqual([sweep.keys, sweep.layouts[0].means, sweep.layouts[0].vessels], [[], {}, []]);
   assert.throws(() => readPageData('{"kind": "letter"}'), /of the kind "letter"/);
+});
+
+test('one light gathers all doubts, the serious ones first', () => {
+  assert.deepEqual(lightOf([]), { level: 'none', words: 'No doubt is known', all: [] });
+  assert.deepEqual(lightOf(['that is no guarantee', 'That is no guarantee.']), { level: 'mild', words: 'No serious doubt, but 1 note', all: ['That is no guarantee.'] });
+  const both = lightOf(['Note: few seeds. What to do: run longer.', 'Doubtful: ran dry. What to do: measure before.', 'Layout 4 failed.']);
+  assert.deepEqual([both.level, both.words, both.all[0]], ['serious', 'Doubtful: 1 serious doubt and 2 notes', 'Doubtful: ran dry. What to do: measure before.']);
 });

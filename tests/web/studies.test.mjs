@@ -35,6 +35,8 @@ test('a decision: the answer, its doubts, and the layouts as they stand', () => 
     /^By rate layout 11 .* is the best: .* g\/s; of the others \d+ (is|are) not shown to be worse, \d+ are worse and \d+ are not compared\.$/);
   await open.getByRole('heading', { name: 'Layout 11', exact: true }).waitFor();
   assert.equal(await open.locator('#layout .standing').textContent(), 'Best.');
+  assert.equal(await open.getByRole('textbox', { name: 'Wanted rate from, g/s' }).inputValue(), '12');
+  assert.equal(await open.locator('#ranking .ranks li').first().locator('.wanted-line').count(), 2);
   assert.match(await open.locator('#question').textContent(), /confidence of 95 %.*Cost: 120 runs.*took 31.2 s/);
   await assertReadsWell(open);
 }));
@@ -57,12 +59,13 @@ test('a front: the points as they stand, with the intervals of those that lead',
   }
   assert.equal(await open.locator('#trade .cross').count(), numbersOf(made, 'on the front').length + 1);
   assert.match(await open.locator('#trade-sentence').textContent(), /^For a high rate and a low power, no layout beats /);
+  assert.equal(await open.locator('#trade .filter').getByRole('combobox', { name: 'Only count' }).count(), 1);
   const point = open.locator('#trade circle.dominated').first();
   const number = Number(await point.getAttribute('data-layout'));
   await point.focus();
   await open.keyboard.press('Enter');
   await open.getByRole('heading', { name: `Layout ${number}`, exact: true }).waitFor();
-  assert.equal(await open.locator('#layout .standing').textContent(), 'Dominated.');
+  assert.match(await open.locator('#layout .standing').textContent(), /^Dominated\. Layout \d+ beats it by the means, rate .* against .* and power /);
   assert.equal(await open.locator('#layout .drawing').count(), 2);
   await assertReadsWell(open);
 }));
@@ -94,6 +97,7 @@ test('a value at the end of its range is marked, in the table and of the chosen 
   assert.equal(await open.locator('#layouts .at-edge').count(), 1);
   assert.match(await open.locator('#layout .settings').textContent(), /frequency6 Hz, the end of its range/);
   assert.match(await open.locator('#layouts').textContent(), /⊣: at the end of the range that was searched; better ones may lie beyond\./);
+  assert.match(await open.locator('.light.mild .remarks').textContent(), /Layout 7 leads at the end of the range of frequency: better ones may lie beyond\./);
 }));
 
 test('an interval that goes on beyond the diagram ends in an arrow', () => {

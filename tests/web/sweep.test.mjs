@@ -26,7 +26,7 @@ async function assertShown(open, number) {
   const layout = plane.data.layouts[number - 1];
   const label = await open.locator('#layout .drawing').first().getAttribute('aria-label');
   assert.ok(label.startsWith(`Layout ${number} from the side`), label);
-  assert.deepEqual(await open.locator('#layout .drawing text').allTextContents(), [...layout.holes.map(({ hole }) => hole), '50 mm']);
+  assert.deepEqual(await open.locator('#layout .drawing > text').allTextContents(), layout.holes.map(({ hole }) => hole));
   assert.equal(await open.locator('#layout .hole-bars .track').count(), layout.holes.length);
 }
 
@@ -44,6 +44,14 @@ test('the layouts stand in the order of the rate, those that are not ok last and
   assert.match(await page.locator('#ranking-sentence').textContent(), new RegExp(`^By rate layout ${shown[0]} .* ${alike.length} others are not told apart from it`));
   await page.getByRole('button', { name: 'Show the first 30' }).click();
   assert.equal((await numbersIn(page, '#ranking .ranks button')).length, 30);
+});
+
+test('the first screen has the layout that is first, drawn and in words', async () => {
+  const [first] = await numbersIn(page, '#ranking .ranks button');
+  const card = page.locator('.tray-card');
+  assert.match(await card.locator('h2').textContent(), new RegExp(`^Layout ${first} \\(.*\\): the highest rate$`));
+  assert.ok((await card.locator('.drawing').getAttribute('aria-label')).startsWith(`Layout ${first} `));
+  assert.match(await page.locator('.inputs').textContent(), new RegExp(`Mixture.*Shaking5 Hz, 8 mm.*Level of seeds${100 + first} seeds`));
 });
 
 test('least first, and another figure', async () => {
@@ -74,6 +82,7 @@ test('a press on a row, on a point, and the enter key choose a layout; the addre
 test("a layout's figures and its drawing are those of the data", async () => {
   await page.getByRole('button', { name: 'Show layout 8', exact: true }).click();
   await assertShown(page, 8);
+  assert.deepEqual(await page.locator('#layout .dimension text').allTextContents(), ['50', '4 × 50', '50', '300', '60', '12', '40']);  // 5 holes, and a closed hopper 40 mm over the floor
   const { means } = plane.data.layouts[7];
   const values = await page.locator('#layout .figures .value').allTextContents();
   assert.equal(values[0], `${means.rate_g_per_s.mean.toFixed(2)} ± ${means.rate_g_per_s.half_width.toFixed(2)} g/s`);
@@ -177,6 +186,56 @@ test('a sweep without figures still shows its table', () => withPage({ data: { .
   assert.equal(await open.locator('#layouts tbody tr').count(), 2);
   assert.equal(await open.locator('#ranking').count(), 0);
   await open.getByText('It has no figures.').waitFor();
+}));
+
+// Every combination of two counts, two frequencies and two tilts, and a ninth layout that is the first once more.
+function factorial() {
+  const made = madeUpSweep('plane', 8);
+  const layouts = made.data.layouts.map((layout, k) => ({ ...layout, number: k + 1, status: 'ok', note: '', values: [k < 4 ? '3' : '5', k % 4 < 2 ? '7' : '9', String(k % 2)], vessels: made.data.layouts[0].vessels,
+    means: { ...made.data.layouts[0].means, rate_g_per_s: { mean: 10 + k, half_width: 0.5 } } }));
+  return { ...made, data: { ...made.data, layouts: [...layouts, { ...layouts[0], number: 9, values: ['3', '7', '2'] }] } };
+}
+
+test('a study of every combination: the map, what each choice does, the wanted rate and the filter', () => {
+  const made = factorial();
+  made.data.layouts.pop();
+  return withPage(made, { bypass: true }, async (open) => {
+    assert.equal(await open.locator('#effects-sentence').textContent(), 'Rate depends most on count: 11.5 to 15.5 g/s in the mean; least on tilt: 13 to 14 g/s in the mean.');
+    assert.deepEqual(await open.locator('.heat-map td').allTextContents(), ['10.5', '12.5', '14.5', '16.5']);
+    assert.deepEqual(await open.locator('.effect-bars li:not(.hole-head) > :first-child').allTextContents(), ['count 3', 'count 5', 'frequency 7 Hz', 'frequency 9 Hz', 'tilt 0°', 'tilt 1°']);
+    const shades = await open.locator('.heat-map td').evaluateAll((cells) => cells.map((cell) => getComputedStyle(cell).backgroundColor));
+    assert.equal(new Set(shades).size, 4);
+    await open.getByRole('textbox', { name: 'Wanted rate from, g/s' }).fill('12');
+    await open.getByRole('textbox', { name: 'Wanted rate to, g/s' }).fill('15');
+    assert.deepEqual(await open.locator('.heat-map .as-wanted').allTextContents(), ['12.5', '14.5']);
+    assert.equal(await open.locator('#ranking .ranks li').first().locator('.wanted-line').count(), 2);
+    assert.equal((await open.locator('#trade .wanted-line').getAttribute('d')).match(/M/g).length, 2);
+    await open.getByRole('checkbox', { name: 'Only layouts with it' }).check();
+    assert.equal(await open.locator('#filter-sentence').textContent(), '4 of 8 layouts are shown.');
+    assert.deepEqual((await numbersIn(open, '#layouts tbody tr')).sort(), [3, 4, 5, 6]);
+    await open.getByRole('combobox', { name: 'Only count' }).selectOption('5');
+    assert.deepEqual((await numbersIn(open, '#layouts tbody tr')).sort(), [5, 6]);
+    assert.deepEqual((await numbersIn(open, '#trade circle[role]')).sort(), [5, 6]);
+    await open.getByRole('combobox', { name: 'Only frequency' }).selectOption('9 Hz');
+    assert.equal(await open.locator('#layouts tbody tr').count(), 0);
+    await in_.assertAccessible(open);
+    for (const name of ['Only count', 'Only frequency']) await open.getByRole('combobox', { name }).selectOption('any');
+    await open.getByRole('checkbox', { name: 'Only layouts with it' }).uncheck();
+    await open.getByRole('combobox', { name: 'Down' }).selectOption('tilt');
+    assert.equal(await open.locator('.heat-map caption').textContent(), 'rate, g/s by tilt and frequency');
+    await in_.assertAccessible(open);
+    await open.emulateMedia({ colorScheme: 'dark' });
+    await open.waitForSelector('html[data-theme="dark"]');
+    await open.setViewportSize({ width: 390, height: 844 });
+    await in_.assertAccessible(open);
+    await in_.assertNoSidewaysScrolling(open);
+  });
+});
+
+test('layouts that are the same have one row, which the address of each opens', () => withPage(factorial(), { hash: '#layout=9' }, async (open) => {
+  await open.getByRole('heading', { name: 'Layout 1 = 9', exact: true }).waitFor();
+  assert.equal(await open.locator('#layouts tbody tr').count(), 8);
+  assert.equal(await open.locator('#layouts tr[data-chosen] th').textContent(), '1 = 9');
 }));
 
 test('nothing of all that was complained of', () => assert.deepEqual(page.complaints, []));

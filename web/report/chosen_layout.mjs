@@ -20,7 +20,7 @@ export class ChosenLayout {
 
   read() {
     const asked = numberIn(location.hash);
-    this.number = this.layouts.some((layout) => layout.number === asked) ? asked : this.otherwise;
+    this.number = this.layouts.find(({ number, same = [] }) => number === asked || same.some((twin) => twin.number === asked))?.number ?? this.otherwise;
   }
 
   get layout() {

@@ -51,6 +51,18 @@ export function listChoice(title, options, chosen, change) {
   return element('label', { class: 'list-choice' }, element('span', {}, title), list);
 }
 
+/** What is folded under a summary until the reader opens it; on paper it is open. */
+export function folded(summary, ...children) {
+  const frame = element('details', { class: 'card folded' }, element('summary', {}, summary), ...children);
+  let wasOpen = false;
+  addEventListener('beforeprint', () => {
+    wasOpen = frame.open;
+    frame.open = true;
+  });
+  addEventListener('afterprint', () => { frame.open = wasOpen; });
+  return frame;
+}
+
 /** A section of the page with its heading. */
 export function section(id, title, ...children) {
   return element('section', { id, 'aria-labelledby': `${id}-title` }, element('h2', { id: `${id}-title` }, title), ...children);
@@ -58,7 +70,8 @@ export function section(id, title, ...children) {
 
 /** A table that scrolls by itself where it is too wide; `columns`: [{ name, unit }], `rows`: texts. */
 export function table(caption, columns, rows) {
-  const numeric = columns.map((_, k) => k > 0 && rows.every((row) => !row[k] || Number.isFinite(Number(row[k]))));
+  const isNumber = (text) => Number.isFinite(Number(text.replaceAll('\u202f', '')));  // between thousands
+  const numeric = columns.map((_, k) => k > 0 && rows.every((row) => !row[k] || isNumber(row[k])));
   const align = (k) => (numeric[k] ? 'number' : null);
   const head = columns.map(({ name, unit }, k) => element('th', { scope: 'col', class: align(k) }, name,
     unit ? element('span', { class: 'unit' }, ` ${unit}`) : null));

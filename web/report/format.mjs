@@ -23,6 +23,11 @@ export function number(value, digits = 3) {
   return text.includes('.') ? text.replace(/\.?0+$/, '') : text;
 }
 
+/** A length in mm: to a tenth of a millimetre, or finer where it is short. */
+export function millimetres(mm) {
+  return number(mm, Math.abs(mm) < 100 ? 3 : 4);
+}
+
 /** Seconds in the unit that suits them. */
 export function duration(seconds) {
   if (seconds === null || seconds === undefined || !Number.isFinite(seconds)) return '–';

@@ -23,10 +23,10 @@ export function trackAxis(scale) {
 }
 
 /**
- * `band`: { low, high }, shaded over the track's height, or null. `bar`: the value as a bar from the left, else as a point. `edge`:
+ * `wanted`: { low, high }, a line at each end, or null. `band`: { low, high }, shaded over the track's height, or null. `bar`: the value as a bar from the left, else as a point. `edge`:
  * "lower" or "upper", the end of the scale that is marked.
  */
-export function intervalTrack(scale, { value, low, high, below }, { band = null, bar = false, edge = '' } = {}) {
+export function intervalTrack(scale, { value, low, high, below }, { band = null, bar = false, edge = '', wanted = null } = {}) {
   const at = (x) => `left:${percent(scale, x)}%`;
   const span = (from, to) => `${at(from)};width:${percent(scale, to) - percent(scale, from)}%`;
   const hasInterval = low !== null && high !== null;
@@ -34,6 +34,7 @@ export function intervalTrack(scale, { value, low, high, below }, { band = null,
     band && band.low !== null && band.high !== null ? element('span', { class: 'band', style: span(band.low, band.high) }) : null,
     bar ? element('span', { class: 'bar', style: span(0, value) }) : null,
     edge ? element('span', { class: `edge ${edge}` }) : null,
+    wanted ? [wanted.low, wanted.high].filter(Number.isFinite).map((end) => element('span', { class: 'wanted-line', style: at(end) })) : null,
     hasInterval ? element('span', { class: 'whisker', style: span(low, high) }) : null,
     bar || below ? null : element('span', { class: 'point', style: at(value) }));
 }

@@ -2,10 +2,11 @@
 import { element, listChoice } from './dom.mjs';
 import { sentence } from './format.mjs';
 import { intervalTrack, scaleOf, trackAxis } from './interval_track.mjs';
-import { boxesOf, layoutDrawing } from './layout_drawing.mjs';
 import { textOf, textWithUnit, titleOf, valueOf } from './layout_figures.mjs';
 import { LayoutReplays } from './layout_replay.mjs';
 import { keyWords, sentenceWithNote, withUnit } from './layout_words.mjs';
+import { numbersOf } from './same_layouts.mjs';
+import { boxesOf, trayDrawing } from './tray_drawing.mjs';
 
 const ofHoles = [
   { name: 'seeds_per_s', words: 'seeds', unit: '1/s' }, { name: 'g_per_s', words: 'rate', unit: 'g/s' },
@@ -57,9 +58,9 @@ class HoleBars {
   }
 }
 
-/** Follows the choice; on a narrow page it comes into sight when the reader chooses. */
-export function layoutSection(data, figures, chosen) {
-  const boxes = boxesOf(data);
+/** `why(layout)`: why it stands as it does. Follows the choice; on a narrow page it comes into sight when the reader chooses. */
+export function layoutSection(data, figures, chosen, why = () => '') {
+  const boxes = boxesOf(data.layouts.map(({ vessels }) => vessels), data.space);
   const bars = new HoleBars();
   const replays = new LayoutReplays();
   const title = element('h2', { id: 'layout-title', 'aria-live': 'polite' });
@@ -70,8 +71,8 @@ export function layoutSection(data, figures, chosen) {
     const { layout } = chosen;
     if (!layout) return;
     const doubt = statusWords[layout.status] ? sentenceWithNote(statusWords[layout.status], layout.note) : layout.note;
-    title.textContent = layout.name ? `Layout ${layout.number}: ${layout.name}` : `Layout ${layout.number}`;
-    about.replaceChildren(...[doubt ? element('p', { class: 'doubt' }, doubt) : null, layout.standing && layout.compared ? element('p', { class: 'standing' }, sentence(layout.standing)) : null, layout.expected ? element('p', { class: 'expected' }, sentence(layout.expected)) : null, layoutDrawing(layout, boxes), settings(data, layout)].filter(Boolean));
+    title.textContent = layout.name ? `Layout ${numbersOf(layout)}: ${layout.name}` : `Layout ${numbersOf(layout)}`;
+    about.replaceChildren(...[doubt ? element('p', { class: 'doubt' }, doubt) : null, layout.standing && layout.compared ? element('p', { class: 'standing' }, [sentence(layout.standing), why(layout)].filter(Boolean).join(' ')) : null, layout.expected ? element('p', { class: 'expected' }, sentence(layout.expected)) : null, trayDrawing(`Layout ${layout.number}`, layout.vessels, boxes), settings(data, layout)].filter(Boolean));
     replays.show(layout);
     bars.show(layout);
     const runs = layout.replicates === 1 ? 'From one run: no intervals.' : `Means of ${layout.replicates} runs, ± half the width of the 95 % interval; what has no ± is of all runs together.`;

@@ -2,6 +2,7 @@
 import { element, section } from './dom.mjs';
 import { textOf, titleOf, valueOf } from './layout_figures.mjs';
 import { keyWords } from './layout_words.mjs';
+import { numbersOf } from './same_layouts.mjs';
 
 const shownAtFirst = ['rate_g_per_s', 'unevenness_cv_percent', 'instability_cv_percent', 'longest_pause_s', 'spilled_percent', 'misfit_percent'];
 
@@ -22,7 +23,7 @@ function edgeMark() {
 }
 
 class LayoutTable {
-  constructor(data, figures, chosen) {
+  constructor(data, figures, chosen, filter) {
     Object.assign(this, { data, figures, chosen, sort: 'number', sign: 1 });
     this.wanted = new Set(figures.filter((figure) => data.kind !== 'sweep' || shownAtFirst.includes(figure.name)));
     this.table = element('table', { class: 'layouts' });
@@ -33,6 +34,7 @@ class LayoutTable {
       data.layouts.some((layout) => layout.at_edge.length) ? element('p', { class: 'muted' }, '⊣: at the end of the range that was searched; better ones may lie beyond.') : null);
     this.show();
     chosen.onChange(() => this.mark());
+    filter.onChange((shown) => { this.data = shown; this.show(); });
   }
 
   want(figure, wanted) {
@@ -46,11 +48,11 @@ class LayoutTable {
     const { data } = this;
     const has = (part) => data.layouts.some(part);
     return [
-      { id: 'number', name: 'layout', of: (layout) => layout.number },
+      { id: 'number', name: 'layout', of: (layout) => layout.number, text: numbersOf },
       ...(has((layout) => layout.name) ? [{ id: 'name', name: 'name', of: (layout) => layout.name }] : []),
       ...keyWords(data.keys).map(({ words, unit }, k) => ({ id: `key-${k}`, name: words, unit, of: (layout) => asNumber(layout.values[k] ?? ''), isEdge: (layout) => layout.at_edge.includes(k) })),
       { id: 'status', name: 'status', of: (layout) => layout.standing ?? layout.status },
-      ...(has((layout) => layout.replicates !== data.layouts[0].replicates) ? [{ id: 'replicates', name: 'runs', of: (layout) => layout.replicates }] : []),
+      ...(has((layout) => layout.replicates !== data.layouts[0]?.replicates) ? [{ id: 'replicates', name: 'runs', of: (layout) => layout.replicates }] : []),
       ...this.figures.filter((figure) => this.wanted.has(figure)).map((figure) => ({
         id: figure.name, name: figure.words, unit: figure.unit, isFigure: true,
         of: (layout) => valueOf(layout, figure)?.value ?? null, text: (layout) => textOf(valueOf(layout, figure)),
@@ -103,6 +105,6 @@ class LayoutTable {
   }
 }
 
-export function layoutTableSection(data, figures, chosen) {
-  return section('layouts', 'All layouts', new LayoutTable(data, figures, chosen).frame);
+export function layoutTableSection(data, figures, chosen, filter) {
+  return section('layouts', 'All layouts', new LayoutTable(data, figures, chosen, filter).frame);
 }

@@ -3,24 +3,15 @@ import { accuracyPage } from './accuracy_page.mjs';
 import { calibrationPage } from './calibration_page.mjs';
 import { decisionPage } from './decision_page.mjs';
 import { element } from './dom.mjs';
-import { sentence } from './format.mjs';
+import { firstScreen } from './first_screen.mjs';
 import { frontPage } from './front_page.mjs';
 import { readPageData } from './page_data.mjs';
+import { paperStyle } from './paper.mjs';
 import { runPage } from './run_page.mjs';
 import { sweepPage } from './sweep_page.mjs';
 import { startTheme } from './theme.mjs';
-import { themeSwitch } from './theme_switch.mjs';
 
 const pages = { run: runPage, sweep: sweepPage, decision: decisionPage, front: frontPage, accuracy: accuracyPage, calibration: calibrationPage };
-
-function head({ kicker, title, headlines, remarks }) {
-  return [
-    element('div', { class: 'topline' }, element('p', { class: 'kicker' }, kicker), themeSwitch()),
-    element('h1', {}, title),
-    ...headlines.filter(Boolean).map((text) => element('p', { class: 'headline' }, sentence(text))),
-    remarks.length ? element('ul', { class: 'remarks', 'aria-label': 'What to know about this result' }, remarks.map((remark) => element('li', {}, sentence(remark)))) : null,
-  ].filter(Boolean);
-}
 
 function foot({ name = 'vibrosow', version = '' }, whole) {
   return element('p', {}, `Written by ${name} ${version}. ${whole} is in this file: it opens without a network.`);
@@ -32,7 +23,8 @@ async function show() {
   const page = pages[data.kind](data);
   document.documentElement.toggleAttribute('data-beside', Boolean(page.beside));
   document.title = `${page.title} – Vibrosow`;
-  document.getElementById('head').replaceChildren(...head(page));
+  document.head.append(paperStyle(page, data.program));
+  document.getElementById('head').replaceChildren(...firstScreen(page));
   document.getElementById('foot').replaceChildren(foot(data.program, page.whole));
   document.getElementById('page').replaceChildren(...(await page.sections()));
   document.documentElement.dataset.ready = 'true';

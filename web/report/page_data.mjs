@@ -1,12 +1,14 @@
 // What the program wrote into the page. Missing parts become empty ones, so that the rest is shown all the same.
 
-const empty = { program: {}, title: '', space: 'plane', headline: '', expected: '' };
+import { withoutTwins } from './same_layouts.mjs';
+
+const empty = { program: {}, title: '', space: 'plane', headline: '', expected: '', vessels: [], scene: {} };
 
 const emptyOf = {
   run: {
-    kind: 'run', remarks: [], status: 'finished', end_time_s: 0, window_s: null, lots: [], vessels: [], holes: [], rate_unit: 'seeds/s',
+    kind: 'run', remarks: [], status: 'finished', end_time_s: 0, window_s: null, lots: [], holes: [], rate_unit: 'seeds/s',
     hole_table: { columns: [], rows: [] }, unevenness: null, events: { time_s: [], hole: [], lot: [] }, effects: [], guard: '', settings: [],
-    drill: null, scene: {},
+    drill: null,
   },
   sweep: { doubts: [], keys: [], figures: [], layouts: [] },
   decision: { doubts: [], asked: [], cost: [], keys: [], figures: [], layouts: [] },
@@ -15,7 +17,7 @@ const emptyOf = {
   front: { doubts: [], asked: [], cost: [], keys: [], figures: [], layouts: [] },
 };
 
-const emptyLayout = { name: '', values: [], status: 'ok', note: '', expected: '', replicates: 0, means: {}, misfit_percent: null, holes: [], vessels: [], command: '', replay: null, at_edge: [] };
+const emptyLayout = { name: '', values: [], status: 'ok', note: '', expected: '', replicates: 0, means: {}, misfit_percent: null, holes: [], vessels: [], scene: {}, command: '', replay: null, at_edge: [] };
 
 function filled(given, ...defaults) {
   return Object.assign({}, ...defaults, Object.fromEntries(Object.entries(given).filter(([, value]) => value !== null)));
@@ -28,7 +30,7 @@ export function readPageData(text) {
   if (!Object.hasOwn(emptyOf, kind)) throw new Error(`its data are of the kind "${kind}", which this page does not know`);
   const data = filled(given, empty, emptyOf[kind]);
   if (kind === 'run') data.window_s = data.window_s ?? [0, data.end_time_s];
-  if (data.layouts) data.layouts = data.layouts.map((layout) => filled(layout, emptyLayout, { compared: (layout.status ?? 'ok') === 'ok' }));
+  if (data.layouts) data.layouts = withoutTwins(data.layouts.map((layout) => filled(layout, emptyLayout, { compared: (layout.status ?? 'ok') === 'ok' })));
   return data;
 }
 

@@ -4,13 +4,14 @@ import { intervalTrack, scaleOf, trackAxis } from './interval_track.mjs';
 import { textOf, titleOf } from './layout_figures.mjs';
 import { keyWords, layoutName } from './layout_words.mjs';
 import { ranked, rankingSentence } from './ranking.mjs';
+import { numbersOf } from './same_layouts.mjs';
 import { toldWords } from './told_words.mjs';
 
 const shownAtFirst = 30;
 
 class RankedChart {
-  constructor(data, figures, figure, chosen) {
-    Object.assign(this, { data, chosen, figure, leastFirst: figure.wanted_low, all: false });
+  constructor(data, figures, figure, chosen, filter) {
+    Object.assign(this, { data, chosen, figure, wanted: filter.wanted, leastFirst: figure.wanted_low, all: false });
     this.list = element('ol', { class: 'ranks' });
     this.sentence = element('p', { id: 'ranking-sentence', class: 'lead', 'aria-live': 'polite' });
     this.legend = element('p', { class: 'legend' });
@@ -22,6 +23,7 @@ class RankedChart {
       element('figure', { class: 'card' }, this.head, this.list, this.more, element('figcaption', {}, this.legend)));
     this.rankBy(figure);
     chosen.onChange(() => this.mark());
+    filter.onChange((shown) => { this.data = shown; this.show(); });
   }
 
   rankBy(figure) {
@@ -52,8 +54,8 @@ class RankedChart {
   row({ layout, value, told }, scale, first) {
     const note = this.words.note({ layout, told });
     return element('li', {}, element('button', { type: 'button', class: `rank ${told.replace(' ', '-')}`, 'data-layout': layout.number, onclick: () => this.chosen.choose(layout.number) },
-      element('span', { class: 'rank-name', title: layoutName(this.data, layout) }, element('b', {}, `${layout.number} `), layoutName(this.data, layout)),
-      intervalTrack(scale, value, { band: first }),
+      element('span', { class: 'rank-name', title: layoutName(this.data, layout) }, element('b', {}, `${numbersOf(layout)} `), layoutName(this.data, layout)),
+      intervalTrack(scale, value, { band: first, wanted: this.wanted.of(this.figure) }),
       element('span', { class: 'rank-value number' }, textOf(value), note ? element('span', { class: 'rank-note' }, ` ${note}`) : null)));
   }
 
@@ -66,6 +68,7 @@ class RankedChart {
       has('apart') ? point('apart') : null,
       has('not compared') ? point('not-ok') : null,
       first && first.low !== null ? element('span', { class: 'legend-item' }, element('span', { class: 'swatch window' }), this.words.band) : null,
+      this.wanted.of(this.figure) ? element('span', { class: 'legend-item' }, element('span', { class: 'wanted-stroke' }), 'what is wanted') : null,
       scale.cut ? element('span', {}, 'Intervals that reach the right edge go on beyond it.') : null,
       this.figure.has_interval || this.figure.with_ends ? null : element('span', {}, 'All runs of a layout together give this figure: it has no interval.'),
     ].filter(Boolean));
@@ -79,6 +82,6 @@ class RankedChart {
 }
 
 /** `figure`: the one to begin with. */
-export function rankingSection(data, figures, figure, chosen) {
-  return section('ranking', 'Layouts in order', new RankedChart(data, figures, figure, chosen).frame);
+export function rankingSection(data, figures, figure, chosen, filter) {
+  return section('ranking', 'Layouts in order', new RankedChart(data, figures, figure, chosen, filter).frame);
 }

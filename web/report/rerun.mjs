@@ -1,6 +1,7 @@
 // A run in the plane again, in the page itself: the same scene, the same random seed, and so the same counts.
 import { hasSimulator, startSimulator } from '../core/simulator.mjs';
 import { element, section } from './dom.mjs';
+import { clock } from './format.mjs';
 
 function countsOf(data) {
   return data.holes.map(({ counted_all }) => counted_all);
@@ -44,7 +45,7 @@ export function rerunSection(data) {
       pace: null,
       onFrame({ time_s, counted }) {
         course.value = time_s / data.end_time_s;
-        said.textContent = `${time_s.toFixed(2)} s: ${counted.join(', ')} seeds at the holes.`;
+        said.textContent = `${clock(time_s)}: ${counted.join(', ')} seeds at the holes.`;
       },
       onEnd: ({ holes }) => rest(verdict(holes.map(({ counted_all }) => counted_all), countsOf(data))),
       onFail: ({ message }) => rest(`It cannot be run here: ${message}.`),

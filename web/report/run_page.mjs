@@ -1,5 +1,5 @@
 // The page of a run, part by part.
-import { effectsSection, guardSection, settingsSection } from './account.mjs';
+import { computedSection } from './account.mjs';
 import { unevennessSection, rowsSection } from './unevenness.mjs';
 import { number } from './format.mjs';
 import { outflowSection } from './outflow.mjs';
@@ -10,7 +10,7 @@ import { openRecording } from './recording.mjs';
 import { replaySection } from './replay.mjs';
 import { rerunSection } from './rerun.mjs';
 
-const endings = { stopped_by_guard: 'Stopped by the guard', interrupted: 'Interrupted' };
+const endings = { stopped_by_guard: 'stopped by the guard', interrupted: 'interrupted' };
 
 async function recordingOf(text) {
   try {
@@ -27,7 +27,7 @@ async function sections(data) {
   player?.showTime(data.window_s[0]);
   return [
     replaySection(data, recording, player, problem), outflowSection(data, player), mapsSection(data, map, recording), unevennessSection(data), rowsSection(data),
-    effectsSection(data), guardSection(data), rerunSection(data), settingsSection(data),
+    rerunSection(data), computedSection(data),
   ].filter(Boolean);
 }
 
@@ -37,7 +37,8 @@ export function runPage(data) {
     kicker: `Run ${data.space === 'plane' ? 'in 2D' : 'in 3D'}`,
     title: data.title || 'A run',
     headlines: [data.headline, data.expected, data.drill?.sentence],
-    remarks: [...(endings[data.status] ? [`${endings[data.status]} at ${number(data.end_time_s)} s.`] : []), ...new Set(data.remarks)],  // the guard's stand among the outflow's too
+    remarks: [...(endings[data.status] ? [`Doubtful: ${endings[data.status]} at ${number(data.end_time_s)} s.`] : []), ...data.remarks],
+    tray: { name: 'The tray', vessels: data.vessels, scene: data.scene, space: data.space },
     whole: 'The whole run',
     sections: () => sections(data),
   };

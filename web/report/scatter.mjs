@@ -11,6 +11,7 @@ const reach = 24;    // px, from a press to the point that is meant
 const steps = { ArrowLeft: -1, ArrowDown: -1, ArrowRight: 1, ArrowUp: 1 };
 
 function axisOf(figure, values) {
+  if (values.length === 0) return roundAxis(titleOf(figure), 0, 1);
   const highest = Math.max(...values, 0), least = Math.min(...values);
   return roundAxis(titleOf(figure), least > 0.5 * highest ? least : 0, highest || 1);
 }
@@ -21,8 +22,8 @@ function tip(x, y, dx, dy) {
 }
 
 class Scatter {
-  constructor(data, figures, [figureX, figureY], chosen, look) {
-    Object.assign(this, { data, chosen, figureX, figureY, look });
+  constructor(data, figures, [figureX, figureY], chosen, filter, look) {
+    Object.assign(this, { data, chosen, figureX, figureY, look, wanted: filter.wanted });
     const options = figures.map((one) => ({ value: one, text: titleOf(one) }));
     this.place = element('div', { class: 'scatter' });
     this.reading = element('p', { class: 'chart-reading', 'aria-hidden': 'true' });
@@ -34,6 +35,7 @@ class Scatter {
         element('span', { class: 'legend-item' }, element('span', { class: 'stroke front-stroke' }), 'layouts that no other beats in both, by their means'), look.legend(), element('span', {}, 'An arrow: it goes on.')))));
     new ResizeObserver(() => { if (this.place.clientWidth !== this.width) this.draw(); }).observe(this.place);
     chosen.onChange(() => this.mark());
+    filter.onChange((shown) => { this.data = shown; this.draw(); });
   }
 
   draw() {
@@ -52,8 +54,17 @@ class Scatter {
     const crosses = this.points.filter(({ layout }) => this.look.withIntervals(layout)).map((point) => shape('path', { class: 'cross', d: this.crossOf(point) }));
     this.place.replaceChildren(shape('svg', { width: this.width, height, role: 'group', 'aria-label': `${titleOf(figureY)} against ${titleOf(figureX)}: a point for every layout; arrow keys go from one to the next`,
       onclick: (event) => this.press(event), onpointermove: (event) => this.read(this.nearest(event)), onpointerleave: () => this.read(null), onkeydown: (event) => this.key(event) },
-    grid, line, crosses, this.cross, this.circles, this.ring));
+    grid, this.wantedLines(), line, crosses, this.cross, this.circles, this.ring));
     this.mark();
+  }
+
+  // A line at each end of what is wanted, of ends that the diagram holds.
+  wantedLines() {
+    const { left, right, top, bottom } = this.inside;
+    const ends = (figure) => Object.values(this.wanted.of(figure) ?? {}).filter(Number.isFinite);
+    const across = ends(this.figureX).map((value) => this.x(value)).filter((x) => x >= left && x <= right).map((x) => `M${x} ${top}V${bottom}`);
+    const along = ends(this.figureY).map((value) => this.y(value)).filter((y) => y >= top && y <= bottom).map((y) => `M${left} ${y}H${right}`);
+    return shape('path', { class: 'wanted-line', d: [...across, ...along].join('') });
   }
 
   table() {
@@ -64,7 +75,7 @@ class Scatter {
 
   circle(point) {
     const { layout, x, y } = point;
-    const name = this.words(point);
+    const name = this.said(point);
     return shape('circle', { cx: this.x(x.value), cy: this.y(y.value), r: 5, role: 'button', tabindex: -1, 'data-layout': layout.number,
       class: this.look.classOf(layout), 'aria-label': name, onfocus: () => this.read(point), onblur: () => this.read(null) });
   }
@@ -82,7 +93,12 @@ class Scatter {
   }
 
   read(point) {
-    this.reading.textContent = point ? this.words(point) : '';
+    this.reading.textContent = point ? this.said(point) : '';
+  }
+
+  // Its values, and why it is there.
+  said(point) {
+    return [this.words(point), this.look.why?.(point.layout)].filter(Boolean).join('. ');
   }
 
   words({ layout, x, y }) {
@@ -133,19 +149,19 @@ const plainLook = {
 };
 
 /**
- * The two figures to begin with are the first two of `axes`. `look`: { classOf(layout), withIntervals(layout), legend() }, the
- * last what stands beside the line's own words.
+ * The two figures to begin with are the first two of `axes`. `look`: { classOf(layout), withIntervals(layout), legend(): what
+ * stands beside the line's own words, why(layout) (optional): what is read of a point besides its values }.
  */
-export function scatterOf(title, data, figures, axes, chosen, look) {
-  return section('trade', title, new Scatter(data, figures, axes, chosen, look).frame);
+export function scatterOf(title, data, figures, axes, chosen, filter, look) {
+  return section('trade', title, new Scatter(data, figures, axes, chosen, filter, look).frame);
 }
 
 /** null where there are not two figures to compare. */
-export function scatterSection(data, figures, chosen) {
+export function scatterSection(data, figures, chosen, filter) {
   if (figures.length < 2) return null;
   const named = (name) => figures.find((figure) => figure.name === name);
   const has = (figure) => figure && pointsOf(data.layouts, figure, figure).length > 1;
   const across = [named('rate_g_per_s'), figures[0]].find(Boolean);
   const up = ['unevenness_cv_percent', 'raw_cv_percent', 'instability_cv_percent'].map(named).find(has) ?? figures.find((figure) => figure !== across);
-  return scatterOf('One figure against another', data, figures, [across, up], chosen, plainLook);
+  return scatterOf('One figure against another', data, figures, [across, up], chosen, filter, plainLook);
 }
