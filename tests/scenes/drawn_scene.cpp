@@ -242,15 +242,15 @@ class SceneWriter {
   /// Of what is one for all seeds, and counts for something with such models.
   DrawnScene::Key odd_key(const Models& models) {
     if (!draw_.one_in("models.odd", 2)) return {};
-    std::vector<DrawnScene::Key> keys = {{"drag", in_unit(0.05, "g/s")}, {"friction_arm", quoted("rim")}};
-    keys.emplace_back("friction_model", quoted(models.spring ? "sliding" : "spring"));
-    if (models.rolling == 0) keys.emplace_back("rotation", "false");
-    if (models.rolling == 2) keys.emplace_back("rolling_damping", "0.6");
-    if (!models.spring || models.rolling == 1) keys.emplace_back("slip_speed", in_unit(50, "mm/s"));
-    if (models.spring) keys.emplace_back("tangential_ratio", "0.5"), keys.emplace_back("tangential_damping", "0.2");
-    if (models.hertz) keys.emplace_back("wall.youngs_modulus", in_unit(5, "MPa"));
-    if (models.damped_by_rate) keys.emplace_back("damping_rate", in_unit(2e3, "1/s"));
-    return keys[static_cast<std::size_t>(draw_.below("models.odd.key", static_cast<int>(keys.size())))];
+    std::vector<DrawnScene::Key> odd = {{"drag", in_unit(0.05, "g/s")}, {"friction_arm", quoted("rim")}};
+    odd.emplace_back("friction_model", quoted(models.spring ? "sliding" : "spring"));
+    if (models.rolling == 0) odd.emplace_back("rotation", "false");
+    if (models.rolling == 2) odd.emplace_back("rolling_damping", "0.6");
+    if (!models.spring || models.rolling == 1) odd.emplace_back("slip_speed", in_unit(50, "mm/s"));
+    if (models.spring) odd.emplace_back("tangential_ratio", "0.5"), odd.emplace_back("tangential_damping", "0.2");
+    if (models.hertz) odd.emplace_back("wall.youngs_modulus", in_unit(5, "MPa"));
+    if (models.damped_by_rate) odd.emplace_back("damping_rate", in_unit(2e3, "1/s"));
+    return odd[static_cast<std::size_t>(draw_.below("models.odd.key", static_cast<int>(odd.size())))];
   }
 
   void write_model(int k, const Models& models, const DrawnScene::Key& odd) {

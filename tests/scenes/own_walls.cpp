@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <limits>
 #include <numbers>
 #include <utility>
 
@@ -15,8 +14,6 @@ using Point = Eigen::Vector3d;
 using Flat = Eigen::Vector2d;
 using Distance = std::function<double(const Point&)>;
 using FlatDistance = std::function<double(const Flat&)>;
-
-constexpr double infinite = std::numeric_limits<double>::infinity();
 
 double beyond(double value, double from, double to) {
   return std::max({from - value, value - to, 0.0});

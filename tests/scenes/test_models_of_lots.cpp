@@ -78,9 +78,10 @@ class Mixture {
   /// A lot's own model with what [contact] lays over it.
   Keys contact_of(const std::string& lot) const {
     Keys keys = model_of(lot);
-    for (const auto& [key, value] : contact_) {
+    for (const auto& laid : contact_) {
+      const std::string& key = laid.first;
       const bool of_pair = std::ranges::any_of(lots_, [&](const auto& other) { return key.starts_with(other + "."); });
-      if (key != "model" && (!of_pair || key.starts_with(lot + ".wall."))) keys[key] = value;
+      if (key != "model" && (!of_pair || key.starts_with(lot + ".wall."))) keys[key] = laid.second;
     }
     return keys;
   }
