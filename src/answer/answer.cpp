@@ -202,10 +202,16 @@ Answer answer_of(const OptimiseResult& result) {
   return answer;
 }
 
+bool has_failed(LayoutStanding standing) {
+  return standing == LayoutStanding::failed || standing == LayoutStanding::invalid;
+}
+
 std::vector<SharedDoubt> doubts_about(const Answer& answer) {
+  const bool names_any = std::ranges::any_of(answer.layouts, &AnsweredLayout::is_named);
+  const auto rests_on = [&](const AnsweredLayout& one) { return names_any ? one.is_named : !has_failed(one.standing); };
   std::vector<LayoutDoubts> doubts;
   for (const AnsweredLayout& one : answer.layouts)
-    if (one.is_named) doubts.push_back({answer.study->layouts[one.layout].number, one.doubts});
+    if (rests_on(one)) doubts.push_back({answer.study->layouts[one.layout].number, one.doubts});
   return shared_doubts(doubts);
 }
 

@@ -63,12 +63,16 @@ struct Answer {
   std::vector<std::size_t> best_first{};  // of these, those that are worth a look, the best first
 };
 
+/// It cannot be built, or its runs cannot be used.
+bool has_failed(LayoutStanding standing);
+
 Answer answer_of(const StudyResult& result, std::uint64_t first_random_seed);
 Answer answer_of(const DecisionResult& result);
 Answer answer_of(const OptimiseResult& result);
 
 /// What speaks against the runs of the layouts that an answer names: of a sweep all, of a decision those that are best,
-/// not shown to be worse or undecided, of a search those that lead.
+/// not shown to be worse or undecided, of a search those that lead. An answer that names none, since no layout meets
+/// what is asked, rests on all that did not fail.
 std::vector<SharedDoubt> doubts_about(const Answer& answer);
 
 }  // namespace vibrosow

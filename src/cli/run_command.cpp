@@ -73,7 +73,7 @@ void print_holes(const Outflow& outflow) {
 void print_summary(const Scene& scene, const Run& run, const Outflow& outflow,
                    const std::optional<ExpectedRate>& expected) {
   print("{}\n", wrapped(scene.title));
-  for (const Doubt& doubt : outflow.doubts) print_text(wrapped(doubt_sentence(doubt)));
+  for (const Doubt& doubt : outflow.doubts) print_text(wrapped(sentence_of(remark_of(doubt))));
   if (!outflow.doubts.empty()) print("\n");
   print_holes(outflow);
   if (const std::string mixture = mixture_text(scene); !mixture.empty()) print_text("\n" + mixture);

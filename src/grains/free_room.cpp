@@ -121,15 +121,18 @@ bool FreeRoom::is_reached(const Eigen::Vector3d& place) const {
   if (cut_) own.z() = 0;
   Eigen::Array3i reach = (near / grid_->cell.array()).ceil().cast<int>();
   if (cut_) reach.z() = 0;
+  const auto is_near_one = [&](const Eigen::Array3i& at) {
+    const Eigen::Array3i kept = carried_over(at, *grid_);
+    if ((kept < 0).any() || (kept >= grid_->cells).any() || !grid_->reached[grid_->index(kept)]) return false;
+    Eigen::Vector3d apart = grid_->centre(at) - centre;
+    if (cut_) apart.z() = 0;
+    return apart.norm() < near;
+  };
+  if (is_near_one(own)) return true;  // as of most that are held
   for (int k = -reach.z(); k <= reach.z(); ++k)
     for (int j = -reach.y(); j <= reach.y(); ++j)
-      for (int i = -reach.x(); i <= reach.x(); ++i) {
-        const Eigen::Array3i at = own + Eigen::Array3i(i, j, k), kept = carried_over(at, *grid_);
-        if ((kept < 0).any() || (kept >= grid_->cells).any() || !grid_->reached[grid_->index(kept)]) continue;
-        Eigen::Vector3d apart = grid_->centre(at) - centre;
-        if (cut_) apart.z() = 0;
-        if (apart.norm() < near) return true;
-      }
+      for (int i = -reach.x(); i <= reach.x(); ++i)
+        if (is_near_one(own + Eigen::Array3i(i, j, k))) return true;
   return false;
 }
 
@@ -164,29 +167,43 @@ std::vector<char> FreeRoom::free_cells(const Grid& grid) const {
   return free;
 }
 
-void FreeRoom::flood(std::vector<char> free, Grid& grid) const {
-  grid.reached.assign(free.size(), 0);
-  std::vector<Eigen::Array3i> edge;
-  const auto reach = [&](const Eigen::Array3i& at) {
-    const Eigen::Array3i kept = carried_over(at, grid);
-    if ((kept < 0).any() || (kept >= grid.cells).any()) return;
-    const std::size_t cell = grid.index(kept);
-    if (!free[cell] || grid.reached[cell]) return;
-    grid.reached[cell] = 1;
-    edge.push_back(kept);
+/// `cells`: 1 where free. By runs along x, whose cells lie side by side in memory: of millions of cells, each reached
+/// by itself, nearly every look is one at memory that is far away.
+void FreeRoom::flood(std::vector<char> cells, Grid& grid) const {
+  constexpr char free = 1, reached = 2;
+  struct Run {
+    int from, to, y, z;  // `to` is past its end
   };
-  for (int k = 0; k < grid.cells.z(); ++k)
-    for (int i = 0; i < grid.cells.x(); ++i) reach({i, grid.cells.y() - 1, k});
-  while (!edge.empty()) {
-    const Eigen::Array3i at = edge.back();
-    edge.pop_back();
-    for (int axis = 0; axis < 3; ++axis)
-      for (const int step : {-1, 1}) {
-        Eigen::Array3i next = at;
-        next[axis] += step;
-        reach(next);
-      }
+  const Eigen::Array3i count = grid.cells;
+  const bool round_z = !cut_ && vessel_.front_and_back == Sides::periodic;
+  std::vector<Run> runs;
+  const auto reach = [&](int from, int to, int y, int z) {
+    if (round_z) z = (z + count.z()) % count.z();
+    if (y < 0 || y >= count.y() || z < 0 || z >= count.z()) return;
+    char* row = cells.data() + grid.index({0, y, z});
+    for (int x = from; x < to; ++x) {
+      if (row[x] != free) continue;
+      Run run{x, x + 1, y, z};
+      while (run.from > 0 && row[run.from - 1] == free) --run.from;
+      while (run.to < count.x() && row[run.to] == free) ++run.to;
+      std::fill(row + run.from, row + run.to, reached);
+      runs.push_back(run);
+    }
+  };
+  for (int k = 0; k < count.z(); ++k) reach(0, count.x(), count.y() - 1, k);
+  while (!runs.empty()) {
+    const Run run = runs.back();
+    runs.pop_back();
+    for (const int step : {-1, 1}) {
+      reach(run.from, run.to, run.y + step, run.z);
+      reach(run.from, run.to, run.y, run.z + step);
+    }
+    if (vessel_.sides != Sides::periodic) continue;
+    if (run.from == 0) reach(count.x() - 1, count.x(), run.y, run.z);
+    if (run.to == count.x()) reach(0, 1, run.y, run.z);
   }
+  for (char& cell : cells) cell = cell == reached ? 1 : 0;
+  grid.reached = std::move(cells);
 }
 
 FreeRoom::Grid FreeRoom::made_grid() const {

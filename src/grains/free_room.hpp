@@ -56,7 +56,7 @@ class FreeRoom {
   bool is_reached(const Eigen::Vector3d& centre) const;
   std::vector<char> free_cells(const Grid& grid) const;
   Eigen::Array3i carried_over(Eigen::Array3i at, const Grid& grid) const;
-  void flood(std::vector<char> free, Grid& grid) const;
+  void flood(std::vector<char> cells, Grid& grid) const;
   Grid made_grid() const;
 
   Vessel vessel_;

@@ -70,16 +70,7 @@ std::vector<Grain> Simulation::grains() const {
 }
 
 Evaluation Simulation::result() const {
-  vibrosow::Run run = inside_->simulation.result();
-  const bool goes_on =
-      run.status == RunStatus::finished && run.end_reason.empty() && run.steps > 0 && !inside_->simulation.at_end();
-  if (goes_on) run.status = RunStatus::interrupted;  // so that rates are of the time so far
-  vibrosow::Evaluation evaluation = reduced(inside_->simulation.model().scene, run);
-  if (goes_on)
-    std::erase_if(evaluation.outflow.doubts, [](const Doubt& doubt) {
-      return doubt.kind == DoubtKind::interrupted || doubt.kind == DoubtKind::before_the_window;
-    });
-  return converted(evaluation);
+  return converted(reduced(inside_->simulation.model().scene, inside_->simulation.result()));
 }
 
 void Simulation::set_motion(const Harmonic& motion) {

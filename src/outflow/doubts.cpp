@@ -125,7 +125,7 @@ std::vector<SharedDoubt> shared_doubts(const std::vector<LayoutDoubts>& layouts)
   return shared;
 }
 
-std::string doubt_clause(const SharedDoubt& doubt, std::string_view noun) {
+Remark remark_of(const SharedDoubt& doubt, std::string_view noun) {
   const DoubtWords& words = words_of(doubt.kind);
   std::string text = noun.empty() || doubt.layouts.empty() ? "" : numbers_text(noun, doubt.layouts) + ": ";
   if (is_of_runs(doubt.of)) {
@@ -134,16 +134,18 @@ std::string doubt_clause(const SharedDoubt& doubt, std::string_view noun) {
   } else {
     text += doubt.text;
   }
-  return fmt::format("{}. What to do: {}", text, words.advice);
+  return {words.severity, std::move(text), std::string(words.advice)};
 }
 
-std::string doubt_sentence(const SharedDoubt& doubt, std::string_view noun) {
-  const bool serious = words_of(doubt.kind).severity == Severity::serious;
-  return fmt::format("{}: {}.", serious ? "Doubtful" : "Note", doubt_clause(doubt, noun));
+Remark remark_of(const Doubt& doubt) {
+  return remark_of(SharedDoubt{doubt.kind, {}, 0, 0, doubt.text}, "");
 }
 
-std::string doubt_sentence(const Doubt& doubt) {
-  return doubt_sentence(SharedDoubt{doubt.kind, {}, 0, 0, doubt.text}, "");
+std::string sentence_of(const Remark& remark) {
+  std::string text = remark.severity == Severity::serious ? "Doubtful: " : "Note: ";
+  text += remark.text;
+  if (!text.ends_with('.')) text += '.';
+  return remark.what_to_do.empty() ? text : fmt::format("{} What to do: {}.", text, remark.what_to_do);
 }
 
 }  // namespace vibrosow

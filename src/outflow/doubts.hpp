@@ -56,12 +56,19 @@ std::vector<SharedDoubt> shared_doubts(const std::vector<LayoutDoubts>& layouts)
 /// "layouts 1 to 18, 20": of ascending numbers.
 std::string numbers_text(std::string_view noun, const std::vector<int>& numbers);
 
-/// "layouts 1 to 18: the guard warned in 54 of 54 runs (the relative overlap passed 0.05 ..). What to do: .." `noun`:
-/// of what the numbers are; empty: they are not told.
-std::string doubt_clause(const SharedDoubt& doubt, std::string_view noun = "layout");
-/// The same after "Doubtful: " or, of a mild one, "Note: ", with a full stop.
-std::string doubt_sentence(const SharedDoubt& doubt, std::string_view noun = "layout");
-/// "Doubtful: ran dry at 3.2 s. What to do: put in more seeds, or measure before."
-std::string doubt_sentence(const Doubt& doubt);
+/// What is said beside a result.
+struct Remark {
+  Severity severity;
+  std::string text;
+  std::string what_to_do{};  // a clause without a full stop; empty where there is nothing to do
+};
+
+/// Text: "layouts 1 to 18: the guard warned in 54 of 54 runs (the relative overlap passed 0.05 ..)". `noun`: of what
+/// the numbers are; empty: they are not told.
+Remark remark_of(const SharedDoubt& doubt, std::string_view noun = "layout");
+Remark remark_of(const Doubt& doubt);
+
+/// "Doubtful: ran dry at 3.2 s. What to do: put in more seeds, or measure before."; "Note: " begins a mild one.
+std::string sentence_of(const Remark& remark);
 
 }  // namespace vibrosow

@@ -25,7 +25,7 @@ struct Selection {
 MeasuringWindow window_of(const Scene& scene, const Run& run) {
   const MeasuringWindow window = measuring_window(scene);
   // The last step of a finished run may end a rounding error short of the duration.
-  return run.status == RunStatus::finished ? window : window.until(run.end_time);
+  return run.status == RunStatus::finished && !run.goes_on ? window : window.until(run.end_time);
 }
 
 std::vector<OutflowEvent> counted_inside(const std::vector<OutflowEvent>& events, const MeasuringWindow& window) {
@@ -209,9 +209,9 @@ std::vector<Doubt> doubts_about(const Scene& scene, const Run& run, const Measur
   if (window.drive == MeasuringWindow::Drive::periodic && window.periods == 0 && !window.empty())
     add(part_of_a_period, fmt::format("measured over {:.3g} s, a part of one period of the drive, {:.3g} s",
                                       window.length(), window.period));
-  if (window.empty())
+  if (window.empty() && !run.goes_on)
     add(before_the_window);
-  else if (static_cast<std::int64_t>(counted) < few_grains && !scene.tray.holes.empty())
+  else if (!window.empty() && static_cast<std::int64_t>(counted) < few_grains && !scene.tray.holes.empty())
     add(few_seeds, fmt::format("a rate from {} seed{}", counted, counted == 1 ? "" : "s"));
   return doubts;
 }

@@ -115,13 +115,17 @@ class Press {
   }
 
   Vector apart(const Vector& from, const Vector& to) const {
-    Vector between = to - from;
-    between.x() -= period_ * std::round(between.x() / period_);
-    between.z() -= period_ * std::round(between.z() / period_);
-    return between;
+    return {to_nearest_image(to.x() - from.x()), to.y() - from.y(), to_nearest_image(to.z() - from.z())};
+  }
+  double to_nearest_image(double between) const {
+    if (std::abs(between) < 0.49 * period_) return between;  // most are; and round() is a call
+    return between - period_ * std::round(between / period_);
   }
 
-  Vector arm_of(const OwnDisc& disc) const { return rotation_matrix(bodies_[disc.seed].orientation) * disc.own; }
+  Vector arm_of(const OwnDisc& disc) const {
+    if (disc.own.isZero(0)) return disc.own;
+    return rotation_matrix(bodies_[disc.seed].orientation) * disc.own;
+  }
 
   void place_discs() {
     places_.resize(discs_.size()), arms_.resize(discs_.size());
@@ -153,8 +157,10 @@ class Press {
   template <class Visit>
   void for_each_contact(Visit visit) const {
     for (const auto& [i, j] : pairs_) {
+      const double reach = discs_[i].radius + discs_[j].radius;
+      if (std::abs(places_[j].y() - places_[i].y()) >= reach) continue;
       const Vector between = apart(places_[i], places_[j]);
-      const double reach = discs_[i].radius + discs_[j].radius, distance2 = between.squaredNorm();
+      const double distance2 = between.squaredNorm();
       if (distance2 >= reach * reach) continue;
       const double distance = std::sqrt(distance2);
       visit(i, static_cast<int>(j), distance > 0 ? Vector(between / distance) : Vector(Vector::UnitX()),

@@ -11,7 +11,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr std::size_t most_sentences = 6;
+constexpr std::size_t most_remarks = 6;
 
 /// After "layout 3" or "layouts 3 to 5".
 std::string predicate(LayoutStanding standing, bool several) {
@@ -30,7 +30,7 @@ std::string predicate(LayoutStanding standing, bool several) {
 bool is_left_out(AnswerKind kind, LayoutStanding standing) {
   if (standing == LayoutStanding::outside_the_model) return false;  // a doubt says so
   if (kind == AnswerKind::sweep) return !is_compared(standing);
-  return standing == LayoutStanding::failed || standing == LayoutStanding::invalid;
+  return has_failed(standing);
 }
 
 /// Those of one standing and reason.
@@ -40,34 +40,34 @@ struct LeftOut {
   std::vector<int> layouts;  // their numbers
 };
 
-std::string sentence(const LeftOut& of) {
-  std::string text = numbers_text("Layout", of.layouts) + " " + predicate(of.standing, of.layouts.size() > 1);
+Remark remark(const LeftOut& of) {
+  std::string text = numbers_text("layout", of.layouts) + " " + predicate(of.standing, of.layouts.size() > 1);
   if (!of.reason.empty()) text += ": " + of.reason;
-  return text.ends_with('.') ? text : text + ".";
+  return {Severity::mild, std::move(text)};
 }
 
 }  // namespace
 
-std::vector<std::string> doubt_sentences(const std::vector<SharedDoubt>& doubts, std::string_view noun) {
-  std::vector<std::string> sentences;
+std::vector<Remark> doubt_remarks(const std::vector<SharedDoubt>& doubts, std::string_view noun) {
+  std::vector<Remark> remarks;
   for (const SharedDoubt& doubt : doubts) {
-    if (sentences.size() == most_sentences) {
-      sentences.push_back(
-          fmt::format("{} more kinds of doubts: the table names them.", doubts.size() - most_sentences));
+    if (remarks.size() == most_remarks) {
+      remarks.push_back(
+          {Severity::mild, fmt::format("{} more kinds of doubts: the table names them", doubts.size() - most_remarks)});
       break;
     }
-    sentences.push_back(doubt_sentence(doubt, noun));
+    remarks.push_back(remark_of(doubt, noun));
   }
-  return sentences;
+  return remarks;
 }
 
 std::string doubts_paragraph(const std::vector<SharedDoubt>& doubts, std::string_view noun) {
   std::string text;
-  for (const std::string& sentence : doubt_sentences(doubts, noun)) text += wrapped(sentence);
+  for (const Remark& remark : doubt_remarks(doubts, noun)) text += wrapped(sentence_of(remark));
   return text;
 }
 
-std::vector<std::string> left_out_sentences(const Answer& answer) {
+std::vector<Remark> left_out_remarks(const Answer& answer) {
   std::vector<LeftOut> all;
   for (const AnsweredLayout& one : answer.layouts) {
     if (!is_left_out(answer.kind, one.standing)) continue;
@@ -77,17 +77,18 @@ std::vector<std::string> left_out_sentences(const Answer& answer) {
     if (known == all.end()) known = all.insert(all.end(), {one.standing, reason, {}});
     known->layouts.push_back(answer.study->layouts[one.layout].number);
   }
-  std::vector<std::string> sentences;
+  std::vector<Remark> remarks;
   std::size_t rest = 0;
   for (const LeftOut& one : all)
-    if (sentences.size() < most_sentences)
-      sentences.push_back(sentence(one));
+    if (remarks.size() < most_remarks)
+      remarks.push_back(remark(one));
     else
       rest += one.layouts.size();
   if (rest > 0)
-    sentences.push_back(fmt::format("{} more layout{} not compared, for other reasons: the table names them.", rest,
-                                    rest == 1 ? " is" : "s are"));
-  return sentences;
+    remarks.push_back({Severity::mild, fmt::format("{} more layout{} not compared, for other reasons: the table names "
+                                                   "them",
+                                                   rest, rest == 1 ? " is" : "s are")});
+  return remarks;
 }
 
 Json doubt_json(const Doubt& doubt) {

@@ -10,15 +10,15 @@
 
 namespace vibrosow {
 
-/// A sentence each (`doubt_sentence`), at most six and one that counts the rest; none where there are none.
-std::vector<std::string> doubt_sentences(const std::vector<SharedDoubt>& doubts, std::string_view noun = "layout");
+/// A remark each, at most six and one that counts the rest; none where there are none.
+std::vector<Remark> doubt_remarks(const std::vector<SharedDoubt>& doubts, std::string_view noun = "layout");
 
 /// The same for a terminal, wrapped; empty where there are none.
 std::string doubts_paragraph(const std::vector<SharedDoubt>& doubts, std::string_view noun = "layout");
 
-/// Why layouts are not compared, a sentence for each reason: those that cannot be built or failed, and of a sweep all
+/// Why layouts are not compared, a remark for each reason: those that cannot be built or failed, and of a sweep all
 /// that are not compared. At most six, and one that counts the rest.
-std::vector<std::string> left_out_sentences(const Answer& answer);
+std::vector<Remark> left_out_remarks(const Answer& answer);
 
 /// What a JSON file says of a doubt.
 nlohmann::ordered_json doubt_json(const Doubt& doubt);

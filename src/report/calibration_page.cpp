@@ -129,7 +129,7 @@ std::string calibration_page_data(const CalibrationAnswer& answer, const Scene& 
                      {"vessels", page_vessels(scene)},
                      {"scene", Json::parse(scene_to_json(scene))},
                      {"headline", headline(answer)},
-                     {"doubts", doubt_sentences(answer.doubts)},
+                     {"remarks", page_remarks(doubt_remarks(answer.doubts))},
                      {"quantity", column_of(answer.task.measured.table.quantity)},
                      {"of_curves", is_of_curves(answer)},
                      {"parameters", parameters(answer)},

@@ -199,7 +199,7 @@ std::string conditions_text(const std::vector<Condition>& conditions) {
 std::string calibration_table(const CalibrationAnswer& answer) {
   const Calibration& of = answer.calibration;
   std::string text;
-  for (const SharedDoubt& doubt : answer.doubts) text += wrapped(doubt_sentence(doubt));
+  for (const SharedDoubt& doubt : answer.doubts) text += wrapped(sentence_of(remark_of(doubt)));
   if (!text.empty()) text += '\n';
   text += fmt::format("{:<28} {:>6} {:>9} {:>21} {:>11}\n", "key", "unit", "mean", "95 % interval", "uncertainty");
   for (const FittedNumber& row : answer.numbers)

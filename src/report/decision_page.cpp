@@ -39,13 +39,14 @@ std::string headline(const DecisionResult& result, const Answer& answer) {
   return no_best_sentence(result);
 }
 
-/// What is doubtful about the answer; which layouts failed stands with the layouts.
-std::vector<std::string> doubts(const DecisionReport& report, const Answer& answer) {
+std::vector<Remark> remarks(const DecisionReport& report, const Answer& answer) {
   const DecisionResult& result = report.result;
-  std::vector<std::string> all = doubt_sentences(doubts_about(answer));
-  if (result.is_sure && result.best && !is_guaranteed(result)) all.push_back(weakness_sentence());
-  if (report.drafts && report.drafts->screens) all.push_back(drafts_sentence(*report.drafts));
-  if (!result.tests_clogging && result.options.clogging_limit < 1) all.push_back(clogging_untested_sentence());
+  std::vector<Remark> all = doubt_remarks(doubts_about(answer));
+  const auto add = [&](std::string text) { all.push_back({Severity::mild, std::move(text)}); };
+  if (result.is_sure && result.best && !is_guaranteed(result)) add(weakness_sentence());
+  if (report.drafts && report.drafts->screens) add(drafts_sentence(*report.drafts));
+  if (!result.tests_clogging && result.options.clogging_limit < 1) add(clogging_untested_sentence());
+  std::ranges::move(left_out_remarks(answer), std::back_inserter(all));
   return all;
 }
 
@@ -81,8 +82,7 @@ StudyPage study_page(const DecisionReport& report, const SweepTiming& timing) {
   const DecisionResult& result = report.result;
   StudyPage page{.answer = answer_of(result)};
   page.headline = headline(result, page.answer);
-  page.doubts = doubts(report, page.answer);
-  std::ranges::move(left_out_sentences(page.answer), std::back_inserter(page.doubts));
+  page.remarks = remarks(report, page.answer);
   page.asked = asked(result);
   page.wanted = result.options.rate;
   page.cost = cost(report, timing);

@@ -36,11 +36,12 @@ std::string headline(const OptimiseResult& result) {
   return unsure == 0 ? fmt::format("{}, {}.", shown, of) : fmt::format("{}, {}; {} more may be.", shown, of, unsure);
 }
 
-std::vector<std::string> doubts(const OptimiseResult& result, const Answer& answer) {
-  std::vector<std::string> all = doubt_sentences(doubts_about(answer));
-  if (result.is_interrupted) all.push_back("Interrupted: the same command resumes.");
-  if (const std::string why = why_unsure(result); !why.empty()) all.push_back(why);
-  all.push_back(front_promise(result));
+std::vector<Remark> remarks(const OptimiseResult& result, const Answer& answer) {
+  std::vector<Remark> all = doubt_remarks(doubts_about(answer));
+  if (result.is_interrupted) all.push_back({Severity::mild, "Interrupted", "the same command resumes"});
+  if (const std::string why = why_unsure(result); !why.empty()) all.push_back({Severity::mild, why});
+  all.push_back({Severity::mild, front_promise(result)});
+  std::ranges::move(left_out_remarks(answer), std::back_inserter(all));
   return all;
 }
 
@@ -70,8 +71,7 @@ std::vector<std::string> cost(const OptimiseResult& result, const SweepTiming& t
 
 StudyPage study_page(const OptimiseResult& result, const SweepTiming& timing) {
   StudyPage page{.answer = answer_of(result), .headline = headline(result)};
-  page.doubts = doubts(result, page.answer);
-  std::ranges::move(left_out_sentences(page.answer), std::back_inserter(page.doubts));
+  page.remarks = remarks(result, page.answer);
   page.asked = asked(result.options);
   page.wanted = result.options.rate;
   page.cost = cost(result, timing);

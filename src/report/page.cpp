@@ -153,6 +153,16 @@ nlohmann::ordered_json page_paths(const Scene& scene, double end_time) {
   return all;
 }
 
+Json page_remarks(const std::vector<Remark>& remarks) {
+  Json all = Json::array();
+  for (const Remark& remark : remarks) {
+    Json one = {{"serious", remark.severity == Severity::serious}, {"text", remark.text}};
+    if (!remark.what_to_do.empty()) one["what_to_do"] = remark.what_to_do;
+    all.push_back(std::move(one));
+  }
+  return all;
+}
+
 Json page_interval(const std::optional<MeanWithInterval>& value, double unit) {
   const auto number = [&](double of) { return std::isfinite(of) ? Json(of / unit) : Json(nullptr); };
   if (!value) return nullptr;

@@ -6,12 +6,16 @@
 #include <string>
 #include <vector>
 
+#include "outflow/doubts.hpp"
 #include "outflow/statistics.hpp"
 #include "report/columns.hpp"
 #include "report/output_folder.hpp"
 #include "scene/scene.hpp"
 
 namespace vibrosow {
+
+/// Of each remark whether it is serious, its text and, where there is something, what to do.
+nlohmann::ordered_json page_remarks(const std::vector<Remark>& remarks);
 
 /// A scene's lots, and its vessels as they are seen from the side, in space with the holes of their floors; mm.
 nlohmann::ordered_json page_lots(const Scene& scene);

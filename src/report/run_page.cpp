@@ -169,9 +169,9 @@ Json drill(const std::optional<DrillFigures>& figures, Space space) {
                                      : std::string("Without tray.depth there is no rate per area.")}};
 }
 
-std::string_view status_name(RunStatus status) {
-  if (status == RunStatus::finished) return "finished";
-  return status == RunStatus::stopped_by_guard ? "stopped_by_guard" : "interrupted";
+std::string_view status_name(const Run& run) {
+  if (run.status == RunStatus::finished && !run.goes_on) return "finished";
+  return run.status == RunStatus::stopped_by_guard ? "stopped_by_guard" : "interrupted";
 }
 
 }  // namespace
@@ -186,19 +186,24 @@ Json page_events(const Run& run) {
   return {{"time_s", std::move(times)}, {"hole", std::move(of_hole)}, {"lot", std::move(of_lot)}};
 }
 
+std::vector<Remark> remarks_about(const Scene& scene) {
+  std::vector<Remark> remarks;
+  for (const std::string& text : scene_warnings(scene))
+    remarks.push_back(remark_of(Doubt{DoubtKind::unlikely_scene, text}));
+  return remarks;
+}
+
 std::string run_page_data(const RunPage& page) {
   const Scene& scene = page.model.scene;
-  Json remarks = Json::array();
-  for (const std::string& text : scene_warnings(scene))
-    remarks.push_back(doubt_sentence({DoubtKind::unlikely_scene, text}));
-  for (const Doubt& doubt : page.outflow.doubts) remarks.push_back(doubt_sentence(doubt));
+  std::vector<Remark> remarks = remarks_about(scene);
+  for (const Doubt& doubt : page.outflow.doubts) remarks.push_back(remark_of(doubt));
   Json data = {{"kind", "run"},
                {"program", {{"name", "vibrosow"}, {"version", VIBROSOW_VERSION}}},
                {"title", scene.title},
                {"space", scene.space == Space::plane ? "plane" : "three_dimensional"},
                {"headline", headline(page)},
-               {"remarks", std::move(remarks)},
-               {"status", status_name(page.run.status)},
+               {"remarks", page_remarks(remarks)},
+               {"status", status_name(page.run)},
                {"random_seed", page.run.random_seed},
                {"end_time_s", page.run.end_time},
                {"window_s", {page.outflow.window.from, page.outflow.window.to}},

@@ -3,8 +3,10 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "agronomy/row_figures.hpp"
+#include "outflow/doubts.hpp"
 #include "outflow/outflow.hpp"
 #include "plan/model.hpp"
 #include "report/columns.hpp"
@@ -20,6 +22,9 @@ struct RunPage {
   const std::optional<DrillFigures>& drill;
   const std::string& expected;  // the sentence on what the rate is expected to be; empty: none
 };
+
+/// What is to be said of a scene before it is run.
+std::vector<Remark> remarks_about(const Scene& scene);
 
 /// The page's numbers and texts (page_text).
 std::string run_page_data(const RunPage& page);

@@ -122,10 +122,13 @@ std::string page_data(const StudyPage& page, const Replays& replays) {
   for (const auto& [name, value] : page.asked) asked.push_back({{"name", name}, {"value", value}});
   for (const AnswerFigure& of : answer.figures) figures.push_back(figure(of, answer.kind));
   for (const AnsweredLayout& of : answer.layouts) layouts.push_back(layout(answer, of, replays));
-  Json data = {{"kind", kind_of(answer.kind)}, {"program", {{"name", "vibrosow"}, {"version", VIBROSOW_VERSION}}},
-               {"title", study.title},         {"space", plane ? "plane" : "three_dimensional"},
-               {"keys", std::move(keys)},      {"headline", page.headline},
-               {"doubts", page.doubts}};
+  Json data = {{"kind", kind_of(answer.kind)},
+               {"program", {{"name", "vibrosow"}, {"version", VIBROSOW_VERSION}}},
+               {"title", study.title},
+               {"space", plane ? "plane" : "three_dimensional"},
+               {"keys", std::move(keys)},
+               {"headline", page.headline},
+               {"remarks", page_remarks(page.remarks)}};
   if (const std::string expected = expected_sentence(answer); !expected.empty()) data["expected"] = expected;
   if (!page.asked.empty()) data["asked"] = std::move(asked), data["cost"] = page.cost;
   if (page.wanted) {

@@ -21,7 +21,7 @@ namespace vibrosow {
 struct StudyPage {
   Answer answer;
   std::string headline{};
-  std::vector<std::string> doubts{};
+  std::vector<Remark> remarks{};
   std::vector<std::pair<std::string, std::string>> asked{};  // what was asked, by name
   std::vector<std::string> cost{};
   std::optional<WantedRate> wanted{};  // of the tray

@@ -40,8 +40,8 @@ std::string headline(const StudyResult& result) {
 
 StudyPage study_page(const StudyResult& result, std::uint64_t first_random_seed) {
   StudyPage page{.answer = answer_of(result, first_random_seed), .headline = headline(result)};
-  page.doubts = doubt_sentences(doubts_about(page.answer));
-  std::ranges::move(left_out_sentences(page.answer), std::back_inserter(page.doubts));
+  page.remarks = doubt_remarks(doubts_about(page.answer));
+  std::ranges::move(left_out_remarks(page.answer), std::back_inserter(page.remarks));
   return page;
 }
 

@@ -58,6 +58,7 @@ struct Run {
   RunStatus status = RunStatus::finished;
   std::string stop_reason;      // of the guard; or why it is refused
   std::string end_reason;       // why it ended before its duration, though sound; else empty
+  bool goes_on = false;         // it has not ended: what it gives is of the time so far; never of a run that is kept
   std::vector<Doubt> warnings;  // of the guard and the feeder
   // A long step insisted on; or limits of the guard raised, and the usual ones passed; or grains lost through walls.
   bool outside_the_model = false;

@@ -63,7 +63,7 @@ Run run_to_end(Simulation& simulation, const SimulationOptions& options) {
   for (const Look& look : options.looks) look.look(simulation);
   if (interrupted && options.on_checkpoint) checkpoint(simulation);
   Run run = simulation.result();
-  if (interrupted) run.status = RunStatus::interrupted;
+  if (interrupted) run.status = RunStatus::interrupted, run.goes_on = false;
   if (measured_since) run.measured_cpu_time = processor_time() - *measured_since;
   return run;
 }

@@ -325,6 +325,7 @@ Run Simulation::result() const {
     run.status = RunStatus::stopped_by_guard;
     run.stop_reason = *guard_.stop_reason();
   }
+  run.goes_on = run.status == RunStatus::finished && run.end_reason.empty() && !at_end();
   for (std::string& warning : guard_.warnings()) run.warnings.push_back({DoubtKind::guard_warned, std::move(warning)});
   for (std::string& warning : feeder_.warnings(state_.time))
     run.warnings.push_back({DoubtKind::feeder_behind, std::move(warning)});

@@ -9,7 +9,7 @@ namespace {
 EvaluationStatus status_of(const Run& run) {
   switch (run.status) {
     case RunStatus::finished:
-      return EvaluationStatus::finished;
+      return run.goes_on ? EvaluationStatus::interrupted : EvaluationStatus::finished;
     case RunStatus::stopped_by_guard:
       return EvaluationStatus::stopped;
     case RunStatus::refused:

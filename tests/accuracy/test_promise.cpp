@@ -283,9 +283,9 @@ TEST(Promise, SaysWhichOfItsRunsAreOdd) {
   runs[1].mass_rate = 0.04, runs[3].mass_rate.reset(), runs[3].refused = "it does not fit";
   const std::vector<SharedDoubt> doubts = doubts_about(runs);
   ASSERT_EQ(doubts.size(), 2u);
-  EXPECT_THAT(doubt_sentence(doubts[0], "setting"),
+  EXPECT_THAT(sentence_of(remark_of(doubts[0], "setting")),
               testing::StartsWith("Doubtful: 1 of the 4 runs with a rate passed less than half"));
-  EXPECT_THAT(doubt_sentence(doubts[1], "setting"),
+  EXPECT_THAT(sentence_of(remark_of(doubts[1], "setting")),
               testing::StartsWith("Note: 1 of the 5 runs has no rate: it does not fit. What to do: "));
   const PromiseChoices from = choices();
   MadeUpRuns made_up({});

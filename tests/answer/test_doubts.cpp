@@ -121,6 +121,12 @@ constexpr std::array table = {
     KindAndAnswers{DoubtKind::flow_changed, as_doubt, as_doubt, as_doubt, as_doubt, as_doubt, not_at_all},
 };
 
+std::vector<std::string> sentences_of(const std::vector<Remark>& remarks) {
+  std::vector<std::string> sentences;
+  for (const Remark& remark : remarks) sentences.push_back(sentence_of(remark));
+  return sentences;
+}
+
 class DoubtsOfScenes : public testing::Test {
  protected:
   /// Sound where `kind` is none.
@@ -160,7 +166,8 @@ class Doubts : public DoubtsOfScenes, public testing::WithParamInterface<KindAnd
 
   Texts sweep_texts(std::optional<DoubtKind> kind) const {
     const StudyResult result = sweep(study(), simulator(kind), {});
-    return {doubt_sentences(doubts_about(answer_of(result, 1))), sweep_csv(result) + page_data(study_page(result, 1))};
+    return {sentences_of(doubt_remarks(doubts_about(answer_of(result, 1)))),
+            sweep_csv(result) + page_data(study_page(result, 1))};
   }
 };
 
@@ -177,8 +184,9 @@ TEST_P(Doubts, ASweepTells) {
   }
 }
 
-DecisionReport decided(const Study& study, const Simulator& simulator) {
+DecisionReport decided(const Study& study, const Simulator& simulator, std::optional<WantedRate> rate = {}) {
   DecideOptions options;
+  options.rate = rate;
   options.goal = &goal_named("rate");
   options.margin = 0.05;
   options.most = 20;
@@ -190,11 +198,12 @@ DecisionReport decided(const Study& study, const Simulator& simulator) {
 TEST_P(Doubts, ADecisionTells) {
   const Told told = GetParam().decision;
   const DecisionReport report = decided(study(), simulator(GetParam().kind));
-  check(told, {doubt_sentences(doubts_about(answer_of(report.result))), decision_csv(report) + decision_json(report)});
+  check(told, {sentences_of(doubt_remarks(doubts_about(answer_of(report.result)))),
+               decision_csv(report) + decision_json(report)});
   if (told == as_doubt) {
     EXPECT_EQ(report.result.best, 1u) << "doubtful, and yet the best";
     const auto page = nlohmann::json::parse(page_data(study_page(report, {})));
-    EXPECT_THAT(page["doubts"][0].get<std::string>(), HasSubstr(name()));
+    EXPECT_THAT(page["remarks"][0]["text"].get<std::string>(), HasSubstr(name()));
   }
   if (told == as_status) {
     EXPECT_THAT(decision_csv(report), HasSubstr(",failed,"));
@@ -213,10 +222,20 @@ TEST_P(Doubts, ADecisionTells) {
 TEST_F(DoubtsOfScenes, ADriveSlowerThanTheWindowIsTold) {
   const std::string name(words_of(DoubtKind::part_of_a_period).name);
   const StudyResult swept = sweep(study("0.1 Hz"), simulator({}), {});
-  EXPECT_THAT(doubt_sentences(doubts_about(answer_of(swept, 1))), Contains(HasSubstr(name)));
+  EXPECT_THAT(sentences_of(doubt_remarks(doubts_about(answer_of(swept, 1)))), Contains(HasSubstr(name)));
   EXPECT_EQ(swept.layouts[0].status, LayoutStanding::doubtful);
   const DecisionReport report = decided(study("0.1 Hz"), simulator({}));
-  EXPECT_THAT(doubt_sentences(doubts_about(answer_of(report.result))), Contains(HasSubstr(name)));
+  EXPECT_THAT(sentences_of(doubt_remarks(doubts_about(answer_of(report.result)))), Contains(HasSubstr(name)));
+}
+
+TEST_F(DoubtsOfScenes, AnAnswerThatNamesNoLayoutRestsOnAll) {
+  const WantedRate unheard_of{.low = 1e3, .high = 2e3};  // kg/s
+  const DecisionReport report = decided(study(), simulator(DoubtKind::guard_warned), unheard_of);
+  EXPECT_FALSE(report.result.best.has_value());
+  const Answer answer = answer_of(report.result);
+  EXPECT_TRUE(answer.best_first.empty());
+  EXPECT_THAT(sentences_of(doubt_remarks(doubts_about(answer))),
+              Contains(testing::StartsWith("Doubtful: layouts 1, 2: the guard warned in ")));
 }
 
 OptimiseResult searched(const StudySource& source, const Simulator& simulator) {
@@ -235,10 +254,11 @@ TEST_P(Doubts, ASearchTells) {
                    "[set.tray.motion]\nkind = \"harmonic\"\namplitude = \"4 mm\"\nfrequency = \"10 Hz\"\n[vary]\n"
                    "tray.holes.width = [\"14 mm\", \"16 mm\"]\n")};
   const OptimiseResult result = searched(source, simulator(GetParam().kind));
-  check(told, {doubt_sentences(doubts_about(answer_of(result))), pareto_csv(result) + optimise_json(result)});
+  check(told,
+        {sentences_of(doubt_remarks(doubts_about(answer_of(result)))), pareto_csv(result) + optimise_json(result)});
   if (told == as_doubt) {
     const auto page = nlohmann::json::parse(page_data(study_page(result, {})));
-    EXPECT_THAT(page["doubts"][0].get<std::string>(), HasSubstr(name()));
+    EXPECT_THAT(page["remarks"][0]["text"].get<std::string>(), HasSubstr(name()));
   }
   if (told == as_status) {
     EXPECT_THAT(pareto_csv(result), HasSubstr(",failed,"));
@@ -258,7 +278,7 @@ TEST_P(Doubts, AnAccuracyStudyTells) {
   grid.integrators = {Integrator::velocity_verlet};
   const AccuracyResult result =
       measure_accuracy(scene, thrifty_design(grid), 1, simulator(GetParam().kind), SweepOptions());
-  const std::vector<std::string> sentences = doubt_sentences(doubts_about(result.runs), "setting");
+  const std::vector<std::string> sentences = sentences_of(doubt_remarks(doubts_about(result.runs), "setting"));
   if (told == as_doubt) {
     EXPECT_THAT(sentences, Contains(HasSubstr(name())));
     EXPECT_THAT(sentences.front(), HasSubstr("settings 1 to "));
@@ -295,7 +315,8 @@ void check_calibration(Told told, const StudyFiles& files, const std::string& cs
   EXPECT_EQ(runs->front().reason, "");
   Calibration calibration;
   calibration.values.resize(1);
-  const std::vector<std::string> sentences = doubt_sentences(answer_of(task, design, *runs, calibration).doubts);
+  const std::vector<std::string> sentences =
+      sentences_of(doubt_remarks(answer_of(task, design, *runs, calibration).doubts));
   const auto about_it = Contains(HasSubstr(std::string(words_of(kind).name)));
   if (told == as_doubt)
     EXPECT_THAT(sentences, about_it);
@@ -343,17 +364,20 @@ TEST(SharedDoubts, JoinLayoutsAndCountTheirRuns) {
   const auto shared =
       shared_doubts({{1, {few, width}}, {2, {warned}}, {3, {warned, few}}, {4, {warned}}, {7, {width}}});
   ASSERT_EQ(shared.size(), 3u);
-  EXPECT_EQ(doubt_clause(shared[0]).find("layouts 1, 7: tray.holes.width: narrow. What to do: "), 0u);
-  EXPECT_EQ(doubt_sentence(shared[1]).find("Doubtful: layouts 2 to 4: the guard warned in 6 of 9 runs (deep). What"),
+  EXPECT_EQ(sentence_of(remark_of(shared[0])).find("Doubtful: layouts 1, 7: tray.holes.width: narrow. What to do: "),
             0u);
-  EXPECT_EQ(doubt_sentence(shared[2]).find("Note: layouts 1, 3: few seeds in 6 of 6 runs"), 0u) << "serious ones first";
+  EXPECT_EQ(
+      sentence_of(remark_of(shared[1])).find("Doubtful: layouts 2 to 4: the guard warned in 6 of 9 runs (deep). What"),
+      0u);
+  EXPECT_EQ(sentence_of(remark_of(shared[2])).find("Note: layouts 1, 3: few seeds in 6 of 6 runs"), 0u)
+      << "serious ones first";
 }
 
 TEST(SharedDoubts, BeyondSixAreCounted) {
   std::vector<SharedDoubt> many(9, {DoubtKind::unlikely_scene, {1}, 0, 0, "a key"});
-  const std::vector<std::string> sentences = doubt_sentences(many);
-  ASSERT_EQ(sentences.size(), 7u);
-  EXPECT_EQ(sentences.back(), "3 more kinds of doubts: the table names them.");
+  const std::vector<Remark> remarks = doubt_remarks(many);
+  ASSERT_EQ(remarks.size(), 7u);
+  EXPECT_EQ(remarks.back().text, "3 more kinds of doubts: the table names them");
 }
 
 /// An answer of so many layouts that stand so, numbered from 1, each for its reason.
@@ -369,29 +393,29 @@ class LeftOut : public testing::Test {
       layout.number = static_cast<int>(answer.layouts.size());
       study_.layouts.push_back(layout);
     }
-    return left_out_sentences(answer);
+    return sentences_of(left_out_remarks(answer));
   }
   Study study_;
 };
 
 TEST_F(LeftOut, HasASentenceForEveryReason) {
   using enum LayoutStanding;
-  EXPECT_THAT(
-      sentences(AnswerKind::sweep, {{ok, ""},
-                                    {stopped, "energy."},
-                                    {invalid, "it does not fit"},
-                                    {invalid, "it does not fit"},
-                                    {invalid, "it does not fit"},
-                                    {incomplete, ""},
-                                    {outside_the_model, ""}}),
-      testing::ElementsAre("Layout 2 was stopped by the guard: energy.",
-                           "Layouts 3 to 5 cannot be built: it does not fit.", "Layout 6 has runs that are missing."));
+  EXPECT_THAT(sentences(AnswerKind::sweep, {{ok, ""},
+                                            {stopped, "energy."},
+                                            {invalid, "it does not fit"},
+                                            {invalid, "it does not fit"},
+                                            {invalid, "it does not fit"},
+                                            {incomplete, ""},
+                                            {outside_the_model, ""}}),
+              testing::ElementsAre("Note: layout 2 was stopped by the guard: energy.",
+                                   "Note: layouts 3 to 5 cannot be built: it does not fit.",
+                                   "Note: layout 6 has runs that are missing."));
 }
 
 TEST_F(LeftOut, OfADecisionAreThoseThatFailedOrCannotBeBuilt) {
   using enum LayoutStanding;
   EXPECT_THAT(sentences(AnswerKind::decision, {{clogs, ""}, {failed, "hole 3 lies beyond the rim"}, {worse, ""}}),
-              testing::ElementsAre("Layout 2 failed: hole 3 lies beyond the rim."));
+              testing::ElementsAre("Note: layout 2 failed: hole 3 lies beyond the rim."));
 }
 
 TEST_F(LeftOut, BeyondSixReasonsTheRestIsCounted) {
@@ -399,7 +423,7 @@ TEST_F(LeftOut, BeyondSixReasonsTheRestIsCounted) {
   for (int k = 0; k < 20; ++k) layouts.emplace_back(LayoutStanding::invalid, fmt::format("reason {}", k));
   const std::vector<std::string> all = sentences(AnswerKind::sweep, layouts);
   ASSERT_EQ(all.size(), 7u);
-  EXPECT_EQ(all[6], "14 more layouts are not compared, for other reasons: the table names them.");
+  EXPECT_EQ(all[6], "Note: 14 more layouts are not compared, for other reasons: the table names them.");
 }
 
 }  // namespace

@@ -15,7 +15,7 @@ class CalibrationAnswerOf : public MadeUpCalibration {
  protected:
   std::vector<std::string> doubts() const {
     std::vector<std::string> texts;
-    for (const SharedDoubt& doubt : answer().doubts) texts.push_back(doubt_sentence(doubt));
+    for (const SharedDoubt& doubt : answer().doubts) texts.push_back(sentence_of(remark_of(doubt)));
     return texts;
   }
 };

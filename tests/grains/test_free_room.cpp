@@ -66,6 +66,18 @@ TEST(RoomInSpace, LiesOverAGrooveAlongTheVessel) {
   EXPECT_FALSE(room.holds({0.05, 0.005, 0.035}));
 }
 
+TEST(RoomInSpace, GoesOnAcrossThePeriodOfItsDepth) {
+  Vessel v;
+  v.name = "tray";
+  v.length = 0.1, v.height = 0.06, v.depth = 0.04;
+  v.front_and_back = Sides::periodic;
+  v.pieces = {{.a = {0.012, 0}, .b = {0.012, 0.058}}, {.a = {0.012, 0.058}, .b = {0.04, 0.03}}};
+  for (WallPiece& piece : v.pieces) piece.drawn_out = DrawnOut::along;
+  EXPECT_TRUE(FreeRoom(v, Space::three_dimensional, radius).holds({0.05, 0.01, 0.025})) << "from the next image";
+  v.front_and_back = Sides::walls;
+  EXPECT_FALSE(FreeRoom(v, Space::three_dimensional, radius).holds({0.05, 0.01, 0.025}));
+}
+
 TEST_P(Room, IsNotWithinWhatIsClosed) {
   Vessel v = box();
   v.pieces = {{.centre = {0.05, 0.03}, .radius = 0.02, .from = 0, .to = 2 * std::numbers::pi}};

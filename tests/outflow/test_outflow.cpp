@@ -158,6 +158,21 @@ TEST(Window, NeverReachedGivesNoRate) {
   EXPECT_EQ(outflow.note(), "interrupted; ended before the measuring window");
 }
 
+TEST(Window, OfARunThatGoesOnEndsNowWithoutADoubt) {
+  const Scene scene = made_up_scene(2);
+  vibrosow::Run run = made_up_run(scene);
+  run.goes_on = true;
+  run.end_time = 1.5;
+  add_grain(run, 1, 1);
+  EXPECT_EQ(measure_outflow(scene, run).note(), "") << "measuring has not begun";
+  run.end_time = 6;
+  for (int i = 0; i < 40; ++i) add_grain(run, 2 + 0.1 * i, 1);
+  const Outflow outflow = measure_outflow(scene, run);
+  EXPECT_DOUBLE_EQ(outflow.window.to, 6);
+  EXPECT_DOUBLE_EQ(outflow.holes[0].seeds_per_s, 10);
+  EXPECT_EQ(outflow.note(), "");
+}
+
 /// A run in which `grains` seeds left evenly over the window, of `put_in`.
 vibrosow::Run sown(const Scene& scene, int grains, std::int64_t put_in) {
   vibrosow::Run run = made_up_run(scene);

@@ -110,12 +110,12 @@ TEST_F(AccuracyPage, ErrorsAreAgainstTheFinestWhereTheyDoNotWhichIsADoubt) {
   EXPECT_EQ(page["against"], "the finest setting");
   EXPECT_NEAR(page["levels"][1]["error"]["percent"].get<double>(), 8, 0.1);
   EXPECT_TRUE(page["errors"].empty());
-  EXPECT_THAT(page["doubts"][0].get<std::string>(), HasSubstr("too few"));
+  EXPECT_THAT(page["remarks"][0]["text"].get<std::string>(), HasSubstr("too few"));
 }
 
 TEST_F(AccuracyPage, APlaneIsADoubtUntilItsErrorIsKnown) {
   const auto is_said = [](const nlohmann::json& page) {
-    return page["doubts"].dump().find("--depth") != std::string::npos;
+    return page["remarks"].dump().find("--depth") != std::string::npos;
   };
   EXPECT_TRUE(is_said(data(4)));
   scene_.space = Space::three_dimensional;

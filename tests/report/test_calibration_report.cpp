@@ -65,11 +65,12 @@ TEST_F(CalibrationPage, SaysTheValuesAndHowWellTheHeldOutOnesArePredicted) {
       data()["headline"],
       "Fitted to table.csv: contact.friction 0.4 (0.3 to 0.5), contact.restitution 0.5 (0.3 to 0.8), depth_factor "
       "20 (18 to 22). What was held out is predicted to 2 % (RMS).");
-  EXPECT_TRUE(data()["doubts"].empty());
+  EXPECT_TRUE(data()["remarks"].empty());
   EXPECT_EQ(data()["scene"], nlohmann::json::parse(scene_to_json(Scene{})));
   EXPECT_EQ(data()["vessels"].size(), 1U);
   calibration_.misfit_probability = 0.001;
-  EXPECT_THAT(data()["doubts"][0].get<std::string>(), testing::StartsWith("Doubtful: the model nowhere meets"));
+  EXPECT_THAT(data()["remarks"][0]["text"].get<std::string>(), testing::StartsWith("the model nowhere meets"));
+  EXPECT_EQ(data()["remarks"][0]["serious"], true);
   calibration_.held_out_rms = std::nullopt;
   EXPECT_THAT(data()["headline"].get<std::string>(), testing::EndsWith("(18 to 22)."));
 }

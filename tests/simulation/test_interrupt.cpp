@@ -6,6 +6,7 @@
 
 #include "grains/packing.hpp"
 #include "simulation/simulate.hpp"
+#include "simulation/simulation.hpp"
 #include "support/bench.hpp"
 
 namespace vibrosow {
@@ -68,6 +69,18 @@ TEST(Interrupt, ARunThatHasBegunEndsBetweenTwoSteps) {
   EXPECT_EQ(run.status, RunStatus::interrupted);
   EXPECT_EQ(run.steps, 512);  // the look that sees it comes after the one that asks
   EXPECT_EQ(run.balance.put_in, 40);
+}
+
+TEST(ARun, GoesOnUntilItsLastStep) {
+  Scene scene = layers(4);
+  scene.run.duration = 3 * prepare(scene).step.dt;
+  const Model model = prepare(scene);
+  Simulation simulation(model, starting_state(model, 1), {});
+  while (!simulation.at_end()) {
+    EXPECT_TRUE(simulation.result().goes_on);
+    simulation.step();
+  }
+  EXPECT_FALSE(simulation.result().goes_on);
 }
 
 }  // namespace

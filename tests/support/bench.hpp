@@ -122,7 +122,10 @@ class Bench {
 
   /// Starts with the effects the scene calls for, or with more.
   Simulation& start(double dt, std::optional<EffectSet> effects = std::nullopt, NeighbourMargins margins = {}) {
-    Model model = with_step(prepare(scene, effects), dt);
+    Scene stepped = scene;
+    stepped.numerics.dt = dt;
+    Model model = prepare(stepped, effects);
+    model.step.too_long = false;
     model.gravity = gravity;
     Grains grains = no_grains(model);
     for (const Placed& p : placed_) {

@@ -7,15 +7,6 @@ import * as in_ from './browser.mjs';
 import { madeUpAccuracy, madeUpCalibration } from './made_up_answers.mjs';
 import { hostile, withPage } from './made_up_pages.mjs';
 
-async function assertReadsWell(open) {
-  await in_.assertAccessible(open);
-  await open.emulateMedia({ colorScheme: 'dark' });
-  await open.waitForSelector('html[data-theme="dark"]');
-  await open.setViewportSize({ width: 390, height: 844 });
-  await in_.assertAccessible(open);
-  await in_.assertNoSidewaysScrolling(open);
-}
-
 async function assertDrawn(open, selector) {
   await open.locator(`${selector} .chart svg[role="slider"]`).first().waitFor();
   const broken = await open.$$eval(`${selector} .chart svg[role="slider"] *`, (parts) => parts.filter((part) => /NaN|Infinity/.test(part.outerHTML)).map((part) => part.outerHTML));
@@ -61,7 +52,7 @@ test('an accuracy study: the recommendation, the diagram and the settings', () =
   assert.deepEqual(cells.slice(1, 5), ['recommended', '-0.30 ± 0.40', '0.9', '11.97 ± 0.10']);
   assert.match(await open.locator('#levels tbody tr').nth(4).textContent(), /the step is too long/);
   assert.equal(await open.locator('#errors .lead').textContent(), 'Most is done by softness: 5.10 ± 0.70 % from its finest to its coarsest level.');
-  await assertReadsWell(open);
+  await in_.assertReadsWell(open);
 }));
 
 test('a calibration by curves: all in one chart or one at a time, with residuals', () => withPage(madeUpCalibration(true), { bypass: true }, async (open) => {
@@ -84,7 +75,7 @@ test('a calibration by curves: all in one chart or one at a time, with residuals
   await assertDrawn(open, '#pairs');
   assert.match(await open.locator('#pairs figcaption').textContent(), /ends of the ranges/);
   assert.match(await open.locator('#pairs .lead').textContent(), /^1 of 2 pairs is not told apart/);
-  await assertReadsWell(open);
+  await in_.assertReadsWell(open);
 }));
 
 test('a calibration by rates: all of them in one chart', () => withPage(madeUpCalibration(false), { bypass: true }, async (open) => {

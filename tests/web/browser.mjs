@@ -92,3 +92,13 @@ export async function assertNoSidewaysScrolling(page) {
   const [wide, narrow] = await page.evaluate(() => [document.documentElement.scrollWidth, document.documentElement.clientWidth]);
   assert.ok(wide <= narrow, `the page is ${wide} px wide on a screen of ${narrow} px`);
 }
+
+/** Turns the page dark and narrow as a phone: accessible before and after, and no wider than the screen. */
+export async function assertReadsWell(page) {
+  await assertAccessible(page);
+  await page.emulateMedia({ colorScheme: 'dark' });
+  await page.waitForSelector('html[data-theme="dark"]');
+  await page.setViewportSize({ width: 390, height: 844 });
+  await assertAccessible(page);
+  await assertNoSidewaysScrolling(page);
+}

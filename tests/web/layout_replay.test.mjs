@@ -67,12 +67,7 @@ test('keys: inside of the replay they step and play, outside they are the pageâ€
 for (const space of ['plane', 'three_dimensional']) {
   test(`nothing bars a reader, light and dark, wide and on a phone: ${space}`, () => withPage(madeUpSweep(space, 12, {}, [11]), { hash: '#layout=11', bypass: true }, async (page) => {
     await page.waitForSelector('#layout #replay-canvas[data-frame]');
-    await in_.assertAccessible(page);
-    await page.emulateMedia({ colorScheme: 'dark' });
-    await page.waitForSelector('html[data-theme="dark"]');
-    await page.setViewportSize({ width: 390, height: 844 });
-    await in_.assertAccessible(page);
-    await in_.assertNoSidewaysScrolling(page);
+    await in_.assertReadsWell(page);
     await choose(page, 5);
     await in_.assertAccessible(page);
     await in_.assertNoSidewaysScrolling(page);

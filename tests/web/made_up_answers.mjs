@@ -20,7 +20,7 @@ export function madeUpAccuracy(names = {}) {
   ].map((one) => ({ ...one, name: names.name ?? one.name }));
   return {
     data: {
-      kind: 'accuracy', program, vessels, scene, title: names.title ?? 'A made-up tray', space: 'plane', headlines: ['The cheapest setting shown to be within 1 % is setting 2.'], doubts: ['The tray is run as a plane.'],
+      kind: 'accuracy', program, vessels, scene, title: names.title ?? 'A made-up tray', space: 'plane', headlines: ['The cheapest setting shown to be within 1 % is setting 2.'], remarks: [{ serious: false, text: 'The tray is run as a plane.' }],
       against: 'the limit of step 0 and rigid grains', within_percent: 1, levels,
       errors: [{ source: 'softness', from: 'eps/r 0.0001', to: 'eps/r 0.01', percent: 5.1, band: 0.7 }, { source: 'chance of one run', from: '', to: '', percent: 0.9, band: null }],
     },
@@ -50,7 +50,7 @@ export function madeUpCalibration(ofCurves, names = {}) {
   const points = Array.from({ length: 60 }, (_, k) => [0.3 + 0.003 * k, 0.6 - 0.003 * k + 0.02 * Math.sin(k)]);
   return {
     data: {
-      kind: 'calibration', program, vessels, scene, title: names.title ?? 'A made-up slot', space: 'three_dimensional', headline: `Fitted to table.csv: ${friction} 0.4 (0.3 to 0.5).`, doubts: ['contact.friction and contact.rolling_friction cannot be told apart by this table'],
+      kind: 'calibration', program, vessels, scene, title: names.title ?? 'A made-up slot', space: 'three_dimensional', headline: `Fitted to table.csv: ${friction} 0.4 (0.3 to 0.5).`, remarks: [{ serious: false, text: 'contact.friction and contact.rolling_friction cannot be told apart by this table' }],
       quantity: ofCurves ? 'discharged_percent' : 'rate_g_per_s', of_curves: ofCurves, series: ofCurves ? [curve(1), curve(2)] : rates(),
       parameters: [parameter(friction, 0.4, { not_told_apart_from: 'contact.rolling_friction' }), parameter('contact.rolling_friction', 0.8, { contraction_percent: 12, edge: 'upper' }), parameter('depth_factor', 20, { prior_low: null, prior_high: null, low: 18, high: 22 })],
       pairs: [{ a: friction, b: 'contact.rolling_friction', correlation: -0.93, told_apart: false, points }, { a: friction, b: 'depth_factor', correlation: 0.2, told_apart: true, points: [] }],

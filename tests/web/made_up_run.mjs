@@ -182,7 +182,7 @@ export function madeUpRun(space, names = {}) {
     kind: 'run', program: { name: 'vibrosow', version: '0.2.0' }, title: names.title ?? `A made-up run ${inSpace ? 'in space' : 'in the plane'}`, space,
     headline: `3 holes let out ${total.toFixed(0)} seeds/s in 1.5 s of measuring.`,
     ...(inSpace ? { expected: '6 g/s, expect 3 to 12 g/s until you weigh (95 %); of it chance 5 %, numerics 6.2 %, tolerance 2 %, model 54 %.' } : {}),
-    remarks: ['This run is made up: it must not be used.'], status: 'finished', end_time_s: duration, window_s: window,
+    remarks: [{ serious: false, text: 'this run is made up', what_to_do: 'do not use it' }], status: 'finished', end_time_s: duration, window_s: window,
     lots: [{ name: lots[0], diameter_mm: 4.4 }, { name: lots[1], diameter_mm: 2 * reach * 1000, discs: clump }],
     vessels: vesselsOf(tray, inSpace), faces: inSpace ? facesOf(tray) : {}, holes, rate_unit: 'seeds/s',
     hole_table: {

@@ -48,7 +48,7 @@ class Simulator {
     const vessels = [pageVessel('tray', scene.tray), ...(scene.hopper ? [pageVessel('hopper', scene.hopper)] : [])];
     return {
       grains: this.seeds.length, duration_s: scene.run.duration_s, measure_from_s: scene.run.measure_from_s, time_step_s: 1e-5, steps: Math.round(scene.run.duration_s / 1e-5),
-      remarks: [...(scene.made_up_remarks ?? []), ...(scene.tray.holes.some((hole) => hole.width_m < 0.004) ? ['tray.holes.width: seeds cannot pass'] : [])],
+      remarks: [...(scene.made_up_remarks ?? []), ...(scene.tray.holes.some((hole) => hole.width_m < 0.004) ? [{ serious: true, text: 'tray.holes.width: seeds cannot pass' }] : [])],
       lots: scene.lots.map((lot) => ({ name: lot.name, diameter_mm: lot.diameter_m * 1000 })), vessels, holes: scene.tray.holes.length, frame: this.frame(0),
     };
   }

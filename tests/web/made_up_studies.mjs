@@ -1,4 +1,5 @@
 // A decision and a search for a front, made up of the layouts of a made-up sweep.
+import { notes } from '../../web/report/light.mjs';
 import { madeUpSweep } from './made_up_sweep.mjs';
 
 const asked = [{ name: 'goal', value: 'rate: mass flow, most' }, { name: 'wanted', value: 'confidence of 95 %' }];
@@ -24,7 +25,7 @@ export function madeUpDecision(space, { isSure = true, ...names } = {}) {
   return {
     data: {
       ...data, kind: 'decision', layouts, asked, cost, confidence: 'confidence of 95 %', figures: [{ ...rate, judged: true }, clogged],
-      wanted: { figure: 'rate_g_per_s', low: 12, high: 16 }, headline: 'Layout 11 is the best: rate 13.4 ± 0.9 g/s.', doubts: ['That is no guarantee.', 'Layout 4 failed: hole 3 lies beyond the rim.'],
+      wanted: { figure: 'rate_g_per_s', low: 12, high: 16 }, headline: 'Layout 11 is the best: rate 13.4 ± 0.9 g/s.', remarks: notes(['That is no guarantee.', 'layout 4 failed: hole 3 lies beyond the rim']),
     },
     recording: null,
   };
@@ -47,7 +48,7 @@ export function madeUpFront(space, { goals = 2, ...names } = {}) {
   return {
     data: {
       ...data, kind: 'front', layouts, asked, cost, figures: [...marked, clogged], headline: '3 layouts are on the front of rate and power.',
-      doubts: ['That no better layout exists within the ranges is not promised.'],
+      remarks: notes(['That no better layout exists within the ranges is not promised.']),
     },
     recording: null,
   };

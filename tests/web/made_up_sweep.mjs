@@ -69,7 +69,7 @@ export function madeUpSweep(space, count = 40, names = {}, replayed = []) {
   const data = {
     kind: 'sweep', program, title: names.title ?? 'Made-up trays: how many holes, how fast', space, headline: `${count} layouts let out 9 to 31 g/s.`,
     ...(space === 'plane' ? {} : { expected: 'Until you weigh, expect 0.5 to 2 times these rates (95 %); of it chance 2 to 9 %, model 54 %.' }),
-    keys: ['tray.holes.count', 'tray.motion.frequency_Hz', 'tray.tilt_degree'], figures, layouts, doubts: ['Layout 4 cannot be built: hole 3 lies beyond the rim.'],
+    keys: ['tray.holes.count', 'tray.motion.frequency_Hz', 'tray.tilt_degree'], figures, layouts, remarks: [{ serious: false, text: 'layout 4 cannot be built: hole 3 lies beyond the rim' }],
   };
   return { data, recording: null };
 }

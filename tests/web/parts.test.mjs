@@ -6,7 +6,7 @@ import { layerScale, listColour, mix, speedScale } from '../../web/report/colour
 import { Counters } from '../../web/report/counters.mjs';
 import { axisScale, duration, force, list, niceAbove, number, plusMinus, sentence } from '../../web/report/format.mjs';
 import { floorAt, toLab, toOwn, wallsSeenFrom } from '../../web/report/geometry.mjs';
-import { lightOf } from '../../web/report/light.mjs';
+import { lightOf, notes } from '../../web/report/light.mjs';
 import { mapOfTray } from '../../web/report/tray_map.mjs';
 import { mapSentence, packingSentence, velocitySentence } from '../../web/report/map_sentences.mjs';
 import { outflowSentence } from '../../web/report/outflow_sentence.mjs';
@@ -148,7 +148,7 @@ test('what is missing or null in the data is empty', () => {
 
 test('one light gathers all doubts, the serious ones first', () => {
   assert.deepEqual(lightOf([]), { level: 'none', words: 'No doubt is known', all: [] });
-  assert.deepEqual(lightOf(['that is no guarantee', 'That is no guarantee.']), { level: 'mild', words: 'No serious doubt, but 1 note', all: ['That is no guarantee.'] });
-  const both = lightOf(['Note: few seeds. What to do: run longer.', 'Doubtful: ran dry. What to do: measure before.', 'Layout 4 failed.']);
-  assert.deepEqual([both.level, both.words, both.all[0]], ['serious', 'Doubtful: 1 serious doubt and 2 notes', 'Doubtful: ran dry. What to do: measure before.']);
+  assert.deepEqual(lightOf(notes(['That is no guarantee.', 'that is no guarantee'])), { level: 'mild', words: 'No serious doubt, but 1 note', all: notes(['That is no guarantee.']) });
+  const both = lightOf([...notes(['few seeds']), { serious: true, text: 'ran dry' }, ...notes(['layout 4 failed'])]);
+  assert.deepEqual([both.level, both.words, both.all[0].text], ['serious', 'Doubtful: 1 serious doubt and 2 notes', 'ran dry']);
 });

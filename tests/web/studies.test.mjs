@@ -15,15 +15,6 @@ function numbersOf({ data }, standing) {
 
 const sorted = (numbers) => [...numbers].sort((a, b) => a - b);
 
-async function assertReadsWell(open) {
-  await in_.assertAccessible(open);
-  await open.emulateMedia({ colorScheme: 'dark' });
-  await open.waitForSelector('html[data-theme="dark"]');
-  await open.setViewportSize({ width: 390, height: 844 });
-  await in_.assertAccessible(open);
-  await in_.assertNoSidewaysScrolling(open);
-}
-
 test('a decision: the answer, its doubts, and the layouts as they stand', () => withPage(madeUpDecision('plane'), { bypass: true }, async (open) => {
   const made = madeUpDecision('plane');
   assert.equal(await open.locator('.headline').textContent(), made.data.headline);
@@ -38,7 +29,7 @@ test('a decision: the answer, its doubts, and the layouts as they stand', () => 
   assert.equal(await open.getByRole('textbox', { name: 'Wanted rate from, g/s' }).inputValue(), '12');
   assert.equal(await open.locator('#ranking .ranks li').first().locator('.wanted-line').count(), 2);
   assert.match(await open.locator('#question').textContent(), /confidence of 95 %.*Cost: 120 runs.*took 31.2 s/);
-  await assertReadsWell(open);
+  await in_.assertReadsWell(open);
 }));
 
 test('a decision by another figure: by its own intervals', () => withPage(madeUpDecision('plane'), {}, async (open) => {
@@ -67,7 +58,7 @@ test('a front: the points as they stand, with the intervals of those that lead',
   await open.getByRole('heading', { name: `Layout ${number}`, exact: true }).waitFor();
   assert.match(await open.locator('#layout .standing').textContent(), /^Dominated\. Layout \d+ beats it by the means, rate .* against .* and power /);
   assert.equal(await open.locator('#layout .drawing').count(), 2);
-  await assertReadsWell(open);
+  await in_.assertReadsWell(open);
 }));
 
 // How a point is drawn: its fill, its line and, of what lies over it, the fill.

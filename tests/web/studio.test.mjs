@@ -127,8 +127,12 @@ function outside(page, selectors) {
 // With a doubt as long as that of a draft.
 function withDoubt() {
   const data = madeUpStudio();
-  data.seeders[0].scene.made_up_remarks = ['doubtful: the relative overlap passed 0.05 at 0.1574 s, in 1143 steps in all, and reached 0.0884: a thin shell is no longer a good model; a smaller '
-    + 'contact.shell_compression is stiffer. What to do: make contacts stiffer or steps shorter, as it says, and run again'];
+  data.seeders[0].scene.made_up_remarks = [{
+    serious: true,
+    text: 'the relative overlap passed 0.05 at 0.1574 s, in 1143 steps in all, and reached 0.0884: a thin shell is no longer a good model; a smaller '
+      + 'contact.shell_compression is stiffer',
+    what_to_do: 'make contacts stiffer or steps shorter, as it says, and run again',
+  }];
   data.crops[1].title = 'Soybean, of a title so long that a list of crops is wider than all of the other choices beside it';
   return data;
 }

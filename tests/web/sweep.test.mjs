@@ -156,12 +156,7 @@ test('in space a layout is drawn from above too, holes round or slots', () => wi
   assert.equal(await open.locator('#layout .drawing').count(), 2);
   const corners = await open.$$eval('#layout .drawing .hole', (paths) => paths.map((path) => path.getAttribute('d').split('L').length));
   assert.deepEqual(corners, holes.map(({ round }) => (round ? 48 : 4)));
-  await in_.assertAccessible(open);
-  await open.emulateMedia({ colorScheme: 'dark' });
-  await open.waitForSelector('html[data-theme="dark"]');
-  await open.setViewportSize({ width: 390, height: 844 });
-  await in_.assertAccessible(open);
-  await in_.assertNoSidewaysScrolling(open);
+  await in_.assertReadsWell(open);
   await open.getByRole('button', { name: 'Show layout 6', exact: true }).click();
   await open.getByRole('heading', { name: 'Layout 6', exact: true }).waitFor();
   await open.waitForFunction(() => Math.abs(document.querySelector('#layout').getBoundingClientRect().top - 12) < 5);
@@ -223,12 +218,7 @@ test('a study of every combination: the map, what each choice does, the wanted r
     await open.getByRole('checkbox', { name: 'Only layouts with it' }).uncheck();
     await open.getByRole('combobox', { name: 'Down' }).selectOption('tilt');
     assert.equal(await open.locator('.heat-map caption').textContent(), 'rate, g/s by tilt and frequency');
-    await in_.assertAccessible(open);
-    await open.emulateMedia({ colorScheme: 'dark' });
-    await open.waitForSelector('html[data-theme="dark"]');
-    await open.setViewportSize({ width: 390, height: 844 });
-    await in_.assertAccessible(open);
-    await in_.assertNoSidewaysScrolling(open);
+    await in_.assertReadsWell(open);
   });
 });
 

@@ -2,7 +2,6 @@
 // returned stays until the next call of the same function.
 #include <emscripten/emscripten.h>
 
-#include <algorithm>
 #include <chrono>
 #include <exception>
 #include <nlohmann/json.hpp>
@@ -11,7 +10,6 @@
 #include <vector>
 
 #include "outflow/outflow.hpp"
-#include "plan/scene_warnings.hpp"
 #include "report/page.hpp"
 #include "report/run_page.hpp"
 #include "scene/measuring_window.hpp"
@@ -49,14 +47,16 @@ Json state() {
 
 Json opened() {
   const Model& model = simulation->model();
-  Json remarks = Json::array();
-  for (const std::string& text : scene_warnings(model.scene))
-    remarks.push_back(doubt_sentence({DoubtKind::unlikely_scene, text}));
-  return {{"grains", simulation->grains().size()},  {"holes", model.scene.tray.holes.size()},
-          {"duration_s", model.scene.run.duration}, {"measure_from_s", measuring_window(model.scene).from},
-          {"time_step_s", model.step.dt},           {"steps", model.step.steps},
-          {"remarks", std::move(remarks)},          {"lots", page_lots(model.scene)},
-          {"vessels", page_vessels(model.scene)},   {"state", state()}};
+  return {{"grains", simulation->grains().size()},
+          {"holes", model.scene.tray.holes.size()},
+          {"duration_s", model.scene.run.duration},
+          {"measure_from_s", measuring_window(model.scene).from},
+          {"time_step_s", model.step.dt},
+          {"steps", model.step.steps},
+          {"remarks", page_remarks(remarks_about(model.scene))},
+          {"lots", page_lots(model.scene)},
+          {"vessels", page_vessels(model.scene)},
+          {"state", state()}};
 }
 
 /// The text of what `make` gives; {"error": ..} where it throws.
@@ -131,14 +131,8 @@ EMSCRIPTEN_KEEPALIVE const float* grains_now() {
 EMSCRIPTEN_KEEPALIVE const char* outcome() {
   static std::string text;
   return text_of(text, [] {
-    Run run = simulation->result();
-    const bool goes_on = run.status == RunStatus::finished && run.end_reason.empty() && !simulation->at_end();
-    if (goes_on) run.status = RunStatus::interrupted;  // so that rates are of the time so far
-    Outflow outflow = measure_outflow(simulation->model().scene, run);
-    if (goes_on)
-      std::erase_if(outflow.doubts, [](const Doubt& doubt) {
-        return doubt.kind == DoubtKind::interrupted || doubt.kind == DoubtKind::before_the_window;
-      });
+    const Run run = simulation->result();
+    const Outflow outflow = measure_outflow(simulation->model().scene, run);
     const std::optional<DrillFigures> drill;
     const std::string expected;  // of trays in space alone
     return run_page_data({simulation->model(), run, outflow, drill, expected});

@@ -3,6 +3,7 @@ import { Chart, markerOf, markerPicture } from './chart.mjs';
 import { listColour } from './colours.mjs';
 import { element, section, table } from './dom.mjs';
 import { number, plusMinus } from './format.mjs';
+import { notes } from './light.mjs';
 import { logAxis } from './plot.mjs';
 import { decades, pointsOf, precisionSentence } from './precision.mjs';
 import { onTheme, theme } from './theme.mjs';
@@ -90,7 +91,7 @@ export function accuracyPage(data) {
     kicker: `Accuracy ${data.space === 'plane' ? 'in 2D' : 'in 3D'}`,
     title: data.title || 'What accuracy costs',
     headlines: data.headlines,
-    remarks: [...data.doubts, ...(refused.length ? [`${refused.length === 1 ? 'Setting' : 'Settings'} ${refused.join(', ')} gave no rate; the table says why`] : [])],
+    remarks: [...data.remarks, ...notes(refused.length ? [`${refused.length === 1 ? 'Setting' : 'Settings'} ${refused.join(', ')} gave no rate; the table says why`] : [])],
     tray: { name: 'The tray', vessels: data.vessels, scene: data.scene, space: data.space },
     whole: 'Every setting',
     sections: async () => [precisionSection(data), levelsSection(data), errorsSection(data)].filter(Boolean),

@@ -190,7 +190,7 @@ export function calibrationPage(data) {
     kicker: `Calibration ${data.space === 'plane' ? 'in 2D' : 'in 3D'}`,
     title: data.title || 'A calibration',
     headlines: [data.headline],
-    remarks: data.doubts,
+    remarks: data.remarks,
     tray: { name: 'The tray', vessels: data.vessels, scene: data.scene, space: data.space },
     whole: 'The whole calibration',
     sections: async () => [fitSection(data), parametersSection(data), pairsSection(data), section('account', 'What it took', data.account.map((one) => element('p', {}, one)))].filter(Boolean),

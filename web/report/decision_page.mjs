@@ -36,7 +36,7 @@ export function decisionPage(data) {
     kicker: `Decision ${data.space === 'plane' ? 'in 2D' : 'in 3D'}`,
     title: data.title || 'A decision',
     headlines: [data.headline, data.expected],
-    remarks: data.doubts,
+    remarks: data.remarks,
     tray: trayOfLayout(data, lead.layout, lead.layout?.standing),
     whole: 'Every layout',
     beside: true,

@@ -9,6 +9,7 @@ import { figuresOf } from './layout_figures.mjs';
 import { layoutSection } from './layout_section.mjs';
 import { layoutTableSection } from './layout_table.mjs';
 import { keyWords } from './layout_words.mjs';
+import { notes } from './light.mjs';
 import { questionSection } from './question.mjs';
 import { rankingSection } from './ranked_chart.mjs';
 import { ranked } from './ranking.mjs';
@@ -25,7 +26,7 @@ function leads(layout) {
 function edgeRemarks(data) {
   const words = keyWords(data.keys);
   return data.layouts.filter((layout) => layout.at_edge.length > 0 && leads(layout))
-    .map((layout) => `Note: layout ${layout.number} leads at the end of the range of ${list(layout.at_edge.map((key) => words[key].words))}: better ones may lie beyond.`);
+    .map((layout) => `layout ${layout.number} leads at the end of the range of ${list(layout.at_edge.map((key) => words[key].words))}: better ones may lie beyond`);
 }
 
 function legend(data) {
@@ -65,7 +66,7 @@ export function frontPage(data) {
     kicker: `Pareto search ${data.space === 'plane' ? 'in 2D' : 'in 3D'}`,
     title: data.title || 'A search',
     headlines: [data.headline, data.expected],
-    remarks: [...data.doubts, ...edgeRemarks(data)],
+    remarks: [...data.remarks, ...notes(edgeRemarks(data))],
     tray: trayOfLayout(data, lead.layout, lead.layout?.standing),
     whole: 'Every layout',
     beside: true,

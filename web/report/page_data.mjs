@@ -2,19 +2,19 @@
 
 import { withoutTwins } from './same_layouts.mjs';
 
-const empty = { program: {}, title: '', space: 'plane', headline: '', expected: '', vessels: [], scene: {} };
+const empty = { program: {}, title: '', space: 'plane', headline: '', expected: '', remarks: [], vessels: [], scene: {} };
 
 const emptyOf = {
   run: {
-    kind: 'run', remarks: [], status: 'finished', end_time_s: 0, window_s: null, lots: [], holes: [], rate_unit: 'seeds/s',
+    kind: 'run', status: 'finished', end_time_s: 0, window_s: null, lots: [], holes: [], rate_unit: 'seeds/s',
     hole_table: { columns: [], rows: [] }, unevenness: null, events: { time_s: [], hole: [], lot: [] }, effects: [], guard: '', settings: [],
     drill: null,
   },
-  sweep: { doubts: [], keys: [], figures: [], layouts: [] },
-  decision: { doubts: [], asked: [], cost: [], keys: [], figures: [], layouts: [] },
-  accuracy: { headlines: [], doubts: [], against: 'the finest setting', within_percent: 1, levels: [], errors: [] },
-  calibration: { doubts: [], quantity: '', of_curves: false, parameters: [], pairs: [], series: [], account: [] },
-  front: { doubts: [], asked: [], cost: [], keys: [], figures: [], layouts: [] },
+  sweep: { keys: [], figures: [], layouts: [] },
+  decision: { asked: [], cost: [], keys: [], figures: [], layouts: [] },
+  accuracy: { headlines: [], against: 'the finest setting', within_percent: 1, levels: [], errors: [] },
+  calibration: { quantity: '', of_curves: false, parameters: [], pairs: [], series: [], account: [] },
+  front: { asked: [], cost: [], keys: [], figures: [], layouts: [] },
 };
 
 const emptyLayout = { name: '', values: [], status: 'ok', note: '', expected: '', replicates: 0, means: {}, misfit_percent: null, holes: [], vessels: [], scene: {}, command: '', replay: null, at_edge: [] };

@@ -37,7 +37,7 @@ export function runPage(data) {
     kicker: `Run ${data.space === 'plane' ? 'in 2D' : 'in 3D'}`,
     title: data.title || 'A run',
     headlines: [data.headline, data.expected, data.drill?.sentence],
-    remarks: [...(endings[data.status] ? [`Doubtful: ${endings[data.status]} at ${number(data.end_time_s)} s.`] : []), ...data.remarks],
+    remarks: [...(endings[data.status] ? [{ serious: true, text: `${endings[data.status]} at ${number(data.end_time_s)} s` }] : []), ...data.remarks],
     tray: { name: 'The tray', vessels: data.vessels, scene: data.scene, space: data.space },
     whole: 'The whole run',
     sections: () => sections(data),

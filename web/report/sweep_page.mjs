@@ -36,7 +36,7 @@ export function sweepPage(data) {
     kicker: `Sweep ${data.space === 'plane' ? 'in 2D' : 'in 3D'}`,
     title: data.title || 'A sweep',
     headlines: [data.headline, data.expected],
-    remarks: data.doubts,
+    remarks: data.remarks,
     tray: trayOfLayout(data, lead.layout, lead.figure ? `the ${lead.figure.wanted_low ? 'lowest' : 'highest'} ${lead.figure.words}` : 'the first'),
     whole: 'Every layout',
     beside: true,

@@ -2,6 +2,7 @@
 import { element } from '../report/dom.mjs';
 import { number, sentence } from '../report/format.mjs';
 import { intervalTrack, scaleOf, trackAxis } from '../report/interval_track.mjs';
+import { differentRemarks, remarkItem } from '../report/light.mjs';
 import { RollingRate } from './rolling.mjs';
 import { wantedWords } from './wanted.mjs';
 
@@ -119,10 +120,12 @@ export class OutflowPanel {
       rates?.unevenness ? figure('Unevenness (CV)', cvText(rates.unevenness), sentence(rates.unevenness.sentence)) : null,
     ].filter(Boolean));
     this.guard.textContent = sentence(outcome?.guard);
-    const doubts = [endings[outcome?.status], ...new Set([...(prepared?.remarks ?? []), ...(outcome?.remarks ?? [])])].filter(Boolean);
-    if (doubts.join() === this.doubts) return;  // so that they can be read, and marked, in peace
-    this.doubts = doubts.join();
-    this.remarks.replaceChildren(...doubts.map((doubt) => element('li', {}, sentence(doubt))));
-    this.remarks.hidden = doubts.length === 0;
+    const ending = endings[outcome?.status];
+    const remarks = differentRemarks([...(ending ? [{ serious: true, text: ending }] : []), ...(prepared?.remarks ?? []), ...(outcome?.remarks ?? [])]);
+    const shown = JSON.stringify(remarks);
+    if (shown === this.shown) return;  // so that they can be read, and marked, in peace
+    this.shown = shown;
+    this.remarks.replaceChildren(...remarks.map(remarkItem));
+    this.remarks.hidden = remarks.length === 0;
   }
 }
