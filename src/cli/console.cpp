@@ -34,7 +34,7 @@ void make_streams_safe() {
 
 void end_when_memory_runs_out() {
   std::set_new_handler([] {
-    constexpr std::string_view line = "vibrosow: out of memory: the scene has more grains than this machine holds\n";
+    constexpr std::string_view line = "vibrosow: out of memory\n";
     [[maybe_unused]] const auto written = write(STDERR_FILENO, line.data(), line.size());
     std::_Exit(exit_wrong_input);
   });

@@ -255,7 +255,7 @@ int run_scene(const RunOptions& options) {
         if (sown) print_drill(*sown, scene.space);
         if (run.phase_times) print_profile(run);
       });
-  if (run.status == RunStatus::finished) checkpoint.remove();
+  if (run.status == RunStatus::finished && (options.resume || simulation.on_checkpoint)) checkpoint.remove();
   if (!options.quiet) print("reports: {}\n", folder.path().string());
   for (const Doubt& warning : run.warnings) print_warnings({warning.text});
   if (run.status == RunStatus::stopped_by_guard) {

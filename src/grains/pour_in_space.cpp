@@ -34,7 +34,16 @@ class LowestPlace {
         obstacles_(without_lid(vessel), Space::three_dimensional),
         room_(vessel, Space::three_dimensional, least_half_width(lots)) {}
 
+  /// Looked for anew where a seed came down nowhere: a piece that reaches the top is in its way, and it is wide.
   Lying find(const SeedLot& seeds, double size, Random& random) const {
+    constexpr int most_drops = 100;
+    Lying seed = found_below(seeds, size, random);
+    for (int drop = 1; drop < most_drops && std::isinf(seed.height); ++drop) seed = found_below(seeds, size, random);
+    return seed;
+  }
+
+ private:
+  Lying found_below(const SeedLot& seeds, double size, Random& random) const {
     constexpr double first = 1, growth = 1.6;  // step, in radii, and after one down
     const double radius = 0.5 * size * seeds.diameter;
     const bool turns = is_solid_clump(seeds);
@@ -58,7 +67,6 @@ class LowestPlace {
     return lowest;
   }
 
- private:
   /// Turned on about any axis, by up to 120 degrees at a `step` of 1.
   static Orientation tilted(const Orientation& orientation, double step, Random& random) {
     const double a = step * random.uniform(-1, 1), b = step * random.uniform(-1, 1), c = step * random.uniform(-1, 1);

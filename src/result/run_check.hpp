@@ -48,10 +48,12 @@ inline bool is_possible(const Snapshot& s, const RunBounds& of) {
 /// negative, and times lie within the run. A checksum tells damage, not who wrote the file.
 inline bool is_possible(const Run& r, const RunBounds& of) {
   if (r.status < RunStatus::finished || r.status > RunStatus::refused) return false;
+  constexpr double most_mass = 1e3;  // kg, of a seed
   const double latest = 2 * of.duration;
   const auto is_event = [&](const OutflowEvent& e) {
     return e.hole >= 0 && static_cast<std::size_t>(e.hole) <= of.holes && e.lot >= 0 &&
-           static_cast<std::size_t>(e.lot) < of.lots && e.grain >= 0 && std::abs(e.time) <= latest;
+           static_cast<std::size_t>(e.lot) < of.lots && e.grain >= 0 && std::abs(e.time) <= latest && e.mass > 0 &&
+           e.mass <= most_mass && e.speed >= 0 && std::isfinite(e.speed) && std::isfinite(e.x) && std::isfinite(e.z);
   };
   const Balance& b = r.balance;
   const std::initializer_list<std::int64_t> counts = {r.steps,
@@ -70,10 +72,18 @@ inline bool is_possible(const Run& r, const RunBounds& of) {
   const bool times = r.end_time >= 0 && r.end_time <= latest && r.dt >= 0 && r.dt <= latest &&
                      r.tray_empty_since >= -1 && r.tray_empty_since <= latest;
   const auto is_kind = [](const Doubt& doubt) { return doubt.kind >= DoubtKind{} && doubt.kind <= last_doubt_kind; };
-  return times && tray && std::ranges::all_of(r.warnings, is_kind) &&
+  return times && tray && r.max_relative_overlap >= 0 && std::ranges::all_of(r.warnings, is_kind) &&
          std::ranges::all_of(counts, [](std::int64_t count) { return count >= 0; }) &&
          std::ranges::all_of(r.events, is_event) &&
          std::ranges::all_of(r.snapshots, [&](const Snapshot& s) { return is_possible(s, of); });
+}
+
+/// Whether each seed of a run that has ended is somewhere. Of one that goes on, those inside are not counted yet.
+inline bool is_balanced(const Balance& b) {
+  constexpr std::int64_t most = std::int64_t{1} << 60;  // their sum is no overflow
+  const auto possible = [](std::int64_t count) { return count >= 0 && count <= most; };
+  return possible(b.inside) && possible(b.counted) && possible(b.spilled) && possible(b.lost) &&
+         b.put_in == b.inside + b.counted + b.spilled + b.lost;
 }
 
 }  // namespace vibrosow

@@ -44,9 +44,12 @@ struct Feeder::Inside {
   }
 };
 
-/// Those whose centre is in the vessel count; others that reach into it, at an outlet or over its edge, are in the way.
-Feeder::Inside Feeder::grains_inside(const Vessel& vessel, const Pose& pose, const Grains& grains,
+/// Those whose centre is in the vessel count (`SeedPlaces::counts_in`); others that reach into it, at an outlet or over
+/// its edge, are in the way.
+Feeder::Inside Feeder::grains_inside(std::size_t v, const Walls& walls, const Grains& grains,
                                      const std::vector<char>& touching) const {
+  const Vessel& vessel = walls.vessels()[v];
+  const Pose pose = upright_frame(vessel, walls.poses()[v]);
   Inside inside;
   inside.in_space = grains.in_space;
   for (std::size_t i = 0; i < grains.size(); ++i) {
@@ -55,7 +58,7 @@ Feeder::Inside Feeder::grains_inside(const Vessel& vessel, const Pose& pose, con
     if (own.x() < -reach || own.x() > vessel.length + reach || own.y() < -reach || own.y() > vessel.height + reach)
       continue;
     if (grains.in_space && (own.z() < -reach || own.z() > *vessel.depth + reach)) continue;
-    if (is_inside(vessel, pose, grains, i)) ++inside.grains;
+    if (is_inside(vessel, pose, grains, i) && places_.counts_in(grains.place(i), v, walls)) ++inside.grains;
     inside.add(vessel, own, grains.kind(i).radius, touching[i] != 0);
   }
   return inside;
@@ -177,7 +180,7 @@ int Feeder::top_up(Grains& grains, const std::vector<char>& touching, const Wall
     if (!is_kept(vessel)) continue;
     const Pose pose = walls.poses()[v], frame = upright_frame(vessel, pose);
     const PoseRate rate = walls.rate(v, time);
-    Inside inside = grains_inside(vessel, frame, grains, touching);
+    Inside inside = grains_inside(v, walls, grains, touching);
     const int missing = vessel.fill->count - inside.grains;
     int waiting = 0;
     std::optional<DrawnSeed>& next = state_.missing[v];

@@ -37,6 +37,8 @@ class Feeder {
   /// Adds what has rained up to `time` (s); returns how many grains were added at the end of `grains`.
   int rain(Grains& grains, const Walls& walls, double time);
 
+  const SeedPlaces& places() const { return places_; }
+
   /// What was wrong with how a grain was put in, of the first that was; none: nothing ever.
   const std::optional<std::string>& fault() const { return fault_; }
 
@@ -46,7 +48,7 @@ class Feeder {
 
  private:
   struct Inside;
-  Inside grains_inside(const Vessel& vessel, const Pose& frame, const Grains& grains,
+  Inside grains_inside(std::size_t vessel, const Walls& walls, const Grains& grains,
                        const std::vector<char>& touching) const;
   std::optional<double> free_height(const Inside& inside, const FloorPlace& place, double radius, std::size_t vessel,
                                     const Walls& walls) const;

@@ -50,11 +50,18 @@ bool SeedPlaces::is_in_room(const Eigen::Vector3d& at, std::size_t v, const Wall
   return turns_over(vessel) && drum_of(vessel) == nullptr && rooms_[v].holds(point_in_vessel(vessel, {}, at));
 }
 
-bool SeedPlaces::belong(const Eigen::Vector3d& at, std::size_t v, const Walls& walls) const {
-  if (!is_in_room(at, v, walls)) return false;
+bool SeedPlaces::lies_in_hopper_within(const Eigen::Vector3d& at, std::size_t v, const Walls& walls) const {
   for (std::size_t other = v + 1; other < rooms_.size(); ++other)
-    if (rooms_[other].holds_below_top(own_place(at, other, walls))) return false;
-  return true;
+    if (rooms_[other].holds_below_top(own_place(at, other, walls))) return true;
+  return false;
+}
+
+bool SeedPlaces::belong(const Eigen::Vector3d& at, std::size_t v, const Walls& walls) const {
+  return is_in_room(at, v, walls) && !lies_in_hopper_within(at, v, walls);
+}
+
+bool SeedPlaces::counts_in(const Eigen::Vector3d& at, std::size_t v, const Walls& walls) const {
+  return (v == 0 || is_in_room(at, v, walls)) && !lies_in_hopper_within(at, v, walls);
 }
 
 double SeedPlaces::depth_in_walls(const Eigen::Vector3d& at, double radius, const Walls& walls) const {

@@ -28,6 +28,11 @@ class SeedPlaces {
   /// it stands at rest, too.
   bool is_in_room(const Eigen::Vector3d& at, std::size_t vessel, const Walls& walls) const;
 
+  /// Whether a seed whose centre lies at `at` (m, lab), between the vessel's ends and no higher than its top, counts as
+  /// the vessel's own: beneath the slopes of a hopper lie the tray's seeds, in a hopper that dips into the tray its
+  /// own.
+  bool counts_in(const Eigen::Vector3d& at, std::size_t vessel, const Walls& walls) const;
+
   /// m, by how much a ball at `at` (m, lab) reaches into the nearest wall of any vessel; negative: it is clear.
   double depth_in_walls(const Eigen::Vector3d& at, double radius, const Walls& walls) const;
 
@@ -49,6 +54,7 @@ class SeedPlaces {
                                                const Walls& walls) const;
 
  private:
+  bool lies_in_hopper_within(const Eigen::Vector3d& at, std::size_t vessel, const Walls& walls) const;
   Eigen::Vector3d own_place(const Eigen::Vector3d& at, std::size_t vessel, const Walls& walls) const;
   std::vector<ClumpDisc> balls_of(const Grains& grains, std::size_t i) const;
   Eigen::Vector3d apart(const Grains& grains, std::size_t i, const Eigen::Vector3d& at) const;

@@ -292,10 +292,12 @@ void Simulation::feed(bool top_up, bool rain) {
 }
 
 std::int64_t Simulation::inside_tray(std::int64_t most) const {
-  const Pose pose = field_.walls().poses().front();
+  const Walls& walls = field_.walls();
   std::int64_t inside = 0;
   for (std::size_t i = 0; i < state_.grains.size() && inside < most; ++i)
-    if (!counter_.is_counted(i) && is_inside(model_.scene.tray, pose, state_.grains, i)) ++inside;
+    if (!counter_.is_counted(i) && is_inside(model_.scene.tray, walls.poses().front(), state_.grains, i) &&
+        feeder_.places().counts_in(state_.grains.place(i), 0, walls))
+      ++inside;
   return inside;
 }
 

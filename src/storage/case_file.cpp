@@ -164,7 +164,8 @@ Case read_case(std::string_view bytes) {
     Case read;
     WholeRun whole{read.run};
     archive(read.identity, whole);
-    if (!is_possible(read.run, bounds_in(read.identity))) refuse("no run of its scene is such");
+    if (!is_possible(read.run, bounds_in(read.identity)) || !is_balanced(read.run.balance))
+      refuse("no run of its scene is such");
     make_printable(read.run);
     return read;
   } catch (const cereal::Exception&) {

@@ -45,6 +45,7 @@ std::string head_of(const std::string& numbers) {
 /// The numbers of a segment, the count of its cases before; none where it is damaged.
 std::optional<std::string> numbers_of(const fs::path& file) {
   std::error_code error;
+  if (!fs::is_regular_file(file, error)) return std::nullopt;  // to open a pipe is to wait for who writes it
   const std::uint64_t size = fs::file_size(file, error);
   std::ifstream in(file, std::ios::binary);
   std::string head(segment_head_size, '\0'), numbers(8, '\0');
@@ -88,6 +89,7 @@ std::vector<std::string> Segments::bytes_of(const std::string& name) const {
   for (auto it = std::ranges::lower_bound(entries_, key, {}, &IndexEntry::key); it != entries_.end() && it->key == key;
        ++it) {
     const IndexEntry& entry = *it;
+    if (std::error_code none; !fs::is_regular_file(files_[entry.segment], none)) continue;
     std::ifstream in(files_[entry.segment], std::ios::binary);
     std::error_code error;
     const std::uint64_t file_size = fs::file_size(files_[entry.segment], error);

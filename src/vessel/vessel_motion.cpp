@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <boost/math/interpolators/cubic_hermite.hpp>
 #include <boost/math/interpolators/makima.hpp>
 #include <cmath>
 #include <numbers>
@@ -129,11 +130,29 @@ void add(PoseRate& sum, const PoseRate& part) {
   sum.velocity += part.velocity, sum.across_velocity += part.across_velocity;
 }
 
-using Curve = boost::math::interpolators::makima<std::vector<double>>;
+using Curve = boost::math::interpolators::cubic_hermite<std::vector<double>>;
 
-/// At rest at both ends, so that the velocity is continuous there too.
+/// Whether a vessel holds still from row `k` of a table to the next: they are equal, and further apart than rows beside
+/// them that differ. Equal rows of a signal that is sampled evenly may lie on both sides of its peak.
+bool is_hold(const std::vector<double>& times, const std::vector<double>& values, std::size_t k) {
+  constexpr double longer = 1.5;
+  if (values[k] != values[k + 1]) return false;
+  const auto moves_faster = [&](std::size_t row) {
+    return values[row] != values[row + 1] && longer * (times[row + 1] - times[row]) < times[k + 1] - times[k];
+  };
+  return (k > 0 && moves_faster(k - 1)) || (k + 2 < times.size() && moves_faster(k + 1));
+}
+
+/// Modified Akima, at rest at both ends, so that the velocity is continuous there too. From a hold it would go on as it
+/// came, by the more the longer the hold: there the slopes are 0.
 Curve curve(std::vector<double> times, std::vector<double> values) {
-  return Curve(std::move(times), std::move(values), 0.0, 0.0);
+  using Numbers = std::vector<double>;
+  const boost::math::interpolators::makima<Numbers> akima(Numbers(times), Numbers(values), 0.0, 0.0);
+  Numbers slopes;
+  for (const double time : times) slopes.push_back(akima.prime(time));
+  for (std::size_t k = 0; k + 1 < times.size(); ++k)
+    if (is_hold(times, values, k)) slopes[k] = slopes[k + 1] = 0;
+  return Curve(std::move(times), std::move(values), std::move(slopes));
 }
 
 }  // namespace

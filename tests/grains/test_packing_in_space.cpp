@@ -259,5 +259,15 @@ TEST(PackingInSpace, WheatLiesLowerThanTheBallsThatHoldIt) {
   EXPECT_LT(height_of(grains), 0.25 * height_of(holders)) << "m: " << height_of(grains) << " of " << height_of(holders);
 }
 
+TEST(PackingInSpace, PiecesThatReachTheTopAreNoReasonToRefuse) {
+  Vessel split = box(Packing::poured, 40), coned = split;
+  split.height = coned.height = 0.04;
+  split.pieces = {{.a = {0.025, 0}, .b = {0.025, 0.04}}};
+  coned.depth = coned.length, coned.plan = Plan::round;
+  coned.pieces = {{.a = {0.025, 0.04}, .b = {0.007, 0.001}, .about = Eigen::Vector2d(0.025, 0.025)}};
+  for (const Vessel& vessel : {split, coned})
+    for (std::uint64_t seed = 1; seed <= 6; ++seed) EXPECT_EQ(packed(vessel, one_lot(), seed).size(), 40u) << seed;
+}
+
 }  // namespace
 }  // namespace vibrosow::packing_in_space_test

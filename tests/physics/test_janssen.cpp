@@ -13,7 +13,7 @@
 #include "input/read_scene.hpp"
 #include "plan/step_plan.hpp"
 #include "simulation/simulation.hpp"
-#include "support/report_file.hpp"
+#include "support/committed_report.hpp"
 
 namespace vibrosow {
 namespace {
@@ -186,7 +186,7 @@ struct Columns {
 
 TEST(Janssen, FloorLoadSaturates) {
   const Columns columns(slot_silo, {2, 4, 6, 8});
-  write_report(
+  expect_committed(
       "janssen.csv",
       "# tests/physics/janssen.toml: columns of 2 to 8 widths on a floor that sinks slowly, medians of 8 random seeds\n"
       "# K and mobilised friction from the tallest one's middle; stresses in N per m of width and depth of one grain's "
@@ -204,12 +204,13 @@ TEST(Janssen, FloorLoadSaturates) {
 
 TEST(Janssen, FloorLoadSaturatesInACylinder) {
   const Columns columns(cylinder, {2, 4, 6});
-  write_report("janssen-cylinder.csv",
-               "# tests/physics/janssen-cylinder.toml: balls in a cylinder, 2 to 6 widths high, on a floor that sinks "
-               "slowly, one random seed\n"
-               "# K and mobilised friction from the tallest one's middle; stresses in N/m2\n"
-               "widths,depth_mm,floor_stress_N_per_m2,janssen_N_per_m2,weight_N_per_m2,K,mobilised_friction\n" +
-                   columns.rows());
+  expect_committed(
+      "janssen-cylinder.csv",
+      "# tests/physics/janssen-cylinder.toml: balls in a cylinder, 2 to 6 widths high, on a floor that sinks "
+      "slowly, one random seed\n"
+      "# K and mobilised friction from the tallest one's middle; stresses in N/m2\n"
+      "widths,depth_mm,floor_stress_N_per_m2,janssen_N_per_m2,weight_N_per_m2,K,mobilised_friction\n" +
+          columns.rows());
   EXPECT_LT(columns.load.at(6), 1.1 * columns.load.at(4));
   EXPECT_LT(columns.load.at(6), 0.4 * columns.weight(6));
   EXPECT_GT(columns.janssen.friction, 0.1);

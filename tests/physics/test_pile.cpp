@@ -11,7 +11,7 @@
 #include "input/read_scene.hpp"
 #include "plan/step_plan.hpp"
 #include "simulation/simulation.hpp"
-#include "support/report_file.hpp"
+#include "support/committed_report.hpp"
 
 namespace vibrosow {
 namespace {
@@ -109,7 +109,7 @@ TEST(Pile, StaysUnderTheTangentialSpringAndSpreadsUnderTheSignLaw) {
     EXPECT_LT(crept.size(), settled.size()) << slip_speed;
     EXPECT_GT(creep, 1e4 * 1e-6) << slip_speed;
   }
-  write_report("pile.csv", table);
+  expect_committed("pile.csv", table);
 }
 
 }  // namespace

@@ -9,6 +9,7 @@
 
 #include "grains/turned_discs.hpp"
 #include "scene/input_error.hpp"
+#include "simulation/feeder.hpp"
 #include "simulation/seed_places.hpp"
 #include "simulation/simulate.hpp"
 #include "support/bench.hpp"
@@ -112,6 +113,51 @@ bool is_over_slopes(const Eigen::Vector3d& own) {
 
 class Insertion : public testing::TestWithParam<Space> {};
 INSTANTIATE_TEST_SUITE_P(Spaces, Insertion, testing::ValuesIn(both_spaces), named_by_space);
+
+/// A kept hopper that dips into its tray, on whose floor seeds lie beneath the slopes, in the hopper's box.
+Scene dipping(Space space) {
+  Scene scene = soft(space);
+  scene.hopper = hopper_over(scene);
+  scene.hopper->fill->count = 12;
+  return scene;
+}
+Eigen::Vector3d of_dipping(double own_x, double own_y) {
+  return {0.01 + own_x, 0.03 + own_y, 0.01};
+}
+
+TEST_P(Insertion, ASeedCountsWhereItLies) {
+  const Simulation run(prepare(dipping(GetParam())), 1);
+  const SeedPlaces places(run.model());
+  const auto counts = [&](const Eigen::Vector3d& at) {
+    return std::pair(places.counts_in(at, 0, run.field().walls()), places.counts_in(at, 1, run.field().walls()));
+  };
+  EXPECT_EQ(counts(of_dipping(0.03, 0.02)), std::pair(false, true)) << "over the slopes, though in the tray's box";
+  EXPECT_EQ(counts(of_dipping(0.005, 0.005)), std::pair(true, false)) << "beneath them, though in the hopper's box";
+}
+
+TEST_P(Insertion, AKeptHopperIsNotFullOfSeedsBeneathItsSlopes) {
+  const Model model = prepare(dipping(GetParam()));
+  Grains grains = no_grains(model);
+  for (int k = 0; k < 3; ++k)
+    grains.add(of_dipping(0.003 + 0.0045 * k, 0.002), Eigen::Vector3d::Zero(), 0, grains.kinds[0], {});
+  const Simulation run(model, starting_state(model, 1, grains));
+  FeederState state = run.state().feeder;
+  Feeder feeder(run.model(), state);
+  EXPECT_EQ(feeder.top_up(grains, {0, 0, 0}, run.field().walls(), 0), 12);
+  EXPECT_FALSE(feeder.fault()) << *feeder.fault();
+}
+
+/// The tray's own seeds run out, and only a closed hopper that dips into it holds any.
+TEST_P(Insertion, ATrayIsEmptyThoughAHopperInItIsFull) {
+  Scene scene = dipping(GetParam());
+  scene.hopper->holes.clear(), scene.hopper->funnel = 0, scene.hopper->fill->keep = false;
+  scene.run.duration = 0.05;
+  Simulation run(prepare(scene), 1);
+  while (!run.at_end()) run.step();
+  EXPECT_EQ(run.result().balance.inside, 12);
+  EXPECT_EQ(run.result().tray_at_end, 0);
+  EXPECT_GE(run.result().tray_empty_since, 0);
+}
 
 TEST_P(Insertion, AKeptHopperWithAFunnelIsFedAboveItsSlopes) {
   Scene scene = soft(GetParam());

@@ -110,6 +110,13 @@ TEST(CaseFile, BehindARightChecksumNoIndexCountOrTimeIsBelieved) {
   refused([](auto& run) { run.events[3].hole = 4; });
   refused([](auto& run) { run.events[3].time = 1e308; });
   refused([](auto& run) { run.balance.counted = -1; });
+  refused([](auto& run) { ++run.balance.put_in; });
+  refused([](auto& run) { run.balance.inside = run.balance.put_in = std::int64_t{1} << 62; });
+  for (const double mass : {-1.0, 0.0, 1e300, std::nan(""), HUGE_VAL})
+    refused([&](auto& run) { run.events[3].mass = mass; });
+  refused([](auto& run) { run.events[3].speed = -1; });
+  refused([](auto& run) { run.events[3].x = HUGE_VAL; });
+  refused([](auto& run) { run.max_relative_overlap = -3.1e231; });
   refused([](auto& run) { run.status = static_cast<RunStatus>(7); });
   refused([](auto& run) { run.end_time = 1e300; });
   refused([](auto& run) { run.snapshots[0].lot[2] = 9; });

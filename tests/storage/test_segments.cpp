@@ -1,6 +1,7 @@
 #include "storage/segments.hpp"
 
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include <fstream>
 #include <iterator>
@@ -38,6 +39,11 @@ TEST_F(SegmentFolder, GivesBackWhatWasWritten) {
   for (const auto& [name, bytes] : cases_) EXPECT_EQ(segments.bytes_of(name), std::vector<std::string>{bytes});
   EXPECT_TRUE(segments.bytes_of(name(4)).empty());
   EXPECT_TRUE(segments.bytes_of("no name").empty());
+}
+
+TEST_F(SegmentFolder, APipeIsNotWaitedFor) {
+  ASSERT_EQ(mkfifo((folder_.path() / "a.segment").c_str(), 0600), 0);
+  EXPECT_TRUE(fresh().names().empty());
 }
 
 TEST_F(SegmentFolder, SeesSegmentsThatCameSince) {

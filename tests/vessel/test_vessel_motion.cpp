@@ -78,6 +78,41 @@ TEST(Motion, RampsBeginAndEndAtRest) {
       << "paper A's case jumps";
 }
 
+TEST(Motion, ATableThatHoldsStillDoesNotDrift) {
+  TableMotion table;
+  table.times = {0, 0.02, 0.04, 0.1, 1.1, 1.16, 1.2, 1.3};
+  table.x = {0, 0, 0, 20e-3, 20e-3, 0, 0, 0};
+  table.y = {0, 0, 0, 0, 0, 0, 0, 0};
+  table.angle = {0.1, 0.1, 0.1, 0.1, 0.1, 0.3, 0.3, 0.3};
+  const VesselPath path(moving(table));
+  for (double time = 0.1; time < 1.1; time += 0.01) {
+    EXPECT_NEAR(path.pose(time).displacement.x(), 20e-3, 1e-12) << time;
+    EXPECT_NEAR(path.pose(time).angle, 0.1, 1e-12) << time;
+  }
+}
+
+TEST(Motion, ATableThatStandsBeforeItSetsOutDoesNotDrift) {
+  TableMotion table;
+  table.times = {0, 1, 1.1, 1.2, 1.3};
+  table.x = table.angle = {0, 0, 20e-3, 20e-3, 20e-3};
+  table.y = {0, 0, 0, 0, 0};
+  const VesselPath path(moving(table));
+  for (double time = 0; time <= 1; time += 0.01) EXPECT_NEAR(path.pose(time).displacement.x(), 0, 1e-12) << time;
+}
+
+/// Two rows on both sides of a peak are equal, and yet no hold.
+TEST(Motion, ATableOfASampledSineGoesOnOverItsPeak) {
+  TableMotion table;
+  for (int k = -9; k <= 10; ++k) {
+    const double time = (k - 0.5) * 1e-3;
+    table.times.push_back(time);
+    table.x.push_back(1e-3 * std::cos(2 * std::numbers::pi * 50 * time));
+    table.y.push_back(0), table.angle.push_back(0);
+  }
+  ASSERT_EQ(table.x[9], table.x[10]);
+  EXPECT_GT(VesselPath(moving(table)).pose(0).displacement.x(), 1.002 * table.x[9]);
+}
+
 TEST(Motion, HalfwayThroughARampTheAmplitudeIsHalf) {
   const HarmonicMotion m{0, 0.01, 9, 0.2, 0, 1.0, 0.4};
   const double two_pi = 2 * std::numbers::pi;
