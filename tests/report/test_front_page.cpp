@@ -45,7 +45,7 @@ TEST_F(FrontPage, SaysHowManyAreOnTheFront) {
 }
 
 TEST_F(FrontPage, DoubtsAreWhatIsNotPromisedAndThatItWasInterrupted) {
-  const auto remark = [&](int k) { return data()["remarks"][k]["text"].get<std::string>(); };
+  const auto remark = [&](std::size_t k) { return data()["remarks"][k]["text"].get<std::string>(); };
   ASSERT_EQ(data()["remarks"].size(), 3U) << "and that a layout cannot be built";
   EXPECT_EQ(remark(0),
             "Of the 1 that may be on the front, none surely meets the constraints; more runs (--runs) may decide.");
