@@ -14,13 +14,17 @@
 
 namespace vibrosow {
 
-/// The model of the same scene and effects that runs with this step (s), as if it were safe.
-inline Model with_step(const Model& model, double dt) {
-  Scene scene = model.scene;
+/// A scene's model that runs with this step (s), as if it were safe; with the effects it calls for, or with more.
+inline Model prepare_with_step(Scene scene, double dt, const std::optional<EffectSet>& effects = std::nullopt) {
   scene.numerics.dt = dt;
-  Model other = prepare(scene, model.effects);
-  other.step.too_long = false;
-  return other;
+  Model model = prepare(scene, effects);
+  model.step.too_long = false;
+  return model;
+}
+
+/// The same of a model's scene and effects.
+inline Model with_step(const Model& model, double dt) {
+  return prepare_with_step(model.scene, dt, model.effects);
 }
 
 inline constexpr Space both_spaces[] = {Space::plane, Space::three_dimensional};
@@ -122,10 +126,7 @@ class Bench {
 
   /// Starts with the effects the scene calls for, or with more.
   Simulation& start(double dt, std::optional<EffectSet> effects = std::nullopt, NeighbourMargins margins = {}) {
-    Scene stepped = scene;
-    stepped.numerics.dt = dt;
-    Model model = prepare(stepped, effects);
-    model.step.too_long = false;
+    Model model = prepare_with_step(scene, dt, effects);
     model.gravity = gravity;
     Grains grains = no_grains(model);
     for (const Placed& p : placed_) {
