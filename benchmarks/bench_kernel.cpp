@@ -22,17 +22,17 @@ namespace vibrosow {
 namespace {
 
 Scene tray(Space space) {
-  const bool in_space = space == Space::three_dimensional;
+  const bool is_3d = space == Space::three_dimensional;
   Scene scene;
   scene.space = space;
-  scene.lots = {{"grain", 8e-3, 0.6e-3, in_space ? Shape::ball : Shape::disc, 1.0}};
+  scene.lots = {{"grain", 8e-3, 0.6e-3, is_3d ? Shape::ball : Shape::disc, 1.0}};
   scene.contact.shell_compression = 1e-4;
   scene.contact.friction_model = FrictionModel::spring;
   scene.contact.seed = scene.contact.wall = {0.3, 0.5};
   scene.tray.name = "tray";
-  scene.tray.length = in_space ? 0.2 : 0.5, scene.tray.height = 0.45;
-  if (in_space) scene.tray.depth = 0.12;
-  scene.tray.fill = Fill{in_space ? 5000 : 2400, Packing::layers, 1e-3, false};
+  scene.tray.length = is_3d ? 0.2 : 0.5, scene.tray.height = 0.45;
+  if (is_3d) scene.tray.depth = 0.12;
+  scene.tray.fill = Fill{is_3d ? 5000 : 2400, Packing::layers, 1e-3, false};
   scene.tray.motion = HarmonicMotion{0, 0.01, 9, 0};
   scene.guard.stop_relative_overlap = 100;
   scene.run.duration = 2;
@@ -112,8 +112,8 @@ struct Three {
 }
 
 /// The same in space: springs of all pairs, touching or not, lie side by side, four numbers each.
-long bare_kernel_in_space(const Bare& c, const Grains& g, const PairList& list, std::vector<double>& records,
-                          SpaceForces& sums) {
+long bare_kernel_3d(const Bare& c, const Grains& g, const PairList& list, std::vector<double>& records,
+                    Forces3d& sums) {
   constexpr int block = 256;
   unsigned char touches[block + 16];
   int entry[block + 16];
@@ -241,9 +241,9 @@ class Plane : Given {
 };
 
 /// The same in space.
-class InSpace : Given {
+class Balls3d : Given {
  public:
-  InSpace(const Model& model, const SimulationState& state) : Given(model, state) {
+  Balls3d(const Model& model, const SimulationState& state) : Given(model, state) {
     for (std::size_t i = 0; i < grains_.size(); ++i) {
       places_.push_back({grains_.x[i], grains_.y[i], grains_.z[i], 0});
       motions_.push_back({{grains_.vx[i], grains_.vy[i], grains_.vz[i], 0},
@@ -258,7 +258,7 @@ class InSpace : Given {
   }
 
   long ours() {
-    const SpaceMotion at{places_.data(), places_.data(), motions_.data()};
+    const Motion3d at{places_.data(), places_.data(), motions_.data()};
     const int size = static_cast<int>(list_.size());
     result_.forces = sums_.forces.data(), result_.torques = sums_.torques.data(), result_.first_own = 0;
     long contacts = 0;
@@ -269,7 +269,7 @@ class InSpace : Given {
     }
     return contacts;
   }
-  long bare() { return bare_kernel_in_space(constants_, grains_, list_, bare_records_, bare_sums_); }
+  long bare() { return bare_kernel_3d(constants_, grains_, list_, bare_records_, bare_sums_); }
   double difference() const {
     double most = 0, largest = 0;
     const auto far = [](const GrainVector& a, const GrainVector& b) {
@@ -284,13 +284,13 @@ class InSpace : Given {
   }
 
  private:
-  const SpacePairKernel kernel_ = model_.kernels->in_space[static_cast<std::size_t>(best_instruction_set())].pair;
+  const PairKernel3d kernel_ = model_.kernels->is_3d[static_cast<std::size_t>(best_instruction_set())].pair;
   std::vector<GrainVector> places_;
   std::vector<BallMotion> motions_;
-  SpacePairResult result_;
+  PairResult3d result_;
   ContactHistories histories_ = state_.contacts.pair_histories;
   std::vector<double> bare_records_;
-  SpaceForces sums_, bare_sums_;
+  Forces3d sums_, bare_sums_;
 };
 
 template <class Both>
@@ -334,6 +334,6 @@ int main() {
   fmt::print(
       "space,instructions,candidates_per_grain,contacts_per_grain,bare_contacts_per_grain,force_phase_ns_per_grain,"
       "bare_ns_per_grain,rate_over_bare_median,least,most\n");
-  vibrosow::compare<vibrosow::Plane>("plane", vibrosow::Space::plane);
-  vibrosow::compare<vibrosow::InSpace>("3d", vibrosow::Space::three_dimensional);
+  vibrosow::compare<vibrosow::Plane>("plane", vibrosow::Space::two_dimensional);
+  vibrosow::compare<vibrosow::Balls3d>("3d", vibrosow::Space::three_dimensional);
 }

@@ -28,7 +28,7 @@ Scene published_tray(double shell_compression) {
   return scene;
 }
 
-Scene tray_in_space() {
+Scene tray_3d() {
   Scene scene = published_tray(1e-4);
   scene.space = Space::three_dimensional;
   scene.lots = {{"grain", 8e-3, 0.6e-3, Shape::ball, 1.0}};
@@ -76,8 +76,8 @@ void steps_of_the_published_tray(benchmark::State& state, double shell_compressi
   time_steps(state, prepare(scene, effects), 0.4);
 }
 
-void steps_of_a_tray_in_space(benchmark::State& state) {
-  time_steps(state, prepare(tray_in_space()), 0.31);
+void steps_of_a_tray_3d(benchmark::State& state) {
+  time_steps(state, prepare(tray_3d()), 0.31);
 }
 
 BENCHMARK_CAPTURE(steps_of_the_published_tray, stiff_spring, 1e-4, effects_of_tray(true))
@@ -85,7 +85,7 @@ BENCHMARK_CAPTURE(steps_of_the_published_tray, stiff_spring, 1e-4, effects_of_tr
 BENCHMARK_CAPTURE(steps_of_the_published_tray, stiff, 1e-4, effects_of_tray(false))->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(steps_of_the_published_tray, soft_spring, 1e-2, effects_of_tray(true))->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(steps_of_the_published_tray, soft, 1e-2, effects_of_tray(false))->Unit(benchmark::kMillisecond);
-BENCHMARK(steps_of_a_tray_in_space)->Unit(benchmark::kMillisecond);
+BENCHMARK(steps_of_a_tray_3d)->Unit(benchmark::kMillisecond);
 
 /// Calls `part(simulation)` again and again on the stiff tray with springs at 0.3 s; an item is a grain.
 template <class Part>

@@ -42,10 +42,10 @@ int main(int argc, char** argv) {
       const Surface& surface = scene.contact.seed;
       for (const Run& run : runs) {
         const bool drains = !scene.tray.holes.empty();
-        const ReposeFigures figures = drains ? repose_figures(scene, run) : ReposeFigures{};
-        const std::optional<double> packing = drains ? figures.packing : poured_packing(scene, run);
+        const ReposeMetrics metrics = drains ? repose_metrics(scene, run) : ReposeMetrics{};
+        const std::optional<double> packing = drains ? metrics.packing : poured_packing(scene, run);
         std::cout << fmt::format("{:g},{:g},{},{},{}\n", surface.friction, surface.rolling_friction, run.random_seed,
-                                 text(figures.angle, degree), text(packing, 1 / density));
+                                 text(metrics.angle, degree), text(packing, 1 / density));
       }
     });
   } catch (const std::exception& error) {

@@ -16,7 +16,7 @@
 
 #include "grains/random.hpp"
 #include "optimise/decide.hpp"
-#include "outflow/figures.hpp"
+#include "outflow/metrics.hpp"
 #include "scene/input_error.hpp"
 #include "storage/case_file.hpp"
 #include "storage/case_folder.hpp"
@@ -37,13 +37,13 @@ struct Asked {
 };
 
 /// What is compared of one run.
-struct RunFigures {
+struct RunMetrics {
   double goal, rate;
 };
 
 struct KeptLayout {
   int number;
-  std::vector<RunFigures> runs;
+  std::vector<RunMetrics> runs;
   double grain_steps = 0;  // of a run, mean
 };
 
@@ -51,7 +51,7 @@ Asked read_asked(const std::string& file) {
   std::ifstream in(file);
   if (!in) throw InputError(file + ": cannot be read");
   const auto json = nlohmann::json::parse(in);
-  const Figure& rate = figure_named(json.at("rate").at("figure").get<std::string>());
+  const Metric& rate = metric_named(json.at("rate").at("figure").get<std::string>());
   const auto end_of_band = [&](const char* key) { return json.at("rate").at(key).get<double>() * rate.unit_size; };
   return {&goal_named(json.at("goal").at("name").get<std::string>()),
           {rate.name == "tray_seeds_per_s", end_of_band("low"), end_of_band("high")},
@@ -85,7 +85,7 @@ int answer_of_grid(const std::vector<KeptLayout>& layouts, const WantedRate& ban
   for (const KeptLayout& layout : layouts) {
     double goal = 0, rate = 0;
     for (int i = 0; i < replicates; ++i) {
-      const RunFigures& run = layout.runs[random.below(layout.runs.size())];
+      const RunMetrics& run = layout.runs[random.below(layout.runs.size())];
       goal += run.goal / replicates;
       rate += run.rate / replicates;
     }

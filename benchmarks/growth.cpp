@@ -18,11 +18,11 @@ namespace {
 
 constexpr double diameter = 8e-3;
 
-Scene tray_of(int grains, bool in_space) {
-  const int layers = in_space ? 16 : 48, across = in_space ? 20 : 1;
+Scene tray_of(int grains, bool is_3d) {
+  const int layers = is_3d ? 16 : 48, across = is_3d ? 20 : 1;
   Scene scene;
-  scene.lots = {{"grain", diameter, 0.6e-3, in_space ? Shape::ball : Shape::disc, 1.0}};
-  if (in_space) scene.space = Space::three_dimensional, scene.tray.depth = (across + 0.6) * diameter;
+  scene.lots = {{"grain", diameter, 0.6e-3, is_3d ? Shape::ball : Shape::disc, 1.0}};
+  if (is_3d) scene.space = Space::three_dimensional, scene.tray.depth = (across + 0.6) * diameter;
   scene.contact.shell_compression = 1e-4;
   scene.contact.friction_model = FrictionModel::spring;
   scene.contact.seed = scene.contact.wall = {0.3, 0.5};
@@ -48,8 +48,8 @@ double resident_bytes() {
   return pages * static_cast<double>(sysconf(_SC_PAGESIZE));
 }
 
-void print_row(int grains, int threads, bool in_space) {
-  const Scene scene = tray_of(grains, in_space);
+void print_row(int grains, int threads, bool is_3d) {
+  const Scene scene = tray_of(grains, is_3d);
   malloc_trim(0);  // what earlier rows have given back is not to be had for nothing
   const double before = resident_bytes();
   const auto started = std::chrono::steady_clock::now();
@@ -73,8 +73,8 @@ void print_row(int grains, int threads, bool in_space) {
 int main(int argc, char** argv) {
   fmt::print("grains,threads,ns_per_grain_step,bytes_per_grain,start_ns_per_grain,contacts_per_grain_step\n");
   const int most = argc > 1 ? std::atoi(argv[1]) : 1'000'000;
-  const bool in_space = argc > 2 && std::string_view(argv[2]) == "space";
+  const bool is_3d = argc > 2 && std::string_view(argv[2]) == "space";
   for (const int grains : {1000, 2400, 5000, 10000, 20000, 50000, 100000, 300000, 1000000})
     for (const int threads : {1, 2})
-      if (grains <= most) vibrosow::print_row(grains, threads, in_space);
+      if (grains <= most) vibrosow::print_row(grains, threads, is_3d);
 }

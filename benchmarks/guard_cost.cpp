@@ -22,15 +22,15 @@ constexpr int steps_of_a_turn = 100, pairs = 1000;
 Scene tray(Space space) {
   Scene scene;
   scene.space = space;
-  const bool in_space = space == Space::three_dimensional;
-  scene.lots = {{"grain", 8e-3, 0.6e-3, in_space ? Shape::ball : Shape::disc, 1}};
+  const bool is_3d = space == Space::three_dimensional;
+  scene.lots = {{"grain", 8e-3, 0.6e-3, is_3d ? Shape::ball : Shape::disc, 1}};
   scene.contact.shell_compression = 1e-4;
   scene.contact.seed = scene.contact.wall = {0.3, 0.5};
   scene.contact.friction_model = FrictionModel::spring;
   scene.tray.name = "tray";
-  scene.tray.length = in_space ? 0.2 : 0.5, scene.tray.height = 0.45;
-  if (in_space) scene.tray.depth = 0.12;
-  scene.tray.fill = Fill{in_space ? 5000 : 2400, Packing::layers, 1e-3, false};
+  scene.tray.length = is_3d ? 0.2 : 0.5, scene.tray.height = 0.45;
+  if (is_3d) scene.tray.depth = 0.12;
+  scene.tray.fill = Fill{is_3d ? 5000 : 2400, Packing::layers, 1e-3, false};
   scene.tray.motion = HarmonicMotion{0, 0.01, 9, 0};
   scene.guard.stop_relative_overlap = 100;
   scene.run.duration = 1;
@@ -74,9 +74,8 @@ class Turn {
     const Grains& g = state_.grains;
     bool any = false;
     for (int k = 0; k < steps_of_a_turn; ++k)
-      any |= g.in_space
-                 ? execution_.space_loops().any_faster(g.size(), g.vx.data(), g.vy.data(), g.vz.data(), s_.fastest)
-                 : execution_.loops().any_faster(g.size(), g.vx.data(), g.vy.data(), s_.fastest);
+      any |= g.is_3d ? execution_.loops_3d().any_faster(g.size(), g.vx.data(), g.vy.data(), g.vz.data(), s_.fastest)
+                     : execution_.loops().any_faster(g.size(), g.vx.data(), g.vy.data(), s_.fastest);
     if (any) s_.too_fast = true;
   }
 
@@ -141,6 +140,6 @@ void report(const std::string& name, Space space) {
 
 int main() {
   fmt::print("scene,grains,step_us,guard_percent,least_95,most_95,account_percent,look_for_the_fastest_percent\n");
-  vibrosow::report("tray in the plane", vibrosow::Space::plane);
+  vibrosow::report("tray in the plane", vibrosow::Space::two_dimensional);
   vibrosow::report("tray in space", vibrosow::Space::three_dimensional);
 }

@@ -42,10 +42,10 @@ struct Gas {
   Integrator scheme;
   double steps_per_contact;
 
-  bool in_space() const { return space == Space::three_dimensional; }
-  int dimensions() const { return in_space() ? 3 : 2; }
-  int grains() const { return in_space() ? 8 : 6; }
-  double side() const { return in_space() ? 0.04 : 0.06; }  // m, of the box
+  bool is_3d() const { return space == Space::three_dimensional; }
+  int dimensions() const { return is_3d() ? 3 : 2; }
+  int grains() const { return is_3d() ? 8 : 6; }
+  double side() const { return is_3d() ? 0.04 : 0.06; }  // m, of the box
   double z() const { return std::numbers::pi / steps_per_contact; }
   double step() const { return z() / contact_frequency(); }  // s
 };
@@ -53,14 +53,14 @@ struct Gas {
 Model model_of(const Gas& gas) {
   Scene scene;
   scene.space = gas.space;
-  scene.lots = {{"grain", 2 * radius, mass, gas.in_space() ? Shape::ball : Shape::disc, 1}};
+  scene.lots = {{"grain", 2 * radius, mass, gas.is_3d() ? Shape::ball : Shape::disc, 1}};
   scene.contact.shell_compression = shell_compression;
   scene.contact.seed = scene.contact.wall = {0, 1};
   scene.contact.rotation = false;
   Vessel& box = scene.tray;
   box.name = "tray";
   box.length = gas.side(), box.height = 2 * gas.side();
-  if (gas.in_space()) box.depth = gas.side();
+  if (gas.is_3d()) box.depth = gas.side();
   box.pieces = {{.a = {0, gas.side()}, .b = {gas.side(), gas.side()}}};
   scene.numerics.integrator = gas.scheme;
   scene.numerics.dt = gas.step(), scene.numerics.allow_long_step = true;
@@ -157,9 +157,9 @@ ErrorOfImpact error_of_pairs(const Gas& gas, double energy) {
     const Eigen::Vector3d velocity = relative_velocity(gas, energy, random);
     const double speed = velocity.norm(), turned = 2 * std::numbers::pi * part(random);
     // Aside of head-on, evenly over the width or the area that the two offer each other.
-    const double aside = 2 * radius * (gas.in_space() ? std::sqrt(part(random)) : part(random));
+    const double aside = 2 * radius * (gas.is_3d() ? std::sqrt(part(random)) : part(random));
     Eigen::Vector3d across = velocity.unitOrthogonal();
-    if (gas.in_space())
+    if (gas.is_3d())
       across = Eigen::AngleAxisd(turned, velocity / speed) * across;
     else
       across = Eigen::Vector3d(-velocity.y(), velocity.x(), 0) / speed;
@@ -246,16 +246,16 @@ Simulation started_gas(const Gas& gas, const Model& model) {
   std::vector<Eigen::Vector3d> places, velocities;
   const double apart = gas.side() / 3;
   for (int k = 0; k < gas.grains(); ++k) {
-    const int row = gas.in_space() ? 2 : 3;
+    const int row = gas.is_3d() ? 2 : 3;
     places.emplace_back(apart * (0.6 + k % row), apart * (0.7 + k / row % 2), apart * (0.8 + k / row / 2));
     velocities.emplace_back(0.3 * std::sin(1.7 * k + 1), -0.3 * std::cos(2.3 * k),
-                            gas.in_space() ? 0.3 * std::sin(2.9 * k + 1) : 0);
+                            gas.is_3d() ? 0.3 * std::sin(2.9 * k + 1) : 0);
   }
   return started(model, places, velocities);
 }
 
 std::string name_of(const Gas& gas) {
-  return fmt::format("{},{}", gas.in_space() ? "space" : "plane",
+  return fmt::format("{},{}", gas.is_3d() ? "space" : "plane",
                      gas.scheme == Integrator::rk2_midpoint ? "rk2_midpoint" : "velocity_verlet");
 }
 
@@ -304,7 +304,7 @@ int main(int count, char** arguments) {
       "space,scheme,grains,steps_per_contact,steps,impacts,gain_by_theory,gain_on_wall,deviation_on_wall,gain_of_pair,"
       "deviation_of_pair,"
       "rise_of_log_energy,expected,deviation_expected,apart_in_deviations\n");
-  for (const Space space : {Space::plane, Space::three_dimensional}) {
+  for (const Space space : {Space::two_dimensional, Space::three_dimensional}) {
     follow({space, Integrator::velocity_verlet, 20}, steps);
     follow({space, Integrator::rk2_midpoint, 100}, steps);
   }

@@ -43,7 +43,7 @@ int fill(const std::string& study, const std::string& folder, int seeds) {
   StudyRuns runs(cases_of(folder));
   const std::vector<WantedRun> wanted = wanted_runs(planned);
   constexpr std::size_t at_a_time = 40960;  // as a bundle; its runs are packed at its end
-  MakingOptions options;
+  BatchOptions options;
   options.jobs = 1;
   for (std::size_t from = 0; from < wanted.size(); from += at_a_time) {
     const auto first = wanted.begin() + static_cast<std::ptrdiff_t>(from);

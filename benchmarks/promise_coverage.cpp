@@ -76,7 +76,7 @@ AccuracyDesign design_of(const Bank& bank) {
   }
   std::ranges::sort(grid.steps_per_contact);
   std::ranges::sort(grid.shell_compressions);
-  const AccuracyDesign thrifty = thrifty_design(grid);
+  const AccuracyDesign thrifty = screening_design(grid);
   AccuracyDesign design{bank.settings, std::vector<int>(bank.settings.size(), 0)};
   for (std::size_t i = 0; i < thrifty.settings.size(); ++i)
     for (std::size_t k = 0; k < bank.settings.size(); ++k)

@@ -27,7 +27,7 @@ constexpr double normal_97_5 = 1.959964;
 std::vector<AtlasPoint> half(const std::vector<ReposeMaterial>& materials, std::size_t first) {
   std::vector<AtlasPoint> points;
   for (const ReposeMaterial& material : materials) {
-    std::vector<ReposeFigures> runs;
+    std::vector<ReposeMetrics> runs;
     for (std::size_t k = first; k < material.runs.size(); k += 2) runs.push_back(material.runs[k]);
     points.push_back(atlas_point(material.scene, runs));
   }
@@ -41,11 +41,11 @@ struct Tally {
   double friction_contraction = 0, rolling_contraction = 0;
 };
 
-double error_of(const MeanAndScatter& figure, int runs) {
-  return figure.scatter / std::sqrt(static_cast<double>(runs));
+double error_of(const MeanAndScatter& metric, int runs) {
+  return metric.scatter / std::sqrt(static_cast<double>(runs));
 }
 
-bool agree(const AtlasFigure& predicted, double mean, double error) {
+bool agree(const AtlasMetric& predicted, double mean, double error) {
   return std::abs(mean - predicted.mean) <= normal_97_5 * std::hypot(predicted.error, error);
 }
 
@@ -61,7 +61,7 @@ bool holds(const ParameterBand& band, double truth) {
 constexpr PlaneToSpace in_the_plane{{0, 0}, {1, 0}, {1, 0}, 1};
 
 void ask(const ShippedAtlas& atlas, const AtlasPoint& other, Tally& tally) {
-  const AtlasFigures predicted = atlas.atlas.at(other.aspect_ratio, other.friction, other.rolling_friction);
+  const AtlasMetrics predicted = atlas.atlas.at(other.aspect_ratio, other.friction, other.rolling_friction);
   const double angle_error = error_of(other.angle, other.runs);
   const double packing_error = error_of(other.packing, other.runs + other.clogged);
   ++tally.materials;

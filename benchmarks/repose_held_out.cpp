@@ -28,7 +28,7 @@ void print_material(const ReposeAtlas& atlas, const std::vector<ReposeMaterial>&
   const ShippedAtlas without{atlas, plane_to_space(atlas, others)};
   const AtlasPoint truth = atlas_point(materials[one].scene, materials[one].runs);
   for (std::size_t k = 0; k < materials[one].runs.size(); ++k) {
-    const ReposeFigures& run = materials[one].runs[k];
+    const ReposeMetrics& run = materials[one].runs[k];
     if (!run.angle) continue;
     MeasuredBulk measured{run.angle, assumed_angle_error, run.packing, 0};
     measured.packing_error = assumed_packing_error * run.packing.value_or(0);

@@ -16,7 +16,7 @@ namespace vibrosow {
 /// A material of a study on seeders/atlas.toml, and the figures of its runs by random seed.
 struct ReposeMaterial {
   Scene scene;
-  std::vector<ReposeFigures> runs;
+  std::vector<ReposeMetrics> runs;
 };
 
 /// Calls `visit(scene, runs)` for each scene of a study with the runs of it that are kept in a sweep's folder, by
@@ -44,7 +44,7 @@ inline std::vector<ReposeMaterial> kept_materials(const std::string& study, cons
   std::vector<ReposeMaterial> materials;
   visit_kept_runs(study, folder, [&](const Scene& scene, const std::vector<Run>& runs) {
     materials.push_back({scene, {}});
-    for (const Run& run : runs) materials.back().runs.push_back(repose_figures(scene, run));
+    for (const Run& run : runs) materials.back().runs.push_back(repose_metrics(scene, run));
   });
   return materials;
 }

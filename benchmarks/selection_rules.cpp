@@ -20,7 +20,7 @@
 #include <string>
 #include <vector>
 
-#include "selection/guaranteed.hpp"
+#include "selection/kim_nelson.hpp"
 #include "selection/moments.hpp"
 #include "selection/posterior.hpp"
 #include "selection/procedure.hpp"
@@ -222,7 +222,7 @@ void write_family(std::ostream& out, const Family& family, int count, double h) 
     out.flush();
   };
   line("guaranteed", tally(problems, [&](Problem& one) {
-         Guaranteed procedure(question);
+         KimNelson procedure(question);
          return decide(procedure, one);
        }));
   line("posterior", tally(problems, [&](Problem& one) {

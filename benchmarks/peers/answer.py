@@ -3,7 +3,7 @@ import statistics
 from dataclasses import dataclass, replace
 
 from programs import lammps, run_vibrosow, start_of
-from scenes import Window, slot_in_space, tray
+from scenes import Window, slot_3d, tray
 
 WITHIN = 3  # percent of the mean at the smallest step
 COLUMNS = ['scene', 'program', 'dt_s', 'seeds', 'out', 'out_min', 'out_max', 'difference_percent', 'within_3_percent',
@@ -49,7 +49,7 @@ def by_vibrosow(integrator):
 BOTH = {'lammps': by_lammps, 'vibrosow velocity-verlet': by_vibrosow('velocity-verlet')}
 QUESTIONS = (
     Question(tray(3, 'soft'), 2.0, BOTH | {'vibrosow rk2-midpoint': by_vibrosow('rk2-midpoint')}, steps=(2e-5, 5e-5, 1e-4, 2e-4, 5e-4, 1e-3)),
-    Question(slot_in_space(0), 0.5, BOTH, steps_per_contact=(20, 12, 8, 6, 5)))
+    Question(slot_3d(0), 0.5, BOTH, steps_per_contact=(20, 12, 8, 6, 5)))
 
 
 def measure(bench, question, seeds, say):

@@ -147,7 +147,7 @@ def channel():
                  skin={'lammps': 1e-3, 'liggghts': 1e-3, 'yade': 0.1 * radius})
 
 
-def tray_in_space():
+def tray_3d():
     """Two strokes of Vibrosow's, then all take over; one stroke is timed."""
     mass, radius = 0.6e-3, 4e-3
     return Scene(name='tray-in-space', file='tray-in-space.toml', deck='tray-in-space', sets=SAME_STEP, lead=0.01, window=1 / 9, outflow=0,
@@ -156,7 +156,7 @@ def tray_in_space():
                  skin={'lammps': 8e-4, 'liggghts': 8e-4})
 
 
-def slot_in_space(rolling, depth=0.04):
+def slot_3d(rolling, depth=0.04):
     """The measured slot hopper; Vibrosow's gate opens at 0.1 s; when it has flowed for 0.2 s, all take over."""
     radius, length, height, slot = 3e-3, 0.2, 0.6, (0.08, 0.12)
     mass = 4 / 3 * math.pi * 1592 * radius**3
@@ -171,5 +171,5 @@ def slot_in_space(rolling, depth=0.04):
                  skin={'lammps': 8e-4, 'liggghts': 8e-4})
 
 
-SCENES = [tray(0, 'stiff'), tray(3, 'stiff'), tray(0, 'soft'), tray(3, 'soft'), channel(), tray_in_space(), slot_in_space(0),
-          slot_in_space(0.04)]
+SCENES = [tray(0, 'stiff'), tray(3, 'stiff'), tray(0, 'soft'), tray(3, 'soft'), channel(), tray_3d(), slot_3d(0),
+          slot_3d(0.04)]

@@ -94,7 +94,7 @@ def wheat_tray_grains(root):
     return lines
 
 
-def slot_in_space(root):
+def slot_3d(root):
     table = rows(root / "reports/slot-in-space/slot.csv")
     lines = [["", "percent a second", "of the measured 19.1", "misfit of the curve"]]
     for depth in values(table, "depth_mm"):
@@ -318,7 +318,7 @@ def peers(root):
 
 
 TABLES = {"wheat-holes": wheat_holes, "wheat-tray-spaces": wheat_tray_spaces, "wheat-tray-grains": wheat_tray_grains,
-          "slot-in-space": slot_in_space, "paper-a-fig3": paper_a_fig3,
+          "slot-in-space": slot_3d, "paper-a-fig3": paper_a_fig3,
           "paper-b-readings": paper_b_readings, "silo": silo, "round-holes": round_holes, "relations": relations,
           "accuracy-tray": accuracy_tray, "levels": levels, "level-errors": level_errors, "calibration-coverage": calibration_coverage,
           "bench-sheets": bench_sheets, "layout-gains": layout_gains, "size": size, "peers": peers}

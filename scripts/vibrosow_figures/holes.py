@@ -73,8 +73,8 @@ def runs_of(program, folder, diameter):
     plan = json.loads((cases / "plans" / f"{(cases / 'plan').read_text(encoding='utf-8').strip()}.json").read_text(encoding="utf-8"))
     names = [name for group in plan["runs"] for name in group["cases"].split()]
     by_conditions = {}
-    with ThreadPoolExecutor() as side_by_side:
-        for conditions, holes in side_by_side.map(lambda name: exported(program, folder, name, diameter), names):
+    with ThreadPoolExecutor() as run_in_parallel:
+        for conditions, holes in run_in_parallel.map(lambda name: exported(program, folder, name, diameter), names):
             by_conditions.setdefault(conditions, []).append(holes)
     return dict(sorted(by_conditions.items()))
 

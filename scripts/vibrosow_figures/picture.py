@@ -261,7 +261,7 @@ def middle(scene, z):
     return 500 * scene["tray"]["depth_m"] if scene else (z.min() + z.max()) / 2
 
 
-def draw_in_space(table, options):
+def draw_3d(table, options):
     """Seen from above and aside."""
     scene = read_scene(options.grains)
     values, colours, limits = values_and_colours(table, options)
@@ -294,7 +294,7 @@ def save_picture(picture, scale, of_value, options):
 
 def draw(table, options):
     if "z_mm" in table[0] and options.view == "space":
-        return draw_in_space(table, options)
+        return draw_3d(table, options)
     scene = read_scene(options.grains)
     values, colours, limits = values_and_colours(table, options)
     parts = parts_to_draw(table, values, scene, options)

@@ -172,7 +172,7 @@ AccuracyDesign full_design(const AccuracyGrid& grid) {
   return design;
 }
 
-AccuracyDesign thrifty_design(const AccuracyGrid& grid) {
+AccuracyDesign screening_design(const AccuracyGrid& grid) {
   AccuracyDesign design = full_design(grid);
   const std::size_t softnesses = softnesses_of(grid).size(), slip_speeds = slip_speeds_of(grid).size();
   const std::size_t steps = grid.steps_per_contact.size();

@@ -59,7 +59,7 @@ AccuracyDesign full_design(const AccuracyGrid& grid);
 /// Of a default grid, a part of the combinations that tells the main effects apart at little cost: the stiffest two at
 /// coarse steps and the last but one, softer ones more often at the coarsest and the finest; the first integrator
 /// throughout, others at the softest two levels alone. Slip speeds take turns.
-AccuracyDesign thrifty_design(const AccuracyGrid& grid);
+AccuracyDesign screening_design(const AccuracyGrid& grid);
 
 /// The design without the settings whose step is too long for the scene.
 AccuracyDesign runnable(const Scene& scene, const AccuracyDesign& design);

@@ -21,21 +21,21 @@ std::optional<double> deviation_of(const std::vector<double>& values) {
 
 }  // namespace
 
-std::optional<SpacingFigures> spacing_figures(const std::vector<Spacing>& spacings, const SpacingLimits& limits) {
+std::optional<SpacingMetrics> spacing_metrics(const std::vector<Spacing>& spacings, const SpacingLimits& limits) {
   if (!(limits.multiples_below > 0) || !(limits.skips_above > limits.multiples_below))
     throw std::invalid_argument("the limits of multiples and skips are not in order");
   if (spacings.empty()) return std::nullopt;
   const auto count = static_cast<double>(spacings.size());
-  SpacingFigures figures;
-  figures.spacings = static_cast<std::int64_t>(spacings.size());
+  SpacingMetrics metrics;
+  metrics.spacings = static_cast<std::int64_t>(spacings.size());
   std::vector<double> all, between;
   double multiples = 0, skips = 0;
   for (const Spacing& one : spacings) {
     if (!(one.reference > 0)) throw std::invalid_argument("a reference spacing is not positive");
     const double parts = one.length / one.reference;
-    figures.mean += one.length / count;
-    figures.reference += one.reference / count;
-    figures.deviation += std::abs(one.length - one.reference) / count;
+    metrics.mean += one.length / count;
+    metrics.reference += one.reference / count;
+    metrics.deviation += std::abs(one.length - one.reference) / count;
     all.push_back(parts);
     if (parts <= limits.multiples_below)
       ++multiples;
@@ -44,12 +44,12 @@ std::optional<SpacingFigures> spacing_figures(const std::vector<Spacing>& spacin
     else
       between.push_back(parts);
   }
-  figures.multiples = multiples / count;
-  figures.skips = skips / count;
-  figures.singles = static_cast<double>(between.size()) / count;
-  figures.precision = deviation_of(between);
-  figures.cv = coefficient_of_variation(all);
-  return figures;
+  metrics.multiples = multiples / count;
+  metrics.skips = skips / count;
+  metrics.singles = static_cast<double>(between.size()) / count;
+  metrics.precision = deviation_of(between);
+  metrics.cv = coefficient_of_variation(all);
+  return metrics;
 }
 
 std::vector<Spacing> spacings_of(const std::vector<double>& times, double speed, std::optional<double> reference) {

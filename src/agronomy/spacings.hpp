@@ -20,7 +20,7 @@ struct SpacingLimits {
 
 /// How evenly seeds follow each other, as a single seed drill is judged (ISO 7256-1:1984; Kachman and Smith 1995,
 /// Trans. ASAE 38(2):379): here at the hole, not in the furrow, where fall, tube and soil have scattered them.
-struct SpacingFigures {
+struct SpacingMetrics {
   std::int64_t spacings = 0;
   double mean = 0;                  // m, of the spacings
   double reference = 0;             // m, mean of the references
@@ -34,7 +34,7 @@ struct SpacingFigures {
 
 /// None without a spacing. Throws std::invalid_argument for a reference that is not positive, or limits that are not
 /// in order.
-std::optional<SpacingFigures> spacing_figures(const std::vector<Spacing>& spacings, const SpacingLimits& limits = {});
+std::optional<SpacingMetrics> spacing_metrics(const std::vector<Spacing>& spacings, const SpacingLimits& limits = {});
 
 /// The distances over ground of seeds that pass at these times (s, ascending) at a speed (m/s), each beside
 /// `reference` (m), or where that is none beside their mean. Empty for fewer than two seeds, or where all come at once.

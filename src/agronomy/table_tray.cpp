@@ -91,7 +91,7 @@ std::string unlike_table(const Scene& scene, const HarmonicMotion& motion) {
 
 TableTray table_tray(const Scene& scene) {
   const Vessel& tray = scene.tray;
-  if (scene.space == Space::plane) refuse("space", "the tray is in 2D");
+  if (scene.space == Space::two_dimensional) refuse("space", "the tray is in 2D");
   if (scene.hopper) refuse("hopper", "a hopper feeds the tray");
   if (tray.rain || !tray.fill) refuse("tray.fill", "the bed is not a fill");
   if (tray.tilt != 0 || tray.funnel != 0) refuse("tray.tilt", "the floor slopes");

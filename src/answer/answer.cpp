@@ -52,12 +52,12 @@ LayoutStanding standing_of(const FrontLayout& of, const OptimiseOptions& options
   return failed;
 }
 
-AnswerFigure figure_of(const Figure& figure) {
-  return {figure.name, figure.heading, figure.unit, figure.unit_size, figure.description, !figure.pooled};
+AnswerMetric metric_of(const Metric& metric) {
+  return {metric.name, metric.heading, metric.unit, metric.unit_size, metric.description, !metric.pooled};
 }
 
-AnswerFigure clogged() {
-  return {.name = clogged_figure,
+AnswerMetric clogged() {
+  return {.name = clogged_metric,
           .unit = "%",
           .unit_size = 1e-2,
           .description = "share of its runs that clogged; the other figures are of the rest",
@@ -69,16 +69,16 @@ std::optional<MeanWithInterval> share(int part, int of) {
   return MeanWithInterval{static_cast<double>(part) / of, std::nullopt};
 }
 
-bool has(const std::vector<AnswerFigure>& figures, std::string_view name) {
-  return std::ranges::find(figures, name, &AnswerFigure::name) != figures.end();
+bool has(const std::vector<AnswerMetric>& metrics, std::string_view name) {
+  return std::ranges::find(metrics, name, &AnswerMetric::name) != metrics.end();
 }
 
 /// Of some layouts, those with a value of a figure, the least first or the most.
-void sort_by(Answer& answer, std::size_t figure, bool most_first) {
-  const auto mean = [&](std::size_t layout) { return answer.layouts[layout].values[figure]->mean; };
+void sort_by(Answer& answer, std::size_t metric, bool most_first) {
+  const auto mean = [&](std::size_t layout) { return answer.layouts[layout].values[metric]->mean; };
   std::erase_if(answer.best_first, [&](std::size_t layout) {
     const Values& values = answer.layouts[layout].values;
-    return values.empty() || !values[figure];
+    return values.empty() || !values[metric];
   });
   std::ranges::stable_sort(answer.best_first, {},
                            [&](std::size_t layout) { return (most_first ? -1 : 1) * mean(layout); });
@@ -93,12 +93,12 @@ AnsweredLayout that_cannot_be_built(std::size_t index, const Layout& layout) {
 /// Of the figures those that any layout has. The largest rates are worth a look.
 Answer answer_of(const StudyResult& result, std::uint64_t first_random_seed) {
   Answer answer{.kind = AnswerKind::sweep, .study = &result.study, .first_random_seed = first_random_seed};
-  std::vector<const Figure*> known;
-  for (const Figure& figure : figures())
-    if (std::ranges::any_of(result.layouts, [&](const LayoutResult& one) { return one.figures[figure].has_value(); }))
-      known.push_back(&figure), answer.figures.push_back(figure_of(figure));
-  const auto rate = std::ranges::find(answer.figures, "rate_g_per_s", &AnswerFigure::name);
-  if (rate != answer.figures.end()) rate->is_goal = true, rate->wanted = Wanted::high;
+  std::vector<const Metric*> known;
+  for (const Metric& metric : metrics())
+    if (std::ranges::any_of(result.layouts, [&](const LayoutResult& one) { return one.metrics[metric].has_value(); }))
+      known.push_back(&metric), answer.metrics.push_back(metric_of(metric));
+  const auto rate = std::ranges::find(answer.metrics, "rate_g_per_s", &AnswerMetric::name);
+  if (rate != answer.metrics.end()) rate->is_goal = true, rate->wanted = Wanted::high;
   for (std::size_t i = 0; i < result.layouts.size(); ++i) {
     const LayoutResult& of = result.layouts[i];
     AnsweredLayout one{.layout = i,
@@ -110,14 +110,14 @@ Answer answer_of(const StudyResult& result, std::uint64_t first_random_seed) {
                        .holes = of.holes,
                        .misfit_percent = of.misfit_percent,
                        .expected = of.expected};
-    for (const Figure* figure : known) one.values.push_back(of.figures[*figure]);
+    for (const Metric* metric : known) one.values.push_back(of.metrics[*metric]);
     if (is_compared(one.standing)) answer.best_first.push_back(i);
     answer.layouts.push_back(std::move(one));
   }
-  if (rate == answer.figures.end())
+  if (rate == answer.metrics.end())
     answer.best_first.clear();
   else
-    sort_by(answer, static_cast<std::size_t>(rate - answer.figures.begin()), true);
+    sort_by(answer, static_cast<std::size_t>(rate - answer.metrics.begin()), true);
   return answer;
 }
 
@@ -125,14 +125,14 @@ Answer answer_of(const StudyResult& result, std::uint64_t first_random_seed) {
 Answer answer_of(const DecisionResult& result) {
   const DecideOptions& options = result.options;
   Answer answer{.kind = AnswerKind::decision, .study = &result.study, .first_random_seed = options.first_random_seed};
-  AnswerFigure goal = figure_of(figure_named(options.goal->figure));
+  AnswerMetric goal = metric_of(metric_named(options.goal->metric));
   goal.description = options.goal->description, goal.has_interval = true, goal.is_goal = true;
   goal.wanted = options.goal->is_most ? Wanted::high : Wanted::low;
-  answer.figures.push_back(goal);
-  const Figure& rate = rate_figure(options.rate);
-  const bool shows_rate = !has(answer.figures, rate.name);
-  if (shows_rate) answer.figures.push_back(figure_of(rate));
-  answer.figures.push_back(clogged());
+  answer.metrics.push_back(goal);
+  const Metric& rate = rate_metric(options.rate);
+  const bool shows_rate = !has(answer.metrics, rate.name);
+  if (shows_rate) answer.metrics.push_back(metric_of(rate));
+  answer.metrics.push_back(clogged());
   for (std::size_t i = 0; i < result.study.layouts.size(); ++i) {
     const Layout& layout = result.study.layouts[i];
     if (!layout.scene) {
@@ -163,18 +163,18 @@ Answer answer_of(const OptimiseResult& result) {
   const OptimiseOptions& options = result.options;
   Answer answer{.kind = AnswerKind::search, .study = &result.study, .first_random_seed = options.first_random_seed};
   for (const FrontGoal* goal : options.goals) {
-    const bool is_most = goal->figure != nullptr && goal->figure->is_most;
-    answer.figures.push_back({.name = goal->column,
+    const bool is_most = goal->metric != nullptr && goal->metric->is_most;
+    answer.metrics.push_back({.name = goal->column,
                               .unit = goal->unit,
                               .unit_size = goal->unit_size,
                               .description = goal->description,
                               .wanted = is_most ? Wanted::high : Wanted::low,
                               .is_goal = true});
   }
-  const Figure& rate = rate_figure(options.rate);
-  const bool shows_rate = !has(answer.figures, rate.name);
-  if (shows_rate) answer.figures.push_back(figure_of(rate));
-  answer.figures.push_back(clogged());
+  const Metric& rate = rate_metric(options.rate);
+  const bool shows_rate = !has(answer.metrics, rate.name);
+  if (shows_rate) answer.metrics.push_back(metric_of(rate));
+  answer.metrics.push_back(clogged());
   for (std::size_t i = 0; i < result.layouts.size(); ++i) {
     const Layout& layout = result.study.layouts[i];
     if (!layout.scene) {

@@ -23,7 +23,7 @@ enum class AnswerKind { sweep, decision, search };
 enum class Wanted { any, high, low };
 
 /// A figure that an answer has of its layouts.
-struct AnswerFigure {
+struct AnswerMetric {
   std::string_view name, heading{};  // of its column, with its unit; of a column on a screen, empty without
   std::string_view unit{};           // empty for a plain number
   double unit_size = 1;              // of that unit, in SI
@@ -34,7 +34,7 @@ struct AnswerFigure {
 };
 
 /// Share of runs that clogged.
-inline constexpr std::string_view clogged_figure = "clogged_percent";
+inline constexpr std::string_view clogged_metric = "clogged_percent";
 
 /// What came of a layout.
 struct AnsweredLayout {
@@ -47,7 +47,7 @@ struct AnsweredLayout {
   bool is_named = false;                                  // the answer is about it: its doubts are the answer's
   bool is_first_by_means = false;                         // of a search
   std::vector<std::string> at_edge{};                     // of a search: keys whose values end their ranges
-  std::vector<HoleFigures> holes{};                       // of a sweep
+  std::vector<HoleMetrics> holes{};                       // of a sweep
   std::optional<MeanWithInterval> misfit_percent{};       // likewise, against measured outflow
   std::optional<ExpectedRate> expected{};                 // of its rate, of any answer
 };
@@ -58,7 +58,7 @@ struct Answer {
   AnswerKind kind;
   const Study* study;
   std::uint64_t first_random_seed = 1;
-  std::vector<AnswerFigure> figures{};    // a decision's and a search's goals first
+  std::vector<AnswerMetric> metrics{};    // a decision's and a search's goals first
   std::vector<AnsweredLayout> layouts{};  // of each of Study::layouts
   std::vector<std::size_t> best_first{};  // of these, those that are worth a look, the best first
 };

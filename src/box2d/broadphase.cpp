@@ -11,7 +11,7 @@
 #include "box2d/cluster_search.hpp"
 #include "box2d/near_places.hpp"
 #include "box2d/pair_rows.hpp"
-#include "elementary/functions.hpp"
+#include "portable_math/functions.hpp"
 #include "vessel/directions.hpp"
 #include "vessel/vessel_walls.hpp"
 
@@ -215,8 +215,9 @@ namespace {
 std::vector<Eigen::Vector2d> edges_of(const WallSegment& wall, double unit, double& largest_sagitta) {
   if (wall.radius == 0) return {wall.a, wall.b};
   const double allowed = std::min(0.05 * unit, wall.radius), span = wall.to - wall.from;
-  const int edges = std::max(1, static_cast<int>(std::ceil(span / (2 * elementary::acos(1 - allowed / wall.radius)))));
-  largest_sagitta = std::max(largest_sagitta, wall.radius * (1 - elementary::cos(0.5 * span / edges)));
+  const int edges =
+      std::max(1, static_cast<int>(std::ceil(span / (2 * portable_math::acos(1 - allowed / wall.radius)))));
+  largest_sagitta = std::max(largest_sagitta, wall.radius * (1 - portable_math::cos(0.5 * span / edges)));
   std::vector<Eigen::Vector2d> corners;
   for (int k = 0; k <= edges; ++k) {
     const double angle = wall.from + span * k / edges;

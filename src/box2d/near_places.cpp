@@ -23,8 +23,8 @@ int places_near(const Places& places, int after, double x, double y, double reac
   return found;
 }
 
-int places_near_in_space(const Places& places, const double* heights, int after, double x, double y, double z,
-                         double reach, int* near) {
+int places_near_3d(const Places& places, const double* heights, int after, double x, double y, double z, double reach,
+                   int* near) {
   constexpr int block = 256;
   unsigned char flags[block + 16];
   int found = 0;

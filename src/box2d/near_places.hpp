@@ -16,9 +16,9 @@ struct Places {
 using NearPlaces = int (*)(const Places& places, int after, double x, double y, double reach, int* near);
 
 /// The same of balls in space, with their heights z (m) beside a plan of x and y.
-using NearPlacesInSpace = int (*)(const Places& places, const double* heights, int after, double x, double y, double z,
-                                  double reach, int* near);
-NearPlacesInSpace near_places_in_space(InstructionSet set);
+using NearPlaces3d = int (*)(const Places& places, const double* heights, int after, double x, double y, double z,
+                             double reach, int* near);
+NearPlaces3d near_places_3d(InstructionSet set);
 
 /// Compiled for one instruction set. Throws std::logic_error where it is not available.
 NearPlaces near_places(InstructionSet set);

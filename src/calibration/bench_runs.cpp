@@ -75,8 +75,9 @@ class Purchase {
     task.keys = asked_.keys.empty() ? usual_fitted_keys(task.seeder, task.overrides, files_) : asked_.keys;
     task.measured.file = "--try";
     task.measured.table = bench_candidates(settings);
-    task.measured.scale = read_scene(task.seeder, task.overrides, files_).space == Space::plane ? MeasuredScale::free
-                                                                                                : MeasuredScale::none;
+    task.measured.scale = read_scene(task.seeder, task.overrides, files_).space == Space::two_dimensional
+                              ? MeasuredScale::free
+                              : MeasuredScale::none;
     task.most_runs = asked_.most_runs;
     task.random_seed = asked_.random_seed;
     return task;

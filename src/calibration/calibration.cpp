@@ -26,8 +26,8 @@ struct Part {
   bool held_out = false;
   std::vector<std::size_t> values;  // indices in MeasuredSeries::values
   CurveSurrogate surrogate;
-  VectorXd measured;    // as simulated values are: logarithms of rates
-  double strange2 = 0;  // mean square of what of a curve no simulated one follows
+  VectorXd measured;              // as simulated values are: logarithms of rates
+  double off_basis_variance = 0;  // mean square of what of a curve no simulated one follows
 };
 
 class Fit {
@@ -119,7 +119,7 @@ class Fit {
     part.measured.resize(static_cast<Index>(part.values.size()));
     for (std::size_t v = 0; v < part.values.size(); ++v)
       part.measured(static_cast<Index>(v)) = transformed(series(part.series).values[part.values[v]].mean);
-    if (curves_) part.strange2 = part.surrogate.off_components2(part.measured);
+    if (curves_) part.off_basis_variance = part.surrogate.off_components2(part.measured);
   }
 
   double largest(std::size_t s) const {
@@ -179,7 +179,8 @@ class Fit {
     if (!curves_ && measured_variance_) return MatrixXd::Constant(1, 1, *measured_variance_ / repeats);
     MatrixXd chance = part.surrogate.chance / repeats;
     const double size = largest(part.series);
-    chance.diagonal().array() += part.strange2 + (curves_ ? measured_variance_.value_or(0) * size * size / repeats : 0);
+    chance.diagonal().array() +=
+        part.off_basis_variance + (curves_ ? measured_variance_.value_or(0) * size * size / repeats : 0);
     return chance;
   }
 
@@ -259,7 +260,7 @@ class Fit {
       const double mean = values.col(at).mean();
       const double between = (values.col(at).array() - mean).square().mean();
       const double within = surrogate.basis.row(at) * covariance * surrogate.basis.row(at).transpose();
-      const double half = normal_95 * std::sqrt(between + within + part.strange2);
+      const double half = normal_95 * std::sqrt(between + within + part.off_basis_variance);
       const auto back = [&](double value) { return curves_ ? value : std::exp(value); };
       const MeasuredSeries& of = series(part.series);
       result_.predictions.push_back({part.series, curves_ ? std::optional(of.times[part.values[v]]) : std::nullopt,

@@ -108,7 +108,7 @@ std::vector<CountedDoubt> doubts_of_fit(const CalibrationAnswer& answer) {
   }
   if (of.posterior.effective_points < few_effective_points)
     add(few_points, fmt::format("the intervals rest on {:.0f} effective points only", of.posterior.effective_points));
-  if (const std::size_t left_out = answer.runs.size() - answer.runs_that_count; left_out > 0)
+  if (const std::size_t left_out = answer.runs.size() - answer.runs_used; left_out > 0)
     add(runs_left_out, fmt::format("{} of {} runs were left out", left_out, answer.runs.size()));
   if (!of.held_out_rms) add(nothing_held_out, "nothing was held out, so that no prediction was tested");
   return doubts;
@@ -119,7 +119,7 @@ std::vector<CountedDoubt> doubts_of_fit(const CalibrationAnswer& answer) {
 CalibrationAnswer answer_of(const CalibrationTask& task, const CalibrationDesign& design,
                             const std::vector<ReducedRun>& runs, const Calibration& calibration) {
   CalibrationAnswer answer{task, design, runs, calibration, numbers_of(task, calibration)};
-  answer.runs_that_count = static_cast<std::size_t>(std::ranges::count(runs, std::string(), &ReducedRun::reason));
+  answer.runs_used = static_cast<std::size_t>(std::ranges::count(runs, std::string(), &ReducedRun::reason));
   answer.is_fitted = calibration.misfit_over_noise <= most_of_the_noise;
   std::vector<CountedDoubt> doubts = doubts_of_runs(runs);
   std::ranges::move(doubts_of_scenes(design), std::back_inserter(doubts));

@@ -28,7 +28,7 @@ struct CalibrationAnswer {
   const std::vector<ReducedRun>& runs;
   const Calibration& calibration;
   std::vector<FittedNumber> numbers{};  // the keys, then the depth factor: what a FittedPair counts
-  std::size_t runs_that_count = 0;
+  std::size_t runs_used = 0;
   std::vector<SharedDoubt> doubts{};    // serious ones first
   bool is_fitted = true;                // false: the best point misses the table by more than three times its noise
   bool lots_have_own_contacts = false;  // several lots, each with the model of its crop: no one file holds them

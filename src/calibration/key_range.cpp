@@ -4,11 +4,11 @@
 
 #include <algorithm>
 
-#include "elementary/functions.hpp"
 #include "input/key_units.hpp"
 #include "input/read_scene.hpp"
 #include "input/wording.hpp"
 #include "laws/law.hpp"
+#include "portable_math/functions.hpp"
 #include "scene/input_error.hpp"
 #include "units/quantity.hpp"
 
@@ -79,7 +79,7 @@ KeyRange parse_range(const std::string& option, const std::string& key_is_range)
 }  // namespace
 
 double KeyRange::at(double part) const {
-  return logarithmic ? low * elementary::pow(high / low, part) : low + (high - low) * part;
+  return logarithmic ? low * portable_math::pow(high / low, part) : low + (high - low) * part;
 }
 
 Override KeyRange::override_at(double part) const {

@@ -55,7 +55,7 @@ double joint(double a, double b) {
 
 /// The measured angle must be near what some material does.
 void require_reachable(double angle, const Reachable& range, const ShippedAtlas& atlas, double aspect_ratio) {
-  const double slack = 2 * joint(assumed_angle_error, angle_error_in_space(atlas.to_space));
+  const double slack = 2 * joint(assumed_angle_error, angle_error_3d(atlas.to_space));
   if (angle >= range.least_angle - slack && angle <= range.most_angle + slack) return;
   throw InputError(
       fmt::format("--repose: {:.3g} degree: at an aspect ratio of {:.3g} the atlas' materials stand at {:.3g} to "
@@ -85,7 +85,7 @@ void take_packing(const NewCrop& crop, const ShippedAtlas& atlas, CropEstimate& 
                                             : ", or the seed is narrower (--width, --thickness)"));
     return;
   }
-  const double slack = 2 * joint(error, packing_error_in_space(atlas.to_space) * packing);
+  const double slack = 2 * joint(error, packing_error_3d(atlas.to_space) * packing);
   const Reachable& range = estimate.reachable;
   if (packing < range.least_packing - slack || packing > range.most_packing + slack) {
     estimate.doubts.push_back(

@@ -40,7 +40,7 @@ std::vector<Override> shape_of(const NewCrop& crop) {
   return changes;
 }
 
-Scene box_in_space(const std::vector<Override>& shape, const Rubbing& material) {
+Scene box_3d(const std::vector<Override>& shape, const Rubbing& material) {
   std::vector<Override> changes = shape;
   changes.push_back(parse_override(fmt::format("vary.contact.friction=[{:.4g}]", material.friction)));
   changes.push_back(parse_override(fmt::format("vary.contact.rolling_friction=[{:.4g}]", material.rolling_friction)));
@@ -54,7 +54,7 @@ std::vector<RefiningRun> refining_runs(const NewCrop& crop, const CropEstimate& 
   const std::vector<Override> shape = estimate.is_ball() ? std::vector<Override>() : shape_of(crop);
   std::vector<RefiningRun> runs;
   for (const Rubbing& material : materials_of_band(atlas, estimate.aspect_ratio_in_atlas, estimate.used, count))
-    runs.push_back({estimate.aspect_ratio_in_atlas, box_in_space(shape, material), runs.size() + 1});
+    runs.push_back({estimate.aspect_ratio_in_atlas, box_3d(shape, material), runs.size() + 1});
   return runs;
 }
 
@@ -63,7 +63,7 @@ PlaneToSpace refined_to_space(const ReposeAtlas& atlas, const std::vector<Refini
   for (const RefiningRun& wanted : runs) {
     const std::optional<Run> run = kept(name_of_run(wanted.scene, wanted.random_seed));
     if (!run || run->status != RunStatus::finished) continue;
-    AtlasPoint point = atlas_point(wanted.scene, {repose_figures(wanted.scene, *run)});
+    AtlasPoint point = atlas_point(wanted.scene, {repose_metrics(wanted.scene, *run)});
     if (point.clogged > 0) continue;
     point.aspect_ratio = wanted.aspect_ratio_in_atlas;
     points.push_back(point);

@@ -56,12 +56,12 @@ Between between(const std::vector<double>& axis, double value, const char* what)
   return {lower, upper, share};
 }
 
-AtlasFigure mean_with_error(const MeanAndScatter& figure, int runs) {
-  return {figure.mean, figure.scatter / std::sqrt(static_cast<double>(runs))};
+AtlasMetric mean_with_error(const MeanAndScatter& metric, int runs) {
+  return {metric.mean, metric.scatter / std::sqrt(static_cast<double>(runs))};
 }
 
 /// Adds a corner of the grid by its weight; its error counts as if it were that of all.
-void add(AtlasFigure& sum, const AtlasFigure& corner, double weight) {
+void add(AtlasMetric& sum, const AtlasMetric& corner, double weight) {
   sum.mean += weight * corner.mean;
   sum.error += weight * corner.error;
 }
@@ -136,27 +136,27 @@ int ReposeAtlas::runs() const {
   return runs;
 }
 
-AtlasFigures ReposeAtlas::at(double aspect_ratio, double friction, double rolling_friction) const {
+AtlasMetrics ReposeAtlas::at(double aspect_ratio, double friction, double rolling_friction) const {
   const Between a = between(aspect_ratios_, aspect_ratio, "aspect ratio");
   const Between f = between(frictions_, friction, "friction");
   const Between r = between(rolling_frictions_, rolling_friction, "rolling friction");
-  AtlasFigures figures{};
+  AtlasMetrics metrics{};
   for (const auto& [i, weight_a] : {std::pair(a.lower, 1 - a.share), {a.upper, a.share}})
     for (const auto& [j, weight_f] : {std::pair(f.lower, 1 - f.share), {f.upper, f.share}})
       for (const auto& [k, weight_r] : {std::pair(r.lower, 1 - r.share), {r.upper, r.share}}) {
         const AtlasPoint& point = points_[(i * frictions_.size() + j) * rolling_frictions_.size() + k];
         const double weight = weight_a * weight_f * weight_r;
         if (weight == 0) continue;
-        add(figures.angle, mean_with_error(point.angle, point.runs), weight);
-        add(figures.packing, mean_with_error(point.packing, point.runs + point.clogged), weight);
-        add(figures.discharge, mean_with_error(point.discharge, point.runs), weight);
+        add(metrics.angle, mean_with_error(point.angle, point.runs), weight);
+        add(metrics.packing, mean_with_error(point.packing, point.runs + point.clogged), weight);
+        add(metrics.discharge, mean_with_error(point.discharge, point.runs), weight);
       }
-  return figures;
+  return metrics;
 }
 
-AtlasPoint atlas_point(const Scene& scene, const std::vector<ReposeFigures>& runs) {
+AtlasPoint atlas_point(const Scene& scene, const std::vector<ReposeMetrics>& runs) {
   std::vector<double> angles, packings, discharges;
-  for (const ReposeFigures& run : runs) {
+  for (const ReposeMetrics& run : runs) {
     if (run.angle) angles.push_back(*run.angle);
     if (run.packing) packings.push_back(*run.packing);
     if (run.discharge) discharges.push_back(*run.discharge);
@@ -208,7 +208,7 @@ std::vector<AtlasPoint> read_atlas_points(const std::filesystem::path& file) {
 namespace {
 
 /// The plane's figures of a material in space. Throws InputError where the atlas does not reach it.
-AtlasFigures beneath(const ReposeAtlas& plane, const AtlasPoint& ball) {
+AtlasMetrics beneath(const ReposeAtlas& plane, const AtlasPoint& ball) {
   try {
     return plane.at(ball.aspect_ratio, ball.friction, ball.rolling_friction);
   } catch (const std::out_of_range& fault) {
@@ -222,7 +222,7 @@ PlaneToSpace plane_to_space(const ReposeAtlas& plane, const std::vector<AtlasPoi
   if (space.size() < 3) throw InputError(fmt::format("atlas: {} materials in 3D; at least 3 are needed", space.size()));
   std::vector<double> offsets, packings, discharges;
   for (const AtlasPoint& ball : space) {
-    const AtlasFigures flat = beneath(plane, ball);
+    const AtlasMetrics flat = beneath(plane, ball);
     offsets.push_back(ball.angle.mean - flat.angle.mean);
     packings.push_back(ball.packing.mean / flat.packing.mean);
     discharges.push_back(ball.discharge.mean / flat.discharge.mean);

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "calibration/repose_figures.hpp"
+#include "calibration/repose_metrics.hpp"
 
 namespace vibrosow {
 
@@ -24,12 +24,12 @@ struct AtlasPoint {
 };
 
 /// A material's figures, interpolated: means and their standard errors.
-struct AtlasFigure {
+struct AtlasMetric {
   double mean, error;
 };
-struct AtlasFigures {
-  AtlasFigure angle;  // rad
-  AtlasFigure packing, discharge;
+struct AtlasMetrics {
+  AtlasMetric angle;  // rad
+  AtlasMetric packing, discharge;
 };
 
 /// Drained angle of repose, packing fraction and free discharge over a grid of aspect ratio, friction and rolling
@@ -40,7 +40,7 @@ class ReposeAtlas {
   explicit ReposeAtlas(const std::vector<AtlasPoint>& points);
 
   /// Throws std::out_of_range outside the grid.
-  AtlasFigures at(double aspect_ratio, double friction, double rolling_friction) const;
+  AtlasMetrics at(double aspect_ratio, double friction, double rolling_friction) const;
 
   const std::vector<double>& aspect_ratios() const { return aspect_ratios_; }  // ascending, as the two below
   const std::vector<double>& frictions() const { return frictions_; }
@@ -54,7 +54,7 @@ class ReposeAtlas {
 };
 
 /// The point of a scene from its runs' figures, at least one.
-AtlasPoint atlas_point(const Scene& scene, const std::vector<ReposeFigures>& runs);
+AtlasPoint atlas_point(const Scene& scene, const std::vector<ReposeMetrics>& runs);
 
 /// Points as a CSV file, and back. Reading throws InputError "FILE:LINE: .." for a missing column or a field that is
 /// not a number.

@@ -26,18 +26,18 @@ struct Misfit {
   }
 };
 
-Misfit misfit(const AtlasFigures& plane, const PlaneToSpace& to_space, const MeasuredBulk& measured) {
+Misfit misfit(const AtlasMetrics& plane, const PlaneToSpace& to_space, const MeasuredBulk& measured) {
   Misfit sum;
   if (measured.angle) {
     const double expected = plane.angle.mean + to_space.angle_offset.mean;
     sum.add(*measured.angle - expected,
-            square(measured.angle_error) + square(plane.angle.error) + square(angle_error_in_space(to_space)));
+            square(measured.angle_error) + square(plane.angle.error) + square(angle_error_3d(to_space)));
   }
   if (measured.packing) {
     const double factor = to_space.packing_factor.mean;
     const double expected = plane.packing.mean * factor;
     sum.add(*measured.packing - expected, square(measured.packing_error) + square(plane.packing.error * factor) +
-                                              square(expected * packing_error_in_space(to_space)));
+                                              square(expected * packing_error_3d(to_space)));
   }
   return sum;
 }
@@ -148,11 +148,11 @@ std::size_t cell_of(const std::vector<double>& middles, double value) {
 
 }  // namespace
 
-double angle_error_in_space(const PlaneToSpace& to_space) {
+double angle_error_3d(const PlaneToSpace& to_space) {
   return to_space.angle_offset.scatter * std::sqrt(1 + 1.0 / to_space.materials);
 }
 
-double packing_error_in_space(const PlaneToSpace& to_space) {
+double packing_error_3d(const PlaneToSpace& to_space) {
   return to_space.packing_factor.scatter / to_space.packing_factor.mean * std::sqrt(1 + 1.0 / to_space.materials);
 }
 
@@ -161,7 +161,7 @@ Reachable reachable(const ShippedAtlas& atlas, double aspect_ratio) {
   Reachable range{infinity, -infinity, infinity, -infinity};
   for (const double friction : atlas.atlas.frictions())
     for (const double rolling : atlas.atlas.rolling_frictions()) {
-      const AtlasFigures plane = atlas.atlas.at(aspect_ratio, friction, rolling);
+      const AtlasMetrics plane = atlas.atlas.at(aspect_ratio, friction, rolling);
       const double angle = plane.angle.mean + atlas.to_space.angle_offset.mean;
       const double packing = plane.packing.mean * atlas.to_space.packing_factor.mean;
       range.least_angle = std::min(range.least_angle, angle);

@@ -41,8 +41,8 @@ Reachable reachable(const ShippedAtlas& atlas, double aspect_ratio);
 
 /// How far the atlas' figures are from a material's in space (standard deviations): from the plane to space, with
 /// few materials compared, sd sqrt(1 + 1/n).
-double angle_error_in_space(const PlaneToSpace& to_space);    // rad
-double packing_error_in_space(const PlaneToSpace& to_space);  // share of the packing fraction
+double angle_error_3d(const PlaneToSpace& to_space);    // rad
+double packing_error_3d(const PlaneToSpace& to_space);  // share of the packing fraction
 
 /// Friction and rolling friction from bulk measurements: posterior over a fine grid of the atlas' range, with a uniform
 /// prior and normal errors: of the measurement, of the atlas' mean over random seeds, and from the plane to space.

@@ -116,7 +116,7 @@ AccuracyGrid grid_of(const AccuracyOptions& options, const Scene& scene) {
 
 AccuracyDesign design_of(const AccuracyOptions& options, const Scene& scene) {
   const AccuracyGrid grid = grid_of(options, scene);
-  return options.names_levels() ? full_design(grid) : thrifty_design(grid);
+  return options.names_levels() ? full_design(grid) : screening_design(grid);
 }
 
 /// A budget of so many jobs.
@@ -137,14 +137,14 @@ PromiseGoal goal_of(const AccuracyOptions& options, int jobs) {
 PromiseChoices choices_of(const Scene& scene) {
   AccuracyGrid grid = default_accuracy_grid(scene);
   grid.integrators = {scene.numerics.integrator};
-  return {.design = runnable(scene, thrifty_design(grid)),
-          .lead = scene.run.measure_from,
+  return {.design = runnable(scene, screening_design(grid)),
+          .run_to_decision = scene.run.measure_from,
           .window = scene.run.duration - scene.run.measure_from,
           .windows = windows_alike(scene)};
 }
 
 /// CPU time, s, of the first round, by the time that a run of the scene takes.
-double foreseen_for_pilots(const PromiseChoices& choices, const Scene& scene) {
+double predicted_pilot_cost(const PromiseChoices& choices, const Scene& scene) {
   const Model model = prepare(scene);
   const double own_steps = model.step.contact_duration / model.step.dt;
   const double run = predict_cost(scene).seconds();
@@ -190,7 +190,7 @@ Scene scene_of(const AccuracyOptions& options) {
   const InputFile file = input_file(options.common.file, FileKind::seeder);
   const Scene scene = read_scene(file.path, options.common.overrides(), file.files);
   print_warnings(scene_warnings(scene));
-  return at_its_accuracy(scene);
+  return resolve_accuracy_level(scene);
 }
 
 void add_page(std::vector<OutputFile>& files, const std::string& page_template, const std::string& data) {
@@ -220,7 +220,7 @@ int run_table(const AccuracyOptions& options) {
   const int jobs = threads_to_be_had(options.common.jobs);
   const std::atomic<bool>& interrupt = watch_for_interrupt();
   StudyRuns runs(cases_of(folder.path()));
-  const Simulator simulator = runs.keeping(run_model);
+  const Simulator simulator = runs.caching_simulator(run_model);
   AccuracyResult result;
   AccuracyTiming timing{.jobs = jobs};
   {
@@ -235,8 +235,8 @@ int run_table(const AccuracyOptions& options) {
     Progress progress(text_unless(options.common.quiet), 2.0 * options.depth, "runs");
     SweepOptions sweep_options = sweep_options_of(options, jobs, interrupt);
     sweep_options.runs.progress = [&](const ManyRunsProgress& done) { progress.update(done.fraction_done); };
-    result.depth = measure_depth_error(at_its_accuracy(both->plane), at_its_accuracy(both->space), options.depth,
-                                       simulator, sweep_options);
+    result.depth = measure_depth_error(resolve_accuracy_level(both->plane), resolve_accuracy_level(both->space),
+                                       options.depth, simulator, sweep_options);
     timing.wall_time += progress.seconds();
   }
   std::vector<OutputFile> files = accuracy_files(result, timing, options.common.csv);
@@ -260,7 +260,7 @@ int run_promise(const AccuracyOptions& options) {
   PromiseChoices choices = choices_of(scene);
   const std::string page_template = options.common.page_template();
   const OutputFolder folder = options.common.output_folder("accuracy", accuracy_file_texts(), "-accuracy");
-  const double foreseen = foreseen_for_pilots(choices, scene);
+  const double foreseen = predicted_pilot_cost(choices, scene);
   refuse_small_budget(goal, foreseen, jobs);
   const auto tell = [&](const std::string& what, double cpu_time) {
     if (options.common.quiet) return;
@@ -272,7 +272,7 @@ int run_promise(const AccuracyOptions& options) {
   const std::atomic<bool>& interrupt = watch_for_interrupt();
   StudyRuns runs(cases_of(folder.path()));
   // What a budget buys is measured by runs that are made now.
-  const Simulator simulator = goal.cpu_time ? Simulator(run_model) : runs.keeping(run_model);
+  const Simulator simulator = goal.cpu_time ? Simulator(run_model) : runs.caching_simulator(run_model);
   SettingRunner runner(scene, choices.design.settings, simulator, sweep_options_of(options, jobs, interrupt));
   const Progress clock(ProgressStyle::none, 0, "");
   const Promise made = promise(

@@ -29,7 +29,7 @@ namespace {
 
 struct BenchSheetOptions {
   CommonOptions common;
-  MakingFlags making;
+  BatchFlags batch;
   std::vector<std::string> fits, settings;
   std::string time = "30 min", handling = "60 s";
   int runs = 60;
@@ -93,9 +93,9 @@ int run_bench_sheet(const BenchSheetOptions& command) {
   StudyRuns runs(cases_of(folder.path()));
   print_warnings(scene_warnings(bench.design.runs.front().scene));
   tell_cost(command, bench, runs);
-  const Made made = make_runs(runs, wanted_runs(bench.design), command.making, options.jobs, options.quiet);
-  if (made.making.interrupted > 0) {
-    complain(fmt::format("{} of {} runs are still to be made", made.making.interrupted, bench.design.runs.size()));
+  const BatchResult made = make_runs(runs, wanted_runs(bench.design), command.batch, options.jobs, options.quiet);
+  if (made.batch.interrupted > 0) {
+    complain(fmt::format("{} of {} runs are still to be made", made.batch.interrupted, bench.design.runs.size()));
     return exit_interrupted;
   }
   const std::optional<BenchPlan> plan = plan_bench(bench.task, bench.design, limits, runs.kept());
@@ -130,7 +130,7 @@ void add_bench_sheet_command(CLI::App& app, int& exit_code) {
       ->type_name("N")
       ->check(CLI::Range(1, 100000))
       ->capture_default_str();
-  add_making_flags(*command, options->making);
+  add_making_flags(*command, options->batch);
   add_examples(*command,
                {"vibrosow bench-sheet wheat-tray", "vibrosow bench-sheet wheat-tray --time \"20 min\" --out sheet",
                 "vibrosow bench-sheet wheat-tray --try \"tray.motion.frequency=7 Hz..11 Hz\""});

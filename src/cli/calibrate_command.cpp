@@ -33,7 +33,7 @@ namespace {
 
 struct CalibrateOptions {
   CommonOptions common;
-  MakingFlags making;
+  BatchFlags batch;
   std::string table;
   std::vector<std::string> columns, fits;
   std::string scale, hold_out, noise, time_zero;
@@ -118,9 +118,9 @@ int run_calibrate(const CalibrateOptions& command) {
   const std::string page_template = options.page_template();
   const OutputFolder folder = options.output_folder("calibrate", calibration_file_texts(), "-calibration");
   StudyRuns runs(cases_of(folder.path()));
-  const Made made = make_runs(runs, wanted_runs(design), command.making, options.jobs, options.quiet);
-  if (made.making.interrupted > 0) {
-    complain(fmt::format("{} of {} runs are still to be made", made.making.interrupted, design.runs.size()));
+  const BatchResult made = make_runs(runs, wanted_runs(design), command.batch, options.jobs, options.quiet);
+  if (made.batch.interrupted > 0) {
+    complain(fmt::format("{} of {} runs are still to be made", made.batch.interrupted, design.runs.size()));
     return exit_interrupted;
   }
   const std::optional<std::vector<ReducedRun>> reduced = reduced_runs(task, design, runs.kept());
@@ -180,7 +180,7 @@ void add_calibrate_command(CLI::App& app, int& exit_code) {
   command->add_option("TABLE", options->table, "measured outflow (.csv)")->required();
   add_fit_options(*command, *options);
   add_html_option(*command, options->common);
-  add_making_flags(*command, options->making);
+  add_making_flags(*command, options->batch);
   add_examples(*command, {"vibrosow calibrate wheat-tray measured.csv",
                           "vibrosow calibrate wheat-tray measured.csv --fit contact.friction=0.2..0.8",
                           "vibrosow calibrate wheat-tray measured.csv --runs 100 --html --out quick"});

@@ -114,7 +114,7 @@ void print_overlap(const Model& model) {
 std::string hole_text(const Hole& hole, Space space) {
   const double mm = 1e3;
   std::string plane = fmt::format("at {:.2f} mm, {:.2f} mm wide", hole.centre * mm, hole.width * mm);
-  if (space == Space::plane) return plane;
+  if (space == Space::two_dimensional) return plane;
   if (hole.shape == HoleShape::round)
     return fmt::format("at {:.2f} mm, {:.2f} mm from the front, {:.2f} mm in diameter", hole.centre * mm,
                        hole.across * mm, hole.width * mm);
@@ -132,13 +132,14 @@ void print_vessel(const Vessel& vessel, const Scene& scene) {
   const Space space = scene.space;
   const double mm = 1e3;
   const bool round = space == Space::three_dimensional && vessel.plan == Plan::round;
-  const std::string depth = space == Space::plane || round ? "" : fmt::format("{:.1f} mm deep, ", *vessel.depth * mm);
+  const std::string depth =
+      space == Space::two_dimensional || round ? "" : fmt::format("{:.1f} mm deep, ", *vessel.depth * mm);
   print("{}\n", vessel.name);
   print_text(wrapped_beside(
       "  ",
       fmt::format("{}floor from ({:.1f}, {:.1f}) mm, {:.1f} mm {}, {}walls {:.1f} mm, {}", round ? "round, " : "",
                   vessel.origin.x() * mm, vessel.origin.y() * mm, vessel.length * mm, round ? "in diameter" : "long",
-                  space == Space::plane ? "end " : depth, vessel.height * mm, fill_text(vessel, scene))));
+                  space == Space::two_dimensional ? "end " : depth, vessel.height * mm, fill_text(vessel, scene))));
   for (std::size_t i = 0; i < vessel.holes.size(); ++i)
     print("  hole {} {}{}\n", i + 1, hole_text(vessel.holes[i], space),
           vessel.holes[i].open_at > 0 ? fmt::format(", opens at {:.6g} s", vessel.holes[i].open_at) : "");
@@ -155,7 +156,7 @@ void print_vessel(const Vessel& vessel, const Scene& scene) {
 /// How many slices the tray is taken for, and how dense a bed that means.
 void print_slice(const Scene& scene) {
   const auto slices = slices_of_tray(scene);
-  if (scene.space != Space::plane || !slices) return;
+  if (scene.space != Space::two_dimensional || !slices) return;
   const double implied = implied_bulk_density(scene.lots, poured_share);
   const auto solid = solid_density(scene.lots);
   print_text(
@@ -212,7 +213,8 @@ int check_seeder(const InputFile& file, const CheckOptions& options) {
   if (plan.too_long) print("the step is too long and allowed: every result will be marked \"outside the model\"\n");
   if (!options.both) return exit_done;
   const BothSpaces both = read_in_both_spaces(file.path, options.overrides(), file.files);
-  std::vector<std::string> of_the_other = scene_warnings(read.space == Space::plane ? both.space : both.plane);
+  std::vector<std::string> of_the_other =
+      scene_warnings(read.space == Space::two_dimensional ? both.space : both.plane);
   const std::vector<std::string> told = scene_warnings(scene);
   std::erase_if(of_the_other, [&](const std::string& one) { return std::ranges::find(told, one) != told.end(); });
   print_warnings(of_the_other);

@@ -44,7 +44,7 @@ void print_rate(std::string_view space, const TrayRate& rate, const Evaluation& 
 }  // namespace
 
 void print_space_advice(const Scene& scene) {
-  const bool flat = scene.space == Space::plane;
+  const bool flat = scene.space == Space::two_dimensional;
   print("{}\n", flat ? "2D: discs in a slice one seed thick" : "3D: balls");
   print_text(wrapped_beside(
       "  ",

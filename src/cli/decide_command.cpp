@@ -2,10 +2,10 @@
 #include <string>
 #include <vector>
 
-#include "cli/asked_decision.hpp"
 #include "cli/commands.hpp"
 #include "cli/help_text.hpp"
 #include "cli/reused_cases.hpp"
+#include "cli/selection_study.hpp"
 #include "input/input_file.hpp"
 
 namespace vibrosow {
@@ -14,17 +14,17 @@ namespace {
 struct DecideCommandOptions {
   CommonOptions common;
   DecideWords words;
-  MakingFlags making;
+  BatchFlags batch;
   std::vector<std::string> reuse;
 };
 
 int run_decide(const DecideCommandOptions& command) {
   const CommonOptions& common = command.common;
   const InputFile file = input_file(common.file, FileKind::study);
-  AskedDecision decision(plan_study(file.path, common.sets, common.random_seed, file.files),
-                         read_question(command.words));
+  SelectionStudy decision(plan_study(file.path, common.sets, common.random_seed, file.files),
+                          read_question(command.words));
   tell_of_files(file);
-  return answer(decision, common, command.making, command.reuse);
+  return answer(decision, common, command.batch, command.reuse);
 }
 
 }  // namespace
@@ -37,7 +37,7 @@ void add_decide_command(CLI::App& app, int& exit_code) {
   add_question_options(*command, options->words);
   add_html_option(*command, options->common);
   add_replays_option(*command, options->common);
-  add_making_flags(*command, options->making);
+  add_making_flags(*command, options->batch);
   add_reuse_option(*command, options->reuse);
   add_examples(*command, {"vibrosow decide wheat-demo --goal rate --out best",
                           "vibrosow decide wheat-demo --goal unevenness --within \"20 %\" --out even",

@@ -19,7 +19,7 @@ std::string layouts_that_are(const DecisionResult& result, const Answer& answer,
     const Layout& layout = result.study.layouts[one.layout];
     const std::string label = fmt::format("{:>5}  ", layout.number);
     text += wrapped_beside(label, described(result.study, layout)) +
-            wrapped(figures_sentence(result, layout.scene.value()), label.size());
+            wrapped(metrics_sentence(result, layout.scene.value()), label.size());
   }
   return text;
 }

@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
-#include "cli/asked_study.hpp"
+#include "cli/adaptive_study.hpp"
 #include "cli/console.hpp"
 #include "cli/report_study.hpp"
 #include "report/kept_page.hpp"
@@ -25,9 +25,9 @@ namespace fs = std::filesystem;
 Chart chart_of_study(const fs::path& folder, const std::string& name, int jobs) {
   const StudyPlan plan = read_plan(folder.string());
   StudyRuns runs(cases_of(folder.string()));
-  if (const auto asked = asked_study(plan)) {
-    RoundsOfRuns rounds(runs, std::nullopt, jobs, true);
-    if (!asked->lead(rounds)) complain("warning: runs are missing");
+  if (const auto asked = adaptive_study(plan)) {
+    RoundExecutor rounds(runs, std::nullopt, jobs, true);
+    if (!asked->run_to_decision(rounds)) complain("warning: runs are missing");
     return study_chart(asked->page({}), name);
   }
   const PlannedStudy planned = study_of_plan(plan);

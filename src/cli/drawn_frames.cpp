@@ -73,9 +73,9 @@ bool is_of_scene(const Snapshot& bed, const Scene& scene) {
   const auto is_lot = [&](int lot) {
     return static_cast<std::size_t>(lot) < scene.lots.size();
   };  // unsigned in the file
-  const bool turned = scene.space == Space::plane || bed.q_w.empty() == bed.q_z.empty();
+  const bool turned = scene.space == Space::two_dimensional || bed.q_w.empty() == bed.q_z.empty();
   return std::ranges::all_of(bed.lot, is_lot) && turned &&
-         (bed.size() == 0 || bed.in_space() == (scene.space != Space::plane));
+         (bed.size() == 0 || bed.is_3d() == (scene.space != Space::two_dimensional));
 }
 
 /// A snapshot's file, whose places are in the tray's frame.
@@ -101,7 +101,7 @@ Snapshot snapshot_in(const fs::path& file, const Scene& scene, double time) {
     bed.lot.push_back(lot_named(scene, table.text(row, "lot"), file));
     bed.radius.push_back(mm * table.number(row, "radius_mm", 1e-6, 1e6));
     if (table.has(row, "angle_rad")) bed.angle.push_back(table.number(row, "angle_rad") + angle);
-    if (scene.space == Space::plane) continue;
+    if (scene.space == Space::two_dimensional) continue;
     bed.z.push_back(mm * table.number(row, "z_mm") + scene.tray.front + pose.across);
     bed.vz.push_back(table.number(row, "vz_m_per_s") + rate.across_velocity);
     if (!table.has(row, "q_w")) continue;

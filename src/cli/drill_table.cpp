@@ -15,20 +15,20 @@
 namespace vibrosow {
 namespace {
 
-std::string text_of(const RowFigures& row, std::string_view name) {
-  const RowFigure& figure = row_figure_named(name);
-  const std::optional<double> value = figure.of({row});
-  return value ? number_text(*value / figure.unit_size) : "-";
+std::string text_of(const RowMetrics& row, std::string_view name) {
+  const RowMetric& metric = row_metric_named(name);
+  const std::optional<double> value = metric.of({row});
+  return value ? number_text(*value / metric.unit_size) : "-";
 }
 
-void print_row(const RowFigures& row) {
+void print_row(const RowMetrics& row) {
   print("{:>6} {:>9} {:>9} {:>8} {:>9} {:>9} {:>9} {:>8}\n", row.row > 0 ? fmt::format("{}", row.row) : "all",
         text_of(row, "rate_g_per_min"), text_of(row, "seeds_per_s"), text_of(row, "kg_per_ha"),
         text_of(row, "seeds_per_m2"), text_of(row, "longest_pause_s"), text_of(row, "multiples_percent"),
         text_of(row, "skips_percent"));
 }
 
-std::string spacings_sentence(const RowFigures& all) {
+std::string spacings_sentence(const RowMetrics& all) {
   if (all.without_spacing != NoSpacings::none) return spacings_note(all.without_spacing);
   return fmt::format(
       "multiples and skips are at the hole, not in the furrow: what falls, tube and soil do comes on top. Seeds that "
@@ -40,7 +40,7 @@ std::string spacings_sentence(const RowFigures& all) {
 std::string mean_text(const RowMeans& row, std::string_view name) {
   const std::optional<MeanWithInterval>& mean = row[name];
   if (!mean) return "";
-  return with_interval(mean, row_figure_named(name).unit_size);
+  return with_interval(mean, row_metric_named(name).unit_size);
 }
 
 /// "5 mm", "9 Hz".
@@ -80,12 +80,12 @@ std::string drill_sentence(const Drill& drill) {
                                                                                   : "several holes feed a row");
 }
 
-void print_drill(const DrillFigures& figures, Space space) {
-  print("\n{}", wrapped(fmt::format("{}{}", drill_sentence(figures.drill), of_plane(space))));
+void print_drill(const DrillMetrics& metrics, Space space) {
+  print("\n{}", wrapped(fmt::format("{}{}", drill_sentence(metrics.drill), of_plane(space))));
   print("{:>6} {:>9} {:>9} {:>8} {:>9} {:>9} {:>9} {:>8}\n", "row", "g/min", "seeds/s", "kg/ha", "seeds/m2", "pause s",
         "multipl %", "skips %");
-  for (const RowFigures& row : figures.rows) print_row(row);
-  const RowFigures& all = figures.all();
+  for (const RowMetrics& row : metrics.rows) print_row(row);
+  const RowMetrics& all = metrics.all();
   if (all.between)
     if (const auto unevenness = unevenness_of({&*all.between}))
       print_text(wrapped(unevenness_sentence(*unevenness, "row")));

@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "agronomy/row_figures.hpp"
+#include "agronomy/row_metrics.hpp"
 #include "study/sweep.hpp"
 
 namespace vibrosow {
@@ -11,7 +11,7 @@ namespace vibrosow {
 std::string drill_sentence(const Drill& drill);
 
 /// What a run is to its drill: a table of rows, how far they differ, and what spacings stand for.
-void print_drill(const DrillFigures& figures, Space space);
+void print_drill(const DrillMetrics& metrics, Space space);
 
 /// What a layout sows, in a sentence. It has rows. `beside`: stands beside the rate.
 std::string sown_sentence(const std::vector<RowMeans>& rows, std::string_view beside);

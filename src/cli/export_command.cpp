@@ -5,8 +5,8 @@
 #include <memory>
 #include <string>
 
-#include "agronomy/row_figures.hpp"
-#include "cli/asked_study.hpp"
+#include "agronomy/row_metrics.hpp"
+#include "cli/adaptive_study.hpp"
 #include "cli/commands.hpp"
 #include "cli/common_options.hpp"
 #include "cli/console.hpp"
@@ -51,8 +51,8 @@ int export_run(const ExportOptions& command) {
   Outflow outflow = measure_outflow(model.scene, found->run);
   const ExpectedWithDoubts expected = expected_of_run(model.scene, found->run, outflow, knowledge_for(planned.study));
   std::ranges::copy(expected.doubts, std::back_inserter(outflow.doubts));
-  std::optional<DrillFigures> sown;
-  if (layout.drill) sown = drill_figures(model.scene, found->run, outflow, *layout.drill);
+  std::optional<DrillMetrics> sown;
+  if (layout.drill) sown = drill_metrics(model.scene, found->run, outflow, *layout.drill);
   std::vector<OutputFile> files =
       run_files(model.scene, found->run, outflow, effect_names(model.effects), options.csv, sown, expected.rate);
   std::ranges::move(page_files("", run_page_data({model, found->run, outflow, sown, sentence_of(expected.rate)})),
@@ -78,11 +78,11 @@ int export_sweep(const StudyPlan& plan, const ExportOptions& command) {
   return report_study(planned, runs, folder, {.jobs = options.jobs}, options, "");
 }
 
-int export_asked(AskedStudy& asked, const ExportOptions& command) {
+int export_asked(AdaptiveStudy& asked, const ExportOptions& command) {
   const CommonOptions& options = command.common;
   StudyRuns runs(cases_of(options.file));
-  RoundsOfRuns rounds(runs, std::nullopt, options.jobs, true);
-  asked.lead(rounds);
+  RoundExecutor rounds(runs, std::nullopt, options.jobs, true);
+  asked.run_to_decision(rounds);
   if (command.complete) check_that_none_is_missing(options.file, asked.asked_for());
   return asked.report(asked.folder(options), options, "");
 }
@@ -93,7 +93,7 @@ int export_study(ExportOptions command) {
   if (!command.run.empty()) return export_run(command);
   options.out = options.file;
   const StudyPlan plan = read_plan(options.file);
-  const auto asked = asked_study(plan);
+  const auto asked = adaptive_study(plan);
   const int exit_code = asked ? export_asked(*asked, command) : export_sweep(plan, command);
   print("reports: {}\n", options.out);
   if (exit_code != exit_interrupted) return exit_code;

@@ -20,7 +20,7 @@ namespace vibrosow {
 namespace {
 
 /// A kept run, and the same made again.
-struct Again {
+struct Rerun {
   int layout;
   Model model;
   Run kept;
@@ -37,11 +37,11 @@ bool same_outflow(const Run& a, const Run& b) {
 }
 
 /// All of them side by side; false where they were interrupted.
-bool make_again(std::vector<Again>& all, const CommonOptions& options) {
+bool make_again(std::vector<Rerun>& all, const CommonOptions& options) {
   std::vector<Job> jobs;
-  for (const Again& one : all) jobs.push_back({&one.model, one.kept.random_seed});
+  for (const Rerun& one : all) jobs.push_back({&one.model, one.kept.random_seed});
   const Simulator recorded = [&](const Model& model, SimulationOptions simulation) {
-    Again& one = *std::ranges::find(all, &model, [](const Again& again) { return &again.model; });
+    Rerun& one = *std::ranges::find(all, &model, [](const Rerun& again) { return &again.model; });
     simulation.looks = one.recording.looks();
     return one.run = run_model(model, simulation);
   };
@@ -58,7 +58,7 @@ bool make_again(std::vector<Again>& all, const CommonOptions& options) {
   });
 }
 
-nlohmann::ordered_json replay_of(const Again& one, std::size_t replays) {
+nlohmann::ordered_json replay_of(const Rerun& one, std::size_t replays) {
   if (!same_outflow(one.run, one.kept))
     throw InputError(
         fmt::format("--replays: this version of the program makes another run of layout {} than is kept; make the "
@@ -77,7 +77,7 @@ nlohmann::ordered_json replay_of(const Again& one, std::size_t replays) {
 /// Of those whose run is kept. None where they were interrupted.
 std::optional<Replays> make_replays(const std::vector<WantedReplay>& wanted, const KeptRuns& kept,
                                     const CommonOptions& options) {
-  std::vector<Again> all;
+  std::vector<Rerun> all;
   for (const WantedReplay& one : wanted) {
     std::optional<Run> run = kept(name_of_run(one.scene, one.random_seed));
     if (!run || run->status == RunStatus::refused) continue;
@@ -87,7 +87,7 @@ std::optional<Replays> make_replays(const std::vector<WantedReplay>& wanted, con
   }
   if (!all.empty() && !make_again(all, options)) return std::nullopt;
   Replays replays;
-  for (const Again& one : all) replays[one.layout] = replay_of(one, all.size());
+  for (const Rerun& one : all) replays[one.layout] = replay_of(one, all.size());
   return replays;
 }
 

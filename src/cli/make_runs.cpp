@@ -63,7 +63,7 @@ std::string event_fields(const WantedRun& wanted, const Run& run) {
 
 }  // namespace
 
-void add_making_flags(CLI::App& command, MakingFlags& flags) {
+void add_making_flags(CLI::App& command, BatchFlags& flags) {
   command
       .add_option("--save-every", flags.save_every,
                   "clock time between saves of unfinished runs, which resume from there")
@@ -79,43 +79,44 @@ void add_making_flags(CLI::App& command, MakingFlags& flags) {
       ->default_str("text");
 }
 
-void Made::add(const Made& round) {
-  making.made += round.making.made;
-  making.interrupted = round.making.interrupted;  // what was there is the same, and what was made before
+void BatchResult::add(const BatchResult& round) {
+  batch.made += round.batch.made;
+  batch.interrupted = round.batch.interrupted;  // what was there is the same, and what was made before
   timing.wall_time += round.timing.wall_time;
   timing.runs += round.timing.runs;
   timing.run_time += round.timing.run_time;
   timing.grain_steps += round.timing.grain_steps;
 }
 
-Made make_runs(StudyRuns& runs, const std::vector<WantedRun>& wanted, const MakingFlags& flags, int jobs, bool quiet) {
-  MakingOptions making;
-  making.jobs = threads_to_be_had(jobs);
-  making.retry = flags.retry;
-  making.save_every = time_option("--save-every", flags.save_every);
+BatchResult make_runs(StudyRuns& runs, const std::vector<WantedRun>& wanted, const BatchFlags& flags, int jobs,
+                      bool quiet) {
+  BatchOptions batch;
+  batch.jobs = threads_to_be_had(jobs);
+  batch.retry = flags.retry;
+  batch.save_every = time_option("--save-every", flags.save_every);
   const Deadline deadline(flags.time_limit.empty() ? 0 : time_option("--time-limit", flags.time_limit));
-  making.interrupt = &deadline.flag();
+  batch.interrupt = &deadline.flag();
   LeadingLayouts leading;
   Progress progress(flags.json_progress ? ProgressStyle::json : text_unless(quiet), static_cast<double>(wanted.size()),
                     "runs");
   progress.show_also([&] { return leading.text(); });
   progress.tell("begin", fmt::format(R"("runs":{})", wanted.size()));
-  making.on_not_kept = [](const std::string& reason) {
+  batch.on_not_kept = [](const std::string& reason) {
     complain(fmt::format("warning: {}; no further run is begun until there is room", reason));
   };
-  making.progress = [&](double done, double there) {
+  batch.progress = [&](double done, double there) {
     progress.begin_at(there);
     progress.update(done);
   };
-  making.on_made = [&](const WantedRun& run, const Run& made) {
+  batch.on_made = [&](const WantedRun& run, const Run& made) {
     leading.add(run, made);
     progress.tell("run", event_fields(run, made));
   };
-  Made made;
-  made.making = runs.make(wanted, run_model, making);
-  progress.tell("end", fmt::format(R"("made":{},"there":{},"left":{})", made.making.made, made.making.there,
-                                   made.making.interrupted));
-  made.timing = {progress.seconds(), making.jobs, made.making.made, made.making.run_time, made.making.grain_steps};
+  BatchResult made;
+  made.batch = runs.make(wanted, run_model, batch);
+  progress.tell("end", fmt::format(R"("made":{},"there":{},"left":{})", made.batch.made, made.batch.there,
+                                   made.batch.interrupted));
+  made.timing = {progress.seconds(), batch.jobs, made.batch.made, made.batch.run_time, made.batch.grain_steps};
   return made;
 }
 

@@ -109,8 +109,8 @@ bool refine(const NewCropOptions& options, const NewCrop& crop, const CropEstima
   for (const RefiningRun& run : refining)
     wanted.push_back({&run.scene, run.random_seed, name_of_run(run.scene, run.random_seed)});
   StudyRuns runs(PathInFolder(fs::path(options.out)) / (crop.name + "-runs"));
-  const Made made = make_runs(runs, wanted, MakingFlags{}, options.jobs, false);
-  if (made.making.interrupted > 0) return false;
+  const BatchResult made = make_runs(runs, wanted, BatchFlags{}, options.jobs, false);
+  if (made.batch.interrupted > 0) return false;
   atlas.to_space = refined_to_space(atlas.atlas, refining, runs.kept());
   return true;
 }

@@ -2,9 +2,9 @@
 #include <string>
 #include <vector>
 
-#include "cli/asked_front.hpp"
 #include "cli/commands.hpp"
 #include "cli/help_text.hpp"
+#include "cli/pareto_study.hpp"
 #include "cli/reused_cases.hpp"
 #include "input/input_file.hpp"
 
@@ -14,16 +14,16 @@ namespace {
 struct OptimiseCommandOptions {
   CommonOptions common;
   OptimiseWords words;
-  MakingFlags making;
+  BatchFlags batch;
   std::vector<std::string> reuse;
 };
 
 int run_optimise(const OptimiseCommandOptions& command) {
   const CommonOptions& common = command.common;
   const InputFile file = input_file(common.file, FileKind::study);
-  AskedFront front(file.path, common.sets, common.random_seed, file.files, read_question(command.words));
+  ParetoStudy front(file.path, common.sets, common.random_seed, file.files, read_question(command.words));
   tell_of_files(file);
-  return answer(front, common, command.making, command.reuse);
+  return answer(front, common, command.batch, command.reuse);
 }
 
 }  // namespace
@@ -36,7 +36,7 @@ void add_optimise_command(CLI::App& app, int& exit_code) {
   add_question_options(*command, options->words);
   add_html_option(*command, options->common);
   add_replays_option(*command, options->common);
-  add_making_flags(*command, options->making);
+  add_making_flags(*command, options->batch);
   add_reuse_option(*command, options->reuse);
   add_examples(*command, {"vibrosow optimise wheat-front --goals unevenness,power --out front",
                           "vibrosow optimise wheat-front --goals rate,unevenness --runs 60 --out rate",

@@ -22,7 +22,7 @@ std::string with_unit(const std::optional<MeanWithInterval>& value, std::string_
 
 /// "CV of a run 8.2 +- 0.4 %, power 1.4 W/kg, unevenness (CV) 7.1 % (6.2 to 8.3 %), 43.2 +- 0.5 seeds/s of the tray, 12
 /// runs"
-std::string figures_text(const OptimiseResult& result, std::size_t layout) {
+std::string metrics_text(const OptimiseResult& result, std::size_t layout) {
   const FrontLayout& of = result.layouts[layout];
   std::string text;
   for (std::size_t g = 0; g < of.goals.size(); ++g) {
@@ -31,8 +31,8 @@ std::string figures_text(const OptimiseResult& result, std::size_t layout) {
   }
   if (of.unevenness) text += fmt::format("unevenness (CV) {}, ", unevenness_text(*of.unevenness));
   if (const auto& rate = result.options.rate) {
-    const Figure& figure = rate_figure(rate);
-    text += fmt::format("{} of the tray{}, ", with_unit(of.rate, unit_of(figure), figure.unit_size),
+    const Metric& metric = rate_metric(rate);
+    text += fmt::format("{} of the tray{}, ", with_unit(of.rate, unit_of(metric), metric.unit_size),
                         of_plane(result.study.scenes[result.study.layouts[layout].scene.value()].space));
   }
   text += fmt::format("{} runs{}", of.runs, of.clogged > 0 ? fmt::format(", {} clogged", of.clogged) : "");
@@ -47,7 +47,7 @@ std::string leading_text(const OptimiseResult& result, FrontStanding standing) {
     if (of.standing != standing || !leads(of)) continue;
     const Layout& layout = result.study.layouts[i];
     const std::string label = fmt::format("{:>5}  ", layout.number);
-    text += wrapped_beside(label, described(result.study, layout)) + wrapped(figures_text(result, i), label.size());
+    text += wrapped_beside(label, described(result.study, layout)) + wrapped(metrics_text(result, i), label.size());
   }
   return text;
 }

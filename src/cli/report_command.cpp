@@ -6,7 +6,7 @@
 #include <optional>
 #include <string>
 
-#include "cli/asked_study.hpp"
+#include "cli/adaptive_study.hpp"
 #include "cli/commands.hpp"
 #include "cli/common_options.hpp"
 #include "cli/console.hpp"
@@ -95,10 +95,10 @@ int page_of_data(const Json& data, const CommonOptions& options) {
 int page_of_study(const CommonOptions& options, const std::string& page_template) {
   const StudyPlan plan = read_plan(options.file);
   StudyRuns runs(cases_of(options.file));
-  if (const auto asked = asked_study(plan)) {
+  if (const auto asked = adaptive_study(plan)) {
     const OutputFolder folder = asked->folder(options);
-    RoundsOfRuns rounds(runs, std::nullopt, options.jobs, true);
-    if (!asked->lead(rounds)) complain("warning: runs are missing");
+    RoundExecutor rounds(runs, std::nullopt, options.jobs, true);
+    if (!asked->run_to_decision(rounds)) complain("warning: runs are missing");
     return add_page_with_replays(*asked, folder, runs, options, page_template, {});
   }
   const PlannedStudy planned = study_of_plan(plan);

@@ -8,7 +8,7 @@
 #include <optional>
 #include <system_error>
 
-#include "agronomy/row_figures.hpp"
+#include "agronomy/row_metrics.hpp"
 #include "cli/commands.hpp"
 #include "cli/common_options.hpp"
 #include "cli/console.hpp"
@@ -47,7 +47,7 @@ namespace vibrosow {
 namespace {
 
 /// A run that ended before its measuring window has no rates.
-std::string figure_text(double value) {
+std::string metric_text(double value) {
   return number_text(value);
 }
 
@@ -65,8 +65,8 @@ void print_holes(const Outflow& outflow) {
   for (const HoleOutflow& row : outflow.holes) {
     print("{:>6}  {:<{}} {:>12}", row.hole, row.lot, width, millimetres(row.centre));
     if (rows_of_holes) print(" {:>9}", millimetres(row.across));
-    print(" {:>8} {:>9} {:>9} {:>9}\n", row.grains, figure_text(row.seeds_per_s), figure_text(row.mass_rate * 1e3),
-          figure_text(row.longest_pause));
+    print(" {:>8} {:>9} {:>9} {:>9}\n", row.grains, metric_text(row.seeds_per_s), metric_text(row.mass_rate * 1e3),
+          metric_text(row.longest_pause));
   }
 }
 
@@ -78,13 +78,13 @@ void print_summary(const Scene& scene, const Run& run, const Outflow& outflow,
   print_holes(outflow);
   if (const std::string mixture = mixture_text(scene); !mixture.empty()) print_text("\n" + mixture);
   const HoleOutflow& all = *find_row(outflow, "all", "all");
-  const bool in_space = scene.space == Space::three_dimensional;
+  const bool is_3d = scene.space == Space::three_dimensional;
   if (const auto& depth = outflow.depth_factor)
     print_text("\n" +
                wrapped(fmt::format("whole tray{}: {} g/s = {} g/min, {} seeds/s{}",
-                                   in_space ? "" : fmt::format(", {:.4g} times the slice", *depth),
-                                   figure_text(all.mass_rate * 1e3 * *depth), figure_text(all.mass_rate * 6e4 * *depth),
-                                   figure_text(all.seeds_per_s * *depth), of_plane(scene.space))));
+                                   is_3d ? "" : fmt::format(", {:.4g} times the slice", *depth),
+                                   metric_text(all.mass_rate * 1e3 * *depth), metric_text(all.mass_rate * 6e4 * *depth),
+                                   metric_text(all.seeds_per_s * *depth), of_plane(scene.space))));
   if (expected) print_text(wrapped(expected_sentence(*expected)));
   if (const auto unevenness = unevenness_of({&outflow}))
     print_text("\n" + wrapped(unevenness_sentence(*unevenness, "hole")));
@@ -208,7 +208,7 @@ int run_scene(const RunOptions& options) {
   tell_of_files(file);
   const Model model = prepare_to_run(read);
   const Scene& scene = model.scene;
-  const std::string page_template = options.page_template(scene.space == Space::plane);
+  const std::string page_template = options.page_template(scene.space == Space::two_dimensional);
   std::optional<RateKnowledge> knowledge;
   if (scene.space == Space::three_dimensional) knowledge = shipped_rate_knowledge();
   RecordedFrames recorded(options, scene);
@@ -240,8 +240,8 @@ int run_scene(const RunOptions& options) {
                           {DoubtKind::unlikely_scene, warnings[i]});
   const ExpectedWithDoubts expected = expected_of_run(scene, run, outflow, knowledge);
   std::ranges::copy(expected.doubts, std::back_inserter(outflow.doubts));
-  std::optional<DrillFigures> sown;
-  if (drill) sown = drill_figures(scene, run, outflow, *drill);
+  std::optional<DrillMetrics> sown;
+  if (drill) sown = drill_metrics(scene, run, outflow, *drill);
   std::vector<OutputFile> files =
       run_files(scene, run, outflow, effect_names(model.effects), options.csv, sown, expected.rate);
   std::ranges::move(page_files(page_template, run_page_data({model, run, outflow, sown, sentence_of(expected.rate)}),

@@ -9,7 +9,7 @@
 #include <sstream>
 #include <string>
 
-#include "cli/asked_study.hpp"
+#include "cli/adaptive_study.hpp"
 #include "cli/commands.hpp"
 #include "cli/console.hpp"
 #include "cli/help_text.hpp"
@@ -17,7 +17,7 @@
 #include "report/terminal_text.hpp"
 #include "storage/case_folder.hpp"
 #include "storage/checkpoint_folder.hpp"
-#include "storage/run_notes.hpp"
+#include "storage/run_leases.hpp"
 #include "storage/study_plan.hpp"
 
 namespace vibrosow {
@@ -71,10 +71,10 @@ double print_under_way(const std::vector<RunNote>& notes, const Status& status) 
 }
 
 /// Leaves in a plan the runs that have been asked for so far, and says whether more may follow.
-std::string follow(StudyPlan& plan, AskedStudy& asked, const std::string& folder) {
+std::string follow(StudyPlan& plan, AdaptiveStudy& asked, const std::string& folder) {
   StudyRuns runs(cases_of(folder));
-  RoundsOfRuns rounds(runs, std::nullopt, 1, true);
-  const bool has_ended = asked.lead(rounds);
+  RoundExecutor rounds(runs, std::nullopt, 1, true);
+  const bool has_ended = asked.run_to_decision(rounds);
   plan.runs = asked.asked_for();
   return fmt::format("vibrosow {} has {}\n", command_of(plan.question),
                      has_ended ? "ended" : "asked for these so far; more may follow");
@@ -83,12 +83,12 @@ std::string follow(StudyPlan& plan, AskedStudy& asked, const std::string& folder
 /// How far a study is, and what has failed.
 void print_status(const std::string& folder) {
   StudyPlan plan = read_plan(folder);
-  const auto asked = asked_study(plan);
+  const auto asked = adaptive_study(plan);
   const std::string so_far = asked ? follow(plan, *asked, folder) : "";
   const Status status = status_of(plan.runs, CaseFolder(cases_of(folder)));
   print("{}\n{} of {} runs are there, {} are missing\n{}", plan.study, status.kept, plan.runs.size(),
         status.missing.size(), so_far);
-  const double rate = print_under_way(RunNotes(cases_of(folder) / "running").all(), status);
+  const double rate = print_under_way(RunLeases(cases_of(folder) / "running").all(), status);
   const auto saved = std::ranges::count_if(CheckpointFolder(cases_of(folder) / "checkpoints").runs(),
                                            [&](const std::string& run) { return status.missing.contains(run); });
   if (saved > 0) print("{} of these saved part of the way\n", saved);

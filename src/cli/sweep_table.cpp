@@ -18,21 +18,21 @@
 namespace vibrosow {
 namespace {
 
-std::string mean_text(const FigureMeans& figures, std::string_view name) {
-  const Figure& figure = figure_named(name);
-  return with_interval(figures[figure], figure.unit_size);
+std::string mean_text(const MetricMeans& metrics, std::string_view name) {
+  const Metric& metric = metric_named(name);
+  return with_interval(metrics[metric], metric.unit_size);
 }
 
 /// "12.1 (9.3-16)", or "< 6.2" where it is not told from equal holes.
-std::string unevenness_cell(const FigureMeans& figures) {
+std::string unevenness_cell(const MetricMeans& metrics) {
   const auto text = [&](std::string_view name) {
-    const Figure& figure = figure_named(name);
-    return figures[figure] ? to_digits(figures[figure]->mean / figure.unit_size, 2) : "";
+    const Metric& metric = metric_named(name);
+    return metrics[metric] ? to_digits(metrics[metric]->mean / metric.unit_size, 2) : "";
   };
-  const std::string high = text("unevenness_cv_percent_high"), cv = mean_text(figures, "unevenness_cv_percent");
+  const std::string high = text("unevenness_cv_percent_high"), cv = mean_text(metrics, "unevenness_cv_percent");
   if (high.empty()) return "";
   if (cv.empty()) return fmt::format("< {}", high);
-  return fmt::format("{} ({}-{})", to_digits(figures["unevenness_cv_percent"]->mean * 100, 3),
+  return fmt::format("{} ({}-{})", to_digits(metrics["unevenness_cv_percent"]->mean * 100, 3),
                      text("unevenness_cv_percent_low"), high);
 }
 
@@ -40,9 +40,9 @@ std::string unevenness_cell(const FigureMeans& figures) {
 using Cells = std::array<std::string, 4>;
 const Cells heads = {"g/s", "seeds/s", "raw CV", "CV, %"};
 
-Cells cells_of(const FigureMeans& figures) {
-  return {mean_text(figures, "rate_g_per_s"), mean_text(figures, "seeds_per_s"), mean_text(figures, "raw_cv_percent"),
-          unevenness_cell(figures)};
+Cells cells_of(const MetricMeans& metrics) {
+  return {mean_text(metrics, "rate_g_per_s"), mean_text(metrics, "seeds_per_s"), mean_text(metrics, "raw_cv_percent"),
+          unevenness_cell(metrics)};
 }
 
 /// A line of the table: a name longer than what the cells leave has lines of its own.
@@ -60,18 +60,18 @@ std::string line_of(const std::string& number, const std::string& name, const Ce
 
 /// Whether its rates of the tray are a slice's.
 bool is_slice_of_a_tray(const Scene& scene) {
-  return scene.space == Space::plane && slices_of_tray(scene);
+  return scene.space == Space::two_dimensional && slices_of_tray(scene);
 }
 
 void print_remarks(const StudyResult& result, std::size_t layout) {
   const LayoutResult& of = result.layouts[layout];
   const auto scene = result.study.layouts[layout].scene;
-  const std::string_view beside = scene && result.study.scenes[*scene].space == Space::plane ? " (2D)" : "";
-  const FigureMeans& figures = of.figures;
-  if (figures["tray_rate_g_per_s"])
+  const std::string_view beside = scene && result.study.scenes[*scene].space == Space::two_dimensional ? " (2D)" : "";
+  const MetricMeans& metrics = of.metrics;
+  if (metrics["tray_rate_g_per_s"])
     print_text(wrapped(fmt::format("tray{}, times {}: {} g/s, {} g/min, {} seeds/s", beside,
-                                   mean_text(figures, "depth_factor"), mean_text(figures, "tray_rate_g_per_s"),
-                                   mean_text(figures, "tray_rate_g_per_min"), mean_text(figures, "tray_seeds_per_s")),
+                                   mean_text(metrics, "depth_factor"), mean_text(metrics, "tray_rate_g_per_s"),
+                                   mean_text(metrics, "tray_rate_g_per_min"), mean_text(metrics, "tray_seeds_per_s")),
                        4));
   if (of.misfit_percent) print("    misfit {} %\n", with_interval(of.misfit_percent, 1));
   if (!of.rows.empty()) print_text(wrapped(sown_sentence(of.rows, beside), 4));
@@ -81,7 +81,7 @@ void print_remarks(const StudyResult& result, std::size_t layout) {
 void print_layouts(const StudyResult& result) {
   std::vector<Cells> rows;
   std::array<std::size_t, 4> widths{};
-  for (const LayoutResult& layout : result.layouts) rows.push_back(cells_of(layout.figures));
+  for (const LayoutResult& layout : result.layouts) rows.push_back(cells_of(layout.metrics));
   for (std::size_t k = 0; k < widths.size(); ++k) {
     widths[k] = heads[k].size();
     for (const Cells& row : rows) widths[k] = std::max(widths[k], row[k].size());
@@ -101,7 +101,7 @@ void print_sweep_table(const StudyResult& result) {
   if (const std::string doubts = doubts_paragraph(doubts_about(answer)); !doubts.empty()) print("{}\n", doubts);
   print_layouts(result);
   const bool uneven = std::ranges::any_of(
-      result.layouts, [](const LayoutResult& one) { return one.figures["raw_cv_percent"].has_value(); });
+      result.layouts, [](const LayoutResult& one) { return one.metrics["raw_cv_percent"].has_value(); });
   if (uneven)
     print("\n{}", wrapped("CV between the holes, %: raw, and the unevenness (without chance) with its 95 % interval; "
                           "\"<\": no difference beyond chance"));

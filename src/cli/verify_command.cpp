@@ -38,10 +38,10 @@ int verify(const std::string& folder) {
     if (run != plan.runs.end()) again.push_back(static_cast<std::size_t>(run - plan.runs.begin()));
   }
   StudyRuns runs(cases_of(folder));
-  const Made made = make_runs(runs, wanted_runs(planned, again), {}, 1, true);
-  print("{} made again; {} belong to no run of the plan and were removed\n", made.making.made,
+  const BatchResult made = make_runs(runs, wanted_runs(planned, again), {}, 1, true);
+  print("{} made again; {} belong to no run of the plan and were removed\n", made.batch.made,
         damaged.size() - again.size());
-  return made.making.interrupted > 0 ? exit_interrupted : exit_done;
+  return made.batch.interrupted > 0 ? exit_interrupted : exit_done;
 }
 
 }  // namespace

@@ -22,7 +22,7 @@ namespace {
 
 struct WorkOptions {
   std::string folder, plan, bundle = "1/1";
-  MakingFlags making;
+  BatchFlags batch;
   int jobs = 1;
   bool quiet = false, requeue = false;
 };
@@ -44,14 +44,14 @@ int work(const WorkOptions& options) {
   const auto [number, bundles] = bundle_numbers(options.bundle);
   const PlannedStudy planned = study_of_plan(read_plan(options.folder, options.plan));
   StudyRuns runs(cases_of(options.folder));
-  const Made made = make_runs(runs, wanted_runs(planned, bundle_of(planned.plan, number, bundles)), options.making,
-                              options.jobs, options.quiet);
-  const Making& making = made.making;
+  const BatchResult made = make_runs(runs, wanted_runs(planned, bundle_of(planned.plan, number, bundles)),
+                                     options.batch, options.jobs, options.quiet);
+  const BatchSummary& batch = made.batch;
   if (!options.quiet)
-    print("bundle {}/{}: {} runs made, {} were there, {} left\n", number, bundles, making.made, making.there,
-          making.interrupted);
+    print("bundle {}/{}: {} runs made, {} were there, {} left\n", number, bundles, batch.made, batch.there,
+          batch.interrupted);
   if (!runs.not_kept().empty()) throw InputError("runs are not kept: " + runs.not_kept());
-  if (making.interrupted == 0) return exit_done;
+  if (batch.interrupted == 0) return exit_done;
   if (options.requeue) {
     std::signal(SIGTERM, SIG_IGN);  // Slurm sends it as soon as the job is taken back
     output_error();                 // what was printed is out before
@@ -70,13 +70,13 @@ void add_work_command(CLI::App& app, int& exit_code) {
   command->add_option("--bundle", options->bundle, "share of the runs: 17/200 is the 17th of 200 shares of equal cost")
       ->type_name("K/N");
   command->add_option("--plan", options->plan, "an older plan of the folder, by its name")->type_name("NAME");
-  command->add_option("--time-limit", options->making.time_limit, "clock time after which unfinished runs are saved")
+  command->add_option("--time-limit", options->batch.time_limit, "clock time after which unfinished runs are saved")
       ->type_name("TIME");
   command->add_option("--jobs", options->jobs, "runs in parallel")
       ->type_name("N")
       ->check(CLI::Range(1, 4096))
       ->capture_default_str();
-  add_making_flags(*command, options->making);
+  add_making_flags(*command, options->batch);
   command->add_flag("--requeue", options->requeue, "under Slurm: queue this job again while its share is unfinished");
   command->add_flag("--quiet", options->quiet, "no progress and no summary");
   add_examples(*command, {"vibrosow work there --bundle 1/2", "vibrosow work there --bundle 2/2 --jobs 2",

@@ -10,11 +10,11 @@ namespace vibrosow {
 /// Which histories contacts have.
 struct HistoryKinds {
   bool slip = false, roll = false;
-  bool in_space = false;  // a record for each contact instead of a column for each number
+  bool is_3d = false;  // a record for each contact instead of a column for each number
 
   constexpr bool any() const { return slip || roll; }
   /// Numbers a record has: the slip and one that stays 0, the roll and the twist.
-  constexpr std::size_t record_length() const { return in_space ? (slip ? 4u : 0u) + (roll ? 4u : 0u) : 0; }
+  constexpr std::size_t record_length() const { return is_3d ? (slip ? 4u : 0u) + (roll ? 4u : 0u) : 0; }
 };
 
 /// Histories of touching contacts, one entry a candidate of a list; all zero where nothing touches: the displacements
@@ -41,10 +41,10 @@ struct ContactHistories {
   /// Those that are new have no history.
   void resize(std::size_t candidates, HistoryKinds of) {
     kinds = of;
-    const bool columns = !of.in_space;
+    const bool columns = !of.is_3d;
     slip.resize(columns && of.slip ? candidates : 0), roll.resize(columns && of.roll ? candidates : 0);
     records.resize(candidates * of.record_length());
-    place.resize(of.in_space && of.any() ? candidates : 0, no_record);
+    place.resize(of.is_3d && of.any() ? candidates : 0, no_record);
     touched.resize(of.any() ? candidates : 0);
   }
 
@@ -56,7 +56,7 @@ struct ContactHistories {
 
   /// Every entry that has been touched has its record at its own place: of histories that were kept so.
   void place_by_entry() {
-    place.assign(kinds.in_space ? touched.size() : 0, no_record);
+    place.assign(kinds.is_3d ? touched.size() : 0, no_record);
     for (std::size_t k = 0; k < place.size(); ++k)
       if (touched[k]) place[k] = static_cast<int>(k);
   }

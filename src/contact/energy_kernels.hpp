@@ -2,8 +2,8 @@
 
 #include <array>
 
+#include "contact/data_3d.hpp"
 #include "contact/pair_block.hpp"
-#include "contact/space_data.hpp"
 
 namespace vibrosow {
 
@@ -13,22 +13,22 @@ using PairEnergyKernel = double (*)(const GrainSurfaces&, const Motion&, const P
 using WallEnergyKernel = double (*)(const GrainSurfaces&, const WallContacts&, const ContactParameters&,
                                     const ContactHistories&);
 
-using SpacePairEnergyKernel = double (*)(const GrainSurfaces&, const SpaceMotion&, const PairList&,
-                                         const ContactParameters&, const ContactHistories&);
-using SpaceWallEnergyKernel = double (*)(const GrainSurfaces&, const SpaceWallContacts&, const ContactParameters&,
-                                         const ContactHistories&);
+using PairEnergyKernel3d = double (*)(const GrainSurfaces&, const Motion3d&, const PairList&, const ContactParameters&,
+                                      const ContactHistories&);
+using WallEnergyKernel3d = double (*)(const GrainSurfaces&, const WallContacts3d&, const ContactParameters&,
+                                      const ContactHistories&);
 
 struct EnergyKernel {
   PairEnergyKernel pair;
   WallEnergyKernel wall;
 };
-struct SpaceEnergyKernel {
-  SpacePairEnergyKernel pair;
-  SpaceWallEnergyKernel wall;
+struct EnergyKernel3d {
+  PairEnergyKernel3d pair;
+  WallEnergyKernel3d wall;
 };
 
 /// By index of `compiled_effects`.
 using EnergyKernels = std::array<EnergyKernel, compiled_effects.size()>;
-using SpaceEnergyKernels = std::array<SpaceEnergyKernel, compiled_effects.size()>;
+using EnergyKernels3d = std::array<EnergyKernel3d, compiled_effects.size()>;
 
 }  // namespace vibrosow

@@ -30,8 +30,8 @@ struct KernelSet {
   std::array<VectorKernels, instruction_sets.size()> vectors;  // null where this program was built without
   EnergyKernel energy;
   // The same of balls in space.
-  std::array<SpaceVectorKernels, instruction_sets.size()> in_space;
-  SpaceEnergyKernel energy_in_space;
+  std::array<VectorKernels3d, instruction_sets.size()> is_3d;
+  EnergyKernel3d energy_3d;
 };
 
 /// The registration table: every compiled combination.

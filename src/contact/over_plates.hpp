@@ -6,7 +6,7 @@
 #include "contact/contact_list.hpp"
 #include "loops/grain_force.hpp"
 #include "loops/grain_loops.hpp"
-#include "loops/space_loops.hpp"
+#include "loops/loops_3d.hpp"
 
 namespace vibrosow {
 

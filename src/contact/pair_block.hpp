@@ -62,7 +62,7 @@ inline constexpr int pair_block_size = 1024;
 inline constexpr int pair_block_room = pair_block_size + 8;
 
 /// Of the contacts that were worked out.
-struct LawFigures {
+struct LawMetrics {
   double max_relative_overlap = 0;
   double slip_raised = 0;  // how many had a slip speed raised
 };
@@ -74,7 +74,7 @@ struct PairResult {
   int first_own;
 
   int contacts;
-  LawFigures figures;
+  LawMetrics metrics;
   int foreign_count;
   ForeignForce foreign[pair_block_size];
 };
@@ -96,7 +96,7 @@ struct WallContacts {
 };
 
 /// Works out the forces of all contacts. `histories` has an entry for each candidate.
-using WallKernel = LawFigures (*)(const GrainSurfaces&, const Motion&, const ContactParameters&, const ContactStep&,
+using WallKernel = LawMetrics (*)(const GrainSurfaces&, const Motion&, const ContactParameters&, const ContactStep&,
                                   ContactHistories& histories, WallContacts&);
 
 /// What is compiled for each instruction set.

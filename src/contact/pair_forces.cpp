@@ -17,22 +17,22 @@ void add(const std::array<double, 3>& what, GrainVector& sum) {
 
 }  // namespace
 
-void add_figures(const LawFigures& figures, ContactStatistics& statistics) {
-  statistics.slip_raised += std::llround(figures.slip_raised);
-  statistics.max_relative_overlap = std::max(statistics.max_relative_overlap, figures.max_relative_overlap);
+void add_metrics(const LawMetrics& metrics, ContactStatistics& statistics) {
+  statistics.slip_raised += std::llround(metrics.slip_raised);
+  statistics.max_relative_overlap = std::max(statistics.max_relative_overlap, metrics.max_relative_overlap);
 }
 
 void resize(Forces& sums, std::size_t grains, bool /*rotation*/) {
   sums.resize(grains);
 }
-void resize(SpaceForces& sums, std::size_t grains, bool rotation) {
+void resize(Forces3d& sums, std::size_t grains, bool rotation) {
   sums.forces.resize(grains), sums.torques.resize(rotation ? grains : 0);
 }
 
 void begin_with_zero(Forces& sums, GrainRange grains) {
   clear(sums, grains);
 }
-void begin_with_zero(SpaceForces& sums, GrainRange grains) {
+void begin_with_zero(Forces3d& sums, GrainRange grains) {
   clear(sums.forces, grains), clear(sums.torques, grains);
 }
 
@@ -42,8 +42,8 @@ void add_foreign(const std::vector<ForeignForce>& foreign, Forces& sums) {
     sum.fx += force.fx, sum.fy += force.fy, sum.torque += force.torque;
   }
 }
-void add_foreign(const std::vector<ForeignSpaceForce>& foreign, SpaceForces& sums) {
-  for (const ForeignSpaceForce& one : foreign) {
+void add_foreign(const std::vector<ForeignForce3d>& foreign, Forces3d& sums) {
+  for (const ForeignForce3d& one : foreign) {
     const std::size_t i = static_cast<std::size_t>(one.grain);
     add(one.force, sums.forces[i]);
     if (!sums.torques.empty()) add(one.torque, sums.torques[i]);
@@ -55,8 +55,8 @@ PairResult result_in(Forces& sums, int first_own) {
   result.forces = sums.data(), result.first_own = first_own;
   return result;
 }
-SpacePairResult result_in(SpaceForces& sums, int first_own) {
-  SpacePairResult result;
+PairResult3d result_in(Forces3d& sums, int first_own) {
+  PairResult3d result;
   result.forces = sums.forces.data(), result.torques = sums.torques.data(), result.first_own = first_own;
   return result;
 }

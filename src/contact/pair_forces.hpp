@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "contact/kernels.hpp"
-#include "loops/space_forces.hpp"
+#include "loops/forces_3d.hpp"
 
 namespace vibrosow {
 
@@ -14,21 +14,21 @@ struct GrainRange {
 };
 
 /// Takes a kernel's figures in.
-void add_figures(const LawFigures& figures, ContactStatistics& statistics);
+void add_metrics(const LawMetrics& metrics, ContactStatistics& statistics);
 
 /// As many sums of forces as there are grains; torques in space only where anything turns.
 void resize(Forces& sums, std::size_t grains, bool rotation);
-void resize(SpaceForces& sums, std::size_t grains, bool rotation);
+void resize(Forces3d& sums, std::size_t grains, bool rotation);
 
 void begin_with_zero(Forces& sums, GrainRange grains);
-void begin_with_zero(SpaceForces& sums, GrainRange grains);
+void begin_with_zero(Forces3d& sums, GrainRange grains);
 
 void add_foreign(const std::vector<ForeignForce>& foreign, Forces& sums);
-void add_foreign(const std::vector<ForeignSpaceForce>& foreign, SpaceForces& sums);
+void add_foreign(const std::vector<ForeignForce3d>& foreign, Forces3d& sums);
 
 /// Where a kernel puts the forces of a block.
 PairResult result_in(Forces& sums, int first_own);
-SpacePairResult result_in(SpaceForces& sums, int first_own);
+PairResult3d result_in(Forces3d& sums, int first_own);
 
 /// Adds the forces of the pairs in `range` to their grains, contact by contact in the order of the list, with `kernel`,
 /// of the plane or of space. Forces on grains before `fresh.from` go to `foreign` instead, in the same order. Forces on
@@ -50,7 +50,7 @@ void add_pair_forces(Kernel kernel, const GrainSurfaces& grains, const Moving& a
     kernel(grains, at, list, {from, to}, parameters, step, histories, result);
     foreign.insert(foreign.end(), result.foreign, result.foreign + result.foreign_count);
     statistics.contacts += result.contacts;
-    add_figures(result.figures, statistics);
+    add_metrics(result.metrics, statistics);
   }
   begin_up_to(fresh.to);
 }

@@ -114,7 +114,7 @@ inline double max_relative_overlap(const PairBlock& block) {
 }
 
 template <class Law, class Effects>
-[[gnu::flatten]] LawFigures forces_of_touching(const PairProperties<Law, Effects>& properties, const Motion& at,
+[[gnu::flatten]] LawMetrics forces_of_touching(const PairProperties<Law, Effects>& properties, const Motion& at,
                                                int first_entry, const ContactParameters& parameters,
                                                const ContactStep& step_, const ContactHistories& histories,
                                                PairBlock& block, BlockHistories& block_histories) {
@@ -217,7 +217,7 @@ template <class Law, class Effects>
   PairBlock block;
   find_touching<Law, Effects>(properties, at, list, range, leaves_trace, histories, block);
   BlockHistories block_histories;
-  result.figures =
+  result.metrics =
       forces_of_touching<Law, Effects>(properties, at, range.from, parameters, step, histories, block, block_histories);
   if (keeps_history<Effects> && leaves_trace)
     store_block<Effects>(block_histories, block.entry, range.from, block.touching, histories);

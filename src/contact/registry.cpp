@@ -6,14 +6,14 @@
 
 namespace vibrosow {
 
-// Defined in law_kernels.cpp and space_law_kernels.cpp, compiled for each.
+// Defined in law_kernels.cpp and law_kernels_3d.cpp, compiled for each.
 VIBROSOW_DECLARE_IN_EACH_SET(template <Law law> const LawKernels& law_kernels();
-                             template <Law law> const SpaceLawKernels& space_law_kernels();)
+                             template <Law law> const LawKernels3d& law_kernels_3d();)
 
 template <Law law>
 const EnergyKernels& energy_kernels();  // law_energies.cpp, compiled for each law
 template <Law law>
-const SpaceEnergyKernels& space_energy_kernels();  // space_law_energies.cpp, as well
+const EnergyKernels3d& energy_kernels_3d();  // law_energies_3d.cpp, as well
 
 namespace {
 
@@ -25,8 +25,8 @@ void add_space([[maybe_unused]] KernelSet& set, [[maybe_unused]] std::size_t ind
 #else
 template <Law law>
 void add_space(KernelSet& set, std::size_t index) {
-  set.energy_in_space = space_energy_kernels<law>()[index];
-  set.in_space = VIBROSOW_OF_EACH_SET(, space_law_kernels<law>()[index]);
+  set.energy_3d = energy_kernels_3d<law>()[index];
+  set.is_3d = VIBROSOW_OF_EACH_SET(, law_kernels_3d<law>()[index]);
 }
 #endif
 

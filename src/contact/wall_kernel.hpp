@@ -9,7 +9,7 @@ namespace vibrosow::inline VIBROSOW_ISA {
 
 /// Forces of the contacts [from, from + count), at most pair_block_size of them.
 template <class Law, class Effects>
-[[gnu::flatten]] LawFigures forces_of_walls(const WallProperties<Law, Effects>& properties, const Motion& at,
+[[gnu::flatten]] LawMetrics forces_of_walls(const WallProperties<Law, Effects>& properties, const Motion& at,
                                             const ContactParameters& parameters, const ContactStep& step_,
                                             const ContactHistories& histories, int from, int count,
                                             WallContacts& contacts, BlockHistories& block_histories) {
@@ -69,22 +69,22 @@ template <class Law, class Effects>
 }
 
 template <class Law, class Effects>
-[[gnu::flatten]] LawFigures wall_forces(const GrainSurfaces& grains, const Motion& at,
+[[gnu::flatten]] LawMetrics wall_forces(const GrainSurfaces& grains, const Motion& at,
                                         const ContactParameters& parameters, const ContactStep& step,
                                         ContactHistories& histories, WallContacts& contacts) {
   const WallProperties<Law, Effects> properties(grains, parameters);
   BlockHistories block_histories;
-  LawFigures figures;
+  LawMetrics metrics;
   for (int from = 0; from < contacts.count; from += pair_block_size) {
     const int count = contacts.count - from < pair_block_size ? contacts.count - from : pair_block_size;
-    const LawFigures here = forces_of_walls<Law, Effects>(properties, at, parameters, step, histories, from, count,
+    const LawMetrics here = forces_of_walls<Law, Effects>(properties, at, parameters, step, histories, from, count,
                                                           contacts, block_histories);
-    figures.max_relative_overlap = std::max(figures.max_relative_overlap, here.max_relative_overlap);
-    figures.slip_raised += here.slip_raised;
+    metrics.max_relative_overlap = std::max(metrics.max_relative_overlap, here.max_relative_overlap);
+    metrics.slip_raised += here.slip_raised;
     if (keeps_history<Effects> && step.commit != 0)
       store_block<Effects>(block_histories, contacts.candidate.data() + from, 0, count, histories);
   }
-  return figures;
+  return metrics;
 }
 
 }  // namespace vibrosow::inline VIBROSOW_ISA

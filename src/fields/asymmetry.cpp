@@ -27,13 +27,13 @@ std::optional<double> surface_asymmetry(const Snapshot& own, const Vessel& tray,
   const auto parts = [&](double length) {
     return std::max<std::size_t>(1, static_cast<std::size_t>(std::lround(length / cell)));
   };
-  const std::size_t half = parts(0.5 * tray.length), rows = own.in_space() ? parts(*tray.depth) : 1;
+  const std::size_t half = parts(0.5 * tray.length), rows = own.is_3d() ? parts(*tray.depth) : 1;
   const auto part = [](double at, double length, std::size_t count) {
     return std::min(static_cast<std::size_t>(at / length * static_cast<double>(count)), count - 1);
   };
   std::vector<double> top(2 * half * rows, 0.0);  // all rows of a column, then the next column to the right
   for (const std::size_t i : grains_in_tray(own, tray)) {
-    const std::size_t row = own.in_space() ? part(own.z[i], *tray.depth, rows) : 0;
+    const std::size_t row = own.is_3d() ? part(own.z[i], *tray.depth, rows) : 0;
     double& height = top[part(own.x[i], tray.length, 2 * half) * rows + row];
     height = std::max(height, own.y[i] + own.radius[i]);
   }

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "elementary/functions.hpp"
+#include "portable_math/functions.hpp"
 
 namespace vibrosow {
 
@@ -68,7 +68,7 @@ template std::optional<Eigen::Matrix3d> fit_gradient<3>(const PointsOf<3>&, cons
                                                         const std::vector<std::size_t>&);
 
 double shear(const Eigen::Matrix2d& gradient) {
-  return elementary::hypot(gradient(0, 0) - gradient(1, 1), gradient(0, 1) + gradient(1, 0));
+  return portable_math::hypot(gradient(0, 0) - gradient(1, 1), gradient(0, 1) + gradient(1, 0));
 }
 
 double shear(const Eigen::Matrix3d& gradient) {

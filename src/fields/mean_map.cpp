@@ -22,7 +22,7 @@ Grid grid_of(const Vessel& tray, double cell) {
 MeanMapSum::MeanMapSum(const Scene& scene)
     : lots_(scene.lots),
       part_(map_part(scene)),
-      periods_(periods_of(scene.tray, scene.space != Space::plane)),
+      periods_(periods_of(scene.tray, scene.space != Space::two_dimensional)),
       grid_(grid_of(scene.tray, scene.record->cell)),
       packing_(grid_.size(), 0.0),
       moved_x_(packing_),

@@ -83,8 +83,8 @@ std::vector<std::optional<CellMotion>> cell_motion(const Snapshot& snapshot, con
     for (const std::size_t i : near) {
       const std::size_t grain = grains[i];
       const double weight = snapshot.mass[grain] * lucy_kernel(std::min(1.0, (places[i] - centre).norm() / reach));
-      momentum += weight *
-                  Eigen::Vector3d(velocities[i].x(), velocities[i].y(), snapshot.in_space() ? snapshot.vz[grain] : 0.0);
+      momentum +=
+          weight * Eigen::Vector3d(velocities[i].x(), velocities[i].y(), snapshot.is_3d() ? snapshot.vz[grain] : 0.0);
       weights += weight;
     }
     if (weights > 0) cells[k] = CellMotion{momentum / weights, fit_gradient<2>(places, velocities, near)};
@@ -94,7 +94,7 @@ std::vector<std::optional<CellMotion>> cell_motion(const Snapshot& snapshot, con
 
 std::vector<std::optional<double>> shear_strain(const Snapshot& before, const Snapshot& after, double reach,
                                                 const Periods& periods) {
-  return after.in_space() ? strain_in<3>(before, after, reach, periods) : strain_in<2>(before, after, reach, periods);
+  return after.is_3d() ? strain_in<3>(before, after, reach, periods) : strain_in<2>(before, after, reach, periods);
 }
 
 }  // namespace vibrosow

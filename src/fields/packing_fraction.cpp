@@ -6,9 +6,9 @@
 #include <limits>
 #include <numbers>
 
-#include "elementary/functions.hpp"
 #include "fields/tray_frame.hpp"
 #include "grains/orientation.hpp"
+#include "portable_math/functions.hpp"
 
 namespace vibrosow {
 namespace {
@@ -17,7 +17,7 @@ constexpr double pi = std::numbers::pi;
 
 /// Area of the unit disc left of x = t, |t| <= 1.
 double area_left_of(double t) {
-  return 0.5 * pi + elementary::asin(t) + t * std::sqrt(1 - t * t);
+  return 0.5 * pi + portable_math::asin(t) + t * std::sqrt(1 - t * t);
 }
 
 /// Area of the unit disc left of x = a and below y = b.
@@ -25,7 +25,8 @@ double area_left_and_below(double a, double b) {
   a = std::clamp(a, -1.0, 1.0), b = std::clamp(b, -1.0, 1.0);
   if (a * a + b * b < 1)
     return a * b +
-           0.5 * (a * std::sqrt(1 - a * a) + b * std::sqrt(1 - b * b) + elementary::asin(a) + elementary::asin(b)) +
+           0.5 *
+               (a * std::sqrt(1 - a * a) + b * std::sqrt(1 - b * b) + portable_math::asin(a) + portable_math::asin(b)) +
            0.25 * pi;
   if (a > 0 && b > 0) return area_left_of(a) + area_left_of(b) - pi;
   if (a > 0) return area_left_of(b);
@@ -36,8 +37,8 @@ double area_left_and_below(double a, double b) {
 /// the integral of 2 sqrt(1 - x^2 - y^2).
 double pillar_left_of(double t, double c) {
   const double y = std::sqrt(std::max(0.0, 1 - c * c - t * t)), c3 = c * c * c;
-  return 2 * pi / 3 * (1 - c3) + (t - t * t * t / 3) * (pi - 2 * elementary::atan2(c, y)) + 2 * c * t * y / 3 -
-         4 * c3 / 3 * elementary::atan2(t, y) + 4.0 / 3 * elementary::atan2(c * t, y);
+  return 2 * pi / 3 * (1 - c3) + (t - t * t * t / 3) * (pi - 2 * portable_math::atan2(c, y)) + 2 * c * t * y / 3 -
+         4 * c3 / 3 * portable_math::atan2(t, y) + 4.0 / 3 * portable_math::atan2(c * t, y);
 }
 
 /// The same left of x = a and below y = b. Where the corner lies within the cylinder it is made of the pillar between
@@ -54,8 +55,8 @@ double pillar_left_and_below(double a, double b, double c) {
     return b > 0 ? pillar_left_of(a, c) : 0.0;
   }
   const double w = std::sqrt(std::max(0.0, 1 - a * a - b * b));
-  const double corner = 2 * a * b * w / 3 + (b - b * b * b / 3) * elementary::atan2(a, w) +
-                        (a - a * a * a / 3) * elementary::atan2(b, w) - 2.0 / 3 * elementary::atan2(a * b, w);
+  const double corner = 2 * a * b * w / 3 + (b - b * b * b / 3) * portable_math::atan2(a, w) +
+                        (a - a * a * a / 3) * portable_math::atan2(b, w) - 2.0 / 3 * portable_math::atan2(a * b, w);
   return corner + 0.5 * (pillar_left_of(a, c) + pillar_left_of(b, c)) - 0.25 * whole;
 }
 
@@ -85,9 +86,9 @@ double height_holding(const Snapshot& own, const Vessel& tray, double fraction) 
 
 /// What a disc has in common with the rectangle from `low` to `high`, m from its centre, in m2; in space a ball with
 /// that rectangle through the depth of `part`, in m3.
-double covered_of(const CoveringDisc& disc, const Eigen::Vector2d& low, const Eigen::Vector2d& high, bool in_space,
+double covered_of(const CoveringDisc& disc, const Eigen::Vector2d& low, const Eigen::Vector2d& high, bool is_3d,
                   const MapPart& part) {
-  if (!in_space) return disc.fraction * disc_in_rectangle(disc.radius, low, high);
+  if (!is_3d) return disc.fraction * disc_in_rectangle(disc.radius, low, high);
   if (!part.cut && (disc.z < part.front || disc.z > part.back)) return 0;
   const double infinity = std::numeric_limits<double>::infinity();
   const double front = part.cut ? part.front - disc.z : -infinity, back = part.cut ? part.back - disc.z : infinity;
@@ -98,7 +99,7 @@ void add_balls_of_clump(const Snapshot& s, const SeedLot& lot, std::size_t i, st
   const double size = 2 * s.radius[i] / lot.diameter;
   const Eigen::Matrix3d turn = rotation_matrix({s.q_w[i], s.q_x[i], s.q_y[i], s.q_z[i]});
   double volume = 0;
-  for (const ClumpDisc& ball : lot.discs) volume += 4 * pi / 3 * elementary::pow(size * ball.radius, 3);
+  for (const ClumpDisc& ball : lot.discs) volume += 4 * pi / 3 * portable_math::pow(size * ball.radius, 3);
   for (const ClumpDisc& ball : lot.discs) {
     const Eigen::Vector3d arm = size * (turn * Eigen::Vector3d(ball.x, ball.y, ball.z));
     covering.push_back(
@@ -133,16 +134,15 @@ std::vector<CoveringDisc> covering_discs(const Snapshot& snapshot, const std::ve
   for (std::size_t i = 0; i < snapshot.size(); ++i) {
     const auto lot = static_cast<std::size_t>(snapshot.lot[i]);
     if ((snapshot.angle.empty() && snapshot.q_w.empty()) || lots[lot].discs.empty()) {
-      covering.push_back(
-          {snapshot.x[i], snapshot.y[i], snapshot.radius[i], 1, snapshot.in_space() ? snapshot.z[i] : 0});
+      covering.push_back({snapshot.x[i], snapshot.y[i], snapshot.radius[i], 1, snapshot.is_3d() ? snapshot.z[i] : 0});
       continue;
     }
-    if (snapshot.in_space()) {
+    if (snapshot.is_3d()) {
       add_balls_of_clump(snapshot, lots[lot], i, covering);
       continue;
     }
     const double size = 2 * snapshot.radius[i] / lots[lot].diameter;
-    const auto turn = elementary::sine_cosine(snapshot.angle[i]);
+    const auto turn = portable_math::sine_cosine(snapshot.angle[i]);
     const double cosine = size * turn.cosine, sine = size * turn.sine;
     double area = 0;
     for (const ClumpDisc& disc : lots[lot].discs) area += pi * disc.radius * disc.radius * size * size;
@@ -157,8 +157,8 @@ std::vector<CoveringDisc> covering_discs(const Snapshot& snapshot, const std::ve
 std::vector<double> packing_fraction(const Snapshot& snapshot, const std::vector<SeedLot>& lots, const Grid& grid,
                                      const MapPart& part) {
   std::vector<double> fraction(grid.size(), 0.0);
-  const bool in_space = snapshot.in_space();
-  const double cell = grid.cell * grid.cell * (in_space ? part.depth() : 1);
+  const bool is_3d = snapshot.is_3d();
+  const double cell = grid.cell * grid.cell * (is_3d ? part.depth() : 1);
   const auto place = [&](double at, std::int64_t first, std::int64_t count) {
     return std::clamp<std::int64_t>(static_cast<std::int64_t>(std::floor(at / grid.cell)) - first, -1, count);
   };
@@ -173,7 +173,7 @@ std::vector<double> packing_fraction(const Snapshot& snapshot, const std::vector
         const std::size_t k = grid.index(column, row);
         const Eigen::Vector2d low = grid.lower_left(k) - Eigen::Vector2d(x, y);
         const Eigen::Vector2d high = low + Eigen::Vector2d::Constant(grid.cell);
-        fraction[k] += covered_of(disc, low, high, in_space, part) / cell;
+        fraction[k] += covered_of(disc, low, high, is_3d, part) / cell;
       }
   }
   return fraction;
@@ -184,14 +184,14 @@ std::optional<double> bed_packing(const Snapshot& own, const std::vector<SeedLot
   const Eigen::Vector2d low(0.25 * tray.length, margin);
   const Eigen::Vector2d high(0.75 * tray.length, height_holding(own, tray, 0.75));
   if ((high - low).minCoeff() <= 0) return std::nullopt;
-  const bool in_space = own.in_space();
-  const MapPart part = in_space ? MapPart{0.25 * *tray.depth, 0.75 * *tray.depth, true} : MapPart{};
+  const bool is_3d = own.is_3d();
+  const MapPart part = is_3d ? MapPart{0.25 * *tray.depth, 0.75 * *tray.depth, true} : MapPart{};
   double covered = 0;
   for (const CoveringDisc& disc : covering_discs(own, lots)) {
     const Eigen::Vector2d centre(disc.x, disc.y);
-    covered += covered_of(disc, low - centre, high - centre, in_space, part);
+    covered += covered_of(disc, low - centre, high - centre, is_3d, part);
   }
-  return covered / (high - low).prod() / (in_space ? part.depth() : 1);
+  return covered / (high - low).prod() / (is_3d ? part.depth() : 1);
 }
 
 std::vector<double> packing_change(const Snapshot& before, const Snapshot& after, const std::vector<SeedLot>& lots,

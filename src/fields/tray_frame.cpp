@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "compute/nearest_image.hpp"
-#include "elementary/functions.hpp"
 #include "grains/orientation.hpp"
+#include "portable_math/functions.hpp"
 #include "scene/motion.hpp"
 #include "vessel/directions.hpp"
 
@@ -38,7 +38,7 @@ void take_off_what_is_across(Snapshot& own, double front, const Eigen::Matrix2d&
 /// By an angle (rad) about the axis across.
 void turn_clumps_back(Snapshot& own, double angle) {
   if (angle == 0) return;
-  const Orientation back{elementary::cos(0.5 * angle), 0, 0, -elementary::sin(0.5 * angle)};
+  const Orientation back{portable_math::cos(0.5 * angle), 0, 0, -portable_math::sin(0.5 * angle)};
   for (std::size_t i = 0; i < own.q_w.size(); ++i) {
     const Orientation q = back * Orientation{own.q_w[i], own.q_x[i], own.q_y[i], own.q_z[i]};
     own.q_w[i] = q.w, own.q_x[i] = q.x, own.q_y[i] = q.y, own.q_z[i] = q.z;
@@ -63,14 +63,14 @@ void append_moved(Snapshot& to, const Snapshot& from, std::size_t i, double alon
          &S::start_x, &S::start_y, &S::z, &S::vz, &S::omega_x, &S::omega_y, &S::q_w, &S::q_x, &S::q_y, &S::q_z,
          &S::start_z, &S::volume);
   to.x.back() += along;
-  if (to.in_space()) to.z.back() += across;
+  if (to.is_3d()) to.z.back() += across;
 }
 
 }  // namespace
 
-Periods periods_of(const Vessel& tray, bool in_space) {
+Periods periods_of(const Vessel& tray, bool is_3d) {
   return {tray.sides == Sides::periodic ? tray.length : 0,
-          in_space && tray.front_and_back == Sides::periodic ? *tray.depth : 0};
+          is_3d && tray.front_and_back == Sides::periodic ? *tray.depth : 0};
 }
 
 Snapshot in_tray_frame(const Snapshot& lab, const Vessel& tray) {
@@ -95,9 +95,9 @@ Snapshot in_tray_frame(const Snapshot& lab, const Vessel& tray) {
   }
   for (double& angle : own.angle) angle -= tray.tilt + lab.tray_angle;
   turn_clumps_back(own, tray.tilt + lab.tray_angle);
-  if (lab.in_space()) take_off_what_is_across(own, tray.front, now);
+  if (lab.is_3d()) take_off_what_is_across(own, tray.front, now);
   put_at_rest(own);
-  const Periods periods = periods_of(tray, own.in_space());
+  const Periods periods = periods_of(tray, own.is_3d());
   bring_within(own.x, periods.along), bring_within(own.z, periods.across);
   return own;
 }
@@ -119,7 +119,7 @@ Snapshot with_images(const Snapshot& own, const Periods& periods, double reach) 
       for (std::size_t grain = 0; grain < own.size(); ++grain) {
         const double beyond = reach + own.radius[grain];
         if (!is_near(own.x[grain] + dx, periods.along, beyond)) continue;
-        if (own.in_space() && !is_near(own.z[grain] + dz, periods.across, beyond)) continue;
+        if (own.is_3d() && !is_near(own.z[grain] + dz, periods.across, beyond)) continue;
         append_moved(bed, own, grain, dx, dz);
       }
     }
@@ -131,7 +131,7 @@ std::vector<std::size_t> grains_in_tray(const Snapshot& own, const Vessel& tray)
   const auto within = [](double at, double end) { return at >= 0 && at <= end; };
   for (std::size_t i = 0; i < own.size(); ++i)
     if (within(own.x[i], tray.length) && within(own.y[i], tray.height) &&
-        (!own.in_space() || within(own.z[i], *tray.depth)))
+        (!own.is_3d() || within(own.z[i], *tray.depth)))
       inside.push_back(i);
   return inside;
 }

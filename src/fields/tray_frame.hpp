@@ -9,7 +9,7 @@ namespace vibrosow {
 struct Periods {
   double along = 0, across = 0;
 };
-Periods periods_of(const Vessel& tray, bool in_space);
+Periods periods_of(const Vessel& tray, bool is_3d);
 
 /// The snapshot in the tray's own frame: positions from the left end of its floor, x along the floor, in space z from
 /// its front; velocities and spins relative to the tray's. Starts are taken as if the tray had been at rest then. The

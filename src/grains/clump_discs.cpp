@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "elementary/functions.hpp"
+#include "portable_math/functions.hpp"
 
 namespace vibrosow {
 
@@ -28,7 +28,7 @@ ClumpDiscs::ClumpDiscs(const std::vector<SeedLot>& lots, const std::vector<Grain
 
 void ClumpDiscs::rebuild(const Grains& clumps) {
   discs_ = Grains(discs_.kinds, true, discs_.rotation);
-  discs_.in_space = clumps.in_space;
+  discs_.is_3d = clumps.is_3d;
   own_x_.clear(), own_y_.clear(), own_z_.clear(), first_.clear();
   for (std::size_t i = 0; i < clumps.size(); ++i) {
     const SeedLot& lot = lots_[static_cast<std::size_t>(clumps.lot[i])];
@@ -48,20 +48,20 @@ void ClumpDiscs::rebuild(const Grains& clumps) {
   }
   first_.push_back(discs_.size());
   arm_x_ = own_x_, arm_y_ = own_y_;
-  if (!discs_.in_space) return;
+  if (!discs_.is_3d) return;
   arms_.resize(discs_.size()), places_.resize(discs_.size()), motions_.resize(discs_.size());
 }
 
 void ClumpDiscs::place(const Grains& clumps, Execution& execution) {
-  discs_.in_space ? place_in_space(clumps, execution) : place_in_plane(clumps);
+  discs_.is_3d ? place_3d(clumps, execution) : place_in_plane(clumps);
 }
 
 void ClumpDiscs::place_in_plane(const Grains& clumps) {
-  elementary::SineCosine turn{0, 1};
+  portable_math::SineCosine turn{0, 1};
   for (std::size_t k = 0; k < discs_.size(); ++k) {
     const std::size_t i = static_cast<std::size_t>(discs_.clump[k]);
     const bool first = k == 0 || discs_.clump[k - 1] != discs_.clump[k];
-    if (first) turn = elementary::sine_cosine(clumps.angle[i]);
+    if (first) turn = portable_math::sine_cosine(clumps.angle[i]);
     const auto [sine, cosine] = turn;
     arm_x_[k] = cosine * own_x_[k] - sine * own_y_[k];
     arm_y_[k] = sine * own_x_[k] + cosine * own_y_[k];
@@ -72,7 +72,7 @@ void ClumpDiscs::place_in_plane(const Grains& clumps) {
   }
 }
 
-void ClumpDiscs::place_in_space(const Grains& clumps, Execution& execution) {
+void ClumpDiscs::place_3d(const Grains& clumps, Execution& execution) {
   const bool turns = clumps.rotation;
   const ClumpMotion motion{.place = {clumps.x.data(), clumps.y.data(), clumps.z.data()},
                            .velocity = {clumps.vx.data(), clumps.vy.data(), clumps.vz.data()},
@@ -96,7 +96,7 @@ void ClumpDiscs::gather(const Forces& on_discs, Forces& on_clumps) const {
   }
 }
 
-void ClumpDiscs::gather(const SpaceForces& on_balls, SpaceForces& on_clumps, Execution& execution) const {
+void ClumpDiscs::gather(const Forces3d& on_balls, Forces3d& on_clumps, Execution& execution) const {
   const std::size_t clumps = first_.size() - 1;
   on_clumps.forces.resize(clumps), on_clumps.torques.resize(discs_.rotation ? clumps : 0);
   const auto or_null = [](auto& rows) { return rows.empty() ? nullptr : rows.data(); };

@@ -4,8 +4,8 @@
 
 #include "grains/grains.hpp"
 #include "loops/execution.hpp"
+#include "loops/forces_3d.hpp"
 #include "loops/grain_force.hpp"
-#include "loops/space_forces.hpp"
 
 namespace vibrosow {
 
@@ -30,7 +30,7 @@ class ClumpDiscs {
   void gather(const Forces& on_discs, Forces& on_clumps) const;
   /// The same in space, in place of what `on_clumps` held. Without friction the balls have no torques, and the clumps
   /// those of the forces' arms.
-  void gather(const SpaceForces& on_balls, SpaceForces& on_clumps, Execution& execution) const;
+  void gather(const Forces3d& on_balls, Forces3d& on_clumps, Execution& execution) const;
 
   /// In space their velocities and spins stand in `motions` alone.
   const Grains& discs() const { return discs_; }
@@ -46,7 +46,7 @@ class ClumpDiscs {
   std::int64_t discs_per_id_;  // numbers kept free for the discs of a clump
   Grains discs_;
   void place_in_plane(const Grains& clumps);
-  void place_in_space(const Grains& clumps, Execution& execution);
+  void place_3d(const Grains& clumps, Execution& execution);
 
   std::vector<double> own_x_, own_y_, own_z_;  // m, from the centre of mass, clump not turned
   std::vector<double> arm_x_, arm_y_;          // m, the same as it lies now, in the plane

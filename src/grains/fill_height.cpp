@@ -19,7 +19,7 @@ constexpr double rounding = 1e-9;  // of a height, forgiven
 class RoomBelow {
  public:
   RoomBelow(const Vessel& vessel, const std::vector<SeedLot>& lots, Space space) : height_(vessel.height) {
-    const bool flat = space == Space::plane;
+    const bool flat = space == Space::two_dimensional;
     const double plan = flat ? vessel.length : floor_area(vessel);
     if (Obstacles(vessel, space).none()) {
       room_ = {0, plan * vessel.height};
@@ -53,10 +53,10 @@ class RoomBelow {
   std::vector<double> room_ = {0};  // below the top of each layer
 };
 
-/// Share of its volume that a bed as `pour_in_space` makes it fills: measured in beds 3 cm high of balls of 4 mm and of
+/// Share of its volume that a bed as `pour_3d` makes it fills: measured in beds 3 cm high of balls of 4 mm and of
 /// clumps 3 mm thick and 1.5, 2.25, 3, 3.75 and 4.9 times as long (0.545, 0.590, 0.558, 0.530, 0.508, 0.466), the loose
 /// layer on the floor included.
-double poured_share_in_space(const SeedLot& lot) {
+double poured_share_3d(const SeedLot& lot) {
   constexpr double of_balls = 0.545, densest = 0.59, densest_at = 1.5, less = 0.0365;  // less for each thickness more
   const double slenderness = std::max(1.0, lot.diameter * size_moment(lot, 1) / mean_thickness(lot));
   if (slenderness < densest_at) return of_balls + (slenderness - 1) / (densest_at - 1) * (densest - of_balls);
@@ -65,9 +65,9 @@ double poured_share_in_space(const SeedLot& lot) {
 
 /// Room that a poured seed takes with what is left free beside it, m3, in the plane m2.
 double room_of_seed(const std::vector<SeedLot>& lots, Space space) {
-  if (space == Space::plane) return mean_area(lots) / poured_share;
+  if (space == Space::two_dimensional) return mean_area(lots) / poured_share;
   double room = 0;
-  for (const SeedLot& lot : lots) room += mean_volume({lot}) / poured_share_in_space(lot);
+  for (const SeedLot& lot : lots) room += mean_volume({lot}) / poured_share_3d(lot);
   return room;
 }
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "elementary/functions.hpp"
+#include "portable_math/functions.hpp"
 #include "vessel/vessel_walls.hpp"
 
 namespace vibrosow {
@@ -19,7 +19,8 @@ bool is_turned(const Vessel& vessel, Space space) {
 }
 
 bool is_drawn_out(const Vessel& vessel, Space space) {
-  return space == Space::plane || (vessel.plan == Plan::rectangle && std::ranges::all_of(vessel.pieces, is_of_plane));
+  return space == Space::two_dimensional ||
+         (vessel.plan == Plan::rectangle && std::ranges::all_of(vessel.pieces, is_of_plane));
 }
 
 }  // namespace
@@ -29,7 +30,7 @@ bool is_drawn_out(const Vessel& vessel, Space space) {
 /// one of that part of its width is closed.
 FreeRoom::FreeRoom(const Vessel& vessel, Space space, double least_radius, double most_cells)
     : vessel_(vessel),
-      in_space_(space == Space::three_dimensional),
+      is_3d_(space == Space::three_dimensional),
       turned_(is_turned(vessel, space)),
       cut_(turned_ || is_drawn_out(vessel, space)),
       cells_in_radius_(cut_ ? 8 : 4),
@@ -41,7 +42,7 @@ FreeRoom::FreeRoom(const Vessel& vessel, Space space, double least_radius, doubl
 }
 
 bool FreeRoom::is_in_plan(const Eigen::Vector3d& centre, double clear) const {
-  if (in_space_ && vessel_.plan == Plan::round) {
+  if (is_3d_ && vessel_.plan == Plan::round) {
     const double middle = 0.5 * vessel_.length;
     return Eigen::Vector2d(centre.x() - middle, centre.z() - middle).norm() <= middle - clear;
   }
@@ -50,14 +51,14 @@ bool FreeRoom::is_in_plan(const Eigen::Vector3d& centre, double clear) const {
     return sides == Sides::periodic || (at >= margin && at <= length - margin);
   };
   return between(vessel_.sides, centre.x(), vessel_.length) &&
-         (!in_space_ || between(vessel_.front_and_back, centre.z(), *vessel_.depth));
+         (!is_3d_ || between(vessel_.front_and_back, centre.z(), *vessel_.depth));
 }
 
 /// Where the centre lies in the cut, if there is one.
 Eigen::Vector3d FreeRoom::in_cut(const Eigen::Vector3d& centre) const {
   if (!cut_) return centre;
   const double middle = 0.5 * vessel_.depth.value_or(0);
-  const double aside = turned_ ? elementary::hypot(centre.x() - middle, centre.z() - middle) : centre.x() - middle;
+  const double aside = turned_ ? portable_math::hypot(centre.x() - middle, centre.z() - middle) : centre.x() - middle;
   return {middle + aside, centre.y(), middle};
 }
 
@@ -85,7 +86,7 @@ bool FreeRoom::holds_beside_walls(const Eigen::Vector3d& place) const {
   const double clear = beyond * least_radius_, gap = obstacles_.distance(place);
   if (gap >= clear) return holds(place);
   Eigen::Vector3d away = Eigen::Vector3d::Zero();
-  for (int axis = 0; axis < (in_space_ ? 3 : 2); ++axis) {
+  for (int axis = 0; axis < (is_3d_ ? 3 : 2); ++axis) {
     const Eigen::Vector3d step = difference * least_radius_ * Eigen::Vector3d::Unit(axis);
     away[axis] = obstacles_.distance(place + step) - obstacles_.distance(place - step);
   }
@@ -210,7 +211,7 @@ FreeRoom::Grid FreeRoom::made_grid() const {
   const double depth = cut_ ? 0 : *vessel_.depth;
   const double in_plane = vessel_.length * top_;
   const double least_cell =
-      cut_ ? std::sqrt(in_plane / most_cells_) : elementary::pow(in_plane * depth / most_cells_, 1.0 / 3);
+      cut_ ? std::sqrt(in_plane / most_cells_) : portable_math::pow(in_plane * depth / most_cells_, 1.0 / 3);
   const double cell = std::max(least_radius_ / cells_in_radius_, least_cell);
   Grid grid{
       .cell = Eigen::Vector3d::Constant(cell), .cells = Eigen::Array3i::Ones(), .radius = cells_in_radius_ * cell};

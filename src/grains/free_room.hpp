@@ -60,7 +60,7 @@ class FreeRoom {
   Grid made_grid() const;
 
   Vessel vessel_;
-  bool in_space_;
+  bool is_3d_;
   bool turned_;          // whether all is turned about the upright axis of a round vessel
   bool cut_;             // whether a cut in the middle of the depth says all: of what is turned so, or drawn out
   int cells_in_radius_;  // of the grid, in the least radius

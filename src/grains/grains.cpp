@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "elementary/functions.hpp"
+#include "portable_math/functions.hpp"
 #include "scene/seed_lot.hpp"
 
 namespace vibrosow {
@@ -49,7 +49,7 @@ std::vector<GrainKind> grain_kinds(const std::vector<SeedLot>& lots, const std::
 
 GrainKind sized_kind(const SeedLot& lot, const LawTraits& law, const GrainKind& kind, double size) {
   if (size == 1) return kind;
-  const double growth = elementary::pow(size, mass_power(lot));
+  const double growth = portable_math::pow(size, mass_power(lot));
   const double mass = kind.mass * growth;
   return {kind.radius * size,
           mass,
@@ -70,7 +70,7 @@ void Grains::add(double px, double py, double pvx, double pvy, int lot_index, co
   vx.push_back(pvx);
   vy.push_back(pvy);
   if (rotation) omega.push_back(0);
-  if (oriented && !in_space) angle.push_back(turned);
+  if (oriented && !is_3d) angle.push_back(turned);
   lot.push_back(lot_index);
   id.push_back(next_id++);
   if (!polydisperse) return;
@@ -86,7 +86,7 @@ void Grains::add(double px, double py, double pvx, double pvy, int lot_index, co
 void Grains::add(const Eigen::Vector3d& at, const Eigen::Vector3d& velocity, int lot_index, const GrainKind& own,
                  const Turn& turned) {
   add(at.x(), at.y(), velocity.x(), velocity.y(), lot_index, own, turned.angle);
-  if (!in_space) return;
+  if (!is_3d) return;
   z.push_back(at.z());
   vz.push_back(velocity.z());
   if (rotation) omega_x.push_back(0), omega_y.push_back(0);

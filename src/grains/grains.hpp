@@ -52,7 +52,7 @@ struct Grains {
   std::vector<GrainKind> kinds;  // by lot
   bool polydisperse = false;     // whether the arrays below are filled
   bool rotation = false;
-  bool in_space = false;
+  bool is_3d = false;
   std::vector<double> radius, mass, inverse_mass, inverse_inertia, compliance, curvature, lever_yield;  // curvature 1/m
 
   std::int64_t next_id = 0;  // of the next grain that is added
@@ -70,8 +70,8 @@ struct Grains {
             lever_yield[i]};
   }
   /// m and m/s, of the lab; z is 0 in the plane.
-  Eigen::Vector3d place(std::size_t i) const { return {x[i], y[i], in_space ? z[i] : 0.0}; }
-  Eigen::Vector3d velocity(std::size_t i) const { return {vx[i], vy[i], in_space ? vz[i] : 0.0}; }
+  Eigen::Vector3d place(std::size_t i) const { return {x[i], y[i], is_3d ? z[i] : 0.0}; }
+  Eigen::Vector3d velocity(std::size_t i) const { return {vx[i], vy[i], is_3d ? vz[i] : 0.0}; }
   Orientation orientation(std::size_t i) const { return {q_w[i], q_x[i], q_y[i], q_z[i]}; }
   std::array<std::vector<double>*, 4> quaternions() { return {&q_w, &q_x, &q_y, &q_z}; }
   void set_orientation(std::size_t i, const Orientation& q) { q_w[i] = q.w, q_x[i] = q.x, q_y[i] = q.y, q_z[i] = q.z; }

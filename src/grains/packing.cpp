@@ -48,7 +48,7 @@ std::vector<PackedGrain> pack_rows(const Vessel& vessel, const std::vector<SeedL
   const double shift = SeatWidth(vessel, lots, space).shift;
   const bool all = visit_seats(vessel, lots, space, [&](const Eigen::Vector3d& seat) {
     const double dx = shift * random.uniform(-1, 1), dy = shift * random.uniform(-1, 1);
-    const double dz = space == Space::plane ? 0 : shift * random.uniform(-1, 1);
+    const double dz = space == Space::two_dimensional ? 0 : shift * random.uniform(-1, 1);
     const int lot = order[packed.size()];
     const SeedLot& seeds = lots[static_cast<std::size_t>(lot)];
     const double size = draw_size(seeds, random);
@@ -63,7 +63,7 @@ constexpr std::size_t large_bed = 20000;  // grains whose state is more than a c
 
 std::vector<PackedGrain> pack_poured(const Vessel& vessel, const std::vector<SeedLot>& lots, Space space,
                                      const std::vector<int>& order, Random& random, StopRequest stop) {
-  const auto poured = plane_alone || space == Space::plane ? pour : pour_in_space;
+  const auto poured = plane_alone || space == Space::two_dimensional ? pour : pour_3d;
   std::vector<PackedGrain> grains = poured(vessel, lots, order, random, stop);
   for (const PackedGrain& grain : grains)
     for (const ClumpDisc& disc : turned_discs(lots[static_cast<std::size_t>(grain.lot)], grain.size, grain.turned))
@@ -85,16 +85,16 @@ std::vector<PackedGrain> pack(const Vessel& vessel, const std::vector<SeedLot>& 
   if (!vessel.fill) return {};
   stop.throw_if_set();
   const double diameter = largest_diameter(lots);
-  const bool poured = vessel.fill->packing == Packing::poured, in_space = space == Space::three_dimensional;
+  const bool poured = vessel.fill->packing == Packing::poured, is_3d = space == Space::three_dimensional;
   if (diameter > vessel.length)
     throw InputError(fmt::format("{}.length: a grain of {:.6g} mm does not fit in", vessel.name, diameter * 1e3));
-  if (in_space && diameter > *vessel.depth)
+  if (is_3d && diameter > *vessel.depth)
     throw InputError(fmt::format("{}.depth: a grain of {:.6g} mm does not fit in", vessel.name, diameter * 1e3));
   const std::vector<int> order = shuffled_lots(lots, vessel.fill->count, random);
   std::vector<PackedGrain> grains =
       poured ? pack_poured(vessel, lots, space, order, random, stop) : pack_rows(vessel, lots, space, order, random);
   constexpr double in_plane = 64, across_columns = 8;  // diameters
-  if (grains.size() > large_bed) order_by_columns((in_space ? across_columns : in_plane) * diameter, grains);
+  if (grains.size() > large_bed) order_by_columns((is_3d ? across_columns : in_plane) * diameter, grains);
   return grains;
 }
 

@@ -21,7 +21,7 @@ struct PackedGrain {
 /// rolls down to where two contacts hold it (drop-and-roll: Visscher & Bolsterli 1972, in the plane); a clump lies
 /// where, of many drops near its first, its centre comes lowest, its discs touching. `layers` and `hexagonal`: rows,
 /// each grain shifted at random by up to the jitter, a clump in the circle, in space the ball, that holds it. In space
-/// see `pour_in_space`, and layers are square: one above the other, or as `hexagonal` closest packed. Lots are mixed at
+/// see `pour_3d`, and layers are square: one above the other, or as `hexagonal` closest packed. Lots are mixed at
 /// random in exact fractions (largest remainder), sizes and how clumps are turned are drawn. No fill: empty. Throws
 /// InputError when the packing rises above the vessel's end walls, Interrupted where `stop` is set.
 std::vector<PackedGrain> pack(const Vessel& vessel, const std::vector<SeedLot>& lots, Space space, Random& random,

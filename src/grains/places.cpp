@@ -6,7 +6,7 @@
 #include <limits>
 #include <numbers>
 
-#include "elementary/functions.hpp"
+#include "portable_math/functions.hpp"
 #include "vessel/nearest_on_face.hpp"
 
 namespace vibrosow {
@@ -116,7 +116,7 @@ Vessel without_lid(Vessel vessel) {
 }
 
 Obstacles::Obstacles(const Vessel& vessel, Space space) {
-  if (space == Space::plane) {
+  if (space == Space::two_dimensional) {
     std::ranges::copy_if(vessel_walls(vessel), std::back_inserter(segments_), [](const WallSegment& wall) {
       const Eigen::Vector2d along = wall.b - wall.a;
       return wall.is_piece || (along.x() != 0 && along.y() != 0);
@@ -146,7 +146,7 @@ double Obstacles::top() const {
     const Face& face = *placed->own;
     const double plate = std::max(0.0, face.length_u * face.e1.y()) + std::max(0.0, face.length_v * face.e2.y());
     const double axis = std::max(face.height_a * face.normal.y(), face.height_b * face.normal.y());
-    const double aside = std::max(face.radius_a, face.radius_b) * elementary::hypot(face.e1.y(), face.e2.y());
+    const double aside = std::max(face.radius_a, face.radius_b) * portable_math::hypot(face.e1.y(), face.e2.y());
     top = std::max(top, face.origin.y() + (face.kind == Face::Kind::plate ? plate : axis + aside));
   }
   return top;

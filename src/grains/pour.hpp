@@ -15,8 +15,8 @@ std::vector<PackedGrain> pour(const Vessel& vessel, const std::vector<SeedLot>& 
 
 /// The same in space: each ball is dropped again a little aside, at random, nearer and nearer, and stays where it comes
 /// lowest, which is where it would roll to; a clump so too, turned a little each time. In the vessel's frame.
-std::vector<PackedGrain> pour_in_space(const Vessel& vessel, const std::vector<SeedLot>& lots,
-                                       const std::vector<int>& order, Random& random, StopRequest stop);
+std::vector<PackedGrain> pour_3d(const Vessel& vessel, const std::vector<SeedLot>& lots, const std::vector<int>& order,
+                                 Random& random, StopRequest stop);
 
 /// Throws InputError: the fill rises above the vessel's walls.
 [[noreturn]] void refuse_fill(const Vessel& vessel);

@@ -51,25 +51,25 @@ double rise(bool hexagonal, double clear, double aside) {
 
 SeatWidth::SeatWidth(const Vessel& vessel, const std::vector<SeedLot>& lots, Space space)
     : clear(largest_diameter(lots) * (1 + 2 * vessel.fill->jitter)),
-      shift(largest_diameter(lots) * vessel.fill->jitter / std::sqrt(space == Space::plane ? 2 : 3)) {}
+      shift(largest_diameter(lots) * vessel.fill->jitter / std::sqrt(space == Space::two_dimensional ? 2 : 3)) {}
 
 /// In space layers are square: one above the other, or closest packed.
 bool visit_seats(const Vessel& vessel, const std::vector<SeedLot>& lots, Space space,
                  const std::function<bool(const Eigen::Vector3d&)>& visit) {
   const bool hexagonal = vessel.fill->packing == Packing::hexagonal;
-  const bool in_space = !plane_alone && space == Space::three_dimensional;
+  const bool is_3d = !plane_alone && space == Space::three_dimensional;
   const double clear = SeatWidth(vessel, lots, space).clear;
-  const SeatRow along(vessel.length, clear), across(in_space ? *vessel.depth : clear, clear);
-  if (along.places < 2 || across.places < (in_space && hexagonal ? 2 : 1)) return false;
+  const SeatRow along(vessel.length, clear), across(is_3d ? *vessel.depth : clear, clear);
+  if (along.places < 2 || across.places < (is_3d && hexagonal ? 2 : 1)) return false;
   const Room room(vessel, lots, space);
-  const double aside = 0.5 * (in_space ? FloorPlace(along.spacing, across.spacing).norm() : along.spacing);
-  double y = (in_space ? 0 : highest_floor(vessel)) + 0.5 * clear;
+  const double aside = 0.5 * (is_3d ? FloorPlace(along.spacing, across.spacing).norm() : along.spacing);
+  double y = (is_3d ? 0 : highest_floor(vessel)) + 0.5 * clear;
   for (int layer = 0; y + 0.5 * clear <= vessel.height; ++layer, y += rise(hexagonal, clear, aside)) {
     const bool offset = hexagonal && layer % 2 == 1;
-    const int in_row = along.of_layer(offset), in_layer = in_row * (in_space ? across.of_layer(offset) : 1);
+    const int in_row = along.of_layer(offset), in_layer = in_row * (is_3d ? across.of_layer(offset) : 1);
     for (int k = 0; k < in_layer; ++k) {
-      const FloorPlace place(along.at(k % in_row, offset), in_space ? across.at(k / in_row, offset) : 0);
-      if (in_space && between_ends(vessel, 0.5 * clear * (1 - 1e-9), place) != place) continue;
+      const FloorPlace place(along.at(k % in_row, offset), is_3d ? across.at(k / in_row, offset) : 0);
+      if (is_3d && between_ends(vessel, 0.5 * clear * (1 - 1e-9), place) != place) continue;
       const Eigen::Vector3d seat(place.x(), y, place.y());
       if (room.holds(seat, clear) && !visit(seat)) return true;
     }

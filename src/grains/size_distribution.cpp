@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <numbers>
 
-#include "elementary/functions.hpp"
+#include "portable_math/functions.hpp"
 #include "scene/seed_lot.hpp"
 
 namespace vibrosow {
@@ -16,7 +16,7 @@ using Kind = SizeDistribution::Kind;
 
 /// The fraction of a normal distribution below `deviations` from its mean.
 double normal_fraction(double deviations) {
-  return 0.5 * elementary::erfc(-deviations / std::numbers::sqrt2);
+  return 0.5 * portable_math::erfc(-deviations / std::numbers::sqrt2);
 }
 
 /// Diameter (m) below which the fraction `part` of a normal or lognormal, cut at its least and most, lies.
@@ -25,7 +25,7 @@ double cut_quantile(const SizeDistribution& sizes, double part) {
   const UnderlyingNormal normal = underlying_normal(sizes);
   const double mean = normal.mean, deviation = normal.deviation;
   constexpr double far = 12;  // deviations from the mean; beyond lies no weight that a double could hold
-  const auto deviations = [&](double x) { return ((logarithmic ? elementary::log(x) : x) - mean) / deviation; };
+  const auto deviations = [&](double x) { return ((logarithmic ? portable_math::log(x) : x) - mean) / deviation; };
   const double from = std::max(-far, deviations(sizes.least)), to = std::min(far, deviations(sizes.most));
   const double below = normal_fraction(from), up_to = normal_fraction(to);
   const double fraction = below + part * (up_to - below);
@@ -36,7 +36,7 @@ double cut_quantile(const SizeDistribution& sizes, double part) {
                                                              from, to, below - fraction, up_to - fraction,
                                                              boost::math::tools::eps_tolerance<double>(52), iterations);
   const double x = mean + deviation * 0.5 * (low + high);
-  return std::clamp(logarithmic ? elementary::exp(x) : x, sizes.least, sizes.most);
+  return std::clamp(logarithmic ? portable_math::exp(x) : x, sizes.least, sizes.most);
 }
 
 double table_quantile(const SizeDistribution& sizes, double part) {
@@ -63,8 +63,8 @@ double draw_angle(const SeedLot& lot, Random& random) {
 
 Orientation draw_orientation(Random& random) {
   const double part = random.uniform(), first = std::sqrt(1 - part), second = std::sqrt(part);
-  const auto a = elementary::sine_cosine(random.uniform(0, 2 * std::numbers::pi));
-  const auto b = elementary::sine_cosine(random.uniform(0, 2 * std::numbers::pi));
+  const auto a = portable_math::sine_cosine(random.uniform(0, 2 * std::numbers::pi));
+  const auto b = portable_math::sine_cosine(random.uniform(0, 2 * std::numbers::pi));
   return of_unit_length({second * b.cosine, first * a.sine, first * a.cosine, second * b.sine});
 }
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <limits>
 
-#include "elementary/functions.hpp"
+#include "portable_math/functions.hpp"
 #include "scene/seed_lot.hpp"
 
 namespace vibrosow {
@@ -20,7 +20,7 @@ std::vector<ClumpDisc> turned_discs(const SeedLot& lot, double size, const Turn&
     }
     return discs;
   }
-  const auto [sine, cosine] = elementary::sine_cosine(turned.angle);
+  const auto [sine, cosine] = portable_math::sine_cosine(turned.angle);
   for (const ClumpDisc& disc : lot.discs)
     discs.push_back(
         {size * (cosine * disc.x - sine * disc.y), size * (sine * disc.x + cosine * disc.y), size * disc.radius});
@@ -31,8 +31,8 @@ std::vector<ClumpDisc> turned_discs(const SeedLot& lot, double size, const Turn&
 Turn turn_in_lab(const Vessel& vessel, const Pose& pose, const Turn& own) {
   const double angle = vessel.tilt + pose.angle;
   if (angle == 0 && pose.turn == 0) return own;
-  const auto [sine, cosine] = elementary::sine_cosine(0.5 * angle);
-  const auto [turn_sine, turn_cosine] = elementary::sine_cosine(0.5 * pose.turn);
+  const auto [sine, cosine] = portable_math::sine_cosine(0.5 * angle);
+  const auto [turn_sine, turn_cosine] = portable_math::sine_cosine(0.5 * pose.turn);
   const Orientation about_z{cosine, 0, 0, sine}, about_y{turn_cosine, 0, -turn_sine, 0};
   return {own.angle + angle, of_unit_length(about_z * (about_y * own.orientation))};
 }

@@ -19,7 +19,7 @@ void set_spin(Grains& grains, std::size_t i, const Vector3& spin);
 
 /// Whether the grains are clumps in space, which turn by their quaternions.
 inline bool turn_as_clumps(const Grains& grains) {
-  return grains.in_space && grains.oriented && grains.rotation;
+  return grains.is_3d && grains.oriented && grains.rotation;
 }
 
 }  // namespace vibrosow

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "elementary/functions.hpp"
+#include "portable_math/functions.hpp"
 
 namespace vibrosow {
 namespace {
@@ -35,8 +35,8 @@ WallPiece arc_piece(const Point& centre, const Point& a, const Point& b, bool an
   WallPiece piece;
   piece.centre = centre;
   piece.radius = begin.norm();
-  piece.from = elementary::atan2(begin.y(), begin.x());
-  piece.to = elementary::atan2(end.y(), end.x());
+  piece.from = portable_math::atan2(begin.y(), begin.x());
+  piece.to = portable_math::atan2(end.y(), end.x());
   if (piece.to <= piece.from) piece.to += 2 * std::numbers::pi;
   return piece;
 }

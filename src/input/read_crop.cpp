@@ -23,7 +23,7 @@ Crop read_crop(const std::filesystem::path& file) {
   crop.name = file.stem().string();
   crop.title = table.text("title").value_or(crop.name);
   for (const char* key : {"shell_compression", "youngs_modulus", "poisson_ratio"}) table.skip(key);
-  const SeedLot lot = read_lot(table, crop.name, Space::plane);
+  const SeedLot lot = read_lot(table, crop.name, Space::two_dimensional);
   crop.shape = table.text("shape").value_or("ball");
   const auto size = [&](const char* key, double otherwise) {
     return table.has(key) ? table.required_quantity(key, Dimension::length, smallest, largest) : otherwise;

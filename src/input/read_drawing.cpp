@@ -7,8 +7,8 @@
 #include <cmath>
 #include <utility>
 
-#include "elementary/functions.hpp"
 #include "input/lengths.hpp"
+#include "portable_math/functions.hpp"
 #include "scene/input_error.hpp"
 #include "scene/printable.hpp"
 
@@ -20,7 +20,7 @@ using Point = Eigen::Vector2d;
 constexpr std::size_t most_pieces = 5000;
 
 Point end_of_arc(const WallPiece& arc, double angle) {
-  const auto [sine, cosine] = elementary::sine_cosine(angle);
+  const auto [sine, cosine] = portable_math::sine_cosine(angle);
   return arc.centre + arc.radius * Point(cosine, sine);
 }
 

@@ -10,9 +10,9 @@
 #include <string_view>
 #include <utility>
 
-#include "elementary/functions.hpp"
 #include "input/drawing_paths.hpp"
 #include "input/read_drawing.hpp"
+#include "portable_math/functions.hpp"
 #include "scene/input_error.hpp"
 #include "scene/printable.hpp"
 #include "scene/si_units.hpp"

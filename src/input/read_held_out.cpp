@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "elementary/functions.hpp"
 #include "input/read_scene.hpp"
 #include "input/source_files.hpp"
+#include "portable_math/functions.hpp"
 #include "scene/input_error.hpp"
 
 namespace vibrosow {
@@ -36,7 +36,7 @@ ModelError read_model_error(const CsvLines& csv) {
   std::map<std::string, std::vector<double>> by_material;
   for (const CsvLines::Row& row : csv.rows)
     by_material[row.fields[column(csv, "material")]].push_back(
-        elementary::log(rate(csv, row, "measured") / rate(csv, row, "predicted")));
+        portable_math::log(rate(csv, row, "measured") / rate(csv, row, "predicted")));
   std::vector<double> means;
   for (const auto& [material, logarithms] : by_material) {
     double sum = 0;

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <tuple>
 
-#include "elementary/functions.hpp"
 #include "input/lengths.hpp"
+#include "portable_math/functions.hpp"
 
 namespace vibrosow {
 namespace {
@@ -49,7 +49,7 @@ HoleRows read_counted(Table& table, double length, Space space) {
   const std::optional<double> pitch_given = table.quantity("pitch", Dimension::length, shortest, longest);
   const std::optional<double> centre = table.quantity("centre", Dimension::length, 0, longest);
   if (counts.empty()) table.fail("count", "is missing; give count, or at with the holes' centres");
-  if (counts.size() > 1 && space == Space::plane)
+  if (counts.size() > 1 && space == Space::two_dimensional)
     table.fail(
         "count",
         "is one number in 2D, where a row of holes stands for all rows; a list, one a row, needs space = \"3d\"");
@@ -143,25 +143,25 @@ Edge read_edge(Table& table, HoleShape shape, Space space) {
   if (edge.chamfer > edge.thickness)
     table.fail("chamfer", fmt::format("{} is more than the floor's thickness, {}", millimetres(edge.chamfer),
                                       millimetres(edge.thickness)));
-  return space == Space::plane ? Edge{} : edge;
+  return space == Space::two_dimensional ? Edge{} : edge;
 }
 
 /// How far (m) two holes are apart; not above zero where they touch.
 double apart(const Hole& a, const Hole& b, Space space) {
   const double along = std::abs(a.centre - b.centre), across = std::abs(a.across - b.across);
   if (space == Space::three_dimensional && a.shape == HoleShape::round)
-    return elementary::hypot(along, across) - 0.5 * (a.rim_width() + b.rim_width());
+    return portable_math::hypot(along, across) - 0.5 * (a.rim_width() + b.rim_width());
   const double gap = along - 0.5 * (a.width + b.width);
-  return space == Space::plane ? gap : std::max(gap, across - 0.5 * (a.across_length + b.across_length));
+  return space == Space::two_dimensional ? gap : std::max(gap, across - 0.5 * (a.across_length + b.across_length));
 }
 
 bool is_within(const Hole& hole, const Vessel& vessel, Space space) {
   const double slack = rounding * vessel.length, radius = hole.rim_width() / 2;
   const bool along = hole.centre - radius >= -slack && hole.centre + radius <= vessel.length + slack;
-  if (space == Space::plane) return along;
+  if (space == Space::two_dimensional) return along;
   if (vessel.plan == Plan::round) {
     const double middle = vessel.length / 2;
-    return elementary::hypot(hole.centre - middle, hole.across - middle) + radius <= middle + slack;
+    return portable_math::hypot(hole.centre - middle, hole.across - middle) + radius <= middle + slack;
   }
   const double reach = hole.shape == HoleShape::round ? radius : hole.across_length / 2;
   return along && hole.across - reach >= -slack && hole.across + reach <= *vessel.depth + slack;
@@ -169,7 +169,8 @@ bool is_within(const Hole& hole, const Vessel& vessel, Space space) {
 
 std::string place_of(const Hole& hole, Space space) {
   const std::string along = millimetres(hole.centre);
-  return space == Space::plane ? along : fmt::format("{}, {} from the front", along, millimetres(hole.across));
+  return space == Space::two_dimensional ? along
+                                         : fmt::format("{}, {} from the front", along, millimetres(hole.across));
 }
 
 double longest_width(const std::vector<Hole>& holes) {
@@ -215,7 +216,7 @@ std::vector<Hole> read_holes(Table table, const Vessel& vessel, Space space, dou
   const HoleShape shape = shapes[table.choice("shape", {"slot", "round"}).value_or(0)];
   const Edge edge = read_edge(table, shape, space);
   Rows rows{{0}, 0};
-  if (space == Space::plane)
+  if (space == Space::two_dimensional)
     table.skip("rows"), table.skip("across");
   else
     rows =

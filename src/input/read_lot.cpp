@@ -7,8 +7,8 @@
 #include <numbers>
 #include <string_view>
 
-#include "elementary/functions.hpp"
 #include "input/presets.hpp"
+#include "portable_math/functions.hpp"
 #include "scene/clump_shape.hpp"
 #include "scene/make_clump.hpp"
 #include "scene/seed_lot.hpp"
@@ -120,7 +120,7 @@ std::vector<ClumpDisc> read_discs(Table& seeds, Space space) {
     const double x = disc.required_quantity("x", Dimension::length, -largest, largest);
     const double y = disc.required_quantity("y", Dimension::length, -largest, largest);
     double z = 0;
-    if (space == Space::plane)
+    if (space == Space::two_dimensional)
       disc.skip("z");
     else
       z = disc.quantity("z", Dimension::length, -largest, largest).value_or(0);
@@ -137,11 +137,12 @@ std::vector<ClumpDisc> read_discs(Table& seeds, Space space) {
 void read_shape(Table& seeds, ShapeName shape, double size, Space space, SeedLot& lot) {
   lot.diameter = size;
   lot.shape = shape == ShapeName::disc ? Shape::disc : Shape::ball;
-  if (shape == ShapeName::disc && space != Space::plane)
+  if (shape == ShapeName::disc && space != Space::two_dimensional)
     seeds.fail("shape", "is for 2D; with space = \"3d\" it is a \"ball\"");
   if (shape == ShapeName::elongated || shape == ShapeName::drop) {
-    if (space == Space::plane) seeds.skip("thickness");
-    make_clump(lot, space == Space::plane ? read_row(seeds, shape, size) : read_solid_row(seeds, shape, size), space);
+    if (space == Space::two_dimensional) seeds.skip("thickness");
+    make_clump(lot, space == Space::two_dimensional ? read_row(seeds, shape, size) : read_solid_row(seeds, shape, size),
+               space);
   }
   if (shape == ShapeName::dipole) make_clump(lot, dipole(size, read_length(seeds, "distance")), space);
   if (shape == ShapeName::discs) make_clump(lot, read_discs(seeds, space), space);
@@ -156,7 +157,7 @@ void count_what_was_weighed(SizeDistribution& sizes, int power) {
   const double unit = sizes.diameter.front();
   double sum = 0;
   for (std::size_t k = 0; k < sizes.fraction.size(); ++k)
-    sum += sizes.fraction[k] /= elementary::pow(sizes.diameter[k] / unit, power);
+    sum += sizes.fraction[k] /= portable_math::pow(sizes.diameter[k] / unit, power);
   for (double& fraction : sizes.fraction) fraction /= sum;
 }
 
@@ -258,7 +259,7 @@ double read_mass(Table& seeds, const SeedLot& lot) {
   const double density = seeds.required_quantity(key, Dimension::density, 1, 3e4);
   if (lot.shape == Shape::disc) seeds.fail("density", "gives no mass to a disc, which has no thickness; give mass");
   if (lot.shape == Shape::clump) return clump_volume(lot) * density;
-  return std::numbers::pi / 6 * elementary::pow(lot.diameter, 3) * density;
+  return std::numbers::pi / 6 * portable_math::pow(lot.diameter, 3) * density;
 }
 
 /// Catalogues state the mass of a thousand seeds.
@@ -294,7 +295,7 @@ SeedLot read_lot(Table& seeds, const std::string& name, Space space) {
   const ShapeName shape = chosen ? static_cast<ShapeName>(*chosen) : ShapeName::ball;
   refuse_keys(seeds, "shape", keys_of_other_shapes(shape),
               fmt::format("does not go with shape = \"{}\"", shape_names[static_cast<std::size_t>(shape)]));
-  const bool flat_mass = shape == ShapeName::disc || (shape != ShapeName::ball && space == Space::plane);
+  const bool flat_mass = shape == ShapeName::disc || (shape != ShapeName::ball && space == Space::two_dimensional);
   if (shape != ShapeName::discs) lot.sizes = read_sizes(seeds, size_key(shape), flat_mass ? 2 : 3);
   read_shape(seeds, shape, lot.sizes.mean, space, lot);
   if (lot.shape == Shape::clump && lot.sizes.kind != Kind::single) scale(lot.sizes, lot.diameter / lot.sizes.mean);

@@ -7,8 +7,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "elementary/functions.hpp"
 #include "input/wording.hpp"
+#include "portable_math/functions.hpp"
 #include "scene/input_error.hpp"
 #include "scene/si_units.hpp"
 
@@ -46,10 +46,10 @@ void read_direction(Table& table, HarmonicMotion& motion) {
   }
   const std::vector<double> parts = table.numbers("direction", -1e9, 1e9);
   if (parts.size() != 3) table.fail("direction", "expected an angle, or three numbers: along, up and across");
-  const double in_plane = elementary::hypot(parts[0], parts[1]);
-  if (elementary::hypot(in_plane, parts[2]) == 0) table.fail("direction", "[0, 0, 0] has no direction");
-  motion.direction = elementary::atan2(parts[1], parts[0]);
-  motion.across = elementary::atan2(parts[2], in_plane);
+  const double in_plane = portable_math::hypot(parts[0], parts[1]);
+  if (portable_math::hypot(in_plane, parts[2]) == 0) table.fail("direction", "[0, 0, 0] has no direction");
+  motion.direction = portable_math::atan2(parts[1], parts[0]);
+  motion.across = portable_math::atan2(parts[2], in_plane);
 }
 
 HarmonicMotion read_oscillation(Table& table) {

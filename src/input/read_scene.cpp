@@ -190,7 +190,7 @@ Record read_record(Table table, double duration, const std::vector<SeedLot>& lot
   if (cell.size() > 1) table.fail("cell", "must be one value");
   record.cell = read_width(table, "cell", cell.empty() ? TomlValue{"2 diameters"} : cell.front(), diameter);
   const std::size_t view = table.choice("view", {"projection", "slice"}).value_or(0);
-  if (space != Space::plane) record.view = static_cast<MapView>(view);
+  if (space != Space::two_dimensional) record.view = static_cast<MapView>(view);
   return record;
 }
 
@@ -216,13 +216,13 @@ Seeder read_seeder_in(std::optional<Space> wanted, const std::filesystem::path& 
   Seeder seeder;
   Scene& scene = seeder.scene;
   scene.title = printable(root.text("title").value_or(file.stem().string()));
-  constexpr Space spaces[] = {Space::plane, Space::three_dimensional};
+  constexpr Space spaces[] = {Space::two_dimensional, Space::three_dimensional};
   const Space own = spaces[root.choice("space", {"plane", "3d"}).value_or(0)];
   scene.space = wanted.value_or(own);
   Table seeds = root.required_table("seeds");
   scene.lots = read_lots(seeds, scene.space);
   std::optional<double> slice;  // m, where seeds are counted in the other space
-  if (scene.space != own) slice = slice_thickness(read_lots(seeds, Space::plane));
+  if (scene.space != own) slice = slice_thickness(read_lots(seeds, Space::two_dimensional));
   const Table contact =
       crops_have_contacts(scene.lots) ? root.table_or_empty("contact") : root.required_table("contact");
   scene.contact = read_contact(contact, seeds, scene.lots);
@@ -265,7 +265,7 @@ Seeder read_seeder(const std::filesystem::path& file, const std::vector<Override
 
 BothSpaces read_in_both_spaces(const std::filesystem::path& file, const std::vector<Override>& overrides,
                                const std::shared_ptr<SourceFiles>& files) {
-  BothSpaces both{read_seeder_in(Space::plane, file, overrides, files).scene,
+  BothSpaces both{read_seeder_in(Space::two_dimensional, file, overrides, files).scene,
                   read_seeder_in(Space::three_dimensional, file, overrides, files).scene};
   if (!both.plane.tray.depth) both.plane.tray.depth = both.space.tray.depth;  // a round tray's is its length
   return both;

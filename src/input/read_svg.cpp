@@ -9,9 +9,9 @@
 #include <numbers>
 #include <string_view>
 
-#include "elementary/functions.hpp"
 #include "input/drawing_paths.hpp"
 #include "input/read_drawing.hpp"
+#include "portable_math/functions.hpp"
 #include "scene/input_error.hpp"
 #include "scene/si_units.hpp"
 
@@ -198,13 +198,13 @@ class Svg {
     if (word == "translate" && (n == 1 || n == 2)) return {1, 0, 0, 1, v[0], n == 2 ? v[1] : 0};
     if (word == "scale" && (n == 1 || n == 2)) return {v[0], 0, 0, n == 2 ? v[1] : v[0], 0, 0};
     if (word == "rotate" && (n == 1 || n == 3)) {
-      const auto [sine, cosine] = elementary::sine_cosine(v[0] * degree);
+      const auto [sine, cosine] = portable_math::sine_cosine(v[0] * degree);
       const Affine turn{cosine, sine, -sine, cosine, 0, 0};
       if (n == 1) return turn;
       return Affine{1, 0, 0, 1, v[1], v[2]}.then_inner(turn).then_inner({1, 0, 0, 1, -v[1], -v[2]});
     }
-    if (word == "skewX" && n == 1) return {1, 0, elementary::tan(v[0] * degree), 1, 0, 0};
-    if (word == "skewY" && n == 1) return {1, elementary::tan(v[0] * degree), 0, 1, 0, 0};
+    if (word == "skewX" && n == 1) return {1, 0, portable_math::tan(v[0] * degree), 1, 0, 0};
+    if (word == "skewY" && n == 1) return {1, portable_math::tan(v[0] * degree), 0, 1, 0, 0};
     fail(element, fmt::format("transform: {} with {} numbers cannot be read", word, n));
   }
 
@@ -318,11 +318,11 @@ class Svg {
 
   /// From the parameter `from` by `by` (rad) of the ellipse, whose axes are turned by `tilt`.
   void add_arc(const Point& centre, double rx, double ry, double tilt, double from, double by, const Affine& to_m) {
-    const auto [sine, cosine] = elementary::sine_cosine(tilt);
+    const auto [sine, cosine] = portable_math::sine_cosine(tilt);
     const Affine own{cosine * rx, sine * rx, -sine * ry, cosine * ry, centre.x(), centre.y()};  // of the unit circle
     const Affine all = to_m.then_inner(own);
     const auto at = [&](double parameter) {
-      const auto [y, x] = elementary::sine_cosine(parameter);
+      const auto [y, x] = portable_math::sine_cosine(parameter);
       return all({x, y});
     };
     if (all.is_similar()) {
@@ -333,7 +333,7 @@ class Svg {
     }
     // The sagitta of a chord is r (1 - cos(half its angle)), at most that of the longer axis.
     const double longest_axis = std::sqrt(all.a * all.a + all.b * all.b + all.c * all.c + all.d * all.d);
-    const double step = 2 * elementary::acos(1 - std::min(1.0, scale_.tolerance / longest_axis));
+    const double step = 2 * portable_math::acos(1 - std::min(1.0, scale_.tolerance / longest_axis));
     const int count = 1 + static_cast<int>(std::min(1e5, std::abs(by) / step));
     constexpr std::size_t most = 200'000;  // a vessel has fewer by far, and a short text may ask for any number
     if (pieces_.size() > most) fail(1, "draws too many pieces; a larger tolerance makes fewer");
@@ -347,7 +347,7 @@ class Svg {
     if (a == b) return;
     if (rx == 0 || ry == 0) return add_line(a, b, to_m);
     rx = std::abs(rx), ry = std::abs(ry);
-    const auto [sine, cosine] = elementary::sine_cosine(tilt);
+    const auto [sine, cosine] = portable_math::sine_cosine(tilt);
     const Point half = 0.5 * (a - b), middle = 0.5 * (a + b);
     // On the circle of radius 1 that the ellipse becomes.
     Point p((cosine * half.x() + sine * half.y()) / rx, (-sine * half.x() + cosine * half.y()) / ry);
@@ -356,8 +356,8 @@ class Svg {
     const double away = std::sqrt(std::max(0.0, 1 / p.squaredNorm() - 1)) * (large == positive ? -1 : 1);
     const Point c(away * p.y(), -away * p.x());
     const Point begin = p - c, end = -p - c;
-    const double from = elementary::atan2(begin.y(), begin.x());
-    double by = elementary::atan2(end.y(), end.x()) - from;
+    const double from = portable_math::atan2(begin.y(), begin.x());
+    double by = portable_math::atan2(end.y(), end.x()) - from;
     if (positive && by <= 0) by += 2 * pi;
     if (!positive && by >= 0) by -= 2 * pi;
     const Point centre(cosine * rx * c.x() - sine * ry * c.y() + middle.x(),

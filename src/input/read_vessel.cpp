@@ -65,7 +65,7 @@ double least_volume(const SeedLot& lot, bool poured) {
 
 /// Seeds that the vessel could hold at most.
 double most_seeds(const Vessel& vessel, const std::vector<SeedLot>& lots, Space space) {
-  const bool poured = vessel.fill->packing == Packing::poured, flat = space == Space::plane;
+  const bool poured = vessel.fill->packing == Packing::poured, flat = space == Space::two_dimensional;
   double per_seed = 0;
   for (const SeedLot& lot : lots)
     per_seed += lot.number_fraction * size_moment(lot, flat ? 2 : 3) *
@@ -106,11 +106,12 @@ void check_fill_fits(const Table& fill_table, const Vessel& vessel, const std::v
   const double most = most_seeds(vessel, lots, space);
   if (vessel.fill->count > most) {
     const bool holders = vessel.fill->packing != Packing::poured && has_clumps(lots);
-    fill_table.fail(
-        key, fmt::format(
-                 "does not fit: {} seeds, but closely packed{} the {} holds no more than {:.0f}", vessel.fill->count,
-                 holders ? fmt::format(", as the {} that hold them,", space == Space::plane ? "circles" : "balls") : "",
-                 vessel.name, std::floor(most)));
+    fill_table.fail(key, fmt::format("does not fit: {} seeds, but closely packed{} the {} holds no more than {:.0f}",
+                                     vessel.fill->count,
+                                     holders ? fmt::format(", as the {} that hold them,",
+                                                           space == Space::two_dimensional ? "circles" : "balls")
+                                             : "",
+                                     vessel.name, std::floor(most)));
   }
 }
 
@@ -135,7 +136,7 @@ void read_axis(Table& table, Space space, std::vector<WallPiece>& line) {
     if (table.has("axis")) table.fail("axis", "is of a line that is turned; expected about beside it");
     return table.skip("axis");
   }
-  if (space == Space::plane) table.fail("about", "a line is turned about an axis only with space = \"3d\"");
+  if (space == Space::two_dimensional) table.fail("about", "a line is turned about an axis only with space = \"3d\"");
   const bool upright = table.choice("axis", {"upright", "along"}).value_or(0) == 0;
   if (about.size() != 2)
     table.fail("about", fmt::format("expected where the axis passes, {} and across, such as [\"10 cm\", \"4 cm\"]",
@@ -198,7 +199,7 @@ void read_drawn_here(Table& table, Space space, std::vector<WallPiece>& pieces) 
 /// Which way a piece, or all of a drawing, is drawn out.
 DrawnOut read_drawn_out(Table& table, Space space) {
   const bool along = table.choice("drawn_out", {"across", "along"}).value_or(0) == 1;
-  if (along && space == Space::plane)
+  if (along && space == Space::two_dimensional)
     table.fail("drawn_out", "a piece is drawn out along the vessel only with space = \"3d\"");
   if (along && table.has("about")) table.fail("drawn_out", "contradicts about, by which the line is turned");
   return along ? DrawnOut::along : DrawnOut::across;
@@ -282,7 +283,7 @@ void check_periodic_across(const Table& table, const Vessel& vessel, const Vesse
 
 /// What a vessel has in space alone; in the plane these keys are known and count for nothing.
 void read_space(Table& table, Space space, const Vessel* tray, Vessel& vessel) {
-  if (space == Space::plane) {
+  if (space == Space::two_dimensional) {
     for (const char* key : {"plan", "front_and_back"}) table.skip(key);
     if (tray != nullptr) table.skip("front");
     return;
@@ -307,7 +308,7 @@ void check_funnel(Table& table, const Vessel& vessel, Space space) {
   if (vessel.funnel == 0) return;
   if (!vessel.box) table.fail("funnel", "is a slope of the floor, which box = false leaves out");
   if (vessel.holes.empty()) table.fail("funnel", "needs holes for the floor to slope to");
-  if (space == Space::plane) return;
+  if (space == Space::two_dimensional) return;
   const Hole& hole = vessel.holes.front();
   const double middle = vessel.length / 2, slack = thickness_rounding * vessel.length;
   if (vessel.plan == Plan::round) {
@@ -327,7 +328,7 @@ void check_funnel(Table& table, const Vessel& vessel, Space space) {
 void check_turning(Table& table, const Vessel& vessel, Space space) {
   if (!turns_steadily(vessel)) return;
   const bool upright = std::get<TurningMotion>(*vessel.motion).axis == TurningAxis::upright;
-  if (upright && space == Space::plane)
+  if (upright && space == Space::two_dimensional)
     table.required_table("motion").fail("axis", "a vessel turns about an upright axis only with space = \"3d\"");
   if (is_kept(vessel))
     table.required_table("fill").fail("keep", "a vessel that turns over and over cannot be topped up");
@@ -346,7 +347,7 @@ double seeds_of_other_space(Table& table, const Vessel& vessel, const Vessel* tr
   if (!whole.depth && tray != nullptr) whole.depth = tray->depth;
   if (!whole.depth) table.fail("depth", "is missing; with space = \"3d\" a tray has a depth, from front to back");
   const double slices = slices_of_vessel(whole, slice);
-  return space == Space::plane ? 1 / slices : slices;
+  return space == Space::two_dimensional ? 1 / slices : slices;
 }
 
 }  // namespace
@@ -368,7 +369,8 @@ Vessel read_vessel(Table table, const std::string& name, const std::vector<SeedL
   if (!vessel.box && vessel.pieces.empty()) table.fail("box", "without floor and end walls a vessel needs pieces");
   if (const auto holes = table.table("holes"))
     vessel.holes = read_holes(*holes, vessel, space, largest_mean_diameter(lots));
-  if (space == Space::plane && vessel.depth && !vessel.holes.empty() && vessel.holes.front().shape == HoleShape::slot)
+  if (space == Space::two_dimensional && vessel.depth && !vessel.holes.empty() &&
+      vessel.holes.front().shape == HoleShape::slot)
     vessel.slots_in_3d = read_slots_in_3d(*table.table("holes"), *vessel.depth);
   if (vessel.plan == Plan::round && !vessel.holes.empty() && vessel.holes.front().shape != HoleShape::round)
     table.fail("plan", "a round vessel has round holes: holes.shape = \"round\"");
@@ -386,7 +388,7 @@ Vessel read_vessel(Table table, const std::string& name, const std::vector<SeedL
   if (fill) check_fill_fits(*fill, vessel, lots, space);
   if (const auto motion = table.table("motion")) {
     vessel.motion = read_motion(*motion);
-    if (space == Space::plane && moves_across(*vessel.motion))
+    if (space == Space::two_dimensional && moves_across(*vessel.motion))
       motion->fail(motion->has("file")         ? "file"
                    : motion->has("components") ? "components"
                                                : "direction",

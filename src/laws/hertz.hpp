@@ -5,10 +5,10 @@
 #include <string_view>
 
 #include "compute/instruction_set.hpp"
-#include "elementary/functions.hpp"
 #include "laws/law.hpp"
 #include "laws/materials.hpp"
 #include "laws/surface_parameters.hpp"
+#include "portable_math/functions.hpp"
 
 namespace vibrosow::inline VIBROSOW_ISA {
 
@@ -77,13 +77,15 @@ struct Hertz {
 
   /// (5 m* V^2 / (4 k))^(2/5), m.
   static double impact_overlap(double stiffness, double inverse_mass, double speed) {
-    return elementary::pow(1.25 * speed * speed / (stiffness * inverse_mass), 0.4);
+    return portable_math::pow(1.25 * speed * speed / (stiffness * inverse_mass), 0.4);
   }
   /// 2.943275 d_max / V, s: 2 sqrt(pi) Gamma(7/5) / Gamma(9/10).
   static double impact_duration(double stiffness, double inverse_mass, double speed) {
     return 2.943275 * impact_overlap(stiffness, inverse_mass, speed) / speed;
   }
-  static double static_overlap(double stiffness, double force) { return elementary::pow(force / stiffness, 2.0 / 3); }
+  static double static_overlap(double stiffness, double force) {
+    return portable_math::pow(force / stiffness, 2.0 / 3);
+  }
   static double slope(double stiffness, double overlap) { return 1.5 * stiffness * std::sqrt(overlap); }
   static constexpr double slope_over_secant = 1.5;
   static double damping_ratio(const SurfaceParameters& surface, double /*omega*/) { return surface.damping_ratio; }

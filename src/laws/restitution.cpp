@@ -6,15 +6,15 @@
 #include <numbers>
 #include <stdexcept>
 
-#include "elementary/functions.hpp"
+#include "portable_math/functions.hpp"
 
 namespace vibrosow {
 
 double linear_restitution(double damping_ratio) {
   const double z = damping_ratio;
-  if (std::abs(1 - z) < 1e-7) return elementary::exp(-2.0);  // both branches tend to it
-  if (z < 1) return elementary::exp(-z * (std::numbers::pi - 2 * elementary::asin(z)) / std::sqrt(1 - z * z));
-  return elementary::exp(-2 * z * elementary::acosh(z) / std::sqrt(z * z - 1));
+  if (std::abs(1 - z) < 1e-7) return portable_math::exp(-2.0);  // both branches tend to it
+  if (z < 1) return portable_math::exp(-z * (std::numbers::pi - 2 * portable_math::asin(z)) / std::sqrt(1 - z * z));
+  return portable_math::exp(-2 * z * portable_math::acosh(z) / std::sqrt(z * z - 1));
 }
 
 double linear_damping_ratio(double restitution) {

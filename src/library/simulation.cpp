@@ -54,7 +54,7 @@ std::vector<Grain> Simulation::grains() const {
   std::vector<Grain> grains;
   for (std::size_t i = 0; i < own.size(); ++i) {
     grains.push_back({own.id[i], own.lot[i], own.x[i], own.y[i], own.vx[i], own.vy[i], own.kind(i).radius});
-    if (own.in_space) grains.back().z = own.z[i], grains.back().vz = own.vz[i];
+    if (own.is_3d) grains.back().z = own.z[i], grains.back().vz = own.vz[i];
   }
   const auto add = [&](std::int64_t id, const GrainContact& contact, double sign) {
     const auto grain = std::ranges::lower_bound(grains, id, {}, &Grain::id);

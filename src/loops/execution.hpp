@@ -9,7 +9,7 @@
 #include "compute/thread_team.hpp"
 #include "loops/clump_loops.hpp"
 #include "loops/grain_loops.hpp"
-#include "loops/space_loops.hpp"
+#include "loops/loops_3d.hpp"
 
 namespace vibrosow {
 
@@ -22,14 +22,14 @@ class Execution {
   explicit Execution(InstructionSet instructions = best_instruction_set(), int threads = 1, StopRequest stop = {})
       : instructions_(instructions),
         loops_(grain_loops(instructions)),
-        loops_in_space_(vibrosow::space_loops(instructions)),
+        loops_3d_(vibrosow::loops_3d(instructions)),
         loops_of_clumps_(vibrosow::clump_loops(instructions)),
         team_(threads),
         stop_(stop) {}
 
   InstructionSet instructions() const { return instructions_; }
   const GrainLoops& loops() const { return loops_; }
-  const SpaceLoops& space_loops() const { return loops_in_space_; }
+  const Loops3d& loops_3d() const { return loops_3d_; }
   const ClumpLoops& clump_loops() const { return loops_of_clumps_; }
   int threads() const { return team_.size(); }
   Profile& profile() { return profile_; }
@@ -62,7 +62,7 @@ class Execution {
  private:
   InstructionSet instructions_;
   const GrainLoops& loops_;
-  const SpaceLoops& loops_in_space_;
+  const Loops3d& loops_3d_;
   const ClumpLoops& loops_of_clumps_;
   ThreadTeam team_;
   Profile profile_;

@@ -33,7 +33,7 @@ struct alignas(64) BallMotion {
 };
 
 /// As ForeignForce, in space.
-struct ForeignSpaceForce {
+struct ForeignForce3d {
   int grain;
   std::array<double, 3> force, torque;  // N, N m
 };

@@ -1,12 +1,12 @@
 #include "compute/each_instruction_set.hpp"
 #include "loops/clump_loops.hpp"
 #include "loops/grain_loops.hpp"
-#include "loops/space_loops.hpp"
+#include "loops/loops_3d.hpp"
 
 namespace vibrosow {
 
-// Defined in grain_loops.cpp, space_loops.cpp and clump_loops.cpp, compiled for each.
-VIBROSOW_DECLARE_IN_EACH_SET(extern const GrainLoops loops; extern const SpaceLoops loops_in_space;
+// Defined in grain_loops.cpp, loops_3d.cpp and clump_loops.cpp, compiled for each.
+VIBROSOW_DECLARE_IN_EACH_SET(extern const GrainLoops loops; extern const Loops3d loops_3d;
                              extern const ClumpLoops loops_of_clumps;)
 
 const GrainLoops& grain_loops(InstructionSet set) {
@@ -14,8 +14,8 @@ const GrainLoops& grain_loops(InstructionSet set) {
 }
 
 #ifdef VIBROSOW_PLANE_ALONE  // of a program that simulates nothing in space, and is to be small
-const SpaceLoops& space_loops(InstructionSet) {
-  static constexpr SpaceLoops none{};
+const Loops3d& loops_3d(InstructionSet) {
+  static constexpr Loops3d none{};
   return none;
 }
 
@@ -24,8 +24,8 @@ const ClumpLoops& clump_loops(InstructionSet) {
   return none;
 }
 #else
-const SpaceLoops& space_loops(InstructionSet set) {
-  return *of_set<const SpaceLoops*>(set, VIBROSOW_OF_EACH_SET(&, loops_in_space));
+const Loops3d& loops_3d(InstructionSet set) {
+  return *of_set<const Loops3d*>(set, VIBROSOW_OF_EACH_SET(&, loops_3d));
 }
 
 const ClumpLoops& clump_loops(InstructionSet set) {

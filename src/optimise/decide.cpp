@@ -9,7 +9,7 @@
 #include "outflow/outflow.hpp"
 #include "scene/input_error.hpp"
 #include "scene/spaces.hpp"
-#include "selection/guaranteed.hpp"
+#include "selection/kim_nelson.hpp"
 #include "selection/moments.hpp"
 #include "selection/posterior.hpp"
 #include "selection/rinott.hpp"
@@ -23,7 +23,7 @@ constexpr double none = std::numeric_limits<double>::quiet_NaN();
 void check_rates(const Study& study, const DecideOptions& options) {
   if (!options.rate) return;
   for (const Layout& layout : study.layouts)
-    if (layout.scene && study.scenes[*layout.scene].space == Space::plane &&
+    if (layout.scene && study.scenes[*layout.scene].space == Space::two_dimensional &&
         !slices_of_tray(study.scenes[*layout.scene]))
       throw InputError(
           fmt::format("--rate: is of the whole tray, and layout {} is in 2D without tray.depth", layout.number));
@@ -31,7 +31,7 @@ void check_rates(const Study& study, const DecideOptions& options) {
 
 std::unique_ptr<Procedure> procedure_of(SelectionRule rule, const Question& question) {
   if (rule == SelectionRule::posterior) return std::make_unique<Posterior>(question);
-  return std::make_unique<Guaranteed>(question);
+  return std::make_unique<KimNelson>(question);
 }
 
 /// Of the observations that two systems have in common; none for fewer than three, or without scatter.
@@ -124,7 +124,7 @@ Observation StudyDecision::observed(std::size_t scene, const Evaluation& run) {
   const auto goal = options_.goal->of(run.outflow);
   if (!goal) return failed(std::string(options_.goal->if_none));
   const auto rate = options_.rate ? rate_as_wanted(*options_.rate, run.outflow) : std::optional(0.0);
-  if (!rate) return failed(fmt::format("it has no {}", rate_figure(options_.rate).name));
+  if (!rate) return failed(fmt::format("it has no {}", rate_metric(options_.rate).name));
   return {RunEnd::flowed, *goal, *rate};
 }
 
@@ -135,32 +135,32 @@ std::size_t StudyDecision::left() const {
   }));
 }
 
-SceneDecision StudyDecision::figures_of(std::size_t scene, const std::optional<RateKnowledge>& knowledge) const {
-  SceneDecision figures;
-  figures.reason = failures_[scene];
-  figures.stopped = first_stop(runs_.runs()[scene]);
-  figures.doubts = doubts_of_layout(study_.scenes[scene], runs_.runs()[scene]);
+SceneDecision StudyDecision::metrics_of(std::size_t scene, const std::optional<RateKnowledge>& knowledge) const {
+  SceneDecision metrics;
+  metrics.reason = failures_[scene];
+  metrics.stopped = first_stop(runs_.runs()[scene]);
+  metrics.doubts = doubts_of_layout(study_.scenes[scene], runs_.runs()[scene]);
   std::vector<double> goal_values, rates;
   std::vector<const Outflow*> flowed;
   const auto rate_of = [&](const Outflow& outflow) {
-    return options_.rate ? rate_as_wanted(*options_.rate, outflow) : figure_named("rate_g_per_s").of({outflow});
+    return options_.rate ? rate_as_wanted(*options_.rate, outflow) : metric_named("rate_g_per_s").of({outflow});
   };
   for (const Evaluation& run : runs_.runs()[scene]) {
-    ++figures.runs;
-    figures.clogged += has_clogged(run);
+    ++metrics.runs;
+    metrics.clogged += has_clogged(run);
     if (!run.is_sound() || has_clogged(run)) continue;
     flowed.push_back(&run.outflow);
     if (const auto goal = options_.goal->of(run.outflow))
       goal_values.push_back(options_.goal->is_most ? -*goal : *goal);
     if (const auto rate = rate_of(run.outflow)) rates.push_back(*rate);
   }
-  if (!goal_values.empty()) figures.goal = mean_with_interval(goal_values);
-  if (!rates.empty()) figures.rate = mean_with_interval(rates);
-  figures.unevenness = unevenness_of(flowed);
+  if (!goal_values.empty()) metrics.goal = mean_with_interval(goal_values);
+  if (!rates.empty()) metrics.rate = mean_with_interval(rates);
+  metrics.unevenness = unevenness_of(flowed);
   const ExpectedWithDoubts expected = expected_of(study_.scenes[scene], flowed, knowledge);
-  figures.expected = expected.rate;
-  for (const Doubt& doubt : expected.doubts) figures.doubts.push_back({doubt.kind, 0, 0, doubt.text});
-  return figures;
+  metrics.expected = expected.rate;
+  for (const Doubt& doubt : expected.doubts) metrics.doubts.push_back({doubt.kind, 0, 0, doubt.text});
+  return metrics;
 }
 
 /// By scene and random seed; not a number where the run did not flow.
@@ -178,7 +178,7 @@ std::vector<std::vector<double>> StudyDecision::goals_by_run() const {
 
 /// By the variances of at most the first ten runs that flowed.
 std::optional<DecisionCost> StudyDecision::equal_grid() const {
-  constexpr int first = Guaranteed::first_observations;
+  constexpr int first = KimNelson::first_observations;
   std::vector<Moments> goals(systems_.size());
   double least = HUGE_VAL;
   const std::vector<std::vector<double>> values = goals_by_run();
@@ -210,7 +210,7 @@ DecisionResult StudyDecision::result() const {
   result.tests_clogging = tests_clogging_;
   const std::optional<RateKnowledge> knowledge = knowledge_for(study_);
   for (std::size_t scene = 0; scene < study_.scenes.size(); ++scene) {
-    result.scenes.push_back(figures_of(scene, knowledge));
+    result.scenes.push_back(metrics_of(scene, knowledge));
     result.scenes.back().is_screened_out = std::ranges::find(systems_, scene) == systems_.end();
   }
   const Decision decision = procedure_->decision();

@@ -90,7 +90,7 @@ class StudyDecision {
 
  private:
   Observation observed(std::size_t scene, const Evaluation& run);
-  SceneDecision figures_of(std::size_t scene, const std::optional<RateKnowledge>& knowledge) const;
+  SceneDecision metrics_of(std::size_t scene, const std::optional<RateKnowledge>& knowledge) const;
   std::vector<std::vector<double>> goals_by_run() const;
   std::optional<DecisionCost> equal_grid() const;
 

@@ -22,7 +22,7 @@ std::vector<Scene> drafts_of(const Study& study) {
     draft.numerics.dt.reset();
     draft.numerics.allow_long_step = false;
     const LawTraits& law = traits_of(scene.contact.law);
-    if (softness_of(at_its_accuracy(draft), law) <= softness_of(at_its_accuracy(scene), law))
+    if (softness_of(resolve_accuracy_level(draft), law) <= softness_of(resolve_accuracy_level(scene), law))
       throw InputError(fmt::format("--drafts: {}: its layouts are as soft as drafts already", study.title));
     drafts.push_back(std::move(draft));
   }

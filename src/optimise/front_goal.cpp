@@ -7,7 +7,7 @@
 #include <numbers>
 
 #include "input/wording.hpp"
-#include "outflow/figures.hpp"
+#include "outflow/metrics.hpp"
 #include "scene/input_error.hpp"
 
 namespace vibrosow {
@@ -17,9 +17,9 @@ std::vector<FrontGoal> make_goals() {
   using Kind = FrontGoal::Kind;
   std::vector<FrontGoal> all;
   for (const Goal& goal : goals()) {
-    const Figure& figure = figure_named(goal.figure);
+    const Metric& metric = metric_named(goal.metric);
     all.push_back(
-        {Kind::figure, goal.name, goal.words, figure.name, figure.unit, figure.unit_size, goal.description, &goal});
+        {Kind::metric, goal.name, goal.words, metric.name, metric.unit, metric.unit_size, goal.description, &goal});
   }
   all.push_back({Kind::rate_error, "rate_error", "rate error", "rate_error_percent", "%", 1e-2,
                  "distance of the mean rate from the wanted one, over the wanted one, least"});

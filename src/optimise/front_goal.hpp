@@ -23,7 +23,7 @@ Scene variant_of(Scene scene, Variant variant);
 
 /// One of several goals that layouts are compared by.
 struct FrontGoal {
-  enum class Kind { figure, rate_error, power, frequency_sensitivity, fill_sensitivity };
+  enum class Kind { metric, rate_error, power, frequency_sensitivity, fill_sensitivity };
   Kind kind;
   std::string_view name;    // what a user says: "power"
   std::string_view words;   // in a sentence: "rate error"
@@ -31,7 +31,7 @@ struct FrontGoal {
   std::string_view unit;    // empty for a plain number
   double unit_size;         // of that unit, in SI
   std::string_view description;
-  const Goal* figure = nullptr;     // of a run, its mean over runs
+  const Goal* metric = nullptr;     // of a run, its mean over runs
   std::vector<Variant> asks_for{};  // beside the layout as it is
 };
 

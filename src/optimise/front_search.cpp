@@ -5,7 +5,7 @@
 #include <numeric>
 #include <stdexcept>
 
-#include "elementary/functions.hpp"
+#include "portable_math/functions.hpp"
 #include "study/latin_hypercube.hpp"
 
 namespace vibrosow {
@@ -70,7 +70,7 @@ void FrontSearch::begin() {
 FrontSearch::Point FrontSearch::near(const std::vector<std::size_t>& leading) {
   const Point &one = points_[leading[random_.below(leading.size())]],
               &other = points_[leading[random_.below(leading.size())]];
-  const double step = shortest_step * elementary::pow(longest / shortest_step, random_.uniform());
+  const double step = shortest_step * portable_math::pow(longest / shortest_step, random_.uniform());
   const std::size_t certain = random_.below(one.size());
   Point point;
   for (std::size_t axis = 0; axis < one.size(); ++axis) {
@@ -140,7 +140,8 @@ double FrontSearch::cost_of(const Point& point, const std::vector<double>& weigh
 bool FrontSearch::propose_one(const std::vector<std::size_t>& leading, const std::vector<Band>& ranges) {
   std::vector<double> weights;
   double sum = 0;
-  for (std::size_t g = 0; g < ranges.size(); ++g) sum += weights.emplace_back(-elementary::log(1 - random_.uniform()));
+  for (std::size_t g = 0; g < ranges.size(); ++g)
+    sum += weights.emplace_back(-portable_math::log(1 - random_.uniform()));
   for (double& weight : weights) weight /= sum;  // all shares are equally likely
   Point best;
   double least = HUGE_VAL;

@@ -87,7 +87,7 @@ Rate read_rate(std::string_view text) {
 }  // namespace
 
 std::optional<double> Goal::of(const Outflow& outflow) const {
-  const auto value = finite(figure_named(figure).of({outflow}));
+  const auto value = finite(metric_named(metric).of({outflow}));
   return value && is_most ? -*value : value;
 }
 
@@ -116,8 +116,8 @@ const Goal& goal_between(const Goal& goal, const std::vector<Scene>& scenes) {
     return goal;
   }
   const auto slice = [](const Scene& scene) {
-    return scene.space == Space::plane ? std::pair(slice_thickness(scene.lots), slices_of_tray(scene))
-                                       : std::pair(0.0, std::optional(1.0));
+    return scene.space == Space::two_dimensional ? std::pair(slice_thickness(scene.lots), slices_of_tray(scene))
+                                                 : std::pair(0.0, std::optional(1.0));
   };
   const auto is_like_the_first = [&, first = slice(scenes.front())](const Scene& scene) {
     return slice(scene) == first;
@@ -128,13 +128,13 @@ const Goal& goal_between(const Goal& goal, const std::vector<Scene>& scenes) {
   throw InputError("the goal rate: 2D slices of these layouts are of other thickness, and a tray.depth is missing");
 }
 
-const Figure& rate_figure(const std::optional<WantedRate>& wanted) {
-  if (!wanted) return figure_named("rate_g_per_s");
-  return figure_named(wanted->is_of_seeds ? "tray_seeds_per_s" : "tray_rate_g_per_s");
+const Metric& rate_metric(const std::optional<WantedRate>& wanted) {
+  if (!wanted) return metric_named("rate_g_per_s");
+  return metric_named(wanted->is_of_seeds ? "tray_seeds_per_s" : "tray_rate_g_per_s");
 }
 
 std::optional<double> rate_as_wanted(const WantedRate& wanted, const Outflow& outflow) {
-  return finite(rate_figure(wanted).of({outflow}));
+  return finite(rate_metric(wanted).of({outflow}));
 }
 
 WantedRate read_wanted_rate(const std::string& text) {

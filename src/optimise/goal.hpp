@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "outflow/figures.hpp"
+#include "outflow/metrics.hpp"
 #include "scene/scene.hpp"
 #include "storage/asked_question.hpp"
 
@@ -17,7 +17,7 @@ namespace vibrosow {
 struct Goal {
   std::string_view name;    // what a user says: "unevenness"
   std::string_view words;   // in a sentence: "CV of a run"
-  std::string_view figure;  // its name
+  std::string_view metric;  // its name
   bool is_most;
   std::string_view description;
   std::string_view if_none;  // said of a run without the figure
@@ -37,7 +37,7 @@ const Goal& goal_between(const Goal& goal, const std::vector<Scene>& scenes);
 const Goal& goal_between(Goal&& goal, const std::vector<Scene>& scenes) = delete;  // what is returned would be gone
 
 /// The figure that a rate is shown as: of the whole tray as it is wanted, or else rate_g_per_s.
-const Figure& rate_figure(const std::optional<WantedRate>& wanted);
+const Metric& rate_metric(const std::optional<WantedRate>& wanted);
 
 /// Of the whole tray, in the unit of the wanted one; none where the run has no such figure.
 std::optional<double> rate_as_wanted(const WantedRate& wanted, const Outflow& outflow);

@@ -100,7 +100,7 @@ std::vector<double> StudyOptimisation::share_of(const FrontSearch::Point& point)
 /// What goals and constraints ask of every scene.
 void StudyOptimisation::check(const Study& study) const {
   for (const Scene& scene : study.scenes) {
-    if (options_.rate && scene.space == Space::plane && !slices_of_tray(scene))
+    if (options_.rate && scene.space == Space::two_dimensional && !slices_of_tray(scene))
       throw InputError("--rate: is of the whole tray, and the seeder is in 2D without tray.depth");
     if (has(options_, Kind::power)) drive_power(scene);
   }
@@ -108,7 +108,7 @@ void StudyOptimisation::check(const Study& study) const {
   if (!generations_.empty() && !generations_.front()->study.scenes.empty())
     all.push_back(generations_.front()->study.scenes.front());
   for (const FrontGoal* goal : options_.goals)
-    if (goal->figure != nullptr && &goal_between(*goal->figure, all) != goal->figure)
+    if (goal->metric != nullptr && &goal_between(*goal->metric, all) != goal->metric)
       throw InputError("--goals: rate is of a 2D slice, and slices of these layouts differ; take space = \"3d\"");
 }
 
@@ -185,13 +185,13 @@ const Evaluation& StudyOptimisation::evaluation(Variant variant, const Trial& tr
 }
 
 double StudyOptimisation::rate_as(Variant variant, const Trial& trial, std::size_t run) const {
-  return figure_named("rate_g_per_s").of({evaluation(variant, trial, run).outflow}).value_or(0);
+  return metric_named("rate_g_per_s").of({evaluation(variant, trial, run).outflow}).value_or(0);
 }
 
 /// None where the run has no such figure.
 std::optional<double> StudyOptimisation::goal_of(const FrontGoal& goal, const Trial& trial, std::size_t run) const {
   const Outflow& outflow = evaluation(Variant::as_it_is, trial, run).outflow;
-  if (goal.kind == Kind::figure) return goal.figure->of(outflow);
+  if (goal.kind == Kind::metric) return goal.metric->of(outflow);
   if (goal.kind == Kind::power) return drive_power(generations_[trial.generation]->study.scenes[trial.scene.value()]);
   if (goal.kind == Kind::rate_error) {
     const auto rate = rate_as_wanted(*options_.rate, outflow);
@@ -224,7 +224,7 @@ FrontObservation StudyOptimisation::observed(Trial& trial, std::size_t run) cons
   }
   const auto add = [&](const std::optional<double>& value) { seen.banded.push_back(value.value_or(0)); };
   if (options_.rate) add(rate_as_wanted(*options_.rate, whole.outflow));
-  if (options_.spilled_limit) add(figure_named("spilled_percent").of({whole.outflow}));
+  if (options_.spilled_limit) add(metric_named("spilled_percent").of({whole.outflow}));
   return seen;
 }
 
@@ -265,7 +265,7 @@ FrontLayout StudyOptimisation::layout_result(std::size_t layout, FrontStanding s
     double& mean = result.goals[g]->mean;
     if (goal.kind == Kind::rate_error) mean = std::abs(mean - 1);
     if (!goal.asks_for.empty()) mean = std::abs(mean);
-    if (goal.figure != nullptr && goal.figure->is_most) mean = -mean;
+    if (goal.metric != nullptr && goal.metric->is_most) mean = -mean;
   }
   std::vector<double> rates;
   std::vector<const Outflow*> flowed;

@@ -108,8 +108,7 @@ std::vector<double> Picture::values_of(const Frame& frame) const {
   const Snapshot& bed = frame.bed;
   std::vector<double> values(bed.size(), 0.0);
   if (options_.colour_by == ColourBy::speed) {
-    for (std::size_t i = 0; i < bed.size(); ++i)
-      values[i] = norm({bed.vx[i], bed.vy[i], bed.in_space() ? bed.vz[i] : 0});
+    for (std::size_t i = 0; i < bed.size(); ++i) values[i] = norm({bed.vx[i], bed.vy[i], bed.is_3d() ? bed.vz[i] : 0});
     return values;
   }
   const auto add = [&](std::int64_t id, double force) {
@@ -167,8 +166,7 @@ void Picture::draw_grains(cairo_t* to, const Frame& frame) const {
   const Snapshot& bed = frame.bed;
   std::vector<std::size_t> order(bed.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
-  if (bed.in_space())
-    std::ranges::stable_sort(order, [&](std::size_t a, std::size_t b) { return bed.z[a] > bed.z[b]; });
+  if (bed.is_3d()) std::ranges::stable_sort(order, [&](std::size_t a, std::size_t b) { return bed.z[a] > bed.z[b]; });
   const std::vector<double> values = values_of(frame);
   for (const std::size_t i : order) {
     const Colour colour = colour_of(frame, i, values);

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "elementary/functions.hpp"
+#include "portable_math/functions.hpp"
 #include "scene/spaces.hpp"
 #include "vessel/vessel_motion.hpp"
 
@@ -17,7 +17,7 @@ double mean_diameter(const std::vector<SeedLot>& lots, const std::vector<SeedSiz
 }
 
 double seeds_of_a_layer(const Vessel& vessel, double diameter, Space space) {
-  if (space == Space::plane) return vessel.length / diameter;
+  if (space == Space::two_dimensional) return vessel.length / diameter;
   return floor_area(vessel) / (diameter * diameter);
 }
 
@@ -42,7 +42,7 @@ double deepest_fill(const std::vector<Vessel>& vessels, double diameter, double 
 double load_of_smallest(const std::vector<SeedLot>& lots, const std::vector<SeedSizes>& sizes) {
   double largest = 1;
   for (std::size_t l = 0; l < lots.size(); ++l) {
-    const double pressed = elementary::pow(sizes[l].least, mass_power(lots[l]) - 1);
+    const double pressed = portable_math::pow(sizes[l].least, mass_power(lots[l]) - 1);
     largest = std::max(largest, sizes[l].mean_mass / lots[l].mass / pressed);
   }
   return largest;

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "elementary/functions.hpp"
 #include "grains/random.hpp"
 #include "plan/meeting.hpp"
+#include "portable_math/functions.hpp"
 #include "scene/cross_product.hpp"
 
 namespace vibrosow {
@@ -104,7 +104,7 @@ struct Motion6 {
 class Vibration {
  public:
   Vibration(const StepBasis& basis, const PackedBed& bed)
-      : plane_(basis.scene.space == Space::plane), contacts_(held_contacts(basis, bed)) {
+      : plane_(basis.scene.space == Space::two_dimensional), contacts_(held_contacts(basis, bed)) {
     Random random(2);
     for (const BedSeed& seed : bed.seeds) {
       Inertia inertia{std::sqrt(seed.kind.inverse_mass), Eigen::Matrix3d::Zero()};
@@ -211,7 +211,7 @@ double longest_stable_step(const StepBasis& basis, const PackedBed& bed) {
   double dt = 0.3 / std::sqrt(steepest_slope(basis, meeting, any.mass) * meeting.inverse_mass);
   double most = used(dt, first_iterations);
   for (int k = 0; k < most_trials && most > 0 && std::abs(most - 1) > 0.005; ++k) {
-    dt *= elementary::pow(1 / most, 0.55);
+    dt *= portable_math::pow(1 / most, 0.55);
     most = used(dt, iterations);
   }
   return dt;

@@ -12,7 +12,7 @@ struct ClosestPacking {
   double normal, tangential, turning;
 };
 constexpr ClosestPacking closest_packing(Space space) {
-  return space == Space::plane ? ClosestPacking{6, 3, 6} : ClosestPacking{8, 8, 8};
+  return space == Space::two_dimensional ? ClosestPacking{6, 3, 6} : ClosestPacking{8, 8, 8};
 }
 
 /// The longest step (s) with which velocity Verlet keeps a bed's vibrations stable. A mode of elastic and dashpot

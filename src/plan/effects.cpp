@@ -47,12 +47,12 @@ EffectSet effects_of(const Scene& scene, const Surfaces& surfaces, const LawTrai
   effects.drag = contact.drag != 0;
   effects.motion = moves(scene.tray) || (scene.hopper && moves(*scene.hopper));
   effects.tangential_spring = effects.friction && contact.friction_model == FrictionModel::spring;
-  const bool in_space = scene.space == Space::three_dimensional;
-  const bool rolls = effects.friction && effects.rotation && any_surface(surfaces, [in_space](const Surface& s) {
-                       return s.rolling_friction != 0 || (in_space && s.twisting_friction != 0);
+  const bool is_3d = scene.space == Space::three_dimensional;
+  const bool rolls = effects.friction && effects.rotation && any_surface(surfaces, [is_3d](const Surface& s) {
+                       return s.rolling_friction != 0 || (is_3d && s.twisting_friction != 0);
                      });
   effects.rolling = rolls ? contact.rolling : Rolling::none;
-  effects.periodic = scene.tray.sides == Sides::periodic || (in_space && scene.tray.front_and_back == Sides::periodic);
+  effects.periodic = scene.tray.sides == Sides::periodic || (is_3d && scene.tray.front_and_back == Sides::periodic);
   effects.cohesion = any_surface(surfaces, [](const Surface& s) { return s.cohesion != 0; });
   return effects;
 }
@@ -95,11 +95,11 @@ std::vector<EffectReason> explain_effects(const Scene& scene, const EffectSet& e
         text += fmt::format("{}{} moves: {}", text.empty() ? "" : ", ", vessel->name, motion_text(*vessel->motion));
     return text.empty() ? std::string("every vessel stands still") : text;
   };
-  const bool in_space = scene.space == Space::three_dimensional;
-  const char* seed = in_space ? "ball" : "disc";
-  const auto periodic = [&scene, in_space] {
+  const bool is_3d = scene.space == Space::three_dimensional;
+  const char* seed = is_3d ? "ball" : "disc";
+  const auto periodic = [&scene, is_3d] {
     const bool along = scene.tray.sides == Sides::periodic;
-    const bool across = in_space && scene.tray.front_and_back == Sides::periodic;
+    const bool across = is_3d && scene.tray.front_and_back == Sides::periodic;
     if (!along && !across) return std::string("the tray ends at its sides");
     return fmt::format("tray.{} = \"periodic\"{}", along ? "sides" : "front_and_back",
                        along && across ? ", and front_and_back" : "");

@@ -8,9 +8,9 @@
 #include <optional>
 #include <utility>
 
-#include "elementary/functions.hpp"
 #include "grains/free_room.hpp"
 #include "grains/turned_discs.hpp"
+#include "portable_math/functions.hpp"
 #include "scene/motion.hpp"
 #include "scene/plane_alone.hpp"
 #include "scene/seed_lot.hpp"
@@ -100,7 +100,7 @@ Covered covered_by_drawn_out(const WallPiece& piece, const Hole& hole, Near near
 bool is_over(const WallPiece& piece, double x, double z, Near near) {
   if (piece.axis == PieceAxis::upright) {
     const auto part = near_floor(piece.a, piece.b, near);
-    const double away = elementary::hypot(x - piece.about->x(), z - piece.about->y());
+    const double away = portable_math::hypot(x - piece.about->x(), z - piece.about->y());
     const double one = piece.a.x() + (part ? part->from : 0) * (piece.b.x() - piece.a.x());
     const double other = piece.a.x() + (part ? part->to : 0) * (piece.b.x() - piece.a.x());
     return part && away >= std::min(one, other) && away <= std::max(one, other);
@@ -207,7 +207,7 @@ std::vector<Line> lines_across(const Face& plate) {
   std::vector<Line> across;
   const auto is_open = [&](double u, double v) {
     return std::ranges::any_of(
-        plate.holes, [&](const RoundHole& hole) { return elementary::hypot(u - hole.u, v - hole.v) < hole.radius; });
+        plate.holes, [&](const RoundHole& hole) { return portable_math::hypot(u - hole.u, v - hole.v) < hole.radius; });
   };
   for (int line = 1; line <= lines; ++line)
     for (const bool along_u : {true, false}) {
@@ -229,8 +229,8 @@ std::vector<Line> lines_across(const Face& plate) {
 class OwnWalls {
  public:
   OwnWalls(const Vessel& vessel, Space space)
-      : vessel_(vessel), path_(vessel), walls_({at_rest(vessel)}, space), in_space_(space != Space::plane) {
-    if (in_space())
+      : vessel_(vessel), path_(vessel), walls_({at_rest(vessel)}, space), is_3d_(space != Space::two_dimensional) {
+    if (is_3d())
       for (const Face& face : vessel_faces(vessel)) {
         walls_by_name_.push_back(face.name);
         for (Line& line : face_lines(face)) add(std::move(line), face.name);
@@ -274,7 +274,7 @@ class OwnWalls {
   }
 
  private:
-  bool in_space() const { return !plane_alone && in_space_; }
+  bool is_3d() const { return !plane_alone && is_3d_; }
   /// How a place stands to a wall: on which side, and whether over it and not beyond its ends.
   struct Seen {
     double side;
@@ -297,7 +297,7 @@ class OwnWalls {
   }
 
   Seen seen(std::size_t wall, const Eigen::Vector3d& at) const {
-    if (in_space()) {
+    if (is_3d()) {
       const NearestOnFace nearest = nearest_on_face(walls_.placed_faces()[wall], at);
       return {nearest.side, nearest.inside};
     }
@@ -313,7 +313,7 @@ class OwnWalls {
       const Eigen::Vector3d middle = 0.5 * (begin + end);
       (side * seen(wall, middle).side > 0 ? begin : end) = middle;
     }
-    for (int axis = 0; axis < (in_space() ? 3 : 2); ++axis)
+    for (int axis = 0; axis < (is_3d() ? 3 : 2); ++axis)
       for (const double shift : {-slack, slack})
         if (!seen(wall, begin + shift * Eigen::Vector3d::Unit(axis)).beside) return false;
     return true;
@@ -322,7 +322,7 @@ class OwnWalls {
   const Vessel& vessel_;
   VesselPath path_;
   Walls walls_;
-  bool in_space_;
+  bool is_3d_;
   std::vector<NamedLine> lines_;
   std::vector<std::string> walls_by_name_;
   Box3 box_;
@@ -421,7 +421,7 @@ Box3 fallen_to_tray(const Scene& scene, const std::vector<Eigen::Vector3d>& plac
 void warn_of_outlets_beside_tray(const Scene& scene, Warnings& warnings) {
   const Vessel& tray = scene.tray;
   if (!scene.hopper || !tray.box || turns_steadily(tray)) return;
-  const bool in_space = !plane_alone && scene.space != Space::plane;
+  const bool is_3d = !plane_alone && scene.space != Space::two_dimensional;
   for (std::size_t k = 0; k < scene.hopper->holes.size(); ++k) {
     const Hole& hole = scene.hopper->holes[k];
     const double slack = rim * hole.width, half = 0.5 * hole.width;
@@ -430,11 +430,11 @@ void warn_of_outlets_beside_tray(const Scene& scene, Warnings& warnings) {
       warnings.push_back(fmt::format("hopper.holes: hole {} is over {} to {} {}: what falls beside the tray is spilled",
                                      k + 1, in_mm(from), in_mm(to), of_tray));
     };
-    const Eigen::Vector3d middle(hole.centre, 0, in_space ? hole.across : 0), along(half, 0, 0);
+    const Eigen::Vector3d middle(hole.centre, 0, is_3d ? hole.across : 0), along(half, 0, 0);
     const Box3 over = fallen_to_tray(scene, {middle - along, middle + along});
     if (tray.sides != Sides::periodic && (over.low.x() < -slack || over.high.x() > tray.length + slack))
       warn(over.low.x(), over.high.x(), fmt::format("of the tray, which is {} long", in_mm(tray.length)));
-    if (!in_space || tray.front_and_back == Sides::periodic) continue;
+    if (!is_3d || tray.front_and_back == Sides::periodic) continue;
     const Eigen::Vector3d across(0, 0, half_across);
     const Box3 beside = fallen_to_tray(scene, {middle - across, middle + across});
     if (beside.low.z() < -slack || beside.high.z() > *tray.depth + slack)

@@ -1,13 +1,13 @@
 #include "plan/model.hpp"
 
-#include "plan/model_as_written.hpp"
+#include "plan/derive_model.hpp"
 #include "plan/softness.hpp"
 #include "scene/input_error.hpp"
 
 namespace vibrosow {
 
 Model prepare(const Scene& scene, const std::optional<EffectSet>& effects) {
-  return model_as_written(at_its_accuracy(scene), effects);
+  return derive_model(resolve_accuracy_level(scene), effects);
 }
 
 Model prepare_to_run(const Scene& scene) {

@@ -4,11 +4,11 @@
 #include <cmath>
 #include <numbers>
 
-#include "elementary/functions.hpp"
 #include "grains/clump_discs.hpp"
 #include "grains/orientation.hpp"
 #include "grains/random.hpp"
 #include "grains/size_distribution.hpp"
+#include "portable_math/functions.hpp"
 #include "scene/cross_product.hpp"
 #include "scene/seed_lot.hpp"
 
@@ -41,7 +41,7 @@ struct Body {
 /// Lett. 97, 170201, 2006).
 class Press {
  public:
-  explicit Press(const StepBasis& basis) : basis_(basis), plane_(basis.scene.space == Space::plane) {
+  explicit Press(const StepBasis& basis) : basis_(basis), plane_(basis.scene.space == Space::two_dimensional) {
     draw_seeds();
     fill();
   }
@@ -87,7 +87,7 @@ class Press {
 
   Orientation turned(const Turn& turn) const {
     if (!plane_) return turn.orientation;
-    const auto [sine, cosine] = elementary::sine_cosine(0.5 * turn.angle);
+    const auto [sine, cosine] = portable_math::sine_cosine(0.5 * turn.angle);
     return {cosine, 0, 0, sine};
   }
 
@@ -100,7 +100,7 @@ class Press {
       widest = std::max(widest, d), deepest += d / static_cast<double>(discs_.size());
     }
     const double loose = volume / (plane_ ? 0.82 : 0.62);
-    period_ = std::max(3 * widest, plane_ ? std::sqrt(loose) : elementary::cbrt(loose));
+    period_ = std::max(3 * widest, plane_ ? std::sqrt(loose) : portable_math::cbrt(loose));
     const double area = plane_ ? period_ : period_ * period_;
     top_ = loose / area;
     for (Body& body : bodies_)

@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "elementary/functions.hpp"
+#include "portable_math/functions.hpp"
 #include "scene/motion.hpp"
 #include "scene/spaces.hpp"
 #include "vessel/vessel_motion.hpp"
@@ -18,26 +18,26 @@ constexpr double flow_constant = 1.25;
 constexpr double lost_width_at_rest = 1.9, lost_width_shaken = 1.4;  // mean diameters of a hole that pass nothing
 constexpr double steepest_heap = 0.35;                         // tangent; piles of discs stand at 17 to 20 degrees
 constexpr double shaken_heap = 0.13;                           // tangent, under the wheat and pea trays' hoppers
-constexpr double packing_fraction_in_space = 0.6;              // of a poured bed
+constexpr double packing_fraction_3d = 0.6;                    // of a poured bed
 constexpr double round_constant = 0.58, slot_constant = 1.03;  // Beverloo's, of the bulk in space
 constexpr double carried =
     0.55;  // of its peak speed is that of seeds on a shaken floor: 0.45 and 0.7 in reports/relations
 constexpr int parts_of_a_run = 2000;
 
 bool is_flat(const Scene& scene) {
-  return scene.space == Space::plane;
+  return scene.space == Space::two_dimensional;
 }
 
 /// Of the disc, or in space the ball, that is as large as the mean grain.
 double equal_diameter(const Scene& scene) {
   return is_flat(scene) ? std::sqrt(4 / std::numbers::pi * mean_area(scene.lots))
-                        : elementary::cbrt(6 / std::numbers::pi * mean_volume(scene.lots));
+                        : portable_math::cbrt(6 / std::numbers::pi * mean_volume(scene.lots));
 }
 
 /// Grains of a bed over an area (m2) of the plane, in space over all of a vessel's depth.
 double grains_over(double area, const Scene& scene, const Vessel& vessel) {
   if (is_flat(scene)) return area * poured_share / mean_area(scene.lots);
-  return area / vessel.length * floor_area(vessel) * packing_fraction_in_space / mean_volume(scene.lots);
+  return area / vessel.length * floor_area(vessel) * packing_fraction_3d / mean_volume(scene.lots);
 }
 
 bool is_shaken(const Vessel& vessel) {
@@ -52,17 +52,17 @@ double lost_width(const Vessel& vessel) {
 double passing(const Hole& hole, const Scene& scene, const Vessel& vessel, double diameter) {
   const double effective = std::max(0.0, hole.width / diameter - lost_width(vessel));
   const double per_second = std::sqrt(standard_gravity / diameter);
-  if (is_flat(scene)) return flow_constant * per_second * elementary::pow(effective, 1.5);
-  const double bulk = 6 / std::numbers::pi * packing_fraction_in_space;  // grains in a cube of their diameter
-  if (hole.shape == HoleShape::round) return round_constant * bulk * per_second * elementary::pow(effective, 2.5);
+  if (is_flat(scene)) return flow_constant * per_second * portable_math::pow(effective, 1.5);
+  const double bulk = 6 / std::numbers::pi * packing_fraction_3d;  // grains in a cube of their diameter
+  if (hole.shape == HoleShape::round) return round_constant * bulk * per_second * portable_math::pow(effective, 2.5);
   const bool ends = hole.across_length < *vessel.depth * (1 - 1e-9) || vessel.front_and_back != Sides::periodic;
   const double length = std::max(0.0, hole.across_length / diameter - (ends ? lost_width(vessel) : 0));
-  return slot_constant * bulk * per_second * length * elementary::pow(effective, 1.5);
+  return slot_constant * bulk * per_second * length * portable_math::pow(effective, 1.5);
 }
 
 double funnel_factor(const Vessel& vessel) {
   return vessel.funnel > std::numbers::pi / 4
-             ? elementary::pow(elementary::tan(0.5 * std::numbers::pi - vessel.funnel), -0.35)
+             ? portable_math::pow(portable_math::tan(0.5 * std::numbers::pi - vessel.funnel), -0.35)
              : 1;
 }
 

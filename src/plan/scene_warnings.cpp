@@ -7,9 +7,9 @@
 #include <numbers>
 #include <string_view>
 
-#include "elementary/functions.hpp"
 #include "plan/geometry_warnings.hpp"
 #include "plan/steadiness_warnings.hpp"
+#include "portable_math/functions.hpp"
 #include "scene/mixture.hpp"
 #include "scene/motion.hpp"
 #include "scene/seed_lot.hpp"
@@ -22,10 +22,10 @@ namespace {
 using Warnings = std::vector<std::string>;
 
 /// By number over all lots, of a figure of each.
-template <class Figure>
-double mean_over_seeds(const Scene& scene, Figure figure) {
+template <class Metric>
+double mean_over_seeds(const Scene& scene, Metric metric) {
   double mean = 0;
-  for (const SeedLot& lot : scene.lots) mean += lot.number_fraction * figure(lot);
+  for (const SeedLot& lot : scene.lots) mean += lot.number_fraction * metric(lot);
   return mean;
 }
 
@@ -97,14 +97,14 @@ void warn_of_rain(const Scene& scene, const Vessel& vessel, Warnings& warnings) 
   if (!vessel.rain) return;
   const Rain& rain = *vessel.rain;
   const double diameter = mean_diameter(scene);
-  const double rows = scene.space == Space::plane ? 1 : std::floor(*vessel.depth / diameter);
-  const double side_by_side = rows * (std::floor((rain.to - rain.from) / diameter) + 1);
-  const double most_rate = side_by_side / std::sqrt(2 * diameter / standard_gravity);
+  const double rows = scene.space == Space::two_dimensional ? 1 : std::floor(*vessel.depth / diameter);
+  const double run_in_parallel = rows * (std::floor((rain.to - rain.from) / diameter) + 1);
+  const double most_rate = run_in_parallel / std::sqrt(2 * diameter / standard_gravity);
   if (rain.rate > most_rate)
     warnings.push_back(fmt::format(
         "{}.rain.rate: {:.4g} seeds/s cannot all come: {:.0f} seeds lie side by side where it rains, and the room is "
         "free again when they have fallen by a diameter, which is {:.3g} seeds/s at most",
-        vessel.name, rain.rate, side_by_side, most_rate));
+        vessel.name, rain.rate, run_in_parallel, most_rate));
   const double lasts = std::min(rain.stop, scene.run.duration) - rain.start;
   const double asked = std::max(0.0, lasts) * rain.rate + (vessel.fill ? vessel.fill->count : 0);
   const double most = most_seeds(scene, vessel, std::min(rain.height + diameter, vessel.height + diameter));
@@ -121,8 +121,8 @@ double passed(const Vessel& vessel, Space space, double diameter) {
   for (const Hole& hole : vessel.holes) {
     const double width = std::max(0.0, hole.width - empty_rim * diameter);
     const bool round = space == Space::three_dimensional && hole.shape == HoleShape::round;
-    const double across = space == Space::plane ? 1 : round ? 0.58 / 1.03 * width : hole.across_length;
-    sum += across * elementary::pow(width, 1.5);
+    const double across = space == Space::two_dimensional ? 1 : round ? 0.58 / 1.03 * width : hole.across_length;
+    sum += across * portable_math::pow(width, 1.5);
   }
   return sum;
 }
@@ -194,7 +194,7 @@ void warn_of_hopper(const Scene& scene, const Vessel& hopper, Warnings& warnings
 bool rolls_freely_on(const Vessel& vessel, const Scene& scene) {
   if (!scene.contact.rotation || !vessel.motion || !moves(*vessel.motion)) return false;
   if (const auto* shake = std::get_if<HarmonicMotion>(&*vessel.motion);
-      shake != nullptr && std::abs(elementary::cos(shake->direction)) < 1e-6)
+      shake != nullptr && std::abs(portable_math::cos(shake->direction)) < 1e-6)
     return false;  // upright: it carries nothing
   return !has_clumps(scene.lots) && std::ranges::all_of(meeting_surfaces(scene.contact, scene.lots.size()).walls,
                                                         [](const Surface& wall) { return wall.rolling_friction == 0; });
@@ -239,7 +239,7 @@ void warn_of_mixture(const Scene& scene, Warnings& warnings) {
 void warn_of_bulk_density(const Scene& scene, Warnings& warnings) {
   constexpr double loosest = 0.3, closest = 0.7405;  // of the seeds' own density
   const std::optional<double> solid = solid_density(scene.lots);
-  if (scene.space != Space::plane || !scene.tray.depth || !solid) return;
+  if (scene.space != Space::two_dimensional || !scene.tray.depth || !solid) return;
   const double implied = implied_bulk_density(scene.lots, poured_share);
   if (implied >= loosest * *solid && implied <= closest * *solid) return;
   warnings.push_back(fmt::format(
@@ -289,14 +289,14 @@ std::vector<std::string> scene_warnings(const Scene& scene) {
   warn_of_standing_liquid(scene, warnings);
   warn_of_rain(scene, scene.tray, warnings);
   warn_of_free_rolling(scene, scene.tray, warnings);
-  if (scene.space == Space::plane) warn_of_round_holes(scene.tray, warnings);
+  if (scene.space == Space::two_dimensional) warn_of_round_holes(scene.tray, warnings);
   warn_of_slots_in_3d(scene.tray, warnings);
   for (const std::string& warning : geometry_warnings(scene)) warnings.push_back(warning);
   for (const std::string& warning : steadiness_warnings(scene)) warnings.push_back(warning);
   if (!scene.hopper) return warnings;
-  if (scene.space == Space::plane) warn_of_round_holes(*scene.hopper, warnings);
+  if (scene.space == Space::two_dimensional) warn_of_round_holes(*scene.hopper, warnings);
   warn_of_slots_in_3d(*scene.hopper, warnings);
-  if (scene.space == Space::plane) warn_of_depths(scene, warnings);
+  if (scene.space == Space::two_dimensional) warn_of_depths(scene, warnings);
   warn_of_narrow_holes(*scene.hopper, scene.lots, warnings);
   warn_of_rain(scene, *scene.hopper, warnings);
   warn_of_hopper(scene, *scene.hopper, warnings);

@@ -5,7 +5,7 @@
 #include <numbers>
 
 #include "laws/law.hpp"
-#include "plan/model_as_written.hpp"
+#include "plan/derive_model.hpp"
 #include "scene/accuracy_level.hpp"
 #include "scene/seed_lot.hpp"
 
@@ -97,7 +97,7 @@ bool is_predicted_sound(const Scene& scene) {
          std::sqrt(guard.warn_relative_overlap * guard.stop_relative_overlap);
 }
 
-Scene at_its_accuracy(const Scene& scene) {
+Scene resolve_accuracy_level(const Scene& scene) {
   if (scene.numerics.accuracy == AccuracyLevel::as_written) return scene;
   const AccuracyLevelValues& level =
       *std::ranges::find(accuracy_levels, scene.numerics.accuracy, &AccuracyLevelValues::level);
@@ -118,7 +118,7 @@ Scene at_its_accuracy(const Scene& scene) {
 
 NumericsError numerics_error(const Scene& scene) {
   constexpr double rounding = 1e-9;
-  const Scene written = at_its_accuracy(scene);
+  const Scene written = resolve_accuracy_level(scene);
   const double shell = shell_compression_of(written, traits_of(written.contact.law)), steps = steps_a_contact(written);
   const bool long_grains = has_clumps(scene.lots);
   const auto times_beyond = [&](const AccuracyLevelValues& level) {

@@ -19,7 +19,7 @@ bool is_predicted_sound(const Scene& scene);
 /// The scene with softness and steps of its accuracy level written out, and no level any more; without a level the
 /// scene itself. The level's softness is made stiffer where it is not predicted sound, and with
 /// Hertz' law never stiffer than written, since a modulus is the material's.
-Scene at_its_accuracy(const Scene& scene);
+Scene resolve_accuracy_level(const Scene& scene);
 
 /// What softness and step may do to a scene's rates.
 struct NumericsError {

@@ -9,14 +9,14 @@
 #include <stdexcept>
 #include <utility>
 
-#include "elementary/functions.hpp"
 #include "grains/clump_discs.hpp"
 #include "plan/bed_vibration.hpp"
 #include "plan/meeting.hpp"
+#include "portable_math/functions.hpp"
 #include "scene/clump_shape.hpp"
 #include "scene/motion.hpp"
 #include "scene/seed_lot.hpp"
-#include "scene/space_side_contacts.hpp"
+#include "scene/side_contacts_3d.hpp"
 
 namespace vibrosow {
 namespace {
@@ -96,7 +96,7 @@ SideContacts side_contacts_of(const StepBasis& basis, std::size_t lot) {
   for (double& weight : weights) weight /= stiffest;
   const SeedLot& clump = basis.scene.lots[lot];
   const double depth = basis.scene.guard.warn_relative_overlap;
-  SideContacts contacts = is_solid_clump(clump) ? space_side_contacts(discs, weights, gyration2_of(clump), depth)
+  SideContacts contacts = is_solid_clump(clump) ? side_contacts_3d(discs, weights, gyration2_of(clump), depth)
                                                 : side_contacts(discs, weights, clump.gyration2, depth);
   if (seed.inverse_inertia == 0) contacts.turning = 0;
   return contacts;
@@ -201,10 +201,10 @@ StepLimit vibration_limit(const StepBasis& basis, const Mode& mode) {
   // The midpoint scheme is stable where it is damped beyond 2 (sqrt(1 + zeta^2) - zeta); a free vibration grows by
   // omega^4 dt^3 / 8 per second: half of what drag and damping take may be used up.
   const double taken = 0.5 * (basis.scene.contact.drag / (2 * lightest(basis.touching)) + mode.least_damped * omega);
-  const double growth = taken + elementary::log(allowed_energy_growth) / basis.scene.run.duration;
+  const double growth = taken + portable_math::log(allowed_energy_growth) / basis.scene.run.duration;
   const double stable = mode.room_to_spare * 2 * (std::sqrt(1 + zeta * zeta) - zeta) / omega;
   return {"the growth of " + mode.what + " (RK2)",
-          std::min(stable, elementary::cbrt(8 * growth / (omega * omega * omega * omega)))};
+          std::min(stable, portable_math::cbrt(8 * growth / (omega * omega * omega * omega)))};
 }
 
 constexpr double never_again = std::numeric_limits<double>::infinity();  // s

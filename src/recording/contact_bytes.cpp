@@ -5,7 +5,7 @@
 #include <numbers>
 #include <vector>
 
-#include "elementary/functions.hpp"
+#include "portable_math/functions.hpp"
 #include "recording/bytes.hpp"
 
 namespace vibrosow {
@@ -26,7 +26,7 @@ double normal_force(const GrainContact& contact) {
 /// How far below the largest, in steps of its logarithm.
 std::uint8_t force_code(double force, double largest) {
   if (!(force > 0)) return 255;
-  const double below = forces_per_decade * elementary::log(largest / force) / std::numbers::ln10;
+  const double below = forces_per_decade * portable_math::log(largest / force) / std::numbers::ln10;
   return static_cast<std::uint8_t>(std::clamp(std::round(below), 0.0, 255.0));
 }
 
@@ -79,7 +79,7 @@ class Contacts {
     append_planes(bytes, beyond);
     for (const Pair& pair : pairs_) append(bytes, pair.force);
     append_grains(bytes, touches_);
-    for (std::size_t axis = 0; axis < (grains_.in_space ? 3U : 2U); ++axis)
+    for (std::size_t axis = 0; axis < (grains_.is_3d ? 3U : 2U); ++axis)
       for (const Touch& touch : touches_) append(bytes, touch.place[axis]);
     for (const Touch& touch : touches_) append(bytes, touch.force);
     return bytes;
@@ -89,7 +89,7 @@ class Contacts {
   std::size_t place_of(std::int64_t id) const {
     return static_cast<std::size_t>(std::ranges::lower_bound(grains_.id, id) - grains_.id.begin());
   }
-  Vector centre(std::size_t i) const { return {grains_.x[i], grains_.y[i], grains_.in_space ? grains_.z[i] : 0.0}; }
+  Vector centre(std::size_t i) const { return {grains_.x[i], grains_.y[i], grains_.is_3d ? grains_.z[i] : 0.0}; }
 
   /// Whether two that touch do so across a periodic boundary.
   bool is_across(std::size_t i, std::size_t j) const {

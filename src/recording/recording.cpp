@@ -49,7 +49,7 @@ std::vector<std::string> fields_of(const Scene& scene) {
   std::vector<std::string> fields = {"x", "y"};
   if (scene.space == Space::three_dimensional) fields.push_back("z");
   if (!has_clumps(scene)) return fields;
-  if (scene.space == Space::plane)
+  if (scene.space == Space::two_dimensional)
     fields.push_back("angle");
   else
     fields.insert(fields.end(), {"qw", "qx", "qy", "qz"});
@@ -151,7 +151,7 @@ void Recording::add_changes(const Grains& grains) {
     const std::int64_t id = grains.id[i];
     if (!known_.try_emplace(id).second) continue;
     const auto place = static_cast<std::size_t>(id);
-    const float z = grains.in_space ? static_cast<float>(grains.z[i]) : 0.0F;
+    const float z = grains.is_3d ? static_cast<float>(grains.z[i]) : 0.0F;
     if (first_seen_.size() <= place) first_seen_.resize(place + 1, {NAN, 0, 0});
     if (std::isnan(first_seen_[place][0]))
       first_seen_[place] = {static_cast<float>(grains.x[i]), static_cast<float>(grains.y[i]), z};
@@ -259,7 +259,7 @@ std::string Recording::map_bytes() const {
 
 nlohmann::ordered_json Recording::map_header(std::size_t offset, std::size_t bytes) const {
   const MeanMap map = map_.mean();
-  const bool slice = map_scene_.space != Space::plane && map_scene_.record->view == MapView::slice;
+  const bool slice = map_scene_.space != Space::two_dimensional && map_scene_.record->view == MapView::slice;
   return {{"cell_m", map.grid.cell}, {"columns", map.grid.columns},
           {"rows", map.grid.rows},   {"view", slice ? "slice" : "projection"},
           {"looks", map.looks},      {"from_s", map.from},

@@ -62,7 +62,7 @@ Json page_of(const Scene& scene, const AccuracyResult& result, std::size_t chose
   return {{"kind", "accuracy"},
           {"program", {{"name", "vibrosow"}, {"version", VIBROSOW_VERSION}}},
           {"title", scene.title},
-          {"space", scene.space == Space::plane ? "plane" : "three_dimensional"},
+          {"space", scene.space == Space::two_dimensional ? "plane" : "three_dimensional"},
           {"vessels", page_vessels(scene)},
           {"scene", Json::parse(scene_to_json(scene))},
           {"remarks", page_remarks(doubt_remarks(doubts_about(result, scene), "setting"))},

@@ -51,7 +51,7 @@ Columns<AccuracyRow> row_setting_columns() {
 }
 
 Columns<AccuracyRow> accuracy_columns() {
-  const Figure& rate = figure_named("rate_g_per_s");
+  const Metric& rate = metric_named("rate_g_per_s");
   const Unit unit{rate.unit, rate.unit_size};
   Columns<AccuracyRow> columns = row_setting_columns();
   append(columns,

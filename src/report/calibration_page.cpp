@@ -110,7 +110,7 @@ Json sentences(const CalibrationAnswer& answer) {
   const Calibration& of = answer.calibration;
   Json all = Json::array();
   all.push_back(fmt::format("{} runs at {} points of the fitted values were simulated; {} of them count.",
-                            answer.runs.size(), answer.design.points.rows(), answer.runs_that_count));
+                            answer.runs.size(), answer.design.points.rows(), answer.runs_used));
   all.push_back(fmt::format("Noise of one measurement: {:.2g} % ({}).", 100 * of.noise, of.noise_source));
   if (of.fitted_rms)
     all.push_back(fmt::format("Fitted values are met to {} (RMS).", error_text(answer, *of.fitted_rms)));
@@ -125,7 +125,7 @@ std::string calibration_page_data(const CalibrationAnswer& answer, const Scene& 
   const Json data = {{"kind", "calibration"},
                      {"program", {{"name", "vibrosow"}, {"version", VIBROSOW_VERSION}}},
                      {"title", scene.title},
-                     {"space", scene.space == Space::plane ? "plane" : "three_dimensional"},
+                     {"space", scene.space == Space::two_dimensional ? "plane" : "three_dimensional"},
                      {"vessels", page_vessels(scene)},
                      {"scene", Json::parse(scene_to_json(scene))},
                      {"headline", headline(answer)},

@@ -150,7 +150,7 @@ std::string provenance(const CalibrationAnswer& answer, const FittedNumber& row)
   std::string text = fmt::format(
       "fitted to {} with {} ({} of {} runs, vibrosow calibrate): 95 % interval {} to {}{}, uncertainty reduced by "
       "{:.0f} %",
-      answer.task.measured.file.filename().string(), answer.task.seeder.filename().string(), answer.runs_that_count,
+      answer.task.measured.file.filename().string(), answer.task.seeder.filename().string(), answer.runs_used,
       answer.runs.size(), to_digits(row.value.low, 3), to_digits(row.value.high, 3),
       row.unit.empty() ? "" : fmt::format(" {}", row.unit), 100 * row.value.contraction);
   if (!row.not_told_apart_from.empty()) text += fmt::format("; not told apart from {}", confused_with(row));

@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "outflow/figures.hpp"
+#include "outflow/metrics.hpp"
 #include "outflow/statistics.hpp"
 #include "outflow/unevenness.hpp"
 #include "report/csv.hpp"
@@ -93,17 +93,17 @@ void add_mean_columns(Columns<Row>& columns, const std::string& name, Unit unit,
 
 /// Every figure of `means(row)`, a mean with its interval.
 template <class Row, class Get>
-void add_figure_columns(Columns<Row>& columns, Get means) {
-  for (const Figure& figure : figures()) {
-    const Unit unit{figure.unit, figure.unit_size};
-    const std::string name(figure.name), description(figure.description);
-    if (!figure.pooled)
+void add_metric_columns(Columns<Row>& columns, Get means) {
+  for (const Metric& metric : metrics()) {
+    const Unit unit{metric.unit, metric.unit_size};
+    const std::string name(metric.name), description(metric.description);
+    if (!metric.pooled)
       add_mean_columns(
           columns, name, unit, description,
-          [ means, &figure ](const Row& row) -> const auto& { return means(row)[figure]; });
+          [ means, &metric ](const Row& row) -> const auto& { return means(row)[metric]; });
     else
-      columns.push_back(quantity_column<Row>(name, unit, description, [means, &figure](const Row& row) {
-        const std::optional<MeanWithInterval>& value = means(row)[figure];
+      columns.push_back(quantity_column<Row>(name, unit, description, [means, &metric](const Row& row) {
+        const std::optional<MeanWithInterval>& value = means(row)[metric];
         return value ? std::optional(value->mean) : std::nullopt;
       }));
   }

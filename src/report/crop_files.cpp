@@ -94,7 +94,7 @@ double ball_diameter(const NewCrop& crop) {
 /// "+1.2 +- 0.8 degree from the plane to space, by 4 materials of balls"
 std::string to_space_text(const PlaneToSpace& to_space) {
   return fmt::format("{:+.1f} +- {:.1f} degree from 2D to 3D, by {} {}", to_space.angle_offset.mean / degree,
-                     angle_error_in_space(to_space) / degree, to_space.materials,
+                     angle_error_3d(to_space) / degree, to_space.materials,
                      to_space.of_the_crop ? "runs of this crop" : "materials of balls");
 }
 

@@ -35,7 +35,7 @@ std::string headline(const DecisionResult& result, const Answer& answer) {
   for (const Layout& layout : result.study.layouts)
     if (layout.scene && layout.scene == result.best)
       return fmt::format("{} is the best: {}. {}", named(result.study, layout),
-                         figures_sentence(result, *layout.scene, "±"), promise_sentence(result));
+                         metrics_sentence(result, *layout.scene, "±"), promise_sentence(result));
   return no_best_sentence(result);
 }
 
@@ -56,9 +56,9 @@ std::vector<std::pair<std::string, std::string>> asked(const DecisionResult& res
   const auto add = [&](const std::string& name, const std::string& value) { all.emplace_back(name, value); };
   add("goal", fmt::format("{}: {}", options.goal->words, options.goal->description));
   if (options.rate) {
-    const Figure& figure = rate_figure(options.rate);
-    add("rate of the tray", fmt::format("{} to {} {}", to_digits(options.rate->low / figure.unit_size, 4),
-                                        to_digits(options.rate->high / figure.unit_size, 4), unit_of(figure)));
+    const Metric& metric = rate_metric(options.rate);
+    add("rate of the tray", fmt::format("{} to {} {}", to_digits(options.rate->low / metric.unit_size, 4),
+                                        to_digits(options.rate->high / metric.unit_size, 4), unit_of(metric)));
   }
   if (result.tests_clogging) add("clogs in fewer than", percent_text(options.clogging_limit) + " of runs");
   add("a difference that does not matter", percent_text(options.margin) + " of the best's mean");

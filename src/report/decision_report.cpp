@@ -24,25 +24,25 @@ struct DecisionRow {
 };
 
 /// A mean of a row, in the unit of a figure that its decision names.
-template <class FigureOf, class Get>
+template <class MetricOf, class Get>
 void add_decided_columns(Columns<DecisionRow>& columns, const std::string& name, const std::string& description,
-                         FigureOf figure_of, Get get) {
-  add_mean_columns(columns, name, plain, description, [figure_of, get](const DecisionRow& r) {
+                         MetricOf metric_of, Get get) {
+  add_mean_columns(columns, name, plain, description, [metric_of, get](const DecisionRow& r) {
     std::optional<MeanWithInterval> value = r.of() ? get(*r.of()) : std::nullopt;
     if (!value) return value;
-    const double unit = figure_of(r.report->result.options).unit_size;
+    const double unit = metric_of(r.report->result.options).unit_size;
     value->mean /= unit;
     if (value->half_width_95) *value->half_width_95 /= unit;
     return value;
   });
 }
 
-const Figure& figure_of_goal(const DecideOptions& options) {
-  return figure_named(options.goal->figure);
+const Metric& metric_of_goal(const DecideOptions& options) {
+  return metric_named(options.goal->metric);
 }
 
-const Figure& figure_of_rate(const DecideOptions& options) {
-  return rate_figure(options.rate);
+const Metric& metric_of_rate(const DecideOptions& options) {
+  return rate_metric(options.rate);
 }
 
 Columns<DecisionRow> decision_columns(const std::vector<std::string>& keys) {
@@ -66,11 +66,11 @@ Columns<DecisionRow> decision_columns(const std::vector<std::string>& keys) {
                    text_column<DecisionRow>("clogged", "of these, runs that clogged; the means are of the others",
                                             [](R r) { return r.of() ? r.of()->clogged : 0; })});
   add_decided_columns(columns, "goal", "the goal's figure of a single run, in its unit (decision.json names it)",
-                      figure_of_goal, [](const SceneDecision& of) { return of.goal; });
+                      metric_of_goal, [](const SceneDecision& of) { return of.goal; });
   add_decided_columns(columns, "rate",
                       "rate in the unit of decision.json's rate.figure: of the tray where one is asked for, else "
                       "rate_g_per_s of sweep.csv",
-                      figure_of_rate, [](const SceneDecision& of) { return of.rate; });
+                      metric_of_rate, [](const SceneDecision& of) { return of.rate; });
   add_unevenness_columns(columns, "coefficient of variation of the holes' rates by all these runs together",
                          [](R r) { return r.of() ? r.of()->unevenness : std::nullopt; });
   add_expected_columns(
@@ -92,7 +92,7 @@ JsonKeys<DecisionReport> decision_keys() {
   const auto of_rate = [](auto get) {
     return [get](S s) {
       const auto& rate = s.result.options.rate;
-      return rate ? Json(get(*rate) / rate_figure(rate).unit_size) : Json();
+      return rate ? Json(get(*rate) / rate_metric(rate).unit_size) : Json();
     };
   };
   return {
@@ -115,8 +115,8 @@ JsonKeys<DecisionReport> decision_keys() {
        [](S s) { return Json(s.result.options.first_random_seed); }},
       {"goal.name", "", "what layouts are compared by", [](S s) { return Json(s.result.options.goal->name); }},
       {"goal.figure", "", "the figure of a run that it is, as in sweep.csv",
-       [](S s) { return Json(s.result.options.goal->figure); }},
-      {"rate.figure", "", "of decision.csv's rate", [](S s) { return Json(figure_of_rate(s.result.options).name); }},
+       [](S s) { return Json(s.result.options.goal->metric); }},
+      {"rate.figure", "", "of decision.csv's rate", [](S s) { return Json(metric_of_rate(s.result.options).name); }},
       {"rate.low", "", "lower end of the band, in its unit; null: none is asked for",
        of_rate([](const WantedRate& rate) { return rate.low; })},
       {"rate.high", "", "upper end", of_rate([](const WantedRate& rate) { return rate.high; })},

@@ -44,18 +44,18 @@ std::string weakness_sentence() {
          "which uses these runs.";
 }
 
-std::string figures_sentence(const DecisionResult& result, std::size_t scene, std::string_view plus_minus) {
+std::string metrics_sentence(const DecisionResult& result, std::size_t scene, std::string_view plus_minus) {
   const SceneDecision& of = result.scenes[scene];
   const DecideOptions& options = result.options;
-  const auto in_figure = [&](const MeanWithInterval& value, const Figure& figure) {
-    return fmt::format("{} {}", with_interval(value, figure.unit_size, plus_minus), unit_of(figure));
+  const auto in_metric = [&](const MeanWithInterval& value, const Metric& metric) {
+    return fmt::format("{} {}", with_interval(value, metric.unit_size, plus_minus), unit_of(metric));
   };
   std::string text;
   if (of.goal)
-    text = fmt::format("{} {}, ", options.goal->words, in_figure(*of.goal, figure_named(options.goal->figure)));
+    text = fmt::format("{} {}, ", options.goal->words, in_metric(*of.goal, metric_named(options.goal->metric)));
   if (of.unevenness) text += fmt::format("unevenness (CV) {}, ", unevenness_text(*of.unevenness));
   if (options.rate && of.rate)
-    text += fmt::format("{} of the tray{}, ", in_figure(*of.rate, rate_figure(options.rate)),
+    text += fmt::format("{} of the tray{}, ", in_metric(*of.rate, rate_metric(options.rate)),
                         of_plane(result.study.scenes[scene].space));
   return text + fmt::format("clogged in {} of {} runs", of.clogged, of.runs);
 }

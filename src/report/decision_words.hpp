@@ -35,7 +35,7 @@ bool tells_who_is_left(const DecisionResult& result);
 
 /// "CV of a run 8.2 +- 0.4 %, unevenness (CV) 7.1 % (6.2 to 8.3 %), 43.2 +- 0.5 seeds/s of the tray, clogged in 0 of
 /// 203 runs". A page writes another sign than a terminal.
-std::string figures_sentence(const DecisionResult& result, std::size_t scene, std::string_view plus_minus = "+-");
+std::string metrics_sentence(const DecisionResult& result, std::size_t scene, std::string_view plus_minus = "+-");
 
 /// Of a decision that is sure that there is no best.
 std::string no_best_sentence(const DecisionResult& result);

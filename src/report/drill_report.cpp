@@ -26,8 +26,8 @@ constexpr const char* note_text = "why there are no spacings; empty where there 
 
 /// Of a run.
 struct RowOfRun {
-  const RowFigures* row;
-  RowMeans figures;
+  const RowMetrics* row;
+  RowMeans metrics;
 };
 
 Columns<RowOfRun> rows_columns() {
@@ -37,10 +37,10 @@ Columns<RowOfRun> rows_columns() {
       text_column<RowOfRun>("holes", holes_text, [](R r) { return numbers_text(r.row->holes); }),
       text_column<RowOfRun>("seeds", "from these in the window, of the 2D slice or in 3D of the tray",
                             [](R r) { return r.row->seeds; })};
-  for (const RowFigure& figure : row_figures())
-    columns.push_back(quantity_column<RowOfRun>(std::string(figure.name), Unit{figure.unit, figure.unit_size},
-                                                std::string(figure.description), [&figure](R r) {
-                                                  const auto& value = r.figures[figure.name];
+  for (const RowMetric& metric : row_metrics())
+    columns.push_back(quantity_column<RowOfRun>(std::string(metric.name), Unit{metric.unit, metric.unit_size},
+                                                std::string(metric.description), [&metric](R r) {
+                                                  const auto& value = r.metrics[metric.name];
                                                   return value ? std::optional(value->mean) : std::nullopt;
                                                 }));
   columns.push_back(
@@ -58,11 +58,11 @@ Columns<MeansRow> sweep_rows_columns() {
   append(columns, {text_column<MeansRow>("row", row_text, [](R r) { return row_name(r.row->row); }),
                    text_column<MeansRow>("holes", holes_text, [](R r) { return numbers_text(r.row->holes); }),
                    replicates_column<MeansRow>()});
-  for (const RowFigure& figure : row_figures()) {
-    const Unit unit{figure.unit, figure.unit_size};
-    const std::string name(figure.name), description(figure.description);
-    const auto mean = [&figure](R r) -> const std::optional<MeanWithInterval>& { return (*r.row)[figure.name]; };
-    if (figure.pooled)
+  for (const RowMetric& metric : row_metrics()) {
+    const Unit unit{metric.unit, metric.unit_size};
+    const std::string name(metric.name), description(metric.description);
+    const auto mean = [&metric](R r) -> const std::optional<MeanWithInterval>& { return (*r.row)[metric.name]; };
+    if (metric.pooled)
       columns.push_back(quantity_column<MeansRow>(
           name, unit, description, [mean](R r) { return mean(r) ? std::optional(mean(r)->mean) : std::nullopt; }));
     else
@@ -164,10 +164,10 @@ std::string spacings_note(NoSpacings why) {
   return "";
 }
 
-std::string rows_csv(const DrillFigures& figures, CsvFormat format) {
-  std::vector<RowMeans> means = row_means({&figures});
+std::string rows_csv(const DrillMetrics& metrics, CsvFormat format) {
+  std::vector<RowMeans> means = row_means({&metrics});
   std::vector<RowOfRun> rows;
-  for (std::size_t i = 0; i < means.size(); ++i) rows.push_back({&figures.rows[i], std::move(means[i])});
+  for (std::size_t i = 0; i < means.size(); ++i) rows.push_back({&metrics.rows[i], std::move(means[i])});
   return csv_of(rows_columns(), rows, format);
 }
 

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "agronomy/row_figures.hpp"
+#include "agronomy/row_metrics.hpp"
 #include "report/columns.hpp"
 #include "study/trade.hpp"
 
@@ -13,7 +13,7 @@ namespace vibrosow {
 std::string spacings_note(NoSpacings why);
 
 /// One row per drill row, and one of all.
-std::string rows_csv(const DrillFigures& figures, CsvFormat format = {});
+std::string rows_csv(const DrillMetrics& metrics, CsvFormat format = {});
 FileText rows_file_text();
 
 /// One row per layout that has a drill, and drill row, and one of all: each figure with its 95 % half width.

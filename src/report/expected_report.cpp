@@ -58,8 +58,8 @@ std::span<const ErrorPart> error_parts() {
   return parts;
 }
 
-std::vector<ExpectedFigure> expected_figures() {
-  std::vector<ExpectedFigure> figures = {
+std::vector<ExpectedMetric> expected_metrics() {
+  std::vector<ExpectedMetric> metrics = {
       {"expected_low_g_per_s", grams_per_second,
        "lower end of the range that holds the true rate of all holes in 95 % of cases until the tray is weighed; empty "
        "in 2D, and beside measured outflow",
@@ -67,9 +67,9 @@ std::vector<ExpectedFigure> expected_figures() {
       {"expected_high_g_per_s", grams_per_second, "upper end",
        [](const ExpectedRate& expected) { return expected.mass_rate * expected.range.high; }}};
   for (const ErrorPart& part : parts)
-    figures.push_back({fmt::format("{}_percent", part.name), percent, std::string(part.description),
+    metrics.push_back({fmt::format("{}_percent", part.name), percent, std::string(part.description),
                        [&part](const ExpectedRate& expected) { return known_part(part, expected); }});
-  return figures;
+  return metrics;
 }
 
 std::string range_text(double mass_rate, const FactorRange& range) {
@@ -101,11 +101,11 @@ std::string sentence_of(const std::optional<ExpectedRate>& expected) {
 
 std::string expected_sentence(const Answer& answer) {
   const Study& study = *answer.study;
-  const auto in_space = [](const Scene& scene) { return scene.space == Space::three_dimensional; };
+  const auto is_3d = [](const Scene& scene) { return scene.space == Space::three_dimensional; };
   if (answer.kind == AnswerKind::sweep && study.measured)
-    return std::ranges::any_of(study.scenes, in_space) ? "The misfit to the measured outflow shows the model's error "
-                                                         "here, so no range from other materials is given."
-                                                       : "";
+    return std::ranges::any_of(study.scenes, is_3d) ? "The misfit to the measured outflow shows the model's error "
+                                                      "here, so no range from other materials is given."
+                                                    : "";
   std::vector<const ExpectedRate*> rates;
   for (const AnsweredLayout& layout : answer.layouts)
     if (layout.is_named && layout.expected) rates.push_back(&*layout.expected);

@@ -30,20 +30,20 @@ void add_part_columns(Columns<Row>& columns, Get error) {
 }
 
 /// A number of what a rate is expected to be, as CSV and JSON files have it: its range, then the parts of its error.
-struct ExpectedFigure {
+struct ExpectedMetric {
   std::string name;  // with its unit
   Unit unit;
   std::string description;
   std::function<std::optional<double>(const ExpectedRate&)> of;  // SI
 };
-std::vector<ExpectedFigure> expected_figures();
+std::vector<ExpectedMetric> expected_metrics();
 
 /// `expected(row)` gives an optional ExpectedRate.
 template <class Row, class Get>
 void add_expected_columns(Columns<Row>& columns, Get expected) {
-  for (const ExpectedFigure& figure : expected_figures())
-    columns.push_back(quantity_column<Row>(figure.name, figure.unit, figure.description,
-                                           [expected, of = figure.of](const Row& row) -> std::optional<double> {
+  for (const ExpectedMetric& metric : expected_metrics())
+    columns.push_back(quantity_column<Row>(metric.name, metric.unit, metric.description,
+                                           [expected, of = metric.of](const Row& row) -> std::optional<double> {
                                              const std::optional<ExpectedRate>& rate = expected(row);
                                              return rate ? of(*rate) : std::nullopt;
                                            }));

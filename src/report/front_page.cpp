@@ -50,9 +50,9 @@ std::vector<std::pair<std::string, std::string>> asked(const OptimiseOptions& op
   const auto add = [&](const std::string& name, const std::string& value) { all.emplace_back(name, value); };
   for (const FrontGoal* goal : options.goals) add("goal", fmt::format("{}: {}", goal->words, goal->description));
   if (options.rate) {
-    const Figure& figure = rate_figure(options.rate);
-    add("rate of the tray", fmt::format("{} to {} {}", to_digits(options.rate->low / figure.unit_size, 4),
-                                        to_digits(options.rate->high / figure.unit_size, 4), unit_of(figure)));
+    const Metric& metric = rate_metric(options.rate);
+    add("rate of the tray", fmt::format("{} to {} {}", to_digits(options.rate->low / metric.unit_size, 4),
+                                        to_digits(options.rate->high / metric.unit_size, 4), unit_of(metric)));
   }
   add("clogs in at most", percent_text(options.clogging_limit) + " of runs");
   if (options.spilled_limit) add("spills at most", percent_text(*options.spilled_limit) + " of the seeds");

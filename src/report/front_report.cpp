@@ -68,7 +68,7 @@ Columns<FrontRow> pareto_columns(const std::vector<std::string>& keys, const std
                    [](R r) {
                      std::optional<MeanWithInterval> value = r.of().rate;
                      if (!value) return value;
-                     const double unit = rate_figure(r.result->options.rate).unit_size;
+                     const double unit = rate_metric(r.result->options.rate).unit_size;
                      value->mean /= unit;
                      if (value->half_width_95) *value->half_width_95 /= unit;
                      return value;
@@ -90,7 +90,7 @@ JsonKeys<OptimiseResult> optimise_keys() {
   using S = const OptimiseResult&;
   const auto of_rate = [](auto get) {
     return [get](S s) {
-      return s.options.rate ? Json(get(*s.options.rate) / rate_figure(s.options.rate).unit_size) : Json();
+      return s.options.rate ? Json(get(*s.options.rate) / rate_metric(s.options.rate).unit_size) : Json();
     };
   };
   const auto count = [](FrontStanding standing) {
@@ -106,7 +106,7 @@ JsonKeys<OptimiseResult> optimise_keys() {
       {"interrupted", "", "whether runs are missing; the same command resumes",
        [](S s) { return Json(s.is_interrupted); }},
       {"confidence_percent", "%", "of each standing", [](S s) { return Json(100 * s.options.confidence); }},
-      {"rate.figure", "", "of pareto.csv's rate", [](S s) { return Json(rate_figure(s.options.rate).name); }},
+      {"rate.figure", "", "of pareto.csv's rate", [](S s) { return Json(rate_metric(s.options.rate).name); }},
       {"rate.low", "", "lower end of the band, in its unit; null: none is asked for",
        of_rate([](const WantedRate& rate) { return rate.low; })},
       {"rate.high", "", "upper end", of_rate([](const WantedRate& rate) { return rate.high; })},

@@ -33,8 +33,8 @@ std::string described(const Study& study, const Layout& layout) {
   return text;
 }
 
-std::string_view unit_of(const Figure& figure) {
-  return figure.unit == "1/s" ? "seeds/s" : figure.unit;
+std::string_view unit_of(const Metric& metric) {
+  return metric.unit == "1/s" ? "seeds/s" : metric.unit;
 }
 
 std::string counted_standings(const Answer& answer, const std::function<bool(const AnsweredLayout&)>& is_told) {

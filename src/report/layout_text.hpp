@@ -16,7 +16,7 @@ namespace vibrosow {
 std::string described(const Study& study, const Layout& layout);
 
 /// How its unit is written beside a value: seeds/s of what are 1/s.
-std::string_view unit_of(const Figure& figure);
+std::string_view unit_of(const Metric& metric);
 
 /// "38 worse, 12 misses the rate", of the layouts that are not told one by one; empty for none.
 std::string counted_standings(const Answer& answer, const std::function<bool(const AnsweredLayout&)>& is_told);

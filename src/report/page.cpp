@@ -135,7 +135,7 @@ nlohmann::ordered_json page_vessels(const Scene& scene) {
 
 nlohmann::ordered_json page_faces(const Scene& scene) {
   Json all = Json::object();
-  if (scene.space == Space::plane) return all;
+  if (scene.space == Space::two_dimensional) return all;
   all[scene.tray.name] = faces_of(scene.tray);
   if (scene.hopper) all[scene.hopper->name] = faces_of(*scene.hopper);
   return all;
@@ -143,7 +143,7 @@ nlohmann::ordered_json page_faces(const Scene& scene) {
 
 nlohmann::ordered_json page_paths(const Scene& scene, double end_time) {
   Json all = Json::object();
-  if (scene.space == Space::plane || !(end_time > 0)) return all;
+  if (scene.space == Space::two_dimensional || !(end_time > 0)) return all;
   const auto add = [&](const Vessel& vessel) {
     const MotionBounds bounds = motion_bounds(vessel);
     if (bounds.speed > 0) all[vessel.name] = path_of(vessel, bounds, end_time);

@@ -80,7 +80,7 @@ Columns<GrainRow> grains_columns(Space space) {
       quantity_column<GrainRow>("shear", plain,
                                 "shear strain about it since the snapshot before; empty where it is undefined",
                                 [](R r) { return r.shear; })};
-  if (space == Space::plane) return columns;
+  if (space == Space::two_dimensional) return columns;
   append(columns, {place("z_mm", "in 3D: place from the tray's front", &Snapshot::z),
                    quantity("vz_m_per_s", metres_per_second, "in 3D: velocity across, to the back", &Snapshot::vz),
                    quantity("omega_x_rad_per_s", radians_per_second, "in 3D: angular velocity about the floor's length",
@@ -118,7 +118,7 @@ Columns<CellRow> fields_columns(Space space) {
       quantity("shear_rate_per_s", per_second, "difference of the principal stretch rates", &CellRow::shear_rate),
       quantity("dilation_rate_per_s", per_second, "trace of the velocity gradient, above 0 where the bed loosens",
                &CellRow::dilation_rate)};
-  if (space != Space::plane)
+  if (space != Space::two_dimensional)
     columns.push_back(
         quantity("vz_m_per_s", metres_per_second, "in 3D: mean velocity across, to the back", &CellRow::vz));
   return columns;
@@ -224,7 +224,7 @@ std::string grains_csv(const Scene& scene, const Snapshot& snapshot, const Snaps
   const Snapshot own = in_tray_frame(snapshot, scene.tray);
   std::vector<Value> shear(own.size());
   if (const auto earlier = in_tray_frame(scene, before))
-    shear = shear_strain(*earlier, own, fit_reach(*earlier), periods_of(scene.tray, own.in_space()));
+    shear = shear_strain(*earlier, own, fit_reach(*earlier), periods_of(scene.tray, own.is_3d()));
   Csv<GrainRow> csv(grains_columns(scene.space), format);
   for (std::size_t i = 0; i < own.size(); ++i) csv.add({&scene, &own, i, shear[i]});
   return csv.text();
@@ -232,7 +232,7 @@ std::string grains_csv(const Scene& scene, const Snapshot& snapshot, const Snaps
 
 std::string fields_csv(const Scene& scene, const Snapshot& snapshot, const Snapshot* before, CsvFormat format) {
   const double cell = scene.record->cell;
-  const Periods periods = periods_of(scene.tray, scene.space != Space::plane);
+  const Periods periods = periods_of(scene.tray, scene.space != Space::two_dimensional);
   Snapshot own = in_tray_frame(snapshot, scene.tray);
   std::optional<Snapshot> earlier = in_tray_frame(scene, before);
   const double reach = std::max(fit_reach(own), cell);

@@ -28,7 +28,7 @@ Json number(double value) {
 
 constexpr int all_digits = 15;  // of a count
 
-std::string figure_text(double value) {
+std::string metric_text(double value) {
   return number_text(value);
 }
 
@@ -57,7 +57,7 @@ Json holes(const RunPage& page) {
 
 /// In the plane rates are of the slice; with a depth the whole tray's stand beside them.
 Json hole_table(const RunPage& page) {
-  const bool slice = page.model.scene.space == Space::plane;
+  const bool slice = page.model.scene.space == Space::two_dimensional;
   const bool of_tray = slice && page.outflow.depth_factor;
   const std::string rate = slice ? "rate of the slice" : "rate";
   Json columns = Json::array(), rows = Json::array();
@@ -73,10 +73,10 @@ Json hole_table(const RunPage& page) {
                   row.lot,
                   row.centre ? number_text(in_mm(*row.centre), 4) : std::string(),
                   fmt::format("{}", row.grains),
-                  figure_text(row.seeds_per_s),
-                  figure_text(row.mass_rate * 1e3)};
-    if (of_tray) cells.push_back(figure_text(row.mass_rate * 1e3 * *page.outflow.depth_factor));
-    cells.push_back(figure_text(row.longest_pause));
+                  metric_text(row.seeds_per_s),
+                  metric_text(row.mass_rate * 1e3)};
+    if (of_tray) cells.push_back(metric_text(row.mass_rate * 1e3 * *page.outflow.depth_factor));
+    cells.push_back(metric_text(row.longest_pause));
     rows.push_back(std::move(cells));
   }
   return {{"columns", std::move(columns)}, {"rows", std::move(rows)}};
@@ -93,7 +93,7 @@ std::string headline(const RunPage& page) {
   const HoleOutflow& all = *find_row(outflow, "all", "all");
   if (!std::isfinite(all.mass_rate)) return "The run ended before its measuring window began: there are no rates.";
   const std::size_t holes = scene.tray.holes.size();
-  const bool slice = scene.space == Space::plane;
+  const bool slice = scene.space == Space::two_dimensional;
   const double factor = outflow.depth_factor.value_or(1);
   const std::optional<double> chance = chance_of_rate({&outflow});
   const auto rate = [&](double value) {
@@ -103,10 +103,10 @@ std::string headline(const RunPage& page) {
                                  holes == 1 ? "One hole" : fmt::format("{} holes", holes), holes == 1 ? "s" : "",
                                  rate(all.mass_rate * 1e3), rate(all.seeds_per_s),
                                  chance ? "95 %, by blocks of this run" : "too few for an interval",
-                                 figure_text(outflow.window.from), figure_text(outflow.window.to));
+                                 metric_text(outflow.window.from), metric_text(outflow.window.to));
   if (slice && outflow.depth_factor)
     text += fmt::format(": of the whole tray, {} times the slice that was simulated, its holes slots all across",
-                        figure_text(factor));
+                        metric_text(factor));
   else if (slice)
     text += ": of a slice one seed thick";
   return text + '.';
@@ -153,16 +153,16 @@ Json effects(const Model& model) {
   return all;
 }
 
-Json drill(const std::optional<DrillFigures>& figures, Space space) {
-  if (!figures) return nullptr;
+Json drill(const std::optional<DrillMetrics>& metrics, Space space) {
+  if (!metrics) return nullptr;
   Json rows = Json::array();
-  for (const RowFigures& row : figures->rows)
+  for (const RowMetrics& row : metrics->rows)
     if (row.row > 0)
       rows.push_back({{"row", row.row},
                       {"kg_per_ha", row.kg_per_m2 ? Json(1e4 * *row.kg_per_m2) : Json(nullptr)},
                       {"low", nullptr},
                       {"high", nullptr}});
-  const RowFigures& all = figures->all();
+  const RowMetrics& all = metrics->all();
   return {{"rows", std::move(rows)},
           {"sentence", all.kg_per_m2 ? fmt::format("All rows together sow {} kg/ha{}.",
                                                    number_text(1e4 * *all.kg_per_m2), of_plane(space))
@@ -200,7 +200,7 @@ std::string run_page_data(const RunPage& page) {
   Json data = {{"kind", "run"},
                {"program", {{"name", "vibrosow"}, {"version", VIBROSOW_VERSION}}},
                {"title", scene.title},
-               {"space", scene.space == Space::plane ? "plane" : "three_dimensional"},
+               {"space", scene.space == Space::two_dimensional ? "plane" : "three_dimensional"},
                {"headline", headline(page)},
                {"remarks", page_remarks(remarks)},
                {"status", status_name(page.run)},

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "agronomy/row_figures.hpp"
+#include "agronomy/row_metrics.hpp"
 #include "outflow/doubts.hpp"
 #include "outflow/outflow.hpp"
 #include "plan/model.hpp"
@@ -19,7 +19,7 @@ struct RunPage {
   const Model& model;
   const Run& run;
   const Outflow& outflow;
-  const std::optional<DrillFigures>& drill;
+  const std::optional<DrillMetrics>& drill;
   const std::string& expected;  // the sentence on what the rate is expected to be; empty: none
 };
 

@@ -128,23 +128,23 @@ struct RunSource {
   const Outflow& outflow;
   const std::vector<std::string>& effects;
   const std::optional<ExpectedRate>& expected;
-  const FigureMeans figures = FigureMeans({&outflow});
+  const MetricMeans metrics = MetricMeans({&outflow});
 };
 
 /// Every figure, under its name, and what the rate is expected to be.
-JsonKeys<RunSource> figure_keys() {
+JsonKeys<RunSource> metric_keys() {
   JsonKeys<RunSource> keys;
-  for (const Figure& figure : figures())
-    keys.push_back({fmt::format("outflow.{}", figure.name), std::string(figure.unit), std::string(figure.description),
-                    [&figure](const RunSource& s) {
-                      const std::optional<MeanWithInterval>& value = s.figures[figure];
-                      return value ? Json(value->mean / figure.unit_size) : Json(nullptr);
+  for (const Metric& metric : metrics())
+    keys.push_back({fmt::format("outflow.{}", metric.name), std::string(metric.unit), std::string(metric.description),
+                    [&metric](const RunSource& s) {
+                      const std::optional<MeanWithInterval>& value = s.metrics[metric];
+                      return value ? Json(value->mean / metric.unit_size) : Json(nullptr);
                     }});
-  for (const ExpectedFigure& figure : expected_figures())
-    keys.push_back({fmt::format("outflow.{}", figure.name), std::string(figure.unit.name), figure.description,
-                    [figure](const RunSource& s) {
-                      const std::optional<double> value = s.expected ? figure.of(*s.expected) : std::nullopt;
-                      return value ? Json(*value / figure.unit.size) : Json(nullptr);
+  for (const ExpectedMetric& metric : expected_metrics())
+    keys.push_back({fmt::format("outflow.{}", metric.name), std::string(metric.unit.name), metric.description,
+                    [metric](const RunSource& s) {
+                      const std::optional<double> value = s.expected ? metric.of(*s.expected) : std::nullopt;
+                      return value ? Json(*value / metric.unit.size) : Json(nullptr);
                     }});
   return keys;
 }
@@ -233,8 +233,8 @@ JsonKeys<RunSource> run_keys() {
       {"versions.vibrosow", "", "of the program", [](S) { return VIBROSOW_VERSION; }},
       {"versions.box2d", "", "of Box2D", [](S) { return VIBROSOW_BOX2D_VERSION; }},
       {"scene", "SI", "the whole scene as it was run", [](S s) { return untitled(s.scene); }}};
-  const JsonKeys<RunSource> of_figures = figure_keys();
-  keys.insert(std::ranges::find(keys, "outflow.note", &JsonKey<RunSource>::path), of_figures.begin(), of_figures.end());
+  const JsonKeys<RunSource> of_metrics = metric_keys();
+  keys.insert(std::ranges::find(keys, "outflow.note", &JsonKey<RunSource>::path), of_metrics.begin(), of_metrics.end());
   return keys;
 }
 
@@ -298,7 +298,7 @@ std::vector<FileText> run_file_texts() {
 
 std::vector<OutputFile> run_files(const Scene& scene, const Run& run, const Outflow& outflow,
                                   const std::vector<std::string>& effects, CsvFormat format,
-                                  const std::optional<DrillFigures>& drill,
+                                  const std::optional<DrillMetrics>& drill,
                                   const std::optional<ExpectedRate>& expected) {
   std::vector<OutputFile> files = {{"outflow.csv", outflow_csv(scene, run, format)},
                                    {"summary.csv", summary_csv(outflow, format, expected)},

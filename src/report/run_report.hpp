@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "agronomy/row_figures.hpp"
+#include "agronomy/row_metrics.hpp"
 #include "outflow/outflow.hpp"
 #include "report/columns.hpp"
 #include "report/output_folder.hpp"
@@ -36,7 +36,7 @@ std::vector<FileText> run_file_texts();
 /// Its files: outflow.csv, summary.csv, run.json, timing.json, those of a record and, with a drill, rows.csv.
 std::vector<OutputFile> run_files(const Scene& scene, const Run& run, const Outflow& outflow,
                                   const std::vector<std::string>& effects, CsvFormat format = {},
-                                  const std::optional<DrillFigures>& drill = {},
+                                  const std::optional<DrillMetrics>& drill = {},
                                   const std::optional<ExpectedRate>& expected = {});
 
 }  // namespace vibrosow

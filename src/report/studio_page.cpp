@@ -25,7 +25,7 @@ std::string crop_of(const Scene& scene, const std::vector<StudioCrop>& crops) {
 
 /// Why a page cannot run the scene; empty where nothing but its length might keep it from it.
 std::string refusal(const StudioSeeder& one) {
-  if (one.scene.space != Space::plane)
+  if (one.scene.space != Space::two_dimensional)
     return fmt::format(
         "Balls in 3D take some fifty times what a page can compute: vibrosow run {} --html makes a page that shows "
         "such "
@@ -41,7 +41,7 @@ std::string refusal(const StudioSeeder& one) {
 
 Json seeder(const StudioSeeder& one, const std::vector<StudioCrop>& crops) {
   const std::string why_not = refusal(one);
-  const bool live = why_not.empty(), plane = one.scene.space == Space::plane;
+  const bool live = why_not.empty(), plane = one.scene.space == Space::two_dimensional;
   return {{"name", one.name},
           {"title", one.scene.title},
           {"own", one.own},

@@ -24,9 +24,9 @@ std::string suffix_of(const std::string& unit) {
 }
 
 /// "power, W/kg" of power_W_per_kg
-std::string title_of(const AnswerFigure& figure) {
-  std::string words(figure.name);
-  const std::string unit(figure.unit), end = '_' + suffix_of(unit);
+std::string title_of(const AnswerMetric& metric) {
+  std::string words(metric.name);
+  const std::string unit(metric.unit), end = '_' + suffix_of(unit);
   if (words.ends_with(end)) words.resize(words.size() - end.size());
   std::ranges::replace(words, '_', ' ');
   if (words.ends_with(" cv")) words.replace(words.size() - 2, 2, "CV");
@@ -40,20 +40,20 @@ struct LayoutValue {
   std::optional<ChartInterval> interval;
 };
 
-std::optional<LayoutValue> value_of(const Answer& answer, const AnsweredLayout& layout, std::size_t figure) {
-  if (layout.values.empty() || !layout.values[figure] || !std::isfinite(layout.values[figure]->mean))
+std::optional<LayoutValue> value_of(const Answer& answer, const AnsweredLayout& layout, std::size_t metric) {
+  if (layout.values.empty() || !layout.values[metric] || !std::isfinite(layout.values[metric]->mean))
     return std::nullopt;
-  const double unit = answer.figures[figure].unit_size, mean = layout.values[figure]->mean / unit;
+  const double unit = answer.metrics[metric].unit_size, mean = layout.values[metric]->mean / unit;
   LayoutValue value{&layout, mean, std::nullopt};
-  if (const auto half_width = layout.values[figure]->half_width_95)
+  if (const auto half_width = layout.values[metric]->half_width_95)
     value.interval = ChartInterval{mean - *half_width / unit, mean + *half_width / unit};
   return value;
 }
 
 std::vector<std::size_t> goals_of(const Answer& answer) {
   std::vector<std::size_t> goals;
-  for (std::size_t k = 0; k < answer.figures.size(); ++k)
-    if (answer.figures[k].is_goal) goals.push_back(k);
+  for (std::size_t k = 0; k < answer.metrics.size(); ++k)
+    if (answer.metrics[k].is_goal) goals.push_back(k);
   return goals;
 }
 
@@ -110,11 +110,11 @@ Chart headed(const StudyPage& page) {
 }
 
 /// Those that have the figure: the compared ones first, in its order.
-std::vector<LayoutValue> ranked(const Answer& answer, std::size_t figure) {
+std::vector<LayoutValue> ranked(const Answer& answer, std::size_t metric) {
   std::vector<LayoutValue> rows;
   for (const AnsweredLayout& layout : answer.layouts)
-    if (const auto value = value_of(answer, layout, figure)) rows.push_back(*value);
-  const double sign = answer.figures[figure].wanted == Wanted::low ? 1 : -1;
+    if (const auto value = value_of(answer, layout, metric)) rows.push_back(*value);
+  const double sign = answer.metrics[metric].wanted == Wanted::low ? 1 : -1;
   std::ranges::stable_sort(
       rows, {}, [&](const LayoutValue& row) { return std::pair(!is_compared(row.layout->standing), sign * row.mean); });
   return rows;
@@ -143,7 +143,7 @@ Chart ranking_chart(const StudyPage& page) {
     least = std::min(least, row.mean);
   }
   const double end = highest > 0 ? std::min(reach, most_overhang * highest) : reach;
-  chart.x = {.title = title_of(answer.figures[goals.front()]) + " (bars: 95 % intervals)",
+  chart.x = {.title = title_of(answer.metrics[goals.front()]) + " (bars: 95 % intervals)",
              .range = ChartInterval{least, end > least ? 1.03 * end : least + 1}};
   for (std::size_t k = 0; k < rows.size(); ++k) {
     chart.y.rows.push_back(row_name(answer, *rows[k].layout));
@@ -160,8 +160,8 @@ Chart front_chart(const StudyPage& page) {
   const Answer& answer = page.answer;
   const std::vector<std::size_t> goals = goals_of(answer);
   Chart chart = headed(page);
-  chart.x.title = title_of(answer.figures[goals[0]]) + " (bars: 95 % intervals)";
-  chart.y.title = title_of(answer.figures[goals[1]]);
+  chart.x.title = title_of(answer.metrics[goals[0]]) + " (bars: 95 % intervals)";
+  chart.y.title = title_of(answer.metrics[goals[1]]);
   for (const AnsweredLayout& layout : answer.layouts) {
     const auto x = value_of(answer, layout, goals[0]), y = value_of(answer, layout, goals[1]);
     if (!x || !y) continue;

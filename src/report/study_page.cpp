@@ -29,20 +29,20 @@ std::string_view kind_of(AnswerKind kind) {
   return "front";
 }
 
-Json figure(const AnswerFigure& of, AnswerKind kind) {
+Json metric(const AnswerMetric& of, AnswerKind kind) {
   Json one = {{"name", of.name}};
   if (!of.heading.empty()) one["heading"] = of.heading;
   one["unit"] = of.unit, one["description"] = of.description, one["has_interval"] = of.has_interval;
-  if (of.name == clogged_figure) one["words"] = "clogged";
+  if (of.name == clogged_metric) one["words"] = "clogged";
   if (kind == AnswerKind::sweep) return one;
   if (of.wanted != Wanted::any) one["wanted"] = of.wanted == Wanted::high ? "high" : "low";
   if (of.is_goal) one[kind == AnswerKind::decision ? "judged" : "goal"] = true;
   return one;
 }
 
-Json holes(const std::vector<HoleFigures>& figures) {
+Json holes(const std::vector<HoleMetrics>& metrics) {
   Json all = Json::array();
-  for (const HoleFigures& hole : figures)
+  for (const HoleMetrics& hole : metrics)
     if (hole.hole != "all")
       all.push_back({{"hole", hole.hole},
                      {"lot", hole.lot},
@@ -102,7 +102,7 @@ Json layout(const Answer& answer, const AnsweredLayout& of, const Replays& repla
   if (!of.values.empty()) {
     Json& means = one["means"] = Json::object();
     for (std::size_t k = 0; k < of.values.size(); ++k)
-      means[std::string(answer.figures[k].name)] = page_interval(of.values[k], answer.figures[k].unit_size);
+      means[std::string(answer.metrics[k].name)] = page_interval(of.values[k], answer.metrics[k].unit_size);
   }
   if (of.expected) one["expected"] = expected_sentence(*of.expected);
   if (!of_sweep) return one;
@@ -116,11 +116,12 @@ Json layout(const Answer& answer, const AnsweredLayout& of, const Replays& repla
 std::string page_data(const StudyPage& page, const Replays& replays) {
   const Answer& answer = page.answer;
   const Study& study = *answer.study;
-  const bool plane = std::ranges::all_of(study.scenes, [](const Scene& one) { return one.space == Space::plane; });
-  Json keys = Json::array(), asked = Json::array(), figures = Json::array(), layouts = Json::array();
+  const bool plane =
+      std::ranges::all_of(study.scenes, [](const Scene& one) { return one.space == Space::two_dimensional; });
+  Json keys = Json::array(), asked = Json::array(), metrics = Json::array(), layouts = Json::array();
   for (const std::string& key : study.keys) keys.push_back(condition_column(key));
   for (const auto& [name, value] : page.asked) asked.push_back({{"name", name}, {"value", value}});
-  for (const AnswerFigure& of : answer.figures) figures.push_back(figure(of, answer.kind));
+  for (const AnswerMetric& of : answer.metrics) metrics.push_back(metric(of, answer.kind));
   for (const AnsweredLayout& of : answer.layouts) layouts.push_back(layout(answer, of, replays));
   Json data = {{"kind", kind_of(answer.kind)},
                {"program", {{"name", "vibrosow"}, {"version", VIBROSOW_VERSION}}},
@@ -132,13 +133,13 @@ std::string page_data(const StudyPage& page, const Replays& replays) {
   if (const std::string expected = expected_sentence(answer); !expected.empty()) data["expected"] = expected;
   if (!page.asked.empty()) data["asked"] = std::move(asked), data["cost"] = page.cost;
   if (page.wanted) {
-    const Figure& rate = rate_figure(page.wanted);
+    const Metric& rate = rate_metric(page.wanted);
     data["wanted"] = {{"figure", rate.name},
                       {"low", page.wanted->low / rate.unit_size},
                       {"high", page.wanted->high / rate.unit_size}};
   }
   if (!page.confidence.empty()) data["confidence"] = page.confidence;
-  data["figures"] = std::move(figures), data["layouts"] = std::move(layouts);
+  data["figures"] = std::move(metrics), data["layouts"] = std::move(layouts);
   return page_text(data);
 }
 

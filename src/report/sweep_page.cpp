@@ -16,10 +16,10 @@ std::string headline(const StudyResult& result) {
     return std::ranges::count(result.layouts, status, &LayoutResult::status);
   };
   std::string text = fmt::format("{} layout{}", result.layouts.size(), result.layouts.size() == 1 ? "" : "s");
-  const Figure& rate = figure_named("rate_g_per_s");
+  const Metric& rate = metric_named("rate_g_per_s");
   std::vector<MeanWithInterval> rates;
   for (const LayoutResult& one : result.layouts)
-    if (is_compared(one.status) && one.figures[rate]) rates.push_back(*one.figures[rate]);
+    if (is_compared(one.status) && one.metrics[rate]) rates.push_back(*one.metrics[rate]);
   const auto stated = [&](const MeanWithInterval& value) {
     const auto& half = value.half_width_95;
     return interval_text(value.mean / rate.unit_size, half ? std::optional(*half / rate.unit_size) : std::nullopt, "±");

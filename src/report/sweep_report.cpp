@@ -52,8 +52,8 @@ Columns<LayoutRow> sweep_columns(const std::vector<std::string>& keys) {
                                            [](R r) { return layout_note(r.of()); }));
   append(columns, key_columns<LayoutRow>(keys));
   columns.push_back(replicates_column<LayoutRow>());
-  add_figure_columns(
-      columns, [](R r) -> const auto& { return r.of().figures; });
+  add_metric_columns(
+      columns, [](R r) -> const auto& { return r.of().metrics; });
   add_mean_columns(columns, "misfit_percent", Unit{"%", 1},
                    "misfit to the measured outflow; empty without a measurement",
                    [](R r) { return r.of().misfit_percent; });
@@ -63,7 +63,7 @@ Columns<LayoutRow> sweep_columns(const std::vector<std::string>& keys) {
 }
 
 struct HoleRow : LayoutRow {
-  const HoleFigures* hole;
+  const HoleMetrics* hole;
 };
 
 /// Size of the unit in which a measured table states its quantity.
@@ -115,7 +115,7 @@ Columns<HoleRow> sweep_holes_columns(bool with_across) {
 
 /// The bed of a layout at a record time, of one lot or, where `lot` is null, of all.
 struct BedRow : LayoutRow {
-  const BedFigures* bed;
+  const BedMetrics* bed;
   const SeedLot* lot;
 };
 
@@ -168,10 +168,10 @@ Column<RunRow> run_column(std::string name, Unit unit, std::string description, 
           }};
 }
 
-Column<RunRow> figure_column(std::string_view name) {
-  const Figure& figure = figure_named(name);
-  return run_column(std::string(figure.name), Unit{figure.unit, figure.unit_size}, std::string(figure.description),
-                    [&figure](const Evaluation& one) { return figure.of({one.outflow}); });
+Column<RunRow> metric_column(std::string_view name) {
+  const Metric& metric = metric_named(name);
+  return run_column(std::string(metric.name), Unit{metric.unit, metric.unit_size}, std::string(metric.description),
+                    [&metric](const Evaluation& one) { return metric.of({one.outflow}); });
 }
 
 Columns<RunRow> sweep_runs_columns() {
@@ -190,7 +190,7 @@ Columns<RunRow> sweep_runs_columns() {
                   [](One one) { return one.balance.counted; }),
        run_column("spilled", plain, "seeds that left over the rim", [](One one) { return one.balance.spilled; }),
        run_column("lost", plain, "seeds that went through a wall: an error", [](One one) { return one.balance.lost; }),
-       figure_column("seeds_per_s"), figure_column("rate_g_per_s"), figure_column("tray_rate_g_per_s"),
+       metric_column("seeds_per_s"), metric_column("rate_g_per_s"), metric_column("tray_rate_g_per_s"),
        run_column("max_relative_overlap", plain,
                   "largest share of a contact's overlap that one grain takes, over its radius",
                   [](One one) { return one.max_relative_overlap; }),
@@ -253,7 +253,7 @@ std::string sweep_csv(const StudyResult& result, CsvFormat format) {
 std::string sweep_holes_csv(const StudyResult& result, CsvFormat format) {
   std::vector<HoleRow> holes;
   for (const LayoutRow& row : layout_rows(result))
-    for (const HoleFigures& hole : row.of().holes) holes.push_back({row, &hole});
+    for (const HoleMetrics& hole : row.of().holes) holes.push_back({row, &hole});
   const bool with_across = std::ranges::any_of(holes, [](const HoleRow& row) { return row.hole->across.has_value(); });
   Csv<HoleRow> csv(sweep_holes_columns(with_across), format);
   for (const HoleRow& hole : holes) csv.add(hole);
@@ -263,7 +263,7 @@ std::string sweep_holes_csv(const StudyResult& result, CsvFormat format) {
 std::string sweep_records_csv(const StudyResult& result, CsvFormat format) {
   Csv<BedRow> csv(sweep_records_columns(), format);
   for (const LayoutRow& row : layout_rows(result))
-    for (const BedFigures& bed : row.of().bed) {
+    for (const BedMetrics& bed : row.of().bed) {
       const std::vector<SeedLot>& lots = result.study.scenes[*row.layout().scene].lots;
       if (lots.size() > 1)
         for (const SeedLot& lot : lots) csv.add({row, &bed, &lot});

@@ -40,7 +40,7 @@ std::string two_digit_percent(double fraction) {
 }
 
 std::string_view of_plane(Space space) {
-  return space == Space::plane ? " (2D: a slice times the depth, its holes slots all across)" : "";
+  return space == Space::two_dimensional ? " (2D: a slice times the depth, its holes slots all across)" : "";
 }
 
 std::string unevenness_text(const Unevenness& of) {

@@ -142,7 +142,7 @@ std::string grains(const Scene& scene, const Frame& frame) {
   of_points.add("velocity", as_vectors(bed.vx, bed.vy, bed.vz));
   const std::vector<double> none(bed.size(), 0.0);
   of_points.add("angular_velocity",
-                bed.in_space() ? as_vectors(bed.omega_x, bed.omega_y, bed.omega) : as_vectors(none, none, bed.omega));
+                bed.is_3d() ? as_vectors(bed.omega_x, bed.omega_y, bed.omega) : as_vectors(none, none, bed.omega));
   of_points.add("orientation", orientations(bed));
   of_points.add("force", contact_forces(frame));
   of_points.add("place_in_tray", as_vectors(own.x, own.y, own.z));
@@ -182,7 +182,7 @@ struct Lines {
 void add_walls(std::int64_t number, const Vessel& vessel, Space space, double time, Lines& lines) {
   const Pose pose = vessel_pose(vessel, time);
   const auto is_gone = [time](double opens_at) { return opens_at > 0 && time >= opens_at; };
-  if (space == Space::plane) {
+  if (space == Space::two_dimensional) {
     for (const WallSegment& wall : vessel_walls(vessel)) {
       if (is_gone(wall.opens_at)) continue;
       std::vector<Eigen::Vector3d> line;

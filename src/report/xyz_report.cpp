@@ -21,7 +21,7 @@ struct Box {
 };
 
 void take_vessel(const Vessel& vessel, Space space, Box& box) {
-  if (space == Space::plane)
+  if (space == Space::two_dimensional)
     for (const WallSegment& wall : vessel_walls(vessel))
       for (const Eigen::Vector2d& own : wall_points(wall)) {
         const Eigen::Vector2d lab = in_lab_frame(vessel, {}, own);
@@ -38,7 +38,7 @@ Box box_of(const Scene& scene) {
   Box box;
   take_vessel(drawn_once(scene.tray), scene.space, box);
   if (scene.hopper) take_vessel(drawn_once(*scene.hopper), scene.space, box);
-  if (scene.space == Space::plane) {
+  if (scene.space == Space::two_dimensional) {
     const double half = 0.5 * std::ranges::max_element(scene.lots, {}, &SeedLot::diameter)->diameter;
     box.least.z() = -half, box.most.z() = half;
   }
@@ -66,8 +66,8 @@ std::string grains_xyz(const Scene& scene, const std::vector<Frame>& frames) {
     for (std::size_t i = 0; i < bed.size(); ++i)
       text +=
           fmt::format("{} {} {} {} {} {} {} {} {} {} {} {}\n", scene.lots.at(static_cast<std::size_t>(bed.lot[i])).name,
-                      bed.x[i], bed.y[i], bed.in_space() ? bed.z[i] : 0, bed.radius[i], bed.vx[i], bed.vy[i],
-                      bed.in_space() ? bed.vz[i] : 0, forces[i][0], forces[i][1], forces[i][2], bed.id[i]);
+                      bed.x[i], bed.y[i], bed.is_3d() ? bed.z[i] : 0, bed.radius[i], bed.vx[i], bed.vy[i],
+                      bed.is_3d() ? bed.vz[i] : 0, forces[i][0], forces[i][1], forces[i][2], bed.id[i]);
   }
   return text;
 }

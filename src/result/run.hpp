@@ -40,7 +40,7 @@ struct EnergyAccount {                             // J
 };
 
 /// What the guard let pass.
-struct LetPass {
+struct ToleratedViolations {
   std::int64_t deep_steps = 0;       // steps with a relative overlap beyond the warning limit
   std::int64_t strides = 0;          // steps in which a grain could have passed a wall unseen
   std::int64_t energy_accounts = 0;  // accounts, one in 100 steps, with energy made by the numerics worth a word
@@ -69,7 +69,7 @@ struct Run {
   std::int64_t grain_steps = 0;
   std::int64_t force_evaluations = 0;  // of grain contacts
   std::int64_t slip_speed_raised = 0;  // of these, where sliding friction's slip speed was raised in a hard impact
-  LetPass let_pass;
+  ToleratedViolations let_pass;
   double max_relative_overlap = 0;  // a grain's share of the overlap over its radius, the largest of the run
   std::int64_t tray_at_begin = -1;  // seeds inside the tray when the measuring window began; negative: it did not
   std::int64_t tray_at_end = 0;     // seeds inside the tray at the end of the run

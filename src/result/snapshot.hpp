@@ -31,9 +31,9 @@ struct Snapshot {
   std::vector<double> volume{};                    // m3, of the grain itself
 
   std::size_t size() const { return x.size(); }
-  bool in_space() const { return !z.empty(); }
+  bool is_3d() const { return !z.empty(); }
   /// What a grain fills: area in the plane, volume in space.
-  const std::vector<double>& extent() const { return in_space() ? volume : area; }
+  const std::vector<double>& extent() const { return is_3d() ? volume : area; }
 };
 
 }  // namespace vibrosow

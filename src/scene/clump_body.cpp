@@ -6,7 +6,7 @@
 #include <numbers>
 #include <optional>
 
-#include "elementary/functions.hpp"
+#include "portable_math/functions.hpp"
 #include "scene/cross_product.hpp"
 #include "scene/free_arcs.hpp"
 
@@ -49,7 +49,7 @@ void add_section(const std::vector<ClumpDisc>& discs, double z, double weight, M
     for (const Arc& arc : free_arcs(discs, i))
       for (const Arc& part : quarters(arc))
         for_each_point<20>(part.from, part.to, [&](double angle, double w) {
-          const auto [sine, cosine] = elementary::sine_cosine(angle);
+          const auto [sine, cosine] = portable_math::sine_cosine(angle);
           const double x = discs[i].x + discs[i].radius * cosine, y = discs[i].y + discs[i].radius * sine;
           const double dx = -discs[i].radius * sine * w, dy = discs[i].radius * cosine * w;
           area += x * dy, x1 += x * x / 2 * dy, y1 -= y * y / 2 * dx;

@@ -7,7 +7,7 @@
 #include <limits>
 #include <numbers>
 
-#include "elementary/functions.hpp"
+#include "portable_math/functions.hpp"
 #include "scene/clump_body.hpp"
 #include "scene/free_arcs.hpp"
 
@@ -23,7 +23,7 @@ double along_arc(const ClumpDisc& disc, const Arc& arc, Integrand f) {
   for (const Arc& part : quarters(arc))
     sum += boost::math::quadrature::gauss<double, 20>::integrate(
         [&](double t) {
-          const auto at = elementary::sine_cosine(t);
+          const auto at = portable_math::sine_cosine(t);
           const double cosine = disc.radius * at.cosine, sine = disc.radius * at.sine;
           return f(disc.x + cosine, disc.y + sine, -sine, cosine);
         },
@@ -37,9 +37,10 @@ double covered_area(const std::vector<ClumpDisc>& discs) {
   for (std::size_t i = 0; i < discs.size(); ++i) {
     const ClumpDisc& disc = discs[i];
     for (const Arc& arc : free_arcs(discs, i))
-      area += 0.5 * disc.radius *
-              (disc.radius * (arc.to - arc.from) + disc.x * (elementary::sin(arc.to) - elementary::sin(arc.from)) -
-               disc.y * (elementary::cos(arc.to) - elementary::cos(arc.from)));
+      area +=
+          0.5 * disc.radius *
+          (disc.radius * (arc.to - arc.from) + disc.x * (portable_math::sin(arc.to) - portable_math::sin(arc.from)) -
+           disc.y * (portable_math::cos(arc.to) - portable_math::cos(arc.from)));
   }
   return area;
 }
@@ -58,7 +59,8 @@ std::vector<double> kink_heights(const std::vector<ClumpDisc>& discs) {
   for (std::size_t i = 0; i < discs.size(); ++i) {
     heights.push_back(discs[i].radius);
     for (std::size_t j = i + 1; j < discs.size(); ++j) {
-      const double distance = elementary::hypot(discs[j].x - discs[i].x, discs[j].y - discs[i].y), r = discs[i].radius;
+      const double distance = portable_math::hypot(discs[j].x - discs[i].x, discs[j].y - discs[i].y),
+                   r = discs[i].radius;
       const double along = (distance + (r - discs[j].radius) * (r + discs[j].radius) / distance) / 2;
       if (std::abs(along) < r) heights.push_back(std::sqrt((r - along) * (r + along)));
     }
@@ -101,7 +103,7 @@ std::vector<ClumpDisc> elongated_row(double length, double width, double valley)
     for (int k = 0; k < count; ++k) {
       // Denser towards the ends, where discs are small: the valleys come out about equally deep.
       const double place = 2.0 * k / (count - 1) - 1;
-      row.push_back(inscribed_disc(length, width, elementary::sin(place * pi / 3) / elementary::sin(pi / 3)));
+      row.push_back(inscribed_disc(length, width, portable_math::sin(place * pi / 3) / portable_math::sin(pi / 3)));
     }
     if (is_smooth(row, valley)) return row;
   }
@@ -115,7 +117,7 @@ std::vector<ClumpDisc> drop_row(double length, double width, double valley) {
   for (int count = 3; count <= most_row_discs; ++count) {
     std::vector<ClumpDisc> row;
     for (int k = 0; k < count; ++k) {
-      const double radius = largest * elementary::pow(tip, static_cast<double>(k) / (count - 1));
+      const double radius = largest * portable_math::pow(tip, static_cast<double>(k) / (count - 1));
       row.push_back({last * (largest - radius) / (largest - smallest), 0, radius});
     }
     if (is_smooth(row, valley)) return row;
@@ -185,7 +187,7 @@ std::vector<ClumpDisc> about_centre_of_mass(std::vector<ClumpDisc> discs) {
 double holding_radius(const std::vector<ClumpDisc>& discs) {
   double radius = 0;
   for (const ClumpDisc& disc : discs)
-    radius = std::max(radius, elementary::hypot(elementary::hypot(disc.x, disc.y), disc.z) + disc.radius);
+    radius = std::max(radius, portable_math::hypot(portable_math::hypot(disc.x, disc.y), disc.z) + disc.radius);
   return radius;
 }
 

@@ -5,7 +5,7 @@
 #include <numbers>
 #include <optional>
 
-#include "elementary/functions.hpp"
+#include "portable_math/functions.hpp"
 
 namespace vibrosow {
 namespace {
@@ -15,12 +15,12 @@ using std::numbers::pi;
 /// The part of disc i's rim inside disc j, as an arc about `middle`; nothing when the rims do not cross. Of equal discs
 /// the first counts.
 std::optional<Arc> covered_arc(const ClumpDisc& i, const ClumpDisc& j, bool j_is_earlier) {
-  const double dx = j.x - i.x, dy = j.y - i.y, distance = elementary::hypot(dx, dy);
+  const double dx = j.x - i.x, dy = j.y - i.y, distance = portable_math::hypot(dx, dy);
   if (distance == 0 && i.radius == j.radius) return j_is_earlier ? std::optional(Arc{0, 2 * pi}) : std::nullopt;
   if (distance + i.radius <= j.radius) return Arc{0, 2 * pi};
   if (distance >= i.radius + j.radius || distance + j.radius <= i.radius) return std::nullopt;
   const double cosine = (distance + (i.radius - j.radius) * (i.radius + j.radius) / distance) / (2 * i.radius);
-  const double half = elementary::acos(std::clamp(cosine, -1.0, 1.0)), middle = elementary::atan2(dy, dx);
+  const double half = portable_math::acos(std::clamp(cosine, -1.0, 1.0)), middle = portable_math::atan2(dy, dx);
   return Arc{middle - half, middle + half};
 }
 

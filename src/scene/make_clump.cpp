@@ -9,7 +9,7 @@ namespace vibrosow {
 
 void make_clump(SeedLot& lot, const std::vector<ClumpDisc>& discs, Space space) {
   lot.shape = Shape::clump;
-  if (space == Space::plane) {
+  if (space == Space::two_dimensional) {
     lot.discs = about_centre_of_mass(discs);
     for (ClumpDisc& disc : lot.discs) disc.z = 0;
     lot.gyration2 = plate_of(lot.discs).gyration2, lot.gyration2_x = lot.gyration2_y = 0;

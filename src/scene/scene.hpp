@@ -346,7 +346,7 @@ enum class Space { plane, three_dimensional };
 /// Everything a run needs, in SI; one value, read from a seeder file and validated.
 struct Scene {
   std::string title;
-  Space space = Space::plane;
+  Space space = Space::two_dimensional;
   std::vector<SeedLot> lots;
   Contact contact;
   Vessel tray;

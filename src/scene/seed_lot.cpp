@@ -9,7 +9,7 @@
 #include "scene/clump_body.hpp"
 #include "scene/clump_shape.hpp"
 
-#include "elementary/functions.hpp"
+#include "portable_math/functions.hpp"
 
 namespace vibrosow {
 namespace {
@@ -26,7 +26,7 @@ double disc_diameter(const SeedLot& lot) {
 
 /// (x / unit)^power
 double share_in_moment(double x, double unit, int power) {
-  return elementary::pow(x / unit, power);
+  return portable_math::pow(x / unit, power);
 }
 
 /// E[(x / unit)^power] of a normal or lognormal cut at its least and most.
@@ -37,14 +37,15 @@ double cut_moment(const SizeDistribution& sizes, double unit, int power) {
   const bool logarithmic = sizes.kind == Kind::lognormal;
   const UnderlyingNormal normal = underlying_normal(sizes);
   const auto deviations = [&](double x) {
-    return ((logarithmic ? elementary::log(x) : x) - normal.mean) / normal.deviation;
+    return ((logarithmic ? portable_math::log(x) : x) - normal.mean) / normal.deviation;
   };
   const double from = std::max(-far, deviations(sizes.least)), to = std::min(far, deviations(sizes.most));
   const auto weighted = [&](int exponent) {
     return boost::math::quadrature::gauss_kronrod<double, 31>::integrate(
         [&](double z) {
           const double x = normal.mean + normal.deviation * z;
-          return elementary::exp(-0.5 * z * z) * share_in_moment(logarithmic ? elementary::exp(x) : x, unit, exponent);
+          return portable_math::exp(-0.5 * z * z) *
+                 share_in_moment(logarithmic ? portable_math::exp(x) : x, unit, exponent);
         },
         from, to, halvings, tolerance);
   };
@@ -56,8 +57,8 @@ double cut_moment(const SizeDistribution& sizes, double unit, int power) {
 UnderlyingNormal underlying_normal(const SizeDistribution& sizes) {
   if (sizes.kind != Kind::lognormal) return {sizes.mean, sizes.deviation};
   const double relative = sizes.deviation / sizes.mean;
-  const double variance = elementary::log1p(relative * relative);
-  return {elementary::log(sizes.mean) - 0.5 * variance, std::sqrt(variance)};
+  const double variance = portable_math::log1p(relative * relative);
+  return {portable_math::log(sizes.mean) - 0.5 * variance, std::sqrt(variance)};
 }
 
 void scale(SizeDistribution& sizes, double factor) {
@@ -127,7 +128,7 @@ double clump_volume(const SeedLot& lot) {
 std::optional<double> seed_density(const SeedLot& lot) {
   if (lot.shape == Shape::disc) return std::nullopt;
   if (lot.shape == Shape::clump) return lot.mass / clump_volume(lot);
-  return lot.mass / (std::numbers::pi / 6 * elementary::pow(lot.diameter, 3));
+  return lot.mass / (std::numbers::pi / 6 * portable_math::pow(lot.diameter, 3));
 }
 
 double mean_thickness(const SeedLot& lot) {

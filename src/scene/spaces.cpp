@@ -116,8 +116,8 @@ std::optional<double> slices_of_tray(const Scene& scene) {
 }
 
 Scene in_plane(Scene scene) {
-  if (scene.space == Space::plane) return scene;
-  scene.space = Space::plane;
+  if (scene.space == Space::two_dimensional) return scene;
+  scene.space = Space::two_dimensional;
   const double thickness = slice_thickness(scene.lots);
   change_clumps(scene);
   cut(scene.tray, thickness);

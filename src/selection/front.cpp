@@ -39,35 +39,35 @@ void Front::take(std::size_t index, const FrontObservation& observation) {
   if (observation.end != RunEnd::flowed) return;
   if (observation.goals.size() != question_.goals.size() || observation.banded.size() != question_.bands.size())
     throw std::out_of_range("an observation of other figures than the question's");
-  for (std::size_t f = 0; f < figures(); ++f) {
+  for (std::size_t f = 0; f < metrics(); ++f) {
     const std::size_t goals = question_.goals.size();
-    Moments& figure = system.figures[f];
-    figure.add(f < goals ? observation.goals[f] : observation.banded[f - goals]);
-    if (figure.count() == question_.first) first_variances_[f].push_back(figure.variance());
+    Moments& metric = system.metrics[f];
+    metric.add(f < goals ? observation.goals[f] : observation.banded[f - goals]);
+    if (metric.count() == question_.first) first_variances_[f].push_back(metric.variance());
   }
 }
 
 std::vector<KnownMean> Front::known(std::size_t system) const {
   std::vector<KnownMean> known;
-  for (std::size_t f = 0; f < figures(); ++f) {
-    const Moments& figure = systems_.at(system).figures[f];
+  for (std::size_t f = 0; f < metrics(); ++f) {
+    const Moments& metric = systems_.at(system).metrics[f];
     if (is_exact(f))
-      known.push_back({figure.mean(), 0, endless, static_cast<double>(figure.count())});
+      known.push_back({metric.mean(), 0, endless, static_cast<double>(metric.count())});
     else
-      known.push_back(known_mean(figure, variance_prior(first_variances_[f], question_.first - 1.0)));
+      known.push_back(known_mean(metric, variance_prior(first_variances_[f], question_.first - 1.0)));
   }
   return known;
 }
 
 double Front::value(const Known& of, std::size_t goal) const {
-  return question_.goals[goal].of(of.figures[goal].mean);
+  return question_.goals[goal].of(of.metrics[goal].mean);
 }
 
-double Front::violation(const System& system, const std::vector<KnownMean>& figures) const {
+double Front::violation(const System& system, const std::vector<KnownMean>& metrics) const {
   if (system.failed || system.observations == system.clogged) return endless;
   double sum = 0;
   for (std::size_t b = 0; b < question_.bands.size(); ++b)
-    sum += question_.bands[b].outside_by(figures[question_.goals.size() + b].mean);
+    sum += question_.bands[b].outside_by(metrics[question_.goals.size() + b].mean);
   const double share = static_cast<double>(system.clogged) / system.observations;
   if (const auto limit = question_.clogging_limit; limit && share > *limit) sum += share / *limit - 1;
   return sum;
@@ -76,9 +76,9 @@ double Front::violation(const System& system, const std::vector<KnownMean>& figu
 std::vector<Front::Known> Front::all_known() const {
   std::vector<Known> all;
   for (std::size_t i = 0; i < systems_.size(); ++i) {
-    std::vector<KnownMean> figures = known(i);
-    const double by = violation(systems_[i], figures);
-    all.push_back({std::move(figures), by});
+    std::vector<KnownMean> metrics = known(i);
+    const double by = violation(systems_[i], metrics);
+    all.push_back({std::move(metrics), by});
   }
   return all;
 }
@@ -128,16 +128,16 @@ std::vector<bool> Front::nearly_on_front() const {
   const std::vector<Known> all = all_known();
   const auto meets_nearly = [&](const Known& of) {
     for (std::size_t b = 0; b < question_.bands.size(); ++b) {
-      const KnownMean& figure = of.figures[question_.goals.size() + b];
-      const double error = std::sqrt(figure.error_squared());
-      if (figure.mean + error < question_.bands[b].low || figure.mean - error > question_.bands[b].high) return false;
+      const KnownMean& metric = of.metrics[question_.goals.size() + b];
+      const double error = std::sqrt(metric.error_squared());
+      if (metric.mean + error < question_.bands[b].low || metric.mean - error > question_.bands[b].high) return false;
     }
     return true;
   };
   const auto plainly_dominates = [&](const Known& one, const Known& other) {
     bool is_better = false;
     for (std::size_t g = 0; g < question_.goals.size(); ++g) {
-      const double error = std::sqrt(one.figures[g].error_squared() + other.figures[g].error_squared());
+      const double error = std::sqrt(one.metrics[g].error_squared() + other.metrics[g].error_squared());
       const double ahead = value(other, g) - value(one, g) - error;
       if (ahead < 0) return false;
       is_better |= ahead > 0;
@@ -157,7 +157,7 @@ std::vector<bool> Front::nearly_on_front() const {
 /// Of a distance from a wanted value, whose side is one of two, each side has half of the error: |m - w| exceeds the
 /// true distance only where m - w does or w - m.
 bool Front::is_surely_better(const Known& one, const Known& other, std::size_t goal, double error) const {
-  const KnownMean &ours = one.figures[goal], &theirs = other.figures[goal];
+  const KnownMean &ours = one.metrics[goal], &theirs = other.metrics[goal];
   if (!is_known(ours) || !is_known(theirs)) return false;
   const double sides = question_.goals[goal].nearest_to ? 2 : 1;
   return is_surely_positive(value(other, goal) - value(one, goal), ours.error_squared() + theirs.error_squared(),
@@ -169,7 +169,7 @@ bool Front::is_surely_better(const Known& one, const Known& other, std::size_t g
 bool Front::surely_dominates(const Known& one, const Known& other, double error) const {
   bool is_better = false;
   for (std::size_t g = 0; g < question_.goals.size(); ++g) {
-    const KnownMean &ours = one.figures[g], &theirs = other.figures[g];
+    const KnownMean &ours = one.metrics[g], &theirs = other.metrics[g];
     const bool are_equal = is_known(ours) && is_known(theirs) && ours.variance == 0 && theirs.variance == 0 &&
                            value(one, g) == value(other, g);
     if (are_equal) continue;
@@ -181,25 +181,25 @@ bool Front::surely_dominates(const Known& one, const Known& other, double error)
 
 bool Front::is_in_bands(const Known& of, double error) const {
   for (std::size_t b = 0; b < question_.bands.size(); ++b) {
-    const KnownMean& figure = of.figures[question_.goals.size() + b];
+    const KnownMean& metric = of.metrics[question_.goals.size() + b];
     const auto [low, high] = question_.bands[b];
-    const double squared = figure.error_squared(), degrees = figure.degrees_of_freedom;
-    if (!is_known(figure)) return false;
-    if (squared == 0 && figure.mean >= low && figure.mean <= high) continue;
-    if (low > -endless && !is_surely_positive(figure.mean - low, squared, degrees, error)) return false;
-    if (high < endless && !is_surely_positive(high - figure.mean, squared, degrees, error)) return false;
+    const double squared = metric.error_squared(), degrees = metric.degrees_of_freedom;
+    if (!is_known(metric)) return false;
+    if (squared == 0 && metric.mean >= low && metric.mean <= high) continue;
+    if (low > -endless && !is_surely_positive(metric.mean - low, squared, degrees, error)) return false;
+    if (high < endless && !is_surely_positive(high - metric.mean, squared, degrees, error)) return false;
   }
   return true;
 }
 
 bool Front::is_outside(const Known& of, double error) const {
   for (std::size_t b = 0; b < question_.bands.size(); ++b) {
-    const KnownMean& figure = of.figures[question_.goals.size() + b];
+    const KnownMean& metric = of.metrics[question_.goals.size() + b];
     const auto [low, high] = question_.bands[b];
-    const double squared = figure.error_squared(), degrees = figure.degrees_of_freedom;
-    if (!is_known(figure)) continue;
-    if (low > -endless && is_surely_positive(low - figure.mean, squared, degrees, error)) return true;
-    if (high < endless && is_surely_positive(figure.mean - high, squared, degrees, error)) return true;
+    const double squared = metric.error_squared(), degrees = metric.degrees_of_freedom;
+    if (!is_known(metric)) continue;
+    if (low > -endless && is_surely_positive(low - metric.mean, squared, degrees, error)) return true;
+    if (high < endless && is_surely_positive(metric.mean - high, squared, degrees, error)) return true;
   }
   return false;
 }

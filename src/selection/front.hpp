@@ -44,9 +44,9 @@ enum class FrontStanding {
 /// first observations), and systems are compared as if they were independent.
 class Front {
  public:
-  explicit Front(FrontQuestion question) : question_(std::move(question)), first_variances_(figures()) {}
+  explicit Front(FrontQuestion question) : question_(std::move(question)), first_variances_(metrics()) {}
 
-  void add_system() { systems_.emplace_back(System{.figures = std::vector<Moments>(figures())}); }
+  void add_system() { systems_.emplace_back(System{.metrics = std::vector<Moments>(metrics())}); }
   /// Throws std::out_of_range for a system that is none, or an observation of other than the question's figures.
   void take(std::size_t system, const FrontObservation& observation);
 
@@ -82,20 +82,20 @@ class Front {
   struct System {
     int observations = 0, clogged = 0;
     bool failed = false;
-    std::vector<Moments> figures{};
+    std::vector<Moments> metrics{};
   };
   /// Everything of a system that comparisons ask for.
   struct Known {
-    std::vector<KnownMean> figures;
+    std::vector<KnownMean> metrics;
     double violation;  // of the constraints, by the means; 0: they are met
   };
 
-  std::size_t figures() const { return question_.goals.size() + question_.bands.size(); }
-  bool is_exact(std::size_t figure) const {
-    return figure < question_.goals.size() && question_.goals[figure].is_exact;
+  std::size_t metrics() const { return question_.goals.size() + question_.bands.size(); }
+  bool is_exact(std::size_t metric) const {
+    return metric < question_.goals.size() && question_.goals[metric].is_exact;
   }
   double value(const Known& of, std::size_t goal) const;
-  double violation(const System& system, const std::vector<KnownMean>& figures) const;
+  double violation(const System& system, const std::vector<KnownMean>& metrics) const;
   std::vector<Known> all_known() const;
   bool dominates(const Known& one, const Known& other) const;
   bool is_surely_better(const Known& one, const Known& other, std::size_t goal, double error) const;

@@ -93,7 +93,7 @@ void serialize(Archive& archive, WallCandidate& candidate) {
 }
 template <class Archive>
 void serialize(Archive& archive, ContactHistories& h) {
-  archive(h.kinds.slip, h.kinds.roll, h.kinds.in_space, h.slip, h.roll, h.records, h.touched);
+  archive(h.kinds.slip, h.kinds.roll, h.kinds.is_3d, h.slip, h.roll, h.records, h.touched);
   if constexpr (Archive::is_loading::value) h.place_by_entry();
 }
 template <class Archive>

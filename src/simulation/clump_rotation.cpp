@@ -11,7 +11,7 @@ bool turns(const Grains& grains, std::size_t i) {
 }
 
 Vector3 torque_of(const Integration& s, std::size_t i) {
-  const GrainVector& torque = s.field.torques_in_space()[i];
+  const GrainVector& torque = s.field.torques_3d()[i];
   return {torque.x, torque.y, torque.z};
 }
 
@@ -61,7 +61,7 @@ void predict_clump_rotation(Integration& s, std::size_t from, std::size_t to) {
 }
 
 void correct_clump_rotation(Integration& s, std::size_t from, std::size_t to) {
-  s.execution.clump_loops().correct(to - from, s.dt, turning_from(s, from), &s.field.torques_in_space()[from],
+  s.execution.clump_loops().correct(to - from, s.dt, turning_from(s, from), &s.field.torques_3d()[from],
                                     {&s.kept.alpha_x[from], &s.kept.alpha_y[from], &s.kept.alpha[from]});
 }
 

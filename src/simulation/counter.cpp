@@ -5,7 +5,7 @@
 #include <cstring>
 
 #include "compute/nearest_image.hpp"
-#include "elementary/functions.hpp"
+#include "portable_math/functions.hpp"
 #include "vessel/directions.hpp"
 #include "vessel/vessel_motion.hpp"
 
@@ -20,29 +20,28 @@ std::size_t Counter::next_flag(std::size_t from) const {
 namespace {
 
 /// Of a place on the floor or above it, in the vessel's frame.
-bool is_between_ends(const Vessel& vessel, bool in_space, double x, double z) {
+bool is_between_ends(const Vessel& vessel, bool is_3d, double x, double z) {
   const auto between = [](Sides sides, double at, double length) {
     return sides == Sides::periodic || (at >= 0 && at <= length);
   };
-  if (in_space && vessel.plan == Plan::round) {
+  if (is_3d && vessel.plan == Plan::round) {
     const double radius = 0.5 * vessel.length;
-    return elementary::hypot(x - radius, z - radius) <= radius;
+    return portable_math::hypot(x - radius, z - radius) <= radius;
   }
-  return between(vessel.sides, x, vessel.length) && (!in_space || between(vessel.front_and_back, z, *vessel.depth));
+  return between(vessel.sides, x, vessel.length) && (!is_3d || between(vessel.front_and_back, z, *vessel.depth));
 }
 
 }  // namespace
 
 Counter::FloorPoint Counter::within_period(const FloorPoint& place) const {
-  return {
-      tray_.sides == Sides::periodic ? vibrosow::within_period(place.x, tray_.length) : place.x,
-      in_space_ && tray_.front_and_back == Sides::periodic ? vibrosow::within_period(place.z, *tray_.depth) : place.z};
+  return {tray_.sides == Sides::periodic ? vibrosow::within_period(place.x, tray_.length) : place.x,
+          is_3d_ && tray_.front_and_back == Sides::periodic ? vibrosow::within_period(place.z, *tray_.depth) : place.z};
 }
 
 double Counter::past_edge(const Hole& hole, const FloorPoint& place) const {
   const double along = std::abs(place.x - hole.centre), across = std::abs(place.z - hole.across);
-  if (!in_space_) return along - 0.5 * hole.width;
-  if (hole.shape == HoleShape::round) return elementary::hypot(along, across) - 0.5 * hole.rim_width();
+  if (!is_3d_) return along - 0.5 * hole.width;
+  if (hole.shape == HoleShape::round) return portable_math::hypot(along, across) - 0.5 * hole.rim_width();
   return std::max(along - 0.5 * hole.width, across - 0.5 * hole.across_length);
 }
 
@@ -50,7 +49,7 @@ int Counter::hole_at(const FloorPoint& place) const {
   if (line_below_) return 0;
   for (std::size_t k = 0; k < tray_.holes.size(); ++k)
     if (past_edge(tray_.holes[k], place) <= 0) return static_cast<int>(k) + 1;
-  return tray_.box && is_between_ends(tray_, in_space_, place.x, place.z) ? through_the_floor : 0;
+  return tray_.box && is_between_ends(tray_, is_3d_, place.x, place.z) ? through_the_floor : 0;
 }
 
 int Counter::hole_beside(const FloorPoint& place, double reach) const {
@@ -67,7 +66,7 @@ void Counter::watch(const Grains& grains, const Walls& walls, const GrainLoops& 
   lost_now_.clear();
   const Pose pose = line_below_.value_or(walls.poses().front());
   const double angle = tray_.tilt + pose.angle;
-  const auto [sine, cosine] = elementary::sine_cosine(angle);
+  const auto [sine, cosine] = portable_math::sine_cosine(angle);
   const double ox = tray_.origin.x() + pose.displacement.x(), oy = tray_.origin.y() + pose.displacement.y();
   const double oz = tray_.front + pose.across;
   const PoseRate rate = line_below_ ? PoseRate{} : walls.rate(0, time);
@@ -91,8 +90,8 @@ void Counter::watch(const Grains& grains, const Walls& walls, const GrainLoops& 
     const double along = cosine * (grains.x[i] - ox) + sine * (grains.y[i] - oy);
     const double ux = grains.vx[i] - (tray_velocity.x() - spin * (grains.y[i] - oy));
     const double uy = grains.vy[i] - (tray_velocity.y() + spin * (grains.x[i] - ox));
-    const double across = in_space_ ? grains.z[i] - oz : 0,
-                 speed_across = in_space_ ? grains.vz[i] - rate.across_velocity : 0;
+    const double across = is_3d_ ? grains.z[i] - oz : 0,
+                 speed_across = is_3d_ ? grains.vz[i] - rate.across_velocity : 0;
     const double speed_along = cosine * ux + sine * uy, speed_up = cosine * uy - sine * ux;
     // Above which place of the floor, which may turn in itself, it was `ago` (s) before.
     const auto place_before = [&](double ago) {
@@ -121,9 +120,9 @@ void Counter::watch(const Grains& grains, const Walls& walls, const GrainLoops& 
     }
     const double ago = since(-count_below_);
     const FloorPoint place = passage.hole > 0 ? FloorPoint{passage.x, passage.z} : place_before(ago);
-    const double in_plane = elementary::hypot(grains.vx[i], grains.vy[i]);
+    const double in_plane = portable_math::hypot(grains.vx[i], grains.vy[i]);
     events.push_back({time - ago, passage.hole, grains.lot[i], grains.id[i], grains.kind(i).mass, place.x,
-                      in_space_ ? elementary::hypot(in_plane, grains.vz[i]) : in_plane, place.z});
+                      is_3d_ ? portable_math::hypot(in_plane, grains.vz[i]) : in_plane, place.z});
   }
 }
 
@@ -136,7 +135,7 @@ void Counter::remove_flagged(const std::vector<char>& removed) {
 
 bool is_inside(const Vessel& vessel, const Pose& pose, const Grains& grains, std::size_t i) {
   const Eigen::Vector3d own = point_in_vessel(vessel, pose, grains.place(i));
-  return own.y() >= 0 && own.y() <= vessel.height && is_between_ends(vessel, grains.in_space, own.x(), own.z());
+  return own.y() >= 0 && own.y() <= vessel.height && is_between_ends(vessel, grains.is_3d, own.x(), own.z());
 }
 
 }  // namespace vibrosow

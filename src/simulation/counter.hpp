@@ -18,7 +18,7 @@ class Counter {
  public:
   Counter(const Scene& scene, CounterState& state)
       : tray_(scene.tray),
-        in_space_(scene.space == Space::three_dimensional),
+        is_3d_(scene.space == Space::three_dimensional),
         count_below_(scene.run.count_below),
         line_below_(line_below(scene.tray)),
         state_(state) {}
@@ -48,7 +48,7 @@ class Counter {
   int hole_beside(const FloorPoint& place, double reach) const;
 
   const Vessel& tray_;
-  bool in_space_;
+  bool is_3d_;
   double count_below_;
   std::optional<Pose> line_below_;  // of a tray that turns over and over
   CounterState& state_;

@@ -24,7 +24,7 @@ Pose upright_frame(const Vessel& vessel, const Pose& pose) {
 
 /// Grains of one vessel, in its own frame; in the plane z is 0.
 struct Feeder::Inside {
-  bool in_space = false;
+  bool is_3d = false;
   int grains = 0;
   std::vector<Eigen::Vector3d> at;
   std::vector<double> radius;
@@ -33,7 +33,7 @@ struct Feeder::Inside {
   /// In a periodic vessel with its images to either side.
   void add(const Vessel& vessel, const Eigen::Vector3d& own, double own_radius, bool in_heap) {
     const int along = vessel.sides == Sides::periodic ? 1 : 0;
-    const int across = in_space && vessel.front_and_back == Sides::periodic ? 1 : 0;
+    const int across = is_3d && vessel.front_and_back == Sides::periodic ? 1 : 0;
     for (int i = -along; i <= along; ++i)
       for (int k = -across; k <= across; ++k) {
         const double depth = across == 0 ? 0 : *vessel.depth;
@@ -51,13 +51,13 @@ Feeder::Inside Feeder::grains_inside(std::size_t v, const Walls& walls, const Gr
   const Vessel& vessel = walls.vessels()[v];
   const Pose pose = upright_frame(vessel, walls.poses()[v]);
   Inside inside;
-  inside.in_space = grains.in_space;
+  inside.is_3d = grains.is_3d;
   for (std::size_t i = 0; i < grains.size(); ++i) {
     const Eigen::Vector3d own = point_in_vessel(vessel, pose, grains.place(i));
     const double reach = grains.kind(i).radius + model_.largest_diameter;
     if (own.x() < -reach || own.x() > vessel.length + reach || own.y() < -reach || own.y() > vessel.height + reach)
       continue;
-    if (grains.in_space && (own.z() < -reach || own.z() > *vessel.depth + reach)) continue;
+    if (grains.is_3d && (own.z() < -reach || own.z() > *vessel.depth + reach)) continue;
     if (is_inside(vessel, pose, grains, i) && places_.counts_in(grains.place(i), v, walls)) ++inside.grains;
     inside.add(vessel, own, grains.kind(i).radius, touching[i] != 0);
   }
@@ -188,8 +188,8 @@ int Feeder::top_up(Grains& grains, const std::vector<char>& touching, const Wall
       if (!next) next = draw(state_.random);
       next->turned = draw_turn(lot_of(*next), state_.random);
       const double radius = radius_of(*next);
-      const FloorPlace place = grains.in_space ? random_place(vessel, radius, state_.random)
-                                               : FloorPlace(state_.random.uniform(radius, vessel.length - radius), 0);
+      const FloorPlace place = grains.is_3d ? random_place(vessel, radius, state_.random)
+                                            : FloorPlace(state_.random.uniform(radius, vessel.length - radius), 0);
       const std::optional<double> y = free_height(inside, place, radius, v, walls);
       if (!y) {
         ++waiting;
@@ -231,7 +231,7 @@ int Feeder::rain(std::size_t v, Grains& grains, const Walls& walls, double time)
     const double from = std::clamp(rain.from, margin, vessel.length - margin);
     const double to = std::clamp(rain.to, margin, vessel.length - margin);
     const double x = shower.random.uniform(from, to);
-    const double z = grains.in_space ? random_across(vessel, radius, x, shower.random) : 0;
+    const double z = grains.is_3d ? random_across(vessel, radius, x, shower.random) : 0;
     const Eigen::Vector3d at = point_in_lab(vessel, frame, {x, rain.height, z});
     const bool clear = places_.is_clear_of_grains(at, radius, grains) &&
                        places_.depth_in_walls(at, radius, walls) <= most_placing_overlap * radius;

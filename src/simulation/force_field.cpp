@@ -19,9 +19,9 @@ ForceField::ForceField(const Model& model, SimulationState& state, NeighbourMarg
       of_ranges_(static_cast<std::size_t>(execution.threads())) {
   const std::size_t instructions = static_cast<std::size_t>(execution.instructions());
   plane_ = {model.kernels->vectors[instructions], model.kernels->energy, {}, {}, {}};
-  space_ = {model.kernels->in_space[instructions], model.kernels->energy_in_space, {}, {}, {}};
+  space_ = {model.kernels->is_3d[instructions], model.kernels->energy_3d, {}, {}, {}};
   plane_.ranges.resize(of_ranges_.size()), space_.ranges.resize(of_ranges_.size());
-  for (auto& range : space_.ranges) range.finder = SpaceWallFinder(execution.instructions());
+  for (auto& range : space_.ranges) range.finder = WallFinder3d(execution.instructions());
   if (model.effects.clumps) clumps_.emplace(model.scene.lots, model.kinds, *model.law, model.effects.rotation);
   for (std::size_t v = 0; v < model.vessels.size(); ++v)
     walls_.set_motion(v, state.vessels.motion[v], state.vessels.shift[v]);
@@ -109,7 +109,7 @@ void ForceField::add_walls(Part<In>& part, const Grains& discs, const typename I
     finder.find(discs, candidates, first, In::walls_of(walls_), contacts);
     finder.watch_crossings(candidates, own.crossed);
     if (step.commit != 0) finder.touches().renew(histories);
-    add_figures(part.kernels.wall(surfaces, at, model_.contacts, step, histories, contacts), own);
+    add_metrics(part.kernels.wall(surfaces, at, model_.contacts, step, histories, contacts), own);
     if (step.commit != 0) finder.touches().share(histories);
     add_wall_forces(contacts, model_.kernels->effects.rotation, sums);
     own.contacts = contacts.count;
@@ -153,13 +153,13 @@ typename In::WallContacts& ForceField::press_walls(Part<In>& part, const Grains&
 }
 
 template WallContacts& ForceField::press_walls(Part<InPlane>&, const Grains&);
-template SpaceWallContacts& ForceField::press_walls(Part<InSpace>&, const Grains&);
+template WallContacts3d& ForceField::press_walls(Part<Balls3d>&, const Grains&);
 
 void ForceField::gather(Part<InPlane>& part) {
   part.on_grains.assign(state_.grains.size(), {});
   clumps_->gather(part.on_discs, part.on_grains);
 }
-void ForceField::gather(Part<InSpace>& part) {
+void ForceField::gather(Part<Balls3d>& part) {
   clumps_->gather(part.on_discs, part.on_grains, execution_);
 }
 
@@ -228,10 +228,10 @@ Forces ForceField::wall_forces() {
   return forces;
 }
 
-std::vector<GrainVector> ForceField::wall_forces_in_space() {
+std::vector<GrainVector> ForceField::wall_forces_3d() {
   see_walls_as_they_are();
   const Grains& balls = place_discs();
-  SpaceForces on_balls;
+  Forces3d on_balls;
   resize(on_balls, balls.size(), model_.kernels->effects.rotation);
   add_wall_forces(press_walls(space_, balls), model_.kernels->effects.rotation, on_balls);
   return on_balls.forces;
@@ -258,7 +258,7 @@ DeepestContact ForceField::deepest_contact() {
       const std::size_t a = static_cast<std::size_t>(i), b = static_cast<std::size_t>(j);
       const GrainKind one = discs.kind(a), other = discs.kind(b);
       const double dx = discs.x[b] - (discs.x[a] + shift.x), dy = discs.y[b] - discs.y[a];
-      const double dz = discs.in_space ? discs.z[b] - (discs.z[a] + shift.z) : 0;
+      const double dz = discs.is_3d ? discs.z[b] - (discs.z[a] + shift.z) : 0;
       const double overlap = one.radius + other.radius - std::sqrt(dx * dx + dy * dy + dz * dz);
       look(i, j, overlap, one, other.compliance, 1 / other.radius, other.inverse_mass);
       look(j, i, overlap, other, one.compliance, 1 / one.radius, one.inverse_mass);
@@ -285,7 +285,7 @@ std::vector<char> ForceField::touching() {
       const std::size_t i = static_cast<std::size_t>(pairs.grain[k]), j = static_cast<std::size_t>(pairs.partner[k]);
       const double reach = discs.kind(i).radius + discs.kind(j).radius;
       const double dx = discs.x[j] - (discs.x[i] + shift.x), dy = discs.y[j] - discs.y[i];
-      const double dz = discs.in_space ? discs.z[j] - (discs.z[i] + shift.z) : 0;
+      const double dz = discs.is_3d ? discs.z[j] - (discs.z[i] + shift.z) : 0;
       if (dx * dx + dy * dy + dz * dz < reach * reach) touches[grain_of(i)] = touches[grain_of(j)] = 1;
     }
   };

@@ -5,11 +5,11 @@
 #include <vector>
 
 #include "contact/pair_forces.hpp"
-#include "contact/space_wall_contacts.hpp"
 #include "contact/wall_contacts.hpp"
+#include "contact/wall_contacts_3d.hpp"
 #include "grains/clump_discs.hpp"
 #include "loops/execution.hpp"
-#include "loops/space_forces.hpp"
+#include "loops/forces_3d.hpp"
 #include "result/frame.hpp"
 #include "simulation/neighbours.hpp"
 #include "simulation/state.hpp"
@@ -55,7 +55,7 @@ class ForceField {
   /// Forces of the walls alone on each grain, where grains and walls are now; nothing moves on by it.
   Forces wall_forces();
   /// The same on each ball in space, those of clumps one by one.
-  std::vector<GrainVector> wall_forces_in_space();
+  std::vector<GrainVector> wall_forces_3d();
 
   DeepestContact deepest_contact();
 
@@ -79,8 +79,8 @@ class ForceField {
 
   const Forces& forces() const { return plane_.on_grains; }
   /// The same of balls in space: forces (N) and torques (N m), the latter without rotation empty.
-  const std::vector<GrainVector>& forces_in_space() const { return space_.on_grains.forces; }
-  const std::vector<GrainVector>& torques_in_space() const { return space_.on_grains.torques; }
+  const std::vector<GrainVector>& forces_3d() const { return space_.on_grains.forces; }
+  const std::vector<GrainVector>& torques_3d() const { return space_.on_grains.torques; }
   const Walls& walls() const { return walls_; }
   Neighbours& neighbours() { return neighbours_; }
   const Neighbours& neighbours() const { return neighbours_; }
@@ -97,14 +97,14 @@ class ForceField {
     using Energies = EnergyKernel;
     static const auto& walls_of(const Walls& walls) { return walls.placed(); }
   };
-  struct InSpace {
-    using Moving = SpaceMotion;
-    using Sums = SpaceForces;
-    using Foreign = ForeignSpaceForce;
-    using Finder = SpaceWallFinder;
-    using WallContacts = SpaceWallContacts;
-    using Kernels = SpaceVectorKernels;
-    using Energies = SpaceEnergyKernel;
+  struct Balls3d {
+    using Moving = Motion3d;
+    using Sums = Forces3d;
+    using Foreign = ForeignForce3d;
+    using Finder = WallFinder3d;
+    using WallContacts = WallContacts3d;
+    using Kernels = VectorKernels3d;
+    using Energies = EnergyKernel3d;
     static const auto& walls_of(const Walls& walls) { return walls.placed_faces(); }
   };
   /// With what one of the two is worked out.
@@ -135,22 +135,22 @@ class ForceField {
   /// Calls `work` with the part of the plane or of space.
   template <class Work>
   auto with_part(const Work& work) {
-    return state_.grains.in_space ? work(space_) : work(plane_);
+    return state_.grains.is_3d ? work(space_) : work(plane_);
   }
   const Grains& place_discs();
   double energy_of_springs();
   /// They move as they do where they are, not as in the middle of the step of the last evaluation.
   void see_walls_as_they_are() { place_walls(state_.vessels.placed_at); }
   Motion motion_of(const Part<InPlane>& part, const Grains& discs) const;
-  SpaceMotion motion_of(const Part<InSpace>& part, const Grains& balls);
+  Motion3d motion_of(const Part<Balls3d>& part, const Grains& balls);
   Motion across(const Motion& at, const Grains& discs, const Neighbours::Image& image);
-  SpaceMotion across(const SpaceMotion& at, const Grains& balls, const Neighbours::Image& image);
+  Motion3d across(const Motion3d& at, const Grains& balls, const Neighbours::Image& image);
   void set_rows(const Grains& balls);
   PairShare pair_share(std::size_t range, std::size_t grains) const;
   WallRange wall_range(std::size_t range);
   void add_up_ranges(ContactStatistics& statistics) const;
   void gather(Part<InPlane>& part);
-  void gather(Part<InSpace>& part);
+  void gather(Part<Balls3d>& part);
 
   template <class In>
   void set_pair_forces(Part<In>& part, const Grains& discs, const typename In::Moving& at, const ContactStep& step,
@@ -173,7 +173,7 @@ class ForceField {
   template <class In>
   std::vector<GrainContact> contacts_of(Part<In>& part, const Grains& discs);
   void add_wall_contacts(const WallContacts& touching, const Grains& discs, std::vector<GrainContact>& contacts) const;
-  void add_wall_contacts(const SpaceWallContacts& touching, const Grains& balls,
+  void add_wall_contacts(const WallContacts3d& touching, const Grains& balls,
                          std::vector<GrainContact>& contacts) const;
   std::int64_t id_of_disc(const Grains& discs, std::size_t i) const;
 
@@ -185,7 +185,7 @@ class ForceField {
   std::optional<ClumpDiscs> clumps_;
   bool clumps_are_current_ = false;
   Part<InPlane> plane_;
-  Part<InSpace> space_;
+  Part<Balls3d> space_;
   std::vector<ContactStatistics> of_ranges_;
   std::vector<double> shifted_x_;                     // m, across the periodic boundary
   std::vector<GrainVector> places_, shifted_places_;  // the same of balls in space

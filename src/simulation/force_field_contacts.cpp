@@ -28,7 +28,7 @@ Vector direction(const Vector& apart) {
 Vector force_on(const Forces& sums, std::size_t i) {
   return {sums[i].fx, sums[i].fy, 0};
 }
-Vector force_on(const SpaceForces& sums, std::size_t i) {
+Vector force_on(const Forces3d& sums, std::size_t i) {
   return {sums.forces[i].x, sums.forces[i].y, sums.forces[i].z};
 }
 
@@ -65,7 +65,7 @@ void ForceField::add_wall_contacts(const WallContacts& w, const Grains& discs,
   }
 }
 
-void ForceField::add_wall_contacts(const SpaceWallContacts& w, const Grains& balls,
+void ForceField::add_wall_contacts(const WallContacts3d& w, const Grains& balls,
                                    std::vector<GrainContact>& contacts) const {
   for (std::size_t k = 0; k < static_cast<std::size_t>(w.count); ++k) {
     const std::size_t i = static_cast<std::size_t>(w.grain[k]);

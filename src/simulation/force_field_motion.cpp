@@ -22,7 +22,7 @@ BallRows ForceField::rows_to_set() {
 }
 
 /// What it points at is right until it is asked for again.
-SpaceMotion ForceField::motion_of(const Part<InSpace>& /*part*/, const Grains& balls) {
+Motion3d ForceField::motion_of(const Part<Balls3d>& /*part*/, const Grains& balls) {
   if (clumps_) return {clumps_->places().data(), clumps_->places().data(), clumps_->motions().data()};
   if (!rows_are_set_) set_rows(balls);
   rows_are_set_ = false;
@@ -33,14 +33,14 @@ void ForceField::set_rows(const Grains& balls) {
   const BallRows rows = rows_to_set();
   const bool turn = !balls.omega.empty();
   execution_.share(balls.size(), [&](std::size_t a, std::size_t b) {
-    const SpaceLoops& loops = execution_.space_loops();
+    const Loops3d& loops = execution_.loops_3d();
     loops.places_to_rows(b - a, {&balls.x[a], &balls.y[a], &balls.z[a]}, rows.places + a);
     const Coordinates spin = turn ? Coordinates{&balls.omega_x[a], &balls.omega_y[a], &balls.omega[a]} : Coordinates{};
     loops.motions_to_rows(b - a, {&balls.vx[a], &balls.vy[a], &balls.vz[a]}, spin, rows.motions + a);
   });
 }
 
-SpaceMotion ForceField::across(const SpaceMotion& at, const Grains& /*balls*/, const Neighbours::Image& image) {
+Motion3d ForceField::across(const Motion3d& at, const Grains& /*balls*/, const Neighbours::Image& image) {
   shifted_places_ = clumps_ ? clumps_->places() : places_;
   for (GrainVector& place : shifted_places_) place.x += image.x, place.z += image.z;
   return {at.place, shifted_places_.data(), at.motion};

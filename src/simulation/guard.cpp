@@ -6,8 +6,8 @@
 #include <cmath>
 #include <utility>
 
-#include "elementary/functions.hpp"
 #include "grains/turning_clump.hpp"
+#include "portable_math/functions.hpp"
 #include "simulation/seed_places.hpp"
 
 namespace vibrosow {
@@ -27,7 +27,7 @@ double mass_of(const Grains& grains, std::size_t i) {
 double energy_of_travel(const Grains& grains, std::size_t i) {
   const double mass = mass_of(grains, i);
   double energy = 0.5 * mass * (grains.vx[i] * grains.vx[i] + grains.vy[i] * grains.vy[i]);
-  if (grains.in_space) energy += 0.5 * mass * grains.vz[i] * grains.vz[i];
+  if (grains.is_3d) energy += 0.5 * mass * grains.vz[i] * grains.vz[i];
   return energy;
 }
 
@@ -41,7 +41,7 @@ double energy_of_turning(const Grains& grains, std::size_t i, bool as_clump) {
     return 0.5 * dot(spin, turning_clump(grains, i).momentum_of(spin));
   }
   double spin2 = grains.omega[i] * grains.omega[i];
-  if (grains.in_space) spin2 += grains.omega_x[i] * grains.omega_x[i] + grains.omega_y[i] * grains.omega_y[i];
+  if (grains.is_3d) spin2 += grains.omega_x[i] * grains.omega_x[i] + grains.omega_y[i] * grains.omega_y[i];
   return 0.5 * spin2 / inverse_inertia;
 }
 
@@ -72,12 +72,12 @@ double potential_energy(const Grains& grains, const Eigen::Vector2d& gravity) {
 
 namespace {
 
-std::string told(const Integration& s, std::size_t i) {
+std::string describe_grain(const Integration& s, std::size_t i) {
   return grain_text(s.model, s.grains, i);
 }
 
 double speed2(const Grains& g, std::size_t i) {
-  return g.vx[i] * g.vx[i] + g.vy[i] * g.vy[i] + (g.in_space ? g.vz[i] * g.vz[i] : 0);
+  return g.vx[i] * g.vx[i] + g.vy[i] * g.vy[i] + (g.is_3d ? g.vz[i] * g.vz[i] : 0);
 }
 
 /// Of a grain towards what it is in, at most, m/s; of a wall any vessel's.
@@ -98,13 +98,13 @@ double speed_into(const Integration& s, const DeepestContact& contact) {
 /// grow as a power of the speed.
 double whole_impact(const LawTraits& law, const DeepestContact& contact, double speed) {
   const auto overlap = [&](double v) { return law.impact_overlap(contact.stiffness, contact.inverse_mass, v); };
-  const double exponent = elementary::log(overlap(2) / overlap(1)) / elementary::log(2);
-  const double spent = elementary::pow(contact.overlap / overlap(1), 1 / exponent);
-  return contact.relative_overlap * overlap(elementary::hypot(spent, speed)) / contact.overlap;
+  const double exponent = portable_math::log(overlap(2) / overlap(1)) / portable_math::log(2);
+  const double spent = portable_math::pow(contact.overlap / overlap(1), 1 / exponent);
+  return contact.relative_overlap * overlap(portable_math::hypot(spent, speed)) / contact.overlap;
 }
 
 /// The first grain whose state is not a number; else the fastest.
-std::size_t worst(const Grains& g) {
+std::size_t first_invalid_or_fastest(const Grains& g) {
   std::size_t fastest = 0;
   for (std::size_t i = 0; i < g.size(); ++i) {
     if (!std::isfinite(mechanical_energy(g, i, Eigen::Vector2d::Zero()) + g.place(i).sum())) return i;
@@ -115,7 +115,7 @@ std::size_t worst(const Grains& g) {
 
 /// Two digits, towards zero or away from it: a limit is kept by what is advised.
 double rounded(double value, bool up) {
-  const double unit = elementary::pow(10.0, std::floor(elementary::log(value) / elementary::log(10)) - 1);
+  const double unit = portable_math::pow(10.0, std::floor(portable_math::log(value) / portable_math::log(10)) - 1);
   return unit * (up ? std::ceil(value / unit) : std::floor(value / unit));
 }
 
@@ -136,8 +136,8 @@ void Guard::stop(std::string reason) {
 /// contact yields more to stiffness.
 std::string Guard::stiff_enough(double relative_overlap, int lot) const {
   const double exponent =
-      -elementary::log(law_.impact_overlap(2, 1, 1) / law_.impact_overlap(1, 1, 1)) / elementary::log(2);
-  const double too_soft = elementary::pow(relative_overlap / limits_.warn_relative_overlap, 1 / exponent);
+      -portable_math::log(law_.impact_overlap(2, 1, 1) / law_.impact_overlap(1, 1, 1)) / portable_math::log(2);
+  const double too_soft = portable_math::pow(relative_overlap / limits_.warn_relative_overlap, 1 / exponent);
   const bool shell = law_.material == LawMaterial::shell;
   const SeedLot& seed = model_.scene.lots[static_cast<std::size_t>(lot)];
   const std::optional<double>& own = shell ? seed.shell_compression : seed.youngs_modulus;
@@ -159,8 +159,8 @@ void Guard::watch_step(const Integration& s) {
   if (!s.too_fast) return;
   // Insisted on or not: no list can be made of grains that are nowhere.
   if (!std::isfinite(kinetic_energy(s.grains)))
-    stop(fmt::format("the state of {} is not a number at {:.4g} s: {}", told(s, worst(s.grains)), s.state.time,
-                     shorter_step(0.5 * s.dt)));
+    stop(fmt::format("the state of {} is not a number at {:.4g} s: {}",
+                     describe_grain(s, first_invalid_or_fastest(s.grains)), s.state.time, shorter_step(0.5 * s.dt)));
   else
     watch_stride(s);
 }
@@ -177,11 +177,12 @@ void Guard::watch_overlap(const Integration& s, double overlap) {
       return stop(
           fmt::format("the relative overlap is {:.3g} before the first step (guard.stop_relative_overlap = "
                       "{:.3g}): {} was put in {}; no step is too long",
-                      overlap, limits_.stop_relative_overlap, told(s, grain), other));
+                      overlap, limits_.stop_relative_overlap, describe_grain(s, grain), other));
     const double whole = std::max(overlap, whole_impact(law_, deepest, speed_into(s, deepest)));
     stop(fmt::format(
         "the relative overlap reached {:.3g} at {:.4g} s (guard.stop_relative_overlap = {:.3g}): {} in {}; {}", overlap,
-        s.state.time, limits_.stop_relative_overlap, told(s, grain), other, stiff_enough(whole, s.grains.lot[grain])));
+        s.state.time, limits_.stop_relative_overlap, describe_grain(s, grain), other,
+        stiff_enough(whole, s.grains.lot[grain])));
   } else if (overlap > limits_.warn_relative_overlap) {
     if (state_.deep_since < 0) state_.deep_since = s.state.time;
     ++state_.let_pass.deep_steps;
@@ -194,11 +195,12 @@ void Guard::watch_stride(const Integration& s) {
     ++state_.let_pass.strides;
     return;
   }
-  const std::size_t fastest = worst(s.grains);
+  const std::size_t fastest = first_invalid_or_fastest(s.grains);
   const double speed = std::sqrt(speed2(s.grains, fastest));
   stop(fmt::format(
       "{} moves at {:.4g} m/s at {:.4g} s, more than {:.2g} radii in a step, and could pass a wall unseen: {}",
-      told(s, fastest), speed, s.state.time, longest_stride_in_radii, shorter_step(0.5 * s.dt * s.fastest / speed)));
+      describe_grain(s, fastest), speed, s.state.time, longest_stride_in_radii,
+      shorter_step(0.5 * s.dt * s.fastest / speed)));
 }
 
 void Guard::watch_energy(const Integration& s, EnergyAccount& account) {
@@ -210,8 +212,8 @@ void Guard::watch_energy(const Integration& s, EnergyAccount& account) {
   // Places along and up are in the potential energy, those across in none.
   const bool finite_across = std::ranges::all_of(s.grains.z, [](double z) { return std::isfinite(z); });
   if (!std::isfinite(moving + account.potential) || !finite_across) {
-    stop(fmt::format("the state of {} is not a number at {:.4g} s: {}", told(s, worst(s.grains)), s.state.time,
-                     shorter_step(0.5 * s.dt)));
+    stop(fmt::format("the state of {} is not a number at {:.4g} s: {}",
+                     describe_grain(s, first_invalid_or_fastest(s.grains)), s.state.time, shorter_step(0.5 * s.dt)));
     return;
   }
   const double only_falls = moving + account.potential - account.wall_work - account.inserted + account.removed;
@@ -232,11 +234,11 @@ void Guard::watch_energy(const Integration& s, EnergyAccount& account) {
   if (made <= 0) return;
   state_.most_made = std::max(state_.most_made, made / scale);
   if (made > limits_.energy_tolerance * scale) {
-    const std::size_t fastest = worst(s.grains);
+    const std::size_t fastest = first_invalid_or_fastest(s.grains);
     stop(
         fmt::format("the numerics made {:.3g} J by {:.4g} s, {:.3g} of the energy in play: the step is too long; the "
                     "fastest is {}, {:.4g} m/s; {}",
-                    made, s.state.time, made / scale, told(s, fastest), std::sqrt(speed2(s.grains, fastest)),
+                    made, s.state.time, made / scale, describe_grain(s, fastest), std::sqrt(speed2(s.grains, fastest)),
                     shorter_step(0.5 * s.dt)));
   } else if (made > energy_warning * scale) {
     if (state_.energy_since < 0) state_.energy_since = s.state.time;
@@ -248,13 +250,13 @@ void Guard::watch_lost(const Integration& s, const std::vector<int>& grains) {
   if (limits_.stop_relative_overlap >= 1) return;
   const std::size_t first = static_cast<std::size_t>(grains.front());
   const std::string more = grains.size() == 1 ? "" : fmt::format(" and {} more", grains.size() - 1);
-  stop(fmt::format("{}{} went through a wall at {:.4g} s; {}", told(s, first), more, s.state.time,
+  stop(fmt::format("{}{} went through a wall at {:.4g} s; {}", describe_grain(s, first), more, s.state.time,
                    stiff_enough(std::max(1.0, state_.max_relative_overlap), s.grains.lot[first])));
 }
 
 std::vector<std::string> Guard::warnings() const {
   std::vector<std::string> warnings;
-  const LetPass& passed = state_.let_pass;
+  const ToleratedViolations& passed = state_.let_pass;
   const auto steps = [](std::int64_t count) { return fmt::format("{} step{}", count, count == 1 ? "" : "s"); };
   if (passed.deep_steps > 0)
     warnings.push_back(fmt::format(

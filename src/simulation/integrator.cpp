@@ -25,9 +25,9 @@ Rates rates_of(Integration& s, std::size_t a) {
           &s.kept.ax[a],   &s.kept.ay[a],   turns ? &s.kept.alpha[a] : nullptr};
 }
 
-SpaceDrive space_drive_of(const Integration& s, std::size_t a) {
-  const auto& torques = s.field.torques_in_space();
-  return {&s.field.forces_in_space()[a],
+Drive3d drive_of_3d(const Integration& s, std::size_t a) {
+  const auto& torques = s.field.torques_3d();
+  return {&s.field.forces_3d()[a],
           torques.empty() ? nullptr : &torques[a],
           per_mass(s.grains, a),
           per_inertia(s.grains, a),
@@ -36,10 +36,10 @@ SpaceDrive space_drive_of(const Integration& s, std::size_t a) {
           0,
           s.drag};
 }
-SpaceRates space_rates_of(Integration& s, std::size_t a) {
+Rates3d rates_of_3d(Integration& s, std::size_t a) {
   Grains& g = s.grains;
   IntegratorState& k = s.kept;
-  SpaceRates rates{{&g.vx[a], &g.vy[a], &g.vz[a]}, {}, {&k.ax[a], &k.ay[a], &k.az[a]}, {}};
+  Rates3d rates{{&g.vx[a], &g.vy[a], &g.vz[a]}, {}, {&k.ax[a], &k.ay[a], &k.az[a]}, {}};
   if (!g.rotation || g.oriented) return rates;  // clumps turn in their own way
   rates.omega[0] = &g.omega_x[a], rates.omega[1] = &g.omega_y[a], rates.omega[2] = &g.omega[a];
   rates.alpha[0] = &k.alpha_x[a], rates.alpha[1] = &k.alpha_y[a], rates.alpha[2] = &k.alpha[a];
@@ -47,13 +47,13 @@ SpaceRates space_rates_of(Integration& s, std::size_t a) {
 }
 
 /// Of those that are driven: without friction nothing turns a ball, and there are no torques.
-SpaceRates driven_in_space(Integration& s, std::size_t a) {
-  SpaceRates rates = space_rates_of(s, a);
-  if (s.field.torques_in_space().empty()) rates.omega[0] = nullptr;
+Rates3d driven_3d(Integration& s, std::size_t a) {
+  Rates3d rates = rates_of_3d(s, a);
+  if (s.field.torques_3d().empty()) rates.omega[0] = nullptr;
   return rates;
 }
 
-void accelerations_in_space(Integration& s) {
+void accelerations_3d(Integration& s) {
   const Grains& grains = s.grains;
   const std::size_t n = grains.size(), turning = grains.omega.size();
   for (std::vector<double>* a : {&s.kept.ax, &s.kept.ay, &s.kept.az}) a->resize(n);
@@ -61,7 +61,7 @@ void accelerations_in_space(Integration& s) {
   if (grains.oriented && s.model.scene.numerics.integrator == Integrator::gear5)
     for (std::vector<double>& rate : s.kept.quaternion_rate) rate.resize(turning);
   s.execution.share(n, [&](std::size_t a, std::size_t b) {
-    s.execution.space_loops().accelerate(b - a, space_drive_of(s, a), driven_in_space(s, a));
+    s.execution.loops_3d().accelerate(b - a, drive_of_3d(s, a), driven_3d(s, a));
     if (turn_as_clumps(grains)) keep_clump_rates(s, a, b);
   });
 }
@@ -69,7 +69,7 @@ void accelerations_in_space(Integration& s) {
 /// a = F / m + g - (mu / m) v, alpha = T / J, of clumps in space T, into the arrays of `s`.
 void accelerations(Integration& s) {
   const Grains& grains = s.grains;
-  if (grains.in_space) return accelerations_in_space(s);
+  if (grains.is_3d) return accelerations_3d(s);
   s.kept.ax.resize(grains.size()), s.kept.ay.resize(grains.size()), s.kept.alpha.resize(grains.omega.size());
   s.execution.share(grains.size(), [&](std::size_t a, std::size_t b) {
     s.execution.loops().accelerate(b - a, drive_of(s, a), rates_of(s, a));
@@ -111,8 +111,8 @@ double next_time(const Integration& s) {
 /// At the end of a step, while the velocities are at hand.
 void watch_speed(Integration& s, std::size_t a, std::size_t b) {
   const Grains& g = s.grains;
-  if (g.in_space) {
-    if (s.execution.space_loops().any_faster(b - a, &g.vx[a], &g.vy[a], &g.vz[a], s.fastest)) s.too_fast = true;
+  if (g.is_3d) {
+    if (s.execution.loops_3d().any_faster(b - a, &g.vx[a], &g.vy[a], &g.vz[a], s.fastest)) s.too_fast = true;
     return;
   }
   if (s.execution.loops().any_faster(b - a, &s.grains.vx[a], &s.grains.vy[a], s.fastest)) s.too_fast = true;
@@ -137,14 +137,14 @@ void predict_balls(Integration& s) {
   Grains& g = s.grains;
   const BallRows rows = s.field.rows_to_set();
   s.execution.share(g.size(), [&](std::size_t a, std::size_t b) {
-    s.execution.space_loops().predict(b - a, s.dt, {&g.x[a], &g.y[a], &g.z[a]}, space_rates_of(s, a),
-                                      {rows.places + a, rows.motions + a});
+    s.execution.loops_3d().predict(b - a, s.dt, {&g.x[a], &g.y[a], &g.z[a]}, rates_of_3d(s, a),
+                                   {rows.places + a, rows.motions + a});
   });
 }
 
 void velocity_verlet(Integration& s) {
   Grains& grains = s.grains;
-  grains.in_space && !s.model.effects.clumps ? predict_balls(s) : predict(s);
+  grains.is_3d && !s.model.effects.clumps ? predict_balls(s) : predict(s);
   s.execution.profile().lap(Phase::integration);
   const double power_before = s.kept.wall_power;
   const double lag = 0.5 * s.dt;
@@ -157,8 +157,8 @@ void velocity_verlet(Integration& s) {
   s.field.evaluate(next_time(s), step, s.state.statistics);
 
   s.execution.share(grains.size(), [&](std::size_t a, std::size_t b) {
-    if (grains.in_space)
-      s.execution.space_loops().correct(b - a, s.dt, space_drive_of(s, a), driven_in_space(s, a));
+    if (grains.is_3d)
+      s.execution.loops_3d().correct(b - a, s.dt, drive_of_3d(s, a), driven_3d(s, a));
     else
       s.execution.loops().correct(b - a, s.dt, drive_of(s, a), rates_of(s, a));
     if (turn_as_clumps(grains)) correct_clump_rotation(s, a, b);
@@ -300,8 +300,8 @@ void start_gear(Integration& s) {
 
 Moving::Moving(Grains& g, IntegratorState& k) {
   along = {{&g.x, &g.vx, &k.ax, &k.of_x}, {&g.y, &g.vy, &k.ay, &k.of_y}};
-  if (g.in_space) along.push_back({&g.z, &g.vz, &k.az, &k.of_z});
-  if (g.rotation && g.in_space)
+  if (g.is_3d) along.push_back({&g.z, &g.vz, &k.az, &k.of_z});
+  if (g.rotation && g.is_3d)
     about = {{nullptr, &g.omega_x, &k.alpha_x, &k.of_angle_x},
              {nullptr, &g.omega_y, &k.alpha_y, &k.of_angle_y},
              {nullptr, &g.omega, &k.alpha, &k.of_angle}};

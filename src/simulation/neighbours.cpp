@@ -165,7 +165,7 @@ SeenWall seen_in_plane(const Grains& grains, std::size_t i, const Walls& walls, 
   const NearestPoint nearest = nearest_point(walls.placed()[static_cast<std::size_t>(wall)], grains.x[i], grains.y[i]);
   return {nearest.distance2, nearest.side};
 }
-SeenWall seen_in_space(const Grains& grains, std::size_t i, const Walls& walls, int wall) {
+SeenWall seen_3d(const Grains& grains, std::size_t i, const Walls& walls, int wall) {
   const NearestOnFace nearest =
       nearest_on_face(walls.placed_faces()[static_cast<std::size_t>(wall)], {grains.x[i], grains.y[i], grains.z[i]});
   return {nearest.distance2, nearest.side};
@@ -177,22 +177,22 @@ Neighbours::Neighbours(const std::vector<Vessel>& vessels, double largest_disc_d
                        HistoryKinds kinds, Execution& execution)
     : execution_(execution),
       diameter_(largest_disc_diameter),
-      wide_level_{(kinds.in_space ? margins.wide_in_space : margins.wide) * largest_disc_diameter},
+      wide_level_{(kinds.is_3d ? margins.wide_3d : margins.wide) * largest_disc_diameter},
       narrow_level_{margins.narrow * largest_disc_diameter},
       kinds_(kinds) {
-  if (kinds.in_space)
-    in_space_.emplace(vessels, largest_disc_diameter, execution.instructions());
+  if (kinds.is_3d)
+    is_3d_.emplace(vessels, largest_disc_diameter, execution.instructions());
   else
     in_plane_.emplace(vessels, largest_disc_diameter, execution.instructions());
   const Vessel& tray = vessels.front();
-  const bool along = tray.sides == Sides::periodic, across = kinds.in_space && tray.front_and_back == Sides::periodic;
+  const bool along = tray.sides == Sides::periodic, across = kinds.is_3d && tray.front_and_back == Sides::periodic;
   if (along) images_.push_back({tray.length, 0});
   if (across) images_.push_back({0, *tray.depth});
   if (along && across) images_.push_back({tray.length, *tray.depth}), images_.push_back({tray.length, -*tray.depth});
   wide_boundaries_.resize(images_.size()), old_boundaries_.resize(images_.size());
   for (const Vessel& vessel : vessels) {
     largest_radius_.push_back(largest_radius(vessel, Eigen::Vector2d::Zero()));
-    largest_radius_in_plan_.push_back(kinds.in_space ? largest_radius_in_plan(vessel, Eigen::Vector2d::Zero()) : 0);
+    largest_radius_in_plan_.push_back(kinds.is_3d ? largest_radius_in_plan(vessel, Eigen::Vector2d::Zero()) : 0);
   }
   course_.vessels.assign(vessels.size(), Eigen::Vector3d::Zero());
 }
@@ -243,13 +243,12 @@ bool Neighbours::any_strayed(const Reference& from, const Grains& grains, const 
   const double shift[] = {first.displacement.x(), first.displacement.y(), first.across};
   execution_.share(from.x.size(), [&](std::size_t a, std::size_t b) {
     const bool here =
-        kinds_.in_space
-            ? execution_.space_loops().any_moved(b - a, {&grains.x[a], &grains.y[a], &grains.z[a]}, shift,
-                                                 {&from.x[a], &from.y[a], &from.z[a]},
-                                                 {&course_.x[a], &course_.y[a], &course_.z[a]}, elapsed, limit)
-            : execution_.loops().any_moved(b - a, grains.x.data() + a, grains.y.data() + a, shift[0], shift[1],
-                                           from.x.data() + a, from.y.data() + a, course_.x.data() + a,
-                                           course_.y.data() + a, elapsed, limit);
+        kinds_.is_3d ? execution_.loops_3d().any_moved(b - a, {&grains.x[a], &grains.y[a], &grains.z[a]}, shift,
+                                                       {&from.x[a], &from.y[a], &from.z[a]},
+                                                       {&course_.x[a], &course_.y[a], &course_.z[a]}, elapsed, limit)
+                     : execution_.loops().any_moved(b - a, grains.x.data() + a, grains.y.data() + a, shift[0], shift[1],
+                                                    from.x.data() + a, from.y.data() + a, course_.x.data() + a,
+                                                    course_.y.data() + a, elapsed, limit);
     if (here) any = true;
   });
   return any;
@@ -341,12 +340,12 @@ void Neighbours::search(const Grains& grains, const Walls& walls, double time) {
   if (in_plane_)
     in_plane_->find(grains, walls.poses(), near, margin, ranges, wide_.pairs, wide_walls_);
   else
-    in_space_->find(grains, walls.poses(), near, margin, ranges, wide_.pairs, wide_walls_);
+    is_3d_->find(grains, walls.poses(), near, margin, ranges, wide_.pairs, wide_walls_);
   for (std::size_t k = 0; k < images_.size(); ++k) {
     if (in_plane_)
       in_plane_->find_across(images_[k].x, margin, ranges, wide_boundaries_[k].pairs);
     else
-      in_space_->find_across(images_[k].x, images_[k].z, margin, ranges, wide_boundaries_[k].pairs);
+      is_3d_->find_across(images_[k].x, images_[k].z, margin, ranges, wide_boundaries_[k].pairs);
   }
   if (!grains.clump.empty()) {
     drop_pairs_within_clumps(grains.clump, wide_.pairs);
@@ -388,12 +387,11 @@ void Neighbours::prune_range(const Grains& grains, const WideList& wide, std::si
     const float* speed = &wide.speed[from];
     int *near_grain = &narrow.grain[near], *near_partner = &narrow.partner[near];
     const auto [margin, lasts] = std::pair(narrow_level_.margin, narrow_level_.lasts);
-    near += kinds_.in_space
-                ? execution_.space_loops().near_pairs(count, grain, partner, speed,
-                                                      {grains.x.data(), grains.y.data(), grains.z.data()}, shift.x,
-                                                      shift.z, radius, margin, lasts, near_grain, near_partner)
-                : execution_.loops().near_pairs(count, grain, partner, speed, grains.x.data(), grains.y.data(), shift.x,
-                                                radius, margin, lasts, near_grain, near_partner);
+    near += kinds_.is_3d ? execution_.loops_3d().near_pairs(
+                               count, grain, partner, speed, {grains.x.data(), grains.y.data(), grains.z.data()},
+                               shift.x, shift.z, radius, margin, lasts, near_grain, near_partner)
+                         : execution_.loops().near_pairs(count, grain, partner, speed, grains.x.data(), grains.y.data(),
+                                                         shift.x, radius, margin, lasts, near_grain, near_partner);
   }
   narrow.grain.resize(near), narrow.partner.resize(near);
 }
@@ -464,7 +462,7 @@ void Neighbours::prune_walls(const Grains& grains, const Walls& walls, ContactSt
     const std::size_t i = static_cast<std::size_t>(candidate.grain);
     const std::size_t wall = static_cast<std::size_t>(candidate.wall);
     const auto [distance2, side] =
-        in_plane_ ? seen_in_plane(grains, i, walls, candidate.wall) : seen_in_space(grains, i, walls, candidate.wall);
+        in_plane_ ? seen_in_plane(grains, i, walls, candidate.wall) : seen_3d(grains, i, walls, candidate.wall);
     const double past = (course_.of(i) - course_.vessels[walls.vessel_of(wall)]).norm();
     const double reach = grains.kind(i).radius + narrow_level_.margin + narrow_level_.lasts * past;
     if (distance2 >= reach * reach) continue;
@@ -485,14 +483,14 @@ void Neighbours::remove_flagged(const std::vector<char>& removed, std::vector<do
 }
 
 void Neighbours::remove_wall(int wall, ContactState& contacts) {
-  in_plane_ ? in_plane_->remove_wall(wall) : in_space_->remove_wall(wall);
+  in_plane_ ? in_plane_->remove_wall(wall) : is_3d_->remove_wall(wall);
   std::erase_if(wide_walls_, [wall](const WallCandidate& candidate) { return candidate.wall == wall; });
   keep_candidates(contacts.walls, contacts.wall_histories,
                   [wall](const WallCandidate& candidate) { return candidate.wall != wall; });
 }
 
 void Neighbours::restore_wall(int wall) {
-  in_plane_ ? in_plane_->restore_wall(wall) : in_space_->restore_wall(wall);
+  in_plane_ ? in_plane_->restore_wall(wall) : is_3d_->restore_wall(wall);
   start_afresh();
 }
 

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "box2d/broadphase.hpp"
-#include "box2d/space_broadphase.hpp"
+#include "box2d/broadphase_3d.hpp"
 #include "contact/contact_state.hpp"
 #include "grains/grains.hpp"
 #include "loops/execution.hpp"
@@ -22,7 +22,7 @@ namespace vibrosow {
 struct NeighbourMargins {
   double wide = 1.4;
   double narrow = 0.15;
-  double wide_in_space = 0.5;  // a wide list grows with its cube there
+  double wide_3d = 0.5;  // a wide list grows with its cube there
 };
 
 /// Who may touch whom. A wide list comes from Box2D, seldom; the narrow ones of a ContactState are pruned from it,
@@ -114,7 +114,7 @@ class Neighbours {
 
   Execution& execution_;
   std::optional<Broadphase> in_plane_;
-  std::optional<SpaceBroadphase> in_space_;
+  std::optional<Broadphase3d> is_3d_;
   std::vector<double> largest_radius_;          // m, by vessel, of its walls about its frame's zero
   std::vector<double> largest_radius_in_plan_;  // m, the same about the upright axis, in space
   double diameter_;                             // m, of the largest disc or ball

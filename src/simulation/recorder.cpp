@@ -53,7 +53,7 @@ Snapshot snapshot_of(const Grains& grains, const Walls& walls, double time) {
     s.radius.push_back(kind.radius);
     s.mass.push_back(kind.mass);
   }
-  if (grains.in_space) {
+  if (grains.is_3d) {
     s.tray_z = pose.across, s.tray_vz = rate.across_velocity;
     s.z = grains.z, s.vz = grains.vz;
     s.q_w = grains.q_w, s.q_x = grains.q_x, s.q_y = grains.q_y, s.q_z = grains.q_z;
@@ -69,7 +69,7 @@ GrainExtents::GrainExtents(const std::vector<SeedLot>& lots) {
 void GrainExtents::add_to(Snapshot& s) const {
   for (std::size_t i = 0; i < s.size(); ++i) {
     const double filled = filled_[static_cast<std::size_t>(s.lot[i])];
-    if (s.in_space())
+    if (s.is_3d())
       s.volume.push_back(filled * ball_volume(s.radius[i]));
     else
       s.area.push_back(filled * circle_area(s.radius[i]));
@@ -106,7 +106,7 @@ Snapshot Recorder::snapshot(const Grains& grains, const Walls& walls, double tim
     const Eigen::Vector3d& start = state_.start.at(static_cast<std::size_t>(grains.id[i]));
     s.start_x.push_back(start.x());
     s.start_y.push_back(start.y());
-    if (grains.in_space) s.start_z.push_back(start.z());
+    if (grains.is_3d) s.start_z.push_back(start.z());
   }
   return s;
 }

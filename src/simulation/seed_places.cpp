@@ -19,7 +19,7 @@ namespace {
 Turn turn_of(const Grains& grains, std::size_t i) {
   Turn turn;
   if (!grains.oriented) return turn;
-  if (grains.in_space)
+  if (grains.is_3d)
     turn.orientation = grains.orientation(i);
   else
     turn.angle = grains.angle[i];
@@ -141,7 +141,7 @@ std::string placing_fault(const Model& model, const Grains& grains, std::size_t 
 
 std::string grain_text(const Model& model, const Grains& grains, std::size_t i) {
   const std::string& lot = model.scene.lots[static_cast<std::size_t>(grains.lot[i])].name;
-  const std::string across = grains.in_space ? fmt::format(", z {:.4g} mm", 1e3 * grains.z[i]) : "";
+  const std::string across = grains.is_3d ? fmt::format(", z {:.4g} mm", 1e3 * grains.z[i]) : "";
   return fmt::format("grain {} ({}) at x {:.4g} mm, y {:.4g} mm{}", grains.id[i], lot, 1e3 * grains.x[i],
                      1e3 * grains.y[i], across);
 }

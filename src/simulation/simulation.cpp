@@ -230,7 +230,7 @@ void Simulation::wrap() {
   bool any = false;
   if (tray.sides == Sides::periodic)
     any |= carry_over(state_.grains.x, tray.origin.x() + pose.displacement.x(), tray.length, beyond);
-  if (state_.grains.in_space && tray.front_and_back == Sides::periodic)
+  if (state_.grains.is_3d && tray.front_and_back == Sides::periodic)
     any |= carry_over(state_.grains.z, tray.front + pose.across, *tray.depth, beyond);
   if (any) field_.grains_wrapped();
 }

@@ -118,7 +118,7 @@ FeederState first_draws(const Model& model, std::uint64_t random_seed) {
 
 Grains no_grains(const Model& model) {
   Grains grains(model.kinds, model.effects.polydisperse, model.effects.rotation, model.effects.clumps);
-  grains.in_space = model.scene.space == Space::three_dimensional;
+  grains.is_3d = model.scene.space == Space::three_dimensional;
   return grains;
 }
 

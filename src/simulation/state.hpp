@@ -76,7 +76,7 @@ struct FeederState {
 
 struct GuardState {
   double max_relative_overlap = 0;
-  LetPass let_pass{};
+  ToleratedViolations let_pass{};
   // When there was first something to let pass (s): a deep contact, a stride, energy made by the numerics.
   double deep_since = -1, strides_since = -1, energy_since = -1;
   double most_made = 0;  // energy made by the numerics, the largest fraction of that in play

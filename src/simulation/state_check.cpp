@@ -83,7 +83,7 @@ bool is_kept(const Model& model, const SimulationState& state) {
   if (s.ax.size() != n || s.ay.size() != n || s.alpha.size() != turning) return false;
   if (s.az.size() != across || s.alpha_x.size() != about || s.alpha_y.size() != about) return false;
   if (model.scene.numerics.integrator != Integrator::gear5) return true;
-  const std::size_t as_clumps = g.oriented && g.in_space ? turning : 0;
+  const std::size_t as_clumps = g.oriented && g.is_3d ? turning : 0;
   return are_derivatives(s.of_x, n) && are_derivatives(s.of_y, n) && are_derivatives(s.of_angle, turning) &&
          are_derivatives(s.of_z, across) && are_derivatives(s.of_angle_x, about) &&
          are_derivatives(s.of_angle_y, about) &&
@@ -92,8 +92,8 @@ bool is_kept(const Model& model, const SimulationState& state) {
 }
 
 /// Of so many candidates of a list.
-bool are_histories(const ContactHistories& h, std::size_t candidates, bool in_space) {
-  if (candidates > 0 && h.kinds.any() && h.kinds.in_space != in_space) return false;
+bool are_histories(const ContactHistories& h, std::size_t candidates, bool is_3d) {
+  if (candidates > 0 && h.kinds.any() && h.kinds.is_3d != is_3d) return false;
   ContactHistories like;
   like.resize(candidates, h.kinds);
   return h.slip.size() == like.slip.size() && h.roll.size() == like.roll.size() &&
@@ -106,16 +106,16 @@ bool are_pairs(const PairList& pairs, std::size_t bodies) {
 }
 
 bool are_contacts(const Model& model, const ContactState& c, std::size_t bodies, std::size_t walls) {
-  const bool in_space = model.scene.space == Space::three_dimensional;
+  const bool is_3d = model.scene.space == Space::three_dimensional;
   const auto is_candidate = [&](const WallCandidate& one) {
     return is_index(one.grain, bodies) && is_index(one.wall, walls) && std::isfinite(one.side);
   };
   constexpr std::size_t most_images = 4;  // of a tray that is periodic along and across
   const auto is_boundary = [&](const BoundaryContacts& one) {
-    return are_pairs(one.pairs, bodies) && are_histories(one.histories, one.pairs.size(), in_space);
+    return are_pairs(one.pairs, bodies) && are_histories(one.histories, one.pairs.size(), is_3d);
   };
-  return are_pairs(c.pairs, bodies) && are_histories(c.pair_histories, c.pairs.size(), in_space) &&
-         std::ranges::all_of(c.walls, is_candidate) && are_histories(c.wall_histories, c.walls.size(), in_space) &&
+  return are_pairs(c.pairs, bodies) && are_histories(c.pair_histories, c.pairs.size(), is_3d) &&
+         std::ranges::all_of(c.walls, is_candidate) && are_histories(c.wall_histories, c.walls.size(), is_3d) &&
          c.boundaries.size() <= most_images && std::ranges::all_of(c.boundaries, is_boundary);
 }
 

@@ -20,7 +20,7 @@
 namespace vibrosow {
 
 template <class Archive>
-void serialize(Archive& archive, LetPass& l) {
+void serialize(Archive& archive, ToleratedViolations& l) {
   archive(l.deep_steps, l.strides, l.energy_accounts);
 }
 /// A run but for its times. (A checkpoint has another form of a Run, so this one has a type of its own.)

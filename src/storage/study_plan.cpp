@@ -163,14 +163,14 @@ StudyPlan read_plan(const fs::path& folder, std::string name) {
 }
 
 std::vector<std::size_t> bundle_of(const StudyPlan& plan, std::size_t number, std::size_t bundles) {
-  std::vector<std::size_t> dearest_first(plan.runs.size());
-  std::iota(dearest_first.begin(), dearest_first.end(), std::size_t{0});
-  std::ranges::stable_sort(dearest_first, std::greater{}, [&](std::size_t k) { return plan.runs[k].grain_steps; });
+  std::vector<std::size_t> by_descending_cost(plan.runs.size());
+  std::iota(by_descending_cost.begin(), by_descending_cost.end(), std::size_t{0});
+  std::ranges::stable_sort(by_descending_cost, std::greater{}, [&](std::size_t k) { return plan.runs[k].grain_steps; });
   using Share = std::pair<double, std::size_t>;  // its cost so far, its number
   std::priority_queue<Share, std::vector<Share>, std::greater<>> shares;
   for (std::size_t share = 1; share <= bundles; ++share) shares.emplace(0, share);
   std::vector<std::size_t> mine;
-  for (const std::size_t run : dearest_first) {
+  for (const std::size_t run : by_descending_cost) {
     const auto [cost, share] = shares.top();
     shares.pop();
     if (share == number) mine.push_back(run);

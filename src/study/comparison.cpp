@@ -151,10 +151,10 @@ void add_rows(Comparison& comparison, const Pairing& pairing, double scale) {
 /// The measured rate beside the hole it was measured at.
 void set_measured_rate(LayoutResult& layout, const Pairing& pairing, double scale, const Outflow& rows) {
   const HoleOutflow* row = find_row(rows, pairing.series->hole, pairing.series->lot);
-  for (HoleFigures& figures : layout.holes) {
-    if (!row || figures.hole != row->hole || figures.lot != row->lot) continue;
-    figures.measured = pairing.series->values.front();
-    figures.difference_percent = 100 * (pairing.means().front() * scale / pairing.measured.front() - 1);
+  for (HoleMetrics& metrics : layout.holes) {
+    if (!row || metrics.hole != row->hole || metrics.lot != row->lot) continue;
+    metrics.measured = pairing.series->values.front();
+    metrics.difference_percent = 100 * (pairing.means().front() * scale / pairing.measured.front() - 1);
   }
 }
 

@@ -41,13 +41,13 @@ Evaluation reduced(const Scene& scene, const Run& run, const std::vector<CurveRe
                         .max_relative_overlap = run.max_relative_overlap,
                         .balance = run.balance,
                         .outflow = measure_outflow(scene, run),
-                        .records = record_figures(scene, run.snapshots),
+                        .records = record_metrics(scene, run.snapshots),
                         .wall_time = run.wall_time};
   if (run.tray_empty_since >= 0) evaluation.tray_empty_since = run.tray_empty_since;
   for (const CurveRequest& request : wanted)
     evaluation.curves.push_back(
         {request, discharge_curve(scene, run, request.times, request.kind, request.hole, request.lot)});
-  for (const Drill& drill : drills) evaluation.drills.push_back(drill_figures(scene, run, evaluation.outflow, drill));
+  for (const Drill& drill : drills) evaluation.drills.push_back(drill_metrics(scene, run, evaluation.outflow, drill));
   return evaluation;
 }
 

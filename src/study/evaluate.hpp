@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "agronomy/row_figures.hpp"
-#include "fields/record_figures.hpp"
+#include "agronomy/row_metrics.hpp"
+#include "fields/record_metrics.hpp"
 #include "outflow/discharge.hpp"
 #include "outflow/outflow.hpp"
 #include "plan/model.hpp"
@@ -55,9 +55,9 @@ struct Evaluation {
   std::optional<double> tray_empty_since{};  // s, when the last grain left the tray; none: it never ran dry
   Balance balance{};
   Outflow outflow{};
-  std::vector<RecordFigures> records{};  // of each record that was reached
+  std::vector<RecordMetrics> records{};  // of each record that was reached
   std::vector<Curve> curves{};           // those wanted, in their order
-  std::vector<DrillFigures> drills{};    // likewise
+  std::vector<DrillMetrics> drills{};    // likewise
   double wall_time = 0;                  // s, of this machine
   double cpu_time = 0;                   // s, of the thread that ran it
 

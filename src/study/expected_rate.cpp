@@ -9,7 +9,7 @@
 #include "agronomy/table_tray.hpp"
 #include "input/read_held_out.hpp"
 #include "input/read_hole_table.hpp"
-#include "outflow/figures.hpp"
+#include "outflow/metrics.hpp"
 #include "plan/softness.hpp"
 
 namespace vibrosow {
@@ -31,13 +31,13 @@ RateKnowledge shipped_rate_knowledge() {
 }
 
 std::optional<RateKnowledge> knowledge_for(const Study& study) {
-  const auto in_space = [](const Scene& scene) { return scene.space == Space::three_dimensional; };
-  if (study.measured || std::ranges::none_of(study.scenes, in_space)) return std::nullopt;
+  const auto is_3d = [](const Scene& scene) { return scene.space == Space::three_dimensional; };
+  if (study.measured || std::ranges::none_of(study.scenes, is_3d)) return std::nullopt;
   return shipped_rate_knowledge();
 }
 
 std::optional<SceneError> scene_error(const Scene& scene, const RateKnowledge& knowledge) {
-  if (scene.space == Space::plane) return std::nullopt;
+  if (scene.space == Space::two_dimensional) return std::nullopt;
   SceneError found;
   const NumericsError numerics = numerics_error(scene);
   const TrayTolerance tolerance = tray_tolerance(scene, knowledge.table);
@@ -67,7 +67,7 @@ std::optional<ExpectedRate> expected_rate(double mass_rate, std::optional<double
 ExpectedWithDoubts expected_of(const Scene& scene, const std::vector<const Outflow*>& replicates,
                                const std::optional<RateKnowledge>& knowledge) {
   std::optional<SceneError> error = knowledge ? scene_error(scene, *knowledge) : std::nullopt;
-  const auto rate = FigureMeans(replicates)["rate_g_per_s"];
+  const auto rate = MetricMeans(replicates)["rate_g_per_s"];
   if (!error || !rate) return {};
   ExpectedWithDoubts expected{expected_rate(rate->mean, chance_of_rate(replicates), *error), {}};
   if (expected.rate) expected.doubts = std::move(error->doubts);

@@ -3,7 +3,7 @@
 #include <atomic>
 #include <mutex>
 
-#include "study/side_by_side.hpp"
+#include "study/run_in_parallel.hpp"
 
 namespace vibrosow {
 namespace {
@@ -60,7 +60,7 @@ std::vector<Evaluation> run_jobs(const std::vector<Job>& jobs, const Simulator& 
     progress.finish(index);
   };
 
-  side_by_side(options.jobs, jobs.size(), run_one);
+  run_in_parallel(options.jobs, jobs.size(), run_one);
   return results;
 }
 

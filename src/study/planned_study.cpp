@@ -11,7 +11,7 @@
 #include "plan/predicted_grains.hpp"
 #include "scene/input_error.hpp"
 #include "storage/case_file.hpp"
-#include "study/side_by_side.hpp"
+#include "study/run_in_parallel.hpp"
 
 namespace vibrosow {
 namespace {
@@ -113,7 +113,7 @@ StudyResult answer_of_kept(const PlannedStudy& planned, const KeptRuns& kept, in
       runs.emplace_back(of_scenes[scene].size());
       for (std::size_t k = 0; k < of_scenes[scene].size(); ++k) all.emplace_back(scene, k);
     }
-    side_by_side(jobs, all.size(), [&](std::size_t i) {
+    run_in_parallel(jobs, all.size(), [&](std::size_t i) {
       const auto [scene, k] = all[i];
       runs[scene - from][k] = evaluation(scene, *of_scenes[scene][k]);
     });

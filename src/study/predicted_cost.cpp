@@ -157,12 +157,12 @@ Grains grains_for(const Model& model, const Grains& grains) {
     if (!effects.rotation) kind.inverse_inertia = 0;
     const Eigen::Vector3d at = grains.place(i), velocity = grains.velocity(i);
     Turn turned;
-    if (grains.oriented && grains.in_space) turned.orientation = grains.orientation(i);
-    if (grains.oriented && !grains.in_space) turned.angle = grains.angle[i];
+    if (grains.oriented && grains.is_3d) turned.orientation = grains.orientation(i);
+    if (grains.oriented && !grains.is_3d) turned.angle = grains.angle[i];
     same.add(at, velocity, grains.lot[i], kind, turned);
     if (!effects.rotation || !grains.rotation) continue;
     same.omega[i] = grains.omega[i];
-    if (grains.in_space) same.omega_x[i] = grains.omega_x[i], same.omega_y[i] = grains.omega_y[i];
+    if (grains.is_3d) same.omega_x[i] = grains.omega_x[i], same.omega_y[i] = grains.omega_y[i];
   }
   return same;
 }
@@ -267,8 +267,8 @@ double predict_seconds(const Study& study) {
 }
 
 double usual_seconds(const Scene& scene) {
-  const double disc = scene.space == Space::plane ? 25e-9 : 70e-9;  // s
-  double discs = 0;                                                 // of a seed, mean
+  const double disc = scene.space == Space::two_dimensional ? 25e-9 : 70e-9;  // s
+  double discs = 0;                                                           // of a seed, mean
   for (const SeedLot& lot : scene.lots)
     discs += lot.number_fraction * static_cast<double>(std::max<std::size_t>(1, lot.discs.size()));
   return disc * discs * predicted_grain_steps(scene, prepare(scene).step.dt);

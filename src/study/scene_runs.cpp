@@ -6,7 +6,7 @@
 #include "plan/model.hpp"
 #include "plan/predicted_grains.hpp"
 #include "storage/case_file.hpp"
-#include "study/side_by_side.hpp"
+#include "study/run_in_parallel.hpp"
 
 namespace vibrosow {
 
@@ -41,7 +41,7 @@ bool SceneRuns::take(const std::vector<int>& counts, const KeptRuns& kept, int j
     for (auto r = runs_[scene].size(); r < static_cast<std::size_t>(counts[scene]); ++r)
       wanted.emplace_back(scene, first_random_seed_ + r);
   std::vector<std::optional<Evaluation>> read(wanted.size());
-  side_by_side(jobs, wanted.size(), [&](std::size_t i) {
+  run_in_parallel(jobs, wanted.size(), [&](std::size_t i) {
     const auto [scene, seed] = wanted[i];
     if (const std::optional<Run> run = kept(name_of(scene, seed))) read[i] = reduced(models_[scene].scene, *run);
   });

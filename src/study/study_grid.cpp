@@ -7,8 +7,8 @@
 #include <cstdint>
 #include <stdexcept>
 
-#include "elementary/functions.hpp"
 #include "input/key_units.hpp"
+#include "portable_math/functions.hpp"
 #include "scene/input_error.hpp"
 #include "study/latin_hypercube.hpp"
 
@@ -19,7 +19,7 @@ namespace {
 double rounded(double value, int digits) {
   if (value == 0) return 0;
   const int places = digits - 1 - static_cast<int>(std::floor(std::log10(std::abs(value))));
-  const double unit = elementary::pow(10.0, std::abs(places));
+  const double unit = portable_math::pow(10.0, std::abs(places));
   return places > 0 ? std::round(value * unit) / unit : std::round(value / unit) * unit;
 }
 

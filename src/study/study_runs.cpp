@@ -12,7 +12,7 @@
 #include "scene/input_error.hpp"
 #include "simulation/checkpoint.hpp"
 #include "storage/case_file.hpp"
-#include "study/side_by_side.hpp"
+#include "study/run_in_parallel.hpp"
 
 namespace vibrosow {
 namespace {
@@ -49,15 +49,15 @@ class Alarm {
 };
 
 /// Takes a note away, whatever ends the work on its run.
-class Released {
+class LeaseGuard {
  public:
-  Released(RunNotes& notes, const std::string& run) : notes_(notes), run_(run) {}
-  ~Released() { notes_.release(run_); }
-  Released(const Released&) = delete;
-  Released& operator=(const Released&) = delete;
+  LeaseGuard(RunLeases& notes, const std::string& run) : notes_(notes), run_(run) {}
+  ~LeaseGuard() { notes_.release(run_); }
+  LeaseGuard(const LeaseGuard&) = delete;
+  LeaseGuard& operator=(const LeaseGuard&) = delete;
 
  private:
-  RunNotes& notes_;
+  RunLeases& notes_;
   const std::string& run_;
 };
 
@@ -78,13 +78,13 @@ std::optional<SimulationState> state_to_go_on_from(const CheckpointFolder& check
 }  // namespace
 
 std::string name_of_run(const Scene& scene, std::uint64_t random_seed) {
-  return case_name(case_identity(at_its_accuracy(scene), random_seed));
+  return case_name(case_identity(resolve_accuracy_level(scene), random_seed));
 }
 
 /// What is still to be done, and how far it is. Runs that others are making come again after all the rest.
 class StudyRuns::Queue {
  public:
-  Queue(const std::vector<WantedRun>& wanted, const MakingOptions& options) : options_(options) {
+  Queue(const std::vector<WantedRun>& wanted, const BatchOptions& options) : options_(options) {
     for (const WantedRun& run : wanted) {
       waiting_.push_back(&run);
       cost_ += run.grain_steps;
@@ -144,20 +144,20 @@ class StudyRuns::Queue {
     failure_ = true;
   }
 
-  Making result() const {
+  BatchSummary result() const {
     const std::lock_guard lock(mutex_);
     if (reason_) std::rethrow_exception(reason_);
     return making_;
   }
 
  private:
-  const MakingOptions& options_;
+  const BatchOptions& options_;
   mutable std::mutex mutex_;
   std::deque<const WantedRun*> waiting_;
   std::set<const WantedRun*> put_off_;
   std::map<const WantedRun*, double> fractions_;
   double cost_ = 0, done_ = 0, there_ = 0;
-  Making making_;
+  BatchSummary making_;
   std::atomic<bool> failure_ = false;
   std::exception_ptr reason_;
 };
@@ -176,12 +176,13 @@ void StudyRuns::sweep_what_was_left() const {
     if (std::error_code none; fs::is_directory(entry, none)) sweep_temporary_files(own_ / entry.filename());
 }
 
-Making StudyRuns::make(const std::vector<WantedRun>& wanted, const Simulator& simulator, const MakingOptions& options) {
+BatchSummary StudyRuns::make(const std::vector<WantedRun>& wanted, const Simulator& simulator,
+                             const BatchOptions& options) {
   sweep_what_was_left();
   Queue queue(wanted, options);
-  side_by_side(options.jobs, [&] {
+  run_in_parallel(options.jobs, [&] {
     while (const WantedRun* run = queue.is_interrupted() ? nullptr : queue.next()) {
-      if (!has_room(options, queue)) return;
+      if (!wait_for_disk_space(options, queue)) return;
       try {
         if (!attempt(*run, simulator, options, queue) && !queue.put_off(*run))
           std::this_thread::sleep_for(look_again_after);
@@ -201,7 +202,7 @@ Making StudyRuns::make(const std::vector<WantedRun>& wanted, const Simulator& si
 }
 
 /// Waits until all that was made could be written; false where it takes too long, or the work is interrupted.
-bool StudyRuns::has_room(const MakingOptions& options, const Queue& queue) {
+bool StudyRuns::wait_for_disk_space(const BatchOptions& options, const Queue& queue) {
   const auto begin = Clock::now();
   bool told = false;
   while (!queue.is_interrupted()) {
@@ -217,21 +218,21 @@ bool StudyRuns::has_room(const MakingOptions& options, const Queue& queue) {
 }
 
 /// False where another process is making it.
-bool StudyRuns::attempt(const WantedRun& wanted, const Simulator& simulator, const MakingOptions& options,
+bool StudyRuns::attempt(const WantedRun& wanted, const Simulator& simulator, const BatchOptions& options,
                         Queue& queue) {
   if (is_there(wanted, options.retry)) {
     queue.was_there(wanted);
     return true;
   }
   if (!notes_.claim(wanted.name)) return false;
-  const Released released(notes_, wanted.name);
+  const LeaseGuard released(notes_, wanted.name);
   if (is_there(wanted, options.retry)) {  // made by another in between
     queue.was_there(wanted);
     return true;
   }
   const Run run = run_on(wanted, simulator, options, queue);
   if (run.status == RunStatus::interrupted) return true;
-  keep(case_identity(at_its_accuracy(*wanted.scene), wanted.random_seed), run);
+  keep(case_identity(resolve_accuracy_level(*wanted.scene), wanted.random_seed), run);
   checkpoints_.remove(wanted.name);
   queue.ended(wanted, run);
   return true;
@@ -254,7 +255,7 @@ bool StudyRuns::is_there(const WantedRun& wanted, bool retry) {
   return false;
 }
 
-Run StudyRuns::run_on(const WantedRun& wanted, const Simulator& simulator, const MakingOptions& options, Queue& queue) {
+Run StudyRuns::run_on(const WantedRun& wanted, const Simulator& simulator, const BatchOptions& options, Queue& queue) {
   try {
     const Model model = prepare_to_run(*wanted.scene);
     SimulationOptions simulation;
@@ -262,7 +263,7 @@ Run StudyRuns::run_on(const WantedRun& wanted, const Simulator& simulator, const
     simulation.interrupt = options.interrupt;
     simulation.from = state_to_go_on_from(checkpoints_, wanted.name, model, wanted.random_seed);
     simulation.progress = [&](double fraction) {
-      notes_.beat(wanted.name, fraction);
+      notes_.heartbeat(wanted.name, fraction);
       queue.set_fraction(wanted, fraction);
     };
     Alarm alarm(options.save_every);
@@ -321,7 +322,7 @@ KeptRuns StudyRuns::kept() const {
   return [this](const std::string& name) { return named(name); };
 }
 
-Simulator StudyRuns::keeping(Simulator simulator) {
+Simulator StudyRuns::caching_simulator(Simulator simulator) {
   return [this, simulator = std::move(simulator)](const Model& model, const SimulationOptions& options) {
     const std::string identity = case_identity(model.scene, options.random_seed);
     if (std::optional<Run> run = find(identity)) return std::move(*run);

@@ -14,7 +14,7 @@
 
 #include "storage/case_folder.hpp"
 #include "storage/checkpoint_folder.hpp"
-#include "storage/run_notes.hpp"
+#include "storage/run_leases.hpp"
 #include "study/evaluate.hpp"
 
 namespace vibrosow {
@@ -34,7 +34,7 @@ std::string name_of_run(const Scene& scene, std::uint64_t random_seed);
 /// Gives the run of such a name where it is kept. For several threads.
 using KeptRuns = std::function<std::optional<Run>(const std::string& name)>;
 
-struct MakingOptions {
+struct BatchOptions {
   int jobs = 0;                                  // runs side by side; 0: one per core
   const std::atomic<bool>* interrupt = nullptr;  // true saves the runs under way and begins no other
   double save_every = 300;                       // s of the clock, between checkpoints of a run under way
@@ -47,7 +47,7 @@ struct MakingOptions {
 };
 
 /// What came of making runs.
-struct Making {
+struct BatchSummary {
   std::int64_t made = 0;         // that ended
   std::int64_t there = 0;        // from before, from another folder, or made by another process meanwhile
   std::int64_t interrupted = 0;  // begun and not ended, or not begun
@@ -60,13 +60,13 @@ struct Making {
 /// and goes on from there, to the same bytes.
 class StudyRuns {
  public:
-  /// `own`: a sweep's "cases", written into; `others` are only read. `patience`: RunNotes'.
+  /// `own`: a sweep's "cases", written into; `others` are only read. `patience`: RunLeases'.
   StudyRuns(const PathInFolder& own, const std::vector<std::filesystem::path>& others = {},
             std::chrono::duration<double> patience = std::chrono::seconds(30));
 
   /// Returns when every wanted run is there, made by whomever, or when it is interrupted. A scene that cannot be run
   /// gives a run that is `refused`, which is kept too. Throws InputError where another program made another run of it.
-  Making make(const std::vector<WantedRun>& wanted, const Simulator& simulator, const MakingOptions& options);
+  BatchSummary make(const std::vector<WantedRun>& wanted, const Simulator& simulator, const BatchOptions& options);
 
   /// The run that is kept under a case's name, here or waiting to be written; none: there is none.
   std::optional<Run> named(const std::string& name) const;
@@ -76,7 +76,7 @@ class StudyRuns {
 
   /// A simulator that gives the run that is kept or, where there is none, makes it by another and keeps it: for runs
   /// whose number is small and that are wanted one by one. What is interrupted is not kept. For several threads.
-  Simulator keeping(Simulator simulator);
+  Simulator caching_simulator(Simulator simulator);
 
   /// Why the first run that could not be written could not; empty where all could. Such runs are in memory alone and
   /// tried again; no other is begun meanwhile.
@@ -85,19 +85,19 @@ class StudyRuns {
  private:
   class Queue;
 
-  bool attempt(const WantedRun& wanted, const Simulator& simulator, const MakingOptions& options, Queue& queue);
+  bool attempt(const WantedRun& wanted, const Simulator& simulator, const BatchOptions& options, Queue& queue);
   bool is_there(const WantedRun& wanted, bool retry);
   std::optional<Run> find(const std::string& identity) const;
-  Run run_on(const WantedRun& wanted, const Simulator& simulator, const MakingOptions& options, Queue& queue);
+  Run run_on(const WantedRun& wanted, const Simulator& simulator, const BatchOptions& options, Queue& queue);
   void keep(const std::string& identity, const Run& run);
   void keep_waiting();
-  bool has_room(const MakingOptions& options, const Queue& queue);
+  bool wait_for_disk_space(const BatchOptions& options, const Queue& queue);
 
   void sweep_what_was_left() const;
 
   PathInFolder own_;
   std::deque<CaseFolder> folders_;  // one's own first
-  RunNotes notes_;
+  RunLeases notes_;
   CheckpointFolder checkpoints_;
   mutable std::mutex mutex_;
   std::map<std::string, Run> waiting_;  // by identity: could not be written

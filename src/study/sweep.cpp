@@ -45,14 +45,14 @@ std::vector<std::vector<Evaluation>> run_scenes(const Study& study, const std::v
 }
 
 /// Where replicates are by need: those that are needed, whoever made more.
-void leave_out_more_than_enough(const Study& study, std::vector<Evaluation>& replicates) {
+void drop_surplus(const Study& study, std::vector<Evaluation>& replicates) {
   if (!study.replicates.interval) return;
   if (const auto enough = enough_runs(rates_of(replicates), study.replicates))
     replicates.resize(static_cast<std::size_t>(*enough));
 }
 
 /// The runs of which figures are made.
-std::vector<Evaluation> that_count(const Study& study, const std::vector<Evaluation>& replicates) {
+std::vector<Evaluation> flowed_only(const Study& study, const std::vector<Evaluation>& replicates) {
   if (!study.replicates.interval) return replicates;
   std::vector<Evaluation> flowed;
   for (const Evaluation& one : replicates)
@@ -61,12 +61,12 @@ std::vector<Evaluation> that_count(const Study& study, const std::vector<Evaluat
 }
 
 /// Mean of a figure over the finished replicates that have it.
-template <typename Figure>
-std::optional<MeanWithInterval> mean_over(const std::vector<Evaluation>& replicates, Figure figure) {
+template <typename Metric>
+std::optional<MeanWithInterval> mean_over(const std::vector<Evaluation>& replicates, Metric metric) {
   std::vector<double> values;
   for (const Evaluation& replicate : replicates) {
     if (!replicate.finished()) continue;
-    const std::optional<double> value = figure(replicate);
+    const std::optional<double> value = metric(replicate);
     if (value && std::isfinite(*value)) values.push_back(*value);
   }
   if (values.empty()) return std::nullopt;
@@ -89,20 +89,20 @@ std::vector<const Outflow*> finished_outflows(const std::vector<Evaluation>& rep
   return finished;
 }
 
-std::vector<HoleFigures> hole_figures(const std::vector<Evaluation>& replicates) {
+std::vector<HoleMetrics> hole_metrics(const std::vector<Evaluation>& replicates) {
   const auto finished = std::ranges::find_if(replicates, &Evaluation::finished);
   if (finished == replicates.end()) return {};
-  std::vector<HoleFigures> holes;
+  std::vector<HoleMetrics> holes;
   for (const HoleOutflow& row : finished->outflow.holes) {
-    HoleFigures figures;
-    figures.hole = row.hole;
-    figures.lot = row.lot;
-    figures.centre = row.centre, figures.across = row.across;
-    figures.width = row.width;
-    figures.seeds_per_s = mean_of_row(replicates, row.hole, row.lot, &HoleOutflow::seeds_per_s);
-    figures.mass_rate = mean_of_row(replicates, row.hole, row.lot, &HoleOutflow::mass_rate);
-    figures.longest_pause = mean_of_row(replicates, row.hole, row.lot, &HoleOutflow::longest_pause);
-    holes.push_back(std::move(figures));
+    HoleMetrics metrics;
+    metrics.hole = row.hole;
+    metrics.lot = row.lot;
+    metrics.centre = row.centre, metrics.across = row.across;
+    metrics.width = row.width;
+    metrics.seeds_per_s = mean_of_row(replicates, row.hole, row.lot, &HoleOutflow::seeds_per_s);
+    metrics.mass_rate = mean_of_row(replicates, row.hole, row.lot, &HoleOutflow::mass_rate);
+    metrics.longest_pause = mean_of_row(replicates, row.hole, row.lot, &HoleOutflow::longest_pause);
+    holes.push_back(std::move(metrics));
   }
   return holes;
 }
@@ -111,7 +111,7 @@ std::vector<HoleFigures> hole_figures(const std::vector<Evaluation>& replicates)
 std::vector<std::vector<RowMeans>> rows_of_drills(const std::vector<Evaluation>& replicates, std::size_t drills) {
   std::vector<std::vector<RowMeans>> rows;
   for (std::size_t drill = 0; drill < drills; ++drill) {
-    std::vector<const DrillFigures*> finished;
+    std::vector<const DrillMetrics*> finished;
     for (const Evaluation& one : replicates)
       if (one.finished()) finished.push_back(&one.drills.at(drill));
     rows.push_back(row_means(finished));
@@ -119,21 +119,21 @@ std::vector<std::vector<RowMeans>> rows_of_drills(const std::vector<Evaluation>&
   return rows;
 }
 
-BedFigures bed_figures(const Scene& scene, std::size_t record, const std::vector<Evaluation>& replicates) {
+BedMetrics bed_metrics(const Scene& scene, std::size_t record, const std::vector<Evaluation>& replicates) {
   using Value = std::optional<double>;
   const auto reached = [record](const Evaluation& one) { return record < one.records.size(); };
-  BedFigures figures{record, scene.record->times[record], {}, {}, {}};
-  figures.packing = mean_over(
+  BedMetrics metrics{record, scene.record->times[record], {}, {}, {}};
+  metrics.packing = mean_over(
       replicates, [&](const Evaluation& one) { return reached(one) ? one.records[record].packing : Value(); });
-  figures.packing_change = mean_over(replicates, [&](const Evaluation& one) {
+  metrics.packing_change = mean_over(replicates, [&](const Evaluation& one) {
     if (!reached(one) || !one.records[record].packing || !one.records[0].packing) return Value();
     return Value(*one.records[record].packing - *one.records[0].packing);
   });
   for (std::size_t lot = 0; lot < scene.lots.size(); ++lot)
-    figures.segregation.push_back(mean_over(replicates, [&](const Evaluation& one) {
+    metrics.segregation.push_back(mean_over(replicates, [&](const Evaluation& one) {
       return reached(one) ? one.records[record].segregation[lot] : Value();
     }));
-  return figures;
+  return metrics;
 }
 
 void set_status(LayoutResult& result, const std::vector<Evaluation>& replicates) {
@@ -190,19 +190,19 @@ struct SceneResult {
 SceneResult result_of(const Study& study, const Scene& scene, const std::vector<Evaluation>& runs,
                       const std::vector<Drill>& drills) {
   LayoutResult result;
-  const std::vector<Evaluation> replicates = that_count(study, runs);
+  const std::vector<Evaluation> replicates = flowed_only(study, runs);
   set_status(result, replicates);
   result.stopped_flowing = static_cast<int>(std::ranges::count_if(runs, &Evaluation::stopped_flowing));
   const bool was_run = is_compared(result.status) || result.status == LayoutStanding::outside_the_model;
   if (study.replicates.interval && was_run) add_doubts_of_need(study, runs, result);
   const std::vector<const Outflow*> outflows = finished_outflows(replicates);
-  result.figures = FigureMeans(outflows);
+  result.metrics = MetricMeans(outflows);
   result.chance_of_rate = chance_of_rate(outflows);
-  result.holes = hole_figures(replicates);
+  result.holes = hole_metrics(replicates);
   for (CountedDoubt& doubt : doubts_of_scene(scene)) result.doubts.push_back(std::move(doubt));
   if (result.status == LayoutStanding::ok && is_serious(result.doubts)) result.status = LayoutStanding::doubtful;
   for (std::size_t record = 0; scene.record && record < scene.record->times.size(); ++record)
-    result.bed.push_back(bed_figures(scene, record, replicates));
+    result.bed.push_back(bed_metrics(scene, record, replicates));
   return {std::move(result), rows_of_drills(replicates, drills.size())};
 }
 
@@ -249,7 +249,7 @@ StudyResult answer_of(const Study& study, const RunsOfScenes& runs_of, const OnR
     std::vector<std::vector<Evaluation>> runs = runs_of(from, to);
     for (std::size_t scene = from; scene < to; ++scene) {
       std::vector<Evaluation>& replicates = runs[scene - from];
-      leave_out_more_than_enough(study, replicates);
+      drop_surplus(study, replicates);
       of_scenes.push_back(result_of(study, study.scenes[scene], replicates, wanted[scene].drills));
       if (on_runs) on_runs(scene, replicates);
       if (!dropped) result.runs[scene] = std::move(replicates);
@@ -265,7 +265,7 @@ StudyResult answer_of(const Study& study, const RunsOfScenes& runs_of, const OnR
 void expect_rates(StudyResult& result, const RateKnowledge& knowledge) {
   for (std::size_t i = 0; i < result.layouts.size(); ++i) {
     LayoutResult& layout = result.layouts[i];
-    const auto& rate = layout.figures["rate_g_per_s"];
+    const auto& rate = layout.metrics["rate_g_per_s"];
     if (!is_compared(layout.status) || !rate) continue;
     const auto error = scene_error(result.study.scenes[*result.study.layouts[i].scene], knowledge);
     if (error) layout.expected = expected_rate(rate->mean, layout.chance_of_rate, *error);

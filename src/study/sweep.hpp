@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "agronomy/row_figures.hpp"
-#include "outflow/figures.hpp"
+#include "agronomy/row_metrics.hpp"
+#include "outflow/metrics.hpp"
 #include "outflow/statistics.hpp"
 #include "study/expected_rate.hpp"
 #include "study/layout_standing.hpp"
@@ -28,7 +28,7 @@ struct SweepOptions {
 };
 
 /// One hole and lot, over the finished replicates.
-struct HoleFigures {
+struct HoleMetrics {
   std::string hole, lot;
   std::optional<double> centre, across, width;  // m; `across` in space alone
   std::optional<MeanWithInterval> seeds_per_s;
@@ -39,7 +39,7 @@ struct HoleFigures {
 };
 
 /// The bed at a record time, over the finished replicates.
-struct BedFigures {
+struct BedMetrics {
   std::size_t record;  // index in Record::times
   double time;         // s, as asked for
   std::optional<MeanWithInterval> packing;
@@ -53,12 +53,12 @@ struct LayoutResult {
   std::vector<CountedDoubt> doubts;                // of its runs where none of these is so, and of its scene
   int replicates = 0;                              // finished
   int stopped_flowing = 0;                         // of all runs, also those that are left out: ended by a pause
-  FigureMeans figures;                             // over the finished replicates
+  MetricMeans metrics;                             // over the finished replicates
   std::optional<double> chance_of_rate{};          // half width of the rate's 95 % over it
   std::optional<ExpectedRate> expected{};          // of the rate, by `expect_rates`
   std::optional<MeanWithInterval> misfit_percent;  // of the mean outflow; interval by the jackknife
-  std::vector<HoleFigures> holes;
-  std::vector<BedFigures> bed{};  // empty without a record
+  std::vector<HoleMetrics> holes;
+  std::vector<BedMetrics> bed{};  // empty without a record
   std::vector<RowMeans> rows{};   // by row, then all; empty without a drill
 };
 

@@ -59,7 +59,7 @@ std::vector<std::vector<std::size_t>> lines_along(const StudyResult& result, con
 
 /// Mean rate of a layout whose runs all went to their end as they should; none of any other.
 std::optional<MeanWithInterval> rate_of(const LayoutResult& layout) {
-  return is_compared(layout.status) ? layout.figures["rate_g_per_s"] : std::nullopt;
+  return is_compared(layout.status) ? layout.metrics["rate_g_per_s"] : std::nullopt;
 }
 
 /// Whether something serious speaks against single runs, so that their rate may not be the tray's.

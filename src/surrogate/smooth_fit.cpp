@@ -4,7 +4,7 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "elementary/functions.hpp"
+#include "portable_math/functions.hpp"
 #include "selection/moments.hpp"
 
 namespace vibrosow {
@@ -29,7 +29,7 @@ double SmoothFit::covariance(const std::vector<double>& one, const std::vector<d
     squared += by * by;
   }
   const double distance = std::sqrt(5 * squared);
-  return scales[shape_.scale] * spread_ * (1 + distance + distance * distance / 3) * elementary::exp(-distance);
+  return scales[shape_.scale] * spread_ * (1 + distance + distance * distance / 3) * portable_math::exp(-distance);
 }
 
 /// But for a constant; leaves the factors and weights of the shape.
@@ -47,7 +47,7 @@ double SmoothFit::log_likelihood() {
   factors_.compute(matrix);  // of the lower half
   weights_ = factors_.solve(values);
   double log_root = 0;  // of the determinant
-  for (Eigen::Index i = 0; i < count; ++i) log_root += elementary::log(factors_.matrixLLT()(i, i));
+  for (Eigen::Index i = 0; i < count; ++i) log_root += portable_math::log(factors_.matrixLLT()(i, i));
   return -0.5 * values.dot(weights_) - log_root;
 }
 

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "elementary/functions.hpp"
+#include "portable_math/functions.hpp"
 #include "scene/motion.hpp"
 #include "vessel/directions.hpp"
 #include "vessel/vessel_faces.hpp"
@@ -42,7 +42,7 @@ template <class Motion>
 Ramp swing(const Motion& m, double phase, double time) {
   const double angle = two_pi * m.frequency * time + phase;
   const Ramp ramp = ramp_at(m, time);
-  const auto [sine, cosine] = elementary::sine_cosine(angle);
+  const auto [sine, cosine] = portable_math::sine_cosine(angle);
   return {ramp.size * sine, ramp.rate * sine + ramp.size * two_pi * m.frequency * cosine};
 }
 
@@ -52,7 +52,7 @@ struct Parts {
 };
 Parts parts_of(const HarmonicMotion& m) {
   if (m.across == 0) return {};
-  const auto [sine, cosine] = elementary::sine_cosine(m.across);
+  const auto [sine, cosine] = portable_math::sine_cosine(m.across);
   return {cosine, sine};
 }
 
@@ -278,7 +278,7 @@ std::optional<Pose> line_below(const Vessel& vessel) {
   return Pose{{0, axis - largest_radius(vessel, turning->pivot)}, -vessel.tilt};
 }
 
-Eigen::Vector3d spin_in_space(const Vessel& vessel, const Pose& pose, const PoseRate& rate) {
+Eigen::Vector3d spin_3d(const Vessel& vessel, const Pose& pose, const PoseRate& rate) {
   if (rate.turn_rate == 0) return {0, 0, rate.angular_velocity};
   const Eigen::Vector2d up = turned_left(unit_vector(vessel.tilt + pose.angle));
   return {-rate.turn_rate * up.x(), -rate.turn_rate * up.y(), rate.angular_velocity};
@@ -288,7 +288,7 @@ Eigen::Vector3d point_velocity(const Vessel& vessel, const Pose& pose, const Pos
                                const Eigen::Vector3d& lab) {
   const Eigen::Vector3d arm = lab - point_in_lab(vessel, pose, Eigen::Vector3d::Zero());
   return Eigen::Vector3d(rate.velocity.x(), rate.velocity.y(), rate.across_velocity) +
-         cross(spin_in_space(vessel, pose, rate), arm);
+         cross(spin_3d(vessel, pose, rate), arm);
 }
 
 namespace {
@@ -296,7 +296,7 @@ namespace {
 MotionBounds bounds(const HarmonicMotion& m) {
   const double omega = two_pi * m.frequency;
   const double acceleration = m.amplitude * omega * omega;
-  const double upward = std::abs(elementary::sin(m.direction)) * std::abs(parts_of(m).in_plane);
+  const double upward = std::abs(portable_math::sin(m.direction)) * std::abs(parts_of(m).in_plane);
   return {m.amplitude * two_pi * m.frequency, acceleration, acceleration * upward};
 }
 
@@ -322,7 +322,7 @@ MotionBounds bounds(const TurningMotion& m, const Vessel& vessel) {
     return {reach * omega, reach * omega * omega, reach * omega * omega};
   }
   const double reach = largest_radius_in_plan(vessel, m.pivot), acceleration = reach * omega * omega;
-  return {reach * omega, acceleration, acceleration * std::abs(elementary::sin(vessel.tilt))};
+  return {reach * omega, acceleration, acceleration * std::abs(portable_math::sin(vessel.tilt))};
 }
 
 /// Velocity is quadratic in time between two times of the table, acceleration linear.

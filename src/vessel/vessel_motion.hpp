@@ -52,7 +52,7 @@ Eigen::Vector2d material_velocity(const Vessel& vessel, const Pose& pose, const 
 /// The same in space, and how the vessel turns, rad/s, lab.
 Eigen::Vector3d point_velocity(const Vessel& vessel, const Pose& pose, const PoseRate& rate,
                                const Eigen::Vector3d& lab);
-Eigen::Vector3d spin_in_space(const Vessel& vessel, const Pose& pose, const PoseRate& rate);
+Eigen::Vector3d spin_3d(const Vessel& vessel, const Pose& pose, const PoseRate& rate);
 
 /// The pose by which rain falls and maps are drawn: the vessel's, or where it turns steadily that at rest.
 Pose steady_frame(const Vessel& vessel, const Pose& pose);

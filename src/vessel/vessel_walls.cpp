@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "elementary/functions.hpp"
+#include "portable_math/functions.hpp"
 #include "vessel/directions.hpp"
 
 namespace vibrosow {
@@ -43,7 +43,7 @@ double shortest(const Vessel& vessel) {
 }
 
 void add_box(const Vessel& vessel, std::vector<WallSegment>& segments) {
-  const double slope = vessel.holes.empty() ? 0.0 : elementary::tan(vessel.funnel);
+  const double slope = vessel.holes.empty() ? 0.0 : portable_math::tan(vessel.funnel);
   const std::size_t holes = vessel.holes.size();
   const double left_floor = holes == 0 ? 0.0 : slope * std::max(0.0, left_edge(vessel.holes.front()));
   const double right_floor = holes == 0 ? 0.0 : slope * std::max(0.0, vessel.length - right_edge(vessel.holes.back()));
@@ -78,7 +78,7 @@ class EndlessFloor {
 
   void add() {
     if (vessel_.holes.empty()) return add_line({least_, 0}, {most_, 0}, vessel_.name + " floor 1");
-    const double slope = elementary::tan(vessel_.funnel);
+    const double slope = portable_math::tan(vessel_.funnel);
     const std::size_t holes = vessel_.holes.size();
     for (int copy = -2; copy < 2; ++copy)
       for (std::size_t k = 0; k < holes; ++k) {
@@ -251,7 +251,7 @@ double distance_to_wall(const WallSegment& wall, const Eigen::Vector2d& point) {
   if (wall.radius > 0) {
     const Eigen::Vector2d arm = point - wall.centre;
     const double middle = 0.5 * (wall.from + wall.to), half = 0.5 * (wall.to - wall.from);
-    const bool beside = arm.dot(unit_vector(middle)) >= arm.norm() * elementary::cos(half);
+    const bool beside = arm.dot(unit_vector(middle)) >= arm.norm() * portable_math::cos(half);
     return beside ? std::abs(arm.norm() - wall.radius) : to_ends;
   }
   const Eigen::Vector2d along = wall.b - wall.a;

@@ -3,7 +3,7 @@
 #include <numbers>
 #include <set>
 
-#include "elementary/functions.hpp"
+#include "portable_math/functions.hpp"
 
 namespace vibrosow {
 namespace {
@@ -20,7 +20,7 @@ Line arc(const Eigen::Vector3d& centre, const Eigen::Vector3d& e1, const Eigen::
   Line points;
   for (int k = 0; k <= pieces; ++k) {
     const double angle = from + (to - from) * k / pieces;
-    const auto [sine, cosine] = elementary::sine_cosine(angle);
+    const auto [sine, cosine] = portable_math::sine_cosine(angle);
     points.push_back(centre + radius * (cosine * e1 + sine * e2));
   }
   return points;

@@ -1,6 +1,6 @@
 #include "vessel/walls.hpp"
 
-#include "elementary/functions.hpp"
+#include "portable_math/functions.hpp"
 #include "vessel/directions.hpp"
 #include "vessel/nearest_on_face.hpp"
 #include "vessel/nearest_point.hpp"
@@ -13,11 +13,11 @@ Walls::Walls(std::vector<Vessel> vessels, Space space)
       paths_(vessels_.begin(), vessels_.end()),
       shifts_(vessels_.size(), Eigen::Vector2d::Zero()),
       poses_(vessels_.size()) {
-  for (std::size_t v = 0; v < vessels_.size(); ++v) space == Space::plane ? add_segments(v) : add_faces(v);
+  for (std::size_t v = 0; v < vessels_.size(); ++v) space == Space::two_dimensional ? add_segments(v) : add_faces(v);
   for (std::size_t wall = 0; wall < faces_.size(); ++wall) {
     PlacedFace& placed = placed_faces_.emplace_back();
     placed.own = &faces_[wall];
-    const auto [sine, cosine] = elementary::sine_cosine(faces_[wall].half_angle);
+    const auto [sine, cosine] = portable_math::sine_cosine(faces_[wall].half_angle);
     placed.sine_half = sine, placed.cosine_half = cosine;
   }
   place(0);
@@ -69,8 +69,8 @@ void Walls::place_arc(PlacedWall& wall, const AtRest& rest, const Vessel& vessel
       pose.angle != 0 ? in_lab_frame(vessel, pose, rest.own.centre) : rest.centre + pose.displacement;
   const double middle = vessel.tilt + pose.angle + 0.5 * (rest.own.from + rest.own.to);
   wall.centre_x = centre.x(), wall.centre_y = centre.y(), wall.radius = rest.own.radius;
-  wall.middle_x = elementary::cos(middle), wall.middle_y = elementary::sin(middle);
-  wall.cos_half = elementary::cos(0.5 * (rest.own.to - rest.own.from));
+  wall.middle_x = portable_math::cos(middle), wall.middle_y = portable_math::sin(middle);
+  wall.cos_half = portable_math::cos(0.5 * (rest.own.to - rest.own.from));
 }
 
 void Walls::place_segment(std::size_t number, const Driven& now, const Driven& on_mean) {
@@ -97,7 +97,7 @@ void Walls::place_face(std::size_t number, const Driven& now, const Driven& on_m
   const Pose& pose = now.pose;
   const auto moving = [&vessel](const Driven& driven) {
     return PlacedFace::Moving{point_velocity(vessel, driven.pose, driven.rate, Eigen::Vector3d::Zero()),
-                              spin_in_space(vessel, driven.pose, driven.rate)};
+                              spin_3d(vessel, driven.pose, driven.rate)};
   };
   face.origin = point_in_lab(vessel, pose, own.origin);
   face.e1 = direction_in_lab(vessel, pose, own.e1);

@@ -17,7 +17,7 @@ namespace vibrosow {
 /// `vessel_walls`, or in space of `vessel_faces`.
 class Walls {
  public:
-  explicit Walls(std::vector<Vessel> vessels, Space space = Space::plane);
+  explicit Walls(std::vector<Vessel> vessels, Space space = Space::two_dimensional);
   Walls(const Walls&) = delete;
   Walls& operator=(const Walls&) = delete;
 

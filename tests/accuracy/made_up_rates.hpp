@@ -76,7 +76,7 @@ inline AccuracyDesign made_up_design(const std::vector<double>& slip_speeds = {}
   grid.steps_per_contact = {20, 40, 80};
   grid.shell_compressions = {1e-5, 1e-4, 1e-3, 1e-2};
   grid.slip_speeds = slip_speeds;
-  AccuracyDesign design = thrifty_design(grid);
+  AccuracyDesign design = screening_design(grid);
   for (AccuracySetting& setting : design.settings)
     setting = MadeUpTray::setting(setting.shell_compression, setting.steps_per_contact, setting.slip_speed);
   return design;

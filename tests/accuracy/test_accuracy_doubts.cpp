@@ -36,9 +36,9 @@ TEST(AccuracyDoubts, ASoundFitInSpaceHasNone) {
 
 TEST(AccuracyDoubts, ThePlanesOwnErrorIsOneUntilItIsMeasured) {
   AccuracyResult result = result_with(0);
-  EXPECT_THAT(kinds_of(result, Space::plane), ElementsAre(DoubtKind::depth_left_out));
+  EXPECT_THAT(kinds_of(result, Space::two_dimensional), ElementsAre(DoubtKind::depth_left_out));
   result.depth = DepthError{};
-  EXPECT_THAT(kinds_of(result, Space::plane), IsEmpty());
+  EXPECT_THAT(kinds_of(result, Space::two_dimensional), IsEmpty());
 }
 
 TEST(AccuracyDoubts, PartsOfASettingThatActOnEachOtherAreOne) {

@@ -77,7 +77,7 @@ TEST(AccuracySettings, SlipSpeedIsLeftOutWhereFrictionHasNone) {
 TEST(AccuracySettings, ThriftyDesignRunsEveryLevelAndTheFinestSetting) {
   const StudyFiles files;
   const AccuracyGrid grid = default_accuracy_grid(scene_of(files));
-  const AccuracyDesign design = thrifty_design(grid), full = full_design(grid);
+  const AccuracyDesign design = screening_design(grid), full = full_design(grid);
   ASSERT_EQ(design.settings.size(), full.settings.size());
   const int runs = std::accumulate(design.runs.begin(), design.runs.end(), 0);
   EXPECT_LT(runs, 3 * static_cast<int>(full.runs.size()) / 2);

@@ -18,19 +18,19 @@ SweepOptions one_job() {
 }
 
 /// In space twelve times what the plane's slice sows; the tray has fifteen slices.
-Run slow_in_space(const Model& model, const SimulationOptions& options) {
+Run slow_3d(const Model& model, const SimulationOptions& options) {
   Run run = quick_run(model, options);
-  if (model.scene.space == Space::plane) return run;
+  if (model.scene.space == Space::two_dimensional) return run;
   const std::vector<OutflowEvent> once = run.events;
   for (int times = 1; times < 12; ++times) run.events.insert(run.events.end(), once.begin(), once.end());
   std::ranges::stable_sort(run.events, {}, &OutflowEvent::time);
   return run;
 }
 
-TEST(DepthError, IsThePlanesTrayAgainstTheTrayInSpace) {
+TEST(DepthError, IsThePlanesTrayAgainstTheTray3d) {
   const StudyFiles files;
   const auto [plane, space] = read_in_both_spaces(files.seeder());
-  const auto found = measure_depth_error(plane, space, 3, slow_in_space, one_job());
+  const auto found = measure_depth_error(plane, space, 3, slow_3d, one_job());
   ASSERT_TRUE(found);
   // 63, 66 and 69 seeds of 40 mg in 2 s, by random seed; Student's t of two degrees of freedom is 4.3027.
   const double slice = 33 * 40e-6, relative = 4.3027 * 3 / std::sqrt(3.0) / 66;
@@ -44,7 +44,7 @@ TEST(DepthError, NoneOfRunsOutsideTheModel) {
   const StudyFiles files;
   const auto [plane, space] = read_in_both_spaces(files.seeder());
   const Simulator outside = [](const Model& model, const SimulationOptions& options) {
-    vibrosow::Run run = slow_in_space(model, options);
+    vibrosow::Run run = slow_3d(model, options);
     run.outside_the_model = model.scene.space == Space::three_dimensional;
     return run;
   };
@@ -54,7 +54,7 @@ TEST(DepthError, NoneOfRunsOutsideTheModel) {
 TEST(DepthError, NeedsTwoRuns) {
   const StudyFiles files;
   const auto [plane, space] = read_in_both_spaces(files.seeder());
-  EXPECT_THROW(measure_depth_error(plane, space, 1, slow_in_space, one_job()), std::invalid_argument);
+  EXPECT_THROW(measure_depth_error(plane, space, 1, slow_3d, one_job()), std::invalid_argument);
 }
 
 }  // namespace

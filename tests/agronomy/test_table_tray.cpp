@@ -46,7 +46,7 @@ TEST(TableTray, AMixtureIsSeedsOfItsMeanVolume) {
 
 TEST(TableTray, RefusesWhatTheTableDoesNotTellOf) {
   const std::pair<const char*, std::function<void(Scene&)>> cases[] = {
-      {"space: the tray is in 2D", [](Scene& scene) { scene.space = Space::plane; }},
+      {"space: the tray is in 2D", [](Scene& scene) { scene.space = Space::two_dimensional; }},
       {"hopper: a hopper feeds", [](Scene& scene) { scene.hopper = scene.tray; }},
       {"tray.fill: the bed is not a fill", [](Scene& scene) { scene.tray.fill.reset(); }},
       {"tray.tilt: the floor slopes", [](Scene& scene) { scene.tray.tilt = 0.1; }},

@@ -55,8 +55,8 @@ TEST(Answer, OfADecisionNamesTheDoubtsOfThoseThatMayBeTheBest) {
   EXPECT_THAT(standings_in(answer), ElementsAre(not_shown_worse, worse, invalid, best));
   EXPECT_EQ(answer.layouts[2].reason, "a hole lies beyond the rim");
   EXPECT_THAT(answer.best_first, ElementsAre(3, 0)) << "the best, though another's mean is higher";
-  ASSERT_EQ(answer.figures.size(), 2u) << "the goal is the rate that is shown";
-  EXPECT_EQ(answer.figures[0].wanted, Wanted::high);
+  ASSERT_EQ(answer.metrics.size(), 2u) << "the goal is the rate that is shown";
+  EXPECT_EQ(answer.metrics[0].wanted, Wanted::high);
   EXPECT_DOUBLE_EQ(answer.layouts[1].values[1]->mean, 0.25);
   const std::vector<SharedDoubt> doubts = doubts_about(answer);
   ASSERT_EQ(doubts.size(), 1u);
@@ -82,7 +82,7 @@ TEST(Answer, OfASearchSaysWhatAConstraintIs) {
   const Answer answer = answer_of(result);
   EXPECT_THAT(answer.best_first, ElementsAre(3));
   EXPECT_TRUE(answer.layouts[3].is_named);
-  EXPECT_EQ(answer.layouts[3].values.size(), answer.figures.size());
+  EXPECT_EQ(answer.layouts[3].values.size(), answer.metrics.size());
   EXPECT_THAT(answer.layouts[0].values, IsEmpty()) << "it has no runs";
 }
 
@@ -96,7 +96,7 @@ TEST(Answer, OfASweepRanksWhatMayBeComparedByItsRate) {
     HoleOutflow& all = outflow.holes.emplace_back();
     all.hole = all.lot = "all";
     all.mass_rate = rates[i];
-    if (i != 2) result.layouts[i].figures = FigureMeans({&outflow});
+    if (i != 2) result.layouts[i].metrics = MetricMeans({&outflow});
   }
   result.layouts[1].status = LayoutStanding::outside_the_model;
   result.layouts[2].status = LayoutStanding::invalid;
@@ -105,7 +105,7 @@ TEST(Answer, OfASweepRanksWhatMayBeComparedByItsRate) {
   EXPECT_EQ(answer.first_random_seed, 7u);
   EXPECT_THAT(standings_in(answer), ElementsAre(ok, outside_the_model, invalid, doubtful));
   EXPECT_THAT(answer.best_first, ElementsAre(3, 0));
-  EXPECT_EQ(std::ranges::find(answer.figures, "unevenness_cv_percent", &AnswerFigure::name), answer.figures.end())
+  EXPECT_EQ(std::ranges::find(answer.metrics, "unevenness_cv_percent", &AnswerMetric::name), answer.metrics.end())
       << "no layout has it";
 }
 

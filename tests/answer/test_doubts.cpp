@@ -277,7 +277,7 @@ TEST_P(Doubts, AnAccuracyStudyTells) {
   AccuracyGrid grid = default_accuracy_grid(scene);
   grid.integrators = {Integrator::velocity_verlet};
   const AccuracyResult result =
-      measure_accuracy(scene, thrifty_design(grid), 1, simulator(GetParam().kind), SweepOptions());
+      measure_accuracy(scene, screening_design(grid), 1, simulator(GetParam().kind), SweepOptions());
   const std::vector<std::string> sentences = sentences_of(doubt_remarks(doubts_about(result.runs), "setting"));
   if (told == as_doubt) {
     EXPECT_THAT(sentences, Contains(HasSubstr(name())));

@@ -52,7 +52,7 @@ Run made_up_run(const Model& model, const SimulationOptions&, double angle) {
   return run;
 }
 
-TEST(RefineCrop, RunsAreOfTheBandInSpace) {
+TEST(RefineCrop, RunsAreOfTheBand3d) {
   const std::vector<RefiningRun> runs = runs_of(crop_of(2e-3, 2e-3), 5);
   ASSERT_EQ(runs.size(), 5u);
   for (std::size_t k = 0; k < runs.size(); ++k) {

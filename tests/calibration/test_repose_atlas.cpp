@@ -25,11 +25,11 @@ ReposeAtlas linear_atlas() {
 TEST(ReposeAtlas, IsExactForWhatIsLinear) {
   const ReposeAtlas atlas = linear_atlas();
   for (const auto& [a, f, r] : {std::tuple(1.0, 0.1, 0.0), {1.0, 0.37, 0.12}, {1.7, 0.55, 0.29}, {2.0, 1.0, 0.3}}) {
-    const AtlasFigures figures = atlas.at(a, f, r);
-    EXPECT_NEAR(figures.angle.mean, 0.1 * a + 0.3 * f + 0.5 * r, 1e-12);
-    EXPECT_NEAR(figures.packing.mean, 0.9 - 0.01 * a - 0.1 * f - 0.2 * r, 1e-12);
-    EXPECT_NEAR(figures.discharge.mean, 0.7, 1e-12);
-    EXPECT_NEAR(figures.angle.error, 0.02 / 2, 1e-12) << "of a mean of 4 runs";
+    const AtlasMetrics metrics = atlas.at(a, f, r);
+    EXPECT_NEAR(metrics.angle.mean, 0.1 * a + 0.3 * f + 0.5 * r, 1e-12);
+    EXPECT_NEAR(metrics.packing.mean, 0.9 - 0.01 * a - 0.1 * f - 0.2 * r, 1e-12);
+    EXPECT_NEAR(metrics.discharge.mean, 0.7, 1e-12);
+    EXPECT_NEAR(metrics.angle.error, 0.02 / 2, 1e-12) << "of a mean of 4 runs";
   }
 }
 
@@ -98,7 +98,7 @@ TEST(PlaneToSpace, IsTheMeanDifferenceAndItsScatter) {
   std::vector<AtlasPoint> space;
   for (const auto& [friction, offset, factor] :
        {std::tuple(0.2, -0.02, 0.70), {0.5, -0.04, 0.71}, {0.8, -0.06, 0.72}}) {
-    const AtlasFigures flat = plane.at(1, friction, 0.1);
+    const AtlasMetrics flat = plane.at(1, friction, 0.1);
     space.push_back({1,
                      friction,
                      0.1,
@@ -135,7 +135,7 @@ TEST(ShippedAtlas, CoversItsRange) {
 TEST(ShippedAtlas, RougherSeedsStandSteeperAndLieLooser) {
   const ReposeAtlas atlas = shipped_atlas().atlas;
   for (const double aspect : atlas.aspect_ratios()) {
-    const AtlasFigures smooth = atlas.at(aspect, 0.1, 0), rough = atlas.at(aspect, 1, 0.3);
+    const AtlasMetrics smooth = atlas.at(aspect, 0.1, 0), rough = atlas.at(aspect, 1, 0.3);
     EXPECT_GT(rough.angle.mean - smooth.angle.mean, 4 * (rough.angle.error + smooth.angle.error)) << aspect;
     EXPECT_GT(smooth.packing.mean - rough.packing.mean, 4 * (rough.packing.error + smooth.packing.error)) << aspect;
   }

@@ -82,11 +82,11 @@ TEST(ReposeBand, NineteenOfTwentyBandsHoldWhatWasMeasured) {
   int friction_held = 0, rolling_held = 0;
   for (int k = 0; k < truths; ++k) {
     const double friction = random.uniform(0.1, 1), rolling = random.uniform(0, 0.3);
-    const AtlasFigures plane = atlas.atlas.at(1, friction, rolling);
-    const double angle_error = std::hypot(0.02, plane.angle.error, angle_error_in_space(atlas.to_space));
+    const AtlasMetrics plane = atlas.atlas.at(1, friction, rolling);
+    const double angle_error = std::hypot(0.02, plane.angle.error, angle_error_3d(atlas.to_space));
     const double packing = 0.7 * plane.packing.mean;
     const double packing_error =
-        std::hypot(0.01, 0.7 * plane.packing.error, packing * packing_error_in_space(atlas.to_space));
+        std::hypot(0.01, 0.7 * plane.packing.error, packing * packing_error_3d(atlas.to_space));
     const ReposeBand band = repose_band(
         atlas, 1,
         {plane.angle.mean - 0.05 + angle_error * normal(random), 0.02, packing + packing_error * normal(random), 0.01});
@@ -101,11 +101,11 @@ TEST(ReposeBand, NineteenOfTwentyBandsHoldWhatWasMeasured) {
 
 TEST(ReposeBand, FewMaterialsComparedAreLessSure) {
   PlaneToSpace to_space{{-0.05, 0.02}, {0.7, 0.014}, {1, 0}, 4};
-  EXPECT_DOUBLE_EQ(angle_error_in_space(to_space), 0.02 * std::sqrt(1.25));
-  EXPECT_DOUBLE_EQ(packing_error_in_space(to_space), 0.02 * std::sqrt(1.25));
+  EXPECT_DOUBLE_EQ(angle_error_3d(to_space), 0.02 * std::sqrt(1.25));
+  EXPECT_DOUBLE_EQ(packing_error_3d(to_space), 0.02 * std::sqrt(1.25));
 }
 
-TEST(ReposeBand, WhatIsReachableIsTheAtlasInSpace) {
+TEST(ReposeBand, WhatIsReachableIsTheAtlas3d) {
   const Reachable range = reachable(plain_atlas(), 1.5);
   EXPECT_NEAR(range.least_angle, 0.25 + 0.03 + 0.05 - 0.05, 1e-12);
   EXPECT_NEAR(range.most_angle, 0.25 + 0.3 + 0.15 + 0.05 - 0.05, 1e-12);

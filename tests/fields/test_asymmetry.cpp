@@ -38,7 +38,7 @@ TEST(SurfaceAsymmetry, ComparesMeanHeightsOfColumns) {
   EXPECT_NEAR(surface_asymmetry(s, tray, 0.1).value(), 0, 1e-12);
 }
 
-TEST(SurfaceAsymmetry, HasColumnsAcrossInSpace) {
+TEST(SurfaceAsymmetry, HasColumnsAcross3d) {
   Vessel deep = tray;
   deep.depth = 0.2;
   Snapshot s;

@@ -65,7 +65,7 @@ TEST(VelocityGradient, NeedsThreePointsOffALine) {
   EXPECT_TRUE(fit_gradient<2>(at, at, {0, 1, 3}));
 }
 
-TEST(VelocityGradient, NeedsFourPointsOffAPlaneInSpace) {
+TEST(VelocityGradient, NeedsFourPointsOffAPlane3d) {
   const PointsOf<3> at = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}, {0, 0, 1}};
   EXPECT_FALSE(fit_gradient<3>(at, at, {0, 1, 4}));
   EXPECT_FALSE(fit_gradient<3>(at, at, {0, 1, 2, 3}));
@@ -73,12 +73,12 @@ TEST(VelocityGradient, NeedsFourPointsOffAPlaneInSpace) {
 }
 
 using V3 = Eigen::Vector3d;
-const auto stay_in_space = [](const V3& at) { return at; };
-const auto at_rest_in_space = [](const V3&) { return V3(0, 0, 0); };
+const auto stay_3d = [](const V3& at) { return at; };
+const auto at_rest_3d = [](const V3&) { return V3(0, 0, 0); };
 
 TEST(VelocityGradient, OfABedInSpaceIsThatOfItsProjection) {
   const Eigen::Matrix2d gradient = matrix(1, 4, 0, -2);
-  const Snapshot s = body_centred_bed(11, stay_in_space, [&](const V3& at) -> V3 {
+  const Snapshot s = body_centred_bed(11, stay_3d, [&](const V3& at) -> V3 {
     const V in_map = gradient * V(at.x(), at.y());
     return {in_map.x() + 0.3, in_map.y(), 0.5 + 3 * at.x()};
   });
@@ -145,27 +145,27 @@ TEST(ShearStrain, OfKnownDeformations) {
 }
 
 /// The same in space.
-void expect_strain_in_space(const Eigen::Matrix3d& deformation, double strain) {
-  const Snapshot before = body_centred_bed(6, stay_in_space, at_rest_in_space);
+void expect_strain_3d(const Eigen::Matrix3d& deformation, double strain) {
+  const Snapshot before = body_centred_bed(6, stay_3d, at_rest_3d);
   const Snapshot after = body_centred_bed(
-      6, [&](const V3& at) -> V3 { return deformation * at + V3(0.1, 0, 0.2); }, at_rest_in_space);
+      6, [&](const V3& at) -> V3 { return deformation * at + V3(0.1, 0, 0.2); }, at_rest_3d);
   for (const auto& one : shear_strain(before, after, fit_reach(before))) {
     ASSERT_TRUE(one);
     EXPECT_NEAR(*one, strain, 1e-11);
   }
 }
 
-TEST(ShearStrain, OfKnownDeformationsInSpace) {
+TEST(ShearStrain, OfKnownDeformations3d) {
   const Eigen::Matrix3d none = Eigen::Matrix3d::Identity();
   const Eigen::Matrix3d turn = Eigen::AngleAxisd(1.2, V3(1, 2, -2).normalized()).toRotationMatrix();
   Eigen::Matrix3d along_across = none, stretches = none;
   along_across(0, 2) = 0.7;
   stretches.diagonal() = V3(1.1, 1.5, 0.8);
-  expect_strain_in_space(turn, 0);
-  expect_strain_in_space(1.3 * none, 0);
-  expect_strain_in_space(along_across, 0.7);
-  expect_strain_in_space(turn * along_across * turn.transpose(), 0.7);
-  expect_strain_in_space(turn * stretches, 0.7);
+  expect_strain_3d(turn, 0);
+  expect_strain_3d(1.3 * none, 0);
+  expect_strain_3d(along_across, 0.7);
+  expect_strain_3d(turn * along_across * turn.transpose(), 0.7);
+  expect_strain_3d(turn * stretches, 0.7);
 }
 
 TEST(ShearStrain, ASlipLineStandsOutBetweenTwoBlocks) {

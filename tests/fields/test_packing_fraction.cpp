@@ -218,7 +218,7 @@ TEST(PackingFraction, AClumpInSpaceIsItsBallsWithOverlapsCountedOnce) {
   EXPECT_NEAR(in_cells, s.volume[0], 1e-19);
 }
 
-TEST(BedPacking, OfABodyCentredPackingInSpace) {
+TEST(BedPacking, OfABodyCentredPacking3d) {
   const auto same = [](const V3& at) { return at; };
   Snapshot s = body_centred_bed(24, same, [](const V3&) { return V3(0, 0, 0); });
   Vessel tray = made_up_tray(0.12);

@@ -10,7 +10,7 @@
 #include "files/whole_file.hpp"
 #include "storage/case_folder.hpp"
 #include "storage/checkpoint_folder.hpp"
-#include "storage/run_notes.hpp"
+#include "storage/run_leases.hpp"
 #include "storage/study_plan.hpp"
 #include "support/temporary_folder.hpp"
 
@@ -141,7 +141,7 @@ TEST_F(LinkedFolder, NothingIsSweptBehindALink) {
 TEST(RunNotesReadBack, NoProcessAndNoShareThatIsNone) {
   const TemporaryFolder folder;
   const auto note = [&](const std::string& json) { std::ofstream(folder.path() / "a") << json; };
-  const RunNotes notes(folder.path());
+  const RunLeases notes(folder.path());
   note(R"({"host":"\u001b[2J","place":"x","pid":7,"started":"","since":"s","fraction":0.5,"from_fraction":-1})");
   ASSERT_EQ(notes.all().size(), 1u);
   EXPECT_EQ(notes.all()[0].host, "\\x1b[2J");

@@ -9,7 +9,7 @@
 #include "fuzz/try_bytes.hpp"
 #include "input/temporary_file.hpp"
 #include "scene/input_error.hpp"
-#include "storage/run_notes.hpp"
+#include "storage/run_leases.hpp"
 #include "storage/segments.hpp"
 #include "storage/study_plan.hpp"
 
@@ -77,7 +77,7 @@ void try_bytes(const std::string& bytes) {
   read_segment(root / "segments", with_right_hash(edited(segment, bytes), numbers));
   fs::create_directories(root / "running");
   write_file_atomically(root / "running" / "a", bytes);
-  RunNotes(root / "running").all();
+  RunLeases(root / "running").all();
 }
 
 }  // namespace vibrosow

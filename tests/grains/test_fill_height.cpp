@@ -29,7 +29,7 @@ std::vector<SeedLot> mixture() {
 
 class FillHeight : public testing::TestWithParam<Space> {
  protected:
-  static bool is_flat() { return GetParam() == Space::plane; }
+  static bool is_flat() { return GetParam() == Space::two_dimensional; }
 
   static Vessel box(Packing packing = Packing::poured) {
     Vessel v;
@@ -59,8 +59,8 @@ class FillHeight : public testing::TestWithParam<Space> {
     return pack(v, lots, GetParam(), random);
   }
 };
-INSTANTIATE_TEST_SUITE_P(Spaces, FillHeight, testing::Values(Space::plane, Space::three_dimensional),
-                         [](const auto& info) { return info.param == Space::plane ? "plane" : "space"; });
+INSTANTIATE_TEST_SUITE_P(Spaces, FillHeight, testing::Values(Space::two_dimensional, Space::three_dimensional),
+                         [](const auto& info) { return info.param == Space::two_dimensional ? "plane" : "space"; });
 
 TEST_P(FillHeight, OfABoxIsItsFloorTimesTheHeight) {
   EXPECT_NEAR(seeds(box(), 0.03), over(0.1 * 0.03), 1e-6);
@@ -151,7 +151,7 @@ TEST_P(FillHeight, IsFoundAgainFromTheCount) {
   EXPECT_EQ(height_of_fill(full, balls(), GetParam()), full.height);
 }
 
-TEST(FillHeightInSpace, IsThatOfThePouredBedOfGrains) {
+TEST(FillHeight3d, IsThatOfThePouredBedOfGrains) {
   constexpr double height = 0.02;
   Vessel v;
   v.name = "tray";
@@ -165,7 +165,7 @@ TEST(FillHeightInSpace, IsThatOfThePouredBedOfGrains) {
   }
 }
 
-TEST(FillHeightInSpace, OfARoundVesselWithACone) {
+TEST(FillHeight3d, OfARoundVesselWithACone) {
   Vessel v;
   v.name = "hopper";
   v.plan = Plan::round;
@@ -181,7 +181,7 @@ TEST(FillHeightInSpace, OfARoundVesselWithACone) {
               0.015 * per_volume * (frustum + above));
 }
 
-TEST(FillHeightInSpace, OfAGrooveAlongTheVessel) {
+TEST(FillHeight3d, OfAGrooveAlongTheVessel) {
   Vessel v;
   v.name = "tray";
   v.length = 0.1, v.depth = 0.06, v.height = 0.05;

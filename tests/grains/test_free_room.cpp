@@ -23,8 +23,8 @@ class Room : public testing::TestWithParam<Space> {
     return FreeRoom(v, GetParam(), radius).holds({x, y, v.depth.value_or(0) / 2});
   }
 };
-INSTANTIATE_TEST_SUITE_P(Spaces, Room, testing::Values(Space::plane, Space::three_dimensional),
-                         [](const auto& info) { return info.param == Space::plane ? "plane" : "space"; });
+INSTANTIATE_TEST_SUITE_P(Spaces, Room, testing::Values(Space::two_dimensional, Space::three_dimensional),
+                         [](const auto& info) { return info.param == Space::two_dimensional ? "plane" : "space"; });
 
 TEST_P(Room, OfABoxIsTheBox) {
   EXPECT_TRUE(holds(box(), 0.05, 0.01));
@@ -54,7 +54,7 @@ TEST_P(Room, GoesRoundAShelfAndThroughWhatASeedPasses) {
   EXPECT_TRUE(holds(v, 0.02, 0.01)) << "a gap of 4.1 mm";
 }
 
-TEST(RoomInSpace, LiesOverAGrooveAlongTheVessel) {
+TEST(Room3d, LiesOverAGrooveAlongTheVessel) {
   Vessel v;
   v.name = "tray";
   v.length = 0.1, v.height = 0.06, v.depth = 0.04;
@@ -66,7 +66,7 @@ TEST(RoomInSpace, LiesOverAGrooveAlongTheVessel) {
   EXPECT_FALSE(room.holds({0.05, 0.005, 0.035}));
 }
 
-TEST(RoomInSpace, GoesOnAcrossThePeriodOfItsDepth) {
+TEST(Room3d, GoesOnAcrossThePeriodOfItsDepth) {
   Vessel v;
   v.name = "tray";
   v.length = 0.1, v.height = 0.06, v.depth = 0.04;

@@ -99,7 +99,7 @@ TEST(Packing, NoPackingOverlaps) {
       for (const auto& lots : {one_lot(), two_lots(), scattered_lots()}) {
         Random random(seed);
         const Vessel v = vessel(packing, 250, packing == Packing::poured ? 0 : 0.02);
-        const std::vector<PackedGrain> packed = pack(v, lots, Space::plane, random);
+        const std::vector<PackedGrain> packed = pack(v, lots, Space::two_dimensional, random);
         ASSERT_EQ(packed.size(), 250u);
         EXPECT_LT(deepest_overlap(v, packed, lots), 1e-5 * diameter) << "seed " << seed;
       }
@@ -108,7 +108,7 @@ TEST(Packing, NoPackingOverlaps) {
 TEST(Packing, PouredGrainsRestOnTwoContactsOrTheFloor) {
   Random random(3);
   const Vessel v = vessel(Packing::poured, 300);
-  const std::vector<PackedGrain> packed = pack(v, one_lot(), Space::plane, random);
+  const std::vector<PackedGrain> packed = pack(v, one_lot(), Space::two_dimensional, random);
   for (std::size_t i = 0; i < packed.size(); ++i) {
     const double touch = 1e-5 * diameter;
     bool left = packed[i].x <= 0.5 * diameter + touch, right = packed[i].x >= v.length - 0.5 * diameter - touch;
@@ -125,7 +125,7 @@ TEST(Packing, PouredBedIsAsDenseAsRandomDiscsAre) {
   Random random(5);
   Vessel v = vessel(Packing::poured, 2000);
   v.height = 1;
-  const std::vector<PackedGrain> packed = pack(v, one_lot(), Space::plane, random);
+  const std::vector<PackedGrain> packed = pack(v, one_lot(), Space::two_dimensional, random);
   double inside = 0;
   const double low = 0.05, high = 0.2;
   for (const PackedGrain& g : packed) inside += g.y > low && g.y < high ? 1 : 0;
@@ -140,7 +140,7 @@ TEST(Packing, PouredIntoAFunnelStaysClearOfItsSlopes) {
   v.funnel = 0.8;
   Random random(2);
   const auto lots = one_lot();
-  const std::vector<PackedGrain> packed = pack(v, lots, Space::plane, random);
+  const std::vector<PackedGrain> packed = pack(v, lots, Space::two_dimensional, random);
   EXPECT_LT(deepest_overlap(v, packed, lots), 1e-5 * diameter);
 }
 
@@ -149,7 +149,7 @@ TEST(Packing, CylindersFillATrayThatTheirCirclesWouldNot) {
   v.length = 0.57, v.height = 0.6;
   const std::vector<SeedLot> lots{cylinder()};
   Random random(1);
-  const std::vector<PackedGrain> packed = pack(v, lots, Space::plane, random);
+  const std::vector<PackedGrain> packed = pack(v, lots, Space::two_dimensional, random);
   const auto highest =
       std::ranges::max(discs_of(packed, lots), {}, [](const Disc& disc) { return disc.y + disc.radius; });
   EXPECT_LT(highest.y, 0.5);
@@ -171,7 +171,7 @@ TEST(Packing, ClumpsOfAnyShapeAndSizeTouchButDoNotOverlap) {
     for (const auto& lots : {std::vector{cylinder()}, hooks_and_balls()})
       for (std::uint64_t seed = 1; seed <= 5; ++seed) {
         Random random(seed);
-        const std::vector<PackedGrain> packed = pack(v, lots, Space::plane, random);
+        const std::vector<PackedGrain> packed = pack(v, lots, Space::two_dimensional, random);
         ASSERT_EQ(packed.size(), 150u);
         const double deepest = deepest_overlap(v, packed, lots);
         EXPECT_LT(deepest, 1e-5 * diameter) << "seed " << seed;
@@ -189,7 +189,7 @@ TEST(Packing, ClumpsArePouredIntoADrumUpToItsWall) {
   drum.pieces = {{.centre = {0.05, 0.05}, .radius = 0.05, .from = 0, .to = 2 * std::numbers::pi}};
   for (const auto& lots : {std::vector{cylinder()}, hooks_and_balls()}) {
     Random random(1);
-    EXPECT_LT(deepest_overlap(drum, pack(drum, lots, Space::plane, random), lots), 1e-5 * diameter);
+    EXPECT_LT(deepest_overlap(drum, pack(drum, lots, Space::two_dimensional, random), lots), 1e-5 * diameter);
   }
 }
 
@@ -197,7 +197,7 @@ TEST(Packing, RandomSeedActsAndRepeats) {
   for (const Packing packing : {Packing::poured, Packing::layers, Packing::hexagonal}) {
     const auto first = [&](std::uint64_t seed) {
       Random random(seed);
-      return pack(vessel(packing, 50), one_lot(), Space::plane, random).front().x;
+      return pack(vessel(packing, 50), one_lot(), Space::two_dimensional, random).front().x;
     };
     EXPECT_EQ(first(1), first(1));
     EXPECT_NE(first(1), first(2));
@@ -208,7 +208,7 @@ TEST(Packing, EachGrainHasItsOwnSizeAndEachClumpItsAngle) {
   for (const Packing packing : {Packing::poured, Packing::layers, Packing::hexagonal}) {
     Random random(4);
     std::set<double> sizes, angles;
-    for (const PackedGrain& grain : pack(vessel(packing, 200), scattered_lots(), Space::plane, random)) {
+    for (const PackedGrain& grain : pack(vessel(packing, 200), scattered_lots(), Space::two_dimensional, random)) {
       if (grain.lot == 0) sizes.insert(grain.size);
       if (grain.lot == 1) angles.insert(grain.turned.angle);
       EXPECT_TRUE(grain.lot == 0 ? grain.turned.angle == 0 : grain.size == 1);
@@ -225,7 +225,7 @@ TEST(Packing, LotsComeMixed) {
   for (const Packing packing : {Packing::poured, Packing::layers}) {
     Random random(1);
     double height[2] = {0, 0};
-    for (const PackedGrain& grain : pack(vessel(packing, 400), halves, Space::plane, random))
+    for (const PackedGrain& grain : pack(vessel(packing, 400), halves, Space::two_dimensional, random))
       height[grain.lot] += grain.y / 200;
     EXPECT_NEAR(height[0] / height[1], 1, 0.2);
   }
@@ -235,7 +235,7 @@ TEST(Packing, TooMuchForTheVesselIsRefusedByName) {
   Vessel v = vessel(Packing::poured, 3000);
   Random random(1);
   try {
-    pack(v, one_lot(), Space::plane, random);
+    pack(v, one_lot(), Space::two_dimensional, random);
     FAIL() << "3000 grains cannot fit";
   } catch (const InputError& error) {
     EXPECT_NE(std::string(error.what()).find("tray.fill.count: 3000"), std::string::npos) << error.what();

@@ -485,11 +485,11 @@ TEST_F(EveryKey, AHeightIsTheSameInBothSpacesAndForEachCrop) {
   EXPECT_TRUE(with_hopper.hopper->fill->keep);
 }
 
-TEST_F(EveryKey, ARoundHoleBySetIsRoundInSpace) {
+TEST_F(EveryKey, ARoundHoleBySetIsRound3d) {
   const BothSpaces both = read_in_both_spaces(file(base), {parse_override("tray.holes.shape=round")});
   EXPECT_EQ(both.space.tray.holes[0].shape, HoleShape::round);
   EXPECT_EQ(both.space.space, Space::three_dimensional);
-  EXPECT_EQ(both.plane.space, Space::plane);
+  EXPECT_EQ(both.plane.space, Space::two_dimensional);
 }
 
 TEST_F(EveryKey, ARoundTraysMiddleSliceHoldsMoreThanTheMeanOne) {

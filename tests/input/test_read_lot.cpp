@@ -22,7 +22,7 @@ using testing::ThrowsMessage;
 using Kind = SizeDistribution::Kind;
 
 /// The lot with the given lines in its table; every key must be known.
-SeedLot lot_of(const std::string& lines, Space space = Space::plane) {
+SeedLot lot_of(const std::string& lines, Space space = Space::two_dimensional) {
   const TemporaryFolder folder;
   Table root(Document::read(folder.write("seeder.toml", lines)));
   SeedLot lot = read_lot(root, "a", space);
@@ -209,7 +209,7 @@ TEST(ReadLot, ASievesTableIsByMass) {
   EXPECT_NEAR(lot_of(rows).sizes.fraction[0], 0.8, 1e-15);
   EXPECT_NEAR(lot_of(rows, Space::three_dimensional).sizes.fraction[0], 8.0 / 9, 1e-15);
   // Back again: what each size weighs is what was asked for.
-  for (const Space space : {Space::plane, Space::three_dimensional}) {
+  for (const Space space : {Space::two_dimensional, Space::three_dimensional}) {
     const SeedLot lot = lot_of(rows, space);
     const int power = mass_power(lot);
     const double small = lot.sizes.fraction[0] * std::pow(lot.sizes.diameter[0] / lot.diameter, power);

@@ -271,7 +271,7 @@ holes = { shape = "round", at = ["10 cm"], rows = 2, width = "8 mm" }
 )";
   text.replace(text.find("3d"), 2, "plane");
   const Scene scene = read(text);
-  EXPECT_EQ(scene.space, Space::plane);
+  EXPECT_EQ(scene.space, Space::two_dimensional);
   EXPECT_EQ(scene.tray.holes.size(), 1u);
   EXPECT_EQ(scene.tray.front_and_back, Sides::walls);
 }

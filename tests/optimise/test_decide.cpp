@@ -97,8 +97,8 @@ TEST(Decide, InSpaceTellsWhatTheRatesAreExpectedToBeAndDecidesByChanceAlone) {
       "amplitude = \"8 mm\"\nfrequency = \"5 Hz\"\n";
   const Study space = widths(files, "[set]\nspace = \"3d\"\n" + along);
   const Study plane = widths(files, "[set]\n" + along);
-  StudyDecision in_space(space, most_flow()), in_plane(plane, most_flow());
-  const DecisionReport report = lead(in_space, noisy_run), other = lead(in_plane, noisy_run);
+  StudyDecision is_3d(space, most_flow()), in_plane(plane, most_flow());
+  const DecisionReport report = lead(is_3d, noisy_run), other = lead(in_plane, noisy_run);
   EXPECT_EQ(report.result.best, other.result.best);
   EXPECT_EQ(report.result.cost.runs, other.result.cost.runs);
   for (std::size_t scene = 0; scene < 3; ++scene) {

@@ -11,8 +11,8 @@ namespace {
 using testing::HasSubstr;
 using testing::ThrowsMessage;
 
-TEST(Goal, EachIsAFigureOfARun) {
-  for (const Goal& goal : goals()) EXPECT_EQ(figure_named(goal.figure).name, goal.figure) << goal.name;
+TEST(Goal, EachIsAMetricOfARun) {
+  for (const Goal& goal : goals()) EXPECT_EQ(metric_named(goal.metric).name, goal.metric) << goal.name;
 }
 
 TEST(Goal, MostIsTurnedRound) {
@@ -48,7 +48,7 @@ TEST(Goal, RatesOfUnlikeSlicesAreThoseOfTheTray) {
   EXPECT_EQ(&goal_between(rate, {none, none}), &rate);
   EXPECT_EQ(&goal_between(rate, {solid, solid}), &rate);
   for (const Scene& other : {deep, small, solid})
-    EXPECT_EQ(goal_between(rate, {shallow, other}).figure, "tray_rate_g_per_s");
+    EXPECT_EQ(goal_between(rate, {shallow, other}).metric, "tray_rate_g_per_s");
   EXPECT_EQ(&goal_between(goal_named("pause"), {shallow, deep}), &goal_named("pause"));
   EXPECT_THAT(
       [&] {
@@ -100,11 +100,11 @@ TEST(Goal, InstabilityNeedsPartsAlike) {
 
 TEST(WantedRate, ReadsSeedsAndMass) {
   const WantedRate seeds = read_wanted_rate("43 seeds/s +- 5 %");
-  EXPECT_EQ(rate_figure(seeds).name, "tray_seeds_per_s");
+  EXPECT_EQ(rate_metric(seeds).name, "tray_seeds_per_s");
   EXPECT_DOUBLE_EQ(seeds.low, 43 * 0.95);
   EXPECT_DOUBLE_EQ(seeds.high, 43 * 1.05);
   const WantedRate mass = read_wanted_rate("12 g/min +- 1 g/min");
-  EXPECT_EQ(rate_figure(mass).name, "tray_rate_g_per_s");
+  EXPECT_EQ(rate_metric(mass).name, "tray_rate_g_per_s");
   EXPECT_NEAR(mass.low, 0.011 / 60, 1e-12);
   EXPECT_NEAR(mass.high, 0.013 / 60, 1e-12);
   EXPECT_NEAR(read_wanted_rate("60 seeds/min +- 10 %").high, 1.1, 1e-12);

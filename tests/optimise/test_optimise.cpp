@@ -101,8 +101,8 @@ TEST_F(Optimise, InSpaceTellsWhatTheRatesAreExpectedToBe) {
                                     "[set.tray.motion]\nkind = \"harmonic\"\namplitude = \"4 mm\"\n"
                                     "frequency = \"10 Hz\"\n[vary]\ntray.holes.width = [\"10 mm\", \"14 mm\"]\n")};
   };
-  StudyOptimisation in_space(with("space = \"3d\"\n"), options({"rate", "power"}, 40));
-  for (const FrontLayout& layout : lead(in_space).layouts) {
+  StudyOptimisation is_3d(with("space = \"3d\"\n"), options({"rate", "power"}, 40));
+  for (const FrontLayout& layout : lead(is_3d).layouts) {
     ASSERT_TRUE(layout.expected);
     EXPECT_LT(layout.expected->range.low, 0.9);
     EXPECT_GT(layout.expected->range.high, 1.1);

@@ -108,8 +108,8 @@ TEST_P(Conveying, CarriesAsFastAsAPointMass) {
   for (const Space space : both_spaces)
     for (const FrictionModel model : {FrictionModel::spring, FrictionModel::sliding}) {
       const double carried = carried_speed(GetParam(), space, model);
-      EXPECT_NEAR(carried / exact, 1, 0.01)
-          << (space == Space::plane ? "plane" : "3D") << (model == FrictionModel::spring ? ", spring" : ", sliding");
+      EXPECT_NEAR(carried / exact, 1, 0.01) << (space == Space::two_dimensional ? "plane" : "3D")
+                                            << (model == FrictionModel::spring ? ", spring" : ", sliding");
     }
 }
 

@@ -45,8 +45,8 @@ struct WallForce {
 
 std::vector<WallForce> forces_of_walls(Simulation& run) {
   std::vector<WallForce> forces;
-  if (run.grains().in_space)
-    for (const GrainVector& f : run.field().wall_forces_in_space()) forces.push_back({std::hypot(f.x, f.z), f.y});
+  if (run.grains().is_3d)
+    for (const GrainVector& f : run.field().wall_forces_3d()) forces.push_back({std::hypot(f.x, f.z), f.y});
   else
     for (const GrainForce& f : run.field().wall_forces()) forces.push_back({std::abs(f.fx), f.fy});
   return forces;
@@ -86,7 +86,7 @@ std::vector<Column> measured_columns(const Silo& silo, int widths) {
   for (std::uint64_t seed = 1; seed <= static_cast<std::uint64_t>(silo.seeds); ++seed) {
     Column column;
     column.width = scene.hopper->length, column.band = 0.5 * column.width;
-    const bool flat = scene.space == Space::plane;
+    const bool flat = scene.space == Space::two_dimensional;
     column.area = flat ? column.width : std::numbers::pi / 4 * column.width * column.width;
     column.perimeter = flat ? 2 : std::numbers::pi * column.width;
     Simulation run(prepare(scene), seed);
@@ -103,10 +103,10 @@ std::vector<Column> measured_columns(const Silo& silo, int widths) {
 
 /// Of a figure over the random seeds: one column in eight or so is held up by an arch that jams on the floor for a
 /// while, which a mean would follow.
-template <class Figure>
-double median(const std::vector<Column>& columns, Figure figure) {
+template <class Metric>
+double median(const std::vector<Column>& columns, Metric metric) {
   std::vector<double> values;
-  for (const Column& column : columns) values.push_back(figure(column));
+  for (const Column& column : columns) values.push_back(metric(column));
   std::sort(values.begin(), values.end());
   return 0.5 * (values[(values.size() - 1) / 2] + values[values.size() / 2]);
 }

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <random>
 
-#include "contact/space_wall_contacts.hpp"
 #include "contact/wall_contacts.hpp"
+#include "contact/wall_contacts_3d.hpp"
 #include "plan/model.hpp"
 #include "support/bench.hpp"
 #include "vessel/nearest_on_face.hpp"
@@ -50,7 +50,7 @@ TEST(Wall, IsAGrainOfInfiniteRadiusAndMass) {
                       parameters, {}, none, {0, 0}, f, foreign, statistics);
       WallContacts contacts;
       WallContactFinder().find(grains, near, 0, walls, contacts);
-      add_figures(kernels.vectors[0].wall(surfaces_of(grains), at, parameters, {}, none, contacts), statistics);
+      add_metrics(kernels.vectors[0].wall(surfaces_of(grains), at, parameters, {}, none, contacts), statistics);
       add_wall_forces(contacts, kernels.effects.rotation, f);
       EXPECT_EQ(statistics.contacts + contacts.count, 1);
       EXPECT_NEAR(statistics.max_relative_overlap, overlap / Bench::radius, 1e-7);
@@ -80,7 +80,7 @@ TEST(Wall, AJointOfTwoPiecesPushesOnce) {
 }
 
 TEST(Wall, ACentreOnItIsPushedBackToTheSideItCameFrom) {
-  Bench bench(Space::plane), in_space(Space::three_dimensional);
+  Bench bench(Space::two_dimensional), is_3d(Space::three_dimensional);
   for (const double side : {1.0, -1.0}) {
     bench.scene.tray.holes.clear();
     Grains grains(prepare(bench.scene).kinds, false, false);
@@ -90,14 +90,14 @@ TEST(Wall, ACentreOnItIsPushedBackToTheSideItCameFrom) {
     WallContactFinder().find(grains, below, 0, {{0, 0, 1, 0, {0, 1}, {0, 1}}}, contacts);  // above is left: positive
     ASSERT_EQ(contacts.count, 1);
     EXPECT_EQ(contacts.normal_y[0], -side) << "towards the wall";
-    Grains balls(prepare(in_space.scene).kinds, false, false);
-    balls.in_space = true;
+    Grains balls(prepare(is_3d.scene).kinds, false, false);
+    balls.is_3d = true;
     balls.add({0.5, 0, 0.5}, Eigen::Vector3d::Zero(), 0, balls.kinds.front());
-    const Walls walls({in_space.scene.tray}, Space::three_dimensional);
+    const Walls walls({is_3d.scene.tray}, Space::three_dimensional);
     const int floor = static_cast<int>(walls.named("tray floor 1").front());
-    SpaceWallContacts touched;
+    WallContacts3d touched;
     const std::vector<WallCandidate> near = {{0, floor, side}};
-    SpaceWallFinder().find(balls, near, 0, walls.placed_faces(), touched);
+    WallFinder3d().find(balls, near, 0, walls.placed_faces(), touched);
     ASSERT_EQ(touched.count, 1);
     EXPECT_EQ(std::abs(touched.normal.y[0]), 1);
     const double above = nearest_on_face(walls.placed_faces()[static_cast<std::size_t>(floor)], {0.5, 0.1, 0.5}).side;

@@ -94,7 +94,7 @@ double contacts_a_seed(const PackedBed& bed) {
 }
 
 TEST(PackedBed, HasTheContactsOfOneThatHolds) {
-  Scene plane = Bench(Space::plane).scene, space = Bench(Space::three_dimensional).scene;
+  Scene plane = Bench(Space::two_dimensional).scene, space = Bench(Space::three_dimensional).scene;
   EXPECT_GT(contacts_a_seed(packed_bed(Basis(plane).step)), 3.7);  // four
   EXPECT_LT(contacts_a_seed(packed_bed(Basis(plane).step)), 6.01);
   EXPECT_GT(contacts_a_seed(packed_bed(Basis(space).step)), 5.5);  // six, but for those that rattle

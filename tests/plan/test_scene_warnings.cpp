@@ -241,7 +241,7 @@ TEST(SceneWarnings, InThePlaneARoundHoleIsTakenForASlot) {
   EXPECT_THAT(scene_warnings(scene), IsEmpty());
 }
 
-Scene sound_in_space(HoleShape shape = HoleShape::slot) {
+Scene sound_3d(HoleShape shape = HoleShape::slot) {
   Scene scene = sound();
   scene.space = Space::three_dimensional;
   scene.tray.depth = 0.06;
@@ -269,7 +269,7 @@ std::vector<std::string> warnings_with(Scene scene, std::vector<WallPiece> piece
 }
 
 TEST(SceneWarnings, APieceOverAHole) {
-  for (const Scene& scene : {sound(), sound_in_space(), sound_in_space(HoleShape::round)}) {
+  for (const Scene& scene : {sound(), sound_3d(), sound_3d(HoleShape::round)}) {
     EXPECT_THAT(warnings_with(scene, {straight(0.2, 0, 0.3, 0)}),
                 ElementsAre("tray.pieces: piece 1 covers hole 2: what is drawn across a hole is a wall there"));
     EXPECT_THAT(warnings_with(scene, {straight(0, 0.001, 0.5, 0.001)}),
@@ -290,7 +290,7 @@ TEST(SceneWarnings, APieceOverAHole) {
 
 TEST(SceneWarnings, ATurnedPieceOverAHole) {
   for (const HoleShape shape : {HoleShape::slot, HoleShape::round}) {
-    const Scene scene = sound_in_space(shape);
+    const Scene scene = sound_3d(shape);
     EXPECT_THAT(warnings_with(scene, {turned(0, 0, 0.1, 0)}), ElementsAre(HasSubstr("covers hole 2:")));
     EXPECT_THAT(warnings_with(scene, {turned(0, 0, 0.003, 0)}), ElementsAre(HasSubstr("hole 2 (")));
     EXPECT_THAT(warnings_with(scene, {turned(0.0019, 0, 0.0019, 0.4, PieceAxis::along, {0, 0.03})}),
@@ -307,7 +307,7 @@ TEST(SceneWarnings, APieceAlongTheTrayOverAHole) {
     return piece;
   };
   for (const HoleShape shape : {HoleShape::slot, HoleShape::round}) {
-    const Scene scene = sound_in_space(shape);
+    const Scene scene = sound_3d(shape);
     EXPECT_THAT(warnings_with(scene, {along(straight(0, 0, 0.06, 0))}),
                 ElementsAre(HasSubstr("piece 1 covers hole 1, hole 2, hole 3:")));
     EXPECT_THAT(warnings_with(scene, {along(straight(0.03, 0, 0.06, 0))}),
@@ -318,13 +318,13 @@ TEST(SceneWarnings, APieceAlongTheTrayOverAHole) {
                 ElementsAre(HasSubstr("piece 1 reaches 50 mm below the tray's floor")));
   }
   // A groove whose flat bottom is as wide as the round holes.
-  EXPECT_THAT(warnings_with(sound_in_space(HoleShape::round),
+  EXPECT_THAT(warnings_with(sound_3d(HoleShape::round),
                             {along(straight(0, 0.02, 0.024, 0)), along(straight(0.036, 0, 0.06, 0.02))}),
               IsEmpty());
 }
 
 TEST(SceneWarnings, HolesThatPiecesShutOff) {
-  Scene scene = sound_in_space(HoleShape::round);
+  Scene scene = sound_3d(HoleShape::round);
   std::vector<WallPiece> groove = {straight(0, 0.02, 0.03, 0), straight(0.03, 0, 0.06, 0.02)};
   for (WallPiece& piece : groove) piece.drawn_out = DrawnOut::along;
   EXPECT_THAT(warnings_with(scene, groove), ElementsAre(HasSubstr("covers hole 1"), HasSubstr("covers hole 1")));
@@ -333,7 +333,7 @@ TEST(SceneWarnings, HolesThatPiecesShutOff) {
               ElementsAre(HasSubstr("hole 1 ("), HasSubstr("hole 1 ("),
                           "tray.pieces: shut off hole 2: no seed comes there from above"));
   const std::vector<WallPiece> slope = {straight(0, 0.05, 0.2, 0)};
-  for (const Scene& one : {sound(), sound_in_space()})
+  for (const Scene& one : {sound(), sound_3d()})
     EXPECT_THAT(warnings_with(one, slope), ElementsAre("tray.pieces: shut off hole 1: no seed comes there from above"));
   EXPECT_THAT(warnings_with(sound(), {straight(0, 0.05, 0.2, 0.02)}), IsEmpty()) << "a shelf";
 }
@@ -356,18 +356,18 @@ TEST(SceneWarnings, PiecesOfAnotherSize) {
 class VesselsThatMeet : public testing::TestWithParam<Space> {
  protected:
   static Scene over(double above) {
-    Scene scene = GetParam() == Space::plane ? sound() : sound_in_space();
+    Scene scene = GetParam() == Space::two_dimensional ? sound() : sound_3d();
     scene.hopper = hopper(0.03);
     scene.hopper->holes[0].across = 0.03, scene.hopper->holes[0].across_length = 0.06;
     scene.hopper->depth = scene.tray.depth;
-    scene.hopper->fill->count *= GetParam() == Space::plane ? 1 : 10;
+    scene.hopper->fill->count *= GetParam() == Space::two_dimensional ? 1 : 10;
     scene.hopper->origin.y() = above;
     return scene;
   }
 };
-INSTANTIATE_TEST_SUITE_P(Both, VesselsThatMeet, testing::Values(Space::plane, Space::three_dimensional),
+INSTANTIATE_TEST_SUITE_P(Both, VesselsThatMeet, testing::Values(Space::two_dimensional, Space::three_dimensional),
                          [](const auto& info) -> std::string {
-                           return info.param == Space::plane ? "plane" : "space";
+                           return info.param == Space::two_dimensional ? "plane" : "space";
                          });
 
 TEST_P(VesselsThatMeet, AreNamed) {

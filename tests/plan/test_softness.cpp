@@ -28,11 +28,11 @@ Scene tray(Law law) {
 
 Scene at(Scene scene, AccuracyLevel level) {
   scene.numerics.accuracy = level;
-  return at_its_accuracy(scene);
+  return resolve_accuracy_level(scene);
 }
 
 TEST(Softness, WithoutALevelTheSceneStaysAsWritten) {
-  EXPECT_EQ(at_its_accuracy(tray(Law::elastic_shell)), tray(Law::elastic_shell));
+  EXPECT_EQ(resolve_accuracy_level(tray(Law::elastic_shell)), tray(Law::elastic_shell));
 }
 
 TEST(Softness, ALevelSetsShellAndSteps) {

@@ -271,7 +271,7 @@ TEST(StepPlan, NoImpactOfAClumpInSpaceIsFasterThanPlanned) {
     std::int64_t touched = 0, apart = 0;
     while (apart < 10 && run.time() < 0.02) {
       ASSERT_TRUE(run.step());
-      const bool pushed = run.field().forces_in_space()[0].y > 0;
+      const bool pushed = run.field().forces_3d()[0].y > 0;
       touched += pushed, apart = touched > 0 && !pushed ? apart + 1 : 0;
     }
     ASSERT_GT(touched, 100);

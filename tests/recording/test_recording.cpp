@@ -114,8 +114,8 @@ class Reader {
     const auto touched = take_planes(touches);
     for (std::size_t k = 0; k < touches; ++k)
       now.touches[k].grain = touched[k] + (k > 0 ? now.touches[k - 1].grain : 0);
-    const bool in_space = std::find(header["fields"].begin(), header["fields"].end(), "z") != header["fields"].end();
-    for (int axis = 0; axis < (in_space ? 3 : 2); ++axis)
+    const bool is_3d = std::find(header["fields"].begin(), header["fields"].end(), "z") != header["fields"].end();
+    for (int axis = 0; axis < (is_3d ? 3 : 2); ++axis)
       for (Touch& touch : now.touches) touch.place.push_back(take<std::int8_t>());
     for (Touch& touch : now.touches) touch.force = force();
     EXPECT_EQ(at_, size);
@@ -200,7 +200,7 @@ Scene open_box(Space space) {
 }
 
 class OfBothSpaces : public testing::TestWithParam<Space> {};
-INSTANTIATE_TEST_SUITE_P(Recording, OfBothSpaces, testing::Values(Space::plane, Space::three_dimensional));
+INSTANTIATE_TEST_SUITE_P(Recording, OfBothSpaces, testing::Values(Space::two_dimensional, Space::three_dimensional));
 
 TEST_P(OfBothSpaces, EveryFrameIsTheBedToHalfACount) {
   const Model model = with_step(prepare(open_box(GetParam())), 5e-5);
@@ -368,7 +368,7 @@ TEST_P(OfBothSpaces, TheMapIsTheMeanOfTheMeasuringWindow) {
 }
 
 TEST(Recording, AClumpsAngleIsKept) {
-  Scene scene = open_box(Space::plane);
+  Scene scene = open_box(Space::two_dimensional);
   scene.lots = {Bench().add_clump({{-2e-3, 0, 3e-3}, {2e-3, 0, 3e-3}}, Bench::mass).scene.lots.back()};
   const Model model = with_step(prepare(scene), 5e-5);
   Simulation run(model, 1);
@@ -394,7 +394,7 @@ TEST_P(OfBothSpaces, IsReadBackAsItsFormatSays) {
     const auto& frame = told.frames.at(k++);
     EXPECT_EQ(bed.time, frame.time);
     ASSERT_EQ(bed.id, frame.id);
-    EXPECT_EQ(bed.in_space(), GetParam() == Space::three_dimensional);
+    EXPECT_EQ(bed.is_3d(), GetParam() == Space::three_dimensional);
     for (std::size_t i = 0; i < bed.size(); ++i) {
       EXPECT_DOUBLE_EQ(bed.y[i], static_cast<double>(frame.counts[1][i]) * told.header["unit_m"].get<double>());
       EXPECT_EQ(bed.radius[i], told.entered.at(bed.id[i]).radius);
@@ -404,7 +404,7 @@ TEST_P(OfBothSpaces, IsReadBackAsItsFormatSays) {
 }
 
 TEST(Recording, ADamagedFileIsAnErrorOrRead) {
-  const Model model = with_step(prepare(open_box(Space::plane)), 5e-5);
+  const Model model = with_step(prepare(open_box(Space::two_dimensional)), 5e-5);
   Simulation run(model, 1);
   Recording recording(model);
   run.watch(0.01, [&](Simulation& now) { recording.add(now); });
@@ -425,7 +425,7 @@ TEST(Recording, ADamagedFileIsAnErrorOrRead) {
 }
 
 TEST(Recording, TwentyToFiveHundredFramesByTheNumberOfGrains) {
-  Scene scene = open_box(Space::plane);
+  Scene scene = open_box(Space::two_dimensional);
   scene.run.duration = 4;
   EXPECT_DOUBLE_EQ(frame_interval(prepare(scene)), 4.0 / 500);
   scene.tray.holes.clear(), scene.tray.rain.reset();
@@ -436,7 +436,7 @@ TEST(Recording, TwentyToFiveHundredFramesByTheNumberOfGrains) {
 }
 
 TEST(Recording, OfNoFrameIsAFileToo) {
-  const Reader read(Recording(prepare(open_box(Space::plane))).file());
+  const Reader read(Recording(prepare(open_box(Space::two_dimensional))).file());
   EXPECT_EQ(read.header["frames"], 0);
 }
 

@@ -97,13 +97,13 @@ TEST_F(DecisionPage, LayoutsStandAsTheDecisionFoundThem) {
   EXPECT_TRUE(layouts[0]["means"]["tray_rate_g_per_s"].is_null());
 }
 
-TEST_F(DecisionPage, TheGoalIsTheFigureThatIsJudged) {
-  const auto figures = data()["figures"];
-  ASSERT_EQ(figures.size(), 3U);
-  EXPECT_EQ(figures[0]["name"], "rate_g_per_s");
-  EXPECT_EQ(figures[0]["wanted"], "high");
-  EXPECT_EQ(figures[0]["judged"], true);
-  EXPECT_FALSE(figures[1].contains("judged"));
+TEST_F(DecisionPage, TheGoalIsTheMetricThatIsJudged) {
+  const auto metrics = data()["figures"];
+  ASSERT_EQ(metrics.size(), 3U);
+  EXPECT_EQ(metrics[0]["name"], "rate_g_per_s");
+  EXPECT_EQ(metrics[0]["wanted"], "high");
+  EXPECT_EQ(metrics[0]["judged"], true);
+  EXPECT_FALSE(metrics[1].contains("judged"));
   EXPECT_EQ(data()["wanted"]["figure"], "tray_rate_g_per_s");
   EXPECT_NEAR(data()["wanted"]["low"].get<double>(), 10, 1e-12);
   EXPECT_NEAR(data()["wanted"]["high"].get<double>(), 20, 1e-12);

@@ -15,7 +15,7 @@ TEST(Documentation, TheCommittedPageIsWhatTheProgramPrints) {
   EXPECT_EQ(committed, output_documentation()) << "vibrosow help columns > docs/reference/output.md";
 }
 
-TEST(Documentation, HasEveryFileAndEveryFigure) {
+TEST(Documentation, HasEveryFileAndEveryMetric) {
   const std::string text = output_documentation();
   for (const char* part :
        {"`outflow.csv`", "`summary.csv`", "`run.json`", "`grains_NNN.csv`", "`sweep.csv`", "`sweep_runs.csv`",

@@ -85,12 +85,12 @@ TEST_F(FrontPage, ReplaysAreOfThoseThatLead) {
 
 TEST_F(FrontPage, GoalsAreMarkedAndSayWhatIsWanted) {
   result_.options.goals = read_front_goals({"rate", "power"});
-  const auto figures = data()["figures"];
-  ASSERT_EQ(figures.size(), 3U);  // the rate is a goal, and stands there once
-  EXPECT_EQ(figures[0]["wanted"], "high");
-  EXPECT_EQ(figures[1]["wanted"], "low");
-  EXPECT_EQ(figures[1]["goal"], true);
-  EXPECT_FALSE(figures[2].contains("goal"));
+  const auto metrics = data()["figures"];
+  ASSERT_EQ(metrics.size(), 3U);  // the rate is a goal, and stands there once
+  EXPECT_EQ(metrics[0]["wanted"], "high");
+  EXPECT_EQ(metrics[1]["wanted"], "low");
+  EXPECT_EQ(metrics[1]["goal"], true);
+  EXPECT_FALSE(metrics[2].contains("goal"));
   EXPECT_EQ(data().contains("wanted"), result_.options.rate.has_value());
 }
 

@@ -72,7 +72,7 @@ TEST(Page, APeriodicTrayIsDrawnOnceAndAPlaneHasNoFaces) {
   ASSERT_EQ(faces.size(), 1U);
   EXPECT_EQ(faces[0]["size_mm"], nlohmann::json({40.0, 100.0}));
   EXPECT_EQ(faces[0]["holes_mm"].size(), 1U);
-  scene.space = Space::plane;
+  scene.space = Space::two_dimensional;
   EXPECT_TRUE(page_faces(scene).empty());
 }
 

@@ -101,7 +101,7 @@ TEST_F(RecordReport, APeriodicTrayLosesNoneAtItsSeam) {
 
 /// The same three grains as balls, 6, 10 and 6 mm from the front of a tray that has moved by 1 mm across, and a fourth
 /// behind the first, since it takes four to tell a strain in space.
-class RecordReportInSpace : public RecordReport {
+class RecordReport3d : public RecordReport {
  protected:
   void SetUp() override {
     RecordReport::SetUp();
@@ -122,7 +122,7 @@ class RecordReportInSpace : public RecordReport {
   }
 };
 
-TEST_F(RecordReportInSpace, GrainsHaveColumnsMoreAndFieldsTheirMeanOverTheDepth) {
+TEST_F(RecordReport3d, GrainsHaveColumnsMoreAndFieldsTheirMeanOverTheDepth) {
   EXPECT_EQ(grains_csv(scene, run.snapshots[1], &run.snapshots[0]),
             "id,lot,x_mm,y_mm,vx_m_per_s,vy_m_per_s,omega_rad_per_s,angle_rad,radius_mm,start_x_mm,start_y_mm,shear,"
             "z_mm,vz_m_per_s,omega_x_rad_per_s,omega_y_rad_per_s,start_z_mm,q_w,q_x,q_y,q_z\n"
@@ -138,7 +138,7 @@ TEST_F(RecordReportInSpace, GrainsHaveColumnsMoreAndFieldsTheirMeanOverTheDepth)
   EXPECT_NE(text.find("\n12.5,2.5,0.0670206,,"), std::string::npos) << text;
 }
 
-TEST_F(RecordReportInSpace, ASliceHasWhatLiesInTheMiddle) {
+TEST_F(RecordReport3d, ASliceHasWhatLiesInTheMiddle) {
   scene.record->view = MapView::slice;
   // From 7.5 to 12.5 mm: a whole ball, and two caps 0.5 mm high.
   const std::string text = fields_csv(scene, run.snapshots[0], nullptr);

@@ -28,12 +28,12 @@ Run run_of(int seeds) {
   return run;
 }
 
-FigureMeans with_rate(double kg_per_s) {
+MetricMeans with_rate(double kg_per_s) {
   Outflow outflow;
   outflow.holes.resize(1);
   outflow.holes[0].hole = outflow.holes[0].lot = "all";
   outflow.holes[0].mass_rate = kg_per_s;
-  return FigureMeans({&outflow});
+  return MetricMeans({&outflow});
 }
 
 TEST(Replay, HasTheCountsOfItsRun) {
@@ -78,8 +78,8 @@ TEST(Replay, BestOfASweepAreThoseThatAreOkInTheOrderOfTheRate) {
   result.study = three_trays();
   result.study.layouts[2].scene = 1;
   result.layouts.resize(3);
-  result.layouts[0].figures = result.layouts[2].figures = with_rate(1);
-  result.layouts[1].figures = with_rate(2);
+  result.layouts[0].metrics = result.layouts[2].metrics = with_rate(1);
+  result.layouts[1].metrics = with_rate(2);
   const auto numbers = [&](std::size_t most) {
     std::vector<int> all;
     for (const WantedReplay& one : best_to_replay(answer_of(result, 5), most)) all.push_back(one.layout);
@@ -89,7 +89,7 @@ TEST(Replay, BestOfASweepAreThoseThatAreOkInTheOrderOfTheRate) {
   EXPECT_THAT(numbers(2), ElementsAre(2, 1));
   EXPECT_EQ(best_to_replay(answer_of(result, 5), 1).front().random_seed, 5U);
   result.layouts[1].status = LayoutStanding::outside_the_model;
-  result.layouts[2].figures = {};
+  result.layouts[2].metrics = {};
   EXPECT_THAT(numbers(9), ElementsAre(1));
 }
 

@@ -32,7 +32,7 @@ class RunPageData : public testing::Test {
   nlohmann::json data() const {
     const Model model = prepare(scene);
     const Outflow outflow = measure_outflow(scene, run);
-    const std::optional<DrillFigures> drill;
+    const std::optional<DrillMetrics> drill;
     const std::string expected;
     return nlohmann::json::parse(run_page_data({model, run, outflow, drill, expected}));
   }
@@ -40,7 +40,7 @@ class RunPageData : public testing::Test {
   vibrosow::Run run;
 };
 
-TEST_F(RunPageData, TheHeadlineHasItsIntervalAndThreeFigures) {
+TEST_F(RunPageData, TheHeadlineHasItsIntervalAndThreeMetrics) {
   EXPECT_EQ(data()["headline"],
             "2 holes let out 66 ± 0 g/s, 1650 ± 0 seeds/s (95 %, by blocks of this run), between 1 and 2 s: of the "
             "whole tray, 16.5 times the slice that was simulated, its holes slots all across.");

@@ -26,7 +26,7 @@ class StudyCharts : public testing::Test {
   }
   /// Four layouts, of which the third was stopped, and one without a value.
   void sweep() {
-    page_.answer.figures = {
+    page_.answer.metrics = {
         {.name = "seeds_per_s", .unit = "1/s"},
         {.name = "rate_g_per_s", .unit = "g/s", .unit_size = 1e-3, .wanted = Wanted::high, .is_goal = true}};
     const double rates[] = {2, 5, 9, 3};
@@ -37,7 +37,7 @@ class StudyCharts : public testing::Test {
   }
   void search() {
     page_.answer.kind = AnswerKind::search;
-    page_.answer.figures = {
+    page_.answer.metrics = {
         {.name = "power_W_per_kg", .unit = "W/kg", .wanted = Wanted::low, .is_goal = true},
         {.name = "run_cv_percent", .unit = "%", .unit_size = 1e-2, .wanted = Wanted::low, .is_goal = true}};
     for (const auto standing : {LayoutStanding::on_front, LayoutStanding::dominated})

@@ -20,7 +20,7 @@ TEST(TerminalText, TextStandsBesideItsLabel) {
   EXPECT_EQ(wrapped_beside("  yes ", word + " " + word), "  yes " + word + "\n      " + word + "\n");
 }
 
-TEST(TerminalText, FiguresHaveNoExponentUpToAMillion) {
+TEST(TerminalText, MetricsHaveNoExponentUpToAMillion) {
   EXPECT_EQ(to_digits(11106, 4), "11110");
   EXPECT_EQ(to_digits(123, 2), "120");
   EXPECT_EQ(to_digits(-123, 2), "-120");

@@ -11,7 +11,7 @@ namespace {
 
 TEST(Spaces, ClumpsOfBallsBecomeTheDiscsThatAreTheirSections) {
   SeedLot lot{"drop", 0, 8e-5, Shape::clump, 1}, solid = lot;
-  make_clump(lot, drop(12e-3, 6e-3), Space::plane);
+  make_clump(lot, drop(12e-3, 6e-3), Space::two_dimensional);
   make_clump(solid, drop(12e-3, 6e-3), Space::three_dimensional);
   EXPECT_NE(solid.diameter, lot.diameter) << "the centre of mass of the body is not the plate's";
   solid.sizes = {SizeDistribution::Kind::uniform, 0, 0, 0.9 * solid.diameter, 1.1 * solid.diameter, {}, {}};

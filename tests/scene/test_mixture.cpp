@@ -53,7 +53,7 @@ TEST(Mixture, LotsComeInExactShares) {
 }
 
 TEST(Mixture, ALotThatGetsNoSeedOfAFillIsRefused) {
-  for (const Space space : {Space::plane, Space::three_dimensional})
+  for (const Space space : {Space::two_dimensional, Space::three_dimensional})
     for (const bool keep : {false, true}) {
       Scene scene = clover_and_pea(1e-3);
       scene.space = space;
@@ -71,7 +71,7 @@ TEST(Mixture, ALotThatGetsNoSeedOfAFillIsRefused) {
 
 TEST(Mixture, OfAHopperTooAndOfClumps) {
   Scene scene = clover_and_pea(1e-3);
-  make_clump(scene.lots[1], elongated(9e-3, 4e-3), Space::plane);
+  make_clump(scene.lots[1], elongated(9e-3, 4e-3), Space::two_dimensional);
   scene.lots[1].shape = Shape::clump;
   scene.tray.fill = filled(2000);
   scene.hopper = scene.tray;

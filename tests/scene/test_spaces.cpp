@@ -18,7 +18,7 @@ SeedLot ball(double diameter, double fraction, double density = 1200) {
   return {"ball", diameter, std::numbers::pi / 6 * std::pow(diameter, 3) * density, Shape::ball, fraction};
 }
 
-Scene tray_in_space() {
+Scene tray_3d() {
   Scene scene;
   scene.space = Space::three_dimensional;
   scene.lots = {ball(3e-3, 1)};
@@ -31,8 +31,8 @@ Scene tray_in_space() {
 }
 
 TEST(Spaces, ASliceIsCutOutOfTheDepth) {
-  const Scene plane = in_plane(tray_in_space());
-  EXPECT_EQ(plane.space, Space::plane);
+  const Scene plane = in_plane(tray_3d());
+  EXPECT_EQ(plane.space, Space::two_dimensional);
   EXPECT_EQ(plane.tray.fill->count, 500);
   EXPECT_NEAR(plane.tray.rain->rate, 100, 1e-9);
   EXPECT_EQ(plane.tray.holes[0].across_length, 0);
@@ -40,7 +40,7 @@ TEST(Spaces, ASliceIsCutOutOfTheDepth) {
 }
 
 TEST(Spaces, RowsOfRoundHolesBecomeSlotsAndARoundVesselIsCutThroughItsMiddle) {
-  Scene scene = tray_in_space();
+  Scene scene = tray_3d();
   scene.tray.holes = {{0.2, 0.01, 0, HoleShape::round, 0.015, 0},
                       {0.2, 0.01, 0, HoleShape::round, 0.045, 0},
                       {0.3, 0.01, 0, HoleShape::round, 0.015, 0}};
@@ -60,7 +60,7 @@ TEST(Spaces, RowsOfRoundHolesBecomeSlotsAndARoundVesselIsCutThroughItsMiddle) {
 }
 
 TEST(Spaces, WithoutADepthThereAreNoSlices) {
-  Scene scene = tray_in_space();
+  Scene scene = tray_3d();
   EXPECT_EQ(slices_of_tray(scene), 0.06 / 3e-3);
   scene.tray.depth.reset();
   EXPECT_FALSE(slices_of_tray(scene));
@@ -69,7 +69,7 @@ TEST(Spaces, WithoutADepthThereAreNoSlices) {
 TEST(SliceThickness, OfOneSizeIsTheSeedsOwnToTheBit) {
   EXPECT_EQ(slice_thickness({ball(3.7e-3, 1)}), 3.7e-3);
   SeedLot clump{"clump", 0, 4e-5, Shape::clump, 1};
-  make_clump(clump, elongated(6.1e-3, 3.3e-3), Space::plane);
+  make_clump(clump, elongated(6.1e-3, 3.3e-3), Space::two_dimensional);
   EXPECT_EQ(slice_thickness({clump}), mean_thickness(clump));
 }
 
@@ -87,7 +87,7 @@ TEST(SliceThickness, OfALotOfManySizesIsThatOfAMixtureOfThem) {
 
 TEST(SliceThickness, OfPlatesThatGrowAsTheirAreaStaysTheirs) {
   SeedLot clump{"clump", 0, 4e-5, Shape::clump, 1};
-  make_clump(clump, elongated(6e-3, 3e-3), Space::plane);
+  make_clump(clump, elongated(6e-3, 3e-3), Space::two_dimensional);
   clump.sizes = {SizeDistribution::Kind::table, 0, 0, 0, 0, {0.5 * clump.diameter, 1.5 * clump.diameter}, {0.5, 0.5}};
   EXPECT_NEAR(slice_thickness({clump}), 3e-3, 1e-9);
 }

@@ -91,8 +91,8 @@ Grains mirrored(const Grains& grains, Grains into) {
     at.x() = -at.x(), velocity.x() = -velocity.x();
     spin.y() = -spin.y(), spin.z() = -spin.z();
     Turn turned;
-    if (grains.oriented && !grains.in_space) turned.angle = -grains.angle[i];
-    if (grains.oriented && grains.in_space)
+    if (grains.oriented && !grains.is_3d) turned.angle = -grains.angle[i];
+    if (grains.oriented && grains.is_3d)
       turned.orientation = {grains.q_w[i], grains.q_x[i], -grains.q_y[i], -grains.q_z[i]};
     into.add(at, velocity, grains.lot[i], grains.kind(i), turned);
     set_turning(into, i, spin);

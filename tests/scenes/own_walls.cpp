@@ -38,7 +38,7 @@ double to_arc(const WallPiece& arc, const Flat& p) {
 
 /// What is drawn in the plane, in space drawn out from front to back.
 Distance drawn_out(const FlatDistance& flat, const Vessel& vessel, Space space) {
-  if (space == Space::plane) return [flat](const Point& p) { return flat(p.head<2>()); };
+  if (space == Space::two_dimensional) return [flat](const Point& p) { return flat(p.head<2>()); };
   const bool endless = vessel.front_and_back == Sides::periodic;
   const double depth = *vessel.depth;
   return [=](const Point& p) { return std::hypot(flat(p.head<2>()), endless ? 0 : beyond(p.z(), 0, depth)); };
@@ -79,7 +79,8 @@ Distance repeated(const Distance& once, double period, const Point& along) {
 
 class WallMaker {
  public:
-  WallMaker(const Vessel& vessel, Space space) : vessel_(vessel), space_(space), deep_(space != Space::plane) {}
+  WallMaker(const Vessel& vessel, Space space)
+      : vessel_(vessel), space_(space), deep_(space != Space::two_dimensional) {}
 
   std::vector<OwnWall> walls() {
     if (vessel_.box) add_box();
@@ -272,7 +273,7 @@ std::vector<OwnWall> own_lids(const Vessel& vessel, Space space) {
 
 OwnRoom::OwnRoom(const Vessel& vessel, Space space, double fine)
     : vessel_(vessel),
-      deep_(space != Space::plane),
+      deep_(space != Space::two_dimensional),
       fine_(fine),
       along_(static_cast<int>(vessel.length / fine)),
       up_(static_cast<int>(vessel.height / fine)),

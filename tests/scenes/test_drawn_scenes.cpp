@@ -108,7 +108,7 @@ std::vector<OwnBall> balls_of(const Model& model, const Grains& grains) {
     const Eigen::Vector3d centre = place_of(grains, i);
     if (lot.discs.empty()) balls.push_back({i, grains.id[i], 0, centre, radius});
     Eigen::Matrix3d turned = Eigen::Matrix3d::Identity();
-    if (!lot.discs.empty() && grains.in_space)
+    if (!lot.discs.empty() && grains.is_3d)
       turned = Eigen::Quaterniond(grains.q_w[i], grains.q_x[i], grains.q_y[i], grains.q_z[i]).toRotationMatrix();
     else if (!lot.discs.empty())
       turned = Eigen::AngleAxisd(grains.angle[i], Eigen::Vector3d::UnitZ()).toRotationMatrix();
@@ -180,7 +180,7 @@ class OwnScene {
   double apart(Eigen::Vector3d between) const {
     const Vessel& tray = model_.scene.tray;
     if (tray.sides == Sides::periodic) between.x() = std::remainder(between.x(), tray.length);
-    if (space_ != Space::plane && tray.front_and_back == Sides::periodic)
+    if (space_ != Space::two_dimensional && tray.front_and_back == Sides::periodic)
       between.z() = std::remainder(between.z(), *tray.depth);
     return between.norm();
   }
@@ -333,7 +333,7 @@ TEST(DrawnScene, AllThatWasPutInIsSomewhere) {
 std::string depends_on_margins(const DrawnScene& drawn) {
   std::optional<RunStart> start = start_of(drawn);
   if (!start) return "";
-  const ComputeOptions narrow{.margins = {.wide = 0.1, .narrow = 0.02, .wide_in_space = 0.1}};
+  const ComputeOptions narrow{.margins = {.wide = 0.1, .narrow = 0.02, .wide_3d = 0.1}};
   Simulation run(start->model, start->state), other(start->model, start->state, narrow);
   const double end = start->model.scene.run.duration;
   run.run_until(end), other.run_until(end);
@@ -375,7 +375,7 @@ class Followed {
     const Vessel& tray = model_.scene.tray;
     const Eigen::Vector3d way = to - from;
     if (tray.sides == Sides::periodic && std::abs(way.x()) > tray.length / 2) return "";
-    if (grains_in_space() && tray.front_and_back == Sides::periodic && std::abs(way.z()) > *tray.depth / 2) return "";
+    if (grains_3d() && tray.front_and_back == Sides::periodic && std::abs(way.z()) > *tray.depth / 2) return "";
     const int pieces = 1 + static_cast<int>(way.norm() / (0.2 * ball.radius));
     for (const OwnWall& wall : own_.walls(v)) {
       if (wall.opens_at > 0 && wall.opens_at <= time) continue;
@@ -389,7 +389,7 @@ class Followed {
     }
     return "";
   }
-  bool grains_in_space() const { return model_.scene.space != Space::plane; }
+  bool grains_3d() const { return model_.scene.space != Space::two_dimensional; }
 
   const Model& model_;
   OwnScene own_;
@@ -422,7 +422,8 @@ std::vector<Eigen::Vector3d> places_around(const Scene& scene) {
   for (int k = 0; k < 40; ++k) {
     const Vessel& vessel = k % 2 && scene.hopper ? *scene.hopper : scene.tray;
     const double x = vessel.length * random.uniform(-0.2, 1.2), y = vessel.height * random.uniform(-0.2, 1.2);
-    const double z = scene.space == Space::plane ? 0 : vessel.front + *vessel.depth * random.uniform(-0.2, 1.2);
+    const double z =
+        scene.space == Space::two_dimensional ? 0 : vessel.front + *vessel.depth * random.uniform(-0.2, 1.2);
     places.emplace_back(vessel.origin.x() + x, vessel.origin.y() + y, z);
   }
   return places;
@@ -510,7 +511,7 @@ void stir(Grains& grains) {
   for (std::size_t i = 0; i < grains.size(); ++i) {
     const double by = 1e-3 * grains.kind(i).radius;
     grains.x[i] += random.uniform(-by, by), grains.y[i] += random.uniform(-by, by);
-    if (grains.in_space) grains.z[i] += random.uniform(-by, by);
+    if (grains.is_3d) grains.z[i] += random.uniform(-by, by);
     grains.vx[i] += random.uniform(-0.1, 0.1), grains.vy[i] += random.uniform(-0.1, 0.1);
   }
 }
@@ -562,7 +563,7 @@ std::string pushes_twice(const DrawnScene& drawn) {
   const std::optional<RunStart> start = start_of(drawn);
   if (!start) return "";
   const Scene once = left_alone(start->model);
-  const bool round = once.space != Space::plane && once.tray.plan == Plan::round;
+  const bool round = once.space != Space::two_dimensional && once.tray.plan == Plan::round;
   if (!once.tray.box || round) return "";
   Scene twice = once;
   twice.tray = drawn_twice(once.tray);

@@ -169,7 +169,7 @@ double beside_tray(const Scene& scene, const Eigen::Vector3d& of_hopper) {
   const double mouth = tray.sides == Sides::walls ? tray.height : 0;
   for (int k = 0; k < 60 && in_tray(lab).y() > mouth; ++k) lab.y() -= in_tray(lab).y() - mouth;  // nears it
   const Eigen::Vector3d own = in_tray(lab);
-  const bool deep = scene.space != Space::plane;
+  const bool deep = scene.space != Space::two_dimensional;
   double beside = tray.sides == Sides::periodic ? -1 : std::max(-own.x(), own.x() - tray.length);
   if (deep && tray.front_and_back != Sides::periodic) beside = std::max({beside, -own.z(), own.z() - *tray.depth});
   return beside;
@@ -183,9 +183,9 @@ double beside_tray(const Scene& scene, const Hole& hole) {
     const double angle = 2 * std::numbers::pi * k / 64, x = std::cos(angle), z = std::sin(angle);
     const double corner = round ? 1 : 1 / std::max(std::abs(x), std::abs(z));
     const double across = 0.5 * corner * z * (round ? hole.width : hole.across_length);
-    beside =
-        std::max(beside, beside_tray(scene, Eigen::Vector3d(hole.centre + 0.5 * corner * x * hole.width, 0,
-                                                            scene.space == Space::plane ? 0 : hole.across + across)));
+    beside = std::max(
+        beside, beside_tray(scene, Eigen::Vector3d(hole.centre + 0.5 * corner * x * hole.width, 0,
+                                                   scene.space == Space::two_dimensional ? 0 : hole.across + across)));
   }
   return beside;
 }

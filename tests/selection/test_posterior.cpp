@@ -7,7 +7,7 @@
 #include <numbers>
 #include <stdexcept>
 
-#include "selection/guaranteed.hpp"
+#include "selection/kim_nelson.hpp"
 #include "selection/made_up_systems.hpp"
 
 namespace vibrosow::posterior_test {
@@ -166,7 +166,7 @@ TEST(Posterior, IsRightAmongRandomMeansByFewRuns) {
     runs += sum(lead(procedure, systems, std::ref(observe)));
     const Decision decision = procedure.decision();
     right += decision.is_sure && made[decision.best.value()].mean <= 1.05 * least;
-    Guaranteed other(question_of(systems));
+    KimNelson other(question_of(systems));
     of_guaranteed += sum(lead(other, systems, std::ref(observe)));
   }
   EXPECT_GE(right, 0.95 * tries - 4);

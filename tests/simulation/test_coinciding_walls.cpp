@@ -99,7 +99,7 @@ INSTANTIATE_TEST_SUITE_P(Both, CoincidingWalls, testing::ValuesIn(both_spaces), 
 
 TEST_P(CoincidingWalls, GiveTheRestitutionThatWasAskedFor) {
   for (const CoincidingCase& of : coinciding_cases()) {
-    if (of.space_alone && GetParam() == Space::plane) continue;
+    if (of.space_alone && GetParam() == Space::two_dimensional) continue;
     Bench bench = bench_of(of, GetParam());
     const ImpactResult hit = wall_impact(bench, 0.4, 0, bench.contact_time() / 200, 0, 2.37, of.hit);
     EXPECT_NEAR(hit.vy / 0.4, 0.5, 0.005) << of.name;
@@ -109,7 +109,7 @@ TEST_P(CoincidingWalls, GiveTheRestitutionThatWasAskedFor) {
 
 TEST_P(CoincidingWalls, AreAsStiffAsOne) {
   for (const CoincidingCase& of : coinciding_cases()) {
-    if (of.space_alone && GetParam() == Space::plane) continue;
+    if (of.space_alone && GetParam() == Space::two_dimensional) continue;
     Bench bench = bench_of(of, GetParam());
     const double depth = 2e-3 * Bench::radius;
     bench.place(of.hit.point + (Bench::radius - depth) * of.hit.normal);

@@ -14,14 +14,14 @@ constexpr double wall_stiffness = Bench::mass * standard_gravity / (1e-4 * Bench
 
 class ContactDetails : public testing::TestWithParam<Space> {
  protected:
-  bool in_space() const { return GetParam() == Space::three_dimensional; }
+  bool is_3d() const { return GetParam() == Space::three_dimensional; }
   /// m r^2 / I
-  double per_inertia() const { return in_space() ? 2.5 : 2; }
+  double per_inertia() const { return is_3d() ? 2.5 : 2; }
 };
 INSTANTIATE_TEST_SUITE_P(Spaces, ContactDetails, testing::ValuesIn(both_spaces), named_by_space);
 
 double torque_on(const Simulation& run, std::size_t i) {  // N m, about z
-  return run.grains().in_space ? run.field().torques_in_space()[i].z : run.field().forces()[i].torque;
+  return run.grains().is_3d ? run.field().torques_3d()[i].z : run.field().forces()[i].torque;
 }
 
 TEST_P(ContactDetails, CohesionAddsNothingToFrictionsLimit) {
@@ -157,7 +157,7 @@ TEST_P(ContactDetails, ALookAtTheForcesLeavesNoTrace) {
   run.field().evaluate(run.time(), {});
   EXPECT_EQ(memory_of(run.state().contacts), before);
   // Of both contacts the slip and the roll, in space the parts of them that there are in this plane.
-  EXPECT_EQ(std::ranges::count_if(before, [](double x) { return x != 0; }), in_space() ? 5 : 4);
+  EXPECT_EQ(std::ranges::count_if(before, [](double x) { return x != 0; }), is_3d() ? 5 : 4);
 }
 
 TEST_P(ContactDetails, NothingIsRememberedOfWhatHasParted) {
@@ -178,10 +178,10 @@ TEST_P(ContactDetails, TheWorkOfAShakenVesselIsAccountedForUnderEveryScheme) {
     bench.scene.numerics.integrator = integrator;
     Vessel& tray = bench.scene.tray;
     tray.length = 0.04;
-    if (in_space()) tray.depth = 0.03;
-    tray.motion = HarmonicMotion{.direction = 0.4, .amplitude = 2e-3, .frequency = 30, .across = in_space() ? 0.8 : 0};
+    if (is_3d()) tray.depth = 0.03;
+    tray.motion = HarmonicMotion{.direction = 0.4, .amplitude = 2e-3, .frequency = 30, .across = is_3d() ? 0.8 : 0};
     for (int k = 0; k < 4; ++k)
-      bench.place({0.006 + 0.009 * k, 0.006 + 0.003 * k, 0.015}, {0.2 - 0.1 * k, -0.3, in_space() ? 0.3 - 0.2 * k : 0});
+      bench.place({0.006 + 0.009 * k, 0.006 + 0.003 * k, 0.015}, {0.2 - 0.1 * k, -0.3, is_3d() ? 0.3 - 0.2 * k : 0});
     bench.gravity = {0, -standard_gravity};
     Simulation& run = bench.start(bench.contact_time() / 200);
     const double before = kinetic_energy(run.grains()) + potential_energy(run.grains(), bench.gravity);

@@ -23,7 +23,7 @@ Scene shaken_bed(Space space, Sides sides, bool clumps) {
   scene.tray.length = 0.06, scene.tray.height = 0.2, scene.tray.sides = sides;
   scene.tray.fill = Fill{60, Packing::layers, 1e-3, false};
   scene.tray.motion = HarmonicMotion{0, 0.004, 10, 0.01};
-  scene.lots[0].shape = space == Space::plane ? Shape::disc : Shape::ball;
+  scene.lots[0].shape = space == Space::two_dimensional ? Shape::disc : Shape::ball;
   if (space == Space::three_dimensional) scene.tray.depth = 0.03;
   if (clumps) {
     scene.lots[0].shape = Shape::clump;
@@ -72,9 +72,9 @@ struct Case {
 };
 class ContactsOf : public testing::TestWithParam<Case> {};
 INSTANTIATE_TEST_SUITE_P(Contacts, ContactsOf,
-                         testing::Values(Case{Space::plane, Sides::walls, false},
-                                         Case{Space::plane, Sides::periodic, false},
-                                         Case{Space::plane, Sides::walls, true},
+                         testing::Values(Case{Space::two_dimensional, Sides::walls, false},
+                                         Case{Space::two_dimensional, Sides::periodic, false},
+                                         Case{Space::two_dimensional, Sides::walls, true},
                                          Case{Space::three_dimensional, Sides::walls, false},
                                          Case{Space::three_dimensional, Sides::periodic, false},
                                          Case{Space::three_dimensional, Sides::walls, true}));
@@ -87,7 +87,7 @@ TEST_P(ContactsOf, ABedAddUpToTheForcesOnItsGrains) {
 }
 
 TEST(Contacts, AreLookedAtWithoutATrace) {
-  const Model model = with_step(prepare(shaken_bed(Space::plane, Sides::walls, false)), 5e-5);
+  const Model model = with_step(prepare(shaken_bed(Space::two_dimensional, Sides::walls, false)), 5e-5);
   Simulation seen(model, 1), unseen(model, 1);
   seen.watch(0.001, [](Simulation& now) { EXPECT_FALSE(now.frame().bed.x.empty()); });
   ASSERT_TRUE(seen.run_until(0.3));

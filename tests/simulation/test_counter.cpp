@@ -127,9 +127,10 @@ TEST(Counter, PlaceAndTimeAreThoseBetweenTwoSteps) {
     Space space;
     VesselMotion motion;
   };
-  for (const Case& c : {Case{Space::plane, along}, Case{Space::plane, up},
-                        Case{Space::plane, RockingMotion{{0.2, 0}, 0.1, 2}}, Case{Space::three_dimensional, across},
-                        Case{Space::three_dimensional, TurningMotion{{0.5, 0.5}, 1, TurningAxis::upright}}}) {
+  for (const Case& c :
+       {Case{Space::two_dimensional, along}, Case{Space::two_dimensional, up},
+        Case{Space::two_dimensional, RockingMotion{{0.2, 0}, 0.1, 2}}, Case{Space::three_dimensional, across},
+        Case{Space::three_dimensional, TurningMotion{{0.5, 0.5}, 1, TurningAxis::upright}}}) {
     Bench bench(c.space);
     bench.scene.tray.motion = c.motion;
     bench.scene.tray.holes = {{.centre = 0.45, .width = 0.3}};
@@ -141,7 +142,8 @@ TEST(Counter, PlaceAndTimeAreThoseBetweenTwoSteps) {
     while (run.result().events.empty()) ASSERT_TRUE(run.step() && run.time() < 1);
     const Vessel& tray = bench.scene.tray;
     const auto own = [&](double time) {
-      const Eigen::Vector3d at = from + time * (c.space == Space::plane ? Eigen::Vector3d(0.2, -1, 0) : velocity);
+      const Eigen::Vector3d at =
+          from + time * (c.space == Space::two_dimensional ? Eigen::Vector3d(0.2, -1, 0) : velocity);
       return point_in_vessel(tray, vessel_pose(tray, time), at);
     };
     const double passed = time_of_zero(0, 0.2, [&](double time) { return own(time).y(); });
@@ -153,7 +155,7 @@ TEST(Counter, PlaceAndTimeAreThoseBetweenTwoSteps) {
       EXPECT_NEAR(event.z, own(passed).z(), 1e-5) << c.motion.index();
     }
     EXPECT_NEAR(event.time, counted, 1e-5) << c.motion.index();
-    EXPECT_NEAR(event.speed, c.space == Space::plane ? std::hypot(0.2, 1) : velocity.norm(), 1e-12);
+    EXPECT_NEAR(event.speed, c.space == Space::two_dimensional ? std::hypot(0.2, 1) : velocity.norm(), 1e-12);
   }
 }
 

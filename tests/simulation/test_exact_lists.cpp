@@ -18,7 +18,7 @@ constexpr double largest_gap = 2.3;                                   // diamete
 constexpr int axis_x = 0, axis_y = 1, axis_z = 2;
 
 std::vector<int> axes_of(Space space) {
-  return space == Space::plane ? std::vector{axis_x, axis_y} : std::vector{axis_x, axis_y, axis_z};
+  return space == Space::two_dimensional ? std::vector{axis_x, axis_y} : std::vector{axis_x, axis_y, axis_z};
 }
 
 class ListsAtTheirMargin : public testing::TestWithParam<Space> {};
@@ -78,7 +78,7 @@ Eigen::Vector3d around(Eigen::Vector3d apart, int periodic) {
 // The same across the seam of a periodic tray, which they meet at.
 TEST_P(ListsAtTheirMargin, MissNoPairThatFliesAtEachOtherAcrossTheSeam) {
   for (const int axis : {axis_x, axis_z}) {
-    if (axis == axis_z && GetParam() == Space::plane) continue;
+    if (axis == axis_z && GetParam() == Space::two_dimensional) continue;
     SCOPED_TRACE(axis);
     Bench bench(GetParam());
     bench.scene.tray.height = 3;
@@ -169,8 +169,8 @@ double distance_to_walls(const Simulation& run, std::size_t i) {
   const Eigen::Vector3d at = place_of(run.grains(), i);
   const Walls& walls = run.field().walls();
   for (std::size_t w = 0; w < walls.count(); ++w)
-    nearest2 = std::min(nearest2, run.grains().in_space ? nearest_on_face(walls.placed_faces()[w], at).distance2
-                                                        : nearest_point(walls.placed()[w], at.x(), at.y()).distance2);
+    nearest2 = std::min(nearest2, run.grains().is_3d ? nearest_on_face(walls.placed_faces()[w], at).distance2
+                                                     : nearest_point(walls.placed()[w], at.x(), at.y()).distance2);
   return std::sqrt(nearest2);
 }
 
@@ -227,7 +227,7 @@ TEST_P(ListsAtTheirMargin, FindAWallWhereverItsVesselHasGone) {
   // A grain that goes along with the tray, in whose frame lists are kept, meets a hopper's wall that stands still.
   const HarmonicMotion stroke{0, 0.3, 0.5};
   for (const int axis : {axis_x, axis_z}) {
-    if (axis == axis_z && GetParam() == Space::plane) continue;
+    if (axis == axis_z && GetParam() == Space::two_dimensional) continue;
     Bench moved_past(GetParam());
     HarmonicMotion motion = stroke;
     if (axis == axis_z) motion.across = 0.5 * std::numbers::pi;
@@ -244,7 +244,7 @@ TEST_P(ListsAtTheirMargin, FindAWallWhereverItsVesselHasGone) {
   }
 }
 
-TEST(ListsInSpace, MissNoWallThatTurnsAboutAnUprightAxis) {
+TEST(Lists3d, MissNoWallThatTurnsAboutAnUprightAxis) {
   Scene scene = Bench(Space::three_dimensional).scene;
   scene.tray.depth = 0.05;
   scene.tray.motion = TurningMotion{{0, 0}, speed, TurningAxis::upright};

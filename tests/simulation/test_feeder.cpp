@@ -120,7 +120,7 @@ TEST(Feeder, SaysThatItFallsBehind) {
 }
 
 TEST(Feeder, LaysSeedsDownAsTheirVesselMoves) {
-  for (const Space space : {Space::plane, Space::three_dimensional})
+  for (const Space space : {Space::two_dimensional, Space::three_dimensional})
     for (const VesselMotion& motion :
          {VesselMotion(HarmonicMotion{0.4, 0.02, 5}), VesselMotion(RockingMotion{{0.05, 0}, 0.05, 5})}) {
       Scene scene = kept_full(scattered_balls());
@@ -148,7 +148,7 @@ TEST(Feeder, LaysSeedsDownAsTheirVesselMoves) {
 double apart(const Vessel& tray, const Grains& grains, std::size_t i, std::size_t j) {
   Eigen::Vector3d way = place_of(grains, i) - place_of(grains, j);
   if (tray.sides == Sides::periodic) way.x() = std::remainder(way.x(), tray.length);
-  if (grains.in_space && tray.front_and_back == Sides::periodic) way.z() = std::remainder(way.z(), *tray.depth);
+  if (grains.is_3d && tray.front_and_back == Sides::periodic) way.z() = std::remainder(way.z(), *tray.depth);
   return way.norm();
 }
 
@@ -275,13 +275,13 @@ TEST(Feeder, DrawsLotsByTheirShares) {
 /// In a tray that has not room for all that is missing, a seed that waits comes before others: else what is fed is what
 /// fits.
 TEST(Feeder, FeedsWhatIsDrawnAndNotWhatFits) {
-  for (const Space space : {Space::plane, Space::three_dimensional}) {
+  for (const Space space : {Space::two_dimensional, Space::three_dimensional}) {
     Scene scene = kept_full({"small", 3e-3, 2e-5, Shape::ball, 0.5});
     scene.lots.push_back({"large", 9e-3, 2e-4, Shape::ball, 0.5});
     scene.space = space;
     if (space == Space::three_dimensional) scene.tray.depth = 0.03;
     scene.tray.length = 0.05, scene.tray.height = 0.02;
-    scene.tray.fill->count = space == Space::plane ? 20 : 60;
+    scene.tray.fill->count = space == Space::two_dimensional ? 20 : 60;
     Fed fed(scene);
     Grains& grains = fed.state.grains;
     std::ptrdiff_t large = 0;

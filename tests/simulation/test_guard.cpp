@@ -15,7 +15,7 @@ using testing::HasSubstr;
 
 class GuardIn : public testing::TestWithParam<Space> {
  protected:
-  static bool in_space() { return GetParam() == Space::three_dimensional; }
+  static bool is_3d() { return GetParam() == Space::three_dimensional; }
 };
 INSTANTIATE_TEST_SUITE_P(Spaces, GuardIn, testing::ValuesIn(both_spaces), named_by_space);
 
@@ -129,7 +129,8 @@ struct LawIn {
 };
 class GuardOfLaw : public testing::TestWithParam<LawIn> {};
 INSTANTIATE_TEST_SUITE_P(Laws, GuardOfLaw,
-                         testing::Values(LawIn{Space::plane, Law::elastic_shell}, LawIn{Space::plane, Law::hertz},
+                         testing::Values(LawIn{Space::two_dimensional, Law::elastic_shell},
+                                         LawIn{Space::two_dimensional, Law::hertz},
                                          LawIn{Space::three_dimensional, Law::elastic_shell},
                                          LawIn{Space::three_dimensional, Law::hertz}));
 

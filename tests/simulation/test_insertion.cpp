@@ -28,8 +28,8 @@ std::vector<ClumpDisc> balls_of(const Simulation& run, std::size_t i) {
   const Grains& g = run.grains();
   const SeedLot& lot = run.model().scene.lots[static_cast<std::size_t>(g.lot[i])];
   Turn turn;
-  if (g.oriented && g.in_space) turn.orientation = g.orientation(i);
-  if (g.oriented && !g.in_space) turn.angle = g.angle[i];
+  if (g.oriented && g.is_3d) turn.orientation = g.orientation(i);
+  if (g.oriented && !g.is_3d) turn.angle = g.angle[i];
   return turned_discs(lot, 2 * g.kind(i).radius / lot.diameter, turn);
 }
 
@@ -101,7 +101,7 @@ Vessel hopper_over(const Scene& scene) {
   const double depth = hopper.depth.value_or(0);
   hopper.holes = {{.centre = 0.03, .width = 0.014, .across = depth / 2, .across_length = depth}};
   hopper.funnel = 0.7;
-  hopper.fill = Fill{scene.space == Space::plane ? 60 : 200, Packing::poured, 1e-3, true};
+  hopper.fill = Fill{scene.space == Space::two_dimensional ? 60 : 200, Packing::poured, 1e-3, true};
   return hopper;
 }
 
@@ -194,7 +194,7 @@ TEST_P(Insertion, AKeptTrayWithPiecesIsFedClearOfThem) {
       scene.tray.pieces = {{.a = {0, 0.03}, .b = {0.063, 0}}};
     else
       scene.tray.pieces = {{.a = {0.01, 0.02}, .b = {0.05, 0.02}}};
-    scene.tray.fill = Fill{GetParam() == Space::plane ? 70 : 250, Packing::poured, 1e-3, true};
+    scene.tray.fill = Fill{GetParam() == Space::two_dimensional ? 70 : 250, Packing::poured, 1e-3, true};
     const Where where = [&](const Eigen::Vector3d& own) {
       return !slope || own.x() > 0.063 || own.y() > 0.03 * (1 - own.x() / 0.063);
     };
@@ -207,7 +207,7 @@ TEST_P(Insertion, AKeptTrayIsFedOutsideOfWhatIsClosed) {
   Scene scene = soft(GetParam());
   scene.tray.holes = {{.centre = 0.07, .width = 0.014, .across = 0.01, .across_length = 0.02}};
   scene.tray.pieces = {{.centre = {0.03, 0.02}, .radius = 0.015, .from = 0, .to = 2 * std::numbers::pi}};
-  scene.tray.fill = Fill{GetParam() == Space::plane ? 60 : 220, Packing::poured, 1e-3, true};
+  scene.tray.fill = Fill{GetParam() == Space::two_dimensional ? 60 : 220, Packing::poured, 1e-3, true};
   const auto outside = [](const Eigen::Vector3d& own) { return std::hypot(own.x() - 0.03, own.y() - 0.02) > 0.015; };
   EXPECT_GT(expect_all_clear(scene, 0, outside), static_cast<std::size_t>(scene.tray.fill->count));
 }
@@ -215,7 +215,7 @@ TEST_P(Insertion, AKeptTrayIsFedOutsideOfWhatIsClosed) {
 TEST_P(Insertion, AKeptTrayIsFedBesideAHopperThatDipsIntoIt) {
   Scene scene = soft(GetParam());
   scene.tray.holes = {{.centre = 0.07, .width = 0.014, .across = 0.01, .across_length = 0.02}};
-  scene.tray.fill = Fill{GetParam() == Space::plane ? 70 : 250, Packing::poured, 1e-3, true};
+  scene.tray.fill = Fill{GetParam() == Space::two_dimensional ? 70 : 250, Packing::poured, 1e-3, true};
   scene.tray.motion = HarmonicMotion{0, 4e-3, 12, 0};
   Vessel hopper = hopper_over(scene);
   hopper.origin = {0.02, 0.03}, hopper.length = 0.03;
@@ -243,7 +243,7 @@ TEST_P(Insertion, RowsLieOverAFunnelAndOverDrawnSlopes) {
       scene.run.duration = 1e-3;
       Vessel hopper = hopper_over(scene);
       hopper.holes[0].width = 0.003;
-      hopper.fill = Fill{GetParam() == Space::plane ? 40 : 100, packing, 1e-3, false};
+      hopper.fill = Fill{GetParam() == Space::two_dimensional ? 40 : 100, packing, 1e-3, false};
       if (drawn) {
         hopper.funnel = 0;
         hopper.pieces = {{.a = {0, 0.025}, .b = {0.0285, 0.001}}, {.a = {0.06, 0.025}, .b = {0.0315, 0.001}}};
@@ -260,7 +260,7 @@ TEST_P(Insertion, RowsLieOverAFunnelAndOverDrawnSlopes) {
 SeedLot grains_for(Space space) {
   if (space == Space::three_dimensional) return wheat_grains();
   SeedLot lot{"a", 0, 4e-5, Shape::clump, 1};
-  make_clump(lot, elongated(7e-3, 3e-3), Space::plane);
+  make_clump(lot, elongated(7e-3, 3e-3), Space::two_dimensional);
   return lot;
 }
 
@@ -272,7 +272,7 @@ VesselMotion standing_at(double angle) {
 TEST_P(Insertion, ClumpsPouredIntoATurnedVesselTurnWithIt) {
   const auto pour = [](Scene scene) {
     scene.lots = {grains_for(scene.space)};
-    scene.tray.fill = Fill{scene.space == Space::plane ? 60 : 150, Packing::poured, 1e-3, false};
+    scene.tray.fill = Fill{scene.space == Space::two_dimensional ? 60 : 150, Packing::poured, 1e-3, false};
     scene.run.duration = 1e-3;
     EXPECT_EQ(expect_all_clear(scene, 0, [](const Eigen::Vector3d&) { return true; }),
               static_cast<std::size_t>(scene.tray.fill->count));
@@ -284,7 +284,7 @@ TEST_P(Insertion, ClumpsPouredIntoATurnedVesselTurnWithIt) {
     scene.tray.motion = standing_at(0.3);
     pour(scene);
   }
-  if (GetParam() == Space::plane) return;
+  if (GetParam() == Space::two_dimensional) return;
   Scene scene = soft(GetParam());
   scene.tray.motion =
       TurningMotion{.pivot = {0.04, 0.01}, .angular_velocity = 1, .axis = TurningAxis::upright, .phase = 1};
@@ -340,7 +340,7 @@ TEST_P(Insertion, AKeptVesselWithoutABoxIsNotFedBeneathItsSlopes) {
                  {.a = {0, 0.02}, .b = {0.022, 0.001}},
                  {.a = {0.038, 0.001}, .b = {0.06, 0.02}},
                  {.a = {0.06, 0.02}, .b = {0.06, 0.04}}};
-  tray.fill = Fill{GetParam() == Space::plane ? 60 : 200, Packing::poured, 1e-3, true};
+  tray.fill = Fill{GetParam() == Space::two_dimensional ? 60 : 200, Packing::poured, 1e-3, true};
   scene.run.duration = 0.1;
   const auto is_over_slopes_or_gap = [](const Eigen::Vector3d& own) {
     const double beside = std::max(0.0, std::abs(own.x() - 0.03) - 0.008);
@@ -356,7 +356,7 @@ TEST_P(Insertion, ADrumIsKeptFullWithinItsCircle) {
   drum.box = false;
   drum.pieces = {{.centre = {0.03, 0.03}, .radius = 0.03, .from = 0, .to = 2 * std::numbers::pi}};
   drum.motion = TurningMotion{.pivot = {0.03, 0.03}, .angular_velocity = 10, .phase = 2};
-  drum.fill = Fill{GetParam() == Space::plane ? 60 : 200, Packing::poured, 1e-3, false};
+  drum.fill = Fill{GetParam() == Space::two_dimensional ? 60 : 200, Packing::poured, 1e-3, false};
   drum.rain = Rain{100, 0.01, 0.05, 0.045};
   const auto inside = [](const Eigen::Vector3d& own) { return std::hypot(own.x() - 0.03, own.y() - 0.03) < 0.03; };
   const std::size_t poured = static_cast<std::size_t>(drum.fill->count);
@@ -375,7 +375,7 @@ TEST_P(Insertion, ADrumIsKeptFullWithinItsCircle) {
 
 TEST_P(Insertion, FillsInEachOthersWayAreRefused) {
   Scene scene = soft(GetParam());
-  scene.tray.fill = Fill{GetParam() == Space::plane ? 100 : 500, Packing::poured, 1e-3, false};
+  scene.tray.fill = Fill{GetParam() == Space::two_dimensional ? 100 : 500, Packing::poured, 1e-3, false};
   scene.hopper = hopper_over(scene);
   scene.hopper->origin.y() = 0.01;
   EXPECT_THROW(starting_state(prepare(scene), 1), InputError);

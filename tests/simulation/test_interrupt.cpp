@@ -38,7 +38,7 @@ TEST(Interrupt, PackingEnds) {
     Vessel tray = scene.tray;
     tray.fill->packing = packing;
     Random random(1);
-    EXPECT_THROW(pack(tray, scene.lots, Space::plane, random, &asked), Interrupted);
+    EXPECT_THROW(pack(tray, scene.lots, Space::two_dimensional, random, &asked), Interrupted);
   }
 }
 

@@ -12,7 +12,7 @@ namespace vibrosow {
 namespace {
 
 /// A small tray that is shaken hard under a hopper that stands still and is kept topped up; two sizes of grain.
-Scene busy_scene(Space space = Space::plane) {
+Scene busy_scene(Space space = Space::two_dimensional) {
   Scene scene;
   scene.space = space;
   if (space == Space::three_dimensional) scene.tray.depth = 0.03, scene.tray.front_and_back = Sides::periodic;
@@ -108,7 +108,7 @@ TEST(Neighbours, MissNoContactOfAWholeRun) {
   EXPECT_LT(run->field().neighbours().searches(), 5000) << "lists must last";
 }
 
-TEST(Neighbours, MissNoPairOfAWholeRunInSpace) {
+TEST(Neighbours, MissNoPairOfAWholeRun3d) {
   const auto run = start(busy_scene(Space::three_dimensional));
   std::size_t pairs = 0;
   for (int step = 0; step < 20000; ++step) {
@@ -132,7 +132,7 @@ TEST(Neighbours, OutliveGrainsThatGoOnAsTheyDid) {
     for (int k = 0; k < 6; ++k) bench.place(0.05 + 0.009 * k, 0.2, 2, 0);
     Simulation& run = bench.start(1e-5);
     run.steps(40000);
-    const double margin = space == Space::plane ? NeighbourMargins{}.wide : NeighbourMargins{}.wide_in_space;
+    const double margin = space == Space::two_dimensional ? NeighbourMargins{}.wide : NeighbourMargins{}.wide_3d;
     const double by_its_way_alone = 0.8 / (0.5 * margin * 2 * Bench::radius);
     EXPECT_LT(static_cast<double>(run.field().neighbours().searches()), 0.5 * by_its_way_alone);
   }

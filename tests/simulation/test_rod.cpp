@@ -75,7 +75,7 @@ TEST(Rod, ABallOutsideItsEndsMeetsItsRimAlone) {
   bench.place({0.6 + 2 * Bench::radius, rod_height, 0.5});                     // beyond its right end, where nothing is
   bench.place({0.5, rod_height, 0.5 - rod_radius + Bench::radius - overlap});  // within, at its front
   const Simulation& run = bench.start(1e-9);
-  const std::vector<GrainVector> forces = run.field().forces_in_space();
+  const std::vector<GrainVector> forces = run.field().forces_3d();
   const double force = Bench::mass * standard_gravity / (1e-4 * Bench::radius) * overlap;
   const auto expect = [&](std::size_t i, const Eigen::Vector3d& direction) {
     EXPECT_NEAR(forces[i].x, force * direction.x(), 1e-6 * force) << i;

@@ -119,9 +119,9 @@ INSTANTIATE_TEST_SUITE_P(Spaces, PeriodicPairs, testing::ValuesIn(both_spaces), 
 
 // Two that touch across the seam, along, across and over a corner, as deep as they would within the tray.
 TEST_P(PeriodicPairs, PushAsHardAsTwoSideBySide) {
-  const bool in_space = GetParam() == Space::three_dimensional;
+  const bool is_3d = GetParam() == Space::three_dimensional;
   std::vector<Eigen::Vector3d> directions = {{1, 0, 0}, {1, 0.3, 0}, {-1, 0.3, 0}};
-  if (in_space)
+  if (is_3d)
     directions.insert(directions.end(), {{0, 0.2, 1}, {0, 0, -1}, {1, 0, 1}, {1, 0.1, -1}, {-1, 0, 1}, {-1, 0, -1}});
   for (Eigen::Vector3d direction : directions) {
     direction.normalize();
@@ -176,7 +176,7 @@ TEST_P(PeriodicPairs, RememberThroughEveryRenewalOfTheLists) {
 TEST_P(PeriodicPairs, KeepTheirSpringsAcrossTheSeam) {
   for (const int axis : {0, 2})
     for (const double speed : {3.0, -3.0}) {
-      if (axis == 2 && GetParam() == Space::plane) continue;
+      if (axis == 2 && GetParam() == Space::two_dimensional) continue;
       const auto after = [&](double place) {
         Bench bench(GetParam());
         bench.scene.tray.sides = bench.scene.tray.front_and_back = Sides::periodic;

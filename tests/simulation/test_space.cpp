@@ -37,7 +37,7 @@ struct Ball {
 Grains grains_of(const Model& model, const std::vector<Ball>& balls) {
   Grains grains = no_grains(model);
   for (const Ball& ball : balls) {
-    if (grains.in_space)
+    if (grains.is_3d)
       grains.add(ball.at, ball.velocity, 0, grains.kinds.front());
     else
       grains.add(ball.at.x(), ball.at.y(), ball.velocity.x(), ball.velocity.y(), 0);
@@ -71,7 +71,7 @@ TEST_P(EveryScheme, InThePlaneItIsThePlane) {
                                    {{0.012, 0.0041, 0.013}, {-0.2, 0, 0}},
                                    {{0.026, 0.01, 0.013}, {0.1, -0.3, 0}}};
   std::vector<Grains> ends;
-  for (const Space space : {Space::plane, Space::three_dimensional}) {
+  for (const Space space : {Space::two_dimensional, Space::three_dimensional}) {
     Scene scene = box(space);
     scene.numerics.integrator = GetParam();
     const Model model = with_step(prepare(scene), 2e-6);

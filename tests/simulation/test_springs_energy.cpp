@@ -25,7 +25,7 @@ struct Swing {
 };
 
 double inertia_of(Space space) {
-  return (space == Space::plane ? 0.5 : 0.4) * Bench::mass * Bench::radius * Bench::radius;
+  return (space == Space::two_dimensional ? 0.5 : 0.4) * Bench::mass * Bench::radius * Bench::radius;
 }
 double about_contact(Space space) {
   return inertia_of(space) + Bench::mass * Bench::radius * Bench::radius;
@@ -43,10 +43,10 @@ std::vector<Swing> swings() {
   const auto of_pair = [](double coefficient) { return spring(coefficient, 0.5 * stiffness_on_wall, 0.5 * r); };
   std::vector<Swing> all;
   // Rolls on the floor: to the left where it turns anticlockwise; in space towards the front.
-  all.push_back({"rolling on a floor", Space::plane,
+  all.push_back({"rolling on a floor", Space::two_dimensional,
                  [=](Bench& bench, double spin) { bench.place(0.5, arm, -spin * arm, 0, spin); },
-                 [](const Grains& g) { return g.omega[0]; }, on_wall(rolling), about_contact(Space::plane),
-                 about_contact(Space::plane)});
+                 [](const Grains& g) { return g.omega[0]; }, on_wall(rolling), about_contact(Space::two_dimensional),
+                 about_contact(Space::two_dimensional)});
   all.push_back({"rolling across a floor", Space::three_dimensional,
                  [=](Bench& bench, double spin) {
                    bench.place({0.5, arm, 0.5}, {0, 0, spin * arm}, {spin, 0, 0});
@@ -61,7 +61,7 @@ std::vector<Swing> swings() {
                  inertia_of(Space::three_dimensional)});
   // Two that cohere and turn against each other on the spot: the angle between them grows by twice the spin.
   for (const Space space : both_spaces)
-    all.push_back({space == Space::plane ? "rolling on each other" : "rolling on each other in space", space,
+    all.push_back({space == Space::two_dimensional ? "rolling on each other" : "rolling on each other in space", space,
                    [=](Bench& bench, double spin) {
                      bench.place({0.5, 0.5, 0.5}, Eigen::Vector3d::Zero(), {0, 0, spin})
                          .place({0.5 + 2 * r - compression, 0.5, 0.5}, Eigen::Vector3d::Zero(), {0, 0, -spin});

@@ -44,13 +44,13 @@ struct Ball {
 SimulationState start_with(const Model& model, const std::vector<Ball>& balls) {
   Grains grains = no_grains(model);
   for (const Ball& ball : balls) {
-    if (grains.in_space)
+    if (grains.is_3d)
       grains.add(ball.at, ball.velocity, 0, grains.kinds.front());
     else
       grains.add(ball.at.x(), ball.at.y(), ball.velocity.x(), ball.velocity.y(), 0);
     if (!grains.rotation) continue;
     grains.omega.back() = ball.spin.z();
-    if (grains.in_space) grains.omega_x.back() = ball.spin.x(), grains.omega_y.back() = ball.spin.y();
+    if (grains.is_3d) grains.omega_x.back() = ball.spin.x(), grains.omega_y.back() = ball.spin.y();
   }
   return starting_state(model, 1, std::move(grains));
 }
@@ -86,7 +86,7 @@ class InADrum : public testing::TestWithParam<Space> {
   }
   static double climbed(const Grains& g) { return std::atan2(g.x[0] - drum_radius, drum_radius - g.y[0]); }
 };
-INSTANTIATE_TEST_SUITE_P(Turning, InADrum, testing::Values(Space::plane, Space::three_dimensional));
+INSTANTIATE_TEST_SUITE_P(Turning, InADrum, testing::Values(Space::two_dimensional, Space::three_dimensional));
 
 TEST_P(InADrum, ABallRollsOnTheSpotAtTheBottom) {
   for (const double speed : {3.0, -3.0}) {
@@ -140,7 +140,8 @@ TEST_P(InADrum, NoSeedIsSpilledHoweverItIsTurned) {
     scene.run.count_below = 1e-3;
     const Model model = prepare_to_run(scene);
     std::vector<Ball> balls = heap(drum_radius, drum_radius);
-    if (GetParam() == Space::plane) std::erase_if(balls, [](const Ball& ball) { return ball.at.z() > 0.005; });
+    if (GetParam() == Space::two_dimensional)
+      std::erase_if(balls, [](const Ball& ball) { return ball.at.z() > 0.005; });
     Simulation run(model, start_with(model, balls));
     EXPECT_TRUE(run.run_until(0.7));
     const vibrosow::Run result = run.result();
@@ -184,14 +185,14 @@ TEST_P(InADrum, TheWorkOfAPaddleIsAccountedFor) {
 TEST_P(InADrum, ACutRunGoesOnToTheSameBits) {
   const Model model = prepare_to_run(drum(GetParam(), 12));
   std::vector<Ball> balls = heap(drum_radius, drum_radius);
-  if (GetParam() == Space::plane) std::erase_if(balls, [](const Ball& ball) { return ball.at.z() > 0.005; });
+  if (GetParam() == Space::two_dimensional) std::erase_if(balls, [](const Ball& ball) { return ball.at.z() > 0.005; });
   expect_a_cut_run_goes_on(model, start_with(model, balls), 0.05, 0.1, 100);
 }
 
 TEST_P(InADrum, ItsListsChangeNoBit) {
   const Model model = prepare_to_run(drum(GetParam(), 30));
   std::vector<Ball> balls = heap(drum_radius, drum_radius);
-  if (GetParam() == Space::plane) std::erase_if(balls, [](const Ball& ball) { return ball.at.z() > 0.005; });
+  if (GetParam() == Space::two_dimensional) std::erase_if(balls, [](const Ball& ball) { return ball.at.z() > 0.005; });
   std::vector<std::vector<double>> ends;
   for (const NeighbourMargins margins :
        {NeighbourMargins{}, NeighbourMargins{2, 0.02, 0.5}, NeighbourMargins{4, 3, 4}}) {
@@ -210,7 +211,7 @@ TEST_P(InADrum, ItCanNeitherBeginNorEndByHand) {
 
 TEST(Turning, ADrumIsFilledWithinItsCircle) {
   for (const Packing packing : {Packing::poured, Packing::layers, Packing::hexagonal}) {
-    for (const Space space : {Space::plane, Space::three_dimensional}) {
+    for (const Space space : {Space::two_dimensional, Space::three_dimensional}) {
       Scene scene = drum(space, 3);
       scene.run.duration = 0.1;
       scene.tray.fill = Fill{25, packing};
@@ -224,7 +225,7 @@ TEST(Turning, ADrumIsFilledWithinItsCircle) {
 }
 
 TEST(Turning, RainFallsIntoADrumThatTurns) {
-  Scene scene = drum(Space::plane, 12);
+  Scene scene = drum(Space::two_dimensional, 12);
   scene.tray.rain = Rain{100, 0.015, 0.025, 0.03, 0, 0.2};
   scene.run.duration = 0.6;
   const vibrosow::Run run = simulate(scene);
@@ -362,7 +363,7 @@ TEST(Turning, AHoleCountsWhatItMeetsOnItsWayRound) {
 }
 
 TEST(Turning, AnUprightRotorNeedsSpace) {
-  Scene scene = drum(Space::plane, 3);
+  Scene scene = drum(Space::two_dimensional, 3);
   std::get<TurningMotion>(*scene.tray.motion).axis = TurningAxis::upright;
   EXPECT_THROW(prepare(scene), InputError);
   scene.tray.motion.reset();

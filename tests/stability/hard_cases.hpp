@@ -16,12 +16,12 @@ inline constexpr Integrator every_scheme[] = {Integrator::velocity_verlet, Integ
 
 /// With what a hard case is run.
 struct Setting {
-  Space space = Space::plane;
+  Space space = Space::two_dimensional;
   Integrator scheme = Integrator::velocity_verlet;
   Law law = Law::elastic_shell;
 
-  bool in_space() const { return space == Space::three_dimensional; }
-  std::string name_of_space() const { return in_space() ? "space" : "plane"; }
+  bool is_3d() const { return space == Space::three_dimensional; }
+  std::string name_of_space() const { return is_3d() ? "space" : "plane"; }
   std::string name_of_scheme() const {
     return scheme == Integrator::velocity_verlet ? "verlet" : scheme == Integrator::rk2_midpoint ? "rk2" : "gear";
   }
@@ -81,8 +81,8 @@ std::vector<Setting> settings_where(Wanted wanted) {
   std::erase_if(some, [&](const Setting& setting) { return !wanted(setting); });
   return some;
 }
-inline std::vector<Setting> settings_in_space() {
-  return settings_where([](const Setting& setting) { return setting.in_space(); });
+inline std::vector<Setting> settings_3d() {
+  return settings_where([](const Setting& setting) { return setting.is_3d(); });
 }
 
 inline constexpr auto made_by_numerics = "energy made by the numerics";
@@ -99,7 +99,7 @@ inline double contact_time(const Setting& setting, const Bench& bench, double sp
 inline Scene tray_scene(const Setting& setting, int grains, double length) {
   Scene scene = setting.bench().scene;
   scene.tray.length = length;
-  if (setting.in_space()) scene.tray.depth = length;
+  if (setting.is_3d()) scene.tray.depth = length;
   scene.contact.seed = scene.contact.wall = {0.3, 0.5};
   scene.tray.fill = Fill{grains, Packing::hexagonal, 1e-3, false};
   return scene;

@@ -14,8 +14,8 @@ constexpr double up = std::numbers::pi / 2;
 
 class HardBed : public testing::TestWithParam<Setting> {};
 INSTANTIATE_TEST_SUITE_P(Stability, HardBed, testing::ValuesIn(settings()), named_by_setting);
-class HardBedInSpace : public HardBed {};
-INSTANTIATE_TEST_SUITE_P(Stability, HardBedInSpace, testing::ValuesIn(settings_in_space()), named_by_setting);
+class HardBed3d : public HardBed {};
+INSTANTIATE_TEST_SUITE_P(Stability, HardBed3d, testing::ValuesIn(settings_3d()), named_by_setting);
 
 /// For more than a few grains: steps 1.7 times as long.
 void soften(Scene& scene) {
@@ -30,13 +30,13 @@ HarmonicMotion shaken_up(double acceleration, double frequency, double ramp) {
 // Its lowest shells bear its weight at the tray's largest acceleration, and the blow of the bed that lands on the tray,
 // thrown back from its top.
 TEST_P(HardBed, TallShakenVerticallyAtThreeG) {
-  const bool in_space = GetParam().in_space();
-  Scene scene = tray_scene(GetParam(), 157, in_space ? 0.0162 : 0.0345);  // 38 layers
-  if (in_space) soften(scene);
+  const bool is_3d = GetParam().is_3d();
+  Scene scene = tray_scene(GetParam(), 157, is_3d ? 0.0162 : 0.0345);  // 38 layers
+  if (is_3d) soften(scene);
   scene.contact.wall.friction = 0;  // or the walls of a tube bear the bed
   scene.contact.slip_speed = 0.1;   // or the load makes friction ask for a tiny step
   scene.tray.motion = shaken_up(3 * standard_gravity, 20, 0.03);
-  scene.run.duration = in_space ? 0.08 : 0.15;
+  scene.run.duration = is_3d ? 0.08 : 0.15;
   const PredictedOverlap predicted = prepare(scene).overlap;
   EXPECT_GT(predicted.layers, 35);
   const vibrosow::Run run = simulate(scene);
@@ -50,11 +50,11 @@ TEST_P(HardBed, TallShakenVerticallyAtThreeG) {
 // A ball that meets the tray always at its fastest, u, leaves at e v + (1 + e) u: at 3 u in the end, with e = 1/2, and
 // meets it at 4 u.
 TEST_P(HardBed, AtSixtyHertzAndTwentyG) {
-  Scene scene = tray_scene(GetParam(), 60, GetParam().in_space() ? 0.034 : 0.085);
+  Scene scene = tray_scene(GetParam(), 60, GetParam().is_3d() ? 0.034 : 0.085);
   scene.contact.shell_compression = 1e-5;
   scene.contact.youngs_modulus = 2e8;
   scene.tray.motion = shaken_up(20 * standard_gravity, 60, 0);
-  scene.run.duration = GetParam().in_space() ? 0.15 : 0.3;
+  scene.run.duration = GetParam().is_3d() ? 0.15 : 0.3;
   const vibrosow::Run run = simulate(scene);
   const Bounds bounds("bed at 60 Hz and 20 g", GetParam(), scene.contact);
   bounds.sound(run);
@@ -67,17 +67,17 @@ TEST_P(HardBed, AtSixtyHertzAndTwentyG) {
 
 TEST_P(HardBed, HeavyGrainsOnLightOnesAtOneToThousand) {
   Bench bench = GetParam().bench();
-  const bool in_space = GetParam().in_space();
+  const bool is_3d = GetParam().is_3d();
   bench.gravity = {0, -standard_gravity};
   bench.scene.contact.shell_compression = 2e-5;  // 1:1000 needs 5e-5 or less
   bench.scene.contact.youngs_modulus = 1e8;
   bench.scene.contact.seed = bench.scene.contact.wall = {0.3, 0.5};
-  bench.scene.tray.length = in_space ? 0.0267 : 0.04;
-  if (in_space) bench.scene.tray.depth = bench.scene.tray.length;
+  bench.scene.tray.length = is_3d ? 0.0267 : 0.04;
+  if (is_3d) bench.scene.tray.depth = bench.scene.tray.length;
   SeedLot heavy = bench.scene.lots[0];
   heavy.name = "heavy", heavy.mass *= 1000, heavy.number_fraction = 0.5;
   bench.scene.lots.push_back(heavy);
-  const int across = in_space ? 3 : 1, along = in_space ? 3 : 4;
+  const int across = is_3d ? 3 : 1, along = is_3d ? 3 : 4;
   for (int row = 0; row < across; ++row)
     for (int k = 0; k < along; ++k) {
       const double z = 0.0041 + 0.0089 * row;
@@ -85,7 +85,7 @@ TEST_P(HardBed, HeavyGrainsOnLightOnesAtOneToThousand) {
       bench.place({0.0042 + 0.0088 * k, 0.0300, z}, Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero(), 1);
     }
   Simulation& run = bench.start(prepare(bench.scene).step.dt);
-  const double before = total_energy(run, bench.gravity), end_time = in_space ? 0.25 : 2;
+  const double before = total_energy(run, bench.gravity), end_time = is_3d ? 0.25 : 2;
   while (run.time() < 0.25 * end_time) ASSERT_TRUE(run.step()) << *run.guard().stop_reason();
   const double on_the_way = total_energy(run, bench.gravity);
   while (run.time() < end_time) ASSERT_TRUE(run.step()) << *run.guard().stop_reason();
@@ -106,24 +106,24 @@ TEST_P(HardBed, HeavyGrainsOnLightOnesAtOneToThousand) {
 // nothing leaps. The tall step and walls keep this one in place. Poured balls stand on three others each and give way
 // under those above: in space springs hold them.
 TEST_P(HardBed, PileComesToRest) {
-  const bool in_space = GetParam().in_space();
-  const int count = in_space ? 60 : 150;
-  Scene scene = tray_scene(GetParam(), count, in_space ? 0.034 : 0.12);
+  const bool is_3d = GetParam().is_3d();
+  const int count = is_3d ? 60 : 150;
+  Scene scene = tray_scene(GetParam(), count, is_3d ? 0.034 : 0.12);
   scene.tray.fill->packing = Packing::poured;
-  if (in_space) {
+  if (is_3d) {
     soften(scene);
     Contact& contact = scene.contact;
     contact.friction_model = FrictionModel::spring, contact.rolling = Rolling::spring;
     contact.seed.rolling_friction = contact.wall.rolling_friction = 0.05;
     contact.seed.twisting_friction = contact.wall.twisting_friction = 0.05;
   }
-  const double settled = in_space ? 0.4 : 1, looked_at = in_space ? 0.1 : 0.5;
+  const double settled = is_3d ? 0.4 : 1, looked_at = is_3d ? 0.1 : 0.5;
   scene.run.duration = settled + looked_at;
   Simulation run(prepare(scene), 1);
   while (run.time() < settled) ASSERT_TRUE(run.step()) << *run.guard().stop_reason();
   const Bounds bounds("pile at rest", GetParam(), scene.contact);
   // The slope of sliding friction is held to what a step can take, so a pile creeps at a speed that goes with the step.
-  const double longer = in_space ? 1 : 20 / scene.numerics.steps_per_contact;
+  const double longer = is_3d ? 1 : 20 / scene.numerics.steps_per_contact;
   bounds.at_most("kinetic energy of a grain", kinetic_energy(run.grains()) / count,
                  1e-8 * longer * longer * Bench::mass * standard_gravity * Bench::radius, "J");
   const Grains before = run.grains();
@@ -135,7 +135,7 @@ TEST_P(HardBed, PileComesToRest) {
 }
 
 /// The same with friction that slides: it goes on creeping, slower than the slip speed and ever more slowly.
-TEST_P(HardBedInSpace, PileThatSlidesOnlyCreeps) {
+TEST_P(HardBed3d, PileThatSlidesOnlyCreeps) {
   Scene scene = tray_scene(GetParam(), 60, 0.034);
   soften(scene);
   scene.tray.fill->packing = Packing::poured;
@@ -159,15 +159,15 @@ TEST_P(HardBedInSpace, PileThatSlidesOnlyCreeps) {
 /// Rough dipoles, and in the floor a hole (in the plane a slot) somewhat longer than one: they fall through it for a
 /// while, and then hang over it.
 TEST_P(HardBed, ClumpsThatArchOverAHole) {
-  const bool in_space = GetParam().in_space();
-  Scene scene = tray_scene(GetParam(), 30, in_space ? 0.034 : 0.1);
+  const bool is_3d = GetParam().is_3d();
+  Scene scene = tray_scene(GetParam(), 30, is_3d ? 0.034 : 0.1);
   soften(scene);
   make_clump(scene.lots[0], dipole(6e-3, 5e-3), GetParam().space);
   scene.contact.seed = scene.contact.wall = {0.9, 0.3};
   scene.contact.friction_model = FrictionModel::spring;
   scene.tray.fill->packing = Packing::poured;
-  scene.tray.holes = {{.centre = 0.5 * scene.tray.length, .width = in_space ? 0.017 : 0.021}};
-  if (in_space) scene.tray.holes[0].shape = HoleShape::round, scene.tray.holes[0].across = 0.5 * *scene.tray.depth;
+  scene.tray.holes = {{.centre = 0.5 * scene.tray.length, .width = is_3d ? 0.017 : 0.021}};
+  if (is_3d) scene.tray.holes[0].shape = HoleShape::round, scene.tray.holes[0].across = 0.5 * *scene.tray.depth;
   scene.run.duration = 0.4;
   Simulation run(prepare_to_run(scene), 1);
   const double highest = std::ranges::max(run.grains().y);
@@ -193,7 +193,7 @@ void expect_driven(const Bounds& bounds, const vibrosow::Run& run, int grains, d
 }
 
 TEST_P(HardBed, AtAKilohertzAndAHundredG) {
-  Scene scene = tray_scene(GetParam(), 30, GetParam().in_space() ? 0.034 : 0.085);
+  Scene scene = tray_scene(GetParam(), 30, GetParam().is_3d() ? 0.034 : 0.085);
   scene.tray.motion = shaken_up(100 * standard_gravity, 1000, 0);
   scene.run.duration = 0.1;
   const double tray_speed = 100 * standard_gravity / (2 * std::numbers::pi * 1000);
@@ -204,7 +204,7 @@ TEST_P(HardBed, AtAKilohertzAndAHundredG) {
 // At its fastest, towards the other side from one step to the next: the wall meets the bed at twice its speed.
 TEST_P(HardBed, WhoseTrayIsReversedAtFullSpeed) {
   const int grains = 40;
-  Scene scene = tray_scene(GetParam(), grains, GetParam().in_space() ? 0.034 : 0.085);
+  Scene scene = tray_scene(GetParam(), grains, GetParam().is_3d() ? 0.034 : 0.085);
   constexpr double amplitude = 0.01, frequency = 9;
   scene.tray.motion = HarmonicMotion{0, amplitude, frequency, 0};
   scene.run.duration = 0.2;
@@ -220,13 +220,13 @@ TEST_P(HardBed, WhoseTrayIsReversedAtFullSpeed) {
 
 TEST_P(HardBed, DroppedOnItsFloor) {
   Bench bench = GetParam().bench();
-  const bool in_space = GetParam().in_space();
+  const bool is_3d = GetParam().is_3d();
   bench.gravity = {0, -standard_gravity};
   bench.scene.contact.seed = bench.scene.contact.wall = {0.3, 0.5};
   bench.scene.contact.friction_model = FrictionModel::spring;
-  bench.scene.tray.length = 0.04, bench.scene.tray.depth = in_space ? std::optional(0.04) : std::nullopt;
+  bench.scene.tray.length = 0.04, bench.scene.tray.depth = is_3d ? std::optional(0.04) : std::nullopt;
   constexpr double drop = 0.1;  // m
-  const int layers = in_space ? 3 : 6, across = in_space ? 4 : 1, grains = 4 * across * layers;
+  const int layers = is_3d ? 3 : 6, across = is_3d ? 4 : 1, grains = 4 * across * layers;
   for (int k = 0; k < grains; ++k)
     bench.place({0.005 + 0.01 * (k % 4) + 2e-4 * std::sin(3.7 * k), drop + Bench::radius + 0.0082 * (k / 4 / across),
                  0.005 + 0.01 * (k / 4 % across)});
@@ -248,13 +248,13 @@ TEST_P(HardBed, DroppedOnItsFloor) {
 /// A column of grains between the tray's left wall and a board.
 TEST_P(HardBed, WhoseWallIsTakenAway) {
   Bench bench = GetParam().bench();
-  const bool in_space = GetParam().in_space();
+  const bool is_3d = GetParam().is_3d();
   soften(bench.scene);
   bench.gravity = {0, -standard_gravity};
   bench.scene.contact.seed = bench.scene.contact.wall = {0.3, 0.5};
-  bench.scene.tray.length = 0.3, bench.scene.tray.depth = in_space ? std::optional(0.0245) : std::nullopt;
+  bench.scene.tray.length = 0.3, bench.scene.tray.depth = is_3d ? std::optional(0.0245) : std::nullopt;
   bench.scene.tray.pieces = {{.a = {0.0265, 0}, .b = {0.0265, 0.2}}};
-  const int layers = in_space ? 4 : 10, across = in_space ? 3 : 1, grains = 3 * across * layers;
+  const int layers = is_3d ? 4 : 10, across = is_3d ? 3 : 1, grains = 3 * across * layers;
   for (int k = 0; k < grains; ++k)
     bench.place({0.0041 + 0.00814 * (k % 3) + 0.002 * (k / 3 / across % 2), Bench::radius + 0.008 * (k / 3 / across),
                  0.0041 + 0.00814 * (k / 3 % across)});
@@ -278,11 +278,11 @@ TEST_P(HardBed, WhoseWallIsTakenAway) {
 
 // The gate closes only where no grain is in its way, and otherwise stays open.
 TEST_P(HardBed, OverAGateThatOpensAndCloses) {
-  const bool in_space = GetParam().in_space();
-  Scene scene = tray_scene(GetParam(), 60, in_space ? 0.034 : 0.085);
+  const bool is_3d = GetParam().is_3d();
+  Scene scene = tray_scene(GetParam(), 60, is_3d ? 0.034 : 0.085);
   soften(scene);
   Hole hole{.centre = 0.5 * scene.tray.length, .width = 0.02, .open_at = 0.01};
-  if (in_space) hole.across = 0.5 * *scene.tray.depth, hole.across_length = 0.02;
+  if (is_3d) hole.across = 0.5 * *scene.tray.depth, hole.across_length = 0.02;
   scene.tray.holes = {hole};
   scene.run.duration = 0.3;
   Simulation run(prepare_to_run(scene), 1);

@@ -14,7 +14,7 @@ INSTANTIATE_TEST_SUITE_P(Stability, Refusal, testing::ValuesIn(settings()), name
 
 /// m; so that some hundred grains lie in a few layers.
 double tray_length(const Setting& setting) {
-  return setting.in_space() ? 0.034 : 0.1;
+  return setting.is_3d() ? 0.034 : 0.1;
 }
 
 void expect_refusal(const Bounds& bounds, const Scene& scene, const std::string& because) {
@@ -59,7 +59,7 @@ INSTANTIATE_TEST_SUITE_P(Stability, EnergyGuard, testing::ValuesIn(both_spaces),
 TEST_P(EnergyGuard, StopsAStepThatMakesEnergy) {
   const Setting setting{GetParam(), Integrator::rk2_midpoint};
   // Midpoint RK2 at z = 1 multiplies a free vibration by 1.11 each step; shells far from the guard's limit.
-  Scene scene = tray_scene(setting, 30, setting.in_space() ? tray_length(setting) : 0.085);
+  Scene scene = tray_scene(setting, 30, setting.is_3d() ? tray_length(setting) : 0.085);
   scene.contact.seed = scene.contact.wall = {0, 1};
   scene.numerics.dt = 0.99 * prepare(scene).step.contact_duration / std::numbers::pi;
   scene.numerics.allow_long_step = true;
@@ -71,7 +71,7 @@ TEST_P(EnergyGuard, StopsAStepThatMakesEnergy) {
 }
 
 TEST_P(Refusal, OfAStepTooLongForFrictionNamesTheLongestAllowed) {
-  Scene scene = tray_scene(GetParam(), 400, GetParam().in_space() ? tray_length(GetParam()) : 0.085);
+  Scene scene = tray_scene(GetParam(), 400, GetParam().is_3d() ? tray_length(GetParam()) : 0.085);
   scene.contact.slip_speed = 1e-3;
   scene.numerics.dt = GetParam().scheme == Integrator::gear5 ? 4e-6 : 2e-5;
   scene.run.duration = 0.1;

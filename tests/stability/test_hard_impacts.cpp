@@ -11,8 +11,8 @@ namespace {
 class HardImpact : public testing::TestWithParam<Setting> {};
 INSTANTIATE_TEST_SUITE_P(Stability, HardImpact, testing::ValuesIn(settings()), named_by_setting);
 
-class HardImpactInSpace : public HardImpact {};
-INSTANTIATE_TEST_SUITE_P(Stability, HardImpactInSpace, testing::ValuesIn(settings_in_space()), named_by_setting);
+class HardImpact3d : public HardImpact {};
+INSTANTIATE_TEST_SUITE_P(Stability, HardImpact3d, testing::ValuesIn(settings_3d()), named_by_setting);
 class UnsoftenedHertz : public HardImpact {};
 INSTANTIATE_TEST_SUITE_P(Stability, UnsoftenedHertz, testing::ValuesIn(settings_where([](const Setting& setting) {
                            return setting.law != Law::elastic_shell;
@@ -80,7 +80,7 @@ double aside(double part) {
 }
 
 std::vector<Target> targets(Space space) {
-  if (space == Space::plane)
+  if (space == Space::two_dimensional)
     return {{"hole's edge", 0.2,
              [](Bench& bench, double part) {
                bench.scene.tray.holes = {{0.5, 0.1}};
@@ -129,7 +129,7 @@ std::vector<Target> targets(Space space) {
 TEST_P(ElasticImpact, OnEdgesAndInCornersKeepsItsEnergy) {
   for (const Target& target : targets(GetParam().space)) {
     SCOPED_TRACE(target.name);
-    const Changes changes = throw_at(GetParam(), target, GetParam().in_space() ? 80 : 200);
+    const Changes changes = throw_at(GetParam(), target, GetParam().is_3d() ? 80 : 200);
     const Bounds bounds("elastic impact: " + target.name, GetParam(), GetParam().bench().scene.contact);
     bounds.at_most("relative change of energy", changes.largest, largest_change(GetParam(), target.at_once));
     bounds.at_most("its mean, either way", std::abs(changes.mean), mean_gain(GetParam(), target.at_once));
@@ -156,9 +156,9 @@ ErrorOfImpact error_of_impact(const Setting& setting) {
 // An impact concerns the energy of two among all grains.
 TEST_P(ElasticImpact, OfAGasDriftsAsItsImpactsDo) {
   Bench bench = GetParam().bench();
-  const bool in_space = GetParam().in_space(), verlet = GetParam().scheme == Integrator::velocity_verlet;
-  const int grains = in_space ? 27 : 64;
-  if (in_space) {
+  const bool is_3d = GetParam().is_3d(), verlet = GetParam().scheme == Integrator::velocity_verlet;
+  const int grains = is_3d ? 27 : 64;
+  if (is_3d) {
     bench.scene.tray.length = 0.05, bench.scene.tray.depth = 0.05;
     for (int k = 0; k < grains; ++k)
       bench.place({0.008 + 0.016 * (k % 3), 0.008 + 0.016 * (k / 3 % 3), 0.008 + 0.016 * (k / 9)},
@@ -172,7 +172,7 @@ TEST_P(ElasticImpact, OfAGasDriftsAsItsImpactsDo) {
   bench.gravity = {0, -standard_gravity};  // the box has no lid: its walls are 1 m high
   Simulation& run = bench.start(contact_time(GetParam(), bench, 0.5) / 20);
   const double before = total_energy(run, bench.gravity);
-  run.steps(verlet ? (in_space ? 1000000 : 300000) : (in_space ? 30000 : 10000));
+  run.steps(verlet ? (is_3d ? 1000000 : 300000) : (is_3d ? 30000 : 10000));
   ASSERT_FALSE(run.guard().stop_reason()) << *run.guard().stop_reason();
   const double evaluations = GetParam().scheme == Integrator::rk2_midpoint ? 40 : 20;
   const double impacts = static_cast<double>(run.statistics().contacts) / evaluations;
@@ -233,7 +233,7 @@ TEST_P(HardImpact, CoincidentCentresPart) {
 TEST_P(HardImpact, AnOverlappingStartIsRelaxedWithoutAnExplosion) {
   Bench bench = GetParam().bench();
   const double apart = 1.6 * Bench::radius;
-  for (int k = 0; k < (GetParam().in_space() ? 27 : 9); ++k)
+  for (int k = 0; k < (GetParam().is_3d() ? 27 : 9); ++k)
     bench.place({0.5 + apart * (k % 3), 0.5 + apart * (k / 3 % 3), 0.5 + apart * (k / 9)});
   expect_to_part("overlapping start that was asked for", GetParam(), bench,
                  parting_step(GetParam(), bench, 0.4 * Bench::radius));
@@ -256,7 +256,7 @@ struct Shot {
 };
 std::vector<Shot> shots(Space space) {
   std::vector<Shot> all = {{"floor", {0.5, 0.02, 0.5}, {0, -1, 0}}};
-  if (space == Space::plane) return all;
+  if (space == Space::two_dimensional) return all;
   const WallPiece cone{.a = {0.1, 0.2}, .b = {0.4, 0.6}, .about = Eigen::Vector2d(0.5, 0.5)};
   const WallPiece cylinder{.a = {0.2, 0.2}, .b = {0.2, 0.6}, .about = Eigen::Vector2d(0.5, 0.5)};
   const WallPiece rod{.a = {0.2, 0.2}, .b = {0.2, 0.6}, .about = Eigen::Vector2d(0.5, 0.5), .axis = PieceAxis::along};
@@ -322,7 +322,7 @@ TEST_P(UnsoftenedHertz, NeitherGainsEnergyNorSinksIn) {
   bench.scene.contact.seed = bench.scene.contact.wall = {0.47, 0.5};
   bench.scene.contact.friction_model = FrictionModel::spring;
   bench.scene.tray.length = 0.07, bench.scene.tray.depth = 0.07;
-  const int balls = GetParam().in_space() ? 27 : 9;
+  const int balls = GetParam().is_3d() ? 27 : 9;
   for (int k = 0; k < balls; ++k)
     bench.place({0.0115 + 0.0235 * (k % 3), 0.0115 + 0.0235 * (k / 3 % 3), 0.0115 + 0.0235 * (k / 9)},
                 {2 * std::sin(1.7 * k), -2 * std::cos(2.3 * k), 2 * std::sin(2.9 * k + 1)});
@@ -343,7 +343,7 @@ TEST_P(UnsoftenedHertz, NeitherGainsEnergyNorSinksIn) {
 /// A ball that falls on a hole smaller than itself is pushed by the nearest point of its rim, which jumps to the other
 /// side as the ball passes the middle. It ends up there, at the height at which the rim bears it, and jitters by what a
 /// push gives it, to and fro, that lasts a step or two too long.
-TEST_P(HardImpactInSpace, ABallOnAHoleSmallerThanItselfComesToRestOverIt) {
+TEST_P(HardImpact3d, ABallOnAHoleSmallerThanItselfComesToRestOverIt) {
   Bench bench = GetParam().bench();
   bench.gravity = {0, -standard_gravity};
   bench.scene.contact.wall = {0.3, 0.5};
@@ -375,7 +375,7 @@ TEST_P(HardImpactInSpace, ABallOnAHoleSmallerThanItselfComesToRestOverIt) {
 TEST_P(HardImpact, WhatIsNotANumberStopsTheRun) {
   std::vector<std::vector<double> Grains::*> arrays = {&Grains::x, &Grains::y, &Grains::vx, &Grains::vy,
                                                        &Grains::omega};
-  if (GetParam().in_space()) arrays.insert(arrays.end(), {&Grains::z, &Grains::vz, &Grains::omega_x, &Grains::omega_y});
+  if (GetParam().is_3d()) arrays.insert(arrays.end(), {&Grains::z, &Grains::vz, &Grains::omega_x, &Grains::omega_y});
   for (const double height : {0.5, 0.999 * Bench::radius})  // in flight, and on the floor
     for (const auto array : arrays) {
       Bench bench = GetParam().bench();

@@ -29,7 +29,7 @@ class HardPlace : public testing::TestWithParam<Setting> {
     EXPECT_FALSE(run.guard().stop_reason()) << *run.guard().stop_reason();
     return most;
   }
-  static bool in_space() { return GetParam().in_space(); }
+  static bool is_3d() { return GetParam().is_3d(); }
 };
 INSTANTIATE_TEST_SUITE_P(Stability, HardPlace, testing::ValuesIn(settings()), named_by_setting);
 
@@ -111,7 +111,7 @@ TEST_P(HardPlace, AGrainLiesOnOthersATenthOfItsSize) {
     bench.scene.lots[0].number_fraction = small.number_fraction = 0.5;
     bench.scene.lots.push_back(small);
     const double s = r / 10;
-    const int across = in_space() ? 4 : 1, along = in_space() ? 4 : 9;
+    const int across = is_3d() ? 4 : 1, along = is_3d() ? 4 : 9;
     for (int row = 0; row < across; ++row)
       for (int k = 0; k < along; ++k)
         bench.place({0.5 + 2.1 * s * (k - 0.5 * (along - 1)), s, 0.5 + 2.1 * s * (row - 0.5 * (across - 1))},
@@ -190,10 +190,10 @@ TEST_P(HardPlace, AGrainThatSpinsFastIsSetDown) {
     Bench bench = heavy_bench(friction, 1);
     constexpr double spin = -1000;
     bench.place({0.3, 0.999 * r, 0.5}, Eigen::Vector3d::Zero(), {0, 0, spin});
-    bench.scene.lots[0].shape = in_space() ? Shape::ball : Shape::disc;
+    bench.scene.lots[0].shape = is_3d() ? Shape::ball : Shape::disc;
     Simulation& run = start(bench, 0.2);
     run_until(run, 0.25);
-    const double rolling = -r * spin * (in_space() ? 2.0 / 7 : 1.0 / 3), speed = run.grains().vx[0];
+    const double rolling = -r * spin * (is_3d() ? 2.0 / 7 : 1.0 / 3), speed = run.grains().vx[0];
     const Bounds bounds("grain set down at 1000 rad/s", GetParam(), bench.scene.contact);
     bounds.at_most("speed", speed, 1.002 * rolling, "m/s");
     bounds.at_least("speed", speed, 0.995 * rolling, "m/s");
@@ -259,9 +259,9 @@ TEST_P(HardPlace, AGasThatLosesEnergyOnlyCools) {
   bench.scene.contact.seed = bench.scene.contact.wall = {0.3, 0.5};
   bench.scene.contact.friction_model = FrictionModel::spring;
   Vessel& box = bench.scene.tray;
-  box.length = 0.06, box.depth = in_space() ? std::optional(0.06) : std::nullopt;
+  box.length = 0.06, box.depth = is_3d() ? std::optional(0.06) : std::nullopt;
   box.pieces = {{.a = {0, 0.06}, .b = {0.06, 0.06}}};
-  const int grains = in_space() ? 27 : 9;
+  const int grains = is_3d() ? 27 : 9;
   for (int k = 0; k < grains; ++k)
     bench.place({0.01 + 0.02 * (k % 3), 0.01 + 0.02 * (k / 3 % 3), 0.01 + 0.02 * (k / 9)},
                 {0.3 * std::sin(1.7 * k), -0.3 * std::cos(2.3 * k), 0.3 * std::sin(2.9 * k + 1)});

@@ -10,7 +10,7 @@ namespace {
 
 class LongestStep : public testing::TestWithParam<Space> {
  protected:
-  static bool in_space() { return GetParam() == Space::three_dimensional; }
+  static bool is_3d() { return GetParam() == Space::three_dimensional; }
 
   static Scene bed(Packing packing, double restitution) {
     Scene scene;
@@ -23,9 +23,9 @@ class LongestStep : public testing::TestWithParam<Space> {
     for (Surface* surface : {&scene.contact.seed, &scene.contact.wall})
       surface->rolling_friction = surface->twisting_friction = 0.1;
     scene.tray.name = "tray";
-    scene.tray.length = in_space() ? 0.02 : 0.1, scene.tray.height = 0.2;
-    if (in_space()) scene.tray.depth = 0.02;
-    scene.tray.fill = Fill{in_space() ? 60 : 120, packing, 0, false};
+    scene.tray.length = is_3d() ? 0.02 : 0.1, scene.tray.height = 0.2;
+    if (is_3d()) scene.tray.depth = 0.02;
+    scene.tray.fill = Fill{is_3d() ? 60 : 120, packing, 0, false};
     scene.run.duration = 1;
     return scene;
   }
@@ -61,7 +61,7 @@ TEST_P(LongestStep, BedsOfClumpsFallSilent) {
     SCOPED_TRACE(restitution);
     Scene scene = bed(Packing::poured, restitution);
     make_clump(scene.lots[0], {{-2e-3, 0, 1.5e-3}, {0, 0, 2e-3}, {2e-3, 0, 1.5e-3}}, GetParam());
-    scene.tray.fill->count = in_space() ? 30 : 60;
+    scene.tray.fill->count = is_3d() ? 30 : 60;
     expect_silence("bed of clumps at rest at the longest step", scene);
   }
 }
@@ -83,7 +83,7 @@ TEST_P(LongestStep, AnElasticGasDriftsNoMoreThanItsImpactsErr) {
     Random random(static_cast<std::uint64_t>(k));
     for (std::size_t i = 0; i < state.grains.size(); ++i) {
       state.grains.vx[i] = random.uniform(-0.2, 0.2), state.grains.vy[i] = random.uniform(0, 0.2);
-      if (in_space()) state.grains.vz[i] = random.uniform(-0.2, 0.2);
+      if (is_3d()) state.grains.vz[i] = random.uniform(-0.2, 0.2);
     }
     Simulation run(model, std::move(state));
     const auto mean_energy = [&run](double from, double to) {

@@ -16,8 +16,8 @@ namespace {
 
 class RandomScene : public testing::TestWithParam<Space> {
  protected:
-  static bool in_space() { return GetParam() == Space::three_dimensional; }
-  static std::optional<double> depth(double value) { return in_space() ? std::optional(value) : std::nullopt; }
+  static bool is_3d() { return GetParam() == Space::three_dimensional; }
+  static std::optional<double> depth(double value) { return is_3d() ? std::optional(value) : std::nullopt; }
 };
 INSTANTIATE_TEST_SUITE_P(Spaces, RandomScene, testing::ValuesIn(both_spaces), named_by_space);
 
@@ -130,14 +130,14 @@ TEST_P(RandomScene, MomentaAreKeptAmongGrains) {
         one_of<Integrator>(random, {Integrator::velocity_verlet, Integrator::rk2_midpoint, Integrator::gear5});
     const auto any = [&](double size) -> Eigen::Vector3d {
       return Eigen::Vector3d(random.uniform(-size, size), random.uniform(-size, size),
-                             in_space() ? random.uniform(-size, size) : 0);
+                             is_3d() ? random.uniform(-size, size) : 0);
     };
     const Eigen::Vector3d middle(0.5, 0.5, 0.5);
     for (int k = 0; k < 27; ++k) {
-      const Eigen::Vector3d cell(k % 3 - 1, k / 3 % 3 - 1, in_space() ? k / 9 - 1 : 0);
-      if (!in_space() && k >= 9) break;
+      const Eigen::Vector3d cell(k % 3 - 1, k / 3 % 3 - 1, is_3d() ? k / 9 - 1 : 0);
+      if (!is_3d() && k >= 9) break;
       const Eigen::Vector3d at = middle + 8.5e-3 * cell + any(2e-4);
-      const Eigen::Vector3d spin = in_space() ? any(100) : Eigen::Vector3d(0, 0, random.uniform(-100, 100));
+      const Eigen::Vector3d spin = is_3d() ? any(100) : Eigen::Vector3d(0, 0, random.uniform(-100, 100));
       bench.place(at, -40 * 8.5e-3 * cell + any(0.1), spin, k % 2);
     }
     Simulation& run = bench.start(1e-5);
@@ -168,7 +168,7 @@ TEST_P(RandomScene, EveryGrainAndItsMassAreSomewhere) {
     scene.contact.friction_model = FrictionModel::spring;
     Vessel& tray = scene.tray;
     tray.name = "tray";
-    tray.length = in_space() ? 0.06 : 0.15, tray.height = 0.06, tray.depth = depth(0.04);
+    tray.length = is_3d() ? 0.06 : 0.15, tray.height = 0.06, tray.depth = depth(0.04);
     tray.sides = one_of<Sides>(random, {Sides::walls, Sides::open, Sides::periodic});
     tray.tilt = tray.sides == Sides::periodic ? 0 : random.uniform(-0.1, 0.1);
     for (const double centre : {0.3, 0.7})
@@ -219,10 +219,9 @@ class RandomLists {
       : vessels_(1, box(space)),
         walls_(vessels_, space),
         grains_({{largest / 2, 1e-5, 1e5, 1e10, 1e-3}}, true, true),
-        neighbours_(vessels_, largest, {wide, narrow, wide}, {.in_space = space == Space::three_dimensional},
-                    execution_) {
-    grains_.in_space = space == Space::three_dimensional;
-    for (int k = 0; k < (grains_.in_space ? 120 : 40); ++k) {
+        neighbours_(vessels_, largest, {wide, narrow, wide}, {.is_3d = space == Space::three_dimensional}, execution_) {
+    grains_.is_3d = space == Space::three_dimensional;
+    for (int k = 0; k < (grains_.is_3d ? 120 : 40); ++k) {
       GrainKind kind = grains_.kinds.front();
       kind.radius *= k % 2 ? 1 : 0.6;
       grains_.add(Eigen::Vector3d(random.uniform(0, 0.03), random.uniform(0, 0.03), random.uniform(0, 0.03)),
@@ -272,7 +271,7 @@ class RandomLists {
   }
   void move(std::size_t i, const Eigen::Vector3d& by) {
     grains_.x[i] += by.x(), grains_.y[i] += by.y();
-    if (grains_.in_space) grains_.z[i] += by.z();
+    if (grains_.is_3d) grains_.z[i] += by.z();
   }
   template <class List>
   void look(const Neighbours::Image& image, List list, double gap, double nearer, double listed, Found& found) {
@@ -370,7 +369,7 @@ std::vector<Placed> any_grains(Random& random, const Eigen::Vector3d& size, cons
 Simulation started(const Model& model, const std::vector<Placed>& placed) {
   Grains grains = no_grains(model);
   for (const Placed& one : placed)
-    grains.add(one.at, grains.in_space ? one.velocity : Eigen::Vector3d(one.velocity.x(), one.velocity.y(), 0), one.lot,
+    grains.add(one.at, grains.is_3d ? one.velocity : Eigen::Vector3d(one.velocity.x(), one.velocity.y(), 0), one.lot,
                grains.kinds[static_cast<std::size_t>(one.lot)]);
   return Simulation(model, starting_state(model, 1, std::move(grains)));
 }
@@ -386,8 +385,7 @@ TEST_P(RandomScene, APeriodicSliceIsAPartOfALongerTray) {
     scene.tray.motion = HarmonicMotion{0.5, 3e-3, 10, 0.02};
     Scene longer = scene;
     longer.tray.length = 3 * period;
-    const std::vector<Placed> placed =
-        any_grains(random, {period, 0.05, 0.03}, {4, in_space() ? 3 : 5, in_space() ? 3 : 1});
+    const std::vector<Placed> placed = any_grains(random, {period, 0.05, 0.03}, {4, is_3d() ? 3 : 5, is_3d() ? 3 : 1});
     std::vector<Placed> thrice;
     for (int copy = 0; copy < 3; ++copy)
       for (Placed one : placed) one.at.x() += copy * period, thrice.push_back(one);
@@ -420,8 +418,8 @@ TEST_P(RandomScene, ATurnedTrayIsATurnedWeight) {
     upright.tray.length = turned.tray.length = 0.04;
     upright.tray.depth = turned.tray.depth = depth(0.03);
     turned.tray.tilt = angle;
-    std::vector<Placed> placed = any_grains(random, {0.04, 0.05, 0.03}, {4, in_space() ? 3 : 5, in_space() ? 3 : 1});
-    if (!in_space())
+    std::vector<Placed> placed = any_grains(random, {0.04, 0.05, 0.03}, {4, is_3d() ? 3 : 5, is_3d() ? 3 : 1});
+    if (!is_3d())
       for (Placed& one : placed) one.velocity.z() = 0;
     std::vector<Placed> leaning = placed;
     for (Placed& one : leaning) one.at = turn * one.at, one.velocity = turn * one.velocity;

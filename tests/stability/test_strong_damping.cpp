@@ -14,19 +14,19 @@ class StrongDamping : public testing::TestWithParam<Space> {
     Scene scene;
     scene.space = GetParam();
     scene.lots = {{"ball", 4e-3, 40e-6, Shape::ball, 1}};
-    scene.contact.shell_compression = in_space() ? 3e-4 : 1e-4;
+    scene.contact.shell_compression = is_3d() ? 3e-4 : 1e-4;
     scene.contact.seed = scene.contact.wall = {1.0, 0.1};
     scene.contact.friction_model = FrictionModel::spring;
-    if (in_space()) hold_from_rolling(scene.contact);
+    if (is_3d()) hold_from_rolling(scene.contact);
     scene.tray.name = "tray";
     scene.tray.length = 0.1, scene.tray.height = 0.2;
-    if (in_space()) scene.tray.length = 0.02, scene.tray.depth = 0.02;
+    if (is_3d()) scene.tray.length = 0.02, scene.tray.depth = 0.02;
     scene.tray.fill = Fill{balls(), Packing::poured, 0, false};
     scene.run.duration = 0.5;
     return scene;
   }
-  static bool in_space() { return GetParam() == Space::three_dimensional; }
-  static int balls() { return in_space() ? 30 : 200; }
+  static bool is_3d() { return GetParam() == Space::three_dimensional; }
+  static int balls() { return is_3d() ? 30 : 200; }
   /// In space springs alone leave balls free to roll round each other, and to spin where nothing resists twisting.
   static void hold_from_rolling(Contact& contact) {
     contact.rolling = Rolling::spring;
@@ -34,7 +34,7 @@ class StrongDamping : public testing::TestWithParam<Space> {
       surface->rolling_friction = surface->twisting_friction = 0.1;
   }
   /// s, from the start on.
-  static double settled() { return in_space() ? 0.2 : 0.3; }
+  static double settled() { return is_3d() ? 0.2 : 0.3; }
 
   static Bounds bounds_of(const std::string& name, const Scene& scene) {
     return {name, {scene.space, scene.numerics.integrator, scene.contact.law}, scene.contact};
@@ -91,13 +91,13 @@ TEST_P(StrongDamping, ABedThatSlidesComesToRest) {
 TEST_P(StrongDamping, RodsThatSlideComeToRest) {
   Scene scene = damped_bed();
   std::vector<ClumpDisc> rod;
-  const int discs = in_space() ? 10 : 40;
+  const int discs = is_3d() ? 10 : 40;
   for (int k = 0; k < discs; ++k) rod.push_back({0.5e-3 * (k - 0.5 * (discs - 1)), 0, 1e-3});
   scene.lots[0].name = "rod";
   make_clump(scene.lots[0], rod, GetParam());
   scene.tray.fill->count = 12;
   scene.contact.friction_model = FrictionModel::sliding, scene.contact.rolling = Rolling::none;
-  expect_only_creep("rods that slide and lie flat", scene, in_space() ? 0.2 : 0.05);
+  expect_only_creep("rods that slide and lie flat", scene, is_3d() ? 0.2 : 0.05);
 }
 
 TEST_P(StrongDamping, HertzWithFrictionTwoFallsSilent) {

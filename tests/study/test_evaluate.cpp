@@ -43,7 +43,7 @@ TEST(Evaluate, KeepsWhatHolesGaveAndTheCurvesAskedFor) {
   EXPECT_THAT(evaluation.curves[1].values, ElementsAre(testing::DoubleNear(72.0 / 40, 1e-12)));
 }
 
-TEST(Evaluate, ARunCutShortKeepsItsFiguresAndItsReason) {
+TEST(Evaluate, ARunCutShortKeepsItsMetricsAndItsReason) {
   const StudyFiles files;
   const Simulator dry_and_stopped = [](const Model& model, const SimulationOptions& options) {
     vibrosow::Run run = quick_run(model, options);
@@ -63,7 +63,7 @@ TEST(Evaluate, ARunCutShortKeepsItsFiguresAndItsReason) {
   EXPECT_TRUE(std::isnan(evaluation.curves[0].values[1]));
 }
 
-TEST(Evaluate, WhatTheSimulatorRefusesIsAReasonAndNoFigures) {
+TEST(Evaluate, WhatTheSimulatorRefusesIsAReasonAndNoMetrics) {
   const StudyFiles files;
   const Simulator refusing = [](const Model&, const SimulationOptions&) -> vibrosow::Run {
     throw InputError("the fill does not fit");

@@ -38,7 +38,7 @@ TEST(SceneError, HasThreePartsOfATrayThatTheTableKnows) {
 
 TEST(SceneError, IsNoneInThePlane) {
   Scene scene = table_tray_scene();
-  scene.space = Space::plane;
+  scene.space = Space::two_dimensional;
   EXPECT_FALSE(scene_error(scene, knowledge()));
 }
 
@@ -106,7 +106,7 @@ TEST_F(ExpectedOfAStudy, EachLayoutHasItsOwn) {
   const StudyResult found = result("3d");
   for (const LayoutResult& layout : found.layouts) {
     ASSERT_TRUE(layout.expected);
-    const MeanWithInterval& rate = *layout.figures["rate_g_per_s"];
+    const MeanWithInterval& rate = *layout.metrics["rate_g_per_s"];
     EXPECT_EQ(layout.expected->mass_rate, rate.mean);
     EXPECT_NEAR(half_width_of_normal(layout.expected->error.chance), *rate.half_width_95 / rate.mean, 1e-12);
     EXPECT_EQ(layout.status, LayoutStanding::ok);
@@ -117,7 +117,7 @@ TEST_F(ExpectedOfAStudy, EachLayoutHasItsOwn) {
 
 TEST_F(ExpectedOfAStudy, OfASingleRunChanceIsThatOfItsBlocks) {
   const LayoutResult layout = result("3d", "", 1).layouts[0];
-  EXPECT_FALSE(layout.figures["rate_g_per_s"]->half_width_95);
+  EXPECT_FALSE(layout.metrics["rate_g_per_s"]->half_width_95);
   ASSERT_TRUE(layout.expected);
   EXPECT_GT(layout.expected->error.chance, 0);
 }

@@ -23,7 +23,7 @@ Scene small_scene(const StudyFiles& files, const std::vector<Override>& override
   return read_scene(files.study("").parent_path() / "seeder.toml", overrides);
 }
 
-TEST(PredictedCost, EveryEffectThatCanBeLeftOutHasAFigure) {
+TEST(PredictedCost, EveryEffectThatCanBeLeftOutHasAMetric) {
   const StudyFiles files;
   const Scene scene = small_scene(
       files, {parse_override("contact.friction_model=\"spring\""), parse_override("contact.rolling=\"spring\""),

@@ -130,7 +130,7 @@ TEST_F(ByNeed, RoundsGoOnUntilTheIntervalIsNarrow) {
   EXPECT_EQ(result.layouts.at(0).replicates, used - 1) << "one clogged";
   EXPECT_NE(doubts_text(result.layouts[0].doubts).find("clogged in 1 of"), std::string::npos)
       << doubts_text(result.layouts[0].doubts);
-  const auto rate = *result.layouts[0].figures["rate_g_per_s"];
+  const auto rate = *result.layouts[0].metrics["rate_g_per_s"];
   EXPECT_LE(*rate.half_width_95, 0.05 * rate.mean);
   all.replicates = {60};  // as if another had made more
   EXPECT_EQ(sweep(study.study, simulator_, all).runs.at(0).size(), result.runs.at(0).size());

@@ -28,8 +28,8 @@ class StudyRunsOf : public testing::Test {
       runs.push_back({&scene_, seed, case_name(case_identity(model_.scene, seed))});
     return runs;
   }
-  Making make(StudyRuns& runs, std::initializer_list<std::uint64_t> random_seeds, bool retry = false) {
-    MakingOptions options;
+  BatchSummary make(StudyRuns& runs, std::initializer_list<std::uint64_t> random_seeds, bool retry = false) {
+    BatchOptions options;
     options.jobs = 1, options.retry = retry;
     return runs.make(wanted(random_seeds), simulator_, options);
   }
@@ -66,9 +66,9 @@ TEST_F(StudyRunsOf, MakesNoRunTwice) {
   EXPECT_EQ(make(first, {1, 2}).made, 2);
   const vibrosow::Run before = kept(first, 1);
   StudyRuns again(folder("a"));
-  const Making making = make(again, {1, 2, 3});
-  EXPECT_EQ(making.made, 1);
-  EXPECT_EQ(making.there, 2);
+  const BatchSummary batch = make(again, {1, 2, 3});
+  EXPECT_EQ(batch.made, 1);
+  EXPECT_EQ(batch.there, 2);
   EXPECT_EQ(made_, 3);
   ASSERT_FALSE(before.events.empty());
   EXPECT_EQ(kept(again, 1).events.back().time, before.events.back().time);
@@ -97,7 +97,7 @@ TEST_F(StudyRunsOf, WhatWasThereIsNoMeasureOfWhatIsLeft) {
   StudyRuns runs(folder("a"));
   make(runs, {1, 2});
   std::vector<std::pair<double, double>> told;
-  MakingOptions options;
+  BatchOptions options;
   options.jobs = 1;
   options.progress = [&](double done, double there) { told.emplace_back(done, there); };
   runs.make(wanted({1, 2, 3, 4}), simulator_, options);
@@ -135,19 +135,19 @@ TEST_F(StudyRunsOf, ASimulatorThatKeepsMakesNoRunTwice) {
   options.random_seed = 3;
   StudyRuns runs(folder("a"));
   status_ = RunStatus::interrupted;
-  runs.keeping(simulator_)(model_, options);
+  runs.caching_simulator(simulator_)(model_, options);
   EXPECT_TRUE(cases("a").empty());
   status_ = RunStatus::finished;
-  const vibrosow::Run made = runs.keeping(simulator_)(model_, options);
+  const vibrosow::Run made = runs.caching_simulator(simulator_)(model_, options);
   EXPECT_EQ(made_, 2);
   StudyRuns again(folder("a"));
-  const vibrosow::Run kept = again.keeping(simulator_)(model_, options);
+  const vibrosow::Run kept = again.caching_simulator(simulator_)(model_, options);
   EXPECT_EQ(made_, 2);
   ASSERT_FALSE(made.events.empty());
   EXPECT_EQ(kept.events.back().time, made.events.back().time);
   EXPECT_EQ(kept.wall_time, 0) << "tells a run that was kept";
   options.random_seed = 4;
-  EXPECT_EQ(again.keeping(simulator_)(model_, options).random_seed, 4u);
+  EXPECT_EQ(again.caching_simulator(simulator_)(model_, options).random_seed, 4u);
   EXPECT_EQ(made_, 3);
 }
 
@@ -184,7 +184,7 @@ TEST_F(StudyRunsOf, ARunThatCannotBeWrittenIsInMemoryUntilItCan) {
   make(runs, {1});
   EXPECT_EQ(kept(runs, 1).status, RunStatus::finished);
   EXPECT_THAT(runs.not_kept(), testing::HasSubstr("cannot be written"));
-  MakingOptions options;
+  BatchOptions options;
   options.jobs = 1, options.wait_for_room = 0;
   EXPECT_EQ(runs.make(wanted({2}), simulator_, options).interrupted, 1) << "no other is begun";
   options.wait_for_room = 600;
@@ -212,7 +212,7 @@ TEST_F(StudyRunsOf, AnotherRunOfTheSameNameIsAnError) {
 
 TEST_F(StudyRunsOf, ARunThatAnotherProcessMakesIsTakenOverOnlyWhenItIsSilent) {
   const std::string name = wanted({1}).front().name;
-  RunNotes other(folder("a") / "running");
+  RunLeases other(folder("a") / "running");
   ASSERT_TRUE(other.claim(name));  // of this process, which lives, and never beats
   StudyRuns runs(folder("a"), {}, std::chrono::milliseconds(300));
   const auto begin = std::chrono::steady_clock::now();
@@ -222,7 +222,7 @@ TEST_F(StudyRunsOf, ARunThatAnotherProcessMakesIsTakenOverOnlyWhenItIsSilent) {
 
 TEST_F(StudyRunsOf, ARunOfADeadProcessIsTakenOverAtOnce) {
   const std::string name = wanted({1}).front().name;
-  RunNotes other(folder("a") / "running");
+  RunLeases other(folder("a") / "running");
   ASSERT_TRUE(other.claim(name));
   std::ifstream in(folder("a") / "running" / name);
   std::string note(std::istreambuf_iterator<char>(in), {});
@@ -235,7 +235,7 @@ TEST_F(StudyRunsOf, ARunOfADeadProcessIsTakenOverAtOnce) {
 
 TEST_F(StudyRunsOf, AnInterruptedRunGoesOnFromWhereItWas) {
   std::atomic<bool> interrupt = false;
-  MakingOptions options;
+  BatchOptions options;
   options.jobs = 1, options.save_every = 1e9;
   options.interrupt = &interrupt;
   options.progress = [&](double fraction, double) { interrupt = interrupt || fraction > 0.3; };

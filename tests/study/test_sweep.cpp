@@ -35,11 +35,11 @@ TEST(Sweep, MeansAndIntervalsAreOfTheReplicates) {
   const StudyFiles files;
   const StudyResult result = sweep(three_layouts(files), quick_run, with_jobs(1));
   // One hole: 11, 12, 13 seeds in 2 s; t(0.975, 2) = 4.3027, sd 0.5.
-  const auto& rate = *result.layouts[0].figures["seeds_per_s"];
+  const auto& rate = *result.layouts[0].metrics["seeds_per_s"];
   EXPECT_DOUBLE_EQ(rate.mean, 6.0);
   EXPECT_NEAR(*rate.half_width_95, 4.3027 * 0.5 / std::sqrt(3.0), 1e-4);
-  EXPECT_FALSE(result.layouts[0].figures["raw_cv_percent"]);
-  EXPECT_TRUE(result.layouts[1].figures["raw_cv_percent"]);
+  EXPECT_FALSE(result.layouts[0].metrics["raw_cv_percent"]);
+  EXPECT_TRUE(result.layouts[1].metrics["raw_cv_percent"]);
   EXPECT_EQ(result.layouts[2].replicates, 3);
 }
 
@@ -59,7 +59,7 @@ TEST(Sweep, FirstRandomSeedActs) {
   options.first_random_seed = 11;
   const StudyResult result = sweep(three_layouts(files), quick_run, options);
   EXPECT_EQ(result.runs[0][2].random_seed, 13u);
-  EXPECT_DOUBLE_EQ(result.layouts[0].figures["seeds_per_s"]->mean, 11.0);
+  EXPECT_DOUBLE_EQ(result.layouts[0].metrics["seeds_per_s"]->mean, 11.0);
 }
 
 TEST(Sweep, InterruptKeepsWhatIsFinished) {
@@ -82,7 +82,7 @@ TEST(Sweep, InterruptKeepsWhatIsFinished) {
   EXPECT_EQ(result.layouts[1].status, LayoutStanding::incomplete);
   EXPECT_EQ(result.layouts[1].replicates, 1);
   EXPECT_EQ(result.layouts[2].replicates, 0);
-  EXPECT_FALSE(result.layouts[2].figures["rate_g_per_s"]);
+  EXPECT_FALSE(result.layouts[2].metrics["rate_g_per_s"]);
   EXPECT_THAT(sweep_csv(result), HasSubstr("\n3,,incomplete,0 of 3 runs finished,5,0,,"));
 }
 
@@ -139,7 +139,7 @@ TEST(Sweep, SharedSceneIsRunOnceAndListedUnderEach) {
       study, [&](const Model& model, const SimulationOptions& options) { return ++runs, quick_run(model, options); },
       with_jobs(1));
   EXPECT_EQ(runs, 2);
-  EXPECT_EQ(result.layouts[0].figures["rate_g_per_s"]->mean, result.layouts[1].figures["rate_g_per_s"]->mean);
+  EXPECT_EQ(result.layouts[0].metrics["rate_g_per_s"]->mean, result.layouts[1].metrics["rate_g_per_s"]->mean);
   EXPECT_THAT(sweep_runs_csv(result), HasSubstr("same run as of layout 1"));
 }
 
@@ -224,7 +224,7 @@ vibrosow::Run recorded_run(const Model& model, const SimulationOptions& options)
   return run;
 }
 
-TEST(Sweep, ARecordLeavesItsFigures) {
+TEST(Sweep, ARecordLeavesItsMetrics) {
   const StudyFiles files;
   const Study study = read_study(files.study(
       "replicates = 3\n[set]\nseeds.weed = { diameter = \"4 mm\", mass = \"40 mg\", number_fraction = \"50 %\" }\n"
@@ -232,7 +232,7 @@ TEST(Sweep, ARecordLeavesItsFigures) {
       "tray.holes.count = 1\n"));
   const StudyResult result = sweep(study, recorded_run, with_jobs(2));
   ASSERT_EQ(result.layouts[0].bed.size(), 2u);
-  const BedFigures& end = result.layouts[0].bed[1];
+  const BedMetrics& end = result.layouts[0].bed[1];
   EXPECT_EQ(end.time, 1);
   // Of random seed k the second lot lies k cm above the first at 2 cm: S = k / (2 + k / 2), 0.4, 2/3 and 6/7.
   ASSERT_EQ(end.segregation.size(), 2u);

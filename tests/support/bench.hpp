@@ -27,29 +27,29 @@ inline Model with_step(const Model& model, double dt) {
   return prepare_with_step(model.scene, dt, model.effects);
 }
 
-inline constexpr Space both_spaces[] = {Space::plane, Space::three_dimensional};
+inline constexpr Space both_spaces[] = {Space::two_dimensional, Space::three_dimensional};
 
 /// Names the instances of a test that is made for both spaces.
 inline constexpr auto named_by_space = [](const auto& info) -> std::string {
-  return info.param == Space::plane ? "plane" : "space";
+  return info.param == Space::two_dimensional ? "plane" : "space";
 };
 
 // A grain's place, velocity and spin, whichever space it is in.
 inline Eigen::Vector3d place_of(const Grains& g, std::size_t i) {
-  return {g.x[i], g.y[i], g.in_space ? g.z[i] : 0};
+  return {g.x[i], g.y[i], g.is_3d ? g.z[i] : 0};
 }
 inline Eigen::Vector3d velocity_of(const Grains& g, std::size_t i) {
-  return {g.vx[i], g.vy[i], g.in_space ? g.vz[i] : 0};
+  return {g.vx[i], g.vy[i], g.is_3d ? g.vz[i] : 0};
 }
 inline Eigen::Vector3d turning_of(const Grains& g, std::size_t i) {
   if (!g.rotation) return Eigen::Vector3d::Zero();
-  if (!g.in_space) return {0, 0, g.omega[i]};
+  if (!g.is_3d) return {0, 0, g.omega[i]};
   const Vector3 spin = spin_of(g, i);
   return {spin.x, spin.y, spin.z};
 }
 inline void set_turning(Grains& g, std::size_t i, const Eigen::Vector3d& spin) {
   if (!g.rotation) return;
-  if (g.in_space)
+  if (g.is_3d)
     set_spin(g, i, {spin.x(), spin.y(), spin.z()});
   else
     g.omega[i] = spin.z();
@@ -57,8 +57,8 @@ inline void set_turning(Grains& g, std::size_t i, const Eigen::Vector3d& spin) {
 
 /// N, of its contacts.
 inline Eigen::Vector3d force_on(const Simulation& run, std::size_t i) {
-  if (!run.grains().in_space) return {run.field().forces()[i].fx, run.field().forces()[i].fy, 0};
-  const GrainVector& force = run.field().forces_in_space()[i];
+  if (!run.grains().is_3d) return {run.field().forces()[i].fx, run.field().forces()[i].fy, 0};
+  const GrainVector& force = run.field().forces_3d()[i];
   return {force.x, force.y, force.z};
 }
 
@@ -77,11 +77,11 @@ class Bench {
   Scene scene;
   Eigen::Vector2d gravity{0, 0};
 
-  explicit Bench(Space space = Space::plane) {
+  explicit Bench(Space space = Space::two_dimensional) {
     scene.title = "bench";
     scene.space = space;
     if (space == Space::three_dimensional) scene.tray.depth = 1;
-    scene.lots = {{"grain", 2 * radius, mass, space == Space::plane ? Shape::disc : Shape::ball, 1.0}};
+    scene.lots = {{"grain", 2 * radius, mass, space == Space::two_dimensional ? Shape::disc : Shape::ball, 1.0}};
     scene.contact.shell_compression = 1e-4;
     scene.tray.name = "tray";
     scene.tray.length = 1;

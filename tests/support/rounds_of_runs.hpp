@@ -29,9 +29,9 @@ std::int64_t lead_through_a_kill(const std::filesystem::path& folder, Asking kil
                                  const Simulator& simulator) {
   std::atomic<bool> interrupt = false;
   std::atomic<int> begun = 0;
-  MakingOptions making;
-  making.jobs = 1;
-  making.interrupt = &interrupt;
+  BatchOptions batch;
+  batch.jobs = 1;
+  batch.interrupt = &interrupt;
   const Simulator dying = [&](const Model& model, const SimulationOptions& options) {
     vibrosow::Run run = simulator(model, options);
     if (++begun == 37) interrupt = true, run.status = RunStatus::interrupted;
@@ -40,7 +40,7 @@ std::int64_t lead_through_a_kill(const std::filesystem::path& folder, Asking kil
   StudyRuns first(folder);
   killed.request_next_round();
   for (auto missing = killed.missing(); !missing.empty(); missing = killed.missing()) {
-    first.make(missing, dying, making);
+    first.make(missing, dying, batch);
     if (!killed.take(first.kept(), 1)) break;
     killed.request_next_round();
   }
@@ -50,7 +50,7 @@ std::int64_t lead_through_a_kill(const std::filesystem::path& folder, Asking kil
   StudyRuns second(folder);
   again.request_next_round();
   for (auto missing = again.missing(); !missing.empty(); missing = again.missing()) {
-    made += second.make(missing, simulator, making).made;
+    made += second.make(missing, simulator, batch).made;
     EXPECT_TRUE(again.take(second.kept(), 1));
     again.request_next_round();
   }

@@ -33,7 +33,7 @@ class DataTable {
 
 /// The name of what the same test reports in one space or the other.
 inline std::string report_in(Space space, const std::string& name) {
-  return space == Space::plane ? name : name + "_in_space";
+  return space == Space::two_dimensional ? name : name + "_in_space";
 }
 
 /// A report for plotting: written as NAME.csv into the directory that VIBROSOW_REPORTS names, or not at all.

@@ -55,14 +55,14 @@ HitWall hit_cone(Bench& bench, double azimuth) {
 
 /// A ball that comes down on a rigid wall without spin: in the plane on the floor, in space on a cone, up its slope.
 ImpactResult impact_on_wall(Bench& bench, double down, double along, double dt) {
-  const HitWall wall = bench.scene.space == Space::plane ? HitWall{} : hit_cone(bench, 0.7);
+  const HitWall wall = bench.scene.space == Space::two_dimensional ? HitWall{} : hit_cone(bench, 0.7);
   const ImpactResult impact = wall_impact(bench, down, along, dt, 0, 2.37, wall);
   EXPECT_LT(impact.aside, 1e-7 * (down + along)) << "it left its plane";
   return impact;
 }
 
 ImpactResult impact_on_its_like(Bench& bench, double speed, double dt) {
-  const bool plane = bench.scene.space == Space::plane;
+  const bool plane = bench.scene.space == Space::two_dimensional;
   const Eigen::Vector3d direction = plane ? Eigen::Vector3d(1, 0, 0) : Eigen::Vector3d(2, -3, 6) / 7;
   return head_on_impact(bench, speed, 0, dt, 2.37, direction);
 }
@@ -271,12 +271,12 @@ TEST_P(ChungOoi, StiffnessBehindTheSlowerImpactsOfTest5IsFound) {
 }
 
 /// Where a ball can be thrown at a wall in space: the box as it must be, and the wall hit.
-struct WallInSpace {
+struct Wall3d {
   std::string name;
   std::function<HitWall(Bench&)> place;
 };
 
-std::vector<WallInSpace> walls_in_space() {
+std::vector<Wall3d> walls_3d() {
   constexpr double turned = 0.7, tilt = 0.3;
   const double sine = std::sin(turned), cosine = std::cos(turned);
   return {
@@ -304,7 +304,7 @@ std::vector<WallInSpace> walls_in_space() {
 
 // In whichever plane of space the ball is thrown at whichever wall, it does what it does in the plane. Places of up to
 // a metre are rounded by 1e-16 m in each of some 500 steps, 2e-15 m in all, and overlaps are 3e-6 m and more.
-TEST(ChungOoiInSpace, ThePlaneOfTheImpactMakesNoDifference) {
+TEST(ChungOoi3d, ThePlaneOfTheImpactMakesNoDifference) {
   const Ball b = ball("4", "Al alloy");
   for (const double degrees : {5.0, 15.0, 40.0, 80.0}) {
     const double along = b.speed * std::sin(degrees * Bench::pi / 180),
@@ -314,8 +314,8 @@ TEST(ChungOoiInSpace, ThePlaneOfTheImpactMakesNoDifference) {
       const HitWall wall = place(bench);
       return wall_impact(bench, down, along, oblique_step(b, down), 0, 2.37, wall);
     };
-    const ImpactResult plane = thrown(Space::plane, [](Bench&) { return HitWall{}; });
-    for (const WallInSpace& wall : walls_in_space()) {
+    const ImpactResult plane = thrown(Space::two_dimensional, [](Bench&) { return HitWall{}; });
+    for (const Wall3d& wall : walls_3d()) {
       SCOPED_TRACE(testing::Message() << wall.name << " at " << degrees << " degrees");
       const ImpactResult space = thrown(Space::three_dimensional, wall.place);
       constexpr double rounding = 1e-9;

@@ -137,7 +137,7 @@ TEST(Clump, AnImpactOffCentreIsThatOfARigidBody) {
 // x n) J, J = (1 + e) u / (1/m + (r x n) I^-1 (r x n)).
 TEST(Clump, AnImpactOfAClumpOfBallsIsThatOfARigidBody) {
   VerificationReport report(
-      "clump_impact_in_space",
+      "clump_impact_3d",
       "a clump of balls falls on the floor with one ball, frictionless, turned at random; change of "
       "velocity and spin against the rigid body's",
       {"law", "clump", "turned", "restitution_asked", "restitution", "velocity_change_theory_m_per_s",
@@ -176,7 +176,7 @@ TEST(Clump, AnImpactOfAClumpOfBallsIsThatOfARigidBody) {
           std::int64_t touched = 0, free_steps = 0;
           while (free_steps < 10 && run.time() < 1e-3) {
             ASSERT_TRUE(run.step()) << *run.guard().stop_reason();
-            const bool pushed = run.field().forces_in_space()[0].y > 0;
+            const bool pushed = run.field().forces_3d()[0].y > 0;
             touched += pushed ? 1 : 0;
             free_steps = touched > 0 && !pushed ? free_steps + 1 : 0;
           }

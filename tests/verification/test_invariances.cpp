@@ -48,7 +48,7 @@ HarmonicMotion& motion_of(Scene& scene) {
 /// In space the floor is smaller, so that as many grains lie in layers, and oblong, so that along and across differ.
 /// The walls' distances from x = 0 and z = 0 stay between two powers of two while the tray swings: opposite walls are
 /// then rounded alike.
-void put_in_space(Scene& scene, const Case& c, Plan plan) {
+void put_3d(Scene& scene, const Case& c, Plan plan) {
   scene.space = Space::three_dimensional;
   scene.lots[1].shape = Shape::ball;
   if (c.rolling != Rolling::none) scene.contact.seed.twisting_friction = scene.contact.wall.twisting_friction = 0.05;
@@ -66,7 +66,7 @@ void put_in_space(Scene& scene, const Case& c, Plan plan) {
 Scene scene_of(const Case& c, Space space, Plan plan = Plan::rectangle) {
   Scene scene;
   scene.lots = {{"big", 8e-3, 6e-4, Shape::ball, 0.6}, {"small", 5e-3, 1.5e-4, Shape::disc, 0.4}};
-  if (c.clumps) make_clump(scene.lots[0], space == Space::plane ? dipole(5e-3, 3e-3) : one_handed(), space);
+  if (c.clumps) make_clump(scene.lots[0], space == Space::two_dimensional ? dipole(5e-3, 3e-3) : one_handed(), space);
   Contact& contact = scene.contact;
   contact.law = c.law;
   contact.shell_compression = 1e-3;
@@ -85,7 +85,7 @@ Scene scene_of(const Case& c, Space space, Plan plan = Plan::rectangle) {
   scene.tray.fill = Fill{60, Packing::poured, 1e-3, false};
   scene.tray.motion = HarmonicMotion{0, 4e-3, 12, 0};
   scene.run.duration = 1;
-  if (space == Space::three_dimensional) put_in_space(scene, c, plan);
+  if (space == Space::three_dimensional) put_3d(scene, c, plan);
   return scene;
 }
 
@@ -126,9 +126,9 @@ struct View {
       const Eigen::Vector3d at = axes * place_of(g, i) + shift, velocity = axes * velocity_of(g, i);
       set_turning(g, i, handed * (axes * turning_of(g, i)));
       g.x[i] = at.x(), g.y[i] = at.y(), g.vx[i] = velocity.x(), g.vy[i] = velocity.y();
-      if (g.in_space) g.z[i] = at.z(), g.vz[i] = velocity.z();
+      if (g.is_3d) g.z[i] = at.z(), g.vz[i] = velocity.z();
       if (!g.oriented) continue;
-      if (!g.in_space) {
+      if (!g.is_3d) {
         g.angle[i] = handed * g.angle[i] + std::atan2(turn(1, 0), turn(0, 0));
         continue;
       }
@@ -312,8 +312,8 @@ Grains numbered_backwards(const Grains& g) {
   other.remove_flagged(std::vector<char>(g.size(), 1));
   for (std::size_t k = g.size(); k-- > 0;) {
     Turn turned;
-    if (g.oriented && g.in_space) turned.orientation = g.orientation(k);
-    if (g.oriented && !g.in_space) turned.angle = g.angle[k];
+    if (g.oriented && g.is_3d) turned.orientation = g.orientation(k);
+    if (g.oriented && !g.is_3d) turned.angle = g.angle[k];
     other.add(place_of(g, k), velocity_of(g, k), g.lot[k], g.kind(k), turned);
     set_turning(other, other.size() - 1, turning_of(g, k));
   }

@@ -153,7 +153,7 @@ struct Springs {
 
 /// m r^2 / 2 or 2 m r^2 / 5
 double inertia_in(Space space) {
-  return (space == Space::plane ? 0.5 : 0.4) * Bench::mass * Bench::radius * Bench::radius;
+  return (space == Space::two_dimensional ? 0.5 : 0.4) * Bench::mass * Bench::radius * Bench::radius;
 }
 
 /// A grain that never leaves a floor shaken up and down, with drag and normal damping. In space the floor leans, and
@@ -169,10 +169,10 @@ struct SmoothProblem {
     const double weight = Bench::mass * standard_gravity;
     return law == Law::elastic_shell ? Springs::eps : std::pow(weight / springs().hertz(), 2.0 / 3);
   }
-  double tilt() const { return space == Space::plane ? 0 : 0.3; }
+  double tilt() const { return space == Space::two_dimensional ? 0 : 0.3; }
   /// Beside x = 0 and y = 0, where places are rounded least.
   HitWall floor() const {
-    if (space == Space::plane) return {};
+    if (space == Space::two_dimensional) return {};
     const Eigen::Vector3d up(-std::sin(tilt()), std::cos(tilt()), 0), along(up.y(), -up.x(), 0);
     return {1.5 * Bench::radius * along + Eigen::Vector3d(0, 0, 0.5), up, along};
   }
@@ -239,11 +239,11 @@ struct StuckProblem {
 
   static constexpr double duration = 0.02, tangent = 0.1, drag = 0.02;
 
-  SmoothProblem normal() const { return {law, Space::plane}; }
-  double height() const { return Bench::radius - 0.9 * normal().resting(); }  // m
-  double across() const { return space == Space::plane ? 0 : 0.02; }          // m/s
-  Eigen::Vector3d spin() const {                                              // rad/s
-    return space == Space::plane ? Eigen::Vector3d(0, 0, 0) : Eigen::Vector3d(across() / height(), 40, 0);
+  SmoothProblem normal() const { return {law, Space::two_dimensional}; }
+  double height() const { return Bench::radius - 0.9 * normal().resting(); }    // m
+  double across() const { return space == Space::two_dimensional ? 0 : 0.02; }  // m/s
+  Eigen::Vector3d spin() const {                                                // rad/s
+    return space == Space::two_dimensional ? Eigen::Vector3d(0, 0, 0) : Eigen::Vector3d(across() / height(), 40, 0);
   }
 
   Bench bench() const {
@@ -321,11 +321,11 @@ struct TurningPair {
   Springs springs() const { return {law, false}; }
   bool holds() const { return friction == FrictionModel::spring; }
   Eigen::Vector3d apart() const {  // m, from the one to the other
-    const Eigen::Vector3d direction(2, -3, space == Space::plane ? 0 : 6);
+    const Eigen::Vector3d direction(2, -3, space == Space::two_dimensional ? 0 : 6);
     return (2 * Bench::radius - 2e-4) * direction.normalized();
   }
   Eigen::Vector3d spin() const {  // rad/s, of each
-    return space == Space::plane ? Eigen::Vector3d(0, 0, 40) : Eigen::Vector3d(20, 30, -15);
+    return space == Space::two_dimensional ? Eigen::Vector3d(0, 0, 40) : Eigen::Vector3d(20, 30, -15);
   }
   /// m/s; of surfaces that roll, or besides slide.
   Eigen::Vector3d parting() const { return 0.01 * apart().normalized() + (holds() ? 1 : 0.7) * spin().cross(apart()); }
@@ -403,7 +403,7 @@ TEST_P(Order, OfTwoGrainsThatTurnAboutEachOther) {
 
 /// A wall that lies anyhow: in the plane the floor, in space a floor that leans, hit in a plane turned from x and y.
 HitWall hit_anywhere(Bench& bench) {
-  if (bench.scene.space == Space::plane) return {};
+  if (bench.scene.space == Space::two_dimensional) return {};
   constexpr double tilt = 0.3, turned = 0.7;
   bench.scene.tray.tilt = tilt;
   const Eigen::Vector3d up(-std::sin(tilt), std::cos(tilt), 0), slope(up.y(), -up.x(), 0);
@@ -489,7 +489,7 @@ TEST_P(Order, AcrossAnObliqueImpactWithDampingAndASpring) {
       for (const int steps : {25, 50, 100, 200, 400, 800}) {
         const double error = oblique_error(law, integrator, GetParam(), steps, fine);
         if (GetParam() == Space::three_dimensional) {
-          EXPECT_NEAR(error, oblique_error(law, integrator, Space::plane, steps, fine), 1e-10) << steps;
+          EXPECT_NEAR(error, oblique_error(law, integrator, Space::two_dimensional, steps, fine), 1e-10) << steps;
         }
         runs.steps.push_back(steps), runs.error.push_back(error);
       }

@@ -183,10 +183,10 @@ TEST(Motion, TurningUprightIsRigidAboutItsAxis) {
                     1e-8);
         EXPECT_LE(point_velocity(vessel, pose, path.rate(t), at(t)).norm(), motion_bounds(vessel).speed * (1 + 1e-12));
       }
-      EXPECT_NEAR(spin_in_space(vessel, pose, path.rate(t)).norm(), std::abs(path.rate(t).turn_rate), 1e-15);
+      EXPECT_NEAR(spin_3d(vessel, pose, path.rate(t)).norm(), std::abs(path.rate(t).turn_rate), 1e-15);
     }
     // x towards z: seen along y its spin is negative.
-    EXPECT_LT(spin_in_space(vessel, path.pose(0.5), path.rate(0.5)).y(), -2.9);
+    EXPECT_LT(spin_3d(vessel, path.pose(0.5), path.rate(0.5)).y(), -2.9);
     EXPECT_GE(motion_bounds(vessel).speed, 3 * 0.25);
     EXPECT_NEAR(motion_bounds(vessel).vertical_acceleration, std::sin(tilt) * motion_bounds(vessel).acceleration,
                 1e-15);
@@ -277,8 +277,8 @@ struct Standing {
 };
 
 Eigen::Vector3d torque_on(const Simulation& run, std::size_t i) {
-  if (!run.grains().in_space) return {0, 0, run.field().forces()[i].torque};
-  const GrainVector& torque = run.field().torques_in_space()[i];
+  if (!run.grains().is_3d) return {0, 0, run.field().forces()[i].torque};
+  const GrainVector& torque = run.field().torques_3d()[i];
   return {torque.x, torque.y, torque.z};
 }
 
@@ -298,7 +298,7 @@ void expect_pushed_as_at_rest(Space space, const VesselMotion& motion, const Sta
   const Pose pose = path.pose(0);
   const PoseRate rate = path.rate(0);
   const Eigen::Vector3d at = point_in_lab(tray, pose, standing.point + (Bench::radius - overlap) * standing.out);
-  const Eigen::Vector3d velocity = point_velocity(tray, pose, rate, at), spin = spin_in_space(tray, pose, rate);
+  const Eigen::Vector3d velocity = point_velocity(tray, pose, rate, at), spin = spin_3d(tray, pose, rate);
   const Eigen::Vector3d expected = stiffness * overlap * direction_in_lab(tray, pose, standing.out);
   bench.place(at, velocity, spin);
   EXPECT_LT((force_on(bench.start(1e-9), 0) - expected).norm(), 1e-6 * expected.norm());
@@ -317,7 +317,7 @@ TEST(Motion, AGrainThatGoesAlongWithAnyWallOfATurningVesselIsPushedAsAtRest) {
                                    {{1, 0.3, 0.4}, -right}};
     if (space == Space::three_dimensional) walls.insert(walls.end(), {{{0.7, 0.3, 0}, back}, {{0.3, 0.8, 1}, -back}});
     for (std::size_t k = 0; k < walls.size(); ++k) {
-      SCOPED_TRACE(testing::Message() << (space == Space::plane ? "plane" : "space") << ", wall " << k);
+      SCOPED_TRACE(testing::Message() << (space == Space::two_dimensional ? "plane" : "space") << ", wall " << k);
       expect_pushed_as_at_rest(space, RockingMotion{{0.1, -0.2}, 0.05, 5}, walls[k]);
       expect_pushed_as_at_rest(space, TurningMotion{{0.1, -0.2}, 2}, walls[k]);
       if (space == Space::three_dimensional)

@@ -121,7 +121,7 @@ const mixedScene = {
   hopper: null, numerics: { accuracy: 'draft', ...numerics }, guard, run: { duration_s: 2, measure_from_s: 0, count_below_m: 0.02, start: 'at-rest' },
 };
 
-export const whyNotInSpace = 'A tray in space takes some fifty times as long as a page can give.';
+export const whyNot3d = 'A tray in space takes some fifty times as long as a page can give.';
 
 /** `names` may replace texts: { title, lot }. */
 export function madeUpStudio(names = {}) {
@@ -131,7 +131,7 @@ export function madeUpStudio(names = {}) {
     kind: 'studio', program: { name: 'vibrosow', version: '0.2.0' }, opened: 'wheat-tray',
     seeders: [
       wheat, { name: 'two-lots', title: mixedScene.title, toml: mixedText, crop: '', space: 'plane', live: true, why_not: '', scene: mixedScene },
-      { name: 'wheat-tray-3d', title: 'Wheat tray in space', toml: '', crop: 'wheat', space: 'three_dimensional', live: false, why_not: whyNotInSpace, scene: {} },
+      { name: 'wheat-tray-3d', title: 'Wheat tray in space', toml: '', crop: 'wheat', space: 'three_dimensional', live: false, why_not: whyNot3d, scene: {} },
     ],
     crops: [
       { name: 'wheat', title: 'Wheat', diameter_m: 0.00357, toml: { seeds: { wheat: { crop: 'wheat' } }, contact: { model: 'wheat-steel' } }, lots: [wheatLot], contact },

@@ -9,7 +9,7 @@ import { deflateRawSync } from 'node:zlib';
 import { layoutOf, moveHole } from '../../web/studio/layout.mjs';
 import { fragmentOf } from '../../web/studio/link.mjs';
 import * as in_ from './browser.mjs';
-import { fillStudio, madeUpStudio, studioTemplate, whyNotInSpace } from './made_up_studio.mjs';
+import { fillStudio, madeUpStudio, studioTemplate, whyNot3d } from './made_up_studio.mjs';
 
 const { parse } = createRequire(new URL('../../web/package.json', import.meta.url))('smol-toml');
 const hostile = '</script><img src=x onerror=alert(1)>';
@@ -312,7 +312,7 @@ test('seeders in space are listed with what keeps them from running', () => with
   const options = bench(page).getByRole('combobox', { name: 'Seeder' }).locator('optgroup');
   assert.deepEqual(await options.evaluateAll((groups) => groups.map((group) => [group.label, group.disabled])), [['In 3D: shown as recorded runs', true]]);
   await page.getByText('Seeders that are not simulated here').click();
-  await page.getByText(whyNotInSpace).waitFor();
+  await page.getByText(whyNot3d).waitFor();
 }));
 
 test('a program that opens a seeder in space is told so', () => withStudio({}, async (page) => {

@@ -81,7 +81,7 @@ EMSCRIPTEN_KEEPALIVE const char* open_scene(const char* json, unsigned random_se
   return text_of(text, [&] {
     simulation.reset();
     const Scene scene = scene_from_json(json);
-    if (scene.space != Space::plane) throw std::invalid_argument("a page simulates in the plane alone");
+    if (scene.space != Space::two_dimensional) throw std::invalid_argument("a page simulates in the plane alone");
     simulation.emplace(prepare_to_run(scene), random_seed);
     return page_text(opened());
   });
@@ -133,7 +133,7 @@ EMSCRIPTEN_KEEPALIVE const char* outcome() {
   return text_of(text, [] {
     const Run run = simulation->result();
     const Outflow outflow = measure_outflow(simulation->model().scene, run);
-    const std::optional<DrillFigures> drill;
+    const std::optional<DrillMetrics> drill;
     const std::string expected;  // of trays in space alone
     return run_page_data({simulation->model(), run, outflow, drill, expected});
   });
