@@ -8,6 +8,7 @@
 #include <set>
 #include <sstream>
 #include <string>
+#include <string_view>
 #include <system_error>
 #include <utility>
 #include <vector>
@@ -58,11 +59,24 @@ std::string line_that_goes_on(const CLI::App& command, std::vector<std::string> 
   return keep_their_runs.contains(name) && !is_given(command, "--budget") ? typed_line(words) : "";
 }
 
-/// Names that commands had, with a hint.
+struct RenamedOption {
+  std::string_view command, was, now;
+};
+constexpr RenamedOption renamed_options[] = {{"work", "--bundle", "--shard"}, {"submit", "--bundles", "--shards"}};
+
+/// Takes names that commands and options had for those of today, with a hint.
 std::vector<std::string> renamed(std::vector<std::string> words) {
-  if (words.empty() || words.front() != "new") return words;
-  complain("\"new\" is called new-crop now");
-  words.front() = "new-crop";
+  const auto rename = [](std::string& word, std::string_view was, std::string_view now) {
+    complain(fmt::format("\"{}\" is called {} now", was, now));
+    word.replace(0, was.size(), now);
+  };
+  if (words.empty()) return words;
+  if (words.front() == "new") rename(words.front(), "new", "new-crop");
+  for (const RenamedOption& option : renamed_options) {
+    if (words.front() != option.command) continue;
+    for (std::string& word : words)
+      if (word.substr(0, word.find('=')) == option.was) rename(word, option.was, option.now);
+  }
   return words;
 }
 

@@ -42,7 +42,7 @@ bool make_again(std::vector<Rerun>& all, const CommonOptions& options) {
   for (const Rerun& one : all) jobs.push_back({&one.model, one.kept.random_seed});
   const Simulator recorded = [&](const Model& model, SimulationOptions simulation) {
     Rerun& one = *std::ranges::find(all, &model, [](const Rerun& again) { return &again.model; });
-    simulation.looks = one.recording.looks();
+    simulation.observers = one.recording.observers();
     return one.run = run_model(model, simulation);
   };
   complain(fmt::format("no recording of a study's runs is kept: {} {} made again for the replays", all.size(),

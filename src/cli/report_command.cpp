@@ -44,7 +44,7 @@ std::string recording_of_rerun(const Json& data, const CommonOptions& options) {
   SimulationOptions simulation;
   simulation.random_seed = seed_number(data.at("random_seed"));
   simulation.interrupt = &watch_for_interrupt();
-  simulation.looks = recording.looks();
+  simulation.observers = recording.observers();
   Progress progress(text_unless(options.quiet), static_cast<double>(model.step.steps), "steps");
   simulation.progress = [&](double fraction) { progress.update(fraction); };
   const Run run = run_model(model, simulation);

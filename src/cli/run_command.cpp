@@ -227,7 +227,7 @@ int run_scene(const RunOptions& options) {
   if (options.resume) simulation.from = checkpoint.read(model, options.random_seed);
   if (recorded.wanted()) simulation.on_record = [&](Simulation& now) { recorded.note(now); };
   Recording recording(model);
-  if (options.html) simulation.looks = recording.looks();
+  if (options.html) simulation.observers = recording.observers();
   Run run;
   {
     Progress progress(text_unless(options.quiet), static_cast<double>(model.step.steps), "steps");

@@ -31,7 +31,7 @@ namespace fs = std::filesystem;
 struct SubmitOptions {
   CommonOptions common;
   std::string time, partition;
-  std::size_t bundles = 0;  // 0: by predicted cost
+  std::size_t shards = 0;  // 0: by predicted cost
   int array_limit = 0;      // 0: none
   bool dry_run = false, rounds = false;
 };
@@ -82,12 +82,12 @@ double margin_of(double time) {
 }
 
 /// As many that each takes 10 to 60 minutes, well within a job's time.
-std::size_t bundles_of(const SubmitOptions& options, const PlannedStudy& planned, double time) {
+std::size_t shards_of(const SubmitOptions& options, const PlannedStudy& planned, double time) {
   const std::size_t most = planned.plan.runs.size();
-  if (options.bundles > 0) return std::min(options.bundles, most);
+  if (options.shards > 0) return std::min(options.shards, most);
   const double target = std::min(std::clamp(0.6 * time, 600.0, 3600.0), time - margin_of(time));
-  const double bundles = std::ceil(predict_seconds(planned.study) / target);
-  return static_cast<std::size_t>(std::clamp(bundles, 1.0, static_cast<double>(most)));
+  const double shards = std::ceil(predict_seconds(planned.study) / target);
+  return static_cast<std::size_t>(std::clamp(shards, 1.0, static_cast<double>(most)));
 }
 
 std::string directive(const std::string& option) {
@@ -124,18 +124,18 @@ std::string program() {
   return shell_quoted(fs::read_symlink("/proc/self/exe").string());
 }
 
-std::string array_script(const SubmitOptions& options, const Frozen& frozen, std::size_t bundles, double time) {
+std::string array_script(const SubmitOptions& options, const Frozen& frozen, std::size_t shards, double time) {
   const double margin = margin_of(time);
   std::string text = script_head(options, frozen, "vibrosow", "%A_%a.out");
   text += directive(
-      fmt::format("--array=1-{}{}", bundles, options.array_limit > 0 ? fmt::format("%{}", options.array_limit) : ""));
+      fmt::format("--array=1-{}{}", shards, options.array_limit > 0 ? fmt::format("%{}", options.array_limit) : ""));
   text += time_directive(time);
   text += directive(fmt::format("--signal=B:TERM@{:.0f}", margin));
   text += directive("--requeue");
   return text + fmt::format(
-                    "exec {} work {} --plan {} --bundle \"$SLURM_ARRAY_TASK_ID/{}\" --time-limit \"{:.0f} s\" "
+                    "exec {} work {} --plan {} --shard \"$SLURM_ARRAY_TASK_ID/{}\" --time-limit \"{:.0f} s\" "
                     "--requeue\n",
-                    program(), shell_quoted(frozen.folder.string()), frozen.name, bundles, time - margin);
+                    program(), shell_quoted(frozen.folder.string()), frozen.name, shards, time - margin);
 }
 
 std::string export_script(const SubmitOptions& options, const Frozen& frozen, double time) {
@@ -148,7 +148,7 @@ std::string controller_script(const SubmitOptions& options, const Frozen& frozen
   std::string words;
   if (!options.partition.empty()) words += " --partition " + shell_quoted(options.partition);
   if (options.array_limit > 0) words += fmt::format(" --array-limit {}", options.array_limit);
-  if (options.bundles > 0) words += fmt::format(" --bundles {}", options.bundles);
+  if (options.shards > 0) words += fmt::format(" --shards {}", options.shards);
   return script_head(options, frozen, "vibrosow-rounds", "%j.out") +
          fmt::format("exec {} submit {} --time {} --rounds{}\n", program(), shell_quoted(frozen.folder.string()),
                      shell_quoted(options.time), words);
@@ -167,8 +167,8 @@ int submit_rounds(const SubmitOptions& options, double time) {
   Frozen frozen = freeze(options);
   StudyRuns runs(cases_of(frozen.folder));
   while (true) {
-    const std::size_t bundles = bundles_of(options, frozen.planned, time);
-    submit_to_slurm(write_script(frozen, ".sbatch", array_script(options, frozen, bundles, time)), {"--wait"});
+    const std::size_t shards = shards_of(options, frozen.planned, time);
+    submit_to_slurm(write_script(frozen, ".sbatch", array_script(options, frozen, shards, time)), {"--wait"});
     std::optional<PlannedStudy> next = next_round(frozen.planned, runs.kept(), 1);
     if (!next) break;
     frozen.planned = std::move(*next);
@@ -195,8 +195,8 @@ int submit(const SubmitOptions& options) {
             submit_to_slurm(write_script(frozen, ".rounds.sbatch", script), {}), frozen.folder.string());
     return exit_done;
   }
-  const std::size_t bundles = bundles_of(options, frozen.planned, time);
-  const std::string array = array_script(options, frozen, bundles, time), after = export_script(options, frozen, time);
+  const std::size_t shards = shards_of(options, frozen.planned, time);
+  const std::string array = array_script(options, frozen, shards, time), after = export_script(options, frozen, time);
   if (options.dry_run) {
     print("{}\n{}", array, after);
     return exit_done;
@@ -204,7 +204,7 @@ int submit(const SubmitOptions& options) {
   const std::string job = submit_to_slurm(write_script(frozen, ".sbatch", array), {});
   const std::string export_job =
       submit_to_slurm(write_script(frozen, ".export.sbatch", after), {"--dependency=afterany:" + job});
-  print("job {}: {} bundles of {} runs; job {} makes the reports\n", job, bundles, frozen.planned.plan.runs.size(),
+  print("job {}: {} shards of {} runs; job {} makes the reports\n", job, shards, frozen.planned.plan.runs.size(),
         export_job);
   print("vibrosow status {}\n", frozen.folder.string());
   return exit_done;
@@ -215,13 +215,13 @@ int submit(const SubmitOptions& options) {
 void add_submit_command(CLI::App& app, int& exit_code) {
   auto options = std::make_shared<SubmitOptions>();
   CLI::App* command =
-      app.add_subcommand("submit", "run a sweep on a Slurm cluster, in bundles, then write its reports");
+      app.add_subcommand("submit", "run a sweep on a Slurm cluster, in shards, then write its reports");
   add_input_options(*command, options->common, "study file (.toml), or the folder of one that is begun");
   command->add_option("--out", options->common.out, "directory for the reports; default out/ and the file's name")
       ->type_name("DIR");
   add_random_seed_option(*command, options->common);
   command->add_option("--time", options->time, "time limit of a job, such as \"1 h\"")->type_name("TIME")->required();
-  command->add_option("--bundles", options->bundles, "number of jobs in the array; default: jobs of 10 to 60 minutes")
+  command->add_option("--shards", options->shards, "number of jobs in the array; default: jobs of 10 to 60 minutes")
       ->type_name("N")
       ->check(CLI::Range(1, 100000));
   command->add_option("--partition", options->partition, "of Slurm")->type_name("NAME");
@@ -232,7 +232,7 @@ void add_submit_command(CLI::App& app, int& exit_code) {
       ->group("");
   command->add_flag("--dry-run", options->dry_run, "print the scripts and submit nothing");
   add_examples(*command, {"vibrosow submit wheat-demo --time \"1 h\" --dry-run --out there",
-                          "vibrosow submit wheat-demo --time \"1 h\" --bundles 4 --dry-run --out there",
+                          "vibrosow submit wheat-demo --time \"1 h\" --shards 4 --dry-run --out there",
                           "vibrosow submit wheat-demo --time \"1 h\" --partition short --dry-run --out q"});
   command->callback([options, &exit_code] { exit_code = submit(*options); });
 }

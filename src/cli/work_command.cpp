@@ -21,34 +21,34 @@ namespace vibrosow {
 namespace {
 
 struct WorkOptions {
-  std::string folder, plan, bundle = "1/1";
+  std::string folder, plan, shard = "1/1";
   BatchFlags batch;
   int jobs = 1;
   bool quiet = false, requeue = false;
 };
 
 /// "17/200".
-std::pair<std::size_t, std::size_t> bundle_numbers(const std::string& text) {
-  std::size_t number = 0, bundles = 0;
+std::pair<std::size_t, std::size_t> shard_numbers(const std::string& text) {
+  std::size_t number = 0, shards = 0;
   const char *const begin = text.data(), *const end = begin + text.size();
   const auto [slash, none] = std::from_chars(begin, end, number);
   if (none == std::errc{} && slash != end && *slash == '/') {
-    const auto [last, error] = std::from_chars(slash + 1, end, bundles);
-    if (error == std::errc{} && last == end && 1 <= number && number <= bundles && bundles <= 1000000)
-      return {number, bundles};
+    const auto [last, error] = std::from_chars(slash + 1, end, shards);
+    if (error == std::errc{} && last == end && 1 <= number && number <= shards && shards <= 1000000)
+      return {number, shards};
   }
-  throw InputError(fmt::format("--bundle: \"{}\" is no share such as 17/200", shortened(text)));
+  throw InputError(fmt::format("--shard: \"{}\" is no share such as 17/200", shortened(text)));
 }
 
 int work(const WorkOptions& options) {
-  const auto [number, bundles] = bundle_numbers(options.bundle);
+  const auto [number, shards] = shard_numbers(options.shard);
   const PlannedStudy planned = study_of_plan(read_plan(options.folder, options.plan));
   StudyRuns runs(cases_of(options.folder));
-  const BatchResult made = make_runs(runs, wanted_runs(planned, bundle_of(planned.plan, number, bundles)),
+  const BatchResult made = make_runs(runs, wanted_runs(planned, shard_of(planned.plan, number, shards)),
                                      options.batch, options.jobs, options.quiet);
   const BatchSummary& batch = made.batch;
   if (!options.quiet)
-    print("bundle {}/{}: {} runs made, {} were there, {} left\n", number, bundles, batch.made, batch.there,
+    print("shard {}/{}: {} runs made, {} were there, {} left\n", number, shards, batch.made, batch.there,
           batch.interrupted);
   if (!runs.not_kept().empty()) throw InputError("runs are not kept: " + runs.not_kept());
   if (batch.interrupted == 0) return exit_done;
@@ -67,7 +67,7 @@ void add_work_command(CLI::App& app, int& exit_code) {
   CLI::App* command =
       app.add_subcommand("work", "make the runs of a sweep's plan, or a share of them, without reports");
   command->add_option("FOLDER", options->folder, "of the sweep")->required();
-  command->add_option("--bundle", options->bundle, "share of the runs: 17/200 is the 17th of 200 shares of equal cost")
+  command->add_option("--shard", options->shard, "share of the runs: 17/200 is the 17th of 200 shares of equal cost")
       ->type_name("K/N");
   command->add_option("--plan", options->plan, "an older plan of the folder, by its name")->type_name("NAME");
   command->add_option("--time-limit", options->batch.time_limit, "clock time after which unfinished runs are saved")
@@ -79,7 +79,7 @@ void add_work_command(CLI::App& app, int& exit_code) {
   add_making_flags(*command, options->batch);
   command->add_flag("--requeue", options->requeue, "under Slurm: queue this job again while its share is unfinished");
   command->add_flag("--quiet", options->quiet, "no progress and no summary");
-  add_examples(*command, {"vibrosow work there --bundle 1/2", "vibrosow work there --bundle 2/2 --jobs 2",
+  add_examples(*command, {"vibrosow work there --shard 1/2", "vibrosow work there --shard 2/2 --jobs 2",
                           "vibrosow work there --time-limit \"1 min\""});
   command->callback([options, &exit_code] { exit_code = work(*options); });
 }

@@ -207,6 +207,13 @@ void refuse_missing_lot(Table root, const Scene& scene) {
   source.fail(!filled ? "rate" : source.has("height") ? "height" : "count", missing->message);
 }
 
+/// "plane" is an older word for "2d".
+Space read_space(Table& root) {
+  if (root.text("space") == "plane") return Space::two_dimensional;
+  constexpr Space spaces[] = {Space::two_dimensional, Space::three_dimensional};
+  return spaces[root.choice("space", {"2d", "3d"}).value_or(0)];
+}
+
 /// In its own space, or in the one that is wanted.
 Seeder read_seeder_in(std::optional<Space> wanted, const std::filesystem::path& file,
                       const std::vector<Override>& overrides, const std::shared_ptr<SourceFiles>& files) {
@@ -216,8 +223,7 @@ Seeder read_seeder_in(std::optional<Space> wanted, const std::filesystem::path& 
   Seeder seeder;
   Scene& scene = seeder.scene;
   scene.title = printable(root.text("title").value_or(file.stem().string()));
-  constexpr Space spaces[] = {Space::two_dimensional, Space::three_dimensional};
-  const Space own = spaces[root.choice("space", {"plane", "3d"}).value_or(0)];
+  const Space own = read_space(root);
   scene.space = wanted.value_or(own);
   Table seeds = root.required_table("seeds");
   scene.lots = read_lots(seeds, scene.space);

@@ -106,7 +106,7 @@ Recording::Recording(const Model& model)
                                         : 1 / counts_per_one);
 }
 
-std::vector<Look> Recording::looks() {
+std::vector<Observer> Recording::observers() {
   return {{frame_interval_, [this](Simulation& now) { add(now); }},
           {map_interval(window_), [this](Simulation& now) { add_to_map(now); }}};
 }

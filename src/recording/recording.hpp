@@ -22,7 +22,7 @@ class Recording {
   explicit Recording(const Model& model);
 
   /// What a run does for it (SimulationOptions::looks); they are called while the recording lives.
-  std::vector<Look> looks();
+  std::vector<Observer> observers();
 
   /// Appends the grains and vessels as they are now; a second frame of one time is left out.
   void add(Simulation& simulation);

@@ -17,7 +17,7 @@ ThinnedRecording::ThinnedRecording(const Model& model) : frame_interval_(frame_i
     parts_.push_back({every, Recording(model)}), parts_.push_back({every + every / 2, Recording(model)});
 }
 
-std::vector<Look> ThinnedRecording::looks() {
+std::vector<Observer> ThinnedRecording::observers() {
   return {{frame_interval_, [this](Simulation& now) { add(now); }}};
 }
 

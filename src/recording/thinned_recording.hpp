@@ -16,7 +16,7 @@ class ThinnedRecording {
 
   /// As `Recording::looks`, but for the maps, which are left out. The first frame, and the one of the run's end, are in
   /// every part.
-  std::vector<Look> looks();
+  std::vector<Observer> observers();
   void add(Simulation& simulation);
 
   /// The one with the most frames of those whose file takes at most so many bytes; empty where none does.

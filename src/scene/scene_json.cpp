@@ -614,7 +614,7 @@ template <class Io>
 void fields(Io& io, Scene& scene) {
   io.used("title", scene.title, {}, false);
   range(io, printable(scene.title) == scene.title, "title", "has control characters");
-  io.used_choice("space", scene.space, {"plane", "3d"}, Space::two_dimensional);
+  io.used_choice("space", scene.space, {"2d", "3d"}, Space::two_dimensional);
   io.value("lots", scene.lots);
   check(io, !scene.lots.empty(), "lots", "is empty");
   io.value("contact", scene.contact);

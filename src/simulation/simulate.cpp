@@ -36,7 +36,7 @@ Run run_to_end(Simulation& simulation, const SimulationOptions& options) {
   const Model& model = simulation.model();
   const auto checkpoint = [&](const Simulation& now) { options.on_checkpoint(now.state()); };
   if (options.on_checkpoint && options.checkpoint_every > 0) simulation.watch(options.checkpoint_every, checkpoint);
-  for (const Look& look : options.looks) look.look(simulation), simulation.watch(look.every, look.look);
+  for (const Observer& one : options.observers) one.observe(simulation), simulation.watch(one.every, one.observe);
   std::size_t recorded = 0;
   const auto look_at_records = [&] {
     const std::size_t snapshots = simulation.state().run.snapshots.size();
@@ -60,7 +60,7 @@ Run run_to_end(Simulation& simulation, const SimulationOptions& options) {
       options.progress(static_cast<double>(simulation.state().step) / static_cast<double>(model.step.steps));
   }
   look_at_records();  // of a step that ended the run
-  for (const Look& look : options.looks) look.look(simulation);
+  for (const Observer& one : options.observers) one.observe(simulation);
   if (interrupted && options.on_checkpoint) checkpoint(simulation);
   Run run = simulation.result();
   if (interrupted) run.status = RunStatus::interrupted, run.goes_on = false;

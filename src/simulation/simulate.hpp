@@ -16,9 +16,9 @@ namespace vibrosow {
 class Simulation;
 
 /// Called at a run's beginning, then every so often (s, simulated), and at its end.
-struct Look {
+struct Observer {
   double every;
-  std::function<void(Simulation&)> look;
+  std::function<void(Simulation&)> observe;
 };
 
 struct SimulationOptions {
@@ -29,7 +29,7 @@ struct SimulationOptions {
                                                  // neighbours are sought; true ends the run as interrupted
   std::function<void(double fraction_done)> progress{};  // called now and then with 0..1, in the simulating thread
 
-  std::vector<Look> looks{};                     // none of them changes the run
+  std::vector<Observer> observers{};                     // none of them changes the run
   std::function<void(Simulation&)> on_record{};  // where snapshots were just taken
 
   std::optional<SimulationState> from{};                        // to go on from; none: the scene's start

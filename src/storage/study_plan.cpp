@@ -162,13 +162,13 @@ StudyPlan read_plan(const fs::path& folder, std::string name) {
   throw InputError(fmt::format("{}: is damaged, or was not written by vibrosow", path.string()));
 }
 
-std::vector<std::size_t> bundle_of(const StudyPlan& plan, std::size_t number, std::size_t bundles) {
+std::vector<std::size_t> shard_of(const StudyPlan& plan, std::size_t number, std::size_t shards) {
   std::vector<std::size_t> by_descending_cost(plan.runs.size());
   std::iota(by_descending_cost.begin(), by_descending_cost.end(), std::size_t{0});
   std::ranges::stable_sort(by_descending_cost, std::greater{}, [&](std::size_t k) { return plan.runs[k].grain_steps; });
   using Share = std::pair<double, std::size_t>;  // its cost so far, its number
   std::priority_queue<Share, std::vector<Share>, std::greater<>> shares;
-  for (std::size_t share = 1; share <= bundles; ++share) shares.emplace(0, share);
+  for (std::size_t share = 1; share <= shards; ++share) shares.emplace(0, share);
   std::vector<std::size_t> mine;
   for (const std::size_t run : by_descending_cost) {
     const auto [cost, share] = shares.top();

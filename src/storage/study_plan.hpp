@@ -47,8 +47,8 @@ PathInFolder plan_file(const std::filesystem::path& folder, const std::string& n
 /// Name of the current plan. Throws InputError where the folder has none.
 std::string current_plan(const std::filesystem::path& folder);
 
-/// Which of the runs make up the `number`th (1..) of `bundles` shares, in order: all shares cost the same as nearly as
+/// Which of the runs make up the `number`th (1..) of `shards` shares, in order: all shares cost the same as nearly as
 /// dealing the dearest run first, always to the share that has least, gives it. By the plan alone.
-std::vector<std::size_t> bundle_of(const StudyPlan& plan, std::size_t number, std::size_t bundles);
+std::vector<std::size_t> shard_of(const StudyPlan& plan, std::size_t number, std::size_t shards);
 
 }  // namespace vibrosow

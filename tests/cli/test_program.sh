@@ -139,14 +139,14 @@ END
 grep -q '"expected":"Until you weigh, expect ' expecting/report.html || fail "the page of a sweep in space does not say what to expect"
 expect 0 "compared by chance alone" decide study.toml --goal rate --within "20 %" --out deciding "${space[@]}" --set accuracy=draft --reuse expecting \
   --set "tray.motion.kind=harmonic" --set "tray.motion.amplitude=8 mm" --set "tray.motion.frequency=5 Hz" --set "run.duration=0.6 s"
-"$program" run seeder.toml --out plane | grep -q "until you weigh" && fail "in 2D a range is given"
+"$program" run seeder.toml --out flat | grep -q "until you weigh" && fail "in 2D a range is given"
 expect 0 "tray.holes.shape: in 2D a round hole is taken for a slot" check seeder.toml --set "tray.holes.shape=round"
 expect 2 "tray.depth: is missing" run seeder.toml --set "space=3d"
 expect 2 "for one seeder, not for a study" check study.toml --both
 # A key of one space is there for the other: a round hole lets less out than a slot from front to back, by --set and by the file, from the
 # plane and from space.
 ratio() { "$program" check seeder.toml --both --set "run.duration=0.4 s" --set "tray.depth=4 cm" --set "tray.fill.count=$1" --set "space=$2" --set "tray.holes.shape=$3" 2>/dev/null | awk '/2D over 3D/ { print $4 }'; }
-slot=$(ratio 60 plane slot) round=$(ratio 60 plane round) back=$(ratio 600 3d round)
+slot=$(ratio 60 2d slot) round=$(ratio 60 2d round) back=$(ratio 600 3d round)
 awk -v slot="$slot" -v round="$round" -v back="$back" 'BEGIN { exit !(slot > 0 && round > 1.5 * slot && back > 1.5 * slot) }' ||
   fail "2D over 3D: $slot of slots, $round of round holes, $back of the same from space"
 # A lot that was asked for is there, or is refused in the same words by all.
@@ -232,8 +232,10 @@ cmp -s one-job/sweep.csv whole.csv || fail "an export differs from the sweep"
 expect 2 "no cases/plan:" status set
 
 # Shares of a plan, on one folder or packed.
-expect 0 "^bundle 2/3: 0 runs made" work one-job --bundle 2/3
-expect 2 "bundle: \"4/3\" is no share" work one-job --bundle 4/3
+expect 0 "^shard 2/3: 0 runs made" work one-job --shard 2/3
+expect 2 "shard: \"4/3\" is no share" work one-job --shard 4/3
+expect 0 "\"--bundle\" is called --shard now" work one-job --bundle 2/3
+expect 2 "shard: \"4/3\" is no share" work one-job --bundle=4/3
 expect 2 "a plan is named by 16 of the digits" work one-job --plan nowhere
 expect 0 "^[0-9]+ runs packed" pack one-job
 [ -z "$(find one-job/cases -name '*.case')" ] || fail "packed runs have files of their own"
@@ -249,14 +251,14 @@ expect 0 "reports: by-need" sweep by-need.toml --out by-need
 [ "$(find by-need/cases -name '*.case' | wc -l)" -ge 10 ] || fail "fewer than ten runs by need"
 
 # Slurm's scripts; a study moved away afterwards is still the same.
-expect 0 "#SBATCH --array=1-2%1" submit study.toml --out submitted --time "1 h" --bundles 2 --array-limit 1 --dry-run
-expect 0 "exec .* work .*submitted" submit submitted --time "1 h" --bundles 2 --dry-run
+expect 0 "#SBATCH --array=1-2%1" submit study.toml --out submitted --time "1 h" --shards 2 --array-limit 1 --dry-run
+expect 0 "exec .* work .*submitted" submit submitted --time "1 h" --shards 2 --dry-run
 expect 2 "less than 2 min" submit submitted --time "1 min"
 cp study.toml moved-study.toml
-expect 0 "SBATCH" submit moved-study.toml --out moved --time "1 h" --bundles 2 --dry-run
+expect 0 "SBATCH" submit moved-study.toml --out moved --time "1 h" --shards 2 --dry-run
 rm moved-study.toml
-expect 0 "^bundle 1/2" work moved --bundle 1/2
-expect 0 "^bundle 2/2" work moved --bundle 2/2
+expect 0 "^shard 1/2" work moved --shard 1/2
+expect 0 "^shard 2/2" work moved --shard 2/2
 expect 0 "reports: moved" export moved --complete
 cmp -s moved/sweep.csv whole.csv || fail "shares make other reports than a sweep"
 "$program" sweep study.toml --out drafts --set accuracy=draft --quiet || fail "no drafts"

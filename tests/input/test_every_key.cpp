@@ -418,7 +418,7 @@ Scene as_many(Scene scene, const Scene& as) {
 }
 
 TEST_F(EveryKey, IsTheSameInTheFileAndBySet) {
-  for (const char* space : {"'plane'", "'3d'"}) {
+  for (const char* space : {"'2d'", "'3d'"}) {
     Lines of = base;
     of["space"] = space;
     for (const Key& key : keys()) {
@@ -433,7 +433,7 @@ TEST_F(EveryKey, IsTheSameInTheFileAndBySet) {
 TEST_F(EveryKey, OfOneSpaceIsThereForTheOther) {
   for (const Key& key : keys()) {
     Lines flat = lines(key), deep = flat;
-    flat["space"] = "'plane'", deep["space"] = "'3d'";
+    flat["space"] = "'2d'", deep["space"] = "'3d'";
     const Scene plane = read_scene(file(flat)), space = read_scene(file(deep));
     const BothSpaces of_plane = read_in_both_spaces(file(flat)), of_space = read_in_both_spaces(file(deep));
     EXPECT_TRUE(of_plane.plane == plane || key.key == "tray.plan") << key.key;

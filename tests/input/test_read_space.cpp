@@ -269,11 +269,19 @@ TEST(ReadSpace, InThePlaneWhatBelongsToSpaceCountsForNothing) {
   std::string text = whole + R"(front_and_back = "periodic"
 holes = { shape = "round", at = ["10 cm"], rows = 2, width = "8 mm" }
 )";
-  text.replace(text.find("3d"), 2, "plane");
+  text.replace(text.find("3d"), 2, "2d");
   const Scene scene = read(text);
   EXPECT_EQ(scene.space, Space::two_dimensional);
   EXPECT_EQ(scene.tray.holes.size(), 1u);
   EXPECT_EQ(scene.tray.front_and_back, Sides::walls);
+}
+
+TEST(ReadSpace, TheOlderWordFor2DIsRead) {
+  std::string text = whole;
+  text.replace(text.find("3d"), 2, "plane");
+  EXPECT_EQ(read(text).space, Space::two_dimensional);
+  text.replace(text.find("plane"), 5, "plan");
+  EXPECT_THAT(refusal(text), HasSubstr("\"plan\" is not one of 2d, 3d"));
 }
 
 TEST(ReadSpace, NothingNegativeHugeAndNoNumberAreRefusedByTheirKey) {
@@ -321,7 +329,7 @@ TEST(ReadSpace, WhatCannotBeMeantIsRefused) {
       HasSubstr("three numbers"));
   std::string plane =
       whole + "[tray.motion]\nkind = \"harmonic\"\ndirection = [0, 0, 1]\namplitude = \"1 mm\"\nfrequency = \"9 Hz\"\n";
-  plane.replace(plane.find("3d"), 2, "plane");
+  plane.replace(plane.find("3d"), 2, "2d");
   EXPECT_THAT(refusal(plane), HasSubstr("tray.motion.direction: a motion from front to back needs space"));
   EXPECT_THAT(refusal(whole + "holes = { shape = \"square\", count = 1, width = \"8 mm\" }\n"),
               HasSubstr("tray.holes.shape"));

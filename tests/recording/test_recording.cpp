@@ -325,7 +325,7 @@ TEST_P(OfBothSpaces, ARunThatIsRecordedIsTheSame) {
   const Model model = with_step(prepare(open_box(GetParam())), 5e-5);
   Simulation alone(model, 1), watched(model, 1);
   Recording recording(model);
-  for (const Look& look : recording.looks()) look.look(watched), watched.watch(look.every, look.look);
+  for (const Observer& one : recording.observers()) one.observe(watched), watched.watch(one.every, one.observe);
   while (!alone.at_end()) ASSERT_TRUE(alone.step() && watched.step());
   EXPECT_EQ(alone.grains().id, watched.grains().id);
   EXPECT_EQ(alone.grains().x, watched.grains().x);
@@ -345,8 +345,8 @@ TEST_P(OfBothSpaces, TheMapIsTheMeanOfTheMeasuringWindow) {
   scene.record = Record{{}, 1.5 * scene.lots[0].diameter, MapView::projection};
   MeanMapSum sum(scene);
   const GrainExtents extents(scene.lots);
-  for (const Look& look : recording.looks()) run.watch(look.every, look.look);
-  run.watch(recording.looks()[1].every, [&](Simulation& now) {
+  for (const Observer& one : recording.observers()) run.watch(one.every, one.observe);
+  run.watch(recording.observers()[1].every, [&](Simulation& now) {
     if (now.time() < 0.3) return;
     Snapshot bed = now.frame().bed;
     extents.add_to(bed);

@@ -123,7 +123,7 @@ TEST_F(ExpectedOfAStudy, OfASingleRunChanceIsThatOfItsBlocks) {
 }
 
 TEST_F(ExpectedOfAStudy, NoneInThePlaneNorBesideMeasuredOutflow) {
-  for (const LayoutResult& layout : result("plane").layouts) EXPECT_FALSE(layout.expected);
+  for (const LayoutResult& layout : result("2d").layouts) EXPECT_FALSE(layout.expected);
   files_.write("measured.csv", "tray.holes.width_mm,hole,seeds_per_s\n14,all,20\n16,all,30\n");
   const StudyResult beside = result("3d", "[measured]\nfile = \"measured.csv\"\nscale = \"none\"\n");
   ASSERT_TRUE(beside.study.measured);

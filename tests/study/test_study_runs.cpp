@@ -299,14 +299,14 @@ TEST(PlannedStudy, IsWhatItWasWhateverBecomesOfItsFiles) {
   EXPECT_GT(read.plan.runs.at(3).grain_steps, read.plan.runs.at(1).grain_steps);
 }
 
-TEST(PlannedStudy, BundlesAreSharesOfEqualCost) {
+TEST(PlannedStudy, ShardsAreSharesOfEqualCost) {
   StudyPlan plan;
   for (int k = 0; k < 103; ++k) plan.runs.push_back({std::to_string(k), 1, 1, 100.0 + 7 * (k * 37 % 50)});
   std::multiset<std::size_t> all;
   std::vector<double> costs;
   for (std::size_t k = 1; k <= 8; ++k) {
     double cost = 0;
-    for (const std::size_t run : bundle_of(plan, k, 8)) {
+    for (const std::size_t run : shard_of(plan, k, 8)) {
       all.insert(run);
       cost += plan.runs[run].grain_steps;
     }
