@@ -1,5 +1,5 @@
 // The force phase of a run beside a bare kernel that does the same work: both for the narrow list of the published tray
-// at 0.3 s (stiff shells, friction by springs, rotation, damping), and of the same in space with 5000 balls, in one
+// at 0.3 s (stiff shells, friction by springs, rotation, damping), and of the same in 3D with 5000 balls, in one
 // program, round by round. The bare kernels are written out for that one case, with no law, effect or list to choose;
 // they are the yardstick, not a part of the program. CSV on stdout, a row per scene.
 #include <fmt/format.h>
@@ -111,7 +111,7 @@ struct Three {
   return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
 
-/// The same in space: springs of all pairs, touching or not, lie side by side, four numbers each.
+/// The same in 3D: springs of all pairs, touching or not, lie side by side, four numbers each.
 long bare_kernel_3d(const Bare& c, const Grains& g, const PairList& list, std::vector<double>& records,
                     Forces3d& sums) {
   constexpr int block = 256;
@@ -240,7 +240,7 @@ class Plane : Given {
   std::vector<ForeignForce> foreign_;
 };
 
-/// The same in space.
+/// The same in 3D.
 class Balls3d : Given {
  public:
   Balls3d(const Model& model, const SimulationState& state) : Given(model, state) {

@@ -2,7 +2,7 @@
 // mm, friction 0.3 (sliding, or held by springs), restitution 0.5, velocity Verlet at its planned step.
 // items_per_second is grain-steps per second on one core. Beside them the parts of a step on the tray as it is at 0.3 s
 // (an evaluation of the forces, a search with Box2D, both lists renewed) and a whole run from its start, in grains or
-// grain-steps per second. In space: the closed tray with a depth of 165 mm and 20000 balls in some sixteen layers.
+// grain-steps per second. In 3D: the closed tray with a depth of 165 mm and 20000 balls in some sixteen layers.
 #include <benchmark/benchmark.h>
 
 #include "plan/step_plan.hpp"

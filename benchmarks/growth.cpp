@@ -1,5 +1,5 @@
 // How time and memory grow with a bed: the published tray (48 layers of 8 mm discs, 9 Hz, 1 cm, friction by springs,
-// restitution 0.5, eps = 1e-4 r), as long as the number of grains asks for; in space balls in 16 layers, 20 across. CSV
+// restitution 0.5, eps = 1e-4 r), as long as the number of grains asks for; in 3D balls in 16 layers, 20 across. CSV
 // on stdout, one row for a number of grains and of threads: 1000 steps to shake in, then as many as are timed.
 //     growth [MOST GRAINS [space]]
 #include <fmt/format.h>

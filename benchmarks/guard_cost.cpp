@@ -1,5 +1,5 @@
 // What the guard costs, beside the steps that it watches: CSV on stdout, a row per scene. The published tray, closed
-// (2400 discs, stiff shells, springs), and the same in space with 5000 balls, from 0.2 s on. Turns of 100 steps with
+// (2400 discs, stiff shells, springs), and the same in 3D with 5000 balls, from 0.2 s on. Turns of 100 steps with
 // the guard's looks (after each step, and the account of energy once) and without them start from one state, so that
 // they do the same work but for the guard's; one follows the other, now this and now that first, by the CPU's clock.
 // The cost is the median of the ratios of 1000 such pairs, with its 95 % interval. The account is also timed alone.

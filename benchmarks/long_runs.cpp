@@ -1,6 +1,6 @@
 // How far the energy of an elastic gas drifts in 1e8 steps, and how far it should: `long_runs [STEPS]`. CSV on stdout.
 //
-// A few grains without friction or gravity in a closed box, in the plane and in space. An impact changes the energy e
+// A few grains without friction or gravity in a closed box, in 2D and in 3D. An impact changes the energy e
 // of the motion along its normal by a fraction that depends on where in a step the two touch and, of two grains, on how
 // far from head-on they do. Mean m and standard deviation s of that, weighed with e and e^2, are taken from single
 // impacts at the same step: of a grain on a wall at 1000 places in a step, and of 50000 pairs that meet as in a gas of

@@ -1,4 +1,4 @@
-// Each run of the atlas' box in space as if it were a bench test of an unknown material: its friction and rolling
+// Each run of the atlas' box in 3D as if it were a bench test of an unknown material: its friction and rolling
 // friction by the atlas, with what the other materials alone say of the plane and space, beside what it was run with:
 // CSV. Usage: repose_held_out STUDY FOLDER
 

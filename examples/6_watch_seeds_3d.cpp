@@ -1,4 +1,4 @@
-// Runs a tray as balls in space, and watches how many of its seeds lie in the front half of its depth.
+// Runs a tray as balls in 3D, and watches how many of its seeds lie in the front half of its depth.
 #include <cstdio>
 #include <vibrosow/simulation.hpp>
 

@@ -20,7 +20,7 @@ struct Event {
   double mass;         // kg
   double x;            // m from the tray's left end, where it passed the floor
   double speed;        // m/s
-  double z;            // m from the tray's front, as x; 0 in the plane
+  double z;            // m from the tray's front, as x; 0 in 2D
 };
 
 /// A grain at one moment, in the lab frame.
@@ -30,7 +30,7 @@ struct Grain {
   double x, y;                    // m
   double vx, vy;                  // m/s
   double radius;                  // m
-  double z = 0;                   // m, across, from the tray's front at rest; 0 in the plane
+  double z = 0;                   // m, across, from the tray's front at rest; 0 in 2D
   double vz = 0;                  // m/s
   double fx = 0, fy = 0, fz = 0;  // N, of all its contacts together; its weight is not in it
 };
@@ -48,7 +48,7 @@ struct Harmonic {
   double frequency;      // Hz
   double direction = 0;  // rad, anticlockwise from the floor's
   double phase = 0;      // rad
-  double across = 0;     // rad, in space: from the plane of length and height towards the back
+  double across = 0;     // rad, in 3D: from the plane of length and height towards the back
 };
 
 /// A scene in motion, to be watched and driven between its steps.

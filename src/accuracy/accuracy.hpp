@@ -17,7 +17,7 @@ struct AccuracyRow {
   bool too_long = false;                      // its step is refused, so it is not run
   std::string refused;                        // why it has no rate: a step too long, stopped by the guard, interrupted
   int replicates = 0;                         // runs that have a rate
-  std::optional<MeanWithInterval> mass_rate;  // kg/s, all holes and lots, of the plane slice or in space of the tray
+  std::optional<MeanWithInterval> mass_rate;  // kg/s, all holes and lots, of the plane slice or in 3D of the tray
   std::optional<double> error_percent;        // signed, against the reference
   std::optional<double>
       error_ci95;  // half width, percent: both rates' intervals, as independent; none for the reference

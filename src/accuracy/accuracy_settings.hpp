@@ -87,7 +87,7 @@ struct AccuracyRun {
   double window = 1;
   std::uint64_t random_seed = 1;
   std::string refused{};              // why it has no rate: a step too long, stopped by the guard, interrupted
-  std::optional<double> mass_rate{};  // kg/s, all holes and lots, of the plane slice or in space of the tray
+  std::optional<double> mass_rate{};  // kg/s, all holes and lots, of the plane slice or in 3D of the tray
   double seeds = 0;                   // of which the rate is made
   std::vector<Doubt> doubts{};        // where it has a rate
   double grain_steps = 0;

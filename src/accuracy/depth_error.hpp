@@ -14,7 +14,7 @@ struct DepthError {
 };
 
 /// From so many runs of each, of the scenes' own numerics; both have a `tray.depth`. None where a run was cut short or
-/// left the model, or nothing flows in space. Throws InputError where one of the two cannot be run, and
+/// left the model, or nothing flows in 3D. Throws InputError where one of the two cannot be run, and
 /// std::invalid_argument for fewer than two runs.
 std::optional<DepthError> measure_depth_error(const Scene& plane, const Scene& space, int replicates,
                                               const Simulator& simulator, const SweepOptions& options);

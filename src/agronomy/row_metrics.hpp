@@ -31,12 +31,12 @@ std::optional<Unevenness> unevenness_of(const std::vector<const BetweenRows*>& r
 /// Why there are no spacings.
 enum class NoSpacings { none, plane_slice, shared_hole, few_seeds };
 
-/// What a row of a drill gets in the measuring window. Rates are of the whole tray, in the plane the slice's times the
+/// What a row of a drill gets in the measuring window. Rates are of the whole tray, in 2D the slice's times the
 /// depth factor; none without `tray.depth`, or when the run ended before the window.
 struct RowMetrics {
   int row = 0;                         // 1..; 0: all rows
   std::vector<int> holes;              // that feed it, 1..
-  std::int64_t seeds = 0;              // from these, of the plane slice or in space of the tray
+  std::int64_t seeds = 0;              // from these, of the plane slice or in 3D of the tray
   std::optional<double> mass_rate;     // kg/s; of all rows together
   std::optional<double> seeds_per_s;   // likewise
   std::optional<double> kg_per_m2;     // of all rows: of the whole width

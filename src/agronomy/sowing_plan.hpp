@@ -18,13 +18,13 @@ struct PlannedSeed {
   double largest = 0;   // m, the diameter of the largest lot's seeds, by which holes clog; 0: `diameter`
 };
 
-/// Of lots in space; of seeds of several sizes, and of a mixture by its number fractions, the mean by volume and mass;
+/// Of lots in 3D; of seeds of several sizes, and of a mixture by its number fractions, the mean by volume and mass;
 /// the aspect's by volume.
 PlannedSeed planned_seed(const std::vector<SeedLot>& lots);
 
 /// A crop and how much of it is sown.
 struct SownLot {
-  SeedLot lot;                    // in space
+  SeedLot lot;                    // in 3D
   double sowing_rate = 0;         // kg/m2
   double seeds_per_area() const;  // 1/m2
 };

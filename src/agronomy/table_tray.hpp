@@ -37,7 +37,7 @@ struct TrayTolerance {
   std::string outside;  // why there is none, or why it is that of the table's nearest place; empty: of the tray's own
 };
 
-/// Of a scene in space, by the table's own slopes at its holes' width over the seed's size and its peak speed; all
+/// Of a scene in 3D, by the table's own slopes at its holes' width over the seed's size and its peak speed; all
 /// holes err alike, as of one drill bit. Round holes may be unequal: each counts by its outflow. Several lots
 /// are seeds of their mean. The depth of the bed, how it is fed and how the floor slopes are left aside. None without
 /// round holes, or where the tray is not shaken to and fro.

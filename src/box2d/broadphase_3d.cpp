@@ -357,7 +357,7 @@ void Broadphase3d::find(const Grains& grains, const std::vector<Pose>& poses, co
 }
 
 void Broadphase3d::find_across(double shift_x, double shift_z, double margin, const Ranges& ranges, PairList& pairs) {
-  // As in the plane: who is moved is the row's grain i, so the others are looked for moved the other way.
+  // As in 2D: who is moved is the row's grain i, so the others are looked for moved the other way.
   world_->find_pairs(ranges, margin, -shift_x, -shift_z, true, pairs);
 }
 

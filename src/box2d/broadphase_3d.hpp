@@ -11,7 +11,7 @@
 
 namespace vibrosow {
 
-/// Box2D's part in space: it keeps the ground plan, x and z. Balls are sorted into slabs of some two diameters by their
+/// Box2D's part in 3D: it keeps the ground plan, x and z. Balls are sorted into slabs of some two diameters by their
 /// height, within a slab into clusters of eight neighbours; the slabs' plans lie side by side in one tree, so that a
 /// query meets a cluster only where its slab is near too. Faces are shapes of bodies in the plan; heights are compared
 /// after.

@@ -15,7 +15,7 @@ struct Places {
 /// 16 places to spare, and returns how many.
 using NearPlaces = int (*)(const Places& places, int after, double x, double y, double reach, int* near);
 
-/// The same of balls in space, with their heights z (m) beside a plan of x and y.
+/// The same of balls in 3D, with their heights z (m) beside a plan of x and y.
 using NearPlaces3d = int (*)(const Places& places, const double* heights, int after, double x, double y, double z,
                              double reach, int* near);
 NearPlaces3d near_places_3d(InstructionSet set);

@@ -18,7 +18,7 @@ struct BenchLimits {
 /// A condition that can be set, and what a reading under it would say.
 struct BenchCandidate {
   std::vector<Condition> conditions;
-  double mass_rate = 0;        // kg/s, of the plane slice or in space of the tray: geometric mean over the keys' ranges
+  double mass_rate = 0;        // kg/s, of the plane slice or in 3D of the tray: geometric mean over the keys' ranges
   double chance = 0;           // relative standard deviation of one reading; of the flow's that of all runs together
   std::optional<int> place{};  // in the order in which it was chosen, 1..; none: it was not
 };

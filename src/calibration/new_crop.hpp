@@ -33,7 +33,7 @@ struct CropEstimate {
   Reachable reachable{};
   ReposeBand band{};
   int own_runs = 0;                   // of the crop itself, that refined it
-  double fitting_angle = 0;           // rad, at which the material that is taken stands in space
+  double fitting_angle = 0;           // rad, at which the material that is taken stands in 3D
   double shell_compression = 0;       // as in the shipped contact models, for a tray of 9 Hz and 1 cm
   std::vector<std::string> doubts{};  // sentences
   bool is_ball() const { return aspect_ratio == 1; }

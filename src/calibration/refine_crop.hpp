@@ -9,7 +9,7 @@
 
 namespace vibrosow {
 
-/// One run of the atlas' box in space, filled with seeds of a crop's own shape.
+/// One run of the atlas' box in 3D, filled with seeds of a crop's own shape.
 struct RefiningRun {
   double aspect_ratio_in_atlas = 1;
   Scene scene{};

@@ -207,7 +207,7 @@ std::vector<AtlasPoint> read_atlas_points(const std::filesystem::path& file) {
 
 namespace {
 
-/// The plane's figures of a material in space. Throws InputError where the atlas does not reach it.
+/// The plane's figures of a material in 3D. Throws InputError where the atlas does not reach it.
 AtlasMetrics beneath(const ReposeAtlas& plane, const AtlasPoint& ball) {
   try {
     return plane.at(ball.aspect_ratio, ball.friction, ball.rolling_friction);

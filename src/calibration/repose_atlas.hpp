@@ -62,7 +62,7 @@ std::string atlas_csv(const std::vector<AtlasPoint>& points);
 std::vector<AtlasPoint> read_atlas_points(const std::filesystem::path& file);
 
 /// What to add to the plane's angle, and by what to multiply its packing fraction and discharge, to have those of balls
-/// in space; each with its scatter over the materials that were run in both.
+/// in 3D; each with its scatter over the materials that were run in both.
 struct PlaneToSpace {
   MeanAndScatter angle_offset;  // rad
   MeanAndScatter packing_factor, discharge_factor;
@@ -70,7 +70,7 @@ struct PlaneToSpace {
   bool of_the_crop = false;  // found with a crop's own shape around its own band, not with balls all over the atlas
 };
 
-/// From points in space, each at friction and rolling friction within the atlas, at least three. Throws InputError for
+/// From points in 3D, each at friction and rolling friction within the atlas, at least three. Throws InputError for
 /// fewer.
 PlaneToSpace plane_to_space(const ReposeAtlas& plane, const std::vector<AtlasPoint>& space);
 

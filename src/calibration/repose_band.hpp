@@ -32,14 +32,14 @@ struct ReposeBand {
   Rubbing fitting{};   // of the materials that stand and lie as measured, the nearest to both means
 };
 
-/// Of a material of that aspect ratio in space, over all of the atlas: what could have been measured.
+/// Of a material of that aspect ratio in 3D, over all of the atlas: what could have been measured.
 struct Reachable {
   double least_angle, most_angle;  // rad
   double least_packing, most_packing;
 };
 Reachable reachable(const ShippedAtlas& atlas, double aspect_ratio);
 
-/// How far the atlas' figures are from a material's in space (standard deviations): from the plane to space, with
+/// How far the atlas' figures are from a material's in 3D (standard deviations): from the plane to space, with
 /// few materials compared, sd sqrt(1 + 1/n).
 double angle_error_3d(const PlaneToSpace& to_space);    // rad
 double packing_error_3d(const PlaneToSpace& to_space);  // share of the packing fraction

@@ -13,7 +13,7 @@
 namespace vibrosow {
 namespace {
 
-/// Diameter (m) of the disc, in space the ball, that fills as much as the mean grain.
+/// Diameter (m) of the disc, in 3D the ball, that fills as much as the mean grain.
 double mean_diameter(const Snapshot& bed) {
   double extent = 0;
   for (const double one : bed.extent()) extent += one;

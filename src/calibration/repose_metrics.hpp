@@ -17,7 +17,7 @@ struct ReposeMetrics {
 /// Of a run whose first record is of the filled box and whose last of the drained one; d is the mean diameter of the
 /// scene's lots, of clumps that of the disc (ball) of the same area (volume). The free discharge is that of the second
 /// and third fifth of the grains that leave, in units of the bulk density, the slot's width and gravity (Beverloo,
-/// Leniger, van de Velde 1961 in the plane, without the correction for the width of a grain). Throws
+/// Leniger, van de Velde 1961 in 2D, without the correction for the width of a grain). Throws
 /// std::invalid_argument for a scene with less than two records or not one hole.
 ReposeMetrics repose_metrics(const Scene& scene, const Run& run);
 

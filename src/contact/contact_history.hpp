@@ -18,8 +18,8 @@ struct HistoryKinds {
 };
 
 /// Histories of touching contacts, one entry a candidate of a list; all zero where nothing touches: the displacements
-/// of the tangential spring (slip, m) and of the rolling one (roll, rad). In the plane a column for each, empty where
-/// its effect is absent, with signs that do not depend on which of the two grains comes first; in space a record for
+/// of the tangential spring (slip, m) and of the rolling one (roll, rad). In 2D a column for each, empty where
+/// its effect is absent, with signs that do not depend on which of the two grains comes first; in 3D a record for
 /// each candidate that touches, seen from the pair's first grain. Most candidates touch nothing, and a kernel that
 /// stores the records of a block of them puts these side by side at the block's first places. No other block's lie
 /// there, as blocks are the same until the list is made anew or shortened, which puts each record at its own

@@ -6,7 +6,7 @@
 #include "contact/pair_block.hpp"
 #include "loops/grain_force.hpp"
 
-// Plain data between the simulation and the kernels of balls in space, as pair_block.hpp has it for the plane.
+// Plain data between the simulation and the kernels of balls in 3D, as pair_block.hpp has it for the plane.
 
 namespace vibrosow {
 

@@ -8,7 +8,7 @@
 
 namespace vibrosow::inline VIBROSOW_ISA {
 
-/// Energy of the springs of one contact in space, J.
+/// Energy of the springs of one contact in 3D, J.
 template <class Law, class Effects>
 inline double contact_energy_3d(double overlap, const PairConstants& pair, const SurfaceParameters& surface,
                                 const History3d& history) {

@@ -8,7 +8,7 @@
 
 namespace vibrosow::inline VIBROSOW_ISA {
 
-/// How two surfaces stand and move in space. n is the unit vector from i to j.
+/// How two surfaces stand and move in 3D. n is the unit vector from i to j.
 struct Touch3d {
   double overlap = 0;   // m
   double approach = 0;  // m/s, growth of the overlap
@@ -59,7 +59,7 @@ inline void set_turning(const Turning& turning, const PairConstants& pair, doubl
   }
 }
 
-/// History of one contact in space. The displacements lie across the normal of the moment when they were stored, and
+/// History of one contact in 3D. The displacements lie across the normal of the moment when they were stored, and
 /// are seen from the list's grain.
 struct History3d {
   Vector3 slip;      // m, displacement of the tangential spring
@@ -108,7 +108,7 @@ class MovingVector {
   Vector3 rest_;
 };
 
-/// `limit` against the direction of a velocity, made continuous as in the plane.
+/// `limit` against the direction of a velocity, made continuous as in 2D.
 struct Sliding3d {
   Vector3 force;
   double raised;
@@ -123,7 +123,7 @@ struct Sliding3d {
   return {(raised ? most : usual) * speed, raised ? 1.0 : 0.0};
 }
 
-/// As in the plane; at slip the displacement is shortened without changing its direction.
+/// As in 2D; at slip the displacement is shortened without changing its direction.
 [[gnu::always_inline]] inline Vector3 spring_friction(double stiffness, double dashpot, double limit,
                                                       const Vector3& speed, double own, Vector3& displacement) {
   const Vector3 elastic = stiffness * displacement;
@@ -154,7 +154,7 @@ inline double logical_or(double a, double b) {
   return torque;
 }
 
-/// Force of one contact in space, of the same laws as in the plane. `history` goes in as it was stored and comes out as
+/// Force of one contact in 3D, of the same laws as in 2D. `history` goes in as it was stored and comes out as
 /// it is to be stored.
 template <class Law, class Effects>
 [[gnu::always_inline]] inline ContactForce3d contact_force_3d(const Touch3d& touch, const PairConstants& pair,

@@ -10,7 +10,7 @@
 
 namespace vibrosow::inline VIBROSOW_ISA {
 
-/// The touching ones among up to `size` pairs, as PairBlock holds them in the plane.
+/// The touching ones among up to `size` pairs, as PairBlock holds them in 2D.
 struct Block3d {
   static constexpr int size = pair_block_size, spare = PairBlock::spare;
 

@@ -29,7 +29,7 @@ struct KernelSet {
   EffectChoice effects;
   std::array<VectorKernels, instruction_sets.size()> vectors;  // null where this program was built without
   EnergyKernel energy;
-  // The same of balls in space.
+  // The same of balls in 3D.
   std::array<VectorKernels3d, instruction_sets.size()> is_3d;
   EnergyKernel3d energy_3d;
 };

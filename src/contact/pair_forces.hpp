@@ -16,7 +16,7 @@ struct GrainRange {
 /// Takes a kernel's figures in.
 void add_metrics(const LawMetrics& metrics, ContactStatistics& statistics);
 
-/// As many sums of forces as there are grains; torques in space only where anything turns.
+/// As many sums of forces as there are grains; torques in 3D only where anything turns.
 void resize(Forces& sums, std::size_t grains, bool rotation);
 void resize(Forces3d& sums, std::size_t grains, bool rotation);
 

@@ -19,7 +19,7 @@ namespace {
 
 using Table = std::vector<KernelSet>;
 
-#ifdef VIBROSOW_PLANE_ALONE  // of a program that simulates nothing in space, and is to be small
+#ifdef VIBROSOW_PLANE_ALONE  // of a program that simulates nothing in 3D, and is to be small
 template <Law>
 void add_space([[maybe_unused]] KernelSet& set, [[maybe_unused]] std::size_t index) {}
 #else

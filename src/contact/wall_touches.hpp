@@ -10,7 +10,7 @@
 
 namespace vibrosow {
 
-/// Which of the walls that a grain touches push it, in the plane and in space. A wall touches with the point of it that
+/// Which of the walls that a grain touches push it, in 2D and in 3D. A wall touches with the point of it that
 /// is nearest to the grain's centre. Where such points of two walls lie nearer to each other than 1e-3 of the grain's
 /// radius, or an end or edge lies so near to a face that is touched, there is one surface: a plate drawn twice, a line
 /// on a floor, an edge that two plates share, a wall's end in the middle of another. Of these the nearest pushes; of

@@ -12,7 +12,7 @@ namespace vibrosow {
 /// the tray's frame.
 std::optional<double> flux_asymmetry(const Snapshot& own, const Vessel& tray);
 
-/// The same of the free surface: L and R are the mean heights over the floor of columns about `cell` (m) wide, in space
+/// The same of the free surface: L and R are the mean heights over the floor of columns about `cell` (m) wide, in 3D
 /// also across, as many on each side; a column is as high as the top of its highest grain, 0 without one. None for an
 /// empty tray.
 std::optional<double> surface_asymmetry(const Snapshot& own, const Vessel& tray, double cell);

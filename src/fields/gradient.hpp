@@ -32,7 +32,7 @@ class Neighbourhoods {
 };
 
 /// G of the least-squares fit u(x) = u0 + G x through the points of `which`, all weighing the same: G_ab = du_a / dx_b.
-/// None for fewer than N + 1 points or for points on a line, in space on a plane.
+/// None for fewer than N + 1 points or for points on a line, in 3D on a plane.
 template <int N>
 std::optional<Eigen::Matrix<double, N, N>> fit_gradient(const PointsOf<N>& points, const PointsOf<N>& values,
                                                         const std::vector<std::size_t>& which);
@@ -43,7 +43,7 @@ std::optional<Eigen::Matrix<double, N, N>> fit_gradient(const PointsOf<N>& point
 /// of g; in a rotation, however large, and in an even expansion it is 0.
 double shear(const Eigen::Matrix2d& gradient);
 
-/// Shear strain of a displacement gradient in space: the largest less the smallest principal stretch of 1 + G. In
+/// Shear strain of a displacement gradient in 3D: the largest less the smallest principal stretch of 1 + G. In
 /// simple shear it is |g|, in a rotation and in an even expansion 0, as above.
 double shear(const Eigen::Matrix3d& gradient);
 

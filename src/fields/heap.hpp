@@ -9,14 +9,14 @@
 
 namespace vibrosow {
 
-/// A part of a bed along the floor, m; in space from front to back `depth` deep.
+/// A part of a bed along the floor, m; in 3D from front to back `depth` deep.
 struct Stretch {
   double from, to;
   double depth = 0;
 };
 
 /// Rise over run of a bed's surface along x: the least-squares line through the highest points of the discs (balls) at
-/// 64 evenly spaced places of the stretch, in space on 8 lines side by side; the floor, 0, where there is none.
+/// 64 evenly spaced places of the stretch, in 3D on 8 lines side by side; the floor, 0, where there is none.
 double surface_slope(const std::vector<CoveringDisc>& discs, const Stretch& stretch);
 
 /// Drained (emptying) angle of repose, rad: of the two heaps that stay against the end walls when a box has drained

@@ -8,7 +8,7 @@
 
 namespace vibrosow {
 
-/// The part of a bed that its maps are made of: in the plane all of it. In space maps lie in the plane of length and
+/// The part of a bed that its maps are made of: in 2D all of it. In 3D maps lie in the plane of length and
 /// height: a projection is of all grains whose centres lie between the tray's front and back, a slice of what lies
 /// within half a cell of the middle of the depth, where a grain that reaches out of it is cut.
 struct MapPart {

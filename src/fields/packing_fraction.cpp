@@ -84,7 +84,7 @@ double height_holding(const Snapshot& own, const Vessel& tray, double fraction) 
   return 0;
 }
 
-/// What a disc has in common with the rectangle from `low` to `high`, m from its centre, in m2; in space a ball with
+/// What a disc has in common with the rectangle from `low` to `high`, m from its centre, in m2; in 3D a ball with
 /// that rectangle through the depth of `part`, in m3.
 double covered_of(const CoveringDisc& disc, const Eigen::Vector2d& low, const Eigen::Vector2d& high, bool is_3d,
                   const MapPart& part) {

@@ -21,20 +21,20 @@ double disc_in_rectangle(double radius, const Eigen::Vector2d& low, const Eigen:
 /// corner.
 double ball_in_box(double radius, const Eigen::Vector3d& low, const Eigen::Vector3d& high);
 
-/// A disc of the bed; in space a ball.
+/// A disc of the bed; in 3D a ball.
 struct CoveringDisc {
   double x, y, radius;  // m
   double fraction;      // of its area or volume that counts
-  double z = 0;         // m, in space
+  double z = 0;         // m, in 3D
 };
 
-/// All discs of the grains, in space all balls. A clump's discs count with the same fraction each, so that together
+/// All discs of the grains, in 3D all balls. A clump's discs count with the same fraction each, so that together
 /// they have the clump's area (volume), overlaps counted once: exact for the whole clump, even over it where a line
 /// cuts it. `lots`: the scene's.
 std::vector<CoveringDisc> covering_discs(const Snapshot& snapshot, const std::vector<SeedLot>& lots);
 
 /// Share of each cell's area that grains cover, exact for discs; where two grains overlap their common area counts
-/// twice. The whole cell counts, also where a wall cuts it. Grains outside the grid are left out. In space the share of
+/// twice. The whole cell counts, also where a wall cuts it. Grains outside the grid are left out. In 3D the share of
 /// the cell's volume, which is as deep as `part`, exact for balls.
 std::vector<double> packing_fraction(const Snapshot& snapshot, const std::vector<SeedLot>& lots, const Grid& grid,
                                      const MapPart& part = {});

@@ -11,7 +11,7 @@ struct Periods {
 };
 Periods periods_of(const Vessel& tray, bool is_3d);
 
-/// The snapshot in the tray's own frame: positions from the left end of its floor, x along the floor, in space z from
+/// The snapshot in the tray's own frame: positions from the left end of its floor, x along the floor, in 3D z from
 /// its front; velocities and spins relative to the tray's. Starts are taken as if the tray had been at rest then. The
 /// tray itself is at rest. Of a tray that turns over and over it is the frame of the tray at rest. In a periodic tray
 /// each grain is where its image lies within the tray: in the lab one may be up to a diameter beyond the seam.
@@ -21,7 +21,7 @@ Snapshot in_tray_frame(const Snapshot& lab, const Vessel& tray);
 /// tray, under the same ids: what a map needs at its edges. `own`: in the tray's frame.
 Snapshot with_images(const Snapshot& own, const Periods& periods, double reach);
 
-/// Indices of the grains between the tray's end walls, above its floor line and below their tops, and in space between
+/// Indices of the grains between the tray's end walls, above its floor line and below their tops, and in 3D between
 /// its front and back. `own`: in the tray's frame.
 std::vector<std::size_t> grains_in_tray(const Snapshot& own, const Vessel& tray);
 

@@ -9,11 +9,11 @@
 
 namespace vibrosow {
 
-/// A disc of a clump, in space a ball, as a contact sees it: with its clump's whole mass and moment of inertia. `clump`
+/// A disc of a clump, in 3D a ball, as a contact sees it: with its clump's whole mass and moment of inertia. `clump`
 /// is the whole seed, `size` its size over its lot's.
 GrainKind kind_of_disc(const GrainKind& clump, const ClumpDisc& disc, double size, const LawTraits& law);
 
-/// The discs of rigid clumps, in space balls: what the contact kernels and lists see when a grain is several of them. A
+/// The discs of rigid clumps, in 3D balls: what the contact kernels and lists see when a grain is several of them. A
 /// grain of a lot that is a single disc is a clump of one. Each disc bears its clump's whole mass and moment of inertia
 /// in a contact; its shell is eps = shell_compression times its own radius thick under that weight.
 class ClumpDiscs {
@@ -28,13 +28,13 @@ class ClumpDiscs {
   void place(const Grains& clumps, Execution& execution);
   /// Force and torque about the centres of mass, from those on the discs about their own centres.
   void gather(const Forces& on_discs, Forces& on_clumps) const;
-  /// The same in space, in place of what `on_clumps` held. Without friction the balls have no torques, and the clumps
+  /// The same in 3D, in place of what `on_clumps` held. Without friction the balls have no torques, and the clumps
   /// those of the forces' arms.
   void gather(const Forces3d& on_balls, Forces3d& on_clumps, Execution& execution) const;
 
-  /// In space their velocities and spins stand in `motions` alone.
+  /// In 3D their velocities and spins stand in `motions` alone.
   const Grains& discs() const { return discs_; }
-  /// Of balls in space.
+  /// Of balls in 3D.
   const std::vector<GrainVector>& places() const { return places_; }
   const std::vector<BallMotion>& motions() const { return motions_; }
   /// One flag a disc, from one a clump.
@@ -49,8 +49,8 @@ class ClumpDiscs {
   void place_3d(const Grains& clumps, Execution& execution);
 
   std::vector<double> own_x_, own_y_, own_z_;  // m, from the centre of mass, clump not turned
-  std::vector<double> arm_x_, arm_y_;          // m, the same as it lies now, in the plane
-  std::vector<GrainVector> arms_, places_;     // m, in space
+  std::vector<double> arm_x_, arm_y_;          // m, the same as it lies now, in 2D
+  std::vector<GrainVector> arms_, places_;     // m, in 3D
   std::vector<BallMotion> motions_;
   std::vector<std::size_t> first_;  // of each clump's discs; behind the last clump, how many there are
 };

@@ -15,7 +15,7 @@ namespace {
 
 constexpr double rounding = 1e-9;  // of a height, forgiven
 
-/// The room of a vessel from its floor up, m3, in the plane m2.
+/// The room of a vessel from its floor up, m3, in 2D m2.
 class RoomBelow {
  public:
   RoomBelow(const Vessel& vessel, const std::vector<SeedLot>& lots, Space space) : height_(vessel.height) {
@@ -63,7 +63,7 @@ double poured_share_3d(const SeedLot& lot) {
   return densest - less * (slenderness - densest_at);
 }
 
-/// Room that a poured seed takes with what is left free beside it, m3, in the plane m2.
+/// Room that a poured seed takes with what is left free beside it, m3, in 2D m2.
 double room_of_seed(const std::vector<SeedLot>& lots, Space space) {
   if (space == Space::two_dimensional) return mean_area(lots) / poured_share;
   double room = 0;

@@ -8,7 +8,7 @@ namespace vibrosow {
 
 /// How many seeds fill a vessel up to `height` (m) above its level floor, at right angles to that, by the packing of
 /// its fill, whose count counts for nothing. In rows: the places that lie wholly below. Poured: what the room below
-/// takes, beneath no funnel and in no closed piece (`FreeRoom`), where seeds cover `poured_share` of it, in space fill
+/// takes, beneath no funnel and in no closed piece (`FreeRoom`), where seeds cover `poured_share` of it, in 3D fill
 /// as much as poured seeds so long do; walls near each other leave a twentieth less. Holes are closed. Up to the walls'
 /// height.
 double seeds_to_height(const Vessel& vessel, const std::vector<SeedLot>& lots, Space space, double height);

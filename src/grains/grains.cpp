@@ -8,7 +8,7 @@
 namespace vibrosow {
 namespace {
 
-/// Moment of inertia over mass, m2; of a clump in space the smallest.
+/// Moment of inertia over mass, m2; of a clump in 3D the smallest.
 double gyration2_of(const SeedLot& lot) {
   const double radius = 0.5 * lot.diameter;
   if (is_solid_clump(lot)) return std::min({lot.gyration2_x, lot.gyration2_y, lot.gyration2});

@@ -6,7 +6,7 @@
 
 namespace vibrosow {
 
-/// How a clump is turned: by an angle (rad) in the plane, as it lies in space.
+/// How a clump is turned: by an angle (rad) in 2D, as it lies in 3D.
 struct Turn {
   double angle = 0;
   Orientation orientation{};

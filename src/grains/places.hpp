@@ -10,7 +10,7 @@
 
 namespace vibrosow {
 
-/// A place on the floor of a vessel in space, in its own frame: along (x) and across (z), m.
+/// A place on the floor of a vessel in 3D, in its own frame: along (x) and across (z), m.
 using FloorPlace = Eigen::Vector2d;
 
 /// The nearest place to `place` where a ball of `radius` is between the vessel's ends; where these are periodic, the
@@ -53,8 +53,8 @@ class Obstacles {
   double touching_height(const FloorPlace& place, double radius, double from, double least) const;
 
  private:
-  std::vector<WallSegment> segments_;     // in the plane
-  std::optional<Walls> pieces_, funnel_;  // in space
+  std::vector<WallSegment> segments_;     // in 2D
+  std::optional<Walls> pieces_, funnel_;  // in 3D
   std::vector<const PlacedFace*> faces_;
 };
 

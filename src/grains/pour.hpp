@@ -13,7 +13,7 @@ namespace vibrosow {
 std::vector<PackedGrain> pour(const Vessel& vessel, const std::vector<SeedLot>& lots, const std::vector<int>& order,
                               Random& random, StopRequest stop);
 
-/// The same in space: each ball is dropped again a little aside, at random, nearer and nearer, and stays where it comes
+/// The same in 3D: each ball is dropped again a little aside, at random, nearer and nearer, and stays where it comes
 /// lowest, which is where it would roll to; a clump so too, turned a little each time. In the vessel's frame.
 std::vector<PackedGrain> pour_3d(const Vessel& vessel, const std::vector<SeedLot>& lots, const std::vector<int>& order,
                                  Random& random, StopRequest stop);

@@ -53,7 +53,7 @@ SeatWidth::SeatWidth(const Vessel& vessel, const std::vector<SeedLot>& lots, Spa
     : clear(largest_diameter(lots) * (1 + 2 * vessel.fill->jitter)),
       shift(largest_diameter(lots) * vessel.fill->jitter / std::sqrt(space == Space::two_dimensional ? 2 : 3)) {}
 
-/// In space layers are square: one above the other, or closest packed.
+/// In 3D layers are square: one above the other, or closest packed.
 bool visit_seats(const Vessel& vessel, const std::vector<SeedLot>& lots, Space space,
                  const std::function<bool(const Eigen::Vector3d&)>& visit) {
   const bool hexagonal = vessel.fill->packing == Packing::hexagonal;

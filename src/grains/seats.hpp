@@ -16,7 +16,7 @@ struct SeatWidth {
   SeatWidth(const Vessel& vessel, const std::vector<SeedLot>& lots, Space space);
 };
 
-/// Visits the places (m, in the vessel's frame) of a fill in rows, those of one row in the plane, of one layer in
+/// Visits the places (m, in the vessel's frame) of a fill in rows, those of one row in 2D, of one layer in
 /// space, from below, until `visit` is false; what no seed can lie in is left out. Whether `visit` ever was: otherwise
 /// the next row would rise above the vessel's walls, or a row has a single place. The vessel has a fill, `layers` or
 /// `hexagonal`.

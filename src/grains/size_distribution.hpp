@@ -14,10 +14,10 @@ double draw_size(const SeedLot& lot, Random& random);
 /// How a seed is turned, rad in [0, 2 pi): at random for a clump; 0 for others, which draw nothing.
 double draw_angle(const SeedLot& lot, Random& random);
 
-/// Any way to lie in space is as likely as any other: by three numbers (Shoemake, Graphics Gems III, 1992).
+/// Any way to lie in 3D is as likely as any other: by three numbers (Shoemake, Graphics Gems III, 1992).
 Orientation draw_orientation(Random& random);
 
-/// How a seed is turned: a clump in the plane by its angle, in space by its orientation; others draw nothing.
+/// How a seed is turned: a clump in 2D by its angle, in 3D by its orientation; others draw nothing.
 Turn draw_turn(const SeedLot& lot, Random& random);
 
 }  // namespace vibrosow

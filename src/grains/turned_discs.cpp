@@ -27,7 +27,7 @@ std::vector<ClumpDisc> turned_discs(const SeedLot& lot, double size, const Turn&
   return discs;
 }
 
-/// In space first about the upright axis, x towards z, then about the axis across, as `point_in_lab` does.
+/// In 3D first about the upright axis, x towards z, then about the axis across, as `point_in_lab` does.
 Turn turn_in_lab(const Vessel& vessel, const Pose& pose, const Turn& own) {
   const double angle = vessel.tilt + pose.angle;
   if (angle == 0 && pose.turn == 0) return own;

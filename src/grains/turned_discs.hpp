@@ -8,7 +8,7 @@
 
 namespace vibrosow {
 
-/// The discs of a seed of `size` (of its lot's diameter) as it is turned, m from its centre; in space its balls. Of a
+/// The discs of a seed of `size` (of its lot's diameter) as it is turned, m from its centre; in 3D its balls. Of a
 /// seed that is no clump, itself.
 std::vector<ClumpDisc> turned_discs(const SeedLot& lot, double size, const Turn& turned);
 
@@ -18,11 +18,11 @@ Turn turn_in_lab(const Vessel& vessel, const Pose& pose, const Turn& own);
 /// The one of a seed's discs whose centre is furthest within it: the largest, the first of several.
 const ClumpDisc& thickest(const std::vector<ClumpDisc>& discs);
 
-/// Half the least width of the smallest seed there can be, m: the radius of its thickest disc, in space ball. It passes
+/// Half the least width of the smallest seed there can be, m: the radius of its thickest disc, in 3D ball. It passes
 /// no narrower gap, however it is turned.
 double least_half_width(const std::vector<SeedLot>& lots);
 
-/// Diameter of the largest disc, in space ball, that there can be, alone or in a clump, m.
+/// Diameter of the largest disc, in 3D ball, that there can be, alone or in a clump, m.
 double largest_disc(const std::vector<SeedLot>& lots);
 
 }  // namespace vibrosow

@@ -80,7 +80,7 @@ std::vector<ClumpDisc> read_row(const Table& seeds, ShapeName shape, double leng
   return discs;
 }
 
-/// In space: a thickness that is not given is the width.
+/// In 3D: a thickness that is not given is the width.
 std::vector<ClumpDisc> read_solid_row(Table& seeds, ShapeName shape, double length) {
   const double width = read_width(seeds, length);
   const double thickness = seeds.quantity("thickness", Dimension::length, smallest, largest).value_or(width);

@@ -23,7 +23,7 @@ double read_thousand_grain_weight(Table& seeds);
 
 /// One lot of seeds from its table [seeds.NAME]: crop, shape and measures, sizes, mass. Throws InputError on keys that
 /// are missing, out of range, contradict each other or go with another shape or distribution. Fractions are not read.
-/// In space a clump is one of balls; in the plane a seed's thickness is passed over.
+/// In 3D a clump is one of balls; in 2D a seed's thickness is passed over.
 SeedLot read_lot(Table& seeds, const std::string& name, Space space);
 
 }  // namespace vibrosow

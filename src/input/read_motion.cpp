@@ -38,7 +38,7 @@ Course read_course(Table& table, double period) {
   return course;
 }
 
-/// An angle in the plane, or in space a list of three numbers: how far along, up and across.
+/// An angle in 2D, or in 3D a list of three numbers: how far along, up and across.
 void read_direction(Table& table, HarmonicMotion& motion) {
   if (!table.is_list("direction")) {
     motion.direction = table.quantity("direction", Dimension::angle, -360 * degree, 360 * degree).value_or(0);

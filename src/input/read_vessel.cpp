@@ -50,14 +50,14 @@ Fill read_fill(Table table) {
   return fill;
 }
 
-/// Area that a seed of the lot's diameter takes at least in the plane: hexagonally packed; of clumps, which may fill
+/// Area that a seed of the lot's diameter takes at least in 2D: hexagonally packed; of clumps, which may fill
 /// the plane, their own if poured, since rows are of the circles that hold them.
 double least_area(const SeedLot& lot, bool poured) {
   if (poured && lot.shape == Shape::clump) return plate_of(lot.discs).area;
   return std::numbers::sqrt3 / 2 * lot.diameter * lot.diameter;
 }
 
-/// The same in space, m3: closest packed; of clumps, if poured, their own.
+/// The same in 3D, m3: closest packed; of clumps, if poured, their own.
 double least_volume(const SeedLot& lot, bool poured) {
   if (poured && lot.shape == Shape::clump) return clump_volume(lot);
   return lot.diameter * lot.diameter * lot.diameter / std::numbers::sqrt2;
@@ -281,7 +281,7 @@ void check_periodic_across(const Table& table, const Vessel& vessel, const Vesse
   if (periodic) check_period(table, "front_and_back", "tray", *vessel.depth, diameter, "deep");
 }
 
-/// What a vessel has in space alone; in the plane these keys are known and count for nothing.
+/// What a vessel has in 3D alone; in 2D these keys are known and count for nothing.
 void read_space(Table& table, Space space, const Vessel* tray, Vessel& vessel) {
   if (space == Space::two_dimensional) {
     for (const char* key : {"plan", "front_and_back"}) table.skip(key);

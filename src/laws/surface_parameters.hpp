@@ -12,7 +12,7 @@ struct SurfaceParameters {
   double tangential_damping = 0;  // tangential dashpot over the normal one
   double rolling_friction = 0;
   double rolling_damping = 0;    // of critical
-  double twisting_friction = 0;  // in space; largest twisting torque over normal force and rolling radius
+  double twisting_friction = 0;  // in 3D; largest twisting torque over normal force and rolling radius
   double cohesion = 0;           // N
 };
 

@@ -7,7 +7,7 @@
 
 namespace vibrosow {
 
-/// How clumps in space lie and turn, by arrays.
+/// How clumps in 3D lie and turn, by arrays.
 struct ClumpTurning {
   double* quaternion[4];  // w, x, y, z, of unit length
   double* spin[3];        // rad/s, in the lab
@@ -16,7 +16,7 @@ struct ClumpTurning {
   const double* moments[3];       // by lot: principal moments over the smallest
 };
 
-/// Where clumps in space are and how they move, by arrays.
+/// Where clumps in 3D are and how they move, by arrays.
 struct ClumpMotion {
   const double *place[3], *velocity[3];  // m, m/s
   const double* quaternion[4];
@@ -42,7 +42,7 @@ struct ClumpForces {
   GrainVector *force, *torque;
 };
 
-/// Loops over clumps in space, compiled for one instruction set; those of `n` clumps begin with the first of all
+/// Loops over clumps in 3D, compiled for one instruction set; those of `n` clumps begin with the first of all
 /// arrays, others take the clumps [from, to).
 struct ClumpLoops {
   /// Velocity Verlet: how they lie at the end of a step, and the spins there by the angular momentum in its middle.

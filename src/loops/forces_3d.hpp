@@ -6,7 +6,7 @@
 
 namespace vibrosow {
 
-/// By grain, in space: forces, N, and torques about the centres, N m, which without rotation are empty.
+/// By grain, in 3D: forces, N, and torques about the centres, N m, which without rotation are empty.
 struct Forces3d {
   std::vector<GrainVector> forces, torques;
 };

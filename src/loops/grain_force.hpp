@@ -21,7 +21,7 @@ struct ForeignForce {
   double fx, fy, torque;  // N, N m
 };
 
-/// Place, velocity, spin, force or torque of one ball in space, m, m/s, rad/s, N or N m; four numbers as above.
+/// Place, velocity, spin, force or torque of one ball in 3D, m, m/s, rad/s, N or N m; four numbers as above.
 struct alignas(32) GrainVector {
   double x, y, z;
   double spare;
@@ -32,7 +32,7 @@ struct alignas(64) BallMotion {
   GrainVector velocity, spin;
 };
 
-/// As ForeignForce, in space.
+/// As ForeignForce, in 3D.
 struct ForeignForce3d {
   int grain;
   std::array<double, 3> force, torque;  // N, N m

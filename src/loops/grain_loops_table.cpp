@@ -13,7 +13,7 @@ const GrainLoops& grain_loops(InstructionSet set) {
   return *of_set<const GrainLoops*>(set, VIBROSOW_OF_EACH_SET(&, loops));
 }
 
-#ifdef VIBROSOW_PLANE_ALONE  // of a program that simulates nothing in space, and is to be small
+#ifdef VIBROSOW_PLANE_ALONE  // of a program that simulates nothing in 3D, and is to be small
 const Loops3d& loops_3d(InstructionSet) {
   static constexpr Loops3d none{};
   return none;

@@ -8,7 +8,7 @@
 
 namespace vibrosow {
 
-/// What drives balls in space: w F + g - drag w v and w T, with w = 1/m and 1/J.
+/// What drives balls in 3D: w F + g - drag w v and w T, with w = 1/m and 1/J.
 struct Drive3d {
   const GrainVector *force, *torque;
   PerGrain per_mass, per_inertia;
@@ -31,7 +31,7 @@ struct BallRows {
   BallMotion* motions;
 };
 
-/// Loops over all balls in space, compiled for one instruction set, beside those of GrainLoops that know nothing of
+/// Loops over all balls in 3D, compiled for one instruction set, beside those of GrainLoops that know nothing of
 /// dimensions.
 struct Loops3d {
   /// Places, or velocities and spins, of which x, y and z lie apart, side by side. Without rotation `spin` is null.

@@ -6,7 +6,7 @@
 
 namespace vibrosow {
 
-/// How a clump lies in space: the unit quaternion of the rotation that takes its own axes to the lab's.
+/// How a clump lies in 3D: the unit quaternion of the rotation that takes its own axes to the lab's.
 struct Orientation {
   double w = 1, x = 0, y = 0, z = 0;
   bool operator==(const Orientation&) const = default;

@@ -4,7 +4,7 @@
 
 namespace vibrosow::inline VIBROSOW_ISA {
 
-/// How a rigid clump in space lies, and its principal moments of inertia (kg m2), along its own axes.
+/// How a rigid clump in 3D lies, and its principal moments of inertia (kg m2), along its own axes.
 class TurningClump {
  public:
   [[gnu::always_inline]] TurningClump(const Orientation& orientation, const Vector3& inertia) : inertia_(inertia) {

@@ -21,12 +21,12 @@ struct HoleOutflow {
   std::string hole;              // "1".. from the left, "all"
   std::string lot;               // name, or "all"
   std::optional<double> centre;  // m; none for "all"
-  std::optional<double> across;  // m, of its centre from the front; in space alone
+  std::optional<double> across;  // m, of its centre from the front; in 3D alone
   std::optional<double> width;   // m; none for "all"
   std::int64_t grains = 0;       // in the window
   double mass = 0;               // kg, in the window
   double seeds_per_s = 0;
-  double mass_rate = 0;      // kg/s, of the plane slice or in space of the tray
+  double mass_rate = 0;      // kg/s, of the plane slice or in 3D of the tray
   double longest_pause = 0;  // s, inside the window, its ends counting as events
 };
 
@@ -41,7 +41,7 @@ struct Outflow {
   std::optional<double> raw_cv;          // fraction; coefficient of variation of the holes' grains, chance included
   std::optional<double> instability_cv;  // fraction; CV of the whole outflow over the parts of `instability_ends`
   double spilled_fraction = 0;           // spilled / (counted + spilled), whole run
-  std::optional<double> depth_factor;    // tray.depth / diameter of the plane slice; in space 1
+  std::optional<double> depth_factor;    // tray.depth / diameter of the plane slice; in 3D 1
   std::vector<Doubt> doubts;             // what speaks against the figures; empty when all is well
   std::string note() const;              // their texts: "ran dry at 3.2 s; outside the model"
 };

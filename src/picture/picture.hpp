@@ -20,7 +20,7 @@ struct PictureOptions {
   bool force_chains = false;  // a line a contact, the wider the larger its normal force
 };
 
-/// Draws frames of a scene as they are seen from the side, in space from the front, the nearest grains last: all to one
+/// Draws frames of a scene as they are seen from the side, in 3D from the front, the nearest grains last: all to one
 /// scale, with one range of colours. Same frames: the same bytes, with one version of cairo and of the fonts.
 class Picture {
  public:

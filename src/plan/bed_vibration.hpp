@@ -6,7 +6,7 @@ namespace vibrosow {
 
 /// The fastest ways in which a closely packed bed of equal grains vibrates, its contacts having a slope k and a
 /// tangential ratio rho: against each other, omega^2 = (normal + tangential rho) k / m, and all turning alike, omega^2
-/// = 2 x rho k / m with x = turning m r^2 / I. In the plane hexagonal, in space face-centred cubic; computed over all
+/// = 2 x rho k / m with x = turning m r^2 / I. In 2D hexagonal, in 3D face-centred cubic; computed over all
 /// wave vectors.
 struct ClosestPacking {
   double normal, tangential, turning;

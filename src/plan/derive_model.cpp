@@ -15,7 +15,7 @@
 namespace vibrosow {
 namespace {
 
-/// What only space has cannot be left out in the plane without a word.
+/// What only space has cannot be left out in 2D without a word.
 void check_plane(const Vessel& vessel) {
   const auto* turning = vessel.motion ? std::get_if<TurningMotion>(&*vessel.motion) : nullptr;
   if (turning && turning->axis == TurningAxis::upright)

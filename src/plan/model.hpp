@@ -33,7 +33,7 @@ struct Model {
 };
 
 /// `effects`: to run with more than the scene calls for, or to leave some out. Throws std::logic_error when no kernel
-/// is compiled for them, InputError where a vessel in space has no depth, or a clump not the inertia of its space.
+/// is compiled for them, InputError where a vessel in 3D has no depth, or a clump not the inertia of its space.
 Model prepare(const Scene& scene, const std::optional<EffectSet>& effects = std::nullopt);
 
 /// The same; throws InputError where the step that the scene asks for is too long and not insisted on.

@@ -105,7 +105,7 @@ class Press {
     top_ = loose / area;
     for (Body& body : bodies_)
       body.place = {random_.uniform(0, period_), random_.uniform(0, top_), plane_ ? 0 : random_.uniform(0, period_)};
-    // The forces times the distances of centres add up to 3 P V, in the plane to 2 P V: of three contacts a seed, or
+    // The forces times the distances of centres add up to 3 P V, in 2D to 2 P V: of three contacts a seed, or
     // two, each as deep as wanted.
     const double depth = wanted_depth * deepest, seeds = static_cast<double>(bodies_.size());
     load_ = seeds * depth * deepest / top_;

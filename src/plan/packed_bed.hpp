@@ -9,7 +9,7 @@
 
 namespace vibrosow {
 
-/// A disc of a seed, in space a ball, as contacts see it, and where it lies from the seed's centre of mass, m.
+/// A disc of a seed, in 3D a ball, as contacts see it, and where it lies from the seed's centre of mass, m.
 struct BedDisc {
   GrainKind kind;
   Eigen::Vector3d arm;
@@ -40,8 +40,8 @@ struct PackedBed {
 
 /// Seeds of all lots, their sizes and how they are turned drawn at random, pressed without friction between two plates
 /// until contacts are some hundredth of a diameter deep; along the plates the bed is periodic. So they have as many
-/// contacts as seeds ever have that lie anyhow: without friction some six in space and four in the plane are needed to
-/// hold, and those that the depth adds. The same scene has the same bed. In the plane every z is 0.
+/// contacts as seeds ever have that lie anyhow: without friction some six in 3D and four in 2D are needed to
+/// hold, and those that the depth adds. The same scene has the same bed. In 2D every z is 0.
 PackedBed packed_bed(const StepBasis& basis);
 
 }  // namespace vibrosow

@@ -19,7 +19,7 @@ constexpr double lost_width_at_rest = 1.9, lost_width_shaken = 1.4;  // mean dia
 constexpr double steepest_heap = 0.35;                         // tangent; piles of discs stand at 17 to 20 degrees
 constexpr double shaken_heap = 0.13;                           // tangent, under the wheat and pea trays' hoppers
 constexpr double packing_fraction_3d = 0.6;                    // of a poured bed
-constexpr double round_constant = 0.58, slot_constant = 1.03;  // Beverloo's, of the bulk in space
+constexpr double round_constant = 0.58, slot_constant = 1.03;  // Beverloo's, of the bulk in 3D
 constexpr double carried =
     0.55;  // of its peak speed is that of seeds on a shaken floor: 0.45 and 0.7 in reports/relations
 constexpr int parts_of_a_run = 2000;
@@ -28,13 +28,13 @@ bool is_flat(const Scene& scene) {
   return scene.space == Space::two_dimensional;
 }
 
-/// Of the disc, or in space the ball, that is as large as the mean grain.
+/// Of the disc, or in 3D the ball, that is as large as the mean grain.
 double equal_diameter(const Scene& scene) {
   return is_flat(scene) ? std::sqrt(4 / std::numbers::pi * mean_area(scene.lots))
                         : portable_math::cbrt(6 / std::numbers::pi * mean_volume(scene.lots));
 }
 
-/// Grains of a bed over an area (m2) of the plane, in space over all of a vessel's depth.
+/// Grains of a bed over an area (m2) of the plane, in 3D over all of a vessel's depth.
 double grains_over(double area, const Scene& scene, const Vessel& vessel) {
   if (is_flat(scene)) return area * poured_share / mean_area(scene.lots);
   return area / vessel.length * floor_area(vessel) * packing_fraction_3d / mean_volume(scene.lots);

@@ -153,8 +153,8 @@ std::pair<double, double> damping_ratios(const StepBasis& basis, double omega) {
   return {smallest, largest};
 }
 
-/// Grains against each other. (In the plane the largest eigenvalues are 6 + 2 rho, at the middle of the zone's edge,
-/// and 9/2 (1 + rho), at its corner.) Without springs sqrt(3 g / eps), in space sqrt(4 g / eps), for equal grains in
+/// Grains against each other. (In 2D the largest eigenvalues are 6 + 2 rho, at the middle of the zone's edge,
+/// and 9/2 (1 + rho), at its corner.) Without springs sqrt(3 g / eps), in 3D sqrt(4 g / eps), for equal grains in
 /// elastic shells. Clumps touched at their tips yield more easily, and are damped alike.
 Mode translation(const StepBasis& basis, double slope_over_mass, const SideContacts& sides) {
   const ClosestPacking bed = closest_packing(basis.scene.space);

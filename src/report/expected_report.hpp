@@ -65,7 +65,7 @@ std::string expected_sentence(const ExpectedRate& expected);
 std::string sentence_of(const std::optional<ExpectedRate>& expected);
 
 /// What the rates of the layouts that an answer names are expected to be, and that it decides nothing between them; or,
-/// of rates in space beside measured outflow, why that is not told. Empty where no layout has any.
+/// of rates in 3D beside measured outflow, why that is not told. Empty where no layout has any.
 std::string expected_sentence(const Answer& answer);
 
 /// The same for a terminal, wrapped.

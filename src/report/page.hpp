@@ -17,19 +17,19 @@ namespace vibrosow {
 /// Of each remark whether it is serious, its text and, where there is something, what to do.
 nlohmann::ordered_json page_remarks(const std::vector<Remark>& remarks);
 
-/// A scene's lots, and its vessels as they are seen from the side, in space with the holes of their floors; mm.
+/// A scene's lots, and its vessels as they are seen from the side, in 3D with the holes of their floors; mm.
 nlohmann::ordered_json page_lots(const Scene& scene);
 nlohmann::ordered_json page_vessels(const Scene& scene);
 
-/// In space the faces of each vessel by its name (vessel/face.hpp), mm, in the vessel's own frame: of a plate its size
+/// In 3D the faces of each vessel by its name (vessel/face.hpp), mm, in the vessel's own frame: of a plate its size
 /// along e1 and e2 and its round holes (place and radius), of a surface of revolution about e1 x e2 its two rims
 /// (radius and height) and half its angle. Copies that a periodic direction has beside the vessel are left out. Empty
-/// in the plane.
+/// in 2D.
 nlohmann::ordered_json page_faces(const Scene& scene);
 
-/// In space where each vessel that moves is until `end_time` (s), by its name: {step_s, at}, every step_s the place of
+/// In 3D where each vessel that moves is until `end_time` (s), by its name: {step_s, at}, every step_s the place of
 /// its frame's zero (x, y, z in mm, lab) and its angle (rad). A recording has two or three frames a shake: too few to
-/// move between them. Empty in the plane.
+/// move between them. Empty in 2D.
 nlohmann::ordered_json page_paths(const Scene& scene, double end_time);
 
 /// {mean, half width of its 95 % interval}, in `unit`; null where there is none.

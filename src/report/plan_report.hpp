@@ -33,7 +33,7 @@ std::string plan_text(const PlanSource& source);
 /// One row per layout that gives the rate, the best first.
 std::string plan_csv(const SowingPlan& plan, CsvFormat format = {});
 
-/// The best layout in an endless tray in space, as a seeder file. Throws std::invalid_argument without a
+/// The best layout in an endless tray in 3D, as a seeder file. Throws std::invalid_argument without a
 /// layout.
 std::string planned_seeder(const PlanSource& source);
 

@@ -43,7 +43,7 @@ struct GrainRow {
   Value shear;
 };
 
-/// In space there are more columns, after those of the plane.
+/// In 3D there are more columns, after those of the plane.
 Columns<GrainRow> grains_columns(Space space) {
   using R = const GrainRow&;
   const auto quantity = [](std::string name, Unit unit, std::string description,
@@ -99,7 +99,7 @@ struct CellRow {
   Value change, vx, vy, vz, shear_rate, dilation_rate;
 };
 
-/// In space there is one column more, after those of the plane.
+/// In 3D there is one column more, after those of the plane.
 Columns<CellRow> fields_columns(Space space) {
   const auto quantity = [](std::string name, Unit unit, std::string description, Value CellRow::*value) {
     return quantity_column<CellRow>(std::move(name), unit, std::move(description),

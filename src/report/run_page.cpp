@@ -55,7 +55,7 @@ Json holes(const RunPage& page) {
   return all;
 }
 
-/// In the plane rates are of the slice; with a depth the whole tray's stand beside them.
+/// In 2D rates are of the slice; with a depth the whole tray's stand beside them.
 Json hole_table(const RunPage& page) {
   const bool slice = page.model.scene.space == Space::two_dimensional;
   const bool of_tray = slice && page.outflow.depth_factor;

@@ -23,7 +23,7 @@ std::string to_digits(double value, int digits);
 /// A fraction in percent to two significant digits, without the sign: "4.6".
 std::string two_digit_percent(double fraction);
 
-/// What stands beside every rate of the whole tray and of the ground: how the plane comes to it; empty in space.
+/// What stands beside every rate of the whole tray and of the ground: how the plane comes to it; empty in 3D.
 std::string_view of_plane(Space space);
 
 /// "12 % (9.3 to 16 %)", or "up to 8 %, if any".

@@ -9,7 +9,7 @@
 namespace vibrosow {
 
 /// A contact at one moment, of two grains or of a grain and a wall; of clumps between two of their discs or balls, so
-/// that two clumps may touch more than once. In the lab frame; in the plane the third number is 0.
+/// that two clumps may touch more than once. In the lab frame; in 2D the third number is 0.
 struct GrainContact {
   std::int64_t grain = 0, partner = 0;       // ids; negative: a wall
   std::array<double, 3> from{}, to{};        // m, the grain's centre (its disc's), the partner's or the wall's nearest

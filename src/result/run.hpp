@@ -20,7 +20,7 @@ struct OutflowEvent {
   double mass;         // kg
   double x;            // m from the tray's left end, where it passed the floor (a spilled grain: where it was counted)
   double speed;        // m/s at the counting line
-  double z = 0;        // m from the tray's front, as x; in space
+  double z = 0;        // m from the tray's front, as x; in 3D
 };
 
 /// put_in = inside + counted + spilled + lost, always.

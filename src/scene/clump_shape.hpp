@@ -21,14 +21,14 @@ Plate plate_of(const std::vector<ClumpDisc>& discs);
 
 /// Volume (m3) of the balls whose sections the discs are, all centres in one plane, overlaps counted once; of a row
 /// parallel to x this is the body of revolution about its axis, in closed form; of others the integral over the height
-/// z of the area that the discs of radius sqrt(r^2 - z^2) cover, to 1e-9 of itself. Of clumps in space:
+/// z of the area that the discs of radius sqrt(r^2 - z^2) cover, to 1e-9 of itself. Of clumps in 3D:
 /// `body_of_balls`.
 double volume_of_balls(const std::vector<ClumpDisc>& discs);
 
 /// The discs moved so that the centre of mass of their plate is the origin.
 std::vector<ClumpDisc> about_centre_of_mass(std::vector<ClumpDisc> discs);
 
-/// Radius (m) of the circle, in space the ball, about the origin that just holds all discs.
+/// Radius (m) of the circle, in 3D the ball, about the origin that just holds all discs.
 double holding_radius(const std::vector<ClumpDisc>& discs);
 
 /// How a clump leans on a wall, at most over all its sides. Arms and radii in radii of gyration.
@@ -69,7 +69,7 @@ std::vector<ClumpDisc> drop(double length, double width);
 inline constexpr int most_balls_across = 4;
 inline constexpr double thinnest = 0.255;
 
-/// The seeds that look like these from above, in space and `thickness` (m) thick along z, at most as thick as wide: the
+/// The seeds that look like these from above, in 3D and `thickness` (m) thick along z, at most as thick as wide: the
 /// row that has the length and the thickness, each ball of it as so many side by side along y that the seed is as wide
 /// and no valley deeper than `deepest_valley` of the width. Where width and thickness differ by less than that, one
 /// row of their geometric mean. Empty when too slender or too thin.

@@ -6,7 +6,7 @@
 
 namespace vibrosow {
 
-/// Makes a lot's seeds clumps of these discs (m, anywhere), in space of balls: about their centre of mass, in space
+/// Makes a lot's seeds clumps of these discs (m, anywhere), in 3D of balls: about their centre of mass, in 3D
 /// along the principal axes, with their inertia and diameter. Mass and sizes stay.
 void make_clump(SeedLot& lot, const std::vector<ClumpDisc>& discs, Space space);
 

@@ -2,7 +2,7 @@
 
 namespace vibrosow {
 
-/// Whether this is of a program that simulates nothing in space and is to be small, as the pages' is.
+/// Whether this is of a program that simulates nothing in 3D and is to be small, as the pages' is.
 #ifdef VIBROSOW_PLANE_ALONE
 inline constexpr bool plane_alone = true;
 #else

@@ -48,7 +48,7 @@ struct SlotsIn3d {
 /// space of a uniform body.
 enum class Shape { disc, ball, clump };
 
-/// One disc of a clump, m, from the clump's centre of mass; in space a ball, and x, y and z along the principal axes.
+/// One disc of a clump, m, from the clump's centre of mass; in 3D a ball, and x, y and z along the principal axes.
 struct ClumpDisc {
   double x, y, radius;
   double z = 0;
@@ -76,7 +76,7 @@ struct SeedLot {
   SizeDistribution sizes{};
   std::vector<ClumpDisc> discs{};             // of a clump of that diameter
   double gyration2 = 0;                       // m2, moment of inertia over mass of such a clump, about z
-  double gyration2_x = 0, gyration2_y = 0;    // m2, about x and y: of a clump in space alone
+  double gyration2_x = 0, gyration2_y = 0;    // m2, about x and y: of a clump in 3D alone
   std::optional<double> shell_compression{};  // these three: instead of the contact's
   std::optional<double> youngs_modulus{};     // Pa
   std::optional<double> poisson_ratio{};
@@ -89,7 +89,7 @@ struct Surface {
   double restitution = 1;        // of a head-on impact, (0, 1]; 1 is elastic
   double rolling_friction = 0;   // largest rolling torque over normal force and rolling radius
   double cohesion = 0;           // N, pull of two surfaces that touch
-  double twisting_friction = 0;  // in space, the same of a torque about the normal, beside rolling friction
+  double twisting_friction = 0;  // in 3D, the same of a torque about the normal, beside rolling friction
   bool operator==(const Surface&) const = default;
 };
 
@@ -136,7 +136,7 @@ struct Hole {
   double centre = 0;   // m along the floor from the vessel's left end
   double width = 0;    // m; of a round hole its diameter
   double open_at = 0;  // s; until then a gate closes it
-  // In space:
+  // In 3D:
   HoleShape shape = HoleShape::slot;
   double across = 0;         // m, of its centre from the vessel's front
   double across_length = 0;  // m, of a slot
@@ -150,12 +150,12 @@ struct Hole {
 
 enum class PieceAxis { upright, along };
 
-/// Which way a piece is drawn out in space: from front to back, or from the vessel's left end to its right one.
+/// Which way a piece is drawn out in 3D: from front to back, or from the vessel's left end to its right one.
 enum class DrawnOut { across, along };
 
 /// A piece of a vessel's wall beside its box, in the vessel's frame: a straight line from a to b, or, where the radius
 /// is not zero, an arc about `centre`, anticlockwise from the angle `from` to the angle `to` (at most a full turn). A
-/// grain larger than an arc's circle feels only the nearer end of it from within. In space a piece is drawn out from
+/// grain larger than an arc's circle feels only the nearer end of it from within. In 3D a piece is drawn out from
 /// front to back; or along the vessel, and then its points are (z, y), its angles 0 along z and pi/2 up; or a line is
 /// turned about an axis that is upright or lies along x, and then its points are (distance from the axis, place along
 /// it): a cylinder, a cone or a disc.
@@ -166,7 +166,7 @@ struct WallPiece {
   double from = 0, to = 0;                                                   // rad, 0 along x, pi/2 up
   std::optional<Eigen::Vector2d> about{};  // m, where that axis passes: x and z of an upright one, else y and z
   PieceAxis axis = PieceAxis::upright;
-  DrawnOut drawn_out = DrawnOut::across;  // along: in space alone, and not turned
+  DrawnOut drawn_out = DrawnOut::across;  // along: in 3D alone, and not turned
   bool operator==(const WallPiece&) const = default;
 };
 
@@ -225,14 +225,14 @@ struct TableMotion {
   std::vector<double> times;  // s, ascending
   std::vector<double> x, y;   // m, lab
   std::vector<double> angle;  // rad, beside the tilt
-  std::vector<double> z;      // m, lab, in space; empty: no motion across
+  std::vector<double> z;      // m, lab, in 3D; empty: no motion across
   bool operator==(const TableMotion&) const = default;
 };
 
 enum class TurningAxis { across, upright };
 
 /// The vessel turns with the angular velocity times s(t), over and over, about an axis of its own frame through the
-/// pivot: across the plane (a drum), x towards y, or in space upright, x towards z.
+/// pivot: across the plane (a drum), x towards y, or in 3D upright, x towards z.
 struct TurningMotion {
   Eigen::Vector2d pivot = Eigen::Vector2d::Zero();  // m, in the vessel's frame: x and y, of an upright axis x and z
   double angular_velocity = 0;                      // rad/s
@@ -258,7 +258,7 @@ struct Rain {
   bool operator==(const Rain&) const = default;
 };
 
-/// A tray or a hopper: floor from (0, 0) to (length, 0) with end walls of `height`, in the vessel's own frame. In space
+/// A tray or a hopper: floor from (0, 0) to (length, 0) with end walls of `height`, in the vessel's own frame. In 3D
 /// x and y are the same and z goes across, from the front at 0 to the back at `depth`. A round vessel is as deep as it
 /// is long: its wall is a cylinder of that diameter.
 struct Vessel {
@@ -270,13 +270,13 @@ struct Vessel {
   double funnel = 0;                                 // rad, slope of the floor towards its holes; 0: flat
   std::optional<double> depth;                       // m, across the plane
   std::vector<Hole> holes;                           // from the left, not overlapping
-  SlotsIn3d slots_in_3d{};                           // in the plane
+  SlotsIn3d slots_in_3d{};                           // in 2D
   std::vector<WallPiece> pieces{};                   // beside floor and end walls
   bool box = true;                                   // whether there are floor and end walls
   Sides sides = Sides::walls;
-  Sides front_and_back = Sides::walls;  // in space
-  double front = 0;                     // m, lab position of the front at rest, in space
-  Plan plan = Plan::rectangle;          // in space
+  Sides front_and_back = Sides::walls;  // in 3D
+  double front = 0;                     // m, lab position of the front at rest, in 3D
+  Plan plan = Plan::rectangle;          // in 3D
   std::optional<Fill> fill;
   std::optional<Rain> rain{};
   std::optional<VesselMotion> motion;
@@ -328,7 +328,7 @@ struct RunPlan {
   bool operator==(const RunPlan&) const = default;
 };
 
-/// What maps of a bed in space show, seen from the front: all of it, or a slice a cell thick in the middle of the
+/// What maps of a bed in 3D show, seen from the front: all of it, or a slice a cell thick in the middle of the
 /// depth.
 enum class MapView { projection, slice };
 
@@ -336,11 +336,11 @@ enum class MapView { projection, slice };
 struct Record {
   std::vector<double> times{};         // s, ascending
   double cell = 0;                     // m, edge of the cells of maps
-  MapView view = MapView::projection;  // in space
+  MapView view = MapView::projection;  // in 3D
   bool operator==(const Record&) const = default;
 };
 
-/// Whether seeds are discs of a slice one seed thick, or balls in space.
+/// Whether seeds are discs of a slice one seed thick, or balls in 3D.
 enum class Space { plane, three_dimensional };
 
 /// Everything a run needs, in SI; one value, read from a seeder file and validated.

@@ -23,7 +23,7 @@ double least_size(const SeedLot& lot);
 double most_size(const SeedLot& lot);
 double size_moment(const SeedLot& lot, int power);
 
-/// Whether a lot's seeds are clumps of balls in space.
+/// Whether a lot's seeds are clumps of balls in 3D.
 bool is_solid_clump(const SeedLot& lot);
 
 bool has_clumps(const std::vector<SeedLot>& lots);
@@ -42,7 +42,7 @@ struct SeedSizes {
 };
 std::vector<SeedSizes> sizes_of(const std::vector<SeedLot>& lots);
 
-/// Volume of a clump of a lot's diameter, m3: of its balls, in the plane as if its discs were balls.
+/// Volume of a clump of a lot's diameter, m3: of its balls, in 2D as if its discs were balls.
 double clump_volume(const SeedLot& lot);
 
 /// Density of a seed, kg/m3; of a clump by `clump_volume`; none of a disc, which has no thickness.

@@ -7,7 +7,7 @@
 
 namespace vibrosow {
 
-/// `side_contacts` in space: `balls` from their centre of mass along the principal axes, `gyration2` (m2) about these.
+/// `side_contacts` in 3D: `balls` from their centre of mass along the principal axes, `gyration2` (m2) about these.
 /// Pushed at c by a unit force along n, a clump yields at c by 1 + (c x n) G^-1 (c x n) over its mass, G = gyration2:
 /// at a tip by at most 1 plus the larger eigenvalue of [c]^T G^-1 [c]. On a side it is the largest eigenvalue of sum w
 /// v v^T, v = (1, G^-1/2 (c x n)). All sides are looked at: planes that touch three balls, and for pairs planes at

@@ -7,7 +7,7 @@
 
 namespace vibrosow {
 
-/// Area of a vessel's floor in space, m2, holes included. The vessel has a depth.
+/// Area of a vessel's floor in 3D, m2, holes included. The vessel has a depth.
 double floor_area(const Vessel& vessel);
 
 /// Thickness (m) of the slice that the plane simulates: one seed. The bed that stands for a slice of that thickness
@@ -22,10 +22,10 @@ double slice_thickness(const std::vector<SeedLot>& lots);
 /// Share of its area that a bed of discs poured at random covers (Visscher & Bolsterli 1972, doi 10.1038/239504a0).
 inline constexpr double poured_share = 0.82;
 
-/// Mean area (m2) of a seed in the plane, of all lots by their fractions of the number.
+/// Mean area (m2) of a seed in 2D, of all lots by their fractions of the number.
 double mean_area(const std::vector<SeedLot>& lots);
 
-/// Mean volume (m3) of a seed in space, of all lots by their fractions of the number.
+/// Mean volume (m3) of a seed in 3D, of all lots by their fractions of the number.
 double mean_volume(const std::vector<SeedLot>& lots);
 
 /// Bulk density (kg/m3) of the bed that the plane's slice stands for, where seeds cover the share `filled` of its area.
@@ -44,7 +44,7 @@ double slices_of_vessel(const Vessel& vessel, double thickness);
 /// `times` as many seeds of its fill, at least one, and of its rain.
 void multiply_seeds(Vessel& vessel, double times);
 
-/// The slice of a scene in space that the plane simulates, for pictures of it: seeds and rain in its share, each row of
+/// The slice of a scene in 3D that the plane simulates, for pictures of it: seeds and rain in its share, each row of
 /// holes as slots from front to back, round vessels cut through their middle, clumps as their sections across z. A
 /// scene of the plane stays as it is. To run both, read both: `read_in_both_spaces`.
 Scene in_plane(Scene scene);

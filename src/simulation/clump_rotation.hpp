@@ -6,7 +6,7 @@
 
 namespace vibrosow {
 
-// Rotation of clumps in space, of the grains [from, to), in each scheme's terms. What turns a clump is its torque, not
+// Rotation of clumps in 3D, of the grains [from, to), in each scheme's terms. What turns a clump is its torque, not
 // an angular acceleration: the angular momentum of a clump that none acts on stays what it is, to rounding.
 
 /// Velocity Verlet: how clumps lie at the end of a step, and the spins there by the angular momentum in its middle.

@@ -36,7 +36,7 @@ class ForceField {
   ForceField(const ForceField&) = delete;
   ForceField& operator=(const ForceField&) = delete;
 
-  /// Where the next evaluation, and it alone, reads how balls in space lie and move, if whoever moves them sets it. Not
+  /// Where the next evaluation, and it alone, reads how balls in 3D lie and move, if whoever moves them sets it. Not
   /// of clumps.
   BallRows rows_to_set();
 
@@ -54,7 +54,7 @@ class ForceField {
 
   /// Forces of the walls alone on each grain, where grains and walls are now; nothing moves on by it.
   Forces wall_forces();
-  /// The same on each ball in space, those of clumps one by one.
+  /// The same on each ball in 3D, those of clumps one by one.
   std::vector<GrainVector> wall_forces_3d();
 
   DeepestContact deepest_contact();
@@ -78,7 +78,7 @@ class ForceField {
   void set_motion(std::size_t vessel, const std::optional<VesselMotion>& motion, const Eigen::Vector2d& shift);
 
   const Forces& forces() const { return plane_.on_grains; }
-  /// The same of balls in space: forces (N) and torques (N m), the latter without rotation empty.
+  /// The same of balls in 3D: forces (N) and torques (N m), the latter without rotation empty.
   const std::vector<GrainVector>& forces_3d() const { return space_.on_grains.forces; }
   const std::vector<GrainVector>& torques_3d() const { return space_.on_grains.torques; }
   const Walls& walls() const { return walls_; }
@@ -188,7 +188,7 @@ class ForceField {
   Part<Balls3d> space_;
   std::vector<ContactStatistics> of_ranges_;
   std::vector<double> shifted_x_;                     // m, across the periodic boundary
-  std::vector<GrainVector> places_, shifted_places_;  // the same of balls in space
+  std::vector<GrainVector> places_, shifted_places_;  // the same of balls in 3D
   std::vector<BallMotion> motions_;
   bool rows_are_set_ = false;
 };

@@ -66,7 +66,7 @@ void accelerations_3d(Integration& s) {
   });
 }
 
-/// a = F / m + g - (mu / m) v, alpha = T / J, of clumps in space T, into the arrays of `s`.
+/// a = F / m + g - (mu / m) v, alpha = T / J, of clumps in 3D T, into the arrays of `s`.
 void accelerations(Integration& s) {
   const Grains& grains = s.grains;
   if (grains.is_3d) return accelerations_3d(s);
@@ -132,7 +132,7 @@ void predict(Integration& s) {
   });
 }
 
-/// The same of balls in space, with the rows that kernels read.
+/// The same of balls in 3D, with the rows that kernels read.
 void predict_balls(Integration& s) {
   Grains& g = s.grains;
   const BallRows rows = s.field.rows_to_set();

@@ -9,7 +9,7 @@
 
 namespace vibrosow {
 
-/// One coordinate of all grains as it moves. Spins of balls in space and components of quaternions have no place; the
+/// One coordinate of all grains as it moves. Spins of balls in 3D and components of quaternions have no place; the
 /// array of an absent effect is empty.
 struct Coordinate {
   std::vector<double>* place;  // null: there is none
@@ -19,9 +19,9 @@ struct Coordinate {
 
 /// Those that there are.
 struct Moving {
-  std::vector<Coordinate> along, about;  // the axes; clumps in space turn in a way of their own, but for gear5
+  std::vector<Coordinate> along, about;  // the axes; clumps in 3D turn in a way of their own, but for gear5
   std::vector<Coordinate> axes;          // both, in that order
-  std::vector<Coordinate> quaternions;   // of clumps in space, under gear5
+  std::vector<Coordinate> quaternions;   // of clumps in 3D, under gear5
   Moving(Grains& grains, IntegratorState& kept);
 };
 
@@ -41,7 +41,7 @@ struct Integration {
   Moving moving{grains, kept};
 
   // The state at the beginning of a step (rk2_midpoint), of the coordinates along the axes, then about them; the last
-  // line of clumps in space alone.
+  // line of clumps in 3D alone.
   std::vector<std::vector<double>> places{}, speeds{};
   std::vector<Orientation> orientation{};
 
@@ -53,7 +53,7 @@ struct Integration {
 /// and is of second order for drag and for one contact at a time, of first order where contacts share a grain. RK2 is
 /// paper A's midpoint scheme, with the walls at the middle of the step too; gear5 is the fifth-order
 /// predictor-corrector in Nordsieck form for forces that depend on velocity (alpha_0 = 3/16; Gear 1971, Allen &
-/// Tildesley 1987), one evaluation a step. Clumps in space turn as clump_rotation.hpp has it.
+/// Tildesley 1987), one evaluation a step. Clumps in 3D turn as clump_rotation.hpp has it.
 using StepFunction = void (*)(Integration&);
 StepFunction step_function(Integrator integrator);
 

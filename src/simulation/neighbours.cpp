@@ -88,7 +88,7 @@ std::vector<ActivePair> active_pairs(const PairList& pairs, const ContactHistori
   return active;
 }
 
-/// Seen from the pair's other grain: in space vectors change their sign, in the plane nothing does.
+/// Seen from the pair's other grain: in 3D vectors change their sign, in 2D nothing does.
 void reverse(ContactHistories& histories, std::size_t k) {
   const std::size_t length = histories.kinds.record_length(), twist = histories.kinds.roll ? length - 1 : length;
   if (length == 0 || histories.place[k] == ContactHistories::no_record) return;

@@ -33,7 +33,7 @@ struct NeighbourMargins {
 /// renewal. Nothing here is state of a run: made anew, it gives the same contacts.
 class Neighbours {
  public:
-  /// In space where the histories' kinds are.
+  /// In 3D where the histories' kinds are.
   Neighbours(const std::vector<Vessel>& vessels, double largest_disc_diameter, NeighbourMargins margins,
              HistoryKinds kinds, Execution& execution);
 
@@ -60,7 +60,7 @@ class Neighbours {
   const std::vector<Image>& images() const { return images_; }
   std::int64_t searches() const { return searches_; }
   std::int64_t prunes() const { return prunes_; }
-  /// Throws std::logic_error in space.
+  /// Throws std::logic_error in 3D.
   Broadphase& broadphase() {
     if (!in_plane_) throw std::logic_error("a 2D broadphase for a 3D scene");
     return *in_plane_;
@@ -116,7 +116,7 @@ class Neighbours {
   std::optional<Broadphase> in_plane_;
   std::optional<Broadphase3d> is_3d_;
   std::vector<double> largest_radius_;          // m, by vessel, of its walls about its frame's zero
-  std::vector<double> largest_radius_in_plan_;  // m, the same about the upright axis, in space
+  std::vector<double> largest_radius_in_plan_;  // m, the same about the upright axis, in 3D
   double diameter_;                             // m, of the largest disc or ball
   Level wide_level_, narrow_level_;
   Course course_;

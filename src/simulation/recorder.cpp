@@ -19,7 +19,7 @@ double ball_volume(double radius) {
   return 4 * std::numbers::pi / 3 * (radius * radius * radius);
 }
 
-/// A lot's grain is so much of its circle, in space of its ball.
+/// A lot's grain is so much of its circle, in 3D of its ball.
 double filled_by(const SeedLot& lot) {
   if (lot.discs.empty()) return 1;
   const double radius = 0.5 * lot.diameter;

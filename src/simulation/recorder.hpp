@@ -15,11 +15,11 @@ Snapshot snapshot_of(const Grains& grains, const Walls& walls, double time);
 class GrainExtents {
  public:
   explicit GrainExtents(const std::vector<SeedLot>& lots);
-  /// Sets a snapshot's areas, in space its volumes.
+  /// Sets a snapshot's areas, in 3D its volumes.
   void add_to(Snapshot& snapshot) const;
 
  private:
-  std::vector<double> filled_;  // by lot, the grain's area over that of its circle; in space its volume over its ball's
+  std::vector<double> filled_;  // by lot, the grain's area over that of its circle; in 3D its volume over its ball's
 };
 
 /// Takes a snapshot at the first step that ends at or after each record time; a record at time 0 is the start. A scene

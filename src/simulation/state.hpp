@@ -23,12 +23,12 @@ using HigherDerivatives = std::array<std::vector<double>, 4>;
 
 /// What a scheme keeps from step to step.
 struct IntegratorState {
-  // Accelerations at the beginning of the next step; of clumps in space `alpha` is the torque, N m, but for gear5.
+  // Accelerations at the beginning of the next step; of clumps in 3D `alpha` is the torque, N m, but for gear5.
   std::vector<double> ax, ay, alpha;
   HigherDerivatives of_x{}, of_y{}, of_angle{};    // gear5 only
-  std::vector<double> az{}, alpha_x{}, alpha_y{};  // the same in space
+  std::vector<double> az{}, alpha_x{}, alpha_y{};  // the same in 3D
   HigherDerivatives of_z{}, of_angle_x{}, of_angle_y{};
-  std::array<std::vector<double>, 4> quaternion_rate{};  // 1/s, of clumps in space; this and the next gear5 only
+  std::array<std::vector<double>, 4> quaternion_rate{};  // 1/s, of clumps in 3D; this and the next gear5 only
   std::array<HigherDerivatives, 4> of_quaternion{};
   double wall_power = 0;                      // W, at the beginning of the next step
   double wall_work = 0, gross_wall_work = 0;  // J; sizes summed
@@ -48,7 +48,7 @@ struct CounterState {
     bool counted = false;
     int hole = 0;  // passed; 0: none, it fell beside the tray
     double x = 0;  // m, where
-    double z = 0;  // m, in space
+    double z = 0;  // m, in 3D
   };
   std::vector<Passage> passages;  // by grain
   std::vector<char> below;        // by grain: whether it is under the floor
@@ -89,7 +89,7 @@ struct GuardState {
 
 struct RecorderState {
   std::uint64_t taken = 0;             // of the record's times
-  std::vector<Eigen::Vector3d> start;  // m, by id: where a grain was put in; 0 across in the plane
+  std::vector<Eigen::Vector3d> start;  // m, by id: where a grain was put in; 0 across in 2D
 };
 
 /// Everything of a run that changes from step to step. Two simulations of the same model and state go on alike, to the

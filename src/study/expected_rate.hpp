@@ -21,18 +21,18 @@ struct RateKnowledge {
 
 /// The shipped one. Throws InputError where it is not there.
 RateKnowledge shipped_rate_knowledge();
-/// The same for a study with scenes in space, unless measured outflow stands beside its rates: the misfit then says
+/// The same for a study with scenes in 3D, unless measured outflow stands beside its rates: the misfit then says
 /// what the model errs by.
 std::optional<RateKnowledge> knowledge_for(const Study& study);
 
-/// What all rates of a scene in space err by, but for chance.
+/// What all rates of a scene in 3D err by, but for chance.
 struct SceneError {
   PredictionError error{};
   bool knows_tolerance = true;  // else `error.tolerance` is 0
   std::vector<Doubt> doubts{};  // about these parts
 };
 
-/// None in the plane, whose rates are not the tray's.
+/// None in 2D, whose rates are not the tray's.
 std::optional<SceneError> scene_error(const Scene& scene, const RateKnowledge& knowledge);
 
 /// A simulated rate of all holes with the range that holds the true one in 95 % of cases until the tray is weighed.

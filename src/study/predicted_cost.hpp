@@ -49,7 +49,7 @@ double predict_seconds(const std::vector<const Scene*>& scenes);
 double predict_seconds(const Study& study);
 
 /// CPU time (s) of a run on a machine as they are: the grain-steps that are foreseen, at 25 ns each of a disc in the
-/// plane and 70 ns of a ball in space, which are those of two hyperthreads of one core that are both at work
+/// plane and 70 ns of a ball in 3D, which are those of two hyperthreads of one core that are both at work
 /// (reports/performance). The same on every machine, so that what follows from it is, too. Throws as `prepare` does.
 double usual_seconds(const Scene& scene);
 

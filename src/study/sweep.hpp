@@ -30,7 +30,7 @@ struct SweepOptions {
 /// One hole and lot, over the finished replicates.
 struct HoleMetrics {
   std::string hole, lot;
-  std::optional<double> centre, across, width;  // m; `across` in space alone
+  std::optional<double> centre, across, width;  // m; `across` in 3D alone
   std::optional<MeanWithInterval> seeds_per_s;
   std::optional<MeanWithInterval> mass_rate;      // kg/s
   std::optional<MeanWithInterval> longest_pause;  // s
@@ -101,7 +101,7 @@ using RunsOfScenes = std::function<std::vector<std::vector<Evaluation>>(std::siz
 /// left out, and figures are of the runs that flowed. A layout of which runs are absent is incomplete.
 StudyResult answer_of(const Study& study, const RunsOfScenes& runs, const OnRuns& on_runs = {});
 
-/// What the layouts' rates are expected to be once they are weighed, and the doubts about that: of each in space that
+/// What the layouts' rates are expected to be once they are weighed, and the doubts about that: of each in 3D that
 /// is compared.
 void expect_rates(StudyResult& result, const RateKnowledge& knowledge);
 

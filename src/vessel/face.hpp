@@ -13,7 +13,7 @@ struct RoundHole {
   bool operator==(const RoundHole&) const = default;
 };
 
-/// A piece of a vessel's wall in space, in a frame of its own: `origin` and three unit vectors at right angles, e1 x e2
+/// A piece of a vessel's wall in 3D, in a frame of its own: `origin` and three unit vectors at right angles, e1 x e2
 /// = normal. A plate lies where u is in [0, length_u] along e1 and v in [0, length_v] along e2, or where it is round in
 /// the circle that these lengths hold, but for its holes, which do not meet its edges or each other. A surface of
 /// revolution is a straight line from (radius_a, height_a) to (radius_b, height_b), distance from the axis and height

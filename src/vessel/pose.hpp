@@ -5,11 +5,11 @@
 namespace vibrosow {
 
 /// Where a vessel stands against its place at rest: a point `own` of its frame lies at origin + displacement +
-/// R(tilt + angle) own in the lab. In space it is first turned about its own upright axis by `turn`.
+/// R(tilt + angle) own in the lab. In 3D it is first turned about its own upright axis by `turn`.
 struct Pose {
   Eigen::Vector2d displacement = Eigen::Vector2d::Zero();  // m, lab, of the frame's zero
   double angle = 0;                                        // rad, anticlockwise, beside the tilt
-  double across = 0;                                       // m, displacement in space, from front to back
+  double across = 0;                                       // m, displacement in 3D, from front to back
   double turn = 0;                                         // rad, x towards z
 };
 

@@ -7,7 +7,7 @@
 
 namespace vibrosow {
 
-/// All faces of a vessel in space, in its own frame: floor, end walls, front and back, then its pieces from front to
+/// All faces of a vessel in 3D, in its own frame: floor, end walls, front and back, then its pieces from front to
 /// back, those along it, those turned about axes, the discs that close a drum in front and behind, then the walls of
 /// its round holes in a thick floor, and its gates. The floor is a plate with round holes, or plates between slots; a
 /// floor that slopes towards slots as long as the vessel is deep is a wedge. Throws std::invalid_argument where a floor

@@ -40,7 +40,7 @@ PoseRate vessel_velocity(const Vessel& vessel, double time);
 Eigen::Vector2d in_lab_frame(const Vessel& vessel, const Pose& pose, const Eigen::Vector2d& own);
 Eigen::Vector2d in_vessel_frame(const Vessel& vessel, const Pose& pose, const Eigen::Vector2d& lab);
 
-/// The same in space, and a direction.
+/// The same in 3D, and a direction.
 Eigen::Vector3d point_in_lab(const Vessel& vessel, const Pose& pose, const Eigen::Vector3d& own);
 Eigen::Vector3d direction_in_lab(const Vessel& vessel, const Pose& pose, const Eigen::Vector3d& own);
 Eigen::Vector3d point_in_vessel(const Vessel& vessel, const Pose& pose, const Eigen::Vector3d& lab);
@@ -49,7 +49,7 @@ Eigen::Vector3d point_in_vessel(const Vessel& vessel, const Pose& pose, const Ei
 Eigen::Vector2d material_velocity(const Vessel& vessel, const Pose& pose, const PoseRate& rate,
                                   const Eigen::Vector2d& lab);
 
-/// The same in space, and how the vessel turns, rad/s, lab.
+/// The same in 3D, and how the vessel turns, rad/s, lab.
 Eigen::Vector3d point_velocity(const Vessel& vessel, const Pose& pose, const PoseRate& rate,
                                const Eigen::Vector3d& lab);
 Eigen::Vector3d spin_3d(const Vessel& vessel, const Pose& pose, const PoseRate& rate);

@@ -34,10 +34,10 @@ struct WallSegment {
 /// is a wall of space alone.
 std::vector<WallSegment> vessel_walls(const Vessel& vessel);
 
-/// Whether a piece is a line or an arc of the plane, in space drawn out from front to back.
+/// Whether a piece is a line or an arc of the plane, in 3D drawn out from front to back.
 bool is_of_plane(const WallPiece& piece);
 
-/// The rectangle in which pieces lie, m, in their vessel's frame; in space seen from the front, or from the left those
+/// The rectangle in which pieces lie, m, in their vessel's frame; in 3D seen from the front, or from the left those
 /// that are drawn out along it.
 struct Extent {
   Eigen::Vector2d low = Eigen::Vector2d::Constant(1e300), high = Eigen::Vector2d::Constant(-1e300);

@@ -14,7 +14,7 @@
 namespace vibrosow {
 
 /// All vessels' walls where they stand at one time, numbered like Box2D's shapes: vessel after vessel, in the order of
-/// `vessel_walls`, or in space of `vessel_faces`.
+/// `vessel_walls`, or in 3D of `vessel_faces`.
 class Walls {
  public:
   explicit Walls(std::vector<Vessel> vessels, Space space = Space::two_dimensional);
@@ -33,8 +33,8 @@ class Walls {
   std::size_t vessel_of(std::size_t wall) const { return about_[wall].vessel; }
   std::size_t count() const { return about_.size(); }
 
-  const std::vector<PlacedWall>& placed() const { return placed_; }              // in the plane
-  const std::vector<PlacedFace>& placed_faces() const { return placed_faces_; }  // in space
+  const std::vector<PlacedWall>& placed() const { return placed_; }              // in 2D
+  const std::vector<PlacedFace>& placed_faces() const { return placed_faces_; }  // in 3D
   const std::vector<Pose>& poses() const { return poses_; }                      // by vessel
 
   /// Another motion for a vessel from now on, its displacement moved by `shift` (m).
@@ -76,8 +76,8 @@ class Walls {
   std::vector<VesselPath> paths_;
   std::vector<Eigen::Vector2d> shifts_;  // m
   std::vector<About> about_;
-  std::vector<AtRest> at_rest_;  // in the plane
-  std::vector<Face> faces_;      // in space, in their vessel's frame
+  std::vector<AtRest> at_rest_;  // in 2D
+  std::vector<Face> faces_;      // in 3D, in their vessel's frame
   std::vector<PlacedWall> placed_;
   std::vector<PlacedFace> placed_faces_;  // each points to its face
   std::vector<Pose> poses_;

@@ -17,7 +17,7 @@ SweepOptions one_job() {
   return options;
 }
 
-/// In space twelve times what the plane's slice sows; the tray has fifteen slices.
+/// In 3D twelve times what the plane's slice sows; the tray has fifteen slices.
 Run slow_3d(const Model& model, const SimulationOptions& options) {
   Run run = quick_run(model, options);
   if (model.scene.space == Space::two_dimensional) return run;

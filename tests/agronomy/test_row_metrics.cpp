@@ -11,7 +11,7 @@
 namespace vibrosow {
 namespace {
 
-/// A tray in space with so many holes, measured from 2 s to 10 s.
+/// A tray in 3D with so many holes, measured from 2 s to 10 s.
 Scene tray_3d(int holes) {
   Scene scene = made_up_scene(holes);
   scene.space = Space::three_dimensional;

@@ -1,4 +1,4 @@
-// Contacts of balls in space against those of the plane, and carried round by their balls.
+// Contacts of balls in 3D against those of the plane, and carried round by their balls.
 #include <gmock/gmock.h>
 #include <rapidcheck/gtest.h>
 
@@ -54,7 +54,7 @@ GrainSurfaces surfaces_of_balls(Law law) {
   return grains;
 }
 
-/// The last contact of two balls, in space or in the plane z = 0, with its history.
+/// The last contact of two balls, in 3D or in the plane z = 0, with its history.
 class Contact2 {
  public:
   Contact2(Law law, const EffectSet& effects, bool is_3d, double friction = 0.4)

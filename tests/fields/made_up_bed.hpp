@@ -29,7 +29,7 @@ inline void put(Snapshot& s, double x, double y, double vx = 0, double vy = 0, i
   s.start_x.push_back(x), s.start_y.push_back(y);
 }
 
-/// One more ball in space.
+/// One more ball in 3D.
 inline void put_ball(Snapshot& s, const Eigen::Vector3d& at, const Eigen::Vector3d& velocity = {0, 0, 0}, int lot = 0,
                      double radius = 2e-3, double mass = 30e-6) {
   put(s, at.x(), at.y(), velocity.x(), velocity.y(), lot, radius, mass);

@@ -144,7 +144,7 @@ TEST(ShearStrain, OfKnownDeformations) {
   expect_strain(matrix(1.5, 0, 0, 0.8), 0.7);
 }
 
-/// The same in space.
+/// The same in 3D.
 void expect_strain_3d(const Eigen::Matrix3d& deformation, double strain) {
   const Snapshot before = body_centred_bed(6, stay_3d, at_rest_3d);
   const Snapshot after = body_centred_bed(

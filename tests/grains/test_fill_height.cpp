@@ -44,7 +44,7 @@ class FillHeight : public testing::TestWithParam<Space> {
   static double seeds(const Vessel& v, double height, const std::vector<SeedLot>& lots = balls()) {
     return seeds_to_height(v, lots, GetParam(), height);
   }
-  /// Of balls over an area (m2) of the plane, in space over all of the box's depth.
+  /// Of balls over an area (m2) of the plane, in 3D over all of the box's depth.
   static double over(double area) {
     return is_flat() ? plane * area / (pi / 4 * diameter * diameter)
                      : space * area * 0.03 / (pi / 6 * std::pow(diameter, 3));

@@ -40,7 +40,7 @@ std::vector<SeedLot> scattered_lots() {
   return lots;
 }
 
-/// A cylinder lying in the plane, 20 mm long and 5 mm wide, of nine discs.
+/// A cylinder lying in 2D, 20 mm long and 5 mm wide, of nine discs.
 SeedLot cylinder() {
   SeedLot lot{"cylinder", 0, 4e-4, Shape::clump, 1.0};
   for (int k = -4; k <= 4; ++k) lot.discs.push_back({k * 15e-3 / 8, 0, 2.5e-3});

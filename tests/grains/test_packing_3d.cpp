@@ -1,4 +1,4 @@
-// Beds of balls in space: nothing overlaps, and they are as dense as such beds are.
+// Beds of balls in 3D: nothing overlaps, and they are as dense as such beds are.
 #include <gtest/gtest.h>
 
 #include <algorithm>

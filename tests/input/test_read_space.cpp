@@ -1,4 +1,4 @@
-// Seeder files of balls in space.
+// Seeder files of balls in 3D.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

@@ -32,7 +32,7 @@ const Silo slot_silo{"janssen.toml", 8, 835, 0.5, 1.5}, cylinder{"janssen-cylind
 /// Sums over looks, per band of one half of a width, counted from the floor.
 struct Column {
   double width = 0, band = 0;               // m
-  double area = 0, perimeter = 0;           // m2, m: of a section; in the plane m and 2, per width of the slice
+  double area = 0, perimeter = 0;           // m2, m: of a section; in 2D m and 2, per width of the slice
   double total_weight = 0, floor_load = 0;  // N
   double top = 0;                           // m
   std::vector<double> weight, push, drag;   // N by band: of its grains; of the walls, normal and upward
@@ -113,7 +113,7 @@ double median(const std::vector<Column>& columns, Metric metric) {
 
 struct Stress {
   double depth;                 // m, below the top
-  double vertical, horizontal;  // N/m2, in the plane N/m
+  double vertical, horizontal;  // N/m2, in 2D N/m
 };
 
 /// Vertical stress below each band from the balance of what lies above: weight less the walls' friction.
@@ -133,7 +133,7 @@ std::vector<Stress> stresses(const Column& column) {
 struct Janssen {
   double ratio;     // K, horizontal over vertical stress
   double friction;  // friction over normal force on the walls, mobilised
-  double density;   // N/m3, weight per volume; in the plane N/m2
+  double density;   // N/m3, weight per volume; in 2D N/m2
 };
 
 /// K and friction of the column's middle: the free surface above and the floor below left out, a width and a half each.
@@ -157,7 +157,7 @@ double janssen_stress(const Janssen& m, const Column& column, double depth) {
 /// Columns of several heights, in widths, their medians, and what the tallest one's middle says of them all.
 struct Columns {
   std::map<int, std::vector<Column>> of;
-  std::map<int, double> load, top;  // N/m2 (in the plane N/m), m
+  std::map<int, double> load, top;  // N/m2 (in 2D N/m), m
   Janssen janssen;
 
   Columns(const Silo& silo, const std::vector<int>& heights) {

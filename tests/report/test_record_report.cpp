@@ -100,7 +100,7 @@ TEST_F(RecordReport, APeriodicTrayLosesNoneAtItsSeam) {
 }
 
 /// The same three grains as balls, 6, 10 and 6 mm from the front of a tray that has moved by 1 mm across, and a fourth
-/// behind the first, since it takes four to tell a strain in space.
+/// behind the first, since it takes four to tell a strain in 3D.
 class RecordReport3d : public RecordReport {
  protected:
   void SetUp() override {

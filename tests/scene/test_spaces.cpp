@@ -1,4 +1,4 @@
-// One scene in the plane and in space.
+// One scene in 2D and in 3D.
 #include "scene/spaces.hpp"
 
 #include <gtest/gtest.h>

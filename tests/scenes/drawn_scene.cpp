@@ -108,7 +108,7 @@ class SceneWriter {
     }
     if (shape == 3) set(name + ".distance", mm(draw_.number(name + ".distance", 0.5, 1.2) * size));
     if (shape == 4) {
-      // No two of its axes alike, and in space off its plane.
+      // No two of its axes alike, and in 3D off its plane.
       std::string discs = fmt::format("{{ x = {}, y = {}, diameter = {} }}, {{ x = {}, y = {}, diameter = {} }}", mm(0),
                                       mm(0), mm(0.8 * size), mm(0.5 * size), mm(0.1 * size), mm(0.6 * size));
       if (draw_.one_in(name + ".third", 2))

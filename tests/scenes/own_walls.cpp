@@ -36,7 +36,7 @@ double to_arc(const WallPiece& arc, const Flat& p) {
   return std::min((p - end(arc.from)).norm(), (p - end(arc.to)).norm());
 }
 
-/// What is drawn in the plane, in space drawn out from front to back.
+/// What is drawn in 2D, in 3D drawn out from front to back.
 Distance drawn_out(const FlatDistance& flat, const Vessel& vessel, Space space) {
   if (space == Space::two_dimensional) return [flat](const Point& p) { return flat(p.head<2>()); };
   const bool endless = vessel.front_and_back == Sides::periodic;

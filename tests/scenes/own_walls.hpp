@@ -13,7 +13,7 @@ namespace vibrosow {
 struct OwnWall {
   std::string name;
   double opens_at = 0;                                     // s, of a gate
-  std::function<double(const Eigen::Vector3d&)> distance;  // m, from a point of the vessel's frame; z is 0 in the plane
+  std::function<double(const Eigen::Vector3d&)> distance;  // m, from a point of the vessel's frame; z is 0 in 2D
 };
 
 /// Floor, ends, funnel, pieces and gates, where a vessel is periodic with those beside it.

@@ -1,4 +1,4 @@
-// Clumps of balls in space as they move: free, on springs, in heaps, cut and taken up again.
+// Clumps of balls in 3D as they move: free, on springs, in heaps, cut and taken up again.
 #include <gmock/gmock.h>
 
 #include <Eigen/Geometry>
@@ -27,7 +27,7 @@ Eigen::Vector3d angular_momentum(const Grains& g, std::size_t i) {
 
 // What contacts see of a clump.
 
-/// Its discs, in space balls, when it has moved on freely for `time`.
+/// Its discs, in 3D balls, when it has moved on freely for `time`.
 Grains discs_after(double time, Grains clump, ClumpDiscs& discs) {
   clump.x[0] += time * clump.vx[0], clump.y[0] += time * clump.vy[0];
   if (clump.is_3d) {

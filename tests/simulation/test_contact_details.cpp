@@ -156,7 +156,7 @@ TEST_P(ContactDetails, ALookAtTheForcesLeavesNoTrace) {
   const std::vector<double> before = memory_of(run.state().contacts);
   run.field().evaluate(run.time(), {});
   EXPECT_EQ(memory_of(run.state().contacts), before);
-  // Of both contacts the slip and the roll, in space the parts of them that there are in this plane.
+  // Of both contacts the slip and the roll, in 3D the parts of them that there are in this plane.
   EXPECT_EQ(std::ranges::count_if(before, [](double x) { return x != 0; }), is_3d() ? 5 : 4);
 }
 

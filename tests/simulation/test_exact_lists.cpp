@@ -110,7 +110,7 @@ TEST_P(ListsAtTheirMargin, MissNoPairThatFliesAtEachOtherAcrossTheSeam) {
 struct HopperWall {
   int axis;
   double side;                   // in which direction of the axis the grains fly
-  double direction;              // rad, of the tray's motion in the plane
+  double direction;              // rad, of the tray's motion in 2D
   double across;                 // rad, and out of it
   double length, height, depth;  // m, of the hopper
   int aside;                     // the axis along which the grains stand in a row

@@ -158,7 +158,7 @@ void expect_clear(const Vessel& tray, const Grains& grains) {
       ASSERT_GE(apart(tray, grains, i, j), grains.kind(i).radius + grains.kind(j).radius) << i << ' ' << j;
 }
 
-/// A narrow tray in space that goes on to all sides.
+/// A narrow tray in 3D that goes on to all sides.
 Scene endless() {
   Scene scene = kept_full(scattered_balls());
   scene.space = Space::three_dimensional;

@@ -202,7 +202,7 @@ TEST_P(Insertion, AKeptTrayWithPiecesIsFedClearOfThem) {
   }
 }
 
-/// An arc, and in space a cylinder, over the floor.
+/// An arc, and in 3D a cylinder, over the floor.
 TEST_P(Insertion, AKeptTrayIsFedOutsideOfWhatIsClosed) {
   Scene scene = soft(GetParam());
   scene.tray.holes = {{.centre = 0.07, .width = 0.014, .across = 0.01, .across_length = 0.02}};

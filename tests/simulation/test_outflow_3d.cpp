@@ -1,4 +1,4 @@
-// Balls that leave a vessel in space and come into it: counted at the hole they pass, rained, topped up.
+// Balls that leave a vessel in 3D and come into it: counted at the hole they pass, rained, topped up.
 #include <gmock/gmock.h>
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// Balls in space, step by step: like the plane where all happens in one, whichever scheme, threads and instructions,
+// Balls in 3D, step by step: like the plane where all happens in one, whichever scheme, threads and instructions,
 // and across periodic boundaries.
 #include <gmock/gmock.h>
 

@@ -42,7 +42,7 @@ std::vector<Swing> swings() {
   const auto on_wall = [](double coefficient) { return spring(coefficient, stiffness_on_wall, r); };
   const auto of_pair = [](double coefficient) { return spring(coefficient, 0.5 * stiffness_on_wall, 0.5 * r); };
   std::vector<Swing> all;
-  // Rolls on the floor: to the left where it turns anticlockwise; in space towards the front.
+  // Rolls on the floor: to the left where it turns anticlockwise; in 3D towards the front.
   all.push_back({"rolling on a floor", Space::two_dimensional,
                  [=](Bench& bench, double spin) { bench.place(0.5, arm, -spin * arm, 0, spin); },
                  [](const Grains& g) { return g.omega[0]; }, on_wall(rolling), about_contact(Space::two_dimensional),

@@ -53,7 +53,7 @@ TEST(StartingState, ABedOfClumpsBarelySettles) {
   for (const std::uint64_t random_seed : {1u, 2u}) expect_barely_settles(bed_of_cylinders(150), random_seed, 1.25);
 }
 
-/// Wheat grains in a box in space.
+/// Wheat grains in a box in 3D.
 Scene bed_of_wheat(int count) {
   Scene scene = clump_scene(wheat_grains(), 0.025);
   scene.contact.shell_compression = 1e-3;

@@ -1,4 +1,4 @@
-// Vessels that turn steadily: drums in the plane and in space, and upright rotors.
+// Vessels that turn steadily: drums in 2D and in 3D, and upright rotors.
 #include <gmock/gmock.h>
 
 #include <cmath>

@@ -95,7 +95,7 @@ inline double contact_time(const Setting& setting, const Bench& bench, double sp
   return 2.943275 * setting.overlap_on_wall(bench.scene, speed) / speed;
 }
 
-/// Closest packed grains in a tray of this length, in space as deep.
+/// Closest packed grains in a tray of this length, in 3D as deep.
 inline Scene tray_scene(const Setting& setting, int grains, double length) {
   Scene scene = setting.bench().scene;
   scene.tray.length = length;

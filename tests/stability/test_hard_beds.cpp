@@ -1,4 +1,4 @@
-// Beds that break a discrete-element code, in the plane and in space: each must stay bounded.
+// Beds that break a discrete-element code, in 2D and in 3D: each must stay bounded.
 #include <algorithm>
 #include <cmath>
 
@@ -104,7 +104,7 @@ TEST_P(HardBed, HeavyGrainsOnLightOnesAtOneToThousand) {
 
 // Regularised friction creeps: a pile spreads at about the slip speed times its load, but its kinetic energy dies and
 // nothing leaps. The tall step and walls keep this one in place. Poured balls stand on three others each and give way
-// under those above: in space springs hold them.
+// under those above: in 3D springs hold them.
 TEST_P(HardBed, PileComesToRest) {
   const bool is_3d = GetParam().is_3d();
   const int count = is_3d ? 60 : 150;
@@ -156,7 +156,7 @@ TEST_P(HardBed3d, PileThatSlidesOnlyCreeps) {
   bounds.at_most("speed", later, scene.contact.slip_speed, "m/s");
 }
 
-/// Rough dipoles, and in the floor a hole (in the plane a slot) somewhat longer than one: they fall through it for a
+/// Rough dipoles, and in the floor a hole (in 2D a slot) somewhat longer than one: they fall through it for a
 /// while, and then hang over it.
 TEST_P(HardBed, ClumpsThatArchOverAHole) {
   const bool is_3d = GetParam().is_3d();

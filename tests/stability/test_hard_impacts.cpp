@@ -1,4 +1,4 @@
-// A few grains in cases that break a discrete-element code, in the plane and in space: each must stay bounded, or be
+// A few grains in cases that break a discrete-element code, in 2D and in 3D: each must stay bounded, or be
 // stopped with a reason.
 #include <cmath>
 #include <functional>

@@ -1,5 +1,5 @@
 // A few grains where a discrete-element code goes wrong: at edges, in wedges, at seams and gates, between vessels, with
-// what is very unequal. In the plane and in space, most of them with both kinds of friction.
+// what is very unequal. In 2D and in 3D, most of them with both kinds of friction.
 #include <cmath>
 #include <numbers>
 

@@ -1,4 +1,4 @@
-// What must hold in any scene, on random ones in the plane and in space: energy, momenta, numbers and masses are
+// What must hold in any scene, on random ones in 2D and in 3D: energy, momenta, numbers and masses are
 // accounted for, lists miss nothing up to the last of their margins, and neither a period nor the lab's axes show.
 #include <algorithm>
 #include <cmath>
@@ -209,7 +209,7 @@ TEST_P(RandomScene, EveryGrainAndItsMassAreSomewhere) {
 
 // ---- lists ----
 
-/// Grains of two diameters (m) anywhere in a box that is periodic along, and in space across, with their lists. Where
+/// Grains of two diameters (m) anywhere in a box that is periodic along, and in 3D across, with their lists. Where
 /// they move, each has gone its own way for a while before the lists were made, and goes on so before they are tried.
 class RandomLists {
  public:

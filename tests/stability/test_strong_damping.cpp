@@ -1,4 +1,4 @@
-// Strong damping and friction, in the plane and in space: beds that rest stay silent, beds that slide only creep.
+// Strong damping and friction, in 2D and in 3D: beds that rest stay silent, beds that slide only creep.
 #include <cmath>
 
 #include "scene/make_clump.hpp"
@@ -27,7 +27,7 @@ class StrongDamping : public testing::TestWithParam<Space> {
   }
   static bool is_3d() { return GetParam() == Space::three_dimensional; }
   static int balls() { return is_3d() ? 30 : 200; }
-  /// In space springs alone leave balls free to roll round each other, and to spin where nothing resists twisting.
+  /// In 3D springs alone leave balls free to roll round each other, and to spin where nothing resists twisting.
   static void hold_from_rolling(Contact& contact) {
     contact.rolling = Rolling::spring;
     for (Surface* surface : {&contact.seed, &contact.wall})
@@ -86,7 +86,7 @@ TEST_P(StrongDamping, ABedThatSlidesComesToRest) {
     }
 }
 
-/// Forty discs of 2 mm in a rod of 2 cm, in space ten balls of it: many of them touch at once when it lies flat, on the
+/// Forty discs of 2 mm in a rod of 2 cm, in 3D ten balls of it: many of them touch at once when it lies flat, on the
 /// floor or another rod.
 TEST_P(StrongDamping, RodsThatSlideComeToRest) {
   Scene scene = damped_bed();

@@ -62,7 +62,7 @@ inline Eigen::Vector3d force_on(const Simulation& run, std::size_t i) {
   return {force.x, force.y, force.z};
 }
 
-/// A bench for tests: a few grains placed by hand in a wide box, with or without gravity. In space they are balls.
+/// A bench for tests: a few grains placed by hand in a wide box, with or without gravity. In 3D they are balls.
 ///
 ///     Bench bench;
 ///     bench.scene.contact.seed.restitution = 0.5;
@@ -90,13 +90,13 @@ class Bench {
   }
 
   /// A grain at a place of the lab (m) with a velocity (m/s) and spin (rad/s); a clump turned by `angle` (rad). The box
-  /// spans 0..1 m in x and y, and in space in z, of which it is in the middle.
+  /// spans 0..1 m in x and y, and in 3D in z, of which it is in the middle.
   Bench& place(double x, double y, double vx = 0, double vy = 0, double omega = 0, int lot = 0, double angle = 0) {
     placed_.push_back({{x, y, 0.5}, {vx, vy, 0}, {0, 0, omega}, {angle, {}}, lot});
     return *this;
   }
 
-  /// The same anywhere in space; in the plane x and y count, and the spin about z.
+  /// The same anywhere in 3D; in the plane x and y count, and the spin about z.
   Bench& place(const Eigen::Vector3d& at, const Eigen::Vector3d& velocity = Eigen::Vector3d::Zero(),
                const Eigen::Vector3d& spin = Eigen::Vector3d::Zero(), int lot = 0,
                const Orientation& orientation = {}) {

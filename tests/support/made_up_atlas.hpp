@@ -22,7 +22,7 @@ ReposeAtlas made_up_atlas(Angle angle, Packing packing, double angle_scatter = 0
   return ReposeAtlas(points);
 }
 
-/// Heaps steeper by friction and by rolling friction, beds looser by friction alone; in space 0.05 rad flatter, and of
+/// Heaps steeper by friction and by rolling friction, beds looser by friction alone; in 3D 0.05 rad flatter, and of
 /// 0.7 of the packing fraction.
 inline ShippedAtlas plain_atlas() {
   return {made_up_atlas([](double aspect, double f, double r) { return 0.25 + 0.3 * f + 0.5 * r + 0.1 * (aspect - 1); },

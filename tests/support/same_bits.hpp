@@ -10,7 +10,7 @@
 
 namespace vibrosow {
 
-/// Where grains are, how they move and how clumps in space lie, to be compared to the last bit.
+/// Where grains are, how they move and how clumps in 3D lie, to be compared to the last bit.
 inline std::vector<double> bits(const Grains& g) {
   std::vector<double> all;
   for (const auto* array : {&g.x, &g.y, &g.z, &g.vx, &g.vy, &g.vz, &g.omega, &g.omega_x, &g.omega_y, &g.angle, &g.q_w,

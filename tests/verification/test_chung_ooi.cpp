@@ -1,4 +1,4 @@
-// Chung & Ooi (2011), Granular Matter 13:643-656: impacts of one ball, in the plane and in space, against Hertz' theory
+// Chung & Ooi (2011), Granular Matter 13:643-656: impacts of one ball, in 2D and in 3D, against Hertz' theory
 // and the published curves (tests/data/chung_ooi_*.csv say where each number comes from).
 #include <gtest/gtest.h>
 
@@ -53,7 +53,7 @@ HitWall hit_cone(Bench& bench, double azimuth) {
   return {Eigen::Vector3d(0.5, 0.4, 0.5) + 0.25 * outwards, 0.6 * up - 0.8 * outwards, 0.8 * up + 0.6 * outwards};
 }
 
-/// A ball that comes down on a rigid wall without spin: in the plane on the floor, in space on a cone, up its slope.
+/// A ball that comes down on a rigid wall without spin: in 2D on the floor, in 3D on a cone, up its slope.
 ImpactResult impact_on_wall(Bench& bench, double down, double along, double dt) {
   const HitWall wall = bench.scene.space == Space::two_dimensional ? HitWall{} : hit_cone(bench, 0.7);
   const ImpactResult impact = wall_impact(bench, down, along, dt, 0, 2.37, wall);
@@ -270,7 +270,7 @@ TEST_P(ChungOoi, StiffnessBehindTheSlowerImpactsOfTest5IsFound) {
     }
 }
 
-/// Where a ball can be thrown at a wall in space: the box as it must be, and the wall hit.
+/// Where a ball can be thrown at a wall in 3D: the box as it must be, and the wall hit.
 struct Wall3d {
   std::string name;
   std::function<HitWall(Bench&)> place;
@@ -302,7 +302,7 @@ std::vector<Wall3d> walls_3d() {
   };
 }
 
-// In whichever plane of space the ball is thrown at whichever wall, it does what it does in the plane. Places of up to
+// In whichever plane of space the ball is thrown at whichever wall, it does what it does in 2D. Places of up to
 // a metre are rounded by 1e-16 m in each of some 500 steps, 2e-15 m in all, and overlaps are 3e-6 m and more.
 TEST(ChungOoi3d, ThePlaneOfTheImpactMakesNoDifference) {
   const Ball b = ball("4", "Al alloy");

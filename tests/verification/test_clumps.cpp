@@ -133,7 +133,7 @@ TEST(Clump, AnImpactOffCentreIsThatOfARigidBody) {
           }
 }
 
-// The same in space, turned at random: the impulse along n at r changes the velocity by J n / m and the spin by I^-1 (r
+// The same in 3D, turned at random: the impulse along n at r changes the velocity by J n / m and the spin by I^-1 (r
 // x n) J, J = (1 + e) u / (1/m + (r x n) I^-1 (r x n)).
 TEST(Clump, AnImpactOfAClumpOfBallsIsThatOfARigidBody) {
   VerificationReport report(

@@ -1,4 +1,4 @@
-// What must not matter, in the plane and in space: left and right, front and back, which way the lab's axes point, the
+// What must not matter, in 2D and in 3D: left and right, front and back, which way the lab's axes point, the
 // unit of mass, where the lab's origin is, which grain has which number.
 #include <gtest/gtest.h>
 
@@ -45,7 +45,7 @@ HarmonicMotion& motion_of(Scene& scene) {
   return std::get<HarmonicMotion>(*scene.tray.motion);
 }
 
-/// In space the floor is smaller, so that as many grains lie in layers, and oblong, so that along and across differ.
+/// In 3D the floor is smaller, so that as many grains lie in layers, and oblong, so that along and across differ.
 /// The walls' distances from x = 0 and z = 0 stay between two powers of two while the tray swings: opposite walls are
 /// then rounded alike.
 void put_3d(Scene& scene, const Case& c, Plan plan) {

@@ -1,4 +1,4 @@
-// Convergence order of the integrators, in the plane and in space: where the force is smooth (a grain that never leaves
+// Convergence order of the integrators, in 2D and in 3D: where the force is smooth (a grain that never leaves
 // a vibrating floor, with drag and normal damping; two balls that turn about each other), with a tangential spring that
 // stays stuck, and across one impact.
 #include <gtest/gtest.h>
@@ -156,7 +156,7 @@ double inertia_in(Space space) {
   return (space == Space::two_dimensional ? 0.5 : 0.4) * Bench::mass * Bench::radius * Bench::radius;
 }
 
-/// A grain that never leaves a floor shaken up and down, with drag and normal damping. In space the floor leans, and
+/// A grain that never leaves a floor shaken up and down, with drag and normal damping. In 3D the floor leans, and
 /// the shaking and the weight with it.
 struct SmoothProblem {
   Law law;
@@ -229,7 +229,7 @@ TEST_P(Order, OnASmoothProblemWithDragDampingAndAMovingWall) {
     }
 }
 
-/// A grain on a slope with a tangential spring that holds, while it swings up and down on its shell. In space it also
+/// A grain on a slope with a tangential spring that holds, while it swings up and down on its shell. In 3D it also
 /// rolls across the slope and spins about its normal, which carries the spring round by half. It sets out without
 /// sliding: to Gear's scheme a new contact has begun within the step, so that a run that begins with one that slides
 /// has slid half a step too little.
@@ -401,7 +401,7 @@ TEST_P(Order, OfTwoGrainsThatTurnAboutEachOther) {
     }
 }
 
-/// A wall that lies anyhow: in the plane the floor, in space a floor that leans, hit in a plane turned from x and y.
+/// A wall that lies anyhow: in 2D the floor, in 3D a floor that leans, hit in a plane turned from x and y.
 HitWall hit_anywhere(Bench& bench) {
   if (bench.scene.space == Space::two_dimensional) return {};
   constexpr double tilt = 0.3, turned = 0.7;
