@@ -341,7 +341,7 @@ struct Record {
 };
 
 /// Whether seeds are discs of a slice one seed thick, or balls in 3D.
-enum class Space { plane, three_dimensional };
+enum class Space { two_dimensional, three_dimensional };
 
 /// Everything a run needs, in SI; one value, read from a seeder file and validated.
 struct Scene {
