@@ -284,7 +284,7 @@ class Balls3d : Given {
   }
 
  private:
-  const PairKernel3d kernel_ = model_.kernels->is_3d[static_cast<std::size_t>(best_instruction_set())].pair;
+  const PairKernel3d kernel_ = model_.kernels->vectors_3d[static_cast<std::size_t>(best_instruction_set())].pair;
   std::vector<GrainVector> places_;
   std::vector<BallMotion> motions_;
   PairResult3d result_;

@@ -30,7 +30,7 @@ struct KernelSet {
   std::array<VectorKernels, instruction_sets.size()> vectors;  // null where this program was built without
   EnergyKernel energy;
   // The same of balls in 3D.
-  std::array<VectorKernels3d, instruction_sets.size()> is_3d;
+  std::array<VectorKernels3d, instruction_sets.size()> vectors_3d;
   EnergyKernel3d energy_3d;
 };
 

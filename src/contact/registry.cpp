@@ -26,7 +26,7 @@ void add_space([[maybe_unused]] KernelSet& set, [[maybe_unused]] std::size_t ind
 template <Law law>
 void add_space(KernelSet& set, std::size_t index) {
   set.energy_3d = energy_kernels_3d<law>()[index];
-  set.is_3d = VIBROSOW_OF_EACH_SET(, law_kernels_3d<law>()[index]);
+  set.vectors_3d = VIBROSOW_OF_EACH_SET(, law_kernels_3d<law>()[index]);
 }
 #endif
 

@@ -32,14 +32,14 @@ inline bool is_ascending(const std::vector<std::int64_t>& ids) {
 }
 
 inline bool is_possible(const Snapshot& s, const RunBounds& of) {
-  const std::size_t n = s.size(), is_3d = s.is_3d() ? n : 0, in_plane = n - is_3d;
+  const std::size_t n = s.size(), balls = s.is_3d() ? n : 0, discs = n - balls;
   const bool lots = s.lot.size() == n && std::ranges::all_of(s.lot, [&](int lot) {
                       return lot >= 0 && static_cast<std::size_t>(lot) < of.lots;
                     });
   return lots && s.id.size() == n && is_ascending(s.id) && std::abs(s.time) <= 2 * of.duration &&
          are_numbers(n, {&s.x, &s.y, &s.vx, &s.vy, &s.omega, &s.radius, &s.mass, &s.start_x, &s.start_y}) &&
-         are_numbers(is_3d, {&s.z, &s.vz, &s.omega_x, &s.omega_y, &s.start_z, &s.volume}) &&
-         are_numbers(in_plane, {&s.area}) && are_numbers(s.angle.empty() ? 0 : n, {&s.angle}) &&
+         are_numbers(balls, {&s.z, &s.vz, &s.omega_x, &s.omega_y, &s.start_z, &s.volume}) &&
+         are_numbers(discs, {&s.area}) && are_numbers(s.angle.empty() ? 0 : n, {&s.angle}) &&
          are_numbers(s.q_w.empty() ? 0 : n, {&s.q_w, &s.q_x, &s.q_y, &s.q_z}) &&
          std::ranges::all_of(s.radius, [](double radius) { return radius > 0; });
 }

@@ -18,10 +18,10 @@ ForceField::ForceField(const Model& model, SimulationState& state, NeighbourMarg
                   execution),
       of_ranges_(static_cast<std::size_t>(execution.threads())) {
   const std::size_t instructions = static_cast<std::size_t>(execution.instructions());
-  plane_ = {model.kernels->vectors[instructions], model.kernels->energy, {}, {}, {}};
-  space_ = {model.kernels->is_3d[instructions], model.kernels->energy_3d, {}, {}, {}};
-  plane_.ranges.resize(of_ranges_.size()), space_.ranges.resize(of_ranges_.size());
-  for (auto& range : space_.ranges) range.finder = WallFinder3d(execution.instructions());
+  part_2d_ = {model.kernels->vectors[instructions], model.kernels->energy, {}, {}, {}};
+  part_3d_ = {model.kernels->vectors_3d[instructions], model.kernels->energy_3d, {}, {}, {}};
+  part_2d_.ranges.resize(of_ranges_.size()), part_3d_.ranges.resize(of_ranges_.size());
+  for (auto& range : part_3d_.ranges) range.finder = WallFinder3d(execution.instructions());
   if (model.effects.clumps) clumps_.emplace(model.scene.lots, model.kinds, *model.law, model.effects.rotation);
   for (std::size_t v = 0; v < model.vessels.size(); ++v)
     walls_.set_motion(v, state.vessels.motion[v], state.vessels.shift[v]);
@@ -152,10 +152,10 @@ typename In::WallContacts& ForceField::press_walls(Part<In>& part, const Grains&
   return touching;
 }
 
-template WallContacts& ForceField::press_walls(Part<InPlane>&, const Grains&);
+template WallContacts& ForceField::press_walls(Part<Discs2d>&, const Grains&);
 template WallContacts3d& ForceField::press_walls(Part<Balls3d>&, const Grains&);
 
-void ForceField::gather(Part<InPlane>& part) {
+void ForceField::gather(Part<Discs2d>& part) {
   part.on_grains.assign(state_.grains.size(), {});
   clumps_->gather(part.on_discs, part.on_grains);
 }
@@ -221,7 +221,7 @@ Forces ForceField::wall_forces() {
   see_walls_as_they_are();
   const Grains& discs = place_discs();
   Forces on_discs(discs.size());
-  add_wall_forces(press_walls(plane_, discs), model_.kernels->effects.rotation, on_discs);
+  add_wall_forces(press_walls(part_2d_, discs), model_.kernels->effects.rotation, on_discs);
   if (!clumps_) return on_discs;
   Forces forces(state_.grains.size());
   clumps_->gather(on_discs, forces);
@@ -233,7 +233,7 @@ std::vector<GrainVector> ForceField::wall_forces_3d() {
   const Grains& balls = place_discs();
   Forces3d on_balls;
   resize(on_balls, balls.size(), model_.kernels->effects.rotation);
-  add_wall_forces(press_walls(space_, balls), model_.kernels->effects.rotation, on_balls);
+  add_wall_forces(press_walls(part_3d_, balls), model_.kernels->effects.rotation, on_balls);
   return on_balls.forces;
 }
 

@@ -77,17 +77,17 @@ class ForceField {
   void restore_wall(std::size_t wall);
   void set_motion(std::size_t vessel, const std::optional<VesselMotion>& motion, const Eigen::Vector2d& shift);
 
-  const Forces& forces() const { return plane_.on_grains; }
+  const Forces& forces() const { return part_2d_.on_grains; }
   /// The same of balls in 3D: forces (N) and torques (N m), the latter without rotation empty.
-  const std::vector<GrainVector>& forces_3d() const { return space_.on_grains.forces; }
-  const std::vector<GrainVector>& torques_3d() const { return space_.on_grains.torques; }
+  const std::vector<GrainVector>& forces_3d() const { return part_3d_.on_grains.forces; }
+  const std::vector<GrainVector>& torques_3d() const { return part_3d_.on_grains.torques; }
   const Walls& walls() const { return walls_; }
   Neighbours& neighbours() { return neighbours_; }
   const Neighbours& neighbours() const { return neighbours_; }
 
  private:
   /// What the plane and space have each of their own.
-  struct InPlane {
+  struct Discs2d {
     using Moving = Motion;
     using Sums = Forces;
     using Foreign = ForeignForce;
@@ -135,13 +135,13 @@ class ForceField {
   /// Calls `work` with the part of the plane or of space.
   template <class Work>
   auto with_part(const Work& work) {
-    return state_.grains.is_3d ? work(space_) : work(plane_);
+    return state_.grains.is_3d ? work(part_3d_) : work(part_2d_);
   }
   const Grains& place_discs();
   double energy_of_springs();
   /// They move as they do where they are, not as in the middle of the step of the last evaluation.
   void see_walls_as_they_are() { place_walls(state_.vessels.placed_at); }
-  Motion motion_of(const Part<InPlane>& part, const Grains& discs) const;
+  Motion motion_of(const Part<Discs2d>& part, const Grains& discs) const;
   Motion3d motion_of(const Part<Balls3d>& part, const Grains& balls);
   Motion across(const Motion& at, const Grains& discs, const Neighbours::Image& image);
   Motion3d across(const Motion3d& at, const Grains& balls, const Neighbours::Image& image);
@@ -149,7 +149,7 @@ class ForceField {
   PairShare pair_share(std::size_t range, std::size_t grains) const;
   WallRange wall_range(std::size_t range);
   void add_up_ranges(ContactStatistics& statistics) const;
-  void gather(Part<InPlane>& part);
+  void gather(Part<Discs2d>& part);
   void gather(Part<Balls3d>& part);
 
   template <class In>
@@ -184,8 +184,8 @@ class ForceField {
   Neighbours neighbours_;
   std::optional<ClumpDiscs> clumps_;
   bool clumps_are_current_ = false;
-  Part<InPlane> plane_;
-  Part<Balls3d> space_;
+  Part<Discs2d> part_2d_;
+  Part<Balls3d> part_3d_;
   std::vector<ContactStatistics> of_ranges_;
   std::vector<double> shifted_x_;                     // m, across the periodic boundary
   std::vector<GrainVector> places_, shifted_places_;  // the same of balls in 3D

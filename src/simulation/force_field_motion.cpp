@@ -3,7 +3,7 @@
 
 namespace vibrosow {
 
-Motion ForceField::motion_of(const Part<InPlane>& /*part*/, const Grains& discs) const {
+Motion ForceField::motion_of(const Part<Discs2d>& /*part*/, const Grains& discs) const {
   return {discs.x.data(), discs.y.data(), discs.vx.data(), discs.vy.data(), discs.omega.data(), discs.x.data()};
 }
 

@@ -181,9 +181,9 @@ Neighbours::Neighbours(const std::vector<Vessel>& vessels, double largest_disc_d
       narrow_level_{margins.narrow * largest_disc_diameter},
       kinds_(kinds) {
   if (kinds.is_3d)
-    is_3d_.emplace(vessels, largest_disc_diameter, execution.instructions());
+    broadphase_3d_.emplace(vessels, largest_disc_diameter, execution.instructions());
   else
-    in_plane_.emplace(vessels, largest_disc_diameter, execution.instructions());
+    broadphase_2d_.emplace(vessels, largest_disc_diameter, execution.instructions());
   const Vessel& tray = vessels.front();
   const bool along = tray.sides == Sides::periodic, across = kinds.is_3d && tray.front_and_back == Sides::periodic;
   if (along) images_.push_back({tray.length, 0});
@@ -337,15 +337,15 @@ void Neighbours::search(const Grains& grains, const Walls& walls, double time) {
                         execution_.stop_if_asked();
                         execution_.for_each_range(work);
                       }};
-  if (in_plane_)
-    in_plane_->find(grains, walls.poses(), near, margin, ranges, wide_.pairs, wide_walls_);
+  if (broadphase_2d_)
+    broadphase_2d_->find(grains, walls.poses(), near, margin, ranges, wide_.pairs, wide_walls_);
   else
-    is_3d_->find(grains, walls.poses(), near, margin, ranges, wide_.pairs, wide_walls_);
+    broadphase_3d_->find(grains, walls.poses(), near, margin, ranges, wide_.pairs, wide_walls_);
   for (std::size_t k = 0; k < images_.size(); ++k) {
-    if (in_plane_)
-      in_plane_->find_across(images_[k].x, margin, ranges, wide_boundaries_[k].pairs);
+    if (broadphase_2d_)
+      broadphase_2d_->find_across(images_[k].x, margin, ranges, wide_boundaries_[k].pairs);
     else
-      is_3d_->find_across(images_[k].x, images_[k].z, margin, ranges, wide_boundaries_[k].pairs);
+      broadphase_3d_->find_across(images_[k].x, images_[k].z, margin, ranges, wide_boundaries_[k].pairs);
   }
   if (!grains.clump.empty()) {
     drop_pairs_within_clumps(grains.clump, wide_.pairs);
@@ -462,7 +462,7 @@ void Neighbours::prune_walls(const Grains& grains, const Walls& walls, ContactSt
     const std::size_t i = static_cast<std::size_t>(candidate.grain);
     const std::size_t wall = static_cast<std::size_t>(candidate.wall);
     const auto [distance2, side] =
-        in_plane_ ? seen_in_plane(grains, i, walls, candidate.wall) : seen_3d(grains, i, walls, candidate.wall);
+        broadphase_2d_ ? seen_in_plane(grains, i, walls, candidate.wall) : seen_3d(grains, i, walls, candidate.wall);
     const double past = (course_.of(i) - course_.vessels[walls.vessel_of(wall)]).norm();
     const double reach = grains.kind(i).radius + narrow_level_.margin + narrow_level_.lasts * past;
     if (distance2 >= reach * reach) continue;
@@ -483,14 +483,14 @@ void Neighbours::remove_flagged(const std::vector<char>& removed, std::vector<do
 }
 
 void Neighbours::remove_wall(int wall, ContactState& contacts) {
-  in_plane_ ? in_plane_->remove_wall(wall) : is_3d_->remove_wall(wall);
+  broadphase_2d_ ? broadphase_2d_->remove_wall(wall) : broadphase_3d_->remove_wall(wall);
   std::erase_if(wide_walls_, [wall](const WallCandidate& candidate) { return candidate.wall == wall; });
   keep_candidates(contacts.walls, contacts.wall_histories,
                   [wall](const WallCandidate& candidate) { return candidate.wall != wall; });
 }
 
 void Neighbours::restore_wall(int wall) {
-  in_plane_ ? in_plane_->restore_wall(wall) : is_3d_->restore_wall(wall);
+  broadphase_2d_ ? broadphase_2d_->restore_wall(wall) : broadphase_3d_->restore_wall(wall);
   start_afresh();
 }
 

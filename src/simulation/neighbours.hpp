@@ -62,8 +62,8 @@ class Neighbours {
   std::int64_t prunes() const { return prunes_; }
   /// Throws std::logic_error in 3D.
   Broadphase& broadphase() {
-    if (!in_plane_) throw std::logic_error("a 2D broadphase for a 3D scene");
-    return *in_plane_;
+    if (!broadphase_2d_) throw std::logic_error("a 2D broadphase for a 3D scene");
+    return *broadphase_2d_;
   }
 
  private:
@@ -113,8 +113,8 @@ class Neighbours {
   void prune_walls(const Grains& grains, const Walls& walls, ContactState& contacts);
 
   Execution& execution_;
-  std::optional<Broadphase> in_plane_;
-  std::optional<Broadphase3d> is_3d_;
+  std::optional<Broadphase> broadphase_2d_;
+  std::optional<Broadphase3d> broadphase_3d_;
   std::vector<double> largest_radius_;          // m, by vessel, of its walls about its frame's zero
   std::vector<double> largest_radius_in_plan_;  // m, the same about the upright axis, in 3D
   double diameter_;                             // m, of the largest disc or ball
