@@ -5,6 +5,7 @@
 #include <charconv>
 #include <cmath>
 #include <map>
+#include <set>
 #include <utility>
 
 #include <fmt/format.h>
@@ -47,6 +48,10 @@ constexpr std::string_view one_quantity_needed =
     "exactly one quantity is needed: caught_g or caught_seeds with duration_s; rate_g_per_s; seeds_per_s; or "
     "time_s with mass_g (remaining_g of a balance under the vessel, gross_g of one that was not tared), seeds or "
     "discharged_percent";
+
+/// Of what is not zero, in the unit of its column: beyond any seeder, and within them rates and misfits stay finite.
+constexpr double least_value = 1e-6, most_value = 1e9;
+constexpr double shortest = 1e-3, earliest = 1e-9, latest = 1e6;  // s
 
 constexpr std::array<std::string_view, 4> label_columns = {"hole", "lot", "repeat", "note"};
 constexpr std::array<std::string_view, 2> companion_columns = {"duration_s", "time_s"};
@@ -97,7 +102,8 @@ class Reader {
     MeasuredSeries series;
     int line;
     std::map<double, std::vector<Reading>> values_at;
-    std::map<double, int> line_at;  // of the first row of a time
+    std::map<double, int> line_at;                     // of the first row of a time
+    std::set<std::pair<double, std::string>> repeats;  // that have a name
   };
 
   [[noreturn]] void fail(int line, std::string_view column, std::string_view message) const {
@@ -157,7 +163,8 @@ class Reader {
 
   std::optional<double> number(const std::string& text) const { return csv_number(text, csv_.decimal_comma); }
 
-  double required_number(const CsvLines::Row& row, std::size_t index) const {
+  /// Zero, or from `least` to `most`.
+  double required_number(const CsvLines::Row& row, std::size_t index, double least, double most) const {
     const std::string& text = row.fields[index];
     const auto value = number(text);
     if (!value)
@@ -165,7 +172,13 @@ class Reader {
            fmt::format("\"{}\" is not a number with a decimal {}", text,
                        csv_.decimal_comma ? "comma, as the others of the file have" : "point"));
     if (*value < 0) fail(row.line, header(index), fmt::format("{} is negative", text));
+    check_range(row.line, header(index), *value, least, most);
     return *value;
+  }
+
+  void check_range(int line, std::string_view column, double value, double least, double most) const {
+    if (value == 0 || (value >= least && value <= most)) return;
+    fail(line, column, fmt::format("{:g} is out of range; expected zero, or from {:g} to {:g}", value, least, most));
   }
 
   Condition condition(const CsvLines::Row& row, std::size_t index, const std::string& key) const {
@@ -193,13 +206,14 @@ class Reader {
   }
 
   double value(const CsvLines::Row& row) const {
-    const double stated = required_number(row, value_);
+    const double stated = required_number(row, value_, least_value, most_value);
     if (quantity_->quantity == MeasuredQuantity::fraction_curve && stated > 100)
       fail(row.line, header(value_), fmt::format("{} is more than 100 %", row.fields[value_]));
     const double si = stated * unit_of(quantity_->quantity);
     if (quantity_->beside != "duration_s") return si;
-    const double duration = required_number(row, *companion_);
+    const double duration = required_number(row, *companion_, shortest, latest);
     if (duration == 0) fail(row.line, "duration_s", "must be greater than zero");
+    check_range(row.line, column_of(quantity_->quantity), stated / duration, least_value, most_value);
     return si / duration;
   }
 
@@ -209,13 +223,12 @@ class Reader {
     series.hole = hole(row);
     series.lot = lot(row);
     series.where = fmt::format("{}:{}", csv_.file, row.line);
-    const double time = is_curve(quantity_->quantity) ? required_number(row, *companion_) : 0;
+    const double time = is_curve(quantity_->quantity) ? required_number(row, *companion_, earliest, latest) : 0;
     Gathered& of_series = gathered(series, row.line);
     const std::string repeat = repeat_ ? row.fields[*repeat_] : "";
-    std::vector<Reading>& readings = of_series.values_at[time];
-    if (!repeat.empty() && std::ranges::find(readings, repeat, &Reading::repeat) != readings.end())
+    if (!repeat.empty() && !of_series.repeats.emplace(time, repeat).second)
       fail(row.line, "repeat", fmt::format("repeat {} stands twice", repeat));
-    readings.push_back({repeat, value(row)});
+    of_series.values_at[time].push_back({repeat, value(row)});
     of_series.line_at.try_emplace(time, row.line);
   }
 
@@ -223,7 +236,7 @@ class Reader {
     std::vector<std::string> of = {series.hole, series.lot};
     for (const Condition& condition : series.conditions) of.push_back(condition.text);
     const auto [known, is_new] = places_.try_emplace(std::move(of), gathered_.size());
-    if (is_new) gathered_.push_back({series, line, {}, {}});
+    if (is_new) gathered_.push_back({series, line, {}, {}, {}});
     return gathered_[known->second];
   }
 

@@ -59,8 +59,8 @@ struct MeasuredTable {
 /// seeds or discharged_percent; instead of mass_g remaining_g, of a balance under the vessel, or gross_g, of one that
 /// was not tared: what has left is reckoned from their first reading. Rows alike in conditions, hole, lot and time are
 /// repeats. Throws InputError "FILE:LINE: COLUMN: ..." for anything else, an unknown column (with the nearest known
-/// one), a value that is not a finite number, negative, or over 100 %, a rate of zero, which has no relative misfit,
-/// and a curve that falls or does not begin near nothing.
+/// one), a value that is not a finite number, negative, over 100 % or beyond any seeder, a rate of zero, which has no
+/// relative misfit, and a curve that falls or does not begin near nothing.
 MeasuredTable read_measured(const CsvLines& csv);
 
 }  // namespace vibrosow

@@ -22,11 +22,14 @@ std::size_t column(const CsvLines& csv, const std::string& name) {
   return static_cast<std::size_t>(found - csv.header.fields.begin());
 }
 
+constexpr double least_rate = 1e-9, most_rate = 1e9;  // in any unit; their ratios are finite
+
 double rate(const CsvLines& csv, const CsvLines::Row& row, const std::string& name) {
   const std::string& text = row.fields[column(csv, name)];
   const std::optional<double> value = csv_number(text, csv.decimal_comma);
-  if (!value || !(*value > 0))
-    throw InputError(fmt::format("{}:{}: {}: \"{}\" is not a number above zero", csv.file, row.line, name, text));
+  if (!value || !(*value >= least_rate && *value <= most_rate))
+    throw InputError(fmt::format("{}:{}: {}: \"{}\" is not a number from {:g} to {:g}", csv.file, row.line, name, text,
+                                 least_rate, most_rate));
   return *value;
 }
 

@@ -20,6 +20,8 @@ constexpr std::size_t fewest_rows = 4;  // that the interpolation needs
 constexpr double latest = 1e6;                                // s
 constexpr double fastest = 1000;                              // m/s
 constexpr double fastest_turn = 1000 * 2 * std::numbers::pi;  // rad/s
+constexpr double farthest = 1000;                             // m
+constexpr double farthest_turn = 1e6 * 2 * std::numbers::pi;  // rad
 
 /// When a motion grows and fades.
 struct Course {
@@ -132,18 +134,14 @@ class MotionTableReader {
     if (csv_.rows.size() < fewest_rows)
       fail(csv_.rows.back().line, "time_s", fmt::format("expected at least {} rows", fewest_rows));
     TableMotion motion;
-    motion.times = column("time_s", 1);
-    for (std::size_t k = 0; k < motion.times.size(); ++k)
-      if (!(std::abs(motion.times[k]) <= latest))
-        fail(csv_.rows[k].line, "time_s",
-             fmt::format("{:g} s is out of range, which is up to {:g} s", motion.times[k], latest));
+    motion.times = column("time_s", 1, latest);
     for (std::size_t k = 1; k < motion.times.size(); ++k)
       if (!(motion.times[k] > motion.times[k - 1]))
         fail(csv_.rows[k].line, "time_s", fmt::format("{:g} is not later than the row before", motion.times[k]));
-    motion.x = column("x_mm", 1e-3);
-    motion.y = column("y_mm", 1e-3);
-    motion.angle = column("angle_degree", degree);
-    if (has("z_mm")) motion.z = column("z_mm", 1e-3);
+    motion.x = column("x_mm", 1e-3, farthest);
+    motion.y = column("y_mm", 1e-3, farthest);
+    motion.angle = column("angle_degree", degree, farthest_turn);
+    if (has("z_mm")) motion.z = column("z_mm", 1e-3, farthest);
     check_speeds("x_mm", motion.times, motion.x, fastest);
     check_speeds("y_mm", motion.times, motion.y, fastest);
     if (has("z_mm")) check_speeds("z_mm", motion.times, motion.z, fastest);
@@ -185,13 +183,17 @@ class MotionTableReader {
                                                 : fmt::format("{:g} m/s", most)));
   }
 
-  std::vector<double> column(const std::string& name, double unit) const {
+  /// In SI, of a column in a unit; at most `most` (SI) either way.
+  std::vector<double> column(const std::string& name, double unit, double most) const {
     if (!has(name)) return std::vector<double>(csv_.rows.size(), 0.0);
     std::vector<double> values;
     for (const CsvLines::Row& row : csv_.rows) {
       const std::string& text = row.fields[index_of(name)];
       const std::optional<double> value = csv_number(text, csv_.decimal_comma);
       if (!value) fail(row.line, name, fmt::format("\"{}\" is not a number", text));
+      if (!(std::abs(*value * unit) <= most))
+        fail(row.line, name,
+             fmt::format("\"{}\" is out of range, which is from {:g} to {:g}", text, -most / unit, most / unit));
       values.push_back(*value * unit);
     }
     return values;

@@ -236,6 +236,25 @@ TEST_F(Measured, BadValuesAreNamedByLineAndColumn) {
   EXPECT_TRUE(contains(error("tray.motion.frequency_Hz,seeds_per_s\nfast,3\n"), "\"fast\" is not a number"));
 }
 
+TEST_F(Measured, NumbersBeyondAnySeederAreNamedByLineAndColumn) {
+  EXPECT_TRUE(contains(error("rate_g_per_s\n3\n1e308\n"),
+                       ":3: rate_g_per_s: 1e+308 is out of range; expected zero, or from 1e-06 to 1e+09"));
+  EXPECT_TRUE(contains(error("seeds_per_s\n1e-300\n"), ":2: seeds_per_s: 1e-300 is out of range"));
+  EXPECT_TRUE(contains(error("caught_g,duration_s\n3,1\n3,1e-300\n"), ":3: duration_s: 1e-300 is out of range"));
+  EXPECT_TRUE(contains(error("caught_g,duration_s\n1e9,1e-3\n"), ":2: rate_g_per_s: 1e+12 is out of range"));
+  EXPECT_TRUE(contains(error("time_s,mass_g\n0,0\n1e-300,1\n"), ":3: time_s: 1e-300 is out of range"));
+  EXPECT_TRUE(contains(error("time_s,seeds\n0,0\n1,1e300\n"), ":3: seeds: 1e+300 is out of range"));
+}
+
+TEST_F(Measured, ManyRepeatsAreReadInNoTime) {
+  std::string text = "repeat,rate_g_per_s\n";
+  for (int repeat = 0; repeat < 100000; ++repeat) text += std::to_string(repeat) + ",3\n";
+  const MeasuredTable table = read(text);
+  ASSERT_EQ(table.series.size(), 1U);
+  EXPECT_EQ(table.series[0].repeats[0], 100000);
+  EXPECT_TRUE(contains(error(text + "7,3\n"), ":100002: repeat: repeat 7 stands twice"));
+}
+
 TEST_F(Measured, BrokenFilesAreErrors) {
   EXPECT_TRUE(contains(error("hole,seeds_per_s\n1,3,4\n"), ":2: 3 fields where the header has 2"));
   EXPECT_TRUE(contains(error("seeds_per_s,note\n3,\"never closed\n4,x\n"), ":2: a quote"));

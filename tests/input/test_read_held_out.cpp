@@ -34,8 +34,11 @@ TEST(ReadModelError, AMaterialCountsOnce) {
 TEST(ReadModelError, NamesWhatIsWrong) {
   EXPECT_THAT([] { error_of("material,measured\nwood,12\n"); },
               ThrowsMessage<InputError>(HasSubstr("rates.csv:1: predicted: is missing")));
-  EXPECT_THAT([] { error_of("material,measured,predicted\nwood,12,0\n"); },
-              ThrowsMessage<InputError>(HasSubstr("rates.csv:2: predicted: \"0\" is not a number above zero")));
+  EXPECT_THAT(
+      [] { error_of("material,measured,predicted\nwood,12,0\n"); },
+      ThrowsMessage<InputError>(HasSubstr("rates.csv:2: predicted: \"0\" is not a number from 1e-09 to 1e+09")));
+  EXPECT_THAT([] { error_of("material,measured,predicted\nwood,1e308,1e-300\n"); },
+              ThrowsMessage<InputError>(HasSubstr("rates.csv:2: measured: \"1e308\" is not a number from")));
 }
 
 TEST(ReadModelError, TheShippedOneIsOfSeveralMaterials) {

@@ -125,12 +125,16 @@ TEST(ReadMotion, WrongTablesAreRefusedWithLineAndColumn) {
                 ThrowsMessage<InputError>(HasSubstr(file.string() + message)));
   };
   refused("time_s,x_mm\n0,0\n1,1\n2,0\n", ":4: time_s: expected at least 4 rows");
-  refused("time_s,x_mm\n0,0\n1,1e300\n2,0\n3,0\n",
-          ":3: x_mm: \"1e300\" is too far from the row before: faster than 1000 m/s");
+  refused("time_s,x_mm\n0,0\n1e-4,1e5\n2,0\n3,0\n",
+          ":3: x_mm: \"1e5\" is too far from the row before: faster than 1000 m/s");
+  refused("time_s,x_mm\n0,1e300\n1,1e300\n2,1e300\n3,1e300\n",
+          ":2: x_mm: \"1e300\" is out of range, which is from -1e+06 to 1e+06");
+  refused("time_s,angle_degree\n0,0\n1,1\n2,0\n3,-1e9\n", ":5: angle_degree: \"-1e9\" is out of range");
   refused("time_s,y_mm\n0,0\n1e-9,1\n2,0\n3,0\n", ":3: y_mm: \"1\" is too far from the row before");
   refused("time_s,angle_degree\n0,0\n1,1e6\n2,0\n3,0\n",
           ":3: angle_degree: \"1e6\" is too far from the row before: faster than 1000 turns");
-  refused("time_s,x_mm\n0,0\n1,1\n2,0\n1e300,0\n", ":5: time_s: 1e+300 s is out of range, which is up to 1e+06 s");
+  refused("time_s,x_mm\n0,0\n1,1\n2,0\n1e300,0\n",
+          ":5: time_s: \"1e300\" is out of range, which is from -1e+06 to 1e+06");
   refused("time_s,x_mm\n0,0\n1,1\n1,0\n2,0\n", ":4: time_s: 1 is not later than the row before");
   refused("time_s,x_mm\n0,0\n1,a\n2,0\n3,0\n", ":3: x_mm: \"a\" is not a number");
   refused("time_s,x_m\n0,0\n1,1\n2,0\n3,0\n",
