@@ -92,7 +92,7 @@ void write(const std::vector<NewFile>& files) {
   for (const NewFile& file : files) {
     std::error_code failed;
     fs::create_directories(file.path.parent_path(), failed);
-    if (failed) cannot_write(file.path, failed.message());
+    if (failed) cannot_write(file.path, failed.value());
     write_file_atomically(file.path, file.content);
   }
 }

@@ -81,7 +81,7 @@ void make_directories(const PathInFolder& place, const fs::path& as) {
   refuse_links(place, true);
   std::error_code error;
   fs::create_directories(place.path(), error);
-  if (error) cannot_write(as, error.message());
+  if (error) cannot_write(as, error.value());
 }
 
 void remove_file(const PathInFolder& place) {
@@ -98,16 +98,20 @@ bool is_hash_name(std::string_view name, std::size_t digits) {
   return name.size() == digits && name.find_first_not_of("0123456789abcdef") == std::string_view::npos;
 }
 
-void cannot_write(const fs::path& path, const std::string& reason) {
-  throw CannotWrite(fmt::format("{}: cannot be written: {}", path.string(), reason));
+CannotWrite::CannotWrite(const fs::path& path, int error)
+    : InputError(fmt::format("{}: cannot be written: {}", path.string(), std::strerror(error))),
+      for_want_of_room(error == ENOSPC || error == EDQUOT) {}
+
+void cannot_write(const fs::path& path, int error) {
+  throw CannotWrite(path, error);
 }
 
 void write_new_file(const fs::path& path, std::string_view content, const fs::path& as) {
   const int descriptor = open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666);
-  if (descriptor < 0) cannot_write(as, std::strerror(errno));
+  if (descriptor < 0) cannot_write(as, errno);
   const int error = write_all(descriptor, content);
   const int close_error = close(descriptor) == 0 ? 0 : errno;
-  if (error || close_error) cannot_write(as, std::strerror(error ? error : close_error));
+  if (error || close_error) cannot_write(as, error ? error : close_error);
 }
 
 void sync_directory(const fs::path& directory) {
@@ -153,7 +157,7 @@ void move_file(const fs::path& from, const fs::path& to) {
   if (rename(from.c_str(), to.c_str()) == 0) return;
   const int reason = errno;
   std::error_code none;
-  if (fs::exists(from, none) || !fs::exists(to, none)) cannot_write(to, std::strerror(reason));
+  if (fs::exists(from, none) || !fs::exists(to, none)) cannot_write(to, reason);
 }
 
 void write_file_atomically(const PathInFolder& place, std::string_view content) {

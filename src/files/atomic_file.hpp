@@ -17,7 +17,9 @@ namespace vibrosow {
 /// "PATH: cannot be written: REASON": a full disk, no right to write.
 class CannotWrite : public InputError {
  public:
-  using InputError::InputError;
+  CannotWrite(const std::filesystem::path& path, int error);
+
+  bool for_want_of_room;  // a full disk or quota, which may pass; else it lasts
 };
 
 /// Where something is in a folder that a user named. The folder may be reached over links; below it no link is followed
@@ -81,7 +83,7 @@ void sync_directory(const std::filesystem::path& directory);
 /// it.
 void move_file(const std::filesystem::path& from, const std::filesystem::path& to);
 
-/// Throws CannotWrite.
-[[noreturn]] void cannot_write(const std::filesystem::path& path, const std::string& reason);
+/// Throws CannotWrite; `error` is an errno.
+[[noreturn]] void cannot_write(const std::filesystem::path& path, int error);
 
 }  // namespace vibrosow

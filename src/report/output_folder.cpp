@@ -47,7 +47,7 @@ class TemporaryDirectory {
       if (mkdir(path_.c_str(), 0777) == 0) return;
       if (errno != EEXIST) break;
     }
-    cannot_write(path_, std::strerror(errno));
+    cannot_write(path_, errno);
   }
   TemporaryDirectory(const TemporaryDirectory&) = delete;
   TemporaryDirectory& operator=(const TemporaryDirectory&) = delete;
@@ -197,7 +197,7 @@ void OutputFolder::add(const OutputFile& file) const {
 void OutputFolder::write(const std::vector<OutputFile>& files) const {
   std::error_code error;
   fs::create_directories(folder_, error);
-  if (error) cannot_write(folder_, error.message());
+  if (error) cannot_write(folder_, error.value());
   std::vector<std::string> names;
   for (const OutputFile& file : files) names.push_back(file.name);
   const FileList former = former_set(folder_, command_, names);

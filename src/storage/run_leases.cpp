@@ -96,7 +96,8 @@ bool RunLeases::is_abandoned(const std::string& run) {
 bool RunLeases::claim(const std::string& run) {
   try {
     make_directories(folder_, folder_.path());
-  } catch (const CannotWrite&) {  // then nobody knows
+  } catch (const CannotWrite& error) {
+    if (!error.for_want_of_room) throw;  // nor could the run be kept
   }
   const auto now = std::chrono::system_clock::to_time_t(std::chrono::system_clock::now());
   Own own{{run, host_name(), getpid(), fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(now)), 0, -1},

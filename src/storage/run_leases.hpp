@@ -31,7 +31,7 @@ class RunLeases {
       : folder_(std::move(folder)), patience_(patience) {}
 
   /// Notes that this process makes the run from now on; false where another does. Throws InputError where a link is on
-  /// the way to the folder.
+  /// the way to the folder, CannotWrite where there is no right to make it.
   bool claim(const std::string& run);
 
   /// To be called often while it runs: says how far it is every few seconds.

@@ -201,15 +201,17 @@ BatchSummary StudyRuns::make(const std::vector<WantedRun>& wanted, const Simulat
   return queue.result();
 }
 
-/// Waits until all that was made could be written; false where it takes too long, or the work is interrupted.
+/// Waits until all that was made could be written; false where that takes too long or cannot be, or the work is
+/// interrupted.
 bool StudyRuns::wait_for_disk_space(const BatchOptions& options, const Queue& queue) {
   const auto begin = Clock::now();
   bool told = false;
   while (!queue.is_interrupted()) {
     keep_waiting();
-    const std::string reason = not_kept();
-    if (reason.empty()) return true;
-    if (!told && options.on_not_kept) options.on_not_kept(reason);
+    const std::optional<CannotWrite> reason = why_not_kept();
+    if (!reason) return true;
+    if (!reason->for_want_of_room) return false;
+    if (!told && options.on_not_kept) options.on_not_kept(reason->what());
     told = true;
     if (std::chrono::duration<double>(Clock::now() - begin).count() >= options.wait_for_room) return false;
     std::this_thread::sleep_for(look_again_after);
@@ -287,7 +289,7 @@ void StudyRuns::keep(const std::string& identity, const Run& run) {
   } catch (const CannotWrite& error) {
     const std::lock_guard lock(mutex_);
     waiting_[identity] = run;
-    not_kept_ = error.what();
+    not_kept_ = error;
   }
 }
 
@@ -299,8 +301,9 @@ void StudyRuns::keep_waiting() {
       folders_.front().keep(waiting_.begin()->first, waiting_.begin()->second);
       waiting_.erase(waiting_.begin());
     }
-    not_kept_.clear();
-  } catch (const CannotWrite&) {
+    not_kept_.reset();
+  } catch (const CannotWrite& error) {
+    not_kept_ = error;
   }
 }
 
@@ -332,9 +335,14 @@ Simulator StudyRuns::caching_simulator(Simulator simulator) {
   };
 }
 
-std::string StudyRuns::not_kept() const {
+std::optional<CannotWrite> StudyRuns::why_not_kept() const {
   const std::lock_guard lock(mutex_);
   return not_kept_;
+}
+
+std::string StudyRuns::not_kept() const {
+  const std::optional<CannotWrite> reason = why_not_kept();
+  return reason ? reason->what() : "";
 }
 
 }  // namespace vibrosow

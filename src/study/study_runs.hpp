@@ -39,7 +39,7 @@ struct BatchOptions {
   const std::atomic<bool>* interrupt = nullptr;  // true saves the runs under way and begins no other
   double save_every = 300;                       // s of the clock, between checkpoints of a run under way
   bool retry = false;                            // runs that were refused, or stopped by the guard, are made anew
-  double wait_for_room = 600;                    // s of the clock: how long a full disk is waited for
+  double wait_for_room = 600;                    // s of the clock: how long a full disk or quota is waited for
   std::function<void(const std::string&)> on_not_kept{};  // why runs wait to be written; once for each wait
   /// Of all cost, and how much of that was there already; called by one thread at a time.
   std::function<void(double fraction_done, double fraction_there)> progress{};
@@ -65,7 +65,9 @@ class StudyRuns {
             std::chrono::duration<double> patience = std::chrono::seconds(30));
 
   /// Returns when every wanted run is there, made by whomever, or when it is interrupted. A scene that cannot be run
-  /// gives a run that is `refused`, which is kept too. Throws InputError where another program made another run of it.
+  /// gives a run that is `refused`, which is kept too. Throws InputError where another program made another run of it
+  /// and CannotWrite where there is no right to write. Where a run could not be kept for another reason than a full
+  /// disk, no other is begun.
   BatchSummary make(const std::vector<WantedRun>& wanted, const Simulator& simulator, const BatchOptions& options);
 
   /// The run that is kept under a case's name, here or waiting to be written; none: there is none.
@@ -91,6 +93,7 @@ class StudyRuns {
   Run run_on(const WantedRun& wanted, const Simulator& simulator, const BatchOptions& options, Queue& queue);
   void keep(const std::string& identity, const Run& run);
   void keep_waiting();
+  std::optional<CannotWrite> why_not_kept() const;
   bool wait_for_disk_space(const BatchOptions& options, const Queue& queue);
 
   void sweep_what_was_left() const;
@@ -101,7 +104,7 @@ class StudyRuns {
   CheckpointFolder checkpoints_;
   mutable std::mutex mutex_;
   std::map<std::string, Run> waiting_;  // by identity: could not be written
-  std::string not_kept_;
+  std::optional<CannotWrite> not_kept_;
 };
 
 }  // namespace vibrosow

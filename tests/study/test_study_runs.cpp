@@ -3,7 +3,10 @@
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/syscall.h>
+#include <unistd.h>
 
+#include <cerrno>
 #include <fstream>
 #include <set>
 
@@ -13,6 +16,17 @@
 #include "simulation/checkpoint.hpp"
 #include "study/planned_study.hpp"
 #include "support/study_files.hpp"
+
+namespace {
+int error_of_fsync = 0;  // 0: as it is
+}
+
+/// In the place of libc's: a full disk may show only here.
+extern "C" int fsync(int descriptor) {
+  if (error_of_fsync == 0) return static_cast<int>(syscall(SYS_fsync, descriptor));
+  errno = error_of_fsync;
+  return -1;
+}
 
 namespace vibrosow {
 namespace {
@@ -179,8 +193,8 @@ TEST_F(StudyRunsOf, ARunUnderAnotherNameIsNotTaken) {
 }
 
 TEST_F(StudyRunsOf, ARunThatCannotBeWrittenIsInMemoryUntilItCan) {
-  files_.write("a", "no folder");
   StudyRuns runs(folder("a"));
+  error_of_fsync = ENOSPC;
   make(runs, {1});
   EXPECT_EQ(kept(runs, 1).status, RunStatus::finished);
   EXPECT_THAT(runs.not_kept(), testing::HasSubstr("cannot be written"));
@@ -188,10 +202,28 @@ TEST_F(StudyRunsOf, ARunThatCannotBeWrittenIsInMemoryUntilItCan) {
   options.jobs = 1, options.wait_for_room = 0;
   EXPECT_EQ(runs.make(wanted({2}), simulator_, options).interrupted, 1) << "no other is begun";
   options.wait_for_room = 600;
-  options.on_not_kept = [&](const std::string&) { fs::remove(folder("a")); };  // then there is room
+  options.on_not_kept = [&](const std::string&) { error_of_fsync = 0; };  // then there is room
   EXPECT_EQ(runs.make(wanted({2}), simulator_, options).made, 1);
   EXPECT_EQ(runs.not_kept(), "");
   EXPECT_EQ(cases("a").size(), 2u);
+}
+
+TEST_F(StudyRunsOf, OnlyRoomIsWaitedFor) {
+  StudyRuns runs(folder("a"));
+  BatchOptions options;
+  options.jobs = 1, options.wait_for_room = 600;
+  options.on_not_kept = [&](const std::string& reason) { ADD_FAILURE() << reason; };
+  error_of_fsync = EACCES;
+  EXPECT_EQ(runs.make(wanted({1, 2}), simulator_, options).made, 1);
+  error_of_fsync = 0;
+  EXPECT_THAT(runs.not_kept(), testing::HasSubstr("cannot be written: Permission denied"));
+}
+
+TEST_F(StudyRunsOf, WithoutARightToWriteNoRunIsBegun) {
+  files_.write("a", "no folder");
+  StudyRuns runs(folder("a"));
+  EXPECT_THROW(make(runs, {1}), CannotWrite);
+  EXPECT_EQ(made_, 0);
 }
 
 TEST_F(StudyRunsOf, AnotherRunOfTheSameNameIsAnError) {
