@@ -39,7 +39,16 @@ std::vector<std::string> drawing_warnings(const Scene& scene, const std::vector<
   std::vector<std::string> warnings;
   for (const Drawing& drawing : drawings) {
     const Vessel& vessel = vessel_of(drawing, scene);
-    const double size = extent_of(drawing, vessel).size(), of_vessel = std::max(vessel.length, vessel.height);
+    const Extent all = extent_of(drawing, vessel);
+    const bool along = vessel.pieces.at(drawing.first).drawn_out == DrawnOut::along;
+    const double wide = along ? *vessel.depth : vessel.length;
+    if (all.high.x() < 0 || all.low.x() > wide || all.low.y() > vessel.height)
+      warnings.push_back(fmt::format(
+          "{}.pieces: {} draws from ({:.4g}, {:.4g}) to ({:.4g}, {:.4g}) mm, wholly beside the {}, which is {:.4g} mm "
+          "{} and {:.4g} mm high: is its zero (at) right?",
+          vessel.name, drawing.file, 1e3 * all.low.x(), 1e3 * all.low.y(), 1e3 * all.high.x(), 1e3 * all.high.y(),
+          vessel.name, 1e3 * wide, along ? "deep" : "long", 1e3 * vessel.height));
+    const double size = all.size(), of_vessel = std::max(vessel.length, vessel.height);
     if (size < least * of_vessel)
       warnings.push_back(fmt::format(
           "{}.pieces: {} draws no more than {:.3g} mm, the {} is {:.3g} mm long and {:.3g} mm high: is its unit right?",

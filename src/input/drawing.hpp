@@ -20,7 +20,8 @@ struct Drawing {
 /// "drawing tray.dxf: 6 pieces from (0, 0) to (210, 60) mm, layer 0; left out: 1 MTEXT".
 std::string drawing_text(const Drawing& drawing, const Scene& scene);
 
-/// Warnings of drawings that are far smaller than the vessel they belong to, as of a wrong unit.
+/// Warnings of drawings that are far smaller than the vessel they belong to, as of a wrong unit, or lie wholly beside
+/// it.
 std::vector<std::string> drawing_warnings(const Scene& scene, const std::vector<Drawing>& drawings);
 
 }  // namespace vibrosow

@@ -24,10 +24,10 @@ struct DrawnPieces {
 /// cannot be read, with its line, and for keys as elsewhere.
 Drawing read_drawing(Table& table, Vessel& vessel);
 
-/// The lines and arcs of a DXF file's entities LINE, LWPOLYLINE, ARC and CIRCLE, in its own units. Left out are words
-/// and measures, what is invisible, what lies on a layer that is switched off or frozen, and what is of a sheet (paper
-/// space). `unit` (m): what $INSUNITS says. Throws InputError "FILE:LINE: .." for other entities and what is no DXF
-/// file.
+/// The lines and arcs of a DXF file's entities LINE, LWPOLYLINE, ARC and CIRCLE, in its own units; what is drawn from
+/// behind is mirrored, as it is seen. Left out are words and measures, what is invisible, what lies on a layer that is
+/// switched off or frozen, and what is of a sheet (paper space). `unit` (m): what $INSUNITS says. Throws InputError
+/// "FILE:LINE: .." for other entities, what lies in another plane or leaves that of x and y, and what is no DXF file.
 struct DxfDrawing : DrawnPieces {
   std::optional<double> unit{};
 };

@@ -192,23 +192,53 @@ class Dxf {
   void add(const Record& entity) {
     constexpr std::array beside = {"TEXT",   "MTEXT",       "ATTDEF", "TOLERANCE", "DIMENSION",
                                    "LEADER", "MULTILEADER", "HATCH",  "POINT",     "VIEWPORT"};
+    constexpr std::array of_another = {"VERTEX", "ATTRIB", "SEQEND"};  // of the POLYLINE or INSERT before them
+    if (std::ranges::find(of_another, entity.name) != of_another.end()) return;
     const std::string why = hidden(entity);
     if (!why.empty() || std::ranges::find(beside, entity.name) != beside.end())
       return left_out_.add(printable(entity.name) + why);
-    if (find(entity, 230).value_or(1) < 0) fail(entity.line, fmt::format("{}: is drawn from behind", entity.name));
     const std::string layer = printable(text(entity, 8));
     std::vector<std::string>& layers = drawing_.layers;
     if (!layer.empty() && std::ranges::find(layers, layer) == layers.end()) layers.push_back(layer);
     if (entity.name == "LINE") {
-      drawing_.pieces.push_back(line_piece(point(entity, 10), point(entity, 11)));
-    } else if (entity.name == "LWPOLYLINE") {
-      add_polyline(entity, drawing_.pieces);
-    } else if (entity.name == "ARC" || entity.name == "CIRCLE") {
-      drawing_.pieces.push_back(arc(entity));
+      drawing_.pieces.push_back(line(entity));
+    } else if (entity.name == "LWPOLYLINE" || entity.name == "ARC" || entity.name == "CIRCLE") {
+      std::vector<WallPiece> pieces;
+      entity.name == "LWPOLYLINE" ? add_polyline(entity, pieces) : pieces.push_back(arc(entity));
+      const bool mirror = is_from_behind(entity);
+      for (const WallPiece& piece : pieces) drawing_.pieces.push_back(mirror ? mirrored(piece) : piece);
     } else {
       fail(entity.line,
            fmt::format("{} cannot be read; LINE, LWPOLYLINE, ARC and CIRCLE can (explode it)", entity.name));
     }
+  }
+
+  /// What is flat lies in a plane of its own, of which 210, 220 and 230 are the normal; that from behind has its x to
+  /// the left (DXF Reference, "arbitrary axis algorithm").
+  bool is_from_behind(const Record& entity) const {
+    constexpr double straight = 1e-6;
+    const double x = find(entity, 210).value_or(0), y = find(entity, 220).value_or(0),
+                 z = find(entity, 230).value_or(1);
+    if (!(std::abs(z) > 0 && std::abs(x) + std::abs(y) <= straight * std::abs(z)))
+      fail(entity.line, fmt::format("{}: lies in another plane than the drawing's x and y", entity.name));
+    return z < 0;
+  }
+
+  static WallPiece mirrored(WallPiece piece) {
+    for (Point* point : {&piece.a, &piece.b, &piece.centre}) point->x() = -point->x();
+    if (piece.radius == 0 || piece.to - piece.from >= 2 * std::numbers::pi * (1 - 1e-12)) return piece;
+    piece.from = std::numbers::pi - std::exchange(piece.to, std::numbers::pi - piece.from);
+    return piece;
+  }
+
+  /// Its ends are the drawing's own, whatever its normal.
+  WallPiece line(const Record& entity) const {
+    constexpr double level = 1e-3;
+    const WallPiece piece = line_piece(point(entity, 10), point(entity, 11));
+    const double z = find(entity, 30).value_or(0), other = find(entity, 31).value_or(0);
+    if (std::abs(z - other) > level * (piece.b - piece.a).norm())
+      fail(entity.line, fmt::format("LINE: leaves the drawing's plane, from z {:g} to {:g}", z, other));
+    return piece;
   }
 
   WallPiece arc(const Record& entity) const {

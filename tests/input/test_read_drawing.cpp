@@ -90,6 +90,48 @@ TEST(Dxf, LayersMayBeToldAfterWhatLiesOnThem) {
   EXPECT_EQ(read_dxf(entities + tables + "0\nEOF\n", "a.dxf").pieces.size(), 1u);
 }
 
+TEST(Dxf, WhatBelongsToAnotherEntityGoesWithIt) {
+  const DxfDrawing drawing =
+      read_dxf(dxf_with_layers(layer("OFF", 0, -7),
+                               "0\nINSERT\n8\nOFF\n66\n1\n2\nTITLE\n0\nATTRIB\n8\nW\n1\nhello\n0\nSEQEND\n8\nW\n"
+                               "0\nPOLYLINE\n8\n0\n60\n1\n66\n1\n0\nVERTEX\n8\n0\n10\n0\n20\n0\n0\nSEQEND\n8\n0\n" +
+                                   line_on("W")),
+               "a.dxf");
+  EXPECT_EQ(drawing.pieces.size(), 1u);
+  EXPECT_EQ(drawing.left_out,
+            (std::vector<std::string>{"1 INSERT on the layer OFF, which is switched off", "1 POLYLINE, invisible"}));
+  EXPECT_TRUE(error_of([] {
+                read_dxf(dxf("0\nPOLYLINE\n66\n1\n0\nVERTEX\n10\n0\n20\n0\n"), "a.dxf");
+              }).starts_with("a.dxf:16: POLYLINE cannot be read"));
+}
+
+TEST(Dxf, WhatIsDrawnFromBehindIsMirroredAndALineIsNot) {
+  const std::string behind = "210\n0\n220\n0\n230\n-1\n";
+  const DxfDrawing drawing =
+      read_dxf(dxf("0\nARC\n10\n-50\n20\n20\n40\n10\n50\n0\n51\n90\n" + behind + "0\nCIRCLE\n10\n-7\n20\n1\n40\n2\n" +
+                   behind + "0\nLWPOLYLINE\n10\n-4\n20\n0\n42\n1\n10\n-4\n20\n2\n" + behind +
+                   "0\nLINE\n10\n1\n20\n2\n30\n5\n11\n3\n21\n4\n31\n5\n" + behind),
+               "a.dxf");
+  ASSERT_EQ(drawing.pieces.size(), 4u);
+  const WallPiece& arc = drawing.pieces[0];
+  EXPECT_LT((arc.centre - Point(50, 20)).norm(), 1e-12);
+  EXPECT_LT((on_arc(arc, arc.from) - Point(50, 30)).norm(), 1e-12) << "anticlockwise";
+  EXPECT_LT((on_arc(arc, arc.to) - Point(40, 20)).norm(), 1e-12);
+  EXPECT_EQ(drawing.pieces[1].centre, Point(7, 1));
+  const WallPiece& half = drawing.pieces[2];  // to the right of its way up; seen from the front to the left
+  EXPECT_LT((on_arc(half, 0.5 * (half.from + half.to)) - Point(3, 1)).norm(), 1e-12);
+  EXPECT_EQ(drawing.pieces[3].a, Point(1, 2));
+  EXPECT_EQ(drawing.pieces[3].b, Point(3, 4));
+}
+
+TEST(Dxf, WhatLeavesThePlaneIsRefused) {
+  const auto error = [](const std::string& entity) { return error_of([&] { read_dxf(dxf(entity), "a.dxf"); }); };
+  EXPECT_EQ(error("0\nARC\n10\n50\n20\n0\n40\n20\n210\n0\n220\n-1\n230\n0\n50\n0\n51\n180\n"),
+            "a.dxf:16: ARC: lies in another plane than the drawing's x and y");
+  EXPECT_EQ(error("0\nLINE\n10\n50\n20\n0\n30\n0\n11\n50\n21\n0\n31\n80\n"),
+            "a.dxf:16: LINE: leaves the drawing's plane, from z 0 to 80");
+}
+
 TEST(Dxf, APolylinesBulgesAreArcs) {
   // A slot: two straight sides, closed by half circles of radius 1.
   const DxfDrawing drawing =
@@ -331,10 +373,26 @@ TEST(GarbledDrawings, AreReadOrRefused) {
   const std::string drawn = dxf(std::string(two_lines) +
                                 "0\nARC\n10\n5\n20\n5\n40\n2\n50\n270\n51\n90\n"
                                 "0\nLWPOLYLINE\n70\n1\n10\n0\n20\n0\n42\n1\n10\n4\n20\n0\n");
-  const std::string vector =
-      "<svg width='10mm' viewBox='0 0 10 5'><g transform='rotate(30)'><path d='M1 2C3 4 5 6 7 8s1 1 2 2Q1 2 3 4T5 6A3 "
-      "2 "
-      "10 0 1 4 4z'/><circle r='3'/></g></svg>";
+  const std::string vector = TEST_F(Drawings, ThatLieBesideTheirVesselAreWarnedOf) {
+    write("a.dxf", dxf(two_lines));
+    const auto warnings = [&](const std::string& at) {
+      tray("[{ file = \"a.dxf\", at = " + at + " }]");
+      const Seeder seeder = read_seeder(folder / "seeder.toml");
+      return drawing_warnings(seeder.scene, seeder.drawings);
+    };
+    EXPECT_EQ(warnings("[\"30 cm\", \"2 cm\"]"),
+              (std::vector<std::string>{
+                  "tray.pieces: a.dxf draws from (300, 40) to (380, 70) mm, wholly beside the tray, which is 200 mm "
+                  "long and 100 mm high: is its zero (at) right?"}));
+    for (const char* beside : {"[\"-9 cm\", \"0 cm\"]", "[\"0 cm\", \"9 cm\"]"})
+      EXPECT_EQ(warnings(beside).size(), 1u) << beside;
+    for (const char* meets : {"[\"-7 cm\", \"0 cm\"]", "[\"19 cm\", \"7 cm\"]", "[\"0 cm\", \"-20 cm\"]"})
+      EXPECT_TRUE(warnings(meets).empty()) << meets;
+  }
+
+  "<svg width='10mm' viewBox='0 0 10 5'><g transform='rotate(30)'><path d='M1 2C3 4 5 6 7 8s1 1 2 2Q1 2 3 4T5 6A3 "
+  "2 "
+  "10 0 1 4 4z'/><circle r='3'/></g></svg>";
   const auto pieces_in = [](const std::string& text, bool is_dxf) {
     return is_dxf ? read_dxf(text, "a").pieces.size() : read_svg(text, "a", {1e-3, 1, 1e-5}).pieces.size();
   };
