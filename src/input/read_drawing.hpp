@@ -41,8 +41,9 @@ struct SvgScale {
 };
 
 /// The lines of an SVG file's paths and shapes in m, its zero at the lower left of its view, y up. Circular arcs stay
-/// arcs, other curves become lines. Left out are text and what is hidden (display, visibility, opacity 0). Throws
-/// InputError "FILE:LINE: ..".
+/// arcs, other curves become lines. Left out are text and what nobody sees (display, visibility, opacity 0, neither
+/// stroke nor fill), by attributes, style or a style sheet's simple rules. Throws InputError "FILE:LINE: ..", also for
+/// what would cut or move shapes and is not read: clip paths, masks, transforms in styles.
 DrawnPieces read_svg(const std::string& text, const std::string& file, const SvgScale& scale);
 
 }  // namespace vibrosow

@@ -13,6 +13,7 @@
 #include "input/read_drawing.hpp"
 #include "portable_math/functions.hpp"
 #include "scene/input_error.hpp"
+#include "scene/printable.hpp"
 #include "scene/si_units.hpp"
 
 namespace vibrosow {
@@ -87,6 +88,93 @@ class Tokens {
   std::string_view text_;
 };
 
+std::string_view trimmed(std::string_view text) {
+  const std::size_t from = text.find_first_not_of(" \t\r\n");
+  if (from == std::string_view::npos) return {};
+  return text.substr(from, text.find_last_not_of(" \t\r\n") + 1 - from);
+}
+
+/// What comes before a sign; it and the sign are taken off.
+std::string_view taken_to(std::string_view& rest, char sign) {
+  const std::size_t end = std::min(rest.find(sign), rest.size());
+  const std::string_view before = rest.substr(0, end);
+  rest.remove_prefix(std::min(end + 1, rest.size()));
+  return trimmed(before);
+}
+
+/// The last value of a property among declarations such as "fill: none; display: none !important".
+std::string_view declared(std::string_view declarations, std::string_view name) {
+  std::string_view found;
+  while (!declarations.empty()) {
+    std::string_view value = taken_to(declarations, ';');
+    if (taken_to(value, ':') == name) found = taken_to(value, '!');
+  }
+  return found;
+}
+
+/// Rules of style sheets whose selectors are an element's name, ".class", "#id" or "*".
+class StyleRules {
+ public:
+  /// What is wrong with a sheet: another selector, or a rule for some media alone; "": all rules were added.
+  std::string add(std::string text) {
+    for (std::size_t at; (at = text.find("/*")) != std::string::npos;)
+      text.erase(at, std::min(text.find("*/", at + 2), text.size()) + 2 - at);
+    for (std::string_view rest = text; !trimmed(rest).empty();) {
+      std::string_view selectors = taken_to(rest, '{');
+      const std::string declarations(taken_to(rest, '}'));
+      const bool font = selectors == "@font-face";
+      while (!selectors.empty() && !font) {
+        const std::string selector(taken_to(selectors, ','));
+        constexpr std::string_view signs = " \t\r\n>+~:[@.#*";
+        if (selector.empty() || (selector != "*" && selector.find_first_of(signs, 1) != std::string::npos) ||
+            selector[0] == '@' || selector[0] == ':' || selector[0] == '[')
+          return fmt::format("\"{}\" is no name, .class or #id: such a rule is not read; put it into the shapes",
+                             printable(selector));
+        if (rules_.size() == most_rules) return fmt::format("has more than {} rules", most_rules);
+        rules_.push_back({selector, declarations});
+      }
+    }
+    return "";
+  }
+
+  /// Of ids before that of classes before that of names; of alike the last.
+  std::string_view property(std::string_view element, std::string_view id, std::string_view classes,
+                            std::string_view name) const {
+    std::string_view found;
+    int rank = -1;
+    for (const Rule& rule : rules_) {
+      const int of_rule = rank_of(rule.selector, element, id, classes);
+      const std::string_view value =
+          of_rule < std::max(rank, 0) ? std::string_view() : declared(rule.declarations, name);
+      if (!value.empty()) found = value, rank = of_rule;
+    }
+    return found;
+  }
+
+ private:
+  static constexpr std::size_t most_rules = 500;  // each shape is compared with each
+  struct Rule {
+    std::string selector, declarations;
+  };
+
+  /// How closely a selector says an element; -1: it does not.
+  static int rank_of(std::string_view selector, std::string_view element, std::string_view id,
+                     std::string_view classes) {
+    const std::string_view word = selector.substr(1);
+    if (selector == "*") return 0;
+    if (selector[0] == '#') return word == id ? 3 : -1;
+    if (selector[0] != '.') return selector == element ? 1 : -1;
+    while (!(classes = trimmed(classes)).empty()) {
+      const std::size_t end = std::min(classes.find_first_of(" \t\r\n"), classes.size());
+      if (classes.substr(0, end) == word) return 2;
+      classes.remove_prefix(end);
+    }
+    return -1;
+  }
+
+  std::vector<Rule> rules_;
+};
+
 class Svg {
  public:
   Svg(const std::string& file, const SvgScale& scale) : file_(file), scale_(scale) {}
@@ -98,7 +186,11 @@ class Svg {
     const tinyxml2::XMLElement* root = document.RootElement();
     if (!root) fail(1, "is no SVG drawing");  // a comment alone
     if (name_of(*root) != "svg") fail(root->GetLineNum(), "is no SVG drawing");
-    add_children(*root, view(*root), true);
+    for (const tinyxml2::XMLNode* node = document.FirstChild(); node; node = node->NextSibling())
+      if (node->ToDeclaration() && std::string_view(node->Value()).starts_with("xml-stylesheet"))
+        fail(node->GetLineNum(), "has a style sheet in another file, which is not read");
+    add_rules(*root);
+    add_children(*root, view(*root), seen(*root, {}));
     return {std::move(pieces_), {}, left_out_.lines()};
   }
 
@@ -110,6 +202,17 @@ class Svg {
   }
   [[noreturn]] void fail(const Element& element, const std::string& message) const {
     fail(element.GetLineNum(), fmt::format("{}: {}", element.Name(), message));
+  }
+
+  /// Of all style sheets in it, before any shape is looked at.
+  void add_rules(const Element& parent) {
+    for (const Element* child = parent.FirstChildElement(); child; child = child->NextSiblingElement()) {
+      add_rules(*child);
+      if (name_of(*child) != "style") continue;
+      for (const tinyxml2::XMLNode* text = child->FirstChild(); text; text = text->NextSibling())
+        if (const std::string wrong = text->ToText() ? rules_.add(text->Value()) : ""; !wrong.empty())
+          fail(*child, wrong);
+    }
   }
 
   /// Without the prefix of a namespace.
@@ -208,39 +311,70 @@ class Svg {
     fail(element, fmt::format("transform: {} with {} numbers cannot be read", word, n));
   }
 
-  /// A property of the style attribute, else of the attribute of its name.
-  static std::string_view property(const Element& element, std::string_view name) {
-    const auto trimmed = [](std::string_view text) {
-      const std::size_t from = text.find_first_not_of(" \t\r\n");
-      if (from == std::string_view::npos) return std::string_view();
-      return text.substr(from, text.find_last_not_of(" \t\r\n") + 1 - from);
-    };
+  /// Of an element's style sheets, style and attributes.
+  std::string_view property(const Element& element, std::string_view name) const {
     const char* style = element.Attribute("style");
-    for (std::string_view rest = style ? style : ""; !rest.empty();) {
-      const std::size_t end = std::min(rest.find(';'), rest.size());
-      const std::string_view one = rest.substr(0, end);
-      const std::size_t colon = one.find(':');
-      if (colon != std::string_view::npos && trimmed(one.substr(0, colon)) == name) {
-        const std::string_view value = one.substr(colon + 1);
-        return trimmed(value.substr(0, value.find('!')));  // "!important"
-      }
-      rest.remove_prefix(std::min(end + 1, rest.size()));
-    }
-    const char* attribute = element.Attribute(std::string(name).c_str());
-    return attribute ? trimmed(attribute) : std::string_view();
+    std::string_view found = declared(style ? style : "", name);
+    if (found.empty())
+      found = rules_.property(name_of(element), attribute(element, "id"), attribute(element, "class"), name);
+    return found.empty() ? attribute(element, name) : found;
   }
+  static std::string_view attribute(const Element& element, std::string_view name) {
+    const char* text = element.Attribute(std::string(name).c_str());
+    return text ? trimmed(text) : std::string_view();
+  }
+
+  /// What cuts shapes off, moves or makes them by a style is not read.
+  void check_styles(const Element& element) const {
+    for (const std::string_view name : {"clip-path", "mask"})
+      if (const auto value = property(element, name); !value.empty() && value != "none")
+        fail(element, fmt::format("{}: cannot be read; cut the paths themselves", name));
+    for (const std::string_view name : {"transform", "transform-origin",
+                                        "translate", "rotate",
+                                        "scale",     "offset-path",
+                                        "d",         "points",
+                                        "x",         "y",
+                                        "x1",        "y1",
+                                        "x2",        "y2",
+                                        "cx",        "cy",
+                                        "r",         "rx",
+                                        "ry",        "width",
+                                        "height"})
+      if (property(element, name) != attribute(element, name) ||
+          (name == "transform-origin" && element.Attribute("transform-origin")))
+        fail(element, fmt::format("style: {}: cannot be read; make it an attribute, or apply it to the path", name));
+  }
+
+  /// What is inherited of how a shape is seen: colours, how they cover, and the line's width.
+  struct Seen {
+    bool visible = true, stroke = true, stroke_covers = true, wide = true, fill = true, fill_covers = true;
+  };
 
   /// With all that is in it.
-  static bool is_hidden(const Element& element) {
-    if (property(element, "display") == "none") return true;
-    Tokens opacity(property(element, "opacity"));
-    return !opacity.at_end() && opacity.number() == 0.0;
+  bool is_hidden(const Element& element) const {
+    return property(element, "display") == "none" || is_zero(property(element, "opacity"));
+  }
+  static bool is_zero(std::string_view value) {
+    Tokens tokens(value);
+    return !tokens.at_end() && tokens.number() == 0.0;
   }
 
-  /// Unlike the above, what is in it may be seen again.
-  static bool is_visible(const Element& element, bool outer) {
-    const std::string_view visibility = property(element, "visibility");
-    return visibility == "visible" || (outer && visibility != "hidden" && visibility != "collapse");
+  /// Unlike the above, what is in it may be seen again. Where nothing is said of a stroke, a line is meant to be there.
+  Seen seen(const Element& element, Seen how) const {
+    const auto take = [&](const char* name, bool& is_there, const auto& is_none) {
+      const std::string_view value = property(element, name);
+      if (!value.empty() && value != "inherit") is_there = !is_none(value);
+    };
+    const auto colourless = [](std::string_view value) { return value == "none" || value == "transparent"; };
+    take("visibility", how.visible, [](std::string_view value) { return value == "hidden" || value == "collapse"; });
+    take("stroke", how.stroke, colourless), take("fill", how.fill, colourless);
+    take("stroke-opacity", how.stroke_covers, is_zero), take("fill-opacity", how.fill_covers, is_zero);
+    take("stroke-width", how.wide, is_zero);
+    return how;
+  }
+  static bool is_seen(const Element& element, const Seen& how) {
+    const bool filled = how.fill && how.fill_covers && name_of(element) != "line";
+    return how.visible && ((how.stroke && how.stroke_covers && how.wide) || filled);
   }
 
   static bool is_shape(std::string_view name) {
@@ -256,23 +390,26 @@ class Svg {
       leave_out(*child);
   }
 
-  void add_children(const Element& parent, const Affine& outer, bool visible) {
+  void add_children(const Element& parent, const Affine& outer, const Seen& how) {
     for (const Element* child = parent.FirstChildElement(); child; child = child->NextSiblingElement()) {
-      const bool seen = is_visible(*child, visible);
-      const bool nothing_within = name_of(*child) != "g" && name_of(*child) != "a";
-      if (is_hidden(*child) || (!seen && nothing_within))
+      const std::string_view name = name_of(*child);
+      const Seen here = seen(*child, how);
+      const bool group = name == "g" || name == "a";
+      const bool unseen = is_shape(name) ? !is_seen(*child, here) : !group && !here.visible;
+      if (is_hidden(*child) || unseen) {
         leave_out(*child);
-      else
-        add(*child, transformed(*child, outer), seen);
+        continue;
+      }
+      if (group || is_shape(name)) check_styles(*child);
+      group ? add_children(*child, transformed(*child, outer), here) : add(*child, transformed(*child, outer));
     }
   }
 
-  void add(const Element& element, const Affine& to_m, bool visible) {
+  void add(const Element& element, const Affine& to_m) {
     const std::string_view name = name_of(element);
     if (name == "text" || name == "flowRoot") return left_out_.add(std::string(name));
     for (const std::string_view undrawn : {"use", "image", "svg", "switch", "foreignObject"})
       if (name == undrawn) fail(element, "cannot be read; turn it into paths");
-    if (name == "g" || name == "a") return add_children(element, to_m, visible);
     if (name == "path") return add_path(element, to_m);
     if (name == "line")
       return add_line({number(element, "x1", 0), number(element, "y1", 0)},
@@ -462,6 +599,7 @@ class Svg {
 
   const std::string& file_;
   SvgScale scale_;
+  StyleRules rules_;
   std::vector<WallPiece> pieces_;
   Tally left_out_;
 };

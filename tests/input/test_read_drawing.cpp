@@ -242,6 +242,32 @@ TEST(Svg, WhatNobodySeesIsNoWall) {
   EXPECT_EQ(svg("<g style='display:none'><use/><text>t</text></g>").size(), 0u);
 }
 
+TEST(Svg, WhatIsPaintedByNothingIsNoWall) {
+  for (const char* unseen :
+       {"<rect width='9' height='4' fill='none' stroke='none'/>",
+        "<g stroke='none' fill='none'><path d='M0 0L1 1'/></g>",
+        "<line x2='4' y2='4' stroke='black' stroke-opacity='0'/>", "<line x2='4' y2='4' stroke='none'/>",
+        "<path d='M0 0L1 1' style='fill:transparent;stroke-width:0'/>",
+        "<g stroke-opacity='0'><line x2='4' y2='4' stroke='black'/></g>"})
+    EXPECT_EQ(svg(unseen).size(), 0u) << unseen;
+  for (const char* seen : {"<line x2='4' y2='4' fill='none'/>", "<path d='M0 0L1 1' stroke='none'/>",
+                           "<g stroke-opacity='0'><line x2='4' y2='4' stroke-opacity='0.5'/></g>",
+                           "<g stroke='none' fill='none'><path d='M0 0L1 1' stroke='#000'/></g>"})
+    EXPECT_EQ(svg(seen).size(), 1u) << seen;
+}
+
+TEST(Svg, GoesByItsStyleSheet) {
+  const std::string sheet =
+      "<style>/* { */ .gone, #b {display:none} line { visibility: hidden } .seen{visibility:visible}"
+      "@font-face{font-family:a}</style>";
+  EXPECT_EQ(svg(sheet + "<path class='x gone' d='M0 0L1 1'/>").size(), 0u);
+  EXPECT_EQ(svg("<path id='b' d='M0 0L1 1'/>" + sheet).size(), 0u) << "wherever it stands";
+  EXPECT_EQ(svg(sheet + "<line x2='4' y2='4'/><line class='seen' x2='4' y2='4'/>").size(), 1u);
+  EXPECT_EQ(svg(sheet + "<line visibility='visible' x2='4' y2='4'/>").size(), 0u) << "before an attribute";
+  EXPECT_EQ(svg(sheet + "<path class='gone' style='display:inline' d='M0 0L1 1'/>").size(), 1u) << "after a style";
+  EXPECT_EQ(svg("<style><![CDATA[.a{stroke:#000;fill:none}]]></style><path class='a' d='M0 0L1 1'/>").size(), 1u);
+}
+
 TEST(Svg, SaysWhatIsLeftOut) {
   const DrawnPieces drawn = read_svg(
       "<svg width='10mm' viewBox='0 0 10 5'><text><tspan>a</tspan></text><text>b</text><flowRoot/><path d='M0 0L1 1'/>"
@@ -258,6 +284,18 @@ TEST(Svg, WhatCannotBeReadIsNamedWithItsLine) {
   EXPECT_EQ(error("<use href='#a'/>"), "a.svg:2: use: cannot be read; turn it into paths");
   EXPECT_EQ(error("<rect width='3' height='2' rx='1'/>"), "a.svg:2: rect: has round corners; turn it into a path");
   EXPECT_EQ(error("<g transform='turn(3)'/>"), "a.svg:2: g: transform: turn with 1 numbers cannot be read");
+  EXPECT_EQ(error("<line clip-path='url(#c)' x2='4' y2='4'/>"),
+            "a.svg:2: line: clip-path: cannot be read; cut the paths themselves");
+  EXPECT_EQ(error("<g style='mask: url(#c)'/>"), "a.svg:2: g: mask: cannot be read; cut the paths themselves");
+  EXPECT_EQ(error("<line style='transform: translate(0px,-30px)' x2='4' y2='4'/>"),
+            "a.svg:2: line: style: transform: cannot be read; make it an attribute, or apply it to the path");
+  EXPECT_EQ(error("<style>.a{rotate:9deg}</style><g class='a'/>"),
+            "a.svg:2: g: style: rotate: cannot be read; make it an attribute, or apply it to the path");
+  EXPECT_EQ(error("<style>g path{display:none}</style>"),
+            "a.svg:2: style: \"g path\" is no name, .class or #id: such a rule is not read; put it into the shapes");
+  EXPECT_EQ(error("<style>@media print{.a{display:none}}</style>"),
+            "a.svg:2: style: \"@media print\" is no name, .class or #id: such a rule is not read; put it into the "
+            "shapes");
   EXPECT_TRUE(error("<path").starts_with("a.svg:2: is no XML")) << error("<path");
   const auto of = [](const std::string& text) {
     return error_of([&] { read_svg(text, "a.svg", {std::nullopt, 1, 1e-5}); });
@@ -336,6 +374,23 @@ TEST_F(Drawings, SayWhatTheyGave) {
                                       "high: is its unit right?"}));
 }
 
+TEST_F(Drawings, ThatLieBesideTheirVesselAreWarnedOf) {
+  write("a.dxf", dxf(two_lines));
+  const auto warnings = [&](const std::string& at) {
+    tray("[{ file = \"a.dxf\", at = " + at + " }]");
+    const Seeder seeder = read_seeder(folder / "seeder.toml");
+    return drawing_warnings(seeder.scene, seeder.drawings);
+  };
+  EXPECT_EQ(warnings("[\"30 cm\", \"2 cm\"]"),
+            (std::vector<std::string>{
+                "tray.pieces: a.dxf draws from (300, 40) to (380, 70) mm, wholly beside the tray, which is 200 mm "
+                "long and 100 mm high: is its zero (at) right?"}));
+  for (const char* beside : {"[\"-9 cm\", \"0 cm\"]", "[\"0 cm\", \"9 cm\"]"})
+    EXPECT_EQ(warnings(beside).size(), 1u) << beside;
+  for (const char* meets : {"[\"-7 cm\", \"0 cm\"]", "[\"19 cm\", \"7 cm\"]", "[\"0 cm\", \"-20 cm\"]"})
+    EXPECT_TRUE(warnings(meets).empty()) << meets;
+}
+
 TEST_F(Drawings, MayBeDrawnOutAlongTheTray) {
   write("a.dxf", dxf(two_lines));
   EXPECT_EQ(tray("{ file = \"a.dxf\" }").pieces[1].drawn_out, DrawnOut::across);
@@ -373,26 +428,10 @@ TEST(GarbledDrawings, AreReadOrRefused) {
   const std::string drawn = dxf(std::string(two_lines) +
                                 "0\nARC\n10\n5\n20\n5\n40\n2\n50\n270\n51\n90\n"
                                 "0\nLWPOLYLINE\n70\n1\n10\n0\n20\n0\n42\n1\n10\n4\n20\n0\n");
-  const std::string vector = TEST_F(Drawings, ThatLieBesideTheirVesselAreWarnedOf) {
-    write("a.dxf", dxf(two_lines));
-    const auto warnings = [&](const std::string& at) {
-      tray("[{ file = \"a.dxf\", at = " + at + " }]");
-      const Seeder seeder = read_seeder(folder / "seeder.toml");
-      return drawing_warnings(seeder.scene, seeder.drawings);
-    };
-    EXPECT_EQ(warnings("[\"30 cm\", \"2 cm\"]"),
-              (std::vector<std::string>{
-                  "tray.pieces: a.dxf draws from (300, 40) to (380, 70) mm, wholly beside the tray, which is 200 mm "
-                  "long and 100 mm high: is its zero (at) right?"}));
-    for (const char* beside : {"[\"-9 cm\", \"0 cm\"]", "[\"0 cm\", \"9 cm\"]"})
-      EXPECT_EQ(warnings(beside).size(), 1u) << beside;
-    for (const char* meets : {"[\"-7 cm\", \"0 cm\"]", "[\"19 cm\", \"7 cm\"]", "[\"0 cm\", \"-20 cm\"]"})
-      EXPECT_TRUE(warnings(meets).empty()) << meets;
-  }
-
-  "<svg width='10mm' viewBox='0 0 10 5'><g transform='rotate(30)'><path d='M1 2C3 4 5 6 7 8s1 1 2 2Q1 2 3 4T5 6A3 "
-  "2 "
-  "10 0 1 4 4z'/><circle r='3'/></g></svg>";
+  const std::string vector =
+      "<svg width='10mm' viewBox='0 0 10 5'><g transform='rotate(30)'><path d='M1 2C3 4 5 6 7 8s1 1 2 2Q1 2 3 4T5 6A3 "
+      "2 "
+      "10 0 1 4 4z'/><circle r='3'/></g></svg>";
   const auto pieces_in = [](const std::string& text, bool is_dxf) {
     return is_dxf ? read_dxf(text, "a").pieces.size() : read_svg(text, "a", {1e-3, 1, 1e-5}).pieces.size();
   };
