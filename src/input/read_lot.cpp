@@ -136,7 +136,6 @@ std::vector<ClumpDisc> read_discs(Table& seeds, Space space) {
 /// `size` (m) is the measure under `size_key`.
 void read_shape(Table& seeds, ShapeName shape, double size, Space space, SeedLot& lot) {
   lot.diameter = size;
-  lot.shape = shape == ShapeName::disc ? Shape::disc : Shape::ball;
   if (shape == ShapeName::disc && space != Space::two_dimensional)
     seeds.fail("shape", "is for 2D; with space = \"3d\" it is a \"ball\"");
   if (shape == ShapeName::elongated || shape == ShapeName::drop) {
@@ -295,8 +294,8 @@ SeedLot read_lot(Table& seeds, const std::string& name, Space space) {
   const ShapeName shape = chosen ? static_cast<ShapeName>(*chosen) : ShapeName::ball;
   refuse_keys(seeds, "shape", keys_of_other_shapes(shape),
               fmt::format("does not go with shape = \"{}\"", shape_names[static_cast<std::size_t>(shape)]));
-  const bool flat_mass = shape == ShapeName::disc || (shape != ShapeName::ball && space == Space::two_dimensional);
-  if (shape != ShapeName::discs) lot.sizes = read_sizes(seeds, size_key(shape), flat_mass ? 2 : 3);
+  lot.shape = shape == ShapeName::disc ? Shape::disc : Shape::ball;
+  if (shape != ShapeName::discs) lot.sizes = read_sizes(seeds, size_key(shape), mass_power(lot));
   read_shape(seeds, shape, lot.sizes.mean, space, lot);
   if (lot.shape == Shape::clump && lot.sizes.kind != Kind::single) scale(lot.sizes, lot.diameter / lot.sizes.mean);
   if (lot.sizes.kind == Kind::single) lot.sizes = {};

@@ -107,7 +107,7 @@ bool has_clumps(const std::vector<SeedLot>& lots) {
 }
 
 int mass_power(const SeedLot& lot) {
-  return lot.shape == Shape::ball || is_solid_clump(lot) ? 3 : 2;
+  return lot.shape == Shape::disc ? 2 : 3;
 }
 
 double mean_mass(const SeedLot& lot) {

@@ -28,8 +28,8 @@ bool is_solid_clump(const SeedLot& lot);
 
 bool has_clumps(const std::vector<SeedLot>& lots);
 
-/// The power of its size with which a seed's mass grows, at equal density: 3 of a ball or a clump of balls, 2 of a disc
-/// or a clump of discs.
+/// The power of its size with which a seed's mass grows, at equal density: 3, as of every real seed, be it simulated in
+/// the plane; 2 of a disc alone, which has no thickness.
 int mass_power(const SeedLot& lot);
 
 /// Mean mass of a lot's seeds, kg: m E[size^mass_power].

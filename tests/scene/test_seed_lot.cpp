@@ -81,7 +81,7 @@ TEST(LargestAndSmallest, ClumpByItsSmallestDisc) {
   clump.sizes = {Kind::uniform, 8e-3, 0, 4e-3, 12e-3, {}, {}};
   EXPECT_DOUBLE_EQ(smallest_radius({clump}), 0.5e-3);
   EXPECT_DOUBLE_EQ(largest_diameter({clump}), 12e-3);
-  EXPECT_NEAR(mean_mass(clump), 3e-5 * (1 + 0.25 / 3), 1e-18) << "a plate: its square";
+  EXPECT_NEAR(mean_mass(clump), 3e-5 * (1 + 0.25), 1e-18) << "E[s^3] of s from 1/2 to 3/2, as of a ball";
 }
 
 }  // namespace

@@ -85,11 +85,11 @@ TEST(SliceThickness, OfALotOfManySizesIsThatOfAMixtureOfThem) {
   EXPECT_NEAR(slice_thickness({table}), slice_thickness({ball(4e-3, 0.5), ball(2e-3, 0.5)}), 1e-15);
 }
 
-TEST(SliceThickness, OfPlatesThatGrowAsTheirAreaStaysTheirs) {
+TEST(SliceThickness, OfClumpsOfManySizesIsAsOfBallsOfThem) {
   SeedLot clump{"clump", 0, 4e-5, Shape::clump, 1};
   make_clump(clump, elongated(6e-3, 3e-3), Space::two_dimensional);
   clump.sizes = {SizeDistribution::Kind::table, 0, 0, 0, 0, {0.5 * clump.diameter, 1.5 * clump.diameter}, {0.5, 0.5}};
-  EXPECT_NEAR(slice_thickness({clump}), 3e-3, 1e-9);
+  EXPECT_NEAR(slice_thickness({clump}), 3e-3 * (0.125 + 3.375) / (0.25 + 2.25), 1e-9);
 }
 
 TEST(ImpliedBulkDensity, OfBallsOfOneDensityIsTheSameForEveryMixture) {
