@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <tuple>
 
 #include "input/lengths.hpp"
@@ -41,6 +42,12 @@ struct HoleRows {
   }
 };
 
+void refuse_many(const Table& table, double holes) {
+  constexpr double most = 10'000;
+  if (holes > most)
+    table.fail(table.has("at") ? "at" : "count", fmt::format("makes {:g} holes, more than {:g}", holes, most));
+}
+
 /// `count` holes a row, evenly spaced about a centre.
 HoleRows read_counted(Table& table, double length, Space space) {
   if (table.has("span") && table.has("pitch")) table.fail("pitch", "contradicts span; give one of them");
@@ -54,6 +61,7 @@ HoleRows read_counted(Table& table, double length, Space space) {
         "count",
         "is one number in 2D, where a row of holes stands for all rows; a list, one a row, needs space = \"3d\"");
 
+  refuse_many(table, static_cast<double>(std::accumulate(counts.begin(), counts.end(), std::int64_t{0})));
   HoleRows rows;
   for (const std::int64_t count : counts) {
     const double n = static_cast<double>(count);
@@ -221,6 +229,7 @@ std::vector<Hole> read_holes(Table table, const Vessel& vessel, Space space, dou
   else
     rows =
         read_rows(table, shape, *vessel.depth, along.are_unlike() ? std::optional(along.centres.size()) : std::nullopt);
+  refuse_many(table, static_cast<double>(along.holes() * (along.are_unlike() ? 1 : rows.across.size())));
   std::vector<Hole> holes;
   std::size_t first = 0;  // of the row in the lists
   for (std::size_t k = 0; k < rows.across.size(); ++k) {

@@ -75,8 +75,11 @@ HarmonicMotion read_harmonic(Table& table) {
 
 SumMotion read_sum(Table& table) {
   SumMotion sum;
+  constexpr std::size_t most = 100;
   double longest_period = 0;
-  for (Table& component : table.tables("components")) {
+  std::vector<Table> components = table.tables("components");
+  table.refuse_more("components", components.size(), most);
+  for (Table& component : components) {
     sum.components.push_back(read_oscillation(component));
     longest_period = std::max(longest_period, 1 / sum.components.back().frequency);
   }

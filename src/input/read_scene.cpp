@@ -58,6 +58,8 @@ void check_lot_name(const Table& seeds, const std::string& name) {
   }
 }
 
+constexpr std::size_t most_lots = 100;  // each has a surface with each
+
 std::vector<SeedLot> read_lots(Table seeds, Space space) {
   std::vector<SeedLot> lots;
   for (const std::string& name : seeds.keys()) {
@@ -65,6 +67,7 @@ std::vector<SeedLot> read_lots(Table seeds, Space space) {
     Table table = seeds.required_table(name);
     lots.push_back(read_lot(table, name, space));
   }
+  seeds.refuse_more("", lots.size(), most_lots);
   if (lots.empty()) seeds.fail("", "names no seed lot; expected a table such as [seeds.wheat]");
   read_fractions(seeds, lots);
   return lots;
@@ -158,9 +161,11 @@ void check_counting_line(Table& root, const Scene& scene) {
                                    millimetres(hole.thickness), millimetres(scene.run.count_below)));
 }
 
+constexpr int most_snapshots = 100'000;
+
 /// 0, every, 2 every, .. up to the end of the run, which a rounding error must not pass.
 std::vector<double> repeated_times(Table& table, double every, double duration) {
-  constexpr double most = 100'000, rounding = 1e-9;
+  constexpr double most = most_snapshots, rounding = 1e-9;
   const double count = std::floor(duration / every * (1 + rounding)) + 1;
   if (count > most) table.fail("every", fmt::format("asks for {:.0f} snapshots, more than {:.0f}", count, most));
   std::vector<double> times;
@@ -171,6 +176,7 @@ std::vector<double> repeated_times(Table& table, double every, double duration) 
 std::vector<double> read_times(Table& table, double duration) {
   std::vector<double> times = table.quantities("times", Dimension::time, 0, duration);
   const std::optional<double> every = table.quantity("every", Dimension::time, 1e-9, duration);
+  table.refuse_more("times", times.size(), most_snapshots);
   if (!times.empty() && every) table.fail("every", "contradicts times; give one of them");
   if (every) return repeated_times(table, *every, duration);
   if (times.empty()) table.fail("times", "is missing; give times such as [\"2 s\", \"6 s\"], or every");
@@ -181,16 +187,35 @@ std::vector<double> read_times(Table& table, double duration) {
   return times;
 }
 
-Record read_record(Table table, double duration, const std::vector<SeedLot>& lots, Space space) {
+/// Maps reach over all vessels.
+void check_cell(const Table& table, double cell, const Scene& scene) {
+  constexpr double most = 1e6;
+  Eigen::Vector2d low(0, 0), high(scene.tray.length, scene.tray.height);
+  if (scene.hopper) {
+    const Vessel& hopper = *scene.hopper;
+    low = low.cwiseMin(hopper.origin);
+    high = high.cwiseMax(hopper.origin + Eigen::Vector2d(hopper.length, hopper.height));
+  }
+  const Eigen::Vector2d extent = high - low;
+  const double cells = (extent.x() / cell + 1) * (extent.y() / cell + 1);
+  if (cells > most)
+    table.fail(
+        "cell",
+        fmt::format("{} makes maps of {:.3g} cells, more than {:.0f}; {} makes few enough", millimetres(cell), cells,
+                    most, millimetres(1.1 * std::max(std::sqrt(extent.prod() / most), extent.maxCoeff() / most))));
+}
+
+Record read_record(Table table, const Scene& scene) {
   table.reject_keys_other_than({"times", "every", "cell", "view"});
   Record record;
-  record.times = read_times(table, duration);
-  const double diameter = largest_mean_diameter(lots);
+  record.times = read_times(table, scene.run.duration);
+  const double diameter = largest_mean_diameter(scene.lots);
   const std::vector<TomlValue> cell = table.values_of("cell");
   if (cell.size() > 1) table.fail("cell", "must be one value");
   record.cell = read_width(table, "cell", cell.empty() ? TomlValue{"2 diameters"} : cell.front(), diameter);
+  check_cell(table, record.cell, scene);
   const std::size_t view = table.choice("view", {"projection", "slice"}).value_or(0);
-  if (space != Space::two_dimensional) record.view = static_cast<MapView>(view);
+  if (scene.space != Space::two_dimensional) record.view = static_cast<MapView>(view);
   return record;
 }
 
@@ -254,8 +279,7 @@ Seeder read_seeder_in(std::optional<Space> wanted, const std::filesystem::path& 
   if (auto guard = root.table("guard")) scene.guard = read_guard(*guard);
   scene.run = read_run(root.required_table("run"));
   check_counting_line(root, scene);
-  if (auto record = root.table("record"))
-    scene.record = read_record(*record, scene.run.duration, scene.lots, scene.space);
+  if (auto record = root.table("record")) scene.record = read_record(*record, scene);
   if (auto drill = root.table("drill")) seeder.drill = read_drill(*drill, scene.tray.holes.size());
   root.reject_unknown_keys();
   refuse_missing_lot(root, scene);

@@ -392,6 +392,10 @@ bool Table::is_table(const std::string& key) const {
   return found != nullptr && found->get<TomlTable>() != nullptr;
 }
 
+void Table::refuse_more(const std::string& key, std::size_t count, std::size_t most) const {
+  if (count > most) fail(key, fmt::format("lists {}, more than {}", count, most));
+}
+
 void Table::skip(const std::string& key) {
   state_->know(key);
 }

@@ -57,6 +57,8 @@ class Table {
   std::vector<std::string> texts(const std::string& key, std::string_view what = "a text");
   bool is_list(const std::string& key) const;
   bool is_table(const std::string& key) const;
+  /// Throws InputError where a list of so many is longer than `most`.
+  void refuse_more(const std::string& key, std::size_t count, std::size_t most) const;
   void skip(const std::string& key);  // known, with all below it, without being read
   /// One of `choices` by name, as its index; anything else: InputError with the list and the nearest.
   std::optional<std::size_t> choice(const std::string& key, const std::vector<std::string>& choices);

@@ -454,7 +454,41 @@ INSTANTIATE_TEST_SUITE_P(
         Case{25, "+[record]\nevery = '10 us'", 27, "record.every", "asks for 1000001 snapshots, more than 100000"},
         Case{25, "+[record]\nevery = '1 s'\ncell = '2 x'", 28, "record.cell", "is not a cell; expected a length"},
         Case{25, "+[record]\nevery = '1 s'\ncell = '0 diameters'", 28, "record.cell", "out of range"},
+        Case{25, "+[record]\nevery = '1 s'\ncell = '0.001 mm'", 28, "record.cell", "makes maps of 1.35e+11 cells"},
         Case{25, "+[record]\nevery = '1 s'\ncell = 2", 28, "record.cell", "in quotes"}));
+
+/// What is listed or counted without end would take all memory.
+TEST(SceneErrors, ListsAndMapsHaveAnEnd) {
+  const auto listed = [](std::size_t count, const std::string& element) {
+    std::string list = "[";
+    for (std::size_t k = 0; k < count; ++k) list += (k > 0 ? ", " : "") + element;
+    return list + "]";
+  };
+  struct Long {
+    std::size_t line, from;  // the first that are too many
+    std::string start, element, end, key;
+  };
+  const std::vector<Long> cases = {
+      {13, 101, "components = ", "{ amplitude = '1 mm', frequency = '9 Hz' }", "", "tray.motion.components"},
+      {3, 1001, "sizes = { distribution = 'table', diameters = ", "'4 mm'", ", fractions = ['100 %'] }",
+       "seeds.wheat.sizes.diameters"},
+      {2, 101, "shape = 'discs'\ndiscs = ", "{ x = '0 mm', y = '0 mm', diameter = '4 mm' }", "", "seeds.wheat.discs"},
+      {8, 20001, "pieces = ", "{ line = [['1 cm', '2 cm'], ['3 cm', '2 cm']] }", "", "tray.pieces"},
+      {11, 10001, "at = ", "'1 cm'", "", "tray.holes.at"},
+  };
+  const TemporaryFolder folder;
+  for (const Long& one : cases) {
+    std::vector<std::string> lines = base;
+    if (one.key == "tray.motion.components") lines[13] = "kind = 'sum'", lines[14] = "", lines[15] = "";
+    if (one.key.starts_with("seeds.wheat")) lines[1] = "";
+    if (one.key == "tray.holes.at") lines[10] = "";
+    lines.insert(lines.begin() + static_cast<std::ptrdiff_t>(one.line),
+                 one.start + listed(one.from, one.element) + one.end);
+    const auto file = folder.write("seeder.toml", joined(lines));
+    EXPECT_THAT([&] { read_scene(file); },
+                ThrowsMessage<InputError>(AllOf(HasSubstr(one.key + ": "), HasSubstr(", more than "))));
+  }
+}
 
 }  // namespace
 }  // namespace vibrosow
