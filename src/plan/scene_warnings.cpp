@@ -7,6 +7,7 @@
 #include <numbers>
 #include <string_view>
 
+#include "grains/fill_height.hpp"
 #include "plan/geometry_warnings.hpp"
 #include "plan/steadiness_warnings.hpp"
 #include "portable_math/functions.hpp"
@@ -213,6 +214,23 @@ void warn_of_free_rolling(const Scene& scene, const Vessel& vessel, Warnings& wa
                   layers, vessel.name));
 }
 
+/// In rows each seed takes the room of the largest, turned anyhow, and what is left free is lost when they move.
+void warn_of_rows(const Scene& scene, const Vessel& vessel, Warnings& warnings) {
+  constexpr double much_of_it = 0.8;
+  if (!vessel.fill || vessel.fill->packing == Packing::poured) return;
+  const std::string key = vessel.name + ".fill.height";
+  if (!vessel.fill->where.or_key("").ends_with(key)) return;
+  Vessel poured = vessel;
+  poured.fill->packing = Packing::poured;
+  const double laid = height_of_fill(vessel, scene.lots, scene.space),
+               settled = height_of_fill(poured, scene.lots, scene.space);
+  if (settled >= much_of_it * laid) return;
+  warnings.push_back(fmt::format(
+      "{}: {} seeds in rows lie {} high only as they are laid, each in the room of the largest, turned anyhow; they "
+      "sink to some {}; packing = \"poured\" puts in as many as lie that high",
+      key, vessel.fill->count, millimetres(laid), millimetres(settled)));
+}
+
 /// What whole seeds make of the fractions that were asked for.
 void warn_of_mixture(const Scene& scene, Warnings& warnings) {
   constexpr double far = 0.05, few = 3;  // of what was asked for; seeds, of which one run in 20 has none
@@ -285,6 +303,7 @@ std::vector<std::string> scene_warnings(const Scene& scene) {
   warn_of_mixture(scene, warnings);
   warn_of_bulk_density(scene, warnings);
   warn_of_narrow_holes(scene.tray, scene.lots, warnings);
+  warn_of_rows(scene, scene.tray, warnings);
   warn_of_foreign_contacts(scene, warnings);
   warn_of_standing_liquid(scene, warnings);
   warn_of_rain(scene, scene.tray, warnings);
@@ -296,6 +315,7 @@ std::vector<std::string> scene_warnings(const Scene& scene) {
   if (!scene.hopper) return warnings;
   if (scene.space == Space::two_dimensional) warn_of_round_holes(*scene.hopper, warnings);
   warn_of_slots_in_3d(*scene.hopper, warnings);
+  warn_of_rows(scene, *scene.hopper, warnings);
   if (scene.space == Space::two_dimensional) warn_of_depths(scene, warnings);
   warn_of_narrow_holes(*scene.hopper, scene.lots, warnings);
   warn_of_rain(scene, *scene.hopper, warnings);

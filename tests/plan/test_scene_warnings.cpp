@@ -7,6 +7,10 @@
 #include <functional>
 #include <numbers>
 
+#include "grains/fill_height.hpp"
+#include "scene/clump_shape.hpp"
+#include "scene/make_clump.hpp"
+
 namespace vibrosow {
 namespace {
 
@@ -99,6 +103,45 @@ TEST(SceneWarnings, AMixtureThatIsNotTheOneAskedFor) {
   EXPECT_THAT(scene_warnings(scene), ElementsAre(HasSubstr("the rain brings 1 seeds of pea on average")));
   scene.tray.rain->rate = 200;
   EXPECT_THAT(scene_warnings(scene), IsEmpty());
+}
+
+TEST(SceneWarnings, RowsThatSinkBelowTheHeightAskedFor) {
+  for (const Space space : {Space::two_dimensional, Space::three_dimensional})
+    for (const bool clumps : {false, true})
+      for (const Packing packing : {Packing::poured, Packing::layers, Packing::hexagonal})
+        for (const char* asked : {"tray", "hopper"}) {
+          Scene scene = sound();
+          scene.space = space;
+          scene.contact.wall.rolling_friction = 0.02;
+          if (clumps) make_clump(scene.lots[0], elongated(7e-3, 3e-3), space);
+          scene.hopper = hopper(0.03);
+          for (Vessel* vessel : {&scene.tray, &*scene.hopper}) {
+            vessel->depth = 0.05;
+            for (Hole& hole : vessel->holes) hole.across = 0.025, hole.across_length = 0.05;
+            if (vessel->name != asked) continue;
+            vessel->fill->packing = packing;
+            vessel->fill->where = WrittenAt("seeder.toml:3: " + vessel->name + ".fill.height");
+            vessel->fill->count = static_cast<int>(seeds_to_height(*vessel, scene.lots, space, 0.02));
+          }
+          const auto told = Contains(AllOf(StartsWith(std::string(asked) + ".fill.height: "), HasSubstr("in rows lie"),
+                                           HasSubstr("they sink to some")));
+          if (clumps && packing != Packing::poured)
+            EXPECT_THAT(scene_warnings(scene), told);
+          else
+            EXPECT_THAT(scene_warnings(scene), Not(told));
+          for (Vessel* vessel : {&scene.tray, &*scene.hopper}) vessel->fill->where = WrittenAt("s.toml:3: fill.count");
+          EXPECT_THAT(scene_warnings(scene), Not(told)) << "a count lies as high as it lies";
+        }
+}
+
+TEST(SceneWarnings, RowsOfTwoSizesSink) {
+  Scene scene = sound();
+  scene.lots.push_back(scene.lots[0]);
+  scene.lots[0].number_fraction = 0.1;
+  scene.lots[1].name = "clover", scene.lots[1].number_fraction = 0.9, scene.lots[1].diameter = 0.25 * diameter;
+  scene.tray.fill->packing = Packing::layers;
+  scene.tray.fill->where = WrittenAt("seeder.toml:3: tray.fill.height");
+  EXPECT_THAT(scene_warnings(scene), Contains(HasSubstr("they sink to some")));
 }
 
 TEST(SceneWarnings, ABedOfTheSlicesThatCannotBe) {
