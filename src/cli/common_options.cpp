@@ -11,8 +11,8 @@
 #include <system_error>
 #include <thread>
 
+#include "input/wording.hpp"
 #include "scene/input_error.hpp"
-#include "units/quantity.hpp"
 
 namespace vibrosow {
 namespace {
@@ -123,16 +123,21 @@ double time_option(const std::string& option, const std::string& text) {
   throw InputError(fmt::format("{}: \"{}\" is no time to wait", option, text));
 }
 
-double share_option(const std::string& option, const std::string& text, AskedRange<double> range, const char* words) {
-  double share = 0;
+double quantity_option(const std::string& option, const std::string& text, Dimension dimension, double least,
+                       double most, std::string_view example) {
   try {
-    share = parse_quantity(text, Dimension::fraction);
+    const double value = parse_quantity(text, dimension, example);
+    if (value >= least && value <= most) return value;
   } catch (const UnitError& error) {
     throw InputError(fmt::format("{}: {}", option, error.what()));
   }
-  if (!(share >= range.least && share <= range.most))
-    throw InputError(fmt::format("{}: \"{}\" is out of range, which is from {}", option, text, words));
-  return share;
+  const std::string unit = split_quantity(text).unit;
+  throw InputError(fmt::format("{}: \"{}\" is out of range, which is from {} to {}", option, shortened(text),
+                               shown(least, dimension, unit), shown(most, dimension, unit)));
+}
+
+double share_option(const std::string& option, const std::string& text, AskedRange<double> range) {
+  return quantity_option(option, text, Dimension::fraction, range.least, range.most);
 }
 
 void print_warnings(const std::vector<std::string>& warnings) {

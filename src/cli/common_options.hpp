@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "input/input_file.hpp"
@@ -12,6 +13,7 @@
 #include "report/columns.hpp"
 #include "report/output_folder.hpp"
 #include "storage/asked_question.hpp"
+#include "units/quantity.hpp"
 
 namespace vibrosow {
 
@@ -63,8 +65,12 @@ void add_common_options(CLI::App& command, CommonOptions& options, const std::st
 /// A time in s that an option was given. Throws InputError where it is none or not above 0.
 double time_option(const std::string& option, const std::string& text);
 
-/// A share in a range, which `words` state. Throws InputError.
-double share_option(const std::string& option, const std::string& text, AskedRange<double> range, const char* words);
+/// A quantity from `least` to `most` (SI), in SI. Throws InputError, with an `example` where that is not empty.
+double quantity_option(const std::string& option, const std::string& text, Dimension dimension, double least,
+                       double most, std::string_view example = {});
+
+/// A share in a range. Throws InputError.
+double share_option(const std::string& option, const std::string& text, AskedRange<double> range);
 
 /// Each on stderr.
 void print_warnings(const std::vector<std::string>& warnings);

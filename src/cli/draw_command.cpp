@@ -40,16 +40,7 @@ struct DrawOptions {
 /// The times of the frames that are wanted, s. Throws InputError.
 std::vector<double> wanted_times(const DrawOptions& options, double duration) {
   const auto time = [&](const char* option, const std::string& text) {
-    double value = 0;
-    try {
-      value = parse_quantity(text, Dimension::time);
-    } catch (const UnitError& error) {
-      throw InputError(fmt::format("{}: {}", option, error.what()));
-    }
-    if (!(value >= 0 && value <= duration))
-      throw InputError(
-          fmt::format("{}: \"{}\" is not within the run, which is from 0 to {:g} s", option, text, duration));
-    return value;
+    return quantity_option(option, text, Dimension::time, 0, duration);
   };
   if (!options.film) return {options.at.empty() ? duration : time("--at", options.at)};
   const double from = options.from.empty() ? 0 : time("--from", options.from);

@@ -11,12 +11,12 @@
 #include "calibration/new_crop.hpp"
 #include "calibration/refine_crop.hpp"
 #include "cli/commands.hpp"
+#include "cli/common_options.hpp"
 #include "cli/console.hpp"
 #include "cli/help_text.hpp"
 #include "cli/make_runs.hpp"
 #include "files/atomic_file.hpp"
 #include "files/whole_file.hpp"
-#include "input/wording.hpp"
 #include "report/crop_files.hpp"
 #include "report/terminal_text.hpp"
 #include "scene/input_error.hpp"
@@ -34,24 +34,10 @@ struct NewCropOptions {
   int jobs = 1;
 };
 
-double quantity_of(const char* option, const std::string& text, Dimension dimension, double least, double most,
-                   std::string_view example = {}) {
-  double value = 0;
-  try {
-    value = parse_quantity(text, dimension, example);
-  } catch (const UnitError& error) {
-    throw InputError(fmt::format("{}: {}", option, error.what()));
-  }
-  if (!(value >= least && value <= most))
-    throw InputError(fmt::format("{}: {} is out of range, {} to {}", option, shortened(text), shown(least, dimension),
-                                 shown(most, dimension)));
-  return value;
-}
-
 std::optional<double> if_given(const char* option, const std::string& text, Dimension dimension, double least,
                                double most, std::string_view example = {}) {
   if (text.empty()) return std::nullopt;
-  return quantity_of(option, text, dimension, least, most, example);
+  return quantity_option(option, text, dimension, least, most, example);
 }
 
 NewCrop crop_of(const NewCropOptions& options) {
@@ -63,8 +49,8 @@ NewCrop crop_of(const NewCropOptions& options) {
   constexpr double smallest = 5e-5, largest = 1;  // m
   NewCrop crop;
   crop.name = options.crop;
-  crop.mass = quantity_of("--tkw", options.tkw, Dimension::seed_mass, 1e-6, 1e3, "45 g") / 1e3;
-  crop.length = quantity_of("--length", options.length, Dimension::length, smallest, largest, "6 mm");
+  crop.mass = quantity_option("--tkw", options.tkw, Dimension::seed_mass, 1e-6, 1e3, "45 g") / 1e3;
+  crop.length = quantity_option("--length", options.length, Dimension::length, smallest, largest, "6 mm");
   crop.width = if_given("--width", options.width, Dimension::length, smallest, largest, "3 mm").value_or(crop.length);
   crop.thickness =
       if_given("--thickness", options.thickness, Dimension::length, smallest, largest, "2 mm").value_or(crop.width);

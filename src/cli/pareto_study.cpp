@@ -59,10 +59,9 @@ OptimiseQuestion read_question(const OptimiseWords& words) {
   OptimiseQuestion question;
   for (const FrontGoal* goal : read_front_goals(words.goals)) question.goals.emplace_back(goal->name);
   if (!words.rate.empty()) question.rate = read_wanted_rate(words.rate);
-  question.clogging_limit = share_option("--clogging", words.clogging, clogging_range, "0.1 % to 100 %");
-  if (!words.spilled.empty())
-    question.spilled_limit = share_option("--spilled", words.spilled, spilled_range, "0.01 % to 100 %");
-  question.confidence = share_option("--confidence", words.confidence, confidence_range, "60 % to 99.99 %");
+  question.clogging_limit = share_option("--clogging", words.clogging, clogging_range);
+  if (!words.spilled.empty()) question.spilled_limit = share_option("--spilled", words.spilled, spilled_range);
+  question.confidence = share_option("--confidence", words.confidence, confidence_range);
   question.runs = words.runs;
   return question;
 }

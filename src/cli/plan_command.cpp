@@ -45,19 +45,6 @@ struct PlanOptions {
   std::vector<std::string> weighed;
 };
 
-/// A quantity of an option, from `least` to `most` (SI). Throws InputError.
-double quantity(const std::string& option, const std::string& text, Dimension dimension, double least, double most,
-                std::string_view example = {}) {
-  try {
-    const double value = parse_quantity(text, dimension, example);
-    if (value >= least && value <= most) return value;
-  } catch (const UnitError& error) {
-    throw InputError(fmt::format("{}: {}", option, error.what()));
-  }
-  const std::string_view unit = si_unit(dimension);
-  throw InputError(fmt::format("{}: \"{}\" is out of range; from {:g} to {:g} {}", option, text, least, most, unit));
-}
-
 /// Seeds are counted where the unit says so.
 bool counts_seeds(const std::string& text) {
   try {
@@ -77,7 +64,7 @@ PlannedLot lot_of(const std::string& crop, const std::string& thousand_grain_wei
   planned.crop = crop;
   planned.sown.lot = read_crop_lot(crop, "--crop");
   if (!thousand_grain_weight.empty()) {
-    const double mass = quantity("--tkw", thousand_grain_weight, Dimension::seed_mass, 1e-6, 10, "45 g") / 1000;
+    const double mass = quantity_option("--tkw", thousand_grain_weight, Dimension::seed_mass, 1e-6, 10, "45 g") / 1000;
     planned.sown.lot = of_mass(planned.sown.lot, mass);
     planned.own_mass = true;
   }
@@ -87,9 +74,9 @@ PlannedLot lot_of(const std::string& crop, const std::string& thousand_grain_wei
 /// kg/m2, of seeds of that mass (kg).
 double sowing_rate_of(const std::string& rate, double seed_mass) {
   if (counts_seeds(rate))
-    return mass_of_seeds(quantity("--rate", rate, Dimension::seeds_per_area, fewest_per_area, most_per_area),
+    return mass_of_seeds(quantity_option("--rate", rate, Dimension::seeds_per_area, fewest_per_area, most_per_area),
                          seed_mass);
-  return quantity("--rate", rate, Dimension::mass_per_area, 1e-6, 1);
+  return quantity_option("--rate", rate, Dimension::mass_per_area, 1e-6, 1);
 }
 
 /// Every crop has its rate, and its thousand grain mass where any has one.
@@ -120,8 +107,10 @@ PlanSource source_of(const PlanOptions& options) {
     SownLot& of_lot = source.lots.back().sown;
     const double mass = mean_mass(of_lot.lot);
     if (!options.plants.empty()) {
-      source.plants = quantity("--plants", options.plants, Dimension::plants_per_area, fewest_per_area, most_per_area);
-      source.establishment = quantity("--establishment", options.establishment, Dimension::fraction, 0.01, 1, "85 %");
+      source.plants =
+          quantity_option("--plants", options.plants, Dimension::plants_per_area, fewest_per_area, most_per_area);
+      source.establishment =
+          quantity_option("--establishment", options.establishment, Dimension::fraction, 0.01, 1, "85 %");
       of_lot.sowing_rate = mass_of_seeds(seeds_for_plants(*source.plants, *source.establishment), mass);
     } else {
       of_lot.sowing_rate = sowing_rate_of(options.rates[i], mass);
@@ -137,8 +126,8 @@ PlanSource source_of(const PlanOptions& options) {
     task.sowing_rate += sown[i].sowing_rate;
   }
   task.seed = planned_seed(lots);
-  task.pace.row_spacing = quantity("--row-spacing", options.row_spacing, Dimension::length, 0.01, 10, "15 cm");
-  task.pace.speed = quantity("--speed", options.speed, Dimension::travel_speed, 0.01, 20);
+  task.pace.row_spacing = quantity_option("--row-spacing", options.row_spacing, Dimension::length, 0.01, 10, "15 cm");
+  task.pace.speed = quantity_option("--speed", options.speed, Dimension::travel_speed, 0.01, 20);
   source.rows = options.rows;
   return source;
 }
@@ -169,13 +158,13 @@ WeighedTray weighing_of(const std::string& layout, const std::string& text) {
   std::string rate = text.substr(0, at);
   double half_width = usual_weighing_error;
   if (const auto [sign, length] = find_plus_minus(rate); sign != std::string::npos) {
-    half_width = quantity("--weighed", trimmed(rate.substr(sign + length)), Dimension::fraction, 1e-4, 1, "3 %");
+    half_width = quantity_option("--weighed", trimmed(rate.substr(sign + length)), Dimension::fraction, 1e-4, 1, "3 %");
     rate = trimmed(rate.substr(0, sign));
   }
   const std::string frequency = trimmed(text.substr(at + 4));
-  quantity("--weighed", frequency, Dimension::frequency, 0.01, 1000, "6.4 Hz");
+  quantity_option("--weighed", frequency, Dimension::frequency, 0.01, 1000, "6.4 Hz");
   return weighed_tray(layout, {parse_override("tray.motion.frequency=" + frequency)},
-                      quantity("--weighed", rate, Dimension::mass_rate, 1e-9, 1e3, "0.17 g/s"), half_width);
+                      quantity_option("--weighed", rate, Dimension::mass_rate, 1e-9, 1e3, "0.17 g/s"), half_width);
 }
 
 /// The rows of a table of measured outflow.

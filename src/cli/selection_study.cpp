@@ -77,9 +77,9 @@ void add_question_options(CLI::App& command, DecideWords& words) {
 DecideQuestion read_question(const DecideWords& words) {
   DecideQuestion question{std::string(goal_named(words.goal).name)};
   if (!words.rate.empty()) question.rate = read_wanted_rate(words.rate);
-  question.clogging_limit = share_option("--clogging", words.clogging, clogging_range, "0.1 % to 100 %");
-  question.margin = share_option("--within", words.within, margin_range, "0.01 % to 50 %");
-  question.confidence = share_option("--confidence", words.confidence, confidence_range, "60 % to 99.99 %");
+  question.clogging_limit = share_option("--clogging", words.clogging, clogging_range);
+  question.margin = share_option("--within", words.within, margin_range);
+  question.confidence = share_option("--confidence", words.confidence, confidence_range);
   question.rule = words.procedure == "posterior" ? SelectionRule::posterior : SelectionRule::guaranteed;
   question.most = words.most;
   question.drafts = words.drafts;

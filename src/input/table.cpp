@@ -322,6 +322,12 @@ double in_si(const Table& table, const std::string& key, const TomlValue& value,
                               expected_at(table.full_key(key), dimension), message_text(value)));
 }
 
+/// Of a quantity that was read.
+std::string unit_of(const TomlValue& given) {
+  const auto* quantity = given.get<Quantity>();
+  return quantity != nullptr ? quantity->unit : split_quantity(*given.get<std::string>()).unit;
+}
+
 double quantity_of(const Table& table, const std::string& key, const TomlValue& given, Dimension dimension,
                    double least, double most) {
   const double value = in_si(table, key, given, dimension);
@@ -329,7 +335,7 @@ double quantity_of(const Table& table, const std::string& key, const TomlValue& 
   const double slack = 1e-12 * std::max(std::abs(least), std::abs(most));
   if (!(value >= least - std::min(slack, std::abs(least) * 1e-9) && value <= most + slack)) {
     table.fail(key, fmt::format("{} is out of range, which is from {} to {}", message_text(given),
-                                shown(least, dimension), shown(most, dimension)));
+                                shown(least, dimension, unit_of(given)), shown(most, dimension, unit_of(given))));
   }
   return value;
 }

@@ -25,6 +25,8 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
   return d[a.size()][b.size()];
 }
 
+constexpr std::string_view plane = "plane";  // 2D, as files say it
+
 }  // namespace
 
 std::optional<std::string> nearest(std::string_view word, const std::vector<std::string>& known) {
@@ -47,7 +49,8 @@ std::optional<std::string> nearest(std::string_view word, const std::vector<std:
 }
 
 std::string did_you_mean(std::string_view word, const std::vector<std::string>& known) {
-  const std::optional<std::string> meant = nearest(word, known);
+  const bool is_plane = (word == "2d" || word == "2D") && std::ranges::count(known, plane) > 0;
+  const std::optional<std::string> meant = is_plane ? std::string(plane) : nearest(word, known);
   return meant ? fmt::format("; did you mean \"{}\"?", *meant) : "";
 }
 
@@ -56,7 +59,7 @@ std::string shortened(std::string_view text) {
   return text.size() <= longest ? std::string(text) : fmt::format("{}...", text.substr(0, longest));
 }
 
-std::string shown(double value, Dimension dimension) {
+std::string shown(double value, Dimension dimension, const std::string& unit) {
   switch (dimension) {
     case Dimension::length:
       return value < 0.1 && value > -0.1 && value != 0 ? fmt::format("{:g} mm", value * 1000)
@@ -66,7 +69,7 @@ std::string shown(double value, Dimension dimension) {
     case Dimension::fraction:
       return fmt::format("{:g} %", value * 100);
     default:
-      return fmt::format("{:g} {}", value, si_unit(dimension));
+      return fmt::format("{:g} {}", value / unit_size(unit, dimension), unit);
   }
 }
 

@@ -15,13 +15,13 @@ namespace vibrosow {
 /// that holds the word, or that the word holds ("freq" of "frequency").
 std::optional<std::string> nearest(std::string_view word, const std::vector<std::string>& known);
 
-/// "; did you mean "width"?", or nothing.
+/// "; did you mean "width"?", or nothing. A word that is used for a known one is meant as it: "2d" as "plane".
 std::string did_you_mean(std::string_view word, const std::vector<std::string>& known);
 
 /// A text of any length, cut to what a message can hold.
 std::string shortened(std::string_view text);
 
-/// An SI value in a unit that people read: "8 mm", "30 degree".
-std::string shown(double value, Dimension dimension);
+/// An SI value in a unit that people read: "8 mm", "30 degree", else in `unit`, one of the dimension's.
+std::string shown(double value, Dimension dimension, const std::string& unit);
 
 }  // namespace vibrosow

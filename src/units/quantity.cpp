@@ -385,10 +385,35 @@ double parse_number(std::string_view number) {
   return value;
 }
 
-/// "4,0 mm" is nearly right.
-void reject_decimal_comma(std::string_view number, std::string_view rest) {
-  if (rest.size() < 2 || rest[0] != ',' || !is_digit(rest[1])) return;
-  throw UnitError(fmt::format("has a decimal comma; write a decimal point: \"{}.{}\"", number, shown(rest.substr(1))));
+/// What stands at the front of `rest` as ",200" and ",000" do in "1,200,000 kg", of a sign between thousands; "": none.
+std::string_view groups_of_thousands(std::string_view number, std::string_view rest) {
+  if (number.starts_with('-') || number.starts_with('+')) number.remove_prefix(1);
+  if (number.empty() || number.size() > 3 || number[0] == '0' || !std::ranges::all_of(number, is_digit)) return {};
+  const auto is_group = [&](std::size_t at) {
+    return at + 4 <= rest.size() && rest[at] == rest[0] && std::ranges::all_of(rest.substr(at + 1, 3), is_digit) &&
+           (at + 4 == rest.size() || !is_digit(rest[at + 4]));
+  };
+  std::size_t end = 0;
+  while (is_group(end)) end += 4;
+  return rest.substr(0, end);
+}
+
+/// "4,0 mm" is nearly right, "1,200 kg" may be two things.
+void reject_commas(std::string_view number, std::string_view rest) {
+  constexpr std::string_view signs = ",' ";  // between thousands; the first is a decimal comma too
+  if (rest.size() < 2 || signs.find(rest[0]) == std::string_view::npos || !is_digit(rest[1])) return;
+  const std::string_view groups = groups_of_thousands(number, rest), after = rest.substr(groups.size());
+  std::string whole(number);
+  std::ranges::copy_if(groups, std::back_inserter(whole), is_digit);
+  if (groups.size() == 4 && rest[0] == ',' && !after.starts_with('.'))
+    throw UnitError(
+        fmt::format("has a comma, which may part thousands or be a decimal comma; write \"{0}{2}\" or "
+                    "\"{1}.{3}\"",
+                    whole, number, shown(after), shown(rest.substr(1))));
+  if (!groups.empty()) throw UnitError(fmt::format("parts thousands; write \"{}{}\"", whole, shown(after)));
+  if (rest[0] != ',') return;
+  std::erase(whole, '.');  // "1.200,5"
+  throw UnitError(fmt::format("has a decimal comma; write a decimal point: \"{}.{}\"", whole, shown(rest.substr(1))));
 }
 
 }  // namespace
@@ -423,7 +448,7 @@ Quantity split_quantity(std::string_view text) {
   const std::string_view number = std::string_view(plain).substr(0, number_length(plain));
   if (number.empty()) throw UnitError("does not start with a number");
   std::string_view rest = std::string_view(plain).substr(number.size());
-  reject_decimal_comma(number, rest);
+  reject_commas(number, rest);
   rest.remove_prefix(std::min(rest.find_first_not_of(' '), rest.size()));
   rest = rest.substr(0, rest.find_last_not_of(' ') + 1);
   return {parse_number(number), std::string(rest)};

@@ -86,11 +86,13 @@ TEST_F(DocumentTest, RefusesOtherTypes) {
 }
 
 TEST_F(DocumentTest, RangesIncludeTheirEnds) {
-  Table root = read("a = \"30 degree\"\nb = \"0 mm\"\nc = 0.5\nd = nan\ne = inf\n");
+  Table root = read("a = \"30 degree\"\nb = \"0 mm\"\nc = 0.5\nd = nan\ne = inf\nf = \"9000 rpm\"\n");
   const double limit = 30 * 3.14159265358979323846 / 180;
   EXPECT_NEAR(*root.quantity("a", Dimension::angle, -limit, limit), limit, 1e-15);
   EXPECT_THAT([&] { root.quantity("b", Dimension::length, 1e-6, 100); },
               ThrowsMessage<InputError>(at(2, "b: \"0 mm\" is out of range, which is from 0.001 mm to 100 m")));
+  EXPECT_THAT([&] { root.quantity("f", Dimension::frequency, 0.01, 100); },
+              ThrowsMessage<InputError>(HasSubstr("\"9000 rpm\" is out of range, which is from 0.6 rpm to 6000 rpm")));
   EXPECT_EQ(root.number("c", 0.5, 0.5), 0.5);
   EXPECT_THROW(root.number("d", 0, 1), InputError);
   EXPECT_THROW(root.number("e", 0, 1e308), InputError);

@@ -176,9 +176,17 @@ INSTANTIATE_TEST_SUITE_P(
                     Wrong{" 5 mm", Dimension::length, no_number}, Wrong{"5. mm", Dimension::length, wrong_unit},
                     Wrong{"05 mm", Dimension::length, wrong_unit}, Wrong{"0x10 mm", Dimension::length, wrong_unit},
                     Wrong{"1,5 mm", Dimension::length, "write a decimal point: \"1.5 mm\""},
-                    Wrong{"1,500.5 mm", Dimension::length, "decimal comma"},
+                    Wrong{"0,500 mm", Dimension::length, "write a decimal point: \"0.500 mm\""},
+                    Wrong{"1,2000 mm", Dimension::length, "write a decimal point: \"1.2000 mm\""},
+                    Wrong{"1.200,5 mm", Dimension::length, "write a decimal point: \"1200.5 mm\""},
+                    Wrong{"1,200 kg/ha", Dimension::mass_per_area, "write \"1200 kg/ha\" or \"1.200 kg/ha\""},
+                    Wrong{"-1,200 mm", Dimension::length, "write \"-1200 mm\" or \"-1.200 mm\""},
+                    Wrong{"1,500.5 mm", Dimension::length, "parts thousands; write \"1500.5 mm\""},
+                    Wrong{"1,200,000 mm", Dimension::length, "parts thousands; write \"1200000 mm\""},
+                    Wrong{"1'200 mm", Dimension::length, "parts thousands; write \"1200 mm\""},
+                    Wrong{"1000,200 mm", Dimension::length, "write a decimal point: \"1000.200 mm\""},
                     Wrong{"1, 5 mm", Dimension::length, wrong_unit}, Wrong{"1_000 mm", Dimension::length, wrong_unit},
-                    Wrong{"1 000 mm", Dimension::length, wrong_unit}));
+                    Wrong{"1 000 mm", Dimension::length, "parts thousands; write \"1000 mm\""}));
 
 INSTANTIATE_TEST_SUITE_P(
     Dimensions, RefusedQuantity,
