@@ -16,6 +16,7 @@
 #include "scene/seed_lot.hpp"
 #include "scene/spaces.hpp"
 #include "scene/surfaces.hpp"
+#include "vessel/vessel_motion.hpp"
 
 namespace vibrosow {
 namespace {
@@ -201,6 +202,19 @@ bool rolls_freely_on(const Vessel& vessel, const Scene& scene) {
                                                         [](const Surface& wall) { return wall.rolling_friction == 0; });
 }
 
+/// Curves go on over the peaks of a sampled motion, and by much where there are too few rows.
+void warn_of_overshoot(const Vessel& vessel, Warnings& warnings) {
+  constexpr double much = 0.05;  // of the stroke; a sine of 6 rows a period has 0.075
+  const auto* table = vessel.motion ? std::get_if<TableMotion>(&*vessel.motion) : nullptr;
+  if (table == nullptr) return;
+  const Overshoot most = largest_overshoot(*table);
+  if (most.share > much)
+    warnings.push_back(fmt::format(
+        "{}.motion.file: between {:.4g} and {:.4g} s the curve through the rows leaves both of them by {:.2g} "
+        "% of all that {} goes through; give more rows there",
+        vessel.name, most.from, most.to, 100 * most.share, most.column));
+}
+
 /// A ball that nothing keeps from rolling turns on a floor that moves under it, and stays where it is.
 void warn_of_free_rolling(const Scene& scene, const Vessel& vessel, Warnings& warnings) {
   constexpr double thin = 2.5;  // seeds, by which a bed is deep
@@ -307,6 +321,7 @@ std::vector<std::string> scene_warnings(const Scene& scene) {
   warn_of_foreign_contacts(scene, warnings);
   warn_of_standing_liquid(scene, warnings);
   warn_of_rain(scene, scene.tray, warnings);
+  warn_of_overshoot(scene.tray, warnings);
   warn_of_free_rolling(scene, scene.tray, warnings);
   if (scene.space == Space::two_dimensional) warn_of_round_holes(scene.tray, warnings);
   warn_of_slots_in_3d(scene.tray, warnings);
@@ -319,6 +334,7 @@ std::vector<std::string> scene_warnings(const Scene& scene) {
   if (scene.space == Space::two_dimensional) warn_of_depths(scene, warnings);
   warn_of_narrow_holes(*scene.hopper, scene.lots, warnings);
   warn_of_rain(scene, *scene.hopper, warnings);
+  warn_of_overshoot(*scene.hopper, warnings);
   warn_of_hopper(scene, *scene.hopper, warnings);
   return warnings;
 }

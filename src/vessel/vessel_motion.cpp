@@ -181,6 +181,29 @@ struct VesselPath::Curves {
   std::optional<Curve> z;
 };
 
+Overshoot largest_overshoot(const TableMotion& table) {
+  constexpr int samples = 16;
+  Overshoot most;
+  for (const auto& [name, values] : {std::pair<std::string_view, const std::vector<double>*>{"x_mm", &table.x},
+                                     {"y_mm", &table.y},
+                                     {"z_mm", &table.z},
+                                     {"angle_degree", &table.angle}}) {
+    if (values->empty()) continue;
+    const double stroke = std::ranges::max(*values) - std::ranges::min(*values);
+    if (stroke == 0) continue;
+    const Curve path = curve(table.times, *values);
+    for (std::size_t k = 1; k < table.times.size(); ++k) {
+      const double from = table.times[k - 1], to = table.times[k], before = (*values)[k - 1], after = (*values)[k];
+      for (int part = 1; part < samples; ++part) {
+        const double at = path(from + part * (to - from) / samples);
+        const double beyond = std::max(std::min(before, after) - at, at - std::max(before, after)) / stroke;
+        if (beyond > most.share) most = {name, beyond, from, to};
+      }
+    }
+  }
+  return most;
+}
+
 VesselPath::VesselPath(const Vessel& vessel) : tilt_(vessel.tilt), motion_(vessel.motion) {
   if (!motion_) return;
   if (const auto* table = std::get_if<TableMotion>(&*motion_)) curves_ = std::make_shared<Curves>(*table);

@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <memory>
 #include <optional>
+#include <string_view>
 
 #include "scene/scene.hpp"
 #include "vessel/pose.hpp"
@@ -31,6 +32,14 @@ class VesselPath {
   std::optional<VesselMotion> motion_;
   std::shared_ptr<const Curves> curves_;
 };
+
+/// Where the path of a table goes furthest beyond both of the rows between which it is.
+struct Overshoot {
+  std::string_view column = {};  // "x_mm"
+  double share = 0;              // of all that the column's rows go through; 0: it is nowhere beyond
+  double from = 0, to = 0;       // s, of the two rows
+};
+Overshoot largest_overshoot(const TableMotion& table);
 
 /// The same for one time.
 Pose vessel_pose(const Vessel& vessel, double time);

@@ -64,6 +64,24 @@ TEST(SceneWarnings, ASoundSceneHasNone) {
   EXPECT_THAT(scene_warnings(scene), IsEmpty());
 }
 
+TEST(SceneWarnings, ATableOfTooFewRowsForItsMotion) {
+  Scene scene = sound();
+  const auto shaken = [](int rows) {
+    TableMotion table;
+    for (int k = 0; k < 20 * rows; ++k) {
+      table.times.push_back(k * 10.0 / (19 * rows));
+      table.y.push_back(5e-3 * std::cos(2 * std::numbers::pi * (k + 0.5) / rows));
+      table.x.push_back(0), table.angle.push_back(0);
+    }
+    return table;
+  };
+  scene.tray.motion = shaken(5);
+  EXPECT_THAT(scene_warnings(scene), Contains(AllOf(StartsWith("tray.motion.file: between "),
+                                                    HasSubstr("% of all that y_mm goes through; give more rows"))));
+  scene.tray.motion = shaken(10);
+  EXPECT_THAT(scene_warnings(scene), Not(Contains(HasSubstr("motion.file"))));
+}
+
 TEST(SceneWarnings, AContactThatIsMadeForOtherSeeds) {
   Scene scene = sound();
   scene.lots[0].crop = {"wheat", "crops/wheat.toml"};

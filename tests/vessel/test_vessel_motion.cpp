@@ -113,6 +113,28 @@ TEST(Motion, ATableOfASampledSineGoesOnOverItsPeak) {
   EXPECT_GT(VesselPath(moving(table)).pose(0).displacement.x(), 1.002 * table.x[9]);
 }
 
+/// A cosine of 4 rows a period has slopes of half the fall beside its peak's two rows, of 6 rows three fifths of it:
+/// halfway between them the cubic is a fourth of the slope times the step higher.
+TEST(Motion, HowFarATableGoesBeyondItsRowsIsKnown) {
+  for (const auto& [rows, share] : {std::pair(4, 1.0 / 8), {6, 3.0 / 40}}) {
+    TableMotion table;
+    for (int k = 0; k < 4 * rows; ++k) {
+      table.times.push_back(0.01 * k);
+      table.y.push_back(std::cos(2 * std::numbers::pi * (k + 0.5) / rows));
+      table.x.push_back(3), table.angle.push_back(0);
+    }
+    const Overshoot most = largest_overshoot(table);
+    EXPECT_EQ(most.column, "y_mm");
+    EXPECT_NEAR(most.share, share, 1e-12) << rows;
+    EXPECT_NEAR(most.to - most.from, 0.01, 1e-12);
+  }
+  TableMotion steps;
+  steps.times = {0, 0.02, 0.04, 0.1, 1.1, 1.16, 1.2, 1.3};
+  steps.x = {0, 0, 0, 20e-3, 20e-3, 0, 0, 0};
+  steps.y = steps.angle = {0, 0, 0, 0, 0, 0, 0, 0};
+  EXPECT_LT(largest_overshoot(steps).share, 1e-12) << "from hold to hold";
+}
+
 TEST(Motion, HalfwayThroughARampTheAmplitudeIsHalf) {
   const HarmonicMotion m{0, 0.01, 9, 0.2, 0, 1.0, 0.4};
   const double two_pi = 2 * std::numbers::pi;
