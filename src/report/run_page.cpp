@@ -197,6 +197,11 @@ std::string run_page_data(const RunPage& page) {
   const Scene& scene = page.model.scene;
   std::vector<Remark> remarks = remarks_about(scene);
   for (const Doubt& doubt : page.outflow.doubts) remarks.push_back(remark_of(doubt));
+  if (scene.space == Space::two_dimensional && page.outflow.depth_factor)
+    remarks.push_back({Severity::mild,
+                       "2D stands for the whole width: what is said of the whole tray is a slice times its depth, its "
+                       "holes slots all across",
+                       "compare layouts by it; a rate needs space = \"3d\" and a weighing"});
   Json data = {{"kind", "run"},
                {"program", {{"name", "vibrosow"}, {"version", VIBROSOW_VERSION}}},
                {"title", scene.title},

@@ -62,7 +62,7 @@ TEST_F(RunPageData, WithoutAnIntervalItSaysSo) {
 TEST_F(RunPageData, DoubtsSayHowSeriousTheyAreAndWhatToDo) {
   run.warnings = {{DoubtKind::guard_warned, "the relative overlap passed 0.05"}};
   const auto remarks = data()["remarks"];
-  ASSERT_EQ(remarks.size(), 1U);
+  ASSERT_EQ(remarks.size(), 2U);
   EXPECT_EQ(remarks[0]["serious"], true);
   EXPECT_EQ(remarks[0]["text"], "the relative overlap passed 0.05");
   EXPECT_EQ(remarks[0]["what_to_do"], words_of(DoubtKind::guard_warned).advice);
@@ -84,8 +84,17 @@ TEST_F(RunPageData, SettingsAreWrittenAsAllNumbersAre) {
 TEST_F(RunPageData, WhatCanHardlyBeMeantIsADoubtToo) {
   scene.tray.holes[0].width = 3e-3;  // narrower than a seed
   const auto remarks = data()["remarks"];
-  ASSERT_EQ(remarks.size(), 1U);
+  ASSERT_EQ(remarks.size(), 2U);
   EXPECT_THAT(remarks[0]["text"].get<std::string>(), testing::StartsWith("tray.holes"));
+}
+
+TEST_F(RunPageData, MetricsOfTheWholeTrayFrom2DAreRemarkedOn) {
+  const auto remarks = data()["remarks"];
+  ASSERT_EQ(remarks.size(), 1U);
+  EXPECT_EQ(remarks[0]["serious"], false);
+  EXPECT_THAT(remarks[0]["text"].get<std::string>(), testing::StartsWith("2D stands for the whole width"));
+  scene.tray.depth.reset();
+  EXPECT_TRUE(data()["remarks"].empty()) << "then figures are of the slice";
 }
 
 }  // namespace
