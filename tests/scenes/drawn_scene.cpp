@@ -603,7 +603,8 @@ class SceneWriter {
     write_course(key);
   }
 
-  /// Begins displaced and, where the vessel may turn, turned; it may begin late, or last longer than the run.
+  /// Begins displaced and, where the vessel may turn, turned; it may begin late, hold still between its moves, or last
+  /// longer than the run.
   void write_table(const Shape& vessel) {
     const std::string file = vessel.name + ".csv";
     const bool turns = !vessel.periodic && draw_.one_in(vessel.name + ".table.turns", 2);
@@ -611,10 +612,15 @@ class SceneWriter {
     const double angle = turns ? draw_.number(vessel.name + ".table.angle", 3, -6) : 0;
     std::string text = fmt::format("time_s,x_mm,y_mm{}{}\n", turns ? ",angle_degree" : "", across ? ",z_mm" : "");
     const int when = draw_.below(vessel.name + ".table.when", 4);
-    for (int k = 0; k < (when == 3 ? 12 : 6); ++k)
-      text += fmt::format("{:g},{:g},{:g}{}{}\n", 0.01 * k + (when == 2 ? 0.02 : 0), 1.0 + (k % 2), 0.5 * (k % 3),
-                          turns ? fmt::format(",{:g}", angle * (1 - 0.15 * k)) : "",
-                          across ? fmt::format(",{:g}", 0.4 * k) : "");
+    const bool holds = draw_.one_in(vessel.name + ".table.holds", 3);
+    double time = when == 2 ? 0.02 : 0;
+    for (int k = 0; k < (when == 3 ? 12 : 6); ++k, time += 0.01) {
+      const std::string row = fmt::format(",{:g},{:g}{}{}\n", 1.0 + (k % 2), 0.5 * (k % 3),
+                                          turns ? fmt::format(",{:g}", angle * (1 - 0.15 * k)) : "",
+                                          across ? fmt::format(",{:g}", 0.4 * k) : "");
+      text += fmt::format("{:g}", time) + row;
+      if (holds && k % 2 == 1) time += 0.03, text += fmt::format("{:g}", time) + row;
+    }
     files["/drawn/" + file] = text;
     set(vessel.name + ".motion.kind", quoted("table"));
     set(vessel.name + ".motion.file", quoted(file));

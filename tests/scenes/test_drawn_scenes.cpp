@@ -1,14 +1,22 @@
 // What must hold whatever the scene: how it is read, where seeds are put, and what becomes of them.
 #include <gtest/gtest.h>
 
+#include <fmt/format.h>
+
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
+#include <numeric>
 #include <optional>
 #include <set>
 #include <sstream>
 
+#include "fields/map_part.hpp"
+#include "fields/mean_map.hpp"
+#include "fields/packing_fraction.hpp"
+#include "fields/tray_frame.hpp"
 #include "grains/turned_discs.hpp"
 #include "input/read_scene.hpp"
 #include "scene/input_error.hpp"
@@ -20,6 +28,7 @@
 #include "scenes/own_walls.hpp"
 #include "simulation/simulation.hpp"
 #include "support/bench.hpp"
+#include "vessel/vessel_motion.hpp"
 
 namespace vibrosow {
 namespace {
@@ -455,6 +464,36 @@ TEST(DrawnScene, HasTheWallsThatItDescribes) {
   expect_of_drawn_scenes(60, not_the_walls_described);
 }
 
+/// Between two equal rows of a table, further apart than those beside them, a vessel holds still.
+std::string drifts_while_it_holds(const DrawnScene& drawn) {
+  const std::optional<Scene> scene = scene_of(drawn);
+  if (!scene) return "";
+  for (const Vessel& vessel : vessels_of(*scene)) {
+    const auto* table = vessel.motion ? std::get_if<TableMotion>(&*vessel.motion) : nullptr;
+    if (table == nullptr) continue;
+    const std::vector<double>& times = table->times;
+    const VesselPath path(vessel);
+    for (std::size_t k = 1; k + 2 < times.size(); ++k) {
+      const double length = times[k + 1] - times[k];
+      if (length < 2 * (times[k] - times[k - 1]) || length < 2 * (times[k + 2] - times[k + 1])) continue;
+      const Pose at_first = path.pose(times[k]);
+      for (int part = 1; part <= 20; ++part) {
+        const Pose now = path.pose(times[k] + part * length / 20);
+        const double moved = (now.displacement - at_first.displacement).norm() + std::abs(now.across - at_first.across);
+        const double turned = std::abs(now.angle - at_first.angle);
+        if (moved <= 1e-12 * vessel.length && turned <= 1e-12) continue;
+        return fmt::format("the {} drifts by {} m and {} rad from {} s on, where its table holds", vessel.name, moved,
+                           turned, times[k]);
+      }
+    }
+  }
+  return "";
+}
+
+TEST(DrawnScene, HoldsStillWhereItsTableDoes) {
+  expect_of_drawn_scenes(100, drifts_while_it_holds);
+}
+
 bool turns_by_table(const Vessel& vessel) {
   const TableMotion* table = vessel.motion ? std::get_if<TableMotion>(&*vessel.motion) : nullptr;
   return table != nullptr && std::ranges::any_of(table->angle, [](double angle) { return angle != 0; });
@@ -548,6 +587,52 @@ std::string steps_not_mirrored(const DrawnScene& drawn) {
 
 TEST(DrawnScene, StepsMirroredInItsMirrorImage) {
   expect_of_drawn_scenes(30, steps_not_mirrored);
+}
+
+// ---- maps ----
+
+/// What discs (balls) fill from the floor line up to `top`, m2 (m3), of those that lie in a part.
+double filled_up_to(double top, const Snapshot& own, const std::vector<SeedLot>& lots, const MapPart& part) {
+  constexpr double far = std::numeric_limits<double>::infinity();
+  double sum = 0;
+  for (const CoveringDisc& disc : covering_discs(own, lots)) {
+    const double low = -disc.y, high = top - disc.y, r = disc.radius;
+    if (!own.is_3d())
+      sum += disc.fraction * disc_in_rectangle(r, {-2 * r, low}, {2 * r, high});
+    else if (disc.z >= part.front && disc.z <= part.back)
+      sum += disc.fraction * ball_in_box(r, {-far, low, -far}, {far, high, far});
+  }
+  return sum;
+}
+
+/// The map of a tray without ends has all its seeds once, also those at the seam.
+std::string map_loses_seeds(const DrawnScene& drawn) {
+  std::optional<RunStart> start = start_of(drawn);
+  if (!start || start->model.scene.tray.sides != Sides::periodic) return "";
+  constexpr double at = 0.02;  // s
+  Scene scene = start->model.scene;
+  scene.record = Record{{at}, scene.tray.length / 8};
+  const Model model = prepare(scene);
+  Simulation run(model, starting_state(model, 1));
+  run.run_until(1.5 * at);
+  const vibrosow::Run result = run.result();
+  if (result.snapshots.empty() || result.outside_the_model) return "";
+  const Snapshot own = in_tray_frame(result.snapshots.front(), scene.tray);
+  MeanMapSum sum(scene);
+  sum.add(own);
+  const MeanMap map = sum.mean();
+  const MapPart part = map_part(scene);
+  const double cell = map.grid.cell * map.grid.cell * (own.is_3d() ? part.depth() : 1);
+  const double mapped = cell * std::accumulate(map.packing.begin(), map.packing.end(), 0.0);
+  const double top = map.grid.cell * static_cast<double>(cells_over(scene.tray.height, map.grid.cell));
+  const double filled = filled_up_to(top, own, scene.lots, part);
+  return std::abs(mapped - filled) <= 1e-9 * filled
+             ? ""
+             : fmt::format("its map has {} of what the seeds in it fill, {}", mapped, filled);
+}
+
+TEST(DrawnScene, HasAllSeedsInTheMapOfAPeriodicTray) {
+  expect_of_drawn_scenes(60, map_loses_seeds);
 }
 
 /// The tray with a part of its floor and of its right wall drawn once more.
