@@ -191,7 +191,6 @@ int check_seeder(const InputFile& file, const CheckOptions& options) {
   print_text(wrapped(scene.title));
   print_vessel(scene.tray, scene);
   if (scene.hopper) print_vessel(*scene.hopper, scene);
-  print_text(mixture_text(scene));
   print_slice(scene);
   if (!scene.tray.holes.empty()) print_text(wrapped(window_sentence(measuring_window(scene), scene.run.measure_from)));
   for (const Drawing& drawing : drawings) print_text(wrapped(drawing_text(drawing, scene)));
@@ -199,7 +198,11 @@ int check_seeder(const InputFile& file, const CheckOptions& options) {
   print_space_advice(scene);
   print_model(model);
   const auto refused = step_refused(scene.numerics, plan);
-  if (const auto start = start_of_run(model, refused.has_value())) {
+  const auto start = start_of_run(model, refused.has_value());
+  const std::vector<DrawnSeeds> drawn = start ? start->run.drawn : std::vector<DrawnSeeds>();
+  print_text(mixture_text(scene, drawn));
+  if (start) {
+    print_warnings(drawn_warnings(scene, drawn));
     const CostBreakdown cost = break_down_cost(model, start->grains);
     print_effects(model, cost);
     print_step(plan, cost.whole);

@@ -76,7 +76,7 @@ void print_summary(const Scene& scene, const Run& run, const Outflow& outflow,
   for (const Doubt& doubt : outflow.doubts) print_text(wrapped(sentence_of(remark_of(doubt))));
   if (!outflow.doubts.empty()) print("\n");
   print_holes(outflow);
-  if (const std::string mixture = mixture_text(scene); !mixture.empty()) print_text("\n" + mixture);
+  if (const std::string mixture = mixture_text(scene, run.drawn); !mixture.empty()) print_text("\n" + mixture);
   const HoleOutflow& all = *find_row(outflow, "all", "all");
   const bool is_3d = scene.space == Space::three_dimensional;
   if (const auto& depth = outflow.depth_factor)

@@ -12,7 +12,7 @@ namespace {
 using enum Severity;
 
 /// By kind.
-constexpr std::array<DoubtWords, 33> doubt_words = {{
+constexpr std::array<DoubtWords, 34> doubt_words = {{
     {"outside the model", serious, "do not use it: take a step that is not too long and the guard's own limits"},
     {"ran dry", serious, "put in more seeds, or measure before"},
     {"drained in the window", serious, "keep the tray topped up (fill.keep), or measure a shorter time"},
@@ -46,6 +46,7 @@ constexpr std::array<DoubtWords, 33> doubt_words = {{
     {"nothing held out", mild, "measure more conditions, or give --hold-out"},
     {"seeds spilled", mild, "raise the walls, or put what feeds the tray over it"},
     {"the flow changed in the window", serious, "look at its rate over time, and measure where it is steady"},
+    {"sizes drawn far from those asked for", mild, "put in more seeds"},
 }};
 static_assert(doubt_words.size() == static_cast<std::size_t>(last_doubt_kind) + 1);
 

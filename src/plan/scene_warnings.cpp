@@ -247,7 +247,7 @@ void warn_of_rows(const Scene& scene, const Vessel& vessel, Warnings& warnings) 
 
 /// What whole seeds make of the fractions that were asked for.
 void warn_of_mixture(const Scene& scene, Warnings& warnings) {
-  constexpr double far = 0.05, few = 3;  // of what was asked for; seeds, of which one run in 20 has none
+  constexpr double few = 3;  // seeds, of which one run in 20 has none
   for (const LotShare& share : lot_shares(scene)) {
     const std::string& lot = scene.lots[share.lot].name;
     const std::string key = key_of(*share.vessel, share.source);
@@ -255,9 +255,7 @@ void warn_of_mixture(const Scene& scene, Warnings& warnings) {
       warnings.push_back(
           fmt::format("{}: the rain brings {:.2g} seeds of {} on average, in some runs none", key, share.seeds, lot));
     if (share.source == SeedSource::rain || share.seeds < 1) continue;
-    const double off =
-        std::max(std::abs(share.of_number / share.asked_number - 1), std::abs(share.of_mass / share.asked_mass - 1));
-    if (off > far)
+    if (off_by(share) > far_off)
       warnings.push_back(
           fmt::format("{}: of {} seeds {:.0f} are of {}: {:.3g} % by number instead of {:.3g} %, {:.3g} % by mass "
                       "instead of {:.3g} "
@@ -317,9 +315,9 @@ std::vector<std::string> scene_warnings(const Scene& scene) {
   warn_of_mixture(scene, warnings);
   warn_of_bulk_density(scene, warnings);
   warn_of_narrow_holes(scene.tray, scene.lots, warnings);
-  warn_of_rows(scene, scene.tray, warnings);
   warn_of_foreign_contacts(scene, warnings);
   warn_of_standing_liquid(scene, warnings);
+  warn_of_rows(scene, scene.tray, warnings);
   warn_of_rain(scene, scene.tray, warnings);
   warn_of_overshoot(scene.tray, warnings);
   warn_of_free_rolling(scene, scene.tray, warnings);
@@ -330,9 +328,9 @@ std::vector<std::string> scene_warnings(const Scene& scene) {
   if (!scene.hopper) return warnings;
   if (scene.space == Space::two_dimensional) warn_of_round_holes(*scene.hopper, warnings);
   warn_of_slots_in_3d(*scene.hopper, warnings);
-  warn_of_rows(scene, *scene.hopper, warnings);
   if (scene.space == Space::two_dimensional) warn_of_depths(scene, warnings);
   warn_of_narrow_holes(*scene.hopper, scene.lots, warnings);
+  warn_of_rows(scene, *scene.hopper, warnings);
   warn_of_rain(scene, *scene.hopper, warnings);
   warn_of_overshoot(*scene.hopper, warnings);
   warn_of_hopper(scene, *scene.hopper, warnings);

@@ -149,18 +149,20 @@ JsonKeys<RunSource> metric_keys() {
   return keys;
 }
 
-Json mixture_of(const Scene& scene) {
-  Json mixture = Json::array();
-  for (const LotShare& share : lot_shares(scene))
-    mixture.push_back({{"vessel", share.vessel->name},
-                       {"source", share.source == SeedSource::fill ? "fill" : "rain"},
-                       {"lot", scene.lots[share.lot].name},
-                       {"seeds", share.seeds},
-                       {"percent_by_number", 100 * share.of_number},
-                       {"asked_percent_by_number", 100 * share.asked_number},
-                       {"percent_by_mass", 100 * share.of_mass},
-                       {"asked_percent_by_mass", 100 * share.asked_mass}});
-  return mixture;
+Json shares_json(const Scene& scene, const std::vector<LotShare>& shares) {
+  Json all = Json::array();
+  for (const LotShare& share : shares) {
+    all.push_back({{"vessel", share.vessel->name},
+                   {"source", share.source == SeedSource::fill ? "fill" : "rain"},
+                   {"lot", scene.lots[share.lot].name},
+                   {"seeds", share.seeds},
+                   {"percent_by_number", 100 * share.of_number},
+                   {"asked_percent_by_number", 100 * share.asked_number},
+                   {"percent_by_mass", 100 * share.of_mass},
+                   {"asked_percent_by_mass", 100 * share.asked_mass}});
+    if (share.size) all.back()["size_mm"] = 1e3 * *share.size;
+  }
+  return all;
 }
 
 JsonKeys<RunSource> run_keys() {
@@ -217,9 +219,11 @@ JsonKeys<RunSource> run_keys() {
       {"balance.spilled", "", "seeds that left over the rim", [](S s) { return s.run.balance.spilled; }},
       {"balance.lost", "", "seeds that went through a wall: an error", [](S s) { return s.run.balance.lost; }},
       {"mixture", "",
-       "of several lots: what each fill, and rain on average, has of each by number and by mean mass, beside what was "
-       "asked for",
-       [](S s) { return mixture_of(s.scene); }},
+       "of several lots: what each fill, and rain on average, has of each by number and by mass, beside what was "
+       "asked for; of a fill the seeds that were drawn",
+       [](S s) { return shares_json(s.scene, lot_shares(s.scene, s.run.drawn)); }},
+      {"sizes", "", "of lots with a table of sizes: the same of each size in each fill, in parts of the lot",
+       [](S s) { return shares_json(s.scene, size_shares(s.scene, s.run.drawn)); }},
       {"outflow.window_s", "s",
        "begin and end of the measuring window: from run.measure_from, or as much later as makes it whole periods of "
        "the "

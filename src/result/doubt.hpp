@@ -44,8 +44,9 @@ enum class DoubtKind {
   // Of a run; kept runs know kinds by their numbers, so these come last.
   seeds_spilled,
   flow_changed,  // in the window, by more than chance
+  sizes_drawn,   // for a fill, far from those that were asked for
 };
-inline constexpr DoubtKind last_doubt_kind = DoubtKind::flow_changed;
+inline constexpr DoubtKind last_doubt_kind = DoubtKind::sizes_drawn;
 
 struct Doubt {
   DoubtKind kind;

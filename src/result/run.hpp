@@ -8,6 +8,7 @@
 #include "compute/profile.hpp"
 #include "result/doubt.hpp"
 #include "result/snapshot.hpp"
+#include "scene/mixture.hpp"
 
 namespace vibrosow {
 
@@ -59,7 +60,7 @@ struct Run {
   std::string stop_reason;      // of the guard; or why it is refused
   std::string end_reason;       // why it ended before its duration, though sound; else empty
   bool goes_on = false;         // it has not ended: what it gives is of the time so far; never of a run that is kept
-  std::vector<Doubt> warnings;  // of the guard and the feeder
+  std::vector<Doubt> warnings;  // of the guard and the feeder, and of what was drawn
   // A long step insisted on; or limits of the guard raised, and the usual ones passed; or grains lost through walls.
   bool outside_the_model = false;
   std::uint64_t random_seed = 1;
@@ -76,6 +77,7 @@ struct Run {
   double tray_empty_since = -1;     // s, when the last grain left the tray; negative: it never ran dry
   EnergyAccount energy;
   Balance balance;
+  std::vector<DrawnSeeds> drawn;          // for the fills; not kept of a study's runs, whose warnings tell of it
   std::vector<OutflowEvent> events;       // by time
   std::vector<Snapshot> snapshots;        // one a record time that was reached; empty without a record
   double wall_time = 0;                   // s, of this machine

@@ -75,6 +75,8 @@ inline bool is_possible(const Run& r, const RunBounds& of) {
   return times && tray && r.max_relative_overlap >= 0 && std::ranges::all_of(r.warnings, is_kind) &&
          std::ranges::all_of(counts, [](std::int64_t count) { return count >= 0; }) &&
          std::ranges::all_of(r.events, is_event) &&
+         std::ranges::all_of(r.drawn,
+                             [](const DrawnSeeds& d) { return d.seeds >= 0 && d.mass >= 0 && d.mass <= 1e9; }) &&
          std::ranges::all_of(r.snapshots, [&](const Snapshot& s) { return is_possible(s, of); });
 }
 

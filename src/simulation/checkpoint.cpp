@@ -146,11 +146,15 @@ template <class Archive>
 void serialize(Archive& archive, RecorderState& s) {
   archive(s.taken, s.start);
 }
+template <class Archive>
+void serialize(Archive& archive, DrawnSeeds& d) {
+  archive(d.vessel, d.lot, d.size, d.seeds, d.mass);
+}
 /// What a running simulation has put into its Run; the rest is filled in by `Simulation::result`.
 template <class Archive>
 void serialize(Archive& archive, Run& r) {
   archive(r.end_reason, r.random_seed, r.dt, r.grain_steps, r.tray_at_begin, r.tray_empty_since, r.energy, r.balance,
-          r.events, r.snapshots);
+          r.events, r.snapshots, r.drawn);
 }
 template <class Archive>
 void serialize(Archive& archive, SimulationState& s) {
@@ -162,7 +166,7 @@ namespace {
 
 constexpr std::string_view signature = "vibrosow checkpoint\n";
 /// To be raised whenever a state has other fields, or goes on differently.
-constexpr std::uint32_t version = 8;
+constexpr std::uint32_t version = 9;
 
 std::uint32_t checksum(std::string_view bytes) {
   boost::crc_32_type crc;

@@ -331,6 +331,8 @@ Run Simulation::result() const {
   for (std::string& warning : guard_.warnings()) run.warnings.push_back({DoubtKind::guard_warned, std::move(warning)});
   for (std::string& warning : feeder_.warnings(state_.time))
     run.warnings.push_back({DoubtKind::feeder_behind, std::move(warning)});
+  for (std::string& warning : drawn_warnings(model_.scene, run.drawn))
+    run.warnings.push_back({DoubtKind::sizes_drawn, std::move(warning)});
   run.outside_the_model = guard_.outside_the_model() || run.balance.lost > 0;
   run.let_pass = state_.guard.let_pass;
   run.steps = state_.step;

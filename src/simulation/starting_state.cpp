@@ -20,11 +20,12 @@ Turn turn_in_lab_of(const PackedGrain& packed, const Vessel& vessel, const Pose&
 struct PackedGrains {
   Grains grains;
   std::vector<std::size_t> counts;
+  std::vector<DrawnSeeds> drawn;
 };
 
 PackedGrains packed_grains(const Model& model, std::uint64_t random_seed, StopRequest stop) {
   Random random(random_seed);
-  PackedGrains all{no_grains(model), {}};
+  PackedGrains all{no_grains(model), {}, {}};
   for (const Vessel& vessel : model.vessels) {
     const VesselPath path(vessel);
     const PoseRate rate = model.scene.run.start == Start::with_tray ? path.rate(0) : PoseRate{};
@@ -34,6 +35,7 @@ PackedGrains packed_grains(const Model& model, std::uint64_t random_seed, StopRe
       const Eigen::Vector3d at = point_in_lab(vessel, pose, {packed.x, packed.y, packed.z});
       const std::size_t lot = static_cast<std::size_t>(packed.lot);
       const GrainKind kind = sized_kind(model.scene.lots[lot], *model.law, model.kinds[lot], packed.size);
+      count_drawn(all.drawn, model.scene.lots, all.counts.size(), lot, packed.size, kind.mass);
       all.grains.add(at, point_velocity(vessel, pose, rate, at), packed.lot, kind,
                      turn_in_lab_of(packed, vessel, pose));
     }
@@ -141,6 +143,7 @@ SimulationState starting_state(const Model& model, std::uint64_t random_seed, Gr
 SimulationState starting_state(const Model& model, std::uint64_t random_seed, StopRequest stop) {
   PackedGrains packed = packed_grains(model, random_seed, stop);
   SimulationState state = starting_state(model, random_seed, std::move(packed.grains));
+  state.run.drawn = std::move(packed.drawn);
   state.guard.stop_reason = FillCheck(model, packed.counts).fault(state, stop);
   return state;
 }

@@ -61,6 +61,7 @@ Run doubtful_run(DoubtKind kind, const Model& model, const SimulationOptions& op
       break;
     case feeder_behind:
     case guard_warned:
+    case sizes_drawn:
       run.warnings = {{kind, "as the simulation has it"}};
       break;
     case stopped_by_guard:
@@ -119,6 +120,7 @@ constexpr std::array table = {
     KindAndAnswers{DoubtKind::few_seeds, as_doubt, as_doubt, as_doubt, as_doubt, as_doubt, not_at_all},
     KindAndAnswers{DoubtKind::seeds_spilled, as_doubt, as_doubt, as_doubt, as_doubt, as_doubt, as_doubt},
     KindAndAnswers{DoubtKind::flow_changed, as_doubt, as_doubt, as_doubt, as_doubt, as_doubt, not_at_all},
+    KindAndAnswers{DoubtKind::sizes_drawn, as_doubt, as_doubt, as_doubt, as_doubt, as_doubt, as_doubt},
 };
 
 std::vector<std::string> sentences_of(const std::vector<Remark>& remarks) {

@@ -123,6 +123,26 @@ TEST(Mixture, SharesAreByNumberAndByMassOfAllSizes) {
   EXPECT_NEAR(shares[3].of_number, 0.25, 1e-12);
 }
 
+TEST(Mixture, ASizeWithoutASeedIsToldHoweverFewWereAskedFor) {
+  Scene scene = clover_and_pea(1);
+  scene.lots.erase(scene.lots.begin());
+  SeedLot& pea = scene.lots[0];
+  pea.sizes = {SizeDistribution::Kind::table, 0, 0, 0, 0, {6e-3, 6.1e-3, 6e-3}, {0.5, 0.01, 0.49}};
+  scene.tray.fill = filled(50);
+  std::vector<DrawnSeeds> drawn;
+  for (int k = 0; k < 50; ++k) count_drawn(drawn, scene.lots, 0, 0, 1, pea.mass);
+  const std::vector<LotShare> sizes = size_shares(scene, drawn);
+  ASSERT_EQ(sizes.size(), 2u) << "6 mm stands there twice";
+  EXPECT_NEAR(sizes[0].asked_number, 0.99, 1e-15);
+  EXPECT_EQ(sizes[0].of_mass, 1);
+  EXPECT_THAT(
+      drawn_warnings(scene, drawn),
+      testing::ElementsAre(testing::StartsWith(
+          "tray.fill.count: none of the seeds of pea is of 6.1 mm: 0 % by number instead of 1 %, 0 % by mass")));
+  count_drawn(drawn, scene.lots, 0, 0, 6.1e-3 / pea.diameter, pea.mass);
+  EXPECT_THAT(drawn_warnings(scene, drawn), testing::IsEmpty());
+}
+
 TEST(Mixture, FromTheNumberThatIsAdvisedEveryLotIsThere) {
   EXPECT_TRUE(rc::check("every lot has a seed", [] {
     const double rare = *rc::gen::map(rc::gen::inRange(1, 2000), [](int k) { return k * 1e-4; });

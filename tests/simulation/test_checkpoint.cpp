@@ -33,6 +33,7 @@ std::vector<double> outcome(const Simulation& simulation) {
     all.push_back(static_cast<double>(count));
   all.insert(all.end(), {run.max_relative_overlap, run.tray_empty_since, run.end_time,
                          static_cast<double>(run.tray_at_begin), static_cast<double>(run.tray_at_end)});
+  for (const DrawnSeeds& drawn : run.drawn) all.insert(all.end(), {static_cast<double>(drawn.seeds), drawn.mass});
   return all;
 }
 
@@ -88,6 +89,8 @@ TEST(Checkpoint, GoesOnToTheLastBitWithEverySchemeAndEffect) {
   scene.tray.fill->keep = false;
   scene.tray.rain = Rain{2000, 0, 0.12, 0.15, 0.01, never};
   expect_resumes("periodic sides, rain", scene, 2e-5);
+  scene.lots[1].sizes = {SizeDistribution::Kind::table, 0, 0, 0, 0, {4e-3, 6e-3}, {0.9, 0.1}};
+  expect_resumes("a table of sizes", scene, 2e-5);
 }
 
 TEST(Checkpoint, GoesOnToTheLastBitWithClumps) {
