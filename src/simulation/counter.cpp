@@ -6,6 +6,7 @@
 
 #include "compute/nearest_image.hpp"
 #include "portable_math/functions.hpp"
+#include "scene/motion.hpp"
 #include "vessel/directions.hpp"
 #include "vessel/vessel_motion.hpp"
 
@@ -45,10 +46,11 @@ double Counter::past_edge(const Hole& hole, const FloorPoint& place) const {
   return std::max(along - 0.5 * hole.width, across - 0.5 * hole.across_length);
 }
 
-int Counter::hole_at(const FloorPoint& place) const {
-  if (line_below_) return 0;
+int Counter::hole_at(const FloorPoint& place, bool by_line) const {
+  if (by_line) return 0;
   for (std::size_t k = 0; k < tray_.holes.size(); ++k)
     if (past_edge(tray_.holes[k], place) <= 0) return static_cast<int>(k) + 1;
+  if (line_below_) return 0;  // it fell out before the tray came back
   return tray_.box && is_between_ends(tray_, is_3d_, place.x, place.z) ? through_the_floor : 0;
 }
 
@@ -64,12 +66,13 @@ int Counter::hole_beside(const FloorPoint& place, double reach) const {
 void Counter::watch(const Grains& grains, const Walls& walls, const GrainLoops& loops, double time,
                     std::vector<OutflowEvent>& events) {
   lost_now_.clear();
-  const Pose pose = line_below_.value_or(walls.poses().front());
+  const bool by_line = line_below_ && (turns_over(tray_) || !stands(tray_, walls.poses().front()));
+  const Pose pose = by_line ? *line_below_ : walls.poses().front();
   const double angle = tray_.tilt + pose.angle;
   const auto [sine, cosine] = portable_math::sine_cosine(angle);
   const double ox = tray_.origin.x() + pose.displacement.x(), oy = tray_.origin.y() + pose.displacement.y();
   const double oz = tray_.front + pose.across;
-  const PoseRate rate = line_below_ ? PoseRate{} : walls.rate(0, time);
+  const PoseRate rate = by_line ? PoseRate{} : walls.rate(0, time);
   const Eigen::Vector2d& tray_velocity = rate.velocity;
   const double spin = rate.angular_velocity;
   const Eigen::Vector2d turned = unit_vector(pose.turn);
@@ -106,7 +109,7 @@ void Counter::watch(const Grains& grains, const Walls& walls, const GrainLoops& 
       state_.below[i] = 1;
       const FloorPoint place = place_before(since(0));
       passage.x = place.x, passage.z = place.z;
-      passage.hole = hole_at(place);
+      passage.hole = hole_at(place, by_line);
       // The edge may lie in the waist of a clump: its centre then passes beside the opening. A disc of it that goes
       // through the floor itself is seen by the walls.
       if (passage.hole == through_the_floor && grains.oriented)

@@ -13,7 +13,8 @@ namespace vibrosow {
 /// Watches grains leave. A grain belongs to the hole whose opening its centre passes in the tray's frame; it is counted
 /// when its centre crosses the counting line, `count_below` under the tray's floor and as wide as the world. One that
 /// passes no hole is spilled. Of a clump the centre may pass beside the opening, as far as its circle reaches. From a
-/// tray that turns over and over a grain is spilled where it is `count_below` below all that the tray reaches.
+/// tray that turns over and over, or while a table has tipped it over, a grain is spilled where it is `count_below`
+/// below all that the tray reaches.
 class Counter {
  public:
   Counter(const Scene& scene, CounterState& state)
@@ -39,7 +40,7 @@ class Counter {
   struct FloorPoint {
     double x, z;
   };
-  int hole_at(const FloorPoint& place) const;
+  int hole_at(const FloorPoint& place, bool by_line) const;
   /// m, from a hole's edge; negative over the hole.
   double past_edge(const Hole& hole, const FloorPoint& place) const;
   std::size_t next_flag(std::size_t from) const;
@@ -50,7 +51,7 @@ class Counter {
   const Vessel& tray_;
   bool is_3d_;
   double count_below_;
-  std::optional<Pose> line_below_;  // of a tray that turns over and over
+  std::optional<Pose> line_below_;  // of a tray that turns over and over, or is tipped over
   CounterState& state_;
   std::vector<char> flags_;  // of those to look at
   std::vector<int> lost_now_;

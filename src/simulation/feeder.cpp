@@ -182,6 +182,10 @@ int Feeder::top_up(Grains& grains, const std::vector<char>& touching, const Wall
     const PoseRate rate = walls.rate(v, time);
     Inside inside = grains_inside(v, walls, grains, touching);
     const int missing = vessel.fill->count - inside.grains;
+    if (!stands(vessel, pose)) {
+      note_waiting(vessel, missing, time);
+      continue;
+    }
     int waiting = 0;
     std::optional<DrawnSeed>& next = state_.missing[v];
     for (int k = 0; k < missing; ++k) {
@@ -218,6 +222,10 @@ int Feeder::rain(std::size_t v, Grains& grains, const Walls& walls, double time)
   const Vessel& vessel = walls.vessels()[v];
   const Rain& rain = *vessel.rain;
   const Pose frame = steady_frame(vessel, walls.poses()[v]);
+  if (!stands(vessel, frame)) return 0;
+  const double over = rain.height - vessel.height;
+  const Eigen::Vector3d aside =
+      over > 0 ? aside_while_rising(vessel, frame, over) : Eigen::Vector3d(Eigen::Vector3d::Zero());
   FeederState::Shower& shower = state_.showers[v];
   const std::int64_t waiting = arrivals(rain, time) - shower.arrived;
   int added = 0;
@@ -232,7 +240,7 @@ int Feeder::rain(std::size_t v, Grains& grains, const Walls& walls, double time)
     const double to = std::clamp(rain.to, margin, vessel.length - margin);
     const double x = shower.random.uniform(from, to);
     const double z = grains.is_3d ? random_across(vessel, radius, x, shower.random) : 0;
-    const Eigen::Vector3d at = point_in_lab(vessel, frame, {x, rain.height, z});
+    const Eigen::Vector3d at = point_in_lab(vessel, frame, Eigen::Vector3d(x, rain.height, z) + aside);
     const bool clear = places_.is_clear_of_grains(at, radius, grains) &&
                        places_.depth_in_walls(at, radius, walls) <= most_placing_overlap * radius;
     if (!clear || !places_.belong(at, v, walls)) continue;

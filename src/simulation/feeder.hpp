@@ -14,6 +14,8 @@ namespace vibrosow {
 /// Puts grains in during a run: where it is clear of every grain and wall and belongs to the vessel (`SeedPlaces`), and
 /// only there. Each is looked at once more when it is in (`fault`).
 ///
+/// Nothing is put into a vessel that does not stand (`stands`); it waits.
+///
 /// Rain: see `Rain`; the arrivals up to now, lots drawn by the fractions. Each waiting grain is tried once each time,
 /// at another place.
 ///

@@ -45,9 +45,16 @@ Eigen::Vector3d SeedPlaces::own_place(const Eigen::Vector3d& at, std::size_t v, 
 }
 
 bool SeedPlaces::is_in_room(const Eigen::Vector3d& at, std::size_t v, const Walls& walls) const {
-  if (rooms_[v].holds(own_place(at, v, walls))) return true;
   const Vessel& vessel = model_.vessels[v];
-  return turns_over(vessel) && drum_of(vessel) == nullptr && rooms_[v].holds(point_in_vessel(vessel, {}, at));
+  const auto holds = [&](const Pose& pose, bool upright) {
+    Eigen::Vector3d own = point_in_vessel(vessel, pose, at);
+    if (upright && own.y() > vessel.height)  // from there it falls straight down
+      own -= aside_while_rising(vessel, pose, own.y() - vessel.height);
+    return rooms_[v].holds(own);
+  };
+  const Pose& pose = walls.poses()[v];
+  if (holds(pose, !turns_over(vessel) && stands(vessel, pose))) return true;
+  return turns_over(vessel) && drum_of(vessel) == nullptr && holds({}, true);
 }
 
 bool SeedPlaces::lies_in_hopper_within(const Eigen::Vector3d& at, std::size_t v, const Walls& walls) const {

@@ -5,6 +5,7 @@
 #include <boost/math/interpolators/cubic_hermite.hpp>
 #include <boost/math/interpolators/makima.hpp>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "portable_math/functions.hpp"
@@ -294,11 +295,48 @@ Pose steady_frame(const Vessel& vessel, const Pose& pose) {
   return turns_steadily(vessel) ? Pose{} : pose;
 }
 
+bool stands(const Vessel& vessel, const Pose& pose) {
+  constexpr double least = 0.5 - 1e-9;
+  return portable_math::cos(vessel.tilt + pose.angle) >= least;
+}
+
+namespace {
+
+/// Height (m, lab, from the origin) below which a vessel moved by a table never reaches, if it ever does not stand.
+std::optional<double> lowest_where_tipped(const Vessel& vessel, const TableMotion& table) {
+  constexpr int samples = 16;  // from one time of the table to the next
+  const VesselPath path(vessel);
+  double lowest = std::numeric_limits<double>::infinity();
+  bool tipped = false;
+  for (std::size_t k = 0; k < table.times.size(); ++k)
+    for (int part = 0; part < samples; ++part) {
+      const double next = table.times[std::min(k + 1, table.times.size() - 1)];
+      const Pose pose = path.pose(table.times[k] + part * (next - table.times[k]) / samples);
+      tipped = tipped || !stands(vessel, pose);
+      lowest = std::min(lowest, pose.displacement.y());
+    }
+  if (!tipped) return std::nullopt;
+  return lowest - largest_radius(vessel, Eigen::Vector2d::Zero());
+}
+
+}  // namespace
+
 std::optional<Pose> line_below(const Vessel& vessel) {
-  const auto* turning = vessel.motion ? std::get_if<TurningMotion>(&*vessel.motion) : nullptr;
-  if (!turning || turning->axis != TurningAxis::across) return std::nullopt;
-  const double axis = (rotation(vessel.tilt) * turning->pivot).y();
-  return Pose{{0, axis - largest_radius(vessel, turning->pivot)}, -vessel.tilt};
+  if (const auto* table = vessel.motion ? std::get_if<TableMotion>(&*vessel.motion) : nullptr) {
+    const std::optional<double> lowest = lowest_where_tipped(vessel, *table);
+    return lowest ? std::optional(Pose{{0, *lowest}, -vessel.tilt}) : std::nullopt;
+  }
+  if (!turns_over(vessel)) return std::nullopt;
+  const Eigen::Vector2d& pivot = std::get<TurningMotion>(*vessel.motion).pivot;
+  const double axis = (rotation(vessel.tilt) * pivot).y();
+  return Pose{{0, axis - largest_radius(vessel, pivot)}, -vessel.tilt};
+}
+
+Eigen::Vector3d aside_while_rising(const Vessel& vessel, const Pose& pose, double rise) {
+  const Eigen::Vector3d floor = point_in_vessel(vessel, pose, Eigen::Vector3d::Zero());
+  Eigen::Vector3d up = point_in_vessel(vessel, pose, Eigen::Vector3d::UnitY()) - floor;
+  up *= rise / up.y();
+  return {up.x(), 0, up.z()};
 }
 
 Eigen::Vector3d spin_3d(const Vessel& vessel, const Pose& pose, const PoseRate& rate) {

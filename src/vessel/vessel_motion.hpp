@@ -66,9 +66,16 @@ Eigen::Vector3d spin_3d(const Vessel& vessel, const Pose& pose, const PoseRate& 
 /// The pose by which rain falls and maps are drawn: the vessel's, or where it turns steadily that at rest.
 Pose steady_frame(const Vessel& vessel, const Pose& pose);
 
-/// Of a vessel that turns over and over about the axis across: a level frame whose line y = 0 lies below all that the
-/// vessel reaches.
+/// Whether its floor is no steeper than 60 degree, so that seeds lie on it and fall in from above.
+bool stands(const Vessel& vessel, const Pose& pose);
+
+/// Of a vessel that turns over and over about the axis across, or that a table tips over so far that it does not
+/// stand: a level frame whose line y = 0 lies below all that the vessel reaches.
 std::optional<Pose> line_below(const Vessel& vessel);
+
+/// By how much (m, in the vessel's frame, along and across) what rises straight up in the lab moves aside while it
+/// rises by `rise` (m) at right angles to the floor of a vessel that stands; level: 0.
+Eigen::Vector3d aside_while_rising(const Vessel& vessel, const Pose& pose, double rise);
 
 /// Bounds for any point of the vessel's walls, without the ramps' fraction; 0 without motion. A harmonic has 2 pi f A
 /// and (2 pi f)^2 A, a sum the sum of these, rocking the same with Theta times the furthest wall's distance R from the

@@ -61,6 +61,31 @@ TEST(Counter, WhatTheTrayHoldsIsNotedWhenMeasuringBegins) {
   }
 }
 
+TEST(Counter, WhatATableTippedOutIsSpilled) {
+  for (const Space space : both_spaces)
+    for (const bool back : {false, true}) {
+      Scene scene = Bench(space).scene;
+      scene.contact.shell_compression = 1e-3;
+      scene.contact.seed.restitution = scene.contact.wall.restitution = 0.5;
+      scene.tray.length = 0.1, scene.tray.height = 0.06;
+      if (space == Space::three_dimensional) scene.tray.depth = 0.05;
+      scene.tray.holes = {{.centre = 0.05, .width = 1e-3, .across = 0.02, .across_length = 0.01}};
+      scene.tray.fill = Fill{20, Packing::layers, 1e-3, false};
+      scene.tray.motion = TableMotion{{0, 0.05, 0.15, 0.3, 0.5, 0.6},
+                                      {0, 0, 0, 0, 0, 0},
+                                      {0, 0, 0, 0, 0, 0},
+                                      {0, 0, 1.4, 2.8, 2.8, back ? 0.0 : 2.8},
+                                      {}};
+      scene.run.duration = 0.8;
+      const vibrosow::Run run = simulate(scene);
+      EXPECT_EQ(run.status, RunStatus::finished) << run.stop_reason;
+      EXPECT_EQ(run.balance.inside, 0);
+      EXPECT_EQ(run.balance.spilled, 20);
+      EXPECT_EQ(run.balance.lost, 0);
+      EXPECT_EQ(run.tray_at_end, 0);
+    }
+}
+
 TEST(Counter, EventsComeByTimeNotByGrain) {
   // Both cross the line in the same step, the second grain first.
   Bench bench;

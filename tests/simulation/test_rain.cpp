@@ -1,11 +1,13 @@
 // Seeds that rain into a vessel.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include "simulation/simulate.hpp"
 #include "support/bench.hpp"
+#include "vessel/vessel_motion.hpp"
 
 namespace vibrosow {
 namespace {
@@ -80,6 +82,41 @@ TEST(Rain, ComesAtRestInTheLabWithinItsRangeAndOverlapsNothing) {
   EXPECT_LT(least, 0.055);
   EXPECT_GT(most, 0.115);
   EXPECT_EQ(run.result().balance.put_in, static_cast<std::int64_t>(seen));
+}
+
+TEST(Rain, OverATiltedTrayFallsIntoItsOpening) {
+  for (const Space space : both_spaces)
+    for (const double tilt : {-0.35, 0.0, 0.35}) {
+      Scene scene = wet();
+      scene.space = space;
+      if (space == Space::three_dimensional) scene.tray.depth = 0.05;
+      scene.tray.tilt = tilt;
+      scene.tray.height = 0.04;
+      scene.tray.rain = Rain{200, 0, 0.2, 0.2, 0, 0.15};
+      scene.contact.seed = scene.contact.wall = {0.3, 0.1};
+      scene.run.duration = 0.6;
+      const Model model = prepare(scene);
+      Simulation run(model, 1);
+      while (run.grains().size() == 0) ASSERT_TRUE(run.step());
+      const Eigen::Vector3d own = point_in_vessel(scene.tray, {}, run.grains().place(0));
+      EXPECT_NEAR(own.y(), 0.2, 1e-3) << "the height is above the floor";
+      ASSERT_TRUE(run.run_until(scene.run.duration)) << *run.guard().stop_reason();
+      const Balance balance = run.result().balance;
+      EXPECT_EQ(balance.put_in, 30);
+      EXPECT_EQ(balance.inside, 30) << "tilted by " << tilt;
+      EXPECT_EQ(run.result().tray_at_end, 30);
+    }
+}
+
+TEST(Rain, WaitsWhileATableHasTippedTheTrayOver) {
+  Scene scene = wet();
+  scene.tray.fill = Fill{10, Packing::layers, 0, true};
+  scene.tray.motion = TableMotion{{0, 0.05, 0.25, 0.3}, {0, 0, 0, 0}, {0, 0, 0, 0}, {0, 0, 2.8, 2.8}, {}};
+  scene.tray.rain->start = 0.25;
+  scene.run.duration = 0.6;
+  const vibrosow::Run run = simulate(scene);
+  EXPECT_EQ(run.balance.put_in, 10);
+  EXPECT_EQ(std::ranges::count(run.warnings, DoubtKind::feeder_behind, &Doubt::kind), 2) << "of the fill and the rain";
 }
 
 TEST(Rain, FallsAsFreelyUnderEveryScheme) {
